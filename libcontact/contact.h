@@ -1,0 +1,183 @@
+/*
+ * The verbs of libcontact: contact of rough surfaces on elastic half-spaces.
+ *
+ * Physics on arrays: nothing here reads or writes files, prints, or keeps state between calls.
+ * Arrays hold nx*ny doubles in the layout of grid.h. Everything is SI: metres, pascals, newtons.
+ * Pressure is compression positive, displacement positive into the body, heights positive towards
+ * the other body, stresses tension positive, depth positive below the surface. On the free
+ * (non-periodic) half-space a pressure value is constant in its cell.
+ *
+ * Makers return NULL, doers RC_FAIL, when they fail; *err then holds the reason in one sentence.
+ */
+#ifndef RC_CONTACT_H
+#define RC_CONTACT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "grid.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+struct rc_conv;   /* one influence kernel on one grid, ready to be applied */
+struct rc_solver; /* one contact problem being iterated                    */
+struct rc_stress; /* one pressure map whose stress slices are asked for    */
+
+/* Version of the library, "0.1.0". */
+const char *rc_version(void);
+/* Processors this process may use, at least 1. */
+size_t rc_threads_available(void);
+
+/* ---- surfaces: synth.c ---- */
+
+/* Heights of a sphere of radius R (m), -r^2 / 2R about the middle of the map: the parabola that
+ * Hertz's theory means by a sphere. */
+void rc_synth_sphere(const struct rc_shape *shape, double radius, double *h);
+
+/* amplitude * cos(2 pi x / wavelength), with a crest at the middle of the map; with `both`,
+ * amplitude * cos(2 pi x / wavelength) * cos(2 pi y / wavelength). Metres. */
+void rc_synth_wave(const struct rc_shape *shape, double amplitude, double wavelength, bool both,
+                   double *h);
+
+/* Self-affine random roughness, periodic over nx dx by ny dy. */
+struct rc_selfaffine {
+    double hurst;     /* 0..1: the spectrum falls as q^(-2-2H) on maps, q^(-1-2H) on profiles    */
+    double rms_height; /* asked RMS about the mean, m; NAN when rms_slope is given               */
+    double rms_slope;  /* asked RMS of the gradient's magnitude; NAN when rms_height is given     */
+    double long_cut;  /* longest wavelength, m; NAN: the map itself                              */
+    double rolloff;   /* flat for wavelengths above this one, m; NAN: no flat part               */
+    double short_cut; /* shortest wavelength, m; NAN: 2 max(dx, dy)                              */
+    uint64_t seed;    /* the same seed gives the same waves on every grid of the same size in m  */
+};
+/* Gaussian Fourier amplitudes with random phases, one draw for each wave vector. RC_FAIL when no
+ * wave of the map lies between the cut-offs, or memory is short. */
+enum rc_status rc_synth_selfaffine(const struct rc_shape *shape, const struct rc_selfaffine *what,
+                                   double *h, struct rc_err *err);
+
+/* ---- surfaces: detrend.c, fill.c ---- */
+
+/* Subtracts the least-squares polynomial of total degree `degree` in x and y over the points that
+ * are there (not NaN). RC_FAIL when there are fewer of them than coefficients, or their places do
+ * not determine the polynomial. */
+enum rc_status rc_detrend_poly(const struct rc_shape *shape, size_t degree, double *h,
+                               struct rc_err *err);
+
+/* Gives every missing value (NaN) the solution of Laplace's equation with the measured ones around
+ * it as boundary values and no slope across the edge of the map; *filled counts them. RC_FAIL when
+ * nothing was measured or memory is short. */
+enum rc_status rc_fill(const struct rc_shape *shape, double *h, size_t *filled,
+                       struct rc_err *err);
+
+/* ---- measure.c ---- */
+
+struct rc_statistics {
+    size_t missing;                       /* NaN                                                */
+    size_t infinite;                      /* +-inf, left out of the rest like NaN               */
+    double minimum, maximum, mean;        /* NAN when nothing is there                          */
+    double rms;                           /* about the mean (for heights: Sq)                   */
+    double rms_slope;                     /* magnitude of the gradient (Sdq), forward
+                                             differences where both neighbours are there        */
+    double sum;                           /* compensated                                        */
+};
+void rc_measure(const struct rc_shape *shape, const double *v, struct rc_statistics *result);
+
+/* Sum of n doubles with Neumaier's compensation: its error does not grow with n. */
+double rc_sum(const double *v, size_t n);
+
+/* ---- convolution: conv.c ---- */
+
+/* u = K p on the free half-space: displacement in metres of the composite modulus estar (Pa) under
+ * pressure p (Pa). `engine` is a name in engines.list or "auto". */
+struct rc_conv *rc_conv_new(const struct rc_shape *shape, double estar, const char *engine,
+                            size_t threads, struct rc_err *err);
+/* p and u do not overlap. */
+void rc_conv_apply(struct rc_conv *conv, const double *p, double *u);
+const char *rc_conv_engine(const struct rc_conv *conv);
+void rc_conv_free(struct rc_conv *conv);
+/* Bytes that a plan of this engine takes beside p and u. */
+size_t rc_conv_memory(const struct rc_shape *shape, const char *engine);
+
+/* ---- solver: solver.c ---- */
+
+struct rc_problem {
+    double estar;       /* composite modulus, Pa, > 0                                            */
+    double load;        /* total normal force, N, > 0                                            */
+    double hardness;    /* upper bound of the pressure, Pa; INFINITY: none                       */
+    double tol;         /* asked relative L1 error of the pressure; NAN: (nx ny)^(-3/4)          */
+    const char *engine; /* NULL: auto                                                            */
+    const char *method; /* NULL: auto                                                            */
+    size_t max_iterations; /* 0: 100 + 10 sqrt(nx ny)                                            */
+    size_t threads;     /* 0: all                                                                */
+};
+
+/* What has been found, once rc_solver_step gives RC_OK or RC_SHORT, or at any earlier iteration
+ * that one wants to stop at. */
+struct rc_contact {
+    double load, mean_pressure, max_pressure; /* N, Pa, Pa: summed from the pressure itself      */
+    size_t contact_nodes, plastic_nodes;      /* p > 0; p = hardness                             */
+    double contact_area, contact_fraction, plastic_area; /* m^2, -, m^2                          */
+    double edge_load_fraction;                /* load on the outer 2 % of the map                */
+    double approach;                          /* m; NAN when no node is elastic                  */
+    double mean_gap;                          /* m, over the whole map                           */
+    double kkt_residual;                      /* worst violation / max(std h, std u), from a
+                                                 fresh convolution                               */
+    double pressure_error;                    /* estimated relative L1 error of the pressure     */
+    size_t iterations;
+    double convolutions;                      /* equivalents on the finest grid                  */
+    bool converged;                           /* pressure_error <= tol                           */
+    bool hardness_active;                     /* some node is at the hardness                    */
+};
+
+/* `h` (not NaN, not infinite) is copied. RC_FAIL-like NULL when load > hardness * area: the message
+ * holds both numbers. */
+struct rc_solver *rc_solver_new(const struct rc_shape *shape, const double *h,
+                                const struct rc_problem *problem, struct rc_err *err);
+/* One iteration: RC_MORE, RC_OK when the estimated error is below tol, RC_SHORT when it cannot get
+ * there (iteration limit, rounding). */
+enum rc_status rc_solver_step(struct rc_solver *solver);
+/* Iterations so far and the last estimate of the error (NAN before the first), for progress. */
+size_t rc_solver_iterations(const struct rc_solver *solver);
+double rc_solver_error(const struct rc_solver *solver);
+/* The pressure reached (nx*ny Pa), valid until the next step. */
+const double *rc_solver_pressure(const struct rc_solver *solver);
+/* Fresh displacement and gap of that pressure (either may be NULL) and the figures. */
+void rc_solver_result(struct rc_solver *solver, double *displacement, double *gap,
+                      struct rc_contact *contact);
+const char *rc_solver_engine(const struct rc_solver *solver);
+const char *rc_solver_method(const struct rc_solver *solver);
+void rc_solver_free(struct rc_solver *solver);
+
+/* ---- stress: stress.c ---- */
+
+enum rc_component {
+    RC_SXX,
+    RC_SYY,
+    RC_SZZ,
+    RC_SXY,
+    RC_SXZ,
+    RC_SYZ,
+    RC_COMPONENTS
+};
+/* "sxx", ... in that order. */
+extern const char *const rc_component_names[RC_COMPONENTS];
+
+/* Stresses under the pressure p (Pa, copied in transformed form) on the free half-space of Poisson's
+ * ratio nu. */
+struct rc_stress *rc_stress_new(const struct rc_shape *shape, const double *p, double nu,
+                                size_t threads, struct rc_err *err);
+/* Component at the nodes at depth z >= 0 (m), Pa, tension positive. */
+enum rc_status rc_stress_slice(struct rc_stress *stress, enum rc_component component, double depth,
+                               double *s, struct rc_err *err);
+void rc_stress_free(struct rc_stress *stress);
+
+/* Von Mises stress of n points from their six components. */
+void rc_mises(size_t n, const double *const s[RC_COMPONENTS], double *mises);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

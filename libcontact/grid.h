@@ -1,0 +1,121 @@
+/*
+ * The noun of the toolkit: one map on one regular grid, with the words that travel with it.
+ *
+ *        i = 0 ........ nx-1      x = (i - (nx-1)/2) dx, along a row, fastest in memory
+ *   j=0  v[0]  v[1] ...           y = (j - (ny-1)/2) dy, down the picture
+ *    :   v[nx] ...                value (i, j) stands for its cell: v[j*nx + i]
+ *
+ * Everything is SI. This header is all that formats/ may include.
+ */
+#ifndef RC_GRID_H
+#define RC_GRID_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum rc_status {
+    RC_OK = 0,    /* done                                                */
+    RC_MORE = 1,  /* an iteration that has not finished: not an error    */
+    RC_SHORT = 2, /* an iteration that cannot reach the asked accuracy   */
+    RC_FAIL = -1, /* it could not be done; struct rc_err says why        */
+};
+
+/* One sentence, owned by the caller: the offending value, the rule it broke, what to do. */
+struct rc_err {
+    char text[512];
+};
+
+/* Sets the sentence (printf style; cut at the size of the text) and returns RC_FAIL. err may be
+ * NULL. */
+enum rc_status rc_err_set(struct rc_err *err, const char *format, ...)
+#if defined(__GNUC__)
+    __attribute__((format(printf, 2, 3)))
+#endif
+    ;
+
+/* What physics on arrays needs to know of a grid. Sizes count nodes; spacings are in metres. */
+struct rc_shape {
+    size_t nx, ny;
+    double dx, dy;
+};
+
+/* RC_FAIL for a zero size, a spacing that is not positive and finite, or a node count whose bytes
+ * would overflow size_t. */
+enum rc_status rc_shape_check(const struct rc_shape *shape, struct rc_err *err);
+
+enum rc_type {
+    RC_F64,
+    RC_F32
+};
+
+struct rc_key {
+    char *name;  /* [a-z][a-z0-9._-]*          */
+    char *value; /* UTF-8, not yet escaped     */
+};
+
+struct rc_grid {
+    size_t nx, ny;        /* nodes, both > 0                                                     */
+    double dx, dy;        /* metres, both > 0 and finite                                         */
+    char *channel;        /* "height", "pressure", "szz", ...                                    */
+    char *unit;           /* "m", "Pa", ...; SI                                                  */
+    enum rc_type type;    /* how the values are stored in a stream; in memory always double      */
+    struct rc_key *key;   /* every other header line, in order: case, source, history, ...       */
+    size_t keys;
+    double *v;            /* nx*ny values, row 0 first; NaN where nothing was measured           */
+};
+
+/* A grid with uninitialised values. NULL on a bad shape or when memory is short. */
+struct rc_grid *rc_grid_new(const struct rc_shape *shape, const char *channel, const char *unit,
+                            struct rc_err *err);
+/* Same shape and keys as `like`, values uninitialised; type is RC_F64. */
+struct rc_grid *rc_grid_like(const struct rc_grid *like, const char *channel, const char *unit,
+                             struct rc_err *err);
+void rc_grid_free(struct rc_grid *grid); /* NULL is allowed */
+
+struct rc_shape rc_grid_shape(const struct rc_grid *grid);
+
+/* Value of a carried key, or NULL. The required header lines (nx, unit, ...) are fields, not keys. */
+const char *rc_grid_get(const struct rc_grid *grid, const char *name);
+/* Sets, replaces or, with value NULL, removes a key. RC_FAIL for a name that is not a key name or
+ * when memory is short. */
+enum rc_status rc_grid_set(struct rc_grid *grid, const char *name, const char *value,
+                           struct rc_err *err);
+/* The same with a number, written as rc_number_text does. */
+enum rc_status rc_grid_set_number(struct rc_grid *grid, const char *name, double value,
+                                  struct rc_err *err);
+/* Number in a key; false when the key is absent or is not wholly one finite number. */
+bool rc_grid_number(const struct rc_grid *grid, const char *name, double *value);
+/* The case the frame belongs to: the key `case`, 1 when absent, 0 when it is no whole number > 0. */
+size_t rc_grid_case(const struct rc_grid *grid);
+
+/* Adds one step to the key `history`, steps joined by " | "; past 32 KiB middle steps become
+ * "...". */
+enum rc_status rc_grid_history(struct rc_grid *grid, const char *step, struct rc_err *err);
+
+bool rc_key_valid(const char *name);
+
+/* Replaces *text by a copy of value. RC_FAIL when memory is short. */
+enum rc_status rc_text_set(char **text, const char *value, struct rc_err *err);
+
+enum {
+    RC_NUMBER_SIZE = 32
+};
+/* The shortest decimal that reads back exactly, with a point in every locale: "1.1e-06", "240". */
+const char *rc_number_text(char text[RC_NUMBER_SIZE], double value);
+/* Reads a decimal number with a point in every locale: returns the first character after it, or
+ * NULL when there is none. Accepts no hexadecimal, no white space; "nan" and "inf" only when
+ * `special`. */
+const char *rc_number_read(const char *text, bool special, double *value);
+
+/* a*b, or RC_FAIL when it does not fit. */
+enum rc_status rc_size_mul(size_t a, size_t b, size_t *product, struct rc_err *err);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,27 @@
+/* One JSON object a line, for reports: fields in the order they are given, unknown is null. */
+#ifndef RC_JSON_H
+#define RC_JSON_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+struct json {
+    FILE *file;
+    bool follows; /* a comma is due before the next field */
+};
+
+void json_open(struct json *json, FILE *file);
+/* `name` NULL: an element of an array. */
+void json_number(struct json *json, const char *name, double value); /* NaN and infinity: null */
+void json_count(struct json *json, const char *name, size_t value);
+void json_text(struct json *json, const char *name, const char *value); /* NULL: null */
+void json_bool(struct json *json, const char *name, bool value);
+void json_null(struct json *json, const char *name);
+void json_object(struct json *json, const char *name);
+void json_array(struct json *json, const char *name);
+void json_end(struct json *json, char bracket); /* '}' or ']' */
+/* Ends the outermost object and the line, and flushes. */
+void json_close(struct json *json);
+
+#endif
