@@ -68,6 +68,16 @@ struct rc_format {
                             struct rc_notes *notes, struct rc_err *err);
 };
 
+/* Sets shape->dx and dy: as wished (dy as dx when only dx was), else as the file says; NAN is a
+ * file that does not say. RC_FAIL when neither says, or for a spacing that is not positive and
+ * finite. Notes where a wish overrules the file. */
+enum rc_status rc_spacing(const struct rc_wish *wish, double dx, double dy, struct rc_shape *shape,
+                          struct rc_notes *notes, struct rc_err *err);
+/* Sets *metres, what one unit of the file's heights is worth: as wished, else as the file says.
+ * RC_FAIL when neither does; `unit` is then the file's own word for it, "" for none. */
+enum rc_status rc_height_unit(const struct rc_wish *wish, double by_file, const char *unit,
+                              double *metres, struct rc_notes *notes, struct rc_err *err);
+
 /* The rows of formats.list, ended by NULL. */
 extern const struct rc_format *const rc_formats[];
 

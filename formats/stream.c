@@ -12,7 +12,8 @@
 #include "utf8.h"
 
 enum {
-    CHUNK = 8192 /* values converted at a time where they are not read as they are */
+    CHUNK = 8192,   /* values converted at a time where they are not read as they are */
+    FAIL_MAX = 399, /* bytes of a message in RCGFAIL: what a reader repeats           */
 };
 
 static bool
@@ -107,14 +108,14 @@ read_line(struct rc_reader *r, char *buffer, size_t size)
     int c;
 
     while ((c = getc(r->file)) != EOF) {
+        if (c == '\0')
+            return -3;
+        if (n >= size || (c != '\n' && n + 1 == size))
+            return -2;
         if (c == '\n') {
             buffer[n] = '\0';
             return (long)n;
         }
-        if (c == '\0')
-            return -3;
-        if (n + 1 >= size)
-            return -2;
         buffer[n++] = (char)c;
     }
     return n == 0 ? -1 : -3;
@@ -203,8 +204,9 @@ read_head(struct rc_reader *r, struct head *head, struct rc_err *err)
         if (n == -2)
             return rc_err_set(err, "the header is longer than %d bytes", RC_HEADER_MAX);
         if (n == -3)
-            return feof(r->file) ? cut_off(r, "inside a header", err)
-                                 : rc_err_set(err, "the header holds a NUL byte");
+            return feof(r->file) || ferror(r->file)
+                       ? cut_off(r, "inside a header", err)
+                       : rc_err_set(err, "the header holds a NUL byte");
         r->crc = crc_add(r->crc, at, (size_t)n);
         r->crc = crc_add(r->crc, "\n", 1);
         if (n == 0)
@@ -338,7 +340,7 @@ read_crc(struct rc_reader *r, struct rc_err *err)
     char line[32], wanted[32];
     long n = read_line(r, line, sizeof line);
 
-    if (n == -1 || (n < 0 && feof(r->file)))
+    if (n == -1 || (n < 0 && (feof(r->file) || ferror(r->file))))
         return cut_off(r, "before the checksum of a frame", err);
     snprintf(wanted, sizeof wanted, "crc32 %08" PRIx32, r->crc);
     if (n < 0 || strncmp(line, "crc32 ", 6) != 0 || strlen(line) != strlen(wanted))
@@ -409,9 +411,9 @@ rc_reader_next(struct rc_reader *r, struct rc_grid **grid, struct rc_err *err)
                                                           : "without an end line", err);
         }
         if (n < 0)
-            return n == -3 && feof(r->file) ? cut_off(r, "inside a line", err)
-                                            : rc_err_set(err, "this is no grid stream: no RCG1 "
-                                                              "line at its start");
+            return n == -3 && (feof(r->file) || ferror(r->file))
+                       ? cut_off(r, "inside a line", err)
+                       : rc_err_set(err, "this is no grid stream: no RCG1 line at its start");
         if (strcmp(line, "RCG1") == 0)
             return read_frame(r, grid, err);
         if (strncmp(line, "RCGFAIL", 7) == 0)
@@ -595,7 +597,7 @@ void
 rc_writer_fail(struct rc_writer *w, const char *message)
 {
     fputs("RCGFAIL ", w->file);
-    for (; *message != '\0'; message++)
+    for (int n = 0; *message != '\0' && n < FAIL_MAX; message++, n++)
         putc(*message == '\n' ? ' ' : *message, w->file);
     putc('\n', w->file);
     fflush(w->file);

@@ -37,39 +37,49 @@ size_t rc_threads_available(void);
  * Hertz's theory means by a sphere. */
 void rc_synth_sphere(const struct rc_shape *shape, double radius, double *h);
 
-/* amplitude * cos(2 pi x / wavelength), with a crest at the middle of the map; with `both`,
- * amplitude * cos(2 pi x / wavelength) * cos(2 pi y / wavelength). Metres. */
-void rc_synth_wave(const struct rc_shape *shape, double amplitude, double wavelength, bool both,
-                   double *h);
+/* amplitude * cos(2 pi x / wavelength_x) * cos(2 pi y / wavelength_y), with a crest at the middle of
+ * the map; an INFINITY for a wavelength leaves its factor out. Metres. */
+void rc_synth_wave(const struct rc_shape *shape, double amplitude, double wavelength_x,
+                   double wavelength_y, double *h);
 
 /* Self-affine random roughness, periodic over nx dx by ny dy. */
 struct rc_selfaffine {
-    double hurst;     /* 0..1: the spectrum falls as q^(-2-2H) on maps, q^(-1-2H) on profiles    */
-    double rms_height; /* asked RMS about the mean, m; NAN when rms_slope is given               */
-    double rms_slope;  /* asked RMS of the gradient's magnitude; NAN when rms_height is given     */
-    double long_cut;  /* longest wavelength, m; NAN: the map itself                              */
-    double rolloff;   /* flat for wavelengths above this one, m; NAN: no flat part               */
-    double short_cut; /* shortest wavelength, m; NAN: 2 max(dx, dy)                              */
-    uint64_t seed;    /* the same seed gives the same waves on every grid of the same size in m  */
+    double hurst;      /* above 0, at most 1: the spectrum falls as q^(-2-2H) on maps, q^(-1-2H)
+                          on profiles                                                           */
+    double rms_height; /* asked RMS about the mean, m; NAN when rms_slope is given              */
+    double rms_slope;  /* asked RMS of the gradient's magnitude; NAN when rms_height is given   */
+    double long_cut;   /* longest wavelength, m; NAN: the map itself                            */
+    double rolloff;    /* flat for wavelengths above this one, m; NAN: no flat part             */
+    double short_cut;  /* shortest wavelength, m, at least two nodes; NAN: 2 max(dx, dy)        */
+    uint64_t seed;     /* the same seed gives the same waves on every grid of the same size in m */
 };
-/* Gaussian Fourier amplitudes with random phases, one draw for each wave vector. RC_FAIL when no
- * wave of the map lies between the cut-offs, or memory is short. */
+/* Gaussian Fourier amplitudes with random phases, one draw for each wave vector; waves of exactly
+ * two nodes are left out. The mean is 0. The gradient is that of the waves, not of differences
+ * between nodes. RC_FAIL when a value is out of its bounds, no wave of the map lies between the
+ * cut-offs, or memory is short. */
 enum rc_status rc_synth_selfaffine(const struct rc_shape *shape, const struct rc_selfaffine *what,
                                    double *h, struct rc_err *err);
 
 /* ---- surfaces: detrend.c, fill.c ---- */
 
-/* Subtracts the least-squares polynomial of total degree `degree` in x and y over the points that
- * are there (not NaN). RC_FAIL when there are fewer of them than coefficients, or their places do
- * not determine the polynomial. */
+enum {
+    RC_DEGREE_MAX = 20
+};
+/* Subtracts the least-squares polynomial of total degree `degree` (at most RC_DEGREE_MAX) in x and
+ * y over the points that are there (not NaN); on a profile, in the one coordinate that varies.
+ * RC_FAIL when there are fewer of them than coefficients, their places do not determine the
+ * polynomial, one is infinite, or memory is short; h is then as it was. GSL's error handler, which
+ * belongs to the process, is off during the call. */
 enum rc_status rc_detrend_poly(const struct rc_shape *shape, size_t degree, double *h,
                                struct rc_err *err);
 
 /* Gives every missing value (NaN) the solution of Laplace's equation with the measured ones around
  * it as boundary values and no slope across the edge of the map; *filled counts them. RC_FAIL when
- * nothing was measured or memory is short. */
+ * nothing was measured, a value is infinite, or memory is short. */
 enum rc_status rc_fill(const struct rc_shape *shape, double *h, size_t *filled,
                        struct rc_err *err);
+/* Bytes that it takes beside h for so many missing values. */
+size_t rc_fill_memory(size_t missing);
 
 /* ---- measure.c ---- */
 
@@ -82,9 +92,10 @@ struct rc_statistics {
                                              differences where both neighbours are there        */
     double sum;                           /* compensated                                        */
 };
+/* Figures of what is there; h's own unit, rms_slope in that unit per metre. */
 void rc_measure(const struct rc_shape *shape, const double *v, struct rc_statistics *result);
 
-/* Sum of n doubles with Neumaier's compensation: its error does not grow with n. */
+/* Sum of n doubles with the compensation of Neumaier 1974: its error does not grow with n. */
 double rc_sum(const double *v, size_t n);
 
 /* ---- convolution: conv.c ---- */
@@ -149,6 +160,8 @@ void rc_solver_result(struct rc_solver *solver, double *displacement, double *ga
 const char *rc_solver_engine(const struct rc_solver *solver);
 const char *rc_solver_method(const struct rc_solver *solver);
 void rc_solver_free(struct rc_solver *solver);
+/* Bytes that a solver of this size takes. */
+size_t rc_solver_memory(const struct rc_shape *shape, const char *engine);
 
 /* ---- stress: stress.c ---- */
 
@@ -172,6 +185,8 @@ struct rc_stress *rc_stress_new(const struct rc_shape *shape, const double *p, d
 enum rc_status rc_stress_slice(struct rc_stress *stress, enum rc_component component, double depth,
                                double *s, struct rc_err *err);
 void rc_stress_free(struct rc_stress *stress);
+/* Bytes that a plan of this size takes, beside the slices. */
+size_t rc_stress_memory(const struct rc_shape *shape);
 
 /* Von Mises stress of n points from their six components. */
 void rc_mises(size_t n, const double *const s[RC_COMPONENTS], double *mises);

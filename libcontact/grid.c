@@ -37,7 +37,7 @@ rc_size_mul(size_t a, size_t b, size_t *product, struct rc_err *err)
 enum rc_status
 rc_shape_check(const struct rc_shape *s, struct rc_err *err)
 {
-    size_t nodes, bytes;
+    size_t nodes = 0, bytes = 0;
 
     if (s->nx == 0 || s->ny == 0)
         return rc_err_set(err, "a grid of %zu x %zu nodes is empty: both sizes must be at least 1",

@@ -114,18 +114,43 @@ whole(struct tool *t, const struct opt *o, const char *text)
     return value;
 }
 
-static bool
-is_choice(const char *choices, const char *word)
+/* Place of text[0..n) among words separated by '|', or -1. */
+static int
+word_index(const char *words, const char *text, size_t n)
 {
-    size_t n = strlen(word);
-
-    for (const char *s = choices; s != NULL; s = strchr(s, '|')) {
-        if (*s == '|')
-            s++;
-        if (strncmp(s, word, n) == 0 && (s[n] == '|' || s[n] == '\0') && n > 0)
-            return true;
+    for (int k = 0;; k++) {
+        size_t length = strcspn(words, "|");
+        if (length == n && n > 0 && strncmp(words, text, n) == 0)
+            return k;
+        if (words[length] == '\0')
+            return -1;
+        words += length + 1;
     }
-    return false;
+}
+
+static void
+check_choice(struct tool *t, const struct opt *o, const char *text)
+{
+    if (word_index(o->arg, text, strlen(text)) < 0)
+        tool_die(t, EXIT_USAGE, "--%s %s: it must be one of %s", o->name, text, o->arg);
+}
+
+static size_t
+word_set(struct tool *t, const struct opt *o, const char *text)
+{
+    size_t set = 0;
+
+    for (const char *s = text;; s++) {
+        size_t n = strcspn(s, ",");
+        int k = word_index(o->words, s, n);
+        if (k < 0)
+            tool_die(t, EXIT_USAGE, "--%s %s: '%.*s' is none of %s", o->name, text, (int)n, s,
+                     o->words);
+        set |= (size_t)1 << k;
+        s += n;
+        if (*s == '\0')
+            return set;
+    }
 }
 
 static void
@@ -169,9 +194,11 @@ set_value(struct tool *t, const struct opt *o, void *base, const char *text)
         *(size_t *)(void *)at = (size_t)whole(t, o, text);
         break;
     case OPT_CHOICE:
-        if (!is_choice(o->arg, text))
-            tool_die(t, EXIT_USAGE, "--%s %s: it must be one of %s", o->name, text, o->arg);
+        check_choice(t, o, text);
         *(const char **)(void *)at = text;
+        break;
+    case OPT_WORDS:
+        *(size_t *)(void *)at = word_set(t, o, text);
         break;
     case OPT_TEXT:
         *(const char **)(void *)at = text;
@@ -197,8 +224,7 @@ set_common(struct tool *t, const struct opt *o, const char *text)
     if (strcmp(o->name, "memory") == 0) {
         t->memory = (size_t)number(t, o, text);
     } else if (strcmp(o->name, "type") == 0) {
-        if (!is_choice(o->arg, text))
-            tool_die(t, EXIT_USAGE, "--type %s: it must be one of %s", text, o->arg);
+        check_choice(t, o, text);
         t->type_given = true;
         t->type = strcmp(text, "f32") == 0 ? RC_F32 : RC_F64;
     } else {
@@ -255,6 +281,8 @@ tool_options(struct tool *t, int argc, char **argv)
             set_common(t, &common[what - COMMON], optarg);
         } else if (what >= OWN) {
             t->given[what - OWN] = true;
+            if (t->info->opts[what - OWN].text)
+                t->writes = WRITES_TEXT;
             set_value(t, &t->info->opts[what - OWN], t->args, optarg);
         } else {
             bad_option(t, what, argv);
@@ -291,6 +319,23 @@ add(struct line *line, const char *a, const char *b)
 }
 
 static void
+add_words(struct line *line, const char *words, size_t set)
+{
+    char word[64];
+    const char *before = " ";
+
+    for (; set != 0; set >>= 1) {
+        size_t n = strcspn(words, "|");
+        if (set & 1) {
+            snprintf(word, sizeof word, "%.*s", (int)n, words);
+            add(line, before, word);
+            before = ",";
+        }
+        words += n + (words[n] == '|');
+    }
+}
+
+static void
 add_value(struct line *line, const struct opt *o, const void *base)
 {
     const char *at = (const char *)base + o->at;
@@ -304,6 +349,8 @@ add_value(struct line *line, const struct opt *o, const void *base)
         add(line, " ", text);
     } else if (o->type == OPT_TEXT || o->type == OPT_CHOICE) {
         add(line, " ", *(const char *const *)(const void *)at);
+    } else if (o->type == OPT_WORDS) {
+        add_words(line, o->words, *(const size_t *)(const void *)at);
     } else if (o->type == OPT_NUMBERS) {
         list = (const struct numbers *)(const void *)at;
         for (size_t k = 0; k < list->n; k++)

@@ -149,6 +149,8 @@ die(struct tool *t, int status, const char *text)
     if (half_written[0] != '\0')
         unlink(half_written);
     half_written[0] = '\0';
+    if (interrupted != 0)
+        end_by(interrupted); /* the signal broke off a read or a write: it is the reason */
     exit(status);
 }
 
@@ -230,7 +232,7 @@ open_output(struct tool *t)
 {
     struct stat st;
     struct rc_err err;
-    bool binary = t->info->writes != WRITES_TEXT;
+    bool binary = t->writes != WRITES_TEXT;
 
     if (t->out_name == NULL) {
         if (binary && isatty(STDOUT_FILENO))
@@ -249,7 +251,7 @@ open_output(struct tool *t)
     }
     if (binary)
         setvbuf(t->out, NULL, _IOFBF, BUFFER);
-    if (t->info->writes == WRITES_STREAM && (t->writer = rc_writer_new(t->out, &err)) == NULL)
+    if (t->writes == WRITES_STREAM && (t->writer = rc_writer_new(t->out, &err)) == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
 }
 
@@ -345,17 +347,77 @@ tool_read(struct tool *t)
     }
 }
 
-size_t
-tool_not_finite(const struct rc_grid *g, size_t *first)
+static void
+end_case(struct tool *t, const char *channel)
 {
-    size_t count = 0;
+    if (t->now.number != 0 && t->now.found == 0)
+        tool_die(t, EXIT_IMPOSSIBLE, "%s, case %zu: no frame with the channel %s, only %s",
+                 t->source, t->now.number, channel, t->now.names);
+}
+
+static void
+begin_case(struct tool *t, size_t number)
+{
+    t->now.number = number;
+    t->now.found = 0;
+    t->now.names[0] = '\0';
+}
+
+struct rc_grid *
+tool_channel(struct tool *t, const char *channel, bool pass)
+{
+    struct rc_grid *g;
+
+    while ((g = tool_read(t)) != NULL) {
+        size_t number = rc_grid_case(g), used;
+
+        if (number != t->now.number) {
+            end_case(t, channel);
+            begin_case(t, number);
+        }
+        used = strlen(t->now.names);
+        snprintf(t->now.names + used, sizeof t->now.names - used, "%s%s", used == 0 ? "" : " ",
+                 g->channel);
+        if (strcmp(g->channel, channel) == 0) {
+            if (t->now.found++ > 0)
+                tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                            "a second %s frame in one case: maps that do not belong together need "
+                            "case numbers of their own", channel);
+            return g;
+        }
+        if (pass)
+            tool_write(t, g);
+        rc_grid_free(g);
+    }
+    end_case(t, channel);
+    if (t->now.number == 0)
+        tool_die(t, EXIT_IMPOSSIBLE, "%s: the stream holds no frame", t->source);
+    return NULL;
+}
+
+void
+tool_demand_finite(struct tool *t, const struct rc_grid *g, const char *remedy)
+{
+    size_t count = 0, first = 0;
 
     for (size_t k = g->nx * g->ny; k-- > 0;)
         if (!isfinite(g->v[k])) {
             count++;
-            *first = k;
+            first = k;
         }
-    return count;
+    if (count > 0)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                    "%zu of %zu values are NaN or infinite, the first in column %zu of row %zu: %s",
+                    count, g->nx * g->ny, first % g->nx, first / g->nx, remedy);
+}
+
+void
+tool_demand_memory(struct tool *t, const struct rc_grid *g, size_t bytes)
+{
+    if (t->memory != 0 && bytes > t->memory)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                    "%zu x %zu nodes need about %zu MiB, --memory allows %zu", g->nx, g->ny,
+                    (bytes >> 20) + 1, t->memory >> 20);
 }
 
 /* ---- start and finish ---- */
@@ -374,10 +436,23 @@ threads_wanted(struct tool *t)
     return (size_t)n;
 }
 
+/* Between parallel loops OpenMP's threads spin for a while, which starves whatever else wants the
+ * cores: another tool of the pipe, a second solve beside this one. GNU's library reads its wish when
+ * the program is loaded, so the tool starts itself again with it, once. */
+static void
+wait_quietly(char **argv)
+{
+    if (getenv("OMP_WAIT_POLICY") != NULL || getenv("GOMP_SPINCOUNT") != NULL)
+        return;
+    if (setenv("OMP_WAIT_POLICY", "passive", 1) == 0)
+        execv("/proc/self/exe", argv); /* where it fails, the tool works all the same */
+}
+
 void
 tool_start(struct tool *t, const struct tool_info *info, int argc, char **argv, void *args)
 {
-    *t = (struct tool){.info = info, .args = args};
+    wait_quietly(argv);
+    *t = (struct tool){.info = info, .args = args, .writes = info->writes};
     tool_options(t, argc, argv);
     if (t->threads == 0)
         t->threads = threads_wanted(t);

@@ -39,6 +39,8 @@ enum opt_type {
     OPT_COUNT,   /* size_t                                                                  */
     OPT_TEXT,    /* const char *                                                            */
     OPT_CHOICE,  /* const char *, one of the words in .arg, which are separated by '|'      */
+    OPT_WORDS,   /* size_t: bit k is set when the list holds word k of .words, which are
+                    separated by '|'                                                        */
     OPT_NUMBERS, /* struct numbers                                                          */
     OPT_STEP,    /* appended to a struct steps: options whose order on the line matters; with
                     .arg it takes a whole number or, with a unit, a number                  */
@@ -52,6 +54,8 @@ struct opt {
     double min, max;  /* bounds of each number, kept when min < max                         */
     bool above;       /* min itself is out of bounds                                        */
     bool result;      /* changes what is computed: goes into history                        */
+    bool text;        /* given, the tool writes text, whatever it writes otherwise          */
+    const char *words; /* of OPT_WORDS                                                      */
     const char *arg;  /* how help names the argument: "FORCE"; NULL: takes none             */
     const char *help; /* one line                                                           */
 };
@@ -95,6 +99,7 @@ struct tool {
     size_t threads; /* at least 1                                                          */
     size_t memory;  /* bytes; 0: no limit                                                  */
     bool quiet, verbose, progress;
+    enum tool_writes writes; /* info->writes, or text where an option asks for it          */
     const char *out_name; /* NULL: standard output                                         */
     /* streams */
     char **operand;
@@ -104,6 +109,10 @@ struct tool {
     struct rc_reader *reader;
     struct rc_writer *writer;
     size_t last_case, frame; /* frame: place in the current source, from 1                 */
+    struct {                 /* the case that tool_channel is in; number 0: none yet       */
+        size_t number, found;
+        char names[512];     /* its channels, for the message that one is missing          */
+    } now;
     bool type_given, began, warned_short;
     enum rc_type type;
     bool given[64]; /* by row of the option table                                          */
@@ -122,6 +131,9 @@ const char *tool_history(const struct tool *tool);
 
 /* The next frame of all inputs, cases numbered on; NULL at their end. The caller frees it. */
 struct rc_grid *tool_read(struct tool *tool);
+/* The next frame of this channel, one in each case; the case's other frames are written as they are
+ * (`pass`) or dropped. A case that has none of it, or several, ends the tool. NULL at the end. */
+struct rc_grid *tool_channel(struct tool *tool, const char *channel, bool pass);
 /* Writes a frame, in --type when that was given. */
 void tool_write(struct tool *tool, struct rc_grid *grid);
 /* Ends the stream, closes, puts the file in place; the exit status of main. */
@@ -154,8 +166,11 @@ int tool_interrupted(void);
 const char *tool_where(const struct tool *tool, const struct rc_grid *grid, char *text,
                        size_t size);
 
-/* Number of the first value that is NaN or infinite, with their count; count 0: all are finite. */
-size_t tool_not_finite(const struct rc_grid *grid, size_t *first);
+/* Ends the tool when a value is NaN or infinite, with their count and the first one's place;
+ * `remedy` says what to do about them. */
+void tool_demand_finite(struct tool *tool, const struct rc_grid *grid, const char *remedy);
+/* Ends the tool when `bytes` are more than --memory allows. */
+void tool_demand_memory(struct tool *tool, const struct rc_grid *grid, size_t bytes);
 
 /* ---- used by tool.c, defined in options.c ---- */
 

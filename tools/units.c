@@ -2,23 +2,39 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 static const struct prefix {
     const char *text;
-    double factor;
-} si_prefixes[] = {
-    {"", 1},    {"f", 1e-15}, {"p", 1e-12}, {"n", 1e-9}, {"u", 1e-6}, {"\xc2\xb5", 1e-6},
-    {"\xce\xbc", 1e-6}, {"m", 1e-3}, {"c", 1e-2}, {"k", 1e3}, {"M", 1e6}, {"G", 1e9},
-    {"T", 1e12}, {NULL, 0},
+    int power; /* of ten */
+} prefixes[] = {
+    {"", 0},          {"f", -15},       {"p", -12}, {"n", -9}, {"u", -6},
+    {"\xc2\xb5", -6}, {"\xce\xbc", -6}, {"m", -3},  {"c", -2}, {"k", 3},
+    {"M", 6},         {"G", 9},         {"T", 12},  {NULL, 0},
 };
 
-static const struct prefix byte_units[] = {
-    {"", 1},           {"B", 1},          {"k", 1024.0},     {"K", 1024.0},
-    {"KiB", 1024.0},   {"kB", 1e3},       {"M", 1048576.0},  {"MiB", 1048576.0},
-    {"MB", 1e6},       {"G", 1073741824.0}, {"GiB", 1073741824.0}, {"GB", 1e9},
-    {"T", 1099511627776.0}, {"TiB", 1099511627776.0}, {NULL, 0},
+static const struct size_unit {
+    const char *text;
+    double bytes;
+} size_units[] = {
+    {"", 1},
+    {"B", 1},
+    {"k", 1024.0},
+    {"K", 1024.0},
+    {"KiB", 1024.0},
+    {"kB", 1e3},
+    {"M", 1048576.0},
+    {"MiB", 1048576.0},
+    {"MB", 1e6},
+    {"G", 1073741824.0},
+    {"GiB", 1073741824.0},
+    {"GB", 1e9},
+    {"T", 1099511627776.0},
+    {"TiB", 1099511627776.0},
+    {"TB", 1e12},
+    {NULL, 0},
 };
 
 const char *
@@ -29,29 +45,58 @@ unit_name(enum unit unit)
     return names[unit];
 }
 
-static double
-find(const struct prefix *table, const char *text, size_t n)
+static bool
+same(const char *word, const char *text, size_t n)
 {
-    for (; table->text != NULL; table++)
-        if (strlen(table->text) == n && memcmp(table->text, text, n) == 0)
-            return table->factor;
-    return 0;
+    return strlen(word) == n && memcmp(word, text, n) == 0;
 }
 
-/* Factor to SI of a unit written as `suffix` (n bytes), 0 when there is no such unit. */
-static double
-factor_of(const char *suffix, size_t n, enum unit unit)
+/* Scales *value, read from digits[0..length), by ten to the power: by way of the decimal text, so
+ * that 1.29um is the double nearest to 1.29e-06. */
+static bool
+shift(const char *digits, size_t length, int power, double *value)
+{
+    char text[64];
+    size_t mantissa = strcspn(digits, "eE");
+    int own = 0;
+
+    if (mantissa > length)
+        mantissa = length;
+    else if (mantissa < length)
+        own = (int)strtol(digits + mantissa + 1, NULL, 10);
+    if (mantissa > 40 || own < -400 || own > 400) {
+        *value *= pow(10, power);
+        return true;
+    }
+    snprintf(text, sizeof text, "%.*se%d", (int)mantissa, digits, own + power);
+    return rc_number_read(text, false, value) != NULL;
+}
+
+/* Applies the unit written as suffix[0..n) after the number digits[0..length); false when there is
+ * no such unit. */
+static bool
+apply_unit(const char *digits, size_t length, const char *suffix, size_t n, enum unit unit,
+           double *value)
 {
     const char *base = unit_name(unit);
-    size_t length = strlen(base);
+    size_t tail = strlen(base);
 
-    if (unit == UNIT_BYTES)
-        return find(byte_units, suffix, n);
+    if (unit == UNIT_BYTES) {
+        for (const struct size_unit *s = size_units; s->text != NULL; s++)
+            if (same(s->text, suffix, n)) {
+                *value *= s->bytes;
+                return true;
+            }
+        return false;
+    }
     if (n == 0)
-        return 1;
-    if (unit == UNIT_NONE || n < length || memcmp(suffix + n - length, base, length) != 0)
-        return 0;
-    return find(si_prefixes, suffix, n - length);
+        return true;
+    if (unit == UNIT_NONE || n < tail || memcmp(suffix + n - tail, base, tail) != 0)
+        return false;
+    for (const struct prefix *p = prefixes; p->text != NULL; p++)
+        if (same(p->text, suffix, n - tail))
+            return shift(digits, length, p->power, value);
+    return false;
 }
 
 /* The number in text[0..n), and whether it carries a unit. */
@@ -60,7 +105,7 @@ read_one(const char *text, size_t n, enum unit unit, double *value, bool *with_u
          struct rc_err *err)
 {
     const char *end, *stop = text + n;
-    double factor;
+    size_t length;
 
     while (n > 0 && *text == ' ') {
         text++;
@@ -69,14 +114,14 @@ read_one(const char *text, size_t n, enum unit unit, double *value, bool *with_u
     end = n == 0 ? NULL : rc_number_read(text, false, value);
     if (end == NULL || end > stop)
         return rc_err_set(err, "'%.*s' is not a number", (int)n, text);
+    length = (size_t)(end - text);
     while (end < stop && *end == ' ')
         end++;
     *with_unit = end < stop;
-    factor = factor_of(end, (size_t)(stop - end), unit);
-    if (factor == 0) {
+    if (!apply_unit(text, length, end, (size_t)(stop - end), unit, value)) {
         if (unit == UNIT_NONE)
             return rc_err_set(err, "'%.*s' after %.*s: a plain number without a unit is expected",
-                              (int)(stop - end), end, (int)(end - text), text);
+                              (int)(stop - end), end, (int)length, text);
         if (unit == UNIT_BYTES)
             return rc_err_set(err, "unknown unit '%.*s': a size in bytes is expected, as in 512M "
                                    "or 4GiB", (int)(stop - end), end);
@@ -84,7 +129,6 @@ read_one(const char *text, size_t n, enum unit unit, double *value, bool *with_u
                                "prefixes f p n u m c k M G T", (int)(stop - end), end,
                           unit_name(unit));
     }
-    *value *= factor;
     if (!isfinite(*value))
         return rc_err_set(err, "'%.*s' is too large", (int)n, text);
     return RC_OK;

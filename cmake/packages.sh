@@ -1,0 +1,42 @@
+# Sourced by demo.sh and tests/run.sh: makes sure that the packages named are installed. On Debian
+# and Ubuntu it installs what is missing; elsewhere it says what is needed and goes on if the build
+# finds it.
+
+build_packages="gcc libc6-dev make cmake pkg-config libfftw3-dev libgsl-dev libpng-dev libxml2-dev
+    libzip-dev zlib1g-dev libcairo2-dev fonts-dejavu-core"
+test_packages="libcmocka-dev mandoc zip perl"
+
+need_packages() {
+    local missing="" package as_root=""
+    if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+        cat <<'EOT'
+This is neither Debian nor Ubuntu: please see that these are installed, with their headers:
+  a C17 compiler with OpenMP, make, CMake 3.20 or later, pkg-config
+  FFTW 3 (double precision), GSL 2.2 or later, libpng, libxml2, libzip, zlib, cairo
+  for the tests also: cmocka, mandoc, zip, perl
+EOT
+        return 0
+    fi
+    for package in "$@"; do
+        dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' ||
+            missing="$missing $package"
+    done
+    [ -z "$missing" ] && return 0
+    echo "Installing:$missing"
+    if [ "$(id -u)" != 0 ]; then
+        if ! command -v sudo >/dev/null; then
+            echo "These packages are missing and you are not root: apt-get install$missing" >&2
+            return 1
+        fi
+        as_root=sudo
+    fi
+    $as_root apt-get update -qq || return 1
+    # shellcheck disable=SC2086
+    $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends \
+        $missing >/dev/null
+}
+
+# Cores to build with.
+cores() {
+    getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1
+}

@@ -1,0 +1,204 @@
+#include "archive.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include <zip.h>
+
+#include "text.h"
+
+enum {
+    DEFLATE_MOST = 1032 /* bytes that one deflated byte can yield: 258 for two bits */
+};
+
+struct rc_archive {
+    zip_t *zip;
+    size_t size;
+};
+
+static zip_t *
+open_zip(const struct rc_file *file, zip_error_t *why)
+{
+    zip_source_t *source = zip_source_buffer_create(file->data, file->size, 0, why);
+    zip_t *zip = source == NULL ? NULL : zip_open_from_source(source, ZIP_RDONLY, why);
+
+    if (zip == NULL)
+        zip_source_free(source);
+    return zip;
+}
+
+struct rc_archive *
+rc_archive_new(const struct rc_file *file, struct rc_err *err)
+{
+    struct rc_archive *a = NULL;
+    zip_error_t why;
+
+    zip_error_init(&why);
+    if (file->size < 4 || memcmp(file->data, "PK", 2) != 0) {
+        rc_err_set(err, "no ZIP archive: it does not begin with 'PK'");
+        goto done;
+    }
+    if ((a = calloc(1, sizeof *a)) == NULL) {
+        rc_err_set(err, "out of memory for an archive (%zu bytes)", sizeof *a);
+        goto done;
+    }
+    a->size = file->size;
+    if ((a->zip = open_zip(file, &why)) == NULL) {
+        rc_err_set(err, "the ZIP archive is damaged or cut off: %s", zip_error_strerror(&why));
+        free(a);
+        a = NULL;
+    }
+done:
+    zip_error_fini(&why);
+    return a;
+}
+
+void
+rc_archive_free(struct rc_archive *a)
+{
+    if (a == NULL)
+        return;
+    zip_discard(a->zip);
+    free(a);
+}
+
+size_t
+rc_archive_members(const struct rc_archive *a)
+{
+    zip_int64_t n = zip_get_num_entries(a->zip, 0);
+
+    return n < 0 ? 0 : (size_t)n;
+}
+
+const char *
+rc_archive_name(const struct rc_archive *a, size_t member)
+{
+    const char *name = zip_get_name(a->zip, member, ZIP_FL_ENC_RAW);
+
+    return name == NULL ? "" : name;
+}
+
+enum rc_status
+rc_archive_find(const struct rc_archive *a, const char *name, size_t *member, struct rc_err *err)
+{
+    char shown[RC_SHOWN];
+    size_t n = rc_archive_members(a);
+
+    for (size_t k = 0; k < n; k++)
+        if (strcmp(rc_archive_name(a, k), name) == 0) {
+            *member = k;
+            return RC_OK;
+        }
+    return rc_err_set(err, "the archive has no member '%s'",
+                      rc_text_shown(shown, name, strlen(name)));
+}
+
+enum rc_status
+rc_archive_size(struct rc_archive *a, size_t member, uint64_t *size, struct rc_err *err)
+{
+    const zip_uint64_t needed =
+        ZIP_STAT_SIZE | ZIP_STAT_COMP_SIZE | ZIP_STAT_COMP_METHOD | ZIP_STAT_ENCRYPTION_METHOD;
+    const char *name = rc_archive_name(a, member);
+    char shown[RC_SHOWN];
+    zip_stat_t st;
+
+    rc_text_shown(shown, name, strlen(name));
+    if (zip_stat_index(a->zip, member, 0, &st) != 0 || (st.valid & needed) != needed)
+        return rc_err_set(err, "member '%s' of the archive: no size is given", shown);
+    if (st.encryption_method != ZIP_EM_NONE)
+        return rc_err_set(err, "member '%s' of the archive is encrypted", shown);
+    if (st.comp_method != ZIP_CM_STORE && st.comp_method != ZIP_CM_DEFLATE)
+        return rc_err_set(err, "member '%s' of the archive is packed by method %u: only stored "
+                               "and deflated ones are read", shown, (unsigned)st.comp_method);
+    if (st.comp_size > a->size)
+        return rc_err_set(err, "member '%s' of the archive promises %" PRIu64 " packed bytes, the "
+                               "file has %zu", shown, (uint64_t)st.comp_size, a->size);
+    if (st.size / DEFLATE_MOST > st.comp_size)
+        return rc_err_set(err, "member '%s' of the archive promises %" PRIu64 " bytes, which its "
+                               "%" PRIu64 " packed ones cannot hold", shown, (uint64_t)st.size,
+                          (uint64_t)st.comp_size);
+    *size = st.size;
+    return RC_OK;
+}
+
+/* The next n bytes, or fewer at the end; -1 when they cannot be unpacked. */
+static zip_int64_t
+read_fully(zip_file_t *f, unsigned char *to, size_t n)
+{
+    size_t have = 0;
+
+    while (have < n) {
+        zip_int64_t got = zip_fread(f, to + have, n - have);
+        if (got < 0)
+            return -1;
+        if (got == 0)
+            break;
+        have += (size_t)got;
+    }
+    return (zip_int64_t)have;
+}
+
+static enum rc_status
+unpack(zip_file_t *f, const char *name, uint64_t size, unsigned char *piece, rc_take *take,
+       void *arg, struct rc_md5 *md5, struct rc_err *err)
+{
+    char shown[RC_SHOWN];
+    uint64_t done = 0;
+
+    /* The read that finds the end is the one that checks the CRC. */
+    for (;;) {
+        zip_int64_t n = read_fully(f, piece, RC_PIECE);
+        if (n < 0)
+            return rc_err_set(err, "member '%s' of the archive is damaged: %s",
+                              rc_text_shown(shown, name, strlen(name)), zip_file_strerror(f));
+        done += (uint64_t)n;
+        if (done > size || (n < RC_PIECE && done < size))
+            return rc_err_set(err, "member '%s' of the archive promises %" PRIu64 " bytes and "
+                                   "holds %s", rc_text_shown(shown, name, strlen(name)), size,
+                              done > size ? "more" : "fewer");
+        rc_md5_add(md5, piece, (size_t)n);
+        if (n > 0 && take(arg, piece, (size_t)n, err) != RC_OK)
+            return RC_FAIL;
+        if (n < RC_PIECE)
+            return RC_OK;
+    }
+}
+
+enum rc_status
+rc_archive_read(struct rc_archive *a, size_t member, uint64_t most, rc_take *take, void *arg,
+                char sum[RC_MD5_TEXT], struct rc_err *err)
+{
+    enum rc_status status = RC_FAIL;
+    const char *name = rc_archive_name(a, member);
+    unsigned char *piece = NULL;
+    zip_file_t *f = NULL;
+    char shown[RC_SHOWN];
+    struct rc_md5 md5;
+    uint64_t size;
+
+    rc_text_shown(shown, name, strlen(name));
+    if (rc_archive_size(a, member, &size, err) != RC_OK)
+        goto done;
+    if (size > most) {
+        rc_err_set(err, "member '%s' of the archive holds %" PRIu64 " bytes, more than the %" PRIu64
+                        " that can be meant", shown, size, most);
+        goto done;
+    }
+    if ((piece = malloc(RC_PIECE)) == NULL) {
+        rc_err_set(err, "out of memory for %d bytes", RC_PIECE);
+        goto done;
+    }
+    if ((f = zip_fopen_index(a->zip, member, 0)) == NULL) {
+        rc_err_set(err, "member '%s' of the archive cannot be read: %s", shown,
+                   zip_strerror(a->zip));
+        goto done;
+    }
+    rc_md5_start(&md5);
+    status = unpack(f, name, size, piece, take, arg, &md5, err);
+    rc_md5_end(&md5, sum);
+done:
+    if (f != NULL)
+        zip_fclose(f);
+    free(piece);
+    return status;
+}

@@ -1,0 +1,137 @@
+#include "text.h"
+
+#include <string.h>
+
+#include "utf8.h"
+
+bool
+rc_lines_next(struct rc_lines *l, const char **line, size_t *n)
+{
+    const char *s = l->at;
+
+    if (s == l->end)
+        return false;
+    while (s < l->end && *s != '\n' && *s != '\r')
+        s++;
+    *line = l->at;
+    *n = (size_t)(s - l->at);
+    if (s < l->end && *s == '\r' && s + 1 < l->end && s[1] == '\n')
+        s++;
+    l->at = s < l->end ? s + 1 : s;
+    l->number++;
+    return true;
+}
+
+static bool
+is_white(char c)
+{
+    return c == ' ' || (c >= '\t' && c <= '\r');
+}
+
+void
+rc_trim(const char **text, size_t *n)
+{
+    while (*n > 0 && is_white((*text)[*n - 1]))
+        --*n;
+    while (*n > 0 && is_white(**text)) {
+        ++*text;
+        --*n;
+    }
+}
+
+bool
+rc_length_unit(const char *text, size_t n, double *metres)
+{
+    static const struct {
+        const char *name;
+        double metres;
+    } units[] = {
+        {"m", 1},
+        {"nm", 1e-9},
+        {"um", 1e-6},
+        {"\xc2\xb5m", 1e-6}, /* U+00B5, micro sign            */
+        {"\xce\xbcm", 1e-6}, /* U+03BC, Greek mu              */
+        {"\xb5m", 1e-6},     /* the micro sign in Latin-1     */
+        {"~m", 1e-6},        /* NanoScope's way round it      */
+        {"micron", 1e-6},
+        {"microns", 1e-6},
+        {"mm", 1e-3},
+        {"cm", 1e-2},
+        {"km", 1e3},
+        {"pm", 1e-12},
+        {"fm", 1e-15},
+        {"\xc3\x85", 1e-10},     /* U+00C5, A with ring    */
+        {"\xe2\x84\xab", 1e-10}, /* U+212B, Angstrom sign  */
+        {"\xc5", 1e-10},         /* Latin-1                */
+    };
+
+    for (size_t k = 0; k < sizeof units / sizeof *units; k++)
+        if (strlen(units[k].name) == n && memcmp(units[k].name, text, n) == 0) {
+            *metres = units[k].metres;
+            return true;
+        }
+    return false;
+}
+
+/* Control characters, U+0080 to U+009F too, would act on the terminal that shows them. */
+static void
+blank_controls(char *text)
+{
+    for (unsigned char *s = (unsigned char *)text; *s != '\0'; s++) {
+        if (*s < ' ' || *s == 0x7f)
+            *s = ' ';
+        if (s[0] == 0xc2 && s[1] >= 0x80 && s[1] < 0xa0)
+            s[0] = s[1] = ' ';
+    }
+}
+
+/* Latin-1 to UTF-8: the code points of Latin-1 are the first 256 of Unicode. */
+static void
+widen(char *to, size_t size, const char *text, size_t n)
+{
+    size_t used = 0;
+
+    for (size_t k = 0; k < n; k++) {
+        unsigned char c = text[k] == '\0' ? ' ' : (unsigned char)text[k];
+
+        if (used + (c < 0x80 ? 1 : 2) >= size)
+            break;
+        if (c >= 0x80)
+            to[used++] = (char)(0xc0 | c >> 6);
+        to[used++] = c < 0x80 ? (char)c : (char)(0x80 | (c & 0x3f));
+    }
+    to[used] = '\0';
+}
+
+char *
+rc_text_clean(char *to, size_t size, const char *text, size_t n)
+{
+    size_t room = size - 1, kept;
+
+    rc_trim(&text, &n);
+    kept = n < room ? n : room;
+    while (kept < n && kept > 0 && ((unsigned char)text[kept] & 0xc0U) == 0x80)
+        kept--; /* not in the middle of a character */
+    for (size_t k = 0; k < kept; k++)
+        to[k] = (char)(text[k] == '\0' ? ' ' : text[k]);
+    to[kept] = '\0';
+    if (!rc_utf8_valid(to))
+        widen(to, size, text, n);
+    blank_controls(to);
+    return to;
+}
+
+const char *
+rc_text_shown(char to[RC_SHOWN], const char *text, size_t n)
+{
+    return rc_text_clean(to, RC_SHOWN, text, n);
+}
+
+enum rc_status
+rc_text_keep(struct rc_grid *g, const char *key, const char *text, size_t n, struct rc_err *err)
+{
+    char value[2048];
+
+    rc_text_clean(value, sizeof value, text, n);
+    return *value == '\0' ? RC_OK : rc_grid_set(g, key, value, err);
+}

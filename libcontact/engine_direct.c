@@ -1,0 +1,104 @@
+/*
+ * The sum as it is written: u_ij = sum_kl K_(i-k)(j-l) p_kl. N^2 operations, no approximation: the
+ * engine that judges the others.
+ */
+#include "inside.h"
+
+#include <stdlib.h>
+
+struct plan {
+    size_t nx, ny;
+    int threads;
+    /* K at x offsets -(nx-1) .. nx-1 (so that the inner loop is contiguous), y offsets 0 .. ny-1 */
+    double *k;
+    double mirror; /* factor for negative y offsets */
+};
+
+static void
+plan_free(void *at)
+{
+    struct plan *plan = at;
+
+    if (plan == NULL)
+        return;
+    free(plan->k);
+    free(plan);
+}
+
+static size_t
+memory(const struct rc_shape *s)
+{
+    return (2 * s->nx - 1) * s->ny * sizeof(double);
+}
+
+static void *
+plan_new(const struct rc_shape *s, const struct rc_kernel *kernel, size_t component,
+         const struct rc_medium *medium, size_t threads, struct rc_err *err)
+{
+    struct plan *plan;
+    unsigned parity = kernel->parity[component];
+    size_t width = 2 * s->nx - 1;
+
+    if (rc_shape_check(s, err) != RC_OK)
+        return NULL;
+    plan = calloc(1, sizeof *plan);
+    if (plan == NULL || (plan->k = malloc(width * s->ny * sizeof(double))) == NULL) {
+        rc_err_set(err, "out of memory for a kernel of %zu x %zu values", width, s->ny);
+        plan_free(plan);
+        return NULL;
+    }
+    plan->nx = s->nx;
+    plan->ny = s->ny;
+    plan->threads = (int)(threads == 0 ? rc_threads_available() : threads);
+    plan->mirror = parity & RC_ODD_Y ? -1 : 1;
+#pragma omp parallel for num_threads(plan->threads) schedule(dynamic)
+    for (size_t j = 0; j < s->ny; j++) {
+        double *row = plan->k + j * width + s->nx - 1;
+        kernel->rows(medium, component, s->dx, s->dy, s->nx, j, j + 1, row);
+        for (size_t i = 1; i < s->nx; i++)
+            *(row - i) = parity & RC_ODD_X ? -row[i] : row[i];
+    }
+    return plan;
+}
+
+/* u[i] += sum_k K[i - k] p[k] along one pair of rows. */
+static void
+add_row(size_t nx, const double *restrict k, double factor, const double *restrict p,
+        double *restrict u)
+{
+    for (size_t a = 0; a < nx; a++) {
+        double value = factor * p[a];
+        const double *from = k - a;
+        if (value == 0)
+            continue;
+        for (size_t i = 0; i < nx; i++)
+            u[i] += value * from[i];
+    }
+}
+
+static void
+apply(void *at, const double *p, double *u)
+{
+    const struct plan *plan = at;
+    size_t nx = plan->nx, ny = plan->ny, width = 2 * nx - 1;
+
+#pragma omp parallel for num_threads(plan->threads) schedule(dynamic)
+    for (size_t j = 0; j < ny; j++) {
+        double *row = u + j * nx;
+        for (size_t i = 0; i < nx; i++)
+            row[i] = 0;
+        for (size_t l = 0; l < ny; l++) {
+            size_t d = j > l ? j - l : l - j;
+            add_row(nx, plan->k + d * width + nx - 1, j >= l ? 1 : plan->mirror, p + l * nx, row);
+        }
+    }
+}
+
+const struct rc_engine rc_engine_direct = {
+    .name = "direct",
+    .summary = "the double sum as it is written: exact to rounding, N^2",
+    .memory = memory,
+    .new = plan_new,
+    .apply = apply,
+    .free = plan_free,
+};

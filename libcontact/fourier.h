@@ -1,0 +1,30 @@
+/*
+ * The two-dimensional Fourier transform of a periodic map. Internal: never installed.
+ *
+ * The spectrum of nx x ny real values has ny rows of nx/2 + 1 complex numbers. Column k is wave
+ * number k along x; row k is wave number k along y, or k - ny in the upper half. The other half
+ * plane is the complex conjugate. Nothing is divided by nx ny.
+ */
+#ifndef RC_FOURIER_H
+#define RC_FOURIER_H
+
+#include <complex.h>
+#include <stddef.h>
+
+#include "grid.h"
+
+/* Complex numbers in one row of the spectrum, and in all of it. */
+size_t rc_fourier_columns(const struct rc_shape *shape);
+size_t rc_fourier_size(const struct rc_shape *shape);
+/* Signed wave number of place k of n. */
+long rc_fourier_number(size_t k, size_t n);
+
+/* s_k = sum of v_j exp(-2 pi i jk / n); v is kept. RC_FAIL when a side is too long for FFTW or
+ * memory is short. */
+enum rc_status rc_fourier_forward(const struct rc_shape *shape, const double *v, double complex *s,
+                                  struct rc_err *err);
+/* v_j = sum of s_k exp(+2 pi i jk / n) over both half planes; s is destroyed. Fails likewise. */
+enum rc_status rc_fourier_backward(const struct rc_shape *shape, double complex *s, double *v,
+                                   struct rc_err *err);
+
+#endif

@@ -1,0 +1,82 @@
+/*
+ * What the rooms of libcontact share and nobody else sees: the row types of kernels.list and
+ * engines.list, and the transform engine that the solver and the stresses lean on.
+ */
+#ifndef RC_INSIDE_H
+#define RC_INSIDE_H
+
+#include "contact.h"
+
+/* ---- kernels: what a unit pressure does ---- */
+
+struct rc_medium {
+    double estar; /* Pa  */
+    double nu;    /* -   */
+    double depth; /* m   */
+};
+
+enum {
+    RC_ODD_X = 1, /* K(-x, y) = -K(x, y) */
+    RC_ODD_Y = 2,
+};
+
+struct rc_kernel {
+    const char *name;
+    const char *summary;
+    size_t components;
+    const unsigned *parity; /* of each component */
+    /* Field at (i dx, j dy), i < n, first <= j < last, of unit pressure on the cell dx x dy about
+     * the origin: out[(j - first) * n + i]. */
+    void (*rows)(const struct rc_medium *medium, size_t component, double dx, double dy, size_t n,
+                 size_t first, size_t last, double *out);
+};
+
+#define RC_KERNEL(name) extern const struct rc_kernel rc_kernel_##name;
+#include "kernels.list"
+#undef RC_KERNEL
+
+/* ---- engines: how sums are done ---- */
+
+struct rc_engine {
+    const char *name;
+    const char *summary;
+    size_t (*memory)(const struct rc_shape *shape);
+    /* A plan for one component of one kernel. */
+    void *(*new)(const struct rc_shape *shape, const struct rc_kernel *kernel, size_t component,
+                 const struct rc_medium *medium, size_t threads, struct rc_err *err);
+    void (*apply)(void *plan, const double *p, double *u);
+    void (*free)(void *plan);
+};
+
+#define RC_ENGINE(name) extern const struct rc_engine rc_engine_##name;
+#include "engines.list"
+#undef RC_ENGINE
+
+/* ---- the transform engine by its parts: several kernels on one grid, one transform of p ---- */
+
+struct rc_fft;
+struct rc_spectrum; /* of one kernel: a quarter of it, real */
+
+struct rc_fft *rc_fft_new(const struct rc_shape *shape, size_t threads, struct rc_err *err);
+void rc_fft_free(struct rc_fft *fft);
+/* Bytes of a plan with one spectrum, and of each further spectrum. */
+size_t rc_fft_memory(const struct rc_shape *shape);
+size_t rc_spectrum_memory(const struct rc_shape *shape);
+
+/* Zero-initialised; NULL when memory is short. */
+struct rc_spectrum *rc_spectrum_new(const struct rc_fft *fft, struct rc_err *err);
+void rc_spectrum_free(struct rc_spectrum *spectrum);
+/* Makes it the spectrum of a kernel's component. RC_FAIL when memory is short. */
+enum rc_status rc_spectrum_set(struct rc_spectrum *spectrum, const struct rc_fft *fft,
+                               const struct rc_kernel *kernel, size_t component,
+                               const struct rc_medium *medium, struct rc_err *err);
+/* Replaces every value s by 1/s: the inverse of the padded circulant. */
+void rc_spectrum_invert(struct rc_spectrum *spectrum);
+
+/* u = K p without ever forming the padded array. u and p may be the same. */
+void rc_fft_apply(struct rc_fft *fft, const struct rc_spectrum *kernel, const double *p, double *u);
+/* Keeps the whole transform of p; then u = K p for as many kernels as are wanted. */
+enum rc_status rc_fft_load(struct rc_fft *fft, const double *p, struct rc_err *err);
+void rc_fft_field(struct rc_fft *fft, const struct rc_spectrum *kernel, double *u);
+
+#endif

@@ -1,0 +1,76 @@
+/* What the contact tests share: solve a problem to its end. */
+#ifndef CONTACT_CASE_H
+#define CONTACT_CASE_H
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "exact.h"
+#include "libcontact/contact.h"
+
+struct solved {
+    enum rc_status status;
+    struct rc_contact c;
+    double *p, *gap, *u; /* n each, freed by solved_free */
+    struct rc_err err;
+};
+
+static inline struct solved
+solve(struct rc_shape shape, const double *h, struct rc_problem problem)
+{
+    size_t n = shape.nx * shape.ny;
+    struct solved s = {.p = calloc(n, sizeof(double)),
+                       .gap = calloc(n, sizeof(double)),
+                       .u = calloc(n, sizeof(double))};
+    struct rc_solver *solver = rc_solver_new(&shape, h, &problem, &s.err);
+
+    if (solver == NULL) {
+        s.status = RC_FAIL;
+        return s;
+    }
+    do
+        s.status = rc_solver_step(solver);
+    while (s.status == RC_MORE);
+    rc_solver_result(solver, s.u, s.gap, &s.c);
+    memcpy(s.p, rc_solver_pressure(solver), n * sizeof(double));
+    rc_solver_free(solver);
+    return s;
+}
+
+static inline void
+solved_free(struct solved *s)
+{
+    free(s->p);
+    free(s->gap);
+    free(s->u);
+}
+
+/* x and y of node k about the middle of the map. */
+static inline double
+node_x(struct rc_shape s, size_t k)
+{
+    return ((double)(k % s.nx) - (double)(s.nx - 1) / 2) * s.dx;
+}
+
+static inline double
+node_y(struct rc_shape s, size_t k)
+{
+    return ((double)(k / s.nx) - (double)(s.ny - 1) / 2) * s.dy;
+}
+
+static inline double
+node_r(struct rc_shape s, size_t k)
+{
+    return hypot(node_x(s, k), node_y(s, k));
+}
+
+/* Numbers of a fixed sequence in (-1/2, 1/2). */
+static inline double
+random_number(uint64_t *seed)
+{
+    *seed = *seed * 6364136223846793005U + 1442695040888963407U;
+    return (double)(*seed >> 11) / 9007199254740992.0 - 0.5;
+}
+
+#endif

@@ -1,0 +1,426 @@
+/* A picture's pixels are the values of the map in the colours that were promised, and its chunks say
+ * how it was made: decoded by libpng, judged by colour tables from the literature. */
+#include <math.h>
+#include <png.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "formats/stream.h"
+#include "libcontact/grid.h"
+#include "tools/colormap.h"
+#include "tools/raster.h"
+#include "tools/ticks.h"
+
+static char folder[] = "/tmp/format_png.XXXXXX";
+
+/* ---- streams in, pictures out ---- */
+
+struct png {
+    png_image head;
+    unsigned char *rgb;
+};
+
+static struct rc_grid *
+grid_of(const char *channel, const char *unit, size_t nx, size_t ny, const double *v)
+{
+    struct rc_shape shape = {nx, ny, 1.1e-6, 1.3e-6};
+    struct rc_grid *g = rc_grid_new(&shape, channel, unit, NULL);
+
+    assert_non_null(g);
+    memcpy(g->v, v, nx * ny * sizeof *v);
+    return g;
+}
+
+static void
+put_stream(struct rc_grid *g)
+{
+    char name[128];
+    FILE *file;
+    struct rc_writer *w;
+
+    snprintf(name, sizeof name, "%s/in.rcg", folder);
+    file = fopen(name, "wb");
+    assert_non_null(file);
+    w = rc_writer_new(file, NULL);
+    assert_int_equal(rc_writer_put(w, g, NULL), RC_OK);
+    assert_int_equal(rc_writer_end(w, NULL), RC_OK);
+    rc_writer_free(w);
+    fclose(file);
+    rc_grid_free(g);
+}
+
+/* Runs rc-render on the stream that was put and reads its picture. */
+static struct png
+render(const char *options)
+{
+    const char *bin = getenv("RC_BIN");
+    struct png p = {.head = {.version = PNG_IMAGE_VERSION}};
+    char text[1024];
+
+    assert_non_null(bin);
+    snprintf(text, sizeof text, "'%s/rc-render' %s -o %s/out.png %s/in.rcg", bin, options, folder,
+             folder);
+    assert_int_equal(system(text), 0);
+    snprintf(text, sizeof text, "%s/out.png", folder);
+    assert_true(png_image_begin_read_from_file(&p.head, text));
+    assert_int_equal(p.head.format & (PNG_FORMAT_FLAG_ALPHA | PNG_FORMAT_FLAG_LINEAR), 0);
+    p.head.format = PNG_FORMAT_RGB;
+    p.rgb = malloc(PNG_IMAGE_SIZE(p.head));
+    assert_non_null(p.rgb);
+    assert_true(png_image_finish_read(&p.head, NULL, p.rgb, 0, NULL));
+    return p;
+}
+
+static const unsigned char *
+pixel(const struct png *p, size_t x, size_t y)
+{
+    return p->rgb + 3 * (y * p->head.width + x);
+}
+
+static void
+is_colour(const unsigned char *rgb, unsigned colour, int within)
+{
+    for (int k = 0; k < 3; k++) {
+        int wanted = (int)(colour >> (16 - 8 * k) & 0xff);
+
+        if (abs(rgb[k] - wanted) > within)
+            fail_msg("colour %02x%02x%02x is not %06x", rgb[0], rgb[1], rgb[2], colour);
+    }
+}
+
+/* ---- raw pictures ---- */
+
+static void
+raw_is_one_pixel_a_node(void **state)
+{
+    static const double v[] = {0, 51e-6, 102e-6, 153e-6, 204e-6, 255e-6}; /* a grey level a micron */
+    struct png p;
+
+    (void)state;
+    put_stream(grid_of("height", "m", 3, 2, v));
+    p = render("--raw --colormap grey");
+    assert_int_equal(p.head.width, 3);
+    assert_int_equal(p.head.height, 2);
+    for (size_t k = 0; k < 6; k++)
+        is_colour(pixel(&p, k % 3, k / 3), 0x333333 * (unsigned)k, 1);
+    free(p.rgb);
+}
+
+static void
+range_is_kept_and_passed_with_the_end_colours(void **state)
+{
+    static const double v[] = {-5e9, 1e9, 2e9, 3e9, INFINITY, -INFINITY};
+    static const unsigned grey[] = {0, 0, 0x808080, 0xffffff, 0xffffff, 0};
+    struct png p;
+
+    (void)state;
+    put_stream(grid_of("some.stress", "Pa", 6, 1, v));
+    for (int form = 0; form < 3; form++) {
+        static const char *const forms[] = {"1GPa:3GPa", "1e9,3e9", "1000MPa:3e3MPa"};
+        char options[128];
+
+        snprintf(options, sizeof options, "--raw --colormap grey --range %s", forms[form]);
+        p = render(options);
+        for (size_t k = 0; k < 6; k++)
+            is_colour(pixel(&p, k, 0), grey[k], 1);
+        free(p.rgb);
+    }
+}
+
+/* Ends and middle as published (van der Walt and Smith 2015). */
+static void
+channels_get_their_colours(void **state)
+{
+    static const double v[] = {1e-6, 2e-6, 3e-6};
+    static const double p0[] = {1e3, 0.5e9, 1e9};
+    static const double s[] = {-1e9, 0, 0.5e9};
+    struct png p;
+
+    (void)state;
+    put_stream(grid_of("height", "m", 3, 1, v));
+    p = render("--raw");
+    is_colour(pixel(&p, 0, 0), 0x440154, 2);
+    is_colour(pixel(&p, 1, 0), 0x21918c, 2);
+    is_colour(pixel(&p, 2, 0), 0xfde725, 2);
+    free(p.rgb);
+    put_stream(grid_of("mises", "Pa", 3, 1, p0));
+    p = render("--raw");
+    is_colour(pixel(&p, 0, 0), 0x000004, 2);
+    is_colour(pixel(&p, 1, 0), 0xb73779, 2);
+    is_colour(pixel(&p, 2, 0), 0xfcfdbf, 2);
+    free(p.rgb);
+    put_stream(grid_of("szz", "Pa", 3, 1, s)); /* zero in the middle, whatever the extremes are */
+    p = render("--raw");
+    assert_true(pixel(&p, 0, 0)[2] > 100 && pixel(&p, 0, 0)[0] < 60);    /* blue: compression */
+    assert_true(abs(pixel(&p, 1, 0)[0] - pixel(&p, 1, 0)[2]) <= 1);      /* neither           */
+    assert_true(pixel(&p, 2, 0)[0] > 200 && pixel(&p, 2, 0)[2] < 200);   /* reddish: tension  */
+    free(p.rgb);
+}
+
+static bool
+on_the_scale(const char *map, const unsigned char *rgb)
+{
+    for (int k = 0; k <= 1000; k++) {
+        struct rgb c = colormap_at(colormap_find(map), k / 1000.0);
+
+        if (abs(c.r - rgb[0]) + abs(c.g - rgb[1]) + abs(c.b - rgb[2]) < 24)
+            return true;
+    }
+    return false;
+}
+
+static void
+missing_and_no_contact_are_no_values(void **state)
+{
+    static const char *const maps[] = {"viridis", "magma", "bluered", "grey"};
+    static const double v[] = {0, 1, NAN, 5e8, 1e9, -0.0};
+
+    (void)state;
+    for (size_t m = 0; m < sizeof maps / sizeof *maps; m++) {
+        char options[64];
+        struct png p;
+
+        put_stream(grid_of("pressure", "Pa", 6, 1, v));
+        snprintf(options, sizeof options, "--raw --colormap %s", maps[m]);
+        p = render(options);
+        assert_memory_equal(pixel(&p, 0, 0), pixel(&p, 5, 0), 3);
+        assert_memory_not_equal(pixel(&p, 0, 0), pixel(&p, 2, 0), 3);
+        assert_memory_not_equal(pixel(&p, 0, 0), pixel(&p, 1, 0), 3);
+        assert_false(on_the_scale(maps[m], pixel(&p, 0, 0)));
+        assert_false(on_the_scale(maps[m], pixel(&p, 2, 0)));
+        assert_true(on_the_scale(maps[m], pixel(&p, 1, 0)));
+        free(p.rgb);
+    }
+}
+
+/* ---- colours ---- */
+
+/* CIE 1976 lightness of an sRGB colour (IEC 61966-2-1). */
+static double
+lightness(struct rgb c)
+{
+    const double share[3] = {0.2126, 0.7152, 0.0722};
+    const unsigned char byte[3] = {c.r, c.g, c.b};
+    double y = 0;
+
+    for (int k = 0; k < 3; k++) {
+        double s = byte[k] / 255.0;
+        y += share[k] * (s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4));
+    }
+    return y > 216.0 / 24389 ? 116 * cbrt(y) - 16 : y * 24389 / 27;
+}
+
+static void
+lightness_rises_and_evenly(void **state)
+{
+    static const char *const maps[] = {"viridis", "magma", "grey"};
+    const double rounding = 0.35; /* of 8 bits, in L*, where colours are dark */
+
+    (void)state;
+    for (size_t m = 0; m < 3; m++) {
+        const struct colormap *map = colormap_find(maps[m]);
+        double low = lightness(colormap_at(map, 0)), high = lightness(colormap_at(map, 1));
+        double last = low;
+
+        assert_true(high - low > 70);
+        for (int k = 1; k <= 256; k++) {
+            double l = lightness(colormap_at(map, k / 256.0));
+
+            assert_true(l > last - rounding);
+            assert_true(fabs(l - low - (high - low) * k / 256) < 6);
+            last = l;
+        }
+    }
+}
+
+static void
+bluered_is_as_light_on_both_sides(void **state)
+{
+    const struct colormap *map = colormap_find("bluered");
+    double last = lightness(colormap_at(map, 0.5));
+
+    (void)state;
+    assert_true(map->diverging && last > 90);
+    for (int k = 1; k <= 128; k++) {
+        double cold = lightness(colormap_at(map, 0.5 - k / 256.0));
+        double warm = lightness(colormap_at(map, 0.5 + k / 256.0));
+
+        assert_true(fabs(cold - warm) < 1);
+        assert_true(cold < last + 0.35);
+        last = cold;
+    }
+    assert_true(last < 40);
+}
+
+/* ---- reduction ---- */
+
+static void
+cells_are_means_of_what_they_cover(void **state)
+{
+    static const double v[] = {1, 3, 0, 2, NAN, 8, 5, 7, 0, 0, 6, NAN};
+    struct rc_grid *g = grid_of("pressure", "Pa", 6, 2, v);
+    struct raster *r = raster_new(g, NULL, true, 3, 1, NULL);
+
+    (void)state;
+    assert_non_null(r);
+    /* columns 0-1: 1 3 5 7; columns 2-3: 0 2 0 0; columns 4-5: NaN 8 6 NaN */
+    assert_true(fabs(r->v[0] - 4) < 1e-12 && r->none[0] == 0 && r->missing[0] == 0);
+    assert_true(fabs(r->v[1] - 2) < 1e-12 && fabsf(r->none[1] - 0.75F) < 1e-6F);
+    assert_true(fabs(r->v[2] - 7) < 1e-12 && fabsf(r->missing[2] - 0.5F) < 1e-6F);
+    raster_free(r);
+    r = raster_new(g, NULL, true, 6 * 5, 2 * 3, NULL); /* enlarged: every node a block of its own */
+    assert_non_null(r);
+    for (size_t j = 0; j < r->h; j++)
+        for (size_t i = 0; i < r->w; i++) {
+            double wanted = v[j / 3 * 6 + i / 5], got = r->v[j * r->w + i];
+
+            assert_true(isnan(got) == (isnan(wanted) || wanted == 0));
+            assert_true(isnan(got) || fabs(got - wanted) < 1e-12 * wanted);
+        }
+    raster_free(r);
+    rc_grid_free(g);
+}
+
+static void
+contours_of_a_plane_are_straight(void **state)
+{
+    double v[7 * 5];
+    struct lines l = {0};
+    struct rc_grid *g;
+    struct raster *r;
+    double length = 0;
+
+    (void)state;
+    for (size_t k = 0; k < 35; k++)
+        v[k] = 2.0 * (double)(k % 7) + 1;
+    g = grid_of("height", "m", 7, 5, v);
+    r = raster_new(g, NULL, false, 7, 5, NULL);
+    assert_int_equal(raster_contour(r, 4.5, &l, NULL), RC_OK); /* at column 1.75, middle 2.25 */
+    for (size_t k = 0; k < l.n; k++) {
+        assert_true(fabs(l.at[k][0] - 2.25) < 1e-12 && fabs(l.at[k][2] - 2.25) < 1e-12);
+        length += fabs(l.at[k][3] - l.at[k][1]);
+    }
+    assert_true(fabs(length - 4) < 1e-12);
+    free(l.at);
+    raster_free(r);
+    rc_grid_free(g);
+}
+
+/* ---- words ---- */
+
+static void
+numbers_read_as_people_write_them(void **state)
+{
+    static const struct {
+        double value;
+        const char *unit, *text;
+    } cases[] = {
+        {5.83e9, "Pa", "5.83 GPa"},   {1e-6, "m", "1 µm"},      {-4.239e-7, "m", "−423.9 nm"},
+        {240, "N", "240 N"},          {0, "Pa", "0"},           {999.96, "m", "1000 m"},
+        {0.31, "1", "0.31"},          {2e-5, "rad", "20·10⁻⁶ rad"},
+    };
+    static const char *const labels[] = {"−0.2", "0.0", "0.2", "0.4", "0.6"};
+    char text[TICKS_TEXT];
+    struct ticks t;
+
+    (void)state;
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
+        assert_string_equal(scale_value(text, cases[k].value, cases[k].unit), cases[k].text);
+    ticks_choose(&t, -0.3, 0.7, 5);
+    assert_int_equal(t.last - t.first, 4);
+    for (long long k = t.first; k <= t.last; k++)
+        assert_string_equal(ticks_text(text, &t, k), labels[k - t.first]);
+}
+
+/* ---- chunks ---- */
+
+static void
+chunks_say_how_it_was_made(void **state)
+{
+    static const double v[] = {1e-6, 2e-6, 3e-6, 4e-6};
+    struct rc_grid *g = grid_of("height", "m", 2, 2, v);
+    char name[128];
+    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, NULL);
+    png_infop info = png_create_info_struct(png);
+    png_textp text;
+    FILE *file;
+    int intent, n, found = 0;
+
+    (void)state;
+    assert_int_equal(rc_grid_set(g, "source", "Prüfling 7.x3p", NULL), RC_OK);
+    assert_int_equal(rc_grid_history(g, "rc-import 9.9 --format x3p", NULL), RC_OK);
+    put_stream(g);
+    free(render("--range 0:8um --title 'Prüfling µ'").rgb);
+    snprintf(name, sizeof name, "%s/out.png", folder);
+    file = fopen(name, "rb");
+    assert_non_null(file);
+    png_init_io(png, file);
+    png_read_info(png, info);
+    assert_int_equal(png_get_bit_depth(png, info), 8);
+    assert_int_equal(png_get_color_type(png, info), PNG_COLOR_TYPE_RGB);
+    assert_true(png_get_sRGB(png, info, &intent));
+    assert_false(png_get_valid(png, info, PNG_INFO_tIME));
+    n = png_get_text(png, info, &text, NULL);
+    for (int k = 0; k < n; k++) {
+        if (strcmp(text[k].key, "Title") == 0)
+            found += strcmp(text[k].text, "Prüfling µ") == 0;
+        if (strcmp(text[k].key, "Source") == 0)
+            found += strcmp(text[k].text, "Prüfling 7.x3p") == 0;
+        if (strcmp(text[k].key, "Software") == 0)
+            found += strncmp(text[k].text, "rc-render ", 10) == 0;
+        if (strcmp(text[k].key, "Description") == 0)
+            found += strncmp(text[k].text, "rc-import 9.9 --format x3p | rc-render ", 38) == 0 &&
+                     strstr(text[k].text, "--range 0:8e-06") != NULL;
+    }
+    assert_int_equal(found, 4);
+    png_destroy_read_struct(&png, &info, NULL);
+    fclose(file);
+}
+
+static int
+make_folder(void **state)
+{
+    (void)state;
+    return mkdtemp(folder) == NULL;
+}
+
+static int
+clear_folder(void **state)
+{
+    static const char *const names[] = {"in.rcg", "out.png"};
+    char name[128];
+
+    (void)state;
+    for (size_t k = 0; k < 2; k++) {
+        snprintf(name, sizeof name, "%s/%s", folder, names[k]);
+        unlink(name);
+    }
+    return rmdir(folder);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(raw_is_one_pixel_a_node),
+        cmocka_unit_test(range_is_kept_and_passed_with_the_end_colours),
+        cmocka_unit_test(channels_get_their_colours),
+        cmocka_unit_test(missing_and_no_contact_are_no_values),
+        cmocka_unit_test(lightness_rises_and_evenly),
+        cmocka_unit_test(bluered_is_as_light_on_both_sides),
+        cmocka_unit_test(cells_are_means_of_what_they_cover),
+        cmocka_unit_test(contours_of_a_plane_are_straight),
+        cmocka_unit_test(numbers_read_as_people_write_them),
+        cmocka_unit_test(chunks_say_how_it_was_made),
+    };
+
+    return cmocka_run_group_tests(tests, make_folder, clear_folder);
+}

@@ -1,0 +1,234 @@
+/* The solver stays stable where contact is hard: one node, saturation, infeasible loads, sharp edges,
+ * strips, twelve decades of scale. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "contact_case.h"
+
+static const double estar = 114e9;
+
+static void
+check(struct rc_shape shape, const double *h, struct rc_problem problem, const char *what)
+{
+    struct solved s = solve(shape, h, problem);
+
+    if (s.status != RC_OK || !(s.c.pressure_error <= problem.tol))
+        print_error("%s: status %d, %s, error %g, KKT %g after %zu iterations\n", what, s.status,
+                    s.status == RC_FAIL ? s.err.text : "", s.c.pressure_error, s.c.kkt_residual,
+                    s.c.iterations);
+    assert_int_equal(s.status, RC_OK);
+    assert_true(fabs(s.c.load / problem.load - 1) < summed);
+    for (size_t k = 0; k < shape.nx * shape.ny; k++)
+        assert_true(s.p[k] >= 0 && s.p[k] <= problem.hardness);
+    solved_free(&s);
+}
+
+static void
+one_node_carries_all(void **state)
+{
+    struct rc_shape shape = {33, 47, 1.1e-6, 1e-6};
+    struct rc_problem problem = {.estar = estar, .load = 1e-9, .hardness = INFINITY, .tol = 1e-8};
+    double h[33 * 47] = {0};
+    struct solved s;
+
+    (void)state;
+    h[777] = 1e-6;
+    s = solve(shape, h, problem);
+    assert_int_equal(s.status, RC_OK);
+    assert_int_equal(s.c.contact_nodes, 1);
+    assert_true(fabs(s.p[777] * shape.dx * shape.dy / problem.load - 1) < rounding);
+    /* it sinks by Love's displacement of its own cell */
+    assert_true(fabs(s.c.approach / (s.p[777] * love_displacement(0, 0, shape.dx / 2, shape.dy / 2,
+                                                                  estar)) - 1) < summed);
+    solved_free(&s);
+}
+
+static void
+every_node_yields(void **state)
+{
+    struct rc_shape shape = {20, 13, 1e-6, 1.3e-6};
+    size_t n = shape.nx * shape.ny;
+    double *h = calloc(n, sizeof *h), hardness = 3.1e9, area = shape.dx * shape.dy * (double)n;
+    struct rc_problem problem = {.estar = estar, .hardness = hardness, .tol = 1e-8};
+    uint64_t seed = 7;
+    struct solved s;
+
+    (void)state;
+    for (size_t k = 0; k < n; k++)
+        h[k] = 1e-7 * random_number(&seed);
+    problem.load = hardness * area;
+    s = solve(shape, h, problem);
+    assert_int_equal(s.status, RC_OK);
+    assert_int_equal(s.c.plastic_nodes, n);
+    assert_true(isnan(s.c.approach));
+    solved_free(&s);
+    for (double part = 0.9; part < 1; part = 1 - (1 - part) / 10) {
+        problem.load = part * hardness * area;
+        check(shape, h, problem, "close to saturation");
+        if (part > 0.9999999)
+            break;
+    }
+    problem.load = 1.000001 * hardness * area;
+    s = solve(shape, h, problem);
+    assert_int_equal(s.status, RC_FAIL);
+    assert_non_null(strstr(s.err.text, "hardness times area"));
+    solved_free(&s);
+    free(h);
+}
+
+enum shape_name {
+    FLAT,
+    STEP,
+    GROOVES,
+    NOISE,
+    CAUCHY,
+    SPIKE,
+    SHAPES
+};
+
+static double
+height(enum shape_name name, size_t i, size_t j, uint64_t *seed)
+{
+    switch (name) {
+    case FLAT:
+        return 1;
+    case STEP:
+        return i < 11 ? 0 : -1;
+    case GROOVES:
+        return i % 5 < 2 ? -1 : 0;
+    case NOISE:
+        return random_number(seed);
+    case CAUCHY:
+        return tan(exact_pi * random_number(seed));
+    default:
+        return i == 3 && j == 4 ? 1 : 0;
+    }
+}
+
+static void
+ugly_surfaces(void **state)
+{
+    static const double hardnesses[] = {INFINITY, 1.7, 1.05}; /* times the mean pressure */
+    struct rc_shape shape = {41, 29, 1e-6, 1.2e-6};
+    size_t n = shape.nx * shape.ny;
+    double *h = malloc(n * sizeof *h), area = shape.dx * shape.dy * (double)n;
+    uint64_t seed = 3;
+    char what[64];
+
+    (void)state;
+    for (int name = 0; name < SHAPES; name++)
+        for (double mean = 1e5; mean < 1e10; mean *= 100)
+            for (int k = 0; k < 3; k++) {
+                struct rc_problem problem = {.estar = estar, .load = mean * area,
+                                             .hardness = hardnesses[k] * mean, .tol = 1e-8,
+                                             .max_iterations = 3000};
+                for (size_t i = 0; i < n; i++)
+                    h[i] = 1e-7 * height((enum shape_name)name, i % shape.nx, i / shape.nx, &seed);
+                snprintf(what, sizeof what, "surface %d, mean %g, H %g", name, mean,
+                         hardnesses[k]);
+                check(shape, h, problem, what);
+            }
+    free(h);
+}
+
+/* Heights and moduli over many decades: the numbers follow. */
+static void
+scales(void **state)
+{
+    static const double heights[] = {1e-12, 1, 1e12}, moduli[] = {1, 1e15};
+    struct rc_shape shape = {37, 31, 1e-6, 1.2e-6};
+    size_t n = shape.nx * shape.ny;
+    double *h = malloc(n * sizeof *h), fraction = 0;
+
+    (void)state;
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 2; b++) {
+            uint64_t seed = 11;
+            struct rc_problem problem = {.estar = moduli[b], .hardness = INFINITY, .tol = 1e-8};
+            struct solved s;
+            for (size_t k = 0; k < n; k++)
+                h[k] = 1e-7 * heights[a] * random_number(&seed);
+            problem.load = 1e-13 * moduli[b] * heights[a];
+            s = solve(shape, h, problem);
+            assert_int_equal(s.status, RC_OK);
+            if (a == 0 && b == 0)
+                fraction = s.c.contact_fraction;
+            assert_true(s.c.contact_fraction > 0.01 && s.c.contact_fraction < 0.9);
+            assert_true(fabs(s.c.contact_fraction - fraction) < 1e-12);
+            solved_free(&s);
+        }
+    free(h);
+}
+
+static void
+strips_and_needles(void **state)
+{
+    static const struct rc_shape shapes[] = {{1, 64, 1e-6, 1e-6},  {64, 1, 1e-6, 1e-6},
+                                             {3, 300, 1e-6, 1e-6}, {30, 30, 1e-6, 1e-4},
+                                             {1, 1, 1e-6, 1e-6},   {2, 1, 1e-6, 1e-6}};
+    uint64_t seed = 5;
+
+    (void)state;
+    for (size_t k = 0; k < sizeof shapes / sizeof *shapes; k++) {
+        size_t n = shapes[k].nx * shapes[k].ny;
+        double *h = malloc(n * sizeof *h);
+        double area = shapes[k].dx * shapes[k].dy * (double)n;
+        struct rc_problem problem = {.estar = estar, .load = 3e9 * area, .hardness = INFINITY,
+                                     .tol = 1e-8, .max_iterations = 3000};
+        for (size_t i = 0; i < n; i++)
+            h[i] = 1e-7 * random_number(&seed);
+        check(shapes[k], h, problem, "elastic strip");
+        problem.hardness = 4e9;
+        check(shapes[k], h, problem, "plastic strip");
+        free(h);
+    }
+}
+
+static void
+impossible_requests(void **state)
+{
+    struct rc_shape shape = {4, 4, 1e-6, 1e-6};
+    double h[16] = {0};
+    const struct rc_problem good = {.estar = estar, .load = 1e-6, .hardness = INFINITY,
+                                    .tol = NAN};
+    struct rc_problem bad;
+    struct rc_err err;
+    struct rc_solver *solver = rc_solver_new(&shape, h, &good, &err);
+
+    (void)state;
+    assert_non_null(solver);
+    rc_solver_free(solver);
+#define REFUSED(field, value)                                                                      \
+    bad = good;                                                                                    \
+    bad.field = value;                                                                             \
+    assert_null(rc_solver_new(&shape, h, &bad, &err))
+    REFUSED(estar, 0);
+    REFUSED(estar, NAN);
+    REFUSED(load, -1);
+    REFUSED(load, INFINITY);
+    REFUSED(hardness, 0);
+    REFUSED(hardness, NAN);
+    REFUSED(tol, 0);
+    REFUSED(method, "guess");
+    REFUSED(engine, "guess");
+    h[3] = NAN;
+    assert_null(rc_solver_new(&shape, h, &good, &err));
+    h[3] = 0;
+    shape.dx = 0;
+    assert_null(rc_solver_new(&shape, h, &good, &err));
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(one_node_carries_all), cmocka_unit_test(every_node_yields),
+        cmocka_unit_test(ugly_surfaces),        cmocka_unit_test(scales),
+        cmocka_unit_test(strips_and_needles),   cmocka_unit_test(impossible_requests),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,109 @@
+/* Every engine gives what the direct sum gives, for every kernel, size and spacing. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+
+#include "exact.h"
+#include "libcontact/inside.h"
+
+static double
+random_number(uint64_t *seed)
+{
+    *seed = *seed * 6364136223846793005U + 1442695040888963407U;
+    return (double)(*seed >> 11) / 9007199254740992.0 - 0.5;
+}
+
+/* The error of a sum is judged against the sum of |K| |p|, here no less than the largest |u|. */
+static void
+compare(struct rc_shape shape, const struct rc_kernel *kernel, size_t component, size_t threads)
+{
+    struct rc_medium medium = {.estar = 2.385e9, .nu = 0.28, .depth = 0.7 * shape.dx};
+    size_t n = shape.nx * shape.ny;
+    double *p = malloc(n * sizeof *p), *u = malloc(n * sizeof *u), *v = malloc(n * sizeof *v);
+    uint64_t seed = 1999;
+    struct rc_err err;
+    void *direct = rc_engine_direct.new(&shape, kernel, component, &medium, threads, &err);
+    void *fft = rc_engine_fft.new(&shape, kernel, component, &medium, threads, &err);
+    double worst = 0, largest = 0;
+
+    assert_non_null(direct);
+    assert_non_null(fft);
+    for (size_t k = 0; k < n; k++)
+        p[k] = random_number(&seed);
+    rc_engine_direct.apply(direct, p, u);
+    rc_engine_fft.apply(fft, p, v);
+    for (size_t k = 0; k < n; k++) {
+        worst = fmax(worst, fabs(u[k] - v[k]));
+        largest = fmax(largest, fabs(u[k]));
+    }
+    if (worst > 5e-14 * largest)
+        print_error("%zu x %zu, %s %zu: off by %g of %g\n", shape.nx, shape.ny, kernel->name,
+                    component, worst, largest);
+    assert_true(worst <= 5e-14 * largest);
+    rc_engine_direct.free(direct);
+    rc_engine_fft.free(fft);
+    free(p);
+    free(u);
+    free(v);
+}
+
+static void
+every_size_and_component(void **state)
+{
+    static const struct rc_shape shapes[] = {
+        {33, 47, 1.1e-6, 1e-6}, {1, 17, 1, 1},   {17, 1, 1, 1},      {1, 1, 3, 2},  {2, 3, 1, 1},
+        {3, 211, 1, 5},         {64, 64, 1, 1},  {97, 31, 1, 0.01}, {50, 20, 1, 100},
+    };
+
+    (void)state;
+    for (size_t s = 0; s < sizeof shapes / sizeof *shapes; s++) {
+        compare(shapes[s], &rc_kernel_boussinesq, 0, 2);
+        for (size_t c = 0; c < RC_COMPONENTS; c++)
+            compare(shapes[s], &rc_kernel_stress, c, 1 + s % 3);
+    }
+}
+
+/* Loading once and asking for fields gives what one-by-one application gives. */
+static void
+one_transform_serves_all_kernels(void **state)
+{
+    struct rc_shape shape = {37, 22, 1, 1.3};
+    struct rc_medium medium = {.nu = 0.3, .depth = 1.1};
+    size_t n = shape.nx * shape.ny;
+    double *p = calloc(n, sizeof *p), *u = malloc(n * sizeof *u), *v = malloc(n * sizeof *v);
+    struct rc_err err;
+    struct rc_fft *fft = rc_fft_new(&shape, 2, &err);
+    struct rc_spectrum *k = rc_spectrum_new(fft, &err);
+
+    (void)state;
+    p[5 * 37 + 9] = 3;
+    p[20 * 37 + 30] = -1;
+    assert_int_equal(rc_fft_load(fft, p, &err), RC_OK);
+    for (size_t c = 0; c < RC_COMPONENTS; c++) {
+        assert_int_equal(rc_spectrum_set(k, fft, &rc_kernel_stress, c, &medium, &err), RC_OK);
+        rc_fft_field(fft, k, u);
+        rc_fft_apply(fft, k, p, v);
+        for (size_t i = 0; i < n; i++)
+            assert_true(fabs(u[i] - v[i]) <= rounding);
+    }
+    rc_spectrum_free(k);
+    rc_fft_free(fft);
+    free(p);
+    free(u);
+    free(v);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_size_and_component),
+        cmocka_unit_test(one_transform_serves_all_kernels),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,209 @@
+/* A number on a command line is the SI value that its text says, to the last bit, and a text that
+ * says none is refused. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <locale.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "tools/units.h"
+
+static void
+test_numbers(void **state)
+{
+    static const struct {
+        const char *text;
+        enum unit unit;
+        double value;
+    } good[] = {
+        {"240N", UNIT_N, 240},
+        {"240", UNIT_N, 240},
+        {"1.5kN", UNIT_N, 1.5e3},
+        {"37.3mN", UNIT_N, 37.3e-3},
+        {"6GPa", UNIT_PA, 6e9},
+        {"113.93GPa", UNIT_PA, 113.93e9},
+        {"2.5TPa", UNIT_PA, 2.5e12},
+        {"350MPa", UNIT_PA, 350e6},
+        {"101325", UNIT_PA, 101325},
+        {"1.1um", UNIT_M, 1.1e-6},
+        {"1.29um", UNIT_M, 1.29e-6},
+        {"0.3um", UNIT_M, 0.3e-6},
+        {"1.29\xc2\xb5m", UNIT_M, 1.29e-6},
+        {"1.29\xce\xbcm", UNIT_M, 1.29e-6},
+        {"1.29 um", UNIT_M, 1.29e-6},
+        {"2.385mm", UNIT_M, 2.385e-3},
+        {"2.385e0mm", UNIT_M, 2.385e-3},
+        {"2385e-3mm", UNIT_M, 2.385e-3},
+        {".5cm", UNIT_M, 0.5e-2},
+        {"5.nm", UNIT_M, 5e-9},
+        {"7pm", UNIT_M, 7e-12},
+        {"3fm", UNIT_M, 3e-15},
+        {"-4.2um", UNIT_M, -4.2e-6},
+        {"+4.2um", UNIT_M, 4.2e-6},
+        {"1e-6", UNIT_M, 1e-6},
+        {"0m", UNIT_M, 0},
+        {"2m", UNIT_M, 2},
+        {"0.1", UNIT_NONE, 0.1},
+        {"-3e-2", UNIT_NONE, -3e-2},
+        {"512M", UNIT_BYTES, 512.0 * 1024 * 1024},
+        {"4G", UNIT_BYTES, 4.0 * 1024 * 1024 * 1024},
+        {"2GiB", UNIT_BYTES, 2.0 * 1024 * 1024 * 1024},
+        {"2GB", UNIT_BYTES, 2e9},
+        {"1.5k", UNIT_BYTES, 1536},
+        {"65536", UNIT_BYTES, 65536},
+        {"65536B", UNIT_BYTES, 65536},
+    };
+
+    (void)state;
+    for (size_t k = 0; k < sizeof good / sizeof *good; k++) {
+        struct rc_err err = {""};
+        double value = NAN;
+        if (unit_number(good[k].text, good[k].unit, &value, &err) != RC_OK)
+            fail_msg("%s: %s", good[k].text, err.text);
+        if (value != good[k].value)
+            fail_msg("%s: %.17g instead of %.17g", good[k].text, value, good[k].value);
+    }
+}
+
+/* Every length written in micrometres with three decimals is the double nearest to it in metres. */
+static void
+test_micrometres(void **state)
+{
+    char text[32], metres[32];
+    double value;
+
+    (void)state;
+    for (int k = 1; k < 20000; k += 7) {
+        snprintf(text, sizeof text, "%d.%03dum", k / 1000, k % 1000);
+        snprintf(metres, sizeof metres, "%de-9", k);
+        assert_int_equal(unit_number(text, UNIT_M, &value, NULL), RC_OK);
+        assert_true(value == strtod(metres, NULL));
+    }
+}
+
+static void
+test_refusals(void **state)
+{
+    static const struct {
+        const char *text;
+        enum unit unit;
+    } bad[] = {
+        {"", UNIT_M},        {" ", UNIT_M},        {"um", UNIT_M},        {"1.1 u m", UNIT_M},
+        {"1.1umm", UNIT_M},  {"1.1xm", UNIT_M},    {"1.1u", UNIT_M},      {"1.1N", UNIT_M},
+        {"1.1Um", UNIT_M},   {"1,1um", UNIT_M},    {"1.1.2um", UNIT_M},   {"nan", UNIT_M},
+        {"inf", UNIT_M},     {"-inf", UNIT_N},     {"nanm", UNIT_M},      {"0x10", UNIT_N},
+        {"1e400", UNIT_N},   {"1e305GPa", UNIT_PA}, {"--1", UNIT_N},      {"240 N N", UNIT_N},
+        {"5m", UNIT_NONE},   {"5%", UNIT_NONE},    {"6GPa", UNIT_N},      {"6gPa", UNIT_PA},
+        {"6Gpa", UNIT_PA},   {"4X", UNIT_BYTES},   {"4m", UNIT_BYTES},    {"1e", UNIT_NONE},
+        {"\xc2m", UNIT_M},   {"1.1\xb5m", UNIT_M}, {"1um,2um", UNIT_M},   {"0:1:3", UNIT_M},
+    };
+
+    (void)state;
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+        struct rc_err err = {""};
+        double value;
+        if (unit_number(bad[k].text, bad[k].unit, &value, &err) != RC_FAIL)
+            fail_msg("'%s' is taken for %g", bad[k].text, value);
+        assert_true(err.text[0] != '\0');
+    }
+}
+
+static void
+check_list(const char *text, enum unit unit, size_t n, const double *v)
+{
+    struct numbers list;
+    struct rc_err err = {""};
+
+    if (unit_numbers(text, unit, &list, &err) != RC_OK)
+        fail_msg("%s: %s", text, err.text);
+    assert_int_equal(list.n, n);
+    for (size_t k = 0; k < n; k++)
+        if (!(fabs(list.v[k] - v[k]) <= 1e-15 * fabs(v[k])))
+            fail_msg("%s: number %zu is %.17g instead of %.17g", text, k, list.v[k], v[k]);
+    free(list.v);
+}
+
+static void
+test_lists(void **state)
+{
+    (void)state;
+    check_list("5um", UNIT_M, 1, (double[]){5e-6});
+    check_list("1N,2.5N,10mN", UNIT_N, 3, (double[]){1, 2.5, 0.01});
+    check_list("0,2um,1.5mm", UNIT_M, 3, (double[]){0, 2e-6, 1.5e-3});
+    check_list("3,0,-2", UNIT_M, 3, (double[]){3, 0, -2});
+    check_list("0,0", UNIT_M, 2, (double[]){0, 0});
+    check_list("0:50um:6", UNIT_M, 6, (double[]){0, 10e-6, 20e-6, 30e-6, 40e-6, 50e-6});
+    check_list("10N:1N:4", UNIT_N, 4, (double[]){10, 7, 4, 1});
+    check_list("1:2:2", UNIT_NONE, 2, (double[]){1, 2});
+}
+
+/* Both ends of a range are the numbers themselves. */
+static void
+test_range_ends(void **state)
+{
+    struct numbers list;
+
+    (void)state;
+    assert_int_equal(unit_numbers("0.1um:0.7um:46", UNIT_M, &list, NULL), RC_OK);
+    assert_int_equal(list.n, 46);
+    assert_true(list.v[0] == 0.1e-6 && list.v[45] == 0.7e-6);
+    for (size_t k = 1; k < 46; k++)
+        assert_true(list.v[k] > list.v[k - 1]);
+    free(list.v);
+}
+
+static void
+test_bad_lists(void **state)
+{
+    static const char *const bad[] = {"",       ",",       "1,",       ",1",         "1um,2",
+                                      "2,1um",  "1um,,2um", "1um 2um", "0:1um",      "0:1um:1",
+                                      "0:1um:0", "0:1um:2.5", "0:1um:-3", "0:1um:3um", "1:2um:3",
+                                      "1um:2:3", ":1um:3",  "0::3",     "0:1um:",     "0:1um:3:4",
+                                      "0:1um:1e9", "1um,0:2um:3", "0:1um:nan"};
+
+    (void)state;
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+        struct numbers list;
+        struct rc_err err = {""};
+        if (unit_numbers(bad[k], UNIT_M, &list, &err) != RC_FAIL)
+            fail_msg("'%s' is taken for %zu numbers", bad[k], list.n);
+        assert_true(err.text[0] != '\0');
+    }
+}
+
+/* The decimal mark is a point wherever one lives. */
+static void
+test_comma_locale(void **state)
+{
+    double value;
+
+    (void)state;
+    if (setlocale(LC_ALL, "de_DE.UTF-8") == NULL && setlocale(LC_ALL, "fr_FR.UTF-8") == NULL)
+        skip();
+    assert_int_equal(unit_number("1.29um", UNIT_M, &value, NULL), RC_OK);
+    assert_true(value == 1.29e-6);
+    assert_int_equal(unit_number("1,29um", UNIT_M, &value, NULL), RC_FAIL);
+    setlocale(LC_ALL, "C");
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_numbers),
+        cmocka_unit_test(test_micrometres),
+        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_lists),
+        cmocka_unit_test(test_range_ends),
+        cmocka_unit_test(test_bad_lists),
+        cmocka_unit_test(test_comma_locale),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,93 @@
+/*
+ * Colours for values. A map is a row of colours at even steps, blended in sRGB between them; the rows
+ * are dense enough that lightness (CIELAB L*) keeps rising where it should.
+ *
+ * viridis and magma follow the maps of those names by N. Smith, S. van der Walt and E. Firing (2015,
+ * in the public domain). bluered is made for this tool: equal lightness at equal distance from its
+ * middle, so that a picture in grey still shows the size of a signed value.
+ */
+#include "colormap.h"
+
+#include <string.h>
+
+static const unsigned viridis[] = {
+    0x440154, 0x460e5f, 0x48196a, 0x482373, 0x472c7b, 0x453681, 0x424086, 0x3e4989,
+    0x3b528b, 0x375b8d, 0x33638e, 0x306b8e, 0x2d728e, 0x29798e, 0x27808e, 0x24888d,
+    0x21908c, 0x1f988b, 0x1fa088, 0x21a785, 0x27ae81, 0x31b57b, 0x3ebb74, 0x4dc26c,
+    0x5dc863, 0x6fce58, 0x82d34b, 0x96d83e, 0xabdc31, 0xbfe027, 0xd4e322, 0xe9e522,
+    0xfde725,
+};
+
+static const unsigned magma[] = {
+    0x000004, 0x0a0418, 0x110926, 0x150e35, 0x1c1046, 0x271058, 0x351069, 0x431076,
+    0x51127e, 0x5e1681, 0x6a1b81, 0x762181, 0x822581, 0x8f2a80, 0x9c2e7f, 0xa9327d,
+    0xb6377a, 0xc33c75, 0xd04170, 0xdb4869, 0xe65163, 0xef5c5e, 0xf5695c, 0xf9785d,
+    0xfc8761, 0xfd9768, 0xfea671, 0xfeb47b, 0xfec387, 0xfed194, 0xfee0a2, 0xfdeeb0,
+    0xfcfdbf,
+};
+
+static const unsigned bluered[] = {
+    0x244a88, 0x2f5898, 0x3b65a5, 0x4571b1, 0x507cbc, 0x5b87c5, 0x6692cd, 0x729dd4,
+    0x7ea7da, 0x8bb1df, 0x98bbe4, 0xa6c4e8, 0xb4ceeb, 0xc2d7ed, 0xd0dfef, 0xdfe7ef,
+    0xeeeeee, 0xf2e3de, 0xf3d8ce, 0xf3ccbe, 0xf2c0af, 0xefb4a0, 0xeca792, 0xe89b84,
+    0xe38e77, 0xde816a, 0xd7745e, 0xcf6752, 0xc65a47, 0xbc4c3c, 0xb03e31, 0xa22f26,
+    0x921d1b,
+};
+
+static const unsigned grey[] = {0x000000, 0xffffff};
+
+#define POINTS(row) .point = row, .points = sizeof row / sizeof *row
+
+/* none and missing keep clear of the colours that stand for values. */
+static const struct colormap maps[] = {
+    {.name = "viridis", POINTS(viridis), .none = {0xea, 0xea, 0xea}, .missing = {0xa6, 0xa6, 0xa6}},
+    {.name = "magma", POINTS(magma), .none = {0xea, 0xea, 0xea}, .missing = {0xa6, 0xa6, 0xa6}},
+    {.name = "bluered", POINTS(bluered), .diverging = true, .none = {0xd2, 0xd2, 0xd2},
+     .missing = {0x96, 0x96, 0x96}},
+    {.name = "grey", POINTS(grey), .none = {0xd6, 0xe4, 0xf2}, .missing = {0xe3, 0xc9, 0x92}},
+};
+
+const struct colormap *
+colormap_find(const char *name)
+{
+    for (size_t k = 0; k < sizeof maps / sizeof *maps; k++)
+        if (strcmp(maps[k].name, name) == 0)
+            return &maps[k];
+    return NULL;
+}
+
+static unsigned char
+blend(unsigned a, unsigned b, int shift, double u)
+{
+    double x = a >> shift & 0xff, y = b >> shift & 0xff;
+
+    return (unsigned char)(x + (y - x) * u + 0.5);
+}
+
+struct rgb
+colormap_at(const struct colormap *map, double t)
+{
+    double place = (t > 0 ? t < 1 ? t : 1 : 0) * (double)(map->points - 1);
+    size_t k = (size_t)place;
+    unsigned a, b;
+
+    if (k == map->points - 1)
+        k--;
+    a = map->point[k];
+    b = map->point[k + 1];
+    place -= (double)k;
+    return (struct rgb){blend(a, b, 16, place), blend(a, b, 8, place), blend(a, b, 0, place)};
+}
+
+struct rgb
+colormap_value(const struct colormap *map, double lo, double hi, double value)
+{
+    /* halves, because hi - lo of the largest numbers would overflow */
+    return colormap_at(map, (0.5 * value - 0.5 * lo) / (0.5 * hi - 0.5 * lo));
+}
+
+bool
+colormap_is_dark(struct rgb c)
+{
+    return 0.299 * c.r + 0.587 * c.g + 0.114 * c.b < 128;
+}

@@ -1,0 +1,32 @@
+/* Colours for values. */
+#ifndef RC_COLORMAP_H
+#define RC_COLORMAP_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+struct rgb {
+    unsigned char r, g, b; /* sRGB */
+};
+
+struct colormap {
+    const char *name;
+    bool diverging; /* its middle means zero                                     */
+    const unsigned *point;
+    size_t points;          /* colours 0xRRGGBB at even steps, at least 2        */
+    struct rgb none;        /* pressure 0: no contact                            */
+    struct rgb missing;     /* NaN: not measured                                 */
+};
+
+#define COLORMAP_NAMES "viridis|magma|bluered|grey"
+
+/* NULL: there is none of that name. */
+const struct colormap *colormap_find(const char *name);
+/* The colour at t from 0 to 1; what is outside gets the colour of the nearer end. */
+struct rgb colormap_at(const struct colormap *map, double t);
+/* The colour of a value (no NaN) when the map spans lo to hi, lo < hi. */
+struct rgb colormap_value(const struct colormap *map, double lo, double hi, double value);
+/* Whether a light line stands out better from it than a dark one. */
+bool colormap_is_dark(struct rgb c);
+
+#endif

@@ -1,0 +1,404 @@
+#include "figure.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "page.h"
+#include "raster.h"
+#include "ticks.h"
+
+static const struct rgb rule = {0xdd, 0xdd, 0xdd}, curve_ink = {0x1f, 0x4e, 0x8c},
+                        light = {0xff, 0xff, 0xff};
+
+/* ---- axes ---- */
+
+static void
+draw_marks_across(struct page *p, const struct axis *a, double x, double y, double w)
+{
+    char text[TICKS_TEXT];
+    double u = p->u;
+
+    for (long long k = a->ticks.first; k <= a->ticks.last; k++) {
+        double at = x + page_place(a, ticks_at(&a->ticks, k)) * w;
+
+        canvas_fill(p->c, at - 0.8 * u, y, 1.6 * u, 8 * u, page_ink);
+        canvas_text(p->c, &p->small, at, y + 12 * u + 0.78 * p->small.size, 0.5,
+                    ticks_text(text, &a->ticks, k));
+    }
+    canvas_text(p->c, &p->large, x + 0.5 * w, y + 12 * u + p->small.size + 1.1 * p->large.size, 0.5,
+                a->label);
+}
+
+/* On the left side marks go to the left, on the right side to the right; values rise downwards or
+ * upwards. */
+static void
+draw_marks_upright(struct page *p, const struct axis *a, double x, double y, double h, bool left,
+                   bool rises_down)
+{
+    char text[TICKS_TEXT];
+    double u = p->u, label = 14 * u + a->widest + (left ? 10 * u : 1.35 * p->large.size);
+
+    for (long long k = a->ticks.first; k <= a->ticks.last; k++) {
+        double t = page_place(a, ticks_at(&a->ticks, k));
+        double at = y + (rises_down ? t : 1 - t) * h;
+
+        canvas_fill(p->c, left ? x - 8 * u : x, at - 0.8 * u, 8 * u, 1.6 * u, page_ink);
+        canvas_text(p->c, &p->small, left ? x - 13 * u : x + 13 * u + a->widest,
+                    at + 0.36 * p->small.size, 1, ticks_text(text, &a->ticks, k));
+    }
+    canvas_text_upwards(p->c, &p->large, left ? x - label : x + label, y + 0.5 * h, a->label);
+}
+
+static struct rgb
+mix(struct rgb a, double x, struct rgb b, double y)
+{
+    return (struct rgb){(unsigned char)(x * a.r + y * b.r + 0.5),
+                        (unsigned char)(x * a.g + y * b.g + 0.5),
+                        (unsigned char)(x * a.b + y * b.b + 0.5)};
+}
+
+/* Missing nodes are chequered, so that no colour of any map can be taken for them. */
+static struct rgb
+missing_at(const struct page *p, size_t x, size_t y)
+{
+    size_t side = (size_t)fmax(4, round(7 * p->u));
+
+    return (x / side + y / side) % 2 == 0 ? p->f->map->missing
+                                          : mix(p->f->map->missing, 0.5, light, 0.5);
+}
+
+static void
+paint(struct page *p, const struct raster *r)
+{
+    const struct figure *f = p->f;
+
+    for (size_t j = 0; j < r->h; j++)
+        for (size_t i = 0; i < r->w; i++) {
+            size_t k = j * r->w + i;
+            double none = (double)r->none[k], missing = (double)r->missing[k];
+            struct rgb colour = missing_at(p, i, j);
+
+            if (isnan(r->v[k])) {
+                if (none > 0)
+                    colour = mix(f->map->none, none, colour, 1 - none);
+            } else {
+                struct rgb value = colormap_value(f->map, f->lo, f->hi, r->v[k]);
+                if (missing > 0)
+                    value = mix(value, fmax(0, 1 - missing), colour, fmin(missing, 1));
+                colour = none > 0 ? mix(value, fmax(0, 1 - none), f->map->none, fmin(none, 1))
+                                  : value;
+            }
+            canvas_pixel(p->c, p->plot_x + i, p->plot_y + j, colour);
+        }
+}
+
+/* From cells of a raster to the share of the plot's height: rows that are uneven lie where they lie,
+ * and between their middles a line is straight. */
+static double
+down_at(const struct page *p, const struct raster *r, double y)
+{
+    const double *e = p->f->row_edge;
+    double j = floor(y - 0.5), a, b;
+    size_t k, ny = p->g->ny;
+
+    if (e == NULL || r->h != ny || ny < 2)
+        return y / (double)r->h;
+    k = j < 0 ? 0 : (size_t)j < ny - 1 ? (size_t)j : ny - 2;
+    a = 0.5 * (e[k] + e[k + 1]);
+    b = 0.5 * (e[k + 1] + e[k + 2]);
+    return (a + (y - 0.5 - (double)k) * (b - a) - e[0]) / (e[ny] - e[0]);
+}
+
+static void
+stroke_lines(struct page *p, struct lines *l, const struct raster *r, double width,
+             struct rgb colour)
+{
+    double x = (double)p->plot_x, y = (double)p->plot_y;
+    double sx = (double)p->plot_w / (double)r->w, h = (double)p->plot_h;
+
+    for (size_t k = 0; k < l->n; k++) {
+        canvas_move(p->c, x + sx * l->at[k][0], y + h * down_at(p, r, l->at[k][1]));
+        canvas_draw_to(p->c, x + sx * l->at[k][2], y + h * down_at(p, r, l->at[k][3]));
+    }
+    canvas_stroke(p->c, width, colour);
+    l->n = 0;
+}
+
+static struct rgb
+line_colour(const struct figure *f, double value)
+{
+    return colormap_is_dark(colormap_value(f->map, f->lo, f->hi, value)) ? light : page_ink;
+}
+
+static enum rc_status
+draw_contours(struct page *p, const struct raster *r, struct rc_err *err)
+{
+    const struct axis *a = &p->values;
+    struct lines lines = {0};
+    enum rc_status status = RC_OK;
+
+    canvas_clip(p->c, (double)p->plot_x, (double)p->plot_y, (double)p->plot_w, (double)p->plot_h);
+    for (long long k = a->ticks.first; k <= a->ticks.last && status == RC_OK; k++) {
+        double level = ticks_at(&a->ticks, k) * a->scale.size;
+
+        if (p->f->zero_is_none && k == 0)
+            continue; /* the contact's edge says that better */
+        status = raster_contour(r, level, &lines, err);
+        stroke_lines(p, &lines, r, 1.5 * p->u, line_colour(p->f, level));
+    }
+    if (status == RC_OK && p->f->zero_is_none) {
+        status = raster_edge(r, &lines, err);
+        stroke_lines(p, &lines, r, 1.5 * p->u, page_ink);
+    }
+    canvas_clip(p->c, 0, 0, 0, 0);
+    free(lines.at);
+    return status;
+}
+
+/* Contours run through the nodes of a map that is enlarged, through the pixels of one that is
+ * reduced. */
+static enum rc_status
+draw_map(struct page *p, struct rc_err *err)
+{
+    const struct figure *f = p->f;
+    struct raster *r = raster_new(p->g, f->row_edge, f->zero_is_none, p->plot_w, p->plot_h, err);
+    size_t nx = p->g->nx, ny = p->g->ny;
+    enum rc_status status;
+
+    if (r == NULL)
+        return RC_FAIL;
+    paint(p, r);
+    raster_free(r);
+    if (!f->contour)
+        return RC_OK;
+    r = raster_new(p->g, ny > p->plot_h ? f->row_edge : NULL, f->zero_is_none,
+                   nx < p->plot_w ? nx : p->plot_w, ny < p->plot_h ? ny : p->plot_h, err);
+    if (r == NULL)
+        return RC_FAIL;
+    status = draw_contours(p, r, err);
+    raster_free(r);
+    return status;
+}
+
+/* The colours from (x, y) over w by h pixels, along the longer way, low values left or at the
+ * bottom. */
+static void
+paint_bar(struct page *p, size_t x, size_t y, size_t w, size_t h)
+{
+    for (size_t j = 0; j < h; j++)
+        for (size_t i = 0; i < w; i++)
+            canvas_pixel(p->c, x + i, y + j,
+                         colormap_at(p->f->map, p->bar_below
+                                                    ? ((double)i + 0.5) / (double)w
+                                                    : 1 - ((double)j + 0.5) / (double)h));
+}
+
+/* Points at the ends that values lie beyond. */
+static void
+point_bar(struct page *p, double x, double y, double w, double h)
+{
+    const struct figure *f = p->f;
+    double reach = 16 * p->u, gap = 3 * p->u;
+
+    for (int end = 0; end < 2; end++) {
+        struct rgb colour = colormap_at(f->map, end);
+        double sign = end == 0 ? -1 : 1;
+        double corner[3][2];
+
+        if (!(end == 0 ? f->min < f->lo : f->max > f->hi))
+            continue;
+        for (int k = 0; k < 3; k++) {
+            double out = sign * (gap + (k == 1 ? reach : 0)), along = 0.5 * (double)k;
+
+            corner[k][0] = p->bar_below ? (end == 0 ? x : x + w) + out : x + along * w;
+            corner[k][1] = p->bar_below ? y + along * h : (end == 0 ? y + h : y) - out;
+        }
+        canvas_triangle(p->c, corner, colour);
+    }
+}
+
+static void
+draw_bar(struct page *p)
+{
+    double u = p->u, thick = round(28 * u);
+    double x = (double)p->plot_x, y = (double)p->plot_y, w = (double)p->plot_w,
+           h = (double)p->plot_h;
+    const struct axis *a = &p->values;
+
+    if (p->bar_below) {
+        y = round(y + h + page_bar_below(p));
+        h = thick;
+    } else {
+        x = round(x + w + page_bar_right(p));
+        w = thick;
+    }
+    paint_bar(p, (size_t)x, (size_t)y, (size_t)w, (size_t)h);
+    point_bar(p, x, y, w, h);
+    for (long long k = a->ticks.first; p->f->contour && k <= a->ticks.last; k++) {
+        double t = page_place(a, ticks_at(&a->ticks, k));
+        struct rgb colour = line_colour(p->f, ticks_at(&a->ticks, k) * a->scale.size);
+
+        if (t < 0.002 || t > 0.998)
+            continue; /* the frame is there */
+        if (p->bar_below)
+            canvas_fill(p->c, x + t * w - 0.75 * u, y, 1.5 * u, h, colour);
+        else
+            canvas_fill(p->c, x, y + (1 - t) * h - 0.75 * u, w, 1.5 * u, colour);
+    }
+    canvas_frame(p->c, x, y, w, h, fmax(1, round(1.2 * u)), page_ink);
+    if (p->bar_below)
+        draw_marks_across(p, a, x, y + h, w);
+    else
+        draw_marks_upright(p, a, x + w, y, h, false, false);
+}
+
+/* ---- curves ---- */
+
+static void
+draw_rules(struct page *p)
+{
+    double x = (double)p->plot_x, y = (double)p->plot_y, w = (double)p->plot_w,
+           h = (double)p->plot_h, u = p->u;
+
+    for (long long k = p->across.ticks.first; k <= p->across.ticks.last; k++)
+        canvas_fill(p->c, x + page_place(&p->across, ticks_at(&p->across.ticks, k)) * w - 0.6 * u, y,
+                    1.2 * u, h, rule);
+    for (long long k = p->values.ticks.first; k <= p->values.ticks.last; k++)
+        canvas_fill(p->c, x,
+                    y + (1 - page_place(&p->values, ticks_at(&p->values.ticks, k))) * h - 0.6 * u, w,
+                    1.2 * u, rule);
+}
+
+static double
+height_of(const struct page *p, double value)
+{
+    double far = 1e5; /* pixels: beyond what is seen, within what can be drawn */
+    double y = (1 - page_place(&p->values, value / p->values.scale.size)) * (double)p->plot_h;
+
+    return (double)p->plot_y + fmin(fmax(y, -far), far);
+}
+
+/* Of the nodes that share a column of pixels the first, the extremes and the last are enough. */
+static void
+draw_curve(struct page *p)
+{
+    size_t n = p->g->nx * p->g->ny;
+    const double *v = p->g->v;
+    bool pen_down = false;
+
+    canvas_clip(p->c, (double)p->plot_x, (double)p->plot_y, (double)p->plot_w, (double)p->plot_h);
+    for (size_t k = 0, next; k < n; k = next) {
+        double x = ((double)k + 0.5) / (double)n * (double)p->plot_w;
+        double lo = v[k], hi = v[k];
+
+        next = k + 1;
+        if (!isfinite(v[k])) {
+            pen_down = false;
+            continue;
+        }
+        while (next < n && isfinite(v[next]) &&
+               floor(((double)next + 0.5) / (double)n * (double)p->plot_w) == floor(x)) {
+            lo = fmin(lo, v[next]);
+            hi = fmax(hi, v[next++]);
+        }
+        x += (double)p->plot_x;
+        if (!pen_down)
+            canvas_move(p->c, x, height_of(p, v[k]));
+        canvas_draw_to(p->c, x, height_of(p, v[k]));
+        if (next > k + 1) {
+            canvas_draw_to(p->c, x, height_of(p, lo));
+            canvas_draw_to(p->c, x, height_of(p, hi));
+            canvas_draw_to(p->c, x, height_of(p, v[next - 1]));
+        }
+        pen_down = true;
+    }
+    canvas_stroke(p->c, 2.2 * p->u, curve_ink);
+    canvas_clip(p->c, 0, 0, 0, 0);
+}
+
+/* ---- the whole ---- */
+
+static void
+draw_text(struct page *p)
+{
+    double y = 24 * p->u, middle = 0.5 * (double)p->w;
+
+    for (size_t k = 0; k < p->title.n; k++) {
+        canvas_text(p->c, &p->heading, middle, y + p->heading.size, 0.5, p->title.line[k]);
+        y += 1.3 * p->heading.size;
+    }
+    for (size_t k = 0; k < p->subtitle.n; k++) {
+        canvas_text(p->c, &p->subheading, middle, y + p->subheading.size, 0.5,
+                    p->subtitle.line[k]);
+        y += 1.4 * p->subheading.size;
+    }
+}
+
+static void
+draw_legend(struct page *p)
+{
+    double u = p->u, side = 1.0 * p->small.size;
+    double last = p->notes == 0 ? 0 : p->note[p->notes - 1].y, width = 0, x, y;
+
+    for (size_t k = 0; k < p->notes; k++)
+        width = fmax(width, p->note[k].x + page_swatch(p, k) +
+                                canvas_text_width(p->c, &p->small, p->note[k].text));
+    x = 0.5 * ((double)p->w - width);
+    y = (double)p->h - 22 * u - last - 1.55 * p->small.size;
+    for (size_t k = 0; k < p->notes; k++) {
+        double left = round(x + p->note[k].x), top = round(y + p->note[k].y);
+        size_t n = (size_t)round(side);
+
+        for (size_t j = 0; p->note[k].swatch != SWATCH_NOTHING && j < n; j++)
+            for (size_t i = 0; i < n + n / 3; i++)
+                canvas_pixel(p->c, (size_t)left + i, (size_t)top + j,
+                             p->note[k].swatch == SWATCH_NONE ? p->f->map->none
+                                                              : missing_at(p, i, j));
+        if (p->note[k].swatch != SWATCH_NOTHING)
+            canvas_frame(p->c, left, top, (double)(n + n / 3), (double)n, fmax(1, round(1.2 * u)),
+                         page_ink);
+        canvas_text(p->c, &p->small, left + page_swatch(p, k), top + 0.5 * side +
+                    0.36 * p->small.size, 0, p->note[k].text);
+    }
+}
+
+static enum rc_status
+draw(struct page *p, struct rc_err *err)
+{
+    double x = (double)p->plot_x, y = (double)p->plot_y, w = (double)p->plot_w,
+           h = (double)p->plot_h;
+
+    draw_text(p);
+    if (p->curve) {
+        draw_rules(p);
+        draw_curve(p);
+        draw_marks_upright(p, &p->values, x, y, h, true, false);
+    } else {
+        if (draw_map(p, err) != RC_OK)
+            return RC_FAIL;
+        draw_bar(p);
+        draw_marks_upright(p, &p->down, x, y, h, true, true);
+    }
+    canvas_frame(p->c, x, y, w, h, fmax(1, round(1.2 * p->u)), page_ink);
+    draw_marks_across(p, &p->across, x, y + h, w);
+    draw_legend(p);
+    return RC_OK;
+}
+
+struct canvas *
+figure_draw(const struct figure *f, const struct rc_grid *g, struct rc_err *err)
+{
+    struct page page = {.f = f, .g = g, .curve = f->row_edge == NULL && (g->nx == 1) != (g->ny == 1)};
+
+    if ((page.c = canvas_new(1, 1, err)) == NULL) /* to measure text on */
+        return NULL;
+    page_lay_out(&page);
+    canvas_free(page.c);
+    if ((page.c = canvas_new(page.w, page.h, err)) == NULL)
+        return NULL;
+    if (draw(&page, err) != RC_OK) {
+        canvas_free(page.c);
+        return NULL;
+    }
+    return page.c;
+}

@@ -1,0 +1,357 @@
+#include "page.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define BETWEEN " \xc2\xb7 "
+#define CUT "\xe2\x80\xa6"
+
+const struct rgb page_ink = {0x22, 0x22, 0x22}, page_faint = {0x59, 0x59, 0x59};
+
+/* ---- text ---- */
+
+/* Bytes of the longest start of text[0..n) that ends between characters. */
+static size_t
+whole_characters(const char *text, size_t n)
+{
+    while (n > 0 && ((unsigned char)text[n] & 0xc0) == 0x80)
+        n--;
+    return n;
+}
+
+static void
+copy_text(char line[LINE], const char *text, size_t n)
+{
+    n = n < LINE ? n : whole_characters(text, LINE - 1);
+    for (size_t k = 0; k < n; k++) {
+        unsigned char byte = (unsigned char)text[k];
+        line[k] = byte < 0x20 || byte == 0x7f ? ' ' : text[k];
+    }
+    line[n] = '\0';
+}
+
+static void
+shorten(struct page *p, const struct canvas_font *font, double width, char line[LINE])
+{
+    size_t n = strlen(line);
+
+    if (canvas_text_width(p->c, font, line) <= width)
+        return;
+    n = n < LINE - 4 ? n : LINE - 4;
+    do {
+        n = whole_characters(line, n - 1);
+        strcpy(line + n, CUT);
+    } while (n > 0 && canvas_text_width(p->c, font, line) > width);
+}
+
+static size_t
+piece(const char *text, const char *separator)
+{
+    const char *end = strstr(text, separator);
+
+    return end == NULL ? strlen(text) : (size_t)(end - text);
+}
+
+/* Bytes of as many pieces of the text as fit on a line, but at least one. */
+static size_t
+fit(struct page *p, const struct canvas_font *font, double width, const char *separator,
+    const char *text)
+{
+    size_t gap = strlen(separator), n = piece(text, separator);
+    char trial[LINE];
+
+    while (text[n] != '\0') {
+        size_t next = n + gap + piece(text + n + gap, separator);
+
+        copy_text(trial, text, next);
+        if (next >= LINE || canvas_text_width(p->c, font, trial) > width)
+            break;
+        n = next;
+    }
+    return n;
+}
+
+/* Breaks text at the separators into lines that fit; what is too much for the last one is cut. */
+static void
+wrap(struct page *p, const struct canvas_font *font, double width, const char *separator,
+     const char *text, struct text *t)
+{
+    for (t->n = 0; *text != '\0' && t->n < LINES; t->n++) {
+        size_t n = t->n + 1 < LINES ? fit(p, font, width, separator, text) : strlen(text);
+
+        copy_text(t->line[t->n], text, n);
+        shorten(p, font, width, t->line[t->n]);
+        text += text[n] == '\0' ? n : n + strlen(separator);
+    }
+}
+
+/* ---- axes ---- */
+
+static double
+widest_mark(struct page *p, const struct ticks *ticks)
+{
+    char text[TICKS_TEXT];
+    double widest = 0;
+
+    for (long long k = ticks->first; k <= ticks->last; k++)
+        widest = fmax(widest, canvas_text_width(p->c, &p->small, ticks_text(text, ticks, k)));
+    return widest;
+}
+
+/* As many marks as fit on `length` pixels without touching each other. */
+static void
+choose_marks(struct page *p, struct axis *a, double length, bool upright)
+{
+    double gap = 14 * p->u, height = 1.05 * p->small.size;
+
+    for (double most = 9; most > 1e-3; most = most > 1 ? most - 1 : 0.5 * most) {
+        ticks_choose(&a->ticks, a->lo, a->hi, most);
+        a->widest = widest_mark(p, &a->ticks);
+        if (a->ticks.first >= a->ticks.last)
+            return;
+        if (ticks_at(&a->ticks, 1) / (a->hi - a->lo) * length >=
+            (upright ? height : a->widest + gap))
+            return;
+    }
+}
+
+static void
+set_axis(struct axis *a, const char *quantity, const char *unit, double lo, double hi,
+         double largest)
+{
+    scale_choose(&a->scale, largest, unit);
+    a->lo = lo / a->scale.size;
+    a->hi = hi / a->scale.size;
+    scale_label(a->label, sizeof a->label, quantity, &a->scale);
+}
+
+/* Where both axes of a map have one unit they get one step, unless that leaves one too few marks. */
+static void
+even_steps(struct page *p)
+{
+    struct axis *coarse = &p->across, *fine = &p->down;
+    struct ticks t;
+
+    if (strcmp(coarse->scale.unit, fine->scale.unit) != 0)
+        return;
+    if (ticks_at(&coarse->ticks, 1) < ticks_at(&fine->ticks, 1)) {
+        coarse = &p->down;
+        fine = &p->across;
+    }
+    ticks_choose(&t, fine->lo, fine->hi, (fine->hi - fine->lo) / ticks_at(&coarse->ticks, 1));
+    if (t.last - t.first < 2)
+        return;
+    fine->ticks = t;
+    fine->widest = widest_mark(p, &t);
+}
+
+/* Both axes of a map in one unit, unless one of them is too short for it. */
+static void
+set_axes(struct page *p)
+{
+    const struct figure *f = p->f;
+    double x = fmax(fabs(f->left), fabs(f->right)), y = fmax(fabs(f->top), fabs(f->bottom));
+    double both = fmax(x, y);
+
+    set_axis(&p->values, f->quantity, f->unit, f->lo, f->hi, fmax(fabs(f->lo), fabs(f->hi)));
+    if (p->curve && p->g->nx == 1) {
+        set_axis(&p->across, f->down, "m", f->top, f->bottom, y);
+        return;
+    }
+    set_axis(&p->across, f->across, "m", f->left, f->right, x < 0.01 * both ? x : both);
+    set_axis(&p->down, f->down, "m", f->top, f->bottom, y < 0.01 * both ? y : both);
+}
+
+double
+page_place(const struct axis *a, double value)
+{
+    return (value - a->lo) / (a->hi - a->lo);
+}
+
+/* ---- layout ---- */
+
+double
+page_marks(const struct page *p)
+{
+    return 14 * p->u + p->small.size + 1.5 * p->large.size;
+}
+
+double
+page_bar_right(const struct page *p)
+{
+    return fmax(28 * p->u, 0.5 * p->across.widest + 10 * p->u);
+}
+
+double
+page_bar_below(const struct page *p)
+{
+    return page_marks(p) + 18 * p->u;
+}
+
+static void
+set_fonts(struct page *p)
+{
+    p->small = (struct canvas_font){.size = 21 * p->u, .colour = page_ink};
+    p->large = (struct canvas_font){.size = 23 * p->u, .colour = page_ink};
+    p->heading = (struct canvas_font){.size = 28 * p->u, .bold = true, .colour = page_ink};
+    p->subheading = (struct canvas_font){.size = 20 * p->u, .colour = page_faint};
+}
+
+/* Pixels of the longer side of a plot of n nodes: a whole number of them for a node, or of nodes for
+ * one, so that all cells look alike. */
+static double
+natural_side(size_t n)
+{
+    const double wish = 900, most = 1350;
+    double nodes = (double)n;
+
+    if (nodes <= most)
+        return nodes * fmax(1, round(wish / nodes));
+    return round(nodes / ceil(nodes / most));
+}
+
+static void
+set_plot(struct page *p, double room)
+{
+    double x = p->f->right - p->f->left, y = p->f->bottom - p->f->top;
+    double aspect = fmin(fmax(x / y, 1.0 / FIGURE_ASPECT), FIGURE_ASPECT);
+    double w;
+
+    p->distorted = !p->curve && aspect != x / y;
+    if (p->curve)
+        aspect = 2;
+    if (room > 0)
+        w = fmin(room, 0.85 * (double)p->f->width * aspect);
+    else if (p->curve)
+        w = 1000;
+    else
+        w = aspect >= 1 ? natural_side(p->g->nx) : natural_side(p->g->ny) * aspect;
+    p->plot_w = (size_t)fmax(round(w), 1);
+    p->plot_h = (size_t)fmax(round(w / aspect), 1);
+    p->u = room > 0 ? fmax((double)p->f->width / 1200, 0.5) : p->curve ? 1
+           : fmax((double)p->plot_w, (double)p->plot_h) / 900;
+    p->bar_below = (double)p->plot_h < 300 * p->u;
+    set_fonts(p);
+}
+
+/* What the axes and the bar take to the left and to the right of the plot. */
+static void
+measure_sides(struct page *p)
+{
+    double u = p->u, half;
+    struct axis *upright = p->curve ? &p->values : &p->down;
+
+    choose_marks(p, &p->across, (double)p->plot_w, false);
+    choose_marks(p, upright, (double)p->plot_h, true);
+    if (!p->curve)
+        even_steps(p);
+    half = 0.5 * p->across.widest;
+    p->left_w = 24 * u + 1.3 * p->large.size + 8 * u + upright->widest + 14 * u;
+    p->right_w = 24 * u + half;
+    if (p->curve)
+        return;
+    choose_marks(p, &p->values, (double)(p->bar_below ? p->plot_w : p->plot_h), !p->bar_below);
+    if (p->bar_below)
+        p->right_w = fmax(p->right_w, 24 * u + 0.5 * p->values.widest + 14 * u);
+    else
+        p->right_w = page_bar_right(p) + 28 * u + 14 * u + p->values.widest +
+                     1.8 * p->large.size + 24 * u;
+}
+
+static void
+add_note(struct page *p, enum swatch swatch, const char *text)
+{
+    p->note[p->notes].swatch = swatch;
+    copy_text(p->note[p->notes++].text, text, strlen(text));
+}
+
+double
+page_swatch(const struct page *p, size_t k)
+{
+    return p->note[k].swatch == SWATCH_NOTHING ? 0 : 38 * p->u;
+}
+
+/* What the legend says, and where: side by side as long as the line has room. */
+static void
+set_legend(struct page *p, double width)
+{
+    double x = 0, y = 0, line = 1.55 * p->small.size;
+    char text[LINE];
+
+    p->notes = 0;
+    if (p->f->zero_is_none && p->f->zeros > 0 && !p->curve)
+        add_note(p, SWATCH_NONE, "no contact");
+    snprintf(text, sizeof text, "%snot measured (%zu of %zu nodes)", p->curve ? "gaps: " : "",
+             p->f->missing, p->g->nx * p->g->ny);
+    if (p->f->missing > 0)
+        add_note(p, p->curve ? SWATCH_NOTHING : SWATCH_MISSING, text);
+    if (p->distorted)
+        add_note(p, SWATCH_NOTHING, "the axes differ in scale");
+    for (size_t k = 0; k < p->notes; k++) {
+        double w;
+
+        shorten(p, &p->small, width - page_swatch(p, k), p->note[k].text);
+        w = page_swatch(p, k) + canvas_text_width(p->c, &p->small, p->note[k].text);
+        if (x > 0 && x + w > width) {
+            x = 0;
+            y += line;
+        }
+        p->note[k].x = x;
+        p->note[k].y = y;
+        x += w + 36 * p->u;
+    }
+    p->legend_h = p->notes == 0 ? 0 : y + line + 10 * p->u;
+}
+
+/* A label that reads upwards may be longer than the plot is high: half of what sticks out. */
+static double
+overhang(struct page *p)
+{
+    const char *left = p->curve ? p->values.label : p->down.label;
+    double longest = canvas_text_width(p->c, &p->large, left);
+
+    if (!p->curve && !p->bar_below)
+        longest = fmax(longest, canvas_text_width(p->c, &p->large, p->values.label));
+    return fmax(0, 0.5 * (longest - (double)p->plot_h));
+}
+
+static void
+set_page(struct page *p)
+{
+    double u = p->u, text_w, marks = page_marks(p), free;
+    double content = p->left_w + (double)p->plot_w + p->right_w, over = overhang(p);
+
+    p->w = p->f->width != 0 ? p->f->width : (size_t)ceil(fmax(content, 680 * u));
+    text_w = (double)p->w - 48 * u;
+    wrap(p, &p->heading, text_w, " ", p->f->title, &p->title);
+    wrap(p, &p->subheading, text_w, BETWEEN, p->f->subtitle, &p->subtitle);
+    set_legend(p, text_w);
+    p->above = 24 * u + 1.3 * p->heading.size * (double)p->title.n +
+               1.4 * p->subheading.size * (double)p->subtitle.n + 22 * u + over;
+    if (p->bar_below && !p->curve)
+        marks = page_bar_below(p) + 28 * u + marks;
+    p->below = fmax(marks, over) + p->legend_h + 22 * u;
+    free = fmax(0, (double)p->w - content);
+    p->plot_x = (size_t)round(p->left_w + 0.5 * free);
+    p->plot_y = (size_t)round(p->above);
+    p->h = (size_t)ceil(p->above + (double)p->plot_h + p->below);
+}
+
+/* Sizes depend on texts, texts on marks, marks on sizes: with a width that is asked for a few rounds
+ * settle that. */
+void
+page_lay_out(struct page *p)
+{
+    double room = 0.8 * (double)p->f->width;
+
+    set_axes(p);
+    for (int round = 0; round < 6; round++) {
+        set_plot(p, room);
+        measure_sides(p);
+        if (p->f->width == 0)
+            break;
+        room = fmax((double)p->f->width - p->left_w - p->right_w, 1);
+    }
+    set_page(p);
+}

@@ -1,0 +1,72 @@
+/* What goes where on a figure: sizes, marks and broken lines of text, settled before anything is
+ * drawn. All lengths are pixels. */
+#ifndef RC_PAGE_H
+#define RC_PAGE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "canvas.h"
+#include "figure.h"
+#include "ticks.h"
+
+enum {
+    LINE = 1024, /* bytes of a line of text */
+    LINES = 4,
+    NOTES = 3,
+};
+
+struct axis {
+    struct scale scale;
+    struct ticks ticks;
+    double lo, hi; /* in the unit of the scale   */
+    double widest; /* mark's text, pixels        */
+    char label[LINE];
+};
+
+struct text {
+    char line[LINES][LINE];
+    size_t n;
+};
+
+enum swatch {
+    SWATCH_NOTHING,
+    SWATCH_NONE,
+    SWATCH_MISSING
+};
+
+struct page {
+    const struct figure *f;
+    const struct rc_grid *g;
+    struct canvas *c;
+    bool curve, bar_below, distorted;
+    double u; /* the unit of the design: text, gaps and lines grow with the plot       */
+    struct canvas_font small, large, heading, subheading;
+    struct axis across, down, values;
+    struct text title, subtitle;
+    struct {
+        enum swatch swatch;
+        char text[LINE];
+        double x, y; /* from the left and top of the legend, pixels */
+    } note[NOTES];
+    size_t notes;
+    double legend_h;
+    double left_w, right_w, above, below; /* around the plot, margins included         */
+    size_t plot_x, plot_y, plot_w, plot_h, w, h;
+};
+
+extern const struct rgb page_ink, page_faint;
+
+/* Settles everything of a page whose f, g and curve are set, measuring text on c. */
+void page_lay_out(struct page *page);
+/* Pixels that the swatch of note k takes, gap included. */
+double page_swatch(const struct page *page, size_t k);
+/* From the plot's right edge to a bar beside it, and from its lower edge to a bar below. */
+double page_bar_right(const struct page *page);
+double page_bar_below(const struct page *page);
+/* What marks and label take below an axis. */
+double page_marks(const struct page *page);
+/* Where a value of the axis lies between its ends, 0 to 1. */
+double page_place(const struct axis *axis, double value);
+
+#endif

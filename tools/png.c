@@ -1,0 +1,135 @@
+#include "png.h"
+
+#include <errno.h>
+#include <png.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct picture {
+    png_structp png;
+    png_infop info;
+    char why[256]; /* what libpng had to say before it gave up */
+};
+
+static _Noreturn void
+give_up(png_structp png, png_const_charp why)
+{
+    struct picture *p = png_get_error_ptr(png);
+
+    snprintf(p->why, sizeof p->why, "%s", why);
+    longjmp(png_jmpbuf(png), 1);
+}
+
+static void
+ignore(png_structp png, png_const_charp why)
+{
+    (void)png;
+    (void)why;
+}
+
+/* libpng's own would say only "Write Error". */
+static void
+write_bytes(png_structp png, png_bytep bytes, size_t n)
+{
+    if (fwrite(bytes, 1, n, png_get_io_ptr(png)) != n)
+        png_error(png, strerror(errno));
+}
+
+static void
+flush_bytes(png_structp png)
+{
+    (void)png; /* whoever owns the file flushes it */
+}
+
+static bool
+is_ascii(const char *s)
+{
+    while (*s > 0)
+        s++;
+    return *s == '\0';
+}
+
+/* tEXt is Latin-1 by the standard; what is more than ASCII goes into iTXt, which is UTF-8. */
+static void
+put_texts(struct picture *p, const struct picture_text *text, size_t texts)
+{
+    for (size_t k = 0; k < texts; k++) {
+        png_text chunk = {.key = (char *)text[k].keyword, .text = (char *)text[k].text};
+
+        if (text[k].text == NULL)
+            continue;
+        chunk.compression =
+            is_ascii(text[k].text) ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;
+        png_set_text(p->png, p->info, &chunk, 1);
+    }
+}
+
+static enum rc_status
+start(struct picture *p, FILE *file, size_t w, size_t h, const struct picture_text *text,
+      size_t texts, struct rc_err *err)
+{
+    p->png = png_create_write_struct(PNG_LIBPNG_VER_STRING, p, give_up, ignore);
+    if (p->png == NULL || (p->info = png_create_info_struct(p->png)) == NULL)
+        return rc_err_set(err, "out of memory for a PNG");
+    if (setjmp(png_jmpbuf(p->png)) != 0)
+        return rc_err_set(err, "the PNG cannot be written: %s", p->why);
+    png_set_write_fn(p->png, file, write_bytes, flush_bytes);
+    png_set_user_limits(p->png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+    png_set_IHDR(p->png, p->info, (png_uint_32)w, (png_uint_32)h, 8, PNG_COLOR_TYPE_RGB,
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_sRGB(p->png, p->info, PNG_sRGB_INTENT_PERCEPTUAL);
+    put_texts(p, text, texts);
+    png_write_info(p->png, p->info);
+    return RC_OK;
+}
+
+struct picture *
+picture_new(FILE *file, size_t w, size_t h, const struct picture_text *text, size_t texts,
+            struct rc_err *err)
+{
+    struct picture *p;
+
+    if (w > PNG_UINT_31_MAX || h > PNG_UINT_31_MAX || w > SIZE_MAX / 8) {
+        rc_err_set(err, "a picture of %zu by %zu pixels: PNG holds at most 2147483647 a side", w, h);
+        return NULL;
+    }
+    p = calloc(1, sizeof *p);
+    if (p == NULL) {
+        rc_err_set(err, "out of memory for a PNG");
+        return NULL;
+    }
+    if (start(p, file, w, h, text, texts, err) != RC_OK) {
+        picture_free(p);
+        return NULL;
+    }
+    return p;
+}
+
+enum rc_status
+picture_row(struct picture *p, const unsigned char *rgb, struct rc_err *err)
+{
+    if (setjmp(png_jmpbuf(p->png)) != 0)
+        return rc_err_set(err, "the PNG cannot be written: %s", p->why);
+    png_write_row(p->png, rgb);
+    return RC_OK;
+}
+
+enum rc_status
+picture_end(struct picture *p, struct rc_err *err)
+{
+    if (setjmp(png_jmpbuf(p->png)) != 0)
+        return rc_err_set(err, "the PNG cannot be written: %s", p->why);
+    png_write_end(p->png, NULL);
+    return RC_OK;
+}
+
+void
+picture_free(struct picture *p)
+{
+    if (p == NULL)
+        return;
+    png_destroy_write_struct(&p->png, &p->info);
+    free(p);
+}

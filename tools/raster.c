@@ -1,0 +1,267 @@
+#include "raster.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+void
+survey_map(const struct rc_grid *g, struct survey *s)
+{
+    *s = (struct survey){.min = NAN, .max = NAN};
+    for (size_t k = 0; k < g->nx * g->ny; k++) {
+        double v = g->v[k];
+
+        if (isnan(v))
+            s->missing++;
+        else if (isfinite(v)) {
+            s->min = v < s->min || isnan(s->min) ? v : s->min;
+            s->max = v > s->max || isnan(s->max) ? v : s->max;
+            s->zeros += v == 0;
+        }
+    }
+}
+
+/* ---- reduction and enlargement ---- */
+
+/* Which nodes a cell covers along one axis, and what part of the cell each takes. */
+struct spans {
+    size_t *first; /* of each cell; cells + 1 of them index `weight` through `start` */
+    size_t *start;
+    double *weight;
+};
+
+static void
+spans_free(struct spans *s)
+{
+    free(s->first);
+    free(s->start);
+    free(s->weight);
+}
+
+static double
+edge_at(const double *edge, size_t n, size_t k)
+{
+    if (edge == NULL)
+        return (double)k / (double)n;
+    return (edge[k] - edge[0]) / (edge[n] - edge[0]);
+}
+
+static enum rc_status
+spans_new(struct spans *s, const double *edge, size_t n, size_t cells, struct rc_err *err)
+{
+    const double sliver = 1e-9; /* a share that is only rounding: it could be the share of a NaN */
+    size_t node = 0, used = 0;
+
+    *s = (struct spans){.first = malloc(cells * sizeof *s->first),
+                        .start = malloc((cells + 1) * sizeof *s->start),
+                        .weight = malloc((n + 2 * cells) * sizeof *s->weight)};
+    if (s->first == NULL || s->start == NULL || s->weight == NULL) {
+        spans_free(s);
+        return rc_err_set(err, "out of memory for a picture of %zu pixels a row", cells);
+    }
+    for (size_t c = 0; c < cells; c++) {
+        double a = (double)c / (double)cells, b = (double)(c + 1) / (double)cells;
+
+        while (node + 1 < n && edge_at(edge, n, node + 1) - a <= sliver * (b - a))
+            node++;
+        s->first[c] = node;
+        s->start[c] = used;
+        for (size_t k = node; k < n; k++) {
+            double from = fmax(a, edge_at(edge, n, k)), to = fmin(b, edge_at(edge, n, k + 1));
+            double share = (to - from) / (b - a);
+
+            if (k > node && share <= sliver)
+                break;
+            s->weight[used++] = share;
+        }
+    }
+    s->start[cells] = used;
+    return RC_OK;
+}
+
+/* Adds the share of one row of nodes to a row of cells; r->v holds sums until they are divided. */
+static void
+add_row(struct raster *r, size_t row, const double *v, const struct spans *x, double share,
+        bool zero_is_none, double *weight)
+{
+    for (size_t c = 0; c < r->w; c++) {
+        size_t at = row * r->w + c;
+
+        for (size_t k = x->start[c]; k < x->start[c + 1]; k++) {
+            double value = v[x->first[c] + k - x->start[c]];
+            double w = share * x->weight[k];
+
+            if (isnan(value)) {
+                r->missing[at] += (float)w;
+            } else if (zero_is_none && value == 0) {
+                r->none[at] += (float)w;
+            } else {
+                r->v[at] += w * value;
+                weight[c] += w;
+            }
+        }
+    }
+}
+
+static void
+fill(struct raster *r, const struct rc_grid *g, const struct spans *x, const struct spans *y,
+     bool zero_is_none, double *weight)
+{
+    for (size_t row = 0; row < r->h; row++) {
+        for (size_t c = 0; c < r->w; c++)
+            weight[c] = 0;
+        for (size_t k = y->start[row]; k < y->start[row + 1]; k++)
+            add_row(r, row, g->v + (y->first[row] + k - y->start[row]) * g->nx, x, y->weight[k],
+                    zero_is_none, weight);
+        for (size_t c = 0; c < r->w; c++)
+            r->v[row * r->w + c] = weight[c] > 0 ? r->v[row * r->w + c] / weight[c] : NAN;
+    }
+}
+
+struct raster *
+raster_new(const struct rc_grid *g, const double *row_edge, bool zero_is_none, size_t w, size_t h,
+           struct rc_err *err)
+{
+    struct raster *r = calloc(1, sizeof *r);
+    struct spans x = {0}, y = {0};
+    double *weight = calloc(w, sizeof *weight);
+    bool done = false;
+
+    if (r == NULL || weight == NULL)
+        goto done;
+    *r = (struct raster){.w = w, .h = h, .v = calloc(w * h, sizeof *r->v),
+                         .none = calloc(w * h, sizeof *r->none),
+                         .missing = calloc(w * h, sizeof *r->missing)};
+    if (r->v == NULL || r->none == NULL || r->missing == NULL ||
+        spans_new(&x, NULL, g->nx, w, err) != RC_OK ||
+        spans_new(&y, row_edge, g->ny, h, err) != RC_OK)
+        goto done;
+    fill(r, g, &x, &y, zero_is_none, weight);
+    done = true;
+done:
+    spans_free(&x);
+    spans_free(&y);
+    free(weight);
+    if (!done) {
+        rc_err_set(err, "out of memory for a picture of %zu by %zu pixels", w, h);
+        raster_free(r);
+        r = NULL;
+    }
+    return r;
+}
+
+void
+raster_free(struct raster *r)
+{
+    if (r == NULL)
+        return;
+    free(r->v);
+    free(r->none);
+    free(r->missing);
+    free(r);
+}
+
+/* ---- lines ---- */
+
+static enum rc_status
+add_line(struct lines *l, const double from[2], const double to[2], struct rc_err *err)
+{
+    if (l->n == l->room) {
+        size_t room = l->room == 0 ? 1024 : 2 * l->room;
+        double(*at)[4] = realloc(l->at, room * sizeof *at);
+
+        if (at == NULL)
+            return rc_err_set(err, "out of memory for %zu pieces of lines", room);
+        l->at = at;
+        l->room = room;
+    }
+    l->at[l->n][0] = from[0];
+    l->at[l->n][1] = from[1];
+    l->at[l->n][2] = to[0];
+    l->at[l->n++][3] = to[1];
+    return RC_OK;
+}
+
+static double
+height_at(const struct raster *r, size_t i, size_t j)
+{
+    size_t k = j * r->w + i;
+    double present = 1 - (double)r->missing[k];
+
+    if (present < 0.5)
+        return NAN;
+    return isnan(r->v[k]) ? 0 : r->v[k] * (1 - (double)r->none[k] / present);
+}
+
+/* The line through the square of four neighbouring middles. Corners run around the square:
+ * 0 upper left, 1 upper right, 2 lower right, 3 lower left; side s goes from corner s to s + 1. */
+static enum rc_status
+cross_square(const double z[4], double level, size_t i, size_t j, struct lines *l,
+             struct rc_err *err)
+{
+    static const double corner[4][2] = {{0.5, 0.5}, {1.5, 0.5}, {1.5, 1.5}, {0.5, 1.5}};
+    double at[4][2];
+    int n = 0;
+
+    for (int s = 0; s < 4; s++) {
+        int e = (s + 1) % 4;
+        double t;
+
+        if ((z[s] > level) == (z[e] > level))
+            continue;
+        t = (level - z[s]) / (z[e] - z[s]);
+        at[n][0] = (double)i + corner[s][0] + t * (corner[e][0] - corner[s][0]);
+        at[n++][1] = (double)j + corner[s][1] + t * (corner[e][1] - corner[s][1]);
+    }
+    if (n == 2)
+        return add_line(l, at[0], at[1], err);
+    if (n == 4) { /* a saddle: the middle says which opposite corners belong together */
+        bool middle = 0.25 * (z[0] + z[1] + z[2] + z[3]) > level;
+        int turn = middle == (z[0] > level) ? 0 : 1;
+
+        if (add_line(l, at[turn], at[turn + 1], err) != RC_OK)
+            return RC_FAIL;
+        return add_line(l, at[turn + 2], at[(turn + 3) % 4], err);
+    }
+    return RC_OK;
+}
+
+enum rc_status
+raster_contour(const struct raster *r, double level, struct lines *l, struct rc_err *err)
+{
+    for (size_t j = 0; j + 1 < r->h; j++)
+        for (size_t i = 0; i + 1 < r->w; i++) {
+            double z[4] = {height_at(r, i, j), height_at(r, i + 1, j),
+                           height_at(r, i + 1, j + 1), height_at(r, i, j + 1)};
+
+            if (isfinite(z[0]) && isfinite(z[1]) && isfinite(z[2]) && isfinite(z[3]) &&
+                cross_square(z, level, i, j, l, err) != RC_OK)
+                return RC_FAIL;
+        }
+    return RC_OK;
+}
+
+static bool
+touches(const struct raster *r, size_t i, size_t j)
+{
+    size_t k = j * r->w + i;
+
+    return !isnan(r->v[k]) && r->none[k] < 0.5F;
+}
+
+enum rc_status
+raster_edge(const struct raster *r, struct lines *l, struct rc_err *err)
+{
+    for (size_t j = 0; j < r->h; j++)
+        for (size_t i = 0; i < r->w; i++) {
+            double x = (double)i, y = (double)j;
+            double corner[3][2] = {{x + 1, y}, {x + 1, y + 1}, {x, y + 1}};
+
+            if (i + 1 < r->w && touches(r, i, j) != touches(r, i + 1, j) &&
+                add_line(l, corner[0], corner[1], err) != RC_OK)
+                return RC_FAIL;
+            if (j + 1 < r->h && touches(r, i, j) != touches(r, i, j + 1) &&
+                add_line(l, corner[1], corner[2], err) != RC_OK)
+                return RC_FAIL;
+        }
+    return RC_OK;
+}

@@ -1,0 +1,209 @@
+#include "tool.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../libcontact/contact.h"
+#include "json.h"
+
+static struct args {
+    bool json;
+} args;
+
+static const struct opt opts[] = {
+    {.name = "json", .type = OPT_FLAG, .at = offsetof(struct args, json),
+     .help = "one JSON object a line, a line a frame, in SI"},
+    {.name = NULL},
+};
+
+static const struct tool_info info = {
+    .name = "rc-info",
+    .summary = "Show what is in a grid stream, with its statistics",
+    .operands = "[FILE...]",
+    .examples = "  rc-info flat.rcg\n"
+                "  rc-solve --load 240N --estar 116GPa flat.rcg | rc-info --json\n",
+    .opts = opts,
+    .reads = READS_STREAM,
+    .writes = WRITES_TEXT,
+};
+
+static bool
+is_height(const struct rc_grid *g)
+{
+    return strcmp(g->channel, "height") == 0;
+}
+
+/* ---- JSON ---- */
+
+static void
+show_json(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s)
+{
+    struct json j;
+
+    json_open(&j, t->out);
+    json_count(&j, "case", rc_grid_case(g));
+    json_count(&j, "frame", t->frame);
+    json_text(&j, "channel", g->channel);
+    json_count(&j, "nx", g->nx);
+    json_count(&j, "ny", g->ny);
+    json_number(&j, "dx", g->dx);
+    json_number(&j, "dy", g->dy);
+    json_text(&j, "unit", g->unit);
+    json_text(&j, "type", g->type == RC_F32 ? "f32" : "f64");
+    json_number(&j, "minimum", s->minimum);
+    json_number(&j, "maximum", s->maximum);
+    json_number(&j, "mean", s->mean);
+    json_number(&j, "rms", s->rms);
+    json_number(&j, "rms_slope", is_height(g) ? s->rms_slope : NAN);
+    json_number(&j, "sum", s->sum);
+    json_count(&j, "missing", s->missing);
+    json_count(&j, "infinite", s->infinite);
+    json_object(&j, "keys");
+    for (size_t k = 0; k < g->keys; k++)
+        json_text(&j, g->key[k].name, g->key[k].value);
+    json_end(&j, '}');
+    json_close(&j);
+}
+
+/* ---- text ---- */
+
+enum {
+    HUMAN = 48
+};
+
+/* "1.29 u": six digits and the prefix of the unit that brings the number nearest to 1..1000. */
+static const char *
+human(char text[HUMAN], double value, const char *unit)
+{
+    static const char *const prefix[] = {"f", "p", "n", "u", "m", "", "k", "M", "G", "T"};
+    bool known = strcmp(unit, "m") == 0 || strcmp(unit, "Pa") == 0 || strcmp(unit, "N") == 0;
+    double most = strcmp(unit, "m") == 0 ? 0 : 4, power = 0;
+
+    if (known && value != 0 && isfinite(value)) {
+        power = floor(log10(fabs(value)) / 3);
+        power = power < -5 ? 0 : power > most ? most : power;
+    }
+    snprintf(text, HUMAN, "%.6g%s%s", value / pow(1000, power), *unit == '\0' ? "" : " ",
+             prefix[(int)power + 5]);
+    return text;
+}
+
+/* Text that came with the data, on one line, and nothing in it that a terminal would obey. */
+static void
+put_text(FILE *out, const char *text, size_t n)
+{
+    for (; n > 0 && *text != '\0'; n--, text++)
+        putc((unsigned char)*text < 0x20 || *text == 0x7f ? '?' : *text, out);
+    putc('\n', out);
+}
+
+static void
+put_figure(FILE *out, const char *name, double value, const char *unit)
+{
+    char text[HUMAN];
+
+    fprintf(out, "  %-10s ", name);
+    if (isnan(value)) {
+        fputs("unknown\n", out);
+        return;
+    }
+    fputs(human(text, value, unit), out);
+    put_text(out, unit, strlen(unit));
+}
+
+static void
+put_grid(FILE *out, const struct rc_grid *g)
+{
+    char a[HUMAN], b[HUMAN];
+
+    fprintf(out, "  %-10s %zu x %zu nodes, dx %sm, dy %sm\n", "grid", g->nx, g->ny,
+            human(a, g->dx, "m"), human(b, g->dy, "m"));
+    fprintf(out, "  %-10s %sm x %sm\n", "size", human(a, (double)g->nx * g->dx, "m"),
+            human(b, (double)g->ny * g->dy, "m"));
+    fprintf(out, "  %-10s %s\n", "type", g->type == RC_F32 ? "f32" : "f64");
+}
+
+static void
+put_statistics(FILE *out, const struct rc_grid *g, const struct rc_statistics *s)
+{
+    double nodes = (double)g->nx * (double)g->ny;
+
+    put_figure(out, "minimum", s->minimum, g->unit);
+    put_figure(out, "maximum", s->maximum, g->unit);
+    put_figure(out, "mean", s->mean, g->unit);
+    put_figure(out, "rms", s->rms, g->unit);
+    if (is_height(g))
+        put_figure(out, "rms slope", s->rms_slope, "");
+    if (s->missing > 0)
+        fprintf(out, "  %-10s %zu (%.3g %%)\n", "missing", s->missing,
+                100 * (double)s->missing / nodes);
+    if (s->infinite > 0)
+        fprintf(out, "  %-10s %zu (%.3g %%)\n", "infinite", s->infinite,
+                100 * (double)s->infinite / nodes);
+}
+
+/* One step a line. */
+static void
+put_history(FILE *out, const char *history)
+{
+    const char *name = "history";
+
+    while (history != NULL) {
+        const char *next = strstr(history, " | ");
+        fprintf(out, "  %-10s ", name);
+        put_text(out, history, next == NULL ? strlen(history) : (size_t)(next - history));
+        history = next == NULL ? NULL : next + 3;
+        name = "";
+    }
+}
+
+static void
+put_keys(FILE *out, const struct rc_grid *g)
+{
+    const char *name = "keys";
+
+    for (size_t k = 0; k < g->keys; k++) {
+        const struct rc_key *key = &g->key[k];
+        if (strcmp(key->name, "history") == 0 || strcmp(key->name, "case") == 0)
+            continue;
+        fprintf(out, "  %-10s %s=", name, key->name);
+        put_text(out, key->value, strlen(key->value));
+        name = "";
+    }
+    put_history(out, rc_grid_get(g, "history"));
+}
+
+static void
+show_text(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s, bool first)
+{
+    char where[512];
+
+    fprintf(t->out, "%s", first ? "" : "\n");
+    put_text(t->out, tool_where(t, g, where, sizeof where), sizeof where);
+    put_grid(t->out, g);
+    put_statistics(t->out, g, s);
+    put_keys(t->out, g);
+}
+
+int
+main(int argc, char **argv)
+{
+    struct rc_statistics statistics;
+    struct rc_grid *g;
+    struct tool t;
+    bool first = true;
+
+    tool_start(&t, &info, argc, argv, &args);
+    while ((g = tool_read(&t)) != NULL) {
+        struct rc_shape shape = rc_grid_shape(g);
+        rc_measure(&shape, g->v, &statistics);
+        if (args.json)
+            show_json(&t, g, &statistics);
+        else
+            show_text(&t, g, &statistics, first);
+        first = false;
+        rc_grid_free(g);
+    }
+    return tool_finish(&t);
+}

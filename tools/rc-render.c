@@ -1,0 +1,425 @@
+/* rc-render: one map of a grid stream as a PNG. */
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../formats/utf8.h"
+#include "../libcontact/contact.h"
+#include "choice.h"
+#include "figure.h"
+#include "png.h"
+#include "raster.h"
+#include "ticks.h"
+#include "tool.h"
+
+#define BETWEEN " \xc2\xb7 "
+#define SIGMA "\xcf\x83"
+
+struct args {
+    struct wish wish; /* which frame */
+    const char *colormap, *range, *title;
+    size_t width;
+    bool contour, figure, raw;
+};
+
+static const struct opt opts[] = {
+    {.name = "channel", .type = OPT_TEXT, .at = offsetof(struct args, wish.channel),
+     .result = true, .arg = "NAME",
+     .help = "what to draw (default: mises, pressure, height, else the first)"},
+    {.name = "depth", .type = OPT_NUMBER, .unit = UNIT_M, .at = offsetof(struct args, wish.depth),
+     .min = 0, .max = INFINITY, .result = true, .arg = "LENGTH",
+     .help = "of a stress (default: where its size is largest)"},
+    {.name = "section", .type = OPT_CHOICE, .at = offsetof(struct args, wish.section),
+     .result = true, .arg = "x|y", .help = "a section across this axis instead of a map"},
+    {.name = "case", .type = OPT_COUNT, .at = offsetof(struct args, wish.number), .min = 1,
+     .max = 9e15, .result = true, .arg = "N", .help = "of several loads or files (default: the first)"},
+    {.name = "colormap", .type = OPT_CHOICE, .at = offsetof(struct args, colormap), .result = true,
+     .arg = COLORMAP_NAMES, .help = "colours for the values (default: what suits the channel)"},
+    {.name = "range", .type = OPT_TEXT, .at = offsetof(struct args, range), .result = true,
+     .arg = "LO:HI", .help = "values at the ends of the colours, as in 0:2GPa or -50nm:50nm"},
+    {.name = "contour", .type = OPT_FLAG, .at = offsetof(struct args, contour), .result = true,
+     .help = "draw lines at the marks of the colour bar, and the edge of contact"},
+    {.name = "figure", .type = OPT_FLAG, .at = offsetof(struct args, figure), .result = true,
+     .help = "with axes, colour bar and title: the default"},
+    {.name = "raw", .type = OPT_FLAG, .at = offsetof(struct args, raw), .result = true,
+     .help = "one pixel for each node and nothing else"},
+    {.name = "title", .type = OPT_TEXT, .at = offsetof(struct args, title), .result = true,
+     .arg = "TEXT", .help = "over the figure (default: what the channel is)"},
+    {.name = "width", .type = OPT_COUNT, .at = offsetof(struct args, width), .min = FIGURE_NARROW,
+     .max = FIGURE_WIDE, .result = true, .arg = "PIXELS",
+     .help = "of the whole figure (default: what suits the map)"},
+    {.name = NULL},
+};
+
+static const struct tool_info info = {
+    .name = "rc-render",
+    .summary = "Draw one map of a grid stream as a PNG",
+    .operands = "[FILE...]",
+    .examples = "  rc-synth sphere --nx 65 --ny 65 --dx 1um --radius 1mm | rc-render -o sphere.png\n"
+                "  rc-render --channel pressure --range 0:6GPa --contour -o contact.png result.rcg\n",
+    .opts = opts,
+    .reads = READS_STREAM,
+    .writes = WRITES_BYTES,
+};
+
+/* ---- what channels are ---- */
+
+static const struct channel {
+    const char *name, *title, *colormap;
+    bool from_zero; /* the colours begin at 0 where no value is negative */
+} channels[] = {
+    {"mises", "von Mises stress", "magma", true},
+    {"pressure", "Contact pressure", "magma", true},
+    {"height", "Height", "viridis", false},
+    {"gap", "Gap", "viridis", false},
+    {"displacement", "Normal displacement", "viridis", false},
+    {"plastic", "Height after unloading", "viridis", false},
+    {"tresca", "Tresca stress", "magma", true},
+    {"sxx", "Stress " SIGMA "xx", "bluered", false},
+    {"syy", "Stress " SIGMA "yy", "bluered", false},
+    {"szz", "Stress " SIGMA "zz", "bluered", false},
+    {"sxy", "Stress " SIGMA "xy", "bluered", false},
+    {"sxz", "Stress " SIGMA "xz", "bluered", false},
+    {"syz", "Stress " SIGMA "yz", "bluered", false},
+    {"s1", "Principal stress " SIGMA "1", "bluered", false},
+    {"s2", "Principal stress " SIGMA "2", "bluered", false},
+    {"s3", "Principal stress " SIGMA "3", "bluered", false},
+};
+
+/* A channel that is not in the table is called by its own name, and what has both signs gets colours
+ * for both. */
+static struct channel
+describe(const struct rc_grid *g, const struct survey *s)
+{
+    for (size_t k = 0; k < sizeof channels / sizeof *channels; k++)
+        if (strcmp(channels[k].name, g->channel) == 0)
+            return channels[k];
+    return (struct channel){g->channel, g->channel, s->min < 0 && s->max > 0 ? "bluered" : "viridis",
+                            false};
+}
+
+static bool
+is_pressure(const struct rc_grid *g)
+{
+    return strcmp(g->channel, "pressure") == 0;
+}
+
+static bool
+is_profile(const struct rc_grid *g)
+{
+    return (g->nx == 1) != (g->ny == 1) && rc_grid_get(g, "section") == NULL;
+}
+
+/* ---- range ---- */
+
+static enum unit
+unit_of(const struct rc_grid *g)
+{
+    for (enum unit u = UNIT_M; u <= UNIT_PA; u++)
+        if (strcmp(unit_name(u), g->unit) == 0)
+            return u;
+    return UNIT_NONE;
+}
+
+/* LO:HI or LO,HI. What was asked for goes into the picture's description in SI. */
+static void
+read_range(struct tool *t, struct args *a, const struct rc_grid *g, double *lo, double *hi)
+{
+    static char si[2 * RC_NUMBER_SIZE + 2];
+    char list[256], low[RC_NUMBER_SIZE], high[RC_NUMBER_SIZE];
+    char *colon;
+    struct numbers n = {0};
+    struct rc_err err;
+
+    snprintf(list, sizeof list, "%s", a->range);
+    if ((colon = strchr(list, ':')) != NULL)
+        *colon = ',';
+    if (unit_numbers(list, unit_of(g), &n, &err) != RC_OK)
+        tool_die(t, EXIT_USAGE, "--range %s: %s (channel %s is in %s)", a->range, err.text,
+                 g->channel, g->unit);
+    if (n.n != 2 || !(n.v[0] < n.v[1]))
+        tool_die(t, EXIT_USAGE, "--range %s: it must be LO:HI, two values with LO below HI",
+                 a->range);
+    *lo = n.v[0];
+    *hi = n.v[1];
+    free(n.v);
+    snprintf(si, sizeof si, "%s:%s", rc_number_text(low, *lo), rc_number_text(high, *hi));
+    a->range = si;
+}
+
+/* The ends of the colours when nobody chose them. */
+static void
+choose_range(const struct rc_grid *g, const struct survey *s, const struct colormap *map,
+             const struct channel *what, bool curve, double *lo, double *hi)
+{
+    double size = fmax(fabs(s->min), fabs(s->max)), margin;
+
+    *lo = map->diverging ? -size : what->from_zero && s->min >= 0 ? 0 : s->min;
+    *hi = map->diverging ? size : s->max;
+    if (curve) {
+        margin = 0.05 * (s->max - s->min);
+        *lo = what->from_zero && s->min >= 0 ? 0 : s->min - margin;
+        *hi = s->max + margin;
+    }
+    if (size < 1e-300) { /* zero everywhere: a nanometre about it, or one of what else it is */
+        size = unit_of(g) == UNIT_M ? 1e-9 : 1;
+        *lo = what->from_zero ? 0 : -size;
+        *hi = size;
+    } else if (0.5 * *hi - 0.5 * *lo <= 1e-12 * size) { /* constant, but for rounding */
+        *lo = s->min - 0.1 * size;
+        *hi = s->max + 0.1 * size;
+    }
+}
+
+/* ---- words ---- */
+
+struct words {
+    char text[1024];
+    size_t n;
+};
+
+/* Adds a piece to the subtitle; one that finds no room is left out whole. */
+static void
+add_piece(struct words *w, const char *name, const char *value)
+{
+    size_t room = sizeof w->text - w->n;
+    int n = snprintf(w->text + w->n, room, "%s%s%s", w->n > 0 ? BETWEEN : "", name, value);
+
+    if (n > 0 && (size_t)n < room)
+        w->n += (size_t)n;
+    else
+        w->text[w->n] = '\0';
+}
+
+static void
+say_where(struct words *w, const struct rc_grid *g, bool largest)
+{
+    const char *section = rc_grid_get(g, "section");
+    char text[TICKS_TEXT], name[TICKS_TEXT + 32];
+    double number;
+
+    if (section != NULL) {
+        snprintf(name, sizeof name, "section %.1s = ", section);
+        add_piece(w, name, rc_grid_number(g, "at", &number) ? scale_value(text, number, "m") : "?");
+    } else if (rc_grid_number(g, "depth", &number)) {
+        scale_value(text, number, "m");
+        snprintf(name, sizeof name, "%s%s", text, largest ? " (where it is largest)" : "");
+        add_piece(w, "depth ", name);
+    }
+}
+
+/* What is a millionth of the other extreme is more likely rounding than a value in its own unit. */
+static const char *
+extreme(char text[TICKS_TEXT], double value, const struct survey *s, const char *unit)
+{
+    if (value != 0 && fabs(value) < 1e-6 * fmax(fabs(s->min), fabs(s->max)))
+        return "\xe2\x89\x88 0";
+    return scale_value(text, value, unit);
+}
+
+static void
+say_subtitle(struct words *w, const struct rc_grid *g, const struct survey *s, bool largest)
+{
+    const char *source = rc_grid_get(g, "source"), *number = rc_grid_get(g, "case");
+    char text[TICKS_TEXT];
+    double load;
+
+    if (source != NULL)
+        add_piece(w, "", source);
+    if (number != NULL)
+        add_piece(w, "case ", number);
+    if (rc_grid_number(g, "load", &load))
+        add_piece(w, "load ", scale_value(text, load, "N"));
+    say_where(w, g, largest);
+    add_piece(w, "min ", extreme(text, s->min, s, g->unit));
+    add_piece(w, "max ", extreme(text, s->max, s, g->unit));
+}
+
+/* ---- sections: rows are depths ---- */
+
+/* Where the rows of a section begin and end; the surface bounds the first one. */
+static double *
+section_rows(struct tool *t, const struct rc_grid *g)
+{
+    const char *depths = rc_grid_get(g, "depths");
+    double *edge = malloc((g->ny + 1) * sizeof *edge);
+    struct numbers d = {0};
+    struct rc_err err;
+
+    if (edge == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %zu depths", g->ny);
+    if (depths != NULL && unit_numbers(depths, UNIT_M, &d, &err) != RC_OK)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "its key depths: %s", err.text);
+    if (depths != NULL && d.n != g->ny)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "its key depths holds %zu depths for %zu rows", d.n,
+                    g->ny);
+    for (size_t j = 0; j <= g->ny; j++)
+        edge[j] = ((double)j - 0.5) * g->dy;
+    for (size_t j = 1; depths != NULL && j < g->ny; j++) {
+        if (!(d.v[j] > d.v[j - 1]))
+            tool_die_at(t, g, EXIT_IMPOSSIBLE, "its key depths must rise from row to row");
+        edge[j] = 0.5 * (d.v[j] + d.v[j - 1]);
+    }
+    if (depths != NULL && g->ny > 1) {
+        edge[0] = d.v[0] - (edge[1] - d.v[0]);
+        edge[g->ny] = d.v[g->ny - 1] + (d.v[g->ny - 1] - edge[g->ny - 1]);
+    }
+    edge[0] = fmax(edge[0], 0);
+    free(d.v);
+    return edge;
+}
+
+/* ---- pictures ---- */
+
+static void
+raw_row(const struct rc_grid *g, const struct figure *f, size_t j, unsigned char *rgb)
+{
+    const double *v = g->v + j * g->nx;
+
+    for (size_t i = 0; i < g->nx; i++) {
+        struct rgb c = isnan(v[i]) ? f->map->missing
+                       : f->zero_is_none && v[i] == 0 ? f->map->none
+                       : colormap_value(f->map, f->lo, f->hi, v[i]);
+
+        rgb[3 * i] = c.r;
+        rgb[3 * i + 1] = c.g;
+        rgb[3 * i + 2] = c.b;
+    }
+}
+
+/* The canvas, or without one the nodes, as a PNG that says how it was made. */
+static void
+write_picture(struct tool *t, const struct rc_grid *g, const struct figure *f, struct canvas *c)
+{
+    size_t w = c == NULL ? g->nx : canvas_width(c), h = c == NULL ? g->ny : canvas_height(c);
+    const char *history = rc_grid_get(g, "history"), *own = tool_history(t);
+    size_t room = strlen(own) + (history == NULL ? 0 : strlen(history)) + 4;
+    char *made = malloc(room), software[64];
+    struct picture_text text[] = {{"Title", f->title}, {"Description", made},
+                                  {"Software", software}, {"Source", rc_grid_get(g, "source")}};
+    struct picture *picture = NULL;
+    unsigned char *rgb = w > SIZE_MAX / 3 ? NULL : malloc(3 * w);
+    struct rc_err err;
+
+    if (made == NULL || rgb == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "out of memory for a picture of %zu pixels a row", w);
+    snprintf(made, room, "%s%s%s", history == NULL ? "" : history, history == NULL ? "" : " | ",
+             own);
+    snprintf(software, sizeof software, "rc-render %s", rc_version());
+    picture = picture_new(t->out, w, h, text, sizeof text / sizeof *text, &err);
+    if (picture == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
+    for (size_t j = 0; j < h; j++) {
+        tool_progress(t, "row %zu of %zu", j, h);
+        if (c == NULL)
+            raw_row(g, f, j, rgb);
+        else if (canvas_row(c, j, rgb, &err) != RC_OK)
+            tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
+        if (picture_row(picture, rgb, &err) != RC_OK)
+            tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
+    }
+    if (picture_end(picture, &err) != RC_OK)
+        tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
+    picture_free(picture);
+    free(rgb);
+    free(made);
+}
+
+static void
+draw_figure(struct tool *t, const struct rc_grid *g, struct figure *f)
+{
+    const char *section = rc_grid_get(g, "section");
+    double *rows = NULL;
+    struct canvas *c;
+    struct rc_err err;
+
+    f->across = "x";
+    f->down = "y";
+    f->right = 0.5 * (double)g->nx * g->dx;
+    f->left = -f->right;
+    f->bottom = 0.5 * (double)g->ny * g->dy;
+    f->top = -f->bottom;
+    if (section != NULL) {
+        f->row_edge = rows = section_rows(t, g);
+        f->across = strcmp(section, "x") == 0 ? "y" : "x";
+        f->down = "depth";
+        f->top = rows[0];
+        f->bottom = rows[g->ny];
+    }
+    if ((c = figure_draw(f, g, &err)) == NULL)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    write_picture(t, g, f, c);
+    canvas_free(c);
+    free(rows);
+}
+
+static void
+render(struct tool *t, struct args *a, const struct rc_grid *g, bool largest)
+{
+    struct survey s;
+    struct words subtitle = {.n = 0};
+    struct channel what;
+    struct figure f;
+
+    survey_map(g, &s);
+    if (isnan(s.min))
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "none of its %zu values is a finite number: there is "
+                    "nothing to draw", g->nx * g->ny);
+    what = describe(g, &s);
+    say_subtitle(&subtitle, g, &s, largest);
+    f = (struct figure){
+        .title = a->title == NULL ? what.title : a->title,
+        .subtitle = subtitle.text,
+        .quantity = what.title,
+        .unit = g->unit,
+        .map = colormap_find(a->colormap == NULL ? what.colormap : a->colormap),
+        .min = s.min,
+        .max = s.max,
+        .missing = s.missing,
+        .zero_is_none = is_pressure(g),
+        .zeros = s.zeros,
+        .contour = a->contour,
+        .width = a->width,
+    };
+    choose_range(g, &s, f.map, &what, is_profile(g) && !a->raw, &f.lo, &f.hi);
+    if (a->range != NULL)
+        read_range(t, a, g, &f.lo, &f.hi);
+    if (a->contour && is_profile(g))
+        tool_warn(t, "a profile is drawn as a curve: --contour does nothing");
+    if (a->raw)
+        write_picture(t, g, &f, NULL);
+    else
+        draw_figure(t, g, &f);
+}
+
+static void
+check_options(struct tool *t, const struct args *a)
+{
+    if (a->raw && a->figure)
+        tool_die(t, EXIT_USAGE, "--raw and --figure are two kinds of picture: give one");
+    if (a->raw && a->contour)
+        tool_die(t, EXIT_USAGE, "--raw draws nothing but nodes: leave out --contour");
+    if (a->raw && a->width != 0)
+        tool_die(t, EXIT_USAGE, "--raw is as wide as the map has columns: leave out --width");
+    if (a->title != NULL && !rc_utf8_valid(a->title))
+        tool_die(t, EXIT_USAGE, "--title: the text is not UTF-8");
+}
+
+int
+main(int argc, char **argv)
+{
+    struct args args = {.wish = {.depth = NAN}};
+    struct choice choice = {.wish = &args.wish};
+    struct rc_grid *g;
+    struct tool t;
+
+    tool_start(&t, &info, argc, argv, &args);
+    check_options(&t, &args);
+    while ((g = tool_read(&t)) != NULL)
+        choice_offer(&choice, &t, g);
+    choice_settle(&choice, &t);
+    render(&t, &args, choice.grid, choice.by_size);
+    choice_free(&choice);
+    return tool_finish(&t);
+}
