@@ -37,8 +37,8 @@ size_t rc_threads_available(void);
  * Hertz's theory means by a sphere. */
 void rc_synth_sphere(const struct rc_shape *shape, double radius, double *h);
 
-/* amplitude * cos(2 pi x / wavelength_x) * cos(2 pi y / wavelength_y), with a crest at the middle of
- * the map; an INFINITY for a wavelength leaves its factor out. Metres. */
+/* amplitude * cos(2 pi x / wavelength_x) * cos(2 pi y / wavelength_y), with a crest at the middle
+ * of the map; an INFINITY for a wavelength leaves its factor out. Metres. */
 void rc_synth_wave(const struct rc_shape *shape, double amplitude, double wavelength_x,
                    double wavelength_y, double *h);
 

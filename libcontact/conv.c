@@ -35,7 +35,10 @@ struct rc_conv *
 rc_conv_new(const struct rc_shape *shape, double estar, const char *engine, size_t threads,
             struct rc_err *err)
 {
-    struct rc_medium medium = {.estar = estar};
+    struct rc_sum sum = {.shape = *shape,
+                         .kernel = &rc_kernel_boussinesq,
+                         .medium = {.estar = estar},
+                         .threads = threads};
     struct rc_conv *conv = NULL;
 
     if (rc_shape_check(shape, err) != RC_OK)
@@ -46,8 +49,7 @@ rc_conv_new(const struct rc_shape *shape, double estar, const char *engine, size
         return NULL;
     }
     if ((conv->engine = choose(shape, engine, err)) == NULL ||
-        (conv->plan = conv->engine->new(shape, &rc_kernel_boussinesq, 0, &medium, threads, err)) ==
-            NULL) {
+        (conv->plan = conv->engine->new(&sum, err)) == NULL) {
         rc_conv_free(conv);
         return NULL;
     }
@@ -79,7 +81,8 @@ rc_conv_free(struct rc_conv *conv)
 size_t
 rc_conv_memory(const struct rc_shape *shape, const char *name)
 {
+    struct rc_sum sum = {.shape = *shape, .kernel = &rc_kernel_boussinesq};
     const struct rc_engine *engine = choose(shape, name, NULL);
 
-    return engine == NULL ? 0 : engine->memory(shape);
+    return engine == NULL ? 0 : engine->memory(&sum);
 }

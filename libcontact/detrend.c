@@ -56,7 +56,7 @@ bounding_box(const struct rc_shape *shape, const double *h)
     return b;
 }
 
-/* P_0 ... P_(terms-1) at the n nodes of a side, first..last mapped to -1..1 (Bonnet's recursion). */
+/* P_0 ... P_(terms-1) at the n nodes of a side, first..last being -1..1 (Bonnet's recursion). */
 static double *
 legendre(size_t terms, size_t n, size_t first, size_t last)
 {
@@ -117,8 +117,8 @@ fit_new(struct fit *f, const struct rc_shape *shape, size_t degree, const double
     if (box.infinite > 0)
         return rc_err_set(err, "%zu infinite heights: no polynomial fits them", box.infinite);
     if (box.count < f->terms)
-        return rc_err_set(err, "a polynomial of degree %zu has %zu coefficients and only %zu points "
-                               "are there: take a lower degree", degree, f->terms, box.count);
+        return rc_err_set(err, "a polynomial of degree %zu has %zu coefficients, and only %zu "
+                               "points are there: take a lower degree", degree, f->terms, box.count);
     rc_measure(shape, h, &figures);
     f->mean = figures.mean;
     f->px = legendre(f->nx_terms, shape->nx, box.left, box.right);

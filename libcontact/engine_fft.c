@@ -246,6 +246,7 @@ rc_spectrum_set(struct rc_spectrum *k, const struct rc_fft *f, const struct rc_k
     enum {
         ROWS = 8
     };
+    const struct rc_lattice nodes = {f->dx, f->dy, 1, 1};
     size_t chunks = (k->cy + ROWS - 1) / ROWS;
     double scale = 1 / ((double)f->px * (double)f->py);
     double *table = malloc(k->cx * k->cy * sizeof *table);
@@ -256,7 +257,7 @@ rc_spectrum_set(struct rc_spectrum *k, const struct rc_fft *f, const struct rc_k
 #pragma omp parallel for num_threads(f->threads) schedule(dynamic)
     for (size_t c = 0; c < chunks; c++) {
         size_t first = c * ROWS, last = first + ROWS < k->cy ? first + ROWS : k->cy;
-        kernel->rows(medium, component, f->dx, f->dy, k->cx, first, last, table + first * k->cx);
+        kernel->rows(medium, component, &nodes, k->cx, first, last, table + first * k->cx);
     }
     if (!transform_lines(table, k->cx, k->cy, k->parity & RC_ODD_X, f->threads))
         goto no_plan;
@@ -422,8 +423,7 @@ plan_free(void *at)
 }
 
 static void *
-plan_new(const struct rc_shape *shape, const struct rc_kernel *kernel, size_t component,
-         const struct rc_medium *medium, size_t threads, struct rc_err *err)
+plan_new(const struct rc_sum *sum, struct rc_err *err)
 {
     struct plan *plan = calloc(1, sizeof *plan);
 
@@ -431,13 +431,29 @@ plan_new(const struct rc_shape *shape, const struct rc_kernel *kernel, size_t co
         rc_err_set(err, "out of memory for a plan");
         return NULL;
     }
-    if ((plan->fft = rc_fft_new(shape, threads, err)) == NULL ||
+    if ((plan->fft = rc_fft_new(&sum->shape, sum->threads, err)) == NULL ||
         (plan->kernel = rc_spectrum_new(plan->fft, err)) == NULL ||
-        rc_spectrum_set(plan->kernel, plan->fft, kernel, component, medium, err) != RC_OK) {
+        rc_spectrum_set(plan->kernel, plan->fft, sum->kernel, sum->component, &sum->medium, err) !=
+            RC_OK) {
         plan_free(plan);
         return NULL;
     }
     return plan;
+}
+
+static size_t
+memory(const struct rc_sum *sum)
+{
+    return rc_fft_memory(&sum->shape);
+}
+
+/* Rounding grows with the depth of the transforms. */
+static double
+error(const void *at)
+{
+    const struct plan *plan = at;
+
+    return 1e-16 * log2((double)plan->fft->px * (double)plan->fft->py);
 }
 
 static void
@@ -451,8 +467,9 @@ plan_apply(void *at, const double *p, double *u)
 const struct rc_engine rc_engine_fft = {
     .name = "fft",
     .summary = "fast Fourier transforms with zero padding: exact to rounding, N log N",
-    .memory = rc_fft_memory,
+    .memory = memory,
     .new = plan_new,
     .apply = plan_apply,
+    .error = error,
     .free = plan_free,
 };

@@ -17,10 +17,11 @@ struct rc_extension {
 
 /* |x|^(-5/2); a node has no weight in itself, because no node is both on W and off it. */
 static void
-spread_rows(const struct rc_medium *medium, size_t component, double dx, double dy, size_t n,
-            size_t first, size_t last, double *out)
+spread_rows(const struct rc_medium *medium, size_t component, const struct rc_lattice *at,
+            size_t n, size_t first, size_t last, double *out)
 {
-    double unit = 1 / (dx * dy); /* of squared lengths */
+    double dx = (double)at->sx * at->dx, dy = (double)at->sy * at->dy;
+    double unit = 1 / (at->dx * at->dy); /* of squared lengths */
 
     (void)medium;
     (void)component;

@@ -15,6 +15,12 @@ struct rc_medium {
     double depth; /* m   */
 };
 
+/* Where a kernel is sampled: a cell, and the step between samples in cells. */
+struct rc_lattice {
+    double dx, dy;
+    size_t sx, sy; /* 1: at every node */
+};
+
 enum {
     RC_ODD_X = 1, /* K(-x, y) = -K(x, y) */
     RC_ODD_Y = 2,
@@ -25,10 +31,10 @@ struct rc_kernel {
     const char *summary;
     size_t components;
     const unsigned *parity; /* of each component */
-    /* Field at (i dx, j dy), i < n, first <= j < last, of unit pressure on the cell dx x dy about
-     * the origin: out[(j - first) * n + i]. */
-    void (*rows)(const struct rc_medium *medium, size_t component, double dx, double dy, size_t n,
-                 size_t first, size_t last, double *out);
+    /* Field at (i sx dx, j sy dy), i < n, first <= j < last, of unit pressure on the cell dx x dy
+     * about the origin: out[(j - first) * n + i]. */
+    void (*rows)(const struct rc_medium *medium, size_t component, const struct rc_lattice *at,
+                 size_t n, size_t first, size_t last, double *out);
 };
 
 #define RC_KERNEL(name) extern const struct rc_kernel rc_kernel_##name;
@@ -37,14 +43,28 @@ struct rc_kernel {
 
 /* ---- engines: how sums are done ---- */
 
+/* What is to be summed: one component of one kernel on one grid. */
+struct rc_sum {
+    struct rc_shape shape;
+    const struct rc_kernel *kernel;
+    size_t component;
+    struct rc_medium medium;
+    double tol;     /* asked error relative to the sum of |K| |p|; 0: as good as rounding      */
+    size_t threads; /* 0: all                                                                  */
+    size_t order, correction; /* of mlms by hand: 2t and m_c as (20) and (18) of the paper; 0: from tol */
+};
+
 struct rc_engine {
     const char *name;
     const char *summary;
-    size_t (*memory)(const struct rc_shape *shape);
-    /* A plan for one component of one kernel. */
-    void *(*new)(const struct rc_shape *shape, const struct rc_kernel *kernel, size_t component,
-                 const struct rc_medium *medium, size_t threads, struct rc_err *err);
+    /* Bytes of a plan, beside p and u. */
+    size_t (*memory)(const struct rc_sum *sum);
+    /* All choosing, tabulating and allocating; NULL and *err when that fails. */
+    void *(*new)(const struct rc_sum *sum, struct rc_err *err);
+    /* u = K p; p and u do not overlap. */
     void (*apply)(void *plan, const double *p, double *u);
+    /* The plan's own bound on the error of u, relative to the sum of |K| |p|. */
+    double (*error)(const void *plan);
     void (*free)(void *plan);
 };
 

@@ -74,10 +74,11 @@ far(double x, double y, double a, double b)
 }
 
 static void
-rows(const struct rc_medium *medium, size_t component, double dx, double dy, size_t n,
+rows(const struct rc_medium *medium, size_t component, const struct rc_lattice *at, size_t n,
      size_t first, size_t last, double *out)
 {
-    double a = dx / 2, b = dy / 2, largest = dx > dy ? dx : dy;
+    double a = at->dx / 2, b = at->dy / 2, largest = fmax(at->dx, at->dy);
+    double dx = (double)at->sx * at->dx, dy = (double)at->sy * at->dy;
     double scale = 1 / (pi * medium->estar);
     double near_r = 5 * largest, far_r = 40 * largest;
 

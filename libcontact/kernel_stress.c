@@ -52,39 +52,42 @@ corner(enum rc_component component, double nu, double x, double y, double z)
     }
 }
 
-/* d[i] = F((i + 1/2) dx, y) - F((i - 1/2) dx, y): the difference in x along one line of corners. */
+/* One line of corner differences F(x + dx/2, y) - F(x - dx/2, y) at x = i sx dx. At every node the
+ * right corner of one is the left of the next. `lower`, where it stands, becomes the coefficient;
+ * `next`, when not NULL, keeps the line. */
 static void
-difference(const struct rc_medium *m, enum rc_component component, double dx, double y, size_t n,
-           double *d)
+difference(const struct rc_medium *m, enum rc_component component, const struct rc_lattice *at,
+           double y, size_t n, double *lower, double *next)
 {
-    double left = corner(component, m->nu, -dx / 2, y, m->depth);
+    double half = at->dx / 2, right = 0;
 
     for (size_t i = 0; i < n; i++) {
-        double right = corner(component, m->nu, ((double)i + 0.5) * dx, y, m->depth);
-        d[i] = right - left;
-        left = right;
+        double x = (double)(i * at->sx) * at->dx;
+        double left = i > 0 && at->sx == 1 ? right
+                                           : corner(component, m->nu, x - half, y, m->depth);
+        right = corner(component, m->nu, x + half, y, m->depth);
+        if (lower != NULL)
+            lower[i] = (right - left - lower[i]) / (2 * pi);
+        if (next != NULL)
+            next[i] = right - left;
     }
 }
 
-/* Each row is the difference of two lines of corners; the lower line of one is the upper line of
- * the next, so it is kept where the next row will stand. */
+/* Each row is the difference of two lines of corners; at every node the upper line of one is the
+ * lower line of the next. */
 static void
-rows(const struct rc_medium *m, size_t component, double dx, double dy, size_t n, size_t first,
-     size_t last, double *out)
+rows(const struct rc_medium *m, size_t component, const struct rc_lattice *at, size_t n,
+     size_t first, size_t last, double *out)
 {
-    difference(m, component, dx, ((double)first - 0.5) * dy, n, out);
-    for (size_t j = first; j < last; j++, out += n) {
-        double y = ((double)j + 0.5) * dy;
-        double left = corner(component, m->nu, -dx / 2, y, m->depth);
+    double half = at->dy / 2;
 
-        for (size_t i = 0; i < n; i++) {
-            double right = corner(component, m->nu, ((double)i + 0.5) * dx, y, m->depth);
-            double here = right - left;
-            left = right;
-            if (j + 1 < last)
-                out[n + i] = here;
-            out[i] = (here - out[i]) / (2 * pi);
-        }
+    for (size_t j = first; j < last; j++, out += n) {
+        double y = (double)(j * at->sy) * at->dy;
+        bool keep = j + 1 < last && at->sy == 1;
+
+        if (j == first || at->sy != 1)
+            difference(m, component, at, y - half, n, NULL, out);
+        difference(m, component, at, y + half, n, out, keep ? out + n : NULL);
     }
 }
 

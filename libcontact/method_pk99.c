@@ -45,6 +45,7 @@ static void *
 state_new(struct rc_solver *solver, struct rc_err *err)
 {
     struct rc_medium medium = {.estar = solver->estar};
+    struct rc_lattice cell = {solver->shape.dx, solver->shape.dy, 1, 1};
     struct state *s = calloc(1, sizeof *s);
     double self;
 
@@ -60,7 +61,7 @@ state_new(struct rc_solver *solver, struct rc_err *err)
     }
     s->G = 1;
     s->energy = INFINITY;
-    rc_kernel_boussinesq.rows(&medium, 0, solver->shape.dx, solver->shape.dy, 1, 0, 1, &self);
+    rc_kernel_boussinesq.rows(&medium, 0, &cell, 1, 0, 1, &self);
     s->first = 1 / self;
     return s;
 }

@@ -91,7 +91,8 @@ check_spectrum(const struct rc_shape *shape, const struct rc_selfaffine *what, s
         return rc_err_set(err, "Hurst exponent %g: it must be above 0 and at most 1", what->hurst);
     if (bad_length(what->long_cut) || bad_length(what->rolloff) || bad_length(what->short_cut))
         return rc_err_set(err, "long cut-off %g m, roll-off %g m, short cut-off %g m: wavelengths "
-                               "must be positive and finite", what->long_cut, what->rolloff, what->short_cut);
+                               "must be positive and finite",
+                          what->long_cut, what->rolloff, what->short_cut);
     if (what->short_cut < shortest * (1 - slack))
         return rc_err_set(err, "short cut-off %g m: the nodes hold wavelengths from %g m on, twice "
                                "their spacing", what->short_cut, shortest);

@@ -15,6 +15,14 @@
 
 #include "formats/stream.h"
 
+/* With the address sanitizer, memory that cannot be had is still NULL. */
+const char *__asan_default_options(void);
+const char *
+__asan_default_options(void)
+{
+    return "allocator_may_return_null=1";
+}
+
 /* ---- making streams ---- */
 
 struct bytes {

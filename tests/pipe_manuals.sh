@@ -1,5 +1,8 @@
 # The manual of every tool knows just the options that its --help knows, and its examples run.
 . "$(dirname "$0")/pipe.sh"
+# With the leak sanitizer: fontconfig keeps what it has read of the fonts.
+echo 'leak:libfontconfig' >leaks
+export LSAN_OPTIONS=suppressions=$PWD/leaks:print_suppressions=0
 
 helped() {
     "$1" --help | grep -oE '^  --?[A-Za-z0-9-]+' | tr -d ' ' | sed 's/^-*//' | sort -u

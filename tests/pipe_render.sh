@@ -156,13 +156,4 @@ claim "leaves that file as it was" cmp height.rcg out.png
 refuses 1 'No space left' "a full device" "rc-render height.rcg >/dev/full"
 refuses 1 'No space left' "a full device named" "rc-render -o /dev/full height.rcg"
 
-# ---- the manual names the options ----
-
-if [ -f "$RC_SOURCE/man/rc-render.1" ]; then
-    for option in $(rc-render --help | grep -oE '^  --?[a-z]+' | tr -d ' -'); do
-        claim "the manual has $option" grep -qE "^\.(It|Op) Fl (-|)$option( |$)" \
-            "$RC_SOURCE/man/rc-render.1"
-    done
-fi
-
 finish

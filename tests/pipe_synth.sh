@@ -1,6 +1,8 @@
 # rc-synth makes the surface that its options say on the grid that they say, and refuses options that
 # are missing, contradict each other or mean nothing.
 . "$(dirname "$0")/pipe.sh"
+# With the address sanitizer, memory that cannot be had is still NULL.
+export ASAN_OPTIONS=allocator_may_return_null=1
 
 info() {
     "$@" | rc-info --json >info.json

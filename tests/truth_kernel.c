@@ -89,9 +89,10 @@ coefficient(const struct rc_kernel *k, int component, double nu, double depth, d
             double dy, size_t i, size_t j)
 {
     struct rc_medium medium = {.estar = 1, .nu = nu, .depth = depth};
+    struct rc_lattice at = {dx, dy, 1, 1};
     double *row = test_malloc((i + 1) * sizeof *row), value;
 
-    k->rows(&medium, (size_t)component, dx, dy, i + 1, j, j + 1, row);
+    k->rows(&medium, (size_t)component, &at, i + 1, j, j + 1, row);
     value = row[i];
     test_free(row);
     return value;
@@ -195,6 +196,26 @@ stresses_at_the_surface(void **state)
     }
 }
 
+/* A coarser lattice of the same cell holds the same numbers at its nodes, for blocks of rows too. */
+static void
+a_coarser_lattice_is_a_sample(void **state)
+{
+    struct rc_medium medium = {.estar = 1, .nu = 0.3, .depth = 0.8};
+    struct rc_lattice fine = {1.1, 0.9, 1, 1}, coarse = {1.1, 0.9, 2, 3};
+    double all[13][13], some[4][5];
+
+    (void)state;
+    for (size_t c = 0; c <= RC_COMPONENTS; c++) {
+        const struct rc_kernel *k = c < RC_COMPONENTS ? &rc_kernel_stress : &rc_kernel_boussinesq;
+        size_t component = c < RC_COMPONENTS ? c : 0;
+        k->rows(&medium, component, &fine, 13, 0, 13, all[0]);
+        k->rows(&medium, component, &coarse, 5, 0, 4, some[0]);
+        for (size_t j = 0; j < 4; j++)
+            for (size_t i = 0; i < 5; i++)
+                assert_true(fabs(some[j][i] - all[3 * j][2 * i]) <= 1e-15);
+    }
+}
+
 int
 main(void)
 {
@@ -204,6 +225,7 @@ main(void)
         cmocka_unit_test(stresses_are_the_integrals),
         cmocka_unit_test(stresses_under_a_square),
         cmocka_unit_test(stresses_at_the_surface),
+        cmocka_unit_test(a_coarser_lattice_is_a_sample),
     };
 
     gsl_set_error_handler_off(); /* rounding below the asked 1e-15 is reported, and expected */

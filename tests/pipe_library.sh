@@ -1,0 +1,28 @@
+# The program that libcontact(3) prints compiles against the library as it stands there, and finds
+# what Hertz found.
+. "$(dirname "$0")/pipe.sh"
+. "$(dirname "$0")/manual.sh"
+
+library=$(dirname "$RC_BIN")/libcontact
+flags="-fopenmp"
+if nm "$library/libcontact.a" 2>/dev/null | grep -q __asan_init; then
+    flags="$flags -fsanitize=address,undefined"
+fi
+
+claim "the page holds a program" program "$pages/libcontact.3" hertz.c
+# shellcheck disable=SC2086
+claim "it compiles against the static library" ${CC:-cc} -std=c17 -Wall -Wextra -pedantic \
+    -I "$RC_SOURCE" -o hertz hertz.c "$library/libcontact.a" $flags -lfftw3 -lgsl -lgslcblas -lm
+claim "it runs" bash -c './hertz >hertz.txt'
+# a = 227.934 um, p0 = 2.20563 GPa, approach = 6.92720 um (Johnson 1985, section 4.2)
+near "$(awk '/^approach/ { print $2 }' hertz.txt)" 6.92720e-6 1e-3 "approach"
+near "$(awk '/^approach/ { print $5 }' hertz.txt)" 6.92720e-6 1e-5 "approach of Hertz"
+near "$(awk '/^pressure/ { print $2 }' hertz.txt)" 2.20563e9 1e-3 "peak pressure"
+near "$(awk '/^pressure/ { print $5 }' hertz.txt)" 2.20563e9 1e-5 "peak pressure of Hertz"
+# shellcheck disable=SC2086
+claim "it compiles against the shared library" ${CC:-cc} -std=c17 -I "$RC_SOURCE" -o shared \
+    hertz.c -L "$library" -lcontact $flags -lm
+claim "it finds the same there" bash -c "
+    LD_LIBRARY_PATH='$library' ./shared >shared.txt && cmp hertz.txt shared.txt"
+
+finish
