@@ -1,7 +1,7 @@
 # The manual says what the tools do: every option of --help and no other, clean mdoc, no reference
 # into the void, and examples that run as they are printed.
 . "$(dirname "$0")/pipe.sh"
-. "$(dirname "$0")/manual.sh"
+. "$RC_SOURCE/tests/manual.sh"
 
 tools=
 for file in "$RC_BIN"/rc-*; do

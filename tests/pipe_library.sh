@@ -1,7 +1,7 @@
 # The program that libcontact(3) prints compiles against the library as it stands there, and finds
 # what Hertz found.
 . "$(dirname "$0")/pipe.sh"
-. "$(dirname "$0")/manual.sh"
+. "$RC_SOURCE/tests/manual.sh"
 
 library=$(dirname "$RC_BIN")/libcontact
 flags="-fopenmp"

@@ -1,7 +1,7 @@
 # The filter that rcg(5) prints compiles as it stands there and is a good neighbour in a pipe: what
 # it writes is read, what is damaged it refuses.
 . "$(dirname "$0")/pipe.sh"
-. "$(dirname "$0")/manual.sh"
+. "$RC_SOURCE/tests/manual.sh"
 
 claim "the page holds a program" program "$pages/rcg.5" rcg-scale.c
 claim "it compiles" ${CC:-cc} -std=c99 -O2 -Wall -Wextra -o rcg-scale rcg-scale.c
