@@ -28,8 +28,10 @@ claim "a factor of 1 keeps every value and key" bash -c "
     $(declare -f bare)
     rcg-scale 1 <rough.rcg >same.rcg && cmp <(bare rough.rcg) <(bare same.rcg)"
 rc-solve --quiet --load 1N --estar 100GPa --output pressure,gap rough.rcg -o contact.rcg
-claim "other channels pass, byte for byte" bash -c \
-    'rcg-scale 3 <contact.rcg | cmp - contact.rcg'
+claim "other channels pass as they are" bash -c "
+    $(declare -f bare)
+    rcg-scale 3 <contact.rcg >passed.rcg && cmp <(bare contact.rcg) <(bare passed.rcg) &&
+    ! grep -aq 'rcg-scale' passed.rcg"
 claim "missing points stay missing" bash -c "
     printf '5 6 7\n6 NaN 8\n7 8 9\n' >hole.txt &&
     rc-import --dx 1.1um --z-unit nm hole.txt | rcg-scale 2 | rc-detrend --fill -o filled.rcg"

@@ -59,6 +59,9 @@ compare(struct rc_shape shape, const struct rc_kernel *kernel, size_t component,
     for (size_t k = 0; k < n; k++)
         worst = fmax(worst, fabs(u[k] - v[k]));
     largest = magnitude(&sum, p);
+    /* tables made in different blocks differ by rounding: for stresses 1e-16 of the pressure */
+    if (kernel == &rc_kernel_stress)
+        largest += 0.01 * sqrt((double)n);
     if (worst > 1e-14 * largest)
         print_error("%zu x %zu, %s %zu: off by %g of %g\n", shape.nx, shape.ny, kernel->name,
                     component, worst, largest);
