@@ -100,6 +100,11 @@ double rc_sum(const double *v, size_t n);
 
 /* ---- convolution: conv.c ---- */
 
+enum rc_boundary {
+    RC_FREE,    /* a half-space whose surface goes on, without load, beyond the map            */
+    RC_PERIODIC /* the map repeats for ever                                                    */
+};
+
 /* u = K p on the free half-space: displacement in metres of the composite modulus estar (Pa) under
  * pressure p (Pa). `engine` is a name in engines.list or "auto". */
 struct rc_conv *rc_conv_new(const struct rc_shape *shape, double estar, const char *engine,

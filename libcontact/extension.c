@@ -3,6 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "fft.h"
+
 struct rc_extension {
     struct rc_shape unit; /* the grid in units of sqrt(dx dy) */
     size_t n;
@@ -63,15 +65,15 @@ rc_extension_new(const struct rc_shape *shape, double estar, size_t threads, str
     e->scratch = malloc(3 * longest * sizeof *e->scratch);
     if (e->weight == NULL || e->field == NULL || e->other == NULL || e->scratch == NULL)
         goto short_of_memory;
-    if ((e->fft = rc_fft_new(shape, threads, err)) == NULL ||
+    if ((e->fft = rc_fft_new(shape, RC_FREE, RC_DOUBLE, threads, err)) == NULL ||
         (e->inverse = rc_spectrum_new(e->fft, err)) == NULL ||
         (e->spread = rc_spectrum_new(e->fft, err)) == NULL ||
-        rc_spectrum_set(e->inverse, e->fft, &rc_kernel_boussinesq, 0, &medium, err) != RC_OK ||
+        rc_spectrum_set_inverse(e->inverse, e->fft, &rc_kernel_boussinesq, 0, &medium,
+                                err) != RC_OK ||
         rc_spectrum_set(e->spread, e->fft, &spread, 0, &medium, err) != RC_OK) {
         rc_extension_free(e);
         return NULL;
     }
-    rc_spectrum_invert(e->inverse);
     return e;
 short_of_memory:
     rc_err_set(err, "out of memory for the error estimate of %zu x %zu nodes", shape->nx,

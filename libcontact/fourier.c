@@ -59,3 +59,32 @@ rc_fourier_backward(const struct rc_shape *shape, double complex *s, double *v,
 {
     return transform(shape, false, v, s, err);
 }
+
+enum rc_status
+rc_fourier_halves(double *lines, size_t n, size_t count, bool odd, int threads,
+                  struct rc_err *err)
+{
+    size_t inner = odd ? n - 2 : n, start = odd ? 1 : 0;
+    fftw_plan plan = NULL;
+
+    if (inner > INT_MAX)
+        return rc_err_set(err, "%zu nodes: a side of at most %d can be transformed", n, INT_MAX);
+    if (inner > 0) {
+#pragma omp critical(rc_fftw_planner)
+        plan = fftw_plan_r2r_1d((int)inner, lines + start, lines + start,
+                                odd ? FFTW_RODFT00 : FFTW_REDFT00, FFTW_ESTIMATE | FFTW_UNALIGNED);
+        if (plan == NULL)
+            return rc_err_set(err, "out of memory for a transform of %zu values", n);
+    }
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (size_t c = 0; c < count; c++) {
+        double *line = lines + c * n;
+        if (odd)
+            line[0] = line[n - 1] = 0;
+        if (plan != NULL)
+            fftw_execute_r2r(plan, line + start, line + start);
+    }
+#pragma omp critical(rc_fftw_planner)
+    fftw_destroy_plan(plan);
+    return RC_OK;
+}

@@ -27,4 +27,11 @@ enum rc_status rc_fourier_forward(const struct rc_shape *shape, const double *v,
 enum rc_status rc_fourier_backward(const struct rc_shape *shape, double complex *s, double *v,
                                    struct rc_err *err);
 
+
+/* Real even (or odd) transform, in place, of `count` lines of n values each: a line holds half a
+ * period with both ends, v_0 .. v_(n-1) of a period 2n - 2, and becomes sum of v_j cos(pi jk /
+ * (n-1)) (or sin) over the whole period. An odd line is zero at both ends. */
+enum rc_status rc_fourier_halves(double *lines, size_t n, size_t count, bool odd, int threads,
+                                 struct rc_err *err);
+
 #endif

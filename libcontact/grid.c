@@ -51,6 +51,18 @@ rc_shape_check(const struct rc_shape *s, struct rc_err *err)
     return RC_OK;
 }
 
+/* Header lines that the struct holds as fields. */
+static bool
+is_field(const char *name)
+{
+    static const char *const fields[] = {"channel", "nx", "ny", "dx", "dy", "unit", "type"};
+
+    for (size_t k = 0; k < sizeof fields / sizeof *fields; k++)
+        if (strcmp(name, fields[k]) == 0)
+            return true;
+    return false;
+}
+
 bool
 rc_key_valid(const char *name)
 {
@@ -173,6 +185,8 @@ rc_grid_set(struct rc_grid *g, const char *name, const char *value, struct rc_er
 
     if (!rc_key_valid(name))
         return rc_err_set(err, "key '%s' is not of the form [a-z][a-z0-9._-]*", name);
+    if (is_field(name))
+        return rc_err_set(err, "'%s' is a field of the grid, not a key", name);
     if (value == NULL) {
         if (key != NULL)
             remove_key(g, key);

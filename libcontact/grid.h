@@ -80,8 +80,8 @@ struct rc_shape rc_grid_shape(const struct rc_grid *grid);
 
 /* Value of a carried key, or NULL. The required header lines (nx, unit, ...) are fields, not keys. */
 const char *rc_grid_get(const struct rc_grid *grid, const char *name);
-/* Sets, replaces or, with value NULL, removes a key. RC_FAIL for a name that is not a key name or
- * when memory is short. */
+/* Sets, replaces or, with value NULL, removes a key. RC_FAIL for a name that is not a key name, or
+ * that of a field (nx, unit, ...), or when memory is short. */
 enum rc_status rc_grid_set(struct rc_grid *grid, const char *name, const char *value,
                            struct rc_err *err);
 /* The same with a number, written as rc_number_text does. */

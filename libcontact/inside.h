@@ -1,6 +1,6 @@
 /*
  * What the rooms of libcontact share and nobody else sees: the row types of kernels.list and
- * engines.list, and the transform engine that the solver and the stresses lean on.
+ * engines.list.
  */
 #ifndef RC_INSIDE_H
 #define RC_INSIDE_H
@@ -35,6 +35,10 @@ struct rc_kernel {
      * about the origin: out[(j - first) * n + i]. */
     void (*rows)(const struct rc_medium *medium, size_t component, const struct rc_lattice *at,
                  size_t n, size_t first, size_t last, double *out);
+    /* Transform of the kernel of the infinite half-space at wave numbers qx, qy (rad/m, not both
+     * zero) of band-limited pressure, over (-i)^(number of odd directions): real, odd where the
+     * kernel is. NULL: the kernel has none. */
+    double (*symbol)(const struct rc_medium *medium, size_t component, double qx, double qy);
 };
 
 #define RC_KERNEL(name) extern const struct rc_kernel rc_kernel_##name;
@@ -46,6 +50,7 @@ struct rc_kernel {
 /* What is to be summed: one component of one kernel on one grid. */
 struct rc_sum {
     struct rc_shape shape;
+    enum rc_boundary boundary;
     const struct rc_kernel *kernel;
     size_t component;
     struct rc_medium medium;
@@ -71,32 +76,5 @@ struct rc_engine {
 #define RC_ENGINE(name) extern const struct rc_engine rc_engine_##name;
 #include "engines.list"
 #undef RC_ENGINE
-
-/* ---- the transform engine by its parts: several kernels on one grid, one transform of p ---- */
-
-struct rc_fft;
-struct rc_spectrum; /* of one kernel: a quarter of it, real */
-
-struct rc_fft *rc_fft_new(const struct rc_shape *shape, size_t threads, struct rc_err *err);
-void rc_fft_free(struct rc_fft *fft);
-/* Bytes of a plan with one spectrum, and of each further spectrum. */
-size_t rc_fft_memory(const struct rc_shape *shape);
-size_t rc_spectrum_memory(const struct rc_shape *shape);
-
-/* Zero-initialised; NULL when memory is short. */
-struct rc_spectrum *rc_spectrum_new(const struct rc_fft *fft, struct rc_err *err);
-void rc_spectrum_free(struct rc_spectrum *spectrum);
-/* Makes it the spectrum of a kernel's component. RC_FAIL when memory is short. */
-enum rc_status rc_spectrum_set(struct rc_spectrum *spectrum, const struct rc_fft *fft,
-                               const struct rc_kernel *kernel, size_t component,
-                               const struct rc_medium *medium, struct rc_err *err);
-/* Replaces every value s by 1/s: the inverse of the padded circulant. */
-void rc_spectrum_invert(struct rc_spectrum *spectrum);
-
-/* u = K p without ever forming the padded array. u and p may be the same. */
-void rc_fft_apply(struct rc_fft *fft, const struct rc_spectrum *kernel, const double *p, double *u);
-/* Keeps the whole transform of p; then u = K p for as many kernels as are wanted. */
-enum rc_status rc_fft_load(struct rc_fft *fft, const double *p, struct rc_err *err);
-void rc_fft_field(struct rc_fft *fft, const struct rc_spectrum *kernel, double *u);
 
 #endif

@@ -98,6 +98,15 @@ rows(const struct rc_medium *medium, size_t component, const struct rc_lattice *
     }
 }
 
+/* Westergaard 1939: a wave of pressure of wave number q makes a wave of displacement 2 / (E* q) as
+ * high. */
+static double
+symbol(const struct rc_medium *medium, size_t component, double qx, double qy)
+{
+    (void)component;
+    return 2 / (medium->estar * hypot(qx, qy));
+}
+
 static const unsigned parity[] = {0};
 
 const struct rc_kernel rc_kernel_boussinesq = {
@@ -106,4 +115,5 @@ const struct rc_kernel rc_kernel_boussinesq = {
     .components = 1,
     .parity = parity,
     .rows = rows,
+    .symbol = symbol,
 };

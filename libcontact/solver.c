@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "fft.h"
+
 static const struct rc_method *const methods[] = {
 #define RC_METHOD(name) &rc_method_##name,
 #include "methods.list"
@@ -146,7 +148,8 @@ rc_solver_memory(const struct rc_shape *shape, const char *engine)
     /* four arrays and a mask here, three in the method, three in the error estimate beside its
      * transforms and the spectrum of its second kernel */
     return n * (10 * sizeof(double) + 1) + rc_conv_memory(shape, engine) +
-           rc_fft_memory(shape) + rc_spectrum_memory(shape);
+           rc_fft_memory(shape, RC_FREE, RC_DOUBLE) +
+           rc_spectrum_memory(shape, RC_FREE, RC_DOUBLE);
 }
 
 /* ---- what the methods share ---- */

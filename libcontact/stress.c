@@ -2,7 +2,7 @@
  * Stress slices: the pressure is transformed once; each component and depth costs the evaluation of
  * its kernel, the transform of a quarter of it, one multiplication and one transform back.
  */
-#include "inside.h"
+#include "fft.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -31,7 +31,7 @@ rc_stress_new(const struct rc_shape *shape, const double *p, double nu, size_t t
         return NULL;
     }
     stress->nu = nu;
-    if ((stress->fft = rc_fft_new(shape, threads, err)) == NULL ||
+    if ((stress->fft = rc_fft_new(shape, RC_FREE, RC_DOUBLE, threads, err)) == NULL ||
         (stress->kernel = rc_spectrum_new(stress->fft, err)) == NULL ||
         rc_fft_load(stress->fft, p, err) != RC_OK) {
         rc_stress_free(stress);
@@ -70,7 +70,8 @@ rc_stress_memory(const struct rc_shape *shape)
 {
     /* the plan, the whole transform of p (two quarters of complex numbers), the kernel's
      * table */
-    return rc_fft_memory(shape) + 5 * rc_spectrum_memory(shape);
+    return rc_fft_memory(shape, RC_FREE, RC_DOUBLE) +
+           5 * rc_spectrum_memory(shape, RC_FREE, RC_DOUBLE);
 }
 
 void

@@ -1,5 +1,5 @@
-/* A picture's pixels are the values of the map in the colours that were promised, and its chunks say
- * how it was made: decoded by libpng, judged by colour tables from the literature. */
+/* A picture's pixels are the values of the map in the colours promised, and its chunks say how it
+ * was made: decoded by libpng, judged by colour tables from the literature. */
 #include <math.h>
 #include <png.h>
 #include <setjmp.h>
@@ -101,7 +101,8 @@ is_colour(const unsigned char *rgb, unsigned colour, int within)
 static void
 raw_is_one_pixel_a_node(void **state)
 {
-    static const double v[] = {0, 51e-6, 102e-6, 153e-6, 204e-6, 255e-6}; /* a grey level a micron */
+    /* a grey level a micron */
+    static const double v[] = {0, 51e-6, 102e-6, 153e-6, 204e-6, 255e-6};
     struct png p;
 
     (void)state;
@@ -324,7 +325,7 @@ numbers_read_as_people_write_them(void **state)
         const char *unit, *text;
     } cases[] = {
         {5.83e9, "Pa", "5.83 GPa"},   {1e-6, "m", "1 µm"},      {-4.239e-7, "m", "−423.9 nm"},
-        {240, "N", "240 N"},          {0, "Pa", "0"},           {999.96, "m", "1000 m"},
+        {240, "N", "240 N"},          {0, "Pa", "0"},           {999.96, "m", "1 km"},
         {0.31, "1", "0.31"},          {2e-5, "rad", "20·10⁻⁶ rad"},
     };
     static const char *const labels[] = {"−0.2", "0.0", "0.2", "0.4", "0.6"};

@@ -4,10 +4,9 @@
 . "$RC_SOURCE/tests/manual.sh"
 
 tools=
-for file in "$RC_BIN"/rc-*; do
-    [ -f "$file" ] && [ -x "$file" ] && tools="$tools $(basename "$file")"
+for source in "$RC_SOURCE"/tools/rc-*.c; do
+    tools="$tools $(basename "$source" .c)"
 done
-tools=${tools/ rc-test/} # not installed
 
 # ---- options ----
 

@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "exact.h"
-#include "libcontact/inside.h"
+#include "libcontact/fft.h"
 
 static double
 random_number(uint64_t *seed)
@@ -98,7 +98,7 @@ one_transform_serves_all_kernels(void **state)
     size_t n = shape.nx * shape.ny;
     double *p = calloc(n, sizeof *p), *u = malloc(n * sizeof *u), *v = malloc(n * sizeof *v);
     struct rc_err err;
-    struct rc_fft *fft = rc_fft_new(&shape, 2, &err);
+    struct rc_fft *fft = rc_fft_new(&shape, RC_FREE, RC_DOUBLE, 2, &err);
     struct rc_spectrum *k = rc_spectrum_new(fft, &err);
 
     (void)state;

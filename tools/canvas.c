@@ -41,7 +41,8 @@ canvas_new(size_t w, size_t h, struct rc_err *err)
         canvas_free(c);
         return NULL;
     }
-    /* Shades of grey and unrounded widths: text looks the same whatever the screen of the machine. */
+    /* Shades of grey and unrounded widths: text looks the same whatever the screen of the machine.
+     */
     font = cairo_font_options_create();
     cairo_font_options_set_antialias(font, CAIRO_ANTIALIAS_GRAY);
     cairo_font_options_set_hint_style(font, CAIRO_HINT_STYLE_SLIGHT);

@@ -1,4 +1,4 @@
-/* One frame out of a stream: which one a picture shows. Holds the best frame so far and no other. */
+/* Which frame of a stream a picture shows. Holds the best one so far and no other. */
 #ifndef RC_CHOICE_H
 #define RC_CHOICE_H
 

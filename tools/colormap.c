@@ -1,9 +1,9 @@
 /*
- * Colours for values. A map is a row of colours at even steps, blended in sRGB between them; the rows
- * are dense enough that lightness (CIELAB L*) keeps rising where it should.
+ * Colours for values. A map is a row of colours at even steps, blended in sRGB between them; the
+ * rows are dense enough that lightness (CIELAB L*) keeps rising where it should.
  *
- * viridis and magma follow the maps of those names by N. Smith, S. van der Walt and E. Firing (2015,
- * in the public domain). bluered is made for this tool: equal lightness at equal distance from its
+ * viridis and magma follow the maps of those names by N. Smith, S. van der Walt and E. Firing
+ * (2015, in the public domain). bluered is made for this tool: equal lightness at equal distance from its
  * middle, so that a picture in grey still shows the size of a signed value.
  */
 #include "colormap.h"

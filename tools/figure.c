@@ -85,15 +85,15 @@ paint(struct page *p, const struct raster *r)
                 struct rgb value = colormap_value(f->map, f->lo, f->hi, r->v[k]);
                 if (missing > 0)
                     value = mix(value, fmax(0, 1 - missing), colour, fmin(missing, 1));
-                colour = none > 0 ? mix(value, fmax(0, 1 - none), f->map->none, fmin(none, 1))
-                                  : value;
+                colour =
+                    none > 0 ? mix(value, fmax(0, 1 - none), f->map->none, fmin(none, 1)) : value;
             }
             canvas_pixel(p->c, p->plot_x + i, p->plot_y + j, colour);
         }
 }
 
-/* From cells of a raster to the share of the plot's height: rows that are uneven lie where they lie,
- * and between their middles a line is straight. */
+/* From cells of a raster to the share of the plot's height: rows that are uneven lie where they
+ * lie, and between their middles a line is straight. */
 static double
 down_at(const struct page *p, const struct raster *r, double y)
 {
@@ -188,9 +188,8 @@ paint_bar(struct page *p, size_t x, size_t y, size_t w, size_t h)
     for (size_t j = 0; j < h; j++)
         for (size_t i = 0; i < w; i++)
             canvas_pixel(p->c, x + i, y + j,
-                         colormap_at(p->f->map, p->bar_below
-                                                    ? ((double)i + 0.5) / (double)w
-                                                    : 1 - ((double)j + 0.5) / (double)h));
+                         colormap_at(p->f->map, p->bar_below ? ((double)i + 0.5) / (double)w
+                                                             : 1 - ((double)j + 0.5) / (double)h));
 }
 
 /* Points at the ends that values lie beyond. */
@@ -261,12 +260,12 @@ draw_rules(struct page *p)
            h = (double)p->plot_h, u = p->u;
 
     for (long long k = p->across.ticks.first; k <= p->across.ticks.last; k++)
-        canvas_fill(p->c, x + page_place(&p->across, ticks_at(&p->across.ticks, k)) * w - 0.6 * u, y,
-                    1.2 * u, h, rule);
+        canvas_fill(p->c, x + page_place(&p->across, ticks_at(&p->across.ticks, k)) * w - 0.6 * u,
+                    y, 1.2 * u, h, rule);
     for (long long k = p->values.ticks.first; k <= p->values.ticks.last; k++)
         canvas_fill(p->c, x,
-                    y + (1 - page_place(&p->values, ticks_at(&p->values.ticks, k))) * h - 0.6 * u, w,
-                    1.2 * u, rule);
+                    y + (1 - page_place(&p->values, ticks_at(&p->values.ticks, k))) * h - 0.6 * u,
+                    w, 1.2 * u, rule);
 }
 
 static double
@@ -328,8 +327,7 @@ draw_text(struct page *p)
         y += 1.3 * p->heading.size;
     }
     for (size_t k = 0; k < p->subtitle.n; k++) {
-        canvas_text(p->c, &p->subheading, middle, y + p->subheading.size, 0.5,
-                    p->subtitle.line[k]);
+        canvas_text(p->c, &p->subheading, middle, y + p->subheading.size, 0.5, p->subtitle.line[k]);
         y += 1.4 * p->subheading.size;
     }
 }
@@ -357,8 +355,8 @@ draw_legend(struct page *p)
         if (p->note[k].swatch != SWATCH_NOTHING)
             canvas_frame(p->c, left, top, (double)(n + n / 3), (double)n, fmax(1, round(1.2 * u)),
                          page_ink);
-        canvas_text(p->c, &p->small, left + page_swatch(p, k), top + 0.5 * side +
-                    0.36 * p->small.size, 0, p->note[k].text);
+        canvas_text(p->c, &p->small, left + page_swatch(p, k),
+                    top + 0.5 * side + 0.36 * p->small.size, 0, p->note[k].text);
     }
 }
 
@@ -388,7 +386,8 @@ draw(struct page *p, struct rc_err *err)
 struct canvas *
 figure_draw(const struct figure *f, const struct rc_grid *g, struct rc_err *err)
 {
-    struct page page = {.f = f, .g = g, .curve = f->row_edge == NULL && (g->nx == 1) != (g->ny == 1)};
+    struct page page = {
+        .f = f, .g = g, .curve = f->row_edge == NULL && (g->nx == 1) != (g->ny == 1)};
 
     if ((page.c = canvas_new(1, 1, err)) == NULL) /* to measure text on */
         return NULL;

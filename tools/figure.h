@@ -1,7 +1,7 @@
 /*
  * Figures as people publish them: a map with axes, colour bar, title and legend, or, of a map with
- * one row or column, a curve. Lengths on the two axes of a map have the same scale unless that would
- * leave a strip too thin to see (FIGURE_ASPECT); the figure then says so.
+ * one row or column, a curve. Lengths on the two axes of a map have the same scale unless that
+ * would leave a strip too thin to see (FIGURE_ASPECT); the figure then says so.
  */
 #ifndef RC_FIGURE_H
 #define RC_FIGURE_H
@@ -39,7 +39,7 @@ struct figure {
     size_t width;               /* pixels of the whole figure; 0: what suits the map     */
 };
 
-/* The grid holds values, nx and ny; where they lie is said by *figure. NULL when memory is short. */
+/* The grid holds values, nx and ny; *figure says where they lie. NULL when memory is short. */
 struct canvas *figure_draw(const struct figure *figure, const struct rc_grid *grid,
                            struct rc_err *err);
 

@@ -126,7 +126,8 @@ set_axis(struct axis *a, const char *quantity, const char *unit, double lo, doub
     scale_label(a->label, sizeof a->label, quantity, &a->scale);
 }
 
-/* Where both axes of a map have one unit they get one step, unless that leaves one too few marks. */
+/* Where both axes of a map have one unit they get one step, unless that leaves one too few marks.
+ */
 static void
 even_steps(struct page *p)
 {
@@ -198,8 +199,8 @@ set_fonts(struct page *p)
     p->subheading = (struct canvas_font){.size = 20 * p->u, .colour = page_faint};
 }
 
-/* Pixels of the longer side of a plot of n nodes: a whole number of them for a node, or of nodes for
- * one, so that all cells look alike. */
+/* Pixels of the longer side of a plot of n nodes: a whole number of them for a node, or of nodes
+ * for one, so that all cells look alike. */
 static double
 natural_side(size_t n)
 {
@@ -229,8 +230,9 @@ set_plot(struct page *p, double room)
         w = aspect >= 1 ? natural_side(p->g->nx) : natural_side(p->g->ny) * aspect;
     p->plot_w = (size_t)fmax(round(w), 1);
     p->plot_h = (size_t)fmax(round(w / aspect), 1);
-    p->u = room > 0 ? fmax((double)p->f->width / 1200, 0.5) : p->curve ? 1
-           : fmax((double)p->plot_w, (double)p->plot_h) / 900;
+    p->u = room > 0   ? fmax((double)p->f->width / 1200, 0.5)
+           : p->curve ? 1
+                      : fmax((double)p->plot_w, (double)p->plot_h) / 900;
     p->bar_below = (double)p->plot_h < 300 * p->u;
     set_fonts(p);
 }
@@ -255,8 +257,8 @@ measure_sides(struct page *p)
     if (p->bar_below)
         p->right_w = fmax(p->right_w, 24 * u + 0.5 * p->values.widest + 14 * u);
     else
-        p->right_w = page_bar_right(p) + 28 * u + 14 * u + p->values.widest +
-                     1.8 * p->large.size + 24 * u;
+        p->right_w =
+            page_bar_right(p) + 28 * u + 14 * u + p->values.widest + 1.8 * p->large.size + 24 * u;
 }
 
 static void
@@ -338,8 +340,8 @@ set_page(struct page *p)
     p->h = (size_t)ceil(p->above + (double)p->plot_h + p->below);
 }
 
-/* Sizes depend on texts, texts on marks, marks on sizes: with a width that is asked for a few rounds
- * settle that. */
+/* Sizes depend on texts, texts on marks, marks on sizes: with a width that is asked for a few
+ * rounds settle that. */
 void
 page_lay_out(struct page *p)
 {

@@ -92,7 +92,8 @@ picture_new(FILE *file, size_t w, size_t h, const struct picture_text *text, siz
     struct picture *p;
 
     if (w > PNG_UINT_31_MAX || h > PNG_UINT_31_MAX || w > SIZE_MAX / 8) {
-        rc_err_set(err, "a picture of %zu by %zu pixels: PNG holds at most 2147483647 a side", w, h);
+        rc_err_set(err, "a picture of %zu by %zu pixels: PNG holds at most 2147483647 a side", w,
+                   h);
         return NULL;
     }
     p = calloc(1, sizeof *p);

@@ -15,8 +15,8 @@ struct picture_text {
 };
 
 /* Starts a PNG of w by h pixels on `file`, which stays the caller's. No time is written: the same
- * picture is the same bytes. NULL when the size is more than PNG holds, the device refuses or memory
- * is short. */
+ * picture is the same bytes. NULL when the size is more than PNG holds, the device refuses or
+ * memory is short. */
 struct picture *picture_new(FILE *file, size_t w, size_t h, const struct picture_text *text,
                             size_t texts, struct rc_err *err);
 /* The next row, from the top: w times red, green, blue. */

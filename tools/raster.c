@@ -128,7 +128,9 @@ raster_new(const struct rc_grid *g, const double *row_edge, bool zero_is_none, s
 
     if (r == NULL || weight == NULL)
         goto done;
-    *r = (struct raster){.w = w, .h = h, .v = calloc(w * h, sizeof *r->v),
+    *r = (struct raster){.w = w,
+                         .h = h,
+                         .v = calloc(w * h, sizeof *r->v),
                          .none = calloc(w * h, sizeof *r->none),
                          .missing = calloc(w * h, sizeof *r->missing)};
     if (r->v == NULL || r->none == NULL || r->missing == NULL ||
@@ -230,8 +232,8 @@ raster_contour(const struct raster *r, double level, struct lines *l, struct rc_
 {
     for (size_t j = 0; j + 1 < r->h; j++)
         for (size_t i = 0; i + 1 < r->w; i++) {
-            double z[4] = {height_at(r, i, j), height_at(r, i + 1, j),
-                           height_at(r, i + 1, j + 1), height_at(r, i, j + 1)};
+            double z[4] = {height_at(r, i, j), height_at(r, i + 1, j), height_at(r, i + 1, j + 1),
+                           height_at(r, i, j + 1)};
 
             if (isfinite(z[0]) && isfinite(z[1]) && isfinite(z[2]) && isfinite(z[3]) &&
                 cross_square(z, level, i, j, l, err) != RC_OK)

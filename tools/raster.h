@@ -16,8 +16,8 @@ struct survey {
 
 void survey_map(const struct rc_grid *grid, struct survey *survey);
 
-/* The map on w by h cells, each the mean of what it covers. A cell can lie inside a node (a small map
- * enlarged) or hold many (a large one reduced). */
+/* The map on w by h cells, each the mean of what it covers. A cell can lie inside a node (a small
+ * map enlarged) or hold many (a large one reduced). */
 struct raster {
     size_t w, h;
     double *v;      /* mean of the values there; NaN: none                        */
@@ -26,7 +26,7 @@ struct raster {
 };
 
 /* `row_edge` (ny + 1 rising numbers) says where rows begin and end; NULL: even rows. With
- * `zero_is_none` value 0 means no contact and is left out of the means. NULL when memory is short. */
+ * `zero_is_none` value 0 means no contact and is left out of the means. NULL: memory is short. */
 struct raster *raster_new(const struct rc_grid *grid, const double *row_edge, bool zero_is_none,
                           size_t w, size_t h, struct rc_err *err);
 void raster_free(struct raster *raster); /* NULL is allowed */
@@ -38,8 +38,8 @@ struct lines {
     size_t n, room;
 };
 
-/* Adds the line where the map, linear between the middles of its cells, has the value `level`; parts
- * without contact count as 0, missing cells have no line. */
+/* Adds the line where the map, linear between the middles of its cells, has the value `level`;
+ * parts without contact count as 0, missing cells have no line. */
 enum rc_status raster_contour(const struct raster *raster, double level, struct lines *lines,
                               struct rc_err *err);
 /* Adds the borders between cells in contact and cells that are not: contact ends with a cell. */

@@ -1,4 +1,5 @@
 /* rc-render: one map of a grid stream as a PNG. */
+#include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -33,7 +34,8 @@ static const struct opt opts[] = {
     {.name = "section", .type = OPT_CHOICE, .at = offsetof(struct args, wish.section),
      .result = true, .arg = "x|y", .help = "a section across this axis instead of a map"},
     {.name = "case", .type = OPT_COUNT, .at = offsetof(struct args, wish.number), .min = 1,
-     .max = 9e15, .result = true, .arg = "N", .help = "of several loads or files (default: the first)"},
+     .max = 9e15, .result = true, .arg = "N",
+     .help = "of several loads or files (default: the first)"},
     {.name = "colormap", .type = OPT_CHOICE, .at = offsetof(struct args, colormap), .result = true,
      .arg = COLORMAP_NAMES, .help = "colours for the values (default: what suits the channel)"},
     {.name = "range", .type = OPT_TEXT, .at = offsetof(struct args, range), .result = true,
@@ -56,8 +58,9 @@ static const struct tool_info info = {
     .name = "rc-render",
     .summary = "Draw one map of a grid stream as a PNG",
     .operands = "[FILE...]",
-    .examples = "  rc-synth sphere --nx 65 --ny 65 --dx 1um --radius 1mm | rc-render -o sphere.png\n"
-                "  rc-render --channel pressure --range 0:6GPa --contour -o contact.png result.rcg\n",
+    .examples =
+        "  rc-synth sphere --nx 65 --ny 65 --dx 1um --radius 1mm | rc-render -o sphere.png\n"
+        "  rc-render --channel pressure --range 0:6GPa --contour -o contact.png result.rcg\n",
     .opts = opts,
     .reads = READS_STREAM,
     .writes = WRITES_BYTES,
@@ -87,16 +90,17 @@ static const struct channel {
     {"s3", "Principal stress " SIGMA "3", "bluered", false},
 };
 
-/* A channel that is not in the table is called by its own name, and what has both signs gets colours
- * for both. */
+/* A channel that is not in the table is called by its own name, and what has both signs gets
+ * colours for both. */
 static struct channel
 describe(const struct rc_grid *g, const struct survey *s)
 {
     for (size_t k = 0; k < sizeof channels / sizeof *channels; k++)
         if (strcmp(channels[k].name, g->channel) == 0)
             return channels[k];
-    return (struct channel){g->channel, g->channel, s->min < 0 && s->max > 0 ? "bluered" : "viridis",
-                            false};
+    return (struct channel){.name = g->channel,
+                            .title = g->channel,
+                            .colormap = s->min < 0 && s->max > 0 ? "bluered" : "viridis"};
 }
 
 static bool
@@ -158,17 +162,17 @@ choose_range(const struct rc_grid *g, const struct survey *s, const struct color
     *lo = map->diverging ? -size : what->from_zero && s->min >= 0 ? 0 : s->min;
     *hi = map->diverging ? size : s->max;
     if (curve) {
-        margin = 0.05 * (s->max - s->min);
-        *lo = what->from_zero && s->min >= 0 ? 0 : s->min - margin;
-        *hi = s->max + margin;
+        margin = 0.05 * s->max - 0.05 * s->min;
+        *lo = what->from_zero && s->min >= 0 ? 0 : fmax(s->min - margin, -DBL_MAX);
+        *hi = fmin(s->max + margin, DBL_MAX);
     }
     if (size < 1e-300) { /* zero everywhere: a nanometre about it, or one of what else it is */
         size = unit_of(g) == UNIT_M ? 1e-9 : 1;
         *lo = what->from_zero ? 0 : -size;
         *hi = size;
     } else if (0.5 * *hi - 0.5 * *lo <= 1e-12 * size) { /* constant, but for rounding */
-        *lo = s->min - 0.1 * size;
-        *hi = s->max + 0.1 * size;
+        *lo = fmax(s->min - 0.1 * size, -DBL_MAX);
+        *hi = fmin(s->max + 0.1 * size, DBL_MAX);
     }
 }
 

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define MINUS "\xe2\x88\x92"
@@ -85,6 +86,9 @@ scale_value(char text[TICKS_TEXT], double value, const char *unit)
     struct scale scale;
     size_t n;
 
+    /* rounded first, because that can be what needs the next prefix: 999.96 nm is 1 um */
+    snprintf(text, TICKS_TEXT, "%.3e", value);
+    value = strtod(text, NULL);
     scale_choose(&scale, value, unit);
     put_number(text, "%.*g", 4, value / scale.size);
     n = strlen(text);
@@ -113,9 +117,9 @@ ticks_choose(struct ticks *t, double lo, double hi, double most)
     double least = (hi - lo) / most, step;
     int k = 0;
 
-    /* as far as doubles tell numbers apart: a range of one unit in the last place gets a mark too */
+    /* as far as doubles tell numbers apart: a range of one unit in the last place gets a mark too
+     */
     least = fmax(least, 1e-15 * fmax(fabs(lo), fabs(hi)));
-
     t->power = (int)floor(log10(least));
     while (k < 3 && digits[k] * pow(10, t->power) < least * (1 - slack))
         k++;

@@ -352,13 +352,14 @@ end_case(struct tool *t, const char *channel)
 {
     if (t->now.number != 0 && t->now.found == 0)
         tool_die(t, EXIT_IMPOSSIBLE, "%s, case %zu: no frame with the channel %s, only %s",
-                 t->source, t->now.number, channel, t->now.names);
+                 t->now.source, t->now.number, channel, t->now.names);
 }
 
 static void
 begin_case(struct tool *t, size_t number)
 {
     t->now.number = number;
+    t->now.source = t->source;
     t->now.found = 0;
     t->now.names[0] = '\0';
 }

@@ -111,6 +111,7 @@ struct tool {
     size_t last_case, frame; /* frame: place in the current source, from 1                 */
     struct {                 /* the case that tool_channel is in; number 0: none yet       */
         size_t number, found;
+        const char *source;  /* where it began                                             */
         char names[512];     /* its channels, for the message that one is missing          */
     } now;
     bool type_given, began, warned_short;

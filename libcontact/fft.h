@@ -1,0 +1,84 @@
+/*
+ * The transform engine by its parts: several kernels on one grid, one transform of the source, in
+ * double or single precision, on the free or the periodic boundary. Internal: never installed.
+ *
+ * Only fft_body.h, compiled once for each precision, knows FFTW.
+ */
+#ifndef RC_FFT_H
+#define RC_FFT_H
+
+#include "inside.h"
+
+enum rc_precision {
+    RC_DOUBLE,
+    RC_SINGLE /* inside; maps are double on both sides */
+};
+
+struct rc_fft;
+struct rc_spectrum; /* of one kernel: a quarter of it, real */
+
+struct rc_fft *rc_fft_new(const struct rc_shape *shape, enum rc_boundary boundary,
+                          enum rc_precision precision, size_t threads, struct rc_err *err);
+void rc_fft_free(struct rc_fft *fft);
+/* Bytes of a plan with one spectrum, and of each further spectrum. */
+size_t rc_fft_memory(const struct rc_shape *shape, enum rc_boundary boundary,
+                     enum rc_precision precision);
+size_t rc_spectrum_memory(const struct rc_shape *shape, enum rc_boundary boundary,
+                          enum rc_precision precision);
+
+/* NULL when memory is short. */
+struct rc_spectrum *rc_spectrum_new(const struct rc_fft *fft, struct rc_err *err);
+void rc_spectrum_free(struct rc_spectrum *spectrum);
+/* Makes it the spectrum of a kernel's component: on the free boundary the transform of its values,
+ * on the periodic one its symbol. RC_FAIL when memory is short or the kernel has no symbol. */
+enum rc_status rc_spectrum_set(struct rc_spectrum *spectrum, const struct rc_fft *fft,
+                               const struct rc_kernel *kernel, size_t component,
+                               const struct rc_medium *medium, struct rc_err *err);
+/* The same, of the kernel's reciprocal: the inverse of the padded circulant, or of the symbol; zero
+ * where the symbol is zero. */
+enum rc_status rc_spectrum_set_inverse(struct rc_spectrum *spectrum, const struct rc_fft *fft,
+                                       const struct rc_kernel *kernel, size_t component,
+                                       const struct rc_medium *medium, struct rc_err *err);
+
+/* u = K p. u and p may be the same. */
+void rc_fft_apply(struct rc_fft *fft, const struct rc_spectrum *kernel, const double *p, double *u);
+/* Keeps the whole transform of p; then u = K p for as many kernels as are wanted. */
+enum rc_status rc_fft_load(struct rc_fft *fft, const double *p, struct rc_err *err);
+void rc_fft_field(struct rc_fft *fft, const struct rc_spectrum *kernel, double *u);
+
+/* ---- between fft.c and fft_body.h ---- */
+
+/* Columns have length py = split * m and are transformed as `split` interleaved transforms of
+ * length m: with w = exp(-2 pi i / py),
+ *
+ *     X[split k + r] = sum over n < m of y_r[n] exp(-2 pi i n k / m),
+ *     y_r[n] = w^(r n) sum over s < parts of (-i)^(r s) x[n + s m],       split = 4
+ *
+ * where only the first `parts` pieces of length m are not zero. split = 1 leaves it to FFTW. */
+struct rc_layout {
+    size_t nx, ny;
+    size_t px, py;  /* transform lengths                                                     */
+    size_t cx;      /* px/2 + 1 columns                                                      */
+    size_t stride;  /* complex numbers from row to row, a whole number of cache lines         */
+    size_t split, m, parts;
+    size_t packed;  /* py/2 + 1: numbers of a column of a spectrum                            */
+    int threads;
+};
+
+/* A column of a spectrum of n = py/2 + 1 numbers is stored as A[k] = s(split k) up to the middle and,
+ * for split 4, B[k] = s(4k + 1) for all k < m (beyond the middle by symmetry, which also gives
+ * residue 3) and C[k] = s(4k + 2) up to the middle. */
+size_t rc_packed_place(const struct rc_layout *layout, size_t q, double mirror, double *sign);
+
+struct rc_fft_ops {
+    size_t real_size; /* bytes of a real number */
+    void *(*new)(const struct rc_layout *layout); /* NULL: out of memory */
+    void (*free)(void *plan);
+    void (*store)(void *packed, size_t at, double value); /* into a spectrum */
+    void (*apply)(void *plan, const void *packed, unsigned parity, const double *p, double *u);
+    bool (*load)(void *plan, const double *p); /* false: out of memory */
+    void (*field)(void *plan, const void *packed, unsigned parity, double *u);
+};
+extern const struct rc_fft_ops rc_fft_double, rc_fft_single;
+
+#endif
