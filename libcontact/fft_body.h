@@ -30,17 +30,36 @@ struct plan {
     struct rc_layout l;
     FFTW(plan) row_forward, row_back, column_forward, column_back;
     COMPLEX *half;    /* ny rows of `stride`                                                  */
-    COMPLEX *source;  /* cx columns of py, transformed: a loaded map; or NULL                  */
-    COMPLEX *twiddle; /* w^n, w^2n, w^3n for n < m (split 4)                                   */
+    COMPLEX *source;  /* cx columns in pieces, transformed: a loaded map; or NULL              */
+    COMPLEX *twiddle; /* w^n, w^2n, w^3n for each n < m (split 4)                              */
     COMPLEX *scratch; /* for each thread: LINE columns, one more, and a row                    */
     size_t column;    /* complex numbers of one column in scratch: split pieces and gaps       */
     size_t space;     /* complex numbers of scratch of one thread                              */
 };
 
+/* FFTW uses the wide registers only on aligned data: everything it sees begins a cache line. */
+static size_t
+whole_lines(size_t n)
+{
+    return (n + LINE - 1) / LINE * LINE;
+}
+
+static COMPLEX *
+allocate(size_t n)
+{
+    return aligned_alloc(64, whole_lines(n) * sizeof(COMPLEX));
+}
+
 static size_t
 piece(const struct plan *f)
 {
-    return f->l.m + GAP;
+    return whole_lines(f->l.m) + GAP;
+}
+
+static COMPLEX *
+source_of(const struct plan *f, size_t column, size_t r)
+{
+    return f->source + column * f->column + r * piece(f);
 }
 
 static void
@@ -57,26 +76,27 @@ plan_free(void *at)
         FFTW(destroy_plan)(f->column_forward);
         FFTW(destroy_plan)(f->column_back);
     }
-    FFTW(free)(f->half);
-    FFTW(free)(f->source);
-    FFTW(free)(f->twiddle);
-    FFTW(free)(f->scratch);
+    free(f->half);
+    free(f->source);
+    free(f->twiddle);
+    free(f->scratch);
     free(f);
 }
 
-/* Where a thread's row (px reals and px/2 + 1 complex numbers) lies in its scratch. */
-static COMPLEX *
+/* Where a thread's row of px reals lies in its scratch; before it, room for its transform. */
+static REAL *
 row_of(const struct plan *f, COMPLEX *scratch)
 {
-    return scratch + (LINE + 1) * f->column;
+    return (REAL *)(scratch + (LINE + 1) * f->column + f->l.stride);
 }
 
 static bool
 make_plans(struct plan *f)
 {
-    const unsigned how = FFTW_ESTIMATE | FFTW_UNALIGNED;
-    COMPLEX *a = f->scratch, *b = a + f->column, *half = row_of(f, a);
-    REAL *row = (REAL *)(half + f->l.cx);
+    const unsigned how = FFTW_ESTIMATE;
+    COMPLEX *a = f->scratch, *b = a + f->column;
+    REAL *row = row_of(f, a);
+    COMPLEX *half = (COMPLEX *)row - f->l.stride;
     int px = (int)f->l.px, m = (int)f->l.m;
 
     /* The planner is the one part of FFTW that two threads may not enter at once. */
@@ -100,7 +120,7 @@ make_twiddles(struct plan *f)
     for (size_t n = 0; n < m; n++)
         for (size_t r = 1; r < 4; r++) {
             double angle = turn * (double)(r * n);
-            f->twiddle[(r - 1) * m + n] = (COMPLEX)(cos(angle) + I * sin(angle));
+            f->twiddle[3 * n + r - 1] = (COMPLEX)(cos(angle) + I * sin(angle));
         }
 }
 
@@ -112,15 +132,17 @@ plan_new(const struct rc_layout *l)
     if (f == NULL)
         return NULL;
     f->l = *l;
-    f->column = (l->split * (l->m + GAP) + LINE - 1) / LINE * LINE;
-    f->space = (LINE + 1) * f->column + (l->cx + l->px / 2 + 1 + 2 * LINE) / LINE * LINE;
-    f->half = FFTW(alloc_complex)(l->ny * l->stride);
-    f->scratch = FFTW(alloc_complex)((size_t)l->threads * f->space);
-    f->twiddle = FFTW(alloc_complex)(3 * l->m);
+    f->column = l->split * piece(f);
+    f->space = (LINE + 1) * f->column + l->stride + whole_lines(l->px / 2 + 1);
+    f->half = allocate(l->ny * l->stride);
+    f->scratch = allocate((size_t)l->threads * f->space);
+    f->twiddle = allocate(3 * l->m);
     if (f->half == NULL || f->scratch == NULL || f->twiddle == NULL || !make_plans(f)) {
         plan_free(f);
         return NULL;
     }
+    memset(f->half, 0, l->ny * l->stride * sizeof *f->half); /* columns that fill up a line */
+    memset(f->scratch, 0, (size_t)l->threads * f->space * sizeof *f->scratch);
     if (l->split == 4)
         make_twiddles(f);
     return f;
@@ -141,7 +163,7 @@ rows_forward(struct plan *f, const double *p)
 
 #pragma omp parallel for num_threads(l->threads) schedule(static)
     for (size_t j = 0; j < l->ny; j++) {
-        REAL *row = (REAL *)(row_of(f, scratch_of(f)) + l->cx);
+        REAL *row = row_of(f, scratch_of(f));
         const double *from = p + j * l->nx;
         bool loaded = false;
 
@@ -165,7 +187,7 @@ rows_back(struct plan *f, double *u)
 
 #pragma omp parallel for num_threads(l->threads) schedule(static)
     for (size_t j = 0; j < l->ny; j++) {
-        REAL *row = (REAL *)(row_of(f, scratch_of(f)) + l->cx);
+        REAL *row = row_of(f, scratch_of(f));
 
         FFTW(execute_dft_c2r)(f->row_back, f->half + j * l->stride, row);
         for (size_t i = 0; i < l->nx; i++)
@@ -175,77 +197,108 @@ rows_back(struct plan *f, double *u)
 
 /* ---- columns ---- */
 
-/* The first stage of the transform of n columns from `first`, out of `half`: y_r of column b stands
- * at y + b * column + r * piece. */
-static void
-gather(const struct plan *f, size_t first, size_t n, COMPLEX *y)
+/* One butterfly: y_r = w^r sum_s (-i)^(r s) x_s for a whole line of columns; x_s stand `step` apart,
+ * `have` of them, y_r of column b at y + b * column + r * gap. */
+static inline void
+split(const struct plan *f, const COMPLEX *x, size_t step, int have, const COMPLEX w[3],
+      COMPLEX *restrict y)
+{
+    size_t gap = piece(f);
+
+    for (size_t b = 0; b < LINE; b++, y += f->column) {
+        COMPLEX x0 = x[b], x1 = have > 1 ? x[step + b] : 0;
+        COMPLEX x2 = have > 2 ? x[2 * step + b] : 0, x3 = have > 2 ? x[3 * step + b] : 0;
+        COMPLEX even = x0 + x2, odd = x0 - x2, sum = x1 + x3, cross = x1 - x3;
+        COMPLEX turned = CMPLX_OF(C99(cimag)(cross), -C99(creal)(cross)); /* -i (x1 - x3) */
+        y[0] = even + sum;
+        y[gap] = (odd + turned) * w[0];
+        y[2 * gap] = (even - sum) * w[1];
+        y[3 * gap] = (odd - turned) * w[2];
+    }
+}
+
+/* Its inverse, of which `want` values are written. */
+static inline void
+join(const struct plan *f, COMPLEX *x, size_t step, int want, const COMPLEX w[3],
+     const COMPLEX *restrict y)
+{
+    size_t gap = piece(f);
+    COMPLEX w1 = C99(conj)(w[0]), w2 = C99(conj)(w[1]), w3 = C99(conj)(w[2]);
+
+    for (size_t b = 0; b < LINE; b++, y += f->column) {
+        COMPLEX y0 = y[0], y1 = y[gap] * w1, y2 = y[2 * gap] * w2, y3 = y[3 * gap] * w3;
+        COMPLEX even = y0 + y2, odd = y0 - y2, sum = y1 + y3, cross = y1 - y3;
+        COMPLEX turned = CMPLX_OF(-C99(cimag)(cross), C99(creal)(cross)); /* i (y1 - y3) */
+        x[b] = even + sum;
+        if (want > 1)
+            x[step + b] = odd + turned;
+        if (want > 2) {
+            x[2 * step + b] = even - sum;
+            x[3 * step + b] = odd - turned;
+        }
+    }
+}
+
+/* Nodes j < both have a partner at j + m on the map, those up to m do not (free boundary). */
+static size_t
+partners(const struct rc_layout *l)
+{
+    return l->parts > 2 || l->ny < l->m ? 0 : l->ny - l->m;
+}
+
+/* The first stage of the transform of a line of columns from `first`, out of `half`. */
+RC_CLONES static void
+gather(const struct plan *f, size_t first, COMPLEX *y)
 {
     const struct rc_layout *l = &f->l;
-    size_t m = l->m, gap = piece(f);
-    const COMPLEX *w = f->twiddle;
+    const COMPLEX *x = f->half + first, *w = f->twiddle;
+    size_t step = l->m * l->stride, both = partners(l), j = 0;
 
     if (l->split == 1) {
-        for (size_t j = 0; j < m; j++)
-            for (size_t b = 0; b < n; b++)
-                y[b * f->column + j] = f->half[j * l->stride + first + b];
-        return;
-    }
-    for (size_t j = 0; j < m; j++) {
-        COMPLEX w1 = w[j], w2 = w[m + j], w3 = w[2 * m + j];
-        for (size_t b = 0; b < n; b++) {
-            const COMPLEX *x = f->half + j * l->stride + first + b;
-            COMPLEX x0 = j < l->ny ? x[0] : 0;
-            COMPLEX x1 = j + m < l->ny ? x[m * l->stride] : 0;
-            COMPLEX x2 = l->parts > 2 ? x[2 * m * l->stride] : 0;
-            COMPLEX x3 = l->parts > 2 ? x[3 * m * l->stride] : 0;
-            COMPLEX even = x0 + x2, odd = x0 - x2, sum = x1 + x3, cross = x1 - x3;
-            COMPLEX turned = CMPLX_OF(C99(cimag)(cross), -C99(creal)(cross)); /* -i (x1 - x3) */
-            COMPLEX *to = y + b * f->column + j;
-            to[0] = even + sum;
-            to[gap] = (odd + turned) * w1;
-            to[2 * gap] = (even - sum) * w2;
-            to[3 * gap] = (odd - turned) * w3;
-        }
+        for (; j < l->m; j++, x += l->stride)
+            for (size_t b = 0; b < LINE; b++)
+                y[b * f->column + j] = x[b];
+    } else if (l->parts > 2) {
+        for (; j < l->m; j++, x += l->stride, w += 3)
+            split(f, x, step, 4, w, y + j);
+    } else {
+        for (; j < both; j++, x += l->stride, w += 3)
+            split(f, x, step, 2, w, y + j);
+        for (; j < l->m && j < l->ny; j++, x += l->stride, w += 3)
+            split(f, x, step, 1, w, y + j);
+        for (; j < l->m; j++)
+            for (size_t b = 0; b < LINE; b++)
+                for (size_t r = 0; r < 4; r++)
+                    y[b * f->column + r * piece(f) + j] = 0;
     }
 }
 
 /* The last stage of the transform back, into `half`. */
-static void
-scatter(struct plan *f, size_t first, size_t n, const COMPLEX *y)
+RC_CLONES static void
+scatter(struct plan *f, size_t first, const COMPLEX *y)
 {
     const struct rc_layout *l = &f->l;
-    size_t m = l->m, gap = piece(f);
     const COMPLEX *w = f->twiddle;
+    COMPLEX *x = f->half + first;
+    size_t step = l->m * l->stride, both = partners(l), j = 0;
 
     if (l->split == 1) {
-        for (size_t j = 0; j < m; j++)
-            for (size_t b = 0; b < n; b++)
-                f->half[j * l->stride + first + b] = y[b * f->column + j];
-        return;
-    }
-    for (size_t j = 0; j < m; j++) {
-        COMPLEX w1 = C99(conj)(w[j]), w2 = C99(conj)(w[m + j]), w3 = C99(conj)(w[2 * m + j]);
-        for (size_t b = 0; b < n; b++) {
-            const COMPLEX *from = y + b * f->column + j;
-            COMPLEX y0 = from[0], y1 = from[gap] * w1, y2 = from[2 * gap] * w2;
-            COMPLEX y3 = from[3 * gap] * w3;
-            COMPLEX even = y0 + y2, odd = y0 - y2, sum = y1 + y3, cross = y1 - y3;
-            COMPLEX turned = CMPLX_OF(-C99(cimag)(cross), C99(creal)(cross)); /* i (y1 - y3) */
-            COMPLEX *x = f->half + j * l->stride + first + b;
-            if (j < l->ny)
-                x[0] = even + sum;
-            if (j + m < l->ny)
-                x[m * l->stride] = odd + turned;
-            if (l->parts > 2) {
-                x[2 * m * l->stride] = even - sum;
-                x[3 * m * l->stride] = odd - turned;
-            }
-        }
+        for (; j < l->m; j++, x += l->stride)
+            for (size_t b = 0; b < LINE; b++)
+                x[b] = y[b * f->column + j];
+    } else if (l->parts > 2) {
+        for (; j < l->m; j++, x += l->stride, w += 3)
+            join(f, x, step, 4, w, y + j);
+    } else {
+        for (; j < both; j++, x += l->stride, w += 3)
+            join(f, x, step, 2, w, y + j);
+        for (; j < l->m && j < l->ny; j++, x += l->stride, w += 3)
+            join(f, x, step, 1, w, y + j);
     }
 }
 
 /* z[k] *= s[k] for k < n, or s[-k] when step is -1, times a power of -i. */
-static void
+RC_CLONES static void
 times(COMPLEX *restrict z, size_t n, const REAL *restrict s, ptrdiff_t step, int turns, REAL sign)
 {
     REAL *v = (REAL *)z;
@@ -313,7 +366,7 @@ apply(void *at, const void *packed, unsigned parity, const double *p, double *u)
         size_t n = l->cx - c < LINE ? l->cx - c : LINE;
         COMPLEX *y = scratch_of(f), *z = y + LINE * f->column;
 
-        gather(f, c, n, y);
+        gather(f, c, y);
         for (size_t b = 0; b < n; b++)
             for (size_t r = 0; r < l->split; r++) {
                 COMPLEX *one = y + b * f->column + r * piece(f);
@@ -321,7 +374,7 @@ apply(void *at, const void *packed, unsigned parity, const double *p, double *u)
                 multiply(l, s + (c + b) * l->packed, parity, r, z);
                 FFTW(execute_dft)(f->column_back, z, one);
             }
-        scatter(f, c, n, y);
+        scatter(f, c, y);
     }
     rows_back(f, u);
 }
@@ -332,7 +385,7 @@ load(void *at, const double *p)
     struct plan *f = at;
     const struct rc_layout *l = &f->l;
 
-    if (f->source == NULL && (f->source = FFTW(alloc_complex)(l->cx * l->py)) == NULL)
+    if (f->source == NULL && (f->source = allocate(l->cx * f->column)) == NULL)
         return false;
     rows_forward(f, p);
 #pragma omp parallel for num_threads(l->threads) schedule(static)
@@ -340,11 +393,11 @@ load(void *at, const double *p)
         size_t n = l->cx - c < LINE ? l->cx - c : LINE;
         COMPLEX *y = scratch_of(f);
 
-        gather(f, c, n, y);
+        gather(f, c, y);
         for (size_t b = 0; b < n; b++)
             for (size_t r = 0; r < l->split; r++)
                 FFTW(execute_dft)(f->column_forward, y + b * f->column + r * piece(f),
-                                  f->source + (c + b) * l->py + r * l->m);
+                                  source_of(f, c + b, r));
     }
     return true;
 }
@@ -363,11 +416,11 @@ field(void *at, const void *packed, unsigned parity, double *u)
 
         for (size_t b = 0; b < n; b++)
             for (size_t r = 0; r < l->split; r++) {
-                memcpy(z, f->source + (c + b) * l->py + r * l->m, l->m * sizeof *z);
+                memcpy(z, source_of(f, c + b, r), l->m * sizeof *z);
                 multiply(l, s + (c + b) * l->packed, parity, r, z);
                 FFTW(execute_dft)(f->column_back, z, y + b * f->column + r * piece(f));
             }
-        scatter(f, c, n, y);
+        scatter(f, c, y);
     }
     rows_back(f, u);
 }

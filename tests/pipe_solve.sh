@@ -32,4 +32,16 @@ claim "nor does a saturated one keep the approach of an earlier one" bash -c '
     rc-solve --quiet --mean-pressure 1GPa --hardness 1GPa --estar 100GPa --output pressure \
         once.rcg -o full.rcg && rc-info full.rcg >full.txt && ! grep -q approach= full.txt'
 
+claim "Poisson's ratio of an earlier solution goes when the elasticity is given as E*" bash -c '
+    rc-solve --quiet --load 9N --E1 1GPa --nu1 0.3 --E2 1GPa --nu2 0.3 --output height ball.rcg |
+        rc-solve --quiet --load 9N --estar 1GPa --output pressure -o later.rcg &&
+    rc-info later.rcg >later.txt && ! grep -q "nu=" later.txt'
+
+sed 's/^unit=m$/unit=rad/' ball.rcg >rad.rcg
+refuses 1 "checksum|unit is 'rad'" "heights that are no heights" "rc-solve --load 1N --estar 1GPa rad.rcg"
+refuses 1 '--report nowhere/r.json' "a report that cannot be written, before the work" \
+    "rc-solve --load 1N --estar 1GPa --report nowhere/r.json ball.rcg"
+refuses 0 'strip 2e-05 m wide' "a profile is solved, with a warning that it is a strip" \
+    "rc-synth sphere --nx 50 --ny 1 --dx 20um --radius 1mm | rc-solve --load 1mN --estar 1GPa | cat"
+
 finish

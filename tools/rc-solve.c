@@ -155,6 +155,9 @@ warn_before(struct run *run, const struct rc_grid *g)
     if (periodic != NULL && strcmp(periodic, "yes") == 0 && isnan(args.radius))
         tool_warn(&run->t, "%s: the surface is periodic, the solution is not: beyond the map there "
                            "is no material", where);
+    if (g->ny == 1 && g->nx > 1)
+        tool_warn(&run->t, "%s: a profile is solved as a strip %g m wide, not as a ridge without "
+                           "end", where, g->dy);
     rc_measure(&shape, g->v, &st);
     if (st.rms_slope > 0.3)
         tool_warn(&run->t, "%s: RMS slope %.2f is beyond the theory of small slopes (0.3): expect "
@@ -213,29 +216,32 @@ solve(struct run *run, const struct rc_grid *g)
 
 /* ---- results ---- */
 
+/* Sets a key, or, where the number is not known, takes away one that an earlier solution left. */
+static void
+set_number(struct run *run, struct rc_grid *g, const char *name, double value)
+{
+    struct rc_err err;
+
+    if ((isfinite(value) ? rc_grid_set_number(g, name, value, &err)
+                         : rc_grid_set(g, name, NULL, &err)) != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+}
+
 static void
 set_keys(struct run *run, struct rc_grid *g, const struct rc_contact *c)
 {
     struct rc_err err;
-    double load = isnan(args.load) ? c->load : args.load; /* the same but for rounding */
-    bool ok = rc_grid_set(g, "boundary", "free", &err) == RC_OK &&
-              rc_grid_set_number(g, "estar", run->estar, &err) == RC_OK &&
-              rc_grid_set_number(g, "load", load, &err) == RC_OK &&
-              rc_grid_set(g, "converged", c->converged ? "yes" : "no", &err) == RC_OK &&
-              rc_grid_history(g, tool_history(&run->t), &err) == RC_OK;
 
-    if (ok && !isnan(run->nu))
-        ok = rc_grid_set_number(g, "nu", run->nu, &err) == RC_OK;
-    /* those of an earlier solution that came in with the height go */
-    if (ok)
-        ok = (isfinite(args.hardness)
-                  ? rc_grid_set_number(g, "hardness", args.hardness, &err)
-                  : rc_grid_set(g, "hardness", NULL, &err)) == RC_OK;
-    if (ok)
-        ok = (isfinite(c->approach) ? rc_grid_set_number(g, "approach", c->approach, &err)
-                                    : rc_grid_set(g, "approach", NULL, &err)) == RC_OK;
-    if (!ok)
+    if (rc_grid_set(g, "boundary", "free", &err) != RC_OK ||
+        rc_grid_set(g, "converged", c->converged ? "yes" : "no", &err) != RC_OK ||
+        rc_grid_history(g, tool_history(&run->t), &err) != RC_OK)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    set_number(run, g, "estar", run->estar);
+    set_number(run, g, "nu", run->nu);
+    /* the load asked for and the one reached are the same but for rounding */
+    set_number(run, g, "load", isnan(args.load) ? c->load : args.load);
+    set_number(run, g, "hardness", args.hardness);
+    set_number(run, g, "approach", c->approach);
 }
 
 static const char *
@@ -336,6 +342,10 @@ do_case(struct run *run, struct rc_grid *g)
     struct rc_contact c;
     double start;
 
+    if (strcmp(g->unit, "m") != 0)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE,
+                    "its unit is '%s': heights are in metres; import the file again with --z-unit",
+                    g->unit);
     tool_demand_finite(&run->t, g, "fill them with rc-detrend --fill");
     if (!isnan(args.radius))
         add_sphere(run, g);
@@ -375,6 +385,7 @@ main(int argc, char **argv)
 
     tool_start(&run.t, &info, argc, argv, &args);
     check_arguments(&run);
+    tool_demand_writable(&run.t, "--report", args.report);
     tool_catch_signals();
     while (tool_interrupted() == 0 && (g = tool_channel(&run.t, "height", false)) != NULL) {
         do_case(&run, g);

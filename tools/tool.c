@@ -413,6 +413,24 @@ tool_demand_finite(struct tool *t, const struct rc_grid *g, const char *remedy)
 }
 
 void
+tool_demand_writable(struct tool *t, const char *option, const char *name)
+{
+    char folder[PATH_SIZE];
+    const char *slash, *where = name;
+
+    if (name == NULL)
+        return;
+    if (access(name, F_OK) != 0) { /* to be made: its folder has to let us */
+        slash = strrchr(name, '/');
+        snprintf(folder, sizeof folder, "%.*s", slash == NULL ? 1 : (int)(slash - name) + 1,
+                 slash == NULL ? "." : name);
+        where = folder;
+    }
+    if (access(where, W_OK) != 0)
+        tool_die(t, EXIT_IMPOSSIBLE, "%s %s: %s", option, name, strerror(errno));
+}
+
+void
 tool_demand_memory(struct tool *t, const struct rc_grid *g, size_t bytes)
 {
     if (t->memory != 0 && bytes > t->memory)

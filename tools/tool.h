@@ -170,6 +170,9 @@ const char *tool_where(const struct tool *tool, const struct rc_grid *grid, char
 /* Ends the tool when a value is NaN or infinite, with their count and the first one's place;
  * `remedy` says what to do about them. */
 void tool_demand_finite(struct tool *tool, const struct rc_grid *grid, const char *remedy);
+/* Ends the tool when the file that an option names (NULL: none) cannot be written: said before the
+ * work, not after it. */
+void tool_demand_writable(struct tool *tool, const char *option, const char *name);
 /* Ends the tool when `bytes` are more than --memory allows. */
 void tool_demand_memory(struct tool *tool, const struct rc_grid *grid, size_t bytes);
 
