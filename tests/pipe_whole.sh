@@ -113,7 +113,7 @@ refuses 1 '.' "a zip under another name" "rc-import hello.zip -o out.rcg"
 claim "  and nothing is left behind" untouched
 
 # A terminal as output. `script` gives the command one.
-refuses 1 'terminal' "a terminal as output" \
+refuses 1 'standard output is a terminal' "a terminal as output" \
     "script -qec '$solve good.rcg' /dev/null >terminal.txt; s=\$?; cat terminal.txt >&2; exit \$s"
 
 # ---- interrupted ----
