@@ -105,16 +105,30 @@ enum rc_boundary {
     RC_PERIODIC /* the map repeats for ever                                                    */
 };
 
-/* u = K p on the free half-space: displacement in metres of the composite modulus estar (Pa) under
- * pressure p (Pa). `engine` is a name in engines.list or "auto". */
-struct rc_conv *rc_conv_new(const struct rc_shape *shape, double estar, const char *engine,
-                            size_t threads, struct rc_err *err);
+struct rc_conv_options {
+    enum rc_boundary boundary;
+    const char *engine; /* a row of engines.list, or NULL or "auto"                              */
+    double tol;         /* asked error of u, relative to the sum of |K| |p|; 0: rounding          */
+    size_t order, correction; /* of the engine mlms by hand, both or none: t, m_c                */
+    size_t memory;      /* bytes that "auto" may take; 0: any                                    */
+    double loaded;      /* fraction of nodes that carry pressure, as "auto" may expect; 0: unknown */
+    size_t threads;     /* 0: all                                                                */
+};
+
+/* u = K p: displacement in metres of the composite modulus estar (Pa) under pressure p (Pa). With
+ * RC_PERIODIC the mean of u is 0: the mean pressure moves a periodic half-space without limit. */
+struct rc_conv *rc_conv_new(const struct rc_shape *shape, double estar,
+                            const struct rc_conv_options *options, struct rc_err *err);
 /* p and u do not overlap. */
 void rc_conv_apply(struct rc_conv *conv, const double *p, double *u);
+/* Name of the engine, and in a few words why it was taken. */
 const char *rc_conv_engine(const struct rc_conv *conv);
+const char *rc_conv_reason(const struct rc_conv *conv);
+/* The engine's own bound on the error of u, relative to the sum of |K| |p|. */
+double rc_conv_error(const struct rc_conv *conv);
 void rc_conv_free(struct rc_conv *conv);
-/* Bytes that a plan of this engine takes beside p and u. */
-size_t rc_conv_memory(const struct rc_shape *shape, const char *engine);
+/* Bytes that such a plan takes beside p and u; 0 when there is no such engine. */
+size_t rc_conv_memory(const struct rc_shape *shape, const struct rc_conv_options *options);
 
 /* ---- solver: solver.c ---- */
 
@@ -163,10 +177,11 @@ const double *rc_solver_pressure(const struct rc_solver *solver);
 void rc_solver_result(struct rc_solver *solver, double *displacement, double *gap,
                       struct rc_contact *contact);
 const char *rc_solver_engine(const struct rc_solver *solver);
+const char *rc_solver_engine_reason(const struct rc_solver *solver);
 const char *rc_solver_method(const struct rc_solver *solver);
 void rc_solver_free(struct rc_solver *solver);
 /* Bytes that a solver of this size takes. */
-size_t rc_solver_memory(const struct rc_shape *shape, const char *engine);
+size_t rc_solver_memory(const struct rc_shape *shape, const struct rc_problem *problem);
 
 /* ---- stress: stress.c ---- */
 

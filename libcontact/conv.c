@@ -1,3 +1,6 @@
+/*
+ * One kernel on one grid: which engine does the sums, and why.
+ */
 #include "inside.h"
 
 #include <stdlib.h>
@@ -16,29 +19,74 @@ enum {
 
 struct rc_conv {
     const struct rc_engine *engine;
+    const char *reason;
     void *plan;
 };
 
-static const struct rc_engine *
-choose(const struct rc_shape *shape, const char *name, struct rc_err *err)
+static struct rc_sum
+sum_of(const struct rc_shape *shape, double estar, const struct rc_conv_options *o)
 {
-    if (name == NULL || strcmp(name, "auto") == 0)
-        return shape->nx * shape->ny <= SMALL ? &rc_engine_direct : &rc_engine_fft;
+    return (struct rc_sum){.shape = *shape,
+                           .boundary = o->boundary,
+                           .kernel = &rc_kernel_boussinesq,
+                           .medium = {.estar = estar},
+                           .tol = o->tol,
+                           .order = o->order,
+                           .correction = o->correction,
+                           .threads = o->threads};
+}
+
+static const struct rc_engine *
+named(const char *name)
+{
     for (size_t k = 0; k < ENGINES; k++)
         if (strcmp(engines[k]->name, name) == 0)
             return engines[k];
-    rc_err_set(err, "there is no engine '%s'", name);
     return NULL;
 }
 
+/* The choice among the engines, with its reason. */
+static const struct rc_engine *
+choose(const struct rc_sum *sum, const struct rc_conv_options *o, const char **reason)
+{
+    if (sum->boundary == RC_PERIODIC) {
+        *reason = "the boundary is periodic";
+        return named("fft");
+    }
+    if (sum->order != 0) {
+        *reason = "its order is given";
+        return named("mlms");
+    }
+    if (sum->shape.nx * sum->shape.ny <= SMALL) {
+        *reason = "the grid is small";
+        return named("direct");
+    }
+    if (o->memory != 0 && named("fft")->memory(sum) > o->memory &&
+        named("mlms")->memory(sum) <= o->memory) {
+        *reason = "the transforms need more memory than is allowed";
+        return named("mlms");
+    }
+    *reason = "the fastest of those that are exact to rounding";
+    return named("fft");
+}
+
+static const struct rc_engine *
+find(const struct rc_sum *sum, const struct rc_conv_options *o, const char **reason,
+     struct rc_err *err)
+{
+    if (o->engine == NULL || strcmp(o->engine, "auto") == 0)
+        return choose(sum, o, reason);
+    *reason = "asked for";
+    if (named(o->engine) == NULL)
+        rc_err_set(err, "there is no engine '%s'", o->engine);
+    return named(o->engine);
+}
+
 struct rc_conv *
-rc_conv_new(const struct rc_shape *shape, double estar, const char *engine, size_t threads,
+rc_conv_new(const struct rc_shape *shape, double estar, const struct rc_conv_options *options,
             struct rc_err *err)
 {
-    struct rc_sum sum = {.shape = *shape,
-                         .kernel = &rc_kernel_boussinesq,
-                         .medium = {.estar = estar},
-                         .threads = threads};
+    struct rc_sum sum = sum_of(shape, estar, options);
     struct rc_conv *conv = NULL;
 
     if (rc_shape_check(shape, err) != RC_OK)
@@ -48,7 +96,7 @@ rc_conv_new(const struct rc_shape *shape, double estar, const char *engine, size
         rc_err_set(err, "out of memory for a plan");
         return NULL;
     }
-    if ((conv->engine = choose(shape, engine, err)) == NULL ||
+    if ((conv->engine = find(&sum, options, &conv->reason, err)) == NULL ||
         (conv->plan = conv->engine->new(&sum, err)) == NULL) {
         rc_conv_free(conv);
         return NULL;
@@ -68,6 +116,18 @@ rc_conv_engine(const struct rc_conv *conv)
     return conv->engine->name;
 }
 
+const char *
+rc_conv_reason(const struct rc_conv *conv)
+{
+    return conv->reason;
+}
+
+double
+rc_conv_error(const struct rc_conv *conv)
+{
+    return conv->engine->error(conv->plan);
+}
+
 void
 rc_conv_free(struct rc_conv *conv)
 {
@@ -79,10 +139,11 @@ rc_conv_free(struct rc_conv *conv)
 }
 
 size_t
-rc_conv_memory(const struct rc_shape *shape, const char *name)
+rc_conv_memory(const struct rc_shape *shape, const struct rc_conv_options *options)
 {
-    struct rc_sum sum = {.shape = *shape, .kernel = &rc_kernel_boussinesq};
-    const struct rc_engine *engine = choose(shape, name, NULL);
+    struct rc_sum sum = sum_of(shape, 1, options);
+    const char *reason;
+    const struct rc_engine *engine = find(&sum, options, &reason, NULL);
 
     return engine == NULL ? 0 : engine->memory(&sum);
 }

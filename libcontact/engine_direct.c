@@ -42,6 +42,10 @@ plan_new(const struct rc_sum *sum, struct rc_err *err)
 
     if (rc_shape_check(s, err) != RC_OK)
         return NULL;
+    if (sum->boundary != RC_FREE) {
+        rc_err_set(err, "the direct sum has no end on a periodic boundary: use fft");
+        return NULL;
+    }
     plan = calloc(1, sizeof *plan);
     if (plan == NULL || (plan->k = malloc(width * s->ny * sizeof(double))) == NULL) {
         rc_err_set(err, "out of memory for a kernel of %zu x %zu values", width, s->ny);

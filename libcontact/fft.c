@@ -10,6 +10,7 @@
 #include "fft.h"
 
 #include <math.h>
+#include <omp.h>
 #include <stdlib.h>
 
 #include "fourier.h"
@@ -164,92 +165,115 @@ rc_spectrum_free(struct rc_spectrum *k)
     free(k);
 }
 
-size_t
-rc_packed_place(const struct rc_layout *l, size_t q, double mirror, double *sign)
-{
-    size_t m = l->m, b = m / 2 + 1, c = b + m;
+enum {
+    ROWS = 8,   /* of a kernel's table evaluated together                                    */
+    COLUMNS = 8 /* taken out of it together: a cache line                                    */
+};
 
-    *sign = 1;
-    if (l->split == 1)
-        return q;
-    switch (q % 4) {
-    case 0:
-        return q / 4;
-    case 1:
-        return b + q / 4;
-    case 2:
-        return c + q / 4;
-    default: /* stands for its mirror image 4 (m - 1 - k) + 1 */
-        *sign = mirror;
-        return b + m - 1 - q / 4;
-    }
-}
-
-/* Packs one column s of py/2 + 1 numbers. */
+/* What becomes of a column of the spectrum: its reciprocal or not, packed. */
 static void
-pack(const struct rc_fft *f, struct rc_spectrum *k, size_t column, const double *s)
+finish_column(const struct rc_fft *f, struct rc_spectrum *k, size_t c, bool inverse, double *s)
 {
     const struct rc_layout *l = &f->layout;
-    double mirror = k->parity & RC_ODD_Y ? -1 : 1, sign;
 
-    for (size_t q = 0; q < l->packed; q++) {
-        size_t place = rc_packed_place(l, q, mirror, &sign);
-        f->ops->store(k->packed, column * l->packed + place, sign * s[q]);
-    }
+    for (size_t q = 0; inverse && q < l->packed; q++)
+        s[q] = s[q] == 0 ? 0 : 1 / s[q];
+    f->ops->pack(l, c, 1 / ((double)l->px * (double)l->py), k->parity & RC_ODD_Y ? -1 : 1, s,
+                 k->packed);
 }
 
-/* Spectrum of the kernel's values on the padded grid, column by column: s has cx columns of
- * py/2 + 1. */
-static enum rc_status
-transform_values(const struct rc_fft *f, const struct rc_kernel *kernel, size_t component,
-                 const struct rc_medium *medium, double *s, struct rc_err *err)
+/* The kernel's values at the nodes of a quarter period, row by row, each transformed in x. */
+static void
+table_rows(const struct rc_fft *f, const struct rc_kernel *kernel, size_t component,
+           const struct rc_medium *medium, const struct rc_halves *transform, double *table)
 {
-    enum {
-        ROWS = 8
-    };
     const struct rc_layout *l = &f->layout;
     const struct rc_lattice nodes = {f->shape.dx, f->shape.dy, 1, 1};
-    size_t cy = l->packed, chunks = (cy + ROWS - 1) / ROWS;
-    unsigned parity = kernel->parity[component];
-    double *table = malloc(l->cx * cy * sizeof *table);
+
+#pragma omp parallel for num_threads(l->threads) schedule(dynamic)
+    for (size_t first = 0; first < l->packed; first += ROWS) {
+        size_t last = first + ROWS < l->packed ? first + ROWS : l->packed;
+        double *rows = table + first * l->cx;
+
+        kernel->rows(medium, component, &nodes, l->cx, first, last, rows);
+        for (size_t j = first; j < last; j++)
+            rc_halves_run(transform, table + j * l->cx);
+    }
+}
+
+/* Columns of that table, each transformed in y. `space` holds COLUMNS columns for each thread. */
+static void
+table_columns(const struct rc_fft *f, struct rc_spectrum *k, const struct rc_halves *transform,
+              bool inverse, const double *table, double *space)
+{
+    const struct rc_layout *l = &f->layout;
+
+#pragma omp parallel for num_threads(l->threads) schedule(static)
+    for (size_t first = 0; first < l->cx; first += COLUMNS) {
+        double *s = space + (size_t)omp_get_thread_num() * COLUMNS * l->packed;
+        size_t n = l->cx - first < COLUMNS ? l->cx - first : COLUMNS;
+
+        for (size_t j = 0; j < l->packed; j++)
+            for (size_t b = 0; b < n; b++)
+                s[b * l->packed + j] = table[j * l->cx + first + b];
+        for (size_t b = 0; b < n; b++) {
+            rc_halves_run(transform, s + b * l->packed);
+            finish_column(f, k, first + b, inverse, s + b * l->packed);
+        }
+    }
+}
+
+static enum rc_status
+transform_values(const struct rc_fft *f, struct rc_spectrum *k, const struct rc_kernel *kernel,
+                 size_t component, const struct rc_medium *medium, bool inverse,
+                 struct rc_err *err)
+{
+    const struct rc_layout *l = &f->layout;
+    struct rc_halves *along_x = rc_halves_new(l->cx, k->parity & RC_ODD_X, err);
+    struct rc_halves *along_y = rc_halves_new(l->packed, k->parity & RC_ODD_Y, err);
+    double *table = malloc(l->cx * l->packed * sizeof *table);
+    double *space = malloc((size_t)l->threads * COLUMNS * l->packed * sizeof *space);
     enum rc_status status = RC_FAIL;
 
-    if (table == NULL)
-        return rc_err_set(err, "out of memory for a kernel of %zu x %zu values", l->cx, cy);
-#pragma omp parallel for num_threads(l->threads) schedule(dynamic)
-    for (size_t c = 0; c < chunks; c++) {
-        size_t first = c * ROWS, last = first + ROWS < cy ? first + ROWS : cy;
-        kernel->rows(medium, component, &nodes, l->cx, first, last, table + first * l->cx);
+    if (table == NULL || space == NULL) {
+        rc_err_set(err, "out of memory for a kernel of %zu x %zu values", l->cx, l->packed);
+    } else if (along_x != NULL && along_y != NULL) {
+        table_rows(f, kernel, component, medium, along_x, table);
+        table_columns(f, k, along_y, inverse, table, space);
+        status = RC_OK;
     }
-    if (rc_fourier_halves(table, l->cx, cy, parity & RC_ODD_X, l->threads, err) != RC_OK)
-        goto done;
-#pragma omp parallel for num_threads(l->threads) schedule(static)
-    for (size_t i = 0; i < l->cx; i++)
-        for (size_t j = 0; j < cy; j++)
-            s[i * cy + j] = table[j * l->cx + i];
-    status = rc_fourier_halves(s, cy, l->cx, parity & RC_ODD_Y, l->threads, err);
-done:
+    rc_halves_free(along_x);
+    rc_halves_free(along_y);
     free(table);
+    free(space);
     return status;
 }
 
 static enum rc_status
-sample_symbol(const struct rc_fft *f, const struct rc_kernel *kernel, size_t component,
-              const struct rc_medium *medium, double *s, struct rc_err *err)
+sample_symbol(const struct rc_fft *f, struct rc_spectrum *k, const struct rc_kernel *kernel,
+              size_t component, const struct rc_medium *medium, bool inverse, struct rc_err *err)
 {
     const struct rc_layout *l = &f->layout;
     const double turn = 2 * 3.14159265358979323846;
+    double *space;
 
     if (kernel->symbol == NULL)
         return rc_err_set(err, "the kernel '%s' has no periodic form", kernel->name);
+    space = malloc((size_t)l->threads * l->packed * sizeof *space);
+    if (space == NULL)
+        return rc_err_set(err, "out of memory for a symbol of %zu x %zu values", l->cx, l->packed);
 #pragma omp parallel for num_threads(l->threads) schedule(static)
-    for (size_t i = 0; i < l->cx; i++)
+    for (size_t i = 0; i < l->cx; i++) {
+        double *s = space + (size_t)omp_get_thread_num() * l->packed;
+        double qx = turn * (double)i / ((double)l->nx * f->shape.dx);
+
         for (size_t j = 0; j < l->packed; j++) {
-            double qx = turn * (double)i / ((double)l->nx * f->shape.dx);
             double qy = turn * (double)j / ((double)l->ny * f->shape.dy);
-            s[i * l->packed + j] =
-                i == 0 && j == 0 ? 0 : kernel->symbol(medium, component, qx, qy);
+            s[j] = i == 0 && j == 0 ? 0 : kernel->symbol(medium, component, qx, qy);
         }
+        finish_column(f, k, i, inverse, s);
+    }
+    free(space);
     return RC_OK;
 }
 
@@ -257,27 +281,9 @@ static enum rc_status
 set(struct rc_spectrum *k, const struct rc_fft *f, const struct rc_kernel *kernel,
     size_t component, const struct rc_medium *medium, bool inverse, struct rc_err *err)
 {
-    const struct rc_layout *l = &f->layout;
-    double scale = 1 / ((double)l->px * (double)l->py);
-    double *s = malloc(l->cx * l->packed * sizeof *s);
-    enum rc_status status;
-
-    if (s == NULL)
-        return rc_err_set(err, "out of memory for a kernel of %zu x %zu values", l->cx, l->packed);
     k->parity = kernel->parity[component];
-    status = (f->boundary == RC_FREE ? transform_values : sample_symbol)(f, kernel, component,
-                                                                         medium, s, err);
-    if (status == RC_OK) {
-#pragma omp parallel for num_threads(l->threads) schedule(static)
-        for (size_t i = 0; i < l->cx; i++) {
-            double *column = s + i * l->packed;
-            for (size_t q = 0; q < l->packed; q++)
-                column[q] = !inverse ? scale * column[q] : column[q] == 0 ? 0 : scale / column[q];
-            pack(f, k, i, column);
-        }
-    }
-    free(s);
-    return status;
+    return (f->boundary == RC_FREE ? transform_values : sample_symbol)(f, k, kernel, component,
+                                                                       medium, inverse, err);
 }
 
 enum rc_status

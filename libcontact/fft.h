@@ -65,16 +65,16 @@ struct rc_layout {
     int threads;
 };
 
-/* A column of a spectrum of n = py/2 + 1 numbers is stored as A[k] = s(split k) up to the middle and,
- * for split 4, B[k] = s(4k + 1) for all k < m (beyond the middle by symmetry, which also gives
- * residue 3) and C[k] = s(4k + 2) up to the middle. */
-size_t rc_packed_place(const struct rc_layout *layout, size_t q, double mirror, double *sign);
-
+/* A column of a spectrum, s(q) for q <= py/2, is stored as A[k] = s(split k) up to the middle and, for
+ * split 4, B[k] = s(4k + 1) for all k < m (beyond the middle by symmetry, which also gives residue 3)
+ * and C[k] = s(4k + 2) up to the middle: packed = py/2 + 1 numbers in all. */
 struct rc_fft_ops {
     size_t real_size; /* bytes of a real number */
     void *(*new)(const struct rc_layout *layout); /* NULL: out of memory */
     void (*free)(void *plan);
-    void (*store)(void *packed, size_t at, double value); /* into a spectrum */
+    /* Column c of a spectrum from s(q), times `scale`; mirror -1: odd in y. */
+    void (*pack)(const struct rc_layout *layout, size_t c, double scale, double mirror,
+                 const double *s, void *packed);
     void (*apply)(void *plan, const void *packed, unsigned parity, const double *p, double *u);
     bool (*load)(void *plan, const double *p); /* false: out of memory */
     void (*field)(void *plan, const void *packed, unsigned parity, double *u);

@@ -141,8 +141,9 @@ plan_new(const struct rc_layout *l)
         plan_free(f);
         return NULL;
     }
-    memset(f->half, 0, l->ny * l->stride * sizeof *f->half); /* columns that fill up a line */
-    memset(f->scratch, 0, (size_t)l->threads * f->space * sizeof *f->scratch);
+    /* columns that fill up a line are gathered with the others */
+    for (size_t j = 0; j < l->ny; j++)
+        memset(f->half + j * l->stride + l->cx, 0, (l->stride - l->cx) * sizeof *f->half);
     if (l->split == 4)
         make_twiddles(f);
     return f;
@@ -426,16 +427,29 @@ field(void *at, const void *packed, unsigned parity, double *u)
 }
 
 static void
-store(void *packed, size_t at, double value)
+pack(const struct rc_layout *l, size_t c, double scale, double mirror, const double *s,
+     void *packed)
 {
-    ((REAL *)packed)[at] = (REAL)value;
+    REAL *to = (REAL *)packed + c * l->packed;
+    size_t m = l->m, py = l->py;
+
+    for (size_t k = 0; k <= m / 2; k++)
+        *to++ = (REAL)(scale * s[l->split * k]);
+    if (l->split == 1)
+        return;
+    for (size_t k = 0; k < m; k++) {
+        size_t q = 4 * k + 1;
+        *to++ = (REAL)(scale * (2 * q <= py ? s[q] : mirror * s[py - q]));
+    }
+    for (size_t k = 0; k < (m + 1) / 2; k++)
+        *to++ = (REAL)(scale * s[4 * k + 2]);
 }
 
 const struct rc_fft_ops OPS = {
     .real_size = sizeof(REAL),
     .new = plan_new,
     .free = plan_free,
-    .store = store,
+    .pack = pack,
     .apply = apply,
     .load = load,
     .field = field,

@@ -2,6 +2,7 @@
 
 #include <fftw3.h> /* after complex.h: fftw_complex is then double complex */
 #include <limits.h>
+#include <stdlib.h>
 
 size_t
 rc_fourier_columns(const struct rc_shape *shape)
@@ -60,31 +61,56 @@ rc_fourier_backward(const struct rc_shape *shape, double complex *s, double *v,
     return transform(shape, false, v, s, err);
 }
 
-enum rc_status
-rc_fourier_halves(double *lines, size_t n, size_t count, bool odd, int threads,
-                  struct rc_err *err)
-{
-    size_t inner = odd ? n - 2 : n, start = odd ? 1 : 0;
-    fftw_plan plan = NULL;
+struct rc_halves {
+    size_t n;
+    bool odd;
+    fftw_plan plan; /* NULL: an odd line without inner values */
+};
 
-    if (inner > INT_MAX)
-        return rc_err_set(err, "%zu nodes: a side of at most %d can be transformed", n, INT_MAX);
+struct rc_halves *
+rc_halves_new(size_t n, bool odd, struct rc_err *err)
+{
+    struct rc_halves *h = calloc(1, sizeof *h);
+    size_t inner = odd ? n - 2 : n;
+    double *line = fftw_alloc_real(n);
+    fftw_r2r_kind kind = odd ? FFTW_RODFT00 : FFTW_REDFT00;
+
+    if (h == NULL || line == NULL || inner > INT_MAX)
+        goto fail;
+    h->n = n;
+    h->odd = odd;
     if (inner > 0) {
 #pragma omp critical(rc_fftw_planner)
-        plan = fftw_plan_r2r_1d((int)inner, lines + start, lines + start,
-                                odd ? FFTW_RODFT00 : FFTW_REDFT00, FFTW_ESTIMATE | FFTW_UNALIGNED);
-        if (plan == NULL)
-            return rc_err_set(err, "out of memory for a transform of %zu values", n);
+        h->plan = fftw_plan_r2r_1d((int)inner, line, line, kind, FFTW_ESTIMATE | FFTW_UNALIGNED);
+        if (h->plan == NULL)
+            goto fail;
     }
-#pragma omp parallel for num_threads(threads) schedule(static)
-    for (size_t c = 0; c < count; c++) {
-        double *line = lines + c * n;
-        if (odd)
-            line[0] = line[n - 1] = 0;
-        if (plan != NULL)
-            fftw_execute_r2r(plan, line + start, line + start);
-    }
+    fftw_free(line);
+    return h;
+fail:
+    rc_err_set(err, "out of memory for a transform of %zu values", n);
+    fftw_free(line);
+    free(h);
+    return NULL;
+}
+
+void
+rc_halves_run(const struct rc_halves *h, double *line)
+{
+    double *inner = line + (h->odd ? 1 : 0);
+
+    if (h->odd)
+        line[0] = line[h->n - 1] = 0;
+    if (h->plan != NULL)
+        fftw_execute_r2r(h->plan, inner, inner);
+}
+
+void
+rc_halves_free(struct rc_halves *h)
+{
+    if (h == NULL)
+        return;
 #pragma omp critical(rc_fftw_planner)
-    fftw_destroy_plan(plan);
-    return RC_OK;
+    fftw_destroy_plan(h->plan);
+    free(h);
 }

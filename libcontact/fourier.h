@@ -28,10 +28,13 @@ enum rc_status rc_fourier_backward(const struct rc_shape *shape, double complex 
                                    struct rc_err *err);
 
 
-/* Real even (or odd) transform, in place, of `count` lines of n values each: a line holds half a
- * period with both ends, v_0 .. v_(n-1) of a period 2n - 2, and becomes sum of v_j cos(pi jk /
- * (n-1)) (or sin) over the whole period. An odd line is zero at both ends. */
-enum rc_status rc_fourier_halves(double *lines, size_t n, size_t count, bool odd, int threads,
-                                 struct rc_err *err);
+/* Real even (or odd) transform of lines of n values: a line holds half a period with both ends, v_0 ..
+ * v_(n-1) of a period 2n - 2, and becomes the sum of v_j cos(pi jk / (n-1)) (or sin) over the whole
+ * period. An odd line is zero at both ends. NULL when memory is short. */
+struct rc_halves;
+struct rc_halves *rc_halves_new(size_t n, bool odd, struct rc_err *err);
+/* In place; several threads may run one transform on lines of their own. */
+void rc_halves_run(const struct rc_halves *halves, double *line);
+void rc_halves_free(struct rc_halves *halves); /* NULL is allowed */
 
 #endif

@@ -53,24 +53,27 @@ middle(double x, double y, double a, double b)
     return a * b * sum;
 }
 
-/* The derivatives of 1/r of order 2j in x and 2k in y, times r^(2j+2k+1), are polynomials in
- * X = (x/r)^2 and Y = (y/r)^2; the integral of the series takes a^(2j) b^(2k) / (2j+1)! (2k+1)!. */
-static double
-far(double x, double y, double a, double b)
+/* out[i] for first <= i < n at x = i dx. The derivatives of 1/r of order 2j in x and 2k in y, times
+ * r^(2j+2k+1), are polynomials in X = (x/r)^2 and Y = (y/r)^2; the integral of the series takes
+ * a^(2j) b^(2k) / (2j+1)! (2k+1)!. */
+RC_CLONES static void
+far(double scale, double dx, double y, double a, double b, size_t first, size_t n, double *out)
 {
-    double r2 = x * x + y * y, s = 1 / r2;
-    double X = x * x * s, Y = y * y * s, A = a * a * s, B = b * b * s;
-    double second = A * (3 * X - 1) + B * (3 * Y - 1);
-    double fourth = A * A * ((105 * X - 90) * X + 9) / 120 + A * B * (105 * X * Y - 12) / 36 +
-                    B * B * ((105 * Y - 90) * Y + 9) / 120;
-    double x4y2 = 10395 * X * X * Y - 945 * X * (6 * Y + X) + 105 * (3 * Y + 6 * X) - 45;
-    double x2y4 = 10395 * X * Y * Y - 945 * Y * (6 * X + Y) + 105 * (3 * X + 6 * Y) - 45;
-    double sixth = (A * A * A * (((10395 * X - 14175) * X + 4725) * X - 225) +
-                    B * B * B * (((10395 * Y - 14175) * Y + 4725) * Y - 225)) /
-                       5040 +
-                   A * B * (A * x4y2 + B * x2y4) / 720;
+    for (size_t i = first; i < n; i++) {
+        double x = (double)(int)i * dx;
+        double s = 1 / (x * x + y * y);
+        double X = x * x * s, Y = y * y * s, A = a * a * s, B = b * b * s;
+        double second = A * (3 * X - 1) + B * (3 * Y - 1);
+        double fourth = A * A * ((105 * X - 90) * X + 9) / 120 + A * B * (105 * X * Y - 12) / 36 +
+                        B * B * ((105 * Y - 90) * Y + 9) / 120;
+        double x4y2 = 10395 * X * X * Y - 945 * X * (6 * Y + X) + 105 * (3 * Y + 6 * X) - 45;
+        double x2y4 = 10395 * X * Y * Y - 945 * Y * (6 * X + Y) + 105 * (3 * X + 6 * Y) - 45;
+        double sixth = (A * A * A * (((10395 * X - 14175) * X + 4725) * X - 225) +
+                        B * B * B * (((10395 * Y - 14175) * Y + 4725) * Y - 225)) / 5040 +
+                       A * B * (A * x4y2 + B * x2y4) / 720;
 
-    return 4 * a * b * sqrt(s) * (1 + second / 6 + fourth + sixth);
+        out[i] = scale * 4 * a * b * sqrt(s) * (1 + second / 6 + fourth + sixth);
+    }
 }
 
 static void
@@ -93,8 +96,7 @@ rows(const struct rc_medium *medium, size_t component, const struct rc_lattice *
             out[i] = scale * (x * x + y * y < near_r * near_r ? near(x, y, a, b)
                                                               : middle(x, y, a, b));
         }
-        for (size_t i = inner; i < n; i++)
-            out[i] = scale * far((double)i * dx, y, a, b);
+        far(scale, dx, y, a, b, inner, n, out);
     }
 }
 

@@ -60,6 +60,24 @@ check(const struct rc_shape *s, const double *h, const struct rc_problem *proble
     return RC_OK;
 }
 
+/* The paper's M^(-3/2) on a square grid. */
+static double
+tolerance(const struct rc_shape *shape, const struct rc_problem *problem)
+{
+    return isnan(problem->tol) ? pow((double)(shape->nx * shape->ny), -0.75) : problem->tol;
+}
+
+/* The engine's accuracy follows from that of the pressure, which it must not spoil. */
+static struct rc_conv_options
+conv_options(const struct rc_shape *shape, const struct rc_problem *problem)
+{
+    bool mlms = problem->engine != NULL && strcmp(problem->engine, "mlms") == 0;
+
+    return (struct rc_conv_options){.engine = problem->engine,
+                                    .tol = mlms ? 0.1 * tolerance(shape, problem) : 0,
+                                    .threads = problem->threads};
+}
+
 static bool
 allocate(struct rc_solver *s, const double *h)
 {
@@ -85,6 +103,7 @@ struct rc_solver *
 rc_solver_new(const struct rc_shape *shape, const double *h, const struct rc_problem *problem,
               struct rc_err *err)
 {
+    struct rc_conv_options options = conv_options(shape, problem);
     struct rc_solver *s = NULL;
 
     if (check(shape, h, problem, err) != RC_OK)
@@ -101,7 +120,7 @@ rc_solver_new(const struct rc_shape *shape, const double *h, const struct rc_pro
     s->sum = problem->load / s->cell;
     if (s->sum >= s->hardness * (double)s->n * (1 - 8 * DBL_EPSILON))
         s->sum = s->hardness * (double)s->n; /* every node yields, whatever the rounding */
-    s->tol = isnan(problem->tol) ? pow((double)s->n, -0.75) : problem->tol;
+    s->tol = tolerance(shape, problem);
     s->max_iterations = problem->max_iterations > 0
                             ? problem->max_iterations
                             : 100 + (size_t)(10 * sqrt((double)s->n));
@@ -110,7 +129,7 @@ rc_solver_new(const struct rc_shape *shape, const double *h, const struct rc_pro
     if (!allocate(s, h))
         goto short_of_memory;
     if ((s->method = choose(problem->method, err)) == NULL ||
-        (s->conv = rc_conv_new(shape, s->estar, problem->engine, problem->threads, err)) == NULL ||
+        (s->conv = rc_conv_new(shape, s->estar, &options, err)) == NULL ||
         (s->extension = rc_extension_new(shape, s->estar, problem->threads, err)) == NULL ||
         (s->state = s->method->new(s, err)) == NULL) {
         rc_solver_free(s);
@@ -141,13 +160,14 @@ rc_solver_free(struct rc_solver *s)
 }
 
 size_t
-rc_solver_memory(const struct rc_shape *shape, const char *engine)
+rc_solver_memory(const struct rc_shape *shape, const struct rc_problem *problem)
 {
+    struct rc_conv_options options = conv_options(shape, problem);
     size_t n = shape->nx * shape->ny;
 
     /* four arrays and a mask here, three in the method, three in the error estimate beside its
      * transforms and the spectrum of its second kernel */
-    return n * (10 * sizeof(double) + 1) + rc_conv_memory(shape, engine) +
+    return n * (10 * sizeof(double) + 1) + rc_conv_memory(shape, &options) +
            rc_fft_memory(shape, RC_FREE, RC_DOUBLE) +
            rc_spectrum_memory(shape, RC_FREE, RC_DOUBLE);
 }
@@ -278,6 +298,12 @@ const char *
 rc_solver_engine(const struct rc_solver *s)
 {
     return rc_conv_engine(s->conv);
+}
+
+const char *
+rc_solver_engine_reason(const struct rc_solver *s)
+{
+    return rc_conv_reason(s->conv);
 }
 
 const char *

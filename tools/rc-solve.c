@@ -196,7 +196,7 @@ solve(struct run *run, const struct rc_grid *g)
     struct rc_err err;
 
     run->began = now();
-    tool_demand_memory(&run->t, g, rc_solver_memory(&shape, args.kernel));
+    tool_demand_memory(&run->t, g, rc_solver_memory(&shape, &problem));
     solver = rc_solver_new(&shape, g->v, &problem, &err);
     if (solver == NULL)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
@@ -253,9 +253,10 @@ hardness_effect(const struct rc_contact *c)
 }
 
 static void
-report_effects(struct json *j, const struct rc_contact *c)
+report_effects(struct json *j, const struct rc_solver *solver, const struct rc_contact *c)
 {
     json_object(j, "effects");
+    json_text(j, "kernel", rc_solver_engine_reason(solver));
     json_text(j, "hardness", hardness_effect(c));
     json_text(j, "sphere", isnan(args.radius) ? "left out: no --radius" : "on");
     json_text(j, "padding", "on");
@@ -310,7 +311,7 @@ report(struct run *run, const struct rc_grid *g, const struct rc_solver *solver,
     json_text(&j, "method", rc_solver_method(solver));
     json_count(&j, "threads", run->t.threads);
     report_figures(&j, c);
-    report_effects(&j, c);
+    report_effects(&j, solver, c);
     json_object(&j, "seconds");
     json_number(&j, "setup", run->setup);
     json_number(&j, "iterate", run->iterate);
