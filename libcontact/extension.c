@@ -7,8 +7,9 @@
 
 struct rc_extension {
     struct rc_shape unit; /* the grid in units of sqrt(dx dy) */
+    double stiffness;     /* E* / sqrt(dx dy): what A is in those units, per unit of E* = 1          */
     size_t n;
-    struct rc_fft *fft;
+    struct rc_fft *fft;   /* single precision is enough: only the residual has to be exact           */
     struct rc_spectrum *inverse, *spread; /* A and G                                        */
     double *weight;  /* off W: 1 / (sum_j G_ij + d_i^(-1/2) / 2); on W: 0                    */
     double *field;   /* scratch of n                                                        */
@@ -48,7 +49,7 @@ static const struct rc_kernel spread = {
 struct rc_extension *
 rc_extension_new(const struct rc_shape *shape, double estar, size_t threads, struct rc_err *err)
 {
-    struct rc_medium medium = {.estar = estar};
+    struct rc_medium medium = {.estar = 1};
     struct rc_extension *e = calloc(1, sizeof *e);
     size_t n = shape->nx * shape->ny, longest = shape->nx > shape->ny ? shape->nx : shape->ny;
     double unit = sqrt(shape->dx) * sqrt(shape->dy);
@@ -59,13 +60,14 @@ rc_extension_new(const struct rc_shape *shape, double estar, size_t threads, str
     e->unit = *shape;
     e->unit.dx /= unit;
     e->unit.dy /= unit;
+    e->stiffness = estar / unit;
     e->weight = malloc(n * sizeof *e->weight);
     e->field = malloc(n * sizeof *e->field);
     e->other = malloc(n * sizeof *e->other);
     e->scratch = malloc(3 * longest * sizeof *e->scratch);
     if (e->weight == NULL || e->field == NULL || e->other == NULL || e->scratch == NULL)
         goto short_of_memory;
-    if ((e->fft = rc_fft_new(shape, RC_FREE, RC_DOUBLE, threads, err)) == NULL ||
+    if ((e->fft = rc_fft_new(&e->unit, RC_FREE, RC_SINGLE, threads, err)) == NULL ||
         (e->inverse = rc_spectrum_new(e->fft, err)) == NULL ||
         (e->spread = rc_spectrum_new(e->fft, err)) == NULL ||
         rc_spectrum_set_inverse(e->inverse, e->fft, &rc_kernel_boussinesq, 0, &medium,
@@ -111,18 +113,25 @@ rc_extension_set(struct rc_extension *e, const unsigned char *w)
     }
 }
 
+/* Single precision has 38 decades, gaps in metres and moduli in pascals can need more: the largest |r|
+ * is made 1, and A works in units of E* and of the grid. */
 void
 rc_extension_apply(struct rc_extension *e, const double *r, double *z)
 {
-    double *y = e->field, *q = e->other;
+    double *y = e->field, *q = e->other, size = 0, scale;
 
-    rc_fft_apply(e->fft, e->spread, r, y);
     for (size_t k = 0; k < e->n; k++)
-        y[k] = e->w[k] ? r[k] : e->weight[k] * y[k];
+        size = fmax(size, fabs(r[k]));
+    scale = size > 0 ? 1 / size : 0;
+    for (size_t k = 0; k < e->n; k++)
+        q[k] = scale * r[k];
+    rc_fft_apply(e->fft, e->spread, q, y);
+    for (size_t k = 0; k < e->n; k++)
+        y[k] = e->w[k] ? q[k] : e->weight[k] * y[k];
     rc_fft_apply(e->fft, e->inverse, y, y);
     for (size_t k = 0; k < e->n; k++)
         q[k] = e->weight[k] * y[k];
     rc_fft_apply(e->fft, e->spread, q, q);
     for (size_t k = 0; k < e->n; k++)
-        z[k] = e->w[k] ? y[k] + q[k] : 0;
+        z[k] = e->w[k] ? size * e->stiffness * (y[k] + q[k]) : 0;
 }

@@ -22,9 +22,11 @@ struct rc_extension;
 struct rc_extension *rc_extension_new(const struct rc_shape *shape, double estar, size_t threads,
                                       struct rc_err *err);
 void rc_extension_free(struct rc_extension *extension);
-/* The working set: nonzero entries of w, at least one. Costs one convolution. */
+/* The working set: nonzero entries of w, at least one. Costs one convolution in
+ * single precision. */
 void rc_extension_set(struct rc_extension *extension, const unsigned char *w);
-/* z = E' A E r on the working set, zero elsewhere; r is zero off it. Costs three convolutions. */
+/* z = E' A E r on the working set, zero elsewhere; r is zero off it. Costs three of
+ * them. */
 void rc_extension_apply(struct rc_extension *extension, const double *r, double *z);
 
 /* distance.c: squared distance of every node to the nearest one with w != 0, in units of dx and dy

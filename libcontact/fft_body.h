@@ -15,6 +15,7 @@
 #include <fftw3.h>
 #include <math.h>
 #include <omp.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -102,7 +103,7 @@ make_plans(struct plan *f)
     /* The planner is the one part of FFTW that two threads may not enter at once. */
 #pragma omp critical(rc_fftw_planner)
     {
-        f->row_forward = FFTW(plan_dft_r2c_1d)(px, row, half, how);
+        f->row_forward = FFTW(plan_dft_r2c_1d)(px, row, half, how | FFTW_PRESERVE_INPUT);
         f->row_back = FFTW(plan_dft_c2r_1d)(px, half, row, how);
         f->column_forward = FFTW(plan_dft_1d)(m, a, b, FFTW_FORWARD, how);
         f->column_back = FFTW(plan_dft_1d)(m, a, b, FFTW_BACKWARD, how);
@@ -157,6 +158,38 @@ scratch_of(const struct plan *f)
 
 /* ---- rows ---- */
 
+static bool
+loaded(const double *p, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        if (p[i] != 0)
+            return true;
+    return false;
+}
+
+RC_CLONES static void
+to_real(const double *restrict from, size_t n, REAL *restrict to)
+{
+    for (size_t i = 0; i < n; i++)
+        to[i] = (REAL)from[i];
+}
+
+RC_CLONES static void
+to_double(const REAL *restrict from, size_t n, double *restrict to)
+{
+    for (size_t i = 0; i < n; i++)
+        to[i] = (double)from[i];
+}
+
+/* Whether FFTW may work on a row of the map itself: it is as long, as wide and as aligned as the row
+ * that the plan was made for. */
+static bool
+in_place(const struct rc_layout *l, const double *map, size_t j)
+{
+    return sizeof(REAL) == sizeof(double) && l->px == l->nx &&
+           FFTW(alignment_of)((REAL *)(uintptr_t)(map + j * l->nx)) == 0;
+}
+
 static void
 rows_forward(struct plan *f, const double *p)
 {
@@ -166,18 +199,18 @@ rows_forward(struct plan *f, const double *p)
     for (size_t j = 0; j < l->ny; j++) {
         REAL *row = row_of(f, scratch_of(f));
         const double *from = p + j * l->nx;
-        bool loaded = false;
 
-        for (size_t i = 0; i < l->nx; i++) {
-            row[i] = (REAL)from[i];
-            loaded |= from[i] != 0;
-        }
-        if (loaded) {
-            memset(row + l->nx, 0, (l->px - l->nx) * sizeof *row);
-            FFTW(execute_dft_r2c)(f->row_forward, row, f->half + j * l->stride);
-        } else {
+        if (!loaded(from, l->nx)) {
             memset(f->half + j * l->stride, 0, l->cx * sizeof *f->half);
+            continue;
         }
+        if (in_place(l, p, j)) {
+            row = (REAL *)(uintptr_t)from; /* a forward transform keeps its input */
+        } else {
+            to_real(from, l->nx, row);
+            memset(row + l->nx, 0, (l->px - l->nx) * sizeof *row);
+        }
+        FFTW(execute_dft_r2c)(f->row_forward, row, f->half + j * l->stride);
     }
 }
 
@@ -189,10 +222,13 @@ rows_back(struct plan *f, double *u)
 #pragma omp parallel for num_threads(l->threads) schedule(static)
     for (size_t j = 0; j < l->ny; j++) {
         REAL *row = row_of(f, scratch_of(f));
+        bool straight = in_place(l, u, j);
 
+        if (straight)
+            row = (REAL *)(void *)(u + j * l->nx);
         FFTW(execute_dft_c2r)(f->row_back, f->half + j * l->stride, row);
-        for (size_t i = 0; i < l->nx; i++)
-            u[j * l->nx + i] = (double)row[i];
+        if (!straight)
+            to_double(row, l->nx, u + j * l->nx);
     }
 }
 

@@ -168,8 +168,8 @@ rc_solver_memory(const struct rc_shape *shape, const struct rc_problem *problem)
     /* four arrays and a mask here, three in the method, three in the error estimate beside its
      * transforms and the spectrum of its second kernel */
     return n * (10 * sizeof(double) + 1) + rc_conv_memory(shape, &options) +
-           rc_fft_memory(shape, RC_FREE, RC_DOUBLE) +
-           rc_spectrum_memory(shape, RC_FREE, RC_DOUBLE);
+           rc_fft_memory(shape, RC_FREE, RC_SINGLE) +
+           rc_spectrum_memory(shape, RC_FREE, RC_SINGLE);
 }
 
 /* ---- what the methods share ---- */
@@ -234,7 +234,7 @@ estimate_error(struct rc_solver *s, size_t elastic)
         s->g[k] = s->working[k] ? mean - s->g[k] : 0;
     rc_extension_set(s->extension, s->working);
     rc_extension_apply(s->extension, s->g, s->z);
-    s->convolutions += 4;
+    s->convolutions += 2; /* four in single precision */
     mean = 0;
     for (size_t k = 0; k < s->n; k++)
         mean += s->z[k];

@@ -1,0 +1,440 @@
+/*
+ * What a convolution costs, engine by engine:
+ *
+ *     bench-convolution [table1] [fftw] [sparse] [sizes]       (default: all)
+ *
+ * table1  the paper's Table 1: errors and times of direct summation and MLMS, one thread
+ * fftw    the Fourier engine against FFTW's own two-dimensional transforms, same run
+ * sparse  MLMS against the Fourier engine, all nodes loaded and 5 % of them
+ * sizes   time a node from 256^2 to 4096^2
+ *
+ * Times are the least of several runs. RC_THREADS sets the threads of all but table1.
+ */
+#include <complex.h>
+#include <fftw3.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "libcontact/inside.h"
+
+static const double pi = 3.14159265358979323846;
+
+static size_t threads;
+
+static double
+now(void)
+{
+    struct timespec ts;
+
+    clock_gettime(CLOCK_MONOTONIC, &ts);
+    return (double)ts.tv_sec + 1e-9 * (double)ts.tv_nsec;
+}
+
+static void *
+must(void *p)
+{
+    if (p == NULL) {
+        fprintf(stderr, "out of memory, or a plan could not be made\n");
+        exit(1);
+    }
+    return p;
+}
+
+static const struct rc_engine *
+engine(const char *name)
+{
+    static const struct rc_engine *const all[] = {
+#define RC_ENGINE(name) &rc_engine_##name,
+#include "libcontact/engines.list"
+#undef RC_ENGINE
+    };
+
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+        if (strcmp(all[k]->name, name) == 0)
+            return all[k];
+    return must(NULL);
+}
+
+/* Least seconds of one application, over at least `runs` of them and a tenth of a second. */
+static double
+seconds(const struct rc_engine *e, void *plan, const double *p, double *u, int runs)
+{
+    double best = INFINITY, start = now();
+
+    for (int k = 0; k < runs || (runs > 1 && now() - start < 0.1); k++) {
+        double t = now();
+        e->apply(plan, p, u);
+        t = now() - t;
+        best = fmin(best, t);
+    }
+    return best;
+}
+
+static struct rc_sum
+square(size_t m, size_t with_threads)
+{
+    return (struct rc_sum){.shape = {m, m, 1, 1}, .kernel = &rc_kernel_boussinesq,
+                           .medium = {.estar = 1 / pi}, .threads = with_threads};
+}
+
+static double
+uniform(uint64_t *seed)
+{
+    *seed = *seed * 6364136223846793005U + 1442695040888963407U;
+    return (double)(*seed >> 11) / 9007199254740992.0;
+}
+
+/* ---- Table 1 ---- */
+
+/* p = sqrt(1 - r^2) on nodes from -1 to 1, and what it displaces, K being 1/r. */
+static void
+table1_case(size_t m, double *p, double *exact)
+{
+    double d = 2 / (double)(m - 1);
+
+    for (size_t k = 0; k < m * m; k++) {
+        double x = -1 + d * (double)(k % m), y = -1 + d * (double)(k / m);
+        double r2 = x * x + y * y, r = sqrt(r2);
+        p[k] = r2 < 1 ? sqrt(1 - r2) : 0;
+        exact[k] = r2 <= 1 ? pi * pi / 4 * (2 - r2)
+                           : pi / 2 * ((2 - r2) * asin(1 / r) + sqrt(r2 - 1));
+    }
+}
+
+static double
+distance(size_t n, const double *a, const double *b)
+{
+    double above = 0, below = 0;
+
+    for (size_t k = 0; k < n; k++) {
+        above += (a[k] - b[k]) * (a[k] - b[k]);
+        below += b[k] * b[k];
+    }
+    return sqrt(above / below);
+}
+
+static void
+table1(void)
+{
+    printf("Table 1, one thread: relative L2 errors against the exact deflection\n");
+    printf("%6s %12s %10s %12s %10s %5s %4s %12s %8s %8s\n", "M", "direct s", "error", "mlms s",
+           "error", "t", "mc", "mlms-direct", "times M2", "speed-up");
+    for (size_t m = 64; m <= 2048; m *= 2) {
+        size_t n = m * m;
+        double *p = must(malloc(n * sizeof *p)), *exact = must(malloc(n * sizeof *p));
+        double *u = must(malloc(n * sizeof *p)), *v = must(malloc(n * sizeof *p));
+        bool direct_too = m <= 512; /* beyond, the Fourier engine stands for its values */
+        const struct rc_engine *e = engine(direct_too ? "direct" : "fft");
+        struct rc_sum sum = square(m, 1);
+        void *plan;
+        double t_direct, t_mlms, t = floor(0.84 * log((double)m) + 0.5);
+        double mc = 0.7 * t * pow((double)m, 1 / t) - 1;
+        struct rc_err err;
+
+        table1_case(m, p, exact);
+        sum.shape.dx = sum.shape.dy = 2 / (double)(m - 1);
+        plan = must(e->new(&sum, &err));
+        t_direct = seconds(e, plan, p, u, m < 256 ? 5 : 1);
+        e->free(plan);
+        e = engine("mlms");
+        sum.order = (size_t)t;
+        sum.correction = (size_t)ceil(fmax(2 * t, mc));
+        plan = must(e->new(&sum, &err));
+        t_mlms = seconds(e, plan, p, v, 5);
+        e->free(plan);
+        printf("%6zu ", m);
+        if (direct_too)
+            printf("%12.4f ", t_direct);
+        else
+            printf("%12s ", "-");
+        printf("%10.3g %12.5f %10.3g %5zu %4zu %12.2e %8.3f ", distance(n, u, exact), t_mlms,
+               distance(n, v, exact), sum.order, sum.correction, distance(n, v, u),
+               distance(n, v, u) * (double)n);
+        if (direct_too)
+            printf("%8.1f\n", t_direct / t_mlms);
+        else
+            printf("%8s\n", "-");
+        free(p);
+        free(exact);
+        free(u);
+        free(v);
+    }
+}
+
+/* ---- against FFTW ---- */
+
+/* FFTW's own forward and inverse transform of px x py reals, measured plans, in place. */
+static double
+fftw_pair(size_t px, size_t py, int runs, double *planning)
+{
+    size_t stride = 2 * (px / 2 + 1);
+    double *x = must(fftw_alloc_real(stride * py)), best[2] = {INFINITY, INFINITY};
+    fftw_plan plan[2];
+
+    *planning = now();
+    fftw_plan_with_nthreads((int)threads);
+    plan[0] = must(fftw_plan_dft_r2c_2d((int)py, (int)px, x, (fftw_complex *)(void *)x,
+                                        FFTW_MEASURE));
+    plan[1] = must(fftw_plan_dft_c2r_2d((int)py, (int)px, (fftw_complex *)(void *)x, x,
+                                        FFTW_MEASURE));
+    *planning = now() - *planning;
+    fftw_plan_with_nthreads(1); /* or it would hold for the engine's plans too */
+    memset(x, 0, stride * py * sizeof *x);
+    for (int k = 0; k < runs; k++)
+        for (int way = 0; way < 2; way++) {
+            double t = now();
+            fftw_execute(plan[way]);
+            best[way] = fmin(best[way], now() - t);
+        }
+    fftw_destroy_plan(plan[0]);
+    fftw_destroy_plan(plan[1]);
+    fftw_free(x);
+    return best[0] + best[1];
+}
+
+/* Prints the bytes a node that planning and applying take beyond p and u: the growth of the peak
+ * resident set, in a process of its own (below), so that nothing freed before hides it. */
+static void
+peak_bytes(const struct rc_engine *e, const struct rc_sum *sum)
+{
+    char m[32], boundary[32], tol[32];
+    int status;
+    pid_t child;
+
+    snprintf(m, sizeof m, "%zu", sum->shape.nx);
+    snprintf(boundary, sizeof boundary, "%d", (int)sum->boundary);
+    snprintf(tol, sizeof tol, "%g", sum->tol);
+    fflush(stdout);
+    child = fork();
+    if (child == 0) {
+        execl("/proc/self/exe", "bench-convolution", "peak", e->name, m, boundary, tol,
+              (char *)NULL);
+        _exit(1);
+    }
+    waitpid(child, &status, 0);
+}
+
+/* Peak resident set so far, bytes. (getrusage would count what stood before exec.) */
+static double
+peak_now(void)
+{
+    FILE *status = must(fopen("/proc/self/status", "r"));
+    char line[256];
+    double kib = 0;
+
+    while (fgets(line, sizeof line, status) != NULL)
+        if (strncmp(line, "VmHWM:", 6) == 0)
+            kib = atof(line + 6);
+    fclose(status);
+    return 1024 * kib;
+}
+
+/* bench-convolution peak ENGINE M BOUNDARY TOL */
+static void
+peak_child(char **argv)
+{
+    struct rc_sum sum = square((size_t)strtoul(argv[3], NULL, 10), threads);
+    const struct rc_engine *e = engine(argv[2]);
+    size_t n = sum.shape.nx * sum.shape.ny;
+    double *p = must(malloc(n * sizeof *p)), *u = must(malloc(n * sizeof *u));
+    struct rc_err err;
+    double before;
+    void *plan;
+
+    sum.boundary = (enum rc_boundary)atoi(argv[4]);
+    sum.tol = atof(argv[5]);
+    for (size_t k = 0; k < n; k++)
+        u[k] = p[k] = 1;
+    before = peak_now();
+    plan = must(e->new(&sum, &err));
+    e->apply(plan, p, u);
+    printf("%.1f", (peak_now() - before) / (double)n);
+    e->free(plan);
+    free(p);
+    free(u);
+}
+
+static void
+against_fftw(void)
+{
+    const struct rc_engine *e = engine("fft");
+
+    printf("\nThe Fourier engine against FFTW's two-dimensional pair (FFTW_MEASURE, no "
+           "multiplication), %zu threads\n", threads);
+    printf("%6s %-9s %10s %10s %8s %12s %12s %s\n", "M", "boundary", "ours ms", "FFTW ms",
+           "ratio", "our plan ms", "its plan ms", "bytes a node beyond p and u");
+    for (size_t m = 512; m <= 2048; m *= 2)
+        for (int boundary = 0; boundary < 2; boundary++) {
+            struct rc_sum sum = square(m, threads);
+            size_t padded = boundary == RC_FREE ? 2 * m : m;
+            double *p = must(malloc(m * m * sizeof *p)), *u = must(malloc(m * m * sizeof *u));
+            double plan_time, its_plan, ours, its;
+            uint64_t seed = 1;
+            struct rc_err err;
+            void *plan;
+
+            sum.boundary = (enum rc_boundary)boundary;
+            for (size_t k = 0; k < m * m; k++)
+                p[k] = uniform(&seed);
+            plan_time = now();
+            plan = must(e->new(&sum, &err));
+            plan_time = now() - plan_time;
+            ours = seconds(e, plan, p, u, 20);
+            e->free(plan);
+            its = fftw_pair(padded, padded, 20, &its_plan);
+            printf("%6zu %-9s %10.2f %10.2f %8.2f %12.1f %12.1f ", m,
+                   boundary == RC_FREE ? "free" : "periodic", 1e3 * ours, 1e3 * its, ours / its,
+                   1e3 * plan_time, 1e3 * its_plan);
+            fflush(stdout);
+            peak_bytes(e, &sum);
+            printf("\n");
+            free(p);
+            free(u);
+        }
+}
+
+/* ---- MLMS against the Fourier engine ---- */
+
+enum load {
+    ALL,
+    DISC,
+    SPOTS
+};
+
+/* Pressure on every node; on a disc of 5 % of the map; on as many nodes in 300 spots. */
+static void
+load_map(enum load what, size_t m, double *p)
+{
+    uint64_t seed = 3;
+    double area = 0.05 * (double)m * (double)m;
+
+    for (size_t k = 0; k < m * m; k++) {
+        double x = (double)(k % m) - (double)m / 2, y = (double)(k / m) - (double)m / 2;
+        p[k] = what == ALL || (what == DISC && pi * (x * x + y * y) < area) ? uniform(&seed) : 0;
+    }
+    for (int spot = 0; what == SPOTS && spot < 300; spot++) {
+        double cx = uniform(&seed) * (double)m, cy = uniform(&seed) * (double)m;
+        double r = sqrt(area / 300 / pi);
+        for (double y = fmax(0, cy - r); y < fmin(cy + r, (double)m - 1); y++)
+            for (double x = fmax(0, cx - r); x < fmin(cx + r, (double)m - 1); x++)
+                if (hypot(x - cx, y - cy) < r)
+                    p[(size_t)y * m + (size_t)x] = uniform(&seed);
+    }
+}
+
+static void
+sparse(void)
+{
+    static const char *const names[] = {"all nodes", "5 % in a disc", "5 % in 300 spots"};
+    size_t m = 1024;
+    double *p = must(malloc(m * m * sizeof *p)), *u = must(malloc(m * m * sizeof *u));
+    double *v = must(malloc(m * m * sizeof *v));
+    struct rc_err err;
+
+    printf("\nMLMS for an error of 1e-6 against the Fourier engine, %zu x %zu, %zu threads\n", m, m,
+           threads);
+    printf("%-18s %10s %10s %8s %12s\n", "loaded", "mlms ms", "fft ms", "ratio", "difference");
+    for (int what = 0; what < 3; what++) {
+        struct rc_sum sum = square(m, threads);
+        void *fft = must(engine("fft")->new(&sum, &err)), *mlms;
+        double t_fft, t_mlms;
+
+        sum.tol = 1e-6;
+        mlms = must(engine("mlms")->new(&sum, &err));
+        load_map((enum load)what, m, p);
+        t_fft = seconds(engine("fft"), fft, p, u, 20);
+        t_mlms = seconds(engine("mlms"), mlms, p, v, 10);
+        printf("%-18s %10.2f %10.2f %8.2f %12.1e\n", names[what], 1e3 * t_mlms, 1e3 * t_fft,
+               t_mlms / t_fft, distance(m * m, v, u));
+        engine("fft")->free(fft);
+        engine("mlms")->free(mlms);
+    }
+    printf("bytes a node beyond p and u, at the peak: mlms ");
+    fflush(stdout);
+    {
+        struct rc_sum sum = square(m, threads);
+        peak_bytes(engine("fft"), &sum);
+        printf(" (fft, above) ");
+        fflush(stdout);
+        sum.tol = 1e-6;
+        peak_bytes(engine("mlms"), &sum);
+    }
+    printf("\n");
+    free(p);
+    free(u);
+    free(v);
+}
+
+/* ---- time a node ---- */
+
+static void
+sizes(void)
+{
+    printf("\nNanoseconds a node, %zu threads\n", threads);
+    printf("%6s %10s %10s %10s %10s %10s\n", "M", "direct", "fft", "fft float", "periodic",
+           "mlms 1e-6");
+    for (size_t m = 256; m <= 4096; m *= 2) {
+        static const struct {
+            const char *name;
+            double tol;
+            enum rc_boundary boundary;
+        } columns[] = {{"direct", 0, RC_FREE}, {"fft", 0, RC_FREE}, {"fft", 1e-4, RC_FREE},
+                       {"fft", 0, RC_PERIODIC}, {"mlms", 1e-6, RC_FREE}};
+        double *p = must(malloc(m * m * sizeof *p)), *u = must(malloc(m * m * sizeof *u));
+        uint64_t seed = 1;
+
+        for (size_t k = 0; k < m * m; k++)
+            p[k] = uniform(&seed);
+        printf("%6zu", m);
+        for (size_t c = 0; c < sizeof columns / sizeof *columns; c++) {
+            struct rc_sum sum = square(m, threads);
+            const struct rc_engine *e = engine(columns[c].name);
+            struct rc_err err;
+            void *plan;
+
+            if (c == 0 && m > 256) {
+                printf(" %10s", "-");
+                continue;
+            }
+            sum.tol = columns[c].tol;
+            sum.boundary = columns[c].boundary;
+            plan = must(e->new(&sum, &err));
+            printf(" %10.2f", 1e9 * seconds(e, plan, p, u, c == 0 ? 1 : 5) / (double)(m * m));
+            fflush(stdout);
+            e->free(plan);
+        }
+        printf("\n");
+        free(p);
+        free(u);
+    }
+}
+
+int
+main(int argc, char **argv)
+{
+    static const struct {
+        const char *name;
+        void (*run)(void);
+    } parts[] = {{"table1", table1}, {"fftw", against_fftw}, {"sparse", sparse}, {"sizes", sizes}};
+    const char *wish = getenv("RC_THREADS");
+
+    threads = wish == NULL ? rc_threads_available() : (size_t)strtoul(wish, NULL, 10);
+    if (argc == 6 && strcmp(argv[1], "peak") == 0) {
+        peak_child(argv);
+        return 0;
+    }
+    fftw_init_threads();
+    for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
+        bool wanted = argc < 2;
+        for (int a = 1; a < argc; a++)
+            wanted |= strcmp(argv[a], parts[k].name) == 0;
+        if (wanted)
+            parts[k].run();
+    }
+    return 0;
+}

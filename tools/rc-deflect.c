@@ -1,0 +1,116 @@
+/* Displacement of the surface under a given pressure map. */
+#include <math.h>
+#include <string.h>
+
+#include "../libcontact/contact.h"
+#include "tool.h"
+
+static struct args {
+    double estar, tol;
+    size_t order, correction;
+    const char *kernel;
+    bool periodic;
+} args = {.estar = NAN, .tol = NAN, .kernel = "auto"};
+
+#define AT(field) .at = offsetof(struct args, field)
+static const struct opt opts[] = {
+    {.name = "estar", .type = OPT_NUMBER, .unit = UNIT_PA, AT(estar), .min = 0, .max = INFINITY,
+     .above = true, .result = true, .arg = "MODULUS",
+     .help = "composite modulus E* (default: the stream's own)"},
+    {.name = "periodic", .type = OPT_FLAG, AT(periodic), .result = true,
+     .help = "the map repeats for ever: only the mean of the displacement is left open"},
+    {.name = "kernel", .type = OPT_CHOICE, AT(kernel), .arg = "auto|fft|mlms|direct",
+     .help = "how displacements are summed (default auto)"},
+    {.name = "tol", .type = OPT_NUMBER, AT(tol), .min = 0, .max = 1, .above = true,
+     .result = true, .arg = "ERROR",
+     .help = "error allowed, relative to the sum of |K| |p| (default: rounding)"},
+    {.name = "order", .type = OPT_COUNT, AT(order), .min = 1, .max = 50, .result = true,
+     .arg = "T", .help = "mlms: transfers of order 2T, together with --correction"},
+    {.name = "correction", .type = OPT_COUNT, AT(correction), .min = 1, .max = 1000,
+     .result = true, .arg = "M", .help = "mlms: corrections over 2M+1 by 2M+1 nodes"},
+    {.name = NULL},
+};
+
+static const struct tool_info info = {
+    .name = "rc-deflect",
+    .summary = "Displacement of an elastic half-space under a pressure map",
+    .operands = "[FILE...]",
+    .examples = "  rc-solve --load 240N --estar 114GPa surface.rcg |\n"
+                "      rc-deflect --kernel mlms --tol 1e-6 -o displacement.rcg\n",
+    .opts = opts,
+    .reads = READS_STREAM,
+    .writes = WRITES_STREAM,
+};
+
+/* A pressure solved on one boundary has no displacement on the other. */
+static enum rc_boundary
+boundary(struct tool *t, const struct rc_grid *p)
+{
+    const char *own = rc_grid_get(p, "boundary");
+    bool periodic = own == NULL ? args.periodic : strcmp(own, "periodic") == 0;
+
+    if (args.periodic && !periodic)
+        tool_die_at(t, p, EXIT_IMPOSSIBLE, "its boundary is %s: --periodic contradicts it", own);
+    return periodic ? RC_PERIODIC : RC_FREE;
+}
+
+static double
+modulus(struct tool *t, const struct rc_grid *p)
+{
+    double estar;
+
+    if (!isnan(args.estar))
+        return args.estar;
+    if (!rc_grid_number(p, "estar", &estar) || !(estar > 0))
+        tool_die_at(t, p, EXIT_USAGE, "E* is not in the stream: give it with --estar");
+    return estar;
+}
+
+static void
+do_case(struct tool *t, const struct rc_grid *p)
+{
+    struct rc_shape shape = rc_grid_shape(p);
+    struct rc_conv_options options = {.boundary = boundary(t, p), .engine = args.kernel,
+                                      .tol = isnan(args.tol) ? 0 : args.tol,
+                                      .order = args.order, .correction = args.correction,
+                                      .memory = t->memory, .threads = t->threads};
+    double estar = modulus(t, p);
+    struct rc_conv *conv;
+    struct rc_grid *u;
+    struct rc_err err;
+
+    tool_demand_finite(t, p, "a pressure map has none; make it again");
+    tool_demand_memory(t, p, rc_conv_memory(&shape, &options) +
+                                 2 * p->nx * p->ny * sizeof(double));
+    conv = rc_conv_new(&shape, estar, &options, &err);
+    if (conv == NULL)
+        tool_die_at(t, p, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_note(t, "summed by %s, because %s; error at most %.1e of the sum of |K| |p|",
+              rc_conv_engine(conv), rc_conv_reason(conv), rc_conv_error(conv));
+    u = rc_grid_like(p, "displacement", "m", &err);
+    if (u == NULL || rc_grid_set_number(u, "estar", estar, &err) != RC_OK ||
+        rc_grid_set(u, "boundary", options.boundary == RC_PERIODIC ? "periodic" : "free", &err) !=
+            RC_OK ||
+        rc_grid_history(u, tool_history(t), &err) != RC_OK)
+        tool_die_at(t, p, EXIT_IMPOSSIBLE, "%s", err.text);
+    rc_conv_apply(conv, p->v, u->v);
+    rc_conv_free(conv);
+    tool_write(t, u);
+    rc_grid_free(u);
+}
+
+int
+main(int argc, char **argv)
+{
+    struct tool t;
+    struct rc_grid *p;
+
+    tool_start(&t, &info, argc, argv, &args);
+    if (tool_given(&t, "order") != tool_given(&t, "correction"))
+        tool_die(&t, EXIT_USAGE, "--order and --correction are given together or not at all");
+    while ((p = tool_channel(&t, "pressure", false)) != NULL) {
+        do_case(&t, p);
+        rc_grid_free(p);
+    }
+    return tool_finish(&t);
+}
