@@ -54,7 +54,7 @@ NAME(block)(int vectors, const double *q, size_t size, size_t columns,
     for (int i = 0; i < RC_BLOCK; i++)
 #pragma GCC unroll 4
         for (int x = 0; x < vectors; x++)
-            sum[i][x] = FROM(out + (size_t)i * stride + x * WIDTH);
+            sum[i][x] = (VECTOR){0}; /* not `out`: beside it, small terms lose their digits */
     for (size_t j = 0; j < columns; j++) {
         ptrdiff_t n = column[j].last - column[j].first + 1;
         const double *row = q + j * size - column[j].last * RC_STRIP;
@@ -80,7 +80,7 @@ NAME(block)(int vectors, const double *q, size_t size, size_t columns,
     for (int i = 0; i < RC_BLOCK; i++)
 #pragma GCC unroll 4
         for (int x = 0; x < vectors; x++)
-            AT(out + (size_t)i * stride + x * WIDTH) = sum[i][x];
+            AT(out + (size_t)i * stride + x * WIDTH) += sum[i][x];
 }
 
 TARGET static void
@@ -125,14 +125,14 @@ NAME(product)(const double *k, const double *q, size_t n, double *out, size_t st
         for (int i = 0; i < RC_BLOCK; i++)
 #pragma GCC unroll 4
             for (int v = 0; v < VECTORS; v++)
-                sum[i][v] = FROM(out + (size_t)i * stride + x + (size_t)v * WIDTH);
+                sum[i][v] = (VECTOR){0};
         for (size_t a = 0; a < n; a++)
             NAME(step)(sum, VECTORS, k + x - a, q + a * RC_BLOCK, 0, RC_BLOCK);
 #pragma GCC unroll 4
         for (int i = 0; i < RC_BLOCK; i++)
 #pragma GCC unroll 4
             for (int v = 0; v < VECTORS; v++)
-                AT(out + (size_t)i * stride + x + (size_t)v * WIDTH) = sum[i][v];
+                AT(out + (size_t)i * stride + x + (size_t)v * WIDTH) += sum[i][v];
     }
 }
 

@@ -47,12 +47,13 @@ model(size_t t, size_t reach)
     return crowd((double)t, (double)reach) * q;
 }
 
+/* Beyond the whole map there is nothing to reach. */
 static size_t
-reach_for(size_t t, double tol)
+reach_for(size_t t, double tol, const struct rc_shape *shape)
 {
-    size_t reach = 2 * t;
+    size_t reach = 2 * t, most = reach + (shape->nx > shape->ny ? shape->nx : shape->ny);
 
-    while (model(t, reach) > tol)
+    while (reach < most && model(t, reach) > tol)
         reach++;
     return reach;
 }
@@ -240,7 +241,7 @@ cheapest(struct rc_mlms_design *d, const struct rc_sum *sum, double tol)
 
     for (size_t t = first; t <= last; t++) {
         d->t = t;
-        d->reach = sum->correction > 0 ? sum->correction : reach_for(t, tol);
+        d->reach = sum->correction > 0 ? sum->correction : reach_for(t, tol, &sum->shape);
         lay(d, &sum->shape);
         if (d->work < best.work)
             best = *d;

@@ -168,6 +168,30 @@ mirror_and_scale(void **state)
     free(mirrored);
 }
 
+/* The engine changes the pressure by less than the tolerance asked for. */
+static void
+engines_agree(void **state)
+{
+    struct rc_shape shape = {121, 103, 1.1e-6, 1.29e-6};
+    double *h = paper_surface(shape, 7.5e-3 / 4);
+    struct rc_problem problem = {.estar = estar, .load = 240.0 / 16, .hardness = 6e9, .tol = 1e-5,
+                                 .threads = 2};
+    struct solved fft, mlms;
+
+    (void)state;
+    problem.engine = "fft";
+    fft = solve(shape, h, problem);
+    problem.engine = "mlms";
+    mlms = solve(shape, h, problem);
+    assert_int_equal(mlms.status, RC_OK);
+    print_message("MLMS differs from FFT by %.1e\n",
+                  distance(shape.nx * shape.ny, mlms.p, fft.p));
+    assert_true(distance(shape.nx * shape.ny, mlms.p, fft.p) < 2e-5); /* both to 1e-5 */
+    solved_free(&fft);
+    solved_free(&mlms);
+    free(h);
+}
+
 /* More load: more contact, more approach; less hardness: more contact, more approach. */
 static void
 monotone(void **state)
@@ -205,6 +229,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_papers_rough_sphere),
         cmocka_unit_test(the_estimate_does_not_flatter),
+        cmocka_unit_test(engines_agree),
         cmocka_unit_test(mirror_and_scale),
         cmocka_unit_test(monotone),
     };

@@ -43,7 +43,7 @@ static const struct opt opts[] = {
      .result = true, .arg = "PRESSURE", .help = "upper bound of the pressure: above it, yield"},
     {.name = "radius", .type = OPT_NUMBER, .unit = UNIT_M, AT(radius), ABOVE_0, .result = true,
      .arg = "LENGTH", .help = "add a sphere of this composite radius about the origin"},
-    {.name = "kernel", .type = OPT_CHOICE, AT(kernel), .arg = "auto|fft|direct",
+    {.name = "kernel", .type = OPT_CHOICE, AT(kernel), .arg = "auto|fft|mlms|direct",
      .help = "how displacements are summed (default auto)"},
     {.name = "method", .type = OPT_CHOICE, AT(method), .arg = "auto|pk99",
      .help = "how the contact is iterated (default auto)"},
