@@ -48,7 +48,7 @@ padded(size_t n, size_t step)
 static struct rc_layout
 layout_of(const struct rc_shape *s, enum rc_boundary boundary, enum rc_precision precision)
 {
-    const size_t line = precision == RC_SINGLE ? 8 : 4; /* complex numbers in a cache line */
+    const size_t line = precision == RC_SINGLE ? 16 : 8; /* complex numbers in two cache lines */
     struct rc_layout l = {.nx = s->nx, .ny = s->ny, .px = s->nx, .py = s->ny};
 
     if (boundary == RC_FREE) {

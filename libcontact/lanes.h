@@ -22,13 +22,13 @@ struct rc_column {
 
 struct rc_lanes {
     const char *name;
-    /* out[r RC_STRIP + x] = src[r stride + x - near] + sign src[r stride + x - far] for x < n, n
-     * rounded up to RC_LANE; the one value when near is far. */
-    void (*fold)(const double *src, size_t stride, size_t rows, size_t n, ptrdiff_t near,
-                 ptrdiff_t far, double sign, double *out);
+    /* Column j < columns: q_j[r RC_STRIP + x] = src[r stride + x - near - j]
+     * + sign src[r stride + x - far + j], the one value when both are the same, for r < rows and
+     * x < n rounded up to RC_LANE; q_j = q + j size. */
+    void (*fold)(const double *src, size_t stride, size_t rows, size_t n, size_t columns,
+                 ptrdiff_t near, ptrdiff_t far, double sign, double *q, size_t size);
     /* out[y stride + x] += sum over columns j and their l of c_j[l] q_j[(y - l) RC_STRIP + x] for
-     * y < rows, x < n, rounded up to RC_BLOCK and RC_LANE; column j is folded into
-     * q_j = q + j size. */
+     * y < rows, x < n, rounded up to RC_BLOCK and RC_LANE. */
     void (*stencil)(const double *q, size_t size, size_t columns, const struct rc_column *column,
                     double *out, size_t stride, size_t rows, size_t n);
     /* out[y stride + x] += v c[y width + x] for y < rows, x < width, a multiple of RC_LANE. */

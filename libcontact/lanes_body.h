@@ -7,19 +7,42 @@ typedef double NAME(vector) __attribute__((vector_size(WIDTH * 8), aligned(8), m
 #define AT(place) (*(VECTOR *)(place))
 #define FROM(place) (*(const VECTOR *)(place))
 
-TARGET static void
-NAME(fold)(const double *src, size_t stride, size_t rows, size_t n, ptrdiff_t near, ptrdiff_t far,
-           double sign, double *out)
+/* So many vectors of one row, all columns. */
+TARGET static inline __attribute__((always_inline)) void
+NAME(fold_row)(int vectors, const double *src, size_t columns, ptrdiff_t near, ptrdiff_t far,
+               double sign, double *q, size_t size)
 {
-    for (size_t r = 0; r < rows; r++, src += stride, out += RC_STRIP)
-        for (size_t x = 0; x < n; x += RC_LANE)
-            for (size_t v = x; v < x + RC_LANE; v += WIDTH) {
-                const double *at = src + v;
-                if (near == far)
-                    AT(out + v) = FROM(at - near);
-                else
-                    AT(out + v) = FROM(at - near) + sign * FROM(at - far);
-            }
+    size_t j = 0;
+
+    if (near == far) { /* the offset zero */
+#pragma GCC unroll 4
+        for (int x = 0; x < vectors; x++)
+            AT(q + x * WIDTH) = FROM(src - near + x * WIDTH);
+        j = 1;
+    }
+    for (; j < columns; j++) {
+        const double *a = src - near - (ptrdiff_t)j, *b = src - far + (ptrdiff_t)j;
+#pragma GCC unroll 4
+        for (int x = 0; x < vectors; x++)
+            AT(q + j * size + x * WIDTH) = FROM(a + x * WIDTH) + sign * FROM(b + x * WIDTH);
+    }
+}
+
+TARGET static void
+NAME(fold)(const double *src, size_t stride, size_t rows, size_t n, size_t columns, ptrdiff_t near,
+           ptrdiff_t far, double sign, double *q, size_t size)
+{
+    enum {
+        WIDE = 4 * WIDTH
+    };
+
+    for (size_t r = 0; r < rows; r++, src += stride, q += RC_STRIP) {
+        size_t x = 0;
+        for (; x + WIDE <= n; x += WIDE)
+            NAME(fold_row)(4, src + x, columns, near, far, sign, q + x, size);
+        for (; x < n; x += WIDTH)
+            NAME(fold_row)(1, src + x, columns, near, far, sign, q + x, size);
+    }
 }
 
 /* One source row to target rows first .. last-1 of a block; c[i] is the coefficient to row i. All
@@ -159,6 +182,14 @@ NAME(weigh)(size_t t, const double *s, const double *const *near, const double *
         for (int v = 0; v < 4; v++)
             AT(out + x + v * WIDTH) = sum[v];
     }
+    for (; x + WIDTH <= n; x += WIDTH) {
+        VECTOR sum = {0};
+        if (first != NULL)
+            sum = FROM(first + x);
+        for (size_t i = 0; i < t; i++)
+            sum += s[i] * (FROM(near[i] + x) + FROM(far[i] + x));
+        AT(out + x) = sum;
+    }
     for (; x < n; x++) {
         double sum = first != NULL ? first[x] : 0;
         for (size_t i = 0; i < t; i++)
@@ -192,11 +223,19 @@ NAME(join)(const double *restrict even, const double *restrict odd, size_t n, do
 TARGET static size_t
 NAME(count)(const double *src, size_t n)
 {
-    size_t sum = 0;
+    VECTOR sum = {0};
+    double total = 0;
+    size_t k = 0;
 
-    for (size_t k = 0; k < n; k++)
-        sum += src[k] != 0;
-    return sum;
+    for (; k + WIDTH <= n; k += WIDTH) {
+        VECTOR one = {0};
+        sum += FROM(src + k) != one ? one + 1 : one;
+    }
+    for (int v = 0; v < WIDTH; v++)
+        total += sum[v];
+    for (; k < n; k++)
+        total += src[k] != 0;
+    return (size_t)total;
 }
 
 static const struct rc_lanes NAME(lanes) = {

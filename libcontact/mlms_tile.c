@@ -156,18 +156,17 @@ rc_mlms_reduce(const struct rc_mlms *m, size_t level, const double *p, size_t ti
 /* ---- (14), (17) ---- */
 
 /* Pressures about an area of places, class by class, with the margins of the level; what lies
- * outside the map is zero. The number of those that are not zero, of each class. */
-static void
+ * outside the map is zero. The number of those that are not zero. */
+static size_t
 gather(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], const double *p, struct area a,
-       struct rc_mlms_scratch *w, size_t found[4])
+       struct rc_mlms_scratch *w)
 {
     const struct rc_mlms_axis *ax = &axis[RC_X], *ay = &axis[RC_Y];
     size_t wide = rounded(a.nx, RC_LANE) + 2 * ax->margin, stride = m->plane_stride;
-    size_t high = rounded(a.ny, RC_BLOCK) + 2 * ay->margin, n = wide << ax->halved;
+    size_t high = rounded(a.ny, RC_BLOCK) + 2 * ay->margin, n = wide << ax->halved, found = 0;
     ptrdiff_t x0 = (a.x0 - (ptrdiff_t)ax->margin) * (ptrdiff_t)(1 + ax->halved);
     ptrdiff_t y0 = a.y0 - (ptrdiff_t)ay->margin;
 
-    memset(found, 0, 4 * sizeof *found);
     for (size_t y = 0; y < high; y++)
         for (size_t s = 0; s <= ay->halved; s++) {
             ptrdiff_t at = (y0 + (ptrdiff_t)y) * (ptrdiff_t)(1 + ay->halved) + (ptrdiff_t)s;
@@ -182,10 +181,9 @@ gather(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], const double 
                 m->lanes->split(row, n, even, odd);
             else
                 memcpy(even, row, n * sizeof *even);
-            found[2 * s] += m->lanes->count(even, wide);
-            if (ax->halved)
-                found[2 * s + 1] += m->lanes->count(odd, wide);
+            found += m->lanes->count(row, n);
         }
+    return found;
 }
 
 /* Columns of a stencil, folded: offsets of both signs of x share their coefficients. Between classes
@@ -194,15 +192,10 @@ static void
 fold(const struct rc_mlms *m, const struct rc_mlms_axis *ax, const struct rc_mlms_stencil *s,
      ptrdiff_t delta, const double *src, size_t rows, size_t n, struct rc_mlms_scratch *w)
 {
-    for (size_t j = 0; j < s->columns; j++) {
-        ptrdiff_t near = (ptrdiff_t)j, far = -near;
-        if (ax->halved && delta > 0)
-            far -= 1;
-        else if (ax->halved && delta < 0)
-            near += 1;
-        m->lanes->fold(src, m->plane_stride, rows, n, near, far, m->sign[RC_X],
-                       w->fold + j * m->fold_size);
-    }
+    ptrdiff_t near = ax->halved && delta < 0, far = ax->halved && delta > 0 ? -1 : 0;
+
+    m->lanes->fold(src, m->plane_stride, rows, n, s->columns, near, far, m->sign[RC_X], w->fold,
+                   m->fold_size);
 }
 
 /* What the pressures of one class do to the target classes of one parity in x, strip by strip. */
@@ -234,7 +227,7 @@ rc_mlms_correct(const struct rc_mlms *m, size_t level, const double *p, size_t t
     const struct rc_mlms_level *l = &m->level[level], *next = l + 1;
     const struct rc_mlms_axis *ax = &l->axis[RC_X], *ay = &l->axis[RC_Y];
     struct area c = tile_area(next->axis, tile);
-    size_t width = next->axis[RC_X].n, found[4];
+    size_t width = next->axis[RC_X].n;
 
     for (size_t y = 0; y < c.ny; y += ay->tile)
         for (size_t x = 0; x < c.nx; x += ax->tile) {
@@ -249,12 +242,13 @@ rc_mlms_correct(const struct rc_mlms *m, size_t level, const double *p, size_t t
             if (!loaded(l, fx * (a.x0 - gx), fx * (a.x0 + (ptrdiff_t)a.nx + gx),
                         fy * (a.y0 - gy), fy * (a.y0 + (ptrdiff_t)a.ny + gy)))
                 continue;
-            gather(m, l->axis, p, a, w, found);
+            if (gather(m, l->axis, p, a, w) == 0)
+                continue;
             for (size_t r = 0; r < a.ny; r++)
                 memcpy(w->out[0] + r * m->out_stride, u + r * width, a.nx * sizeof *u);
             for (size_t c1 = 1; c1 < 4; c1++) {
                 const struct rc_mlms_stencil *targets[2] = {&l->coarse[c1], NULL};
-                if (found[c1] > 0 && l->coarse[c1].columns > 0)
+                if (l->coarse[c1].columns > 0)
                     sum_class(m, l->axis, targets, 0, c1, a, w);
             }
             for (size_t r = 0; r < a.ny; r++)
@@ -309,16 +303,15 @@ static void
 add_corrections(const struct rc_mlms *m, const struct rc_mlms_level *l, const double *p,
                 struct area a, struct rc_mlms_scratch *w)
 {
-    size_t found[4];
-
-    gather(m, l->axis, p, a, w, found);
+    if (gather(m, l->axis, p, a, w) == 0)
+        return;
     for (size_t source = 0; source < 4; source++)
         for (size_t tx = 0; tx <= l->axis[RC_X].halved; tx++) {
             const struct rc_mlms_stencil *targets[2] = {NULL, NULL};
             for (size_t ty = 0; ty <= l->axis[RC_Y].halved; ty++)
                 if (l->fine[tx + 2 * ty][source].columns > 0)
                     targets[ty] = &l->fine[tx + 2 * ty][source];
-            if (found[source] > 0 && (targets[0] != NULL || targets[1] != NULL))
+            if (targets[0] != NULL || targets[1] != NULL)
                 sum_class(m, l->axis, targets, tx, source, a, w);
         }
 }
