@@ -120,22 +120,26 @@ rc_box_balance(size_t n, double hardness, double sum, const double *g, double *p
 /* phi(mu) = sum clip(y + mu, 0, H) - S is monotone and piecewise linear: Newton's method inside a
  * bracket that shrinks, halved where Newton leaves it. */
 void
-rc_box_project(size_t n, double hardness, double sum, double *y)
+rc_box_project(size_t n, const unsigned char *w, double hardness, double sum, double *y)
 {
-    double low = INFINITY, high = -INFINITY, mu;
+    double least = INFINITY, most = -INFINITY, low, high, mu;
+    size_t count = 0;
 
-    for (size_t k = 0; k < n; k++) {
-        low = fmin(low, y[k]);
-        high = fmax(high, y[k]);
-    }
-    mu = low;
-    low = -high; /* nothing above 0 */
-    high = isinf(hardness) ? sum / (double)n - mu : hardness - mu;
+    for (size_t k = 0; k < n; k++)
+        if (w == NULL || w[k]) {
+            least = fmin(least, y[k]);
+            most = fmax(most, y[k]);
+            count++;
+        }
+    low = -most; /* nothing above 0 */
+    high = isinf(hardness) ? sum / (double)count - least : hardness - least;
     mu = fmin(fmax(0, low), high);
     for (int round = 0; round < 200; round++) {
         double phi = -sum, slope = 0, next;
         for (size_t k = 0; k < n; k++) {
             double v = y[k] + mu;
+            if (w != NULL && !w[k])
+                continue;
             phi += fmin(fmax(v, 0), hardness);
             slope += v > 0 && v < hardness;
         }
@@ -153,5 +157,6 @@ rc_box_project(size_t n, double hardness, double sum, double *y)
         mu = next;
     }
     for (size_t k = 0; k < n; k++)
-        y[k] = fmin(fmax(y[k] + mu, 0), hardness);
+        if (w == NULL || w[k])
+            y[k] = fmin(fmax(y[k] + mu, 0), hardness);
 }

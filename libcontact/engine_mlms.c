@@ -32,29 +32,29 @@ static void
 set_sizes(struct rc_mlms *m)
 {
     const struct rc_mlms_design *d = &m->d;
-    size_t t = d->t, columns = 0, fold_rows = 0, plane_rows = 0, rows = 0, row = 0;
+    size_t t = d->t, plane_rows = 0, rows = 0, row = 0;
 
     for (size_t q = 0; q < d->levels; q++) {
         const struct rc_mlms_axis *x = &d->axis[q][RC_X], *y = &d->axis[q][RC_Y];
         const struct rc_mlms_axis *next = d->axis[q + 1];
         size_t high = (y->tile + RC_BLOCK - 1) / RC_BLOCK * RC_BLOCK + 2 * y->margin;
-        size_t wide = x->tile + 2 * x->margin;
+        size_t wide = lines(x->tile + 2 * x->margin);
         size_t coarse = next[RC_X].tile << next[RC_X].halved;
-        m->plane_stride = largest(m->plane_stride, lines(wide) + RC_LANE);
+        m->plane_stride = largest(m->plane_stride, wide + RC_LANE);
         plane_rows = largest(plane_rows, high);
-        fold_rows = largest(fold_rows, high);
-        columns = largest(columns, (x->reach >> x->halved) + 1);
-        m->out_stride = largest(m->out_stride, lines(x->tile) + RC_LANE);
+        m->ring_size = largest(m->ring_size, ((x->reach >> x->halved) + 1) *
+                                                 (2 * y->margin + RC_BLOCK) * RC_STRIP);
+        m->out_lead = largest(m->out_lead, lines(2 * x->margin + 1));
+        m->mid_stride = largest(m->mid_stride, lines(x->tile));
         rows = largest(rows, (y->tile + RC_BLOCK - 1) / RC_BLOCK * RC_BLOCK);
-        row = largest(row, largest(lines(wide) << x->halved, 2 * (coarse + 2 * t)));
+        row = largest(row, largest(wide << x->halved, 2 * (coarse + 2 * t)));
     }
-    m->mid_stride = m->out_stride;
-    m->fold_size = fold_rows * RC_STRIP;
+    /* single sources reach 2 margins beyond a tile, and up to a vector more at its end */
+    m->out_stride = m->mid_stride + 2 * m->out_lead + 2 * RC_LANE;
     m->plane_size = m->plane_stride * plane_rows;
     /* two of them also take the halves of a row that is reduced */
-    m->out_size = largest(m->out_stride * rows, lines(row));
+    m->out_size = m->out_lead + largest(m->out_stride * rows, lines(row));
     m->mid_size = largest(m->mid_stride * (rows + 2 * t), lines(row));
-    m->store_columns = columns;
     m->zeros_size = lines(row);
 }
 
@@ -62,8 +62,8 @@ set_sizes(struct rc_mlms *m)
 static size_t
 scratch_size(const struct rc_mlms *m)
 {
-    return 4 * m->plane_size + 4 * m->out_size + m->store_columns * m->fold_size + m->mid_size +
-           m->zeros_size + lines(2 * m->d.t);
+    return 4 * m->plane_size + 4 * m->out_size + m->ring_size + m->mid_size +
+           m->zeros_size + m->plane_size + lines(2 * m->d.t);
 }
 
 static size_t
@@ -135,11 +135,12 @@ allocate_scratch(struct rc_mlms *m)
         for (int c = 0; c < 4; c++, at += m->plane_size)
             w->plane[c] = at;
         for (int c = 0; c < 4; c++, at += m->out_size)
-            w->out[c] = at;
-        w->fold = at;
-        w->mid = at += m->store_columns * m->fold_size;
+            w->out[c] = at + m->out_lead;
+        w->ring = at;
+        w->mid = at += m->ring_size;
         w->zeros = at += m->mid_size;
-        w->near = (const double **)(void *)(at += m->zeros_size);
+        w->list = (uint32_t *)(void *)(at += m->zeros_size);
+        w->near = (const double **)(void *)(at += m->plane_size);
         w->far = w->near + m->d.t;
         at += lines(2 * m->d.t);
     }

@@ -3,6 +3,10 @@
  */
 #include "lanes.h"
 
+#if defined(__x86_64__) && defined(__GNUC__)
+#include <immintrin.h>
+#endif
+
 #define WIDTH 2
 #define NAME(x) narrow_##x
 #define LANES "2"

@@ -6,6 +6,7 @@
 #define RC_LANES_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 enum {
     RC_STRIP = 32, /* nodes of a row that are summed at once                              */
@@ -20,17 +21,25 @@ struct rc_column {
     const double *c;
 };
 
+/* A strip of sources, and what their stencils add to one or two strips of targets. */
+struct rc_strip {
+    const double *src; /* the row `margin` above the first target row */
+    size_t stride, margin;
+    size_t rows, n; /* of targets; computed to multiples of RC_BLOCK and RC_LANE, n <= RC_STRIP */
+    /* Column j takes src[x - near - j] + sign src[x - far + j], the one value when they are one. */
+    size_t columns;
+    ptrdiff_t near, far;
+    double sign;
+    const struct rc_column *column[2]; /* NULL: no such target */
+    double *out[2];
+    size_t out_stride;
+    double *ring; /* columns (2 margin + RC_BLOCK) RC_STRIP, aligned to 64 bytes */
+};
+
 struct rc_lanes {
     const char *name;
-    /* Column j < columns: q_j[r RC_STRIP + x] = src[r stride + x - near - j]
-     * + sign src[r stride + x - far + j], the one value when both are the same, for r < rows and
-     * x < n rounded up to RC_LANE; q_j = q + j size. */
-    void (*fold)(const double *src, size_t stride, size_t rows, size_t n, size_t columns,
-                 ptrdiff_t near, ptrdiff_t far, double sign, double *q, size_t size);
-    /* out[y stride + x] += sum over columns j and their l of c_j[l] q_j[(y - l) RC_STRIP + x] for
-     * y < rows, x < n, rounded up to RC_BLOCK and RC_LANE. */
-    void (*stencil)(const double *q, size_t size, size_t columns, const struct rc_column *column,
-                    double *out, size_t stride, size_t rows, size_t n);
+    /* out[y][x] += sum over columns j and their l of c_j[l] column_j[y - l][x]. */
+    void (*stencil)(const struct rc_strip *strip);
     /* out[y stride + x] += v c[y width + x] for y < rows, x < width, a multiple of RC_LANE. */
     void (*scatter)(double v, const double *c, size_t width, size_t rows, double *out,
                     size_t stride);
@@ -42,6 +51,9 @@ struct rc_lanes {
     /* Even and odd places of n values, and back. */
     void (*split)(const double *src, size_t n, double *even, double *odd);
     void (*join)(const double *even, const double *odd, size_t n, double *out);
+    /* first + x for each src[x] != 0, x < n, a multiple of RC_LANE; returns how many. The list has
+     * room for n. */
+    size_t (*find)(const double *src, size_t n, uint32_t first, uint32_t *list);
     /* Values that are not zero. */
     size_t (*count)(const double *src, size_t n);
 };

@@ -3,6 +3,7 @@
  * TARGET what the compiler may use. The file that includes this sets them, once for each width.
  */
 typedef double NAME(vector) __attribute__((vector_size(WIDTH * 8), aligned(8), may_alias));
+typedef int64_t NAME(flags) __attribute__((vector_size(WIDTH * 8)));
 #define VECTOR NAME(vector)
 #define AT(place) (*(VECTOR *)(place))
 #define FROM(place) (*(const VECTOR *)(place))
@@ -28,23 +29,6 @@ NAME(fold_row)(int vectors, const double *src, size_t columns, ptrdiff_t near, p
     }
 }
 
-TARGET static void
-NAME(fold)(const double *src, size_t stride, size_t rows, size_t n, size_t columns, ptrdiff_t near,
-           ptrdiff_t far, double sign, double *q, size_t size)
-{
-    enum {
-        WIDE = 4 * WIDTH
-    };
-
-    for (size_t r = 0; r < rows; r++, src += stride, q += RC_STRIP) {
-        size_t x = 0;
-        for (; x + WIDE <= n; x += WIDE)
-            NAME(fold_row)(4, src + x, columns, near, far, sign, q + x, size);
-        for (; x < n; x += WIDTH)
-            NAME(fold_row)(1, src + x, columns, near, far, sign, q + x, size);
-    }
-}
-
 /* One source row to target rows first .. last-1 of a block; c[i] is the coefficient to row i. All
  * counts are constants where this is called: the sums stay in registers. */
 TARGET static inline __attribute__((always_inline)) void
@@ -65,74 +49,123 @@ NAME(step)(VECTOR sum[RC_BLOCK][4], int vectors, const double *q, const double *
     }
 }
 
-/* A block of RC_BLOCK target rows of so many vectors. Of a column's source rows the first reaches
- * only the first target row, the next two, and so on; the last only the last. */
+/* A block of RC_BLOCK target rows of so many vectors. Folded rows lie in a ring, `begin` that of the
+ * first target row. Of a column's source rows the first reaches only the first target row, the next
+ * two, and so on; the last only the last. */
 TARGET static inline __attribute__((always_inline)) void
-NAME(block)(int vectors, const double *q, size_t size, size_t columns,
-            const struct rc_column *column, double *out, size_t stride)
+NAME(block)(int vectors, const struct rc_strip *s, const struct rc_column *column, size_t begin,
+            size_t x0, double *out)
 {
     VECTOR sum[RC_BLOCK][4];
+    size_t ring = 2 * s->margin + RC_BLOCK;
 
 #pragma GCC unroll 4
     for (int i = 0; i < RC_BLOCK; i++)
 #pragma GCC unroll 4
         for (int x = 0; x < vectors; x++)
             sum[i][x] = (VECTOR){0}; /* not `out`: beside it, small terms lose their digits */
-    for (size_t j = 0; j < columns; j++) {
+    for (size_t j = 0; j < s->columns; j++) {
         ptrdiff_t n = column[j].last - column[j].first + 1;
-        const double *row = q + j * size - column[j].last * RC_STRIP;
+        size_t first = (size_t)((ptrdiff_t)(begin + s->margin) - column[j].last);
+        const double *start = s->ring + j * ring * RC_STRIP + x0, *end = start + ring * RC_STRIP;
+        const double *row = start + (first < ring ? first : first - ring) * RC_STRIP;
         const double *c = column[j].c + column[j].last;
 
+#define NEXT (c--, row = row + RC_STRIP == end ? start : row + RC_STRIP)
         if (n < RC_BLOCK) {
-            for (ptrdiff_t r = 0; n > 0 && r < n + RC_BLOCK - 1; r++, row += RC_STRIP)
-                NAME(step)(sum, vectors, row, c - r, 0, RC_BLOCK);
+            for (ptrdiff_t r = 0; n > 0 && r < n + RC_BLOCK - 1; r++, NEXT)
+                NAME(step)(sum, vectors, row, c, 0, RC_BLOCK);
             continue;
         }
         NAME(step)(sum, vectors, row, c, 0, 1);
-        NAME(step)(sum, vectors, row + RC_STRIP, c - 1, 0, 2);
-        NAME(step)(sum, vectors, row + 2 * RC_STRIP, c - 2, 0, 3);
-        row += 3 * RC_STRIP;
-        c -= 3;
-        for (ptrdiff_t r = RC_BLOCK - 1; r < n; r++, row += RC_STRIP, c--)
+        NEXT;
+        NAME(step)(sum, vectors, row, c, 0, 2);
+        NEXT;
+        NAME(step)(sum, vectors, row, c, 0, 3);
+        NEXT;
+        for (ptrdiff_t r = RC_BLOCK - 1; r < n; r++, NEXT)
             NAME(step)(sum, vectors, row, c, 0, RC_BLOCK);
         NAME(step)(sum, vectors, row, c, 1, RC_BLOCK);
-        NAME(step)(sum, vectors, row + RC_STRIP, c - 1, 2, RC_BLOCK);
-        NAME(step)(sum, vectors, row + 2 * RC_STRIP, c - 2, 3, RC_BLOCK);
+        NEXT;
+        NAME(step)(sum, vectors, row, c, 2, RC_BLOCK);
+        NEXT;
+        NAME(step)(sum, vectors, row, c, 3, RC_BLOCK);
+#undef NEXT
     }
 #pragma GCC unroll 4
     for (int i = 0; i < RC_BLOCK; i++)
 #pragma GCC unroll 4
         for (int x = 0; x < vectors; x++)
-            AT(out + (size_t)i * stride + x * WIDTH) += sum[i][x];
+            AT(out + (size_t)i * s->out_stride + x * WIDTH) += sum[i][x];
 }
 
 TARGET static void
-NAME(stencil)(const double *q, size_t size, size_t columns, const struct rc_column *column,
-              double *out, size_t stride, size_t rows, size_t n)
+NAME(fold)(const struct rc_strip *s, size_t row, size_t place)
 {
-    for (size_t y = 0; y < rows; y += RC_BLOCK, q += RC_BLOCK * RC_STRIP, out += RC_BLOCK * stride) {
+    enum {
+        WIDE = 4 * WIDTH
+    };
+    const double *src = s->src + row * s->stride;
+    double *q = s->ring + place * RC_STRIP;
+    size_t x = 0, size = (2 * s->margin + RC_BLOCK) * RC_STRIP;
+
+    for (; x + WIDE <= s->n; x += WIDE)
+        NAME(fold_row)(4, src + x, s->columns, s->near, s->far, s->sign, q + x, size);
+    for (; x < s->n; x += WIDTH)
+        NAME(fold_row)(1, src + x, s->columns, s->near, s->far, s->sign, q + x, size);
+}
+
+TARGET static void
+NAME(stencil)(const struct rc_strip *s)
+{
+    size_t ring = 2 * s->margin + RC_BLOCK, begin = 0, end = 2 * s->margin;
+
+    for (size_t r = 0; r < end; r++)
+        NAME(fold)(s, r, r);
+    for (size_t y = 0; y < s->rows; y += RC_BLOCK) {
+        for (size_t r = 0; r < RC_BLOCK; r++, end = end + 1 == ring ? 0 : end + 1)
+            NAME(fold)(s, 2 * s->margin + y + r, end);
+        for (int k = 0; k < 2; k++) {
+            const struct rc_column *column = s->column[k];
+            double *out = s->out[k] + y * s->out_stride;
+            if (column == NULL)
+                continue;
 #if WIDTH == 8 /* 32 registers: 16 sums, 4 values, coefficients */
-        size_t x = 0;
-        if (n > 16) {
-            NAME(block)(4, q, size, columns, column, out, stride);
-        } else if (n > 8) {
-            NAME(block)(2, q + x, size, columns, column, out + x, stride);
-        } else {
-            NAME(block)(1, q + x, size, columns, column, out + x, stride);
-        }
+            if (s->n > 16)
+                NAME(block)(4, s, column, begin, 0, out);
+            else if (s->n > 8)
+                NAME(block)(2, s, column, begin, 0, out);
+            else
+                NAME(block)(1, s, column, begin, 0, out);
 #else /* 16 registers: 8 sums */
-        for (size_t x = 0; x < n; x += 2 * WIDTH)
-            NAME(block)(2, q + x, size, columns, column, out + x, stride);
+            for (size_t x = 0; x < s->n; x += 2 * WIDTH)
+                NAME(block)(2, s, column, begin, x, out + x);
 #endif
+        }
+        begin = begin + RC_BLOCK < ring ? begin + RC_BLOCK : begin + RC_BLOCK - ring;
     }
+}
+
+TARGET static inline __attribute__((always_inline)) void
+NAME(add_rows)(size_t vectors, double v, const double *c, size_t rows, double *out, size_t stride)
+{
+    for (size_t y = 0; y < rows; y++, c += vectors * WIDTH, out += stride)
+#pragma GCC unroll 8
+        for (size_t x = 0; x < vectors; x++)
+            AT(out + x * WIDTH) += v * FROM(c + x * WIDTH);
 }
 
 TARGET static void
 NAME(scatter)(double v, const double *c, size_t width, size_t rows, double *out, size_t stride)
 {
-    for (size_t y = 0; y < rows; y++, c += width, out += stride)
-        for (size_t x = 0; x < width; x += WIDTH)
-            AT(out + x) += v * FROM(c + x);
+    if (width == 8)
+        NAME(add_rows)(8 / WIDTH, v, c, rows, out, stride);
+    else if (width == 16)
+        NAME(add_rows)(16 / WIDTH, v, c, rows, out, stride);
+    else if (width == 24)
+        NAME(add_rows)(24 / WIDTH, v, c, rows, out, stride);
+    else
+        NAME(add_rows)(width / WIDTH, v, c, rows, out, stride);
 }
 
 TARGET static void
@@ -221,32 +254,54 @@ NAME(join)(const double *restrict even, const double *restrict odd, size_t n, do
 }
 
 TARGET static size_t
+NAME(find)(const double *src, size_t n, uint32_t first, uint32_t *list)
+{
+    size_t found = 0;
+
+#if WIDTH == 8
+    const __m256i each = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+    for (size_t x = 0; x < n; x += 8) {
+        __mmask8 some = _mm512_cmp_pd_mask(_mm512_loadu_pd(src + x), _mm512_setzero_pd(),
+                                           _CMP_NEQ_UQ);
+        __m256i at = _mm256_add_epi32(each, _mm256_set1_epi32((int)(first + x)));
+        _mm256_storeu_si256((__m256i_u *)(void *)(list + found),
+                            _mm256_maskz_compress_epi32(some, at));
+        found += (size_t)__builtin_popcount(some);
+    }
+#else
+    for (size_t x = 0; x < n; x++) {
+        list[found] = first + (uint32_t)x;
+        found += src[x] != 0;
+    }
+#endif
+    return found;
+}
+
+TARGET static size_t
 NAME(count)(const double *src, size_t n)
 {
-    VECTOR sum = {0};
-    double total = 0;
-    size_t k = 0;
+    const VECTOR zero = {0};
+    NAME(flags) sum = {0}; /* comparison gives -1 or 0 */
+    size_t total = 0, k = 0;
 
-    for (; k + WIDTH <= n; k += WIDTH) {
-        VECTOR one = {0};
-        sum += FROM(src + k) != one ? one + 1 : one;
-    }
+    for (; k + WIDTH <= n; k += WIDTH)
+        sum -= (NAME(flags))(FROM(src + k) != zero);
     for (int v = 0; v < WIDTH; v++)
-        total += sum[v];
+        total += (size_t)sum[v];
     for (; k < n; k++)
         total += src[k] != 0;
-    return (size_t)total;
+    return total;
 }
 
 static const struct rc_lanes NAME(lanes) = {
     .name = LANES,
-    .fold = NAME(fold),
     .stencil = NAME(stencil),
     .scatter = NAME(scatter),
     .product = NAME(product),
     .weigh = NAME(weigh),
     .split = NAME(split),
     .join = NAME(join),
+    .find = NAME(find),
     .count = NAME(count),
 };
 

@@ -6,9 +6,7 @@
  * gap is negative.
  *
  * Where many nodes change sides at once the scheme can cycle for ever (one tall node over a plain;
- * loads close to saturation). The energy 1/2 p'Kp - h'p costs nothing to follow and must fall. A
- * step that raised it is taken back, and a projected-gradient step, which lowers it by a fixed part
- * of what is to be had, is made in its place.
+ * loads close to saturation): guard.c takes back what raised the energy.
  */
 #include "solver.h"
 
@@ -24,8 +22,7 @@ struct state {
     double delta; /* 0: the next direction is steepest descent       */
     double tau;   /* last step length, 0 before the first            */
     double first; /* a length that is safe where (26) is 0/0         */
-    double energy; /* after the last step that was kept              */
-    double norm;   /* bound of K's largest eigenvalue; 0: not known  */
+    struct rc_guard guard;
 };
 
 static void
@@ -60,7 +57,7 @@ state_new(struct rc_solver *solver, struct rc_err *err)
         return NULL;
     }
     s->G = 1;
-    s->energy = INFINITY;
+    s->guard.energy = INFINITY;
     rc_kernel_boussinesq.rows(&medium, 0, &cell, 1, 0, 1, &self);
     s->first = 1 / self;
     return s;
@@ -127,86 +124,6 @@ move(struct rc_solver *solver, struct state *s, size_t elastic)
     s->delta = moved ? 0 : 1;
 }
 
-/* ---- when the energy rose ---- */
-
-/* Whether it did since the last step, by more than rounding; u = K p. Remembers it when not. */
-static bool
-raised(struct rc_solver *solver, struct state *s, const double *u)
-{
-    double energy = 0, size = 0;
-
-    for (size_t k = 0; k < solver->n; k++) {
-        double a = solver->p[k] * u[k] / 2, b = solver->p[k] * solver->h[k];
-        energy += a - b;
-        size += fabs(a) + fabs(b);
-    }
-    if (energy > s->energy + 1e-13 * size)
-        return true;
-    s->energy = energy;
-    return false;
-}
-
-/* The largest row sum of K bounds its eigenvalues. */
-static double
-norm(struct rc_solver *solver, struct state *s)
-{
-    double largest = 0;
-
-    for (size_t k = 0; k < solver->n; k++)
-        s->t[k] = 1;
-    rc_conv_apply(solver->conv, s->t, s->r);
-    solver->convolutions++;
-    for (size_t k = 0; k < solver->n; k++)
-        largest = fmax(largest, s->r[k]);
-    return largest;
-}
-
-/* Longest step along t that keeps p in the box. */
-static double
-longest(const struct rc_solver *solver, const double *t)
-{
-    double most = INFINITY;
-
-    for (size_t k = 0; k < solver->n; k++) {
-        if (t[k] < 0)
-            most = fmin(most, -solver->p[k] / t[k]);
-        else if (t[k] > 0)
-            most = fmin(most, (solver->hardness - solver->p[k]) / t[k]);
-    }
-    return most;
-}
-
-/* From p back at `old`: towards the projection of p - g / |K|, to the lowest point on that way. */
-static void
-projected_step(struct rc_solver *solver, struct state *s)
-{
-    double above = 0, below = 0, length;
-
-    memcpy(solver->p, s->old, solver->n * sizeof *s->old);
-    if (s->norm == 0)
-        s->norm = norm(solver, s);
-    rc_conv_apply(solver->conv, solver->p, solver->g);
-    for (size_t k = 0; k < solver->n; k++) {
-        solver->g[k] -= solver->h[k];
-        s->t[k] = solver->p[k] - solver->g[k] / s->norm;
-    }
-    rc_box_project(solver->n, solver->hardness, solver->sum, s->t);
-    for (size_t k = 0; k < solver->n; k++)
-        s->t[k] -= solver->p[k];
-    rc_conv_apply(solver->conv, s->t, s->r);
-    solver->convolutions += 2;
-    for (size_t k = 0; k < solver->n; k++) {
-        above -= solver->g[k] * s->t[k];
-        below += s->r[k] * s->t[k];
-    }
-    length = fmin(below > 0 ? above / below : 0, longest(solver, s->t));
-    for (size_t k = 0; k < solver->n; k++)
-        solver->p[k] = fmin(fmax(solver->p[k] + length * s->t[k], 0), solver->hardness);
-    s->delta = 0;
-}
-
-/* ---- one step ---- */
-
 static void
 step(struct rc_solver *solver, void *at)
 {
@@ -216,8 +133,9 @@ step(struct rc_solver *solver, void *at)
 
     rc_conv_apply(solver->conv, solver->p, solver->g);
     solver->convolutions++;
-    if (raised(solver, s, solver->g)) {
-        projected_step(solver, s);
+    if (rc_guard_raised(&s->guard, solver, solver->g)) {
+        rc_guard_step(&s->guard, solver, s->old, s->t, s->r);
+        s->delta = 0;
     } else {
         elastic = rc_solver_gap(solver, solver->g, solver->g, &shift);
         direct(solver, s);

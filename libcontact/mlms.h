@@ -23,6 +23,10 @@
 #include "direct.h"
 #include "lanes.h"
 
+/* Fraction of loaded nodes below which they are taken one by one (measured: both take the same time
+ * at ...). */
+#define RC_MLMS_FEW 0.08
+
 enum {
     RC_X,
     RC_Y,
@@ -76,9 +80,10 @@ struct rc_mlms_level {
 /* Of one thread. */
 struct rc_mlms_scratch {
     double *plane[4]; /* pressures by class, with margins            */
-    double *out[4];   /* results by class                            */
-    double *fold;     /* columns of a strip                          */
+    double *out[4];   /* results by class, with room beside          */
+    double *ring;     /* columns of a strip                          */
     double *mid;      /* rows that one direction has been applied to */
+    uint32_t *list;   /* sources of one class, y << 16 | x           */
     double *zeros;
     const double **near, **far;
 };
@@ -91,7 +96,7 @@ struct rc_mlms {
     struct rc_mlms_level level[RC_MLMS_LEVELS + 1];
     struct rc_direct *direct;
     size_t plane_stride, plane_size, out_stride, out_size; /* doubles, enough on every level */
-    size_t fold_size, mid_stride, mid_size, store_columns, zeros_size;
+    size_t ring_size, mid_stride, mid_size, zeros_size, out_lead;
     struct rc_mlms_scratch *scratch;
     void *store; /* all of the scratch */
 };

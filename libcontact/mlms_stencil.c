@@ -204,9 +204,10 @@ unfold(struct rc_mlms_stencil *s, const struct rc_mlms *m, const struct rc_mlms_
         return true;
     s->width = ((size_t)(last_x - s->first_x) + RC_LANE) / RC_LANE * RC_LANE;
     s->rows = (size_t)(last_y - s->first_y) + 1;
-    s->sparse = calloc(s->width * s->rows, sizeof *s->sparse);
+    s->sparse = aligned_alloc(64, s->width * s->rows * sizeof *s->sparse);
     if (s->sparse == NULL)
         return false;
+    memset(s->sparse, 0, s->width * s->rows * sizeof *s->sparse);
     for (ptrdiff_t x = s->first_x; x <= last_x; x++)
         for (ptrdiff_t y = s->first_y; y <= last_y; y++) {
             ptrdiff_t k = (x << hx) + delta[RC_X], l = (y << hy) + delta[RC_Y];

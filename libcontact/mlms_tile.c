@@ -162,7 +162,8 @@ gather(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], const double 
        struct rc_mlms_scratch *w)
 {
     const struct rc_mlms_axis *ax = &axis[RC_X], *ay = &axis[RC_Y];
-    size_t wide = rounded(a.nx, RC_LANE) + 2 * ax->margin, stride = m->plane_stride;
+    size_t wide = rounded(rounded(a.nx, RC_LANE) + 2 * ax->margin, RC_LANE);
+    size_t stride = m->plane_stride;
     size_t high = rounded(a.ny, RC_BLOCK) + 2 * ay->margin, n = wide << ax->halved, found = 0;
     ptrdiff_t x0 = (a.x0 - (ptrdiff_t)ax->margin) * (ptrdiff_t)(1 + ax->halved);
     ptrdiff_t y0 = a.y0 - (ptrdiff_t)ay->margin;
@@ -186,38 +187,115 @@ gather(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], const double 
     return found;
 }
 
-/* Columns of a stencil, folded: offsets of both signs of x share their coefficients. Between classes
- * delta = target - source apart, offset k is place (k - delta)/2 (see rc_mlms_stencil). */
-static void
-fold(const struct rc_mlms *m, const struct rc_mlms_axis *ax, const struct rc_mlms_stencil *s,
-     ptrdiff_t delta, const double *src, size_t rows, size_t n, struct rc_mlms_scratch *w)
-{
-    ptrdiff_t near = ax->halved && delta < 0, far = ax->halved && delta > 0 ? -1 : 0;
-
-    m->lanes->fold(src, m->plane_stride, rows, n, s->columns, near, far, m->sign[RC_X], w->fold,
-                   m->fold_size);
-}
-
-/* What the pressures of one class do to the target classes of one parity in x, strip by strip. */
+/* What the pressures of one class do to the target classes of one parity in x, strip by strip.
+ * Offsets of both signs of x share their coefficients; between classes delta = target - source
+ * apart, offset k is place (k - delta)/2. */
 static void
 sum_class(const struct rc_mlms *m, const struct rc_mlms_axis axis[2],
           const struct rc_mlms_stencil *const targets[2], size_t tx, size_t source, struct area a,
           struct rc_mlms_scratch *w)
 {
-    size_t rows = rounded(a.ny, RC_BLOCK), wide = rounded(a.nx, RC_LANE);
-    size_t margin = axis[RC_Y].margin;
+    const struct rc_mlms_axis *ax = &axis[RC_X];
+    ptrdiff_t delta = (ptrdiff_t)tx - (ptrdiff_t)(source & 1);
     const struct rc_mlms_stencil *any = targets[0] != NULL ? targets[0] : targets[1];
+    size_t wide = rounded(a.nx, RC_LANE);
+    struct rc_strip s = {.stride = m->plane_stride,
+                         .margin = axis[RC_Y].margin,
+                         .rows = a.ny,
+                         .columns = any->columns,
+                         .near = ax->halved && delta < 0,
+                         .far = ax->halved && delta > 0 ? -1 : 0,
+                         .sign = m->sign[RC_X],
+                         .out_stride = m->out_stride,
+                         .ring = w->ring};
 
     for (size_t x = 0; x < wide; x += RC_STRIP) {
-        size_t n = least(wide - x, RC_STRIP);
-        fold(m, &axis[RC_X], any, (ptrdiff_t)tx - (ptrdiff_t)(source & 1),
-             w->plane[source] + axis[RC_X].margin + x, rows + 2 * margin, n, w);
-        for (size_t ty = 0; ty < 2; ty++)
-            if (targets[ty] != NULL)
-                m->lanes->stencil(w->fold + margin * RC_STRIP, m->fold_size, targets[ty]->columns,
-                                  targets[ty]->column, w->out[tx + 2 * ty] + x, m->out_stride,
-                                  rows, n);
+        s.src = w->plane[source] + ax->margin + x;
+        s.n = least(wide - x, RC_STRIP);
+        for (size_t ty = 0; ty < 2; ty++) {
+            s.column[ty] = targets[ty] != NULL ? targets[ty]->column : NULL;
+            s.out[ty] = w->out[tx + 2 * ty] + x;
+        }
+        m->lanes->stencil(&s);
     }
+}
+
+/* ---- the same where few nodes carry pressure ---- */
+
+/* The places of class `source` that carry pressure, row and column of its plane in one number. */
+static size_t
+list(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], size_t source, struct area a,
+     struct rc_mlms_scratch *w)
+{
+    size_t wide = rounded(rounded(a.nx, RC_LANE) + 2 * axis[RC_X].margin, RC_LANE), n = 0;
+    size_t high = rounded(a.ny, RC_BLOCK) + 2 * axis[RC_Y].margin;
+
+    for (size_t y = 0; y < high; y++)
+        n += m->lanes->find(w->plane[source] + y * m->plane_stride, wide, (uint32_t)y << 16,
+                            w->list + n);
+    return n;
+}
+
+/* The i-th of n in an order in which neighbours are far apart: a row that was just written is slow
+ * to be read again. */
+static size_t
+spaced(size_t i, size_t n)
+{
+    enum {
+        STREAMS = 8
+    };
+    size_t length = n / STREAMS;
+
+    return i < length * STREAMS ? i % STREAMS * length + i / STREAMS : i;
+}
+
+/* Adds what each of n listed sources of one class does to the nodes of a target class about it, row
+ * by row. Beside the area there is room for what lies outside. */
+static void
+spread(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], const struct rc_mlms_stencil *s,
+       size_t n, struct area a, const double *plane, const uint32_t *list, double *out)
+{
+    ptrdiff_t high = (ptrdiff_t)a.ny, my = (ptrdiff_t)axis[RC_Y].margin;
+    ptrdiff_t mx = (ptrdiff_t)axis[RC_X].margin;
+
+    for (size_t i = 0; i < n; i++) {
+        size_t at = list[spaced(i, n)], at_x = at & 0xffff, at_y = at >> 16;
+        ptrdiff_t x = (ptrdiff_t)at_x - mx + s->first_x, y = (ptrdiff_t)at_y - my + s->first_y;
+        ptrdiff_t first = y < 0 ? -y : 0, last = (ptrdiff_t)s->rows;
+        last = last < high - y ? last : high - y;
+        if (first < last && x < (ptrdiff_t)a.nx && x + (ptrdiff_t)s->width > 0)
+            m->lanes->scatter(plane[at_y * m->plane_stride + at_x],
+                              s->sparse + (size_t)first * s->width, s->width,
+                              (size_t)(last - first),
+                              out + (y + first) * (ptrdiff_t)m->out_stride + x, m->out_stride);
+    }
+}
+
+/* Corrections of the targets first .. last of area a from gathered pressures. */
+static void
+scatter(const struct rc_mlms *m, const struct rc_mlms_axis axis[2],
+        const struct rc_mlms_stencil targets[][4], size_t first, size_t last, struct area a,
+        struct rc_mlms_scratch *w)
+{
+    for (size_t source = 0; source < 4; source++) {
+        size_t n = 0;
+        if ((source & 1) <= axis[RC_X].halved && source >> 1 <= axis[RC_Y].halved)
+            n = list(m, axis, source, a, w);
+        for (size_t target = first; n > 0 && target <= last; target++)
+            spread(m, axis, &targets[target - first][source], n, a, w->plane[source], w->list,
+                   w->out[target]);
+    }
+}
+
+/* Sources one by one are cheaper than all at once below this fraction of loaded nodes. */
+static bool
+few(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], size_t found, struct area a)
+{
+    double nodes = (double)((a.nx + 2 * axis[RC_X].margin) << axis[RC_X].halved) *
+                   (double)((a.ny + 2 * axis[RC_Y].margin) << axis[RC_Y].halved);
+
+    return (double)found < RC_MLMS_FEW * nodes && m->plane_stride <= 0xffff &&
+           m->plane_size <= 0xffff * m->plane_stride;
 }
 
 void
@@ -227,7 +305,7 @@ rc_mlms_correct(const struct rc_mlms *m, size_t level, const double *p, size_t t
     const struct rc_mlms_level *l = &m->level[level], *next = l + 1;
     const struct rc_mlms_axis *ax = &l->axis[RC_X], *ay = &l->axis[RC_Y];
     struct area c = tile_area(next->axis, tile);
-    size_t width = next->axis[RC_X].n;
+    size_t width = next->axis[RC_X].n, found;
 
     for (size_t y = 0; y < c.ny; y += ay->tile)
         for (size_t x = 0; x < c.nx; x += ax->tile) {
@@ -242,14 +320,17 @@ rc_mlms_correct(const struct rc_mlms *m, size_t level, const double *p, size_t t
             if (!loaded(l, fx * (a.x0 - gx), fx * (a.x0 + (ptrdiff_t)a.nx + gx),
                         fy * (a.y0 - gy), fy * (a.y0 + (ptrdiff_t)a.ny + gy)))
                 continue;
-            if (gather(m, l->axis, p, a, w) == 0)
+            found = gather(m, l->axis, p, a, w);
+            if (found == 0)
                 continue;
             for (size_t r = 0; r < a.ny; r++)
                 memcpy(w->out[0] + r * m->out_stride, u + r * width, a.nx * sizeof *u);
-            for (size_t c1 = 1; c1 < 4; c1++) {
-                const struct rc_mlms_stencil *targets[2] = {&l->coarse[c1], NULL};
-                if (l->coarse[c1].columns > 0)
-                    sum_class(m, l->axis, targets, 0, c1, a, w);
+            if (few(m, l->axis, found, a))
+                scatter(m, l->axis, &l->coarse, 0, 0, a, w);
+            for (size_t s = 1; s < 4 && !few(m, l->axis, found, a); s++) {
+                const struct rc_mlms_stencil *targets[2] = {&l->coarse[s], NULL};
+                if (l->coarse[s].columns > 0)
+                    sum_class(m, l->axis, targets, 0, s, a, w);
             }
             for (size_t r = 0; r < a.ny; r++)
                 memcpy(u + r * width, w->out[0] + r * m->out_stride, a.nx * sizeof *u);
@@ -303,8 +384,13 @@ static void
 add_corrections(const struct rc_mlms *m, const struct rc_mlms_level *l, const double *p,
                 struct area a, struct rc_mlms_scratch *w)
 {
-    if (gather(m, l->axis, p, a, w) == 0)
+    size_t found = gather(m, l->axis, p, a, w);
+
+    if (few(m, l->axis, found, a)) {
+        if (found > 0)
+            scatter(m, l->axis, &l->fine[1], 1, 3, a, w);
         return;
+    }
     for (size_t source = 0; source < 4; source++)
         for (size_t tx = 0; tx <= l->axis[RC_X].halved; tx++) {
             const struct rc_mlms_stencil *targets[2] = {NULL, NULL};

@@ -124,7 +124,7 @@ rc_solver_new(const struct rc_shape *shape, const double *h, const struct rc_pro
     s->max_iterations = problem->max_iterations > 0
                             ? problem->max_iterations
                             : 100 + (size_t)(10 * sqrt((double)s->n));
-    s->change = s->error = NAN;
+    s->change = s->error = s->estimate = NAN;
     s->next_check = 1;
     if (!allocate(s, h))
         goto short_of_memory;
@@ -203,13 +203,6 @@ rc_solver_gap(struct rc_solver *s, const double *u, double *g, double *shift)
 
 /* ---- judging ---- */
 
-/* Whether a node at a bound wants to leave it. */
-static bool
-wants_out(const struct rc_solver *s, size_t k)
-{
-    return (s->p[k] <= 0 && s->g[k] < 0) || (s->p[k] >= s->hardness && s->g[k] > 0);
-}
-
 /* Relative L1 norm of the correction that the extension preconditioner would make, from s->g, the
  * gap of s->p with zero mean over `elastic` nodes. */
 static double
@@ -219,7 +212,7 @@ estimate_error(struct rc_solver *s, size_t elastic)
     double mean = 0, sum = 0;
 
     for (size_t k = 0; k < s->n; k++) {
-        s->working[k] = rc_elastic(s, k) || wants_out(s, k);
+        s->working[k] = rc_elastic(s, k) || rc_wants_out(s, k);
         if (s->working[k]) {
             mean += s->g[k];
             count++;
@@ -255,6 +248,13 @@ judge(struct rc_solver *s)
     return estimate_error(s, rc_solver_gap(s, s->g, s->g, &shift));
 }
 
+/* The load is a constraint that every method keeps; should one lose it, the result is none. */
+static bool
+load_kept(const struct rc_solver *s)
+{
+    return fabs(rc_sum(s->p, s->n) - s->sum) <= 1e-10 * s->sum;
+}
+
 enum rc_status
 rc_solver_step(struct rc_solver *s)
 {
@@ -262,6 +262,13 @@ rc_solver_step(struct rc_solver *s)
 
     s->method->step(s, s->state);
     s->iterations++;
+    if (!isnan(s->estimate)) {
+        s->error = s->estimate;
+        s->judged = s->iterations;
+        if (s->error <= s->tol && load_kept(s))
+            return RC_OK;
+        return s->iterations >= s->max_iterations || s->change == 0 ? RC_SHORT : RC_MORE;
+    }
     last = s->iterations >= s->max_iterations || s->change <= DBL_EPSILON;
     /* Five convolutions to judge, two to go on: not before the steps are small, nor every time. */
     if (!last && (s->iterations < s->next_check || s->change > s->tol))
@@ -269,7 +276,7 @@ rc_solver_step(struct rc_solver *s)
     s->error = judge(s);
     s->judged = s->iterations;
     s->next_check = s->iterations + 5 + s->iterations / 10;
-    if (s->error <= s->tol)
+    if (s->error <= s->tol && load_kept(s))
         return RC_OK;
     return last ? RC_SHORT : RC_MORE;
 }
@@ -342,7 +349,7 @@ violation(const struct rc_solver *s, size_t k)
 {
     if (rc_elastic(s, k))
         return fabs(s->g[k]);
-    return wants_out(s, k) ? fabs(s->g[k]) : 0;
+    return rc_wants_out(s, k) ? fabs(s->g[k]) : 0;
 }
 
 static void
@@ -386,6 +393,6 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
     if (s->judged != s->iterations || isnan(s->error)) /* stopped from outside */
         s->error = estimate_error(s, elastic);
     c->pressure_error = s->error;
-    c->converged = s->error <= s->tol;
+    c->converged = s->error <= s->tol && load_kept(s);
     c->convolutions = s->convolutions;
 }

@@ -44,6 +44,8 @@ struct rc_solver {
     size_t iterations;
     double convolutions;     /* equivalents of one double-precision convolution             */
     double change;           /* relative L1 change of p in the last step                    */
+    double estimate;         /* of the relative L1 error of p, by a method that has it at hand from a
+                                fresh K p; NAN: it has not                                  */
     double error;            /* estimated relative L1 error at the last check; NAN: none    */
     size_t judged;           /* iteration of that check                                     */
     size_t next_check;       /* iteration at which the error is estimated again             */
@@ -54,6 +56,13 @@ static inline bool
 rc_elastic(const struct rc_solver *s, size_t k)
 {
     return s->p[k] > 0 && s->p[k] < s->hardness;
+}
+
+/* Whether a node at a bound wants to leave it, by solver->g. */
+static inline bool
+rc_wants_out(const struct rc_solver *s, size_t k)
+{
+    return (s->p[k] <= 0 && s->g[k] < 0) || (s->p[k] >= s->hardness && s->g[k] > 0);
 }
 
 /* g = K p - h, and then less its mean over the elastic nodes, or, when there are none, less the
@@ -67,7 +76,21 @@ enum rc_status rc_box_balance(size_t n, double hardness, double sum, const doubl
                               struct rc_err *err);
 
 
-/* box.c: the nearest point of {0 <= y <= H, sum y = sum}: one shift for all, clipped. */
-void rc_box_project(size_t n, double hardness, double sum, double *y);
+/* box.c: the nearest point of {0 <= y <= H, sum y = sum} over the nodes with w set (NULL: all): one
+ * shift for them, clipped. They have to be able to carry the sum. */
+void rc_box_project(size_t n, const unsigned char *w, double hardness, double sum, double *y);
+
+/* guard.c: begins with energy INFINITY, norm 0. */
+struct rc_guard {
+    double energy; /* of the last p that was kept                 */
+    double norm;   /* bound of K's largest eigenvalue; 0: unknown */
+};
+/* Whether the energy of solver->p, u = K p, has risen above that of the last p kept; else this one
+ * is. */
+bool rc_guard_raised(struct rc_guard *guard, const struct rc_solver *solver, const double *u);
+/* solver->p goes back to `old`, and from there towards the projection of p - g / |K|, to the lowest
+ * point on that way. t, r: scratch of n. Costs two convolutions, three the first time. */
+void rc_guard_step(struct rc_guard *guard, struct rc_solver *solver, const double *old, double *t,
+                   double *r);
 
 #endif

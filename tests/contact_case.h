@@ -16,6 +16,16 @@ struct solved {
     struct rc_err err;
 };
 
+/* Every method is put to the same tests: main runs its group once for each. */
+static const char *const contact_methods[] = {"pk99", "pcg"};
+static const char *contact_method = "pcg";
+
+#define RUN_FOR_EACH_METHOD(tests, failed)                                                         \
+    for (size_t m_ = 0; m_ < 2; m_++) {                                                            \
+        contact_method = contact_methods[m_];                                                      \
+        failed += cmocka_run_group_tests_name(contact_method, tests, NULL, NULL);                  \
+    }
+
 static inline struct solved
 solve(struct rc_shape shape, const double *h, struct rc_problem problem)
 {
@@ -23,8 +33,11 @@ solve(struct rc_shape shape, const double *h, struct rc_problem problem)
     struct solved s = {.p = calloc(n, sizeof(double)),
                        .gap = calloc(n, sizeof(double)),
                        .u = calloc(n, sizeof(double))};
-    struct rc_solver *solver = rc_solver_new(&shape, h, &problem, &s.err);
+    struct rc_solver *solver;
 
+    if (problem.method == NULL)
+        problem.method = contact_method;
+    solver = rc_solver_new(&shape, h, &problem, &s.err);
     if (solver == NULL) {
         s.status = RC_FAIL;
         return s;

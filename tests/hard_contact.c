@@ -187,6 +187,27 @@ strips_and_needles(void **state)
     }
 }
 
+/* Beyond rounding no method can go: it says so, and keeps what it has. */
+static void
+an_accuracy_out_of_reach(void **state)
+{
+    struct rc_shape shape = {32, 32, 1e-6, 1e-6};
+    double h[32 * 32];
+    uint64_t seed = 2;
+    struct rc_problem problem = {.estar = estar, .load = 0.1, .hardness = INFINITY, .tol = 1e-18};
+    struct solved s;
+
+    (void)state;
+    for (size_t k = 0; k < 32 * 32; k++)
+        h[k] = 5e-8 * random_number(&seed);
+    s = solve(shape, h, problem);
+    assert_int_equal(s.status, RC_SHORT);
+    assert_false(s.c.converged);
+    assert_true(s.c.pressure_error < 1e-13);
+    assert_true(fabs(s.c.load / problem.load - 1) < summed);
+    solved_free(&s);
+}
+
 static void
 impossible_requests(void **state)
 {
@@ -224,11 +245,14 @@ impossible_requests(void **state)
 int
 main(void)
 {
+    int failed = 0;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_node_carries_all), cmocka_unit_test(every_node_yields),
         cmocka_unit_test(ugly_surfaces),        cmocka_unit_test(scales),
         cmocka_unit_test(strips_and_needles),   cmocka_unit_test(impossible_requests),
+        cmocka_unit_test(an_accuracy_out_of_reach),
     };
 
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    RUN_FOR_EACH_METHOD(tests, failed)
+    return failed;
 }

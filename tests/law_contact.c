@@ -226,6 +226,7 @@ monotone(void **state)
 int
 main(void)
 {
+    int failed = 0;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_papers_rough_sphere),
         cmocka_unit_test(the_estimate_does_not_flatter),
@@ -234,5 +235,6 @@ main(void)
         cmocka_unit_test(monotone),
     };
 
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    RUN_FOR_EACH_METHOD(tests, failed)
+    return failed;
 }

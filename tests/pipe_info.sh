@@ -68,7 +68,7 @@ refuses 1 'No such file' "nothing" "rc-info nowhere.rcg"
 refuses 2 'unknown' "an unknown option" "rc-info --yaml map.rcg"
 refuses 1 'No space left|writing failed' "a full disk" "rc-info map.rcg >/dev/full"
 refuses 3 'converged=no' "an unfinished solution" \
-    "rc-synth sphere --radius 1mm --nx 16 --dx 1um |
-        rc-solve --load 1mN --estar 100GPa --tol 1e-17 --quiet -o short.rcg; rc-info short.rcg"
+    "rc-synth selfaffine --nx 32 --dx 1um --hurst 0.8 --rms-height 10nm |
+        rc-solve --load 100mN --estar 100GPa --tol 1e-18 --quiet -o short.rcg; rc-info short.rcg"
 
 finish

@@ -176,11 +176,13 @@ units_and_datum(void **state)
 int
 main(void)
 {
+    int failed = 0;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(radius_pressure_and_approach),
         cmocka_unit_test(stress_under_the_contact),
         cmocka_unit_test(units_and_datum),
     };
 
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    RUN_FOR_EACH_METHOD(tests, failed)
+    return failed;
 }

@@ -132,6 +132,7 @@ two_peaks(void **state)
 int
 main(void)
 {
+    int failed = 0;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cone),
         cmocka_unit_test(plastic_cone),
@@ -139,5 +140,6 @@ main(void)
         cmocka_unit_test(two_peaks),
     };
 
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    RUN_FOR_EACH_METHOD(tests, failed)
+    return failed;
 }

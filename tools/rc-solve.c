@@ -45,7 +45,7 @@ static const struct opt opts[] = {
      .arg = "LENGTH", .help = "add a sphere of this composite radius about the origin"},
     {.name = "kernel", .type = OPT_CHOICE, AT(kernel), .arg = "auto|fft|mlms|direct",
      .help = "how displacements are summed (default auto)"},
-    {.name = "method", .type = OPT_CHOICE, AT(method), .arg = "auto|pk99",
+    {.name = "method", .type = OPT_CHOICE, AT(method), .arg = "auto|pcg|pk99",
      .help = "how the contact is iterated (default auto)"},
     {.name = "tol", .type = OPT_NUMBER, AT(tol), .min = 0, .max = 1, .above = true,
      .result = true, .arg = "ERROR",
