@@ -63,7 +63,7 @@ static size_t
 scratch_size(const struct rc_mlms *m)
 {
     return 4 * m->plane_size + 4 * m->out_size + m->ring_size + m->mid_size +
-           m->zeros_size + m->plane_size + lines(2 * m->d.t);
+           m->zeros_size + 2 * m->plane_size + lines(2 * m->d.t);
 }
 
 static size_t
@@ -140,7 +140,7 @@ allocate_scratch(struct rc_mlms *m)
         w->mid = at += m->ring_size;
         w->zeros = at += m->mid_size;
         w->list = (uint32_t *)(void *)(at += m->zeros_size);
-        w->near = (const double **)(void *)(at += m->plane_size);
+        w->near = (const double **)(void *)(at += 2 * m->plane_size);
         w->far = w->near + m->d.t;
         at += lines(2 * m->d.t);
     }
@@ -154,7 +154,7 @@ allocate_levels(struct rc_mlms *m, const struct rc_sum *sum)
         struct rc_mlms_level *l = &m->level[q];
         size_t n = m->d.axis[q][RC_X].n * m->d.axis[q][RC_Y].n;
         l->axis = m->d.axis[q];
-        if ((l->loaded = calloc(tiles(l->axis), 1)) == NULL)
+        if ((l->loaded = calloc(tiles(l->axis), sizeof *l->loaded)) == NULL)
             return false;
         if (q > 0 && ((l->p = calloc(n, sizeof *l->p)) == NULL ||
                       (l->u = calloc(n, sizeof *l->u)) == NULL))

@@ -71,7 +71,7 @@ struct rc_mlms_design {
 struct rc_mlms_level {
     const struct rc_mlms_axis *axis;
     double *p, *u;         /* of this level; NULL on the finest: the caller's           */
-    unsigned char *loaded; /* tiles that carry pressure                                 */
+    size_t *loaded;        /* nodes of each tile that carry pressure                    */
     unsigned char *wanted; /* tiles whose result somebody wants; NULL: all              */
     struct rc_mlms_stencil fine[4][4]; /* [target][source], class x + 2 y; target 0 unused */
     struct rc_mlms_stencil coarse[4];  /* [source], to coarse nodes; 0 unused              */
@@ -83,7 +83,7 @@ struct rc_mlms_scratch {
     double *out[4];   /* results by class, with room beside          */
     double *ring;     /* columns of a strip                          */
     double *mid;      /* rows that one direction has been applied to */
-    uint32_t *list;   /* sources of one class, y << 16 | x           */
+    uint32_t *list;   /* loaded nodes, y << 16 | x                   */
     double *zeros;
     const double **near, **far;
 };

@@ -35,22 +35,37 @@ tile_area(const struct rc_mlms_axis axis[2], size_t tile)
                          least(high, axis[RC_Y].n - y * high)};
 }
 
-/* Whether a tile that carries pressure meets [x0, x1) x [y0, y1) of a level's nodes. */
-static bool
-loaded(const struct rc_mlms_level *l, ptrdiff_t x0, ptrdiff_t x1, ptrdiff_t y0, ptrdiff_t y1)
+/* Nodes of a level that carry pressure, in the tiles that meet [x0, x0 + nx) x [y0, y0 + ny), as a
+ * fraction of all nodes of those tiles. */
+static double
+loaded(const struct rc_mlms_level *l, struct area a)
 {
     const struct rc_mlms_axis *ax = &l->axis[RC_X], *ay = &l->axis[RC_Y];
-    size_t wide = ax->tile << ax->halved, high = ay->tile << ay->halved;
+    size_t wide = ax->tile << ax->halved, high = ay->tile << ay->halved, found = 0, tiles = 0;
+    ptrdiff_t x1 = a.x0 + (ptrdiff_t)a.nx, y1 = a.y0 + (ptrdiff_t)a.ny;
 
-    x0 = x0 > 0 ? x0 : 0;
-    y0 = y0 > 0 ? y0 : 0;
-    if (x1 <= x0 || y1 <= y0)
-        return false;
-    for (size_t y = (size_t)y0 / high; y < ay->tiles && y <= (size_t)(y1 - 1) / high; y++)
-        for (size_t x = (size_t)x0 / wide; x < ax->tiles && x <= (size_t)(x1 - 1) / wide; x++)
-            if (l->loaded[y * ax->tiles + x])
-                return true;
-    return false;
+    a.x0 = a.x0 > 0 ? a.x0 : 0;
+    a.y0 = a.y0 > 0 ? a.y0 : 0;
+    if (x1 <= a.x0 || y1 <= a.y0)
+        return 0;
+    for (size_t y = (size_t)a.y0 / high; y < ay->tiles && y <= (size_t)(y1 - 1) / high; y++)
+        for (size_t x = (size_t)a.x0 / wide; x < ax->tiles && x <= (size_t)(x1 - 1) / wide; x++) {
+            found += l->loaded[y * ax->tiles + x];
+            tiles++;
+        }
+    return tiles == 0 ? 0 : (double)found / ((double)tiles * (double)wide * (double)high);
+}
+
+/* An area of places in nodes, with the margins of corrections. */
+static struct area
+halo(const struct rc_mlms_axis axis[2], struct area a)
+{
+    size_t hx = axis[RC_X].halved, hy = axis[RC_Y].halved;
+    size_t mx = axis[RC_X].margin, my = axis[RC_Y].margin;
+
+    return (struct area){(a.x0 - (ptrdiff_t)mx) * (ptrdiff_t)(1 + hx),
+                         (a.y0 - (ptrdiff_t)my) * (ptrdiff_t)(1 + hy), (a.nx + 2 * mx) << hx,
+                         (a.ny + 2 * my) << hy};
 }
 
 void
@@ -61,8 +76,8 @@ rc_mlms_scan(const struct rc_mlms *m, size_t level, const double *p, size_t tile
     const double *row = p + (size_t)t.y0 * l->axis[RC_X].n + (size_t)t.x0;
 
     l->loaded[tile] = 0;
-    for (size_t y = 0; y < t.ny && !l->loaded[tile]; y++, row += l->axis[RC_X].n)
-        l->loaded[tile] = m->lanes->count(row, t.nx) > 0;
+    for (size_t y = 0; y < t.ny; y++, row += l->axis[RC_X].n)
+        l->loaded[tile] += m->lanes->count(row, t.nx);
 }
 
 /* ---- (10) ---- */
@@ -134,7 +149,7 @@ rc_mlms_reduce(const struct rc_mlms *m, size_t level, const double *p, size_t ti
     size_t n = ax->halved ? 2 * (c.nx + 2 * m->d.t) : c.nx;
     size_t high = ay->halved ? 2 * (c.ny + 2 * m->d.t) : c.ny, found = 0;
     double *out = next->p + (size_t)c.y0 * next->axis[RC_X].n + (size_t)c.x0;
-    bool any = loaded(l, x0, x0 + (ptrdiff_t)n, y0, y0 + (ptrdiff_t)high);
+    bool any = loaded(l, (struct area){x0, y0, n, high}) > 0;
 
     for (size_t y = 0; y < c.ny; y++, out += next->axis[RC_X].n) {
         double *row = ax->halved ? w->mid : out;
@@ -150,21 +165,21 @@ rc_mlms_reduce(const struct rc_mlms *m, size_t level, const double *p, size_t ti
             reduce_row(m, row, c.nx, w, out);
         found += m->lanes->count(out, c.nx);
     }
-    next->loaded[tile] = found > 0;
+    next->loaded[tile] = found;
 }
 
 /* ---- (14), (17) ---- */
 
 /* Pressures about an area of places, class by class, with the margins of the level; what lies
- * outside the map is zero. The number of those that are not zero. */
-static size_t
+ * outside the map is zero. */
+static void
 gather(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], const double *p, struct area a,
        struct rc_mlms_scratch *w)
 {
     const struct rc_mlms_axis *ax = &axis[RC_X], *ay = &axis[RC_Y];
     size_t wide = rounded(rounded(a.nx, RC_LANE) + 2 * ax->margin, RC_LANE);
     size_t stride = m->plane_stride;
-    size_t high = rounded(a.ny, RC_BLOCK) + 2 * ay->margin, n = wide << ax->halved, found = 0;
+    size_t high = rounded(a.ny, RC_BLOCK) + 2 * ay->margin, n = wide << ax->halved;
     ptrdiff_t x0 = (a.x0 - (ptrdiff_t)ax->margin) * (ptrdiff_t)(1 + ax->halved);
     ptrdiff_t y0 = a.y0 - (ptrdiff_t)ay->margin;
 
@@ -182,9 +197,7 @@ gather(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], const double 
                 m->lanes->split(row, n, even, odd);
             else
                 memcpy(even, row, n * sizeof *even);
-            found += m->lanes->count(row, n);
         }
-    return found;
 }
 
 /* What the pressures of one class do to the target classes of one parity in x, strip by strip.
@@ -222,17 +235,24 @@ sum_class(const struct rc_mlms *m, const struct rc_mlms_axis axis[2],
 
 /* ---- the same where few nodes carry pressure ---- */
 
-/* The places of class `source` that carry pressure, row and column of its plane in one number. */
+/* The nodes of an area that carry pressure, row and column in it in one number. */
 static size_t
-list(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], size_t source, struct area a,
+list(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], const double *p, struct area a,
      struct rc_mlms_scratch *w)
 {
-    size_t wide = rounded(rounded(a.nx, RC_LANE) + 2 * axis[RC_X].margin, RC_LANE), n = 0;
-    size_t high = rounded(a.ny, RC_BLOCK) + 2 * axis[RC_Y].margin;
+    size_t n = 0, wide = rounded(a.nx, RC_LANE);
 
-    for (size_t y = 0; y < high; y++)
-        n += m->lanes->find(w->plane[source] + y * m->plane_stride, wide, (uint32_t)y << 16,
-                            w->list + n);
+    for (size_t y = 0; y < a.ny; y++) {
+        ptrdiff_t at = a.y0 + (ptrdiff_t)y;
+        const double *row = w->mid;
+        if (at < 0 || at >= (ptrdiff_t)axis[RC_Y].n)
+            continue;
+        if (a.x0 >= 0 && a.x0 + (ptrdiff_t)wide <= (ptrdiff_t)axis[RC_X].n)
+            row = p + at * (ptrdiff_t)axis[RC_X].n + a.x0;
+        else
+            copy_row(p, axis, a.x0, at, wide, w->mid);
+        n += m->lanes->find(row, wide, (uint32_t)y << 16, w->list + n);
+    }
     return n;
 }
 
@@ -249,53 +269,48 @@ spaced(size_t i, size_t n)
     return i < length * STREAMS ? i % STREAMS * length + i / STREAMS : i;
 }
 
-/* Adds what each of n listed sources of one class does to the nodes of a target class about it, row
- * by row. Beside the area there is room for what lies outside. */
+/* Adds what the node (x, y) of a halo does to the nodes of a target class about it, row by row.
+ * Beside the rows of `out` there is room for what lies outside. */
 static void
 spread(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], const struct rc_mlms_stencil *s,
-       size_t n, struct area a, const double *plane, const uint32_t *list, double *out)
+       double value, size_t x, size_t y, struct area a, double *out)
 {
-    ptrdiff_t high = (ptrdiff_t)a.ny, my = (ptrdiff_t)axis[RC_Y].margin;
-    ptrdiff_t mx = (ptrdiff_t)axis[RC_X].margin;
+    ptrdiff_t left = (ptrdiff_t)(x >> axis[RC_X].halved) - (ptrdiff_t)axis[RC_X].margin + s->first_x;
+    ptrdiff_t top = (ptrdiff_t)(y >> axis[RC_Y].halved) - (ptrdiff_t)axis[RC_Y].margin + s->first_y;
+    ptrdiff_t first = top < 0 ? -top : 0, last = (ptrdiff_t)s->rows, high = (ptrdiff_t)a.ny;
 
-    for (size_t i = 0; i < n; i++) {
-        size_t at = list[spaced(i, n)], at_x = at & 0xffff, at_y = at >> 16;
-        ptrdiff_t x = (ptrdiff_t)at_x - mx + s->first_x, y = (ptrdiff_t)at_y - my + s->first_y;
-        ptrdiff_t first = y < 0 ? -y : 0, last = (ptrdiff_t)s->rows;
-        last = last < high - y ? last : high - y;
-        if (first < last && x < (ptrdiff_t)a.nx && x + (ptrdiff_t)s->width > 0)
-            m->lanes->scatter(plane[at_y * m->plane_stride + at_x],
-                              s->sparse + (size_t)first * s->width, s->width,
-                              (size_t)(last - first),
-                              out + (y + first) * (ptrdiff_t)m->out_stride + x, m->out_stride);
-    }
+    last = last < high - top ? last : high - top;
+    if (first < last && left < (ptrdiff_t)a.nx && left + (ptrdiff_t)s->width > 0)
+        m->lanes->scatter(value, s->sparse + (size_t)first * s->width, s->width,
+                          (size_t)(last - first),
+                          out + (top + first) * (ptrdiff_t)m->out_stride + left, m->out_stride);
 }
 
-/* Corrections of the targets first .. last of area a from gathered pressures. */
+/* Corrections of the targets first .. last of area a, node by node. */
 static void
-scatter(const struct rc_mlms *m, const struct rc_mlms_axis axis[2],
+scatter(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], const double *p,
         const struct rc_mlms_stencil targets[][4], size_t first, size_t last, struct area a,
         struct rc_mlms_scratch *w)
 {
-    for (size_t source = 0; source < 4; source++) {
-        size_t n = 0;
-        if ((source & 1) <= axis[RC_X].halved && source >> 1 <= axis[RC_Y].halved)
-            n = list(m, axis, source, a, w);
-        for (size_t target = first; n > 0 && target <= last; target++)
-            spread(m, axis, &targets[target - first][source], n, a, w->plane[source], w->list,
+    struct area h = halo(axis, a);
+    size_t n = list(m, axis, p, h, w);
+    const double *corner = p + h.y0 * (ptrdiff_t)axis[RC_X].n + h.x0;
+
+    for (size_t target = first; target <= last; target++)
+        for (size_t i = 0; i < n; i++) {
+            size_t at = w->list[spaced(i, n)], x = at & 0xffff, y = at >> 16;
+            size_t class = (x & axis[RC_X].halved) + 2 * (y & axis[RC_Y].halved);
+            spread(m, axis, &targets[target - first][class], corner[y * axis[RC_X].n + x], x, y, a,
                    w->out[target]);
-    }
+        }
 }
 
 /* Sources one by one are cheaper than all at once below this fraction of loaded nodes. */
 static bool
-few(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], size_t found, struct area a)
+few(const struct rc_mlms *m, double fraction)
 {
-    double nodes = (double)((a.nx + 2 * axis[RC_X].margin) << axis[RC_X].halved) *
-                   (double)((a.ny + 2 * axis[RC_Y].margin) << axis[RC_Y].halved);
-
-    return (double)found < RC_MLMS_FEW * nodes && m->plane_stride <= 0xffff &&
-           m->plane_size <= 0xffff * m->plane_stride;
+    return fraction < RC_MLMS_FEW && 2 * m->plane_stride <= 0xffff &&
+           2 * m->plane_size <= 0xffff * m->plane_stride;
 }
 
 void
@@ -305,7 +320,7 @@ rc_mlms_correct(const struct rc_mlms *m, size_t level, const double *p, size_t t
     const struct rc_mlms_level *l = &m->level[level], *next = l + 1;
     const struct rc_mlms_axis *ax = &l->axis[RC_X], *ay = &l->axis[RC_Y];
     struct area c = tile_area(next->axis, tile);
-    size_t width = next->axis[RC_X].n, found;
+    size_t width = next->axis[RC_X].n;
 
     for (size_t y = 0; y < c.ny; y += ay->tile)
         for (size_t x = 0; x < c.nx; x += ax->tile) {
@@ -314,23 +329,21 @@ rc_mlms_correct(const struct rc_mlms *m, size_t level, const double *p, size_t t
                              c.y0 + (ptrdiff_t)y - (ptrdiff_t)over_y, least(ax->tile, c.nx - x),
                              least(ay->tile, c.ny - y)};
             double *u = next->u + ((size_t)c.y0 + y) * width + (size_t)c.x0 + x;
-            ptrdiff_t gx = (ptrdiff_t)ax->margin, gy = (ptrdiff_t)ay->margin;
-            ptrdiff_t fx = (ptrdiff_t)(1 + ax->halved), fy = (ptrdiff_t)(1 + ay->halved);
+            double fraction = loaded(l, halo(l->axis, a));
 
-            if (!loaded(l, fx * (a.x0 - gx), fx * (a.x0 + (ptrdiff_t)a.nx + gx),
-                        fy * (a.y0 - gy), fy * (a.y0 + (ptrdiff_t)a.ny + gy)))
-                continue;
-            found = gather(m, l->axis, p, a, w);
-            if (found == 0)
+            if (fraction == 0)
                 continue;
             for (size_t r = 0; r < a.ny; r++)
                 memcpy(w->out[0] + r * m->out_stride, u + r * width, a.nx * sizeof *u);
-            if (few(m, l->axis, found, a))
-                scatter(m, l->axis, &l->coarse, 0, 0, a, w);
-            for (size_t s = 1; s < 4 && !few(m, l->axis, found, a); s++) {
-                const struct rc_mlms_stencil *targets[2] = {&l->coarse[s], NULL};
-                if (l->coarse[s].columns > 0)
-                    sum_class(m, l->axis, targets, 0, s, a, w);
+            if (few(m, fraction)) {
+                scatter(m, l->axis, p, &l->coarse, 0, 0, a, w);
+            } else {
+                gather(m, l->axis, p, a, w);
+                for (size_t s = 1; s < 4; s++) {
+                    const struct rc_mlms_stencil *targets[2] = {&l->coarse[s], NULL};
+                    if (l->coarse[s].columns > 0)
+                        sum_class(m, l->axis, targets, 0, s, a, w);
+                }
             }
             for (size_t r = 0; r < a.ny; r++)
                 memcpy(u + r * width, w->out[0] + r * m->out_stride, a.nx * sizeof *u);
@@ -384,13 +397,15 @@ static void
 add_corrections(const struct rc_mlms *m, const struct rc_mlms_level *l, const double *p,
                 struct area a, struct rc_mlms_scratch *w)
 {
-    size_t found = gather(m, l->axis, p, a, w);
+    double fraction = loaded(l, halo(l->axis, a));
 
-    if (few(m, l->axis, found, a)) {
-        if (found > 0)
-            scatter(m, l->axis, &l->fine[1], 1, 3, a, w);
+    if (fraction == 0)
+        return;
+    if (few(m, fraction)) {
+        scatter(m, l->axis, p, &l->fine[1], 1, 3, a, w);
         return;
     }
+    gather(m, l->axis, p, a, w);
     for (size_t source = 0; source < 4; source++)
         for (size_t tx = 0; tx <= l->axis[RC_X].halved; tx++) {
             const struct rc_mlms_stencil *targets[2] = {NULL, NULL};
@@ -411,14 +426,12 @@ rc_mlms_expand(const struct rc_mlms *m, size_t level, const double *p, double *u
     size_t hx = ax->halved, hy = ay->halved;
     struct area t = tile_area(l->axis, tile);
     struct area a = {t.x0 >> hx, t.y0 >> hy, (t.nx + hx) >> hx, (t.ny + hy) >> hy};
-    ptrdiff_t gx = (ptrdiff_t)(ax->margin << hx), gy = (ptrdiff_t)(ay->margin << hy);
     double *row = u + (size_t)t.y0 * ax->n + (size_t)t.x0;
 
     if (l->wanted != NULL && !l->wanted[tile])
         return;
     interpolate(m, l, a, t.nx >> hx, t.ny >> hy, w);
-    if (loaded(l, t.x0 - gx, t.x0 + (ptrdiff_t)t.nx + gx, t.y0 - gy, t.y0 + (ptrdiff_t)t.ny + gy))
-        add_corrections(m, l, p, a, w);
+    add_corrections(m, l, p, a, w);
     for (size_t y = 0; y < t.ny; y++, row += ax->n) {
         size_t s = hy ? y % 2 * 2 : 0, r = (y >> hy) * m->out_stride;
         if (hx)
