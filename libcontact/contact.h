@@ -133,6 +133,7 @@ size_t rc_conv_memory(const struct rc_shape *shape, const struct rc_conv_options
 /* ---- solver: solver.c ---- */
 
 struct rc_problem {
+    enum rc_boundary boundary;
     double estar;       /* composite modulus, Pa, > 0                                            */
     double load;        /* total normal force, N, > 0                                            */
     double hardness;    /* upper bound of the pressure, Pa; INFINITY: none                       */

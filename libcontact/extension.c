@@ -47,7 +47,8 @@ static const struct rc_kernel spread = {
 };
 
 struct rc_extension *
-rc_extension_new(const struct rc_shape *shape, double estar, size_t threads, struct rc_err *err)
+rc_extension_new(const struct rc_shape *shape, enum rc_boundary boundary, double estar,
+                 size_t threads, struct rc_err *err)
 {
     struct rc_medium medium = {.estar = 1};
     struct rc_extension *e = calloc(1, sizeof *e);
@@ -67,12 +68,12 @@ rc_extension_new(const struct rc_shape *shape, double estar, size_t threads, str
     e->scratch = malloc(3 * longest * sizeof *e->scratch);
     if (e->weight == NULL || e->field == NULL || e->other == NULL || e->scratch == NULL)
         goto short_of_memory;
-    if ((e->fft = rc_fft_new(&e->unit, RC_FREE, RC_SINGLE, threads, err)) == NULL ||
+    if ((e->fft = rc_fft_new(&e->unit, boundary, RC_SINGLE, threads, err)) == NULL ||
         (e->inverse = rc_spectrum_new(e->fft, err)) == NULL ||
         (e->spread = rc_spectrum_new(e->fft, err)) == NULL ||
         rc_spectrum_set_inverse(e->inverse, e->fft, &rc_kernel_boussinesq, 0, &medium,
                                 err) != RC_OK ||
-        rc_spectrum_set(e->spread, e->fft, &spread, 0, &medium, err) != RC_OK) {
+        rc_spectrum_set_values(e->spread, e->fft, &spread, 0, &medium, err) != RC_OK) {
         rc_extension_free(e);
         return NULL;
     }

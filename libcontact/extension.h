@@ -8,7 +8,7 @@
  *     G_ij = |x_i - x_j|^(-5/2),
  *
  * lengths in units of sqrt(dx dy), d_i the distance from i to W less half a unit, at least 1/4; A is
- * the reciprocal of the padded kernel's spectrum. The map r -> z is symmetric, and as E r has no
+ * the reciprocal of the padded kernel's spectrum, or of the symbol, E* |q| / 2, on a periodic map. The map r -> z is symmetric, and as E r has no
  * less energy than the least, r'z >= r' (K_WW)^-1 r: z bounds the error of the pressure on W in the
  * energy norm from above.
  */
@@ -19,8 +19,8 @@
 
 struct rc_extension;
 
-struct rc_extension *rc_extension_new(const struct rc_shape *shape, double estar, size_t threads,
-                                      struct rc_err *err);
+struct rc_extension *rc_extension_new(const struct rc_shape *shape, enum rc_boundary boundary,
+                                      double estar, size_t threads, struct rc_err *err);
 void rc_extension_free(struct rc_extension *extension);
 /* The working set: nonzero entries of w, at least one. Costs one convolution in
  * single precision. */

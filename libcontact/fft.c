@@ -12,6 +12,7 @@
 #include <math.h>
 #include <omp.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "fourier.h"
 
@@ -275,6 +276,62 @@ sample_symbol(const struct rc_fft *f, struct rc_spectrum *k, const struct rc_ker
     }
     free(space);
     return RC_OK;
+}
+
+/* Values of an even kernel on the periodic map, each offset by its shortest way around. */
+static void
+wrapped_values(const struct rc_fft *f, const struct rc_kernel *kernel, size_t component,
+               const struct rc_medium *medium, double *v)
+{
+    const struct rc_lattice nodes = {f->shape.dx, f->shape.dy, 1, 1};
+    size_t nx = f->shape.nx, ny = f->shape.ny;
+
+    for (size_t j = 0; j <= ny / 2; j++) {
+        double *row = v + j * nx;
+        kernel->rows(medium, component, &nodes, nx / 2 + 1, j, j + 1, row);
+        for (size_t i = nx / 2 + 1; i < nx; i++)
+            row[i] = row[nx - i];
+        if (j > 0 && ny - j != j)
+            memcpy(v + (ny - j) * nx, row, nx * sizeof *row);
+    }
+}
+
+static enum rc_status
+transform_wrapped(const struct rc_fft *f, struct rc_spectrum *k, const struct rc_kernel *kernel,
+                  size_t component, const struct rc_medium *medium, struct rc_err *err)
+{
+    const struct rc_layout *l = &f->layout;
+    double *v = malloc(l->nx * l->ny * sizeof *v), *column = malloc(l->packed * sizeof *column);
+    double complex *s = malloc(rc_fourier_size(&f->shape) * sizeof *s);
+    enum rc_status status = RC_FAIL;
+
+    if (v == NULL || s == NULL || column == NULL) {
+        rc_err_set(err, "out of memory for a kernel of %zu x %zu values", l->nx, l->ny);
+        goto done;
+    }
+    wrapped_values(f, kernel, component, medium, v);
+    status = rc_fourier_forward(&f->shape, v, s, err);
+    for (size_t i = 0; i < l->cx && status == RC_OK; i++) {
+        for (size_t j = 0; j < l->packed; j++)
+            column[j] = creal(s[j * l->cx + i]);
+        finish_column(f, k, i, false, column);
+    }
+done:
+    free(v);
+    free(s);
+    free(column);
+    return status;
+}
+
+enum rc_status
+rc_spectrum_set_values(struct rc_spectrum *k, const struct rc_fft *f,
+                       const struct rc_kernel *kernel, size_t component,
+                       const struct rc_medium *medium, struct rc_err *err)
+{
+    k->parity = kernel->parity[component];
+    if (f->boundary == RC_FREE)
+        return transform_values(f, k, kernel, component, medium, false, err);
+    return transform_wrapped(f, k, kernel, component, medium, err);
 }
 
 static enum rc_status

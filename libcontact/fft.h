@@ -40,6 +40,12 @@ enum rc_status rc_spectrum_set_inverse(struct rc_spectrum *spectrum, const struc
                                        const struct rc_kernel *kernel, size_t component,
                                        const struct rc_medium *medium, struct rc_err *err);
 
+/* The transform of the kernel's values on either boundary; on the periodic one each offset counts once,
+ * by its shortest way around the map. */
+enum rc_status rc_spectrum_set_values(struct rc_spectrum *spectrum, const struct rc_fft *fft,
+                                      const struct rc_kernel *kernel, size_t component,
+                                      const struct rc_medium *medium, struct rc_err *err);
+
 /* u = K p. u and p may be the same. */
 void rc_fft_apply(struct rc_fft *fft, const struct rc_spectrum *kernel, const double *p, double *u);
 /* Keeps the whole transform of p; then u = K p for as many kernels as are wanted. */

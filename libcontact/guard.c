@@ -24,11 +24,17 @@ rc_guard_raised(struct rc_guard *guard, const struct rc_solver *solver, const do
     return false;
 }
 
-/* The largest row sum of K bounds its eigenvalues. t and r are scratch. */
+/* The largest row sum of K bounds its eigenvalues; on a periodic map they are known, and the longest
+ * wave has the largest. t and r are scratch. */
 static double
 norm(struct rc_solver *solver, double *t, double *r)
 {
     double largest = 0;
+    double lx = solver->shape.dx * (double)solver->shape.nx;
+    double ly = solver->shape.dy * (double)solver->shape.ny;
+
+    if (solver->boundary == RC_PERIODIC) /* 2 / E* q, q = 2 pi / L */
+        return fmax(lx, ly) / (3.14159265358979323846 * solver->estar);
 
     for (size_t k = 0; k < solver->n; k++)
         t[k] = 1;

@@ -71,7 +71,7 @@ struct rc_mlms_design {
 struct rc_mlms_level {
     const struct rc_mlms_axis *axis;
     double *p, *u;         /* of this level; NULL on the finest: the caller's           */
-    size_t *loaded;        /* nodes of each tile that carry pressure                    */
+    unsigned char *loaded; /* tiles that carry pressure                                 */
     unsigned char *wanted; /* tiles whose result somebody wants; NULL: all              */
     struct rc_mlms_stencil fine[4][4]; /* [target][source], class x + 2 y; target 0 unused */
     struct rc_mlms_stencil coarse[4];  /* [source], to coarse nodes; 0 unused              */
@@ -103,9 +103,10 @@ struct rc_mlms {
 
 /* mlms_design.c */
 bool rc_mlms_design(const struct rc_sum *sum, struct rc_mlms_design *d, struct rc_err *err);
-/* Largest y offset that is corrected at x offset k of a level, -1: none. */
+/* Largest y offset that is corrected at x offset k of a level, -1: none; `odd`: between classes
+ * that differ in both directions. */
 ptrdiff_t rc_mlms_extent(const struct rc_mlms_design *d, const struct rc_shape *shape,
-                         const struct rc_mlms_axis axis[2], size_t k);
+                         const struct rc_mlms_axis axis[2], size_t k, bool odd);
 
 /* mlms_stencil.c */
 void rc_mlms_stylus(size_t t, double *s);

@@ -30,7 +30,7 @@
 static double
 crowd(double t, double reach)
 {
-    return 6.5 + 3 * reach / t;
+    return 9 + 3.5 * reach / t;
 }
 
 /* What is expected of the displacement kernel on equal spacings, whose cell displaces itself by
@@ -38,7 +38,7 @@ crowd(double t, double reach)
 static double
 model(size_t t, size_t reach)
 {
-    double r = (double)reach + 1, q = 1.25 / (3.525 * r);
+    double r = (double)reach + 1, q = 1.08 / (3.525 * r);
 
     for (size_t k = 1; k <= t; k++) {
         double at = 2 * (double)k - 1;
@@ -67,24 +67,29 @@ spacing(const struct rc_mlms_axis *a, double cell)
 }
 
 /* Within a distance of `reach` coarser spacings (half a node more, in an ellipse) from the cell of
- * the source: a cell that is longer
- * than wide is near to its neighbours beside its long side, whatever the spacing. */
+ * the source: a cell that is longer than wide is near to its neighbours beside its long side,
+ * whatever the spacing. Where interpolation in both directions touches the source itself, whose own
+ * coefficient is far from smooth on coarse levels, the corners of the ellipse are needed too. */
 ptrdiff_t
 rc_mlms_extent(const struct rc_mlms_design *d, const struct rc_shape *shape,
-               const struct rc_mlms_axis axis[2], size_t k)
+               const struct rc_mlms_axis axis[2], size_t k, bool odd)
 {
     const struct rc_mlms_axis *x = &axis[RC_X], *y = &axis[RC_Y];
     double hx = spacing(x, shape->dx), hy = spacing(y, shape->dy), slack = 1 + 1e-9;
-    double edge_x = fmax(0, (shape->dx - shape->dy) / 2), edge_y = fmax(0, (shape->dy - shape->dx) / 2);
-    double h = fmax(x->halved ? hx : 0, y->halved ? hy : 0);
+    double edge_x = fmax(0, (shape->dx - shape->dy) / 2);
+    double edge_y = fmax(0, (shape->dy - shape->dx) / 2);
+    double h = fmax(x->halved ? hx : 0, y->halved ? hy : 0), l = -1;
     double r = ((double)d->reach + (d->square ? 0 : 0.5)) * h * slack;
-    double at = fmax(0, (double)k * hx - edge_x), l;
+    double at = fmax(0, (double)k * hx - edge_x);
     size_t most = y->n - 1 + (y->halved ? 2 * d->t : 0);
 
-    if (at > r || k > x->n - 1 + (x->halved ? 2 * d->t : 0))
+    if (k > x->n - 1 + (x->halved ? 2 * d->t : 0))
         return -1;
-    l = ((d->square ? r : sqrt(r * r - at * at)) + edge_y) / hy;
-    return l < (double)most ? (ptrdiff_t)l : (ptrdiff_t)most;
+    if (at <= r)
+        l = ((d->square ? r : sqrt(r * r - at * at)) + edge_y) / hy;
+    if (odd && !d->square && k < 2 * d->t)
+        l = fmax(l, 2 * (double)d->t - 1);
+    return l < (double)most ? (ptrdiff_t)floor(l) : (ptrdiff_t)most;
 }
 
 /* Offsets in the region, and those of them that join nodes of the same class. */
@@ -94,7 +99,7 @@ count(const struct rc_mlms_design *d, const struct rc_shape *shape,
 {
     *all = *same = 0;
     for (size_t k = 0;; k++) {
-        ptrdiff_t l = rc_mlms_extent(d, shape, axis, k);
+        ptrdiff_t l = rc_mlms_extent(d, shape, axis, k, false);
         double twice = k == 0 ? 1 : 2;
         if (l < 0)
             return;
@@ -140,12 +145,15 @@ static void
 set_reach(const struct rc_mlms_design *d, const struct rc_shape *shape, struct rc_mlms_axis axis[2])
 {
     size_t k = 0;
-    ptrdiff_t l = rc_mlms_extent(d, shape, axis, 0);
+    ptrdiff_t l = rc_mlms_extent(d, shape, axis, 0, false);
 
-    while (rc_mlms_extent(d, shape, axis, k + 1) >= 0)
+    while (rc_mlms_extent(d, shape, axis, k + 1, false) >= 0)
         k++;
     axis[RC_X].reach = k;
     axis[RC_Y].reach = (size_t)l;
+    for (int a = 0; a < 2; a++)
+        if (axis[RC_X].halved && axis[RC_Y].halved && axis[a].reach < 2 * d->t - 1 && !d->square)
+            axis[a].reach = 2 * d->t - 1;
     for (int a = 0; a < 2; a++)
         axis[a].margin = axis[a].halved ? (axis[a].reach + 1) / 2 : axis[a].reach;
 }

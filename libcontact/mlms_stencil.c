@@ -150,9 +150,11 @@ left_out(const struct rc_mlms *m, const struct rc_sum *sum, const struct rc_mlms
         largest = INFINITY;
     for (size_t c = 1; c < 4; c++)
         for (size_t k = 0; e[c].v != NULL && k < e[c].nx && k <= most[RC_X]; k++) {
-            ptrdiff_t in = rc_mlms_extent(&m->d, &sum->shape, axis, k);
+            ptrdiff_t in = rc_mlms_extent(&m->d, &sum->shape, axis, k, false);
+            ptrdiff_t odd = rc_mlms_extent(&m->d, &sum->shape, axis, k, c == 3 && k % 2 != 0);
             for (size_t l = (size_t)(in + 1); l < e[c].ny && l <= most[RC_Y]; l++)
-                largest = fmax(largest, fabs(e[c].v[l * e[c].nx + k]));
+                if (l % 2 == 0 || (ptrdiff_t)l > odd)
+                    largest = fmax(largest, fabs(e[c].v[l * e[c].nx + k]));
         }
     for (size_t c = 0; c < 4; c++)
         free(e[c].v);
@@ -211,7 +213,8 @@ unfold(struct rc_mlms_stencil *s, const struct rc_mlms *m, const struct rc_mlms_
     for (ptrdiff_t x = s->first_x; x <= last_x; x++)
         for (ptrdiff_t y = s->first_y; y <= last_y; y++) {
             ptrdiff_t k = (x << hx) + delta[RC_X], l = (y << hy) + delta[RC_Y];
-            if (labs(l) <= rc_mlms_extent(&m->d, shape, axis, (size_t)labs(k)))
+            if (labs(l) <= rc_mlms_extent(&m->d, shape, axis, (size_t)labs(k),
+                                          delta[RC_X] != 0 && delta[RC_Y] != 0))
                 s->sparse[(size_t)(y - s->first_y) * s->width + (size_t)(x - s->first_x)] =
                     at(e, m->sign, k, l);
         }
@@ -240,8 +243,9 @@ stencil(struct rc_mlms_stencil *s, const struct rc_mlms *m, const struct rc_mlms
         size_t k = first + j * by;
         double *c = s->values + j * space + y->margin + 1 + RC_BLOCK;
         struct rc_column *column = &s->column[j];
-        places(y, delta[RC_Y], rc_mlms_extent(&m->d, shape, axis, k), &column->first,
-               &column->last);
+        places(y, delta[RC_Y],
+               rc_mlms_extent(&m->d, shape, axis, k, delta[RC_X] != 0 && delta[RC_Y] != 0),
+               &column->first, &column->last);
         column->c = c;
         for (ptrdiff_t v = column->first; v <= column->last; v++)
             c[v] = at(e, m->sign, (ptrdiff_t)k, v * (y->halved ? 2 : 1) + delta[RC_Y]);

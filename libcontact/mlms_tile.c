@@ -35,25 +35,40 @@ tile_area(const struct rc_mlms_axis axis[2], size_t tile)
                          least(high, axis[RC_Y].n - y * high)};
 }
 
-/* Nodes of a level that carry pressure, in the tiles that meet [x0, x0 + nx) x [y0, y0 + ny), as a
- * fraction of all nodes of those tiles. */
-static double
+/* Whether a tile that carries pressure meets an area of a level's nodes. */
+static bool
 loaded(const struct rc_mlms_level *l, struct area a)
 {
     const struct rc_mlms_axis *ax = &l->axis[RC_X], *ay = &l->axis[RC_Y];
-    size_t wide = ax->tile << ax->halved, high = ay->tile << ay->halved, found = 0, tiles = 0;
+    size_t wide = ax->tile << ax->halved, high = ay->tile << ay->halved;
     ptrdiff_t x1 = a.x0 + (ptrdiff_t)a.nx, y1 = a.y0 + (ptrdiff_t)a.ny;
 
     a.x0 = a.x0 > 0 ? a.x0 : 0;
     a.y0 = a.y0 > 0 ? a.y0 : 0;
     if (x1 <= a.x0 || y1 <= a.y0)
-        return 0;
+        return false;
     for (size_t y = (size_t)a.y0 / high; y < ay->tiles && y <= (size_t)(y1 - 1) / high; y++)
-        for (size_t x = (size_t)a.x0 / wide; x < ax->tiles && x <= (size_t)(x1 - 1) / wide; x++) {
-            found += l->loaded[y * ax->tiles + x];
-            tiles++;
-        }
-    return tiles == 0 ? 0 : (double)found / ((double)tiles * (double)wide * (double)high);
+        for (size_t x = (size_t)a.x0 / wide; x < ax->tiles && x <= (size_t)(x1 - 1) / wide; x++)
+            if (l->loaded[y * ax->tiles + x])
+                return true;
+    return false;
+}
+
+/* Fraction of the nodes of an area that carry pressure. */
+static double
+fraction(const struct rc_mlms *m, const struct rc_mlms_level *l, const double *p, struct area a)
+{
+    size_t nx = l->axis[RC_X].n, ny = l->axis[RC_Y].n, found = 0;
+    ptrdiff_t x0 = a.x0 > 0 ? a.x0 : 0, x1 = a.x0 + (ptrdiff_t)a.nx;
+    ptrdiff_t y0 = a.y0 > 0 ? a.y0 : 0, y1 = a.y0 + (ptrdiff_t)a.ny;
+
+    if (!loaded(l, a))
+        return 0;
+    x1 = x1 < (ptrdiff_t)nx ? x1 : (ptrdiff_t)nx;
+    y1 = y1 < (ptrdiff_t)ny ? y1 : (ptrdiff_t)ny;
+    for (ptrdiff_t y = y0; y < y1; y++)
+        found += m->lanes->count(p + y * (ptrdiff_t)nx + x0, (size_t)(x1 - x0));
+    return (double)found / ((double)a.nx * (double)a.ny);
 }
 
 /* An area of places in nodes, with the margins of corrections. */
@@ -76,8 +91,8 @@ rc_mlms_scan(const struct rc_mlms *m, size_t level, const double *p, size_t tile
     const double *row = p + (size_t)t.y0 * l->axis[RC_X].n + (size_t)t.x0;
 
     l->loaded[tile] = 0;
-    for (size_t y = 0; y < t.ny; y++, row += l->axis[RC_X].n)
-        l->loaded[tile] += m->lanes->count(row, t.nx);
+    for (size_t y = 0; y < t.ny && !l->loaded[tile]; y++, row += l->axis[RC_X].n)
+        l->loaded[tile] = m->lanes->count(row, t.nx) > 0;
 }
 
 /* ---- (10) ---- */
@@ -149,7 +164,7 @@ rc_mlms_reduce(const struct rc_mlms *m, size_t level, const double *p, size_t ti
     size_t n = ax->halved ? 2 * (c.nx + 2 * m->d.t) : c.nx;
     size_t high = ay->halved ? 2 * (c.ny + 2 * m->d.t) : c.ny, found = 0;
     double *out = next->p + (size_t)c.y0 * next->axis[RC_X].n + (size_t)c.x0;
-    bool any = loaded(l, (struct area){x0, y0, n, high}) > 0;
+    bool any = loaded(l, (struct area){x0, y0, n, high});
 
     for (size_t y = 0; y < c.ny; y++, out += next->axis[RC_X].n) {
         double *row = ax->halved ? w->mid : out;
@@ -165,7 +180,7 @@ rc_mlms_reduce(const struct rc_mlms *m, size_t level, const double *p, size_t ti
             reduce_row(m, row, c.nx, w, out);
         found += m->lanes->count(out, c.nx);
     }
-    next->loaded[tile] = found;
+    next->loaded[tile] = found > 0;
 }
 
 /* ---- (14), (17) ---- */
@@ -296,20 +311,20 @@ scatter(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], const double
     size_t n = list(m, axis, p, h, w);
     const double *corner = p + h.y0 * (ptrdiff_t)axis[RC_X].n + h.x0;
 
-    for (size_t target = first; target <= last; target++)
-        for (size_t i = 0; i < n; i++) {
-            size_t at = w->list[spaced(i, n)], x = at & 0xffff, y = at >> 16;
-            size_t class = (x & axis[RC_X].halved) + 2 * (y & axis[RC_Y].halved);
+    for (size_t i = 0; i < n; i++) {
+        size_t at = w->list[spaced(i, n)], x = at & 0xffff, y = at >> 16;
+        size_t class = (x & axis[RC_X].halved) + 2 * (y & axis[RC_Y].halved);
+        for (size_t target = first; target <= last; target++)
             spread(m, axis, &targets[target - first][class], corner[y * axis[RC_X].n + x], x, y, a,
                    w->out[target]);
-        }
+    }
 }
 
 /* Sources one by one are cheaper than all at once below this fraction of loaded nodes. */
 static bool
-few(const struct rc_mlms *m, double fraction)
+few(const struct rc_mlms *m, double part)
 {
-    return fraction < RC_MLMS_FEW && 2 * m->plane_stride <= 0xffff &&
+    return part < RC_MLMS_FEW && 2 * m->plane_stride <= 0xffff &&
            2 * m->plane_size <= 0xffff * m->plane_stride;
 }
 
@@ -329,13 +344,13 @@ rc_mlms_correct(const struct rc_mlms *m, size_t level, const double *p, size_t t
                              c.y0 + (ptrdiff_t)y - (ptrdiff_t)over_y, least(ax->tile, c.nx - x),
                              least(ay->tile, c.ny - y)};
             double *u = next->u + ((size_t)c.y0 + y) * width + (size_t)c.x0 + x;
-            double fraction = loaded(l, halo(l->axis, a));
+            double part = fraction(m, l, p, halo(l->axis, a));
 
-            if (fraction == 0)
+            if (part == 0)
                 continue;
             for (size_t r = 0; r < a.ny; r++)
                 memcpy(w->out[0] + r * m->out_stride, u + r * width, a.nx * sizeof *u);
-            if (few(m, fraction)) {
+            if (few(m, part)) {
                 scatter(m, l->axis, p, &l->coarse, 0, 0, a, w);
             } else {
                 gather(m, l->axis, p, a, w);
@@ -397,11 +412,11 @@ static void
 add_corrections(const struct rc_mlms *m, const struct rc_mlms_level *l, const double *p,
                 struct area a, struct rc_mlms_scratch *w)
 {
-    double fraction = loaded(l, halo(l->axis, a));
+    double part = fraction(m, l, p, halo(l->axis, a));
 
-    if (fraction == 0)
+    if (part == 0)
         return;
-    if (few(m, fraction)) {
+    if (few(m, part)) {
         scatter(m, l->axis, p, &l->fine[1], 1, 3, a, w);
         return;
     }

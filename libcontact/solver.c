@@ -73,7 +73,8 @@ conv_options(const struct rc_shape *shape, const struct rc_problem *problem)
 {
     bool mlms = problem->engine != NULL && strcmp(problem->engine, "mlms") == 0;
 
-    return (struct rc_conv_options){.engine = problem->engine,
+    return (struct rc_conv_options){.boundary = problem->boundary,
+                                    .engine = problem->engine,
                                     .tol = mlms ? 0.1 * tolerance(shape, problem) : 0,
                                     .threads = problem->threads};
 }
@@ -112,6 +113,7 @@ rc_solver_new(const struct rc_shape *shape, const double *h, const struct rc_pro
     if (s == NULL)
         goto short_of_memory;
     s->shape = *shape;
+    s->boundary = problem->boundary;
     s->n = shape->nx * shape->ny;
     s->cell = shape->dx * shape->dy;
     s->estar = problem->estar;
@@ -130,7 +132,7 @@ rc_solver_new(const struct rc_shape *shape, const double *h, const struct rc_pro
         goto short_of_memory;
     if ((s->method = choose(problem->method, err)) == NULL ||
         (s->conv = rc_conv_new(shape, s->estar, &options, err)) == NULL ||
-        (s->extension = rc_extension_new(shape, s->estar, problem->threads, err)) == NULL ||
+        (s->extension = rc_extension_new(shape, s->boundary, s->estar, problem->threads, err)) == NULL ||
         (s->state = s->method->new(s, err)) == NULL) {
         rc_solver_free(s);
         return NULL;
@@ -168,8 +170,8 @@ rc_solver_memory(const struct rc_shape *shape, const struct rc_problem *problem)
     /* four arrays and a mask here, three in the method, three in the error estimate beside its
      * transforms and the spectrum of its second kernel */
     return n * (10 * sizeof(double) + 1) + rc_conv_memory(shape, &options) +
-           rc_fft_memory(shape, RC_FREE, RC_SINGLE) +
-           rc_spectrum_memory(shape, RC_FREE, RC_SINGLE);
+           rc_fft_memory(shape, problem->boundary, RC_SINGLE) +
+           rc_spectrum_memory(shape, problem->boundary, RC_SINGLE);
 }
 
 /* ---- what the methods share ---- */

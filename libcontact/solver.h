@@ -27,6 +27,7 @@ struct rc_method {
 
 struct rc_solver {
     struct rc_shape shape;
+    enum rc_boundary boundary;
     size_t n;
     double cell;             /* dx dy                                                       */
     double estar, hardness, load, tol;

@@ -92,4 +92,30 @@ love_displacement(double x, double y, double a, double b, double estar)
            (exact_pi * estar);
 }
 
+/* Westergaard 1939 (Johnson 1985, section 13.2): a wave of amplitude A and wavelength L pressed against
+ * a flat; at the mean pressure `full` it touches everywhere. */
+static inline double
+wave_full(double amplitude, double wavelength, double estar)
+{
+    return exact_pi * estar * amplitude / wavelength;
+}
+
+/* Fraction in contact, pressure at x from a crest, at the mean pressure `mean` < full. */
+static inline double
+wave_fraction(double mean, double full)
+{
+    return 2 / exact_pi * asin(sqrt(mean / full));
+}
+
+static inline double
+wave_pressure(double mean, double full, double wavelength, double x)
+{
+    double psi = exact_pi * x / wavelength, a = mean / full;
+
+    psi -= exact_pi * floor(psi / exact_pi + 0.5);
+    if (sin(psi) * sin(psi) >= a)
+        return 0;
+    return 2 * full * cos(psi) * sqrt(a - sin(psi) * sin(psi));
+}
+
 #endif

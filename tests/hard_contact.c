@@ -121,14 +121,15 @@ ugly_surfaces(void **state)
     (void)state;
     for (int name = 0; name < SHAPES; name++)
         for (double mean = 1e5; mean < 1e10; mean *= 100)
-            for (int k = 0; k < 3; k++) {
-                struct rc_problem problem = {.estar = estar, .load = mean * area,
-                                             .hardness = hardnesses[k] * mean, .tol = 1e-8,
+            for (int k = 0; k < 6; k++) {
+                struct rc_problem problem = {.boundary = k < 3 ? RC_FREE : RC_PERIODIC,
+                                             .estar = estar, .load = mean * area,
+                                             .hardness = hardnesses[k % 3] * mean, .tol = 1e-8,
                                              .max_iterations = 3000};
                 for (size_t i = 0; i < n; i++)
                     h[i] = 1e-7 * height((enum shape_name)name, i % shape.nx, i / shape.nx, &seed);
-                snprintf(what, sizeof what, "surface %d, mean %g, H %g", name, mean,
-                         hardnesses[k]);
+                snprintf(what, sizeof what, "surface %d, mean %g, H %g, boundary %d", name,
+                         mean, hardnesses[k % 3], k / 3);
                 check(shape, h, problem, what);
             }
     free(h);

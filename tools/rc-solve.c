@@ -15,6 +15,7 @@ static struct args {
     double estar, e1, nu1, e2, nu2;
     double hardness, radius, tol;
     const char *kernel, *method, *report;
+    bool periodic;
     size_t output; /* bits of enum frame */
 } args = {
     .load = NAN, .mean_pressure = NAN, .estar = NAN, .e1 = NAN, .nu1 = NAN, .e2 = NAN, .nu2 = NAN,
@@ -43,6 +44,8 @@ static const struct opt opts[] = {
      .result = true, .arg = "PRESSURE", .help = "upper bound of the pressure: above it, yield"},
     {.name = "radius", .type = OPT_NUMBER, .unit = UNIT_M, AT(radius), ABOVE_0, .result = true,
      .arg = "LENGTH", .help = "add a sphere of this composite radius about the origin"},
+    {.name = "periodic", .type = OPT_FLAG, AT(periodic), .result = true,
+     .help = "the map repeats for ever (default: a free half-space, loaded on the map only)"},
     {.name = "kernel", .type = OPT_CHOICE, AT(kernel), .arg = "auto|fft|mlms|direct",
      .help = "how displacements are summed (default auto)"},
     {.name = "method", .type = OPT_CHOICE, AT(method), .arg = "auto|pcg|pk99",
@@ -152,10 +155,10 @@ warn_before(struct run *run, const struct rc_grid *g)
     char where[256];
 
     tool_where(&run->t, g, where, sizeof where);
-    if (periodic != NULL && strcmp(periodic, "yes") == 0 && isnan(args.radius))
+    if (!args.periodic && periodic != NULL && strcmp(periodic, "yes") == 0 && isnan(args.radius))
         tool_warn(&run->t, "%s: the surface is periodic, the solution is not: beyond the map there "
                            "is no material", where);
-    if (g->ny == 1 && g->nx > 1)
+    if (!args.periodic && g->ny == 1 && g->nx > 1)
         tool_warn(&run->t, "%s: a profile is solved as a strip %g m wide, not as a ridge without "
                            "end", where, g->dy);
     rc_measure(&shape, g->v, &st);
@@ -170,7 +173,7 @@ warn_after(struct run *run, const struct rc_grid *g, const struct rc_contact *c)
     char where[256];
 
     tool_where(&run->t, g, where, sizeof where);
-    if (c->edge_load_fraction > 0.01)
+    if (!args.periodic && c->edge_load_fraction > 0.01)
         tool_warn(&run->t, "%s: %.1f %% of the load is on the outer 2 %% of the map: the contact "
                            "reaches its edge", where, 100 * c->edge_load_fraction);
     if (!c->converged && tool_interrupted() == 0)
@@ -184,6 +187,7 @@ solve(struct run *run, const struct rc_grid *g)
     struct rc_shape shape = rc_grid_shape(g);
     double area = shape.dx * shape.dy * (double)(shape.nx * shape.ny);
     struct rc_problem problem = {
+        .boundary = args.periodic ? RC_PERIODIC : RC_FREE,
         .estar = run->estar,
         .load = isnan(args.load) ? args.mean_pressure * area : args.load,
         .hardness = args.hardness,
@@ -216,6 +220,12 @@ solve(struct run *run, const struct rc_grid *g)
 
 /* ---- results ---- */
 
+static const char *
+boundary(void)
+{
+    return args.periodic ? "periodic" : "free";
+}
+
 /* Sets a key, or, where the number is not known, takes away one that an earlier solution left. */
 static void
 set_number(struct run *run, struct rc_grid *g, const char *name, double value)
@@ -232,7 +242,7 @@ set_keys(struct run *run, struct rc_grid *g, const struct rc_contact *c)
 {
     struct rc_err err;
 
-    if (rc_grid_set(g, "boundary", "free", &err) != RC_OK ||
+    if (rc_grid_set(g, "boundary", boundary(), &err) != RC_OK ||
         rc_grid_set(g, "converged", c->converged ? "yes" : "no", &err) != RC_OK ||
         rc_grid_history(g, tool_history(&run->t), &err) != RC_OK)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
@@ -259,7 +269,7 @@ report_effects(struct json *j, const struct rc_solver *solver, const struct rc_c
     json_text(j, "kernel", rc_solver_engine_reason(solver));
     json_text(j, "hardness", hardness_effect(c));
     json_text(j, "sphere", isnan(args.radius) ? "left out: no --radius" : "on");
-    json_text(j, "padding", "on");
+    json_text(j, "padding", args.periodic ? "left out: the map is periodic" : "on");
     for (int f = 0; f < FRAMES; f++)
         json_text(j, frames[f].name, wanted(f) ? "on" : "left out: not in --output");
     json_end(j, '}');
@@ -306,7 +316,7 @@ report(struct run *run, const struct rc_grid *g, const struct rc_solver *solver,
     json_count(&j, "ny", g->ny);
     json_number(&j, "dx", g->dx);
     json_number(&j, "dy", g->dy);
-    json_text(&j, "boundary", "free");
+    json_text(&j, "boundary", boundary());
     json_text(&j, "kernel", rc_solver_engine(solver));
     json_text(&j, "method", rc_solver_method(solver));
     json_count(&j, "threads", run->t.threads);
