@@ -354,17 +354,15 @@ sparse(void)
         engine("fft")->free(fft);
         engine("mlms")->free(mlms);
     }
-    printf("bytes a node beyond p and u, at the peak: mlms ");
-    fflush(stdout);
     {
         struct rc_sum sum = square(m, threads);
+        printf("peak bytes a node beyond p and u: fft ");
         peak_bytes(engine("fft"), &sum);
-        printf(" (fft, above) ");
-        fflush(stdout);
         sum.tol = 1e-6;
+        printf(", mlms ");
         peak_bytes(engine("mlms"), &sum);
+        printf("\n");
     }
-    printf("\n");
     free(p);
     free(u);
     free(v);

@@ -49,6 +49,66 @@ state_free(void *at)
     free(s);
 }
 
+/* ---- nested start ---- */
+
+enum {
+    COARSEST = 24 /* nodes a side from which a coarser grid is worth solving first */
+};
+static const double coarse_tol = 3e-2;
+
+/* Mean of the (up to) four nodes under coarse node (i, j). */
+static double
+mean_height(const struct rc_solver *s, size_t i, size_t j)
+{
+    double sum = 0;
+    size_t count = 0;
+
+    for (size_t b = 2 * j; b < 2 * j + 2 && b < s->shape.ny; b++)
+        for (size_t a = 2 * i; a < 2 * i + 2 && a < s->shape.nx; a++) {
+            sum += s->h[b * s->shape.nx + a];
+            count++;
+        }
+    return sum / (double)count;
+}
+
+/* The same contact on the grid of every second node, solved roughly (and there by the same start);
+ * its pressure, repeated, is a better beginning than a constant one. Without memory for it, the
+ * constant one stays. */
+static void
+nested_start(struct rc_solver *s)
+{
+    struct rc_shape coarse = {(s->shape.nx + 1) / 2, (s->shape.ny + 1) / 2, 2 * s->shape.dx,
+                              2 * s->shape.dy};
+    struct rc_problem problem = {.boundary = s->boundary, .estar = s->estar, .load = s->load,
+                                 .hardness = s->hardness, .tol = fmax(coarse_tol, s->tol),
+                                 .method = "pcg", .threads = s->threads};
+    double *h;
+    struct rc_solver *c;
+
+    if (s->shape.nx < COARSEST || s->shape.ny < COARSEST)
+        return;
+    h = malloc(coarse.nx * coarse.ny * sizeof *h);
+    if (h == NULL)
+        return;
+    for (size_t k = 0; k < coarse.nx * coarse.ny; k++)
+        h[k] = mean_height(s, k % coarse.nx, k / coarse.nx);
+    c = rc_solver_new(&coarse, h, &problem, NULL);
+    if (c != NULL) {
+        while (rc_solver_step(c) == RC_MORE)
+            ;
+        for (size_t k = 0; k < s->n; k++) {
+            s->p[k] = c->p[k / s->shape.nx / 2 * coarse.nx + k % s->shape.nx / 2];
+            s->g[k] = -s->h[k]; /* should nodes have to join, the highest first */
+        }
+        s->convolutions += c->convolutions * (double)c->n / (double)s->n;
+        if (rc_box_balance(s->n, s->hardness, s->sum, s->g, s->p, NULL) != RC_OK)
+            for (size_t k = 0; k < s->n; k++)
+                s->p[k] = s->sum / (double)s->n;
+        rc_solver_free(c);
+    }
+    free(h);
+}
+
 static void *
 state_new(struct rc_solver *solver, struct rc_err *err)
 {
@@ -71,6 +131,7 @@ state_new(struct rc_solver *solver, struct rc_err *err)
         return NULL;
     }
     s->guard.energy = INFINITY;
+    nested_start(solver);
     return s;
 }
 

@@ -30,7 +30,7 @@
 static double
 crowd(double t, double reach)
 {
-    return 9 + 3.5 * reach / t;
+    return 6.5 + 2.9 * reach / t;
 }
 
 /* What is expected of the displacement kernel on equal spacings, whose cell displaces itself by

@@ -54,23 +54,6 @@ loaded(const struct rc_mlms_level *l, struct area a)
     return false;
 }
 
-/* Fraction of the nodes of an area that carry pressure. */
-static double
-fraction(const struct rc_mlms *m, const struct rc_mlms_level *l, const double *p, struct area a)
-{
-    size_t nx = l->axis[RC_X].n, ny = l->axis[RC_Y].n, found = 0;
-    ptrdiff_t x0 = a.x0 > 0 ? a.x0 : 0, x1 = a.x0 + (ptrdiff_t)a.nx;
-    ptrdiff_t y0 = a.y0 > 0 ? a.y0 : 0, y1 = a.y0 + (ptrdiff_t)a.ny;
-
-    if (!loaded(l, a))
-        return 0;
-    x1 = x1 < (ptrdiff_t)nx ? x1 : (ptrdiff_t)nx;
-    y1 = y1 < (ptrdiff_t)ny ? y1 : (ptrdiff_t)ny;
-    for (ptrdiff_t y = y0; y < y1; y++)
-        found += m->lanes->count(p + y * (ptrdiff_t)nx + x0, (size_t)(x1 - x0));
-    return (double)found / ((double)a.nx * (double)a.ny);
-}
-
 /* An area of places in nodes, with the margins of corrections. */
 static struct area
 halo(const struct rc_mlms_axis axis[2], struct area a)
@@ -250,25 +233,33 @@ sum_class(const struct rc_mlms *m, const struct rc_mlms_axis axis[2],
 
 /* ---- the same where few nodes carry pressure ---- */
 
-/* The nodes of an area that carry pressure, row and column in it in one number. */
+/* The nodes of a halo that carry pressure, row and column in it in one number; more than `most` of
+ * them are not all listed. */
 static size_t
-list(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], const double *p, struct area a,
-     struct rc_mlms_scratch *w)
+list(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], const double *p, struct area h,
+     size_t most, struct rc_mlms_scratch *w)
 {
-    size_t n = 0, wide = rounded(a.nx, RC_LANE);
+    size_t n = 0, wide = rounded(h.nx, RC_LANE);
 
-    for (size_t y = 0; y < a.ny; y++) {
-        ptrdiff_t at = a.y0 + (ptrdiff_t)y;
+    for (size_t y = 0; y < h.ny && n <= most; y++) {
+        ptrdiff_t at = h.y0 + (ptrdiff_t)y;
         const double *row = w->mid;
         if (at < 0 || at >= (ptrdiff_t)axis[RC_Y].n)
             continue;
-        if (a.x0 >= 0 && a.x0 + (ptrdiff_t)wide <= (ptrdiff_t)axis[RC_X].n)
-            row = p + at * (ptrdiff_t)axis[RC_X].n + a.x0;
+        if (h.x0 >= 0 && h.x0 + (ptrdiff_t)wide <= (ptrdiff_t)axis[RC_X].n)
+            row = p + at * (ptrdiff_t)axis[RC_X].n + h.x0;
         else
-            copy_row(p, axis, a.x0, at, wide, w->mid);
+            copy_row(p, axis, h.x0, at, wide, w->mid);
         n += m->lanes->find(row, wide, (uint32_t)y << 16, w->list + n);
     }
     return n;
+}
+
+/* How many nodes of a halo are cheaper one by one than all at once. */
+static size_t
+few(struct area h)
+{
+    return h.nx > 0xffff || h.ny > 0xffff ? 0 : (size_t)(RC_MLMS_FEW * (double)(h.nx * h.ny));
 }
 
 /* The i-th of n in an order in which neighbours are far apart: a row that was just written is slow
@@ -301,31 +292,22 @@ spread(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], const struct 
                           out + (top + first) * (ptrdiff_t)m->out_stride + left, m->out_stride);
 }
 
-/* Corrections of the targets first .. last of area a, node by node. */
+/* Corrections of the targets first .. last of area a by the n listed nodes of its halo. */
 static void
 scatter(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], const double *p,
         const struct rc_mlms_stencil targets[][4], size_t first, size_t last, struct area a,
-        struct rc_mlms_scratch *w)
+        size_t n, struct rc_mlms_scratch *w)
 {
     struct area h = halo(axis, a);
-    size_t n = list(m, axis, p, h, w);
     const double *corner = p + h.y0 * (ptrdiff_t)axis[RC_X].n + h.x0;
 
-    for (size_t i = 0; i < n; i++) {
-        size_t at = w->list[spaced(i, n)], x = at & 0xffff, y = at >> 16;
-        size_t class = (x & axis[RC_X].halved) + 2 * (y & axis[RC_Y].halved);
-        for (size_t target = first; target <= last; target++)
+    for (size_t target = first; target <= last; target++)
+        for (size_t i = 0; i < n; i++) {
+            size_t at = w->list[spaced(i, n)], x = at & 0xffff, y = at >> 16;
+            size_t class = (x & axis[RC_X].halved) + 2 * (y & axis[RC_Y].halved);
             spread(m, axis, &targets[target - first][class], corner[y * axis[RC_X].n + x], x, y, a,
                    w->out[target]);
-    }
-}
-
-/* Sources one by one are cheaper than all at once below this fraction of loaded nodes. */
-static bool
-few(const struct rc_mlms *m, double part)
-{
-    return part < RC_MLMS_FEW && 2 * m->plane_stride <= 0xffff &&
-           2 * m->plane_size <= 0xffff * m->plane_stride;
+        }
 }
 
 void
@@ -344,14 +326,15 @@ rc_mlms_correct(const struct rc_mlms *m, size_t level, const double *p, size_t t
                              c.y0 + (ptrdiff_t)y - (ptrdiff_t)over_y, least(ax->tile, c.nx - x),
                              least(ay->tile, c.ny - y)};
             double *u = next->u + ((size_t)c.y0 + y) * width + (size_t)c.x0 + x;
-            double part = fraction(m, l, p, halo(l->axis, a));
+            struct area h = halo(l->axis, a);
+            size_t n;
 
-            if (part == 0)
+            if (!loaded(l, h) || (n = list(m, l->axis, p, h, few(h), w)) == 0)
                 continue;
             for (size_t r = 0; r < a.ny; r++)
                 memcpy(w->out[0] + r * m->out_stride, u + r * width, a.nx * sizeof *u);
-            if (few(m, part)) {
-                scatter(m, l->axis, p, &l->coarse, 0, 0, a, w);
+            if (n <= few(h)) {
+                scatter(m, l->axis, p, &l->coarse, 0, 0, a, n, w);
             } else {
                 gather(m, l->axis, p, a, w);
                 for (size_t s = 1; s < 4; s++) {
@@ -412,12 +395,14 @@ static void
 add_corrections(const struct rc_mlms *m, const struct rc_mlms_level *l, const double *p,
                 struct area a, struct rc_mlms_scratch *w)
 {
-    double part = fraction(m, l, p, halo(l->axis, a));
+    struct area h = halo(l->axis, a);
+    size_t n;
 
-    if (part == 0)
+    if (!loaded(l, h))
         return;
-    if (few(m, part)) {
-        scatter(m, l->axis, p, &l->fine[1], 1, 3, a, w);
+    n = list(m, l->axis, p, h, few(h), w);
+    if (n <= few(h)) {
+        scatter(m, l->axis, p, &l->fine[1], 1, 3, a, n, w);
         return;
     }
     gather(m, l->axis, p, a, w);

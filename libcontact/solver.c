@@ -126,6 +126,7 @@ rc_solver_new(const struct rc_shape *shape, const double *h, const struct rc_pro
     s->max_iterations = problem->max_iterations > 0
                             ? problem->max_iterations
                             : 100 + (size_t)(10 * sqrt((double)s->n));
+    s->threads = problem->threads;
     s->change = s->error = s->estimate = NAN;
     s->next_check = 1;
     if (!allocate(s, h))

@@ -32,7 +32,7 @@ struct rc_solver {
     double cell;             /* dx dy                                                       */
     double estar, hardness, load, tol;
     double sum;              /* load / cell: what the nodal pressures add up to             */
-    size_t max_iterations;
+    size_t max_iterations, threads;
     struct rc_conv *conv;
     struct rc_extension *extension;
     const struct rc_method *method;
