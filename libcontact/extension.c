@@ -14,6 +14,7 @@ struct rc_extension {
     double *weight;  /* off W: 1 / (sum_j G_ij + d_i^(-1/2) / 2); on W: 0                    */
     double *field;   /* scratch of n                                                        */
     double *other;   /* scratch of n                                                        */
+    int threads;
     double *scratch; /* of distance                                                         */
     const unsigned char *w;
 };
@@ -52,12 +53,13 @@ rc_extension_new(const struct rc_shape *shape, enum rc_boundary boundary, double
 {
     struct rc_medium medium = {.estar = 1};
     struct rc_extension *e = calloc(1, sizeof *e);
-    size_t n = shape->nx * shape->ny, longest = shape->nx > shape->ny ? shape->nx : shape->ny;
+    size_t n = shape->nx * shape->ny;
     double unit = sqrt(shape->dx) * sqrt(shape->dy);
 
     if (e == NULL)
         goto short_of_memory;
     e->n = n;
+    e->threads = rc_useful_threads(shape, threads);
     e->unit = *shape;
     e->unit.dx /= unit;
     e->unit.dy /= unit;
@@ -65,7 +67,7 @@ rc_extension_new(const struct rc_shape *shape, enum rc_boundary boundary, double
     e->weight = malloc(n * sizeof *e->weight);
     e->field = malloc(n * sizeof *e->field);
     e->other = malloc(n * sizeof *e->other);
-    e->scratch = malloc(3 * longest * sizeof *e->scratch);
+    e->scratch = malloc(rc_distance_scratch(shape, e->threads) * sizeof *e->scratch);
     if (e->weight == NULL || e->field == NULL || e->other == NULL || e->scratch == NULL)
         goto short_of_memory;
     if ((e->fft = rc_fft_new(&e->unit, boundary, RC_SINGLE, threads, err)) == NULL ||
@@ -107,7 +109,7 @@ rc_extension_set(struct rc_extension *e, const unsigned char *w)
     for (size_t k = 0; k < e->n; k++)
         e->field[k] = w[k] != 0;
     rc_fft_apply(e->fft, e->spread, e->field, e->weight);
-    rc_distance_squared(&e->unit, w, e->scratch, e->field);
+    rc_distance_squared(&e->unit, w, e->threads, e->scratch, e->field);
     for (size_t k = 0; k < e->n; k++) {
         double d = fmax(sqrt(e->field[k]) - 0.5, 0.25);
         e->weight[k] = w[k] ? 0 : 1 / (fmax(e->weight[k], 0) + 0.5 / sqrt(d));

@@ -29,10 +29,11 @@ void rc_extension_set(struct rc_extension *extension, const unsigned char *w);
  * them. */
 void rc_extension_apply(struct rc_extension *extension, const double *r, double *z);
 
-/* distance.c: squared distance of every node to the nearest one with w != 0, in units of dx and dy
- * given. `scratch` holds max(nx, ny) numbers three times. O(nx ny) (Felzenszwalb and Huttenlocher,
- * Theory of Computing 8, 2012). */
-void rc_distance_squared(const struct rc_shape *shape, const unsigned char *w, double *scratch,
-                         double *d2);
+/* distance.c: squared distance of every node to the nearest one with w != 0, lengths as dx and dy are.
+ * `scratch` holds rc_distance_scratch numbers. O(nx ny) (Felzenszwalb and Huttenlocher, Theory of
+ * Computing 8, 2012). */
+size_t rc_distance_scratch(const struct rc_shape *shape, int threads);
+void rc_distance_squared(const struct rc_shape *shape, const unsigned char *w, int threads,
+                         double *scratch, double *d2);
 
 #endif

@@ -85,9 +85,8 @@ rc_fft_memory(const struct rc_shape *shape, enum rc_boundary boundary, enum rc_p
            rc_spectrum_memory(shape, boundary, precision);
 }
 
-/* Waking a thread costs about what a few thousand nodes do. */
-static int
-useful_threads(const struct rc_shape *s, size_t threads)
+int
+rc_useful_threads(const struct rc_shape *s, size_t threads)
 {
     size_t most = 1 + s->nx * s->ny / 8192;
 
@@ -114,7 +113,7 @@ rc_fft_new(const struct rc_shape *s, enum rc_boundary boundary, enum rc_precisio
         f->shape = *s;
         f->boundary = boundary;
         f->layout = layout_of(s, boundary, precision);
-        f->layout.threads = useful_threads(s, threads);
+        f->layout.threads = rc_useful_threads(s, threads);
         f->ops = precision == RC_SINGLE ? &rc_fft_single : &rc_fft_double;
         f->plan = f->ops->new(&f->layout);
     }

@@ -14,6 +14,10 @@
 #define RC_CLONES
 #endif
 
+/* Threads that pay on a grid: waking one costs about what a few thousand nodes do. threads 0: as many
+ * as there are. */
+int rc_useful_threads(const struct rc_shape *shape, size_t threads);
+
 /* ---- kernels: what a unit pressure does ---- */
 
 struct rc_medium {

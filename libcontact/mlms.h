@@ -72,7 +72,7 @@ struct rc_mlms_level {
     const struct rc_mlms_axis *axis;
     double *p, *u;         /* of this level; NULL on the finest: the caller's           */
     unsigned char *loaded; /* tiles that carry pressure                                 */
-    unsigned char *wanted; /* tiles whose result somebody wants; NULL: all              */
+    unsigned char *wanted; /* tiles whose result somebody wants                         */
     struct rc_mlms_stencil fine[4][4]; /* [target][source], class x + 2 y; target 0 unused */
     struct rc_mlms_stencil coarse[4];  /* [source], to coarse nodes; 0 unused              */
 };
@@ -111,9 +111,12 @@ ptrdiff_t rc_mlms_extent(const struct rc_mlms_design *d, const struct rc_shape *
 /* mlms_stencil.c */
 void rc_mlms_stylus(size_t t, double *s);
 bool rc_mlms_stencils(struct rc_mlms *m, const struct rc_sum *sum, size_t level);
-/* The largest coefficient that corrections leave out on any level, relative to the kernel near by:
- * the error under pressure on a single node or few. */
-double rc_mlms_left_out(const struct rc_sum *sum, const struct rc_mlms_design *d);
+/* What corrections leave out on the worst level: *one, the largest coefficient over the kernel of a
+ * node near by, which is the error under pressure on one node; *all, the sum of coefficients over
+ * the sum of |K| within the region, which is that under a pressure of the worst signs everywhere.
+ * INFINITY when memory is short. */
+void rc_mlms_left_out(const struct rc_sum *sum, const struct rc_mlms_design *d, double *one,
+                      double *all);
 void rc_mlms_stencils_free(struct rc_mlms_level *level);
 
 /* mlms_tile.c: what is done to one tile of a level; tiles are numbered row by row. p and u are

@@ -30,7 +30,7 @@
 static double
 crowd(double t, double reach)
 {
-    return 6.5 + 2.9 * reach / t;
+    return 9 + 3.5 * reach / t;
 }
 
 /* What is expected of the displacement kernel on equal spacings, whose cell displaces itself by
@@ -260,10 +260,12 @@ cheapest(struct rc_mlms_design *d, const struct rc_sum *sum, double tol)
 static double
 measured(const struct rc_mlms_design *d, const struct rc_sum *sum)
 {
-    static const double rounding = 2e-15;
+    static const double rounding = 1e-14;
+    double one, all;
 
-    return rounding + (d->levels == 0 ? 0 : crowd((double)d->t, (double)d->reach) *
-                                               rc_mlms_left_out(sum, d));
+    rc_mlms_left_out(sum, d, &one, &all);
+    return rounding +
+           fmax(4 * all, fmin(crowd((double)d->t, (double)d->reach) * one, 2 * one + 20 * all));
 }
 
 /* The expectation is for one kernel; what is left out of this one is known, so expect more or less
@@ -293,7 +295,7 @@ fit(struct rc_mlms_design *d, const struct rc_sum *sum, double tol)
 bool
 rc_mlms_design(const struct rc_sum *sum, struct rc_mlms_design *d, struct rc_err *err)
 {
-    static const double floor = 1e-14;
+    static const double floor = 2e-14;
 
     if (rc_shape_check(&sum->shape, err) != RC_OK)
         return false;

@@ -60,6 +60,13 @@ interpolate(const struct rc_mlms *m, int direction, const struct table *from, st
         }
 }
 
+/* Offsets of either sign that share |k| and |l|. */
+static double
+images(size_t k, size_t l)
+{
+    return (k > 0 ? 2.0 : 1.0) * (l > 0 ? 2.0 : 1.0);
+}
+
 static struct rc_lattice
 lattice(const struct rc_sum *sum, const struct rc_mlms_axis axis[2])
 {
@@ -67,10 +74,11 @@ lattice(const struct rc_sum *sum, const struct rc_mlms_axis axis[2])
 }
 
 /* error[c]: the kernel less its interpolation in the directions of class c = x + 2 y; (13), (16);
- * at offsets up to the reach and `beyond`. */
+ * at offsets up to the reach and `beyond`. *about: sum of |K| over those of the reach, without that
+ * of the node itself. */
 static bool
 errors(const struct rc_mlms *m, const struct rc_sum *sum, const struct rc_mlms_axis axis[2],
-       size_t beyond, struct table error[4])
+       size_t beyond, struct table error[4], double *about)
 {
     const struct rc_lattice nodes = lattice(sum, axis);
     size_t reach[2], more[2];
@@ -85,6 +93,10 @@ errors(const struct rc_mlms *m, const struct rc_sum *sum, const struct rc_mlms_a
         !table_new(&kx, reach[RC_X], k.ny))
         goto done;
     sum->kernel->rows(&sum->medium, sum->component, &nodes, k.nx, 0, k.ny, k.v);
+    *about = 0;
+    for (size_t l = 0; l <= axis[RC_Y].reach; l++)
+        for (size_t i = l == 0; i <= axis[RC_X].reach; i++)
+            *about += images(i, l) * fabs(k.v[l * k.nx + i]);
     for (size_t c = 1; c < 4; c++) {
         size_t x = c & 1, y = c >> 1;
         if (x > axis[RC_X].halved || y > axis[RC_Y].halved)
@@ -132,48 +144,54 @@ local_kernel(const struct rc_sum *sum, const struct rc_mlms_axis axis[2])
     return cells > 1 ? fmax(own / cells, 1.76 * between) : fmax(own, between);
 }
 
-/* Largest coefficient that the corrections of a level leave out, relative to the kernel of the
- * nodes about one of its nodes; INFINITY when memory is short. */
-static double
-left_out(const struct rc_mlms *m, const struct rc_sum *sum, const struct rc_mlms_axis axis[2])
+/* What the corrections of a level leave out: see rc_mlms_left_out. */
+static void
+left_out(const struct rc_mlms *m, const struct rc_sum *sum, const struct rc_mlms_axis axis[2],
+         double *one, double *all)
 {
     enum {
-        BEYOND = 2 /* coefficients fall with distance, those of odd and even offsets differently */
+        BEYOND = 4 /* coefficients fall fast with distance */
     };
     struct table e[4] = {{0}};
-    double largest = 0;
+    double largest = 0, most_of_all = 0, local = local_kernel(sum, axis), about = 0;
     size_t most[2];
 
     for (int a = 0; a < 2; a++)
         most[a] = axis[a].n - 1 + (axis[a].halved ? 2 * m->d.t : 0);
-    if (!errors(m, sum, axis, BEYOND, e))
+    if (!errors(m, sum, axis, BEYOND, e, &about))
         largest = INFINITY;
-    for (size_t c = 1; c < 4; c++)
+    for (size_t c = 1; c < 4; c++) {
+        double together = 0;
         for (size_t k = 0; e[c].v != NULL && k < e[c].nx && k <= most[RC_X]; k++) {
             ptrdiff_t in = rc_mlms_extent(&m->d, &sum->shape, axis, k, false);
             ptrdiff_t odd = rc_mlms_extent(&m->d, &sum->shape, axis, k, c == 3 && k % 2 != 0);
             for (size_t l = (size_t)(in + 1); l < e[c].ny && l <= most[RC_Y]; l++)
-                if (l % 2 == 0 || (ptrdiff_t)l > odd)
-                    largest = fmax(largest, fabs(e[c].v[l * e[c].nx + k]));
+                if (l % 2 == 0 || (ptrdiff_t)l > odd) {
+                    double value = fabs(e[c].v[l * e[c].nx + k]);
+                    largest = fmax(largest, value);
+                    together += images(k, l) * value;
+                }
         }
+        most_of_all = fmax(most_of_all, together);
+    }
     for (size_t c = 0; c < 4; c++)
         free(e[c].v);
-    return largest / local_kernel(sum, axis);
+    *one = fmax(*one, largest / local);
+    *all = fmax(*all, most_of_all / (local + about));
 }
 
-double
-rc_mlms_left_out(const struct rc_sum *sum, const struct rc_mlms_design *d)
+void
+rc_mlms_left_out(const struct rc_sum *sum, const struct rc_mlms_design *d, double *one, double *all)
 {
     struct rc_mlms m = {.d = *d};
     unsigned parity = sum->kernel->parity[sum->component];
-    double largest = 0;
 
+    *one = *all = 0;
     m.sign[RC_X] = parity & RC_ODD_X ? -1 : 1;
     m.sign[RC_Y] = parity & RC_ODD_Y ? -1 : 1;
     rc_mlms_stylus(d->t, m.s);
     for (size_t q = 0; q < d->levels; q++)
-        largest = fmax(largest, left_out(&m, sum, d->axis[q]));
-    return largest;
+        left_out(&m, sum, d->axis[q], one, all);
 }
 
 /* ---- tables ---- */
@@ -259,7 +277,8 @@ rc_mlms_stencils(struct rc_mlms *m, const struct rc_sum *sum, size_t level)
     struct rc_mlms_level *l = &m->level[level];
     struct table e[4] = {{0}};
     size_t classes[2] = {l->axis[RC_X].halved, l->axis[RC_Y].halved};
-    bool done = errors(m, sum, l->axis, 0, e);
+    double about;
+    bool done = errors(m, sum, l->axis, 0, e, &about);
 
     for (size_t c = 1; done && c < 4; c++) {
         if (e[c].v == NULL)

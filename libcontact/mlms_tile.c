@@ -428,8 +428,6 @@ rc_mlms_expand(const struct rc_mlms *m, size_t level, const double *p, double *u
     struct area a = {t.x0 >> hx, t.y0 >> hy, (t.nx + hx) >> hx, (t.ny + hy) >> hy};
     double *row = u + (size_t)t.y0 * ax->n + (size_t)t.x0;
 
-    if (l->wanted != NULL && !l->wanted[tile])
-        return;
     interpolate(m, l, a, t.nx >> hx, t.ny >> hy, w);
     add_corrections(m, l, p, a, w);
     for (size_t y = 0; y < t.ny; y++, row += ax->n) {
