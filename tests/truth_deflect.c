@@ -115,6 +115,37 @@ what_an_engine_cannot_do_is_said(void **state)
     assert_null(rc_conv_new(&shape, estar, &options, &err));
 }
 
+/* "auto": small grids directly, sparse maps where accuracy allows and maps that do not fit by MLMS,
+ * the rest, and all that is periodic, by transforms. */
+static void
+the_choice_and_its_reason(void **state)
+{
+    struct rc_shape small = {20, 20, 1, 1}, large = {600, 500, 1, 1};
+    static const struct {
+        bool large;
+        struct rc_conv_options options;
+        const char *engine, *reason;
+    } table[] = {
+        {false, {0}, "direct", "small"},
+        {false, {.boundary = RC_PERIODIC}, "fft", "periodic"},
+        {true, {0}, "fft", "rounding"},
+        {true, {.tol = 1e-3, .loaded = 0.5}, "fft", "fastest"},
+        {true, {.tol = 1e-3, .loaded = 0.03}, "mlms", "few nodes"},
+        {true, {.tol = 1e-12, .loaded = 0.03}, "fft", "fastest"},
+        {true, {.tol = 1e-6, .memory = 5000000}, "mlms", "memory"},
+        {true, {.order = 4, .correction = 10}, "mlms", "order"},
+        {true, {.engine = "mlms"}, "mlms", "asked"},
+    };
+
+    (void)state;
+    for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
+        struct rc_conv *c = conv(table[k].large ? large : small, table[k].options);
+        assert_string_equal(rc_conv_engine(c), table[k].engine);
+        assert_non_null(strstr(rc_conv_reason(c), table[k].reason));
+        rc_conv_free(c);
+    }
+}
+
 /* Large enough that threads are used: the same bits for 1, 2 and 5, and from plan to plan. */
 static void
 threads_change_no_bit(void **state)
@@ -151,6 +182,7 @@ main(void)
         cmocka_unit_test(loves_rectangle),
         cmocka_unit_test(periodic_waves),
         cmocka_unit_test(what_an_engine_cannot_do_is_said),
+        cmocka_unit_test(the_choice_and_its_reason),
         cmocka_unit_test(threads_change_no_bit),
     };
 

@@ -66,6 +66,16 @@ modulus(struct tool *t, const struct rc_grid *p)
     return estar;
 }
 
+static double
+loaded_fraction(const struct rc_grid *p)
+{
+    size_t count = 0;
+
+    for (size_t k = 0; k < p->nx * p->ny; k++)
+        count += p->v[k] != 0;
+    return (double)count / (double)(p->nx * p->ny);
+}
+
 static void
 do_case(struct tool *t, const struct rc_grid *p)
 {
@@ -73,7 +83,8 @@ do_case(struct tool *t, const struct rc_grid *p)
     struct rc_conv_options options = {.boundary = boundary(t, p), .engine = args.kernel,
                                       .tol = isnan(args.tol) ? 0 : args.tol,
                                       .order = args.order, .correction = args.correction,
-                                      .memory = t->memory, .threads = t->threads};
+                                      .memory = t->memory,
+                                      .loaded = loaded_fraction(p), .threads = t->threads};
     double estar = modulus(t, p);
     struct rc_conv *conv;
     struct rc_grid *u;
