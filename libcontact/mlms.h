@@ -25,7 +25,7 @@
 
 /* Fraction of loaded nodes below which they are taken one by one (measured: both take the same time
  * at ...). */
-#define RC_MLMS_FEW 0.1
+#define RC_MLMS_FEW 0
 
 enum {
     RC_X,
