@@ -36,13 +36,25 @@ struct rc_strip {
     double *ring; /* columns (2 margin + RC_BLOCK) RC_STRIP, aligned to 64 bytes */
 };
 
+/* Single sources, and what a stencil, unfolded, adds to the targets about each. Beside the rows of
+ * `out` there is room for what lies outside. */
+struct rc_scatter {
+    const double *value;
+    const uint32_t *place; /* y << 16 | x of each */
+    size_t n;
+    const double *c; /* rows of `width`, a multiple of RC_LANE */
+    size_t width, rows;
+    ptrdiff_t left, top; /* from a source to its lowest target */
+    size_t wide, high;   /* of the targets                     */
+    double *out;
+    size_t out_stride;
+};
+
 struct rc_lanes {
     const char *name;
     /* out[y][x] += sum over columns j and their l of c_j[l] column_j[y - l][x]. */
     void (*stencil)(const struct rc_strip *strip);
-    /* out[y stride + x] += v c[y width + x] for y < rows, x < width, a multiple of RC_LANE. */
-    void (*scatter)(double v, const double *c, size_t width, size_t rows, double *out,
-                    size_t stride);
+    void (*scatter)(const struct rc_scatter *scatter);
     /* out[i stride + x] += sum over a < n of q[a RC_BLOCK + i] k[x - a], i < RC_BLOCK, x < RC_STRIP. */
     void (*product)(const double *k, const double *q, size_t n, double *out, size_t stride);
     /* out[x] = first[x] + sum over i < t of s[i] (near[i][x] + far[i][x]); first may be NULL. */

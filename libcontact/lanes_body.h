@@ -146,26 +146,46 @@ NAME(stencil)(const struct rc_strip *s)
     }
 }
 
+/* Neighbours in the list are far apart when it is walked in several places at once: a row that was
+ * just written is slow to be read again. */
 TARGET static inline __attribute__((always_inline)) void
-NAME(add_rows)(size_t vectors, double v, const double *c, size_t rows, double *out, size_t stride)
+NAME(scatter_all)(size_t vectors, const struct rc_scatter *s)
 {
-    for (size_t y = 0; y < rows; y++, c += vectors * WIDTH, out += stride)
+    enum {
+        STREAMS = 4
+    };
+    size_t length = s->n / STREAMS, walked = length * STREAMS, k = 0;
+
+    for (size_t i = 0; i < s->n; i++) {
+        size_t at = i < walked ? k : i;
+        ptrdiff_t x = (ptrdiff_t)(s->place[at] & 0xffff) + s->left;
+        ptrdiff_t y = (ptrdiff_t)(s->place[at] >> 16) + s->top;
+        ptrdiff_t first = y < 0 ? -y : 0, last = (ptrdiff_t)s->high - y;
+        const double *c = s->c + first * (ptrdiff_t)s->width;
+        double value = s->value[at], *out = s->out + (y + first) * (ptrdiff_t)s->out_stride + x;
+
+        last = last < (ptrdiff_t)s->rows ? last : (ptrdiff_t)s->rows;
+        k = k + length < walked ? k + length : k + length - walked + 1;
+        if (x >= (ptrdiff_t)s->wide || x + (ptrdiff_t)s->width <= 0)
+            continue;
+        for (; first < last; first++, c += s->width, out += s->out_stride)
 #pragma GCC unroll 8
-        for (size_t x = 0; x < vectors; x++)
-            AT(out + x * WIDTH) += v * FROM(c + x * WIDTH);
+            for (size_t v = 0; v < vectors; v++)
+                AT(out + v * WIDTH) += value * FROM(c + v * WIDTH);
+    }
 }
 
 TARGET static void
-NAME(scatter)(double v, const double *c, size_t width, size_t rows, double *out, size_t stride)
+NAME(scatter)(const struct rc_scatter *s)
 {
-    if (width == 8)
-        NAME(add_rows)(8 / WIDTH, v, c, rows, out, stride);
-    else if (width == 16)
-        NAME(add_rows)(16 / WIDTH, v, c, rows, out, stride);
-    else if (width == 24)
-        NAME(add_rows)(24 / WIDTH, v, c, rows, out, stride);
+    if (s->width == 8)
+        NAME(scatter_all)(8 / WIDTH, s);
+    else if (s->width == 16)
+        NAME(scatter_all)(16 / WIDTH, s);
+    else if (s->width == 24)
+        NAME(scatter_all)(24 / WIDTH, s);
     else
-        NAME(add_rows)(width / WIDTH, v, c, rows, out, stride);
+        NAME(scatter_all)(s->width / WIDTH, s);
 }
 
 TARGET static void

@@ -23,10 +23,6 @@
 #include "direct.h"
 #include "lanes.h"
 
-/* Fraction of loaded nodes below which they are taken one by one (measured: both take the same time
- * at ...). */
-#define RC_MLMS_FEW 0
-
 enum {
     RC_X,
     RC_Y,

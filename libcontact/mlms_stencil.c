@@ -230,7 +230,7 @@ unfold(struct rc_mlms_stencil *s, const struct rc_mlms *m, const struct rc_mlms_
     memset(s->sparse, 0, s->width * s->rows * sizeof *s->sparse);
     for (ptrdiff_t x = s->first_x; x <= last_x; x++)
         for (ptrdiff_t y = s->first_y; y <= last_y; y++) {
-            ptrdiff_t k = (x << hx) + delta[RC_X], l = (y << hy) + delta[RC_Y];
+            ptrdiff_t k = (hx ? 2 * x : x) + delta[RC_X], l = (hy ? 2 * y : y) + delta[RC_Y];
             if (labs(l) <= rc_mlms_extent(&m->d, shape, axis, (size_t)labs(k),
                                           delta[RC_X] != 0 && delta[RC_Y] != 0))
                 s->sparse[(size_t)(y - s->first_y) * s->width + (size_t)(x - s->first_x)] =

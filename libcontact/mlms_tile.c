@@ -4,6 +4,9 @@
 #include <string.h>
 
 #include "mlms.h"
+#ifndef RC_MLMS_FEW
+#define RC_MLMS_FEW 0.3
+#endif
 
 /* A rectangle of nodes or places: [x0, x0 + nx) by [y0, y0 + ny); the corner may lie outside. */
 struct area {
@@ -259,37 +262,31 @@ list(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], const double *p
 static size_t
 few(struct area h)
 {
-    return h.nx > 0xffff || h.ny > 0xffff ? 0 : (size_t)(RC_MLMS_FEW * (double)(h.nx * h.ny));
+    static const double break_even = RC_MLMS_FEW;
+
+    return h.nx > 0xffff || h.ny > 0xffff ? 0 : (size_t)(break_even * (double)(h.nx * h.ny));
 }
 
-/* The i-th of n in an order in which neighbours are far apart: a row that was just written is slow
- * to be read again. */
-static size_t
-spaced(size_t i, size_t n)
-{
-    enum {
-        STREAMS = 8
-    };
-    size_t length = n / STREAMS;
-
-    return i < length * STREAMS ? i % STREAMS * length + i / STREAMS : i;
-}
-
-/* Adds what the node (x, y) of a halo does to the nodes of a target class about it, row by row.
- * Beside the rows of `out` there is room for what lies outside. */
+/* The n listed nodes of a halo by class: values in w->plane[class], places behind the list, of
+ * which begin[class] .. begin[class + 1] - 1 are the class's. */
 static void
-spread(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], const struct rc_mlms_stencil *s,
-       double value, size_t x, size_t y, struct area a, double *out)
+sort(const struct rc_mlms_axis axis[2], const double *p, struct area h, size_t n,
+     struct rc_mlms_scratch *w, size_t begin[5])
 {
-    ptrdiff_t left = (ptrdiff_t)(x >> axis[RC_X].halved) - (ptrdiff_t)axis[RC_X].margin + s->first_x;
-    ptrdiff_t top = (ptrdiff_t)(y >> axis[RC_Y].halved) - (ptrdiff_t)axis[RC_Y].margin + s->first_y;
-    ptrdiff_t first = top < 0 ? -top : 0, last = (ptrdiff_t)s->rows, high = (ptrdiff_t)a.ny;
+    const double *corner = p + h.y0 * (ptrdiff_t)axis[RC_X].n + h.x0;
+    uint32_t *place = w->list + n;
+    size_t hx = axis[RC_X].halved, hy = axis[RC_Y].halved, next[4];
 
-    last = last < high - top ? last : high - top;
-    if (first < last && left < (ptrdiff_t)a.nx && left + (ptrdiff_t)s->width > 0)
-        m->lanes->scatter(value, s->sparse + (size_t)first * s->width, s->width,
-                          (size_t)(last - first),
-                          out + (top + first) * (ptrdiff_t)m->out_stride + left, m->out_stride);
+    memset(begin, 0, 5 * sizeof *begin);
+    for (size_t i = 0; i < n; i++)
+        begin[1 + (w->list[i] & hx) + 2 * (w->list[i] >> 16 & hy)]++;
+    for (size_t c = 0; c < 4; c++)
+        next[c] = begin[c + 1] += begin[c];
+    for (size_t i = n; i-- > 0;) {
+        size_t x = w->list[i] & 0xffff, y = w->list[i] >> 16, c = (x & hx) + 2 * (y & hy);
+        place[--next[c]] = (uint32_t)(y >> hy << 16 | x >> hx);
+        w->plane[c][next[c] - begin[c]] = corner[y * axis[RC_X].n + x];
+    }
 }
 
 /* Corrections of the targets first .. last of area a by the n listed nodes of its halo. */
@@ -298,15 +295,26 @@ scatter(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], const double
         const struct rc_mlms_stencil targets[][4], size_t first, size_t last, struct area a,
         size_t n, struct rc_mlms_scratch *w)
 {
-    struct area h = halo(axis, a);
-    const double *corner = p + h.y0 * (ptrdiff_t)axis[RC_X].n + h.x0;
+    size_t begin[5];
 
+    sort(axis, p, halo(axis, a), n, w, begin);
     for (size_t target = first; target <= last; target++)
-        for (size_t i = 0; i < n; i++) {
-            size_t at = w->list[spaced(i, n)], x = at & 0xffff, y = at >> 16;
-            size_t class = (x & axis[RC_X].halved) + 2 * (y & axis[RC_Y].halved);
-            spread(m, axis, &targets[target - first][class], corner[y * axis[RC_X].n + x], x, y, a,
-                   w->out[target]);
+        for (size_t c = 0; c < 4; c++) {
+            const struct rc_mlms_stencil *s = &targets[target - first][c];
+            struct rc_scatter all = {.value = w->plane[c],
+                                     .place = w->list + n + begin[c],
+                                     .n = begin[c + 1] - begin[c],
+                                     .c = s->sparse,
+                                     .width = s->width,
+                                     .rows = s->rows,
+                                     .left = s->first_x - (ptrdiff_t)axis[RC_X].margin,
+                                     .top = s->first_y - (ptrdiff_t)axis[RC_Y].margin,
+                                     .wide = a.nx,
+                                     .high = a.ny,
+                                     .out = w->out[target],
+                                     .out_stride = m->out_stride};
+            if (s->rows > 0)
+                m->lanes->scatter(&all);
         }
 }
 
