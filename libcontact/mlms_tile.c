@@ -4,9 +4,6 @@
 #include <string.h>
 
 #include "mlms.h"
-#ifndef RC_MLMS_FEW
-#define RC_MLMS_FEW 0.3
-#endif
 
 /* A rectangle of nodes or places: [x0, x0 + nx) by [y0, y0 + ny); the corner may lie outside. */
 struct area {
@@ -262,7 +259,8 @@ list(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], const double *p
 static size_t
 few(struct area h)
 {
-    static const double break_even = RC_MLMS_FEW;
+    /* measured, 1024 x 1024, 2 threads: 5 % in 300 spots take 9.3 ms so, 10.8 with 0, 12.4 with 0.3 */
+    static const double break_even = 0.07;
 
     return h.nx > 0xffff || h.ny > 0xffff ? 0 : (size_t)(break_even * (double)(h.nx * h.ny));
 }
