@@ -101,8 +101,8 @@ add_rows(const struct rc_direct *s, const double *p, size_t first, size_t d, dou
         const double *above = y < s->ny && y >= d ? p + (y - d) * s->nx : NULL;
         const double *below = d > 0 && y < s->ny && y + d < s->ny ? p + (y + d) * s->nx : NULL;
         for (size_t a = 0; a < s->nx; a++) {
-            double value = (above != NULL ? above[a] : 0) +
-                           (below != NULL ? s->mirror * below[a] : 0);
+            double value =
+                (above != NULL ? above[a] : 0) + (below != NULL ? s->mirror * below[a] : 0);
             q[a * RC_BLOCK + i] = value;
             any = value != 0 ? 1 : any;
         }

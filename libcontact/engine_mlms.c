@@ -62,8 +62,8 @@ set_sizes(struct rc_mlms *m)
 static size_t
 scratch_size(const struct rc_mlms *m)
 {
-    return 4 * m->plane_size + 4 * m->out_size + m->ring_size + m->mid_size +
-           m->zeros_size + 2 * m->plane_size + lines(2 * m->d.t);
+    return 4 * m->plane_size + 4 * m->out_size + m->ring_size + m->mid_size + m->zeros_size +
+           2 * m->plane_size + lines(2 * m->d.t);
 }
 
 static size_t
@@ -157,8 +157,8 @@ allocate_levels(struct rc_mlms *m, const struct rc_sum *sum)
         if ((l->loaded = calloc(tiles(l->axis), 1)) == NULL ||
             (l->wanted = malloc(tiles(l->axis))) == NULL)
             return false;
-        if (q > 0 && ((l->p = calloc(n, sizeof *l->p)) == NULL ||
-                      (l->u = calloc(n, sizeof *l->u)) == NULL))
+        if (q > 0 &&
+            ((l->p = calloc(n, sizeof *l->p)) == NULL || (l->u = calloc(n, sizeof *l->u)) == NULL))
             return false;
         if (q < m->d.levels && !rc_mlms_stencils(m, sum, q))
             return false;
@@ -188,8 +188,8 @@ plan_new(const struct rc_sum *sum, struct rc_err *err)
     rc_mlms_stylus(m->d.t, m->s);
     set_sizes(m);
     if (!allocate_levels(m, sum) || !allocate_scratch(m)) {
-        rc_err_set(err, "out of memory for the multi-level sum over %zu x %zu nodes",
-                   sum->shape.nx, sum->shape.ny);
+        rc_err_set(err, "out of memory for the multi-level sum over %zu x %zu nodes", sum->shape.nx,
+                   sum->shape.ny);
         plan_free(m);
         return NULL;
     }

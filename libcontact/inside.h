@@ -67,7 +67,7 @@ struct rc_sum {
     struct rc_medium medium;
     double tol;     /* asked error relative to the sum of |K| |p|; 0: as good as rounding      */
     size_t threads; /* 0: all                                                                  */
-    size_t order, correction; /* of mlms by hand: 2t and m_c as (20) and (18) of the paper; 0: from tol */
+    size_t order, correction; /* of mlms by hand: t and m_c of the paper; 0: from tol          */
 };
 
 struct rc_engine {

@@ -55,7 +55,8 @@ struct rc_lanes {
     /* out[y][x] += sum over columns j and their l of c_j[l] column_j[y - l][x]. */
     void (*stencil)(const struct rc_strip *strip);
     void (*scatter)(const struct rc_scatter *scatter);
-    /* out[i stride + x] += sum over a < n of q[a RC_BLOCK + i] k[x - a], i < RC_BLOCK, x < RC_STRIP. */
+    /* out[i stride + x] += sum over a < n of q[a RC_BLOCK + i] k[x - a], for i < RC_BLOCK and
+     * x < RC_STRIP. */
     void (*product)(const double *k, const double *q, size_t n, double *out, size_t stride);
     /* out[x] = first[x] + sum over i < t of s[i] (near[i][x] + far[i][x]); first may be NULL. */
     void (*weigh)(size_t t, const double *s, const double *const *near, const double *const *far,

@@ -49,9 +49,9 @@ NAME(step)(VECTOR sum[RC_BLOCK][4], int vectors, const double *q, const double *
     }
 }
 
-/* A block of RC_BLOCK target rows of so many vectors. Folded rows lie in a ring, `begin` that of the
- * first target row. Of a column's source rows the first reaches only the first target row, the next
- * two, and so on; the last only the last. */
+/* A block of RC_BLOCK target rows of so many vectors. Folded rows lie in a ring, `begin` that of
+ * the first target row. Of a column's source rows the first reaches only the first target row, the
+ * next two, and so on; the last only the last. */
 TARGET static inline __attribute__((always_inline)) void
 NAME(block)(int vectors, const struct rc_strip *s, const struct rc_column *column, size_t begin,
             size_t x0, double *out)
@@ -146,32 +146,51 @@ NAME(stencil)(const struct rc_strip *s)
     }
 }
 
-/* Neighbours in the list are far apart when it is walked in several places at once: a row that was
- * just written is slow to be read again. */
+/* value times rows of c, added where they belong. */
+TARGET static inline __attribute__((always_inline)) void
+NAME(add_rows)(size_t vectors, double value, const double *c, double *out, size_t rows,
+               size_t stride)
+{
+#if WIDTH == 8
+    /* Stores across cache lines are dear: shift the coefficients to where a line begins. */
+    size_t shift = (uintptr_t)out / sizeof *out % 8;
+    const __m512i each = _mm512_setr_epi64(8, 9, 10, 11, 12, 13, 14, 15);
+    const __m512i from = _mm512_sub_epi64(each, _mm512_set1_epi64((long long)shift));
+    const __m512d factor = _mm512_set1_pd(value);
+
+    out -= shift;
+    for (size_t y = 0; y < rows; y++, c += vectors * 8, out += stride) {
+        __m512d before = _mm512_setzero_pd();
+#pragma GCC unroll 8
+        for (size_t v = 0; v <= vectors; v++) {
+            __m512d here = v < vectors ? _mm512_loadu_pd(c + v * 8) : _mm512_setzero_pd();
+            __m512d shifted = _mm512_permutex2var_pd(before, from, here);
+            _mm512_storeu_pd(out + v * 8,
+                             _mm512_fmadd_pd(factor, shifted, _mm512_loadu_pd(out + v * 8)));
+            before = here;
+        }
+    }
+#else
+    for (size_t y = 0; y < rows; y++, c += vectors * WIDTH, out += stride)
+#pragma GCC unroll 8
+        for (size_t v = 0; v < vectors; v++)
+            AT(out + v * WIDTH) += value * FROM(c + v * WIDTH);
+#endif
+}
+
 TARGET static inline __attribute__((always_inline)) void
 NAME(scatter_all)(size_t vectors, const struct rc_scatter *s)
 {
-    enum {
-        STREAMS = 4
-    };
-    size_t length = s->n / STREAMS, walked = length * STREAMS, k = 0;
-
     for (size_t i = 0; i < s->n; i++) {
-        size_t at = i < walked ? k : i;
-        ptrdiff_t x = (ptrdiff_t)(s->place[at] & 0xffff) + s->left;
-        ptrdiff_t y = (ptrdiff_t)(s->place[at] >> 16) + s->top;
+        ptrdiff_t x = (ptrdiff_t)(s->place[i] & 0xffff) + s->left;
+        ptrdiff_t y = (ptrdiff_t)(s->place[i] >> 16) + s->top;
         ptrdiff_t first = y < 0 ? -y : 0, last = (ptrdiff_t)s->high - y;
-        const double *c = s->c + first * (ptrdiff_t)s->width;
-        double value = s->value[at], *out = s->out + (y + first) * (ptrdiff_t)s->out_stride + x;
 
         last = last < (ptrdiff_t)s->rows ? last : (ptrdiff_t)s->rows;
-        k = k + length < walked ? k + length : k + length - walked + 1;
-        if (x >= (ptrdiff_t)s->wide || x + (ptrdiff_t)s->width <= 0)
-            continue;
-        for (; first < last; first++, c += s->width, out += s->out_stride)
-#pragma GCC unroll 8
-            for (size_t v = 0; v < vectors; v++)
-                AT(out + v * WIDTH) += value * FROM(c + v * WIDTH);
+        if (first < last && x < (ptrdiff_t)s->wide && x + (ptrdiff_t)s->width > 0)
+            NAME(add_rows)(vectors, s->value[i], s->c + first * (ptrdiff_t)s->width,
+                           s->out + (y + first) * (ptrdiff_t)s->out_stride + x,
+                           (size_t)(last - first), s->out_stride);
     }
 }
 

@@ -58,8 +58,8 @@ struct rc_mlms_design {
     size_t t, reach; /* m_c, in nodes of the coarser spacing of those that are halved */
     bool square;     /* correction regions are rectangles, not ellipses               */
     double error;
-    size_t levels;                                   /* that are coarsened                         */
-    struct rc_mlms_axis axis[RC_MLMS_LEVELS + 1][2]; /* the last: of the grid that is not          */
+    size_t levels;   /* that are coarsened                                            */
+    struct rc_mlms_axis axis[RC_MLMS_LEVELS + 1][2]; /* the last: of the grid that is not */
     double terms, work; /* products in (10) - (17) as written; in effect, an estimate  */
     int threads;
 };

@@ -202,7 +202,7 @@ floor_half(ptrdiff_t v)
     return v >= 0 ? v / 2 : -((1 - v) / 2);
 }
 
-/* Range of places from source to target class whose offset is at most l, and of the right parity. */
+/* Range of places from source to target class whose offset is at most l and of the right parity. */
 static void
 places(const struct rc_mlms_axis *a, ptrdiff_t delta, ptrdiff_t l, ptrdiff_t *first,
        ptrdiff_t *last)

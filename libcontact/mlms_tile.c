@@ -255,12 +255,12 @@ list(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], const double *p
     return n;
 }
 
-/* How many nodes of a halo are cheaper one by one than all at once. */
+/* How many nodes of a halo are cheaper one by one than all at once: measured at 1024 x 1024 with
+ * random nodes, both take the same time when 7, 8, 8 % are loaded for 1e-4, 1e-6, 1e-8. */
 static size_t
 few(struct area h)
 {
-    /* measured, 1024 x 1024, 2 threads: 5 % in 300 spots take 9.3 ms so, 10.8 with 0, 12.4 with 0.3 */
-    static const double break_even = 0.07;
+    static const double break_even = 0.075;
 
     return h.nx > 0xffff || h.ny > 0xffff ? 0 : (size_t)(break_even * (double)(h.nx * h.ny));
 }
@@ -381,8 +381,7 @@ interpolate(const struct rc_mlms *m, const struct rc_mlms_level *l, struct area 
     if (hy && odd_ny < a.ny)
         rows -= 1;
     for (size_t r = 0; r < a.ny; r++)
-        memcpy(w->out[0] + r * m->out_stride, even + (r + hy * (t - 1)) * width,
-               a.nx * sizeof *u);
+        memcpy(w->out[0] + r * m->out_stride, even + (r + hy * (t - 1)) * width, a.nx * sizeof *u);
     for (size_t r = 0; hx && r < rows; r++) {
         between(m, u + r * width, 1, odd_nx, w, w->mid + r * m->mid_stride);
         if (r >= hy * (t - 1) && r - hy * (t - 1) < a.ny)

@@ -54,8 +54,8 @@ trial_free(struct trial *t)
     free(t->k);
 }
 
-/* Largest sum of |K| |p| over the map. Of a kernel that changes sign, only a bound below it: that at a
- * loaded node, and that about the middle of the map. */
+/* Largest sum of |K| |p| over the map. Of a kernel that changes sign, only a bound below it: that
+ * at a loaded node, and that about the middle of the map. */
 static double
 magnitude(struct trial *t)
 {
@@ -128,8 +128,8 @@ hertz_map(const struct rc_shape *s, double *p)
 static double
 single_node(struct trial *t)
 {
-    size_t nx = t->sum.shape.nx, ny = t->sum.shape.ny, at[4][2] = {{nx / 2, ny / 2},
-        {nx / 2 + 1, ny / 2}, {nx / 2 + 1, ny / 2 + 1}, {0, ny - 1}};
+    size_t nx = t->sum.shape.nx, ny = t->sum.shape.ny, x = nx / 2, y = ny / 2;
+    size_t at[4][2] = {{x, y}, {x + 1, y}, {x + 1, y + 1}, {0, ny - 1}};
     double largest = 0;
 
     for (size_t k = 0; k < 4; k++) {
@@ -217,8 +217,11 @@ table_1(void **state)
     static const struct {
         size_t nodes;
         double direct, digit; /* published with this last digit by the exact sum */
-    } row[] = {{64, 5.42e-4, 1e-6}, {128, 1.13e-4, 1e-6}, {256, 3.22e-5, 1e-7},
-               {512, 8.87e-6, 1e-8}, {1024, 0, 0}};
+    } row[] = {{64, 5.42e-4, 1e-6},
+               {128, 1.13e-4, 1e-6},
+               {256, 3.22e-5, 1e-7},
+               {512, 8.87e-6, 1e-8},
+               {1024, 0, 0}};
 
     (void)state;
     for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
@@ -344,7 +347,8 @@ any_shape(void **state)
     (void)state;
     for (size_t k = 0; k < sizeof shapes / sizeof *shapes; k++)
         for (double tol = 1e-4; tol > 1e-9; tol /= 1e4) {
-            struct rc_sum sum = displacement(shapes[k].nx, shapes[k].ny, shapes[k].dx, shapes[k].dy);
+            const struct rc_shape *s = &shapes[k];
+            struct rc_sum sum = displacement(s->nx, s->ny, s->dx, s->dy);
             struct trial t;
             double usual;
             sum.tol = tol;
@@ -542,6 +546,9 @@ refused(void **state)
     sum.correction = 130;
     assert_null(rc_engine_mlms.new(&sum, &err));
     assert_non_null(strstr(err.text, "65"));
+    sum.order = 0;
+    assert_null(rc_engine_mlms.new(&sum, &err));
+    assert_non_null(strstr(err.text, "130"));
 }
 
 int
