@@ -127,13 +127,14 @@ count(const struct rc_mlms_design *d, const struct rc_shape *shape,
 
 /* ---- levels ---- */
 
+/* At least two where it is worth waking a second thread. */
 static void
 tile(struct rc_mlms_axis *a)
 {
     size_t places = (a->n + a->halved) >> a->halved;
     size_t tiles = (places + RC_MLMS_TILE / 2) / RC_MLMS_TILE;
 
-    tiles = tiles > 0 ? tiles : 1;
+    tiles = tiles > 1 ? tiles : places >= RC_MLMS_TILE ? 2 : 1;
     a->tile = ((places + tiles - 1) / tiles + RC_LANE - 1) / RC_LANE * RC_LANE;
     a->tiles = (places + a->tile - 1) / a->tile;
 }

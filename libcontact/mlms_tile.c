@@ -17,6 +17,20 @@ rounded(size_t n, size_t to)
     return (n + to - 1) / to * to;
 }
 
+/* Asks for what will be read some rows later: rows are too short, and too far apart, for the
+ * processor to see it coming. */
+static void
+fetch(const double *map, const struct rc_mlms_axis axis[2], ptrdiff_t x0, ptrdiff_t y, size_t n)
+{
+    enum { AHEAD = 4 };
+    ptrdiff_t nx = (ptrdiff_t)axis[RC_X].n, first = x0 > 0 ? x0 : 0, last = x0 + (ptrdiff_t)n;
+
+    last = last < nx ? last : nx;
+    if (y + AHEAD >= 0 && y + AHEAD < (ptrdiff_t)axis[RC_Y].n)
+        for (ptrdiff_t x = first; x < last; x += RC_LANE)
+            __builtin_prefetch(map + (y + AHEAD) * nx + x);
+}
+
 static size_t
 least(size_t a, size_t b)
 {
@@ -109,6 +123,8 @@ reduce_rows(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], const do
 
     if (last < first)
         last = first;
+    fetch(p, axis, x0, y + 2 * (ptrdiff_t)m->d.t - 2, n);
+    fetch(p, axis, x0, y + 2 * (ptrdiff_t)m->d.t - 1, n);
     for (size_t i = 0; i < m->d.t; i++) {
         ptrdiff_t below = y - 1 - 2 * (ptrdiff_t)i, above = y + 1 + 2 * (ptrdiff_t)i;
         w->near[i] = below >= 0 && below < ny ? p + below * nx + x0 + first : w->zeros;
@@ -186,6 +202,7 @@ gather(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], const double 
             ptrdiff_t at = (y0 + (ptrdiff_t)y) * (ptrdiff_t)(1 + ay->halved) + (ptrdiff_t)s;
             double *even = w->plane[2 * s] + y * stride, *odd = w->plane[2 * s + 1] + y * stride;
             const double *row = w->mid;
+            fetch(p, axis, x0, at, n);
             if (x0 >= 0 && x0 + (ptrdiff_t)n <= (ptrdiff_t)ax->n && at >= 0 &&
                 at < (ptrdiff_t)ay->n)
                 row = p + at * (ptrdiff_t)ax->n + x0;
@@ -244,6 +261,7 @@ list(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], const double *p
     for (size_t y = 0; y < h.ny && n <= most; y++) {
         ptrdiff_t at = h.y0 + (ptrdiff_t)y;
         const double *row = w->mid;
+        fetch(p, axis, h.x0, at, wide);
         if (at < 0 || at >= (ptrdiff_t)axis[RC_Y].n)
             continue;
         if (h.x0 >= 0 && h.x0 + (ptrdiff_t)wide <= (ptrdiff_t)axis[RC_X].n)
