@@ -8,6 +8,7 @@
  * inverse. Periodic boundary: nothing is padded, the spectrum is the kernel's symbol.
  */
 #include "fft.h"
+#include "room.h"
 
 #include <math.h>
 #include <omp.h>
@@ -145,7 +146,7 @@ rc_spectrum_new(const struct rc_fft *f, struct rc_err *err)
 
     if (k != NULL) {
         k->ops = f->ops;
-        k->packed = calloc(l->cx * l->packed, f->ops->real_size);
+        k->packed = rc_room(l->cx * l->packed, f->ops->real_size);
     }
     if (k == NULL || k->packed == NULL) {
         rc_err_set(err, "out of memory for a kernel's spectrum of %zu x %zu numbers", l->cx,
@@ -231,7 +232,7 @@ transform_values(const struct rc_fft *f, struct rc_spectrum *k, const struct rc_
     const struct rc_layout *l = &f->layout;
     struct rc_halves *along_x = rc_halves_new(l->cx, k->parity & RC_ODD_X, err);
     struct rc_halves *along_y = rc_halves_new(l->packed, k->parity & RC_ODD_Y, err);
-    double *table = malloc(l->cx * l->packed * sizeof *table);
+    double *table = rc_room(l->cx * l->packed, sizeof *table);
     double *space = malloc((size_t)l->threads * COLUMNS * l->packed * sizeof *space);
     enum rc_status status = RC_FAIL;
 
@@ -300,8 +301,8 @@ transform_wrapped(const struct rc_fft *f, struct rc_spectrum *k, const struct rc
                   size_t component, const struct rc_medium *medium, struct rc_err *err)
 {
     const struct rc_layout *l = &f->layout;
-    double *v = malloc(l->nx * l->ny * sizeof *v), *column = malloc(l->packed * sizeof *column);
-    double complex *s = malloc(rc_fourier_size(&f->shape) * sizeof *s);
+    double *v = rc_room(l->nx * l->ny, sizeof *v), *column = malloc(l->packed * sizeof *column);
+    double complex *s = rc_room(rc_fourier_size(&f->shape), sizeof *s);
     enum rc_status status = RC_FAIL;
 
     if (v == NULL || s == NULL || column == NULL) {

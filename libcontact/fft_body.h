@@ -20,6 +20,7 @@
 #include <string.h>
 
 #include "fft.h"
+#include "room.h"
 
 enum {
     LINE = 128 / sizeof(COMPLEX), /* columns taken together: two cache lines, fetched as a pair  */
@@ -49,7 +50,7 @@ whole_lines(size_t n)
 static COMPLEX *
 allocate(size_t n)
 {
-    return aligned_alloc(64, whole_lines(n) * sizeof(COMPLEX));
+    return rc_room(whole_lines(n), sizeof(COMPLEX));
 }
 
 static size_t
@@ -143,9 +144,6 @@ plan_new(const struct rc_layout *l)
         plan_free(f);
         return NULL;
     }
-    /* columns that fill up a line are gathered with the others */
-    for (size_t j = 0; j < l->ny; j++)
-        memset(f->half + j * l->stride + l->cx, 0, (l->stride - l->cx) * sizeof *f->half);
     if (l->split == 4)
         make_twiddles(f);
     return f;
@@ -201,6 +199,8 @@ rows_forward(struct plan *f, const double *p)
         REAL *row = row_of(f, scratch_of(f));
         const double *from = p + j * l->nx;
 
+        /* columns that fill up a line are gathered with the others */
+        memset(f->half + j * l->stride + l->cx, 0, (l->stride - l->cx) * sizeof *f->half);
         if (!loaded(from, l->nx)) {
             memset(f->half + j * l->stride, 0, l->cx * sizeof *f->half);
             continue;
@@ -305,8 +305,11 @@ gather(const struct plan *f, size_t first, COMPLEX *y)
             for (size_t b = 0; b < LINE; b++)
                 y[b * f->column + j] = x[b];
     } else if (l->parts > 2) {
-        for (; j < l->m; j++, x += l->stride, w += 3)
+        for (; j < l->m; j++, x += l->stride, w += 3) {
+            for (size_t q = 0; q < 4; q++)
+                ahead(x + AHEAD * l->stride + q * step);
             split(f, x, step, 4, w, y + j);
+        }
     } else {
         for (; j < both; j++, x += l->stride, w += 3) {
             ahead(x + AHEAD * l->stride);
@@ -336,8 +339,11 @@ scatter(struct plan *f, size_t first, const COMPLEX *y)
             for (size_t b = 0; b < LINE; b++)
                 x[b] = y[b * f->column + j];
     } else if (l->parts > 2) {
-        for (; j < l->m; j++, x += l->stride, w += 3)
+        for (; j < l->m; j++, x += l->stride, w += 3) {
+            for (size_t q = 0; q < 4; q++)
+                ahead(x + AHEAD * l->stride + q * step);
             join(f, x, step, 4, w, y + j);
+        }
     } else {
         for (; j < both; j++, x += l->stride, w += 3)
             join(f, x, step, 2, w, y + j);
