@@ -232,10 +232,13 @@ transform_values(const struct rc_fft *f, struct rc_spectrum *k, const struct rc_
     const struct rc_layout *l = &f->layout;
     struct rc_halves *along_x = rc_halves_new(l->cx, k->parity & RC_ODD_X, err);
     struct rc_halves *along_y = rc_halves_new(l->packed, k->parity & RC_ODD_Y, err);
-    double *table = rc_room(l->cx * l->packed, sizeof *table);
+    size_t n = l->cx * l->packed;
+    double *own = NULL, *table = f->ops->borrow(f->plan, n * sizeof *table);
     double *space = malloc((size_t)l->threads * COLUMNS * l->packed * sizeof *space);
     enum rc_status status = RC_FAIL;
 
+    if (table == NULL)
+        table = own = rc_room(n, sizeof *own);
     if (table == NULL || space == NULL) {
         rc_err_set(err, "out of memory for a kernel of %zu x %zu values", l->cx, l->packed);
     } else if (along_x != NULL && along_y != NULL) {
@@ -245,7 +248,7 @@ transform_values(const struct rc_fft *f, struct rc_spectrum *k, const struct rc_
     }
     rc_halves_free(along_x);
     rc_halves_free(along_y);
-    free(table);
+    free(own);
     free(space);
     return status;
 }

@@ -78,6 +78,8 @@ struct rc_fft_ops {
     size_t real_size; /* bytes of a real number */
     void *(*new)(const struct rc_layout *layout); /* NULL: out of memory */
     void (*free)(void *plan);
+    /* Room that the plan uses only while it works; NULL: not so much. */
+    void *(*borrow)(void *plan, size_t bytes);
     /* Column c of a spectrum from s(q), times `scale`; mirror -1: odd in y. */
     void (*pack)(const struct rc_layout *layout, size_t c, double scale, double mirror,
                  const double *s, void *packed);

@@ -149,6 +149,14 @@ plan_new(const struct rc_layout *l)
     return f;
 }
 
+static void *
+borrow(void *at, size_t bytes)
+{
+    struct plan *f = at;
+
+    return bytes <= f->l.ny * f->l.stride * sizeof *f->half ? f->half : NULL;
+}
+
 static COMPLEX *
 scratch_of(const struct plan *f)
 {
@@ -503,6 +511,7 @@ const struct rc_fft_ops OPS = {
     .real_size = sizeof(REAL),
     .new = plan_new,
     .free = plan_free,
+    .borrow = borrow,
     .pack = pack,
     .apply = apply,
     .load = load,
