@@ -10,6 +10,7 @@
 #include "fft.h"
 #include "room.h"
 
+#include <assert.h>
 #include <math.h>
 #include <omp.h>
 #include <stdlib.h>
@@ -367,6 +368,18 @@ void
 rc_fft_apply(struct rc_fft *f, const struct rc_spectrum *k, const double *p, double *u)
 {
     f->ops->apply(f->plan, k->packed, k->parity, p, u);
+}
+
+void
+rc_fft_chain(struct rc_fft *f, size_t n, const struct rc_spectrum *const *kernels,
+             rc_row *const *rows, void *ctx)
+{
+    struct rc_link links[RC_CHAIN];
+
+    assert(n <= RC_CHAIN);
+    for (size_t k = 0; k < n; k++)
+        links[k] = (struct rc_link){rows[k], kernels[k]->packed, kernels[k]->parity};
+    f->ops->chain(f->plan, n, links, rows[n], ctx);
 }
 
 enum rc_status

@@ -11,7 +11,7 @@
 
 enum rc_precision {
     RC_DOUBLE,
-    RC_SINGLE /* inside; maps are double on both sides */
+    RC_SINGLE /* inside, and the rows of a chain; maps are double on both sides */
 };
 
 struct rc_fft;
@@ -48,6 +48,18 @@ enum rc_status rc_spectrum_set_values(struct rc_spectrum *spectrum, const struct
 
 /* u = K p. u and p may be the same. */
 void rc_fft_apply(struct rc_fft *fft, const struct rc_spectrum *kernel, const double *p, double *u);
+
+/* What is done with a row on its way: row j of nx numbers in the plan's precision. It writes what is
+ * transformed next, and returns false where that is zero; the last one only reads. Rows are taken by
+ * several threads, each once. */
+enum {
+    RC_CHAIN = 4
+};
+typedef bool rc_row(void *ctx, size_t j, void *row);
+/* The first row function writes the source of kernels[0], rows[k] turns its field into the source of
+ * kernels[k], rows[n] takes the last field: n <= RC_CHAIN kernels, n + 1 functions, and no map between them. */
+void rc_fft_chain(struct rc_fft *fft, size_t n, const struct rc_spectrum *const *kernels,
+                  rc_row *const *rows, void *ctx);
 /* Keeps the whole transform of p; then u = K p for as many kernels as are wanted. */
 enum rc_status rc_fft_load(struct rc_fft *fft, const double *p, struct rc_err *err);
 void rc_fft_field(struct rc_fft *fft, const struct rc_spectrum *kernel, double *u);
@@ -74,6 +86,12 @@ struct rc_layout {
 /* A column of a spectrum, s(q) for q <= py/2, is stored as A[k] = s(split k) up to the middle and, for
  * split 4, B[k] = s(4k + 1) for all k < m (beyond the middle by symmetry, which also gives residue 3)
  * and C[k] = s(4k + 2) up to the middle: packed = py/2 + 1 numbers in all. */
+struct rc_link {
+    rc_row *row;
+    const void *packed;
+    unsigned parity;
+};
+
 struct rc_fft_ops {
     size_t real_size; /* bytes of a real number */
     void *(*new)(const struct rc_layout *layout); /* NULL: out of memory */
@@ -84,6 +102,7 @@ struct rc_fft_ops {
     void (*pack)(const struct rc_layout *layout, size_t c, double scale, double mirror,
                  const double *s, void *packed);
     void (*apply)(void *plan, const void *packed, unsigned parity, const double *p, double *u);
+    void (*chain)(void *plan, size_t n, const struct rc_link *links, rc_row *last, void *ctx);
     bool (*load)(void *plan, const double *p); /* false: out of memory */
     void (*field)(void *plan, const void *packed, unsigned parity, double *u);
 };

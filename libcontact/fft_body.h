@@ -29,6 +29,12 @@ enum {
                                     would else fall on the same lines of the cache */
 };
 
+struct map {
+    const double *p;
+    double *u;
+    size_t nx;
+};
+
 struct plan {
     struct rc_layout l;
     FFTW(plan) row_forward, row_back, column_forward, column_back;
@@ -105,7 +111,7 @@ make_plans(struct plan *f)
     /* The planner is the one part of FFTW that two threads may not enter at once. */
 #pragma omp critical(rc_fftw_planner)
     {
-        f->row_forward = FFTW(plan_dft_r2c_1d)(px, row, half, how | FFTW_PRESERVE_INPUT);
+        f->row_forward = FFTW(plan_dft_r2c_1d)(px, row, half, how);
         f->row_back = FFTW(plan_dft_c2r_1d)(px, half, row, how);
         f->column_forward = FFTW(plan_dft_1d)(m, a, b, FFTW_FORWARD, how);
         f->column_back = FFTW(plan_dft_1d)(m, a, b, FFTW_BACKWARD, how);
@@ -188,56 +194,52 @@ to_double(const REAL *restrict from, size_t n, double *restrict to)
         to[i] = (double)from[i];
 }
 
-/* Whether FFTW may work on a row of the map itself: it is as long, as wide and as aligned as the row
- * that the plan was made for. */
+/* Row j of what is transformed, from a map of doubles. */
 static bool
-in_place(const struct rc_layout *l, const double *map, size_t j)
+row_in(void *map, size_t j, void *row)
 {
-    return sizeof(REAL) == sizeof(double) && l->px == l->nx &&
-           FFTW(alignment_of)((REAL *)(uintptr_t)(map + j * l->nx)) == 0;
+    const struct map *m = map;
+    const double *from = m->p + j * m->nx;
+
+    if (!loaded(from, m->nx))
+        return false;
+    to_real(from, m->nx, row);
+    return true;
 }
 
+static bool
+row_out(void *map, size_t j, void *row)
+{
+    const struct map *m = map;
+
+    to_double(row, m->nx, m->u + j * m->nx);
+    return true;
+}
+
+/* Rows are written by one function and read by the next; either may be missing at the ends. Between
+ * two kernels a row comes and goes without a map in between. */
 static void
-rows_forward(struct plan *f, const double *p)
+rows(struct plan *f, void *ctx, rc_row *make, bool back, bool forward)
 {
     const struct rc_layout *l = &f->l;
 
 #pragma omp parallel for num_threads(l->threads) schedule(static)
     for (size_t j = 0; j < l->ny; j++) {
         REAL *row = row_of(f, scratch_of(f));
-        const double *from = p + j * l->nx;
+        COMPLEX *half = f->half + j * l->stride;
+        bool any;
 
-        /* columns that fill up a line are gathered with the others */
-        memset(f->half + j * l->stride + l->cx, 0, (l->stride - l->cx) * sizeof *f->half);
-        if (!loaded(from, l->nx)) {
-            memset(f->half + j * l->stride, 0, l->cx * sizeof *f->half);
+        if (back)
+            FFTW(execute_dft_c2r)(f->row_back, half, row);
+        any = make(ctx, j, row);
+        if (!forward)
             continue;
-        }
-        if (in_place(l, p, j)) {
-            row = (REAL *)(uintptr_t)from; /* a forward transform keeps its input */
-        } else {
-            to_real(from, l->nx, row);
-            memset(row + l->nx, 0, (l->px - l->nx) * sizeof *row);
-        }
-        FFTW(execute_dft_r2c)(f->row_forward, row, f->half + j * l->stride);
-    }
-}
-
-static void
-rows_back(struct plan *f, double *u)
-{
-    const struct rc_layout *l = &f->l;
-
-#pragma omp parallel for num_threads(l->threads) schedule(static)
-    for (size_t j = 0; j < l->ny; j++) {
-        REAL *row = row_of(f, scratch_of(f));
-        bool straight = in_place(l, u, j);
-
-        if (straight)
-            row = (REAL *)(void *)(u + j * l->nx);
-        FFTW(execute_dft_c2r)(f->row_back, f->half + j * l->stride, row);
-        if (!straight)
-            to_double(row, l->nx, u + j * l->nx);
+        /* columns that fill up a line are gathered with the others */
+        memset(half + (any ? l->cx : 0), 0, (l->stride - (any ? l->cx : 0)) * sizeof *half);
+        if (!any)
+            continue;
+        memset(row + l->nx, 0, (l->px - l->nx) * sizeof *row);
+        FFTW(execute_dft_r2c)(f->row_forward, row, half);
     }
 }
 
@@ -416,14 +418,12 @@ multiply(const struct rc_layout *l, const REAL *s, unsigned parity, size_t r, CO
     }
 }
 
+/* Columns: transformed, multiplied, transformed back. */
 static void
-apply(void *at, const void *packed, unsigned parity, const double *p, double *u)
+columns(struct plan *f, const REAL *s, unsigned parity)
 {
-    struct plan *f = at;
     const struct rc_layout *l = &f->l;
-    const REAL *s = packed;
 
-    rows_forward(f, p);
 #pragma omp parallel for num_threads(l->threads) schedule(static)
     for (size_t c = 0; c < l->cx; c += LINE) {
         size_t n = l->cx - c < LINE ? l->cx - c : LINE;
@@ -439,7 +439,29 @@ apply(void *at, const void *packed, unsigned parity, const double *p, double *u)
             }
         scatter(f, c, y);
     }
-    rows_back(f, u);
+}
+
+static void
+apply(void *at, const void *packed, unsigned parity, const double *p, double *u)
+{
+    struct plan *f = at;
+    struct map map = {.p = p, .u = u, .nx = f->l.nx};
+
+    rows(f, &map, row_in, false, true);
+    columns(f, packed, parity);
+    rows(f, &map, row_out, true, false);
+}
+
+static void
+chain(void *at, size_t n, const struct rc_link *links, rc_row *last, void *ctx)
+{
+    struct plan *f = at;
+
+    for (size_t k = 0; k < n; k++) {
+        rows(f, ctx, links[k].row, k > 0, true);
+        columns(f, links[k].packed, links[k].parity);
+    }
+    rows(f, ctx, last, true, false);
 }
 
 static bool
@@ -447,10 +469,11 @@ load(void *at, const double *p)
 {
     struct plan *f = at;
     const struct rc_layout *l = &f->l;
+    struct map map = {.p = p, .nx = l->nx};
 
     if (f->source == NULL && (f->source = allocate(l->cx * f->column)) == NULL)
         return false;
-    rows_forward(f, p);
+    rows(f, &map, row_in, false, true);
 #pragma omp parallel for num_threads(l->threads) schedule(static)
     for (size_t c = 0; c < l->cx; c += LINE) {
         size_t n = l->cx - c < LINE ? l->cx - c : LINE;
@@ -471,6 +494,7 @@ field(void *at, const void *packed, unsigned parity, double *u)
     struct plan *f = at;
     const struct rc_layout *l = &f->l;
     const REAL *s = packed;
+    struct map map = {.u = u, .nx = l->nx};
 
 #pragma omp parallel for num_threads(l->threads) schedule(static)
     for (size_t c = 0; c < l->cx; c += LINE) {
@@ -485,7 +509,7 @@ field(void *at, const void *packed, unsigned parity, double *u)
             }
         scatter(f, c, y);
     }
-    rows_back(f, u);
+    rows(f, &map, row_out, true, false);
 }
 
 static void
@@ -514,6 +538,7 @@ const struct rc_fft_ops OPS = {
     .borrow = borrow,
     .pack = pack,
     .apply = apply,
+    .chain = chain,
     .load = load,
     .field = field,
 };
