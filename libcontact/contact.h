@@ -172,6 +172,9 @@ enum rc_status rc_solver_step(struct rc_solver *solver);
 /* Iterations so far and the last estimate of the error (NAN before the first), for progress. */
 size_t rc_solver_iterations(const struct rc_solver *solver);
 double rc_solver_error(const struct rc_solver *solver);
+/* Convolutions so far, in equivalents of one double-precision convolution on this grid; coarser grids and
+ * single precision count their share. */
+double rc_solver_convolutions(const struct rc_solver *solver);
 /* The pressure reached (nx*ny Pa), valid until the next step. */
 const double *rc_solver_pressure(const struct rc_solver *solver);
 /* Fresh displacement and gap of that pressure (either may be NULL) and the figures. */

@@ -1,22 +1,24 @@
 #include "extension.h"
 
 #include <math.h>
+#include <omp.h>
 #include <stdlib.h>
+#include <string.h>
 
-#include "fft.h"
+#include "room.h"
 
 struct rc_extension {
     struct rc_shape unit; /* the grid in units of sqrt(dx dy) */
-    double stiffness;     /* E* / sqrt(dx dy): what A is in those units, per unit of E* = 1          */
-    size_t n;
+    enum rc_boundary boundary;
     struct rc_fft *fft;   /* single precision is enough: only the residual has to be exact           */
-    struct rc_spectrum *inverse, *spread; /* A and G                                        */
-    double *weight;  /* off W: 1 / (sum_j G_ij + d_i^(-1/2) / 2); on W: 0                    */
-    double *field;   /* scratch of n                                                        */
-    double *other;   /* scratch of n                                                        */
-    int threads;
-    double *scratch; /* of distance                                                         */
+    struct rc_spectrum *kernel, *inverse, *spread; /* K, A and G                           */
+    float *weight;        /* off W: 1 / (sum_j G_ij + d_i^(-1/2) / 2); on W: 0                    */
+    uint16_t *term;       /* d_i^(-1/2) / 2, upper halves of floats; 1 on W when they were found  */
     const unsigned char *w;
+    bool measure;         /* the distances are to be found again                                  */
+    int threads;
+    size_t own;           /* numbers of scratch of one thread                                     */
+    float *scratch;
 };
 
 /* |x|^(-5/2); a node has no weight in itself, because no node is both on W and off it. */
@@ -48,8 +50,8 @@ static const struct rc_kernel spread = {
 };
 
 struct rc_extension *
-rc_extension_new(const struct rc_shape *shape, enum rc_boundary boundary, double estar,
-                 size_t threads, struct rc_err *err)
+rc_extension_new(const struct rc_shape *shape, enum rc_boundary boundary, size_t threads,
+                 struct rc_err *err)
 {
     struct rc_medium medium = {.estar = 1};
     struct rc_extension *e = calloc(1, sizeof *e);
@@ -58,27 +60,27 @@ rc_extension_new(const struct rc_shape *shape, enum rc_boundary boundary, double
 
     if (e == NULL)
         goto short_of_memory;
-    e->n = n;
+    e->boundary = boundary;
     e->threads = rc_useful_threads(shape, threads);
     e->unit = *shape;
     e->unit.dx /= unit;
     e->unit.dy /= unit;
-    e->stiffness = estar / unit;
-    e->weight = malloc(n * sizeof *e->weight);
-    e->field = malloc(n * sizeof *e->field);
-    e->other = malloc(n * sizeof *e->other);
-    e->scratch = malloc(rc_distance_scratch(shape, e->threads) * sizeof *e->scratch);
-    if (e->weight == NULL || e->field == NULL || e->other == NULL || e->scratch == NULL)
+    e->own = rc_distance_scratch(&e->unit) + shape->nx;
+    e->weight = rc_room(n, sizeof *e->weight);
+    e->term = rc_room(n, sizeof *e->term);
+    e->scratch = rc_room((size_t)e->threads * e->own, sizeof *e->scratch);
+    if (e->weight == NULL || e->term == NULL || e->scratch == NULL)
         goto short_of_memory;
     if ((e->fft = rc_fft_new(&e->unit, boundary, RC_SINGLE, threads, err)) == NULL ||
+        (e->kernel = rc_spectrum_new(e->fft, err)) == NULL ||
         (e->inverse = rc_spectrum_new(e->fft, err)) == NULL ||
         (e->spread = rc_spectrum_new(e->fft, err)) == NULL ||
-        rc_spectrum_set_inverse(e->inverse, e->fft, &rc_kernel_boussinesq, 0, &medium,
-                                err) != RC_OK ||
+        rc_spectrum_set(e->kernel, e->fft, &rc_kernel_boussinesq, 0, &medium, err) != RC_OK ||
         rc_spectrum_set_values(e->spread, e->fft, &spread, 0, &medium, err) != RC_OK) {
         rc_extension_free(e);
         return NULL;
     }
+    rc_spectrum_set_reciprocal(e->inverse, e->fft, e->kernel);
     return e;
 short_of_memory:
     rc_err_set(err, "out of memory for the error estimate of %zu x %zu nodes", shape->nx,
@@ -93,48 +95,211 @@ rc_extension_free(struct rc_extension *e)
     if (e == NULL)
         return;
     rc_fft_free(e->fft);
+    rc_spectrum_free(e->kernel);
     rc_spectrum_free(e->inverse);
     rc_spectrum_free(e->spread);
     free(e->weight);
-    free(e->field);
-    free(e->other);
+    free(e->term);
     free(e->scratch);
     free(e);
 }
 
-void
-rc_extension_set(struct rc_extension *e, const unsigned char *w)
+size_t
+rc_extension_memory(const struct rc_shape *shape, enum rc_boundary boundary)
 {
-    e->w = w;
-    for (size_t k = 0; k < e->n; k++)
-        e->field[k] = w[k] != 0;
-    rc_fft_apply(e->fft, e->spread, e->field, e->weight);
-    rc_distance_squared(&e->unit, w, e->threads, e->scratch, e->field);
-    for (size_t k = 0; k < e->n; k++) {
-        double d = fmax(sqrt(e->field[k]) - 0.5, 0.25);
-        e->weight[k] = w[k] ? 0 : 1 / (fmax(e->weight[k], 0) + 0.5 / sqrt(d));
+    return rc_fft_memory(shape, boundary, RC_SINGLE) +
+           2 * rc_spectrum_memory(shape, boundary, RC_SINGLE) +
+           shape->nx * shape->ny * (sizeof(float) + sizeof(uint16_t));
+}
+
+/* ---- the working set ---- */
+
+static bool
+mask_in(void *at, size_t j, void *row)
+{
+    struct rc_extension *e = at;
+    size_t n = e->unit.nx;
+    const unsigned char *w = e->w + j * n;
+    float *out = row;
+    unsigned any = 0;
+
+    for (size_t i = 0; i < n; i++) {
+        out[i] = w[i];
+        any |= w[i];
+    }
+    return any != 0;
+}
+
+/* Eight bits are more than these terms are worth. */
+static inline uint16_t
+upper(float x)
+{
+    uint32_t bits;
+
+    memcpy(&bits, &x, sizeof bits);
+    return (uint16_t)(bits >> 16);
+}
+
+static inline float
+whole(uint16_t x)
+{
+    uint32_t bits = (uint32_t)x << 16;
+    float f;
+
+    memcpy(&f, &bits, sizeof f);
+    return f;
+}
+
+RC_CLONES static void
+terms(size_t n, const float *restrict d2, uint16_t *restrict term)
+{
+    for (size_t i = 0; i < n; i++) {
+        float d = sqrtf(d2[i]) - 0.5f;
+        term[i] = upper(0.5f / sqrtf(d > 0.25f ? d : 0.25f));
     }
 }
 
-/* Single precision has 38 decades, gaps in metres and moduli in pascals can need more: the largest |r|
- * is made 1, and A works in units of E* and of the grid. */
-void
-rc_extension_apply(struct rc_extension *e, const double *r, double *z)
+RC_CLONES static void
+weigh(size_t n, const unsigned char *w, const float *sums, const uint16_t *term,
+      float *restrict weight)
 {
-    double *y = e->field, *q = e->other, size = 0, scale;
+    for (size_t i = 0; i < n; i++) {
+        float sum = sums[i] > 0 ? sums[i] : 0;
+        weight[i] = w[i] ? 0 : 1 / (sum + whole(term[i]));
+    }
+}
 
-    for (size_t k = 0; k < e->n; k++)
-        size = fmax(size, fabs(r[k]));
-    scale = size > 0 ? 1 / size : 0;
-    for (size_t k = 0; k < e->n; k++)
-        q[k] = scale * r[k];
-    rc_fft_apply(e->fft, e->spread, q, y);
-    for (size_t k = 0; k < e->n; k++)
-        y[k] = e->w[k] ? q[k] : e->weight[k] * y[k];
-    rc_fft_apply(e->fft, e->inverse, y, y);
-    for (size_t k = 0; k < e->n; k++)
-        q[k] = e->weight[k] * y[k];
-    rc_fft_apply(e->fft, e->spread, q, q);
-    for (size_t k = 0; k < e->n; k++)
-        z[k] = e->w[k] ? size * e->stiffness * (y[k] + q[k]) : 0;
+/* The sums arrive; where distances are to be found, the weights hold the steps along the columns. */
+static bool
+weights_out(void *at, size_t j, void *row)
+{
+    struct rc_extension *e = at;
+    size_t n = e->unit.nx;
+    float *scratch = e->scratch + (size_t)omp_get_thread_num() * e->own;
+    float *d2 = scratch + rc_distance_scratch(&e->unit), *weight = e->weight + j * n;
+
+    if (e->measure) {
+        rc_distance_row(&e->unit, e->boundary, scratch, weight, d2);
+        terms(n, d2, e->term + j * n);
+    }
+    weigh(n, e->w + j * n, row, e->term + j * n, weight);
+    return true;
+}
+
+void
+rc_extension_set(struct rc_extension *e, const unsigned char *w, bool measure)
+{
+    const struct rc_spectrum *kernels[] = {e->spread};
+    rc_row *rows[] = {mask_in, weights_out};
+
+    e->w = w;
+    e->measure = measure;
+    if (measure)
+        rc_distance_columns(&e->unit, e->boundary, w, e->threads, e->weight);
+    rc_fft_chain(e->fft, 1, kernels, rows, e);
+}
+
+/* ---- E' A E ---- */
+
+struct correction {
+    struct rc_extension *e;
+    const float *r;
+    float offset, *z;
+    rc_row *done;
+    void *ctx;
+};
+
+RC_CLONES static bool
+take(size_t n, const unsigned char *w, const float *r, float offset, float *restrict out)
+{
+    unsigned any = 0;
+
+    for (size_t i = 0; i < n; i++) {
+        out[i] = w[i] ? r[i] - offset : 0;
+        any |= w[i];
+    }
+    return any != 0;
+}
+
+static bool
+residual_in(void *at, size_t j, void *row)
+{
+    struct correction *c = at;
+    size_t n = c->e->unit.nx;
+
+    return take(n, c->e->w + j * n, c->r + j * n, c->offset, row);
+}
+
+RC_CLONES static void
+extend(size_t n, const unsigned char *w, const float *r, float offset, const float *weight,
+       float *restrict row)
+{
+    for (size_t i = 0; i < n; i++)
+        row[i] = w[i] ? r[i] - offset : weight[i] * row[i];
+}
+
+static bool
+extended(void *at, size_t j, void *row)
+{
+    struct correction *c = at;
+    size_t n = c->e->unit.nx;
+
+    extend(n, c->e->w + j * n, c->r + j * n, c->offset, c->e->weight + j * n, row);
+    return true;
+}
+
+RC_CLONES static void
+part(size_t n, const unsigned char *w, const float *weight, float *restrict row, float *restrict z)
+{
+    for (size_t i = 0; i < n; i++) {
+        z[i] = w[i] ? row[i] : 0;
+        row[i] = w[i] ? 0 : weight[i] * row[i];
+    }
+}
+
+static bool
+parted(void *at, size_t j, void *row)
+{
+    struct correction *c = at;
+    size_t n = c->e->unit.nx;
+
+    part(n, c->e->w + j * n, c->e->weight + j * n, row, c->z + j * n);
+    return true;
+}
+
+RC_CLONES static void
+add(size_t n, const unsigned char *w, const float *row, float *restrict z)
+{
+    for (size_t i = 0; i < n; i++)
+        z[i] += w[i] ? row[i] : 0;
+}
+
+static bool
+correction_out(void *at, size_t j, void *row)
+{
+    struct correction *c = at;
+    size_t n = c->e->unit.nx;
+
+    add(n, c->e->w + j * n, row, c->z + j * n);
+    return c->done == NULL || c->done(c->ctx, j, row);
+}
+
+void
+rc_extension_apply(struct rc_extension *e, const float *r, float offset, float *z, rc_row *done,
+                   void *ctx)
+{
+    struct correction c = {.e = e, .r = r, .offset = offset, .z = z, .done = done, .ctx = ctx};
+    const struct rc_spectrum *kernels[] = {e->spread, e->inverse, e->spread};
+    rc_row *rows[] = {residual_in, extended, parted, correction_out};
+
+    rc_fft_chain(e->fft, 3, kernels, rows, &c);
+}
+
+void
+rc_extension_displace(struct rc_extension *e, rc_row *in, rc_row *out, void *ctx)
+{
+    const struct rc_spectrum *kernels[] = {e->kernel};
+    rc_row *rows[] = {in, out};
+
+    rc_fft_chain(e->fft, 1, kernels, rows, ctx);
 }

@@ -15,25 +15,36 @@
 #ifndef RC_EXTENSION_H
 #define RC_EXTENSION_H
 
-#include "inside.h"
+#include "fft.h"
 
 struct rc_extension;
 
 struct rc_extension *rc_extension_new(const struct rc_shape *shape, enum rc_boundary boundary,
-                                      double estar, size_t threads, struct rc_err *err);
+                                      size_t threads, struct rc_err *err);
 void rc_extension_free(struct rc_extension *extension);
-/* The working set: nonzero entries of w, at least one. Costs one convolution in
- * single precision. */
-void rc_extension_set(struct rc_extension *extension, const unsigned char *w);
-/* z = E' A E r on the working set, zero elsewhere; r is zero off it. Costs three of
- * them. */
-void rc_extension_apply(struct rc_extension *extension, const double *r, double *z);
+size_t rc_extension_memory(const struct rc_shape *shape, enum rc_boundary boundary);
+/* The working set: entries 1 of w (0 elsewhere), at least one; w is referred to until the next set. With
+ * `measure` the distances d_i are found too, else those of the last set are kept: they change little
+ * when it does. Costs one convolution in single precision, and with them several times its time.
+ * Entries of w may change afterwards: the map stays symmetric, but E loses quality as they do. */
+void rc_extension_set(struct rc_extension *extension, const unsigned char *w, bool measure);
+/* z = E' A E (r - offset) on the working set, zero elsewhere, for E* = 1 and lengths in units of
+ * sqrt(dx dy). `done` is called with each row of the result, complete in z, as soon as it is there; NULL:
+ * nobody wants to know. Costs three of them. */
+void rc_extension_apply(struct rc_extension *extension, const float *r, float offset, float *z,
+                        rc_row *done, void *ctx);
+/* The influence of a pressure, in the same units, in single precision: `in` writes its rows, `out` takes those
+ * of the displacement. Costs one. */
+void rc_extension_displace(struct rc_extension *extension, rc_row *in, rc_row *out, void *ctx);
 
-/* distance.c: squared distance of every node to the nearest one with w != 0, lengths as dx and dy are.
- * `scratch` holds rc_distance_scratch numbers. O(nx ny) (Felzenszwalb and Huttenlocher, Theory of
- * Computing 8, 2012). */
-size_t rc_distance_scratch(const struct rc_shape *shape, int threads);
-void rc_distance_squared(const struct rc_shape *shape, const unsigned char *w, int threads,
-                         double *scratch, double *d2);
+/* distance.c: how far every node is from the nearest one with w != 0, right to a sixth, in two passes. First the number
+ * of steps along its column, for all nodes ... */
+void rc_distance_columns(const struct rc_shape *shape, enum rc_boundary boundary,
+                         const unsigned char *w, int threads, float *steps);
+/* ... then, row by row, the square of the distance, lengths as dx and dy are, from those of the row.
+ * `scratch` holds rc_distance_scratch numbers and belongs to one thread. */
+size_t rc_distance_scratch(const struct rc_shape *shape);
+void rc_distance_row(const struct rc_shape *shape, enum rc_boundary boundary, float *scratch,
+                     const float *steps, float *d2);
 
 #endif

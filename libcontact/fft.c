@@ -172,14 +172,11 @@ enum {
     COLUMNS = 8 /* taken out of it together: a cache line                                    */
 };
 
-/* What becomes of a column of the spectrum: its reciprocal or not, packed. */
 static void
-finish_column(const struct rc_fft *f, struct rc_spectrum *k, size_t c, bool inverse, double *s)
+finish_column(const struct rc_fft *f, struct rc_spectrum *k, size_t c, const double *s)
 {
     const struct rc_layout *l = &f->layout;
 
-    for (size_t q = 0; inverse && q < l->packed; q++)
-        s[q] = s[q] == 0 ? 0 : 1 / s[q];
     f->ops->pack(l, c, 1 / ((double)l->px * (double)l->py), k->parity & RC_ODD_Y ? -1 : 1, s,
                  k->packed);
 }
@@ -206,7 +203,7 @@ table_rows(const struct rc_fft *f, const struct rc_kernel *kernel, size_t compon
 /* Columns of that table, each transformed in y. `space` holds COLUMNS columns for each thread. */
 static void
 table_columns(const struct rc_fft *f, struct rc_spectrum *k, const struct rc_halves *transform,
-              bool inverse, const double *table, double *space)
+              const double *table, double *space)
 {
     const struct rc_layout *l = &f->layout;
 
@@ -220,15 +217,14 @@ table_columns(const struct rc_fft *f, struct rc_spectrum *k, const struct rc_hal
                 s[b * l->packed + j] = table[j * l->cx + first + b];
         for (size_t b = 0; b < n; b++) {
             rc_halves_run(transform, s + b * l->packed);
-            finish_column(f, k, first + b, inverse, s + b * l->packed);
+            finish_column(f, k, first + b, s + b * l->packed);
         }
     }
 }
 
 static enum rc_status
 transform_values(const struct rc_fft *f, struct rc_spectrum *k, const struct rc_kernel *kernel,
-                 size_t component, const struct rc_medium *medium, bool inverse,
-                 struct rc_err *err)
+                 size_t component, const struct rc_medium *medium, struct rc_err *err)
 {
     const struct rc_layout *l = &f->layout;
     struct rc_halves *along_x = rc_halves_new(l->cx, k->parity & RC_ODD_X, err);
@@ -244,7 +240,7 @@ transform_values(const struct rc_fft *f, struct rc_spectrum *k, const struct rc_
         rc_err_set(err, "out of memory for a kernel of %zu x %zu values", l->cx, l->packed);
     } else if (along_x != NULL && along_y != NULL) {
         table_rows(f, kernel, component, medium, along_x, table);
-        table_columns(f, k, along_y, inverse, table, space);
+        table_columns(f, k, along_y, table, space);
         status = RC_OK;
     }
     rc_halves_free(along_x);
@@ -256,7 +252,7 @@ transform_values(const struct rc_fft *f, struct rc_spectrum *k, const struct rc_
 
 static enum rc_status
 sample_symbol(const struct rc_fft *f, struct rc_spectrum *k, const struct rc_kernel *kernel,
-              size_t component, const struct rc_medium *medium, bool inverse, struct rc_err *err)
+              size_t component, const struct rc_medium *medium, struct rc_err *err)
 {
     const struct rc_layout *l = &f->layout;
     const double turn = 2 * 3.14159265358979323846;
@@ -276,7 +272,7 @@ sample_symbol(const struct rc_fft *f, struct rc_spectrum *k, const struct rc_ker
             double qy = turn * (double)j / ((double)l->ny * f->shape.dy);
             s[j] = i == 0 && j == 0 ? 0 : kernel->symbol(medium, component, qx, qy);
         }
-        finish_column(f, k, i, inverse, s);
+        finish_column(f, k, i, s);
     }
     free(space);
     return RC_OK;
@@ -318,7 +314,7 @@ transform_wrapped(const struct rc_fft *f, struct rc_spectrum *k, const struct rc
     for (size_t i = 0; i < l->cx && status == RC_OK; i++) {
         for (size_t j = 0; j < l->packed; j++)
             column[j] = creal(s[j * l->cx + i]);
-        finish_column(f, k, i, false, column);
+        finish_column(f, k, i, column);
     }
 done:
     free(v);
@@ -334,32 +330,41 @@ rc_spectrum_set_values(struct rc_spectrum *k, const struct rc_fft *f,
 {
     k->parity = kernel->parity[component];
     if (f->boundary == RC_FREE)
-        return transform_values(f, k, kernel, component, medium, false, err);
+        return transform_values(f, k, kernel, component, medium, err);
     return transform_wrapped(f, k, kernel, component, medium, err);
-}
-
-static enum rc_status
-set(struct rc_spectrum *k, const struct rc_fft *f, const struct rc_kernel *kernel,
-    size_t component, const struct rc_medium *medium, bool inverse, struct rc_err *err)
-{
-    k->parity = kernel->parity[component];
-    return (f->boundary == RC_FREE ? transform_values : sample_symbol)(f, k, kernel, component,
-                                                                       medium, inverse, err);
 }
 
 enum rc_status
 rc_spectrum_set(struct rc_spectrum *k, const struct rc_fft *f, const struct rc_kernel *kernel,
                 size_t component, const struct rc_medium *medium, struct rc_err *err)
 {
-    return set(k, f, kernel, component, medium, false, err);
+    k->parity = kernel->parity[component];
+    return (f->boundary == RC_FREE ? transform_values : sample_symbol)(f, k, kernel, component,
+                                                                       medium, err);
 }
 
-enum rc_status
-rc_spectrum_set_inverse(struct rc_spectrum *k, const struct rc_fft *f,
-                        const struct rc_kernel *kernel, size_t component,
-                        const struct rc_medium *medium, struct rc_err *err)
+void
+rc_spectrum_set_reciprocal(struct rc_spectrum *k, const struct rc_fft *f,
+                           const struct rc_spectrum *of)
 {
-    return set(k, f, kernel, component, medium, true, err);
+    const struct rc_layout *l = &f->layout;
+    double size = (double)l->px * (double)l->py; /* both are stored divided by it */
+    size_t n = l->cx * l->packed;
+
+    k->parity = of->parity;
+    if (f->ops->real_size == sizeof(float)) {
+        const float *s = of->packed;
+        float *to = k->packed;
+#pragma omp parallel for num_threads(l->threads) schedule(static)
+        for (size_t q = 0; q < n; q++)
+            to[q] = s[q] == 0 ? 0 : (float)(1 / (size * size * (double)s[q]));
+    } else {
+        const double *s = of->packed;
+        double *to = k->packed;
+#pragma omp parallel for num_threads(l->threads) schedule(static)
+        for (size_t q = 0; q < n; q++)
+            to[q] = s[q] == 0 ? 0 : 1 / (size * size * s[q]);
+    }
 }
 
 /* ---- use ---- */

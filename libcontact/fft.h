@@ -34,12 +34,10 @@ void rc_spectrum_free(struct rc_spectrum *spectrum);
 enum rc_status rc_spectrum_set(struct rc_spectrum *spectrum, const struct rc_fft *fft,
                                const struct rc_kernel *kernel, size_t component,
                                const struct rc_medium *medium, struct rc_err *err);
-/* The same, of the kernel's reciprocal: the inverse of the padded circulant, or of the symbol; zero
- * where the symbol is zero. */
-enum rc_status rc_spectrum_set_inverse(struct rc_spectrum *spectrum, const struct rc_fft *fft,
-                                       const struct rc_kernel *kernel, size_t component,
-                                       const struct rc_medium *medium, struct rc_err *err);
-
+/* The reciprocal of another kernel's spectrum: the inverse of the padded circulant, or of the symbol; zero
+ * where that is zero. */
+void rc_spectrum_set_reciprocal(struct rc_spectrum *spectrum, const struct rc_fft *fft,
+                                const struct rc_spectrum *of);
 /* The transform of the kernel's values on either boundary; on the periodic one each offset counts once,
  * by its shortest way around the map. */
 enum rc_status rc_spectrum_set_values(struct rc_spectrum *spectrum, const struct rc_fft *fft,

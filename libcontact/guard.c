@@ -8,41 +8,42 @@
 #include <math.h>
 #include <string.h>
 
-bool
-rc_guard_raised(struct rc_guard *guard, const struct rc_solver *solver, const double *u)
+static void
+energy_block(void *at, size_t first, size_t n, double *sums)
 {
-    double energy = 0, size = 0;
+    const struct rc_solver *s = at;
 
-    for (size_t k = 0; k < solver->n; k++) {
-        double a = solver->p[k] * u[k] / 2, b = solver->p[k] * solver->h[k];
-        energy += a - b;
-        size += fabs(a) + fabs(b);
+    for (size_t k = first; k < first + n; k++) {
+        double a = s->p[k] * s->v[k] / 2, b = s->p[k] * s->h[k] / 2; /* v = K p - h */
+        sums[0] += a - b;
+        sums[1] += fabs(a) + fabs(b);
     }
-    if (energy > guard->energy + 1e-13 * size) /* more than rounding */
+}
+
+bool
+rc_guard_raised(struct rc_guard *guard, const struct rc_solver *solver)
+{
+    double total[RC_SUMS];
+
+    rc_solver_blocks(solver, energy_block, (void *)(size_t)solver, total);
+    if (total[0] > guard->energy + 1e-13 * total[1]) /* more than rounding */
         return true;
-    guard->energy = energy;
+    guard->energy = total[0];
     return false;
 }
 
-/* The largest row sum of K bounds its eigenvalues; on a periodic map they are known, and the longest
- * wave has the largest. t and r are scratch. */
-static double
-norm(struct rc_solver *solver, double *t, double *r)
+/* On the free boundary the largest row sum of K: what a uniform pressure does in the middle of a
+ * rectangle a x b, 2 (a asinh(b/a) + b asinh(a/b)) / (pi E*) (Love 1929; Johnson 1985, eq. 3.25). On a
+ * periodic map the eigenvalues are known, and the longest wave has the largest, 2 / (E* q), q = 2 pi / L. */
+double
+rc_guard_norm(const struct rc_solver *s)
 {
-    double largest = 0;
-    double lx = solver->shape.dx * (double)solver->shape.nx;
-    double ly = solver->shape.dy * (double)solver->shape.ny;
+    const double pi = 3.14159265358979323846;
+    double a = s->shape.dx * (double)s->shape.nx, b = s->shape.dy * (double)s->shape.ny;
 
-    if (solver->boundary == RC_PERIODIC) /* 2 / E* q, q = 2 pi / L */
-        return fmax(lx, ly) / (3.14159265358979323846 * solver->estar);
-
-    for (size_t k = 0; k < solver->n; k++)
-        t[k] = 1;
-    rc_conv_apply(solver->conv, t, r);
-    solver->convolutions++;
-    for (size_t k = 0; k < solver->n; k++)
-        largest = fmax(largest, r[k]);
-    return largest;
+    if (s->boundary == RC_PERIODIC)
+        return fmax(a, b) / (pi * s->estar);
+    return 2 * (a * asinh(b / a) + b * asinh(a / b)) / (pi * s->estar);
 }
 
 /* Longest step along t that keeps p in the box. */
@@ -61,19 +62,15 @@ longest(const struct rc_solver *solver, const double *t)
 }
 
 void
-rc_guard_step(struct rc_guard *guard, struct rc_solver *solver, const double *old, double *t,
-              double *r)
+rc_guard_step(struct rc_solver *solver, const double *old, double *t, double *r)
 {
-    double above = 0, below = 0, size = 0, length, shift;
+    double above = 0, below = 0, size = 0, length, norm = rc_guard_norm(solver);
 
     memcpy(solver->p, old, solver->n * sizeof *old);
-    if (guard->norm == 0)
-        guard->norm = norm(solver, t, r);
-    rc_conv_apply(solver->conv, solver->p, r);
-    solver->convolutions++;
-    rc_solver_gap(solver, r, solver->g, &shift); /* without its mean: t adds up to 0 but for rounding */
+    rc_solver_displace(solver);
+    rc_solver_shift(solver);
     for (size_t k = 0; k < solver->n; k++)
-        t[k] = solver->p[k] - solver->g[k] / guard->norm;
+        t[k] = solver->p[k] - (solver->v[k] - solver->shift) / norm;
     rc_box_project(solver->n, NULL, solver->hardness, solver->sum, t);
     for (size_t k = 0; k < solver->n; k++) {
         t[k] -= solver->p[k];
@@ -83,13 +80,13 @@ rc_guard_step(struct rc_guard *guard, struct rc_solver *solver, const double *ol
         return; /* this is as near as rounding lets us come */
     rc_conv_apply(solver->conv, t, r);
     solver->convolutions++;
-    for (size_t k = 0; k < solver->n; k++) {
-        above -= solver->g[k] * t[k];
+    for (size_t k = 0; k < solver->n; k++) { /* without the shift: t adds up to 0 but for rounding */
+        above -= (solver->v[k] - solver->shift) * t[k];
         below += r[k] * t[k];
     }
     length = fmin(below > 0 && above > 0 ? above / below : 0, longest(solver, t));
     for (size_t k = 0; k < solver->n; k++)
         solver->p[k] = fmin(fmax(solver->p[k] + length * t[k], 0), solver->hardness);
     /* what rounding took of the load; should memory be short, that little is missing */
-    (void)rc_box_balance(solver->n, solver->hardness, solver->sum, solver->g, solver->p, NULL);
+    (void)rc_box_balance(solver->n, solver->hardness, solver->sum, solver->v, solver->p, NULL);
 }

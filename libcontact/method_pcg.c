@@ -1,35 +1,58 @@
 /*
- * Projected conjugate gradients with the extension preconditioner (extension.h): the iteration count
- * does not grow with the grid.
+ * Projected conjugate gradients with the extension preconditioner (extension.h).
  *
  * Working set W: the elastic nodes and those at a bound that want to leave it. Residual r = -g on W
- * with zero mean, z = E' A E r with zero mean, direction by Polak and Ribiere, restarted when the
- * factor is negative; components that point out of the box are dropped. Exact line search, then the
- * Euclidean projection onto {0 <= p <= H, sum p = S}: one shift of the nodes of W. Scaling instead,
- * as in (31b) of Polonsky and Keer, fails near saturation; shifting all nodes drags every separated
- * one into contact.
+ * with zero mean, z = E' A E r with zero mean, direction z + beta delta conjugate to the last step
+ * delta, whatever the way that was clipped; restarted when beta is negative; components that point
+ * out of the box are dropped. The step is projected onto {0 <= p <= H, sum p = S} by one shift of the
+ * nodes of W (project.c). Scaling instead, as in (31b) of Polonsky and Keer, fails near saturation;
+ * shifting all nodes drags every separated one into contact.
+ *
+ * Its length is foretold from the steps before, so that the one convolution K delta of the step as it
+ * was clipped serves all: the new gap, the change of the energy, which is a quadratic along delta and
+ * known exactly, and the conjugacy of the next direction. A step that is too long for the
+ * energy is shortened to its lowest point; an unclipped one always goes there. So no step raises
+ * the energy. Where delta leads nowhere, and every SPACER steps, a projected-gradient step is made
+ * instead. By the spacer-step theorem (Luenberger and Ye, Linear and Nonlinear Programming, 4th ed., sect. 8.7) the whole then
+ * converges to the one minimum.
  *
  * ||z||_1 / ||p||_1 estimates the error of the pressure and costs nothing here: z is at hand.
+ *
+ * Where the engine is the Fourier one, K delta is summed in single precision: its error is relative to
+ * delta, which shrinks. The sum of what that may have spoilt is kept, and v is renewed in double
+ * precision before it matters, and always before the estimate is believed.
  */
 #include "solver.h"
 
 #include <math.h>
+#include <omp.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "nested.h"
+#include "room.h"
+
+enum {
+    SPACER = 30,  /* steps after which one is a projected-gradient step                  */
+    PATIENCE = 25 /* steps without a better estimate after which rounding has the word   */
+};
+/* Relative error of a convolution in single precision, and what a pressure needs of it: the inverse
+ * of the kernel's highest symbol is about pi/2. Measured at 1024 x 1024: 1e-5 for |u| of 50. */
+static const double single_epsilon = 2e-7;
+/* How near the lowest point may be for a clipped step to be taken whole: nodes then come to rest at their
+ * bounds. With the lowest point at a part s of the way, the whole of it still gains (2 s - 1)/s^2 of what could
+ * be gained. */
+static const double enough = 0.6;
+
 struct state {
-    double *u;        /* K p                                                            */
-    double *r;        /* residual on W                                                  */
-    double *d;        /* direction                                                      */
-    double *q;        /* K d                                                            */
-    double *old;      /* p before the last step                                         */
-    double *r_old;    /* residual of the last step                                      */
-    unsigned char *w; /* the working set that the preconditioner knows                  */
-    double rz;        /* r'z of the last step; 0: the next direction is steepest descent */
-    bool known;       /* u is K p, be it by recurrence                                  */
-    bool fresh;       /* u is K p from a convolution                                    */
-    struct rc_guard guard;
-    bool set;         /* the preconditioner knows a set                                 */
+    double *room;     /* 2n floats; between two steps n numbers of scratch                */
+    float *delta, *q; /* the last step and K times it, in the units of single precision   */
+    double curvature; /* delta'q; 0: the next direction is not conjugate to anything      */
+    double alpha;     /* length foretold for the next step                                */
+    double drift;     /* what single precision may have done to p, relative               */
+    double best;      /* least estimate                                                   */
+    size_t best_at;
+    double *wide;     /* 2n: a step and its displacement for engines that know only double */
 };
 
 static void
@@ -39,288 +62,458 @@ state_free(void *at)
 
     if (s == NULL)
         return;
-    free(s->u);
-    free(s->r);
-    free(s->d);
-    free(s->q);
-    free(s->old);
-    free(s->r_old);
-    free(s->w);
+    free(s->room);
+    free(s->wide);
     free(s);
-}
-
-/* ---- nested start ---- */
-
-enum {
-    COARSEST = 24 /* nodes a side from which a coarser grid is worth solving first */
-};
-static const double coarse_tol = 3e-2;
-
-/* Mean of the (up to) four nodes under coarse node (i, j). */
-static double
-mean_height(const struct rc_solver *s, size_t i, size_t j)
-{
-    double sum = 0;
-    size_t count = 0;
-
-    for (size_t b = 2 * j; b < 2 * j + 2 && b < s->shape.ny; b++)
-        for (size_t a = 2 * i; a < 2 * i + 2 && a < s->shape.nx; a++) {
-            sum += s->h[b * s->shape.nx + a];
-            count++;
-        }
-    return sum / (double)count;
-}
-
-/* The same contact on the grid of every second node, solved roughly (and there by the same start);
- * its pressure, repeated, is a better beginning than a constant one. Without memory for it, the
- * constant one stays. */
-static void
-nested_start(struct rc_solver *s)
-{
-    struct rc_shape coarse = {(s->shape.nx + 1) / 2, (s->shape.ny + 1) / 2, 2 * s->shape.dx,
-                              2 * s->shape.dy};
-    struct rc_problem problem = {.boundary = s->boundary, .estar = s->estar, .load = s->load,
-                                 .hardness = s->hardness, .tol = fmax(coarse_tol, s->tol),
-                                 .method = "pcg", .threads = s->threads};
-    double *h;
-    struct rc_solver *c;
-
-    if (s->shape.nx < COARSEST || s->shape.ny < COARSEST)
-        return;
-    h = malloc(coarse.nx * coarse.ny * sizeof *h);
-    if (h == NULL)
-        return;
-    for (size_t k = 0; k < coarse.nx * coarse.ny; k++)
-        h[k] = mean_height(s, k % coarse.nx, k / coarse.nx);
-    c = rc_solver_new(&coarse, h, &problem, NULL);
-    if (c != NULL) {
-        while (rc_solver_step(c) == RC_MORE)
-            ;
-        for (size_t k = 0; k < s->n; k++) {
-            s->p[k] = c->p[k / s->shape.nx / 2 * coarse.nx + k % s->shape.nx / 2];
-            s->g[k] = -s->h[k]; /* should nodes have to join, the highest first */
-        }
-        s->convolutions += c->convolutions * (double)c->n / (double)s->n;
-        if (rc_box_balance(s->n, s->hardness, s->sum, s->g, s->p, NULL) != RC_OK)
-            for (size_t k = 0; k < s->n; k++)
-                s->p[k] = s->sum / (double)s->n;
-        rc_solver_free(c);
-    }
-    free(h);
 }
 
 static void *
 state_new(struct rc_solver *solver, struct rc_err *err)
 {
     struct state *s = calloc(1, sizeof *s);
-    size_t bytes = solver->n * sizeof(double);
+    bool single = strcmp(rc_conv_engine(solver->conv), "fft") == 0;
 
     if (s != NULL) {
-        s->u = malloc(bytes);
-        s->r = calloc(solver->n, sizeof(double));
-        s->d = calloc(solver->n, sizeof(double));
-        s->q = malloc(bytes);
-        s->old = malloc(bytes);
-        s->r_old = malloc(bytes);
-        s->w = malloc(solver->n);
+        s->room = rc_room(solver->n, sizeof *s->room);
+        s->wide = single ? NULL : rc_room(2 * solver->n, sizeof *s->wide);
     }
-    if (s == NULL || s->u == NULL || s->r == NULL || s->d == NULL || s->q == NULL ||
-        s->old == NULL || s->r_old == NULL || s->w == NULL) {
+    if (s == NULL || s->room == NULL || (!single && s->wide == NULL)) {
         rc_err_set(err, "out of memory for the iteration of %zu nodes", solver->n);
         state_free(s);
         return NULL;
     }
-    s->guard.energy = INFINITY;
-    nested_start(solver);
+    s->delta = (float *)s->room;
+    s->q = s->delta + solver->n;
+    s->alpha = 0.9;
+    s->best = INFINITY;
+    rc_nested_start(solver);
     return s;
 }
 
-/* Takes the mean over the nodes with w set from v. */
+/* What the passes share. */
+struct pass {
+    struct rc_solver *solver;
+    struct state *s;
+    double a, b;
+    struct rc_move *move;
+};
+
+/* ---- K p and K delta ---- */
+
+/* K of the pressures that `in` writes, row by row in single precision, to `out`. */
 static void
-remove_mean(size_t n, const unsigned char *w, double *v)
+convolve(struct pass *c, rc_row *in, rc_row *out)
 {
-    double mean = 0;
-    size_t count = 0;
+    struct rc_solver *solver = c->solver;
+    size_t nx = solver->shape.nx, ny = solver->shape.ny;
+    double *p = c->s->wide, *u = p + solver->n, unit = solver->length * solver->per_pressure;
 
-    for (size_t k = 0; k < n; k++)
-        if (w[k]) {
-            mean += v[k];
-            count++;
-        }
-    mean /= count == 0 ? 1 : (double)count;
-    for (size_t k = 0; k < n; k++)
-        if (w[k])
-            v[k] -= mean;
-}
-
-/* W, its size, and r on it from u = K p. */
-static size_t
-residual(struct rc_solver *solver, struct state *s)
-{
-    double shift;
-    size_t count = 0;
-
-    rc_solver_gap(solver, s->u, solver->g, &shift);
-    for (size_t k = 0; k < solver->n; k++) {
-        solver->working[k] = rc_elastic(solver, k) || rc_wants_out(solver, k);
-        count += solver->working[k];
-        s->r[k] = solver->working[k] ? -solver->g[k] : 0;
-    }
-    remove_mean(solver->n, solver->working, s->r);
-    return count;
-}
-
-/* z, and from it the estimate of the error. */
-static double
-precondition(struct rc_solver *solver, struct state *s)
-{
-    double sum = 0;
-
-    if (!s->set || memcmp(s->w, solver->working, solver->n) != 0) {
-        memcpy(s->w, solver->working, solver->n);
-        rc_extension_set(solver->extension, s->w);
+    if (p == NULL) {
+        rc_extension_displace(solver->extension, in, out, c);
         solver->convolutions += 0.5;
-        s->set = true;
+        return;
     }
-    rc_extension_apply(solver->extension, s->r, solver->z);
-    solver->convolutions += 1.5;
-    remove_mean(solver->n, s->w, solver->z);
-    for (size_t k = 0; k < solver->n; k++)
-        sum += fabs(solver->z[k]);
-    return sum / solver->sum;
-}
-
-static void
-displace(struct rc_solver *solver, struct state *s)
-{
-    rc_conv_apply(solver->conv, solver->p, s->u);
+#pragma omp parallel for num_threads(solver->threads) schedule(static)
+    for (size_t j = 0; j < ny; j++) {
+        float *row = c->s->q + j * nx;
+        bool any = in(c, j, row);
+        for (size_t i = 0; i < nx; i++)
+            p[j * nx + i] = any ? (double)row[i] : 0;
+    }
+    rc_conv_apply(solver->conv, p, u);
     solver->convolutions++;
-    s->known = s->fresh = true;
-}
-
-/* Residual, preconditioned residual and estimate of p; before it is believed that p is good enough,
- * from a fresh convolution. */
-static double
-judge(struct rc_solver *solver, struct state *s)
-{
-    double estimate;
-
-    for (;;) {
-        if (!s->known)
-            displace(solver, s);
-        estimate = residual(solver, s) < 2 ? 0 : precondition(solver, s);
-        if (estimate > solver->tol || s->fresh)
-            return estimate;
-        s->known = false;
+#pragma omp parallel for num_threads(solver->threads) schedule(static)
+    for (size_t j = 0; j < ny; j++) {
+        float *row = c->s->q + j * nx;
+        for (size_t i = 0; i < nx; i++)
+            row[i] = (float)(u[j * nx + i] / unit);
+        out(c, j, row);
     }
 }
 
-/* Polak and Ribiere: beta = z'(r - r_old) / r_old'z_old. */
-static void
-direct(struct rc_solver *solver, struct state *s)
-{
-    double above = 0, rz = 0, beta;
-
-    for (size_t k = 0; k < solver->n; k++) {
-        above += solver->z[k] * (s->r[k] - s->r_old[k]);
-        rz += solver->z[k] * s->r[k];
-    }
-    beta = s->rz > 0 ? fmax(above / s->rz, 0) : 0;
-    for (size_t k = 0; k < solver->n; k++) {
-        double d = s->w[k] ? solver->z[k] + beta * s->d[k] : 0;
-        bool out = (solver->p[k] <= 0 && d < 0) || (solver->p[k] >= solver->hardness && d > 0);
-        s->d[k] = out ? 0 : d;
-        solver->working[k] = s->w[k] && !out;
-    }
-    remove_mean(solver->n, solver->working, s->d);
-    s->rz = rz;
-}
-
-/* p + alpha d, back into the box by one shift of W; false when nothing was out of it. */
 static bool
-move(struct rc_solver *solver, struct state *s, double alpha)
+pressure_in(void *at, size_t j, void *to)
 {
-    double held = 0, carried = 0;
-    bool out = false;
-    size_t count = 0;
+    const struct rc_solver *s = ((struct pass *)at)->solver;
+    size_t n = s->shape.nx;
+    const double *p = s->p + j * n;
+    float *row = to;
+    bool any = false;
 
-    for (size_t k = 0; k < solver->n; k++) {
-        if (!s->w[k]) {
-            held += solver->p[k];
-            continue;
-        }
-        solver->p[k] += alpha * s->d[k];
-        out |= solver->p[k] < 0 || solver->p[k] > solver->hardness;
-        count++;
+    for (size_t i = 0; i < n; i++) {
+        row[i] = (float)(p[i] * s->per_pressure);
+        any |= p[i] > 0;
     }
-    if (!out)
-        return false;
-    carried = solver->sum - held;
-    if (carried > 0 && carried <= solver->hardness * (double)count)
-        rc_box_project(solver->n, s->w, solver->hardness, carried, solver->p);
-    else
-        rc_box_project(solver->n, NULL, solver->hardness, solver->sum, solver->p);
-    /* rounding leaves a little of the load over; should that fail, a little it is */
-    (void)rc_box_balance(solver->n, solver->hardness, solver->sum, solver->g, solver->p, NULL);
+    return any;
+}
+
+static bool
+gap_out(void *at, size_t j, void *from)
+{
+    const struct rc_solver *s = ((struct pass *)at)->solver;
+    size_t n = s->shape.nx;
+    const float *row = from;
+    const double *h = s->h + j * n;
+    double *v = s->v + j * n, sum = 0;
+
+    for (size_t i = 0; i < n; i++) {
+        double u = (double)row[i];
+        v[i] = u * s->length - h[i];
+        sum += u * u;
+    }
+    rc_row_sums(s, j)[0] = sum;
     return true;
 }
 
-/* Relative L1 size of the last step. */
-static double
-change(const struct rc_solver *solver, const struct state *s)
+/* The first v of a grid; single precision will do for a while. */
+static void
+begin(struct rc_solver *solver, struct state *s)
 {
-    double sum = 0;
+    struct pass c = {.solver = solver, .s = s};
+    double total[RC_SUMS];
 
-    for (size_t k = 0; k < solver->n; k++)
-        sum += fabs(solver->p[k] - s->old[k]);
-    return sum / solver->sum;
+    if (s->wide != NULL) {
+        rc_solver_displace(solver);
+        return;
+    }
+    rc_solver_rows_begin(solver);
+    convolve(&c, pressure_in, gap_out);
+    rc_solver_rows_end(solver, total);
+    s->drift = single_epsilon * sqrt(total[0] / (double)solver->n);
+    solver->known = true;
+    solver->fresh = false;
 }
 
-/* From the last p that was good, the step that is sure to lower the energy. */
-static void
-retreat(struct rc_solver *solver, struct state *s)
+/* ---- direction ---- */
+
+enum { /* sums of z */
+    Z,
+    ZQ,
+    Q
+};
+
+static bool
+correction_done(void *at, size_t j, void *row)
 {
-    rc_guard_step(&s->guard, solver, s->old, s->d, s->q);
-    s->rz = 0;
-    s->known = s->fresh = false;
-    solver->change = change(solver, s);
+    const struct pass *c = at;
+    size_t n = c->solver->shape.nx;
+    const float *z = c->solver->z + j * n, *q = c->s->q + j * n;
+    const unsigned char *w = c->solver->w + j * n;
+    double sum = 0, product = 0, other = 0;
+
+    (void)row;
+    if (c->s->curvature > 0) {
+#pragma omp simd reduction(+ : sum, product, other)
+        for (size_t i = 0; i < n; i++) {
+            double a = (double)z[i], b = (double)q[i];
+            sum += a;
+            product += a * b;
+            other += w[i] ? b : 0;
+        }
+    } else {
+#pragma omp simd reduction(+ : sum)
+        for (size_t i = 0; i < n; i++)
+            sum += (double)z[i];
+    }
+    rc_row_sums(c->solver, j)[Z] = sum;
+    rc_row_sums(c->solver, j)[ZQ] = product;
+    rc_row_sums(c->solver, j)[Q] = other;
+    return true;
+}
+
+/* z becomes the direction: a is the mean of z, b beta. */
+RC_CLONES static void
+direct(size_t n, const double *restrict p, double hardness, const unsigned char *restrict w,
+       const float *restrict delta, float mean, float beta, float *restrict z, double *sums)
+{
+    double size = 0, sum = 0;
+    int kept = 0;
+
+#pragma omp simd reduction(+ : size, sum, kept)
+    for (size_t k = 0; k < n; k++) {
+        float e = z[k] - mean, d = e + (beta != 0 ? beta * delta[k] : 0);
+        bool out = ((p[k] <= 0) & (d < 0)) | ((p[k] >= hardness) & (d > 0)) | (w[k] == 0);
+        size += w[k] ? (double)fabsf(e) : 0;
+        d = out ? 0 : d;
+        z[k] = d;
+        sum += (double)d;
+        kept += d != 0;
+    }
+    sums[0] = size;
+    sums[1] = sum;
+    sums[2] = kept;
+}
+
+static void
+direct_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct pass *c = at;
+    const struct rc_solver *s = c->solver;
+
+    direct(n, s->p + first, s->hardness, s->w + first, c->s->delta + first, (float)c->a,
+           (float)c->b, s->z + first, sums);
+}
+
+/* Direction and its mean, and the estimate of the error of p. */
+static double
+precondition(struct rc_solver *solver, struct state *s, double *mean)
+{
+    struct pass c = {.solver = solver, .s = s};
+    double total[RC_SUMS], above;
+
+    if (solver->working < 2)
+        return 0;
+    rc_solver_rows_begin(solver);
+    rc_solver_correct(solver, correction_done, &c);
+    rc_solver_rows_end(solver, total);
+    c.a = total[Z] / (double)solver->working;
+    above = total[ZQ] - c.a * total[Q];
+    c.b = s->curvature > 0 && above < 0 ? -above / s->curvature : 0;
+    rc_solver_blocks(solver, direct_block, &c, total);
+    *mean = total[2] > 0 ? total[1] / total[2] : 0;
+    if (solver->elastic == 0 && solver->working > 0)
+        return INFINITY; /* some want to move, but no gap says how far */
+    return total[0] / solver->per_pressure / solver->sum;
+}
+
+/* ---- step ---- */
+
+static void
+move_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct pass *c = at;
+    struct rc_solver *solver = c->solver;
+    const struct rc_move *m = c->move;
+    float *delta = c->s->delta;
+
+    for (size_t k = first; k < first + n; k++) {
+        double p = solver->p[k], y = solver->w[k] ? rc_moved(m, k) : p, e = y - p, room;
+        solver->p[k] = y;
+        delta[k] = (float)(e * solver->per_pressure);
+        sums[0] += fabs(e);
+        if (!m->clipped && e != 0) {
+            room = e < 0 ? -e / p : e / (solver->hardness - p);
+            sums[RC_MOST] = room > sums[RC_MOST] ? room : sums[RC_MOST];
+        }
+    }
+}
+
+static bool
+step_in(void *at, size_t j, void *to)
+{
+    const struct pass *c = at;
+    size_t n = c->solver->shape.nx;
+    const float *delta = c->s->delta + j * n;
+    float *row = to;
+    bool any = false;
+
+    for (size_t i = 0; i < n; i++) {
+        row[i] = delta[i];
+        any |= delta[i] != 0;
+    }
+    return any;
+}
+
+enum {
+    SLOPE,     /* delta'g                                  */
+    CURVATURE, /* delta'q                                  */
+    GAP,       /* v after the whole step on elastic nodes  */
+    ELASTIC,
+    SQUARE     /* q'q                                      */
+};
+
+RC_CLONES static void
+along(size_t n, const double *restrict p, const double *restrict v, double hardness, double shift,
+      double length, const float *restrict delta, const float *restrict row, float *restrict q,
+      double *sums)
+{
+    double slope = 0, curvature = 0, gap = 0, elastic = 0, square = 0;
+
+#pragma omp simd reduction(+ : slope, curvature, gap, elastic, square)
+    for (size_t i = 0; i < n; i++) {
+        double d = (double)delta[i], u = (double)row[i];
+        bool in = (p[i] > 0) & (p[i] < hardness);
+        q[i] = row[i];
+        slope += d * (v[i] - shift);
+        curvature += d * u;
+        square += u * u;
+        gap += in ? v[i] + length * u : 0;
+        elastic += in ? 1 : 0;
+    }
+    sums[SLOPE] = slope;
+    sums[CURVATURE] = curvature;
+    sums[GAP] = gap;
+    sums[ELASTIC] = elastic;
+    sums[SQUARE] = square;
+}
+
+static bool
+step_out(void *at, size_t j, void *from)
+{
+    const struct pass *c = at;
+    const struct rc_solver *s = c->solver;
+    size_t n = s->shape.nx, k = j * n;
+    float *q = c->s->q + k;
+
+    along(n, s->p + k, s->v + k, s->hardness, s->shift, s->length, c->s->delta + k, from,
+          from == q ? s->z + k : q, rc_row_sums(s, j));
+    return true;
+}
+
+/* v goes along with p: a is how much of the step. */
+static void
+follow_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct pass *c = at;
+    double factor = c->a * c->solver->length, *v = c->solver->v;
+    const float *q = c->s->q;
+
+    (void)sums;
+    for (size_t k = first; k < first + n; k++)
+        v[k] += factor * (double)q[k];
+}
+
+/* Takes p back by b of the step; what rounding leaves of a node that came from a bound is nothing. */
+static void
+back_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct pass *c = at;
+    double hardness = c->solver->hardness, *p = c->solver->p;
+    const float *delta = c->s->delta;
+
+    (void)sums;
+    for (size_t k = first; k < first + n; k++) {
+        double e = (double)delta[k] / c->solver->per_pressure, y = p[k] - c->b * e;
+        double rounding = 1e-6 * fabs(e);
+        if (e == 0)
+            continue;
+        p[k] = y <= rounding ? 0 : y >= hardness - rounding ? hardness : y;
+    }
+}
+
+static void
+balance(struct rc_solver *solver)
+{
+    double sum = rc_solver_carried(solver);
+
+    /* should memory be short, a little of the load is missing, and the result says so */
+    if (fabs(sum - solver->sum) > 1e-14 * solver->sum)
+        (void)rc_box_balance(solver->n, solver->hardness, solver->sum, solver->v, solver->p, NULL);
+}
+
+/* From p along the direction in z, of that mean, back into the box, to where the energy is low. False
+ * when that leads nowhere; p is then where it was. */
+static bool
+advance(struct rc_solver *solver, struct state *s, double alpha, double mean)
+{
+    struct rc_move move = {.solver = solver, .d = solver->z, .mean = mean, .room = s->room,
+                           .alpha = alpha / solver->per_pressure};
+    struct pass c = {.solver = solver, .s = s, .move = &move};
+    double total[RC_SUMS], size, room, best, part;
+
+    rc_move_find(&move);
+    rc_solver_blocks(solver, move_block, &c, total);
+    size = total[0] / solver->sum;
+    room = move.clipped ? 1 : total[RC_MOST] > 0 ? 1 / total[RC_MOST] : 1;
+    rc_solver_rows_begin(solver);
+    convolve(&c, step_in, step_out);
+    rc_solver_rows_end(solver, total);
+    best = -total[SLOPE] / (solver->length * total[CURVATURE]);
+    if (!(total[CURVATURE] > 0 && best > 0)) {
+        c.b = 1;
+        rc_solver_blocks(solver, back_block, &c, total);
+        balance(solver);
+        s->curvature = 0;
+        return false;
+    }
+    part = move.clipped ? (best >= enough ? 1 : best) : fmin(best, room);
+    c.a = part;
+    c.b = 1 - part;
+    s->curvature = total[CURVATURE];
+    s->drift += single_epsilon * part * sqrt(total[SQUARE] / (double)solver->n);
+    solver->change = size * part;
+    solver->fresh = false;
+    if (part == 1) {
+        solver->elastic = (size_t)total[ELASTIC];
+        if (solver->elastic > 0)
+            solver->shift = total[GAP] / total[ELASTIC];
+    }
+    rc_solver_blocks(solver, follow_block, &c, total);
+    if (part != 1)
+        rc_solver_blocks(solver, back_block, &c, total);
+    balance(solver);
+    if (part != 1 || solver->elastic == 0)
+        rc_solver_shift(solver);
+    rc_solver_residual(solver);
+    s->alpha = fmin(fmax(s->alpha * sqrt(best), 0.3), 1.2);
+    return true;
+}
+
+/* ---- the step that is sure ---- */
+
+static void
+gradient_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct pass *c = at;
+    struct rc_solver *s = c->solver;
+
+    for (size_t k = first; k < first + n; k++) {
+        float d = (float)(-(s->v[k] - s->shift) * c->a);
+        s->z[k] = d;
+        s->w[k] = 1;
+        sums[0] += (double)d;
+        sums[1] += d != 0;
+    }
+}
+
+static bool
+gradient_step(struct rc_solver *solver, struct state *s)
+{
+    struct pass c = {.solver = solver, .s = s,
+                     .a = solver->per_pressure / rc_guard_norm(solver)};
+    double total[RC_SUMS];
+    bool better;
+
+    rc_solver_blocks(solver, gradient_block, &c, total);
+    rc_solver_forget(solver);
+    better = advance(solver, s, 1, 0);
+    s->curvature = 0; /* not a direction to be conjugate to */
+    if (!better)
+        rc_solver_residual(solver);
+    return better;
 }
 
 static void
 step(struct rc_solver *solver, void *at)
 {
     struct state *s = at;
-    double rd = 0, dq = 0, alpha;
+    double mean = 0;
 
-    if (!s->known)
-        displace(solver, s);
-    if (rc_guard_raised(&s->guard, solver, s->u)) {
-        retreat(solver, s);
-        return;
+    if (!solver->known) {
+        begin(solver, s);
+        rc_solver_shift(solver);
+        rc_solver_residual(solver);
     }
-    memcpy(s->r_old, s->r, solver->n * sizeof *s->r);
-    solver->estimate = judge(solver, s);
     solver->change = 0;
+    solver->estimate = precondition(solver, s, &mean);
+    if (!solver->fresh && !(solver->rough && solver->estimate <= solver->tol) &&
+        (solver->estimate <= solver->tol || solver->estimate < 3 * s->drift)) {
+        rc_solver_displace(solver);
+        s->drift = 0;
+        rc_solver_shift(solver);
+        rc_solver_residual(solver);
+        solver->estimate = precondition(solver, s, &mean);
+    }
     if (solver->estimate <= solver->tol)
         return;
-    direct(solver, s);
-    rc_conv_apply(solver->conv, s->d, s->q);
-    solver->convolutions++;
-    for (size_t k = 0; k < solver->n; k++) {
-        rd += s->r[k] * s->d[k];
-        dq += s->d[k] * s->q[k];
+    if (solver->estimate < 0.9 * s->best) {
+        s->best = solver->estimate;
+        s->best_at = solver->iterations;
+    } else if (solver->iterations > s->best_at + PATIENCE) {
+        return; /* rounding: it stands still */
     }
-    memcpy(s->old, solver->p, solver->n * sizeof *s->old);
-    if (!(dq > 0 && rd > 0)) { /* what is left of the direction leads nowhere */
-        retreat(solver, s);
-        return;
-    }
-    alpha = rd / dq;
-    s->known = !move(solver, s, alpha);
-    s->fresh = false;
-    for (size_t k = 0; k < solver->n && s->known; k++)
-        s->u[k] += alpha * s->q[k];
-    solver->change = change(solver, s);
+    if (solver->iterations % SPACER == SPACER - 1 || !advance(solver, s, s->alpha, mean))
+        (void)gradient_step(solver, s);
 }
 
 const struct rc_method rc_method_pcg = {

@@ -63,92 +63,154 @@ state_new(struct rc_solver *solver, struct rc_err *err)
     return s;
 }
 
-/* (22), (23): the direction. */
+static double
+gap(const struct rc_solver *solver, size_t k)
+{
+    return solver->v[k] - solver->shift;
+}
+
+/* What the passes below share: the solver, its state here, and numbers found by an earlier one. */
+struct pass {
+    struct rc_solver *solver;
+    struct state *s;
+    double number;
+};
+
+/* (22) */
+static void
+norm_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct pass *c = at;
+
+    for (size_t k = first; k < first + n; k++)
+        sums[0] += rc_elastic(c->solver, k) ? gap(c->solver, k) * gap(c->solver, k) : 0;
+}
+
+/* (23) */
+static void
+direction_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct pass *c = at;
+
+    (void)sums;
+    for (size_t k = first; k < first + n; k++)
+        c->s->t[k] = rc_elastic(c->solver, k) ? gap(c->solver, k) + c->number * c->s->t[k] : 0;
+}
+
 static void
 direct(struct rc_solver *solver, struct state *s)
 {
-    double G = 0, beta;
+    struct pass c = {.solver = solver, .s = s};
+    double total[RC_SUMS], G;
 
-    for (size_t k = 0; k < solver->n; k++)
-        if (rc_elastic(solver, k))
-            G += solver->g[k] * solver->g[k];
-    beta = s->G > 0 ? s->delta * G / s->G : 0;
-    for (size_t k = 0; k < solver->n; k++)
-        s->t[k] = rc_elastic(solver, k) ? solver->g[k] + beta * s->t[k] : 0;
+    rc_solver_blocks(solver, norm_block, &c, total);
+    G = total[0];
+    c.number = s->G > 0 ? s->delta * G / s->G : 0;
+    rc_solver_blocks(solver, direction_block, &c, total);
     s->G = G;
+}
+
+/* (24), and the sums of (25) and (26); t adds up over the elastic nodes to sums[3]. */
+static void
+length_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct pass *c = at;
+    const struct state *s = c->s;
+
+    for (size_t k = first; k < first + n; k++)
+        if (rc_elastic(c->solver, k)) {
+            sums[0] += s->r[k];
+            sums[1] += gap(c->solver, k) * s->t[k];
+            sums[2] += s->r[k] * s->t[k];
+            sums[3] += s->t[k];
+        }
 }
 
 /* (24) to (26): the step length. One elastic node has nothing to exchange with: 0/0. */
 static void
-measure(struct rc_solver *solver, struct state *s, size_t elastic)
+measure(struct rc_solver *solver, struct state *s)
 {
-    double mean = 0, above = 0, below = 0;
+    struct pass c = {.solver = solver, .s = s};
+    double total[RC_SUMS], above, below;
 
-    if (elastic < 2 || !(s->G > 0))
+    if (solver->elastic < 2 || !(s->G > 0))
         return;
     rc_conv_apply(solver->conv, s->t, s->r);
     solver->convolutions++;
-    for (size_t k = 0; k < solver->n; k++)
-        if (rc_elastic(solver, k))
-            mean += s->r[k];
-    mean /= (double)elastic;
-    for (size_t k = 0; k < solver->n; k++)
-        if (rc_elastic(solver, k)) {
-            above += solver->g[k] * s->t[k];
-            below += (s->r[k] - mean) * s->t[k];
-        }
+    rc_solver_blocks(solver, length_block, &c, total);
+    above = total[1];
+    below = total[2] - total[0] / (double)solver->elastic * total[3];
     if (below > 0 && above > 0)
         s->tau = above / below;
     else
         memset(s->t, 0, solver->n * sizeof *s->t);
 }
 
-/* (28) to (30): the step, the box, and the nodes that want to leave their bound. */
+/* (28) to (30): the step, the box, and the nodes that want to leave their bound, counted. */
 static void
-move(struct rc_solver *solver, struct state *s, size_t elastic)
+move_block(void *at, size_t first, size_t n, double *sums)
 {
-    double tau = s->tau > 0 ? s->tau : s->first;
-    bool moved = false;
+    const struct pass *c = at;
+    struct rc_solver *solver = c->solver;
+    double tau = c->number;
 
-    for (size_t k = 0; k < solver->n; k++) {
-        double p = solver->p[k], g = solver->g[k];
+    for (size_t k = first; k < first + n; k++) {
+        double p = solver->p[k], g = gap(solver, k);
 
-        if (p > 0 && p < solver->hardness && elastic > 1)
-            p = fmin(fmax(p - tau * s->t[k], 0), solver->hardness);
+        c->s->old[k] = p;
+        if (p > 0 && p < solver->hardness && solver->elastic > 1)
+            p = fmin(fmax(p - tau * c->s->t[k], 0), solver->hardness);
         if ((p == 0 && g < 0) || (p == solver->hardness && g > 0)) {
             p = fmin(fmax(p - tau * g, 0), solver->hardness);
-            moved = true;
+            sums[0]++;
         }
         solver->p[k] = p;
     }
-    s->delta = moved ? 0 : 1;
+}
+
+static void
+move(struct rc_solver *solver, struct state *s)
+{
+    struct pass c = {.solver = solver, .s = s, .number = s->tau > 0 ? s->tau : s->first};
+    double total[RC_SUMS];
+
+    rc_solver_blocks(solver, move_block, &c, total);
+    s->delta = total[0] > 0 ? 0 : 1;
+}
+
+static void
+change_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct pass *c = at;
+
+    for (size_t k = first; k < first + n; k++)
+        sums[0] += fabs(c->solver->p[k] - c->s->old[k]);
 }
 
 static void
 step(struct rc_solver *solver, void *at)
 {
     struct state *s = at;
-    double shift, sum = 0;
-    size_t elastic;
+    struct pass c = {.solver = solver, .s = s};
+    double total[RC_SUMS];
 
-    rc_conv_apply(solver->conv, solver->p, solver->g);
-    solver->convolutions++;
-    if (rc_guard_raised(&s->guard, solver, solver->g)) {
-        rc_guard_step(&s->guard, solver, s->old, s->t, s->r);
+    if (!solver->fresh)
+        rc_solver_displace(solver);
+    if (rc_guard_raised(&s->guard, solver)) {
+        rc_guard_step(solver, s->old, s->t, s->r);
         s->delta = 0;
     } else {
-        elastic = rc_solver_gap(solver, solver->g, solver->g, &shift);
+        rc_solver_shift(solver);
         direct(solver, s);
-        measure(solver, s, elastic);
-        memcpy(s->old, solver->p, solver->n * sizeof *s->old);
-        move(solver, s, elastic);
+        measure(solver, s);
+        move(solver, s);
     }
-    if (rc_box_balance(solver->n, solver->hardness, solver->sum, solver->g, solver->p, NULL) !=
+    if (rc_box_balance(solver->n, solver->hardness, solver->sum, solver->v, solver->p, NULL) !=
         RC_OK)
         memcpy(solver->p, s->old, solver->n * sizeof *s->old); /* out of memory: stand still */
-    for (size_t k = 0; k < solver->n; k++)
-        sum += fabs(solver->p[k] - s->old[k]);
-    solver->change = sum / solver->sum; /* (32) */
+    solver->known = solver->fresh = false;
+    rc_solver_blocks(solver, change_block, &c, total);
+    solver->change = total[0] / solver->sum; /* (32) */
 }
 
 const struct rc_method rc_method_pk99 = {

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "fft.h"
+#include "room.h"
 
 static const struct rc_method *const methods[] = {
 #define RC_METHOD(name) &rc_method_##name,
@@ -82,27 +83,45 @@ conv_options(const struct rc_shape *shape, const struct rc_problem *problem)
 static bool
 allocate(struct rc_solver *s, const double *h)
 {
-    double top = h[0];
+    size_t blocks = s->n / 4096 + 1 > s->shape.ny ? s->n / 4096 + 1 : s->shape.ny;
+    double top = h[0], start = fmin(s->sum / (double)s->n, s->hardness);
 
-    s->h = malloc(s->n * sizeof *s->h);
-    s->p = malloc(s->n * sizeof *s->p);
-    s->g = malloc(s->n * sizeof *s->g);
-    s->z = malloc(s->n * sizeof *s->z);
-    s->working = malloc(s->n);
-    if (s->h == NULL || s->p == NULL || s->g == NULL || s->z == NULL || s->working == NULL)
+    s->h = rc_room(s->n, sizeof *s->h);
+    s->p = rc_room(s->n, sizeof *s->p);
+    s->v = rc_room(s->n, sizeof *s->v);
+    s->r = rc_room(s->n, sizeof *s->r);
+    s->z = rc_room(s->n, sizeof *s->z);
+    s->w = rc_room(s->n, sizeof *s->w);
+    s->partial = rc_room(blocks, RC_SUMS * sizeof *s->partial);
+    if (s->h == NULL || s->p == NULL || s->v == NULL || s->r == NULL || s->z == NULL ||
+        s->w == NULL || s->partial == NULL)
         return false;
     for (size_t k = 0; k < s->n; k++)
-        top = fmax(top, h[k]);
+        top = h[k] > top ? h[k] : top;
+#pragma omp parallel for num_threads(s->threads) schedule(static)
     for (size_t k = 0; k < s->n; k++) {
         s->h[k] = h[k] - top;
-        s->p[k] = fmin(s->sum / (double)s->n, s->hardness);
+        s->p[k] = start;
+        s->w[k] = 0;
     }
     return true;
 }
 
-struct rc_solver *
-rc_solver_new(const struct rc_shape *shape, const double *h, const struct rc_problem *problem,
-              struct rc_err *err)
+/* Single precision has 38 decades, gaps in metres and moduli in pascals can need more: there pressures
+ * are of the order of 1, and a power of 2 keeps them exact. */
+static void
+set_units(struct rc_solver *s)
+{
+    int exponent;
+
+    (void)frexp(s->sum / (double)s->n, &exponent);
+    s->per_pressure = ldexp(1, -exponent);
+    s->length = sqrt(s->shape.dx) * sqrt(s->shape.dy) / s->estar * ldexp(1, exponent);
+}
+
+static struct rc_solver *
+solver_new(const struct rc_shape *shape, const double *h, const struct rc_problem *problem,
+           bool rough, struct rc_err *err)
 {
     struct rc_conv_options options = conv_options(shape, problem);
     struct rc_solver *s = NULL;
@@ -126,14 +145,17 @@ rc_solver_new(const struct rc_shape *shape, const double *h, const struct rc_pro
     s->max_iterations = problem->max_iterations > 0
                             ? problem->max_iterations
                             : 100 + (size_t)(10 * sqrt((double)s->n));
-    s->threads = problem->threads;
+    s->threads = rc_useful_threads(shape, problem->threads);
+    s->rough = rough;
+    set_units(s);
+    rc_solver_forget(s);
     s->change = s->error = s->estimate = NAN;
     s->next_check = 1;
     if (!allocate(s, h))
         goto short_of_memory;
     if ((s->method = choose(problem->method, err)) == NULL ||
         (s->conv = rc_conv_new(shape, s->estar, &options, err)) == NULL ||
-        (s->extension = rc_extension_new(shape, s->boundary, s->estar, problem->threads, err)) == NULL ||
+        (s->extension = rc_extension_new(shape, s->boundary, problem->threads, err)) == NULL ||
         (s->state = s->method->new(s, err)) == NULL) {
         rc_solver_free(s);
         return NULL;
@@ -143,6 +165,20 @@ short_of_memory:
     rc_err_set(err, "out of memory for a contact of %zu x %zu nodes", shape->nx, shape->ny);
     rc_solver_free(s);
     return NULL;
+}
+
+struct rc_solver *
+rc_solver_new(const struct rc_shape *shape, const double *h, const struct rc_problem *problem,
+              struct rc_err *err)
+{
+    return solver_new(shape, h, problem, false, err);
+}
+
+struct rc_solver *
+rc_solver_rough(const struct rc_shape *shape, const double *h, const struct rc_problem *problem,
+                struct rc_err *err)
+{
+    return solver_new(shape, h, problem, true, err);
 }
 
 void
@@ -156,9 +192,11 @@ rc_solver_free(struct rc_solver *s)
     rc_extension_free(s->extension);
     free(s->h);
     free(s->p);
-    free(s->g);
+    free(s->v);
+    free(s->r);
     free(s->z);
-    free(s->working);
+    free(s->w);
+    free(s->partial);
     free(s);
 }
 
@@ -168,94 +206,28 @@ rc_solver_memory(const struct rc_shape *shape, const struct rc_problem *problem)
     struct rc_conv_options options = conv_options(shape, problem);
     size_t n = shape->nx * shape->ny;
 
-    /* four arrays and a mask here, three in the method, three in the error estimate beside its
-     * transforms and the spectrum of its second kernel */
-    return n * (10 * sizeof(double) + 1) + rc_conv_memory(shape, &options) +
-           rc_fft_memory(shape, problem->boundary, RC_SINGLE) +
-           rc_spectrum_memory(shape, problem->boundary, RC_SINGLE);
-}
-
-/* ---- what the methods share ---- */
-
-size_t
-rc_solver_gap(struct rc_solver *s, const double *u, double *g, double *shift)
-{
-    double mean = 0, low = -INFINITY, high = INFINITY;
-    size_t elastic = 0;
-
-    for (size_t k = 0; k < s->n; k++) {
-        g[k] = u[k] - s->h[k];
-        if (rc_elastic(s, k)) {
-            mean += g[k];
-            elastic++;
-        } else if (s->p[k] > 0) {
-            low = fmax(low, g[k]);
-        } else {
-            high = fmin(high, g[k]);
-        }
-    }
-    if (elastic > 0)
-        mean /= (double)elastic;
-    else
-        mean = isinf(low) ? high : isinf(high) ? low : (low + high) / 2;
-    for (size_t k = 0; k < s->n; k++)
-        g[k] -= mean;
-    *shift = mean;
-    return elastic;
+    /* three maps, two of half the width and a mask here; the methods' own; the estimate's */
+    return n * (3 * sizeof(double) + 2 * sizeof(float) + 1) + n * 3 * sizeof(double) +
+           rc_conv_memory(shape, &options) + rc_extension_memory(shape, problem->boundary);
 }
 
 /* ---- judging ---- */
-
-/* Relative L1 norm of the correction that the extension preconditioner would make, from s->g, the
- * gap of s->p with zero mean over `elastic` nodes. */
-static double
-estimate_error(struct rc_solver *s, size_t elastic)
-{
-    size_t count = 0;
-    double mean = 0, sum = 0;
-
-    for (size_t k = 0; k < s->n; k++) {
-        s->working[k] = rc_elastic(s, k) || rc_wants_out(s, k);
-        if (s->working[k]) {
-            mean += s->g[k];
-            count++;
-        }
-    }
-    if (count == elastic && elastic < 2)
-        return 0; /* nothing to exchange, nobody wants to move */
-    if (elastic == 0)
-        return INFINITY; /* some do, but no gap says how far */
-    mean /= (double)count;
-    for (size_t k = 0; k < s->n; k++)
-        s->g[k] = s->working[k] ? mean - s->g[k] : 0;
-    rc_extension_set(s->extension, s->working);
-    rc_extension_apply(s->extension, s->g, s->z);
-    s->convolutions += 2; /* four in single precision */
-    mean = 0;
-    for (size_t k = 0; k < s->n; k++)
-        mean += s->z[k];
-    mean /= (double)count;
-    for (size_t k = 0; k < s->n; k++)
-        if (s->working[k])
-            sum += fabs(s->z[k] - mean);
-    return sum / s->sum;
-}
-
-static double
-judge(struct rc_solver *s)
-{
-    double shift;
-
-    rc_conv_apply(s->conv, s->p, s->g);
-    s->convolutions++;
-    return estimate_error(s, rc_solver_gap(s, s->g, s->g, &shift));
-}
 
 /* The load is a constraint that every method keeps; should one lose it, the result is none. */
 static bool
 load_kept(const struct rc_solver *s)
 {
-    return fabs(rc_sum(s->p, s->n) - s->sum) <= 1e-10 * s->sum;
+    return fabs(rc_solver_carried(s) - s->sum) <= 1e-10 * s->sum;
+}
+
+static double
+judge(struct rc_solver *s)
+{
+    if (!s->fresh)
+        rc_solver_displace(s);
+    rc_solver_shift(s);
+    rc_solver_residual(s);
+    return rc_solver_estimate(s);
 }
 
 enum rc_status
@@ -268,12 +240,12 @@ rc_solver_step(struct rc_solver *s)
     if (!isnan(s->estimate)) {
         s->error = s->estimate;
         s->judged = s->iterations;
-        if (s->error <= s->tol && load_kept(s))
+        if (s->error <= s->tol && (s->rough || load_kept(s)))
             return RC_OK;
         return s->iterations >= s->max_iterations || s->change == 0 ? RC_SHORT : RC_MORE;
     }
     last = s->iterations >= s->max_iterations || s->change <= DBL_EPSILON;
-    /* Five convolutions to judge, two to go on: not before the steps are small, nor every time. */
+    /* Four convolutions to judge, two to go on: not before the steps are small, nor every time. */
     if (!last && (s->iterations < s->next_check || s->change > s->tol))
         return RC_MORE;
     s->error = judge(s);
@@ -296,6 +268,12 @@ double
 rc_solver_error(const struct rc_solver *s)
 {
     return s->error;
+}
+
+double
+rc_solver_convolutions(const struct rc_solver *s)
+{
+    return s->convolutions;
 }
 
 const double *
@@ -322,16 +300,6 @@ rc_solver_method(const struct rc_solver *s)
     return s->method->name;
 }
 
-static double
-deviation(size_t n, const double *v)
-{
-    double mean = rc_sum(v, n) / (double)n, sum = 0;
-
-    for (size_t k = 0; k < n; k++)
-        sum += (v[k] - mean) * (v[k] - mean);
-    return sqrt(sum / (double)n);
-}
-
 /* Load on the outer 2 % of the map, at least one line of nodes on each side. */
 static double
 edge_load(const struct rc_solver *s)
@@ -347,54 +315,93 @@ edge_load(const struct rc_solver *s)
     return sum / s->sum;
 }
 
-static double
-violation(const struct rc_solver *s, size_t k)
-{
-    if (rc_elastic(s, k))
-        return fabs(s->g[k]);
-    return rc_wants_out(s, k) ? fabs(s->g[k]) : 0;
-}
+struct figures {
+    const struct rc_solver *s;
+    double *displacement, *gap;
+    double mean_h, mean_u;
+};
+
+enum { /* sums of the first pass, */
+    CONTACT,
+    PLASTIC,
+    PRESSURE,
+    HEIGHT,
+    V,
+    /* and of the second */
+    SPREAD_H = 0,
+    SPREAD_U
+};
 
 static void
-count_nodes(const struct rc_solver *s, struct rc_contact *c)
+count_block(void *at, size_t first, size_t n, double *sums)
 {
-    for (size_t k = 0; k < s->n; k++) {
-        c->contact_nodes += s->p[k] > 0;
-        c->plastic_nodes += s->p[k] >= s->hardness;
-        c->max_pressure = fmax(c->max_pressure, s->p[k]);
+    const struct rc_solver *s = ((struct figures *)at)->s;
+
+    for (size_t k = first; k < first + n; k++) {
+        double p = s->p[k];
+        sums[CONTACT] += p > 0;
+        sums[PLASTIC] += p >= s->hardness;
+        sums[PRESSURE] += p;
+        sums[HEIGHT] += s->h[k];
+        sums[V] += s->v[k];
+        sums[RC_MOST] = p > sums[RC_MOST] ? p : sums[RC_MOST];
     }
-    c->load = rc_sum(s->p, s->n) * s->cell;
-    c->mean_pressure = c->load / (s->cell * (double)s->n);
-    c->contact_area = s->cell * (double)c->contact_nodes;
-    c->contact_fraction = (double)c->contact_nodes / (double)s->n;
-    c->plastic_area = s->cell * (double)c->plastic_nodes;
-    c->hardness_active = c->plastic_nodes > 0;
-    c->edge_load_fraction = edge_load(s);
+}
+
+/* Spread of heights and displacements, the worst violation, and the frames. */
+static void
+spread_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct figures *f = at;
+    const struct rc_solver *s = f->s;
+
+    for (size_t k = first; k < first + n; k++) {
+        double g = s->v[k] - s->shift, u = s->v[k] + s->h[k], p = s->p[k], worst;
+        double h = s->h[k] - f->mean_h, around = u - f->mean_u;
+
+        sums[SPREAD_H] += h * h;
+        sums[SPREAD_U] += around * around;
+        worst = p <= 0 ? fmax(-g, 0) : p >= s->hardness ? fmax(g, 0) : fabs(g);
+        sums[RC_MOST] = worst > sums[RC_MOST] ? worst : sums[RC_MOST];
+        if (f->displacement != NULL)
+            f->displacement[k] = u;
+        if (f->gap != NULL)
+            f->gap[k] = g;
+    }
 }
 
 void
 rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct rc_contact *c)
 {
-    double shift, worst = 0, scale;
-    size_t elastic;
+    struct figures f = {.s = s, .displacement = displacement, .gap = gap};
+    double total[RC_SUMS], n = (double)s->n, scale;
 
     *c = (struct rc_contact){.iterations = s->iterations};
-    count_nodes(s, c);
-    rc_conv_apply(s->conv, s->p, s->z);
-    s->convolutions++;
-    elastic = rc_solver_gap(s, s->z, s->g, &shift);
-    c->approach = elastic > 0 ? shift : NAN; /* the highest of s->h is 0 */
-    c->mean_gap = rc_sum(s->g, s->n) / (double)s->n;
-    for (size_t k = 0; k < s->n; k++)
-        worst = fmax(worst, violation(s, k));
-    scale = fmax(deviation(s->n, s->h), deviation(s->n, s->z));
-    c->kkt_residual = worst == 0 ? 0 : worst / scale;
-    if (displacement != NULL)
-        memcpy(displacement, s->z, s->n * sizeof *displacement);
-    if (gap != NULL)
-        memcpy(gap, s->g, s->n * sizeof *gap);
-    if (s->judged != s->iterations || isnan(s->error)) /* stopped from outside */
-        s->error = estimate_error(s, elastic);
+    if (!s->known || !s->fresh)
+        rc_solver_displace(s);
+    rc_solver_shift(s);
+    rc_solver_blocks(s, count_block, &f, total);
+    c->contact_nodes = (size_t)total[CONTACT];
+    c->plastic_nodes = (size_t)total[PLASTIC];
+    c->max_pressure = total[RC_MOST];
+    c->load = total[PRESSURE] * s->cell;
+    c->mean_pressure = total[PRESSURE] / n;
+    c->contact_area = s->cell * (double)c->contact_nodes;
+    c->contact_fraction = (double)c->contact_nodes / n;
+    c->plastic_area = s->cell * (double)c->plastic_nodes;
+    c->hardness_active = c->plastic_nodes > 0;
+    c->edge_load_fraction = edge_load(s);
+    c->approach = s->elastic > 0 ? s->shift : NAN; /* the highest of s->h is 0 */
+    c->mean_gap = total[V] / n - s->shift;
+    f.mean_h = total[HEIGHT] / n;
+    f.mean_u = (total[V] + total[HEIGHT]) / n;
+    rc_solver_blocks(s, spread_block, &f, total);
+    scale = sqrt(fmax(total[SPREAD_H], total[SPREAD_U]) / n);
+    c->kkt_residual = total[RC_MOST] == 0 ? 0 : total[RC_MOST] / scale;
+    if (s->judged != s->iterations || isnan(s->error)) { /* stopped from outside */
+        rc_solver_residual(s);
+        s->error = rc_solver_estimate(s);
+    }
     c->pressure_error = s->error;
     c->converged = s->error <= s->tol && load_kept(s);
     c->convolutions = s->convolutions;

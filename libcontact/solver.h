@@ -9,6 +9,8 @@
 #ifndef RC_SOLVER_H
 #define RC_SOLVER_H
 
+#include <math.h>
+
 #include "extension.h"
 #include "inside.h"
 
@@ -32,19 +34,33 @@ struct rc_solver {
     double cell;             /* dx dy                                                       */
     double estar, hardness, load, tol;
     double sum;              /* load / cell: what the nodal pressures add up to             */
-    size_t max_iterations, threads;
+    size_t max_iterations;
+    int threads;
+    bool rough;              /* a coarse grid of another's start: nobody asks for a proof   */
     struct rc_conv *conv;
     struct rc_extension *extension;
     const struct rc_method *method;
     void *state;
     double *h;               /* heights less their maximum: the datum costs digits          */
     double *p;               /* the iterate: in the box, with the load                      */
-    double *g;               /* scratch of n                                                */
-    double *z;               /* scratch of n                                                */
-    unsigned char *working;  /* scratch of n                                                */
+    double *v;               /* K p - h: the gap but for a constant                         */
+    bool known, fresh;       /* v belongs to p; and comes from a double-precision convolution */
+    double shift;            /* c: the gap is v - c                                         */
+    size_t elastic;          /* nodes with 0 < p < H                                        */
+    size_t working;          /* nodes of the working set: those, and those that want to leave
+                                their bound                                                 */
+    unsigned char *w;        /* 1 on the working set, else 0                                */
+    double changed, moved;   /* nodes that changed sides since the extension was told w, and since
+                                it measured distances                                       */
+    float *r;                /* residual -g on it, else 0, over `length`                    */
+    float offset;            /* its mean there                                              */
+    float *z;                /* scratch of n: corrections, times `per_pressure`             */
+    double per_pressure, length; /* single precision: pressures of about 1, and what those displace
+                                on cells of unit area for E* = 1                           */
+    double *partial;         /* sums of blocks and rows                                     */
     size_t iterations;
     double convolutions;     /* equivalents of one double-precision convolution             */
-    double change;           /* relative L1 change of p in the last step                    */
+    double change;           /* relative L1 change of p in the last step; 0: it stands still */
     double estimate;         /* of the relative L1 error of p, by a method that has it at hand from a
                                 fresh K p; NAN: it has not                                  */
     double error;            /* estimated relative L1 error at the last check; NAN: none    */
@@ -59,39 +75,100 @@ rc_elastic(const struct rc_solver *s, size_t k)
     return s->p[k] > 0 && s->p[k] < s->hardness;
 }
 
-/* Whether a node at a bound wants to leave it, by solver->g. */
-static inline bool
-rc_wants_out(const struct rc_solver *s, size_t k)
+/* The same contact on another grid, roughly: a method may start from it. */
+struct rc_solver *rc_solver_rough(const struct rc_shape *shape, const double *h,
+                                  const struct rc_problem *problem, struct rc_err *err);
+
+/* ---- passes.c: what runs over all nodes ---- */
+
+enum {
+    RC_SUMS = 8,
+    RC_MOST = RC_SUMS - 1 /* of this the largest is taken, of the others the sum */
+};
+/* Does something with nodes first .. first + n - 1 and adds to sums, which begin at 0. Blocks are
+ * taken by several threads; their sums are added in order, whoever took them. */
+typedef void rc_block(void *ctx, size_t first, size_t n, double *sums);
+void rc_solver_blocks(const struct rc_solver *solver, rc_block *block, void *ctx,
+                      double total[RC_SUMS]);
+/* The same where rows come out of a convolution: each adds to rc_row_sums, between these two. */
+void rc_solver_rows_begin(const struct rc_solver *solver);
+void rc_solver_rows_end(const struct rc_solver *solver, double total[RC_SUMS]);
+static inline double *
+rc_row_sums(const struct rc_solver *s, size_t row)
 {
-    return (s->p[k] <= 0 && s->g[k] < 0) || (s->p[k] >= s->hardness && s->g[k] > 0);
+    return s->partial + row * RC_SUMS;
 }
 
-/* g = K p - h, and then less its mean over the elastic nodes, or, when there are none, less the
- * middle between the largest g under p = H and the smallest under p = 0. Returns the number of
- * elastic nodes; *shift is what was subtracted. */
-size_t rc_solver_gap(struct rc_solver *solver, const double *u, double *g, double *shift);
+/* v = K p - h by a convolution in double precision. */
+void rc_solver_displace(struct rc_solver *solver);
+/* The shift: mean of v over the elastic nodes, or, when there are none, the middle between the largest
+ * v under p = H and the smallest under p = 0. Sets `elastic` and `shift`. */
+void rc_solver_shift(struct rc_solver *solver);
+/* The working set and the residual on it, from v and the shift. Sets w, changed, r, offset, working. */
+void rc_solver_residual(struct rc_solver *solver);
+/* Forgets what the extension was told: w is another set altogether. */
+static inline void
+rc_solver_forget(struct rc_solver *s)
+{
+    s->changed = s->moved = INFINITY;
+}
+/* z = E' A E r; `done` as in rc_extension_apply. The mean of z is still in it. */
+void rc_solver_correct(struct rc_solver *solver, rc_row *done, void *ctx);
+/* Sum of p. */
+double rc_solver_carried(const struct rc_solver *solver);
+/* Relative L1 norm of that correction without its mean: the estimate of the error. */
+double rc_solver_estimate(struct rc_solver *solver);
+
+/* ---- box.c, project.c ---- */
 
 /* box.c: p becomes the sum by scaling its elastic nodes, as far as the box lets them; what they
  * cannot carry goes to the nodes of smallest g, what is too much is taken from all. */
 enum rc_status rc_box_balance(size_t n, double hardness, double sum, const double *g, double *p,
                               struct rc_err *err);
 
-
 /* box.c: the nearest point of {0 <= y <= H, sum y = sum} over the nodes with w set (NULL: all): one
  * shift for them, clipped. They have to be able to carry the sum. */
 void rc_box_project(size_t n, const unsigned char *w, double hardness, double sum, double *y);
 
-/* guard.c: begins with energy INFINITY, norm 0. */
-struct rc_guard {
-    double energy; /* of the last p that was kept                 */
-    double norm;   /* bound of K's largest eigenvalue; 0: unknown */
+/* project.c: a step and the way back into the box. On W the pressure becomes
+ *
+ *     clip(p + alpha (d - mean)[d != 0] + shift, 0, H),
+ *
+ * with the one shift that keeps the load: the Euclidean projection of the step, where W can carry its
+ * share; where it cannot, all nodes become W. */
+struct rc_move {
+    struct rc_solver *solver;
+    const float *d;    /* direction, times per_pressure; not 0 only on W                  */
+    double alpha;
+    double mean;       /* of d                                                            */
+    double *room;      /* n numbers of scratch                                            */
+    double shift;      /* found                                                           */
+    bool clipped;      /* found: some node would have left the box                        */
 };
-/* Whether the energy of solver->p, u = K p, has risen above that of the last p kept; else this one
+void rc_move_find(struct rc_move *move);
+/* Where node k of W would go, by that shift. */
+static inline double
+rc_moved(const struct rc_move *m, size_t k)
+{
+    const struct rc_solver *s = m->solver;
+    double d = (double)m->d[k], y = s->p[k] + m->shift;
+
+    y += d != 0 ? m->alpha * (d - m->mean) : 0;
+    y = y > 0 ? y : 0;
+    return y < s->hardness ? y : s->hardness;
+}
+
+/* guard.c: begins with energy INFINITY. */
+struct rc_guard {
+    double energy; /* of the last p that was kept */
+};
+/* A bound of K's largest eigenvalue. */
+double rc_guard_norm(const struct rc_solver *solver);
+/* Whether the energy of solver->p has risen above that of the last p kept; else this one
  * is. */
-bool rc_guard_raised(struct rc_guard *guard, const struct rc_solver *solver, const double *u);
+bool rc_guard_raised(struct rc_guard *guard, const struct rc_solver *solver);
 /* solver->p goes back to `old`, and from there towards the projection of p - g / |K|, to the lowest
- * point on that way. t, r: scratch of n. Costs two convolutions, three the first time. */
-void rc_guard_step(struct rc_guard *guard, struct rc_solver *solver, const double *old, double *t,
-                   double *r);
+ * point on that way. t, r: scratch of n. Costs two convolutions. */
+void rc_guard_step(struct rc_solver *solver, const double *old, double *t, double *r);
 
 #endif

@@ -1,0 +1,251 @@
+/*
+ * What a contact costs:
+ *
+ *     bench-solve [-n SIZE,SIZE...] [-t TOL] [-m METHOD] [table] [estimate]        (default: table)
+ *
+ * table     convolution equivalents, iterations and seconds to a true relative L1 error of the
+ *           pressure (default 1e-4), coarse levels included, and what the certified solution to that
+ *           tolerance costs
+ * estimate  estimate over true error, every iteration
+ *
+ * Surfaces: periodic self-affine (Hurst 0.8, cut at 8 nodes, rolled off at an eighth of the map) and a
+ * sphere with such roughness on the free half-space. The truth is the same solver at 1e-9. RC_THREADS sets
+ * the threads.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "libcontact/contact.h"
+
+struct surface {
+    const char *name;
+    enum rc_boundary boundary;
+    double load;     /* periodic: mean pressure over E* and RMS slope; free: load as a part of that which
+                        makes a Hertz circle as wide as the map                               */
+    double hardness; /* over the mean pressure; 0: none                                        */
+};
+
+static const struct surface surfaces[] = {
+    {"periodic", RC_PERIODIC, 0.004, 0},  {"periodic", RC_PERIODIC, 0.04, 0},
+    {"periodic", RC_PERIODIC, 0.18, 0},   {"periodic", RC_PERIODIC, 0.28, 0},
+    {"periodic", RC_PERIODIC, 0.5, 0},    {"periodic", RC_PERIODIC, 1.2, 0},
+    {"sphere", RC_FREE, 0.004, 0},        {"sphere", RC_FREE, 0.1, 0},
+    {"periodic, H", RC_PERIODIC, 0.1, 3}, {"sphere, H", RC_FREE, 0.1, 10},
+};
+
+enum {
+    SURFACES = sizeof surfaces / sizeof *surfaces
+};
+
+static size_t threads;
+
+static double
+now(void)
+{
+    struct timespec ts;
+
+    clock_gettime(CLOCK_MONOTONIC, &ts);
+    return (double)ts.tv_sec + 1e-9 * (double)ts.tv_nsec;
+}
+
+static void *
+must(void *p)
+{
+    if (p == NULL) {
+        fprintf(stderr, "out of memory\n");
+        exit(1);
+    }
+    return p;
+}
+
+static struct rc_problem
+make(const struct surface *what, struct rc_shape shape, double *h)
+{
+    static const double slope = 0.1, estar = 1e9, pi = 3.14159265358979323846;
+    double side = (double)shape.nx * shape.dx, area = side * side;
+    struct rc_selfaffine roughness = {.hurst = 0.8, .rms_slope = slope, .rms_height = NAN,
+                                      .short_cut = 8 * shape.dx, .rolloff = side / 8, .long_cut = NAN,
+                                      .seed = 5};
+    struct rc_problem problem = {.boundary = what->boundary, .estar = estar, .hardness = INFINITY,
+                                 .tol = 1e-4, .threads = threads};
+    struct rc_err err;
+
+    if (rc_synth_selfaffine(&shape, &roughness, h, &err) != RC_OK) {
+        fprintf(stderr, "%s\n", err.text);
+        exit(1);
+    }
+    if (what->boundary == RC_PERIODIC) {
+        problem.load = what->load * estar * slope * area;
+    } else {
+        double r = 20 * side, *sphere = must(malloc(shape.nx * shape.ny * sizeof *sphere));
+        rc_synth_sphere(&shape, r, sphere);
+        for (size_t k = 0; k < shape.nx * shape.ny; k++)
+            h[k] = 0.05 * h[k] + sphere[k];
+        free(sphere);
+        problem.load = what->load * 4 * estar * pow(side / 2, 3) / (3 * r);
+    }
+    if (what->hardness > 0)
+        problem.hardness = what->hardness * problem.load / area *
+                           (what->boundary == RC_FREE ? 1 / (0.7 * pow(what->load, 2. / 3)) : 1);
+    (void)pi;
+    return problem;
+}
+
+static struct rc_solver *
+start(struct rc_shape shape, const double *h, const struct rc_problem *problem)
+{
+    struct rc_err err;
+    struct rc_solver *s = rc_solver_new(&shape, h, problem, &err);
+
+    if (s == NULL) {
+        fprintf(stderr, "%s\n", err.text);
+        exit(1);
+    }
+    return s;
+}
+
+static double
+distance(size_t n, const double *a, const double *b)
+{
+    double apart = 0, size = 0;
+
+    for (size_t k = 0; k < n; k++) {
+        apart += fabs(a[k] - b[k]);
+        size += fabs(b[k]);
+    }
+    return apart / size;
+}
+
+static double *
+truth(struct rc_shape shape, const double *h, struct rc_problem problem, struct rc_contact *c)
+{
+    size_t n = shape.nx * shape.ny;
+    double *p = must(malloc(n * sizeof *p));
+    struct rc_solver *s;
+
+    problem.tol = 1e-9;
+    problem.method = NULL;
+    s = start(shape, h, &problem);
+    while (rc_solver_step(s) == RC_MORE)
+        ;
+    rc_solver_result(s, NULL, NULL, c);
+    memcpy(p, rc_solver_pressure(s), n * sizeof *p);
+    rc_solver_free(s);
+    return p;
+}
+
+static void
+table(size_t m, double tol, const char *method)
+{
+    struct rc_shape shape = {m, m, 1e-6, 1e-6};
+    size_t n = m * m;
+    double *h = must(malloc(n * sizeof *h));
+
+    printf("\n%zu x %zu, %s, true error %.0e, %zu threads\n", m, m, method, tol, threads);
+    printf("%-12s %8s %8s %6s | %6s %6s | %6s %6s %8s %8s %8s\n", "surface", "contact", "plastic", "at 1e-9", "its",
+           "equiv", "its", "equiv", "seconds", "estimate", "true");
+    for (size_t k = 0; k < SURFACES; k++) {
+        struct rc_problem problem = make(&surfaces[k], shape, h);
+        struct rc_contact exact, c;
+        double *p = truth(shape, h, problem, &exact), seconds, reached = NAN;
+        struct rc_solver *s;
+        size_t its = 0;
+
+        problem.method = method;
+        problem.tol = 1e-12; /* steps without an end: how far is it? */
+        s = start(shape, h, &problem);
+        while (rc_solver_step(s) == RC_MORE) {
+            if (distance(n, rc_solver_pressure(s), p) <= tol) {
+                reached = rc_solver_convolutions(s);
+                its = rc_solver_iterations(s);
+                break;
+            }
+        }
+        rc_solver_free(s);
+        problem.tol = tol;
+        seconds = now();
+        s = start(shape, h, &problem);
+        while (rc_solver_step(s) == RC_MORE)
+            ;
+        seconds = now() - seconds;
+        c.convolutions = rc_solver_convolutions(s);
+        printf("%-12s %8.4f %8.4f %6.1f | %6zu %6.1f | %6zu %6.1f %8.3f %8.1e %8.1e\n", surfaces[k].name,
+               exact.contact_fraction, (double)exact.plastic_nodes / (double)n, exact.convolutions, its, reached,
+               rc_solver_iterations(s), c.convolutions, seconds, rc_solver_error(s),
+               distance(n, rc_solver_pressure(s), p));
+        fflush(stdout);
+        rc_solver_free(s);
+        free(p);
+    }
+    free(h);
+}
+
+static void
+estimate(size_t m, const char *method)
+{
+    struct rc_shape shape = {m, m, 1e-6, 1e-6};
+    size_t n = m * m;
+    double *h = must(malloc(n * sizeof *h));
+
+    printf("\n%zu x %zu, %s: estimate over true error, every iteration with a true error above 1e-8\n", m,
+           m, method);
+    for (size_t k = 0; k < SURFACES; k++) {
+        struct rc_problem problem = make(&surfaces[k], shape, h);
+        struct rc_contact exact;
+        double *p = truth(shape, h, problem, &exact), before, *old = must(malloc(n * sizeof *old));
+        struct rc_solver *s;
+        enum rc_status status;
+
+        problem.method = method;
+        problem.tol = 1e-8;
+        s = start(shape, h, &problem);
+        printf("%-12s %.4f:", surfaces[k].name, exact.contact_fraction);
+        do { /* the estimate of a step is that of the pressure before it */
+            memcpy(old, rc_solver_pressure(s), n * sizeof *old);
+            status = rc_solver_step(s);
+            before = distance(n, old, p);
+            if (before > 1e-8 && !isnan(rc_solver_error(s)))
+                printf(" %.2f@%.0e", rc_solver_error(s) / before, before);
+        } while (status == RC_MORE);
+        printf("\n");
+        rc_solver_free(s);
+        free(p);
+        free(old);
+    }
+    free(h);
+}
+
+int
+main(int argc, char **argv)
+{
+    const char *threads_text = getenv("RC_THREADS"), *method = "pcg";
+    size_t sizes[16] = {512, 1024, 2048}, count = 3;
+    double tol = 1e-4;
+    bool any = false;
+
+    threads = threads_text == NULL ? 0 : strtoul(threads_text, NULL, 10);
+    for (int k = 1; k < argc; k++) {
+        if (strcmp(argv[k], "-n") == 0 && k + 1 < argc) {
+            count = 0;
+            for (char *w = strtok(argv[++k], ","); w != NULL && count < 16; w = strtok(NULL, ","))
+                sizes[count++] = strtoul(w, NULL, 10);
+        } else if (strcmp(argv[k], "-t") == 0 && k + 1 < argc) {
+            tol = atof(argv[++k]);
+        } else if (strcmp(argv[k], "-m") == 0 && k + 1 < argc) {
+            method = argv[++k];
+        } else {
+            any = true;
+            for (size_t i = 0; i < count; i++)
+                if (strcmp(argv[k], "estimate") == 0)
+                    estimate(sizes[i], method);
+                else
+                    table(sizes[i], tol, method);
+        }
+    }
+    for (size_t i = 0; !any && i < count; i++)
+        table(sizes[i], tol, method);
+    return 0;
+}
