@@ -127,6 +127,9 @@ const char *rc_conv_reason(const struct rc_conv *conv);
 /* The engine's own bound on the error of u, relative to the sum of |K| |p|. */
 double rc_conv_error(const struct rc_conv *conv);
 void rc_conv_free(struct rc_conv *conv);
+/* The engine that such a plan would take, and why; "" when there is none of that name. */
+const char *rc_conv_choice(const struct rc_shape *shape, const struct rc_conv_options *options,
+                           const char **reason);
 /* Bytes that such a plan takes beside p and u; 0 when there is no such engine. */
 size_t rc_conv_memory(const struct rc_shape *shape, const struct rc_conv_options *options);
 
@@ -135,13 +138,21 @@ size_t rc_conv_memory(const struct rc_shape *shape, const struct rc_conv_options
 struct rc_problem {
     enum rc_boundary boundary;
     double estar;       /* composite modulus, Pa, > 0                                            */
-    double load;        /* total normal force, N, > 0                                            */
+    double load;        /* total normal force, N, > 0; with an approach a guess, or 0            */
+    double approach;    /* m, > 0: the load is sought that brings the bodies so far together from
+                           first touch; 0: the load is given                                     */
     double hardness;    /* upper bound of the pressure, Pa; INFINITY: none                       */
     double tol;         /* asked relative L1 error of the pressure; NAN: (nx ny)^(-3/4)          */
     const char *engine; /* NULL: auto                                                            */
     const char *method; /* NULL: auto                                                            */
     size_t max_iterations; /* 0: 100 + 10 sqrt(nx ny)                                            */
     size_t threads;     /* 0: all                                                                */
+    bool discretization; /* estimate what the grid leaves out: a coarser one is solved as well   */
+};
+
+/* Relative errors, or figures, of contact area, largest pressure and approach; NAN: unknown. */
+struct rc_discretization {
+    double contact_area, max_pressure, approach;
 };
 
 /* What has been found, once rc_solver_step gives RC_OK or RC_SHORT, or at any earlier iteration
@@ -158,6 +169,7 @@ struct rc_contact {
     double pressure_error;                    /* estimated relative L1 error of the pressure     */
     size_t iterations;
     double convolutions;                      /* equivalents on the finest grid                  */
+    struct rc_discretization discretization;  /* estimated relative errors that the grid makes   */
     bool converged;                           /* pressure_error <= tol                           */
     bool hardness_active;                     /* some node is at the hardness                    */
 };
@@ -169,6 +181,11 @@ struct rc_solver *rc_solver_new(const struct rc_shape *shape, const double *h,
 /* One iteration: RC_MORE, RC_OK when the estimated error is below tol, RC_SHORT when it cannot get
  * there (iteration limit, rounding). */
 enum rc_status rc_solver_step(struct rc_solver *solver);
+/* Another first loading of the same surface, at a load in N or, with approach > 0, to an approach in
+ * m: the last solution is only where it starts. Counts begin anew. RC_FAIL as in rc_solver_new; the
+ * solver is then of no further use. */
+enum rc_status rc_solver_again(struct rc_solver *solver, double load, double approach,
+                               struct rc_err *err);
 /* Iterations so far and the last estimate of the error (NAN before the first), for progress. */
 size_t rc_solver_iterations(const struct rc_solver *solver);
 double rc_solver_error(const struct rc_solver *solver);
@@ -180,10 +197,21 @@ const double *rc_solver_pressure(const struct rc_solver *solver);
 /* Fresh displacement and gap of that pressure (either may be NULL) and the figures. */
 void rc_solver_result(struct rc_solver *solver, double *displacement, double *gap,
                       struct rc_contact *contact);
+/* The height map (nx*ny m) that is left when the bodies are taken apart: where the hardness was reached,
+ * what stood into the other body is gone. Pressed again to the same load it carries the same pressure,
+ * and nothing more yields. After rc_solver_result. */
+void rc_solver_plastic(const struct rc_solver *solver, double *h);
+/* d load / d approach, N/m, at the solution, after rc_solver_result: what the elastic nodes carry more when the
+ * bodies come closer, no node changing sides. NAN when none is elastic, and where a periodic surface is
+ * in complete contact. Takes 10 to 20 convolutions; RC_FAIL when memory is short. */
+enum rc_status rc_solver_stiffness(struct rc_solver *solver, double *stiffness, struct rc_err *err);
 const char *rc_solver_engine(const struct rc_solver *solver);
 const char *rc_solver_engine_reason(const struct rc_solver *solver);
 const char *rc_solver_method(const struct rc_solver *solver);
 void rc_solver_free(struct rc_solver *solver);
+/* Name of the engine that such a solver would take, and why; "" when there is none of that name. */
+const char *rc_solver_choice(const struct rc_shape *shape, const struct rc_problem *problem,
+                             const char **reason);
 /* Bytes that a solver of this size takes. */
 size_t rc_solver_memory(const struct rc_shape *shape, const struct rc_problem *problem);
 

@@ -93,6 +93,16 @@ find(const struct rc_sum *sum, const struct rc_conv_options *o, const char **rea
     return named(o->engine);
 }
 
+const char *
+rc_conv_choice(const struct rc_shape *shape, const struct rc_conv_options *options,
+               const char **reason)
+{
+    struct rc_sum sum = sum_of(shape, 1, options);
+    const struct rc_engine *engine = find(&sum, options, reason, NULL);
+
+    return engine == NULL ? "" : engine->name;
+}
+
 struct rc_conv *
 rc_conv_new(const struct rc_shape *shape, double estar, const struct rc_conv_options *options,
             struct rc_err *err)

@@ -71,7 +71,7 @@ static void *
 state_new(struct rc_solver *solver, struct rc_err *err)
 {
     struct state *s = calloc(1, sizeof *s);
-    bool single = strcmp(rc_conv_engine(solver->conv), "fft") == 0;
+    bool single = solver->conv == NULL || strcmp(rc_conv_engine(solver->conv), "fft") == 0;
 
     if (s != NULL) {
         s->room = rc_room(solver->n, sizeof *s->room);
@@ -496,7 +496,7 @@ step(struct rc_solver *solver, void *at)
     }
     solver->change = 0;
     solver->estimate = precondition(solver, s, &mean);
-    if (!solver->fresh && !(solver->rough && solver->estimate <= solver->tol) &&
+    if (!solver->fresh && !solver->rough &&
         (solver->estimate <= solver->tol || solver->estimate < 3 * s->drift)) {
         rc_solver_displace(solver);
         s->drift = 0;
@@ -516,10 +516,21 @@ step(struct rc_solver *solver, void *at)
         (void)gradient_step(solver, s);
 }
 
+static void
+again(void *at)
+{
+    struct state *s = at;
+
+    s->curvature = 0;
+    s->best = INFINITY;
+    s->best_at = 0;
+}
+
 const struct rc_method rc_method_pcg = {
     .name = "pcg",
     .summary = "projected conjugate gradients with the extension preconditioner",
     .new = state_new,
     .step = step,
+    .again = again,
     .free = state_free,
 };

@@ -213,10 +213,21 @@ step(struct rc_solver *solver, void *at)
     solver->change = total[0] / solver->sum; /* (32) */
 }
 
+static void
+again(void *at)
+{
+    struct state *s = at;
+
+    s->G = 1;
+    s->delta = s->tau = 0;
+    s->guard.energy = INFINITY;
+}
+
 const struct rc_method rc_method_pk99 = {
     .name = "pk99",
     .summary = "conjugate gradients of Polonsky and Keer, 1999",
     .new = state_new,
     .step = step,
+    .again = again,
     .free = state_free,
 };

@@ -46,16 +46,50 @@ repeat(struct rc_solver *s, const struct rc_solver *c)
             s->p[k] = s->sum / (double)s->n;
 }
 
+/* What the grid leaves out is seen where the coarser one is solved to below it, which goes with the
+ * spacing. */
+static double
+tolerance(const struct rc_solver *s, const struct rc_shape *coarse)
+{
+    if (s->stages)
+        return fmax(0.1 / sqrt((double)(coarse->nx * coarse->ny)), s->tol);
+    return fmax(coarse_tol, s->tol);
+}
+
+static double
+largest(const double *v, size_t n)
+{
+    double most = v[0];
+
+    for (size_t k = 1; k < n; k++)
+        most = v[k] > most ? v[k] : most;
+    return most;
+}
+
+/* Figures of the coarse solution. An approach that was asked for is right on both grids. */
+static void
+compare(struct rc_solver *s, struct rc_solver *c)
+{
+    size_t contact = 0;
+
+    for (size_t k = 0; k < c->n; k++)
+        contact += c->p[k] > 0;
+    s->coarse.contact_area = (double)contact * c->cell;
+    s->coarse.max_pressure = largest(c->p, c->n);
+    rc_solver_shift(c);
+    s->coarse.approach = c->elastic > 0 && s->seek.target == 0 ? c->shift : NAN;
+}
+
 void
 rc_nested_start(struct rc_solver *s)
 {
     struct rc_shape coarse = {(s->shape.nx + 1) / 2, (s->shape.ny + 1) / 2, 2 * s->shape.dx,
                               2 * s->shape.dy};
     struct rc_problem problem = {.boundary = s->boundary, .estar = s->estar, .load = s->load,
-                                 .hardness = s->hardness, .tol = fmax(coarse_tol, s->tol),
+                                 .hardness = s->hardness, .tol = tolerance(s, &coarse),
                                  .method = "pcg", .threads = (size_t)s->threads};
     struct rc_solver *c;
-    double *h;
+    double *h, lower;
 
     if (s->shape.nx < COARSEST || s->shape.ny < COARSEST)
         return;
@@ -63,13 +97,19 @@ rc_nested_start(struct rc_solver *s)
     if (h == NULL)
         return;
     coarsen(s, &coarse, h);
+    lower = -largest(h, coarse.nx * coarse.ny); /* that of the fine heights is 0 */
+    if (s->seek.target > 2 * lower)
+        problem.approach = s->seek.target - lower;
     c = rc_solver_rough(&coarse, h, &problem, NULL);
     free(h);
     if (c == NULL)
         return;
     while (rc_solver_step(c) == RC_MORE)
         ;
-    repeat(s, c);
+    if (problem.approach == 0 || rc_solver_set_load(s, c->load, NULL) == RC_OK)
+        repeat(s, c);
+    if (s->stages)
+        compare(s, c);
     s->convolutions += c->convolutions * (double)c->n / (double)s->n;
     rc_solver_free(c);
 }

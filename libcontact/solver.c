@@ -18,6 +18,8 @@ enum {
     METHODS = sizeof methods / sizeof *methods
 };
 
+static const double loose = 1e-2; /* tolerance of the first loads, while the right one is sought */
+
 /* ---- new ---- */
 
 static const struct rc_method *
@@ -36,14 +38,10 @@ static enum rc_status
 check(const struct rc_shape *s, const double *h, const struct rc_problem *problem,
       struct rc_err *err)
 {
-    double carried;
-
     if (rc_shape_check(s, err) != RC_OK)
         return RC_FAIL;
     if (!(problem->estar > 0) || isinf(problem->estar))
         return rc_err_set(err, "E* = %g Pa: it must be positive and finite", problem->estar);
-    if (!(problem->load > 0) || isinf(problem->load))
-        return rc_err_set(err, "load %g N: it must be positive and finite", problem->load);
     if (!(problem->hardness > 0))
         return rc_err_set(err, "hardness %g Pa: it must be positive", problem->hardness);
     if (problem->tol <= 0)
@@ -51,13 +49,6 @@ check(const struct rc_shape *s, const double *h, const struct rc_problem *proble
     for (size_t k = 0; k < s->nx * s->ny; k++)
         if (!isfinite(h[k]))
             return rc_err_set(err, "height %zu is not a finite number", k);
-    carried = problem->hardness * (s->dx * s->dy) * (double)(s->nx * s->ny);
-    if (problem->load > carried * (1 + 4 * DBL_EPSILON))
-        return rc_err_set(err, "load %.9g N is above hardness times area, %.9g Pa x %.9g m2 = "
-                               "%.9g N, where every node yields: no solution exists; lower the "
-                               "load or raise the hardness",
-                          problem->load, problem->hardness,
-                          s->dx * s->dy * (double)(s->nx * s->ny), carried);
     return RC_OK;
 }
 
@@ -84,7 +75,7 @@ static bool
 allocate(struct rc_solver *s, const double *h)
 {
     size_t blocks = s->n / 4096 + 1 > s->shape.ny ? s->n / 4096 + 1 : s->shape.ny;
-    double top = h[0], start = fmin(s->sum / (double)s->n, s->hardness);
+    double top = h[0];
 
     s->h = rc_room(s->n, sizeof *s->h);
     s->p = rc_room(s->n, sizeof *s->p);
@@ -101,9 +92,9 @@ allocate(struct rc_solver *s, const double *h)
 #pragma omp parallel for num_threads(s->threads) schedule(static)
     for (size_t k = 0; k < s->n; k++) {
         s->h[k] = h[k] - top;
-        s->p[k] = start;
         s->w[k] = 0;
     }
+    s->top = top;
     return true;
 }
 
@@ -117,6 +108,63 @@ set_units(struct rc_solver *s)
     (void)frexp(s->sum / (double)s->n, &exponent);
     s->per_pressure = ldexp(1, -exponent);
     s->length = sqrt(s->shape.dx) * sqrt(s->shape.dy) / s->estar * ldexp(1, exponent);
+}
+
+enum rc_status
+rc_solver_set_load(struct rc_solver *s, double load, struct rc_err *err)
+{
+    double area = s->cell * (double)s->n, carried = s->hardness * area;
+
+    if (!(load > 0) || isinf(load))
+        return rc_err_set(err, "load %g N: it must be positive and finite", load);
+    if (load > carried * (1 + 4 * DBL_EPSILON))
+        return rc_err_set(err, "load %.9g N is above hardness times area, %.9g Pa x %.9g m2 = "
+                               "%.9g N, where every node yields: no solution exists; lower the "
+                               "load or raise the hardness", load, s->hardness, area, carried);
+    s->load = load;
+    s->sum = load / s->cell;
+    if (s->sum >= s->hardness * (double)s->n * (1 - 8 * DBL_EPSILON))
+        s->sum = s->hardness * (double)s->n; /* every node yields, whatever the rounding */
+    set_units(s);
+    return RC_OK;
+}
+
+/* Where the load is sought, the one given is a guess; without one, that of a flat punch as large as the
+ * part of the surface that the approach would cut off. */
+static enum rc_status
+first_load(struct rc_solver *s, const struct rc_problem *problem, struct rc_err *err)
+{
+    double guess = problem->load, most = s->hardness * s->cell * (double)s->n / 2;
+    size_t cut = 0;
+
+    if (!(problem->approach > 0))
+        return rc_solver_set_load(s, problem->load, err);
+    if (isinf(problem->approach))
+        return rc_err_set(err, "approach %g m: it must be finite", problem->approach);
+    for (size_t k = 0; k < s->n; k++)
+        cut += s->h[k] >= -problem->approach;
+    if (!(guess > 0))
+        guess = s->estar * problem->approach * sqrt((double)cut * s->cell);
+    rc_seek_begin(&s->seek, problem->approach);
+    s->tol = fmax(s->goal, loose);
+    if (s->boundary == RC_PERIODIC && isinf(s->hardness)) {
+        double full = -rc_sum(s->h, s->n) / (double)s->n;
+        if (problem->approach >= full)
+            return rc_err_set(err, "approach %.9g m: contact is complete at %.9g m, and from there "
+                                   "the load of a periodic surface grows at the same approach; "
+                                   "give the load", problem->approach, full);
+    }
+    return rc_solver_set_load(s, guess < most ? guess : most, err);
+}
+
+void
+rc_solver_level(struct rc_solver *s)
+{
+    double start = fmin(s->sum / (double)s->n, s->hardness);
+
+#pragma omp parallel for num_threads(s->threads) schedule(static)
+    for (size_t k = 0; k < s->n; k++)
+        s->p[k] = start;
 }
 
 static struct rc_solver *
@@ -137,26 +185,23 @@ solver_new(const struct rc_shape *shape, const double *h, const struct rc_proble
     s->cell = shape->dx * shape->dy;
     s->estar = problem->estar;
     s->hardness = problem->hardness;
-    s->load = problem->load;
-    s->sum = problem->load / s->cell;
-    if (s->sum >= s->hardness * (double)s->n * (1 - 8 * DBL_EPSILON))
-        s->sum = s->hardness * (double)s->n; /* every node yields, whatever the rounding */
-    s->tol = tolerance(shape, problem);
+    s->tol = s->goal = tolerance(shape, problem);
+    s->stages = problem->discretization;
     s->max_iterations = problem->max_iterations > 0
                             ? problem->max_iterations
                             : 100 + (size_t)(10 * sqrt((double)s->n));
     s->threads = rc_useful_threads(shape, problem->threads);
     s->rough = rough;
-    set_units(s);
     rc_solver_forget(s);
+    s->coarse = (struct rc_discretization){NAN, NAN, NAN};
     s->change = s->error = s->estimate = NAN;
     s->next_check = 1;
     if (!allocate(s, h))
         goto short_of_memory;
-    if ((s->method = choose(problem->method, err)) == NULL ||
-        (s->conv = rc_conv_new(shape, s->estar, &options, err)) == NULL ||
+    if (first_load(s, problem, err) != RC_OK || (s->method = choose(problem->method, err)) == NULL ||
+        (!rough && (s->conv = rc_conv_new(shape, s->estar, &options, err)) == NULL) ||
         (s->extension = rc_extension_new(shape, s->boundary, problem->threads, err)) == NULL ||
-        (s->state = s->method->new(s, err)) == NULL) {
+        (rc_solver_level(s), s->state = s->method->new(s, err)) == NULL) {
         rc_solver_free(s);
         return NULL;
     }
@@ -200,6 +245,15 @@ rc_solver_free(struct rc_solver *s)
     free(s);
 }
 
+const char *
+rc_solver_choice(const struct rc_shape *shape, const struct rc_problem *problem,
+                 const char **reason)
+{
+    struct rc_conv_options options = conv_options(shape, problem);
+
+    return rc_conv_choice(shape, &options, reason);
+}
+
 size_t
 rc_solver_memory(const struct rc_shape *shape, const struct rc_problem *problem)
 {
@@ -214,8 +268,8 @@ rc_solver_memory(const struct rc_shape *shape, const struct rc_problem *problem)
 /* ---- judging ---- */
 
 /* The load is a constraint that every method keeps; should one lose it, the result is none. */
-static bool
-load_kept(const struct rc_solver *s)
+bool
+rc_solver_load_kept(const struct rc_solver *s)
 {
     return fabs(rc_solver_carried(s) - s->sum) <= 1e-10 * s->sum;
 }
@@ -230,8 +284,9 @@ judge(struct rc_solver *s)
     return rc_solver_estimate(s);
 }
 
-enum rc_status
-rc_solver_step(struct rc_solver *s)
+/* One iteration at the load that is set. */
+static enum rc_status
+step(struct rc_solver *s)
 {
     bool last;
 
@@ -240,7 +295,7 @@ rc_solver_step(struct rc_solver *s)
     if (!isnan(s->estimate)) {
         s->error = s->estimate;
         s->judged = s->iterations;
-        if (s->error <= s->tol && (s->rough || load_kept(s)))
+        if (s->error <= s->tol && (s->rough || rc_solver_load_kept(s)))
             return RC_OK;
         return s->iterations >= s->max_iterations || s->change == 0 ? RC_SHORT : RC_MORE;
     }
@@ -251,9 +306,46 @@ rc_solver_step(struct rc_solver *s)
     s->error = judge(s);
     s->judged = s->iterations;
     s->next_check = s->iterations + 5 + s->iterations / 10;
-    if (s->error <= s->tol && load_kept(s))
+    if (s->error <= s->tol && rc_solver_load_kept(s))
         return RC_OK;
     return last ? RC_SHORT : RC_MORE;
+}
+
+enum rc_status
+rc_solver_step(struct rc_solver *s)
+{
+    enum rc_status status = step(s);
+
+    return status == RC_OK && s->seek.target > 0 ? rc_seek_step(s) : status;
+}
+
+void
+rc_solver_restart(struct rc_solver *s)
+{
+    s->known = s->fresh = false;
+    s->change = s->error = s->estimate = NAN;
+    s->next_check = s->iterations + 1;
+    s->method->again(s->state);
+    rc_solver_forget(s);
+}
+
+enum rc_status
+rc_solver_again(struct rc_solver *s, double load, double approach, struct rc_err *err)
+{
+    if (approach > 0) {
+        rc_seek_begin(&s->seek, approach);
+        load = s->load; /* to begin with */
+    } else {
+        s->seek.target = 0;
+    }
+    if (rc_solver_set_load(s, load, err) != RC_OK ||
+        rc_box_balance(s->n, s->hardness, s->sum, s->v, s->p, err) != RC_OK)
+        return RC_FAIL;
+    s->tol = approach > 0 ? fmax(s->goal, loose) : s->goal;
+    s->iterations = 0;
+    s->convolutions = 0;
+    rc_solver_restart(s);
+    return RC_OK;
 }
 
 /* ---- results ---- */
@@ -298,111 +390,4 @@ const char *
 rc_solver_method(const struct rc_solver *s)
 {
     return s->method->name;
-}
-
-/* Load on the outer 2 % of the map, at least one line of nodes on each side. */
-static double
-edge_load(const struct rc_solver *s)
-{
-    size_t nx = s->shape.nx, ny = s->shape.ny;
-    size_t mx = nx < 3 ? 0 : (nx + 49) / 50, my = ny < 3 ? 0 : (ny + 49) / 50;
-    double sum = 0;
-
-    for (size_t j = 0; j < ny; j++)
-        for (size_t i = 0; i < nx; i++)
-            if (i < mx || i + mx >= nx || j < my || j + my >= ny)
-                sum += s->p[j * nx + i];
-    return sum / s->sum;
-}
-
-struct figures {
-    const struct rc_solver *s;
-    double *displacement, *gap;
-    double mean_h, mean_u;
-};
-
-enum { /* sums of the first pass, */
-    CONTACT,
-    PLASTIC,
-    PRESSURE,
-    HEIGHT,
-    V,
-    /* and of the second */
-    SPREAD_H = 0,
-    SPREAD_U
-};
-
-static void
-count_block(void *at, size_t first, size_t n, double *sums)
-{
-    const struct rc_solver *s = ((struct figures *)at)->s;
-
-    for (size_t k = first; k < first + n; k++) {
-        double p = s->p[k];
-        sums[CONTACT] += p > 0;
-        sums[PLASTIC] += p >= s->hardness;
-        sums[PRESSURE] += p;
-        sums[HEIGHT] += s->h[k];
-        sums[V] += s->v[k];
-        sums[RC_MOST] = p > sums[RC_MOST] ? p : sums[RC_MOST];
-    }
-}
-
-/* Spread of heights and displacements, the worst violation, and the frames. */
-static void
-spread_block(void *at, size_t first, size_t n, double *sums)
-{
-    const struct figures *f = at;
-    const struct rc_solver *s = f->s;
-
-    for (size_t k = first; k < first + n; k++) {
-        double g = s->v[k] - s->shift, u = s->v[k] + s->h[k], p = s->p[k], worst;
-        double h = s->h[k] - f->mean_h, around = u - f->mean_u;
-
-        sums[SPREAD_H] += h * h;
-        sums[SPREAD_U] += around * around;
-        worst = p <= 0 ? fmax(-g, 0) : p >= s->hardness ? fmax(g, 0) : fabs(g);
-        sums[RC_MOST] = worst > sums[RC_MOST] ? worst : sums[RC_MOST];
-        if (f->displacement != NULL)
-            f->displacement[k] = u;
-        if (f->gap != NULL)
-            f->gap[k] = g;
-    }
-}
-
-void
-rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct rc_contact *c)
-{
-    struct figures f = {.s = s, .displacement = displacement, .gap = gap};
-    double total[RC_SUMS], n = (double)s->n, scale;
-
-    *c = (struct rc_contact){.iterations = s->iterations};
-    if (!s->known || !s->fresh)
-        rc_solver_displace(s);
-    rc_solver_shift(s);
-    rc_solver_blocks(s, count_block, &f, total);
-    c->contact_nodes = (size_t)total[CONTACT];
-    c->plastic_nodes = (size_t)total[PLASTIC];
-    c->max_pressure = total[RC_MOST];
-    c->load = total[PRESSURE] * s->cell;
-    c->mean_pressure = total[PRESSURE] / n;
-    c->contact_area = s->cell * (double)c->contact_nodes;
-    c->contact_fraction = (double)c->contact_nodes / n;
-    c->plastic_area = s->cell * (double)c->plastic_nodes;
-    c->hardness_active = c->plastic_nodes > 0;
-    c->edge_load_fraction = edge_load(s);
-    c->approach = s->elastic > 0 ? s->shift : NAN; /* the highest of s->h is 0 */
-    c->mean_gap = total[V] / n - s->shift;
-    f.mean_h = total[HEIGHT] / n;
-    f.mean_u = (total[V] + total[HEIGHT]) / n;
-    rc_solver_blocks(s, spread_block, &f, total);
-    scale = sqrt(fmax(total[SPREAD_H], total[SPREAD_U]) / n);
-    c->kkt_residual = total[RC_MOST] == 0 ? 0 : total[RC_MOST] / scale;
-    if (s->judged != s->iterations || isnan(s->error)) { /* stopped from outside */
-        rc_solver_residual(s);
-        s->error = rc_solver_estimate(s);
-    }
-    c->pressure_error = s->error;
-    c->converged = s->error <= s->tol && load_kept(s);
-    c->convolutions = s->convolutions;
 }

@@ -20,6 +20,8 @@ struct rc_method {
     /* State beside the solver's own; NULL and *err when memory is short. */
     void *(*new)(struct rc_solver *solver, struct rc_err *err);
     void (*step)(struct rc_solver *solver, void *state);
+    /* The load has changed: what belongs to the last one is forgotten. */
+    void (*again)(void *state);
     void (*free)(void *state);
 };
 
@@ -27,17 +29,31 @@ struct rc_method {
 #include "methods.list"
 #undef RC_METHOD
 
+/* seek.c: the search for the load that an approach needs. */
+struct rc_seek {
+    double target;      /* the shift wanted, m; 0: the load is given                    */
+    double low, high;   /* loads with a smaller and a larger shift; 0, INFINITY: none yet */
+    double load, shift; /* of the last solution; 0: none                                */
+    double power;       /* d log load / d log shift                                     */
+};
+void rc_seek_begin(struct rc_seek *seek, double target);
+
 struct rc_solver {
     struct rc_shape shape;
     enum rc_boundary boundary;
     size_t n;
     double cell;             /* dx dy                                                       */
-    double estar, hardness, load, tol;
+    double estar, hardness, load;
+    double tol, goal;        /* asked of this load, and at last: looser while the load is sought */
+    double top;              /* what was taken from the heights                             */
+    bool stages;             /* the coarser grid is solved well enough to compare with      */
+    struct rc_discretization coarse; /* its figures; NAN: none                              */
+    struct rc_seek seek;
     double sum;              /* load / cell: what the nodal pressures add up to             */
     size_t max_iterations;
     int threads;
     bool rough;              /* a coarse grid of another's start: nobody asks for a proof   */
-    struct rc_conv *conv;
+    struct rc_conv *conv;    /* NULL: a rough solver has none                              */
     struct rc_extension *extension;
     const struct rc_method *method;
     void *state;
@@ -74,6 +90,15 @@ rc_elastic(const struct rc_solver *s, size_t k)
 {
     return s->p[k] > 0 && s->p[k] < s->hardness;
 }
+
+/* Sets the load and what follows from it; RC_FAIL when there is no solution. */
+enum rc_status rc_solver_set_load(struct rc_solver *solver, double load, struct rc_err *err);
+/* p becomes the mean pressure everywhere. */
+void rc_solver_level(struct rc_solver *solver);
+/* p has been changed from outside, or the load. */
+void rc_solver_restart(struct rc_solver *solver);
+/* After a solution: RC_OK when its shift is the one wanted, else the next load is set. */
+enum rc_status rc_seek_step(struct rc_solver *solver);
 
 /* The same contact on another grid, roughly: a method may start from it. */
 struct rc_solver *rc_solver_rough(const struct rc_shape *shape, const double *h,
@@ -116,6 +141,8 @@ rc_solver_forget(struct rc_solver *s)
 void rc_solver_correct(struct rc_solver *solver, rc_row *done, void *ctx);
 /* Sum of p. */
 double rc_solver_carried(const struct rc_solver *solver);
+/* The load is a constraint that every method keeps; should one lose it, the result is none. */
+bool rc_solver_load_kept(const struct rc_solver *solver);
 /* Relative L1 norm of that correction without its mean: the estimate of the error. */
 double rc_solver_estimate(struct rc_solver *solver);
 

@@ -44,4 +44,24 @@ refuses 1 '--report nowhere/r.json' "a report that cannot be written, before the
 refuses 0 'strip 2e-05 m wide' "a profile is solved, with a warning that it is a strip" \
     "rc-synth sphere --nx 50 --ny 1 --dx 20um --radius 1mm | rc-solve --load 1mN --estar 1GPa | cat"
 
+claim "a list of loads is a case each, with its frames and a line of the report" bash -c '
+    rc-solve --load 10N:240N:3 --estar 114GPa --output pressure,gap --report list.json ball.rcg -o list.rcg &&
+    [ "$(wc -l <list.json)" = 3 ] && [ "$(rc-info list.rcg | grep -c "case [123], frame")" = 6 ] &&
+    [ "$(grep -c "\"stiffness\": [0-9]" list.json)" = 3 ]'
+claim "an approach is reached, and its load found" bash -c '
+    rc-solve --approach 5um --estar 114GPa --tol 1e-5 --output pressure --report near.json ball.rcg -o near.rcg &&
+    grep -Eq "\"approach\": (5.00000|4.99999)[0-9]*e-06" near.json &&
+    rc-info near.rcg | grep -q "approach=[45]"'
+claim "--dry-run says what would be done, in words, and writes nothing" bash -c '
+    rc-solve --dry-run --load 10N --estar 114GPa -o dry.rcg ball.rcg >plan.txt &&
+    grep -q "left out: no --hardness" plan.txt && grep -q "about .* convolutions" plan.txt && [ ! -e dry.rcg ]'
+claim "--discretization fills its place in the report, otherwise null" bash -c '
+    rc-solve --load 10N --estar 114GPa --discretization --report d.json --output pressure ball.rcg -o d.rcg &&
+    grep -q "\"discretization_error_estimate\": {\"contact_area\": 0" d.json &&
+    ! grep -q "\"discretization_error_estimate\": {" near.json'
+claim "the shape after yield is a frame of its own" bash -c '
+    rc-solve --load 100N --estar 100GPa --hardness 1GPa --output plastic ball.rcg | rc-info | grep -q plastic'
+refuses 2 'one of --load, --mean-pressure and --approach' "two ways to say the load" \
+    "rc-solve --load 1N --approach 1um --estar 1GPa ball.rcg"
+
 finish

@@ -3,33 +3,25 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
-#include <time.h>
 
-#include "../libcontact/contact.h"
-#include "json.h"
-#include "tool.h"
+#include "solve.h"
 
-static struct args {
-    double load, mean_pressure;
-    double estar, e1, nu1, e2, nu2;
-    double hardness, radius, tol;
-    const char *kernel, *method, *report;
-    bool periodic;
-    size_t output; /* bits of enum frame */
-} args = {
-    .load = NAN, .mean_pressure = NAN, .estar = NAN, .e1 = NAN, .nu1 = NAN, .e2 = NAN, .nu2 = NAN,
+static struct solve_args args = {
+    .estar = NAN, .e1 = NAN, .nu1 = NAN, .e2 = NAN, .nu2 = NAN,
     .hardness = INFINITY, .radius = NAN, .tol = NAN, .kernel = "auto", .method = "auto",
-    .output = ~(size_t)0,
+    .output = 1 << SOLVE_PRESSURE | 1 << SOLVE_GAP | 1 << SOLVE_DISPLACEMENT | 1 << SOLVE_HEIGHT,
 };
 
-#define AT(field) .at = offsetof(struct args, field)
+#define AT(field) .at = offsetof(struct solve_args, field)
 #define ABOVE_0 .min = 0, .max = INFINITY, .above = true
 static const struct opt opts[] = {
-    {.name = "load", .type = OPT_NUMBER, .unit = UNIT_N, AT(load), ABOVE_0, .result = true,
-     .arg = "FORCE", .help = "total normal force"},
-    {.name = "mean-pressure", .type = OPT_NUMBER, .unit = UNIT_PA, AT(mean_pressure), ABOVE_0,
-     .result = true, .arg = "PRESSURE", .help = "the load as a mean over the whole map"},
+    {.name = "load", .type = OPT_NUMBERS, .unit = UNIT_N, AT(load), ABOVE_0, .result = true,
+     .arg = "LIST", .help = "total normal force: one, a,b,c or a:b:n, each a case"},
+    {.name = "mean-pressure", .type = OPT_NUMBERS, .unit = UNIT_PA, AT(mean_pressure), ABOVE_0,
+     .result = true, .arg = "LIST", .help = "the load as a mean over the whole map"},
+    {.name = "approach", .type = OPT_NUMBERS, .unit = UNIT_M, AT(approach), ABOVE_0,
+     .result = true, .arg = "LIST",
+     .help = "instead of the load: how far to come together after first touch"},
     {.name = "estar", .type = OPT_NUMBER, .unit = UNIT_PA, AT(estar), ABOVE_0, .result = true,
      .arg = "MODULUS", .help = "composite modulus E*, 1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2"},
     {.name = "E1", .type = OPT_NUMBER, .unit = UNIT_PA, AT(e1), ABOVE_0, .result = true,
@@ -53,10 +45,18 @@ static const struct opt opts[] = {
     {.name = "tol", .type = OPT_NUMBER, AT(tol), .min = 0, .max = 1, .above = true,
      .result = true, .arg = "ERROR",
      .help = "relative L1 error of the pressure (default N^(-3/4), N nodes)"},
-    {.name = "output", .type = OPT_WORDS, AT(output), .words = "pressure|gap|displacement|height",
-     .arg = "LIST", .help = "frames to write, of pressure,gap,displacement,height (default: all)"},
+    {.name = "output", .type = OPT_WORDS, AT(output),
+     .words = "pressure|gap|displacement|height|plastic", .arg = "LIST",
+     .help = "frames to write, of pressure,gap,displacement,height,plastic (default: all but "
+             "plastic)"},
+    {.name = "stiffness", .type = OPT_FLAG, AT(stiffness),
+     .help = "find how the load grows with the approach (default: with a list)"},
+    {.name = "discretization", .type = OPT_FLAG, AT(discretization),
+     .help = "estimate what the grid leaves out, from a coarser one solved as well"},
     {.name = "report", .type = OPT_TEXT, AT(report), .arg = "FILE",
      .help = "write one JSON object a case: figures, accuracy, cost"},
+    {.name = "dry-run", .type = OPT_FLAG, AT(dry_run),
+     .help = "say what would be done, and why, with its cost; do nothing else"},
     {.name = NULL},
 };
 
@@ -72,45 +72,7 @@ static const struct tool_info info = {
     .writes = WRITES_STREAM,
 };
 
-enum frame { /* in the order of --output's words */
-    PRESSURE,
-    GAP,
-    DISPLACEMENT,
-    HEIGHT,
-    FRAMES
-};
-static const struct {
-    const char *name, *unit;
-} frames[FRAMES] = {
-    [PRESSURE] = {"pressure", "Pa"},
-    [GAP] = {"gap", "m"},
-    [DISPLACEMENT] = {"displacement", "m"},
-    [HEIGHT] = {"height", "m"},
-};
-
-struct run {
-    struct tool t;
-    double estar, nu; /* nu: NAN unless body 1 was described */
-    FILE *report;
-    double began, setup, iterate, result; /* seconds */
-};
-
-static double
-now(void)
-{
-    struct timespec ts;
-
-    clock_gettime(CLOCK_MONOTONIC, &ts);
-    return (double)ts.tv_sec + 1e-9 * (double)ts.tv_nsec;
-}
-
 /* ---- the command line ---- */
-
-static bool
-wanted(int frame)
-{
-    return args.output >> frame & 1;
-}
 
 static void
 check_arguments(struct run *run)
@@ -119,11 +81,16 @@ check_arguments(struct run *run)
     int bodies = tool_given(t, "E1") + tool_given(t, "nu1") + tool_given(t, "E2") +
                  tool_given(t, "nu2");
 
-    if (tool_given(t, "load") == tool_given(t, "mean-pressure"))
-        tool_die(t, EXIT_USAGE, "give the load, either as --load or as --mean-pressure");
+    if (tool_given(t, "load") + tool_given(t, "mean-pressure") + tool_given(t, "approach") != 1)
+        tool_die(t, EXIT_USAGE, "give one of --load, --mean-pressure and --approach");
     if (tool_given(t, "estar") ? bodies > 0 : bodies != 4)
         tool_die(t, EXIT_USAGE, "give the elasticity, either as --estar or as --E1 --nu1 --E2 "
                                 "--nu2, all four");
+    run->args = &args;
+    run->steps = args.load.n > 0            ? &args.load
+                 : args.mean_pressure.n > 0 ? &args.mean_pressure
+                                            : &args.approach;
+    run->stiffness = args.stiffness || run->steps->n > 1;
     run->nu = args.nu1;
     run->estar = bodies == 0 ? args.estar
                              : 1 / ((1 - args.nu1 * args.nu1) / args.e1 +
@@ -181,50 +148,45 @@ warn_after(struct run *run, const struct rc_grid *g, const struct rc_contact *c)
                            "--tol", where, c->pressure_error, c->iterations);
 }
 
-static struct rc_solver *
-solve(struct run *run, const struct rc_grid *g)
+static struct rc_problem
+problem_of(const struct run *run, const struct rc_grid *g, size_t step)
 {
-    struct rc_shape shape = rc_grid_shape(g);
-    double area = shape.dx * shape.dy * (double)(shape.nx * shape.ny);
-    struct rc_problem problem = {
+    double number = run->steps->v[step];
+    double area = g->dx * g->dy * (double)(g->nx * g->ny);
+
+    return (struct rc_problem){
         .boundary = args.periodic ? RC_PERIODIC : RC_FREE,
         .estar = run->estar,
-        .load = isnan(args.load) ? args.mean_pressure * area : args.load,
+        .load = args.load.n > 0 ? number : args.mean_pressure.n > 0 ? number * area : 0,
+        .approach = args.approach.n > 0 ? number : 0,
         .hardness = args.hardness,
         .tol = args.tol,
         .engine = args.kernel,
         .method = args.method,
         .threads = run->t.threads,
+        .discretization = args.discretization,
     };
-    struct rc_solver *solver;
-    struct rc_err err;
+}
 
-    run->began = now();
-    tool_demand_memory(&run->t, g, rc_solver_memory(&shape, &problem));
-    solver = rc_solver_new(&shape, g->v, &problem, &err);
-    if (solver == NULL)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    run->setup = now() - run->began;
+static void
+solve(struct run *run, struct rc_solver *solver)
+{
+    double start = solve_now();
+
     while (tool_interrupted() == 0 && rc_solver_step(solver) == RC_MORE) {
         double error = rc_solver_error(solver);
         if (isnan(error))
-            tool_progress(&run->t, "iteration %zu", rc_solver_iterations(solver));
+            tool_progress(&run->t, "case %zu, iteration %zu", run->number,
+                          rc_solver_iterations(solver));
         else
-            tool_progress(&run->t, "iteration %zu, error %.1e", rc_solver_iterations(solver),
-                          error);
+            tool_progress(&run->t, "case %zu, iteration %zu, error %.1e", run->number,
+                          rc_solver_iterations(solver), error);
     }
     tool_progress_end(&run->t);
-    run->iterate = now() - run->began - run->setup;
-    return solver;
+    run->iterate = solve_now() - start;
 }
 
 /* ---- results ---- */
-
-static const char *
-boundary(void)
-{
-    return args.periodic ? "periodic" : "free";
-}
 
 /* Sets a key, or, where the number is not known, takes away one that an earlier solution left. */
 static void
@@ -242,117 +204,114 @@ set_keys(struct run *run, struct rc_grid *g, const struct rc_contact *c)
 {
     struct rc_err err;
 
-    if (rc_grid_set(g, "boundary", boundary(), &err) != RC_OK ||
+    if (rc_grid_set(g, "boundary", args.periodic ? "periodic" : "free", &err) != RC_OK ||
         rc_grid_set(g, "converged", c->converged ? "yes" : "no", &err) != RC_OK ||
         rc_grid_history(g, tool_history(&run->t), &err) != RC_OK)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (run->steps->n > 1)
+        set_number(run, g, "case", (double)run->number);
     set_number(run, g, "estar", run->estar);
     set_number(run, g, "nu", run->nu);
     /* the load asked for and the one reached are the same but for rounding */
-    set_number(run, g, "load", isnan(args.load) ? c->load : args.load);
+    set_number(run, g, "load", args.load.n > 0 ? run->steps->v[run->step] : c->load);
     set_number(run, g, "hardness", args.hardness);
     set_number(run, g, "approach", c->approach);
 }
 
-static const char *
-hardness_effect(const struct rc_contact *c)
-{
-    if (isinf(args.hardness))
-        return "left out: no --hardness";
-    return c->hardness_active ? "on" : "left out: the largest elastic pressure is below it";
-}
-
-static void
-report_effects(struct json *j, const struct rc_solver *solver, const struct rc_contact *c)
-{
-    json_object(j, "effects");
-    json_text(j, "kernel", rc_solver_engine_reason(solver));
-    json_text(j, "hardness", hardness_effect(c));
-    json_text(j, "sphere", isnan(args.radius) ? "left out: no --radius" : "on");
-    json_text(j, "padding", args.periodic ? "left out: the map is periodic" : "on");
-    for (int f = 0; f < FRAMES; f++)
-        json_text(j, frames[f].name, wanted(f) ? "on" : "left out: not in --output");
-    json_end(j, '}');
-}
-
-static void
-report_figures(struct json *j, const struct rc_contact *c)
-{
-    json_number(j, "load", c->load);
-    json_number(j, "mean_pressure", c->mean_pressure);
-    json_number(j, "max_pressure", c->max_pressure);
-    json_count(j, "contact_nodes", c->contact_nodes);
-    json_number(j, "contact_area", c->contact_area);
-    json_number(j, "contact_fraction", c->contact_fraction);
-    json_number(j, "plastic_area", c->plastic_area);
-    json_number(j, "edge_load_fraction", c->edge_load_fraction);
-    json_number(j, "approach", c->approach);
-    json_number(j, "mean_gap", c->mean_gap);
-    json_null(j, "stiffness");
-    json_count(j, "iterations", c->iterations);
-    json_number(j, "convolutions", c->convolutions);
-    json_number(j, "kkt_residual", c->kkt_residual);
-    json_number(j, "pressure_error_estimate", c->pressure_error);
-    json_null(j, "discretization_error_estimate");
-    json_bool(j, "converged", c->converged);
-}
-
-static void
-report(struct run *run, const struct rc_grid *g, const struct rc_solver *solver,
-       const struct rc_contact *c)
-{
-    struct rusage usage;
-    struct json j;
-
-    if (args.report == NULL)
-        return;
-    if (run->report == NULL && (run->report = fopen(args.report, "w")) == NULL)
-        tool_die(&run->t, EXIT_IMPOSSIBLE, "--report %s: %s", args.report, strerror(errno));
-    getrusage(RUSAGE_SELF, &usage);
-    json_open(&j, run->report);
-    json_count(&j, "case", rc_grid_case(g));
-    json_text(&j, "source", rc_grid_get(g, "source"));
-    json_count(&j, "nx", g->nx);
-    json_count(&j, "ny", g->ny);
-    json_number(&j, "dx", g->dx);
-    json_number(&j, "dy", g->dy);
-    json_text(&j, "boundary", boundary());
-    json_text(&j, "kernel", rc_solver_engine(solver));
-    json_text(&j, "method", rc_solver_method(solver));
-    json_count(&j, "threads", run->t.threads);
-    report_figures(&j, c);
-    report_effects(&j, solver, c);
-    json_object(&j, "seconds");
-    json_number(&j, "setup", run->setup);
-    json_number(&j, "iterate", run->iterate);
-    json_number(&j, "result", run->result);
-    json_number(&j, "total", now() - run->began);
-    json_end(&j, '}');
-    json_count(&j, "peak_memory", (size_t)usage.ru_maxrss * 1024);
-    json_close(&j);
-    if (ferror(run->report))
-        tool_die(&run->t, EXIT_IMPOSSIBLE, "--report %s: writing failed", args.report);
-}
-
 static struct rc_grid *
-result_grid(struct run *run, const struct rc_grid *g, enum frame f)
+result_grid(struct run *run, const struct rc_grid *g, enum solve_frame f)
 {
     struct rc_err err;
-    struct rc_grid *out = rc_grid_like(g, frames[f].name, frames[f].unit, &err);
+    struct rc_grid *out = rc_grid_like(g, solve_frames[f].name, solve_frames[f].unit, &err);
 
     if (out == NULL)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     return out;
 }
 
+static double *
+values(struct rc_grid *g)
+{
+    return g == NULL ? NULL : g->v;
+}
+
+static void
+put_out(struct run *run, struct rc_grid *g, struct rc_grid *out[SOLVE_FRAMES],
+        const struct rc_contact *c)
+{
+    if (solve_wanted(&args, SOLVE_HEIGHT))
+        out[SOLVE_HEIGHT] = g;
+    for (int f = 0; f < SOLVE_FRAMES; f++) {
+        if (out[f] == NULL)
+            continue;
+        set_keys(run, out[f], c);
+        tool_write(&run->t, out[f]);
+        if (out[f] != g)
+            rc_grid_free(out[f]);
+    }
+}
+
+static void
+do_load(struct run *run, struct rc_grid *g, struct rc_solver *solver)
+{
+    struct rc_grid *out[SOLVE_FRAMES] = {NULL};
+    struct rc_contact c;
+    struct rc_err err;
+    double start, stiffness = NAN;
+
+    solve(run, solver);
+    start = solve_now();
+    for (int f = 0; f < SOLVE_FRAMES; f++)
+        if (f != SOLVE_HEIGHT && solve_wanted(&args, f))
+            out[f] = result_grid(run, g, (enum solve_frame)f);
+    rc_solver_result(solver, values(out[SOLVE_DISPLACEMENT]), values(out[SOLVE_GAP]), &c);
+    if (out[SOLVE_PRESSURE] != NULL)
+        memcpy(out[SOLVE_PRESSURE]->v, rc_solver_pressure(solver), g->nx * g->ny * sizeof *g->v);
+    if (out[SOLVE_PLASTIC] != NULL)
+        rc_solver_plastic(solver, out[SOLVE_PLASTIC]->v);
+    if (run->stiffness && rc_solver_stiffness(solver, &stiffness, &err) != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    c.convolutions = rc_solver_convolutions(solver);
+    run->result = solve_now() - start;
+    warn_after(run, g, &c);
+    if (!c.converged)
+        tool_fails_with(&run->t, EXIT_SHORT);
+    solve_report(run, g, solver, &c, stiffness);
+    put_out(run, g, out, &c);
+}
+
+/* The loads of a list, each from the solution of the last. */
+static void
+do_loads(struct run *run, struct rc_grid *g)
+{
+    struct rc_shape shape = rc_grid_shape(g);
+    struct rc_problem problem = problem_of(run, g, 0);
+    struct rc_solver *solver;
+    struct rc_err err;
+
+    run->began = solve_now();
+    tool_demand_memory(&run->t, g, rc_solver_memory(&shape, &problem));
+    solver = rc_solver_new(&shape, g->v, &problem, &err);
+    if (solver == NULL)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    run->setup = solve_now() - run->began;
+    for (run->step = 0; run->step < run->steps->n && tool_interrupted() == 0; run->step++) {
+        if (run->step > 0) {
+            problem = problem_of(run, g, run->step);
+            run->began = solve_now();
+            run->setup = 0;
+            if (rc_solver_again(solver, problem.load, problem.approach, &err) != RC_OK)
+                tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+        }
+        run->number = run->steps->n == 1 ? rc_grid_case(g) : run->number + 1;
+        do_load(run, g, solver);
+    }
+    rc_solver_free(solver);
+}
+
 static void
 do_case(struct run *run, struct rc_grid *g)
 {
-    struct rc_grid *out[FRAMES] = {NULL};
-    struct rc_solver *solver;
-    struct rc_contact c;
-    double start;
-
     if (strcmp(g->unit, "m") != 0)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE,
                     "its unit is '%s': heights are in metres; import the file again with --z-unit",
@@ -361,30 +320,11 @@ do_case(struct run *run, struct rc_grid *g)
     if (!isnan(args.radius))
         add_sphere(run, g);
     warn_before(run, g);
-    solver = solve(run, g);
-    start = now();
-    for (int f = PRESSURE; f < HEIGHT; f++)
-        if (wanted(f))
-            out[f] = result_grid(run, g, (enum frame)f);
-    rc_solver_result(solver, out[DISPLACEMENT] == NULL ? NULL : out[DISPLACEMENT]->v,
-                     out[GAP] == NULL ? NULL : out[GAP]->v, &c);
-    if (out[PRESSURE] != NULL)
-        memcpy(out[PRESSURE]->v, rc_solver_pressure(solver), g->nx * g->ny * sizeof *g->v);
-    run->result = now() - start;
-    warn_after(run, g, &c);
-    if (!c.converged)
-        tool_fails_with(&run->t, EXIT_SHORT);
-    report(run, g, solver, &c);
-    rc_solver_free(solver);
-    if (wanted(HEIGHT))
-        out[HEIGHT] = g;
-    for (int f = 0; f < FRAMES; f++) {
-        if (out[f] == NULL)
-            continue;
-        set_keys(run, out[f], &c);
-        tool_write(&run->t, out[f]);
-        if (out[f] != g)
-            rc_grid_free(out[f]);
+    if (args.dry_run) {
+        struct rc_problem problem = problem_of(run, g, 0);
+        solve_plan(run, g, &problem);
+    } else {
+        do_loads(run, g);
     }
 }
 

@@ -479,6 +479,10 @@ tool_start(struct tool *t, const struct tool_info *info, int argc, char **argv, 
         tool_die(t, EXIT_USAGE, "'%s': this tool reads no files; see %s --help", t->operand[0],
                  info->name);
     handle(end_by);
+    if (tool_given(t, "dry-run")) { /* words instead of grids, and no file is touched */
+        t->writes = WRITES_TEXT;
+        t->out_name = NULL;
+    }
     open_output(t);
 }
 
