@@ -34,6 +34,7 @@
 
 enum {
     SPACER = 30,  /* steps after which one is a projected-gradient step                  */
+    TRIES = 4,    /* to shorten a step                                                   */
     PATIENCE = 25 /* steps without a better estimate after which rounding has the word   */
 };
 /* Relative error of a convolution in single precision, and what a pressure needs of it: the inverse
@@ -324,8 +325,7 @@ enum {
 
 RC_CLONES static void
 along(size_t n, const double *restrict p, const double *restrict v, double hardness, double shift,
-      double length, const float *restrict delta, const float *restrict row, float *restrict q,
-      double *sums)
+      double length, const float *delta, const float *row, float *q, double *sums)
 {
     double slope = 0, curvature = 0, gap = 0, elastic = 0, square = 0;
 
@@ -353,10 +353,9 @@ step_out(void *at, size_t j, void *from)
     const struct pass *c = at;
     const struct rc_solver *s = c->solver;
     size_t n = s->shape.nx, k = j * n;
-    float *q = c->s->q + k;
 
     along(n, s->p + k, s->v + k, s->hardness, s->shift, s->length, c->s->delta + k, from,
-          from == q ? s->z + k : q, rc_row_sums(s, j));
+          c->s->q + k, rc_row_sums(s, j));
     return true;
 }
 
@@ -401,42 +400,80 @@ balance(struct rc_solver *solver)
         (void)rc_box_balance(solver->n, solver->hardness, solver->sum, solver->v, solver->p, NULL);
 }
 
+/* What a trial step found. */
+struct trial {
+    double size;      /* relative L1 norm                                            */
+    double room;      /* how much of it fits into the box: 1 or, not clipped, more   */
+    double best;      /* how much of it leads to the lowest energy; 0: nowhere       */
+    bool clipped;
+    double total[RC_SUMS];
+};
+
+/* p goes along the direction in z, of that mean, back into the box; delta, q and what they say. */
+static void
+attempt(struct rc_solver *solver, struct state *s, double alpha, double mean, struct trial *t)
+{
+    struct rc_move move = {.solver = solver, .d = solver->z, .mean = mean, .room = s->room,
+                           .alpha = alpha / solver->per_pressure};
+    struct pass c = {.solver = solver, .s = s, .move = &move};
+    double best;
+
+    rc_move_find(&move);
+    rc_solver_blocks(solver, move_block, &c, t->total);
+    t->clipped = move.clipped;
+    t->size = t->total[0] / solver->sum;
+    t->room = move.clipped || !(t->total[RC_MOST] > 0) ? 1 : 1 / t->total[RC_MOST];
+    rc_solver_rows_begin(solver);
+    convolve(&c, step_in, step_out);
+    rc_solver_rows_end(solver, t->total);
+    best = -t->total[SLOPE] / (solver->length * t->total[CURVATURE]);
+    t->best = t->total[CURVATURE] > 0 && best > 0 ? best : 0;
+}
+
+static void
+undo(struct rc_solver *solver, struct state *s, const struct trial *t)
+{
+    struct pass c = {.solver = solver, .s = s, .b = 1};
+    double total[RC_SUMS];
+
+    rc_solver_blocks(solver, back_block, &c, total);
+    balance(solver);
+    s->drift += single_epsilon * t->size; /* delta was rounded */
+}
+
 /* From p along the direction in z, of that mean, back into the box, to where the energy is low. False
  * when that leads nowhere; p is then where it was. */
 static bool
 advance(struct rc_solver *solver, struct state *s, double alpha, double mean)
 {
-    struct rc_move move = {.solver = solver, .d = solver->z, .mean = mean, .room = s->room,
-                           .alpha = alpha / solver->per_pressure};
-    struct pass c = {.solver = solver, .s = s, .move = &move};
-    double total[RC_SUMS], size, room, best, part;
+    struct pass c = {.solver = solver, .s = s};
+    struct trial t;
+    double total[RC_SUMS], part;
 
-    rc_move_find(&move);
-    rc_solver_blocks(solver, move_block, &c, total);
-    size = total[0] / solver->sum;
-    room = move.clipped ? 1 : total[RC_MOST] > 0 ? 1 / total[RC_MOST] : 1;
-    rc_solver_rows_begin(solver);
-    convolve(&c, step_in, step_out);
-    rc_solver_rows_end(solver, total);
-    best = -total[SLOPE] / (solver->length * total[CURVATURE]);
-    if (!(total[CURVATURE] > 0 && best > 0)) {
-        c.b = 1;
-        rc_solver_blocks(solver, back_block, &c, total);
-        balance(solver);
+    attempt(solver, s, alpha, mean, &t);
+    /* too far: a part of a clipped step would leave nodes just off their bounds, one after another;
+     * a shorter step, clipped anew, brings them to rest */
+    for (int tries = 0; tries < TRIES && t.clipped && t.best < enough; tries++) {
+        undo(solver, s, &t);
+        alpha *= fmin(fmax(t.best, 0.2), 0.5);
+        attempt(solver, s, alpha, mean, &t);
+    }
+    if (t.best == 0) {
+        undo(solver, s, &t);
         s->curvature = 0;
         return false;
     }
-    part = move.clipped ? (best >= enough ? 1 : best) : fmin(best, room);
+    part = !t.clipped ? fmin(t.best, t.room) : t.best >= enough ? 1 : t.best;
     c.a = part;
     c.b = 1 - part;
-    s->curvature = total[CURVATURE];
-    s->drift += single_epsilon * part * sqrt(total[SQUARE] / (double)solver->n);
-    solver->change = size * part;
+    s->curvature = t.clipped ? 0 : t.total[CURVATURE];
+    s->drift += single_epsilon * part * sqrt(t.total[SQUARE] / (double)solver->n);
+    solver->change = t.size * part;
     solver->fresh = false;
     if (part == 1) {
-        solver->elastic = (size_t)total[ELASTIC];
+        solver->elastic = (size_t)t.total[ELASTIC];
         if (solver->elastic > 0)
-            solver->shift = total[GAP] / total[ELASTIC];
+            solver->shift = t.total[GAP] / t.total[ELASTIC];
     }
     rc_solver_blocks(solver, follow_block, &c, total);
     if (part != 1)
@@ -445,7 +482,7 @@ advance(struct rc_solver *solver, struct state *s, double alpha, double mean)
     if (part != 1 || solver->elastic == 0)
         rc_solver_shift(solver);
     rc_solver_residual(solver);
-    s->alpha = fmin(fmax(s->alpha * sqrt(best), 0.3), 1.2);
+    s->alpha = fmin(fmax(alpha * sqrt(t.best), 0.3), 1.2);
     return true;
 }
 

