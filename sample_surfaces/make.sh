@@ -20,6 +20,58 @@ values() {
     head -c -24 | tail -c "$((8 * $1))" | od -An -v -w8 -t f8
 }
 
+# Packs data.bin, and valid.bin where there is one, as an X3P file: x3p NAME NX NY COMMENT OFFSET
+x3p() {
+    local files=(bindata/data.bin)
+    rm -rf bindata && mkdir bindata
+    mv data.bin bindata
+    local mask=''
+    if [ -e valid.bin ]; then
+        mv valid.bin bindata
+        files+=(bindata/valid.bin)
+        mask="
+      <ValidPointsLink>bindata/valid.bin</ValidPointsLink>
+      <MD5ChecksumValidPoints>$(md5sum <bindata/valid.bin | cut -c1-32)</MD5ChecksumValidPoints>"
+    fi
+    cat >main.xml <<EOT
+<?xml version="1.0" encoding="UTF-8"?>
+<p:ISO5436_2 xmlns:p="http://www.opengps.eu/2008/ISO5436_2">
+  <Record1>
+    <Revision>ISO5436 - 2000</Revision>
+    <FeatureType>SUR</FeatureType>
+    <Axes>
+      <CX><AxisType>I</AxisType><DataType>D</DataType><Increment>1.1e-6</Increment><Offset>0</Offset></CX>
+      <CY><AxisType>I</AxisType><DataType>D</DataType><Increment>1.29e-6</Increment><Offset>0</Offset></CY>
+      <CZ><AxisType>A</AxisType><DataType>I</DataType><Increment>5e-10</Increment><Offset>$5</Offset></CZ>
+    </Axes>
+  </Record1>
+  <Record2>
+    <Date>2026-11-21T00:00:00Z</Date>
+    <Creator>sample_surfaces/make.sh</Creator>
+    <Instrument><Manufacturer>none</Manufacturer><Model>synthetic</Model><Serial>0</Serial><Version>1</Version></Instrument>
+    <CalibrationDate>2026-11-21T00:00:00Z</CalibrationDate>
+    <ProbingSystem><Type>Software</Type><Identification>rc-synth</Identification></ProbingSystem>
+    <Comment>$4</Comment>
+  </Record2>
+  <Record3>
+    <MatrixDimension><SizeX>$2</SizeX><SizeY>$3</SizeY><SizeZ>1</SizeZ></MatrixDimension>
+    <DataLink>
+      <PointDataLink>bindata/data.bin</PointDataLink>
+      <MD5ChecksumPointData>$(md5sum <bindata/data.bin | cut -c1-32)</MD5ChecksumPointData>$mask
+    </DataLink>
+  </Record3>
+  <Record4>
+    <ChecksumFile>md5checksum.hex</ChecksumFile>
+  </Record4>
+</p:ISO5436_2>
+EOT
+    echo "$(md5sum <main.xml | cut -c1-32) *main.xml" >md5checksum.hex
+    chmod 644 main.xml md5checksum.hex bindata/*
+    touch -d '2026-11-21 00:00:00 UTC' main.xml md5checksum.hex bindata/*
+    rm -f "$out/$1"
+    zip -q -X -9 -D "$out/$1" main.xml "${files[@]}" md5checksum.hex
+}
+
 # rough-steel.x3p: what a profilometer gives of a ground and lapped steel specimen: 242 x 206 points,
 # self-affine roughness, left tilted and a little bowed, 16-bit steps of 0.5 nm, 0.9 % of the points
 # missing, most of them in small clusters.
@@ -47,47 +99,20 @@ perl -e '
     open(my $data, ">:raw", "data.bin") or die; print $data $raw;
     open(my $mask, ">:raw", "valid.bin") or die; print $mask pack("b*", join("", @valid));
 '
-mkdir bindata
-mv data.bin valid.bin bindata
-cat >main.xml <<EOT
-<?xml version="1.0" encoding="UTF-8"?>
-<p:ISO5436_2 xmlns:p="http://www.opengps.eu/2008/ISO5436_2">
-  <Record1>
-    <Revision>ISO5436 - 2000</Revision>
-    <FeatureType>SUR</FeatureType>
-    <Axes>
-      <CX><AxisType>I</AxisType><DataType>D</DataType><Increment>1.1e-6</Increment><Offset>0</Offset></CX>
-      <CY><AxisType>I</AxisType><DataType>D</DataType><Increment>1.29e-6</Increment><Offset>0</Offset></CY>
-      <CZ><AxisType>A</AxisType><DataType>I</DataType><Increment>5e-10</Increment><Offset>2.5e-6</Offset></CZ>
-    </Axes>
-  </Record1>
-  <Record2>
-    <Date>2026-11-21T00:00:00Z</Date>
-    <Creator>sample_surfaces/make.sh</Creator>
-    <Instrument><Manufacturer>none</Manufacturer><Model>synthetic</Model><Serial>0</Serial><Version>1</Version></Instrument>
-    <CalibrationDate>2026-11-21T00:00:00Z</CalibrationDate>
-    <ProbingSystem><Type>Software</Type><Identification>rc-synth</Identification></ProbingSystem>
-    <Comment>Self-affine roughness, Hurst 0.8, RMS 0.25 um, tilted and bowed, with missing points</Comment>
-  </Record2>
-  <Record3>
-    <MatrixDimension><SizeX>242</SizeX><SizeY>206</SizeY><SizeZ>1</SizeZ></MatrixDimension>
-    <DataLink>
-      <PointDataLink>bindata/data.bin</PointDataLink>
-      <MD5ChecksumPointData>$(md5sum <bindata/data.bin | cut -c1-32)</MD5ChecksumPointData>
-      <ValidPointsLink>bindata/valid.bin</ValidPointsLink>
-      <MD5ChecksumValidPoints>$(md5sum <bindata/valid.bin | cut -c1-32)</MD5ChecksumValidPoints>
-    </DataLink>
-  </Record3>
-  <Record4>
-    <ChecksumFile>md5checksum.hex</ChecksumFile>
-  </Record4>
-</p:ISO5436_2>
-EOT
-echo "$(md5sum <main.xml | cut -c1-32) *main.xml" >md5checksum.hex
-chmod 644 main.xml md5checksum.hex bindata/*
-touch -d '2026-11-21 00:00:00 UTC' main.xml md5checksum.hex bindata/*
-rm -f "$out/rough-steel.x3p"
-zip -q -X -9 -D "$out/rough-steel.x3p" main.xml bindata/data.bin bindata/valid.bin md5checksum.hex
+x3p rough-steel.x3p 242 206 \
+    "Self-affine roughness, Hurst 0.8, RMS 0.25 um, tilted and bowed, with missing points" 2.5e-6
+
+# rough-sphere.x3p: the roughness of the sphere of Polonsky and Keer, Wear 231 (1999), section 4.2: their grid
+# and spacings; with --radius 7.5mm --load 240N --estar 113.93GPa --hardness 6GPa the contact area is 0.55 of
+# Hertz's. 16-bit steps of 0.5 nm, nothing missing.
+rc-synth selfaffine --nx 483 --ny 412 --dx 1.1um --dy 1.29um --hurst 0.8 --rms-height 0.405um \
+    --rolloff 100um --short-cut 16um --seed 1999 | values $((483 * 412)) >heights
+perl -e '
+    open(my $in, "<", "heights") or die;
+    open(my $data, ">:raw", "data.bin") or die;
+    print $data pack("s<", sprintf("%.0f", $_ / 0.5e-9)) while <$in>;
+'
+x3p rough-sphere.x3p 483 412 "Self-affine roughness, Hurst 0.8, RMS 0.405 um" 0
 
 # turned-brass.txt: a text matrix as topography programs export it: 96 x 64 points, turning marks
 # 80 um apart with fine roughness on them, in micrometres, seven points missing.
