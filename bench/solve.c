@@ -1,12 +1,14 @@
 /*
  * What a contact costs:
  *
- *     bench-solve [-n SIZE,SIZE...] [-t TOL] [-m METHOD] [table] [estimate]        (default: table)
+ *     bench-solve [-n SIZE,SIZE...] [-t TOL] [-m METHOD] [table] [estimate] [hertz]        (default: table)
  *
  * table     convolution equivalents, iterations and seconds to a true relative L1 error of the
  *           pressure (default 1e-4), coarse levels included, and what the certified solution to that
  *           tolerance costs
  * estimate  estimate over true error, every iteration
+ * hertz     the paper's Fig. 1: errors of contact radius and pressure against the exact ones at a tenth of
+ *           its tolerance M^(-3/2), and the iterations of both methods at that tolerance, of pk99 also by the paper's criterion, (32)
  *
  * Surfaces: periodic self-affine (Hurst 0.8, cut at 8 nodes, rolled off at an eighth of the map) and a
  * sphere with such roughness on the free half-space. The truth is the same solver at 1e-9. RC_THREADS sets
@@ -64,7 +66,7 @@ must(void *p)
 static struct rc_problem
 make(const struct surface *what, struct rc_shape shape, double *h)
 {
-    static const double slope = 0.1, estar = 1e9, pi = 3.14159265358979323846;
+    static const double slope = 0.1, estar = 1e9;
     double side = (double)shape.nx * shape.dx, area = side * side;
     struct rc_selfaffine roughness = {.hurst = 0.8, .rms_slope = slope, .rms_height = NAN,
                                       .short_cut = 8 * shape.dx, .rolloff = side / 8, .long_cut = NAN,
@@ -90,7 +92,6 @@ make(const struct surface *what, struct rc_shape shape, double *h)
     if (what->hardness > 0)
         problem.hardness = what->hardness * problem.load / area *
                            (what->boundary == RC_FREE ? 1 / (0.7 * pow(what->load, 2. / 3)) : 1);
-    (void)pi;
     return problem;
 }
 
@@ -218,6 +219,79 @@ estimate(size_t m, const char *method)
     free(h);
 }
 
+/* ---- the paper's Fig. 1 ---- */
+
+static struct rc_contact
+solved(struct rc_shape shape, const double *h, struct rc_problem problem, double *p)
+{
+    struct rc_solver *s = start(shape, h, &problem);
+    struct rc_contact c;
+
+    while (rc_solver_step(s) == RC_MORE)
+        ;
+    rc_solver_result(s, NULL, NULL, &c);
+    memcpy(p, rc_solver_pressure(s), shape.nx * shape.ny * sizeof *p);
+    rc_solver_free(s);
+    return c;
+}
+
+/* Iterations until the relative change of the pressure, (32) of the paper, is at most tol. */
+static size_t
+by_change(struct rc_shape shape, const double *h, struct rc_problem problem, double tol, double *old)
+{
+    size_t n = shape.nx * shape.ny, its = 0;
+    struct rc_solver *s;
+    double change;
+
+    problem.tol = 1e-3 * tol; /* goes on until it is told to stop */
+    s = start(shape, h, &problem);
+    do {
+        memcpy(old, rc_solver_pressure(s), n * sizeof *old);
+        if (rc_solver_step(s) != RC_MORE)
+            break;
+        change = distance(n, old, rc_solver_pressure(s));
+        its++;
+    } while (change > tol);
+    rc_solver_free(s);
+    return its;
+}
+
+static void
+hertz(size_t m)
+{
+    static const double pi = 3.14159265358979323846, radius = 7.5e-3, estar = 113.93e9, load = 240;
+    double a = cbrt(0.75 * load * radius / estar), step = 2.1 * a / (double)m;
+    struct rc_shape shape = {m, m, step, step};
+    double peak = 1.5 * load / (pi * a * a), tol = pow((double)m, -1.5);
+    double *h = must(malloc(m * m * sizeof *h)), *p = must(malloc(m * m * sizeof *p));
+    struct rc_problem problem = {.boundary = RC_FREE, .estar = estar, .load = load, .hardness = INFINITY,
+                                 .tol = 0.1 * tol, .method = "pcg", .threads = threads};
+    double off = 0, size = 0, r, r_off;
+    struct rc_contact c;
+    size_t its[3];
+
+    rc_synth_sphere(&shape, radius, h);
+    c = solved(shape, h, problem, p);
+    for (size_t k = 0; k < m * m; k++) {
+        double x = ((double)(k % m) - ((double)m - 1) / 2) * step;
+        double y = ((double)(k / m) - ((double)m - 1) / 2) * step;
+        double exact = peak * sqrt(fmax(0, 1 - (x * x + y * y) / (a * a)));
+        off += fabs(p[k] - exact);
+        size += exact;
+    }
+    r = sqrt(c.contact_area / pi);
+    r_off = fabs(r / a - 1);
+    problem.tol = tol;
+    its[0] = solved(shape, h, problem, p).iterations;
+    problem.method = "pk99";
+    its[1] = solved(shape, h, problem, p).iterations;
+    its[2] = by_change(shape, h, problem, tol, p);
+    printf("%6zu %10.2e %8.2f %10.2e %8.2f %8zu %8zu %8zu\n", m, r_off, r_off * (double)m, off / size,
+           off / size / tol, its[0], its[1], its[2]);
+    free(h);
+    free(p);
+}
+
 int
 main(int argc, char **argv)
 {
@@ -238,6 +312,13 @@ main(int argc, char **argv)
             method = argv[++k];
         } else {
             any = true;
+            if (strcmp(argv[k], "hertz") == 0) {
+                printf("\n%6s %10s %8s %10s %8s %8s %8s %8s\n", "M", "radius", "x M", "pressure",
+                       "x M^1.5", "pcg its", "pk99 its", "by (32)");
+                for (size_t m = 64; m <= 1024; m *= 2)
+                    hertz(m);
+                continue;
+            }
             for (size_t i = 0; i < count; i++)
                 if (strcmp(argv[k], "estimate") == 0)
                     estimate(sizes[i], method);
