@@ -136,6 +136,13 @@ by_points(const struct rc_cell *c, unsigned kernels, int nx, int ny, size_t n, c
 
 /* ---- by corners ---- */
 
+/* A point on an edge but for rounding is on it. */
+static double
+snap(double x, double side)
+{
+    return fabs(x) < 1e-9 * side ? 0 : x;
+}
+
 static double
 by_corners(const struct rc_cell *c, int kernel, double x, double y)
 {
@@ -143,7 +150,8 @@ by_corners(const struct rc_cell *c, int kernel, double x, double y)
 
     for (int s = -1; s <= 1; s += 2)
         for (int t = -1; t <= 1; t += 2) {
-            struct rc_corner k = {.x = x + s * c->dx / 2, .y = y + t * c->dy / 2, .z = c->depth,
+            struct rc_corner k = {.x = snap(x + s * c->dx / 2, c->dx),
+                                  .y = snap(y + t * c->dy / 2, c->dy), .z = c->depth,
                                   .nu = c->nu, .floor = 1e-3 * fmin(c->dx, c->dy)};
             k.r = sqrt(k.x * k.x + k.y * k.y + k.z * k.z);
             sum += s * t * rc_stress_rows[kernel].corner(&k);

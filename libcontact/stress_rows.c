@@ -8,7 +8,7 @@
  *             sxy  c x y r^2 w (r + w) - 3 x y z r^5
  *             szz  -3 z^3 r^5         sxz  -3 x z^2 r^5         syz  -3 y z^2 r^5
  *     along x sxx  -3 x^3 r^5 + c x (r^3 - 3 r w^2 + x^2 r^2 w^2 (r + 2 w))
- *             syy  -3 x y^2 r^5 + c x (r^3 - r w^2 + y^2 r^2 w^2 (r + 2 w))
+ *             syy  -3 x y^2 r^5 + c x r^2 w (z (r + w) + y^2 w (r + 2 w))
  *             sxy  -3 x^2 y r^5 + c y (x^2 r^2 w^2 (r + 2 w) - r w^2)
  *             szz  -3 x z^2 r^5       sxz  -3 x^2 z r^5         syz  -3 x y z r^5
  *
@@ -66,7 +66,7 @@ POINT(n_xy, x * y * (c * r2 * w * (r + w) - 3 * z * R5))
 POINT(n_xz, -3 * x * z * z * R5)
 POINT(n_yz, -3 * y * z * z * R5)
 POINT(t_xx, x * (c * (R3 - 3 * r * w * w + x * x * r2 * w * w * (r + 2 * w)) - 3 * x * x * R5))
-POINT(t_yy, x * (c * (R3 - r * w * w + y * y * r2 * w * w * (r + 2 * w)) - 3 * y * y * R5))
+POINT(t_yy, x * (c * r2 * w * (z * (r + w) + y * y * w * (r + 2 * w)) - 3 * y * y * R5))
 POINT(t_xy, y * (c * (x * x * r2 * w * w * (r + 2 * w) - r * w * w) - 3 * x * x * R5))
 POINT(t_xz, -3 * z * x * x * R5)
 POINT(t_yz, -3 * z * x * y * R5)
