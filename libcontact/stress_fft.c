@@ -5,8 +5,10 @@
  * the normal load's kernel and mu times the shear's are added before it.
  *
  * Periodic: the kernels are known by their symbols, and nothing is tabulated or padded.
+ *
+ * Free, where a tolerance and the depth allow it: the same on a coarser sheet.
  */
-#include "stress.h"
+#include "stress_coarse.h"
 
 #include <math.h>
 #include <omp.h>
@@ -21,8 +23,10 @@ enum {
     SLOTS = 2    /* spectra kept: the normal load's and the shear's           */
 };
 
-struct plan {
-    struct rc_stress_task task;
+/* One grid with the transformed pressure. */
+struct sheet {
+    const struct rc_stress_task *task;
+    struct rc_shape shape;
     struct rc_fft *fft;
     size_t cx, cy; /* of a quarter                                             */
     int threads;
@@ -36,6 +40,14 @@ struct plan {
         struct rc_spectrum *spectrum;
     } slot[SLOTS];
     double depth;
+};
+
+struct plan {
+    struct rc_stress_task task;
+    struct sheet *fine, *coarse; /* coarse: that of the last depth that had one */
+    struct rc_coarse *between;
+    size_t sx, sy;
+    double *field; /* of one component on the coarse sheet */
 };
 
 static size_t
@@ -55,166 +67,166 @@ count(unsigned bits)
 }
 
 static void
-plan_free(void *at)
+sheet_free(struct sheet *sheet)
 {
-    struct plan *plan = at;
-
-    if (plan == NULL)
+    if (sheet == NULL)
         return;
     for (int k = 0; k < RC_STRESS_KERNELS; k++)
-        free(plan->table[k]);
+        free(sheet->table[k]);
     for (int odd = 0; odd < 2; odd++) {
-        rc_halves_free(plan->along_x[odd]);
-        rc_halves_free(plan->along_y[odd]);
+        rc_halves_free(sheet->along_x[odd]);
+        rc_halves_free(sheet->along_y[odd]);
     }
     for (int k = 0; k < SLOTS; k++)
-        rc_spectrum_free(plan->slot[k].spectrum);
-    rc_fft_free(plan->fft);
-    free(plan->x);
-    free(plan->space);
-    free(plan);
+        rc_spectrum_free(sheet->slot[k].spectrum);
+    rc_fft_free(sheet->fft);
+    free(sheet->x);
+    free(sheet->space);
+    free(sheet);
 }
 
 /* What the tables of the free boundary need. */
 static enum rc_status
-allocate_tables(struct plan *plan, struct rc_err *err)
+allocate_tables(struct sheet *sheet, struct rc_err *err)
 {
-    size_t threads = (size_t)plan->threads;
+    size_t threads = (size_t)sheet->threads;
 
     for (int odd = 0; odd < 2; odd++)
-        if ((plan->along_x[odd] = rc_halves_new(plan->cx, odd, threads, err)) == NULL ||
-            (plan->along_y[odd] = rc_halves_new(plan->cy, odd, threads, err)) == NULL)
+        if ((sheet->along_x[odd] = rc_halves_new(sheet->cx, odd, threads, err)) == NULL ||
+            (sheet->along_y[odd] = rc_halves_new(sheet->cy, odd, threads, err)) == NULL)
             return RC_FAIL;
     for (int k = 0; k < RC_STRESS_KERNELS; k++)
-        if (plan->task.kernels >> k & 1 &&
-            (plan->table[k] = malloc(plan->cx * plan->cy * sizeof(double))) == NULL)
-            return rc_err_set(err, "out of memory for a kernel of %zu x %zu values", plan->cx,
-                              plan->cy);
-    if ((plan->x = malloc(plan->cx * sizeof *plan->x)) == NULL)
-        return rc_err_set(err, "out of memory for %zu offsets", plan->cx);
-    for (size_t i = 0; i < plan->cx; i++)
-        plan->x[i] = (double)i * plan->task.shape.dx;
+        if (sheet->task->kernels >> k & 1 &&
+            (sheet->table[k] = malloc(sheet->cx * sheet->cy * sizeof(double))) == NULL)
+            return rc_err_set(err, "out of memory for a kernel of %zu x %zu values", sheet->cx,
+                              sheet->cy);
+    if ((sheet->x = malloc(sheet->cx * sizeof *sheet->x)) == NULL)
+        return rc_err_set(err, "out of memory for %zu offsets", sheet->cx);
+    for (size_t i = 0; i < sheet->cx; i++)
+        sheet->x[i] = (double)i * sheet->shape.dx;
     return RC_OK;
 }
 
-static void *
-plan_new(const struct rc_stress_task *task, struct rc_err *err)
+static struct sheet *
+sheet_new(const struct rc_stress_task *task, const struct rc_shape *shape, const double *p,
+          struct rc_err *err)
 {
-    struct plan *plan = calloc(1, sizeof *plan);
+    struct sheet *sheet = calloc(1, sizeof *sheet);
     enum rc_boundary boundary = task->options.boundary;
 
-    if (plan == NULL) {
+    if (sheet == NULL) {
         rc_err_set(err, "out of memory for a plan");
         return NULL;
     }
-    plan->task = *task;
-    plan->threads = rc_useful_threads(&task->shape, task->options.threads);
-    plan->fft = rc_fft_new(&task->shape, boundary, RC_DOUBLE, task->options.threads, err);
-    if (plan->fft == NULL)
+    sheet->task = task;
+    sheet->shape = *shape;
+    sheet->threads = rc_useful_threads(shape, task->options.threads);
+    sheet->fft = rc_fft_new(shape, boundary, RC_DOUBLE, task->options.threads, err);
+    if (sheet->fft == NULL)
         goto fail;
-    rc_fft_quarter(plan->fft, &plan->cx, &plan->cy);
-    plan->room = room(plan->cx, plan->cy);
-    plan->space = malloc((size_t)plan->threads * plan->room * sizeof *plan->space);
-    if (plan->space == NULL) {
-        rc_err_set(err, "out of memory for %zu columns", (size_t)COLUMNS);
+    rc_fft_quarter(sheet->fft, &sheet->cx, &sheet->cy);
+    sheet->room = room(sheet->cx, sheet->cy);
+    sheet->space = malloc((size_t)sheet->threads * sheet->room * sizeof *sheet->space);
+    if (sheet->space == NULL) {
+        rc_err_set(err, "out of memory for %d columns", COLUMNS);
         goto fail;
     }
-    if (boundary == RC_FREE && allocate_tables(plan, err) != RC_OK)
+    if (boundary == RC_FREE && allocate_tables(sheet, err) != RC_OK)
         goto fail;
     for (int k = 0; k < SLOTS; k++)
         if ((k == 0 || task->options.mu != 0) &&
-            (plan->slot[k].spectrum = rc_spectrum_new(plan->fft, err)) == NULL)
+            (sheet->slot[k].spectrum = rc_spectrum_new(sheet->fft, err)) == NULL)
             goto fail;
-    if (rc_fft_load(plan->fft, task->p, err) != RC_OK)
+    if (rc_fft_load(sheet->fft, p, err) != RC_OK)
         goto fail;
     task->counts->source_transforms++;
-    return plan;
+    return sheet;
 fail:
-    plan_free(plan);
+    sheet_free(sheet);
     return NULL;
 }
 
 static size_t
-memory(const struct rc_stress_task *task)
+sheet_memory(const struct rc_stress_task *task, const struct rc_shape *shape)
 {
     enum rc_boundary boundary = task->options.boundary;
-    size_t quarter = rc_spectrum_memory(&task->shape, boundary, RC_DOUBLE);
+    size_t quarter = rc_spectrum_memory(shape, boundary, RC_DOUBLE);
     size_t tables = boundary == RC_FREE ? count(task->kernels) : 0;
 
-    /* the transform of p is four quarters on the free boundary, half of that on the other */
-    return rc_fft_memory(&task->shape, boundary, RC_DOUBLE) +
+    /* the transform of p is as large as four spectra */
+    return sizeof(struct sheet) + rc_fft_memory(shape, boundary, RC_DOUBLE) +
            ((size_t)(task->options.mu != 0) + 4 + tables) * quarter;
 }
 
 /* ---- kernels ---- */
 
 static double *
-space_of(const struct plan *plan)
+space_of(const struct sheet *sheet)
 {
-    return plan->space + (size_t)omp_get_thread_num() * plan->room;
+    return sheet->space + (size_t)omp_get_thread_num() * sheet->room;
 }
 
 /* The kernels on a quarter of the padded map, row by row, each transformed in x. */
 static void
-tabulate(struct plan *plan)
+tabulate(struct sheet *sheet)
 {
-    const struct rc_stress_task *t = &plan->task;
-    const struct rc_cell cell = {t->shape.dx, t->shape.dy, plan->depth, t->options.nu};
+    const struct rc_stress_task *t = sheet->task;
+    const struct rc_cell cell = {t->shape.dx, t->shape.dy, sheet->depth, t->options.nu};
 
-#pragma omp parallel for num_threads(plan->threads) schedule(dynamic, 4)
-    for (size_t j = 0; j < plan->cy; j++) {
-        double *y = space_of(plan), *row[RC_STRESS_KERNELS];
-        for (size_t i = 0; i < plan->cx; i++)
-            y[i] = (double)j * t->shape.dy;
+#pragma omp parallel for num_threads(sheet->threads) schedule(dynamic, 4)
+    for (size_t j = 0; j < sheet->cy; j++) {
+        double *y = space_of(sheet), *row[RC_STRESS_KERNELS];
+        for (size_t i = 0; i < sheet->cx; i++)
+            y[i] = (double)j * sheet->shape.dy;
         for (int k = 0; k < RC_STRESS_KERNELS; k++)
-            row[k] = plan->table[k] == NULL ? NULL : plan->table[k] + j * plan->cx;
-        rc_stress_coefficients(&cell, t->kernels, plan->cx, plan->x, y, row);
+            row[k] = sheet->table[k] == NULL ? NULL : sheet->table[k] + j * sheet->cx;
+        rc_stress_coefficients(&cell, t->kernels, sheet->cx, sheet->x, y, row);
         for (int k = 0; k < RC_STRESS_KERNELS; k++)
             if (row[k] != NULL)
-                rc_halves_run(plan->along_x[(rc_stress_parity[k] & RC_ODD_X) != 0], row[k]);
+                rc_halves_run(sheet->along_x[(rc_stress_parity[k] & RC_ODD_X) != 0], row[k]);
     }
     for (int k = 0; k < RC_STRESS_KERNELS; k++)
-        if (plan->table[k] != NULL)
-            rc_stress_count(t, k, plan->cx * plan->cy);
+        if (sheet->table[k] != NULL)
+            rc_stress_count(t, k, sheet->cx * sheet->cy);
 }
 
 static void
-transform_columns(struct plan *plan, int kernel, struct rc_spectrum *s)
+transform_columns(struct sheet *sheet, int kernel, struct rc_spectrum *s)
 {
-    const double *table = plan->table[kernel];
-    const struct rc_halves *along_y = plan->along_y[(rc_stress_parity[kernel] & RC_ODD_Y) != 0];
-    size_t cx = plan->cx, cy = plan->cy;
+    const double *table = sheet->table[kernel];
+    const struct rc_halves *along_y = sheet->along_y[(rc_stress_parity[kernel] & RC_ODD_Y) != 0];
+    size_t cx = sheet->cx, cy = sheet->cy;
 
-#pragma omp parallel for num_threads(plan->threads) schedule(static)
+#pragma omp parallel for num_threads(sheet->threads) schedule(static)
     for (size_t first = 0; first < cx; first += COLUMNS) {
-        double *column = space_of(plan);
+        double *column = space_of(sheet);
         size_t n = cx - first < COLUMNS ? cx - first : COLUMNS;
         for (size_t j = 0; j < cy; j++)
             for (size_t b = 0; b < n; b++)
                 column[b * cy + j] = table[j * cx + first + b];
         for (size_t b = 0; b < n; b++) {
             rc_halves_run(along_y, column + b * cy);
-            rc_spectrum_column(s, plan->fft, first + b, column + b * cy);
+            rc_spectrum_column(s, sheet->fft, first + b, column + b * cy);
         }
     }
-    plan->task.counts->kernel_transforms++;
+    sheet->task->counts->kernel_transforms++;
 }
 
 /* Waves of two nodes have no odd part on the nodes. */
 static void
-sample_symbol(struct plan *plan, int kernel, struct rc_spectrum *s)
+sample_symbol(struct sheet *sheet, int kernel, struct rc_spectrum *s)
 {
     static const double turn = 6.28318530717958647692;
-    const struct rc_shape *shape = &plan->task.shape;
+    const struct rc_shape *shape = &sheet->shape;
     const struct rc_stress_row *row = &rc_stress_rows[kernel];
-    double nu = plan->task.options.nu, z = plan->depth;
+    double nu = sheet->task->options.nu, z = sheet->depth;
 
-#pragma omp parallel for num_threads(plan->threads) schedule(static)
-    for (size_t i = 0; i < plan->cx; i++) {
-        double *column = space_of(plan);
+#pragma omp parallel for num_threads(sheet->threads) schedule(static)
+    for (size_t i = 0; i < sheet->cx; i++) {
+        double *column = space_of(sheet);
         double qx = turn * (double)i / ((double)shape->nx * shape->dx);
         bool last_x = 2 * i == shape->nx && row->parity & RC_ODD_X;
-        for (size_t j = 0; j < plan->cy; j++) {
+        for (size_t j = 0; j < sheet->cy; j++) {
             double qy = turn * (double)j / ((double)shape->ny * shape->dy), q = sqrt(qx * qx + qy * qy);
             const struct rc_wave wave = {qx, qy, q, z, exp(-q * z), nu};
             bool last_y = 2 * j == shape->ny && row->parity & RC_ODD_Y;
@@ -222,29 +234,29 @@ sample_symbol(struct plan *plan, int kernel, struct rc_spectrum *s)
                         : q == 0         ? rc_stress_mean(kernel, nu, shape)
                                          : row->symbol(&wave);
         }
-        rc_spectrum_column(s, plan->fft, i, column);
+        rc_spectrum_column(s, sheet->fft, i, column);
     }
-    rc_stress_count(&plan->task, kernel, plan->cx * plan->cy);
+    rc_stress_count(sheet->task, kernel, sheet->cx * sheet->cy);
 }
 
 /* The spectrum of a kernel: one that is there, or put in the place of the one not to `keep`. */
 static const struct rc_spectrum *
-spectrum_of(struct plan *plan, int kernel, int keep)
+spectrum_of(struct sheet *sheet, int kernel, int keep)
 {
     int k = SLOTS - 1;
 
     for (int i = 0; i < SLOTS; i++)
-        if (plan->slot[i].spectrum != NULL && plan->slot[i].kernel == kernel)
-            return plan->slot[i].spectrum;
-    while (plan->slot[k].spectrum == NULL || plan->slot[k].kernel == keep)
+        if (sheet->slot[i].spectrum != NULL && sheet->slot[i].kernel == kernel)
+            return sheet->slot[i].spectrum;
+    while (sheet->slot[k].spectrum == NULL || sheet->slot[k].kernel == keep)
         k--;
-    plan->slot[k].kernel = kernel;
-    rc_spectrum_begin(plan->slot[k].spectrum, rc_stress_parity[kernel]);
-    if (plan->task.options.boundary == RC_FREE)
-        transform_columns(plan, kernel, plan->slot[k].spectrum);
+    sheet->slot[k].kernel = kernel;
+    rc_spectrum_begin(sheet->slot[k].spectrum, rc_stress_parity[kernel]);
+    if (sheet->task->options.boundary == RC_FREE)
+        transform_columns(sheet, kernel, sheet->slot[k].spectrum);
     else
-        sample_symbol(plan, kernel, plan->slot[k].spectrum);
-    return plan->slot[k].spectrum;
+        sample_symbol(sheet, kernel, sheet->slot[k].spectrum);
+    return sheet->slot[k].spectrum;
 }
 
 /* ---- layers ---- */
@@ -253,30 +265,141 @@ spectrum_of(struct plan *plan, int kernel, int keep)
 static const enum rc_component order[RC_COMPONENTS] = {RC_SXX, RC_SYY, RC_SXY,
                                                        RC_SYZ, RC_SZZ, RC_SXZ};
 
+static void
+begin(struct sheet *sheet, double depth)
+{
+    sheet->depth = depth;
+    for (int k = 0; k < SLOTS; k++)
+        sheet->slot[k].kernel = -1;
+    if (sheet->task->options.boundary == RC_FREE)
+        tabulate(sheet);
+}
+
+static void
+component(struct sheet *sheet, int c, double *s)
+{
+    int normal = rc_stress_kernel(RC_NORMAL, c), shear = rc_stress_kernel(RC_SHEAR, c);
+    const struct rc_spectrum *a = spectrum_of(sheet, normal, -1);
+    double mu = sheet->task->options.mu;
+
+    if (mu == 0)
+        rc_fft_field(sheet->fft, a, s);
+    else
+        rc_fft_field_pair(sheet->fft, a, mu, spectrum_of(sheet, shear, normal), s);
+    sheet->task->counts->field_transforms++;
+}
+
+/* ---- coarser sheets ---- */
+
+/* Errors of the two loads add; those of the shear's kernels are the smaller. */
+static bool
+may_be_coarse(const struct rc_stress_task *t, double depth, size_t *sx, size_t *sy)
+{
+    double tol = t->options.tol / (1 + fabs(t->options.mu));
+
+    return t->options.boundary == RC_FREE &&
+           rc_coarse_steps(&t->shape, rc_coarse_spacing(depth, tol), sx, sy);
+}
+
+static void
+coarse_free(struct plan *plan)
+{
+    sheet_free(plan->coarse);
+    rc_coarse_free(plan->between);
+    free(plan->field);
+    plan->coarse = NULL;
+    plan->between = NULL;
+    plan->field = NULL;
+}
+
+static enum rc_status
+coarse_new(struct plan *plan, size_t sx, size_t sy, struct rc_err *err)
+{
+    const struct rc_stress_task *t = &plan->task;
+    struct rc_shape shape = rc_coarse_shape(&t->shape, sx, sy);
+
+    if (plan->coarse != NULL && plan->sx == sx && plan->sy == sy)
+        return RC_OK;
+    coarse_free(plan);
+    plan->sx = sx;
+    plan->sy = sy;
+    if ((plan->field = malloc(shape.nx * shape.ny * sizeof *plan->field)) == NULL)
+        return rc_err_set(err, "out of memory for a map of %zu x %zu nodes", shape.nx, shape.ny);
+    plan->between = rc_coarse_new(&t->shape, sx, sy, t->options.threads, err);
+    if (plan->between == NULL)
+        return RC_FAIL;
+    rc_coarse_reduce(plan->between, t->p, plan->field);
+    plan->coarse = sheet_new(t, &shape, plan->field, err);
+    return plan->coarse == NULL ? RC_FAIL : RC_OK;
+}
+
+/* ---- the plan ---- */
+
+static void
+plan_free(void *at)
+{
+    struct plan *plan = at;
+
+    if (plan == NULL)
+        return;
+    sheet_free(plan->fine);
+    coarse_free(plan);
+    free(plan);
+}
+
+static void *
+plan_new(const struct rc_stress_task *task, struct rc_err *err)
+{
+    struct plan *plan = calloc(1, sizeof *plan);
+
+    if (plan == NULL) {
+        rc_err_set(err, "out of memory for a plan");
+        return NULL;
+    }
+    plan->task = *task;
+    if ((plan->fine = sheet_new(&plan->task, &task->shape, task->p, err)) == NULL) {
+        plan_free(plan);
+        return NULL;
+    }
+    return plan;
+}
+
+static size_t
+memory(const struct rc_stress_task *task)
+{
+    size_t bytes = sizeof(struct plan) + sheet_memory(task, &task->shape), sx, sy;
+    struct rc_shape c;
+
+    /* of coarser sheets there is one at a time, the first one the largest */
+    if (may_be_coarse(task, INFINITY, &sx, &sy)) {
+        c = rc_coarse_shape(&task->shape, sx > 1 ? 2 : 1, sy > 1 ? 2 : 1);
+        bytes += sheet_memory(task, &c) + (c.nx * c.ny + task->shape.ny * c.nx) * sizeof(double);
+    }
+    return bytes;
+}
+
 static enum rc_status
 layer(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err)
 {
     struct plan *plan = at;
-    double mu = plan->task.options.mu;
+    size_t sx, sy;
+    bool coarse = may_be_coarse(&plan->task, depth, &sx, &sy);
+    struct sheet *sheet = plan->fine;
 
-    (void)err;
-    plan->depth = depth;
-    for (int k = 0; k < SLOTS; k++)
-        plan->slot[k].kernel = -1;
-    if (plan->task.options.boundary == RC_FREE)
-        tabulate(plan);
+    if (coarse) {
+        if (coarse_new(plan, sx, sy, err) != RC_OK)
+            return RC_FAIL;
+        sheet = plan->coarse;
+        plan->task.counts->coarse_depths++;
+    }
+    begin(sheet, depth);
     for (int o = 0; o < RC_COMPONENTS; o++) {
-        int c = (int)order[o], normal = rc_stress_kernel(RC_NORMAL, c);
-        const struct rc_spectrum *a;
+        int c = (int)order[o];
         if (!(plan->task.components >> c & 1))
             continue;
-        a = spectrum_of(plan, normal, -1);
-        if (mu == 0)
-            rc_fft_field(plan->fft, a, s[c]);
-        else
-            rc_fft_field_pair(plan->fft, a, mu,
-                              spectrum_of(plan, rc_stress_kernel(RC_SHEAR, c), normal), s[c]);
-        plan->task.counts->field_transforms++;
+        component(sheet, c, coarse ? plan->field : s[c]);
+        if (coarse)
+            rc_coarse_expand(plan->between, plan->field, s[c]);
     }
     return RC_OK;
 }
