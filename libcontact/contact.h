@@ -260,9 +260,10 @@ enum rc_status rc_stress_depths(const struct rc_shape *shape, const double *p,
 /* Place of the value of largest size; the first of equals. n > 0. */
 size_t rc_largest(size_t n, const double *v);
 
-/* A derived stress (RC_MISES ...) of n points from their six components. */
-void rc_stress_derive(enum rc_component what, size_t n, const double *const s[RC_COMPONENTS],
-                      double *out);
+/* The derived stresses of n points from their six components: out[c] for each c from RC_MISES on whose
+ * bit is set. */
+void rc_stress_derive(unsigned wanted, size_t n, const double *const s[RC_COMPONENTS],
+                      double *const out[RC_STRESSES]);
 
 #ifdef __cplusplus
 }

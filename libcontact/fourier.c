@@ -1,4 +1,5 @@
 #include "fourier.h"
+#include "inside.h"
 
 #include <fftw3.h> /* after complex.h: fftw_complex is then double complex */
 #include <limits.h>
@@ -166,28 +167,39 @@ rc_halves_new(size_t n, bool odd, size_t threads, struct rc_err *err)
     return h;
 }
 
+RC_CLONES static void
+lay_out(size_t n, double sign, const double *restrict line, double *restrict v)
+{
+    double *end = v + 2 * n - 2;
+
+    memcpy(v, line, n * sizeof *v);
+    for (size_t j = 1; j + 1 < n; j++)
+        *(end - j) = sign * line[j];
+}
+
+/* Every second number, times the sign. */
+RC_CLONES static void
+pick(size_t n, double sign, const double *restrict s, double *restrict line)
+{
+    for (size_t k = 0; k < n; k++)
+        line[k] = sign * s[2 * k];
+}
+
 void
 rc_halves_run(const struct rc_halves *h, double *line)
 {
-    size_t n = h->n, last = 2 * n - 2;
-    double *v, sign = h->odd ? -1 : 1;
+    double sign = h->odd ? -1 : 1, *v;
     const double *s;
 
     if (h->odd)
-        line[0] = line[n - 1] = 0;
+        line[0] = line[h->n - 1] = 0;
     if (h->period == NULL)
         return;
     v = values_of(h->period);
-    v[0] = line[0];
-    v[n - 1] = line[n - 1];
-    for (size_t j = 1; j < n - 1; j++) {
-        v[j] = line[j];
-        v[last - j] = sign * line[j];
-    }
+    lay_out(h->n, sign, line, v);
     fftw_execute_dft_r2c(h->period->forward, v, waves_of(h->period));
     s = (const double *)waves_of(h->period);
-    for (size_t k = 0; k < n; k++)
-        line[k] = h->odd ? -s[2 * k + 1] : s[2 * k];
+    pick(h->n, sign, s + h->odd, line);
 }
 
 void

@@ -78,15 +78,20 @@ gauss_point(int n, int k)
     return g;
 }
 
-/* How many points a direction needs; 0: the corners. */
+/* The rule of a direction at this distance: -1, the corners. Distances from *low up to *high, which
+ * are narrowed, have the same. */
 static int
-points(double distance, double half_side)
+rule_at(double distance, double half_side, double *low, double *high)
 {
-    int n = 0;
+    int k = -1;
 
-    for (int k = 0; k < RULES && distance >= rules[k].from * half_side; k++)
-        n = rules[k].points;
-    return n;
+    while (k + 1 < RULES && distance >= rules[k + 1].from * half_side)
+        k++;
+    if (k >= 0)
+        *low = fmax(*low, rules[k].from * half_side);
+    if (k + 1 < RULES)
+        *high = fmin(*high, rules[k + 1].from * half_side);
+    return k;
 }
 
 /* ---- by points ---- */
@@ -168,17 +173,18 @@ rc_stress_coefficients(const struct rc_cell *c, unsigned kernels, size_t n, cons
     double z2 = c->depth * c->depth;
 
     for (size_t i = 0, last; i < n; i = last) {
-        double r = sqrt(x[i] * x[i] + y[i] * y[i] + z2), nearest = r;
-        int nx = points(r, c->dx / 2), ny = points(r, c->dy / 2);
+        double r2 = x[i] * x[i] + y[i] * y[i] + z2, low = 0, high = INFINITY;
+        int along_x = rule_at(sqrt(r2), c->dx / 2, &low, &high);
+        int along_y = rule_at(sqrt(r2), c->dy / 2, &low, &high);
 
         for (last = i + 1; last < n && last - i < BLOCK; last++) {
-            r = sqrt(x[last] * x[last] + y[last] * y[last] + z2);
-            if (points(r, c->dx / 2) != nx || points(r, c->dy / 2) != ny)
+            r2 = x[last] * x[last] + y[last] * y[last] + z2;
+            if (!(r2 >= low * low && r2 < high * high))
                 break;
-            nearest = fmin(nearest, r);
         }
-        if (nx != 0 && ny != 0) {
-            by_points(c, kernels, nx, ny, last - i, x + i, y + i, out, i);
+        if (along_x >= 0 && along_y >= 0) {
+            by_points(c, kernels, rules[along_x].points, rules[along_y].points, last - i, x + i,
+                      y + i, out, i);
             continue;
         }
         for (int k = 0; k < RC_STRESS_KERNELS; k++)

@@ -163,11 +163,12 @@ derive(const struct rc_stress *stress, const double *const six_of[RC_COMPONENTS]
     for (size_t first = 0; first < stress->values; first += PIECE) {
         size_t n = stress->values - first < PIECE ? stress->values - first : PIECE;
         const double *from[RC_COMPONENTS];
+        double *to[RC_STRESSES] = {NULL};
         for (int c = 0; c < RC_COMPONENTS; c++)
             from[c] = six_of[c] + first;
         for (int c = RC_COMPONENTS; c < RC_STRESSES; c++)
-            if (stress->task.options.wanted >> c & 1)
-                rc_stress_derive((enum rc_component)c, n, from, s[c] + first);
+            to[c] = stress->task.options.wanted >> c & 1 ? s[c] + first : NULL;
+        rc_stress_derive(stress->task.options.wanted, n, from, to);
     }
 }
 

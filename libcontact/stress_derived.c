@@ -147,16 +147,20 @@ principal(const double *const s[RC_COMPONENTS], size_t k, double e[3])
 }
 
 void
-rc_stress_derive(enum rc_component what, size_t n, const double *const s[RC_COMPONENTS],
-                 double *out)
+rc_stress_derive(unsigned wanted, size_t n, const double *const s[RC_COMPONENTS],
+                 double *const out[RC_STRESSES])
 {
-    if (what == RC_MISES) {
-        mises(n, s, out);
+    if (wanted >> RC_MISES & 1)
+        mises(n, s, out[RC_MISES]);
+    if (wanted >> RC_TRESCA == 0)
         return;
-    }
     for (size_t k = 0; k < n; k++) {
         double e[3];
         principal(s, k, e);
-        out[k] = what == RC_TRESCA ? e[0] - e[2] : e[what - RC_S1];
+        if (wanted >> RC_TRESCA & 1)
+            out[RC_TRESCA][k] = e[0] - e[2];
+        for (int i = 0; i < 3; i++)
+            if (wanted >> (RC_S1 + i) & 1)
+                out[RC_S1 + i][k] = e[i];
     }
 }
