@@ -244,17 +244,18 @@ sample_symbol(struct sheet *sheet, int kernel, struct rc_spectrum *s)
     rc_stress_count(sheet->task, kernel, sheet->cx * sheet->cy);
 }
 
-/* The spectrum of a kernel: one that is there, or put in the place of the one not to `keep`. */
+/* The spectrum of a kernel: one that is there, or a new one in a place that does not hold the kernel to
+ * keep (-1: none). */
 static const struct rc_spectrum *
 spectrum_of(struct sheet *sheet, int kernel, int keep)
 {
-    int k = SLOTS - 1;
+    int k = 1;
 
     for (int i = 0; i < SLOTS; i++)
         if (sheet->slot[i].spectrum != NULL && sheet->slot[i].kernel == kernel)
             return sheet->slot[i].spectrum;
-    while (sheet->slot[k].spectrum == NULL || sheet->slot[k].kernel == keep)
-        k--;
+    if (sheet->slot[k].spectrum == NULL || (keep >= 0 && sheet->slot[k].kernel == keep))
+        k = 0;
     sheet->slot[k].kernel = kernel;
     rc_spectrum_begin(sheet->slot[k].spectrum, rc_stress_parity[kernel]);
     if (sheet->task->options.boundary == RC_FREE)
