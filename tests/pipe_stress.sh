@@ -50,6 +50,16 @@ claim "--components szz evaluates one kernel a depth" test "$(count normal_kerne
 claim "and says what it left out" grep -q '"sxx": "left out: not in --components"' c.json
 claim "the pressure is transformed once" test "$(count source_transforms c.json)" = 1
 
+# ---- memory ----
+
+rc-synth sphere --nx 200 --ny 200 --dx 4um --radius 7.5mm |
+    rc-solve --quiet --load 240N --E1 208GPa --nu1 0.3 --E2 208GPa --nu2 0.3 \
+        --output pressure -o large.rcg
+rc-stress --depths 0:20um:2 --report few.json large.rcg >/dev/null
+rc-stress --depths 0:20um:40 --report many.json large.rcg >/dev/null
+near "$(field peak_memory many.json)" "$(field peak_memory few.json)" 0.05 \
+    "memory does not grow with the number of depths"
+
 # ---- sections ----
 
 claim "a section" bash -c \

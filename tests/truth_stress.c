@@ -381,6 +381,76 @@ paper_figure_1(void **state)
     }
 }
 
+/* ---- chosen depths ---- */
+
+static double
+largest_mises(struct rc_stress *stress, double depth, double *s[RC_STRESSES])
+{
+    struct rc_err err;
+
+    assert_int_equal(rc_stress_slice(stress, depth, s, &err), RC_OK);
+    return s[RC_MISES][rc_largest(rc_stress_values(stress), s[RC_MISES])];
+}
+
+/* Depths chosen from the pressure find the largest Mises stress of Hertz's contact (0.620041 p0) within
+ * 1 %, and under a rough ball within 2 % of a scan twenty times as dense; few of them, closer near
+ * the surface where it is rough. */
+static void
+chosen_depths(void **state)
+{
+    enum {
+        M = 96
+    };
+    const double radius = 1.9e-3, estar = 114e9, load = 9;
+    struct hertz h = hertz(load, radius, estar);
+    struct rc_shape shape = {M, M, 2.6 * h.a / M, 2.6 * h.a / M};
+    struct rc_selfaffine roughness = {.hurst = 0.8, .rms_height = 60e-9, .rms_slope = NAN,
+                                      .long_cut = NAN, .rolloff = h.a / 2,
+                                      .short_cut = 5 * shape.dx, .seed = 5};
+    double *rough = malloc(M * M * sizeof *rough), *s[RC_STRESSES] = {NULL};
+    size_t near_surface[2];
+    struct rc_err err;
+
+    (void)state;
+    s[RC_MISES] = malloc(M * M * sizeof(double));
+    assert_int_equal(rc_synth_selfaffine(&shape, &roughness, rough, &err), RC_OK);
+    for (int k = 0; k < 2; k++) {
+        struct rc_stress_options options = {.nu = 0.3, .wanted = 1u << RC_MISES, .threads = 2};
+        struct rc_problem problem = {.estar = estar, .load = load, .hardness = INFINITY,
+                                     .tol = 1e-5, .threads = 2};
+        double *height = malloc(M * M * sizeof *height), *depths, found = 0, exact = 0.620041 * h.p0;
+        struct rc_stress *stress;
+        struct solved solved;
+        size_t n;
+        rc_synth_sphere(&shape, radius, height);
+        for (size_t i = 0; k == 1 && i < M * M; i++)
+            height[i] += rough[i];
+        solved = solve(shape, height, problem);
+        assert_int_equal(rc_stress_depths(&shape, solved.p, RC_FREE, &depths, &n, &err), RC_OK);
+        stress = rc_stress_new(&shape, solved.p, &options, &err);
+        assert_true(depths[0] == 0 && depths[n - 1] > 2.9 * h.a && depths[n - 1] < 4 * h.a);
+        near_surface[k] = 0;
+        for (size_t i = 0; i < n; i++) {
+            assert_true(i == 0 || depths[i] > depths[i - 1]);
+            near_surface[k] += depths[i] < h.a / 8;
+            found = fmax(found, largest_mises(stress, depths[i], s));
+        }
+        for (double z = 0; k == 1 && z < 3 * h.a; z += h.a / 150)
+            exact = fmax(z == 0 ? 0 : exact, largest_mises(stress, z, s));
+        print_message("%s: %zu depths, %zu above a/8, largest Mises %.4f of the scan's\n",
+                      k == 0 ? "smooth" : "rough", n, near_surface[k], found / exact);
+        assert_true(fabs(found / exact - 1) < (k == 0 ? 0.01 : 0.02));
+        assert_true(n < 60);
+        rc_stress_free(stress);
+        solved_free(&solved);
+        free(depths);
+        free(height);
+    }
+    assert_true(near_surface[1] > 2 * near_surface[0]);
+    free(rough);
+    free(s[RC_MISES]);
+}
+
 /* ---- derived ---- */
 
 static void
@@ -440,6 +510,7 @@ main(void)
         cmocka_unit_test(rectangle_at_every_depth),
         cmocka_unit_test(sliding_sphere_is_the_integral),
         cmocka_unit_test(paper_figure_1),
+        cmocka_unit_test(chosen_depths),
         cmocka_unit_test(principal_stresses),
     };
 
