@@ -204,12 +204,11 @@ parts(void)
     struct rc_fft *fft = must(rc_fft_new(&shape, RC_FREE, RC_DOUBLE, threads, &err));
     struct rc_spectrum *k = must(rc_spectrum_new(fft, &err));
     size_t cx, cy;
-    double *x, *y, *out[RC_STRESS_KERNELS] = {NULL};
+    double *x, *out[RC_STRESS_KERNELS] = {NULL};
     struct rc_halves *halves;
 
     rc_fft_quarter(fft, &cx, &cy);
-    x = must(malloc(cx * sizeof *x));
-    y = must(malloc(cx * sizeof *y));
+    x = must(calloc(cx, sizeof *x));
     printf("parts, %d x %d nodes, one thread for coefficients and lines:\n", M, M);
     for (int s = 0; s < 3; s++) {
         unsigned kernels = rc_stress_distinct(set[s].components, set[s].shear);
@@ -218,13 +217,8 @@ parts(void)
             if (kernels >> c & 1 && out[c] == NULL)
                 out[c] = must(malloc(cx * sizeof(double)));
         t = now();
-        for (size_t j = 0; j < cy; j++) {
-            for (size_t i = 0; i < cx; i++) {
-                x[i] = (double)i * shape.dx;
-                y[i] = (double)j * shape.dy;
-            }
-            rc_stress_coefficients(&cell, kernels, cx, x, y, out);
-        }
+        for (size_t j = 0; j < cy; j++)
+            rc_stress_line(&cell, kernels, cx, (double)j * shape.dy, out);
         printf("  %zu x %zu coefficients, %s: %.1f ms\n", cx, cy, set[s].what, 1e3 * (now() - t));
     }
     halves = must(rc_halves_new(cx, false, 1, &err));
@@ -247,7 +241,6 @@ parts(void)
     for (int c = 0; c < RC_STRESS_KERNELS; c++)
         free(out[c]);
     free(x);
-    free(y);
     free(p);
     free(u);
 }

@@ -4,7 +4,9 @@
  * No single form keeps its digits everywhere. On and next to the cell Love's differences over its
  * four corners hold, down to z = 0; their error is absolute, some 1e-16 of the load, so farther
  * away, where the stress falls as 1/R^2, they lose. There Gauss's rule for the integral of the
- * point loads over the cell is exact to rounding, with fewer points the farther it is.
+ * point loads over the cell is exact to rounding, with fewer points the farther it is. Farthest,
+ * on a line of nodes, neighbours share their points: means over cells are taken from the values at
+ * the nodes.
  */
 #include "stress.h"
 
@@ -15,6 +17,7 @@ static const double pi = 3.14159265358979323846;
 
 enum {
     BLOCK = 256, /* points evaluated together: their arrays stay in the first cache */
+    ROOM = BLOCK + 24, /* of each: equal places would else fall on the same lines of the cache */
     MOST = 12    /* points of a rule in one direction                               */
 };
 
@@ -119,7 +122,7 @@ by_points(const struct rc_cell *c, unsigned kernels, int nx, int ny, size_t n, c
           const double *y, double *const out[RC_STRESS_KERNELS], size_t at)
 {
     double a = c->dx / 2, b = c->dy / 2;
-    _Alignas(64) double u[BLOCK], v[BLOCK], r[BLOCK], w[BLOCK];
+    _Alignas(64) double u[ROOM], v[ROOM], r[ROOM], w[ROOM];
     struct rc_points p = {.n = n, .x = u, .y = v, .r = r, .w = w, .z = c->depth, .nu = c->nu};
 
     for (int k = 0; k < RC_STRESS_KERNELS; k++)
@@ -137,6 +140,63 @@ by_points(const struct rc_cell *c, unsigned kernels, int nx, int ny, size_t n, c
                     rc_stress_rows[k].point(&p, a * b * gx.w * gy.w / (2 * pi), out[k] + at);
         }
     }
+}
+
+/* ---- by points, on a line of nodes ---- */
+
+enum {
+    REACH = 3 /* nodes on either side that a mean is taken from */
+};
+
+/* The mean of a smooth function over a cell from its values f at the nodes: f + d2/24 - 17 d4/5760 +
+ * 367 d6/967680, with the central differences d2, d4, d6. */
+static const double mean_of[REACH + 1] = {
+    1 - 2 / 24.0 - 6 * 17 / 5760.0 - 20 * 367 / 967680.0,
+    1 / 24.0 + 4 * 17 / 5760.0 + 15 * 367 / 967680.0,
+    -17 / 5760.0 - 6 * 367 / 967680.0,
+    367 / 967680.0,
+};
+
+/* Distance over the cell from which the next term is below 1e-13 of a load's stress. */
+static const double far = 80;
+
+RC_WIDE_CLONES static void
+take_means(size_t n, const double *restrict f, double *restrict out)
+{
+    for (size_t i = 0; i < n; i++)
+        out[i] = mean_of[0] * f[i + 3] + mean_of[1] * (f[i + 2] + f[i + 4]) +
+                 mean_of[2] * (f[i + 1] + f[i + 5]) + mean_of[3] * (f[i] + f[i + 6]);
+}
+
+/* Stresses at x = (first + i) dx, i < n: Gauss's rule across the line, and along it the means. */
+static void
+by_means(const struct rc_cell *c, unsigned kernels, double y, size_t first, size_t n,
+         double *const out[RC_STRESS_KERNELS])
+{
+    double b = c->dy / 2, low = 0, high = INFINITY, x0 = (double)first * c->dx;
+    int rule = rule_at(sqrt(x0 * x0 + y * y + c->depth * c->depth), b, &low, &high);
+    int ny = rules[rule].points;
+    _Alignas(64) double u[ROOM], v[ROOM], r[ROOM], w[ROOM], sum[RC_STRESS_KERNELS][ROOM];
+    struct rc_points p = {
+        .n = n + 2 * REACH, .x = u, .y = v, .r = r, .w = w, .z = c->depth, .nu = c->nu};
+
+    for (size_t i = 0; i < p.n; i++)
+        u[i] = ((double)(first + i) - REACH) * c->dx;
+    for (int k = 0; k < RC_STRESS_KERNELS; k++)
+        if (kernels >> k & 1)
+            memset(sum[k], 0, p.n * sizeof(double));
+    for (int l = 0; l < ny; l++) {
+        struct gauss g = gauss_point(ny, l);
+        for (size_t i = 0; i < p.n; i++)
+            v[i] = y - b * g.x;
+        distances(p.n, u, v, p.z, r, w);
+        for (int k = 0; k < RC_STRESS_KERNELS; k++)
+            if (kernels >> k & 1)
+                rc_stress_rows[k].point(&p, c->dx * b * g.w / (2 * pi), sum[k]);
+    }
+    for (int k = 0; k < RC_STRESS_KERNELS; k++)
+        if (kernels >> k & 1)
+            take_means(n, sum[k], out[k] + first);
 }
 
 /* ---- by corners ---- */
@@ -191,6 +251,29 @@ rc_stress_coefficients(const struct rc_cell *c, unsigned kernels, size_t n, cons
             for (size_t j = i; kernels >> k & 1 && j < last; j++)
                 out[k][j] = by_corners(c, k, x[j], y[j]);
     }
+}
+
+void
+rc_stress_line(const struct rc_cell *c, unsigned kernels, size_t n, double y,
+               double *const out[RC_STRESS_KERNELS])
+{
+    double beyond = far * far * fmax(c->dx * c->dx, c->dy * c->dy) - y * y - c->depth * c->depth;
+    double inner = beyond > 0 ? ceil(sqrt(beyond) / c->dx) : 0;
+    size_t near = inner < (double)n ? (size_t)inner : n, room = BLOCK - 2 * REACH;
+    double x[BLOCK], ys[BLOCK], *to[RC_STRESS_KERNELS];
+
+    for (size_t start = 0; start < near; start += BLOCK) {
+        size_t count = near - start < BLOCK ? near - start : BLOCK;
+        for (size_t i = 0; i < count; i++) {
+            x[i] = (double)(start + i) * c->dx;
+            ys[i] = y;
+        }
+        for (int k = 0; k < RC_STRESS_KERNELS; k++)
+            to[k] = kernels >> k & 1 ? out[k] + start : NULL;
+        rc_stress_coefficients(c, kernels, count, x, ys, to);
+    }
+    for (size_t start = near; start < n; start += room)
+        by_means(c, kernels, y, start, n - start < room ? n - start : room, out);
 }
 
 /* ---- the row ---- */

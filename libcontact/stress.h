@@ -74,6 +74,10 @@ struct rc_cell {
 void rc_stress_coefficients(const struct rc_cell *cell, unsigned kernels, size_t n, const double *x,
                             const double *y, double *const out[RC_STRESS_KERNELS]);
 
+/* The same at (i dx, y), i < n, faster. */
+void rc_stress_line(const struct rc_cell *cell, unsigned kernels, size_t n, double y,
+                    double *const out[RC_STRESS_KERNELS]);
+
 /* ---- ways to sum ---- */
 
 /* What is to be summed, and the tally of what it took. */

@@ -176,12 +176,16 @@ tabulate(struct sheet *sheet)
 
 #pragma omp parallel for num_threads(sheet->threads) schedule(dynamic, 4)
     for (size_t j = 0; j < sheet->cy; j++) {
-        double *y = space_of(sheet), *row[RC_STRESS_KERNELS];
-        for (size_t i = 0; i < sheet->cx; i++)
-            y[i] = (double)j * sheet->shape.dy;
+        double y = (double)j * sheet->shape.dy, *ys = space_of(sheet), *row[RC_STRESS_KERNELS];
         for (int k = 0; k < RC_STRESS_KERNELS; k++)
             row[k] = sheet->table[k] == NULL ? NULL : sheet->table[k] + j * sheet->cx;
-        rc_stress_coefficients(&cell, t->kernels, sheet->cx, sheet->x, y, row);
+        if (sheet->shape.dx == cell.dx) {
+            rc_stress_line(&cell, t->kernels, sheet->cx, y, row);
+        } else {
+            for (size_t i = 0; i < sheet->cx; i++)
+                ys[i] = y;
+            rc_stress_coefficients(&cell, t->kernels, sheet->cx, sheet->x, ys, row);
+        }
         for (int k = 0; k < RC_STRESS_KERNELS; k++)
             if (row[k] != NULL)
                 rc_halves_run(sheet->along_x[(rc_stress_parity[k] & RC_ODD_X) != 0], row[k]);

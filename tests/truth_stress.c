@@ -160,6 +160,34 @@ coefficients_have_no_steps(void **state)
             }
 }
 
+/* A line of nodes far off, where cells share their points, holds what single places hold. */
+static void
+lines_are_places(void **state)
+{
+    static const struct rc_cell cells[] = {
+        {1, 1, 0, 0.3}, {1.1, 0.9, 7, 0.3}, {0.5, 2, 90, 0.1}, {2, 0.5, 0.3, 0.5}};
+    enum {
+        N = 700
+    };
+    double line[RC_STRESS_KERNELS][N], *out[RC_STRESS_KERNELS];
+
+    (void)state;
+    for (int k = 0; k < RC_STRESS_KERNELS; k++)
+        out[k] = line[k];
+    for (size_t c = 0; c < 4; c++)
+        for (double y = 0; y < 500; y = 2.3 * y + 1) {
+            const struct rc_cell *cell = &cells[c];
+            rc_stress_line(cell, (1u << RC_STRESS_KERNELS) - 1, N, y, out);
+            for (int k = 0; k < RC_STRESS_KERNELS; k++)
+                for (size_t i = 0; i < N; i++) {
+                    double x = (double)i * cell->dx;
+                    double one = coefficient(k, cell->nu, x, y, cell->depth, cell->dx, cell->dy);
+                    double scale = scale_at(x, y, cell->depth, cell->dx, cell->dy);
+                    assert_true(fabs(line[k][i] - one) <= 3e-13 * scale);
+                }
+        }
+}
+
 /* z = 0: -1 inside the cell, the mean of all sides on its edges and corners, 0 outside; everything is
  * finite, and what has a limit is near it. */
 static void
@@ -505,6 +533,7 @@ main(void)
         cmocka_unit_test(coefficients_are_integrals),
         cmocka_unit_test(coefficients_near_the_surface),
         cmocka_unit_test(coefficients_have_no_steps),
+        cmocka_unit_test(lines_are_places),
         cmocka_unit_test(coefficients_at_the_surface),
         cmocka_unit_test(rectangle_is_the_integral),
         cmocka_unit_test(rectangle_at_every_depth),
