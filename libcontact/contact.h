@@ -249,10 +249,10 @@ void rc_stress_free(struct rc_stress *stress);
 /* Bytes that such a plan takes, beside p and the slices. */
 size_t rc_stress_memory(const struct rc_shape *shape, const struct rc_stress_options *options);
 
-/* Depths from 0 down at which to look at the stresses under this pressure, *n of them in an array that
- * the caller frees: close together where its short waves are felt, farther apart below, down to
- * three contact radii (free) or to where the waves have died to 1 % (periodic). Successive depths
- * are a quarter of the RMS wave's 1/q apart. RC_FAIL when memory is short. */
+/* Depths from 0 down at which to look at the stresses under this pressure, *n of them in an array
+ * that the caller frees: close together where its short waves are felt, farther apart below, down
+ * to three contact radii (free) or to where the waves have died to 1 % (periodic). Successive
+ * depths are a quarter of the RMS wave's 1/q apart. RC_FAIL when memory is short. */
 enum rc_status rc_stress_depths(const struct rc_shape *shape, const double *p,
                                 enum rc_boundary boundary, double **depths, size_t *n,
                                 struct rc_err *err);
@@ -260,8 +260,8 @@ enum rc_status rc_stress_depths(const struct rc_shape *shape, const double *p,
 /* Place of the value of largest size; the first of equals. n > 0. */
 size_t rc_largest(size_t n, const double *v);
 
-/* The derived stresses of n points from their six components: out[c] for each c from RC_MISES on whose
- * bit is set. */
+/* The derived stresses of n points from their six components: out[c] for each c from RC_MISES on
+ * whose bit is set. */
 void rc_stress_derive(unsigned wanted, size_t n, const double *const s[RC_COMPONENTS],
                       double *const out[RC_STRESSES]);
 

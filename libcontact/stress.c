@@ -36,8 +36,8 @@ automatic(const char *engine)
 static enum rc_status
 check(const struct rc_shape *shape, const struct rc_stress_options *o, struct rc_err *err)
 {
-    double half = o->section == 'x' ? (double)shape->nx * shape->dx / 2
-                                    : (double)shape->ny * shape->dy / 2;
+    double half =
+        o->section == 'x' ? (double)shape->nx * shape->dx / 2 : (double)shape->ny * shape->dy / 2;
 
     if (rc_shape_check(shape, err) != RC_OK)
         return RC_FAIL;
@@ -64,7 +64,9 @@ task_of(const struct rc_shape *shape, const double *p, const struct rc_stress_op
     bool derived = o->wanted >> RC_COMPONENTS != 0;
     unsigned components = derived ? six : o->wanted & six;
 
-    return (struct rc_stress_task){.shape = *shape, .options = *o, .p = p,
+    return (struct rc_stress_task){.shape = *shape,
+                                   .options = *o,
+                                   .p = p,
                                    .components = components,
                                    .kernels = rc_stress_distinct(components, o->mu != 0),
                                    .counts = counts};
@@ -158,7 +160,7 @@ derive(const struct rc_stress *stress, const double *const six_of[RC_COMPONENTS]
 {
     const struct rc_shape *shape = &stress->task.shape;
 
-#pragma omp parallel for num_threads(rc_useful_threads(shape, stress->task.options.threads))      \
+#pragma omp parallel for num_threads(rc_useful_threads(shape, stress->task.options.threads))       \
     schedule(static)
     for (size_t first = 0; first < stress->values; first += PIECE) {
         size_t n = stress->values - first < PIECE ? stress->values - first : PIECE;

@@ -17,8 +17,8 @@ enum {
     ORDER = 8 /* nodes of a polynomial */
 };
 
-/* Coarse node I lies on fine node (I - ORDER/2 + 1) s; fine node J s + r is interpolated from coarse
- * nodes J .. J + ORDER - 1. */
+/* Coarse node I lies on fine node (I - ORDER/2 + 1) s; fine node J s + r is interpolated from
+ * coarse nodes J .. J + ORDER - 1. */
 struct axis {
     size_t n, s, coarse;
     double *weight; /* ORDER for each r < s */
@@ -33,11 +33,11 @@ struct rc_coarse {
 };
 
 /* Largest sum of what such interpolation, of the source and of the field, leaves of any kernel,
- * over pressures of size 1 of the worst signs, at this depth over the coarse spacing: measured, s = 4,
- * the worst of all places of source and field between coarse nodes. */
+ * over pressures of size 1 of the worst signs, at this depth over the coarse spacing: measured, s =
+ * 4, the worst of all places of source and field between coarse nodes. */
 static const struct {
     double ratio, error;
-} measured[] = {{1.42, 1.4e-1}, {2, 3.6e-2},    {2.83, 7.1e-3}, {4, 9.7e-4},    {5.66, 9.2e-5},
+} measured[] = {{1.42, 1.4e-1}, {2, 3.6e-2},    {2.83, 7.1e-3}, {4, 9.7e-4},   {5.66, 9.2e-5},
                 {8, 7.5e-6},    {11.4, 5.3e-7}, {16, 3.6e-8},   {22.7, 2.3e-9}};
 
 double
@@ -72,15 +72,14 @@ rc_coarse_steps(const struct rc_shape *shape, double spacing, size_t *sx, size_t
     *sx = step(shape->nx, shape->dx, spacing);
     *sy = step(shape->ny, shape->dy, spacing);
     /* what interpolation costs has to be won */
-    return 2 * coarse_nodes(shape->nx, *sx) * coarse_nodes(shape->ny, *sy) <
-           shape->nx * shape->ny;
+    return 2 * coarse_nodes(shape->nx, *sx) * coarse_nodes(shape->ny, *sy) < shape->nx * shape->ny;
 }
 
 struct rc_shape
 rc_coarse_shape(const struct rc_shape *s, size_t sx, size_t sy)
 {
-    return (struct rc_shape){coarse_nodes(s->nx, sx), coarse_nodes(s->ny, sy),
-                             (double)sx * s->dx, (double)sy * s->dy};
+    return (struct rc_shape){coarse_nodes(s->nx, sx), coarse_nodes(s->ny, sy), (double)sx * s->dx,
+                             (double)sy * s->dy};
 }
 
 static bool

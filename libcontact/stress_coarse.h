@@ -1,4 +1,5 @@
-/* Between a map and every s-th node of it, for fields that are smooth there. Internal: never installed. */
+/* Between a map and every s-th node of it, for fields that are smooth there. Internal: never
+ * installed. */
 #ifndef RC_STRESS_COARSE_H
 #define RC_STRESS_COARSE_H
 
@@ -6,8 +7,8 @@
 
 struct rc_coarse;
 
-/* Largest spacing (m) at which the kernels of this depth may be known: the error of a stress is then at
- * most tol times the largest pressure, whatever its signs. 0: none. */
+/* Largest spacing (m) at which the kernels of this depth may be known: the error of a stress is
+ * then at most tol times the largest pressure, whatever its signs. 0: none. */
 double rc_coarse_spacing(double depth, double tol);
 /* Steps in x and y that go with it; false when no coarser grid pays. */
 bool rc_coarse_steps(const struct rc_shape *shape, double spacing, size_t *sx, size_t *sy);

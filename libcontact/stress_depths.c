@@ -7,9 +7,10 @@
  *     k(z)^2 = sum of q^2 w^2 |p_q|^2 / sum of w^2 |p_q|^2,      w = (1 + q z) exp(-q z):
  *
  * near the surface the scale of roughness, deep down that of the whole contact. A straight line
- * between two depths dz apart errs by (k dz)^2 / 8 of what is left of the waves: each step is a fixed
- * part of 1/k, more where less is left. The last depth of a contact on a free half-space is three radii of the Hertzian
- * contact that is as spread out; on a periodic map it is where the waves have died away.
+ * between two depths dz apart errs by (k dz)^2 / 8 of what is left of the waves: each step is a
+ * fixed part of 1/k, more where less is left. The last depth of a contact on a free half-space is
+ * three radii of the Hertzian contact that is as spread out; on a periodic map it is where the
+ * waves have died away.
  */
 #include "contact.h"
 
@@ -57,7 +58,7 @@ collect(const struct rc_shape *s, const double *p, struct bins *b, struct rc_err
             double qy = turn * (double)rc_fourier_number(j, s->ny) / ((double)s->ny * s->dy);
             double q = hypot(qx, qy), a = cabs(wave[j * columns + i]);
             int k = q > 0 ? (int)(log(q / low) / step) : -1;
-            if (q > 0)
+            if (q > 0) /* columns between the first and the last stand for two */
                 b->power[k < 0 ? 0 : k < BINS ? k : BINS - 1] +=
                     (i == 0 || 2 * i == s->nx ? 1 : 2) * a * a;
         }

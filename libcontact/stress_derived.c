@@ -60,8 +60,8 @@ dot(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* A unit vector that B turns into `eigenvalue` of it: across the two rows of B - eigenvalue that are
- * the least parallel. */
+/* A unit vector that B turns into `eigenvalue` of it: across the two rows of B - eigenvalue that
+ * are the least parallel. */
 static void
 eigenvector(double B[3][3], double eigenvalue, double v[3])
 {

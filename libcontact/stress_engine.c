@@ -80,9 +80,8 @@ memory(const struct rc_stress_task *task)
     const struct rc_engine *engine = named(task->options.engine);
     struct rc_sum sum = sum_of(task, RC_SXX, task->shape.dx);
 
-    return engine == NULL
-               ? 0
-               : engine->memory(&sum) + task->shape.nx * task->shape.ny * sizeof(double);
+    return engine == NULL ? 0
+                          : engine->memory(&sum) + task->shape.nx * task->shape.ny * sizeof(double);
 }
 
 static void
@@ -107,7 +106,7 @@ layer(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err
         void *one;
         if (!(t->kernels >> k & 1))
             continue;
-        if ((one = plan->engine->new(&sum, err)) == NULL)
+        if ((one = plan->engine->new (&sum, err)) == NULL)
             return RC_FAIL;
         plan->engine->apply(one, t->p, plan->u);
         plan->engine->free(one);

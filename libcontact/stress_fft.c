@@ -31,7 +31,7 @@ struct sheet {
     struct rc_fft *fft;
     size_t cx, cy; /* of a quarter                                             */
     int threads;
-    double *table[RC_STRESS_KERNELS]; /* cy rows of cx values, transformed in x */
+    double *table[RC_STRESS_KERNELS];          /* cy rows of cx values, transformed in x */
     struct rc_halves *along_x[2], *along_y[2]; /* even, odd                     */
     double *x;     /* offsets of the columns                                   */
     double *space; /* for each thread: COLUMNS columns, or a row of offsets    */
@@ -236,7 +236,8 @@ sample_symbol(struct sheet *sheet, int kernel, struct rc_spectrum *s)
         double qx = turn * (double)i / ((double)shape->nx * shape->dx);
         bool last_x = 2 * i == shape->nx && row->parity & RC_ODD_X;
         for (size_t j = 0; j < sheet->cy; j++) {
-            double qy = turn * (double)j / ((double)shape->ny * shape->dy), q = sqrt(qx * qx + qy * qy);
+            double qy = turn * (double)j / ((double)shape->ny * shape->dy),
+                   q = sqrt(qx * qx + qy * qy);
             const struct rc_wave wave = {qx, qy, q, z, exp(-q * z), nu};
             bool last_y = 2 * j == shape->ny && row->parity & RC_ODD_Y;
             column[j] = last_x || last_y ? 0
@@ -248,8 +249,8 @@ sample_symbol(struct sheet *sheet, int kernel, struct rc_spectrum *s)
     rc_stress_count(sheet->task, kernel, sheet->cx * sheet->cy);
 }
 
-/* The spectrum of a kernel: one that is there, or a new one in a place that does not hold the kernel to
- * keep (-1: none). */
+/* The spectrum of a kernel: one that is there, or a new one in a place that does not hold the
+ * kernel to keep (-1: none). */
 static const struct rc_spectrum *
 spectrum_of(struct sheet *sheet, int kernel, int keep)
 {

@@ -34,7 +34,8 @@
  * distance, `floor`.
  *
  * The periodic half-space under a wave of pressure or shear: q^2 = qx^2 + qy^2, each times
- * exp(-q z). Under a uniform load the limit q -> 0 depends on the direction of q: see rc_stress_mean.
+ * exp(-q z). Under a uniform load the limit q -> 0 depends on the direction of q: see
+ * rc_stress_mean.
  */
 #include "stress.h"
 
@@ -42,19 +43,19 @@
 
 /* ---- of a point load ---- */
 
-#define POINT(name, value)                                                                        \
-    RC_WIDE_CLONES static void name##_point(const struct rc_points *s, double weight,                  \
-                                       double *restrict out)                                      \
-    {                                                                                             \
-        const double *restrict xs = s->x, *restrict ys = s->y;                                    \
-        const double *restrict rs = s->r, *restrict ws = s->w;                                    \
-        double z = s->z, c = 1 - 2 * s->nu;                                                       \
-                                                                                                  \
-        for (size_t i = 0; i < s->n; i++) {                                                       \
-            double x = xs[i], y = ys[i], r = rs[i], w = ws[i], r2 = r * r;                        \
-            (void)x, (void)y, (void)w, (void)z, (void)c, (void)r2;                                \
-            out[i] += weight * (value);                                                           \
-        }                                                                                         \
+#define POINT(name, value)                                                                         \
+    RC_WIDE_CLONES static void name##_point(const struct rc_points *s, double weight,              \
+                                            double *restrict out)                                  \
+    {                                                                                              \
+        const double *restrict xs = s->x, *restrict ys = s->y;                                     \
+        const double *restrict rs = s->r, *restrict ws = s->w;                                     \
+        double z = s->z, c = 1 - 2 * s->nu;                                                        \
+                                                                                                   \
+        for (size_t i = 0; i < s->n; i++) {                                                        \
+            double x = xs[i], y = ys[i], r = rs[i], w = ws[i], r2 = r * r;                         \
+            (void)x, (void)y, (void)w, (void)z, (void)c, (void)r2;                                 \
+            out[i] += weight * (value);                                                            \
+        }                                                                                          \
     }
 
 #define R3 (r * r2)
@@ -237,8 +238,8 @@ const unsigned rc_stress_parity[RC_STRESS_KERNELS] = {ROWS};
 #undef ROW
 
 /* The mean over the directions of q, which is also what stands under the middle of a patch that
- * grows without end: sxx = syy = -(1 + 2 nu)/2, and the sum of the normal stresses is -2 (1 + nu) as
- * it is for every wave. On a profile q has one direction, and the strain along it is plane. */
+ * grows without end: sxx = syy = -(1 + 2 nu)/2, and the sum of the normal stresses is -2 (1 + nu)
+ * as it is for every wave. On a profile q has one direction, and the strain along it is plane. */
 double
 rc_stress_mean(int kernel, double nu, const struct rc_shape *shape)
 {

@@ -28,23 +28,23 @@ enum {
 struct pair {
     double offset; /* m, >= 0                                       */
     const double complex *even, *odd;
-    double sign;   /* of odd                                        */
+    double sign; /* of odd                                        */
 };
 
 struct plan {
     struct rc_stress_task task;
-    bool turned;     /* across x: what is along is y                              */
-    size_t n, m;     /* nodes along and across                                    */
-    double d, e;     /* their distances                                           */
-    size_t waves;    /* along: 0 .. waves - 1                                     */
-    size_t length;   /* of a transform                                            */
+    bool turned;   /* across x: what is along is y                              */
+    size_t n, m;   /* nodes along and across                                    */
+    double d, e;   /* their distances                                           */
+    size_t waves;  /* along: 0 .. waves - 1                                     */
+    size_t length; /* of a transform                                            */
     int threads;
     struct rc_line *line;
     struct rc_halves *halves[2];
     double complex *source; /* m lines of `waves`; of the waves across, when periodic */
     struct pair *pair;
     size_t pairs;
-    double *space;       /* for each thread: offsets, and a line of each kernel     */
+    double *space; /* for each thread: offsets, and a line of each kernel     */
     size_t room;
     double complex *sum; /* for each share and component                            */
 };
@@ -144,8 +144,7 @@ opposite(const struct plan *plan, size_t j)
 static void
 add_pair(struct plan *plan, const bool *there, size_t j)
 {
-    double offset =
-        plan->task.options.at - ((double)j - (double)(plan->m - 1) / 2) * plan->e;
+    double offset = plan->task.options.at - ((double)j - (double)(plan->m - 1) / 2) * plan->e;
     size_t other = opposite(plan, j);
     double complex *a = plan->source + j * plan->waves, *b = a;
     struct pair *pair = &plan->pair[plan->pairs];
@@ -341,8 +340,8 @@ sum_waves(struct plan *plan, double depth)
             double qx = plan->turned ? q : q_along, qy = plan->turned ? q_along : q;
             bool last_along = 2 * a == plan->n, last_across = 2 * b == plan->m;
             double complex p = plan->source[b * plan->waves + a];
-            struct rc_wave w = {.qx = qx, .qy = qy, .q = sqrt(qx * qx + qy * qy), .z = depth,
-                                .nu = t->options.nu};
+            struct rc_wave w = {
+                .qx = qx, .qy = qy, .q = sqrt(qx * qx + qy * qy), .z = depth, .nu = t->options.nu};
             w.decay = exp(-w.q * depth);
             p *= last_across ? CMPLX(cos(q * from_first), 0) : cexp(I * q * from_first);
             for (int c = 0; c < RC_COMPONENTS; c++)

@@ -94,8 +94,8 @@ love_displacement(double x, double y, double a, double b, double estar)
            (exact_pi * estar);
 }
 
-/* Westergaard 1939 (Johnson 1985, section 13.2): a wave of amplitude A and wavelength L pressed against
- * a flat; at the mean pressure `full` it touches everywhere. */
+/* Westergaard 1939 (Johnson 1985, section 13.2): a wave of amplitude A and wavelength L pressed
+ * against a flat; at the mean pressure `full` it touches everywhere. */
 static inline double
 wave_full(double amplitude, double wavelength, double estar)
 {
@@ -120,8 +120,8 @@ wave_pressure(double mean, double full, double wavelength, double x)
     return 2 * full * cos(psi) * sqrt(a - sin(psi) * sin(psi));
 }
 
-/* Stresses under a unit force at the origin, normal (into the body) or along +x (Boussinesq, Cerruti;
- * Johnson 1985, eqs. 3.19 and 3.75), in the order sxx syy szz sxy sxz syz. */
+/* Stresses under a unit force at the origin, normal (into the body) or along +x (Boussinesq,
+ * Cerruti; Johnson 1985, eqs. 3.19 and 3.75), in the order sxx syy szz sxy sxz syz. */
 static inline void
 point_stress(bool shear, double nu, double x, double y, double z, double s[6])
 {
@@ -152,9 +152,9 @@ point_stress(bool shear, double nu, double x, double y, double z, double s[6])
         s[k] *= scale;
 }
 
-/* Stresses under uniform pressure (Love 1929, sections 6 and 7) or uniform shear along +x of 1 on the
- * rectangle |x| <= a, |y| <= b, z > 0, in the same order; in extended precision, because far away
- * the terms cancel. */
+/* Stresses under uniform pressure (Love 1929, sections 6 and 7) or uniform shear along +x of 1 on
+ * the rectangle |x| <= a, |y| <= b, z > 0, in the same order; in extended precision, because far
+ * away the terms cancel. */
 static inline long double
 rectangle_corner(bool shear, int component, long double nu, long double x, long double y,
                  long double z)
@@ -199,19 +199,20 @@ rectangle_stress(bool shear, int component, double nu, double x, double y, doubl
     for (int s = -1; s <= 1; s += 2)
         for (int t = -1; t <= 1; t += 2)
             sum += s * t *
-                   rectangle_corner(shear, component, (long double)nu, (long double)x + s * (long double)a,
+                   rectangle_corner(shear, component, (long double)nu,
+                                    (long double)x + s * (long double)a,
                                     (long double)y + t * (long double)b, (long double)z);
     return (double)(sum / (2 * (long double)exact_pi));
 }
 
 /*
- * Sliding sphere: pressure p0 sqrt(1 - r^2/a^2) and the traction mu times it along +x (Hamilton 1983,
- * Proc. Inst. Mech. Eng. 197C, 53; Sackfield and Hills 1983, J. Strain Anal. 18, 107), z > 0 or, at the
- * surface, r < a. The potential of that pressure is that of point sources at the depths z + it,
- * |t| < a, of strength a^2 - t^2, so each stress is -p0 (Re F2 - Im F3 / a) where F2, F3 are the second
- * and third antiderivative in z of what a point source does, at the depth z + ia. With w = R + z,
- * f1 = ln w, f2 = z f1 - R, fn the antiderivative of f(n-1), the derivatives of fn by x and y are
- * those of gn = fn'/r, hn = gn'/r, kn = hn'/r.
+ * Sliding sphere: pressure p0 sqrt(1 - r^2/a^2) and the traction mu times it along +x (Hamilton
+ * 1983, Proc. Inst. Mech. Eng. 197C, 53; Sackfield and Hills 1983, J. Strain Anal. 18, 107), z > 0
+ * or, at the surface, r < a. The potential of that pressure is that of point sources at the depths
+ * z + it, |t| < a, of strength a^2 - t^2, so each stress is -p0 (Re F2 - Im F3 / a) where F2, F3
+ * are the second and third antiderivative in z of what a point source does, at the depth z + ia.
+ * With w = R + z, f1 = ln w, f2 = z f1 - R, fn the antiderivative of f(n-1), the derivatives of fn
+ * by x and y are those of gn = fn'/r, hn = gn'/r, kn = hn'/r.
  */
 static inline void
 sliding_sphere(struct hertz s, double nu, double mu, double x, double y, double depth,

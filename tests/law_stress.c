@@ -79,7 +79,8 @@ static double
 slope(const double *v, ptrdiff_t step, double d)
 {
     return (45 * (v[step] - v[-step]) - 9 * (v[2 * step] - v[-2 * step]) +
-            (v[3 * step] - v[-3 * step])) / (60 * d);
+            (v[3 * step] - v[-3 * step])) /
+           (60 * d);
 }
 
 /* The same of the second derivative. */
@@ -108,8 +109,8 @@ in_equilibrium(void **state)
         for (int i = 0; i < 7; i++)
             slice(p, options((enum rc_boundary)b, 0.3, 0.4), z + (i - 3) * step, &f[i]);
         for (size_t k = 0; k < N; k++) {
-            static const int of[3][3] = {{RC_SXX, RC_SXY, RC_SXZ}, {RC_SXY, RC_SYY, RC_SYZ},
-                                         {RC_SXZ, RC_SYZ, RC_SZZ}};
+            static const int of[3][3] = {
+                {RC_SXX, RC_SXY, RC_SXZ}, {RC_SXY, RC_SYY, RC_SYZ}, {RC_SXZ, RC_SYZ, RC_SZZ}};
             double xx, yy, zz, m = trace(&f[3], k);
             if (k % NX < 3 || k % NX > NX - 4 || k / NX < 3 || k / NX > NY - 4)
                 continue;
@@ -134,7 +135,8 @@ in_equilibrium(void **state)
             bent = fmax(bent, fabs(zz));
         }
         print_message("%s: forces off by %.1e %.1e %.1e, the sum's Laplacian by %.1e of its "
-                      "terms\n", b == 0 ? "free" : "periodic", off[0] / largest, off[1] / largest,
+                      "terms\n",
+                      b == 0 ? "free" : "periodic", off[0] / largest, off[1] / largest,
                       off[2] / largest, harmonic / bent);
         for (int j = 0; j < 3; j++)
             assert_true(off[j] < 1e-4 * largest);
@@ -282,8 +284,8 @@ uniform_and_plane(void **state)
     }
 }
 
-/* A wave of pressure on a periodic map: exp(-qz) (1 + qz) and what goes with it (Johnson 1985, section
- * 13.2, from Airy's stress function in plane strain). */
+/* A wave of pressure on a periodic map: exp(-qz) (1 + qz) and what goes with it (Johnson 1985,
+ * section 13.2, from Airy's stress function in plane strain). */
 static void
 one_wave(void **state)
 {
@@ -318,8 +320,8 @@ one_wave(void **state)
 
 /* ---- symmetry ---- */
 
-/* The mirror image of a pressure has the mirror image of the stresses; the friction turns with it, and
- * is a stress field of its own, mu times. */
+/* The mirror image of a pressure has the mirror image of the stresses; the friction turns with it,
+ * and is a stress field of its own, mu times. */
 static void
 mirrors_and_sums(void **state)
 {
@@ -361,9 +363,9 @@ mirrors_and_sums(void **state)
     free(m);
 }
 
-/* A contact in the middle of ever larger periodic maps becomes the free one, with its mean too. Cells
- * hold the mean of a smooth pressure about a node, which is what the waves are given: the pressure
- * and d^2/24 of its Laplacian. */
+/* A contact in the middle of ever larger periodic maps becomes the free one, with its mean too.
+ * Cells hold the mean of a smooth pressure about a node, which is what the waves are given: the
+ * pressure and d^2/24 of its Laplacian. */
 static void
 far_walls_do_not_matter(void **state)
 {

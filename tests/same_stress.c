@@ -115,8 +115,8 @@ engines_agree(void **state)
 
 /* ---- coarser grids ---- */
 
-/* With a tolerance deep slices come from coarser grids, and err by no more than it, for pressures of
- * the worst signs too. */
+/* With a tolerance deep slices come from coarser grids, and err by no more than it, for pressures
+ * of the worst signs too. */
 static void
 coarse_within_tolerance(void **state)
 {

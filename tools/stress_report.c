@@ -24,8 +24,7 @@ stress_report_begin(struct stress_report *r, const struct rc_grid *p,
                     const struct rc_stress_options *options, const struct numbers *depths,
                     bool peaks, struct rc_err *err)
 {
-    *r = (struct stress_report){
-        .p = p, .options = options, .depths = depths, .began = now()};
+    *r = (struct stress_report){.p = p, .options = options, .depths = depths, .began = now()};
     for (int c = 0; c < RC_STRESSES; c++) {
         if (!peaks || !(options->wanted >> c & 1))
             continue;
