@@ -80,6 +80,32 @@ rc-stress --depths 100um --components szz --report xx.json ball.rcg -o xx.rcg
 claim "a section across x has the rows of the map as columns" bash -c 'rc-info x.rcg | grep -q "49 x 1 nodes"'
 claim "history has its place in SI" bash -c 'rc-info x.rcg | grep -q -- "--section x=2e-05"'
 
+# ---- a rough ball: the paper's Fig. 6 ----
+
+# 121 x 103 nodes of its section 4.2, real contact about 0.55 of Hertz's, where Mises is 1.37 GPa at most
+ball="--radius 1.88mm --load 15.06N --E1 210GPa --nu1 0.28 --E2 210GPa --nu2 0.28 --hardness 6GPa"
+rc-synth selfaffine --nx 121 --ny 103 --dx 1.1um --dy 1.29um --hurst 0.8 --rms-height 130nm \
+    --rolloff 30um --short-cut 5um --seed 7 -o roughness.rcg
+rc-solve --quiet $ball --output pressure --report rough.json roughness.rcg -o rough.rcg
+rc-synth sphere --nx 121 --ny 103 --dx 1.1um --dy 1.29um --radius 1000000 -o flat.rcg
+rc-solve --quiet $ball --output pressure flat.rcg -o smooth.rcg
+near "$(field contact_area rough.json)" "$(awk 'BEGIN { print 0.55 * 3.14159 * 57.1e-6 ^ 2 }')" 0.05 \
+    "the rough contact is that of the paper's Fig. 5"
+for surface in rough smooth; do
+    rc-stress --depths 0:80um:41 --components mises --report $surface.json $surface.rcg -o m.rcg
+done
+claim "Mises is largest at or near the surface, above Hertz's" awk \
+    -v z="$(number mises depth rough.json)" -v m="$(number mises value rough.json)" \
+    'BEGIN { exit !(z <= 4e-6 && m > 1.5 * 1.37e9) }'
+by_depth() { grep -o '"by_depth": \[[^]]*' "$2" | sed 's/.*\[//' | tr ',' '\n' | sed -n "$1p"; }
+near "$(by_depth 41 rough.json)" "$(by_depth 41 smooth.json)" 0.06 \
+    "deep below the field is that of the smooth ball"
+for axis in x y; do
+    claim "its plane $axis = 0 is drawn" bash -c \
+        "rc-stress --depths 0:80um:81 --section $axis=0 --components mises rough.rcg |
+         rc-render -o fig6$axis.png && test -s fig6$axis.png"
+done
+
 # ---- boundaries ----
 
 claim "a periodic pressure has periodic stresses" bash -c \

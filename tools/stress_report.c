@@ -138,7 +138,7 @@ static const struct {
     {"friction", friction_effect},
     {"padding", padding_effect},
     {"section", section_effect},
-    {"coarse grids", coarse_effect},
+    {"coarse_grids", coarse_effect},
 };
 
 enum {
