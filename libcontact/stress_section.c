@@ -260,14 +260,17 @@ sum_pair(struct plan *plan, double depth, const struct pair *pair, double comple
     double *along = plan->space + (size_t)omp_get_thread_num() * plan->room;
     double *across = along + plan->waves, *line[RC_STRESS_KERNELS];
 
-    for (size_t i = 0; i < plan->waves; i++) {
-        along[i] = (double)i * plan->d;
-        across[i] = pair->offset;
-    }
     for (int k = 0; k < RC_STRESS_KERNELS; k++)
         line[k] = across + (size_t)(k + 1) * plan->waves;
-    rc_stress_coefficients(&cell, t->kernels, plan->waves, plan->turned ? across : along,
-                           plan->turned ? along : across, line);
+    if (plan->turned) {
+        for (size_t i = 0; i < plan->waves; i++) {
+            along[i] = (double)i * plan->d;
+            across[i] = pair->offset;
+        }
+        rc_stress_coefficients(&cell, t->kernels, plan->waves, across, along, line);
+    } else {
+        rc_stress_line(&cell, t->kernels, plan->waves, pair->offset, line);
+    }
     for (int k = 0; k < RC_STRESS_KERNELS; k++)
         if (t->kernels >> k & 1)
             rc_halves_run(plan->halves[odd_along(plan, k)], line[k]);
