@@ -224,24 +224,77 @@ enum rc_component {
     RC_SXY,
     RC_SXZ,
     RC_SYZ,
-    RC_COMPONENTS
+    RC_COMPONENTS,
+    RC_MISES = RC_COMPONENTS, /* from here on derived from all six             */
+    RC_TRESCA,                /* s1 - s3                                       */
+    RC_S1,                    /* principal stresses, s1 >= s2 >= s3            */
+    RC_S2,
+    RC_S3,
+    RC_STRESSES
 };
 /* "sxx", ... in that order. */
-extern const char *const rc_component_names[RC_COMPONENTS];
+extern const char *const rc_component_names[RC_STRESSES];
 
-/* Stresses under the pressure p (Pa, copied in transformed form) on the free half-space of Poisson's
- * ratio nu. */
-struct rc_stress *rc_stress_new(const struct rc_shape *shape, const double *p, double nu,
-                                size_t threads, struct rc_err *err);
-/* Component at the nodes at depth z >= 0 (m), Pa, tension positive. */
-enum rc_status rc_stress_slice(struct rc_stress *stress, enum rc_component component, double depth,
-                               double *s, struct rc_err *err);
+struct rc_stress_options {
+    enum rc_boundary boundary;
+    double nu;          /* Poisson's ratio, above -1 and at most 0.5                              */
+    double mu;          /* the surface also carries the traction mu p along +x                    */
+    unsigned wanted;    /* bits of enum rc_component                                              */
+    char section;       /* 'x' or 'y': only the plane x = at, or y = at; 0: maps                  */
+    double at;          /* m, from the middle of the map; within it                               */
+    const char *engine; /* a row of engines.list, or NULL or "auto"                               */
+    double tol;         /* asked error of a component over the largest pressure; 0: rounding      */
+    size_t threads;     /* 0: all                                                                 */
+};
+
+/* What has been computed, to see that nothing was that nobody asked for. */
+struct rc_stress_counts {
+    size_t depths;
+    size_t source_transforms;  /* of the pressure                                                 */
+    size_t normal_kernels;     /* kernels of a depth evaluated, of the pressure                   */
+    size_t shear_kernels;      /* and of the traction: none when mu = 0                           */
+    size_t coefficients;       /* values of them                                                  */
+    size_t kernel_transforms;  /* two-dimensional, of a quarter                                   */
+    size_t field_transforms;   /* two-dimensional, from wave numbers to a map                     */
+    size_t line_transforms;    /* one-dimensional, of kernels and sources of a section            */
+    size_t engine_sums;        /* convolutions by another engine                                  */
+    size_t coarse_depths;      /* of these depths computed on a coarser grid                      */
+};
+
+/* Stresses under the pressure p (Pa; kept by the caller, who does not change it) on a half-space.
+ * Free: the pressure is constant in each cell. Periodic: it is band-limited, and its mean gives
+ * szz = -p, sxz = -mu p and sxx = syy = -(1 + 2 nu) p / 2 at every depth, what a patch that grows
+ * without end gives. NULL when an option is out of bounds, there is no such engine or none for the
+ * boundary or the section, or memory is short. */
+struct rc_stress *rc_stress_new(const struct rc_shape *shape, const double *p,
+                                const struct rc_stress_options *options, struct rc_err *err);
+/* Values of a component at one depth: nx ny, or of the section y = at nx, of x = at ny. */
+size_t rc_stress_values(const struct rc_stress *stress);
+/* What is wanted at the depth z >= 0 (m), Pa, tension positive: s[c] for each c of `wanted`; the
+ * others are not touched. */
+enum rc_status rc_stress_slice(struct rc_stress *stress, double depth,
+                               double *const s[RC_STRESSES], struct rc_err *err);
+const char *rc_stress_engine(const struct rc_stress *stress);
+const struct rc_stress_counts *rc_stress_counted(const struct rc_stress *stress);
 void rc_stress_free(struct rc_stress *stress);
-/* Bytes that a plan of this size takes, beside the slices. */
-size_t rc_stress_memory(const struct rc_shape *shape);
+/* Bytes that such a plan takes, beside p and the slices. */
+size_t rc_stress_memory(const struct rc_shape *shape, const struct rc_stress_options *options);
 
-/* Von Mises stress of n points from their six components. */
-void rc_mises(size_t n, const double *const s[RC_COMPONENTS], double *mises);
+/* Depths from 0 down at which to look at the stresses under this pressure, *n of them in an array
+ * that the caller frees: close together where its short waves are felt, farther apart below, down
+ * to three contact radii (free) or to where the waves have died to 1 % (periodic). Successive
+ * depths are a quarter of the RMS wave's 1/q apart. RC_FAIL when memory is short. */
+enum rc_status rc_stress_depths(const struct rc_shape *shape, const double *p,
+                                enum rc_boundary boundary, double **depths, size_t *n,
+                                struct rc_err *err);
+
+/* Place of the value of largest size; the first of equals. n > 0. */
+size_t rc_largest(size_t n, const double *v);
+
+/* The derived stresses of n points from their six components: out[c] for each c from RC_MISES on
+ * whose bit is set. */
+void rc_stress_derive(unsigned wanted, size_t n, const double *const s[RC_COMPONENTS],
+                      double *const out[RC_STRESSES]);
 
 #ifdef __cplusplus
 }

@@ -34,9 +34,8 @@ struct rc_spectrum {
 
 /* ---- layout ---- */
 
-/* Smallest multiple of `step` from 2n up without prime factors over 7. */
-static size_t
-padded(size_t n, size_t step)
+size_t
+rc_fft_length(size_t n, size_t step)
 {
     for (size_t length = (2 * n + step - 1) / step * step;; length += step) {
         size_t rest = length;
@@ -55,8 +54,8 @@ layout_of(const struct rc_shape *s, enum rc_boundary boundary, enum rc_precision
     struct rc_layout l = {.nx = s->nx, .ny = s->ny, .px = s->nx, .py = s->ny};
 
     if (boundary == RC_FREE) {
-        l.px = padded(s->nx, 2);
-        l.py = padded(s->ny, 4);
+        l.px = rc_fft_length(s->nx, 2);
+        l.py = rc_fft_length(s->ny, 4);
     }
     l.cx = l.px / 2 + 1;
     l.stride = (l.cx + line - 1) / line * line;
@@ -172,13 +171,32 @@ enum {
     COLUMNS = 8 /* taken out of it together: a cache line                                    */
 };
 
-static void
-finish_column(const struct rc_fft *f, struct rc_spectrum *k, size_t c, const double *s)
+void
+rc_fft_quarter(const struct rc_fft *f, size_t *nx, size_t *ny)
+{
+    *nx = f->layout.cx;
+    *ny = f->layout.packed;
+}
+
+void
+rc_spectrum_begin(struct rc_spectrum *k, unsigned parity)
+{
+    k->parity = parity;
+}
+
+void
+rc_spectrum_column(struct rc_spectrum *k, const struct rc_fft *f, size_t c, const double *s)
 {
     const struct rc_layout *l = &f->layout;
 
     f->ops->pack(l, c, 1 / ((double)l->px * (double)l->py), k->parity & RC_ODD_Y ? -1 : 1, s,
                  k->packed);
+}
+
+static void
+finish_column(const struct rc_fft *f, struct rc_spectrum *k, size_t c, const double *s)
+{
+    rc_spectrum_column(k, f, c, s);
 }
 
 /* The kernel's values at the nodes of a quarter period, row by row, each transformed in x. */
@@ -227,8 +245,9 @@ transform_values(const struct rc_fft *f, struct rc_spectrum *k, const struct rc_
                  size_t component, const struct rc_medium *medium, struct rc_err *err)
 {
     const struct rc_layout *l = &f->layout;
-    struct rc_halves *along_x = rc_halves_new(l->cx, k->parity & RC_ODD_X, err);
-    struct rc_halves *along_y = rc_halves_new(l->packed, k->parity & RC_ODD_Y, err);
+    size_t threads = (size_t)l->threads;
+    struct rc_halves *along_x = rc_halves_new(l->cx, k->parity & RC_ODD_X, threads, err);
+    struct rc_halves *along_y = rc_halves_new(l->packed, k->parity & RC_ODD_Y, threads, err);
     size_t n = l->cx * l->packed;
     double *own = NULL, *table = f->ops->borrow(f->plan, n * sizeof *table);
     double *space = malloc((size_t)l->threads * COLUMNS * l->packed * sizeof *space);
@@ -399,5 +418,12 @@ rc_fft_load(struct rc_fft *f, const double *p, struct rc_err *err)
 void
 rc_fft_field(struct rc_fft *f, const struct rc_spectrum *k, double *u)
 {
-    f->ops->field(f->plan, k->packed, k->parity, u);
+    f->ops->field(f->plan, k->packed, k->parity, NULL, 0, 0, u);
+}
+
+void
+rc_fft_field_pair(struct rc_fft *f, const struct rc_spectrum *k, double weight,
+                  const struct rc_spectrum *also, double *u)
+{
+    f->ops->field(f->plan, k->packed, k->parity, also->packed, also->parity, weight, u);
 }

@@ -20,6 +20,8 @@ struct rc_spectrum; /* of one kernel: a quarter of it, real */
 struct rc_fft *rc_fft_new(const struct rc_shape *shape, enum rc_boundary boundary,
                           enum rc_precision precision, size_t threads, struct rc_err *err);
 void rc_fft_free(struct rc_fft *fft);
+/* Smallest multiple of `step` from 2n up without prime factors over 7. */
+size_t rc_fft_length(size_t n, size_t step);
 /* Bytes of a plan with one spectrum, and of each further spectrum. */
 size_t rc_fft_memory(const struct rc_shape *shape, enum rc_boundary boundary,
                      enum rc_precision precision);
@@ -44,6 +46,14 @@ enum rc_status rc_spectrum_set_values(struct rc_spectrum *spectrum, const struct
                                       const struct rc_kernel *kernel, size_t component,
                                       const struct rc_medium *medium, struct rc_err *err);
 
+/* The same by hand. The spectrum of a kernel of this parity is given column by column: s(q) for
+ * q < *ny of column c < *nx, which several threads may do at once. On the free boundary that is the
+ * rc_halves transform, in x and in y, of the kernel's values at the offsets i < *nx, j < *ny. */
+void rc_fft_quarter(const struct rc_fft *fft, size_t *nx, size_t *ny);
+void rc_spectrum_begin(struct rc_spectrum *spectrum, unsigned parity);
+void rc_spectrum_column(struct rc_spectrum *spectrum, const struct rc_fft *fft, size_t c,
+                        const double *s);
+
 /* u = K p. u and p may be the same. */
 void rc_fft_apply(struct rc_fft *fft, const struct rc_spectrum *kernel, const double *p, double *u);
 
@@ -61,6 +71,9 @@ void rc_fft_chain(struct rc_fft *fft, size_t n, const struct rc_spectrum *const 
 /* Keeps the whole transform of p; then u = K p for as many kernels as are wanted. */
 enum rc_status rc_fft_load(struct rc_fft *fft, const double *p, struct rc_err *err);
 void rc_fft_field(struct rc_fft *fft, const struct rc_spectrum *kernel, double *u);
+/* u = (K + weight L) p. */
+void rc_fft_field_pair(struct rc_fft *fft, const struct rc_spectrum *k, double weight,
+                       const struct rc_spectrum *l, double *u);
 
 /* ---- between fft.c and fft_body.h ---- */
 
@@ -102,7 +115,9 @@ struct rc_fft_ops {
     void (*apply)(void *plan, const void *packed, unsigned parity, const double *p, double *u);
     void (*chain)(void *plan, size_t n, const struct rc_link *links, rc_row *last, void *ctx);
     bool (*load)(void *plan, const double *p); /* false: out of memory */
-    void (*field)(void *plan, const void *packed, unsigned parity, double *u);
+    /* Of one spectrum, or, when `also` is not NULL, of that one too, weighted. */
+    void (*field)(void *plan, const void *packed, unsigned parity, const void *also,
+                  unsigned also_parity, double weight, double *u);
 };
 extern const struct rc_fft_ops rc_fft_double, rc_fft_single;
 

@@ -390,6 +390,17 @@ times(COMPLEX *restrict z, size_t n, const REAL *restrict s, ptrdiff_t step, int
         }
 }
 
+/* z += weight y. */
+RC_CLONES static void
+add(COMPLEX *restrict z, const COMPLEX *restrict y, REAL weight, size_t n)
+{
+    REAL *v = (REAL *)z;
+    const REAL *w = (const REAL *)y;
+
+    for (size_t k = 0; k < 2 * n; k++)
+        v[k] += weight * w[k];
+}
+
 /* Piece r of a transformed column times the kernel's column s (packed). */
 static void
 multiply(const struct rc_layout *l, const REAL *s, unsigned parity, size_t r, COMPLEX *z)
@@ -489,11 +500,12 @@ load(void *at, const double *p)
 }
 
 static void
-field(void *at, const void *packed, unsigned parity, double *u)
+field(void *at, const void *packed, unsigned parity, const void *also, unsigned also_parity,
+      double weight, double *u)
 {
     struct plan *f = at;
     const struct rc_layout *l = &f->l;
-    const REAL *s = packed;
+    const REAL *s = packed, *t = also;
     struct map map = {.u = u, .nx = l->nx};
 
 #pragma omp parallel for num_threads(l->threads) schedule(static)
@@ -503,9 +515,15 @@ field(void *at, const void *packed, unsigned parity, double *u)
 
         for (size_t b = 0; b < n; b++)
             for (size_t r = 0; r < l->split; r++) {
+                COMPLEX *one = y + b * f->column + r * piece(f);
                 memcpy(z, source_of(f, c + b, r), l->m * sizeof *z);
                 multiply(l, s + (c + b) * l->packed, parity, r, z);
-                FFTW(execute_dft)(f->column_back, z, y + b * f->column + r * piece(f));
+                if (t != NULL) {
+                    memcpy(one, source_of(f, c + b, r), l->m * sizeof *z);
+                    multiply(l, t + (c + b) * l->packed, also_parity, r, one);
+                    add(z, one, (REAL)weight, l->m);
+                }
+                FFTW(execute_dft)(f->column_back, z, one);
             }
         scatter(f, c, y);
     }

@@ -1,8 +1,11 @@
 #include "fourier.h"
+#include "inside.h"
 
 #include <fftw3.h> /* after complex.h: fftw_complex is then double complex */
 #include <limits.h>
+#include <omp.h>
 #include <stdlib.h>
+#include <string.h>
 
 size_t
 rc_fourier_columns(const struct rc_shape *shape)
@@ -61,48 +64,142 @@ rc_fourier_backward(const struct rc_shape *shape, double complex *s, double *v,
     return transform(shape, false, v, s, err);
 }
 
+/* ---- lines ---- */
+
+struct rc_line {
+    size_t n, space; /* doubles of one thread */
+    fftw_plan forward, backward;
+    double *scratch;
+};
+
+static double *
+values_of(const struct rc_line *l)
+{
+    return l->scratch + (size_t)omp_get_thread_num() * l->space;
+}
+
+static double complex *
+waves_of(const struct rc_line *l)
+{
+    return (double complex *)(void *)(values_of(l) + (l->n + 7) / 8 * 8);
+}
+
+struct rc_line *
+rc_line_new(size_t n, size_t threads, struct rc_err *err)
+{
+    struct rc_line *l = calloc(1, sizeof *l);
+
+    if (l == NULL || n > INT_MAX)
+        goto fail;
+    l->n = n;
+    l->space = (n + 7) / 8 * 8 + (n + 2 + 15) / 16 * 16;
+    l->scratch = aligned_alloc(64, (threads * l->space * sizeof(double) + 63) / 64 * 64);
+    if (l->scratch == NULL)
+        goto fail;
+#pragma omp critical(rc_fftw_planner)
+    {
+        l->forward = fftw_plan_dft_r2c_1d((int)n, values_of(l), waves_of(l), FFTW_ESTIMATE);
+        l->backward = fftw_plan_dft_c2r_1d((int)n, waves_of(l), values_of(l), FFTW_ESTIMATE);
+    }
+    if (l->forward != NULL && l->backward != NULL)
+        return l;
+fail:
+    rc_err_set(err, "out of memory for a transform of %zu values", n);
+    rc_line_free(l);
+    return NULL;
+}
+
+void
+rc_line_forward(const struct rc_line *l, const double *v, double complex *s)
+{
+    memcpy(values_of(l), v, l->n * sizeof *v);
+    fftw_execute_dft_r2c(l->forward, values_of(l), waves_of(l));
+    memcpy(s, waves_of(l), (l->n / 2 + 1) * sizeof *s);
+}
+
+void
+rc_line_backward(const struct rc_line *l, const double complex *s, double *v)
+{
+    memcpy(waves_of(l), s, (l->n / 2 + 1) * sizeof *s);
+    fftw_execute_dft_c2r(l->backward, waves_of(l), values_of(l));
+    memcpy(v, values_of(l), l->n * sizeof *v);
+}
+
+void
+rc_line_free(struct rc_line *l)
+{
+    if (l == NULL)
+        return;
+#pragma omp critical(rc_fftw_planner)
+    {
+        fftw_destroy_plan(l->forward);
+        fftw_destroy_plan(l->backward);
+    }
+    free(l->scratch);
+    free(l);
+}
+
+/* ---- half lines ---- */
+
+/* The whole period is laid out and transformed as any real line: FFTW's own even and odd transforms
+ * of half a period know no vectors and take twice as long (1025 values: 5.0 us against 2.5). */
 struct rc_halves {
     size_t n;
     bool odd;
-    fftw_plan plan; /* NULL: an odd line without inner values */
+    struct rc_line *period; /* NULL: an odd line without inner values, or a single value */
 };
 
 struct rc_halves *
-rc_halves_new(size_t n, bool odd, struct rc_err *err)
+rc_halves_new(size_t n, bool odd, size_t threads, struct rc_err *err)
 {
     struct rc_halves *h = calloc(1, sizeof *h);
-    size_t inner = odd ? n - 2 : n;
-    double *line = fftw_alloc_real(n);
-    fftw_r2r_kind kind = odd ? FFTW_RODFT00 : FFTW_REDFT00;
 
-    if (h == NULL || line == NULL || inner > INT_MAX)
-        goto fail;
+    if (h == NULL) {
+        rc_err_set(err, "out of memory for a transform of %zu values", n);
+        return NULL;
+    }
     h->n = n;
     h->odd = odd;
-    if (inner > 0) {
-#pragma omp critical(rc_fftw_planner)
-        h->plan = fftw_plan_r2r_1d((int)inner, line, line, kind, FFTW_ESTIMATE | FFTW_UNALIGNED);
-        if (h->plan == NULL)
-            goto fail;
+    if (n > 1 && (h->period = rc_line_new(2 * n - 2, threads, err)) == NULL) {
+        free(h);
+        return NULL;
     }
-    fftw_free(line);
     return h;
-fail:
-    rc_err_set(err, "out of memory for a transform of %zu values", n);
-    fftw_free(line);
-    free(h);
-    return NULL;
+}
+
+RC_CLONES static void
+lay_out(size_t n, double sign, const double *restrict line, double *restrict v)
+{
+    double *end = v + 2 * n - 2;
+
+    memcpy(v, line, n * sizeof *v);
+    for (size_t j = 1; j + 1 < n; j++)
+        *(end - j) = sign * line[j];
+}
+
+/* Every second number, times the sign. */
+RC_CLONES static void
+pick(size_t n, double sign, const double *restrict s, double *restrict line)
+{
+    for (size_t k = 0; k < n; k++)
+        line[k] = sign * s[2 * k];
 }
 
 void
 rc_halves_run(const struct rc_halves *h, double *line)
 {
-    double *inner = line + (h->odd ? 1 : 0);
+    double sign = h->odd ? -1 : 1, *v;
+    const double *s;
 
     if (h->odd)
         line[0] = line[h->n - 1] = 0;
-    if (h->plan != NULL)
-        fftw_execute_r2r(h->plan, inner, inner);
+    if (h->period == NULL)
+        return;
+    v = values_of(h->period);
+    lay_out(h->n, sign, line, v);
+    fftw_execute_dft_r2c(h->period->forward, v, waves_of(h->period));
+    s = (const double *)waves_of(h->period);
+    pick(h->n, sign, s + h->odd, line);
 }
 
 void
@@ -110,7 +207,6 @@ rc_halves_free(struct rc_halves *h)
 {
     if (h == NULL)
         return;
-#pragma omp critical(rc_fftw_planner)
-    fftw_destroy_plan(h->plan);
+    rc_line_free(h->period);
     free(h);
 }

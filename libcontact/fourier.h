@@ -27,13 +27,22 @@ enum rc_status rc_fourier_forward(const struct rc_shape *shape, const double *v,
 enum rc_status rc_fourier_backward(const struct rc_shape *shape, double complex *s, double *v,
                                    struct rc_err *err);
 
+/* Transforms of single lines of n real values, for as many threads at once as are given. NULL when
+ * memory is short. */
+struct rc_line;
+struct rc_line *rc_line_new(size_t n, size_t threads, struct rc_err *err);
+/* s_k, k <= n/2, of n values, and back (nothing is divided by n); they may lie anywhere. Called by
+ * threads of one OpenMP team. */
+void rc_line_forward(const struct rc_line *line, const double *v, double complex *s);
+void rc_line_backward(const struct rc_line *line, const double complex *s, double *v);
+void rc_line_free(struct rc_line *line); /* NULL is allowed */
 
 /* Real even (or odd) transform of lines of n values: a line holds half a period with both ends, v_0 ..
  * v_(n-1) of a period 2n - 2, and becomes the sum of v_j cos(pi jk / (n-1)) (or sin) over the whole
  * period. An odd line is zero at both ends. NULL when memory is short. */
 struct rc_halves;
-struct rc_halves *rc_halves_new(size_t n, bool odd, struct rc_err *err);
-/* In place; several threads may run one transform on lines of their own. */
+struct rc_halves *rc_halves_new(size_t n, bool odd, size_t threads, struct rc_err *err);
+/* In place; called by threads of one OpenMP team, on lines of their own. */
 void rc_halves_run(const struct rc_halves *halves, double *line);
 void rc_halves_free(struct rc_halves *halves); /* NULL is allowed */
 

@@ -1,109 +1,319 @@
 /*
- * Stresses inside a half-space under unit pressure on a cell dx x dy of its surface (Love 1929):
- * the double difference over the four corners of an antiderivative F,
+ * Stresses inside a half-space under unit load on a cell of its surface.
  *
- *     s(x, y, z) = 1/(2 pi) sum +- F(x -+ dx/2, y -+ dy/2, z).
- *
- * With R^2 = X^2 + Y^2 + z^2, T1 = atan2(XY, zR), T2 = atan2(XY, X^2 + z^2 + zR):
- *
- *     sxx  -2 nu T1 - (1 - 2 nu) T2 + z XY / (R (X^2 + z^2));   syy with X and Y exchanged
- *     szz  -T1 - z XY / R (1/(X^2 + z^2) + 1/(Y^2 + z^2))
- *     sxy  -z/R - (1 - 2 nu) ln(R + z)
- *     sxz  z^2 Y / (R (X^2 + z^2));   syz with X and Y exchanged
- *
- * Both arctangents have a second argument that is never negative: no branch is crossed. Corners lie
- * between nodes, so X and Y are never 0 and the forms hold down to z = 0, where T1 is
- * +- pi/2. Their error is absolute, some 1e-16 of the pressure.
+ * No single form keeps its digits everywhere. On and next to the cell Love's differences over its
+ * four corners hold, down to z = 0; their error is absolute, some 1e-16 of the load, so farther
+ * away, where the stress falls as 1/R^2, they lose. There Gauss's rule for the integral of the
+ * point loads over the cell is exact to rounding, with fewer points the farther it is. Farthest,
+ * on a line of nodes, neighbours share their points: means over cells are taken from the values at
+ * the nodes.
  */
-#include "inside.h"
+#include "stress.h"
 
 #include <math.h>
+#include <string.h>
 
 static const double pi = 3.14159265358979323846;
 
-static double
-normal_x(double nu, double x, double y, double z, double r)
-{
-    double t1 = atan2(x * y, z * r);
-    double t2 = atan2(x * y, x * x + z * z + z * r);
+enum {
+    BLOCK = 256,       /* points evaluated together: their arrays stay in the first cache */
+    ROOM = BLOCK + 24, /* of each: equal places would else fall on the same lines of the cache */
+    MOST = 12          /* points of a rule in one direction                               */
+};
 
-    return -2 * nu * t1 - (1 - 2 * nu) * t2 + z * x * y / (r * (x * x + z * z));
+/* Distance over the half side of a cell from which a rule of so many points in that direction
+ * leaves less than 1e-13 of load times (cell / distance)^2 / 2 pi of any kernel. */
+static const struct rule {
+    double from;
+    int points;
+} rules[] = {{3, 12}, {4, 9}, {6, 8}, {8, 7}, {10, 6}, {17, 5}, {38, 4}, {160, 3}};
+
+enum {
+    RULES = sizeof rules / sizeof *rules
+};
+
+/* Abscissas and weights of Gauss's rules on (-1, 1), the positive half of each (Abramowitz and
+ * Stegun 1964, 25.4). */
+static const struct gauss {
+    double x, w;
+} gauss3[] = {{0, 0.888888888888888889}, {0.774596669241483377, 0.555555555555555556}},
+  gauss4[] = {{0.339981043584856265, 0.652145154862546143},
+              {0.861136311594052575, 0.347854845137453857}},
+  gauss5[] = {{0, 0.568888888888888889},
+              {0.538469310105683091, 0.478628670499366468},
+              {0.906179845938663993, 0.236926885056189088}},
+  gauss6[] = {{0.238619186083196909, 0.467913934572691047},
+              {0.661209386466264514, 0.360761573048138608},
+              {0.932469514203152028, 0.171324492379170345}},
+  gauss7[] = {{0, 0.417959183673469388},
+              {0.405845151377397167, 0.381830050505118945},
+              {0.741531185599394440, 0.279705391489276668},
+              {0.949107912342758525, 0.129484966168869693}},
+  gauss8[] = {{0.183434642495649805, 0.362683783378361983},
+              {0.525532409916328986, 0.313706645877887287},
+              {0.796666477413626740, 0.222381034453374471},
+              {0.960289856497536232, 0.101228536290376259}},
+  gauss9[] = {{0, 0.330239355001259763},
+              {0.324253423403808929, 0.312347077040002840},
+              {0.613371432700590397, 0.260610696402935462},
+              {0.836031107326635794, 0.180648160694857404},
+              {0.968160239507626090, 0.081274388361574412}},
+  gauss12[] = {
+      {0.125233408511468916, 0.249147045813402785}, {0.367831498998180194, 0.233492536538354809},
+      {0.587317954286617447, 0.203167426723065922}, {0.769902674194304687, 0.160078328543346226},
+      {0.904117256370474857, 0.106939325995318431}, {0.981560634246719251, 0.047175336386511827}};
+static const struct gauss *const halves[MOST + 1] = {
+    [3] = gauss3, [4] = gauss4, [5] = gauss5, [6] = gauss6,
+    [7] = gauss7, [8] = gauss8, [9] = gauss9, [12] = gauss12};
+
+/* Point k of n, from the lowest. */
+static struct gauss
+gauss_point(int n, int k)
+{
+    int half = n / 2, from = k - half;
+    struct gauss g;
+
+    if (n % 2 == 0)
+        g = halves[n][from >= 0 ? from : -from - 1];
+    else
+        g = halves[n][from >= 0 ? from : -from];
+    if (from < 0)
+        g.x = -g.x;
+    return g;
 }
 
-static double
-corner(enum rc_component component, double nu, double x, double y, double z)
+/* The rule of a direction at this distance: -1, the corners. Distances from *low up to *high, which
+ * are narrowed, have the same. */
+static int
+rule_at(double distance, double half_side, double *low, double *high)
 {
-    double r = sqrt(x * x + y * y + z * z);
+    int k = -1;
 
-    switch (component) {
-    case RC_SXX:
-        return normal_x(nu, x, y, z, r);
-    case RC_SYY:
-        return normal_x(nu, y, x, z, r);
-    case RC_SZZ:
-        return -atan2(x * y, z * r) -
-               z * x * y / r * (1 / (x * x + z * z) + 1 / (y * y + z * z));
-    case RC_SXY:
-        return -z / r - (1 - 2 * nu) * log(r + z);
-    case RC_SXZ:
-        return z * z * y / (r * (x * x + z * z));
-    default:
-        return z * z * x / (r * (y * y + z * z));
-    }
+    while (k + 1 < RULES && distance >= rules[k + 1].from * half_side)
+        k++;
+    if (k >= 0)
+        *low = fmax(*low, rules[k].from * half_side);
+    if (k + 1 < RULES)
+        *high = fmin(*high, rules[k + 1].from * half_side);
+    return k;
 }
 
-/* One line of corner differences F(x + dx/2, y) - F(x - dx/2, y) at x = i sx dx. At every node the
- * right corner of one is the left of the next. `lower`, where it stands, becomes the coefficient;
- * `next`, when not NULL, keeps the line. */
-static void
-difference(const struct rc_medium *m, enum rc_component component, const struct rc_lattice *at,
-           double y, size_t n, double *lower, double *next)
-{
-    double half = at->dx / 2, right = 0;
+/* ---- by points ---- */
 
+RC_WIDE_CLONES static void
+distances(size_t n, const double *restrict x, const double *restrict y, double z,
+          double *restrict r, double *restrict w)
+{
     for (size_t i = 0; i < n; i++) {
-        double x = (double)(i * at->sx) * at->dx;
-        double left = i > 0 && at->sx == 1 ? right
-                                           : corner(component, m->nu, x - half, y, m->depth);
-        right = corner(component, m->nu, x + half, y, m->depth);
-        if (lower != NULL)
-            lower[i] = (right - left - lower[i]) / (2 * pi);
-        if (next != NULL)
-            next[i] = right - left;
+        double R = sqrt(x[i] * x[i] + y[i] * y[i] + z * z);
+        r[i] = 1 / R;
+        w[i] = 1 / (R + z);
     }
 }
 
-/* Each row is the difference of two lines of corners; at every node the upper line of one is the
- * lower line of the next. */
+RC_WIDE_CLONES static void
+shift(size_t n, const double *restrict from, double by, double *restrict to)
+{
+    for (size_t i = 0; i < n; i++)
+        to[i] = from[i] + by;
+}
+
+static void
+by_points(const struct rc_cell *c, unsigned kernels, int nx, int ny, size_t n, const double *x,
+          const double *y, double *const out[RC_STRESS_KERNELS], size_t at)
+{
+    double a = c->dx / 2, b = c->dy / 2;
+    _Alignas(64) double u[ROOM], v[ROOM], r[ROOM], w[ROOM];
+    struct rc_points p = {.n = n, .x = u, .y = v, .r = r, .w = w, .z = c->depth, .nu = c->nu};
+
+    for (int k = 0; k < RC_STRESS_KERNELS; k++)
+        if (kernels >> k & 1)
+            memset(out[k] + at, 0, n * sizeof(double));
+    for (int l = 0; l < ny; l++) {
+        struct gauss gy = gauss_point(ny, l);
+        shift(n, y, -b * gy.x, v);
+        for (int m = 0; m < nx; m++) {
+            struct gauss gx = gauss_point(nx, m);
+            shift(n, x, -a * gx.x, u);
+            distances(n, u, v, p.z, r, w);
+            for (int k = 0; k < RC_STRESS_KERNELS; k++)
+                if (kernels >> k & 1)
+                    rc_stress_rows[k].point(&p, a * b * gx.w * gy.w / (2 * pi), out[k] + at);
+        }
+    }
+}
+
+/* ---- by points, on a line of nodes ---- */
+
+enum {
+    REACH = 3 /* nodes on either side that a mean is taken from */
+};
+
+/* The mean of a smooth function over a cell from its values f at the nodes: f + d2/24 - 17 d4/5760
+ * + 367 d6/967680, with the central differences d2, d4, d6. */
+static const double mean_of[REACH + 1] = {
+    1 - 2 / 24.0 - 6 * 17 / 5760.0 - 20 * 367 / 967680.0,
+    1 / 24.0 + 4 * 17 / 5760.0 + 15 * 367 / 967680.0,
+    -17 / 5760.0 - 6 * 367 / 967680.0,
+    367 / 967680.0,
+};
+
+/* Distance over the cell from which the next term is below 1e-13 of a load's stress. */
+static const double far = 80;
+
+RC_WIDE_CLONES static void
+take_means(size_t n, const double *restrict f, double *restrict out)
+{
+    for (size_t i = 0; i < n; i++)
+        out[i] = mean_of[0] * f[i + 3] + mean_of[1] * (f[i + 2] + f[i + 4]) +
+                 mean_of[2] * (f[i + 1] + f[i + 5]) + mean_of[3] * (f[i] + f[i + 6]);
+}
+
+/* Stresses at x = (first + i) dx, i < n: Gauss's rule across the line, and along it the means. */
+static void
+by_means(const struct rc_cell *c, unsigned kernels, double y, size_t first, size_t n,
+         double *const out[RC_STRESS_KERNELS])
+{
+    double b = c->dy / 2, low = 0, high = INFINITY, x0 = (double)first * c->dx;
+    int rule = rule_at(sqrt(x0 * x0 + y * y + c->depth * c->depth), b, &low, &high);
+    int ny = rules[rule].points;
+    _Alignas(64) double u[ROOM], v[ROOM], r[ROOM], w[ROOM], sum[RC_STRESS_KERNELS][ROOM];
+    struct rc_points p = {
+        .n = n + 2 * REACH, .x = u, .y = v, .r = r, .w = w, .z = c->depth, .nu = c->nu};
+
+    for (size_t i = 0; i < p.n; i++)
+        u[i] = ((double)(first + i) - REACH) * c->dx;
+    for (int k = 0; k < RC_STRESS_KERNELS; k++)
+        if (kernels >> k & 1)
+            memset(sum[k], 0, p.n * sizeof(double));
+    for (int l = 0; l < ny; l++) {
+        struct gauss g = gauss_point(ny, l);
+        for (size_t i = 0; i < p.n; i++)
+            v[i] = y - b * g.x;
+        distances(p.n, u, v, p.z, r, w);
+        for (int k = 0; k < RC_STRESS_KERNELS; k++)
+            if (kernels >> k & 1)
+                rc_stress_rows[k].point(&p, c->dx * b * g.w / (2 * pi), sum[k]);
+    }
+    for (int k = 0; k < RC_STRESS_KERNELS; k++)
+        if (kernels >> k & 1)
+            take_means(n, sum[k], out[k] + first);
+}
+
+/* ---- by corners ---- */
+
+/* A point on an edge but for rounding is on it. */
+static double
+snap(double x, double side)
+{
+    return fabs(x) < 1e-9 * side ? 0 : x;
+}
+
+static double
+by_corners(const struct rc_cell *c, int kernel, double x, double y)
+{
+    double sum = 0;
+
+    for (int s = -1; s <= 1; s += 2)
+        for (int t = -1; t <= 1; t += 2) {
+            struct rc_corner k = {.x = snap(x + s * c->dx / 2, c->dx),
+                                  .y = snap(y + t * c->dy / 2, c->dy),
+                                  .z = c->depth,
+                                  .nu = c->nu,
+                                  .floor = 1e-3 * fmin(c->dx, c->dy)};
+            k.r = sqrt(k.x * k.x + k.y * k.y + k.z * k.z);
+            sum += s * t * rc_stress_rows[kernel].corner(&k);
+        }
+    return sum / (2 * pi);
+}
+
+/* ---- both ---- */
+
+void
+rc_stress_coefficients(const struct rc_cell *c, unsigned kernels, size_t n, const double *x,
+                       const double *y, double *const out[RC_STRESS_KERNELS])
+{
+    double z2 = c->depth * c->depth;
+
+    for (size_t i = 0, last; i < n; i = last) {
+        double r2 = x[i] * x[i] + y[i] * y[i] + z2, low = 0, high = INFINITY;
+        int along_x = rule_at(sqrt(r2), c->dx / 2, &low, &high);
+        int along_y = rule_at(sqrt(r2), c->dy / 2, &low, &high);
+
+        for (last = i + 1; last < n && last - i < BLOCK; last++) {
+            r2 = x[last] * x[last] + y[last] * y[last] + z2;
+            if (!(r2 >= low * low && r2 < high * high))
+                break;
+        }
+        if (along_x >= 0 && along_y >= 0) {
+            by_points(c, kernels, rules[along_x].points, rules[along_y].points, last - i, x + i,
+                      y + i, out, i);
+            continue;
+        }
+        for (int k = 0; k < RC_STRESS_KERNELS; k++)
+            for (size_t j = i; kernels >> k & 1 && j < last; j++)
+                out[k][j] = by_corners(c, k, x[j], y[j]);
+    }
+}
+
+void
+rc_stress_line(const struct rc_cell *c, unsigned kernels, size_t n, double y,
+               double *const out[RC_STRESS_KERNELS])
+{
+    double beyond = far * far * fmax(c->dx * c->dx, c->dy * c->dy) - y * y - c->depth * c->depth;
+    double inner = beyond > 0 ? ceil(sqrt(beyond) / c->dx) : 0;
+    size_t near = inner < (double)n ? (size_t)inner : n, room = BLOCK - 2 * REACH;
+    double x[BLOCK], ys[BLOCK], *to[RC_STRESS_KERNELS];
+
+    for (size_t start = 0; start < near; start += BLOCK) {
+        size_t count = near - start < BLOCK ? near - start : BLOCK;
+        for (size_t i = 0; i < count; i++) {
+            x[i] = (double)(start + i) * c->dx;
+            ys[i] = y;
+        }
+        for (int k = 0; k < RC_STRESS_KERNELS; k++)
+            to[k] = kernels >> k & 1 ? out[k] + start : NULL;
+        rc_stress_coefficients(c, kernels, count, x, ys, to);
+    }
+    for (size_t start = near; start < n; start += room)
+        by_means(c, kernels, y, start, n - start < room ? n - start : room, out);
+}
+
+/* ---- the row ---- */
+
 static void
 rows(const struct rc_medium *m, size_t component, const struct rc_lattice *at, size_t n,
      size_t first, size_t last, double *out)
 {
-    double half = at->dy / 2;
+    const struct rc_cell cell = {at->dx, at->dy, m->depth, m->nu};
+    double x[BLOCK], y[BLOCK], *to[RC_STRESS_KERNELS];
 
-    for (size_t j = first; j < last; j++, out += n) {
-        double y = (double)(j * at->sy) * at->dy;
-        bool keep = j + 1 < last && at->sy == 1;
-
-        if (j == first || at->sy != 1)
-            difference(m, component, at, y - half, n, NULL, out);
-        difference(m, component, at, y + half, n, out, keep ? out + n : NULL);
-    }
+    for (size_t j = first; j < last; j++, out += n)
+        for (size_t start = 0; start < n; start += BLOCK) {
+            size_t count = n - start < BLOCK ? n - start : BLOCK;
+            for (size_t i = 0; i < count; i++) {
+                x[i] = (double)((start + i) * at->sx) * at->dx;
+                y[i] = (double)(j * at->sy) * at->dy;
+            }
+            to[component] = out + start;
+            rc_stress_coefficients(&cell, 1u << component, count, x, y, to);
+        }
 }
 
-static const unsigned parity[RC_COMPONENTS] = {
-    [RC_SXX] = 0,
-    [RC_SYY] = 0,
-    [RC_SZZ] = 0,
-    [RC_SXY] = RC_ODD_X | RC_ODD_Y,
-    [RC_SXZ] = RC_ODD_X,
-    [RC_SYZ] = RC_ODD_Y,
-};
+static double
+symbol(const struct rc_medium *m, size_t component, double qx, double qy)
+{
+    double q = hypot(qx, qy);
+    const struct rc_wave wave = {qx, qy, q, m->depth, exp(-q * m->depth), m->nu};
+
+    return rc_stress_rows[component].symbol(&wave);
+}
 
 const struct rc_kernel rc_kernel_stress = {
     .name = "stress",
-    .summary = "the six stress components at a depth, Pa/Pa",
-    .components = RC_COMPONENTS,
-    .parity = parity,
+    .summary = "the six stress components at a depth under pressure, then under shear, Pa/Pa",
+    .components = RC_STRESS_KERNELS,
+    .parity = rc_stress_parity,
     .rows = rows,
+    .symbol = symbol,
 };

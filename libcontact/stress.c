@@ -1,58 +1,131 @@
 /*
- * Stress slices: the pressure is transformed once; each component and depth costs the evaluation of
- * its kernel, the transform of a quarter of it, one multiplication and one transform back.
+ * Stress slices and sections: which way they are summed, and what is derived from them.
  */
-#include "fft.h"
+#include "stress.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 struct rc_stress {
-    double nu;
-    struct rc_fft *fft;
-    struct rc_spectrum *kernel;
+    struct rc_stress_task task;
+    const struct rc_stress_way *way;
+    void *plan;
+    size_t values;
+    double *own[RC_COMPONENTS]; /* components that are needed but not wanted */
+    struct rc_stress_counts counts;
 };
 
-const char *const rc_component_names[RC_COMPONENTS] = {"sxx", "syy", "szz", "sxy", "sxz", "syz"};
+const char *const rc_component_names[RC_STRESSES] = {"sxx",   "syy",    "szz", "sxy", "sxz", "syz",
+                                                     "mises", "tresca", "s1",  "s2",  "s3"};
+
+static const unsigned six = (1u << RC_COMPONENTS) - 1;
+
+enum {
+    PIECE = 8192 /* points derived together by a thread */
+};
+
+/* ---- options ---- */
+
+static bool
+automatic(const char *engine)
+{
+    return engine == NULL || strcmp(engine, "auto") == 0;
+}
+
+static enum rc_status
+check(const struct rc_shape *shape, const struct rc_stress_options *o, struct rc_err *err)
+{
+    double half =
+        o->section == 'x' ? (double)shape->nx * shape->dx / 2 : (double)shape->ny * shape->dy / 2;
+
+    if (rc_shape_check(shape, err) != RC_OK)
+        return RC_FAIL;
+    if (!(o->nu > -1 && o->nu <= 0.5))
+        return rc_err_set(err, "Poisson's ratio %g: it must be above -1 and at most 0.5", o->nu);
+    if (!isfinite(o->mu))
+        return rc_err_set(err, "friction coefficient %g: it must be finite", o->mu);
+    if (o->wanted == 0 || o->wanted >> RC_STRESSES != 0)
+        return rc_err_set(err, "no stress is wanted, or one that does not exist");
+    if (!(o->tol >= 0 && o->tol < 1))
+        return rc_err_set(err, "tolerance %g: it must be at least 0 and below 1", o->tol);
+    if (o->section != 0 && !(fabs(o->at) <= half))
+        return rc_err_set(err, "section %c = %g m: the map ends at %g m", o->section, o->at, half);
+    if (o->section != 0 && !automatic(o->engine) && strcmp(o->engine, "fft") != 0)
+        return rc_err_set(err, "a section is summed by fft, not by %s: leave the kernel to auto",
+                          o->engine);
+    return RC_OK;
+}
+
+static struct rc_stress_task
+task_of(const struct rc_shape *shape, const double *p, const struct rc_stress_options *o,
+        struct rc_stress_counts *counts)
+{
+    bool derived = o->wanted >> RC_COMPONENTS != 0;
+    unsigned components = derived ? six : o->wanted & six;
+
+    return (struct rc_stress_task){.shape = *shape,
+                                   .options = *o,
+                                   .p = p,
+                                   .components = components,
+                                   .kernels = rc_stress_distinct(components, o->mu != 0),
+                                   .counts = counts};
+}
+
+static const struct rc_stress_way *
+way_of(const struct rc_stress_options *o)
+{
+    if (o->section != 0)
+        return &rc_stress_way_section;
+    if (automatic(o->engine) || strcmp(o->engine, "fft") == 0)
+        return &rc_stress_way_fft;
+    return &rc_stress_way_engine;
+}
+
+static size_t
+values_of(const struct rc_shape *shape, const struct rc_stress_options *o)
+{
+    return o->section == 'y' ? shape->nx : o->section == 'x' ? shape->ny : shape->nx * shape->ny;
+}
+
+void
+rc_stress_count(const struct rc_stress_task *t, int kernel, size_t coefficients)
+{
+    bool normal = rc_stress_distinct(t->components, false) >> kernel & 1;
+
+    *(normal ? &t->counts->normal_kernels : &t->counts->shear_kernels) += 1;
+    t->counts->coefficients += coefficients;
+}
+
+/* ---- plan ---- */
 
 struct rc_stress *
-rc_stress_new(const struct rc_shape *shape, const double *p, double nu, size_t threads,
-              struct rc_err *err)
+rc_stress_new(const struct rc_shape *shape, const double *p,
+              const struct rc_stress_options *options, struct rc_err *err)
 {
     struct rc_stress *stress;
 
-    if (!(nu > -1 && nu <= 0.5)) {
-        rc_err_set(err, "Poisson's ratio %g: it must be above -1 and at most 0.5", nu);
+    if (check(shape, options, err) != RC_OK)
         return NULL;
-    }
-    stress = calloc(1, sizeof *stress);
-    if (stress == NULL) {
+    if ((stress = calloc(1, sizeof *stress)) == NULL) {
         rc_err_set(err, "out of memory for a plan");
         return NULL;
     }
-    stress->nu = nu;
-    if ((stress->fft = rc_fft_new(shape, RC_FREE, RC_DOUBLE, threads, err)) == NULL ||
-        (stress->kernel = rc_spectrum_new(stress->fft, err)) == NULL ||
-        rc_fft_load(stress->fft, p, err) != RC_OK) {
+    stress->task = task_of(shape, p, options, &stress->counts);
+    stress->way = way_of(options);
+    stress->values = values_of(shape, options);
+    for (int c = 0; c < RC_COMPONENTS; c++)
+        if ((stress->task.components & ~options->wanted) >> c & 1 &&
+            (stress->own[c] = malloc(stress->values * sizeof *stress->own[c])) == NULL) {
+            rc_err_set(err, "out of memory for %zu values of a stress", stress->values);
+            rc_stress_free(stress);
+            return NULL;
+        }
+    if ((stress->plan = stress->way->new(&stress->task, err)) == NULL) {
         rc_stress_free(stress);
         return NULL;
     }
     return stress;
-}
-
-enum rc_status
-rc_stress_slice(struct rc_stress *stress, enum rc_component component, double depth, double *s,
-                struct rc_err *err)
-{
-    struct rc_medium medium = {.nu = stress->nu, .depth = depth};
-
-    if (!(depth >= 0) || isinf(depth))
-        return rc_err_set(err, "depth %g m: it must be finite and not negative", depth);
-    if (rc_spectrum_set(stress->kernel, stress->fft, &rc_kernel_stress, component, &medium, err) !=
-        RC_OK)
-        return RC_FAIL;
-    rc_fft_field(stress->fft, stress->kernel, s);
-    return RC_OK;
 }
 
 void
@@ -60,29 +133,80 @@ rc_stress_free(struct rc_stress *stress)
 {
     if (stress == NULL)
         return;
-    rc_fft_free(stress->fft);
-    rc_spectrum_free(stress->kernel);
+    if (stress->plan != NULL)
+        stress->way->free(stress->plan);
+    for (int c = 0; c < RC_COMPONENTS; c++)
+        free(stress->own[c]);
     free(stress);
 }
 
 size_t
-rc_stress_memory(const struct rc_shape *shape)
+rc_stress_memory(const struct rc_shape *shape, const struct rc_stress_options *o)
 {
-    /* the plan, the whole transform of p (two quarters of complex numbers), the kernel's
-     * table */
-    return rc_fft_memory(shape, RC_FREE, RC_DOUBLE) +
-           5 * rc_spectrum_memory(shape, RC_FREE, RC_DOUBLE);
+    struct rc_stress_task task = task_of(shape, NULL, o, NULL);
+    size_t own = 0;
+
+    for (int c = 0; c < RC_COMPONENTS; c++)
+        own += (task.components & ~o->wanted) >> c & 1;
+    return sizeof(struct rc_stress) + own * values_of(shape, o) * sizeof(double) +
+           way_of(o)->memory(&task);
 }
 
-void
-rc_mises(size_t n, const double *const s[RC_COMPONENTS], double *mises)
+/* ---- slices ---- */
+
+static void
+derive(const struct rc_stress *stress, const double *const six_of[RC_COMPONENTS],
+       double *const s[RC_STRESSES])
 {
-    for (size_t k = 0; k < n; k++) {
-        double a = s[RC_SXX][k] - s[RC_SYY][k];
-        double b = s[RC_SYY][k] - s[RC_SZZ][k];
-        double c = s[RC_SZZ][k] - s[RC_SXX][k];
-        double t = s[RC_SXY][k] * s[RC_SXY][k] + s[RC_SXZ][k] * s[RC_SXZ][k] +
-                   s[RC_SYZ][k] * s[RC_SYZ][k];
-        mises[k] = sqrt((a * a + b * b + c * c) / 2 + 3 * t);
+    const struct rc_shape *shape = &stress->task.shape;
+
+#pragma omp parallel for num_threads(rc_useful_threads(shape, stress->task.options.threads))       \
+    schedule(static)
+    for (size_t first = 0; first < stress->values; first += PIECE) {
+        size_t n = stress->values - first < PIECE ? stress->values - first : PIECE;
+        const double *from[RC_COMPONENTS];
+        double *to[RC_STRESSES] = {NULL};
+        for (int c = 0; c < RC_COMPONENTS; c++)
+            from[c] = six_of[c] + first;
+        for (int c = RC_COMPONENTS; c < RC_STRESSES; c++)
+            to[c] = stress->task.options.wanted >> c & 1 ? s[c] + first : NULL;
+        rc_stress_derive(stress->task.options.wanted, n, from, to);
     }
+}
+
+enum rc_status
+rc_stress_slice(struct rc_stress *stress, double depth, double *const s[RC_STRESSES],
+                struct rc_err *err)
+{
+    double *six_of[RC_COMPONENTS] = {NULL};
+
+    if (!(depth >= 0) || isinf(depth))
+        return rc_err_set(err, "depth %g m: it must be finite and not negative", depth);
+    for (int c = 0; c < RC_COMPONENTS; c++)
+        if (stress->task.components >> c & 1)
+            six_of[c] = stress->own[c] != NULL ? stress->own[c] : s[c];
+    if (stress->way->layer(stress->plan, depth, six_of, err) != RC_OK)
+        return RC_FAIL;
+    stress->counts.depths++;
+    if (stress->task.options.wanted >> RC_COMPONENTS != 0)
+        derive(stress, (const double *const *)six_of, s);
+    return RC_OK;
+}
+
+size_t
+rc_stress_values(const struct rc_stress *stress)
+{
+    return stress->values;
+}
+
+const char *
+rc_stress_engine(const struct rc_stress *stress)
+{
+    return stress->way == &rc_stress_way_engine ? stress->task.options.engine : "fft";
+}
+
+const struct rc_stress_counts *
+rc_stress_counted(const struct rc_stress *stress)
+{
+    return &stress->counts;
 }

@@ -2,7 +2,9 @@
 #ifndef EXACT_H
 #define EXACT_H
 
+#include <complex.h>
 #include <math.h>
+#include <stdbool.h>
 
 static const double exact_pi = 3.14159265358979323846;
 
@@ -92,8 +94,8 @@ love_displacement(double x, double y, double a, double b, double estar)
            (exact_pi * estar);
 }
 
-/* Westergaard 1939 (Johnson 1985, section 13.2): a wave of amplitude A and wavelength L pressed against
- * a flat; at the mean pressure `full` it touches everywhere. */
+/* Westergaard 1939 (Johnson 1985, section 13.2): a wave of amplitude A and wavelength L pressed
+ * against a flat; at the mean pressure `full` it touches everywhere. */
 static inline double
 wave_full(double amplitude, double wavelength, double estar)
 {
@@ -116,6 +118,154 @@ wave_pressure(double mean, double full, double wavelength, double x)
     if (sin(psi) * sin(psi) >= a)
         return 0;
     return 2 * full * cos(psi) * sqrt(a - sin(psi) * sin(psi));
+}
+
+/* Stresses under a unit force at the origin, normal (into the body) or along +x (Boussinesq,
+ * Cerruti; Johnson 1985, eqs. 3.19 and 3.75), in the order sxx syy szz sxy sxz syz. */
+static inline void
+point_stress(bool shear, double nu, double x, double y, double z, double s[6])
+{
+    double r2 = x * x + y * y, R = sqrt(r2 + z * z), R2 = R * R, R3 = R2 * R, R5 = R3 * R2;
+    double c = 1 - 2 * nu, b = R + z, b2 = b * b, scale = 1 / (2 * exact_pi);
+
+    if (shear) {
+        s[0] = -3 * x * x * x / R5 + c * (x / R3 - 3 * x / (R * b2) + x * x * x / (R3 * b2) +
+                                          2 * x * x * x / (R2 * b2 * b));
+        s[1] = -3 * x * y * y / R5 + c * (x / R3 - x / (R * b2) + x * y * y / (R3 * b2) +
+                                          2 * x * y * y / (R2 * b2 * b));
+        s[2] = -3 * x * z * z / R5;
+        s[3] = -3 * x * x * y / R5 +
+               c * (-y / (R * b2) + x * x * y / (R3 * b2) + 2 * x * x * y / (R2 * b2 * b));
+        s[4] = -3 * x * x * z / R5;
+        s[5] = -3 * x * y * z / R5;
+    } else {
+        /* (1 - z/R) / r^2 and what goes with it, without r in the denominator */
+        double d = 1 / (R * b), e = (2 * R + z) / (R3 * b2);
+        s[0] = c * (z / R3 - d + x * x * e) - 3 * z * x * x / R5;
+        s[1] = c * (z / R3 - d + y * y * e) - 3 * z * y * y / R5;
+        s[2] = -3 * z * z * z / R5;
+        s[3] = c * x * y * e - 3 * x * y * z / R5;
+        s[4] = -3 * x * z * z / R5;
+        s[5] = -3 * y * z * z / R5;
+    }
+    for (int k = 0; k < 6; k++)
+        s[k] *= scale;
+}
+
+/* Stresses under uniform pressure (Love 1929, sections 6 and 7) or uniform shear along +x of 1 on
+ * the rectangle |x| <= a, |y| <= b, z > 0, in the same order; in extended precision, because far
+ * away the terms cancel. */
+static inline long double
+rectangle_corner(bool shear, int component, long double nu, long double x, long double y,
+                 long double z)
+{
+    long double R = sqrtl(x * x + y * y + z * z), p = x * x + z * z, q = y * y + z * z;
+    long double around = atanl(x * y / (z * R)), c = 1 - 2 * nu;
+
+    switch (shear ? 6 + component : component) {
+    case 0:
+        return -around + c * atan2l(x * y, y * y + z * z + z * R) + z * x * y / (R * p);
+    case 1:
+        return -around + c * atan2l(x * y, x * x + z * z + z * R) + z * x * y / (R * q);
+    case 2:
+        return -around - z * x * y * (p + q) / (R * p * q);
+    case 3:
+        return -z / R - c * logl(R + z);
+    case 4:
+    case 8:
+        return z * z * y / (R * p);
+    case 5:
+        return z * z * x / (R * q);
+    case 6:
+        return 2 * asinhl(y / sqrtl(p)) + 2 * nu * y / (R + z) + z * y / (R * (R + z)) -
+               z * z * y / (R * p);
+    case 7:
+        return 2 * nu * asinhl(y / sqrtl(p)) - 2 * nu * y / (R + z) - z * y / (R * (R + z));
+    case 9:
+        return asinhl(x / sqrtl(q)) - 2 * nu * x / (R + z) - z * x / (R * (R + z));
+    case 10:
+        return -around + z * x * y / (R * p);
+    default:
+        return -z / R;
+    }
+}
+
+static inline double
+rectangle_stress(bool shear, int component, double nu, double x, double y, double z, double a,
+                 double b)
+{
+    long double sum = 0;
+
+    for (int s = -1; s <= 1; s += 2)
+        for (int t = -1; t <= 1; t += 2)
+            sum += s * t *
+                   rectangle_corner(shear, component, (long double)nu,
+                                    (long double)x + s * (long double)a,
+                                    (long double)y + t * (long double)b, (long double)z);
+    return (double)(sum / (2 * (long double)exact_pi));
+}
+
+/*
+ * Sliding sphere: pressure p0 sqrt(1 - r^2/a^2) and the traction mu times it along +x (Hamilton
+ * 1983, Proc. Inst. Mech. Eng. 197C, 53; Sackfield and Hills 1983, J. Strain Anal. 18, 107), z > 0
+ * or, at the surface, r < a. The potential of that pressure is that of point sources at the depths
+ * z + it, |t| < a, of strength a^2 - t^2, so each stress is -p0 (Re F2 - Im F3 / a) where F2, F3
+ * are the second and third antiderivative in z of what a point source does, at the depth z + ia.
+ * With w = R + z, f1 = ln w, f2 = z f1 - R, fn the antiderivative of f(n-1), the derivatives of fn
+ * by x and y are those of gn = fn'/r, hn = gn'/r, kn = hn'/r.
+ */
+static inline void
+sliding_sphere(struct hertz s, double nu, double mu, double x, double y, double depth,
+               double stress[6])
+{
+    double r2 = x * x + y * y, r4 = r2 * r2, c = 1 - 2 * nu;
+    double complex z = CMPLX(depth, s.a), R = csqrt(r2 + z * z), w = R + z, L = clog(w);
+    double complex w2 = w * w, w3 = w2 * w, w4 = w2 * w2, w5 = w4 * w;
+    double complex f[6] = {1 / R, L, z * L - R}, g[6] = {0}, h[6] = {0}, k[6] = {0};
+
+    g[1] = 1 / (R * w);
+    g[2] = -1 / w;
+    g[3] = -(z / w + L) / 2;
+    g[4] = -((w + r4 / (3 * w3)) / 4 + z * L - R) / 2;
+    h[2] = 1 / (R * w2);
+    h[3] = -1 / (2 * w2);
+    h[4] = (1 / w + r2 / (3 * w3)) / 4;
+    h[5] = (L - 2 * r2 / (3 * w2) - r4 / (12 * w4)) / 8;
+    k[3] = 1 / (R * w3);
+    k[4] = (2 / (3 * w3) - 1 / (R * w2) - r2 / (R * w4)) / 4;
+    k[5] = (1 / (R * w) - 4 * (1 / w2 - r2 / (R * w3)) / 3 - (r2 / w4 - r4 / (R * w5)) / 3) / 8;
+    for (int i = 0; i < 6; i++)
+        stress[i] = 0;
+    for (int n = 2; n <= 3; n++) {
+        double complex F[6];
+        F[0] = 2 * nu * f[n - 1] - depth * (g[n] + x * x * h[n]) -
+               c * (g[n + 1] + x * x * h[n + 1]);
+        F[1] = 2 * nu * f[n - 1] - depth * (g[n] + y * y * h[n]) -
+               c * (g[n + 1] + y * y * h[n + 1]);
+        F[2] = f[n - 1] - depth * f[n - 2];
+        F[3] = -x * y * (depth * h[n] + c * h[n + 1]);
+        F[4] = -depth * x * g[n - 1];
+        F[5] = -depth * y * g[n - 1];
+        F[0] += mu * x * (2 * (1 + nu) * g[n] + 2 * nu * (3 * h[n + 2] + x * x * k[n + 2]) -
+                          depth * (3 * h[n + 1] + x * x * k[n + 1]));
+        F[1] += mu * x * (2 * nu * (g[n] + h[n + 2] + y * y * k[n + 2]) -
+                          depth * (h[n + 1] + y * y * k[n + 1]));
+        F[2] += -mu * depth * x * g[n - 1];
+        F[3] += mu * y * (g[n] + 2 * nu * (h[n + 2] + x * x * k[n + 2]) -
+                          depth * (h[n + 1] + x * x * k[n + 1]));
+        F[4] += mu * (f[n - 1] - depth * (g[n] + x * x * h[n]));
+        F[5] += -mu * depth * x * y * h[n];
+        for (int i = 0; i < 6; i++)
+            stress[i] -= s.p0 * (n == 2 ? creal(F[i]) : -cimag(F[i]) / s.a);
+    }
+}
+
+static inline double
+mises_of(const double s[6])
+{
+    double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
+
+    return sqrt((a * a + b * b + c * c) / 2 + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
 }
 
 #endif

@@ -172,6 +172,9 @@ set_list(struct tool *t, const struct opt *o, struct numbers *list, const char *
     struct rc_err err;
 
     free(list->v);
+    *list = (struct numbers){0};
+    if (o->words != NULL && strcmp(text, o->words) == 0)
+        return;
     if (unit_numbers(text, o->unit, list, &err) != RC_OK)
         tool_die(t, EXIT_USAGE, "--%s %s: %s", o->name, text, err.text);
     for (size_t k = 0; k < list->n; k++)
@@ -353,6 +356,8 @@ add_value(struct line *line, const struct opt *o, const void *base)
         add_words(line, o->words, *(const size_t *)(const void *)at);
     } else if (o->type == OPT_NUMBERS) {
         list = (const struct numbers *)(const void *)at;
+        if (list->n == 0)
+            add_words(line, o->words, 1);
         for (size_t k = 0; k < list->n; k++)
             add(line, k == 0 ? " " : ",", rc_number_text(text, list->v[k]));
     }

@@ -1,56 +1,72 @@
-/* Stresses in the half-space under a pressure map, slice by slice. */
+/* Stresses in the half-space under a pressure map: slice by slice, or in a vertical plane. */
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "../libcontact/contact.h"
+#include "stress_report.h"
 #include "tool.h"
 
 static struct args {
-    struct numbers depths;
-    double nu;
-    size_t components; /* bits of enum rc_component and MISES */
-} args = {.nu = NAN, .components = ~(size_t)0};
+    struct numbers depths; /* none: auto */
+    double nu, mu, tol;
+    size_t components; /* bits of enum rc_component */
+    const char *section, *kernel, *report;
+    bool periodic, dry_run;
+} args = {.nu = NAN, .tol = NAN, .kernel = "auto", .components = (2u << RC_MISES) - 1};
 
 #define AT(field) .at = offsetof(struct args, field)
 static const struct opt opts[] = {
     {.name = "depths", .type = OPT_NUMBERS, .unit = UNIT_M, AT(depths), .min = 0,
-     .max = INFINITY, .result = true, .arg = "LIST",
-     .help = "depths of the slices: a,b,c or a:b:n (n depths from a to b)"},
+     .max = INFINITY, .result = true, .words = "auto", .arg = "LIST",
+     .help = "depths: a,b,c or a:b:n (n from a to b), or auto: dense where roughness is felt"},
     {.name = "components", .type = OPT_WORDS, AT(components), .result = true,
-     .words = "sxx|syy|szz|sxy|sxz|syz|mises", .arg = "LIST",
-     .help = "of sxx,syy,szz,sxy,sxz,syz,mises (default: all)"},
+     .words = "sxx|syy|szz|sxy|sxz|syz|mises|tresca|s1|s2|s3", .arg = "LIST",
+     .help = "of sxx,syy,szz,sxy,sxz,syz,mises,tresca,s1,s2,s3 (default: the six and mises)"},
     {.name = "nu", .type = OPT_NUMBER, AT(nu), .min = -1, .max = 0.5, .above = true,
      .result = true, .arg = "RATIO", .help = "Poisson's ratio (default: the stream's own)"},
+    {.name = "mu", .type = OPT_NUMBER, AT(mu), .min = -10, .max = 10, .result = true,
+     .arg = "COEFFICIENT", .help = "the surface also carries mu times the pressure along +x"},
+    {.name = "section", .type = OPT_TEXT, AT(section), .result = true, .arg = "AXIS=PLACE",
+     .help = "only the vertical plane y=PLACE or x=PLACE: one frame, its rows are the depths"},
+    {.name = "periodic", .type = OPT_FLAG, AT(periodic), .result = true,
+     .help = "the map repeats for ever (default: what the stream says, else free)"},
+    {.name = "kernel", .type = OPT_CHOICE, AT(kernel), .arg = "auto|fft|mlms|direct",
+     .help = "how stresses are summed (default auto: fft)"},
+    {.name = "tol", .type = OPT_NUMBER, AT(tol), .min = 0, .max = 1, .above = true,
+     .result = true, .arg = "ERROR",
+     .help = "error allowed in a component, over the largest pressure (default: rounding)"},
+    {.name = "report", .type = OPT_TEXT, AT(report), .arg = "FILE",
+     .help = "write one JSON object a case: largest values and their places, counts, cost"},
+    {.name = "dry-run", .type = OPT_FLAG, AT(dry_run), .text = true,
+     .help = "say what would be computed and what not, memory and time, and do no more"},
     {.name = NULL},
 };
 
 static const struct tool_info info = {
     .name = "rc-stress",
-    .summary = "Stresses in an elastic half-space under a pressure map, slice by slice",
+    .summary = "Stresses in an elastic half-space under a pressure map",
     .operands = "[FILE...]",
     .examples = "  rc-solve --load 240N --estar 114GPa surface.rcg |\n"
-                "      rc-stress --nu 0.3 --depths 0:50um:26 --components mises -o mises.rcg\n",
+                "      rc-stress --nu 0.3 --depths 0:50um:26 --components mises -o mises.rcg\n"
+                "  rc-solve --load 240N --estar 114GPa surface.rcg |\n"
+                "      rc-stress --nu 0.3 --section y=0 --depths auto --components mises |\n"
+                "      rc-render -o section.png\n",
     .opts = opts,
     .reads = READS_STREAM,
     .writes = WRITES_STREAM,
 };
 
-enum {
-    MISES = RC_COMPONENTS, /* follows the six */
-    CHANNELS
-};
-
 struct run {
     struct tool t;
-    struct rc_grid *slice[CHANNELS];
+    struct rc_stress_options options; /* of the case */
+    struct numbers depths;            /* of the case */
+    struct rc_grid *frame[RC_STRESSES];
+    double *line[RC_STRESSES]; /* the row of a section, in its frame */
+    struct stress_report report;
+    FILE *file;
 };
-
-static const char *
-channel_name(int c)
-{
-    return c == MISES ? "mises" : rc_component_names[c];
-}
 
 static bool
 wanted(int channel)
@@ -58,22 +74,57 @@ wanted(int channel)
     return args.components >> channel & 1;
 }
 
-/* Mises needs all six; they are then computed but not written. */
-static bool
-needed(int channel)
-{
-    return wanted(channel) || (channel != MISES && wanted(MISES));
-}
-
 static size_t
-count(bool (*which)(int channel))
+channels(void)
 {
     size_t n = 0;
 
-    for (int c = 0; c < CHANNELS; c++)
-        n += which(c);
+    for (int c = 0; c < RC_STRESSES; c++)
+        n += wanted(c);
     return n;
 }
+
+/* ---- the command line ---- */
+
+/* "y=12um" to the axis and the place; what goes into history is in SI. */
+static void
+read_section(struct run *run)
+{
+    static char si[RC_NUMBER_SIZE + 3];
+    char text[RC_NUMBER_SIZE];
+    struct rc_err err;
+    const char *s = args.section;
+
+    if (s == NULL)
+        return;
+    if ((s[0] != 'x' && s[0] != 'y') || s[1] != '=')
+        tool_die(&run->t, EXIT_USAGE, "--section %s: it must be x=PLACE or y=PLACE, as in y=0", s);
+    if (unit_number(s + 2, UNIT_M, &run->options.at, &err) != RC_OK)
+        tool_die(&run->t, EXIT_USAGE, "--section %s: %s", s, err.text);
+    run->options.section = s[0];
+    snprintf(si, sizeof si, "%c=%s", s[0], rc_number_text(text, run->options.at));
+    args.section = si;
+}
+
+static void
+check_arguments(struct run *run)
+{
+    struct tool *t = &run->t;
+
+    if (!tool_given(t, "depths"))
+        tool_die(t, EXIT_USAGE, "give the depths with --depths, as in --depths 0,1um,5um or "
+                                "--depths 0:50um:26, or leave their choice to --depths auto");
+    read_section(run);
+    for (size_t k = 1; args.section != NULL && k < args.depths.n; k++)
+        if (!(args.depths.v[k] > args.depths.v[k - 1]))
+            tool_die(t, EXIT_USAGE, "--depths: those of a section must rise from one to the next");
+    if (args.section != NULL && (strcmp(args.kernel, "mlms") == 0 ||
+                                 strcmp(args.kernel, "direct") == 0))
+        tool_die(t, EXIT_USAGE, "--section is summed by fft: leave out --kernel %s", args.kernel);
+    tool_demand_writable(t, "--report", args.report);
+}
+
+/* ---- a case ---- */
 
 static double
 poisson(struct run *run, const struct rc_grid *p)
@@ -88,85 +139,208 @@ poisson(struct run *run, const struct rc_grid *p)
     return nu;
 }
 
-static void
-check_pressure(struct run *run, const struct rc_grid *p)
+/* A pressure solved on one boundary has no stresses on the other. */
+static enum rc_boundary
+boundary(struct run *run, const struct rc_grid *p)
 {
-    const char *boundary = rc_grid_get(p, "boundary");
+    const char *own = rc_grid_get(p, "boundary");
+    bool periodic = own == NULL ? args.periodic : strcmp(own, "periodic") == 0;
 
-    tool_demand_finite(&run->t, p, "a pressure map has none; make it again");
-    if (boundary != NULL && strcmp(boundary, "free") != 0)
+    if (own != NULL && strcmp(own, "free") != 0 && !periodic)
+        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "its boundary is '%s': it must be free or "
+                    "periodic", own);
+    if (args.periodic && !periodic)
+        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "its boundary is %s: --periodic contradicts it",
+                    own);
+    return periodic ? RC_PERIODIC : RC_FREE;
+}
+
+static void
+set_options(struct run *run, const struct rc_grid *p)
+{
+    run->options.boundary = boundary(run, p);
+    run->options.nu = poisson(run, p);
+    run->options.mu = args.mu;
+    run->options.wanted = (unsigned)args.components;
+    run->options.engine = args.kernel;
+    run->options.tol = isnan(args.tol) ? 0 : args.tol;
+    run->options.threads = run->t.threads;
+    if (run->options.boundary == RC_PERIODIC &&
+        (strcmp(args.kernel, "mlms") == 0 || strcmp(args.kernel, "direct") == 0))
         tool_die_at(&run->t, p, EXIT_IMPOSSIBLE,
-                    "its boundary is %s: stresses are computed for the free half-space only",
-                    boundary);
+                    "its boundary is periodic, where only fft sums: leave out --kernel %s",
+                    args.kernel);
 }
 
 static void
-allocate(struct run *run, const struct rc_grid *p, double nu)
+set_depths(struct run *run, const struct rc_grid *p)
 {
+    struct rc_shape shape = rc_grid_shape(p);
     struct rc_err err;
 
-    for (int c = 0; c < CHANNELS; c++) {
-        if (!needed(c))
-            continue;
-        run->slice[c] = rc_grid_like(p, channel_name(c), "Pa", &err);
-        if (run->slice[c] == NULL ||
-            rc_grid_set_number(run->slice[c], "nu", nu, &err) != RC_OK ||
-            rc_grid_set_number(run->slice[c], "frames",
-                               (double)(count(wanted) * args.depths.n), &err) != RC_OK ||
-            rc_grid_history(run->slice[c], tool_history(&run->t), &err) != RC_OK)
+    run->depths = args.depths;
+    if (args.depths.n == 0 && rc_stress_depths(&shape, p->v, run->options.boundary,
+                                               &run->depths.v, &run->depths.n, &err) != RC_OK)
+        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (args.depths.n == 0)
+        tool_note(&run->t, "%zu depths, down to %g m", run->depths.n,
+                  run->depths.v[run->depths.n - 1]);
+}
+
+/* ---- frames ---- */
+
+static struct rc_shape
+frame_shape(const struct run *run, const struct rc_grid *p)
+{
+    struct rc_shape s = rc_grid_shape(p);
+    const struct numbers *d = &run->depths;
+
+    if (run->options.section == 0)
+        return s;
+    if (run->options.section == 'x')
+        s = (struct rc_shape){.nx = s.ny, .dx = s.dy};
+    s.ny = d->n;
+    s.dy = d->n > 1 ? (d->v[d->n - 1] - d->v[0]) / (double)(d->n - 1) : s.dx;
+    return s;
+}
+
+static char *
+depths_text(struct run *run, const struct rc_grid *p)
+{
+    size_t room = 60000, n = 0;
+    char *text = malloc(room), number[RC_NUMBER_SIZE];
+
+    for (size_t k = 0; text != NULL && k < run->depths.n; k++) {
+        int more = snprintf(text + n, room - n, "%s%s", k == 0 ? "" : ",",
+                            rc_number_text(number, run->depths.v[k]));
+        n += (size_t)more;
+        if (n >= room)
+            tool_die_at(&run->t, p, EXIT_IMPOSSIBLE,
+                        "%zu depths are too many for the header of a section: ask for fewer",
+                        run->depths.n);
+    }
+    return text;
+}
+
+static void
+set_keys(struct run *run, const struct rc_grid *p, struct rc_grid *g)
+{
+    const char section[2] = {run->options.section, '\0'};
+    bool plane = section[0] != '\0';
+    char *depths = plane ? depths_text(run, p) : NULL;
+    size_t frames = channels() * (plane ? 1 : run->depths.n);
+    struct rc_err err;
+
+    if (rc_grid_set_number(g, "nu", run->options.nu, &err) != RC_OK ||
+        rc_grid_set(g, "boundary", run->options.boundary == RC_PERIODIC ? "periodic" : "free",
+                    &err) != RC_OK ||
+        rc_grid_set(g, "mu", NULL, &err) != RC_OK ||
+        (args.mu != 0 && rc_grid_set_number(g, "mu", args.mu, &err) != RC_OK) ||
+        rc_grid_set_number(g, "frames", (double)frames, &err) != RC_OK ||
+        (plane && (rc_grid_set(g, "section", section, &err) != RC_OK ||
+                   rc_grid_set_number(g, "at", run->options.at, &err) != RC_OK ||
+                   rc_grid_set(g, "depths", depths, &err) != RC_OK)) ||
+        rc_grid_history(g, tool_history(&run->t), &err) != RC_OK)
+        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
+    free(depths);
+}
+
+/* A grid of the keys of p and a shape of its own. */
+static struct rc_grid *
+new_frame(struct run *run, const struct rc_grid *p, int channel)
+{
+    struct rc_shape shape = frame_shape(run, p);
+    struct rc_err err;
+    struct rc_grid *g = rc_grid_new(&shape, rc_component_names[channel], "Pa", &err);
+
+    for (size_t k = 0; g != NULL && k < p->keys; k++)
+        if (rc_grid_set(g, p->key[k].name, p->key[k].value, &err) != RC_OK)
             tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
-    }
+    if (g == NULL)
+        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
+    set_keys(run, p, g);
+    return g;
+}
+
+/* ---- the work ---- */
+
+static void
+demand_memory(struct run *run, const struct rc_grid *p)
+{
+    struct rc_shape shape = rc_grid_shape(p), frame = frame_shape(run, p);
+
+    tool_demand_memory(&run->t, p, rc_stress_memory(&shape, &run->options) +
+                                       (channels() * frame.nx * frame.ny + p->nx * p->ny) *
+                                           sizeof(double));
 }
 
 static void
-do_depth(struct run *run, struct rc_stress *stress, double depth)
+do_depth(struct run *run, struct rc_stress *stress, size_t k)
 {
-    const double *s[RC_COMPONENTS] = {NULL};
+    double *s[RC_STRESSES] = {NULL};
+    bool plane = run->options.section != 0;
     struct rc_err err;
 
-    for (int c = 0; c < RC_COMPONENTS; c++) {
-        if (!needed(c))
-            continue;
-        if (rc_stress_slice(stress, (enum rc_component)c, depth, run->slice[c]->v, &err) != RC_OK)
-            tool_die(&run->t, EXIT_IMPOSSIBLE, "%s", err.text);
-        s[c] = run->slice[c]->v;
-    }
-    if (wanted(MISES))
-        rc_mises(run->slice[MISES]->nx * run->slice[MISES]->ny, s, run->slice[MISES]->v);
-    for (int c = 0; c < CHANNELS; c++) {
+    tool_progress(&run->t, "depth %zu of %zu", k + 1, run->depths.n);
+    for (int c = 0; c < RC_STRESSES; c++)
+        if (wanted(c))
+            s[c] = run->frame[c]->v + (plane ? k * run->frame[c]->nx : 0);
+    stress_report_start(&run->report);
+    if (rc_stress_slice(stress, run->depths.v[k], s, &err) != RC_OK)
+        tool_die(&run->t, EXIT_IMPOSSIBLE, "%s", err.text);
+    stress_report_depth(&run->report, k, rc_stress_values(stress), s);
+    for (int c = 0; c < RC_STRESSES && !plane; c++) {
         if (!wanted(c))
             continue;
-        if (rc_grid_set_number(run->slice[c], "depth", depth, &err) != RC_OK)
+        if (rc_grid_set_number(run->frame[c], "depth", run->depths.v[k], &err) != RC_OK)
             tool_die(&run->t, EXIT_IMPOSSIBLE, "%s", err.text);
-        tool_write(&run->t, run->slice[c]);
+        tool_write(&run->t, run->frame[c]);
     }
+}
+
+static void
+open_report(struct run *run)
+{
+    if (args.report != NULL && run->file == NULL &&
+        (run->file = fopen(args.report, "w")) == NULL)
+        tool_die(&run->t, EXIT_IMPOSSIBLE, "--report %s: %s", args.report, strerror(errno));
 }
 
 static void
 do_case(struct run *run, const struct rc_grid *p)
 {
     struct rc_shape shape = rc_grid_shape(p);
-    double nu = poisson(run, p);
     struct rc_stress *stress;
     struct rc_err err;
 
-    check_pressure(run, p);
-    tool_demand_memory(&run->t, p, rc_stress_memory(&shape) +
-                                       (count(needed) + 1) * p->nx * p->ny * sizeof(double));
-    stress = rc_stress_new(&shape, p->v, nu, run->t.threads, &err);
+    demand_memory(run, p);
+    if (stress_report_begin(&run->report, p, &run->options, &run->depths, args.report != NULL,
+                            &err) != RC_OK)
+        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
+    stress = rc_stress_new(&shape, p->v, &run->options, &err);
     if (stress == NULL)
         tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
-    allocate(run, p, nu);
-    for (size_t k = 0; k < args.depths.n; k++) {
-        tool_progress(&run->t, "depth %zu of %zu", k + 1, args.depths.n);
-        do_depth(run, stress, args.depths.v[k]);
+    stress_report_ready(&run->report);
+    for (int c = 0; c < RC_STRESSES; c++)
+        if (wanted(c))
+            run->frame[c] = new_frame(run, p, c);
+    for (size_t k = 0; k < run->depths.n; k++)
+        do_depth(run, stress, k);
+    tool_progress_end(&run->t);
+    for (int c = 0; c < RC_STRESSES; c++) {
+        if (wanted(c) && run->options.section != 0)
+            tool_write(&run->t, run->frame[c]);
+        rc_grid_free(run->frame[c]);
+        run->frame[c] = NULL;
     }
-    for (int c = 0; c < CHANNELS; c++) {
-        rc_grid_free(run->slice[c]);
-        run->slice[c] = NULL;
-    }
+    open_report(run);
+    if (run->file != NULL && stress_report_write(&run->report, run->file, stress) != RC_OK)
+        tool_die(&run->t, EXIT_IMPOSSIBLE, "--report %s: writing failed", args.report);
+    stress_report_free(&run->report);
     rc_stress_free(stress);
 }
+
+/* ---- start ---- */
 
 int
 main(int argc, char **argv)
@@ -175,13 +349,21 @@ main(int argc, char **argv)
     struct rc_grid *p;
 
     tool_start(&run.t, &info, argc, argv, &args);
-    if (args.depths.n == 0)
-        tool_die(&run.t, EXIT_USAGE, "give the depths of the slices with --depths, as in "
-                                     "--depths 0,1um,5um or --depths 0:50um:26");
+    check_arguments(&run);
     while ((p = tool_channel(&run.t, "pressure", false)) != NULL) {
-        do_case(&run, p);
+        tool_demand_finite(&run.t, p, "a pressure map has none; make it again");
+        set_options(&run, p);
+        set_depths(&run, p);
+        if (args.dry_run)
+            stress_report_plan(run.t.out, p, &run.options, &run.depths);
+        else
+            do_case(&run, p);
+        if (run.depths.v != args.depths.v)
+            free(run.depths.v);
         rc_grid_free(p);
     }
+    if (run.file != NULL && fclose(run.file) != 0)
+        tool_die(&run.t, EXIT_IMPOSSIBLE, "--report %s: writing failed", args.report);
     free(args.depths.v);
     return tool_finish(&run.t);
 }

@@ -41,7 +41,7 @@ enum opt_type {
     OPT_CHOICE,  /* const char *, one of the words in .arg, which are separated by '|'      */
     OPT_WORDS,   /* size_t: bit k is set when the list holds word k of .words, which are
                     separated by '|'                                                        */
-    OPT_NUMBERS, /* struct numbers                                                          */
+    OPT_NUMBERS, /* struct numbers; none (n = 0) for the word in .words, if there is one    */
     OPT_STEP,    /* appended to a struct steps: options whose order on the line matters; with
                     .arg it takes a whole number or, with a unit, a number                  */
 };
@@ -55,7 +55,7 @@ struct opt {
     bool above;       /* min itself is out of bounds                                        */
     bool result;      /* changes what is computed: goes into history                        */
     bool text;        /* given, the tool writes text, whatever it writes otherwise          */
-    const char *words; /* of OPT_WORDS                                                      */
+    const char *words; /* of OPT_WORDS; a word instead of OPT_NUMBERS                       */
     const char *arg;  /* how help names the argument: "FORCE"; NULL: takes none             */
     const char *help; /* one line                                                           */
 };

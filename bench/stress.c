@@ -1,0 +1,377 @@
+/*
+ * What stresses cost, and how exact they are:
+ *
+ *     bench-stress [fig1] [parts] [sizes] [paper] [mlms]       (default: all)
+ *
+ * fig1   the paper's Fig. 1: relative error of Mises' stress under a sliding sphere, M = 64 .. 1024
+ * parts  where the time of a slice goes: coefficients, their transforms, fields
+ * sizes  time a slice against one convolution of the deflection, same run
+ * paper  483 x 412 nodes, 45 depths, six components and Mises
+ * mlms   the multi-level sum against the transforms
+ *
+ * Times are the least of several runs. RC_THREADS sets the threads.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "libcontact/fft.h"
+#include "libcontact/fourier.h"
+#include "libcontact/stress.h"
+#include "tests/exact.h"
+
+static size_t threads;
+
+static double
+now(void)
+{
+    struct timespec ts;
+
+    clock_gettime(CLOCK_MONOTONIC, &ts);
+    return (double)ts.tv_sec + 1e-9 * (double)ts.tv_nsec;
+}
+
+static void *
+must(void *p)
+{
+    if (p == NULL) {
+        fprintf(stderr, "out of memory, or a plan could not be made\n");
+        exit(1);
+    }
+    return p;
+}
+
+static const unsigned usual = (2u << RC_MISES) - 1;
+
+struct maps {
+    double *s[RC_STRESSES];
+};
+
+static struct maps
+maps_new(size_t n)
+{
+    struct maps m;
+
+    for (int c = 0; c < RC_STRESSES; c++)
+        m.s[c] = must(calloc(n, sizeof(double)));
+    return m;
+}
+
+static void
+maps_free(struct maps *m)
+{
+    for (int c = 0; c < RC_STRESSES; c++)
+        free(m->s[c]);
+}
+
+/* Hertz's pressure on a disc that nearly fills a square map of side 2. */
+static double *
+disc(size_t m, struct rc_shape *shape)
+{
+    double d = 2 / (double)m, *p = must(malloc(m * m * sizeof *p));
+
+    *shape = (struct rc_shape){m, m, d, d};
+    for (size_t k = 0; k < m * m; k++) {
+        double x = ((double)(k % m) + 0.5) * d - 1, y = ((double)(k / m) + 0.5) * d - 1;
+        double r2 = (x * x + y * y) / 0.9;
+        p[k] = r2 < 1 ? sqrt(1 - r2) : 0;
+    }
+    return p;
+}
+
+/* Least seconds of a slice of a plan. */
+static double
+slice_seconds(const struct rc_shape *shape, const double *p, const struct rc_stress_options *o,
+              double depth, struct maps *m, int runs)
+{
+    struct rc_err err;
+    struct rc_stress *stress = must(rc_stress_new(shape, p, o, &err));
+    double best = INFINITY;
+
+    for (int k = 0; k < runs; k++) {
+        double t = now();
+        if (rc_stress_slice(stress, depth, m->s, &err) != RC_OK)
+            must(NULL);
+        best = fmin(best, now() - t);
+    }
+    rc_stress_free(stress);
+    return best;
+}
+
+static double
+convolution_seconds(const struct rc_shape *shape, enum rc_boundary boundary, const double *p,
+                    double *u)
+{
+    struct rc_conv_options o = {.boundary = boundary, .engine = "fft", .threads = threads};
+    struct rc_err err;
+    struct rc_conv *conv = must(rc_conv_new(shape, 1, &o, &err));
+    double best = INFINITY, start = now();
+
+    for (int k = 0; k < 5 || now() - start < 0.3; k++) {
+        double t = now();
+        rc_conv_apply(conv, p, u);
+        best = fmin(best, now() - t);
+    }
+    rc_conv_free(conv);
+    return best;
+}
+
+/* ---- Fig. 1 ---- */
+
+static double
+depth_of_largest(struct hertz h, double nu, double mu)
+{
+    double best = 0, place = 0;
+
+    for (double z = 0.3; z < 0.6; z += 0.001)
+        for (double x = 0; x < 0.5; x += 0.002) {
+            double s[6], m;
+            sliding_sphere(h, nu, mu, x * h.a, 0, z * h.a, s);
+            m = mises_of(s);
+            place = m > best ? z : place;
+            best = fmax(m, best);
+        }
+    return place * h.a;
+}
+
+static void
+fig1(void)
+{
+    static const char *const engines[] = {"fft", "mlms"};
+    const double radius = 7.5e-3, estar = 113.93e9, load = 240, nu = 0.28, mu = 0.15;
+    struct hertz h = hertz(load, radius, estar);
+    double z = depth_of_largest(h, nu, mu);
+
+    printf("fig1: relative L1 error of Mises' stress at %.4f a, mu = %g, nu = %g\n", z / h.a, mu,
+           nu);
+    for (size_t m = 64; m <= 1024; m *= 2) {
+        double d = 2.1 * h.a / (double)m, *height = must(malloc(m * m * sizeof *height));
+        struct rc_shape shape = {m, m, d, d};
+        struct rc_problem problem = {.estar = estar, .load = load, .hardness = INFINITY,
+                                     .tol = 0.1 * pow((double)m, -1.5), .threads = threads};
+        struct maps maps = maps_new(m * m);
+        struct rc_solver *solver;
+        struct rc_err err;
+
+        rc_synth_sphere(&shape, radius, height);
+        solver = must(rc_solver_new(&shape, height, &problem, &err));
+        while (rc_solver_step(solver) == RC_MORE)
+            continue;
+        printf("  M %4zu", m);
+        for (int e = 0; e < 2; e++) {
+            struct rc_stress_options o = {.nu = nu, .mu = mu, .wanted = 1u << RC_MISES,
+                                          .engine = engines[e], .threads = threads,
+                                          .tol = e == 0 ? 0 : 0.1 / (double)(m * m)};
+            double above = 0, below = 0;
+            slice_seconds(&shape, rc_solver_pressure(solver), &o, z, &maps, 1);
+            for (size_t k = 0; k < m * m; k++) {
+                double x = ((double)(k % m) - (double)(m - 1) / 2) * d, exact[6];
+                double y = ((double)(k / m) - (double)(m - 1) / 2) * d;
+                sliding_sphere(h, nu, mu, x, y, z, exact);
+                above += fabs(maps.s[RC_MISES][k] - mises_of(exact));
+                below += mises_of(exact);
+            }
+            printf("   %s %.2e = %.2f M^-2", engines[e], above / below,
+                   above / below * (double)(m * m));
+        }
+        printf("\n");
+        fflush(stdout);
+        rc_solver_free(solver);
+        maps_free(&maps);
+        free(height);
+    }
+}
+
+/* ---- parts ---- */
+
+static void
+parts(void)
+{
+    enum {
+        M = 1024
+    };
+    static const struct {
+        const char *what;
+        unsigned components;
+        bool shear;
+    } set[] = {{"szz", 1u << RC_SZZ, false}, {"six", (1u << RC_COMPONENTS) - 1, false},
+               {"six, with friction", (1u << RC_COMPONENTS) - 1, true}};
+    struct rc_shape shape;
+    double *p = disc(M, &shape), *u = must(malloc(M * M * sizeof *u)), t, best;
+    struct rc_err err;
+    struct rc_fft *fft = must(rc_fft_new(&shape, RC_FREE, RC_DOUBLE, threads, &err));
+    struct rc_spectrum *k = must(rc_spectrum_new(fft, &err));
+    size_t cx, cy;
+    double *x, *out[RC_STRESS_KERNELS] = {NULL};
+    struct rc_halves *halves;
+
+    rc_fft_quarter(fft, &cx, &cy);
+    x = must(calloc(cx, sizeof *x));
+    printf("parts, %d x %d nodes, one thread for coefficients and lines:\n", M, M);
+    for (int s = 0; s < 3; s++) {
+        unsigned kernels = rc_stress_distinct(set[s].components, set[s].shear);
+        const struct rc_cell cell = {shape.dx, shape.dy, 5 * shape.dx, 0.3};
+        for (int c = 0; c < RC_STRESS_KERNELS; c++)
+            if (kernels >> c & 1 && out[c] == NULL)
+                out[c] = must(malloc(cx * sizeof(double)));
+        t = now();
+        for (size_t j = 0; j < cy; j++)
+            rc_stress_line(&cell, kernels, cx, (double)j * shape.dy, out);
+        printf("  %zu x %zu coefficients, %s: %.1f ms\n", cx, cy, set[s].what, 1e3 * (now() - t));
+    }
+    halves = must(rc_halves_new(cx, false, 1, &err));
+    t = now();
+    for (size_t j = 0; j < cy; j++)
+        rc_halves_run(halves, x);
+    printf("  %zu lines of a kernel transformed: %.1f ms\n", cy, 1e3 * (now() - t));
+    rc_halves_free(halves);
+    if (rc_fft_load(fft, p, &err) != RC_OK)
+        must(NULL);
+    best = INFINITY;
+    for (int i = 0; i < 5; i++) {
+        t = now();
+        rc_fft_field(fft, k, u);
+        best = fmin(best, now() - t);
+    }
+    printf("  a field from the pressure's transform, %zu threads: %.1f ms\n", threads, 1e3 * best);
+    rc_spectrum_free(k);
+    rc_fft_free(fft);
+    for (int c = 0; c < RC_STRESS_KERNELS; c++)
+        free(out[c]);
+    free(x);
+    free(p);
+    free(u);
+}
+
+/* ---- sizes ---- */
+
+static void
+sizes(void)
+{
+    static const struct {
+        const char *what;
+        struct rc_stress_options o;
+        double depth; /* spacings */
+    } row[] = {
+        {"szz alone", {.wanted = 1u << RC_SZZ}, 5},
+        {"six, Mises", {.wanted = (2u << RC_MISES) - 1}, 5},
+        {"six, Mises, friction", {.wanted = (2u << RC_MISES) - 1, .mu = 0.15}, 5},
+        {"all eleven, friction", {.wanted = (1u << RC_STRESSES) - 1, .mu = 0.15}, 5},
+        {"section, six, Mises", {.wanted = (2u << RC_MISES) - 1, .section = 'y'}, 5},
+        {"40 spacings deep, tol 1e-4", {.wanted = (2u << RC_MISES) - 1, .tol = 1e-4}, 40},
+        {"periodic, six, Mises",
+         {.wanted = (2u << RC_MISES) - 1, .boundary = RC_PERIODIC}, 5},
+    };
+
+    printf("sizes: milliseconds a slice, and the same in convolutions (free) of the deflection, "
+           "%zu threads\n", threads);
+    for (size_t m = 256; m <= 2048; m *= 2) {
+        struct rc_shape shape;
+        double *p = disc(m, &shape);
+        struct maps maps = maps_new(m * m);
+        double conv = convolution_seconds(&shape, RC_FREE, p, maps.s[0]);
+        printf("  %4zu^2: convolution %.2f ms\n", m, 1e3 * conv);
+        for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
+            struct rc_stress_options o = row[k].o;
+            double t;
+            o.nu = 0.3;
+            o.threads = threads;
+            t = slice_seconds(&shape, p, &o, row[k].depth * shape.dx, &maps, m > 1024 ? 3 : 6);
+            printf("    %-28s %8.2f ms  %5.2f\n", row[k].what, 1e3 * t, t / conv);
+        }
+        fflush(stdout);
+        maps_free(&maps);
+        free(p);
+    }
+}
+
+/* ---- the paper's case ---- */
+
+static void
+paper(void)
+{
+    enum {
+        NX = 483,
+        NY = 412,
+        DEPTHS = 45
+    };
+    const struct rc_shape shape = {NX, NY, 1.1e-6, 1.29e-6};
+    double *p = must(malloc(NX * NY * sizeof *p)), a = 228e-6;
+    struct maps maps = maps_new(NX * NY);
+
+    for (size_t k = 0; k < NX * NY; k++) {
+        double x = ((double)(k % NX) - (NX - 1) / 2.0) * shape.dx;
+        double y = ((double)(k / NX) - (NY - 1) / 2.0) * shape.dy, r2 = (x * x + y * y) / (a * a);
+        p[k] = r2 < 1 ? 2.2e9 * sqrt(1 - r2) : 0;
+    }
+    printf("paper: %d x %d, %d depths, six components and Mises, %zu threads (theirs: 4.3 h)\n", NX,
+           NY, DEPTHS, threads);
+    for (int run = 0; run < 3; run++) {
+        struct rc_stress_options o = {.nu = 0.28, .wanted = usual, .threads = threads,
+                                      .mu = run == 1 ? 0.15 : 0, .tol = run == 2 ? 1e-4 : 0};
+        struct rc_err err;
+        double t = now();
+        struct rc_stress *stress = must(rc_stress_new(&shape, p, &o, &err));
+        for (int d = 0; d < DEPTHS; d++)
+            if (rc_stress_slice(stress, 10e-6 * d, maps.s, &err) != RC_OK)
+                must(NULL);
+        printf("  mu = %.2f, tol %g: %.2f s\n", o.mu, o.tol, now() - t);
+        rc_stress_free(stress);
+    }
+    maps_free(&maps);
+    free(p);
+}
+
+/* ---- mlms ---- */
+
+static void
+mlms(void)
+{
+    printf("mlms: szz at 5 spacings, milliseconds with the tables, error over the largest "
+           "pressure\n");
+    for (size_t m = 256; m <= 1024; m *= 2) {
+        struct rc_shape shape;
+        double *p = disc(m, &shape);
+        struct maps a = maps_new(m * m), b = maps_new(m * m);
+        struct rc_stress_options o = {.nu = 0.3, .wanted = 1u << RC_SZZ, .threads = threads};
+        printf("  %4zu^2: fft %.1f ms", m,
+               1e3 * slice_seconds(&shape, p, &o, 5 * shape.dx, &a, 3));
+        o.engine = "mlms";
+        for (double tol = 1e-3; tol > 1e-8; tol /= 100) {
+            double worst = 0, t;
+            o.tol = tol;
+            t = slice_seconds(&shape, p, &o, 5 * shape.dx, &b, 2);
+            for (size_t k = 0; k < m * m; k++)
+                worst = fmax(worst, fabs(a.s[RC_SZZ][k] - b.s[RC_SZZ][k]));
+            printf("   tol %.0e: %.1f ms, %.1e", tol, 1e3 * t, worst);
+        }
+        printf("\n");
+        fflush(stdout);
+        maps_free(&a);
+        maps_free(&b);
+        free(p);
+    }
+}
+
+int
+main(int argc, char **argv)
+{
+    static const struct {
+        const char *name;
+        void (*run)(void);
+    } table[] = {{"fig1", fig1}, {"parts", parts}, {"sizes", sizes}, {"paper", paper},
+                 {"mlms", mlms}};
+    const char *given = getenv("RC_THREADS");
+
+    threads = given != NULL && atoi(given) > 0 ? (size_t)atoi(given) : rc_threads_available();
+    for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
+        bool wanted = argc == 1;
+        for (int i = 1; i < argc; i++)
+            wanted = wanted || strcmp(argv[i], table[k].name) == 0;
+        if (wanted)
+            table[k].run();
+    }
+    return 0;
+}

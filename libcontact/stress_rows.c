@@ -1,0 +1,278 @@
+/*
+ * Stresses in a half-space, component by component, for a normal and for a tangential load.
+ *
+ * Of a unit force at the origin (Boussinesq, Cerruti; Johnson 1985, eqs. 3.19 and 3.75), times
+ * 2 pi, with r = 1/R, w = 1/(R + z), c = 1 - 2 nu:
+ *
+ *     normal  sxx  c (z r^3 - w r + x^2 r^2 w (r + w)) - 3 x^2 z r^5
+ *             sxy  c x y r^2 w (r + w) - 3 x y z r^5
+ *             szz  -3 z^3 r^5         sxz  -3 x z^2 r^5         syz  -3 y z^2 r^5
+ *     along x sxx  -3 x^3 r^5 + c x (r^3 - 3 r w^2 + x^2 r^2 w^2 (r + 2 w))
+ *             syy  -3 x y^2 r^5 + c x r^2 w (z (r + w) + y^2 w (r + 2 w))
+ *             sxy  -3 x^2 y r^5 + c y (x^2 r^2 w^2 (r + 2 w) - r w^2)
+ *             szz  -3 x z^2 r^5       sxz  -3 x^2 z r^5         syz  -3 x y z r^5
+ *
+ * and syy of the normal one is sxx with x and y exchanged.
+ *
+ * Integrated over a cell these are differences over its corners (Love 1929 for the normal load),
+ * with T1 = atan2(XY, zR), T2 = atan2(XY, X^2 + z^2 + zR), LX = asinh(X / sqrt(Y^2 + z^2)):
+ *
+ *     normal  sxx  -2 nu T1 - c T2 + z XY / (R (X^2 + z^2))
+ *             szz  -T1 - z XY / R (1/(X^2 + z^2) + 1/(Y^2 + z^2))
+ *             sxy  -z/R - c ln(R + z)      sxz  z^2 Y / (R (X^2 + z^2))
+ *     along x sxx  2 LY + 2 nu Y/(R + z) + z Y/(R (R + z)) - z^2 Y / (R (X^2 + z^2))
+ *             syy  2 nu LY - 2 nu Y/(R + z) - z Y/(R (R + z))
+ *             sxy  LX - 2 nu X/(R + z) - z X/(R (R + z))
+ *             sxz  -T1 + z XY / (R (X^2 + z^2))   szz as sxz of the normal load   syz  -z/R
+ *
+ * Both arctangents have a second argument that is never negative: no branch is crossed.
+ *
+ * Limits. At z = 0 the terms with a factor z are 0. On an edge or a corner of the cell the
+ * arctangents are 0: with the other corners that is the mean of the limits from all sides, so szz
+ * is -1/2 on an edge and -1/4 at a corner. Logarithms have no limit there (normal: sxy at corners;
+ * along x: sxx and syy on the edges across x, sxy on those along it): they are taken at a small
+ * distance, `floor`.
+ *
+ * The periodic half-space under a wave of pressure or shear: q^2 = qx^2 + qy^2, each times
+ * exp(-q z). Under a uniform load the limit q -> 0 depends on the direction of q: see
+ * rc_stress_mean.
+ */
+#include "stress.h"
+
+#include <math.h>
+
+/* ---- of a point load ---- */
+
+#define POINT(name, value)                                                                         \
+    RC_WIDE_CLONES static void name##_point(const struct rc_points *s, double weight,              \
+                                            double *restrict out)                                  \
+    {                                                                                              \
+        const double *restrict xs = s->x, *restrict ys = s->y;                                     \
+        const double *restrict rs = s->r, *restrict ws = s->w;                                     \
+        double z = s->z, c = 1 - 2 * s->nu;                                                        \
+                                                                                                   \
+        for (size_t i = 0; i < s->n; i++) {                                                        \
+            double x = xs[i], y = ys[i], r = rs[i], w = ws[i], r2 = r * r;                         \
+            (void)x, (void)y, (void)w, (void)z, (void)c, (void)r2;                                 \
+            out[i] += weight * (value);                                                            \
+        }                                                                                          \
+    }
+
+#define R3 (r * r2)
+#define R5 (r * r2 * r2)
+POINT(n_xx, c * (z * R3 - w * r + x * x * r2 * w * (r + w)) - 3 * z * x * x * R5)
+POINT(n_yy, c * (z * R3 - w * r + y * y * r2 * w * (r + w)) - 3 * z * y * y * R5)
+POINT(n_zz, -3 * z * z * z * R5)
+POINT(n_xy, x * y * (c * r2 * w * (r + w) - 3 * z * R5))
+POINT(n_xz, -3 * x * z * z * R5)
+POINT(n_yz, -3 * y * z * z * R5)
+POINT(t_xx, x * (c * (R3 - 3 * r * w * w + x * x * r2 * w * w * (r + 2 * w)) - 3 * x * x * R5))
+POINT(t_yy, x * (c * r2 * w * (z * (r + w) + y * y * w * (r + 2 * w)) - 3 * y * y * R5))
+POINT(t_xy, y * (c * (x * x * r2 * w * w * (r + 2 * w) - r * w * w) - 3 * x * x * R5))
+POINT(t_xz, -3 * z * x * x * R5)
+POINT(t_yz, -3 * z * x * y * R5)
+
+/* ---- of a cell, at a corner ---- */
+
+static double
+t1(const struct rc_corner *k)
+{
+    return atan2(k->x * k->y, k->z * k->r);
+}
+
+/* z XY / (R (X^2 + z^2)), and so on: 0 at the surface. */
+static double
+xy_x(const struct rc_corner *k)
+{
+    return k->z == 0 ? 0 : k->z * k->x * k->y / (k->r * (k->x * k->x + k->z * k->z));
+}
+
+static double
+xy_y(const struct rc_corner *k)
+{
+    return k->z == 0 ? 0 : k->z * k->x * k->y / (k->r * (k->y * k->y + k->z * k->z));
+}
+
+static double
+log_sum(const struct rc_corner *k)
+{
+    return log(fmax(k->r + k->z, k->floor));
+}
+
+/* asinh of a coordinate over the distance from the edge that runs along it. */
+static double
+along(const struct rc_corner *k, double coordinate, double other)
+{
+    return asinh(coordinate / fmax(hypot(other, k->z), k->floor));
+}
+
+/* 2 nu Y/(R + z) + z Y / (R (R + z)); Y may be X. */
+static double
+tilt(const struct rc_corner *k, double y)
+{
+    double w = k->r + k->z;
+
+    return w == 0 ? 0 : (2 * k->nu + k->z / k->r) * y / w;
+}
+
+static double
+n_xx_corner(const struct rc_corner *k)
+{
+    double t2 = atan2(k->x * k->y, k->x * k->x + k->z * (k->z + k->r));
+
+    return -2 * k->nu * t1(k) - (1 - 2 * k->nu) * t2 + xy_x(k);
+}
+
+static double
+n_yy_corner(const struct rc_corner *k)
+{
+    double t2 = atan2(k->x * k->y, k->y * k->y + k->z * (k->z + k->r));
+
+    return -2 * k->nu * t1(k) - (1 - 2 * k->nu) * t2 + xy_y(k);
+}
+
+static double
+n_zz_corner(const struct rc_corner *k)
+{
+    return -t1(k) - xy_x(k) - xy_y(k);
+}
+
+static double
+n_xy_corner(const struct rc_corner *k)
+{
+    return (k->z == 0 ? 0 : -k->z / k->r) - (1 - 2 * k->nu) * log_sum(k);
+}
+
+static double
+n_xz_corner(const struct rc_corner *k)
+{
+    return k->z == 0 ? 0 : k->z * k->z * k->y / (k->r * (k->x * k->x + k->z * k->z));
+}
+
+static double
+n_yz_corner(const struct rc_corner *k)
+{
+    return k->z == 0 ? 0 : k->z * k->z * k->x / (k->r * (k->y * k->y + k->z * k->z));
+}
+
+static double
+t_xx_corner(const struct rc_corner *k)
+{
+    return 2 * along(k, k->y, k->x) + tilt(k, k->y) - n_xz_corner(k);
+}
+
+static double
+t_yy_corner(const struct rc_corner *k)
+{
+    return 2 * k->nu * along(k, k->y, k->x) - tilt(k, k->y);
+}
+
+static double
+t_xy_corner(const struct rc_corner *k)
+{
+    return along(k, k->x, k->y) - tilt(k, k->x);
+}
+
+static double
+t_xz_corner(const struct rc_corner *k)
+{
+    return -t1(k) + xy_x(k);
+}
+
+static double
+t_yz_corner(const struct rc_corner *k)
+{
+    return k->z == 0 ? 0 : -k->z / k->r;
+}
+
+/* ---- of a wave ---- */
+
+#define SYMBOL(name, value)                                                                       \
+    static double name##_symbol(const struct rc_wave *s)                                          \
+    {                                                                                             \
+        double qx = s->qx, qy = s->qy, q = s->q, z = s->z, nu = s->nu, c = 1 - 2 * nu;            \
+        (void)qx, (void)qy, (void)q, (void)z, (void)nu, (void)c;                                  \
+        return (value) * s->decay;                                                                \
+    }
+
+SYMBOL(n_xx, -2 * nu - (c - z * q) * (qx / q) * (qx / q))
+SYMBOL(n_yy, -2 * nu - (c - z * q) * (qy / q) * (qy / q))
+SYMBOL(n_zz, -1 - q * z)
+SYMBOL(n_xy, (c - z * q) * (qx / q) * (qy / q))
+SYMBOL(n_xz, -qx * z)
+SYMBOL(n_yz, -qy * z)
+SYMBOL(t_xx, -(qx / q) * (2 * (1 + nu) - (2 * nu + z * q) * (qx / q) * (qx / q)))
+SYMBOL(t_yy, -(qx / q) * (2 * nu - (2 * nu + z * q) * (qy / q) * (qy / q)))
+SYMBOL(t_xy, -(qy / q) * (1 - (2 * nu + z * q) * (qx / q) * (qx / q)))
+SYMBOL(t_xz, z * q * (qx / q) * (qx / q) - 1)
+SYMBOL(t_yz, -z * q * (qx / q) * (qy / q))
+
+/* ---- the table ---- */
+
+/* Load, component, its forms above, its parity, and the component of the normal load that has the
+ * same values. */
+#define ROWS                                                                                       \
+    ROW(NORMAL, SXX, n_xx, 0, -1)                                                                  \
+    ROW(NORMAL, SYY, n_yy, 0, -1)                                                                  \
+    ROW(NORMAL, SZZ, n_zz, 0, -1)                                                                  \
+    ROW(NORMAL, SXY, n_xy, RC_ODD_X | RC_ODD_Y, -1)                                                \
+    ROW(NORMAL, SXZ, n_xz, RC_ODD_X, -1)                                                           \
+    ROW(NORMAL, SYZ, n_yz, RC_ODD_Y, -1)                                                           \
+    ROW(SHEAR, SXX, t_xx, RC_ODD_X, -1)                                                            \
+    ROW(SHEAR, SYY, t_yy, RC_ODD_X, -1)                                                            \
+    ROW(SHEAR, SZZ, n_xz, RC_ODD_X, RC_SXZ)                                                        \
+    ROW(SHEAR, SXY, t_xy, RC_ODD_Y, -1)                                                            \
+    ROW(SHEAR, SXZ, t_xz, 0, -1)                                                                   \
+    ROW(SHEAR, SYZ, t_yz, RC_ODD_X | RC_ODD_Y, -1)
+
+#define ROW(load, component, name, parity, same)                                                   \
+    [RC_##load * RC_COMPONENTS + RC_##component] = {parity, same, name##_point, name##_corner,     \
+                                                    name##_symbol},
+const struct rc_stress_row rc_stress_rows[RC_STRESS_KERNELS] = {ROWS};
+#undef ROW
+
+/* The engines read a bare list. */
+#define ROW(load, component, name, parity, same)                                                   \
+    [RC_##load * RC_COMPONENTS + RC_##component] = parity,
+const unsigned rc_stress_parity[RC_STRESS_KERNELS] = {ROWS};
+#undef ROW
+
+/* The mean over the directions of q, which is also what stands under the middle of a patch that
+ * grows without end: sxx = syy = -(1 + 2 nu)/2, and the sum of the normal stresses is -2 (1 + nu)
+ * as it is for every wave. On a profile q has one direction, and the strain along it is plane. */
+double
+rc_stress_mean(int kernel, double nu, const struct rc_shape *shape)
+{
+    const struct rc_wave x = {.qx = 1, .q = 1, .decay = 1, .nu = nu};
+    const struct rc_wave y = {.qy = 1, .q = 1, .decay = 1, .nu = nu};
+    const struct rc_stress_row *row = &rc_stress_rows[kernel];
+
+    if (row->parity != 0)
+        return 0;
+    if ((shape->nx == 1) == (shape->ny == 1))
+        return (row->symbol(&x) + row->symbol(&y)) / 2;
+    return row->symbol(shape->nx == 1 ? &y : &x);
+}
+
+int
+rc_stress_kernel(int load, int component)
+{
+    int k = load * RC_COMPONENTS + component, same = rc_stress_rows[k].same;
+
+    return same < 0 ? k : same;
+}
+
+unsigned
+rc_stress_distinct(unsigned components, bool shear)
+{
+    unsigned kernels = 0;
+
+    for (int c = 0; c < RC_COMPONENTS; c++) {
+        if (!(components >> c & 1))
+            continue;
+        kernels |= 1u << rc_stress_kernel(RC_NORMAL, c);
+        if (shear)
+            kernels |= 1u << rc_stress_kernel(RC_SHEAR, c);
+    }
+    return kernels;
+}
