@@ -44,6 +44,7 @@ enum {
 
 struct scan {
     struct rc_tiff *tiff;
+    size_t pages;
     double width, height; /* m */
     char date[64], comment[512], sample[128], account[128], program[64];
 };
@@ -65,6 +66,8 @@ scan_open(struct scan *s, const struct rc_file *file, struct rc_err *err)
         !rc_tiff_number(s->tiff, V_LENGTH, &s->height))
         return rc_err_set(err, "a TIFF, but no JPK scan: its first page gives no size of a grid "
                                "(tags 0x8042 and 0x8043)");
+    if (rc_tiff_pages(s->tiff, &s->pages, err) != RC_OK)
+        return RC_FAIL;
     rc_tiff_text(s->tiff, START_DATE, s->date, sizeof s->date);
     rc_tiff_text(s->tiff, COMMENT, s->comment, sizeof s->comment);
     rc_tiff_text(s->tiff, SAMPLE, s->sample, sizeof s->sample);
@@ -145,8 +148,8 @@ list_channels(const struct rc_file *file, const struct rc_wish *wish, struct rc_
 
     (void)wish;
     if (scan_open(&s, file, err) == RC_OK) {
-        for (size_t page = 1; rc_tiff_page(s.tiff, page); page++) {
-            if (!read_channel(s.tiff, &c))
+        for (size_t page = 1; page < s.pages; page++) {
+            if (!rc_tiff_page(s.tiff, page) || !read_channel(s.tiff, &c))
                 continue;
             if (n < most) {
                 struct rc_channel *to = &channel[n];
@@ -173,8 +176,8 @@ go_to(struct scan *s, size_t index, struct channel *c, struct rc_err *err)
 {
     size_t n = 0;
 
-    for (size_t page = 1; rc_tiff_page(s->tiff, page); page++)
-        if (read_channel(s->tiff, c) && n++ == index)
+    for (size_t page = 1; page < s->pages; page++)
+        if (rc_tiff_page(s->tiff, page) && read_channel(s->tiff, c) && n++ == index)
             return RC_OK;
     return rc_err_set(err, "the file has %zu channels, not %zu", n, index + 1);
 }

@@ -139,8 +139,15 @@ static enum rc_status
 find_pages(struct lext *l, struct rc_err *err)
 {
     char name[WORD];
+    size_t pages;
 
-    for (size_t page = 1; rc_tiff_page(l->tiff, page); page++) {
+    if (!rc_tiff_page(l->tiff, 0)) /* after the Exif data */
+        return rc_err_set(err, "the first page cannot be read again");
+    if (rc_tiff_pages(l->tiff, &pages, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t page = 1; page < pages; page++) {
+        if (!rc_tiff_page(l->tiff, page))
+            continue;
         rc_tiff_text(l->tiff, RC_TIFF_DESCRIPTION, name, sizeof name);
         if (l->height == 0 && is_named(name, "HEIGHT"))
             l->height = page;

@@ -93,6 +93,16 @@ rc_tiff_free(struct rc_tiff *t)
     free(t);
 }
 
+enum rc_status
+rc_tiff_pages(struct rc_tiff *t, size_t *pages, struct rc_err *err)
+{
+    for (*pages = 1; !TIFFLastDirectory(t->tiff); ++*pages)
+        if (*pages == PAGES_MOST || TIFFReadDirectory(t->tiff) != 1)
+            return rc_err_set(err, "page %zu (from 0) is damaged or cut off, or there is no end to "
+                                   "the pages", *pages);
+    return rc_tiff_page(t, 0) ? RC_OK : rc_err_set(err, "the first page cannot be read");
+}
+
 bool
 rc_tiff_page(struct rc_tiff *t, size_t page)
 {

@@ -21,7 +21,10 @@ struct rc_tiff;
 struct rc_tiff *rc_tiff_new(const struct rc_file *file, struct rc_err *err);
 void rc_tiff_free(struct rc_tiff *tiff); /* NULL is allowed */
 
-/* Goes to a page, from 0; false when there is none or it is damaged. */
+/* How many pages there are; RC_FAIL when one is damaged or leads nowhere. Stands on the first one
+ * after it. */
+enum rc_status rc_tiff_pages(struct rc_tiff *tiff, size_t *pages, struct rc_err *err);
+/* Goes to a page, from 0; false when there is none. */
 bool rc_tiff_page(struct rc_tiff *tiff, size_t page);
 /* Goes to the page that the Exif tag of this one points to. */
 bool rc_tiff_exif(struct rc_tiff *tiff);
