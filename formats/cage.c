@@ -15,6 +15,7 @@
 #include "values.h"
 
 static const double seconds_least = 0.8, bytes_a_second = 1e7;
+static const double patience = 10; /* times those, by the clock on the wall: nothing may just wait */
 
 static bool left_open;
 
@@ -61,20 +62,29 @@ limit(int what, rlim_t most)
 }
 
 static void
+ring_after(int which, double seconds)
+{
+    struct itimerval timer = {{0, 0}, {0, 0}};
+    double whole;
+
+    timer.it_value.tv_usec = (suseconds_t)(1e6 * modf(seconds, &whole));
+    timer.it_value.tv_sec = (time_t)whole;
+    setitimer(which, &timer, NULL);
+}
+
+static void
 shut(const struct rc_file *file)
 {
     size_t space = space_now();
-    double seconds = time_bound(file), whole;
-    struct itimerval timer = {{0, 0}, {0, 0}};
 
     signal(SIGPROF, SIG_DFL);
+    signal(SIGALRM, SIG_DFL);
     signal(SIGINT, SIG_DFL); /* what is half-written is the parent's business */
     signal(SIGTERM, SIG_DFL);
     signal(SIGHUP, SIG_DFL);
     signal(SIGPIPE, SIG_DFL);
-    timer.it_value.tv_usec = (suseconds_t)(1e6 * modf(seconds, &whole));
-    timer.it_value.tv_sec = (time_t)whole;
-    setitimer(ITIMER_PROF, &timer, NULL);
+    ring_after(ITIMER_PROF, time_bound(file));
+    ring_after(ITIMER_REAL, patience * time_bound(file));
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_FSIZE, 0);
     limit(RLIMIT_NOFILE, 0); /* no further one: a file cannot name others to be read */
@@ -141,7 +151,8 @@ join(struct cage *cage, const struct rc_file *file, bool whole, struct rc_err *e
         continue;
     if (whole)
         return;
-    if (got == cage->child && WIFSIGNALED(how) && WTERMSIG(how) == SIGPROF)
+    if (got == cage->child && WIFSIGNALED(how) &&
+        (WTERMSIG(how) == SIGPROF || WTERMSIG(how) == SIGALRM))
         rc_err_set(err, "the file keeps its library busy for more than %.1f s: it is damaged, or "
                         "made to", time_bound(file));
     else if (got == cage->child && WIFSIGNALED(how))

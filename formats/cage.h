@@ -5,7 +5,7 @@
  * harmed.
  *
  * Bounds: 16 times the file plus 64 MiB of memory beyond what the process has; 0.8 s and 1 s for
- * every 10 MB of the file, of the processor. Call from one thread.
+ * every 10 MB of the file, of the processor, and ten times that by the clock. Call from one thread.
  */
 #ifndef RC_CAGE_H
 #define RC_CAGE_H

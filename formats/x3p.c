@@ -669,8 +669,8 @@ x3p_read(const struct rc_file *file, const struct rc_wish *wish, size_t index,
         rc_err_set(err, "an X3P file has one channel, not %zu", index + 1);
         goto done;
     }
-    if (rc_map_fits(file, x.nx, x.ny, err) != RC_OK ||
-        (x.binary && find_points(&x, &points, err) != RC_OK))
+    if ((x.binary && find_points(&x, &points, err) != RC_OK) ||
+        rc_map_fits(file, x.nx, x.ny, err) != RC_OK)
         goto done;
     check_main(&x, notes);
     if (x.turned)

@@ -64,6 +64,16 @@ endless(const struct rc_file *f, const struct rc_wish *wish, size_t index, struc
 }
 
 static struct rc_grid *
+waiting(const struct rc_file *f, const struct rc_wish *wish, size_t index, struct rc_notes *notes,
+        struct rc_err *err)
+{
+    (void)f, (void)wish, (void)index, (void)notes, (void)err;
+    for (;;)
+        pause();
+    return NULL;
+}
+
+static struct rc_grid *
 greedy(const struct rc_file *f, const struct rc_wish *wish, size_t index, struct rc_notes *notes,
        struct rc_err *err)
 {
@@ -135,6 +145,7 @@ trouble_stays_inside(void **state)
     expect(refusing, "what is wrong: 7");
     expect(crashing, "makes its library fail");
     expect(endless, "busy for more than 0.8 s");
+    expect(waiting, "busy for more than 0.8 s");
     expect(nosy, "closed");
     assert_true(now() - before < 0.5); /* the time was not ours */
 }
@@ -151,8 +162,8 @@ memory_is_bounded(void **state)
     printf("%s\n", err.text);
     if ((said = strstr(err.text, "ended after ")) != NULL)
         assert_in_range(strtoul(said + 12, NULL, 10), 32, 64);
-    else /* the address sanitizer does not come back from it */
-        assert_non_null(strstr(err.text, "makes its library fail"));
+    else /* the address sanitizer may not come back from it */
+        assert_non_null(strstr(err.text, "its library"));
 }
 
 static size_t

@@ -662,8 +662,8 @@ hdf5_is_refused(void **state)
     hid_t file;
 
     (void)state;
-    refuse_cuts(&rc_format_hdf5, &b, b.n, 7);
-    survive_changes(&rc_format_hdf5, &b, 300);
+    refuse_cuts(&rc_format_hdf5, &b, b.n, 31);
+    survive_changes(&rc_format_hdf5, &b, 200);
     drop(&b);
     file = hdf_start();
     b = hdf_end(file);
@@ -799,8 +799,8 @@ datx_is_refused(void **state)
     refuse(&rc_format_datx, &b, "no DATX");
     drop(&b);
     b = datx_file(true, "NanoMeters", false, 1e-6);
-    refuse_cuts(&rc_format_datx, &b, b.n, 37);
-    survive_changes(&rc_format_datx, &b, 300);
+    refuse_cuts(&rc_format_datx, &b, b.n, 113);
+    survive_changes(&rc_format_datx, &b, 200);
     drop(&b);
 }
 

@@ -68,7 +68,9 @@ claim "and vtr does not" rc-export -o a.vtr deep.rcg
 claim "a list of channels is taken" \
     bash -c 'rc-export --format vtr --channel mises,szz deep.rcg | cmp - a.vtr'
 refuses 1 "holds no frame" "an empty stream" 'printf "RCGEND 0\n" | rc-export --format csv'
-refuses 1 "need about .* --memory" "--memory is minded" 'rc-export --memory 2K --format csv one.rcg'
+refuses 1 "memory" "--memory is minded" 'rc-export --memory 2K --format csv one.rcg'
+refuses 1 "need about .*--memory" "by all frames together" \
+    'cat one.rcg one.rcg | rc-export --memory 10K --format vti'
 
 # ---- there and back ----
 
