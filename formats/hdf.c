@@ -24,6 +24,66 @@ rc_hdf_is(const struct rc_file *file)
     return file->size > sizeof magic && memcmp(file->data, magic, sizeof magic) == 0;
 }
 
+/* ---- the bytes as they are, where the library would copy them thrice ---- */
+
+static void *
+image_malloc(size_t size, H5FD_file_image_op_t op, void *image)
+{
+    (void)size, (void)op;
+    return image;
+}
+
+static void *
+image_memcpy(void *to, const void *from, size_t size, H5FD_file_image_op_t op, void *image)
+{
+    (void)op, (void)image;
+    if (to != from)
+        memmove(to, from, size);
+    return to;
+}
+
+static void *
+image_realloc(void *bytes, size_t size, H5FD_file_image_op_t op, void *image)
+{
+    (void)bytes, (void)size, (void)op, (void)image;
+    return NULL; /* a file that is only read does not grow */
+}
+
+static herr_t
+image_free(void *bytes, H5FD_file_image_op_t op, void *image)
+{
+    (void)bytes, (void)op, (void)image;
+    return 0;
+}
+
+static void *
+image_share(void *image)
+{
+    return image;
+}
+
+static herr_t
+image_leave(void *image)
+{
+    (void)image;
+    return 0;
+}
+
+static bool
+set_image(hid_t access, const struct rc_file *file)
+{
+    void *image = (void *)(uintptr_t)file->data; /* opened to be read: nothing is written to it */
+    H5FD_file_image_callbacks_t callbacks = {
+        .image_malloc = image_malloc,   .image_memcpy = image_memcpy,
+        .image_realloc = image_realloc, .image_free = image_free,
+        .udata_copy = image_share,      .udata_free = image_leave,
+        .udata = image};
+
+    return H5Pset_fapl_core(access, GROWTH, false) >= 0 &&
+           H5Pset_file_image_callbacks(access, &callbacks) >= 0 &&
+           H5Pset_file_image(access, image, file->size) >= 0;
+}
+
 struct rc_hdf *
 rc_hdf_new(const struct rc_file *file, struct rc_err *err)
 {
@@ -36,11 +96,7 @@ rc_hdf_new(const struct rc_file *file, struct rc_err *err)
     }
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL); /* what matters is said here */
     access = H5Pcreate(H5P_FILE_ACCESS);
-    h->file = -1;
-    /* the library copies the bytes and changes none */
-    if (H5Pset_fapl_core(access, GROWTH, false) >= 0 &&
-        H5Pset_file_image(access, (void *)(uintptr_t)file->data, file->size) >= 0)
-        h->file = H5Fopen("file", H5F_ACC_RDONLY, access);
+    h->file = set_image(access, file) ? H5Fopen("file", H5F_ACC_RDONLY, access) : -1;
     H5Pclose(access);
     if (h->file >= 0)
         return h;

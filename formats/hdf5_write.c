@@ -34,10 +34,10 @@ put_text(hid_t set, const char *name, const char *value)
     hid_t space = H5Screate(H5S_SCALAR), type = H5Tcopy(H5T_C_S1), attribute;
     bool good;
 
-    H5Tset_size(type, strlen(value) + 1);
+    H5Tset_size(type, H5T_VARIABLE);
     H5Tset_cset(type, H5T_CSET_UTF8);
     attribute = H5Acreate2(set, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
-    good = attribute >= 0 && H5Awrite(attribute, type, value) >= 0;
+    good = attribute >= 0 && H5Awrite(attribute, type, &value) >= 0;
     H5Aclose(attribute);
     H5Tclose(type);
     H5Sclose(space);
