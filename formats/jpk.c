@@ -9,6 +9,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "archive.h"
 #include "cage.h"
 #include "text.h"
 #include "tiff.h"
@@ -241,9 +242,24 @@ done:
 
 /* ---- the row ---- */
 
+/* Force curves are a ZIP archive of their own, known by this member. */
+static bool
+is_force(const struct rc_file *file)
+{
+    struct rc_archive *archive = rc_archive_new(file, NULL);
+    size_t member;
+    bool found = archive != NULL &&
+                 rc_archive_find(archive, "header.properties", &member, NULL) == RC_OK;
+
+    rc_archive_free(archive);
+    return found;
+}
+
 static int
 jpk_score(const struct rc_file *file)
 {
+    if (is_force(file))
+        return 30; /* to say why it is refused */
     return rc_tiff_is(file) && rc_tiff_hints(file, U_LENGTH, TYPE_DOUBLE) &&
                    rc_tiff_hints(file, DEFAULT_SLOT, TYPE_ASCII)
                ? 90
@@ -254,6 +270,10 @@ static size_t
 jpk_list(const struct rc_file *file, const struct rc_wish *wish, struct rc_channel *channel,
          size_t most, struct rc_err *err)
 {
+    if (is_force(file)) {
+        rc_err_set(err, "force curves of JPK: only image scans are read");
+        return 0;
+    }
     return rc_cage_list(list_channels, file, wish, channel, most, err);
 }
 
@@ -261,6 +281,10 @@ static struct rc_grid *
 jpk_read(const struct rc_file *file, const struct rc_wish *wish, size_t index,
          struct rc_notes *notes, struct rc_err *err)
 {
+    if (is_force(file)) {
+        rc_err_set(err, "force curves of JPK: only image scans are read");
+        return NULL;
+    }
     return rc_cage_read(read_values, file, wish, index, notes, err);
 }
 

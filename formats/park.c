@@ -143,8 +143,8 @@ park_open(struct park *p, const struct rc_file *file, struct rc_err *err)
     if (p->tiff == NULL)
         return RC_FAIL;
     if (!rc_tiff_number(p->tiff, MAGIC_TAG, &magic) || magic != MAGIC)
-        return rc_err_set(err, "a TIFF, but none of Park Systems: tag %d is not 0x%08x", MAGIC_TAG,
-                          MAGIC);
+        return rc_err_set(err, "a TIFF, but none of Park Systems: tag %d is not 0x%08x; pictures "
+                               "without heights are not read", MAGIC_TAG, MAGIC);
     rc_tiff_number(p->tiff, VERSION_TAG, &version);
     if (version != VERSION_1 && version != VERSION_2)
         return rc_err_set(err, "version 0x%08x of Park Systems' TIFF: only 0x%08x and 0x%08x are "
@@ -243,10 +243,12 @@ done:
 static int
 park_score(const struct rc_file *file)
 {
-    return rc_tiff_is(file) && rc_tiff_hints(file, MAGIC_TAG, TYPE_LONG) &&
+    if (!rc_tiff_is(file))
+        return 0;
+    return rc_tiff_hints(file, MAGIC_TAG, TYPE_LONG) &&
                    rc_tiff_hints(file, VERSION_TAG, TYPE_LONG)
                ? 90
-               : 0;
+               : 3; /* any other TIFF: to say why it is refused */
 }
 
 static size_t

@@ -468,6 +468,21 @@ many_large_tags(void **state)
     drop(&b);
 }
 
+/* A picture is no map, and its refusal says so. */
+static void
+pictures_are_refused(void **state)
+{
+    struct rc_file file;
+    struct bytes b;
+
+    (void)state;
+    tiff_start(&b, false);
+    tiff_page(&b, 4, 2, 1, 8, 1, "a picture", "\1\2", 2, NULL);
+    file = file_of(&b, "made.tif");
+    refuse(rc_format_find(&file, NULL), &b, "pictures without heights are not read");
+    drop(&b);
+}
+
 /* Directories that lead back to themselves. */
 static void
 endless_directories(void **state)
@@ -494,6 +509,7 @@ main(void)
         cmocka_unit_test(park_is_refused),
         cmocka_unit_test(lext_is_read),
         cmocka_unit_test(lext_is_refused),
+        cmocka_unit_test(pictures_are_refused),
         cmocka_unit_test(many_large_tags),
         cmocka_unit_test(endless_directories),
     };

@@ -64,7 +64,7 @@ claim "where the unit has a name, it has it" \
     bash -c 'rc-export --format gsf --channel pressure many.rcg | grep -aq "^ZUnits = Pa"'
 claim "frames are arrays" bash -c 'rc-export --format vti many.rcg | grep -ac "Name=\"\(pressure\|gap\|displacement\|height\)\"" | grep -q 4'
 refuses 1 "uneven steps" "an image wants even depths" 'rc-export -o a.vti deep.rcg'
-claim "and vtr does not" rc-export -o a.vtr deep.rcg
+claim "and vtr does not" rc-export --format vtr -o a.vtr deep.rcg
 claim "a list of channels is taken" \
     bash -c 'rc-export --format vtr --channel mises,szz deep.rcg | cmp - a.vtr'
 refuses 1 "holds no frame" "an empty stream" 'printf "RCGEND 0\n" | rc-export --format csv'
@@ -79,6 +79,9 @@ back() { # FILE: its heights as rc-import reads them, bit for bit those of one.r
 }
 claim "X3P comes back bit for bit" back by.x3p
 claim "CSV comes back bit for bit" back by.csv
+claim "history goes along, with this step" bash -c '
+    rc-export --format x3p --type i16 one.rcg >h.x3p && unzip -p h.x3p main.xml |
+        grep -q "<Comment>rc-synth .* | rc-export [0-9.]* --format x3p --type i16</Comment>"'
 printf '1 2 3\n4 NaN 6\n' >map.txt
 rc-import --dx 1um --z-unit um map.txt -o map.rcg
 rc-export map.rcg -o map.x3p

@@ -14,13 +14,14 @@ static struct args {
 } args;
 
 static const struct opt opts[] = {
-    {.name = "format", .type = OPT_TEXT, .at = offsetof(struct args, format), .arg = "NAME",
+    {.name = "format", .type = OPT_TEXT, .at = offsetof(struct args, format), .result = true,
+     .arg = "NAME",
      .help = "write this format (default: as the suffix of -o FILE says)"},
     {.name = "formats", .type = OPT_FLAG, .at = offsetof(struct args, formats), .text = true,
      .help = "print the table of formats"},
     {.name = "channel", .type = OPT_TEXT, .at = offsetof(struct args, channel), .arg = "LIST",
      .help = "only the frames of these channels, separated by commas"},
-    {.name = "type", .type = OPT_CHOICE, .at = offsetof(struct args, type),
+    {.name = "type", .type = OPT_CHOICE, .at = offsetof(struct args, type), .result = true,
      .arg = "i16|i32|f32|f64",
      .help = "of the values in the file, where the format leaves it open"},
     {.name = "missing", .type = OPT_TEXT, .at = offsetof(struct args, missing), .arg = "WORD",
@@ -181,6 +182,7 @@ read_frames(struct tool *t, size_t *frames)
 {
     struct rc_grid **frame = NULL, **more, *g;
     char others[256] = "";
+    struct rc_err err;
     size_t bytes = 0;
 
     *frames = 0;
@@ -191,6 +193,8 @@ read_frames(struct tool *t, size_t *frames)
             continue;
         }
         check_frame(t, g, *frames);
+        if (rc_grid_history(g, tool_history(t), &err) != RC_OK)
+            tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
         bytes += g->nx * g->ny * sizeof *g->v;
         tool_demand_memory(t, g, bytes);
         if ((more = realloc(frame, (*frames + 1) * sizeof(struct rc_grid *))) == NULL)
