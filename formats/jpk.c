@@ -221,7 +221,8 @@ read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index
     if (!rc_length_unit(c.unit, strlen(c.unit), &metres))
         metres = NAN;
     shape = (struct rc_shape){.nx = c.shape.nx, .ny = c.shape.ny};
-    if (rc_spacing(wish, s.width / (double)shape.nx, s.height / (double)shape.ny, &shape, notes,
+    if (rc_map_fits(file, shape.nx, shape.ny, err) != RC_OK ||
+        rc_spacing(wish, s.width / (double)shape.nx, s.height / (double)shape.ny, &shape, notes,
                    err) != RC_OK ||
         rc_height_unit(wish, metres, c.unit, &metres, notes, err) != RC_OK ||
         (g = rc_grid_new(&shape, "height", "m", err)) == NULL ||

@@ -237,7 +237,8 @@ read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index
         goto done;
     }
     shape = (struct rc_shape){.nx = l.shape.nx, .ny = l.shape.ny};
-    if (rc_spacing(wish, l.dx, l.dy, &shape, notes, err) != RC_OK ||
+    if (rc_map_fits(file, shape.nx, shape.ny, err) != RC_OK ||
+        rc_spacing(wish, l.dx, l.dy, &shape, notes, err) != RC_OK ||
         rc_height_unit(wish, l.dz, "", &metres, notes, err) != RC_OK ||
         (g = rc_grid_new(&shape, "height", "m", err)) == NULL ||
         rc_text_keep(g, "file.date", l.date, strlen(l.date), err) != RC_OK ||

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "formats/cage.h"
 #include "formats/format.h"
 
 static const struct rc_wish no_wish = {.dx = NAN, .dy = NAN, .z_unit = NAN};
@@ -248,7 +249,8 @@ refuse_cuts(const struct rc_format *format, const struct bytes *b, size_t least,
     }
 }
 
-/* Bytes changed at random: whatever comes of it, it is a map or a reason. */
+/* Bytes changed at random: whatever comes of it, it is a map or a reason. RC_FUZZ in the environment
+ * multiplies how often; RC_FUZZ_OPEN leaves the cages open, so that the sanitizers see into them. */
 __attribute__((unused)) static void
 survive_changes(const struct rc_format *format, const struct bytes *b, size_t times)
 {
@@ -258,6 +260,9 @@ survive_changes(const struct rc_format *format, const struct bytes *b, size_t ti
     struct rc_channel channel[8];
     size_t read = 0;
 
+    if (getenv("RC_FUZZ") != NULL)
+        times *= strtoul(getenv("RC_FUZZ"), NULL, 10);
+    rc_cage_leave_open(getenv("RC_FUZZ_OPEN") != NULL);
     for (size_t t = 0; t < times; t++) {
         struct rc_file file = file_of(&bad, "made");
         struct rc_err err = {""};
@@ -283,6 +288,7 @@ survive_changes(const struct rc_format *format, const struct bytes *b, size_t ti
     }
     printf("%s: %zu files changed at random, %zu of them read, the others refused\n", format->name,
            times, read);
+    rc_cage_leave_open(false);
     drop(&bad);
 }
 
