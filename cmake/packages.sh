@@ -3,8 +3,8 @@
 # finds it.
 
 build_packages="gcc libc6-dev make cmake pkg-config libfftw3-dev libgsl-dev libpng-dev libxml2-dev
-    libzip-dev zlib1g-dev libcairo2-dev fonts-dejavu-core"
-test_packages="libcmocka-dev mandoc zip perl"
+    libzip-dev zlib1g-dev libhdf5-dev libtiff-dev libcairo2-dev fonts-dejavu-core"
+test_packages="libcmocka-dev mandoc zip unzip perl"
 
 need_packages() {
     local missing="" package as_root=""
@@ -12,8 +12,9 @@ need_packages() {
         cat <<'EOT'
 This is neither Debian nor Ubuntu: please see that these are installed, with their headers:
   a C17 compiler with OpenMP, make, CMake 3.20 or later, pkg-config
-  FFTW 3 (double precision), GSL 2.2 or later, libpng, libxml2, libzip, zlib, cairo
-  for the tests also: cmocka, mandoc, zip, perl
+  FFTW 3 (double precision), GSL 2.2 or later, libpng, libxml2, libzip, zlib, libhdf5,
+  libtiff, cairo
+  for the tests also: cmocka, mandoc, zip, unzip, perl
 EOT
         return 0
     fi

@@ -18,6 +18,7 @@
 #include "bytes.h"
 #include "format.h"
 #include "text.h"
+#include "values.h"
 #include "xml.h"
 
 #define MAIN_MOST ((uint64_t)1 << 28) /* bytes of main.xml: some millions of heights in it */
@@ -668,7 +669,8 @@ x3p_read(const struct rc_file *file, const struct rc_wish *wish, size_t index,
         rc_err_set(err, "an X3P file has one channel, not %zu", index + 1);
         goto done;
     }
-    if (x.binary && find_points(&x, &points, err) != RC_OK)
+    if ((x.binary && find_points(&x, &points, err) != RC_OK) ||
+        rc_map_fits(file, x.nx, x.ny, err) != RC_OK)
         goto done;
     check_main(&x, notes);
     if (x.turned)

@@ -44,6 +44,10 @@ static const struct {
     {"x3p", "x3p"},
     {"ascii-matrix", "ascii"},
     {"spip-asc", "ascii"},
+    {"jpk-image", "jpk"},
+    {"park-tiff", "park"},
+    {"netcdf", "netcdf"},
+    {"hdf5-generic", "hdf5"},
 };
 
 static const char *folder;
@@ -169,6 +173,22 @@ check_grid(char *column[COLUMNS], const struct rc_grid *g)
            g->ny, s.missing, probes);
 }
 
+/* The channel that the manifest means: "Height#6" is the one named Height; the first one where none
+ * has that name. */
+static size_t
+channel_of(const struct rc_format *format, const struct rc_file *file, const struct rc_wish *wish,
+           const char *name)
+{
+    struct rc_channel channel[64];
+    size_t length = strcspn(name, "#");
+    size_t n = format->list(file, wish, channel, 64, NULL);
+
+    for (size_t k = 0; k < n && k < 64; k++)
+        if (strlen(channel[k].name) == length && strncmp(channel[k].name, name, length) == 0)
+            return k;
+    return 0;
+}
+
 static void
 check_row(char *column[COLUMNS], const char *reader)
 {
@@ -193,7 +213,8 @@ check_row(char *column[COLUMNS], const char *reader)
     if (format == NULL)
         fail_msg("%s: %s", column[FILE_NAME], err.text);
     assert_string_equal(format->name, reader);
-    g = format->read(&file, &wish, 0, &notes, &err);
+    g = format->read(&file, &wish, channel_of(format, &file, &wish, column[CHANNEL]), &notes,
+                     &err);
     if (g == NULL)
         fail_msg("%s: %s", column[FILE_NAME], err.text);
     check_grid(column, g);

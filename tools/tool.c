@@ -493,6 +493,8 @@ tool_start(struct tool *t, const struct tool_info *info, int argc, char **argv, 
     if (info->reads == READS_NOTHING && t->operands > 0)
         tool_die(t, EXIT_USAGE, "'%s': this tool reads no files; see %s --help", t->operand[0],
                  info->name);
+    if (info->settle != NULL)
+        info->settle(t);
     handle(end_by);
     if (tool_given(t, "dry-run")) { /* words instead of grids, and no file is touched */
         t->writes = WRITES_TEXT;

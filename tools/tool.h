@@ -82,6 +82,8 @@ enum tool_writes {
     WRITES_TEXT,   /* tool.out                                                             */
 };
 
+struct tool;
+
 struct tool_info {
     const char *name;
     const char *summary;  /* "contact of a height map with an elastic half-space"          */
@@ -90,6 +92,8 @@ struct tool_info {
     const struct opt *opts; /* ended by a row without a name                               */
     enum tool_reads reads;
     enum tool_writes writes;
+    /* NULL, or called between the options and the output: may change tool->writes. */
+    void (*settle)(struct tool *tool);
 };
 
 struct tool {

@@ -1,0 +1,126 @@
+#include "export.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+#define RC_EXPORT(name) extern const struct rc_export rc_export_##name;
+#include "exports.list"
+#undef RC_EXPORT
+
+const struct rc_export *const rc_exports[] = {
+#define RC_EXPORT(name) &rc_export_##name,
+#include "exports.list"
+#undef RC_EXPORT
+    NULL,
+};
+
+const struct rc_export *
+rc_export_named(const char *name)
+{
+    for (const struct rc_export *const *e = rc_exports; *e != NULL; e++)
+        if (strcmp((*e)->name, name) == 0)
+            return *e;
+    return NULL;
+}
+
+static bool
+has_suffix(const char *file, const char *suffixes)
+{
+    size_t n = strlen(file), length;
+
+    for (const char *s = suffixes; *s != '\0'; s += length + (s[length] == ' ')) {
+        length = strcspn(s, " ");
+        if (n > length && strncmp(file + n - length, s, length) == 0)
+            return true;
+    }
+    return false;
+}
+
+const struct rc_export *
+rc_export_suffixed(const char *file)
+{
+    for (const struct rc_export *const *e = rc_exports; *e != NULL; e++)
+        if (has_suffix(file, (*e)->suffixes))
+            return *e;
+    return NULL;
+}
+
+enum rc_raw
+rc_export_raw(const struct rc_grid *g, const struct rc_export_wish *wish, unsigned types)
+{
+    enum rc_raw raw = g->type == RC_F32 ? RC_RAW_F32 : RC_RAW_F64;
+
+    if (wish->typed)
+        return wish->raw;
+    if (types >> raw & 1)
+        return raw;
+    for (raw = RC_RAW_F64; raw > RC_RAW_I16 && (types >> raw & 1) == 0;)
+        raw--;
+    return raw;
+}
+
+/* The name of one frame alone; `cases` and `depths` say what has to be told apart. */
+static void
+plain_label(char label[RC_LABEL], const struct rc_grid *g, bool cases, bool depths)
+{
+    char number[RC_NUMBER_SIZE];
+    double depth;
+    int n = snprintf(label, RC_LABEL, "%.64s", g->channel);
+
+    if (depths && rc_grid_number(g, "depth", &depth))
+        n += snprintf(label + n, RC_LABEL - (size_t)n, "_z%s", rc_number_text(number, depth));
+    if (cases)
+        snprintf(label + n, RC_LABEL - (size_t)n, "_case%zu", rc_grid_case(g));
+}
+
+const char *
+rc_export_label(char label[RC_LABEL], struct rc_grid *const *frame, size_t frames, size_t k,
+                bool depths)
+{
+    char other[RC_LABEL];
+    bool cases = false;
+    size_t twins = 0, n;
+
+    for (size_t j = 1; j < frames; j++)
+        cases = cases || rc_grid_case(frame[j]) != rc_grid_case(frame[0]);
+    plain_label(label, frame[k], cases, depths);
+    for (size_t j = 0; j < k; j++) {
+        plain_label(other, frame[j], cases, depths);
+        twins += strcmp(label, other) == 0;
+    }
+    n = strlen(label);
+    if (twins > 0)
+        snprintf(label + n, RC_LABEL - n, "_%zu", twins + 1);
+    return label;
+}
+
+/* Whether text begins with a date and a time as ISO 8601 has them: "2026-11-21T09:30:00". */
+static bool
+is_date(const char *text)
+{
+    static const char form[] = "0000-00-00T00:00:00";
+
+    for (size_t k = 0; k < sizeof form - 1; k++)
+        if (form[k] == '0' ? text[k] < '0' || text[k] > '9' : text[k] != form[k])
+            return false;
+    return true;
+}
+
+const char *
+rc_export_date(char date[RC_DATE], const struct rc_grid *g, const struct rc_export_wish *wish)
+{
+    const char *said = rc_grid_get(g, "file.date");
+    time_t seconds = (time_t)wish->time;
+    struct tm tm;
+
+    if (said != NULL && is_date(said)) {
+        snprintf(date, RC_DATE, "%.19s", said);
+        if (said[19] == 'Z')
+            strcat(date, "Z");
+    } else if (gmtime_r(&seconds, &tm) == NULL || strftime(date, RC_DATE, "%Y-%m-%dT%H:%M:%SZ",
+                                                           &tm) == 0) {
+        strcpy(date, "1970-01-01T00:00:00Z");
+    }
+    return date;
+}

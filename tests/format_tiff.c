@@ -1,0 +1,518 @@
+/* JPK, Park and LEXT files, made here byte by byte, are read by their own rules in both byte orders;
+ * damaged ones are refused. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "made.h"
+
+extern const struct rc_format rc_format_jpk, rc_format_park, rc_format_lext;
+
+/* ---- JPK ---- */
+
+enum {
+    SLOT = 0x8090,
+    STRIDE = 0x30
+};
+
+static struct tag
+text_tag(unsigned tag, const char *text)
+{
+    return (struct tag){(uint16_t)tag, 2, (uint32_t)strlen(text) + 1, text, 0};
+}
+
+static struct tag
+number_tag(unsigned tag, unsigned type, double number)
+{
+    return (struct tag){(uint16_t)tag, (uint16_t)type, 1, NULL, number};
+}
+
+static void
+pixels_i32(struct bytes *b, const int *v, size_t n)
+{
+    for (size_t k = 0; k < n; k++)
+        add_number(b, (uint64_t)(int64_t)v[k], 4);
+}
+
+static const int raw[6] = {1, -2, 3, -4, 5, 1000000};
+
+/* A thumbnail with the size of the scan, a channel of lengths and one of volts. */
+static struct bytes
+jpk_pages(bool big, bool reflected, const char *scaling, double multiply, bool second)
+{
+    const struct tag scan[] = {text_tag(0x8003, "2017-01-16 16:00"), number_tag(0x8042, 12, 3.3e-6),
+                               number_tag(0x8043, 12, 2.2e-6), {0}};
+    const struct tag heights[] = {
+        number_tag(339, 3, 2),
+        number_tag(0x8045, 3, reflected),
+        text_tag(0x8050, "height"),
+        number_tag(0x8051, 8, 1),
+        text_tag(0x8052, "Height (measured)"),
+        number_tag(0x8080, 4, 2),
+        text_tag(0x8081, "calibrated"),
+        text_tag(SLOT, "raw"),
+        text_tag(SLOT + 0x13, "NullScaling"),
+        text_tag(SLOT + STRIDE, "calibrated"),
+        text_tag(SLOT + STRIDE + 0x12, "m"),
+        text_tag(SLOT + STRIDE + 0x13, scaling),
+        number_tag(SLOT + STRIDE + 0x14, 12, multiply),
+        number_tag(SLOT + STRIDE + 0x15, 12, 5e-7),
+        {0}};
+    const struct tag volts[] = {number_tag(339, 3, 2),
+                                text_tag(0x8050, "error"),
+                                number_tag(0x8080, 4, 1),
+                                text_tag(0x8081, "raw"),
+                                text_tag(SLOT, "raw"),
+                                text_tag(SLOT + 0x12, "V"),
+                                text_tag(SLOT + 0x13, "NullScaling"),
+                                {0}};
+    struct bytes b, pixels = {.big = big};
+    size_t last = 4;
+
+    pixels_i32(&pixels, raw, 6);
+    tiff_start(&b, big);
+    last = tiff_page(&b, last, 2, 1, 8, 1, NULL, "\1\2", 2, scan);
+    last = tiff_page(&b, last, 3, 2, 32, 1, NULL, pixels.data, pixels.n, heights);
+    if (second)
+        tiff_page(&b, last, 3, 2, 32, 1, NULL, pixels.data, pixels.n, volts);
+    drop(&pixels);
+    return b;
+}
+
+static struct bytes
+jpk_file(bool big, bool reflected, const char *scaling, double multiply)
+{
+    return jpk_pages(big, reflected, scaling, multiply, true);
+}
+
+static void
+jpk_is_read(void **state)
+{
+    (void)state;
+    for (int big = 0; big < 2; big++)
+        for (int reflected = 0; reflected < 2; reflected++) {
+            struct bytes b = jpk_file(big, reflected, "LinearScaling", -2e-10);
+            struct rc_file file = file_of(&b, "made");
+            struct rc_channel channel[4];
+            struct rc_grid *g;
+            double v[6];
+
+            assert_ptr_equal(rc_format_find(&file, NULL), &rc_format_jpk);
+            assert_int_equal(rc_format_jpk.list(&file, &no_wish, channel, 4, NULL), 2);
+            assert_string_equal(channel[0].name, "Height (measured, retrace)");
+            assert_string_equal(channel[0].unit, "m");
+            assert_string_equal(channel[1].name, "error");
+            assert_string_equal(channel[1].unit, "V");
+            for (size_t k = 0; k < 6; k++)
+                v[k] = raw[reflected ? k : (k + 3) % 6] * -2e-10 + 5e-7;
+            g = read_well(&rc_format_jpk, &b, 0);
+            check_map(g, 3, 2, 1.1e-6, 1.1e-6, v);
+            assert_string_equal(rc_grid_get(g, "file.date"), "2017-01-16 16:00");
+            rc_grid_free(g);
+            drop(&b);
+        }
+}
+
+static void
+jpk_volts_need_a_unit(void **state)
+{
+    struct bytes b = jpk_file(false, true, "LinearScaling", 1);
+    struct rc_wish wish = {.dx = NAN, .dy = NAN, .z_unit = 2e-9};
+    struct rc_err err;
+    struct rc_grid *g;
+    double v[6];
+
+    (void)state;
+    assert_null(try_read(&rc_format_jpk, &b, &no_wish, 1, &err));
+    assert_non_null(strstr(err.text, "in 'V', which is no length"));
+    g = try_read(&rc_format_jpk, &b, &wish, 1, &err);
+    assert_non_null(g);
+    for (size_t k = 0; k < 6; k++)
+        v[k] = raw[(k + 3) % 6] * 2e-9; /* this page is not reflected */
+    check_map(g, 3, 2, 1.1e-6, 1.1e-6, v);
+    rc_grid_free(g);
+    assert_null(try_read(&rc_format_jpk, &b, &no_wish, 2, &err));
+    assert_non_null(strstr(err.text, "has 2 channels, not 3"));
+    drop(&b);
+}
+
+static void
+jpk_is_refused(void **state)
+{
+    struct bytes b = jpk_file(false, false, "OffsetScaling", 1);
+    const struct tag none[] = {number_tag(0x8042, 12, 0), number_tag(0x8043, 12, NAN), {0}};
+    size_t last;
+
+    (void)state;
+    refuse(&rc_format_jpk, &b, "no linear scale");
+    drop(&b);
+    b = jpk_file(false, false, "LinearScaling", INFINITY);
+    refuse(&rc_format_jpk, &b, "infinite");
+    drop(&b);
+    tiff_start(&b, false);
+    last = tiff_page(&b, 4, 2, 1, 8, 1, NULL, "\1\2", 2, NULL);
+    refuse(&rc_format_jpk, &b, "no JPK scan");
+    drop(&b);
+    tiff_start(&b, false);
+    last = tiff_page(&b, 4, 2, 1, 8, 1, NULL, "\1\2", 2, none);
+    (void)last;
+    refuse(&rc_format_jpk, &b, "0 channels");
+    drop(&b);
+    b = jpk_pages(true, false, "LinearScaling", 1, false);
+    refuse_cuts(&rc_format_jpk, &b, b.n - 4, 1); /* the last four bytes say that no page follows */
+    survive_changes(&rc_format_jpk, &b, 150);
+    drop(&b);
+}
+
+/* ---- Park ---- */
+
+struct park {
+    unsigned version, kind, type;
+    size_t nx, ny;
+    double width, height, gain, scale, offset;
+    const char *unit;
+};
+
+static const struct park park = {2, 0, 2, 3, 2, 6, 5, -12.5, 0.5, 0.25, "nm"};
+
+static void
+wide(struct bytes *b, const char *text, size_t n)
+{
+    for (size_t k = 0; k < n; k++)
+        add_number(b, k < strlen(text) ? (unsigned char)text[k] : 0, 2);
+}
+
+static void
+fill(struct bytes *b, size_t until)
+{
+    while (b->n < until)
+        add(b, "", 1);
+}
+
+static struct bytes
+park_header(const struct park *p)
+{
+    struct bytes h = {0};
+
+    add_number(&h, p->kind, 4);
+    wide(&h, "Z Height", 32);
+    wide(&h, "Tapping", 8);
+    fill(&h, 100);
+    add_number(&h, p->nx, 4);
+    add_number(&h, p->ny, 4);
+    fill(&h, 140);
+    add_f64(&h, p->width);
+    add_f64(&h, p->height);
+    fill(&h, 220);
+    add_f64(&h, p->gain);
+    add_f64(&h, p->scale);
+    add_f64(&h, p->offset);
+    wide(&h, p->unit, 8);
+    fill(&h, 284);
+    if (p->version == 2) {
+        fill(&h, 348);
+        add_number(&h, p->type, 4);
+        fill(&h, 580);
+    }
+    return h;
+}
+
+static struct bytes
+park_file(const struct park *p, bool big, size_t less)
+{
+    struct bytes b, data = {0}, header = park_header(p);
+    struct tag tags[] = {
+        number_tag(50432, 4, 0x0e031301), number_tag(50433, 4, 0x1000000 + p->version),
+        {50434, 7, 0, NULL, 0},           {50435, 7, (uint32_t)header.n, NULL, 0}, {0}};
+
+    for (size_t k = 0; k < 6; k++)
+        if (p->version == 2 && p->type == 2)
+            add_f32(&data, raw[k]);
+        else
+            add_number(&data, (uint64_t)(int64_t)(raw[k] % 100000), p->version == 2 && p->type == 1 ? 4 : 2);
+    tags[2].text = (const char *)data.data;
+    tags[2].count = (uint32_t)(data.n - less);
+    tags[3].text = (const char *)header.data;
+    tiff_start(&b, big);
+    tiff_page(&b, 4, 2, 1, 8, 1, NULL, "\1\2", 2, tags);
+    drop(&data);
+    drop(&header);
+    return b;
+}
+
+static void
+park_is_read(void **state)
+{
+    (void)state;
+    for (unsigned type = 0; type < 4; type++)
+        for (int big = 0; big < 2; big++) {
+            struct park p = park;
+            struct rc_file file;
+            struct rc_grid *g;
+            struct bytes b;
+            double v[6];
+
+            p.version = type == 3 ? 1 : 2; /* the first version has int16 only */
+            p.type = type % 3;
+            b = park_file(&p, big, 0);
+            file = file_of(&b, "made");
+            assert_ptr_equal(rc_format_find(&file, NULL), &rc_format_park);
+            for (size_t k = 0; k < 6; k++) { /* the lowest row comes first */
+                int value = raw[(k + 3) % 6];
+                v[k] = -12.5 * (0.5 * (p.type == 2 ? value : value % 100000) + 0.25) * 1e-9;
+            }
+            g = read_well(&rc_format_park, &b, 0);
+            check_map(g, 3, 2, 2e-6, 2.5e-6, v);
+            assert_string_equal(rc_grid_get(g, "file.channel"), "Z Height");
+            rc_grid_free(g);
+            drop(&b);
+        }
+}
+
+static void
+park_defaults(void **state)
+{
+    struct park p = park;
+    struct bytes b;
+    struct rc_grid *g;
+    double v[6];
+
+    (void)state;
+    p.unit = "";
+    p.scale = 0;
+    b = park_file(&p, false, 0);
+    for (size_t k = 0; k < 6; k++)
+        v[k] = -12.5 * (raw[(k + 3) % 6] + 0.25) * 1e-6;
+    g = read_well(&rc_format_park, &b, 0);
+    check_map(g, 3, 2, 2e-6, 2.5e-6, v);
+    rc_grid_free(g);
+    drop(&b);
+}
+
+static void
+refuse_park(const struct park *p, size_t less, const char *why)
+{
+    struct bytes b = park_file(p, false, less);
+
+    refuse(&rc_format_park, &b, why);
+    drop(&b);
+}
+
+static void
+park_is_refused(void **state)
+{
+    struct park p = park;
+    struct bytes b;
+
+    (void)state;
+    refuse_park(&p, 4, "promises 24 bytes of data, the file has 20");
+    p.kind = 1;
+    refuse_park(&p, 0, "line profile");
+    p = park, p.type = 7;
+    refuse_park(&p, 0, "data type 7");
+    p = park, p.version = 3;
+    refuse_park(&p, 0, "version 0x01000003");
+    p = park, p.nx = 0;
+    refuse_park(&p, 0, "empty");
+    p = park, p.nx = 0xffffffff, p.ny = 0xffffffff;
+    refuse_park(&p, 0, "");
+    p = park, p.width = 0;
+    refuse_park(&p, 0, "must be positive");
+    p = park, p.height = -1;
+    refuse_park(&p, 0, "must be positive");
+    p = park, p.width = NAN;
+    refuse_park(&p, 0, "does not give the spacing");
+    p = park, p.width = INFINITY;
+    refuse_park(&p, 0, "must be positive and finite");
+    p = park, p.gain = INFINITY;
+    refuse_park(&p, 0, "must be finite");
+    p = park, p.unit = "V";
+    refuse_park(&p, 0, "no length");
+    b = park_file(&park, true, 0);
+    refuse_cuts(&rc_format_park, &b, b.n - 4, 1);
+    survive_changes(&rc_format_park, &b, 150);
+    drop(&b);
+}
+
+/* ---- LEXT ---- */
+
+static const char lext_xml[] =
+    "<?xml version=\"1.0\" encoding=\"utf-8\"?>\r\n<TiffTagDescData v=\"1\"><HeightInfo>"
+    "<HeightDataPerPixelX>1250000</HeightDataPerPixelX>"
+    "<HeightDataPerPixelY>2500000</HeightDataPerPixelY>"
+    "<HeightDataPerPixelZ>625</HeightDataPerPixelZ></HeightInfo></TiffTagDescData>";
+static const char exif_xml[] =
+    "<ExifTagDescData><ImageCommonSettingsInfo>"
+    "<MakerCalibrationValueX>1000000</MakerCalibrationValueX>"
+    "<MakerCalibrationValueY>500000</MakerCalibrationValueY>"
+    "<MakerCalibrationValueZ>2000000</MakerCalibrationValueZ>"
+    "</ImageCommonSettingsInfo></ExifTagDescData>";
+
+static size_t height_link; /* where HEIGHT says which page follows */
+
+static struct bytes
+lext_file(bool big, const char *xml, const char *exif, const char *name)
+{
+    struct bytes b, pixels = {.big = big};
+    struct tag tags[] = {{0}, {0}};
+    size_t last;
+
+    for (size_t k = 0; k < 6; k++)
+        add_number(&pixels, 60000 + k, 2); /* above the largest int16 */
+    tiff_start(&b, big);
+    if (exif != NULL) {
+        const struct tag settings[] = {
+            {0xa40b, 7, (uint32_t)strlen(exif), exif, 0}, {0}};
+        tags[0] = number_tag(34665, 4, (double)tiff_directory(&b, settings));
+    }
+    last = tiff_page(&b, 4, 1, 1, 8, 3, xml, "\1\2\3", 3, tags);
+    height_link = tiff_page(&b, last, 3, 2, 16, 1, name, pixels.data, pixels.n, NULL);
+    tiff_page(&b, height_link, 3, 2, 1, 1, "INVALID", "\x40\x20", 2, NULL);
+    drop(&pixels);
+    return b;
+}
+
+static void
+lext_is_read(void **state)
+{
+    (void)state;
+    for (int big = 0; big < 2; big++)
+        for (int exif = 0; exif < 2; exif++) {
+            struct bytes b = lext_file(big, lext_xml, exif ? exif_xml : NULL, "HEIGHT");
+            struct rc_file file = file_of(&b, "made");
+            double z = 625e-12 * (exif ? 2 : 1), v[6];
+            struct rc_grid *g;
+
+            assert_ptr_equal(rc_format_find(&file, NULL), &rc_format_lext);
+            for (size_t k = 0; k < 6; k++)
+                v[k] = k == 1 || k == 5 ? NAN : (60000 + (double)k) * z;
+            g = read_well(&rc_format_lext, &b, 0);
+            check_map(g, 3, 2, 1.25e-6, exif ? 1.25e-6 : 2.5e-6, v);
+            rc_grid_free(g);
+            drop(&b);
+        }
+}
+
+static void
+lext_is_refused(void **state)
+{
+    static const struct {
+        const char *xml, *exif, *name, *why;
+    } cases[] = {
+        {lext_xml, NULL, "COLOR", "no page HEIGHT"},
+        {"no XML", NULL, "HEIGHT", "no description in XML"},
+        {"<TiffTagDescData><HeightInfo/></TiffTagDescData>", NULL, "HEIGHT",
+         "gives no HeightDataPerPixelX"},
+        {"<TiffTagDescData><HeightInfo><HeightDataPerPixelX>x</HeightDataPerPixelX></HeightInfo>"
+         "</TiffTagDescData>", NULL, "HEIGHT", "is 'x': that is no number"},
+        {"<!DOCTYPE l [<!ENTITY a \"aaaaaaaaaa\"><!ENTITY b \"&a;&a;&a;&a;&a;&a;&a;&a;\">]>"
+         "<TiffTagDescData>&b;</TiffTagDescData>", NULL, "HEIGHT", "document type"},
+        {lext_xml, "<!DOCTYPE l><ExifTagDescData/>", "HEIGHT", "document type"},
+        {lext_xml, "<ExifTagDescData>", "HEIGHT", "no whole XML"},
+        {"<TiffTagDescData><HeightInfo><HeightDataPerPixelX>0</HeightDataPerPixelX>"
+         "<HeightDataPerPixelY>1</HeightDataPerPixelY><HeightDataPerPixelZ>1</HeightDataPerPixelZ>"
+         "</HeightInfo></TiffTagDescData>", NULL, "HEIGHT", "must be positive"},
+        {"<TiffTagDescData><HeightInfo><HeightDataPerPixelX>1</HeightDataPerPixelX>"
+         "<HeightDataPerPixelY>1</HeightDataPerPixelY><HeightDataPerPixelZ>0</HeightDataPerPixelZ>"
+         "</HeightInfo></TiffTagDescData>", NULL, "HEIGHT", "not 0"},
+    };
+    struct bytes b;
+
+    (void)state;
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        b = lext_file(false, cases[k].xml, cases[k].exif, cases[k].name);
+        refuse(&rc_format_lext, &b, cases[k].why);
+        drop(&b);
+    }
+    b = lext_file(true, lext_xml, exif_xml, "HEIGHT");
+    refuse_cuts(&rc_format_lext, &b, height_link, 1);
+    survive_changes(&rc_format_lext, &b, 150);
+    drop(&b);
+}
+
+/* ---- tags that ask for memory ---- */
+
+/* A directory whose every entry is the whole file: 3000 times 12 bytes ask for 3000 copies. */
+static void
+many_large_tags(void **state)
+{
+    enum {
+        ENTRIES = 3000,
+        ROOM = 1 << 20
+    };
+    struct bytes b;
+    struct rc_err err;
+    struct rc_grid *g;
+
+    (void)state;
+    tiff_start(&b, false);
+    set_word(&b, 4, 8);
+    add_number(&b, ENTRIES, 2);
+    for (unsigned k = 0; k < ENTRIES; k++) {
+        add_number(&b, 40000 + k, 2);
+        add_number(&b, 1, 2);
+        add_number(&b, ROOM - 64, 4);
+        add_number(&b, 8, 4);
+    }
+    add_number(&b, 0, 4);
+    b.data = realloc(b.data, ROOM);
+    memset(b.data + b.n, 0, ROOM - b.n);
+    b.n = ROOM;
+    g = try_read(&rc_format_jpk, &b, &no_wish, 0, &err);
+    assert_null(g);
+    printf("3000 tags of a megabyte each: %s\n", err.text);
+    assert_true(err.text[0] != '\0');
+    drop(&b);
+}
+
+/* A picture is no map, and its refusal says so. */
+static void
+pictures_are_refused(void **state)
+{
+    struct rc_file file;
+    struct bytes b;
+
+    (void)state;
+    tiff_start(&b, false);
+    tiff_page(&b, 4, 2, 1, 8, 1, "a picture", "\1\2", 2, NULL);
+    file = file_of(&b, "made.tif");
+    refuse(rc_format_find(&file, NULL), &b, "pictures without heights are not read");
+    drop(&b);
+}
+
+/* Directories that lead back to themselves. */
+static void
+endless_directories(void **state)
+{
+    struct bytes b = lext_file(false, lext_xml, NULL, "COLOR");
+    uint32_t first;
+
+    (void)state;
+    memcpy(&first, b.data + 4, 4);
+    set_word(&b, b.n - 4, first); /* of the last page */
+    refuse(&rc_format_lext, &b, "no end to the pages");
+    drop(&b);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(jpk_is_read),
+        cmocka_unit_test(jpk_volts_need_a_unit),
+        cmocka_unit_test(jpk_is_refused),
+        cmocka_unit_test(park_is_read),
+        cmocka_unit_test(park_defaults),
+        cmocka_unit_test(park_is_refused),
+        cmocka_unit_test(lext_is_read),
+        cmocka_unit_test(lext_is_refused),
+        cmocka_unit_test(pictures_are_refused),
+        cmocka_unit_test(many_large_tags),
+        cmocka_unit_test(endless_directories),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,295 @@
+/* Files made in memory for the tests of readers: bytes that grow, TIFF, and what all readers must
+ * survive. Included once by each test; cmocka.h must come before. */
+#ifndef MADE_H
+#define MADE_H
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "formats/cage.h"
+#include "formats/format.h"
+
+static const struct rc_wish no_wish = {.dx = NAN, .dy = NAN, .z_unit = NAN};
+
+/* ---- bytes ---- */
+
+struct bytes {
+    unsigned char *data;
+    size_t n;
+    bool big; /* most significant byte first */
+};
+
+static void
+add(struct bytes *b, const void *from, size_t n)
+{
+    b->data = realloc(b->data, b->n + n + 1);
+    assert_non_null(b->data);
+    if (n > 0)
+        memcpy(b->data + b->n, from, n);
+    b->n += n;
+}
+
+static void
+add_number(struct bytes *b, uint64_t value, size_t n)
+{
+    unsigned char to[8];
+
+    for (size_t k = 0; k < n; k++)
+        to[b->big ? n - 1 - k : k] = (unsigned char)(value >> 8 * k);
+    add(b, to, n);
+}
+
+static void
+add_f64(struct bytes *b, double value)
+{
+    uint64_t word;
+
+    memcpy(&word, &value, 8);
+    add_number(b, word, 8);
+}
+
+static void
+add_f32(struct bytes *b, double value)
+{
+    float narrow = (float)value;
+    uint32_t word;
+
+    memcpy(&word, &narrow, 4);
+    add_number(b, word, 4);
+}
+
+static void
+drop(struct bytes *b)
+{
+    free(b->data);
+    *b = (struct bytes){0};
+}
+
+static struct rc_file
+file_of(const struct bytes *b, const char *name)
+{
+    return (struct rc_file){.name = name, .data = b->data, .size = b->n};
+}
+
+/* ---- TIFF ---- */
+
+struct tag {
+    uint16_t tag, type; /* 2 text, 3 u16, 4 u32, 7 bytes, 8 i16, 12 f64 */
+    uint32_t count;
+    const char *text; /* of types 2 and 7 */
+    double number;    /* of the others */
+};
+
+enum {
+    TAGS_MOST = 40
+};
+
+/* One directory with its data before it; gives its place. The list ends with tag 0. */
+__attribute__((unused)) static size_t
+tiff_directory(struct bytes *b, const struct tag *tag)
+{
+    static const size_t width[] = {[1] = 1, [2] = 1, [3] = 2, [4] = 4, [7] = 1, [8] = 2, [12] = 8};
+    uint32_t place[TAGS_MOST] = {0};
+    size_t n = 0, at;
+
+    while (tag[n].tag != 0) {
+        const struct tag *t = &tag[n];
+        place[n++] = (uint32_t)b->n;
+        if (t->text != NULL)
+            add(b, t->text, t->count);
+        else if (t->type == 12)
+            add_f64(b, t->number);
+        if (b->n % 2 != 0)
+            add(b, "", 1);
+    }
+    at = b->n;
+    add_number(b, n, 2);
+    for (size_t k = 0; k < n; k++) {
+        const struct tag *t = &tag[k];
+        size_t size = width[t->type] * t->count;
+
+        add_number(b, t->tag, 2);
+        add_number(b, t->type, 2);
+        add_number(b, t->count, 4);
+        if (size > 4) {
+            add_number(b, place[k], 4);
+        } else if (t->text != NULL) {
+            add(b, t->text, t->count);
+            add(b, "\0\0\0", 4 - t->count);
+        } else {
+            add_number(b, (uint64_t)(int64_t)t->number, width[t->type]);
+            add(b, "\0\0\0", 4 - width[t->type]);
+        }
+    }
+    add_number(b, 0, 4); /* the next one: set by tiff_page */
+    return at;
+}
+
+__attribute__((unused)) static void
+tiff_start(struct bytes *b, bool big)
+{
+    *b = (struct bytes){.big = big};
+    add(b, big ? "MM" : "II", 2);
+    add_number(b, 42, 2);
+    add_number(b, 0, 4);
+}
+
+static void
+set_word(struct bytes *b, size_t at, uint32_t value)
+{
+    struct bytes word = {.big = b->big};
+
+    add_number(&word, value, 4);
+    memcpy(b->data + at, word.data, 4);
+    drop(&word);
+}
+
+/* A page of nx x ny pixels in one strip, with further tags, which must be above 339; `last` is the
+ * place of the word that is to lead here. Gives the place of the next such word. */
+__attribute__((unused)) static size_t
+tiff_page(struct bytes *b, size_t last, size_t nx, size_t ny, unsigned bits, unsigned samples,
+          const char *description, const void *pixels, size_t n, const struct tag *more)
+{
+    struct tag tag[TAGS_MOST];
+    size_t k = 0, at;
+    uint32_t strip = (uint32_t)b->n;
+
+    add(b, pixels, n);
+    if (b->n % 2 != 0)
+        add(b, "", 1);
+    tag[k++] = (struct tag){256, 4, 1, NULL, (double)nx};
+    tag[k++] = (struct tag){257, 4, 1, NULL, (double)ny};
+    tag[k++] = (struct tag){258, 3, 1, NULL, bits};
+    tag[k++] = (struct tag){259, 3, 1, NULL, 1};
+    tag[k++] = (struct tag){262, 3, 1, NULL, samples == 3 ? 2 : 1};
+    if (description != NULL)
+        tag[k++] = (struct tag){270, 2, (uint32_t)strlen(description) + 1, description, 0};
+    tag[k++] = (struct tag){273, 4, 1, NULL, strip};
+    tag[k++] = (struct tag){277, 3, 1, NULL, samples};
+    tag[k++] = (struct tag){278, 4, 1, NULL, (double)ny};
+    tag[k++] = (struct tag){279, 4, 1, NULL, (double)n};
+    for (; more != NULL && more->tag != 0; more++)
+        tag[k++] = *more;
+    tag[k] = (struct tag){0};
+    assert_true(k < TAGS_MOST);
+    at = tiff_directory(b, tag);
+    set_word(b, last, (uint32_t)at);
+    return b->n - 4;
+}
+
+/* ---- what every reader does ---- */
+
+__attribute__((unused)) static struct rc_grid *
+try_read(const struct rc_format *format, const struct bytes *b, const struct rc_wish *wish,
+         size_t index, struct rc_err *err)
+{
+    struct rc_file file = file_of(b, "made");
+    struct rc_notes notes = {0};
+
+    err->text[0] = '\0';
+    return format->read(&file, wish, index, &notes, err);
+}
+
+__attribute__((unused)) static struct rc_grid *
+read_well(const struct rc_format *format, const struct bytes *b, size_t index)
+{
+    struct rc_err err;
+    struct rc_grid *g = try_read(format, b, &no_wish, index, &err);
+
+    if (g == NULL)
+        fail_msg("%s refused: %s", format->name, err.text);
+    return g;
+}
+
+__attribute__((unused)) static void
+refuse(const struct rc_format *format, const struct bytes *b, const char *why)
+{
+    struct rc_err err;
+    struct rc_grid *g = try_read(format, b, &no_wish, 0, &err);
+
+    if (g != NULL)
+        fail_msg("%s: read, and should be refused for: %s", format->name, why);
+    if (strstr(err.text, why) == NULL)
+        fail_msg("%s: refused for '%s', not for '%s'", format->name, err.text, why);
+}
+
+/* The values, spacings and the rest of what a map must be. */
+__attribute__((unused)) static void
+check_map(const struct rc_grid *g, size_t nx, size_t ny, double dx, double dy, const double *v)
+{
+    assert_int_equal(g->nx, nx);
+    assert_int_equal(g->ny, ny);
+    if (fabs(g->dx - dx) > 1e-15 * dx || fabs(g->dy - dy) > 1e-15 * dy)
+        fail_msg("spacings %.17g and %.17g, not %.17g and %.17g", g->dx, g->dy, dx, dy);
+    assert_string_equal(g->channel, "height");
+    assert_string_equal(g->unit, "m");
+    for (size_t k = 0; k < nx * ny; k++)
+        if (isnan(v[k]) ? !isnan(g->v[k]) : !(fabs(g->v[k] - v[k]) <= 1e-15 * fabs(v[k])))
+            fail_msg("value %zu is %.17g, not %.17g", k, g->v[k], v[k]);
+}
+
+/* A file cut anywhere is refused with a reason, but for cuts in its last bytes that are no data. */
+__attribute__((unused)) static void
+refuse_cuts(const struct rc_format *format, const struct bytes *b, size_t least, size_t step)
+{
+    for (size_t n = 0; n < least; n += step) {
+        struct bytes cut = {.data = malloc(n == 0 ? 1 : n), .n = n};
+        struct rc_err err;
+        struct rc_grid *g;
+
+        memcpy(cut.data, b->data, n); /* of its own size, for the sanitizer */
+        g = try_read(format, &cut, &no_wish, 0, &err);
+        if (g != NULL || err.text[0] == '\0')
+            fail_msg("%s: cut after %zu of %zu bytes: %s", format->name, n, b->n,
+                     g != NULL ? "read" : "refused without a reason");
+        drop(&cut);
+    }
+}
+
+/* Bytes changed at random: whatever comes of it, it is a map or a reason. RC_FUZZ in the environment
+ * multiplies how often; RC_FUZZ_OPEN leaves the cages open, so that the sanitizers see into them. */
+__attribute__((unused)) static void
+survive_changes(const struct rc_format *format, const struct bytes *b, size_t times)
+{
+    static uint64_t seed = 0x9e3779b97f4a7c15;
+    static const unsigned char nasty[] = {0, 1, 0x7f, 0x80, 0xff};
+    struct bytes bad = {.data = malloc(b->n), .n = b->n};
+    struct rc_channel channel[8];
+    size_t read = 0;
+
+    if (getenv("RC_FUZZ") != NULL)
+        times *= strtoul(getenv("RC_FUZZ"), NULL, 10);
+    rc_cage_leave_open(getenv("RC_FUZZ_OPEN") != NULL);
+    for (size_t t = 0; t < times; t++) {
+        struct rc_file file = file_of(&bad, "made");
+        struct rc_err err = {""};
+        struct rc_grid *g;
+        size_t n;
+
+        memcpy(bad.data, b->data, b->n);
+        for (size_t k = 0; k <= t % 4; k++) {
+            seed ^= seed << 13;
+            seed ^= seed >> 7;
+            seed ^= seed << 17;
+            bad.data[(seed >> 16) % b->n] =
+                seed & 1 ? nasty[(seed >> 1) % sizeof nasty] : (unsigned char)(seed >> 8);
+        }
+        format->score(&file);
+        n = format->list(&file, &no_wish, channel, 8, &err);
+        assert_true(n > 0 || err.text[0] != '\0');
+        g = try_read(format, &bad, &no_wish, 0, &err);
+        if (g == NULL && err.text[0] == '\0')
+            fail_msg("%s: refused without a reason", format->name);
+        read += g != NULL;
+        rc_grid_free(g);
+    }
+    printf("%s: %zu files changed at random, %zu of them read, the others refused\n", format->name,
+           times, read);
+    rc_cage_leave_open(false);
+    drop(&bad);
+}
+
+#endif
