@@ -41,8 +41,9 @@ size_t
 rc_raw_width(enum rc_raw raw)
 {
     static const size_t width[] = {
-        [RC_RAW_U8] = 1,  [RC_RAW_U16] = 2, [RC_RAW_U32] = 4, [RC_RAW_I8] = 1,
-        [RC_RAW_I16] = 2, [RC_RAW_I32] = 4, [RC_RAW_F32] = 4, [RC_RAW_F64] = 8};
+        [RC_RAW_U8] = 1,  [RC_RAW_U16] = 2, [RC_RAW_U32] = 4, [RC_RAW_U64] = 8,
+        [RC_RAW_I8] = 1,  [RC_RAW_I16] = 2, [RC_RAW_I32] = 4, [RC_RAW_I64] = 8,
+        [RC_RAW_F32] = 4, [RC_RAW_F64] = 8};
 
     return width[raw];
 }
@@ -76,6 +77,7 @@ value_at(const unsigned char *s, enum rc_raw raw, bool big)
     uint64_t wide;
     int16_t i16;
     int32_t i32;
+    int64_t i64;
     float f32;
     double f64;
 
@@ -88,6 +90,8 @@ value_at(const unsigned char *s, enum rc_raw raw, bool big)
         return half_at(s, big);
     case RC_RAW_U32:
         return word_at(s, big);
+    case RC_RAW_U64:
+        return (double)wide_at(s, big);
     case RC_RAW_I8:
         return *s < 128 ? *s : *s - 256;
     case RC_RAW_I16:
@@ -98,6 +102,10 @@ value_at(const unsigned char *s, enum rc_raw raw, bool big)
         word = word_at(s, big);
         memcpy(&i32, &word, sizeof i32);
         return i32;
+    case RC_RAW_I64:
+        wide = wide_at(s, big);
+        memcpy(&i64, &wide, sizeof i64);
+        return (double)i64;
     case RC_RAW_F32:
         word = word_at(s, big);
         memcpy(&f32, &word, sizeof f32);
@@ -128,9 +136,11 @@ values(const unsigned char *s, enum rc_raw raw, bool big, double *v, size_t n)
         ROW(RC_RAW_U8);
         ROW(RC_RAW_U16);
         ROW(RC_RAW_U32);
+        ROW(RC_RAW_U64);
         ROW(RC_RAW_I8);
         ROW(RC_RAW_I16);
         ROW(RC_RAW_I32);
+        ROW(RC_RAW_I64);
         ROW(RC_RAW_F32);
         ROW(RC_RAW_F64);
 #undef ROW

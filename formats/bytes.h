@@ -29,9 +29,11 @@ enum rc_raw {
     RC_RAW_U8,
     RC_RAW_U16,
     RC_RAW_U32,
+    RC_RAW_U64,
     RC_RAW_I8,
     RC_RAW_I16,
     RC_RAW_I32,
+    RC_RAW_I64,
     RC_RAW_F32,
     RC_RAW_F64
 };

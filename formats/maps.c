@@ -1,6 +1,7 @@
 #include "maps.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -66,6 +67,12 @@ rc_map_unit(struct rc_map *map, const char *text, size_t n)
     rc_text_clean(map->unit, sizeof map->unit, text, n);
 }
 
+void
+rc_map_hint(struct rc_map *map, const char *dx, const char *dy)
+{
+    snprintf(map->hint, sizeof map->hint, " (its steps are %s and %s of a unit not given)", dx, dy);
+}
+
 enum rc_status
 rc_map_count(const char *what, double number, size_t *count, struct rc_err *err)
 {
@@ -119,6 +126,33 @@ struct rc_bytes
 rc_file_bytes(const struct rc_file *file, bool big)
 {
     return (struct rc_bytes){.data = file->data, .size = file->size, .big = big};
+}
+
+bool
+rc_map_range(const struct rc_map *map, const struct rc_file *file, double *low, double *high)
+{
+    struct rc_bytes bytes = rc_file_bytes(file, map->big);
+    double some[256];
+    size_t n;
+
+    *low = INFINITY;
+    *high = -INFINITY;
+    if (rc_size_mul(map->nx, map->ny, &n, NULL) != RC_OK || map->at > file->size ||
+        n > (file->size - map->at) / rc_raw_width(map->raw))
+        return false;
+    bytes.at = map->at;
+    for (size_t k = 0; k < n; k++) {
+        size_t left = n - k, at = k % (sizeof some / sizeof *some);
+
+        if (at == 0)
+            rc_bytes_values(&bytes, map->raw, some,
+                            left < sizeof some / sizeof *some ? left : sizeof some / sizeof *some);
+        if (some[at] >= map->lost_from && some[at] <= map->lost_to)
+            continue;
+        *low = some[at] < *low ? some[at] : *low;
+        *high = some[at] > *high ? some[at] : *high;
+    }
+    return *low <= *high;
 }
 
 /* ---- checking ---- */
@@ -296,8 +330,12 @@ rc_maps_read(rc_maps_find *find, const struct rc_file *file, const struct rc_wis
     is_height = is_length || map->unit[0] == '\0' || !isnan(wish->z_unit);
     si = map->si;
     shape = (struct rc_shape){.nx = map->nx, .ny = map->ny};
-    if (rc_spacing(wish, map->dx, map->dy, &shape, notes, err) != RC_OK ||
-        (is_height && rc_height_unit(wish, is_length ? map->si : NAN, map->unit, &si, notes,
+    if (rc_spacing(wish, map->dx, map->dy, &shape, notes, err) != RC_OK) {
+        if (isnan(map->dx) && err != NULL && strlen(err->text) + strlen(map->hint) < sizeof err->text)
+            strcat(err->text, map->hint);
+        return NULL;
+    }
+    if ((is_height && rc_height_unit(wish, is_length ? map->si : NAN, map->unit, &si, notes,
                                      err) != RC_OK) ||
         (g = rc_grid_new(&shape, is_height ? "height" : map->name, is_height ? "m" : map->unit,
                          err)) == NULL)

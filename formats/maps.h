@@ -36,6 +36,7 @@ struct rc_map {
     enum rc_status (*fill)(const struct rc_file *file, const struct rc_wish *wish,
                            const struct rc_map *map, double *v, struct rc_err *err);
     size_t more;        /* for fill                                                           */
+    char hint[96];      /* the spacing in a unit that the file does not give, for the refusal */
 };
 
 struct rc_maps {
@@ -53,6 +54,11 @@ struct rc_map *rc_maps_add(struct rc_maps *maps, const char *name, size_t n);
 void rc_maps_key(struct rc_maps *maps, const char *key, const char *text, size_t n);
 /* Sets unit and si from the file's word for it: a length, a unit with an SI prefix, or the word. */
 void rc_map_unit(struct rc_map *map, const char *text, size_t n);
+/* The least and the greatest raw number that is not missing; false when the numbers are not all in
+ * the file or every one is missing. */
+bool rc_map_range(const struct rc_map *map, const struct rc_file *file, double *low, double *high);
+/* Remembers the steps of a file that has them without a unit. */
+void rc_map_hint(struct rc_map *map, const char *dx, const char *dy);
 /* A whole number from 1 to 2^31 - 1 as a header has it, or RC_FAIL with its name. */
 enum rc_status rc_map_count(const char *what, double number, size_t *count, struct rc_err *err);
 /* RC_FAIL when 8*nx*ny exceeds 16 times the file and 64 MiB: for what is packed in the file. */
