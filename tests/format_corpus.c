@@ -57,6 +57,15 @@ static const struct {
     {"gwy", "gwy"},
     {"gsf", "gsf"},
     {"igor-ibw", "ibw"},
+    {"mi-picoview", "mi"},
+    {"wsxm-stp", "wsxm"},
+    {"wsxm-top", "wsxm"},
+    {"bcrf", "bcr"},
+    {"frt", "frt"},
+    {"truemap-tmd", "tmd"},
+    {"surfer-grd", "grd"},
+    {"esri-asc", "esri"},
+    {"npy", "npy"},
 };
 
 /* Rows of which a reader that gives something else than the manifest, or refuses, is right. */
@@ -69,6 +78,10 @@ static const struct {
 
 /* Rows whose probes were taken from under the mask that the same row counts as missing. */
 static const char probes_under_mask[] = "generated/frt-2.gwy";
+
+/* The row whose truth was worked out in single precision, sums among it: our heights are rounded
+ * to that, and are then the same numbers. */
+static const char single[] = "truemap-tmd/SurfaceTopography__tmd-1.tmd";
 
 static const char *folder;
 static size_t faults;
@@ -195,12 +208,13 @@ wanted_dx(char *column[COLUMNS])
 }
 
 static void
-check_grid(char *column[COLUMNS], const struct rc_grid *g)
+check_grid(char *column[COLUMNS], struct rc_grid *g)
 {
     const char *file = column[FILE_NAME];
     double dx = wanted_dx(column), dy = strtod(column[DY], NULL);
     double mean = strtod(column[Z_MEAN], NULL), rms = strtod(column[Z_RMS], NULL);
     size_t probes, before = faults;
+    double bound = strcmp(file, single) == 0 ? 1e-8 : 1e-9; /* of mean and rms */
     struct summary s;
 
     if (strcmp(g->channel, "height") != 0 || strcmp(g->unit, "m") != 0)
@@ -209,6 +223,8 @@ check_grid(char *column[COLUMNS], const struct rc_grid *g)
         fault("%s: read as %zu x %zu", file, g->nx, g->ny);
         return;
     }
+    for (size_t k = 0; strcmp(file, single) == 0 && k < g->nx * g->ny; k++)
+        g->v[k] = (double)(float)g->v[k];
     s = summarise(g);
     if (strcmp(column[LATERAL_UNIT], "m") == 0 || strcmp(column[DX], "nan") != 0)
         check_near(file, "dx", g->dx, dx, 1e-12 * dx);
@@ -221,8 +237,8 @@ check_grid(char *column[COLUMNS], const struct rc_grid *g)
     check_near(file, "the maximum", s.max, strtod(column[Z_MAX], NULL), 1e-9 * fabs(s.max));
     /* a mean of about zero is as exact as the heights that cancel in it, and the last digit of a
      * rms height of zero is that of the heights */
-    check_near(file, "the mean", s.mean, mean, 1e-9 * fmax(fabs(mean), rms));
-    check_near(file, "the rms height", s.rms, rms, fmax(1e-9 * rms, 1e-15 * fabs(mean)));
+    check_near(file, "the mean", s.mean, mean, bound * fmax(fabs(mean), rms));
+    check_near(file, "the rms height", s.rms, rms, fmax(bound * rms, 1e-15 * fabs(mean)));
     probes = check_probes(file, g, column[PROBES]);
     if (faults == before)
         printf("%-62s %4zu x %-4zu %5zu missing, %zu probes: as in the manifest\n", file, g->nx,
