@@ -66,6 +66,9 @@ static const struct {
     {"surfer-grd", "grd"},
     {"esri-asc", "esri"},
     {"npy", "npy"},
+    {"opdx", "opdx"},
+    {"xyz", "xyz"},
+    {"profile-text", "profile"},
 };
 
 /* Rows of which a reader that gives something else than the manifest, or refuses, is right. */
