@@ -16,8 +16,6 @@ rc_maps_add(struct rc_maps *maps, const char *name, size_t n)
     *map = (struct rc_map){.si = 1, .scale = 1, .dx = NAN, .dy = NAN, .lost_from = NAN,
                            .lost_to = NAN};
     rc_text_clean(map->name, sizeof map->name, name, n);
-    if (map->name[0] == '\0')
-        strcpy(map->name, "height");
     return map;
 }
 
@@ -65,6 +63,9 @@ rc_map_unit(struct rc_map *map, const char *text, size_t n)
             return;
         }
     rc_text_clean(map->unit, sizeof map->unit, text, n);
+    /* the degree sign, or the ordinal one that stands in for it */
+    if (strcmp(map->unit, "\xc2\xb0") == 0 || strcmp(map->unit, "\xc2\xba") == 0)
+        strcpy(map->unit, "deg");
 }
 
 void
@@ -193,9 +194,15 @@ describe(rc_maps_find *find, const struct rc_file *file, const struct rc_wish *w
         return RC_FAIL;
     if (maps->n == 0)
         return rc_err_set(err, "there is no map in the file");
-    for (size_t k = 0; k < maps->n && k < RC_MAPS_MOST; k++)
-        if (check_map(&maps->map[k], file, err) != RC_OK)
+    for (size_t k = 0; k < maps->n && k < RC_MAPS_MOST; k++) {
+        struct rc_map *map = &maps->map[k];
+
+        if (map->name[0] == '\0')
+            strcpy(map->name, map->unit[0] == '\0' || strcmp(map->unit, "m") == 0 ? "height"
+                                                                                  : "values");
+        if (check_map(map, file, err) != RC_OK)
             return RC_FAIL;
+    }
     return RC_OK;
 }
 

@@ -24,6 +24,9 @@ struct image {
     struct rc_piece size, scale, data, note;
 };
 
+static const struct image no_image = {
+    .size = {"", 0}, .scale = {"", 0}, .data = {"", 0}, .note = {"", 0}};
+
 static const struct rc_field image_fields[] = {
     {"\\Data offset", RC_FIELD_NUMBER, offsetof(struct image, at)},
     {"\\Data length", RC_FIELD_NUMBER, offsetof(struct image, bytes)},
@@ -133,7 +136,7 @@ set_scale(struct rc_piece header, const struct image *m, struct rc_map *map, int
           struct rc_err *err)
 {
     struct rc_piece hard = m->scale, unit, value, per, upper, lower;
-    const char *end = m->scale.n == 0 ? NULL : memchr(hard.text, ')', hard.n);
+    const char *end = memchr(hard.text, ')', hard.n);
     struct rc_map given = {0}, wanted = {0};
     double number, sensitivity;
     char quote[RC_SHOWN];
@@ -190,7 +193,7 @@ add_image(const struct rc_file *file, struct rc_piece header, const struct image
 
     if (name.n == 0)
         name = between(m->data, '[', ']');
-    map = rc_maps_add(maps, name.text == NULL ? "" : name.text, name.n);
+    map = rc_maps_add(maps, name.text, name.n);
     if (rc_map_count("columns (Samps/line)", m->columns, &map->nx, err) != RC_OK ||
         rc_map_count("rows (Number of lines)", m->rows, &map->ny, err) != RC_OK)
         return RC_FAIL;
@@ -217,7 +220,7 @@ nanoscope_find(const struct rc_file *file, const struct rc_wish *wish, struct rc
 {
     struct rc_piece header = header_of(file);
     struct rc_lines lines = lines_of(header);
-    struct image scan = {0}, image = {0}, *into = NULL;
+    struct image scan = no_image, image = no_image, *into = NULL;
     struct rc_piece line, key, value;
     bool more = true;
 
@@ -233,7 +236,7 @@ nanoscope_find(const struct rc_file *file, const struct rc_wish *wish, struct rc
                 return RC_FAIL;
             into = rc_piece_is(line, "\\*Ciao image list") ? &image
                    : rc_piece_is(line, "\\*Ciao scan list") ? &scan : NULL;
-            image = (struct image){0};
+            image = no_image;
             continue;
         }
         if (!part_line(line, &key, &value))

@@ -134,7 +134,7 @@ opd_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     map->at = o.heights.at + MATRIX;
     map->by_columns = map->bottom_first = true;
     map->raw = size == 2 ? RC_RAW_I16 : RC_RAW_F32;
-    map->lost_from = size == 2 ? 32766 : 1e38;
+    map->lost_from = size == 2 ? 32766 : (double)1e38f;
     map->lost_to = INFINITY;
     map->scale = size == 2 ? o.wavelength / o.factor : o.wavelength;
     map->dx = o.pixel * 1e-3;

@@ -78,7 +78,12 @@ part_titles(struct rc_table *t, struct rc_piece line)
             one = line;
             line.n = 0;
         }
-        t->title[t->titles++] = one;
+        /* between white space a unit in brackets belongs to the word before */
+        if (t->rows.separator == ' ' && t->titles > 0 && one.n > 0 &&
+            (*one.text == '[' || *one.text == '('))
+            t->title[t->titles - 1].n = (size_t)(one.text + one.n - t->title[t->titles - 1].text);
+        else if (one.n > 0 || t->rows.separator != ' ')
+            t->title[t->titles++] = one;
     }
 }
 
