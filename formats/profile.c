@@ -226,7 +226,8 @@ profile_score(const struct rc_file *file)
 
     if (looked == 0 || (memchr(file->data, 0, looked) != NULL && file->data[0] < 0xfe))
         return 0;
-    score = profile_open(&p, file, &no_wish, NULL) == RC_OK ? 60 : 0;
+    /* a little for any other table, so that the refusal says what is wrong with it */
+    score = profile_open(&p, file, &no_wish, NULL) == RC_OK ? 60 : p.table.v != NULL ? 3 : 0;
     rc_table_close(&p.table);
     return score;
 }
