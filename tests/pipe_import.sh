@@ -56,6 +56,9 @@ near "$(header nx odd.rcg)" 2 0 "--separator, --decimal and --missing read an od
 printf '\223NUMPY' >cut.npy
 refuses 1 "of version 0" "a format is known by its content" 'rc-import - <cut.npy'
 claim "--formats has a line for each" test "$(rc-import --formats | wc -l)" -ge 25
+for format in $(rc-import --formats | cut -d ' ' -f 1); do
+    claim "the manual has a section on $format" grep -q "^\.Ss $format\$" "$RC_SOURCE/man/rc-import.1"
+done
 claim "--formats prints the formats" bash -c 'rc-import --formats | grep -q "^x3p "'
 claim "--list prints the channels" \
     bash -c 'rc-import --list map.txt | grep -Eq "^ +1 +3 +2 +2e-06 +2.5e-06 +m +[-0-9.e]+ +[-0-9.e]+ +Topo$"'
