@@ -75,16 +75,17 @@ unpack_member(struct rc_archive *archive, size_t member, const struct rc_file *f
     return rc_archive_read(archive, member, size, take_bytes, &buffer, sum, err);
 }
 
-/* The VK4 file that the archive holds; inner->data is the caller's, also on failure. Archives begin
- * with PK 3 4, which may stand in the picture too. */
+/* The VK4 file that the archive holds; inner->data is the caller's, also on failure. The archive
+ * counts its offsets from the start of the file or from its own, PK 3 4, which may stand in the
+ * picture too. */
 static enum rc_status
 unpack(const struct rc_file *file, struct rc_file *inner, struct rc_err *err)
 {
     struct rc_piece rest = {(const char *)file->data, file->size};
-    const char *at;
+    const char *at = rest.text;
 
     *inner = (struct rc_file){0};
-    for (size_t k = 0; k < STARTS_MOST && (at = rc_piece_find(rest, "PK\3\4")) != NULL; k++) {
+    for (size_t k = 0; k < STARTS_MOST && at != NULL; k++) {
         size_t start = (size_t)(at - (const char *)file->data), member;
         struct rc_file part = {file->name, file->data + start, file->size - start};
         struct rc_archive *archive = rc_archive_new(&part, NULL);
@@ -96,6 +97,7 @@ unpack(const struct rc_file *file, struct rc_file *inner, struct rc_err *err)
         if (status != RC_MORE)
             return status;
         rest = (struct rc_piece){at + 1, file->size - start - 1};
+        at = rc_piece_find(rest, "PK\3\4");
     }
     return rc_err_set(err, "the file holds no archive with a member %s", member_name);
 }

@@ -269,6 +269,7 @@ make_metropro(struct made *m, int variant)
     number_at(m, 6, RC_RAW_U32, 834);
     number_at(m, 52, RC_RAW_I16, 1);
     number_at(m, 54, RC_RAW_I16, 4);
+    number_at(m, 56, RC_RAW_I16, 1);
     number_at(m, 60, RC_RAW_I32, 8);
     number_at(m, 68, RC_RAW_I16, NX);
     number_at(m, 70, RC_RAW_I16, NY);
@@ -333,7 +334,7 @@ make_nanoscope(struct made *m, int variant)
 {
     char line[200];
 
-    text(m, "\\*File list\r\n\\Version: 0x09300201\r\n\\Date: 02:03:59 PM Wed May 06 2015\r\n"
+    text(m, "\\*File list\r\n\\Version: 0x09300201\r\n\\Data length: 1024\r\n\\Date: 02:03:59 PM Wed May 06 2015\r\n"
             "\\*Scanner list\r\n\\@Sens. Zscan: V 12.5 nm/V\r\n"
             "\\*Ciao scan list\r\n\\Scan size: 3300 nm\r\n"
             "\\*Ciao image list\r\n\\Data offset: 1024\r\n");
@@ -344,7 +345,7 @@ make_nanoscope(struct made *m, int variant)
         text(m, "\\Scan Size: 3.3 2.58 ~m\r\n");
     text(m, "\\@2:Image Data: S [Height] \"Height Sensor\"\r\n");
     text(m, variant == 0   ? "\\@2:Z scale: V [Sens. Zscan] (0.01 V/LSB) 65.536 V\r\n"
-            : variant == 1 ? "\\@2:Z scale: V [Sens. Zscan] (0.01 mV/LSB) 4294967.296 mV\r\n"
+            : variant == 1 ? "\\@2:Z scale: V [Sens. Zscan] (1 mV/LSB) 65536.0 mV\r\n"
                            : "\\@2:Z scale: V (0.01 nm/LSB) 655.36 nm\r\n");
     text(m, "\\*File list end\r\n\x1a");
     zeros(m, 1024 - m->n);
@@ -357,7 +358,7 @@ make_nid(struct made *m, int variant)
 {
     char line[400];
 
-    text(m, "[DataSet]\r\nVersion=2\r\nGroupCount=2\r\nGr1-Ch0=DataSet-1:0\r\n"
+    text(m, "[DataSet]\r\nVersion=2\r\nGroupCount=2\r\nGr0-Count=2\r\nGr1-Count=1\r\nGr1-Ch0=DataSet-1:0\r\n"
             "Gr0-Ch1=DataSet-0:1\r\nGr0-Ch0=DataSet-0:0\r\n\r\n[DataSet-Info]\r\n"
             "Date=24-01-2008\r\n\r\n");
     for (int set = 0; set < 3; set++) {
@@ -477,6 +478,18 @@ make_gsf(struct made *m, int variant)
     numbers(m, RC_RAW_F32, ROWS, NAN, 0);
 }
 
+static int
+igor_sum(const struct made *m)
+{
+    struct rc_bytes b = {.data = m->b, .size = 384, .big = m->big};
+    unsigned sum = 0;
+
+    for (size_t k = 0; k < 192; k++)
+        sum += rc_bytes_u16(&b);
+    sum &= 0xffff;
+    return sum < 0x8000 ? (int)sum : (int)sum - 0x10000;
+}
+
 /* 0: f32, 1: f64 most significant byte first, 2: i16 with labels, second channel of two */
 static void
 make_ibw(struct made *m, int variant)
@@ -499,6 +512,9 @@ make_ibw(struct made *m, int variant)
     text_at(m, 212, "nm");
     text_at(m, 216, "um");
     text_at(m, 220, "um");
+    number_at(m, 4, RC_RAW_I32, 320 + (double)(NX * NY * rc_raw_width(raws[variant])));
+    number_at(m, 76, RC_RAW_I32, NX * NY * (variant == 2 ? 2 : 1));
+    number_at(m, 2, RC_RAW_I16, -igor_sum(m)); /* so that all 16-bit numbers sum up to 0 */
     if (variant == 2)
         zeros(m, 12);
     numbers(m, raws[variant], BOTTOM, variant == 2 ? 50 : NAN, 0);
@@ -763,12 +779,13 @@ static void
 make_vk4(struct made *m, int variant)
 {
     static const enum rc_raw raws[] = {RC_RAW_U32, RC_RAW_U16, RC_RAW_U8};
-    size_t conditions = variant == 1 ? 80 : 84, image = conditions + 300;
+    size_t conditions = variant == 1 ? 80 : 84, image = conditions + 304;
     enum rc_raw raw = raws[variant];
 
     zeros(m, image + 28 + 768);
     text_at(m, 0, variant == 1 ? "VK3_" : "VK4_");
     number_at(m, 12, RC_RAW_U32, (double)conditions);
+    number_at(m, conditions, RC_RAW_U32, 304);
     number_at(m, 36, RC_RAW_U32, (double)image);
     for (size_t k = 0; k < 6; k++)
         number_at(m, conditions + 4 + 4 * k, RC_RAW_U32, (double[]){2020, 2, 29, 13, 14, 15}[k]);
@@ -782,7 +799,19 @@ make_vk4(struct made *m, int variant)
     numbers(m, raw, ROWS, 50, 0);
 }
 
-/* VK6 (variant 0) and VK7: a picture, in which PK 3 4 stands too, and an archive. */
+/* Where these four bytes stand last. */
+static size_t
+last_of(const struct made *m, const char *bytes)
+{
+    size_t at = m->n - 4;
+
+    while (memcmp(m->b + at, bytes, 4) != 0)
+        at--;
+    return at;
+}
+
+/* VK6 (variant 0) and VK7: a picture, in which PK 3 4 stands too, and an archive. In the second one
+ * the archive counts from the start of the file. */
 static void
 make_vk6(struct made *m, int variant)
 {
@@ -790,6 +819,7 @@ make_vk6(struct made *m, int variant)
     zip_t *zip = zip_open_from_source(source, ZIP_TRUNCATE, NULL);
     struct made inner = {0};
     unsigned char *bytes;
+    size_t before;
     zip_stat_t st;
 
     make_vk4(&inner, 0);
@@ -804,7 +834,14 @@ make_vk6(struct made *m, int variant)
     zip_source_free(source);
     text(m, variant == 0 ? "VK6" : "VK7");
     text(m, "BM a picture with PK\3\4 in it");
+    before = m->n;
     put(m, bytes, (size_t)st.size);
+    if (variant == 1) {
+        size_t end = last_of(m, "PK\5\6");
+        struct rc_bytes b = {.data = m->b, .size = m->n};
+        number_at(m, last_of(m, "PK\1\2") + 42, RC_RAW_U32, (double)before);
+        number_at(m, end + 16, RC_RAW_U32, rc_bytes_at(&b, end + 16, RC_RAW_U32) + (double)before);
+    }
     free(bytes);
     free(inner.b);
 }
@@ -859,7 +896,7 @@ static const struct made_file {
     {"AL3D padded", "al3d", "a.al3d", make_al3d, 0, HAS_LOST, 1, 0},
     {"PLU", "plu", "a.plu", make_plu, 0, HAS_LOST, 1e-6, 0},
     {"NanoScope 16 bits", "nanoscope", "a.001", make_nanoscope, 0, 0, 12.5e-12, 0},
-    {"NanoScope 32 bits, mV", "nanoscope", "a.spm", make_nanoscope, 1, 0, 12.5e-15, 0},
+    {"NanoScope 32 bits, mV", "nanoscope", "a.spm", make_nanoscope, 1, 0, 12.5e-12, 0},
     {"NanoScope in nm", "nanoscope", "a.spm", make_nanoscope, 2, SQUARE, 0.01e-9, 0},
     {"NID 16 bits", "nid", "a.nid", make_nid, 0, 0, 1e-12, 0},
     {"NID 32 bits", "nid", "a.nid", make_nid, 1, 0, 1e-12, 0},
@@ -880,8 +917,8 @@ static const struct made_file {
     {"WSxM double", "wsxm", "a.stp", make_wsxm, 2, 0, 0.1e-9, 0},
     {"BCR", "bcr", "a.bcr", make_bcr, 0, HAS_LOST, 0.25e-9, 0},
     {"BCR of Macintosh", "bcr", "a.bcr", make_bcr, 1, HAS_LOST, 0.25e-9, 0},
-    {"BCRF", "bcr", "a.bcrf", make_bcr, 2, HAS_LOST, 0.25e-6, 0},
-    {"BCRF, wide", "bcr", "a.bcrf", make_bcr, 3, HAS_LOST, 0.25e-6, 0},
+    {"BCRF", "bcr", "a.bcrf", make_bcr, 2, HAS_LOST, 1e-6, 0},
+    {"BCRF, wide", "bcr", "a.bcrf", make_bcr, 3, HAS_LOST, 1e-6, 0},
     {"FRT 1.00", "frt", "a.frt", make_frt, 0, HAS_LOST | PLAIN, 1e-9, 0},
     {"FRT 1.01", "frt", "a.frt", make_frt, 1, HAS_LOST, 1e-9, 0},
     {"TrueMap", "tmd", "a.tmd", make_tmd, 0, HAS_LOST, 1e-6, 0},

@@ -18,7 +18,8 @@ main(int argc, char **argv)
 
         snprintf(path, sizeof path, "%s/%s", argv[1], made_files[k].format);
         mkdir(path, 0777);
-        snprintf(path, sizeof path, "%s/%s/made-%zu", argv[1], made_files[k].format, k);
+        snprintf(path, sizeof path, "%s/%s/made-%zu-%s", argv[1], made_files[k].format, k,
+                 made_files[k].name);
         made_files[k].make(&m, made_files[k].variant);
         if ((f = fopen(path, "wb")) == NULL || fwrite(m.b, 1, m.n, f) != m.n || fclose(f) != 0) {
             perror(path);
