@@ -128,7 +128,7 @@ static enum rc_status
 add_set(const struct set *s, struct rc_maps *maps, size_t *at, struct rc_err *err)
 {
     char text[2 * NAME + 2], name[NAME], frame[NAME];
-    double range = ldexp(1, (int)s->bits);
+    double range = s->bits == 16 ? 65536 : 4294967296.0;
     struct rc_map *map;
     size_t nx, ny, n;
 

@@ -88,7 +88,7 @@ unpack(const struct rc_file *file, struct rc_file *inner, struct rc_err *err)
     for (size_t k = 0; k < STARTS_MOST && at != NULL; k++) {
         size_t start = (size_t)(at - (const char *)file->data), member;
         struct rc_file part = {file->name, file->data + start, file->size - start};
-        struct rc_archive *archive = rc_archive_new(&part, NULL);
+        struct rc_archive *archive = rc_archive_behind(&part, NULL);
         enum rc_status status = RC_MORE;
 
         if (archive != NULL && rc_archive_find(archive, member_name, &member, NULL) == RC_OK)

@@ -408,6 +408,7 @@ text_lies(void **state)
         {"nanoscope", make_nanoscope, 0, "File list end", "Fool list end", "does not end", 0},
         {"nanoscope", make_nanoscope, 0, "65.536", "sixty!", "no value is found", 0},
         {"nid", make_nid, 0, "SaveBits=16", "SaveBits=17", "SaveBits is 17", 0},
+        {"nid", make_nid, 0, "SaveBits=16\r", "SaveBits=nan", "SaveBits is nan", 0}, /* fuzzing */
         {"nid", make_nid, 0, "Points=3", "Points=9", "the file has", 0},
         {"nid", make_nid, 0, "=DataSet-0:1", "=DataSet-9:1", "not there", 0},
         {"gsf", make_gsf, 0, "XRes = 3", "XRes = 0", "XRes) is 0", 0},
