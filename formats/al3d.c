@@ -34,14 +34,6 @@ static const struct rc_field fields[] = {
     {"CreatingApplication", RC_FIELD_TEXT, offsetof(struct al3d, creator)},
 };
 
-static struct rc_piece
-text_at(const struct rc_file *file, size_t at, size_t n)
-{
-    const char *text = (const char *)file->data + at;
-
-    return rc_piece_trim((struct rc_piece){text, strnlen(text, n)});
-}
-
 /* Version and TagCount come first, TagCount further ones behind them. */
 static enum rc_status
 read_tags(const struct rc_file *file, struct al3d *a, struct rc_err *err)
@@ -53,8 +45,8 @@ read_tags(const struct rc_file *file, struct al3d *a, struct rc_err *err)
 
         if (at + TAG > file->size)
             return rc_err_set(err, "the file ends in tag %zu of %zu", k + 1, tags);
-        if (rc_field_take(fields, sizeof fields / sizeof *fields, text_at(file, at, KEY),
-                          text_at(file, at + KEY, VALUE), a, err) != RC_OK)
+        if (rc_field_take(fields, sizeof fields / sizeof *fields, rc_file_text(file, at, KEY),
+                          rc_file_text(file, at + KEY, VALUE), a, err) != RC_OK)
             return RC_FAIL;
         if (k == 1 && !(a->tags >= 0 && a->tags <= TAGS_MOST))
             return rc_err_set(err, "TagCount is %g: it must be 0 to %d", a->tags, TAGS_MOST);

@@ -36,16 +36,6 @@ has_magic(const struct rc_file *file)
 }
 
 static enum rc_status
-fill_text(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
-          double *v, struct rc_err *err)
-{
-    struct rc_piece text = {(const char *)file->data + map->at, file->size - map->at};
-
-    (void)wish;
-    return rc_flow_read(&text, v, map->nx * map->ny, err);
-}
-
-static enum rc_status
 esri_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
           struct rc_err *err)
 {
@@ -72,11 +62,8 @@ esri_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps
     if (rc_map_count("columns (ncols)", e.columns, &map->nx, err) != RC_OK ||
         rc_map_count("rows (nrows)", e.rows, &map->ny, err) != RC_OK)
         return RC_FAIL;
-    map->at = (size_t)(at - text);
-    map->fill = fill_text;
-    if (map->ny > (file->size - map->at + 1) / 2 / map->nx)
-        return rc_err_set(err, "the header promises %zu x %zu values, the file has %zu bytes",
-                          map->nx, map->ny, file->size);
+    if (rc_map_is_text(map, file, (size_t)(at - text), err) != RC_OK)
+        return RC_FAIL;
     map->lost_from = map->lost_to = e.lost;
     rc_map_hint(map, rc_number_text(a, isnan(e.dx) ? e.cell : e.dx),
                 rc_number_text(b, isnan(e.dy) ? e.cell : e.dy));

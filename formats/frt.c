@@ -45,6 +45,7 @@ read_blocks(const struct rc_file *file, struct frt *f, struct rc_maps *maps, str
         {HEIGHTS, 1, &f->heights},
     };
     struct rc_bytes b = rc_file_bytes(file, false);
+    struct rc_piece comment = {"", 0};
     size_t blocks;
 
     b.at = BLOCKS_AT;
@@ -59,10 +60,10 @@ read_blocks(const struct rc_file *file, struct frt *f, struct rc_maps *maps, str
             if (kind == wanted[w].kind && n >= wanted[w].least)
                 *wanted[w].into = (struct block){b.at, (size_t)n};
         if (kind == COMMENT)
-            rc_maps_key(maps, "file.comment", (const char *)file->data + b.at,
-                        strnlen((const char *)file->data + b.at, (size_t)n));
+            comment = rc_file_text(file, b.at, (size_t)n);
         b.at += (size_t)n;
     }
+    rc_maps_key(maps, "file.comment", comment.text, comment.n);
     if (f->grid.n == 0 || f->size.n == 0 || f->range.n == 0 || f->heights.n == 0)
         return rc_err_set(err, "the file has no block of %s",
                           f->grid.n == 0      ? "sizes (0x66)"

@@ -27,16 +27,6 @@ set_limits(struct rc_map *map, const double limit[4])
 }
 
 static enum rc_status
-fill_text(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
-          double *v, struct rc_err *err)
-{
-    struct rc_piece text = {(const char *)file->data + map->at, file->size - map->at};
-
-    (void)wish;
-    return rc_flow_read(&text, v, map->nx * map->ny, err);
-}
-
-static enum rc_status
 find_text(const struct rc_file *file, struct rc_map *map, struct rc_err *err)
 {
     struct rc_piece text = {(const char *)file->data + 4, file->size - 4};
@@ -46,13 +36,8 @@ find_text(const struct rc_file *file, struct rc_map *map, struct rc_err *err)
         rc_map_count("columns", head[0], &map->nx, err) != RC_OK ||
         rc_map_count("rows", head[1], &map->ny, err) != RC_OK)
         return RC_FAIL;
-    map->at = file->size - text.n;
-    map->fill = fill_text;
-    if (map->ny > (text.n + 1) / 2 / map->nx)
-        return rc_err_set(err, "the header promises %zu x %zu values, the file has %zu bytes",
-                          map->nx, map->ny, file->size);
     set_limits(map, head + 2);
-    return RC_OK;
+    return rc_map_is_text(map, file, file->size - text.n, err);
 }
 
 static enum rc_status

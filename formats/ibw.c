@@ -44,14 +44,6 @@ static const struct {
     {"Frequency", "Hz"},
 };
 
-static struct rc_piece
-text_at(const struct rc_file *file, size_t at, size_t n)
-{
-    const char *text = (const char *)file->data + at;
-
-    return rc_piece_trim((struct rc_piece){text, strnlen(text, n)});
-}
-
 /* Where the labels of dimension 2 begin, or 0 when they are not all there. */
 static size_t
 labels_at(const struct rc_file *file, struct rc_bytes *b, size_t after_data, size_t count)
@@ -106,7 +98,7 @@ judge(const struct rc_file *file, struct rc_bytes *b, enum rc_raw *raw, size_t s
 static double
 step(const struct rc_file *file, struct rc_bytes *b, size_t dimension)
 {
-    struct rc_piece unit = text_at(file, AT_UNITS + UNIT * dimension, UNIT);
+    struct rc_piece unit = rc_file_text(file, AT_UNITS + UNIT * dimension, UNIT);
     double metres = NAN;
 
     rc_length_unit(unit.text, unit.n, &metres);
@@ -133,12 +125,12 @@ ibw_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
         return rc_err_set(err, "the header promises %zu x %zu x %zu values, %zu bytes, the file "
                                "has %zu", size[0], size[1], channels, all, file->size - DATA);
     labels = size[2] == 0 ? 0 : labels_at(file, &b, DATA + all, channels);
-    data_unit = text_at(file, AT_DATA_UNIT, UNIT);
+    data_unit = rc_file_text(file, AT_DATA_UNIT, UNIT);
     for (size_t k = 0; k < channels; k++) {
         struct rc_map *map;
 
-        name = labels == 0 ? text_at(file, AT_NAME, LABEL)
-                           : text_at(file, labels + LABEL * (k + 1), LABEL);
+        name = labels == 0 ? rc_file_text(file, AT_NAME, LABEL)
+                           : rc_file_text(file, labels + LABEL * (k + 1), LABEL);
         map = rc_maps_add(maps, name.text, name.n);
         map->nx = size[0];
         map->ny = size[1];

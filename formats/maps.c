@@ -33,6 +33,15 @@ rc_maps_key(struct rc_maps *maps, const char *key, const char *text, size_t n)
 }
 
 void
+rc_maps_keep(struct rc_maps *maps, const struct rc_keep *rows, size_t n, struct rc_piece name,
+             struct rc_piece value)
+{
+    for (size_t k = 0; k < n; k++)
+        if (rc_piece_is(name, rows[k].name))
+            rc_maps_key(maps, rows[k].key, value.text, value.n);
+}
+
+void
 rc_map_unit(struct rc_map *map, const char *text, size_t n)
 {
     static const char *const bases[] = {"V", "A", "N", "Pa", "Hz", "s", "rad", "W", "J", "F"};
@@ -97,6 +106,27 @@ rc_map_bound(const struct rc_map *map, const struct rc_file *file, struct rc_err
                       map->nx, map->ny, file->size);
 }
 
+enum rc_status
+rc_map_fill_text(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
+                 double *v, struct rc_err *err)
+{
+    struct rc_piece text = {(const char *)file->data + map->at, file->size - map->at};
+
+    (void)wish;
+    return rc_flow_read(&text, v, map->nx * map->ny, err);
+}
+
+enum rc_status
+rc_map_is_text(struct rc_map *map, const struct rc_file *file, size_t at, struct rc_err *err)
+{
+    map->at = at;
+    map->fill = rc_map_fill_text;
+    if (map->ny <= (file->size - at + 1) / 2 / map->nx) /* a digit and what parts it */
+        return RC_OK;
+    return rc_err_set(err, "the header promises %zu x %zu numbers, the file has %zu bytes for them",
+                      map->nx, map->ny, file->size - at);
+}
+
 bool
 rc_file_named(const struct rc_file *file, const char *suffixes)
 {
@@ -121,6 +151,14 @@ bool
 rc_file_holds(const struct rc_file *file, size_t at, const void *bytes, size_t n)
 {
     return at <= file->size && file->size - at >= n && memcmp(file->data + at, bytes, n) == 0;
+}
+
+struct rc_piece
+rc_file_text(const struct rc_file *file, size_t at, size_t n)
+{
+    const char *text = (const char *)file->data + at;
+
+    return rc_piece_trim((struct rc_piece){text, strnlen(text, n)});
 }
 
 struct rc_bytes

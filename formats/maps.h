@@ -52,6 +52,13 @@ struct rc_maps {
 struct rc_map *rc_maps_add(struct rc_maps *maps, const char *name, size_t n);
 /* A key `file.*` of the grid, cleaned; nothing when the text is empty or the key is there. */
 void rc_maps_key(struct rc_maps *maps, const char *key, const char *text, size_t n);
+/* What a file calls a thing, and the key of the grid that keeps it. */
+struct rc_keep {
+    const char *name, *key;
+};
+/* Keeps the value when a row has that name. */
+void rc_maps_keep(struct rc_maps *maps, const struct rc_keep *rows, size_t n, struct rc_piece name,
+                  struct rc_piece value);
 /* Sets unit and si from the file's word for it: a length, a unit with an SI prefix, or the word. */
 void rc_map_unit(struct rc_map *map, const char *text, size_t n);
 /* The least and the greatest raw number that is not missing; false when the numbers are not all in
@@ -64,10 +71,18 @@ enum rc_status rc_map_count(const char *what, double number, size_t *count, stru
 /* RC_FAIL when 8*nx*ny exceeds 16 times the file and 64 MiB: for what is packed in the file. */
 enum rc_status rc_map_bound(const struct rc_map *map, const struct rc_file *file,
                             struct rc_err *err);
+/* The fill of a map that is text: numbers parted by white space from `at` on. */
+enum rc_status rc_map_fill_text(const struct rc_file *file, const struct rc_wish *wish,
+                                const struct rc_map *map, double *v, struct rc_err *err);
+/* Makes it one, unless the text from `at` on is too short for nx*ny numbers. */
+enum rc_status rc_map_is_text(struct rc_map *map, const struct rc_file *file, size_t at,
+                              struct rc_err *err);
 /* Whether the name of the file ends in one of the suffixes ".a .b", in either case. */
 bool rc_file_named(const struct rc_file *file, const char *suffixes);
 /* Whether the file has these bytes at that place. */
 bool rc_file_holds(const struct rc_file *file, size_t at, const void *bytes, size_t n);
+/* The text at that place, which must be in the file: up to n bytes or a NUL, trimmed. */
+struct rc_piece rc_file_text(const struct rc_file *file, size_t at, size_t n);
 /* A cursor at the first byte; the number at a place, 0 with `past` set where there is none. */
 struct rc_bytes rc_file_bytes(const struct rc_file *file, bool big);
 

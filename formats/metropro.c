@@ -20,6 +20,7 @@ enum {
     AT_OBLIQUITY = 176,
     AT_LATERAL = 184,
     AT_FINENESS = 218,
+    DATE = 30,
     LEAST = 220, /* bytes of a header that holds all this */
     LOST_FROM = 2147483640
 };
@@ -37,6 +38,7 @@ metropro_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_
 {
     static const double finenesses[] = {4096, 32768, 131072};
     struct rc_bytes b = rc_file_bytes(file, true);
+    struct rc_piece date;
     struct rc_map *map;
     double header, intensity, fineness, bytes;
 
@@ -75,8 +77,8 @@ metropro_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_
     map->dx = map->dy = rc_bytes_at(&b, AT_LATERAL, RC_RAW_F32);
     if (map->dx == 0)
         map->dx = map->dy = NAN; /* an instrument that was not calibrated */
-    rc_maps_key(maps, "file.software-date", (const char *)file->data + AT_SOFTWARE_DATE,
-                strnlen((const char *)file->data + AT_SOFTWARE_DATE, 30));
+    date = rc_file_text(file, AT_SOFTWARE_DATE, DATE);
+    rc_maps_key(maps, "file.software-date", date.text, date.n);
     return RC_OK;
 }
 

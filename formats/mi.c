@@ -26,9 +26,7 @@ static const struct rc_field fields[] = {
     {"data", RC_FIELD_TEXT, offsetof(struct mi, storage)},
 };
 
-static const struct {
-    const char *name, *key;
-} keys[] = {
+static const struct rc_keep keys[] = {
     {"version", "file.version"},
     {"dateAcquired", "file.date"},
     {"comment", "file.comment"},
@@ -125,9 +123,7 @@ mi_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *
         if (rc_field_take(fields, sizeof fields / sizeof *fields, key, value, &m, err) != RC_OK ||
             take_buffer(maps, &map, key, value, err) != RC_OK)
             return RC_FAIL;
-        for (size_t k = 0; k < sizeof keys / sizeof *keys; k++)
-            if (rc_piece_is(key, keys[k].name))
-                rc_maps_key(maps, keys[k].key, value.text, value.n);
+        rc_maps_keep(maps, keys, sizeof keys / sizeof *keys, key, value);
     }
     if (!rc_piece_is(m.type, "Image"))
         return rc_err_set(err, "the file is no image but '%.*s'", m.type.n < 40 ? (int)m.type.n : 40,

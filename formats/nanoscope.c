@@ -40,9 +40,7 @@ static const struct rc_field image_fields[] = {
     {"\\Note", RC_FIELD_TEXT, offsetof(struct image, note)},
 };
 
-static const struct {
-    const char *name, *key;
-} keys[] = {
+static const struct rc_keep keys[] = {
     {"\\Date", "file.date"},
     {"\\Version", "file.version"},
     {"\\Microscope", "file.model"},
@@ -245,9 +243,7 @@ nanoscope_find(const struct rc_file *file, const struct rc_wish *wish, struct rc
         if (into != NULL && rc_field_take(image_fields, sizeof image_fields / sizeof *image_fields,
                                           key, value, into, err) != RC_OK)
             return RC_FAIL;
-        for (size_t k = 0; k < sizeof keys / sizeof *keys; k++)
-            if (rc_piece_is(key, keys[k].name))
-                rc_maps_key(maps, keys[k].key, value.text, value.n);
+        rc_maps_keep(maps, keys, sizeof keys / sizeof *keys, key, value);
     }
     if (maps->n == 0)
         return rc_err_set(err, "the header names no image (\\*Ciao image list)");

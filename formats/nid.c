@@ -52,9 +52,7 @@ static const struct rc_field fields[] = {
     {"SaveOrder", RC_FIELD_TEXT, offsetof(struct set, order)},
 };
 
-static const struct {
-    const char *name, *key;
-} keys[] = {
+static const struct rc_keep keys[] = {
     {"Date", "file.date"},
     {"Time", "file.time"},
     {"Scan head", "file.scanner"},
@@ -100,18 +98,6 @@ find_section(struct rc_piece header, struct rc_piece name, struct rc_piece *sect
     if (start != NULL)
         *section = (struct rc_piece){start, (size_t)(header.text + header.n - start)};
     return start != NULL;
-}
-
-static bool
-find_value(struct rc_piece section, const char *wanted, struct rc_piece *value)
-{
-    struct rc_lines lines = {.at = section.text, .end = section.text + section.n};
-    struct rc_piece line, key;
-
-    while (rc_lines_next(&lines, &line.text, &line.n))
-        if (rc_piece_part(line, "=", &key, value) && rc_piece_is(key, wanted))
-            return true;
-    return false;
 }
 
 static double
@@ -244,7 +230,8 @@ nid_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
         {"DataSet\\DataSetInfos\\Scan", 25},
         {"DataSet\\DataSetInfos\\Global", 27},
     };
-    struct rc_piece header = {(const char *)file->data, data_at(file)}, table, section, value;
+    struct rc_piece header = {(const char *)file->data, data_at(file)}, table, section;
+    struct rc_piece line, key, value;
 
     (void)wish;
     if (header.n == 0)
@@ -252,10 +239,12 @@ nid_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     if (!find_section(header, (struct rc_piece){"DataSet", 7}, &table))
         return rc_err_set(err, "no Nanosurf file: its header has no section [DataSet]");
     for (size_t s = 0; s < sizeof about / sizeof *about; s++)
-        for (size_t k = 0; k < sizeof keys / sizeof *keys; k++)
-            if (find_section(header, about[s], &section) &&
-                find_value(section, keys[k].name, &value))
-                rc_maps_key(maps, keys[k].key, value.text, value.n);
+        if (find_section(header, about[s], &section)) {
+            struct rc_lines lines = {.at = section.text, .end = section.text + section.n};
+            while (rc_lines_next(&lines, &line.text, &line.n))
+                if (rc_piece_part(line, "=", &key, &value))
+                    rc_maps_keep(maps, keys, sizeof keys / sizeof *keys, key, value);
+        }
     return add_all(header, table, header.n, maps, err);
 }
 

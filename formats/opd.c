@@ -27,9 +27,7 @@ struct opd {
 
 static const char *const height_names[] = {"RAW_DATA", "RAW DATA", "Raw"};
 
-static const struct {
-    const char *name, *key;
-} texts[] = {
+static const struct rc_keep texts[] = {
     {"Title", "file.title"},
     {"Date", "file.date"},
     {"Time", "file.time"},
@@ -56,7 +54,6 @@ take_block(const struct rc_file *file, struct block b, struct opd *o, struct rc_
         {"Mult", RC_RAW_I16, offsetof(struct opd, factor)},
     };
     struct rc_bytes bytes = rc_file_bytes(file, false);
-    const char *text = (const char *)file->data + b.at;
 
     for (size_t k = 0; k < sizeof height_names / sizeof *height_names; k++)
         if (rc_piece_is(b.name, height_names[k]) && b.n >= MATRIX && o->heights.n == 0)
@@ -66,9 +63,8 @@ take_block(const struct rc_file *file, struct block b, struct opd *o, struct rc_
             double value = rc_bytes_at(&bytes, b.at, numbers[k].raw);
             memcpy((char *)o + numbers[k].at, &value, sizeof value);
         }
-    for (size_t k = 0; k < sizeof texts / sizeof *texts; k++)
-        if (rc_piece_is(b.name, texts[k].name))
-            rc_maps_key(maps, texts[k].key, text, strnlen(text, b.n));
+    rc_maps_keep(maps, texts, sizeof texts / sizeof *texts, b.name,
+                 rc_file_text(file, b.at, b.n));
 }
 
 static enum rc_status

@@ -161,9 +161,7 @@ static void
 take_item(struct opdx *o, const struct rc_piece *path, size_t depth, double number, size_t at,
           size_t n)
 {
-    static const struct {
-        const char *name, *key;
-    } keys[] = {
+    static const struct rc_keep keys[] = {
         {"Date", "file.date"},
         {"Time", "file.time"},
         {"InstrumentName", "file.model"},
@@ -174,11 +172,9 @@ take_item(struct opdx *o, const struct rc_piece *path, size_t depth, double numb
 
     if (depth == 3 && (rc_piece_is(path[0], "1D_Data") || rc_piece_is(path[0], "2D_Data")))
         take_of_channel(o, path, number, at, n);
-    if (depth < 2 || !rc_piece_is(path[0], "MetaData"))
-        return;
-    for (size_t k = 0; k < sizeof keys / sizeof *keys; k++)
-        if (rc_piece_is(path[depth - 1], keys[k].name))
-            rc_maps_key(o->maps, keys[k].key, (const char *)o->file->data + at, n);
+    if (depth >= 2 && rc_piece_is(path[0], "MetaData"))
+        rc_maps_keep(o->maps, keys, sizeof keys / sizeof *keys, path[depth - 1],
+                     (struct rc_piece){(const char *)o->file->data + at, n});
 }
 
 /* Reads the value of an item of that row of types; false when it does not end before `end`. */

@@ -31,6 +31,7 @@ plu_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
 {
     struct rc_bytes b = rc_file_bytes(file, false);
     struct rc_map *map = rc_maps_add(maps, "", 0);
+    struct rc_piece date;
 
     (void)wish;
     if (!sizes_agree(file))
@@ -46,8 +47,8 @@ plu_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     map->dx = rc_bytes_at(&b, AT_X, RC_RAW_F32) * 1e-6;
     map->dy = rc_bytes_at(&b, AT_Y, RC_RAW_F32) * 1e-6;
     map->lost_from = map->lost_to = LOST;
-    rc_maps_key(maps, "file.date", (const char *)file->data,
-                strnlen((const char *)file->data, DATE));
+    date = rc_file_text(file, 0, DATE);
+    rc_maps_key(maps, "file.date", date.text, date.n);
     return RC_OK;
 }
 

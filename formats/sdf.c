@@ -72,16 +72,6 @@ begins(const struct rc_file *file, char kind)
 }
 
 static enum rc_status
-fill_text(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
-          double *v, struct rc_err *err)
-{
-    struct rc_piece text = {(const char *)file->data + map->at, file->size - map->at};
-
-    (void)wish;
-    return rc_flow_read(&text, v, map->nx * map->ny, err);
-}
-
-static enum rc_status
 find_text(const struct rc_file *file, struct sdf *s, struct rc_map *map, struct rc_err *err)
 {
     const char *text = (const char *)file->data;
@@ -89,7 +79,6 @@ find_text(const struct rc_file *file, struct sdf *s, struct rc_map *map, struct 
 
     if (rc_fields_read(fields, sizeof fields / sizeof *fields, &lines, "=", "*", s, err) != RC_OK)
         return RC_FAIL;
-    map->fill = fill_text;
     map->at = (size_t)(lines.at - text);
     return RC_OK;
 }
@@ -139,9 +128,8 @@ sdf_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     if (s.compression != 0)
         return rc_err_set(err, "the heights are compressed (Compression is %g): that is not read",
                           s.compression);
-    if (is_text && map->ny > (file->size - map->at + 1) / 2 / map->nx)
-        return rc_err_set(err, "the header promises %zu x %zu heights, the file has %zu bytes",
-                          map->nx, map->ny, file->size);
+    if (is_text && rc_map_is_text(map, file, map->at, err) != RC_OK)
+        return RC_FAIL;
     strcpy(map->unit, "m");
     map->dx = s.dx;
     map->dy = s.dy;

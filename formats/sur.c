@@ -61,14 +61,6 @@ static const struct {
     {21, "a spectral map"},
 };
 
-static struct rc_piece
-text_at(const struct rc_file *file, size_t at, size_t n)
-{
-    const char *text = (const char *)file->data + at;
-
-    return (struct rc_piece){text, strnlen(text, n)};
-}
-
 /* ---- compressed heights ---- */
 
 static enum rc_status
@@ -156,7 +148,7 @@ judge_type(int type, double rows, struct rc_err *err)
 static double
 step(const struct rc_file *file, struct rc_bytes *bytes, size_t at, size_t unit_at)
 {
-    struct rc_piece unit = rc_piece_trim(text_at(file, unit_at, UNIT));
+    struct rc_piece unit = rc_file_text(file, unit_at, UNIT);
     double metres = NAN;
 
     rc_length_unit(unit.text, unit.n, &metres);
@@ -183,7 +175,7 @@ sur_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     rows = rc_bytes_at(&bytes, AT_ROWS, RC_RAW_I32);
     if (judge_type((int)rc_bytes_at(&bytes, AT_TYPE, RC_RAW_I16), rows, err) != RC_OK)
         return RC_FAIL;
-    name = rc_piece_trim(text_at(file, AT_NAME, NAME));
+    name = rc_file_text(file, AT_NAME, NAME);
     map = rc_maps_add(maps, name.text, name.n);
     if (rc_map_count("columns", columns, &map->nx, err) != RC_OK ||
         rc_map_count("rows", rows, &map->ny, err) != RC_OK)
@@ -192,7 +184,7 @@ sur_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     if (bits != 16 && bits != 32)
         return rc_err_set(err, "a height has %g bits: it must have 16 or 32", bits);
     map->raw = bits == 16 ? RC_RAW_I16 : RC_RAW_I32;
-    unit = text_at(file, AT_Z_UNIT, UNIT);
+    unit = rc_file_text(file, AT_Z_UNIT, UNIT);
     rc_map_unit(map, unit.text, unit.n);
     map->scale = rc_bytes_at(&bytes, AT_Z, RC_RAW_F32);
     map->zero = rc_bytes_at(&bytes, AT_Z_OFFSET, RC_RAW_F32);
@@ -213,9 +205,9 @@ sur_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
         if (rc_map_bound(map, file, err) != RC_OK)
             return RC_FAIL;
     }
-    comment = text_at(file, HEADER, (size_t)comment_n);
+    comment = rc_file_text(file, HEADER, (size_t)comment_n);
     rc_maps_key(maps, "file.comment", comment.text, comment.n);
-    name = text_at(file, AT_OPERATOR, NAME);
+    name = rc_file_text(file, AT_OPERATOR, NAME);
     rc_maps_key(maps, "file.operator", name.text, name.n);
     return RC_OK;
 }
