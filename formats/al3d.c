@@ -1,7 +1,7 @@
 /*
- * Alicona AL3D: tags of 52 bytes (a key of 20, a value of 30, CR LF), then images at the places that
- * the tags name. The depth image is of 32-bit floats in metres, little-endian, row 0 first, each row
- * filled up to a multiple of 8 bytes.
+ * Alicona AL3D: tags of 52 bytes (a key of 20, a value of 30, CR LF), then images at the places
+ * that the tags name. The depth image is of 32-bit floats in metres, little-endian, row 0 first,
+ * each row filled up to a multiple of 8 bytes.
  */
 #include <math.h>
 #include <string.h>

@@ -1,8 +1,8 @@
 /*
- * BCR and BCRF (ImageMet): a header of key = value lines, filled up to 2048 bytes, then numbers, row
- * 0 first: 16-bit ones in bit2nm nanometres, or 32-bit floats in zunit; where zmin is given, the
- * lowest of them is there. In the "unicode" kind the
- * header is of two-byte characters in 4096 bytes.
+ * BCR and BCRF (ImageMet): a header of key = value lines, filled up to 2048 bytes, then numbers,
+ * row 0 first: 16-bit ones in bit2nm nanometres, or 32-bit floats in zunit; where zmin is given,
+ * the lowest of them is there. In the "unicode" kind the header is of two-byte characters in 4096
+ * bytes.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -88,7 +88,8 @@ bcr_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     for (size_t at = mark; n < HEADER && at + wide <= file->size; at += wide)
         header[n++] = (char)file->data[at]; /* the micro sign comes out as in Latin-1 */
     lines.end = header + n;
-    if (rc_fields_read(fields, sizeof fields / sizeof *fields, &lines, "=", NULL, &b, err) != RC_OK ||
+    if (rc_fields_read(fields, sizeof fields / sizeof *fields, &lines, "=", NULL, &b, err) !=
+            RC_OK ||
         rc_map_count("columns (xpixels)", b.columns, &map->nx, err) != RC_OK ||
         rc_map_count("rows (ypixels)", b.rows, &map->ny, err) != RC_OK)
         return RC_FAIL;

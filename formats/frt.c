@@ -1,6 +1,7 @@
 /*
  * FRT MicroProf: a magic line, the number of blocks, and blocks of a 16-bit kind, a length and that
- * many bytes, little-endian. Heights are whole numbers from the bottom row on, of which 1 is missing.
+ * many bytes, little-endian. Heights are whole numbers from the bottom row on, of which 1 is
+ * missing.
  */
 #include <math.h>
 #include <string.h>
@@ -80,14 +81,16 @@ frt_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     struct rc_bytes b = rc_file_bytes(file, false);
     struct rc_map *map = rc_maps_add(maps, "", 0);
     struct frt f = {0};
+    char quote[RC_SHOWN];
     double bits;
 
     (void)wish;
     if (!rc_file_holds(file, 0, magic, MAGIC) || file->size < FIRST)
         return rc_err_set(err, "no FRT file: it does not begin with %s", magic);
-    if (!rc_file_holds(file, MAGIC, "1.00", VERSION) && !rc_file_holds(file, MAGIC, "1.01", VERSION))
-        return rc_err_set(err, "the file is of version '%.4s': 1.00 and 1.01 are read",
-                          (const char *)file->data + MAGIC);
+    if (!rc_file_holds(file, MAGIC, "1.00", VERSION) &&
+        !rc_file_holds(file, MAGIC, "1.01", VERSION))
+        return rc_err_set(err, "the file is of version '%s': 1.00 and 1.01 are read",
+                          rc_text_shown(quote, (const char *)file->data + MAGIC, VERSION));
     if (read_blocks(file, &f, maps, err) != RC_OK ||
         rc_map_count("columns", rc_bytes_at(&b, f.grid.at, RC_RAW_U32), &map->nx, err) != RC_OK ||
         rc_map_count("rows", rc_bytes_at(&b, f.grid.at + 4, RC_RAW_U32), &map->ny, err) != RC_OK)

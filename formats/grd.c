@@ -1,7 +1,7 @@
 /*
- * Surfer grids, bottom row first, in three kinds: DSAA is text (columns and rows, limits of x, y and
- * z, the values), DSBB the same binary with 32-bit floats, DSRB sections of a name, a length and
- * bytes. Nodes stand on the limits. The files hold no unit.
+ * Surfer grids, bottom row first, in three kinds: DSAA is text (columns and rows, limits of x, y
+ * and z, the values), DSBB the same binary with 32-bit floats, DSRB sections of a name, a length
+ * and bytes. Nodes stand on the limits. The files hold no unit.
  */
 #include <math.h>
 #include <string.h>
@@ -61,13 +61,14 @@ find_new(const struct rc_file *file, struct rc_map *map, struct rc_err *err)
 {
     struct rc_bytes b = rc_file_bytes(file, false);
     double dx = NAN, dy = NAN, n, nx = NAN, ny = NAN;
-    char one[RC_NUMBER_SIZE], two[RC_NUMBER_SIZE];
+    char one[RC_NUMBER_SIZE], two[RC_NUMBER_SIZE], quote[RC_SHOWN];
 
     for (size_t at = 0; file->size - at >= SECTION; at += SECTION + (size_t)n) {
         n = rc_bytes_at(&b, at + 4, RC_RAW_I32);
         if (n < 0 || n > (double)(file->size - at - SECTION))
-            return rc_err_set(err, "section '%.4s' at byte %zu has %g bytes, the file %zu in all",
-                              (const char *)file->data + at, at, n, file->size);
+            return rc_err_set(err, "section '%s' at byte %zu has %g bytes, the file %zu in all",
+                              rc_text_shown(quote, (const char *)file->data + at, 4), at, n,
+                              file->size);
         if (rc_file_holds(file, at, "GRID", 4) && n >= GRID) {
             ny = rc_bytes_at(&b, at + SECTION, RC_RAW_I32);
             nx = rc_bytes_at(&b, at + SECTION + 4, RC_RAW_I32);

@@ -2,8 +2,8 @@
  * What most readers come down to: a file described as maps of raw numbers at some place in it.
  *
  * A format fills struct rc_maps from its header. Listing, checking the sizes against the bytes that
- * are there, decoding, turning, scaling and marking what is missing is then the same for all, and is
- * done here once.
+ * are there, decoding, turning, scaling and marking what is missing is then the same for all, and
+ * is done here once.
  */
 #ifndef RC_MAPS_H
 #define RC_MAPS_H

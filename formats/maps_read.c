@@ -186,7 +186,8 @@ rc_maps_read(rc_maps_find *find, const struct rc_file *file, const struct rc_wis
     si = map->si;
     shape = (struct rc_shape){.nx = map->nx, .ny = map->ny};
     if (rc_spacing(wish, map->dx, map->dy, &shape, notes, err) != RC_OK) {
-        if (isnan(map->dx) && err != NULL && strlen(err->text) + strlen(map->hint) < sizeof err->text)
+        if (isnan(map->dx) && err != NULL &&
+            strlen(err->text) + strlen(map->hint) < sizeof err->text)
             strcat(err->text, map->hint);
         return NULL;
     }

@@ -1,7 +1,7 @@
 /*
- * PicoView MI (Molecular Imaging, Agilent): lines with the key in the first 14 columns, a line "data"
- * with how the numbers are stored, then the numbers of all buffers back to back, little-endian, the
- * bottom row first. A value is number / 2^(bits-1) * bufferRange in bufferUnit.
+ * PicoView MI (Molecular Imaging, Agilent): lines with the key in the first 14 columns, a line
+ * "data" with how the numbers are stored, then the numbers of all buffers back to back,
+ * little-endian, the bottom row first. A value is number / 2^(bits-1) * bufferRange in bufferUnit.
  */
 #include <math.h>
 #include <string.h>
@@ -108,6 +108,7 @@ mi_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *
     struct mi m = {.width = NAN, .height = NAN};
     struct rc_map *map = NULL;
     struct rc_piece line;
+    char quote[RC_SHOWN];
 
     (void)wish;
     if (!has_magic(file))
@@ -126,8 +127,8 @@ mi_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *
         rc_maps_keep(maps, keys, sizeof keys / sizeof *keys, key, value);
     }
     if (!rc_piece_is(m.type, "Image"))
-        return rc_err_set(err, "the file is no image but '%.*s'", m.type.n < 40 ? (int)m.type.n : 40,
-                          m.type.text);
+        return rc_err_set(err, "the file is no image but '%s'",
+                          rc_text_shown(quote, m.type.text, m.type.n));
     return place_buffers(&m, (size_t)(lines.at - text), maps, err);
 }
 

@@ -11,8 +11,8 @@
  *     \*File list end
  *
  * A value is number * hard / 2^bits * sensitivity, hard being the value behind the parentheses and
- * bits 8 * Bytes/pixel. Since version 9.2 numbers are stored in 32 bits whatever Bytes/pixel says, so
- * that the length of the data tells how they are stored.
+ * bits 8 * Bytes/pixel. Since version 9.2 numbers are stored in 32 bits whatever Bytes/pixel says,
+ * so that the length of the data tells how they are stored.
  */
 #include <math.h>
 #include <stdio.h>
@@ -210,7 +210,9 @@ add_image(const struct rc_file *file, struct rc_piece header, const struct image
     set_spacing(m->size.n > 0 ? m->size : scan->size, map);
     if (maps->n > RC_MAPS_MOST)
         return RC_OK; /* only counted */
-    return set_scale(header, m, map, m->width == 2 ? 16 : m->width == 4 || map->raw == RC_RAW_I32 ? 32 : 16, err);
+    if (m->width == 2 || m->width == 4)
+        return set_scale(header, m, map, 8 * (int)m->width, err);
+    return set_scale(header, m, map, map->raw == RC_RAW_I16 ? 16 : 32, err);
 }
 
 static enum rc_status

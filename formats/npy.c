@@ -45,7 +45,8 @@ read_type(struct rc_piece value, struct rc_map *map, struct rc_err *err)
 
     for (size_t k = 0; k < sizeof types / sizeof *types && value.n >= 5; k++)
         if ((*value.text == '\'' || *value.text == '"') && value.text[4] == *value.text &&
-            strchr("<>|=", value.text[1]) != NULL && memcmp(value.text + 2, types[k].name, 2) == 0) {
+            strchr("<>|=", value.text[1]) != NULL &&
+            memcmp(value.text + 2, types[k].name, 2) == 0) {
             map->raw = types[k].raw;
             map->big = value.text[1] == '>';
             return RC_OK;

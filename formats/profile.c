@@ -1,7 +1,8 @@
 /*
  * Profiles as text: a column of positions, evenly apart, and one of heights, behind a header of
  * whatever kind. The line before the first row may have titles, in which units of length are looked
- * for; a column that counts the points is passed over, one titled "valid" marks missing points by 0.
+ * for; a column that counts the points is passed over, one titled "valid" marks missing points by
+ * 0.
  */
 #include <math.h>
 #include <string.h>

@@ -81,7 +81,8 @@ unpack(const unsigned char *from, size_t n, unsigned char *to, size_t wanted, st
     return RC_OK;
 }
 
-/* The streams one behind the other; each must be in the file and together they must fill the map. */
+/* The streams one behind the other; each must be in the file and together they must fill the map.
+ */
 static enum rc_status
 unpack_all(const struct rc_file *file, const struct rc_map *map, unsigned char *to, size_t size,
            struct rc_err *err)

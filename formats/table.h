@@ -18,8 +18,8 @@ struct rc_table {
     double *v; /* rows.rows * rows.columns values */
 };
 
-/* Reads the first table of at least two columns. RC_FAIL when there is none or a row of it is not as
- * the first one. The caller closes it in either case. */
+/* Reads the first table of at least two columns. RC_FAIL when there is none or a row of it is not
+ * as the first one. The caller closes it in either case. */
 enum rc_status rc_table_open(struct rc_table *table, const struct rc_file *file,
                              const struct rc_wish *wish, struct rc_err *err);
 void rc_table_close(struct rc_table *table);

@@ -1,7 +1,7 @@
 /*
- * Lists of points: three columns x, y, z in any order of the points, which must lie on a raster. The
- * least x and y come first; a point of the raster that the list leaves out is missing. The list holds
- * no unit.
+ * Lists of points: three columns x, y, z in any order of the points, which must lie on a raster.
+ * The least x and y come first; a point of the raster that the list leaves out is missing. The list
+ * holds no unit.
  */
 #include <math.h>
 #include <stdlib.h>

@@ -191,8 +191,8 @@ static const struct {
 } profiles[] = {
     {"x [um],z [nm]\n0,1\n0.5,2\n1.0,3\n", 3, 0.5e-6, 1e-9, 3e-9, NULL},
     {"Position (mm)\tHeight (\xb5m)\n0\t1\n0.5\t2\n1\tNaN\n", 3, 0.5e-3, 1e-6, NAN, NULL},
-    {"a header\nof lines, no numbers\nindex;x in \xc2\xb5m;y in \xc2\xb5m\n0;1;4\n1;2;5\n2;3;6\n", 3,
-     1e-6, 4e-6, 6e-6, NULL},
+    {"a header\nof lines, no numbers\nindex;x in \xc2\xb5m;y in \xc2\xb5m\n0;1;4\n1;2;5\n2;3;6\n",
+     3, 1e-6, 4e-6, 6e-6, NULL},
     {"x_um z_um valid\n0 1 1\n1 2 1\n2 3 0\n", 3, 1e-6, 1e-6, NAN, NULL},
     {"x_um z_um\n2 1\n1 2\n0 3\n", 3, 1e-6, 3e-6, 1e-6, NULL},
     /* rounded to the last decimal */

@@ -1,6 +1,6 @@
 /*
- * Small files of every flat format, byte by byte as its specification has them and not by a writer of
- * ours: 3 columns, 2 rows, and every variant that the readers know. The numbers are
+ * Small files of every flat format, byte by byte as its specification has them and not by a writer
+ * of ours: 3 columns, 2 rows, and every variant that the readers know. The numbers are
  *
  *      10  20  30      and -20, -60 instead where the type has a sign;
  *      40  50  60      50 is missing where the format can say so
@@ -334,7 +334,8 @@ make_nanoscope(struct made *m, int variant)
 {
     char line[200];
 
-    text(m, "\\*File list\r\n\\Version: 0x09300201\r\n\\Data length: 1024\r\n\\Date: 02:03:59 PM Wed May 06 2015\r\n"
+    text(m, "\\*File list\r\n\\Version: 0x09300201\r\n\\Data length: 1024\r\n\\Date: 02:03:59 PM "
+            "Wed May 06 2015\r\n"
             "\\*Scanner list\r\n\\@Sens. Zscan: V 12.5 nm/V\r\n"
             "\\*Ciao scan list\r\n\\Scan size: 3300 nm\r\n"
             "\\*Ciao image list\r\n\\Data offset: 1024\r\n");
@@ -352,13 +353,15 @@ make_nanoscope(struct made *m, int variant)
     numbers(m, variant == 1 ? RC_RAW_I32 : RC_RAW_I16, BOTTOM, 50, 0);
 }
 
-/* 0: 16 bits; 1: 32; 2: unsigned; 3: most significant byte first. A curve and another map before. */
+/* 0: 16 bits; 1: 32; 2: unsigned; 3: most significant byte first. A curve and another map before.
+ */
 static void
 make_nid(struct made *m, int variant)
 {
     char line[400];
 
-    text(m, "[DataSet]\r\nVersion=2\r\nGroupCount=2\r\nGr0-Count=2\r\nGr1-Count=1\r\nGr1-Ch0=DataSet-1:0\r\n"
+    text(m, "[DataSet]\r\nVersion=2\r\nGroupCount=2\r\nGr0-Count=2\r\nGr1-Count=1\r\nGr1-Ch0="
+            "DataSet-1:0\r\n"
             "Gr0-Ch1=DataSet-0:1\r\nGr0-Ch0=DataSet-0:0\r\n\r\n[DataSet-Info]\r\n"
             "Date=24-01-2008\r\n\r\n");
     for (int set = 0; set < 3; set++) {
@@ -367,9 +370,12 @@ make_nid(struct made *m, int variant)
                  "Dim0Range=3.3e-06\r\nDim1Unit=m\r\nDim1Range=2.58e-06\r\nDim2Name=Topo\r\n"
                  "Dim2Unit=%s\r\nDim2Range=%s\r\nDim2Min=%s\r\nSaveMode=Binary\r\n",
                  set / 2, set % 2, set == 0 ? 7 : NX, set == 0 ? 1 : NY,
-                 set == 0 ? "Spectrum" : set == 1 ? "Scan forward" : "Scan backward",
+                 set == 0   ? "Spectrum"
+                 : set == 1 ? "Scan forward"
+                            : "Scan backward",
                  set == 0 ? "Hz" : "m", set == 1 ? "V" : "nm",
-                 variant == 1 ? "4294967.296" : "65.536", variant == 1 ? "-2147483.648" : "-32.768");
+                 variant == 1 ? "4294967.296" : "65.536",
+                 variant == 1 ? "-2147483.648" : "-32.768");
         text(m, line);
         snprintf(line, sizeof line, "SaveBits=%d\r\nSaveSign=%s\r\nSaveOrder=%s\r\n\r\n",
                  variant == 1 ? 32 : 16, variant == 2 ? "Unsigned" : "Signed",
@@ -923,7 +929,8 @@ static const struct made_file {
     {"FRT 1.01", "frt", "a.frt", make_frt, 1, HAS_LOST, 1e-9, 0},
     {"TrueMap", "tmd", "a.tmd", make_tmd, 0, HAS_LOST, 1e-6, 0},
     {"GelSight", "tmd", "a.tmd", make_tmd, 1, HAS_LOST, 1e-3, 0},
-    {"Surfer text", "grd", "a.grd", make_grd, 0, HAS_LOST | NO_SPACING | NO_UNIT | IS_TEXT, 1e-9, 0},
+    {"Surfer text", "grd", "a.grd", make_grd, 0, HAS_LOST | NO_SPACING | NO_UNIT | IS_TEXT, 1e-9,
+     0},
     {"Surfer 6", "grd", "a.grd", make_grd, 1, HAS_LOST | NO_SPACING | NO_UNIT, 1e-9, 0},
     {"Surfer 7", "grd", "a.grd", make_grd, 2, HAS_LOST | NO_SPACING | NO_UNIT, 1e-9, 0},
     {"ESRI", "esri", "a.asc", make_esri, 0, HAS_LOST | NO_SPACING | NO_UNIT | IS_TEXT, 1e-9, 0},

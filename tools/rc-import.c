@@ -303,8 +303,9 @@ pick_channel(struct tool *t, const struct rc_wish *wish, const struct rc_channel
                 return k;
         if (!isnan(wish->z_unit) || channel[0].unit[0] == '\0')
             return 0; /* its reader says what it lacks */
-        tool_die(t, EXIT_IMPOSSIBLE, "%s: no channel is a height: there are %s; --channel takes one "
-                                     "as it is, --z-unit says how many metres its unit is",
+        tool_die(t, EXIT_IMPOSSIBLE,
+                 "%s: no channel is a height: there are %s; --channel takes one "
+                 "as it is, --z-unit says how many metres its unit is",
                  t->source, channel_names(channel, n, names, sizeof names));
     }
     for (size_t k = 0; k < n; k++)
