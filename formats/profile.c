@@ -81,6 +81,8 @@ pick_columns(struct profile *p, struct rc_err *err)
     if (columns > 2 && p->table.titles < 2)
         return rc_err_set(err, "a table of %zu columns without titles: which are positions and "
                                "heights?", columns);
+    if (rc_table_read(&p->table, err) != RC_OK)
+        return RC_FAIL;
     p->valid = columns;
     for (size_t k = 0; k < columns; k++)
         if (rc_piece_begins(title_of(p, k), "valid"))

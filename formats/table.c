@@ -93,7 +93,6 @@ rc_table_open(struct rc_table *t, const struct rc_file *file, const struct rc_wi
 {
     struct rc_piece text = {(const char *)file->data, file->size}, line, before = {"", 0};
     struct rc_lines lines, ahead;
-    size_t n;
 
     *t = (struct rc_table){0};
     if (file->size >= 2 && (memcmp(file->data, "\xff\xfe", 2) == 0 ||
@@ -117,11 +116,19 @@ rc_table_open(struct rc_table *t, const struct rc_file *file, const struct rc_wi
     if (rc_rows_start(&t->rows, &lines, wish, err) != RC_OK)
         return RC_FAIL;
     part_titles(t, before);
+    return RC_OK;
+}
+
+enum rc_status
+rc_table_read(struct rc_table *t, struct rc_err *err)
+{
+    size_t n, bytes = (size_t)(t->rows.end - t->rows.start);
+
     if (rc_size_mul(t->rows.rows, t->rows.columns, &n, err) != RC_OK)
         return RC_FAIL;
-    if (n > text.n + 1) /* a value takes a byte at least */
+    if (n > bytes + 1) /* a value takes a byte at least */
         return rc_err_set(err, "%zu columns and %zu rows in %zu bytes: some row is too short",
-                          t->rows.columns, t->rows.rows, text.n);
+                          t->rows.columns, t->rows.rows, bytes);
     if ((t->v = malloc(n * sizeof *t->v)) == NULL)
         return rc_err_set(err, "out of memory for %zu values", n);
     return rc_rows_read(&t->rows, t->v, err);

@@ -15,13 +15,15 @@ struct rc_table {
     struct rc_rows rows;
     struct rc_piece title[RC_TITLES_MOST]; /* of the columns, from the line before the first row */
     size_t titles;
-    double *v; /* rows.rows * rows.columns values */
+    double *v; /* rows.rows * rows.columns values; NULL: not yet read */
 };
 
-/* Reads the first table of at least two columns. RC_FAIL when there is none or a row of it is not
- * as the first one. The caller closes it in either case. */
+/* Finds the first table of at least two columns: rows and titles. RC_FAIL when there is none. The
+ * caller closes it in either case. */
 enum rc_status rc_table_open(struct rc_table *table, const struct rc_file *file,
                              const struct rc_wish *wish, struct rc_err *err);
+/* Then its values. RC_FAIL names the row that is not as the first one. */
+enum rc_status rc_table_read(struct rc_table *table, struct rc_err *err);
 void rc_table_close(struct rc_table *table);
 
 #endif

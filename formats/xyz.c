@@ -73,6 +73,8 @@ cloud_open(struct cloud *c, const struct rc_file *file, const struct rc_wish *wi
     if (c->table.rows.columns != 3)
         return rc_err_set(err, "a list of points has 3 columns, this table has %zu",
                           c->table.rows.columns);
+    if (rc_table_read(&c->table, err) != RC_OK)
+        return RC_FAIL;
     if (find_axis(c->table.v, c->table.rows.rows, 'x', &c->x, err) != RC_OK ||
         find_axis(c->table.v + 1, c->table.rows.rows, 'y', &c->y, err) != RC_OK)
         return RC_FAIL;

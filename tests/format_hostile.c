@@ -6,6 +6,7 @@
 #include <cmocka.h>
 
 #include "formats/format.h"
+#include "formats/utf8.h"
 #include "made_files.h"
 
 enum {
@@ -38,6 +39,17 @@ check_sound(const struct made_file *f, const struct rc_grid *g, size_t size)
             fail_msg("%s: an infinite height", f->title);
 }
 
+/* What is said and shown must not act on a terminal. */
+static void
+check_words(const struct made_file *f, const char *words)
+{
+    if (!rc_utf8_valid(words))
+        fail_msg("%s: '%s' is no UTF-8", f->title, words);
+    for (const char *s = words; *s != '\0'; s++)
+        if ((unsigned char)*s < ' ' || *s == 0x7f)
+            fail_msg("%s: '%s' holds a control character", f->title, words);
+}
+
 /* Reads all channels; gives the one numbered `wanted`, or NULL. The bytes stand in a block of their
  * own length, so that a step too far is seen. */
 static struct rc_grid *
@@ -58,6 +70,7 @@ read_all(const struct made_file *f, const unsigned char *bytes, size_t n, size_t
     channels = format->list(&file, &wish, channel, CHANNELS, err);
     if (channels == 0 && err->text[0] == '\0')
         fail_msg("%s, %zu bytes: not listed, without a reason", f->title, n);
+    check_words(f, err->text);
     for (size_t k = 0; k < channels && k < CHANNELS; k++) {
         struct rc_notes notes = {0};
         struct rc_grid *g;
@@ -66,6 +79,9 @@ read_all(const struct made_file *f, const unsigned char *bytes, size_t n, size_t
         g = format->read(&file, &wish, k, &notes, err);
         if (g == NULL && err->text[0] == '\0')
             fail_msg("%s, %zu bytes: refused without a reason", f->title, n);
+        check_words(f, err->text);
+        check_words(f, channel[k].name);
+        check_words(f, channel[k].unit);
         if (g != NULL)
             check_sound(f, g, n);
         if (k == wanted)

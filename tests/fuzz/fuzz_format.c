@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "formats/format.h"
+#include "formats/utf8.h"
 
 enum {
     CHANNELS = 4 /* that are read of a file */
@@ -31,6 +32,20 @@ check(const struct rc_grid *g, size_t size)
         }
 }
 
+/* What is said and shown must not act on a terminal. */
+static void
+check_words(const char *words)
+{
+    bool good = rc_utf8_valid(words);
+
+    for (const char *s = words; *s != '\0'; s++)
+        good = good && (unsigned char)*s >= ' ' && *s != 0x7f;
+    if (!good) {
+        fprintf(stderr, "'%s' is not clean\n", words);
+        abort();
+    }
+}
+
 int
 LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
@@ -51,6 +66,7 @@ LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     n = format->list(&file, &wish, channel, CHANNELS, &err);
     if (n == 0 && err.text[0] == '\0')
         abort();
+    check_words(err.text);
     for (size_t k = 0; k < (n < CHANNELS ? n : CHANNELS); k++) {
         struct rc_notes notes = {0};
         struct rc_grid *g;
@@ -59,6 +75,9 @@ LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         g = format->read(&file, &wish, k, &notes, &err);
         if (g == NULL && err.text[0] == '\0')
             abort();
+        check_words(err.text);
+        check_words(channel[k].name);
+        check_words(channel[k].unit);
         if (g != NULL)
             check(g, size);
         rc_grid_free(g);
