@@ -103,7 +103,7 @@ step(const struct rc_file *file, struct rc_bytes *b, size_t dimension)
     double metres = NAN;
 
     rc_length_unit(unit.text, unit.n, &metres);
-    return fabs(rc_bytes_at(b, AT_STEPS + 8 * dimension, RC_RAW_F64)) * metres;
+    return rc_bytes_at(b, AT_STEPS + 8 * dimension, RC_RAW_F64) * metres;
 }
 
 static enum rc_status

@@ -1,7 +1,7 @@
 /*
  * Wyko OPD: a directory of blocks, which follow each other from byte 2 on in its order. The heights
- * are in one of them column by column, the bottom row first, in units of the wavelength; the other
- * blocks that matter hold one number or text each.
+ * are in one of them column by column, the bottom row first, in units of the wavelength over Mult;
+ * the other blocks that matter hold one number or text each.
  */
 #include <math.h>
 #include <string.h>
@@ -132,7 +132,7 @@ opd_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     map->raw = size == 2 ? RC_RAW_I16 : RC_RAW_F32;
     map->lost_from = size == 2 ? 32766 : (double)1e38f;
     map->lost_to = INFINITY;
-    map->scale = size == 2 ? o.wavelength / o.factor : o.wavelength;
+    map->scale = o.wavelength / o.factor;
     map->dx = o.pixel * 1e-3;
     map->dy = o.pixel * o.aspect * 1e-3;
     strcpy(map->unit, "m");

@@ -404,7 +404,7 @@ text_lies(void **state)
         {"sdf", make_sdf_text, 0, "NumPoints = 3", "NumPoints = x", "'x': that is no number", 0},
         {"sdf", make_sdf_text, 0, "BAD", "bed", "'bed': that is no number", 0},
         {"sdf", make_sdf_text, 0, "1.1E-6", "-1.1E6", "spacing in x is -1100000", 0},
-        {"al3d", make_al3d, 0, "540\0", "9999", "begins at byte 9999", 0},
+        {"al3d", make_al3d, 0, "800\0", "9999", "begins at byte 9999", 0},
         {"nanoscope", make_nanoscope, 0, "offset: 1024", "offset: 1034", "from byte 1034", 0},
         {"nanoscope", make_nanoscope, 0, "Samps/line: 3", "Samps/line: 0", "Samps/line) is 0", 0},
         {"nanoscope", make_nanoscope, 0, "File list end", "Fool list end", "does not end", 0},

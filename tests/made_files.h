@@ -227,6 +227,7 @@ opd_entry(struct made *m, const char *name, int type, double length)
     text_at(m, at, name);
     number_at(m, at + 16, RC_RAW_I16, type);
     number_at(m, at + 18, RC_RAW_I32, length);
+    number_at(m, at + 22, RC_RAW_U16, 0xffff);
 }
 
 /* 0: floats in RAW_DATA, 1: 16 bits in "RAW DATA", 2: floats in Raw */
@@ -304,12 +305,13 @@ make_al3d(struct made *m, int variant)
     al3d_tag(m, "Cols", "3");
     al3d_tag(m, "PlaceHolder", "BM\x1b\xff");
     al3d_tag(m, "Rows", "2");
-    al3d_tag(m, "DepthImageOffset", "540");
+    al3d_tag(m, "DepthImageOffset", "800");
     al3d_tag(m, "PixelSizeXMeter", "1.1e-06");
     al3d_tag(m, "PixelSizeYMeter", "1.29e-06");
     al3d_tag(m, "InvalidPixelValue", "3.00000002e+15");
     al3d_tag(m, "Creator", "x");
-    zeros(m, 540 - m->n);
+    zeros(m, 800 - m->n);
+    text_at(m, 17 + 52 * 10 + 254, "\r\n"); /* a comment of 256 bytes */
     numbers(m, RC_RAW_F32, ROWS, 3.00000002e15, 4);
 }
 
@@ -334,7 +336,9 @@ make_nanoscope(struct made *m, int variant)
 {
     char line[200];
 
-    text(m, "\\*File list\r\n\\Version: 0x09300201\r\n\\Data length: 1024\r\n\\Date: 02:03:59 PM "
+    text(m, variant == 1 ? "\\*File list\r\n\\Version: 0x09300201\r\n"
+                         : "\\*File list\r\n\\Version: 0x05310001\r\n");
+    text(m, "\\Data length: 1024\r\n\\Date: 02:03:59 PM "
             "Wed May 06 2015\r\n"
             "\\*Scanner list\r\n\\@Sens. Zscan: V 12.5 nm/V\r\n"
             "\\*Ciao scan list\r\n\\Scan size: 3300 nm\r\n"
@@ -536,12 +540,12 @@ make_ibw(struct made *m, int variant)
 static void
 make_mi(struct made *m, int variant)
 {
-    text(m, "fileType      Image\r\nversion       PicoView\r\nxSensitivity  1\r\n"
-            "xNonlinearity21.23\r\nxPixels       3\r\nyPixels       2\r\nxLength       3.3e-006\r\n"
-            "yLength       2.58e-006\r\nbufferLabel   Friction\r\nbufferRange   1\r\n"
-            "bufferUnit    V\r\nbufferLabel   Topography\r\nbufferRange   0.032768\r\n"
-            "bufferUnit    um\r\n");
-    text(m, variant == 0 ? "data          BINARY\r\n" : "data          BINARY_32\r\n");
+    text(m, "fileType      Image\nversion       PicoView\nxSensitivity  1\n"
+            "xNonlinearity21.23\nxPixels       3\nyPixels       2\nxLength       3.3e-006\n"
+            "yLength       2.58e-006\nbufferLabel   Friction\nbufferRange   1\n"
+            "bufferUnit    V\nbufferLabel   Topography\nbufferRange   0.032768\n"
+            "bufferUnit    um\n");
+    text(m, variant == 0 ? "data          BINARY\n" : "data          BINARY_32\n");
     zeros(m, variant == 0 ? 12 : 24);
     numbers(m, variant == 0 ? RC_RAW_I16 : RC_RAW_I32, BOTTOM, 50, 0);
 }
@@ -893,9 +897,9 @@ static const struct made_file {
     {"SUR 32 bits", "sur", "a.sur", make_sur, 1, HAS_LOST, 0.25e-9, 100e-9},
     {"SUR compressed", "sur", "a.sur", make_sur, 2, HAS_LOST, 0.25e-9, 100e-9},
     {"SUR without lost points", "sur", "a.sur", make_sur, 3, 0, 0.25e-9, 100e-9},
-    {"OPD floats", "opd", "a.opd", make_opd, 0, HAS_LOST, 640e-9, 0},
+    {"OPD floats", "opd", "a.opd", make_opd, 0, HAS_LOST, 80e-9, 0},
     {"OPD 16 bits", "opd", "a.opd", make_opd, 1, HAS_LOST, 80e-9, 0},
-    {"OPD Raw", "opd", "a.opd", make_opd, 2, HAS_LOST, 640e-9, 0},
+    {"OPD Raw", "opd", "a.opd", make_opd, 2, HAS_LOST, 80e-9, 0},
     {"MetroPro 0", "metropro", "a.dat", make_metropro, 0, HAS_LOST | SQUARE, 6.25e-7 / 4096, 0},
     {"MetroPro 1", "metropro", "a.dat", make_metropro, 1, HAS_LOST | SQUARE, 6.25e-7 / 32768, 0},
     {"MetroPro 2", "metropro", "a.dat", make_metropro, 2, HAS_LOST | SQUARE, 6.25e-7 / 131072, 0},
