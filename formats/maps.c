@@ -93,11 +93,12 @@ rc_map_count(const char *what, double number, size_t *count, struct rc_err *err)
 }
 
 enum rc_status
-rc_map_bound(const struct rc_map *map, const struct rc_file *file, struct rc_err *err)
+rc_map_bound(const struct rc_map *map, const struct rc_file *file, double unpacked,
+             struct rc_err *err)
 {
     double most = 16 * (double)file->size + 67108864;
 
-    if (8 * (double)map->nx * (double)map->ny <= most)
+    if (8 * (double)map->nx * (double)map->ny + unpacked <= most)
         return RC_OK;
     return rc_err_set(err, "the header promises %zu x %zu heights in %zu bytes: that cannot be",
                       map->nx, map->ny, file->size);

@@ -68,8 +68,9 @@ bool rc_map_range(const struct rc_map *map, const struct rc_file *file, double *
 void rc_map_hint(struct rc_map *map, const char *dx, const char *dy);
 /* A whole number from 1 to 2^31 - 1 as a header has it, or RC_FAIL with its name. */
 enum rc_status rc_map_count(const char *what, double number, size_t *count, struct rc_err *err);
-/* RC_FAIL when 8*nx*ny exceeds 16 times the file and 64 MiB: for what is packed in the file. */
-enum rc_status rc_map_bound(const struct rc_map *map, const struct rc_file *file,
+/* RC_FAIL when the map and `unpacked` bytes exceed 16 times the file and 64 MiB: for what is packed
+ * in the file. */
+enum rc_status rc_map_bound(const struct rc_map *map, const struct rc_file *file, double unpacked,
                             struct rc_err *err);
 /* The fill of a map that is text: numbers parted by white space from `at` on. */
 enum rc_status rc_map_fill_text(const struct rc_file *file, const struct rc_wish *wish,

@@ -69,7 +69,7 @@ rc_maps_list(rc_maps_find *find, const struct rc_file *file, const struct rc_wis
         strcpy(channel[k].name, map->name);
         strcpy(channel[k].unit, map->unit);
     }
-    return maps.n < RC_MAPS_MOST ? maps.n : RC_MAPS_MOST;
+    return maps.n;
 }
 
 /* ---- values ---- */

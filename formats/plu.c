@@ -13,11 +13,16 @@ enum {
     AT_COLUMNS = 0x188,
     AT_X = 0x194,
     AT_Y = 0x198,
+    AT_TYPE = 0x1ac,
     AT_ROWS_AGAIN = 0x1f4,
     AT_COLUMNS_AGAIN = 0x1f8,
     HEADER = 0x1fc,
-    LOST = 1000001
+    LOST = 1000001,
+    TOPOGRAPHY = 3
 };
+
+static const char *const types[] = {"an image", "a profile", "profiles", NULL, "coordinates",
+                                    "thicknesses", "something else"};
 
 static bool
 sizes_agree(const struct rc_file *file)
@@ -32,6 +37,7 @@ plu_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     struct rc_bytes b = rc_file_bytes(file, false);
     struct rc_map *map = rc_maps_add(maps, "", 0);
     struct rc_piece date;
+    double type;
 
     (void)wish;
     if (!sizes_agree(file))
@@ -40,6 +46,10 @@ plu_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     if (rc_map_count("columns", rc_bytes_at(&b, AT_COLUMNS, RC_RAW_U32), &map->nx, err) != RC_OK ||
         rc_map_count("rows", rc_bytes_at(&b, AT_ROWS, RC_RAW_U32), &map->ny, err) != RC_OK)
         return RC_FAIL;
+    type = rc_bytes_at(&b, AT_TYPE, RC_RAW_U32);
+    if (type != TOPOGRAPHY)
+        return rc_err_set(err, "the file holds %s (type %g): only topographies are read",
+                          types[type < 6 ? (size_t)type : 6], type);
     strcpy(map->unit, "m");
     map->si = 1e-6;
     map->raw = RC_RAW_F32;
@@ -67,7 +77,9 @@ plu_score(const struct rc_file *file)
         has_day = has_day || rc_file_holds(file, 0, days + 3 * k, 3);
     if (!has_day && !rc_file_named(file, ".plu"))
         return 0;
-    return plu_find(file, &wish, &maps, NULL) == RC_OK ? (has_day ? 80 : 40) : 0;
+    if (plu_find(file, &wish, &maps, NULL) == RC_OK)
+        return has_day ? 80 : 40;
+    return has_day ? 20 : 0; /* so that the refusal says what it holds */
 }
 
 RC_FORMAT_OF_MAPS(plu)

@@ -203,7 +203,7 @@ sur_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     map->at = HEADER + (size_t)comment_n + (size_t)private_n;
     if (is_packed) {
         map->fill = fill_packed;
-        if (rc_map_bound(map, file, err) != RC_OK)
+        if (rc_map_bound(map, file, columns * rows * bits / 8, err) != RC_OK)
             return RC_FAIL;
     }
     comment = rc_file_text(file, HEADER, (size_t)comment_n);

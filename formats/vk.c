@@ -66,7 +66,7 @@ unpack_member(struct rc_archive *archive, size_t member, const struct rc_file *f
 
     if (rc_archive_size(archive, member, &size, err) != RC_OK)
         return RC_FAIL;
-    if (size / 8 > file->size + 4194304)
+    if (size / 16 > file->size + 4194304)
         return rc_err_set(err, "the archive in the file promises %g MB out of %g: that cannot be",
                           (double)size / 1e6, (double)file->size / 1e6);
     if ((buffer.bytes = malloc(size == 0 ? 1 : (size_t)size)) == NULL)
@@ -210,8 +210,10 @@ vk_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *
         return find_plain(file, maps, err);
     if ((status = unpack(file, &inner, err)) == RC_OK)
         status = find_plain(&inner, maps, err);
-    for (size_t k = 0; k < maps->n; k++)
+    for (size_t k = 0; k < maps->n && status == RC_OK; k++) {
         maps->map[k].fill = fill_packed;
+        status = rc_map_bound(&maps->map[k], file, (double)inner.size, err);
+    }
     free((void *)(uintptr_t)inner.data);
     return status;
 }

@@ -325,6 +325,8 @@ make_plu(struct made *m, int variant)
     number_at(m, 0x188, RC_RAW_U32, NX);
     number_at(m, 0x194, RC_RAW_F32, 1.1);
     number_at(m, 0x198, RC_RAW_F32, 1.29);
+    number_at(m, 0x18c, RC_RAW_U32, NX);
+    number_at(m, 0x1ac, RC_RAW_U32, 3);
     number_at(m, 0x1f4, RC_RAW_U32, NY);
     number_at(m, 0x1f8, RC_RAW_U32, NX);
     numbers(m, RC_RAW_F32, ROWS, 1000001, 0);
