@@ -42,7 +42,6 @@ esri_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps
     const char *text = (const char *)file->data, *at = text;
     struct rc_lines lines = {.at = text, .end = text + file->size};
     struct esri e = {.cell = NAN, .dx = NAN, .dy = NAN, .lost = -9999};
-    char a[RC_NUMBER_SIZE], b[RC_NUMBER_SIZE];
     struct rc_map *map = rc_maps_add(maps, "", 0);
     struct rc_piece line, key, value;
 
@@ -65,8 +64,7 @@ esri_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps
     if (rc_map_is_text(map, file, (size_t)(at - text), err) != RC_OK)
         return RC_FAIL;
     map->lost_from = map->lost_to = e.lost;
-    rc_map_hint(map, rc_number_text(a, isnan(e.dx) ? e.cell : e.dx),
-                rc_number_text(b, isnan(e.dy) ? e.cell : e.dy));
+    rc_map_hint(map, isnan(e.dx) ? e.cell : e.dx, isnan(e.dy) ? e.cell : e.dy);
     return RC_OK;
 }
 

@@ -19,11 +19,10 @@ enum {
 static void
 set_limits(struct rc_map *map, const double limit[4])
 {
-    char a[RC_NUMBER_SIZE], b[RC_NUMBER_SIZE];
     double dx = (limit[1] - limit[0]) / ((double)map->nx - 1);
     double dy = (limit[3] - limit[2]) / ((double)map->ny - 1);
 
-    rc_map_hint(map, rc_number_text(a, dx), rc_number_text(b, map->ny > 1 ? dy : dx));
+    rc_map_hint(map, dx, map->ny > 1 ? dy : dx);
 }
 
 static enum rc_status
@@ -61,7 +60,7 @@ find_new(const struct rc_file *file, struct rc_map *map, struct rc_err *err)
 {
     struct rc_bytes b = rc_file_bytes(file, false);
     double dx = NAN, dy = NAN, n, nx = NAN, ny = NAN;
-    char one[RC_NUMBER_SIZE], two[RC_NUMBER_SIZE], quote[RC_SHOWN];
+    char quote[RC_SHOWN];
 
     for (size_t at = 0; file->size - at >= SECTION; at += SECTION + (size_t)n) {
         n = rc_bytes_at(&b, at + 4, RC_RAW_I32);
@@ -90,7 +89,7 @@ find_new(const struct rc_file *file, struct rc_map *map, struct rc_err *err)
         return rc_err_set(err, "%zu x %zu values are promised, the section DATA has %zu bytes",
                           map->nx, map->ny, map->more);
     map->raw = RC_RAW_F64;
-    rc_map_hint(map, rc_number_text(one, dx), rc_number_text(two, dy));
+    rc_map_hint(map, dx, dy);
     return RC_OK;
 }
 

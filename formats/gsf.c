@@ -32,7 +32,6 @@ gsf_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     struct gsf g = {.width = NAN, .height = NAN, .xy = {"", 0}, .z = {"", 0}, .title = {"", 0}};
     struct rc_lines lines = {.at = text + strlen(magic)};
     struct rc_map *map;
-    double metres = NAN;
 
     (void)wish;
     if (!rc_file_holds(file, 0, magic, strlen(magic)))
@@ -48,9 +47,7 @@ gsf_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
         return RC_FAIL;
     map->raw = RC_RAW_F32;
     map->at = (size_t)(nul - text) / 4 * 4 + 4;
-    rc_length_unit(g.xy.text, g.xy.n, &metres);
-    map->dx = g.width * metres / g.columns;
-    map->dy = g.height * metres / g.rows;
+    rc_map_steps(map, g.width / g.columns, g.height / g.rows, g.xy);
     rc_map_unit(map, g.z.text, g.z.n);
     return RC_OK;
 }

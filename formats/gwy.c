@@ -221,7 +221,6 @@ add_field(const struct rc_file *file, const struct item *item, struct rc_maps *m
           struct rc_err *err)
 {
     struct rc_map *map = rc_maps_add(maps, "", 0);
-    double metres = NAN;
     struct field f;
 
     if (read_field(file, item, &f, err) != RC_OK ||
@@ -232,9 +231,7 @@ add_field(const struct rc_file *file, const struct item *item, struct rc_maps *m
         return rc_err_set(err, "a field of %zu x %zu values holds %zu", map->nx, map->ny, f.count);
     map->raw = RC_RAW_F64;
     map->at = f.data;
-    rc_length_unit(f.xy.text, f.xy.n, &metres);
-    map->dx = f.width * metres / f.nx;
-    map->dy = f.height * metres / f.ny;
+    rc_map_steps(map, f.width / f.nx, f.height / f.ny, f.xy);
     rc_map_unit(map, f.z.text, f.z.n);
     return RC_OK;
 }

@@ -75,9 +75,24 @@ rc_map_unit(struct rc_map *map, const char *text, size_t n)
 }
 
 void
-rc_map_hint(struct rc_map *map, const char *dx, const char *dy)
+rc_map_hint(struct rc_map *map, double dx, double dy)
 {
-    snprintf(map->hint, sizeof map->hint, " (its steps are %s and %s of a unit not given)", dx, dy);
+    char x[RC_NUMBER_SIZE], y[RC_NUMBER_SIZE];
+
+    snprintf(map->hint, sizeof map->hint, " (its steps are %s and %s of a unit not given)",
+             rc_number_text(x, dx), rc_number_text(y, dy));
+}
+
+void
+rc_map_steps(struct rc_map *map, double dx, double dy, struct rc_piece unit)
+{
+    double metres = NAN;
+
+    rc_length_unit(unit.text, unit.n, &metres);
+    map->dx = dx * metres;
+    map->dy = dy * metres;
+    if (isnan(metres))
+        rc_map_hint(map, dx, dy);
 }
 
 enum rc_status

@@ -65,7 +65,10 @@ void rc_map_unit(struct rc_map *map, const char *text, size_t n);
  * the file or every one is missing. */
 bool rc_map_range(const struct rc_map *map, const struct rc_file *file, double *low, double *high);
 /* Remembers the steps of a file that has them without a unit. */
-void rc_map_hint(struct rc_map *map, const char *dx, const char *dy);
+void rc_map_hint(struct rc_map *map, double dx, double dy);
+/* Sets dx and dy from the steps in the file's unit of length; the steps become a hint when the unit
+ * is none. */
+void rc_map_steps(struct rc_map *map, double dx, double dy, struct rc_piece unit);
 /* A whole number from 1 to 2^31 - 1 as a header has it, or RC_FAIL with its name. */
 enum rc_status rc_map_count(const char *what, double number, size_t *count, struct rc_err *err);
 /* RC_FAIL when the map and `unpacked` bytes exceed 16 times the file and 64 MiB: for what is packed

@@ -195,23 +195,17 @@ profile_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_m
     struct rc_map *map = rc_maps_add(maps, "", 0);
     struct rc_piece unit;
     enum rc_status status;
-    double metres = NAN;
     struct profile p;
-    char step[RC_NUMBER_SIZE];
 
     status = profile_open(&p, file, wish, err);
     if (status == RC_OK)
         status = judge_steps(&p, err);
     if (status == RC_OK) {
-        unit = unit_of(title_of(&p, p.x));
-        rc_length_unit(unit.text, unit.n, &metres);
         map->nx = p.table.rows.rows;
         map->ny = 1;
-        map->dx = map->dy = p.step * metres;
+        rc_map_steps(map, p.step, p.step, unit_of(title_of(&p, p.x)));
         map->right_first = p.falls;
         map->fill = fill_heights;
-        rc_number_text(step, p.step);
-        rc_map_hint(map, step, step);
         unit = unit_of(title_of(&p, p.z));
         rc_map_unit(map, unit.text, unit.n);
     }

@@ -124,7 +124,6 @@ xyz_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
          struct rc_err *err)
 {
     struct rc_map *map = rc_maps_add(maps, "", 0);
-    char dx[RC_NUMBER_SIZE], dy[RC_NUMBER_SIZE];
     enum rc_status status;
     struct cloud c;
 
@@ -133,8 +132,7 @@ xyz_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
         map->nx = c.x.n;
         map->ny = c.y.n;
         map->fill = fill_points;
-        rc_map_hint(map, rc_number_text(dx, c.x.step),
-                    rc_number_text(dy, c.y.n > 1 ? c.y.step : c.x.step));
+        rc_map_hint(map, c.x.step, c.y.n > 1 ? c.y.step : c.x.step);
     }
     rc_table_close(&c.table);
     return status;

@@ -87,7 +87,7 @@ static const char probes_under_mask[] = "generated/frt-2.gwy";
 static const char single[] = "truemap-tmd/SurfaceTopography__tmd-1.tmd";
 
 static const char *folder;
-static size_t faults;
+static size_t faults, steps_checked;
 
 __attribute__((format(printf, 1, 2))) static void
 fault(const char *format, ...)
@@ -262,6 +262,26 @@ first_height(const struct rc_format *format, const struct rc_file *file,
     return 0;
 }
 
+/* A file that has steps without a unit is refused by them; they must be those of the manifest. */
+static void
+check_steps(char *column[COLUMNS], const struct rc_format *format, const struct rc_file *file)
+{
+    struct rc_wish wish = {.dx = NAN, .dy = NAN, .z_unit = 1};
+    double dx = strtod(column[DX], NULL), dy = strtod(column[DY], NULL);
+    struct rc_err err = {""};
+    struct rc_grid *g = format->read(file, &wish, 0, NULL, &err);
+    const char *steps = strstr(err.text, "its steps are ");
+    char *end;
+
+    rc_grid_free(g);
+    if (g != NULL || steps == NULL || isnan(dx))
+        return;
+    check_near(column[FILE_NAME], "the step in x", strtod(steps + 14, &end), dx, 1e-12 * dx);
+    if (!isnan(dy) && strncmp(end, " and ", 5) == 0)
+        check_near(column[FILE_NAME], "the step in y", strtod(end + 5, NULL), dy, 1e-12 * dy);
+    steps_checked++;
+}
+
 static void
 check_file(char *column[COLUMNS], const char *reader, const struct rc_file *file)
 {
@@ -290,6 +310,8 @@ check_file(char *column[COLUMNS], const char *reader, const struct rc_file *file
         fault("%s: %s", column[FILE_NAME], format == NULL ? err.text : format->name);
         return;
     }
+    if (strcmp(column[LATERAL_UNIT], "unknown") == 0)
+        check_steps(column, format, file);
     g = format->read(file, &wish, first_height(format, file, &wish), &notes, &err);
     if (g != NULL && reason == NULL)
         check_grid(column, g);
@@ -363,7 +385,8 @@ rows_of_the_manifest(void **state)
         read++;
     }
     fclose(f);
-    printf("%zu channels as in the manifest; %zu are of formats without a reader\n", read, others);
+    printf("%zu channels as in the manifest, %zu with steps that lack a unit; %zu are of formats "
+           "without a reader\n", read, steps_checked, others);
     assert_true(read > 0);
     if (faults > 0)
         fail_msg("%zu faults", faults);
