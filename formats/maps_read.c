@@ -48,6 +48,8 @@ describe(rc_maps_find *find, const struct rc_file *file, const struct rc_wish *w
         if (map->name[0] == '\0')
             strcpy(map->name, map->unit[0] == '\0' || strcmp(map->unit, "m") == 0 ? "height"
                                                                                   : "values");
+        if (map->ny == 1)
+            map->dy = map->dx; /* a profile: what its file says of y has no meaning */
         if (check_map(map, file, err) != RC_OK)
             return RC_FAIL;
     }

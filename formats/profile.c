@@ -2,7 +2,7 @@
  * Profiles as text: a column of positions, evenly apart, and one of heights, behind a header of
  * whatever kind. The line before the first row may have titles, in which units of length are looked
  * for; a column that counts the points is passed over, one titled "valid" marks missing points by
- * 0.
+ * 0. A single column is of heights.
  */
 #include <math.h>
 #include <string.h>
@@ -78,6 +78,11 @@ pick_columns(struct profile *p, struct rc_err *err)
 {
     size_t columns = p->table.rows.columns, c = 0;
 
+    if (columns == 1) {
+        p->z = 0;
+        p->valid = 1;
+        return rc_table_read(&p->table, err);
+    }
     if (columns > 2 && p->table.titles < 2)
         return rc_err_set(err, "a table of %zu columns without titles: which are positions and "
                                "heights?", columns);
@@ -161,8 +166,17 @@ profile_open(struct profile *p, const struct rc_file *file, const struct rc_wish
     char quote[RC_SHOWN];
     double metres;
 
-    if (rc_table_open(&p->table, file, wish, err) != RC_OK || pick_columns(p, err) != RC_OK)
+    if (rc_table_open(&p->table, file, 2, wish, NULL) != RC_OK) {
+        rc_table_close(&p->table);
+        if (rc_table_open(&p->table, file, 1, wish, err) != RC_OK)
+            return RC_FAIL;
+    }
+    if (pick_columns(p, err) != RC_OK)
         return RC_FAIL;
+    p->falls = false;
+    p->step = NAN;
+    if (p->table.rows.columns == 1)
+        return RC_OK;
     unit = unit_of(title_of(p, p->x));
     if (unit.n > 0 && !rc_length_unit(unit.text, unit.n, &metres))
         return rc_err_set(err, "the positions are in '%s', which is no length",
@@ -198,12 +212,13 @@ profile_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_m
     struct profile p;
 
     status = profile_open(&p, file, wish, err);
-    if (status == RC_OK)
+    if (status == RC_OK && p.table.rows.columns > 1)
         status = judge_steps(&p, err);
     if (status == RC_OK) {
         map->nx = p.table.rows.rows;
         map->ny = 1;
-        rc_map_steps(map, p.step, p.step, unit_of(title_of(&p, p.x)));
+        if (p.table.rows.columns > 1)
+            rc_map_steps(map, p.step, p.step, unit_of(title_of(&p, p.x)));
         map->right_first = p.falls;
         map->fill = fill_heights;
         unit = unit_of(title_of(&p, p.z));
@@ -223,8 +238,10 @@ profile_score(const struct rc_file *file)
 
     if (looked == 0 || (memchr(file->data, 0, looked) != NULL && file->data[0] < 0xfe))
         return 0;
-    /* a little for any other table, so that the refusal says what is wrong with it */
-    score = profile_open(&p, file, &no_wish, NULL) == RC_OK ? 60 : p.table.v != NULL ? 3 : 0;
+    score = profile_open(&p, file, &no_wish, NULL) == RC_OK ? 60 : 3;
+    /* 3: so that a table says what is wrong with it; one column could be anything */
+    if (p.table.v == NULL || p.table.rows.columns < 2)
+        score = 0;
     rc_table_close(&p.table);
     return score;
 }

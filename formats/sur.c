@@ -191,8 +191,6 @@ sur_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     map->zero = rc_bytes_at(&bytes, AT_Z_OFFSET, RC_RAW_F32);
     map->dx = step(file, &bytes, AT_X, AT_X_UNIT);
     map->dy = step(file, &bytes, AT_Y, AT_Y_UNIT);
-    if (map->ny == 1)
-        map->dy = map->dx; /* what stands there for a profile has no meaning */
     if (rc_bytes_at(&bytes, AT_LOST, RC_RAW_I16) == 1)
         map->lost_from = map->lost_to = rc_bytes_at(&bytes, AT_LEAST, RC_RAW_I32) - 2;
     comment_n = rc_bytes_at(&bytes, AT_COMMENT, RC_RAW_I16);

@@ -36,9 +36,9 @@ narrow(const struct rc_file *file, size_t *n)
     return text;
 }
 
-/* Whether the line has two numbers or more and nothing else. */
+/* Whether the line has so many numbers or more and nothing else. */
 static bool
-is_row(struct rc_piece line)
+is_row(struct rc_piece line, size_t columns)
 {
     size_t numbers = 0;
 
@@ -61,7 +61,7 @@ is_row(struct rc_piece line)
             return false;
         numbers++;
     }
-    return numbers > 1;
+    return numbers >= columns;
 }
 
 static void
@@ -88,8 +88,8 @@ part_titles(struct rc_table *t, struct rc_piece line)
 }
 
 enum rc_status
-rc_table_open(struct rc_table *t, const struct rc_file *file, const struct rc_wish *wish,
-              struct rc_err *err)
+rc_table_open(struct rc_table *t, const struct rc_file *file, size_t columns,
+              const struct rc_wish *wish, struct rc_err *err)
 {
     struct rc_piece text = {(const char *)file->data, file->size}, line, before = {"", 0};
     struct rc_lines lines, ahead;
@@ -107,7 +107,7 @@ rc_table_open(struct rc_table *t, const struct rc_file *file, const struct rc_wi
         if (lines.number == HEADER_MOST || !rc_lines_next(&ahead, &line.text, &line.n))
             return rc_err_set(err, "there is no table of numbers in the first %d lines",
                               HEADER_MOST);
-        if (is_row(line))
+        if (is_row(line, columns))
             break;
         if (rc_piece_trim(line).n > 0)
             before = line;

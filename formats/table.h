@@ -18,9 +18,9 @@ struct rc_table {
     double *v; /* rows.rows * rows.columns values; NULL: not yet read */
 };
 
-/* Finds the first table of at least two columns: rows and titles. RC_FAIL when there is none. The
- * caller closes it in either case. */
-enum rc_status rc_table_open(struct rc_table *table, const struct rc_file *file,
+/* Finds the first table of at least so many columns: rows and titles. RC_FAIL when there is none.
+ * The caller closes it in either case. */
+enum rc_status rc_table_open(struct rc_table *table, const struct rc_file *file, size_t columns,
                              const struct rc_wish *wish, struct rc_err *err);
 /* Then its values. RC_FAIL names the row that is not as the first one. */
 enum rc_status rc_table_read(struct rc_table *table, struct rc_err *err);

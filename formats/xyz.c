@@ -68,7 +68,7 @@ static enum rc_status
 cloud_open(struct cloud *c, const struct rc_file *file, const struct rc_wish *wish,
            struct rc_err *err)
 {
-    if (rc_table_open(&c->table, file, wish, err) != RC_OK)
+    if (rc_table_open(&c->table, file, 2, wish, err) != RC_OK)
         return RC_FAIL;
     if (c->table.rows.columns != 3)
         return rc_err_set(err, "a list of points has 3 columns, this table has %zu",
@@ -147,7 +147,7 @@ xyz_score(const struct rc_file *file)
     struct cloud c;
     int score = 0;
 
-    if (looked == 0 || memchr(file->data, 0, looked) != NULL)
+    if (looked == 0 || (memchr(file->data, 0, looked) != NULL && file->data[0] < 0xfe))
         return 0;
     if (cloud_open(&c, file, &no_wish, NULL) == RC_OK)
         score = named ? 80 : c.y.n > 1 && c.table.rows.rows > 3 ? 60 : 0;

@@ -205,6 +205,8 @@ static const struct {
     {"x [um] z [um]\n0 1\n1 2\n", 0, 0, 0, 0, "3 points at least"},
     {"0 1 2\n1 2 3\n2 3 4\n", 0, 0, 0, 0, "without titles"},
     {"x [um] z [um]\n0 1\n1 2 3\n2 3\n", 0, 0, 0, 0, "line 3"},
+    {"z [um]\n1\n2\n3\n", 0, 0, 0, 0, "--dx"},
+    {"1\n2 2\n3\n", 0, 0, 0, 0, "line 3"},
     {"words and no more\n", 0, 0, 0, 0, "no table"},
 };
 
@@ -261,6 +263,26 @@ text_profiles(void **state)
             check_profile(k, &m);
             free(m.b);
         }
+}
+
+/* Heights alone, for which the user has the spacing. */
+static void
+one_column(void **state)
+{
+    static const char heights[] = "Height (nm)\n5\nNaN\n7\n8\n";
+    struct rc_wish wish = {.dx = 2e-6, .dy = NAN, .z_unit = NAN};
+    struct rc_file file = {"made.txt", (const unsigned char *)heights, strlen(heights)};
+    struct rc_err err = {""};
+    struct rc_grid *g = rc_format_named("profile")->read(&file, &wish, 0, NULL, &err);
+
+    (void)state;
+    if (g == NULL)
+        fail_msg("%s", err.text);
+    assert_int_equal(g->nx, 4);
+    assert_int_equal(g->ny, 1);
+    assert_true(g->dx == 2e-6 && g->dy == 2e-6);
+    assert_true(fabs(g->v[0] - 5e-9) < 1e-20 && isnan(g->v[1]) && fabs(g->v[3] - 8e-9) < 1e-20);
+    rc_grid_free(g);
 }
 
 /* ---- refusals ---- */
@@ -468,7 +490,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(variants), cmocka_unit_test(other_channels), cmocka_unit_test(keys),
-        cmocka_unit_test(text_profiles), cmocka_unit_test(points), cmocka_unit_test(lies),
+        cmocka_unit_test(text_profiles), cmocka_unit_test(one_column), cmocka_unit_test(points), cmocka_unit_test(lies),
         cmocka_unit_test(text_lies),
     };
 
