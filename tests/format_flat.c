@@ -248,6 +248,26 @@ check_profile(size_t row, const struct made *m)
     rc_grid_free(g);
 }
 
+/* Cut anywhere, in a block of memory of its own length. */
+static void
+cut_profile(size_t row, const struct made *m)
+{
+    for (size_t n = 0; n < m->n; n++) {
+        struct made part = {0};
+        struct rc_err err = {""};
+        struct rc_grid *g;
+
+        part.b = malloc(n == 0 ? 1 : n);
+        memcpy(part.b, m->b, n);
+        part.n = n;
+        g = read_made("profile", &part, 0, &err);
+        if (g == NULL ? err.text[0] == '\0' : !(g->dx > 0) || g->ny != 1 || g->nx > profiles[row].n)
+            fail_msg("'%s' cut to %zu bytes", profiles[row].text, n);
+        rc_grid_free(g);
+        free(part.b);
+    }
+}
+
 static void
 text_profiles(void **state)
 {
@@ -261,6 +281,8 @@ text_profiles(void **state)
             else
                 widen(&m, profiles[k].text, wide == 2);
             check_profile(k, &m);
+            if (profiles[k].why == NULL)
+                cut_profile(k, &m);
             free(m.b);
         }
 }
