@@ -103,7 +103,7 @@ bcr_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     rc_map_unit(map, "nm", 2);
     if (kinds[kind].is_float && b.z_unit.n > 0)
         rc_map_unit(map, b.z_unit.text, b.z_unit.n);
-    map->scale = kinds[kind].is_float && b.z_unit.n > 0 ? 1 : b.bit2nm;
+    map->scale = kinds[kind].is_float ? 1 : b.bit2nm;
     map->lost_from = map->lost_to = b.lost;
     if (kinds[kind].is_float && b.lost > 1e30) {
         map->lost_from = b.lost * (1 - 1e-6); /* few digits of the largest float */

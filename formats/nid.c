@@ -197,7 +197,7 @@ static enum rc_status
 add_all(struct rc_piece header, struct rc_piece table, size_t at, struct rc_maps *maps,
         struct rc_err *err)
 {
-    struct entry entry[RC_MAPS_MOST];
+    struct entry entry[RC_MAPS_MOST] = {{0}};
     size_t n = find_entries(table, entry);
 
     for (size_t k = 0; k < n; k++) {

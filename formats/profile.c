@@ -250,7 +250,7 @@ RC_FORMAT_OF_MAPS(profile)
 
 const struct rc_format rc_format_profile = {
     .name = "profile",
-    .suffixes = ".txt .csv .asc",
+    .suffixes = ".txt .csv .asc .hfm",
     .summary = "profiles as text: positions and heights",
     .score = profile_score,
     .list = profile_list,
