@@ -30,14 +30,19 @@ open_zip(const struct rc_file *file, zip_error_t *why)
 struct rc_archive *
 rc_archive_new(const struct rc_file *file, struct rc_err *err)
 {
+    if (file->size >= 4 && memcmp(file->data, "PK", 2) == 0)
+        return rc_archive_behind(file, err);
+    rc_err_set(err, "no ZIP archive: it does not begin with 'PK'");
+    return NULL;
+}
+
+struct rc_archive *
+rc_archive_behind(const struct rc_file *file, struct rc_err *err)
+{
     struct rc_archive *a = NULL;
     zip_error_t why;
 
     zip_error_init(&why);
-    if (file->size < 4 || memcmp(file->data, "PK", 2) != 0) {
-        rc_err_set(err, "no ZIP archive: it does not begin with 'PK'");
-        goto done;
-    }
     if ((a = calloc(1, sizeof *a)) == NULL) {
         rc_err_set(err, "out of memory for an archive (%zu bytes)", sizeof *a);
         goto done;

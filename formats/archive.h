@@ -18,6 +18,8 @@ struct rc_archive;
 
 /* The file's bytes must outlive the archive. NULL when they are no ZIP archive or a damaged one. */
 struct rc_archive *rc_archive_new(const struct rc_file *file, struct rc_err *err);
+/* The same where other bytes stand before the archive, whose offsets count them. */
+struct rc_archive *rc_archive_behind(const struct rc_file *file, struct rc_err *err);
 void rc_archive_free(struct rc_archive *archive); /* NULL is allowed */
 
 size_t rc_archive_members(const struct rc_archive *archive);

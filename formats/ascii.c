@@ -372,8 +372,8 @@ ascii_open(const struct rc_file *file, const struct rc_wish *wish, struct header
                                "%zu", h->nx == 0 ? rows->columns : h->nx,
                           h->ny == 0 ? rows->rows : h->ny, rows->columns, rows->rows);
     if (rows->columns == 1)
-        return rc_err_set(err, "%zu numbers in one column: that is a profile or a list, no matrix",
-                          rows->rows);
+        return rc_err_set(err, "%zu numbers in one column: that is a profile or a list, no matrix "
+                               "(--format profile takes them for heights)", rows->rows);
     return RC_OK;
 }
 

@@ -41,49 +41,135 @@ size_t
 rc_raw_width(enum rc_raw raw)
 {
     static const size_t width[] = {
-        [RC_RAW_I16] = 2, [RC_RAW_I32] = 4, [RC_RAW_F32] = 4, [RC_RAW_F64] = 8};
+        [RC_RAW_U8] = 1,  [RC_RAW_U16] = 2, [RC_RAW_U32] = 4, [RC_RAW_U64] = 8,
+        [RC_RAW_I8] = 1,  [RC_RAW_I16] = 2, [RC_RAW_I32] = 4, [RC_RAW_I64] = 8,
+        [RC_RAW_F32] = 4, [RC_RAW_F64] = 8};
 
     return width[raw];
 }
 
-static double
-value_of(struct rc_bytes *b, enum rc_raw raw)
+/* Byte by byte, which compilers see through: a load, and a swap where the order is not theirs. */
+static inline uint16_t
+half_at(const unsigned char *s, bool big)
 {
+    return (uint16_t)(big ? s[0] << 8 | s[1] : s[1] << 8 | s[0]);
+}
+
+static inline uint32_t
+word_at(const unsigned char *s, bool big)
+{
+    return big ? (uint32_t)half_at(s, true) << 16 | half_at(s + 2, true)
+               : (uint32_t)half_at(s + 2, false) << 16 | half_at(s, false);
+}
+
+static inline uint64_t
+wide_at(const unsigned char *s, bool big)
+{
+    return big ? (uint64_t)word_at(s, true) << 32 | word_at(s + 4, true)
+               : (uint64_t)word_at(s + 4, false) << 32 | word_at(s, false);
+}
+
+static inline double
+value_at(const unsigned char *s, enum rc_raw raw, bool big)
+{
+    uint16_t half;
     uint32_t word;
     uint64_t wide;
     int16_t i16;
     int32_t i32;
+    int64_t i64;
     float f32;
     double f64;
 
     /* memcpy, because a conversion of an unsigned number too large for the signed type is the
      * compiler's choice */
     switch (raw) {
-    case RC_RAW_I16: {
-        uint16_t half = rc_bytes_u16(b);
+    case RC_RAW_U8:
+        return *s;
+    case RC_RAW_U16:
+        return half_at(s, big);
+    case RC_RAW_U32:
+        return word_at(s, big);
+    case RC_RAW_U64:
+        return (double)wide_at(s, big);
+    case RC_RAW_I8:
+        return *s < 128 ? *s : *s - 256;
+    case RC_RAW_I16:
+        half = half_at(s, big);
         memcpy(&i16, &half, sizeof i16);
         return i16;
-    }
     case RC_RAW_I32:
-        word = rc_bytes_u32(b);
+        word = word_at(s, big);
         memcpy(&i32, &word, sizeof i32);
         return i32;
+    case RC_RAW_I64:
+        wide = wide_at(s, big);
+        memcpy(&i64, &wide, sizeof i64);
+        return (double)i64;
     case RC_RAW_F32:
-        word = rc_bytes_u32(b);
+        word = word_at(s, big);
         memcpy(&f32, &word, sizeof f32);
         return (double)f32;
     default:
-        wide = rc_bytes_u64(b);
+        wide = wide_at(s, big);
         memcpy(&f64, &wide, sizeof f64);
         return f64;
+    }
+}
+
+/* A loop for each type and order, so that none of them asks at every number. */
+#define VALUES(raw, big)                                                                           \
+    for (size_t k = 0; k < n; k++)                                                                 \
+    v[k] = value_at(s + k * rc_raw_width(raw), raw, big)
+
+static void
+values(const unsigned char *s, enum rc_raw raw, bool big, double *v, size_t n)
+{
+    switch (raw) {
+#define ROW(name)                                                                                  \
+    case name:                                                                                     \
+        if (big)                                                                                   \
+            VALUES(name, true);                                                                    \
+        else                                                                                       \
+            VALUES(name, false);                                                                   \
+        break
+        ROW(RC_RAW_U8);
+        ROW(RC_RAW_U16);
+        ROW(RC_RAW_U32);
+        ROW(RC_RAW_U64);
+        ROW(RC_RAW_I8);
+        ROW(RC_RAW_I16);
+        ROW(RC_RAW_I32);
+        ROW(RC_RAW_I64);
+        ROW(RC_RAW_F32);
+        ROW(RC_RAW_F64);
+#undef ROW
     }
 }
 
 void
 rc_bytes_values(struct rc_bytes *b, enum rc_raw raw, double *v, size_t n)
 {
-    for (size_t k = 0; k < n; k++)
-        v[k] = value_of(b, raw);
+    size_t width = rc_raw_width(raw), left = b->at < b->size ? (b->size - b->at) / width : 0;
+    size_t there = n < left ? n : left;
+
+    values(b->data + (there == 0 ? 0 : b->at), raw, b->big, v, there);
+    b->at += there * width;
+    if (there < n) {
+        memset(v + there, 0, (n - there) * sizeof *v);
+        b->at = b->size;
+        b->past = true;
+    }
+}
+
+double
+rc_bytes_at(struct rc_bytes *b, size_t at, enum rc_raw raw)
+{
+    double value;
+
+    b->at = at < b->size ? at : b->size;
+    rc_bytes_values(b, raw, &value, 1);
+    return value;
 }
 
 enum rc_status

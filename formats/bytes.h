@@ -26,14 +26,23 @@ uint64_t rc_bytes_u64(struct rc_bytes *bytes);
 
 /* How numbers lie in a file. */
 enum rc_raw {
+    RC_RAW_U8,
+    RC_RAW_U16,
+    RC_RAW_U32,
+    RC_RAW_U64,
+    RC_RAW_I8,
     RC_RAW_I16,
     RC_RAW_I32,
+    RC_RAW_I64,
     RC_RAW_F32,
     RC_RAW_F64
 };
 size_t rc_raw_width(enum rc_raw raw);
-/* The next n numbers, unscaled. */
+/* The next n numbers, unscaled; zeros past the end. */
 void rc_bytes_values(struct rc_bytes *bytes, enum rc_raw raw, double *v, size_t n);
+
+/* The number that lies at a place, where the cursor then stands behind it. */
+double rc_bytes_at(struct rc_bytes *bytes, size_t at, enum rc_raw raw);
 
 /* The refusal that every binary format needs: `what` should take `promised` bytes and has `present`
  * ones. RC_OK when they agree. */

@@ -53,6 +53,9 @@ rc_length_unit(const char *text, size_t n, double *metres)
         {"\xce\xbcm", 1e-6}, /* U+03BC, Greek mu              */
         {"\xb5m", 1e-6},     /* the micro sign in Latin-1     */
         {"~m", 1e-6},        /* NanoScope's way round it      */
+        {"Micrometer", 1e-6},
+        {"Nanometer", 1e-9},
+        {"Millimeter", 1e-3},
         {"micron", 1e-6},
         {"microns", 1e-6},
         {"mm", 1e-3},

@@ -413,8 +413,8 @@ many_empty_rows_need_no_memory(void **state)
 static void
 what_is_no_text_is_not_recognised(void **state)
 {
-    static const char *const texts[] = {"This is nonsense.", "ncols 10\nnrows 10\n1 2 3\n",
-                                        "aBCR-1.0\nManufacID = x\n", "X,y\n1,2\n"};
+    static const char *const texts[] = {"This is nonsense.", "columns 10\nrows 10\n1\n",
+                                        "cBCR-1.0\nManufacID = x\n", "X,y\n1\n"};
 
     (void)state;
     for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {

@@ -53,11 +53,17 @@ near "$(header nx odd.rcg)" 2 0 "--separator, --decimal and --missing read an od
 
 # ---- text ----
 
+printf '\223NUMPY' >cut.npy
+refuses 1 "of version 0" "a format is known by its content" 'rc-import - <cut.npy'
+claim "--formats has a line for each" test "$(rc-import --formats | wc -l)" -ge 25
+for format in $(rc-import --formats | cut -d ' ' -f 1); do
+    claim "the manual has a section on $format" grep -q "^\.Ss $format\$" "$RC_SOURCE/man/rc-import.1"
+done
 claim "--formats prints the formats" bash -c 'rc-import --formats | grep -q "^x3p "'
 claim "--list prints the channels" \
-    bash -c 'rc-import --list map.txt | grep -Eq "^ +1 +3 +2 +2e-06 +2.5e-06 +m +Topo$"'
+    bash -c 'rc-import --list map.txt | grep -Eq "^ +1 +3 +2 +2e-06 +2.5e-06 +m +[-0-9.e]+ +[-0-9.e]+ +Topo$"'
 claim "--list shows what the file does not say" \
-    bash -c 'rc-import --list bare.txt | grep -Eq "^ +1 +3 +3 +- +- +- +height$"'
+    bash -c 'rc-import --list bare.txt | grep -Eq "^ +1 +3 +3 +- +- +- +[-0-9.e]+ +[-0-9.e]+ +height$"'
 claim "--channel takes a number" bash -c 'rc-import --channel 1 map.txt | grep -aq "^nx=3$"'
 claim "--channel takes a name" bash -c 'rc-import --channel Topo map.txt | grep -aq "^nx=3$"'
 if command -v script >/dev/null; then
@@ -98,8 +104,10 @@ claim "nothing is left behind" bash -c '! ls half2.rcg* 2>/dev/null'
 corpus="${RC_CORPUS:-}/corpus"
 if [ -d "$corpus" ]; then
     # file, format, nx, ny, dx, dy and the probe at the first point, as the manifest has them
-    awk -F '\t' '($2 == "x3p" || $2 == "ascii-matrix") && $11 == "m" {
-        print $1, $7, $8, $9, $10, $19 }' "$RC_CORPUS/manifest.tsv" >rows.txt
+    # with the unit of x and z in the file: the others are read by tests/format_corpus
+    awk -F '\t' '$2 ~ /^(x3p|ascii-matrix|sdf-ascii|digitalsurf-sur|wyko-opd|metropro-dat|alicona-al3d|sensofar-plu|nanoscope|nanosurf-nid|gsf|igor-ibw|mi-picoview|wsxm-stp|wsxm-top|bcrf|frt)$/ &&
+        $11 == "m" && $13 == "m" && $1 !~ / / { print $1, $7, $8, $9, $10, $19 }' \
+        "$RC_CORPUS/manifest.tsv" >rows.txt
     claim "the manifest has rows for these formats" test -s rows.txt
     while read -r file nx ny dx dy probes; do
         rc-import "$corpus/$file" >real.rcg 2>real.err
@@ -124,10 +132,24 @@ if [ -d "$corpus" ]; then
     refuses 1 "in one column" "one column" "rc-import '$bad/SurfaceTopography__single_column.txt'"
     refuses 1 "no X3P" "a ZIP archive of another kind" \
         "rc-import '$bad/SurfaceTopography__mitutoyo_mock.xlsx'"
-    for file in "$corpus"/xyz/SurfaceTopography__xyz-1.txt "$corpus"/profile-text/*xy-4.txt; do
-        refuses 1 "list of points|profile" "${file##*/} is no matrix" \
-            "rc-import --dx 1um --z-unit um '$file'"
-    done
+    claim "a list of points is told from a matrix" bash -c "rc-import --list --dx 1um --z-unit um \
+        '$corpus/xyz/SurfaceTopography__xyz-1.txt' | grep -q ': xyz$'"
+    claim "and so is a profile" bash -c "rc-import --list --dx 1um --z-unit um \
+        '$corpus/profile-text/SurfaceTopography__xy-4.txt' | grep -q ': profile$'"
+    di=$corpus/nanoscope/SurfaceTopography__di-4.di
+    claim "--list has a line for every channel" \
+        test "$(rc-import --list "$di" | grep -Ec '^ +[123] +512 +512 ')" = 3
+    claim "with its range" bash -c "rc-import --list '$di' |
+        grep -Eq 'm +-2.08214509398651.*e-07 +2.72935345420074.*e-07 Height Sensor$'"
+    claim "another channel keeps its name and unit" bash -c "rc-import --channel Phase '$di' |
+        head -n 20 | tr '\n' ' ' | grep -aq 'channel=Phase nx=512 ny=512 .* unit=deg '"
+    claim "by number too" bash -c "rc-import --channel 2 '$di' | grep -aq '^file.channel=Amplitude Error'"
+    refuses 1 "no channel 'Topography'; there are 1 'Height Sensor' in m, 2 'Amplitude Error' in m" \
+        "an absent channel names all" "rc-import --channel Topography '$di'"
+    refuses 1 "its steps are 1 and 10 of a unit not given" "steps without a unit are named" \
+        "rc-import '$corpus/surfer-grd/fatiando__simple_surfer.grd'"
+    refuses 1 "not evenly apart" "an uneven profile" \
+        "rc-import --z-unit um '$corpus/profile-text/SurfaceTopography__xy-1.txt'"
 else
     echo "not tried: RC_CORPUS names no folder of real files"
 fi

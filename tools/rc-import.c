@@ -212,7 +212,7 @@ static void
 print_formats(struct tool *t)
 {
     for (const struct rc_format *const *f = rc_formats; *f != NULL; f++)
-        fprintf(t->out, "%-10s  %-18s  %s\n", (*f)->name, (*f)->suffixes, (*f)->summary);
+        fprintf(t->out, "%-10s  %-20s  %s\n", (*f)->name, (*f)->suffixes, (*f)->summary);
 }
 
 static const char *
@@ -221,29 +221,79 @@ number_or_dash(char text[RC_NUMBER_SIZE], double value)
     return isnan(value) ? "-" : rc_number_text(text, value);
 }
 
+/* Least and greatest value of a channel, in its unit or, where the file gives none, as it stands
+ * there; false when it cannot be read, which is said. */
+static bool
+range_of(struct tool *t, const struct rc_format *format, const struct rc_file *file,
+         const struct rc_wish *wish, const struct rc_channel *channel, size_t index,
+         double range[2])
+{
+    struct rc_wish lax = *wish;
+    struct rc_grid *g;
+    struct rc_err err;
+
+    if (isnan(lax.dx) && isnan(channel->dx))
+        lax.dx = 1;
+    if (isnan(lax.z_unit) && channel->unit[0] == '\0')
+        lax.z_unit = 1;
+    range[0] = INFINITY;
+    range[1] = -INFINITY;
+    if ((g = format->read(file, &lax, index, NULL, &err)) == NULL) {
+        tool_warn(t, "%s: channel %zu: %s", t->source, index + 1, err.text);
+        return false;
+    }
+    for (size_t k = 0; k < g->nx * g->ny; k++) {
+        range[0] = g->v[k] < range[0] ? g->v[k] : range[0];
+        range[1] = g->v[k] > range[1] ? g->v[k] : range[1];
+    }
+    rc_grid_free(g);
+    return range[0] <= range[1];
+}
+
 static void
 print_list(struct tool *t, const struct rc_format *format, const struct rc_file *file,
            const struct rc_wish *wish)
 {
     struct rc_channel channel[CHANNELS_MOST];
     size_t n = list_of(t, format, file, wish, channel);
-    char dx[RC_NUMBER_SIZE], dy[RC_NUMBER_SIZE];
+    char dx[RC_NUMBER_SIZE], dy[RC_NUMBER_SIZE], low[RC_NUMBER_SIZE], high[RC_NUMBER_SIZE];
 
     fprintf(t->out, "%s: %s\n", t->source, format->name);
-    fprintf(t->out, "%7s %8s %8s %22s %22s %-6s %s\n", "channel", "nx", "ny", "dx/m", "dy/m",
-            "unit", "name");
-    for (size_t k = 0; k < n; k++)
-        fprintf(t->out, "%7zu %8zu %8zu %22s %22s %-6s %s\n", k + 1, channel[k].nx, channel[k].ny,
-                number_or_dash(dx, channel[k].dx), number_or_dash(dy, channel[k].dy),
-                channel[k].unit[0] == '\0' ? "-" : channel[k].unit, channel[k].name);
+    fprintf(t->out, "%7s %8s %8s %22s %22s %-6s %24s %24s %s\n", "channel", "nx", "ny", "dx/m",
+            "dy/m", "unit", "least", "greatest", "name");
+    for (size_t k = 0; k < n; k++) {
+        double range[2];
+        bool known = range_of(t, format, file, wish, &channel[k], k, range);
+
+        fprintf(t->out, "%7zu %8zu %8zu %22s %22s %-6s %24s %24s %s\n", k + 1, channel[k].nx,
+                channel[k].ny, number_or_dash(dx, channel[k].dx), number_or_dash(dy, channel[k].dy),
+                channel[k].unit[0] == '\0' ? "-" : channel[k].unit,
+                number_or_dash(low, known ? range[0] : NAN),
+                number_or_dash(high, known ? range[1] : NAN), channel[k].name);
+    }
 }
 
 /* ---- heights ---- */
 
-static size_t
-pick_channel(struct tool *t, const struct rc_channel *channel, size_t n)
+/* "1 'Phase' in deg, 2 'Current' in A" */
+static const char *
+channel_names(const struct rc_channel *channel, size_t n, char *names, size_t size)
 {
-    char names[CHANNELS_MOST * (sizeof channel->name + 16)] = "";
+    names[0] = '\0';
+    for (size_t k = 0; k < n; k++) {
+        size_t used = strlen(names);
+        bool in = channel[k].unit[0] != '\0';
+        snprintf(names + used, size - used, "%s%zu '%.*s'%s%s", used == 0 ? "" : ", ", k + 1,
+                 (int)sizeof channel[k].name - 1, channel[k].name, in ? " in " : "",
+                 channel[k].unit);
+    }
+    return names;
+}
+
+static size_t
+pick_channel(struct tool *t, const struct rc_wish *wish, const struct rc_channel *channel, size_t n)
+{
+    char names[CHANNELS_MOST * (sizeof *channel + 16)];
     double number;
     const char *end;
 
@@ -251,7 +301,12 @@ pick_channel(struct tool *t, const struct rc_channel *channel, size_t n)
         for (size_t k = 0; k < n; k++)
             if (strcmp(channel[k].unit, "m") == 0)
                 return k;
-        return 0; /* its reader says what it lacks */
+        if (!isnan(wish->z_unit) || channel[0].unit[0] == '\0')
+            return 0; /* its reader says what it lacks */
+        tool_die(t, EXIT_IMPOSSIBLE,
+                 "%s: no channel is a height: there are %s; --channel takes one "
+                 "as it is, --z-unit says how many metres its unit is",
+                 t->source, channel_names(channel, n, names, sizeof names));
     }
     for (size_t k = 0; k < n; k++)
         if (strcmp(channel[k].name, args.channel) == 0)
@@ -260,13 +315,8 @@ pick_channel(struct tool *t, const struct rc_channel *channel, size_t n)
     if (end != NULL && *end == '\0' && number >= 1 && number <= (double)n &&
         number == floor(number))
         return (size_t)number - 1;
-    for (size_t k = 0; k < n; k++) {
-        size_t used = strlen(names);
-        snprintf(names + used, sizeof names - used, "%s%zu '%.*s'", used == 0 ? "" : ", ", k + 1,
-                 (int)sizeof channel[k].name - 1, channel[k].name);
-    }
     tool_die(t, EXIT_IMPOSSIBLE, "%s: no channel '%s'; there are %s", t->source, args.channel,
-             names);
+             channel_names(channel, n, names, sizeof names));
 }
 
 static void
@@ -286,7 +336,7 @@ write_heights(struct tool *t, const struct rc_format *format, const struct rc_fi
 {
     struct rc_channel channel[CHANNELS_MOST];
     size_t n = list_of(t, format, file, wish, channel);
-    size_t index = pick_channel(t, channel, n);
+    size_t index = pick_channel(t, wish, channel, n);
     struct rc_notes notes = {0};
     struct rc_grid *g;
     struct rc_err err;

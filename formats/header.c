@@ -1,0 +1,189 @@
+#include "header.h"
+
+#include <math.h>
+#include <string.h>
+
+enum {
+    NUMBER_MOST = 64
+};
+
+static char
+lower(char c)
+{
+    return (char)(c >= 'A' && c <= 'Z' ? c + ('a' - 'A') : c);
+}
+
+bool
+rc_piece_begins(struct rc_piece piece, const char *word)
+{
+    size_t n = strlen(word);
+
+    if (piece.n < n)
+        return false;
+    for (size_t k = 0; k < n; k++)
+        if (lower(piece.text[k]) != lower(word[k]))
+            return false;
+    return true;
+}
+
+bool
+rc_piece_is(struct rc_piece piece, const char *word)
+{
+    return piece.n == strlen(word) && rc_piece_begins(piece, word);
+}
+
+const char *
+rc_piece_find(struct rc_piece piece, const char *word)
+{
+    size_t n = strlen(word);
+    const char *s = piece.text, *end = piece.text + piece.n;
+
+    while ((size_t)(end - s) >= n && (s = memchr(s, *word, (size_t)(end - s) - n + 1)) != NULL) {
+        if (memcmp(s, word, n) == 0)
+            return s;
+        s++;
+    }
+    return NULL;
+}
+
+struct rc_piece
+rc_piece_trim(struct rc_piece piece)
+{
+    rc_trim(&piece.text, &piece.n);
+    return piece;
+}
+
+bool
+rc_piece_part(struct rc_piece piece, const char *marks, struct rc_piece *before,
+              struct rc_piece *after)
+{
+    for (size_t k = 0; k < piece.n; k++) {
+        if (piece.text[k] == '\0' || strchr(marks, piece.text[k]) == NULL)
+            continue;
+        *before = rc_piece_trim((struct rc_piece){piece.text, k});
+        *after = rc_piece_trim((struct rc_piece){piece.text + k + 1, piece.n - k - 1});
+        return true;
+    }
+    return false;
+}
+
+bool
+rc_piece_number(struct rc_piece piece, double *value, struct rc_piece *rest)
+{
+    char copy[NUMBER_MOST];
+    const char *end, *start = copy;
+    size_t n;
+
+    piece = rc_piece_trim(piece);
+    n = piece.n < sizeof copy - 1 ? piece.n : sizeof copy - 1;
+    memcpy(copy, piece.text, n);
+    copy[n] = '\0';
+    for (char *s = copy; *s != '\0'; s++)
+        if (*s == ',')
+            *s = '.';
+    start += *copy == '+';
+    if ((end = rc_number_read(start, true, value)) == NULL)
+        return false;
+    n = (size_t)(end - copy);
+    if (n == sizeof copy - 1 && n < piece.n)
+        return false; /* too long to be one */
+    if (rest != NULL)
+        *rest = rc_piece_trim((struct rc_piece){piece.text + n, piece.n - n});
+    return true;
+}
+
+bool
+rc_piece_length(struct rc_piece piece, double unit, double *metres)
+{
+    struct rc_piece rest;
+    double number;
+
+    if (!rc_piece_number(piece, &number, &rest))
+        return false;
+    if (rest.n > 0 && !rc_length_unit(rest.text, rest.n, &unit))
+        return false;
+    *metres = number * unit;
+    return true;
+}
+
+enum rc_status
+rc_field_take(const struct rc_field *field, size_t n, struct rc_piece key, struct rc_piece value,
+              void *into, struct rc_err *err)
+{
+    char quote[RC_SHOWN];
+
+    for (size_t k = 0; k < n; k++) {
+        void *at = (char *)into + field[k].at;
+
+        if (!rc_piece_is(key, field[k].key))
+            continue;
+        if (field[k].kind == RC_FIELD_TEXT)
+            memcpy(at, &value, sizeof value);
+        else if (field[k].kind == RC_FIELD_NUMBER ? !rc_piece_number(value, at, NULL)
+                                                  : !rc_piece_length(value, 1, at))
+            return rc_err_set(err, "%s is '%s': that is no %s", field[k].key,
+                              rc_text_shown(quote, value.text, value.n),
+                              field[k].kind == RC_FIELD_NUMBER ? "number" : "length");
+        break;
+    }
+    return RC_OK;
+}
+
+enum rc_status
+rc_fields_read(const struct rc_field *field, size_t n, struct rc_lines *lines, const char *marks,
+               const char *last, void *into, struct rc_err *err)
+{
+    struct rc_piece line, key, value;
+
+    while (rc_lines_next(lines, &line.text, &line.n)) {
+        line = rc_piece_trim(line);
+        if (last != NULL && rc_piece_is(line, last))
+            break;
+        if (rc_piece_part(line, marks, &key, &value) &&
+            rc_field_take(field, n, key, value, into, err) != RC_OK)
+            return RC_FAIL;
+    }
+    return RC_OK;
+}
+
+static bool
+is_white(char c)
+{
+    return c == ' ' || (c >= '\t' && c <= '\r') || c == '\0';
+}
+
+static bool
+is_missing(struct rc_piece word)
+{
+    static const char *const words[] = {"nan", "na", "bad", "--", "---"};
+
+    for (size_t k = 0; k < sizeof words / sizeof *words; k++)
+        if (rc_piece_is(word, words[k]))
+            return true;
+    return false;
+}
+
+enum rc_status
+rc_flow_read(struct rc_piece *text, double *v, size_t n, struct rc_err *err)
+{
+    char quote[RC_SHOWN];
+
+    for (size_t k = 0; k < n; k++) {
+        struct rc_piece word, rest;
+
+        while (text->n > 0 && is_white(*text->text))
+            text->text++, text->n--;
+        word = (struct rc_piece){text->text, 0};
+        while (text->n > 0 && !is_white(*text->text))
+            text->text++, text->n--;
+        word.n = (size_t)(text->text - word.text);
+        if (word.n == 0)
+            return rc_err_set(err, "the header promises %zu numbers, the file has %zu", n, k);
+        if (is_missing(word))
+            v[k] = NAN;
+        else if (!rc_piece_number(word, &v[k], &rest) || rest.n > 0)
+            return rc_err_set(err, "number %zu of the data is '%s': that is no number", k + 1,
+                              rc_text_shown(quote, word.text, word.n));
+    }
+    return RC_OK;
+}

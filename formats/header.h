@@ -1,0 +1,55 @@
+/* Headers of text: `key = value` lines, numbers with units, tables of the keys that matter. */
+#ifndef RC_HEADER_H
+#define RC_HEADER_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "text.h"
+
+struct rc_piece {
+    const char *text; /* not ended by NUL */
+    size_t n;
+};
+
+/* Whether it is that word, or begins with it, in either case of ASCII letters. */
+bool rc_piece_is(struct rc_piece piece, const char *word);
+bool rc_piece_begins(struct rc_piece piece, const char *word);
+/* Where the word begins in it, or NULL; case counts. */
+const char *rc_piece_find(struct rc_piece piece, const char *word);
+struct rc_piece rc_piece_trim(struct rc_piece piece);
+/* Parts at the first of the characters `marks`, both trimmed; false when there is none. */
+bool rc_piece_part(struct rc_piece piece, const char *marks, struct rc_piece *before,
+                   struct rc_piece *after);
+/* The number that it begins with and the trimmed rest (which may be NULL); false when there is
+ * none. Decimal commas are read as points. */
+bool rc_piece_number(struct rc_piece piece, double *value, struct rc_piece *rest);
+/* "300 nm": metres; without a unit `unit` metres. */
+bool rc_piece_length(struct rc_piece piece, double unit, double *metres);
+
+enum rc_field_kind {
+    RC_FIELD_TEXT,   /* struct rc_piece                                    */
+    RC_FIELD_NUMBER, /* double, what follows the number is ignored         */
+    RC_FIELD_LENGTH  /* double, metres; numbers without a unit are metres  */
+};
+
+/* A key that matters, and where its value goes in a struct. */
+struct rc_field {
+    const char *key; /* in either case */
+    enum rc_field_kind kind;
+    size_t at;
+};
+/* Puts the value where the row of that key says; nothing when no row has it. RC_FAIL for a value
+ * that is not what it must be. */
+enum rc_status rc_field_take(const struct rc_field *field, size_t n, struct rc_piece key,
+                             struct rc_piece value, void *into, struct rc_err *err);
+/* All lines that part at `marks`, up to the end or a line that is `last` (which may be NULL). */
+enum rc_status rc_fields_read(const struct rc_field *field, size_t n, struct rc_lines *lines,
+                              const char *marks, const char *last, void *into,
+                              struct rc_err *err);
+
+/* Numbers parted by white space, line ends among it: n of them from *text on, NAN for the words
+ * NaN, NA, BAD, -- and ---. RC_FAIL when a word is no number or there are too few of them. */
+enum rc_status rc_flow_read(struct rc_piece *text, double *v, size_t n, struct rc_err *err);
+
+#endif

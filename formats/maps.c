@@ -1,0 +1,208 @@
+#include "maps.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+struct rc_map *
+rc_maps_add(struct rc_maps *maps, const char *name, size_t n)
+{
+    struct rc_map *map = maps->n < RC_MAPS_MOST ? &maps->map[maps->n] : &maps->spare;
+
+    maps->n++;
+    *map = (struct rc_map){.si = 1, .scale = 1, .dx = NAN, .dy = NAN, .lost_from = NAN,
+                           .lost_to = NAN};
+    rc_text_clean(map->name, sizeof map->name, name, n);
+    return map;
+}
+
+void
+rc_maps_key(struct rc_maps *maps, const char *key, const char *text, size_t n)
+{
+    for (size_t k = 0; k < maps->keys; k++)
+        if (strcmp(maps->key[k].name, key) == 0)
+            return;
+    if (maps->keys == RC_KEYS_MOST)
+        return;
+    rc_text_clean(maps->key[maps->keys].value, sizeof maps->key->value, text, n);
+    if (maps->key[maps->keys].value[0] != '\0')
+        strcpy(maps->key[maps->keys++].name, key);
+}
+
+void
+rc_maps_keep(struct rc_maps *maps, const struct rc_keep *rows, size_t n, struct rc_piece name,
+             struct rc_piece value)
+{
+    for (size_t k = 0; k < n; k++)
+        if (rc_piece_is(name, rows[k].name))
+            rc_maps_key(maps, rows[k].key, value.text, value.n);
+}
+
+void
+rc_map_unit(struct rc_map *map, const char *text, size_t n)
+{
+    static const char *const bases[] = {"V", "A", "N", "Pa", "Hz", "s", "rad", "W", "J", "F"};
+    static const struct {
+        const char *name;
+        double factor;
+    } prefixes[] = {{"", 1},     {"k", 1e3},  {"M", 1e6},         {"G", 1e9},        {"m", 1e-3},
+                    {"u", 1e-6}, {"n", 1e-9}, {"\xc2\xb5", 1e-6}, {"\xb5", 1e-6},    {"p", 1e-12},
+                    {"f", 1e-15}};
+
+    rc_trim(&text, &n);
+    map->si = 1;
+    map->unit[0] = '\0';
+    if (n == 0)
+        return;
+    if (rc_length_unit(text, n, &map->si)) {
+        strcpy(map->unit, "m");
+        return;
+    }
+    for (size_t p = 0; p < sizeof prefixes / sizeof *prefixes; p++)
+        for (size_t b = 0; b < sizeof bases / sizeof *bases; b++) {
+            size_t front = strlen(prefixes[p].name);
+            if (n != front + strlen(bases[b]) || memcmp(text, prefixes[p].name, front) != 0 ||
+                memcmp(text + front, bases[b], n - front) != 0)
+                continue;
+            map->si = prefixes[p].factor;
+            strcpy(map->unit, bases[b]);
+            return;
+        }
+    rc_text_clean(map->unit, sizeof map->unit, text, n);
+    /* the degree sign, or the ordinal one that stands in for it */
+    if (strcmp(map->unit, "\xc2\xb0") == 0 || strcmp(map->unit, "\xc2\xba") == 0)
+        strcpy(map->unit, "deg");
+}
+
+void
+rc_map_hint(struct rc_map *map, double dx, double dy)
+{
+    char x[RC_NUMBER_SIZE], y[RC_NUMBER_SIZE];
+
+    snprintf(map->hint, sizeof map->hint, " (its steps are %s and %s of a unit not given)",
+             rc_number_text(x, dx), rc_number_text(y, dy));
+}
+
+void
+rc_map_steps(struct rc_map *map, double dx, double dy, struct rc_piece unit)
+{
+    double metres = NAN;
+
+    rc_length_unit(unit.text, unit.n, &metres);
+    map->dx = dx * metres;
+    map->dy = dy * metres;
+    if (isnan(metres))
+        rc_map_hint(map, dx, dy);
+}
+
+enum rc_status
+rc_map_count(const char *what, double number, size_t *count, struct rc_err *err)
+{
+    char text[RC_NUMBER_SIZE];
+
+    if (!(number >= 1 && number <= 2147483647) || number != floor(number))
+        return rc_err_set(err, "the number of %s is %s: it must be a whole number above 0", what,
+                          rc_number_text(text, number));
+    *count = (size_t)number;
+    return RC_OK;
+}
+
+enum rc_status
+rc_map_bound(const struct rc_map *map, const struct rc_file *file, double unpacked,
+             struct rc_err *err)
+{
+    double most = 16 * (double)file->size + 67108864;
+
+    if (8 * (double)map->nx * (double)map->ny + unpacked <= most)
+        return RC_OK;
+    return rc_err_set(err, "the header promises %zu x %zu heights in %zu bytes: that cannot be",
+                      map->nx, map->ny, file->size);
+}
+
+enum rc_status
+rc_map_fill_text(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
+                 double *v, struct rc_err *err)
+{
+    struct rc_piece text = {(const char *)file->data + map->at, file->size - map->at};
+
+    (void)wish;
+    return rc_flow_read(&text, v, map->nx * map->ny, err);
+}
+
+enum rc_status
+rc_map_is_text(struct rc_map *map, const struct rc_file *file, size_t at, struct rc_err *err)
+{
+    map->at = at;
+    map->fill = rc_map_fill_text;
+    if (map->ny <= (file->size - at + 1) / 2 / map->nx) /* a digit and what parts it */
+        return RC_OK;
+    return rc_err_set(err, "the header promises %zu x %zu numbers, the file has %zu bytes for them",
+                      map->nx, map->ny, file->size - at);
+}
+
+bool
+rc_file_named(const struct rc_file *file, const char *suffixes)
+{
+    struct rc_piece name = {file->name, strlen(file->name)};
+    char suffix[16];
+
+    while (*suffixes != '\0') {
+        size_t n = strcspn(suffixes, " ");
+        if (n < sizeof suffix && n <= name.n) {
+            memcpy(suffix, suffixes, n);
+            suffix[n] = '\0';
+            if (rc_piece_is((struct rc_piece){name.text + name.n - n, n}, suffix))
+                return true;
+        }
+        suffixes += n;
+        suffixes += strspn(suffixes, " ");
+    }
+    return false;
+}
+
+bool
+rc_file_holds(const struct rc_file *file, size_t at, const void *bytes, size_t n)
+{
+    return at <= file->size && file->size - at >= n && memcmp(file->data + at, bytes, n) == 0;
+}
+
+struct rc_piece
+rc_file_text(const struct rc_file *file, size_t at, size_t n)
+{
+    const char *text = (const char *)file->data + at;
+
+    return rc_piece_trim((struct rc_piece){text, strnlen(text, n)});
+}
+
+struct rc_bytes
+rc_file_bytes(const struct rc_file *file, bool big)
+{
+    return (struct rc_bytes){.data = file->data, .size = file->size, .big = big};
+}
+
+bool
+rc_map_range(const struct rc_map *map, const struct rc_file *file, double *low, double *high)
+{
+    struct rc_bytes bytes = rc_file_bytes(file, map->big);
+    double some[256];
+    size_t n;
+
+    *low = INFINITY;
+    *high = -INFINITY;
+    if (rc_size_mul(map->nx, map->ny, &n, NULL) != RC_OK || map->at > file->size ||
+        n > (file->size - map->at) / rc_raw_width(map->raw))
+        return false;
+    bytes.at = map->at;
+    for (size_t k = 0; k < n; k++) {
+        size_t left = n - k, at = k % (sizeof some / sizeof *some);
+
+        if (at == 0)
+            rc_bytes_values(&bytes, map->raw, some,
+                            left < sizeof some / sizeof *some ? left : sizeof some / sizeof *some);
+        if (some[at] >= map->lost_from && some[at] <= map->lost_to)
+            continue;
+        *low = some[at] < *low ? some[at] : *low;
+        *high = some[at] > *high ? some[at] : *high;
+    }
+    return *low <= *high;
+}

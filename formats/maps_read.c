@@ -1,0 +1,214 @@
+#include "maps.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- checking ---- */
+
+static enum rc_status
+check_map(const struct rc_map *map, const struct rc_file *file, struct rc_err *err)
+{
+    size_t outer = map->by_columns ? map->nx : map->ny;
+    size_t inner = map->by_columns ? map->ny : map->nx, line, bytes;
+
+    if (map->nx == 0 || map->ny == 0)
+        return rc_err_set(err, "channel '%s' has no values: %zu columns, %zu rows", map->name,
+                          map->nx, map->ny);
+    if (!isfinite(map->scale) || !isfinite(map->zero) || !isfinite(map->si) || map->scale == 0)
+        return rc_err_set(err, "channel '%s': heights are number * %g + %g in the file: both must "
+                               "be finite and the first not 0", map->name, map->scale * map->si,
+                          map->zero * map->si);
+    if (map->fill != NULL)
+        return RC_OK;
+    if (rc_size_mul(inner, rc_raw_width(map->raw), &line, err) != RC_OK ||
+        map->padding > SIZE_MAX - line ||
+        rc_size_mul(line + map->padding, outer, &bytes, err) != RC_OK)
+        return RC_FAIL;
+    bytes -= map->padding; /* the last line may lack it */
+    if (map->at > file->size || bytes > file->size - map->at)
+        return rc_err_set(err, "channel '%s': the header promises %zu x %zu values, %zu bytes from "
+                               "byte %zu on, the file has %zu bytes in all", map->name, map->nx,
+                          map->ny, bytes, map->at, file->size);
+    return RC_OK;
+}
+
+static enum rc_status
+describe(rc_maps_find *find, const struct rc_file *file, const struct rc_wish *wish,
+         struct rc_maps *maps, struct rc_err *err)
+{
+    maps->n = maps->keys = 0;
+    if (find(file, wish, maps, err) != RC_OK)
+        return RC_FAIL;
+    if (maps->n == 0)
+        return rc_err_set(err, "there is no map in the file");
+    for (size_t k = 0; k < maps->n && k < RC_MAPS_MOST; k++) {
+        struct rc_map *map = &maps->map[k];
+
+        if (map->name[0] == '\0')
+            strcpy(map->name, map->unit[0] == '\0' || strcmp(map->unit, "m") == 0 ? "height"
+                                                                                  : "values");
+        if (map->ny == 1)
+            map->dy = map->dx; /* a profile: what its file says of y has no meaning */
+        if (check_map(map, file, err) != RC_OK)
+            return RC_FAIL;
+    }
+    return RC_OK;
+}
+
+size_t
+rc_maps_list(rc_maps_find *find, const struct rc_file *file, const struct rc_wish *wish,
+             struct rc_channel *channel, size_t most, struct rc_err *err)
+{
+    struct rc_maps maps;
+
+    if (describe(find, file, wish, &maps, err) != RC_OK)
+        return 0;
+    for (size_t k = 0; k < maps.n && k < most && k < RC_MAPS_MOST; k++) {
+        const struct rc_map *map = &maps.map[k];
+        channel[k] = (struct rc_channel){.nx = map->nx, .ny = map->ny, .dx = map->dx,
+                                         .dy = map->dy};
+        strcpy(channel[k].name, map->name);
+        strcpy(channel[k].unit, map->unit);
+    }
+    return maps.n;
+}
+
+/* ---- values ---- */
+
+/* Puts line `outer` of the file where it belongs. */
+static void
+place(const struct rc_map *map, const double *line, size_t outer, double *v)
+{
+    size_t row = outer, column = 0, inner = map->nx;
+    ptrdiff_t step = 1;
+
+    if (map->by_columns) {
+        row = 0;
+        column = outer;
+        inner = map->ny;
+        step = (ptrdiff_t)map->nx;
+    }
+    if (map->right_first)
+        column = map->nx - 1 - column;
+    if (map->bottom_first)
+        row = map->ny - 1 - row;
+    if (map->by_columns ? map->bottom_first : map->right_first)
+        step = -step;
+    v += row * map->nx + column;
+    for (size_t k = 0; k < inner; k++)
+        v[(ptrdiff_t)k * step] = line[k];
+}
+
+static enum rc_status
+decode(const struct rc_map *map, const struct rc_file *file, double *v, struct rc_err *err)
+{
+    size_t outer = map->by_columns ? map->nx : map->ny;
+    size_t inner = map->by_columns ? map->ny : map->nx;
+    struct rc_bytes bytes = rc_file_bytes(file, map->big);
+    double *line;
+
+    bytes.at = map->at;
+    if (!map->by_columns && !map->bottom_first && !map->right_first && map->padding == 0) {
+        rc_bytes_values(&bytes, map->raw, v, map->nx * map->ny);
+        return RC_OK;
+    }
+    if ((line = malloc(inner * sizeof *line)) == NULL)
+        return rc_err_set(err, "out of memory for a line of %zu values", inner);
+    for (size_t k = 0; k < outer; k++) {
+        rc_bytes_values(&bytes, map->raw, line, inner);
+        if (k + 1 < outer)
+            bytes.at += map->padding;
+        place(map, line, k, v);
+    }
+    free(line);
+    return RC_OK;
+}
+
+/* What fill has put in the file's order, in the order of a grid. */
+static enum rc_status
+fill(const struct rc_map *map, const struct rc_file *file, const struct rc_wish *wish, double *v,
+     struct rc_err *err)
+{
+    size_t outer = map->by_columns ? map->nx : map->ny;
+    size_t inner = map->by_columns ? map->ny : map->nx, n = map->nx * map->ny;
+    double *raw;
+
+    if (!map->by_columns && !map->bottom_first && !map->right_first)
+        return map->fill(file, wish, map, v, err);
+    if ((raw = malloc(n * sizeof *raw)) == NULL)
+        return rc_err_set(err, "out of memory for %zu values", n);
+    if (map->fill(file, wish, map, raw, err) != RC_OK) {
+        free(raw);
+        return RC_FAIL;
+    }
+    for (size_t k = 0; k < outer; k++)
+        place(map, raw + k * inner, k, v);
+    free(raw);
+    return RC_OK;
+}
+
+static enum rc_status
+scale(const struct rc_map *map, double si, double *v, struct rc_err *err)
+{
+    for (size_t k = 0; k < map->nx * map->ny; k++) {
+        if (isnan(v[k]))
+            continue;
+        if (v[k] >= map->lost_from && v[k] <= map->lost_to) {
+            v[k] = NAN;
+            continue;
+        }
+        v[k] = (v[k] * map->scale + map->zero) * si;
+        if (!isfinite(v[k]))
+            return rc_err_set(err, "the value at column %zu, row %zu (from 0) is infinite",
+                              k % map->nx, k / map->nx);
+    }
+    return RC_OK;
+}
+
+struct rc_grid *
+rc_maps_read(rc_maps_find *find, const struct rc_file *file, const struct rc_wish *wish,
+             size_t index, struct rc_notes *notes, struct rc_err *err)
+{
+    struct rc_maps maps;
+    const struct rc_map *map = &maps.map[index < RC_MAPS_MOST ? index : 0];
+    struct rc_shape shape;
+    struct rc_grid *g = NULL;
+    bool is_length, is_height;
+    double si;
+
+    if (describe(find, file, wish, &maps, err) != RC_OK)
+        return NULL;
+    if (index >= maps.n || index >= RC_MAPS_MOST) {
+        rc_err_set(err, "there is no channel %zu: the file has %zu", index + 1, maps.n);
+        return NULL;
+    }
+    is_length = strcmp(map->unit, "m") == 0;
+    is_height = is_length || map->unit[0] == '\0' || !isnan(wish->z_unit);
+    si = map->si;
+    shape = (struct rc_shape){.nx = map->nx, .ny = map->ny};
+    if (rc_spacing(wish, map->dx, map->dy, &shape, notes, err) != RC_OK) {
+        if (isnan(map->dx) && err != NULL &&
+            strlen(err->text) + strlen(map->hint) < sizeof err->text)
+            strcat(err->text, map->hint);
+        return NULL;
+    }
+    if ((is_height && rc_height_unit(wish, is_length ? map->si : NAN, map->unit, &si, notes,
+                                     err) != RC_OK) ||
+        (g = rc_grid_new(&shape, is_height ? "height" : map->name, is_height ? "m" : map->unit,
+                         err)) == NULL)
+        return NULL;
+    if ((map->fill == NULL ? decode(map, file, g->v, err) : fill(map, file, wish, g->v, err)) !=
+            RC_OK ||
+        scale(map, si, g->v, err) != RC_OK ||
+        (strcmp(map->name, "height") != 0 &&
+         rc_text_keep(g, "file.channel", map->name, strlen(map->name), err) != RC_OK))
+        goto failed;
+    for (size_t k = 0; k < maps.keys; k++)
+        if (rc_grid_set(g, maps.key[k].name, maps.key[k].value, err) != RC_OK)
+            goto failed;
+    return g;
+failed:
+    rc_grid_free(g);
+    return NULL;
+}

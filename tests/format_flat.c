@@ -1,0 +1,520 @@
+/* Every variant of the flat formats is read as its specification has it. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+
+#include <cmocka.h>
+
+#include "formats/format.h"
+#include "made_files.h"
+
+static struct rc_wish
+wish_for(int flags)
+{
+    struct rc_wish wish = {.dx = NAN, .dy = NAN, .z_unit = NAN};
+
+    if ((flags & NO_SPACING) != 0) {
+        wish.dx = 1.1e-6;
+        wish.dy = 1.29e-6;
+    }
+    if ((flags & NO_UNIT) != 0)
+        wish.z_unit = 1e-9;
+    return wish;
+}
+
+static size_t
+first_height(const struct rc_format *format, const struct rc_file *file, const struct rc_wish *wish)
+{
+    struct rc_channel channel[64];
+    size_t n = format->list(file, wish, channel, 64, NULL);
+
+    for (size_t k = 0; k < n && k < 64; k++)
+        if (strcmp(channel[k].unit, "m") == 0)
+            return k;
+    return 0;
+}
+
+/* The numbers are read exactly; spacing and scale may be kept in single precision by the file. */
+static void
+check(const struct made_file *f, const struct rc_grid *g)
+{
+    double dy = (f->flags & SQUARE) != 0 ? 1.1e-6
+                : strcmp(f->format, "opd") == 0 ? 1.375e-6 : 1.29e-6;
+
+    assert_int_equal(g->nx, NX);
+    assert_int_equal(g->ny, NY);
+    if (!(fabs(g->dx - 1.1e-6) < 1e-13) || !(fabs(g->dy - dy) < 1e-13))
+        fail_msg("%s: the spacing is %g, %g", f->title, g->dx, g->dy);
+    assert_string_equal(g->channel, "height");
+    assert_string_equal(g->unit, "m");
+    for (size_t k = 0; k < NX * NY; k++) {
+        double wanted = value_of(k, (f->flags & PLAIN) == 0) * f->scale + f->zero;
+        bool lost = k == LOST_AT && (f->flags & HAS_LOST) != 0;
+
+        if (lost ? !isnan(g->v[k])
+                 : !(fabs(g->v[k] - wanted) <= 1e-7 * fabs(wanted) + 1e-15 * fabs(f->zero)))
+            fail_msg("%s: height %zu is %.17g, not %.17g", f->title, k, g->v[k],
+                     lost ? (double)NAN : wanted);
+    }
+}
+
+static void
+variants(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < MADE_FILES; k++) {
+        const struct made_file *f = &made_files[k];
+        struct rc_wish wish = wish_for(f->flags);
+        const struct rc_format *format;
+        struct rc_notes notes = {0};
+        struct made m = {0};
+        struct rc_err err = {""};
+        struct rc_file file;
+        struct rc_grid *g;
+
+        f->make(&m, f->variant);
+        for (int named = 0; named < 2; named++) { /* the content is enough */
+            file = (struct rc_file){named ? f->name : "noname", m.b, m.n};
+            format = rc_format_find(&file, &err);
+            if (format == NULL || strcmp(format->name, f->format) != 0)
+                fail_msg("%s is taken for %s", f->title, format == NULL ? err.text : format->name);
+        }
+        g = format->read(&file, &wish, first_height(format, &file, &wish), &notes, &err);
+        if (g == NULL)
+            fail_msg("%s: %s", f->title, err.text);
+        check(f, g);
+        printf("%-24s %-10s %4zu bytes, as it should be\n", f->title, f->format, m.n);
+        rc_grid_free(g);
+        free(m.b);
+    }
+}
+
+static struct rc_grid *
+read_made(const char *format, const struct made *m, size_t channel, struct rc_err *err)
+{
+    struct rc_file file = {"made", m->b, m->n};
+    struct rc_wish wish = {.dx = NAN, .dy = NAN, .z_unit = NAN};
+
+    return rc_format_named(format)->read(&file, &wish, channel, NULL, err);
+}
+
+/* Channels that are no heights keep their name and get the SI unit. */
+static void
+other_channels(void **state)
+{
+    static const struct {
+        const char *format;
+        void (*make)(struct made *m, int variant);
+        int variant;
+        size_t channel;
+        const char *name, *unit;
+    } rows[] = {
+        {"gwy", make_gwy, 0, 0, "values", "V"},
+        {"mi", make_mi, 1, 0, "Friction", "V"},
+        {"ibw", make_ibw, 2, 0, "PhaseTrace", "deg"},
+        {"nid", make_nid, 0, 0, "Topo, Scan forward", "V"},
+    };
+
+    (void)state;
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        struct made m = {0};
+        struct rc_err err = {""};
+        struct rc_grid *g;
+
+        rows[k].make(&m, rows[k].variant);
+        g = read_made(rows[k].format, &m, rows[k].channel, &err);
+        if (g == NULL)
+            fail_msg("%s: %s", rows[k].format, err.text);
+        assert_string_equal(g->channel, rows[k].name);
+        assert_string_equal(g->unit, rows[k].unit);
+        rc_grid_free(g);
+        assert_null(read_made(rows[k].format, &m, 7, &err));
+        assert_non_null(strstr(err.text, "no channel 8"));
+        free(m.b);
+    }
+}
+
+/* What a file says of itself is kept. */
+static void
+keys(void **state)
+{
+    static const struct {
+        const char *format;
+        void (*make)(struct made *m, int variant);
+        int variant;
+        size_t channel;
+        const char *key, *value;
+    } rows[] = {
+        {"sdf", make_sdf_text, 0, 0, "file.creator", "maker"},
+        {"sdf", make_sdf_binary, 5, 0, "file.date", "010203040506"},
+        {"sur", make_sur, 0, 0, "file.channel", "name of it"},
+        {"sur", make_sur, 0, 0, "file.comment", "comment"},
+        {"opd", make_opd, 0, 0, "file.title", "a title"},
+        {"plu", make_plu, 0, 0, "file.date", "Fri Mar 10 16:35:59 2023"},
+        {"nanoscope", make_nanoscope, 0, 0, "file.channel", "Height Sensor"},
+        {"nanoscope", make_nanoscope, 0, 0, "file.date", "02:03:59 PM Wed May 06 2015"},
+        {"nid", make_nid, 0, 1, "file.date", "24-01-2008"},
+        {"gwy", make_gwy, 0, 1, "file.channel", "The heights"},
+        {"gsf", make_gsf, 3, 0, "file.channel", "Titl"},
+        {"mi", make_mi, 0, 1, "file.version", "PicoView"},
+        {"frt", make_frt, 0, 0, "file.comment", "hello"},
+        {"opdx", make_opdx, 0, 0, "file.date", "2/11/2021"},
+        {"vk", make_vk4, 0, 0, "file.date", "2020-02-29T13:14:15"},
+        {"vk", make_vk6, 0, 0, "file.date", "2020-02-29T13:14:15"},
+    };
+
+    (void)state;
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        struct made m = {0};
+        struct rc_err err = {""};
+        const char *value;
+        struct rc_grid *g;
+
+        rows[k].make(&m, rows[k].variant);
+        if ((g = read_made(rows[k].format, &m, rows[k].channel, &err)) == NULL)
+            fail_msg("%s: %s", rows[k].format, err.text);
+        value = rc_grid_get(g, rows[k].key);
+        if (value == NULL || strcmp(value, rows[k].value) != 0)
+            fail_msg("%s: %s is '%s'", rows[k].format, rows[k].key, value == NULL ? "" : value);
+        rc_grid_free(g);
+        free(m.b);
+    }
+}
+
+/* ---- profiles as text ---- */
+
+static const struct {
+    const char *text;
+    size_t n;
+    double dx, first, last; /* NAN: missing */
+    const char *why;        /* refused for */
+} profiles[] = {
+    {"x [um],z [nm]\n0,1\n0.5,2\n1.0,3\n", 3, 0.5e-6, 1e-9, 3e-9, NULL},
+    {"Position (mm)\tHeight (\xb5m)\n0\t1\n0.5\t2\n1\tNaN\n", 3, 0.5e-3, 1e-6, NAN, NULL},
+    {"a header\nof lines, no numbers\nindex;x in \xc2\xb5m;y in \xc2\xb5m\n0;1;4\n1;2;5\n2;3;6\n",
+     3, 1e-6, 4e-6, 6e-6, NULL},
+    {"x_um z_um valid\n0 1 1\n1 2 1\n2 3 0\n", 3, 1e-6, 1e-6, NAN, NULL},
+    {"x_um z_um\n2 1\n1 2\n0 3\n", 3, 1e-6, 3e-6, 1e-6, NULL},
+    /* rounded to the last decimal */
+    {"x [um],z [um]\n0.0,1\n0.2,2\n0.3,3\n0.5,4\n0.6,5\n", 5, 0.15e-6, 1e-6, 5e-6, NULL},
+    {"x [um] z [um]\n0 1\n1 2\n2 3\n4 4\n5 5\n", 0, 0, 0, 0, "not evenly apart"},
+    {"x [s] z [um]\n0 1\n1 2\n2 3\n", 0, 0, 0, 0, "'s', which is no length"},
+    {"x [um] z [um]\n0 1\n2 2\n1 3\n", 0, 0, 0, 0, "do not run on at row 3"},
+    {"0 1\n1 2\n2 3\n", 0, 0, 0, 0, "its steps are 1"},
+    {"x [um] z\n0 1\n1 2\n2 3\n", 0, 0, 0, 0, "--z-unit"},
+    {"x [um] z [um]\n0 1\n1 2\n", 0, 0, 0, 0, "3 points at least"},
+    {"0 1 2\n1 2 3\n2 3 4\n", 0, 0, 0, 0, "without titles"},
+    {"x [um] z [um]\n0 1\n1 2 3\n2 3\n", 0, 0, 0, 0, "line 3"},
+    {"z [um]\n1\n2\n3\n", 0, 0, 0, 0, "--dx"},
+    {"1\n2 2\n3\n", 0, 0, 0, 0, "line 3"},
+    {"words and no more\n", 0, 0, 0, 0, "no table"},
+};
+
+/* In UTF-16 of either order, behind its mark. */
+static void
+widen(struct made *m, const char *from, bool big)
+{
+    put(m, big ? "\xfe\xff" : "\xff\xfe", 2);
+    m->big = big;
+    for (const unsigned char *s = (const unsigned char *)from; *s != '\0'; s++) {
+        unsigned c = *s;
+        if (c == 0xc2) /* the only two bytes above are those of U+00B5 */
+            c = *++s;
+        number(m, RC_RAW_U16, c);
+    }
+}
+
+static void
+check_profile(size_t row, const struct made *m)
+{
+    struct rc_err err = {""};
+    struct rc_grid *g = read_made("profile", m, 0, &err);
+
+    if (profiles[row].why != NULL) {
+        if (g != NULL || strstr(err.text, profiles[row].why) == NULL)
+            fail_msg("'%s': %s", profiles[row].text, g == NULL ? err.text : "read");
+        return;
+    }
+    if (g == NULL)
+        fail_msg("'%s': %s", profiles[row].text, err.text);
+    assert_int_equal(g->nx, profiles[row].n);
+    assert_int_equal(g->ny, 1);
+    assert_true(fabs(g->dx - profiles[row].dx) <= 1e-12 * g->dx);
+    assert_true(g->dy == g->dx);
+    assert_true(fabs(g->v[0] - profiles[row].first) <= 1e-12 * fabs(g->v[0]));
+    assert_true(isnan(profiles[row].last)
+                    ? isnan(g->v[g->nx - 1])
+                    : fabs(g->v[g->nx - 1] - profiles[row].last) <= 1e-12 * fabs(g->v[g->nx - 1]));
+    rc_grid_free(g);
+}
+
+/* Cut anywhere, in a block of memory of its own length. */
+static void
+cut_profile(size_t row, const struct made *m)
+{
+    for (size_t n = 0; n < m->n; n++) {
+        struct made part = {0};
+        struct rc_err err = {""};
+        struct rc_grid *g;
+
+        part.b = malloc(n == 0 ? 1 : n);
+        memcpy(part.b, m->b, n);
+        part.n = n;
+        g = read_made("profile", &part, 0, &err);
+        if (g == NULL ? err.text[0] == '\0' : !(g->dx > 0) || g->ny != 1 || g->nx > profiles[row].n)
+            fail_msg("'%s' cut to %zu bytes", profiles[row].text, n);
+        rc_grid_free(g);
+        free(part.b);
+    }
+}
+
+static void
+text_profiles(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < sizeof profiles / sizeof *profiles; k++)
+        for (int wide = 0; wide < 3; wide++) {
+            struct made m = {0};
+
+            if (wide == 0)
+                text(&m, profiles[k].text);
+            else
+                widen(&m, profiles[k].text, wide == 2);
+            check_profile(k, &m);
+            if (profiles[k].why == NULL)
+                cut_profile(k, &m);
+            free(m.b);
+        }
+}
+
+/* Heights alone, for which the user has the spacing. */
+static void
+one_column(void **state)
+{
+    static const char heights[] = "Height (nm)\n5\nNaN\n7\n8\n";
+    struct rc_wish wish = {.dx = 2e-6, .dy = NAN, .z_unit = NAN};
+    struct rc_file file = {"made.txt", (const unsigned char *)heights, strlen(heights)};
+    struct rc_err err = {""};
+    struct rc_grid *g = rc_format_named("profile")->read(&file, &wish, 0, NULL, &err);
+
+    (void)state;
+    if (g == NULL)
+        fail_msg("%s", err.text);
+    assert_int_equal(g->nx, 4);
+    assert_int_equal(g->ny, 1);
+    assert_true(g->dx == 2e-6 && g->dy == 2e-6);
+    assert_true(fabs(g->v[0] - 5e-9) < 1e-20 && isnan(g->v[1]) && fabs(g->v[3] - 8e-9) < 1e-20);
+    rc_grid_free(g);
+}
+
+/* ---- refusals ---- */
+
+static void
+points(void **state)
+{
+    static const struct {
+        const char *text, *why;
+    } rows[] = {
+        {"0 0 1\n1 0 2\n0 1 3\n1 1 4\n0 0 5\n", "point 5 stands where another one does"},
+        {"0 0 1\n1 0 2\n3.3 0 3\n0 1 4\n", "on no raster"},
+        {"0 0 1\n1 2 2\n2 4 3\n3 1 4\n4 3 5\n5 5 6\n6 6 7\n7 8 2\n8 7 3\n9 9 4\n10 10 1\n", NULL},
+        {"0 nan 1\n1 0 2\n", "has no y"},
+        {"0 0 1 2\n1 0 2 3\n", "has 3 columns, this table has 4"},
+        {"0 0 1\n0 1 1\n", "the same x"},
+        {"0 0 1\n1 1 1\n2 2 1\n3 3 1\n4 4 1\n5 5 1\n", "on no raster: 6 of them"},
+    };
+
+    (void)state;
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        struct rc_wish wish = {.dx = 1, .dy = 1, .z_unit = 1};
+        struct made m = {0};
+        struct rc_err err = {""};
+        struct rc_file file;
+        struct rc_grid *g;
+
+        text(&m, rows[k].text);
+        file = (struct rc_file){"made.xyz", m.b, m.n};
+        g = rc_format_named("xyz")->read(&file, &wish, 0, NULL, &err);
+        if (g != NULL || (rows[k].why != NULL && strstr(err.text, rows[k].why) == NULL))
+            fail_msg("'%s': %s", rows[k].text, g == NULL ? err.text : "read");
+        free(m.b);
+    }
+}
+
+/* A field of a made file with another value, and what is said of it. */
+static void
+lies(void **state)
+{
+    static const struct {
+        const char *format;
+        void (*make)(struct made *m, int variant);
+        int variant;
+        bool big;
+        size_t at;
+        enum rc_raw raw;
+        double value;
+        const char *why;
+    } rows[] = {
+        {"sdf", make_sdf_binary, 5, false, 42, RC_RAW_U16, 0, "NumPoints) is 0"},
+        {"sdf", make_sdf_binary, 5, false, 42, RC_RAW_U16, 65535, "65535 x 2 values"},
+        {"sdf", make_sdf_binary, 5, false, 46, RC_RAW_F64, 0, "spacing in x is 0 m"},
+        {"sdf", make_sdf_binary, 5, false, 46, RC_RAW_F64, -1e-6, "spacing in x is -1e-06 m"},
+        {"sdf", make_sdf_binary, 5, false, 54, RC_RAW_F64, INFINITY, "spacing in y is inf"},
+        {"sdf", make_sdf_binary, 5, false, 46, RC_RAW_F64, NAN, "does not give the spacing in x"},
+        {"sdf", make_sdf_binary, 5, false, 62, RC_RAW_F64, 0, "not 0"},
+        {"sdf", make_sdf_binary, 5, false, 62, RC_RAW_F64, NAN, "must be finite"},
+        {"sdf", make_sdf_binary, 5, false, 78, RC_RAW_U8, 1, "Compression is 1"},
+        {"sdf", make_sdf_binary, 5, false, 79, RC_RAW_U8, 8, "DataType is 8"},
+        {"sur", make_sur, 0, false, 108, RC_RAW_I32, -1, "columns is -1"},
+        {"sur", make_sur, 0, false, 108, RC_RAW_I32, 2147483647, "2147483647 x 2 values"},
+        {"sur", make_sur, 2, false, 108, RC_RAW_I32, 2147483647, "that cannot be"},
+        {"sur", make_sur, 2, false, 108, RC_RAW_I32, 4, "heights"},
+        {"sur", make_sur, 2, false, 524, RC_RAW_U32, 4294967295.0, "no room for their table"},
+        {"sur", make_sur, 2, false, 528, RC_RAW_U32, 4294967295.0, "stream 1 promises"},
+        {"sur", make_sur, 2, false, 532, RC_RAW_U32, 4294967295.0, "stream 1 promises"},
+        {"sur", make_sur, 2, false, 532, RC_RAW_U32, 3, "damaged"},
+        {"sur", make_sur, 0, false, 98, RC_RAW_I16, 8, "8 bits"},
+        {"sur", make_sur, 0, false, 334, RC_RAW_I16, -1, "comment and private part"},
+        {"sur", make_sur, 0, false, 120, RC_RAW_F32, 0, "spacing in x is 0"},
+        {"sur", make_sur, 0, false, 18, RC_RAW_I16, 12, "colour image (type 12)"},
+        {"sur", make_sur, 0, false, 18, RC_RAW_I16, 99, "of type 99"},
+        {"opd", make_opd, 0, false, 2 + 18, RC_RAW_I32, 2147483647, "directory takes"},
+        {"opd", make_opd, 0, false, 2 + 18, RC_RAW_I32, 24, "no block RAW_DATA"},
+        {"opd", make_opd, 0, false, 2 + 24 + 18, RC_RAW_I32, -1, "takes -1 bytes"},
+        {"opd", make_opd, 0, false, 2 + 48 + 18, RC_RAW_I32, 2147483647, "'RAW_DATA' takes"},
+        {"opd", make_opd, 0, false, 197, RC_RAW_U16, 4, "4 x 2 heights"},
+        {"opd", make_opd, 0, false, 201, RC_RAW_U16, 8, "8 bytes"},
+        {"metropro", make_metropro, 0, true, 68, RC_RAW_I16, 4, "do not make"},
+        {"metropro", make_metropro, 0, true, 72, RC_RAW_I32, 0, "no phase"},
+        {"metropro", make_metropro, 0, true, 218, RC_RAW_I16, 3, "resolution is 3"},
+        {"metropro", make_metropro, 0, true, 6, RC_RAW_U32, 4294967295.0, "header and intens"},
+        {"metropro", make_metropro, 0, true, 184, RC_RAW_F32, 0, "does not give the spacing"},
+        {"plu", make_plu, 0, false, 0x1f4, RC_RAW_U32, 7, "repeat the sizes"},
+        {"plu", make_plu, 0, false, 0x1ac, RC_RAW_U32, 0, "an image (type 0)"},
+        {"plu", make_plu, 0, false, 0x1ac, RC_RAW_U32, 4294967295.0, "something else"},
+        {"plu", make_plu, 0, false, 0x194, RC_RAW_F32, -1, "spacing in x is -1e-06"},
+        {"ibw", make_ibw, 0, false, 148, RC_RAW_F64, -1, "spacing in x is -1e-06"},
+        {"ibw", make_ibw, 0, false, 80, RC_RAW_I16, 3, "complex"},
+        {"ibw", make_ibw, 0, false, 80, RC_RAW_I16, 0, "text"},
+        {"ibw", make_ibw, 0, false, 136, RC_RAW_I32, 0, "1 dimensions"},
+        {"ibw", make_ibw, 0, false, 132, RC_RAW_I32, 2147483647, "promises"},
+        {"ibw", make_ibw, 0, false, 0, RC_RAW_I16, 2, "version 2"},
+        {"frt", make_frt, 0, false, 16, RC_RAW_U16, 65535, "block 7 of 65535"},
+        {"frt", make_frt, 0, false, 16, RC_RAW_U16, 5, "no block of heights"},
+        {"frt", make_frt, 1, false, 20, RC_RAW_U64, 18446744073709549568.0, "does not end"},
+        {"vk", make_vk4, 0, false, 36, RC_RAW_U32, 4294967295.0, "height image 1 begins"},
+        {"vk", make_vk4, 0, false, 36, RC_RAW_U32, 0, "no height image"},
+        {"vk", make_vk4, 0, false, 12, RC_RAW_U32, 4294967295.0, "conditions"},
+        {"vk", make_vk4, 0, false, 388 + 12, RC_RAW_U32, 1, "compressed"},
+        {"vk", make_vk4, 0, false, 388 + 16, RC_RAW_U32, 25, "do not make"},
+        {"vk", make_vk4, 0, false, 388 + 8, RC_RAW_U32, 24, "24 bits"},
+        {"grd", make_grd, 1, false, 4, RC_RAW_I16, -1, "columns is -1"},
+        {"grd", make_grd, 2, false, 16, RC_RAW_I32, -1, "has -1 bytes"},
+        {"grd", make_grd, 2, false, 24, RC_RAW_I32, 2147483647, "DATA has 48 bytes"},
+        {"grd", make_grd, 2, false, 76, RC_RAW_F64, 45, "rotated"},
+        {"tmd", make_tmd, 1, false, 33, RC_RAW_I32, 0, "columns is 0"},
+        {"tmd", make_tmd, 1, false, 41, RC_RAW_F32, NAN, "does not give the spacing in x"},
+    };
+
+    (void)state;
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        struct rc_wish wish = {.dx = NAN, .dy = NAN, .z_unit = NAN};
+        struct made m = {0};
+        struct rc_err err = {""};
+        struct rc_file file;
+        struct rc_grid *g;
+
+        rows[k].make(&m, rows[k].variant);
+        m.big = rows[k].big;
+        number_at(&m, rows[k].at, rows[k].raw, rows[k].value);
+        file = (struct rc_file){"made", m.b, m.n};
+        g = rc_format_named(rows[k].format)->read(&file, &wish, 0, NULL, &err);
+        if (g != NULL || strstr(err.text, rows[k].why) == NULL)
+            fail_msg("%s with %g at %zu: %s", rows[k].format, rows[k].value, rows[k].at,
+                     g == NULL ? err.text : "read");
+        free(m.b);
+    }
+}
+
+/* Headers of text with one line changed. */
+static void
+text_lies(void **state)
+{
+    static const struct {
+        const char *format;
+        void (*make)(struct made *m, int variant);
+        int variant;
+        const char *from, *to; /* of the same length */
+        const char *why;
+        int flags;
+    } rows[] = {
+        {"sdf", make_sdf_text, 0, "NumPoints = 3", "NumPoints = 9", "the file has", 0},
+        {"sdf", make_sdf_text, 0, "NumPoints = 3", "NumPoints = x", "'x': that is no number", 0},
+        {"sdf", make_sdf_text, 0, "BAD", "bed", "'bed': that is no number", 0},
+        {"sdf", make_sdf_text, 0, "1.1E-6", "-1.1E6", "spacing in x is -1100000", 0},
+        {"al3d", make_al3d, 0, "800\0", "9999", "begins at byte 9999", 0},
+        {"nanoscope", make_nanoscope, 0, "offset: 1024", "offset: 1034", "from byte 1034", 0},
+        {"nanoscope", make_nanoscope, 0, "Samps/line: 3", "Samps/line: 0", "Samps/line) is 0", 0},
+        {"nanoscope", make_nanoscope, 0, "File list end", "Fool list end", "does not end", 0},
+        {"nanoscope", make_nanoscope, 0, "65.536", "sixty!", "no value is found", 0},
+        {"nid", make_nid, 0, "SaveBits=16", "SaveBits=17", "SaveBits is 17", 0},
+        {"nid", make_nid, 0, "SaveBits=16\r", "SaveBits=nan", "SaveBits is nan", 0}, /* fuzzing */
+        {"nid", make_nid, 0, "Points=3", "Points=9", "the file has", 0},
+        {"nid", make_nid, 0, "=DataSet-0:1", "=DataSet-9:1", "not there", 0},
+        {"gsf", make_gsf, 0, "XRes = 3", "XRes = 0", "XRes) is 0", 0},
+        {"gsf", make_gsf, 0, "XRes = 3", "XRes = 9", "the file has", 0},
+        {"gsf", make_gsf, 0, "XYUnits = m", "XYUnits = s", "does not give the spacing", 0},
+        {"mi", make_mi, 0, "xPixels       3", "xPixels       9", "the file has", 0},
+        {"mi", make_mi, 0, "BINARY", "ASCII!", "only BINARY", 0},
+        {"mi", make_mi, 0, "Image", "Spect", "no image but 'Spect'", 0},
+        {"wsxm", make_wsxm, 0, "columns: 3", "columns: 9", "the file has", 0},
+        {"wsxm", make_wsxm, 0, "short", "shirt", "'shirt'", 0},
+        {"wsxm", make_wsxm, 0, "size:   512", "size: 99999", "99999 bytes", 0},
+        {"bcr", make_bcr, 0, "xpixels = 3", "xpixels = 9", "the file has", 0},
+        {"bcr", make_bcr, 0, "xlength = 3300", "xlength = -300", "spacing in x is -1.0", 0},
+        {"bcr", make_bcr, 0, "bit2nm = 0.25", "bit2nm = 0.00", "not 0", 0},
+        {"grd", make_grd, 0, "3 2", "9 2", "the file has 6", NO_SPACING | NO_UNIT},
+        {"esri", make_esri, 0, "ncols 3", "ncols 4", "the file has 6", NO_SPACING | NO_UNIT},
+        {"npy", make_npy, 0, "(2, 3)", "(2, 9)", "the file has", 0},
+        {"npy", make_npy, 0, "(2, 3)", "(1,2,3", "no shape", 0},
+        {"npy", make_npy, 0, "<f8", "<c8", "<c8", 0},
+        {"gwy", make_gwy, 0, "GwyContainer", "GwyContained", "GwyContainer", 0},
+        {"gwy", make_gwy, 0, "GwyDataField", "GwyDataFeeld", "is none", 0},
+        {"vk", make_vk6, 0, "Vk4File", "Vk4Fool", "no archive with a member", 0},
+    };
+
+    (void)state;
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        struct rc_wish wish = wish_for(rows[k].flags);
+        size_t n = strlen(rows[k].to), changed = 0;
+        struct made m = {0};
+        struct rc_err err = {""};
+        struct rc_file file;
+        struct rc_grid *g;
+
+        rows[k].make(&m, rows[k].variant);
+        for (size_t at = 0; at + n <= m.n; at++)
+            if (memcmp(m.b + at, rows[k].from, n) == 0) {
+                memcpy(m.b + at, rows[k].to, n);
+                changed++;
+            }
+        assert_true(changed > 0);
+        file = (struct rc_file){"made", m.b, m.n};
+        g = rc_format_named(rows[k].format)->read(&file, &wish, 0, NULL, &err);
+        if (g != NULL || strstr(err.text, rows[k].why) == NULL)
+            fail_msg("%s with '%s': %s", rows[k].format, rows[k].to, g == NULL ? err.text : "read");
+        free(m.b);
+    }
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(variants), cmocka_unit_test(other_channels), cmocka_unit_test(keys),
+        cmocka_unit_test(text_profiles), cmocka_unit_test(one_column), cmocka_unit_test(points), cmocka_unit_test(lies),
+        cmocka_unit_test(text_lies),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

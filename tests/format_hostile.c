@@ -1,0 +1,229 @@
+/* A flat file that is cut anywhere, or lies anywhere, is refused or is still a sound map. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+
+#include <cmocka.h>
+
+#include "formats/format.h"
+#include "formats/utf8.h"
+#include "made_files.h"
+
+enum {
+    CHANNELS = 3,       /* that are read of a file            */
+    LOOKED = 1200       /* bytes at the front that are changed */
+};
+
+static struct rc_wish
+wish_for(int flags)
+{
+    struct rc_wish wish = {.dx = NAN, .dy = NAN, .z_unit = NAN};
+
+    if ((flags & NO_SPACING) != 0)
+        wish.dx = 1.1e-6;
+    if ((flags & NO_UNIT) != 0)
+        wish.z_unit = 1e-9;
+    return wish;
+}
+
+/* What every map that comes out must be, whatever went in. */
+static void
+check_sound(const struct made_file *f, const struct rc_grid *g, size_t size)
+{
+    if (!(g->dx > 0) || !isfinite(g->dx) || !(g->dy > 0) || !isfinite(g->dy))
+        fail_msg("%s: the spacing is %g, %g", f->title, g->dx, g->dy);
+    if (8.0 * (double)g->nx * (double)g->ny > 16 * (double)size + 67108864)
+        fail_msg("%s: %zu x %zu out of %zu bytes", f->title, g->nx, g->ny, size);
+    for (size_t k = 0; k < g->nx * g->ny; k++)
+        if (isinf(g->v[k]))
+            fail_msg("%s: an infinite height", f->title);
+}
+
+/* What is said and shown must not act on a terminal. */
+static void
+check_words(const struct made_file *f, const char *words)
+{
+    if (!rc_utf8_valid(words))
+        fail_msg("%s: '%s' is no UTF-8", f->title, words);
+    for (const char *s = words; *s != '\0'; s++)
+        if ((unsigned char)*s < ' ' || *s == 0x7f)
+            fail_msg("%s: '%s' holds a control character", f->title, words);
+}
+
+/* Reads all channels; gives the one numbered `wanted`, or NULL. The bytes stand in a block of their
+ * own length, so that a step too far is seen. */
+static struct rc_grid *
+read_all(const struct made_file *f, const unsigned char *bytes, size_t n, size_t wanted,
+         struct rc_err *err)
+{
+    const struct rc_format *format = rc_format_named(f->format);
+    unsigned char *copy = malloc(n == 0 ? 1 : n);
+    struct rc_file file = {f->name, copy, n};
+    struct rc_wish wish = wish_for(f->flags);
+    struct rc_channel channel[CHANNELS];
+    struct rc_grid *kept = NULL;
+    size_t channels;
+
+    memcpy(copy, bytes, n);
+    format->score(&file);
+    err->text[0] = '\0';
+    channels = format->list(&file, &wish, channel, CHANNELS, err);
+    if (channels == 0 && err->text[0] == '\0')
+        fail_msg("%s, %zu bytes: not listed, without a reason", f->title, n);
+    check_words(f, err->text);
+    for (size_t k = 0; k < channels && k < CHANNELS; k++) {
+        struct rc_notes notes = {0};
+        struct rc_grid *g;
+
+        err->text[0] = '\0';
+        g = format->read(&file, &wish, k, &notes, err);
+        if (g == NULL && err->text[0] == '\0')
+            fail_msg("%s, %zu bytes: refused without a reason", f->title, n);
+        check_words(f, err->text);
+        check_words(f, channel[k].name);
+        check_words(f, channel[k].unit);
+        if (g != NULL)
+            check_sound(f, g, n);
+        if (k == wanted)
+            kept = g;
+        else
+            rc_grid_free(g);
+    }
+    free(copy);
+    return kept;
+}
+
+static bool
+same(const struct rc_grid *a, const struct rc_grid *b)
+{
+    if (a->nx != b->nx || a->ny != b->ny || a->dx != b->dx || a->dy != b->dy)
+        return false;
+    for (size_t k = 0; k < a->nx * a->ny; k++)
+        if (a->v[k] != b->v[k] && !(isnan(a->v[k]) && isnan(b->v[k])))
+            return false;
+    return true;
+}
+
+/* The channel that is looked at is the last one: those before it need fewer bytes. */
+static size_t
+last_channel(const struct made_file *f)
+{
+    return strcmp(f->format, "gwy") == 0 || strcmp(f->format, "mi") == 0 ||
+           strcmp(f->format, "nid") == 0 || f->make == make_ibw;
+}
+
+static void
+cut_anywhere(void **state)
+{
+    size_t cuts = 0;
+
+    (void)state;
+    for (size_t k = 0; k < MADE_FILES; k++) {
+        const struct made_file *f = &made_files[k];
+        size_t wanted = last_channel(f) && (f->make != make_ibw || f->variant == 2);
+        struct rc_grid *whole, *g;
+        struct made m = {0};
+        struct rc_err err;
+
+        f->make(&m, f->variant);
+        whole = read_all(f, m.b, m.n, wanted, &err);
+        if (whole == NULL)
+            fail_msg("%s: %s", f->title, err.text);
+        for (size_t n = 0; n < m.n; n++, cuts++) {
+            g = read_all(f, m.b, n, wanted, &err);
+            if (g != NULL && (f->flags & IS_TEXT) == 0 && !same(g, whole))
+                fail_msg("%s cut to %zu of %zu bytes is read as another map", f->title, n, m.n);
+            rc_grid_free(g);
+        }
+        rc_grid_free(whole);
+        free(m.b);
+    }
+    printf("%zu cuts\n", cuts);
+}
+
+static void
+lies_anywhere(void **state)
+{
+    static const struct {
+        size_t n;
+        unsigned char bytes[8];
+    } lies[] = {
+        {1, {0}},
+        {1, {1}},
+        {1, {0x7f}},
+        {1, {0x80}},
+        {1, {0xff}},
+        {1, {'-'}},
+        {1, {'9'}},
+        {1, {'\n'}},
+        {4, {0xff, 0xff, 0xff, 0xff}},
+        {4, {0xff, 0xff, 0xff, 0x7f}},
+        {4, {0x7f, 0xff, 0xff, 0xff}},
+        {4, {0, 0, 0, 0x80}},
+        {4, {0, 0, 0xc0, 0x7f}},                  /* NaN, 32 bits */
+        {8, {0}},
+        {8, {0, 0, 0, 0, 0, 0, 0xf8, 0x7f}},      /* NaN */
+        {8, {0, 0, 0, 0, 0, 0, 0xf0, 0x7f}},      /* infinity */
+        {8, {'9', '9', '9', '9', '9', '9', '9', '9'}},
+    };
+    size_t told = 0, believed = 0;
+
+    (void)state;
+    for (size_t k = 0; k < MADE_FILES; k++) {
+        const struct made_file *f = &made_files[k];
+        struct made m = {0};
+        struct rc_err err;
+
+        f->make(&m, f->variant);
+        for (size_t at = 0; at < m.n && at < LOOKED; at++)
+            for (size_t l = 0; l < sizeof lies / sizeof *lies; l++) {
+                unsigned char kept[8];
+                struct rc_grid *g;
+
+                if (at + lies[l].n > m.n)
+                    continue;
+                memcpy(kept, m.b + at, lies[l].n);
+                memcpy(m.b + at, lies[l].bytes, lies[l].n);
+                g = read_all(f, m.b, m.n, 0, &err);
+                believed += g != NULL;
+                told++;
+                rc_grid_free(g);
+                memcpy(m.b + at, kept, lies[l].n);
+            }
+        free(m.b);
+    }
+    printf("%zu lies, of which %zu still make a map\n", told, believed);
+}
+
+/* No reader minds what belongs to another one, forced upon it. */
+static void
+every_reader_on_every_file(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < MADE_FILES; k++) {
+        struct made m = {0};
+
+        made_files[k].make(&m, made_files[k].variant);
+        for (const struct rc_format *const *f = rc_formats; *f != NULL; f++) {
+            struct made_file forced = made_files[k];
+            struct rc_err err;
+
+            forced.format = (*f)->name;
+            forced.flags = NO_SPACING | NO_UNIT;
+            rc_grid_free(read_all(&forced, m.b, m.n, 0, &err));
+        }
+        free(m.b);
+    }
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(cut_anywhere),
+        cmocka_unit_test(lies_anywhere),
+        cmocka_unit_test(every_reader_on_every_file),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

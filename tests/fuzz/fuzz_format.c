@@ -1,0 +1,86 @@
+/* Whatever the bytes are, the reader named in RC_FORMAT refuses them with a reason or gives a sound
+ * map; without RC_FORMAT it is the reader that detection chooses. */
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "formats/format.h"
+#include "formats/utf8.h"
+
+enum {
+    CHANNELS = 4 /* that are read of a file */
+};
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+static void
+check(const struct rc_grid *g, size_t size)
+{
+    if (!(g->dx > 0) || !isfinite(g->dx) || !(g->dy > 0) || !isfinite(g->dy)) {
+        fprintf(stderr, "the spacing is %g, %g\n", g->dx, g->dy);
+        abort();
+    }
+    if (8 * (double)g->nx * (double)g->ny > 16 * (double)size + 67108864) {
+        fprintf(stderr, "%zu x %zu out of %zu bytes\n", g->nx, g->ny, size);
+        abort();
+    }
+    for (size_t k = 0; k < g->nx * g->ny; k++)
+        if (isinf(g->v[k])) {
+            fprintf(stderr, "an infinite value\n");
+            abort();
+        }
+}
+
+/* What is said and shown must not act on a terminal. */
+static void
+check_words(const char *words)
+{
+    bool good = rc_utf8_valid(words);
+
+    for (const char *s = words; *s != '\0'; s++)
+        good = good && (unsigned char)*s >= ' ' && *s != 0x7f;
+    if (!good) {
+        fprintf(stderr, "'%s' is not clean\n", words);
+        abort();
+    }
+}
+
+int
+LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    /* half of the files are read with what the user adds */
+    bool wishes = size > 0 && (data[size - 1] & 1) != 0;
+    struct rc_wish wish = {.dx = wishes ? 1e-6 : NAN, .dy = NAN, .z_unit = wishes ? 1e-9 : NAN};
+    const char *name = getenv("RC_FORMAT");
+    struct rc_file file = {"fuzz.dat", data, size};
+    const struct rc_format *format = rc_format_find(&file, NULL);
+    struct rc_channel channel[CHANNELS];
+    struct rc_err err = {""};
+    size_t n;
+
+    if (name != NULL)
+        format = rc_format_named(name);
+    if (format == NULL)
+        return 0;
+    n = format->list(&file, &wish, channel, CHANNELS, &err);
+    if (n == 0 && err.text[0] == '\0')
+        abort();
+    check_words(err.text);
+    for (size_t k = 0; k < (n < CHANNELS ? n : CHANNELS); k++) {
+        struct rc_notes notes = {0};
+        struct rc_grid *g;
+
+        err.text[0] = '\0';
+        g = format->read(&file, &wish, k, &notes, &err);
+        if (g == NULL && err.text[0] == '\0')
+            abort();
+        check_words(err.text);
+        check_words(channel[k].name);
+        check_words(channel[k].unit);
+        if (g != NULL)
+            check(g, size);
+        rc_grid_free(g);
+    }
+    return 0;
+}

@@ -1,0 +1,31 @@
+/* Writes the files that the tests make by hand into folders FOLDER/FORMAT/, as seeds. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+
+#include "tests/made_files.h"
+
+int
+main(int argc, char **argv)
+{
+    char path[4096];
+
+    if (argc != 2)
+        return 2;
+    for (size_t k = 0; k < MADE_FILES; k++) {
+        struct made m = {0};
+        FILE *f;
+
+        snprintf(path, sizeof path, "%s/%s", argv[1], made_files[k].format);
+        mkdir(path, 0777);
+        snprintf(path, sizeof path, "%s/%s/made-%zu-%s", argv[1], made_files[k].format, k,
+                 made_files[k].name);
+        made_files[k].make(&m, made_files[k].variant);
+        if ((f = fopen(path, "wb")) == NULL || fwrite(m.b, 1, m.n, f) != m.n || fclose(f) != 0) {
+            perror(path);
+            return 1;
+        }
+        free(m.b);
+    }
+    return 0;
+}
