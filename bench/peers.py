@@ -203,7 +203,7 @@ def solve_contactmechanics(h, p, boundary, s):
     r = system.minimize_proxy(external_force=p, pentol=s["tol"], maxiter=20000)
     spent = time.perf_counter() - began
     force = np.asarray(system.substrate.force)[:h.shape[0], :h.shape[1]]
-    return -force * h.size, spent, int(r.nit)
+    return force * h.size, spent, int(r.nit)
 
 
 def aspher_settings(boundary, tol):
@@ -212,7 +212,10 @@ def aspher_settings(boundary, tol):
     else:
         kinds = [dict(backend="h2", active_set=True), dict(backend="fft")]
     precisions = ["double", "float", "float_then_double"]
-    return [[dict(kind, precision=precision, coarse_tol=coarse, tol=float(t))
+    def floor(precision, t):  # else float stops at 2e-6
+        return dict(float_floor=min(2e-6, float(t))) if precision == "float" else {}
+
+    return [[dict(kind, precision=precision, coarse_tol=coarse, tol=float(t), **floor(precision, t))
              for t in tol * 10.0**-np.arange(0, 5, 0.5)]
             for kind in kinds for precision in precisions for coarse in (1e-4, 1e-2)
             if not (precision == "double" and coarse == 1e-2)  # float shows what that brings
@@ -226,7 +229,7 @@ def tamaas_settings(boundary, tol):
 
 def contactmechanics_settings(boundary, tol):
     # pentol is a length; here lengths are over the side of the map
-    return [[dict(tol=float(t)) for t in tol * 10.0**-np.arange(2, 10)]]
+    return [[dict(tol=float(t)) for t in tol * 10.0**-np.arange(0, 10)]]
 
 
 PEERS = {  # name: package, one solve, ladders of settings from loose to tight
