@@ -279,24 +279,63 @@ precondition(struct rc_solver *solver, struct state *s, double *mean)
 
 /* ---- step ---- */
 
+enum { /* sums of a move */
+    SIZE,
+    CARRIED
+};
+
+/* W moves by rc_move, the others stay; where nothing is clipped, how much of it fits into the box. */
+RC_CLONES static void
+move_by(size_t n, double *restrict p, const unsigned char *restrict w, const float *restrict d,
+        double hardness, double alpha, double mean, double shift, double scale,
+        float *restrict delta, double *sums)
+{
+    double size = 0, carried = 0;
+
+#pragma omp simd reduction(+ : size, carried)
+    for (size_t k = 0; k < n; k++) {
+        double e = (double)d[k], y = p[k] + shift + (e != 0 ? alpha * (e - mean) : 0), change;
+        y = y > 0 ? y : 0;
+        y = y < hardness ? y : hardness;
+        y = w[k] ? y : p[k];
+        change = y - p[k];
+        p[k] = y;
+        delta[k] = (float)(change * scale);
+        size += fabs(change);
+        carried += y;
+    }
+    sums[SIZE] = size;
+    sums[CARRIED] = carried;
+}
+
+/* After a move: the largest part of the way to a bound that any node has gone. */
+RC_CLONES static double
+farthest(size_t n, const double *restrict p, const float *restrict delta, double hardness,
+         double scale)
+{
+    double most = 0;
+
+#pragma omp simd reduction(max : most)
+    for (size_t k = 0; k < n; k++) {
+        double e = (double)delta[k] * scale, was = p[k] - e;
+        double part = e < 0 ? -e / was : e > 0 ? e / (hardness - was) : 0;
+        most = part > most ? part : most;
+    }
+    return most;
+}
+
 static void
 move_block(void *at, size_t first, size_t n, double *sums)
 {
     const struct pass *c = at;
-    struct rc_solver *solver = c->solver;
+    struct rc_solver *s = c->solver;
     const struct rc_move *m = c->move;
-    float *delta = c->s->delta;
+    float *delta = c->s->delta + first;
 
-    for (size_t k = first; k < first + n; k++) {
-        double p = solver->p[k], y = solver->w[k] ? rc_moved(m, k) : p, e = y - p, room;
-        solver->p[k] = y;
-        delta[k] = (float)(e * solver->per_pressure);
-        sums[0] += fabs(e);
-        if (!m->clipped && e != 0) {
-            room = e < 0 ? -e / p : e / (solver->hardness - p);
-            sums[RC_MOST] = room > sums[RC_MOST] ? room : sums[RC_MOST];
-        }
-    }
+    move_by(n, s->p + first, s->w + first, m->d + first, s->hardness, m->alpha, m->mean, m->shift,
+            s->per_pressure, delta, sums);
+    if (!m->clipped)
+        sums[RC_MOST] = farthest(n, s->p + first, delta, s->hardness, 1 / s->per_pressure);
 }
 
 static bool
@@ -359,17 +398,21 @@ step_out(void *at, size_t j, void *from)
     return true;
 }
 
+RC_CLONES static void
+follow(size_t n, const float *restrict q, double factor, double *restrict v)
+{
+    for (size_t k = 0; k < n; k++)
+        v[k] += factor * (double)q[k];
+}
+
 /* v goes along with p: a is how much of the step. */
 static void
 follow_block(void *at, size_t first, size_t n, double *sums)
 {
     const struct pass *c = at;
-    double factor = c->a * c->solver->length, *v = c->solver->v;
-    const float *q = c->s->q;
 
     (void)sums;
-    for (size_t k = first; k < first + n; k++)
-        v[k] += factor * (double)q[k];
+    follow(n, c->s->q + first, c->a * c->solver->length, c->solver->v + first);
 }
 
 /* Takes p back by b of the step; what rounding leaves of a node that came from a bound is nothing. */
@@ -390,11 +433,10 @@ back_block(void *at, size_t first, size_t n, double *sums)
     }
 }
 
+/* p carries `sum`. */
 static void
-balance(struct rc_solver *solver)
+balance(struct rc_solver *solver, double sum)
 {
-    double sum = rc_solver_carried(solver);
-
     /* should memory be short, a little of the load is missing, and the result says so */
     if (fabs(sum - solver->sum) > 1e-14 * solver->sum)
         (void)rc_box_balance(solver->n, solver->hardness, solver->sum, solver->v, solver->p, NULL);
@@ -403,6 +445,7 @@ balance(struct rc_solver *solver)
 /* What a trial step found. */
 struct trial {
     double size;      /* relative L1 norm                                            */
+    double carried;   /* the sum of p after it                                       */
     double room;      /* how much of it fits into the box: 1 or, not clipped, more   */
     double best;      /* how much of it leads to the lowest energy; 0: nowhere       */
     bool clipped;
@@ -421,7 +464,8 @@ attempt(struct rc_solver *solver, struct state *s, double alpha, double mean, st
     rc_move_find(&move);
     rc_solver_blocks(solver, move_block, &c, t->total);
     t->clipped = move.clipped;
-    t->size = t->total[0] / solver->sum;
+    t->size = t->total[SIZE] / solver->sum;
+    t->carried = t->total[CARRIED];
     t->room = move.clipped || !(t->total[RC_MOST] > 0) ? 1 : 1 / t->total[RC_MOST];
     rc_solver_rows_begin(solver);
     convolve(&c, step_in, step_out);
@@ -437,7 +481,7 @@ undo(struct rc_solver *solver, struct state *s, const struct trial *t)
     double total[RC_SUMS];
 
     rc_solver_blocks(solver, back_block, &c, total);
-    balance(solver);
+    balance(solver, rc_solver_carried(solver));
     s->drift += single_epsilon * t->size; /* delta was rounded */
 }
 
@@ -476,9 +520,11 @@ advance(struct rc_solver *solver, struct state *s, double alpha, double mean)
             solver->shift = t.total[GAP] / t.total[ELASTIC];
     }
     rc_solver_blocks(solver, follow_block, &c, total);
-    if (part != 1)
+    if (part != 1) {
         rc_solver_blocks(solver, back_block, &c, total);
-    balance(solver);
+        t.carried = rc_solver_carried(solver);
+    }
+    balance(solver, t.carried);
     if (part != 1 || solver->elastic == 0)
         rc_solver_shift(solver);
     rc_solver_residual(solver);

@@ -173,18 +173,6 @@ struct rc_move {
     bool clipped;      /* found: some node would have left the box                        */
 };
 void rc_move_find(struct rc_move *move);
-/* Where node k of W would go, by that shift. */
-static inline double
-rc_moved(const struct rc_move *m, size_t k)
-{
-    const struct rc_solver *s = m->solver;
-    double d = (double)m->d[k], y = s->p[k] + m->shift;
-
-    y += d != 0 ? m->alpha * (d - m->mean) : 0;
-    y = y > 0 ? y : 0;
-    return y < s->hardness ? y : s->hardness;
-}
-
 /* guard.c: begins with energy INFINITY. */
 struct rc_guard {
     double energy; /* of the last p that was kept */
