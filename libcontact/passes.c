@@ -171,7 +171,7 @@ rc_solver_residual(struct rc_solver *s)
 
 /* Parts of the working set that may change sides before the extension is told, and before it measures
  * its distances again. */
-static const double little = 1e-3, much = 0.3;
+static const double little = 1e-3, much = 1.0;
 
 void
 rc_solver_correct(struct rc_solver *s, rc_row *done, void *ctx)

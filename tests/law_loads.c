@@ -243,7 +243,7 @@ yielded_shape_holds(void **state)
 static void
 discretization_is_bounded(void **state)
 {
-    double *h = malloc(shape.nx * shape.ny * sizeof *h), radius, peak, near;
+    double *h, radius, peak, near;
     struct rc_problem problem = problem_on(RC_FREE);
     struct rc_contact c;
     struct rc_solver *s;
@@ -251,6 +251,7 @@ discretization_is_bounded(void **state)
     (void)state;
     if (strcmp(contact_method, "pcg") != 0)
         skip(); /* it comes with the nested start */
+    h = malloc(shape.nx * shape.ny * sizeof *h);
     problem.discretization = true;
     rc_synth_sphere(&shape, 2.385e-3, h);
     s = start(h, problem);
