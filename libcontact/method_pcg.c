@@ -13,7 +13,7 @@
  * known exactly, and the conjugacy of the next direction. A step that is too long for the
  * energy is shortened to its lowest point; an unclipped one always goes there. So no step raises
  * the energy. Where delta leads nowhere, and every SPACER steps, a projected-gradient step is made
- * instead. By the spacer-step theorem (Luenberger and Ye, Linear and Nonlinear Programming, 4th ed., sect. 8.7) the whole then
+ * instead. By the spacer-step theorem (Luenberger and Ye, Linear and Nonlinear Programming) the whole then
  * converges to the one minimum.
  *
  * ||z||_1 / ||p||_1 estimates the error of the pressure and costs nothing here: z is at hand.
