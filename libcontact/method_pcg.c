@@ -43,6 +43,9 @@ static const double single_epsilon = 2e-7;
  * bounds. With the lowest point at a part s of the way, the whole of it still gains (2 s - 1)/s^2 of what could
  * be gained. */
 static const double enough = 0.6;
+/* No step is longer than this, over the load: what the nodes that stay carry would be lost in the rounding of the
+ * way there. Only heights beside which the displacement is nothing ask for more. */
+static const double longest = 1e6;
 
 struct state {
     double *room;     /* 2n floats; between two steps n numbers of scratch                */
@@ -461,8 +464,7 @@ gradient_block(void *at, size_t first, size_t n, double *sums)
         float d = (float)(-(s->v[k] - s->shift) * c->a);
         s->z[k] = d;
         s->w[k] = 1;
-        sums[0] += (double)d;
-        sums[1] += d != 0;
+        sums[0] += fabs((double)d);
     }
 }
 
@@ -471,12 +473,13 @@ gradient_step(struct rc_solver *solver, struct state *s)
 {
     struct pass c = {.solver = solver, .s = s,
                      .a = solver->per_pressure / rc_guard_norm(solver)};
-    double total[RC_SUMS];
+    double total[RC_SUMS], size;
     bool better;
 
     rc_solver_blocks(solver, gradient_block, &c, total);
     rc_solver_forget(solver);
-    better = advance(solver, s, 1, 0);
+    size = total[0] / solver->per_pressure / solver->sum;
+    better = advance(solver, s, size > longest ? longest / size : 1, 0);
     s->curvature = 0; /* not a direction to be conjugate to */
     if (!better)
         rc_solver_residual(solver);
@@ -487,7 +490,7 @@ static void
 step(struct rc_solver *solver, void *at)
 {
     struct state *s = at;
-    double mean = 0;
+    double mean = 0, alpha;
 
     if (!solver->known) {
         begin(solver, s);
@@ -512,7 +515,8 @@ step(struct rc_solver *solver, void *at)
     } else if (solver->iterations > s->best_at + PATIENCE) {
         return; /* rounding: it stands still */
     }
-    if (solver->iterations % SPACER == SPACER - 1 || !advance(solver, s, s->alpha, mean))
+    alpha = solver->estimate * s->alpha > longest ? longest / solver->estimate : s->alpha;
+    if (solver->iterations % SPACER == SPACER - 1 || !advance(solver, s, alpha, mean))
         (void)gradient_step(solver, s);
 }
 
