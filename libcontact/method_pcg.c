@@ -486,6 +486,25 @@ gradient_step(struct rc_solver *solver, struct state *s)
     return better;
 }
 
+/* Where the start is that far off, heights are so large beside the displacement that nodes decide nearly alone whether
+ * they touch, or yield: as springs, each of the stiffness of its own cell. */
+static const double apart = 100;
+
+static void
+start_from_springs(struct rc_solver *solver)
+{
+    double least = 0, stiffness;
+
+    for (size_t k = 0; k < solver->n; k++) /* the highest is 0 */
+        least = fmin(least, solver->h[k]);
+    stiffness = fmin(solver->estar / sqrt(solver->cell),
+                     longest * fmin(solver->hardness, solver->sum) / -least);
+    for (size_t k = 0; k < solver->n; k++)
+        solver->p[k] = stiffness * solver->h[k];
+    rc_box_project(solver->n, NULL, solver->hardness, solver->sum, solver->p);
+    balance(solver);
+}
+
 static void
 step(struct rc_solver *solver, void *at)
 {
@@ -499,6 +518,13 @@ step(struct rc_solver *solver, void *at)
     }
     solver->change = 0;
     solver->estimate = precondition(solver, s, &mean);
+    if (solver->iterations == 0 && solver->estimate > apart && !isinf(solver->estimate)) {
+        start_from_springs(solver);
+        begin(solver, s);
+        rc_solver_shift(solver);
+        rc_solver_residual(solver);
+        solver->estimate = precondition(solver, s, &mean);
+    }
     if (!solver->fresh && !(solver->rough && solver->estimate <= solver->tol) &&
         (solver->estimate <= solver->tol || solver->estimate < 3 * s->drift)) {
         rc_solver_displace(solver);
