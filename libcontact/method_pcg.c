@@ -468,11 +468,11 @@ gradient_block(void *at, size_t first, size_t n, double *sums)
     }
 }
 
+/* Descends at any `length`, for the way to a projection always does: 1 / |K|, or that of a single node. */
 static bool
-gradient_step(struct rc_solver *solver, struct state *s)
+gradient_step(struct rc_solver *solver, struct state *s, double length)
 {
-    struct pass c = {.solver = solver, .s = s,
-                     .a = solver->per_pressure / rc_guard_norm(solver)};
+    struct pass c = {.solver = solver, .s = s, .a = solver->per_pressure * length};
     double total[RC_SUMS], size;
     bool better;
 
@@ -510,6 +510,7 @@ step(struct rc_solver *solver, void *at)
 {
     struct state *s = at;
     double mean = 0, alpha;
+    bool still;
 
     if (!solver->known) {
         begin(solver, s);
@@ -542,8 +543,15 @@ step(struct rc_solver *solver, void *at)
         return; /* rounding: it stands still */
     }
     alpha = solver->estimate * s->alpha > longest ? longest / solver->estimate : s->alpha;
-    if (solver->iterations % SPACER == SPACER - 1 || !advance(solver, s, alpha, mean))
-        (void)gradient_step(solver, s);
+    /* A direction cut at the bounds need not descend. Where that happens again and again, what is wrong is at
+     * single nodes at the edges of contact, where a step of 1 / |K| does nothing. */
+    still = solver->iterations > s->best_at + 3;
+    if (solver->iterations % SPACER == SPACER - 1)
+        (void)gradient_step(solver, s, 1 / rc_guard_norm(solver));
+    else if (!advance(solver, s, alpha, mean))
+        (void)gradient_step(solver, s, still && solver->iterations % 2 == 0
+                                           ? solver->estar / sqrt(solver->cell)
+                                           : 1 / rc_guard_norm(solver));
 }
 
 const struct rc_method rc_method_pcg = {
