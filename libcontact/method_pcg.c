@@ -34,7 +34,8 @@
 
 enum {
     SPACER = 30,  /* steps after which one is a projected-gradient step                  */
-    PATIENCE = 25 /* steps without a better estimate after which rounding has the word   */
+    PATIENCE = 40 /* steps without a better estimate, one of them a spacer, after which
+                     rounding has the word                                            */
 };
 /* Relative error of a convolution in single precision, and what a pressure needs of it: the inverse
  * of the kernel's highest symbol is about pi/2. Measured at 1024 x 1024: 1e-5 for |u| of 50. */
