@@ -155,7 +155,7 @@ westergaard(const struct hard_case *c, const struct rc_problem *problem, const d
 static void
 a_wave_from_a_thousandth_on(void **state)
 {
-    static const double fractions[] = {0.001, 0.003, 0.01, 0.03, 0.1,  0.3,
+    static const double fractions[] = {0.001, 0.003, 0.01, 0.03, 0.035, 0.1, 0.3,
                                        0.5,   0.9,   0.99, 0.999, 0.9999};
     size_t failed = 0;
 
