@@ -35,7 +35,7 @@ static const struct surface surfaces[] = {
     {"periodic", RC_PERIODIC, 0.18, 0},   {"periodic", RC_PERIODIC, 0.28, 0},
     {"periodic", RC_PERIODIC, 0.5, 0},    {"periodic", RC_PERIODIC, 1.2, 0},
     {"sphere", RC_FREE, 0.004, 0},        {"sphere", RC_FREE, 0.1, 0},
-    {"periodic, H", RC_PERIODIC, 0.1, 3}, {"sphere, H", RC_FREE, 0.1, 10},
+    {"periodic, H", RC_PERIODIC, 0.1, 3}, {"sphere, H", RC_FREE, 0.1, 1.2},
 };
 
 enum {

@@ -55,7 +55,7 @@ by_gap(const void *a, const void *b)
     return x->k < y->k ? -1 : 1;
 }
 
-/* All loaded nodes are at the bound and `rest` is still missing: nodes join by their gap. */
+/* All loaded nodes, if any, are at the bound and `rest` is still missing: nodes join by their gap. */
 static enum rc_status
 add_nodes(size_t n, double hardness, double rest, const double *g, double *p, struct rc_err *err)
 {
@@ -71,7 +71,7 @@ add_nodes(size_t n, double hardness, double rest, const double *g, double *p, st
         if (p[k] <= 0)
             list[c++] = (struct candidate){.g = g[k], .k = k};
     qsort(list, count, sizeof *list, by_gap);
-    for (c = 0; c < count && rest > 4 * DBL_EPSILON * hardness; c++) {
+    for (c = 0; c < count && rest > (isinf(hardness) ? 0 : 4 * DBL_EPSILON * hardness); c++) {
         p[list[c].k] = rest < hardness ? rest : hardness;
         rest -= p[list[c].k];
     }
@@ -107,11 +107,12 @@ rc_box_balance(size_t n, double hardness, double sum, const double *g, double *p
         scale_elastic(n, hardness, target, p);
         return RC_OK;
     }
-    if (target > hardness * (double)elastic) {
+    if (elastic + full == 0 || target > hardness * (double)elastic) {
         for (size_t k = 0; k < n; k++)
             if (p[k] > 0)
                 p[k] = hardness;
-        return add_nodes(n, hardness, sum - hardness * (double)(elastic + full), g, p, err);
+        return add_nodes(n, hardness, elastic + full == 0 ? sum : sum - hardness * (double)(elastic + full),
+                         g, p, err);
     }
     scale_all(n, sum, p);
     return RC_OK;

@@ -35,7 +35,8 @@
 enum {
     SPACER = 30,  /* steps after which one is a projected-gradient step                  */
     TRIES = 4,    /* to shorten a step                                                   */
-    PATIENCE = 25 /* steps without a better estimate after which rounding has the word   */
+    PATIENCE = 40 /* steps without a better estimate, one of them a spacer, after which
+                     rounding has the word                                            */
 };
 /* Relative error of a convolution in single precision, and what a pressure needs of it: the inverse
  * of the kernel's highest symbol is about pi/2. Measured at 1024 x 1024: 1e-5 for |u| of 50. */
@@ -44,6 +45,9 @@ static const double single_epsilon = 2e-7;
  * bounds. With the lowest point at a part s of the way, the whole of it still gains (2 s - 1)/s^2 of what could
  * be gained. */
 static const double enough = 0.6;
+/* No step is longer than this, over the load: what the nodes that stay carry would be lost in the rounding of the
+ * way there. Only heights beside which the displacement is nothing ask for more. */
+static const double longest = 1e6;
 
 struct state {
     double *room;     /* 2n floats; between two steps n numbers of scratch                */
@@ -544,33 +548,53 @@ gradient_block(void *at, size_t first, size_t n, double *sums)
         float d = (float)(-(s->v[k] - s->shift) * c->a);
         s->z[k] = d;
         s->w[k] = 1;
-        sums[0] += (double)d;
-        sums[1] += d != 0;
+        sums[0] += fabs((double)d);
     }
 }
 
+/* Descends at any `length`, for the way to a projection always does: 1 / |K|, or that of a single node. */
 static bool
-gradient_step(struct rc_solver *solver, struct state *s)
+gradient_step(struct rc_solver *solver, struct state *s, double length)
 {
-    struct pass c = {.solver = solver, .s = s,
-                     .a = solver->per_pressure / rc_guard_norm(solver)};
-    double total[RC_SUMS];
+    struct pass c = {.solver = solver, .s = s, .a = solver->per_pressure * length};
+    double total[RC_SUMS], size;
     bool better;
 
     rc_solver_blocks(solver, gradient_block, &c, total);
     rc_solver_forget(solver);
-    better = advance(solver, s, 1, 0);
+    size = total[0] / solver->per_pressure / solver->sum;
+    better = advance(solver, s, size > longest ? longest / size : 1, 0);
     s->curvature = 0; /* not a direction to be conjugate to */
     if (!better)
         rc_solver_residual(solver);
     return better;
 }
 
+/* Where the start is that far off, heights are so large beside the displacement that nodes decide nearly alone whether
+ * they touch, or yield: as springs, each of the stiffness of its own cell. */
+static const double apart = 100;
+
+static void
+start_from_springs(struct rc_solver *solver)
+{
+    double least = 0, stiffness;
+
+    for (size_t k = 0; k < solver->n; k++) /* the highest is 0 */
+        least = fmin(least, solver->h[k]);
+    stiffness = fmin(solver->estar / sqrt(solver->cell),
+                     longest * fmin(solver->hardness, solver->sum) / -least);
+    for (size_t k = 0; k < solver->n; k++)
+        solver->p[k] = stiffness * solver->h[k];
+    rc_box_project(solver->n, NULL, solver->hardness, solver->sum, solver->p);
+    balance(solver, rc_solver_carried(solver));
+}
+
 static void
 step(struct rc_solver *solver, void *at)
 {
     struct state *s = at;
-    double mean = 0;
+    double mean = 0, alpha;
+    bool still;
 
     if (!solver->known) {
         begin(solver, s);
@@ -579,6 +603,13 @@ step(struct rc_solver *solver, void *at)
     }
     solver->change = 0;
     solver->estimate = precondition(solver, s, &mean);
+    if (solver->iterations == 0 && solver->estimate > apart && !isinf(solver->estimate)) {
+        start_from_springs(solver);
+        begin(solver, s);
+        rc_solver_shift(solver);
+        rc_solver_residual(solver);
+        solver->estimate = precondition(solver, s, &mean);
+    }
     if (!solver->fresh && !solver->rough &&
         (solver->estimate <= solver->tol || solver->estimate < 3 * s->drift)) {
         rc_solver_displace(solver);
@@ -595,8 +626,16 @@ step(struct rc_solver *solver, void *at)
     } else if (solver->iterations > s->best_at + PATIENCE) {
         return; /* rounding: it stands still */
     }
-    if (solver->iterations % SPACER == SPACER - 1 || !advance(solver, s, s->alpha, mean))
-        (void)gradient_step(solver, s);
+    alpha = solver->estimate * s->alpha > longest ? longest / solver->estimate : s->alpha;
+    /* A direction cut at the bounds need not descend. Where that happens again and again, what is wrong is at
+     * single nodes at the edges of contact, where a step of 1 / |K| does nothing. */
+    still = solver->iterations > s->best_at + 3;
+    if (solver->iterations % SPACER == SPACER - 1)
+        (void)gradient_step(solver, s, 1 / rc_guard_norm(solver));
+    else if (!advance(solver, s, alpha, mean))
+        (void)gradient_step(solver, s, still && solver->iterations % 2 == 0
+                                           ? solver->estar / sqrt(solver->cell)
+                                           : 1 / rc_guard_norm(solver));
 }
 
 static void

@@ -143,6 +143,8 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
     f.mean_u = (total[V] + total[HEIGHT]) / n;
     rc_solver_blocks(s, spread_block, &f, total);
     scale = sqrt(fmax(total[SPREAD_H], total[SPREAD_U]) / n);
+    if (total[SPREAD_H] == 0) /* one height everywhere: both vanish with the error */
+        scale = rc_guard_norm(s) * c->mean_pressure;
     c->kkt_residual = total[RC_MOST] == 0 ? 0 : total[RC_MOST] / scale;
     if (s->judged != s->iterations || isnan(s->error)) { /* stopped from outside */
         rc_solver_residual(s);

@@ -1,0 +1,249 @@
+/*
+ * How good the preconditioner is:
+ *
+ *     bench-spectrum [-n SIZE,SIZE...]
+ *
+ * Extreme eigenvalues of M K between the nodes of contact, on vectors of zero mean, for M = E' A E (extension.h)
+ * and for A cut to those nodes (E the extension by zero), by the Lanczos process: those of the
+ * tridiagonal matrix that conjugate gradients with a random right side leave behind. Contact sets are those of
+ * solved rough surfaces, and a disc.
+ */
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "libcontact/extension.h"
+
+enum {
+    STEPS = 60
+};
+
+static void *
+must(void *p)
+{
+    if (p == NULL) {
+        fprintf(stderr, "out of memory\n");
+        exit(1);
+    }
+    return p;
+}
+
+static void
+must_be(enum rc_status status, const struct rc_err *err)
+{
+    if (status == RC_OK)
+        return;
+    fprintf(stderr, "%s\n", err->text);
+    exit(1);
+}
+
+struct row {
+    const char *name;
+    enum rc_boundary boundary;
+    double mean; /* pressure over E* and RMS slope; 0: a disc of 0.3 of the map */
+};
+
+static const struct row rows[] = {
+    {"disc", RC_FREE, 0},         {"rough", RC_FREE, 0.02},     {"rough", RC_FREE, 0.2},
+    {"disc", RC_PERIODIC, 0},     {"rough", RC_PERIODIC, 0.004}, {"rough", RC_PERIODIC, 0.18},
+    {"rough", RC_PERIODIC, 0.8},
+};
+
+static size_t
+choose(const struct row *row, struct rc_shape s, unsigned char *w)
+{
+    static const double slope = 0.1;
+    size_t n = s.nx * s.ny, count = 0;
+    double *h = must(malloc(n * sizeof *h)), side = (double)s.nx;
+    struct rc_selfaffine what = {.hurst = 0.8, .rms_slope = slope, .rms_height = NAN, .short_cut = 8,
+                                 .rolloff = side / 8, .long_cut = NAN, .seed = 5};
+    struct rc_problem problem = {.boundary = row->boundary, .estar = 1, .hardness = INFINITY,
+                                 .tol = 1e-5, .load = row->mean * slope * (double)n};
+    struct rc_solver *solver;
+    struct rc_err err;
+
+    for (size_t k = 0; k < n; k++)
+        w[k] = hypot((double)(k % s.nx) - side / 2, (double)(k / s.nx) - side / 2) < 0.3 * side;
+    if (row->mean > 0) {
+        must_be(rc_synth_selfaffine(&s, &what, h, &err), &err);
+        solver = rc_solver_new(&s, h, &problem, &err);
+        if (solver == NULL)
+            must_be(RC_FAIL, &err);
+        while (rc_solver_step(solver) == RC_MORE)
+            ;
+        for (size_t k = 0; k < n; k++)
+            w[k] = rc_solver_pressure(solver)[k] > 0;
+        rc_solver_free(solver);
+    }
+    free(h);
+    for (size_t k = 0; k < n; k++)
+        count += w[k];
+    return count;
+}
+
+struct operators {
+    size_t n, count;
+    const unsigned char *w;
+    struct rc_fft *fft;
+    struct rc_spectrum *kernel, *inverse;
+    struct rc_extension *extension; /* NULL: A cut to W */
+    float *single;                  /* 2n               */
+};
+
+/* Zero off W, and without the mean on it. */
+static void
+restrict_to_set(const struct operators *o, double *v)
+{
+    double mean = 0;
+
+    for (size_t k = 0; k < o->n; k++)
+        mean += o->w[k] ? v[k] / (double)o->count : 0;
+    for (size_t k = 0; k < o->n; k++)
+        v[k] = o->w[k] ? v[k] - mean : 0;
+}
+
+static void
+precondition(const struct operators *o, const double *r, double *z)
+{
+    double size = 0;
+
+    if (o->extension == NULL) {
+        rc_fft_apply(o->fft, o->inverse, r, z);
+    } else {
+        for (size_t k = 0; k < o->n; k++)
+            size = fmax(size, fabs(r[k]));
+        for (size_t k = 0; k < o->n; k++)
+            o->single[k] = (float)(r[k] / size);
+        rc_extension_apply(o->extension, o->single, 0, o->single + o->n, NULL, NULL);
+        for (size_t k = 0; k < o->n; k++)
+            z[k] = size * (double)o->single[o->n + k];
+    }
+    restrict_to_set(o, z);
+}
+
+static double
+product(size_t n, const double *a, const double *b)
+{
+    double sum = 0;
+
+    for (size_t k = 0; k < n; k++)
+        sum += a[k] * b[k];
+    return sum;
+}
+
+/* Eigenvalues of the symmetric tridiagonal matrix below x (Sturm). */
+static size_t
+below(size_t n, const double *diagonal, const double *square, double x)
+{
+    size_t count = 0;
+    double q = 1;
+
+    for (size_t k = 0; k < n; k++) {
+        q = diagonal[k] - x - (k > 0 ? square[k - 1] / (q == 0 ? DBL_MIN : q) : 0);
+        count += q < 0;
+    }
+    return count;
+}
+
+static double
+eigenvalue(size_t n, const double *diagonal, const double *square, size_t which)
+{
+    double low = 0, high = 1e9;
+
+    for (int round = 0; round < 200; round++) {
+        double middle = (low + high) / 2;
+        if (below(n, diagonal, square, middle) > which)
+            high = middle;
+        else
+            low = middle;
+    }
+    return low;
+}
+
+/* Preconditioned conjugate gradients: T has 1/a_k + b_(k-1)/a_(k-1) on the diagonal and sqrt(b_k)/a_k beside it. */
+static void
+extremes(const struct operators *o, double *least, double *most)
+{
+    size_t n = o->n, k;
+    double *v = must(calloc(4 * n, sizeof *v)), *r = v, *z = v + n, *d = v + 2 * n, *q = v + 3 * n;
+    double diagonal[STEPS], square[STEPS], rz, first, a = 1, b = 0;
+
+    for (size_t i = 0; i < n; i++)
+        r[i] = (double)rand() / RAND_MAX - 0.5;
+    restrict_to_set(o, r);
+    precondition(o, r, z);
+    memcpy(d, z, n * sizeof *d);
+    first = rz = product(n, r, z);
+    for (k = 0; k < STEPS && rz > 1e-10 * first; k++) {
+        double before = a, ratio = b, next;
+        rc_fft_apply(o->fft, o->kernel, d, q);
+        restrict_to_set(o, q);
+        a = rz / product(n, d, q);
+        diagonal[k] = 1 / a + (k > 0 ? ratio / before : 0);
+        for (size_t i = 0; i < n; i++)
+            r[i] -= a * q[i];
+        precondition(o, r, z);
+        next = product(n, r, z);
+        b = next / rz;
+        square[k] = b / (a * a);
+        rz = next;
+        for (size_t i = 0; i < n; i++)
+            d[i] = z[i] + b * d[i];
+    }
+    *least = eigenvalue(k, diagonal, square, 0);
+    *most = eigenvalue(k, diagonal, square, k - 1);
+    free(v);
+}
+
+static void
+spectrum(const struct row *row, size_t m)
+{
+    struct rc_shape s = {m, m, 1, 1};
+    struct rc_medium medium = {.estar = 1};
+    size_t n = m * m;
+    unsigned char *w = must(malloc(n));
+    struct operators o = {.n = n, .w = w, .count = choose(row, s, w)};
+    double least[2], most[2];
+    struct rc_err err;
+
+    o.fft = must(rc_fft_new(&s, row->boundary, RC_DOUBLE, 0, &err));
+    o.kernel = must(rc_spectrum_new(o.fft, &err));
+    o.inverse = must(rc_spectrum_new(o.fft, &err));
+    must_be(rc_spectrum_set(o.kernel, o.fft, &rc_kernel_boussinesq, 0, &medium, &err), &err);
+    rc_spectrum_set_reciprocal(o.inverse, o.fft, o.kernel);
+    o.single = must(malloc(2 * n * sizeof *o.single));
+    extremes(&o, &least[0], &most[0]);
+    o.extension = must(rc_extension_new(&s, row->boundary, 0, &err));
+    rc_extension_set(o.extension, w, true);
+    extremes(&o, &least[1], &most[1]);
+    printf("%-8s %-8s %5zu %8.4f | %8.4f %8.3f | %8.4f %8.3f\n", row->name,
+           row->boundary == RC_FREE ? "free" : "periodic", m, (double)o.count / (double)n, least[1],
+           most[1], least[0], most[0]);
+    fflush(stdout);
+    rc_extension_free(o.extension);
+    rc_spectrum_free(o.kernel);
+    rc_spectrum_free(o.inverse);
+    rc_fft_free(o.fft);
+    free(o.single);
+    free(w);
+}
+
+int
+main(int argc, char **argv)
+{
+    size_t sizes[16] = {128, 256, 512, 1024}, count = 4;
+
+    if (argc == 3 && strcmp(argv[1], "-n") == 0) {
+        count = 0;
+        for (char *t = strtok(argv[2], ","); t != NULL && count < 16; t = strtok(NULL, ","))
+            sizes[count++] = strtoul(t, NULL, 10);
+    }
+    printf("%-8s %-8s %5s %8s | %17s | %17s\n", "contact", "boundary", "nodes", "fraction", "E' A E: from to",
+           "A cut: from to");
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++)
+        for (size_t i = 0; i < count; i++)
+            spectrum(&rows[k], sizes[i]);
+    return 0;
+}
