@@ -164,6 +164,16 @@ read_piece(const char *text, size_t n, enum unit unit, struct pieces *seen, doub
     return RC_OK;
 }
 
+/* Steps between decimal numbers are meant to be decimal: 6e-06, not 5.999999999999999e-06. */
+static double
+decimal(double x)
+{
+    char text[32];
+
+    snprintf(text, sizeof text, "%.14g", x);
+    return strtod(text, NULL);
+}
+
 /* a:b:n with the colons at `first` and `second`. */
 static enum rc_status
 read_range(const char *text, const char *first, const char *second, enum unit unit,
@@ -184,7 +194,7 @@ read_range(const char *text, const char *first, const char *second, enum unit un
     if (list->v == NULL)
         return rc_err_set(err, "out of memory for %zu numbers", list->n);
     for (size_t k = 0; k < list->n; k++)
-        list->v[k] = k + 1 == list->n ? b : a + (b - a) * (double)k / (n - 1);
+        list->v[k] = k + 1 == list->n ? b : decimal(a + (b - a) * (double)k / (n - 1));
     return RC_OK;
 }
 
