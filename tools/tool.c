@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "../libcontact/contact.h"
+#include "pipe.h"
 
 enum {
     PATH_SIZE = 4096,
@@ -251,6 +252,8 @@ open_output(struct tool *t)
     }
     if (binary)
         setvbuf(t->out, NULL, _IOFBF, BUFFER);
+    if (binary)
+        pipe_widen(fileno(t->out));
     if (t->writes == WRITES_STREAM && (t->writer = rc_writer_new(t->out, &err)) == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
 }
