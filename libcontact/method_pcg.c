@@ -1,7 +1,8 @@
 /*
  * Projected conjugate gradients with the extension preconditioner (extension.h).
  *
- * Working set W: the elastic nodes and those at a bound that want to leave it. Residual r = -g on W
+ * Working set W: the elastic nodes and those at a bound that want to leave it, but for those that would only
+ * be pushed back (joining.c). Residual r = -g on W
  * with zero mean, z = E' A E r with zero mean, direction z + beta delta conjugate to the last step
  * delta unless that was clipped; restarted when beta is negative; components that point out of the
  * box are dropped. The step is projected onto {0 <= p <= H, sum p = S} by one shift of the
@@ -71,6 +72,7 @@ state_new(struct rc_solver *solver, struct rc_err *err)
     s->q = s->delta + solver->n;
     s->alpha = 0.9;
     s->best = INFINITY;
+    s->rate = 1;
     rc_nested_start(solver);
     return s;
 }
@@ -197,7 +199,7 @@ gradient_step(struct rc_solver *solver, struct rc_pcg *s, double length)
     better = rc_pcg_advance(solver, s, size > longest ? longest / size : 1, 0);
     s->curvature = 0; /* not a direction to be conjugate to */
     if (!better)
-        rc_solver_residual(solver);
+        rc_solver_residual(solver, false);
     return better;
 }
 
@@ -220,6 +222,50 @@ start_from_springs(struct rc_solver *solver)
     rc_pcg_balance(solver, rc_solver_carried(solver));
 }
 
+/* The first v, in single precision where that will do. */
+static void
+begin(struct rc_solver *solver, struct rc_pcg *s)
+{
+    rc_pcg_begin(solver, s);
+    rc_solver_shift(solver);
+    rc_solver_residual(solver, true);
+}
+
+/* v in double precision, and all of the working set: what is estimated from that is believed. */
+static void
+renew(struct rc_solver *solver, struct rc_pcg *s)
+{
+    rc_solver_displace(solver);
+    s->drift = 0;
+    rc_solver_shift(solver);
+    rc_solver_residual(solver, false);
+}
+
+/* The direction, its mean, and an estimate that may be believed where it is small enough. Where that is foreseen, the
+ * one that would only say so is spared. */
+static void
+look(struct rc_solver *solver, struct rc_pcg *s, double *mean)
+{
+    double before = solver->estimate;
+    bool sure = solver->rough || solver->fresh;
+
+    if (!sure && before * s->rate <= solver->tol) {
+        renew(solver, s);
+        sure = true;
+    }
+    solver->estimate = precondition(solver, s, mean);
+    if (solver->iterations == 0 && solver->estimate > apart && !isinf(solver->estimate)) {
+        start_from_springs(solver);
+        begin(solver, s);
+        solver->estimate = precondition(solver, s, mean);
+    }
+    if (!sure && (solver->estimate <= solver->tol || solver->estimate < 3 * s->drift)) {
+        renew(solver, s);
+        solver->estimate = precondition(solver, s, mean);
+    }
+    s->rate = solver->estimate < before ? solver->estimate / before : 1;
+}
+
 static void
 step(struct rc_solver *solver, void *at)
 {
@@ -227,28 +273,10 @@ step(struct rc_solver *solver, void *at)
     double mean = 0, alpha;
     bool still;
 
-    if (!solver->known) {
-        rc_pcg_begin(solver, s);
-        rc_solver_shift(solver);
-        rc_solver_residual(solver);
-    }
+    if (!solver->known)
+        begin(solver, s);
     solver->change = 0;
-    solver->estimate = precondition(solver, s, &mean);
-    if (solver->iterations == 0 && solver->estimate > apart && !isinf(solver->estimate)) {
-        start_from_springs(solver);
-        rc_pcg_begin(solver, s);
-        rc_solver_shift(solver);
-        rc_solver_residual(solver);
-        solver->estimate = precondition(solver, s, &mean);
-    }
-    if (!solver->fresh && !solver->rough &&
-        (solver->estimate <= solver->tol || solver->estimate < 3 * s->drift)) {
-        rc_solver_displace(solver);
-        s->drift = 0;
-        rc_solver_shift(solver);
-        rc_solver_residual(solver);
-        solver->estimate = precondition(solver, s, &mean);
-    }
+    look(solver, s, &mean);
     if (solver->estimate <= solver->tol)
         return;
     if (solver->estimate < 0.9 * s->best) {
@@ -277,6 +305,7 @@ again(void *at)
     s->curvature = 0;
     s->best = INFINITY;
     s->best_at = 0;
+    s->rate = 1;
 }
 
 const struct rc_method rc_method_pcg = {

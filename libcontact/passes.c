@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "joining.h"
+
 enum {
     BLOCK = 4096
 };
@@ -122,9 +124,10 @@ rc_solver_shift(struct rc_solver *s)
     s->shift = s->elastic > 0 ? total[0] / total[1] : middle(s);
 }
 
+/* `wants` is what is noted of a node at a bound that wants to leave it. */
 RC_CLONES static void
-residual_of(size_t n, const double *restrict p, const double *restrict v, double hardness,
-            double shift, double scale, unsigned char *restrict w, float *restrict r, double *sums)
+residual_of(size_t n, const double *restrict p, const double *restrict v, double hardness, double shift,
+            double scale, unsigned char wants, unsigned char *restrict w, float *restrict r, double *sums)
 {
     double sum = 0;
     int count = 0, changed = 0;
@@ -133,10 +136,10 @@ residual_of(size_t n, const double *restrict p, const double *restrict v, double
     for (size_t k = 0; k < n; k++) {
         double g = v[k] - shift;
         bool low = p[k] <= 0, high = p[k] >= hardness;
-        bool in = (!low & !high) | (low & (g < 0)) | (high & (g > 0));
+        bool free = !low & !high, leaves = (low & (g < 0)) | (high & (g > 0)), in = free | leaves;
         double to = in ? -g * scale : 0;
         changed += in != w[k];
-        w[k] = in;
+        w[k] = free ? 1 : leaves ? (unsigned char)(wants | (w[k] & (wants >> 1))) : 0;
         r[k] = (float)to;
         sum += to;
         count += in;
@@ -146,21 +149,30 @@ residual_of(size_t n, const double *restrict p, const double *restrict v, double
     sums[2] = changed;
 }
 
+struct residual {
+    struct rc_solver *s;
+    unsigned char wants;
+};
+
 static void
 residual_block(void *at, size_t first, size_t n, double *sums)
 {
-    struct rc_solver *s = at;
+    const struct residual *c = at;
+    struct rc_solver *s = c->s;
 
-    residual_of(n, s->p + first, s->v + first, s->hardness, s->shift, 1 / s->length, s->w + first,
+    residual_of(n, s->p + first, s->v + first, s->hardness, s->shift, 1 / s->length, c->wants, s->w + first,
                 s->r + first, sums);
 }
 
 void
-rc_solver_residual(struct rc_solver *s)
+rc_solver_residual(struct rc_solver *s, bool sift)
 {
+    struct residual c = {.s = s, .wants = sift ? RC_WANTS : 1};
     double total[RC_SUMS];
 
-    rc_solver_blocks(s, residual_block, s, total);
+    rc_solver_blocks(s, residual_block, &c, total);
+    if (sift)
+        rc_joining_sift(s, &total[0], &total[1], &total[2]);
     s->working = (size_t)total[1];
     s->offset = s->working > 0 ? (float)(total[0] / total[1]) : 0;
     s->changed += total[2];

@@ -12,6 +12,7 @@ struct rc_pcg {
     double curvature; /* delta'q; 0: the next direction is not conjugate to anything      */
     double alpha;     /* length foretold for the next step                                */
     double drift;     /* what single precision may have done to p, relative               */
+    double rate;      /* of the last two estimates: how much smaller it has become        */
     double best;      /* least estimate                                                   */
     size_t best_at;
     double *wide;     /* 2n: a step and its displacement for engines that know only double */

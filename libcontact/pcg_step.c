@@ -14,7 +14,7 @@ static const double single_epsilon = 2e-7;
 /* How near the lowest point may be for a clipped step to be taken whole: nodes then come to rest at their
  * bounds. With the lowest point at a part s of the way, the whole of it still gains (2 s - 1)/s^2 of what could
  * be gained. */
-static const double enough = 0.6;
+static const double enough = 0.75;
 
 /* ---- K p and K delta ---- */
 
@@ -324,7 +324,7 @@ rc_pcg_advance(struct rc_solver *solver, struct rc_pcg *s, double alpha, double 
      * a shorter step, clipped anew, brings them to rest */
     for (int tries = 0; tries < TRIES && t.clipped && t.best < enough; tries++) {
         undo(solver, s, &t);
-        alpha *= fmin(fmax(t.best, 0.2), 0.5);
+        alpha *= fmax(t.best, 0.2);
         attempt(solver, s, alpha, mean, &t);
     }
     if (t.best == 0) {
@@ -352,7 +352,7 @@ rc_pcg_advance(struct rc_solver *solver, struct rc_pcg *s, double alpha, double 
     rc_pcg_balance(solver, t.carried);
     if (part != 1 || solver->elastic == 0)
         rc_solver_shift(solver);
-    rc_solver_residual(solver);
+    rc_solver_residual(solver, true);
     s->alpha = fmin(fmax(alpha * sqrt(t.best), 0.3), 1.2);
     return true;
 }

@@ -121,9 +121,10 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
 {
     struct figures f = {.s = s, .displacement = displacement, .gap = gap};
     double total[RC_SUMS], n = (double)s->n, scale;
+    bool stopped = !s->known || !s->fresh;
 
     *c = (struct rc_contact){.iterations = s->iterations};
-    if (!s->known || !s->fresh)
+    if (stopped)
         rc_solver_displace(s);
     rc_solver_shift(s);
     rc_solver_blocks(s, count_block, &f, total);
@@ -146,8 +147,8 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
     if (total[SPREAD_H] == 0) /* one height everywhere: both vanish with the error */
         scale = rc_guard_norm(s) * c->mean_pressure;
     c->kkt_residual = total[RC_MOST] == 0 ? 0 : total[RC_MOST] / scale;
-    if (s->judged != s->iterations || isnan(s->error)) { /* stopped from outside */
-        rc_solver_residual(s);
+    if (stopped || s->judged != s->iterations || isnan(s->error)) {
+        rc_solver_residual(s, false);
         s->error = rc_solver_estimate(s);
     }
     c->pressure_error = s->error;

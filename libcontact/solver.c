@@ -280,7 +280,7 @@ judge(struct rc_solver *s)
     if (!s->fresh)
         rc_solver_displace(s);
     rc_solver_shift(s);
-    rc_solver_residual(s);
+    rc_solver_residual(s, false);
     return rc_solver_estimate(s);
 }
 

@@ -129,8 +129,9 @@ void rc_solver_displace(struct rc_solver *solver);
 /* The shift: mean of v over the elastic nodes, or, when there are none, the middle between the largest
  * v under p = H and the smallest under p = 0. Sets `elastic` and `shift`. */
 void rc_solver_shift(struct rc_solver *solver);
-/* The working set and the residual on it, from v and the shift. Sets w, changed, r, offset, working. */
-void rc_solver_residual(struct rc_solver *solver);
+/* The working set and the residual on it, from v and the shift; sifted, without those that would only be pushed
+ * back to their bound (joining.h). Sets w, changed, r, offset, working. */
+void rc_solver_residual(struct rc_solver *solver, bool sift);
 /* Forgets what the extension was told: w is another set altogether. */
 static inline void
 rc_solver_forget(struct rc_solver *s)
