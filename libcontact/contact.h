@@ -135,6 +135,11 @@ size_t rc_conv_memory(const struct rc_shape *shape, const struct rc_conv_options
 
 /* ---- solver: solver.c ---- */
 
+/* After each iteration, on the coarser grids of the start too: the size of the grid, iterations on it, the
+ * estimated error there and the one asked for. False breaks the start off; what the caller steps himself he ends
+ * himself. */
+typedef bool rc_watch(void *watcher, const struct rc_shape *grid, size_t iterations, double error, double tol);
+
 struct rc_problem {
     enum rc_boundary boundary;
     double estar;       /* composite modulus, Pa, > 0                                            */
@@ -148,6 +153,8 @@ struct rc_problem {
     size_t max_iterations; /* 0: 100 + 10 sqrt(nx ny)                                            */
     size_t threads;     /* 0: all                                                                */
     bool discretization; /* estimate what the grid leaves out: a coarser one is solved as well   */
+    rc_watch *watch;    /* NULL, or told of each iteration                                       */
+    void *watcher;      /* its first argument                                                    */
 };
 
 /* Relative errors, or figures, of contact area, largest pressure and approach; NAN: unknown. */
@@ -186,12 +193,18 @@ enum rc_status rc_solver_step(struct rc_solver *solver);
  * solver is then of no further use. */
 enum rc_status rc_solver_again(struct rc_solver *solver, double load, double approach,
                                struct rc_err *err);
+/* Goes on from this pressure (nx ny Pa; what leaves the box or the load is put right), as it was left by an
+ * earlier solver of the same problem; load (N) is that of this pressure, which matters where an approach is
+ * sought. Before the first step of a load. RC_FAIL as in rc_solver_again. */
+enum rc_status rc_solver_start(struct rc_solver *solver, double load, const double *p, struct rc_err *err);
 /* Iterations so far and the last estimate of the error (NAN before the first), for progress. */
 size_t rc_solver_iterations(const struct rc_solver *solver);
 double rc_solver_error(const struct rc_solver *solver);
 /* Convolutions so far, in equivalents of one double-precision convolution on this grid; coarser grids and
  * single precision count their share. */
 double rc_solver_convolutions(const struct rc_solver *solver);
+/* The load that is set, N: the one given, or the last one tried for an approach. */
+double rc_solver_load(const struct rc_solver *solver);
 /* The pressure reached (nx*ny Pa), valid until the next step. */
 const double *rc_solver_pressure(const struct rc_solver *solver);
 /* Fresh displacement and gap of that pressure (either may be NULL) and the figures. */

@@ -87,7 +87,8 @@ rc_nested_start(struct rc_solver *s)
                               2 * s->shape.dy};
     struct rc_problem problem = {.boundary = s->boundary, .estar = s->estar, .load = s->load,
                                  .hardness = s->hardness, .tol = tolerance(s, &coarse),
-                                 .method = "pcg", .threads = (size_t)s->threads};
+                                 .method = "pcg", .threads = (size_t)s->threads,
+                                 .watch = s->watch, .watcher = s->watcher};
     struct rc_solver *c;
     double *h, lower;
 

@@ -187,6 +187,8 @@ solver_new(const struct rc_shape *shape, const double *h, const struct rc_proble
     s->hardness = problem->hardness;
     s->tol = s->goal = tolerance(shape, problem);
     s->stages = problem->discretization;
+    s->watch = problem->watch;
+    s->watcher = problem->watcher;
     s->max_iterations = problem->max_iterations > 0
                             ? problem->max_iterations
                             : 100 + (size_t)(10 * sqrt((double)s->n));
@@ -316,6 +318,8 @@ rc_solver_step(struct rc_solver *s)
 {
     enum rc_status status = step(s);
 
+    if (s->watch != NULL && !s->watch(s->watcher, &s->shape, s->iterations, s->error, s->tol) && s->rough)
+        return RC_SHORT;
     return status == RC_OK && s->seek.target > 0 ? rc_seek_step(s) : status;
 }
 
@@ -348,7 +352,32 @@ rc_solver_again(struct rc_solver *s, double load, double approach, struct rc_err
     return RC_OK;
 }
 
+enum rc_status
+rc_solver_start(struct rc_solver *s, double load, const double *p, struct rc_err *err)
+{
+    if (s->seek.target > 0 && rc_solver_set_load(s, load, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t k = 0; k < s->n; k++)
+        if (!isfinite(p[k]))
+            return rc_err_set(err, "pressure %zu is not a finite number", k);
+    for (size_t k = 0; k < s->n; k++) {
+        s->p[k] = fmin(fmax(p[k], 0), s->hardness);
+        s->v[k] = -s->h[k]; /* should nodes have to join, the highest first */
+    }
+    if (fabs(rc_solver_carried(s) - s->sum) > 1e-14 * s->sum &&
+        rc_box_balance(s->n, s->hardness, s->sum, s->v, s->p, err) != RC_OK)
+        return RC_FAIL;
+    rc_solver_restart(s);
+    return RC_OK;
+}
+
 /* ---- results ---- */
+
+double
+rc_solver_load(const struct rc_solver *s)
+{
+    return s->load;
+}
 
 size_t
 rc_solver_iterations(const struct rc_solver *s)

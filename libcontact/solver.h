@@ -46,6 +46,8 @@ struct rc_solver {
     double estar, hardness, load;
     double tol, goal;        /* asked of this load, and at last: looser while the load is sought */
     double top;              /* what was taken from the heights                             */
+    rc_watch *watch;         /* NULL, or told of each iteration                             */
+    void *watcher;
     bool stages;             /* the coarser grid is solved well enough to compare with      */
     struct rc_discretization coarse; /* its figures; NAN: none                              */
     struct rc_seek seek;

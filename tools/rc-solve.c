@@ -9,6 +9,7 @@
 static struct solve_args args = {
     .estar = NAN, .e1 = NAN, .nu1 = NAN, .e2 = NAN, .nu2 = NAN,
     .hardness = INFINITY, .radius = NAN, .tol = NAN, .kernel = "auto", .method = "auto",
+    .interval = 60,
     .output = 1 << SOLVE_PRESSURE | 1 << SOLVE_GAP | 1 << SOLVE_DISPLACEMENT | 1 << SOLVE_HEIGHT,
 };
 
@@ -55,6 +56,11 @@ static const struct opt opts[] = {
      .help = "estimate what the grid leaves out, from a coarser one solved as well"},
     {.name = "report", .type = OPT_TEXT, AT(report), .arg = "FILE",
      .help = "write one JSON object a case: figures, accuracy, cost"},
+    {.name = "checkpoint", .type = OPT_TEXT, AT(checkpoint), .arg = "FILE",
+     .help = "keep the pressures reached in FILE, to go on from if the run is cut off"},
+    {.name = "resume", .type = OPT_FLAG, AT(resume), .help = "go on from the --checkpoint of an earlier run"},
+    {.name = "interval", .type = OPT_NUMBER, AT(interval), .min = 0, .max = 1e9, .arg = "SECONDS",
+     .help = "first frame of a case in --checkpoint after this time, then after 2, 4 ... times it (60)"},
     {.name = "dry-run", .type = OPT_FLAG, AT(dry_run),
      .help = "say what would be done, and why, with its cost; do nothing else"},
     {.name = NULL},
@@ -86,6 +92,8 @@ check_arguments(struct run *run)
     if (tool_given(t, "estar") ? bodies > 0 : bodies != 4)
         tool_die(t, EXIT_USAGE, "give the elasticity, either as --estar or as --E1 --nu1 --E2 "
                                 "--nu2, all four");
+    if ((args.resume || tool_given(t, "interval")) && args.checkpoint == NULL)
+        tool_die(t, EXIT_USAGE, "--resume and --interval need --checkpoint FILE");
     run->args = &args;
     run->steps = args.load.n > 0            ? &args.load
                  : args.mean_pressure.n > 0 ? &args.mean_pressure
@@ -149,7 +157,7 @@ warn_after(struct run *run, const struct rc_grid *g, const struct rc_contact *c)
 }
 
 static struct rc_problem
-problem_of(const struct run *run, const struct rc_grid *g, size_t step)
+problem_of(struct run *run, const struct rc_grid *g, size_t step)
 {
     double number = run->steps->v[step];
     double area = g->dx * g->dy * (double)(g->nx * g->ny);
@@ -165,25 +173,23 @@ problem_of(const struct run *run, const struct rc_grid *g, size_t step)
         .method = args.method,
         .threads = run->t.threads,
         .discretization = args.discretization,
+        .watch = solve_watch,
+        .watcher = run,
     };
 }
 
 static void
-solve(struct run *run, struct rc_solver *solver)
+solve(struct run *run, const struct rc_grid *g, struct rc_solver *solver)
 {
+    bool kept = checkpoint_case(run->checkpoint, g, solver);
     double start = solve_now();
 
-    while (tool_interrupted() == 0 && rc_solver_step(solver) == RC_MORE) {
-        double error = rc_solver_error(solver);
-        if (isnan(error))
-            tool_progress(&run->t, "case %zu, iteration %zu", run->number,
-                          rc_solver_iterations(solver));
-        else
-            tool_progress(&run->t, "case %zu, iteration %zu, error %.1e", run->number,
-                          rc_solver_iterations(solver), error);
-    }
+    while (tool_interrupted() == 0 && rc_solver_step(solver) == RC_MORE)
+        checkpoint_pass(run->checkpoint, g, solver);
     tool_progress_end(&run->t);
     run->iterate = solve_now() - start;
+    if (!kept || rc_solver_iterations(solver) > 1) /* else it is there already */
+        checkpoint_save(run->checkpoint, g, solver);
 }
 
 /* ---- results ---- */
@@ -259,7 +265,7 @@ do_load(struct run *run, struct rc_grid *g, struct rc_solver *solver)
     struct rc_err err;
     double start, stiffness = NAN;
 
-    solve(run, solver);
+    solve(run, g, solver);
     start = solve_now();
     for (int f = 0; f < SOLVE_FRAMES; f++)
         if (f != SOLVE_HEIGHT && solve_wanted(&args, f))
@@ -290,20 +296,23 @@ do_loads(struct run *run, struct rc_grid *g)
     struct rc_err err;
 
     run->began = solve_now();
+    run->number = run->steps->n == 1 ? rc_grid_case(g) : run->number + 1;
     tool_demand_memory(&run->t, g, rc_solver_memory(&shape, &problem));
     solver = rc_solver_new(&shape, g->v, &problem, &err);
     if (solver == NULL)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     run->setup = solve_now() - run->began;
-    for (run->step = 0; run->step < run->steps->n && tool_interrupted() == 0; run->step++) {
+    for (run->step = 0; run->step < run->steps->n; run->step++) {
+        if (run->step > 0 && tool_interrupted() != 0)
+            break; /* the first has begun with the solver */
         if (run->step > 0) {
             problem = problem_of(run, g, run->step);
             run->began = solve_now();
             run->setup = 0;
+            run->number++;
             if (rc_solver_again(solver, problem.load, problem.approach, &err) != RC_OK)
                 tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
         }
-        run->number = run->steps->n == 1 ? rc_grid_case(g) : run->number + 1;
         do_load(run, g, solver);
     }
     rc_solver_free(solver);
@@ -320,6 +329,8 @@ do_case(struct run *run, struct rc_grid *g)
     if (!isnan(args.radius))
         add_sphere(run, g);
     warn_before(run, g);
+    run->nodes = g->nx * g->ny;
+    checkpoint_surface(run->checkpoint, g);
     if (args.dry_run) {
         struct rc_problem problem = problem_of(run, g, 0);
         solve_plan(run, g, &problem);
@@ -337,11 +348,14 @@ main(int argc, char **argv)
     tool_start(&run.t, &info, argc, argv, &args);
     check_arguments(&run);
     tool_demand_writable(&run.t, "--report", args.report);
+    if (!args.dry_run)
+        run.checkpoint = checkpoint_open(&run, args.checkpoint, args.resume, args.interval);
     tool_catch_signals();
     while (tool_interrupted() == 0 && (g = tool_channel(&run.t, "height", false)) != NULL) {
         do_case(&run, g);
         rc_grid_free(g);
     }
+    checkpoint_close(run.checkpoint);
     if (run.report != NULL && fclose(run.report) != 0)
         tool_die(&run.t, EXIT_IMPOSSIBLE, "--report %s: %s", args.report, strerror(errno));
     return tool_finish(&run.t);

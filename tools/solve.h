@@ -28,8 +28,16 @@ struct solve_args {
     double estar, e1, nu1, e2, nu2;
     double hardness, radius, tol;
     const char *kernel, *method, *report;
-    bool periodic, stiffness, discretization, dry_run;
+    const char *checkpoint; /* a file, or NULL                                         */
+    double interval;        /* seconds to the first frame in it                        */
+    bool periodic, stiffness, discretization, dry_run, resume;
     size_t output; /* bits of enum solve_frame */
+};
+
+/* Where the error stood when this grid was begun. */
+struct progress {
+    size_t nodes, iterations;
+    double error, at; /* at: seconds */
 };
 
 struct run {
@@ -40,6 +48,9 @@ struct run {
     bool stiffness;
     double estar, nu; /* nu: NAN unless body 1 was described */
     FILE *report;
+    struct checkpoint *checkpoint; /* NULL: none */
+    size_t nodes;                  /* of the map */
+    struct progress progress;
     double began, setup, iterate, result; /* seconds */
 };
 
@@ -57,5 +68,21 @@ void solve_report(struct run *run, const struct rc_grid *g, const struct rc_solv
                   const struct rc_contact *contact, double stiffness);
 /* What the scene calls for and what it doesn't, and what that costs, in words. */
 void solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *problem);
+
+/* Tells of an iteration; false once a signal has come. Of the type rc_watch, `at` is the run. */
+bool solve_watch(void *at, const struct rc_shape *grid, size_t iterations, double error, double tol);
+
+/* ---- solve_checkpoint.c; NULL for a checkpoint is allowed: nothing is done ---- */
+
+/* The file `name` (NULL: none), new or, to resume, as it is. Does not return when it cannot be used. */
+struct checkpoint *checkpoint_open(struct run *run, const char *name, bool resume, double interval);
+void checkpoint_close(struct checkpoint *checkpoint);
+/* These are the heights of the cases that come. */
+void checkpoint_surface(struct checkpoint *checkpoint, const struct rc_grid *g);
+/* A case begins. True when a pressure had been kept for it: the solver starts from that. */
+bool checkpoint_case(struct checkpoint *checkpoint, const struct rc_grid *g, struct rc_solver *solver);
+/* Keeps the pressure reached; `pass` does so only where it is time for it. */
+void checkpoint_save(struct checkpoint *checkpoint, const struct rc_grid *g, const struct rc_solver *solver);
+void checkpoint_pass(struct checkpoint *checkpoint, const struct rc_grid *g, const struct rc_solver *solver);
 
 #endif

@@ -1,0 +1,66 @@
+# rc-solve --checkpoint and --resume: what is cut off goes on, to the answer it would have had.
+. "$(dirname "$0")/pipe.sh"
+
+rc-synth selfaffine --nx 200 --ny 150 --dx 1um --hurst 0.8 --rms-slope 0.1 --short-cut 8um --rolloff 40um \
+    --seed 3 -o rough.rcg
+solve="rc-solve --periodic --estar 1GPa --output pressure"
+
+claim "a list of loads, whole" bash -c "$solve --load 0.1N:0.5N:3 --checkpoint kept.rcg --report whole.json -o whole.rcg rough.rcg"
+claim "resumed, it is the same to the last bit, one step a case" bash -c "
+    $solve --load 0.1N:0.5N:3 --checkpoint kept.rcg --resume --report again.json -o again.rcg rough.rcg &&
+    cmp whole.rcg again.rcg && [ \$(grep -c '\"iterations\": 1,' again.json) = 3 ]"
+claim "the checkpoint is a grid stream of a frame a case" bash -c "[ \$(rc-info kept.rcg | grep -c 'frame . (pressure)') = 3 ]"
+
+# 300,000 bytes: the first frame and a part of the second
+claim "cut off while it was written, what was whole in it serves" bash -c "
+    head -c 300000 kept.rcg >torn.rcg &&
+    $solve --load 0.1N:0.5N:3 --checkpoint torn.rcg --resume --report torn.json -o torn-out.rcg rough.rcg &&
+    [ \$(grep -c '\"iterations\": 1,' torn.json) = 1 ] && [ \$(rc-info torn.rcg | grep -c 'frame . (pressure)') = 3 ]"
+claim "nothing to resume is a first run" bash -c "
+    $solve --load 0.3N --checkpoint fresh.rcg --resume -o fresh-out.rcg rough.rcg && [ -s fresh.rcg ]"
+
+# The scheme of the paper takes hundreds of steps; the signal comes when the first frames are there.
+interrupted() {
+    local status
+    $solve --load 0.3N --method pk99 --tol 1e-12 --checkpoint cut.rcg --interval 0.02 --report cut.json -o cut-out.rcg rough.rcg &
+    until [ -s cut.rcg ]; do sleep 0.02; done
+    kill -TERM $!
+    wait $!
+    status=$?
+    [ $status = 143 ] && [ "$(field converged cut.json)" = false ] && rc-info cut.rcg >/dev/null
+}
+claim "a signal leaves the pressure reached" interrupted
+claim "and from that it goes on" bash -c "
+    $solve --load 0.3N --method pk99 --tol 1e-12 --checkpoint cut.rcg --resume --report on.json -o on.rcg rough.rcg &&
+    $solve --load 0.3N --method pk99 --tol 1e-12 --report straight.json -o straight.rcg rough.rcg"
+near "$(field max_pressure on.json)" "$(field max_pressure straight.json)" 1e-10 "to the same largest pressure"
+claim "in fewer steps than from the start" test "$(field iterations on.json)" -lt "$(field iterations straight.json)"
+claim "an approach goes on from the load it had found" bash -c "
+    $solve --approach 0.5um --checkpoint near.rcg --report near.json -o near-out.rcg rough.rcg &&
+    $solve --approach 0.5um --checkpoint near.rcg --resume --report near2.json -o near2-out.rcg rough.rcg &&
+    [ \$(grep -o '\"iterations\": [0-9]*' near2.json | cut -d' ' -f2) -le 2 ]"
+
+cp kept.rcg other.rcg
+refuses 1 'there is one already.*--resume' "a checkpoint is not written over" \
+    "$solve --load 0.1N --checkpoint other.rcg -o x.rcg rough.rcg"
+refuses 1 'checkpoint.load was 0.1, is 0.2' "that of another load" \
+    "$solve --load 0.2N --checkpoint other.rcg --resume -o x.rcg rough.rcg"
+refuses 1 'estar was 1000000000, is 2000000000' "of another modulus" \
+    "rc-solve --periodic --estar 2GPa --load 0.1N --checkpoint other.rcg --resume -o x.rcg rough.rcg"
+refuses 1 'checkpoint.surface was' "of other heights" \
+    "$solve --radius 1m --load 0.1N --checkpoint other.rcg --resume -o x.rcg rough.rcg"
+refuses 1 'another grid, 200 x 150' "of another grid" \
+    "rc-synth sphere --nx 20 --dx 1um --radius 1mm | $solve --load 0.1N --checkpoint other.rcg --resume -o x.rcg"
+refuses 1 'no checkpoint: name another' "a stream that is none" \
+    "$solve --load 0.1N --checkpoint rough.rcg --resume -o x.rcg rough.rcg"
+echo "notes of a user" >notes.txt
+refuses 1 'no pressure can be read' "a file that is none" \
+    "$solve --load 0.1N --checkpoint notes.txt --resume -o x.rcg rough.rcg"
+claim "which stays as it is" grep -qx "notes of a user" notes.txt
+refuses 2 'need --checkpoint' "--resume alone" "$solve --load 0.1N --resume -o x.rcg rough.rcg"
+if [ -w /dev/full ]; then
+    refuses 1 'checkpoint|already' "a device is no checkpoint" "$solve --load 0.1N --checkpoint /dev/full -o x.rcg rough.rcg"
+fi
+claim "no refused run left anything" bash -c '! ls x.rcg* 2>/dev/null'
+
+finish

@@ -1,0 +1,272 @@
+/*
+ * --checkpoint and --resume: a file of pressures, from which a run that was cut off goes on.
+ *
+ * Frames are only ever added, each a grid stream of its own with its end line, so that the file is whole but for what
+ * was being written when the machine stopped: a case when it is done, what is reached of one when a signal ends the
+ * run, and on the way after 1, 2, 4, 8 ... intervals, so that at most half of the time spent on a case is lost. Of
+ * several frames of a case the last counts. Disk full is no reason to lose the solution: it is said once, and the run goes on.
+ */
+#include "solve.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/types.h>
+#include <unistd.h>
+#include <zlib.h>
+
+static const char end_line[] = "RCGEND 1\n";
+
+struct saved {
+    size_t number; /* the case             */
+    off_t at;      /* where its frame begins */
+};
+
+struct checkpoint {
+    struct run *run;
+    const char *name;
+    FILE *file;
+    struct saved *saved;
+    size_t count;
+    char surface[16];         /* CRC-32 of the heights, the sphere included */
+    double began, wait, next; /* seconds: of this case, between frames, of the next one */
+};
+
+/* ---- what is there ---- */
+
+static void
+note(struct checkpoint *c, size_t number, off_t at)
+{
+    struct saved *more = realloc(c->saved, (c->count + 1) * sizeof *more);
+
+    if (more == NULL)
+        tool_die(&c->run->t, EXIT_IMPOSSIBLE, "out of memory for the cases of --checkpoint");
+    c->saved = more;
+    c->saved[c->count++] = (struct saved){number, at};
+}
+
+/* Finds the frames. What was being written when the run was cut off is cut off here too. */
+static void
+look_through(struct checkpoint *c)
+{
+    struct tool *t = &c->run->t;
+    struct rc_err err;
+    struct rc_reader *reader = rc_reader_new(c->file, 0, t->memory, &err);
+    struct rc_grid *g;
+    off_t end = 0;
+    double number;
+
+    if (reader == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
+    while (rc_reader_next(reader, &g, &err) == RC_MORE) {
+        if (!rc_grid_number(g, "checkpoint.case", &number))
+            tool_die(t, EXIT_IMPOSSIBLE, "--checkpoint %s: a grid stream, but no checkpoint: name another file",
+                     c->name);
+        note(c, (size_t)number, end);
+        end = ftello(c->file) + (off_t)strlen(end_line);
+        rc_grid_free(g);
+    }
+    rc_reader_free(reader);
+    clearerr(c->file);
+    if (c->count == 0 && (fseeko(c->file, 0, SEEK_END) != 0 || ftello(c->file) > 0))
+        tool_die(t, EXIT_IMPOSSIBLE, "--checkpoint %s: no pressure can be read from it (%s): remove it to begin anew",
+                 c->name, err.text);
+    if (c->count == 0)
+        return;
+    end -= (off_t)strlen(end_line);
+    if (ftruncate(fileno(c->file), end) != 0 || fseeko(c->file, end, SEEK_SET) != 0 ||
+        fputs(end_line, c->file) == EOF || fflush(c->file) != 0)
+        tool_die(t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", c->name, strerror(errno));
+}
+
+struct checkpoint *
+checkpoint_open(struct run *run, const char *name, bool resume, double interval)
+{
+    struct checkpoint *c;
+
+    if (name == NULL)
+        return NULL;
+    c = calloc(1, sizeof *c);
+    if (c == NULL)
+        tool_die(&run->t, EXIT_IMPOSSIBLE, "out of memory");
+    c->run = run;
+    c->name = name;
+    c->wait = interval;
+    if (resume && (c->file = fopen(name, "r+b")) != NULL) {
+        look_through(c);
+        return c;
+    }
+    if (resume && errno != ENOENT)
+        tool_die(&run->t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", name, strerror(errno));
+    c->file = fopen(name, "w+bx");
+    if (c->file == NULL && errno == EEXIST)
+        tool_die(&run->t, EXIT_IMPOSSIBLE,
+                 "--checkpoint %s: there is one already: go on from it with --resume, or remove it", name);
+    if (c->file == NULL)
+        tool_die(&run->t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", name, strerror(errno));
+    return c;
+}
+
+void
+checkpoint_close(struct checkpoint *c)
+{
+    if (c == NULL)
+        return;
+    if (c->file != NULL)
+        (void)fclose(c->file);
+    free(c->saved);
+    free(c);
+}
+
+/* ---- a surface, a case ---- */
+
+void
+checkpoint_surface(struct checkpoint *c, const struct rc_grid *g)
+{
+    uLong crc = crc32(0, NULL, 0);
+
+    if (c == NULL)
+        return;
+    for (size_t j = 0; j < g->ny; j++)
+        crc = crc32(crc, (const Bytef *)(g->v + j * g->nx), (uInt)(g->nx * sizeof *g->v));
+    snprintf(c->surface, sizeof c->surface, "%08lx", crc);
+}
+
+/* What a frame has to agree in with the case that goes on from it. */
+struct mark {
+    const char *name;
+    char value[RC_NUMBER_SIZE];
+};
+
+enum {
+    MARKS = 5
+};
+
+static void
+marks_of(const struct checkpoint *c, struct mark mark[MARKS])
+{
+    const struct solve_args *args = c->run->args;
+
+    mark[0].name = "checkpoint.surface";
+    snprintf(mark[0].value, sizeof mark[0].value, "%s", c->surface);
+    mark[1].name = "boundary";
+    snprintf(mark[1].value, sizeof mark[1].value, "%s", args->periodic ? "periodic" : "free");
+    mark[2].name = "estar";
+    rc_number_text(mark[2].value, c->run->estar);
+    mark[3].name = "checkpoint.hardness";
+    rc_number_text(mark[3].value, args->hardness);
+    mark[4].name = args->load.n > 0            ? "checkpoint.load"
+                   : args->mean_pressure.n > 0 ? "checkpoint.mean-pressure"
+                                               : "checkpoint.approach";
+    rc_number_text(mark[4].value, c->run->steps->v[c->run->step]);
+}
+
+static void
+compare(struct checkpoint *c, const struct rc_grid *g, const struct rc_grid *saved)
+{
+    struct mark mark[MARKS];
+    struct tool *t = &c->run->t;
+
+    if (saved->nx != g->nx || saved->ny != g->ny || saved->dx != g->dx || saved->dy != g->dy)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "--checkpoint %s: it belongs to another grid, %zu x %zu nodes", c->name,
+                    saved->nx, saved->ny);
+    marks_of(c, mark);
+    for (size_t k = 0; k < MARKS; k++) {
+        const char *was = rc_grid_get(saved, mark[k].name);
+        if (was == NULL || strcmp(was, mark[k].value) != 0)
+            tool_die_at(t, g, EXIT_IMPOSSIBLE, "--checkpoint %s: it belongs to another problem: %s was %s, is %s",
+                        c->name, mark[k].name, was == NULL ? "not given" : was, mark[k].value);
+    }
+}
+
+bool
+checkpoint_case(struct checkpoint *c, const struct rc_grid *g, struct rc_solver *solver)
+{
+    struct rc_reader *reader;
+    struct rc_grid *saved = NULL;
+    struct rc_err err;
+    double load;
+    size_t k;
+
+    if (c == NULL)
+        return false;
+    c->began = solve_now();
+    c->next = c->wait;
+    for (k = c->count; k > 0 && c->saved[k - 1].number != c->run->number; k--)
+        ;
+    if (k == 0)
+        return false;
+    if (fseeko(c->file, c->saved[k - 1].at, SEEK_SET) != 0)
+        tool_die(&c->run->t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", c->name, strerror(errno));
+    reader = rc_reader_new(c->file, 0, 0, &err);
+    if (reader == NULL || rc_reader_next(reader, &saved, &err) != RC_MORE)
+        tool_die(&c->run->t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", c->name, err.text);
+    compare(c, g, saved);
+    if (!rc_grid_number(saved, "load", &load) || rc_solver_start(solver, load, saved->v, &err) != RC_OK)
+        tool_die_at(&c->run->t, g, EXIT_IMPOSSIBLE, "--checkpoint %s: it cannot be started from", c->name);
+    rc_reader_free(reader);
+    rc_grid_free(saved);
+    return true;
+}
+
+/* ---- saving ---- */
+
+static enum rc_status
+put(struct checkpoint *c, struct rc_grid *out, struct rc_err *err)
+{
+    struct rc_writer *writer = rc_writer_new(c->file, err);
+    enum rc_status status;
+
+    if (writer == NULL)
+        return RC_FAIL;
+    status = rc_writer_put(writer, out, err);
+    if (status == RC_OK)
+        status = rc_writer_end(writer, err);
+    rc_writer_free(writer);
+    if (status == RC_OK && fsync(fileno(c->file)) != 0)
+        return rc_err_set(err, "%s", strerror(errno));
+    return status;
+}
+
+void
+checkpoint_save(struct checkpoint *c, const struct rc_grid *g, const struct rc_solver *solver)
+{
+    struct mark mark[MARKS];
+    struct rc_grid *out;
+    struct rc_err err;
+    off_t at;
+
+    if (c == NULL || c->file == NULL)
+        return;
+    out = rc_grid_like(g, "pressure", "Pa", &err);
+    if (out == NULL)
+        tool_die_at(&c->run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    memcpy(out->v, rc_solver_pressure(solver), g->nx * g->ny * sizeof *out->v);
+    marks_of(c, mark);
+    (void)rc_grid_set(out, "case", NULL, &err); /* each is a stream of its own */
+    for (size_t k = 0; k < MARKS; k++)
+        if (rc_grid_set(out, mark[k].name, mark[k].value, &err) != RC_OK)
+            tool_die_at(&c->run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (rc_grid_set_number(out, "checkpoint.case", (double)c->run->number, &err) != RC_OK ||
+        rc_grid_set_number(out, "load", rc_solver_load(solver), &err) != RC_OK ||
+        rc_grid_history(out, tool_history(&c->run->t), &err) != RC_OK)
+        tool_die_at(&c->run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (fseeko(c->file, 0, SEEK_END) != 0 || (at = ftello(c->file)) < 0 || put(c, out, &err) != RC_OK) {
+        tool_warn(&c->run->t, "--checkpoint %s: writing failed: what is in it stays, nothing is added", c->name);
+        (void)fclose(c->file);
+        c->file = NULL;
+    } else {
+        note(c, c->run->number, at);
+    }
+    rc_grid_free(out);
+}
+
+void
+checkpoint_pass(struct checkpoint *c, const struct rc_grid *g, const struct rc_solver *solver)
+{
+    if (c == NULL || solve_now() - c->began < c->next)
+        return;
+    checkpoint_save(c, g, solver);
+    c->next *= 2;
+}
