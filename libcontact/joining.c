@@ -83,10 +83,15 @@ decide(const struct sift *c)
         }
 }
 
+/* What moves a node by 1 while the others around it stay where they are: the mean of |q|/2 over the wave numbers of a
+ * square grid, on cells of unit area for E* = 1. */
+static const double stiffness = 1.2;
+
 enum { /* sums */
     RESIDUAL,
     OUT,
-    CHANGED
+    CHANGED,
+    SIZE
 };
 
 static void
@@ -101,6 +106,7 @@ settle_block(void *at, size_t first, size_t n, double *sums)
             continue;
         sums[RESIDUAL] += (double)s->r[k];
         sums[OUT]++;
+        sums[SIZE] += fabs((double)s->r[k]);
         sums[CHANGED] += was ? 1 : -1; /* they were counted as if they had joined */
         s->r[k] = 0;
     }
@@ -122,4 +128,5 @@ rc_joining_sift(struct rc_solver *s, double *sum, double *count, double *changed
     *sum -= total[RESIDUAL];
     *count -= total[OUT];
     *changed += total[CHANGED];
+    s->aside = stiffness * total[SIZE];
 }

@@ -171,6 +171,7 @@ rc_solver_residual(struct rc_solver *s, bool sift)
     double total[RC_SUMS];
 
     rc_solver_blocks(s, residual_block, &c, total);
+    s->aside = 0;
     if (sift)
         rc_joining_sift(s, &total[0], &total[1], &total[2]);
     s->working = (size_t)total[1];

@@ -72,6 +72,7 @@ struct rc_solver {
                                 it measured distances                                       */
     float *r;                /* residual -g on it, else 0, over `length`                    */
     float offset;            /* its mean there                                              */
+    double aside;            /* what the nodes sifted out of it would carry, times per_pressure */
     float *z;                /* scratch of n: corrections, times `per_pressure`             */
     double per_pressure, length; /* single precision: pressures of about 1, and what those displace
                                 on cells of unit area for E* = 1                           */
