@@ -172,7 +172,8 @@ struct rc_contact {
     double approach;                          /* m; NAN when no node is elastic                  */
     double mean_gap;                          /* m, over the whole map                           */
     double kkt_residual;                      /* worst violation / max(std h, std u), from a
-                                                 fresh convolution                               */
+                                                 fresh convolution; for one height everywhere
+                                                 over what the mean pressure could displace      */
     double pressure_error;                    /* estimated relative L1 error of the pressure     */
     size_t iterations;
     double convolutions;                      /* equivalents on the finest grid                  */

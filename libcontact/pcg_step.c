@@ -8,101 +8,10 @@
 enum {
     TRIES = 4 /* to shorten a step */
 };
-/* Relative error of a convolution in single precision, and what a pressure needs of it: the inverse
- * of the kernel's highest symbol is about pi/2. Measured at 1024 x 1024: 1e-5 for |u| of 50. */
-static const double single_epsilon = 2e-7;
 /* How near the lowest point may be for a clipped step to be taken whole: nodes then come to rest at their
  * bounds. With the lowest point at a part s of the way, the whole of it still gains (2 s - 1)/s^2 of what could
  * be gained. */
 static const double enough = 0.75;
-
-/* ---- K p and K delta ---- */
-
-/* K of the pressures that `in` writes, row by row in single precision, to `out`. */
-static void
-convolve(struct rc_pcg_pass *c, rc_row *in, rc_row *out)
-{
-    struct rc_solver *solver = c->solver;
-    size_t nx = solver->shape.nx, ny = solver->shape.ny;
-    double *p = c->s->wide, *u = p + solver->n, unit = solver->length * solver->per_pressure;
-
-    if (p == NULL) {
-        rc_extension_displace(solver->extension, in, out, c);
-        solver->convolutions += 0.5;
-        return;
-    }
-#pragma omp parallel for num_threads(solver->threads) schedule(static)
-    for (size_t j = 0; j < ny; j++) {
-        float *row = c->s->q + j * nx;
-        bool any = in(c, j, row);
-        for (size_t i = 0; i < nx; i++)
-            p[j * nx + i] = any ? (double)row[i] : 0;
-    }
-    rc_conv_apply(solver->conv, p, u);
-    solver->convolutions++;
-#pragma omp parallel for num_threads(solver->threads) schedule(static)
-    for (size_t j = 0; j < ny; j++) {
-        float *row = c->s->q + j * nx;
-        for (size_t i = 0; i < nx; i++)
-            row[i] = (float)(u[j * nx + i] / unit);
-        out(c, j, row);
-    }
-}
-
-static bool
-pressure_in(void *at, size_t j, void *to)
-{
-    const struct rc_solver *s = ((struct rc_pcg_pass *)at)->solver;
-    size_t n = s->shape.nx;
-    const double *p = s->p + j * n;
-    float *row = to;
-    bool any = false;
-
-    for (size_t i = 0; i < n; i++) {
-        row[i] = (float)(p[i] * s->per_pressure);
-        any |= p[i] > 0;
-    }
-    return any;
-}
-
-static bool
-gap_out(void *at, size_t j, void *from)
-{
-    const struct rc_solver *s = ((struct rc_pcg_pass *)at)->solver;
-    size_t n = s->shape.nx;
-    const float *row = from;
-    const double *h = s->h + j * n;
-    double *v = s->v + j * n, sum = 0;
-
-    for (size_t i = 0; i < n; i++) {
-        double u = (double)row[i];
-        v[i] = u * s->length - h[i];
-        sum += u * u;
-    }
-    rc_row_sums(s, j)[0] = sum;
-    return true;
-}
-
-/* The first v of a grid; single precision will do for a while. */
-void
-rc_pcg_begin(struct rc_solver *solver, struct rc_pcg *s)
-{
-    struct rc_pcg_pass c = {.solver = solver, .s = s};
-    double total[RC_SUMS];
-
-    if (s->wide != NULL) {
-        rc_solver_displace(solver);
-        return;
-    }
-    rc_solver_rows_begin(solver);
-    convolve(&c, pressure_in, gap_out);
-    rc_solver_rows_end(solver, total);
-    s->drift = single_epsilon * sqrt(total[0] / (double)solver->n);
-    solver->known = true;
-    solver->fresh = false;
-}
-
-/* ---- step ---- */
 
 enum { /* sums of a move */
     SIZE,
@@ -293,7 +202,7 @@ attempt(struct rc_solver *solver, struct rc_pcg *s, double alpha, double mean, s
     t->carried = t->total[CARRIED];
     t->room = move.clipped || !(t->total[RC_MOST] > 0) ? 1 : 1 / t->total[RC_MOST];
     rc_solver_rows_begin(solver);
-    convolve(&c, step_in, step_out);
+    rc_pcg_convolve(&c, step_in, step_out);
     rc_solver_rows_end(solver, t->total);
     best = -t->total[SLOPE] / (solver->length * t->total[CURVATURE]);
     t->best = t->total[CURVATURE] > 0 && best > 0 ? best : 0;
@@ -307,7 +216,7 @@ undo(struct rc_solver *solver, struct rc_pcg *s, const struct trial *t)
 
     rc_solver_blocks(solver, back_block, &c, total);
     rc_pcg_balance(solver, rc_solver_carried(solver));
-    s->drift += single_epsilon * t->size; /* delta was rounded */
+    s->drift += rc_pcg_single * t->size; /* delta was rounded */
 }
 
 /* From p along the direction in z, of that mean, back into the box, to where the energy is low. False
@@ -336,7 +245,7 @@ rc_pcg_advance(struct rc_solver *solver, struct rc_pcg *s, double alpha, double 
     c.a = part;
     c.b = 1 - part;
     s->curvature = t.clipped ? 0 : t.total[CURVATURE];
-    s->drift += single_epsilon * part * sqrt(t.total[SQUARE] / (double)solver->n);
+    s->drift += rc_pcg_single * part * sqrt(t.total[SQUARE] / (double)solver->n);
     solver->change = t.size * part;
     solver->fresh = false;
     if (part == 1) {

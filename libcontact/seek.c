@@ -10,9 +10,10 @@
 static const double loose = 1e-2; /* tolerance of the first loads */
 
 void
-rc_seek_begin(struct rc_seek *seek, double target)
+rc_seek_begin(struct rc_solver *s, double target)
 {
-    *seek = (struct rc_seek){.target = target, .high = INFINITY, .power = 1.5};
+    s->tol = fmax(s->goal, loose);
+    s->seek = (struct rc_seek){.target = target, .high = INFINITY, .power = 1.5};
 }
 
 /* The load at which the shift would be the target, by the power law through the last solution. */

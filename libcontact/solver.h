@@ -36,7 +36,6 @@ struct rc_seek {
     double load, shift; /* of the last solution; 0: none                                */
     double power;       /* d log load / d log shift                                     */
 };
-void rc_seek_begin(struct rc_seek *seek, double target);
 
 struct rc_solver {
     struct rc_shape shape;
@@ -100,6 +99,8 @@ enum rc_status rc_solver_set_load(struct rc_solver *solver, double load, struct 
 void rc_solver_level(struct rc_solver *solver);
 /* p has been changed from outside, or the load. */
 void rc_solver_restart(struct rc_solver *solver);
+/* The load is sought that gives this shift: the first ones are solved loosely. */
+void rc_seek_begin(struct rc_solver *solver, double target);
 /* After a solution: RC_OK when its shift is the one wanted, else the next load is set. */
 enum rc_status rc_seek_step(struct rc_solver *solver);
 
