@@ -150,13 +150,13 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
 /* ---- plan ---- */
 
 /* Equivalents and seconds as bench-solve found them at 512^2 to 2048^2, 1 to 99 % contact, 1e-4; each
- * further decade of the tolerance takes about two steps more. pk99 goes with the square root of the
+ * further decade of the tolerance takes about one step more. pk99 goes with the square root of the
  * number of nodes. */
 static double
 expected(const struct run *run, const struct rc_problem *problem, size_t n)
 {
     double tol = isnan(problem->tol) ? pow((double)n, -0.75) : problem->tol;
-    double steps = 20 + 5 * fmax(log10(1e-4 / tol), -2);
+    double steps = 16 + 2.3 * fmax(log10(1e-4 / tol), -2);
 
     if (strcmp(run->args->method, "pk99") == 0)
         steps = 0.6 * sqrt((double)n) * fmax(1, log10(1 / tol) / 3);
