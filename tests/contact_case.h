@@ -51,6 +51,19 @@ solve(struct rc_shape shape, const double *h, struct rc_problem problem)
     return s;
 }
 
+/* Relative L1 distance of a from b. */
+static inline double
+distance(size_t n, const double *a, const double *b)
+{
+    double sum = 0, all = 0;
+
+    for (size_t k = 0; k < n; k++) {
+        sum += fabs(a[k] - b[k]);
+        all += fabs(b[k]);
+    }
+    return sum / all;
+}
+
 static inline void
 solved_free(struct solved *s)
 {

@@ -31,18 +31,6 @@ paper_surface(struct rc_shape shape, double radius)
 }
 
 static double
-distance(size_t n, const double *a, const double *b)
-{
-    double sum = 0, all = 0;
-
-    for (size_t k = 0; k < n; k++) {
-        sum += fabs(a[k] - b[k]);
-        all += fabs(b[k]);
-    }
-    return sum / all;
-}
-
-static double
 deviation(size_t n, const double *v)
 {
     double mean = 0, sum = 0;

@@ -48,18 +48,6 @@ heights(const struct row *row, struct rc_shape s)
     return h;
 }
 
-static double
-distance(size_t n, const double *a, const double *b)
-{
-    double sum = 0, all = 0;
-
-    for (size_t k = 0; k < n; k++) {
-        sum += fabs(a[k] - b[k]);
-        all += fabs(b[k]);
-    }
-    return sum / all;
-}
-
 /* The truth is the same method at 1e-12, whose KKT residual says that it is one; the ratio is taken down to 1e-9. */
 static void
 never_below_never_far_above(void **state)
