@@ -10,84 +10,65 @@
  *
  * Times are the least of several runs. RC_THREADS sets the threads of all but table1.
  */
+#include "bench.h"
+
 #include <complex.h>
 #include <fftw3.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
-#include "libcontact/inside.h"
 #include "libcontact/room.h"
 
 static const double pi = 3.14159265358979323846;
 
 static size_t threads;
 
-static double
-now(void)
-{
-    struct timespec ts;
+/* FFTW's own forward and inverse transform of px x py reals, measured plans, in place. */
+struct pair {
+    double *x;
+    fftw_plan plan[2];
+};
 
-    clock_gettime(CLOCK_MONOTONIC, &ts);
-    return (double)ts.tv_sec + 1e-9 * (double)ts.tv_nsec;
-}
+/* One application of a plan, or a pair of transforms instead. */
+struct sum_work {
+    const struct rc_engine *e;
+    void *plan;
+    const double *p;
+    double *u;
+    const struct pair *its;
+};
 
-static void *
-must(void *p)
+static void
+sum_run(void *what)
 {
-    if (p == NULL) {
-        fprintf(stderr, "out of memory, or a plan could not be made\n");
-        exit(1);
+    const struct sum_work *w = what;
+
+    if (w->its == NULL) {
+        w->e->apply(w->plan, w->p, w->u);
+        return;
     }
-    return p;
-}
-
-static const struct rc_engine *
-engine(const char *name)
-{
-    static const struct rc_engine *const all[] = {
-#define RC_ENGINE(name) &rc_engine_##name,
-#include "libcontact/engines.list"
-#undef RC_ENGINE
-    };
-
-    for (size_t k = 0; k < sizeof all / sizeof *all; k++)
-        if (strcmp(all[k]->name, name) == 0)
-            return all[k];
-    return must(NULL);
+    fftw_execute(w->its->plan[0]);
+    fftw_execute(w->its->plan[1]);
 }
 
 /* Least seconds of one application, over at least `runs` of them and a tenth of a second. */
 static double
 seconds(const struct rc_engine *e, void *plan, const double *p, double *u, int runs)
 {
-    double best = INFINITY, start = now();
+    struct sum_work sum = {.e = e, .plan = plan, .p = p, .u = u};
+    double least;
 
-    for (int k = 0; k < runs || (runs > 1 && now() - start < 0.1); k++) {
-        double t = now();
-        e->apply(plan, p, u);
-        t = now() - t;
-        best = fmin(best, t);
-    }
-    return best;
+    take_turns(1, &(struct work){sum_run, &sum}, runs, runs > 1 ? 0.1 : 0, &least);
+    return least;
 }
 
 static struct rc_sum
-square(size_t m, size_t with_threads)
+square(size_t m)
 {
-    return (struct rc_sum){.shape = {m, m, 1, 1}, .kernel = &rc_kernel_boussinesq,
-                           .medium = {.estar = 1 / pi}, .threads = with_threads};
-}
+    struct rc_sum sum = point_sum((struct rc_shape){m, m, 1, 1});
 
-static double
-uniform(uint64_t *seed)
-{
-    *seed = *seed * 6364136223846793005U + 1442695040888963407U;
-    return (double)(*seed >> 11) / 9007199254740992.0;
+    sum.threads = threads;
+    return sum;
 }
 
 /* ---- Table 1 ---- */
@@ -107,18 +88,6 @@ table1_case(size_t m, double *p, double *exact)
     }
 }
 
-static double
-distance(size_t n, const double *a, const double *b)
-{
-    double above = 0, below = 0;
-
-    for (size_t k = 0; k < n; k++) {
-        above += (a[k] - b[k]) * (a[k] - b[k]);
-        below += b[k] * b[k];
-    }
-    return sqrt(above / below);
-}
-
 static void
 table1(void)
 {
@@ -130,21 +99,21 @@ table1(void)
         double *p = must(rc_room(n, sizeof *p)), *exact = must(rc_room(n, sizeof *p));
         double *u = must(rc_room(n, sizeof *p)), *v = must(rc_room(n, sizeof *p));
         bool direct_too = m <= 512; /* beyond, the Fourier engine stands for its values */
-        const struct rc_engine *e = engine(direct_too ? "direct" : "fft");
-        struct rc_sum sum = square(m, 1);
+        const struct rc_engine *e = engine_named(direct_too ? "direct" : "fft");
+        struct rc_sum sum = square(m);
         void *plan;
-        double t_direct, t_mlms, t = floor(0.84 * log((double)m) + 0.5);
-        double mc = 0.7 * t * pow((double)m, 1 / t) - 1;
+        double t_direct, t_mlms;
         struct rc_err err;
 
+        sum.threads = 1;
         table1_case(m, p, exact);
         sum.shape.dx = sum.shape.dy = 2 / (double)(m - 1);
         plan = must(e->new(&sum, &err));
         t_direct = seconds(e, plan, p, u, m < 256 ? 5 : 1);
         e->free(plan);
-        e = engine("mlms");
-        sum.order = (size_t)t;
-        sum.correction = (size_t)ceil(fmax(2 * t, mc));
+        e = engine_named("mlms");
+        sum.order = paper_order(m);
+        sum.correction = paper_correction(sum.order, m);
         plan = must(e->new(&sum, &err));
         t_mlms = seconds(e, plan, p, v, 5);
         e->free(plan);
@@ -153,9 +122,9 @@ table1(void)
             printf("%12.4f ", t_direct);
         else
             printf("%12s ", "-");
-        printf("%10.3g %12.5f %10.3g %5zu %4zu %12.2e %8.3f ", distance(n, u, exact), t_mlms,
-               distance(n, v, exact), sum.order, sum.correction, distance(n, v, u),
-               distance(n, v, u) * (double)n);
+        printf("%10.3g %12.5f %10.3g %5zu %4zu %12.2e %8.3f ", error_l2(n, u, exact), t_mlms,
+               error_l2(n, v, exact), sum.order, sum.correction, error_l2(n, v, u),
+               error_l2(n, v, u) * (double)n);
         if (direct_too)
             printf("%8.1f\n", t_direct / t_mlms);
         else
@@ -168,12 +137,6 @@ table1(void)
 }
 
 /* ---- against FFTW ---- */
-
-/* FFTW's own forward and inverse transform of px x py reals, measured plans, in place. */
-struct pair {
-    double *x;
-    fftw_plan plan[2];
-};
 
 static struct pair
 pair_new(size_t px, size_t py)
@@ -199,36 +162,11 @@ pair_free(struct pair *its)
     free(its->x);
 }
 
-/* The least times of two pieces of work, taken in turns: what disturbs one disturbs the other. */
-struct work {
-    const struct rc_engine *e;
-    void *plan;
-    const double *p;
-    double *u;
-    const struct pair *its; /* or FFTW's transforms instead */
-};
-
+/* Least seconds of two of them, five times each in turns for four seconds. */
 static void
-run(const struct work *w)
+duel(struct sum_work sums[2], double least[2])
 {
-    if (w->its == NULL) {
-        w->e->apply(w->plan, w->p, w->u);
-        return;
-    }
-    fftw_execute(w->its->plan[0]);
-    fftw_execute(w->its->plan[1]);
-}
-
-static void
-duel(const struct work work[2], double best[2])
-{
-    best[0] = best[1] = INFINITY;
-    for (double start = now(); now() - start < 4;)
-        for (int k = 0; k < 10; k++) {
-            double t = now();
-            run(&work[k / 5]);
-            best[k / 5] = fmin(best[k / 5], now() - t);
-        }
+    take_turns(2, (struct work[2]){{sum_run, &sums[0]}, {sum_run, &sums[1]}}, 5, 4, least);
 }
 
 /* Prints the bytes a node that planning and applying take beyond p and u: the growth of the peak
@@ -272,8 +210,8 @@ peak_now(void)
 static void
 peak_child(char **argv)
 {
-    struct rc_sum sum = square((size_t)strtoul(argv[3], NULL, 10), threads);
-    const struct rc_engine *e = engine(argv[2]);
+    struct rc_sum sum = square((size_t)strtoul(argv[3], NULL, 10));
+    const struct rc_engine *e = engine_named(argv[2]);
     size_t n = sum.shape.nx * sum.shape.ny;
     double *p = must(rc_room(n, sizeof *p)), *u = must(rc_room(n, sizeof *u));
     struct rc_err err;
@@ -296,7 +234,7 @@ peak_child(char **argv)
 static void
 against_fftw(void)
 {
-    const struct rc_engine *e = engine("fft");
+    const struct rc_engine *e = engine_named("fft");
 
     printf("\nThe Fourier engine against FFTW's two-dimensional pair (FFTW_MEASURE, no "
            "multiplication), %zu threads\n", threads);
@@ -304,7 +242,7 @@ against_fftw(void)
            "ratio", "our plan ms", "its plan ms", "bytes a node beyond p and u");
     for (size_t m = 512; m <= 2048; m *= 2)
         for (int boundary = 0; boundary < 2; boundary++) {
-            struct rc_sum sum = square(m, threads);
+            struct rc_sum sum = square(m);
             size_t padded = boundary == RC_FREE ? 2 * m : m;
             double *p = must(rc_room(m * m, sizeof *p)), *u = must(rc_room(m * m, sizeof *u));
             struct pair its;
@@ -322,7 +260,7 @@ against_fftw(void)
             its_plan = now();
             its = pair_new(padded, padded);
             its_plan = now() - its_plan;
-            duel((struct work[2]){{.e = e, .plan = plan, .p = p, .u = u}, {.its = &its}}, best);
+            duel((struct sum_work[2]){{.e = e, .plan = plan, .p = p, .u = u}, {.its = &its}}, best);
             e->free(plan);
             pair_free(&its);
             printf("%6zu %-9s %10.2f %10.2f %8.2f %12.1f %12.1f ", m,
@@ -378,27 +316,27 @@ sparse(void)
            threads);
     printf("%-18s %10s %10s %8s %12s\n", "loaded", "mlms ms", "fft ms", "ratio", "difference");
     for (int what = 0; what < 3; what++) {
-        struct rc_sum sum = square(m, threads);
-        void *fft = must(engine("fft")->new(&sum, &err)), *mlms;
+        struct rc_sum sum = square(m);
+        void *fft = must(engine_named("fft")->new(&sum, &err)), *mlms;
         double best[2];
 
         sum.tol = 1e-6;
-        mlms = must(engine("mlms")->new(&sum, &err));
+        mlms = must(engine_named("mlms")->new(&sum, &err));
         load_map((enum load)what, m, p);
-        duel((struct work[2]){{.e = engine("mlms"), .plan = mlms, .p = p, .u = v},
-                              {.e = engine("fft"), .plan = fft, .p = p, .u = u}}, best);
+        duel((struct sum_work[2]){{.e = engine_named("mlms"), .plan = mlms, .p = p, .u = v},
+                              {.e = engine_named("fft"), .plan = fft, .p = p, .u = u}}, best);
         printf("%-18s %10.2f %10.2f %8.2f %12.1e\n", names[what], 1e3 * best[0], 1e3 * best[1],
-               best[0] / best[1], distance(m * m, v, u));
-        engine("fft")->free(fft);
-        engine("mlms")->free(mlms);
+               best[0] / best[1], error_l2(m * m, v, u));
+        engine_named("fft")->free(fft);
+        engine_named("mlms")->free(mlms);
     }
     {
-        struct rc_sum sum = square(m, threads);
+        struct rc_sum sum = square(m);
         printf("peak bytes a node beyond p and u: fft ");
-        peak_bytes(engine("fft"), &sum);
+        peak_bytes(engine_named("fft"), &sum);
         sum.tol = 1e-6;
         printf(", mlms ");
-        peak_bytes(engine("mlms"), &sum);
+        peak_bytes(engine_named("mlms"), &sum);
         printf("\n");
     }
     free(p);
@@ -428,8 +366,8 @@ sizes(void)
             p[k] = uniform(&seed);
         printf("%6zu", m);
         for (size_t c = 0; c < sizeof columns / sizeof *columns; c++) {
-            struct rc_sum sum = square(m, threads);
-            const struct rc_engine *e = engine(columns[c].name);
+            struct rc_sum sum = square(m);
+            const struct rc_engine *e = engine_named(columns[c].name);
             struct rc_err err;
             void *plan;
 
@@ -453,24 +391,14 @@ sizes(void)
 int
 main(int argc, char **argv)
 {
-    static const struct {
-        const char *name;
-        void (*run)(void);
-    } parts[] = {{"table1", table1}, {"fftw", against_fftw}, {"sparse", sparse}, {"sizes", sizes}};
-    const char *wish = getenv("RC_THREADS");
+    static const struct part parts[] = {
+        {"table1", table1, false}, {"fftw", against_fftw, false}, {"sparse", sparse, false}, {"sizes", sizes, false}};
 
-    threads = wish == NULL ? rc_threads_available() : (size_t)strtoul(wish, NULL, 10);
+    threads = threads_wanted();
     if (argc == 6 && strcmp(argv[1], "peak") == 0) {
         peak_child(argv);
         return 0;
     }
     fftw_init_threads();
-    for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
-        bool wanted = argc < 2;
-        for (int a = 1; a < argc; a++)
-            wanted |= strcmp(argv[a], parts[k].name) == 0;
-        if (wanted)
-            parts[k].run();
-    }
-    return 0;
+    return parts_run(sizeof parts / sizeof *parts, parts, argc - 1, argv + 1);
 }
