@@ -36,6 +36,17 @@ struct work {
 };
 void take_turns(size_t count, const struct work *work, int runs, double seconds, double *least);
 
+/* One application of a plan: work for the above. */
+struct sum_work {
+    const struct rc_engine *e;
+    void *plan;
+    const double *p;
+    double *u;
+};
+void sum_run(void *sum_work);
+/* Least seconds of it, over at least `runs` and, when they are several, a tenth of a second. */
+double sum_seconds(struct sum_work sum, int runs);
+
 /* These end the program when something is missing. */
 void *must(void *p);
 void must_be(enum rc_status status, const struct rc_err *err);

@@ -1,14 +1,13 @@
 /*
  * What a convolution costs, engine by engine:
  *
- *     bench-convolution [table1] [fftw] [sparse] [sizes]       (default: all)
+ *     bench-convolution [fftw] [sparse] [sizes]       (default: all)
  *
- * table1  the paper's Table 1: errors and times of direct summation and MLMS, one thread
  * fftw    the Fourier engine against FFTW's own two-dimensional transforms, same run
  * sparse  MLMS against the Fourier engine, all nodes loaded and 5 % of them
  * sizes   time a node from 256^2 to 4096^2
  *
- * Times are the least of several runs. RC_THREADS sets the threads of all but table1.
+ * Times are the least of several runs. RC_THREADS sets the threads.
  */
 #include "bench.h"
 
@@ -23,45 +22,6 @@ static const double pi = 3.14159265358979323846;
 
 static size_t threads;
 
-/* FFTW's own forward and inverse transform of px x py reals, measured plans, in place. */
-struct pair {
-    double *x;
-    fftw_plan plan[2];
-};
-
-/* One application of a plan, or a pair of transforms instead. */
-struct sum_work {
-    const struct rc_engine *e;
-    void *plan;
-    const double *p;
-    double *u;
-    const struct pair *its;
-};
-
-static void
-sum_run(void *what)
-{
-    const struct sum_work *w = what;
-
-    if (w->its == NULL) {
-        w->e->apply(w->plan, w->p, w->u);
-        return;
-    }
-    fftw_execute(w->its->plan[0]);
-    fftw_execute(w->its->plan[1]);
-}
-
-/* Least seconds of one application, over at least `runs` of them and a tenth of a second. */
-static double
-seconds(const struct rc_engine *e, void *plan, const double *p, double *u, int runs)
-{
-    struct sum_work sum = {.e = e, .plan = plan, .p = p, .u = u};
-    double least;
-
-    take_turns(1, &(struct work){sum_run, &sum}, runs, runs > 1 ? 0.1 : 0, &least);
-    return least;
-}
-
 static struct rc_sum
 square(size_t m)
 {
@@ -71,72 +31,22 @@ square(size_t m)
     return sum;
 }
 
-/* ---- Table 1 ---- */
-
-/* p = sqrt(1 - r^2) on nodes from -1 to 1, and what it displaces, K being 1/r. */
-static void
-table1_case(size_t m, double *p, double *exact)
-{
-    double d = 2 / (double)(m - 1);
-
-    for (size_t k = 0; k < m * m; k++) {
-        double x = -1 + d * (double)(k % m), y = -1 + d * (double)(k / m);
-        double r2 = x * x + y * y, r = sqrt(r2);
-        p[k] = r2 < 1 ? sqrt(1 - r2) : 0;
-        exact[k] = r2 <= 1 ? pi * pi / 4 * (2 - r2)
-                           : pi / 2 * ((2 - r2) * asin(1 / r) + sqrt(r2 - 1));
-    }
-}
-
-static void
-table1(void)
-{
-    printf("Table 1, one thread: relative L2 errors against the exact deflection\n");
-    printf("%6s %12s %10s %12s %10s %5s %4s %12s %8s %8s\n", "M", "direct s", "error", "mlms s",
-           "error", "t", "mc", "mlms-direct", "times M2", "speed-up");
-    for (size_t m = 64; m <= 2048; m *= 2) {
-        size_t n = m * m;
-        double *p = must(rc_room(n, sizeof *p)), *exact = must(rc_room(n, sizeof *p));
-        double *u = must(rc_room(n, sizeof *p)), *v = must(rc_room(n, sizeof *p));
-        bool direct_too = m <= 512; /* beyond, the Fourier engine stands for its values */
-        const struct rc_engine *e = engine_named(direct_too ? "direct" : "fft");
-        struct rc_sum sum = square(m);
-        void *plan;
-        double t_direct, t_mlms;
-        struct rc_err err;
-
-        sum.threads = 1;
-        table1_case(m, p, exact);
-        sum.shape.dx = sum.shape.dy = 2 / (double)(m - 1);
-        plan = must(e->new(&sum, &err));
-        t_direct = seconds(e, plan, p, u, m < 256 ? 5 : 1);
-        e->free(plan);
-        e = engine_named("mlms");
-        sum.order = paper_order(m);
-        sum.correction = paper_correction(sum.order, m);
-        plan = must(e->new(&sum, &err));
-        t_mlms = seconds(e, plan, p, v, 5);
-        e->free(plan);
-        printf("%6zu ", m);
-        if (direct_too)
-            printf("%12.4f ", t_direct);
-        else
-            printf("%12s ", "-");
-        printf("%10.3g %12.5f %10.3g %5zu %4zu %12.2e %8.3f ", error_l2(n, u, exact), t_mlms,
-               error_l2(n, v, exact), sum.order, sum.correction, error_l2(n, v, u),
-               error_l2(n, v, u) * (double)n);
-        if (direct_too)
-            printf("%8.1f\n", t_direct / t_mlms);
-        else
-            printf("%8s\n", "-");
-        free(p);
-        free(exact);
-        free(u);
-        free(v);
-    }
-}
-
 /* ---- against FFTW ---- */
+
+/* FFTW's own forward and inverse transform of px x py reals, measured plans, in place. */
+struct pair {
+    double *x;
+    fftw_plan plan[2];
+};
+
+static void
+pair_run(void *what)
+{
+    const struct pair *its = what;
+
+    fftw_execute(its->plan[0]);
+    fftw_execute(its->plan[1]);
+}
 
 static struct pair
 pair_new(size_t px, size_t py)
@@ -162,11 +72,11 @@ pair_free(struct pair *its)
     free(its->x);
 }
 
-/* Least seconds of two of them, five times each in turns for four seconds. */
+/* Least seconds of two pieces of work, five times each in turns for four seconds. */
 static void
-duel(struct sum_work sums[2], double least[2])
+duel(struct work a, struct work b, double least[2])
 {
-    take_turns(2, (struct work[2]){{sum_run, &sums[0]}, {sum_run, &sums[1]}}, 5, 4, least);
+    take_turns(2, (struct work[2]){a, b}, 5, 4, least);
 }
 
 /* Prints the bytes a node that planning and applying take beyond p and u: the growth of the peak
@@ -246,6 +156,7 @@ against_fftw(void)
             size_t padded = boundary == RC_FREE ? 2 * m : m;
             double *p = must(rc_room(m * m, sizeof *p)), *u = must(rc_room(m * m, sizeof *u));
             struct pair its;
+            struct sum_work sum_work;
             double plan_time, its_plan, best[2];
             uint64_t seed = 1;
             struct rc_err err;
@@ -260,7 +171,8 @@ against_fftw(void)
             its_plan = now();
             its = pair_new(padded, padded);
             its_plan = now() - its_plan;
-            duel((struct sum_work[2]){{.e = e, .plan = plan, .p = p, .u = u}, {.its = &its}}, best);
+            sum_work = (struct sum_work){e, plan, p, u};
+            duel((struct work){sum_run, &sum_work}, (struct work){pair_run, &its}, best);
             e->free(plan);
             pair_free(&its);
             printf("%6zu %-9s %10.2f %10.2f %8.2f %12.1f %12.1f ", m,
@@ -323,8 +235,8 @@ sparse(void)
         sum.tol = 1e-6;
         mlms = must(engine_named("mlms")->new(&sum, &err));
         load_map((enum load)what, m, p);
-        duel((struct sum_work[2]){{.e = engine_named("mlms"), .plan = mlms, .p = p, .u = v},
-                              {.e = engine_named("fft"), .plan = fft, .p = p, .u = u}}, best);
+        duel((struct work){sum_run, &(struct sum_work){engine_named("mlms"), mlms, p, v}},
+             (struct work){sum_run, &(struct sum_work){engine_named("fft"), fft, p, u}}, best);
         printf("%-18s %10.2f %10.2f %8.2f %12.1e\n", names[what], 1e3 * best[0], 1e3 * best[1],
                best[0] / best[1], error_l2(m * m, v, u));
         engine_named("fft")->free(fft);
@@ -378,7 +290,7 @@ sizes(void)
             sum.tol = columns[c].tol;
             sum.boundary = columns[c].boundary;
             plan = must(e->new(&sum, &err));
-            printf(" %10.2f", 1e9 * seconds(e, plan, p, u, c == 0 ? 1 : 5) / (double)(m * m));
+            printf(" %10.2f", 1e9 * sum_seconds((struct sum_work){e, plan, p, u}, c == 0 ? 1 : 5) / (double)(m * m));
             fflush(stdout);
             e->free(plan);
         }
@@ -392,7 +304,7 @@ int
 main(int argc, char **argv)
 {
     static const struct part parts[] = {
-        {"table1", table1, false}, {"fftw", against_fftw, false}, {"sparse", sparse, false}, {"sizes", sizes, false}};
+        {"fftw", against_fftw, false}, {"sparse", sparse, false}, {"sizes", sizes, false}};
 
     threads = threads_wanted();
     if (argc == 6 && strcmp(argv[1], "peak") == 0) {

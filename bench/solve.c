@@ -1,14 +1,12 @@
 /*
  * What a contact costs:
  *
- *     bench-solve [-n SIZE,SIZE...] [-t TOL] [-m METHOD] [table] [estimate] [hertz]        (default: table)
+ *     bench-solve [-n SIZE,SIZE...] [-t TOL] [-m METHOD] [table] [estimate]        (default: table)
  *
  * table     convolution equivalents, iterations and seconds to a true relative L1 error of the
  *           pressure (default 1e-4), coarse levels included, and what the certified solution to that
  *           tolerance costs
  * estimate  estimate over true error, every iteration
- * hertz     the paper's Fig. 1: errors of contact radius and pressure against the exact ones at a tenth of
- *           its tolerance M^(-3/2), and the iterations of both methods at that tolerance, of pk99 also by the paper's criterion, (32)
  *
  * Surfaces: periodic self-affine (Hurst 0.8, cut at 8 nodes, rolled off at an eighth of the map) and a
  * sphere with such roughness on the free half-space. The truth is the same solver at 1e-9. RC_THREADS sets
@@ -17,8 +15,6 @@
 #include "bench.h"
 
 #include <unistd.h>
-
-#include "tests/exact.h"
 
 struct surface {
     const char *name;
@@ -171,86 +167,6 @@ estimate(size_t m)
     free(h);
 }
 
-/* ---- the paper's Fig. 1 ---- */
-
-static struct rc_contact
-solved(struct rc_shape shape, const double *h, struct rc_problem problem, double *p)
-{
-    struct rc_solver *s = solver_new(shape, h, problem);
-    struct rc_contact c;
-
-    solver_run(s);
-    rc_solver_result(s, NULL, NULL, &c);
-    memcpy(p, rc_solver_pressure(s), shape.nx * shape.ny * sizeof *p);
-    rc_solver_free(s);
-    return c;
-}
-
-/* Iterations until the relative change of the pressure, (32) of the paper, is at most tol. */
-static size_t
-by_change(struct rc_shape shape, const double *h, struct rc_problem problem, double tol, double *old)
-{
-    size_t n = shape.nx * shape.ny, its = 0;
-    struct rc_solver *s;
-    double change;
-
-    problem.tol = 1e-3 * tol; /* goes on until it is told to stop */
-    s = solver_new(shape, h, problem);
-    do {
-        memcpy(old, rc_solver_pressure(s), n * sizeof *old);
-        if (rc_solver_step(s) != RC_MORE)
-            break;
-        change = error_l1(n, old, rc_solver_pressure(s));
-        its++;
-    } while (change > tol);
-    rc_solver_free(s);
-    return its;
-}
-
-static void
-hertz_row(size_t m)
-{
-    static const double radius = 7.5e-3, estar = 113.93e9, load = 240;
-    struct hertz exact = hertz(load, radius, estar);
-    double step = 2.1 * exact.a / (double)m, tol = pow((double)m, -1.5);
-    struct rc_shape shape = {m, m, step, step};
-    double *h = map_new(m * m), *p = map_new(m * m);
-    struct rc_problem problem = {.boundary = RC_FREE, .estar = estar, .load = load, .hardness = INFINITY,
-                                 .tol = 0.1 * tol, .method = "pcg", .threads = threads};
-    double off = 0, size = 0, r_off;
-    struct rc_contact c;
-    size_t its[3];
-
-    rc_synth_sphere(&shape, radius, h);
-    c = solved(shape, h, problem, p);
-    for (size_t k = 0; k < m * m; k++) {
-        double x = ((double)(k % m) - ((double)m - 1) / 2) * step;
-        double y = ((double)(k / m) - ((double)m - 1) / 2) * step;
-        double there = hertz_pressure(exact, hypot(x, y));
-        off += fabs(p[k] - there);
-        size += there;
-    }
-    r_off = fabs(sqrt(c.contact_area / exact_pi) / exact.a - 1);
-    problem.tol = tol;
-    its[0] = solved(shape, h, problem, p).iterations;
-    problem.method = "pk99";
-    its[1] = solved(shape, h, problem, p).iterations;
-    its[2] = by_change(shape, h, problem, tol, p);
-    printf("%6zu %10.2e %8.2f %10.2e %8.2f %8zu %8zu %8zu\n", m, r_off, r_off * (double)m, off / size,
-           off / size / tol, its[0], its[1], its[2]);
-    free(h);
-    free(p);
-}
-
-static void
-hertz_table(void)
-{
-    printf("\n%6s %10s %8s %10s %8s %8s %8s %8s\n", "M", "radius", "x M", "pressure", "x M^1.5", "pcg its",
-           "pk99 its", "by (32)");
-    for (size_t m = 64; m <= 1024; m *= 2)
-        hertz_row(m);
-}
-
 static void
 tables(void)
 {
@@ -269,7 +185,7 @@ int
 main(int argc, char **argv)
 {
     static const struct part parts[] = {
-        {"table", tables, false}, {"estimate", estimates, true}, {"hertz", hertz_table, true}};
+        {"table", tables, false}, {"estimate", estimates, true}};
 
     threads = threads_wanted();
     for (int option; (option = getopt(argc, argv, "n:t:m:")) != -1;)

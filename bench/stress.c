@@ -1,12 +1,10 @@
 /*
- * What stresses cost, and how exact they are:
+ * What stresses cost:
  *
- *     bench-stress [fig1] [parts] [sizes] [paper] [mlms]       (default: all)
+ *     bench-stress [parts] [sizes] [mlms]       (default: all)
  *
- * fig1   the paper's Fig. 1: relative error of Mises' stress under a sliding sphere, M = 64 .. 1024
  * parts  where the time of a slice goes: coefficients, their transforms, fields
  * sizes  time a slice against one convolution of the deflection, same run
- * paper  483 x 412 nodes, 45 depths, six components and Mises
  * mlms   the multi-level sum against the transforms
  *
  * Times are the least of several runs. RC_THREADS sets the threads.
@@ -16,11 +14,8 @@
 #include "libcontact/fft.h"
 #include "libcontact/fourier.h"
 #include "libcontact/stress.h"
-#include "tests/exact.h"
 
 static size_t threads;
-
-static const unsigned usual = (2u << RC_MISES) - 1;
 
 struct maps {
     double *s[RC_STRESSES];
@@ -84,54 +79,6 @@ slice_seconds(const struct rc_shape *shape, const double *p, const struct rc_str
     take_turns(1, &(struct work){slice_run, &slice}, runs, 0, &least);
     rc_stress_free(slice.stress);
     return least;
-}
-
-/* ---- Fig. 1 ---- */
-
-static void
-fig1(void)
-{
-    static const char *const engines[] = {"fft", "mlms"};
-    const double radius = 7.5e-3, estar = 113.93e9, load = 240, nu = 0.28, mu = 0.15;
-    struct hertz h = hertz(load, radius, estar);
-    double z = mises_depth(h, nu, mu);
-
-    printf("fig1: relative L1 error of Mises' stress at %.4f a, mu = %g, nu = %g\n", z / h.a, mu,
-           nu);
-    for (size_t m = 64; m <= 1024; m *= 2) {
-        double d = 2.1 * h.a / (double)m, *height = must(malloc(m * m * sizeof *height));
-        struct rc_shape shape = {m, m, d, d};
-        struct rc_problem problem = {.estar = estar, .load = load, .hardness = INFINITY,
-                                     .tol = 0.1 * pow((double)m, -1.5), .threads = threads};
-        struct maps maps = maps_new(m * m);
-        struct rc_solver *solver;
-
-        rc_synth_sphere(&shape, radius, height);
-        solver = solver_new(shape, height, problem);
-        solver_run(solver);
-        printf("  M %4zu", m);
-        for (int e = 0; e < 2; e++) {
-            struct rc_stress_options o = {.nu = nu, .mu = mu, .wanted = 1u << RC_MISES,
-                                          .engine = engines[e], .threads = threads,
-                                          .tol = e == 0 ? 0 : 0.1 / (double)(m * m)};
-            double above = 0, below = 0;
-            slice_seconds(&shape, rc_solver_pressure(solver), &o, z, &maps, 1);
-            for (size_t k = 0; k < m * m; k++) {
-                double x = ((double)(k % m) - (double)(m - 1) / 2) * d, exact[6];
-                double y = ((double)(k / m) - (double)(m - 1) / 2) * d;
-                sliding_sphere(h, nu, mu, x, y, z, exact);
-                above += fabs(maps.s[RC_MISES][k] - mises_of(exact));
-                below += mises_of(exact);
-            }
-            printf("   %s %.2e = %.2f M^-2", engines[e], above / below,
-                   above / below * (double)(m * m));
-        }
-        printf("\n");
-        fflush(stdout);
-        rc_solver_free(solver);
-        maps_free(&maps);
-        free(height);
-    }
 }
 
 /* ---- parts ---- */
@@ -274,42 +221,6 @@ sizes(void)
     }
 }
 
-/* ---- the paper's case ---- */
-
-static void
-paper(void)
-{
-    enum {
-        NX = 483,
-        NY = 412,
-        DEPTHS = 45
-    };
-    const struct rc_shape shape = {NX, NY, 1.1e-6, 1.29e-6};
-    double *p = must(malloc(NX * NY * sizeof *p)), a = 228e-6;
-    struct maps maps = maps_new(NX * NY);
-
-    for (size_t k = 0; k < NX * NY; k++) {
-        double x = ((double)(k % NX) - (NX - 1) / 2.0) * shape.dx;
-        double y = ((double)(k / NX) - (NY - 1) / 2.0) * shape.dy, r2 = (x * x + y * y) / (a * a);
-        p[k] = r2 < 1 ? 2.2e9 * sqrt(1 - r2) : 0;
-    }
-    printf("paper: %d x %d, %d depths, six components and Mises, %zu threads (theirs: 4.3 h)\n", NX,
-           NY, DEPTHS, threads);
-    for (int run = 0; run < 3; run++) {
-        struct rc_stress_options o = {.nu = 0.28, .wanted = usual, .threads = threads,
-                                      .mu = run == 1 ? 0.15 : 0, .tol = run == 2 ? 1e-4 : 0};
-        struct rc_err err;
-        double t = now();
-        struct rc_stress *stress = must(rc_stress_new(&shape, p, &o, &err));
-        for (int d = 0; d < DEPTHS; d++)
-            must_be(rc_stress_slice(stress, 10e-6 * d, maps.s, &err), &err);
-        printf("  mu = %.2f, tol %g: %.2f s\n", o.mu, o.tol, now() - t);
-        rc_stress_free(stress);
-    }
-    maps_free(&maps);
-    free(p);
-}
-
 /* ---- mlms ---- */
 
 static void
@@ -345,8 +256,7 @@ int
 main(int argc, char **argv)
 {
     static const struct part table[] = {
-        {"fig1", fig1, false}, {"parts", parts, false}, {"sizes", sizes, false}, {"paper", paper, false},
-        {"mlms", mlms, false}};
+        {"parts", parts, false}, {"sizes", sizes, false}, {"mlms", mlms, false}};
 
     threads = threads_wanted();
     return parts_run(sizeof table / sizeof *table, table, argc - 1, argv + 1);

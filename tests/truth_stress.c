@@ -350,7 +350,7 @@ sliding_sphere_is_the_integral(void **state)
 }
 
 /* The paper's Fig. 1: the relative error of Mises' stress in the slice at that depth, after solving
- * for the pressure, is at most M^-2 (theirs: 2 M^-2). bench-stress fig1 goes on to M = 1024. */
+ * for the pressure, is at most M^-2 (theirs: 2 M^-2). bench-paper fig1 goes on to M = 1024. */
 static void
 paper_figure_1(void **state)
 {
