@@ -79,6 +79,14 @@ take_turns(size_t count, const struct work *work, int runs, double seconds, doub
     } while (now() - start < seconds);
 }
 
+bool
+once_more(double start, int runs)
+{
+    double spent = now() - start;
+
+    return spent < 0.5 || (runs < 2 && spent < 5);
+}
+
 void
 sum_run(void *sum_work)
 {
@@ -188,7 +196,7 @@ exponent(size_t count, const double *x, const double *y)
         sxx += log(x[k]) * log(x[k]);
         sxy += log(x[k]) * log(y[k]);
     }
-    return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+    return count < 3 ? NAN : (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
 
 double

@@ -35,6 +35,9 @@ struct work {
     void *what;
 };
 void take_turns(size_t count, const struct work *work, int runs, double seconds, double *least);
+/* Whether what began at `start` and ran so often runs again for its least time: twice, and for half a second, unless
+ * that takes long. */
+bool once_more(double start, int runs);
 
 /* One application of a plan: work for the above. */
 struct sum_work {
@@ -59,7 +62,7 @@ void solver_run(struct rc_solver *solver);
 /* Relative errors of a against b: sums of magnitudes, sums of squares. */
 double error_l1(size_t n, const double *a, const double *b);
 double error_l2(size_t n, const double *a, const double *b);
-/* The e of y = c x^e, by least squares of the logarithms. */
+/* The e of y = c x^e, by least squares of the logarithms; NAN for fewer than three. */
 double exponent(size_t count, const double *x, const double *y);
 /* Numbers of a fixed sequence in [0, 1). */
 double uniform(uint64_t *seed);

@@ -1,7 +1,9 @@
 /*
  * The figures of the paper, measured again: Polonsky and Keer, Wear 231 (1999) 206-219.
  *
- *     bench-paper [-n SIZE,SIZE...] [-s SECONDS] [table1] [fig1] [fig3] [stresses] [section5]        (default: all)
+ *     bench-paper [-n SIZE,SIZE...] [-m METHOD] [-s SECONDS] [table1] [fig1] [fig3] [stresses] [section5]
+ *
+ * The parts, all of them when none is named:
  *
  * table1    errors and times of direct summation and MLMS, one thread
  * fig1      Hertz's contact: errors of contact radius, pressure and Mises' stress against the number of rows
@@ -10,8 +12,8 @@
  * section5  what periodic transforms do to a contact on the free half-space as the domain grows, and what as good a
  *           solution costs by them, by padded transforms and by MLMS
  *
- * -n: of fig3 only the grids with so many columns; -s: a solution of it that takes longer (default 100) is given
- * up. RC_THREADS sets the threads.
+ * -n, -m: of fig3 only the grids with so many columns, only one method; -s: a solution of it that takes longer
+ * (default 100) is given up. RC_THREADS sets the threads.
  */
 #include "paper.h"
 
@@ -22,6 +24,7 @@
 size_t threads;
 double limit = 100;
 static size_t sizes[16], count;
+static const char *method;
 
 bool
 size_wanted(size_t nx)
@@ -31,6 +34,12 @@ size_wanted(size_t nx)
     for (size_t k = 0; k < count; k++)
         wanted = wanted || sizes[k] == nx;
     return wanted;
+}
+
+bool
+method_wanted(const char *name)
+{
+    return method == NULL || strcmp(method, name) == 0;
 }
 
 struct rc_solver *
@@ -125,9 +134,11 @@ main(int argc, char **argv)
                                         {"section5", section5, false}};
 
     threads = threads_wanted();
-    for (int option; (option = getopt(argc, argv, "n:s:")) != -1;)
+    for (int option; (option = getopt(argc, argv, "n:m:s:")) != -1;)
         if (option == 'n')
             count = sizes_read(optarg, 16, sizes);
+        else if (option == 'm')
+            method = optarg;
         else if (option == 's')
             limit = atof(optarg);
         else
