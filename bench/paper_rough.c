@@ -87,7 +87,7 @@ converged(struct rc_shape shape, const double *h, struct rc_problem problem)
     double *p = map_new(n);
     struct rc_solver *solver;
 
-    problem.tol *= 1e-3;
+    problem.tol *= 1e-2;
     solver = solver_new(shape, h, problem);
     solver_run(solver);
     memcpy(p, rc_solver_pressure(solver), n * sizeof *p);

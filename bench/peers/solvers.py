@@ -65,14 +65,17 @@ TOLERANCES = [float(f"{t:.1e}") for t in 10.**-np.arange(2, 13.1, 0.5)]  # loose
 def aspher_ladders(boundary):
     kinds = ([dict(backend="periodic")] if boundary == "periodic" else
              [dict(backend="h2", active_set=True), dict(backend="fft")])
-    precisions = {"double": [1e-4], "float": [1e-4, 1e-2], "float_then_double": [1e-4, 1e-2]}
+    # precision: coarse tolerances, tolerances. Where single precision stops (2e-6, unless told) it goes on for ever
+    # below 1e-7, and double follows it at once above.
+    precisions = {"double": ([1e-4], TOLERANCES),
+                  "float": ([1e-4, 1e-2], [tol for tol in TOLERANCES if tol > 5e-8]),
+                  "float_then_double": ([1e-4, 1e-2], [tol for tol in TOLERANCES if tol < 5e-6])}
 
-    def floor(precision, tol):  # else float stops at 2e-6
+    def floor(precision, tol):
         return dict(float_floor=min(2e-6, tol)) if precision == "float" else {}
 
-    return [[dict(kind, precision=precision, coarse_tol=coarse, tol=tol, **floor(precision, tol))
-             for tol in TOLERANCES]
-            for kind in kinds for precision, coarses in precisions.items() for coarse in coarses
+    return [[dict(kind, precision=precision, coarse_tol=coarse, tol=tol, **floor(precision, tol)) for tol in tols]
+            for kind in kinds for precision, (coarses, tols) in precisions.items() for coarse in coarses
             if not (precision == "float_then_double" and kind["backend"] == "h2")]  # refused by it
 
 
@@ -95,7 +98,7 @@ PEERS = {
                lambda boundary: dict(backend="periodic" if boundary == "periodic" else "fft", precision="double",
                                      tol=1e-12, max_iter=3000)),
     "Tamaas": ("tamaas", tamaas, tamaas_ladders,
-               lambda boundary: dict(primal="pressure", tol=1e-13, max_iter=2000)),
+               lambda boundary: dict(primal="pressure", tol=1e-13, max_iter=1000)),
     "ContactMechanics": ("ContactMechanics", contactmechanics, contactmechanics_ladders,
                          lambda boundary: dict(tol=1e-14)),
     "pk99": (None, None, pk99_ladders, lambda boundary: dict(method="pk99", tol=1e-8)),
