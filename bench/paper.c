@@ -1,7 +1,7 @@
 /*
  * The figures of the paper, measured again: Polonsky and Keer, Wear 231 (1999) 206-219.
  *
- *     bench-paper [-n SIZE,SIZE...] [-m METHOD] [-s SECONDS] [table1] [fig1] [fig3] [stresses] [section5]
+ *     bench-paper [-n SIZE,SIZE...] [-m WAY] [-s SECONDS] [table1] [fig1] [fig3] [stresses] [section5]
  *
  * The parts, all of them when none is named:
  *
@@ -12,8 +12,8 @@
  * section5  what periodic transforms do to a contact on the free half-space as the domain grows, and what as good a
  *           solution costs by them, by padded transforms and by MLMS
  *
- * -n, -m: of fig3 only the grids with so many columns, only one method; -s: a solution of it that takes longer
- * (default 100) is given up. RC_THREADS sets the threads.
+ * -n, -m: of fig3 only the grids with so many columns, only the way pk99+mlms, pcg+mlms or pcg+fft; -s: a solution of
+ * it that takes longer (default 100) is given up. RC_THREADS sets the threads.
  */
 #include "paper.h"
 
@@ -24,7 +24,7 @@
 size_t threads;
 double limit = 100;
 static size_t sizes[16], count;
-static const char *method;
+static const char *way = "";
 
 bool
 size_wanted(size_t nx)
@@ -37,9 +37,9 @@ size_wanted(size_t nx)
 }
 
 bool
-method_wanted(const char *name)
+way_wanted(const char *title)
 {
-    return method == NULL || strcmp(method, name) == 0;
+    return strncmp(title, way, strlen(way)) == 0;
 }
 
 struct rc_solver *
@@ -138,7 +138,7 @@ main(int argc, char **argv)
         if (option == 'n')
             count = sizes_read(optarg, 16, sizes);
         else if (option == 'm')
-            method = optarg;
+            way = optarg;
         else if (option == 's')
             limit = atof(optarg);
         else

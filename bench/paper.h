@@ -15,9 +15,9 @@ enum {
 
 extern size_t threads;
 extern double limit; /* seconds that one solution may take */
-/* Whether a grid of so many columns, or a method, was asked for. */
+/* Whether a grid of so many columns, or a way of fig3, was asked for. */
 bool size_wanted(size_t nx);
-bool method_wanted(const char *name);
+bool way_wanted(const char *title);
 
 /* 3.2: the tolerance M_min^(-3/2) and sums right to M_min^(-2), p from the mean pressure, stopped by the change of the
  * pressure, (32). The solver, to be freed; *done false when `limit` seconds have not been enough. */

@@ -46,9 +46,9 @@ enum {
 
 static const struct {
     const char *method, *engine, *title;
-} ways[WAYS] = {{"pk99", "mlms", "pk99, MLMS, stopped by (32)"},
-                {"pcg", "mlms", "pcg, MLMS, certified"},
-                {"pcg", "fft", "pcg, transforms, certified"}};
+} ways[WAYS] = {{"pk99", "mlms", "pk99+mlms, stopped by (32)"},
+                {"pcg", "mlms", "pcg+mlms, certified"},
+                {"pcg", "fft", "pcg+fft, certified"}};
 
 /* The least of several times, where they are short. */
 static struct cost
@@ -151,7 +151,7 @@ fig3(void)
         printf("%6zu x %5zu %8.1e", shape.nx, shape.ny, problem.tol);
         for (int w = 0; w < WAYS; w++) {
             struct cost c;
-            if (!method_wanted(ways[w].method)) {
+            if (!way_wanted(ways[w].title)) {
                 printf(" | %33s", "");
                 continue;
             }
