@@ -52,7 +52,7 @@ def options():
     a.add_argument("--work", type=Path, default=Path("peers-work"))
     a.add_argument("--threads", type=int, default=2)
     a.add_argument("--repeat", type=int, default=3)
-    a.add_argument("--limit", type=float, default=120., help="seconds for one run of a peer")
+    a.add_argument("--limit", type=float, default=120., help="seconds for one run of a peer; ten times that for its reference")
     a.add_argument("--wait", type=float, default=20.)
     a.add_argument("what", nargs="?", choices=["sweep", "time", "table", "agree"])
     return a.parse_args()

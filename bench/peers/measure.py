@@ -29,7 +29,7 @@ def own_reference(opts, peer, case):
     """The peer's own converged pressure; None when it has none."""
     path = opts.work / f"own-{peer}-{case}-{opts.n}.npy"
     if not path.exists():
-        r = solvers.run(opts, peer, case, solvers.tightest(peer, cases.boundary(case)))
+        r = solvers.run(opts, peer, case, solvers.tightest(peer, cases.boundary(case)), 10 * opts.limit)
         np.save(path, np.zeros(0) if r is None else r[0])
     p = np.load(path)
     return p if p.size > 0 else None

@@ -124,10 +124,11 @@ def tightest(peer, boundary):
     return PEERS[peer][3](boundary)
 
 
-def run(opts, peer, case, settings):
+def run(opts, peer, case, settings, limit=None):
     """Pressure, seconds, iterations, share of others; None when it failed or took longer than the limit."""
+    limit = limit or opts.limit
     if PEERS[peer][0] is None:
-        r = cases.rc_solve(opts, case, settings["tol"], settings["method"], opts.limit)
+        r = cases.rc_solve(opts, case, settings["tol"], settings["method"], limit)
         return r and r[:4]
     out = opts.work / "theirs.npy"
     env = dict(os.environ)
@@ -136,7 +137,7 @@ def run(opts, peer, case, settings):
     args = [sys.executable, str(Path(__file__).parent), "--child", peer, str(cases.surface(opts, case)), str(opts.n),
             repr(cases.mean_pressure(case, opts.n) / cases.ESTAR), cases.boundary(case), json.dumps(settings), str(out)]
     try:
-        done = subprocess.run(args, env=env, capture_output=True, text=True, timeout=opts.limit)
+        done = subprocess.run(args, env=env, capture_output=True, text=True, timeout=limit)
     except subprocess.TimeoutExpired:
         return None
     if done.returncode != 0:
