@@ -19,7 +19,8 @@ agree   how far each peer's own converged pressure is from ours
 Without one of them: all but the last. What was found is kept in --work, so that it can be done in pieces. Every run
 is a process of its own. What is timed is the call that solves, from heights in memory to a pressure in memory, plans
 and all set-up included, for both sides; importing a module, reading and writing are not. Before each timed run it
-waits, up to --wait seconds, for other processes to rest; of --repeat runs the least counts.
+waits, up to --wait seconds, for other processes to rest; runs during which they took more than a tenth of the machine
+do not count, and of --repeat others, in three times as many tries, the least does.
 """
 import argparse
 import sys
@@ -52,7 +53,8 @@ def options():
     a.add_argument("--work", type=Path, default=Path("peers-work"))
     a.add_argument("--threads", type=int, default=2)
     a.add_argument("--repeat", type=int, default=3)
-    a.add_argument("--limit", type=float, default=120., help="seconds for one run of a peer; ten times that for its reference")
+    a.add_argument("--limit", type=float, default=120.,
+                   help="seconds for one run of a peer, ten times that for its reference")
     a.add_argument("--wait", type=float, default=20.)
     a.add_argument("what", nargs="?", choices=["sweep", "time", "table", "agree"])
     return a.parse_args()

@@ -22,10 +22,13 @@ def shown(value, form):
 
 def row(r, peer):
     ours, theirs = r["ours"], r["theirs"]
-    head = (f"| {r['case']} | {r['n']} | {100 * r['contact']:.1f} % | {r['asked']:.0e} | {ours['seconds']:.3f} | "
-            f"{ours['error']:.1e} | {ours['iterations']} | {peer} |")
+    head = f"| {r['case']} | {r['n']} | {100 * r['contact']:.1f} % | {r['asked']:.0e} |"
+    if ours is None:
+        return head + f" not measured: others were at work | - | - | {peer} | - | - | - | - | - | - |"
+    head += f" {ours['seconds']:.3f} | {ours['error']:.1e} | {ours['iterations']} | {peer} |"
     if theirs is None:
-        return head + " not reached | - | - | - | - | - |"
+        why = "not measured: others were at work" if r["reached"] else "not reached"
+        return head + f" {why} | - | - | - | - | - |"
     return head + (f" {theirs['seconds']:.3f} | {theirs['error']:.1e} | {shown(theirs['own'], '.1e')} | "
                    f"{theirs['iterations'] or '-'} | {theirs['seconds'] / ours['seconds']:.2f} | "
                    f"{measure.words(theirs['settings'])} |")
@@ -53,10 +56,12 @@ def ahead(rows):
     for asked in sorted({r["asked"] for r in rows}, reverse=True):
         for peer in dict.fromkeys(r["peer"] for r in rows):
             these = [r for r in rows if r["asked"] == asked and r["peer"] == peer]
-            ratios = {r["case"]: r["theirs"]["seconds"] / r["ours"]["seconds"] for r in these if r["theirs"]}
+            both = [r for r in these if r["ours"] and r["theirs"]]
+            ratios = {r["case"]: r["theirs"]["seconds"] / r["ours"]["seconds"] for r in both}
             behind = [f"{case} ({ratio:.2f})" for case, ratio in ratios.items() if ratio < 1]
             if not ratios:
-                print(f"- {asked:.0e}: {peer} did not reach it.")
+                print(f"- {asked:.0e}: {peer} " + ("was not measured." if any(r["reached"] for r in these)
+                                                   else "did not reach it."))
                 continue
             print(f"- {asked:.0e}: {peer} takes {min(ratios.values()):.2f} to {max(ratios.values()):.2f} times as "
                   "long; " + (f"rc-solve is behind on {', '.join(behind)}." if behind else "rc-solve is ahead on all."))
