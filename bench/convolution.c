@@ -1,170 +1,34 @@
 /*
  * What a convolution costs, engine by engine:
  *
- *     bench-convolution [table1] [fftw] [sparse] [sizes]       (default: all)
+ *     bench-convolution [fftw] [sparse] [sizes]       (default: all)
  *
- * table1  the paper's Table 1: errors and times of direct summation and MLMS, one thread
  * fftw    the Fourier engine against FFTW's own two-dimensional transforms, same run
  * sparse  MLMS against the Fourier engine, all nodes loaded and 5 % of them
  * sizes   time a node from 256^2 to 4096^2
  *
- * Times are the least of several runs. RC_THREADS sets the threads of all but table1.
+ * Times are the least of several runs. RC_THREADS sets the threads.
  */
+#include "bench.h"
+
 #include <complex.h>
 #include <fftw3.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
-#include "libcontact/inside.h"
 #include "libcontact/room.h"
 
 static const double pi = 3.14159265358979323846;
 
 static size_t threads;
 
-static double
-now(void)
-{
-    struct timespec ts;
-
-    clock_gettime(CLOCK_MONOTONIC, &ts);
-    return (double)ts.tv_sec + 1e-9 * (double)ts.tv_nsec;
-}
-
-static void *
-must(void *p)
-{
-    if (p == NULL) {
-        fprintf(stderr, "out of memory, or a plan could not be made\n");
-        exit(1);
-    }
-    return p;
-}
-
-static const struct rc_engine *
-engine(const char *name)
-{
-    static const struct rc_engine *const all[] = {
-#define RC_ENGINE(name) &rc_engine_##name,
-#include "libcontact/engines.list"
-#undef RC_ENGINE
-    };
-
-    for (size_t k = 0; k < sizeof all / sizeof *all; k++)
-        if (strcmp(all[k]->name, name) == 0)
-            return all[k];
-    return must(NULL);
-}
-
-/* Least seconds of one application, over at least `runs` of them and a tenth of a second. */
-static double
-seconds(const struct rc_engine *e, void *plan, const double *p, double *u, int runs)
-{
-    double best = INFINITY, start = now();
-
-    for (int k = 0; k < runs || (runs > 1 && now() - start < 0.1); k++) {
-        double t = now();
-        e->apply(plan, p, u);
-        t = now() - t;
-        best = fmin(best, t);
-    }
-    return best;
-}
-
 static struct rc_sum
-square(size_t m, size_t with_threads)
+square(size_t m)
 {
-    return (struct rc_sum){.shape = {m, m, 1, 1}, .kernel = &rc_kernel_boussinesq,
-                           .medium = {.estar = 1 / pi}, .threads = with_threads};
-}
+    struct rc_sum sum = point_sum((struct rc_shape){m, m, 1, 1});
 
-static double
-uniform(uint64_t *seed)
-{
-    *seed = *seed * 6364136223846793005U + 1442695040888963407U;
-    return (double)(*seed >> 11) / 9007199254740992.0;
-}
-
-/* ---- Table 1 ---- */
-
-/* p = sqrt(1 - r^2) on nodes from -1 to 1, and what it displaces, K being 1/r. */
-static void
-table1_case(size_t m, double *p, double *exact)
-{
-    double d = 2 / (double)(m - 1);
-
-    for (size_t k = 0; k < m * m; k++) {
-        double x = -1 + d * (double)(k % m), y = -1 + d * (double)(k / m);
-        double r2 = x * x + y * y, r = sqrt(r2);
-        p[k] = r2 < 1 ? sqrt(1 - r2) : 0;
-        exact[k] = r2 <= 1 ? pi * pi / 4 * (2 - r2)
-                           : pi / 2 * ((2 - r2) * asin(1 / r) + sqrt(r2 - 1));
-    }
-}
-
-static double
-distance(size_t n, const double *a, const double *b)
-{
-    double above = 0, below = 0;
-
-    for (size_t k = 0; k < n; k++) {
-        above += (a[k] - b[k]) * (a[k] - b[k]);
-        below += b[k] * b[k];
-    }
-    return sqrt(above / below);
-}
-
-static void
-table1(void)
-{
-    printf("Table 1, one thread: relative L2 errors against the exact deflection\n");
-    printf("%6s %12s %10s %12s %10s %5s %4s %12s %8s %8s\n", "M", "direct s", "error", "mlms s",
-           "error", "t", "mc", "mlms-direct", "times M2", "speed-up");
-    for (size_t m = 64; m <= 2048; m *= 2) {
-        size_t n = m * m;
-        double *p = must(rc_room(n, sizeof *p)), *exact = must(rc_room(n, sizeof *p));
-        double *u = must(rc_room(n, sizeof *p)), *v = must(rc_room(n, sizeof *p));
-        bool direct_too = m <= 512; /* beyond, the Fourier engine stands for its values */
-        const struct rc_engine *e = engine(direct_too ? "direct" : "fft");
-        struct rc_sum sum = square(m, 1);
-        void *plan;
-        double t_direct, t_mlms, t = floor(0.84 * log((double)m) + 0.5);
-        double mc = 0.7 * t * pow((double)m, 1 / t) - 1;
-        struct rc_err err;
-
-        table1_case(m, p, exact);
-        sum.shape.dx = sum.shape.dy = 2 / (double)(m - 1);
-        plan = must(e->new(&sum, &err));
-        t_direct = seconds(e, plan, p, u, m < 256 ? 5 : 1);
-        e->free(plan);
-        e = engine("mlms");
-        sum.order = (size_t)t;
-        sum.correction = (size_t)ceil(fmax(2 * t, mc));
-        plan = must(e->new(&sum, &err));
-        t_mlms = seconds(e, plan, p, v, 5);
-        e->free(plan);
-        printf("%6zu ", m);
-        if (direct_too)
-            printf("%12.4f ", t_direct);
-        else
-            printf("%12s ", "-");
-        printf("%10.3g %12.5f %10.3g %5zu %4zu %12.2e %8.3f ", distance(n, u, exact), t_mlms,
-               distance(n, v, exact), sum.order, sum.correction, distance(n, v, u),
-               distance(n, v, u) * (double)n);
-        if (direct_too)
-            printf("%8.1f\n", t_direct / t_mlms);
-        else
-            printf("%8s\n", "-");
-        free(p);
-        free(exact);
-        free(u);
-        free(v);
-    }
+    sum.threads = threads;
+    return sum;
 }
 
 /* ---- against FFTW ---- */
@@ -174,6 +38,15 @@ struct pair {
     double *x;
     fftw_plan plan[2];
 };
+
+static void
+pair_run(void *what)
+{
+    const struct pair *its = what;
+
+    fftw_execute(its->plan[0]);
+    fftw_execute(its->plan[1]);
+}
 
 static struct pair
 pair_new(size_t px, size_t py)
@@ -199,36 +72,11 @@ pair_free(struct pair *its)
     free(its->x);
 }
 
-/* The least times of two pieces of work, taken in turns: what disturbs one disturbs the other. */
-struct work {
-    const struct rc_engine *e;
-    void *plan;
-    const double *p;
-    double *u;
-    const struct pair *its; /* or FFTW's transforms instead */
-};
-
+/* Least seconds of two pieces of work, five times each in turns for four seconds. */
 static void
-run(const struct work *w)
+duel(struct work a, struct work b, double least[2])
 {
-    if (w->its == NULL) {
-        w->e->apply(w->plan, w->p, w->u);
-        return;
-    }
-    fftw_execute(w->its->plan[0]);
-    fftw_execute(w->its->plan[1]);
-}
-
-static void
-duel(const struct work work[2], double best[2])
-{
-    best[0] = best[1] = INFINITY;
-    for (double start = now(); now() - start < 4;)
-        for (int k = 0; k < 10; k++) {
-            double t = now();
-            run(&work[k / 5]);
-            best[k / 5] = fmin(best[k / 5], now() - t);
-        }
+    take_turns(2, (struct work[2]){a, b}, 5, 4, least);
 }
 
 /* Prints the bytes a node that planning and applying take beyond p and u: the growth of the peak
@@ -272,8 +120,8 @@ peak_now(void)
 static void
 peak_child(char **argv)
 {
-    struct rc_sum sum = square((size_t)strtoul(argv[3], NULL, 10), threads);
-    const struct rc_engine *e = engine(argv[2]);
+    struct rc_sum sum = square((size_t)strtoul(argv[3], NULL, 10));
+    const struct rc_engine *e = engine_named(argv[2]);
     size_t n = sum.shape.nx * sum.shape.ny;
     double *p = must(rc_room(n, sizeof *p)), *u = must(rc_room(n, sizeof *u));
     struct rc_err err;
@@ -296,7 +144,7 @@ peak_child(char **argv)
 static void
 against_fftw(void)
 {
-    const struct rc_engine *e = engine("fft");
+    const struct rc_engine *e = engine_named("fft");
 
     printf("\nThe Fourier engine against FFTW's two-dimensional pair (FFTW_MEASURE, no "
            "multiplication), %zu threads\n", threads);
@@ -304,10 +152,11 @@ against_fftw(void)
            "ratio", "our plan ms", "its plan ms", "bytes a node beyond p and u");
     for (size_t m = 512; m <= 2048; m *= 2)
         for (int boundary = 0; boundary < 2; boundary++) {
-            struct rc_sum sum = square(m, threads);
+            struct rc_sum sum = square(m);
             size_t padded = boundary == RC_FREE ? 2 * m : m;
             double *p = must(rc_room(m * m, sizeof *p)), *u = must(rc_room(m * m, sizeof *u));
             struct pair its;
+            struct sum_work sum_work;
             double plan_time, its_plan, best[2];
             uint64_t seed = 1;
             struct rc_err err;
@@ -322,7 +171,8 @@ against_fftw(void)
             its_plan = now();
             its = pair_new(padded, padded);
             its_plan = now() - its_plan;
-            duel((struct work[2]){{.e = e, .plan = plan, .p = p, .u = u}, {.its = &its}}, best);
+            sum_work = (struct sum_work){e, plan, p, u};
+            duel((struct work){sum_run, &sum_work}, (struct work){pair_run, &its}, best);
             e->free(plan);
             pair_free(&its);
             printf("%6zu %-9s %10.2f %10.2f %8.2f %12.1f %12.1f ", m,
@@ -378,27 +228,27 @@ sparse(void)
            threads);
     printf("%-18s %10s %10s %8s %12s\n", "loaded", "mlms ms", "fft ms", "ratio", "difference");
     for (int what = 0; what < 3; what++) {
-        struct rc_sum sum = square(m, threads);
-        void *fft = must(engine("fft")->new(&sum, &err)), *mlms;
+        struct rc_sum sum = square(m);
+        void *fft = must(engine_named("fft")->new(&sum, &err)), *mlms;
         double best[2];
 
         sum.tol = 1e-6;
-        mlms = must(engine("mlms")->new(&sum, &err));
+        mlms = must(engine_named("mlms")->new(&sum, &err));
         load_map((enum load)what, m, p);
-        duel((struct work[2]){{.e = engine("mlms"), .plan = mlms, .p = p, .u = v},
-                              {.e = engine("fft"), .plan = fft, .p = p, .u = u}}, best);
+        duel((struct work){sum_run, &(struct sum_work){engine_named("mlms"), mlms, p, v}},
+             (struct work){sum_run, &(struct sum_work){engine_named("fft"), fft, p, u}}, best);
         printf("%-18s %10.2f %10.2f %8.2f %12.1e\n", names[what], 1e3 * best[0], 1e3 * best[1],
-               best[0] / best[1], distance(m * m, v, u));
-        engine("fft")->free(fft);
-        engine("mlms")->free(mlms);
+               best[0] / best[1], error_l2(m * m, v, u));
+        engine_named("fft")->free(fft);
+        engine_named("mlms")->free(mlms);
     }
     {
-        struct rc_sum sum = square(m, threads);
+        struct rc_sum sum = square(m);
         printf("peak bytes a node beyond p and u: fft ");
-        peak_bytes(engine("fft"), &sum);
+        peak_bytes(engine_named("fft"), &sum);
         sum.tol = 1e-6;
         printf(", mlms ");
-        peak_bytes(engine("mlms"), &sum);
+        peak_bytes(engine_named("mlms"), &sum);
         printf("\n");
     }
     free(p);
@@ -428,8 +278,8 @@ sizes(void)
             p[k] = uniform(&seed);
         printf("%6zu", m);
         for (size_t c = 0; c < sizeof columns / sizeof *columns; c++) {
-            struct rc_sum sum = square(m, threads);
-            const struct rc_engine *e = engine(columns[c].name);
+            struct rc_sum sum = square(m);
+            const struct rc_engine *e = engine_named(columns[c].name);
             struct rc_err err;
             void *plan;
 
@@ -440,7 +290,7 @@ sizes(void)
             sum.tol = columns[c].tol;
             sum.boundary = columns[c].boundary;
             plan = must(e->new(&sum, &err));
-            printf(" %10.2f", 1e9 * seconds(e, plan, p, u, c == 0 ? 1 : 5) / (double)(m * m));
+            printf(" %10.2f", 1e9 * sum_seconds((struct sum_work){e, plan, p, u}, c == 0 ? 1 : 5) / (double)(m * m));
             fflush(stdout);
             e->free(plan);
         }
@@ -453,24 +303,14 @@ sizes(void)
 int
 main(int argc, char **argv)
 {
-    static const struct {
-        const char *name;
-        void (*run)(void);
-    } parts[] = {{"table1", table1}, {"fftw", against_fftw}, {"sparse", sparse}, {"sizes", sizes}};
-    const char *wish = getenv("RC_THREADS");
+    static const struct part parts[] = {
+        {"fftw", against_fftw, false}, {"sparse", sparse, false}, {"sizes", sizes, false}};
 
-    threads = wish == NULL ? rc_threads_available() : (size_t)strtoul(wish, NULL, 10);
+    threads = threads_wanted();
     if (argc == 6 && strcmp(argv[1], "peak") == 0) {
         peak_child(argv);
         return 0;
     }
     fftw_init_threads();
-    for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
-        bool wanted = argc < 2;
-        for (int a = 1; a < argc; a++)
-            wanted |= strcmp(argv[a], parts[k].name) == 0;
-        if (wanted)
-            parts[k].run();
-    }
-    return 0;
+    return parts_run(sizeof parts / sizeof *parts, parts, argc - 1, argv + 1);
 }

@@ -10,45 +10,11 @@
  *
  * Errors are the largest of the map over the largest sum of |K| |p|. Estimates hold for any p.
  */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "bench.h"
+
 #include <time.h>
 
 #include "libcontact/mlms.h"
-
-static const double pi = 3.14159265358979323846;
-
-static void *
-must(void *p)
-{
-    if (p == NULL) {
-        fprintf(stderr, "out of memory, or a plan could not be made\n");
-        exit(1);
-    }
-    return p;
-}
-
-static double *
-map(size_t n)
-{
-    return must(calloc(n, sizeof(double)));
-}
-
-static double
-uniform(uint64_t *seed)
-{
-    *seed = *seed * 6364136223846793005U + 1442695040888963407U;
-    return (double)(*seed >> 11) / 9007199254740992.0;
-}
-
-static struct rc_sum
-sum_over(size_t nx, size_t ny, double dx, double dy)
-{
-    return (struct rc_sum){
-        .shape = {nx, ny, dx, dy}, .kernel = &rc_kernel_boussinesq, .medium = {.estar = 1 / pi}};
-}
 
 /* A sum both ways. */
 struct pair {
@@ -69,10 +35,10 @@ pair_new(struct rc_sum sum)
     a.mlms = must(rc_engine_mlms.new(&sum, &err));
     sum.tol = 0;
     a.fft = must(rc_engine_fft.new(&sum, &err));
-    a.p = map(n);
-    a.u = map(n);
-    a.v = map(n);
-    a.absolute = map(n);
+    a.p = map_new(n);
+    a.u = map_new(n);
+    a.v = map_new(n);
+    a.absolute = map_new(n);
     return a;
 }
 
@@ -104,30 +70,6 @@ error(struct pair *a)
     return most / magnitude;
 }
 
-static double
-distance(const struct pair *a)
-{
-    double above = 0, below = 0;
-
-    for (size_t k = 0; k < a->n; k++) {
-        above += (a->u[k] - a->v[k]) * (a->u[k] - a->v[k]);
-        below += a->v[k] * a->v[k];
-    }
-    return sqrt(above / below);
-}
-
-static void
-hertz(struct pair *a)
-{
-    size_t nx = a->sum.shape.nx, ny = a->sum.shape.ny;
-
-    for (size_t k = 0; k < a->n; k++) {
-        double x = nx > 1 ? 2 * (double)(k % nx) / (double)(nx - 1) - 1 : 0;
-        double y = ny > 1 ? 2 * (double)(k / nx) / (double)(ny - 1) - 1 : 0, r2 = x * x + y * y;
-        a->p[k] = r2 < 1 ? sqrt(1 - r2) : 0;
-    }
-}
-
 /* Errors under random, alternating and single-node pressures. */
 static void
 usual(struct pair *a, double e[3])
@@ -156,7 +98,7 @@ static double
 contrived(struct pair *a)
 {
     size_t nx = a->sum.shape.nx, ny = a->sum.shape.ny;
-    double *e = map(a->n), worst = 0;
+    double *e = map_new(a->n), worst = 0;
 
     for (size_t node = 0; node < 4; node++) {
         double most = 0;
@@ -207,7 +149,7 @@ calibrate(void)
     printf("256 x 256 nodes, elliptic correction regions\n");
     printf("%4s %4s %10s %8s %10s %10s\n", "t", "m_c", "one", "one/Q", "worst", "estimate");
     for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
-        struct rc_sum sum = sum_over(256, 256, 1, 1);
+        struct rc_sum sum = point_sum((struct rc_shape){256, 256, 1, 1});
         struct pair a;
         double one, all;
         sum.order = (size_t)row[k][0];
@@ -222,13 +164,6 @@ calibrate(void)
 
 /* ---- stability ---- */
 
-/* (18) of the paper, rounded up. */
-static size_t
-correction(size_t t, size_t m)
-{
-    return (size_t)ceil(fmax(2 * (double)t, 0.7 * (double)t * pow((double)m, 1 / (double)t) - 1));
-}
-
 static void
 stability(void)
 {
@@ -238,15 +173,15 @@ stability(void)
     printf("%4s %4s %10s %10s %10s %10s %10s\n", "t", "m_c", "smooth", "random", "alternate",
            "one node", "estimate");
     for (size_t t = 1; t <= 50; t += t < 8 ? 1 : t < 20 ? 4 : 10) {
-        struct rc_sum sum = sum_over(m, m, 2 / (double)(m - 1), 2 / (double)(m - 1));
+        struct rc_sum sum = point_sum((struct rc_shape){m, m, 2 / (double)(m - 1), 2 / (double)(m - 1)});
         struct pair a;
         double e[3], smooth;
         sum.order = t;
-        sum.correction = correction(t, m);
+        sum.correction = paper_correction(t, m);
         a = pair_new(sum);
-        hertz(&a);
+        hemisphere(a.sum.shape.nx, a.sum.shape.ny, a.p);
         error(&a);
-        smooth = distance(&a);
+        smooth = error_l2(a.n, a.u, a.v);
         usual(&a, e);
         printf("%4zu %4zu %10.2g %10.2g %10.2g %10.2g %10.2g\n", t, sum.correction, smooth, e[0],
                e[1], e[2], a.mlms->d.error);
@@ -269,12 +204,12 @@ shapes(void)
            "levels", "smooth", "random", "alternate", "one node", "estimate");
     for (size_t k = 0; k < sizeof shape / sizeof *shape; k++) {
         const struct rc_shape *s = &shape[k];
-        struct rc_sum sum = sum_over(s->nx, s->ny, s->dx, s->dy);
+        struct rc_sum sum = point_sum(*s);
         struct pair a;
         double e[3], smooth;
         sum.tol = 1e-6;
         a = pair_new(sum);
-        hertz(&a);
+        hemisphere(a.sum.shape.nx, a.sum.shape.ny, a.p);
         smooth = error(&a);
         usual(&a, e);
         printf("%6zu x %5zu %8g %3zu %4zu %6zu %10.2g %10.2g %10.2g %10.2g %10.2g\n", s->nx, s->ny,
@@ -307,9 +242,9 @@ counts(void)
     printf("%6s %3s %4s %11s %11s %10s %10s %8s %8s\n", "M", "t", "m_c", "direct", "mlms",
            "direct s", "mlms s", "counts", "times");
     for (size_t m = 128; m <= 512; m *= 2) {
-        struct rc_sum sum = sum_over(m, m, 1, 1);
-        size_t n = m * m, t = (size_t)lround(0.84 * log((double)m));
-        double *p = map(n), *u = map(n), direct, mlms, terms = (double)n * (double)n;
+        struct rc_sum sum = point_sum((struct rc_shape){m, m, 1, 1});
+        size_t n = m * m, t = paper_order(m);
+        double *p = map_new(n), *u = map_new(n), direct, mlms, terms = (double)n * (double)n;
         uint64_t seed = 1;
         struct rc_err err;
         void *plan;
@@ -321,7 +256,7 @@ counts(void)
         direct = seconds(&rc_engine_direct, plan, p, u, m < 512 ? 5 : 2);
         rc_engine_direct.free(plan);
         sum.order = t;
-        sum.correction = correction(t, m);
+        sum.correction = paper_correction(t, m);
         plan = must(rc_engine_mlms.new(&sum, &err));
         mlms = seconds(&rc_engine_mlms, plan, p, u, 20);
         printf("%6zu %3zu %4zu %11.4g %11.4g %10.4f %10.5f %8.1f %8.1f\n", m, t, sum.correction,
@@ -336,18 +271,10 @@ counts(void)
 int
 main(int argc, char **argv)
 {
-    static const struct {
-        const char *name;
-        void (*run)(void);
-    } part[] = {
-        {"calibrate", calibrate}, {"stability", stability}, {"shapes", shapes}, {"counts", counts}};
+    static const struct part parts[] = {{"calibrate", calibrate, false},
+                                        {"stability", stability, false},
+                                        {"shapes", shapes, false},
+                                        {"counts", counts, false}};
 
-    for (size_t k = 0; k < sizeof part / sizeof *part; k++) {
-        bool asked = argc == 1;
-        for (int i = 1; i < argc; i++)
-            asked = asked || strcmp(argv[i], part[k].name) == 0;
-        if (asked)
-            part[k].run();
-    }
-    return 0;
+    return parts_run(sizeof parts / sizeof *parts, parts, argc - 1, argv + 1);
 }

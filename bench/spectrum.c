@@ -8,36 +8,16 @@
  * tridiagonal matrix that conjugate gradients with a random right side leave behind. Contact sets are those of
  * solved rough surfaces, and a disc.
  */
+#include "bench.h"
+
 #include <float.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include <unistd.h>
 
 #include "libcontact/extension.h"
 
 enum {
     STEPS = 60
 };
-
-static void *
-must(void *p)
-{
-    if (p == NULL) {
-        fprintf(stderr, "out of memory\n");
-        exit(1);
-    }
-    return p;
-}
-
-static void
-must_be(enum rc_status status, const struct rc_err *err)
-{
-    if (status == RC_OK)
-        return;
-    fprintf(stderr, "%s\n", err->text);
-    exit(1);
-}
 
 struct row {
     const char *name;
@@ -68,11 +48,8 @@ choose(const struct row *row, struct rc_shape s, unsigned char *w)
         w[k] = hypot((double)(k % s.nx) - side / 2, (double)(k / s.nx) - side / 2) < 0.3 * side;
     if (row->mean > 0) {
         must_be(rc_synth_selfaffine(&s, &what, h, &err), &err);
-        solver = rc_solver_new(&s, h, &problem, &err);
-        if (solver == NULL)
-            must_be(RC_FAIL, &err);
-        while (rc_solver_step(solver) == RC_MORE)
-            ;
+        solver = solver_new(s, h, problem);
+        solver_run(solver);
         for (size_t k = 0; k < n; k++)
             w[k] = rc_solver_pressure(solver)[k] > 0;
         rc_solver_free(solver);
@@ -235,11 +212,11 @@ main(int argc, char **argv)
 {
     size_t sizes[16] = {128, 256, 512, 1024}, count = 4;
 
-    if (argc == 3 && strcmp(argv[1], "-n") == 0) {
-        count = 0;
-        for (char *t = strtok(argv[2], ","); t != NULL && count < 16; t = strtok(NULL, ","))
-            sizes[count++] = strtoul(t, NULL, 10);
-    }
+    for (int option; (option = getopt(argc, argv, "n:")) != -1;)
+        if (option == 'n')
+            count = sizes_read(optarg, 16, sizes);
+        else
+            return 2;
     printf("%-8s %-8s %5s %8s | %17s | %17s\n", "contact", "boundary", "nodes", "fraction", "E' A E: from to",
            "A cut: from to");
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++)

@@ -268,4 +268,22 @@ mises_of(const double s[6])
     return sqrt((a * a + b * b + c * c) / 2 + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
 }
 
+/* Depth of the largest Mises stress under a sliding sphere, to a thousandth of a: sought in the plane y = 0 by
+ * steps of 0.002 a along x. */
+static inline double
+mises_depth(struct hertz h, double nu, double mu)
+{
+    double best = 0, place = 0;
+
+    for (double z = 0.3; z < 0.6; z += 0.001)
+        for (double x = 0; x < 0.5; x += 0.002) {
+            double s[6], m;
+            sliding_sphere(h, nu, mu, x * h.a, 0, z * h.a, s);
+            m = mises_of(s);
+            place = m > best ? z : place;
+            best = fmax(m, best);
+        }
+    return place * h.a;
+}
+
 #endif
