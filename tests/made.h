@@ -193,6 +193,23 @@ try_read(const struct rc_format *format, const struct bytes *b, const struct rc_
     return format->read(&file, wish, index, &notes, err);
 }
 
+/* Keeps a file in the folder FOLDER/FORMAT when RC_SEEDS=FOLDER is in the environment: to fuzz from. */
+static void
+keep_seed(const struct rc_format *format, const struct bytes *b)
+{
+    static unsigned number;
+    char path[512];
+    FILE *f;
+
+    if (getenv("RC_SEEDS") == NULL)
+        return;
+    snprintf(path, sizeof path, "%s/%s/test-%u", getenv("RC_SEEDS"), format->name, number++);
+    if ((f = fopen(path, "wb")) == NULL)
+        return;
+    fwrite(b->data, 1, b->n, f);
+    fclose(f);
+}
+
 __attribute__((unused)) static struct rc_grid *
 read_well(const struct rc_format *format, const struct bytes *b, size_t index)
 {
@@ -201,6 +218,7 @@ read_well(const struct rc_format *format, const struct bytes *b, size_t index)
 
     if (g == NULL)
         fail_msg("%s refused: %s", format->name, err.text);
+    keep_seed(format, b);
     return g;
 }
 
@@ -214,6 +232,7 @@ refuse(const struct rc_format *format, const struct bytes *b, const char *why)
         fail_msg("%s: read, and should be refused for: %s", format->name, why);
     if (strstr(err.text, why) == NULL)
         fail_msg("%s: refused for '%s', not for '%s'", format->name, err.text, why);
+    keep_seed(format, b);
 }
 
 /* The values, spacings and the rest of what a map must be. */
