@@ -32,7 +32,7 @@ enum rc_status rc_archive_size(struct rc_archive *archive, size_t member, uint64
                                struct rc_err *err);
 
 enum {
-    RC_PIECE = 1 << 16
+    RC_PIECE = 1 << 18
 };
 /* Takes the next bytes of a member: RC_PIECE of them but for the last time. */
 typedef enum rc_status rc_take(void *arg, const unsigned char *bytes, size_t n,

@@ -716,6 +716,32 @@ x3p_parts(void **state)
     rc_grid_free(g);
 }
 
+/* Noise in all of its bits does not pack, and is stored; a slope does. */
+static void
+x3p_packs_what_packs(void **state)
+{
+    static const zip_uint16_t method[] = {ZIP_CM_STORE, ZIP_CM_DEFLATE};
+
+    (void)state;
+    for (size_t k = 0; k < 2; k++) {
+        struct rc_grid *g = random_grid(300, 200, 0);
+        struct made made;
+        zip_stat_t st;
+        zip_t *zip;
+
+        for (size_t i = 0; k == 1 && i < 60000; i++)
+            g->v[i] = 1e-6 * (double)(i % 300);
+        made = export("x3p", &g, 1, &plain);
+        zip = unzip(&made);
+        assert_int_equal(zip_stat(zip, "bindata/data.bin", 0, &st), 0);
+        assert_int_equal(st.size, 480000);
+        assert_int_equal(st.comp_method, method[k]);
+        zip_discard(zip);
+        free(made.bytes);
+        rc_grid_free(g);
+    }
+}
+
 static void
 same_frames_same_bytes(void **state)
 {
@@ -948,6 +974,7 @@ main(void)
         cmocka_unit_test(all_formats_on_ugly_sizes),
         cmocka_unit_test(equal_heights),
         cmocka_unit_test(x3p_parts),
+        cmocka_unit_test(x3p_packs_what_packs),
         cmocka_unit_test(same_frames_same_bytes),
         cmocka_unit_test(comma_locale),
         cmocka_unit_test(depths_make_a_stack),
