@@ -32,7 +32,7 @@ add(struct bytes *b, const void *from, size_t n)
     b->n += n;
 }
 
-static void
+__attribute__((unused)) static void
 add_number(struct bytes *b, uint64_t value, size_t n)
 {
     unsigned char to[8];
@@ -42,7 +42,7 @@ add_number(struct bytes *b, uint64_t value, size_t n)
     add(b, to, n);
 }
 
-static void
+__attribute__((unused)) static void
 add_f64(struct bytes *b, double value)
 {
     uint64_t word;
@@ -51,7 +51,7 @@ add_f64(struct bytes *b, double value)
     add_number(b, word, 8);
 }
 
-static void
+__attribute__((unused)) static void
 add_f32(struct bytes *b, double value)
 {
     float narrow = (float)value;
@@ -61,14 +61,14 @@ add_f32(struct bytes *b, double value)
     add_number(b, word, 4);
 }
 
-static void
+__attribute__((unused)) static void
 drop(struct bytes *b)
 {
     free(b->data);
     *b = (struct bytes){0};
 }
 
-static struct rc_file
+__attribute__((unused)) static struct rc_file
 file_of(const struct bytes *b, const char *name)
 {
     return (struct rc_file){.name = name, .data = b->data, .size = b->n};
@@ -137,7 +137,7 @@ tiff_start(struct bytes *b, bool big)
     add_number(b, 0, 4);
 }
 
-static void
+__attribute__((unused)) static void
 set_word(struct bytes *b, size_t at, uint32_t value)
 {
     struct bytes word = {.big = b->big};
