@@ -205,3 +205,42 @@ done:
         zip_fclose(f);
     return status;
 }
+
+struct buffer {
+    unsigned char *bytes;
+    size_t n;
+};
+
+static enum rc_status
+take_bytes(void *arg, const unsigned char *bytes, size_t n, struct rc_err *err)
+{
+    struct buffer *b = arg;
+
+    (void)err;
+    memcpy(b->bytes + b->n, bytes, n);
+    b->n += n;
+    return RC_OK;
+}
+
+unsigned char *
+rc_archive_bytes(struct rc_archive *a, size_t member, uint64_t most, size_t *n,
+                 char sum[RC_MD5_TEXT], struct rc_err *err)
+{
+    struct buffer b = {0};
+    uint64_t size;
+
+    if (rc_archive_size(a, member, &size, err) != RC_OK)
+        return NULL;
+    size = size < most ? size : most; /* a larger one is refused before it is unpacked */
+    if ((b.bytes = malloc((size_t)size + 1)) == NULL) {
+        rc_err_set(err, "out of memory for %" PRIu64 " bytes", size);
+        return NULL;
+    }
+    if (rc_archive_read(a, member, most, take_bytes, &b, sum, err) != RC_OK) {
+        free(b.bytes);
+        return NULL;
+    }
+    b.bytes[b.n] = '\0';
+    *n = b.n;
+    return b.bytes;
+}

@@ -43,4 +43,9 @@ enum rc_status rc_archive_read(struct rc_archive *archive, size_t member, uint64
                                rc_take *take, void *arg, char sum[RC_MD5_TEXT],
                                struct rc_err *err);
 
+/* The whole of a member of at most `most` bytes, with a NUL behind them, which the caller frees; NULL
+ * with the reason. */
+unsigned char *rc_archive_bytes(struct rc_archive *archive, size_t member, uint64_t most, size_t *n,
+                                char sum[RC_MD5_TEXT], struct rc_err *err);
+
 #endif

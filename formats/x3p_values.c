@@ -70,31 +70,14 @@ check_sum(const char *what, const char *given, const char *sum, struct rc_notes 
                       wanted);
 }
 
-struct buffer {
-    unsigned char *bytes;
-    size_t n;
-};
-
-static enum rc_status
-take_bytes(void *arg, const unsigned char *bytes, size_t n, struct rc_err *err)
-{
-    struct buffer *b = arg;
-
-    (void)err;
-    memcpy(b->bytes + b->n, bytes, n);
-    b->n += n;
-    return RC_OK;
-}
-
 void
 rc_x3p_check_main(struct rc_x3p *x, struct rc_notes *notes)
 {
     const char *link = x->text[RC_X3P_SUM_FILE];
-    unsigned char bytes[SUM_MOST + 1];
-    struct buffer buffer = {.bytes = bytes};
+    unsigned char *bytes;
     char wanted[RC_MD5_TEXT], ignored[RC_MD5_TEXT];
     struct rc_err err;
-    size_t member;
+    size_t member, n;
 
     if (link == NULL || *link == '\0')
         link = "md5checksum.hex";
@@ -102,17 +85,17 @@ rc_x3p_check_main(struct rc_x3p *x, struct rc_notes *notes)
         rc_note(notes, "the file has no md5checksum.hex: main.xml is not checked");
         return;
     }
-    if (rc_archive_read(x->archive, member, SUM_MOST, take_bytes, &buffer, ignored, &err) !=
-        RC_OK) {
+    bytes = rc_archive_bytes(x->archive, member, SUM_MOST, &n, ignored, &err);
+    if (bytes == NULL) {
         rc_note(notes, "main.xml is not checked: %s", err.text);
         return;
     }
-    bytes[buffer.n] = '\0';
     if (!sum_of((const char *)bytes, wanted))
         rc_note(notes, "md5checksum.hex holds no MD5 sum: main.xml is not checked");
     else if (strcmp(wanted, x->sum) != 0)
         rc_note(notes, "main.xml was changed after its checksum was written: its MD5 sum is %s, "
                        "md5checksum.hex says %s", x->sum, wanted);
+    free(bytes);
 }
 
 /* ---- heights ---- */
@@ -164,8 +147,8 @@ static enum rc_status
 apply_mask(struct rc_x3p *x, double *v, struct rc_notes *notes, struct rc_err *err)
 {
     enum rc_status status = RC_FAIL;
-    struct buffer mask = {0};
-    size_t member, least = x->n / 8 + (x->n % 8 != 0);
+    unsigned char *mask;
+    size_t member, n, least = x->n / 8 + (x->n % 8 != 0);
     char sum[RC_MD5_TEXT];
     uint64_t size;
 
@@ -177,16 +160,15 @@ apply_mask(struct rc_x3p *x, double *v, struct rc_notes *notes, struct rc_err *e
     if ((size < least || size > least + MASK_PADDING) &&
         rc_bytes_agree("valid points", least, size, err) != RC_OK)
         return RC_FAIL;
-    if ((mask.bytes = malloc((size_t)size)) == NULL)
-        return rc_err_set(err, "out of memory for %zu valid points", x->n);
-    if (rc_archive_read(x->archive, member, size, take_bytes, &mask, sum, err) == RC_OK &&
-        check_sum("valid points", x->text[RC_X3P_VALID_SUM], sum, notes, err) == RC_OK) {
+    if ((mask = rc_archive_bytes(x->archive, member, size, &n, sum, err)) == NULL)
+        return RC_FAIL;
+    if (check_sum("valid points", x->text[RC_X3P_VALID_SUM], sum, notes, err) == RC_OK) {
         for (size_t k = 0; k < x->n; k++)
-            if ((mask.bytes[k / 8] >> k % 8 & 1) == 0)
+            if ((mask[k / 8] >> k % 8 & 1) == 0)
                 v[k] = NAN;
         status = RC_OK;
     }
-    free(mask.bytes);
+    free(mask);
     return status;
 }
 
