@@ -128,19 +128,7 @@ hdf5_score(const struct rc_file *file)
     return rc_hdf_is(file) ? 60 : 0; /* instruments have formats of their own in it */
 }
 
-static size_t
-hdf5_list(const struct rc_file *file, const struct rc_wish *wish, struct rc_channel *channel,
-          size_t most, struct rc_err *err)
-{
-    return rc_cage_list(list_channels, file, wish, channel, most, err);
-}
-
-static struct rc_grid *
-hdf5_read(const struct rc_file *file, const struct rc_wish *wish, size_t index,
-          struct rc_notes *notes, struct rc_err *err)
-{
-    return rc_cage_read(read_values, file, wish, index, notes, err);
-}
+RC_FORMAT_IN_CAGE(hdf5)
 
 const struct rc_format rc_format_hdf5 = {
     .name = "hdf5",
