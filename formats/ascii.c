@@ -434,6 +434,17 @@ mind_coordinates(const struct header *h, const struct rc_rows *rows, const doubl
     return RC_OK;
 }
 
+static enum rc_status
+get_scales(const struct header *h, double dx, double dy, const struct rc_wish *wish,
+           struct rc_shape *shape, double *metres, struct rc_notes *notes, struct rc_err *err)
+{
+    if (rc_spacing(wish, dx, dy, shape, notes, err) == RC_OK)
+        return rc_height_unit(wish, h->z, h->unit, metres, notes, err);
+    if (isnan(dx) && h->unit[0] == '\0')
+        rc_lacks_unit(wish, h->z, err);
+    return RC_FAIL;
+}
+
 static struct rc_grid *
 read_matrix(const struct header *h, struct rc_rows *rows, const struct rc_wish *wish,
             struct rc_notes *notes, struct rc_err *err)
@@ -455,8 +466,7 @@ read_matrix(const struct header *h, struct rc_rows *rows, const struct rc_wish *
     spacing(h, rows, &dx, &dy);
     if (rc_rows_read(rows, g->v, err) != RC_OK ||
         mind_coordinates(h, rows, g->v, err) != RC_OK ||
-        rc_spacing(wish, dx, dy, &shape, notes, err) != RC_OK ||
-        rc_height_unit(wish, h->z, h->unit, &metres, notes, err) != RC_OK ||
+        get_scales(h, dx, dy, wish, &shape, &metres, notes, err) != RC_OK ||
         rc_text_keep(g, "file.channel", h->channel.text, h->channel.n, err) != RC_OK) {
         rc_grid_free(g);
         return NULL;

@@ -193,6 +193,7 @@ static const struct {
     {"x [s] z [um]\n0 1\n1 2\n2 3\n", 0, 0, 0, 0, "'s', which is no length"},
     {"x [um] z [um]\n0 1\n2 2\n1 3\n", 0, 0, 0, 0, "do not run on at row 3"},
     {"0 1\n1 2\n2 3\n", 0, 0, 0, 0, "its steps are 1"},
+    {"0 1\n1 2\n2 3\n", 0, 0, 0, 0, "nor the unit of its heights: --z-unit UNIT"},
     {"x [um] z\n0 1\n1 2\n2 3\n", 0, 0, 0, 0, "--z-unit"},
     {"x [um] z [um]\n0 1\n1 2\n", 0, 0, 0, 0, "3 points at least"},
     {"0 1 2\n1 2 3\n2 3 4\n", 0, 0, 0, 0, "without titles"},
