@@ -108,7 +108,7 @@ read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index
         rc_hdf_values(h, &set[index], g->v, err) != RC_OK)
         goto done;
     rc_hdf_number(h, set[index].path, "_FillValue", &fill);
-    for (size_t k = 0; k < shape.nx * shape.ny; k++)
+    for (size_t k = 0; (!isnan(fill) || metres != 1) && k < shape.nx * shape.ny; k++)
         g->v[k] = g->v[k] == fill ? NAN : g->v[k] * metres;
     good = rc_values_finite(g, err) == RC_OK;
 done:
