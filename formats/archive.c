@@ -5,6 +5,7 @@
 #include <string.h>
 #include <zip.h>
 
+#include "sums.h"
 #include "text.h"
 
 enum {
@@ -144,15 +145,17 @@ read_fully(zip_file_t *f, unsigned char *to, size_t n)
 }
 
 static enum rc_status
-unpack(zip_file_t *f, const char *name, uint64_t size, unsigned char *piece, rc_take *take,
-       void *arg, struct rc_md5 *md5, struct rc_err *err)
+unpack(zip_file_t *f, const char *name, uint64_t size, struct rc_sums *sums, rc_take *take,
+       void *arg, struct rc_err *err)
 {
     char shown[RC_SHOWN];
     uint64_t done = 0;
 
     /* The read that finds the end is the one that checks the CRC. */
     for (;;) {
+        unsigned char *piece = rc_sums_room(sums);
         zip_int64_t n = read_fully(f, piece, RC_PIECE);
+
         if (n < 0)
             return rc_err_set(err, "member '%s' of the archive is damaged: %s",
                               rc_text_shown(shown, name, strlen(name)), zip_file_strerror(f));
@@ -161,7 +164,7 @@ unpack(zip_file_t *f, const char *name, uint64_t size, unsigned char *piece, rc_
             return rc_err_set(err, "member '%s' of the archive promises %" PRIu64 " bytes and "
                                    "holds %s", rc_text_shown(shown, name, strlen(name)), size,
                               done > size ? "more" : "fewer");
-        rc_md5_add(md5, piece, (size_t)n);
+        rc_sums_add(sums, (size_t)n);
         if (n > 0 && take(arg, piece, (size_t)n, err) != RC_OK)
             return RC_FAIL;
         if (n < RC_PIECE)
@@ -175,10 +178,9 @@ rc_archive_read(struct rc_archive *a, size_t member, uint64_t most, rc_take *tak
 {
     enum rc_status status = RC_FAIL;
     const char *name = rc_archive_name(a, member);
-    unsigned char *piece = NULL;
+    struct rc_sums *sums = NULL;
     zip_file_t *f = NULL;
     char shown[RC_SHOWN];
-    struct rc_md5 md5;
     uint64_t size;
 
     rc_text_shown(shown, name, strlen(name));
@@ -189,21 +191,56 @@ rc_archive_read(struct rc_archive *a, size_t member, uint64_t most, rc_take *tak
                         " that can be meant", shown, size, most);
         goto done;
     }
-    if ((piece = malloc(RC_PIECE)) == NULL) {
-        rc_err_set(err, "out of memory for %d bytes", RC_PIECE);
-        goto done;
-    }
     if ((f = zip_fopen_index(a->zip, member, 0)) == NULL) {
         rc_err_set(err, "member '%s' of the archive cannot be read: %s", shown,
                    zip_strerror(a->zip));
         goto done;
     }
-    rc_md5_start(&md5);
-    status = unpack(f, name, size, piece, take, arg, &md5, err);
-    rc_md5_end(&md5, sum);
+    if ((sums = rc_sums_new(RC_PIECE, size, err)) == NULL)
+        goto done;
+    status = unpack(f, name, size, sums, take, arg, err);
+    rc_sums_end(sums, sum);
 done:
     if (f != NULL)
         zip_fclose(f);
-    free(piece);
     return status;
+}
+
+struct buffer {
+    unsigned char *bytes;
+    size_t n;
+};
+
+static enum rc_status
+take_bytes(void *arg, const unsigned char *bytes, size_t n, struct rc_err *err)
+{
+    struct buffer *b = arg;
+
+    (void)err;
+    memcpy(b->bytes + b->n, bytes, n);
+    b->n += n;
+    return RC_OK;
+}
+
+unsigned char *
+rc_archive_bytes(struct rc_archive *a, size_t member, uint64_t most, size_t *n,
+                 char sum[RC_MD5_TEXT], struct rc_err *err)
+{
+    struct buffer b = {0};
+    uint64_t size;
+
+    if (rc_archive_size(a, member, &size, err) != RC_OK)
+        return NULL;
+    size = size < most ? size : most; /* a larger one is refused before it is unpacked */
+    if ((b.bytes = malloc((size_t)size + 1)) == NULL) {
+        rc_err_set(err, "out of memory for %" PRIu64 " bytes", size);
+        return NULL;
+    }
+    if (rc_archive_read(a, member, most, take_bytes, &b, sum, err) != RC_OK) {
+        free(b.bytes);
+        return NULL;
+    }
+    b.bytes[b.n] = '\0';
+    *n = b.n;
+    return b.bytes;
 }

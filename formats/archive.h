@@ -32,7 +32,7 @@ enum rc_status rc_archive_size(struct rc_archive *archive, size_t member, uint64
                                struct rc_err *err);
 
 enum {
-    RC_PIECE = 1 << 16
+    RC_PIECE = 1 << 18
 };
 /* Takes the next bytes of a member: RC_PIECE of them but for the last time. */
 typedef enum rc_status rc_take(void *arg, const unsigned char *bytes, size_t n,
@@ -42,5 +42,10 @@ typedef enum rc_status rc_take(void *arg, const unsigned char *bytes, size_t n,
 enum rc_status rc_archive_read(struct rc_archive *archive, size_t member, uint64_t most,
                                rc_take *take, void *arg, char sum[RC_MD5_TEXT],
                                struct rc_err *err);
+
+/* The whole of a member of at most `most` bytes, with a NUL behind them, which the caller frees; NULL
+ * with the reason. */
+unsigned char *rc_archive_bytes(struct rc_archive *archive, size_t member, uint64_t most, size_t *n,
+                                char sum[RC_MD5_TEXT], struct rc_err *err);
 
 #endif

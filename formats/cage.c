@@ -7,19 +7,16 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "answer.h"
 #include "values.h"
 
 static const double seconds_least = 0.8, bytes_a_second = 1e7;
 static const double patience = 10; /* times those, by the clock on the wall: nothing may just wait */
-
-enum {
-    TEXT_MOST = 65536, /* bytes of a key's value */
-    KEYS_MOST = 256,
-};
 
 static bool left_open;
 
@@ -98,68 +95,79 @@ shut(const struct rc_file *file)
 
 /* ---- there and back ---- */
 
-struct cage {
-    pid_t child;
-    FILE *pipe;
-};
-
-/* In the child it gives 0 and a pipe to write to, in the parent 1 and one to read from. */
-static int
-divide(struct cage *cage, const struct rc_file *file, struct rc_err *err)
+static void
+shut_pipes(struct rc_pipes *p)
 {
-    int end[2];
+    if (p->answer != NULL)
+        fclose(p->answer);
+    close(p->reply);
+}
 
-    if (pipe(end) != 0) {
+/* In the child it gives 0, in the parent 1, and -1 where there is no child. */
+static int
+divide(struct rc_pipes *p, const struct rc_file *file, struct rc_err *err)
+{
+    int answer[2], reply[2], side;
+
+    if (pipe(answer) != 0) {
         rc_err_set(err, "no pipe for reading the file: %s", strerror(errno));
         return -1;
     }
-    if ((cage->child = fork()) < 0) {
-        rc_err_set(err, "no process for reading the file: %s", strerror(errno));
-        close(end[0]);
-        close(end[1]);
+    if (socketpair(AF_UNIX, SOCK_STREAM, 0, reply) != 0) {
+        rc_err_set(err, "no socket for reading the file: %s", strerror(errno));
+        close(answer[0]);
+        close(answer[1]);
         return -1;
     }
-    if (cage->child == 0) {
-        close(end[0]);
-        if ((cage->pipe = fdopen(end[1], "wb")) == NULL)
+    p->child = fork();
+    side = p->child != 0; /* the end of each that is used here: a parent reads */
+    close(answer[side]);
+    close(reply[side]);
+    p->reply = reply[!side];
+    p->answer = p->child < 0 ? NULL : fdopen(answer[!side], side == 0 ? "wb" : "rb");
+    if (side == 0) {
+        if (p->answer == NULL)
             _exit(1);
         shut(file);
         return 0;
     }
-    close(end[1]);
-    if ((cage->pipe = fdopen(end[0], "rb")) == NULL) {
-        close(end[0]);
-        kill(cage->child, SIGKILL);
-        waitpid(cage->child, NULL, 0);
+    if (p->answer != NULL)
+        return 1;
+    close(answer[0]);
+    shut_pipes(p);
+    if (p->child < 0) {
+        rc_err_set(err, "no process for reading the file: %s", strerror(errno));
+    } else {
+        kill(p->child, SIGKILL);
+        waitpid(p->child, NULL, 0);
         rc_err_set(err, "out of memory for a pipe");
-        return -1;
     }
-    return 1;
+    return -1;
 }
 
 static _Noreturn void
-leave(struct cage *cage)
+leave(struct rc_pipes *p, bool told)
 {
-    _exit(fflush(cage->pipe) == 0 ? 0 : 1);
+    _exit(fflush(p->answer) == 0 && told ? 0 : 1);
 }
 
 /* Ends the child; when its answer was not whole, says why in place of what was said before. */
 static void
-join(struct cage *cage, const struct rc_file *file, bool whole, struct rc_err *err)
+join(struct rc_pipes *p, const struct rc_file *file, bool whole, struct rc_err *err)
 {
     int how = 0;
     pid_t got;
 
-    fclose(cage->pipe);
-    while ((got = waitpid(cage->child, &how, 0)) < 0 && errno == EINTR)
+    shut_pipes(p);
+    while ((got = waitpid(p->child, &how, 0)) < 0 && errno == EINTR)
         continue;
     if (whole)
         return;
-    if (got == cage->child && WIFSIGNALED(how) &&
+    if (got == p->child && WIFSIGNALED(how) &&
         (WTERMSIG(how) == SIGPROF || WTERMSIG(how) == SIGALRM))
         rc_err_set(err, "the file keeps its library busy for more than %.1f s: it is damaged, or "
                         "made to", time_bound(file));
-    else if (got == cage->child && WIFSIGNALED(how))
+    else if (got == p->child && WIFSIGNALED(how))
         rc_err_set(err, "the file makes its library fail (%s): it is damaged, or made to",
                    strsignal(WTERMSIG(how)));
     else
@@ -172,110 +180,24 @@ rc_cage_list(rc_list_in_cage *list, const struct rc_file *file, const struct rc_
              struct rc_channel *channel, size_t most, struct rc_err *err)
 {
     struct rc_err said = {""};
-    struct cage cage;
-    size_t n = 0, shown;
-    int side;
+    struct rc_pipes pipes;
+    size_t n = 0;
     bool whole;
+    int side;
 
     if (left_open)
         return list(file, wish, channel, most, err);
-    if ((side = divide(&cage, file, err)) < 0)
+    if ((side = divide(&pipes, file, err)) < 0)
         return 0;
     if (side == 0) {
         n = list(file, wish, channel, most, &said);
-        fwrite(&n, sizeof n, 1, cage.pipe);
-        fwrite(&said, sizeof said, 1, cage.pipe);
-        fwrite(channel, sizeof *channel, n < most ? n : most, cage.pipe);
-        leave(&cage);
+        leave(&pipes, rc_answer_send_list(&pipes, channel, n, most, &said));
     }
-    whole = fread(&n, sizeof n, 1, cage.pipe) == 1 && fread(&said, sizeof said, 1, cage.pipe) == 1;
-    shown = n < most ? n : most;
-    whole = whole && fread(channel, sizeof *channel, shown, cage.pipe) == shown;
-    said.text[sizeof said.text - 1] = '\0';
+    whole = rc_answer_take_list(&pipes, channel, &n, most, &said);
     if (whole && n == 0)
         rc_err_set(err, "%s", said.text);
-    for (size_t k = 0; whole && k < shown; k++) {
-        channel[k].name[sizeof channel->name - 1] = '\0';
-        channel[k].unit[sizeof channel->unit - 1] = '\0';
-    }
-    join(&cage, file, whole, err);
+    join(&pipes, file, whole, err);
     return whole ? n : 0;
-}
-
-/* A text as its length and its bytes. */
-static bool
-send_text(FILE *to, const char *text)
-{
-    size_t n = strlen(text);
-
-    return fwrite(&n, sizeof n, 1, to) == 1 && fwrite(text, 1, n, to) == n;
-}
-
-static char *
-receive_text(FILE *from)
-{
-    char *text = NULL;
-    size_t n;
-
-    if (fread(&n, sizeof n, 1, from) != 1 || n >= TEXT_MOST || (text = malloc(n + 1)) == NULL)
-        return NULL;
-    text[n] = '\0';
-    if (fread(text, 1, n, from) == n)
-        return text;
-    free(text);
-    return NULL;
-}
-
-static void
-send_grid(FILE *to, const struct rc_grid *g)
-{
-    struct rc_shape shape = rc_grid_shape(g);
-    bool good = fwrite(&shape, sizeof shape, 1, to) == 1 && send_text(to, g->channel) &&
-                send_text(to, g->unit) && fwrite(&g->keys, sizeof g->keys, 1, to) == 1;
-
-    for (size_t k = 0; good && k < g->keys; k++)
-        good = send_text(to, g->key[k].name) && send_text(to, g->key[k].value);
-    if (!good || fwrite(g->v, sizeof *g->v, g->nx * g->ny, to) != g->nx * g->ny)
-        _exit(1);
-}
-
-static bool
-receive_key(FILE *from, struct rc_grid *g)
-{
-    char *name = receive_text(from), *value = name == NULL ? NULL : receive_text(from);
-    bool good = value != NULL && rc_grid_set(g, name, value, NULL) == RC_OK;
-
-    free(name);
-    free(value);
-    return good;
-}
-
-/* What was read by a library that a file may have got hold of is not trusted either. */
-static struct rc_grid *
-receive_grid(FILE *from, const struct rc_file *file)
-{
-    char *channel = NULL, *unit = NULL;
-    struct rc_grid *g = NULL;
-    struct rc_shape shape;
-    bool good = false;
-    size_t keys;
-
-    if (fread(&shape, sizeof shape, 1, from) != 1 ||
-        rc_map_fits(file, shape.nx, shape.ny, NULL) != RC_OK ||
-        (channel = receive_text(from)) == NULL || (unit = receive_text(from)) == NULL ||
-        fread(&keys, sizeof keys, 1, from) != 1 || keys > KEYS_MOST ||
-        (g = rc_grid_new(&shape, channel, unit, NULL)) == NULL)
-        goto done;
-    for (good = true; good && keys > 0; keys--)
-        good = receive_key(from, g);
-    good = good && fread(g->v, sizeof *g->v, g->nx * g->ny, from) == g->nx * g->ny;
-done:
-    free(channel);
-    free(unit);
-    if (good)
-        return g;
-    rc_grid_free(g);
-    return NULL;
 }
 
 struct rc_grid *
@@ -285,33 +207,23 @@ rc_cage_read(rc_read_in_cage *read, const struct rc_file *file, const struct rc_
     struct rc_notes noted = {0};
     struct rc_err said = {""};
     struct rc_grid *g = NULL;
-    struct cage cage;
+    struct rc_pipes pipes;
+    bool whole;
     int side;
-    bool whole, good;
 
     if (left_open)
         return read(file, wish, index, notes, err);
-    if ((side = divide(&cage, file, err)) < 0)
+    if ((side = divide(&pipes, file, err)) < 0)
         return NULL;
     if (side == 0) {
-        good = (g = read(file, wish, index, &noted, &said)) != NULL;
-        fwrite(&good, sizeof good, 1, cage.pipe);
-        fwrite(&noted, sizeof noted, 1, cage.pipe);
-        fwrite(&said, sizeof said, 1, cage.pipe);
-        if (good)
-            send_grid(cage.pipe, g);
-        leave(&cage);
+        g = read(file, wish, index, &noted, &said);
+        leave(&pipes, rc_answer_send_grid(&pipes, g, &noted, &said));
     }
-    whole = fread(&good, sizeof good, 1, cage.pipe) == 1 &&
-            fread(&noted, sizeof noted, 1, cage.pipe) == 1 &&
-            fread(&said, sizeof said, 1, cage.pipe) == 1;
-    said.text[sizeof said.text - 1] = '\0';
-    if (whole && good)
-        whole = (g = receive_grid(cage.pipe, file)) != NULL;
-    for (size_t k = 0; whole && k < noted.n && k < sizeof noted.text / sizeof *noted.text; k++)
-        rc_note(notes, "%.*s", (int)sizeof *noted.text - 1, noted.text[k]);
-    if (whole && !good)
+    whole = rc_answer_take_grid(&pipes, file, &g, &noted, &said);
+    for (size_t k = 0; whole && k < noted.n; k++)
+        rc_note(notes, "%s", noted.text[k]);
+    if (whole && g == NULL)
         rc_err_set(err, "%s", said.text);
-    join(&cage, file, whole, err);
+    join(&pipes, file, whole, err);
     return g;
 }

@@ -24,6 +24,19 @@ struct rc_grid *rc_cage_read(rc_read_in_cage *read, const struct rc_file *file,
                              const struct rc_wish *wish, size_t index, struct rc_notes *notes,
                              struct rc_err *err);
 
+/* The functions of a row of formats.list, NAME_list and NAME_read, from list_channels and read_values. */
+#define RC_FORMAT_IN_CAGE(name)                                                                    \
+    static size_t name##_list(const struct rc_file *file, const struct rc_wish *wish,              \
+                              struct rc_channel *channel, size_t most, struct rc_err *err)         \
+    {                                                                                              \
+        return rc_cage_list(list_channels, file, wish, channel, most, err);                        \
+    }                                                                                              \
+    static struct rc_grid *name##_read(const struct rc_file *file, const struct rc_wish *wish,     \
+                                       size_t index, struct rc_notes *notes, struct rc_err *err)   \
+    {                                                                                              \
+        return rc_cage_read(read_values, file, wish, index, notes, err);                           \
+    }
+
 /* With `open` the calls run in this process, without bounds: for fuzzers, which want to see them. */
 void rc_cage_leave_open(bool open);
 

@@ -99,6 +99,16 @@ rc_spacing(const struct rc_wish *wish, double dx, double dy, struct rc_shape *sh
     return pick_spacing('y', wished_dy, dy, &shape->dy, notes, err);
 }
 
+void
+rc_lacks_unit(const struct rc_wish *wish, double by_file, struct rc_err *err)
+{
+    static const char more[] = "; nor the unit of its heights: --z-unit UNIT says it";
+
+    if (err != NULL && isnan(wish->z_unit) && isnan(by_file) &&
+        strlen(err->text) + sizeof more <= sizeof err->text)
+        strcat(err->text, more);
+}
+
 enum rc_status
 rc_height_unit(const struct rc_wish *wish, double by_file, const char *unit, double *metres,
                struct rc_notes *notes, struct rc_err *err)

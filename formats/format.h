@@ -78,6 +78,10 @@ enum rc_status rc_spacing(const struct rc_wish *wish, double dx, double dy, stru
 enum rc_status rc_height_unit(const struct rc_wish *wish, double by_file, const char *unit,
                               double *metres, struct rc_notes *notes, struct rc_err *err);
 
+/* Adds to the refusal of a file that does not say its spacing that it does not say the unit of its
+ * heights either, so that both are asked for at once. */
+void rc_lacks_unit(const struct rc_wish *wish, double by_file, struct rc_err *err);
+
 /* The rows of formats.list, ended by NULL. */
 extern const struct rc_format *const rc_formats[];
 

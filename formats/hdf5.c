@@ -108,7 +108,7 @@ read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index
         rc_hdf_values(h, &set[index], g->v, err) != RC_OK)
         goto done;
     rc_hdf_number(h, set[index].path, "_FillValue", &fill);
-    for (size_t k = 0; k < shape.nx * shape.ny; k++)
+    for (size_t k = 0; (!isnan(fill) || metres != 1) && k < shape.nx * shape.ny; k++)
         g->v[k] = g->v[k] == fill ? NAN : g->v[k] * metres;
     good = rc_values_finite(g, err) == RC_OK;
 done:
@@ -128,19 +128,7 @@ hdf5_score(const struct rc_file *file)
     return rc_hdf_is(file) ? 60 : 0; /* instruments have formats of their own in it */
 }
 
-static size_t
-hdf5_list(const struct rc_file *file, const struct rc_wish *wish, struct rc_channel *channel,
-          size_t most, struct rc_err *err)
-{
-    return rc_cage_list(list_channels, file, wish, channel, most, err);
-}
-
-static struct rc_grid *
-hdf5_read(const struct rc_file *file, const struct rc_wish *wish, size_t index,
-          struct rc_notes *notes, struct rc_err *err)
-{
-    return rc_cage_read(read_values, file, wish, index, notes, err);
-}
+RC_FORMAT_IN_CAGE(hdf5)
 
 const struct rc_format rc_format_hdf5 = {
     .name = "hdf5",

@@ -272,19 +272,7 @@ lext_score(const struct rc_file *file)
     return 0;
 }
 
-static size_t
-lext_list(const struct rc_file *file, const struct rc_wish *wish, struct rc_channel *channel,
-          size_t most, struct rc_err *err)
-{
-    return rc_cage_list(list_channels, file, wish, channel, most, err);
-}
-
-static struct rc_grid *
-lext_read(const struct rc_file *file, const struct rc_wish *wish, size_t index,
-          struct rc_notes *notes, struct rc_err *err)
-{
-    return rc_cage_read(read_values, file, wish, index, notes, err);
-}
+RC_FORMAT_IN_CAGE(lext)
 
 const struct rc_format rc_format_lext = {
     .name = "lext",

@@ -191,6 +191,8 @@ rc_maps_read(rc_maps_find *find, const struct rc_file *file, const struct rc_wis
         if (isnan(map->dx) && err != NULL &&
             strlen(err->text) + strlen(map->hint) < sizeof err->text)
             strcat(err->text, map->hint);
+        if (isnan(map->dx) && map->unit[0] == '\0')
+            rc_lacks_unit(wish, NAN, err);
         return NULL;
     }
     if ((is_height && rc_height_unit(wish, is_length ? map->si : NAN, map->unit, &si, notes,

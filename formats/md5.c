@@ -32,6 +32,25 @@ little_word(const unsigned char *b)
     return (uint32_t)b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 | (uint32_t)b[3] << 24;
 }
 
+/* One step of a round: what does not wait for b is summed first, b comes last in its own chain. */
+static inline uint32_t
+step(uint32_t a, uint32_t b, uint32_t early, uint32_t late, unsigned turn)
+{
+    return b + rotate(a + early + late, turn);
+}
+
+/* Unrolled, so that the turns are constants and the four words change their names, not places. */
+#define ROUND(number, pick, early, late)                                                           \
+    _Pragma("GCC unroll 16") for (unsigned k = 0; k < 16; k++)                                     \
+    {                                                                                              \
+        const uint32_t first = sines[16 * (number) + k] + word[(pick) % 16];                       \
+        const uint32_t next = step(a, b, first + (early), late, turns[number][k % 4]);             \
+        a = d;                                                                                     \
+        d = c;                                                                                     \
+        c = b;                                                                                     \
+        b = next;                                                                                  \
+    }
+
 static void
 add_block(uint32_t state[4], const unsigned char *block)
 {
@@ -39,33 +58,10 @@ add_block(uint32_t state[4], const unsigned char *block)
 
     for (size_t k = 0; k < 16; k++)
         word[k] = little_word(block + 4 * k);
-    for (size_t k = 0; k < 64; k++) {
-        uint32_t mix, keep = d;
-        size_t pick;
-
-        switch (k / 16) {
-        case 0:
-            mix = (b & c) | (~b & d);
-            pick = k;
-            break;
-        case 1:
-            mix = (b & d) | (c & ~d);
-            pick = (5 * k + 1) % 16;
-            break;
-        case 2:
-            mix = b ^ c ^ d;
-            pick = (3 * k + 5) % 16;
-            break;
-        default:
-            mix = c ^ (b | ~d);
-            pick = 7 * k % 16;
-        }
-        mix += a + sines[k] + word[pick];
-        a = keep;
-        d = c;
-        c = b;
-        b += rotate(mix, turns[k / 16][k % 4]);
-    }
+    ROUND(0, k, 0, d ^ (b & (c ^ d)))
+    ROUND(1, 5 * k + 1, c & ~d, b & d)
+    ROUND(2, 3 * k + 5, 0, b ^ (c ^ d))
+    ROUND(3, 7 * k, 0, c ^ (b | ~d))
     state[0] += a;
     state[1] += b;
     state[2] += c;

@@ -251,19 +251,7 @@ park_score(const struct rc_file *file)
                : 3; /* any other TIFF: to say why it is refused */
 }
 
-static size_t
-park_list(const struct rc_file *file, const struct rc_wish *wish, struct rc_channel *channel,
-          size_t most, struct rc_err *err)
-{
-    return rc_cage_list(list_channels, file, wish, channel, most, err);
-}
-
-static struct rc_grid *
-park_read(const struct rc_file *file, const struct rc_wish *wish, size_t index,
-          struct rc_notes *notes, struct rc_err *err)
-{
-    return rc_cage_read(read_values, file, wish, index, notes, err);
-}
+RC_FORMAT_IN_CAGE(park)
 
 const struct rc_format rc_format_park = {
     .name = "park",

@@ -137,25 +137,39 @@ last_place(const double *x, size_t rows, size_t columns)
     return place;
 }
 
-/* Positions may be rounded in the file, or off by a twentieth of a step. */
+/* Where row k would be with even steps. */
+static double
+even_place(const struct profile *p, size_t k)
+{
+    return p->first + (p->falls ? -p->step : p->step) * (double)k;
+}
+
+/* Positions may be rounded in the file, or off by a twentieth of a step: a stylus drifts that much, and
+ * heights between two points so near say nothing else. */
 static enum rc_status
 judge_steps(const struct profile *p, struct rc_err *err)
 {
-    size_t rows = p->table.rows.rows, columns = p->table.rows.columns;
+    size_t rows = p->table.rows.rows, columns = p->table.rows.columns, worst = 0;
     const double *x = column(p, p->x);
-    double place = last_place(x, rows, columns), most = 0.05 * p->step;
-    char a[RC_NUMBER_SIZE], b[RC_NUMBER_SIZE];
+    double place = last_place(x, rows, columns), most = 0.05 * p->step, off = 0;
+    char a[RC_NUMBER_SIZE], b[RC_NUMBER_SIZE], c[RC_NUMBER_SIZE];
 
     if (place < 0.7 * p->step)
         most = fmax(most, 1.01 * place);
     for (size_t k = 0; k < rows; k++) {
-        double wanted = p->first + (p->falls ? -p->step : p->step) * (double)k;
-        if (!(fabs(x[k * columns] - wanted) <= most))
-            return rc_err_set(err, "the positions are not evenly apart: row %zu of the table is at "
-                                   "%s, and should be at %s; a grid needs even steps", k + 1,
-                              rc_number_text(a, x[k * columns]), rc_number_text(b, wanted));
+        double here = fabs(x[k * columns] - even_place(p, k));
+        if (here > off) {
+            off = here;
+            worst = k;
+        }
     }
-    return RC_OK;
+    if (off <= most)
+        return RC_OK;
+    return rc_err_set(err, "the positions are not evenly apart: the furthest off is row %zu of the "
+                           "table, at %s where even steps of %s lead to %s, %.2g steps away; up to "
+                           "%.2g is let pass: resample the profile to even steps", worst + 1,
+                      rc_number_text(a, x[worst * columns]), rc_number_text(c, p->step),
+                      rc_number_text(b, even_place(p, worst)), off / p->step, most / p->step);
 }
 
 static enum rc_status

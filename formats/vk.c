@@ -40,39 +40,24 @@ is_packed(const struct rc_file *file)
 
 /* ---- the archive ---- */
 
-struct buffer {
-    unsigned char *bytes;
-    size_t n;
-};
-
-static enum rc_status
-take_bytes(void *arg, const unsigned char *bytes, size_t n, struct rc_err *err)
-{
-    struct buffer *b = arg;
-
-    (void)err;
-    memcpy(b->bytes + b->n, bytes, n);
-    b->n += n;
-    return RC_OK;
-}
-
 static enum rc_status
 unpack_member(struct rc_archive *archive, size_t member, const struct rc_file *file,
               struct rc_file *inner, struct rc_err *err)
 {
-    struct buffer buffer = {0};
+    unsigned char *bytes;
     char sum[RC_MD5_TEXT];
     uint64_t size;
+    size_t n;
 
     if (rc_archive_size(archive, member, &size, err) != RC_OK)
         return RC_FAIL;
     if (size / 16 > file->size + 4194304)
         return rc_err_set(err, "the archive in the file promises %g MB out of %g: that cannot be",
                           (double)size / 1e6, (double)file->size / 1e6);
-    if ((buffer.bytes = malloc(size == 0 ? 1 : (size_t)size)) == NULL)
-        return rc_err_set(err, "out of memory for %g MB", (double)size / 1e6);
-    *inner = (struct rc_file){member_name, buffer.bytes, (size_t)size};
-    return rc_archive_read(archive, member, size, take_bytes, &buffer, sum, err);
+    if ((bytes = rc_archive_bytes(archive, member, size, &n, sum, err)) == NULL)
+        return RC_FAIL;
+    *inner = (struct rc_file){member_name, bytes, n};
+    return RC_OK;
 }
 
 /* The VK4 file that the archive holds; inner->data is the caller's, also on failure. The archive

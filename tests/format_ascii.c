@@ -151,6 +151,7 @@ headers_that_are_refused(void **state)
         const char *text, *why;
     } cases[] = {
         {"1 2 3\n4 5 6\n", "--dx LENGTH"},
+        {"1 2 3\n4 5 6\n", "nor the unit of its heights: --z-unit UNIT"},
         {"# Width: 6 um\n# Height: 5 um\n1 2 3\n4 5 6\n", "--z-unit"},
         {"# Width: 6 um\n# Height: 5 um\n# Value units: V\n1 2 3\n4 5 6\n", "'V', which is no length"},
         {"# Width: 0 um\n# Height: 5 um\n# Value units: m\n1 2 3\n4 5 6\n", "spacing in x is 0 m"},

@@ -8,11 +8,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/socket.h>
 #include <time.h>
 #include <unistd.h>
 
 #include <cmocka.h>
 
+#include "formats/answer.h"
 #include "formats/cage.h"
 
 static const struct rc_file file = {.name = "made", .data = (const unsigned char *)"x", .size = 1};
@@ -98,6 +100,16 @@ nosy(const struct rc_file *f, const struct rc_wish *wish, size_t index, struct r
 }
 
 static void
+check_good(const struct rc_grid *g)
+{
+    assert_non_null(g);
+    assert_true(g->nx == 300 && g->ny == 200 && g->dx == 1.1e-6 && g->dy == 0.7e-6);
+    for (size_t k = 0; k < 60000; k++)
+        assert_true(k % 7 == 0 ? g->v[k] != g->v[k] : g->v[k] == 1e-9 * (double)(k + 3));
+    assert_string_equal(rc_grid_get(g, "file.date"), "2024\n\xc2\xb5");
+}
+
+static void
 a_grid_comes_back_whole(void **state)
 {
     struct rc_notes notes = {0};
@@ -107,13 +119,106 @@ a_grid_comes_back_whole(void **state)
     (void)state;
     if (g == NULL)
         fail_msg("%s", err.text);
-    assert_true(g->nx == 300 && g->ny == 200 && g->dx == 1.1e-6 && g->dy == 0.7e-6);
-    for (size_t k = 0; k < 60000; k++)
-        assert_true(k % 7 == 0 ? g->v[k] != g->v[k] : g->v[k] == 1e-9 * (double)(k + 3));
-    assert_string_equal(rc_grid_get(g, "file.date"), "2024\n\xc2\xb5");
+    check_good(g);
     assert_int_equal(notes.n, 1);
     assert_string_equal(notes.text[0], "worth saying");
     rc_grid_free(g);
+}
+
+/* What the grid of good() is told as, with its values behind; the caller frees it. */
+static char *
+told_answer(size_t *n)
+{
+    struct rc_notes notes = {0};
+    struct rc_err err = {""};
+    struct rc_grid *g = good(&file, &no_wish, 3, &notes, &err);
+    struct rc_pipes pipes = {.child = -1};
+    char *bytes = NULL;
+    int end[2];
+
+    assert_int_equal(socketpair(AF_UNIX, SOCK_STREAM, 0, end), 0);
+    assert_int_equal(write(end[1], "\2", 1), 1); /* the reply: the values are wanted */
+    pipes.reply = end[0];
+    assert_non_null(pipes.answer = open_memstream(&bytes, n));
+    assert_true(rc_answer_send_grid(&pipes, g, &notes, &err));
+    assert_int_equal(fclose(pipes.answer), 0);
+    close(end[0]);
+    close(end[1]);
+    rc_grid_free(g);
+    return bytes;
+}
+
+/* Takes it where no child's memory can be reached: through the pipe. */
+static bool
+take_told(char *bytes, size_t n, struct rc_grid **g, struct rc_notes *notes)
+{
+    struct rc_pipes pipes = {.child = -1, .answer = fmemopen(bytes, n, "rb")};
+    struct rc_err said;
+    int end[2];
+    bool whole;
+
+    assert_non_null(pipes.answer);
+    assert_int_equal(socketpair(AF_UNIX, SOCK_STREAM, 0, end), 0);
+    pipes.reply = end[0];
+    whole = rc_answer_take_grid(&pipes, &file, g, notes, &said);
+    fclose(pipes.answer);
+    close(end[0]);
+    close(end[1]);
+    return whole;
+}
+
+static void
+values_come_through_the_pipe_too(void **state)
+{
+    struct rc_notes notes = {0};
+    struct rc_grid *g = NULL;
+    size_t n;
+    char *bytes = told_answer(&n);
+
+    (void)state;
+    assert_true(take_told(bytes, n, &g, &notes));
+    check_good(g);
+    assert_string_equal(notes.text[0], "worth saying");
+    rc_grid_free(g);
+    for (size_t cut = 0; cut < n; cut += cut < 6000 ? 1 : 9973) {
+        assert_false(cut > 0 && take_told(bytes, cut, &g, &notes));
+        g = NULL;
+    }
+    free(bytes);
+}
+
+/* A child that a file has got hold of may say anything. */
+static void
+answers_are_not_trusted(void **state)
+{
+    static const unsigned char nasty[] = {0, 1, 2, 0x7f, 0x80, 0xff};
+    uint64_t seed = 0x9e3779b97f4a7c15;
+    size_t n, taken = 0;
+    char *bytes = told_answer(&n), *bad = malloc(n);
+
+    (void)state;
+    assert_non_null(bad);
+    for (size_t t = 0; t < 3000; t++) {
+        struct rc_notes notes = {0};
+        struct rc_grid *g = NULL;
+
+        memcpy(bad, bytes, n);
+        for (size_t k = 0; k <= t % 3; k++) {
+            seed ^= seed << 13;
+            seed ^= seed >> 7;
+            seed ^= seed << 17;
+            bad[(seed >> 16) % 6000] = (char)nasty[seed % sizeof nasty];
+        }
+        if (take_told(bad, n, &g, &notes)) {
+            assert_true(notes.n <= sizeof notes.text / sizeof *notes.text);
+            assert_true(g == NULL || (g->dx > 0 && g->dy > 0 && g->nx * g->ny <= 60000));
+            taken++;
+        }
+        rc_grid_free(g);
+    }
+    printf("3000 answers changed at random, %zu of them whole\n", taken);
+    free(bad);
+    free(bytes);
 }
 
 static void
@@ -213,6 +318,8 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_grid_comes_back_whole),
+        cmocka_unit_test(values_come_through_the_pipe_too),
+        cmocka_unit_test(answers_are_not_trusted),
         cmocka_unit_test(trouble_stays_inside),
         cmocka_unit_test(memory_is_bounded),
         cmocka_unit_test(lists_come_back),

@@ -14,18 +14,6 @@ enum {
     LOOKED = 1200       /* bytes at the front that are changed */
 };
 
-static struct rc_wish
-wish_for(int flags)
-{
-    struct rc_wish wish = {.dx = NAN, .dy = NAN, .z_unit = NAN};
-
-    if ((flags & NO_SPACING) != 0)
-        wish.dx = 1.1e-6;
-    if ((flags & NO_UNIT) != 0)
-        wish.z_unit = 1e-9;
-    return wish;
-}
-
 /* What every map that comes out must be, whatever went in. */
 static void
 check_sound(const struct made_file *f, const struct rc_grid *g, size_t size)

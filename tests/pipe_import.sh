@@ -55,9 +55,17 @@ near "$(header nx odd.rcg)" 2 0 "--separator, --decimal and --missing read an od
 
 printf '\223NUMPY' >cut.npy
 refuses 1 "of version 0" "a format is known by its content" 'rc-import - <cut.npy'
-claim "--formats has a line for each" test "$(rc-import --formats | wc -l)" -ge 25
+formats=$(sed -n 's/^RC_FORMAT(\(.*\))$/\1/p' "$RC_SOURCE/formats/formats.list")
+claim "--formats has a line for each reader, in order" \
+    test "$(rc-import --formats | cut -d ' ' -f 1)" = "$formats"
+# "reads X3P, SDF, ... (N names) and M more" in the README: N + M of them
+row=$(sed -n 's/^| `rc-import` .*(\(.*\) and \([0-9]*\) more).*/\1; \2/p' "$RC_SOURCE/README.md")
+claim "the README counts them right" \
+    test "$(($(tr -cd , <<<"$row" | wc -c) + 1 + ${row##*; }))" -eq "$(wc -w <<<"$formats")"
 for format in $(rc-import --formats | cut -d ' ' -f 1); do
-    claim "the manual has a section on $format" grep -q "^\.Ss $format\$" "$RC_SOURCE/man/rc-import.1"
+    section=$(awk -v s=".Ss $format" '$0 == s {on = 1; next} /^\.S[sh]/ {on = 0} on' \
+        "$RC_SOURCE/man/rc-import.1")
+    claim "the manual has a section on $format, which says what is ignored" grep -qi ignored <<<"$section"
 done
 claim "--formats prints the formats" bash -c 'rc-import --formats | grep -q "^x3p "'
 claim "--list prints the channels" \

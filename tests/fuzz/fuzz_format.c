@@ -1,18 +1,31 @@
 /* Whatever the bytes are, the reader named in RC_FORMAT refuses them with a reason or gives a sound
- * map; without RC_FORMAT it is the reader that detection chooses. */
+ * map, in a second and with 16 times their memory and 64 MiB; without RC_FORMAT it is the reader that
+ * detection chooses. With RC_FUZZ_OPEN the cages stay open: what works in one runs here, where the
+ * sanitizers see it; with RC_FUZZ_OPEN=library a library that asks for any memory, which is bounded
+ * by theirs (max_allocation_size_mb). */
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "formats/cage.h"
 #include "formats/format.h"
 #include "formats/utf8.h"
+#include "meter.h"
 
 enum {
     CHANNELS = 4 /* that are read of a file */
 };
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+void watch_judge(void);
+
+/* What is asked after each file; cage_watch.c has another. */
+__attribute__((weak)) void
+watch_judge(void)
+{
+}
 
 static void
 check(const struct rc_grid *g, size_t size)
@@ -46,8 +59,8 @@ check_words(const char *words)
     }
 }
 
-int
-LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+static void
+try_file(const uint8_t *data, size_t size)
 {
     /* half of the files are read with what the user adds */
     bool wishes = size > 0 && (data[size - 1] & 1) != 0;
@@ -62,7 +75,7 @@ LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (name != NULL)
         format = rc_format_named(name);
     if (format == NULL)
-        return 0;
+        return;
     n = format->list(&file, &wish, channel, CHANNELS, &err);
     if (n == 0 && err.text[0] == '\0')
         abort();
@@ -76,11 +89,26 @@ LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         if (g == NULL && err.text[0] == '\0')
             abort();
         check_words(err.text);
+        for (size_t i = 0; i < notes.n; i++)
+            check_words(notes.text[i]);
         check_words(channel[k].name);
         check_words(channel[k].unit);
         if (g != NULL)
             check(g, size);
         rc_grid_free(g);
     }
+}
+
+int
+LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    const char *open = getenv("RC_FUZZ_OPEN");
+    bool library = open != NULL && strcmp(open, "library") == 0;
+
+    rc_cage_leave_open(open != NULL);
+    meter_start(library ? 0 : 16 * size + 67108864);
+    try_file(data, size);
+    meter_stop();
+    watch_judge();
     return 0;
 }

@@ -1,18 +1,44 @@
 #!/bin/bash
-# run.sh BUILD SECONDS [FORMAT...]: fuzzes each reader for so long, from the files of the tests and
-# the real ones (RC_CORPUS, first 64 KiB of each); prints executions and findings, which are kept in
-# BUILD/findings. Limits: 64 MiB and 16 times the size of a file in one piece of memory, and ten
-# seconds for it by the clock, because the machine may be busy; the slowest is named.
+# run.sh BUILD SECONDS [FORMAT[:HARNESS]...]: fuzzes each reader for so long, from the files of the
+# tests (RC_TESTS names the folder of the built ones) and the real ones (RC_CORPUS, first 64 KiB of
+# each; whole where the format is a container). Prints executions and findings, which are kept in
+# BUILD/findings; what was found worth keeping on the way stays in BUILD/corpus for the next time.
+#
+# Limits: 64 MiB and 16 times the size of a file, held at once; a second of the processor, ten by the
+# clock because the machine may be busy; the slowest is named.
+#
+#     format   the reader in this process
+#     zip      the same, changing what is in the archive
+#     open     a reader that works in a cage, without it
+#     cage     the same through its cage: what dies in the library is counted, not found
+#     whole    the same from whole files, up to 4 MiB
+#     hdf      the reader with answers made up in place of libhdf5's
 set -u
 build=$1 seconds=$2
 shift 2
 here=$(cd "$(dirname "$0")/../.." && pwd)
 seeds=$build/seeds
 mkdir -p "$seeds" "$build/findings" "$build/logs"
+formats=$(sed -n 's/^RC_FORMAT(\(.*\))$/\1/p' "$here/formats/formats.list")
+for format in $formats; do mkdir -p "$seeds/$format"; done
 "$build/fuzz-seeds" "$seeds" || exit 1
-if [ $# -eq 0 ]; then
-    set -- $(sed -n 's/^RC_FORMAT(\(.*\))$/\1/p' "$here/formats/formats.list")
+# shellcheck disable=SC2086
+[ $# -gt 0 ] || set -- $formats
+if [ -d "${RC_TESTS:-}" ]; then
+    for test in "$RC_TESTS"/format_*; do
+        [ -x "$test" ] && [ -f "$test" ] && RC_SEEDS=$seeds "$test" >"$build/logs/seeds" 2>&1
+    done
 fi
+
+harnesses_of() {
+    case $1 in
+    x3p | plux | vk) echo zip ;;
+    jpk | park | lext) echo open cage whole ;;
+    hdf5 | datx) echo hdf cage whole ;; # libhdf5 1.10 itself reads past its memory: never open| park | lext) echo open cage ;;
+    hdf5 | datx) echo hdf cage ;; # libhdf5 1.10 itself reads past its memory: never open
+    *) echo format ;;
+    esac
+}
 
 # what the manifest calls the formats that have another name here
 name_here() {
@@ -33,30 +59,59 @@ name_here() {
     surfer-grd) echo grd ;;
     esri-asc) echo esri ;;
     profile-text) echo profile ;;
+    jpk-image) echo jpk ;;
+    park-tiff) echo park ;;
+    hdf5-generic) echo hdf5 ;;
     *) echo "$1" ;;
     esac
 }
 if [ -r "${RC_CORPUS:-}/manifest.tsv" ]; then
     tail -n +2 "$RC_CORPUS/manifest.tsv" | cut -f 1,2 | while IFS=$'\t' read -r file format; do
-        folder=$seeds/$(name_here "$format")
-        mkdir -p "$folder"
-        head -c 65536 "$RC_CORPUS/corpus/$file" >"$folder/${file##*/}"
+        name=$(name_here "$format")
+        [ -d "$seeds/$name" ] || continue
+        bytes=65536
+        [ "$(harnesses_of "$name")" = format ] || bytes=4194304
+        head -c $bytes "$RC_CORPUS/corpus/$file" >"$seeds/$name/${file##*/}"
     done
+    cp "$here"/sample_surfaces/*.x3p "$seeds/x3p"
 fi
 
 status=0
-for format; do
-    log=$build/logs/$format
-    mkdir -p "$seeds/$format"
-    RC_FORMAT=$format "$build/fuzz-format" -max_total_time="$seconds" -timeout=10 -max_len=65536 \
-        -rss_limit_mb=2048 -malloc_limit_mb=66 -print_final_stats=1 \
-        -artifact_prefix="$build/findings/$format-" "$seeds/$format" >"$log" 2>&1
+fuzz() { # FORMAT HARNESS
+    local format=$1 harness=$2 run=$1-$2 program=$2 most=65536 bad log corpus
+    local asan=allocator_may_return_null=1
+    log=$build/logs/$run corpus=$build/corpus/$run
+    mkdir -p "$corpus"
+    local folders=("$corpus" "$seeds/$format")
+    local -a open=()
+    case $harness in
+    zip) most=524288 ;;
+    open)
+        program=format open=(RC_FUZZ_OPEN=library)
+        asan=$asan:max_allocation_size_mb=128 # as memory ends in the cage
+        ;;
+    cage) asan=$asan:detect_leaks=0 ;;
+    whole) program=cage most=4194304 asan=$asan:detect_leaks=0 ;;
+    hdf) folders=("$corpus") most=4096 open=(RC_FUZZ_OPEN=1) ;;
+    esac
+    env "${open[@]}" RC_FORMAT="$format" ASAN_OPTIONS="$asan" "$build/fuzz-$program" \
+        -max_total_time="$seconds" -timeout=10 -max_len="$most" -rss_limit_mb=2048 \
+        -malloc_limit_mb=2048 -print_final_stats=1 -entropic_scale_per_exec_time=1 \
+        -artifact_prefix="$build/findings/$run-" "${folders[@]}" >"$log" 2>&1
     bad=$?
-    echo "$format: $(sed -n 's/^stat::number_of_executed_units: *//p' "$log") executions," \
+    echo "$format ($harness): $(sed -n 's/^stat::number_of_executed_units: *//p' "$log") executions," \
         "$(sed -n 's/.*cov: \([0-9]*\).*/\1/p' "$log" | tail -n 1) edges," \
         "slowest $(sed -n 's/^stat::slowest_unit_time_sec: *//p' "$log") s," \
+        "$(sed -n 's/^cage: \(.*\)/\1,/p' "$log")" \
         "$([ $bad -eq 0 ] && echo "no finding" ||
-            echo "FINDING: $(grep -m 1 -E 'ERROR|runtime error|SUMMARY' "$log")")"
+            echo "FINDING: $(grep -m 1 -E 'ERROR|runtime error|died in|held|it took|SUMMARY' "$log")")"
     [ $bad -eq 0 ] || status=1
+}
+
+for wanted; do
+    case $wanted in
+    *:*) fuzz "${wanted%%:*}" "${wanted##*:}" ;;
+    *) for harness in $(harnesses_of "$wanted"); do fuzz "$wanted" "$harness"; done ;;
+    esac
 done
 exit $status

@@ -1,0 +1,306 @@
+#include "ascii_head.h"
+
+#include <math.h>
+#include <string.h>
+
+enum kind {
+    CHANNEL,
+    WIDTH,
+    HEIGHT,
+    VALUE_UNIT,
+    PIXEL,
+    FACTOR,
+    COLUMNS,
+    ROWS,
+    WIDTH_NM,
+    HEIGHT_NM,
+    FACTOR_NM,
+    SCAN_SIZE,
+};
+
+static const struct {
+    const char *key; /* in lower case */
+    enum kind kind;
+} keys[] = {
+    {"channel", CHANNEL},
+    {"width", WIDTH},
+    {"height", HEIGHT},
+    {"value units", VALUE_UNIT},
+    {"pixel size", PIXEL},
+    {"data unit", VALUE_UNIT},
+    {"height conversion factor (-> m)", FACTOR},
+    {"h", ROWS},
+    {"w", COLUMNS},
+    {"x-pixels", COLUMNS},
+    {"y-pixels", ROWS},
+    {"x-length", WIDTH_NM},
+    {"y-length", HEIGHT_NM},
+    {"bit2nm", FACTOR_NM},
+    {"scan size", SCAN_SIZE},
+    {"exported image units", VALUE_UNIT},
+};
+
+/* ---- values of a header ---- */
+
+/* The number at the start of a value and what follows it; header numbers have the decimal mark of
+ * whoever exported them. */
+static bool
+leading_number(struct rc_piece *p, double *value)
+{
+    char copy[64];
+    size_t n = p->n < sizeof copy - 1 ? p->n : sizeof copy - 1;
+    const char *end;
+
+    memcpy(copy, p->text, n);
+    copy[n] = '\0';
+    if (strchr(copy, '.') == NULL && strchr(copy, ',') != NULL)
+        *strchr(copy, ',') = '.';
+    if ((end = rc_number_read(copy, false, value)) == NULL)
+        return false;
+    p->text += end - copy;
+    p->n -= (size_t)(end - copy);
+    rc_trim(&p->text, &p->n);
+    return true;
+}
+
+/* A division by a power of ten that a double holds rounds once: 5 um is the double 5e-06. */
+static double
+in_metres(double value, double unit)
+{
+    return unit < 1 ? value / round(1 / unit) : value * unit;
+}
+
+/* "10.00 µm" in metres, NAN when it is no such thing. */
+static double
+length_of(struct rc_piece p)
+{
+    double value, unit;
+
+    return leading_number(&p, &value) && rc_length_unit(p.text, p.n, &unit)
+               ? in_metres(value, unit)
+               : NAN;
+}
+
+static double
+number_of(struct rc_piece p)
+{
+    double value;
+
+    return leading_number(&p, &value) && p.n == 0 ? value : NAN;
+}
+
+static size_t
+count_of(struct rc_piece p)
+{
+    double value = number_of(p);
+
+    return value >= 1 && value <= 1e15 && value == floor(value) ? (size_t)value : 0;
+}
+
+/* "10 10 um", or one number for both. */
+static void
+take_scan_size(struct rc_ascii_head *h, struct rc_piece p)
+{
+    double a, b, unit;
+
+    if (!leading_number(&p, &a))
+        return;
+    if (!leading_number(&p, &b))
+        b = a;
+    if (rc_length_unit(p.text, p.n, &unit)) {
+        h->width = in_metres(a, unit);
+        h->height = in_metres(b, unit);
+    }
+}
+
+static void
+take_unit(struct rc_ascii_head *h, struct rc_piece p)
+{
+    rc_text_clean(h->unit, sizeof h->unit, p.text, p.n);
+    if (rc_length_unit(p.text, p.n, &h->z))
+        h->unit[0] = '\0';
+}
+
+static void
+take(struct rc_ascii_head *h, enum kind kind, struct rc_piece value)
+{
+    switch (kind) {
+    case CHANNEL:
+        h->channel = value;
+        break;
+    case WIDTH:
+        h->width = length_of(value);
+        break;
+    case HEIGHT:
+        h->height = length_of(value);
+        break;
+    case VALUE_UNIT:
+        take_unit(h, value);
+        break;
+    case PIXEL:
+        h->pixel = length_of(value);
+        break;
+    case FACTOR:
+        h->factor = number_of(value);
+        break;
+    case COLUMNS:
+        h->nx = count_of(value);
+        break;
+    case ROWS:
+        h->ny = count_of(value);
+        break;
+    case WIDTH_NM:
+        h->width = in_metres(number_of(value), 1e-9);
+        break;
+    case HEIGHT_NM:
+        h->height = in_metres(number_of(value), 1e-9);
+        break;
+    case FACTOR_NM:
+        h->factor = in_metres(number_of(value), 1e-9);
+        break;
+    case SCAN_SIZE:
+        take_scan_size(h, value);
+        break;
+    }
+}
+
+/* ---- lines of a header ---- */
+
+/* Where the key ends: at a colon, an equals sign, or the wide colon of East Asian text. */
+static const char *
+find_mark(const char *s, size_t n, size_t *width)
+{
+    for (size_t k = 0; k < n; k++) {
+        *width = 1;
+        if (s[k] == ':' || s[k] == '=')
+            return s + k;
+        *width = 3;
+        if (n - k >= 3 && memcmp(s + k, "\xef\xbc\x9a", 3) == 0)
+            return s + k;
+    }
+    return NULL;
+}
+
+static bool
+key_is(const char *key, const char *s, size_t n)
+{
+    if (strlen(key) != n)
+        return false;
+    for (size_t k = 0; k < n; k++)
+        if ((s[k] >= 'A' && s[k] <= 'Z' ? s[k] + ('a' - 'A') : s[k]) != key[k])
+            return false;
+    return true;
+}
+
+/* `key: value` or `key=value`; whether the key is one of ours. */
+static bool
+take_entry(struct rc_ascii_head *h, const char *s, size_t n, struct rc_piece *value)
+{
+    size_t width, key_n;
+    const char *mark = find_mark(s, n, &width);
+
+    *value = (struct rc_piece){s, 0};
+    if (mark == NULL)
+        return false;
+    value->text = mark + width;
+    value->n = n - (size_t)(value->text - s);
+    rc_trim(&value->text, &value->n);
+    key_n = (size_t)(mark - s);
+    rc_trim(&s, &key_n);
+    for (size_t k = 0; k < sizeof keys / sizeof *keys; k++)
+        if (key_is(keys[k].key, s, key_n)) {
+            take(h, keys[k].kind, *value);
+            h->known = true;
+            return true;
+        }
+    return false;
+}
+
+/* Several `key=value` without white space on one line: "h=305 w=75". */
+static bool
+take_words(struct rc_ascii_head *h, const char *s, size_t n)
+{
+    struct rc_piece value;
+    size_t length;
+
+    for (; n > 0; s += length, n -= length) {
+        while (n > 0 && *s == ' ')
+            s++, n--;
+        for (length = 0; length < n && s[length] != ' ';)
+            length++;
+        if (length > 0 && !take_entry(h, s, length, &value))
+            return false;
+    }
+    return true;
+}
+
+static void
+remember(struct rc_ascii_head *h, struct rc_piece value)
+{
+    if (h->comments < sizeof h->comment / sizeof *h->comment)
+        h->comment[h->comments] = (struct rc_ascii_comment){value, length_of(value)};
+    h->comments++;
+}
+
+/* Whether the line belongs to the header. */
+static bool
+take_line(struct rc_ascii_head *h, const char *s, size_t n)
+{
+    struct rc_piece value;
+
+    rc_trim(&s, &n);
+    if (n == 0)
+        return true;
+    if (*s == '#' || *s == '%') {
+        while (n > 0 && (*s == '#' || *s == '%'))
+            s++, n--;
+        rc_trim(&s, &n);
+        take_entry(h, s, n, &value);
+        remember(h, value);
+        return true;
+    }
+    if (n > 1 && *s == '"' && s[1] == '\\') {
+        s++;
+        n -= s[n - 2] == '"' ? 2 : 1;
+    }
+    if (*s == '\\') {
+        take_entry(h, s + 1, n - 1, &value);
+        return true;
+    }
+    if (*s >= 'A')
+        return take_entry(h, s, n, &value) && (n < 2 || s[1] != '=' || take_words(h, s, n));
+    return false;
+}
+
+/* Gwyddion writes its header in the user's language: four lines, of which the second and third are
+ * lengths and the last is a unit. */
+static void
+take_by_shape(struct rc_ascii_head *h)
+{
+    const struct rc_ascii_comment *c = h->comment;
+
+    if (h->comments != 4 || !isnan(h->width) || !isnan(h->height) || isnan(c[1].length) ||
+        isnan(c[2].length) || !isnan(c[0].length) || !isnan(c[3].length))
+        return;
+    h->known = true;
+    h->channel = c[0].value;
+    h->width = c[1].length;
+    h->height = c[2].length;
+    take_unit(h, c[3].value);
+}
+
+void
+rc_ascii_read_head(struct rc_ascii_head *h, struct rc_lines *lines)
+{
+    struct rc_lines ahead = *lines;
+    const char *line;
+    size_t n;
+
+    *h = (struct rc_ascii_head){
+        .width = NAN, .height = NAN, .pixel = NAN, .z = NAN, .factor = NAN};
+    while (rc_lines_next(&ahead, &line, &n) && take_line(h, line, n))
+        *lines = ahead;
+    take_by_shape(h);
+    if (isnan(h->z))
+        h->z = h->factor;
+}

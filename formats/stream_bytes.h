@@ -1,0 +1,45 @@
+/* What reading and writing of a stream share: the order of bytes and the sum over them. */
+#ifndef RC_STREAM_BYTES_H
+#define RC_STREAM_BYTES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+#include <zlib.h>
+
+enum {
+    RC_CHUNK = 8192,  /* values converted at a time where they are not read as they are */
+    RC_FAIL_MAX = 399 /* bytes of a message in RCGFAIL: what a reader repeats           */
+};
+
+static inline bool
+rc_host_is_little(void)
+{
+    const uint16_t one = 1;
+    unsigned char first;
+
+    memcpy(&first, &one, 1);
+    return first == 1;
+}
+
+static inline void
+rc_swap_bytes(void *values, size_t n, size_t width)
+{
+    unsigned char *b = values;
+
+    for (size_t k = 0; k < n; k++, b += width)
+        for (size_t a = 0; a < width / 2; a++) {
+            unsigned char byte = b[a];
+            b[a] = b[width - 1 - a];
+            b[width - 1 - a] = byte;
+        }
+}
+
+static inline uint32_t
+rc_crc_add(uint32_t crc, const void *bytes, size_t n)
+{
+    return (uint32_t)crc32_z(crc, bytes, n);
+}
+
+#endif

@@ -1,0 +1,280 @@
+/* NetCDF files, made here byte by byte, are read in all versions and types; what is damaged or lies of
+ * its size is refused. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "made.h"
+
+extern const struct rc_format rc_format_netcdf;
+
+struct cdf {
+    unsigned version, type;
+    const char *first, *second; /* names of the dimensions */
+    uint64_t rows, columns;     /* their lengths; rows 0: records */
+    double step_y;
+    const char *unit;
+    double fill, factor, offset;
+    bool coordinates, periodic;
+};
+
+static const struct cdf cdf = {.version = 1, .type = 6, .first = "y", .second = "x", .rows = 2,
+                               .columns = 3, .step_y = 0.7, .unit = "nm", .fill = NAN, .factor = 1,
+                               .coordinates = true};
+
+static const double counts[6] = {1, 2, 3, 100, 5, 6};
+
+static void
+cdf_count(struct bytes *b, const struct cdf *c, uint64_t n)
+{
+    add_number(b, n, c->version == 5 ? 8 : 4);
+}
+
+static void
+cdf_text(struct bytes *b, const struct cdf *c, const char *text)
+{
+    size_t n = strlen(text);
+
+    cdf_count(b, c, n);
+    add(b, text, n);
+    add(b, "\0\0\0", (4 - n % 4) % 4);
+}
+
+static void
+cdf_list(struct bytes *b, const struct cdf *c, unsigned tag, size_t n)
+{
+    add_number(b, n == 0 ? 0 : tag, 4);
+    cdf_count(b, c, n);
+}
+
+static void
+cdf_number(struct bytes *b, const struct cdf *c, const char *name, double value)
+{
+    cdf_text(b, c, name);
+    add_number(b, 6, 4);
+    cdf_count(b, c, 1);
+    add_f64(b, value);
+}
+
+static void
+cdf_value(struct bytes *b, unsigned type, double value)
+{
+    static const unsigned char width[] = {0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8};
+
+    if (type == 5)
+        add_f32(b, value);
+    else if (type == 6)
+        add_f64(b, value);
+    else
+        add_number(b, (uint64_t)(int64_t)value, width[type]);
+}
+
+/* One variable: its place is set by the second of two runs. */
+static void
+cdf_variable(struct bytes *b, const struct cdf *c, const char *name, size_t rank, unsigned first,
+             const char *unit, unsigned type, uint64_t size, uint64_t at)
+{
+    bool map = rank == 2;
+    size_t attributes = (size_t)1 + (!map && c->periodic) +
+                        (map ? (size_t)!isnan(c->fill) + (c->factor != 1) + (c->offset != 0) : 0);
+
+    cdf_text(b, c, name);
+    cdf_count(b, c, rank);
+    for (size_t k = 0; k < rank; k++)
+        cdf_count(b, c, first + k);
+    cdf_list(b, c, 12, attributes);
+    cdf_text(b, c, "units");
+    add_number(b, 2, 4);
+    cdf_text(b, c, unit);
+    if (!map && c->periodic)
+        cdf_number(b, c, "periodic", 1);
+    if (map && !isnan(c->fill))
+        cdf_number(b, c, "_FillValue", c->fill);
+    if (map && c->factor != 1)
+        cdf_number(b, c, "scale_factor", c->factor);
+    if (map && c->offset != 0)
+        cdf_number(b, c, "add_offset", c->offset);
+    add_number(b, type, 4);
+    cdf_count(b, c, size);
+    add_number(b, at, c->version == 1 ? 4 : 8);
+}
+
+static struct bytes
+cdf_write(const struct cdf *c, const uint64_t at[3])
+{
+    static const unsigned char width[] = {0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8};
+    size_t columns = (size_t)c->columns < 100 ? (size_t)c->columns : 3;
+    size_t values = c->rows == 0 ? columns : 6;
+    struct bytes b = {.big = true};
+
+    add(&b, "CDF", 3);
+    add_number(&b, c->version, 1);
+    cdf_count(&b, c, c->rows == 0 ? 2 : 0);
+    cdf_list(&b, c, 10, 2);
+    cdf_text(&b, c, c->first);
+    cdf_count(&b, c, c->rows);
+    cdf_text(&b, c, c->second);
+    cdf_count(&b, c, c->columns);
+    cdf_list(&b, c, 12, 1);
+    cdf_text(&b, c, "title");
+    add_number(&b, 2, 4);
+    cdf_text(&b, c, "of the file");
+    cdf_list(&b, c, 11, c->coordinates ? 3 : 1);
+    cdf_variable(&b, c, "heights", 2, 0, c->unit, c->type, (values * width[c->type] + 3) / 4 * 4,
+                 at[0]);
+    if (c->coordinates) {
+        cdf_variable(&b, c, c->first, 1, 0, "um", 6, 8 * (c->rows == 0 ? 1 : c->rows), at[1]);
+        cdf_variable(&b, c, c->second, 1, 1, "um", 5, 12, at[2]);
+    }
+    return b;
+}
+
+static struct bytes
+cdf_file(const struct cdf *c)
+{
+    uint64_t at[3] = {0};
+    struct bytes b = cdf_write(c, at);
+    bool records = c->rows == 0;
+    size_t rows = (size_t)(records ? 2 : c->rows), columns = (size_t)c->columns;
+
+    if (rows * columns != 6 || rows > 6) { /* a header that lies */
+        rows = 2;
+        columns = 3;
+    }
+    at[2] = b.n;
+    at[0] = b.n + 12;
+    at[1] = at[0];
+    for (int run = 0; run < 2; run++) {
+        drop(&b);
+        b = cdf_write(c, at);
+        for (size_t i = 0; i < 3; i++)
+            add_f32(&b, 10 + 1.25 * (double)i);
+        for (size_t j = 0; j < rows; j++) {
+            for (size_t i = 0; i < columns; i++)
+                cdf_value(&b, c->type, counts[j * columns + i]);
+            while (b.n % 4 != 0 && c->coordinates && records)
+                add(&b, "", 1);
+            if (records && c->coordinates) {
+                at[1] = run == 0 && j == 0 ? b.n : at[1];
+                add_f64(&b, 1 - c->step_y * (1 - (double)j));
+            }
+        }
+        while (b.n % 4 != 0)
+            add(&b, "", 1);
+        if (!records && c->coordinates) {
+            at[1] = b.n;
+            for (size_t j = 0; j < rows; j++)
+                add_f64(&b, 3 + c->step_y * (double)j);
+        }
+    }
+    return b;
+}
+
+static void
+check_cdf(const struct cdf *c, bool turned)
+{
+    struct bytes b = cdf_file(c);
+    struct rc_file file = file_of(&b, "made");
+    struct rc_grid *g;
+    double v[6];
+
+    assert_ptr_equal(rc_format_find(&file, NULL), &rc_format_netcdf);
+    for (size_t k = 0; k < 6; k++) {
+        double raw = counts[turned ? (k % 2) * 3 + k / 2 : k];
+        v[k] = raw == c->fill ? NAN : (raw * c->factor + c->offset) * 1e-9;
+    }
+    g = read_well(&rc_format_netcdf, &b, 0);
+    if (turned)
+        check_map(g, 2, 3, 0.7e-6, 1.25e-6, v);
+    else
+        check_map(g, 3, 2, 1.25e-6, 0.7e-6, v);
+    assert_int_equal(rc_grid_get(g, "periodic") != NULL, c->periodic);
+    assert_string_equal(rc_grid_get(g, "file.channel"), "heights");
+    rc_grid_free(g);
+    drop(&b);
+}
+
+static void
+netcdf_is_read(void **state)
+{
+    static const unsigned versions[] = {1, 2, 5};
+
+    (void)state;
+    for (size_t k = 0; k < 3; k++)
+        for (unsigned type = 1; type <= (versions[k] == 5 ? 11 : 6); type++) {
+            struct cdf c = cdf;
+            if (type == 2) /* text */
+                continue;
+            c.version = versions[k];
+            c.type = type;
+            check_cdf(&c, false);
+            c.fill = 100;
+            c.factor = 0.25;
+            c.offset = -3;
+            c.periodic = true;
+            check_cdf(&c, false);
+            c.rows = 0; /* along the record dimension */
+            check_cdf(&c, false);
+            c.rows = 2;
+            c.first = "x";
+            c.second = "y";
+            check_cdf(&c, true);
+        }
+}
+
+static void
+refuse_cdf(const struct cdf *c, const char *why)
+{
+    struct bytes b = cdf_file(c);
+
+    refuse(&rc_format_netcdf, &b, why);
+    drop(&b);
+}
+
+static void
+netcdf_is_refused(void **state)
+{
+    struct cdf c = cdf;
+    struct bytes b;
+
+    (void)state;
+    c.coordinates = false;
+    refuse_cdf(&c, "does not give the spacing");
+    c = cdf, c.unit = "K";
+    refuse_cdf(&c, "'K', which is no length");
+    c = cdf, c.step_y = 0;
+    refuse_cdf(&c, "must be positive");
+    c = cdf, c.step_y = -1;
+    refuse_cdf(&c, "must be positive");
+    c = cdf, c.step_y = NAN;
+    refuse_cdf(&c, "uneven steps");
+    c = cdf, c.step_y = INFINITY;
+    refuse_cdf(&c, "uneven steps");
+    c = cdf, c.columns = 0x7fffffff;
+    refuse_cdf(&c, "the file is too short");
+    c = cdf, c.version = 5, c.columns = 0x7fffffffffffffff, c.rows = 0x7fffffffffffffff;
+    refuse_cdf(&c, "the file is too short");
+    c = cdf, c.version = 5, c.rows = 0x2000000000000001;
+    refuse_cdf(&c, "the file is too short");
+    b = cdf_file(&cdf);
+    b.data[3] = 3;
+    refuse(&rc_format_netcdf, &b, "version 3");
+    b.data[3] = 1;
+    refuse_cuts(&rc_format_netcdf, &b, b.n, 1);
+    survive_changes(&rc_format_netcdf, &b, 20000);
+    drop(&b);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(netcdf_is_read),
+        cmocka_unit_test(netcdf_is_refused),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
