@@ -17,7 +17,7 @@ static const struct opt opts[] = {
 #include "physics.list"
 #undef AT
 #define AT(field) .at = offsetof(struct solve_args, field)
-    {.name = "kernel", .type = OPT_CHOICE, AT(kernel), .arg = "auto|fft|mlms|direct",
+    {.name = "kernel", .type = OPT_CHOICE, AT(kernel), .arg = "auto|fft|fft64|mlms|direct",
      .help = "how displacements are summed (default auto)"},
     {.name = "method", .type = OPT_CHOICE, AT(method), .arg = "auto|pcg|pk99",
      .help = "how the contact is iterated (default auto)"},
