@@ -44,7 +44,7 @@ struct cost {
     double error;       /* relative L1, of the pressure on the map's own grid                  */
     double area_error, peak_error, approach_error; /* relative, signed; NAN: unknown           */
     bool front;         /* no other is both quicker and nearer                                 */
-    bool flatters;      /* its estimate is below its error                                     */
+    bool flatters;      /* its estimate is below its error, by more than 1 %                   */
 };
 
 /* The rungs for this map, in the order in which they are tried; the caller frees them. `kernels` and `methods`: bits of
@@ -79,6 +79,8 @@ struct cost_case {
     struct rc_shape shape;
     struct rc_problem problem; /* engine, method, tol: a rung's                                */
     double limit, began;       /* s: for all rungs; when the first one started                 */
+    double budget, error;      /* s, -: what a command is chosen for; NAN: the other, or none  */
+    bool choosing, shown;      /* for one of them; all rungs are shown nevertheless            */
     struct cost reference;
     double *pressure;          /* of the reference                                             */
     struct cost *rung;
@@ -136,6 +138,18 @@ struct cost_stress *cost_stress_ladder(const struct cost_case *c, size_t *n);
 /* The depths that rc-stress --depths auto would take under the reference. */
 void cost_stress_depths(struct cost_case *c);
 bool cost_stress_run(struct cost_case *c, struct cost_stress *s, double allowed);
+
+/* ---- cost_climb.c ---- */
+
+/* Leaves out what cannot be done on this map, or need not. */
+void cost_sift(struct cost_case *c);
+/* Runs what fits into the limit: in order first, what is short then again. */
+void cost_climb(struct cost_case *c);
+
+/* ---- cost_choose.c ---- */
+
+/* Prints the command; ends the tool where there is none. */
+void cost_choose(const struct cost_case *c, FILE *out);
 
 /* ---- cost_table.c ---- */
 

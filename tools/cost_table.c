@@ -52,7 +52,7 @@ cost_judge(struct cost_case *c)
         for (size_t l = 0; l < c->rungs; l++)
             a->front = a->front && !beaten(c, a, &c->rung[l]);
         a->flatters = a->state == COST_DONE && a->rung.coarse == 1 &&
-                      a->error > a->contact.pressure_error + c->reference.contact.pressure_error;
+                      a->error > 1.01 * a->contact.pressure_error + c->reference.contact.pressure_error;
     }
     for (size_t k = 0; k < c->stresses; k++) {
         struct cost_stress *a = &c->stress[k];

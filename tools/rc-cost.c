@@ -65,10 +65,6 @@ static const struct tool_info info = {
     .writes = WRITES_TEXT,
 };
 
-enum {
-    SMALLEST = 8 /* nodes along a side from which a coarser grid is worth a look */
-};
-
 struct run {
     struct tool t;
     size_t cases;
@@ -110,127 +106,6 @@ tell(struct run *run, const char *text)
 {
     if (!run->t.quiet && (run->t.progress || run->t.verbose || isatty(STDERR_FILENO)))
         fprintf(stderr, "%s: %s\n", info.name, text);
-}
-
-/* ---- a case ---- */
-
-/* What can be said of a rung before it runs: it cannot be done, or need not. */
-static const char *
-obstacle(const struct run *run, const struct cost_case *c, const struct cost *m)
-{
-    bool summed = strncmp(m->rung.kernel, "fft", 3) != 0;
-    struct rc_problem problem = c->problem;
-    size_t least = m->shape.nx < m->shape.ny ? m->shape.nx : m->shape.ny;
-
-    problem.engine = m->rung.kernel;
-    problem.method = m->rung.method;
-    problem.tol = m->rung.tol;
-    if (summed && c->problem.boundary == RC_PERIODIC)
-        return ""; /* not on this boundary: nobody expects it */
-    if (m->rung.coarse > 1 && (least == 1 ? m->shape.nx * m->shape.ny : least) < SMALLEST)
-        return "left out: the grid is too small to be coarsened so far";
-    if (m->rung.coarse > 1 && choosing() && args.plot == NULL && args.report == NULL)
-        return "";
-    if (run->t.memory != 0 && rc_solver_memory(&m->shape, &problem) > run->t.memory)
-        return "left out: it needs more than --memory";
-    return NULL;
-}
-
-static void
-leave_out(struct cost *m, const char *why)
-{
-    m->state = COST_LEFT_OUT;
-    snprintf(m->why, sizeof m->why, "%s", why);
-}
-
-/* Time beyond which a rung need not be tried to make the choice: three times that of the quickest that is good enough,
- * or of the budget, once anything has been measured. Expectations may be that far off. */
-static double
-too_slow(const struct cost_case *c)
-{
-    double least = INFINITY;
-    bool any = false;
-
-    for (size_t k = 0; k < c->rungs; k++) {
-        const struct cost *m = &c->rung[k];
-
-        if (m->state != COST_DONE || m->rung.coarse > 1)
-            continue;
-        any = true;
-        if (m->error <= args.error)
-            least = fmin(least, m->seconds);
-    }
-    if (!choosing() || args.plot != NULL || args.report != NULL || !any)
-        return INFINITY;
-    return 3 * (isnan(args.budget) ? least : args.budget);
-}
-
-static bool
-fits(const struct cost_case *c, struct cost *m, double left)
-{
-    m->expected = cost_expect(c, m);
-    if (m->expected > left)
-        snprintf(m->why, sizeof m->why, "left out: it would take about %.2g s, and %.2g s are left of --limit",
-                 m->expected, fmax(left, 0));
-    else if (m->expected > too_slow(c))
-        snprintf(m->why, sizeof m->why, "left out: about %.2g s, it would not be chosen", m->expected);
-    else
-        return true;
-    m->state = COST_LEFT_OUT;
-    return false;
-}
-
-static double
-left(const struct cost_case *c)
-{
-    return c->limit - (cost_now() - c->began);
-}
-
-/* In turns, so that a disturbance does not fall on one rung alone. */
-static void
-repeat(struct cost_case *c)
-{
-    bool more = true;
-
-    while (more && tool_interrupted() == 0) {
-        more = false;
-        for (size_t k = 0; k < c->rungs && tool_interrupted() == 0; k++) {
-            struct cost *m = &c->rung[k];
-
-            if (m->state != COST_DONE || !cost_again(m->runs, m->seconds) || m->seconds > left(c))
-                continue;
-            more = true;
-            cost_solve(c, m, left(c), NULL);
-        }
-    }
-}
-
-static void
-climb(struct run *run, struct cost_case *c)
-{
-    for (size_t k = 0; k < c->rungs && tool_interrupted() == 0; k++) {
-        struct cost *m = &c->rung[k];
-
-        if (m->state == COST_OPEN && fits(c, m, left(c)))
-            cost_solve(c, m, left(c), NULL);
-    }
-    repeat(c);
-    if (!tool_given(&run->t, "depths") || tool_interrupted() != 0)
-        return;
-    if (c->depths.n == 0)
-        cost_stress_depths(c);
-    for (size_t k = 0; k < c->stresses && tool_interrupted() == 0; k++) {
-        struct cost_stress *s = &c->stress[k];
-
-        s->expected = cost_expect_stress(c, s);
-        if (s->expected > left(c)) {
-            s->state = COST_LEFT_OUT;
-            snprintf(s->why, sizeof s->why, "left out: it would take about %.2g s, and %.2g s are left of --limit",
-                     s->expected, fmax(left(c), 0));
-        } else {
-            cost_stress_run(c, s, left(c));
-        }
-    }
 }
 
 /* ---- what is to come ---- */
@@ -275,81 +150,6 @@ plan(struct run *run, struct cost_case *c)
                     (rc_solver_memory(&m->shape, &problem) >> 20) + 1);
         else if (m->why[0] != '\0')
             fprintf(run->t.out, "  %-40s %s\n", cost_name(name, m), m->why);
-    }
-}
-
-/* ---- the choice ---- */
-
-static bool
-better(const struct cost *a, const struct cost *b)
-{
-    return b == NULL || (isnan(args.budget) ? a->seconds < b->seconds
-                                            : a->error < b->error || (a->error == b->error && a->seconds < b->seconds));
-}
-
-/* A word as a shell reads it. */
-static void
-put_word(FILE *out, const char *word)
-{
-    const char *plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,:+@%=";
-
-    if (word[0] != '\0' && strspn(word, plain) == strlen(word)) {
-        fprintf(out, " %s", word);
-        return;
-    }
-    fputs(" '", out);
-    for (; *word != '\0'; word++)
-        if (*word == '\'')
-            fputs("'\\''", out);
-        else
-            fputc(*word, out);
-    fputc('\'', out);
-}
-
-static void
-put_command(struct run *run, const struct cost *m)
-{
-    const char *physics = strstr(tool_history(&run->t), " --"); /* name and version stand before */
-    char tol[RC_NUMBER_SIZE];
-
-    fprintf(run->t.out, "rc-solve%s --method %s --kernel %s --tol %s", physics, m->rung.method, m->rung.kernel,
-            rc_number_text(tol, m->rung.tol));
-    if (run->t.threads != rc_threads_available())
-        fprintf(run->t.out, " --threads %zu", run->t.threads);
-    for (size_t k = 0; k < run->t.operands; k++)
-        put_word(run->t.out, run->t.operand[k]);
-    fputc('\n', run->t.out);
-}
-
-/* Full grids only: no tool takes a map to a coarser one. By the triangle inequality the error is at most that from the
- * reference and the reference's own. */
-static void
-choose(struct run *run, const struct cost_case *c)
-{
-    const struct cost *best = NULL, *nearest = NULL;
-    char name[128];
-
-    for (size_t k = 0; k < c->rungs; k++) {
-        const struct cost *m = &c->rung[k];
-
-        if (m->state != COST_DONE || m->rung.coarse > 1 || !m->contact.converged)
-            continue;
-        if ((isnan(args.budget) ? m->error + c->reference.contact.pressure_error <= args.error
-                                : m->seconds <= args.budget) && better(m, best))
-            best = m;
-        if (nearest == NULL || (isnan(args.budget) ? m->error < nearest->error : m->seconds < nearest->seconds))
-            nearest = m;
-    }
-    if (best != NULL) {
-        tool_note(&run->t, "%s: %.3g s, true error %.1e, estimate %.1e", cost_name(name, best), best->seconds,
-                  best->error, best->contact.pressure_error);
-        put_command(run, best);
-    } else if (nearest != NULL) {
-        tool_die(&run->t, EXIT_IMPOSSIBLE, "nothing measured %s: the best was %s, %.3g s, error %.1e; raise %s",
-                 isnan(args.budget) ? "is so near" : "is so quick", cost_name(name, nearest), nearest->seconds,
-                 nearest->error, isnan(args.budget) ? "--error or --limit" : "--budget");
-    } else {
-        tool_die(&run->t, EXIT_IMPOSSIBLE, "nothing was measured: raise --limit");
     }
 }
 
@@ -402,7 +202,7 @@ tell_results(struct run *run, struct cost_case *c)
                       c->rung[k].contact.pressure_error, c->rung[k].error);
         }
     if (choosing())
-        choose(run, c);
+        cost_choose(c, run->t.out);
     else
         cost_table(c, run->t.out);
 }
@@ -414,6 +214,8 @@ open_case(struct run *run, struct rc_grid *g, struct cost_case *c)
 {
     *c = (struct cost_case){.tool = &run->t, .heights = g, .shape = rc_grid_shape(g),
                             .problem = physics_problem(&args.physics, g, 0), .limit = args.limit,
+                            .budget = args.budget, .error = args.error, .choosing = choosing(),
+                            .shown = args.plot != NULL || args.report != NULL,
                             .depths = args.depths, .nu = args.nu, .mu = args.mu};
     c->reference.rung = cost_reference;
     c->reference.shape = c->shape;
@@ -421,12 +223,9 @@ open_case(struct run *run, struct rc_grid *g, struct cost_case *c)
     c->stress = tool_given(&run->t, "depths") ? cost_stress_ladder(c, &c->stresses) : NULL;
     if (c->rung == NULL || (tool_given(&run->t, "depths") && c->stress == NULL))
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "out of memory");
-    for (size_t k = 0; k < c->rungs; k++) {
-        const char *why;
+    for (size_t k = 0; k < c->rungs; k++)
         c->rung[k].shape = coarse_shape(&c->shape, c->rung[k].rung.coarse);
-        if ((why = obstacle(run, c, &c->rung[k])) != NULL)
-            leave_out(&c->rung[k], why);
-    }
+    cost_sift(c);
 }
 
 static void
@@ -455,7 +254,6 @@ solve_reference(struct run *run, struct cost_case *c)
     if (c->reference.state != COST_DONE)
         tool_die_at(&run->t, c->heights, EXIT_IMPOSSIBLE, "no reference: %s", c->reference.why);
     c->pressure = p;
-    c->began = cost_now();
 }
 
 static void
@@ -471,7 +269,7 @@ do_case(struct run *run, struct rc_grid *g)
     plan(run, &c);
     if (!args.dry_run) {
         solve_reference(run, &c);
-        climb(run, &c);
+        cost_climb(&c);
         tell_results(run, &c);
     }
     close_case(&c);
