@@ -119,7 +119,7 @@ static void
 draw_across(struct panel *p)
 {
     static const int digits[] = {1, 2, 5};
-    bool many = p->across.hi - p->across.lo > 3.5;
+    bool many = p->across.hi - p->across.lo > 4.5;
     char text[32];
 
     for (int k = (int)floor(p->across.lo); k <= (int)ceil(p->across.hi); k++)

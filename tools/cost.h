@@ -47,7 +47,7 @@ struct cost {
     bool flatters;      /* its estimate is below its error, by more than 1 %                   */
 };
 
-/* The rungs for this map, in the order in which they are tried; the caller frees them. `kernels` and `methods`: bits of
+/* The rungs; the caller frees them. `kernels` and `methods`: bits of
  * cost_kernels and cost_methods that are wanted. */
 #define COST_KERNELS "fft|fft64|mlms|direct"
 #define COST_METHODS "pcg|pk99"
@@ -143,7 +143,7 @@ bool cost_stress_run(struct cost_case *c, struct cost_stress *s, double allowed)
 
 /* Leaves out what cannot be done on this map, or need not. */
 void cost_sift(struct cost_case *c);
-/* Runs what fits into the limit: in order first, what is short then again. */
+/* Runs what fits into the limit, the quickest first, and what is short several times. */
 void cost_climb(struct cost_case *c);
 
 /* ---- cost_choose.c ---- */

@@ -22,11 +22,11 @@ obstacle(const struct cost_case *c, const struct cost *m)
     problem.method = m->rung.method;
     problem.tol = m->rung.tol;
     if (summed && c->problem.boundary == RC_PERIODIC)
-        return ""; /* not on this boundary: nobody expects it */
+        return "left out: on a periodic boundary only fft sums";
     if (m->rung.coarse > 1 && (least == 1 ? m->shape.nx * m->shape.ny : least) < SMALLEST)
         return "left out: the grid is too small to be coarsened so far";
     if (m->rung.coarse > 1 && c->choosing && !c->shown)
-        return "";
+        return "left out: rc-solve does not coarsen";
     if (c->tool->memory != 0 && rc_solver_memory(&m->shape, &problem) > c->tool->memory)
         return "left out: it needs more than --memory";
     return NULL;
@@ -71,7 +71,6 @@ too_slow(const struct cost_case *c)
 static bool
 fits(const struct cost_case *c, struct cost *m, double left)
 {
-    m->expected = cost_expect(c, m);
     if (m->expected > left)
         snprintf(m->why, sizeof m->why, "left out: it would take about %.2g s, and %.2g s are left of --limit",
                  m->expected, fmax(left, 0));
@@ -125,14 +124,37 @@ climb_stresses(struct cost_case *c)
     }
 }
 
+/* The quickest that is still to be run. */
+static struct cost *
+next(struct cost_case *c)
+{
+    struct cost *least = NULL;
+
+    for (size_t k = 0; k < c->rungs; k++) {
+        struct cost *m = &c->rung[k];
+
+        if (m->state != COST_OPEN)
+            continue;
+        m->expected = cost_expect(c, m);
+        if (least == NULL || m->expected < least->expected)
+            least = m;
+    }
+    return least;
+}
+
+/* Before what is slow begins, and may use up the time, what is quick is timed well. */
+static const double slow = 1 / 30.0;
+
 void
 cost_climb(struct cost_case *c)
 {
-    c->began = cost_now();
-    for (size_t k = 0; k < c->rungs && tool_interrupted() == 0; k++) {
-        struct cost *m = &c->rung[k];
+    struct cost *m;
 
-        if (m->state == COST_OPEN && fits(c, m, left(c)))
+    c->began = cost_now();
+    while (tool_interrupted() == 0 && (m = next(c)) != NULL) {
+        if (m->expected > slow * c->limit)
+            repeat(c);
+        if (fits(c, m, left(c)))
             cost_solve(c, m, left(c), NULL);
     }
     repeat(c);

@@ -22,22 +22,41 @@ nodes(const struct rc_shape *shape)
 
 /* ---- what one convolution takes, for one node of the map, in seconds ---- */
 
-/* mlms: N (log 1/tol)^2. */
+/* Beside mlms' own work, (log 1/tol)^2, stands that of the method. */
 static double
 orders(double tol)
 {
-    return pow(digits(tol) + 2, 2) / pow(6, 2);
+    return (digits(tol) + 6) / 10;
 }
 
 static double
 known_pace(const struct cost_case *c, const char *kernel, double tol)
 {
     double threads = 2 / (double)c->tool->threads;
-    double transform = c->problem.boundary == RC_FREE ? 18e-9 : 8e-9;
+    double transform = c->problem.boundary == RC_FREE ? 18e-9 : 10e-9;
 
     if (strcmp(kernel, "direct") == 0)
         return 2.6e-9 * nodes(&c->shape) * threads;
-    return (strcmp(kernel, "mlms") == 0 ? 20e-9 * orders(tol) : transform) * threads;
+    return (strcmp(kernel, "mlms") == 0 ? 18e-9 * orders(tol) : transform) * threads;
+}
+
+/* The nearest tolerance that was run: by the same kernel, if possible by the same method; its convolutions are of the
+ * same kind only then. */
+static const struct cost *
+nearest(const struct cost_case *c, const struct cost_rung *r, bool same_method, bool same_kernel)
+{
+    const struct cost *near = NULL;
+
+    for (size_t k = 0; k < c->rungs; k++) {
+        const struct cost *m = &c->rung[k];
+
+        if (m->state == COST_DONE && m->rung.coarse == 1 &&
+            (!same_method || strcmp(m->rung.method, r->method) == 0) &&
+            (!same_kernel || strcmp(m->rung.kernel, r->kernel) == 0) &&
+            (near == NULL || fabs(log(m->rung.tol / r->tol)) <= fabs(log(near->rung.tol / r->tol))))
+            near = m;
+    }
+    return near;
 }
 
 static double
@@ -47,51 +66,43 @@ pace_of(const struct cost_case *c, const struct cost *m)
 }
 
 static double
-pace(const struct cost_case *c, const char *kernel, double tol)
+pace(const struct cost_case *c, const struct cost_rung *r)
 {
-    double machine = 1;
+    const struct cost *near = nearest(c, r, true, true);
 
-    for (size_t k = c->rungs; k-- > 0;) {
-        const struct cost *m = &c->rung[k];
-
-        if (m->state == COST_DONE && m->rung.coarse == 1 && strcmp(m->rung.kernel, kernel) == 0)
-            return pace_of(c, m) * (strcmp(kernel, "mlms") == 0 ? orders(tol) / orders(m->rung.tol) : 1);
-    }
-    if (c->reference.state == COST_DONE)
-        machine = pace_of(c, &c->reference) / known_pace(c, c->reference.rung.kernel, 1);
-    return machine * known_pace(c, kernel, tol);
+    if (near == NULL)
+        near = nearest(c, r, false, true);
+    if (near == NULL && c->reference.state == COST_DONE)
+        near = &c->reference;
+    if (near == NULL)
+        return known_pace(c, r->kernel, r->tol);
+    return pace_of(c, near) * known_pace(c, r->kernel, r->tol) / known_pace(c, near->rung.kernel, near->rung.tol);
 }
 
 /* ---- how many of them ---- */
 
+/* pk99 has to find the contact first, and is quick then. */
 static double
-known_convolutions(const struct cost_case *c, const struct cost *rung)
+known_convolutions(const struct cost_case *c, const struct cost_rung *r)
 {
-    double d = digits(rung->rung.tol);
-    double some = strcmp(rung->rung.method, "pk99") == 0 ? 0.25 * sqrt(nodes(&c->shape)) * d
-                                                         : 8 + 3.5 * d;
+    double d = digits(r->tol);
+    double some = strcmp(r->method, "pk99") != 0 ? 8 + 3.5 * d
+                                                 : 0.3 * sqrt(nodes(&c->shape)) *
+                                                       (d < 4 ? pow(3, d / 2 - 1) : 3 + 0.3 * (d - 4));
 
     return c->problem.approach > 0 ? 3 * some : some;
 }
 
 static double
-convolutions(const struct cost_case *c, const struct cost *rung)
+convolutions(const struct cost_case *c, const struct cost_rung *r)
 {
-    const struct cost *near = NULL;
+    const struct cost *near = nearest(c, r, true, false);
 
-    for (size_t k = 0; k < c->rungs; k++) {
-        const struct cost *m = &c->rung[k];
-
-        if (m->state == COST_DONE && m->rung.coarse == 1 && strcmp(m->rung.method, rung->rung.method) == 0 &&
-            (near == NULL || fabs(log(m->rung.tol / rung->rung.tol)) <= fabs(log(near->rung.tol / rung->rung.tol))))
-            near = m;
-    }
-    if (near == NULL && strcmp(rung->rung.method, c->reference.rung.method) == 0 &&
-        c->reference.state == COST_DONE)
+    if (near == NULL && strcmp(r->method, c->reference.rung.method) == 0 && c->reference.state == COST_DONE)
         near = &c->reference;
     if (near == NULL)
-        return known_convolutions(c, rung);
-    return near->convolutions * known_convolutions(c, rung) / known_convolutions(c, near);
+        return known_convolutions(c, r);
+    return near->convolutions * known_convolutions(c, r) / known_convolutions(c, &near->rung);
 }
 
 double
@@ -99,7 +110,7 @@ cost_expect(const struct cost_case *c, const struct cost *rung)
 {
     double part = nodes(&rung->shape) / nodes(&c->shape);
 
-    return convolutions(c, rung) * pace(c, rung->rung.kernel, rung->rung.tol) * nodes(&rung->shape) *
+    return convolutions(c, &rung->rung) * pace(c, &rung->rung) * nodes(&rung->shape) *
            (strcmp(rung->rung.kernel, "direct") == 0 ? part : 1);
 }
 
@@ -112,6 +123,7 @@ cost_expect_stress(const struct cost_case *c, const struct cost_stress *s)
 {
     double n = nodes(&c->shape), depths = (double)c->depths.n;
     double exact = 5e-8 * n * depths * 2 / (double)c->tool->threads, each;
+    struct cost_rung r = {.method = "pk99", .kernel = s->kernel, .tol = s->tol > 0 ? s->tol : 1e-14};
 
     for (size_t k = 0; k < c->stresses; k++) {
         const struct cost_stress *m = &c->stress[k];
@@ -121,7 +133,7 @@ cost_expect_stress(const struct cost_case *c, const struct cost_stress *s)
     }
     if (strcmp(s->kernel, "fft") == 0)
         return 2 * exact;
-    each = pace(c, s->kernel, s->tol > 0 ? s->tol : 1e-14);
+    each = pace(c, &r);
     for (size_t k = 0; k < c->stresses; k++) {
         const struct cost_stress *m = &c->stress[k];
 

@@ -137,7 +137,7 @@ put_stresses(const struct cost_case *c, FILE *out)
                     s->seconds, s->runs, s->coarse, (double)s->memory / 1048576, s->error, s->rms, s->mises,
                     s->reference ? "reference" : "", s->front ? s->reference ? ",front" : "front"
                                                     : s->reference ? "" : "-");
-        else if (s->why[0] != '\0')
+        else
             fprintf(out, "# stresses by %s, tol %.0e: %s\n", s->kernel, s->tol, s->why);
     }
 }
@@ -155,7 +155,7 @@ cost_table(const struct cost_case *c, FILE *out)
         if (c->rung[k].state == COST_DONE)
             put_rung(&c->rung[k], out);
     for (size_t k = 0; k < c->rungs; k++)
-        if (c->rung[k].state != COST_DONE && c->rung[k].why[0] != '\0')
+        if (c->rung[k].state != COST_DONE)
             fprintf(out, "# %s: %s\n", cost_name(name, &c->rung[k]), c->rung[k].why);
     if (c->depths.n > 0 && c->stresses > 0)
         put_stresses(c, out);

@@ -148,7 +148,7 @@ plan(struct run *run, struct cost_case *c)
         if (m->state == COST_OPEN)
             fprintf(run->t.out, "  %-40s about %8.2g s, %zu MiB\n", cost_name(name, m), m->expected,
                     (rc_solver_memory(&m->shape, &problem) >> 20) + 1);
-        else if (m->why[0] != '\0')
+        else
             fprintf(run->t.out, "  %-40s %s\n", cost_name(name, m), m->why);
     }
 }
