@@ -107,20 +107,26 @@ repeat(struct cost_case *c)
     }
 }
 
+/* In half of the time that is left. */
 static void
 climb_stresses(struct cost_case *c)
 {
+    double end = cost_now() + left(c) / 2;
+
+    if (c->stresses > 0 && c->depths.n == 0 && tool_interrupted() == 0)
+        cost_stress_depths(c);
     for (size_t k = 0; k < c->stresses && tool_interrupted() == 0; k++) {
         struct cost_stress *s = &c->stress[k];
+        double rest = fmax(end - cost_now(), 0);
 
         s->expected = cost_expect_stress(c, s);
-        if (s->expected > left(c)) {
-            s->state = COST_LEFT_OUT;
-            snprintf(s->why, sizeof s->why, "left out: it would take about %.2g s, and %.2g s are left of --limit",
-                     s->expected, fmax(left(c), 0));
-        } else {
-            cost_stress_run(c, s, left(c));
+        if (s->expected <= rest) {
+            cost_stress_run(c, s, rest);
+            continue;
         }
+        s->state = COST_LEFT_OUT;
+        snprintf(s->why, sizeof s->why, "left out: it would take about %.2g s, and %.2g s are left for stresses",
+                 s->expected, rest);
     }
 }
 
@@ -142,23 +148,27 @@ next(struct cost_case *c)
     return least;
 }
 
-/* Before what is slow begins, and may use up the time, what is quick is timed well. */
+/* Before what is slow begins, and may use up the time, what is quick is timed well, and stresses have their turn. */
 static const double slow = 1 / 30.0;
 
 void
 cost_climb(struct cost_case *c)
 {
-    struct cost *m;
+    bool quick = true;
 
     c->began = cost_now();
-    while (tool_interrupted() == 0 && (m = next(c)) != NULL) {
-        if (m->expected > slow * c->limit)
+    while (tool_interrupted() == 0) {
+        struct cost *m = next(c);
+
+        if (quick && (m == NULL || m->expected > slow * c->limit)) {
+            quick = false;
             repeat(c);
-        if (fits(c, m, left(c)))
+            climb_stresses(c);
+        } else if (m == NULL) {
+            break;
+        } else if (fits(c, m, left(c))) {
             cost_solve(c, m, left(c), NULL);
+        }
     }
     repeat(c);
-    if (c->stresses > 0 && c->depths.n == 0 && tool_interrupted() == 0)
-        cost_stress_depths(c);
-    climb_stresses(c);
 }

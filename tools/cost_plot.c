@@ -178,7 +178,7 @@ unsigned char *
 cost_plot(const struct cost_case *c, size_t *bytes, struct rc_err *err)
 {
     struct drawing *d = calloc(2, sizeof *d);
-    bool stresses = c->stresses > 0 && c->depths.n > 0;
+    bool stresses = false;
     struct canvas *canvas = NULL;
     char *png = NULL;
     FILE *file;
@@ -188,6 +188,8 @@ cost_plot(const struct cost_case *c, size_t *bytes, struct rc_err *err)
     if (d == NULL)
         return NULL;
     draw_pressures(c, &d[0]);
+    for (size_t k = 0; k < c->stresses; k++)
+        stresses = stresses || c->stress[k].state == COST_DONE;
     if (stresses)
         draw_stresses(c, &d[1]);
     canvas = draw(d, stresses ? 2 : 1, err);
