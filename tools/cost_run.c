@@ -54,13 +54,11 @@ be_child(void (*work)(void *ctx), void *ctx)
     _exit(0);
 }
 
-/* Ends the child, should it still run. */
 static void
-reap(pid_t child, bool running)
+end(pid_t child)
 {
-    if (running)
-        kill(child, SIGKILL);
-    while (running && waitpid(child, NULL, 0) < 0 && errno == EINTR)
+    kill(child, SIGKILL);
+    while (waitpid(child, NULL, 0) < 0 && errno == EINTR)
         ;
 }
 
@@ -80,7 +78,7 @@ cost_run(void (*work)(void *ctx), void *ctx, double allowed, void (*watch)(void 
         struct timespec wait = {0, (long)(1e9 * pause)};
 
         if (tool_interrupted() != 0 || cost_now() - start > allowed) {
-            reap(child, true);
+            end(child);
             return tool_interrupted() != 0 ? COST_INTERRUPTED : COST_LATE;
         }
         watch(ctx);

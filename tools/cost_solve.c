@@ -34,16 +34,6 @@ new_map(const struct rc_shape *shape)
     return malloc(shape->nx * shape->ny * sizeof(double));
 }
 
-static bool
-iterate(struct job *j, struct rc_solver *solver)
-{
-    while (rc_solver_step(solver) == RC_MORE) {
-        j->iterations = rc_solver_iterations(solver);
-        j->estimate = rc_solver_error(solver);
-    }
-    return true;
-}
-
 static void
 work(void *ctx)
 {
@@ -62,7 +52,10 @@ work(void *ctx)
         coarse_means(&j->map, j->h, shape, h);
     if ((solver = rc_solver_new(shape, coarse ? h : j->h, &j->problem, &j->err)) == NULL)
         return;
-    j->done = iterate(j, solver);
+    while (rc_solver_step(solver) == RC_MORE) {
+        j->iterations = rc_solver_iterations(solver);
+        j->estimate = rc_solver_error(solver);
+    }
     j->seconds = cost_now() - start;
     j->convolutions = rc_solver_convolutions(solver);
     j->memory = cost_peak() - before;
@@ -74,6 +67,7 @@ work(void *ctx)
     } else {
         memcpy(j->p, rc_solver_pressure(solver), shape->nx * shape->ny * sizeof *j->p);
     }
+    j->done = true;
 }
 
 /* ---- the process that waits ---- */
