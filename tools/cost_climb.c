@@ -88,6 +88,33 @@ left(const struct cost_case *c)
     return c->limit - (cost_now() - c->began);
 }
 
+/* Before what is slow begins, and may use up the time, what is quick is timed well, and stresses have their turn. */
+static const double slow = 1 / 30.0;
+
+/* Whether it took longer than one that does the same and more: then others were at work beside it. */
+static bool
+disturbed(const struct cost_case *c, const struct cost *m)
+{
+    for (size_t k = 0; k < c->rungs; k++) {
+        const struct cost *o = &c->rung[k];
+
+        if (o->state == COST_DONE && strcmp(o->rung.method, m->rung.method) == 0 &&
+            strcmp(o->rung.kernel, m->rung.kernel) == 0 && o->rung.coarse <= m->rung.coarse &&
+            o->rung.tol <= m->rung.tol && m->seconds > 1.1 * o->seconds)
+            return true;
+    }
+    return false;
+}
+
+static bool
+again(const struct cost_case *c, const struct cost *m)
+{
+    if (m->state != COST_DONE || m->seconds > left(c))
+        return false;
+    return cost_again(m->runs, m->seconds) || (m->runs < 2 && m->seconds < slow * c->limit) ||
+           (m->runs < 5 && disturbed(c, m));
+}
+
 /* In turns, so that a disturbance does not fall on one rung alone. */
 static void
 repeat(struct cost_case *c)
@@ -96,14 +123,11 @@ repeat(struct cost_case *c)
 
     while (more && tool_interrupted() == 0) {
         more = false;
-        for (size_t k = 0; k < c->rungs && tool_interrupted() == 0; k++) {
-            struct cost *m = &c->rung[k];
-
-            if (m->state != COST_DONE || !cost_again(m->runs, m->seconds) || m->seconds > left(c))
-                continue;
-            more = true;
-            cost_solve(c, m, left(c), NULL);
-        }
+        for (size_t k = 0; k < c->rungs && tool_interrupted() == 0; k++)
+            if (again(c, &c->rung[k])) {
+                more = true;
+                cost_solve(c, &c->rung[k], left(c), NULL);
+            }
     }
 }
 
@@ -147,9 +171,6 @@ next(struct cost_case *c)
     }
     return least;
 }
-
-/* Before what is slow begins, and may use up the time, what is quick is timed well, and stresses have their turn. */
-static const double slow = 1 / 30.0;
 
 void
 cost_climb(struct cost_case *c)
