@@ -115,7 +115,7 @@ draw_stresses(const struct cost_case *c, struct drawing *d)
     d->chart.floor = rounding;
     d->chart.floor_text = "rounding";
     for (size_t k = 0; k < c->stresses; k++) {
-        const struct cost_stress *s = &c->stress[k];
+        const struct cost_stress *s = &c->stress[(k + 1) % c->stresses]; /* the exact one last */
         struct chart_point *p = s->state == COST_DONE ? new_point(d, ink_of(NULL, s->kernel)) : NULL;
 
         if (p == NULL)
