@@ -69,6 +69,7 @@ compare(struct rc_shape shape, const struct rc_kernel *kernel, size_t component,
         const struct rc_engine *engine;
         double tol, within;
     } other[] = {{&rc_engine_fft, 0, 1e-14},
+                 {&rc_engine_fft64, 1e-3, 1e-14},
                  {&rc_engine_mlms, 0, 2e-14},
                  {&rc_engine_mlms, 1e-3, 1e-3}};
     struct rc_sum sum = {.shape = shape, .kernel = kernel, .component = component,

@@ -51,6 +51,11 @@ test_numbers(void **state)
         {"2m", UNIT_M, 2},
         {"0.1", UNIT_NONE, 0.1},
         {"-3e-2", UNIT_NONE, -3e-2},
+        {"2s", UNIT_S, 2},
+        {"250ms", UNIT_S, 0.25},
+        {"1.5min", UNIT_S, 90},
+        {"0.5 h", UNIT_S, 1800},
+        {"60", UNIT_S, 60},
         {"512M", UNIT_BYTES, 512.0 * 1024 * 1024},
         {"4G", UNIT_BYTES, 4.0 * 1024 * 1024 * 1024},
         {"2GiB", UNIT_BYTES, 2.0 * 1024 * 1024 * 1024},
@@ -100,7 +105,7 @@ test_refusals(void **state)
         {"inf", UNIT_M},     {"-inf", UNIT_N},     {"nanm", UNIT_M},      {"0x10", UNIT_N},
         {"1e400", UNIT_N},   {"1e305GPa", UNIT_PA}, {"--1", UNIT_N},      {"240 N N", UNIT_N},
         {"5m", UNIT_NONE},   {"5%", UNIT_NONE},    {"6GPa", UNIT_N},      {"6gPa", UNIT_PA},
-        {"6Gpa", UNIT_PA},   {"4X", UNIT_BYTES},   {"4m", UNIT_BYTES},    {"1e", UNIT_NONE},
+        {"6Gpa", UNIT_PA},   {"4X", UNIT_BYTES},   {"4m", UNIT_BYTES},    {"4mn", UNIT_S},   {"4hs", UNIT_S},    {"1e", UNIT_NONE},
         {"\xc2m", UNIT_M},   {"1.1\xb5m", UNIT_M}, {"1um,2um", UNIT_M},   {"0:1:3", UNIT_M},
     };
 

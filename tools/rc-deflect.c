@@ -19,7 +19,7 @@ static const struct opt opts[] = {
      .help = "composite modulus E* (default: the stream's own)"},
     {.name = "periodic", .type = OPT_FLAG, AT(periodic), .result = true,
      .help = "the map repeats for ever: only the mean of the displacement is left open"},
-    {.name = "kernel", .type = OPT_CHOICE, AT(kernel), .arg = "auto|fft|mlms|direct",
+    {.name = "kernel", .type = OPT_CHOICE, AT(kernel), .arg = "auto|fft|fft64|mlms|direct",
      .help = "how displacements are summed (default auto)"},
     {.name = "tol", .type = OPT_NUMBER, AT(tol), .min = 0, .max = 1, .above = true,
      .result = true, .arg = "ERROR",

@@ -7,39 +7,18 @@
 #include "solve.h"
 
 static struct solve_args args = {
-    .estar = NAN, .e1 = NAN, .nu1 = NAN, .e2 = NAN, .nu2 = NAN,
-    .hardness = INFINITY, .radius = NAN, .tol = NAN, .kernel = "auto", .method = "auto",
+    .physics = PHYSICS_NONE, .tol = NAN, .kernel = "auto", .method = "auto",
     .interval = 60,
     .output = 1 << SOLVE_PRESSURE | 1 << SOLVE_GAP | 1 << SOLVE_DISPLACEMENT | 1 << SOLVE_HEIGHT,
 };
 
-#define AT(field) .at = offsetof(struct solve_args, field)
 #define ABOVE_0 .min = 0, .max = INFINITY, .above = true
 static const struct opt opts[] = {
-    {.name = "load", .type = OPT_NUMBERS, .unit = UNIT_N, AT(load), ABOVE_0, .result = true,
-     .arg = "LIST", .help = "total normal force: one, a,b,c or a:b:n, each a case"},
-    {.name = "mean-pressure", .type = OPT_NUMBERS, .unit = UNIT_PA, AT(mean_pressure), ABOVE_0,
-     .result = true, .arg = "LIST", .help = "the load as a mean over the whole map"},
-    {.name = "approach", .type = OPT_NUMBERS, .unit = UNIT_M, AT(approach), ABOVE_0,
-     .result = true, .arg = "LIST",
-     .help = "instead of the load: how far to come together after first touch"},
-    {.name = "estar", .type = OPT_NUMBER, .unit = UNIT_PA, AT(estar), ABOVE_0, .result = true,
-     .arg = "MODULUS", .help = "composite modulus E*, 1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2"},
-    {.name = "E1", .type = OPT_NUMBER, .unit = UNIT_PA, AT(e1), ABOVE_0, .result = true,
-     .arg = "MODULUS", .help = "Young's modulus of body 1, the one that is analysed"},
-    {.name = "nu1", .type = OPT_NUMBER, AT(nu1), .min = -1, .max = 0.5, .above = true,
-     .result = true, .arg = "RATIO", .help = "Poisson's ratio of body 1"},
-    {.name = "E2", .type = OPT_NUMBER, .unit = UNIT_PA, AT(e2), ABOVE_0, .result = true,
-     .arg = "MODULUS", .help = "Young's modulus of body 2"},
-    {.name = "nu2", .type = OPT_NUMBER, AT(nu2), .min = -1, .max = 0.5, .above = true,
-     .result = true, .arg = "RATIO", .help = "Poisson's ratio of body 2"},
-    {.name = "hardness", .type = OPT_NUMBER, .unit = UNIT_PA, AT(hardness), ABOVE_0,
-     .result = true, .arg = "PRESSURE", .help = "upper bound of the pressure: above it, yield"},
-    {.name = "radius", .type = OPT_NUMBER, .unit = UNIT_M, AT(radius), ABOVE_0, .result = true,
-     .arg = "LENGTH", .help = "add a sphere of this composite radius about the origin"},
-    {.name = "periodic", .type = OPT_FLAG, AT(periodic), .result = true,
-     .help = "the map repeats for ever (default: a free half-space, loaded on the map only)"},
-    {.name = "kernel", .type = OPT_CHOICE, AT(kernel), .arg = "auto|fft|mlms|direct",
+#define AT(field) .at = offsetof(struct solve_args, physics.field)
+#include "physics.list"
+#undef AT
+#define AT(field) .at = offsetof(struct solve_args, field)
+    {.name = "kernel", .type = OPT_CHOICE, AT(kernel), .arg = "auto|fft|fft64|mlms|direct",
      .help = "how displacements are summed (default auto)"},
     {.name = "method", .type = OPT_CHOICE, AT(method), .arg = "auto|pcg|pk99",
      .help = "how the contact is iterated (default auto)"},
@@ -59,7 +38,7 @@ static const struct opt opts[] = {
     {.name = "checkpoint", .type = OPT_TEXT, AT(checkpoint), .arg = "FILE",
      .help = "keep the pressures reached in FILE, to go on from if the run is cut off"},
     {.name = "resume", .type = OPT_FLAG, AT(resume), .help = "go on from the --checkpoint of an earlier run"},
-    {.name = "interval", .type = OPT_NUMBER, AT(interval), .min = 0, .max = 1e9, .arg = "SECONDS",
+    {.name = "interval", .type = OPT_NUMBER, .unit = UNIT_S, AT(interval), .min = 0, .max = 1e9, .arg = "TIME",
      .help = "first frame of a case in --checkpoint after this time, then after 2, 4 ... times it (60)"},
     {.name = "dry-run", .type = OPT_FLAG, AT(dry_run),
      .help = "say what would be done, and why, with its cost; do nothing else"},
@@ -83,64 +62,15 @@ static const struct tool_info info = {
 static void
 check_arguments(struct run *run)
 {
-    struct tool *t = &run->t;
-    int bodies = tool_given(t, "E1") + tool_given(t, "nu1") + tool_given(t, "E2") +
-                 tool_given(t, "nu2");
-
-    if (tool_given(t, "load") + tool_given(t, "mean-pressure") + tool_given(t, "approach") != 1)
-        tool_die(t, EXIT_USAGE, "give one of --load, --mean-pressure and --approach");
-    if (tool_given(t, "estar") ? bodies > 0 : bodies != 4)
-        tool_die(t, EXIT_USAGE, "give the elasticity, either as --estar or as --E1 --nu1 --E2 "
-                                "--nu2, all four");
-    if ((args.resume || tool_given(t, "interval")) && args.checkpoint == NULL)
-        tool_die(t, EXIT_USAGE, "--resume and --interval need --checkpoint FILE");
+    if ((args.resume || tool_given(&run->t, "interval")) && args.checkpoint == NULL)
+        tool_die(&run->t, EXIT_USAGE, "--resume and --interval need --checkpoint FILE");
+    physics_check(&run->t, &args.physics);
     run->args = &args;
-    run->steps = args.load.n > 0            ? &args.load
-                 : args.mean_pressure.n > 0 ? &args.mean_pressure
-                                            : &args.approach;
+    run->steps = physics_steps(&args.physics);
     run->stiffness = args.stiffness || run->steps->n > 1;
-    run->nu = args.nu1;
-    run->estar = bodies == 0 ? args.estar
-                             : 1 / ((1 - args.nu1 * args.nu1) / args.e1 +
-                                    (1 - args.nu2 * args.nu2) / args.e2);
 }
 
 /* ---- one case ---- */
-
-static void
-add_sphere(struct run *run, struct rc_grid *g)
-{
-    struct rc_shape shape = rc_grid_shape(g);
-    double *sphere = malloc(g->nx * g->ny * sizeof *sphere);
-
-    if (sphere == NULL)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "out of memory");
-    rc_synth_sphere(&shape, args.radius, sphere);
-    for (size_t k = 0; k < g->nx * g->ny; k++)
-        g->v[k] += sphere[k];
-    free(sphere);
-}
-
-static void
-warn_before(struct run *run, const struct rc_grid *g)
-{
-    struct rc_shape shape = rc_grid_shape(g);
-    const char *periodic = rc_grid_get(g, "periodic");
-    struct rc_statistics st;
-    char where[256];
-
-    tool_where(&run->t, g, where, sizeof where);
-    if (!args.periodic && periodic != NULL && strcmp(periodic, "yes") == 0 && isnan(args.radius))
-        tool_warn(&run->t, "%s: the surface is periodic, the solution is not: beyond the map there "
-                           "is no material", where);
-    if (!args.periodic && g->ny == 1 && g->nx > 1)
-        tool_warn(&run->t, "%s: a profile is solved as a strip %g m wide, not as a ridge without "
-                           "end", where, g->dy);
-    rc_measure(&shape, g->v, &st);
-    if (st.rms_slope > 0.3)
-        tool_warn(&run->t, "%s: RMS slope %.2f is beyond the theory of small slopes (0.3): expect "
-                           "pressures that are too high", where, st.rms_slope);
-}
 
 static void
 warn_after(struct run *run, const struct rc_grid *g, const struct rc_contact *c)
@@ -148,7 +78,7 @@ warn_after(struct run *run, const struct rc_grid *g, const struct rc_contact *c)
     char where[256];
 
     tool_where(&run->t, g, where, sizeof where);
-    if (!args.periodic && c->edge_load_fraction > 0.01)
+    if (!args.physics.periodic && c->edge_load_fraction > 0.01)
         tool_warn(&run->t, "%s: %.1f %% of the load is on the outer 2 %% of the map: the contact "
                            "reaches its edge", where, 100 * c->edge_load_fraction);
     if (!c->converged && tool_interrupted() == 0)
@@ -159,23 +89,16 @@ warn_after(struct run *run, const struct rc_grid *g, const struct rc_contact *c)
 static struct rc_problem
 problem_of(struct run *run, const struct rc_grid *g, size_t step)
 {
-    double number = run->steps->v[step];
-    double area = g->dx * g->dy * (double)(g->nx * g->ny);
+    struct rc_problem problem = physics_problem(&args.physics, g, step);
 
-    return (struct rc_problem){
-        .boundary = args.periodic ? RC_PERIODIC : RC_FREE,
-        .estar = run->estar,
-        .load = args.load.n > 0 ? number : args.mean_pressure.n > 0 ? number * area : 0,
-        .approach = args.approach.n > 0 ? number : 0,
-        .hardness = args.hardness,
-        .tol = args.tol,
-        .engine = args.kernel,
-        .method = args.method,
-        .threads = run->t.threads,
-        .discretization = args.discretization,
-        .watch = solve_watch,
-        .watcher = run,
-    };
+    problem.tol = args.tol;
+    problem.engine = args.kernel;
+    problem.method = args.method;
+    problem.threads = run->t.threads;
+    problem.discretization = args.discretization;
+    problem.watch = solve_watch;
+    problem.watcher = run;
+    return problem;
 }
 
 static void
@@ -210,17 +133,17 @@ set_keys(struct run *run, struct rc_grid *g, const struct rc_contact *c)
 {
     struct rc_err err;
 
-    if (rc_grid_set(g, "boundary", args.periodic ? "periodic" : "free", &err) != RC_OK ||
+    if (rc_grid_set(g, "boundary", args.physics.periodic ? "periodic" : "free", &err) != RC_OK ||
         rc_grid_set(g, "converged", c->converged ? "yes" : "no", &err) != RC_OK ||
         rc_grid_history(g, tool_history(&run->t), &err) != RC_OK)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     if (run->steps->n > 1)
         set_number(run, g, "case", (double)run->number);
-    set_number(run, g, "estar", run->estar);
-    set_number(run, g, "nu", run->nu);
+    set_number(run, g, "estar", args.physics.estar);
+    set_number(run, g, "nu", args.physics.nu1);
     /* the load asked for and the one reached are the same but for rounding */
-    set_number(run, g, "load", args.load.n > 0 ? run->steps->v[run->step] : c->load);
-    set_number(run, g, "hardness", args.hardness);
+    set_number(run, g, "load", args.physics.load.n > 0 ? run->steps->v[run->step] : c->load);
+    set_number(run, g, "hardness", args.physics.hardness);
     set_number(run, g, "approach", c->approach);
 }
 
@@ -321,14 +244,7 @@ do_loads(struct run *run, struct rc_grid *g)
 static void
 do_case(struct run *run, struct rc_grid *g)
 {
-    if (strcmp(g->unit, "m") != 0)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE,
-                    "its unit is '%s': heights are in metres; import the file again with --z-unit",
-                    g->unit);
-    tool_demand_finite(&run->t, g, "fill them with rc-detrend --fill");
-    if (!isnan(args.radius))
-        add_sphere(run, g);
-    warn_before(run, g);
+    physics_heights(&run->t, &args.physics, g);
     run->nodes = g->nx * g->ny;
     checkpoint_surface(run->checkpoint, g);
     if (args.dry_run) {

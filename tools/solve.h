@@ -8,6 +8,7 @@
 
 #include "../libcontact/contact.h"
 #include "json.h"
+#include "physics.h"
 #include "tool.h"
 
 enum solve_frame { /* in the order of --output's words, and of writing */
@@ -24,13 +25,12 @@ struct solve_frame_kind {
 extern const struct solve_frame_kind solve_frames[SOLVE_FRAMES];
 
 struct solve_args {
-    struct numbers load, mean_pressure, approach; /* one of them */
-    double estar, e1, nu1, e2, nu2;
-    double hardness, radius, tol;
+    struct physics physics;
+    double tol;
     const char *kernel, *method, *report;
     const char *checkpoint; /* a file, or NULL                                         */
     double interval;        /* seconds to the first frame in it                        */
-    bool periodic, stiffness, discretization, dry_run, resume;
+    bool stiffness, discretization, dry_run, resume;
     size_t output; /* bits of enum solve_frame */
 };
 
@@ -46,7 +46,6 @@ struct run {
     const struct numbers *steps; /* the list of loads or approaches               */
     size_t step, number;         /* which of them, from 0; the case that it is    */
     bool stiffness;
-    double estar, nu; /* nu: NAN unless body 1 was described */
     FILE *report;
     struct checkpoint *checkpoint; /* NULL: none */
     size_t nodes;                  /* of the map */

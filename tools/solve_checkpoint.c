@@ -146,14 +146,14 @@ enum {
 static void
 marks_of(const struct checkpoint *c, struct mark mark[MARKS])
 {
-    const struct solve_args *args = c->run->args;
+    const struct physics *args = &c->run->args->physics;
 
     mark[0].name = "checkpoint.surface";
     snprintf(mark[0].value, sizeof mark[0].value, "%s", c->surface);
     mark[1].name = "boundary";
     snprintf(mark[1].value, sizeof mark[1].value, "%s", args->periodic ? "periodic" : "free");
     mark[2].name = "estar";
-    rc_number_text(mark[2].value, c->run->estar);
+    rc_number_text(mark[2].value, args->estar);
     mark[3].name = "checkpoint.hardness";
     rc_number_text(mark[3].value, args->hardness);
     mark[4].name = args->load.n > 0            ? "checkpoint.load"

@@ -30,7 +30,7 @@ solve_now(void)
 static const char *
 hardness_effect(const struct run *run, const bool *active)
 {
-    if (isinf(run->args->hardness))
+    if (isinf(run->args->physics.hardness))
         return "left out: no --hardness";
     if (active == NULL)
         return "on where the elastic pressure would exceed it; costs nothing elsewhere";
@@ -54,9 +54,9 @@ effects(const struct run *run, const char *kernel, const bool *active, struct ef
 
     e[n++] = (struct effect){"kernel", kernel};
     e[n++] = (struct effect){"hardness", hardness_effect(run, active)};
-    e[n++] = (struct effect){"sphere", isnan(a->radius) ? "left out: no --radius" : "on"};
-    e[n++] = (struct effect){"padding", a->periodic ? "left out: the map is periodic" : "on"};
-    e[n++] = (struct effect){"approach", a->approach.n > 0 ? "on" : "left out: the load is given"};
+    e[n++] = (struct effect){"sphere", isnan(a->physics.radius) ? "left out: no --radius" : "on"};
+    e[n++] = (struct effect){"padding", a->physics.periodic ? "left out: the map is periodic" : "on"};
+    e[n++] = (struct effect){"approach", a->physics.approach.n > 0 ? "on" : "left out: the load is given"};
     e[n++] = (struct effect){"stiffness",
                              run->stiffness ? "on" : "left out: one load and no --stiffness"};
     e[n++] = (struct effect){"discretization",
@@ -126,7 +126,7 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
     json_count(&j, "ny", g->ny);
     json_number(&j, "dx", g->dx);
     json_number(&j, "dy", g->dy);
-    json_text(&j, "boundary", run->args->periodic ? "periodic" : "free");
+    json_text(&j, "boundary", run->args->physics.periodic ? "periodic" : "free");
     json_text(&j, "kernel", rc_solver_engine(solver));
     json_text(&j, "method", rc_solver_method(solver));
     json_count(&j, "threads", run->t.threads);

@@ -15,9 +15,9 @@ static const struct prefix {
     {"M", 6},         {"G", 9},         {"T", 12},  {NULL, 0},
 };
 
-static const struct size_unit {
+static const struct word_unit { /* units that do not go by prefixes */
     const char *text;
-    double bytes;
+    double size;
 } size_units[] = {
     {"", 1},
     {"B", 1},
@@ -35,12 +35,16 @@ static const struct size_unit {
     {"TiB", 1099511627776.0},
     {"TB", 1e12},
     {NULL, 0},
+}, time_units[] = {
+    {"min", 60},
+    {"h", 3600},
+    {NULL, 0},
 };
 
 const char *
 unit_name(enum unit unit)
 {
-    static const char *const names[] = {"", "m", "N", "Pa", "bytes"};
+    static const char *const names[] = {"", "m", "N", "Pa", "s", "bytes"};
 
     return names[unit];
 }
@@ -81,14 +85,14 @@ apply_unit(const char *digits, size_t length, const char *suffix, size_t n, enum
     const char *base = unit_name(unit);
     size_t tail = strlen(base);
 
-    if (unit == UNIT_BYTES) {
-        for (const struct size_unit *s = size_units; s->text != NULL; s++)
-            if (same(s->text, suffix, n)) {
-                *value *= s->bytes;
+    if (unit == UNIT_BYTES || unit == UNIT_S)
+        for (const struct word_unit *w = unit == UNIT_S ? time_units : size_units; w->text != NULL; w++)
+            if (same(w->text, suffix, n)) {
+                *value *= w->size;
                 return true;
             }
+    if (unit == UNIT_BYTES)
         return false;
-    }
     if (n == 0)
         return true;
     if (unit == UNIT_NONE || n < tail || memcmp(suffix + n - tail, base, tail) != 0)
@@ -126,8 +130,8 @@ read_one(const char *text, size_t n, enum unit unit, double *value, bool *with_u
             return rc_err_set(err, "unknown unit '%.*s': a size in bytes is expected, as in 512M "
                                    "or 4GiB", (int)(stop - end), end);
         return rc_err_set(err, "unknown unit '%.*s': %s is expected, with or without one of the "
-                               "prefixes f p n u m c k M G T", (int)(stop - end), end,
-                          unit_name(unit));
+                               "prefixes f p n u m c k M G T%s", (int)(stop - end), end,
+                          unit_name(unit), unit == UNIT_S ? ", or min or h" : "");
     }
     if (!isfinite(*value))
         return rc_err_set(err, "'%.*s' is too large", (int)n, text);

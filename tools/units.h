@@ -11,6 +11,7 @@ enum unit {
     UNIT_M,     /* metres                   */
     UNIT_N,     /* newtons                  */
     UNIT_PA,    /* pascals                  */
+    UNIT_S,     /* seconds; also min and h  */
     UNIT_BYTES, /* bytes: 512M, 4G, 2GiB    */
 };
 

@@ -1,0 +1,223 @@
+/*
+ * The ladder of stresses: slices by each way and accuracy, under the pressure of the reference. Beside each slice the
+ * exact one is computed, so that no more than two are held.
+ */
+#include "cost.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const struct row {
+    const char *kernel;
+    double tol;
+    bool free_only;
+} ladder[] = {
+    {"fft", 0, false}, /* the reference: to rounding */
+    {"fft", 1e-2, false}, {"fft", 1e-3, false}, {"fft", 1e-4, false}, {"fft", 1e-6, false}, /* deep slices are coarser */
+    {"mlms", 1e-2, true}, {"mlms", 1e-4, true}, {"mlms", 1e-6, true},
+    {"direct", 0, true},
+};
+
+enum {
+    ROWS = sizeof ladder / sizeof *ladder,
+    DEPTHS = 4096,
+    WANTED = (2u << RC_MISES) - 1 /* the six and Mises */
+};
+
+struct cost_stress *
+cost_stress_ladder(const struct cost_case *c, size_t *n)
+{
+    struct cost_stress *s = calloc(ROWS, sizeof *s);
+
+    *n = 0;
+    for (size_t k = 0; s != NULL && k < ROWS; k++)
+        if (c->problem.boundary == RC_FREE || !ladder[k].free_only)
+            s[(*n)++] = (struct cost_stress){.kernel = ladder[k].kernel, .tol = ladder[k].tol, .reference = k == 0};
+    return s;
+}
+
+/* In memory shared with the process that computes. */
+struct job {
+    const struct cost_case *c;
+    const struct cost_stress *rung;
+    size_t depth; /* for progress */
+    bool done;
+    double seconds, error, rms, mises;
+    size_t coarse;
+    struct rc_err err;
+    size_t depths;
+    double z[DEPTHS];
+};
+
+static void
+watch(void *ctx)
+{
+    const struct job *j = ctx;
+
+    if (j->rung != NULL)
+        tool_progress(j->c->tool, "stresses by %s, tol %.0e, depth %zu of %zu", j->rung->kernel, j->rung->tol,
+                      j->depth, j->c->depths.n);
+}
+
+/* ---- depths ---- */
+
+static void
+work_depths(void *ctx)
+{
+    struct job *j = ctx;
+    double *z = NULL;
+
+    if (rc_stress_depths(&j->c->shape, j->c->pressure, j->c->problem.boundary, &z, &j->depths, &j->err) != RC_OK)
+        return;
+    j->depths = j->depths < DEPTHS ? j->depths : DEPTHS;
+    memcpy(j->z, z, j->depths * sizeof *z);
+    j->done = true;
+}
+
+void
+cost_stress_depths(struct cost_case *c)
+{
+    struct job *j = cost_share(sizeof *j);
+
+    if (j != NULL) {
+        j->c = c;
+        cost_run(work_depths, j, INFINITY, watch);
+        if (j->done && (c->depths.v = malloc(j->depths * sizeof *c->depths.v)) != NULL) {
+            memcpy(c->depths.v, j->z, j->depths * sizeof *j->z);
+            c->depths.n = j->depths;
+        }
+    }
+    if (c->depths.n == 0 && tool_interrupted() == 0)
+        tool_die_at(c->tool, c->heights, EXIT_IMPOSSIBLE, "no depths: %s",
+                    j == NULL || j->err.text[0] == '\0' ? "out of memory" : j->err.text);
+    cost_unshare(j, sizeof *j);
+}
+
+/* ---- slices ---- */
+
+static struct rc_stress_options
+options_of(const struct cost_case *c, const char *kernel, double tol)
+{
+    return (struct rc_stress_options){.boundary = c->problem.boundary, .nu = c->nu, .mu = c->mu, .wanted = WANTED,
+                                      .engine = kernel, .tol = tol, .threads = c->tool->threads};
+}
+
+struct sums {
+    double worst, squares, mises, mises_true;
+};
+
+static void
+compare(size_t n, double *const s[RC_STRESSES], double *const truth[RC_STRESSES], struct sums *sum)
+{
+    for (int c = 0; c <= RC_MISES; c++)
+        for (size_t k = 0; k < n; k++) {
+            double off = fabs(s[c][k] - truth[c][k]);
+
+            sum->worst = fmax(sum->worst, off);
+            sum->squares += off * off;
+            if (c == RC_MISES) {
+                sum->mises = fmax(sum->mises, s[c][k]);
+                sum->mises_true = fmax(sum->mises_true, truth[c][k]);
+            }
+        }
+}
+
+static bool
+slices(struct job *j, struct rc_stress *stress, struct rc_stress *exact, double *const s[RC_STRESSES],
+       double *const truth[RC_STRESSES])
+{
+    size_t n = j->c->shape.nx * j->c->shape.ny;
+    struct sums sum = {0};
+
+    for (j->depth = 0; j->depth < j->c->depths.n; j->depth++) {
+        double z = j->c->depths.v[j->depth], start = cost_now();
+
+        if (rc_stress_slice(stress, z, s, &j->err) != RC_OK)
+            return false;
+        j->seconds += cost_now() - start;
+        if (j->rung->reference)
+            continue;
+        if (rc_stress_slice(exact, z, truth, &j->err) != RC_OK)
+            return false;
+        compare(n, s, truth, &sum);
+    }
+    j->error = sum.worst / j->c->reference.contact.max_pressure;
+    j->rms = sqrt(sum.squares / ((double)(n * j->c->depths.n) * (RC_MISES + 1))) /
+             j->c->reference.contact.max_pressure;
+    j->mises = sum.mises / sum.mises_true - 1;
+    j->coarse = rc_stress_counted(stress)->coarse_depths;
+    return true;
+}
+
+static void
+work(void *ctx)
+{
+    struct job *j = ctx;
+    const struct cost_case *c = j->c;
+    struct rc_stress_options o = options_of(c, j->rung->kernel, j->rung->tol), e = options_of(c, "fft", 0);
+    size_t n = c->shape.nx * c->shape.ny;
+    double *maps = malloc(2 * n * (RC_MISES + 1) * sizeof *maps), start;
+    double *s[RC_STRESSES] = {NULL}, *truth[RC_STRESSES] = {NULL};
+    struct rc_stress *stress, *exact;
+
+    if (maps == NULL) {
+        rc_err_set(&j->err, "out of memory");
+        return;
+    }
+    memset(maps, 0, 2 * n * (RC_MISES + 1) * sizeof *maps); /* fresh pages are nobody's cost */
+    for (size_t k = 0; k <= RC_MISES; k++) {
+        s[k] = maps + k * n;
+        truth[k] = maps + (RC_MISES + 1 + k) * n;
+    }
+    start = cost_now();
+    if ((stress = rc_stress_new(&c->shape, c->pressure, &o, &j->err)) == NULL)
+        return;
+    j->seconds = cost_now() - start;
+    if ((exact = rc_stress_new(&c->shape, c->pressure, &e, &j->err)) != NULL)
+        j->done = slices(j, stress, exact, s, truth);
+}
+
+static void
+stop(struct cost_stress *s, enum cost_end end, const struct job *j)
+{
+    s->state = COST_STOPPED;
+    snprintf(s->why, sizeof s->why, "%.250s",
+             end == COST_LATE          ? "stopped: --limit has passed"
+             : end == COST_INTERRUPTED ? "interrupted"
+             : end == COST_DIED        ? "its process died: memory may be short"
+                                       : j->err.text);
+}
+
+bool
+cost_stress_run(struct cost_case *c, struct cost_stress *s, double allowed)
+{
+    struct rc_stress_options o = options_of(c, s->kernel, s->tol);
+    struct job *j = cost_share(sizeof *j);
+    double start = cost_now();
+    enum cost_end end;
+
+    if (j == NULL)
+        tool_die_at(c->tool, c->heights, EXIT_IMPOSSIBLE, "out of memory");
+    s->memory = rc_stress_memory(&c->shape, &o);
+    do {
+        memset(j, 0, sizeof *j);
+        j->c = c;
+        j->rung = s;
+        end = cost_run(work, j, allowed - (cost_now() - start), watch);
+        if (end != COST_ENDED || !j->done)
+            break;
+        if (s->runs++ == 0 || j->seconds < s->seconds)
+            s->seconds = j->seconds;
+        s->error = s->reference ? NAN : j->error;
+        s->rms = s->reference ? NAN : j->rms;
+        s->mises = s->reference ? NAN : j->mises;
+        s->coarse = j->coarse;
+        s->state = COST_DONE;
+    } while (cost_again(s->runs, s->seconds));
+    tool_progress_end(c->tool);
+    if (s->runs == 0)
+        stop(s, end, j);
+    cost_unshare(j, sizeof *j);
+    return end != COST_INTERRUPTED;
+}

@@ -1,0 +1,295 @@
+/* What accuracy costs in time: one contact solved in many ways, beside one that is right. */
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "coarse.h"
+#include "cost.h"
+#include "physics.h"
+
+static struct args {
+    struct physics physics;
+    size_t kernels, methods; /* bits */
+    double limit, budget, error;
+    struct numbers depths; /* none: auto, where it was given */
+    double nu, mu;
+    const char *plot, *report;
+    bool dry_run;
+} args = {.physics = PHYSICS_NONE, .kernels = SIZE_MAX, .methods = SIZE_MAX, .limit = 60,
+          .budget = NAN, .error = NAN, .nu = NAN};
+
+#define ABOVE_0 .min = 0, .max = INFINITY, .above = true
+static const struct opt opts[] = {
+#define AT(field) .at = offsetof(struct args, physics.field)
+#include "physics.list"
+#undef AT
+#define AT(field) .at = offsetof(struct args, field)
+    {.name = "kernel", .type = OPT_WORDS, AT(kernels), .words = COST_KERNELS, .arg = "LIST",
+     .help = "try only these, of fft,fft64,mlms,direct (default: all)"},
+    {.name = "method", .type = OPT_WORDS, AT(methods), .words = COST_METHODS, .arg = "LIST",
+     .help = "try only these, of pcg,pk99 (default: both)"},
+    {.name = "depths", .type = OPT_NUMBERS, .unit = UNIT_M, AT(depths), .min = 0, .max = INFINITY,
+     .words = "auto", .arg = "LIST",
+     .help = "stresses too, at these depths: a,b,c, a:b:n or auto"},
+    {.name = "nu", .type = OPT_NUMBER, AT(nu), .min = -1, .max = 0.5, .above = true, .arg = "RATIO",
+     .help = "Poisson's ratio for the stresses (default: --nu1)"},
+    {.name = "mu", .type = OPT_NUMBER, AT(mu), .min = -10, .max = 10, .arg = "COEFFICIENT",
+     .help = "for the stresses: the surface also carries mu times the pressure along +x"},
+    {.name = "budget", .type = OPT_NUMBER, .unit = UNIT_S, AT(budget), ABOVE_0, .arg = "TIME",
+     .help = "print the rc-solve command that is nearest within this time, and no table"},
+    {.name = "error", .type = OPT_NUMBER, AT(error), .min = 0, .max = 1, .above = true,
+     .arg = "ERROR",
+     .help = "print the quickest rc-solve command whose true error is at most this, no table"},
+    {.name = "limit", .type = OPT_NUMBER, .unit = UNIT_S, AT(limit), ABOVE_0, .arg = "TIME",
+     .help = "for all of it, after the reference: what would not fit is left out (default 60s)"},
+    {.name = "plot", .type = OPT_TEXT, AT(plot), .arg = "FILE",
+     .help = "draw error against time as a PNG"},
+    {.name = "report", .type = OPT_TEXT, AT(report), .arg = "FILE",
+     .help = "write one JSON object a way of solving"},
+    {.name = "dry-run", .type = OPT_FLAG, AT(dry_run),
+     .help = "say what would be run, and about how long it would take; do no more"},
+    {.name = NULL},
+};
+
+static const struct tool_info info = {
+    .name = "rc-cost",
+    .summary = "What accuracy costs in time, for a surface and a load",
+    .operands = "[FILE...]",
+    .examples = "  rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-slope 0.1 --seed 1 -o rough.rcg\n"
+                "  rc-cost --periodic --mean-pressure 500MPa --estar 114GPa --plot cost.png rough.rcg\n"
+                "  rc-cost --periodic --mean-pressure 500MPa --estar 114GPa --error 1e-3 rough.rcg\n",
+    .opts = opts,
+    .reads = READS_STREAM,
+    .writes = WRITES_TEXT,
+};
+
+struct run {
+    struct tool t;
+    size_t cases;
+    FILE *report;
+};
+
+/* ---- the command line ---- */
+
+static bool
+choosing(void)
+{
+    return !isnan(args.budget) || !isnan(args.error);
+}
+
+static void
+check_arguments(struct run *run)
+{
+    struct tool *t = &run->t;
+
+    physics_check(t, &args.physics);
+    if (physics_steps(&args.physics)->n > 1)
+        tool_die(t, EXIT_USAGE, "one load at a time: %zu were given", physics_steps(&args.physics)->n);
+    if (tool_given(t, "budget") && tool_given(t, "error"))
+        tool_die(t, EXIT_USAGE, "--budget asks for the best in a time, --error for the quickest of an accuracy: "
+                                "give one");
+    if (isnan(args.nu))
+        args.nu = args.physics.nu1;
+    if (tool_given(t, "depths") && isnan(args.nu))
+        tool_die(t, EXIT_USAGE, "--depths: stresses need Poisson's ratio: give --nu");
+    if (!tool_given(t, "depths") && (tool_given(t, "nu") || tool_given(t, "mu")))
+        tool_die(t, EXIT_USAGE, "--nu and --mu are for stresses: give --depths as well");
+    tool_demand_writable(t, "--plot", args.plot);
+    tool_demand_writable(t, "--report", args.report);
+}
+
+/* To whoever waits in front of a terminal. */
+static void
+tell(struct run *run, const char *text)
+{
+    if (!run->t.quiet && (run->t.progress || run->t.verbose || isatty(STDERR_FILENO)))
+        fprintf(stderr, "%s: %s\n", info.name, text);
+}
+
+/* ---- what is to come ---- */
+
+static void
+plan(struct run *run, struct cost_case *c)
+{
+    char text[160], name[128];
+    double all = 0;
+    size_t n = 0, out = 0;
+
+    c->reference.expected = cost_expect(c, &c->reference);
+    for (size_t k = 0; k < c->rungs; k++) {
+        struct cost *m = &c->rung[k];
+
+        m->expected = cost_expect(c, m);
+        if (m->state != COST_OPEN)
+            continue;
+        n++;
+        if (all + m->expected > c->limit) {
+            out++;
+            continue;
+        }
+        for (size_t runs = 0; runs == 0 || cost_again(runs, m->expected); runs++)
+            all += m->expected;
+    }
+    snprintf(text, sizeof text, "%zu ways to solve %zu x %zu nodes, about %.2g s after %.2g s for the reference; "
+                                "%zu of them are expected beyond --limit", n, c->shape.nx, c->shape.ny, all,
+             c->reference.expected, out);
+    if (!args.dry_run) {
+        tell(run, text);
+        return;
+    }
+    fprintf(run->t.out, "%s\n", text);
+    for (size_t k = 0; k < c->rungs; k++) {
+        struct cost *m = &c->rung[k];
+        struct rc_problem problem = c->problem;
+
+        problem.engine = m->rung.kernel;
+        if (m->state == COST_OPEN)
+            fprintf(run->t.out, "  %-40s about %8.2g s, %zu MiB\n", cost_name(name, m), m->expected,
+                    (rc_solver_memory(&m->shape, &problem) >> 20) + 1);
+        else
+            fprintf(run->t.out, "  %-40s %s\n", cost_name(name, m), m->why);
+    }
+}
+
+/* ---- results ---- */
+
+static void
+write_plot(struct run *run, const struct cost_case *c)
+{
+    size_t bytes;
+    struct rc_err err;
+    unsigned char *png;
+    FILE *file;
+
+    if (args.plot == NULL)
+        return;
+    if ((png = cost_plot(c, &bytes, &err)) == NULL)
+        tool_die(&run->t, EXIT_IMPOSSIBLE, "--plot %s: %s", args.plot, err.text);
+    if ((file = fopen(args.plot, "wb")) == NULL)
+        tool_die(&run->t, EXIT_IMPOSSIBLE, "--plot %s: %s", args.plot, strerror(errno));
+    if ((fwrite(png, 1, bytes, file) != bytes) | (fclose(file) != 0)) {
+        int why = errno;
+        remove(args.plot);
+        tool_die(&run->t, EXIT_IMPOSSIBLE, "--plot %s: %s", args.plot, strerror(why));
+    }
+    free(png);
+}
+
+static void
+write_report(struct run *run, const struct cost_case *c)
+{
+    if (args.report == NULL)
+        return;
+    if (run->report == NULL && (run->report = fopen(args.report, "w")) == NULL)
+        tool_die(&run->t, EXIT_IMPOSSIBLE, "--report %s: %s", args.report, strerror(errno));
+    cost_report(c, run->report);
+    if (ferror(run->report))
+        tool_die(&run->t, EXIT_IMPOSSIBLE, "--report %s: writing failed", args.report);
+}
+
+static void
+tell_results(struct run *run, struct cost_case *c)
+{
+    cost_judge(c);
+    write_report(run, c);
+    write_plot(run, c);
+    for (size_t k = 0; k < c->rungs; k++)
+        if (c->rung[k].flatters) {
+            char name[128];
+            tool_warn(&run->t, "%s: the estimate %.1e is below the true error %.1e", cost_name(name, &c->rung[k]),
+                      c->rung[k].contact.pressure_error, c->rung[k].error);
+        }
+    if (choosing())
+        cost_choose(c, run->t.out);
+    else
+        cost_table(c, run->t.out);
+}
+
+/* ---- the run ---- */
+
+static void
+open_case(struct run *run, struct rc_grid *g, struct cost_case *c)
+{
+    *c = (struct cost_case){.tool = &run->t, .heights = g, .shape = rc_grid_shape(g),
+                            .problem = physics_problem(&args.physics, g, 0), .limit = args.limit,
+                            .budget = args.budget, .error = args.error, .choosing = choosing(),
+                            .shown = args.plot != NULL || args.report != NULL,
+                            .depths = args.depths, .nu = args.nu, .mu = args.mu};
+    c->reference.rung = cost_reference;
+    c->reference.shape = c->shape;
+    c->rung = cost_ladder(args.kernels, args.methods, &c->rungs);
+    c->stress = tool_given(&run->t, "depths") ? cost_stress_ladder(c, &c->stresses) : NULL;
+    if (c->rung == NULL || (tool_given(&run->t, "depths") && c->stress == NULL))
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "out of memory");
+    for (size_t k = 0; k < c->rungs; k++)
+        c->rung[k].shape = coarse_shape(&c->shape, c->rung[k].rung.coarse);
+    cost_sift(c);
+}
+
+static void
+close_case(struct cost_case *c)
+{
+    free(c->pressure);
+    free(c->rung);
+    free(c->stress);
+    if (c->depths.v != args.depths.v)
+        free(c->depths.v);
+}
+
+static void
+solve_reference(struct run *run, struct cost_case *c)
+{
+    size_t n = c->shape.nx * c->shape.ny;
+    double *p = malloc(n * sizeof *p);
+    struct rc_problem problem = c->problem;
+
+    problem.engine = c->reference.rung.kernel;
+    tool_demand_memory(&run->t, c->heights, rc_solver_memory(&c->shape, &problem) + 2 * n * sizeof *p);
+    if (p == NULL)
+        tool_die_at(&run->t, c->heights, EXIT_IMPOSSIBLE, "out of memory");
+    if (!cost_solve(c, &c->reference, args.limit, p))
+        tool_die_at(&run->t, c->heights, EXIT_IMPOSSIBLE, "interrupted before anything was measured");
+    if (c->reference.state != COST_DONE)
+        tool_die_at(&run->t, c->heights, EXIT_IMPOSSIBLE, "no reference: %s", c->reference.why);
+    c->pressure = p;
+}
+
+static void
+do_case(struct run *run, struct rc_grid *g)
+{
+    struct cost_case c;
+
+    if (++run->cases > 1 && (choosing() || args.plot != NULL))
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s is for one case: give one height map",
+                    args.plot != NULL ? "a picture" : "a command");
+    physics_heights(&run->t, &args.physics, g);
+    open_case(run, g, &c);
+    plan(run, &c);
+    if (!args.dry_run) {
+        solve_reference(run, &c);
+        cost_climb(&c);
+        tell_results(run, &c);
+    }
+    close_case(&c);
+}
+
+int
+main(int argc, char **argv)
+{
+    static struct run run;
+    struct rc_grid *g;
+
+    tool_start(&run.t, &info, argc, argv, &args);
+    check_arguments(&run);
+    tool_catch_signals();
+    while (tool_interrupted() == 0 && (g = tool_channel(&run.t, "height", false)) != NULL) {
+        do_case(&run, g);
+        rc_grid_free(g);
+    }
+    if (run.report != NULL && fclose(run.report) != 0)
+        tool_die(&run.t, EXIT_IMPOSSIBLE, "--report %s: %s", args.report, strerror(errno));
+    free(args.depths.v);
+    return tool_finish(&run.t);
+}
