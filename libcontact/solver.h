@@ -148,6 +148,8 @@ void rc_solver_correct(struct rc_solver *solver, rc_row *done, void *ctx);
 double rc_solver_carried(const struct rc_solver *solver);
 /* The load is a constraint that every method keeps; should one lose it, the result is none. */
 bool rc_solver_load_kept(const struct rc_solver *solver);
+/* What the engine's own error makes of the pressure, relative. */
+double rc_solver_engine_error(const struct rc_solver *solver);
 /* Relative L1 norm of that correction without its mean: the estimate of the error. */
 double rc_solver_estimate(struct rc_solver *solver);
 
