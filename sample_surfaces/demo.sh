@@ -65,7 +65,7 @@ run "rc-import $surface | rc-detrend --fill --poly 2 |
 run "rc-render --channel pressure rc-demo/contact.rcg -o rc-demo/pressure.png"
 run "rc-render --channel height rc-demo/contact.rcg -o rc-demo/height.png"
 echo
-tr ',' '\n' <rc-demo/report.json | tr -d '{}" ' | grep -E \
+sed 's/"effects": {[^}]*}//' rc-demo/report.json | tr ',' '\n' | tr -d '{}" ' | grep -E \
     '^(load|max_pressure|contact_fraction|plastic_area|approach|iterations|pressure_error_estimate):' |
     sed 's/:/ = /; s/^/  /'
 echo
