@@ -134,7 +134,7 @@ engine_named(const char *name)
 {
     static const struct rc_engine *const all[] = {
 #define RC_ENGINE(name) &rc_engine_##name,
-#include "libcontact/engines.list"
+#include "libcontact/operator/engines.list"
 #undef RC_ENGINE
     };
 

@@ -4,7 +4,7 @@
 #ifndef BENCH_H
 #define BENCH_H
 
-#include "libcontact/inside.h"
+#include "libcontact/operator/operator.h"
 
 #include <math.h>
 #include <stdint.h>

@@ -16,7 +16,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "libcontact/room.h"
+#include "libcontact/memory.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -52,7 +52,7 @@ static struct pair
 pair_new(size_t px, size_t py)
 {
     size_t stride = 2 * (px / 2 + 1);
-    struct pair its = {.x = must(rc_room(stride * py, sizeof *its.x))};
+    struct pair its = {.x = must(rc_alloc(stride * py, sizeof *its.x))};
 
     fftw_plan_with_nthreads((int)threads);
     its.plan[0] = must(fftw_plan_dft_r2c_2d((int)py, (int)px, its.x,
@@ -123,7 +123,7 @@ peak_child(char **argv)
     struct rc_sum sum = square((size_t)strtoul(argv[3], NULL, 10));
     const struct rc_engine *e = engine_named(argv[2]);
     size_t n = sum.shape.nx * sum.shape.ny;
-    double *p = must(rc_room(n, sizeof *p)), *u = must(rc_room(n, sizeof *u));
+    double *p = must(rc_alloc(n, sizeof *p)), *u = must(rc_alloc(n, sizeof *u));
     struct rc_err err;
     double before;
     void *plan;
@@ -154,7 +154,7 @@ against_fftw(void)
         for (int boundary = 0; boundary < 2; boundary++) {
             struct rc_sum sum = square(m);
             size_t padded = boundary == RC_FREE ? 2 * m : m;
-            double *p = must(rc_room(m * m, sizeof *p)), *u = must(rc_room(m * m, sizeof *u));
+            double *p = must(rc_alloc(m * m, sizeof *p)), *u = must(rc_alloc(m * m, sizeof *u));
             struct pair its;
             struct sum_work sum_work;
             double plan_time, its_plan, best[2];
@@ -220,8 +220,8 @@ sparse(void)
 {
     static const char *const names[] = {"all nodes", "5 % in a disc", "5 % in 300 spots"};
     size_t m = 1024;
-    double *p = must(rc_room(m * m, sizeof *p)), *u = must(rc_room(m * m, sizeof *u));
-    double *v = must(rc_room(m * m, sizeof *v));
+    double *p = must(rc_alloc(m * m, sizeof *p)), *u = must(rc_alloc(m * m, sizeof *u));
+    double *v = must(rc_alloc(m * m, sizeof *v));
     struct rc_err err;
 
     printf("\nMLMS for an error of 1e-6 against the Fourier engine, %zu x %zu, %zu threads\n", m, m,
@@ -271,7 +271,7 @@ sizes(void)
             enum rc_boundary boundary;
         } columns[] = {{"direct", 0, RC_FREE}, {"fft", 0, RC_FREE}, {"fft", 1e-4, RC_FREE},
                        {"fft", 0, RC_PERIODIC}, {"mlms", 1e-6, RC_FREE}};
-        double *p = must(rc_room(m * m, sizeof *p)), *u = must(rc_room(m * m, sizeof *u));
+        double *p = must(rc_alloc(m * m, sizeof *p)), *u = must(rc_alloc(m * m, sizeof *u));
         uint64_t seed = 1;
 
         for (size_t k = 0; k < m * m; k++)

@@ -14,7 +14,7 @@
 
 #include <time.h>
 
-#include "libcontact/mlms.h"
+#include "libcontact/operator/mlms.h"
 
 /* A sum both ways. */
 struct pair {

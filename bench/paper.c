@@ -19,7 +19,7 @@
 
 #include <unistd.h>
 
-#include "libcontact/solver.h"
+#include "libcontact/solver/solver.h"
 
 size_t threads;
 double limit = 100;

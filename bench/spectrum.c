@@ -13,7 +13,7 @@
 #include <float.h>
 #include <unistd.h>
 
-#include "libcontact/extension.h"
+#include "libcontact/solver/preconditioner.h"
 
 enum {
     STEPS = 60
@@ -65,7 +65,7 @@ struct operators {
     const unsigned char *w;
     struct rc_fft *fft;
     struct rc_spectrum *kernel, *inverse;
-    struct rc_extension *extension; /* NULL: A cut to W */
+    struct rc_preconditioner *extension; /* NULL: A cut to W */
     float *single;                  /* 2n               */
 };
 
@@ -93,7 +93,7 @@ precondition(const struct operators *o, const double *r, double *z)
             size = fmax(size, fabs(r[k]));
         for (size_t k = 0; k < o->n; k++)
             o->single[k] = (float)(r[k] / size);
-        rc_extension_apply(o->extension, o->single, 0, o->single + o->n, NULL, NULL);
+        rc_preconditioner_apply(o->extension, o->single, 0, o->single + o->n, NULL, NULL);
         for (size_t k = 0; k < o->n; k++)
             z[k] = size * (double)o->single[o->n + k];
     }
@@ -192,14 +192,14 @@ spectrum(const struct row *row, size_t m)
     rc_spectrum_set_reciprocal(o.inverse, o.fft, o.kernel);
     o.single = must(malloc(2 * n * sizeof *o.single));
     extremes(&o, &least[0], &most[0]);
-    o.extension = must(rc_extension_new(&s, row->boundary, 0, &err));
-    rc_extension_set(o.extension, w, true);
+    o.extension = must(rc_preconditioner_new(&s, row->boundary, 0, &err));
+    rc_preconditioner_set(o.extension, w, true);
     extremes(&o, &least[1], &most[1]);
     printf("%-8s %-8s %5zu %8.4f | %8.4f %8.3f | %8.4f %8.3f\n", row->name,
            row->boundary == RC_FREE ? "free" : "periodic", m, (double)o.count / (double)n, least[1],
            most[1], least[0], most[0]);
     fflush(stdout);
-    rc_extension_free(o.extension);
+    rc_preconditioner_free(o.extension);
     rc_spectrum_free(o.kernel);
     rc_spectrum_free(o.inverse);
     rc_fft_free(o.fft);

@@ -1,6 +1,6 @@
 /*
  * Exchange formats the other way: struct rc_grid -> bytes. A format that is written is one file,
- * formats/NAME_write.c, that ends in its row, and one line in exports.list.
+ * formats/writers/NAME.c, that ends in its row, and one line in exports.list.
  *
  * What every writer does:
  *   1. writes straight on, without seeking: the output may be a pipe;
@@ -15,8 +15,8 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "../libcontact/grid.h"
-#include "bytes.h"
+#include "libcontact/grid.h"
+#include "formats/core/core.h"
 
 /* What the user says beside the frames. */
 struct rc_export_wish {

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "text.h"
+#include "formats/core/core.h"
 
 #define RC_FORMAT(name) extern const struct rc_format rc_format_##name;
 #include "formats.list"

@@ -19,7 +19,7 @@
 
 #include <stddef.h>
 
-#include "../libcontact/grid.h"
+#include "libcontact/grid.h"
 
 /* A file that has been read whole. */
 struct rc_file {

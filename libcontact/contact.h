@@ -76,10 +76,10 @@ enum rc_status rc_detrend_poly(const struct rc_shape *shape, size_t degree, doub
 /* Gives every missing value (NaN) the solution of Laplace's equation with the measured ones around
  * it as boundary values and no slope across the edge of the map; *filled counts them. RC_FAIL when
  * nothing was measured, a value is infinite, or memory is short. */
-enum rc_status rc_fill(const struct rc_shape *shape, double *h, size_t *filled,
+enum rc_status rc_inpaint(const struct rc_shape *shape, double *h, size_t *filled,
                        struct rc_err *err);
 /* Bytes that it takes beside h for so many missing values. */
-size_t rc_fill_memory(size_t missing);
+size_t rc_inpaint_memory(size_t missing);
 
 /* ---- measure.c ---- */
 

@@ -1,5 +1,5 @@
 #include "grid.h"
-#include "room.h"
+#include "memory.h"
 
 #include <errno.h>
 #include <locale.h>
@@ -97,7 +97,7 @@ rc_grid_new(const struct rc_shape *shape, const char *channel, const char *unit,
         return NULL;
     bytes = shape->nx * shape->ny * sizeof(double);
     g = calloc(1, sizeof *g);
-    if (g == NULL || (g->v = rc_room(bytes, 1)) == NULL) {
+    if (g == NULL || (g->v = rc_alloc(bytes, 1)) == NULL) {
         rc_err_set(err, "out of memory for a map of %zu x %zu nodes (%zu bytes)", shape->nx,
                    shape->ny, bytes);
         goto fail;

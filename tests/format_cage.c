@@ -14,8 +14,8 @@
 
 #include <cmocka.h>
 
-#include "formats/answer.h"
-#include "formats/cage.h"
+#include "formats/sandbox/result.h"
+#include "formats/sandbox/sandbox.h"
 
 static const struct rc_file file = {.name = "made", .data = (const unsigned char *)"x", .size = 1};
 static const struct rc_wish no_wish = {.dx = NAN, .dy = NAN, .z_unit = NAN};

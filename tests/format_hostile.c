@@ -6,7 +6,7 @@
 #include <cmocka.h>
 
 #include "formats/format.h"
-#include "formats/utf8.h"
+#include "formats/core/utf8.h"
 #include "made_files.h"
 
 enum {

@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "formats/md5.h"
+#include "formats/core/md5.h"
 
 /* RFC 1321, A.5, and the million a's that go round with the SHA test vectors. */
 static const struct {

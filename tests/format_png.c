@@ -13,11 +13,11 @@
 
 #include <cmocka.h>
 
-#include "formats/stream.h"
+#include "formats/rcg/rcg.h"
 #include "libcontact/grid.h"
-#include "tools/colormap.h"
-#include "tools/raster.h"
-#include "tools/ticks.h"
+#include "tools/plot/colormap.h"
+#include "tools/plot/raster.h"
+#include "tools/plot/ticks.h"
 
 static char folder[] = "/tmp/format_png.XXXXXX";
 

@@ -13,7 +13,7 @@
 #include <string.h>
 #include <zlib.h>
 
-#include "formats/stream.h"
+#include "formats/rcg/rcg.h"
 
 /* With the address sanitizer, memory that cannot be had is still NULL. */
 const char *__asan_default_options(void);

@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "formats/utf8.h"
+#include "formats/core/utf8.h"
 #include "made.h"
 #include "made_x3p.h"
 

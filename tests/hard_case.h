@@ -6,7 +6,7 @@
 #include <float.h>
 
 #include "contact_case.h"
-#include "libcontact/fourier.h"
+#include "libcontact/operator/operator.h"
 
 enum {
     FREE = 1,

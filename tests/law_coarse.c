@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <cmocka.h>
 
-#include "tools/coarse.h"
+#include "tools/cost/coarse.h"
 
 static const struct {
     struct rc_shape map;

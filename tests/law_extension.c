@@ -10,7 +10,7 @@
 #include <gsl/gsl_linalg.h>
 
 #include "contact_case.h"
-#include "libcontact/extension.h"
+#include "libcontact/solver/preconditioner.h"
 
 enum set_name {
     RANDOM,
@@ -104,12 +104,12 @@ symmetric_and_positive(void **state)
         unsigned char *w = malloc(n);
         float *v = malloc(4 * n * sizeof *v), *a = v, *b = v + n, *za = v + 2 * n, *zb = v + 3 * n;
         struct rc_err err;
-        struct rc_extension *e = rc_extension_new(&s, boundary, 0, &err);
+        struct rc_preconditioner *e = rc_preconditioner_new(&s, boundary, 0, &err);
         uint64_t seed = 2;
         assert_non_null(e);
         count = choose(s, boundary, (enum set_name)(q / 2 % SETS), w);
         assert_true(count > 1);
-        rc_extension_set(e, w, true);
+        rc_preconditioner_set(e, w, true);
         for (int round = 0; round < 5; round++) {
             double aa, bb, ab, ba;
             random_vector(n, w, count, &seed, a);
@@ -120,8 +120,8 @@ symmetric_and_positive(void **state)
                         w[k] = 0;
                         a[k] = b[k] = 0;
                     }
-            rc_extension_apply(e, a, 0, za, NULL, NULL);
-            rc_extension_apply(e, b, 0, zb, NULL, NULL);
+            rc_preconditioner_apply(e, a, 0, za, NULL, NULL);
+            rc_preconditioner_apply(e, b, 0, zb, NULL, NULL);
             ab = product(n, a, zb);
             ba = product(n, b, za);
             aa = product(n, a, za);
@@ -132,7 +132,7 @@ symmetric_and_positive(void **state)
             for (size_t k = 0; k < n; k++)
                 assert_true(w[k] || za[k] == 0);
         }
-        rc_extension_free(e);
+        rc_preconditioner_free(e);
         free(w);
         free(v);
     }
@@ -175,19 +175,19 @@ corrections(struct rc_shape s, enum rc_boundary boundary, const unsigned char *w
     size_t n = s.nx * s.ny;
     float *r = calloc(n, sizeof *r), *z = malloc(n * sizeof *z);
     struct rc_err err;
-    struct rc_extension *e = rc_extension_new(&s, boundary, 0, &err);
+    struct rc_preconditioner *e = rc_preconditioner_new(&s, boundary, 0, &err);
     gsl_matrix *b = gsl_matrix_alloc(count, count);
 
     assert_non_null(e);
-    rc_extension_set(e, w, true);
+    rc_preconditioner_set(e, w, true);
     for (size_t j = 0; j < count; j++) {
         r[at[j]] = 1;
-        rc_extension_apply(e, r, 0, z, NULL, NULL);
+        rc_preconditioner_apply(e, r, 0, z, NULL, NULL);
         r[at[j]] = 0;
         for (size_t i = 0; i < count; i++)
             gsl_matrix_set(b, i, j, (double)z[at[i]]);
     }
-    rc_extension_free(e);
+    rc_preconditioner_free(e);
     free(r);
     free(z);
     return b;

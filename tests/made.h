@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "formats/cage.h"
+#include "formats/sandbox/sandbox.h"
 #include "formats/format.h"
 
 static const struct rc_wish no_wish = {.dx = NAN, .dy = NAN, .z_unit = NAN};

@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "formats/bytes.h"
+#include "formats/core/bytes.h"
 
 enum {
     NX = 3,

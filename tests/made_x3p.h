@@ -2,7 +2,7 @@
 #ifndef MADE_X3P_H
 #define MADE_X3P_H
 
-#include "formats/md5.h"
+#include "formats/core/md5.h"
 #include "made_zip.h"
 
 extern const struct rc_format rc_format_x3p;

@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "exact.h"
-#include "libcontact/fft.h"
+#include "libcontact/operator/operator.h"
 
 static double
 random_number(uint64_t *seed)

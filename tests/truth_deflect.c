@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "contact_case.h"
-#include "libcontact/inside.h"
+#include "libcontact/operator/operator.h"
 
 static const double estar = 2.385e9;
 

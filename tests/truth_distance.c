@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "contact_case.h"
-#include "libcontact/extension.h"
+#include "libcontact/solver/preconditioner.h"
 
 /* The shortest way around a period, or the only one. */
 static double

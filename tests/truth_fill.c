@@ -69,7 +69,7 @@ check_restored(const struct rc_shape *s, double *h, const double *whole)
         highest = fmax(highest, fabs(whole[k]));
     }
     assert_true(holes > 0);
-    assert_int_equal(rc_fill(s, h, &filled, &err), RC_OK);
+    assert_int_equal(rc_inpaint(s, h, &filled, &err), RC_OK);
     assert_int_equal(filled, holes);
     for (size_t k = 0; k < n; k++)
         if (!(fabs(h[k] - whole[k]) <= solved * highest))
@@ -260,7 +260,7 @@ test_nothing_to_do(void **state)
     size_t filled = 7;
 
     (void)state;
-    assert_int_equal(rc_fill(&s, h, &filled, NULL), RC_OK);
+    assert_int_equal(rc_inpaint(&s, h, &filled, NULL), RC_OK);
     assert_int_equal(filled, 0);
     assert_memory_equal(h, whole, sizeof h);
 }
@@ -274,9 +274,9 @@ test_refusals(void **state)
     size_t filled;
 
     (void)state;
-    assert_int_equal(rc_fill(&s, nothing, &filled, &err), RC_FAIL);
+    assert_int_equal(rc_inpaint(&s, nothing, &filled, &err), RC_FAIL);
     assert_non_null(strstr(err.text, "all 4"));
-    assert_int_equal(rc_fill(&s, infinite, &filled, &err), RC_FAIL);
+    assert_int_equal(rc_inpaint(&s, infinite, &filled, &err), RC_FAIL);
     assert_non_null(strstr(err.text, "infinite"));
     assert_true(isnan(infinite[0]));
 }

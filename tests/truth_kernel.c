@@ -8,7 +8,7 @@
 #include <gsl/gsl_integration.h>
 
 #include "exact.h"
-#include "libcontact/inside.h"
+#include "libcontact/operator/operator.h"
 
 /* What a unit force at the origin does at (x, y, z): Boussinesq (Johnson 1985, eqs. 3.19, 3.22). */
 enum field {

@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "exact.h"
-#include "libcontact/mlms.h"
+#include "libcontact/operator/mlms.h"
 
 /* One sum by one engine, judged by another. */
 struct trial {

@@ -9,7 +9,7 @@
 #include <gsl/gsl_integration.h>
 
 #include "contact_case.h"
-#include "libcontact/stress.h"
+#include "libcontact/stress/stress.h"
 
 static gsl_integration_workspace *inner_space, *outer_space;
 

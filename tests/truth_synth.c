@@ -13,7 +13,7 @@
 
 #include "exact.h"
 #include "libcontact/contact.h"
-#include "libcontact/fourier.h"
+#include "libcontact/operator/operator.h"
 
 static double
 place(size_t i, size_t n, double d)

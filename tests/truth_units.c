@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "tools/units.h"
+#include "tools/cli/units.h"
 
 static void
 test_numbers(void **state)

@@ -5,9 +5,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "coarse.h"
-#include "cost.h"
-#include "physics.h"
+#include "tools/cost/cost.h"
+#include "tools/cli/cli.h"
 
 static struct args {
     struct physics physics;
@@ -23,7 +22,7 @@ static struct args {
 #define ABOVE_0 .min = 0, .max = INFINITY, .above = true
 static const struct opt opts[] = {
 #define AT(field) .at = offsetof(struct args, physics.field)
-#include "physics.list"
+#include "tools/cli/physics.list"
 #undef AT
 #define AT(field) .at = offsetof(struct args, field)
     {.name = "kernel", .type = OPT_WORDS, AT(kernels), .words = COST_KERNELS, .arg = "LIST",

@@ -2,8 +2,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../libcontact/contact.h"
-#include "tool.h"
+#include "libcontact/contact.h"
+#include "tools/cli/cli.h"
 
 static struct args {
     double estar, tol;

@@ -1,9 +1,9 @@
-#include "tool.h"
+#include "tools/cli/cli.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "../libcontact/contact.h"
+#include "libcontact/contact.h"
 
 static struct args {
     struct steps steps;
@@ -65,8 +65,8 @@ fill(struct tool *t, struct rc_grid *g, struct rc_err *err)
     double before = 0;
     size_t filled, nodes = g->nx * g->ny;
 
-    tool_demand_memory(t, g, nodes * sizeof *g->v + rc_fill_memory(count_missing(g)));
-    if (rc_fill(&shape, g->v, &filled, err) != RC_OK)
+    tool_demand_memory(t, g, nodes * sizeof *g->v + rc_inpaint_memory(count_missing(g)));
+    if (rc_inpaint(&shape, g->v, &filled, err) != RC_OK)
         return RC_FAIL;
     tool_note(t, "%s: %zu of %zu points filled", tool_where(t, g, where, sizeof where), filled,
               nodes);

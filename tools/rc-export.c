@@ -1,12 +1,12 @@
-#include "tool.h"
+#include "tools/cli/cli.h"
 
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
-#include "../formats/export.h"
-#include "../libcontact/contact.h"
+#include "formats/export.h"
+#include "libcontact/contact.h"
 
 static struct args {
     const char *format, *channel, *type, *missing;

@@ -1,5 +1,5 @@
 /* Instrument and exchange files -> a stream of height maps, a case each. */
-#include "tool.h"
+#include "tools/cli/cli.h"
 
 #include <errno.h>
 #include <math.h>
@@ -9,9 +9,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "../libcontact/room.h"
-#include "../formats/format.h"
-#include "../formats/text.h"
+#include "libcontact/memory.h"
+#include "formats/format.h"
+#include "formats/core/core.h"
 
 enum {
     CHANNELS_MOST = 64 /* that are looked at in one file */
@@ -162,7 +162,7 @@ read_file(struct tool *t, const char *name, struct rc_file *file)
         if (t->memory != 0 && room > t->memory)
             tool_die(t, EXIT_IMPOSSIBLE, "%s: reading it needs more memory than the %zu MiB of "
                                          "--memory", t->source, t->memory >> 20);
-        if ((more = data == NULL ? rc_room(room, 1) : realloc(data, room)) == NULL)
+        if ((more = data == NULL ? rc_alloc(room, 1) : realloc(data, room)) == NULL)
             tool_die(t, EXIT_IMPOSSIBLE, "%s: out of memory for %zu bytes", t->source, room);
         data = more;
         while (n < room && (got = fread(data + n, 1, room - n, in)) > 0)

@@ -1,11 +1,10 @@
-#include "tool.h"
+#include "tools/cli/cli.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "../libcontact/contact.h"
-#include "json.h"
+#include "libcontact/contact.h"
 
 static struct args {
     bool json;

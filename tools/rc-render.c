@@ -5,14 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../formats/utf8.h"
-#include "../libcontact/contact.h"
-#include "choice.h"
-#include "figure.h"
-#include "png.h"
-#include "raster.h"
-#include "ticks.h"
-#include "tool.h"
+#include "formats/core/core.h"
+#include "libcontact/contact.h"
+#include "tools/plot/plot.h"
+#include "tools/cli/cli.h"
 
 #define BETWEEN " \xc2\xb7 "
 #define SIGMA "\xcf\x83"

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "solve.h"
+#include "tools/solve/solve.h"
 
 static struct solve_args args = {
     .physics = PHYSICS_NONE, .tol = NAN, .kernel = "auto", .method = "auto",
@@ -15,7 +15,7 @@ static struct solve_args args = {
 #define ABOVE_0 .min = 0, .max = INFINITY, .above = true
 static const struct opt opts[] = {
 #define AT(field) .at = offsetof(struct solve_args, physics.field)
-#include "physics.list"
+#include "tools/cli/physics.list"
 #undef AT
 #define AT(field) .at = offsetof(struct solve_args, field)
     {.name = "kernel", .type = OPT_CHOICE, AT(kernel), .arg = "auto|fft|fft64|mlms|direct",

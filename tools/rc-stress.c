@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../libcontact/contact.h"
+#include "libcontact/contact.h"
 #include "stress_report.h"
-#include "tool.h"
+#include "tools/cli/cli.h"
 
 static struct args {
     struct numbers depths; /* none: auto */

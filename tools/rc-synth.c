@@ -1,10 +1,10 @@
-#include "tool.h"
+#include "tools/cli/cli.h"
 
 #include <errno.h>
 #include <math.h>
 #include <string.h>
 
-#include "../libcontact/contact.h"
+#include "libcontact/contact.h"
 
 static struct args {
     size_t nx, ny;

@@ -6,7 +6,7 @@
 #include <sys/resource.h>
 #include <time.h>
 
-#include "json.h"
+#include "tools/cli/cli.h"
 
 static double
 now(void)

@@ -4,8 +4,8 @@
 
 #include <stdio.h>
 
-#include "../libcontact/contact.h"
-#include "units.h"
+#include "libcontact/contact.h"
+#include "tools/cli/cli.h"
 
 /* The value of largest size of a channel, its sign kept, and where it is. */
 struct stress_peak {

@@ -9,9 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "formats/cage.h"
+#include "formats/sandbox/sandbox.h"
 #include "formats/format.h"
-#include "formats/utf8.h"
+#include "formats/core/utf8.h"
 #include "meter.h"
 
 enum {

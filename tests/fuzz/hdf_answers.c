@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "formats/hdf.h"
-#include "formats/text.h"
+#include "formats/readers/hdf.h"
+#include "formats/core/text.h"
 
 struct rc_hdf {
     const struct rc_file *file;

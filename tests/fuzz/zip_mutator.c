@@ -7,7 +7,7 @@
 #include <string.h>
 #include <zip.h>
 
-#include "formats/md5.h"
+#include "formats/core/md5.h"
 
 enum {
     MEMBERS_MOST = 16,

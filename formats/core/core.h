@@ -1,0 +1,17 @@
+/*
+ * The face of this folder: bytes, text, numbers in tables, maps of raw numbers, checksums.
+ */
+#ifndef RC_CORE_H
+#define RC_CORE_H
+
+#include "bytes.h"
+#include "header.h"
+#include "maps.h"
+#include "md5.h"
+#include "number_table.h"
+#include "sums.h"
+#include "text.h"
+#include "utf8.h"
+#include "values.h"
+
+#endif

@@ -1,0 +1,116 @@
+/*
+ * What most readers come down to: a file described as maps of raw numbers at some place in it.
+ *
+ * A format fills struct rc_maps from its header. Listing, checking the sizes against the bytes that
+ * are there, decoding, turning, scaling and marking what is missing is then the same for all, and
+ * is done here once.
+ */
+#ifndef RC_MAPS_H
+#define RC_MAPS_H
+
+#include "bytes.h"
+#include "formats/format.h"
+#include "header.h"
+
+enum {
+    RC_MAPS_MOST = 64, /* that are kept of a file; further ones are counted */
+    RC_KEYS_MOST = 24
+};
+
+struct rc_map {
+    char name[64];
+    char unit[16];      /* SI unit: "m", "V", ...; "" when the file does not say              */
+    double si;          /* SI units in one unit of the file                                   */
+    double scale, zero; /* value in the file's unit = raw*scale + zero                        */
+    size_t nx, ny;
+    double dx, dy;      /* m; NAN when the file does not say                                  */
+    enum rc_raw raw;
+    bool big;           /* most significant byte first                                        */
+    size_t at;          /* first byte                                                         */
+    size_t padding;     /* bytes after each line of numbers                                   */
+    bool by_columns;    /* a line of numbers is a column                                      */
+    bool bottom_first, right_first;
+    double lost_from, lost_to; /* raw numbers in [from, to] are missing; NAN: none is         */
+    /* Instead of raw, at and padding: puts nx*ny raw numbers into v, NAN where missing, in the
+     * order that by_columns and so on say. Whoever sets it bounds nx*ny by the file's size. */
+    enum rc_status (*fill)(const struct rc_file *file, const struct rc_wish *wish,
+                           const struct rc_map *map, double *v, struct rc_err *err);
+    size_t more;        /* for fill                                                           */
+    char hint[96];      /* the spacing in a unit that the file does not give, for the refusal */
+};
+
+struct rc_maps {
+    struct rc_map map[RC_MAPS_MOST], spare;
+    size_t n;
+    struct {
+        char name[32], value[256];
+    } key[RC_KEYS_MOST];
+    size_t keys;
+};
+
+/* A further map of that name with scale 1 and nothing else known. */
+struct rc_map *rc_maps_add(struct rc_maps *maps, const char *name, size_t n);
+/* A key `file.*` of the grid, cleaned; nothing when the text is empty or the key is there. */
+void rc_maps_key(struct rc_maps *maps, const char *key, const char *text, size_t n);
+/* What a file calls a thing, and the key of the grid that keeps it. */
+struct rc_keep {
+    const char *name, *key;
+};
+/* Keeps the value when a row has that name. */
+void rc_maps_keep(struct rc_maps *maps, const struct rc_keep *rows, size_t n, struct rc_piece name,
+                  struct rc_piece value);
+/* Sets unit and si from the file's word for it: a length, a unit with an SI prefix, or the word. */
+void rc_map_unit(struct rc_map *map, const char *text, size_t n);
+/* The least and the greatest raw number that is not missing; false when the numbers are not all in
+ * the file or every one is missing. */
+bool rc_map_range(const struct rc_map *map, const struct rc_file *file, double *low, double *high);
+/* Remembers the steps of a file that has them without a unit. */
+void rc_map_hint(struct rc_map *map, double dx, double dy);
+/* Sets dx and dy from the steps in the file's unit of length; the steps become a hint when the unit
+ * is none. */
+void rc_map_steps(struct rc_map *map, double dx, double dy, struct rc_piece unit);
+/* A whole number from 1 to 2^31 - 1 as a header has it, or RC_FAIL with its name. */
+enum rc_status rc_map_count(const char *what, double number, size_t *count, struct rc_err *err);
+/* RC_FAIL when the map and `unpacked` bytes exceed 16 times the file and 64 MiB: for what is packed
+ * in the file. */
+enum rc_status rc_map_bound(const struct rc_map *map, const struct rc_file *file, double unpacked,
+                            struct rc_err *err);
+/* The fill of a map that is text: numbers parted by white space from `at` on. */
+enum rc_status rc_map_fill_text(const struct rc_file *file, const struct rc_wish *wish,
+                                const struct rc_map *map, double *v, struct rc_err *err);
+/* Makes it one, unless the text from `at` on is too short for nx*ny numbers. */
+enum rc_status rc_map_is_text(struct rc_map *map, const struct rc_file *file, size_t at,
+                              struct rc_err *err);
+/* Whether the name of the file ends in one of the suffixes ".a .b", in either case. */
+bool rc_file_named(const struct rc_file *file, const char *suffixes);
+/* Whether the file has these bytes at that place. */
+bool rc_file_holds(const struct rc_file *file, size_t at, const void *bytes, size_t n);
+/* The text at that place, which must be in the file: up to n bytes or a NUL, trimmed. */
+struct rc_piece rc_file_text(const struct rc_file *file, size_t at, size_t n);
+/* A cursor at the first byte; the number at a place, 0 with `past` set where there is none. */
+struct rc_bytes rc_file_bytes(const struct rc_file *file, bool big);
+
+/* Describes a file; RC_FAIL with the reason. */
+typedef enum rc_status rc_maps_find(const struct rc_file *file, const struct rc_wish *wish,
+                                    struct rc_maps *maps, struct rc_err *err);
+
+size_t rc_maps_list(rc_maps_find *find, const struct rc_file *file, const struct rc_wish *wish,
+                    struct rc_channel *channel, size_t most, struct rc_err *err);
+struct rc_grid *rc_maps_read(rc_maps_find *find, const struct rc_file *file,
+                             const struct rc_wish *wish, size_t index, struct rc_notes *notes,
+                             struct rc_err *err);
+
+/* The functions of a row of formats.list, NAME_list and NAME_read, from NAME_find. */
+#define RC_FORMAT_OF_MAPS(name)                                                                    \
+    static size_t name##_list(const struct rc_file *file, const struct rc_wish *wish,              \
+                              struct rc_channel *channel, size_t most, struct rc_err *err)         \
+    {                                                                                              \
+        return rc_maps_list(name##_find, file, wish, channel, most, err);                          \
+    }                                                                                              \
+    static struct rc_grid *name##_read(const struct rc_file *file, const struct rc_wish *wish,     \
+                                       size_t index, struct rc_notes *notes, struct rc_err *err)   \
+    {                                                                                              \
+        return rc_maps_read(name##_find, file, wish, index, notes, err);                           \
+    }
+
+#endif

@@ -1,0 +1,395 @@
+#include "number_table.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+enum {
+    NUMBER_MOST = 400 /* characters of one number */
+};
+
+static bool
+ends_line(char c)
+{
+    return c == '\n' || c == '\r';
+}
+
+/* White space that does not separate here. */
+static bool
+is_blank(const struct rc_rows *r, char c)
+{
+    return c == ' ' || (c == '\t' && r->separator != '\t');
+}
+
+static const char *
+skip_blanks(const struct rc_rows *r, const char *s)
+{
+    while (s < r->end && is_blank(r, *s))
+        s++;
+    return s;
+}
+
+static bool
+ends_field(const struct rc_rows *r, const char *s)
+{
+    return s == r->end || ends_line(*s) || is_blank(r, *s) || *s == r->separator;
+}
+
+/* ---- numbers ---- */
+
+struct number {
+    uint64_t digits; /* all of them as one whole number, as long as they are exact in a double */
+    int power;       /* of ten, to be applied to digits                                        */
+    bool exact;      /* the two above are the number                                           */
+    char mark;       /* decimal mark met, or 0                                                 */
+    const char *mark_at;
+};
+
+static bool
+is_digit(const struct rc_rows *r, const char *s)
+{
+    return s < r->end && *s >= '0' && *s <= '9';
+}
+
+/* Digits from s on; past 2^53 they are no longer gathered. */
+static const char *
+gather(const struct rc_rows *r, const char *s, struct number *n, bool fraction)
+{
+    for (; is_digit(r, s); s++) {
+        if (n->digits >= (UINT64_C(1) << 53) / 10 - 1)
+            n->exact = false;
+        else {
+            n->digits = 10 * n->digits + (uint64_t)(*s - '0');
+            n->power -= fraction;
+        }
+    }
+    return s;
+}
+
+static const char *
+gather_power(const struct rc_rows *r, const char *s, struct number *n)
+{
+    const char *digit = s + 1;
+    bool minus = digit < r->end && *digit == '-';
+    int power = 0;
+
+    if (digit < r->end && (*digit == '-' || *digit == '+'))
+        digit++;
+    if (!is_digit(r, digit))
+        return s;
+    for (; is_digit(r, digit); digit++)
+        if (power < 10000)
+            power = 10 * power + (*digit - '0');
+    n->power += minus ? -power : power;
+    return digit;
+}
+
+/* The long way: any number of digits, rounded as it should be. */
+static bool
+read_slowly(const char *start, const char *end, const char *mark_at, double *value)
+{
+    char copy[NUMBER_MOST + 1];
+    size_t n = (size_t)(end - start);
+    const char *stop;
+
+    if (n > NUMBER_MOST)
+        return false;
+    memcpy(copy, start, n);
+    copy[n] = '\0';
+    if (mark_at != NULL)
+        copy[mark_at - start] = '.';
+    stop = rc_number_read(copy, false, value);
+    return stop != NULL && *stop == '\0' && isfinite(*value);
+}
+
+/* The number at s and where it ends, or NULL when there is none. Up to 2^53 and 10^22 both parts
+ * are exact in a double, so that one multiplication or division rounds correctly. */
+static const char *
+read_number(const struct rc_rows *r, const char *s, char decimal, struct number *n, double *value)
+{
+    static const double tens[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                  1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                  1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+    const char *start = s, *digits, *whole;
+    bool minus = s < r->end && *s == '-';
+
+    *n = (struct number){.exact = true};
+    if (s < r->end && (*s == '-' || *s == '+'))
+        s++;
+    digits = s;
+    s = whole = gather(r, s, n, false);
+    if (s < r->end && *s != r->separator &&
+        (decimal == 0 ? *s == '.' || *s == ',' : *s == decimal)) {
+        n->mark = *s;
+        n->mark_at = s;
+        s = gather(r, s + 1, n, true);
+        whole = s - 1;
+    }
+    if (whole == digits)
+        return NULL;
+    if (s < r->end && (*s == 'e' || *s == 'E'))
+        s = gather_power(r, s, n);
+    if (!n->exact || n->power < -22 || n->power > 22)
+        return read_slowly(start, s, n->mark_at, value) ? s : NULL;
+    *value = n->power < 0 ? (double)n->digits / tens[-n->power] : (double)n->digits * tens[n->power];
+    if (minus)
+        *value = -*value;
+    return s;
+}
+
+/* ---- words ---- */
+
+static bool
+same_word(const char *word, const char *s, size_t n)
+{
+    if (strlen(word) != n)
+        return false;
+    for (size_t k = 0; k < n; k++)
+        if ((s[k] >= 'A' && s[k] <= 'Z' ? s[k] + ('a' - 'A') : s[k]) != word[k])
+            return false;
+    return true;
+}
+
+static bool
+is_missing(const struct rc_rows *r, const char *s, size_t n)
+{
+    /* the last three are how some C libraries print a NaN */
+    static const char *const words[] = {"nan",  "na",   "n/a",     "bad",      "--",
+                                        "---",  "-nan", "1.#qnan", "-1.#ind"};
+
+    if (r->missing != NULL && strlen(r->missing) == n && memcmp(r->missing, s, n) == 0)
+        return true;
+    for (size_t k = 0; k < sizeof words / sizeof *words; k++)
+        if (same_word(words[k], s, n))
+            return true;
+    return false;
+}
+
+/* The value of one field; s is at its first character. *decimal is settled by the first number that
+ * has a mark. NULL when it is neither number nor missing. */
+static const char *
+read_field(const struct rc_rows *r, const char *s, char *decimal, double *value)
+{
+    struct number n;
+    const char *end = read_number(r, s, *decimal, &n, value);
+
+    if (end != NULL && ends_field(r, end)) {
+        if (n.mark != 0)
+            *decimal = n.mark;
+        if (*value == r->missing_number)
+            *value = NAN;
+        return end;
+    }
+    for (end = s; !ends_field(r, end);)
+        end++;
+    *value = NAN;
+    return is_missing(r, s, (size_t)(end - s)) ? end : NULL;
+}
+
+static const char *
+separator_name(char c)
+{
+    return c == '\t' ? "tabs" : c == ',' ? "commas" : c == ';' ? "semicolons" : "another character";
+}
+
+static enum rc_status
+bad_field(const struct rc_rows *r, size_t line, const char *s, char decimal, struct rc_err *err)
+{
+    const char *end = s;
+    char quote[RC_SHOWN], other = decimal == '.' ? ',' : '.';
+
+    if (s == NULL)
+        return rc_err_set(err, "line %zu: two values with white space between them, where columns "
+                               "are separated by %s: --separator says what is meant", line,
+                          separator_name(r->separator));
+    while (!ends_field(r, end))
+        end++;
+    rc_text_shown(quote, s, (size_t)(end - s));
+    if (decimal != 0 && memchr(s, other, (size_t)(end - s)) != NULL)
+        return rc_err_set(err, "line %zu: '%s' is no number where the decimal mark is '%c': "
+                               "--decimal and --separator say what is meant", line, quote, decimal);
+    return rc_err_set(err, "line %zu: '%s' is no number: --separator says what stands between the "
+                           "columns, --missing WORD what marks a missing value", line, quote);
+}
+
+/* One row from s, which is not at an empty line. Values beyond `most` are counted, not stored.
+ * Gives its end, before the end of the line, or NULL and *bad, the field that is to blame. */
+static const char *
+read_row(const struct rc_rows *r, const char *s, size_t most, double *v, size_t *count,
+         char *decimal, const char **bad)
+{
+    bool strict = r->separator != ' ', after = false; /* after: a separator came just before */
+    double value;
+
+    *count = 0;
+    for (;;) {
+        s = skip_blanks(r, s);
+        if (s == r->end || ends_line(*s)) {
+            if (strict && after && *count + 1 == most)
+                v[(*count)++] = NAN;
+            return s;
+        }
+        if (strict && *s == r->separator) {
+            value = NAN; /* nothing before it */
+        } else {
+            *bad = s;
+            if ((s = read_field(r, s, decimal, &value)) == NULL)
+                return NULL;
+            s = skip_blanks(r, s);
+        }
+        if (*count < most)
+            v[*count] = value;
+        ++*count;
+        after = strict && s < r->end && *s == r->separator;
+        if (after)
+            s++;
+        else if (strict && s < r->end && !ends_line(*s)) {
+            *bad = NULL; /* two values with nothing but white space between them */
+            return NULL;
+        }
+    }
+}
+
+/* ---- lines ---- */
+
+/* The first row from s on, past empty lines and comments; counts lines. */
+static const char *
+next_row(const struct rc_rows *r, const char *s, size_t *line)
+{
+    for (;;) {
+        s = skip_blanks(r, s);
+        if (s == r->end)
+            return s;
+        if (*s == '#' || *s == '%')
+            while (s < r->end && !ends_line(*s))
+                s++;
+        else if (!ends_line(*s))
+            return s;
+        if (s < r->end) {
+            s += *s == '\r' && s + 1 < r->end && s[1] == '\n' ? 2 : 1;
+            ++*line;
+        }
+    }
+}
+
+static const char *
+line_end(const struct rc_rows *r, const char *s)
+{
+    while (s < r->end && !ends_line(*s))
+        s++;
+    return s;
+}
+
+static size_t
+count_of(const char *s, const char *end, char c)
+{
+    size_t n = 0;
+
+    for (; s < end; s++)
+        n += *s == c;
+    return n;
+}
+
+/* Commas with white space on a side. */
+static size_t
+loose_commas(const char *s, const char *end)
+{
+    size_t n = 0;
+
+    for (const char *c = s; c < end; c++)
+        if (*c == ',' && ((c > s && (c[-1] == ' ')) || c + 1 == end || c[1] == ' '))
+            n++;
+    return n;
+}
+
+/* The separator, from the first row. A comma is one when the row also has points, when white space
+ * stands beside every comma, or when there is no other white space in it. */
+static enum rc_status
+find_separator(struct rc_rows *r, const char *s, size_t line, struct rc_err *err)
+{
+    const char *end = line_end(r, s);
+    size_t commas, loose;
+
+    while (end > s && (end[-1] == ' ' || end[-1] == '\t'))
+        end--;
+    commas = count_of(s, end, ',');
+    loose = loose_commas(s, end);
+    if (count_of(s, end, ';') > 0)
+        r->separator = ';';
+    else if (count_of(s, end, '\t') > 0)
+        r->separator = '\t';
+    else if (commas == 0 || r->decimal == ',')
+        r->separator = ' ';
+    else if (count_of(s, end, '.') > 0 || loose == commas || count_of(s, end, ' ') == 0 ||
+             r->decimal == '.')
+        r->separator = ',';
+    else if (loose == 0)
+        r->separator = ' ';
+    else
+        return rc_err_set(err, "line %zu: some commas look like decimal marks, others like "
+                               "separators: --decimal and --separator say what is meant", line);
+    return RC_OK;
+}
+
+/* "1,5" may be two columns of whole numbers or one of fractions: only the user knows. */
+static enum rc_status
+mind_two_columns(const struct rc_rows *r, const struct rc_wish *wish, struct rc_err *err)
+{
+    if (r->columns != 2 || r->separator != ',' || wish->separator != NULL || wish->decimal != 0 ||
+        memchr(r->start, '.', (size_t)(r->end - r->start)) != NULL ||
+        memchr(r->start, ' ', (size_t)(r->end - r->start)) != NULL)
+        return RC_OK;
+    return rc_err_set(err, "line %zu: the comma may be a decimal mark or a separator: --decimal or "
+                           "--separator says which", r->first_line);
+}
+
+enum rc_status
+rc_rows_start(struct rc_rows *r, const struct rc_lines *lines, const struct rc_wish *wish,
+              struct rc_err *err)
+{
+    const char *s, *end, *bad;
+    size_t line = lines->number + 1;
+    char decimal;
+
+    *r = (struct rc_rows){.start = lines->at, .end = lines->end, .first_line = line,
+                          .separator = wish->separator == NULL ? '\0' : wish->separator[0],
+                          .decimal = wish->decimal, .missing = wish->missing};
+    r->missing_number = NAN;
+    if (r->missing != NULL && ((end = rc_number_read(r->missing, false, &r->missing_number)) ==
+                               NULL || *end != '\0'))
+        r->missing_number = NAN;
+    s = next_row(r, r->start, &line);
+    if (s == r->end)
+        return rc_err_set(err, "there are no numbers in the file");
+    r->start = s;
+    r->first_line = line;
+    if (r->separator == '\0' && find_separator(r, s, line, err) != RC_OK)
+        return RC_FAIL;
+    if (r->separator == ',' && r->decimal == ',')
+        return rc_err_set(err, "the comma cannot be separator and decimal mark at once");
+    if (r->separator == ',')
+        r->decimal = '.';
+    decimal = r->decimal;
+    if ((s = read_row(r, s, 0, NULL, &r->columns, &decimal, &bad)) == NULL)
+        return bad_field(r, line, bad, decimal, err);
+    for (r->rows = 1; (s = next_row(r, s, &line)) < r->end; r->rows++)
+        s = line_end(r, s);
+    return mind_two_columns(r, wish, err);
+}
+
+enum rc_status
+rc_rows_read(struct rc_rows *r, double *v, struct rc_err *err)
+{
+    const char *s = r->start, *bad;
+    size_t line = r->first_line, count;
+
+    for (size_t j = 0; j < r->rows; j++, v += r->columns) {
+        if ((s = read_row(r, s, r->columns, v, &count, &r->decimal, &bad)) == NULL)
+            return bad_field(r, line, bad, r->decimal, err);
+        if (count != r->columns)
+            return rc_err_set(err, "line %zu: %zu values, where the first row (line %zu) has %zu",
+                              line, count, r->first_line, r->columns);
+        s = next_row(r, s, &line);
+    }
+    return RC_OK;
+}

@@ -1,0 +1,32 @@
+/*
+ * Rows of numbers in text, as many columns in each: read in one pass, whatever the locale.
+ *
+ * Columns stand apart by one separator. When it is white space, runs of it count once; otherwise
+ * nothing between two separators is a missing value, and a separator at the end of a row ends it.
+ * Empty lines and lines that begin with '#' or '%' are skipped. Missing values are NaN, NA, N/A,
+ * BAD, -- or --- in either case, and the word that the user gives.
+ */
+#ifndef RC_ROWS_H
+#define RC_ROWS_H
+
+#include "formats/format.h"
+#include "text.h"
+
+struct rc_rows {
+    const char *start, *end;
+    size_t first_line;   /* number of the line at start, from 1                           */
+    char separator;      /* ' ' for white space                                           */
+    char decimal;        /* '.' or ','; 0: by the first number that has a mark            */
+    const char *missing; /* a further word, or NULL                                       */
+    double missing_number; /* the same as a number, or NAN                                */
+    size_t columns, rows;
+};
+
+/* Finds out what the wish leaves open, and counts. RC_FAIL when there is no row, when the first one
+ * holds something else than numbers, or where separator and decimal mark cannot be told apart. */
+enum rc_status rc_rows_start(struct rc_rows *rows, const struct rc_lines *lines,
+                             const struct rc_wish *wish, struct rc_err *err);
+/* All values, row by row, NaN where missing. RC_FAIL names the line that is not as it must be. */
+enum rc_status rc_rows_read(struct rc_rows *rows, double *v, struct rc_err *err);
+
+#endif

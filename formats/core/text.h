@@ -1,0 +1,39 @@
+/* Text as foreign files hold it: lines, units of length, and what may be kept or shown of it. */
+#ifndef RC_TEXT_H
+#define RC_TEXT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "libcontact/grid.h"
+
+/* Lines that end in LF, CR LF or CR. */
+struct rc_lines {
+    const char *at, *end;
+    size_t number; /* of the line given last, from 1 */
+};
+/* The next line without its end; false when there is none. */
+bool rc_lines_next(struct rc_lines *lines, const char **line, size_t *n);
+
+/* Drops white space at both ends. */
+void rc_trim(const char **text, size_t *n);
+
+/* Metres per unit of "nm", "um", "µm" (UTF-8 or Latin-1, either code point), "Å", ...; false when
+ * it is no unit of length. */
+bool rc_length_unit(const char *text, size_t n, double *metres);
+
+/* Copies text[0..n) as UTF-8, cut to what fits: bytes that are not UTF-8 are taken as Latin-1,
+ * control characters become spaces, white space at both ends goes. Gives `to`. */
+char *rc_text_clean(char *to, size_t size, const char *text, size_t n);
+
+enum {
+    RC_SHOWN = 48
+};
+/* The same for quoting in a message: short. */
+const char *rc_text_shown(char to[RC_SHOWN], const char *text, size_t n);
+
+/* Sets a key to the cleaned text; does nothing when that is empty. */
+enum rc_status rc_text_keep(struct rc_grid *grid, const char *key, const char *text, size_t n,
+                            struct rc_err *err);
+
+#endif

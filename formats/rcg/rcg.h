@@ -1,0 +1,47 @@
+/*
+ * The grid stream RCG1: frames of maps through pipes (rcg(5)).
+ *
+ * A reader needs no seek and no more memory than one frame; it reads streams that stand one after
+ * another and numbers their cases on. A writer writes one stream with one end line.
+ */
+#ifndef RC_RCG_H
+#define RC_RCG_H
+
+#include <stddef.h>
+#include <stdio.h>
+
+#include "libcontact/grid.h"
+
+enum {
+    RC_HEADER_MAX = 65536 /* bytes of one frame's header, first to last line feed */
+};
+
+struct rc_reader;
+
+/* Reads from `file`, which stays the caller's. `first_case` is added to the case numbers of the
+ * first stream in it (0: as they are). A frame whose values need more than `memory` bytes is
+ * refused; 0 sets no limit. NULL when memory is short. */
+struct rc_reader *rc_reader_new(FILE *file, size_t first_case, size_t memory, struct rc_err *err);
+
+/* RC_MORE and the next frame, which the caller frees; RC_OK and NULL after the last end line; or
+ * RC_FAIL: damaged, cut off, or ended by RCGFAIL, whose message is repeated. */
+enum rc_status rc_reader_next(struct rc_reader *reader, struct rc_grid **grid, struct rc_err *err);
+
+/* Largest case number seen so far: `first_case` of the reader that goes on with the next file. */
+size_t rc_reader_last_case(const struct rc_reader *reader);
+void rc_reader_free(struct rc_reader *reader);
+
+struct rc_writer;
+
+struct rc_writer *rc_writer_new(FILE *file, struct rc_err *err);
+/* Writes one frame, in grid->type. RC_FAIL when the header grows too long or the device refuses. */
+enum rc_status rc_writer_put(struct rc_writer *writer, const struct rc_grid *grid,
+                             struct rc_err *err);
+/* Writes the end line and flushes. */
+enum rc_status rc_writer_end(struct rc_writer *writer, struct rc_err *err);
+/* Ends the stream with RCGFAIL and the message: whoever reads it fails too. Says nothing when even
+ * that cannot be written. */
+void rc_writer_fail(struct rc_writer *writer, const char *message);
+void rc_writer_free(struct rc_writer *writer);
+
+#endif

@@ -1,0 +1,389 @@
+#include "rcg.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "stream_bytes.h"
+#include "formats/core/core.h"
+
+struct rc_reader {
+    FILE *file;
+    size_t memory;
+    size_t first_case; /* added to the case numbers of the stream being read     */
+    size_t last_case;  /* the largest one given out                              */
+    size_t frames;     /* since the last end line                                */
+    bool ended;        /* an end line was read and nothing since                 */
+    uint32_t crc;      /* of the frame so far                                    */
+    char header[RC_HEADER_MAX];
+};
+
+struct rc_reader *
+rc_reader_new(FILE *file, size_t first_case, size_t memory, struct rc_err *err)
+{
+    struct rc_reader *r = malloc(sizeof *r);
+
+    if (r == NULL) {
+        rc_err_set(err, "out of memory for a reader (%zu bytes)", sizeof *r);
+        return NULL;
+    }
+    r->file = file;
+    r->memory = memory;
+    r->first_case = r->last_case = first_case;
+    r->frames = 0;
+    r->ended = false;
+    return r;
+}
+
+void
+rc_reader_free(struct rc_reader *r)
+{
+    free(r);
+}
+
+size_t
+rc_reader_last_case(const struct rc_reader *r)
+{
+    return r->last_case;
+}
+
+/* What to say where bytes were promised and none came. */
+static enum rc_status
+cut_off(struct rc_reader *r, const char *where, struct rc_err *err)
+{
+    if (ferror(r->file))
+        return rc_err_set(err, "reading failed (%s)", strerror(errno));
+    return rc_err_set(err,
+                      "the stream stops %s, %zu whole frames after its start: the program that "
+                      "wrote it died or the file is cut off; run that program again",
+                      where, r->frames);
+}
+
+/* One line into buffer, without its line feed: its length, -1 at the end of input before any
+ * byte, -2 when it has no end within `size` bytes, -3 when input ends inside it or it holds NUL. */
+static long
+read_line(struct rc_reader *r, char *buffer, size_t size)
+{
+    size_t n = 0;
+    int c;
+
+    while ((c = getc(r->file)) != EOF) {
+        if (c == '\0')
+            return -3;
+        if (n >= size || (c != '\n' && n + 1 == size))
+            return -2;
+        if (c == '\n') {
+            buffer[n] = '\0';
+            return (long)n;
+        }
+        buffer[n++] = (char)c;
+    }
+    return n == 0 ? -1 : -3;
+}
+
+/* A value with its escapes resolved in place; false for an escape that does not exist. */
+static bool
+unescape(char *s)
+{
+    char *to = s;
+
+    for (; *s != '\0'; s++) {
+        if (*s == '\\') {
+            s++;
+            if (*s != '\\' && *s != 'n')
+                return false;
+            *to++ = *s == 'n' ? '\n' : '\\';
+        } else {
+            *to++ = *s;
+        }
+    }
+    *to = '\0';
+    return true;
+}
+
+enum field {
+    CHANNEL,
+    NX,
+    NY,
+    DX,
+    DY,
+    UNIT,
+    TYPE,
+    FIELDS
+};
+static const char *const field_names[FIELDS] = {"channel", "nx", "ny", "dx", "dy", "unit", "type"};
+
+struct head {
+    char *field[FIELDS]; /* into the header buffer */
+    char *extra[RC_HEADER_MAX / 3]; /* name, NUL, value; no line is shorter than 3 bytes */
+    size_t extras;
+};
+
+static enum rc_status
+add_line(struct head *head, char *line, struct rc_err *err)
+{
+    char *equals = strchr(line, '=');
+    size_t most = sizeof head->extra / sizeof *head->extra;
+
+    if (equals == NULL)
+        return rc_err_set(err, "header line '%.60s' has no '='", line);
+    *equals = '\0';
+    if (!rc_key_valid(line))
+        return rc_err_set(err, "header key '%.60s' is not of the form [a-z][a-z0-9._-]*", line);
+    if (!unescape(equals + 1))
+        return rc_err_set(err, "the value of header key '%.60s' holds a backslash that is neither "
+                               "\\\\ nor \\n", line);
+    if (!rc_utf8_valid(equals + 1))
+        return rc_err_set(err, "the value of header key '%.60s' is not UTF-8", line);
+    for (int f = 0; f < FIELDS; f++) {
+        if (strcmp(line, field_names[f]) != 0)
+            continue;
+        if (head->field[f] != NULL)
+            return rc_err_set(err, "header key '%s' stands twice", line);
+        head->field[f] = equals + 1;
+        return RC_OK;
+    }
+    if (head->extras == most)
+        return rc_err_set(err, "the header has more than %zu keys", most);
+    head->extra[head->extras++] = line;
+    return RC_OK;
+}
+
+/* The lines after the first one, up to the empty one. */
+static enum rc_status
+read_head(struct rc_reader *r, struct head *head, struct rc_err *err)
+{
+    char *at = r->header;
+    size_t left = RC_HEADER_MAX - strlen("RCG1\n");
+
+    for (;;) {
+        long n = read_line(r, at, left);
+
+        if (n == -1)
+            return cut_off(r, "inside a header", err);
+        if (n == -2)
+            return rc_err_set(err, "the header is longer than %d bytes", RC_HEADER_MAX);
+        if (n == -3)
+            return feof(r->file) || ferror(r->file)
+                       ? cut_off(r, "inside a header", err)
+                       : rc_err_set(err, "the header holds a NUL byte");
+        r->crc = rc_crc_add(r->crc, at, (size_t)n);
+        r->crc = rc_crc_add(r->crc, "\n", 1);
+        if (n == 0)
+            return RC_OK;
+        if (add_line(head, at, err) != RC_OK)
+            return RC_FAIL;
+        at += n + 1;
+        left -= (size_t)n + 1;
+    }
+}
+
+static enum rc_status
+read_size(const char *name, const char *text, size_t *n, struct rc_err *err)
+{
+    char *end;
+    uintmax_t value;
+
+    errno = 0;
+    value = strtoumax(text, &end, 10);
+    if (*text < '0' || *text > '9' || *end != '\0' || errno != 0 || value == 0 ||
+        value > SIZE_MAX)
+        return rc_err_set(err, "%s=%.40s is not a whole number above 0", name, text);
+    *n = (size_t)value;
+    return RC_OK;
+}
+
+static enum rc_status
+read_spacing(const char *name, const char *text, double *d, struct rc_err *err)
+{
+    const char *end = rc_number_read(text, true, d);
+
+    if (end == NULL || *end != '\0')
+        return rc_err_set(err, "%s=%.40s is not a number", name, text);
+    if (!(*d > 0) || isinf(*d))
+        return rc_err_set(err, "spacing %s=%.40s m: it must be positive and finite", name, text);
+    return RC_OK;
+}
+
+/* The grid that a header promises, values still to come. */
+static struct rc_grid *
+grid_of_head(struct rc_reader *r, const struct head *head, struct rc_err *err)
+{
+    struct rc_shape shape;
+    struct rc_grid *g = NULL;
+    size_t nodes, bytes, number;
+
+    for (int f = 0; f < FIELDS; f++)
+        if (head->field[f] == NULL) {
+            rc_err_set(err, "the header has no %s= line", field_names[f]);
+            return NULL;
+        }
+    if (read_size("nx", head->field[NX], &shape.nx, err) != RC_OK ||
+        read_size("ny", head->field[NY], &shape.ny, err) != RC_OK ||
+        read_spacing("dx", head->field[DX], &shape.dx, err) != RC_OK ||
+        read_spacing("dy", head->field[DY], &shape.dy, err) != RC_OK ||
+        rc_size_mul(shape.nx, shape.ny, &nodes, err) != RC_OK ||
+        rc_size_mul(nodes, sizeof(double), &bytes, err) != RC_OK)
+        return NULL;
+    if (r->memory != 0 && bytes > r->memory) {
+        rc_err_set(err, "a frame of %zu x %zu nodes needs %zu bytes, more than --memory allows",
+                   shape.nx, shape.ny, bytes);
+        return NULL;
+    }
+    if (strcmp(head->field[TYPE], "f64") != 0 && strcmp(head->field[TYPE], "f32") != 0) {
+        rc_err_set(err, "type=%.40s is neither f64 nor f32", head->field[TYPE]);
+        return NULL;
+    }
+    g = rc_grid_new(&shape, head->field[CHANNEL], head->field[UNIT], err);
+    if (g == NULL)
+        return NULL;
+    g->type = strcmp(head->field[TYPE], "f32") == 0 ? RC_F32 : RC_F64;
+    for (size_t k = 0; k < head->extras; k++) {
+        const char *name = head->extra[k];
+        if (rc_grid_get(g, name) != NULL) {
+            rc_err_set(err, "header key '%.60s' stands twice", name);
+            goto fail;
+        }
+        if (rc_grid_set(g, name, name + strlen(name) + 1, err) != RC_OK)
+            goto fail;
+    }
+    number = rc_grid_case(g);
+    if (number == 0) {
+        rc_err_set(err, "case=%.40s is not a whole number from 1", rc_grid_get(g, "case"));
+        goto fail;
+    }
+    number += r->first_case;
+    if (r->first_case > 0 && rc_grid_set_number(g, "case", (double)number, err) != RC_OK)
+        goto fail;
+    if (number > r->last_case)
+        r->last_case = number;
+    return g;
+fail:
+    rc_grid_free(g);
+    return NULL;
+}
+
+static enum rc_status
+read_f64(struct rc_reader *r, double *v, size_t n, struct rc_err *err)
+{
+    if (fread(v, sizeof *v, n, r->file) != n)
+        return cut_off(r, "inside the values of a frame", err);
+    r->crc = rc_crc_add(r->crc, v, n * sizeof *v);
+    if (!rc_host_is_little())
+        rc_swap_bytes(v, n, sizeof *v);
+    return RC_OK;
+}
+
+static enum rc_status
+read_f32(struct rc_reader *r, double *v, size_t n, struct rc_err *err)
+{
+    float part[RC_CHUNK];
+
+    while (n > 0) {
+        size_t m = n < RC_CHUNK ? n : RC_CHUNK;
+        if (fread(part, sizeof *part, m, r->file) != m)
+            return cut_off(r, "inside the values of a frame", err);
+        r->crc = rc_crc_add(r->crc, part, m * sizeof *part);
+        if (!rc_host_is_little())
+            rc_swap_bytes(part, m, sizeof *part);
+        for (size_t k = 0; k < m; k++)
+            v[k] = (double)part[k];
+        v += m;
+        n -= m;
+    }
+    return RC_OK;
+}
+
+static enum rc_status
+read_crc(struct rc_reader *r, struct rc_err *err)
+{
+    char line[32], wanted[32];
+    long n = read_line(r, line, sizeof line);
+
+    if (n == -1 || (n < 0 && (feof(r->file) || ferror(r->file))))
+        return cut_off(r, "before the checksum of a frame", err);
+    snprintf(wanted, sizeof wanted, "crc32 %08" PRIx32, r->crc);
+    if (n < 0 || strncmp(line, "crc32 ", 6) != 0 || strlen(line) != strlen(wanted))
+        return rc_err_set(err, "no crc32 line follows the values: nx, ny or type in the header do "
+                               "not match the data");
+    if (strcmp(line, wanted) != 0)
+        return rc_err_set(err, "the checksum is %s, the data's is %s: the stream is damaged; make "
+                               "it again", line + 6, wanted + 6);
+    return RC_OK;
+}
+
+static enum rc_status
+read_frame(struct rc_reader *r, struct rc_grid **grid, struct rc_err *err)
+{
+    struct head *head = calloc(1, sizeof *head);
+    struct rc_grid *g = NULL;
+    enum rc_status status = RC_FAIL;
+
+    r->crc = rc_crc_add(0, "RCG1\n", 5);
+    if (head == NULL) {
+        rc_err_set(err, "out of memory for a header (%zu bytes)", sizeof *head);
+        goto done;
+    }
+    if (read_head(r, head, err) != RC_OK || (g = grid_of_head(r, head, err)) == NULL)
+        goto done;
+    if ((g->type == RC_F32 ? read_f32 : read_f64)(r, g->v, g->nx * g->ny, err) != RC_OK ||
+        read_crc(r, err) != RC_OK)
+        goto done;
+    *grid = g;
+    g = NULL;
+    r->frames++;
+    r->ended = false;
+    status = RC_MORE;
+done:
+    rc_grid_free(g);
+    free(head);
+    return status;
+}
+
+static enum rc_status
+read_end(struct rc_reader *r, const char *count, struct rc_err *err)
+{
+    char wanted[32];
+
+    snprintf(wanted, sizeof wanted, "%zu", r->frames);
+    if (strcmp(count, wanted) != 0)
+        return rc_err_set(err, "the end line counts %.20s frames, %s were read: frames are missing",
+                          count, wanted);
+    r->frames = 0;
+    r->ended = true;
+    r->first_case = r->last_case;
+    return RC_OK;
+}
+
+enum rc_status
+rc_reader_next(struct rc_reader *r, struct rc_grid **grid, struct rc_err *err)
+{
+    char line[1024];
+
+    *grid = NULL;
+    for (;;) {
+        long n = read_line(r, line, sizeof line);
+
+        if (n == -1) {
+            if (r->ended && !ferror(r->file))
+                return RC_OK;
+            return cut_off(r, r->frames == 0 && !r->ended ? "before it begins"
+                                                          : "without an end line", err);
+        }
+        if (n < 0)
+            return n == -3 && (feof(r->file) || ferror(r->file))
+                       ? cut_off(r, "inside a line", err)
+                       : rc_err_set(err, "this is no grid stream: no RCG1 line at its start");
+        if (strcmp(line, "RCG1") == 0)
+            return read_frame(r, grid, err);
+        if (strncmp(line, "RCGFAIL", 7) == 0)
+            return rc_err_set(err, "the program that wrote this stream failed:%.400s", line + 7);
+        if (strncmp(line, "RCGEND ", 7) != 0)
+            return rc_err_set(err, "'%.40s' stands where a frame or an end line should: this is no "
+                                   "grid stream, or a damaged one", line);
+        if (read_end(r, line + 7, err) != RC_OK)
+            return RC_FAIL;
+    }
+}

@@ -1,0 +1,183 @@
+#include "rcg.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "stream_bytes.h"
+
+struct rc_writer {
+    FILE *file;
+    size_t frames;
+};
+
+struct rc_writer *
+rc_writer_new(FILE *file, struct rc_err *err)
+{
+    struct rc_writer *w = malloc(sizeof *w);
+
+    if (w == NULL) {
+        rc_err_set(err, "out of memory for a writer (%zu bytes)", sizeof *w);
+        return NULL;
+    }
+    *w = (struct rc_writer){.file = file};
+    return w;
+}
+
+void
+rc_writer_free(struct rc_writer *w)
+{
+    free(w);
+}
+
+static enum rc_status
+refused(struct rc_err *err)
+{
+    return rc_err_set(err, "writing failed (%s)", strerror(errno));
+}
+
+/* The header under construction: text[n] is the next free byte; `full` once it did not fit. */
+struct text {
+    char text[RC_HEADER_MAX];
+    size_t n;
+    bool full;
+};
+
+static void
+put_char(struct text *t, char c)
+{
+    if (t->n == sizeof t->text)
+        t->full = true;
+    else
+        t->text[t->n++] = c;
+}
+
+static void
+put_line(struct text *t, const char *name, const char *value)
+{
+    while (*name != '\0')
+        put_char(t, *name++);
+    put_char(t, '=');
+    for (; *value != '\0'; value++) {
+        if (*value == '\\' || *value == '\n')
+            put_char(t, '\\');
+        put_char(t, *value == '\n' ? 'n' : *value);
+    }
+    put_char(t, '\n');
+}
+
+static void
+put_number(struct text *t, const char *name, double value)
+{
+    char digits[RC_NUMBER_SIZE];
+
+    put_line(t, name, rc_number_text(digits, value));
+}
+
+static void
+put_count(struct text *t, const char *name, size_t n)
+{
+    char digits[32];
+
+    snprintf(digits, sizeof digits, "%zu", n);
+    put_line(t, name, digits);
+}
+
+static uint32_t
+write_f64(FILE *file, const double *v, size_t n, uint32_t crc)
+{
+    double part[RC_CHUNK];
+
+    if (rc_host_is_little()) {
+        fwrite(v, sizeof *v, n, file);
+        return rc_crc_add(crc, v, n * sizeof *v);
+    }
+    for (; n > 0; v += RC_CHUNK) {
+        size_t m = n < RC_CHUNK ? n : RC_CHUNK;
+        memcpy(part, v, m * sizeof *v);
+        rc_swap_bytes(part, m, sizeof *part);
+        fwrite(part, sizeof *part, m, file);
+        crc = rc_crc_add(crc, part, m * sizeof *part);
+        n -= m;
+    }
+    return crc;
+}
+
+static uint32_t
+write_f32(FILE *file, const double *v, size_t n, uint32_t crc)
+{
+    float part[RC_CHUNK];
+
+    for (; n > 0; v += RC_CHUNK) {
+        size_t m = n < RC_CHUNK ? n : RC_CHUNK;
+        for (size_t k = 0; k < m; k++)
+            part[k] = (float)v[k];
+        if (!rc_host_is_little())
+            rc_swap_bytes(part, m, sizeof *part);
+        fwrite(part, sizeof *part, m, file);
+        crc = rc_crc_add(crc, part, m * sizeof *part);
+        n -= m;
+    }
+    return crc;
+}
+
+enum rc_status
+rc_writer_put(struct rc_writer *w, const struct rc_grid *g, struct rc_err *err)
+{
+    struct text *t = malloc(sizeof *t);
+    enum rc_status status = RC_FAIL;
+    uint32_t crc;
+
+    if (t == NULL)
+        return rc_err_set(err, "out of memory for a header (%zu bytes)", sizeof *t);
+    t->n = 0;
+    t->full = false;
+    for (const char *s = "RCG1\n"; *s != '\0'; s++)
+        put_char(t, *s);
+    put_line(t, "channel", g->channel);
+    put_count(t, "nx", g->nx);
+    put_count(t, "ny", g->ny);
+    put_number(t, "dx", g->dx);
+    put_number(t, "dy", g->dy);
+    put_line(t, "unit", g->unit);
+    put_line(t, "type", g->type == RC_F32 ? "f32" : "f64");
+    for (size_t k = 0; k < g->keys; k++)
+        put_line(t, g->key[k].name, g->key[k].value);
+    put_char(t, '\n');
+    if (t->full) {
+        rc_err_set(err, "the header of a frame would be longer than %d bytes: its keys carry too "
+                        "much text", RC_HEADER_MAX);
+        goto done;
+    }
+    fwrite(t->text, 1, t->n, w->file);
+    crc = rc_crc_add(0, t->text, t->n);
+    crc = (g->type == RC_F32 ? write_f32 : write_f64)(w->file, g->v, g->nx * g->ny, crc);
+    fprintf(w->file, "crc32 %08" PRIx32 "\n", crc);
+    if (ferror(w->file)) {
+        refused(err);
+        goto done;
+    }
+    w->frames++;
+    status = RC_OK;
+done:
+    free(t);
+    return status;
+}
+
+enum rc_status
+rc_writer_end(struct rc_writer *w, struct rc_err *err)
+{
+    fprintf(w->file, "RCGEND %zu\n", w->frames);
+    return fflush(w->file) != 0 || ferror(w->file) ? refused(err) : RC_OK;
+}
+
+void
+rc_writer_fail(struct rc_writer *w, const char *message)
+{
+    fputs("RCGFAIL ", w->file);
+    for (int n = 0; *message != '\0' && n < RC_FAIL_MAX; message++, n++)
+        putc(*message == '\n' ? ' ' : *message, w->file);
+    putc('\n', w->file);
+    fflush(w->file);
+}

@@ -1,0 +1,27 @@
+/* The header of a matrix of heights as text; see ascii.c. */
+#ifndef RC_ASCII_HEAD_H
+#define RC_ASCII_HEAD_H
+
+#include "formats/core/core.h"
+
+/* One `# key: value` line, by what its value looks like. */
+struct rc_ascii_comment {
+    struct rc_piece value;
+    double length;  /* a number with a unit of length, in m; NAN: something else  */
+};
+
+struct rc_ascii_head {
+    bool known; /* at least one line was understood                                  */
+    struct rc_piece channel;
+    double width, height, pixel; /* m, NAN when not given                            */
+    double z, factor;            /* m per number, by unit and by factor; NAN likewise */
+    char unit[16];               /* of the numbers when it is no length              */
+    size_t nx, ny;               /* 0 when not given                                 */
+    size_t comments;
+    struct rc_ascii_comment comment[4];
+};
+
+/* Reads the lines that are understood, behind which `lines` then stands. */
+void rc_ascii_read_head(struct rc_ascii_head *head, struct rc_lines *lines);
+
+#endif

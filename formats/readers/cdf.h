@@ -1,0 +1,50 @@
+/* The header of a NetCDF classic file: what its variables are and where; see netcdf.c. */
+#ifndef RC_CDF_H
+#define RC_CDF_H
+
+#include "formats/core/core.h"
+#include "formats/format.h"
+
+enum {
+    RC_CDF_CHAR = 2, /* type of text */
+    RC_CDF_TYPES = 12
+};
+
+/* Bytes of a value by type; 0: none. */
+extern const unsigned char rc_cdf_width[RC_CDF_TYPES];
+
+struct rc_cdf_dimension {
+    struct rc_piece name;
+    uint64_t length; /* 0: of records */
+};
+
+struct rc_cdf_variable {
+    struct rc_piece name, unit, title;
+    size_t rank, dimension[2]; /* the first two */
+    unsigned type;
+    uint64_t size, at;         /* size: bytes, of one record where it has records */
+    double fill, factor, offset; /* NAN, 1, 0 when not given */
+    double period;               /* not 0: it says it repeats */
+};
+
+struct rc_cdf {
+    const struct rc_file *file;
+    struct rc_bytes b;
+    unsigned version;
+    uint64_t records, record; /* their number; bytes of one */
+    struct rc_cdf_dimension *dimension;
+    size_t dimensions;
+    struct rc_cdf_variable *variable;
+    size_t variables;
+};
+
+/* Reads the header; close it in either case. The file's bytes must outlive it. */
+enum rc_status rc_cdf_open(struct rc_cdf *cdf, const struct rc_file *file, struct rc_err *err);
+void rc_cdf_close(struct rc_cdf *cdf);
+bool rc_cdf_is(struct rc_piece piece, const char *word);
+/* Whether the variable is spread over the records. */
+bool rc_cdf_has_records(const struct rc_cdf *cdf, const struct rc_cdf_variable *variable);
+/* The value of that type at a place. */
+double rc_cdf_value(const unsigned char *at, unsigned type);
+
+#endif

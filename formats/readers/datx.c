@@ -1,0 +1,216 @@
+/*
+ * Zygo DATX: an HDF5 file with a table /MetaData of (group, key, value); a value in braces is the
+ * name of another group. Root > Measurement > Surface > Path names the dataset of heights, rows by
+ * columns; where the table does not lead there, it is the first one of /Data/Surface.
+ *
+ * Its attributes: Unit of the heights, No Data (a value not below it is missing), X and Y Converter
+ * with the metres of a pixel as the second of their numbers. Heights in fringes are turned into
+ * metres by Wavelength, Interferometric Scale Factor and Obliquity Factor.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "formats/sandbox/sandbox.h"
+#include "hdf.h"
+#include "formats/core/core.h"
+
+enum {
+    WORD = 128
+};
+
+/* ---- where the heights are ---- */
+
+struct lookup {
+    char group[WORD], key[WORD], value[WORD];
+};
+
+static void
+look(void *arg, const struct rc_hdf_row *row)
+{
+    struct lookup *l = arg;
+
+    if (strcmp(row->text[0], l->group) == 0 && strcmp(row->text[1], l->key) == 0)
+        strcpy(l->value, row->text[2]);
+}
+
+static bool
+follow(struct rc_hdf *h, struct rc_hdf_set *set)
+{
+    static const char *const way[] = {"Measurement", "Surface", "Path"};
+    struct lookup l = {.group = "Root"};
+
+    for (size_t k = 0; k < sizeof way / sizeof *way; k++) {
+        strcpy(l.key, way[k]);
+        l.value[0] = '\0';
+        if (!rc_hdf_table(h, "/MetaData", NULL, look, &l) || l.value[0] == '\0')
+            return false;
+        strcpy(l.group, l.value);
+    }
+    return rc_hdf_set_at(h, l.value, set);
+}
+
+static enum rc_status
+find_surface(struct rc_hdf *h, struct rc_hdf_set *set, struct rc_err *err)
+{
+    static struct rc_hdf_set all[64];
+    size_t n;
+
+    if (follow(h, set))
+        return RC_OK;
+    n = rc_hdf_sets(h, all, sizeof all / sizeof *all);
+    for (size_t k = 0; k < n && k < sizeof all / sizeof *all; k++)
+        if (strncmp(all[k].path, "Data/Surface/", 13) == 0) {
+            *set = all[k];
+            return RC_OK;
+        }
+    return rc_err_set(err, "an HDF5 file, but no DATX: neither its table MetaData nor /Data/Surface "
+                           "leads to heights");
+}
+
+/* ---- what it says of them ---- */
+
+struct surface {
+    struct rc_hdf *hdf;
+    struct rc_hdf_set set;
+    double dx, dy, metres; /* NAN when not told */
+    double none;           /* from here on missing; NAN: not told */
+    char unit[32];
+};
+
+static void
+take_converter(void *arg, const struct rc_hdf_row *row)
+{
+    if (strcmp(row->text[0], "LateralCat") == 0 && row->numbers > 1)
+        *(double *)arg = row->number[1];
+}
+
+/* Metres of one unit; NAN for one that is not known. */
+static double
+unit_of(const struct surface *s)
+{
+    static const struct {
+        const char *name;
+        double metres;
+    } names[] = {{"Meters", 1},        {"MilliMeters", 1e-3}, {"MicroMeters", 1e-6},
+                 {"NanoMeters", 1e-9}, {"Angstroms", 1e-10}};
+    double metres, wave, scale = 1, obliquity = 1;
+
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++)
+        if (strcmp(s->unit, names[k].name) == 0)
+            return names[k].metres;
+    if (rc_length_unit(s->unit, strlen(s->unit), &metres))
+        return metres;
+    if (strcmp(s->unit, "Fringes") != 0 ||
+        !rc_hdf_number(s->hdf, s->set.path, "Wavelength", &wave) ||
+        !rc_hdf_number(s->hdf, s->set.path, "Interferometric Scale Factor", &scale))
+        return NAN;
+    rc_hdf_number(s->hdf, s->set.path, "Obliquity Factor", &obliquity);
+    return wave * scale * obliquity;
+}
+
+static enum rc_status
+surface_open(struct surface *s, const struct rc_file *file, struct rc_err *err)
+{
+    *s = (struct surface){.hdf = rc_hdf_new(file, err), .dx = NAN, .dy = NAN, .none = NAN};
+    if (s->hdf == NULL || find_surface(s->hdf, &s->set, err) != RC_OK)
+        return RC_FAIL;
+    rc_hdf_text(s->hdf, s->set.path, "Unit", s->unit, sizeof s->unit);
+    rc_hdf_number(s->hdf, s->set.path, "No Data", &s->none);
+    rc_hdf_table(s->hdf, s->set.path, "X Converter", take_converter, &s->dx);
+    rc_hdf_table(s->hdf, s->set.path, "Y Converter", take_converter, &s->dy);
+    s->metres = unit_of(s);
+    return RC_OK;
+}
+
+static size_t
+list_channels(const struct rc_file *file, const struct rc_wish *wish, struct rc_channel *channel,
+              size_t most, struct rc_err *err)
+{
+    struct surface s;
+    size_t n = 0;
+
+    (void)wish;
+    if (surface_open(&s, file, err) == RC_OK) {
+        n = 1;
+        if (most > 0) {
+            *channel = (struct rc_channel){.name = "height", .nx = s.set.columns, .ny = s.set.rows,
+                                           .dx = s.dx, .dy = s.dy};
+            rc_text_clean(channel->unit, sizeof channel->unit, isnan(s.metres) ? s.unit : "m",
+                          isnan(s.metres) ? strlen(s.unit) : 1);
+        }
+    }
+    rc_hdf_free(s.hdf);
+    return n;
+}
+
+static struct rc_grid *
+read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index,
+            struct rc_notes *notes, struct rc_err *err)
+{
+    struct rc_grid *g = NULL;
+    struct rc_shape shape;
+    struct surface s;
+    double metres;
+    bool good = false;
+
+    if (surface_open(&s, file, err) != RC_OK)
+        goto done;
+    if (index != 0) {
+        rc_err_set(err, "a DATX file has one channel of heights, not %zu", index + 1);
+        goto done;
+    }
+    shape = (struct rc_shape){.nx = s.set.columns, .ny = s.set.rows};
+    if (rc_map_fits(file, shape.nx, shape.ny, err) != RC_OK ||
+        rc_spacing(wish, s.dx, s.dy, &shape, notes, err) != RC_OK ||
+        rc_height_unit(wish, s.metres, s.unit, &metres, notes, err) != RC_OK ||
+        (g = rc_grid_new(&shape, "height", "m", err)) == NULL ||
+        rc_text_keep(g, "file.manufacturer", "Zygo", 4, err) != RC_OK ||
+        rc_hdf_values(s.hdf, &s.set, g->v, err) != RC_OK)
+        goto done;
+    for (size_t k = 0; k < shape.nx * shape.ny; k++)
+        g->v[k] = g->v[k] >= s.none ? NAN : g->v[k] * metres;
+    good = rc_values_finite(g, err) == RC_OK;
+done:
+    rc_hdf_free(s.hdf);
+    if (good)
+        return g;
+    rc_grid_free(g);
+    return NULL;
+}
+
+/* ---- the row ---- */
+
+static bool
+holds(const struct rc_file *file, const char *word)
+{
+    size_t n = strlen(word);
+
+    for (const unsigned char *s = file->data, *end = s + file->size - n;
+         s < end && (s = memchr(s, word[0], (size_t)(end - s))) != NULL; s++)
+        if (memcmp(s, word, n) == 0)
+            return true;
+    return false;
+}
+
+static int
+datx_score(const struct rc_file *file)
+{
+    size_t n = strlen(file->name);
+
+    if (!rc_hdf_is(file) || file->size < 64)
+        return 0;
+    if (holds(file, "MetaData") && holds(file, "Z Converter"))
+        return 90;
+    return n > 5 && strcmp(file->name + n - 5, ".datx") == 0 ? 70 : 0;
+}
+
+RC_FORMAT_IN_CAGE(datx)
+
+const struct rc_format rc_format_datx = {
+    .name = "datx",
+    .suffixes = ".datx",
+    .summary = "Zygo DATX (Mx)",
+    .score = datx_score,
+    .list = datx_list,
+    .read = datx_read,
+};

@@ -1,0 +1,86 @@
+/*
+ * ESRI ASCII grid: lines of a key and a number (ncols, nrows, corner, cellsize, NODATA_value), then
+ * the values, the top row first. The file holds no unit.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "formats/core/core.h"
+
+struct esri {
+    double columns, rows, cell, dx, dy, lost;
+};
+
+static const struct rc_field fields[] = {
+    {"ncols", RC_FIELD_NUMBER, offsetof(struct esri, columns)},
+    {"nrows", RC_FIELD_NUMBER, offsetof(struct esri, rows)},
+    {"cellsize", RC_FIELD_NUMBER, offsetof(struct esri, cell)},
+    {"dx", RC_FIELD_NUMBER, offsetof(struct esri, dx)},
+    {"dy", RC_FIELD_NUMBER, offsetof(struct esri, dy)},
+    {"nodata_value", RC_FIELD_NUMBER, offsetof(struct esri, lost)},
+};
+
+static bool
+begins(const struct rc_file *file, const char *word)
+{
+    struct rc_piece text = {(const char *)file->data, file->size < 64 ? file->size : 64};
+
+    return rc_piece_begins(rc_piece_trim(text), word);
+}
+
+static bool
+has_magic(const struct rc_file *file)
+{
+    return begins(file, "ncols ") || begins(file, "nrows ") || begins(file, "ncols\t") ||
+           begins(file, "nrows\t");
+}
+
+static enum rc_status
+esri_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
+          struct rc_err *err)
+{
+    const char *text = (const char *)file->data, *at = text;
+    struct rc_lines lines = {.at = text, .end = text + file->size};
+    struct esri e = {.cell = NAN, .dx = NAN, .dy = NAN, .lost = -9999};
+    struct rc_map *map = rc_maps_add(maps, "", 0);
+    struct rc_piece line, key, value;
+
+    (void)wish;
+    if (!has_magic(file))
+        return rc_err_set(err, "no ESRI grid: it does not begin with ncols or nrows");
+    /* the header ends where a line does not begin with a letter */
+    while (rc_lines_next(&lines, &line.text, &line.n)) {
+        line = rc_piece_trim(line);
+        if (line.n > 0 && (*line.text < 'A' || *line.text > 'z' || rc_piece_begins(line, "nan")))
+            break;
+        if (rc_piece_part(line, " \t", &key, &value) &&
+            rc_field_take(fields, sizeof fields / sizeof *fields, key, value, &e, err) != RC_OK)
+            return RC_FAIL;
+        at = lines.at;
+    }
+    if (rc_map_count("columns (ncols)", e.columns, &map->nx, err) != RC_OK ||
+        rc_map_count("rows (nrows)", e.rows, &map->ny, err) != RC_OK)
+        return RC_FAIL;
+    if (rc_map_is_text(map, file, (size_t)(at - text), err) != RC_OK)
+        return RC_FAIL;
+    map->lost_from = map->lost_to = e.lost;
+    rc_map_hint(map, isnan(e.dx) ? e.cell : e.dx, isnan(e.dy) ? e.cell : e.dy);
+    return RC_OK;
+}
+
+static int
+esri_score(const struct rc_file *file)
+{
+    return has_magic(file) ? 90 : 0;
+}
+
+RC_FORMAT_OF_MAPS(esri)
+
+const struct rc_format rc_format_esri = {
+    .name = "esri",
+    .suffixes = ".asc",
+    .summary = "ESRI ASCII grid",
+    .score = esri_score,
+    .list = esri_list,
+    .read = esri_read,
+};

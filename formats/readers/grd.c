@@ -1,0 +1,139 @@
+/*
+ * Surfer grids, bottom row first, in three kinds: DSAA is text (columns and rows, limits of x, y
+ * and z, the values), DSBB the same binary with 32-bit floats, DSRB sections of a name, a length
+ * and bytes. Nodes stand on the limits. The files hold no unit.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "formats/core/core.h"
+
+#define BLANK 1.70141e38 /* and above: no value */
+
+enum {
+    SECTION = 8,   /* bytes before a section: name, i32 length */
+    GRID = 72,     /* i32 rows, columns, f64 x, y, dx, dy, z limits, rotation, blank */
+    OLD_DATA = 56  /* first byte of the values of DSBB */
+};
+
+static void
+set_limits(struct rc_map *map, const double limit[4])
+{
+    double dx = (limit[1] - limit[0]) / ((double)map->nx - 1);
+    double dy = (limit[3] - limit[2]) / ((double)map->ny - 1);
+
+    rc_map_hint(map, dx, map->ny > 1 ? dy : dx);
+}
+
+static enum rc_status
+find_text(const struct rc_file *file, struct rc_map *map, struct rc_err *err)
+{
+    struct rc_piece text = {(const char *)file->data + 4, file->size - 4};
+    double head[8];
+
+    if (rc_flow_read(&text, head, 8, err) != RC_OK ||
+        rc_map_count("columns", head[0], &map->nx, err) != RC_OK ||
+        rc_map_count("rows", head[1], &map->ny, err) != RC_OK)
+        return RC_FAIL;
+    set_limits(map, head + 2);
+    return rc_map_is_text(map, file, file->size - text.n, err);
+}
+
+static enum rc_status
+find_old(const struct rc_file *file, struct rc_map *map, struct rc_err *err)
+{
+    struct rc_bytes b = rc_file_bytes(file, false);
+    double limit[4];
+
+    if (rc_map_count("columns", rc_bytes_at(&b, 4, RC_RAW_I16), &map->nx, err) != RC_OK ||
+        rc_map_count("rows", rc_bytes_at(&b, 6, RC_RAW_I16), &map->ny, err) != RC_OK)
+        return RC_FAIL;
+    rc_bytes_values(&b, RC_RAW_F64, limit, 4);
+    map->raw = RC_RAW_F32;
+    map->at = OLD_DATA;
+    set_limits(map, limit);
+    return RC_OK;
+}
+
+static enum rc_status
+find_new(const struct rc_file *file, struct rc_map *map, struct rc_err *err)
+{
+    struct rc_bytes b = rc_file_bytes(file, false);
+    double dx = NAN, dy = NAN, n, nx = NAN, ny = NAN;
+    char quote[RC_SHOWN];
+
+    for (size_t at = 0; file->size - at >= SECTION; at += SECTION + (size_t)n) {
+        n = rc_bytes_at(&b, at + 4, RC_RAW_I32);
+        if (n < 0 || n > (double)(file->size - at - SECTION))
+            return rc_err_set(err, "section '%s' at byte %zu has %g bytes, the file %zu in all",
+                              rc_text_shown(quote, (const char *)file->data + at, 4), at, n,
+                              file->size);
+        if (rc_file_holds(file, at, "GRID", 4) && n >= GRID) {
+            ny = rc_bytes_at(&b, at + SECTION, RC_RAW_I32);
+            nx = rc_bytes_at(&b, at + SECTION + 4, RC_RAW_I32);
+            dx = rc_bytes_at(&b, at + SECTION + 24, RC_RAW_F64);
+            dy = rc_bytes_at(&b, at + SECTION + 32, RC_RAW_F64);
+            map->lost_from = rc_bytes_at(&b, at + SECTION + 64, RC_RAW_F64);
+            if (rc_bytes_at(&b, at + SECTION + 56, RC_RAW_F64) != 0)
+                return rc_err_set(err, "the grid is rotated: that is not read");
+        }
+        if (rc_file_holds(file, at, "DATA", 4) && map->at == 0) {
+            map->at = at + SECTION;
+            map->more = (size_t)n;
+        }
+    }
+    if (rc_map_count("columns", nx, &map->nx, err) != RC_OK ||
+        rc_map_count("rows", ny, &map->ny, err) != RC_OK)
+        return RC_FAIL;
+    if (map->at == 0 || (double)map->more < 8 * nx * ny)
+        return rc_err_set(err, "%zu x %zu values are promised, the section DATA has %zu bytes",
+                          map->nx, map->ny, map->more);
+    map->raw = RC_RAW_F64;
+    rc_map_hint(map, dx, dy);
+    return RC_OK;
+}
+
+static const struct {
+    const char *magic;
+    enum rc_status (*find)(const struct rc_file *file, struct rc_map *map, struct rc_err *err);
+} kinds[] = {
+    {"DSAA", find_text},
+    {"DSBB", find_old},
+    {"DSRB", find_new},
+};
+
+static enum rc_status
+grd_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
+         struct rc_err *err)
+{
+    struct rc_map *map = rc_maps_add(maps, "", 0);
+
+    (void)wish;
+    map->bottom_first = true;
+    map->lost_from = BLANK;
+    map->lost_to = INFINITY;
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
+        if (rc_file_holds(file, 0, kinds[k].magic, 4))
+            return kinds[k].find(file, map, err);
+    return rc_err_set(err, "no Surfer grid: it begins with none of DSAA, DSBB, DSRB");
+}
+
+static int
+grd_score(const struct rc_file *file)
+{
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
+        if (rc_file_holds(file, 0, kinds[k].magic, 4))
+            return 90;
+    return 0;
+}
+
+RC_FORMAT_OF_MAPS(grd)
+
+const struct rc_format rc_format_grd = {
+    .name = "grd",
+    .suffixes = ".grd",
+    .summary = "Surfer grids: text, version 6 and 7",
+    .score = grd_score,
+    .list = grd_list,
+    .read = grd_read,
+};

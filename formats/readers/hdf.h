@@ -1,0 +1,47 @@
+/* HDF5 in memory; beside writers/hdf5.c the only place that knows libhdf5. To be used in a cage
+ * (cage.h): damaged files make the library crash, run round, or ask for any memory. */
+#ifndef RC_HDF_H
+#define RC_HDF_H
+
+#include <stddef.h>
+
+#include "libcontact/grid.h"
+#include "formats/format.h"
+
+struct rc_hdf;
+
+struct rc_hdf *rc_hdf_new(const struct rc_file *file, struct rc_err *err);
+void rc_hdf_free(struct rc_hdf *hdf); /* NULL is allowed */
+
+/* A dataset of numbers with two dimensions, not counting those of length 1 beyond them. */
+struct rc_hdf_set {
+    char path[256];
+    size_t rows, columns;
+};
+/* Looks through the file, by names in order: gives their number, and the first `most` of them. */
+size_t rc_hdf_sets(struct rc_hdf *hdf, struct rc_hdf_set *set, size_t most);
+/* The one at a path; false when there is none. */
+bool rc_hdf_set_at(struct rc_hdf *hdf, const char *path, struct rc_hdf_set *set);
+enum rc_status rc_hdf_values(struct rc_hdf *hdf, const struct rc_hdf_set *set, double *v,
+                             struct rc_err *err);
+
+/* An attribute of a dataset as a number (the first of several), or as text. */
+bool rc_hdf_number(struct rc_hdf *hdf, const char *path, const char *name, double *value);
+char *rc_hdf_text(struct rc_hdf *hdf, const char *path, const char *name, char *to, size_t size);
+
+/* Rows of a table: a dataset or an attribute of compounds. Calls `row` with the text of the first
+ * members and the numbers of the first member that is a list of them. */
+struct rc_hdf_row {
+    char text[3][128];
+    double number[4];
+    size_t numbers;
+};
+typedef void rc_hdf_take_row(void *arg, const struct rc_hdf_row *row);
+/* `attribute` NULL: the dataset itself. False when there is no such table. */
+bool rc_hdf_table(struct rc_hdf *hdf, const char *path, const char *attribute,
+                  rc_hdf_take_row *take, void *arg);
+
+/* Whether it begins as HDF5 does. */
+bool rc_hdf_is(const struct rc_file *file);
+
+#endif

@@ -1,0 +1,180 @@
+/*
+ * Igor binary wave, version 5, in either byte order: 64 bytes of lengths, 320 of wave header, the
+ * numbers, then texts of those lengths. A wave of two dimensions is a map, the third one counts
+ * channels, whose names are the labels of that dimension. x runs fastest, the bottom row comes
+ * first.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "formats/core/core.h"
+
+enum {
+    DIMENSIONS = 4,
+    LABEL = 32, /* bytes of one */
+    AT_FORMULA = 8,
+    AT_LENGTHS = 12,     /* of note, data unit, units of 4 dimensions, labels of 4 dimensions */
+    AT_TYPE = 80,
+    AT_NAME = 92,
+    AT_SIZES = 132,
+    AT_STEPS = 148,
+    AT_DATA_UNIT = 212,
+    AT_UNITS = 216,
+    UNIT = 4,
+    DATA = 384,
+    COMPLEX = 1,
+    UNSIGNED = 0x40
+};
+
+static const struct {
+    int type;
+    enum rc_raw raw;
+} types[] = {
+    {2, RC_RAW_F32},     {4, RC_RAW_F64},
+    {8, RC_RAW_I8},      {0x10, RC_RAW_I16},
+    {0x20, RC_RAW_I32},  {8 | UNSIGNED, RC_RAW_U8},
+    {0x10 | UNSIGNED, RC_RAW_U16}, {0x20 | UNSIGNED, RC_RAW_U32},
+};
+
+/* Atomic force microscopes of one maker keep all channels in one wave whose unit is that of the
+ * first; these labels tell of another one. */
+static const struct {
+    const char *begins, *unit;
+} other_units[] = {
+    {"Phase", "deg"}, {"Potential", "V"}, {"NapPotential", "V"}, {"Current", "A"},
+    {"Frequency", "Hz"},
+};
+
+/* Where the labels of dimension 2 begin, or 0 when they are not all there. */
+static size_t
+labels_at(const struct rc_file *file, struct rc_bytes *b, size_t after_data, size_t count)
+{
+    double at = (double)after_data + rc_bytes_at(b, AT_FORMULA, RC_RAW_I32), n = 0;
+
+    for (size_t k = 0; k < 2 + DIMENSIONS + 2; k++) { /* up to the labels of dimension 1 */
+        double length = rc_bytes_at(b, AT_LENGTHS + 4 * k, RC_RAW_I32);
+        if (length < 0)
+            return 0;
+        at += length;
+    }
+    n = rc_bytes_at(b, AT_LENGTHS + 4 * (2 + DIMENSIONS + 2), RC_RAW_I32);
+    if (n < (double)((count + 1) * LABEL) || at < 0 || at + n > (double)file->size)
+        return 0;
+    return (size_t)at;
+}
+
+static enum rc_status
+judge(const struct rc_file *file, struct rc_bytes *b, enum rc_raw *raw, size_t size[DIMENSIONS],
+      struct rc_err *err)
+{
+    int version, type;
+    size_t k;
+
+    b->big = file->size >= 2 && file->data[0] == 0;
+    version = (int)rc_bytes_at(b, 0, RC_RAW_I16);
+    if (version != 5)
+        return rc_err_set(err, "it is an Igor wave of version %d, or none: only version 5 has maps",
+                          version);
+    if (file->size < DATA)
+        return rc_err_set(err, "the header takes %d bytes, the file has %zu", DATA, file->size);
+    type = (int)rc_bytes_at(b, AT_TYPE, RC_RAW_I16);
+    for (k = 0; k < sizeof types / sizeof *types && types[k].type != type; k++)
+        ;
+    if (k == sizeof types / sizeof *types)
+        return rc_err_set(err, "the wave is of type %d%s: only real numbers are read", type,
+                          type == 0 ? ", text" : (type & COMPLEX) != 0 ? ", complex numbers" : "");
+    *raw = types[k].raw;
+    for (k = 0; k < DIMENSIONS; k++) {
+        double n = rc_bytes_at(b, AT_SIZES + 4 * k, RC_RAW_I32);
+        size[k] = n > 0 ? (size_t)n : 0;
+    }
+    if (size[0] == 0)
+        return rc_err_set(err, "the wave has no points");
+    if (size[1] == 0 || size[3] > 1)
+        return rc_err_set(err, "the wave has %d dimensions: a map has 2, or 3 with channels",
+                          size[1] == 0 ? 1 : 4);
+    return RC_OK;
+}
+
+static double
+step(const struct rc_file *file, struct rc_bytes *b, size_t dimension)
+{
+    struct rc_piece unit = rc_file_text(file, AT_UNITS + UNIT * dimension, UNIT);
+    double metres = NAN;
+
+    rc_length_unit(unit.text, unit.n, &metres);
+    return rc_bytes_at(b, AT_STEPS + 8 * dimension, RC_RAW_F64) * metres;
+}
+
+static enum rc_status
+ibw_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
+         struct rc_err *err)
+{
+    struct rc_bytes b = rc_file_bytes(file, false);
+    size_t size[DIMENSIONS], layer, all, channels, labels;
+    struct rc_piece data_unit, name;
+    enum rc_raw raw;
+
+    (void)wish;
+    if (judge(file, &b, &raw, size, err) != RC_OK ||
+        rc_size_mul(size[0] * rc_raw_width(raw), size[1], &layer, err) != RC_OK)
+        return RC_FAIL;
+    channels = size[2] == 0 ? 1 : size[2];
+    if (rc_size_mul(layer, channels, &all, err) != RC_OK)
+        return RC_FAIL;
+    if (all > file->size - DATA)
+        return rc_err_set(err, "the header promises %zu x %zu x %zu values, %zu bytes, the file "
+                               "has %zu", size[0], size[1], channels, all, file->size - DATA);
+    labels = size[2] == 0 ? 0 : labels_at(file, &b, DATA + all, channels);
+    data_unit = rc_file_text(file, AT_DATA_UNIT, UNIT);
+    for (size_t k = 0; k < channels; k++) {
+        struct rc_map *map;
+
+        name = labels == 0 ? rc_file_text(file, AT_NAME, LABEL)
+                           : rc_file_text(file, labels + LABEL * (k + 1), LABEL);
+        map = rc_maps_add(maps, name.text, name.n);
+        map->nx = size[0];
+        map->ny = size[1];
+        map->raw = raw;
+        map->big = b.big;
+        map->at = DATA + k * layer;
+        map->bottom_first = true;
+        map->dx = step(file, &b, 0);
+        map->dy = step(file, &b, 1);
+        rc_map_unit(map, data_unit.text, data_unit.n);
+        for (size_t u = 0; u < sizeof other_units / sizeof *other_units && labels != 0; u++)
+            if (rc_piece_begins(name, other_units[u].begins))
+                rc_map_unit(map, other_units[u].unit, strlen(other_units[u].unit));
+    }
+    return RC_OK;
+}
+
+/* Two bytes are a weak magic: the sizes must fit as well. */
+static int
+ibw_score(const struct rc_file *file)
+{
+    struct rc_bytes b = rc_file_bytes(file, false);
+    bool named = rc_file_named(file, ".ibw");
+    size_t size[DIMENSIONS];
+    enum rc_raw raw;
+    double version;
+
+    b.big = file->size >= 2 && file->data[0] == 0;
+    version = rc_bytes_at(&b, 0, RC_RAW_I16);
+    if (b.past || (version != 1 && version != 2 && version != 3 && version != 5))
+        return 0;
+    if (version == 5 && judge(file, &b, &raw, size, NULL) == RC_OK)
+        return named ? 95 : 70;
+    return named ? 60 : 0; /* so that the refusal says what is wrong */
+}
+
+RC_FORMAT_OF_MAPS(ibw)
+
+const struct rc_format rc_format_ibw = {
+    .name = "ibw",
+    .suffixes = ".ibw",
+    .summary = "Igor binary waves of two or three dimensions",
+    .score = ibw_score,
+    .list = ibw_list,
+    .read = ibw_read,
+};

@@ -1,0 +1,133 @@
+/*
+ * NumPy array: 93 4e 55 4d 50 59, a version, the length of the header, and the header, a dictionary
+ * as text: {'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }. The array is [row, column];
+ * it has neither spacing nor unit. One dimension is a profile.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "formats/core/core.h"
+
+enum {
+    MAGIC = 6
+};
+
+static const struct {
+    const char *name; /* behind the mark of the byte order */
+    enum rc_raw raw;
+} types[] = {
+    {"f8", RC_RAW_F64}, {"f4", RC_RAW_F32}, {"i1", RC_RAW_I8},  {"i2", RC_RAW_I16},
+    {"i4", RC_RAW_I32}, {"i8", RC_RAW_I64}, {"u1", RC_RAW_U8},  {"u2", RC_RAW_U16},
+    {"u4", RC_RAW_U32}, {"u8", RC_RAW_U64},
+};
+
+static bool
+has_magic(const struct rc_file *file)
+{
+    return rc_file_holds(file, 0, "\x93NUMPY", MAGIC);
+}
+
+/* What follows 'key': in the dictionary; empty when it is not there. */
+static struct rc_piece
+value_of(struct rc_piece header, const char *key)
+{
+    const char *at = rc_piece_find(header, key), *end = header.text + header.n;
+
+    if (at == NULL || (at = memchr(at, ':', (size_t)(end - at))) == NULL)
+        return (struct rc_piece){header.text, 0};
+    return rc_piece_trim((struct rc_piece){at + 1, (size_t)(end - at - 1)});
+}
+
+static enum rc_status
+read_type(struct rc_piece value, struct rc_map *map, struct rc_err *err)
+{
+    char quote[RC_SHOWN];
+
+    for (size_t k = 0; k < sizeof types / sizeof *types && value.n >= 5; k++)
+        if ((*value.text == '\'' || *value.text == '"') && value.text[4] == *value.text &&
+            strchr("<>|=", value.text[1]) != NULL &&
+            memcmp(value.text + 2, types[k].name, 2) == 0) {
+            map->raw = types[k].raw;
+            map->big = value.text[1] == '>';
+            return RC_OK;
+        }
+    return rc_err_set(err, "the array is of type %s: real numbers of 1 to 8 bytes are read",
+                      rc_text_shown(quote, value.text, value.n < 12 ? value.n : 12));
+}
+
+/* "(2, 3)" or "(7,)" */
+static enum rc_status
+read_shape(struct rc_piece value, struct rc_map *map, struct rc_err *err)
+{
+    double size[3] = {0};
+    char quote[RC_SHOWN];
+    size_t n = 0;
+    const char *end = value.n == 0 ? NULL : memchr(value.text, ')', value.n);
+    struct rc_piece first, rest;
+
+    if (end == NULL || *value.text != '(')
+        return rc_err_set(err, "the header gives no shape");
+    rest = (struct rc_piece){value.text + 1, (size_t)(end - value.text - 1)};
+    while (n < 3 && rest.n > 0) {
+        if (!rc_piece_part(rest, ",", &first, &rest)) {
+            first = rc_piece_trim(rest);
+            rest.n = 0;
+        }
+        if (!rc_piece_number(first, &size[n++], &first) || first.n > 0)
+            n = 3;
+    }
+    if (n == 0 || n > 2)
+        return rc_err_set(err, "the shape is %s: a map has two dimensions, a profile one",
+                          rc_text_shown(quote, value.text, (size_t)(end - value.text + 1)));
+    if (n == 1) {
+        size[1] = size[0];
+        size[0] = 1;
+    }
+    if (rc_map_count("rows", size[0], &map->ny, err) != RC_OK)
+        return RC_FAIL;
+    return rc_map_count("columns", size[1], &map->nx, err);
+}
+
+static enum rc_status
+npy_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
+         struct rc_err *err)
+{
+    struct rc_bytes b = rc_file_bytes(file, false);
+    struct rc_map *map = rc_maps_add(maps, "", 0);
+    struct rc_piece header;
+    size_t n;
+    int version;
+
+    (void)wish;
+    if (!has_magic(file))
+        return rc_err_set(err, "no NumPy array: it does not begin with 93 'NUMPY'");
+    version = (int)rc_bytes_at(&b, MAGIC, RC_RAW_U8);
+    if (version < 1 || version > 3)
+        return rc_err_set(err, "the file is of version %d: 1 to 3 are read", version);
+    n = (size_t)rc_bytes_at(&b, MAGIC + 2, version == 1 ? RC_RAW_U16 : RC_RAW_U32);
+    if (b.past || n > file->size - b.at)
+        return rc_err_set(err, "the header has %zu bytes, the file %zu", n, file->size);
+    header = (struct rc_piece){(const char *)file->data + b.at, n};
+    map->at = b.at + n;
+    map->by_columns = rc_piece_begins(value_of(header, "'fortran_order'"), "True");
+    if (read_type(value_of(header, "'descr'"), map, err) != RC_OK)
+        return RC_FAIL;
+    return read_shape(value_of(header, "'shape'"), map, err);
+}
+
+static int
+npy_score(const struct rc_file *file)
+{
+    return has_magic(file) ? 95 : 0;
+}
+
+RC_FORMAT_OF_MAPS(npy)
+
+const struct rc_format rc_format_npy = {
+    .name = "npy",
+    .suffixes = ".npy",
+    .summary = "NumPy arrays of one or two dimensions",
+    .score = npy_score,
+    .list = npy_list,
+    .read = npy_read,
+};

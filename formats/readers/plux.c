@@ -1,0 +1,327 @@
+/*
+ * Sensofar PLUX: a ZIP archive with index.xml, which gives the size of the image, the step of a
+ * pixel in micrometres (called FOV), and for each layer the member that holds its heights: float,
+ * little-endian, micrometres, row 0 first, NaN where nothing was measured.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "zip_read.h"
+#include "formats/core/core.h"
+#include "formats/format.h"
+#include "xml.h"
+
+#define INDEX_MOST ((uint64_t)1 << 24) /* bytes of index.xml */
+
+enum {
+    LAYERS_MOST = 64,
+    ITEMS_MOST = 64,
+    WORD = 256,
+};
+
+struct item {
+    char name[32], value[128];
+};
+
+struct plux {
+    struct rc_zip_read *archive;
+    size_t nx, ny;
+    double dx, dy; /* m, NAN when not given */
+    bool sized;
+    char date[64];
+    char file[LAYERS_MOST][WORD]; /* names of members, "" for none */
+    struct item item[ITEMS_MOST]; /* what the file says of instrument and settings */
+};
+
+/* ---- index.xml ---- */
+
+/* The number after a prefix, and what follows it: "LAYER_12/FILENAME_Z". */
+static bool
+numbered(const char *path, const char *prefix, size_t most, size_t *number, const char **rest)
+{
+    size_t n = strlen(prefix);
+    char *end;
+
+    if (strncmp(path, prefix, n) != 0 || path[n] < '0' || path[n] > '9')
+        return false;
+    *number = strtoul(path + n, &end, 10);
+    *rest = end;
+    return *number < most && *end == '/';
+}
+
+static enum rc_status
+take_size(const char *path, const char *text, size_t *size, struct rc_err *err)
+{
+    char quote[RC_SHOWN];
+
+    if (*text == '\0' || strlen(text) > 9 || text[strspn(text, "0123456789")] != '\0')
+        return rc_err_set(err, "%s is '%s' in index.xml: it must be a whole number", path,
+                          rc_text_shown(quote, text, strlen(text)));
+    *size = strtoul(text, NULL, 10);
+    return RC_OK;
+}
+
+static enum rc_status
+take_step(const char *path, const char *text, double *step, struct rc_err *err)
+{
+    char quote[RC_SHOWN];
+    const char *end = rc_number_read(text, true, step);
+
+    if (end == NULL || *end != '\0')
+        return rc_err_set(err, "%s is '%s' in index.xml: that is no number", path,
+                          rc_text_shown(quote, text, strlen(text)));
+    *step /= 1e6;
+    return RC_OK;
+}
+
+static enum rc_status
+take_element(void *arg, const char *path, const char *text, struct rc_err *err)
+{
+    struct plux *p = arg;
+    const char *rest;
+    size_t number;
+
+    path += strcspn(path, "/"); /* the root has no name of its own that counts */
+    path += *path == '/';
+    if (strcmp(path, "GENERAL/IMAGE_SIZE_X") == 0) {
+        p->sized = true;
+        return take_size(path, text, &p->nx, err);
+    }
+    if (strcmp(path, "GENERAL/IMAGE_SIZE_Y") == 0)
+        return take_size(path, text, &p->ny, err);
+    if (strcmp(path, "GENERAL/FOV_X") == 0)
+        return take_step(path, text, &p->dx, err);
+    if (strcmp(path, "GENERAL/FOV_Y") == 0)
+        return take_step(path, text, &p->dy, err);
+    if (strcmp(path, "GENERAL/DATE") == 0)
+        rc_text_clean(p->date, sizeof p->date, text, strlen(text));
+    else if (numbered(path, "LAYER_", LAYERS_MOST, &number, &rest) &&
+             strcmp(rest, "/FILENAME_Z") == 0 && strlen(text) < WORD)
+        strcpy(p->file[number], text);
+    else if (numbered(path, "INFO/ITEM_", ITEMS_MOST, &number, &rest) && strcmp(rest, "/NAME") == 0)
+        rc_text_clean(p->item[number].name, sizeof p->item->name, text, strlen(text));
+    else if (numbered(path, "INFO/ITEM_", ITEMS_MOST, &number, &rest) &&
+             strcmp(rest, "/VALUE") == 0)
+        rc_text_clean(p->item[number].value, sizeof p->item->value, text, strlen(text));
+    return RC_OK;
+}
+
+static enum rc_status
+take_xml(void *arg, const unsigned char *bytes, size_t n, struct rc_err *err)
+{
+    return rc_xml_feed(arg, bytes, n, err);
+}
+
+static enum rc_status
+read_index(struct plux *p, size_t member, struct rc_err *err)
+{
+    struct rc_xml *xml = rc_xml_new("index.xml", take_element, p, err);
+    enum rc_status status = RC_FAIL;
+    char sum[RC_MD5_TEXT];
+
+    if (xml == NULL)
+        return RC_FAIL;
+    if (rc_zip_read_read(p->archive, member, INDEX_MOST, take_xml, xml, sum, err) == RC_OK)
+        status = rc_xml_end(xml, err);
+    rc_xml_free(xml);
+    return status;
+}
+
+/* ---- the archive ---- */
+
+/* A member by the name that index.xml has for it, which may begin with "./". */
+static enum rc_status
+find(const struct rc_zip_read *a, const char *name, size_t *member, struct rc_err *err)
+{
+    char dotted[WORD + 2];
+
+    if (strncmp(name, "./", 2) == 0)
+        name += 2;
+    snprintf(dotted, sizeof dotted, "./%s", name);
+    if (rc_zip_read_find(a, dotted, member, NULL) == RC_OK)
+        return RC_OK;
+    return rc_zip_read_find(a, name, member, err);
+}
+
+static enum rc_status
+plux_open(struct plux *p, const struct rc_file *file, struct rc_err *err)
+{
+    size_t member;
+
+    *p = (struct plux){.dx = NAN, .dy = NAN};
+    if ((p->archive = rc_zip_read_new(file, err)) == NULL)
+        return RC_FAIL;
+    if (find(p->archive, "index.xml", &member, NULL) != RC_OK)
+        return rc_err_set(err, "a ZIP archive, but no PLUX: it holds no index.xml");
+    if (read_index(p, member, err) != RC_OK)
+        return RC_FAIL;
+    if (!p->sized)
+        return rc_err_set(err, "a ZIP archive, but no PLUX: its index.xml gives no size of an image");
+    if (p->nx == 0 || p->ny == 0)
+        return rc_err_set(err, "an image of %zu x %zu points is empty", p->nx, p->ny);
+    return RC_OK;
+}
+
+static size_t
+layers_of(const struct plux *p)
+{
+    size_t n = 0;
+
+    for (size_t k = 0; k < LAYERS_MOST; k++)
+        n += p->file[k][0] != '\0';
+    return n;
+}
+
+static size_t
+plux_list(const struct rc_file *file, const struct rc_wish *wish, struct rc_channel *channel,
+          size_t most, struct rc_err *err)
+{
+    struct plux *p = malloc(sizeof *p);
+    size_t n = 0;
+
+    (void)wish;
+    if (p == NULL) {
+        rc_err_set(err, "out of memory for reading a PLUX file");
+        return 0;
+    }
+    if (plux_open(p, file, err) == RC_OK && (n = layers_of(p)) == 0)
+        rc_err_set(err, "the file has no layer of heights");
+    for (size_t k = 0, shown = 0; n > 0 && k < LAYERS_MOST && shown < most; k++)
+        if (p->file[k][0] != '\0') {
+            channel[shown] = (struct rc_channel){
+                .unit = "m", .nx = p->nx, .ny = p->ny, .dx = p->dx, .dy = p->dy};
+            snprintf(channel[shown++].name, sizeof channel->name, "Layer %zu", k);
+        }
+    rc_zip_read_free(p->archive);
+    free(p);
+    return n;
+}
+
+/* ---- heights ---- */
+
+static enum rc_status
+take_values(void *arg, const unsigned char *bytes, size_t n, struct rc_err *err)
+{
+    struct rc_bytes cursor = {.data = bytes, .size = n};
+    double **v = arg;
+
+    (void)err;
+    rc_bytes_values(&cursor, RC_RAW_F32, *v, n / 4); /* pieces hold whole numbers */
+    *v += n / 4;
+    return RC_OK;
+}
+
+/* Finds the member of a layer and checks its size before anything is allocated for it. */
+static enum rc_status
+find_layer(const struct plux *p, size_t index, size_t *member, struct rc_err *err)
+{
+    uint64_t size;
+    size_t n = 0;
+
+    for (size_t k = 0; k < LAYERS_MOST; k++) {
+        if (p->file[k][0] == '\0' || n++ != index)
+            continue;
+        if (find(p->archive, p->file[k], member, err) != RC_OK ||
+            rc_zip_read_size(p->archive, *member, &size, err) != RC_OK)
+            return RC_FAIL;
+        return rc_bytes_agree("heights", (uint64_t)p->nx * p->ny * 4, size, err);
+    }
+    return rc_err_set(err, "the file has %zu layers, not %zu", n, index + 1);
+}
+
+static enum rc_status
+keep_words(const struct plux *p, struct rc_grid *g, struct rc_err *err)
+{
+    if (rc_text_keep(g, "file.date", p->date, strlen(p->date), err) != RC_OK)
+        return RC_FAIL;
+    for (size_t k = 0; k < ITEMS_MOST; k++) {
+        const struct item *i = &p->item[k];
+        const char *key = strcmp(i->name, "Device") == 0      ? "file.model"
+                          : strcmp(i->name, "Objective") == 0 ? "file.probe"
+                          : strcmp(i->name, "Technique") == 0 ? "file.mode"
+                                                              : NULL;
+        if (key != NULL && rc_text_keep(g, key, i->value, strlen(i->value), err) != RC_OK)
+            return RC_FAIL;
+    }
+    return rc_text_keep(g, "file.manufacturer", "Sensofar", 8, err);
+}
+
+static struct rc_grid *
+read_layer(const struct plux *p, const struct rc_file *file, const struct rc_wish *wish,
+           size_t index, struct rc_notes *notes, struct rc_err *err)
+{
+    struct rc_shape shape = {.nx = p->nx, .ny = p->ny};
+    struct rc_grid *g = NULL;
+    char sum[RC_MD5_TEXT];
+    double metres, *v;
+    size_t member;
+
+    if (find_layer(p, index, &member, err) != RC_OK ||
+        rc_map_fits(file, p->nx, p->ny, err) != RC_OK ||
+        rc_spacing(wish, p->dx, p->dy, &shape, notes, err) != RC_OK ||
+        rc_height_unit(wish, 1e-6, "um", &metres, notes, err) != RC_OK ||
+        (g = rc_grid_new(&shape, "height", "m", err)) == NULL)
+        return NULL;
+    v = g->v;
+    if (keep_words(p, g, err) != RC_OK ||
+        rc_zip_read_read(p->archive, member, (uint64_t)p->nx * p->ny * 4, take_values, &v, sum,
+                        err) != RC_OK) {
+        rc_grid_free(g);
+        return NULL;
+    }
+    for (size_t k = 0; k < p->nx * p->ny; k++)
+        g->v[k] *= metres;
+    if (rc_values_finite(g, err) == RC_OK)
+        return g;
+    rc_grid_free(g);
+    return NULL;
+}
+
+static struct rc_grid *
+plux_read(const struct rc_file *file, const struct rc_wish *wish, size_t index,
+          struct rc_notes *notes, struct rc_err *err)
+{
+    struct plux *p = malloc(sizeof *p);
+    struct rc_grid *g = NULL;
+
+    if (p == NULL) {
+        rc_err_set(err, "out of memory for reading a PLUX file");
+        return NULL;
+    }
+    if (plux_open(p, file, err) == RC_OK)
+        g = read_layer(p, file, wish, index, notes, err);
+    rc_zip_read_free(p->archive);
+    free(p);
+    return g;
+}
+
+/* ---- the row ---- */
+
+static int
+plux_score(const struct rc_file *file)
+{
+    size_t n = strlen(file->name), member;
+    bool named = n > 5 && strcmp(file->name + n - 5, ".plux") == 0, found;
+    struct rc_zip_read *archive;
+
+    if (file->size < 4 || memcmp(file->data, "PK", 2) != 0)
+        return 0;
+    if ((archive = rc_zip_read_new(file, NULL)) == NULL)
+        return named ? 50 : 0;
+    found = find(archive, "index.xml", &member, NULL) == RC_OK;
+    for (size_t k = 0; found && !named && k < rc_zip_read_members(archive); k++)
+        named = strstr(rc_zip_read_name(archive, k), "LAYER_") != NULL;
+    rc_zip_read_free(archive);
+    return found ? (named ? 90 : 40) : named ? 10 : 0;
+}
+
+const struct rc_format rc_format_plux = {
+    .name = "plux",
+    .suffixes = ".plux",
+    .summary = "Sensofar PLUX: layers of heights in a ZIP archive",
+    .score = plux_score,
+    .list = plux_list,
+    .read = plux_read,
+};

@@ -1,0 +1,272 @@
+/*
+ * Profiles as text: a column of positions, evenly apart, and one of heights, behind a header of
+ * whatever kind. The line before the first row may have titles, in which units of length are looked
+ * for; a column that counts the points is passed over, one titled "valid" marks missing points by
+ * 0. A single column is of heights.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "formats/core/core.h"
+#include "table.h"
+
+struct profile {
+    struct rc_table table;
+    size_t x, z, valid; /* columns; valid = columns: none */
+    double first, step; /* of the positions, in the unit of the file */
+    bool falls;         /* the positions do                          */
+};
+
+static const double *
+column(const struct profile *p, size_t c)
+{
+    return p->table.v + c;
+}
+
+/* ---- titles ---- */
+
+/* The unit in a title: what stands in brackets, else a word that is a length. */
+static struct rc_piece
+unit_of(struct rc_piece title)
+{
+    static const char *const brackets[] = {"()", "[]"};
+    double metres;
+
+    for (size_t k = 0; k < sizeof brackets / sizeof *brackets; k++) {
+        struct rc_piece before, inside, after;
+        char open[2] = {brackets[k][0], '\0'}, shut[2] = {brackets[k][1], '\0'};
+
+        if (rc_piece_part(title, open, &before, &after) &&
+            rc_piece_part(after, shut, &inside, &before))
+            return inside;
+    }
+    for (struct rc_piece rest = title, word; rest.n > 0;) {
+        if (!rc_piece_part(rest, " \t_/", &word, &rest)) {
+            word = rest;
+            rest.n = 0;
+        }
+        if (rc_length_unit(word.text, word.n, &metres))
+            return word;
+    }
+    return (struct rc_piece){title.text, 0};
+}
+
+static struct rc_piece
+title_of(const struct profile *p, size_t c)
+{
+    return c < p->table.titles ? p->table.title[c] : (struct rc_piece){"", 0};
+}
+
+/* ---- columns ---- */
+
+static bool
+counts(const struct profile *p, size_t c)
+{
+    const double *v = column(p, c);
+    size_t rows = p->table.rows.rows, columns = p->table.rows.columns;
+
+    if (rc_piece_begins(title_of(p, c), "index"))
+        return true;
+    for (size_t k = 0; k < rows; k++)
+        if (v[k * columns] != v[0] + (double)k)
+            return false;
+    return rows > 1 && (v[0] == 0 || v[0] == 1) && unit_of(title_of(p, c)).n == 0;
+}
+
+static enum rc_status
+pick_columns(struct profile *p, struct rc_err *err)
+{
+    size_t columns = p->table.rows.columns, c = 0;
+
+    if (columns == 1) {
+        p->z = 0;
+        p->valid = 1;
+        return rc_table_read(&p->table, err);
+    }
+    if (columns > 2 && p->table.titles < 2)
+        return rc_err_set(err, "a table of %zu columns without titles: which are positions and "
+                               "heights?", columns);
+    if (rc_table_read(&p->table, err) != RC_OK)
+        return RC_FAIL;
+    p->valid = columns;
+    for (size_t k = 0; k < columns; k++)
+        if (rc_piece_begins(title_of(p, k), "valid"))
+            p->valid = k;
+    if (columns > 2 && p->table.titles > 2 && counts(p, 0))
+        c++;
+    p->x = c++;
+    while (c == p->valid)
+        c++;
+    p->z = c;
+    if (p->x == p->valid || p->z >= columns)
+        return rc_err_set(err, "there are no columns of positions and heights in the table");
+    return RC_OK;
+}
+
+/* ---- positions ---- */
+
+static enum rc_status
+judge_direction(struct profile *p, struct rc_err *err)
+{
+    size_t rows = p->table.rows.rows, columns = p->table.rows.columns;
+    const double *x = column(p, p->x);
+
+    if (rows < 3)
+        return rc_err_set(err, "a profile has 3 points at least, this table has %zu rows", rows);
+    p->falls = x[columns] < x[0];
+    for (size_t k = 0; k < rows; k++) {
+        double d = k == 0 ? 1 : (x[k * columns] - x[(k - 1) * columns]) * (p->falls ? -1 : 1);
+        if (!isfinite(x[k * columns]) || !(d > 0))
+            return rc_err_set(err, "the positions do not run on at row %zu of the table", k + 1);
+    }
+    p->first = x[0];
+    p->step = fabs(x[(rows - 1) * columns] - x[0]) / (double)(rows - 1);
+    return RC_OK;
+}
+
+/* The place of the last decimal that any position has: 0.01 when they are 0.5, 0.75, 1. */
+static double
+last_place(const double *x, size_t rows, size_t columns)
+{
+    double place = 1, scaled;
+
+    for (size_t k = 0; k < rows; k++)
+        while (place > 1e-12 && (scaled = x[k * columns] / place,
+                                 fabs(scaled - round(scaled)) > 1e-6 * fmax(1, fabs(scaled))))
+            place /= 10;
+    return place;
+}
+
+/* Where row k would be with even steps. */
+static double
+even_place(const struct profile *p, size_t k)
+{
+    return p->first + (p->falls ? -p->step : p->step) * (double)k;
+}
+
+/* Positions may be rounded in the file, or off by a twentieth of a step: a stylus drifts that much, and
+ * heights between two points so near say nothing else. */
+static enum rc_status
+judge_steps(const struct profile *p, struct rc_err *err)
+{
+    size_t rows = p->table.rows.rows, columns = p->table.rows.columns, worst = 0;
+    const double *x = column(p, p->x);
+    double place = last_place(x, rows, columns), most = 0.05 * p->step, off = 0;
+    char a[RC_NUMBER_SIZE], b[RC_NUMBER_SIZE], c[RC_NUMBER_SIZE];
+
+    if (place < 0.7 * p->step)
+        most = fmax(most, 1.01 * place);
+    for (size_t k = 0; k < rows; k++) {
+        double here = fabs(x[k * columns] - even_place(p, k));
+        if (here > off) {
+            off = here;
+            worst = k;
+        }
+    }
+    if (off <= most)
+        return RC_OK;
+    return rc_err_set(err, "the positions are not evenly apart: the furthest off is row %zu of the "
+                           "table, at %s where even steps of %s lead to %s, %.2g steps away; up to "
+                           "%.2g is let pass: resample the profile to even steps", worst + 1,
+                      rc_number_text(a, x[worst * columns]), rc_number_text(c, p->step),
+                      rc_number_text(b, even_place(p, worst)), off / p->step, most / p->step);
+}
+
+static enum rc_status
+profile_open(struct profile *p, const struct rc_file *file, const struct rc_wish *wish,
+             struct rc_err *err)
+{
+    struct rc_piece unit;
+    char quote[RC_SHOWN];
+    double metres;
+
+    if (rc_table_open(&p->table, file, 2, wish, NULL) != RC_OK) {
+        rc_table_close(&p->table);
+        if (rc_table_open(&p->table, file, 1, wish, err) != RC_OK)
+            return RC_FAIL;
+    }
+    if (pick_columns(p, err) != RC_OK)
+        return RC_FAIL;
+    p->falls = false;
+    p->step = NAN;
+    if (p->table.rows.columns == 1)
+        return RC_OK;
+    unit = unit_of(title_of(p, p->x));
+    if (unit.n > 0 && !rc_length_unit(unit.text, unit.n, &metres))
+        return rc_err_set(err, "the positions are in '%s', which is no length",
+                          rc_text_shown(quote, unit.text, unit.n));
+    return judge_direction(p, err);
+}
+
+/* ---- the map ---- */
+
+static enum rc_status
+fill_heights(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
+             double *v, struct rc_err *err)
+{
+    enum rc_status status;
+    struct profile p;
+
+    status = profile_open(&p, file, wish, err);
+    for (size_t k = 0; k < map->nx && status == RC_OK; k++) {
+        const double *row = p.table.v + k * p.table.rows.columns;
+        v[k] = p.valid < p.table.rows.columns && row[p.valid] == 0 ? NAN : row[p.z];
+    }
+    rc_table_close(&p.table);
+    return status;
+}
+
+static enum rc_status
+profile_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
+             struct rc_err *err)
+{
+    struct rc_map *map = rc_maps_add(maps, "", 0);
+    struct rc_piece unit;
+    enum rc_status status;
+    struct profile p;
+
+    status = profile_open(&p, file, wish, err);
+    if (status == RC_OK && p.table.rows.columns > 1)
+        status = judge_steps(&p, err);
+    if (status == RC_OK) {
+        map->nx = p.table.rows.rows;
+        map->ny = 1;
+        if (p.table.rows.columns > 1)
+            rc_map_steps(map, p.step, p.step, unit_of(title_of(&p, p.x)));
+        map->right_first = p.falls;
+        map->fill = fill_heights;
+        unit = unit_of(title_of(&p, p.z));
+        rc_map_unit(map, unit.text, unit.n);
+    }
+    rc_table_close(&p.table);
+    return status;
+}
+
+static int
+profile_score(const struct rc_file *file)
+{
+    static const struct rc_wish no_wish = {.dx = NAN, .dy = NAN, .z_unit = NAN};
+    size_t looked = file->size < 4096 ? file->size : 4096;
+    struct profile p;
+    int score;
+
+    if (looked == 0 || (memchr(file->data, 0, looked) != NULL && file->data[0] < 0xfe))
+        return 0;
+    score = profile_open(&p, file, &no_wish, NULL) == RC_OK ? 60 : 3;
+    /* 3: so that a table says what is wrong with it; one column could be anything */
+    if (p.table.v == NULL || p.table.rows.columns < 2)
+        score = 0;
+    rc_table_close(&p.table);
+    return score;
+}
+
+RC_FORMAT_OF_MAPS(profile)
+
+const struct rc_format rc_format_profile = {
+    .name = "profile",
+    .suffixes = ".txt .csv .asc .hfm",
+    .summary = "profiles as text: positions and heights",
+    .score = profile_score,
+    .list = profile_list,
+    .read = profile_read,
+};

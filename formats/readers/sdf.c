@@ -1,0 +1,158 @@
+/*
+ * SDF, the surface data file of ISO 25178-71 (EUNA 15178): as text,
+ *
+ *     aISO-1.0                  or aBCR-...
+ *     NumPoints = 7             columns
+ *     NumProfiles = 4           rows
+ *     Xscale = 1.0E-6           metres
+ *     ...
+ *     *
+ *     1.00000 0.99874 ...       times Zscale metres; BAD is a missing one
+ *     *
+ *
+ * or binary, little-endian, the same fields packed in 81 bytes behind bISO-1.0 or bBCR-...
+ */
+#include <math.h>
+#include <string.h>
+
+#include "formats/core/core.h"
+
+enum {
+    MAGIC = 8,
+    HEADER = 81, /* bytes of the binary one */
+    MAKER_AT = 8,
+    CREATED_AT = 18,
+    CHANGED_AT = 30,
+    COLUMNS_AT = 42,
+    ROWS_AT = 44,
+    X_AT = 46,
+    Y_AT = 54,
+    Z_AT = 62,
+    COMPRESSION_AT = 78,
+    TYPE_AT = 79
+};
+
+struct sdf {
+    struct rc_piece maker, created, changed;
+    double columns, rows, dx, dy, scale, type, compression;
+};
+
+static const struct rc_field fields[] = {
+    {"ManufacID", RC_FIELD_TEXT, offsetof(struct sdf, maker)},
+    {"CreateDate", RC_FIELD_TEXT, offsetof(struct sdf, created)},
+    {"ModDate", RC_FIELD_TEXT, offsetof(struct sdf, changed)},
+    {"NumPoints", RC_FIELD_NUMBER, offsetof(struct sdf, columns)},
+    {"NumProfiles", RC_FIELD_NUMBER, offsetof(struct sdf, rows)},
+    {"Xscale", RC_FIELD_NUMBER, offsetof(struct sdf, dx)},
+    {"Yscale", RC_FIELD_NUMBER, offsetof(struct sdf, dy)},
+    {"Zscale", RC_FIELD_NUMBER, offsetof(struct sdf, scale)},
+    {"Compression", RC_FIELD_NUMBER, offsetof(struct sdf, compression)},
+};
+
+/* By DataType; what is missing is the least number of the signed whole types, NaN of the others. */
+static const struct {
+    enum rc_raw raw;
+    double lost;
+} types[] = {
+    {RC_RAW_U8, NAN},
+    {RC_RAW_U16, NAN},
+    {RC_RAW_U32, NAN},
+    {RC_RAW_F32, NAN},
+    {RC_RAW_I8, -128},
+    {RC_RAW_I16, -32768},
+    {RC_RAW_I32, -2147483648.0},
+    {RC_RAW_F64, NAN},
+};
+
+static bool
+begins(const struct rc_file *file, char kind)
+{
+    return file->size > MAGIC && *file->data == (unsigned char)kind &&
+           (rc_file_holds(file, 1, "ISO-", 4) || rc_file_holds(file, 1, "BCR-", 4));
+}
+
+static enum rc_status
+find_text(const struct rc_file *file, struct sdf *s, struct rc_map *map, struct rc_err *err)
+{
+    const char *text = (const char *)file->data;
+    struct rc_lines lines = {.at = text + MAGIC, .end = text + file->size};
+
+    if (rc_fields_read(fields, sizeof fields / sizeof *fields, &lines, "=", "*", s, err) != RC_OK)
+        return RC_FAIL;
+    map->at = (size_t)(lines.at - text);
+    return RC_OK;
+}
+
+static enum rc_status
+find_binary(const struct rc_file *file, struct sdf *s, struct rc_map *map, struct rc_err *err)
+{
+    struct rc_bytes bytes = rc_file_bytes(file, false);
+    const char *text = (const char *)file->data;
+
+    if (file->size < HEADER)
+        return rc_err_set(err, "the header takes %d bytes, the file has %zu", HEADER, file->size);
+    s->maker = (struct rc_piece){text + MAKER_AT, CREATED_AT - MAKER_AT};
+    s->created = (struct rc_piece){text + CREATED_AT, CHANGED_AT - CREATED_AT};
+    s->changed = (struct rc_piece){text + CHANGED_AT, COLUMNS_AT - CHANGED_AT};
+    s->columns = rc_bytes_at(&bytes, COLUMNS_AT, RC_RAW_U16);
+    s->rows = rc_bytes_at(&bytes, ROWS_AT, RC_RAW_U16);
+    s->dx = rc_bytes_at(&bytes, X_AT, RC_RAW_F64);
+    s->dy = rc_bytes_at(&bytes, Y_AT, RC_RAW_F64);
+    s->scale = rc_bytes_at(&bytes, Z_AT, RC_RAW_F64);
+    s->compression = rc_bytes_at(&bytes, COMPRESSION_AT, RC_RAW_U8);
+    s->type = rc_bytes_at(&bytes, TYPE_AT, RC_RAW_U8);
+    if (!(s->type < (double)(sizeof types / sizeof *types)))
+        return rc_err_set(err, "DataType is %g: it must be 0 to %zu", s->type,
+                          sizeof types / sizeof *types - 1);
+    map->at = HEADER;
+    map->raw = types[(size_t)s->type].raw;
+    map->lost_from = map->lost_to = types[(size_t)s->type].lost;
+    return RC_OK;
+}
+
+static enum rc_status
+sdf_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
+         struct rc_err *err)
+{
+    struct sdf s = {.dx = NAN, .dy = NAN, .scale = 1};
+    struct rc_map *map = rc_maps_add(maps, "", 0);
+    bool is_text = begins(file, 'a');
+
+    (void)wish;
+    if (!is_text && !begins(file, 'b'))
+        return rc_err_set(err, "no SDF: it begins with neither aISO-, aBCR-, bISO- nor bBCR-");
+    if ((is_text ? find_text(file, &s, map, err) : find_binary(file, &s, map, err)) != RC_OK ||
+        rc_map_count("columns (NumPoints)", s.columns, &map->nx, err) != RC_OK ||
+        rc_map_count("rows (NumProfiles)", s.rows, &map->ny, err) != RC_OK)
+        return RC_FAIL;
+    if (s.compression != 0)
+        return rc_err_set(err, "the heights are compressed (Compression is %g): that is not read",
+                          s.compression);
+    if (is_text && rc_map_is_text(map, file, map->at, err) != RC_OK)
+        return RC_FAIL;
+    strcpy(map->unit, "m");
+    map->dx = s.dx;
+    map->dy = s.dy;
+    map->scale = s.scale;
+    rc_maps_key(maps, "file.creator", s.maker.text, s.maker.n);
+    rc_maps_key(maps, "file.date", s.created.text, s.created.n);
+    rc_maps_key(maps, "file.changed", s.changed.text, s.changed.n);
+    return RC_OK;
+}
+
+static int
+sdf_score(const struct rc_file *file)
+{
+    return begins(file, 'a') || begins(file, 'b') ? 95 : 0;
+}
+
+RC_FORMAT_OF_MAPS(sdf)
+
+const struct rc_format rc_format_sdf = {
+    .name = "sdf",
+    .suffixes = ".sdf",
+    .summary = "ISO 25178-71 (EUNA 15178), text and binary",
+    .score = sdf_score,
+    .list = sdf_list,
+    .read = sdf_read,
+};

@@ -1,0 +1,330 @@
+#include "tiff.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <tiffio.h>
+
+#include "formats/core/core.h"
+
+enum {
+    PAGES_MOST = 1024,
+    EXIF = 34665,
+};
+
+struct rc_tiff {
+    TIFF *tiff;
+    const unsigned char *data;
+    size_t size, at;
+};
+
+/* ---- a file in memory, as libtiff sees it ---- */
+
+static tmsize_t
+read_some(thandle_t handle, void *to, tmsize_t n)
+{
+    struct rc_tiff *t = handle;
+    size_t wanted = n < 0 ? 0 : (size_t)n, there = t->at < t->size ? t->size - t->at : 0;
+
+    if (wanted > there)
+        wanted = there;
+    memcpy(to, t->data + (wanted > 0 ? t->at : 0), wanted);
+    t->at += wanted;
+    return (tmsize_t)wanted;
+}
+
+static tmsize_t
+write_none(thandle_t handle, void *from, tmsize_t n)
+{
+    (void)handle, (void)from, (void)n;
+    return 0;
+}
+
+static toff_t
+seek(thandle_t handle, toff_t offset, int whence)
+{
+    struct rc_tiff *t = handle;
+
+    t->at = whence == SEEK_SET ? offset : whence == SEEK_CUR ? t->at + offset : t->size + offset;
+    return t->at;
+}
+
+static int
+close_nothing(thandle_t handle)
+{
+    (void)handle;
+    return 0;
+}
+
+static toff_t
+size_of(thandle_t handle)
+{
+    return ((struct rc_tiff *)handle)->size;
+}
+
+struct rc_tiff *
+rc_tiff_new(const struct rc_file *file, struct rc_err *err)
+{
+    struct rc_tiff *t = calloc(1, sizeof *t);
+
+    if (t == NULL) {
+        rc_err_set(err, "out of memory for reading a TIFF");
+        return NULL;
+    }
+    TIFFSetErrorHandler(NULL); /* what matters is said here */
+    TIFFSetWarningHandler(NULL);
+    t->data = file->data;
+    t->size = file->size;
+    t->tiff = TIFFClientOpen("file", "rm", t, read_some, write_none, seek, close_nothing, size_of,
+                             NULL, NULL);
+    if (t->tiff == NULL) {
+        rc_err_set(err, "no TIFF, or a damaged one: its first page cannot be read");
+        free(t);
+        return NULL;
+    }
+    return t;
+}
+
+void
+rc_tiff_free(struct rc_tiff *t)
+{
+    if (t == NULL)
+        return;
+    TIFFClose(t->tiff);
+    free(t);
+}
+
+enum rc_status
+rc_tiff_pages(struct rc_tiff *t, size_t *pages, struct rc_err *err)
+{
+    for (*pages = 1; !TIFFLastDirectory(t->tiff); ++*pages)
+        if (*pages == PAGES_MOST || TIFFReadDirectory(t->tiff) != 1)
+            return rc_err_set(err, "page %zu (from 0) is damaged or cut off, or there is no end to "
+                                   "the pages", *pages);
+    return rc_tiff_page(t, 0) ? RC_OK : rc_err_set(err, "the first page cannot be read");
+}
+
+bool
+rc_tiff_page(struct rc_tiff *t, size_t page)
+{
+    return page < PAGES_MOST && TIFFSetDirectory(t->tiff, (tdir_t)page) == 1;
+}
+
+bool
+rc_tiff_exif(struct rc_tiff *t)
+{
+    toff_t at = 0;
+
+    return TIFFGetField(t->tiff, EXIF, &at) == 1 && TIFFReadEXIFDirectory(t->tiff, at) == 1;
+}
+
+/* ---- tags ---- */
+
+/* Bytes of a tag that the library does not know by itself: it hands out a count and an array. */
+static bool
+private_tag(struct rc_tiff *t, const TIFFField *field, const void **bytes, size_t *count)
+{
+    uint32_t wide = 0;
+    uint16_t narrow = 0;
+    void *at = NULL;
+    int got;
+
+    if (!TIFFFieldPassCount(field))
+        return false;
+    if (TIFFFieldReadCount(field) == TIFF_VARIABLE2) {
+        got = TIFFGetField(t->tiff, TIFFFieldTag(field), &wide, &at);
+    } else {
+        got = TIFFGetField(t->tiff, TIFFFieldTag(field), &narrow, &at);
+        wide = narrow;
+    }
+    *bytes = at;
+    *count = wide;
+    return got == 1 && at != NULL;
+}
+
+bool
+rc_tiff_bytes(struct rc_tiff *t, uint32_t tag, const unsigned char **bytes, size_t *n)
+{
+    const TIFFField *field = TIFFFindField(t->tiff, tag, TIFF_ANY);
+    const void *at = NULL;
+    const char *text = NULL;
+
+    if (field == NULL)
+        return false;
+    if (private_tag(t, field, &at, n)) {
+        *bytes = at;
+        *n *= (size_t)TIFFDataWidth(TIFFFieldDataType(field));
+        return true;
+    }
+    if (TIFFFieldPassCount(field) || TIFFFieldDataType(field) != TIFF_ASCII ||
+        TIFFGetField(t->tiff, tag, &text) != 1 || text == NULL)
+        return false;
+    *bytes = (const unsigned char *)text;
+    *n = strlen(text);
+    return true;
+}
+
+char *
+rc_tiff_text(struct rc_tiff *t, uint32_t tag, char *to, size_t size)
+{
+    const TIFFField *field = TIFFFindField(t->tiff, tag, TIFF_ANY);
+    const unsigned char *bytes;
+    const char *end;
+    size_t n;
+
+    to[0] = '\0';
+    if (field == NULL || TIFFFieldDataType(field) != TIFF_ASCII ||
+        !rc_tiff_bytes(t, tag, &bytes, &n))
+        return to;
+    end = memchr(bytes, '\0', n);
+    return rc_text_clean(to, size, (const char *)bytes,
+                         end == NULL ? n : (size_t)(end - (const char *)bytes));
+}
+
+bool
+rc_tiff_number(struct rc_tiff *t, uint32_t tag, double *value)
+{
+    const TIFFField *field = TIFFFindField(t->tiff, tag, TIFF_ANY);
+    const void *at;
+    size_t count;
+
+    if (field == NULL || !private_tag(t, field, &at, &count) || count == 0)
+        return false;
+    switch (TIFFFieldDataType(field)) {
+    case TIFF_BYTE:
+        *value = *(const uint8_t *)at;
+        return true;
+    case TIFF_SHORT:
+        *value = *(const uint16_t *)at;
+        return true;
+    case TIFF_SSHORT:
+        *value = *(const int16_t *)at;
+        return true;
+    case TIFF_LONG:
+        *value = *(const uint32_t *)at;
+        return true;
+    case TIFF_SLONG:
+        *value = *(const int32_t *)at;
+        return true;
+    case TIFF_FLOAT:
+    case TIFF_RATIONAL:
+    case TIFF_SRATIONAL:
+        *value = (double)*(const float *)at;
+        return true;
+    case TIFF_DOUBLE:
+        *value = *(const double *)at;
+        return true;
+    default:
+        return false;
+    }
+}
+
+/* ---- pixels ---- */
+
+enum rc_status
+rc_tiff_shape(struct rc_tiff *t, struct rc_tiff_shape *shape, struct rc_err *err)
+{
+    uint32_t nx = 0, ny = 0;
+    uint16_t samples = 1, bits = 1;
+
+    TIFFGetFieldDefaulted(t->tiff, TIFFTAG_IMAGEWIDTH, &nx);
+    TIFFGetFieldDefaulted(t->tiff, TIFFTAG_IMAGELENGTH, &ny);
+    TIFFGetFieldDefaulted(t->tiff, TIFFTAG_SAMPLESPERPIXEL, &samples);
+    TIFFGetFieldDefaulted(t->tiff, TIFFTAG_BITSPERSAMPLE, &bits);
+    *shape = (struct rc_tiff_shape){nx, ny, samples, bits};
+    if (nx == 0 || ny == 0)
+        return rc_err_set(err, "a page of %zu x %zu pixels is empty", shape->nx, shape->ny);
+    if (bits != 1 && bits != 8 && bits != 16 && bits != 32)
+        return rc_err_set(err, "a page with %u bits a sample: only 1, 8, 16 and 32 are read",
+                          (unsigned)bits);
+    return RC_OK;
+}
+
+/* One sample of a row that libtiff has unpacked, in the byte order of this machine. */
+static double
+sample(const unsigned char *row, size_t k, unsigned bits, unsigned kind)
+{
+    uint16_t half;
+    uint32_t word;
+    int16_t short_;
+    int32_t long_;
+    float real;
+
+    switch (bits) {
+    case 1:
+        return row[k / 8] >> (7 - k % 8) & 1;
+    case 8:
+        return kind == SAMPLEFORMAT_INT ? (double)(row[k] ^ 0x80) - 128 : row[k];
+    case 16:
+        memcpy(&half, row + 2 * k, 2);
+        memcpy(&short_, row + 2 * k, 2);
+        return kind == SAMPLEFORMAT_INT ? (double)short_ : half;
+    default:
+        memcpy(&word, row + 4 * k, 4);
+        memcpy(&long_, row + 4 * k, 4);
+        memcpy(&real, row + 4 * k, 4);
+        return kind == SAMPLEFORMAT_IEEEFP ? (double)real
+               : kind == SAMPLEFORMAT_INT  ? (double)long_
+                                           : word;
+    }
+}
+
+enum rc_status
+rc_tiff_values(struct rc_tiff *t, const struct rc_tiff_shape *shape, double *v, struct rc_err *err)
+{
+    uint16_t planar = PLANARCONFIG_CONTIG, kind = SAMPLEFORMAT_UINT;
+    enum rc_status status = RC_FAIL;
+    unsigned char *row = NULL;
+    tmsize_t size = TIFFScanlineSize(t->tiff);
+    size_t stride, least;
+
+    TIFFGetFieldDefaulted(t->tiff, TIFFTAG_PLANARCONFIG, &planar);
+    TIFFGetFieldDefaulted(t->tiff, TIFFTAG_SAMPLEFORMAT, &kind);
+    if (TIFFIsTiled(t->tiff))
+        return rc_err_set(err, "the page is laid out in tiles: only strips are read");
+    if (kind == SAMPLEFORMAT_IEEEFP && shape->bits != 32)
+        return rc_err_set(err, "floats of %u bits: only those of 32 are read", shape->bits);
+    stride = planar == PLANARCONFIG_CONTIG ? shape->samples : 1;
+    least = (shape->nx * stride * shape->bits + 7) / 8;
+    if (size <= 0 || (size_t)size < least)
+        return rc_err_set(err, "rows of %zu bytes for %zu pixels of %u x %u bits", (size_t)size,
+                          shape->nx, shape->samples, shape->bits);
+    if ((row = malloc((size_t)size)) == NULL)
+        return rc_err_set(err, "out of memory for a row of %zu pixels", shape->nx);
+    for (size_t j = 0; j < shape->ny; j++) {
+        if (TIFFReadScanline(t->tiff, row, (uint32_t)j, 0) != 1) {
+            rc_err_set(err, "row %zu of %zu (from 0) cannot be unpacked: the file is damaged or "
+                            "cut off", j, shape->ny);
+            goto done;
+        }
+        for (size_t i = 0; i < shape->nx; i++)
+            v[j * shape->nx + i] = sample(row, i * stride, shape->bits, kind);
+    }
+    status = RC_OK;
+done:
+    free(row);
+    return status;
+}
+
+/* ---- a quick look ---- */
+
+bool
+rc_tiff_is(const struct rc_file *file)
+{
+    return file->size >= 8 && (memcmp(file->data, "II\x2a\0", 4) == 0 ||
+                               memcmp(file->data, "MM\0\x2a", 4) == 0);
+}
+
+bool
+rc_tiff_hints(const struct rc_file *file, uint16_t tag, uint16_t type)
+{
+    bool big = file->data[0] == 'M';
+    unsigned char entry[4] = {
+        (unsigned char)(big ? tag >> 8 : tag & 0xff), (unsigned char)(big ? tag & 0xff : tag >> 8),
+        (unsigned char)(big ? type >> 8 : type & 0xff),
+        (unsigned char)(big ? type & 0xff : type >> 8)};
+
+    for (size_t k = 8; k + 12 <= file->size; k += 2) /* directories begin on even bytes */
+        if (file->data[k] == entry[0] && memcmp(file->data + k, entry, sizeof entry) == 0)
+            return true;
+    return false;
+}

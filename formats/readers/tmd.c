@@ -1,0 +1,64 @@
+/*
+ * TrueMap: a line that says so, a comment that ends in NUL, sizes, lengths and offsets, 32-bit
+ * floats, little-endian, row 0 first. There is no unit in the file: it is micrometres when TrueMap
+ * wrote it, millimetres from GelSight, which leaves the comment empty.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "formats/core/core.h"
+
+enum {
+    MAGIC = 32,
+    NUMBERS = 24 /* bytes: i32 columns, rows, f32 width, height, two offsets */
+};
+
+static const char magic[MAGIC + 1] = "Binary TrueMap Data File v2.0\r\n";
+
+static enum rc_status
+tmd_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
+         struct rc_err *err)
+{
+    struct rc_bytes b = rc_file_bytes(file, false);
+    struct rc_map *map = rc_maps_add(maps, "", 0);
+    const unsigned char *comment, *nul;
+    size_t at, n;
+
+    (void)wish;
+    if (!rc_file_holds(file, 0, magic, MAGIC))
+        return rc_err_set(err, "no TrueMap file: it does not begin with 'Binary TrueMap Data File "
+                               "v2.0'");
+    comment = file->data + MAGIC;
+    if ((nul = memchr(comment, 0, file->size - MAGIC)) == NULL)
+        return rc_err_set(err, "the comment does not end: there is no NUL behind it");
+    n = (size_t)(nul - comment);
+    at = MAGIC + n + 1;
+    if (rc_map_count("columns", rc_bytes_at(&b, at, RC_RAW_I32), &map->nx, err) != RC_OK ||
+        rc_map_count("rows", rc_bytes_at(&b, at + 4, RC_RAW_I32), &map->ny, err) != RC_OK)
+        return RC_FAIL;
+    strcpy(map->unit, "m");
+    map->si = n == 0 ? 1e-3 : 1e-6;
+    map->raw = RC_RAW_F32;
+    map->at = at + NUMBERS;
+    map->dx = rc_bytes_at(&b, at + 8, RC_RAW_F32) * map->si / (double)map->nx;
+    map->dy = rc_bytes_at(&b, at + 12, RC_RAW_F32) * map->si / (double)map->ny;
+    rc_maps_key(maps, "file.comment", (const char *)comment, n);
+    return RC_OK;
+}
+
+static int
+tmd_score(const struct rc_file *file)
+{
+    return rc_file_holds(file, 0, magic, MAGIC) ? 95 : 0;
+}
+
+RC_FORMAT_OF_MAPS(tmd)
+
+const struct rc_format rc_format_tmd = {
+    .name = "tmd",
+    .suffixes = ".tmd",
+    .summary = "TrueMap, GelSight",
+    .score = tmd_score,
+    .list = tmd_list,
+    .read = tmd_read,
+};

@@ -1,0 +1,223 @@
+/*
+ * Keyence VK: VK3_ and VK4_ begin with a table of offsets, little-endian, to the conditions of the
+ * measurement and to up to three height images of whole numbers, row 0 first, lengths in
+ * picometres. VK6 and VK7 are a picture and a ZIP archive whose member Vk4File is a VK4 file.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "zip_read.h"
+#include "formats/core/core.h"
+
+enum {
+    LEAD = 12,        /* magic, version, kind */
+    HEIGHTS_AT = 36,  /* the offsets of the height images */
+    HEIGHTS = 3,
+    AT_YEAR = 4,      /* in the conditions; month, day, hour, minute, second follow */
+    AT_X = 168,
+    AT_Y = 172,
+    AT_Z = 176,
+    CONDITIONS = 180,
+    IMAGE = 28 + 768, /* bytes before the numbers: 7 of u32, a palette */
+    STARTS_MOST = 16  /* places at which an archive is tried */
+};
+
+static const char member_name[] = "Vk4File";
+
+static bool
+is_plain(const struct rc_file *file)
+{
+    return rc_file_holds(file, 0, "VK3_", 4) || rc_file_holds(file, 0, "VK4_", 4);
+}
+
+static bool
+is_packed(const struct rc_file *file)
+{
+    return rc_file_holds(file, 0, "VK6", 3) || rc_file_holds(file, 0, "VK7", 3);
+}
+
+/* ---- the archive ---- */
+
+static enum rc_status
+unpack_member(struct rc_zip_read *archive, size_t member, const struct rc_file *file,
+              struct rc_file *inner, struct rc_err *err)
+{
+    unsigned char *bytes;
+    char sum[RC_MD5_TEXT];
+    uint64_t size;
+    size_t n;
+
+    if (rc_zip_read_size(archive, member, &size, err) != RC_OK)
+        return RC_FAIL;
+    if (size / 16 > file->size + 4194304)
+        return rc_err_set(err, "the archive in the file promises %g MB out of %g: that cannot be",
+                          (double)size / 1e6, (double)file->size / 1e6);
+    if ((bytes = rc_zip_read_bytes(archive, member, size, &n, sum, err)) == NULL)
+        return RC_FAIL;
+    *inner = (struct rc_file){member_name, bytes, n};
+    return RC_OK;
+}
+
+/* The VK4 file that the archive holds; inner->data is the caller's, also on failure. The archive
+ * counts its offsets from the start of the file or from its own, PK 3 4, which may stand in the
+ * picture too. */
+static enum rc_status
+unpack(const struct rc_file *file, struct rc_file *inner, struct rc_err *err)
+{
+    struct rc_piece rest = {(const char *)file->data, file->size};
+    const char *at = rest.text;
+
+    *inner = (struct rc_file){0};
+    for (size_t k = 0; k < STARTS_MOST && at != NULL; k++) {
+        size_t start = (size_t)(at - (const char *)file->data), member;
+        struct rc_file part = {file->name, file->data + start, file->size - start};
+        struct rc_zip_read *archive = rc_zip_read_behind(&part, NULL);
+        enum rc_status status = RC_MORE;
+
+        if (archive != NULL && rc_zip_read_find(archive, member_name, &member, NULL) == RC_OK)
+            status = unpack_member(archive, member, file, inner, err);
+        rc_zip_read_free(archive);
+        if (status != RC_MORE)
+            return status;
+        rest = (struct rc_piece){at + 1, file->size - start - 1};
+        at = rc_piece_find(rest, "PK\3\4");
+    }
+    return rc_err_set(err, "the file holds no archive with a member %s", member_name);
+}
+
+static enum rc_status
+fill_packed(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
+            double *v, struct rc_err *err)
+{
+    struct rc_bytes bytes;
+    enum rc_status status;
+    struct rc_file inner;
+
+    (void)wish;
+    if ((status = unpack(file, &inner, err)) == RC_OK) {
+        bytes = rc_file_bytes(&inner, false);
+        bytes.at = map->at;
+        rc_bytes_values(&bytes, map->raw, v, map->nx * map->ny);
+    }
+    free((void *)(uintptr_t)inner.data);
+    return status;
+}
+
+/* ---- VK4 ---- */
+
+static enum rc_status
+add_heights(const struct rc_file *file, size_t at, size_t conditions, size_t number,
+            struct rc_maps *maps, struct rc_err *err)
+{
+    struct rc_bytes b = rc_file_bytes(file, false);
+    struct rc_map *map = number == 1 ? rc_maps_add(maps, "height", 6)
+                         : number == 2 ? rc_maps_add(maps, "height 2", 8)
+                                       : rc_maps_add(maps, "height 3", 8);
+    double bits, promised;
+
+    if (rc_map_count("columns", rc_bytes_at(&b, at, RC_RAW_U32), &map->nx, err) != RC_OK ||
+        rc_map_count("rows", rc_bytes_at(&b, at + 4, RC_RAW_U32), &map->ny, err) != RC_OK)
+        return RC_FAIL;
+    bits = rc_bytes_at(&b, at + 8, RC_RAW_U32);
+    if (bits != 8 && bits != 16 && bits != 32)
+        return rc_err_set(err, "a height has %g bits: it must have 8, 16 or 32", bits);
+    if (rc_bytes_at(&b, at + 12, RC_RAW_U32) != 0)
+        return rc_err_set(err, "the heights are compressed: that is not read");
+    promised = rc_bytes_at(&b, at + 16, RC_RAW_U32);
+    if (promised != bits / 8 * (double)map->nx * (double)map->ny)
+        return rc_err_set(err, "%zu x %zu heights of %g bits do not make the %g bytes that the "
+                               "header promises", map->nx, map->ny, bits, promised);
+    if (promised > (double)file->size - (double)at - IMAGE)
+        return rc_err_set(err, "the heights take %g bytes from byte %zu on, the file has %zu in "
+                               "all", promised, at + IMAGE, file->size);
+    map->raw = bits == 8 ? RC_RAW_U8 : bits == 16 ? RC_RAW_U16 : RC_RAW_U32;
+    map->at = at + IMAGE;
+    strcpy(map->unit, "m");
+    map->si = 1e-12;
+    map->scale = rc_bytes_at(&b, conditions + AT_Z, RC_RAW_U32);
+    map->dx = rc_bytes_at(&b, conditions + AT_X, RC_RAW_U32) * 1e-12;
+    map->dy = rc_bytes_at(&b, conditions + AT_Y, RC_RAW_U32) * 1e-12;
+    return RC_OK;
+}
+
+static void
+keep_date(const struct rc_file *file, size_t conditions, struct rc_maps *maps)
+{
+    struct rc_bytes b = rc_file_bytes(file, false);
+    unsigned part[6];
+    char text[80];
+
+    for (size_t k = 0; k < 6; k++)
+        part[k] = (unsigned)rc_bytes_at(&b, conditions + AT_YEAR + 4 * k, RC_RAW_U32);
+    snprintf(text, sizeof text, "%04u-%02u-%02uT%02u:%02u:%02u", part[0], part[1], part[2], part[3],
+             part[4], part[5]);
+    rc_maps_key(maps, "file.date", text, strlen(text));
+}
+
+static enum rc_status
+find_plain(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
+{
+    struct rc_bytes b = rc_file_bytes(file, false);
+    size_t conditions = (size_t)rc_bytes_at(&b, LEAD, RC_RAW_U32), at;
+
+    if (!is_plain(file))
+        return rc_err_set(err, "no VK file: it begins with neither VK3_, VK4_, VK6 nor VK7");
+    if (b.past || conditions > file->size || file->size - conditions < CONDITIONS)
+        return rc_err_set(err, "the conditions of the measurement begin at byte %zu of a file of "
+                               "%zu", conditions, file->size);
+    for (size_t k = 0; k < HEIGHTS; k++) {
+        at = (size_t)rc_bytes_at(&b, HEIGHTS_AT + 4 * k, RC_RAW_U32);
+        if (at == 0)
+            continue;
+        if (at > file->size || file->size - at < IMAGE)
+            return rc_err_set(err, "height image %zu begins at byte %zu of a file of %zu", k + 1,
+                              at, file->size);
+        if (add_heights(file, at, conditions, k + 1, maps, err) != RC_OK)
+            return RC_FAIL;
+    }
+    keep_date(file, conditions, maps);
+    if (maps->n == 0)
+        return rc_err_set(err, "the file holds no height image");
+    return RC_OK;
+}
+
+static enum rc_status
+vk_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
+        struct rc_err *err)
+{
+    struct rc_file inner;
+    enum rc_status status;
+
+    (void)wish;
+    if (!is_packed(file))
+        return find_plain(file, maps, err);
+    if ((status = unpack(file, &inner, err)) == RC_OK)
+        status = find_plain(&inner, maps, err);
+    for (size_t k = 0; k < maps->n && status == RC_OK; k++) {
+        maps->map[k].fill = fill_packed;
+        status = rc_map_bound(&maps->map[k], file, (double)inner.size, err);
+    }
+    free((void *)(uintptr_t)inner.data);
+    return status;
+}
+
+static int
+vk_score(const struct rc_file *file)
+{
+    if (is_plain(file))
+        return 95;
+    return !is_packed(file) ? 0 : rc_file_named(file, ".vk6 .vk7") ? 95 : 60;
+}
+
+RC_FORMAT_OF_MAPS(vk)
+
+const struct rc_format rc_format_vk = {
+    .name = "vk",
+    .suffixes = ".vk3 .vk4 .vk6 .vk7",
+    .summary = "Keyence VK confocal microscopes",
+    .score = vk_score,
+    .list = vk_list,
+    .read = vk_read,
+};

@@ -1,0 +1,176 @@
+/*
+ * X3P, ISO 25178-72 (earlier ISO 5436-2): a ZIP archive that holds
+ *
+ *     main.xml           what was measured and how, and the heights themselves when they are few
+ *     bindata/data.bin   else the heights: little-endian, row 0 first, x fastest
+ *     bindata/valid.bin  one bit a point, lowest bit first, 1 where the height is valid
+ *     md5checksum.hex    MD5 sum of main.xml
+ *
+ * A height is number * increment + offset of the axis CZ, in metres. Damage that reaches a height
+ * (a wrong sum of data.bin or valid.bin) refuses the file; a wrong sum of main.xml is noted only,
+ * because programs that edit the header are known to leave the old sum behind.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "formats/core/core.h"
+#include "x3p.h"
+
+static const char *
+shown(char to[RC_SHOWN], const char *text)
+{
+    return rc_text_shown(to, text, strlen(text));
+}
+
+/* ---- the archive ---- */
+
+/* main.xml at the top, or under one folder there; macOS adds a folder of its own to archives. */
+static bool
+find_main(const struct rc_zip_read *a, size_t *member, char prefix[RC_X3P_NAME])
+{
+    static const char name[] = "main.xml";
+    size_t n = rc_zip_read_members(a);
+
+    if (rc_zip_read_find(a, name, member, NULL) == RC_OK) {
+        prefix[0] = '\0';
+        return true;
+    }
+    for (size_t k = 0; k < n; k++) {
+        const char *path = rc_zip_read_name(a, k), *slash = strchr(path, '/');
+        size_t folder = slash == NULL ? 0 : (size_t)(slash - path) + 1;
+
+        if (folder == 0 || folder >= RC_X3P_NAME || strcmp(slash + 1, name) != 0 ||
+            strncmp(path, "__MACOSX/", 9) == 0)
+            continue;
+        memcpy(prefix, path, folder);
+        prefix[folder] = '\0';
+        *member = k;
+        return true;
+    }
+    return false;
+}
+
+static void
+x3p_close(struct rc_x3p *x)
+{
+    rc_zip_read_free(x->archive);
+    free(x->list);
+    for (size_t f = 0; f < RC_X3P_FIELDS; f++)
+        free(x->text[f]);
+}
+
+static enum rc_status
+x3p_open(struct rc_x3p *x, const struct rc_file *file, bool wants_list, struct rc_err *err)
+{
+    char quote[RC_SHOWN];
+
+    *x = (struct rc_x3p){.wants_list = wants_list};
+    if ((x->archive = rc_zip_read_new(file, err)) == NULL)
+        return RC_FAIL;
+    if (!find_main(x->archive, &x->main, x->prefix))
+        return rc_err_set(err, "a ZIP archive, but no X3P: it holds no main.xml (the first of its "
+                               "%zu members is '%s')", rc_zip_read_members(x->archive),
+                          shown(quote, rc_zip_read_name(x->archive, 0)));
+    return rc_x3p_head(x, err);
+}
+
+static struct rc_grid *
+make_grid(struct rc_x3p *x, const struct rc_wish *wish, double *metres, struct rc_notes *notes,
+          struct rc_err *err)
+{
+    struct rc_shape shape = {.nx = x->nx, .ny = x->ny};
+    struct rc_grid *g;
+
+    if (rc_spacing(wish, x->dx, x->dy, &shape, notes, err) != RC_OK ||
+        rc_height_unit(wish, 1, "m", metres, notes, err) != RC_OK ||
+        (g = rc_grid_new(&shape, "height", "m", err)) == NULL)
+        return NULL;
+    for (size_t f = RC_X3P_FIRST_KEY; f < RC_X3P_FIELDS; f++)
+        if (x->text[f] != NULL && rc_text_keep(g, rc_x3p_key(f), x->text[f], strlen(x->text[f]),
+                                               err) != RC_OK) {
+            rc_grid_free(g);
+            return NULL;
+        }
+    return g;
+}
+
+/* ---- the row ---- */
+
+static int
+x3p_score(const struct rc_file *file)
+{
+    struct rc_zip_read *archive;
+    char prefix[RC_X3P_NAME];
+    size_t n = strlen(file->name), member;
+    bool named = n > 4 && strcmp(file->name + n - 4, ".x3p") == 0;
+    bool has_main;
+
+    if (file->size < 4 || memcmp(file->data, "PK", 2) != 0)
+        return 0;
+    /* Another kind of archive scores a little too, so that its refusal names what it lacks. */
+    if ((archive = rc_zip_read_new(file, NULL)) == NULL)
+        return named ? 50 : 5;
+    has_main = find_main(archive, &member, prefix);
+    rc_zip_read_free(archive);
+    return has_main ? (named ? 95 : 80) : 5;
+}
+
+static size_t
+x3p_list(const struct rc_file *file, const struct rc_wish *wish, struct rc_channel *channel,
+         size_t most, struct rc_err *err)
+{
+    struct rc_x3p x;
+    size_t n = 0;
+
+    (void)wish;
+    if (x3p_open(&x, file, false, err) == RC_OK) {
+        if (most > 0)
+            *channel = (struct rc_channel){
+                .name = "height", .unit = "m", .nx = x.nx, .ny = x.ny, .dx = x.dx, .dy = x.dy};
+        n = 1;
+    }
+    x3p_close(&x);
+    return n;
+}
+
+static struct rc_grid *
+x3p_read(const struct rc_file *file, const struct rc_wish *wish, size_t index,
+         struct rc_notes *notes, struct rc_err *err)
+{
+    struct rc_grid *g = NULL;
+    struct rc_x3p x;
+    size_t points = 0;
+    double metres;
+    bool good = false;
+
+    if (x3p_open(&x, file, true, err) != RC_OK)
+        goto done;
+    if (index != 0) {
+        rc_err_set(err, "an X3P file has one channel, not %zu", index + 1);
+        goto done;
+    }
+    if ((x.binary && rc_x3p_find_points(&x, &points, err) != RC_OK) ||
+        rc_map_fits(file, x.nx, x.ny, err) != RC_OK)
+        goto done;
+    rc_x3p_check_main(&x, notes);
+    if (x.turned)
+        rc_note(notes, "the file turns its axes by a rotation matrix: it is not applied");
+    if ((g = make_grid(&x, wish, &metres, notes, err)) == NULL)
+        goto done;
+    good = rc_x3p_values(&x, points, metres, g->v, notes, err) == RC_OK;
+done:
+    x3p_close(&x);
+    if (good)
+        return g;
+    rc_grid_free(g);
+    return NULL;
+}
+
+const struct rc_format rc_format_x3p = {
+    .name = "x3p",
+    .suffixes = ".x3p",
+    .summary = "ISO 25178-72 (ISO 5436-2): maps and profiles",
+    .score = x3p_score,
+    .list = x3p_list,
+    .read = x3p_read,
+};

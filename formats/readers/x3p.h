@@ -1,0 +1,67 @@
+/* X3P: what its readers share; see x3p.c. */
+#ifndef RC_X3P_H
+#define RC_X3P_H
+
+#include "zip_read.h"
+#include "formats/core/core.h"
+#include "formats/format.h"
+
+enum {
+    RC_X3P_NAME = 1024 /* bytes of a member's name */
+};
+
+/* What is kept of main.xml. */
+enum rc_x3p_field {
+    RC_X3P_FEATURE,
+    RC_X3P_CX_AXIS,
+    RC_X3P_CX_INCREMENT,
+    RC_X3P_CY_AXIS,
+    RC_X3P_CY_INCREMENT,
+    RC_X3P_CZ_TYPE,
+    RC_X3P_CZ_INCREMENT,
+    RC_X3P_CZ_OFFSET,
+    RC_X3P_SIZE_X,
+    RC_X3P_SIZE_Y,
+    RC_X3P_SIZE_Z,
+    RC_X3P_POINTS,
+    RC_X3P_POINTS_SUM,
+    RC_X3P_VALID,
+    RC_X3P_VALID_SUM,
+    RC_X3P_SUM_FILE,
+    RC_X3P_FIRST_KEY, /* from here on: kept as keys */
+    RC_X3P_FIELDS = RC_X3P_FIRST_KEY + 11
+};
+
+
+struct rc_x3p {
+    struct rc_zip_read *archive;
+    size_t main;            /* member                                                       */
+    char prefix[RC_X3P_NAME]; /* the folder that main.xml lies in, with its slash, or ""      */
+    char sum[RC_MD5_TEXT];  /* of main.xml                                                  */
+    char *text[RC_X3P_FIELDS];     /* NULL: not in the file                                        */
+    bool is_x3p, turned;    /* turned: a rotation that is not the identity                  */
+    bool profile;
+    bool binary;            /* the heights are in a member of their own                     */
+    enum rc_raw raw;
+    size_t nx, ny, n;       /* n = nx*ny                                                    */
+    double dx, dy;          /* m, NAN when not given                                        */
+    double increment, offset;
+    bool wants_list;        /* the heights in main.xml are to be kept                       */
+    double *list;           /* as far as they were in main.xml                              */
+    size_t listed, room;
+};
+
+/* Reads main.xml, and what it says is then judged: RC_FAIL for what is no map on a regular grid. */
+enum rc_status rc_x3p_head(struct rc_x3p *x, struct rc_err *err);
+/* The key of the grid that keeps a field from RC_X3P_FIRST_KEY on. */
+const char *rc_x3p_key(size_t field);
+
+/* Notes what is wrong with main.xml by its checksum. */
+void rc_x3p_check_main(struct rc_x3p *x, struct rc_notes *notes);
+/* Finds the member of the heights and checks its size before anything is allocated for it. */
+enum rc_status rc_x3p_find_points(struct rc_x3p *x, size_t *member, struct rc_err *err);
+/* Puts the heights into v, in metres; missing ones are NAN. */
+enum rc_status rc_x3p_values(struct rc_x3p *x, size_t member, double metres, double *v,
+                             struct rc_notes *notes, struct rc_err *err);
+
+#endif

@@ -1,0 +1,306 @@
+/* X3P: main.xml, read and judged. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "x3p.h"
+#include "xml.h"
+
+#define MAIN_MOST ((uint64_t)1 << 28) /* bytes of main.xml: some millions of heights in it */
+
+
+static const struct {
+    const char *path; /* below the root */
+    const char *key;
+} fields[RC_X3P_FIELDS] = {
+    [RC_X3P_FEATURE] = {"Record1/FeatureType", NULL},
+    [RC_X3P_CX_AXIS] = {"Record1/Axes/CX/AxisType", NULL},
+    [RC_X3P_CX_INCREMENT] = {"Record1/Axes/CX/Increment", NULL},
+    [RC_X3P_CY_AXIS] = {"Record1/Axes/CY/AxisType", NULL},
+    [RC_X3P_CY_INCREMENT] = {"Record1/Axes/CY/Increment", NULL},
+    [RC_X3P_CZ_TYPE] = {"Record1/Axes/CZ/DataType", NULL},
+    [RC_X3P_CZ_INCREMENT] = {"Record1/Axes/CZ/Increment", NULL},
+    [RC_X3P_CZ_OFFSET] = {"Record1/Axes/CZ/Offset", NULL},
+    [RC_X3P_SIZE_X] = {"Record3/MatrixDimension/SizeX", NULL},
+    [RC_X3P_SIZE_Y] = {"Record3/MatrixDimension/SizeY", NULL},
+    [RC_X3P_SIZE_Z] = {"Record3/MatrixDimension/SizeZ", NULL},
+    [RC_X3P_POINTS] = {"Record3/DataLink/PointDataLink", NULL},
+    [RC_X3P_POINTS_SUM] = {"Record3/DataLink/MD5ChecksumPointData", NULL},
+    [RC_X3P_VALID] = {"Record3/DataLink/ValidPointsLink", NULL},
+    [RC_X3P_VALID_SUM] = {"Record3/DataLink/MD5ChecksumValidPoints", NULL},
+    [RC_X3P_SUM_FILE] = {"Record4/ChecksumFile", NULL},
+    [RC_X3P_FIRST_KEY] = {"Record2/Date", "file.date"},
+    {"Record2/Creator", "file.creator"},
+    {"Record2/Instrument/Manufacturer", "file.manufacturer"},
+    {"Record2/Instrument/Model", "file.model"},
+    {"Record2/Instrument/Serial", "file.serial"},
+    {"Record2/Instrument/Version", "file.version"},
+    {"Record2/CalibrationDate", "file.calibrated"},
+    {"Record2/ProbingSystem/Type", "file.probe-type"},
+    {"Record2/ProbingSystem/Identification", "file.probe"},
+    {"Record2/Comment", "file.comment"},
+    {"Record1/Revision", "file.revision"},
+};
+
+static const char root_name[] = "ISO5436_2";
+
+const char *
+rc_x3p_key(size_t field)
+{
+    return fields[field].key;
+}
+
+
+static const char *
+shown(char to[RC_SHOWN], const char *text)
+{
+    return rc_text_shown(to, text, strlen(text));
+}
+
+/* ---- main.xml ---- */
+
+static enum rc_status
+whole(const char *name, const char *text, size_t *value, struct rc_err *err)
+{
+    char quote[RC_SHOWN];
+
+    *value = 0;
+    if (text == NULL || *text == '\0')
+        return rc_err_set(err, "main.xml gives no %s", name);
+    if (strlen(text) > 15 || text[strspn(text, "0123456789")] != '\0')
+        return rc_err_set(err, "%s is '%s' in main.xml: it must be a whole number", name,
+                          shown(quote, text));
+    for (; *text != '\0'; text++)
+        *value = 10 * *value + (size_t)(*text - '0');
+    return RC_OK;
+}
+
+/* A number that may be absent or empty: then it is `otherwise`. */
+static enum rc_status
+real(const char *name, const char *text, double otherwise, double *value, struct rc_err *err)
+{
+    char quote[RC_SHOWN];
+    const char *end;
+
+    *value = otherwise;
+    if (text == NULL || *text == '\0')
+        return RC_OK;
+    end = rc_number_read(text, true, value);
+    if (end == NULL || *end != '\0')
+        return rc_err_set(err, "%s is '%s' in main.xml: that is no number", name,
+                          shown(quote, text));
+    if (!isfinite(*value))
+        return rc_err_set(err, "%s is '%s' in main.xml: it must be finite", name,
+                          shown(quote, text));
+    return RC_OK;
+}
+
+/* Room for one more height of the list; the list is never longer than the bytes it came from. */
+static enum rc_status
+grow(struct rc_x3p *x, struct rc_err *err)
+{
+    size_t room = x->room == 0 ? 1024 : 2 * x->room;
+    double *more;
+
+    if (x->listed < x->room)
+        return RC_OK;
+    if ((more = realloc(x->list, room * sizeof *more)) == NULL)
+        return rc_err_set(err, "out of memory for %zu heights", room);
+    x->list = more;
+    x->room = room;
+    return RC_OK;
+}
+
+static enum rc_status
+take_datum(struct rc_x3p *x, const char *text, struct rc_err *err)
+{
+    char quote[RC_SHOWN];
+    double value = NAN; /* an empty one is a missing point */
+    const char *end = *text == '\0' ? text : rc_number_read(text, true, &value);
+
+    if (!x->wants_list) {
+        x->listed++;
+        return RC_OK;
+    }
+    if (end != NULL && *end == ';')
+        return rc_err_set(err, "Datum %zu is '%s': lists with coordinates are not read, only "
+                               "matrices of heights", x->listed + 1, shown(quote, text));
+    if (end == NULL || *end != '\0')
+        return rc_err_set(err, "Datum %zu is '%s': that is no number", x->listed + 1,
+                          shown(quote, text));
+    if (grow(x, err) != RC_OK)
+        return RC_FAIL;
+    x->list[x->listed++] = value;
+    return RC_OK;
+}
+
+/* Elements r11 to r33 of the rotation matrix. */
+static enum rc_status
+take_rotation(struct rc_x3p *x, const char *name, const char *text, struct rc_err *err)
+{
+    double value;
+
+    if (real("the rotation matrix", text, name[0] == name[1], &value, err) != RC_OK)
+        return RC_FAIL;
+    x->turned = x->turned || fabs(value - (name[0] == name[1])) > 1e-9;
+    return RC_OK;
+}
+
+static enum rc_status
+take_element(void *arg, const char *path, const char *text, struct rc_err *err)
+{
+    static const char rotation[] = "Record1/Axes/Rotation/r";
+    struct rc_x3p *x = arg;
+    char quote[RC_SHOWN];
+
+    if (strncmp(path, root_name, strlen(root_name)) != 0 || path[strlen(root_name)] != '/') {
+        if (strchr(path, '/') == NULL && strcmp(path, root_name) != 0)
+            return rc_err_set(err, "a ZIP archive, but no X3P: the root of its main.xml is '%s', "
+                                   "not %s", shown(quote, path), root_name);
+        return RC_OK;
+    }
+    x->is_x3p = true;
+    path += strlen(root_name) + 1;
+    if (strcmp(path, "Record3/DataList/Datum") == 0)
+        return take_datum(x, text, err);
+    if (strncmp(path, rotation, strlen(rotation)) == 0 && strlen(path) == strlen(rotation) + 2)
+        return take_rotation(x, path + strlen(rotation), text, err);
+    for (size_t f = 0; f < RC_X3P_FIELDS; f++) {
+        if (strcmp(path, fields[f].path) != 0)
+            continue;
+        if (x->text[f] != NULL && fields[f].key == NULL)
+            return rc_err_set(err, "main.xml holds %s twice", fields[f].path);
+        return rc_text_set(&x->text[f], text, err);
+    }
+    return RC_OK;
+}
+
+static enum rc_status
+take_xml(void *arg, const unsigned char *bytes, size_t n, struct rc_err *err)
+{
+    return rc_xml_feed(arg, bytes, n, err);
+}
+
+static enum rc_status
+read_main(struct rc_x3p *x, struct rc_err *err)
+{
+    struct rc_xml *xml = rc_xml_new("main.xml", take_element, x, err);
+    enum rc_status status = RC_FAIL;
+
+    if (xml == NULL)
+        return RC_FAIL;
+    if (rc_zip_read_read(x->archive, x->main, MAIN_MOST, take_xml, xml, x->sum, err) != RC_OK ||
+        rc_xml_end(xml, err) != RC_OK)
+        goto done;
+    if (!x->is_x3p) {
+        rc_err_set(err, "a ZIP archive, but no X3P: its main.xml holds no %s", root_name);
+        goto done;
+    }
+    status = RC_OK;
+done:
+    rc_xml_free(xml);
+    return status;
+}
+
+/* ---- what main.xml says ---- */
+
+static enum rc_status
+judge_axis(const char *name, const char *type, struct rc_err *err)
+{
+    char quote[RC_SHOWN];
+
+    if (type != NULL && strcmp(type, "I") == 0)
+        return RC_OK;
+    return rc_err_set(err, "axis %s is of type '%s': only incremental axes (I), a regular grid, "
+                           "are read", name, type == NULL ? "" : shown(quote, type));
+}
+
+/* What kind of data it is, before anything else is asked of it. */
+static enum rc_status
+judge_feature(struct rc_x3p *x, struct rc_err *err)
+{
+    const char *feature = x->text[RC_X3P_FEATURE] == NULL ? "" : x->text[RC_X3P_FEATURE];
+    char quote[RC_SHOWN];
+
+    x->profile = strcmp(feature, "PRF") == 0;
+    if (strcmp(feature, "PCL") == 0)
+        return rc_err_set(err, "FeatureType PCL is a cloud of points: only maps (SUR) and profiles "
+                               "(PRF) on a regular grid are read");
+    if (!x->profile && strcmp(feature, "SUR") != 0)
+        return rc_err_set(err, "FeatureType is '%s': it must be SUR or PRF", shown(quote, feature));
+    if (judge_axis("CX", x->text[RC_X3P_CX_AXIS], err) != RC_OK)
+        return RC_FAIL;
+    return x->profile ? RC_OK : judge_axis("CY", x->text[RC_X3P_CY_AXIS], err);
+}
+
+static enum rc_status
+judge_sizes(struct rc_x3p *x, struct rc_err *err)
+{
+    size_t nz, bytes;
+
+    if (whole("SizeX", x->text[RC_X3P_SIZE_X], &x->nx, err) != RC_OK ||
+        whole("SizeY", x->text[RC_X3P_SIZE_Y], &x->ny, err) != RC_OK ||
+        whole("SizeZ", x->text[RC_X3P_SIZE_Z], &nz, err) != RC_OK)
+        return RC_FAIL;
+    if (nz != 1)
+        return rc_err_set(err, "SizeZ is %zu: only maps of one layer are read", nz);
+    if (x->nx == 0 || x->ny == 0)
+        return rc_err_set(err, "a matrix of %zu x %zu points is empty", x->nx, x->ny);
+    if (x->profile && x->ny != 1)
+        return rc_err_set(err, "a profile (PRF) of %zu rows: SizeY must be 1", x->ny);
+    if (rc_size_mul(x->nx, x->ny, &x->n, err) != RC_OK)
+        return RC_FAIL;
+    return rc_size_mul(x->n, sizeof(double), &bytes, err);
+}
+
+static enum rc_status
+judge_scales(struct rc_x3p *x, struct rc_err *err)
+{
+    if (real("the increment of CX", x->text[RC_X3P_CX_INCREMENT], NAN, &x->dx, err) != RC_OK ||
+        real("the increment of CY", x->text[RC_X3P_CY_INCREMENT], NAN, &x->dy, err) != RC_OK ||
+        real("the increment of CZ", x->text[RC_X3P_CZ_INCREMENT], 1, &x->increment, err) != RC_OK ||
+        real("the offset of CZ", x->text[RC_X3P_CZ_OFFSET], 0, &x->offset, err) != RC_OK)
+        return RC_FAIL;
+    if (x->increment == 0)
+        return rc_err_set(err, "the increment of CZ is 0 in main.xml: all heights would be one");
+    if (x->profile)
+        x->dy = x->dx;
+    return RC_OK;
+}
+
+static enum rc_status
+judge_type(struct rc_x3p *x, struct rc_err *err)
+{
+    static const struct {
+        const char *letter;
+        enum rc_raw raw;
+    } types[] = {{"I", RC_RAW_I16}, {"L", RC_RAW_I32}, {"F", RC_RAW_F32}, {"D", RC_RAW_F64}};
+    const char *type = x->text[RC_X3P_CZ_TYPE] == NULL ? "" : x->text[RC_X3P_CZ_TYPE];
+    char quote[RC_SHOWN];
+
+    for (size_t k = 0; k < sizeof types / sizeof *types; k++)
+        if (strcmp(type, types[k].letter) == 0) {
+            x->raw = types[k].raw;
+            return RC_OK;
+        }
+    return rc_err_set(err, "DataType of CZ is '%s': it must be I, L, F or D", shown(quote, type));
+}
+
+static enum rc_status
+judge(struct rc_x3p *x, struct rc_err *err)
+{
+    if (judge_feature(x, err) != RC_OK || judge_sizes(x, err) != RC_OK ||
+        judge_scales(x, err) != RC_OK || judge_type(x, err) != RC_OK)
+        return RC_FAIL;
+    x->binary = x->text[RC_X3P_POINTS] != NULL && *x->text[RC_X3P_POINTS] != '\0';
+    if (!x->binary && x->listed != x->n)
+        return rc_err_set(err, "the header promises %zu x %zu heights, main.xml lists %zu", x->nx,
+                          x->ny, x->listed);
+    return RC_OK;
+}
+
+enum rc_status
+rc_x3p_head(struct rc_x3p *x, struct rc_err *err)
+{
+    return read_main(x, err) == RC_OK ? judge(x, err) : RC_FAIL;
+}

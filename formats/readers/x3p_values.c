@@ -1,0 +1,198 @@
+/* X3P: heights, valid points and checksums. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "x3p.h"
+
+enum {
+    SUM_MOST = 4096, /* bytes of md5checksum.hex                             */
+    MASK_PADDING = 7 /* bytes that a writer may round the valid points up by */
+};
+
+static const char *
+shown(char to[RC_SHOWN], const char *text)
+{
+    return rc_text_shown(to, text, strlen(text));
+}
+
+/* The member that a link in main.xml names. */
+static enum rc_status
+follow(const struct rc_x3p *x, const char *link, size_t *member, struct rc_err *err)
+{
+    char name[RC_X3P_NAME];
+    size_t n = strlen(x->prefix);
+
+    if (strncmp(link, "./", 2) == 0)
+        link += 2;
+    if (n + strlen(link) >= sizeof name)
+        return rc_err_set(err, "main.xml names a member with a name of %zu bytes", strlen(link));
+    memcpy(name, x->prefix, n);
+    strcpy(name + n, link);
+    for (char *s = name; *s != '\0'; s++)
+        if (*s == '\\')
+            *s = '/';
+    return rc_zip_read_find(x->archive, name, member, err);
+}
+
+/* ---- checksums ---- */
+
+/* The MD5 sum that text begins with, in lower case; false when there is none. */
+static bool
+sum_of(const char *text, char sum[RC_MD5_TEXT])
+{
+    size_t n = strspn(text, "0123456789abcdefABCDEF");
+
+    if (n != RC_MD5_TEXT - 1)
+        return false;
+    for (size_t k = 0; k < n; k++)
+        sum[k] = (char)(text[k] >= 'A' && text[k] <= 'F' ? text[k] + ('a' - 'A') : text[k]);
+    sum[n] = '\0';
+    return true;
+}
+
+/* A sum given in main.xml against that of the bytes. */
+static enum rc_status
+check_sum(const char *what, const char *given, const char *sum, struct rc_notes *notes,
+          struct rc_err *err)
+{
+    char wanted[RC_MD5_TEXT], quote[RC_SHOWN];
+
+    if (given == NULL || *given == '\0')
+        return RC_OK;
+    if (!sum_of(given, wanted)) {
+        rc_note(notes, "'%s' is no MD5 sum: the %s are not checked", shown(quote, given), what);
+        return RC_OK;
+    }
+    if (strcmp(wanted, sum) == 0)
+        return RC_OK;
+    return rc_err_set(err, "the %s are damaged: their MD5 sum is %s, main.xml says %s", what, sum,
+                      wanted);
+}
+
+void
+rc_x3p_check_main(struct rc_x3p *x, struct rc_notes *notes)
+{
+    const char *link = x->text[RC_X3P_SUM_FILE];
+    unsigned char *bytes;
+    char wanted[RC_MD5_TEXT], ignored[RC_MD5_TEXT];
+    struct rc_err err;
+    size_t member, n;
+
+    if (link == NULL || *link == '\0')
+        link = "md5checksum.hex";
+    if (follow(x, link, &member, NULL) != RC_OK) {
+        rc_note(notes, "the file has no md5checksum.hex: main.xml is not checked");
+        return;
+    }
+    bytes = rc_zip_read_bytes(x->archive, member, SUM_MOST, &n, ignored, &err);
+    if (bytes == NULL) {
+        rc_note(notes, "main.xml is not checked: %s", err.text);
+        return;
+    }
+    if (!sum_of((const char *)bytes, wanted))
+        rc_note(notes, "md5checksum.hex holds no MD5 sum: main.xml is not checked");
+    else if (strcmp(wanted, x->sum) != 0)
+        rc_note(notes, "main.xml was changed after its checksum was written: its MD5 sum is %s, "
+                       "md5checksum.hex says %s", x->sum, wanted);
+    free(bytes);
+}
+
+/* ---- heights ---- */
+
+struct values {
+    double *v;
+    size_t n;
+    enum rc_raw raw;
+};
+
+/* Pieces hold whole numbers: RC_PIECE is a multiple of every width, and the size was checked. */
+static enum rc_status
+take_values(void *arg, const unsigned char *bytes, size_t n, struct rc_err *err)
+{
+    struct values *values = arg;
+    struct rc_bytes cursor = {.data = bytes, .size = n};
+    size_t count = n / rc_raw_width(values->raw);
+
+    (void)err;
+    rc_bytes_values(&cursor, values->raw, values->v + values->n, count);
+    values->n += count;
+    return RC_OK;
+}
+
+enum rc_status
+rc_x3p_find_points(struct rc_x3p *x, size_t *member, struct rc_err *err)
+{
+    uint64_t size, wanted = (uint64_t)x->n * rc_raw_width(x->raw);
+
+    if (follow(x, x->text[RC_X3P_POINTS], member, err) != RC_OK ||
+        rc_zip_read_size(x->archive, *member, &size, err) != RC_OK)
+        return RC_FAIL;
+    return rc_bytes_agree("heights", wanted, size, err);
+}
+
+static enum rc_status
+read_points(struct rc_x3p *x, size_t member, double *v, struct rc_notes *notes, struct rc_err *err)
+{
+    struct values values = {.v = v, .raw = x->raw};
+    uint64_t size = (uint64_t)x->n * rc_raw_width(x->raw);
+    char sum[RC_MD5_TEXT];
+
+    if (rc_zip_read_read(x->archive, member, size, take_values, &values, sum, err) != RC_OK)
+        return RC_FAIL;
+    return check_sum("heights", x->text[RC_X3P_POINTS_SUM], sum, notes, err);
+}
+
+static enum rc_status
+apply_mask(struct rc_x3p *x, double *v, struct rc_notes *notes, struct rc_err *err)
+{
+    enum rc_status status = RC_FAIL;
+    unsigned char *mask;
+    size_t member, n, least = x->n / 8 + (x->n % 8 != 0);
+    char sum[RC_MD5_TEXT];
+    uint64_t size;
+
+    if (x->text[RC_X3P_VALID] == NULL || *x->text[RC_X3P_VALID] == '\0')
+        return RC_OK;
+    if (follow(x, x->text[RC_X3P_VALID], &member, err) != RC_OK ||
+        rc_zip_read_size(x->archive, member, &size, err) != RC_OK)
+        return RC_FAIL;
+    if ((size < least || size > least + MASK_PADDING) &&
+        rc_bytes_agree("valid points", least, size, err) != RC_OK)
+        return RC_FAIL;
+    if ((mask = rc_zip_read_bytes(x->archive, member, size, &n, sum, err)) == NULL)
+        return RC_FAIL;
+    if (check_sum("valid points", x->text[RC_X3P_VALID_SUM], sum, notes, err) == RC_OK) {
+        for (size_t k = 0; k < x->n; k++)
+            if ((mask[k / 8] >> k % 8 & 1) == 0)
+                v[k] = NAN;
+        status = RC_OK;
+    }
+    free(mask);
+    return status;
+}
+
+static enum rc_status
+scale(const struct rc_x3p *x, double metres, double *v, struct rc_err *err)
+{
+    for (size_t k = 0; k < x->n; k++) {
+        if (isnan(v[k]))
+            continue;
+        v[k] = (v[k] * x->increment + x->offset) * metres;
+        if (!isfinite(v[k]))
+            return rc_err_set(err, "the height at column %zu, row %zu (from 0) is infinite",
+                              k % x->nx, k / x->nx);
+    }
+    return RC_OK;
+}
+
+enum rc_status
+rc_x3p_values(struct rc_x3p *x, size_t member, double metres, double *v, struct rc_notes *notes,
+              struct rc_err *err)
+{
+    if (!x->binary)
+        memcpy(v, x->list, x->n * sizeof *v);
+    else if (read_points(x, member, v, notes, err) != RC_OK)
+        return RC_FAIL;
+    return apply_mask(x, v, notes, err) == RC_OK ? scale(x, metres, v, err) : RC_FAIL;
+}

@@ -1,0 +1,175 @@
+#include "xml.h"
+
+#include <libxml/parser.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "formats/core/core.h"
+
+enum {
+    PATH_MAX_BYTES = 512,
+    TEXT_MAX_BYTES = 8192
+};
+
+struct rc_xml {
+    xmlParserCtxtPtr parser;
+    const char *name;
+    rc_element *element;
+    void *arg;
+    struct rc_err err; /* why the parser was stopped from here */
+    bool stopped;
+    size_t path_length, lost; /* lost: levels that the path has no room for */
+    size_t text_length;
+    char path[PATH_MAX_BYTES];
+    char text[TEXT_MAX_BYTES];
+};
+
+static void
+stop(struct rc_xml *x)
+{
+    x->stopped = true;
+    xmlStopParser(x->parser);
+}
+
+static void
+on_start(void *arg, const xmlChar *name, const xmlChar *prefix, const xmlChar *uri, int spaces,
+         const xmlChar **space, int attributes, int defaulted, const xmlChar **attribute)
+{
+    struct rc_xml *x = arg;
+    size_t n = strlen((const char *)name);
+
+    (void)prefix, (void)uri, (void)spaces, (void)space;
+    (void)attributes, (void)defaulted, (void)attribute;
+    x->text_length = 0;
+    if (x->lost > 0 || x->path_length + 1 + n >= sizeof x->path) {
+        x->lost++;
+        return;
+    }
+    if (x->path_length > 0)
+        x->path[x->path_length++] = '/';
+    memcpy(x->path + x->path_length, name, n + 1);
+    x->path_length += n;
+}
+
+static void
+on_text(void *arg, const xmlChar *text, int length)
+{
+    struct rc_xml *x = arg;
+    size_t room = sizeof x->text - 1 - x->text_length;
+    size_t n = (size_t)length < room ? (size_t)length : room;
+
+    memcpy(x->text + x->text_length, text, n);
+    x->text_length += n;
+}
+
+static void
+on_end(void *arg, const xmlChar *name, const xmlChar *prefix, const xmlChar *uri)
+{
+    struct rc_xml *x = arg;
+    const char *text = x->text;
+    size_t n = x->text_length;
+    char *slash;
+
+    (void)name, (void)prefix, (void)uri;
+    x->text_length = 0;
+    if (x->lost > 0) {
+        x->lost--;
+        return;
+    }
+    rc_trim(&text, &n);
+    x->text[(size_t)(text - x->text) + n] = '\0';
+    if (!x->stopped && x->element(x->arg, x->path, text, &x->err) != RC_OK)
+        stop(x);
+    slash = strrchr(x->path, '/');
+    x->path_length = slash == NULL ? 0 : (size_t)(slash - x->path);
+    x->path[x->path_length] = '\0';
+}
+
+/* Called at the name of a document type, before anything in it is read. */
+static void
+on_document_type(void *arg, const xmlChar *name, const xmlChar *external, const xmlChar *system)
+{
+    struct rc_xml *x = arg;
+
+    (void)name, (void)external, (void)system;
+    if (x->stopped)
+        return;
+    rc_err_set(&x->err, "%s has a document type declaration, which can hide expanding entities: "
+                        "it is not read", x->name);
+    stop(x);
+}
+
+static void
+on_complaint(void *arg, xmlErrorPtr complaint)
+{
+    (void)arg, (void)complaint; /* the last one is asked for where it is told on */
+}
+
+struct rc_xml *
+rc_xml_new(const char *name, rc_element *element, void *arg, struct rc_err *err)
+{
+    xmlSAXHandler handlers = {
+        .initialized = XML_SAX2_MAGIC,
+        .startElementNs = on_start,
+        .endElementNs = on_end,
+        .characters = on_text,
+        .cdataBlock = on_text,
+        .internalSubset = on_document_type,
+        .serror = on_complaint,
+    };
+    struct rc_xml *x = calloc(1, sizeof *x);
+
+    if (x != NULL) {
+        x->name = name;
+        x->element = element;
+        x->arg = arg;
+        x->parser = xmlCreatePushParserCtxt(&handlers, x, NULL, 0, NULL);
+    }
+    if (x == NULL || x->parser == NULL) {
+        rc_err_set(err, "out of memory for reading XML");
+        free(x);
+        return NULL;
+    }
+    xmlCtxtUseOptions(x->parser, XML_PARSE_NONET);
+    return x;
+}
+
+static enum rc_status
+feed(struct rc_xml *x, const unsigned char *bytes, size_t n, int last, struct rc_err *err)
+{
+    const xmlError *why;
+    char said[RC_SHOWN * 2];
+
+    if (xmlParseChunk(x->parser, (const char *)bytes, (int)n, last) == 0 && !x->stopped)
+        return RC_OK;
+    if (x->stopped)
+        return rc_err_set(err, "%s", x->err.text);
+    why = xmlCtxtGetLastError(x->parser);
+    if (why == NULL || why->message == NULL)
+        return rc_err_set(err, "%s is no XML", x->name);
+    rc_text_clean(said, sizeof said, why->message, strlen(why->message));
+    return rc_err_set(err, "%s is no whole XML: line %d: %s", x->name, why->line, said);
+}
+
+enum rc_status
+rc_xml_feed(struct rc_xml *x, const unsigned char *bytes, size_t n, struct rc_err *err)
+{
+    return feed(x, bytes, n, 0, err);
+}
+
+enum rc_status
+rc_xml_end(struct rc_xml *x, struct rc_err *err)
+{
+    return feed(x, NULL, 0, 1, err);
+}
+
+void
+rc_xml_free(struct rc_xml *x)
+{
+    if (x == NULL)
+        return;
+    if (x->parser->myDoc != NULL)
+        xmlFreeDoc(x->parser->myDoc);
+    xmlFreeParserCtxt(x->parser);
+    free(x);
+}

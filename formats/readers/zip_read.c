@@ -1,0 +1,245 @@
+#include "zip_read.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include <zip.h>
+
+#include "formats/core/core.h"
+
+enum {
+    DEFLATE_MOST = 1032 /* bytes that one deflated byte can yield: 258 for two bits */
+};
+
+struct rc_zip_read {
+    zip_t *zip;
+    size_t size;
+};
+
+static zip_t *
+open_zip(const struct rc_file *file, zip_error_t *why)
+{
+    zip_source_t *source = zip_source_buffer_create(file->data, file->size, 0, why);
+    zip_t *zip = source == NULL ? NULL : zip_open_from_source(source, ZIP_RDONLY, why);
+
+    if (zip == NULL)
+        zip_source_free(source);
+    return zip;
+}
+
+struct rc_zip_read *
+rc_zip_read_new(const struct rc_file *file, struct rc_err *err)
+{
+    if (file->size >= 4 && memcmp(file->data, "PK", 2) == 0)
+        return rc_zip_read_behind(file, err);
+    rc_err_set(err, "no ZIP archive: it does not begin with 'PK'");
+    return NULL;
+}
+
+struct rc_zip_read *
+rc_zip_read_behind(const struct rc_file *file, struct rc_err *err)
+{
+    struct rc_zip_read *a = NULL;
+    zip_error_t why;
+
+    zip_error_init(&why);
+    if ((a = calloc(1, sizeof *a)) == NULL) {
+        rc_err_set(err, "out of memory for an archive (%zu bytes)", sizeof *a);
+        goto done;
+    }
+    a->size = file->size;
+    if ((a->zip = open_zip(file, &why)) == NULL) {
+        rc_err_set(err, "the ZIP archive is damaged or cut off: %s", zip_error_strerror(&why));
+        free(a);
+        a = NULL;
+    }
+done:
+    zip_error_fini(&why);
+    return a;
+}
+
+void
+rc_zip_read_free(struct rc_zip_read *a)
+{
+    if (a == NULL)
+        return;
+    zip_discard(a->zip);
+    free(a);
+}
+
+size_t
+rc_zip_read_members(const struct rc_zip_read *a)
+{
+    zip_int64_t n = zip_get_num_entries(a->zip, 0);
+
+    return n < 0 ? 0 : (size_t)n;
+}
+
+const char *
+rc_zip_read_name(const struct rc_zip_read *a, size_t member)
+{
+    const char *name = zip_get_name(a->zip, member, ZIP_FL_ENC_RAW);
+
+    return name == NULL ? "" : name;
+}
+
+enum rc_status
+rc_zip_read_find(const struct rc_zip_read *a, const char *name, size_t *member, struct rc_err *err)
+{
+    char shown[RC_SHOWN];
+    size_t n = rc_zip_read_members(a);
+
+    for (size_t k = 0; k < n; k++)
+        if (strcmp(rc_zip_read_name(a, k), name) == 0) {
+            *member = k;
+            return RC_OK;
+        }
+    return rc_err_set(err, "the archive has no member '%s'",
+                      rc_text_shown(shown, name, strlen(name)));
+}
+
+enum rc_status
+rc_zip_read_size(struct rc_zip_read *a, size_t member, uint64_t *size, struct rc_err *err)
+{
+    const zip_uint64_t needed =
+        ZIP_STAT_SIZE | ZIP_STAT_COMP_SIZE | ZIP_STAT_COMP_METHOD | ZIP_STAT_ENCRYPTION_METHOD;
+    const char *name = rc_zip_read_name(a, member);
+    char shown[RC_SHOWN];
+    zip_stat_t st;
+
+    rc_text_shown(shown, name, strlen(name));
+    if (zip_stat_index(a->zip, member, 0, &st) != 0 || (st.valid & needed) != needed)
+        return rc_err_set(err, "member '%s' of the archive: no size is given", shown);
+    if (st.encryption_method != ZIP_EM_NONE)
+        return rc_err_set(err, "member '%s' of the archive is encrypted", shown);
+    if (st.comp_method != ZIP_CM_STORE && st.comp_method != ZIP_CM_DEFLATE)
+        return rc_err_set(err, "member '%s' of the archive is packed by method %u: only stored "
+                               "and deflated ones are read", shown, (unsigned)st.comp_method);
+    if (st.comp_size > a->size)
+        return rc_err_set(err, "member '%s' of the archive promises %" PRIu64 " packed bytes, the "
+                               "file has %zu", shown, (uint64_t)st.comp_size, a->size);
+    if (st.size / DEFLATE_MOST > st.comp_size)
+        return rc_err_set(err, "member '%s' of the archive promises %" PRIu64 " bytes, which its "
+                               "%" PRIu64 " packed ones cannot hold", shown, (uint64_t)st.size,
+                          (uint64_t)st.comp_size);
+    *size = st.size;
+    return RC_OK;
+}
+
+/* The next n bytes, or fewer at the end; -1 when they cannot be unpacked. */
+static zip_int64_t
+read_fully(zip_file_t *f, unsigned char *to, size_t n)
+{
+    size_t have = 0;
+
+    while (have < n) {
+        zip_int64_t got = zip_fread(f, to + have, n - have);
+        if (got < 0)
+            return -1;
+        if (got == 0)
+            break;
+        have += (size_t)got;
+    }
+    return (zip_int64_t)have;
+}
+
+static enum rc_status
+unpack(zip_file_t *f, const char *name, uint64_t size, struct rc_sums *sums, rc_take *take,
+       void *arg, struct rc_err *err)
+{
+    char shown[RC_SHOWN];
+    uint64_t done = 0;
+
+    /* The read that finds the end is the one that checks the CRC. */
+    for (;;) {
+        unsigned char *piece = rc_sums_room(sums);
+        zip_int64_t n = read_fully(f, piece, RC_PIECE);
+
+        if (n < 0)
+            return rc_err_set(err, "member '%s' of the archive is damaged: %s",
+                              rc_text_shown(shown, name, strlen(name)), zip_file_strerror(f));
+        done += (uint64_t)n;
+        if (done > size || (n < RC_PIECE && done < size))
+            return rc_err_set(err, "member '%s' of the archive promises %" PRIu64 " bytes and "
+                                   "holds %s", rc_text_shown(shown, name, strlen(name)), size,
+                              done > size ? "more" : "fewer");
+        rc_sums_add(sums, (size_t)n);
+        if (n > 0 && take(arg, piece, (size_t)n, err) != RC_OK)
+            return RC_FAIL;
+        if (n < RC_PIECE)
+            return RC_OK;
+    }
+}
+
+enum rc_status
+rc_zip_read_read(struct rc_zip_read *a, size_t member, uint64_t most, rc_take *take, void *arg,
+                char sum[RC_MD5_TEXT], struct rc_err *err)
+{
+    enum rc_status status = RC_FAIL;
+    const char *name = rc_zip_read_name(a, member);
+    struct rc_sums *sums = NULL;
+    zip_file_t *f = NULL;
+    char shown[RC_SHOWN];
+    uint64_t size;
+
+    rc_text_shown(shown, name, strlen(name));
+    if (rc_zip_read_size(a, member, &size, err) != RC_OK)
+        goto done;
+    if (size > most) {
+        rc_err_set(err, "member '%s' of the archive holds %" PRIu64 " bytes, more than the %" PRIu64
+                        " that can be meant", shown, size, most);
+        goto done;
+    }
+    if ((f = zip_fopen_index(a->zip, member, 0)) == NULL) {
+        rc_err_set(err, "member '%s' of the archive cannot be read: %s", shown,
+                   zip_strerror(a->zip));
+        goto done;
+    }
+    if ((sums = rc_sums_new(RC_PIECE, size, err)) == NULL)
+        goto done;
+    status = unpack(f, name, size, sums, take, arg, err);
+    rc_sums_end(sums, sum);
+done:
+    if (f != NULL)
+        zip_fclose(f);
+    return status;
+}
+
+struct buffer {
+    unsigned char *bytes;
+    size_t n;
+};
+
+static enum rc_status
+take_bytes(void *arg, const unsigned char *bytes, size_t n, struct rc_err *err)
+{
+    struct buffer *b = arg;
+
+    (void)err;
+    memcpy(b->bytes + b->n, bytes, n);
+    b->n += n;
+    return RC_OK;
+}
+
+unsigned char *
+rc_zip_read_bytes(struct rc_zip_read *a, size_t member, uint64_t most, size_t *n,
+                 char sum[RC_MD5_TEXT], struct rc_err *err)
+{
+    struct buffer b = {0};
+    uint64_t size;
+
+    if (rc_zip_read_size(a, member, &size, err) != RC_OK)
+        return NULL;
+    size = size < most ? size : most; /* a larger one is refused before it is unpacked */
+    if ((b.bytes = malloc((size_t)size + 1)) == NULL) {
+        rc_err_set(err, "out of memory for %" PRIu64 " bytes", size);
+        return NULL;
+    }
+    if (rc_zip_read_read(a, member, most, take_bytes, &b, sum, err) != RC_OK) {
+        free(b.bytes);
+        return NULL;
+    }
+    b.bytes[b.n] = '\0';
+    *n = b.n;
+    return b.bytes;
+}

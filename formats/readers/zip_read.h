@@ -1,0 +1,51 @@
+/*
+ * ZIP archives in memory; the only place that knows libzip.
+ *
+ * A member is taken only when it is stored or deflated and its size is one that its packed bytes
+ * can yield, so that no few bytes make a program ask for much memory.
+ */
+#ifndef RC_ZIP_READ_H
+#define RC_ZIP_READ_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "libcontact/grid.h"
+#include "formats/format.h"
+#include "formats/core/core.h"
+
+struct rc_zip_read;
+
+/* The file's bytes must outlive the archive. NULL when they are no ZIP archive or a damaged one. */
+struct rc_zip_read *rc_zip_read_new(const struct rc_file *file, struct rc_err *err);
+/* The same where other bytes stand before the archive, whose offsets count them. */
+struct rc_zip_read *rc_zip_read_behind(const struct rc_file *file, struct rc_err *err);
+void rc_zip_read_free(struct rc_zip_read *archive); /* NULL is allowed */
+
+size_t rc_zip_read_members(const struct rc_zip_read *archive);
+const char *rc_zip_read_name(const struct rc_zip_read *archive, size_t member); /* "" for none */
+/* The member of that name; RC_FAIL when there is none. */
+enum rc_status rc_zip_read_find(const struct rc_zip_read *archive, const char *name, size_t *member,
+                               struct rc_err *err);
+/* Its size unpacked. RC_FAIL when it is not to be trusted. */
+enum rc_status rc_zip_read_size(struct rc_zip_read *archive, size_t member, uint64_t *size,
+                               struct rc_err *err);
+
+enum {
+    RC_PIECE = 1 << 18
+};
+/* Takes the next bytes of a member: RC_PIECE of them but for the last time. */
+typedef enum rc_status rc_take(void *arg, const unsigned char *bytes, size_t n,
+                               struct rc_err *err);
+/* Unpacks a member of at most `most` bytes into `take`, and gives its MD5 sum. The sum is that of
+ * all its bytes, whose CRC has been checked. */
+enum rc_status rc_zip_read_read(struct rc_zip_read *archive, size_t member, uint64_t most,
+                               rc_take *take, void *arg, char sum[RC_MD5_TEXT],
+                               struct rc_err *err);
+
+/* The whole of a member of at most `most` bytes, with a NUL behind them, which the caller frees; NULL
+ * with the reason. */
+unsigned char *rc_zip_read_bytes(struct rc_zip_read *archive, size_t member, uint64_t most, size_t *n,
+                                char sum[RC_MD5_TEXT], struct rc_err *err);
+
+#endif

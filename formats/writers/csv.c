@@ -1,0 +1,53 @@
+/* A matrix as text: a header of four comment lines as Gwyddion has them, then a line a row, values
+ * separated by commas. Every number has a point, so that no reader takes the comma for one. */
+#include <math.h>
+#include <string.h>
+
+#include "encode.h"
+#include "formats/export.h"
+
+/* The number, with a point whatever it is: "2.0", "1.0e-06". */
+static const char *
+number_text(char text[RC_NUMBER_SIZE], double value)
+{
+    size_t n;
+
+    rc_number_text(text, value);
+    n = strspn(text, "-0123456789");
+    if (text[n] != '.' && strlen(text) + 3 <= RC_NUMBER_SIZE && !isinf(value)) {
+        memmove(text + n + 2, text + n, strlen(text + n) + 1);
+        memcpy(text + n, ".0", 2);
+    }
+    return text;
+}
+
+static enum rc_status
+csv_write(FILE *out, struct rc_grid *const *frame, size_t frames, const struct rc_export_wish *wish,
+          struct rc_err *err)
+{
+    const char *missing = wish->missing == NULL ? "NaN" : wish->missing;
+    const struct rc_grid *g = frame[0];
+    char width[RC_NUMBER_SIZE], height[RC_NUMBER_SIZE], number[RC_NUMBER_SIZE];
+
+    (void)frames;
+    fprintf(out, "# Channel: %s\n# Width: %s m\n# Height: %s m\n# Value units: %s\n", g->channel,
+            rc_number_text(width, (double)g->nx * g->dx),
+            rc_number_text(height, (double)g->ny * g->dy), g->unit);
+    for (size_t j = 0; j < g->ny; j++)
+        for (size_t i = 0; i < g->nx; i++) {
+            double value = g->v[j * g->nx + i];
+
+            if (fputs(isnan(value) ? missing : number_text(number, value), out) == EOF ||
+                fputc(i + 1 < g->nx ? ',' : '\n', out) == EOF)
+                return rc_put_failed(err);
+        }
+    return ferror(out) ? rc_put_failed(err) : RC_OK;
+}
+
+const struct rc_export rc_export_csv = {
+    .name = "csv",
+    .suffixes = ".csv",
+    .summary = "matrix as text, with a header of size and unit",
+    .text = true,
+    .write = csv_write,
+};

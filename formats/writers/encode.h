@@ -1,0 +1,64 @@
+/* Values on their way out: numbers into little-endian bytes, and a buffer that grows. */
+#ifndef RC_ENCODE_H
+#define RC_ENCODE_H
+
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include "libcontact/grid.h"
+#include "formats/core/core.h"
+
+/* ---- a buffer that grows ---- */
+
+/* Starts as {0}. Once memory was short it stays empty, and rc_buffer_write says so. */
+struct rc_buffer {
+    char *bytes; /* n of them, and a NUL */
+    size_t n, room;
+    bool failed;
+};
+void rc_buffer_add(struct rc_buffer *buffer, const void *bytes, size_t n);
+void rc_buffer_print(struct rc_buffer *buffer, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+/* Text with the characters of XML's markup spelt out. */
+void rc_buffer_escaped(struct rc_buffer *buffer, const char *text);
+void rc_buffer_u16(struct rc_buffer *buffer, uint16_t value);
+void rc_buffer_u32(struct rc_buffer *buffer, uint32_t value);
+void rc_buffer_u64(struct rc_buffer *buffer, uint64_t value);
+void rc_buffer_f32(struct rc_buffer *buffer, float value);
+void rc_buffer_f64(struct rc_buffer *buffer, double value);
+void rc_buffer_free(struct rc_buffer *buffer);
+/* RC_FAIL when memory was short or the device refuses. */
+enum rc_status rc_buffer_write(const struct rc_buffer *buffer, FILE *out, struct rc_err *err);
+
+/* ---- values ---- */
+
+struct rc_range {
+    double min, max; /* of the values that are there; 0 and 0 when there is none */
+    size_t missing;
+};
+/* RC_FAIL for a value that is infinite. */
+enum rc_status rc_range_of(const struct rc_grid *grid, struct rc_range *range, struct rc_err *err);
+
+/* How values become numbers of a file: value = number * increment + offset. */
+struct rc_code {
+    enum rc_raw raw;
+    double increment, offset;
+    int32_t missing; /* number of a missing point; of the integer types only: NaN in the others */
+};
+/* The finest code for the range with whole numbers from `low` to `high`; floating types hold the
+ * values as they are. */
+struct rc_code rc_code_for(enum rc_raw raw, const struct rc_range *range, int32_t low, int32_t high,
+                           int32_t missing);
+/* n values into n * rc_raw_width bytes, little-endian. RC_FAIL for a finite value that is too large
+ * for the type. */
+enum rc_status rc_encode(const struct rc_code *code, const double *v, size_t n, unsigned char *to,
+                         struct rc_err *err);
+/* The same into a file. */
+enum rc_status rc_encode_file(const struct rc_code *code, const double *v, size_t n, FILE *out,
+                              struct rc_err *err);
+/* RC_FAIL with the system's reason. */
+enum rc_status rc_put(FILE *out, const void *bytes, size_t n, struct rc_err *err);
+enum rc_status rc_put_failed(struct rc_err *err); /* that reason alone, after another call */
+
+#endif

@@ -1,0 +1,36 @@
+/* Gwyddion Simple Field: a header of `key = value`, one to four NUL bytes up to a multiple of four,
+ * and the values as float, little-endian, top row first; NaN where nothing was measured. */
+#include "encode.h"
+#include "formats/export.h"
+
+static enum rc_status
+gsf_write(FILE *out, struct rc_grid *const *frame, size_t frames, const struct rc_export_wish *wish,
+          struct rc_err *err)
+{
+    static const char padding[4];
+    const struct rc_grid *g = frame[0];
+    const struct rc_code code = {.raw = RC_RAW_F32};
+    char width[RC_NUMBER_SIZE], height[RC_NUMBER_SIZE];
+    struct rc_buffer b = {0};
+    enum rc_status status = RC_FAIL;
+
+    (void)frames, (void)wish;
+    rc_buffer_print(&b,
+                    "Gwyddion Simple Field 1.0\nXRes = %zu\nYRes = %zu\nXReal = %s\nYReal = %s\n"
+                    "XYUnits = m\nZUnits = %s\nTitle = %s\n",
+                    g->nx, g->ny, rc_number_text(width, (double)g->nx * g->dx),
+                    rc_number_text(height, (double)g->ny * g->dy), g->unit, g->channel);
+    rc_buffer_add(&b, padding, 4 - b.n % 4);
+    if (rc_buffer_write(&b, out, err) == RC_OK)
+        status = rc_encode_file(&code, g->v, g->nx * g->ny, out, err);
+    rc_buffer_free(&b);
+    return status;
+}
+
+const struct rc_export rc_export_gsf = {
+    .name = "gsf",
+    .suffixes = ".gsf",
+    .summary = "Gwyddion Simple Field",
+    .types = RC_TYPE_F32,
+    .write = gsf_write,
+};

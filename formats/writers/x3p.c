@@ -1,0 +1,223 @@
+/* X3P, ISO 25178-72: see x3p.c. Heights go into bindata/data.bin, the points that are there into
+ * bindata/valid.bin when some are missing, and every part has its MD5 sum. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "encode.h"
+#include "formats/export.h"
+#include "formats/core/core.h"
+#include "zip_write.h"
+
+enum {
+    TYPES = RC_TYPE_I16 | RC_TYPE_I32 | RC_TYPE_F32 | RC_TYPE_F64
+};
+
+static const char data_name[] = "bindata/data.bin", valid_name[] = "bindata/valid.bin";
+
+struct parts {
+    struct rc_range range;
+    struct rc_code code;
+    unsigned char *data, *valid;
+    size_t data_n, valid_n;
+    char data_sum[RC_MD5_TEXT], valid_sum[RC_MD5_TEXT];
+};
+
+static void
+sum_of(const void *bytes, size_t n, char sum[RC_MD5_TEXT])
+{
+    struct rc_md5 md5;
+
+    rc_md5_start(&md5);
+    rc_md5_add(&md5, bytes, n);
+    rc_md5_end(&md5, sum);
+}
+
+/* One bit a point, lowest first, 1 where there is a height. */
+static enum rc_status
+make_valid(struct parts *p, const struct rc_grid *g, struct rc_err *err)
+{
+    size_t n = g->nx * g->ny;
+
+    p->valid_n = n / 8 + (n % 8 != 0);
+    if ((p->valid = calloc(p->valid_n, 1)) == NULL)
+        return rc_err_set(err, "out of memory for %zu valid points", n);
+    for (size_t k = 0; k < n; k++)
+        if (g->v[k] == g->v[k])
+            p->valid[k / 8] |= (unsigned char)(1u << k % 8);
+    sum_of(p->valid, p->valid_n, p->valid_sum);
+    return RC_OK;
+}
+
+static enum rc_status
+make_parts(struct parts *p, const struct rc_grid *g, const struct rc_export_wish *wish,
+           struct rc_err *err)
+{
+    enum rc_raw raw = rc_export_raw(g, wish, TYPES);
+    int32_t most = raw == RC_RAW_I16 ? INT16_MAX : INT32_MAX;
+
+    if (rc_range_of(g, &p->range, err) != RC_OK)
+        return RC_FAIL;
+    p->code = rc_code_for(raw, &p->range, -most, most, 0);
+    if (rc_size_mul(g->nx * g->ny, rc_raw_width(raw), &p->data_n, err) != RC_OK)
+        return RC_FAIL;
+    if ((p->data = malloc(p->data_n)) == NULL)
+        return rc_err_set(err, "out of memory for %zu bytes of heights", p->data_n);
+    if (rc_encode(&p->code, g->v, g->nx * g->ny, p->data, err) != RC_OK)
+        return RC_FAIL;
+    sum_of(p->data, p->data_n, p->data_sum);
+    return p->range.missing > 0 ? make_valid(p, g, err) : RC_OK;
+}
+
+/* ---- main.xml ---- */
+
+static void
+axis(struct rc_buffer *b, const char *name, const char *type, const char *data, double increment,
+     double offset)
+{
+    char a[RC_NUMBER_SIZE], c[RC_NUMBER_SIZE];
+
+    rc_buffer_print(b,
+                    "      <%s><AxisType>%s</AxisType><DataType>%s</DataType>"
+                    "<Increment>%s</Increment><Offset>%s</Offset></%s>\n",
+                    name, type, data, rc_number_text(a, increment), rc_number_text(c, offset), name);
+}
+
+/* The schema wants each of these, whether anything is known or not. */
+static void
+word(struct rc_buffer *b, const char *element, const struct rc_grid *g, const char *key,
+     const char *otherwise)
+{
+    const char *value = key == NULL ? NULL : rc_grid_get(g, key);
+
+    rc_buffer_print(b, "<%s>", element);
+    rc_buffer_escaped(b, value == NULL ? otherwise : value);
+    rc_buffer_print(b, "</%s>", element);
+}
+
+static void
+provenance(struct rc_buffer *b, const struct rc_grid *g, const struct rc_export_wish *wish)
+{
+    const char *comment = rc_grid_get(g, "file.comment"), *history = rc_grid_get(g, "history");
+    char date[RC_DATE];
+
+    rc_export_date(date, g, wish);
+    rc_buffer_print(b, "  <Record2>\n    <Date>%s</Date>\n    ", date);
+    word(b, "Creator", g, "file.creator", wish->creator);
+    rc_buffer_print(b, "\n    <Instrument>");
+    word(b, "Manufacturer", g, "file.manufacturer", "unknown");
+    word(b, "Model", g, "file.model", "unknown");
+    word(b, "Serial", g, "file.serial", "unknown");
+    word(b, "Version", g, "file.version", "unknown");
+    rc_buffer_print(b, "</Instrument>\n    ");
+    word(b, "CalibrationDate", g, "file.calibrated", date);
+    rc_buffer_print(b, "\n    <ProbingSystem>");
+    word(b, "Type", g, "file.probe-type", "NonContacting");
+    word(b, "Identification", g, "file.probe", "unknown");
+    rc_buffer_print(b, "</ProbingSystem>\n");
+    if (comment != NULL || history != NULL) {
+        rc_buffer_print(b, "    <Comment>");
+        rc_buffer_escaped(b, comment == NULL ? "" : comment);
+        rc_buffer_print(b, comment == NULL || history == NULL ? "" : " | ");
+        rc_buffer_escaped(b, history == NULL ? "" : history);
+        rc_buffer_print(b, "</Comment>\n");
+    }
+    rc_buffer_print(b, "  </Record2>\n");
+}
+
+static void
+make_main(struct rc_buffer *b, const struct rc_grid *g, const struct parts *p,
+          const struct rc_export_wish *wish)
+{
+    static const char *const letter[] = {
+        [RC_RAW_I16] = "I", [RC_RAW_I32] = "L", [RC_RAW_F32] = "F", [RC_RAW_F64] = "D"};
+
+    rc_buffer_print(b, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+                       "<p:ISO5436_2 xmlns:p=\"http://www.opengps.eu/2008/ISO5436_2\" "
+                       "xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" "
+                       "xsi:schemaLocation=\"http://www.opengps.eu/2008/ISO5436_2 "
+                       "http://www.opengps.eu/2008/ISO5436_2/ISO5436_2.xsd\">\n"
+                       "  <Record1>\n    <Revision>ISO5436 - 2000</Revision>\n"
+                       "    <FeatureType>SUR</FeatureType>\n    <Axes>\n");
+    axis(b, "CX", "I", "D", g->dx, 0);
+    axis(b, "CY", "I", "D", g->dy, 0);
+    axis(b, "CZ", "A", letter[p->code.raw], p->code.increment, p->code.offset);
+    rc_buffer_print(b, "    </Axes>\n  </Record1>\n");
+    provenance(b, g, wish);
+    rc_buffer_print(b,
+                    "  <Record3>\n    <MatrixDimension><SizeX>%zu</SizeX><SizeY>%zu</SizeY>"
+                    "<SizeZ>1</SizeZ></MatrixDimension>\n    <DataLink>"
+                    "<PointDataLink>%s</PointDataLink>"
+                    "<MD5ChecksumPointData>%s</MD5ChecksumPointData>",
+                    g->nx, g->ny, data_name, p->data_sum);
+    if (p->valid != NULL)
+        rc_buffer_print(b, "<ValidPointsLink>%s</ValidPointsLink>"
+                           "<MD5ChecksumValidPoints>%s</MD5ChecksumValidPoints>",
+                        valid_name, p->valid_sum);
+    rc_buffer_print(b, "</DataLink>\n  </Record3>\n  <Record4>"
+                       "<ChecksumFile>md5checksum.hex</ChecksumFile></Record4>\n</p:ISO5436_2>\n");
+}
+
+/* ---- the archive ---- */
+
+/* Hands the bytes of a buffer over. */
+static enum rc_status
+add_buffer(struct rc_pack *pack, const char *name, struct rc_buffer *b, struct rc_err *err)
+{
+    void *bytes = b->bytes;
+
+    if (b->failed)
+        return rc_err_set(err, "out of memory for the member '%s'", name);
+    b->bytes = NULL;
+    return rc_pack_add(pack, name, bytes, b->n, err);
+}
+
+static enum rc_status
+add_bytes(struct rc_pack *pack, const char *name, unsigned char **bytes, size_t n,
+          struct rc_err *err)
+{
+    void *given = *bytes;
+
+    *bytes = NULL;
+    return given == NULL ? RC_OK : rc_pack_add(pack, name, given, n, err);
+}
+
+static enum rc_status
+x3p_write(FILE *out, struct rc_grid *const *frame, size_t frames, const struct rc_export_wish *wish,
+          struct rc_err *err)
+{
+    struct rc_buffer xml = {0}, sums = {0};
+    enum rc_status status = RC_FAIL;
+    struct rc_pack *pack = NULL;
+    struct parts p = {0};
+    char sum[RC_MD5_TEXT] = "";
+
+    (void)frames;
+    if (make_parts(&p, frame[0], wish, err) != RC_OK ||
+        (pack = rc_pack_new(wish->time, err)) == NULL)
+        goto done;
+    make_main(&xml, frame[0], &p, wish);
+    if (!xml.failed)
+        sum_of(xml.bytes, xml.n, sum);
+    rc_buffer_print(&sums, "%s *main.xml\n", sum);
+    if (add_buffer(pack, "main.xml", &xml, err) == RC_OK &&
+        add_bytes(pack, data_name, &p.data, p.data_n, err) == RC_OK &&
+        add_bytes(pack, valid_name, &p.valid, p.valid_n, err) == RC_OK &&
+        add_buffer(pack, "md5checksum.hex", &sums, err) == RC_OK)
+        status = rc_pack_write(pack, out, err);
+done:
+    rc_pack_free(pack);
+    rc_buffer_free(&xml);
+    rc_buffer_free(&sums);
+    free(p.data);
+    free(p.valid);
+    return status;
+}
+
+const struct rc_export rc_export_x3p = {
+    .name = "x3p",
+    .suffixes = ".x3p",
+    .summary = "ISO 25178-72, all four data types",
+    .heights = true,
+    .types = TYPES,
+    .write = x3p_write,
+};

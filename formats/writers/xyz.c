@@ -1,0 +1,44 @@
+/* Points as text: x, y and value of every node, x fastest, in SI, with the origin in the middle of
+ * the map; NaN where nothing was measured, so that the raster stays whole. */
+#include <math.h>
+#include <string.h>
+
+#include "encode.h"
+#include "formats/export.h"
+
+static double
+place(size_t k, size_t n, double step)
+{
+    return ((double)k - 0.5 * ((double)n - 1)) * step;
+}
+
+static enum rc_status
+xyz_write(FILE *out, struct rc_grid *const *frame, size_t frames, const struct rc_export_wish *wish,
+          struct rc_err *err)
+{
+    const char *missing = wish->missing == NULL ? "NaN" : wish->missing;
+    char x[RC_NUMBER_SIZE], y[RC_NUMBER_SIZE], z[RC_NUMBER_SIZE];
+    const struct rc_grid *g = frame[0];
+
+    (void)frames;
+    for (size_t j = 0; j < g->ny; j++) {
+        rc_number_text(y, place(j, g->ny, g->dy));
+        for (size_t i = 0; i < g->nx; i++) {
+            double value = g->v[j * g->nx + i];
+
+            rc_number_text(z, value);
+            if (fprintf(out, "%s %s %s\n", rc_number_text(x, place(i, g->nx, g->dx)), y,
+                        isnan(value) ? missing : z) < 0)
+                return rc_put_failed(err);
+        }
+    }
+    return RC_OK;
+}
+
+const struct rc_export rc_export_xyz = {
+    .name = "xyz",
+    .suffixes = ".xyz",
+    .summary = "points as text: x, y, value",
+    .text = true,
+    .write = xyz_write,
+};

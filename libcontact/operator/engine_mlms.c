@@ -1,0 +1,344 @@
+/*
+ * The multi-level sum (mlms.h): N (log 1/tol)^2 operations, and little memory beside the maps.
+ */
+#include "mlms.h"
+
+#include <omp.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- sizes ---- */
+
+static size_t
+largest(size_t a, size_t b)
+{
+    return a > b ? a : b;
+}
+
+static size_t
+lines(size_t n)
+{
+    return (n + RC_SIMD_WIDTH - 1) / RC_SIMD_WIDTH * RC_SIMD_WIDTH;
+}
+
+static size_t
+tiles(const struct rc_mlms_axis axis[2])
+{
+    return axis[RC_X].tiles * axis[RC_Y].tiles;
+}
+
+/* Rows of a tile on any level, with margins and with what interpolation takes. */
+static void
+set_sizes(struct rc_mlms *m)
+{
+    const struct rc_mlms_design *d = &m->d;
+    size_t t = d->t, plane_rows = 0, rows = 0, row = 0;
+
+    for (size_t q = 0; q < d->levels; q++) {
+        const struct rc_mlms_axis *x = &d->axis[q][RC_X], *y = &d->axis[q][RC_Y];
+        const struct rc_mlms_axis *next = d->axis[q + 1];
+        size_t high = (y->tile + RC_BLOCK - 1) / RC_BLOCK * RC_BLOCK + 2 * y->margin;
+        size_t wide = lines(x->tile + 2 * x->margin);
+        size_t coarse = next[RC_X].tile << next[RC_X].halved;
+        m->plane_stride = largest(m->plane_stride, wide + RC_SIMD_WIDTH);
+        plane_rows = largest(plane_rows, high);
+        m->ring_size = largest(m->ring_size, ((x->reach >> x->halved) + 1) *
+                                                 (2 * y->margin + RC_BLOCK) * RC_STRIP);
+        m->out_lead = largest(m->out_lead, lines(2 * x->margin + 1));
+        m->mid_stride = largest(m->mid_stride, lines(x->tile));
+        rows = largest(rows, (y->tile + RC_BLOCK - 1) / RC_BLOCK * RC_BLOCK);
+        row = largest(row, largest(wide << x->halved, 2 * (coarse + 2 * t)));
+    }
+    /* single sources reach 2 margins beyond a tile, and up to a vector more at its end */
+    m->out_stride = m->mid_stride + 2 * m->out_lead + 2 * RC_SIMD_WIDTH;
+    m->plane_size = m->plane_stride * plane_rows;
+    /* two of them also take the halves of a row that is reduced */
+    m->out_size = m->out_lead + largest(m->out_stride * rows, lines(row));
+    m->mid_size = largest(m->mid_stride * (rows + 2 * t), lines(row));
+    m->zeros_size = lines(row);
+}
+
+/* Doubles of scratch of one thread. */
+static size_t
+scratch_size(const struct rc_mlms *m)
+{
+    return 4 * m->plane_size + 4 * m->out_size + m->ring_size + m->mid_size + m->zeros_size +
+           2 * m->plane_size + lines(2 * m->d.t);
+}
+
+static size_t
+stencil_size(const struct rc_mlms_axis axis[2])
+{
+    const struct rc_mlms_axis *x = &axis[RC_X], *y = &axis[RC_Y];
+    size_t classes = (1 + x->halved) * (1 + y->halved), pairs = (classes - 1) * (classes + 1);
+    size_t folded = (x->reach / (1 + x->halved) + 1) * (2 * y->margin + 3 + 2 * RC_BLOCK + 3);
+    size_t unfolded = lines(2 * x->margin + 1) * (2 * y->margin + 1);
+
+    return pairs * (folded + unfolded);
+}
+
+static size_t
+memory(const struct rc_sum *sum)
+{
+    struct rc_mlms m = {0};
+    size_t n = 0;
+
+    if (!rc_mlms_design(sum, &m.d, NULL))
+        return 0;
+    set_sizes(&m);
+    for (size_t q = 0; q < m.d.levels; q++) {
+        const struct rc_mlms_axis *next = m.d.axis[q + 1];
+        n += 2 * next[RC_X].n * next[RC_Y].n + stencil_size(m.d.axis[q]);
+    }
+    n += (size_t)m.d.threads * scratch_size(&m);
+    return n * sizeof(double) + sizeof m +
+           rc_direct_memory(m.d.axis[m.d.levels][RC_X].n, m.d.axis[m.d.levels][RC_Y].n, 1);
+}
+
+/* ---- plan ---- */
+
+static void
+plan_free(void *at)
+{
+    struct rc_mlms *m = at;
+
+    if (m == NULL)
+        return;
+    for (size_t q = 0; q <= m->d.levels; q++) {
+        struct rc_mlms_level *l = &m->level[q];
+        rc_mlms_stencils_free(l);
+        free(l->p);
+        free(l->u);
+        free(l->loaded);
+        free(l->wanted);
+    }
+    rc_direct_free(m->direct);
+    free(m->scratch);
+    free(m->store);
+    free(m);
+}
+
+static bool
+allocate_scratch(struct rc_mlms *m)
+{
+    size_t size = scratch_size(m), threads = (size_t)m->d.threads;
+    double *at;
+
+    m->scratch = calloc(threads, sizeof *m->scratch);
+    m->store = aligned_alloc(64, threads * size * sizeof(double));
+    if (m->scratch == NULL || m->store == NULL)
+        return false;
+    memset(m->store, 0, threads * size * sizeof(double));
+    at = m->store;
+    for (size_t k = 0; k < threads; k++) {
+        struct rc_mlms_scratch *w = &m->scratch[k];
+        for (int c = 0; c < 4; c++, at += m->plane_size)
+            w->plane[c] = at;
+        for (int c = 0; c < 4; c++, at += m->out_size)
+            w->out[c] = at + m->out_lead;
+        w->ring = at;
+        w->mid = at += m->ring_size;
+        w->zeros = at += m->mid_size;
+        w->list = (uint32_t *)(void *)(at += m->zeros_size);
+        w->near = (const double **)(void *)(at += 2 * m->plane_size);
+        w->far = w->near + m->d.t;
+        at += lines(2 * m->d.t);
+    }
+    return true;
+}
+
+static bool
+allocate_levels(struct rc_mlms *m, const struct rc_sum *sum)
+{
+    for (size_t q = 0; q <= m->d.levels; q++) {
+        struct rc_mlms_level *l = &m->level[q];
+        size_t n = m->d.axis[q][RC_X].n * m->d.axis[q][RC_Y].n;
+        l->axis = m->d.axis[q];
+        if ((l->loaded = calloc(tiles(l->axis), 1)) == NULL ||
+            (l->wanted = malloc(tiles(l->axis))) == NULL)
+            return false;
+        if (q > 0 &&
+            ((l->p = calloc(n, sizeof *l->p)) == NULL || (l->u = calloc(n, sizeof *l->u)) == NULL))
+            return false;
+        if (q < m->d.levels && !rc_mlms_stencils(m, sum, q))
+            return false;
+    }
+    return true;
+}
+
+static void *
+plan_new(const struct rc_sum *sum, struct rc_err *err)
+{
+    struct rc_mlms *m = calloc(1, sizeof *m);
+    struct rc_lattice lattice;
+    const struct rc_mlms_axis *last;
+    unsigned parity = sum->kernel->parity[sum->component];
+
+    if (m == NULL) {
+        rc_err_set(err, "out of memory for a plan");
+        return NULL;
+    }
+    if (!rc_mlms_design(sum, &m->d, err)) {
+        free(m);
+        return NULL;
+    }
+    m->sign[RC_X] = parity & RC_ODD_X ? -1 : 1;
+    m->sign[RC_Y] = parity & RC_ODD_Y ? -1 : 1;
+    m->simd = rc_simd();
+    rc_mlms_stylus(m->d.t, m->s);
+    set_sizes(m);
+    if (!allocate_levels(m, sum) || !allocate_scratch(m)) {
+        rc_err_set(err, "out of memory for the multi-level sum over %zu x %zu nodes", sum->shape.nx,
+                   sum->shape.ny);
+        plan_free(m);
+        return NULL;
+    }
+    last = m->d.axis[m->d.levels];
+    lattice = (struct rc_lattice){sum->shape.dx, sum->shape.dy, last[RC_X].step, last[RC_Y].step};
+    rc_mlms_want(m, NULL);
+    m->direct = rc_direct_new(sum, &lattice, last[RC_X].n, last[RC_Y].n,
+                              m->d.levels == 0 ? m->d.threads : 1, err);
+    if (m->direct == NULL) {
+        plan_free(m);
+        return NULL;
+    }
+    return m;
+}
+
+/* ---- what is wanted ---- */
+
+static bool
+any(const unsigned char *mask, const struct rc_mlms_axis axis[2], size_t tile)
+{
+    size_t wide = axis[RC_X].tile << axis[RC_X].halved, high = axis[RC_Y].tile << axis[RC_Y].halved;
+    size_t x0 = tile % axis[RC_X].tiles * wide, y0 = tile / axis[RC_X].tiles * high;
+
+    for (size_t y = y0; y < y0 + high && y < axis[RC_Y].n; y++)
+        for (size_t x = x0; x < x0 + wide && x < axis[RC_X].n; x++)
+            if (mask[y * axis[RC_X].n + x])
+                return true;
+    return false;
+}
+
+/* Tiles of the next level that the interpolation to a tile reads, in one direction. */
+static void
+read_by(const struct rc_mlms *m, const struct rc_mlms_level *l, int a, size_t tile, size_t *first,
+        size_t *last)
+{
+    const struct rc_mlms_axis *fine = &l->axis[a], *coarse = &(l + 1)->axis[a];
+    size_t wide = coarse->tile << coarse->halved, from = tile * fine->tile;
+    size_t to = from + fine->tile - 1 + (fine->halved ? 2 * m->d.t - 1 : 0);
+
+    *first = from / wide;
+    *last = to / wide < coarse->tiles ? to / wide : coarse->tiles - 1;
+}
+
+void
+rc_mlms_want(void *plan, const unsigned char *mask)
+{
+    struct rc_mlms *m = plan;
+
+    for (size_t k = 0; k < tiles(m->level[0].axis); k++)
+        m->level[0].wanted[k] = mask == NULL || any(mask, m->level[0].axis, k);
+    for (size_t q = 0; q < m->d.levels; q++) {
+        const struct rc_mlms_level *l = &m->level[q];
+        const struct rc_mlms_axis *ax = l->axis, *next = (l + 1)->axis;
+        memset((l + 1)->wanted, 0, tiles(next));
+        for (size_t k = 0; k < tiles(ax); k++) {
+            size_t x0, x1, y0, y1;
+            if (!l->wanted[k])
+                continue;
+            read_by(m, l, RC_X, k % ax[RC_X].tiles, &x0, &x1);
+            read_by(m, l, RC_Y, k / ax[RC_X].tiles, &y0, &y1);
+            for (size_t y = y0; y <= y1; y++)
+                memset((l + 1)->wanted + y * next[RC_X].tiles + x0, 1, x1 - x0 + 1);
+        }
+    }
+}
+
+/* ---- apply ---- */
+
+static struct rc_mlms_scratch *
+scratch(const struct rc_mlms *m)
+{
+    return &m->scratch[omp_get_thread_num()];
+}
+
+/* A few tiles are done sooner than another thread wakes. */
+static int
+threads(const struct rc_mlms *m, size_t level)
+{
+    return tiles(m->level[level].axis) > 1 ? m->d.threads : 1;
+}
+
+static void
+downwards(struct rc_mlms *m, size_t level, const double *p)
+{
+    size_t n = tiles(m->level[level + 1].axis);
+
+#pragma omp parallel for num_threads(threads(m, level)) schedule(dynamic)
+    for (size_t k = 0; k < n; k++)
+        rc_mlms_reduce(m, level, p, k, scratch(m));
+}
+
+/* Displacements of a level, and at once what the level above puts right in them. */
+static void
+upwards(struct rc_mlms *m, size_t level, const double *p, double *u, const double *above)
+{
+    size_t n = tiles(m->level[level].axis);
+
+#pragma omp parallel for num_threads(threads(m, level)) schedule(dynamic)
+    for (size_t k = 0; k < n; k++) {
+        if (!m->level[level].wanted[k])
+            continue;
+        rc_mlms_expand(m, level, p, u, k, scratch(m));
+        if (level > 0)
+            rc_mlms_correct(m, level - 1, above, k, scratch(m));
+    }
+}
+
+static void
+apply(void *at, const double *p, double *u)
+{
+    struct rc_mlms *m = at;
+    size_t levels = m->d.levels, n = tiles(m->level[0].axis);
+
+    if (levels == 0) {
+        rc_direct_apply(m->direct, p, u);
+        return;
+    }
+#pragma omp parallel for num_threads(threads(m, 0)) schedule(dynamic)
+    for (size_t k = 0; k < n; k++)
+        rc_mlms_scan(m, 0, p, k);
+    for (size_t q = 0; q < levels; q++)
+        downwards(m, q, q == 0 ? p : m->level[q].p);
+    rc_direct_apply(m->direct, m->level[levels].p, m->level[levels].u);
+    n = tiles(m->level[levels].axis);
+    for (size_t k = 0; k < n; k++)
+        rc_mlms_correct(m, levels - 1, levels == 1 ? p : m->level[levels - 1].p, k, m->scratch);
+    for (size_t q = levels; q-- > 0;)
+        upwards(m, q, q == 0 ? p : m->level[q].p, q == 0 ? u : m->level[q].u,
+                q <= 1 ? p : m->level[q - 1].p);
+}
+
+static double
+error(const void *at)
+{
+    return ((const struct rc_mlms *)at)->d.error;
+}
+
+double
+rc_mlms_terms(const void *plan)
+{
+    return ((const struct rc_mlms *)plan)->d.terms;
+}
+
+const struct rc_engine rc_engine_mlms = {
+    .name = "mlms",
+    .summary = "multi-level multi-summation: to the accuracy asked for, N, in little memory",
+    .memory = memory,
+    .new = plan_new,
+    .apply = apply,
+    .error = error,
+    .free = plan_free,
+};

@@ -1,0 +1,124 @@
+/*
+ * The transform engine by its parts: several kernels on one grid, one transform of the source, in
+ * double or single precision, on the free or the periodic boundary. Internal: never installed.
+ *
+ * Only fft_body.h, compiled once for each precision, knows FFTW.
+ */
+#ifndef RC_FFT_H
+#define RC_FFT_H
+
+#include "kernel.h"
+
+enum rc_precision {
+    RC_DOUBLE,
+    RC_SINGLE /* inside, and the rows of a chain; maps are double on both sides */
+};
+
+struct rc_fft;
+struct rc_spectrum; /* of one kernel: a quarter of it, real */
+
+struct rc_fft *rc_fft_new(const struct rc_shape *shape, enum rc_boundary boundary,
+                          enum rc_precision precision, size_t threads, struct rc_err *err);
+void rc_fft_free(struct rc_fft *fft);
+/* Smallest multiple of `step` from 2n up without prime factors over 7. */
+size_t rc_fft_length(size_t n, size_t step);
+/* Bytes of a plan with one spectrum, and of each further spectrum. */
+size_t rc_fft_memory(const struct rc_shape *shape, enum rc_boundary boundary,
+                     enum rc_precision precision);
+size_t rc_spectrum_memory(const struct rc_shape *shape, enum rc_boundary boundary,
+                          enum rc_precision precision);
+
+/* NULL when memory is short. */
+struct rc_spectrum *rc_spectrum_new(const struct rc_fft *fft, struct rc_err *err);
+void rc_spectrum_free(struct rc_spectrum *spectrum);
+/* Makes it the spectrum of a kernel's component: on the free boundary the transform of its values,
+ * on the periodic one its symbol. RC_FAIL when memory is short or the kernel has no symbol. */
+enum rc_status rc_spectrum_set(struct rc_spectrum *spectrum, const struct rc_fft *fft,
+                               const struct rc_kernel *kernel, size_t component,
+                               const struct rc_medium *medium, struct rc_err *err);
+/* The reciprocal of another kernel's spectrum: the inverse of the padded circulant, or of the symbol; zero
+ * where that is zero. */
+void rc_spectrum_set_reciprocal(struct rc_spectrum *spectrum, const struct rc_fft *fft,
+                                const struct rc_spectrum *of);
+/* The transform of the kernel's values on either boundary; on the periodic one each offset counts once,
+ * by its shortest way around the map. */
+enum rc_status rc_spectrum_set_values(struct rc_spectrum *spectrum, const struct rc_fft *fft,
+                                      const struct rc_kernel *kernel, size_t component,
+                                      const struct rc_medium *medium, struct rc_err *err);
+
+/* The same by hand. The spectrum of a kernel of this parity is given column by column: s(q) for
+ * q < *ny of column c < *nx, which several threads may do at once. On the free boundary that is the
+ * rc_dct transform, in x and in y, of the kernel's values at the offsets i < *nx, j < *ny. */
+void rc_fft_quarter(const struct rc_fft *fft, size_t *nx, size_t *ny);
+void rc_spectrum_begin(struct rc_spectrum *spectrum, unsigned parity);
+void rc_spectrum_column(struct rc_spectrum *spectrum, const struct rc_fft *fft, size_t c,
+                        const double *s);
+
+/* u = K p. u and p may be the same. */
+void rc_fft_apply(struct rc_fft *fft, const struct rc_spectrum *kernel, const double *p, double *u);
+
+/* What is done with a row on its way: row j of nx numbers in the plan's precision. It writes what is
+ * transformed next, and returns false where that is zero; the last one only reads. Rows are taken by
+ * several threads, each once. */
+enum {
+    RC_CHAIN = 4
+};
+typedef bool rc_row(void *ctx, size_t j, void *row);
+/* The first row function writes the source of kernels[0], rows[k] turns its field into the source of
+ * kernels[k], rows[n] takes the last field: n <= RC_CHAIN kernels, n + 1 functions, and no map between them. */
+void rc_fft_chain(struct rc_fft *fft, size_t n, const struct rc_spectrum *const *kernels,
+                  rc_row *const *rows, void *ctx);
+/* Keeps the whole transform of p; then u = K p for as many kernels as are wanted. */
+enum rc_status rc_fft_load(struct rc_fft *fft, const double *p, struct rc_err *err);
+void rc_fft_field(struct rc_fft *fft, const struct rc_spectrum *kernel, double *u);
+/* u = (K + weight L) p. */
+void rc_fft_field_pair(struct rc_fft *fft, const struct rc_spectrum *k, double weight,
+                       const struct rc_spectrum *l, double *u);
+
+/* ---- between fft.c and fft_body.h ---- */
+
+/* Columns have length py = split * m and are transformed as `split` interleaved transforms of
+ * length m: with w = exp(-2 pi i / py),
+ *
+ *     X[split k + r] = sum over n < m of y_r[n] exp(-2 pi i n k / m),
+ *     y_r[n] = w^(r n) sum over s < parts of (-i)^(r s) x[n + s m],       split = 4
+ *
+ * where only the first `parts` pieces of length m are not zero. split = 1 leaves it to FFTW. */
+struct rc_layout {
+    size_t nx, ny;
+    size_t px, py;  /* transform lengths                                                     */
+    size_t cx;      /* px/2 + 1 columns                                                      */
+    size_t stride;  /* complex numbers from row to row, a whole number of cache lines         */
+    size_t split, m, parts;
+    size_t packed;  /* py/2 + 1: numbers of a column of a spectrum                            */
+    int threads;
+};
+
+/* A column of a spectrum, s(q) for q <= py/2, is stored as A[k] = s(split k) up to the middle and, for
+ * split 4, B[k] = s(4k + 1) for all k < m (beyond the middle by symmetry, which also gives residue 3)
+ * and C[k] = s(4k + 2) up to the middle: packed = py/2 + 1 numbers in all. */
+struct rc_link {
+    rc_row *row;
+    const void *packed;
+    unsigned parity;
+};
+
+struct rc_fft_ops {
+    size_t real_size; /* bytes of a real number */
+    void *(*new)(const struct rc_layout *layout); /* NULL: out of memory */
+    void (*free)(void *plan);
+    /* Room that the plan uses only while it works; NULL: not so much. */
+    void *(*borrow)(void *plan, size_t bytes);
+    /* Column c of a spectrum from s(q), times `scale`; mirror -1: odd in y. */
+    void (*pack)(const struct rc_layout *layout, size_t c, double scale, double mirror,
+                 const double *s, void *packed);
+    void (*apply)(void *plan, const void *packed, unsigned parity, const double *p, double *u);
+    void (*chain)(void *plan, size_t n, const struct rc_link *links, rc_row *last, void *ctx);
+    bool (*load)(void *plan, const double *p); /* false: out of memory */
+    /* Of one spectrum, or, when `also` is not NULL, of that one too, weighted. */
+    void (*field)(void *plan, const void *packed, unsigned parity, const void *also,
+                  unsigned also_parity, double weight, double *u);
+};
+extern const struct rc_fft_ops rc_fft_double, rc_fft_single;
+
+#endif

@@ -1,0 +1,77 @@
+/*
+ * The inner loops of the sums in real space, compiled for each width of registers. Rows are
+ * contiguous in x; every loop works on whole vectors of x and never on a single node.
+ */
+#ifndef RC_SIMD_H
+#define RC_SIMD_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+enum {
+    RC_STRIP = 32, /* nodes of a row that are summed at once                              */
+    RC_BLOCK = 4,  /* rows that are summed at once                                        */
+    RC_SIMD_WIDTH = 8,   /* nodes by which counts are rounded up: a vector of the widest registers */
+};
+
+/* One column of a stencil: its coefficients c[first] .. c[last], and RC_BLOCK - 1 zeros on either
+ * side of them. */
+struct rc_column {
+    ptrdiff_t first, last;
+    const double *c;
+};
+
+/* A strip of sources, and what their stencils add to one or two strips of targets. */
+struct rc_strip {
+    const double *src; /* the row `margin` above the first target row */
+    size_t stride, margin;
+    size_t rows, n; /* of targets; computed to multiples of RC_BLOCK and RC_SIMD_WIDTH, n <= RC_STRIP */
+    /* Column j takes src[x - near - j] + sign src[x - far + j], the one value when they are one. */
+    size_t columns;
+    ptrdiff_t near, far;
+    double sign;
+    const struct rc_column *column[2]; /* NULL: no such target */
+    double *out[2];
+    size_t out_stride;
+    double *ring; /* columns (2 margin + RC_BLOCK) RC_STRIP, aligned to 64 bytes */
+};
+
+/* Single sources, and what a stencil, unfolded, adds to the targets about each. Beside the rows of
+ * `out` there is room for what lies outside. */
+struct rc_scatter {
+    const double *value;
+    const uint32_t *place; /* y << 16 | x of each */
+    size_t n;
+    const double *c; /* rows of `width`, a multiple of RC_SIMD_WIDTH */
+    size_t width, rows;
+    ptrdiff_t left, top; /* from a source to its lowest target */
+    size_t wide, high;   /* of the targets                     */
+    double *out;
+    size_t out_stride;
+};
+
+struct rc_simd {
+    const char *name;
+    /* out[y][x] += sum over columns j and their l of c_j[l] column_j[y - l][x]. */
+    void (*stencil)(const struct rc_strip *strip);
+    void (*scatter)(const struct rc_scatter *scatter);
+    /* out[i stride + x] += sum over a < n of q[a RC_BLOCK + i] k[x - a], for i < RC_BLOCK and
+     * x < RC_STRIP. */
+    void (*product)(const double *k, const double *q, size_t n, double *out, size_t stride);
+    /* out[x] = first[x] + sum over i < t of s[i] (near[i][x] + far[i][x]); first may be NULL. */
+    void (*weigh)(size_t t, const double *s, const double *const *near, const double *const *far,
+                  const double *first, size_t n, double *out);
+    /* Even and odd places of n values, and back. */
+    void (*split)(const double *src, size_t n, double *even, double *odd);
+    void (*join)(const double *even, const double *odd, size_t n, double *out);
+    /* first + x for each src[x] != 0, x < n, a multiple of RC_SIMD_WIDTH; returns how many. The list has
+     * room for n. */
+    size_t (*find)(const double *src, size_t n, uint32_t first, uint32_t *list);
+    /* Values that are not zero. */
+    size_t (*count)(const double *src, size_t n);
+};
+
+/* Those for the processor at hand. */
+const struct rc_simd *rc_simd(void);
+
+#endif

@@ -1,0 +1,233 @@
+/*
+ * The scheme of Polonsky and Keer, Wear 231 (1999), section 3.2: conjugate gradients on the pressure
+ * with the contact set and the load enforced in every step. Equation numbers are the paper's; its
+ * slips are corrected ((31b) scales by P0/P), and the upper bound, which it leaves open, is treated
+ * like the lower one: a node leaves H where the gap is positive, as it enters contact where the
+ * gap is negative.
+ *
+ * Where many nodes change sides at once the scheme can cycle for ever (one tall node over a plain;
+ * loads close to saturation): guard.c takes back what raised the energy.
+ */
+#include "solver.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct state {
+    double *t;    /* conjugate direction, zero off the elastic nodes */
+    double *r;    /* K t                                             */
+    double *old;  /* p before the step                               */
+    double G;     /* (22) of the last step                           */
+    double delta; /* 0: the next direction is steepest descent       */
+    double tau;   /* last step length, 0 before the first            */
+    double first; /* a length that is safe where (26) is 0/0         */
+    struct rc_safeguard guard;
+};
+
+static void
+state_free(void *at)
+{
+    struct state *s = at;
+
+    if (s == NULL)
+        return;
+    free(s->t);
+    free(s->r);
+    free(s->old);
+    free(s);
+}
+
+static void *
+state_new(struct rc_solver *solver, struct rc_err *err)
+{
+    struct rc_medium medium = {.estar = solver->estar};
+    struct rc_lattice cell = {solver->shape.dx, solver->shape.dy, 1, 1};
+    struct state *s = calloc(1, sizeof *s);
+    double self;
+
+    if (s != NULL) {
+        s->t = calloc(solver->n, sizeof *s->t);
+        s->r = malloc(solver->n * sizeof *s->r);
+        s->old = malloc(solver->n * sizeof *s->old);
+    }
+    if (s == NULL || s->t == NULL || s->r == NULL || s->old == NULL) {
+        rc_err_set(err, "out of memory for the iteration of %zu nodes", solver->n);
+        state_free(s);
+        return NULL;
+    }
+    s->G = 1;
+    s->guard.energy = INFINITY;
+    rc_kernel_boussinesq.rows(&medium, 0, &cell, 1, 0, 1, &self);
+    s->first = 1 / self;
+    return s;
+}
+
+static double
+gap(const struct rc_solver *solver, size_t k)
+{
+    return solver->v[k] - solver->shift;
+}
+
+/* What the passes below share: the solver, its state here, and numbers found by an earlier one. */
+struct pass {
+    struct rc_solver *solver;
+    struct state *s;
+    double number;
+};
+
+/* (22) */
+static void
+norm_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct pass *c = at;
+
+    for (size_t k = first; k < first + n; k++)
+        sums[0] += rc_elastic(c->solver, k) ? gap(c->solver, k) * gap(c->solver, k) : 0;
+}
+
+/* (23) */
+static void
+direction_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct pass *c = at;
+
+    (void)sums;
+    for (size_t k = first; k < first + n; k++)
+        c->s->t[k] = rc_elastic(c->solver, k) ? gap(c->solver, k) + c->number * c->s->t[k] : 0;
+}
+
+static void
+direct(struct rc_solver *solver, struct state *s)
+{
+    struct pass c = {.solver = solver, .s = s};
+    double total[RC_SUMS], G;
+
+    rc_solver_blocks(solver, norm_block, &c, total);
+    G = total[0];
+    c.number = s->G > 0 ? s->delta * G / s->G : 0;
+    rc_solver_blocks(solver, direction_block, &c, total);
+    s->G = G;
+}
+
+/* (24), and the sums of (25) and (26); t adds up over the elastic nodes to sums[3]. */
+static void
+length_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct pass *c = at;
+    const struct state *s = c->s;
+
+    for (size_t k = first; k < first + n; k++)
+        if (rc_elastic(c->solver, k)) {
+            sums[0] += s->r[k];
+            sums[1] += gap(c->solver, k) * s->t[k];
+            sums[2] += s->r[k] * s->t[k];
+            sums[3] += s->t[k];
+        }
+}
+
+/* (24) to (26): the step length. One elastic node has nothing to exchange with: 0/0. */
+static void
+measure(struct rc_solver *solver, struct state *s)
+{
+    struct pass c = {.solver = solver, .s = s};
+    double total[RC_SUMS], above, below;
+
+    if (solver->elastic < 2 || !(s->G > 0))
+        return;
+    rc_conv_apply(solver->conv, s->t, s->r);
+    solver->convolutions++;
+    rc_solver_blocks(solver, length_block, &c, total);
+    above = total[1];
+    below = total[2] - total[0] / (double)solver->elastic * total[3];
+    if (below > 0 && above > 0)
+        s->tau = above / below;
+    else
+        memset(s->t, 0, solver->n * sizeof *s->t);
+}
+
+/* (28) to (30): the step, the box, and the nodes that want to leave their bound, counted. */
+static void
+move_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct pass *c = at;
+    struct rc_solver *solver = c->solver;
+    double tau = c->number;
+
+    for (size_t k = first; k < first + n; k++) {
+        double p = solver->p[k], g = gap(solver, k);
+
+        c->s->old[k] = p;
+        if (p > 0 && p < solver->hardness && solver->elastic > 1)
+            p = fmin(fmax(p - tau * c->s->t[k], 0), solver->hardness);
+        if ((p == 0 && g < 0) || (p == solver->hardness && g > 0)) {
+            p = fmin(fmax(p - tau * g, 0), solver->hardness);
+            sums[0]++;
+        }
+        solver->p[k] = p;
+    }
+}
+
+static void
+move(struct rc_solver *solver, struct state *s)
+{
+    struct pass c = {.solver = solver, .s = s, .number = s->tau > 0 ? s->tau : s->first};
+    double total[RC_SUMS];
+
+    rc_solver_blocks(solver, move_block, &c, total);
+    s->delta = total[0] > 0 ? 0 : 1;
+}
+
+static void
+change_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct pass *c = at;
+
+    for (size_t k = first; k < first + n; k++)
+        sums[0] += fabs(c->solver->p[k] - c->s->old[k]);
+}
+
+static void
+step(struct rc_solver *solver, void *at)
+{
+    struct state *s = at;
+    struct pass c = {.solver = solver, .s = s};
+    double total[RC_SUMS];
+
+    if (!solver->fresh)
+        rc_solver_displace(solver);
+    if (rc_safeguard_raised(&s->guard, solver)) {
+        rc_safeguard_step(solver, s->old, s->t, s->r);
+        s->delta = 0;
+    } else {
+        rc_solver_shift(solver);
+        direct(solver, s);
+        measure(solver, s);
+        move(solver, s);
+    }
+    if (rc_box_balance(solver->n, solver->hardness, solver->sum, solver->v, solver->p, NULL) !=
+        RC_OK)
+        memcpy(solver->p, s->old, solver->n * sizeof *s->old); /* out of memory: stand still */
+    solver->known = solver->fresh = false;
+    rc_solver_blocks(solver, change_block, &c, total);
+    solver->change = total[0] / solver->sum; /* (32) */
+}
+
+static void
+again(void *at)
+{
+    struct state *s = at;
+
+    s->G = 1;
+    s->delta = s->tau = 0;
+    s->guard.energy = INFINITY;
+}
+
+const struct rc_method rc_method_pk99 = {
+    .name = "pk99",
+    .summary = "conjugate gradients of Polonsky and Keer, 1999",
+    .new = state_new,
+    .step = step,
+    .again = again,
+    .free = state_free,
+};

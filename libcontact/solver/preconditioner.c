@@ -1,0 +1,305 @@
+#include "preconditioner.h"
+
+#include <math.h>
+#include <omp.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "libcontact/memory.h"
+
+struct rc_preconditioner {
+    struct rc_shape unit; /* the grid in units of sqrt(dx dy) */
+    enum rc_boundary boundary;
+    struct rc_fft *fft;   /* single precision is enough: only the residual has to be exact           */
+    struct rc_spectrum *kernel, *inverse, *spread; /* K, A and G                           */
+    float *weight;        /* off W: 1 / (sum_j G_ij + d_i^(-1/2) / 2); on W: 0                    */
+    uint16_t *term;       /* d_i^(-1/2) / 2, upper halves of floats; 1 on W when they were found  */
+    const unsigned char *w;
+    bool measure;         /* the distances are to be found again                                  */
+    int threads;
+    size_t own;           /* numbers of scratch of one thread                                     */
+    float *scratch;
+};
+
+/* |x|^(-5/2); a node has no weight in itself, because no node is both on W and off it. */
+static void
+spread_rows(const struct rc_medium *medium, size_t component, const struct rc_lattice *at,
+            size_t n, size_t first, size_t last, double *out)
+{
+    double dx = (double)at->sx * at->dx, dy = (double)at->sy * at->dy;
+    double unit = 1 / (at->dx * at->dy); /* of squared lengths */
+
+    (void)medium;
+    (void)component;
+    for (size_t j = first; j < last; j++, out += n)
+        for (size_t i = 0; i < n; i++) {
+            double x = (double)i * dx, y = (double)j * dy;
+            double r2 = (x * x + y * y) * unit;
+            out[i] = r2 == 0 ? 0 : 1 / (r2 * sqrt(sqrt(r2)));
+        }
+}
+
+static const unsigned even[] = {0};
+
+static const struct rc_kernel spread = {
+    .name = "spread",
+    .summary = "weights of the extension off the working set",
+    .components = 1,
+    .parity = even,
+    .rows = spread_rows,
+};
+
+struct rc_preconditioner *
+rc_preconditioner_new(const struct rc_shape *shape, enum rc_boundary boundary, size_t threads,
+                 struct rc_err *err)
+{
+    struct rc_medium medium = {.estar = 1};
+    struct rc_preconditioner *e = calloc(1, sizeof *e);
+    size_t n = shape->nx * shape->ny;
+    double unit = sqrt(shape->dx) * sqrt(shape->dy);
+
+    if (e == NULL)
+        goto short_of_memory;
+    e->boundary = boundary;
+    e->threads = rc_useful_threads(shape, threads);
+    e->unit = *shape;
+    e->unit.dx /= unit;
+    e->unit.dy /= unit;
+    e->own = rc_distance_scratch(&e->unit) + shape->nx;
+    e->weight = rc_alloc(n, sizeof *e->weight);
+    e->term = rc_alloc(n, sizeof *e->term);
+    e->scratch = rc_alloc((size_t)e->threads * e->own, sizeof *e->scratch);
+    if (e->weight == NULL || e->term == NULL || e->scratch == NULL)
+        goto short_of_memory;
+    if ((e->fft = rc_fft_new(&e->unit, boundary, RC_SINGLE, threads, err)) == NULL ||
+        (e->kernel = rc_spectrum_new(e->fft, err)) == NULL ||
+        (e->inverse = rc_spectrum_new(e->fft, err)) == NULL ||
+        (e->spread = rc_spectrum_new(e->fft, err)) == NULL ||
+        rc_spectrum_set(e->kernel, e->fft, &rc_kernel_boussinesq, 0, &medium, err) != RC_OK ||
+        rc_spectrum_set_values(e->spread, e->fft, &spread, 0, &medium, err) != RC_OK) {
+        rc_preconditioner_free(e);
+        return NULL;
+    }
+    rc_spectrum_set_reciprocal(e->inverse, e->fft, e->kernel);
+    return e;
+short_of_memory:
+    rc_err_set(err, "out of memory for the error estimate of %zu x %zu nodes", shape->nx,
+               shape->ny);
+    rc_preconditioner_free(e);
+    return NULL;
+}
+
+void
+rc_preconditioner_free(struct rc_preconditioner *e)
+{
+    if (e == NULL)
+        return;
+    rc_fft_free(e->fft);
+    rc_spectrum_free(e->kernel);
+    rc_spectrum_free(e->inverse);
+    rc_spectrum_free(e->spread);
+    free(e->weight);
+    free(e->term);
+    free(e->scratch);
+    free(e);
+}
+
+size_t
+rc_preconditioner_memory(const struct rc_shape *shape, enum rc_boundary boundary)
+{
+    return rc_fft_memory(shape, boundary, RC_SINGLE) +
+           2 * rc_spectrum_memory(shape, boundary, RC_SINGLE) +
+           shape->nx * shape->ny * (sizeof(float) + sizeof(uint16_t));
+}
+
+/* ---- the working set ---- */
+
+static bool
+mask_in(void *at, size_t j, void *row)
+{
+    struct rc_preconditioner *e = at;
+    size_t n = e->unit.nx;
+    const unsigned char *w = e->w + j * n;
+    float *out = row;
+    unsigned any = 0;
+
+    for (size_t i = 0; i < n; i++) {
+        out[i] = w[i];
+        any |= w[i];
+    }
+    return any != 0;
+}
+
+/* Eight bits are more than these terms are worth. */
+static inline uint16_t
+upper(float x)
+{
+    uint32_t bits;
+
+    memcpy(&bits, &x, sizeof bits);
+    return (uint16_t)(bits >> 16);
+}
+
+static inline float
+whole(uint16_t x)
+{
+    uint32_t bits = (uint32_t)x << 16;
+    float f;
+
+    memcpy(&f, &bits, sizeof f);
+    return f;
+}
+
+RC_CLONES static void
+terms(size_t n, const float *restrict d2, uint16_t *restrict term)
+{
+    for (size_t i = 0; i < n; i++) {
+        float d = sqrtf(d2[i]) - 0.5f;
+        term[i] = upper(0.5f / sqrtf(d > 0.25f ? d : 0.25f));
+    }
+}
+
+RC_CLONES static void
+weigh(size_t n, const unsigned char *w, const float *sums, const uint16_t *term,
+      float *restrict weight)
+{
+    for (size_t i = 0; i < n; i++) {
+        float sum = sums[i] > 0 ? sums[i] : 0;
+        weight[i] = w[i] ? 0 : 1 / (sum + whole(term[i]));
+    }
+}
+
+/* The sums arrive; where distances are to be found, the weights hold the steps along the columns. */
+static bool
+weights_out(void *at, size_t j, void *row)
+{
+    struct rc_preconditioner *e = at;
+    size_t n = e->unit.nx;
+    float *scratch = e->scratch + (size_t)omp_get_thread_num() * e->own;
+    float *d2 = scratch + rc_distance_scratch(&e->unit), *weight = e->weight + j * n;
+
+    if (e->measure) {
+        rc_distance_row(&e->unit, e->boundary, scratch, weight, d2);
+        terms(n, d2, e->term + j * n);
+    }
+    weigh(n, e->w + j * n, row, e->term + j * n, weight);
+    return true;
+}
+
+void
+rc_preconditioner_set(struct rc_preconditioner *e, const unsigned char *w, bool measure)
+{
+    const struct rc_spectrum *kernels[] = {e->spread};
+    rc_row *rows[] = {mask_in, weights_out};
+
+    e->w = w;
+    e->measure = measure;
+    if (measure)
+        rc_distance_columns(&e->unit, e->boundary, w, e->threads, e->weight);
+    rc_fft_chain(e->fft, 1, kernels, rows, e);
+}
+
+/* ---- E' A E ---- */
+
+struct correction {
+    struct rc_preconditioner *e;
+    const float *r;
+    float offset, *z;
+    rc_row *done;
+    void *ctx;
+};
+
+RC_CLONES static bool
+take(size_t n, const unsigned char *w, const float *r, float offset, float *restrict out)
+{
+    unsigned any = 0;
+
+    for (size_t i = 0; i < n; i++) {
+        out[i] = w[i] ? r[i] - offset : 0;
+        any |= w[i];
+    }
+    return any != 0;
+}
+
+static bool
+residual_in(void *at, size_t j, void *row)
+{
+    struct correction *c = at;
+    size_t n = c->e->unit.nx;
+
+    return take(n, c->e->w + j * n, c->r + j * n, c->offset, row);
+}
+
+RC_CLONES static void
+extend(size_t n, const unsigned char *w, const float *r, float offset, const float *weight,
+       float *restrict row)
+{
+    for (size_t i = 0; i < n; i++)
+        row[i] = w[i] ? r[i] - offset : weight[i] * row[i];
+}
+
+static bool
+extended(void *at, size_t j, void *row)
+{
+    struct correction *c = at;
+    size_t n = c->e->unit.nx;
+
+    extend(n, c->e->w + j * n, c->r + j * n, c->offset, c->e->weight + j * n, row);
+    return true;
+}
+
+RC_CLONES static void
+part(size_t n, const unsigned char *w, const float *weight, float *restrict row, float *restrict z)
+{
+    for (size_t i = 0; i < n; i++) {
+        z[i] = w[i] ? row[i] : 0;
+        row[i] = w[i] ? 0 : weight[i] * row[i];
+    }
+}
+
+static bool
+parted(void *at, size_t j, void *row)
+{
+    struct correction *c = at;
+    size_t n = c->e->unit.nx;
+
+    part(n, c->e->w + j * n, c->e->weight + j * n, row, c->z + j * n);
+    return true;
+}
+
+RC_CLONES static void
+add(size_t n, const unsigned char *w, const float *row, float *restrict z)
+{
+    for (size_t i = 0; i < n; i++)
+        z[i] += w[i] ? row[i] : 0;
+}
+
+static bool
+correction_out(void *at, size_t j, void *row)
+{
+    struct correction *c = at;
+    size_t n = c->e->unit.nx;
+
+    add(n, c->e->w + j * n, row, c->z + j * n);
+    return c->done == NULL || c->done(c->ctx, j, row);
+}
+
+void
+rc_preconditioner_apply(struct rc_preconditioner *e, const float *r, float offset, float *z, rc_row *done,
+                   void *ctx)
+{
+    struct correction c = {.e = e, .r = r, .offset = offset, .z = z, .done = done, .ctx = ctx};
+    const struct rc_spectrum *kernels[] = {e->spread, e->inverse, e->spread};
+    rc_row *rows[] = {residual_in, extended, parted, correction_out};
+
+    rc_fft_chain(e->fft, 3, kernels, rows, &c);
+}
+
+void
+rc_preconditioner_displace(struct rc_preconditioner *e, rc_row *in, rc_row *out, void *ctx)
+{
+    const struct rc_spectrum *kernels[] = {e->kernel};
+    rc_row *rows[] = {in, out};
+
+    rc_fft_chain(e->fft, 1, kernels, rows, ctx);
+}

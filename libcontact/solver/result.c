@@ -1,0 +1,158 @@
+/*
+ * What a solution means: figures, gap, displacement, and the shape that yield leaves.
+ */
+#include "solver.h"
+
+#include <math.h>
+
+/* Load on the outer 2 % of the map, at least one line of nodes on each side. */
+static double
+edge_load(const struct rc_solver *s)
+{
+    size_t nx = s->shape.nx, ny = s->shape.ny;
+    size_t mx = nx < 3 ? 0 : (nx + 49) / 50, my = ny < 3 ? 0 : (ny + 49) / 50;
+    double sum = 0;
+
+    for (size_t j = 0; j < ny; j++)
+        for (size_t i = 0; i < nx; i++)
+            if (i < mx || i + mx >= nx || j < my || j + my >= ny)
+                sum += s->p[j * nx + i];
+    return sum / s->sum;
+}
+
+struct figures {
+    const struct rc_solver *s;
+    double *displacement, *gap;
+    double mean_h, mean_u;
+};
+
+enum { /* sums of the first pass, */
+    CONTACT,
+    PLASTIC,
+    PRESSURE,
+    HEIGHT,
+    V,
+    /* and of the second */
+    SPREAD_H = 0,
+    SPREAD_U
+};
+
+static void
+count_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct rc_solver *s = ((struct figures *)at)->s;
+
+    for (size_t k = first; k < first + n; k++) {
+        double p = s->p[k];
+        sums[CONTACT] += p > 0;
+        sums[PLASTIC] += p >= s->hardness;
+        sums[PRESSURE] += p;
+        sums[HEIGHT] += s->h[k];
+        sums[V] += s->v[k];
+        sums[RC_MOST] = p > sums[RC_MOST] ? p : sums[RC_MOST];
+    }
+}
+
+/* Spread of heights and displacements, the worst violation, and the frames. */
+static void
+spread_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct figures *f = at;
+    const struct rc_solver *s = f->s;
+
+    for (size_t k = first; k < first + n; k++) {
+        double g = s->v[k] - s->shift, u = s->v[k] + s->h[k], p = s->p[k], worst;
+        double h = s->h[k] - f->mean_h, around = u - f->mean_u;
+
+        sums[SPREAD_H] += h * h;
+        sums[SPREAD_U] += around * around;
+        worst = p <= 0 ? fmax(-g, 0) : p >= s->hardness ? fmax(g, 0) : fabs(g);
+        sums[RC_MOST] = worst > sums[RC_MOST] ? worst : sums[RC_MOST];
+        if (f->displacement != NULL)
+            f->displacement[k] = u;
+        if (f->gap != NULL)
+            f->gap[k] = g;
+    }
+}
+
+/* Nodes of the contact with a neighbour that is none. */
+static size_t
+edge_nodes(const struct rc_solver *s)
+{
+    size_t nx = s->shape.nx, ny = s->shape.ny, count = 0;
+
+    for (size_t j = 0; j < ny; j++)
+        for (size_t i = 0; i < nx; i++) {
+            const double *p = s->p + j * nx + i;
+            count += p[0] > 0 && ((i > 0 && p[-1] <= 0) || (i + 1 < nx && p[1] <= 0) ||
+                                  (j > 0 && p[-(ptrdiff_t)nx] <= 0) || (j + 1 < ny && p[nx] <= 0));
+        }
+    return count;
+}
+
+/* What a grid of half the nodes a side gave beside what this one gives. Peak pressure and approach
+ * converge at least with the first power of the spacing, so the difference bounds what is left; the
+ * area's error is erratic, and bounded by half a cell along its edge. */
+static struct rc_discretization
+left_out(const struct rc_solver *s, const struct rc_contact *c)
+{
+    struct rc_discretization d = {NAN, NAN, NAN};
+
+    if (isnan(s->coarse.max_pressure))
+        return d;
+    d.max_pressure = fabs(s->coarse.max_pressure / c->max_pressure - 1);
+    d.approach = fabs(s->coarse.approach / c->approach - 1);
+    d.contact_area = 0.5 * (double)edge_nodes(s) / (double)c->contact_nodes;
+    return d;
+}
+
+void
+rc_solver_plastic(const struct rc_solver *s, double *h)
+{
+#pragma omp parallel for num_threads(s->threads) schedule(static)
+    for (size_t k = 0; k < s->n; k++) {
+        double g = s->v[k] - s->shift;
+        h[k] = s->h[k] + s->top + (s->p[k] >= s->hardness && g < 0 ? g : 0);
+    }
+}
+
+void
+rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct rc_contact *c)
+{
+    struct figures f = {.s = s, .displacement = displacement, .gap = gap};
+    double total[RC_SUMS], n = (double)s->n, scale;
+    bool stopped = !s->known || !s->fresh;
+
+    *c = (struct rc_contact){.iterations = s->iterations};
+    if (stopped)
+        rc_solver_displace(s);
+    rc_solver_shift(s);
+    rc_solver_blocks(s, count_block, &f, total);
+    c->contact_nodes = (size_t)total[CONTACT];
+    c->plastic_nodes = (size_t)total[PLASTIC];
+    c->max_pressure = total[RC_MOST];
+    c->load = total[PRESSURE] * s->cell;
+    c->mean_pressure = total[PRESSURE] / n;
+    c->contact_area = s->cell * (double)c->contact_nodes;
+    c->contact_fraction = (double)c->contact_nodes / n;
+    c->plastic_area = s->cell * (double)c->plastic_nodes;
+    c->hardness_active = c->plastic_nodes > 0;
+    c->edge_load_fraction = edge_load(s);
+    c->approach = s->elastic > 0 ? s->shift : NAN; /* the highest of s->h is 0 */
+    c->mean_gap = total[V] / n - s->shift;
+    f.mean_h = total[HEIGHT] / n;
+    f.mean_u = (total[V] + total[HEIGHT]) / n;
+    rc_solver_blocks(s, spread_block, &f, total);
+    scale = sqrt(fmax(total[SPREAD_H], total[SPREAD_U]) / n);
+    if (total[SPREAD_H] == 0) /* one height everywhere: both vanish with the error */
+        scale = rc_safeguard_norm(s) * c->mean_pressure;
+    c->kkt_residual = total[RC_MOST] == 0 ? 0 : total[RC_MOST] / scale;
+    if (stopped || s->judged != s->iterations || isnan(s->error)) {
+        rc_solver_residual(s, false);
+        s->error = rc_solver_estimate(s);
+    }
+    c->pressure_error = s->error;
+    c->converged = s->error <= s->goal && rc_solver_load_kept(s);
+    c->convolutions = s->convolutions;
+    c->discretization = left_out(s, c);
+}

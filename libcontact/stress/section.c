@@ -1,0 +1,392 @@
+/*
+ * Stresses in a plane across the map, line by line of depth. Only the direction along the plane is
+ * transformed: on the free boundary a line of the field is the sum, over the lines of pressure, of
+ * convolutions with the kernel at the line's distance from the plane; lines as far on either side
+ * share their kernels, and lines without pressure cost nothing. On the periodic boundary it is the
+ * sum of all waves across the plane, for each wave along it.
+ *
+ * A section across x is the same with x and y exchanged: the map is turned, the kernels are asked
+ * at the exchanged places.
+ */
+#include "stress.h"
+
+#include <complex.h>
+#include <math.h>
+#include <omp.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "libcontact/operator/operator.h"
+
+enum {
+    SHARES = 16 /* of the sum, added in order: the same for any number of threads */
+};
+
+/* Lines of pressure at one distance from the plane: their sum, and their difference (that of the
+ * side where the offset to the plane is positive first). */
+struct pair {
+    double offset; /* m, >= 0                                       */
+    const double complex *even, *odd;
+    double sign; /* of odd                                        */
+};
+
+struct plan {
+    struct rc_stress_task task;
+    bool turned;   /* across x: what is along is y                              */
+    size_t n, m;   /* nodes along and across                                    */
+    double d, e;   /* their distances                                           */
+    size_t waves;  /* along: 0 .. waves - 1                                     */
+    size_t length; /* of a transform                                            */
+    int threads;
+    struct rc_line *line;
+    struct rc_dct *halves[2];
+    double complex *source; /* m lines of `waves`; of the waves across, when periodic */
+    struct pair *pair;
+    size_t pairs;
+    double *space; /* for each thread: offsets, and a line of each kernel     */
+    size_t room;
+    double complex *sum; /* for each share and component                            */
+};
+
+static unsigned
+odd_along(const struct plan *plan, int kernel)
+{
+    return (rc_stress_parity[kernel] & (plan->turned ? RC_ODD_Y : RC_ODD_X)) != 0;
+}
+
+static unsigned
+odd_across(const struct plan *plan, int kernel)
+{
+    return (rc_stress_parity[kernel] & (plan->turned ? RC_ODD_X : RC_ODD_Y)) != 0;
+}
+
+static void
+plan_free(void *at)
+{
+    struct plan *plan = at;
+
+    if (plan == NULL)
+        return;
+    rc_line_free(plan->line);
+    rc_dct_free(plan->halves[0]);
+    rc_dct_free(plan->halves[1]);
+    free(plan->source);
+    free(plan->pair);
+    free(plan->space);
+    free(plan->sum);
+    free(plan);
+}
+
+static struct plan
+sizes(const struct rc_stress_task *t)
+{
+    struct plan plan = {.task = *t, .turned = t->options.section == 'x'};
+    const struct rc_shape *s = &t->shape;
+
+    plan.n = plan.turned ? s->ny : s->nx;
+    plan.m = plan.turned ? s->nx : s->ny;
+    plan.d = plan.turned ? s->dy : s->dx;
+    plan.e = plan.turned ? s->dx : s->dy;
+    plan.length = t->options.boundary == RC_FREE ? rc_fft_length(plan.n, 2) : plan.n;
+    plan.waves = plan.length / 2 + 1;
+    plan.threads = rc_useful_threads(s, t->options.threads);
+    plan.room = (2 + RC_STRESS_KERNELS) * plan.waves;
+    return plan;
+}
+
+static size_t
+memory(const struct rc_stress_task *t)
+{
+    struct plan plan = sizes(t);
+    size_t turned = t->shape.nx * t->shape.ny * sizeof(double);
+
+    return sizeof plan + plan.m * plan.waves * sizeof(double complex) + turned +
+           plan.m * sizeof(struct pair) + (size_t)plan.threads * plan.room * sizeof(double) +
+           SHARES * RC_COMPONENTS * plan.waves * sizeof(double complex);
+}
+
+/* The map with what is along the plane along its rows. */
+static double *
+turn(const struct plan *plan)
+{
+    size_t n = plan->n, m = plan->m;
+    double *v = malloc(n * m * sizeof *v);
+
+    for (size_t j = 0; v != NULL && j < m; j++)
+        for (size_t i = 0; i < n; i++)
+            v[j * n + i] = plan->task.p[plan->turned ? i * m + j : j * n + i];
+    return v;
+}
+
+/* ---- free: pairs of lines ---- */
+
+static bool
+loaded(const double *p, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        if (p[i] != 0)
+            return true;
+    return false;
+}
+
+/* The line as far on the other side of the plane as line j is on this one, or m. */
+static size_t
+opposite(const struct plan *plan, size_t j)
+{
+    double at = (double)(plan->m - 1) - (double)j + 2 * plan->task.options.at / plan->e;
+    double whole = round(at);
+
+    return fabs(at - whole) < 1e-9 && whole >= 0 && whole < (double)plan->m ? (size_t)whole
+                                                                            : plan->m;
+}
+
+static void
+add_pair(struct plan *plan, const bool *there, size_t j)
+{
+    double offset = plan->task.options.at - ((double)j - (double)(plan->m - 1) / 2) * plan->e;
+    size_t other = opposite(plan, j);
+    double complex *a = plan->source + j * plan->waves, *b = a;
+    struct pair *pair = &plan->pair[plan->pairs];
+
+    if (!there[j] || (other != j && other < plan->m && there[other] && offset < 0))
+        return;
+    *pair = (struct pair){fabs(offset), a, a, offset < 0 ? -1 : 1};
+    plan->pairs++;
+    if (other == j || other == plan->m || !there[other])
+        return;
+    b = plan->source + other * plan->waves;
+    for (size_t q = 0; q < plan->waves; q++) {
+        double complex x = a[q], y = b[q];
+        a[q] = x + y;
+        b[q] = x - y;
+    }
+    pair->odd = b;
+}
+
+static enum rc_status
+transform_lines(struct plan *plan, const double *p, struct rc_err *err)
+{
+    size_t n = plan->n, m = plan->m;
+    bool *there = calloc(m, sizeof *there);
+
+    if (there == NULL || (plan->pair = malloc(m * sizeof *plan->pair)) == NULL) {
+        free(there);
+        return rc_err_set(err, "out of memory for %zu lines", m);
+    }
+#pragma omp parallel for num_threads(plan->threads) schedule(dynamic, 4)
+    for (size_t j = 0; j < m; j++) {
+        double *line = plan->space + (size_t)omp_get_thread_num() * plan->room;
+        if (!(there[j] = loaded(p + j * n, n)))
+            continue;
+        memset(line, 0, plan->length * sizeof *line);
+        memcpy(line, p + j * n, n * sizeof *line);
+        rc_line_forward(plan->line, line, plan->source + j * plan->waves);
+    }
+    for (size_t j = 0; j < m; j++) {
+        plan->task.counts->line_transforms += there[j];
+        add_pair(plan, there, j);
+    }
+    free(there);
+    return RC_OK;
+}
+
+static void *
+plan_new(const struct rc_stress_task *task, struct rc_err *err)
+{
+    struct plan *plan = malloc(sizeof *plan);
+    bool periodic = task->options.boundary == RC_PERIODIC;
+    size_t threads;
+    double *p = NULL;
+    enum rc_status status = RC_FAIL;
+
+    if (plan == NULL) {
+        rc_err_set(err, "out of memory for a plan");
+        return NULL;
+    }
+    *plan = sizes(task);
+    threads = (size_t)plan->threads;
+    p = turn(plan);
+    plan->source = malloc(plan->m * plan->waves * sizeof *plan->source);
+    plan->space = malloc(threads * plan->room * sizeof *plan->space);
+    plan->sum = malloc(SHARES * RC_COMPONENTS * plan->waves * sizeof *plan->sum);
+    if (p == NULL || plan->source == NULL || plan->space == NULL || plan->sum == NULL) {
+        rc_err_set(err, "out of memory for a section of %zu x %zu nodes", plan->n, plan->m);
+        goto done;
+    }
+    if ((plan->line = rc_line_new(plan->length, threads, err)) == NULL ||
+        (!periodic &&
+         ((plan->halves[0] = rc_dct_new(plan->waves, false, threads, err)) == NULL ||
+          (plan->halves[1] = rc_dct_new(plan->waves, true, threads, err)) == NULL)))
+        goto done;
+    if (periodic) {
+        const struct rc_shape shape = {plan->n, plan->m, plan->d, plan->e};
+        status = rc_fourier_forward(&shape, p, plan->source, err);
+        task->counts->source_transforms++;
+    } else {
+        status = transform_lines(plan, p, err);
+    }
+done:
+    free(p);
+    if (status == RC_OK)
+        return plan;
+    plan_free(plan);
+    return NULL;
+}
+
+/* sum += weight K p for one pair of lines; `k` is the kernel's transform along. */
+static void
+add_product(const struct plan *plan, int kernel, double weight, const double *k,
+            const struct pair *pair, double complex *sum)
+{
+    bool odd = odd_across(plan, kernel);
+    const double complex *p = odd ? pair->odd : pair->even;
+
+    if (odd)
+        weight *= pair->sign;
+    if (odd_along(plan, kernel))
+        for (size_t q = 0; q < plan->waves; q++)
+            sum[q] += CMPLX(weight * k[q] * cimag(p[q]), -weight * k[q] * creal(p[q]));
+    else
+        for (size_t q = 0; q < plan->waves; q++)
+            sum[q] += weight * k[q] * p[q];
+}
+
+static void
+sum_pair(struct plan *plan, double depth, const struct pair *pair, double complex *sum)
+{
+    const struct rc_stress_task *t = &plan->task;
+    const struct rc_cell cell = {t->shape.dx, t->shape.dy, depth, t->options.nu};
+    double *along = plan->space + (size_t)omp_get_thread_num() * plan->room;
+    double *across = along + plan->waves, *line[RC_STRESS_KERNELS];
+
+    for (int k = 0; k < RC_STRESS_KERNELS; k++)
+        line[k] = across + (size_t)(k + 1) * plan->waves;
+    if (plan->turned) {
+        for (size_t i = 0; i < plan->waves; i++) {
+            along[i] = (double)i * plan->d;
+            across[i] = pair->offset;
+        }
+        rc_stress_coefficients(&cell, t->kernels, plan->waves, across, along, line);
+    } else {
+        rc_stress_line(&cell, t->kernels, plan->waves, pair->offset, line);
+    }
+    for (int k = 0; k < RC_STRESS_KERNELS; k++)
+        if (t->kernels >> k & 1)
+            rc_dct_run(plan->halves[odd_along(plan, k)], line[k]);
+    for (int c = 0; c < RC_COMPONENTS; c++) {
+        int normal = rc_stress_kernel(RC_NORMAL, c), shear = rc_stress_kernel(RC_SHEAR, c);
+        if (!(t->components >> c & 1))
+            continue;
+        add_product(plan, normal, 1, line[normal], pair, sum + (size_t)c * plan->waves);
+        if (t->options.mu != 0)
+            add_product(plan, shear, t->options.mu, line[shear], pair,
+                        sum + (size_t)c * plan->waves);
+    }
+}
+
+static void
+sum_free(struct plan *plan, double depth)
+{
+    size_t one = RC_COMPONENTS * plan->waves;
+
+    memset(plan->sum, 0, SHARES * one * sizeof *plan->sum);
+#pragma omp parallel for num_threads(plan->threads) schedule(dynamic)
+    for (size_t share = 0; share < SHARES; share++)
+        for (size_t g = share; g < plan->pairs; g += SHARES)
+            sum_pair(plan, depth, &plan->pair[g], plan->sum + share * one);
+    for (size_t share = 1; share < SHARES; share++)
+        for (size_t q = 0; q < one; q++)
+            plan->sum[q] += plan->sum[share * one + q];
+    for (int k = 0; k < RC_STRESS_KERNELS; k++)
+        if (plan->task.kernels >> k & 1) {
+            rc_stress_count(&plan->task, k, plan->pairs * plan->waves);
+            plan->task.counts->line_transforms += plan->pairs;
+        }
+}
+
+/* ---- periodic: waves ---- */
+
+/* Transform of what a wave makes of a component, the friction included. */
+static double complex
+response(const struct plan *plan, int component, const struct rc_wave *w, bool last_x, bool last_y)
+{
+    static const double complex turns[] = {1, -I, -1};
+    const struct rc_stress_task *t = &plan->task;
+    double complex sum = 0;
+
+    for (int load = RC_NORMAL; load <= (t->options.mu != 0 ? RC_SHEAR : RC_NORMAL); load++) {
+        int k = rc_stress_kernel(load, component);
+        unsigned parity = rc_stress_parity[k];
+        double weight = load == RC_NORMAL ? 1 : t->options.mu;
+        if ((parity & RC_ODD_X && last_x) || (parity & RC_ODD_Y && last_y))
+            continue;
+        weight *= w->q == 0 ? rc_stress_mean(k, w->nu, &t->shape) : rc_stress_rows[k].symbol(w);
+        sum += weight * turns[((parity & RC_ODD_X) != 0) + ((parity & RC_ODD_Y) != 0)];
+    }
+    return sum;
+}
+
+static void
+sum_waves(struct plan *plan, double depth)
+{
+    static const double turn = 6.28318530717958647692;
+    const struct rc_stress_task *t = &plan->task;
+    double from_first = t->options.at + (double)(plan->m - 1) / 2 * plan->e;
+
+#pragma omp parallel for num_threads(plan->threads) schedule(static)
+    for (size_t a = 0; a < plan->waves; a++) {
+        double q_along = turn * (double)a / ((double)plan->n * plan->d);
+        double complex sum[RC_COMPONENTS] = {0};
+        for (size_t b = 0; b < plan->m; b++) {
+            double q = turn * (double)rc_fourier_number(b, plan->m) / ((double)plan->m * plan->e);
+            double qx = plan->turned ? q : q_along, qy = plan->turned ? q_along : q;
+            bool last_along = 2 * a == plan->n, last_across = 2 * b == plan->m;
+            double complex p = plan->source[b * plan->waves + a];
+            struct rc_wave w = {
+                .qx = qx, .qy = qy, .q = sqrt(qx * qx + qy * qy), .z = depth, .nu = t->options.nu};
+            w.decay = exp(-w.q * depth);
+            p *= last_across ? CMPLX(cos(q * from_first), 0) : cexp(I * q * from_first);
+            for (int c = 0; c < RC_COMPONENTS; c++)
+                if (t->components >> c & 1)
+                    sum[c] += p * response(plan, c, &w, plan->turned ? last_across : last_along,
+                                           plan->turned ? last_along : last_across);
+        }
+        for (int c = 0; c < RC_COMPONENTS; c++)
+            plan->sum[(size_t)c * plan->waves + a] = sum[c];
+    }
+    for (int k = 0; k < RC_STRESS_KERNELS; k++)
+        if (t->kernels >> k & 1)
+            rc_stress_count(t, k, plan->waves * plan->m);
+}
+
+/* ---- both ---- */
+
+static enum rc_status
+layer(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err)
+{
+    struct plan *plan = at;
+    bool periodic = plan->task.options.boundary == RC_PERIODIC;
+    double scale = 1 / ((double)plan->length * (periodic ? (double)plan->m : 1));
+
+    (void)err;
+    if (periodic)
+        sum_waves(plan, depth);
+    else
+        sum_free(plan, depth);
+    for (int c = 0; c < RC_COMPONENTS; c++) {
+        if (!(plan->task.components >> c & 1))
+            continue;
+        rc_line_backward(plan->line, plan->sum + (size_t)c * plan->waves, plan->space);
+        for (size_t i = 0; i < plan->n; i++)
+            s[c][i] = scale * plan->space[i];
+        plan->task.counts->line_transforms++;
+    }
+    return RC_OK;
+}
+
+const struct rc_stress_way rc_stress_way_section = {
+    .memory = memory,
+    .new = plan_new,
+    .layer = layer,
+    .free = plan_free,
+};

@@ -1,0 +1,132 @@
+/*
+ * Stress maps by a row of engines.list: one sum for each kernel and depth, in little memory beside
+ * the maps (Polonsky and Keer 1999, section 3.3).
+ */
+#include "stress.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct plan {
+    struct rc_stress_task task;
+    const struct rc_engine *engine;
+    double *u; /* of one kernel */
+};
+
+static const struct rc_engine *const engines[] = {
+#define RC_ENGINE(name) &rc_engine_##name,
+#include "libcontact/operator/engines.list"
+#undef RC_ENGINE
+};
+
+static const struct rc_engine *
+named(const char *name)
+{
+    for (size_t k = 0; k < sizeof engines / sizeof *engines; k++)
+        if (strcmp(engines[k]->name, name) == 0)
+            return engines[k];
+    return NULL;
+}
+
+/* An engine's tolerance is relative to the sum of |K| |p|. That of |K| grows with the logarithm of
+ * the map, to some 2 under pressure and 8 under shear, and errors of the two add. */
+static struct rc_sum
+sum_of(const struct rc_stress_task *t, int kernel, double depth)
+{
+    return (struct rc_sum){.shape = t->shape,
+                           .boundary = t->options.boundary,
+                           .kernel = &rc_kernel_stress,
+                           .component = (size_t)kernel,
+                           .medium = {.nu = t->options.nu, .depth = depth},
+                           .tol = t->options.tol / (2 + 8 * fabs(t->options.mu)),
+                           .threads = t->options.threads};
+}
+
+static void
+plan_free(void *at)
+{
+    struct plan *plan = at;
+
+    if (plan == NULL)
+        return;
+    free(plan->u);
+    free(plan);
+}
+
+static void *
+plan_new(const struct rc_stress_task *task, struct rc_err *err)
+{
+    struct plan *plan = calloc(1, sizeof *plan);
+    size_t n = task->shape.nx * task->shape.ny;
+
+    if (plan == NULL || (plan->u = malloc(n * sizeof *plan->u)) == NULL) {
+        rc_err_set(err, "out of memory for a map of %zu nodes", n);
+        plan_free(plan);
+        return NULL;
+    }
+    plan->task = *task;
+    if ((plan->engine = named(task->options.engine)) == NULL) {
+        rc_err_set(err, "there is no engine '%s'", task->options.engine);
+        plan_free(plan);
+        return NULL;
+    }
+    return plan;
+}
+
+static size_t
+memory(const struct rc_stress_task *task)
+{
+    const struct rc_engine *engine = named(task->options.engine);
+    struct rc_sum sum = sum_of(task, RC_SXX, task->shape.dx);
+
+    return engine == NULL ? 0
+                          : engine->memory(&sum) + task->shape.nx * task->shape.ny * sizeof(double);
+}
+
+static void
+add(size_t n, double weight, const double *u, double *s)
+{
+    for (size_t k = 0; k < n; k++)
+        s[k] += weight * u[k];
+}
+
+static enum rc_status
+layer(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err)
+{
+    struct plan *plan = at;
+    const struct rc_stress_task *t = &plan->task;
+    size_t n = t->shape.nx * t->shape.ny;
+
+    for (int c = 0; c < RC_COMPONENTS; c++)
+        if (t->components >> c & 1)
+            memset(s[c], 0, n * sizeof *s[c]);
+    for (int k = 0; k < RC_STRESS_KERNELS; k++) {
+        struct rc_sum sum = sum_of(t, k, depth);
+        void *one;
+        if (!(t->kernels >> k & 1))
+            continue;
+        if ((one = plan->engine->new (&sum, err)) == NULL)
+            return RC_FAIL;
+        plan->engine->apply(one, t->p, plan->u);
+        plan->engine->free(one);
+        t->counts->engine_sums++;
+        rc_stress_count(t, k, 0);
+        for (int c = 0; c < RC_COMPONENTS; c++) {
+            if (!(t->components >> c & 1))
+                continue;
+            if (rc_stress_kernel(RC_NORMAL, c) == k)
+                add(n, 1, plan->u, s[c]);
+            if (t->options.mu != 0 && rc_stress_kernel(RC_SHEAR, c) == k)
+                add(n, t->options.mu, plan->u, s[c]);
+        }
+    }
+    return RC_OK;
+}
+
+const struct rc_stress_way rc_stress_way_engine = {
+    .memory = memory,
+    .new = plan_new,
+    .layer = layer,
+    .free = plan_free,
+};

@@ -1,0 +1,108 @@
+/*
+ * The stresses of a half-space by their parts: one row a component, with its parity, what a point
+ * load does, what a uniformly loaded cell does, and what a wave does. Internal: never installed.
+ */
+#ifndef RC_STRESS_H
+#define RC_STRESS_H
+
+#include "libcontact/operator/operator.h"
+
+
+/* These loops gain from the widest registers. */
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define RC_WIDE_CLONES                                                                             \
+    __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define RC_WIDE_CLONES
+#endif
+
+enum {
+    RC_NORMAL, /* a unit pressure                              */
+    RC_SHEAR,  /* a unit traction along +x on the body         */
+    RC_LOADS,
+    RC_STRESS_KERNELS = RC_LOADS * RC_COMPONENTS /* load * RC_COMPONENTS + component */
+};
+
+/* Points seen from a unit force at the origin: x, y, 1/R and 1/(R + z), all at the depth z. */
+struct rc_points {
+    size_t n;
+    const double *x, *y, *r, *w;
+    double z, nu;
+};
+
+/* A corner of a cell as its middle sees it from the point of the field: X, Y and R at depth z. */
+struct rc_corner {
+    double x, y, z, r, nu;
+    double floor; /* least distance from an edge that a logarithm is taken at, m */
+};
+
+/* A wave of wave number (qx, qy), q, and its decay exp(-q z) at depth z. */
+struct rc_wave {
+    double qx, qy, q, z, decay, nu;
+};
+
+struct rc_stress_row {
+    unsigned parity;
+    int same; /* a kernel that has the same values, or -1 */
+    /* out[i] += weight * 2 pi times the stress of a unit force. */
+    void (*point)(const struct rc_points *points, double weight, double *out);
+    /* Antiderivative in X and Y of 2 pi times that stress. */
+    double (*corner)(const struct rc_corner *corner);
+    /* Transform over (-i)^(number of odd directions). */
+    double (*symbol)(const struct rc_wave *wave);
+};
+extern const struct rc_stress_row rc_stress_rows[RC_STRESS_KERNELS];
+extern const unsigned rc_stress_parity[RC_STRESS_KERNELS];
+
+/* Stress under a uniform unit load on the periodic map, at any depth. */
+double rc_stress_mean(int kernel, double nu, const struct rc_shape *shape);
+
+/* The kernel of a load and component, or the one that has the same values. */
+int rc_stress_kernel(int load, int component);
+/* Bits of those that these components (bits) need, of the shear too or not. */
+unsigned rc_stress_distinct(unsigned components, bool shear);
+
+/* A cell and where it is seen from. */
+struct rc_cell {
+    double dx, dy; /* m          */
+    double depth;  /* m          */
+    double nu;
+};
+
+/* Stresses at (x[i], y[i]), i < n, of unit load on the cell about the origin, of every kernel whose
+ * bit is set, to out[kernel][i]. */
+void rc_stress_coefficients(const struct rc_cell *cell, unsigned kernels, size_t n, const double *x,
+                            const double *y, double *const out[RC_STRESS_KERNELS]);
+
+/* The same at (i dx, y), i < n, faster. */
+void rc_stress_line(const struct rc_cell *cell, unsigned kernels, size_t n, double y,
+                    double *const out[RC_STRESS_KERNELS]);
+
+/* ---- ways to sum ---- */
+
+/* What is to be summed, and the tally of what it took. */
+struct rc_stress_task {
+    struct rc_shape shape;
+    struct rc_stress_options options;
+    const double *p;     /* stays the caller's                                             */
+    unsigned components; /* bits of the six: what is wanted and what that is derived from  */
+    unsigned kernels;    /* bits: what these need, one of each set of equals               */
+    struct rc_stress_counts *counts;
+};
+/* Counts a kernel that is evaluated: shear is what would not be without the traction. */
+void rc_stress_count(const struct rc_stress_task *task, int kernel, size_t coefficients);
+
+struct rc_stress_way {
+    /* Bytes beside p and the results. */
+    size_t (*memory)(const struct rc_stress_task *task);
+    void *(*new)(const struct rc_stress_task *task, struct rc_err *err);
+    /* The components at one depth, s[c] for each bit: maps, or lines of a section. */
+    enum rc_status (*layer)(void *plan, double depth, double *const s[RC_COMPONENTS],
+                            struct rc_err *err);
+    void (*free)(void *plan);
+};
+extern const struct rc_stress_way rc_stress_way_fft;     /* maps, by transforms            */
+extern const struct rc_stress_way rc_stress_way_engine;  /* maps, by a row of engines.list */
+extern const struct rc_stress_way rc_stress_way_section; /* lines                          */
+
+#endif

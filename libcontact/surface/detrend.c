@@ -1,0 +1,238 @@
+/*
+ * The least-squares polynomial over the points that are there. Products of Legendre polynomials on
+ * the points' bounding box keep the equations well conditioned; a QR factor that takes rows block
+ * by block (GSL's tall-skinny QR) keeps memory small and tells when places do not determine it.
+ */
+#include "libcontact/contact.h"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_matrix.h>
+#include <gsl/gsl_multilarge.h>
+#include <gsl/gsl_vector.h>
+#include <math.h>
+#include <stdlib.h>
+
+enum {
+    BLOCK = 1024 /* points that are factored at a time; above the largest number of terms */
+};
+
+/* A column of the equations less well determined than this is not determined. */
+static const double deficient = 1e-12;
+
+struct fit {
+    const struct rc_shape *shape;
+    const double *h;
+    double mean;            /* taken off first: a datum far away costs no digits   */
+    size_t nx_terms, ny_terms, degree; /* polynomials along x, along y; their sum's bound */
+    size_t terms;
+    double *px, *py;        /* Legendre polynomials: px[a * nx + i], py[b * ny + j] */
+    gsl_matrix *rows;
+    gsl_vector *heights, *coefficients;
+    gsl_multilarge_linear_workspace *work;
+};
+
+/* Where the points are. */
+struct box {
+    size_t left, right, top, bottom, count, infinite;
+};
+
+static struct box
+bounding_box(const struct rc_shape *shape, const double *h)
+{
+    struct box b = {.left = shape->nx, .top = shape->ny};
+
+    for (size_t j = 0; j < shape->ny; j++)
+        for (size_t i = 0; i < shape->nx; i++) {
+            double v = h[j * shape->nx + i];
+            if (isnan(v))
+                continue;
+            b.count++;
+            b.infinite += isinf(v) != 0;
+            b.left = i < b.left ? i : b.left;
+            b.right = i > b.right ? i : b.right;
+            b.top = j < b.top ? j : b.top;
+            b.bottom = j > b.bottom ? j : b.bottom;
+        }
+    return b;
+}
+
+/* P_0 ... P_(terms-1) at the n nodes of a side, first..last being -1..1 (Bonnet's recursion). */
+static double *
+legendre(size_t terms, size_t n, size_t first, size_t last)
+{
+    double middle = 0.5 * ((double)first + (double)last);
+    double half = last > first ? 0.5 * (double)(last - first) : 1;
+    double *p = NULL;
+    size_t size;
+
+    if (rc_size_mul(terms * sizeof *p, n, &size, NULL) != RC_OK || (p = malloc(size)) == NULL)
+        return NULL;
+    for (size_t i = 0; i < n; i++) {
+        double s = ((double)i - middle) / half, before = 0, now = 1;
+        for (size_t a = 0; a < terms; a++) {
+            double next = ((2 * (double)a + 1) * s * now - (double)a * before) / ((double)a + 1);
+            p[a * n + i] = now;
+            before = now;
+            now = next;
+        }
+    }
+    return p;
+}
+
+static void
+fit_free(struct fit *f)
+{
+    gsl_multilarge_linear_free(f->work);
+    gsl_vector_free(f->coefficients);
+    gsl_vector_free(f->heights);
+    gsl_matrix_free(f->rows);
+    free(f->px);
+    free(f->py);
+}
+
+static size_t
+count_terms(size_t nx_terms, size_t ny_terms, size_t degree)
+{
+    size_t n = 0;
+
+    for (size_t b = 0; b < ny_terms; b++)
+        for (size_t a = 0; a < nx_terms && a + b <= degree; a++)
+            n++;
+    return n;
+}
+
+static enum rc_status
+fit_new(struct fit *f, const struct rc_shape *shape, size_t degree, const double *h,
+        struct rc_err *err)
+{
+    struct rc_statistics figures;
+    struct box box = bounding_box(shape, h);
+
+    *f = (struct fit){.shape = shape, .h = h, .degree = degree};
+    if (degree > RC_DEGREE_MAX)
+        return rc_err_set(err, "a polynomial of degree %zu: at most %d", degree, RC_DEGREE_MAX);
+    f->nx_terms = shape->nx > 1 ? degree + 1 : 1;
+    f->ny_terms = shape->ny > 1 ? degree + 1 : 1;
+    f->terms = count_terms(f->nx_terms, f->ny_terms, degree);
+    if (box.infinite > 0)
+        return rc_err_set(err, "%zu infinite heights: no polynomial fits them", box.infinite);
+    if (box.count < f->terms)
+        return rc_err_set(err, "a polynomial of degree %zu has %zu coefficients, and only %zu "
+                               "points are there: take a lower degree", degree, f->terms, box.count);
+    rc_measure(shape, h, &figures);
+    f->mean = figures.mean;
+    f->px = legendre(f->nx_terms, shape->nx, box.left, box.right);
+    f->py = legendre(f->ny_terms, shape->ny, box.top, box.bottom);
+    f->rows = gsl_matrix_alloc(BLOCK, f->terms);
+    f->heights = gsl_vector_alloc(BLOCK);
+    f->coefficients = gsl_vector_alloc(f->terms);
+    f->work = gsl_multilarge_linear_alloc(gsl_multilarge_linear_tsqr, f->terms);
+    if (f->px == NULL || f->py == NULL || f->rows == NULL || f->heights == NULL ||
+        f->coefficients == NULL || f->work == NULL)
+        return rc_err_set(err, "out of memory for a polynomial of degree %zu", degree);
+    return RC_OK;
+}
+
+/* The equation of one point: its terms, and its height. */
+static void
+put_row(struct fit *f, size_t row, size_t i, size_t j)
+{
+    const struct rc_shape *s = f->shape;
+    double *to = gsl_matrix_ptr(f->rows, row, 0);
+
+    for (size_t b = 0; b < f->ny_terms; b++)
+        for (size_t a = 0; a < f->nx_terms && a + b <= f->degree; a++)
+            *to++ = f->px[a * s->nx + i] * f->py[b * s->ny + j];
+    gsl_vector_set(f->heights, row, f->h[j * s->nx + i] - f->mean);
+}
+
+/* Hands over the first n rows, made up to the number of terms with empty equations. */
+static int
+flush(struct fit *f, size_t n)
+{
+    size_t m = n < f->terms ? f->terms : n;
+    gsl_matrix_view rows = gsl_matrix_submatrix(f->rows, 0, 0, m, f->terms);
+    gsl_vector_view heights = gsl_vector_subvector(f->heights, 0, m);
+
+    for (size_t row = n; row < m; row++) {
+        for (size_t k = 0; k < f->terms; k++)
+            gsl_matrix_set(f->rows, row, k, 0);
+        gsl_vector_set(f->heights, row, 0);
+    }
+    return gsl_multilarge_linear_accumulate(&rows.matrix, &heights.vector, f->work);
+}
+
+static enum rc_status
+solve(struct fit *f, struct rc_err *err)
+{
+    double rcond = 0, residual, norm;
+    size_t row = 0;
+    int code = GSL_SUCCESS;
+
+    for (size_t j = 0; j < f->shape->ny; j++)
+        for (size_t i = 0; i < f->shape->nx && code == GSL_SUCCESS; i++) {
+            if (isnan(f->h[j * f->shape->nx + i]))
+                continue;
+            put_row(f, row++, i, j);
+            if (row == BLOCK) {
+                code = flush(f, row);
+                row = 0;
+            }
+        }
+    if (code == GSL_SUCCESS && row > 0)
+        code = flush(f, row);
+    if (code != GSL_SUCCESS)
+        return rc_err_set(err, "the fit failed: %s", gsl_strerror(code));
+    code = gsl_multilarge_linear_rcond(&rcond, f->work);
+    if (code != GSL_SUCCESS || !(rcond > deficient))
+        return rc_err_set(err, "the points that are there do not determine a polynomial of degree "
+                               "%zu: too few rows or columns of them, or all on one curve; take a "
+                               "lower degree", f->degree);
+    code = gsl_multilarge_linear_solve(0, f->coefficients, &residual, &norm, f->work);
+    if (code != GSL_SUCCESS)
+        return rc_err_set(err, "the fit failed: %s", gsl_strerror(code));
+    return RC_OK;
+}
+
+/* h - mean - polynomial, row by row: in one row it is a polynomial in x alone. */
+static void
+subtract(const struct fit *f, double *h)
+{
+    size_t nx = f->shape->nx, ny = f->shape->ny;
+
+    for (size_t j = 0; j < ny; j++) {
+        double along[RC_DEGREE_MAX + 1] = {0}, *row = h + j * nx;
+        const double *c = f->coefficients->data;
+        for (size_t b = 0; b < f->ny_terms; b++)
+            for (size_t a = 0; a < f->nx_terms && a + b <= f->degree; a++)
+                along[a] += *c++ * f->py[b * ny + j];
+        for (size_t i = 0; i < nx; i++) {
+            double value = 0;
+            for (size_t a = 0; a < f->nx_terms; a++)
+                value += along[a] * f->px[a * nx + i];
+            row[i] = (row[i] - f->mean) - value;
+        }
+    }
+}
+
+enum rc_status
+rc_detrend_poly(const struct rc_shape *shape, size_t degree, double *h, struct rc_err *err)
+{
+    enum rc_status status;
+
+    /* GSL has one error handler for all threads, and its default ends the process. */
+#pragma omp critical(rc_gsl)
+    {
+        gsl_error_handler_t *handler = gsl_set_error_handler_off();
+        struct fit f;
+
+        status = fit_new(&f, shape, degree, h, err);
+        if (status == RC_OK)
+            status = solve(&f, err);
+        if (status == RC_OK)
+            subtract(&f, h);
+        fit_free(&f);
+        gsl_set_error_handler(handler);
+    }
+    return status;
+}

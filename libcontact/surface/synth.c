@@ -1,0 +1,233 @@
+/* Surfaces made from a formula or from a seed. */
+#include "libcontact/contact.h"
+
+#include <complex.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "libcontact/operator/operator.h"
+
+static const double pi = 3.14159265358979323846;
+
+static double
+place(size_t i, size_t n, double d)
+{
+    return ((double)i - 0.5 * (double)(n - 1)) * d;
+}
+
+void
+rc_synth_sphere(const struct rc_shape *shape, double radius, double *h)
+{
+    for (size_t j = 0; j < shape->ny; j++) {
+        double y = place(j, shape->ny, shape->dy);
+        for (size_t i = 0; i < shape->nx; i++) {
+            double x = place(i, shape->nx, shape->dx);
+            h[j * shape->nx + i] = 0 - (x * x + y * y) / (2 * radius); /* never -0 */
+        }
+    }
+}
+
+void
+rc_synth_wave(const struct rc_shape *shape, double amplitude, double wavelength_x,
+              double wavelength_y, double *h)
+{
+    for (size_t j = 0; j < shape->ny; j++) {
+        double a = amplitude * cos(2 * pi * place(j, shape->ny, shape->dy) / wavelength_y);
+        for (size_t i = 0; i < shape->nx; i++)
+            h[j * shape->nx + i] =
+                a * cos(2 * pi * place(i, shape->nx, shape->dx) / wavelength_x);
+    }
+}
+
+/* ---- self-affine roughness ---- */
+
+/* The spectrum asked for; wavenumbers in 1/m without the factor 2 pi: 1 / wavelength. */
+struct spectrum {
+    double low, high; /* waves in between, both included               */
+    double bend;      /* flat below                                    */
+    double power;     /* amplitudes fall as q^-power above             */
+    uint64_t seed;
+};
+
+/* Cut-offs are included, whatever way 1/(nx dx) was rounded. */
+static const double slack = 1e-9;
+
+static bool
+bad_length(double length)
+{
+    return !isnan(length) && !(length > 0 && isfinite(length));
+}
+
+/* The shortest wavelength that every direction of the grid can hold. */
+static double
+resolved(const struct rc_shape *shape)
+{
+    if (shape->ny == 1)
+        return 2 * shape->dx;
+    if (shape->nx == 1)
+        return 2 * shape->dy;
+    return 2 * fmax(shape->dx, shape->dy);
+}
+
+static enum rc_status
+check_size(const struct rc_selfaffine *what, struct rc_err *err)
+{
+    double size = isnan(what->rms_height) ? what->rms_slope : what->rms_height;
+
+    if (isnan(what->rms_height) == isnan(what->rms_slope))
+        return rc_err_set(err, "give one of RMS height and RMS slope: the other one follows");
+    if (!(size > 0) || isinf(size))
+        return rc_err_set(err, "RMS %s %g: it must be positive and finite",
+                          isnan(what->rms_height) ? "slope" : "height", size);
+    return RC_OK;
+}
+
+static enum rc_status
+check_spectrum(const struct rc_shape *shape, const struct rc_selfaffine *what, struct rc_err *err)
+{
+    double shortest = resolved(shape);
+
+    if (!(what->hurst > 0 && what->hurst <= 1))
+        return rc_err_set(err, "Hurst exponent %g: it must be above 0 and at most 1", what->hurst);
+    if (bad_length(what->long_cut) || bad_length(what->rolloff) || bad_length(what->short_cut))
+        return rc_err_set(err, "long cut-off %g m, roll-off %g m, short cut-off %g m: wavelengths "
+                               "must be positive and finite",
+                          what->long_cut, what->rolloff, what->short_cut);
+    if (what->short_cut < shortest * (1 - slack))
+        return rc_err_set(err, "short cut-off %g m: the nodes hold wavelengths from %g m on, twice "
+                               "their spacing", what->short_cut, shortest);
+    if (!isnan(what->short_cut))
+        shortest = what->short_cut;
+    if (what->long_cut < shortest)
+        return rc_err_set(err, "long cut-off %g m: it must not be below the short one, %g m",
+                          what->long_cut, shortest);
+    if (what->rolloff < shortest)
+        return rc_err_set(err, "roll-off %g m: it must not be below the short cut-off, %g m",
+                          what->rolloff, shortest);
+    return check_size(what, err);
+}
+
+static struct spectrum
+spectrum_of(const struct rc_shape *shape, const struct rc_selfaffine *what)
+{
+    bool profile = shape->nx == 1 || shape->ny == 1;
+    double size = hypot((double)shape->nx * shape->dx, (double)shape->ny * shape->dy);
+    double shortest = isnan(what->short_cut) ? resolved(shape) : what->short_cut;
+
+    return (struct spectrum){
+        .low = isnan(what->long_cut) ? 0 : (1 - slack) / what->long_cut,
+        .high = (1 + slack) / shortest,
+        /* without a flat part, any wavenumber below all others will do */
+        .bend = 1 / (isnan(what->rolloff) ? size : what->rolloff),
+        .power = what->hurst + (profile ? 0.5 : 1),
+        .seed = what->seed,
+    };
+}
+
+/* The finaliser of splitmix64 (Steele, Lea, Flood 2014): every input bit moves every output bit. */
+static uint64_t
+scramble(uint64_t z)
+{
+    z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
+    z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
+    return z ^ z >> 31;
+}
+
+/* A complex Gaussian number with mean square 1 that depends on seed, kx and ky alone, turned by
+ * `turn` periods (Box and Muller 1958). */
+static double complex
+draw(uint64_t seed, long kx, long ky, double turn)
+{
+    const uint64_t step = UINT64_C(0x9e3779b97f4a7c15);
+    uint64_t z = scramble(seed + step);
+    double u, angle;
+
+    z = scramble(z + step * (uint64_t)kx);
+    z = scramble(z + step * (uint64_t)ky);
+    u = ((double)(z >> 11) + 1) * 0x1p-53; /* (0, 1] */
+    angle = 2 * pi * ((double)(scramble(z + step) >> 11) * 0x1p-53 + turn);
+    return sqrt(-log(u)) * (cos(angle) + I * sin(angle));
+}
+
+/* Amplitude of exp(2 pi i (kx x / Lx + ky y / Ly)) with x = y = 0 at the middle of the map, as the
+ * transform wants it, whose origin is node (0, 0). Half the plane is drawn, so that the conjugate
+ * other half makes the heights real; the waves of two nodes (Nyquist) have no conjugate of their
+ * own and are left out. */
+static double complex
+amplitude(const struct rc_shape *shape, const struct spectrum *what, long kx, long ky)
+{
+    double nx = (double)shape->nx, ny = (double)shape->ny;
+    double q = hypot((double)kx / (nx * shape->dx), (double)ky / (ny * shape->dy));
+    double turn = -0.5 * ((double)kx * (nx - 1) / nx + (double)ky * (ny - 1) / ny);
+    double size;
+
+    if ((kx == 0 && ky == 0) || q < what->low || q > what->high ||
+        2 * (size_t)labs(kx) == shape->nx || 2 * (size_t)labs(ky) == shape->ny)
+        return 0;
+    size = q > what->bend ? pow(what->bend / q, what->power) : 1;
+    if (kx == 0 && ky < 0)
+        return size * conj(draw(what->seed, 0, -ky, -turn));
+    return size * draw(what->seed, kx, ky, turn);
+}
+
+/* Fills the spectrum; mean squares of height and of slope follow from Parseval's theorem. */
+static void
+make_waves(const struct rc_shape *shape, const struct spectrum *what, double complex *s,
+           double *height2, double *slope2)
+{
+    size_t columns = rc_fourier_columns(shape);
+    double lx = (double)shape->nx * shape->dx, ly = (double)shape->ny * shape->dy;
+
+    *height2 = *slope2 = 0;
+    for (size_t j = 0; j < shape->ny; j++) {
+        long ky = rc_fourier_number(j, shape->ny);
+        double row_height2 = 0, row_slope2 = 0; /* short sums keep their digits */
+        for (size_t i = 0; i < columns; i++) {
+            double complex a = amplitude(shape, what, (long)i, ky);
+            double qx = 2 * pi * (double)i / lx, qy = 2 * pi * (double)ky / ly;
+            double a2 = creal(a) * creal(a) + cimag(a) * cimag(a);
+            if (i > 0)
+                a2 *= 2; /* with the conjugate that is not stored */
+            row_height2 += a2;
+            row_slope2 += a2 * (qx * qx + qy * qy);
+            s[j * columns + i] = a;
+        }
+        *height2 += row_height2;
+        *slope2 += row_slope2;
+    }
+}
+
+enum rc_status
+rc_synth_selfaffine(const struct rc_shape *shape, const struct rc_selfaffine *what, double *h,
+                    struct rc_err *err)
+{
+    enum rc_status status = RC_FAIL;
+    double complex *s = NULL;
+    struct spectrum spectrum;
+    size_t n = rc_fourier_size(shape);
+    double height2, slope2, scale;
+
+    if (check_spectrum(shape, what, err) != RC_OK)
+        goto done;
+    spectrum = spectrum_of(shape, what);
+    s = malloc(n * sizeof *s);
+    if (s == NULL) {
+        rc_err_set(err, "out of memory for %zu waves (%zu bytes)", n, n * sizeof *s);
+        goto done;
+    }
+    make_waves(shape, &spectrum, s, &height2, &slope2);
+    if (height2 == 0) {
+        rc_err_set(err, "no wave of a map of %g m x %g m lies between the wavelengths %g m and "
+                        "%g m", (double)shape->nx * shape->dx, (double)shape->ny * shape->dy,
+                   1 / spectrum.high, 1 / spectrum.low);
+        goto done;
+    }
+    scale = isnan(what->rms_slope) ? what->rms_height / sqrt(height2)
+                                   : what->rms_slope / sqrt(slope2);
+    for (size_t k = 0; k < n; k++)
+        s[k] *= scale;
+    status = rc_fourier_backward(shape, s, h, err);
+done:
+    free(s);
+    return status;
+}

@@ -1,0 +1,12 @@
+/*
+ * The face of this folder: options, streams in and out, messages, units, reports, the physics of a contact.
+ */
+#ifndef RC_CLI_H
+#define RC_CLI_H
+
+#include "json.h"
+#include "physics.h"
+#include "tool.h"
+#include "units.h"
+
+#endif

@@ -1,0 +1,108 @@
+#include "json.h"
+
+#include <math.h>
+
+#include "libcontact/grid.h"
+
+static void
+quoted(FILE *file, const char *s)
+{
+    putc('"', file);
+    for (; *s != '\0'; s++) {
+        if (*s == '"' || *s == '\\')
+            fprintf(file, "\\%c", *s);
+        else if ((unsigned char)*s < 0x20)
+            fprintf(file, "\\u%04x", (unsigned)(unsigned char)*s);
+        else
+            putc(*s, file);
+    }
+    putc('"', file);
+}
+
+static void
+name_of(struct json *j, const char *name)
+{
+    if (j->follows)
+        fputs(", ", j->file);
+    j->follows = true;
+    if (name != NULL) {
+        quoted(j->file, name);
+        fputs(": ", j->file);
+    }
+}
+
+void
+json_open(struct json *j, FILE *file)
+{
+    *j = (struct json){.file = file};
+    putc('{', file);
+}
+
+void
+json_number(struct json *j, const char *name, double value)
+{
+    char text[RC_NUMBER_SIZE];
+
+    name_of(j, name);
+    fputs(isfinite(value) ? rc_number_text(text, value) : "null", j->file);
+}
+
+void
+json_count(struct json *j, const char *name, size_t value)
+{
+    name_of(j, name);
+    fprintf(j->file, "%zu", value);
+}
+
+void
+json_text(struct json *j, const char *name, const char *value)
+{
+    name_of(j, name);
+    if (value == NULL)
+        fputs("null", j->file);
+    else
+        quoted(j->file, value);
+}
+
+void
+json_bool(struct json *j, const char *name, bool value)
+{
+    name_of(j, name);
+    fputs(value ? "true" : "false", j->file);
+}
+
+void
+json_null(struct json *j, const char *name)
+{
+    json_text(j, name, NULL);
+}
+
+void
+json_object(struct json *j, const char *name)
+{
+    name_of(j, name);
+    putc('{', j->file);
+    j->follows = false;
+}
+
+void
+json_array(struct json *j, const char *name)
+{
+    name_of(j, name);
+    putc('[', j->file);
+    j->follows = false;
+}
+
+void
+json_end(struct json *j, char bracket)
+{
+    putc(bracket, j->file);
+    j->follows = true;
+}
+
+void
+json_close(struct json *j)
+{
+    fputs("}\n", j->file);
+    fflush(j->file);
+}

@@ -1,0 +1,187 @@
+/*
+ * The front desk that every rc-* tool shares: options, streams in and out, messages, signals, exit.
+ * A main reads: start, read, do, write, finish; only *do* differs.
+ *
+ *     struct args args = {.tol = NAN};
+ *     struct tool t;
+ *     tool_start(&t, &info, argc, argv, &args);
+ *     while ((g = tool_read(&t)) != NULL) {
+ *         ...
+ *         tool_write(&t, g);
+ *         rc_grid_free(g);
+ *     }
+ *     return tool_finish(&t);
+ *
+ * Whatever goes wrong on the way is said by tool_die, which does not return.
+ */
+#ifndef RC_TOOL_H
+#define RC_TOOL_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+#include "formats/rcg/rcg.h"
+#include "libcontact/grid.h"
+#include "units.h"
+
+enum {
+    EXIT_IMPOSSIBLE = 1, /* bad data, I/O, impossible request             */
+    EXIT_USAGE = 2,      /* the command line is wrong                     */
+    EXIT_SHORT = 3,      /* stopped short of the asked accuracy           */
+};
+
+/* ---- options: a const table, one row each ---- */
+
+enum opt_type {
+    OPT_FLAG,    /* bool                                                                    */
+    OPT_NUMBER,  /* double; NAN before means "not given"                                    */
+    OPT_COUNT,   /* size_t                                                                  */
+    OPT_TEXT,    /* const char *                                                            */
+    OPT_CHOICE,  /* const char *, one of the words in .arg, which are separated by '|'      */
+    OPT_WORDS,   /* size_t: bit k is set when the list holds word k of .words, which are
+                    separated by '|'                                                        */
+    OPT_NUMBERS, /* struct numbers; none (n = 0) for the word in .words, if there is one    */
+    OPT_STEP,    /* appended to a struct steps: options whose order on the line matters; with
+                    .arg it takes a whole number or, with a unit, a number                  */
+};
+
+struct opt {
+    const char *name; /* without the two hyphens                                            */
+    enum opt_type type;
+    enum unit unit;
+    size_t at;        /* offsetof the value in the tool's args                              */
+    double min, max;  /* bounds of each number, kept when min < max                         */
+    bool above;       /* min itself is out of bounds                                        */
+    bool result;      /* changes what is computed: goes into history                        */
+    bool text;        /* given, the tool writes text, whatever it writes otherwise          */
+    const char *words; /* of OPT_WORDS; a word instead of OPT_NUMBERS                       */
+    const char *arg;  /* how help names the argument: "FORCE"; NULL: takes none             */
+    const char *help; /* one line                                                           */
+};
+
+struct steps {
+    struct step {
+        const struct opt *opt;
+        double value;
+    } step[64];
+    size_t n;
+};
+
+/* ---- what a tool is ---- */
+
+enum tool_reads {
+    READS_NOTHING,
+    READS_STREAM, /* RCG1 on standard input or in the files named                          */
+    READS_FILES,  /* files of its own choosing: operands are left in tool.operand          */
+};
+
+enum tool_writes {
+    WRITES_STREAM, /* RCG1; never to a terminal                                            */
+    WRITES_BYTES,  /* tool.out, binary; never to a terminal                                */
+    WRITES_TEXT,   /* tool.out                                                             */
+};
+
+struct tool;
+
+struct tool_info {
+    const char *name;
+    const char *summary;  /* "contact of a height map with an elastic half-space"          */
+    const char *operands; /* "[FILE...]", as help shows them                               */
+    const char *examples; /* whole lines for the end of --help                             */
+    const struct opt *opts; /* ended by a row without a name                               */
+    enum tool_reads reads;
+    enum tool_writes writes;
+    /* NULL, or called between the options and the output: may change tool->writes. */
+    void (*settle)(struct tool *tool);
+};
+
+struct tool {
+    const struct tool_info *info;
+    void *args;
+    /* the options of every tool */
+    size_t threads; /* at least 1                                                          */
+    size_t memory;  /* bytes; 0: no limit                                                  */
+    bool quiet, verbose, progress;
+    enum tool_writes writes; /* info->writes, or text where an option asks for it          */
+    const char *out_name; /* NULL: standard output                                         */
+    /* streams */
+    char **operand;
+    size_t operands, next_operand;
+    const char *source; /* name of what is being read, for messages                        */
+    FILE *in, *out;
+    struct rc_reader *reader;
+    struct rc_writer *writer;
+    size_t last_case, frame; /* frame: place in the current source, from 1                 */
+    struct {                 /* the case that tool_channel is in; number 0: none yet       */
+        size_t number, found;
+        const char *source;  /* where it began                                             */
+        char names[512];     /* its channels, for the message that one is missing          */
+    } now;
+    bool type_given, began, warned_short;
+    enum rc_type type;
+    bool given[64]; /* by row of the option table                                          */
+    int exit_status;
+};
+
+/* Reads the command line into args (a struct that the table's offsets point into, holding the
+ * defaults), answers --help and --version, opens the output. Does not return when any of that
+ * fails. */
+void tool_start(struct tool *tool, const struct tool_info *info, int argc, char **argv, void *args);
+/* Whether an option of the tool's own table was given. */
+bool tool_given(const struct tool *tool, const char *name);
+/* This tool's line in a stream's history: name, version, the options that change the result, in SI.
+ * Valid until the next call. */
+const char *tool_history(const struct tool *tool);
+
+/* The next frame of all inputs, cases numbered on; NULL at their end. The caller frees it. */
+struct rc_grid *tool_read(struct tool *tool);
+/* The next frame of this channel, one in each case; the case's other frames are written as they are
+ * (`pass`) or dropped. A case that has none of it, or several, ends the tool. NULL at the end. */
+struct rc_grid *tool_channel(struct tool *tool, const char *channel, bool pass);
+/* Writes a frame, in --type when that was given. */
+void tool_write(struct tool *tool, struct rc_grid *grid);
+/* Ends the stream, closes, puts the file in place; the exit status of main. */
+int tool_finish(struct tool *tool);
+/* Exit with status at the end, unless something worse comes. */
+void tool_fails_with(struct tool *tool, int status);
+
+/* "rc-solve: message" on standard error, RCGFAIL into a stream that has begun, nothing half-written
+ * left behind. */
+_Noreturn void tool_die(struct tool *tool, int status, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+/* The same, naming source, case and channel of the frame that is to blame. */
+_Noreturn void tool_die_at(struct tool *tool, const struct rc_grid *grid, int status,
+                           const char *format, ...) __attribute__((format(printf, 4, 5)));
+void tool_warn(struct tool *tool, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* Only with --verbose. */
+void tool_note(struct tool *tool, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* One line that replaces the last one, at most ten times a second, only where it is wanted. Ended
+ * by tool_progress_end. */
+void tool_progress(struct tool *tool, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+void tool_progress_end(struct tool *tool);
+
+/* Ctrl-C and SIGTERM remove what is half-written and end the tool; after this call the first one
+ * only sets what tool_interrupted gives (the signal's number), and tool_finish ends by it. */
+void tool_catch_signals(void);
+int tool_interrupted(void);
+
+/* "bench.x3p, case 2, frame 1 (height)": where a frame stands, for messages. */
+const char *tool_where(const struct tool *tool, const struct rc_grid *grid, char *text,
+                       size_t size);
+
+/* Ends the tool when a value is NaN or infinite, with their count and the first one's place;
+ * `remedy` says what to do about them. */
+void tool_demand_finite(struct tool *tool, const struct rc_grid *grid, const char *remedy);
+/* Ends the tool when the file that an option names (NULL: none) cannot be written: said before the
+ * work, not after it. */
+void tool_demand_writable(struct tool *tool, const char *option, const char *name);
+/* Ends the tool when `bytes` are more than --memory allows. */
+void tool_demand_memory(struct tool *tool, const struct rc_grid *grid, size_t bytes);
+
+/* ---- used by tool.c, defined in options.c ---- */
+
+void tool_options(struct tool *tool, int argc, char **argv);
+
+#endif

@@ -1,0 +1,33 @@
+/* Numbers as people write them on a command line: "240N", "6GPa", "1.1um", "0:50um:45". */
+#ifndef RC_UNITS_H
+#define RC_UNITS_H
+
+#include <stddef.h>
+
+#include "libcontact/grid.h"
+
+enum unit {
+    UNIT_NONE,  /* a plain number           */
+    UNIT_M,     /* metres                   */
+    UNIT_N,     /* newtons                  */
+    UNIT_PA,    /* pascals                  */
+    UNIT_S,     /* seconds; also min and h  */
+    UNIT_BYTES, /* bytes: 512M, 4G, 2GiB    */
+};
+
+struct numbers {
+    double *v;
+    size_t n;
+};
+
+const char *unit_name(enum unit unit);
+
+/* One number, with or without its unit, to SI. RC_FAIL says what was expected. */
+enum rc_status unit_number(const char *text, enum unit unit, double *value, struct rc_err *err);
+
+/* `a,b,c` or `a:b:n` (n values, both ends included). Numbers with and without a unit in one list
+ * are an error, except 0. The caller frees list->v. */
+enum rc_status unit_numbers(const char *text, enum unit unit, struct numbers *list,
+                            struct rc_err *err);
+
+#endif

@@ -1,0 +1,206 @@
+/*
+ * Error against time: one picture of the pressures, and, where there are stresses, one below of them.
+ */
+#define _GNU_SOURCE /* open_memstream, in POSIX since 2008 */
+#include "cost.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "tools/plot/plot.h"
+
+/* Colours that people who see few tell apart (Okabe and Ito 2008), one for a method and its kernel. */
+static const struct ink {
+    const char *method, *kernel, *name;
+    struct rgb colour;
+} inks[] = {
+    {"pcg", "fft", "pcg, fft", {0x00, 0x72, 0xb2}},
+    {"pcg", "fft64", "pcg, fft64", {0x56, 0xb4, 0xe9}},
+    {"pcg", "mlms", "pcg, mlms", {0x00, 0x9e, 0x73}},
+    {"pcg", "direct", "pcg, direct", {0xe6, 0x9f, 0x00}},
+    {"pk99", "fft", "pk99, fft", {0xd5, 0x5e, 0x00}},
+    {"pk99", "mlms", "pk99, mlms", {0xcc, 0x79, 0xa7}},
+    {NULL, "fft", "fft, deep slices coarser", {0x00, 0x72, 0xb2}},
+    {NULL, "mlms", "mlms", {0x00, 0x9e, 0x73}},
+    {NULL, "direct", "direct", {0xe6, 0x9f, 0x00}},
+};
+
+enum {
+    INKS = sizeof inks / sizeof *inks,
+    POINTS = 64
+};
+
+struct drawing {
+    struct chart chart;
+    struct chart_series series[INKS];
+    struct chart_point point[INKS][POINTS];
+    char subtitle[400], floor_text[100];
+};
+
+static struct chart_point *
+new_point(struct drawing *d, size_t ink)
+{
+    for (size_t s = 0; s < d->chart.n; s++)
+        if (d->series[s].name == inks[ink].name)
+            return d->series[s].n < POINTS ? &d->point[s][d->series[s].n++] : NULL;
+    d->series[d->chart.n] = (struct chart_series){inks[ink].name, inks[ink].colour, d->point[d->chart.n], 1};
+    d->chart.series = d->series;
+    return &d->point[d->chart.n++][0];
+}
+
+static size_t
+ink_of(const char *method, const char *kernel)
+{
+    size_t k = 0;
+
+    while (k + 1 < INKS && !((method == NULL ? inks[k].method == NULL
+                                             : inks[k].method != NULL && strcmp(inks[k].method, method) == 0) &&
+                             strcmp(inks[k].kernel, kernel) == 0))
+        k++;
+    return k;
+}
+
+static void
+describe(const struct cost_case *c, struct drawing *d)
+{
+    const char *source = rc_grid_get(c->heights, "source");
+    char text[TICKS_TEXT];
+
+    snprintf(d->subtitle, sizeof d->subtitle, "%.60s%s%zu × %zu nodes, %s · %s %s · %.3g %% contact · %zu threads",
+             source == NULL ? "" : source, source == NULL ? "" : " · ", c->shape.nx, c->shape.ny,
+             c->problem.boundary == RC_FREE ? "free" : "periodic",
+             c->problem.approach > 0 ? "approach" : "load",
+             c->problem.approach > 0 ? scale_value(text, c->problem.approach, "m")
+                                     : scale_value(text, c->problem.load, "N"),
+             100 * c->reference.contact.contact_fraction, c->tool->threads);
+    d->chart.subtitle = d->subtitle;
+    d->chart.across = "time (s)";
+}
+
+static void
+draw_pressures(const struct cost_case *c, struct drawing *d)
+{
+    describe(c, d);
+    d->chart.title = "What accuracy costs: the contact pressure";
+    d->chart.up = "relative L1 error of the pressure";
+    d->chart.floor = c->reference.contact.pressure_error;
+    d->chart.floor_text = "below the reference's own error";
+    for (size_t k = 0; k < c->rungs; k++) {
+        const struct cost *m = &c->rung[k];
+        struct chart_point *p = m->state == COST_DONE ? new_point(d, ink_of(m->rung.method, m->rung.kernel)) : NULL;
+
+        if (p == NULL)
+            continue;
+        *p = (struct chart_point){.x = m->seconds, .y = m->error, .hollow = m->rung.coarse > 1, .front = m->front};
+        if (m->rung.coarse > 1) {
+            snprintf(p->label, sizeof p->label, "1/%u", m->rung.coarse);
+            d->chart.hollow = "on 1/2, 1/4, 1/8 of the nodes a side";
+        } else {
+            snprintf(p->label, sizeof p->label, "%.0e", m->rung.tol);
+        }
+    }
+}
+
+static const double rounding = 1e-14; /* of a stress over the largest pressure, on maps of some million nodes */
+
+static void
+draw_stresses(const struct cost_case *c, struct drawing *d)
+{
+    describe(c, d);
+    d->chart.title = "What accuracy costs: the stresses";
+    d->chart.up = "error over the largest pressure";
+    d->chart.floor = rounding;
+    d->chart.floor_text = "rounding";
+    for (size_t k = 0; k < c->stresses; k++) {
+        const struct cost_stress *s = &c->stress[(k + 1) % c->stresses]; /* the exact one last */
+        struct chart_point *p = s->state == COST_DONE ? new_point(d, ink_of(NULL, s->kernel)) : NULL;
+
+        if (p == NULL)
+            continue;
+        *p = (struct chart_point){.x = s->seconds, .y = s->reference ? rounding / 10 : s->error,
+                                  .front = s->front};
+        snprintf(p->label, sizeof p->label, s->tol > 0 ? "%.0e" : "exact", s->tol);
+    }
+}
+
+/* ---- the file ---- */
+
+static enum rc_status
+put_rows(struct canvas *c, FILE *file, const char *made, struct rc_err *err)
+{
+    size_t w = canvas_width(c), h = canvas_height(c);
+    const struct picture_text text[] = {{"Title", "What accuracy costs"}, {"Description", made},
+                                        {"Software", "rc-cost"}};
+    unsigned char *rgb = malloc(3 * w);
+    struct picture *picture = rgb == NULL ? NULL
+                                          : picture_new(file, w, h, text, sizeof text / sizeof *text, err);
+    enum rc_status status = RC_FAIL;
+
+    if (rgb == NULL)
+        rc_err_set(err, "out of memory");
+    if (picture != NULL) {
+        status = RC_OK;
+        for (size_t j = 0; j < h && status == RC_OK; j++)
+            if ((status = canvas_row(c, j, rgb, err)) == RC_OK)
+                status = picture_row(picture, rgb, err);
+        if (status == RC_OK)
+            status = picture_end(picture, err);
+    }
+    picture_free(picture);
+    free(rgb);
+    return status;
+}
+
+static struct canvas *
+draw(const struct drawing *d, size_t n, struct rc_err *err)
+{
+    struct canvas *c = canvas_new(1, 1, err); /* to measure text on */
+    double height = 0, y = 0;
+
+    if (c == NULL)
+        return NULL;
+    for (size_t k = 0; k < n; k++)
+        height += chart_height(c, &d[k].chart);
+    canvas_free(c);
+    if ((c = canvas_new(CHART_WIDTH, (size_t)ceil(height), err)) == NULL)
+        return NULL;
+    for (size_t k = 0; k < n; k++) {
+        chart_draw(c, y, &d[k].chart);
+        y += chart_height(c, &d[k].chart);
+    }
+    return c;
+}
+
+unsigned char *
+cost_plot(const struct cost_case *c, size_t *bytes, struct rc_err *err)
+{
+    struct drawing *d = calloc(2, sizeof *d);
+    bool stresses = false;
+    struct canvas *canvas = NULL;
+    char *png = NULL;
+    FILE *file;
+    enum rc_status status = RC_FAIL;
+
+    rc_err_set(err, "out of memory");
+    if (d == NULL)
+        return NULL;
+    draw_pressures(c, &d[0]);
+    for (size_t k = 0; k < c->stresses; k++)
+        stresses = stresses || c->stress[k].state == COST_DONE;
+    if (stresses)
+        draw_stresses(c, &d[1]);
+    canvas = draw(d, stresses ? 2 : 1, err);
+    if (canvas != NULL && (file = open_memstream(&png, bytes)) != NULL) {
+        status = put_rows(canvas, file, tool_history(c->tool), err);
+        if (fclose(file) != 0)
+            status = RC_FAIL;
+    }
+    canvas_free(canvas);
+    free(d);
+    if (status != RC_OK) {
+        free(png);
+        png = NULL;
+    }
+    return (unsigned char *)png;
+}

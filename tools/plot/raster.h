@@ -1,0 +1,48 @@
+/* Maps on pixels: what a pixel covers, and lines across the map. */
+#ifndef RC_RASTER_H
+#define RC_RASTER_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "libcontact/grid.h"
+
+/* What is in a map. Infinite values are in neither min nor max. */
+struct survey {
+    double min, max; /* NaN when there is no finite value         */
+    size_t missing;  /* NaN                                       */
+    size_t zeros;    /* nodes of value 0: no contact in pressures */
+};
+
+void survey_map(const struct rc_grid *grid, struct survey *survey);
+
+/* The map on w by h cells, each the mean of what it covers. A cell can lie inside a node (a small
+ * map enlarged) or hold many (a large one reduced). */
+struct raster {
+    size_t w, h;
+    double *v;      /* mean of the values there; NaN: none                        */
+    float *none;    /* part of the cell, 0 to 1, that is not in contact           */
+    float *missing; /* part of the cell that was not measured                     */
+};
+
+/* `row_edge` (ny + 1 rising numbers) says where rows begin and end; NULL: even rows. With
+ * `zero_is_none` value 0 means no contact and is left out of the means. NULL: memory is short. */
+struct raster *raster_new(const struct rc_grid *grid, const double *row_edge, bool zero_is_none,
+                          size_t w, size_t h, struct rc_err *err);
+void raster_free(struct raster *raster); /* NULL is allowed */
+
+/* Straight pieces of lines, in cells from the upper left corner: the middle of cell (i, j) is
+ * (i + 0.5, j + 0.5). Zeroed before first use; the caller frees `at`. */
+struct lines {
+    double (*at)[4]; /* x0 y0 x1 y1 */
+    size_t n, room;
+};
+
+/* Adds the line where the map, linear between the middles of its cells, has the value `level`;
+ * parts without contact count as 0, missing cells have no line. */
+enum rc_status raster_contour(const struct raster *raster, double level, struct lines *lines,
+                              struct rc_err *err);
+/* Adds the borders between cells in contact and cells that are not: contact ends with a cell. */
+enum rc_status raster_edge(const struct raster *raster, struct lines *lines, struct rc_err *err);
+
+#endif

@@ -1,0 +1,85 @@
+/*
+ * What the rooms of rc-solve share: its options, the run, and what is told about it.
+ */
+#ifndef RC_SOLVE_H
+#define RC_SOLVE_H
+
+#include <stdio.h>
+
+#include "libcontact/contact.h"
+#include "tools/cli/cli.h"
+
+enum solve_frame { /* in the order of --output's words, and of writing */
+    SOLVE_PRESSURE,
+    SOLVE_GAP,
+    SOLVE_DISPLACEMENT,
+    SOLVE_HEIGHT,
+    SOLVE_PLASTIC,
+    SOLVE_FRAMES
+};
+struct solve_frame_kind {
+    const char *name, *unit;
+};
+extern const struct solve_frame_kind solve_frames[SOLVE_FRAMES];
+
+struct solve_args {
+    struct physics physics;
+    double tol;
+    const char *kernel, *method, *report;
+    const char *checkpoint; /* a file, or NULL                                         */
+    double interval;        /* seconds to the first frame in it                        */
+    bool stiffness, discretization, dry_run, resume;
+    size_t output; /* bits of enum solve_frame */
+};
+
+/* Where the error stood when this grid was begun. */
+struct progress {
+    size_t nodes, iterations;
+    double error, at; /* at: seconds */
+};
+
+struct run {
+    struct tool t;
+    const struct solve_args *args;
+    const struct numbers *steps; /* the list of loads or approaches               */
+    size_t step, number;         /* which of them, from 0; the case that it is    */
+    bool stiffness;
+    FILE *report;
+    struct checkpoint *checkpoint; /* NULL: none */
+    size_t nodes;                  /* of the map */
+    struct progress progress;
+    double began, setup, iterate, result; /* seconds */
+};
+
+static inline bool
+solve_wanted(const struct solve_args *args, int frame)
+{
+    return args->output >> frame & 1;
+}
+
+/* Seconds on a clock that only goes forwards. */
+double solve_now(void);
+
+/* One JSON object for the case, where --report asks for it. */
+void solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *solver,
+                  const struct rc_contact *contact, double stiffness);
+/* What the scene calls for and what it doesn't, and what that costs, in words. */
+void solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *problem);
+
+/* Tells of an iteration; false once a signal has come. Of the type rc_watch, `at` is the run. */
+bool solve_watch(void *at, const struct rc_shape *grid, size_t iterations, double error, double tol);
+
+/* ---- solve_checkpoint.c; NULL for a checkpoint is allowed: nothing is done ---- */
+
+/* The file `name` (NULL: none), new or, to resume, as it is. Does not return when it cannot be used. */
+struct checkpoint *checkpoint_open(struct run *run, const char *name, bool resume, double interval);
+void checkpoint_close(struct checkpoint *checkpoint);
+/* These are the heights of the cases that come. */
+void checkpoint_surface(struct checkpoint *checkpoint, const struct rc_grid *g);
+/* A case begins. True when a pressure had been kept for it: the solver starts from that. */
+bool checkpoint_case(struct checkpoint *checkpoint, const struct rc_grid *g, struct rc_solver *solver);
+/* Keeps the pressure reached; `pass` does so only where it is time for it. */
+void checkpoint_save(struct checkpoint *checkpoint, const struct rc_grid *g, const struct rc_solver *solver);
+void checkpoint_pass(struct checkpoint *checkpoint, const struct rc_grid *g, const struct rc_solver *solver);
+
+#endif
