@@ -209,7 +209,8 @@ uniform(uint64_t *seed)
 struct rc_sum
 point_sum(struct rc_shape shape)
 {
-    return (struct rc_sum){.shape = shape, .kernel = &rc_kernel_boussinesq, .medium = {.estar = 1 / pi}};
+    return (struct rc_sum){
+        .shape = shape, .kernel = &rc_kernel_boussinesq, .medium = {.estar = 1 / pi}};
 }
 
 void

@@ -1,5 +1,6 @@
 /*
- * What the benches share: the clock, least times, errors, fitted exponents, and the parts of a program.
+ * What the benches share: the clock, least times, errors, fitted exponents, and the parts of a
+ * program.
  */
 #ifndef BENCH_H
 #define BENCH_H
@@ -28,15 +29,15 @@ size_t sizes_read(const char *text, size_t most, size_t *sizes);
 
 /* Seconds of a clock that never goes back. */
 double now(void);
-/* Least seconds of each of several pieces of work. They take turns, `runs` times each, until `seconds` have gone:
- * what disturbs one disturbs the others. */
+/* Least seconds of each of several pieces of work. They take turns, `runs` times each, until
+ * `seconds` have gone: what disturbs one disturbs the others. */
 struct work {
     void (*run)(void *what);
     void *what;
 };
 void take_turns(size_t count, const struct work *work, int runs, double seconds, double *least);
-/* Whether what began at `start` and ran so often runs again for its least time: twice, and for half a second, unless
- * that takes long. */
+/* Whether what began at `start` and ran so often runs again for its least time: twice, and for
+ * half a second, unless that takes long. */
 bool once_more(double start, int runs);
 
 /* One application of a plan: work for the above. */

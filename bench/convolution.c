@@ -55,10 +55,10 @@ pair_new(size_t px, size_t py)
     struct pair its = {.x = must(rc_alloc(stride * py, sizeof *its.x))};
 
     fftw_plan_with_nthreads((int)threads);
-    its.plan[0] = must(fftw_plan_dft_r2c_2d((int)py, (int)px, its.x,
-                                            (fftw_complex *)(void *)its.x, FFTW_MEASURE));
-    its.plan[1] = must(fftw_plan_dft_c2r_2d((int)py, (int)px, (fftw_complex *)(void *)its.x,
-                                            its.x, FFTW_MEASURE));
+    its.plan[0] = must(
+        fftw_plan_dft_r2c_2d((int)py, (int)px, its.x, (fftw_complex *)(void *)its.x, FFTW_MEASURE));
+    its.plan[1] = must(
+        fftw_plan_dft_c2r_2d((int)py, (int)px, (fftw_complex *)(void *)its.x, its.x, FFTW_MEASURE));
     fftw_plan_with_nthreads(1); /* or it would hold for the engine's plans too */
     memset(its.x, 0, stride * py * sizeof *its.x);
     return its;
@@ -133,7 +133,7 @@ peak_child(char **argv)
     for (size_t k = 0; k < n; k++)
         u[k] = p[k] = 1;
     before = peak_now();
-    plan = must(e->new(&sum, &err));
+    plan = must(e->new (&sum, &err));
     e->apply(plan, p, u);
     printf("%.1f", (peak_now() - before) / (double)n);
     e->free(plan);
@@ -147,9 +147,10 @@ against_fftw(void)
     const struct rc_engine *e = engine_named("fft");
 
     printf("\nThe Fourier engine against FFTW's two-dimensional pair (FFTW_MEASURE, no "
-           "multiplication), %zu threads\n", threads);
-    printf("%6s %-9s %10s %10s %8s %12s %12s %s\n", "M", "boundary", "ours ms", "FFTW ms",
-           "ratio", "our plan ms", "its plan ms", "bytes a node beyond p and u");
+           "multiplication), %zu threads\n",
+           threads);
+    printf("%6s %-9s %10s %10s %8s %12s %12s %s\n", "M", "boundary", "ours ms", "FFTW ms", "ratio",
+           "our plan ms", "its plan ms", "bytes a node beyond p and u");
     for (size_t m = 512; m <= 2048; m *= 2)
         for (int boundary = 0; boundary < 2; boundary++) {
             struct rc_sum sum = square(m);
@@ -166,7 +167,7 @@ against_fftw(void)
             for (size_t k = 0; k < m * m; k++)
                 p[k] = uniform(&seed);
             plan_time = now();
-            plan = must(e->new(&sum, &err));
+            plan = must(e->new (&sum, &err));
             plan_time = now() - plan_time;
             its_plan = now();
             its = pair_new(padded, padded);
@@ -229,11 +230,11 @@ sparse(void)
     printf("%-18s %10s %10s %8s %12s\n", "loaded", "mlms ms", "fft ms", "ratio", "difference");
     for (int what = 0; what < 3; what++) {
         struct rc_sum sum = square(m);
-        void *fft = must(engine_named("fft")->new(&sum, &err)), *mlms;
+        void *fft = must(engine_named("fft")->new (&sum, &err)), *mlms;
         double best[2];
 
         sum.tol = 1e-6;
-        mlms = must(engine_named("mlms")->new(&sum, &err));
+        mlms = must(engine_named("mlms")->new (&sum, &err));
         load_map((enum load)what, m, p);
         duel((struct work){sum_run, &(struct sum_work){engine_named("mlms"), mlms, p, v}},
              (struct work){sum_run, &(struct sum_work){engine_named("fft"), fft, p, u}}, best);
@@ -269,8 +270,11 @@ sizes(void)
             const char *name;
             double tol;
             enum rc_boundary boundary;
-        } columns[] = {{"direct", 0, RC_FREE}, {"fft", 0, RC_FREE}, {"fft", 1e-4, RC_FREE},
-                       {"fft", 0, RC_PERIODIC}, {"mlms", 1e-6, RC_FREE}};
+        } columns[] = {{"direct", 0, RC_FREE},
+                       {"fft", 0, RC_FREE},
+                       {"fft", 1e-4, RC_FREE},
+                       {"fft", 0, RC_PERIODIC},
+                       {"mlms", 1e-6, RC_FREE}};
         double *p = must(rc_alloc(m * m, sizeof *p)), *u = must(rc_alloc(m * m, sizeof *u));
         uint64_t seed = 1;
 
@@ -289,8 +293,9 @@ sizes(void)
             }
             sum.tol = columns[c].tol;
             sum.boundary = columns[c].boundary;
-            plan = must(e->new(&sum, &err));
-            printf(" %10.2f", 1e9 * sum_seconds((struct sum_work){e, plan, p, u}, c == 0 ? 1 : 5) / (double)(m * m));
+            plan = must(e->new (&sum, &err));
+            printf(" %10.2f", 1e9 * sum_seconds((struct sum_work){e, plan, p, u}, c == 0 ? 1 : 5) /
+                                  (double)(m * m));
             fflush(stdout);
             e->free(plan);
         }

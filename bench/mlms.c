@@ -173,7 +173,8 @@ stability(void)
     printf("%4s %4s %10s %10s %10s %10s %10s\n", "t", "m_c", "smooth", "random", "alternate",
            "one node", "estimate");
     for (size_t t = 1; t <= 50; t += t < 8 ? 1 : t < 20 ? 4 : 10) {
-        struct rc_sum sum = point_sum((struct rc_shape){m, m, 2 / (double)(m - 1), 2 / (double)(m - 1)});
+        struct rc_sum sum =
+            point_sum((struct rc_shape){m, m, 2 / (double)(m - 1), 2 / (double)(m - 1)});
         struct pair a;
         double e[3], smooth;
         sum.order = t;

@@ -5,15 +5,15 @@
  *
  * The parts, all of them when none is named:
  *
- * table1    errors and times of direct summation and MLMS, one thread
- * fig1      Hertz's contact: errors of contact radius, pressure and Mises' stress against the number of rows
- * fig3      rough spheres: time against nodes, from their 61 x 52 to 4096 x 4096
- * stresses  483 x 412 nodes, 45 depths, six components and Mises
- * section5  what periodic transforms do to a contact on the free half-space as the domain grows, and what as good a
+ * table1    errors and times of direct summation and MLMS, one thread fig1      Hertz's contact:
+ * errors of contact radius, pressure and Mises' stress against the number of rows fig3      rough
+ * spheres: time against nodes, from their 61 x 52 to 4096 x 4096 stresses  483 x 412 nodes, 45
+ * depths, six components and Mises section5  what periodic transforms do to a contact on the free
+ * half-space as the domain grows, and what as good a
  *           solution costs by them, by padded transforms and by MLMS
  *
- * -n, -m: of fig3 only the grids with so many columns, only the way pk99+mlms, pcg+mlms or pcg+fft; -s: a solution of
- * it that takes longer (default 100) is given up. RC_THREADS sets the threads.
+ * -n, -m: of fig3 only the grids with so many columns, only the way pk99+mlms, pcg+mlms or pcg+fft;
+ * -s: a solution of it that takes longer (default 100) is given up. RC_THREADS sets the threads.
  */
 #include "paper.h"
 
@@ -45,7 +45,8 @@ way_wanted(const char *title)
 struct rc_solver *
 paper_solve(struct rc_shape shape, const double *h, struct rc_problem problem, bool *done)
 {
-    double m = (double)(shape.nx < shape.ny ? shape.nx : shape.ny), change = pow(m, -1.5), start = now();
+    double m = (double)(shape.nx < shape.ny ? shape.nx : shape.ny), change = pow(m, -1.5),
+           start = now();
     struct rc_solver *solver;
 
     problem.method = "pk99";
@@ -65,7 +66,8 @@ hemisphere_displacement(size_t m, double *u)
     double d = 2 / (double)(m - 1);
 
     for (size_t k = 0; k < m * m; k++) {
-        double x = -1 + d * (double)(k % m), y = -1 + d * (double)(k / m), pi = 3.14159265358979323846;
+        double x = -1 + d * (double)(k % m), y = -1 + d * (double)(k / m),
+               pi = 3.14159265358979323846;
         double r2 = x * x + y * y, r = sqrt(r2);
         u[k] = r2 <= 1 ? pi * pi / 4 * (2 - r2) : pi / 2 * ((2 - r2) * asin(1 / r) + sqrt(r2 - 1));
     }
@@ -77,7 +79,7 @@ summed(const char *engine, const struct rc_sum *sum, const double *p, double *u,
 {
     struct rc_err err;
     const struct rc_engine *e = engine_named(engine);
-    void *plan = must(e->new(sum, &err));
+    void *plan = must(e->new (sum, &err));
     double least = sum_seconds((struct sum_work){e, plan, p, u}, runs);
 
     e->free(plan);
@@ -94,7 +96,8 @@ table1(void)
         size_t n = m * m;
         double *p = map_new(n), *exact = map_new(n), *u = map_new(n), *v = map_new(n);
         bool direct_too = m <= 512; /* beyond, the Fourier engine stands for its values */
-        struct rc_sum sum = point_sum((struct rc_shape){m, m, 2 / (double)(m - 1), 2 / (double)(m - 1)});
+        struct rc_sum sum =
+            point_sum((struct rc_shape){m, m, 2 / (double)(m - 1), 2 / (double)(m - 1)});
         double t_direct, t_mlms;
 
         sum.threads = 1;

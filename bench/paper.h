@@ -1,11 +1,13 @@
-/* The parts of bench-paper: what Polonsky and Keer, Wear 231 (1999) 206-219, measured. Equations are theirs. */
+/* The parts of bench-paper: what Polonsky and Keer, Wear 231 (1999) 206-219, measured. Equations
+ * are theirs. */
 #ifndef PAPER_H
 #define PAPER_H
 
 #include "bench.h"
 
 /* Sections 4.1 and 4.2: E1 = E2 = 210 GPa, nu = 0.28, two spheres of 30 mm diameter. */
-static const double paper_radius = 7.5e-3, paper_estar = 113.93e9, paper_load = 240, paper_nu = 0.28;
+static const double paper_radius = 7.5e-3, paper_estar = 113.93e9, paper_load = 240,
+                    paper_nu = 0.28;
 static const double paper_dx = 1.1e-6, paper_dy = 1.29e-6, paper_hardness = 6e9;
 
 enum {
@@ -19,9 +21,11 @@ extern double limit; /* seconds that one solution may take */
 bool size_wanted(size_t nx);
 bool way_wanted(const char *title);
 
-/* 3.2: the tolerance M_min^(-3/2) and sums right to M_min^(-2), p from the mean pressure, stopped by the change of the
- * pressure, (32). The solver, to be freed; *done false when `limit` seconds have not been enough. */
-struct rc_solver *paper_solve(struct rc_shape shape, const double *h, struct rc_problem problem, bool *done);
+/* 3.2: the tolerance M_min^(-3/2) and sums right to M_min^(-2), p from the mean pressure,
+ * stopped by the change of the pressure, (32). The solver, to be freed; *done false when `limit`
+ * seconds have not been enough. */
+struct rc_solver *paper_solve(struct rc_shape shape, const double *h, struct rc_problem problem,
+                              bool *done);
 
 /* 3.1 */
 void table1(void);

@@ -15,8 +15,12 @@ mises_error(struct rc_shape shape, struct hertz exact, const double *p, const ch
 {
     double *s[RC_STRESSES] = {NULL}, *truth, z = mises_depth(exact, paper_nu, friction), error;
     size_t n = shape.nx * shape.ny;
-    struct rc_stress_options o = {.nu = paper_nu, .mu = friction, .wanted = 1u << RC_MISES, .engine = engine,
-                                  .tol = strcmp(engine, "mlms") == 0 ? 0.1 / (double)n : 0, .threads = threads};
+    struct rc_stress_options o = {.nu = paper_nu,
+                                  .mu = friction,
+                                  .wanted = 1u << RC_MISES,
+                                  .engine = engine,
+                                  .tol = strcmp(engine, "mlms") == 0 ? 0.1 / (double)n : 0,
+                                  .threads = threads};
     struct rc_err err;
     struct rc_stress *stress = must(rc_stress_new(&shape, p, &o, &err));
 
@@ -56,8 +60,11 @@ measured(size_t m, bool as_they_did)
     struct hertz exact = hertz(paper_load, paper_radius, paper_estar);
     double step = 2.1 * exact.a / (double)m, *h = map_new(m * m);
     struct rc_shape shape = {m, m, step, step};
-    struct rc_problem problem = {.estar = paper_estar, .load = paper_load, .hardness = INFINITY,
-                                 .tol = 0.01 * pow((double)m, -1.5), .threads = threads};
+    struct rc_problem problem = {.estar = paper_estar,
+                                 .load = paper_load,
+                                 .hardness = INFINITY,
+                                 .tol = 0.01 * pow((double)m, -1.5),
+                                 .threads = threads};
     struct rc_solver *solver;
     struct rc_contact c;
     struct errors e;
@@ -86,16 +93,17 @@ fig1(void)
     enum {
         ROWS = 5
     };
-    static const char *const title[] = {
-        "converged: pcg and transforms, to a hundredth of M^(-3/2)",
-        "as they did: pk99 and MLMS, stopped when the pressure changes by less than M^(-3/2), (32)"};
+    static const char *const title[] = {"converged: pcg and transforms, to a hundredth of M^(-3/2)",
+                                        "as they did: pk99 and MLMS, stopped when the pressure "
+                                        "changes by less than M^(-3/2), (32)"};
 
-    printf("\nFig. 1: Hertz's contact, the map 2.1 a wide; Mises' stress at %.3f a, mu = %g, nu = %g\n",
+    printf("\nFig. 1: Hertz's contact, the map 2.1 a wide; Mises' stress at %.3f a, mu = %g, nu = "
+           "%g\n",
            mises_depth((struct hertz){.a = 1, .p0 = 1}, paper_nu, friction), friction, paper_nu);
     for (int how = 0; how < 2; how++) {
         double rows[ROWS], e[3][ROWS];
-        printf("%s\n%6s %6s %10s %8s %10s %8s %10s %8s\n", title[how], "M", "steps", "radius", "x M", "pressure",
-               "x M^1.5", "Mises", "x M^2");
+        printf("%s\n%6s %6s %10s %8s %10s %8s %10s %8s\n", title[how], "M", "steps", "radius",
+               "x M", "pressure", "x M^1.5", "Mises", "x M^2");
         for (int k = 0; k < ROWS; k++) {
             size_t m = (size_t)64 << k;
             struct errors at = measured(m, how == 1);
@@ -103,9 +111,9 @@ fig1(void)
             e[0][k] = at.radius;
             e[1][k] = at.pressure;
             e[2][k] = at.mises;
-            printf("%6zu %6zu %10.2e %8.2f %10.2e %8.2f %10.2e %8.2f\n", m, at.iterations, at.radius,
-                   at.radius * rows[k], at.pressure, at.pressure * pow(rows[k], 1.5), at.mises,
-                   at.mises * rows[k] * rows[k]);
+            printf("%6zu %6zu %10.2e %8.2f %10.2e %8.2f %10.2e %8.2f\n", m, at.iterations,
+                   at.radius, at.radius * rows[k], at.pressure, at.pressure * pow(rows[k], 1.5),
+                   at.mises, at.mises * rows[k] * rows[k]);
             fflush(stdout);
         }
         printf("%-13s %10.2f %8s %10.2f %8s %10.2f\n", "exponent", exponent(ROWS, rows, e[0]), "",

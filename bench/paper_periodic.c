@@ -1,13 +1,13 @@
 /*
- * Section 5 of the paper: transforms without padding solve a periodic problem, and extending the grid moves the images
- * away. For Hertz's contact of radius a in a domain of side L the images add the displacement
- * P / (pi E*) S / (4 L^3) r^2 + const, S = sum of 1/|n|^3 = 9.0336 over the lattice. That is curvature: the radius
- * shrinks by 2 S / (9 pi) (a/L)^3 = 0.639 (a/L)^3, and the relative L1 error of the pressure is 4 / sqrt(3) of that,
- * 1.475 (a/L)^3.
+ * Section 5 of the paper: transforms without padding solve a periodic problem, and extending the
+ * grid moves the images away. For Hertz's contact of radius a in a domain of side L the images add
+ * the displacement P / (pi E*) S / (4 L^3) r^2 + const, S = sum of 1/|n|^3 = 9.0336 over the
+ * lattice. That is curvature: the radius shrinks by 2 S / (9 pi) (a/L)^3 = 0.639 (a/L)^3, and the
+ * relative L1 error of the pressure is 4 / sqrt(3) of that, 1.475 (a/L)^3.
  *
- * Periodic pressure is band-limited, free pressure constant in each cell. To see the images alone, a periodic
- * solution is compared with the limit of periodic ones: from the widest domain and half of it, the error falling as
- * L^-3.
+ * Periodic pressure is band-limited, free pressure constant in each cell. To see the images alone,
+ * a periodic solution is compared with the limit of periodic ones: from the widest domain and half
+ * of it, the error falling as L^-3.
  */
 #include "paper.h"
 
@@ -17,8 +17,9 @@ enum {
     M = 256, /* nodes across the free map */
     DOMAINS = 8
 };
-static const double domain[DOMAINS] = {1, 1.5, 2, 3, 4, 6, 8, 16}; /* sides, in sides of the free map */
-static const double width = 2.1;                                  /* side of the free map, in a      */
+static const double domain[DOMAINS] = {1, 1.5, 2, 3,
+                                       4, 6,   8, 16}; /* sides, in sides of the free map */
+static const double width = 2.1;                       /* side of the free map, in a      */
 
 /* A solution, or rather its middle. */
 struct run {
@@ -41,11 +42,18 @@ extended(size_t m, double step, const double *rough)
 }
 
 static struct run
-in_middle(size_t m, double step, const double *rough, enum rc_boundary boundary, const char *engine, double tol)
+in_middle(size_t m, double step, const double *rough, enum rc_boundary boundary, const char *engine,
+          double tol)
 {
     struct rc_shape shape = {m, m, step, step};
-    struct rc_problem problem = {.boundary = boundary, .estar = paper_estar, .load = paper_load, .engine = engine,
-                                 .hardness = INFINITY, .tol = tol, .threads = threads, .method = "pcg"};
+    struct rc_problem problem = {.boundary = boundary,
+                                 .estar = paper_estar,
+                                 .load = paper_load,
+                                 .engine = engine,
+                                 .hardness = INFINITY,
+                                 .tol = tol,
+                                 .threads = threads,
+                                 .method = "pcg"};
     double *h = extended(m, step, rough), start = now();
     struct run run = {.m = m, .seconds = INFINITY, .p = map_new(M * M)};
     size_t edge = (m - M) / 2;
@@ -57,7 +65,8 @@ in_middle(size_t m, double step, const double *rough, enum rc_boundary boundary,
         solver_run(solver);
         run.seconds = fmin(run.seconds, now() - t);
         for (size_t j = 0; j < M; j++)
-            memcpy(run.p + j * M, rc_solver_pressure(solver) + (edge + j) * m + edge, M * sizeof *run.p);
+            memcpy(run.p + j * M, rc_solver_pressure(solver) + (edge + j) * m + edge,
+                   M * sizeof *run.p);
         rc_solver_free(solver);
         runs++;
     } while (once_more(start, runs));
@@ -79,7 +88,8 @@ good_size(double wish)
     }
 }
 
-/* The domain that makes the error of the images `error`, and what that costs beside the free half-space. */
+/* The domain that makes the error of the images `error`, and what that costs beside the free
+ * half-space. */
 static void
 equal(double error, double scale, double step, const double *rough)
 {
@@ -87,16 +97,17 @@ equal(double error, double scale, double step, const double *rough)
     struct run run[3];
 
     if (m > 16 * M) {
-        printf("%9.1e %8.1f %8.0f  too large to be measured\n", error, (double)m / M, (double)(m * m) / (M * M));
+        printf("%9.1e %8.1f %8.0f  too large to be measured\n", error, (double)m / M,
+               (double)(m * m) / (M * M));
         return;
     }
     m = m < M ? M : m;
     run[0] = in_middle(m, step, rough, RC_PERIODIC, "fft", error);
     run[1] = in_middle(M, step, rough, RC_FREE, "fft", error);
     run[2] = in_middle(M, step, rough, RC_FREE, "mlms", error);
-    printf("%9.1e %8.2f %8.1f %10.4f %10.4f %10.4f %8.1f %8.1f\n", error, (double)m / M, (double)(m * m) / (M * M),
-           run[0].seconds, run[1].seconds, run[2].seconds, run[0].seconds / run[1].seconds,
-           run[0].seconds / run[2].seconds);
+    printf("%9.1e %8.2f %8.1f %10.4f %10.4f %10.4f %8.1f %8.1f\n", error, (double)m / M,
+           (double)(m * m) / (M * M), run[0].seconds, run[1].seconds, run[2].seconds,
+           run[0].seconds / run[1].seconds, run[0].seconds / run[2].seconds);
     fflush(stdout);
     for (int k = 0; k < 3; k++)
         free(run[k].p);
@@ -118,21 +129,23 @@ grows(const char *title, double step, const double *rough, const double *truth)
         widest[k] = run[DOMAINS - 1].p[k] + (run[DOMAINS - 1].p[k] - run[DOMAINS - 2].p[k]) / 7;
     printf("%s\n%-22s %6s %10s %10s %10s %10s\n", title, "", "nodes", "images", "predicted",
            truth != NULL ? "to Hertz" : "to free", "s, to 1e-7");
-    printf("%-22s %6d %10s %10s %10.2e %10.3f\n", "free, padded FFT", M, "-", "-", error_l1(M * M, free_fft.p, other),
-           free_fft.seconds);
-    printf("%-22s %6d %10s %10s %10.2e %10.3f\n", "free, MLMS", M, "-", "-", error_l1(M * M, free_mlms.p, other),
-           free_mlms.seconds);
+    printf("%-22s %6d %10s %10s %10.2e %10.3f\n", "free, padded FFT", M, "-", "-",
+           error_l1(M * M, free_fft.p, other), free_fft.seconds);
+    printf("%-22s %6d %10s %10s %10.2e %10.3f\n", "free, MLMS", M, "-", "-",
+           error_l1(M * M, free_mlms.p, other), free_mlms.seconds);
     for (int k = 0; k < DOMAINS; k++) {
         images[k] = error_l1(M * M, run[k].p, widest);
-        printf("%-11s x %-8.1f %6zu %10.2e %10.2e %10.2e %10.3f\n", "periodic", domain[k], run[k].m, images[k],
-               1.475 * pow(width * domain[k], -3), error_l1(M * M, run[k].p, other), run[k].seconds);
+        printf("%-11s x %-8.1f %6zu %10.2e %10.2e %10.2e %10.3f\n", "periodic", domain[k], run[k].m,
+               images[k], 1.475 * pow(width * domain[k], -3), error_l1(M * M, run[k].p, other),
+               run[k].seconds);
     }
     printf("exponent of the images' error, 2 to 8: %.2f\n", exponent(5, domain + 2, images + 2));
     for (int k = 2; k < 7; k++)
         scale += images[k] * pow(domain[k], 3) / 5;
-    printf("a periodic domain whose images err as much as is asked, all three solved to that tolerance:\n");
-    printf("%9s %8s %8s %10s %10s %10s %8s %8s\n", "error", "domain", "nodes", "periodic s", "padded s", "MLMS s",
-           "/ padded", "/ MLMS");
+    printf("a periodic domain whose images err as much as is asked, all three solved to that "
+           "tolerance:\n");
+    printf("%9s %8s %8s %10s %10s %10s %8s %8s\n", "error", "domain", "nodes", "periodic s",
+           "padded s", "MLMS s", "/ padded", "/ MLMS");
     for (size_t k = 0; k < 3; k++)
         equal(errors[k], scale, step, rough);
     if (truth != NULL) {
@@ -152,17 +165,25 @@ section5(void)
     struct hertz exact = hertz(paper_load, paper_radius, paper_estar);
     double step = width * exact.a / M, *truth = map_new(M * M), *rough = map_new(M * M);
     struct rc_shape shape = {M, M, step, step};
-    struct rc_selfaffine roughness = {.hurst = 0.8, .rms_height = 0.405e-6, .rms_slope = NAN, .short_cut = 16e-6,
-                                      .rolloff = 100e-6, .long_cut = NAN, .seed = 1999};
+    struct rc_selfaffine roughness = {.hurst = 0.8,
+                                      .rms_height = 0.405e-6,
+                                      .rms_slope = NAN,
+                                      .short_cut = 16e-6,
+                                      .rolloff = 100e-6,
+                                      .long_cut = NAN,
+                                      .seed = 1999};
     struct rc_err err;
 
     for (size_t k = 0; k < M * M; k++)
         truth[k] = hertz_pressure(exact, node_r(shape, k));
     must_be(rc_synth_selfaffine(&shape, &roughness, rough, &err), &err);
-    printf("\nSection 5: a contact on the free half-space, the map %g a wide, relative L1 errors of its pressure, %zu "
-           "threads\n", width, threads);
+    printf("\nSection 5: a contact on the free half-space, the map %g a wide, relative L1 errors "
+           "of its pressure, %zu "
+           "threads\n",
+           width, threads);
     grows("Hertz's contact", step, NULL, truth);
-    grows("the rough sphere of Fig. 3, without hardness, the sphere smooth around the map", step, rough, NULL);
+    grows("the rough sphere of Fig. 3, without hardness, the sphere smooth around the map", step,
+          rough, NULL);
     free(truth);
     free(rough);
 }

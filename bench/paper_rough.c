@@ -1,15 +1,20 @@
 /* Section 4.2 of the paper: the rough sphere, its Fig. 3 and its stresses. */
 #include "paper.h"
 
-/* Self-affine roughness that leaves 0.55 of Hertz's area on their largest grid (sample_surfaces/make.sh), clipped at
- * the edges for their smaller ones, drawn anew for larger ones; the sphere grows with the map and the load with
- * its area. */
+/* Self-affine roughness that leaves 0.55 of Hertz's area on their largest grid
+ * (sample_surfaces/make.sh), clipped at the edges for their smaller ones, drawn anew for larger
+ * ones; the sphere grows with the map and the load with its area. */
 static double *
 rough_sphere(struct rc_shape shape, struct rc_problem *problem)
 {
     struct rc_shape whole = {PAPER_NX, PAPER_NY, paper_dx, paper_dy};
-    struct rc_selfaffine roughness = {.hurst = 0.8, .rms_height = 0.405e-6, .rms_slope = NAN, .short_cut = 16e-6,
-                                      .rolloff = 100e-6, .long_cut = NAN, .seed = 1999};
+    struct rc_selfaffine roughness = {.hurst = 0.8,
+                                      .rms_height = 0.405e-6,
+                                      .rms_slope = NAN,
+                                      .short_cut = 16e-6,
+                                      .rolloff = 100e-6,
+                                      .long_cut = NAN,
+                                      .seed = 1999};
     double *h = map_new(shape.nx * shape.ny), *rough;
     double area = (double)(shape.nx * shape.ny) * shape.dx * shape.dy;
     double length = (double)shape.nx * shape.dx / (PAPER_NX * paper_dx);
@@ -26,8 +31,11 @@ rough_sphere(struct rc_shape shape, struct rc_problem *problem)
     for (size_t k = 0; k < shape.nx * shape.ny; k++)
         h[k] += rough[(top + k / shape.nx) * whole.nx + left + k % shape.nx];
     free(rough);
-    *problem = (struct rc_problem){.estar = paper_estar, .hardness = paper_hardness, .threads = threads,
-                                   .load = paper_load * area / (PAPER_NX * PAPER_NY * paper_dx * paper_dy)};
+    *problem = (struct rc_problem){.estar = paper_estar,
+                                   .hardness = paper_hardness,
+                                   .threads = threads,
+                                   .load = paper_load * area /
+                                           (PAPER_NX * PAPER_NY * paper_dx * paper_dy)};
     return h;
 }
 
@@ -52,7 +60,8 @@ static const struct {
 
 /* The least of several times, where they are short. */
 static struct cost
-spent(int way, struct rc_shape shape, const double *h, struct rc_problem problem, const double *truth)
+spent(int way, struct rc_shape shape, const double *h, struct rc_problem problem,
+      const double *truth)
 {
     struct cost c = {.seconds = INFINITY};
     double start = now();
@@ -122,13 +131,18 @@ fig3(void)
 {
     /* square cells of the same area on the larger ones */
     const double d = sqrt(paper_dx * paper_dy);
-    const struct rc_shape grids[GRIDS] = {{61, 52, paper_dx, paper_dy}, {121, 103, paper_dx, paper_dy},
-                                     {242, 206, paper_dx, paper_dy}, {PAPER_NX, PAPER_NY, paper_dx, paper_dy},
-                                     {1024, 1024, d, d}, {2048, 2048, d, d}, {4096, 4096, d, d}};
+    const struct rc_shape grids[GRIDS] = {{61, 52, paper_dx, paper_dy},
+                                          {121, 103, paper_dx, paper_dy},
+                                          {242, 206, paper_dx, paper_dy},
+                                          {PAPER_NX, PAPER_NY, paper_dx, paper_dy},
+                                          {1024, 1024, d, d},
+                                          {2048, 2048, d, d},
+                                          {4096, 4096, d, d}};
     struct series way[WAYS] = {0};
     double nodes[GRIDS];
 
-    printf("\nFig. 3: rough spheres with a hardness, tolerance M_min^(-3/2), %zu threads\n", threads);
+    printf("\nFig. 3: rough spheres with a hardness, tolerance M_min^(-3/2), %zu threads\n",
+           threads);
     printf("%14s %8s", "", "");
     for (int w = 0; w < WAYS; w++)
         printf(" | %-33s", ways[w].title);
@@ -191,14 +205,19 @@ stresses(void)
     solver_run(solver);
     for (int c = 0; c < RC_STRESSES; c++)
         s[c] = map_new(PAPER_NX * PAPER_NY);
-    printf("\nstresses: %d x %d, %d depths, six components and Mises, %zu threads (theirs: 4.3 h)\n", PAPER_NX,
-           PAPER_NY, DEPTHS, threads);
+    printf(
+        "\nstresses: %d x %d, %d depths, six components and Mises, %zu threads (theirs: 4.3 h)\n",
+        PAPER_NX, PAPER_NY, DEPTHS, threads);
     for (int run = 0; run < 3; run++) {
-        struct rc_stress_options o = {.nu = paper_nu, .wanted = (2u << RC_MISES) - 1, .threads = threads,
-                                      .mu = run == 1 ? 0.15 : 0, .tol = run == 2 ? 1e-4 : 0};
+        struct rc_stress_options o = {.nu = paper_nu,
+                                      .wanted = (2u << RC_MISES) - 1,
+                                      .threads = threads,
+                                      .mu = run == 1 ? 0.15 : 0,
+                                      .tol = run == 2 ? 1e-4 : 0};
         struct rc_err err;
         double t = now();
-        struct rc_stress *stress = must(rc_stress_new(&shape, rc_solver_pressure(solver), &o, &err));
+        struct rc_stress *stress =
+            must(rc_stress_new(&shape, rc_solver_pressure(solver), &o, &err));
         for (int k = 0; k < DEPTHS; k++)
             must_be(rc_stress_slice(stress, 10e-6 * k, s, &err), &err);
         printf("  mu = %.2f, tol %g: %.2f s\n", o.mu, o.tol, now() - t);

@@ -8,9 +8,9 @@
  *           tolerance costs
  * estimate  estimate over true error, every iteration
  *
- * Surfaces: periodic self-affine (Hurst 0.8, cut at 8 nodes, rolled off at an eighth of the map) and a
- * sphere with such roughness on the free half-space. The truth is the same solver at 1e-9. RC_THREADS sets
- * the threads.
+ * Surfaces: periodic self-affine (Hurst 0.8, cut at 8 nodes, rolled off at an eighth of the map)
+ * and a sphere with such roughness on the free half-space. The truth is the same solver at 1e-9.
+ * RC_THREADS sets the threads.
  */
 #include "bench.h"
 
@@ -19,7 +19,8 @@
 struct surface {
     const char *name;
     enum rc_boundary boundary;
-    double load;     /* periodic: mean pressure over E* and RMS slope; free: load as a part of that which
+    double
+        load; /* periodic: mean pressure over E* and RMS slope; free: load as a part of that which
                         makes a Hertz circle as wide as the map                               */
     double hardness; /* over the mean pressure; 0: none                                        */
 };
@@ -46,11 +47,18 @@ make(const struct surface *what, struct rc_shape shape, double *h)
 {
     static const double slope = 0.1, estar = 1e9;
     double side = (double)shape.nx * shape.dx, area = side * side;
-    struct rc_selfaffine roughness = {.hurst = 0.8, .rms_slope = slope, .rms_height = NAN,
-                                      .short_cut = 8 * shape.dx, .rolloff = side / 8, .long_cut = NAN,
+    struct rc_selfaffine roughness = {.hurst = 0.8,
+                                      .rms_slope = slope,
+                                      .rms_height = NAN,
+                                      .short_cut = 8 * shape.dx,
+                                      .rolloff = side / 8,
+                                      .long_cut = NAN,
                                       .seed = 5};
-    struct rc_problem problem = {.boundary = what->boundary, .estar = estar, .hardness = INFINITY,
-                                 .tol = 1e-4, .threads = threads};
+    struct rc_problem problem = {.boundary = what->boundary,
+                                 .estar = estar,
+                                 .hardness = INFINITY,
+                                 .tol = 1e-4,
+                                 .threads = threads};
     struct rc_err err;
 
     must_be(rc_synth_selfaffine(&shape, &roughness, h, &err), &err);
@@ -95,8 +103,8 @@ table(size_t m)
     double *h = map_new(n);
 
     printf("\n%zu x %zu, %s, true error %.0e, %zu threads\n", m, m, method, wanted, threads);
-    printf("%-12s %8s %8s %6s | %6s %6s | %6s %6s %8s %8s %8s\n", "surface", "contact", "plastic", "at 1e-9", "its",
-           "equiv", "its", "equiv", "seconds", "estimate", "true");
+    printf("%-12s %8s %8s %6s | %6s %6s | %6s %6s %8s %8s %8s\n", "surface", "contact", "plastic",
+           "at 1e-9", "its", "equiv", "its", "equiv", "seconds", "estimate", "true");
     for (size_t k = 0; k < SURFACES; k++) {
         struct rc_problem problem = make(&surfaces[k], shape, h);
         struct rc_contact exact, c;
@@ -121,10 +129,10 @@ table(size_t m)
         solver_run(s);
         seconds = now() - seconds;
         c.convolutions = rc_solver_convolutions(s);
-        printf("%-12s %8.4f %8.4f %6.1f | %6zu %6.1f | %6zu %6.1f %8.3f %8.1e %8.1e\n", surfaces[k].name,
-               exact.contact_fraction, (double)exact.plastic_nodes / (double)n, exact.convolutions, its, reached,
-               rc_solver_iterations(s), c.convolutions, seconds, rc_solver_error(s),
-               error_l1(n, rc_solver_pressure(s), p));
+        printf("%-12s %8.4f %8.4f %6.1f | %6zu %6.1f | %6zu %6.1f %8.3f %8.1e %8.1e\n",
+               surfaces[k].name, exact.contact_fraction, (double)exact.plastic_nodes / (double)n,
+               exact.convolutions, its, reached, rc_solver_iterations(s), c.convolutions, seconds,
+               rc_solver_error(s), error_l1(n, rc_solver_pressure(s), p));
         fflush(stdout);
         rc_solver_free(s);
         free(p);
@@ -139,8 +147,9 @@ estimate(size_t m)
     size_t n = m * m;
     double *h = map_new(n);
 
-    printf("\n%zu x %zu, %s: estimate over true error, every iteration with a true error above 1e-8\n", m,
-           m, method);
+    printf(
+        "\n%zu x %zu, %s: estimate over true error, every iteration with a true error above 1e-8\n",
+        m, m, method);
     for (size_t k = 0; k < SURFACES; k++) {
         struct rc_problem problem = make(&surfaces[k], shape, h);
         struct rc_contact exact;
@@ -184,8 +193,7 @@ estimates(void)
 int
 main(int argc, char **argv)
 {
-    static const struct part parts[] = {
-        {"table", tables, false}, {"estimate", estimates, true}};
+    static const struct part parts[] = {{"table", tables, false}, {"estimate", estimates, true}};
 
     threads = threads_wanted();
     for (int option; (option = getopt(argc, argv, "n:t:m:")) != -1;)

@@ -3,10 +3,10 @@
  *
  *     bench-spectrum [-n SIZE,SIZE...]
  *
- * Extreme eigenvalues of M K between the nodes of contact, on vectors of zero mean, for M = E' A E (extension.h)
- * and for A cut to those nodes (E the extension by zero), by the Lanczos process: those of the
- * tridiagonal matrix that conjugate gradients with a random right side leave behind. Contact sets are those of
- * solved rough surfaces, and a disc.
+ * Extreme eigenvalues of M K between the nodes of contact, on vectors of zero mean, for M = E' A E
+ * (extension.h) and for A cut to those nodes (E the extension by zero), by the Lanczos process:
+ * those of the tridiagonal matrix that conjugate gradients with a random right side leave behind.
+ * Contact sets are those of solved rough surfaces, and a disc.
  */
 #include "bench.h"
 
@@ -25,11 +25,13 @@ struct row {
     double mean; /* pressure over E* and RMS slope; 0: a disc of 0.3 of the map */
 };
 
+/* clang-format off */
 static const struct row rows[] = {
     {"disc", RC_FREE, 0},         {"rough", RC_FREE, 0.02},     {"rough", RC_FREE, 0.2},
     {"disc", RC_PERIODIC, 0},     {"rough", RC_PERIODIC, 0.004}, {"rough", RC_PERIODIC, 0.18},
     {"rough", RC_PERIODIC, 0.8},
 };
+/* clang-format on */
 
 static size_t
 choose(const struct row *row, struct rc_shape s, unsigned char *w)
@@ -37,10 +39,18 @@ choose(const struct row *row, struct rc_shape s, unsigned char *w)
     static const double slope = 0.1;
     size_t n = s.nx * s.ny, count = 0;
     double *h = must(malloc(n * sizeof *h)), side = (double)s.nx;
-    struct rc_selfaffine what = {.hurst = 0.8, .rms_slope = slope, .rms_height = NAN, .short_cut = 8,
-                                 .rolloff = side / 8, .long_cut = NAN, .seed = 5};
-    struct rc_problem problem = {.boundary = row->boundary, .estar = 1, .hardness = INFINITY,
-                                 .tol = 1e-5, .load = row->mean * slope * (double)n};
+    struct rc_selfaffine what = {.hurst = 0.8,
+                                 .rms_slope = slope,
+                                 .rms_height = NAN,
+                                 .short_cut = 8,
+                                 .rolloff = side / 8,
+                                 .long_cut = NAN,
+                                 .seed = 5};
+    struct rc_problem problem = {.boundary = row->boundary,
+                                 .estar = 1,
+                                 .hardness = INFINITY,
+                                 .tol = 1e-5,
+                                 .load = row->mean * slope * (double)n};
     struct rc_solver *solver;
     struct rc_err err;
 
@@ -66,7 +76,7 @@ struct operators {
     struct rc_fft *fft;
     struct rc_spectrum *kernel, *inverse;
     struct rc_preconditioner *extension; /* NULL: A cut to W */
-    float *single;                  /* 2n               */
+    float *single;                       /* 2n               */
 };
 
 /* Zero off W, and without the mean on it. */
@@ -139,7 +149,8 @@ eigenvalue(size_t n, const double *diagonal, const double *square, size_t which)
     return low;
 }
 
-/* Preconditioned conjugate gradients: T has 1/a_k + b_(k-1)/a_(k-1) on the diagonal and sqrt(b_k)/a_k beside it. */
+/* Preconditioned conjugate gradients: T has 1/a_k + b_(k-1)/a_(k-1) on the diagonal and
+ * sqrt(b_k)/a_k beside it. */
 static void
 extremes(const struct operators *o, double *least, double *most)
 {
@@ -217,8 +228,8 @@ main(int argc, char **argv)
             count = sizes_read(optarg, 16, sizes);
         else
             return 2;
-    printf("%-8s %-8s %5s %8s | %17s | %17s\n", "contact", "boundary", "nodes", "fraction", "E' A E: from to",
-           "A cut: from to");
+    printf("%-8s %-8s %5s %8s | %17s | %17s\n", "contact", "boundary", "nodes", "fraction",
+           "E' A E: from to", "A cut: from to");
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++)
         for (size_t i = 0; i < count; i++)
             spectrum(&rows[k], sizes[i]);

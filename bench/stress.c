@@ -107,7 +107,8 @@ parts(void)
         const char *what;
         unsigned components;
         bool shear;
-    } set[] = {{"szz", 1u << RC_SZZ, false}, {"six", (1u << RC_COMPONENTS) - 1, false},
+    } set[] = {{"szz", 1u << RC_SZZ, false},
+               {"six", (1u << RC_COMPONENTS) - 1, false},
                {"six, with friction", (1u << RC_COMPONENTS) - 1, true}};
     struct rc_shape shape;
     double *p = disc(M, &shape), *u = must(malloc(M * M * sizeof *u)), t, best;
@@ -195,12 +196,12 @@ sizes(void)
         {"all eleven, friction", {.wanted = (1u << RC_STRESSES) - 1, .mu = 0.15}, 5},
         {"section, six, Mises", {.wanted = (2u << RC_MISES) - 1, .section = 'y'}, 5},
         {"40 spacings deep, tol 1e-4", {.wanted = (2u << RC_MISES) - 1, .tol = 1e-4}, 40},
-        {"periodic, six, Mises",
-         {.wanted = (2u << RC_MISES) - 1, .boundary = RC_PERIODIC}, 5},
+        {"periodic, six, Mises", {.wanted = (2u << RC_MISES) - 1, .boundary = RC_PERIODIC}, 5},
     };
 
     printf("sizes: milliseconds a slice, and the same in convolutions (free) of the deflection, "
-           "%zu threads\n", threads);
+           "%zu threads\n",
+           threads);
     for (size_t m = 256; m <= 2048; m *= 2) {
         struct rc_shape shape;
         double *p = disc(m, &shape);
@@ -233,8 +234,7 @@ mlms(void)
         double *p = disc(m, &shape);
         struct maps a = maps_new(m * m), b = maps_new(m * m);
         struct rc_stress_options o = {.nu = 0.3, .wanted = 1u << RC_SZZ, .threads = threads};
-        printf("  %4zu^2: fft %.1f ms", m,
-               1e3 * slice_seconds(&shape, p, &o, 5 * shape.dx, &a, 3));
+        printf("  %4zu^2: fft %.1f ms", m, 1e3 * slice_seconds(&shape, p, &o, 5 * shape.dx, &a, 3));
         o.engine = "mlms";
         for (double tol = 1e-3; tol > 1e-8; tol /= 100) {
             double worst = 0, t;

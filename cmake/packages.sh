@@ -4,7 +4,7 @@
 
 build_packages="gcc libc6-dev make cmake pkg-config libfftw3-dev libgsl-dev libpng-dev libxml2-dev
     libzip-dev zlib1g-dev libhdf5-dev libtiff-dev libcairo2-dev fonts-dejavu-core"
-test_packages="libcmocka-dev mandoc zip unzip perl"
+test_packages="libcmocka-dev mandoc zip unzip perl clang-format"
 
 need_packages() {
     local missing="" package as_root=""
@@ -14,7 +14,7 @@ This is neither Debian nor Ubuntu: please see that these are installed, with the
   a C17 compiler with OpenMP, make, CMake 3.20 or later, pkg-config
   FFTW 3 (double precision), GSL 2.2 or later, libpng, libxml2, libzip, zlib, libhdf5,
   libtiff, cairo
-  for the tests also: cmocka, mandoc, zip, unzip, perl
+  for the tests also: cmocka, mandoc, zip, unzip, perl, clang-format 14
 EOT
         return 0
     fi

@@ -118,8 +118,8 @@ rc_export_date(char date[RC_DATE], const struct rc_grid *g, const struct rc_expo
         snprintf(date, RC_DATE, "%.19s", said);
         if (said[19] == 'Z')
             strcat(date, "Z");
-    } else if (gmtime_r(&seconds, &tm) == NULL || strftime(date, RC_DATE, "%Y-%m-%dT%H:%M:%SZ",
-                                                           &tm) == 0) {
+    } else if (gmtime_r(&seconds, &tm) == NULL ||
+               strftime(date, RC_DATE, "%Y-%m-%dT%H:%M:%SZ", &tm) == 0) {
         strcpy(date, "1970-01-01T00:00:00Z");
     }
     return date;

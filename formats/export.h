@@ -69,8 +69,8 @@ enum {
 const char *rc_export_label(char label[RC_LABEL], struct rc_grid *const *frame, size_t frames,
                             size_t k, bool depths);
 
-/* The date of the measurement, as the frame's file said it, else of the wish: "2026-11-21T09:30:00Z"
- * (ISO 8601). */
+/* The date of the measurement, as the frame's file said it, else of the wish:
+ * "2026-11-21T09:30:00Z" (ISO 8601). */
 enum {
     RC_DATE = 32
 };

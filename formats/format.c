@@ -60,10 +60,11 @@ rc_format_find(const struct rc_file *file, struct rc_err *err)
     else if (file->size >= 2 && file->data[0] == 0x1f && file->data[1] == 0x8b)
         rc_err_set(err, "the file is compressed with gzip: unpack it first (gunzip)");
     else
-        rc_err_set(err, "not recognised: it is none of the formats that --formats lists (it "
-                        "begins '%s'); --format NAME says which one it is",
-                   rc_text_shown(first, (const char *)file->data,
-                                 file->size < 24 ? file->size : 24));
+        rc_err_set(
+            err,
+            "not recognised: it is none of the formats that --formats lists (it "
+            "begins '%s'); --format NAME says which one it is",
+            rc_text_shown(first, (const char *)file->data, file->size < 24 ? file->size : 24));
     return NULL;
 }
 
@@ -120,8 +121,10 @@ rc_height_unit(const struct rc_wish *wish, double by_file, const char *unit, dou
         return rc_err_set(err, "the file does not give the unit of its heights: --z-unit says it "
                                "(um, nm, or a number of metres)");
     if (isnan(*metres))
-        return rc_err_set(err, "the values are in '%s', which is no length: --z-unit says how "
-                               "many metres one of them is", unit);
+        return rc_err_set(err,
+                          "the values are in '%s', which is no length: --z-unit says how "
+                          "many metres one of them is",
+                          unit);
     if (*metres == 0 || isinf(*metres))
         return rc_err_set(err, "one unit of height is %s m: it must be finite and not 0",
                           rc_number_text(a, *metres));

@@ -30,9 +30,9 @@ struct rc_file {
 
 /* What the user says beside the file. */
 struct rc_wish {
-    double dx, dy;       /* spacing in metres; NAN: as the file says                             */
-    double z_unit;       /* metres per unit of the file's heights; NAN: as the file says         */
-    char decimal;        /* '.' or ','; 0: found out                                             */
+    double dx, dy; /* spacing in metres; NAN: as the file says                             */
+    double z_unit; /* metres per unit of the file's heights; NAN: as the file says         */
+    char decimal;  /* '.' or ','; 0: found out                                             */
     const char *separator; /* of columns in text; NULL: found out                                */
     const char *missing; /* a word that marks missing values in text, beside NaN, BAD, ...       */
 };
@@ -40,9 +40,9 @@ struct rc_wish {
 /* One map in a file, as --list shows it. */
 struct rc_channel {
     char name[64];
-    char unit[16];   /* SI unit of the values, "m" for heights; "" when the file does not say    */
+    char unit[16]; /* SI unit of the values, "m" for heights; "" when the file does not say    */
     size_t nx, ny;
-    double dx, dy;   /* m; NAN when the file does not say                                        */
+    double dx, dy; /* m; NAN when the file does not say                                        */
 };
 
 /* Things worth saying that are no errors. */
@@ -50,8 +50,7 @@ struct rc_notes {
     char text[8][200];
     size_t n;
 };
-void rc_note(struct rc_notes *notes, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
+void rc_note(struct rc_notes *notes, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 struct rc_format {
     const char *name;     /* "x3p": what --format takes                                          */

@@ -77,20 +77,20 @@ enum rc_status rc_detrend_poly(const struct rc_shape *shape, size_t degree, doub
  * it as boundary values and no slope across the edge of the map; *filled counts them. RC_FAIL when
  * nothing was measured, a value is infinite, or memory is short. */
 enum rc_status rc_inpaint(const struct rc_shape *shape, double *h, size_t *filled,
-                       struct rc_err *err);
+                          struct rc_err *err);
 /* Bytes that it takes beside h for so many missing values. */
 size_t rc_inpaint_memory(size_t missing);
 
 /* ---- measure.c ---- */
 
 struct rc_statistics {
-    size_t missing;                       /* NaN                                                */
-    size_t infinite;                      /* +-inf, left out of the rest like NaN               */
-    double minimum, maximum, mean;        /* NAN when nothing is there                          */
-    double rms;                           /* about the mean (for heights: Sq)                   */
-    double rms_slope;                     /* magnitude of the gradient (Sdq), forward
+    size_t missing;                /* NaN                                                */
+    size_t infinite;               /* +-inf, left out of the rest like NaN               */
+    double minimum, maximum, mean; /* NAN when nothing is there                          */
+    double rms;                    /* about the mean (for heights: Sq)                   */
+    double rms_slope;              /* magnitude of the gradient (Sdq), forward
                                              differences where both neighbours are there        */
-    double sum;                           /* compensated                                        */
+    double sum;                    /* compensated                                        */
 };
 /* Figures of what is there; h's own unit, rms_slope in that unit per metre. */
 void rc_measure(const struct rc_shape *shape, const double *v, struct rc_statistics *result);
@@ -110,9 +110,9 @@ struct rc_conv_options {
     const char *engine; /* a row of engines.list, or NULL or "auto"                              */
     double tol;         /* asked error of u, relative to the sum of |K| |p|; 0: rounding          */
     size_t order, correction; /* of the engine mlms by hand, both or none: t, m_c                */
-    size_t memory;      /* bytes that "auto" may take; 0: any                                    */
-    double loaded;      /* fraction of nodes that carry pressure, as "auto" may expect; 0: unknown */
-    size_t threads;     /* 0: all                                                                */
+    size_t memory;  /* bytes that "auto" may take; 0: any                                    */
+    double loaded;  /* fraction of nodes that carry pressure, as "auto" may expect; 0: unknown */
+    size_t threads; /* 0: all                                                                */
 };
 
 /* u = K p: displacement in metres of the composite modulus estar (Pa) under pressure p (Pa). With
@@ -135,10 +135,11 @@ size_t rc_conv_memory(const struct rc_shape *shape, const struct rc_conv_options
 
 /* ---- solver: solver.c ---- */
 
-/* After each iteration, on the coarser grids of the start too: the size of the grid, iterations on it, the
- * estimated error there and the one asked for. False breaks the start off; what the caller steps himself he ends
- * himself. */
-typedef bool rc_watch(void *watcher, const struct rc_shape *grid, size_t iterations, double error, double tol);
+/* After each iteration, on the coarser grids of the start too: the size of the grid, iterations
+ * on it, the estimated error there and the one asked for. False breaks the start off; what the
+ * caller steps himself he ends himself. */
+typedef bool rc_watch(void *watcher, const struct rc_shape *grid, size_t iterations, double error,
+                      double tol);
 
 struct rc_problem {
     enum rc_boundary boundary;
@@ -151,10 +152,10 @@ struct rc_problem {
     const char *engine; /* NULL: auto                                                            */
     const char *method; /* NULL: auto                                                            */
     size_t max_iterations; /* 0: 100 + 10 sqrt(nx ny)                                            */
-    size_t threads;     /* 0: all                                                                */
+    size_t threads;      /* 0: all                                                                */
     bool discretization; /* estimate what the grid leaves out: a coarser one is solved as well   */
-    rc_watch *watch;    /* NULL, or told of each iteration                                       */
-    void *watcher;      /* its first argument                                                    */
+    rc_watch *watch;     /* NULL, or told of each iteration                                       */
+    void *watcher;       /* its first argument                                                    */
 };
 
 /* Relative errors, or figures, of contact area, largest pressure and approach; NAN: unknown. */
@@ -168,18 +169,18 @@ struct rc_contact {
     double load, mean_pressure, max_pressure; /* N, Pa, Pa: summed from the pressure itself      */
     size_t contact_nodes, plastic_nodes;      /* p > 0; p = hardness                             */
     double contact_area, contact_fraction, plastic_area; /* m^2, -, m^2                          */
-    double edge_load_fraction;                /* load on the outer 2 % of the map                */
-    double approach;                          /* m; NAN when no node is elastic                  */
-    double mean_gap;                          /* m, over the whole map                           */
-    double kkt_residual;                      /* worst violation / max(std h, std u), from a
+    double edge_load_fraction; /* load on the outer 2 % of the map                */
+    double approach;           /* m; NAN when no node is elastic                  */
+    double mean_gap;           /* m, over the whole map                           */
+    double kkt_residual;       /* worst violation / max(std h, std u), from a
                                                  fresh convolution; for one height everywhere
                                                  over what the mean pressure could displace      */
-    double pressure_error;                    /* estimated relative L1 error of the pressure     */
+    double pressure_error;     /* estimated relative L1 error of the pressure     */
     size_t iterations;
-    double convolutions;                      /* equivalents on the finest grid                  */
-    struct rc_discretization discretization;  /* estimated relative errors that the grid makes   */
-    bool converged;                           /* pressure_error <= tol                           */
-    bool hardness_active;                     /* some node is at the hardness                    */
+    double convolutions;                     /* equivalents on the finest grid                  */
+    struct rc_discretization discretization; /* estimated relative errors that the grid makes   */
+    bool converged;                          /* pressure_error <= tol                           */
+    bool hardness_active;                    /* some node is at the hardness                    */
 };
 
 /* `h` (not NaN, not infinite) is copied. RC_FAIL-like NULL when load > hardness * area: the message
@@ -189,20 +190,22 @@ struct rc_solver *rc_solver_new(const struct rc_shape *shape, const double *h,
 /* One iteration: RC_MORE, RC_OK when the estimated error is below tol, RC_SHORT when it cannot get
  * there (iteration limit, rounding). */
 enum rc_status rc_solver_step(struct rc_solver *solver);
-/* Another first loading of the same surface, at a load in N or, with approach > 0, to an approach in
- * m: the last solution is only where it starts. Counts begin anew. RC_FAIL as in rc_solver_new; the
- * solver is then of no further use. */
+/* Another first loading of the same surface, at a load in N or, with approach > 0, to an
+ * approach in m: the last solution is only where it starts. Counts begin anew. RC_FAIL as in
+ * rc_solver_new; the solver is then of no further use. */
 enum rc_status rc_solver_again(struct rc_solver *solver, double load, double approach,
                                struct rc_err *err);
-/* Goes on from this pressure (nx ny Pa; what leaves the box or the load is put right), as it was left by an
- * earlier solver of the same problem; load (N) is that of this pressure, which matters where an approach is
- * sought. Before the first step of a load. RC_FAIL as in rc_solver_again. */
-enum rc_status rc_solver_start(struct rc_solver *solver, double load, const double *p, struct rc_err *err);
+/* Goes on from this pressure (nx ny Pa; what leaves the box or the load is put right), as it was
+ * left by an earlier solver of the same problem; load (N) is that of this pressure, which
+ * matters where an approach is sought. Before the first step of a load. RC_FAIL as in
+ * rc_solver_again. */
+enum rc_status rc_solver_start(struct rc_solver *solver, double load, const double *p,
+                               struct rc_err *err);
 /* Iterations so far and the last estimate of the error (NAN before the first), for progress. */
 size_t rc_solver_iterations(const struct rc_solver *solver);
 double rc_solver_error(const struct rc_solver *solver);
-/* Convolutions so far, in equivalents of one double-precision convolution on this grid; coarser grids and
- * single precision count their share. */
+/* Convolutions so far, in equivalents of one double-precision convolution on this grid; coarser
+ * grids and single precision count their share. */
 double rc_solver_convolutions(const struct rc_solver *solver);
 /* The load that is set, N: the one given, or the last one tried for an approach. */
 double rc_solver_load(const struct rc_solver *solver);
@@ -211,13 +214,14 @@ const double *rc_solver_pressure(const struct rc_solver *solver);
 /* Fresh displacement and gap of that pressure (either may be NULL) and the figures. */
 void rc_solver_result(struct rc_solver *solver, double *displacement, double *gap,
                       struct rc_contact *contact);
-/* The height map (nx*ny m) that is left when the bodies are taken apart: where the hardness was reached,
- * what stood into the other body is gone. Pressed again to the same load it carries the same pressure,
- * and nothing more yields. After rc_solver_result. */
+/* The height map (nx*ny m) that is left when the bodies are taken apart: where the hardness was
+ * reached, what stood into the other body is gone. Pressed again to the same load it carries the
+ * same pressure, and nothing more yields. After rc_solver_result. */
 void rc_solver_plastic(const struct rc_solver *solver, double *h);
-/* d load / d approach, N/m, at the solution, after rc_solver_result: what the elastic nodes carry more when the
- * bodies come closer, no node changing sides. NAN when none is elastic, and where a periodic surface is
- * in complete contact. Takes 10 to 20 convolutions; RC_FAIL when memory is short. */
+/* d load / d approach, N/m, at the solution, after rc_solver_result: what the elastic nodes
+ * carry more when the bodies come closer, no node changing sides. NAN when none is elastic, and
+ * where a periodic surface is in complete contact. Takes 10 to 20 convolutions; RC_FAIL when
+ * memory is short. */
 enum rc_status rc_solver_stiffness(struct rc_solver *solver, double *stiffness, struct rc_err *err);
 const char *rc_solver_engine(const struct rc_solver *solver);
 const char *rc_solver_engine_reason(const struct rc_solver *solver);
@@ -264,15 +268,15 @@ struct rc_stress_options {
 /* What has been computed, to see that nothing was that nobody asked for. */
 struct rc_stress_counts {
     size_t depths;
-    size_t source_transforms;  /* of the pressure                                                 */
-    size_t normal_kernels;     /* kernels of a depth evaluated, of the pressure                   */
-    size_t shear_kernels;      /* and of the traction: none when mu = 0                           */
-    size_t coefficients;       /* values of them                                                  */
-    size_t kernel_transforms;  /* two-dimensional, of a quarter                                   */
-    size_t field_transforms;   /* two-dimensional, from wave numbers to a map                     */
-    size_t line_transforms;    /* one-dimensional, of kernels and sources of a section            */
-    size_t engine_sums;        /* convolutions by another engine                                  */
-    size_t coarse_depths;      /* of these depths computed on a coarser grid                      */
+    size_t source_transforms; /* of the pressure                                                 */
+    size_t normal_kernels;    /* kernels of a depth evaluated, of the pressure                   */
+    size_t shear_kernels;     /* and of the traction: none when mu = 0                           */
+    size_t coefficients;      /* values of them                                                  */
+    size_t kernel_transforms; /* two-dimensional, of a quarter                                   */
+    size_t field_transforms;  /* two-dimensional, from wave numbers to a map                     */
+    size_t line_transforms;   /* one-dimensional, of kernels and sources of a section            */
+    size_t engine_sums;       /* convolutions by another engine                                  */
+    size_t coarse_depths;     /* of these depths computed on a coarser grid                      */
 };
 
 /* Stresses under the pressure p (Pa; kept by the caller, who does not change it) on a half-space.
@@ -286,8 +290,8 @@ struct rc_stress *rc_stress_new(const struct rc_shape *shape, const double *p,
 size_t rc_stress_values(const struct rc_stress *stress);
 /* What is wanted at the depth z >= 0 (m), Pa, tension positive: s[c] for each c of `wanted`; the
  * others are not touched. */
-enum rc_status rc_stress_slice(struct rc_stress *stress, double depth,
-                               double *const s[RC_STRESSES], struct rc_err *err);
+enum rc_status rc_stress_slice(struct rc_stress *stress, double depth, double *const s[RC_STRESSES],
+                               struct rc_err *err);
 const char *rc_stress_engine(const struct rc_stress *stress);
 const struct rc_stress_counts *rc_stress_counted(const struct rc_stress *stress);
 void rc_stress_free(struct rc_stress *stress);

@@ -87,8 +87,7 @@ rc_text_set(char **text, const char *value, struct rc_err *err)
 }
 
 struct rc_grid *
-rc_grid_new(const struct rc_shape *shape, const char *channel, const char *unit,
-            struct rc_err *err)
+rc_grid_new(const struct rc_shape *shape, const char *channel, const char *unit, struct rc_err *err)
 {
     struct rc_grid *g = NULL;
     size_t bytes;

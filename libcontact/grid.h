@@ -58,14 +58,14 @@ struct rc_key {
 };
 
 struct rc_grid {
-    size_t nx, ny;        /* nodes, both > 0                                                     */
-    double dx, dy;        /* metres, both > 0 and finite                                         */
-    char *channel;        /* "height", "pressure", "szz", ...                                    */
-    char *unit;           /* "m", "Pa", ...; SI                                                  */
-    enum rc_type type;    /* how the values are stored in a stream; in memory always double      */
-    struct rc_key *key;   /* every other header line, in order: case, source, history, ...       */
+    size_t nx, ny;      /* nodes, both > 0                                                     */
+    double dx, dy;      /* metres, both > 0 and finite                                         */
+    char *channel;      /* "height", "pressure", "szz", ...                                    */
+    char *unit;         /* "m", "Pa", ...; SI                                                  */
+    enum rc_type type;  /* how the values are stored in a stream; in memory always double      */
+    struct rc_key *key; /* every other header line, in order: case, source, history, ...       */
     size_t keys;
-    double *v;            /* nx*ny values, row 0 first; NaN where nothing was measured           */
+    double *v; /* nx*ny values, row 0 first; NaN where nothing was measured           */
 };
 
 /* A grid with uninitialised values. NULL on a bad shape or when memory is short. */

@@ -7,7 +7,8 @@
 
 enum {
     LINE = 64,
-    LARGE = 2 * 1024 * 1024 /* the page that x86-64 and most ARM systems have beside the usual one */
+    LARGE =
+        2 * 1024 * 1024 /* the page that x86-64 and most ARM systems have beside the usual one */
 };
 
 void *
@@ -23,7 +24,8 @@ rc_alloc(size_t n, size_t size)
         return NULL;
 #ifdef MADV_HUGEPAGE
     if (bytes >= LARGE)
-        (void)madvise(at, bytes / LARGE * LARGE, MADV_HUGEPAGE); /* a wish: refused, nothing is lost */
+        (void)madvise(at, bytes / LARGE * LARGE,
+                      MADV_HUGEPAGE); /* a wish: refused, nothing is lost */
 #endif
     return at;
 }

@@ -6,9 +6,10 @@
 
 #include <stddef.h>
 
-/* Room for n numbers of `size` bytes, not cleared, at the start of a cache line; NULL when there is
- * none or n * size is no size. free() gives it back. What takes megabytes lies in large pages where
- * the system has them: columns of a map are read page by page, and fresh pages are cleared one by one. */
+/* Room for n numbers of `size` bytes, not cleared, at the start of a cache line; NULL when there
+ * is none or n * size is no size. free() gives it back. What takes megabytes lies in large pages
+ * where the system has them: columns of a map are read page by page, and fresh pages are cleared
+ * one by one. */
 void *rc_alloc(size_t n, size_t size);
 
 #endif

@@ -97,8 +97,8 @@ __attribute__((unused)) static struct map
 decode_sdf_binary(const struct made *made)
 {
     const char *h = made->bytes;
-    struct map m = {.nx = bits(h + 42, 2), .ny = bits(h + 44, 2), .dx = f64(h + 46),
-                    .dy = f64(h + 54)};
+    struct map m = {
+        .nx = bits(h + 42, 2), .ny = bits(h + 44, 2), .dx = f64(h + 46), .dy = f64(h + 54)};
     double scale = f64(h + 62);
     int type = h[79];
     size_t width = type == 5 ? 2 : type == 6 ? 4 : 8;
@@ -260,7 +260,9 @@ __attribute__((unused)) static struct map
 decode_sur(const struct made *made)
 {
     const char *h = made->bytes;
-    struct map m = {.nx = bits(h + 108, 4), .ny = bits(h + 112, 4), .dx = 1e-3 * f32(h + 120),
+    struct map m = {.nx = bits(h + 108, 4),
+                    .ny = bits(h + 112, 4),
+                    .dx = 1e-3 * f32(h + 120),
                     .dy = 1e-3 * f32(h + 124)};
     size_t width = bits(h + 98, 2) / 8;
     double low = whole(h + 100, 4), high = whole(h + 104, 4);
@@ -376,8 +378,8 @@ decode_hdf5(const struct made *made)
     assert_true(set >= 0);
     space = H5Dget_space(set);
     assert_int_equal(H5Sget_simple_extent_dims(space, size, NULL), 2);
-    m = (struct map){.nx = size[1], .ny = size[0], .dx = hdf5_number(set, "dx"),
-                     .dy = hdf5_number(set, "dy")};
+    m = (struct map){
+        .nx = size[1], .ny = size[0], .dx = hdf5_number(set, "dx"), .dy = hdf5_number(set, "dy")};
     m.v = room(&m);
     assert_true(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, m.v) >= 0);
     H5Sclose(space);

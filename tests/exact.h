@@ -131,8 +131,8 @@ point_stress(bool shear, double nu, double x, double y, double z, double s[6])
     if (shear) {
         s[0] = -3 * x * x * x / R5 + c * (x / R3 - 3 * x / (R * b2) + x * x * x / (R3 * b2) +
                                           2 * x * x * x / (R2 * b2 * b));
-        s[1] = -3 * x * y * y / R5 + c * (x / R3 - x / (R * b2) + x * y * y / (R3 * b2) +
-                                          2 * x * y * y / (R2 * b2 * b));
+        s[1] = -3 * x * y * y / R5 +
+               c * (x / R3 - x / (R * b2) + x * y * y / (R3 * b2) + 2 * x * y * y / (R2 * b2 * b));
         s[2] = -3 * x * z * z / R5;
         s[3] = -3 * x * x * y / R5 +
                c * (-y / (R * b2) + x * x * y / (R3 * b2) + 2 * x * x * y / (R2 * b2 * b));
@@ -238,21 +238,24 @@ sliding_sphere(struct hertz s, double nu, double mu, double x, double y, double 
         stress[i] = 0;
     for (int n = 2; n <= 3; n++) {
         double complex F[6];
-        F[0] = 2 * nu * f[n - 1] - depth * (g[n] + x * x * h[n]) -
-               c * (g[n + 1] + x * x * h[n + 1]);
-        F[1] = 2 * nu * f[n - 1] - depth * (g[n] + y * y * h[n]) -
-               c * (g[n + 1] + y * y * h[n + 1]);
+        F[0] =
+            2 * nu * f[n - 1] - depth * (g[n] + x * x * h[n]) - c * (g[n + 1] + x * x * h[n + 1]);
+        F[1] =
+            2 * nu * f[n - 1] - depth * (g[n] + y * y * h[n]) - c * (g[n + 1] + y * y * h[n + 1]);
         F[2] = f[n - 1] - depth * f[n - 2];
         F[3] = -x * y * (depth * h[n] + c * h[n + 1]);
         F[4] = -depth * x * g[n - 1];
         F[5] = -depth * y * g[n - 1];
-        F[0] += mu * x * (2 * (1 + nu) * g[n] + 2 * nu * (3 * h[n + 2] + x * x * k[n + 2]) -
-                          depth * (3 * h[n + 1] + x * x * k[n + 1]));
-        F[1] += mu * x * (2 * nu * (g[n] + h[n + 2] + y * y * k[n + 2]) -
-                          depth * (h[n + 1] + y * y * k[n + 1]));
+        F[0] += mu * x *
+                (2 * (1 + nu) * g[n] + 2 * nu * (3 * h[n + 2] + x * x * k[n + 2]) -
+                 depth * (3 * h[n + 1] + x * x * k[n + 1]));
+        F[1] +=
+            mu * x *
+            (2 * nu * (g[n] + h[n + 2] + y * y * k[n + 2]) - depth * (h[n + 1] + y * y * k[n + 1]));
         F[2] += -mu * depth * x * g[n - 1];
-        F[3] += mu * y * (g[n] + 2 * nu * (h[n + 2] + x * x * k[n + 2]) -
-                          depth * (h[n + 1] + x * x * k[n + 1]));
+        F[3] +=
+            mu * y *
+            (g[n] + 2 * nu * (h[n + 2] + x * x * k[n + 2]) - depth * (h[n + 1] + x * x * k[n + 1]));
         F[4] += mu * (f[n - 1] - depth * (g[n] + x * x * h[n]));
         F[5] += -mu * depth * x * y * h[n];
         for (int i = 0; i < 6; i++)
@@ -268,8 +271,8 @@ mises_of(const double s[6])
     return sqrt((a * a + b * b + c * c) / 2 + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
 }
 
-/* Depth of the largest Mises stress under a sliding sphere, to a thousandth of a: sought in the plane y = 0 by
- * steps of 0.002 a along x. */
+/* Depth of the largest Mises stress under a sliding sphere, to a thousandth of a: sought in the
+ * plane y = 0 by steps of 0.002 a along x. */
 static inline double
 mises_depth(struct hertz h, double nu, double mu)
 {

@@ -99,8 +99,10 @@ headers(void **state)
          2.5e-6, 1e-9, "a"},
         {"# Width: 0.03 mm\n# Height: 1e2 \xc3\x85\n# Value units: um\n@", 1e-5, 5e-9, 1e-6, NULL},
         /* German, in UTF-8 and Latin-1, with the decimal comma of its locale */
-        {"# Kanal: H\xc3\xb6" "hen\n# Breite: 6,00 \xc2\xb5m\n# H\xc3\xb6he: 2,50 \xc2\xb5m\n"
-         "# Werteinheiten: m\n@", 2e-6, 1.25e-6, 1, "H\xc3\xb6hen"},
+        {"# Kanal: H\xc3\xb6"
+         "hen\n# Breite: 6,00 \xc2\xb5m\n# H\xc3\xb6he: 2,50 \xc2\xb5m\n"
+         "# Werteinheiten: m\n@",
+         2e-6, 1.25e-6, 1, "H\xc3\xb6hen"},
         {"# Kanal: H\xf6hen\n# Breite: 6,00 \xb5m\n# H\xf6he: 2,50 \xb5m\n# Werteinheiten: m\n@",
          2e-6, 1.25e-6, 1, "H\xc3\xb6hen"},
         /* Japanese, with wide colons */
@@ -108,7 +110,8 @@ headers(void **state)
          "# \xe9\xab\x98\xe3\x81\x95\xef\xbc\x9a 5 \xc2\xb5m\n# \xe5\x80\xa4: m\n@",
          2e-6, 2.5e-6, 1, "Topo"},
         {"\xef\xbb\xbf# Channel: with a byte order mark\n# Width: 3 m\n# Height: 2 m\n"
-         "# Value units: m\n@", 1, 1, 1, "with a byte order mark"},
+         "# Value units: m\n@",
+         1, 1, 1, "with a byte order mark"},
         {"h=2 w=3\npixel size=3.69862e-007 m\ndata unit=rad\n"
          "height conversion factor (-> m)=2.91818e-008\n@",
          3.69862e-7, 3.69862e-7, 2.91818e-8, NULL},
@@ -117,7 +120,8 @@ headers(void **state)
          "# y-length = 500\n# x-offset = 0\n# Bit2nm = 0.5\n# Start of Data:\n@",
          2e-7, 2.5e-7, 0.5e-9, NULL},
         {"\\*File list\n\\Version: 0x05120130\n\\*Ciao image list\n\\Scan Size: 6 5 um\n"
-         "\\*File list end\n\\Exported image units: nm\n@", 2e-6, 2.5e-6, 1e-9, NULL},
+         "\\*File list end\n\\Exported image units: nm\n@",
+         2e-6, 2.5e-6, 1e-9, NULL},
         {"\"\\Scan Size: 600 nm\"\r\n\"\\Exported image units: nm\"\r\n@", 2e-7, 3e-7, 1e-9, NULL},
     };
 
@@ -153,7 +157,8 @@ headers_that_are_refused(void **state)
         {"1 2 3\n4 5 6\n", "--dx LENGTH"},
         {"1 2 3\n4 5 6\n", "nor the unit of its heights: --z-unit UNIT"},
         {"# Width: 6 um\n# Height: 5 um\n1 2 3\n4 5 6\n", "--z-unit"},
-        {"# Width: 6 um\n# Height: 5 um\n# Value units: V\n1 2 3\n4 5 6\n", "'V', which is no length"},
+        {"# Width: 6 um\n# Height: 5 um\n# Value units: V\n1 2 3\n4 5 6\n",
+         "'V', which is no length"},
         {"# Width: 0 um\n# Height: 5 um\n# Value units: m\n1 2 3\n4 5 6\n", "spacing in x is 0 m"},
         {"# Width: -6 um\n# Height: 5 um\n# Value units: m\n1 2 3\n4 5 6\n", "positive and finite"},
         {"# Width: 6 um\n# Height: 0 um\n# Value units: m\n1 2 3\n4 5 6\n", "spacing in y is 0 m"},
@@ -162,7 +167,9 @@ headers_that_are_refused(void **state)
         {"h=2 w=4\npixel size=1 m\ndata unit=m\n1 2 3\n4 5 6\n", "promises 4 columns and 2 rows"},
         {"h=2 w=3\npixel size=nan m\ndata unit=m\n1 2 3\n4 5 6\n", "--dx LENGTH"},
         {"# Channel: a\n# Width: 6 um\n", "no numbers in the file"},
-        {"\xff\xfe" "1 2", "UTF-16"},
+        {"\xff\xfe"
+         "1 2",
+         "UTF-16"},
     };
 
     (void)state;
@@ -211,12 +218,9 @@ wishes_for_text(void **state)
         const char *text, *separator, *missing;
         char decimal;
     } cases[] = {
-        {"1.5|2\nnan|4\n", "|", NULL, 0},
-        {"1,5 2\nnan 4\n", NULL, NULL, ','},
-        {"1,5 2\nnan 4\n", " ", NULL, ','},
-        {"1.5,2\n,4\n", ",", NULL, '.'},
-        {"1.5 2\n-9999.00 4\n", NULL, "-9999", 0},
-        {"1.5 2\nlost 4\n", NULL, "lost", 0},
+        {"1.5|2\nnan|4\n", "|", NULL, 0},          {"1,5 2\nnan 4\n", NULL, NULL, ','},
+        {"1,5 2\nnan 4\n", " ", NULL, ','},        {"1.5,2\n,4\n", ",", NULL, '.'},
+        {"1.5 2\n-9999.00 4\n", NULL, "-9999", 0}, {"1.5 2\nlost 4\n", NULL, "lost", 0},
     };
 
     (void)state;
@@ -237,9 +241,9 @@ missing_values(void **state)
 {
     static const double truth[6] = {1, NAN, 3, NAN, 5, NAN};
     static const char *const texts[] = {
-        "1 NaN 3\nnan 5 NAN\n",         "1 BAD 3\nBad 5 bad\n", "1 --- 3\n--- 5 --\n",
-        "1\tN/A\t3\nNA\t5\tn/a\n",      "1,,3\n,5,\n",          "1;;3\n;5;\n",
-        "1\t\t3\n\t5\t\n",              "1, ,3\n ,5, \n",       "1 1.#QNAN 3\n-1.#IND 5 -nan\n",
+        "1 NaN 3\nnan 5 NAN\n",    "1 BAD 3\nBad 5 bad\n", "1 --- 3\n--- 5 --\n",
+        "1\tN/A\t3\nNA\t5\tn/a\n", "1,,3\n,5,\n",          "1;;3\n;5;\n",
+        "1\t\t3\n\t5\t\n",         "1, ,3\n ,5, \n",       "1 1.#QNAN 3\n-1.#IND 5 -nan\n",
         "1,,3,\n,5,,\n",
     };
 
@@ -298,9 +302,9 @@ static void
 lists_of_points_are_no_matrices(void **state)
 {
     static const char *const lists[] = {
-        "0 0 7\n1 0 8\n2 0 7\n0 1 6\n1 1 8\n2 1 9\n",    /* x fast        */
-        "0 0 7\n0 1 8\n0 2 7\n1 0 6\n1 1 8\n1 2 9\n",    /* y fast        */
-        "0 5 7\n1 5 8\n2 5 nan\n0 4 6\n1 4 8\n2 4 9\n",  /* y falls       */
+        "0 0 7\n1 0 8\n2 0 7\n0 1 6\n1 1 8\n2 1 9\n",   /* x fast        */
+        "0 0 7\n0 1 8\n0 2 7\n1 0 6\n1 1 8\n1 2 9\n",   /* y fast        */
+        "0 5 7\n1 5 8\n2 5 nan\n0 4 6\n1 4 8\n2 4 9\n", /* y falls       */
     };
     static const char matrix[] = "0 0 7\n0 0 8\n2 0 7\n0 1 6\n1 1 8\n2 1 9\n";
     static const char header[] = "# Width: 3 um\n# Height: 6 um\n# Value units: m\n";
@@ -419,8 +423,8 @@ what_is_no_text_is_not_recognised(void **state)
 
     (void)state;
     for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
-        struct rc_file file = {.name = "a.txt", .data = (const unsigned char *)texts[k],
-                               .size = strlen(texts[k])};
+        struct rc_file file = {
+            .name = "a.txt", .data = (const unsigned char *)texts[k], .size = strlen(texts[k])};
         struct rc_err err;
         assert_null(rc_format_find(&file, &err));
         assert_non_null(strstr(err.text, "not recognised"));

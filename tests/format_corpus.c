@@ -254,8 +254,7 @@ check_grid(char *column[COLUMNS], struct rc_grid *g)
 
 /* The channel that a user gets who names none: the first height. */
 static size_t
-first_height(const struct rc_format *format, const struct rc_file *file,
-             const struct rc_wish *wish)
+first_height(const struct rc_format *format, const struct rc_file *file, const struct rc_wish *wish)
 {
     struct rc_channel channel[64];
     size_t n = format->list(file, wish, channel, 64, NULL);
@@ -286,8 +285,8 @@ check_steps(char *column[COLUMNS], const struct rc_format *format, const struct 
     steps_checked++;
 }
 
-/* The channel that the manifest means: "Height#6" is the one named Height; the first of heights where
- * none has that name. */
+/* The channel that the manifest means: "Height#6" is the one named Height; the first of heights
+ * where none has that name. */
 static size_t
 channel_of(const struct rc_format *format, const struct rc_file *file, const struct rc_wish *wish,
            const char *name)
@@ -406,7 +405,8 @@ rows_of_the_manifest(void **state)
     }
     fclose(f);
     printf("%zu channels as in the manifest, %zu with steps that lack a unit; %zu are of formats "
-           "without a reader\n", read, steps_checked, others);
+           "without a reader\n",
+           read, steps_checked, others);
     assert_true(read > 0);
     if (faults > 0)
         fail_msg("%zu faults", faults);

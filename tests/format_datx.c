@@ -1,5 +1,5 @@
-/* DATX files, made here, are read with the table that leads to their heights and without; what is no
- * DATX, damaged, or in a unit that is none is refused. */
+/* DATX files, made here, are read with the table that leads to their heights and without; what
+ * is no DATX, damaged, or in a unit that is none is refused. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -47,8 +47,8 @@ datx_converter(hid_t set, const char *name, const char *category, double metres,
     } value = {category, "Pixels", {0}, {0, metres, 0, 0}};
     const hsize_t one = 1, four = 4;
     hid_t word = H5Tcopy(H5T_C_S1), type = H5Tcreate(H5T_COMPOUND, sizeof value);
-    hid_t numbers = fixed ? H5Tarray_create2(H5T_NATIVE_DOUBLE, 1, &four)
-                          : H5Tvlen_create(H5T_NATIVE_DOUBLE);
+    hid_t numbers =
+        fixed ? H5Tarray_create2(H5T_NATIVE_DOUBLE, 1, &four) : H5Tvlen_create(H5T_NATIVE_DOUBLE);
     hid_t space = H5Screate_simple(1, &one, NULL), a;
 
     value.list.len = 4;
@@ -56,9 +56,10 @@ datx_converter(hid_t set, const char *name, const char *category, double metres,
     H5Tset_size(word, H5T_VARIABLE);
     H5Tinsert(type, "Category", 0, word);
     H5Tinsert(type, "BaseUnit", sizeof(char *), word);
-    H5Tinsert(type, "Parameters",
-              (size_t)((char *)(fixed ? (void *)value.array : (void *)&value.list) -
-                       (char *)&value), numbers);
+    H5Tinsert(
+        type, "Parameters",
+        (size_t)((char *)(fixed ? (void *)value.array : (void *)&value.list) - (char *)&value),
+        numbers);
     a = H5Acreate2(set, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
     assert_true(a >= 0 && H5Awrite(a, type, &value) >= 0);
     H5Aclose(a);

@@ -1,5 +1,5 @@
-/* What is written holds the numbers that were given, by a decoder of each format that shares no code
- * with its writer, and by our own reader where there is one. */
+/* What is written holds the numbers that were given, by a decoder of each format that shares no
+ * code with its writer, and by our own reader where there is one. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>

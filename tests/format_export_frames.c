@@ -277,7 +277,8 @@ full_device(void **state)
     setvbuf(f, NULL, _IONBF, 0);
     for (const struct rc_export *const *e = rc_exports; *e != NULL; e++) {
         struct rc_err err = {""};
-        if ((*e)->write(f, &g, 1, &plain, &err) == RC_OK || strstr(err.text, "writing failed") == NULL)
+        if ((*e)->write(f, &g, 1, &plain, &err) == RC_OK ||
+            strstr(err.text, "writing failed") == NULL)
             fail_msg("%s: a full device is not told (%s)", (*e)->name, err.text);
     }
     fclose(f);

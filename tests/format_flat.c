@@ -23,8 +23,9 @@ first_height(const struct rc_format *format, const struct rc_file *file, const s
 static void
 check(const struct made_file *f, const struct rc_grid *g)
 {
-    double dy = (f->flags & SQUARE) != 0 ? 1.1e-6
-                : strcmp(f->format, "opd") == 0 ? 1.375e-6 : 1.29e-6;
+    double dy = (f->flags & SQUARE) != 0        ? 1.1e-6
+                : strcmp(f->format, "opd") == 0 ? 1.375e-6
+                                                : 1.29e-6;
 
     assert_int_equal(g->nx, NX);
     assert_int_equal(g->ny, NY);
@@ -338,12 +339,8 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(variants),
-        cmocka_unit_test(other_channels),
-        cmocka_unit_test(keys),
-        cmocka_unit_test(text_profiles),
-        cmocka_unit_test(one_column),
-        cmocka_unit_test(points),
+        cmocka_unit_test(variants),      cmocka_unit_test(other_channels), cmocka_unit_test(keys),
+        cmocka_unit_test(text_profiles), cmocka_unit_test(one_column),     cmocka_unit_test(points),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -15,8 +15,8 @@ extern const struct rc_format rc_format_hdf5;
 static void
 hdf5_is_read(void **state)
 {
-    const hid_t types[] = {H5T_STD_I8LE,   H5T_STD_U16BE,  H5T_STD_I32LE,
-                           H5T_STD_U64BE,  H5T_IEEE_F32BE, H5T_IEEE_F64LE};
+    const hid_t types[] = {H5T_STD_I8LE,  H5T_STD_U16BE,  H5T_STD_I32LE,
+                           H5T_STD_U64BE, H5T_IEEE_F32BE, H5T_IEEE_F64LE};
     const hsize_t flat[] = {2, 3}, deep[] = {1, 2, 3}, chunk[] = {2, 2}, column[] = {6};
     const double v[6] = {1e-9, 2e-9, 3e-9, NAN, 5e-9, 6e-9};
 
@@ -90,8 +90,7 @@ hdf5_bombs(void **state)
     (void)state;
     for (int way = 0; way < 2; way++) {
         hid_t file = hdf_start(), options = H5Pcreate(H5P_DATASET_CREATE), set;
-        hid_t space = way == 0 ? H5Screate_simple(2, size, NULL)
-                               : H5Screate_simple(2, small, any);
+        hid_t space = way == 0 ? H5Screate_simple(2, size, NULL) : H5Screate_simple(2, small, any);
         double *zeros = calloc(4096 * 4096, sizeof *zeros);
         struct rc_err err;
         struct bytes b;

@@ -10,8 +10,8 @@
 #include "made_files.h"
 
 enum {
-    CHANNELS = 3,       /* that are read of a file            */
-    LOOKED = 1200       /* bytes at the front that are changed */
+    CHANNELS = 3, /* that are read of a file            */
+    LOOKED = 1200 /* bytes at the front that are changed */
 };
 
 /* What every map that comes out must be, whatever went in. */
@@ -148,10 +148,10 @@ lies_anywhere(void **state)
         {4, {0xff, 0xff, 0xff, 0x7f}},
         {4, {0x7f, 0xff, 0xff, 0xff}},
         {4, {0, 0, 0, 0x80}},
-        {4, {0, 0, 0xc0, 0x7f}},                  /* NaN, 32 bits */
+        {4, {0, 0, 0xc0, 0x7f}}, /* NaN, 32 bits */
         {8, {0}},
-        {8, {0, 0, 0, 0, 0, 0, 0xf8, 0x7f}},      /* NaN */
-        {8, {0, 0, 0, 0, 0, 0, 0xf0, 0x7f}},      /* infinity */
+        {8, {0, 0, 0, 0, 0, 0, 0xf8, 0x7f}}, /* NaN */
+        {8, {0, 0, 0, 0, 0, 0, 0xf0, 0x7f}}, /* infinity */
         {8, {'9', '9', '9', '9', '9', '9', '9', '9'}},
     };
     size_t told = 0, believed = 0;

@@ -1,5 +1,5 @@
-/* NetCDF files, made here byte by byte, are read in all versions and types; what is damaged or lies of
- * its size is refused. */
+/* NetCDF files, made here byte by byte, are read in all versions and types; what is damaged or
+ * lies of its size is refused. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -21,8 +21,16 @@ struct cdf {
     bool coordinates, periodic;
 };
 
-static const struct cdf cdf = {.version = 1, .type = 6, .first = "y", .second = "x", .rows = 2,
-                               .columns = 3, .step_y = 0.7, .unit = "nm", .fill = NAN, .factor = 1,
+static const struct cdf cdf = {.version = 1,
+                               .type = 6,
+                               .first = "y",
+                               .second = "x",
+                               .rows = 2,
+                               .columns = 3,
+                               .step_y = 0.7,
+                               .unit = "nm",
+                               .fill = NAN,
+                               .factor = 1,
                                .coordinates = true};
 
 static const double counts[6] = {1, 2, 3, 100, 5, 6};

@@ -1,5 +1,5 @@
-/* Park files, made here byte by byte, are read by their own rules in both byte orders; damaged ones are
- * refused. */
+/* Park files, made here byte by byte, are read by their own rules in both byte orders; damaged
+ * ones are refused. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -66,15 +66,18 @@ static struct bytes
 park_file(const struct park *p, bool big, size_t less)
 {
     struct bytes b, data = {0}, header = park_header(p);
-    struct tag tags[] = {
-        number_tag(50432, 4, 0x0e031301), number_tag(50433, 4, 0x1000000 + p->version),
-        {50434, 7, 0, NULL, 0},           {50435, 7, (uint32_t)header.n, NULL, 0}, {0}};
+    struct tag tags[] = {number_tag(50432, 4, 0x0e031301),
+                         number_tag(50433, 4, 0x1000000 + p->version),
+                         {50434, 7, 0, NULL, 0},
+                         {50435, 7, (uint32_t)header.n, NULL, 0},
+                         {0}};
 
     for (size_t k = 0; k < 6; k++)
         if (p->version == 2 && p->type == 2)
             add_f32(&data, raw[k]);
         else
-            add_number(&data, (uint64_t)(int64_t)(raw[k] % 100000), p->version == 2 && p->type == 1 ? 4 : 2);
+            add_number(&data, (uint64_t)(int64_t)(raw[k] % 100000),
+                       p->version == 2 && p->type == 1 ? 4 : 2);
     tags[2].text = (const char *)data.data;
     tags[2].count = (uint32_t)(data.n - less);
     tags[3].text = (const char *)header.data;

@@ -1,5 +1,5 @@
-/* PLUX files, made here, are read by their own rules; what is damaged, lies of its size or was made to
- * burst is refused. */
+/* PLUX files, made here, are read by their own rules; what is damaged, lies of its size or was
+ * made to burst is refused. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -132,8 +132,10 @@ zip_bombs(void **state)
     };
     static const char x3p_xml[] =
         "<p:ISO5436_2 xmlns:p=\"http://www.opengps.eu/2008/ISO5436_2\"><Record1>"
-        "<FeatureType>SUR</FeatureType><Axes><CX><AxisType>I</AxisType><Increment>1</Increment></CX>"
-        "<CY><AxisType>I</AxisType><Increment>1</Increment></CY><CZ><DataType>F</DataType></CZ></Axes>"
+        "<FeatureType>SUR</FeatureType><Axes><CX><AxisType>I</AxisType><Increment>1</Increment></"
+        "CX>"
+        "<CY><AxisType>I</AxisType><Increment>1</Increment></CY><CZ><DataType>F</DataType></CZ></"
+        "Axes>"
         "</Record1><Record3><MatrixDimension><SizeX>4096</SizeX><SizeY>4096</SizeY><SizeZ>1</SizeZ>"
         "</MatrixDimension><DataLink><PointDataLink>data.bin</PointDataLink></DataLink></Record3>"
         "</p:ISO5436_2>";
@@ -145,12 +147,14 @@ zip_bombs(void **state)
     one = with(plux_xml, "SIZE_X>3", "SIZE_X>4096");
     two = with(one, "SIZE_Y>2", "SIZE_Y>4096");
     b = archive((struct member[]){{"index.xml", two, strlen(two)},
-                                  {"LAYER_0.raw", zeros, (size_t)SIDE * SIDE * 4}}, 2);
+                                  {"LAYER_0.raw", zeros, (size_t)SIDE * SIDE * 4}},
+                2);
     printf("a bomb of %zu bytes\n", b.n);
     refuse(&rc_format_plux, &b, "4096 x 4096 values need 128 MiB, more than the 65");
     drop(&b);
     b = archive((struct member[]){{"main.xml", x3p_xml, strlen(x3p_xml)},
-                                  {"data.bin", zeros, (size_t)SIDE * SIDE * 4}}, 2);
+                                  {"data.bin", zeros, (size_t)SIDE * SIDE * 4}},
+                2);
     refuse(&rc_format_x3p, &b, "4096 x 4096 values need 128 MiB, more than the 65");
     drop(&b);
     free(one);

@@ -160,9 +160,9 @@ channels_get_their_colours(void **state)
     free(p.rgb);
     put_stream(grid_of("szz", "Pa", 3, 1, s)); /* zero in the middle, whatever the extremes are */
     p = render("--raw");
-    assert_true(pixel(&p, 0, 0)[2] > 100 && pixel(&p, 0, 0)[0] < 60);    /* blue: compression */
-    assert_true(abs(pixel(&p, 1, 0)[0] - pixel(&p, 1, 0)[2]) <= 1);      /* neither           */
-    assert_true(pixel(&p, 2, 0)[0] > 200 && pixel(&p, 2, 0)[2] < 200);   /* reddish: tension  */
+    assert_true(pixel(&p, 0, 0)[2] > 100 && pixel(&p, 0, 0)[0] < 60);  /* blue: compression */
+    assert_true(abs(pixel(&p, 1, 0)[0] - pixel(&p, 1, 0)[2]) <= 1);    /* neither           */
+    assert_true(pixel(&p, 2, 0)[0] > 200 && pixel(&p, 2, 0)[2] < 200); /* reddish: tension  */
     free(p.rgb);
 }
 
@@ -324,9 +324,14 @@ numbers_read_as_people_write_them(void **state)
         double value;
         const char *unit, *text;
     } cases[] = {
-        {5.83e9, "Pa", "5.83 GPa"},   {1e-6, "m", "1 µm"},      {-4.239e-7, "m", "−423.9 nm"},
-        {240, "N", "240 N"},          {0, "Pa", "0"},           {999.96, "m", "1 km"},
-        {0.31, "1", "0.31"},          {2e-5, "rad", "20·10⁻⁶ rad"},
+        {5.83e9, "Pa", "5.83 GPa"},
+        {1e-6, "m", "1 µm"},
+        {-4.239e-7, "m", "−423.9 nm"},
+        {240, "N", "240 N"},
+        {0, "Pa", "0"},
+        {999.96, "m", "1 km"},
+        {0.31, "1", "0.31"},
+        {2e-5, "rad", "20·10⁻⁶ rad"},
     };
     static const char *const labels[] = {"−0.2", "0.0", "0.2", "0.4", "0.6"};
     char text[TICKS_TEXT];

@@ -70,7 +70,7 @@ by_hand(const char *header, size_t n)
 static struct bytes
 with_line(const char *key, const char *line)
 {
-    static const char *const good[] = {"channel=height", "nx=2", "ny=1",    "dx=1.1e-06",
+    static const char *const good[] = {"channel=height", "nx=2",   "ny=1",    "dx=1.1e-06",
                                        "dy=1e-06",       "unit=m", "type=f64"};
     char header[2048] = "";
     bool put = line == NULL;
@@ -160,8 +160,9 @@ static struct rc_grid *
 ugly_grid(void)
 {
     const struct rc_shape shape = {5, 2, 1.1e-6, 1e-6 / 3};
-    const double v[] = {1.0 / 3, -0.0,  DBL_TRUE_MIN, DBL_MAX, INFINITY, -INFINITY, NAN,
-                        of_bits(UINT64_C(0xfff8123456789abc)), 1e-6, -4.2e-6};
+    const double v[] = {1.0 / 3,  -0.0,      DBL_TRUE_MIN, DBL_MAX,
+                        INFINITY, -INFINITY, NAN,          of_bits(UINT64_C(0xfff8123456789abc)),
+                        1e-6,     -4.2e-6};
     struct rc_grid *g = rc_grid_new(&shape, "height", "m", NULL);
 
     memcpy(g->v, v, sizeof v);
@@ -382,8 +383,9 @@ test_missing_and_doubled_keys(void **state)
 static void
 test_spacings(void **state)
 {
-    static const char *const bad[] = {"0", "-1e-06", "nan", "inf", "-inf", "1e400", "1e-400", "",
-                                      "wide", "1,1e-06", "1e-06 ", " 1e-06", "0x1p-20"};
+    static const char *const bad[] = {"0",      "-1e-06", "nan",    "inf",  "-inf",
+                                      "1e400",  "1e-400", "",       "wide", "1,1e-06",
+                                      "1e-06 ", " 1e-06", "0x1p-20"};
     char line[64];
 
     (void)state;
@@ -398,8 +400,17 @@ test_spacings(void **state)
 static void
 test_sizes(void **state)
 {
-    static const char *const bad[] = {"0", "-2", "+2", "2.0", "", " 2", "2 ", "0x2", "two",
-                                      "18446744073709551616", "99999999999999999999999"};
+    static const char *const bad[] = {"0",
+                                      "-2",
+                                      "+2",
+                                      "2.0",
+                                      "",
+                                      " 2",
+                                      "2 ",
+                                      "0x2",
+                                      "two",
+                                      "18446744073709551616",
+                                      "99999999999999999999999"};
     char line[64];
 
     (void)state;
@@ -410,7 +421,9 @@ test_sizes(void **state)
         check_refused(with_line("ny", line), 0, "whole number");
     }
     check_refused(by_hand("channel=h\nnx=4294967296\nny=4294967296\ndx=1\ndy=1\nunit=m\n"
-                          "type=f64\n", 16), 0, "more than this machine can address");
+                          "type=f64\n",
+                          16),
+                  0, "more than this machine can address");
     check_refused(with_line("ny", "ny=4611686018427387904"), 0,
                   "more than this machine can address");
     /* addressable, and far from there: refused for want of memory or of values */
@@ -436,9 +449,16 @@ test_words(void **state)
 static void
 test_utf8(void **state)
 {
-    static const char *const bad[] = {
-        "\xff",         "\x80",         "a\xc3",     "\xc0\xaf",         "\xe0\x80\xaf",
-        "\xed\xa0\x80", "\xf0\x80\x80\xaf", "\xf4\x90\x80\x80", "\xe2\x82", "\xf8\x88\x80\x80\x80"};
+    static const char *const bad[] = {"\xff",
+                                      "\x80",
+                                      "a\xc3",
+                                      "\xc0\xaf",
+                                      "\xe0\x80\xaf",
+                                      "\xed\xa0\x80",
+                                      "\xf0\x80\x80\xaf",
+                                      "\xf4\x90\x80\x80",
+                                      "\xe2\x82",
+                                      "\xf8\x88\x80\x80\x80"};
     static const char *const good[] = {"\xc2\xb5m", "\xe2\x82\xac", "\xf0\x9f\x94\xac",
                                        "\xed\x9f\xbf", "\xf4\x8f\xbf\xbf"};
     char line[64];
@@ -534,9 +554,17 @@ test_many_keys(void **state)
 static void
 test_no_stream_at_all(void **state)
 {
-    static const char *const texts[] = {"", "\n", "RCG1", "RCG1\r\nchannel=h\r\n", "RCG2\n",
-                                        "x,y,z\n1,2,3\n", "RCGEND\n", "RCGEND x\n", "RCGEND 1\n",
-                                        "RCGEND 0", "\x89PNG\r\n\x1a\n"};
+    static const char *const texts[] = {"",
+                                        "\n",
+                                        "RCG1",
+                                        "RCG1\r\nchannel=h\r\n",
+                                        "RCG2\n",
+                                        "x,y,z\n1,2,3\n",
+                                        "RCGEND\n",
+                                        "RCGEND x\n",
+                                        "RCGEND 1\n",
+                                        "RCGEND 0",
+                                        "\x89PNG\r\n\x1a\n"};
     struct rc_err err;
     size_t frames;
 

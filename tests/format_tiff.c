@@ -1,5 +1,5 @@
-/* JPK and LEXT files, made here byte by byte, are read by their own rules in both byte orders; damaged ones
- * and those made to take memory or time are refused. */
+/* JPK and LEXT files, made here byte by byte, are read by their own rules in both byte orders;
+ * damaged ones and those made to take memory or time are refused. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -22,24 +22,25 @@ enum {
 static struct bytes
 jpk_pages(bool big, bool reflected, const char *scaling, double multiply, bool second)
 {
-    const struct tag scan[] = {text_tag(0x8003, "2017-01-16 16:00"), number_tag(0x8042, 12, 3.3e-6),
-                               number_tag(0x8043, 12, 2.2e-6), {0}};
-    const struct tag heights[] = {
-        number_tag(339, 3, 2),
-        number_tag(0x8045, 3, reflected),
-        text_tag(0x8050, "height"),
-        number_tag(0x8051, 8, 1),
-        text_tag(0x8052, "Height (measured)"),
-        number_tag(0x8080, 4, 2),
-        text_tag(0x8081, "calibrated"),
-        text_tag(SLOT, "raw"),
-        text_tag(SLOT + 0x13, "NullScaling"),
-        text_tag(SLOT + STRIDE, "calibrated"),
-        text_tag(SLOT + STRIDE + 0x12, "m"),
-        text_tag(SLOT + STRIDE + 0x13, scaling),
-        number_tag(SLOT + STRIDE + 0x14, 12, multiply),
-        number_tag(SLOT + STRIDE + 0x15, 12, 5e-7),
-        {0}};
+    const struct tag scan[] = {text_tag(0x8003, "2017-01-16 16:00"),
+                               number_tag(0x8042, 12, 3.3e-6),
+                               number_tag(0x8043, 12, 2.2e-6),
+                               {0}};
+    const struct tag heights[] = {number_tag(339, 3, 2),
+                                  number_tag(0x8045, 3, reflected),
+                                  text_tag(0x8050, "height"),
+                                  number_tag(0x8051, 8, 1),
+                                  text_tag(0x8052, "Height (measured)"),
+                                  number_tag(0x8080, 4, 2),
+                                  text_tag(0x8081, "calibrated"),
+                                  text_tag(SLOT, "raw"),
+                                  text_tag(SLOT + 0x13, "NullScaling"),
+                                  text_tag(SLOT + STRIDE, "calibrated"),
+                                  text_tag(SLOT + STRIDE + 0x12, "m"),
+                                  text_tag(SLOT + STRIDE + 0x13, scaling),
+                                  number_tag(SLOT + STRIDE + 0x14, 12, multiply),
+                                  number_tag(SLOT + STRIDE + 0x15, 12, 5e-7),
+                                  {0}};
     const struct tag volts[] = {number_tag(339, 3, 2),
                                 text_tag(0x8050, "error"),
                                 number_tag(0x8080, 4, 1),
@@ -153,12 +154,11 @@ static const char lext_xml[] =
     "<HeightDataPerPixelX>1250000</HeightDataPerPixelX>"
     "<HeightDataPerPixelY>2500000</HeightDataPerPixelY>"
     "<HeightDataPerPixelZ>625</HeightDataPerPixelZ></HeightInfo></TiffTagDescData>";
-static const char exif_xml[] =
-    "<ExifTagDescData><ImageCommonSettingsInfo>"
-    "<MakerCalibrationValueX>1000000</MakerCalibrationValueX>"
-    "<MakerCalibrationValueY>500000</MakerCalibrationValueY>"
-    "<MakerCalibrationValueZ>2000000</MakerCalibrationValueZ>"
-    "</ImageCommonSettingsInfo></ExifTagDescData>";
+static const char exif_xml[] = "<ExifTagDescData><ImageCommonSettingsInfo>"
+                               "<MakerCalibrationValueX>1000000</MakerCalibrationValueX>"
+                               "<MakerCalibrationValueY>500000</MakerCalibrationValueY>"
+                               "<MakerCalibrationValueZ>2000000</MakerCalibrationValueZ>"
+                               "</ImageCommonSettingsInfo></ExifTagDescData>";
 
 static size_t height_link; /* where HEIGHT says which page follows */
 
@@ -173,8 +173,7 @@ lext_file(bool big, const char *xml, const char *exif, const char *name)
         add_number(&pixels, 60000 + k, 2); /* above the largest int16 */
     tiff_start(&b, big);
     if (exif != NULL) {
-        const struct tag settings[] = {
-            {0xa40b, 7, (uint32_t)strlen(exif), exif, 0}, {0}};
+        const struct tag settings[] = {{0xa40b, 7, (uint32_t)strlen(exif), exif, 0}, {0}};
         tags[0] = number_tag(34665, 4, (double)tiff_directory(&b, settings));
     }
     last = tiff_page(&b, 4, 1, 1, 8, 3, xml, "\1\2\3", 3, tags);
@@ -216,17 +215,21 @@ lext_is_refused(void **state)
         {"<TiffTagDescData><HeightInfo/></TiffTagDescData>", NULL, "HEIGHT",
          "gives no HeightDataPerPixelX"},
         {"<TiffTagDescData><HeightInfo><HeightDataPerPixelX>x</HeightDataPerPixelX></HeightInfo>"
-         "</TiffTagDescData>", NULL, "HEIGHT", "is 'x': that is no number"},
+         "</TiffTagDescData>",
+         NULL, "HEIGHT", "is 'x': that is no number"},
         {"<!DOCTYPE l [<!ENTITY a \"aaaaaaaaaa\"><!ENTITY b \"&a;&a;&a;&a;&a;&a;&a;&a;\">]>"
-         "<TiffTagDescData>&b;</TiffTagDescData>", NULL, "HEIGHT", "document type"},
+         "<TiffTagDescData>&b;</TiffTagDescData>",
+         NULL, "HEIGHT", "document type"},
         {lext_xml, "<!DOCTYPE l><ExifTagDescData/>", "HEIGHT", "document type"},
         {lext_xml, "<ExifTagDescData>", "HEIGHT", "no whole XML"},
         {"<TiffTagDescData><HeightInfo><HeightDataPerPixelX>0</HeightDataPerPixelX>"
          "<HeightDataPerPixelY>1</HeightDataPerPixelY><HeightDataPerPixelZ>1</HeightDataPerPixelZ>"
-         "</HeightInfo></TiffTagDescData>", NULL, "HEIGHT", "must be positive"},
+         "</HeightInfo></TiffTagDescData>",
+         NULL, "HEIGHT", "must be positive"},
         {"<TiffTagDescData><HeightInfo><HeightDataPerPixelX>1</HeightDataPerPixelX>"
          "<HeightDataPerPixelY>1</HeightDataPerPixelY><HeightDataPerPixelZ>0</HeightDataPerPixelZ>"
-         "</HeightInfo></TiffTagDescData>", NULL, "HEIGHT", "not 0"},
+         "</HeightInfo></TiffTagDescData>",
+         NULL, "HEIGHT", "not 0"},
     };
     struct bytes b;
 
@@ -310,14 +313,10 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(jpk_is_read),
-        cmocka_unit_test(jpk_volts_need_a_unit),
-        cmocka_unit_test(jpk_is_refused),
-        cmocka_unit_test(lext_is_read),
-        cmocka_unit_test(lext_is_refused),
-        cmocka_unit_test(pictures_are_refused),
-        cmocka_unit_test(many_large_tags),
-        cmocka_unit_test(endless_directories),
+        cmocka_unit_test(jpk_is_read),     cmocka_unit_test(jpk_volts_need_a_unit),
+        cmocka_unit_test(jpk_is_refused),  cmocka_unit_test(lext_is_read),
+        cmocka_unit_test(lext_is_refused), cmocka_unit_test(pictures_are_refused),
+        cmocka_unit_test(many_large_tags), cmocka_unit_test(endless_directories),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -69,7 +69,8 @@ all_types_as_bytes_and_as_text(void **state)
 {
     (void)state;
     for (size_t k = 0; k < sizeof types / sizeof *types; k++) {
-        char *binary = binary_xml(types[k].type, ""), *list = with(main_xml, "@TYPE@", types[k].type);
+        char *binary = binary_xml(types[k].type, ""),
+             *list = with(main_xml, "@TYPE@", types[k].type);
         char data[600];
         struct rc_file file = pack(binary, types[k].bytes, types[k].n);
         struct rc_notes notes;

@@ -1,5 +1,5 @@
-/* Hard contacts as tables: a row is a contact, one checker solves them all and holds them to the same
- * bounds, and to the answer where one is known. */
+/* Hard contacts as tables: a row is a contact, one checker solves them all and holds them to the
+ * same bounds, and to the answer where one is known. */
 #ifndef HARD_CASE_H
 #define HARD_CASE_H
 
@@ -28,11 +28,11 @@ struct hard_case {
     /* How far the answer is from the known one, over what it may be; NULL: none is known. */
     double (*truth)(const struct hard_case *c, const struct rc_problem *problem, const double *h,
                     const struct solved *s);
-    double tol;      /* asked for; 0: hard_tol                        */
+    double tol; /* asked for; 0: hard_tol                        */
 };
 
-/* Bounds of every case, and what is asked for: where the roughness is small beside the displacement, a
- * pressure to 1e-8 is not yet a gap to 1e-9 of it. */
+/* Bounds of every case, and what is asked for: where the roughness is small beside the
+ * displacement, a pressure to 1e-8 is not yet a gap to 1e-9 of it. */
 static const double hard_error = 1e-8, hard_kkt = 1e-9, hard_tol = 1e-12;
 
 static inline double *
@@ -59,13 +59,15 @@ hard_problem(const struct hard_case *c, enum rc_boundary boundary)
         .load = mean * c->shape.dx * c->shape.dy * (double)(c->shape.nx * c->shape.ny),
         .hardness = c->hardness > 0 ? c->hardness * mean : INFINITY,
         /* where most nodes yield, the few others carry little: their gaps need more */
-        .tol = c->tol > 0 ? c->tol : c->hardness > 0 ? 0.3 * hard_tol : hard_tol,
+        .tol = c->tol > 0        ? c->tol
+               : c->hardness > 0 ? 0.3 * hard_tol
+                                 : hard_tol,
         .method = "pcg",
     };
 }
 
-/* u = K p by ways of its own: the direct sum on small free maps, on periodic ones 2 / (E* |q|) with a
- * transform that the solver does not use. */
+/* u = K p by ways of its own: the direct sum on small free maps, on periodic ones 2 / (E* |q|)
+ * with a transform that the solver does not use. */
 static inline void
 hard_displace(const struct hard_case *c, const struct rc_problem *problem, const double *p,
               double *u)
@@ -97,8 +99,8 @@ hard_displace(const struct hard_case *c, const struct rc_problem *problem, const
     free(f);
 }
 
-/* What a uniform pressure displaces: in the middle of a free map (Love), as a wave of the map's length
- * on a periodic one. */
+/* What a uniform pressure displaces: in the middle of a free map (Love), as a wave of the map's
+ * length on a periodic one. */
 static inline double
 hard_depth(const struct hard_case *c, const struct rc_problem *problem)
 {
@@ -110,8 +112,9 @@ hard_depth(const struct hard_case *c, const struct rc_problem *problem)
                : mean * fmax(a, b) / (exact_pi * problem->estar);
 }
 
-/* The bound of the KKT residual: where the heights spread less than 1e-7 of the displacement, rounding of
- * the displacement is more than 1e-9 of that, and no solver can do better. Ours is held to 200 units of it. */
+/* The bound of the KKT residual: where the heights spread less than 1e-7 of the displacement,
+ * rounding of the displacement is more than 1e-9 of that, and no solver can do better. Ours is
+ * held to 200 units of it. */
 static inline double
 hard_bound(const struct hard_case *c, const struct rc_problem *problem, const double *h)
 {
@@ -148,8 +151,10 @@ hard_violation(const struct hard_case *c, const struct rc_problem *problem, cons
         else if (++elastic > 0)
             shift += v;
     }
-    shift = elastic > 0 ? shift / (double)elastic
-                        : isinf(high) ? low : isinf(low) ? high : (low + high) / 2;
+    shift = elastic > 0   ? shift / (double)elastic
+            : isinf(high) ? low
+            : isinf(low)  ? high
+                          : (low + high) / 2;
     for (size_t k = 0; k < n; k++) {
         double g = u[k] - (h[k] - h[0]) - shift;
         spread_u += pow(u[k] - mean_u, 2);
@@ -184,7 +189,8 @@ hard_holds(const struct hard_case *c, enum rc_boundary boundary)
         off = c->truth == NULL ? 0 : c->truth(c, &problem, h, &s);
         holds = holds && in_box && fabs(load) <= summed && kkt <= bound && off <= 1;
     }
-    print_message("%s %-28s %s %4zu its %6.0f conv, contact %.4f, plastic %zu: error %.1e, KKT %.1e, load %.0e",
+    print_message("%s %-28s %s %4zu its %6.0f conv, contact %.4f, plastic %zu: error %.1e, KKT "
+                  "%.1e, load %.0e",
                   holds ? "  " : "##", c->name, boundary == RC_FREE ? "free" : "per.",
                   s.c.iterations, s.c.convolutions, s.c.contact_fraction, s.c.plastic_nodes,
                   s.c.pressure_error, kkt, load);
@@ -192,7 +198,10 @@ hard_holds(const struct hard_case *c, enum rc_boundary boundary)
         print_message(" (%.0e by rounding)", bound);
     if (c->truth != NULL)
         print_message(", truth %.2f", off);
-    print_message("%s%s\n", s.status == RC_FAIL ? ": " : s.status == RC_SHORT ? ": short" : "",
+    print_message("%s%s\n",
+                  s.status == RC_FAIL    ? ": "
+                  : s.status == RC_SHORT ? ": short"
+                                         : "",
                   s.status == RC_FAIL ? s.err.text : "");
     solved_free(&s);
     free(h);

@@ -1,5 +1,5 @@
-/* The solver stays stable where contact is hard: one node, saturation, infeasible loads, sharp edges,
- * strips, twelve decades of scale. */
+/* The solver stays stable where contact is hard: one node, saturation, infeasible loads, sharp
+ * edges, strips, twelve decades of scale. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -41,8 +41,9 @@ one_node_carries_all(void **state)
     assert_int_equal(s.c.contact_nodes, 1);
     assert_true(fabs(s.p[777] * shape.dx * shape.dy / problem.load - 1) < rounding);
     /* it sinks by Love's displacement of its own cell */
-    assert_true(fabs(s.c.approach / (s.p[777] * love_displacement(0, 0, shape.dx / 2, shape.dy / 2,
-                                                                  estar)) - 1) < summed);
+    assert_true(fabs(s.c.approach /
+                         (s.p[777] * love_displacement(0, 0, shape.dx / 2, shape.dy / 2, estar)) -
+                     1) < summed);
     solved_free(&s);
 }
 
@@ -123,13 +124,15 @@ ugly_surfaces(void **state)
         for (double mean = 1e5; mean < 1e10; mean *= 100)
             for (int k = 0; k < 6; k++) {
                 struct rc_problem problem = {.boundary = k < 3 ? RC_FREE : RC_PERIODIC,
-                                             .estar = estar, .load = mean * area,
-                                             .hardness = hardnesses[k % 3] * mean, .tol = 1e-8,
+                                             .estar = estar,
+                                             .load = mean * area,
+                                             .hardness = hardnesses[k % 3] * mean,
+                                             .tol = 1e-8,
                                              .max_iterations = 3000};
                 for (size_t i = 0; i < n; i++)
                     h[i] = 1e-7 * height((enum shape_name)name, i % shape.nx, i / shape.nx, &seed);
-                snprintf(what, sizeof what, "surface %d, mean %g, H %g, boundary %d", name,
-                         mean, hardnesses[k % 3], k / 3);
+                snprintf(what, sizeof what, "surface %d, mean %g, H %g, boundary %d", name, mean,
+                         hardnesses[k % 3], k / 3);
                 check(shape, h, problem, what);
             }
     free(h);
@@ -177,8 +180,11 @@ strips_and_needles(void **state)
         size_t n = shapes[k].nx * shapes[k].ny;
         double *h = malloc(n * sizeof *h);
         double area = shapes[k].dx * shapes[k].dy * (double)n;
-        struct rc_problem problem = {.estar = estar, .load = 3e9 * area, .hardness = INFINITY,
-                                     .tol = 1e-8, .max_iterations = 3000};
+        struct rc_problem problem = {.estar = estar,
+                                     .load = 3e9 * area,
+                                     .hardness = INFINITY,
+                                     .tol = 1e-8,
+                                     .max_iterations = 3000};
         for (size_t i = 0; i < n; i++)
             h[i] = 1e-7 * random_number(&seed);
         check(shapes[k], h, problem, "elastic strip");
@@ -214,8 +220,7 @@ impossible_requests(void **state)
 {
     struct rc_shape shape = {4, 4, 1e-6, 1e-6};
     double h[16] = {0};
-    const struct rc_problem good = {.estar = estar, .load = 1e-6, .hardness = INFINITY,
-                                    .tol = NAN};
+    const struct rc_problem good = {.estar = estar, .load = 1e-6, .hardness = INFINITY, .tol = NAN};
     struct rc_problem bad;
     struct rc_err err;
     struct rc_solver *solver = rc_solver_new(&shape, h, &good, &err);
@@ -248,9 +253,12 @@ main(void)
 {
     int failed = 0;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_node_carries_all), cmocka_unit_test(every_node_yields),
-        cmocka_unit_test(ugly_surfaces),        cmocka_unit_test(scales),
-        cmocka_unit_test(strips_and_needles),   cmocka_unit_test(impossible_requests),
+        cmocka_unit_test(one_node_carries_all),
+        cmocka_unit_test(every_node_yields),
+        cmocka_unit_test(ugly_surfaces),
+        cmocka_unit_test(scales),
+        cmocka_unit_test(strips_and_needles),
+        cmocka_unit_test(impossible_requests),
         cmocka_unit_test(an_accuracy_out_of_reach),
     };
 

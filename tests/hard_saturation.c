@@ -1,5 +1,5 @@
-/* Where the hardness is: from a load at which all but a few nodes yield to a hardness that is just not
- * reached; and waves on the way to full contact. */
+/* Where the hardness is: from a load at which all but a few nodes yield to a hardness that is
+ * just not reached; and waves on the way to full contact. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -27,14 +27,14 @@ waves(struct rc_shape s, size_t k, double a, uint64_t *seed)
     (void)seed;
     for (int i = 1; i <= (int)a; i++)
         for (int j = -(int)a; j <= (int)a; j++)
-            sum += cos(i * x + j * y + 6.2831853 * random_number(&own)) /
-                   (i * i + j * j);
+            sum += cos(i * x + j * y + 6.2831853 * random_number(&own)) / (i * i + j * j);
     return sum;
 }
 
 /* ---- hardness ---- */
 
-/* Every node carries at most H: so many at least touch, and the plastic ones carry no more than the load. */
+/* Every node carries at most H: so many at least touch, and the plastic ones carry no more than
+ * the load. */
 static double
 counts(const struct hard_case *c, const struct rc_problem *problem, const double *h,
        const struct solved *s)
@@ -134,8 +134,9 @@ crossed(struct rc_shape s, size_t k, double a, uint64_t *seed)
     return cosine(s, k, a, seed) * cos(2 * exact_pi * node_y(s, k) / (s.dy * (double)s.ny));
 }
 
-/* Westergaard: the fraction to a node at either edge, the largest pressure, the pressure in the mean. A node's
- * width over that of the contact or of the gap, whichever is smaller, is what a grid can tell. */
+/* Westergaard: the fraction to a node at either edge, the largest pressure, the pressure in the
+ * mean. A node's width over that of the contact or of the gap, whichever is smaller, is what a
+ * grid can tell. */
 static double
 westergaard(const struct hard_case *c, const struct rc_problem *problem, const double *h,
             const struct solved *s)
@@ -155,14 +156,14 @@ westergaard(const struct hard_case *c, const struct rc_problem *problem, const d
 static void
 a_wave_from_a_thousandth_on(void **state)
 {
-    static const double fractions[] = {0.001, 0.003, 0.01, 0.03, 0.035, 0.1, 0.3,
-                                       0.5,   0.9,   0.99, 0.999, 0.9999};
+    static const double fractions[] = {0.001, 0.003, 0.01, 0.03, 0.035, 0.1,
+                                       0.3,   0.5,   0.9,  0.99, 0.999, 0.9999};
     size_t failed = 0;
 
     (void)state;
     for (size_t k = 0; k < sizeof fractions / sizeof *fractions; k++) {
-        struct hard_case c = {"", {16384, 1, 1e-6, 1e-6}, PERIODIC, cosine, 0, 1e-4, 0, 0, 0,
-                              westergaard, 0};
+        struct hard_case c = {
+            "", {16384, 1, 1e-6, 1e-6}, PERIODIC, cosine, 0, 1e-4, 0, 0, 0, westergaard, 0};
         char name[32];
         snprintf(name, sizeof name, "wave, %g", fractions[k]);
         c.name = name;
@@ -179,8 +180,7 @@ multiplier(const struct hard_case *c, const struct rc_problem *problem, const do
 {
     size_t n = c->shape.nx * c->shape.ny;
     double a = 1 / (c->shape.dx * (double)c->shape.nx), b = 1 / (c->shape.dy * (double)c->shape.ny);
-    double factor = exact_pi * problem->estar *
-                    (c->height == crossed ? hypot(a, b) : a), worst = 0;
+    double factor = exact_pi * problem->estar * (c->height == crossed ? hypot(a, b) : a), worst = 0;
 
     if (s->c.contact_nodes != n)
         return INFINITY;
@@ -189,14 +189,15 @@ multiplier(const struct hard_case *c, const struct rc_problem *problem, const do
     return worst / (1e-8 * c->mean * problem->estar);
 }
 
-/* Johnson, Greenwood and Higginson 1985; fractions from an independent computation at 512 x 512, corrected for
- * the perimeter, +-0.001. The count of nodes is high by half a node along the edge. */
+/* Johnson, Greenwood and Higginson 1985; fractions from an independent computation at 512 x 512,
+ * corrected for the perimeter, +-0.001. The count of nodes is high by half a node along the
+ * edge. */
 static double
 two_waves(const struct hard_case *c, const struct rc_problem *problem, const double *h,
           const struct solved *s)
 {
-    static const double table[][2] = {{0.05, 0.1129}, {0.2, 0.3457}, {0.5, 0.7043},
-                                      {0.8, 0.8975},  {0.95, 0.9758}};
+    static const double table[][2] = {
+        {0.05, 0.1129}, {0.2, 0.3457}, {0.5, 0.7043}, {0.8, 0.8975}, {0.95, 0.9758}};
     double full = sqrt(2) * wave_full(c->unit, c->shape.dx * (double)c->shape.nx, 1);
     double off = INFINITY, high = 4 / (double)c->shape.nx;
 
@@ -207,9 +208,16 @@ two_waves(const struct hard_case *c, const struct rc_problem *problem, const dou
     return off;
 }
 
-#define WAVE {64, 48, 1e-6, 1.3e-6}
-#define JGH {192, 192, 1e-6, 1e-6}
+#define WAVE                                                                                       \
+    {                                                                                              \
+        64, 48, 1e-6, 1.3e-6                                                                       \
+    }
+#define JGH                                                                                        \
+    {                                                                                              \
+        192, 192, 1e-6, 1e-6                                                                       \
+    }
 
+/* clang-format off */
 static const struct hard_case full_contact[] = {
     {"wave, full", WAVE, PERIODIC, cosine, 0, 1e-7, 1.001 * 3.14159265358979 * 1e-7 / 64e-6, 0, 0, multiplier, 0},
     {"wave, far beyond", WAVE, PERIODIC, cosine, 0, 1e-7, 0.1, 0, 0, multiplier, 1e-13},
@@ -220,6 +228,7 @@ static const struct hard_case full_contact[] = {
     {"Johnson, 0.8", JGH, PERIODIC, crossed, 0, 1e-6, 0, 0, 0, two_waves, 0},
     {"Johnson, 0.95", JGH, PERIODIC, crossed, 0, 1e-6, 0, 0, 0, two_waves, 0},
 };
+/* clang-format on */
 
 static void
 up_to_full_contact(void **state)

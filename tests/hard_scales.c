@@ -1,5 +1,5 @@
-/* Contact is solved to 1e-8 whatever the units, the shape of the cells and of the map; and the numbers follow
- * the units. */
+/* Contact is solved to 1e-8 whatever the units, the shape of the cells and of the map; and the
+ * numbers follow the units. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,7 +16,10 @@ crest(struct rc_shape s, size_t k, double a, uint64_t *seed)
     return -(x * x + y * y) * a + hard_noise(s, k, 0, seed);
 }
 
-#define MAP {37, 31, 1e-6, 1.2e-6}
+#define MAP                                                                                        \
+    {                                                                                              \
+        37, 31, 1e-6, 1.2e-6                                                                       \
+    }
 
 /* The mean pressure goes with heights: the same contact. And not: from one node to all. */
 static const struct hard_case units[] = {
@@ -46,14 +49,24 @@ units_of_all_sizes(void **state)
 static void
 numbers_follow(void **state)
 {
-    static const double scales[][2] = {{1, 1}, {1e-12, 1}, {1e12, 1}, {1, 1e-11}, {1, 1e4}, {1e-12, 1e4}};
+    static const double scales[][2] = {{1, 1},     {1e-12, 1}, {1e12, 1},
+                                       {1, 1e-11}, {1, 1e4},   {1e-12, 1e4}};
     double *first[2] = {NULL, NULL};
 
     (void)state;
     for (size_t k = 0; k < sizeof scales / sizeof *scales; k++)
         for (int b = 0; b < 2; b++) {
-            struct hard_case c = {"", MAP, BOTH, crest, 3, 1e-7 * scales[k][0], 1e-2 * scales[k][0], 5,
-                                  1e11 * scales[k][1], NULL, 0};
+            struct hard_case c = {"",
+                                  MAP,
+                                  BOTH,
+                                  crest,
+                                  3,
+                                  1e-7 * scales[k][0],
+                                  1e-2 * scales[k][0],
+                                  5,
+                                  1e11 * scales[k][1],
+                                  NULL,
+                                  0};
             struct rc_problem problem = hard_problem(&c, b == 0 ? RC_FREE : RC_PERIODIC);
             double *h = hard_heights(&c), apart = 0, size = 0;
             struct solved s = solve(c.shape, h, problem);

@@ -1,5 +1,5 @@
-/* Contact of sharp, flat, lonely and random shapes is solved to 1e-8, and to the known answer where there
- * is one. */
+/* Contact of sharp, flat, lonely and random shapes is solved to 1e-8, and to the known answer
+ * where there is one. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -51,7 +51,8 @@ two_peaks(struct rc_shape s, size_t k, double a, uint64_t *seed)
     return -(x * x + y * y) / (2 * a);
 }
 
-/* Punches stand out by 1 over a disc of radius a m, a square of 2 a nodes a side, a strip of 2 a nodes. */
+/* Punches stand out by 1 over a disc of radius a m, a square of 2 a nodes a side, a strip of 2 a
+ * nodes. */
 static double
 disc(struct rc_shape s, size_t k, double a, uint64_t *seed)
 {
@@ -122,12 +123,13 @@ one_node(const struct hard_case *c, const struct rc_problem *problem, const doub
     if (problem->boundary == RC_FREE)
         off = fmax(off, relative(s->c.approach,
                                  p * love_displacement(0, 0, c->shape.dx / 2, c->shape.dy / 2,
-                                                       problem->estar), summed));
+                                                       problem->estar),
+                                 summed));
     return off;
 }
 
-/* Hertz. The errors of a solution that is constant in its cells are given by numerics elsewhere: 2e-5 in approach,
- * 5e-5 in the peak at 43 nodes of contact diameter; area to a line of nodes. */
+/* Hertz. The errors of a solution that is constant in its cells are given by numerics elsewhere:
+ * 2e-5 in approach, 5e-5 in the peak at 43 nodes of contact diameter; area to a line of nodes. */
 static double
 hertz_answer(const struct hard_case *c, const struct rc_problem *problem, const double *h,
              const struct solved *s)
@@ -148,9 +150,9 @@ cone_answer(const struct hard_case *c, const struct rc_problem *problem, const d
     double a = cone_radius(problem->load, c->a, problem->estar), nodes = a / c->shape.dx;
 
     (void)h;
-    return fmax(relative(s->c.approach, cone_approach(problem->load, c->a, problem->estar),
-                         0.2 / nodes),
-                relative(s->c.contact_area, exact_pi * a * a, 1 / nodes));
+    return fmax(
+        relative(s->c.approach, cone_approach(problem->load, c->a, problem->estar), 0.2 / nodes),
+        relative(s->c.contact_area, exact_pi * a * a, 1 / nodes));
 }
 
 /* The disc is a staircase, the pressure at its edge singular: half a node of its radius. */
@@ -163,8 +165,8 @@ disc_answer(const struct hard_case *c, const struct rc_problem *problem, const d
                     0.5 * c->shape.dx / c->a);
 }
 
-/* A rigid square punch is the charged square plate: capacity 0.36679 of its side, where the disc has
- * 2/pi of its radius (Read 1997; Hwang and Mascagni 2004). */
+/* A rigid square punch is the charged square plate: capacity 0.36679 of its side, where the disc
+ * has 2/pi of its radius (Read 1997; Hwang and Mascagni 2004). */
 static double
 square_answer(const struct hard_case *c, const struct rc_problem *problem, const double *h,
               const struct solved *s)
@@ -177,9 +179,9 @@ square_answer(const struct hard_case *c, const struct rc_problem *problem, const
                     0.5 * c->shape.dx / side);
 }
 
-/* Rigid flat strips of width 2 w, one in each period L, at a mean pressure m:
- * p = m cos(pi x / L) / sqrt(sin^2(pi w / L) - sin^2(pi x / L)) (Johnson 1985, section 13.2: the periodic
- * form of the flat punch). In the middle of the strip, to a node of its width. */
+/* Rigid flat strips of width 2 w, one in each period L, at a mean pressure m: p = m cos(pi x /
+ * L) / sqrt(sin^2(pi w / L) - sin^2(pi x / L)) (Johnson 1985, section 13.2: the periodic form of
+ * the flat punch). In the middle of the strip, to a node of its width. */
 static double
 strips_answer(const struct hard_case *c, const struct rc_problem *problem, const double *h,
               const struct solved *s)
@@ -187,7 +189,8 @@ strips_answer(const struct hard_case *c, const struct rc_problem *problem, const
     bool one = c->height == strip;
     double part = one ? 2 * c->a / (double)c->shape.nx : 0.5;
     double mean = c->mean * problem->estar, truth = mean / sin(exact_pi * part / 2);
-    size_t middle = one ? c->shape.nx / 2 : (size_t)c->a / 2, nodes = (size_t)(one ? 2 * c->a : c->a);
+    size_t middle = one ? c->shape.nx / 2 : (size_t)c->a / 2,
+           nodes = (size_t)(one ? 2 * c->a : c->a);
 
     (void)h;
     if (problem->boundary == RC_FREE)
@@ -226,10 +229,22 @@ halves_answer(const struct hard_case *c, const struct rc_problem *problem, const
 
 /* ---- tables ---- */
 
-#define ODD {33, 47, 1.1e-6, 1e-6}
-#define EVEN {64, 64, 1e-6, 1e-6}
-#define CENTRED {65, 65, 1e-6, 1e-6} /* a node at the apex: the approach counts from it */
-#define MAP {41, 29, 1e-6, 1.2e-6}
+#define ODD                                                                                        \
+    {                                                                                              \
+        33, 47, 1.1e-6, 1e-6                                                                       \
+    }
+#define EVEN                                                                                       \
+    {                                                                                              \
+        64, 64, 1e-6, 1e-6                                                                         \
+    }
+#define CENTRED                                                                                    \
+    {                                                                                              \
+        65, 65, 1e-6, 1e-6                                                                         \
+    } /* a node at the apex: the approach counts from it */
+#define MAP                                                                                        \
+    {                                                                                              \
+        41, 29, 1e-6, 1.2e-6                                                                       \
+    }
 
 static const struct hard_case lonely[] = {
     {"one node", ODD, BOTH, odd_one, 1, 1e-6, 1e-9, 0, 0, one_node, 0},
@@ -256,6 +271,7 @@ lonely_nodes(void **state)
     HARD_RUN(lonely);
 }
 
+/* clang-format off */
 static const struct hard_case bodies[] = {
     {"sphere", CENTRED, FREE, sphere, 1e-3, 1, 3e-3, 0, 0, hertz_answer, 0},
     {"sphere, periodic", EVEN, PERIODIC, sphere, 1e-3, 1, 3e-3, 0, 0, NULL, 0},
@@ -275,6 +291,7 @@ static const struct hard_case bodies[] = {
     {"blocks", EVEN, BOTH, blocks, 7, 1e-6, 1e-2, 0, 0, NULL, 0},
     {"blocks of one node", MAP, BOTH, blocks, 1, 1e-6, 1e-2, 0, 0, NULL, 0},
 };
+/* clang-format on */
 
 static void
 bodies_of_revolution_and_others(void **state)

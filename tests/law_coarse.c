@@ -1,5 +1,5 @@
-/* A map on fewer nodes keeps its mean and what is linear in it; a pressure that goes back keeps its load; the two ways are
- * each other's transpose: for sizes that divide and sizes that don't. */
+/* A map on fewer nodes keeps its mean and what is linear in it; a pressure that goes back keeps
+ * its load; the two ways are each other's transpose: for sizes that divide and sizes that don't. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -10,6 +10,7 @@
 
 #include "tools/cost/coarse.h"
 
+/* clang-format off */
 static const struct {
     struct rc_shape map;
     unsigned factor;
@@ -18,6 +19,7 @@ static const struct {
     {{96, 64, 1.1e-6, 1.29e-6}, 4, 24, 16}, {{97, 61, 1e-6, 3e-6}, 4, 24, 15}, {{66, 62, 2, 1}, 8, 8, 8},
     {{33, 47, 1.1, 1}, 2, 17, 24},          {{512, 1, 1, 1}, 8, 64, 1},        {{3, 3, 1, 1}, 8, 1, 1},
 };
+/* clang-format on */
 
 enum {
     CASES = sizeof cases / sizeof *cases
@@ -74,7 +76,8 @@ test_integrals(void **state)
     for (size_t k = 0; k < CASES; k++) {
         const struct rc_shape *f = &cases[k].map;
         struct rc_shape c = coarse_shape(f, cases[k].factor);
-        double *h = new_map(f, 1), *p = new_map(&c, 2), *mean = new_map(&c, 3), *spread = new_map(f, 4);
+        double *h = new_map(f, 1), *p = new_map(&c, 2), *mean = new_map(&c, 3),
+               *spread = new_map(f, 4);
         double area = (double)f->nx * f->dx * (double)f->ny * f->dy;
 
         coarse_means(f, h, &c, mean);
@@ -89,7 +92,8 @@ test_integrals(void **state)
     }
 }
 
-/* Where the sizes divide, the mean of a plane over a block is the plane at its middle; a constant stays one anywhere. */
+/* Where the sizes divide, the mean of a plane over a block is the plane at its middle; a
+ * constant stays one anywhere. */
 static void
 test_planes(void **state)
 {
@@ -105,8 +109,10 @@ test_planes(void **state)
                    0.3 * slope * ((double)(i / f->nx) + 0.5) / (double)f->ny;
         coarse_means(f, h, &c, mean);
         for (size_t i = 0; i < c.nx * c.ny; i++)
-            assert_near(mean[i], 2.5 + slope * ((double)(i % c.nx) + 0.5) / (double)c.nx -
-                                             0.3 * slope * ((double)(i / c.nx) + 0.5) / (double)c.ny, 1e-13);
+            assert_near(mean[i],
+                        2.5 + slope * ((double)(i % c.nx) + 0.5) / (double)c.nx -
+                            0.3 * slope * ((double)(i / c.nx) + 0.5) / (double)c.ny,
+                        1e-13);
         free(h);
         free(mean);
     }
@@ -115,7 +121,8 @@ test_planes(void **state)
 int
 main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_area), cmocka_unit_test(test_integrals),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_area),
+                                       cmocka_unit_test(test_integrals),
                                        cmocka_unit_test(test_planes)};
 
     return cmocka_run_group_tests(tests, NULL, NULL);

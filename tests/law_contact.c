@@ -17,8 +17,12 @@ paper_surface(struct rc_shape shape, double radius)
 {
     size_t n = shape.nx * shape.ny;
     double *h = malloc(n * sizeof *h), *rough = malloc(n * sizeof *rough);
-    struct rc_selfaffine what = {.hurst = 0.8, .rms_height = 0.3e-6, .rms_slope = NAN,
-                                 .long_cut = NAN, .rolloff = 100e-6, .short_cut = 8e-6,
+    struct rc_selfaffine what = {.hurst = 0.8,
+                                 .rms_height = 0.3e-6,
+                                 .rms_slope = NAN,
+                                 .long_cut = NAN,
+                                 .rolloff = 100e-6,
+                                 .short_cut = 8e-6,
                                  .seed = 483};
     struct rc_err err;
 
@@ -75,16 +79,15 @@ the_papers_rough_sphere(void **state)
 {
     struct rc_shape shape = {483, 412, 1.1e-6, 1.29e-6};
     double *h = paper_surface(shape, 7.5e-3), load = 240, hardness = 6e9;
-    struct rc_problem problem = {.estar = estar, .load = load, .hardness = hardness, .tol = NAN,
-                                 .threads = 2};
+    struct rc_problem problem = {
+        .estar = estar, .load = load, .hardness = hardness, .tol = NAN, .threads = 2};
     struct solved s = solve(shape, h, problem);
 
     (void)state;
     assert_int_equal(s.status, RC_OK);
     print_message("%zu iterations, %.1f %% contact, %.2f %% plastic, load off by %.1e, KKT %.1e\n",
                   s.c.iterations, 100 * s.c.contact_fraction,
-                  100 * s.c.plastic_area / s.c.contact_area, s.c.load / load - 1,
-                  s.c.kkt_residual);
+                  100 * s.c.plastic_area / s.c.contact_area, s.c.load / load - 1, s.c.kkt_residual);
     assert_true(s.c.max_pressure == hardness && s.c.plastic_nodes > 0);
     assert_true(s.c.pressure_error <= pow(483 * 412, -0.75));
     check_laws(shape, h, &s, load, hardness);
@@ -102,8 +105,8 @@ the_estimate_does_not_flatter(void **state)
 
     (void)state;
     for (size_t k = 0; k < 3; k++) {
-        struct rc_problem problem = {.estar = estar, .load = load, .hardness = hardnesses[k],
-                                     .tol = 1e-10, .threads = 2};
+        struct rc_problem problem = {
+            .estar = estar, .load = load, .hardness = hardnesses[k], .tol = 1e-10, .threads = 2};
         struct solved exact = solve(shape, h, problem);
 
         assert_int_equal(exact.status, RC_OK);
@@ -121,8 +124,9 @@ the_estimate_does_not_flatter(void **state)
             assert_true(error <= tol);
             assert_true(s.c.pressure_error >= error * (1 - 1e-3));
             /* while the sets are still far off it may be larger */
-            assert_true(s.c.pressure_error <=
-                        error * (s.c.pressure_error > 1e-3 ? 4 : isinf(hardnesses[k]) ? 1.5 : 2.5));
+            assert_true(s.c.pressure_error <= error * (s.c.pressure_error > 1e-3 ? 4
+                                                       : isinf(hardnesses[k])    ? 1.5
+                                                                                 : 2.5));
             solved_free(&s);
         }
         solved_free(&exact);
@@ -164,8 +168,8 @@ engines_agree(void **state)
 {
     struct rc_shape shape = {121, 103, 1.1e-6, 1.29e-6};
     double *h = paper_surface(shape, 7.5e-3 / 4);
-    struct rc_problem problem = {.estar = estar, .load = 240.0 / 16, .hardness = 6e9, .tol = 1e-5,
-                                 .threads = 2};
+    struct rc_problem problem = {
+        .estar = estar, .load = 240.0 / 16, .hardness = 6e9, .tol = 1e-5, .threads = 2};
     struct solved fft, mlms;
 
     (void)state;
@@ -174,8 +178,7 @@ engines_agree(void **state)
     problem.engine = "mlms";
     mlms = solve(shape, h, problem);
     assert_int_equal(mlms.status, RC_OK);
-    print_message("MLMS differs from FFT by %.1e\n",
-                  distance(shape.nx * shape.ny, mlms.p, fft.p));
+    print_message("MLMS differs from FFT by %.1e\n", distance(shape.nx * shape.ny, mlms.p, fft.p));
     assert_true(distance(shape.nx * shape.ny, mlms.p, fft.p) < 2e-5); /* both to 1e-5 */
     solved_free(&fft);
     solved_free(&mlms);
@@ -191,8 +194,8 @@ monotone(void **state)
 
     (void)state;
     for (double load = 0.01; load < 20; load *= 3) {
-        struct rc_problem problem = {.estar = estar, .load = load, .hardness = INFINITY,
-                                     .tol = 1e-6};
+        struct rc_problem problem = {
+            .estar = estar, .load = load, .hardness = INFINITY, .tol = 1e-6};
         struct solved s = solve(shape, h, problem);
         assert_true(s.c.contact_area >= area && s.c.approach > approach);
         area = s.c.contact_area;
@@ -201,8 +204,8 @@ monotone(void **state)
     }
     area = approach = 0;
     for (double hardness = 50e9; hardness > 1.3e9; hardness /= 2) {
-        struct rc_problem problem = {.estar = estar, .load = 240.0 / 64, .hardness = hardness,
-                                     .tol = 1e-6};
+        struct rc_problem problem = {
+            .estar = estar, .load = 240.0 / 64, .hardness = hardness, .tol = 1e-6};
         struct solved s = solve(shape, h, problem);
         assert_int_equal(s.status, RC_OK);
         assert_true(s.c.contact_area >= area && s.c.approach >= approach * (1 - 1e-5));

@@ -1,5 +1,5 @@
-/* The error estimate is never below the true error, at no iteration, and not far above it: once it is under
- * 1e-3 at most 1.5 times, with an active hardness 2.5 times. */
+/* The error estimate is never below the true error, at no iteration, and not far above it: once
+ * it is under 1e-3 at most 1.5 times, with an active hardness 2.5 times. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -18,6 +18,7 @@ struct row {
     size_t large;      /* nodes a side; 0: 128                                                  */
 };
 
+/* clang-format off */
 static const struct row rows[] = {
     {RC_PERIODIC, 0, 0.1, 0.8, 8, 4e-4, 0, 0},  {RC_PERIODIC, 0, 0.1, 0.8, 8, 4e-3, 0, 0},
     {RC_PERIODIC, 0, 0.1, 0.8, 8, 0.018, 0, 0}, {RC_PERIODIC, 0, 0.1, 0.3, 4, 0.03, 0, 0},
@@ -30,14 +31,19 @@ static const struct row rows[] = {
     {RC_FREE, 0, 0.1, 0.8, 8, 0.01, 2, 0},
     {RC_FREE, 0.00625, 0.005, 0.8, 8, 8.3e-4, 8, 512}, /* what is not in the working set counts too */
 };
+/* clang-format on */
 
 static double *
 heights(const struct row *row, struct rc_shape s)
 {
     size_t n = s.nx * s.ny;
     double *h = calloc(n, sizeof *h), side = s.dx * (double)s.nx;
-    struct rc_selfaffine what = {.hurst = row->hurst, .rms_height = NAN, .rms_slope = row->slope,
-                                 .long_cut = NAN, .rolloff = side / 4, .short_cut = row->cut * s.dx,
+    struct rc_selfaffine what = {.hurst = row->hurst,
+                                 .rms_height = NAN,
+                                 .rms_slope = row->slope,
+                                 .long_cut = NAN,
+                                 .rolloff = side / 4,
+                                 .short_cut = row->cut * s.dx,
                                  .seed = 5};
     struct rc_err err;
 
@@ -48,7 +54,8 @@ heights(const struct row *row, struct rc_shape s)
     return h;
 }
 
-/* The truth is the same method at 1e-12, whose KKT residual says that it is one; the ratio is taken down to 1e-9. */
+/* The truth is the same method at 1e-12, whose KKT residual says that it is one; the ratio is
+ * taken down to 1e-9. */
 static void
 never_below_never_far_above(void **state)
 {
@@ -61,10 +68,15 @@ never_below_never_far_above(void **state)
         size_t m = row->large > 0 ? row->large : 128, n = m * m;
         struct rc_shape s = {m, m, 1e-6, 1e-6};
         double *old = malloc(n * sizeof *old);
-        double *h = heights(row, s), mean = 1e9 * row->mean, least = INFINITY, most = 0, early = 0, bound;
-        struct rc_problem problem = {.boundary = row->boundary, .estar = 1e9, .method = "pcg",
-                                     .load = mean * s.dx * s.dy * (double)n, .tol = 1e-12,
-                                     .hardness = row->hardness > 0 ? row->hardness * mean : INFINITY};
+        double *h = heights(row, s), mean = 1e9 * row->mean, least = INFINITY, most = 0, early = 0,
+               bound;
+        struct rc_problem problem = {.boundary = row->boundary,
+                                     .estar = 1e9,
+                                     .method = "pcg",
+                                     .load = mean * s.dx * s.dy * (double)n,
+                                     .tol = 1e-12,
+                                     .hardness =
+                                         row->hardness > 0 ? row->hardness * mean : INFINITY};
         struct solved exact = solve(s, h, problem);
         bool yields = exact.c.plastic_nodes > 0;
         struct rc_solver *solver;

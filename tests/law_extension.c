@@ -1,5 +1,5 @@
-/* The preconditioner E' A E is symmetric and positive, no smaller than the exact inverse it stands for, and near
- * enough to it: eigenvalues of E' A E K on given contact sets. */
+/* The preconditioner E' A E is symmetric and positive, no smaller than the exact inverse it
+ * stands for, and near enough to it: eigenvalues of E' A E K on given contact sets. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -31,10 +31,18 @@ choose(struct rc_shape s, enum rc_boundary boundary, enum set_name name, unsigne
 
     if (name == ROUGH) {
         double *h = malloc(n * sizeof *h);
-        struct rc_selfaffine what = {.hurst = 0.8, .rms_height = NAN, .rms_slope = 0.1, .long_cut = NAN,
-                                     .rolloff = NAN, .short_cut = 6 * fmax(s.dx, s.dy), .seed = 4};
-        struct rc_problem problem = {.boundary = boundary, .estar = 1e9, .hardness = INFINITY,
-                                     .load = 1.5e7 * s.dx * s.dy * (double)n, .tol = 1e-7};
+        struct rc_selfaffine what = {.hurst = 0.8,
+                                     .rms_height = NAN,
+                                     .rms_slope = 0.1,
+                                     .long_cut = NAN,
+                                     .rolloff = NAN,
+                                     .short_cut = 6 * fmax(s.dx, s.dy),
+                                     .seed = 4};
+        struct rc_problem problem = {.boundary = boundary,
+                                     .estar = 1e9,
+                                     .hardness = INFINITY,
+                                     .load = 1.5e7 * s.dx * s.dy * (double)n,
+                                     .tol = 1e-7};
         struct solved a;
         struct rc_err err;
         assert_int_equal(rc_synth_selfaffine(&s, &what, h, &err), RC_OK);
@@ -83,8 +91,8 @@ product(size_t n, const float *a, const float *b)
     return sum;
 }
 
-static const struct rc_shape shapes[] = {{32, 32, 1e-6, 1e-6}, {48, 37, 1.1e-6, 1e-6},
-                                         {30, 41, 1e-6, 7e-6}, {200, 3, 1e-6, 1e-6}};
+static const struct rc_shape shapes[] = {
+    {32, 32, 1e-6, 1e-6}, {48, 37, 1.1e-6, 1e-6}, {30, 41, 1e-6, 7e-6}, {200, 3, 1e-6, 1e-6}};
 
 enum {
     SHAPES = sizeof shapes / sizeof *shapes
@@ -114,7 +122,8 @@ symmetric_and_positive(void **state)
             double aa, bb, ab, ba;
             random_vector(n, w, count, &seed, a);
             random_vector(n, w, count, &seed, b);
-            if (round == 4) /* after the set has changed the weights are stale: the map has to stay symmetric */
+            if (round ==
+                4) /* after the set has changed the weights are stale: the map has to stay symmetric */
                 for (size_t k = 0; k < n; k += 31)
                     if (w[k]) {
                         w[k] = 0;
@@ -141,7 +150,8 @@ symmetric_and_positive(void **state)
     assert_true(least > 0);
 }
 
-/* K between the nodes of W for E* = 1, lengths in units of sqrt(dx dy), column by column through the engine. */
+/* K between the nodes of W for E* = 1, lengths in units of sqrt(dx dy), column by column through
+ * the engine. */
 static gsl_matrix *
 restricted(struct rc_shape s, enum rc_boundary boundary, const size_t *at, size_t count)
 {
@@ -219,9 +229,9 @@ projected(const gsl_matrix *m, const gsl_matrix *q)
     return c;
 }
 
-/* On vectors of zero mean, as the solver has them: eigenvalues of B K. All at least 1 is the claim r'z >=
- * r' (K_WW)^-1 r, under which the error estimate is no underestimate in the energy norm: K = L L', and
- * L' B L has the same. Above, the largest measured is 1.84 (free, a quarter
+/* On vectors of zero mean, as the solver has them: eigenvalues of B K. All at least 1 is the
+ * claim r'z >= r' (K_WW)^-1 r, under which the error estimate is no underestimate in the energy
+ * norm: K = L L', and L' B L has the same. Above, the largest measured is 1.84 (free, a quarter
  * of the rows and every 97th node out of contact). */
 static const double above = 2;
 
@@ -243,7 +253,8 @@ spectrum(void **state)
         double least, most;
 
         (void)choose(s, boundary, (enum set_name)(q / 2), w);
-        if (q / 2 == ALMOST_ALL || q / 2 == RANDOM) /* a dense problem: three quarters of the rows are enough */
+        if (q / 2 == ALMOST_ALL ||
+            q / 2 == RANDOM) /* a dense problem: three quarters of the rows are enough */
             for (size_t i = 0; i < n; i++)
                 w[i] = w[i] && i / s.nx % 4 != 3;
         for (size_t i = 0; i < n; i++)

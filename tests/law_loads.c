@@ -1,5 +1,5 @@
-/* Loads one after another, approaches, stiffness, yield and what the grid leaves out: each against the
- * solution made for itself, Hertz, or its own definition. */
+/* Loads one after another, approaches, stiffness, yield and what the grid leaves out: each
+ * against the solution made for itself, Hertz, or its own definition. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -17,9 +17,13 @@ heights(enum rc_boundary boundary)
 {
     size_t n = shape.nx * shape.ny;
     double *h = malloc(n * sizeof *h), *ball = malloc(n * sizeof *ball);
-    struct rc_selfaffine rough = {.hurst = 0.7, .rms_slope = boundary == RC_FREE ? 0.005 : 0.1,
-                                  .rms_height = NAN, .rolloff = NAN, .short_cut = 12e-6,
-                                  .long_cut = 40e-6, .seed = 11};
+    struct rc_selfaffine rough = {.hurst = 0.7,
+                                  .rms_slope = boundary == RC_FREE ? 0.005 : 0.1,
+                                  .rms_height = NAN,
+                                  .rolloff = NAN,
+                                  .short_cut = 12e-6,
+                                  .long_cut = 40e-6,
+                                  .seed = 11};
     struct rc_err err;
 
     assert_int_equal(rc_synth_selfaffine(&shape, &rough, h, &err), RC_OK);
@@ -33,8 +37,11 @@ heights(enum rc_boundary boundary)
 static struct rc_problem
 problem_on(enum rc_boundary boundary)
 {
-    return (struct rc_problem){.boundary = boundary, .estar = estar, .hardness = INFINITY,
-                               .load = boundary == RC_FREE ? 0.05 : 0.8, .tol = 1e-7,
+    return (struct rc_problem){.boundary = boundary,
+                               .estar = estar,
+                               .hardness = INFINITY,
+                               .load = boundary == RC_FREE ? 0.05 : 0.8,
+                               .tol = 1e-7,
                                .method = contact_method};
 }
 
@@ -140,7 +147,8 @@ approach_is_inverted(void **state)
     }
 }
 
-/* A periodic surface comes no nearer than complete contact; a load beyond what the hardness carries. */
+/* A periodic surface comes no nearer than complete contact; a load beyond what the hardness
+ * carries. */
 static void
 impossible_is_refused(void **state)
 {
@@ -178,7 +186,8 @@ stiffness_is_the_slope(void **state)
         assert_int_equal(rc_solver_stiffness(s, &k, &err), RC_OK);
         assert_int_equal(rc_solver_again(s, (1 + d) * problem.load, 0, &err), RC_OK);
         b = finish(s);
-        /* the slope over the step differs from that at its beginning by about half its relative length */
+        /* the slope over the step differs from that at its beginning by about half its relative
+         * length */
         assert_true(fabs((b.load - a.load) / (b.approach - a.approach) / k - 1) < 2 * d);
         rc_solver_free(s);
         rc_synth_sphere(&shape, 2.385e-3, h);
@@ -195,7 +204,8 @@ stiffness_is_the_slope(void **state)
     }
 }
 
-/* What has yielded is elastic under the same load, with the same pressure; more load, and it yields. */
+/* What has yielded is elastic under the same load, with the same pressure; more load, and it
+ * yields. */
 static void
 yielded_shape_holds(void **state)
 {
@@ -327,9 +337,9 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(loads_are_independent),    cmocka_unit_test(approach_is_inverted),
-        cmocka_unit_test(impossible_is_refused),    cmocka_unit_test(stiffness_is_the_slope),
-        cmocka_unit_test(yielded_shape_holds),      cmocka_unit_test(discretization_is_bounded),
+        cmocka_unit_test(loads_are_independent),   cmocka_unit_test(approach_is_inverted),
+        cmocka_unit_test(impossible_is_refused),   cmocka_unit_test(stiffness_is_the_slope),
+        cmocka_unit_test(yielded_shape_holds),     cmocka_unit_test(discretization_is_bounded),
         cmocka_unit_test(only_what_is_called_for),
     };
     int failed = 0;

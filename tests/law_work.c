@@ -1,5 +1,6 @@
-/* The work of the method pcg does not grow with the grid: convolutions to 1e-4 on surfaces with ever more, and
- * ever shorter, waves. That of the paper's method goes as the number of nodes a side. */
+/* The work of the method pcg does not grow with the grid: convolutions to 1e-4 on surfaces with
+ * ever more, and ever shorter, waves. That of the paper's method goes as the number of nodes a
+ * side. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -25,9 +26,17 @@ work(const struct row *row, size_t m, const char *method)
 {
     struct rc_shape s = {m, m, 1e-6, 1e-6};
     double *h = calloc(m * m, sizeof *h), mean = 1e9 * row->mean, convolutions;
-    struct rc_selfaffine what = {.hurst = 0.8, .rms_height = NAN, .rms_slope = 0.1, .long_cut = NAN,
-                                 .rolloff = (double)m * s.dx / 8, .short_cut = 8 * s.dx, .seed = 5};
-    struct rc_problem problem = {.boundary = row->boundary, .estar = 1e9, .method = method, .tol = 1e-4,
+    struct rc_selfaffine what = {.hurst = 0.8,
+                                 .rms_height = NAN,
+                                 .rms_slope = 0.1,
+                                 .long_cut = NAN,
+                                 .rolloff = (double)m * s.dx / 8,
+                                 .short_cut = 8 * s.dx,
+                                 .seed = 5};
+    struct rc_problem problem = {.boundary = row->boundary,
+                                 .estar = 1e9,
+                                 .method = method,
+                                 .tol = 1e-4,
                                  .load = mean * s.dx * s.dy * (double)(m * m),
                                  .hardness = row->hardness > 0 ? row->hardness * mean : INFINITY};
     struct solved found;
@@ -48,8 +57,8 @@ does_not_grow(void **state)
     (void)state;
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
         double small = work(&rows[k], 128, "pcg"), large = work(&rows[k], 512, "pcg");
-        print_message("mean %.4f, hardness %.0f: %.1f convolutions at 128, %.1f at 512\n", rows[k].mean,
-                      rows[k].hardness, small, large);
+        print_message("mean %.4f, hardness %.0f: %.1f convolutions at 128, %.1f at 512\n",
+                      rows[k].mean, rows[k].hardness, small, large);
         assert_true(large <= 1.3 * small);
         assert_true(large <= rows[k].most);
     }

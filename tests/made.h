@@ -87,7 +87,8 @@ try_read(const struct rc_format *format, const struct bytes *b, const struct rc_
     return format->read(&file, wish, index, &notes, err);
 }
 
-/* Keeps a file in the folder FOLDER/FORMAT when RC_SEEDS=FOLDER is in the environment: to fuzz from. */
+/* Keeps a file in the folder FOLDER/FORMAT when RC_SEEDS=FOLDER is in the environment: to fuzz
+ * from. */
 static void
 keep_seed(const struct rc_format *format, const struct bytes *b)
 {
@@ -162,8 +163,9 @@ refuse_cuts(const struct rc_format *format, const struct bytes *b, size_t least,
     }
 }
 
-/* Bytes changed at random: whatever comes of it, it is a map or a reason. RC_FUZZ in the environment
- * multiplies how often; RC_FUZZ_OPEN leaves the cages open, so that the sanitizers see into them. */
+/* Bytes changed at random: whatever comes of it, it is a map or a reason. RC_FUZZ in the
+ * environment multiplies how often; RC_FUZZ_OPEN leaves the cages open, so that the sanitizers
+ * see into them. */
 __attribute__((unused)) static void
 survive_changes(const struct rc_format *format, const struct bytes *b, size_t times)
 {

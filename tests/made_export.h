@@ -67,9 +67,8 @@ try_export(const char *name, struct rc_grid *const *frame, size_t frames,
     return status;
 }
 
-static struct made
-export(const char *name, struct rc_grid *const *frame, size_t frames,
-       const struct rc_export_wish *wish)
+static struct made export(const char *name, struct rc_grid *const *frame, size_t frames,
+                          const struct rc_export_wish *wish)
 {
     struct made made;
     struct rc_err err;

@@ -14,9 +14,9 @@ enum {
     NO_SPACING = 1, /* the file lacks the spacing: 1.1e-6 and 1.29e-6 are wished */
     NO_UNIT = 2,    /* the file lacks the unit: nanometres are wished            */
     HAS_LOST = 4,
-    PLAIN = 8,      /* the type has no sign */
-    SQUARE = 16,    /* dy = dx = 1.1e-6     */
-    IS_TEXT = 32    /* cut at its end it may still be a file */
+    PLAIN = 8,   /* the type has no sign */
+    SQUARE = 16, /* dy = dx = 1.1e-6     */
+    IS_TEXT = 32 /* cut at its end it may still be a file */
 };
 
 /* Every made file: heights are number * scale + zero metres. */
@@ -112,7 +112,6 @@ static const struct made_file {
 enum {
     MADE_FILES = sizeof made_files / sizeof *made_files
 };
-
 
 /* What the user says beside such a file. */
 __attribute__((unused)) static struct rc_wish

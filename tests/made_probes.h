@@ -177,7 +177,7 @@ make_ibw(struct made *m, int variant)
     m->big = variant == 1;
     zeros(m, 384);
     number_at(m, 0, RC_RAW_I16, 5);
-    number_at(m, 12, RC_RAW_I32, 4);                           /* note */
+    number_at(m, 12, RC_RAW_I32, 4);                             /* note */
     number_at(m, 12 + 4 * 8, RC_RAW_I32, variant == 2 ? 96 : 0); /* labels of dimension 2 */
     number_at(m, 80, RC_RAW_I16, types[variant]);
     text_at(m, 92, "wave0");

@@ -24,9 +24,14 @@ make_sdf_binary(struct made *m, int variant)
         enum rc_raw raw;
         double lost;
     } types[] = {
-        {RC_RAW_U8, 50},     {RC_RAW_U16, 50},     {RC_RAW_U32, 50},
-        {RC_RAW_F32, NAN},   {RC_RAW_I8, -128},    {RC_RAW_I16, -32768},
-        {RC_RAW_I32, -2147483648.0}, {RC_RAW_F64, NAN},
+        {RC_RAW_U8, 50},
+        {RC_RAW_U16, 50},
+        {RC_RAW_U32, 50},
+        {RC_RAW_F32, NAN},
+        {RC_RAW_I8, -128},
+        {RC_RAW_I16, -32768},
+        {RC_RAW_I32, -2147483648.0},
+        {RC_RAW_F64, NAN},
     };
 
     text(m, "bISO-1.0maker     010203040506010203040506");

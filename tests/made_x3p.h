@@ -59,8 +59,9 @@ static struct rc_file
 pack(const char *xml, const void *bytes, size_t n)
 {
     char line[64], sum[RC_MD5_TEXT];
-    struct member member[3] = {
-        {"main.xml", xml, strlen(xml)}, {"md5checksum.hex", line, 0}, {"bindata/data.bin", bytes, n}};
+    struct member member[3] = {{"main.xml", xml, strlen(xml)},
+                               {"md5checksum.hex", line, 0},
+                               {"bindata/data.bin", bytes, n}};
 
     sum_of(xml, strlen(xml), sum);
     snprintf(line, sizeof line, "%s *main.xml\n", sum);

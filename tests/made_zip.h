@@ -37,7 +37,6 @@ archive(const struct member *member, size_t members)
     return b;
 }
 
-
 /* text with the first `from` replaced by `to`; the caller frees it. */
 static char *
 with(const char *text, const char *from, const char *to)

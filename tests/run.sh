@@ -9,6 +9,13 @@ cd "$top"
 # shellcheck disable=SC2086
 need_packages $build_packages $test_packages
 
+# The style is what clang-format 14 makes of .clang-format: other versions differ in details.
+if clang-format --version 2>/dev/null | grep -q 'version 14\.'; then
+    find libcontact formats tools tests bench -name '*.[ch]' -exec clang-format --dry-run -Werror {} +
+else
+    echo "Style: clang-format 14 is not here, so it is not checked."
+fi
+
 if [ -d ../shared/corpus ]; then
     echo "Real instrument files: those in ../shared/corpus."
 else

@@ -48,7 +48,7 @@ off(const struct rc_sum *sum, const struct rc_engine *engine, double tol, const 
     void *plan;
 
     asked.tol = tol;
-    plan = engine->new(&asked, &err);
+    plan = engine->new (&asked, &err);
     assert_non_null(plan);
     assert_true(tol == 0 || engine->error(plan) <= tol);
     engine->apply(plan, p, v);
@@ -72,7 +72,9 @@ compare(struct rc_shape shape, const struct rc_kernel *kernel, size_t component,
                  {&rc_engine_fft64, 1e-3, 1e-14},
                  {&rc_engine_mlms, 0, 2e-14},
                  {&rc_engine_mlms, 1e-3, 1e-3}};
-    struct rc_sum sum = {.shape = shape, .kernel = kernel, .component = component,
+    struct rc_sum sum = {.shape = shape,
+                         .kernel = kernel,
+                         .component = component,
                          .medium = {.estar = 2.385e9, .nu = 0.28, .depth = 0.7 * shape.dx},
                          .threads = threads};
     size_t n = shape.nx * shape.ny;
@@ -101,8 +103,8 @@ static void
 every_size_and_component(void **state)
 {
     static const struct rc_shape shapes[] = {
-        {33, 47, 1.1e-6, 1e-6}, {1, 17, 1, 1},   {17, 1, 1, 1},      {1, 1, 3, 2},  {2, 3, 1, 1},
-        {3, 211, 1, 5},         {64, 64, 1, 1},  {97, 31, 1, 0.01}, {50, 20, 1, 100},
+        {33, 47, 1.1e-6, 1e-6}, {1, 17, 1, 1},  {17, 1, 1, 1},     {1, 1, 3, 2},     {2, 3, 1, 1},
+        {3, 211, 1, 5},         {64, 64, 1, 1}, {97, 31, 1, 0.01}, {50, 20, 1, 100},
     };
 
     (void)state;

@@ -1,5 +1,5 @@
-/* Displacements have closed forms: Love's loaded rectangle on the free boundary, waves on the periodic
- * one; and they are the same bits for any number of threads. */
+/* Displacements have closed forms: Love's loaded rectangle on the free boundary, waves on the
+ * periodic one; and they are the same bits for any number of threads. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -42,13 +42,13 @@ loves_rectangle(void **state)
     y0 = node_y(shape, 20 * shape.nx) - shape.dy / 2 + b;
     for (size_t e = 0; e < 3; e++)
         for (size_t t = 0; t < 2; t++) {
-            struct rc_conv *c = conv(shape, (struct rc_conv_options){.engine = engines[e],
-                                                                     .tol = tols[t]});
+            struct rc_conv *c =
+                conv(shape, (struct rc_conv_options){.engine = engines[e], .tol = tols[t]});
             double worst = 0;
             rc_conv_apply(c, p, u);
             for (size_t k = 0; k < n; k++) {
-                double truth = 1e6 * love_displacement(node_x(shape, k) - x0,
-                                                       node_y(shape, k) - y0, a, b, estar);
+                double truth = 1e6 * love_displacement(node_x(shape, k) - x0, node_y(shape, k) - y0,
+                                                       a, b, estar);
                 worst = fmax(worst, fabs(u[k] / truth - 1));
             }
             print_message("%s, tol %g: %.1e, own bound %.1e\n", rc_conv_engine(c), tols[t], worst,
@@ -80,8 +80,8 @@ periodic_waves(void **state)
             double q = hypot(qx, qy), factor = q == 0 ? 0 : 2 / (estar * q), worst = 0;
             double *p = malloc(n * sizeof *p), *u = malloc(n * sizeof *u);
             struct rc_conv *c = conv(shape, (struct rc_conv_options){.boundary = RC_PERIODIC});
-            bool fits = 2 * (size_t)abs(waves[w][0]) < shape.nx &&
-                        2 * (size_t)abs(waves[w][1]) < shape.ny;
+            bool fits =
+                2 * (size_t)abs(waves[w][0]) < shape.nx && 2 * (size_t)abs(waves[w][1]) < shape.ny;
 
             for (size_t k = 0; k < n; k++)
                 p[k] = cos(qx * node_x(shape, k) + qy * node_y(shape, k) + 0.3);
@@ -160,10 +160,10 @@ threads_change_no_bit(void **state)
         for (int tol = 0; tol < 2; tol++)
             for (size_t t = 0; t < 4; t++) {
                 uint64_t seed = 17;
-                struct rc_conv *c = conv(shape, (struct rc_conv_options){
-                                                    .boundary = (enum rc_boundary)boundary,
-                                                    .tol = 1e-4 * tol,
-                                                    .threads = threads[t]});
+                struct rc_conv *c =
+                    conv(shape, (struct rc_conv_options){.boundary = (enum rc_boundary)boundary,
+                                                         .tol = 1e-4 * tol,
+                                                         .threads = threads[t]});
                 for (size_t k = 0; k < n; k++)
                     p[k] = random_number(&seed);
                 rc_conv_apply(c, p, t == 0 ? u : v);

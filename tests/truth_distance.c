@@ -1,5 +1,5 @@
-/* The distance to a set is the least of the distances to its nodes, exactly where it is near and to a
- * sixth where it is far, for any spacing, on both boundaries, for any number of threads. */
+/* The distance to a set is the least of the distances to its nodes, exactly where it is near and
+ * to a sixth where it is far, for any spacing, on both boundaries, for any number of threads. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -36,8 +36,10 @@ check(struct rc_shape shape, enum rc_boundary boundary, double density, int thre
         if (k % shape.nx == 0)
             rc_distance_row(&shape, boundary, scratch, steps + k, d2);
         for (size_t m = 0; m < n; m++) {
-            double x = apart(node_x(shape, k) - node_x(shape, m), (double)shape.nx * shape.dx, boundary);
-            double y = apart(node_y(shape, k) - node_y(shape, m), (double)shape.ny * shape.dy, boundary);
+            double x =
+                apart(node_x(shape, k) - node_x(shape, m), (double)shape.nx * shape.dx, boundary);
+            double y =
+                apart(node_y(shape, k) - node_y(shape, m), (double)shape.ny * shape.dy, boundary);
             if (w[m])
                 least = fmin(least, x * x + y * y);
         }

@@ -22,8 +22,8 @@ static struct solved
 sphere(size_t m)
 {
     struct rc_shape shape = grid(m);
-    struct rc_problem problem = {.estar = estar, .load = load, .hardness = INFINITY, .tol = 1e-7,
-                                 .threads = 2};
+    struct rc_problem problem = {
+        .estar = estar, .load = load, .hardness = INFINITY, .tol = 1e-7, .threads = 2};
     double *h = malloc(m * m * sizeof *h);
     struct solved s;
 
@@ -54,8 +54,8 @@ errors_at(size_t m)
         double r = node_r(shape, k), p = hertz_pressure(exact, r);
         above += fabs(s.p[k] - p);
         below += p;
-        e.displacement = fmax(e.displacement, fabs(s.u[k] / hertz_displacement(exact, estar, r) -
-                                                   1));
+        e.displacement =
+            fmax(e.displacement, fabs(s.u[k] / hertz_displacement(exact, estar, r) - 1));
     }
     e.pressure = above / below;
     solved_free(&s);
@@ -150,8 +150,11 @@ units_and_datum(void **state)
     for (int k = 0; k < 3; k++) {
         double L = unit[k];
         struct rc_shape shape = {M, M, side * L / M, side * L / M};
-        struct rc_problem problem = {.estar = estar / (L * L), .load = load, .hardness = INFINITY,
-                                     .tol = 1e-9, .threads = 1};
+        struct rc_problem problem = {.estar = estar / (L * L),
+                                     .load = load,
+                                     .hardness = INFINITY,
+                                     .tol = 1e-9,
+                                     .threads = 1};
         double h[M * M];
         struct solved s;
 

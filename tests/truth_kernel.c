@@ -85,8 +85,8 @@ quadrature(struct where w)
 }
 
 static double
-coefficient(const struct rc_kernel *k, int component, double nu, double depth, double dx,
-            double dy, size_t i, size_t j)
+coefficient(const struct rc_kernel *k, int component, double nu, double depth, double dx, double dy,
+            size_t i, size_t j)
 {
     struct rc_medium medium = {.estar = 1, .nu = nu, .depth = depth};
     struct rc_lattice at = {dx, dy, 1, 1};
@@ -101,7 +101,7 @@ coefficient(const struct rc_kernel *k, int component, double nu, double depth, d
 static void
 displacement_is_the_integral(void **state)
 {
-    static const size_t at[][2] = {{1, 0},  {0, 2},  {3, 2},   {4, 3},   {5, 1},   {12, 7},
+    static const size_t at[][2] = {{1, 0},  {0, 2},   {3, 2},   {4, 3},  {5, 1},   {12, 7},
                                    {39, 0}, {29, 29}, {40, 11}, {0, 41}, {300, 2}, {2000, 1500}};
     static const double sides[][2] = {{1, 1}, {1.1, 1}, {1, 3}, {7, 1}};
 
@@ -109,11 +109,14 @@ displacement_is_the_integral(void **state)
     for (size_t s = 0; s < 4; s++)
         for (size_t k = 0; k < sizeof at / sizeof *at; k++) {
             double dx = sides[s][0], dy = sides[s][1];
-            struct where w = {.field = DISPLACEMENT, .x = (double)at[k][0] * dx,
-                              .y = (double)at[k][1] * dy, .a = dx / 2, .b = dy / 2};
+            struct where w = {.field = DISPLACEMENT,
+                              .x = (double)at[k][0] * dx,
+                              .y = (double)at[k][1] * dy,
+                              .a = dx / 2,
+                              .b = dy / 2};
             double truth = quadrature(w);
-            double value = coefficient(&rc_kernel_boussinesq, 0, 0.3, 0, dx, dy, at[k][0],
-                                       at[k][1]);
+            double value =
+                coefficient(&rc_kernel_boussinesq, 0, 0.3, 0, dx, dy, at[k][0], at[k][1]);
             if (fabs(value - truth) > 2e-13 * truth)
                 print_error("sides %g %g at %zu %zu: %.17g, quadrature %.17g\n", dx, dy, at[k][0],
                             at[k][1], value, truth);
@@ -150,12 +153,16 @@ stresses_are_the_integrals(void **state)
             for (size_t n = 0; n < 3; n++)
                 for (size_t k = 0; k < 4; k++) {
                     double dx = 1.1, dy = 0.9;
-                    struct where w = {.field = c, .x = (double)at[k][0] * dx,
-                                      .y = (double)at[k][1] * dy, .z = depths[d],
-                                      .nu = ratios[n], .a = dx / 2, .b = dy / 2};
+                    struct where w = {.field = c,
+                                      .x = (double)at[k][0] * dx,
+                                      .y = (double)at[k][1] * dy,
+                                      .z = depths[d],
+                                      .nu = ratios[n],
+                                      .a = dx / 2,
+                                      .b = dy / 2};
                     double truth = quadrature(w);
-                    double value = coefficient(&rc_kernel_stress, c, w.nu, w.z, dx, dy, at[k][0],
-                                               at[k][1]);
+                    double value =
+                        coefficient(&rc_kernel_stress, c, w.nu, w.z, dx, dy, at[k][0], at[k][1]);
                     if (fabs(value - truth) > 1e-14)
                         print_error("%s nu %g z %g at %zu %zu: %.17g, quadrature %.17g\n",
                                     rc_component_names[c], w.nu, w.z, at[k][0], at[k][1], value,
@@ -168,8 +175,10 @@ stresses_are_the_integrals(void **state)
 static void
 stresses_under_a_square(void **state)
 {
-    static const double table[][3] = {{0.1, -0.9992593, -0.6838138}, {0.5, -0.9298650, -0.3025023},
-                                      {1, -0.7008859, -0.0828904},   {2, -0.3361076, 0.0014088},
+    static const double table[][3] = {{0.1, -0.9992593, -0.6838138},
+                                      {0.5, -0.9298650, -0.3025023},
+                                      {1, -0.7008859, -0.0828904},
+                                      {2, -0.3361076, 0.0014088},
                                       {5, -0.0716135, 0.0039679}};
 
     (void)state;

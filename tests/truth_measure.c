@@ -181,14 +181,10 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sum_of_what_cancels),
-        cmocka_unit_test(test_sum_does_not_wear_out),
-        cmocka_unit_test(test_sum_keeps_infinity),
-        cmocka_unit_test(test_plane),
-        cmocka_unit_test(test_far_datum),
-        cmocka_unit_test(test_holes),
-        cmocka_unit_test(test_profiles_and_points),
-        cmocka_unit_test(test_nothing_there),
+        cmocka_unit_test(test_sum_of_what_cancels), cmocka_unit_test(test_sum_does_not_wear_out),
+        cmocka_unit_test(test_sum_keeps_infinity),  cmocka_unit_test(test_plane),
+        cmocka_unit_test(test_far_datum),           cmocka_unit_test(test_holes),
+        cmocka_unit_test(test_profiles_and_points), cmocka_unit_test(test_nothing_there),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -31,7 +31,7 @@ trial_new(struct rc_sum sum, const struct rc_engine *judge)
     assert_non_null(t.mlms);
     t.error = rc_engine_mlms.error(t.mlms);
     t.sum.tol = 0;
-    t.truth = judge->new(&t.sum, &err);
+    t.truth = judge->new (&t.sum, &err);
     assert_non_null(t.truth);
     t.p = calloc(t.n, sizeof *t.p);
     t.u = calloc(t.n, sizeof *t.u);

@@ -97,7 +97,9 @@ coefficients_are_integrals(void **state)
                                       .x = r * sin(polar[p]) * cos(azimuth[q]),
                                       .y = r * sin(polar[p]) * sin(azimuth[q]),
                                       .z = r * cos(polar[p]),
-                                      .nu = ratios[(d + q) % 3], .a = dx / 2, .b = dy / 2};
+                                      .nu = ratios[(d + q) % 3],
+                                      .a = dx / 2,
+                                      .b = dy / 2};
                     double truth, value, off, scale;
                     /* at the very surface the integrals inside a cell are too singular for this */
                     if (w.z < 0.02 && r < 3)
@@ -109,7 +111,8 @@ coefficients_are_integrals(void **state)
                     worst = fmax(worst, off);
                     if (off > 3e-13)
                         print_error("kernel %d, sides %g %g, at %g %g %g: %.17g, quadrature "
-                                    "%.17g\n", k, dx, dy, w.x, w.y, w.z, value, truth);
+                                    "%.17g\n",
+                                    k, dx, dy, w.x, w.y, w.z, value, truth);
                     assert_true(off <= 3e-13);
                 }
     print_message("worst error %.1e of what a load does at that distance\n", worst);
@@ -127,8 +130,13 @@ coefficients_near_the_surface(void **state)
     for (size_t d = 0; d < 3; d++)
         for (size_t p = 0; p < 5; p++)
             for (int k = 0; k < RC_STRESS_KERNELS; k++) {
-                struct where w = {.kernel = k, .x = at[p][0], .y = at[p][1], .z = depths[d],
-                                  .nu = 0.3, .a = 0.5, .b = 0.5};
+                struct where w = {.kernel = k,
+                                  .x = at[p][0],
+                                  .y = at[p][1],
+                                  .z = depths[d],
+                                  .nu = 0.3,
+                                  .a = 0.5,
+                                  .b = 0.5};
                 double truth = quadrature(w);
                 double value = coefficient(k, 0.3, w.x, w.y, w.z, 1, 1);
                 double by = fabs(value - truth);
@@ -227,10 +235,14 @@ rectangle_is_the_integral(void **state)
     (void)state;
     for (int k = 0; k < 2 * RC_COMPONENTS; k++)
         for (int i = 0; i < 6; i++) {
-            struct where w = {.kernel = k, .x = 0.7 - 0.4 * i, .y = 0.9 - 0.35 * i,
-                              .z = 0.2 + 0.3 * i, .nu = 0.1 * i - 0.05, .a = 1.2, .b = 0.7};
-            double exact =
-                rectangle_stress(k >= 6, k % 6, w.nu, w.x, w.y, w.z, w.a, w.b);
+            struct where w = {.kernel = k,
+                              .x = 0.7 - 0.4 * i,
+                              .y = 0.9 - 0.35 * i,
+                              .z = 0.2 + 0.3 * i,
+                              .nu = 0.1 * i - 0.05,
+                              .a = 1.2,
+                              .b = 0.7};
+            double exact = rectangle_stress(k >= 6, k % 6, w.nu, w.x, w.y, w.z, w.a, w.b);
             assert_true(fabs(exact - quadrature(w)) < 1e-13);
         }
 }
@@ -324,8 +336,10 @@ sliding_sphere_is_the_integral(void **state)
 {
     static const double at[][3] = {{0.3, 0.2, 0.5}, {0.9, -0.4, 0.4}, {-1.2, 0.3, 0.6},
                                    {0, 0, 0.48},    {2, 1.5, 0.2},    {-0.4, 0.1, 3}};
-    static const double largest[][3] = {{0, 0.4809, 0.62004}, {0.112, 0.475, 0.62444},
-                                        {0.319, 0.428, 0.65976}, {0.462, 0.331, 0.73206}};
+    static const double largest[][3] = {{0, 0.4809, 0.62004},
+                                        {0.112, 0.475, 0.62444},
+                                        {0.319, 0.428, 0.65976},
+                                        {0.462, 0.331, 0.73206}};
     static const double mu[] = {0, 0.1, 0.3, 0.5};
     struct hertz h = {.a = a_h, .p0 = 1};
 
@@ -362,8 +376,11 @@ paper_figure_1(void **state)
     for (size_t m = 64; m <= 256; m *= 2) {
         double d = 2.1 * h.a / (double)m, above = 0, below = 0, error;
         struct rc_shape shape = {m, m, d, d};
-        struct rc_problem problem = {.estar = estar, .load = load, .hardness = INFINITY,
-                                     .tol = 0.1 * pow((double)m, -1.5), .threads = 2};
+        struct rc_problem problem = {.estar = estar,
+                                     .load = load,
+                                     .hardness = INFINITY,
+                                     .tol = 0.1 * pow((double)m, -1.5),
+                                     .threads = 2};
         struct rc_stress_options options = {
             .nu = nu, .mu = mu, .wanted = 1u << RC_MISES, .threads = 2};
         double *height = malloc(m * m * sizeof *height), *s[RC_STRESSES] = {NULL};
@@ -417,9 +434,13 @@ chosen_depths(void **state)
     const double radius = 1.9e-3, estar = 114e9, load = 9;
     struct hertz h = hertz(load, radius, estar);
     struct rc_shape shape = {M, M, 2.6 * h.a / M, 2.6 * h.a / M};
-    struct rc_selfaffine roughness = {.hurst = 0.8, .rms_height = 60e-9, .rms_slope = NAN,
-                                      .long_cut = NAN, .rolloff = h.a / 2,
-                                      .short_cut = 5 * shape.dx, .seed = 5};
+    struct rc_selfaffine roughness = {.hurst = 0.8,
+                                      .rms_height = 60e-9,
+                                      .rms_slope = NAN,
+                                      .long_cut = NAN,
+                                      .rolloff = h.a / 2,
+                                      .short_cut = 5 * shape.dx,
+                                      .seed = 5};
     double *rough = malloc(M * M * sizeof *rough), *s[RC_STRESSES] = {NULL};
     size_t near_surface[2];
     struct rc_err err;
@@ -429,8 +450,8 @@ chosen_depths(void **state)
     assert_int_equal(rc_synth_selfaffine(&shape, &roughness, rough, &err), RC_OK);
     for (int k = 0; k < 2; k++) {
         struct rc_stress_options options = {.nu = 0.3, .wanted = 1u << RC_MISES, .threads = 2};
-        struct rc_problem problem = {.estar = estar, .load = load, .hardness = INFINITY,
-                                     .tol = 1e-5, .threads = 2};
+        struct rc_problem problem = {
+            .estar = estar, .load = load, .hardness = INFINITY, .tol = 1e-5, .threads = 2};
         double *height = malloc(M * M * sizeof *height), *depths;
         double found = 0, exact = 0.620041 * h.p0;
         struct rc_stress *stress;
@@ -470,8 +491,13 @@ chosen_depths(void **state)
 static void
 principal_stresses(void **state)
 {
-    static const double e[][3] = {{3, 1, -2}, {5, 5, 1}, {1, -4, -4}, {2, 2, 2}, {0, 0, 0},
-                                  {1e9, 1e9 - 1, -3e9}, {1, 1 - 1e-9, 1 - 2e-9}};
+    static const double e[][3] = {{3, 1, -2},
+                                  {5, 5, 1},
+                                  {1, -4, -4},
+                                  {2, 2, 2},
+                                  {0, 0, 0},
+                                  {1e9, 1e9 - 1, -3e9},
+                                  {1, 1 - 1e-9, 1 - 2e-9}};
     uint64_t seed = 4;
 
     (void)state;
@@ -507,7 +533,8 @@ principal_stresses(void **state)
                 assert_true(fabs(out[RC_S1 + i] - e[k][i]) <= 1e-14 * size);
             assert_true(fabs(out[RC_TRESCA] - (e[k][0] - e[k][2])) <= 1e-14 * size);
             mises = sqrt((pow(e[k][0] - e[k][1], 2) + pow(e[k][1] - e[k][2], 2) +
-                          pow(e[k][2] - e[k][0], 2)) / 2);
+                          pow(e[k][2] - e[k][0], 2)) /
+                         2);
             assert_true(fabs(out[RC_MISES] - mises) <= 1e-14 * size);
         }
 }

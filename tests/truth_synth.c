@@ -142,9 +142,13 @@ test_transform(void **state)
 
 /* ---- roughness ---- */
 
-static const struct rc_selfaffine rough = {
-    .hurst = 0.73, .rms_height = 0.42e-6, .rms_slope = NAN, .long_cut = NAN, .rolloff = NAN,
-    .short_cut = NAN, .seed = 2385};
+static const struct rc_selfaffine rough = {.hurst = 0.73,
+                                           .rms_height = 0.42e-6,
+                                           .rms_slope = NAN,
+                                           .long_cut = NAN,
+                                           .rolloff = NAN,
+                                           .short_cut = NAN,
+                                           .seed = 2385};
 
 static double *
 make(const struct rc_shape *s, const struct rc_selfaffine *what)

@@ -99,14 +99,15 @@ test_refusals(void **state)
         const char *text;
         enum unit unit;
     } bad[] = {
-        {"", UNIT_M},        {" ", UNIT_M},        {"um", UNIT_M},        {"1.1 u m", UNIT_M},
-        {"1.1umm", UNIT_M},  {"1.1xm", UNIT_M},    {"1.1u", UNIT_M},      {"1.1N", UNIT_M},
-        {"1.1Um", UNIT_M},   {"1,1um", UNIT_M},    {"1.1.2um", UNIT_M},   {"nan", UNIT_M},
-        {"inf", UNIT_M},     {"-inf", UNIT_N},     {"nanm", UNIT_M},      {"0x10", UNIT_N},
-        {"1e400", UNIT_N},   {"1e305GPa", UNIT_PA}, {"--1", UNIT_N},      {"240 N N", UNIT_N},
-        {"5m", UNIT_NONE},   {"5%", UNIT_NONE},    {"6GPa", UNIT_N},      {"6gPa", UNIT_PA},
-        {"6Gpa", UNIT_PA},   {"4X", UNIT_BYTES},   {"4m", UNIT_BYTES},    {"4mn", UNIT_S},   {"4hs", UNIT_S},    {"1e", UNIT_NONE},
-        {"\xc2m", UNIT_M},   {"1.1\xb5m", UNIT_M}, {"1um,2um", UNIT_M},   {"0:1:3", UNIT_M},
+        {"", UNIT_M},        {" ", UNIT_M},         {"um", UNIT_M},      {"1.1 u m", UNIT_M},
+        {"1.1umm", UNIT_M},  {"1.1xm", UNIT_M},     {"1.1u", UNIT_M},    {"1.1N", UNIT_M},
+        {"1.1Um", UNIT_M},   {"1,1um", UNIT_M},     {"1.1.2um", UNIT_M}, {"nan", UNIT_M},
+        {"inf", UNIT_M},     {"-inf", UNIT_N},      {"nanm", UNIT_M},    {"0x10", UNIT_N},
+        {"1e400", UNIT_N},   {"1e305GPa", UNIT_PA}, {"--1", UNIT_N},     {"240 N N", UNIT_N},
+        {"5m", UNIT_NONE},   {"5%", UNIT_NONE},     {"6GPa", UNIT_N},    {"6gPa", UNIT_PA},
+        {"6Gpa", UNIT_PA},   {"4X", UNIT_BYTES},    {"4m", UNIT_BYTES},  {"4mn", UNIT_S},
+        {"4hs", UNIT_S},     {"1e", UNIT_NONE},     {"\xc2m", UNIT_M},   {"1.1\xb5m", UNIT_M},
+        {"1um,2um", UNIT_M}, {"0:1:3", UNIT_M},
     };
 
     (void)state;
@@ -166,11 +167,11 @@ test_range_ends(void **state)
 static void
 test_bad_lists(void **state)
 {
-    static const char *const bad[] = {"",       ",",       "1,",       ",1",         "1um,2",
-                                      "2,1um",  "1um,,2um", "1um 2um", "0:1um",      "0:1um:1",
-                                      "0:1um:0", "0:1um:2.5", "0:1um:-3", "0:1um:3um", "1:2um:3",
-                                      "1um:2:3", ":1um:3",  "0::3",     "0:1um:",     "0:1um:3:4",
-                                      "0:1um:1e9", "1um,0:2um:3", "0:1um:nan"};
+    static const char *const bad[] = {
+        "",         ",",         "1,",        ",1",          "1um,2",    "2,1um",
+        "1um,,2um", "1um 2um",   "0:1um",     "0:1um:1",     "0:1um:0",  "0:1um:2.5",
+        "0:1um:-3", "0:1um:3um", "1:2um:3",   "1um:2:3",     ":1um:3",   "0::3",
+        "0:1um:",   "0:1um:3:4", "0:1um:1e9", "1um,0:2um:3", "0:1um:nan"};
 
     (void)state;
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
@@ -201,12 +202,9 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_numbers),
-        cmocka_unit_test(test_micrometres),
-        cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_lists),
-        cmocka_unit_test(test_range_ends),
-        cmocka_unit_test(test_bad_lists),
+        cmocka_unit_test(test_numbers),      cmocka_unit_test(test_micrometres),
+        cmocka_unit_test(test_refusals),     cmocka_unit_test(test_lists),
+        cmocka_unit_test(test_range_ends),   cmocka_unit_test(test_bad_lists),
         cmocka_unit_test(test_comma_locale),
     };
 

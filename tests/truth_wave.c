@@ -15,8 +15,12 @@ wave(struct rc_shape shape, double amplitude, double lx, double ly, double mean,
 {
     size_t n = shape.nx * shape.ny;
     double *h = malloc(n * sizeof *h);
-    struct rc_problem problem = {.boundary = RC_PERIODIC, .estar = estar, .hardness = INFINITY,
-                                 .tol = tol, .max_iterations = 5000, .threads = 2};
+    struct rc_problem problem = {.boundary = RC_PERIODIC,
+                                 .estar = estar,
+                                 .hardness = INFINITY,
+                                 .tol = tol,
+                                 .max_iterations = 5000,
+                                 .threads = 2};
     struct solved s;
 
     problem.load = mean * shape.dx * shape.dy * (double)n;
@@ -73,9 +77,9 @@ full_contact(void **state)
     solved_free(&s);
 }
 
-/* Surface A cos cos: full contact at sqrt 2 pi E* A / L. Johnson, Greenwood and Higginson 1985; the
- * fractions at 0.2, 0.5 and 0.8 of it are from an independent computation at 512 x 512, corrected for
- * the perimeter, +-0.001. */
+/* Surface A cos cos: full contact at sqrt 2 pi E* A / L. Johnson, Greenwood and Higginson 1985;
+ * the fractions at 0.2, 0.5 and 0.8 of it are from an independent computation at 512 x 512,
+ * corrected for the perimeter, +-0.001. */
 static void
 two_dimensional_wave(void **state)
 {
@@ -109,10 +113,18 @@ periods_and_shifts(void **state)
 {
     struct rc_shape one = {48, 36, 1e-6, 1.2e-6}, two = {96, 36, 1e-6, 1.2e-6};
     double *h = malloc(48 * 36 * sizeof *h), *hh = malloc(96 * 36 * sizeof *hh);
-    struct rc_selfaffine what = {.hurst = 0.7, .rms_height = 1e-7, .rms_slope = NAN,
-                                 .long_cut = NAN, .rolloff = NAN, .short_cut = 6e-6, .seed = 9};
-    struct rc_problem problem = {.boundary = RC_PERIODIC, .estar = estar, .hardness = 3e7,
-                                 .tol = 1e-10, .max_iterations = 5000};
+    struct rc_selfaffine what = {.hurst = 0.7,
+                                 .rms_height = 1e-7,
+                                 .rms_slope = NAN,
+                                 .long_cut = NAN,
+                                 .rolloff = NAN,
+                                 .short_cut = 6e-6,
+                                 .seed = 9};
+    struct rc_problem problem = {.boundary = RC_PERIODIC,
+                                 .estar = estar,
+                                 .hardness = 3e7,
+                                 .tol = 1e-10,
+                                 .max_iterations = 5000};
     struct solved a, b;
     struct rc_err err;
     double worst = 0;

@@ -16,10 +16,16 @@ static struct args {
     double nu, mu;
     const char *plot, *report;
     bool dry_run;
-} args = {.physics = PHYSICS_NONE, .kernels = SIZE_MAX, .methods = SIZE_MAX, .limit = 60,
-          .budget = NAN, .error = NAN, .nu = NAN};
+} args = {.physics = PHYSICS_NONE,
+          .kernels = SIZE_MAX,
+          .methods = SIZE_MAX,
+          .limit = 60,
+          .budget = NAN,
+          .error = NAN,
+          .nu = NAN};
 
 #define ABOVE_0 .min = 0, .max = INFINITY, .above = true
+/* clang-format off */
 static const struct opt opts[] = {
 #define AT(field) .at = offsetof(struct args, physics.field)
 #include "tools/cli/physics.list"
@@ -51,14 +57,16 @@ static const struct opt opts[] = {
      .help = "say what would be run, and about how long it would take; do no more"},
     {.name = NULL},
 };
+/* clang-format on */
 
 static const struct tool_info info = {
     .name = "rc-cost",
     .summary = "What accuracy costs in time, for a surface and a load",
     .operands = "[FILE...]",
-    .examples = "  rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-slope 0.1 --seed 1 -o rough.rcg\n"
-                "  rc-cost --periodic --mean-pressure 500MPa --estar 114GPa --plot cost.png rough.rcg\n"
-                "  rc-cost --periodic --mean-pressure 500MPa --estar 114GPa --error 1e-3 rough.rcg\n",
+    .examples =
+        "  rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-slope 0.1 --seed 1 -o rough.rcg\n"
+        "  rc-cost --periodic --mean-pressure 500MPa --estar 114GPa --plot cost.png rough.rcg\n"
+        "  rc-cost --periodic --mean-pressure 500MPa --estar 114GPa --error 1e-3 rough.rcg\n",
     .opts = opts,
     .reads = READS_STREAM,
     .writes = WRITES_TEXT,
@@ -85,10 +93,12 @@ check_arguments(struct run *run)
 
     physics_check(t, &args.physics);
     if (physics_steps(&args.physics)->n > 1)
-        tool_die(t, EXIT_USAGE, "one load at a time: %zu were given", physics_steps(&args.physics)->n);
+        tool_die(t, EXIT_USAGE, "one load at a time: %zu were given",
+                 physics_steps(&args.physics)->n);
     if (tool_given(t, "budget") && tool_given(t, "error"))
-        tool_die(t, EXIT_USAGE, "--budget asks for the best in a time, --error for the quickest of an accuracy: "
-                                "give one");
+        tool_die(t, EXIT_USAGE,
+                 "--budget asks for the best in a time, --error for the quickest of an accuracy: "
+                 "give one");
     if (isnan(args.nu))
         args.nu = args.physics.nu1;
     if (tool_given(t, "depths") && isnan(args.nu))
@@ -131,9 +141,10 @@ plan(struct run *run, struct cost_case *c)
         for (size_t runs = 0; runs == 0 || cost_again(runs, m->expected); runs++)
             all += m->expected;
     }
-    snprintf(text, sizeof text, "%zu ways to solve %zu x %zu nodes, about %.2g s after %.2g s for the reference; "
-                                "%zu of them are expected beyond --limit", n, c->shape.nx, c->shape.ny, all,
-             c->reference.expected, out);
+    snprintf(text, sizeof text,
+             "%zu ways to solve %zu x %zu nodes, about %.2g s after %.2g s for the reference; "
+             "%zu of them are expected beyond --limit",
+             n, c->shape.nx, c->shape.ny, all, c->reference.expected, out);
     if (!args.dry_run) {
         tell(run, text);
         return;
@@ -197,8 +208,9 @@ tell_results(struct run *run, struct cost_case *c)
     for (size_t k = 0; k < c->rungs; k++)
         if (c->rung[k].flatters) {
             char name[128];
-            tool_warn(&run->t, "%s: the estimate %.1e is below the true error %.1e", cost_name(name, &c->rung[k]),
-                      c->rung[k].contact.pressure_error, c->rung[k].error);
+            tool_warn(&run->t, "%s: the estimate %.1e is below the true error %.1e",
+                      cost_name(name, &c->rung[k]), c->rung[k].contact.pressure_error,
+                      c->rung[k].error);
         }
     if (choosing())
         cost_choose(c, run->t.out);
@@ -211,11 +223,18 @@ tell_results(struct run *run, struct cost_case *c)
 static void
 open_case(struct run *run, struct rc_grid *g, struct cost_case *c)
 {
-    *c = (struct cost_case){.tool = &run->t, .heights = g, .shape = rc_grid_shape(g),
-                            .problem = physics_problem(&args.physics, g, 0), .limit = args.limit,
-                            .budget = args.budget, .error = args.error, .choosing = choosing(),
+    *c = (struct cost_case){.tool = &run->t,
+                            .heights = g,
+                            .shape = rc_grid_shape(g),
+                            .problem = physics_problem(&args.physics, g, 0),
+                            .limit = args.limit,
+                            .budget = args.budget,
+                            .error = args.error,
+                            .choosing = choosing(),
                             .shown = args.plot != NULL || args.report != NULL,
-                            .depths = args.depths, .nu = args.nu, .mu = args.mu};
+                            .depths = args.depths,
+                            .nu = args.nu,
+                            .mu = args.mu};
     c->reference.rung = cost_reference;
     c->reference.shape = c->shape;
     c->rung = cost_ladder(args.kernels, args.methods, &c->rungs);
@@ -245,11 +264,13 @@ solve_reference(struct run *run, struct cost_case *c)
     struct rc_problem problem = c->problem;
 
     problem.engine = c->reference.rung.kernel;
-    tool_demand_memory(&run->t, c->heights, rc_solver_memory(&c->shape, &problem) + 2 * n * sizeof *p);
+    tool_demand_memory(&run->t, c->heights,
+                       rc_solver_memory(&c->shape, &problem) + 2 * n * sizeof *p);
     if (p == NULL)
         tool_die_at(&run->t, c->heights, EXIT_IMPOSSIBLE, "out of memory");
     if (!cost_solve(c, &c->reference, args.limit, p))
-        tool_die_at(&run->t, c->heights, EXIT_IMPOSSIBLE, "interrupted before anything was measured");
+        tool_die_at(&run->t, c->heights, EXIT_IMPOSSIBLE,
+                    "interrupted before anything was measured");
     if (c->reference.state != COST_DONE)
         tool_die_at(&run->t, c->heights, EXIT_IMPOSSIBLE, "no reference: %s", c->reference.why);
     c->pressure = p;

@@ -13,6 +13,7 @@ static struct args {
 } args = {.estar = NAN, .tol = NAN, .kernel = "auto"};
 
 #define AT(field) .at = offsetof(struct args, field)
+/* clang-format off */
 static const struct opt opts[] = {
     {.name = "estar", .type = OPT_NUMBER, .unit = UNIT_PA, AT(estar), .min = 0, .max = INFINITY,
      .above = true, .result = true, .arg = "MODULUS",
@@ -30,6 +31,7 @@ static const struct opt opts[] = {
      .result = true, .arg = "M", .help = "mlms: corrections over 2M+1 by 2M+1 nodes"},
     {.name = NULL},
 };
+/* clang-format on */
 
 static const struct tool_info info = {
     .name = "rc-deflect",
@@ -80,19 +82,21 @@ static void
 do_case(struct tool *t, const struct rc_grid *p)
 {
     struct rc_shape shape = rc_grid_shape(p);
-    struct rc_conv_options options = {.boundary = boundary(t, p), .engine = args.kernel,
+    struct rc_conv_options options = {.boundary = boundary(t, p),
+                                      .engine = args.kernel,
                                       .tol = isnan(args.tol) ? 0 : args.tol,
-                                      .order = args.order, .correction = args.correction,
+                                      .order = args.order,
+                                      .correction = args.correction,
                                       .memory = t->memory,
-                                      .loaded = loaded_fraction(p), .threads = t->threads};
+                                      .loaded = loaded_fraction(p),
+                                      .threads = t->threads};
     double estar = modulus(t, p);
     struct rc_conv *conv;
     struct rc_grid *u;
     struct rc_err err;
 
     tool_demand_finite(t, p, "a pressure map has none; make it again");
-    tool_demand_memory(t, p, rc_conv_memory(&shape, &options) +
-                                 2 * p->nx * p->ny * sizeof(double));
+    tool_demand_memory(t, p, rc_conv_memory(&shape, &options) + 2 * p->nx * p->ny * sizeof(double));
     conv = rc_conv_new(&shape, estar, &options, &err);
     if (conv == NULL)
         tool_die_at(t, p, EXIT_IMPOSSIBLE, "%s", err.text);

@@ -9,6 +9,7 @@ static struct args {
     struct steps steps;
 } args;
 
+/* clang-format off */
 static const struct opt opts[] = {
     {.name = "plane", .type = OPT_STEP, .at = offsetof(struct args, steps), .result = true,
      .help = "subtract the least-squares plane"},
@@ -18,6 +19,7 @@ static const struct opt opts[] = {
      .help = "fill missing points smoothly from around them"},
     {.name = NULL},
 };
+/* clang-format on */
 
 static const struct tool_info info = {
     .name = "rc-detrend",
@@ -105,9 +107,10 @@ refuse_infinite(struct tool *t, const struct rc_grid *g)
             first = k;
         }
     if (count > 0)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%zu heights are infinite, the first at column %zu, row "
-                                           "%zu: a point without a measurement is NaN", count,
-                    first % g->nx, first / g->nx);
+        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                    "%zu heights are infinite, the first at column %zu, row "
+                    "%zu: a point without a measurement is NaN",
+                    count, first % g->nx, first / g->nx);
 }
 
 int

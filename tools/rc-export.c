@@ -13,6 +13,7 @@ static struct args {
     bool formats;
 } args;
 
+/* clang-format off */
 static const struct opt opts[] = {
     {.name = "format", .type = OPT_TEXT, .at = offsetof(struct args, format), .result = true,
      .arg = "NAME",
@@ -28,6 +29,7 @@ static const struct opt opts[] = {
      .help = "stands for a missing point in text (default: the format's own)"},
     {.name = NULL},
 };
+/* clang-format on */
 
 static void settle(struct tool *t);
 
@@ -91,8 +93,10 @@ settle_missing(struct tool *t)
                  format->name);
     for (const char *s = wish.missing; s != NULL && *s != '\0'; s++)
         if (*s <= ' ' || *s > '~' || strchr(",;*", *s) != NULL)
-            tool_die(t, EXIT_USAGE, "--missing '%s': one word without blanks, commas, semicolons and "
-                                    "asterisks is expected", wish.missing);
+            tool_die(t, EXIT_USAGE,
+                     "--missing '%s': one word without blanks, commas, semicolons and "
+                     "asterisks is expected",
+                     wish.missing);
     if (wish.missing != NULL && *wish.missing == '\0')
         tool_die(t, EXIT_USAGE, "--missing: a word is expected");
 }
@@ -122,13 +126,15 @@ settle(struct tool *t)
         return;
     if (args.format != NULL && (format = rc_export_named(args.format)) == NULL)
         tool_die(t, EXIT_USAGE, "--format %s: no such format; --formats prints them", args.format);
-    if (format == NULL && t->out_name != NULL &&
-        (format = rc_export_suffixed(t->out_name)) == NULL)
-        tool_die(t, EXIT_USAGE, "-o %s: no format has this suffix: --format NAME says which one to "
-                                "write, --formats prints them", t->out_name);
+    if (format == NULL && t->out_name != NULL && (format = rc_export_suffixed(t->out_name)) == NULL)
+        tool_die(t, EXIT_USAGE,
+                 "-o %s: no format has this suffix: --format NAME says which one to "
+                 "write, --formats prints them",
+                 t->out_name);
     if (format == NULL)
-        tool_die(t, EXIT_USAGE, "which format? --format NAME says it, or the suffix of -o FILE; "
-                                "--formats prints them");
+        tool_die(t, EXIT_USAGE,
+                 "which format? --format NAME says it, or the suffix of -o FILE; "
+                 "--formats prints them");
     settle_type(t);
     settle_missing(t);
     settle_time(t);
@@ -168,12 +174,14 @@ check_frame(struct tool *t, const struct rc_grid *g, size_t frames)
     if (frames > 0 && !format->several)
         tool_die_at(t, g, EXIT_IMPOSSIBLE,
                     "a second frame%s%s, and %s holds one map: choose by --channel, or send one "
-                    "case and depth", args.channel == NULL ? "" : " of channel ",
+                    "case and depth",
+                    args.channel == NULL ? "" : " of channel ",
                     args.channel == NULL ? "" : args.channel, format->name);
     if (format->heights && strcmp(g->unit, "m") != 0)
         tool_die_at(t, g, EXIT_IMPOSSIBLE,
                     "%s holds heights in metres, these values are in '%s': choose a format that "
-                    "names the unit (gsf, gwy, vti, hdf5)", format->name, g->unit);
+                    "names the unit (gsf, gwy, vti, hdf5)",
+                    format->name, g->unit);
 }
 
 /* All frames that are wanted, which main frees. */

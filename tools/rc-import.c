@@ -23,6 +23,7 @@ static struct args {
     bool list, formats;
 } args = {.dx = NAN, .dy = NAN};
 
+/* clang-format off */
 static const struct opt opts[] = {
     {.name = "format", .type = OPT_TEXT, .at = offsetof(struct args, format), .result = true,
      .arg = "NAME", .help = "read as this format (default: found out)"},
@@ -49,6 +50,7 @@ static const struct opt opts[] = {
      .arg = "WORD", .help = "marks missing values in text, beside NaN, BAD, --- and the like"},
     {.name = NULL},
 };
+/* clang-format on */
 
 static const struct tool_info info = {
     .name = "rc-import",
@@ -74,8 +76,10 @@ wish_unit(struct tool *t, struct rc_wish *wish)
         return;
     if (!rc_length_unit(args.z_unit, strlen(args.z_unit), &wish->z_unit) &&
         unit_number(args.z_unit, UNIT_M, &wish->z_unit, &err) != RC_OK)
-        tool_die(t, EXIT_USAGE, "--z-unit %s: a unit of length (um, nm, ...) or a number of metres "
-                                "is expected", args.z_unit);
+        tool_die(t, EXIT_USAGE,
+                 "--z-unit %s: a unit of length (um, nm, ...) or a number of metres "
+                 "is expected",
+                 args.z_unit);
     if (!(wish->z_unit > 0))
         tool_die(t, EXIT_USAGE, "--z-unit %s: it must be above 0", args.z_unit);
     args.z_unit = rc_number_text(si, wish->z_unit); /* history is in SI */
@@ -96,16 +100,17 @@ wish_separator(struct tool *t)
         }
     if (text != NULL && (strlen(text) != 1 || text[0] < '!' || strchr("0123456789+-.", text[0]) ||
                          (text[0] | 0x20) == 'e'))
-        tool_die(t, EXIT_USAGE, "--separator '%s': space, tab, comma, semicolon or one character "
-                                "that is no part of a number is expected", text);
+        tool_die(t, EXIT_USAGE,
+                 "--separator '%s': space, tab, comma, semicolon or one character "
+                 "that is no part of a number is expected",
+                 text);
     return text;
 }
 
 static struct rc_wish
 make_wish(struct tool *t)
 {
-    struct rc_wish wish = {
-        .dx = args.dx, .dy = args.dy, .z_unit = NAN, .missing = args.missing};
+    struct rc_wish wish = {.dx = args.dx, .dy = args.dy, .z_unit = NAN, .missing = args.missing};
 
     wish_unit(t, &wish);
     wish.separator = wish_separator(t);
@@ -160,8 +165,10 @@ read_file(struct tool *t, const char *name, struct rc_file *file)
 
     for (;;) {
         if (t->memory != 0 && room > t->memory)
-            tool_die(t, EXIT_IMPOSSIBLE, "%s: reading it needs more memory than the %zu MiB of "
-                                         "--memory", t->source, t->memory >> 20);
+            tool_die(t, EXIT_IMPOSSIBLE,
+                     "%s: reading it needs more memory than the %zu MiB of "
+                     "--memory",
+                     t->source, t->memory >> 20);
         if ((more = data == NULL ? rc_alloc(room, 1) : realloc(data, room)) == NULL)
             tool_die(t, EXIT_IMPOSSIBLE, "%s: out of memory for %zu bytes", t->source, room);
         data = more;
@@ -326,9 +333,10 @@ mind_memory(struct tool *t, const struct rc_file *file, const struct rc_channel 
     double bytes = (double)file->size + 8.0 * (double)channel->nx * (double)channel->ny;
 
     if (t->memory != 0 && bytes > (double)t->memory)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s: %zu x %zu nodes and the file need about %.0f MiB, "
-                                     "--memory allows %zu", t->source, channel->nx, channel->ny,
-                 ceil(bytes / 1048576), t->memory >> 20);
+        tool_die(t, EXIT_IMPOSSIBLE,
+                 "%s: %zu x %zu nodes and the file need about %.0f MiB, "
+                 "--memory allows %zu",
+                 t->source, channel->nx, channel->ny, ceil(bytes / 1048576), t->memory >> 20);
 }
 
 static void

@@ -10,11 +10,13 @@ static struct args {
     bool json;
 } args;
 
+/* clang-format off */
 static const struct opt opts[] = {
     {.name = "json", .type = OPT_FLAG, .at = offsetof(struct args, json),
      .help = "one JSON object a line, a line a frame, in SI"},
     {.name = NULL},
 };
+/* clang-format on */
 
 static const struct tool_info info = {
     .name = "rc-info",

@@ -20,6 +20,7 @@ struct args {
     bool contour, figure, raw;
 };
 
+/* clang-format off */
 static const struct opt opts[] = {
     {.name = "channel", .type = OPT_TEXT, .at = offsetof(struct args, wish.channel),
      .result = true, .arg = "NAME",
@@ -49,6 +50,7 @@ static const struct opt opts[] = {
      .help = "of the whole figure (default: what suits the map)"},
     {.name = NULL},
 };
+/* clang-format on */
 
 static const struct tool_info info = {
     .name = "rc-render",
@@ -278,9 +280,9 @@ raw_row(const struct rc_grid *g, const struct figure *f, size_t j, unsigned char
     const double *v = g->v + j * g->nx;
 
     for (size_t i = 0; i < g->nx; i++) {
-        struct rgb c = isnan(v[i]) ? f->map->missing
+        struct rgb c = isnan(v[i])                    ? f->map->missing
                        : f->zero_is_none && v[i] == 0 ? f->map->none
-                       : colormap_value(f->map, f->lo, f->hi, v[i]);
+                                                      : colormap_value(f->map, f->lo, f->hi, v[i]);
 
         rgb[3 * i] = c.r;
         rgb[3 * i + 1] = c.g;
@@ -296,8 +298,10 @@ write_picture(struct tool *t, const struct rc_grid *g, const struct figure *f, s
     const char *history = rc_grid_get(g, "history"), *own = tool_history(t);
     size_t room = strlen(own) + (history == NULL ? 0 : strlen(history)) + 4;
     char *made = malloc(room), software[64];
-    struct picture_text text[] = {{"Title", f->title}, {"Description", made},
-                                  {"Software", software}, {"Source", rc_grid_get(g, "source")}};
+    struct picture_text text[] = {{"Title", f->title},
+                                  {"Description", made},
+                                  {"Software", software},
+                                  {"Source", rc_grid_get(g, "source")}};
     struct picture *picture = NULL;
     unsigned char *rgb = w > SIZE_MAX / 3 ? NULL : malloc(3 * w);
     struct rc_err err;
@@ -364,8 +368,10 @@ render(struct tool *t, struct args *a, const struct rc_grid *g, bool largest)
 
     survey_map(g, &s);
     if (isnan(s.min))
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "none of its %zu values is a finite number: there is "
-                    "nothing to draw", g->nx * g->ny);
+        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                    "none of its %zu values is a finite number: there is "
+                    "nothing to draw",
+                    g->nx * g->ny);
     what = describe(g, &s);
     say_subtitle(&subtitle, g, &s, largest);
     f = (struct figure){

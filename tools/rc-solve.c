@@ -7,12 +7,16 @@
 #include "tools/solve/solve.h"
 
 static struct solve_args args = {
-    .physics = PHYSICS_NONE, .tol = NAN, .kernel = "auto", .method = "auto",
+    .physics = PHYSICS_NONE,
+    .tol = NAN,
+    .kernel = "auto",
+    .method = "auto",
     .interval = 60,
     .output = 1 << SOLVE_PRESSURE | 1 << SOLVE_GAP | 1 << SOLVE_DISPLACEMENT | 1 << SOLVE_HEIGHT,
 };
 
 #define ABOVE_0 .min = 0, .max = INFINITY, .above = true
+/* clang-format off */
 static const struct opt opts[] = {
 #define AT(field) .at = offsetof(struct solve_args, physics.field)
 #include "tools/cli/physics.list"
@@ -44,14 +48,14 @@ static const struct opt opts[] = {
      .help = "say what would be done, and why, with its cost; do nothing else"},
     {.name = NULL},
 };
+/* clang-format on */
 
 static const struct tool_info info = {
     .name = "rc-solve",
     .summary = "Contact of a height map with an elastic half-space: pressure, gap, displacement",
     .operands = "[FILE...]",
-    .examples =
-        "  rc-synth sphere --nx 128 --dx 5um --radius 7.5mm |\n"
-        "      rc-solve --load 240N --estar 114GPa --report hertz.json | rc-info\n",
+    .examples = "  rc-synth sphere --nx 128 --dx 5um --radius 7.5mm |\n"
+                "      rc-solve --load 240N --estar 114GPa --report hertz.json | rc-info\n",
     .opts = opts,
     .reads = READS_STREAM,
     .writes = WRITES_STREAM,
@@ -79,11 +83,15 @@ warn_after(struct run *run, const struct rc_grid *g, const struct rc_contact *c)
 
     tool_where(&run->t, g, where, sizeof where);
     if (!args.physics.periodic && c->edge_load_fraction > 0.01)
-        tool_warn(&run->t, "%s: %.1f %% of the load is on the outer 2 %% of the map: the contact "
-                           "reaches its edge", where, 100 * c->edge_load_fraction);
+        tool_warn(&run->t,
+                  "%s: %.1f %% of the load is on the outer 2 %% of the map: the contact "
+                  "reaches its edge",
+                  where, 100 * c->edge_load_fraction);
     if (!c->converged && tool_interrupted() == 0)
-        tool_warn(&run->t, "%s: stopped at an estimated error of %.2g after %zu iterations: raise "
-                           "--tol", where, c->pressure_error, c->iterations);
+        tool_warn(&run->t,
+                  "%s: stopped at an estimated error of %.2g after %zu iterations: raise "
+                  "--tol",
+                  where, c->pressure_error, c->iterations);
 }
 
 static struct rc_problem

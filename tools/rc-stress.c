@@ -17,6 +17,7 @@ static struct args {
 } args = {.nu = NAN, .tol = NAN, .kernel = "auto", .components = (2u << RC_MISES) - 1};
 
 #define AT(field) .at = offsetof(struct args, field)
+/* clang-format off */
 static const struct opt opts[] = {
     {.name = "depths", .type = OPT_NUMBERS, .unit = UNIT_M, AT(depths), .min = 0,
      .max = INFINITY, .result = true, .words = "auto", .arg = "LIST",
@@ -43,6 +44,7 @@ static const struct opt opts[] = {
      .help = "say what would be computed and what not, memory and time, and do no more"},
     {.name = NULL},
 };
+/* clang-format on */
 
 static const struct tool_info info = {
     .name = "rc-stress",
@@ -112,14 +114,15 @@ check_arguments(struct run *run)
     struct tool *t = &run->t;
 
     if (!tool_given(t, "depths"))
-        tool_die(t, EXIT_USAGE, "give the depths with --depths, as in --depths 0,1um,5um or "
-                                "--depths 0:50um:26, or leave their choice to --depths auto");
+        tool_die(t, EXIT_USAGE,
+                 "give the depths with --depths, as in --depths 0,1um,5um or "
+                 "--depths 0:50um:26, or leave their choice to --depths auto");
     read_section(run);
     for (size_t k = 1; args.section != NULL && k < args.depths.n; k++)
         if (!(args.depths.v[k] > args.depths.v[k - 1]))
             tool_die(t, EXIT_USAGE, "--depths: those of a section must rise from one to the next");
-    if (args.section != NULL && (strcmp(args.kernel, "mlms") == 0 ||
-                                 strcmp(args.kernel, "direct") == 0))
+    if (args.section != NULL &&
+        (strcmp(args.kernel, "mlms") == 0 || strcmp(args.kernel, "direct") == 0))
         tool_die(t, EXIT_USAGE, "--section is summed by fft: leave out --kernel %s", args.kernel);
     tool_demand_writable(t, "--report", args.report);
 }
@@ -147,8 +150,10 @@ boundary(struct run *run, const struct rc_grid *p)
     bool periodic = own == NULL ? args.periodic : strcmp(own, "periodic") == 0;
 
     if (own != NULL && strcmp(own, "free") != 0 && !periodic)
-        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "its boundary is '%s': it must be free or "
-                    "periodic", own);
+        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE,
+                    "its boundary is '%s': it must be free or "
+                    "periodic",
+                    own);
     if (args.periodic && !periodic)
         tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "its boundary is %s: --periodic contradicts it",
                     own);
@@ -179,8 +184,8 @@ set_depths(struct run *run, const struct rc_grid *p)
     struct rc_err err;
 
     run->depths = args.depths;
-    if (args.depths.n == 0 && rc_stress_depths(&shape, p->v, run->options.boundary,
-                                               &run->depths.v, &run->depths.n, &err) != RC_OK)
+    if (args.depths.n == 0 && rc_stress_depths(&shape, p->v, run->options.boundary, &run->depths.v,
+                                               &run->depths.n, &err) != RC_OK)
         tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
     if (args.depths.n == 0)
         tool_note(&run->t, "%zu depths, down to %g m", run->depths.n,
@@ -269,9 +274,9 @@ demand_memory(struct run *run, const struct rc_grid *p)
 {
     struct rc_shape shape = rc_grid_shape(p), frame = frame_shape(run, p);
 
-    tool_demand_memory(&run->t, p, rc_stress_memory(&shape, &run->options) +
-                                       (channels() * frame.nx * frame.ny + p->nx * p->ny) *
-                                           sizeof(double));
+    tool_demand_memory(&run->t, p,
+                       rc_stress_memory(&shape, &run->options) +
+                           (channels() * frame.nx * frame.ny + p->nx * p->ny) * sizeof(double));
 }
 
 static void
@@ -301,8 +306,7 @@ do_depth(struct run *run, struct rc_stress *stress, size_t k)
 static void
 open_report(struct run *run)
 {
-    if (args.report != NULL && run->file == NULL &&
-        (run->file = fopen(args.report, "w")) == NULL)
+    if (args.report != NULL && run->file == NULL && (run->file = fopen(args.report, "w")) == NULL)
         tool_die(&run->t, EXIT_IMPOSSIBLE, "--report %s: %s", args.report, strerror(errno));
 }
 

@@ -29,9 +29,12 @@ static struct args {
 };
 
 #define LENGTH(word, member, what)                                                                 \
-    {.name = word, .type = OPT_NUMBER, .unit = UNIT_M, .at = offsetof(struct args, member),        \
-     .max = INFINITY, .above = true, .result = true, .arg = "LENGTH", .help = what}
+    {                                                                                              \
+        .name = word, .type = OPT_NUMBER, .unit = UNIT_M, .at = offsetof(struct args, member),     \
+        .max = INFINITY, .above = true, .result = true, .arg = "LENGTH", .help = what              \
+    }
 
+/* clang-format off */
 static const struct opt opts[] = {
     {.name = "nx", .type = OPT_COUNT, .at = offsetof(struct args, nx), .min = 1, .max = 1e9,
      .result = true, .arg = "N", .help = "nodes in a row"},
@@ -63,6 +66,7 @@ static const struct opt opts[] = {
      .result = true, .arg = "N", .help = "selfaffine: another one, another surface (default: 1)"},
     {.name = NULL},
 };
+/* clang-format on */
 
 static const struct tool_info info = {
     .name = "rc-synth",
@@ -99,8 +103,10 @@ check_wave(struct tool *t, const struct rc_shape *shape)
         tool_die(t, EXIT_USAGE, "--wavelength takes LX, or LX,LY where one of them may be 0");
     for (size_t k = 0; k < w->n; k++)
         if (n[k] > 1 && w->v[k] != 0 && w->v[k] < 2 * d[k] * (1 - 1e-9))
-            tool_die(t, EXIT_USAGE, "--wavelength %g m: shorter than two nodes %g m apart: take a "
-                                    "finer grid", w->v[k], d[k]);
+            tool_die(t, EXIT_USAGE,
+                     "--wavelength %g m: shorter than two nodes %g m apart: take a "
+                     "finer grid",
+                     w->v[k], d[k]);
 }
 
 static enum rc_status
@@ -130,8 +136,9 @@ check_selfaffine(struct tool *t, const struct rc_shape *shape)
 {
     (void)shape;
     if (isnan(args.rms_slope) == isnan(args.rms_height))
-        tool_die(t, EXIT_USAGE, "selfaffine needs one of --rms-slope and --rms-height: the other "
-                                "one follows");
+        tool_die(t, EXIT_USAGE,
+                 "selfaffine needs one of --rms-slope and --rms-height: the other "
+                 "one follows");
 }
 
 static enum rc_status
@@ -151,6 +158,7 @@ make_selfaffine(const struct rc_shape *shape, double *h, bool *periodic, struct 
     return rc_synth_selfaffine(shape, &what, h, err);
 }
 
+/* clang-format off */
 static const struct shape_row {
     const char *name;
     const char *needs[4], *takes[8]; /* options, ended by NULL                               */
@@ -167,6 +175,7 @@ static const struct shape_row {
      .check = check_selfaffine, .make = make_selfaffine},
     {.name = NULL},
 };
+/* clang-format on */
 
 /* ---- the command line ---- */
 
@@ -258,8 +267,10 @@ check_memory(struct tool *t, const struct shape_row *row, const struct rc_shape 
     double bytes = 8.0 * (double)row->maps * (double)shape->nx * (double)shape->ny;
 
     if (t->memory > 0 && bytes > (double)t->memory)
-        tool_die(t, EXIT_IMPOSSIBLE, "%zu x %zu nodes of %s need %.0f bytes, more than --memory "
-                                     "allows", shape->nx, shape->ny, row->name, bytes);
+        tool_die(t, EXIT_IMPOSSIBLE,
+                 "%zu x %zu nodes of %s need %.0f bytes, more than --memory "
+                 "allows",
+                 shape->nx, shape->ny, row->name, bytes);
 }
 
 static void

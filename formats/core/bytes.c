@@ -41,9 +41,8 @@ size_t
 rc_raw_width(enum rc_raw raw)
 {
     static const size_t width[] = {
-        [RC_RAW_U8] = 1,  [RC_RAW_U16] = 2, [RC_RAW_U32] = 4, [RC_RAW_U64] = 8,
-        [RC_RAW_I8] = 1,  [RC_RAW_I16] = 2, [RC_RAW_I32] = 4, [RC_RAW_I64] = 8,
-        [RC_RAW_F32] = 4, [RC_RAW_F64] = 8};
+        [RC_RAW_U8] = 1,  [RC_RAW_U16] = 2, [RC_RAW_U32] = 4, [RC_RAW_U64] = 8, [RC_RAW_I8] = 1,
+        [RC_RAW_I16] = 2, [RC_RAW_I32] = 4, [RC_RAW_I64] = 8, [RC_RAW_F32] = 4, [RC_RAW_F64] = 8};
 
     return width[raw];
 }

@@ -45,8 +45,7 @@ enum rc_status rc_field_take(const struct rc_field *field, size_t n, struct rc_p
                              struct rc_piece value, void *into, struct rc_err *err);
 /* All lines that part at `marks`, up to the end or a line that is `last` (which may be NULL). */
 enum rc_status rc_fields_read(const struct rc_field *field, size_t n, struct rc_lines *lines,
-                              const char *marks, const char *last, void *into,
-                              struct rc_err *err);
+                              const char *marks, const char *last, void *into, struct rc_err *err);
 
 /* Numbers parted by white space, line ends among it: n of them from *text on, NAN for the words
  * NaN, NA, BAD, -- and ---. RC_FAIL when a word is no number or there are too few of them. */

@@ -10,8 +10,8 @@ rc_maps_add(struct rc_maps *maps, const char *name, size_t n)
     struct rc_map *map = maps->n < RC_MAPS_MOST ? &maps->map[maps->n] : &maps->spare;
 
     maps->n++;
-    *map = (struct rc_map){.si = 1, .scale = 1, .dx = NAN, .dy = NAN, .lost_from = NAN,
-                           .lost_to = NAN};
+    *map = (struct rc_map){
+        .si = 1, .scale = 1, .dx = NAN, .dy = NAN, .lost_from = NAN, .lost_to = NAN};
     rc_text_clean(map->name, sizeof map->name, name, n);
     return map;
 }
@@ -45,9 +45,9 @@ rc_map_unit(struct rc_map *map, const char *text, size_t n)
     static const struct {
         const char *name;
         double factor;
-    } prefixes[] = {{"", 1},     {"k", 1e3},  {"M", 1e6},         {"G", 1e9},        {"m", 1e-3},
-                    {"u", 1e-6}, {"n", 1e-9}, {"\xc2\xb5", 1e-6}, {"\xb5", 1e-6},    {"p", 1e-12},
-                    {"f", 1e-15}};
+    } prefixes[] = {{"", 1},        {"k", 1e3},   {"M", 1e6},  {"G", 1e9},
+                    {"m", 1e-3},    {"u", 1e-6},  {"n", 1e-9}, {"\xc2\xb5", 1e-6},
+                    {"\xb5", 1e-6}, {"p", 1e-12}, {"f", 1e-15}};
 
     rc_trim(&text, &n);
     map->si = 1;

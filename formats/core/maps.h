@@ -23,20 +23,20 @@ struct rc_map {
     double si;          /* SI units in one unit of the file                                   */
     double scale, zero; /* value in the file's unit = raw*scale + zero                        */
     size_t nx, ny;
-    double dx, dy;      /* m; NAN when the file does not say                                  */
+    double dx, dy; /* m; NAN when the file does not say                                  */
     enum rc_raw raw;
-    bool big;           /* most significant byte first                                        */
-    size_t at;          /* first byte                                                         */
-    size_t padding;     /* bytes after each line of numbers                                   */
-    bool by_columns;    /* a line of numbers is a column                                      */
+    bool big;        /* most significant byte first                                        */
+    size_t at;       /* first byte                                                         */
+    size_t padding;  /* bytes after each line of numbers                                   */
+    bool by_columns; /* a line of numbers is a column                                      */
     bool bottom_first, right_first;
     double lost_from, lost_to; /* raw numbers in [from, to] are missing; NAN: none is         */
     /* Instead of raw, at and padding: puts nx*ny raw numbers into v, NAN where missing, in the
      * order that by_columns and so on say. Whoever sets it bounds nx*ny by the file's size. */
     enum rc_status (*fill)(const struct rc_file *file, const struct rc_wish *wish,
                            const struct rc_map *map, double *v, struct rc_err *err);
-    size_t more;        /* for fill                                                           */
-    char hint[96];      /* the spacing in a unit that the file does not give, for the refusal */
+    size_t more;   /* for fill                                                           */
+    char hint[96]; /* the spacing in a unit that the file does not give, for the refusal */
 };
 
 struct rc_maps {

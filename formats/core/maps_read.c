@@ -16,9 +16,10 @@ check_map(const struct rc_map *map, const struct rc_file *file, struct rc_err *e
         return rc_err_set(err, "channel '%s' has no values: %zu columns, %zu rows", map->name,
                           map->nx, map->ny);
     if (!isfinite(map->scale) || !isfinite(map->zero) || !isfinite(map->si) || map->scale == 0)
-        return rc_err_set(err, "channel '%s': heights are number * %g + %g in the file: both must "
-                               "be finite and the first not 0", map->name, map->scale * map->si,
-                          map->zero * map->si);
+        return rc_err_set(err,
+                          "channel '%s': heights are number * %g + %g in the file: both must "
+                          "be finite and the first not 0",
+                          map->name, map->scale * map->si, map->zero * map->si);
     if (map->fill != NULL)
         return RC_OK;
     if (rc_size_mul(inner, rc_raw_width(map->raw), &line, err) != RC_OK ||
@@ -27,9 +28,10 @@ check_map(const struct rc_map *map, const struct rc_file *file, struct rc_err *e
         return RC_FAIL;
     bytes -= map->padding; /* the last line may lack it */
     if (map->at > file->size || bytes > file->size - map->at)
-        return rc_err_set(err, "channel '%s': the header promises %zu x %zu values, %zu bytes from "
-                               "byte %zu on, the file has %zu bytes in all", map->name, map->nx,
-                          map->ny, bytes, map->at, file->size);
+        return rc_err_set(err,
+                          "channel '%s': the header promises %zu x %zu values, %zu bytes from "
+                          "byte %zu on, the file has %zu bytes in all",
+                          map->name, map->nx, map->ny, bytes, map->at, file->size);
     return RC_OK;
 }
 
@@ -46,8 +48,8 @@ describe(rc_maps_find *find, const struct rc_file *file, const struct rc_wish *w
         struct rc_map *map = &maps->map[k];
 
         if (map->name[0] == '\0')
-            strcpy(map->name, map->unit[0] == '\0' || strcmp(map->unit, "m") == 0 ? "height"
-                                                                                  : "values");
+            strcpy(map->name,
+                   map->unit[0] == '\0' || strcmp(map->unit, "m") == 0 ? "height" : "values");
         if (map->ny == 1)
             map->dy = map->dx; /* a profile: what its file says of y has no meaning */
         if (check_map(map, file, err) != RC_OK)
@@ -66,8 +68,8 @@ rc_maps_list(rc_maps_find *find, const struct rc_file *file, const struct rc_wis
         return 0;
     for (size_t k = 0; k < maps.n && k < most && k < RC_MAPS_MOST; k++) {
         const struct rc_map *map = &maps.map[k];
-        channel[k] = (struct rc_channel){.nx = map->nx, .ny = map->ny, .dx = map->dx,
-                                         .dy = map->dy};
+        channel[k] =
+            (struct rc_channel){.nx = map->nx, .ny = map->ny, .dx = map->dx, .dy = map->dy};
         strcpy(channel[k].name, map->name);
         strcpy(channel[k].unit, map->unit);
     }
@@ -195,8 +197,8 @@ rc_maps_read(rc_maps_find *find, const struct rc_file *file, const struct rc_wis
             rc_lacks_unit(wish, NAN, err);
         return NULL;
     }
-    if ((is_height && rc_height_unit(wish, is_length ? map->si : NAN, map->unit, &si, notes,
-                                     err) != RC_OK) ||
+    if ((is_height &&
+         rc_height_unit(wish, is_length ? map->si : NAN, map->unit, &si, notes, err) != RC_OK) ||
         (g = rc_grid_new(&shape, is_height ? "height" : map->name, is_height ? "m" : map->unit,
                          err)) == NULL)
         return NULL;

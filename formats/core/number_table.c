@@ -131,7 +131,8 @@ read_number(const struct rc_rows *r, const char *s, char decimal, struct number 
         s = gather_power(r, s, n);
     if (!n->exact || n->power < -22 || n->power > 22)
         return read_slowly(start, s, n->mark_at, value) ? s : NULL;
-    *value = n->power < 0 ? (double)n->digits / tens[-n->power] : (double)n->digits * tens[n->power];
+    *value =
+        n->power < 0 ? (double)n->digits / tens[-n->power] : (double)n->digits * tens[n->power];
     if (minus)
         *value = -*value;
     return s;
@@ -154,8 +155,8 @@ static bool
 is_missing(const struct rc_rows *r, const char *s, size_t n)
 {
     /* the last three are how some C libraries print a NaN */
-    static const char *const words[] = {"nan",  "na",   "n/a",     "bad",      "--",
-                                        "---",  "-nan", "1.#qnan", "-1.#ind"};
+    static const char *const words[] = {"nan", "na",   "n/a",     "bad",    "--",
+                                        "---", "-nan", "1.#qnan", "-1.#ind"};
 
     if (r->missing != NULL && strlen(r->missing) == n && memcmp(r->missing, s, n) == 0)
         return true;
@@ -199,17 +200,22 @@ bad_field(const struct rc_rows *r, size_t line, const char *s, char decimal, str
     char quote[RC_SHOWN], other = decimal == '.' ? ',' : '.';
 
     if (s == NULL)
-        return rc_err_set(err, "line %zu: two values with white space between them, where columns "
-                               "are separated by %s: --separator says what is meant", line,
-                          separator_name(r->separator));
+        return rc_err_set(err,
+                          "line %zu: two values with white space between them, where columns "
+                          "are separated by %s: --separator says what is meant",
+                          line, separator_name(r->separator));
     while (!ends_field(r, end))
         end++;
     rc_text_shown(quote, s, (size_t)(end - s));
     if (decimal != 0 && memchr(s, other, (size_t)(end - s)) != NULL)
-        return rc_err_set(err, "line %zu: '%s' is no number where the decimal mark is '%c': "
-                               "--decimal and --separator say what is meant", line, quote, decimal);
-    return rc_err_set(err, "line %zu: '%s' is no number: --separator says what stands between the "
-                           "columns, --missing WORD what marks a missing value", line, quote);
+        return rc_err_set(err,
+                          "line %zu: '%s' is no number where the decimal mark is '%c': "
+                          "--decimal and --separator say what is meant",
+                          line, quote, decimal);
+    return rc_err_set(err,
+                      "line %zu: '%s' is no number: --separator says what stands between the "
+                      "columns, --missing WORD what marks a missing value",
+                      line, quote);
 }
 
 /* One row from s, which is not at an empty line. Values beyond `most` are counted, not stored.
@@ -326,8 +332,10 @@ find_separator(struct rc_rows *r, const char *s, size_t line, struct rc_err *err
     else if (loose == 0)
         r->separator = ' ';
     else
-        return rc_err_set(err, "line %zu: some commas look like decimal marks, others like "
-                               "separators: --decimal and --separator say what is meant", line);
+        return rc_err_set(err,
+                          "line %zu: some commas look like decimal marks, others like "
+                          "separators: --decimal and --separator say what is meant",
+                          line);
     return RC_OK;
 }
 
@@ -339,8 +347,10 @@ mind_two_columns(const struct rc_rows *r, const struct rc_wish *wish, struct rc_
         memchr(r->start, '.', (size_t)(r->end - r->start)) != NULL ||
         memchr(r->start, ' ', (size_t)(r->end - r->start)) != NULL)
         return RC_OK;
-    return rc_err_set(err, "line %zu: the comma may be a decimal mark or a separator: --decimal or "
-                           "--separator says which", r->first_line);
+    return rc_err_set(err,
+                      "line %zu: the comma may be a decimal mark or a separator: --decimal or "
+                      "--separator says which",
+                      r->first_line);
 }
 
 enum rc_status
@@ -351,12 +361,15 @@ rc_rows_start(struct rc_rows *r, const struct rc_lines *lines, const struct rc_w
     size_t line = lines->number + 1;
     char decimal;
 
-    *r = (struct rc_rows){.start = lines->at, .end = lines->end, .first_line = line,
+    *r = (struct rc_rows){.start = lines->at,
+                          .end = lines->end,
+                          .first_line = line,
                           .separator = wish->separator == NULL ? '\0' : wish->separator[0],
-                          .decimal = wish->decimal, .missing = wish->missing};
+                          .decimal = wish->decimal,
+                          .missing = wish->missing};
     r->missing_number = NAN;
-    if (r->missing != NULL && ((end = rc_number_read(r->missing, false, &r->missing_number)) ==
-                               NULL || *end != '\0'))
+    if (r->missing != NULL &&
+        ((end = rc_number_read(r->missing, false, &r->missing_number)) == NULL || *end != '\0'))
         r->missing_number = NAN;
     s = next_row(r, r->start, &line);
     if (s == r->end)

@@ -14,10 +14,10 @@
 
 struct rc_rows {
     const char *start, *end;
-    size_t first_line;   /* number of the line at start, from 1                           */
-    char separator;      /* ' ' for white space                                           */
-    char decimal;        /* '.' or ','; 0: by the first number that has a mark            */
-    const char *missing; /* a further word, or NULL                                       */
+    size_t first_line;     /* number of the line at start, from 1                           */
+    char separator;        /* ' ' for white space                                           */
+    char decimal;          /* '.' or ','; 0: by the first number that has a mark            */
+    const char *missing;   /* a further word, or NULL                                       */
     double missing_number; /* the same as a number, or NAN                                */
     size_t columns, rows;
 };

@@ -14,9 +14,9 @@ struct rc_sums {
     bool aside;          /* there is a thread */
     pthread_t thread;
     pthread_mutex_t lock;
-    pthread_cond_t turned;        /* a count below has changed */
+    pthread_cond_t turned; /* a count below has changed */
     size_t filled, summed, n[PIECES];
-    bool last;                    /* none will follow those filled */
+    bool last; /* none will follow those filled */
 };
 
 static void *

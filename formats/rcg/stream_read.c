@@ -116,7 +116,7 @@ enum field {
 static const char *const field_names[FIELDS] = {"channel", "nx", "ny", "dx", "dy", "unit", "type"};
 
 struct head {
-    char *field[FIELDS]; /* into the header buffer */
+    char *field[FIELDS];            /* into the header buffer */
     char *extra[RC_HEADER_MAX / 3]; /* name, NUL, value; no line is shorter than 3 bytes */
     size_t extras;
 };
@@ -133,8 +133,10 @@ add_line(struct head *head, char *line, struct rc_err *err)
     if (!rc_key_valid(line))
         return rc_err_set(err, "header key '%.60s' is not of the form [a-z][a-z0-9._-]*", line);
     if (!unescape(equals + 1))
-        return rc_err_set(err, "the value of header key '%.60s' holds a backslash that is neither "
-                               "\\\\ nor \\n", line);
+        return rc_err_set(err,
+                          "the value of header key '%.60s' holds a backslash that is neither "
+                          "\\\\ nor \\n",
+                          line);
     if (!rc_utf8_valid(equals + 1))
         return rc_err_set(err, "the value of header key '%.60s' is not UTF-8", line);
     for (int f = 0; f < FIELDS; f++) {
@@ -188,8 +190,7 @@ read_size(const char *name, const char *text, size_t *n, struct rc_err *err)
 
     errno = 0;
     value = strtoumax(text, &end, 10);
-    if (*text < '0' || *text > '9' || *end != '\0' || errno != 0 || value == 0 ||
-        value > SIZE_MAX)
+    if (*text < '0' || *text > '9' || *end != '\0' || errno != 0 || value == 0 || value > SIZE_MAX)
         return rc_err_set(err, "%s=%.40s is not a whole number above 0", name, text);
     *n = (size_t)value;
     return RC_OK;
@@ -309,8 +310,10 @@ read_crc(struct rc_reader *r, struct rc_err *err)
         return rc_err_set(err, "no crc32 line follows the values: nx, ny or type in the header do "
                                "not match the data");
     if (strcmp(line, wanted) != 0)
-        return rc_err_set(err, "the checksum is %s, the data's is %s: the stream is damaged; make "
-                               "it again", line + 6, wanted + 6);
+        return rc_err_set(err,
+                          "the checksum is %s, the data's is %s: the stream is damaged; make "
+                          "it again",
+                          line + 6, wanted + 6);
     return RC_OK;
 }
 
@@ -369,8 +372,8 @@ rc_reader_next(struct rc_reader *r, struct rc_grid **grid, struct rc_err *err)
         if (n == -1) {
             if (r->ended && !ferror(r->file))
                 return RC_OK;
-            return cut_off(r, r->frames == 0 && !r->ended ? "before it begins"
-                                                          : "without an end line", err);
+            return cut_off(
+                r, r->frames == 0 && !r->ended ? "before it begins" : "without an end line", err);
         }
         if (n < 0)
             return n == -3 && (feof(r->file) || ferror(r->file))
@@ -381,8 +384,10 @@ rc_reader_next(struct rc_reader *r, struct rc_grid **grid, struct rc_err *err)
         if (strncmp(line, "RCGFAIL", 7) == 0)
             return rc_err_set(err, "the program that wrote this stream failed:%.400s", line + 7);
         if (strncmp(line, "RCGEND ", 7) != 0)
-            return rc_err_set(err, "'%.40s' stands where a frame or an end line should: this is no "
-                                   "grid stream, or a damaged one", line);
+            return rc_err_set(err,
+                              "'%.40s' stands where a frame or an end line should: this is no "
+                              "grid stream, or a damaged one",
+                              line);
         if (read_end(r, line + 7, err) != RC_OK)
             return RC_FAIL;
     }

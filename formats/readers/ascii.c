@@ -42,12 +42,16 @@ ascii_open(const struct rc_file *file, const struct rc_wish *wish, struct rc_asc
     if (rc_rows_start(rows, &lines, wish, err) != RC_OK)
         return RC_FAIL;
     if ((h->nx != 0 && h->nx != rows->columns) || (h->ny != 0 && h->ny != rows->rows))
-        return rc_err_set(err, "the header promises %zu columns and %zu rows, the file has %zu and "
-                               "%zu", h->nx == 0 ? rows->columns : h->nx,
-                          h->ny == 0 ? rows->rows : h->ny, rows->columns, rows->rows);
+        return rc_err_set(err,
+                          "the header promises %zu columns and %zu rows, the file has %zu and "
+                          "%zu",
+                          h->nx == 0 ? rows->columns : h->nx, h->ny == 0 ? rows->rows : h->ny,
+                          rows->columns, rows->rows);
     if (rows->columns == 1)
-        return rc_err_set(err, "%zu numbers in one column: that is a profile or a list, no matrix "
-                               "(--format profile takes them for heights)", rows->rows);
+        return rc_err_set(err,
+                          "%zu numbers in one column: that is a profile or a list, no matrix "
+                          "(--format profile takes them for heights)",
+                          rows->rows);
     return RC_OK;
 }
 
@@ -100,8 +104,7 @@ mind_coordinates(const struct rc_ascii_head *h, const struct rc_rows *rows, cons
     if (rows->columns == 2 && is_rising(v, rows->rows))
         return rc_err_set(err, "two columns, of which the first rises: that is a profile (x, z), "
                                "no matrix; a header with a width would say otherwise");
-    if (rows->columns == 3 &&
-        (is_raster(v, rows->rows, 0, 1) || is_raster(v, rows->rows, 1, 0)))
+    if (rows->columns == 3 && (is_raster(v, rows->rows, 0, 1) || is_raster(v, rows->rows, 1, 0)))
         return rc_err_set(err, "three columns, of which two run through a raster: that is a list "
                                "of points (x, y, z), no matrix; a header with a width would say "
                                "otherwise");
@@ -138,8 +141,7 @@ read_matrix(const struct rc_ascii_head *h, struct rc_rows *rows, const struct rc
     if ((g = rc_grid_new(&shape, "height", "m", err)) == NULL)
         return NULL;
     spacing(h, rows, &dx, &dy);
-    if (rc_rows_read(rows, g->v, err) != RC_OK ||
-        mind_coordinates(h, rows, g->v, err) != RC_OK ||
+    if (rc_rows_read(rows, g->v, err) != RC_OK || mind_coordinates(h, rows, g->v, err) != RC_OK ||
         get_scales(h, dx, dy, wish, &shape, &metres, notes, err) != RC_OK ||
         rc_text_keep(g, "file.channel", h->channel.text, h->channel.n, err) != RC_OK) {
         rc_grid_free(g);
@@ -173,8 +175,8 @@ ascii_score(const struct rc_file *file)
     struct rc_ascii_head h;
     unsigned char c;
 
-    if (file->size >= 2 && (memcmp(file->data, "\xff\xfe", 2) == 0 ||
-                            memcmp(file->data, "\xfe\xff", 2) == 0))
+    if (file->size >= 2 &&
+        (memcmp(file->data, "\xff\xfe", 2) == 0 || memcmp(file->data, "\xfe\xff", 2) == 0))
         return 2;
     if (file->size == 0 || memchr(file->data, 0, looked) != NULL)
         return 0;

@@ -76,9 +76,8 @@ length_of(struct rc_piece p)
 {
     double value, unit;
 
-    return leading_number(&p, &value) && rc_length_unit(p.text, p.n, &unit)
-               ? in_metres(value, unit)
-               : NAN;
+    return leading_number(&p, &value) && rc_length_unit(p.text, p.n, &unit) ? in_metres(value, unit)
+                                                                            : NAN;
 }
 
 static double
@@ -296,8 +295,7 @@ rc_ascii_read_head(struct rc_ascii_head *h, struct rc_lines *lines)
     const char *line;
     size_t n;
 
-    *h = (struct rc_ascii_head){
-        .width = NAN, .height = NAN, .pixel = NAN, .z = NAN, .factor = NAN};
+    *h = (struct rc_ascii_head){.width = NAN, .height = NAN, .pixel = NAN, .z = NAN, .factor = NAN};
     while (rc_lines_next(&ahead, &line, &n) && take_line(h, line, n))
         *lines = ahead;
     take_by_shape(h);

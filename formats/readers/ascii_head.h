@@ -7,7 +7,7 @@
 /* One `# key: value` line, by what its value looks like. */
 struct rc_ascii_comment {
     struct rc_piece value;
-    double length;  /* a number with a unit of length, in m; NAN: something else  */
+    double length; /* a number with a unit of length, in m; NAN: something else  */
 };
 
 struct rc_ascii_head {

@@ -73,8 +73,13 @@ static enum rc_status
 bcr_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
          struct rc_err *err)
 {
-    struct bcr b = {.width = NAN, .height = NAN, .bit2nm = 1, .order = 1, .lost = NAN,
-                    .lowest = NAN, .header = NAN};
+    struct bcr b = {.width = NAN,
+                    .height = NAN,
+                    .bit2nm = 1,
+                    .order = 1,
+                    .lost = NAN,
+                    .lowest = NAN,
+                    .header = NAN};
     struct rc_map *map = rc_maps_add(maps, "", 0);
     size_t mark, kind = kind_of(file, &mark), n = 0, wide;
     char header[HEADER];

@@ -122,7 +122,8 @@ read_dimensions(struct rc_cdf *f, struct rc_err *err)
 }
 
 static void
-take_attribute(struct rc_cdf_variable *v, struct rc_piece name, unsigned type, uint64_t n, struct rc_piece p)
+take_attribute(struct rc_cdf_variable *v, struct rc_piece name, unsigned type, uint64_t n,
+               struct rc_piece p)
 {
     const unsigned char *at = (const unsigned char *)p.text;
 

@@ -22,7 +22,7 @@ struct rc_cdf_variable {
     struct rc_piece name, unit, title;
     size_t rank, dimension[2]; /* the first two */
     unsigned type;
-    uint64_t size, at;         /* size: bytes, of one record where it has records */
+    uint64_t size, at;           /* size: bytes, of one record where it has records */
     double fill, factor, offset; /* NAN, 1, 0 when not given */
     double period;               /* not 0: it says it repeats */
 };

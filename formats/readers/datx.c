@@ -63,8 +63,9 @@ find_surface(struct rc_hdf *h, struct rc_hdf_set *set, struct rc_err *err)
             *set = all[k];
             return RC_OK;
         }
-    return rc_err_set(err, "an HDF5 file, but no DATX: neither its table MetaData nor /Data/Surface "
-                           "leads to heights");
+    return rc_err_set(err,
+                      "an HDF5 file, but no DATX: neither its table MetaData nor /Data/Surface "
+                      "leads to heights");
 }
 
 /* ---- what it says of them ---- */
@@ -91,8 +92,11 @@ unit_of(const struct surface *s)
     static const struct {
         const char *name;
         double metres;
-    } names[] = {{"Meters", 1},        {"MilliMeters", 1e-3}, {"MicroMeters", 1e-6},
-                 {"NanoMeters", 1e-9}, {"Angstroms", 1e-10}};
+    } names[] = {{"Meters", 1},
+                 {"MilliMeters", 1e-3},
+                 {"MicroMeters", 1e-6},
+                 {"NanoMeters", 1e-9},
+                 {"Angstroms", 1e-10}};
     double metres, wave, scale = 1, obliquity = 1;
 
     for (size_t k = 0; k < sizeof names / sizeof *names; k++)
@@ -133,8 +137,8 @@ list_channels(const struct rc_file *file, const struct rc_wish *wish, struct rc_
     if (surface_open(&s, file, err) == RC_OK) {
         n = 1;
         if (most > 0) {
-            *channel = (struct rc_channel){.name = "height", .nx = s.set.columns, .ny = s.set.rows,
-                                           .dx = s.dx, .dy = s.dy};
+            *channel = (struct rc_channel){
+                .name = "height", .nx = s.set.columns, .ny = s.set.rows, .dx = s.dx, .dy = s.dy};
             rc_text_clean(channel->unit, sizeof channel->unit, isnan(s.metres) ? s.unit : "m",
                           isnan(s.metres) ? strlen(s.unit) : 1);
         }

@@ -13,9 +13,9 @@ enum {
     VERSION = 4,
     BLOCKS_AT = 16,
     FIRST = 18,
-    GRID = 0x66,   /* u32 columns, rows, bits         */
-    SIZE = 0x67,   /* f64 width, height in m          */
-    RANGE = 0x6c,  /* u32, f64 m a count              */
+    GRID = 0x66,  /* u32 columns, rows, bits         */
+    SIZE = 0x67,  /* f64 width, height in m          */
+    RANGE = 0x6c, /* u32, f64 m a count              */
     HEIGHTS = 0x0b,
     COMMENT = 0x65,
     LOST = 1
@@ -67,10 +67,10 @@ read_blocks(const struct rc_file *file, struct frt *f, struct rc_maps *maps, str
     rc_maps_key(maps, "file.comment", comment.text, comment.n);
     if (f->grid.n == 0 || f->size.n == 0 || f->range.n == 0 || f->heights.n == 0)
         return rc_err_set(err, "the file has no block of %s",
-                          f->grid.n == 0      ? "sizes (0x66)"
-                          : f->size.n == 0    ? "lengths (0x67)"
-                          : f->range.n == 0   ? "the height of a count (0x6c)"
-                                              : "heights (0x0b)");
+                          f->grid.n == 0    ? "sizes (0x66)"
+                          : f->size.n == 0  ? "lengths (0x67)"
+                          : f->range.n == 0 ? "the height of a count (0x6c)"
+                                            : "heights (0x0b)");
     return RC_OK;
 }
 
@@ -99,8 +99,10 @@ frt_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     if (bits != 16 && bits != 32)
         return rc_err_set(err, "a height has %g bits: it must have 16 or 32", bits);
     if ((double)f.heights.n < bits / 8 * (double)map->nx * (double)map->ny)
-        return rc_err_set(err, "%zu x %zu heights of %g bits are promised, their block has %zu "
-                               "bytes", map->nx, map->ny, bits, f.heights.n);
+        return rc_err_set(err,
+                          "%zu x %zu heights of %g bits are promised, their block has %zu "
+                          "bytes",
+                          map->nx, map->ny, bits, f.heights.n);
     strcpy(map->unit, "m");
     map->raw = bits == 16 ? RC_RAW_U16 : RC_RAW_I32;
     map->at = f.heights.at;

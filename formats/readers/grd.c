@@ -11,9 +11,9 @@
 #define BLANK 1.70141e38 /* and above: no value */
 
 enum {
-    SECTION = 8,   /* bytes before a section: name, i32 length */
-    GRID = 72,     /* i32 rows, columns, f64 x, y, dx, dy, z limits, rotation, blank */
-    OLD_DATA = 56  /* first byte of the values of DSBB */
+    SECTION = 8,  /* bytes before a section: name, i32 length */
+    GRID = 72,    /* i32 rows, columns, f64 x, y, dx, dy, z limits, rotation, blank */
+    OLD_DATA = 56 /* first byte of the values of DSBB */
 };
 
 static void

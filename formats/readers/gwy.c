@@ -141,8 +141,7 @@ read_unit(const struct rc_file *file, const struct item *from, struct rc_piece *
 }
 
 static enum rc_status
-read_field(const struct rc_file *file, const struct item *from, struct field *f,
-           struct rc_err *err)
+read_field(const struct rc_file *file, const struct item *from, struct field *f, struct rc_err *err)
 {
     static const struct {
         const char *name;
@@ -238,8 +237,8 @@ add_field(const struct rc_file *file, const struct item *item, struct rc_maps *m
 
 /* Titles and masks may come before their fields: a second pass. */
 static enum rc_status
-add_rest(const struct rc_file *file, const struct item *item, const char *what,
-         struct rc_map *map, struct rc_err *err)
+add_rest(const struct rc_file *file, const struct item *item, const char *what, struct rc_map *map,
+         struct rc_err *err)
 {
     struct field f;
 
@@ -287,8 +286,7 @@ gwy_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
                     of[maps->n - 1] = number;
             }
             for (size_t k = 0; p > 0 && k < maps->n && k < RC_MAPS_MOST; k++)
-                if (of[k] == number &&
-                    add_rest(file, &item, parts[p], &maps->map[k], err) != RC_OK)
+                if (of[k] == number && add_rest(file, &item, parts[p], &maps->map[k], err) != RC_OK)
                     return RC_FAIL;
         }
     if (damaged)

@@ -64,11 +64,13 @@ static bool
 set_image(hid_t access, const struct rc_file *file)
 {
     void *image = (void *)(uintptr_t)file->data; /* opened to be read: nothing is written to it */
-    H5FD_file_image_callbacks_t callbacks = {
-        .image_malloc = image_malloc,   .image_memcpy = image_memcpy,
-        .image_realloc = image_realloc, .image_free = image_free,
-        .udata_copy = image_share,      .udata_free = image_leave,
-        .udata = image};
+    H5FD_file_image_callbacks_t callbacks = {.image_malloc = image_malloc,
+                                             .image_memcpy = image_memcpy,
+                                             .image_realloc = image_realloc,
+                                             .image_free = image_free,
+                                             .udata_copy = image_share,
+                                             .udata_free = image_leave,
+                                             .udata = image};
 
     return H5Pset_fapl_core(access, GROWTH, false) >= 0 &&
            H5Pset_file_image_callbacks(access, &callbacks) >= 0 &&
@@ -184,14 +186,15 @@ enum rc_status
 rc_hdf_values(struct rc_hdf *h, const struct rc_hdf_set *from, double *v, struct rc_err *err)
 {
     hid_t set = H5Dopen2(h->file, from->path, H5P_DEFAULT);
-    bool good = set >= 0 &&
-                H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, v) >= 0;
+    bool good = set >= 0 && H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, v) >= 0;
 
     if (set >= 0)
         H5Dclose(set);
     if (good)
         return RC_OK;
-    return rc_err_set(err, "the dataset '%s' cannot be unpacked: the file is damaged, needs more "
-                           "memory than it may take, or is packed by a filter that libhdf5 does "
-                           "not have here", from->path);
+    return rc_err_set(err,
+                      "the dataset '%s' cannot be unpacked: the file is damaged, needs more "
+                      "memory than it may take, or is packed by a filter that libhdf5 does "
+                      "not have here",
+                      from->path);
 }

@@ -66,8 +66,8 @@ list_channels(const struct rc_file *file, const struct rc_wish *wish, struct rc_
         goto done;
     for (size_t k = 0; k < n && k < most && k < SETS_MOST; k++) {
         struct facts f = facts_of(h, set[k].path);
-        channel[k] = (struct rc_channel){
-            .nx = set[k].columns, .ny = set[k].rows, .dx = f.dx, .dy = f.dy};
+        channel[k] =
+            (struct rc_channel){.nx = set[k].columns, .ny = set[k].rows, .dx = f.dx, .dy = f.dy};
         rc_text_clean(channel[k].name, sizeof channel->name, set[k].path, strlen(set[k].path));
         rc_text_clean(channel[k].unit, sizeof channel->unit, isnan(f.metres) ? f.unit : "m",
                       isnan(f.metres) ? strlen(f.unit) : 1);

@@ -165,9 +165,8 @@ rc_hdf_table(struct rc_hdf *h, const char *path, const char *attribute, rc_hdf_t
     if (H5Tget_class(stored) == H5T_COMPOUND && n > 0 && n <= ROWS_MOST)
         type = H5Tget_native_type(stored, H5T_DIR_ASCEND);
     if (type >= 0 && (bytes = calloc((size_t)n, H5Tget_size(type))) != NULL)
-        good = (attribute != NULL
-                    ? H5Aread(from, type, bytes)
-                    : H5Dread(from, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes)) >= 0;
+        good = (attribute != NULL ? H5Aread(from, type, bytes)
+                                  : H5Dread(from, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes)) >= 0;
     if (good) {
         take_rows(type, bytes, (size_t)n, take, arg);
         H5Dvlen_reclaim(type, space, H5P_DEFAULT, bytes);

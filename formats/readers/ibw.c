@@ -13,7 +13,7 @@ enum {
     DIMENSIONS = 4,
     LABEL = 32, /* bytes of one */
     AT_FORMULA = 8,
-    AT_LENGTHS = 12,     /* of note, data unit, units of 4 dimensions, labels of 4 dimensions */
+    AT_LENGTHS = 12, /* of note, data unit, units of 4 dimensions, labels of 4 dimensions */
     AT_TYPE = 80,
     AT_NAME = 92,
     AT_SIZES = 132,
@@ -26,6 +26,7 @@ enum {
     UNSIGNED = 0x40
 };
 
+/* clang-format off */
 static const struct {
     int type;
     enum rc_raw raw;
@@ -35,15 +36,18 @@ static const struct {
     {0x20, RC_RAW_I32},  {8 | UNSIGNED, RC_RAW_U8},
     {0x10 | UNSIGNED, RC_RAW_U16}, {0x20 | UNSIGNED, RC_RAW_U32},
 };
+/* clang-format on */
 
 /* Atomic force microscopes of one maker keep all channels in one wave whose unit is that of the
  * first; these labels tell of another one. */
+/* clang-format off */
 static const struct {
     const char *begins, *unit;
 } other_units[] = {
     {"Phase", "deg"}, {"Potential", "V"}, {"NapPotential", "V"}, {"Current", "A"},
     {"Frequency", "Hz"},
 };
+/* clang-format on */
 
 /* Where the labels of dimension 2 begin, or 0 when they are not all there. */
 static size_t
@@ -82,7 +86,9 @@ judge(const struct rc_file *file, struct rc_bytes *b, enum rc_raw *raw, size_t s
         ;
     if (k == sizeof types / sizeof *types)
         return rc_err_set(err, "the wave is of type %d%s: only real numbers are read", type,
-                          type == 0 ? ", text" : (type & COMPLEX) != 0 ? ", complex numbers" : "");
+                          type == 0               ? ", text"
+                          : (type & COMPLEX) != 0 ? ", complex numbers"
+                                                  : "");
     *raw = types[k].raw;
     for (k = 0; k < DIMENSIONS; k++) {
         double n = rc_bytes_at(b, AT_SIZES + 4 * k, RC_RAW_I32);
@@ -123,8 +129,10 @@ ibw_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     if (rc_size_mul(layer, channels, &all, err) != RC_OK)
         return RC_FAIL;
     if (all > file->size - DATA)
-        return rc_err_set(err, "the header promises %zu x %zu x %zu values, %zu bytes, the file "
-                               "has %zu", size[0], size[1], channels, all, file->size - DATA);
+        return rc_err_set(err,
+                          "the header promises %zu x %zu x %zu values, %zu bytes, the file "
+                          "has %zu",
+                          size[0], size[1], channels, all, file->size - DATA);
     labels = size[2] == 0 ? 0 : labels_at(file, &b, DATA + all, channels);
     data_unit = rc_file_text(file, AT_DATA_UNIT, UNIT);
     for (size_t k = 0; k < channels; k++) {

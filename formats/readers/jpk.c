@@ -1,6 +1,6 @@
 /*
- * JPK image scans (.jpk, .jpk-qi-image): a TIFF whose first page is a thumbnail with the data of the
- * scan in private tags, and whose other pages are one channel each.
+ * JPK image scans (.jpk, .jpk-qi-image): a TIFF whose first page is a thumbnail with the data of
+ * the scan in private tags, and whose other pages are one channel each.
  *
  * A channel has several slots, ways to understand its numbers, each given from the raw number on:
  * the one that the file names as default counts. The first line of a scan is the lowest, unless the
@@ -130,10 +130,10 @@ read_channel(struct rc_tiff *t, struct channel *c)
     c->reflected = reflect != 0;
     rc_tiff_text(t, slot + UNIT, c->unit, sizeof c->unit);
     rc_tiff_text(t, slot + SCALING, scaling, sizeof scaling);
-    c->linear = strcmp(scaling, "NullScaling") == 0 ||
-                (strcmp(scaling, "LinearScaling") == 0 &&
-                 rc_tiff_number(t, slot + MULTIPLY, &c->multiply) &&
-                 rc_tiff_number(t, slot + OFFSET, &c->offset));
+    c->linear =
+        strcmp(scaling, "NullScaling") == 0 || (strcmp(scaling, "LinearScaling") == 0 &&
+                                                rc_tiff_number(t, slot + MULTIPLY, &c->multiply) &&
+                                                rc_tiff_number(t, slot + OFFSET, &c->offset));
     return true;
 }
 
@@ -153,7 +153,8 @@ list_channels(const struct rc_file *file, const struct rc_wish *wish, struct rc_
                 continue;
             if (n < most) {
                 struct rc_channel *to = &channel[n];
-                *to = (struct rc_channel){.nx = c.shape.nx, .ny = c.shape.ny,
+                *to = (struct rc_channel){.nx = c.shape.nx,
+                                          .ny = c.shape.ny,
                                           .dx = s.width / (double)c.shape.nx,
                                           .dy = s.height / (double)c.shape.ny};
                 strcpy(to->name, c.name);
@@ -213,8 +214,10 @@ read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index
     if (scan_open(&s, file, err) != RC_OK || go_to(&s, index, &c, err) != RC_OK)
         goto done;
     if (!c.linear) {
-        rc_err_set(err, "channel '%s' has no linear scale with a multiplier and an offset: it is "
-                        "not read", c.name);
+        rc_err_set(err,
+                   "channel '%s' has no linear scale with a multiplier and an offset: it is "
+                   "not read",
+                   c.name);
         goto done;
     }
     if (!rc_length_unit(c.unit, strlen(c.unit), &metres))
@@ -248,8 +251,8 @@ is_force(const struct rc_file *file)
 {
     struct rc_zip_read *archive = rc_zip_read_new(file, NULL);
     size_t member;
-    bool found = archive != NULL &&
-                 rc_zip_read_find(archive, "header.properties", &member, NULL) == RC_OK;
+    bool found =
+        archive != NULL && rc_zip_read_find(archive, "header.properties", &member, NULL) == RC_OK;
 
     rc_zip_read_free(archive);
     return found;

@@ -1,7 +1,7 @@
 /*
  * Olympus LEXT (OLS4000): a TIFF with a page for each kind of picture. The description of the first
- * page is XML with the scales, in picometres; those of the other pages are their names. HEIGHT holds
- * the heights, INVALID is 1 where there is none. A second XML text, in the Exif tag of device
+ * page is XML with the scales, in picometres; those of the other pages are their names. HEIGHT
+ * holds the heights, INVALID is 1 where there is none. A second XML text, in the Exif tag of device
  * settings, may hold calibration factors in millionths.
  */
 #include <math.h>
@@ -40,10 +40,10 @@ static const char magic[] = "<TiffTagDescData";
 
 struct lext {
     struct rc_tiff *tiff;
-    double scale[SCALES]; /* NAN: not there */
+    double scale[SCALES];   /* NAN: not there */
     size_t height, invalid; /* pages; 0: none */
     struct rc_tiff_shape shape;
-    double dx, dy, dz;    /* m */
+    double dx, dy, dz; /* m */
     char date[WORD], program[WORD];
 };
 
@@ -181,8 +181,12 @@ list_channels(const struct rc_file *file, const struct rc_wish *wish, struct rc_
     if (lext_open(&l, file, err) == RC_OK) {
         n = 1;
         if (most > 0)
-            *channel = (struct rc_channel){.name = "height", .unit = "m", .nx = l.shape.nx,
-                                           .ny = l.shape.ny, .dx = l.dx, .dy = l.dy};
+            *channel = (struct rc_channel){.name = "height",
+                                           .unit = "m",
+                                           .nx = l.shape.nx,
+                                           .ny = l.shape.ny,
+                                           .dx = l.dx,
+                                           .dy = l.dy};
     }
     rc_tiff_free(l.tiff);
     return n;
@@ -203,8 +207,10 @@ mask_invalid(struct lext *l, struct rc_grid *g, struct rc_notes *notes, struct r
     if (!rc_tiff_page(l->tiff, l->invalid) || rc_tiff_shape(l->tiff, &page, err) != RC_OK)
         return rc_err_set(err, "the page INVALID cannot be read");
     if (page.nx != l->shape.nx || page.ny != l->shape.ny) {
-        rc_note(notes, "the page INVALID has %zu x %zu pixels and not those of the heights: it is "
-                       "not minded", page.nx, page.ny);
+        rc_note(notes,
+                "the page INVALID has %zu x %zu pixels and not those of the heights: it is "
+                "not minded",
+                page.nx, page.ny);
         return RC_OK;
     }
     if ((mask = rc_grid_new(&shape, "mask", "", err)) == NULL)

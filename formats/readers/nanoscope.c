@@ -149,8 +149,7 @@ set_scale(struct rc_piece header, const struct image *m, struct rc_map *map, int
                           map->name, rc_text_shown(quote, m->scale.text, m->scale.n));
     map->scale = ldexp(number, -bits);
     if (!find_sensitivity(header, between(m->scale, '[', ']'), &value) ||
-        !number_behind_v(value, &sensitivity, &per) ||
-        !rc_piece_part(per, "/", &upper, &lower)) {
+        !number_behind_v(value, &sensitivity, &per) || !rc_piece_part(per, "/", &upper, &lower)) {
         rc_map_unit(map, unit.text, unit.n);
         return RC_OK;
     }
@@ -203,8 +202,8 @@ add_image(const struct rc_file *file, struct rc_piece header, const struct image
     if (m->bytes != 2 * count && m->bytes != 4 * count && m->width != 2 && m->width != 4)
         return rc_err_set(err, "image '%s' has %g bytes a pixel: it must have 2 or 4", map->name,
                           m->width);
-    map->raw = m->bytes == 4 * count || (m->bytes != 2 * count && m->width == 4) ? RC_RAW_I32
-                                                                               : RC_RAW_I16;
+    map->raw =
+        m->bytes == 4 * count || (m->bytes != 2 * count && m->width == 4) ? RC_RAW_I32 : RC_RAW_I16;
     map->at = (size_t)m->at;
     map->bottom_first = true;
     set_spacing(m->size.n > 0 ? m->size : scan->size, map);
@@ -235,8 +234,9 @@ nanoscope_find(const struct rc_file *file, const struct rc_wish *wish, struct rc
         if (!more || rc_piece_begins(line, "\\*")) {
             if (into == &image && add_image(file, header, &image, &scan, maps, err) != RC_OK)
                 return RC_FAIL;
-            into = rc_piece_is(line, "\\*Ciao image list") ? &image
-                   : rc_piece_is(line, "\\*Ciao scan list") ? &scan : NULL;
+            into = rc_piece_is(line, "\\*Ciao image list")  ? &image
+                   : rc_piece_is(line, "\\*Ciao scan list") ? &scan
+                                                            : NULL;
             image = no_image;
             continue;
         }
@@ -258,7 +258,8 @@ nanoscope_score(const struct rc_file *file)
     if (!rc_file_holds(file, 0, "\\*File list", 11))
         return 0;
     return memchr(file->data, 0x1a, file->size) != NULL || memchr(file->data, 0, file->size) != NULL
-               ? 95 : 35; /* all text: an export, or a header without its images */
+               ? 95
+               : 35; /* all text: an export, or a header without its images */
 }
 
 RC_FORMAT_OF_MAPS(nanoscope)

@@ -82,7 +82,8 @@ step_of(const struct rc_cdf *f, size_t dimension, double *step, bool *periodic, 
 
     *step = NAN;
     *periodic = false;
-    if (v == NULL || v->rank != 1 || v->dimension[0] != dimension || v->type == RC_CDF_CHAR || n < 2)
+    if (v == NULL || v->rank != 1 || v->dimension[0] != dimension || v->type == RC_CDF_CHAR ||
+        n < 2)
         return RC_OK;
     if (check_bytes(f, v, err) != RC_OK)
         return RC_FAIL;
@@ -95,8 +96,10 @@ step_of(const struct rc_cdf *f, size_t dimension, double *step, bool *periodic, 
     for (uint64_t k = 0; k < n; k++)
         if (!(fabs(rc_cdf_value(place(f, v, k, 0), v->type) - first - (double)k * *step) <=
               1e-6 * fabs(*step)))
-            return rc_err_set(err, "the coordinate '%s' has uneven steps: only regular grids are "
-                                   "read", quote);
+            return rc_err_set(err,
+                              "the coordinate '%s' has uneven steps: only regular grids are "
+                              "read",
+                              quote);
     *step = *step * v->factor * metres;
     *periodic = v->period != 0;
     return RC_OK;
@@ -111,7 +114,8 @@ struct map {
 };
 
 static enum rc_status
-judge_map(const struct rc_cdf *f, const struct rc_cdf_variable *v, struct map *m, struct rc_err *err)
+judge_map(const struct rc_cdf *f, const struct rc_cdf_variable *v, struct map *m,
+          struct rc_err *err)
 {
     bool along_x, along_y;
     size_t x, y;
@@ -177,8 +181,7 @@ read_values(const struct rc_cdf *f, const struct map *m, double metres, struct r
     for (size_t j = 0; j < m->ny; j++)
         for (size_t i = 0; i < m->nx; i++) {
             double raw = rc_cdf_value(place(f, v, m->turned ? i : j, m->turned ? j : i), v->type);
-            g->v[j * m->nx + i] =
-                raw == v->fill ? NAN : (raw * v->factor + v->offset) * metres;
+            g->v[j * m->nx + i] = raw == v->fill ? NAN : (raw * v->factor + v->offset) * metres;
         }
 }
 

@@ -12,6 +12,7 @@ enum {
     MAGIC = 6
 };
 
+/* clang-format off */
 static const struct {
     const char *name; /* behind the mark of the byte order */
     enum rc_raw raw;
@@ -20,6 +21,7 @@ static const struct {
     {"i4", RC_RAW_I32}, {"i8", RC_RAW_I64}, {"u1", RC_RAW_U8},  {"u2", RC_RAW_U16},
     {"u4", RC_RAW_U32}, {"u8", RC_RAW_U64},
 };
+/* clang-format on */
 
 static bool
 has_magic(const struct rc_file *file)

@@ -12,7 +12,7 @@ enum {
     START = 2,
     ENTRY = 24, /* bytes of a directory entry: 16 of name, i16 type, i32 length, u16 attribute */
     NAME = 16,
-    MATRIX = 6  /* bytes before the numbers of a matrix: columns, rows, size of a number      */
+    MATRIX = 6 /* bytes before the numbers of a matrix: columns, rows, size of a number      */
 };
 
 struct block {
@@ -63,13 +63,11 @@ take_block(const struct rc_file *file, struct block b, struct opd *o, struct rc_
             double value = rc_bytes_at(&bytes, b.at, numbers[k].raw);
             memcpy((char *)o + numbers[k].at, &value, sizeof value);
         }
-    rc_maps_keep(maps, texts, sizeof texts / sizeof *texts, b.name,
-                 rc_file_text(file, b.at, b.n));
+    rc_maps_keep(maps, texts, sizeof texts / sizeof *texts, b.name, rc_file_text(file, b.at, b.n));
 }
 
 static enum rc_status
-read_directory(const struct rc_file *file, struct opd *o, struct rc_maps *maps,
-               struct rc_err *err)
+read_directory(const struct rc_file *file, struct opd *o, struct rc_maps *maps, struct rc_err *err)
 {
     struct rc_bytes bytes = rc_file_bytes(file, false);
     double length = rc_bytes_at(&bytes, START + NAME + 2, RC_RAW_I32);
@@ -88,9 +86,10 @@ read_directory(const struct rc_file *file, struct opd *o, struct rc_maps *maps,
 
         length = rc_bytes_at(&bytes, entry + NAME + 2, RC_RAW_I32);
         if (length < 0 || length > (double)(file->size - at))
-            return rc_err_set(err, "block '%s' takes %g bytes from byte %zu on, the file has %zu "
-                                   "in all", rc_text_shown(quote, b.name.text, b.name.n), length,
-                              at, file->size);
+            return rc_err_set(err,
+                              "block '%s' takes %g bytes from byte %zu on, the file has %zu "
+                              "in all",
+                              rc_text_shown(quote, b.name.text, b.name.n), length, at, file->size);
         b.n = (size_t)length;
         at += b.n;
         b.name = rc_piece_trim(b.name);

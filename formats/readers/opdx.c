@@ -11,8 +11,8 @@
 enum {
     START = 12,
     DEEPEST = 8,
-    ARRAY_LEAD = 5,  /* bytes before the numbers of an array: type, size */
-    MATRIX_LEAD = 8  /* u32 rows, columns                                */
+    ARRAY_LEAD = 5, /* bytes before the numbers of an array: type, size */
+    MATRIX_LEAD = 8 /* u32 rows, columns                                */
 };
 
 enum how {
@@ -24,6 +24,7 @@ enum how {
     END
 };
 
+/* clang-format off */
 static const struct {
     int type;
     enum how how;
@@ -39,6 +40,7 @@ static const struct {
     {0x46, CONTAINER, 0, 0},       {0x47, CONTAINER, 0, 0},       {0x7c, TYPED, 0, 0},
     {0x7d, CONTAINER, 0, 0},       {0x7f, END, 0, 0},
 };
+/* clang-format on */
 
 struct quantity {
     double value;

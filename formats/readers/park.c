@@ -91,8 +91,10 @@ judge_type(struct park *p, const struct rc_bytes *header, bool second, struct rc
     if (kind == 1)
         return rc_err_set(err, "a line profile of Park Systems: only images are read");
     if (kind > 2)
-        return rc_err_set(err, "image type %u of Park Systems: only 0, an image, and 2, one with "
-                               "spectroscopy, are read", (unsigned)kind);
+        return rc_err_set(err,
+                          "image type %u of Park Systems: only 0, an image, and 2, one with "
+                          "spectroscopy, are read",
+                          (unsigned)kind);
     if (type >= sizeof raw / sizeof *raw)
         return rc_err_set(err, "data type %u: it must be 0 (int16), 1 (int32) or 2 (float)",
                           (unsigned)type);
@@ -125,7 +127,8 @@ take_header(struct park *p, const struct rc_bytes *header, bool second, struct r
                           p->scale, p->offset);
     if (p->nx == 0 || p->ny == 0)
         return rc_err_set(err, "an image of %zu x %zu points is empty", p->nx, p->ny);
-    if (judge_type(p, header, second, err) != RC_OK || rc_size_mul(p->nx, p->ny, &n, err) != RC_OK ||
+    if (judge_type(p, header, second, err) != RC_OK ||
+        rc_size_mul(p->nx, p->ny, &n, err) != RC_OK ||
         rc_size_mul(n, rc_raw_width(p->raw), &bytes, err) != RC_OK)
         return RC_FAIL;
     return rc_bytes_agree("data", bytes, p->size, err);
@@ -141,12 +144,16 @@ park_open(struct park *p, const struct rc_file *file, struct rc_err *err)
     if (p->tiff == NULL)
         return RC_FAIL;
     if (!rc_tiff_number(p->tiff, MAGIC_TAG, &magic) || magic != MAGIC)
-        return rc_err_set(err, "a TIFF, but none of Park Systems: tag %d is not 0x%08x; pictures "
-                               "without heights are not read", MAGIC_TAG, MAGIC);
+        return rc_err_set(err,
+                          "a TIFF, but none of Park Systems: tag %d is not 0x%08x; pictures "
+                          "without heights are not read",
+                          MAGIC_TAG, MAGIC);
     rc_tiff_number(p->tiff, VERSION_TAG, &version);
     if (version != VERSION_1 && version != VERSION_2)
-        return rc_err_set(err, "version 0x%08x of Park Systems' TIFF: only 0x%08x and 0x%08x are "
-                               "read", (unsigned)version, VERSION_1, VERSION_2);
+        return rc_err_set(err,
+                          "version 0x%08x of Park Systems' TIFF: only 0x%08x and 0x%08x are "
+                          "read",
+                          (unsigned)version, VERSION_1, VERSION_2);
     if (!rc_tiff_bytes(p->tiff, DATA_TAG, &p->data, &p->size) ||
         !rc_tiff_bytes(p->tiff, HEADER_TAG, &header.data, &header.size))
         return rc_err_set(err, "the tags %d and %d, data and their header, are not both there",
@@ -178,7 +185,8 @@ list_channels(const struct rc_file *file, const struct rc_wish *wish, struct rc_
     if (park_open(&p, file, err) == RC_OK) {
         n = 1;
         if (most > 0) {
-            *channel = (struct rc_channel){.nx = p.nx, .ny = p.ny,
+            *channel = (struct rc_channel){.nx = p.nx,
+                                           .ny = p.ny,
                                            .dx = p.width / (double)p.nx,
                                            .dy = p.height / (double)p.ny};
             strcpy(channel->name, p.name[0] == '\0' ? "height" : p.name);
@@ -243,8 +251,7 @@ park_score(const struct rc_file *file)
 {
     if (!rc_tiff_is(file))
         return 0;
-    return rc_tiff_hints(file, MAGIC_TAG, TYPE_LONG) &&
-                   rc_tiff_hints(file, VERSION_TAG, TYPE_LONG)
+    return rc_tiff_hints(file, MAGIC_TAG, TYPE_LONG) && rc_tiff_hints(file, VERSION_TAG, TYPE_LONG)
                ? 90
                : 3; /* any other TIFF: to say why it is refused */
 }

@@ -21,8 +21,8 @@ enum {
     TOPOGRAPHY = 3
 };
 
-static const char *const types[] = {"an image", "a profile", "profiles", NULL, "coordinates",
-                                    "thicknesses", "something else"};
+static const char *const types[] = {"an image",    "a profile",   "profiles",      NULL,
+                                    "coordinates", "thicknesses", "something else"};
 
 static bool
 sizes_agree(const struct rc_file *file)

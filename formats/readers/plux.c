@@ -158,7 +158,8 @@ plux_open(struct plux *p, const struct rc_file *file, struct rc_err *err)
     if (read_index(p, member, err) != RC_OK)
         return RC_FAIL;
     if (!p->sized)
-        return rc_err_set(err, "a ZIP archive, but no PLUX: its index.xml gives no size of an image");
+        return rc_err_set(err,
+                          "a ZIP archive, but no PLUX: its index.xml gives no size of an image");
     if (p->nx == 0 || p->ny == 0)
         return rc_err_set(err, "an image of %zu x %zu points is empty", p->nx, p->ny);
     return RC_OK;
@@ -267,7 +268,7 @@ read_layer(const struct plux *p, const struct rc_file *file, const struct rc_wis
     v = g->v;
     if (keep_words(p, g, err) != RC_OK ||
         rc_zip_read_read(p->archive, member, (uint64_t)p->nx * p->ny * 4, take_values, &v, sum,
-                        err) != RC_OK) {
+                         err) != RC_OK) {
         rc_grid_free(g);
         return NULL;
     }

@@ -84,8 +84,10 @@ pick_columns(struct profile *p, struct rc_err *err)
         return rc_table_read(&p->table, err);
     }
     if (columns > 2 && p->table.titles < 2)
-        return rc_err_set(err, "a table of %zu columns without titles: which are positions and "
-                               "heights?", columns);
+        return rc_err_set(err,
+                          "a table of %zu columns without titles: which are positions and "
+                          "heights?",
+                          columns);
     if (rc_table_read(&p->table, err) != RC_OK)
         return RC_FAIL;
     p->valid = columns;
@@ -144,8 +146,8 @@ even_place(const struct profile *p, size_t k)
     return p->first + (p->falls ? -p->step : p->step) * (double)k;
 }
 
-/* Positions may be rounded in the file, or off by a twentieth of a step: a stylus drifts that much, and
- * heights between two points so near say nothing else. */
+/* Positions may be rounded in the file, or off by a twentieth of a step: a stylus drifts that
+ * much, and heights between two points so near say nothing else. */
 static enum rc_status
 judge_steps(const struct profile *p, struct rc_err *err)
 {
@@ -165,10 +167,11 @@ judge_steps(const struct profile *p, struct rc_err *err)
     }
     if (off <= most)
         return RC_OK;
-    return rc_err_set(err, "the positions are not evenly apart: the furthest off is row %zu of the "
-                           "table, at %s where even steps of %s lead to %s, %.2g steps away; up to "
-                           "%.2g is let pass: resample the profile to even steps", worst + 1,
-                      rc_number_text(a, x[worst * columns]), rc_number_text(c, p->step),
+    return rc_err_set(err,
+                      "the positions are not evenly apart: the furthest off is row %zu of the "
+                      "table, at %s where even steps of %s lead to %s, %.2g steps away; up to "
+                      "%.2g is let pass: resample the profile to even steps",
+                      worst + 1, rc_number_text(a, x[worst * columns]), rc_number_text(c, p->step),
                       rc_number_text(b, even_place(p, worst)), off / p->step, most / p->step);
 }
 

@@ -50,6 +50,7 @@ static const struct rc_field fields[] = {
 };
 
 /* By DataType; what is missing is the least number of the signed whole types, NaN of the others. */
+/* clang-format off */
 static const struct {
     enum rc_raw raw;
     double lost;
@@ -63,6 +64,7 @@ static const struct {
     {RC_RAW_I32, -2147483648.0},
     {RC_RAW_F64, NAN},
 };
+/* clang-format on */
 
 static bool
 begins(const struct rc_file *file, char kind)

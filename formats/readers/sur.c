@@ -49,6 +49,7 @@ enum {
 
 static const char plain[] = "DIGITAL SURF", packed[] = "DSCOMPRESSED";
 
+/* clang-format off */
 static const struct {
     int type;
     const char *name;
@@ -60,13 +61,16 @@ static const struct {
     {15, "a series of force curves"}, {16, "a surface with colours"}, {20, "a series of spectra"},
     {21, "a spectral map"},
 };
+/* clang-format on */
 
 /* ---- compressed heights ---- */
 
 static enum rc_status
 unpack(const unsigned char *from, size_t n, unsigned char *to, size_t wanted, struct rc_err *err)
 {
-    z_stream z = {.next_in = (z_const Bytef *)from, .avail_in = (uInt)n, .next_out = to,
+    z_stream z = {.next_in = (z_const Bytef *)from,
+                  .avail_in = (uInt)n,
+                  .next_out = to,
                   .avail_out = (uInt)wanted};
     int status;
 
@@ -92,16 +96,19 @@ unpack_all(const struct rc_file *file, const struct rc_map *map, unsigned char *
 
     if (table.past || streams == 0 || streams > STREAMS_MOST ||
         streams > (file->size - table.at) / 8)
-        return rc_err_set(err, "the heights are in %zu compressed streams: there is no room for "
-                               "their table in the file", streams);
+        return rc_err_set(err,
+                          "the heights are in %zu compressed streams: there is no room for "
+                          "their table in the file",
+                          streams);
     at = table.at + 8 * streams;
     for (size_t k = 0; k < streams; k++) {
         size_t raw = rc_bytes_u32(&table), small = rc_bytes_u32(&table);
 
         if (raw > size - done || small > file->size - at)
-            return rc_err_set(err, "compressed stream %zu promises %zu bytes out of %zu: %zu are "
-                                   "wanted, %zu are there", k + 1, raw, small, size - done,
-                              file->size - at);
+            return rc_err_set(err,
+                              "compressed stream %zu promises %zu bytes out of %zu: %zu are "
+                              "wanted, %zu are there",
+                              k + 1, raw, small, size - done, file->size - at);
         if (unpack(file->data + at, small, to + done, raw, err) != RC_OK)
             return RC_FAIL;
         done += raw;
@@ -140,8 +147,10 @@ judge_type(int type, double rows, struct rc_err *err)
         return RC_OK;
     for (size_t k = 0; k < sizeof other_types / sizeof *other_types; k++)
         if (other_types[k].type == type)
-            return rc_err_set(err, "the file holds %s (type %d): only surfaces and profiles are "
-                                   "read", other_types[k].name, type);
+            return rc_err_set(err,
+                              "the file holds %s (type %d): only surfaces and profiles are "
+                              "read",
+                              other_types[k].name, type);
     return rc_err_set(err, "the file is of type %d: only surfaces (2) and profiles (1) are read",
                       type);
 }

@@ -54,10 +54,10 @@ is_row(struct rc_piece line, size_t columns)
         k++;
         if (word.n == 0)
             continue;
-        if (rc_piece_number(word, &value, &rest) ? rest.n > 0
-                                                 : !rc_piece_is(word, "--") &&
-                                                       !rc_piece_is(word, "---") &&
-                                                       !rc_piece_is(word, "BAD"))
+        if (rc_piece_number(word, &value, &rest)
+                ? rest.n > 0
+                : !rc_piece_is(word, "--") && !rc_piece_is(word, "---") &&
+                      !rc_piece_is(word, "BAD"))
             return false;
         numbers++;
     }
@@ -95,8 +95,8 @@ rc_table_open(struct rc_table *t, const struct rc_file *file, size_t columns,
     struct rc_lines lines, ahead;
 
     *t = (struct rc_table){0};
-    if (file->size >= 2 && (memcmp(file->data, "\xff\xfe", 2) == 0 ||
-                            memcmp(file->data, "\xfe\xff", 2) == 0)) {
+    if (file->size >= 2 &&
+        (memcmp(file->data, "\xff\xfe", 2) == 0 || memcmp(file->data, "\xfe\xff", 2) == 0)) {
         if ((t->own = narrow(file, &text.n)) == NULL)
             return rc_err_set(err, "out of memory for %zu characters", file->size / 2);
         text.text = t->own;

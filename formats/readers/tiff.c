@@ -98,8 +98,10 @@ rc_tiff_pages(struct rc_tiff *t, size_t *pages, struct rc_err *err)
 {
     for (*pages = 1; !TIFFLastDirectory(t->tiff); ++*pages)
         if (*pages == PAGES_MOST || TIFFReadDirectory(t->tiff) != 1)
-            return rc_err_set(err, "page %zu (from 0) is damaged or cut off, or there is no end to "
-                                   "the pages", *pages);
+            return rc_err_set(err,
+                              "page %zu (from 0) is damaged or cut off, or there is no end to "
+                              "the pages",
+                              *pages);
     return rc_tiff_page(t, 0) ? RC_OK : rc_err_set(err, "the first page cannot be read");
 }
 
@@ -292,8 +294,10 @@ rc_tiff_values(struct rc_tiff *t, const struct rc_tiff_shape *shape, double *v, 
         return rc_err_set(err, "out of memory for a row of %zu pixels", shape->nx);
     for (size_t j = 0; j < shape->ny; j++) {
         if (TIFFReadScanline(t->tiff, row, (uint32_t)j, 0) != 1) {
-            rc_err_set(err, "row %zu of %zu (from 0) cannot be unpacked: the file is damaged or "
-                            "cut off", j, shape->ny);
+            rc_err_set(err,
+                       "row %zu of %zu (from 0) cannot be unpacked: the file is damaged or "
+                       "cut off",
+                       j, shape->ny);
             goto done;
         }
         for (size_t i = 0; i < shape->nx; i++)
@@ -310,18 +314,18 @@ done:
 bool
 rc_tiff_is(const struct rc_file *file)
 {
-    return file->size >= 8 && (memcmp(file->data, "II\x2a\0", 4) == 0 ||
-                               memcmp(file->data, "MM\0\x2a", 4) == 0);
+    return file->size >= 8 &&
+           (memcmp(file->data, "II\x2a\0", 4) == 0 || memcmp(file->data, "MM\0\x2a", 4) == 0);
 }
 
 bool
 rc_tiff_hints(const struct rc_file *file, uint16_t tag, uint16_t type)
 {
     bool big = file->data[0] == 'M';
-    unsigned char entry[4] = {
-        (unsigned char)(big ? tag >> 8 : tag & 0xff), (unsigned char)(big ? tag & 0xff : tag >> 8),
-        (unsigned char)(big ? type >> 8 : type & 0xff),
-        (unsigned char)(big ? type & 0xff : type >> 8)};
+    unsigned char entry[4] = {(unsigned char)(big ? tag >> 8 : tag & 0xff),
+                              (unsigned char)(big ? tag & 0xff : tag >> 8),
+                              (unsigned char)(big ? type >> 8 : type & 0xff),
+                              (unsigned char)(big ? type & 0xff : type >> 8)};
 
     for (size_t k = 8; k + 12 <= file->size; k += 2) /* directories begin on even bytes */
         if (file->data[k] == entry[0] && memcmp(file->data + k, entry, sizeof entry) == 0)

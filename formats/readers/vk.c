@@ -12,10 +12,10 @@
 #include "formats/core/core.h"
 
 enum {
-    LEAD = 12,        /* magic, version, kind */
-    HEIGHTS_AT = 36,  /* the offsets of the height images */
+    LEAD = 12,       /* magic, version, kind */
+    HEIGHTS_AT = 36, /* the offsets of the height images */
     HEIGHTS = 3,
-    AT_YEAR = 4,      /* in the conditions; month, day, hour, minute, second follow */
+    AT_YEAR = 4, /* in the conditions; month, day, hour, minute, second follow */
     AT_X = 168,
     AT_Y = 172,
     AT_Z = 176,
@@ -112,7 +112,7 @@ add_heights(const struct rc_file *file, size_t at, size_t conditions, size_t num
             struct rc_maps *maps, struct rc_err *err)
 {
     struct rc_bytes b = rc_file_bytes(file, false);
-    struct rc_map *map = number == 1 ? rc_maps_add(maps, "height", 6)
+    struct rc_map *map = number == 1   ? rc_maps_add(maps, "height", 6)
                          : number == 2 ? rc_maps_add(maps, "height 2", 8)
                                        : rc_maps_add(maps, "height 3", 8);
     double bits, promised;
@@ -127,11 +127,15 @@ add_heights(const struct rc_file *file, size_t at, size_t conditions, size_t num
         return rc_err_set(err, "the heights are compressed: that is not read");
     promised = rc_bytes_at(&b, at + 16, RC_RAW_U32);
     if (promised != bits / 8 * (double)map->nx * (double)map->ny)
-        return rc_err_set(err, "%zu x %zu heights of %g bits do not make the %g bytes that the "
-                               "header promises", map->nx, map->ny, bits, promised);
+        return rc_err_set(err,
+                          "%zu x %zu heights of %g bits do not make the %g bytes that the "
+                          "header promises",
+                          map->nx, map->ny, bits, promised);
     if (promised > (double)file->size - (double)at - IMAGE)
-        return rc_err_set(err, "the heights take %g bytes from byte %zu on, the file has %zu in "
-                               "all", promised, at + IMAGE, file->size);
+        return rc_err_set(err,
+                          "the heights take %g bytes from byte %zu on, the file has %zu in "
+                          "all",
+                          promised, at + IMAGE, file->size);
     map->raw = bits == 8 ? RC_RAW_U8 : bits == 16 ? RC_RAW_U16 : RC_RAW_U32;
     map->at = at + IMAGE;
     strcpy(map->unit, "m");
@@ -165,8 +169,10 @@ find_plain(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
     if (!is_plain(file))
         return rc_err_set(err, "no VK file: it begins with neither VK3_, VK4_, VK6 nor VK7");
     if (b.past || conditions > file->size || file->size - conditions < CONDITIONS)
-        return rc_err_set(err, "the conditions of the measurement begin at byte %zu of a file of "
-                               "%zu", conditions, file->size);
+        return rc_err_set(err,
+                          "the conditions of the measurement begin at byte %zu of a file of "
+                          "%zu",
+                          conditions, file->size);
     for (size_t k = 0; k < HEIGHTS; k++) {
         at = (size_t)rc_bytes_at(&b, HEIGHTS_AT + 4 * k, RC_RAW_U32);
         if (at == 0)

@@ -77,8 +77,8 @@ wsxm_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps
 {
     const char *text = (const char *)file->data;
     struct rc_lines lines = {.at = text, .end = text + file->size};
-    struct wsxm w = {.width = NAN, .height = NAN, .amplitude = {"", 0}, .channel = {"", 0},
-                     .date = {"", 0}};
+    struct wsxm w = {
+        .width = NAN, .height = NAN, .amplitude = {"", 0}, .channel = {"", 0}, .date = {"", 0}};
     struct rc_map *map;
     size_t t = 0;
     char quote[RC_SHOWN];

@@ -68,8 +68,10 @@ x3p_open(struct rc_x3p *x, const struct rc_file *file, bool wants_list, struct r
     if ((x->archive = rc_zip_read_new(file, err)) == NULL)
         return RC_FAIL;
     if (!find_main(x->archive, &x->main, x->prefix))
-        return rc_err_set(err, "a ZIP archive, but no X3P: it holds no main.xml (the first of its "
-                               "%zu members is '%s')", rc_zip_read_members(x->archive),
+        return rc_err_set(err,
+                          "a ZIP archive, but no X3P: it holds no main.xml (the first of its "
+                          "%zu members is '%s')",
+                          rc_zip_read_members(x->archive),
                           shown(quote, rc_zip_read_name(x->archive, 0)));
     return rc_x3p_head(x, err);
 }
@@ -86,8 +88,8 @@ make_grid(struct rc_x3p *x, const struct rc_wish *wish, double *metres, struct r
         (g = rc_grid_new(&shape, "height", "m", err)) == NULL)
         return NULL;
     for (size_t f = RC_X3P_FIRST_KEY; f < RC_X3P_FIELDS; f++)
-        if (x->text[f] != NULL && rc_text_keep(g, rc_x3p_key(f), x->text[f], strlen(x->text[f]),
-                                               err) != RC_OK) {
+        if (x->text[f] != NULL &&
+            rc_text_keep(g, rc_x3p_key(f), x->text[f], strlen(x->text[f]), err) != RC_OK) {
             rc_grid_free(g);
             return NULL;
         }

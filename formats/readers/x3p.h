@@ -32,22 +32,21 @@ enum rc_x3p_field {
     RC_X3P_FIELDS = RC_X3P_FIRST_KEY + 11
 };
 
-
 struct rc_x3p {
     struct rc_zip_read *archive;
-    size_t main;            /* member                                                       */
-    char prefix[RC_X3P_NAME]; /* the folder that main.xml lies in, with its slash, or ""      */
-    char sum[RC_MD5_TEXT];  /* of main.xml                                                  */
-    char *text[RC_X3P_FIELDS];     /* NULL: not in the file                                        */
-    bool is_x3p, turned;    /* turned: a rotation that is not the identity                  */
+    size_t main;               /* member                                                       */
+    char prefix[RC_X3P_NAME];  /* the folder that main.xml lies in, with its slash, or ""      */
+    char sum[RC_MD5_TEXT];     /* of main.xml                                                  */
+    char *text[RC_X3P_FIELDS]; /* NULL: not in the file                                        */
+    bool is_x3p, turned;       /* turned: a rotation that is not the identity                  */
     bool profile;
-    bool binary;            /* the heights are in a member of their own                     */
+    bool binary; /* the heights are in a member of their own                     */
     enum rc_raw raw;
-    size_t nx, ny, n;       /* n = nx*ny                                                    */
-    double dx, dy;          /* m, NAN when not given                                        */
+    size_t nx, ny, n; /* n = nx*ny                                                    */
+    double dx, dy;    /* m, NAN when not given                                        */
     double increment, offset;
-    bool wants_list;        /* the heights in main.xml are to be kept                       */
-    double *list;           /* as far as they were in main.xml                              */
+    bool wants_list; /* the heights in main.xml are to be kept                       */
+    double *list;    /* as far as they were in main.xml                              */
     size_t listed, room;
 };
 

@@ -8,7 +8,6 @@
 
 #define MAIN_MOST ((uint64_t)1 << 28) /* bytes of main.xml: some millions of heights in it */
 
-
 static const struct {
     const char *path; /* below the root */
     const char *key;
@@ -49,7 +48,6 @@ rc_x3p_key(size_t field)
 {
     return fields[field].key;
 }
-
 
 static const char *
 shown(char to[RC_SHOWN], const char *text)
@@ -123,8 +121,10 @@ take_datum(struct rc_x3p *x, const char *text, struct rc_err *err)
         return RC_OK;
     }
     if (end != NULL && *end == ';')
-        return rc_err_set(err, "Datum %zu is '%s': lists with coordinates are not read, only "
-                               "matrices of heights", x->listed + 1, shown(quote, text));
+        return rc_err_set(err,
+                          "Datum %zu is '%s': lists with coordinates are not read, only "
+                          "matrices of heights",
+                          x->listed + 1, shown(quote, text));
     if (end == NULL || *end != '\0')
         return rc_err_set(err, "Datum %zu is '%s': that is no number", x->listed + 1,
                           shown(quote, text));
@@ -155,8 +155,10 @@ take_element(void *arg, const char *path, const char *text, struct rc_err *err)
 
     if (strncmp(path, root_name, strlen(root_name)) != 0 || path[strlen(root_name)] != '/') {
         if (strchr(path, '/') == NULL && strcmp(path, root_name) != 0)
-            return rc_err_set(err, "a ZIP archive, but no X3P: the root of its main.xml is '%s', "
-                                   "not %s", shown(quote, path), root_name);
+            return rc_err_set(err,
+                              "a ZIP archive, but no X3P: the root of its main.xml is '%s', "
+                              "not %s",
+                              shown(quote, path), root_name);
         return RC_OK;
     }
     x->is_x3p = true;
@@ -211,8 +213,10 @@ judge_axis(const char *name, const char *type, struct rc_err *err)
 
     if (type != NULL && strcmp(type, "I") == 0)
         return RC_OK;
-    return rc_err_set(err, "axis %s is of type '%s': only incremental axes (I), a regular grid, "
-                           "are read", name, type == NULL ? "" : shown(quote, type));
+    return rc_err_set(err,
+                      "axis %s is of type '%s': only incremental axes (I), a regular grid, "
+                      "are read",
+                      name, type == NULL ? "" : shown(quote, type));
 }
 
 /* What kind of data it is, before anything else is asked of it. */

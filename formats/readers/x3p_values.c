@@ -93,8 +93,10 @@ rc_x3p_check_main(struct rc_x3p *x, struct rc_notes *notes)
     if (!sum_of((const char *)bytes, wanted))
         rc_note(notes, "md5checksum.hex holds no MD5 sum: main.xml is not checked");
     else if (strcmp(wanted, x->sum) != 0)
-        rc_note(notes, "main.xml was changed after its checksum was written: its MD5 sum is %s, "
-                       "md5checksum.hex says %s", x->sum, wanted);
+        rc_note(notes,
+                "main.xml was changed after its checksum was written: its MD5 sum is %s, "
+                "md5checksum.hex says %s",
+                x->sum, wanted);
     free(bytes);
 }
 

@@ -56,9 +56,10 @@ find_axis(const double *v, size_t points, char name, struct axis *axis, struct r
     for (size_t k = 0; k < points && status == RC_OK; k++) {
         start = (sorted[k] - axis->first) / axis->step;
         if (!(fabs(start - round(start)) < 0.1))
-            status = rc_err_set(err, "the points lie on no raster: %zu different %c from %s on, "
-                                     "not evenly apart", axis->n, name,
-                                rc_number_text(text, axis->first));
+            status = rc_err_set(err,
+                                "the points lie on no raster: %zu different %c from %s on, "
+                                "not evenly apart",
+                                axis->n, name, rc_number_text(text, axis->first));
     }
     free(sorted);
     return status;
@@ -81,8 +82,10 @@ cloud_open(struct cloud *c, const struct rc_file *file, const struct rc_wish *wi
     if (c->x.n < 2)
         return rc_err_set(err, "all points have the same x");
     if (c->y.n > 4 * c->table.rows.rows / c->x.n)
-        return rc_err_set(err, "the points lie on no raster: %zu of them have %zu different x and "
-                               "%zu different y", c->table.rows.rows, c->x.n, c->y.n);
+        return rc_err_set(err,
+                          "the points lie on no raster: %zu of them have %zu different x and "
+                          "%zu different y",
+                          c->table.rows.rows, c->x.n, c->y.n);
     return RC_OK;
 }
 

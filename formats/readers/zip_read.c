@@ -113,15 +113,20 @@ rc_zip_read_size(struct rc_zip_read *a, size_t member, uint64_t *size, struct rc
     if (st.encryption_method != ZIP_EM_NONE)
         return rc_err_set(err, "member '%s' of the archive is encrypted", shown);
     if (st.comp_method != ZIP_CM_STORE && st.comp_method != ZIP_CM_DEFLATE)
-        return rc_err_set(err, "member '%s' of the archive is packed by method %u: only stored "
-                               "and deflated ones are read", shown, (unsigned)st.comp_method);
+        return rc_err_set(err,
+                          "member '%s' of the archive is packed by method %u: only stored "
+                          "and deflated ones are read",
+                          shown, (unsigned)st.comp_method);
     if (st.comp_size > a->size)
-        return rc_err_set(err, "member '%s' of the archive promises %" PRIu64 " packed bytes, the "
-                               "file has %zu", shown, (uint64_t)st.comp_size, a->size);
+        return rc_err_set(err,
+                          "member '%s' of the archive promises %" PRIu64 " packed bytes, the "
+                          "file has %zu",
+                          shown, (uint64_t)st.comp_size, a->size);
     if (st.size / DEFLATE_MOST > st.comp_size)
-        return rc_err_set(err, "member '%s' of the archive promises %" PRIu64 " bytes, which its "
-                               "%" PRIu64 " packed ones cannot hold", shown, (uint64_t)st.size,
-                          (uint64_t)st.comp_size);
+        return rc_err_set(err,
+                          "member '%s' of the archive promises %" PRIu64 " bytes, which its "
+                          "%" PRIu64 " packed ones cannot hold",
+                          shown, (uint64_t)st.size, (uint64_t)st.comp_size);
     *size = st.size;
     return RC_OK;
 }
@@ -160,8 +165,10 @@ unpack(zip_file_t *f, const char *name, uint64_t size, struct rc_sums *sums, rc_
                               rc_text_shown(shown, name, strlen(name)), zip_file_strerror(f));
         done += (uint64_t)n;
         if (done > size || (n < RC_PIECE && done < size))
-            return rc_err_set(err, "member '%s' of the archive promises %" PRIu64 " bytes and "
-                                   "holds %s", rc_text_shown(shown, name, strlen(name)), size,
+            return rc_err_set(err,
+                              "member '%s' of the archive promises %" PRIu64 " bytes and "
+                              "holds %s",
+                              rc_text_shown(shown, name, strlen(name)), size,
                               done > size ? "more" : "fewer");
         rc_sums_add(sums, (size_t)n);
         if (n > 0 && take(arg, piece, (size_t)n, err) != RC_OK)
@@ -173,7 +180,7 @@ unpack(zip_file_t *f, const char *name, uint64_t size, struct rc_sums *sums, rc_
 
 enum rc_status
 rc_zip_read_read(struct rc_zip_read *a, size_t member, uint64_t most, rc_take *take, void *arg,
-                char sum[RC_MD5_TEXT], struct rc_err *err)
+                 char sum[RC_MD5_TEXT], struct rc_err *err)
 {
     enum rc_status status = RC_FAIL;
     const char *name = rc_zip_read_name(a, member);
@@ -186,8 +193,10 @@ rc_zip_read_read(struct rc_zip_read *a, size_t member, uint64_t most, rc_take *t
     if (rc_zip_read_size(a, member, &size, err) != RC_OK)
         goto done;
     if (size > most) {
-        rc_err_set(err, "member '%s' of the archive holds %" PRIu64 " bytes, more than the %" PRIu64
-                        " that can be meant", shown, size, most);
+        rc_err_set(err,
+                   "member '%s' of the archive holds %" PRIu64 " bytes, more than the %" PRIu64
+                   " that can be meant",
+                   shown, size, most);
         goto done;
     }
     if ((f = zip_fopen_index(a->zip, member, 0)) == NULL) {
@@ -223,7 +232,7 @@ take_bytes(void *arg, const unsigned char *bytes, size_t n, struct rc_err *err)
 
 unsigned char *
 rc_zip_read_bytes(struct rc_zip_read *a, size_t member, uint64_t most, size_t *n,
-                 char sum[RC_MD5_TEXT], struct rc_err *err)
+                  char sum[RC_MD5_TEXT], struct rc_err *err)
 {
     struct buffer b = {0};
     uint64_t size;

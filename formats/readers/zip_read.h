@@ -26,26 +26,25 @@ size_t rc_zip_read_members(const struct rc_zip_read *archive);
 const char *rc_zip_read_name(const struct rc_zip_read *archive, size_t member); /* "" for none */
 /* The member of that name; RC_FAIL when there is none. */
 enum rc_status rc_zip_read_find(const struct rc_zip_read *archive, const char *name, size_t *member,
-                               struct rc_err *err);
+                                struct rc_err *err);
 /* Its size unpacked. RC_FAIL when it is not to be trusted. */
 enum rc_status rc_zip_read_size(struct rc_zip_read *archive, size_t member, uint64_t *size,
-                               struct rc_err *err);
+                                struct rc_err *err);
 
 enum {
     RC_PIECE = 1 << 18
 };
 /* Takes the next bytes of a member: RC_PIECE of them but for the last time. */
-typedef enum rc_status rc_take(void *arg, const unsigned char *bytes, size_t n,
-                               struct rc_err *err);
+typedef enum rc_status rc_take(void *arg, const unsigned char *bytes, size_t n, struct rc_err *err);
 /* Unpacks a member of at most `most` bytes into `take`, and gives its MD5 sum. The sum is that of
  * all its bytes, whose CRC has been checked. */
 enum rc_status rc_zip_read_read(struct rc_zip_read *archive, size_t member, uint64_t most,
-                               rc_take *take, void *arg, char sum[RC_MD5_TEXT],
-                               struct rc_err *err);
+                                rc_take *take, void *arg, char sum[RC_MD5_TEXT],
+                                struct rc_err *err);
 
-/* The whole of a member of at most `most` bytes, with a NUL behind them, which the caller frees; NULL
- * with the reason. */
-unsigned char *rc_zip_read_bytes(struct rc_zip_read *archive, size_t member, uint64_t most, size_t *n,
-                                char sum[RC_MD5_TEXT], struct rc_err *err);
+/* The whole of a member of at most `most` bytes, with a NUL behind them, which the caller frees;
+ * NULL with the reason. */
+unsigned char *rc_zip_read_bytes(struct rc_zip_read *archive, size_t member, uint64_t most,
+                                 size_t *n, char sum[RC_MD5_TEXT], struct rc_err *err);
 
 #endif

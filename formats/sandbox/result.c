@@ -11,8 +11,8 @@
 enum {
     TEXT_MOST = 65536, /* bytes of a key's value */
     KEYS_MOST = 256,
-    FETCHED = 1,       /* reply: the values have been fetched, */
-    WANTED             /* or are to come through the pipe      */
+    FETCHED = 1, /* reply: the values have been fetched, */
+    WANTED       /* or are to come through the pipe      */
 };
 
 static bool
@@ -96,8 +96,7 @@ put_values(struct rc_pipes *p, const struct rc_grid *g)
     uint64_t at = (uintptr_t)g->v;
     unsigned char reply;
 
-    if (!put(p->answer, &at, sizeof at) || fflush(p->answer) != 0 ||
-        read(p->reply, &reply, 1) != 1)
+    if (!put(p->answer, &at, sizeof at) || fflush(p->answer) != 0 || read(p->reply, &reply, 1) != 1)
         return false;
     return reply == FETCHED || put(p->answer, g->v, g->nx * g->ny * sizeof *g->v);
 }

@@ -14,8 +14,8 @@ struct rc_pipes {
     int reply;    /* a socket: a child that has died is no reason to be ended by a signal    */
 };
 
-/* Each gives whether it went through. A list is n channels, of which `most` at most are told, or the
- * reason why there is none. */
+/* Each gives whether it went through. A list is n channels, of which `most` at most are told, or
+ * the reason why there is none. */
 bool rc_answer_send_list(struct rc_pipes *pipes, const struct rc_channel *channel, size_t n,
                          size_t most, const struct rc_err *said);
 bool rc_answer_take_list(struct rc_pipes *pipes, struct rc_channel *channel, size_t *n, size_t most,

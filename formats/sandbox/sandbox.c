@@ -16,7 +16,8 @@
 #include "formats/core/core.h"
 
 static const double seconds_least = 0.8, bytes_a_second = 1e7;
-static const double patience = 10; /* times those, by the clock on the wall: nothing may just wait */
+static const double patience =
+    10; /* times those, by the clock on the wall: nothing may just wait */
 
 static bool left_open;
 
@@ -165,14 +166,18 @@ join(struct rc_pipes *p, const struct rc_file *file, bool whole, struct rc_err *
         return;
     if (got == p->child && WIFSIGNALED(how) &&
         (WTERMSIG(how) == SIGPROF || WTERMSIG(how) == SIGALRM))
-        rc_err_set(err, "the file keeps its library busy for more than %.1f s: it is damaged, or "
-                        "made to", time_bound(file));
+        rc_err_set(err,
+                   "the file keeps its library busy for more than %.1f s: it is damaged, or "
+                   "made to",
+                   time_bound(file));
     else if (got == p->child && WIFSIGNALED(how))
         rc_err_set(err, "the file makes its library fail (%s): it is damaged, or made to",
                    strsignal(WTERMSIG(how)));
     else
-        rc_err_set(err, "the file makes its library fail: it is damaged, or needs more than the "
-                        "%zu MiB that %zu bytes may take", rc_memory_bound(file) >> 20, file->size);
+        rc_err_set(err,
+                   "the file makes its library fail: it is damaged, or needs more than the "
+                   "%zu MiB that %zu bytes may take",
+                   rc_memory_bound(file) >> 20, file->size);
 }
 
 size_t

@@ -1,8 +1,8 @@
 /*
- * A process of its own for libraries that were not made for hostile files (libhdf5, libtiff): what a
- * file makes them do, they do in a child with bounded memory and time that can open no other file.
- * It hands its answer back through a pipe; when it dies, its file is refused and nothing else is
- * harmed.
+ * A process of its own for libraries that were not made for hostile files (libhdf5, libtiff): what
+ * a file makes them do, they do in a child with bounded memory and time that can open no other
+ * file. It hands its answer back through a pipe; when it dies, its file is refused and nothing else
+ * is harmed.
  *
  * Bounds: 16 times the file plus 64 MiB of memory beyond what the process has; 0.8 s and 1 s for
  * every 10 MB of the file, of the processor, and ten times that by the clock. Call from one thread.
@@ -24,7 +24,8 @@ struct rc_grid *rc_cage_read(rc_read_in_cage *read, const struct rc_file *file,
                              const struct rc_wish *wish, size_t index, struct rc_notes *notes,
                              struct rc_err *err);
 
-/* The functions of a row of formats.list, NAME_list and NAME_read, from list_channels and read_values. */
+/* The functions of a row of formats.list, NAME_list and NAME_read, from list_channels and
+ * read_values. */
 #define RC_FORMAT_IN_CAGE(name)                                                                    \
     static size_t name##_list(const struct rc_file *file, const struct rc_wish *wish,              \
                               struct rc_channel *channel, size_t most, struct rc_err *err)         \

@@ -65,8 +65,7 @@ put_frame(hid_t file, const char *name, const struct rc_grid *g, enum rc_raw raw
     H5Pset_obj_track_times(options, false); /* the same frames give the same bytes */
     set = H5Dcreate2(file, name, raw == RC_RAW_F32 ? H5T_IEEE_F32LE : H5T_IEEE_F64LE, space,
                      H5P_DEFAULT, options, H5P_DEFAULT);
-    good = set >= 0 &&
-           H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, g->v) >= 0 &&
+    good = set >= 0 && H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, g->v) >= 0 &&
            put_attributes(set, g);
     H5Dclose(set);
     H5Pclose(options);

@@ -21,11 +21,11 @@ enum {
 };
 
 struct plan {
-    struct rc_code code;    /* in the units of the frame   */
-    const char *unit;       /* of the values in the file   */
-    double worth;           /* what one of them is, in SI  */
-    float step, offset;     /* in that unit                */
-    int32_t most;           /* largest number              */
+    struct rc_code code; /* in the units of the frame   */
+    const char *unit;    /* of the values in the file   */
+    double worth;        /* what one of them is, in SI  */
+    float step, offset;  /* in that unit                */
+    int32_t most;        /* largest number              */
     bool missing;
 };
 

@@ -27,8 +27,10 @@ check_alike(struct rc_grid *const *frame, size_t frames, struct rc_err *err)
         const char *other = rc_grid_get(b, "section");
 
         if (b->nx != a->nx || b->ny != a->ny || b->dx != a->dx || b->dy != a->dy)
-            return rc_err_set(err, "frame %zu (%s) has another grid than the first (%s): one file "
-                                   "holds one grid", k + 1, b->channel, a->channel);
+            return rc_err_set(err,
+                              "frame %zu (%s) has another grid than the first (%s): one file "
+                              "holds one grid",
+                              k + 1, b->channel, a->channel);
         if (depth_of(b, &depth) != deep)
             return rc_err_set(err, "some frames have a depth and some have none: choose by "
                                    "--channel");
@@ -106,14 +108,14 @@ check_depths(const struct rc_volume *v, struct rc_err *err)
     for (size_t k = 1; k < v->layers; k++)
         if (by_depth(&v->array[0].layer[k - 1], &v->array[0].layer[k]) == 0)
             return rc_err_set(err, "two frames of channel %s at one depth (%s m)",
-                              v->array[0].layer[0]->channel,
-                              rc_number_text(text, v->at[2][k]));
+                              v->array[0].layer[0]->channel, rc_number_text(text, v->at[2][k]));
     for (size_t a = 1; a < v->arrays; a++)
         for (size_t k = 0; k < v->layers; k++)
             if (by_depth(&v->array[a].layer[k], &v->array[0].layer[k]) != 0)
-                return rc_err_set(err, "channels %s and %s have different depths: one file holds "
-                                       "one stack", v->array[0].layer[0]->channel,
-                                  v->array[a].layer[0]->channel);
+                return rc_err_set(err,
+                                  "channels %s and %s have different depths: one file holds "
+                                  "one stack",
+                                  v->array[0].layer[0]->channel, v->array[a].layer[0]->channel);
     return RC_OK;
 }
 
@@ -233,9 +235,10 @@ rc_vtk_arrays(struct rc_buffer *b, const struct rc_volume *v, uint64_t offset)
         rc_buffer_print(b, "        <DataArray type=\"%s\" Name=\"",
                         v->array[a].raw == RC_RAW_F32 ? "Float32" : "Float64");
         rc_buffer_escaped(b, v->array[a].name);
-        rc_buffer_print(b, "\" format=\"appended\" offset=\"%llu\">\n"
-                           "          <InformationKey name=\"UNITS_LABEL\" "
-                           "location=\"vtkDataArray\">",
+        rc_buffer_print(b,
+                        "\" format=\"appended\" offset=\"%llu\">\n"
+                        "          <InformationKey name=\"UNITS_LABEL\" "
+                        "location=\"vtkDataArray\">",
                         (unsigned long long)offset);
         rc_buffer_escaped(b, v->array[a].layer[0]->unit);
         rc_buffer_print(b, "</InformationKey>\n        </DataArray>\n");

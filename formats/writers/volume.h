@@ -2,8 +2,8 @@
  * Frames as one block of nodes, for the formats of VTK: maps on one grid beside each other, maps at
  * several depths above each other, or a section with its depths.
  *
- * x, y and z are those of the grid stream: the origin in the middle of the map, y down the picture, z
- * into the body; together they are right-handed.
+ * x, y and z are those of the grid stream: the origin in the middle of the map, y down the picture,
+ * z into the body; together they are right-handed.
  */
 #ifndef RC_VOLUME_H
 #define RC_VOLUME_H
@@ -19,10 +19,10 @@ struct rc_layers {
 };
 
 struct rc_volume {
-    size_t n[3];       /* nodes along x, y, z             */
-    double *at[3];     /* n of them: where the nodes are  */
-    size_t layers;     /* frames in a struct rc_layers    */
-    size_t node;       /* values in a layer               */
+    size_t n[3];   /* nodes along x, y, z             */
+    double *at[3]; /* n of them: where the nodes are  */
+    size_t layers; /* frames in a struct rc_layers    */
+    size_t node;   /* values in a layer               */
     struct rc_layers *array;
     size_t arrays;
 };
@@ -37,8 +37,8 @@ bool rc_volume_even(const struct rc_volume *volume, int axis, double *step);
 
 /* Bytes that an array of n values takes in the file, with the count before it. */
 uint64_t rc_vtk_bytes(size_t n, enum rc_raw raw);
-/* The attributes and the keys of the arrays as a header: `<PointData>...`, from byte `offset` of the
- * appended data on. */
+/* The attributes and the keys of the arrays as a header: `<PointData>...`, from byte `offset` of
+ * the appended data on. */
 void rc_vtk_arrays(struct rc_buffer *b, const struct rc_volume *volume, uint64_t offset);
 /* History as field data, for the frames' first. */
 void rc_vtk_history(struct rc_buffer *b, const struct rc_grid *grid);

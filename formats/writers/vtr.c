@@ -20,7 +20,8 @@ make_header(struct rc_buffer *b, const struct rc_volume *v, const struct rc_grid
     for (int k = 0; k < 3; k++) {
         rc_buffer_print(b,
                         "        <DataArray type=\"Float64\" Name=\"%c\" format=\"appended\" "
-                        "offset=\"%llu\"/>\n", axis[k], (unsigned long long)offset);
+                        "offset=\"%llu\"/>\n",
+                        axis[k], (unsigned long long)offset);
         offset += rc_vtk_bytes(v->n[k], RC_RAW_F64);
     }
     rc_buffer_print(b, "      </Coordinates>\n");

@@ -79,7 +79,8 @@ axis(struct rc_buffer *b, const char *name, const char *type, const char *data, 
     rc_buffer_print(b,
                     "      <%s><AxisType>%s</AxisType><DataType>%s</DataType>"
                     "<Increment>%s</Increment><Offset>%s</Offset></%s>\n",
-                    name, type, data, rc_number_text(a, increment), rc_number_text(c, offset), name);
+                    name, type, data, rc_number_text(a, increment), rc_number_text(c, offset),
+                    name);
 }
 
 /* The schema wants each of these, whether anything is known or not. */
@@ -150,8 +151,9 @@ make_main(struct rc_buffer *b, const struct rc_grid *g, const struct parts *p,
                     "<MD5ChecksumPointData>%s</MD5ChecksumPointData>",
                     g->nx, g->ny, data_name, p->data_sum);
     if (p->valid != NULL)
-        rc_buffer_print(b, "<ValidPointsLink>%s</ValidPointsLink>"
-                           "<MD5ChecksumValidPoints>%s</MD5ChecksumValidPoints>",
+        rc_buffer_print(b,
+                        "<ValidPointsLink>%s</ValidPointsLink>"
+                        "<MD5ChecksumValidPoints>%s</MD5ChecksumValidPoints>",
                         valid_name, p->valid_sum);
     rc_buffer_print(b, "</DataLink>\n  </Record3>\n  <Record4>"
                        "<ChecksumFile>md5checksum.hex</ChecksumFile></Record4>\n</p:ISO5436_2>\n");

@@ -34,8 +34,8 @@ rc_pack_new(int64_t time, struct rc_err *err)
     return p;
 }
 
-/* Whether bytes become a tenth fewer at least, as far as pieces spread over them tell. What does not
- * is stored as it is: a reader has them several times as fast. */
+/* Whether bytes become a tenth fewer at least, as far as pieces spread over them tell. What does
+ * not is stored as it is: a reader has them several times as fast. */
 static bool
 packs_well(const unsigned char *bytes, size_t n)
 {

@@ -118,7 +118,7 @@ rc_conv_new(const struct rc_shape *shape, double estar, const struct rc_conv_opt
         return NULL;
     }
     if ((conv->engine = find(&sum, options, &conv->reason, err)) == NULL ||
-        (conv->plan = conv->engine->new(&sum, err)) == NULL) {
+        (conv->plan = conv->engine->new (&sum, err)) == NULL) {
         rc_conv_free(conv);
         return NULL;
     }

@@ -1,6 +1,6 @@
 /*
- * What the rows of the transform engine share: `fft` takes the precision that the asked error needs, `fft64` has it
- * in its name. Internal: never installed.
+ * What the rows of the transform engine share: `fft` takes the precision that the asked error
+ * needs, `fft64` has it in its name. Internal: never installed.
  */
 #ifndef RC_ENGINE_FFT_H
 #define RC_ENGINE_FFT_H

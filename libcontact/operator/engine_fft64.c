@@ -16,7 +16,8 @@ memory(const struct rc_sum *sum)
 
 const struct rc_engine rc_engine_fft64 = {
     .name = "fft64",
-    .summary = "fast Fourier transforms in double precision: exact to rounding, whatever error is asked for",
+    .summary = "fast Fourier transforms in double precision: exact to rounding, whatever error is "
+               "asked for",
     .memory = memory,
     .new = plan_new,
     .apply = rc_engine_fft_apply,

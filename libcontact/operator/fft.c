@@ -116,7 +116,7 @@ rc_fft_new(const struct rc_shape *s, enum rc_boundary boundary, enum rc_precisio
         f->layout = layout_of(s, boundary, precision);
         f->layout.threads = rc_useful_threads(s, threads);
         f->ops = precision == RC_SINGLE ? &rc_fft_single : &rc_fft_double;
-        f->plan = f->ops->new(&f->layout);
+        f->plan = f->ops->new (&f->layout);
     }
     if (f == NULL || f->plan == NULL) {
         rc_err_set(err, "out of memory for transforms of %zu x %zu nodes", s->nx, s->ny);

@@ -36,12 +36,12 @@ void rc_spectrum_free(struct rc_spectrum *spectrum);
 enum rc_status rc_spectrum_set(struct rc_spectrum *spectrum, const struct rc_fft *fft,
                                const struct rc_kernel *kernel, size_t component,
                                const struct rc_medium *medium, struct rc_err *err);
-/* The reciprocal of another kernel's spectrum: the inverse of the padded circulant, or of the symbol; zero
- * where that is zero. */
+/* The reciprocal of another kernel's spectrum: the inverse of the padded circulant, or of the
+ * symbol; zero where that is zero. */
 void rc_spectrum_set_reciprocal(struct rc_spectrum *spectrum, const struct rc_fft *fft,
                                 const struct rc_spectrum *of);
-/* The transform of the kernel's values on either boundary; on the periodic one each offset counts once,
- * by its shortest way around the map. */
+/* The transform of the kernel's values on either boundary; on the periodic one each offset
+ * counts once, by its shortest way around the map. */
 enum rc_status rc_spectrum_set_values(struct rc_spectrum *spectrum, const struct rc_fft *fft,
                                       const struct rc_kernel *kernel, size_t component,
                                       const struct rc_medium *medium, struct rc_err *err);
@@ -57,15 +57,16 @@ void rc_spectrum_column(struct rc_spectrum *spectrum, const struct rc_fft *fft, 
 /* u = K p. u and p may be the same. */
 void rc_fft_apply(struct rc_fft *fft, const struct rc_spectrum *kernel, const double *p, double *u);
 
-/* What is done with a row on its way: row j of nx numbers in the plan's precision. It writes what is
- * transformed next, and returns false where that is zero; the last one only reads. Rows are taken by
- * several threads, each once. */
+/* What is done with a row on its way: row j of nx numbers in the plan's precision. It writes
+ * what is transformed next, and returns false where that is zero; the last one only reads. Rows
+ * are taken by several threads, each once. */
 enum {
     RC_CHAIN = 4
 };
 typedef bool rc_row(void *ctx, size_t j, void *row);
-/* The first row function writes the source of kernels[0], rows[k] turns its field into the source of
- * kernels[k], rows[n] takes the last field: n <= RC_CHAIN kernels, n + 1 functions, and no map between them. */
+/* The first row function writes the source of kernels[0], rows[k] turns its field into the
+ * source of kernels[k], rows[n] takes the last field: n <= RC_CHAIN kernels, n + 1 functions,
+ * and no map between them. */
 void rc_fft_chain(struct rc_fft *fft, size_t n, const struct rc_spectrum *const *kernels,
                   rc_row *const *rows, void *ctx);
 /* Keeps the whole transform of p; then u = K p for as many kernels as are wanted. */
@@ -86,17 +87,17 @@ void rc_fft_field_pair(struct rc_fft *fft, const struct rc_spectrum *k, double w
  * where only the first `parts` pieces of length m are not zero. split = 1 leaves it to FFTW. */
 struct rc_layout {
     size_t nx, ny;
-    size_t px, py;  /* transform lengths                                                     */
-    size_t cx;      /* px/2 + 1 columns                                                      */
-    size_t stride;  /* complex numbers from row to row, a whole number of cache lines         */
+    size_t px, py; /* transform lengths                                                     */
+    size_t cx;     /* px/2 + 1 columns                                                      */
+    size_t stride; /* complex numbers from row to row, a whole number of cache lines         */
     size_t split, m, parts;
-    size_t packed;  /* py/2 + 1: numbers of a column of a spectrum                            */
+    size_t packed; /* py/2 + 1: numbers of a column of a spectrum                            */
     int threads;
 };
 
-/* A column of a spectrum, s(q) for q <= py/2, is stored as A[k] = s(split k) up to the middle and, for
- * split 4, B[k] = s(4k + 1) for all k < m (beyond the middle by symmetry, which also gives residue 3)
- * and C[k] = s(4k + 2) up to the middle: packed = py/2 + 1 numbers in all. */
+/* A column of a spectrum, s(q) for q <= py/2, is stored as A[k] = s(split k) up to the middle
+ * and, for split 4, B[k] = s(4k + 1) for all k < m (beyond the middle by symmetry, which also
+ * gives residue 3) and C[k] = s(4k + 2) up to the middle: packed = py/2 + 1 numbers in all. */
 struct rc_link {
     rc_row *row;
     const void *packed;
@@ -104,7 +105,7 @@ struct rc_link {
 };
 
 struct rc_fft_ops {
-    size_t real_size; /* bytes of a real number */
+    size_t real_size;                             /* bytes of a real number */
     void *(*new)(const struct rc_layout *layout); /* NULL: out of memory */
     void (*free)(void *plan);
     /* Room that the plan uses only while it works; NULL: not so much. */

@@ -24,8 +24,8 @@
 
 enum {
     LINE = 128 / sizeof(COMPLEX), /* columns taken together: two cache lines, fetched as a pair  */
-    AHEAD = 8, /* rows fetched in advance */
-    GAP = 8,                     /* complex numbers between pieces: equal places in different pieces
+    AHEAD = 8,                    /* rows fetched in advance */
+    GAP = 8, /* complex numbers between pieces: equal places in different pieces
                                     would else fall on the same lines of the cache */
 };
 
@@ -253,8 +253,8 @@ ahead(const COMPLEX *x)
     __builtin_prefetch(x + LINE / 2);
 }
 
-/* One butterfly: y_r = w^r sum_s (-i)^(r s) x_s for a whole line of columns; x_s stand `step` apart,
- * `have` of them, y_r of column b at y + b * column + r * gap. */
+/* One butterfly: y_r = w^r sum_s (-i)^(r s) x_s for a whole line of columns; x_s stand `step`
+ * apart, `have` of them, y_r of column b at y + b * column + r * gap. */
 static inline void
 split(const struct plan *f, const COMPLEX *x, size_t step, int have, const COMPLEX w[3],
       COMPLEX *restrict y)
@@ -493,8 +493,8 @@ load(void *at, const double *p)
         gather(f, c, y);
         for (size_t b = 0; b < n; b++)
             for (size_t r = 0; r < l->split; r++)
-                FFTW(execute_dft)(f->column_forward, y + b * f->column + r * piece(f),
-                                  source_of(f, c + b, r));
+                FFTW(execute_dft)
+        (f->column_forward, y + b * f->column + r * piece(f), source_of(f, c + b, r));
     }
     return true;
 }

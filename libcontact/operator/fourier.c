@@ -37,7 +37,7 @@ transform(const struct rc_shape *shape, bool forward, double *v, double complex 
     if (shape->nx > INT_MAX || shape->ny > INT_MAX)
         return rc_err_set(err, "%zu x %zu nodes: a side of at most %d can be transformed",
                           shape->nx, shape->ny, INT_MAX);
-    /* The planner is the one part of FFTW that two threads may not enter at once. */
+        /* The planner is the one part of FFTW that two threads may not enter at once. */
 #pragma omp critical(rc_fftw_planner)
     plan = forward ? fftw_plan_dft_r2c_2d((int)shape->ny, (int)shape->nx, v, s, how)
                    : fftw_plan_dft_c2r_2d((int)shape->ny, (int)shape->nx, s, v, how);
@@ -58,8 +58,7 @@ rc_fourier_forward(const struct rc_shape *shape, const double *v, double complex
 }
 
 enum rc_status
-rc_fourier_backward(const struct rc_shape *shape, double complex *s, double *v,
-                    struct rc_err *err)
+rc_fourier_backward(const struct rc_shape *shape, double complex *s, double *v, struct rc_err *err)
 {
     return transform(shape, false, v, s, err);
 }

@@ -37,9 +37,9 @@ void rc_line_forward(const struct rc_line *line, const double *v, double complex
 void rc_line_backward(const struct rc_line *line, const double complex *s, double *v);
 void rc_line_free(struct rc_line *line); /* NULL is allowed */
 
-/* Real even (or odd) transform of lines of n values: a line holds half a period with both ends, v_0 ..
- * v_(n-1) of a period 2n - 2, and becomes the sum of v_j cos(pi jk / (n-1)) (or sin) over the whole
- * period. An odd line is zero at both ends. NULL when memory is short. */
+/* Real even (or odd) transform of lines of n values: a line holds half a period with both ends,
+ * v_0 .. v_(n-1) of a period 2n - 2, and becomes the sum of v_j cos(pi jk / (n-1)) (or sin) over
+ * the whole period. An odd line is zero at both ends. NULL when memory is short. */
 struct rc_dct;
 struct rc_dct *rc_dct_new(size_t n, bool odd, size_t threads, struct rc_err *err);
 /* In place; called by threads of one OpenMP team, on lines of their own. */

@@ -36,9 +36,11 @@ near(double x, double y, double a, double b)
 static const double gauss_x[6] = {-0.932469514203152028, -0.661209386466264514,
                                   -0.238619186083196909, 0.238619186083196909,
                                   0.661209386466264514,  0.932469514203152028};
+/* clang-format off */
 static const double gauss_w[6] = {0.171324492379170345, 0.360761573048138608,
                                   0.467913934572691047, 0.467913934572691047,
                                   0.360761573048138608, 0.171324492379170345};
+/* clang-format on */
 
 static double
 middle(double x, double y, double a, double b)
@@ -69,7 +71,8 @@ far(double scale, double dx, double y, double a, double b, size_t first, size_t 
         double x4y2 = 10395 * X * X * Y - 945 * X * (6 * Y + X) + 105 * (3 * Y + 6 * X) - 45;
         double x2y4 = 10395 * X * Y * Y - 945 * Y * (6 * X + Y) + 105 * (3 * X + 6 * Y) - 45;
         double sixth = (A * A * A * (((10395 * X - 14175) * X + 4725) * X - 225) +
-                        B * B * B * (((10395 * Y - 14175) * Y + 4725) * Y - 225)) / 5040 +
+                        B * B * B * (((10395 * Y - 14175) * Y + 4725) * Y - 225)) /
+                           5040 +
                        A * B * (A * x4y2 + B * x2y4) / 720;
 
         out[i] = scale * 4 * a * b * sqrt(s) * (1 + second / 6 + fourth + sixth);
@@ -93,8 +96,8 @@ rows(const struct rc_medium *medium, size_t component, const struct rc_lattice *
 
         for (size_t i = 0; i < inner; i++) {
             double x = (double)i * dx;
-            out[i] = scale * (x * x + y * y < near_r * near_r ? near(x, y, a, b)
-                                                              : middle(x, y, a, b));
+            out[i] =
+                scale * (x * x + y * y < near_r * near_r ? near(x, y, a, b) : middle(x, y, a, b));
         }
         far(scale, dx, y, a, b, inner, n, out);
     }

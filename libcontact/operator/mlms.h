@@ -28,7 +28,7 @@ enum {
     RC_Y,
     RC_MLMS_HALF_MAX = 64, /* largest t                          */
     RC_MLMS_LEVELS = 64,
-    RC_MLMS_TILE = 64      /* about as many places of a class in a tile, each way */
+    RC_MLMS_TILE = 64 /* about as many places of a class in a tile, each way */
 };
 
 /* Coefficients from one class of sources to one of targets. Column j stands for the x offsets +-k
@@ -58,7 +58,7 @@ struct rc_mlms_design {
     size_t t, reach; /* m_c, in nodes of the coarser spacing of those that are halved */
     bool square;     /* correction regions are rectangles, not ellipses               */
     double error;
-    size_t levels;   /* that are coarsened                                            */
+    size_t levels; /* that are coarsened                                            */
     struct rc_mlms_axis axis[RC_MLMS_LEVELS + 1][2]; /* the last: of the grid that is not */
     double terms, work; /* products in (10) - (17) as written; in effect, an estimate  */
     int threads;

@@ -22,7 +22,9 @@ rounded(size_t n, size_t to)
 static void
 fetch(const double *map, const struct rc_mlms_axis axis[2], ptrdiff_t x0, ptrdiff_t y, size_t n)
 {
-    enum { AHEAD = 4 };
+    enum {
+        AHEAD = 4
+    };
     ptrdiff_t nx = (ptrdiff_t)axis[RC_X].n, first = x0 > 0 ? x0 : 0, last = x0 + (ptrdiff_t)n;
 
     last = last < nx ? last : nx;

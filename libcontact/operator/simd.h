@@ -9,9 +9,9 @@
 #include <stdint.h>
 
 enum {
-    RC_STRIP = 32, /* nodes of a row that are summed at once                              */
-    RC_BLOCK = 4,  /* rows that are summed at once                                        */
-    RC_SIMD_WIDTH = 8,   /* nodes by which counts are rounded up: a vector of the widest registers */
+    RC_STRIP = 32,     /* nodes of a row that are summed at once                              */
+    RC_BLOCK = 4,      /* rows that are summed at once                                        */
+    RC_SIMD_WIDTH = 8, /* nodes by which counts are rounded up: a vector of the widest registers */
 };
 
 /* One column of a stencil: its coefficients c[first] .. c[last], and RC_BLOCK - 1 zeros on either
@@ -25,7 +25,8 @@ struct rc_column {
 struct rc_strip {
     const double *src; /* the row `margin` above the first target row */
     size_t stride, margin;
-    size_t rows, n; /* of targets; computed to multiples of RC_BLOCK and RC_SIMD_WIDTH, n <= RC_STRIP */
+    size_t rows,
+        n; /* of targets; computed to multiples of RC_BLOCK and RC_SIMD_WIDTH, n <= RC_STRIP */
     /* Column j takes src[x - near - j] + sign src[x - far + j], the one value when they are one. */
     size_t columns;
     ptrdiff_t near, far;
@@ -64,8 +65,8 @@ struct rc_simd {
     /* Even and odd places of n values, and back. */
     void (*split)(const double *src, size_t n, double *even, double *odd);
     void (*join)(const double *even, const double *odd, size_t n, double *out);
-    /* first + x for each src[x] != 0, x < n, a multiple of RC_SIMD_WIDTH; returns how many. The list has
-     * room for n. */
+    /* first + x for each src[x] != 0, x < n, a multiple of RC_SIMD_WIDTH; returns how many. The
+     * list has room for n. */
     size_t (*find)(const double *src, size_t n, uint32_t first, uint32_t *list);
     /* Values that are not zero. */
     size_t (*count)(const double *src, size_t n);

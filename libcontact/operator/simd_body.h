@@ -188,9 +188,10 @@ NAME(scatter_all)(size_t vectors, const struct rc_scatter *s)
 
         last = last < (ptrdiff_t)s->rows ? last : (ptrdiff_t)s->rows;
         if (first < last && x < (ptrdiff_t)s->wide && x + (ptrdiff_t)s->width > 0)
-            NAME(add_rows)(vectors, s->value[i], s->c + first * (ptrdiff_t)s->width,
-                           s->out + (y + first) * (ptrdiff_t)s->out_stride + x,
-                           (size_t)(last - first), s->out_stride);
+            NAME(add_rows)
+        (vectors, s->value[i], s->c + first * (ptrdiff_t)s->width,
+         s->out + (y + first) * (ptrdiff_t)s->out_stride + x, (size_t)(last - first),
+         s->out_stride);
     }
 }
 
@@ -300,8 +301,8 @@ NAME(find)(const double *src, size_t n, uint32_t first, uint32_t *list)
 #if WIDTH == 8
     const __m256i each = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
     for (size_t x = 0; x < n; x += 8) {
-        __mmask8 some = _mm512_cmp_pd_mask(_mm512_loadu_pd(src + x), _mm512_setzero_pd(),
-                                           _CMP_NEQ_UQ);
+        __mmask8 some =
+            _mm512_cmp_pd_mask(_mm512_loadu_pd(src + x), _mm512_setzero_pd(), _CMP_NEQ_UQ);
         __m256i at = _mm256_add_epi32(each, _mm256_set1_epi32((int)(first + x)));
         _mm256_storeu_si256((__m256i_u *)(void *)(list + found),
                             _mm256_maskz_compress_epi32(some, at));

@@ -111,8 +111,9 @@ rc_box_balance(size_t n, double hardness, double sum, const double *g, double *p
         for (size_t k = 0; k < n; k++)
             if (p[k] > 0)
                 p[k] = hardness;
-        return add_nodes(n, hardness, elastic + full == 0 ? sum : sum - hardness * (double)(elastic + full),
-                         g, p, err);
+        return add_nodes(n, hardness,
+                         elastic + full == 0 ? sum : sum - hardness * (double)(elastic + full), g,
+                         p, err);
     }
     scale_all(n, sum, p);
     return RC_OK;

@@ -1,9 +1,9 @@
 /*
  * Distances to a set, in two passes: along columns by counting, along rows by looking around (as in
- * Felzenszwalb and Huttenlocher, Theory of Computing 8, 2012, d^2 is the least of f_k + (x - x_k)^2, f the
- * squares along the columns). The first NEAR nodes on either side are looked at one by one; farther away
- * blocks of 2, 4, 8, ... stand for their least f at their middle, at most a quarter as wide as they are
- * away: d is then right to a sixth, which is more than a weight needs.
+ * Felzenszwalb and Huttenlocher, Theory of Computing 8, 2012, d^2 is the least of f_k + (x -
+ * x_k)^2, f the squares along the columns). The first NEAR nodes on either side are looked at one
+ * by one; farther away blocks of 2, 4, 8, ... stand for their least f at their middle, at most a
+ * quarter as wide as they are away: d is then right to a sixth, which is more than a weight needs.
  */
 #include "preconditioner.h"
 

@@ -85,10 +85,15 @@ rc_nested_start(struct rc_solver *s)
 {
     struct rc_shape coarse = {(s->shape.nx + 1) / 2, (s->shape.ny + 1) / 2, 2 * s->shape.dx,
                               2 * s->shape.dy};
-    struct rc_problem problem = {.boundary = s->boundary, .estar = s->estar, .load = s->load,
-                                 .hardness = s->hardness, .tol = tolerance(s, &coarse),
-                                 .method = "pcg", .threads = (size_t)s->threads,
-                                 .watch = s->watch, .watcher = s->watcher};
+    struct rc_problem problem = {.boundary = s->boundary,
+                                 .estar = s->estar,
+                                 .load = s->load,
+                                 .hardness = s->hardness,
+                                 .tol = tolerance(s, &coarse),
+                                 .method = "pcg",
+                                 .threads = (size_t)s->threads,
+                                 .watch = s->watch,
+                                 .watcher = s->watcher};
     struct rc_solver *c;
     double *h, lower;
 

@@ -1,26 +1,26 @@
 /*
  * Projected conjugate gradients with the extension preconditioner (extension.h).
  *
- * Working set W: the elastic nodes and those at a bound that want to leave it, but for those that would only
- * be pushed back (joining.c). Residual r = -g on W
- * with zero mean, z = E' A E r with zero mean, direction z + beta delta conjugate to the last step
- * delta unless that was clipped; restarted when beta is negative; components that point out of the
- * box are dropped. The step is projected onto {0 <= p <= H, sum p = S} by one shift of the
- * nodes of W (project.c). Scaling instead, as in (31b) of Polonsky and Keer, fails near saturation;
- * shifting all nodes drags every separated one into contact.
+ * Working set W: the elastic nodes and those at a bound that want to leave it, but for those that
+ * would only be pushed back (joining.c). Residual r = -g on W with zero mean, z = E' A E r with
+ * zero mean, direction z + beta delta conjugate to the last step delta unless that was clipped;
+ * restarted when beta is negative; components that point out of the box are dropped. The step is
+ * projected onto {0 <= p <= H, sum p = S} by one shift of the nodes of W (project.c). Scaling
+ * instead, as in (31b) of Polonsky and Keer, fails near saturation; shifting all nodes drags every
+ * separated one into contact.
  *
- * Its length is foretold from the steps before, so that the one convolution K delta of the step as it
- * was clipped serves all: the new gap, the change of the energy, which is a quadratic along delta and
- * known exactly, and the conjugacy of the next direction. A clipped step that is too long for the
- * energy is made anew, shorter; an unclipped one goes to its lowest point. So no step raises the
- * energy. Where delta leads nowhere, and every SPACER steps, a projected-gradient step is made
- * instead. By the spacer-step theorem (Luenberger and Ye, Linear and Nonlinear Programming) the whole then
- * converges to the one minimum.
+ * Its length is foretold from the steps before, so that the one convolution K delta of the step as
+ * it was clipped serves all: the new gap, the change of the energy, which is a quadratic along
+ * delta and known exactly, and the conjugacy of the next direction. A clipped step that is too long
+ * for the energy is made anew, shorter; an unclipped one goes to its lowest point. So no step
+ * raises the energy. Where delta leads nowhere, and every SPACER steps, a projected-gradient step
+ * is made instead. By the spacer-step theorem (Luenberger and Ye, Linear and Nonlinear Programming)
+ * the whole then converges to the one minimum.
  *
  * ||z||_1 / ||p||_1 estimates the error of the pressure and costs nothing here: z is at hand.
  *
- * Where the engine is the Fourier one, K delta is summed in single precision: its error is relative to
- * delta, which shrinks. The sum of what that may have spoilt is kept, and v is renewed in double
+ * Where the engine is the Fourier one, K delta is summed in single precision: its error is relative
+ * to delta, which shrinks. The sum of what that may have spoilt is kept, and v is renewed in double
  * precision before it matters, and always before the estimate is believed.
  */
 #include "pcg.h"
@@ -37,8 +37,9 @@ enum {
     PATIENCE = 40 /* steps without a better estimate, one of them a spacer, after which
                      rounding has the word                                            */
 };
-/* No step is longer than this, over the load: what the nodes that stay carry would be lost in the rounding of the
- * way there. Only heights beside which the displacement is nothing ask for more. */
+/* No step is longer than this, over the load: what the nodes that stay carry would be lost in
+ * the rounding of the way there. Only heights beside which the displacement is nothing ask for
+ * more. */
 static const double longest = 1e6;
 
 static void
@@ -93,7 +94,8 @@ gradient_block(void *at, size_t first, size_t n, double *sums)
     }
 }
 
-/* Descends at any `length`, for the way to a projection always does: 1 / |K|, or that of a single node. */
+/* Descends at any `length`, for the way to a projection always does: 1 / |K|, or that of a
+ * single node. */
 static bool
 gradient_step(struct rc_solver *solver, struct rc_pcg *s, double length)
 {
@@ -111,8 +113,9 @@ gradient_step(struct rc_solver *solver, struct rc_pcg *s, double length)
     return better;
 }
 
-/* Where the start is that far off, heights are so large beside the displacement that nodes decide nearly alone whether
- * they touch, or yield: as springs, each of the stiffness of its own cell. */
+/* Where the start is that far off, heights are so large beside the displacement that nodes
+ * decide nearly alone whether they touch, or yield: as springs, each of the stiffness of its own
+ * cell. */
 static const double apart = 100;
 
 static void
@@ -149,8 +152,8 @@ renew(struct rc_solver *solver, struct rc_pcg *s)
     rc_solver_residual(solver, false);
 }
 
-/* The direction, its mean, and an estimate that may be believed where it is small enough. Where that is foreseen, the
- * one that would only say so is spared. */
+/* The direction, its mean, and an estimate that may be believed where it is small enough. Where
+ * that is foreseen, the one that would only say so is spared. */
 static void
 look(struct rc_solver *solver, struct rc_pcg *s, double *mean)
 {
@@ -194,15 +197,16 @@ step(struct rc_solver *solver, void *at)
         return; /* rounding: it stands still */
     }
     alpha = solver->estimate * s->alpha > longest ? longest / solver->estimate : s->alpha;
-    /* A direction cut at the bounds need not descend. Where that happens again and again, what is wrong is at
-     * single nodes at the edges of contact, where a step of 1 / |K| does nothing. */
+    /* A direction cut at the bounds need not descend. Where that happens again and again, what
+     * is wrong is at single nodes at the edges of contact, where a step of 1 / |K| does nothing. */
     still = solver->iterations > s->best_at + 3;
     if (solver->iterations % SPACER == SPACER - 1)
         (void)gradient_step(solver, s, 1 / rc_safeguard_norm(solver));
     else if (!rc_pcg_advance(solver, s, alpha, mean))
-        (void)gradient_step(solver, s, still && solver->iterations % 2 == 0
-                                           ? solver->estar / sqrt(solver->cell)
-                                           : 1 / rc_safeguard_norm(solver));
+        (void)gradient_step(solver, s,
+                            still && solver->iterations % 2 == 0
+                                ? solver->estar / sqrt(solver->cell)
+                                : 1 / rc_safeguard_norm(solver));
 }
 
 static void

@@ -1,6 +1,6 @@
 /*
- * What the rooms of the method pcg share: its state; sums (pcg_convolve.c), direction and estimate (pcg_direction.c),
- * step (pcg_step.c).
+ * What the rooms of the method pcg share: its state; sums (pcg_convolve.c), direction and estimate
+ * (pcg_direction.c), step (pcg_step.c).
  */
 #ifndef RC_PCG_H
 #define RC_PCG_H
@@ -16,7 +16,7 @@ struct rc_pcg {
     double rate;      /* of the last two estimates: how much smaller it has become        */
     double best;      /* least estimate                                                   */
     size_t best_at;
-    double *wide;     /* 2n: a step and its displacement for engines that know only double */
+    double *wide; /* 2n: a step and its displacement for engines that know only double */
 };
 
 /* What the passes over all nodes share. */
@@ -37,9 +37,9 @@ void rc_pcg_convolve(struct rc_pcg_pass *c, rc_row *in, rc_row *out);
 void rc_pcg_begin(struct rc_solver *solver, struct rc_pcg *s);
 /* z becomes the direction, `mean` its mean; the estimate of the error of p. */
 double rc_pcg_precondition(struct rc_solver *solver, struct rc_pcg *s, double *mean);
-/* From p along the direction in solver->z, of that mean, back into the box, to where the energy is low, or
- * lower; v, the working set and the residual follow. False when that leads nowhere; p is then where it
- * was. */
+/* From p along the direction in solver->z, of that mean, back into the box, to where the energy
+ * is low, or lower; v, the working set and the residual follow. False when that leads nowhere; p
+ * is then where it was. */
 bool rc_pcg_advance(struct rc_solver *solver, struct rc_pcg *s, double alpha, double mean);
 /* p carries `sum`; what rounding has made of the load is put right. */
 void rc_pcg_balance(struct rc_solver *solver, double sum);

@@ -91,5 +91,6 @@ rc_pcg_precondition(struct rc_solver *solver, struct rc_pcg *s, double *mean)
     *mean = total[2] > 0 ? total[1] / total[2] : 0;
     if (solver->elastic == 0 && solver->working > 0)
         return INFINITY; /* some want to move, but no gap says how far */
-    return (total[0] + solver->aside) / solver->per_pressure / solver->sum + rc_solver_engine_error(solver);
+    return (total[0] + solver->aside) / solver->per_pressure / solver->sum +
+           rc_solver_engine_error(solver);
 }

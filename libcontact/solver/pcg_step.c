@@ -1,5 +1,6 @@
 /*
- * The step of the method pcg: along a direction, clipped, with one convolution of what was left of it.
+ * The step of the method pcg: along a direction, clipped, with one convolution of what was left of
+ * it.
  */
 #include "pcg.h"
 
@@ -8,9 +9,9 @@
 enum {
     TRIES = 4 /* to shorten a step */
 };
-/* How near the lowest point may be for a clipped step to be taken whole: nodes then come to rest at their
- * bounds. With the lowest point at a part s of the way, the whole of it still gains (2 s - 1)/s^2 of what could
- * be gained. */
+/* How near the lowest point may be for a clipped step to be taken whole: nodes then come to rest
+ * at their bounds. With the lowest point at a part s of the way, the whole of it still gains (2
+ * s - 1)/s^2 of what could be gained. */
 static const double enough = 0.75;
 
 enum { /* sums of a move */
@@ -93,7 +94,7 @@ enum {
     CURVATURE, /* delta'q                                  */
     GAP,       /* v after the whole step on elastic nodes  */
     ELASTIC,
-    SQUARE     /* q'q                                      */
+    SQUARE /* q'q                                      */
 };
 
 RC_CLONES static void
@@ -178,10 +179,10 @@ rc_pcg_balance(struct rc_solver *solver, double sum)
 
 /* What a trial step found. */
 struct trial {
-    double size;      /* relative L1 norm                                            */
-    double carried;   /* the sum of p after it                                       */
-    double room;      /* how much of it fits into the box: 1 or, not clipped, more   */
-    double best;      /* how much of it leads to the lowest energy; 0: nowhere       */
+    double size;    /* relative L1 norm                                            */
+    double carried; /* the sum of p after it                                       */
+    double room;    /* how much of it fits into the box: 1 or, not clipped, more   */
+    double best;    /* how much of it leads to the lowest energy; 0: nowhere       */
     bool clipped;
     double total[RC_SUMS];
 };
@@ -190,7 +191,10 @@ struct trial {
 static void
 attempt(struct rc_solver *solver, struct rc_pcg *s, double alpha, double mean, struct trial *t)
 {
-    struct rc_move move = {.solver = solver, .d = solver->z, .mean = mean, .room = s->room,
+    struct rc_move move = {.solver = solver,
+                           .d = solver->z,
+                           .mean = mean,
+                           .room = s->room,
                            .alpha = alpha / solver->per_pressure};
     struct rc_pcg_pass c = {.solver = solver, .s = s, .move = &move};
     double best;
@@ -219,8 +223,8 @@ undo(struct rc_solver *solver, struct rc_pcg *s, const struct trial *t)
     s->drift += rc_pcg_single * t->size; /* delta was rounded */
 }
 
-/* From p along the direction in z, of that mean, back into the box, to where the energy is low. False
- * when that leads nowhere; p is then where it was. */
+/* From p along the direction in z, of that mean, back into the box, to where the energy is low.
+ * False when that leads nowhere; p is then where it was. */
 bool
 rc_pcg_advance(struct rc_solver *solver, struct rc_pcg *s, double alpha, double mean)
 {

@@ -1,9 +1,9 @@
 /*
- * The scheme of Polonsky and Keer, Wear 231 (1999), section 3.2: conjugate gradients on the pressure
- * with the contact set and the load enforced in every step. Equation numbers are the paper's; its
- * slips are corrected ((31b) scales by P0/P), and the upper bound, which it leaves open, is treated
- * like the lower one: a node leaves H where the gap is positive, as it enters contact where the
- * gap is negative.
+ * The scheme of Polonsky and Keer, Wear 231 (1999), section 3.2: conjugate gradients on the
+ * pressure with the contact set and the load enforced in every step. Equation numbers are the
+ * paper's; its slips are corrected ((31b) scales by P0/P), and the upper bound, which it leaves
+ * open, is treated like the lower one: a node leaves H where the gap is positive, as it enters
+ * contact where the gap is negative.
  *
  * Where many nodes change sides at once the scheme can cycle for ever (one tall node over a plain;
  * loads close to saturation): guard.c takes back what raised the energy.

@@ -10,21 +10,22 @@
 struct rc_preconditioner {
     struct rc_shape unit; /* the grid in units of sqrt(dx dy) */
     enum rc_boundary boundary;
-    struct rc_fft *fft;   /* single precision is enough: only the residual has to be exact           */
+    struct rc_fft
+        *fft; /* single precision is enough: only the residual has to be exact           */
     struct rc_spectrum *kernel, *inverse, *spread; /* K, A and G                           */
-    float *weight;        /* off W: 1 / (sum_j G_ij + d_i^(-1/2) / 2); on W: 0                    */
-    uint16_t *term;       /* d_i^(-1/2) / 2, upper halves of floats; 1 on W when they were found  */
+    float *weight;  /* off W: 1 / (sum_j G_ij + d_i^(-1/2) / 2); on W: 0                    */
+    uint16_t *term; /* d_i^(-1/2) / 2, upper halves of floats; 1 on W when they were found  */
     const unsigned char *w;
-    bool measure;         /* the distances are to be found again                                  */
+    bool measure; /* the distances are to be found again                                  */
     int threads;
-    size_t own;           /* numbers of scratch of one thread                                     */
+    size_t own; /* numbers of scratch of one thread                                     */
     float *scratch;
 };
 
 /* |x|^(-5/2); a node has no weight in itself, because no node is both on W and off it. */
 static void
-spread_rows(const struct rc_medium *medium, size_t component, const struct rc_lattice *at,
-            size_t n, size_t first, size_t last, double *out)
+spread_rows(const struct rc_medium *medium, size_t component, const struct rc_lattice *at, size_t n,
+            size_t first, size_t last, double *out)
 {
     double dx = (double)at->sx * at->dx, dy = (double)at->sy * at->dy;
     double unit = 1 / (at->dx * at->dy); /* of squared lengths */
@@ -51,7 +52,7 @@ static const struct rc_kernel spread = {
 
 struct rc_preconditioner *
 rc_preconditioner_new(const struct rc_shape *shape, enum rc_boundary boundary, size_t threads,
-                 struct rc_err *err)
+                      struct rc_err *err)
 {
     struct rc_medium medium = {.estar = 1};
     struct rc_preconditioner *e = calloc(1, sizeof *e);
@@ -285,8 +286,8 @@ correction_out(void *at, size_t j, void *row)
 }
 
 void
-rc_preconditioner_apply(struct rc_preconditioner *e, const float *r, float offset, float *z, rc_row *done,
-                   void *ctx)
+rc_preconditioner_apply(struct rc_preconditioner *e, const float *r, float offset, float *z,
+                        rc_row *done, void *ctx)
 {
     struct correction c = {.e = e, .r = r, .offset = offset, .z = z, .done = done, .ctx = ctx};
     const struct rc_spectrum *kernels[] = {e->spread, e->inverse, e->spread};

@@ -1,6 +1,6 @@
 /*
- * phi(mu) = sum over W of clip(y + mu, 0, H) - S is monotone and piecewise linear. Most nodes stay on
- * the same piece for every shift that can be meant: they are summed once, the others listed, and
+ * phi(mu) = sum over W of clip(y + mu, 0, H) - S is monotone and piecewise linear. Most nodes stay
+ * on the same piece for every shift that can be meant: they are summed once, the others listed, and
  * Newton's method inside a bracket runs over the list alone.
  */
 #include "solver.h"
@@ -11,13 +11,13 @@
 
 struct search {
     struct rc_move *m;
-    double within;     /* shifts of at most this size are meant                            */
+    double within; /* shifts of at most this size are meant                            */
     double shift;
     double sum, count; /* of listed apart: nodes on the middle piece, and what they carry  */
 };
 
-enum { /* sums of the first pass, */
-    HELD,  /* by nodes off W              */
+enum {    /* sums of the first pass, */
+    HELD, /* by nodes off W              */
     CARRIED,
     INNER, /* nodes of W inside the box   */
     OUTER, /* outside                     */
@@ -65,8 +65,8 @@ first_block(void *at, size_t first, size_t n, double *sums)
     sums[WORKING] = working;
 }
 
-/* Lists the nodes of a block that may change their piece, at its own place in the room, and closes the list
- * with a NAN where there is room left. */
+/* Lists the nodes of a block that may change their piece, at its own place in the room, and
+ * closes the list with a NAN where there is room left. */
 static void
 list_block(void *at, size_t first, size_t n, double *sums)
 {
@@ -159,7 +159,7 @@ rc_move_find(struct rc_move *m)
     phi = total[CARRIED] - sum;
     m->shift = total[INNER] > 0 ? -phi / total[INNER] : 0;
     q.within = m->shift != 0 ? 4 * fabs(m->shift) : s->sum / (double)s->n;
-    for (int round = 0; round < 40; round++, q.within *= round > 20 ? 1e10 : 16) {
+    for (int round = 0; round<40; round++, q.within *= round> 20 ? 1e10 : 16) {
         rc_solver_blocks(s, list_block, &q, total);
         q.sum = total[SUM];
         q.count = total[COUNT];

@@ -126,8 +126,9 @@ rc_solver_shift(struct rc_solver *s)
 
 /* `wants` is what is noted of a node at a bound that wants to leave it. */
 RC_CLONES static void
-residual_of(size_t n, const double *restrict p, const double *restrict v, double hardness, double shift,
-            double scale, unsigned char wants, unsigned char *restrict w, float *restrict r, double *sums)
+residual_of(size_t n, const double *restrict p, const double *restrict v, double hardness,
+            double shift, double scale, unsigned char wants, unsigned char *restrict w,
+            float *restrict r, double *sums)
 {
     double sum = 0;
     int count = 0, changed = 0;
@@ -160,8 +161,8 @@ residual_block(void *at, size_t first, size_t n, double *sums)
     const struct residual *c = at;
     struct rc_solver *s = c->s;
 
-    residual_of(n, s->p + first, s->v + first, s->hardness, s->shift, 1 / s->length, c->wants, s->w + first,
-                s->r + first, sums);
+    residual_of(n, s->p + first, s->v + first, s->hardness, s->shift, 1 / s->length, c->wants,
+                s->w + first, s->r + first, sums);
 }
 
 void
@@ -182,8 +183,8 @@ rc_solver_residual(struct rc_solver *s, bool sift)
 
 /* ---- correction ---- */
 
-/* Parts of the working set that may change sides before the extension is told, and before it measures
- * its distances again. */
+/* Parts of the working set that may change sides before the extension is told, and before it
+ * measures its distances again. */
 static const double little = 1e-3, much = 1.0;
 
 void
@@ -242,8 +243,9 @@ size_block(void *at, size_t first, size_t n, double *sums)
         sums[0] += c->s->w[k] ? fabs((double)c->s->z[k] - c->mean) : 0;
 }
 
-/* What the engine may have put into the pressure: its error is a bound, relative to all of |K| |p|, and what the
- * pressure makes of it was seen to be 0.2 to 0.6 of that (multi-level sums, smooth and rough spheres). */
+/* What the engine may have put into the pressure: its error is a bound, relative to all of |K|
+ * |p|, and what the pressure makes of it was seen to be 0.2 to 0.6 of that (multi-level sums,
+ * smooth and rough spheres). */
 double
 rc_solver_engine_error(const struct rc_solver *s)
 {

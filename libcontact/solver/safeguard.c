@@ -1,7 +1,7 @@
 /*
- * What keeps a method from cycling. The energy 1/2 p'Kp - h'p costs nothing to follow and must fall. A
- * step that raised it is taken back, and a projected-gradient step is made in its place, which lowers
- * it by at least |K|/2 times the square of its own length: no cycle can close.
+ * What keeps a method from cycling. The energy 1/2 p'Kp - h'p costs nothing to follow and must
+ * fall. A step that raised it is taken back, and a projected-gradient step is made in its place,
+ * which lowers it by at least |K|/2 times the square of its own length: no cycle can close.
  */
 #include "solver.h"
 
@@ -33,8 +33,9 @@ rc_safeguard_raised(struct rc_safeguard *guard, const struct rc_solver *solver)
 }
 
 /* On the free boundary the largest row sum of K: what a uniform pressure does in the middle of a
- * rectangle a x b, 2 (a asinh(b/a) + b asinh(a/b)) / (pi E*) (Love 1929; Johnson 1985, eq. 3.25). On a
- * periodic map the eigenvalues are known, and the longest wave has the largest, 2 / (E* q), q = 2 pi / L. */
+ * rectangle a x b, 2 (a asinh(b/a) + b asinh(a/b)) / (pi E*) (Love 1929; Johnson 1985, eq.
+ * 3.25). On a periodic map the eigenvalues are known, and the longest wave has the largest, 2 /
+ * (E* q), q = 2 pi / L. */
 double
 rc_safeguard_norm(const struct rc_solver *s)
 {
@@ -80,7 +81,8 @@ rc_safeguard_step(struct rc_solver *solver, const double *old, double *t, double
         return; /* this is as near as rounding lets us come */
     rc_conv_apply(solver->conv, t, r);
     solver->convolutions++;
-    for (size_t k = 0; k < solver->n; k++) { /* without the shift: t adds up to 0 but for rounding */
+    for (size_t k = 0; k < solver->n;
+         k++) { /* without the shift: t adds up to 0 but for rounding */
         above -= (solver->v[k] - solver->shift) * t[k];
         below += r[k] * t[k];
     }

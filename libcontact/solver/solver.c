@@ -57,8 +57,8 @@ tolerance(const struct rc_shape *shape, const struct rc_problem *problem)
     return isnan(problem->tol) ? pow((double)(shape->nx * shape->ny), -0.75) : problem->tol;
 }
 
-/* The engine's accuracy follows from that of the pressure, which it must not spoil: at a tenth, as in the paper, its
- * own error, which no residual shows, was up to a third of what was left. */
+/* The engine's accuracy follows from that of the pressure, which it must not spoil: at a tenth,
+ * as in the paper, its own error, which no residual shows, was up to a third of what was left. */
 static struct rc_conv_options
 conv_options(const struct rc_shape *shape, const struct rc_problem *problem)
 {
@@ -97,8 +97,8 @@ allocate(struct rc_solver *s, const double *h)
     return true;
 }
 
-/* Single precision has 38 decades, gaps in metres and moduli in pascals can need more: there pressures
- * are of the order of 1, and a power of 2 keeps them exact. */
+/* Single precision has 38 decades, gaps in metres and moduli in pascals can need more: there
+ * pressures are of the order of 1, and a power of 2 keeps them exact. */
 static void
 set_units(struct rc_solver *s)
 {
@@ -117,9 +117,11 @@ rc_solver_set_load(struct rc_solver *s, double load, struct rc_err *err)
     if (!(load > 0) || isinf(load))
         return rc_err_set(err, "load %g N: it must be positive and finite", load);
     if (load > carried * (1 + 4 * DBL_EPSILON))
-        return rc_err_set(err, "load %.9g N is above hardness times area, %.9g Pa x %.9g m2 = "
-                               "%.9g N, where every node yields: no solution exists; lower the "
-                               "load or raise the hardness", load, s->hardness, area, carried);
+        return rc_err_set(err,
+                          "load %.9g N is above hardness times area, %.9g Pa x %.9g m2 = "
+                          "%.9g N, where every node yields: no solution exists; lower the "
+                          "load or raise the hardness",
+                          load, s->hardness, area, carried);
     s->load = load;
     s->sum = load / s->cell;
     if (s->sum >= s->hardness * (double)s->n * (1 - 8 * DBL_EPSILON))
@@ -128,8 +130,8 @@ rc_solver_set_load(struct rc_solver *s, double load, struct rc_err *err)
     return RC_OK;
 }
 
-/* Where the load is sought, the one given is a guess; without one, that of a flat punch as large as the
- * part of the surface that the approach would cut off. */
+/* Where the load is sought, the one given is a guess; without one, that of a flat punch as large
+ * as the part of the surface that the approach would cut off. */
 static enum rc_status
 first_load(struct rc_solver *s, const struct rc_problem *problem, struct rc_err *err)
 {
@@ -148,9 +150,11 @@ first_load(struct rc_solver *s, const struct rc_problem *problem, struct rc_err 
     if (s->boundary == RC_PERIODIC && isinf(s->hardness)) {
         double full = -rc_sum(s->h, s->n) / (double)s->n;
         if (problem->approach >= full)
-            return rc_err_set(err, "approach %.9g m: contact is complete at %.9g m, and from there "
-                                   "the load of a periodic surface grows at the same approach; "
-                                   "give the load", problem->approach, full);
+            return rc_err_set(err,
+                              "approach %.9g m: contact is complete at %.9g m, and from there "
+                              "the load of a periodic surface grows at the same approach; "
+                              "give the load",
+                              problem->approach, full);
     }
     return rc_solver_set_load(s, guess < most ? guess : most, err);
 }
@@ -187,9 +191,8 @@ solver_new(const struct rc_shape *shape, const double *h, const struct rc_proble
     s->stages = problem->discretization;
     s->watch = problem->watch;
     s->watcher = problem->watcher;
-    s->max_iterations = problem->max_iterations > 0
-                            ? problem->max_iterations
-                            : 100 + (size_t)(10 * sqrt((double)s->n));
+    s->max_iterations = problem->max_iterations > 0 ? problem->max_iterations
+                                                    : 100 + (size_t)(10 * sqrt((double)s->n));
     s->threads = rc_useful_threads(shape, problem->threads);
     s->rough = rough;
     rc_solver_forget(s);
@@ -198,10 +201,11 @@ solver_new(const struct rc_shape *shape, const double *h, const struct rc_proble
     s->next_check = 1;
     if (!allocate(s, h))
         goto short_of_memory;
-    if (first_load(s, problem, err) != RC_OK || (s->method = choose(problem->method, err)) == NULL ||
+    if (first_load(s, problem, err) != RC_OK ||
+        (s->method = choose(problem->method, err)) == NULL ||
         (!rough && (s->conv = rc_conv_new(shape, s->estar, &options, err)) == NULL) ||
         (s->extension = rc_preconditioner_new(shape, s->boundary, problem->threads, err)) == NULL ||
-        (rc_solver_level(s), s->state = s->method->new(s, err)) == NULL) {
+        (rc_solver_level(s), s->state = s->method->new (s, err)) == NULL) {
         rc_solver_free(s);
         return NULL;
     }

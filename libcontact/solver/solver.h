@@ -2,8 +2,8 @@
  * What the solver's front and its methods share. A method is a row of methods.list: it improves
  * solver->p step by step; the front judges, counts and reports.
  *
- * The problem: p with 0 <= p <= H and sum p dx dy = load that minimises 1/2 p'Kp - h'p. With the gap
- * g = Kp - h - c, c its mean over the elastic nodes (0 < p < H), the solution has g = 0 there,
+ * The problem: p with 0 <= p <= H and sum p dx dy = load that minimises 1/2 p'Kp - h'p. With the
+ * gap g = Kp - h - c, c its mean over the elastic nodes (0 < p < H), the solution has g = 0 there,
  * g >= 0 where p = 0 and g <= 0 where p = H.
  */
 #ifndef RC_SOLVER_H
@@ -41,49 +41,49 @@ struct rc_solver {
     struct rc_shape shape;
     enum rc_boundary boundary;
     size_t n;
-    double cell;             /* dx dy                                                       */
+    double cell; /* dx dy                                                       */
     double estar, hardness, load;
-    double tol, goal;        /* asked of this load, and at last: looser while the load is sought */
-    double top;              /* what was taken from the heights                             */
-    rc_watch *watch;         /* NULL, or told of each iteration                             */
+    double tol, goal; /* asked of this load, and at last: looser while the load is sought */
+    double top;       /* what was taken from the heights                             */
+    rc_watch *watch;  /* NULL, or told of each iteration                             */
     void *watcher;
-    bool stages;             /* the coarser grid is solved well enough to compare with      */
+    bool stages; /* the coarser grid is solved well enough to compare with      */
     struct rc_discretization coarse; /* its figures; NAN: none                              */
     struct rc_load_search seek;
-    double sum;              /* load / cell: what the nodal pressures add up to             */
+    double sum; /* load / cell: what the nodal pressures add up to             */
     size_t max_iterations;
     int threads;
-    bool rough;              /* a coarse grid of another's start: nobody asks for a proof   */
-    struct rc_conv *conv;    /* NULL: a rough solver has none                              */
+    bool rough;           /* a coarse grid of another's start: nobody asks for a proof   */
+    struct rc_conv *conv; /* NULL: a rough solver has none                              */
     struct rc_preconditioner *extension;
     const struct rc_method *method;
     void *state;
-    double *h;               /* heights less their maximum: the datum costs digits          */
-    double *p;               /* the iterate: in the box, with the load                      */
-    double *v;               /* K p - h: the gap but for a constant                         */
-    bool known, fresh;       /* v belongs to p; and comes from a double-precision convolution */
-    double shift;            /* c: the gap is v - c                                         */
-    size_t elastic;          /* nodes with 0 < p < H                                        */
-    size_t working;          /* nodes of the working set: those, and those that want to leave
+    double *h;             /* heights less their maximum: the datum costs digits          */
+    double *p;             /* the iterate: in the box, with the load                      */
+    double *v;             /* K p - h: the gap but for a constant                         */
+    bool known, fresh;     /* v belongs to p; and comes from a double-precision convolution */
+    double shift;          /* c: the gap is v - c                                         */
+    size_t elastic;        /* nodes with 0 < p < H                                        */
+    size_t working;        /* nodes of the working set: those, and those that want to leave
                                 their bound                                                 */
-    unsigned char *w;        /* 1 on the working set, else 0                                */
-    double changed, moved;   /* nodes that changed sides since the extension was told w, and since
+    unsigned char *w;      /* 1 on the working set, else 0                                */
+    double changed, moved; /* nodes that changed sides since the extension was told w, and since
                                 it measured distances                                       */
-    float *r;                /* residual -g on it, else 0, over `length`                    */
-    float offset;            /* its mean there                                              */
-    double aside;            /* what the nodes sifted out of it would carry, times per_pressure */
-    float *z;                /* scratch of n: corrections, times `per_pressure`             */
+    float *r;              /* residual -g on it, else 0, over `length`                    */
+    float offset;          /* its mean there                                              */
+    double aside;          /* what the nodes sifted out of it would carry, times per_pressure */
+    float *z;              /* scratch of n: corrections, times `per_pressure`             */
     double per_pressure, length; /* single precision: pressures of about 1, and what those displace
                                 on cells of unit area for E* = 1                           */
-    double *partial;         /* sums of blocks and rows                                     */
+    double *partial;             /* sums of blocks and rows                                     */
     size_t iterations;
-    double convolutions;     /* equivalents of one double-precision convolution             */
-    double change;           /* relative L1 change of p in the last step; 0: it stands still */
-    double estimate;         /* of the relative L1 error of p, by a method that has it at hand from a
+    double convolutions; /* equivalents of one double-precision convolution             */
+    double change;       /* relative L1 change of p in the last step; 0: it stands still */
+    double estimate;     /* of the relative L1 error of p, by a method that has it at hand from a
                                 fresh K p; NAN: it has not                                  */
-    double error;            /* estimated relative L1 error at the last check; NAN: none    */
-    size_t judged;           /* iteration of that check                                     */
-    size_t next_check;       /* iteration at which the error is estimated again             */
+    double error;        /* estimated relative L1 error at the last check; NAN: none    */
+    size_t judged;       /* iteration of that check                                     */
+    size_t next_check;   /* iteration at which the error is estimated again             */
 };
 
 /* Where a node stands in the box. */
@@ -130,11 +130,11 @@ rc_row_sums(const struct rc_solver *s, size_t row)
 
 /* v = K p - h by a convolution in double precision. */
 void rc_solver_displace(struct rc_solver *solver);
-/* The shift: mean of v over the elastic nodes, or, when there are none, the middle between the largest
- * v under p = H and the smallest under p = 0. Sets `elastic` and `shift`. */
+/* The shift: mean of v over the elastic nodes, or, when there are none, the middle between the
+ * largest v under p = H and the smallest under p = 0. Sets `elastic` and `shift`. */
 void rc_solver_shift(struct rc_solver *solver);
-/* The working set and the residual on it, from v and the shift; sifted, without those that would only be pushed
- * back to their bound (joining.h). Sets w, changed, r, offset, working. */
+/* The working set and the residual on it, from v and the shift; sifted, without those that would
+ * only be pushed back to their bound (joining.h). Sets w, changed, r, offset, working. */
 void rc_solver_residual(struct rc_solver *solver, bool sift);
 /* Forgets what the extension was told: w is another set altogether. */
 static inline void
@@ -168,16 +168,16 @@ void rc_box_project(size_t n, const unsigned char *w, double hardness, double su
  *
  *     clip(p + alpha (d - mean)[d != 0] + shift, 0, H),
  *
- * with the one shift that keeps the load: the Euclidean projection of the step, where W can carry its
- * share; where it cannot, all nodes become W. */
+ * with the one shift that keeps the load: the Euclidean projection of the step, where W can
+ * carry its share; where it cannot, all nodes become W. */
 struct rc_move {
     struct rc_solver *solver;
-    const float *d;    /* direction, times per_pressure; not 0 only on W                  */
+    const float *d; /* direction, times per_pressure; not 0 only on W                  */
     double alpha;
-    double mean;       /* of d                                                            */
-    double *room;      /* n numbers of scratch                                            */
-    double shift;      /* found                                                           */
-    bool clipped;      /* found: some node would have left the box                        */
+    double mean;  /* of d                                                            */
+    double *room; /* n numbers of scratch                                            */
+    double shift; /* found                                                           */
+    bool clipped; /* found: some node would have left the box                        */
 };
 void rc_move_find(struct rc_move *move);
 /* guard.c: begins with energy INFINITY. */

@@ -1,5 +1,6 @@
 /*
- * How a solver is stepped: a method's step, the judgement of what it has reached, other loads and starts.
+ * How a solver is stepped: a method's step, the judgement of what it has reached, other loads and
+ * starts.
  */
 #include "solver.h"
 
@@ -57,7 +58,8 @@ rc_solver_step(struct rc_solver *s)
 {
     enum rc_status status = step(s);
 
-    if (s->watch != NULL && !s->watch(s->watcher, &s->shape, s->iterations, s->error, s->tol) && s->rough)
+    if (s->watch != NULL && !s->watch(s->watcher, &s->shape, s->iterations, s->error, s->tol) &&
+        s->rough)
         return RC_SHORT;
     return status == RC_OK && s->seek.target > 0 ? rc_load_search_step(s) : status;
 }

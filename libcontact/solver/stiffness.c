@@ -1,8 +1,8 @@
 /*
  * How much more load a closer approach needs, the elastic nodes staying what they are: with t the
- * pressure that displaces all of them by one unit, K_WW t = 1, the stiffness is the sum of t. Conjugate
- * gradients with the preconditioner of the contact itself; the sum is stationary at the solution, so
- * its error is the square of theirs, and single precision is enough.
+ * pressure that displaces all of them by one unit, K_WW t = 1, the stiffness is the sum of t.
+ * Conjugate gradients with the preconditioner of the contact itself; the sum is stationary at the
+ * solution, so its error is the square of theirs, and single precision is enough.
  */
 #include "solver.h"
 

@@ -1,16 +1,18 @@
 /*
  * Which nodes at a bound join the working set.
  *
- * One that penetrates the other body (p = 0 and g < 0; the like at the hardness) need not want to: next to an
- * edge of contact that is about to be pressed less, it overlaps a little, and once its neighbours are in touch
- * it would have to pull. Were it to join, the preconditioner would count on that pull, which the bound then takes
- * away, and the step would be too long: at 2048 x 2048 and 50 % contact that doubled the number of steps.
+ * One that penetrates the other body (p = 0 and g < 0; the like at the hardness) need not want to:
+ * next to an edge of contact that is about to be pressed less, it overlaps a little, and once its
+ * neighbours are in touch it would have to pull. Were it to join, the preconditioner would count on
+ * that pull, which the bound then takes away, and the step would be too long: at 2048 x 2048 and 50
+ * % contact that doubled the number of steps.
  *
- * What the set would load it with is z = A r, A = (-Laplace)^(1/2) E* / 2 the inverse of the half-space, r the
- * residual extended smoothly: (A r)_i ~ sum_j (r_i - r_j) / |x_i - x_j|^3. The sum falls off so fast that its
- * sign can be told from the eight neighbours. A node joins unless that sign is the wrong one; one without
- * neighbours in the set always does, and so do all as the residual of their neighbours goes to 0. The estimate that is
- * believed at last is made with all of them.
+ * What the set would load it with is z = A r, A = (-Laplace)^(1/2) E* / 2 the inverse of the
+ * half-space, r the residual extended smoothly: (A r)_i ~ sum_j (r_i - r_j) / |x_i - x_j|^3. The
+ * sum falls off so fast that its sign can be told from the eight neighbours. A node joins unless
+ * that sign is the wrong one; one without neighbours in the set always does, and so do all as the
+ * residual of their neighbours goes to 0. The estimate that is believed at last is made with all of
+ * them.
  */
 #include "solver.h"
 
@@ -67,7 +69,8 @@ next(const unsigned char *w, size_t k, size_t end)
     return k;
 }
 
-/* Leaves in z whether a node that wants to is to join: it is at p = 0 with r > 0, or at the hardness with r < 0. */
+/* Leaves in z whether a node that wants to is to join: it is at p = 0 with r > 0, or at the
+ * hardness with r < 0. */
 static void
 decide(const struct sift *c)
 {
@@ -83,8 +86,8 @@ decide(const struct sift *c)
         }
 }
 
-/* What moves a node by 1 while the others around it stay where they are: the mean of |q|/2 over the wave numbers of a
- * square grid, on cells of unit area for E* = 1. */
+/* What moves a node by 1 while the others around it stay where they are: the mean of |q|/2 over
+ * the wave numbers of a square grid, on cells of unit area for E* = 1. */
 static const double stiffness = 1.2;
 
 enum { /* sums */

@@ -60,15 +60,15 @@
 
 #define R3 (r * r2)
 #define R5 (r * r2 * r2)
-POINT(n_xx, c * (z * R3 - w * r + x * x * r2 * w * (r + w)) - 3 * z * x * x * R5)
-POINT(n_yy, c * (z * R3 - w * r + y * y * r2 * w * (r + w)) - 3 * z * y * y * R5)
+POINT(n_xx, c *(z *R3 - w * r + x * x * r2 * w * (r + w)) - 3 * z * x * x * R5)
+POINT(n_yy, c *(z *R3 - w * r + y * y * r2 * w * (r + w)) - 3 * z * y * y * R5)
 POINT(n_zz, -3 * z * z * z * R5)
-POINT(n_xy, x * y * (c * r2 * w * (r + w) - 3 * z * R5))
+POINT(n_xy, x *y *(c *r2 *w *(r + w) - 3 * z * R5))
 POINT(n_xz, -3 * x * z * z * R5)
 POINT(n_yz, -3 * y * z * z * R5)
-POINT(t_xx, x * (c * (R3 - 3 * r * w * w + x * x * r2 * w * w * (r + 2 * w)) - 3 * x * x * R5))
-POINT(t_yy, x * (c * r2 * w * (z * (r + w) + y * y * w * (r + 2 * w)) - 3 * y * y * R5))
-POINT(t_xy, y * (c * (x * x * r2 * w * w * (r + 2 * w) - r * w * w) - 3 * x * x * R5))
+POINT(t_xx, x *(c *(R3 - 3 * r * w * w + x * x * r2 * w * w * (r + 2 * w)) - 3 * x * x * R5))
+POINT(t_yy, x *(c *r2 *w *(z *(r + w) + y * y * w * (r + 2 * w)) - 3 * y * y * R5))
+POINT(t_xy, y *(c *(x *x *r2 *w *w *(r + 2 * w) - r * w * w) - 3 * x * x * R5))
 POINT(t_xz, -3 * z * x * x * R5)
 POINT(t_yz, -3 * z * x * y * R5)
 
@@ -187,25 +187,25 @@ t_yz_corner(const struct rc_corner *k)
 
 /* ---- of a wave ---- */
 
-#define SYMBOL(name, value)                                                                       \
-    static double name##_symbol(const struct rc_wave *s)                                          \
-    {                                                                                             \
-        double qx = s->qx, qy = s->qy, q = s->q, z = s->z, nu = s->nu, c = 1 - 2 * nu;            \
-        (void)qx, (void)qy, (void)q, (void)z, (void)nu, (void)c;                                  \
-        return (value) * s->decay;                                                                \
+#define SYMBOL(name, value)                                                                        \
+    static double name##_symbol(const struct rc_wave *s)                                           \
+    {                                                                                              \
+        double qx = s->qx, qy = s->qy, q = s->q, z = s->z, nu = s->nu, c = 1 - 2 * nu;             \
+        (void)qx, (void)qy, (void)q, (void)z, (void)nu, (void)c;                                   \
+        return (value)*s->decay;                                                                   \
     }
 
 SYMBOL(n_xx, -2 * nu - (c - z * q) * (qx / q) * (qx / q))
 SYMBOL(n_yy, -2 * nu - (c - z * q) * (qy / q) * (qy / q))
 SYMBOL(n_zz, -1 - q * z)
 SYMBOL(n_xy, (c - z * q) * (qx / q) * (qy / q))
-SYMBOL(n_xz, -qx * z)
-SYMBOL(n_yz, -qy * z)
+SYMBOL(n_xz, -qx *z)
+SYMBOL(n_yz, -qy *z)
 SYMBOL(t_xx, -(qx / q) * (2 * (1 + nu) - (2 * nu + z * q) * (qx / q) * (qx / q)))
 SYMBOL(t_yy, -(qx / q) * (2 * nu - (2 * nu + z * q) * (qy / q) * (qy / q)))
 SYMBOL(t_xy, -(qy / q) * (1 - (2 * nu + z * q) * (qx / q) * (qx / q)))
-SYMBOL(t_xz, z * q * (qx / q) * (qx / q) - 1)
-SYMBOL(t_yz, -z * q * (qx / q) * (qy / q))
+SYMBOL(t_xz, z *q *(qx / q) * (qx / q) - 1)
+SYMBOL(t_yz, -z *q *(qx / q) * (qy / q))
 
 /* ---- the table ---- */
 
@@ -226,8 +226,8 @@ SYMBOL(t_yz, -z * q * (qx / q) * (qy / q))
     ROW(SHEAR, SYZ, t_yz, RC_ODD_X | RC_ODD_Y, -1)
 
 #define ROW(load, component, name, parity, same)                                                   \
-    [RC_##load * RC_COMPONENTS + RC_##component] = {parity, same, name##_point, name##_corner,     \
-                                                    name##_symbol},
+    [RC_##load * RC_COMPONENTS + RC_##                                                             \
+        component] = {parity, same, name##_point, name##_corner, name##_symbol},
 const struct rc_stress_row rc_stress_rows[RC_STRESS_KERNELS] = {ROWS};
 #undef ROW
 

@@ -59,8 +59,9 @@ collect(const struct rc_shape *s, const double *p, struct bins *b, struct rc_err
             double q = hypot(qx, qy), a = cabs(wave[j * columns + i]);
             int k = q > 0 ? (int)(log(q / low) / step) : -1;
             if (q > 0) /* columns between the first and the last stand for two */
-                b->power[k < 0 ? 0 : k < BINS ? k : BINS - 1] +=
-                    (i == 0 || 2 * i == s->nx ? 1 : 2) * a * a;
+                b->power[k < 0      ? 0
+                         : k < BINS ? k
+                                    : BINS - 1] += (i == 0 || 2 * i == s->nx ? 1 : 2) * a * a;
         }
     free(wave);
     return RC_OK;
@@ -146,8 +147,8 @@ rc_stress_depths(const struct rc_shape *shape, const double *p, enum rc_boundary
             q = fmax(q, 1 / radius); /* the longest waves do not fit on the map */
         if (boundary == RC_FREE ? z >= radii * radius : left <= died * died * all)
             break;
-        z += fmax(fmin(part * pow(all / left, 0.25), most_part) / q,
-                  fmin(shape->dx, shape->dy) / 2);
+        z +=
+            fmax(fmin(part * pow(all / left, 0.25), most_part) / q, fmin(shape->dx, shape->dy) / 2);
         (*depths)[(*n)++] = rounded(z);
     }
     free(b);

@@ -214,9 +214,8 @@ plan_new(const struct rc_stress_task *task, struct rc_err *err)
         goto done;
     }
     if ((plan->line = rc_line_new(plan->length, threads, err)) == NULL ||
-        (!periodic &&
-         ((plan->halves[0] = rc_dct_new(plan->waves, false, threads, err)) == NULL ||
-          (plan->halves[1] = rc_dct_new(plan->waves, true, threads, err)) == NULL)))
+        (!periodic && ((plan->halves[0] = rc_dct_new(plan->waves, false, threads, err)) == NULL ||
+                       (plan->halves[1] = rc_dct_new(plan->waves, true, threads, err)) == NULL)))
         goto done;
     if (periodic) {
         const struct rc_shape shape = {plan->n, plan->m, plan->d, plan->e};

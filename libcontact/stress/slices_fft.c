@@ -30,7 +30,7 @@ struct sheet {
     struct rc_fft *fft;
     size_t cx, cy; /* of a quarter                                             */
     int threads;
-    double *table[RC_STRESS_KERNELS];          /* cy rows of cx values, transformed in x */
+    double *table[RC_STRESS_KERNELS];       /* cy rows of cx values, transformed in x */
     struct rc_dct *along_x[2], *along_y[2]; /* even, odd                     */
     double *x;     /* offsets of the columns                                   */
     double *space; /* for each thread: COLUMNS columns, or a row of offsets    */

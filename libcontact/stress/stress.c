@@ -121,7 +121,7 @@ rc_stress_new(const struct rc_shape *shape, const double *p,
             rc_stress_free(stress);
             return NULL;
         }
-    if ((stress->plan = stress->way->new(&stress->task, err)) == NULL) {
+    if ((stress->plan = stress->way->new (&stress->task, err)) == NULL) {
         rc_stress_free(stress);
         return NULL;
     }

@@ -22,10 +22,10 @@ static const double deficient = 1e-12;
 struct fit {
     const struct rc_shape *shape;
     const double *h;
-    double mean;            /* taken off first: a datum far away costs no digits   */
+    double mean;                       /* taken off first: a datum far away costs no digits   */
     size_t nx_terms, ny_terms, degree; /* polynomials along x, along y; their sum's bound */
     size_t terms;
-    double *px, *py;        /* Legendre polynomials: px[a * nx + i], py[b * ny + j] */
+    double *px, *py; /* Legendre polynomials: px[a * nx + i], py[b * ny + j] */
     gsl_matrix *rows;
     gsl_vector *heights, *coefficients;
     gsl_multilarge_linear_workspace *work;
@@ -117,8 +117,10 @@ fit_new(struct fit *f, const struct rc_shape *shape, size_t degree, const double
     if (box.infinite > 0)
         return rc_err_set(err, "%zu infinite heights: no polynomial fits them", box.infinite);
     if (box.count < f->terms)
-        return rc_err_set(err, "a polynomial of degree %zu has %zu coefficients, and only %zu "
-                               "points are there: take a lower degree", degree, f->terms, box.count);
+        return rc_err_set(err,
+                          "a polynomial of degree %zu has %zu coefficients, and only %zu "
+                          "points are there: take a lower degree",
+                          degree, f->terms, box.count);
     rc_measure(shape, h, &figures);
     f->mean = figures.mean;
     f->px = legendre(f->nx_terms, shape->nx, box.left, box.right);
@@ -185,9 +187,11 @@ solve(struct fit *f, struct rc_err *err)
         return rc_err_set(err, "the fit failed: %s", gsl_strerror(code));
     code = gsl_multilarge_linear_rcond(&rcond, f->work);
     if (code != GSL_SUCCESS || !(rcond > deficient))
-        return rc_err_set(err, "the points that are there do not determine a polynomial of degree "
-                               "%zu: too few rows or columns of them, or all on one curve; take a "
-                               "lower degree", f->degree);
+        return rc_err_set(err,
+                          "the points that are there do not determine a polynomial of degree "
+                          "%zu: too few rows or columns of them, or all on one curve; take a "
+                          "lower degree",
+                          f->degree);
     code = gsl_multilarge_linear_solve(0, f->coefficients, &residual, &norm, f->work);
     if (code != GSL_SUCCESS)
         return rc_err_set(err, "the fit failed: %s", gsl_strerror(code));

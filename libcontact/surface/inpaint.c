@@ -21,11 +21,11 @@ enum {
 /* The unknowns, numbered along rows: the neighbour on the left of k is k - 1. */
 struct membrane {
     size_t n;
-    double wx, wy;        /* what a neighbour along x, along y pulls with                        */
+    double wx, wy; /* what a neighbour along x, along y pulls with                        */
     unsigned char *sides;
-    size_t *above;        /* number of the neighbour above, where sides has ABOVE                */
-    double *diagonal;     /* weight of all neighbours that are in the map                        */
-    double *pivot;        /* 1 / diagonal of the incomplete factor                               */
+    size_t *above;    /* number of the neighbour above, where sides has ABOVE                */
+    double *diagonal; /* weight of all neighbours that are in the map                        */
+    double *pivot;    /* 1 / diagonal of the incomplete factor                               */
     double *x, *r, *z, *d, *q; /* solution, residual, preconditioned, direction, A direction     */
 };
 
@@ -225,8 +225,10 @@ rc_inpaint(const struct rc_shape *shape, double *h, size_t *filled, struct rc_er
     if (s.missing == 0)
         return RC_OK;
     if (s.infinite > 0)
-        return rc_err_set(err, "%zu of %zu values are infinite: missing ones cannot be filled from "
-                               "them", s.infinite, nodes);
+        return rc_err_set(err,
+                          "%zu of %zu values are infinite: missing ones cannot be filled from "
+                          "them",
+                          s.infinite, nodes);
     if (s.missing == nodes)
         return rc_err_set(err, "all %zu values are missing: nothing to fill them from", nodes);
     if (membrane_new(&m, shape, s.missing, err) != RC_OK)

@@ -34,8 +34,7 @@ rc_synth_wave(const struct rc_shape *shape, double amplitude, double wavelength_
     for (size_t j = 0; j < shape->ny; j++) {
         double a = amplitude * cos(2 * pi * place(j, shape->ny, shape->dy) / wavelength_y);
         for (size_t i = 0; i < shape->nx; i++)
-            h[j * shape->nx + i] =
-                a * cos(2 * pi * place(i, shape->nx, shape->dx) / wavelength_x);
+            h[j * shape->nx + i] = a * cos(2 * pi * place(i, shape->nx, shape->dx) / wavelength_x);
     }
 }
 
@@ -90,12 +89,15 @@ check_spectrum(const struct rc_shape *shape, const struct rc_selfaffine *what, s
     if (!(what->hurst > 0 && what->hurst <= 1))
         return rc_err_set(err, "Hurst exponent %g: it must be above 0 and at most 1", what->hurst);
     if (bad_length(what->long_cut) || bad_length(what->rolloff) || bad_length(what->short_cut))
-        return rc_err_set(err, "long cut-off %g m, roll-off %g m, short cut-off %g m: wavelengths "
-                               "must be positive and finite",
+        return rc_err_set(err,
+                          "long cut-off %g m, roll-off %g m, short cut-off %g m: wavelengths "
+                          "must be positive and finite",
                           what->long_cut, what->rolloff, what->short_cut);
     if (what->short_cut < shortest * (1 - slack))
-        return rc_err_set(err, "short cut-off %g m: the nodes hold wavelengths from %g m on, twice "
-                               "their spacing", what->short_cut, shortest);
+        return rc_err_set(err,
+                          "short cut-off %g m: the nodes hold wavelengths from %g m on, twice "
+                          "their spacing",
+                          what->short_cut, shortest);
     if (!isnan(what->short_cut))
         shortest = what->short_cut;
     if (what->long_cut < shortest)
@@ -217,13 +219,15 @@ rc_synth_selfaffine(const struct rc_shape *shape, const struct rc_selfaffine *wh
     }
     make_waves(shape, &spectrum, s, &height2, &slope2);
     if (height2 == 0) {
-        rc_err_set(err, "no wave of a map of %g m x %g m lies between the wavelengths %g m and "
-                        "%g m", (double)shape->nx * shape->dx, (double)shape->ny * shape->dy,
-                   1 / spectrum.high, 1 / spectrum.low);
+        rc_err_set(err,
+                   "no wave of a map of %g m x %g m lies between the wavelengths %g m and "
+                   "%g m",
+                   (double)shape->nx * shape->dx, (double)shape->ny * shape->dy, 1 / spectrum.high,
+                   1 / spectrum.low);
         goto done;
     }
-    scale = isnan(what->rms_slope) ? what->rms_height / sqrt(height2)
-                                   : what->rms_slope / sqrt(slope2);
+    scale =
+        isnan(what->rms_slope) ? what->rms_height / sqrt(height2) : what->rms_slope / sqrt(slope2);
     for (size_t k = 0; k < n; k++)
         s[k] *= scale;
     status = rc_fourier_backward(shape, s, h, err);

@@ -40,7 +40,7 @@ static struct shared {
     int depth; /* 0: no child has died here */
     void *frame[DEPTH];
     uint8_t counter[COUNTERS_MOST];
-} *shared;
+} * shared;
 
 static unsigned long children, died;
 static bool is_child;
@@ -153,10 +153,10 @@ LLVMFuzzerInitialize(int *argc, char ***argv)
 static int
 belongs(void *pc)
 {
-    static const char *const systems[] = {"libc.so", "libm.so", "libgcc", "ld-linux", "libstdc++",
-                                          "libpthread"};
-    static const char *const runtime[] = {"backtrace", "malloc", "calloc", "realloc", "free", "tell",
-                                          "on_report", "on_signal"};
+    static const char *const systems[] = {"libc.so",  "libm.so",   "libgcc",
+                                          "ld-linux", "libstdc++", "libpthread"};
+    static const char *const runtime[] = {"backtrace", "malloc", "calloc",    "realloc",
+                                          "free",      "tell",   "on_report", "on_signal"};
     static Dl_info self;
     char name[256];
     Dl_info at;

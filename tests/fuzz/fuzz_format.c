@@ -1,8 +1,8 @@
-/* Whatever the bytes are, the reader named in RC_FORMAT refuses them with a reason or gives a sound
- * map, in a second and with 16 times their memory and 64 MiB; without RC_FORMAT it is the reader that
- * detection chooses. With RC_FUZZ_OPEN the cages stay open: what works in one runs here, where the
- * sanitizers see it; with RC_FUZZ_OPEN=library a library that asks for any memory, which is bounded
- * by theirs (max_allocation_size_mb). */
+/* Whatever the bytes are, the reader named in RC_FORMAT refuses them with a reason or gives a
+ * sound map, in a second and with 16 times their memory and 64 MiB; without RC_FORMAT it is the
+ * reader that detection chooses. With RC_FUZZ_OPEN the cages stay open: what works in one runs
+ * here, where the sanitizers see it; with RC_FUZZ_OPEN=library a library that asks for any
+ * memory, which is bounded by theirs (max_allocation_size_mb). */
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>

@@ -12,9 +12,11 @@ struct rc_hdf {
     size_t at;
 };
 
+/* clang-format off */
 static const char *const words[] = {
     "Root", "Measurement", "Surface", "Path", "{1}", "{2}", "Data/Surface/z", "/Data/Surface/z",
     "LateralCat", "HeightCat", "Pixels", "Meters", "NanoMeters", "Fringes", "m", "um", "z", ""};
+/* clang-format on */
 
 static unsigned
 byte(struct rc_hdf *h)
@@ -59,7 +61,8 @@ text(struct rc_hdf *h, char *to, size_t size)
     rc_text_clean(to, size, raw, which);
 }
 
-/* Mostly small, now and then anything; little that is large and might be, which would only take time. */
+/* Mostly small, now and then anything; little that is large and might be, which would only take
+ * time. */
 static size_t
 length(struct rc_hdf *h)
 {

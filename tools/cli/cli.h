@@ -1,5 +1,6 @@
 /*
- * The face of this folder: options, streams in and out, messages, units, reports, the physics of a contact.
+ * The face of this folder: options, streams in and out, messages, units, reports, the physics of a
+ * contact.
  */
 #ifndef RC_CLI_H
 #define RC_CLI_H

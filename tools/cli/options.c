@@ -9,6 +9,7 @@
 #include "libcontact/contact.h"
 
 /* What every tool has. Offsets point into struct tool itself; `type` is read apart. */
+/* clang-format off */
 static const struct opt common[] = {
     {.name = "threads", .type = OPT_COUNT, .at = offsetof(struct tool, threads), .min = 1,
      .max = 4096, .arg = "N", .help = "threads to use (default: RC_THREADS, else all cores)"},
@@ -25,6 +26,7 @@ static const struct opt common[] = {
     {.name = "version", .type = OPT_FLAG, .help = "print the version and exit"},
     {.name = NULL},
 };
+/* clang-format on */
 
 enum {
     OWN = 1000,    /* getopt values of the tool's own rows  */

@@ -9,14 +9,15 @@
 void
 physics_check(struct tool *t, struct physics *a)
 {
-    int bodies = tool_given(t, "E1") + tool_given(t, "nu1") + tool_given(t, "E2") +
-                 tool_given(t, "nu2");
+    int bodies =
+        tool_given(t, "E1") + tool_given(t, "nu1") + tool_given(t, "E2") + tool_given(t, "nu2");
 
     if (tool_given(t, "load") + tool_given(t, "mean-pressure") + tool_given(t, "approach") != 1)
         tool_die(t, EXIT_USAGE, "give one of --load, --mean-pressure and --approach");
     if (tool_given(t, "estar") ? bodies > 0 : bodies != 4)
-        tool_die(t, EXIT_USAGE, "give the elasticity, either as --estar or as --E1 --nu1 --E2 "
-                                "--nu2, all four");
+        tool_die(t, EXIT_USAGE,
+                 "give the elasticity, either as --estar or as --E1 --nu1 --E2 "
+                 "--nu2, all four");
     if (bodies > 0)
         a->estar = 1 / ((1 - a->nu1 * a->nu1) / a->e1 + (1 - a->nu2 * a->nu2) / a->e2);
 }
@@ -53,15 +54,21 @@ warn(struct tool *t, const struct physics *a, const struct rc_grid *g)
 
     tool_where(t, g, where, sizeof where);
     if (!a->periodic && periodic != NULL && strcmp(periodic, "yes") == 0 && isnan(a->radius))
-        tool_warn(t, "%s: the surface is periodic, the solution is not: beyond the map there "
-                     "is no material", where);
+        tool_warn(t,
+                  "%s: the surface is periodic, the solution is not: beyond the map there "
+                  "is no material",
+                  where);
     if (!a->periodic && g->ny == 1 && g->nx > 1)
-        tool_warn(t, "%s: a profile is solved as a strip %g m wide, not as a ridge without "
-                     "end", where, g->dy);
+        tool_warn(t,
+                  "%s: a profile is solved as a strip %g m wide, not as a ridge without "
+                  "end",
+                  where, g->dy);
     rc_measure(&shape, g->v, &st);
     if (st.rms_slope > 0.3)
-        tool_warn(t, "%s: RMS slope %.2f is beyond the theory of small slopes (0.3): expect "
-                     "pressures that are too high", where, st.rms_slope);
+        tool_warn(t,
+                  "%s: RMS slope %.2f is beyond the theory of small slopes (0.3): expect "
+                  "pressures that are too high",
+                  where, st.rms_slope);
 }
 
 void
@@ -86,7 +93,9 @@ physics_problem(const struct physics *a, const struct rc_grid *g, size_t step)
     return (struct rc_problem){
         .boundary = a->periodic ? RC_PERIODIC : RC_FREE,
         .estar = a->estar,
-        .load = a->load.n > 0 ? number : a->mean_pressure.n > 0 ? number * area : 0,
+        .load = a->load.n > 0            ? number
+                : a->mean_pressure.n > 0 ? number * area
+                                         : 0,
         .approach = a->approach.n > 0 ? number : 0,
         .hardness = a->hardness,
         .tol = NAN,

@@ -1,6 +1,7 @@
 /*
- * What a contact is, as the tools that solve it are told: load, elasticity, hardness, form, boundary. The
- * options are the rows of physics.list, which each of these tools includes in its own table.
+ * What a contact is, as the tools that solve it are told: load, elasticity, hardness, form,
+ * boundary. The options are the rows of physics.list, which each of these tools includes in its own
+ * table.
  */
 #ifndef RC_PHYSICS_H
 #define RC_PHYSICS_H
@@ -17,17 +18,21 @@ struct physics {
 
 /* Nothing given. */
 #define PHYSICS_NONE                                                                               \
-    {.estar = NAN, .e1 = NAN, .nu1 = NAN, .e2 = NAN, .nu2 = NAN, .hardness = INFINITY, .radius = NAN}
+    {                                                                                              \
+        .estar = NAN, .e1 = NAN, .nu1 = NAN, .e2 = NAN, .nu2 = NAN, .hardness = INFINITY,          \
+        .radius = NAN                                                                              \
+    }
 
 /* Ends the tool where too little or too much was given; then only E* counts, in physics->estar. */
 void physics_check(struct tool *tool, struct physics *physics);
 /* The loads, mean pressures or approaches. */
 const struct numbers *physics_steps(const struct physics *physics);
 
-/* Ends the tool where a frame does not hold heights that can be pressed; else adds the sphere and warns
- * of what the theory does not cover. */
+/* Ends the tool where a frame does not hold heights that can be pressed; else adds the sphere
+ * and warns of what the theory does not cover. */
 void physics_heights(struct tool *tool, const struct physics *physics, struct rc_grid *heights);
 /* The contact at one of the steps; how it is to be solved is left open. */
-struct rc_problem physics_problem(const struct physics *physics, const struct rc_grid *heights, size_t step);
+struct rc_problem physics_problem(const struct physics *physics, const struct rc_grid *heights,
+                                  size_t step);
 
 #endif

@@ -291,7 +291,8 @@ open_next(struct tool *t)
             tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", name, strerror(errno));
     }
     if (isatty(fileno(t->in)))
-        tool_die(t, EXIT_USAGE, "%s is a terminal: pipe a grid stream in or name a file", t->source);
+        tool_die(t, EXIT_USAGE, "%s is a terminal: pipe a grid stream in or name a file",
+                 t->source);
     setvbuf(t->in, NULL, _IOFBF, BUFFER);
     t->reader = rc_reader_new(t->in, t->last_case, t->memory, &err);
     if (t->reader == NULL)
@@ -317,8 +318,10 @@ mind_convergence(struct tool *t, const struct rc_grid *g)
     if (converged == NULL || strcmp(converged, "no") != 0)
         return;
     if (!t->warned_short)
-        tool_warn(t, "%s: this solution stopped short of its accuracy (converged=no): what follows "
-                     "from it does too", tool_where(t, g, where, sizeof where));
+        tool_warn(t,
+                  "%s: this solution stopped short of its accuracy (converged=no): what follows "
+                  "from it does too",
+                  tool_where(t, g, where, sizeof where));
     t->warned_short = true;
     tool_fails_with(t, EXIT_SHORT);
 }
@@ -386,7 +389,8 @@ tool_channel(struct tool *t, const char *channel, bool pass)
             if (t->now.found++ > 0)
                 tool_die_at(t, g, EXIT_IMPOSSIBLE,
                             "a second %s frame in one case: maps that do not belong together need "
-                            "case numbers of their own", channel);
+                            "case numbers of their own",
+                            channel);
             return g;
         }
         if (pass)
@@ -473,9 +477,10 @@ runnable(void)
     return count;
 }
 
-/* Between parallel loops OpenMP's threads spin for a while: waking them would cost a solve half its
- * time, but where others want the cores it starves them, and the solve with them. GNU's library reads
- * its wish when the program is loaded, so beside others the tool starts itself again with it, once. */
+/* Between parallel loops OpenMP's threads spin for a while: waking them would cost a solve half
+ * its time, but where others want the cores it starves them, and the solve with them. GNU's
+ * library reads its wish when the program is loaded, so beside others the tool starts itself
+ * again with it, once. */
 static void
 wait_quietly(char **argv)
 {
@@ -520,8 +525,8 @@ tool_finish(struct tool *t)
 
     tool_progress_end(t);
     if (t->writer != NULL && rc_writer_end(t->writer, &err) != RC_OK)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", t->out_name == NULL ? "standard output" : t->out_name,
-                 err.text);
+        tool_die(t, EXIT_IMPOSSIBLE, "%s: %s",
+                 t->out_name == NULL ? "standard output" : t->out_name, err.text);
     t->began = false; /* an end line is out: nothing may follow it */
     rc_writer_free(t->writer);
     t->writer = NULL;

@@ -50,14 +50,14 @@ struct opt {
     const char *name; /* without the two hyphens                                            */
     enum opt_type type;
     enum unit unit;
-    size_t at;        /* offsetof the value in the tool's args                              */
-    double min, max;  /* bounds of each number, kept when min < max                         */
-    bool above;       /* min itself is out of bounds                                        */
-    bool result;      /* changes what is computed: goes into history                        */
-    bool text;        /* given, the tool writes text, whatever it writes otherwise          */
+    size_t at;         /* offsetof the value in the tool's args                              */
+    double min, max;   /* bounds of each number, kept when min < max                         */
+    bool above;        /* min itself is out of bounds                                        */
+    bool result;       /* changes what is computed: goes into history                        */
+    bool text;         /* given, the tool writes text, whatever it writes otherwise          */
     const char *words; /* of OPT_WORDS; a word instead of OPT_NUMBERS                       */
-    const char *arg;  /* how help names the argument: "FORCE"; NULL: takes none             */
-    const char *help; /* one line                                                           */
+    const char *arg;   /* how help names the argument: "FORCE"; NULL: takes none             */
+    const char *help;  /* one line                                                           */
 };
 
 struct steps {
@@ -86,9 +86,9 @@ struct tool;
 
 struct tool_info {
     const char *name;
-    const char *summary;  /* "contact of a height map with an elastic half-space"          */
-    const char *operands; /* "[FILE...]", as help shows them                               */
-    const char *examples; /* whole lines for the end of --help                             */
+    const char *summary;    /* "contact of a height map with an elastic half-space"          */
+    const char *operands;   /* "[FILE...]", as help shows them                               */
+    const char *examples;   /* whole lines for the end of --help                             */
     const struct opt *opts; /* ended by a row without a name                               */
     enum tool_reads reads;
     enum tool_writes writes;
@@ -104,7 +104,7 @@ struct tool {
     size_t memory;  /* bytes; 0: no limit                                                  */
     bool quiet, verbose, progress;
     enum tool_writes writes; /* info->writes, or text where an option asks for it          */
-    const char *out_name; /* NULL: standard output                                         */
+    const char *out_name;    /* NULL: standard output                                         */
     /* streams */
     char **operand;
     size_t operands, next_operand;
@@ -115,8 +115,8 @@ struct tool {
     size_t last_case, frame; /* frame: place in the current source, from 1                 */
     struct {                 /* the case that tool_channel is in; number 0: none yet       */
         size_t number, found;
-        const char *source;  /* where it began                                             */
-        char names[512];     /* its channels, for the message that one is missing          */
+        const char *source; /* where it began                                             */
+        char names[512];    /* its channels, for the message that one is missing          */
     } now;
     bool type_given, began, warned_short;
     enum rc_type type;

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* clang-format off */
 static const struct prefix {
     const char *text;
     int power; /* of ten */
@@ -14,7 +15,9 @@ static const struct prefix {
     {"\xc2\xb5", -6}, {"\xce\xbc", -6}, {"m", -3},  {"c", -2}, {"k", 3},
     {"M", 6},         {"G", 9},         {"T", 12},  {NULL, 0},
 };
+/* clang-format on */
 
+/* clang-format off */
 static const struct word_unit { /* units that do not go by prefixes */
     const char *text;
     double size;
@@ -40,6 +43,7 @@ static const struct word_unit { /* units that do not go by prefixes */
     {"h", 3600},
     {NULL, 0},
 };
+/* clang-format on */
 
 const char *
 unit_name(enum unit unit)
@@ -86,7 +90,8 @@ apply_unit(const char *digits, size_t length, const char *suffix, size_t n, enum
     size_t tail = strlen(base);
 
     if (unit == UNIT_BYTES || unit == UNIT_S)
-        for (const struct word_unit *w = unit == UNIT_S ? time_units : size_units; w->text != NULL; w++)
+        for (const struct word_unit *w = unit == UNIT_S ? time_units : size_units; w->text != NULL;
+             w++)
             if (same(w->text, suffix, n)) {
                 *value *= w->size;
                 return true;
@@ -127,11 +132,15 @@ read_one(const char *text, size_t n, enum unit unit, double *value, bool *with_u
             return rc_err_set(err, "'%.*s' after %.*s: a plain number without a unit is expected",
                               (int)(stop - end), end, (int)length, text);
         if (unit == UNIT_BYTES)
-            return rc_err_set(err, "unknown unit '%.*s': a size in bytes is expected, as in 512M "
-                                   "or 4GiB", (int)(stop - end), end);
-        return rc_err_set(err, "unknown unit '%.*s': %s is expected, with or without one of the "
-                               "prefixes f p n u m c k M G T%s", (int)(stop - end), end,
-                          unit_name(unit), unit == UNIT_S ? ", or min or h" : "");
+            return rc_err_set(err,
+                              "unknown unit '%.*s': a size in bytes is expected, as in 512M "
+                              "or 4GiB",
+                              (int)(stop - end), end);
+        return rc_err_set(err,
+                          "unknown unit '%.*s': %s is expected, with or without one of the "
+                          "prefixes f p n u m c k M G T%s",
+                          (int)(stop - end), end, unit_name(unit),
+                          unit == UNIT_S ? ", or min or h" : "");
     }
     if (!isfinite(*value))
         return rc_err_set(err, "'%.*s' is too large", (int)n, text);

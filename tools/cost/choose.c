@@ -10,7 +10,8 @@ static bool
 better(const struct cost_case *c, const struct cost *a, const struct cost *b)
 {
     return b == NULL || (isnan(c->budget) ? a->seconds < b->seconds
-                                            : a->error < b->error || (a->error == b->error && a->seconds < b->seconds));
+                                          : a->error < b->error ||
+                                                (a->error == b->error && a->seconds < b->seconds));
 }
 
 /* A word as a shell reads it. */
@@ -40,8 +41,8 @@ put_command(struct tool *t, const struct cost *m, FILE *out)
     const char *physics = strstr(tool_history(t), " --"); /* name and version stand before */
     char tol[RC_NUMBER_SIZE];
 
-    fprintf(out, "rc-solve%s --method %s --kernel %s --tol %s", physics, m->rung.method, m->rung.kernel,
-            rc_number_text(tol, m->rung.tol));
+    fprintf(out, "rc-solve%s --method %s --kernel %s --tol %s", physics, m->rung.method,
+            m->rung.kernel, rc_number_text(tol, m->rung.tol));
     if (t->threads != rc_threads_available())
         fprintf(out, " --threads %zu", t->threads);
     for (size_t k = 0; k < t->operands; k++)
@@ -49,8 +50,8 @@ put_command(struct tool *t, const struct cost *m, FILE *out)
     fputc('\n', out);
 }
 
-/* Full grids only: no tool takes a map to a coarser one. By the triangle inequality the error is at most that from the
- * reference and the reference's own. */
+/* Full grids only: no tool takes a map to a coarser one. By the triangle inequality the error is
+ * at most that from the reference and the reference's own. */
 void
 cost_choose(const struct cost_case *c, FILE *out)
 {
@@ -63,19 +64,23 @@ cost_choose(const struct cost_case *c, FILE *out)
         if (m->state != COST_DONE || m->rung.coarse > 1 || !m->contact.converged)
             continue;
         if ((isnan(c->budget) ? m->error + c->reference.contact.pressure_error <= c->error
-                                : m->seconds <= c->budget) && better(c, m, best))
+                              : m->seconds <= c->budget) &&
+            better(c, m, best))
             best = m;
-        if (nearest == NULL || (isnan(c->budget) ? m->error < nearest->error : m->seconds < nearest->seconds))
+        if (nearest == NULL ||
+            (isnan(c->budget) ? m->error < nearest->error : m->seconds < nearest->seconds))
             nearest = m;
     }
     if (best != NULL) {
-        tool_note(c->tool, "%s: %.3g s, true error %.1e, estimate %.1e", cost_name(name, best), best->seconds,
-                  best->error, best->contact.pressure_error);
+        tool_note(c->tool, "%s: %.3g s, true error %.1e, estimate %.1e", cost_name(name, best),
+                  best->seconds, best->error, best->contact.pressure_error);
         put_command(c->tool, best, out);
     } else if (nearest != NULL) {
-        tool_die(c->tool, EXIT_IMPOSSIBLE, "nothing measured %s: the best was %s, %.3g s, error %.1e; raise %s",
-                 isnan(c->budget) ? "is so near" : "is so quick", cost_name(name, nearest), nearest->seconds,
-                 nearest->error, isnan(c->budget) ? "--error or --limit" : "--budget");
+        tool_die(c->tool, EXIT_IMPOSSIBLE,
+                 "nothing measured %s: the best was %s, %.3g s, error %.1e; raise %s",
+                 isnan(c->budget) ? "is so near" : "is so quick", cost_name(name, nearest),
+                 nearest->seconds, nearest->error,
+                 isnan(c->budget) ? "--error or --limit" : "--budget");
     } else {
         tool_die(c->tool, EXIT_IMPOSSIBLE, "nothing was measured: raise --limit");
     }

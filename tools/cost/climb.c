@@ -46,8 +46,9 @@ cost_sift(struct cost_case *c)
     }
 }
 
-/* Time beyond which a rung need not be tried to make the choice: three times that of the quickest that is good enough,
- * or of the budget, once anything has been measured. Expectations may be that far off. */
+/* Time beyond which a rung need not be tried to make the choice: three times that of the
+ * quickest that is good enough, or of the budget, once anything has been measured. Expectations
+ * may be that far off. */
 static double
 too_slow(const struct cost_case *c)
 {
@@ -72,10 +73,12 @@ static bool
 fits(const struct cost_case *c, struct cost *m, double left)
 {
     if (m->expected > left)
-        snprintf(m->why, sizeof m->why, "left out: it would take about %.2g s, and %.2g s are left of --limit",
+        snprintf(m->why, sizeof m->why,
+                 "left out: it would take about %.2g s, and %.2g s are left of --limit",
                  m->expected, fmax(left, 0));
     else if (m->expected > too_slow(c))
-        snprintf(m->why, sizeof m->why, "left out: about %.2g s, it would not be chosen", m->expected);
+        snprintf(m->why, sizeof m->why, "left out: about %.2g s, it would not be chosen",
+                 m->expected);
     else
         return true;
     m->state = COST_LEFT_OUT;
@@ -88,7 +91,8 @@ left(const struct cost_case *c)
     return c->limit - (cost_now() - c->began);
 }
 
-/* Before what is slow begins, and may use up the time, what is quick is timed well, and stresses have their turn. */
+/* Before what is slow begins, and may use up the time, what is quick is timed well, and stresses
+ * have their turn. */
 static const double slow = 1 / 30.0;
 
 /* Whether it took longer than one that does the same and more: then others were at work beside it. */
@@ -149,7 +153,8 @@ climb_stresses(struct cost_case *c)
             continue;
         }
         s->state = COST_LEFT_OUT;
-        snprintf(s->why, sizeof s->why, "left out: it would take about %.2g s, and %.2g s are left for stresses",
+        snprintf(s->why, sizeof s->why,
+                 "left out: it would take about %.2g s, and %.2g s are left for stresses",
                  s->expected, rest);
     }
 }

@@ -13,8 +13,8 @@ coarse_shape(const struct rc_shape *f, unsigned factor)
                              f->dy * ((double)f->ny / (double)ny)};
 }
 
-/* Cell i of m cells lies over the cells first .. last of n cells on the same length; it has `part` of cell j, in
- * units in which a cell of the m is n wide. */
+/* Cell i of m cells lies over the cells first .. last of n cells on the same length; it has
+ * `part` of cell j, in units in which a cell of the m is n wide. */
 static size_t
 first(size_t i, size_t m, size_t n)
 {
@@ -56,13 +56,15 @@ means(const struct rc_shape *from, const double *v, const struct rc_shape *to, d
 }
 
 void
-coarse_means(const struct rc_shape *fine, const double *h, const struct rc_shape *coarse, double *to)
+coarse_means(const struct rc_shape *fine, const double *h, const struct rc_shape *coarse,
+             double *to)
 {
     means(fine, h, coarse, to);
 }
 
 void
-coarse_spread(const struct rc_shape *coarse, const double *p, const struct rc_shape *fine, double *to)
+coarse_spread(const struct rc_shape *coarse, const double *p, const struct rc_shape *fine,
+              double *to)
 {
     means(coarse, p, fine, to);
 }

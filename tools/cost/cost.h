@@ -1,7 +1,7 @@
 /*
- * What the rooms of rc-cost share. A rung is one way to solve the contact; a case is the ladder of them, beside
- * one reference solution. Each rung runs in a process of its own (cost_run.c), as a command would: what
- * it takes in time and memory is not helped by the rungs before.
+ * What the rooms of rc-cost share. A rung is one way to solve the contact; a case is the ladder of
+ * them, beside one reference solution. Each rung runs in a process of its own (cost_run.c), as a
+ * command would: what it takes in time and memory is not helped by the rungs before.
  */
 #ifndef RC_COST_H
 #define RC_COST_H
@@ -35,17 +35,17 @@ struct cost {
     struct cost_rung rung;
     enum cost_state state;
     char why[256];
-    double expected;    /* s, before it ran                                                    */
+    double expected;       /* s, before it ran                                                    */
     struct rc_shape shape; /* of the grid that is solved                                       */
-    double seconds;     /* heights to pressure, plans and coarse levels included: least of ... */
-    size_t runs;        /* ... so many                                                         */
-    double convolutions; /* in equivalents of one on the map's own grid                        */
-    size_t memory;      /* bytes beyond the map and the result                                 */
+    double seconds;        /* heights to pressure, plans and coarse levels included: least of ... */
+    size_t runs;           /* ... so many                                                         */
+    double convolutions;   /* in equivalents of one on the map's own grid                        */
+    size_t memory;         /* bytes beyond the map and the result                                 */
     struct rc_contact contact;
-    double error;       /* relative L1, of the pressure on the map's own grid                  */
+    double error; /* relative L1, of the pressure on the map's own grid                  */
     double area_error, peak_error, approach_error; /* relative, signed; NAN: unknown           */
-    bool front;         /* no other is both quicker and nearer                                 */
-    bool flatters;      /* its estimate is below its error, by more than 1 %                   */
+    bool front;    /* no other is both quicker and nearer                                 */
+    bool flatters; /* its estimate is below its error, by more than 1 %                   */
 };
 
 /* The rungs; the caller frees them. `kernels` and `methods`: bits of
@@ -60,15 +60,15 @@ extern const struct cost_rung cost_reference;
 
 struct cost_stress {
     const char *kernel;
-    double tol;       /* of a component over the largest pressure; 0: rounding                 */
+    double tol; /* of a component over the largest pressure; 0: rounding                 */
     bool reference;
     enum cost_state state;
     char why[256];
     double expected, seconds;
     size_t runs, memory, coarse; /* coarse: depths that came from a coarser grid               */
-    double error;     /* largest of any component, over the largest pressure                   */
-    double rms;       /* the same, root of the mean square                                     */
-    double mises;     /* of the largest Mises' stress, relative, signed                        */
+    double error; /* largest of any component, over the largest pressure                   */
+    double rms;   /* the same, root of the mean square                                     */
+    double mises; /* of the largest Mises' stress, relative, signed                        */
     bool front;
 };
 
@@ -83,10 +83,10 @@ struct cost_case {
     double budget, error;      /* s, -: what a command is chosen for; NAN: the other, or none  */
     bool choosing, shown;      /* for one of them; all rungs are shown nevertheless            */
     struct cost reference;
-    double *pressure;          /* of the reference                                             */
+    double *pressure; /* of the reference                                             */
     struct cost *rung;
     size_t rungs;
-    struct numbers depths;     /* none: no stresses                                            */
+    struct numbers depths; /* none: no stresses                                            */
     double nu, mu;
     struct cost_stress *stress;
     size_t stresses;
@@ -101,8 +101,8 @@ const char *cost_name(char text[128], const struct cost *cost);
 /* Seconds, from what has been measured on this map so far, else from what is known of machines. */
 double cost_expect(const struct cost_case *c, const struct cost *rung);
 double cost_expect_stress(const struct cost_case *c, const struct cost_stress *rung);
-/* Short runs are repeated, in turns: the least of their times is what the work takes, the rest is the work of others on
- * this machine. */
+/* Short runs are repeated, in turns: the least of their times is what the work takes, the rest
+ * is the work of others on this machine. */
 static inline bool
 cost_again(size_t runs, double seconds)
 {
@@ -121,16 +121,18 @@ enum cost_end {
     COST_INTERRUPTED, /* the tool has had a signal       */
     COST_DIED,        /* by a signal, or without a word  */
 };
-/* work(ctx) in a process of its own; what it writes to shared memory is seen. `watch` is called now and then. No thread
- * may have been started in this process before. */
-enum cost_end cost_run(void (*work)(void *ctx), void *ctx, double allowed, void (*watch)(void *ctx));
+/* work(ctx) in a process of its own; what it writes to shared memory is seen. `watch` is called
+ * now and then. No thread may have been started in this process before. */
+enum cost_end cost_run(void (*work)(void *ctx), void *ctx, double allowed,
+                       void (*watch)(void *ctx));
 /* Bytes that this process holds at most so far. */
 size_t cost_peak(void);
 
 /* ---- cost_solve.c ---- */
 
-/* Runs a rung once more, keeps the least of its times, and tells how far its solution is from the reference, where there
- * is one; `pressure`, on the map's own grid, may be NULL. False when the tool was interrupted. */
+/* Runs a rung once more, keeps the least of its times, and tells how far its solution is from
+ * the reference, where there is one; `pressure`, on the map's own grid, may be NULL. False when
+ * the tool was interrupted. */
 bool cost_solve(struct cost_case *c, struct cost *cost, double allowed, double *pressure);
 
 /* ---- cost_stress.c ---- */

@@ -1,7 +1,8 @@
 /*
- * How long a rung will take: convolutions that its method will need, times what one takes by its kernel. Both come from
- * the rungs that have been run on this map; before there are any, from bench-solve and bench-convolution (1024^2, two
- * threads of 2026), which a machine may be several times off.
+ * How long a rung will take: convolutions that its method will need, times what one takes by its
+ * kernel. Both come from the rungs that have been run on this map; before there are any, from
+ * bench-solve and bench-convolution (1024^2, two threads of 2026), which a machine may be several
+ * times off.
  */
 #include "cost.h"
 
@@ -40,8 +41,8 @@ known_pace(const struct cost_case *c, const char *kernel, double tol)
     return (strcmp(kernel, "mlms") == 0 ? 18e-9 * orders(tol) : transform) * threads;
 }
 
-/* The nearest tolerance that was run: by the same kernel, if possible by the same method; its convolutions are of the
- * same kind only then. */
+/* The nearest tolerance that was run: by the same kernel, if possible by the same method; its
+ * convolutions are of the same kind only then. */
 static const struct cost *
 nearest(const struct cost_case *c, const struct cost_rung *r, bool same_method, bool same_kernel)
 {
@@ -76,7 +77,8 @@ pace(const struct cost_case *c, const struct cost_rung *r)
         near = &c->reference;
     if (near == NULL)
         return known_pace(c, r->kernel, r->tol);
-    return pace_of(c, near) * known_pace(c, r->kernel, r->tol) / known_pace(c, near->rung.kernel, near->rung.tol);
+    return pace_of(c, near) * known_pace(c, r->kernel, r->tol) /
+           known_pace(c, near->rung.kernel, near->rung.tol);
 }
 
 /* ---- how many of them ---- */
@@ -86,9 +88,10 @@ static double
 known_convolutions(const struct cost_case *c, const struct cost_rung *r)
 {
     double d = digits(r->tol);
-    double some = strcmp(r->method, "pk99") != 0 ? 8 + 3.5 * d
-                                                 : 0.3 * sqrt(nodes(&c->shape)) *
-                                                       (d < 4 ? pow(3, d / 2 - 1) : 3 + 0.3 * (d - 4));
+    double some =
+        strcmp(r->method, "pk99") != 0
+            ? 8 + 3.5 * d
+            : 0.3 * sqrt(nodes(&c->shape)) * (d < 4 ? pow(3, d / 2 - 1) : 3 + 0.3 * (d - 4));
 
     return c->problem.approach > 0 ? 3 * some : some;
 }
@@ -98,7 +101,8 @@ convolutions(const struct cost_case *c, const struct cost_rung *r)
 {
     const struct cost *near = nearest(c, r, true, false);
 
-    if (near == NULL && strcmp(r->method, c->reference.rung.method) == 0 && c->reference.state == COST_DONE)
+    if (near == NULL && strcmp(r->method, c->reference.rung.method) == 0 &&
+        c->reference.state == COST_DONE)
         near = &c->reference;
     if (near == NULL)
         return known_convolutions(c, r);
@@ -116,14 +120,15 @@ cost_expect(const struct cost_case *c, const struct cost *rung)
 
 /* ---- stresses ---- */
 
-/* Exact slices take some 30 transforms' time a depth, six sums by another engine seven times theirs. Beside
- * each slice the exact one is computed, to compare. */
+/* Exact slices take some 30 transforms' time a depth, six sums by another engine seven times
+ * theirs. Beside each slice the exact one is computed, to compare. */
 double
 cost_expect_stress(const struct cost_case *c, const struct cost_stress *s)
 {
     double n = nodes(&c->shape), depths = (double)c->depths.n;
     double exact = 5e-8 * n * depths * 2 / (double)c->tool->threads, each;
-    struct cost_rung r = {.method = "pk99", .kernel = s->kernel, .tol = s->tol > 0 ? s->tol : 1e-14};
+    struct cost_rung r = {
+        .method = "pk99", .kernel = s->kernel, .tol = s->tol > 0 ? s->tol : 1e-14};
 
     for (size_t k = 0; k < c->stresses; k++) {
         const struct cost_stress *m = &c->stress[k];

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* clang-format off */
 static const struct row {
     const char *method, *kernel, *arithmetic;
     unsigned coarse;
@@ -22,6 +23,7 @@ static const struct row {
     {"pk99", "fft", "double", 1, 2, 8, 2},
     {"pk99", "mlms", "double", 1, 2, 4, 2},
 };
+/* clang-format on */
 
 enum {
     ROWS = sizeof ladder / sizeof *ladder
@@ -63,10 +65,11 @@ cost_ladder(size_t kernels, size_t methods, size_t *n)
     for (size_t k = 0; cost != NULL && k < ROWS; k++)
         for (int digits = ladder[k].from; digits <= ladder[k].to; digits += ladder[k].step)
             if (wanted(&ladder[k], kernels, methods))
-                cost[(*n)++].rung = (struct cost_rung){
-                    .method = ladder[k].method, .kernel = ladder[k].kernel,
-                    .arithmetic = ladder[k].arithmetic, .coarse = ladder[k].coarse,
-                    .tol = 1 / pow(10, digits)};
+                cost[(*n)++].rung = (struct cost_rung){.method = ladder[k].method,
+                                                       .kernel = ladder[k].kernel,
+                                                       .arithmetic = ladder[k].arithmetic,
+                                                       .coarse = ladder[k].coarse,
+                                                       .tol = 1 / pow(10, digits)};
     return cost;
 }
 

@@ -1,5 +1,6 @@
 /*
- * Error against time: one picture of the pressures, and, where there are stresses, one below of them.
+ * Error against time: one picture of the pressures, and, where there are stresses, one below of
+ * them.
  */
 #define _GNU_SOURCE /* open_memstream, in POSIX since 2008 */
 #include "cost.h"
@@ -44,7 +45,8 @@ new_point(struct drawing *d, size_t ink)
     for (size_t s = 0; s < d->chart.n; s++)
         if (d->series[s].name == inks[ink].name)
             return d->series[s].n < POINTS ? &d->point[s][d->series[s].n++] : NULL;
-    d->series[d->chart.n] = (struct chart_series){inks[ink].name, inks[ink].colour, d->point[d->chart.n], 1};
+    d->series[d->chart.n] =
+        (struct chart_series){inks[ink].name, inks[ink].colour, d->point[d->chart.n], 1};
     d->chart.series = d->series;
     return &d->point[d->chart.n++][0];
 }
@@ -54,9 +56,10 @@ ink_of(const char *method, const char *kernel)
 {
     size_t k = 0;
 
-    while (k + 1 < INKS && !((method == NULL ? inks[k].method == NULL
-                                             : inks[k].method != NULL && strcmp(inks[k].method, method) == 0) &&
-                             strcmp(inks[k].kernel, kernel) == 0))
+    while (k + 1 < INKS &&
+           !((method == NULL ? inks[k].method == NULL
+                             : inks[k].method != NULL && strcmp(inks[k].method, method) == 0) &&
+             strcmp(inks[k].kernel, kernel) == 0))
         k++;
     return k;
 }
@@ -67,7 +70,8 @@ describe(const struct cost_case *c, struct drawing *d)
     const char *source = rc_grid_get(c->heights, "source");
     char text[TICKS_TEXT];
 
-    snprintf(d->subtitle, sizeof d->subtitle, "%.60s%s%zu × %zu nodes, %s · %s %s · %.3g %% contact · %zu threads",
+    snprintf(d->subtitle, sizeof d->subtitle,
+             "%.60s%s%zu × %zu nodes, %s · %s %s · %.3g %% contact · %zu threads",
              source == NULL ? "" : source, source == NULL ? "" : " · ", c->shape.nx, c->shape.ny,
              c->problem.boundary == RC_FREE ? "free" : "periodic",
              c->problem.approach > 0 ? "approach" : "load",
@@ -88,11 +92,13 @@ draw_pressures(const struct cost_case *c, struct drawing *d)
     d->chart.floor_text = "below the reference's own error";
     for (size_t k = 0; k < c->rungs; k++) {
         const struct cost *m = &c->rung[k];
-        struct chart_point *p = m->state == COST_DONE ? new_point(d, ink_of(m->rung.method, m->rung.kernel)) : NULL;
+        struct chart_point *p =
+            m->state == COST_DONE ? new_point(d, ink_of(m->rung.method, m->rung.kernel)) : NULL;
 
         if (p == NULL)
             continue;
-        *p = (struct chart_point){.x = m->seconds, .y = m->error, .hollow = m->rung.coarse > 1, .front = m->front};
+        *p = (struct chart_point){
+            .x = m->seconds, .y = m->error, .hollow = m->rung.coarse > 1, .front = m->front};
         if (m->rung.coarse > 1) {
             snprintf(p->label, sizeof p->label, "1/%u", m->rung.coarse);
             d->chart.hollow = "on 1/2, 1/4, 1/8 of the nodes a side";
@@ -102,7 +108,8 @@ draw_pressures(const struct cost_case *c, struct drawing *d)
     }
 }
 
-static const double rounding = 1e-14; /* of a stress over the largest pressure, on maps of some million nodes */
+static const double rounding =
+    1e-14; /* of a stress over the largest pressure, on maps of some million nodes */
 
 static void
 draw_stresses(const struct cost_case *c, struct drawing *d)
@@ -114,12 +121,13 @@ draw_stresses(const struct cost_case *c, struct drawing *d)
     d->chart.floor_text = "rounding";
     for (size_t k = 0; k < c->stresses; k++) {
         const struct cost_stress *s = &c->stress[(k + 1) % c->stresses]; /* the exact one last */
-        struct chart_point *p = s->state == COST_DONE ? new_point(d, ink_of(NULL, s->kernel)) : NULL;
+        struct chart_point *p =
+            s->state == COST_DONE ? new_point(d, ink_of(NULL, s->kernel)) : NULL;
 
         if (p == NULL)
             continue;
-        *p = (struct chart_point){.x = s->seconds, .y = s->reference ? rounding / 10 : s->error,
-                                  .front = s->front};
+        *p = (struct chart_point){
+            .x = s->seconds, .y = s->reference ? rounding / 10 : s->error, .front = s->front};
         snprintf(p->label, sizeof p->label, s->tol > 0 ? "%.0e" : "exact", s->tol);
     }
 }
@@ -130,11 +138,11 @@ static enum rc_status
 put_rows(struct canvas *c, FILE *file, const char *made, struct rc_err *err)
 {
     size_t w = canvas_width(c), h = canvas_height(c);
-    const struct picture_text text[] = {{"Title", "What accuracy costs"}, {"Description", made},
-                                        {"Software", "rc-cost"}};
+    const struct picture_text text[] = {
+        {"Title", "What accuracy costs"}, {"Description", made}, {"Software", "rc-cost"}};
     unsigned char *rgb = malloc(3 * w);
-    struct picture *picture = rgb == NULL ? NULL
-                                          : picture_new(file, w, h, text, sizeof text / sizeof *text, err);
+    struct picture *picture =
+        rgb == NULL ? NULL : picture_new(file, w, h, text, sizeof text / sizeof *text, err);
     enum rc_status status = RC_FAIL;
 
     if (rgb == NULL)

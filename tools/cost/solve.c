@@ -13,17 +13,17 @@
 struct job {
     struct tool *tool;
     const struct cost *cost;
-    const double *h;       /* of the map */
+    const double *h; /* of the map */
     struct rc_shape map;
     struct rc_problem problem;
-    size_t iterations;     /* for progress */
+    size_t iterations; /* for progress */
     double estimate;
     bool done;
     double seconds, convolutions;
     size_t memory;
     struct rc_contact contact;
     struct rc_err err;
-    double p[];            /* on the map */
+    double p[]; /* on the map */
 };
 
 /* ---- the process that solves ---- */
@@ -81,8 +81,8 @@ watch(void *ctx)
     if (isnan(j->estimate) || j->iterations == 0)
         tool_progress(j->tool, "%s, iteration %zu", cost_name(name, j->cost), j->iterations);
     else
-        tool_progress(j->tool, "%s, iteration %zu, error %.1e", cost_name(name, j->cost), j->iterations,
-                      j->estimate);
+        tool_progress(j->tool, "%s, iteration %zu, error %.1e", cost_name(name, j->cost),
+                      j->iterations, j->estimate);
 }
 
 static double
@@ -115,7 +115,8 @@ keep(struct cost *cost, const struct job *j, const struct rc_shape *map)
 
     if (cost->runs == 0 || j->seconds < cost->seconds)
         cost->seconds = j->seconds;
-    cost->convolutions = j->convolutions * (double)(own->nx * own->ny) / (double)(map->nx * map->ny);
+    cost->convolutions =
+        j->convolutions * (double)(own->nx * own->ny) / (double)(map->nx * map->ny);
     cost->memory = j->memory > cost->memory ? j->memory : cost->memory;
     cost->contact = j->contact;
     cost->runs++;
@@ -127,7 +128,8 @@ stop(struct cost *cost, enum cost_end end, double allowed, const struct job *j)
 {
     cost->state = COST_STOPPED;
     if (end == COST_LATE)
-        snprintf(cost->why, sizeof cost->why, "stopped after %.2g s, all that was left of --limit", allowed);
+        snprintf(cost->why, sizeof cost->why, "stopped after %.2g s, all that was left of --limit",
+                 allowed);
     else if (end == COST_INTERRUPTED)
         snprintf(cost->why, sizeof cost->why, "interrupted");
     else if (end == COST_DIED)

@@ -1,6 +1,6 @@
 /*
- * The ladder of stresses: slices by each way and accuracy, under the pressure of the reference. Beside each slice the
- * exact one is computed, so that no more than two are held.
+ * The ladder of stresses: slices by each way and accuracy, under the pressure of the reference.
+ * Beside each slice the exact one is computed, so that no more than two are held.
  */
 #include "cost.h"
 
@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* clang-format off */
 static const struct row {
     const char *kernel;
     double tol;
@@ -18,6 +19,7 @@ static const struct row {
     {"mlms", 1e-2, true}, {"mlms", 1e-4, true}, {"mlms", 1e-6, true},
     {"direct", 0, true},
 };
+/* clang-format on */
 
 enum {
     ROWS = sizeof ladder / sizeof *ladder,
@@ -33,7 +35,8 @@ cost_stress_ladder(const struct cost_case *c, size_t *n)
     *n = 0;
     for (size_t k = 0; s != NULL && k < ROWS; k++)
         if (c->problem.boundary == RC_FREE || !ladder[k].free_only)
-            s[(*n)++] = (struct cost_stress){.kernel = ladder[k].kernel, .tol = ladder[k].tol, .reference = k == 0};
+            s[(*n)++] = (struct cost_stress){
+                .kernel = ladder[k].kernel, .tol = ladder[k].tol, .reference = k == 0};
     return s;
 }
 
@@ -56,8 +59,8 @@ watch(void *ctx)
     const struct job *j = ctx;
 
     if (j->rung != NULL)
-        tool_progress(j->c->tool, "stresses by %s, tol %.0e, depth %zu of %zu", j->rung->kernel, j->rung->tol,
-                      j->depth, j->c->depths.n);
+        tool_progress(j->c->tool, "stresses by %s, tol %.0e, depth %zu of %zu", j->rung->kernel,
+                      j->rung->tol, j->depth, j->c->depths.n);
 }
 
 /* ---- depths ---- */
@@ -68,7 +71,8 @@ work_depths(void *ctx)
     struct job *j = ctx;
     double *z = NULL;
 
-    if (rc_stress_depths(&j->c->shape, j->c->pressure, j->c->problem.boundary, &z, &j->depths, &j->err) != RC_OK)
+    if (rc_stress_depths(&j->c->shape, j->c->pressure, j->c->problem.boundary, &z, &j->depths,
+                         &j->err) != RC_OK)
         return;
     j->depths = j->depths < DEPTHS ? j->depths : DEPTHS;
     memcpy(j->z, z, j->depths * sizeof *z);
@@ -99,8 +103,13 @@ cost_stress_depths(struct cost_case *c)
 static struct rc_stress_options
 options_of(const struct cost_case *c, const char *kernel, double tol)
 {
-    return (struct rc_stress_options){.boundary = c->problem.boundary, .nu = c->nu, .mu = c->mu, .wanted = WANTED,
-                                      .engine = kernel, .tol = tol, .threads = c->tool->threads};
+    return (struct rc_stress_options){.boundary = c->problem.boundary,
+                                      .nu = c->nu,
+                                      .mu = c->mu,
+                                      .wanted = WANTED,
+                                      .engine = kernel,
+                                      .tol = tol,
+                                      .threads = c->tool->threads};
 }
 
 struct sums {
@@ -124,8 +133,8 @@ compare(size_t n, double *const s[RC_STRESSES], double *const truth[RC_STRESSES]
 }
 
 static bool
-slices(struct job *j, struct rc_stress *stress, struct rc_stress *exact, double *const s[RC_STRESSES],
-       double *const truth[RC_STRESSES])
+slices(struct job *j, struct rc_stress *stress, struct rc_stress *exact,
+       double *const s[RC_STRESSES], double *const truth[RC_STRESSES])
 {
     size_t n = j->c->shape.nx * j->c->shape.ny;
     struct sums sum = {0};
@@ -155,7 +164,8 @@ work(void *ctx)
 {
     struct job *j = ctx;
     const struct cost_case *c = j->c;
-    struct rc_stress_options o = options_of(c, j->rung->kernel, j->rung->tol), e = options_of(c, "fft", 0);
+    struct rc_stress_options o = options_of(c, j->rung->kernel, j->rung->tol),
+                             e = options_of(c, "fft", 0);
     size_t n = c->shape.nx * c->shape.ny;
     double *maps = malloc(2 * n * (RC_MISES + 1) * sizeof *maps), start;
     double *s[RC_STRESSES] = {NULL}, *truth[RC_STRESSES] = {NULL};

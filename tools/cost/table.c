@@ -51,8 +51,9 @@ cost_judge(struct cost_case *c)
         a->front = a->state == COST_DONE;
         for (size_t l = 0; l < c->rungs; l++)
             a->front = a->front && !beaten(c, a, &c->rung[l]);
-        a->flatters = a->state == COST_DONE && a->rung.coarse == 1 &&
-                      a->error > 1.01 * a->contact.pressure_error + c->reference.contact.pressure_error;
+        a->flatters =
+            a->state == COST_DONE && a->rung.coarse == 1 &&
+            a->error > 1.01 * a->contact.pressure_error + c->reference.contact.pressure_error;
     }
     for (size_t k = 0; k < c->stresses; k++) {
         struct cost_stress *a = &c->stress[k];
@@ -82,18 +83,24 @@ put_head(const struct cost_case *c, FILE *out)
     const struct cost *r = &c->reference;
     char where[256];
 
-    fprintf(out, "# %s: %zu x %zu nodes, %s, ", tool_where(c->tool, c->heights, where, sizeof where),
-            c->shape.nx, c->shape.ny, c->problem.boundary == RC_FREE ? "free" : "periodic");
+    fprintf(out, "# %s: %zu x %zu nodes, %s, ",
+            tool_where(c->tool, c->heights, where, sizeof where), c->shape.nx, c->shape.ny,
+            c->problem.boundary == RC_FREE ? "free" : "periodic");
     put_load(c, out);
     fprintf(out, ", %zu threads\n", c->tool->threads);
-    fprintf(out, "# reference: %s, %s in %s precision, estimated error %.1e (asked %.0e), %zu steps, %.3g s: "
-                 "contact area %.9g m2 (%.4g %% of the map, %.3g %% at the hardness), largest pressure %.9g Pa, "
-                 "approach %.9g m\n",
-            r->rung.method, r->rung.kernel, r->rung.arithmetic, r->contact.pressure_error, r->rung.tol,
-            r->contact.iterations, r->seconds, r->contact.contact_area, 100 * r->contact.contact_fraction,
+    fprintf(out,
+            "# reference: %s, %s in %s precision, estimated error %.1e (asked %.0e), %zu steps, "
+            "%.3g s: "
+            "contact area %.9g m2 (%.4g %% of the map, %.3g %% at the hardness), largest pressure "
+            "%.9g Pa, "
+            "approach %.9g m\n",
+            r->rung.method, r->rung.kernel, r->rung.arithmetic, r->contact.pressure_error,
+            r->rung.tol, r->contact.iterations, r->seconds, r->contact.contact_area,
+            100 * r->contact.contact_fraction,
             100 * r->contact.plastic_area / r->contact.contact_area, r->contact.max_pressure,
             r->contact.approach);
-    fprintf(out, "# error: sum |p - reference| / sum reference, on the map's own grid; area, peak, approach: relative "
+    fprintf(out, "# error: sum |p - reference| / sum reference, on the map's own grid; area, peak, "
+                 "approach: relative "
                  "to the reference; estimate: what the solver says of its own grid\n");
 }
 
@@ -102,8 +109,8 @@ note(const struct cost *m)
 {
     static char text[64];
 
-    snprintf(text, sizeof text, "%s%s%s", m->front ? ",front" : "", m->contact.converged ? "" : ",short",
-             m->flatters ? ",flatters" : "");
+    snprintf(text, sizeof text, "%s%s%s", m->front ? ",front" : "",
+             m->contact.converged ? "" : ",short", m->flatters ? ",flatters" : "");
     return text[0] == '\0' ? "-" : text + 1;
 }
 
@@ -113,10 +120,12 @@ put_rung(const struct cost *m, FILE *out)
     char grid[64];
 
     snprintf(grid, sizeof grid, "%zux%zu", m->shape.nx, m->shape.ny);
-    fprintf(out, "%-6s %-6s %-10s %6.0e %11s %9.4f %4zu %12.1f %11.1f %9.2e %9.2e %10.2e %10.2e %14.2e %s\n",
-            m->rung.method, m->rung.kernel, m->rung.arithmetic, m->rung.tol, grid, m->seconds, m->runs,
-            m->convolutions, (double)m->memory / 1048576, m->contact.pressure_error, m->error,
-            m->area_error, m->peak_error, m->approach_error, note(m));
+    fprintf(
+        out,
+        "%-6s %-6s %-10s %6.0e %11s %9.4f %4zu %12.1f %11.1f %9.2e %9.2e %10.2e %10.2e %14.2e %s\n",
+        m->rung.method, m->rung.kernel, m->rung.arithmetic, m->rung.tol, grid, m->seconds, m->runs,
+        m->convolutions, (double)m->memory / 1048576, m->contact.pressure_error, m->error,
+        m->area_error, m->peak_error, m->approach_error, note(m));
 }
 
 static void
@@ -124,8 +133,10 @@ put_stresses(const struct cost_case *c, FILE *out)
 {
     const struct numbers *d = &c->depths;
 
-    fprintf(out, "\n# stresses under the reference: six components and Mises at %zu depths, %.3g to %.3g m, nu %.3g, mu "
-                 "%.3g; error: of a component, over the largest pressure; mises: of its largest value\n",
+    fprintf(out,
+            "\n# stresses under the reference: six components and Mises at %zu depths, %.3g to "
+            "%.3g m, nu %.3g, mu "
+            "%.3g; error: of a component, over the largest pressure; mises: of its largest value\n",
             d->n, d->v[0], d->v[d->n - 1], c->nu, c->mu);
     fprintf(out, "%-6s %6s %9s %4s %13s %11s %9s %9s %10s %s\n", "kernel", "tol", "time[s]", "runs",
             "coarse_depths", "memory[MiB]", "error", "rms_error", "mises", "note");
@@ -133,10 +144,12 @@ put_stresses(const struct cost_case *c, FILE *out)
         const struct cost_stress *s = &c->stress[k];
 
         if (s->state == COST_DONE)
-            fprintf(out, "%-6s %6.0e %9.4f %4zu %13zu %11.1f %9.2e %9.2e %10.2e %s%s\n", s->kernel, s->tol,
-                    s->seconds, s->runs, s->coarse, (double)s->memory / 1048576, s->error, s->rms, s->mises,
-                    s->reference ? "reference" : "", s->front ? s->reference ? ",front" : "front"
-                                                    : s->reference ? "" : "-");
+            fprintf(out, "%-6s %6.0e %9.4f %4zu %13zu %11.1f %9.2e %9.2e %10.2e %s%s\n", s->kernel,
+                    s->tol, s->seconds, s->runs, s->coarse, (double)s->memory / 1048576, s->error,
+                    s->rms, s->mises, s->reference ? "reference" : "",
+                    s->front       ? s->reference ? ",front" : "front"
+                    : s->reference ? ""
+                                   : "-");
         else
             fprintf(out, "# stresses by %s, tol %.0e: %s\n", s->kernel, s->tol, s->why);
     }
@@ -148,9 +161,9 @@ cost_table(const struct cost_case *c, FILE *out)
     char name[128];
 
     put_head(c, out);
-    fprintf(out, "%-6s %-6s %-10s %6s %11s %9s %4s %12s %11s %9s %9s %10s %10s %14s %s\n", "method", "kernel",
-            "arithmetic", "tol", "grid", "time[s]", "runs", "convolutions", "memory[MiB]", "estimate", "error",
-            "area_error", "peak_error", "approach_error", "note");
+    fprintf(out, "%-6s %-6s %-10s %6s %11s %9s %4s %12s %11s %9s %9s %10s %10s %14s %s\n", "method",
+            "kernel", "arithmetic", "tol", "grid", "time[s]", "runs", "convolutions", "memory[MiB]",
+            "estimate", "error", "area_error", "peak_error", "approach_error", "note");
     for (size_t k = 0; k < c->rungs; k++)
         if (c->rung[k].state == COST_DONE)
             put_rung(&c->rung[k], out);

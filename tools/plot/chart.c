@@ -4,12 +4,14 @@
 #include <stdio.h>
 #include <string.h>
 
-static const struct rgb ink = {0x22, 0x22, 0x22}, faint = {0x59, 0x59, 0x59}, rule = {0xdd, 0xdd, 0xdd},
-                        pale = {0xf3, 0xf1, 0xec}, gold = {0xf4, 0xd0, 0x6f}, white = {255, 255, 255};
+static const struct rgb ink = {0x22, 0x22, 0x22}, faint = {0x59, 0x59, 0x59},
+                        rule = {0xdd, 0xdd, 0xdd}, pale = {0xf3, 0xf1, 0xec},
+                        gold = {0xf4, 0xd0, 0x6f}, white = {255, 255, 255};
 static const struct canvas_font heading = {28, true, {0x22, 0x22, 0x22}},
                                 subheading = {20, false, {0x59, 0x59, 0x59}},
                                 large = {23, false, {0x22, 0x22, 0x22}},
-                                small = {21, false, {0x22, 0x22, 0x22}}, tiny = {17, false, {0x22, 0x22, 0x22}};
+                                small = {21, false, {0x22, 0x22, 0x22}},
+                                tiny = {17, false, {0x22, 0x22, 0x22}};
 
 enum {
     LEFT = 130,
@@ -58,7 +60,8 @@ set_ranges(struct panel *p)
     for (size_t s = 0; s < p->chart->n; s++)
         for (size_t k = 0; k < p->chart->series[s].n; k++) {
             stretch(&p->across, p->chart->series[s].point[k].x);
-            stretch(&p->up, fmax(p->chart->series[s].point[k].y, fmax(lowest, p->chart->floor / 10)));
+            stretch(&p->up,
+                    fmax(p->chart->series[s].point[k].y, fmax(lowest, p->chart->floor / 10)));
         }
     if (p->across.lo > p->across.hi)
         p->across = p->up = (struct range){-1, 0};
@@ -133,8 +136,8 @@ draw_across(struct panel *p)
             canvas_fill(p->c, at - 0.8, p->y + p->h, 1.6, 8, ink);
             canvas_text(p->c, &small, at, p->y + p->h + 12 + 0.78 * small.size, 0.5, text);
         }
-    canvas_text(p->c, &large, p->x + 0.5 * p->w, p->y + p->h + 12 + small.size + 1.1 * large.size, 0.5,
-                p->chart->across);
+    canvas_text(p->c, &large, p->x + 0.5 * p->w, p->y + p->h + 12 + small.size + 1.1 * large.size,
+                0.5, p->chart->across);
 }
 
 static void
@@ -237,8 +240,10 @@ static void
 draw_label(struct panel *p, const struct chart_point *q)
 {
     double w = canvas_text_width(p->c, &tiny, q->label), x = across(p, q->x), y = up(p, q->y);
-    struct box at[] = {{x - 10 - w, y + 5, w, tiny.size}, {x - 12 - w, y - 8, w, tiny.size},
-                       {x + 11, y - 8, w, tiny.size}, {x + 8, y - 24, w, tiny.size}};
+    struct box at[] = {{x - 10 - w, y + 5, w, tiny.size},
+                       {x - 12 - w, y - 8, w, tiny.size},
+                       {x + 11, y - 8, w, tiny.size},
+                       {x + 8, y - 24, w, tiny.size}};
 
     for (size_t k = 0; k < sizeof at / sizeof *at; k++)
         if (place_free(p, &at[k])) {
@@ -260,8 +265,9 @@ legend(struct canvas *c, const struct chart *chart, double y, bool draw)
 
     for (size_t s = 0; s < chart->n + 2; s++) {
         bool hollow = s == chart->n, front = s == chart->n + 1;
-        const char *text = hollow ? chart->hollow
-                           : front ? "front: nothing is both quicker and nearer" : chart->series[s].name;
+        const char *text = hollow  ? chart->hollow
+                           : front ? "front: nothing is both quicker and nearer"
+                                   : chart->series[s].name;
         double w;
 
         if (text == NULL)
@@ -297,12 +303,17 @@ chart_height(struct canvas *c, const struct chart *chart)
 void
 chart_draw(struct canvas *c, double y, const struct chart *chart)
 {
-    struct panel p = {.c = c, .chart = chart, .x = LEFT, .y = y + TOP, .w = CHART_WIDTH - LEFT - RIGHT, .h = PLOT};
+    struct panel p = {.c = c,
+                      .chart = chart,
+                      .x = LEFT,
+                      .y = y + TOP,
+                      .w = CHART_WIDTH - LEFT - RIGHT,
+                      .h = PLOT};
 
     set_ranges(&p);
     canvas_text(c, &heading, 0.5 * CHART_WIDTH, y + 24 + heading.size, 0.5, chart->title);
-    canvas_text(c, &subheading, 0.5 * CHART_WIDTH, y + 24 + 1.3 * heading.size + subheading.size, 0.5,
-                chart->subtitle);
+    canvas_text(c, &subheading, 0.5 * CHART_WIDTH, y + 24 + 1.3 * heading.size + subheading.size,
+                0.5, chart->subtitle);
     draw_floor(&p);
     draw_up(&p);
     draw_across(&p);

@@ -11,9 +11,9 @@
 #include "colormap.h"
 
 struct chart_point {
-    double x, y;    /* > 0; y below the lower end of the axis is drawn on it  */
-    bool hollow;    /* of a second kind                                       */
-    bool front;     /* marked, and labelled where there is room               */
+    double x, y; /* > 0; y below the lower end of the axis is drawn on it  */
+    bool hollow; /* of a second kind                                       */
+    bool front;  /* marked, and labelled where there is room               */
     char label[16];
 };
 
@@ -29,8 +29,8 @@ struct chart {
     const char *across, *up; /* what the axes are, with units                 */
     const struct chart_series *series;
     size_t n;
-    const char *hollow;      /* what hollow points are; NULL: there are none  */
-    double floor;            /* y below this means nothing; 0: all do         */
+    const char *hollow; /* what hollow points are; NULL: there are none  */
+    double floor;       /* y below this means nothing; 0: all do         */
     const char *floor_text;
 };
 

@@ -3,13 +3,14 @@
  * rows are dense enough that lightness (CIELAB L*) keeps rising where it should.
  *
  * viridis and magma follow the maps of those names by N. Smith, S. van der Walt and E. Firing
- * (2015, in the public domain). bluered is made for this tool: equal lightness at equal distance from its
- * middle, so that a picture in grey still shows the size of a signed value.
+ * (2015, in the public domain). bluered is made for this tool: equal lightness at equal distance
+ * from its middle, so that a picture in grey still shows the size of a signed value.
  */
 #include "colormap.h"
 
 #include <string.h>
 
+/* clang-format off */
 static const unsigned viridis[] = {
     0x440154, 0x460e5f, 0x48196a, 0x482373, 0x472c7b, 0x453681, 0x424086, 0x3e4989,
     0x3b528b, 0x375b8d, 0x33638e, 0x306b8e, 0x2d728e, 0x29798e, 0x27808e, 0x24888d,
@@ -17,7 +18,9 @@ static const unsigned viridis[] = {
     0x5dc863, 0x6fce58, 0x82d34b, 0x96d83e, 0xabdc31, 0xbfe027, 0xd4e322, 0xe9e522,
     0xfde725,
 };
+/* clang-format on */
 
+/* clang-format off */
 static const unsigned magma[] = {
     0x000004, 0x0a0418, 0x110926, 0x150e35, 0x1c1046, 0x271058, 0x351069, 0x431076,
     0x51127e, 0x5e1681, 0x6a1b81, 0x762181, 0x822581, 0x8f2a80, 0x9c2e7f, 0xa9327d,
@@ -25,7 +28,9 @@ static const unsigned magma[] = {
     0xfc8761, 0xfd9768, 0xfea671, 0xfeb47b, 0xfec387, 0xfed194, 0xfee0a2, 0xfdeeb0,
     0xfcfdbf,
 };
+/* clang-format on */
 
+/* clang-format off */
 static const unsigned bluered[] = {
     0x244a88, 0x2f5898, 0x3b65a5, 0x4571b1, 0x507cbc, 0x5b87c5, 0x6692cd, 0x729dd4,
     0x7ea7da, 0x8bb1df, 0x98bbe4, 0xa6c4e8, 0xb4ceeb, 0xc2d7ed, 0xd0dfef, 0xdfe7ef,
@@ -33,12 +38,14 @@ static const unsigned bluered[] = {
     0xe38e77, 0xde816a, 0xd7745e, 0xcf6752, 0xc65a47, 0xbc4c3c, 0xb03e31, 0xa22f26,
     0x921d1b,
 };
+/* clang-format on */
 
 static const unsigned grey[] = {0x000000, 0xffffff};
 
 #define POINTS(row) .point = row, .points = sizeof row / sizeof *row
 
 /* none and missing keep clear of the colours that stand for values. */
+/* clang-format off */
 static const struct colormap maps[] = {
     {.name = "viridis", POINTS(viridis), .none = {0xea, 0xea, 0xea}, .missing = {0xa6, 0xa6, 0xa6}},
     {.name = "magma", POINTS(magma), .none = {0xea, 0xea, 0xea}, .missing = {0xa6, 0xa6, 0xa6}},
@@ -46,6 +53,7 @@ static const struct colormap maps[] = {
      .missing = {0x96, 0x96, 0x96}},
     {.name = "grey", POINTS(grey), .none = {0xd6, 0xe4, 0xf2}, .missing = {0xe3, 0xc9, 0x92}},
 };
+/* clang-format on */
 
 const struct colormap *
 colormap_find(const char *name)

@@ -13,9 +13,9 @@ struct colormap {
     const char *name;
     bool diverging; /* its middle means zero                                     */
     const unsigned *point;
-    size_t points;          /* colours 0xRRGGBB at even steps, at least 2        */
-    struct rgb none;        /* pressure 0: no contact                            */
-    struct rgb missing;     /* NaN: not measured                                 */
+    size_t points;      /* colours 0xRRGGBB at even steps, at least 2        */
+    struct rgb none;    /* pressure 0: no contact                            */
+    struct rgb missing; /* NaN: not measured                                 */
 };
 
 #define COLORMAP_NAMES "viridis|magma|bluered|grey"

@@ -20,23 +20,23 @@ enum {
 };
 
 struct figure {
-    const char *title;          /* large, over everything                                */
-    const char *subtitle;       /* under it; lines break at " · "                        */
-    const char *quantity;       /* what the values are: "Gap"                            */
-    const char *unit;           /* of the values, as in a stream                         */
-    const char *across, *down;  /* what the axes are: "x", "y", "depth"                  */
-    double left, right;         /* metres, the outer edges of the map: left < right      */
-    double top, bottom;         /* the same downwards: top < bottom                      */
-    const double *row_edge;     /* metres, ny + 1 rising numbers; NULL: even rows        */
+    const char *title;         /* large, over everything                                */
+    const char *subtitle;      /* under it; lines break at " · "                        */
+    const char *quantity;      /* what the values are: "Gap"                            */
+    const char *unit;          /* of the values, as in a stream                         */
+    const char *across, *down; /* what the axes are: "x", "y", "depth"                  */
+    double left, right;        /* metres, the outer edges of the map: left < right      */
+    double top, bottom;        /* the same downwards: top < bottom                      */
+    const double *row_edge;    /* metres, ny + 1 rising numbers; NULL: even rows        */
     const struct colormap *map;
-    double lo, hi;              /* values at the ends of the colour bar, lo < hi         */
-    double min, max;            /* of the values there are: the bar gets a point where
+    double lo, hi;     /* values at the ends of the colour bar, lo < hi         */
+    double min, max;   /* of the values there are: the bar gets a point where
                                    they go on beyond its end                             */
-    size_t missing;             /* nodes that are NaN                                    */
-    bool zero_is_none;          /* value 0 means no contact                              */
-    size_t zeros;               /* nodes of that value                                   */
-    bool contour;               /* lines at the marks of the bar, and the contact's edge */
-    size_t width;               /* pixels of the whole figure; 0: what suits the map     */
+    size_t missing;    /* nodes that are NaN                                    */
+    bool zero_is_none; /* value 0 means no contact                              */
+    size_t zeros;      /* nodes of that value                                   */
+    bool contour;      /* lines at the marks of the bar, and the contact's edge */
+    size_t width;      /* pixels of the whole figure; 0: what suits the map     */
 };
 
 /* The grid holds values, nx and ny; *figure says where they lie. NULL when memory is short. */

@@ -1,10 +1,11 @@
 /*
  * --checkpoint and --resume: a file of pressures, from which a run that was cut off goes on.
  *
- * Frames are only ever added, each a grid stream of its own with its end line, so that the file is whole but for what
- * was being written when the machine stopped: a case when it is done, what is reached of one when a signal ends the
- * run, and on the way after 1, 2, 4, 8 ... intervals, so that at most half of the time spent on a case is lost. Of
- * several frames of a case the last counts. Disk full is no reason to lose the solution: it is said once, and the run goes on.
+ * Frames are only ever added, each a grid stream of its own with its end line, so that the file is
+ * whole but for what was being written when the machine stopped: a case when it is done, what is
+ * reached of one when a signal ends the run, and on the way after 1, 2, 4, 8 ... intervals, so that
+ * at most half of the time spent on a case is lost. Of several frames of a case the last counts.
+ * Disk full is no reason to lose the solution: it is said once, and the run goes on.
  */
 #include "solve.h"
 
@@ -61,7 +62,8 @@ look_through(struct checkpoint *c)
         tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
     while (rc_reader_next(reader, &g, &err) == RC_MORE) {
         if (!rc_grid_number(g, "checkpoint.case", &number))
-            tool_die(t, EXIT_IMPOSSIBLE, "--checkpoint %s: a grid stream, but no checkpoint: name another file",
+            tool_die(t, EXIT_IMPOSSIBLE,
+                     "--checkpoint %s: a grid stream, but no checkpoint: name another file",
                      c->name);
         note(c, (size_t)number, end);
         end = ftello(c->file) + (off_t)strlen(end_line);
@@ -70,7 +72,8 @@ look_through(struct checkpoint *c)
     rc_reader_free(reader);
     clearerr(c->file);
     if (c->count == 0 && (fseeko(c->file, 0, SEEK_END) != 0 || ftello(c->file) > 0))
-        tool_die(t, EXIT_IMPOSSIBLE, "--checkpoint %s: no pressure can be read from it (%s): remove it to begin anew",
+        tool_die(t, EXIT_IMPOSSIBLE,
+                 "--checkpoint %s: no pressure can be read from it (%s): remove it to begin anew",
                  c->name, err.text);
     if (c->count == 0)
         return;
@@ -102,7 +105,8 @@ checkpoint_open(struct run *run, const char *name, bool resume, double interval)
     c->file = fopen(name, "w+bx");
     if (c->file == NULL && errno == EEXIST)
         tool_die(&run->t, EXIT_IMPOSSIBLE,
-                 "--checkpoint %s: there is one already: go on from it with --resume, or remove it", name);
+                 "--checkpoint %s: there is one already: go on from it with --resume, or remove it",
+                 name);
     if (c->file == NULL)
         tool_die(&run->t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", name, strerror(errno));
     return c;
@@ -169,14 +173,16 @@ compare(struct checkpoint *c, const struct rc_grid *g, const struct rc_grid *sav
     struct tool *t = &c->run->t;
 
     if (saved->nx != g->nx || saved->ny != g->ny || saved->dx != g->dx || saved->dy != g->dy)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "--checkpoint %s: it belongs to another grid, %zu x %zu nodes", c->name,
+        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                    "--checkpoint %s: it belongs to another grid, %zu x %zu nodes", c->name,
                     saved->nx, saved->ny);
     marks_of(c, mark);
     for (size_t k = 0; k < MARKS; k++) {
         const char *was = rc_grid_get(saved, mark[k].name);
         if (was == NULL || strcmp(was, mark[k].value) != 0)
-            tool_die_at(t, g, EXIT_IMPOSSIBLE, "--checkpoint %s: it belongs to another problem: %s was %s, is %s",
-                        c->name, mark[k].name, was == NULL ? "not given" : was, mark[k].value);
+            tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                        "--checkpoint %s: it belongs to another problem: %s was %s, is %s", c->name,
+                        mark[k].name, was == NULL ? "not given" : was, mark[k].value);
     }
 }
 
@@ -203,8 +209,10 @@ checkpoint_case(struct checkpoint *c, const struct rc_grid *g, struct rc_solver 
     if (reader == NULL || rc_reader_next(reader, &saved, &err) != RC_MORE)
         tool_die(&c->run->t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", c->name, err.text);
     compare(c, g, saved);
-    if (!rc_grid_number(saved, "load", &load) || rc_solver_start(solver, load, saved->v, &err) != RC_OK)
-        tool_die_at(&c->run->t, g, EXIT_IMPOSSIBLE, "--checkpoint %s: it cannot be started from", c->name);
+    if (!rc_grid_number(saved, "load", &load) ||
+        rc_solver_start(solver, load, saved->v, &err) != RC_OK)
+        tool_die_at(&c->run->t, g, EXIT_IMPOSSIBLE, "--checkpoint %s: it cannot be started from",
+                    c->name);
     rc_reader_free(reader);
     rc_grid_free(saved);
     return true;
@@ -252,8 +260,11 @@ checkpoint_save(struct checkpoint *c, const struct rc_grid *g, const struct rc_s
         rc_grid_set_number(out, "load", rc_solver_load(solver), &err) != RC_OK ||
         rc_grid_history(out, tool_history(&c->run->t), &err) != RC_OK)
         tool_die_at(&c->run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    if (fseeko(c->file, 0, SEEK_END) != 0 || (at = ftello(c->file)) < 0 || put(c, out, &err) != RC_OK) {
-        tool_warn(&c->run->t, "--checkpoint %s: writing failed: what is in it stays, nothing is added", c->name);
+    if (fseeko(c->file, 0, SEEK_END) != 0 || (at = ftello(c->file)) < 0 ||
+        put(c, out, &err) != RC_OK) {
+        tool_warn(&c->run->t,
+                  "--checkpoint %s: writing failed: what is in it stays, nothing is added",
+                  c->name);
         (void)fclose(c->file);
         c->file = NULL;
     } else {

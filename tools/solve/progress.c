@@ -1,15 +1,18 @@
-/* What rc-solve shows while it works: the grid, the iteration, how far it is, and about how long it will take. */
+/* What rc-solve shows while it works: the grid, the iteration, how far it is, and about how long
+ * it will take. */
 #include "solve.h"
 
 #include <math.h>
 
-/* Seconds until the error is `tol`, if it goes on shrinking as it has on this grid; NAN: it can't be told yet. */
+/* Seconds until the error is `tol`, if it goes on shrinking as it has on this grid; NAN: it
+ * can't be told yet. */
 static double
 left(struct progress *q, size_t nodes, size_t iterations, double error, double tol)
 {
     double now = solve_now(), rate;
 
-    if (nodes != q->nodes || iterations <= q->iterations || isnan(q->error)) { /* another grid, or load */
+    if (nodes != q->nodes || iterations <= q->iterations ||
+        isnan(q->error)) { /* another grid, or load */
         *q = (struct progress){.nodes = nodes, .iterations = iterations, .error = error, .at = now};
         return NAN;
     }
@@ -30,7 +33,7 @@ solve_watch(void *at, const struct rc_shape *grid, size_t iterations, double err
         snprintf(how_far, sizeof how_far, ", error %.1e of %.1e", error, tol);
     if (!isnan(seconds) && grid->nx * grid->ny == run->nodes)
         snprintf(how_long, sizeof how_long, ", about %.*f s left", seconds < 10 ? 1 : 0, seconds);
-    tool_progress(&run->t, "case %zu, %zu x %zu, iteration %zu%s%s", run->number, grid->nx, grid->ny,
-                  iterations, how_far, how_long);
+    tool_progress(&run->t, "case %zu, %zu x %zu, iteration %zu%s%s", run->number, grid->nx,
+                  grid->ny, iterations, how_far, how_long);
     return tool_interrupted() == 0;
 }

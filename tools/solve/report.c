@@ -7,6 +7,7 @@
 #include <sys/resource.h>
 #include <time.h>
 
+/* clang-format off */
 const struct solve_frame_kind solve_frames[SOLVE_FRAMES] = {
     [SOLVE_PRESSURE] = {"pressure", "Pa"},
     [SOLVE_GAP] = {"gap", "m"},
@@ -14,6 +15,7 @@ const struct solve_frame_kind solve_frames[SOLVE_FRAMES] = {
     [SOLVE_HEIGHT] = {"height", "m"},
     [SOLVE_PLASTIC] = {"plastic", "m"},
 };
+/* clang-format on */
 
 double
 solve_now(void)
@@ -55,8 +57,10 @@ effects(const struct run *run, const char *kernel, const bool *active, struct ef
     e[n++] = (struct effect){"kernel", kernel};
     e[n++] = (struct effect){"hardness", hardness_effect(run, active)};
     e[n++] = (struct effect){"sphere", isnan(a->physics.radius) ? "left out: no --radius" : "on"};
-    e[n++] = (struct effect){"padding", a->physics.periodic ? "left out: the map is periodic" : "on"};
-    e[n++] = (struct effect){"approach", a->physics.approach.n > 0 ? "on" : "left out: the load is given"};
+    e[n++] =
+        (struct effect){"padding", a->physics.periodic ? "left out: the map is periodic" : "on"};
+    e[n++] = (struct effect){"approach",
+                             a->physics.approach.n > 0 ? "on" : "left out: the load is given"};
     e[n++] = (struct effect){"stiffness",
                              run->stiffness ? "on" : "left out: one load and no --stiffness"};
     e[n++] = (struct effect){"discretization",
@@ -149,9 +153,9 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
 
 /* ---- plan ---- */
 
-/* Equivalents and seconds as bench-solve found them at 512^2 to 2048^2, 1 to 99 % contact, 1e-4; each
- * further decade of the tolerance takes about one step more. pk99 goes with the square root of the
- * number of nodes. */
+/* Equivalents and seconds as bench-solve found them at 512^2 to 2048^2, 1 to 99 % contact, 1e-4;
+ * each further decade of the tolerance takes about one step more. pk99 goes with the square root
+ * of the number of nodes. */
 static double
 expected(const struct run *run, const struct rc_problem *problem, size_t n)
 {
@@ -173,13 +177,15 @@ solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *pr
     const char *reason, *engine = rc_solver_choice(&shape, problem, &reason);
     size_t count = effects(run, reason, NULL, e), n = g->nx * g->ny;
     double each = expected(run, problem, n);
-    double node = strcmp(engine, "direct") == 0 ? 2.6 * (double)n
-                  : strcmp(engine, "mlms") == 0 ? 30 : problem->boundary == RC_FREE ? 18 : 8;
+    double node = strcmp(engine, "direct") == 0  ? 2.6 * (double)n
+                  : strcmp(engine, "mlms") == 0  ? 30
+                  : problem->boundary == RC_FREE ? 18
+                                                 : 8;
     char where[256];
 
     tool_where(&run->t, g, where, sizeof where);
-    fprintf(run->t.out, "%s: %zu x %zu nodes, %zu %s, engine %s\n", where, g->nx, g->ny, run->steps->n,
-            run->steps->n == 1 ? "load" : "loads", engine);
+    fprintf(run->t.out, "%s: %zu x %zu nodes, %zu %s, engine %s\n", where, g->nx, g->ny,
+            run->steps->n, run->steps->n == 1 ? "load" : "loads", engine);
     for (size_t k = 0; k < count; k++)
         fprintf(run->t.out, "  %-15s %s\n", e[k].name, e[k].state);
     fprintf(run->t.out, "  about %.0f convolutions%s, %zu MiB, %.2g s with %zu threads\n", each,

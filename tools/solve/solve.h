@@ -67,19 +67,24 @@ void solve_report(struct run *run, const struct rc_grid *g, const struct rc_solv
 void solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *problem);
 
 /* Tells of an iteration; false once a signal has come. Of the type rc_watch, `at` is the run. */
-bool solve_watch(void *at, const struct rc_shape *grid, size_t iterations, double error, double tol);
+bool solve_watch(void *at, const struct rc_shape *grid, size_t iterations, double error,
+                 double tol);
 
 /* ---- solve_checkpoint.c; NULL for a checkpoint is allowed: nothing is done ---- */
 
-/* The file `name` (NULL: none), new or, to resume, as it is. Does not return when it cannot be used. */
+/* The file `name` (NULL: none), new or, to resume, as it is. Does not return when it cannot be
+ * used. */
 struct checkpoint *checkpoint_open(struct run *run, const char *name, bool resume, double interval);
 void checkpoint_close(struct checkpoint *checkpoint);
 /* These are the heights of the cases that come. */
 void checkpoint_surface(struct checkpoint *checkpoint, const struct rc_grid *g);
 /* A case begins. True when a pressure had been kept for it: the solver starts from that. */
-bool checkpoint_case(struct checkpoint *checkpoint, const struct rc_grid *g, struct rc_solver *solver);
+bool checkpoint_case(struct checkpoint *checkpoint, const struct rc_grid *g,
+                     struct rc_solver *solver);
 /* Keeps the pressure reached; `pass` does so only where it is time for it. */
-void checkpoint_save(struct checkpoint *checkpoint, const struct rc_grid *g, const struct rc_solver *solver);
-void checkpoint_pass(struct checkpoint *checkpoint, const struct rc_grid *g, const struct rc_solver *solver);
+void checkpoint_save(struct checkpoint *checkpoint, const struct rc_grid *g,
+                     const struct rc_solver *solver);
+void checkpoint_pass(struct checkpoint *checkpoint, const struct rc_grid *g,
+                     const struct rc_solver *solver);
 
 #endif
