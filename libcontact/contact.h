@@ -155,8 +155,9 @@ RC_API const char *rc_conv_choice(const struct rc_shape *shape,
                                   const struct rc_conv_options *options, const char **reason);
 /* Bytes that such a plan takes beside p and u; 0 when there is no such engine. */
 RC_API size_t rc_conv_memory(const struct rc_shape *shape, const struct rc_conv_options *options);
-/* Seconds that one such sum takes in a solve, the work of the method around it included: measured on
- * a machine of 2026, and several times off on another. NAN when there is no such engine. */
+/* Seconds that one such sum takes in a solve, the work of the method around it included:
+ * measured on a machine of 2026, and several times off on another. NAN when there is no such
+ * engine. */
 RC_API double rc_conv_seconds(const struct rc_shape *shape, const struct rc_conv_options *options);
 
 /* ---- solver: solver.c ---- */
@@ -205,29 +206,31 @@ struct rc_contact {
  * holds both numbers. */
 RC_API struct rc_solver *rc_solver_new(const struct rc_shape *shape, const double *h,
                                        const struct rc_problem *problem, struct rc_err *err);
-/* One iteration, on coarser grids at first: RC_MORE, RC_OK when the estimated error is below tol, RC_SHORT when it cannot get
- * there (iteration limit, rounding). */
+/* One iteration, on coarser grids at first: RC_MORE, RC_OK when the estimated error is below
+ * tol, RC_SHORT when it cannot get there (iteration limit, rounding). */
 RC_API enum rc_status rc_solver_step(struct rc_solver *solver);
-/* Another first loading of the same surface, at a load in N or, with approach > 0, to an approach in
- * m: the last solution is only where it starts. Counts begin anew. RC_FAIL as in rc_solver_new; the
- * solver is then of no further use. */
+/* Another first loading of the same surface, at a load in N or, with approach > 0, to an
+ * approach in m: the last solution is only where it starts. Counts begin anew. RC_FAIL as in
+ * rc_solver_new; the solver is then of no further use. */
 RC_API enum rc_status rc_solver_set_load(struct rc_solver *solver, double load, double approach,
                                          struct rc_err *err);
-/* Starts from this pressure (nx ny Pa; what leaves the box or the load is put right), as it was left
- * by an earlier solver of the same problem, instead of from coarser grids; load (N) is that of this
- * pressure, which matters where an approach is sought. RC_FAIL after the first step of a load, and as
- * in rc_solver_set_load. */
+/* Starts from this pressure (nx ny Pa; what leaves the box or the load is put right), as it was
+ * left by an earlier solver of the same problem, instead of from coarser grids; load (N) is that
+ * of this pressure, which matters where an approach is sought. RC_FAIL after the first step of a
+ * load, and as in rc_solver_set_load. */
 RC_API enum rc_status rc_solver_warm_start(struct rc_solver *solver, double load, const double *p,
                                            struct rc_err *err);
-/* How far it is: the grid that is being iterated, which is a coarser one at first, the iterations on it,
- * the last estimate of the error there (NAN before the first) and the one asked for. */
+/* How far it is: the grid that is being iterated, which is a coarser one at first, the
+ * iterations on it, the last estimate of the error there (NAN before the first) and the one
+ * asked for. */
 struct rc_progress {
     struct rc_shape grid;
     size_t iterations;
     double error, tol;
 };
 RC_API void rc_solver_progress(const struct rc_solver *solver, struct rc_progress *progress);
-/* Iterations on this grid so far and the last estimate of the error (NAN before the first), for progress. */
+/* Iterations on this grid so far and the last estimate of the error (NAN before the first), for
+ * progress. */
 RC_API size_t rc_solver_iterations(const struct rc_solver *solver);
 RC_API double rc_solver_error(const struct rc_solver *solver);
 /* Convolutions so far, in equivalents of one double-precision convolution on this grid; coarser

@@ -37,9 +37,9 @@ conv_options(const struct rc_operator_options *o)
 /* ---- figures ---- */
 
 /* On the free boundary the largest row sum of K: what a uniform pressure does in the middle of a
- * rectangle a x b, 2 (a asinh(b/a) + b asinh(a/b)) / (pi E*) (Love 1929; Johnson 1985, eq. 3.25). On
- * a periodic map the eigenvalues are known, and the longest wave has the largest, 2 / (E* q), q =
- * 2 pi / L. */
+ * rectangle a x b, 2 (a asinh(b/a) + b asinh(a/b)) / (pi E*) (Love 1929; Johnson 1985, eq.
+ * 3.25). On a periodic map the eigenvalues are known, and the longest wave has the largest, 2 /
+ * (E* q), q = 2 pi / L. */
 static double
 norm(const struct rc_shape *s, enum rc_boundary boundary, double estar)
 {
@@ -61,8 +61,9 @@ diagonal(const struct rc_shape *s, double estar)
     return self;
 }
 
-/* The mean of |q| / 2 over the wave numbers of the grid, |qx| <= pi/dx and |qy| <= pi/dy, lengths in
- * units of sqrt(dx dy): half the mean distance of a rectangle's points from its middle. */
+/* The mean of |q| / 2 over the wave numbers of the grid, |qx| <= pi/dx and |qy| <= pi/dy,
+ * lengths in units of sqrt(dx dy): half the mean distance of a rectangle's points from its
+ * middle. */
 static double
 inverse_diagonal(const struct rc_shape *unit)
 {

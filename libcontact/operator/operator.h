@@ -92,23 +92,24 @@ rc_operator_apply(struct rc_operator *op, const double *p, double *u)
     op->type->apply(op, p, u);
 }
 
-/* u = K' p row by row: `in` writes the rows of p (floats), `out` takes those of u. Costs op->row_cost. */
+/* u = K' p row by row: `in` writes the rows of p (floats), `out` takes those of u. Costs
+ * op->row_cost. */
 static inline void
 rc_operator_apply_rows(struct rc_operator *op, rc_row *in, rc_row *out, void *ctx)
 {
     op->type->apply_rows(op, in, out, ctx);
 }
 
-/* The factor of an even function of the offset, given by its values at the nodes. NULL when memory is
- * short; the caller frees it with rc_spectrum_free. */
+/* The factor of an even function of the offset, given by its values at the nodes. NULL when
+ * memory is short; the caller frees it with rc_spectrum_free. */
 static inline struct rc_spectrum *
 rc_operator_spectrum(struct rc_operator *op, const struct rc_kernel *values, struct rc_err *err)
 {
     return op->type->spectrum(op, values, err);
 }
 
-/* Several convolutions, one after the other, with rows[k] between factor k - 1 and k: as rc_fft_chain.
- * Each factor costs op->factor_cost. */
+/* Several convolutions, one after the other, with rows[k] between factor k - 1 and k: as
+ * rc_fft_chain. Each factor costs op->factor_cost. */
 static inline void
 rc_operator_chain(struct rc_operator *op, size_t n, const struct rc_spectrum *const *factors,
                   rc_row *const *rows, void *ctx)

@@ -182,8 +182,8 @@ rc_iterate_checked(struct rc_solver *s, double error, size_t again)
     s->it.next_check = s->it.iterations + again;
 }
 
-/* Its error is a bound, relative to all of |K| |p|, and what the pressure makes of it was seen to be
- * 0.2 to 0.6 of that (multi-level sums, smooth and rough spheres). */
+/* Its error is a bound, relative to all of |K| |p|, and what the pressure makes of it was seen
+ * to be 0.2 to 0.6 of that (multi-level sums, smooth and rough spheres). */
 double
 rc_iterate_operator_error(const struct rc_solver *s)
 {

@@ -1,8 +1,8 @@
 /*
- * The load: the one that is given, or the one that an approach needs. The shift grows with the load,
- * nearly as a power of it (2/3 for a sphere, 1 for a punch): secants in logarithms, inside a bracket.
- * Each load starts from the solution of the last, and the first are solved only as well as the next
- * guess can use.
+ * The load: the one that is given, or the one that an approach needs. The shift grows with the
+ * load, nearly as a power of it (2/3 for a sphere, 1 for a punch): secants in logarithms, inside a
+ * bracket. Each load starts from the solution of the last, and the first are solved only as well as
+ * the next guess can use.
  */
 #include "solver.h"
 

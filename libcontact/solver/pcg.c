@@ -280,8 +280,8 @@ precondition(struct rc_solver *solver, struct pcg *s, double *mean)
            rc_iterate_operator_error(solver);
 }
 
-/* What rounding has made of the load is put right. Should memory be short, a little of it is missing, and
- * the result says so. */
+/* What rounding has made of the load is put right. Should memory be short, a little of it is
+ * missing, and the result says so. */
 static void
 restore(struct rc_solver *solver, double carried)
 {
@@ -532,9 +532,9 @@ undo(struct rc_solver *solver, struct pcg *s, const struct trial *t)
     s->drift += solver->op->row_error * t->size; /* delta was rounded */
 }
 
-/* From p along the direction in z, of that mean, back into the box, to where the energy is low, or lower;
- * v, the working set and the residual follow. The relative change of p; 0 when that leads nowhere: p is
- * then where it was. */
+/* From p along the direction in z, of that mean, back into the box, to where the energy is low,
+ * or lower; v, the working set and the residual follow. The relative change of p; 0 when that
+ * leads nowhere: p is then where it was. */
 static double
 advance(struct rc_solver *solver, struct pcg *s, double alpha, double mean)
 {

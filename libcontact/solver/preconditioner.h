@@ -7,10 +7,10 @@
  *     (E r)_i = r_i on W,   sum_j G_ij r_j / (sum_j G_ij + c d_i^(-1/2)) elsewhere, j over W,
  *     G_ij = |x_i - x_j|^(-5/2),
  *
- * lengths in units of sqrt(dx dy), d_i the distance from i to W less half a unit, at least 1/4. A, its
- * factor in wave numbers, and the constant c are the operator's. The map r -> z is symmetric, and as
- * E r has no less energy than the least, r'z >= r' (K_WW)^-1 r: z bounds the error of the pressure on W
- * in the energy norm from above.
+ * lengths in units of sqrt(dx dy), d_i the distance from i to W less half a unit, at least 1/4. A,
+ * its factor in wave numbers, and the constant c are the operator's. The map r -> z is symmetric,
+ * and as E r has no less energy than the least, r'z >= r' (K_WW)^-1 r: z bounds the error of the
+ * pressure on W in the energy norm from above.
  */
 #ifndef RC_PRECONDITIONER_H
 #define RC_PRECONDITIONER_H

@@ -1,11 +1,12 @@
 /*
- * The way back into {0 <= p <= H, sum p = S}: the load is kept exactly while pressures stay in the box,
- * the constraint that scaling alone breaks.
+ * The way back into {0 <= p <= H, sum p = S}: the load is kept exactly while pressures stay in the
+ * box, the constraint that scaling alone breaks.
  *
- * The Euclidean projection of y on it is clip(y + mu, 0, H) with one shift mu for all nodes. The load
- * phi(mu) = sum clip(y + mu, 0, H) is monotone and piecewise linear in the shift: Newton's method inside a
- * bracket finds it. In a step of the solver most nodes stay on the same piece for every shift that can
- * be meant: they are summed once, the others listed, and the search runs over the list alone.
+ * The Euclidean projection of y on it is clip(y + mu, 0, H) with one shift mu for all nodes. The
+ * load phi(mu) = sum clip(y + mu, 0, H) is monotone and piecewise linear in the shift: Newton's
+ * method inside a bracket finds it. In a step of the solver most nodes stay on the same piece for
+ * every shift that can be meant: they are summed once, the others listed, and the search runs over
+ * the list alone.
  */
 #include "solver.h"
 
@@ -22,8 +23,8 @@ struct excess {
 };
 typedef struct excess excess_at(void *ctx, double shift);
 
-/* The shift between low and high where nothing is too much, from `start`; halved where Newton's step
- * leaves the bracket. `least`: a load that is nothing. */
+/* The shift between low and high where nothing is too much, from `start`; halved where Newton's
+ * step leaves the bracket. `least`: a load that is nothing. */
 static double
 newton(excess_at *at, void *ctx, double low, double high, double start, double least)
 {

@@ -65,8 +65,8 @@ tolerance(const struct rc_shape *shape, const struct rc_problem *problem)
     return isnan(problem->tol) ? pow((double)(shape->nx * shape->ny), -0.75) : problem->tol;
 }
 
-/* The engine's accuracy follows from that of the pressure, which it must not spoil: at a tenth, as in
- * the paper, its own error, which no residual shows, was up to a third of what was left. */
+/* The engine's accuracy follows from that of the pressure, which it must not spoil: at a tenth,
+ * as in the paper, its own error, which no residual shows, was up to a third of what was left. */
 static struct rc_operator_options
 operator_options(const struct rc_shape *shape, const struct rc_problem *problem)
 {

@@ -2,8 +2,8 @@
  * What the solver's front and its methods share. A method is a row of methods.list: it improves the
  * pressure step by step; the front (solver.c) judges, counts and reports.
  *
- * The problem: p with 0 <= p <= H and sum p dx dy = load that minimises 1/2 p'Kp - h'p. With the gap
- * g = Kp - h - c, c its mean over the elastic nodes (0 < p < H), the solution has g = 0 there,
+ * The problem: p with 0 <= p <= H and sum p dx dy = load that minimises 1/2 p'Kp - h'p. With the
+ * gap g = Kp - h - c, c its mean over the elastic nodes (0 < p < H), the solution has g = 0 there,
  * g >= 0 where p = 0 and g <= 0 where p = H.
  *
  * struct rc_solver has four parts, each written by one file: the problem (solver.c), the iterate
@@ -88,8 +88,8 @@ struct rc_working_set {
     float offset;     /* its mean there                                                        */
     size_t size;
     double left_out; /* what the nodes left out of it would carry, times per_pressure          */
-    /* Nodes that changed sides since the preconditioner was told w, and since it measured distances;
-     * INFINITY: w is another set altogether. */
+    /* Nodes that changed sides since the preconditioner was told w, and since it measured
+     * distances; INFINITY: w is another set altogether. */
     double changed, moved;
 };
 
@@ -166,8 +166,8 @@ void rc_iterate_level(struct rc_solver *solver);
 void rc_iterate_forget(struct rc_solver *solver);
 /* v = K p - h in double precision. */
 void rc_iterate_displace(struct rc_solver *solver);
-/* The method has moved p, and v with it. Where it also summed v over the elastic nodes, that gives the
- * shift; elastic 0: it has not, or there are none. */
+/* The method has moved p, and v with it. Where it also summed v over the elastic nodes, that
+ * gives the shift; elastic 0: it has not, or there are none. */
 void rc_iterate_moved(struct rc_solver *solver, double gap, double elastic);
 /* It has moved p alone. */
 void rc_iterate_unknown(struct rc_solver *solver);
@@ -195,8 +195,8 @@ double rc_iterate_judge(struct rc_solver *solver);
 
 enum rc_status rc_working_set_new(struct rc_solver *solver);
 void rc_working_set_free(struct rc_solver *solver);
-/* The working set and the residual on it, from v and the shift; `sift`: without the nodes that would
- * only be pushed back to their bound. */
+/* The working set and the residual on it, from v and the shift; `sift`: without the nodes that
+ * would only be pushed back to their bound. */
 void rc_working_set_find(struct rc_solver *solver, bool sift);
 /* All nodes, with what `r` holds. */
 void rc_working_set_all(struct rc_solver *solver);
@@ -238,8 +238,8 @@ enum rc_status rc_load_search(struct rc_solver *solver);
  * Nothing is iterated yet. */
 void rc_nested_new(struct rc_solver *solver);
 void rc_nested_free(struct rc_solver *solver);
-/* One iteration on the coarser grids; after the last one the pressure found there is the start here, and
- * solver->nested is NULL. */
+/* One iteration on the coarser grids; after the last one the pressure found there is the start
+ * here, and solver->nested is NULL. */
 void rc_nested_step(struct rc_solver *solver);
 /* Ends it where it stands: the pressure reached there is the start here. */
 void rc_nested_end(struct rc_solver *solver);
@@ -252,8 +252,8 @@ double rc_nested_convolutions(const struct rc_solver *solver);
 
 /* ---- projection.c ---- */
 
-/* p becomes the sum by scaling its elastic nodes, as far as the box lets them; what they cannot carry
- * goes to the nodes of smallest g, what is too much is taken from all. */
+/* p becomes the sum by scaling its elastic nodes, as far as the box lets them; what they cannot
+ * carry goes to the nodes of smallest g, what is too much is taken from all. */
 enum rc_status rc_projection_balance(size_t n, double hardness, double sum, const double *g,
                                      double *p, struct rc_err *err);
 /* The same for the solver's own pressure and load, where it is off by more than rounding. */
@@ -266,8 +266,8 @@ void rc_projection_of(size_t n, double hardness, double sum, double *y);
  *
  *     clip(p + alpha (d - mean)[d != 0] + shift, 0, H),
  *
- * with the one shift that keeps the load: the Euclidean projection of the step, where the set can carry
- * its share; where it cannot, all nodes become the set. */
+ * with the one shift that keeps the load: the Euclidean projection of the step, where the set
+ * can carry its share; where it cannot, all nodes become the set. */
 struct rc_move {
     struct rc_solver *solver;
     const float *d; /* direction, times per_pressure; not 0 only on W                  */
@@ -286,8 +286,8 @@ struct rc_safeguard {
 };
 /* Whether the energy of the pressure has risen above that of the last one kept; else this one is. */
 bool rc_safeguard_raised(struct rc_safeguard *safeguard, const struct rc_solver *solver);
-/* The pressure goes back to `old`, and from there towards the projection of p - g / |K|, to the lowest
- * point on that way. t, r: scratch of n. Costs two convolutions. */
+/* The pressure goes back to `old`, and from there towards the projection of p - g / |K|, to the
+ * lowest point on that way. t, r: scratch of n. Costs two convolutions. */
 void rc_safeguard_step(struct rc_solver *solver, const double *old, double *t, double *r);
 
 #endif

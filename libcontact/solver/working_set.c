@@ -1,17 +1,19 @@
 /*
  * The working set, the residual on it, and the correction that follows from it.
  *
- * On it are the elastic nodes, and nodes at a bound that want to leave it. A node that penetrates the
- * other body (p = 0 and g < 0; the like at the hardness) need not want to: next to an edge of contact
- * that is about to be pressed less, it overlaps a little, and once its neighbours are in touch it would
- * have to pull. Were it to join, the preconditioner would count on that pull, which the bound then takes
- * away, and the step would be too long: at 2048 x 2048 and 50 % contact that doubled the number of steps.
+ * On it are the elastic nodes, and nodes at a bound that want to leave it. A node that penetrates
+ * the other body (p = 0 and g < 0; the like at the hardness) need not want to: next to an edge of
+ * contact that is about to be pressed less, it overlaps a little, and once its neighbours are in
+ * touch it would have to pull. Were it to join, the preconditioner would count on that pull, which
+ * the bound then takes away, and the step would be too long: at 2048 x 2048 and 50 % contact that
+ * doubled the number of steps.
  *
- * What the set would load it with is z = A r, A the inverse of the operator, r the residual extended
- * smoothly: (A r)_i ~ sum_j a_ij (r_i - r_j), on a half-space with a_ij = |x_i - x_j|^(-3). The sum falls
- * off so fast that its sign can be told from the eight neighbours. A node joins unless that sign is the
- * wrong one; one without neighbours in the set always does, and so do all as the residual of their
- * neighbours goes to 0. The estimate that is believed at last is made with all of them.
+ * What the set would load it with is z = A r, A the inverse of the operator, r the residual
+ * extended smoothly: (A r)_i ~ sum_j a_ij (r_i - r_j), on a half-space with a_ij = |x_i -
+ * x_j|^(-3). The sum falls off so fast that its sign can be told from the eight neighbours. A node
+ * joins unless that sign is the wrong one; one without neighbours in the set always does, and so do
+ * all as the residual of their neighbours goes to 0. The estimate that is believed at last is made
+ * with all of them.
  */
 #include "solver.h"
 
@@ -146,8 +148,8 @@ settle_block(void *at, size_t first, size_t n, double *sums)
     }
 }
 
-/* Takes those that would only be pushed back out of the set; the sums of the residual, of the nodes and
- * of those that changed sides follow. Uses z. */
+/* Takes those that would only be pushed back out of the set; the sums of the residual, of the
+ * nodes and of those that changed sides follow. Uses z. */
 static void
 sift_out(struct rc_solver *s, double *residual, double *count, double *changed)
 {
