@@ -124,11 +124,7 @@ terms(size_t n, float fade, const float *restrict d2, float *restrict term)
 {
     for (size_t i = 0; i < n; i++) {
         float d = sqrtf(d2[i]) - 0.5f;
-        float x = fade / sqrtf(d > 0.25f ? d : 0.25f);
-        uint32_t bits;
-        memcpy(&bits, &x, sizeof bits);
-        bits &= 0xffff0000;
-        memcpy(&term[i], &bits, sizeof bits);
+        term[i] = fade / sqrtf(d > 0.25f ? d : 0.25f);
     }
 }
 
