@@ -16,6 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "dct.h"
 #include "fourier.h"
 
 struct rc_fft {
@@ -192,7 +193,7 @@ finish_column(const struct rc_fft *f, struct rc_spectrum *k, size_t c, const dou
 /* The kernel's values at the nodes of a quarter period, row by row, each transformed in x. */
 static void
 table_rows(const struct rc_fft *f, const struct rc_kernel *kernel, size_t component,
-           const struct rc_medium *medium, const struct rc_dct *transform, double *table)
+           const struct rc_medium *medium, const struct rc_dct *along_x, double *table)
 {
     const struct rc_layout *l = &f->layout;
     const struct rc_lattice nodes = {f->shape.dx, f->shape.dy, 1, 1};
@@ -204,13 +205,13 @@ table_rows(const struct rc_fft *f, const struct rc_kernel *kernel, size_t compon
 
         kernel->rows(medium, component, &nodes, l->cx, first, last, rows);
         for (size_t j = first; j < last; j++)
-            rc_dct_run(transform, table + j * l->cx);
+            rc_dct_run(along_x, kernel->parity[component] & RC_ODD_X, table + j * l->cx);
     }
 }
 
 /* Columns of that table, each transformed in y. `space` holds COLUMNS columns for each thread. */
 static void
-table_columns(const struct rc_fft *f, struct rc_spectrum *k, const struct rc_dct *transform,
+table_columns(const struct rc_fft *f, struct rc_spectrum *k, const struct rc_dct *along_y,
               const double *table, double *space)
 {
     const struct rc_layout *l = &f->layout;
@@ -224,7 +225,7 @@ table_columns(const struct rc_fft *f, struct rc_spectrum *k, const struct rc_dct
             for (size_t b = 0; b < n; b++)
                 s[b * l->packed + j] = table[j * l->cx + first + b];
         for (size_t b = 0; b < n; b++) {
-            rc_dct_run(transform, s + b * l->packed);
+            rc_dct_run(along_y, k->parity & RC_ODD_Y, s + b * l->packed);
             finish_column(f, k, first + b, s + b * l->packed);
         }
     }
@@ -236,8 +237,8 @@ transform_values(const struct rc_fft *f, struct rc_spectrum *k, const struct rc_
 {
     const struct rc_layout *l = &f->layout;
     size_t threads = (size_t)l->threads;
-    struct rc_dct *along_x = rc_dct_new(l->cx, k->parity & RC_ODD_X, threads, err);
-    struct rc_dct *along_y = rc_dct_new(l->packed, k->parity & RC_ODD_Y, threads, err);
+    struct rc_dct *along_x = rc_dct_new(l->cx, threads, err);
+    struct rc_dct *along_y = rc_dct_new(l->packed, threads, err);
     size_t n = l->cx * l->packed;
     double *own = NULL, *table = f->ops->borrow(f->plan, n * sizeof *table);
     double *space = malloc((size_t)l->threads * COLUMNS * l->packed * sizeof *space);

@@ -39,7 +39,7 @@ struct plan {
     size_t length; /* of a transform                                            */
     int threads;
     struct rc_line *line;
-    struct rc_dct *halves[2];
+    struct rc_dct *dct;
     double complex *source; /* m lines of `waves`; of the waves across, when periodic */
     struct pair *pair;
     size_t pairs;
@@ -48,13 +48,13 @@ struct plan {
     double complex *sum; /* for each share and component                            */
 };
 
-static unsigned
+static bool
 odd_along(const struct plan *plan, int kernel)
 {
     return (rc_stress_parity[kernel] & (plan->turned ? RC_ODD_Y : RC_ODD_X)) != 0;
 }
 
-static unsigned
+static bool
 odd_across(const struct plan *plan, int kernel)
 {
     return (rc_stress_parity[kernel] & (plan->turned ? RC_ODD_X : RC_ODD_Y)) != 0;
@@ -68,8 +68,7 @@ plan_free(void *at)
     if (plan == NULL)
         return;
     rc_line_free(plan->line);
-    rc_dct_free(plan->halves[0]);
-    rc_dct_free(plan->halves[1]);
+    rc_dct_free(plan->dct);
     free(plan->source);
     free(plan->pair);
     free(plan->space);
@@ -214,8 +213,7 @@ plan_new(const struct rc_stress_task *task, struct rc_err *err)
         goto done;
     }
     if ((plan->line = rc_line_new(plan->length, threads, err)) == NULL ||
-        (!periodic && ((plan->halves[0] = rc_dct_new(plan->waves, false, threads, err)) == NULL ||
-                       (plan->halves[1] = rc_dct_new(plan->waves, true, threads, err)) == NULL)))
+        (!periodic && (plan->dct = rc_dct_new(plan->waves, threads, err)) == NULL))
         goto done;
     if (periodic) {
         const struct rc_shape shape = {plan->n, plan->m, plan->d, plan->e};
@@ -271,7 +269,7 @@ sum_pair(struct plan *plan, double depth, const struct pair *pair, double comple
     }
     for (int k = 0; k < RC_STRESS_KERNELS; k++)
         if (t->kernels >> k & 1)
-            rc_dct_run(plan->halves[odd_along(plan, k)], line[k]);
+            rc_dct_run(plan->dct, odd_along(plan, k), line[k]);
     for (int c = 0; c < RC_COMPONENTS; c++) {
         int normal = rc_stress_kernel(RC_NORMAL, c), shear = rc_stress_kernel(RC_SHEAR, c);
         if (!(t->components >> c & 1))

@@ -30,8 +30,8 @@ struct sheet {
     struct rc_fft *fft;
     size_t cx, cy; /* of a quarter                                             */
     int threads;
-    double *table[RC_STRESS_KERNELS];       /* cy rows of cx values, transformed in x */
-    struct rc_dct *along_x[2], *along_y[2]; /* even, odd                     */
+    double *table[RC_STRESS_KERNELS]; /* cy rows of cx values, transformed in x */
+    struct rc_dct *along_x, *along_y;
     double *x;     /* offsets of the columns                                   */
     double *space; /* for each thread: COLUMNS columns, or a row of offsets    */
     size_t room;   /* doubles of that                                          */
@@ -73,10 +73,8 @@ sheet_free(struct sheet *sheet)
         return;
     for (int k = 0; k < RC_STRESS_KERNELS; k++)
         free(sheet->table[k]);
-    for (int odd = 0; odd < 2; odd++) {
-        rc_dct_free(sheet->along_x[odd]);
-        rc_dct_free(sheet->along_y[odd]);
-    }
+    rc_dct_free(sheet->along_x);
+    rc_dct_free(sheet->along_y);
     for (int k = 0; k < SLOTS; k++)
         rc_spectrum_free(sheet->slot[k].spectrum);
     rc_fft_free(sheet->fft);
@@ -91,10 +89,9 @@ allocate_tables(struct sheet *sheet, struct rc_err *err)
 {
     size_t threads = (size_t)sheet->threads;
 
-    for (int odd = 0; odd < 2; odd++)
-        if ((sheet->along_x[odd] = rc_dct_new(sheet->cx, odd, threads, err)) == NULL ||
-            (sheet->along_y[odd] = rc_dct_new(sheet->cy, odd, threads, err)) == NULL)
-            return RC_FAIL;
+    if ((sheet->along_x = rc_dct_new(sheet->cx, threads, err)) == NULL ||
+        (sheet->along_y = rc_dct_new(sheet->cy, threads, err)) == NULL)
+        return RC_FAIL;
     for (int k = 0; k < RC_STRESS_KERNELS; k++)
         if (sheet->task->kernels >> k & 1 &&
             (sheet->table[k] = malloc(sheet->cx * sheet->cy * sizeof(double))) == NULL)
@@ -187,7 +184,7 @@ tabulate(struct sheet *sheet)
         }
         for (int k = 0; k < RC_STRESS_KERNELS; k++)
             if (row[k] != NULL)
-                rc_dct_run(sheet->along_x[(rc_stress_parity[k] & RC_ODD_X) != 0], row[k]);
+                rc_dct_run(sheet->along_x, rc_stress_parity[k] & RC_ODD_X, row[k]);
     }
     for (int k = 0; k < RC_STRESS_KERNELS; k++)
         if (sheet->table[k] != NULL)
@@ -198,7 +195,6 @@ static void
 transform_columns(struct sheet *sheet, int kernel, struct rc_spectrum *s)
 {
     const double *table = sheet->table[kernel];
-    const struct rc_dct *along_y = sheet->along_y[(rc_stress_parity[kernel] & RC_ODD_Y) != 0];
     size_t cx = sheet->cx, cy = sheet->cy;
 
 #pragma omp parallel for num_threads(sheet->threads) schedule(static)
@@ -213,7 +209,7 @@ transform_columns(struct sheet *sheet, int kernel, struct rc_spectrum *s)
                 column[b * cy + j] = row[b];
         }
         for (size_t b = 0; b < n; b++) {
-            rc_dct_run(along_y, column + b * cy);
+            rc_dct_run(sheet->along_y, rc_stress_parity[kernel] & RC_ODD_Y, column + b * cy);
             rc_spectrum_column(s, sheet->fft, first + b, column + b * cy);
         }
     }
