@@ -131,7 +131,7 @@ parts(void)
                 out[c] = must(malloc(cx * sizeof(double)));
         t = now();
         for (size_t j = 0; j < cy; j++)
-            rc_stress_line(&cell, kernels, cx, (double)j * shape.dy, out);
+            rc_stress_line(&cell, kernels, shape.dx, cx, (double)j * shape.dy, out);
         printf("  %zu x %zu coefficients, %s: %.1f ms\n", cx, cy, set[s].what, 1e3 * (now() - t));
     }
     dct = must(rc_dct_new(cx, 1, &err));

@@ -257,26 +257,27 @@ rc_stress_coefficients(const struct rc_cell *c, unsigned kernels, size_t n, cons
 }
 
 void
-rc_stress_line(const struct rc_cell *c, unsigned kernels, size_t n, double y,
+rc_stress_line(const struct rc_cell *c, unsigned kernels, double step, size_t n, double y,
                double *const out[RC_STRESS_KERNELS])
 {
     double beyond = far * far * fmax(c->dx * c->dx, c->dy * c->dy) - y * y - c->depth * c->depth;
     double inner = beyond > 0 ? ceil(sqrt(beyond) / c->dx) : 0;
-    size_t near = inner < (double)n ? (size_t)inner : n, room = BLOCK - 2 * REACH;
+    size_t near = step != c->dx || inner >= (double)n ? n : (size_t)inner;
+    size_t most = BLOCK - 2 * REACH;
     double x[BLOCK], ys[BLOCK], *to[RC_STRESS_KERNELS];
 
     for (size_t start = 0; start < near; start += BLOCK) {
         size_t count = near - start < BLOCK ? near - start : BLOCK;
         for (size_t i = 0; i < count; i++) {
-            x[i] = (double)(start + i) * c->dx;
+            x[i] = (double)(start + i) * step;
             ys[i] = y;
         }
         for (int k = 0; k < RC_STRESS_KERNELS; k++)
             to[k] = kernels >> k & 1 ? out[k] + start : NULL;
         rc_stress_coefficients(c, kernels, count, x, ys, to);
     }
-    for (size_t start = near; start < n; start += room)
-        by_means(c, kernels, y, start, n - start < room ? n - start : room, out);
+    for (size_t start = near; start < n; start += most)
+        by_means(c, kernels, y, start, n - start < most ? n - start : most, out);
 }
 
 /* ---- the row ---- */

@@ -265,7 +265,7 @@ sum_pair(struct plan *plan, double depth, const struct pair *pair, double comple
         }
         rc_stress_coefficients(&cell, t->kernels, plan->waves, across, along, line);
     } else {
-        rc_stress_line(&cell, t->kernels, plan->waves, pair->offset, line);
+        rc_stress_line(&cell, t->kernels, plan->d, plan->waves, pair->offset, line);
     }
     for (int k = 0; k < RC_STRESS_KERNELS; k++)
         if (t->kernels >> k & 1)

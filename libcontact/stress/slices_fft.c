@@ -11,16 +11,12 @@
 #include "coarse.h"
 
 #include <math.h>
-#include <omp.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "libcontact/operator/operator.h"
 
 enum {
-    COLUMNS = 16, /* taken out of a table together: two cache lines, fetched as a pair */
-    AHEAD = 8,    /* rows fetched in advance: they lie pages apart            */
-    SLOTS = 2     /* spectra kept: the normal load's and the shear's           */
+    SLOTS = 2 /* spectra kept: the normal load's and the shear's */
 };
 
 /* One grid with the transformed pressure. */
@@ -51,12 +47,6 @@ struct plan {
 };
 
 static size_t
-room(size_t cx, size_t cy)
-{
-    return COLUMNS * cy > cx ? COLUMNS * cy : cx;
-}
-
-static size_t
 count(unsigned bits)
 {
     size_t n = 0;
@@ -73,34 +63,21 @@ sheet_free(struct sheet *sheet)
         return;
     for (int k = 0; k < RC_STRESS_KERNELS; k++)
         free(sheet->table[k]);
-    rc_dct_free(sheet->along_x);
-    rc_dct_free(sheet->along_y);
     for (int k = 0; k < SLOTS; k++)
         rc_spectrum_free(sheet->slot[k].spectrum);
     rc_fft_free(sheet->fft);
-    free(sheet->x);
-    free(sheet->space);
     free(sheet);
 }
 
-/* What the tables of the free boundary need. */
+/* For the free boundary. */
 static enum rc_status
 allocate_tables(struct sheet *sheet, struct rc_err *err)
 {
-    size_t threads = (size_t)sheet->threads;
-
-    if ((sheet->along_x = rc_dct_new(sheet->cx, threads, err)) == NULL ||
-        (sheet->along_y = rc_dct_new(sheet->cy, threads, err)) == NULL)
-        return RC_FAIL;
     for (int k = 0; k < RC_STRESS_KERNELS; k++)
         if (sheet->task->kernels >> k & 1 &&
             (sheet->table[k] = malloc(sheet->cx * sheet->cy * sizeof(double))) == NULL)
             return rc_err_set(err, "out of memory for a kernel of %zu x %zu values", sheet->cx,
                               sheet->cy);
-    if ((sheet->x = malloc(sheet->cx * sizeof *sheet->x)) == NULL)
-        return rc_err_set(err, "out of memory for %zu offsets", sheet->cx);
-    for (size_t i = 0; i < sheet->cx; i++)
-        sheet->x[i] = (double)i * sheet->shape.dx;
     return RC_OK;
 }
 
@@ -122,12 +99,6 @@ sheet_new(const struct rc_stress_task *task, const struct rc_shape *shape, const
     if (sheet->fft == NULL)
         goto fail;
     rc_fft_quarter(sheet->fft, &sheet->cx, &sheet->cy);
-    sheet->room = room(sheet->cx, sheet->cy);
-    sheet->space = malloc((size_t)sheet->threads * sheet->room * sizeof *sheet->space);
-    if (sheet->space == NULL) {
-        rc_err_set(err, "out of memory for %d columns", COLUMNS);
-        goto fail;
-    }
     if (boundary == RC_FREE && allocate_tables(sheet, err) != RC_OK)
         goto fail;
     for (int k = 0; k < SLOTS; k++)
@@ -157,13 +128,7 @@ sheet_memory(const struct rc_stress_task *task, const struct rc_shape *shape)
 
 /* ---- kernels ---- */
 
-static double *
-space_of(const struct sheet *sheet)
-{
-    return sheet->space + (size_t)omp_get_thread_num() * sheet->room;
-}
-
-/* The kernels on a quarter of the padded map, row by row, each transformed in x. */
+/* The kernels on a quarter of the padded map, each row transformed in x. */
 static void
 tabulate(struct sheet *sheet)
 {
@@ -172,76 +137,49 @@ tabulate(struct sheet *sheet)
 
 #pragma omp parallel for num_threads(sheet->threads) schedule(dynamic, 4)
     for (size_t j = 0; j < sheet->cy; j++) {
-        double y = (double)j * sheet->shape.dy, *ys = space_of(sheet), *row[RC_STRESS_KERNELS];
+        double *row[RC_STRESS_KERNELS];
         for (int k = 0; k < RC_STRESS_KERNELS; k++)
             row[k] = sheet->table[k] == NULL ? NULL : sheet->table[k] + j * sheet->cx;
-        if (sheet->shape.dx == cell.dx) {
-            rc_stress_line(&cell, t->kernels, sheet->cx, y, row);
-        } else {
-            for (size_t i = 0; i < sheet->cx; i++)
-                ys[i] = y;
-            rc_stress_coefficients(&cell, t->kernels, sheet->cx, sheet->x, ys, row);
-        }
+        rc_stress_line(&cell, t->kernels, sheet->shape.dx, sheet->cx, (double)j * sheet->shape.dy,
+                       row);
         for (int k = 0; k < RC_STRESS_KERNELS; k++)
             if (row[k] != NULL)
-                rc_dct_run(sheet->along_x, rc_stress_parity[k] & RC_ODD_X, row[k]);
+                rc_fft_quarter_row(sheet->fft, rc_stress_parity[k], row[k]);
     }
     for (int k = 0; k < RC_STRESS_KERNELS; k++)
         if (sheet->table[k] != NULL)
             rc_stress_count(t, k, sheet->cx * sheet->cy);
 }
 
-static void
-transform_columns(struct sheet *sheet, int kernel, struct rc_spectrum *s)
-{
-    const double *table = sheet->table[kernel];
-    size_t cx = sheet->cx, cy = sheet->cy;
+/* One kernel at the depth of a sheet, as rc_spectrum_sample asks for it. */
+struct wave_kernel {
+    int kernel;
+    const struct sheet *sheet;
+};
 
-#pragma omp parallel for num_threads(sheet->threads) schedule(static)
-    for (size_t first = 0; first < cx; first += COLUMNS) {
-        double *column = space_of(sheet);
-        size_t n = cx - first < COLUMNS ? cx - first : COLUMNS;
-        for (size_t j = 0; j < cy; j++) {
-            const double *row = table + j * cx + first;
-            __builtin_prefetch(row + AHEAD * cx);
-            __builtin_prefetch(row + AHEAD * cx + COLUMNS / 2);
-            for (size_t b = 0; b < n; b++)
-                column[b * cy + j] = row[b];
-        }
-        for (size_t b = 0; b < n; b++) {
-            rc_dct_run(sheet->along_y, rc_stress_parity[kernel] & RC_ODD_Y, column + b * cy);
-            rc_spectrum_column(s, sheet->fft, first + b, column + b * cy);
-        }
-    }
-    sheet->task->counts->kernel_transforms++;
+static double
+symbol(const void *of, double qx, double qy)
+{
+    const struct wave_kernel *w = of;
+    double q = sqrt(qx * qx + qy * qy), z = w->sheet->depth, nu = w->sheet->task->options.nu;
+    const struct rc_wave wave = {qx, qy, q, z, exp(-q * z), nu};
+
+    return q == 0 ? rc_stress_mean(w->kernel, nu, &w->sheet->shape)
+                  : rc_stress_rows[w->kernel].symbol(&wave);
 }
 
-/* Waves of two nodes have no odd part on the nodes. */
 static void
-sample_symbol(struct sheet *sheet, int kernel, struct rc_spectrum *s)
+set_spectrum(struct sheet *sheet, int kernel, struct rc_spectrum *s)
 {
-    static const double turn = 6.28318530717958647692;
-    const struct rc_shape *shape = &sheet->shape;
-    const struct rc_stress_row *row = &rc_stress_rows[kernel];
-    double nu = sheet->task->options.nu, z = sheet->depth;
+    const struct wave_kernel of = {kernel, sheet};
 
-#pragma omp parallel for num_threads(sheet->threads) schedule(static)
-    for (size_t i = 0; i < sheet->cx; i++) {
-        double *column = space_of(sheet);
-        double qx = turn * (double)i / ((double)shape->nx * shape->dx);
-        bool last_x = 2 * i == shape->nx && row->parity & RC_ODD_X;
-        for (size_t j = 0; j < sheet->cy; j++) {
-            double qy = turn * (double)j / ((double)shape->ny * shape->dy),
-                   q = sqrt(qx * qx + qy * qy);
-            const struct rc_wave wave = {qx, qy, q, z, exp(-q * z), nu};
-            bool last_y = 2 * j == shape->ny && row->parity & RC_ODD_Y;
-            column[j] = last_x || last_y ? 0
-                        : q == 0         ? rc_stress_mean(kernel, nu, shape)
-                                         : row->symbol(&wave);
-        }
-        rc_spectrum_column(s, sheet->fft, i, column);
+    if (sheet->task->options.boundary == RC_FREE) {
+        rc_spectrum_set_quarter(s, sheet->fft, rc_stress_parity[kernel], sheet->table[kernel]);
+        sheet->task->counts->kernel_transforms++;
+    } else {
+        rc_spectrum_sample(s, sheet->fft, rc_stress_parity[kernel], symbol, &of);
+        rc_stress_count(sheet->task, kernel, sheet->cx * sheet->cy);
     }
-    rc_stress_count(sheet->task, kernel, sheet->cx * sheet->cy);
 }
 
 /* The spectrum of a kernel: one that is there, or a new one in a place that does not hold the
@@ -257,11 +195,7 @@ spectrum_of(struct sheet *sheet, int kernel, int keep)
     if (sheet->slot[k].spectrum == NULL || (keep >= 0 && sheet->slot[k].kernel == keep))
         k = 0;
     sheet->slot[k].kernel = kernel;
-    rc_spectrum_begin(sheet->slot[k].spectrum, rc_stress_parity[kernel]);
-    if (sheet->task->options.boundary == RC_FREE)
-        transform_columns(sheet, kernel, sheet->slot[k].spectrum);
-    else
-        sample_symbol(sheet, kernel, sheet->slot[k].spectrum);
+    set_spectrum(sheet, kernel, sheet->slot[k].spectrum);
     return sheet->slot[k].spectrum;
 }
 

@@ -73,8 +73,8 @@ struct rc_cell {
 void rc_stress_coefficients(const struct rc_cell *cell, unsigned kernels, size_t n, const double *x,
                             const double *y, double *const out[RC_STRESS_KERNELS]);
 
-/* The same at (i dx, y), i < n, faster. */
-void rc_stress_line(const struct rc_cell *cell, unsigned kernels, size_t n, double y,
+/* The same at (i step, y), i < n; faster where the step is that from cell to cell, dx. */
+void rc_stress_line(const struct rc_cell *cell, unsigned kernels, double step, size_t n, double y,
                     double *const out[RC_STRESS_KERNELS]);
 
 /* ---- ways to sum ---- */
