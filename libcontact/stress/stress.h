@@ -86,6 +86,8 @@ struct rc_stress_task {
     const double *p;     /* stays the caller's                                             */
     unsigned components; /* bits of the six: what is wanted and what that is derived from  */
     unsigned kernels;    /* bits: what these need, one of each set of equals               */
+    const struct rc_engine *engine; /* asked for or taken; NULL: there is none of that name */
+    bool precise;                   /* in double precision throughout, as its name asks     */
     struct rc_stress_counts *counts;
 };
 /* Counts a kernel that is evaluated: shear is what would not be without the traction. */
