@@ -317,7 +317,7 @@ response(const struct plan *plan, int component, const struct rc_wave *w, bool l
         double weight = load == RC_NORMAL ? 1 : t->options.mu;
         if ((parity & RC_ODD_X && last_x) || (parity & RC_ODD_Y && last_y))
             continue;
-        weight *= w->q == 0 ? rc_stress_mean(k, w->nu, &t->shape) : rc_stress_rows[k].symbol(w);
+        weight *= rc_stress_symbol(k, w, &t->shape);
         sum += weight * turns[((parity & RC_ODD_X) != 0) + ((parity & RC_ODD_Y) != 0)];
     }
     return sum;
@@ -339,9 +339,7 @@ sum_waves(struct plan *plan, double depth)
             double qx = plan->turned ? q : q_along, qy = plan->turned ? q_along : q;
             bool last_along = 2 * a == plan->n, last_across = 2 * b == plan->m;
             double complex p = plan->source[b * plan->waves + a];
-            struct rc_wave w = {
-                .qx = qx, .qy = qy, .q = sqrt(qx * qx + qy * qy), .z = depth, .nu = t->options.nu};
-            w.decay = exp(-w.q * depth);
+            const struct rc_wave w = rc_stress_wave(qx, qy, depth, t->options.nu);
             p *= last_across ? CMPLX(cos(q * from_first), 0) : cexp(I * q * from_first);
             for (int c = 0; c < RC_COMPONENTS; c++)
                 if (t->components >> c & 1)

@@ -161,11 +161,9 @@ static double
 symbol(const void *of, double qx, double qy)
 {
     const struct wave_kernel *w = of;
-    double q = sqrt(qx * qx + qy * qy), z = w->sheet->depth, nu = w->sheet->task->options.nu;
-    const struct rc_wave wave = {qx, qy, q, z, exp(-q * z), nu};
+    const struct rc_wave wave = rc_stress_wave(qx, qy, w->sheet->depth, w->sheet->task->options.nu);
 
-    return q == 0 ? rc_stress_mean(w->kernel, nu, &w->sheet->shape)
-                  : rc_stress_rows[w->kernel].symbol(&wave);
+    return rc_stress_symbol(w->kernel, &wave, &w->sheet->shape);
 }
 
 static void

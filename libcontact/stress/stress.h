@@ -1,9 +1,12 @@
 /*
- * The stresses of a half-space by their parts: one row a component, with its parity, what a point
- * load does, what a uniformly loaded cell does, and what a wave does. Internal: never installed.
+ * The stresses of a half-space by their parts: for each component its parity, what a point load
+ * does, what a uniformly loaded cell does, and what a wave does; and how they are summed over a
+ * map. Internal: never installed.
  */
 #ifndef RC_STRESS_H
 #define RC_STRESS_H
+
+#include <math.h>
 
 #include "libcontact/operator/operator.h"
 
@@ -14,6 +17,8 @@
 #else
 #define RC_WIDE_CLONES
 #endif
+
+/* ---- of a unit load: kernel_stress.c ---- */
 
 enum {
     RC_NORMAL, /* a unit pressure                              */
@@ -40,26 +45,35 @@ struct rc_wave {
     double qx, qy, q, z, decay, nu;
 };
 
-struct rc_stress_row {
-    unsigned parity;
+struct rc_stress_forms {
     int same; /* a kernel that has the same values, or -1 */
     /* out[i] += weight * 2 pi times the stress of a unit force. */
     void (*point)(const struct rc_points *points, double weight, double *out);
     /* Antiderivative in X and Y of 2 pi times that stress. */
     double (*corner)(const struct rc_corner *corner);
-    /* Transform over (-i)^(number of odd directions). */
+    /* Transform over (-i)^(number of odd directions); q > 0. */
     double (*symbol)(const struct rc_wave *wave);
 };
-extern const struct rc_stress_row rc_stress_rows[RC_STRESS_KERNELS];
+extern const struct rc_stress_forms rc_stress_forms[RC_STRESS_KERNELS];
 extern const unsigned rc_stress_parity[RC_STRESS_KERNELS];
 
-/* Stress under a uniform unit load on the periodic map, at any depth. */
-double rc_stress_mean(int kernel, double nu, const struct rc_shape *shape);
+static inline struct rc_wave
+rc_stress_wave(double qx, double qy, double depth, double nu)
+{
+    double q = sqrt(qx * qx + qy * qy);
+
+    return (struct rc_wave){qx, qy, q, depth, exp(-q * depth), nu};
+}
+
+/* The symbol of a kernel at a wave; at q = 0 its mean on the periodic map, the same at any depth. */
+double rc_stress_symbol(int kernel, const struct rc_wave *wave, const struct rc_shape *shape);
 
 /* The kernel of a load and component, or the one that has the same values. */
 int rc_stress_kernel(int load, int component);
 /* Bits of those that these components (bits) need, of the shear too or not. */
 unsigned rc_stress_distinct(unsigned components, bool shear);
+
+/* ---- of a cell: cell.c ---- */
 
 /* A cell and where it is seen from. */
 struct rc_cell {
