@@ -72,7 +72,7 @@ add(size_t n, double weight, const double *u, double *s)
 }
 
 static enum rc_status
-layer(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err)
+slice(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err)
 {
     struct plan *plan = at;
     const struct rc_stress_task *t = &plan->task;
@@ -104,9 +104,9 @@ layer(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err
     return RC_OK;
 }
 
-const struct rc_stress_way rc_stress_way_engine = {
+const struct rc_stress_evaluator rc_stress_slices_engine = {
     .memory = memory,
     .new = plan_new,
-    .layer = layer,
+    .slice = slice,
     .free = plan_free,
 };

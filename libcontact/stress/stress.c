@@ -1,5 +1,5 @@
 /*
- * Stress slices and sections: which way they are summed, and what is derived from them.
+ * Stress slices and sections: what evaluates them, and what is derived from them.
  */
 #include "stress.h"
 
@@ -9,7 +9,7 @@
 
 struct rc_stress {
     struct rc_stress_task task;
-    const struct rc_stress_way *way;
+    const struct rc_stress_evaluator *evaluator;
     void *plan;
     size_t values;
     double *own[RC_COMPONENTS]; /* components that are needed but not wanted */
@@ -86,13 +86,13 @@ task_of(const struct rc_shape *shape, const double *p, const struct rc_stress_op
     return task;
 }
 
-static const struct rc_stress_way *
-way_of(const struct rc_stress_task *task)
+static const struct rc_stress_evaluator *
+evaluator_of(const struct rc_stress_task *task)
 {
     if (task->options.section != 0)
-        return &rc_stress_way_section;
-    return task->engine != NULL && task->engine->transforms ? &rc_stress_way_fft
-                                                            : &rc_stress_way_engine;
+        return &rc_stress_section;
+    return task->engine != NULL && task->engine->transforms ? &rc_stress_slices_fft
+                                                            : &rc_stress_slices_engine;
 }
 
 static size_t
@@ -125,7 +125,7 @@ rc_stress_new(const struct rc_shape *shape, const double *p,
         return NULL;
     }
     stress->task = task_of(shape, p, options, &stress->counts);
-    stress->way = way_of(&stress->task);
+    stress->evaluator = evaluator_of(&stress->task);
     stress->values = values_of(shape, options);
     for (int c = 0; c < RC_COMPONENTS; c++)
         if ((stress->task.components & ~options->wanted) >> c & 1 &&
@@ -134,7 +134,7 @@ rc_stress_new(const struct rc_shape *shape, const double *p,
             rc_stress_free(stress);
             return NULL;
         }
-    if ((stress->plan = stress->way->new (&stress->task, err)) == NULL) {
+    if ((stress->plan = stress->evaluator->new (&stress->task, err)) == NULL) {
         rc_stress_free(stress);
         return NULL;
     }
@@ -147,7 +147,7 @@ rc_stress_free(struct rc_stress *stress)
     if (stress == NULL)
         return;
     if (stress->plan != NULL)
-        stress->way->free(stress->plan);
+        stress->evaluator->free(stress->plan);
     for (int c = 0; c < RC_COMPONENTS; c++)
         free(stress->own[c]);
     free(stress);
@@ -162,7 +162,7 @@ rc_stress_memory(const struct rc_shape *shape, const struct rc_stress_options *o
     for (int c = 0; c < RC_COMPONENTS; c++)
         own += (task.components & ~o->wanted) >> c & 1;
     return sizeof(struct rc_stress) + own * values_of(shape, o) * sizeof(double) +
-           way_of(&task)->memory(&task);
+           evaluator_of(&task)->memory(&task);
 }
 
 /* ---- slices ---- */
@@ -198,7 +198,7 @@ rc_stress_slice(struct rc_stress *stress, double depth, double *const s[RC_STRES
     for (int c = 0; c < RC_COMPONENTS; c++)
         if (stress->task.components >> c & 1)
             six_of[c] = stress->own[c] != NULL ? stress->own[c] : s[c];
-    if (stress->way->layer(stress->plan, depth, six_of, err) != RC_OK)
+    if (stress->evaluator->slice(stress->plan, depth, six_of, err) != RC_OK)
         return RC_FAIL;
     stress->counts.depths++;
     if (stress->task.options.wanted >> RC_COMPONENTS != 0)

@@ -34,7 +34,7 @@ struct rc_points {
     double z, nu;
 };
 
-/* A corner of a cell as its middle sees it from the point of the field: X, Y and R at depth z. */
+/* A corner of a cell seen from the point of the field: X, Y and the distance R, at depth z. */
 struct rc_corner {
     double x, y, z, r, nu;
     double floor; /* least distance from an edge that a logarithm is taken at, m */
@@ -65,7 +65,8 @@ rc_stress_wave(double qx, double qy, double depth, double nu)
     return (struct rc_wave){qx, qy, q, depth, exp(-q * depth), nu};
 }
 
-/* The symbol of a kernel at a wave; at q = 0 its mean on the periodic map, the same at any depth. */
+/* The symbol of a kernel at a wave; at q = 0 its mean on the periodic map, which is the same at any
+ * depth. */
 double rc_stress_symbol(int kernel, const struct rc_wave *wave, const struct rc_shape *shape);
 
 /* The kernel of a load and component, or the one that has the same values. */
@@ -91,7 +92,7 @@ void rc_stress_coefficients(const struct rc_cell *cell, unsigned kernels, size_t
 void rc_stress_line(const struct rc_cell *cell, unsigned kernels, double step, size_t n, double y,
                     double *const out[RC_STRESS_KERNELS]);
 
-/* ---- ways to sum ---- */
+/* ---- sums over a map ---- */
 
 /* What is to be summed, and the tally of what it took. */
 struct rc_stress_task {
@@ -107,17 +108,18 @@ struct rc_stress_task {
 /* Counts a kernel that is evaluated: shear is what would not be without the traction. */
 void rc_stress_count(const struct rc_stress_task *task, int kernel, size_t coefficients);
 
-struct rc_stress_way {
+/* What evaluates stresses: slices_fft.c, slices_engine.c and section.c end in one. */
+struct rc_stress_evaluator {
     /* Bytes beside p and the results. */
     size_t (*memory)(const struct rc_stress_task *task);
     void *(*new)(const struct rc_stress_task *task, struct rc_err *err);
-    /* The components at one depth, s[c] for each bit: maps, or lines of a section. */
-    enum rc_status (*layer)(void *plan, double depth, double *const s[RC_COMPONENTS],
+    /* The components at one depth, s[c] for each bit: a map each, or a line of a section. */
+    enum rc_status (*slice)(void *plan, double depth, double *const s[RC_COMPONENTS],
                             struct rc_err *err);
     void (*free)(void *plan);
 };
-extern const struct rc_stress_way rc_stress_way_fft;     /* maps, by transforms            */
-extern const struct rc_stress_way rc_stress_way_engine;  /* maps, by a row of engines.list */
-extern const struct rc_stress_way rc_stress_way_section; /* lines                          */
+extern const struct rc_stress_evaluator rc_stress_slices_fft;    /* by transforms of maps    */
+extern const struct rc_stress_evaluator rc_stress_slices_engine; /* by a row of engines.list */
+extern const struct rc_stress_evaluator rc_stress_section;       /* a line at a time         */
 
 #endif
