@@ -103,7 +103,7 @@ RC_API enum rc_status rc_inpaint(const struct rc_shape *shape, double *h, size_t
 /* Bytes that it takes beside h for so many missing values. */
 RC_API size_t rc_inpaint_memory(size_t missing);
 
-/* ---- measure.c ---- */
+/* ---- figures and sums of maps: measure.c, common.c ---- */
 
 struct rc_statistics {
     size_t missing;                /* NaN                                                */

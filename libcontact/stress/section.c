@@ -121,15 +121,6 @@ transpose(const struct plan *plan)
 
 /* ---- free: pairs of lines ---- */
 
-static bool
-any_load(const double *p, size_t n)
-{
-    for (size_t i = 0; i < n; i++)
-        if (p[i] != 0)
-            return true;
-    return false;
-}
-
 /* The line as far on the other side of the plane as line j is on this one, or m. */
 static size_t
 opposite(const struct plan *plan, size_t j)
@@ -179,7 +170,7 @@ transform_lines(struct plan *plan, const double *p, struct rc_err *err)
 #pragma omp parallel for num_threads(plan->threads) schedule(dynamic, 4)
     for (size_t j = 0; j < m; j++) {
         double *line = plan->scratch + (size_t)omp_get_thread_num() * plan->scratch_size;
-        if (!(loaded[j] = any_load(p + j * n, n)))
+        if (!(loaded[j] = rc_any(p + j * n, n)))
             continue;
         memset(line, 0, plan->length * sizeof *line);
         memcpy(line, p + j * n, n * sizeof *line);
