@@ -82,7 +82,7 @@ RC_API enum rc_status rc_synth_selfaffine(const struct rc_shape *shape,
                                           const struct rc_selfaffine *what, double *h,
                                           struct rc_err *err);
 
-/* ---- surfaces: detrend.c, fill.c ---- */
+/* ---- surfaces: detrend.c, inpaint.c ---- */
 
 enum {
     RC_DEGREE_MAX = 20
