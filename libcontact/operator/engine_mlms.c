@@ -272,12 +272,6 @@ error(const void *at)
     return ((const struct rc_mlms *)at)->d.error;
 }
 
-double
-rc_mlms_terms(const void *plan)
-{
-    return ((const struct rc_mlms *)plan)->d.terms;
-}
-
 /* Beside its own work, (log 1/tol)^2, stands that of the method. */
 static double
 seconds(const struct rc_sum *sum)

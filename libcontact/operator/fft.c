@@ -36,7 +36,6 @@ enum {
 };
 
 struct rc_spectrum {
-    const struct rc_fft_ops *ops;
     unsigned parity;
     void *packed; /* cx columns of layout.packed numbers, divided by px py */
 };
@@ -154,10 +153,8 @@ rc_spectrum_new(const struct rc_fft *f, struct rc_err *err)
     const struct rc_layout *l = &f->layout;
     struct rc_spectrum *k = calloc(1, sizeof *k);
 
-    if (k != NULL) {
-        k->ops = f->ops;
+    if (k != NULL)
         k->packed = rc_alloc(l->cx * l->packed, f->ops->real_size);
-    }
     if (k == NULL || k->packed == NULL) {
         rc_err_set(err, "out of memory for a kernel's spectrum of %zu x %zu numbers", l->cx,
                    l->packed);

@@ -127,8 +127,4 @@ void rc_mlms_correct(const struct rc_mlms *m, size_t level, const double *p, siz
 void rc_mlms_expand(const struct rc_mlms *m, size_t level, const double *p, double *u, size_t tile,
                     struct rc_mlms_scratch *w);
 
-/* engine_mlms.c */
-/* Products of the sums as (10), (11), (14), (15) and (17) write them. */
-double rc_mlms_terms(const void *plan);
-
 #endif

@@ -26,7 +26,6 @@ struct axis {
 
 struct rc_coarse {
     struct axis x, y;
-    struct rc_shape shape;
     int threads;
     double *rows;    /* ny rows of x.coarse: between the two directions of a reduction   */
     double *scratch; /* for each thread: a coarse row, and the fine nodes of one residue */
@@ -114,7 +113,6 @@ rc_coarse_new(const struct rc_shape *shape, size_t sx, size_t sy, size_t threads
     struct rc_coarse *c = calloc(1, sizeof *c);
 
     if (c != NULL && set_axis(&c->x, shape->nx, sx) && set_axis(&c->y, shape->ny, sy)) {
-        c->shape = rc_coarse_shape(shape, sx, sy);
         c->threads = rc_useful_threads(shape, threads);
         c->rows = malloc(shape->ny * c->x.coarse * sizeof *c->rows);
         c->scratch = malloc((size_t)c->threads * scratch_size(c) * sizeof *c->scratch);
