@@ -22,7 +22,8 @@ struct rc_sum {
 struct rc_engine {
     struct rc_engine_info info;
     struct rc_engine_info
-        precise; /* the word that asks for double precision; without a name: none */
+        precise;     /* the word that asks for double precision; without a name: none */
+    bool transforms; /* by Fourier transforms of maps: fields of one source share its transform */
     /* Seconds that one sum takes in a solve, the work of the method around it included; two threads
      * of 2026. */
     double (*seconds)(const struct rc_sum *sum);

@@ -95,6 +95,7 @@ const struct rc_engine rc_engine_fft = {
                            "whatever error is asked for",
                 .periodic = true,
                 .order = 1},
+    .transforms = true,
     .seconds = seconds,
     .memory = memory,
     .new = plan_new,
