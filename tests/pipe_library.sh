@@ -1,7 +1,8 @@
 # The program that libcontact(3) prints compiles against the library as it stands there, and finds
-# what Hertz found.
+# what Hertz found; the shared library offers the names that its headers declare and no other.
 . "$(dirname "$0")/pipe.sh"
 . "$RC_SOURCE/tests/manual.sh"
+. "$RC_SOURCE/tests/symbols.sh"
 
 library=$(dirname "$RC_BIN")/libcontact
 flags="-fopenmp"
@@ -24,5 +25,18 @@ claim "it compiles against the shared library" ${CC:-cc} -std=c17 -I "$RC_SOURCE
     hertz.c -L "$library" -lcontact $flags -lm
 claim "it finds the same there" bash -c "
     LD_LIBRARY_PATH='$library' ./shared >shared.txt && cmp hertz.txt shared.txt"
+
+# Names that begin with a dot or a line are the compiler's: locks of OpenMP, marks of sanitizers.
+offered() {
+    declared "$RC_SOURCE/libcontact/contact.h" "$RC_SOURCE/libcontact/grid.h" >declared.txt &&
+        nm -D --defined-only "$library/libcontact.so" | awk '$3 !~ /^[._]/ { print $3 }' | sort >offered.txt &&
+        diff declared.txt offered.txt >&2
+}
+if command -v nm >/dev/null; then
+    claim "the shared library offers what its headers declare, and nothing else" offered
+    claim "  functions and an object" bash -c 'grep -qx rc_solver_new offered.txt && grep -qx rc_component_names offered.txt'
+else
+    echo "not tried: what the shared library offers, because nm is not here"
+fi
 
 finish
