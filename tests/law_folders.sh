@@ -57,10 +57,6 @@ call formats/core formats rc_spacing
 call formats/sandbox formats rc_note
 call libcontact/solver libcontact/surface rc_sum
 private tools rc_alloc
-name libcontact/solver/pcg.c 1
-name libcontact/solver/pk99.c 1
-name libcontact/solver/preconditioner.c 1
-name libcontact/solver/solver.c 1
 name libcontact/stress/stress.c 3
 name tools/cost/climb.c 1
 name tools/cost/expect.c 4
