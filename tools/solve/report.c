@@ -159,7 +159,7 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
 static double
 expected(const struct run *run, const struct rc_problem *problem, size_t n)
 {
-    double tol = isnan(problem->tol) ? pow((double)n, -0.75) : problem->tol;
+    double tol = problem->tol == 0 ? pow((double)n, -0.75) : problem->tol;
     double steps = 16 + 2.3 * fmax(log10(1e-4 / tol), -2);
 
     if (strcmp(run->args->method, "pk99") == 0)
