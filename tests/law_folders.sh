@@ -55,9 +55,7 @@ call formats/core formats rc_height_unit
 call formats/core formats rc_lacks_unit
 call formats/core formats rc_spacing
 call formats/sandbox formats rc_note
-call libcontact/solver libcontact/surface rc_sum
 private tools rc_alloc
-name libcontact/stress/stress.c 3
 name tools/cost/climb.c 1
 name tools/cost/expect.c 4
 name tools/cost/ladder.c 10

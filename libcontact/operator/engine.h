@@ -50,6 +50,9 @@ struct rc_engine {
  * precision. */
 const struct rc_engine *rc_engine_named(const char *name, bool *precise);
 
+/* The first engine that sums by Fourier transforms of maps. */
+const struct rc_engine *rc_engine_of_transforms(void);
+
 /* Whether methods may iterate with it in single precision. */
 bool rc_conv_mixed(const struct rc_conv *conv);
 

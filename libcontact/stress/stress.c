@@ -38,7 +38,7 @@ static const struct rc_engine *
 engine_of(const char *name, bool *precise)
 {
     *precise = false;
-    return automatic(name) ? &rc_engine_fft : rc_engine_named(name, precise);
+    return automatic(name) ? rc_engine_of_transforms() : rc_engine_named(name, precise);
 }
 
 static enum rc_status
@@ -65,7 +65,7 @@ check(const struct rc_shape *shape, const struct rc_stress_options *o, struct rc
         return rc_err_set(err, "there is no engine '%s'", o->engine);
     if (o->section != 0 && !engine->transforms)
         return rc_err_set(err, "a section is summed by %s, not by %s: leave the kernel to auto",
-                          rc_engine_fft.info.name, o->engine);
+                          rc_engine_of_transforms()->info.name, o->engine);
     return RC_OK;
 }
 
