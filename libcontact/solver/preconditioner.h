@@ -41,12 +41,13 @@ void rc_preconditioner_apply(struct rc_preconditioner *extension, const float *r
 void rc_preconditioner_displace(struct rc_preconditioner *extension, rc_row *in, rc_row *out,
                                 void *ctx);
 
-/* distance.c: how far every node is from the nearest one with w != 0, right to a sixth, in two
- * passes. First the number of steps along its column, for all nodes ... */
+/* distance.c: how far every node is from the nearest one with w != 0, exactly but for rounding, in
+ * two passes. First the number of steps along its column, for all nodes ... */
 void rc_distance_columns(const struct rc_shape *shape, enum rc_boundary boundary,
                          const unsigned char *w, int threads, float *steps);
 /* ... then, row by row, the square of the distance, lengths as dx and dy are, from those of the
- * row. `scratch` holds rc_distance_scratch numbers and belongs to one thread. */
+ * row; infinite when there is no such node. `scratch` holds rc_distance_scratch numbers and belongs
+ * to one thread. */
 size_t rc_distance_scratch(const struct rc_shape *shape);
 void rc_distance_row(const struct rc_shape *shape, enum rc_boundary boundary, float *scratch,
                      const float *steps, float *d2);
