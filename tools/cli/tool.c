@@ -462,38 +462,9 @@ threads_wanted(struct tool *t)
     return (size_t)n;
 }
 
-/* Tasks that run or could run at this moment, this one included; 0: the system does not say. */
-static int
-runnable(void)
-{
-    FILE *file = fopen("/proc/loadavg", "r");
-    int count = 0;
-
-    if (file == NULL)
-        return 0;
-    if (fscanf(file, "%*f %*f %*f %d/", &count) != 1)
-        count = 0;
-    (void)fclose(file);
-    return count;
-}
-
-/* Between parallel loops OpenMP's threads spin for a while: waking them would cost a solve half
- * its time, but where others want the cores it starves them, and the solve with them. GNU's
- * library reads its wish when the program is loaded, so beside others the tool starts itself
- * again with it, once. */
-static void
-wait_quietly(char **argv)
-{
-    if (getenv("OMP_WAIT_POLICY") != NULL || getenv("GOMP_SPINCOUNT") != NULL || runnable() == 1)
-        return;
-    if (setenv("OMP_WAIT_POLICY", "passive", 1) == 0)
-        execv("/proc/self/exe", argv); /* where it fails, the tool works all the same */
-}
-
 void
 tool_start(struct tool *t, const struct tool_info *info, int argc, char **argv, void *args)
 {
-    wait_quietly(argv);
     *t = (struct tool){.info = info, .args = args, .writes = info->writes};
     tool_options(t, argc, argv);
     if (t->threads == 0)
