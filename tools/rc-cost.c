@@ -5,8 +5,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "tools/cost/cost.h"
 #include "tools/cli/cli.h"
+#include "tools/cost/cost.h"
 
 static struct args {
     struct physics physics;

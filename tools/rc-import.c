@@ -9,7 +9,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "libcontact/memory.h"
 #include "formats/format.h"
 #include "formats/core/core.h"
 
@@ -169,7 +168,7 @@ read_file(struct tool *t, const char *name, struct rc_file *file)
                      "%s: reading it needs more memory than the %zu MiB of "
                      "--memory",
                      t->source, t->memory >> 20);
-        if ((more = data == NULL ? rc_alloc(room, 1) : realloc(data, room)) == NULL)
+        if ((more = realloc(data, room)) == NULL)
             tool_die(t, EXIT_IMPOSSIBLE, "%s: out of memory for %zu bytes", t->source, room);
         data = more;
         while (n < room && (got = fread(data + n, 1, room - n, in)) > 0)

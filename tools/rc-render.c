@@ -7,8 +7,9 @@
 
 #include "formats/core/core.h"
 #include "libcontact/contact.h"
-#include "tools/plot/plot.h"
 #include "tools/cli/cli.h"
+#include "tools/plot/plot.h"
+#include "tools/render/render.h"
 
 #define BETWEEN " \xc2\xb7 "
 #define SIGMA "\xcf\x83"

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcontact/contact.h"
+#include "tools/cli/cli.h"
 #include "tools/solve/solve.h"
 
 static struct solve_args args = {

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "libcontact/contact.h"
-#include "stress_report.h"
 #include "tools/cli/cli.h"
+#include "tools/stress/stress.h"
 
 static struct args {
     struct numbers depths; /* none: auto */

@@ -1,6 +1,6 @@
 /*
  * What the rooms of rc-cost share. A rung is one way to solve the contact; a case is the ladder of
- * them, beside one reference solution. Each rung runs in a process of its own (cost_run.c), as a
+ * them, beside one reference solution. Each rung runs in a process of its own (run.c), as a
  * command would: what it takes in time and memory is not helped by the rungs before.
  */
 #ifndef RC_COST_H
@@ -109,7 +109,7 @@ cost_again(size_t runs, double seconds)
     return runs < 5 && (double)runs * seconds < 0.5;
 }
 
-/* ---- cost_run.c: processes ---- */
+/* ---- run.c: processes ---- */
 
 /* Memory, zeroed, that a process begun later shares. NULL: memory is short. */
 void *cost_share(size_t bytes);

@@ -7,8 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "coarse.h"
-
 /* In memory shared with the process that solves. */
 struct job {
     struct tool *tool;

@@ -6,8 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "tools/cli/cli.h"
-
 /* ---- the front ---- */
 
 /* Below what the reference can tell all errors are the same. */

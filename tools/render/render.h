@@ -1,6 +1,9 @@
-/* Which frame of a stream a picture shows. Holds the best one so far and no other. */
-#ifndef RC_CHOICE_H
-#define RC_CHOICE_H
+/*
+ * The face of this folder: which frame of a stream rc-render draws. Holds the best one so far and no
+ * other.
+ */
+#ifndef RC_RENDER_H
+#define RC_RENDER_H
 
 #include "tools/cli/cli.h"
 

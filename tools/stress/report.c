@@ -1,12 +1,10 @@
-#include "stress_report.h"
+#include "stress.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
 #include <time.h>
-
-#include "tools/cli/cli.h"
 
 static double
 now(void)

@@ -1,10 +1,10 @@
-#include "choice.h"
+#include "render.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "ticks.h"
+#include "tools/plot/plot.h"
 
 struct seen {
     char *channel;
