@@ -291,43 +291,49 @@ raw_row(const struct rc_grid *g, const struct figure *f, size_t j, unsigned char
     }
 }
 
-/* The canvas, or without one the nodes, as a PNG that says how it was made. */
+/* What is written: a canvas, or without one a pixel for each node. */
+struct drawing {
+    struct tool *tool;
+    const struct rc_grid *grid;
+    const struct figure *figure;
+    struct canvas *canvas;
+    size_t rows;
+};
+
+static enum rc_status
+next_row(void *ctx, size_t y, unsigned char *rgb, struct rc_err *err)
+{
+    const struct drawing *d = ctx;
+
+    tool_progress(d->tool, "row %zu of %zu", y, d->rows);
+    if (d->canvas != NULL)
+        return canvas_row(d->canvas, y, rgb, err);
+    raw_row(d->grid, d->figure, y, rgb);
+    return RC_OK;
+}
+
+/* The picture says how it was made. */
 static void
 write_picture(struct tool *t, const struct rc_grid *g, const struct figure *f, struct canvas *c)
 {
     size_t w = c == NULL ? g->nx : canvas_width(c), h = c == NULL ? g->ny : canvas_height(c);
+    struct drawing d = {t, g, f, c, h};
     const char *history = rc_grid_get(g, "history"), *own = tool_history(t);
-    size_t room = strlen(own) + (history == NULL ? 0 : strlen(history)) + 4;
-    char *made = malloc(room), software[64];
-    struct picture_text text[] = {{"Title", f->title},
-                                  {"Description", made},
-                                  {"Software", software},
-                                  {"Source", rc_grid_get(g, "source")}};
-    struct picture *picture = NULL;
-    unsigned char *rgb = w > SIZE_MAX / 3 ? NULL : malloc(3 * w);
+    size_t size = strlen(own) + (history == NULL ? 0 : strlen(history)) + 4;
+    char *made = malloc(size), software[64];
+    const struct picture_text text[] = {{"Title", f->title},
+                                        {"Description", made},
+                                        {"Software", software},
+                                        {"Source", rc_grid_get(g, "source")}};
     struct rc_err err;
 
-    if (made == NULL || rgb == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "out of memory for a picture of %zu pixels a row", w);
-    snprintf(made, room, "%s%s%s", history == NULL ? "" : history, history == NULL ? "" : " | ",
+    if (made == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
+    snprintf(made, size, "%s%s%s", history == NULL ? "" : history, history == NULL ? "" : " | ",
              own);
     snprintf(software, sizeof software, "rc-render %s", rc_version());
-    picture = picture_new(t->out, w, h, text, sizeof text / sizeof *text, &err);
-    if (picture == NULL)
+    if (picture_write(t->out, w, h, text, sizeof text / sizeof *text, next_row, &d, &err) != RC_OK)
         tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
-    for (size_t j = 0; j < h; j++) {
-        tool_progress(t, "row %zu of %zu", j, h);
-        if (c == NULL)
-            raw_row(g, f, j, rgb);
-        else if (canvas_row(c, j, rgb, &err) != RC_OK)
-            tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
-        if (picture_row(picture, rgb, &err) != RC_OK)
-            tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
-    }
-    if (picture_end(picture, &err) != RC_OK)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
-    picture_free(picture);
-    free(rgb);
     free(made);
 }
 

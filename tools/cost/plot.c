@@ -135,29 +135,19 @@ draw_stresses(const struct cost_case *c, struct drawing *d)
 /* ---- the file ---- */
 
 static enum rc_status
-put_rows(struct canvas *c, FILE *file, const char *made, struct rc_err *err)
+next_row(void *ctx, size_t y, unsigned char *rgb, struct rc_err *err)
 {
-    size_t w = canvas_width(c), h = canvas_height(c);
+    return canvas_row(ctx, y, rgb, err);
+}
+
+static enum rc_status
+write_picture(struct canvas *c, FILE *file, const char *made, struct rc_err *err)
+{
     const struct picture_text text[] = {
         {"Title", "What accuracy costs"}, {"Description", made}, {"Software", "rc-cost"}};
-    unsigned char *rgb = malloc(3 * w);
-    struct picture *picture =
-        rgb == NULL ? NULL : picture_new(file, w, h, text, sizeof text / sizeof *text, err);
-    enum rc_status status = RC_FAIL;
 
-    if (rgb == NULL)
-        rc_err_set(err, "out of memory");
-    if (picture != NULL) {
-        status = RC_OK;
-        for (size_t j = 0; j < h && status == RC_OK; j++)
-            if ((status = canvas_row(c, j, rgb, err)) == RC_OK)
-                status = picture_row(picture, rgb, err);
-        if (status == RC_OK)
-            status = picture_end(picture, err);
-    }
-    picture_free(picture);
-    free(rgb);
-    return status;
+    return picture_write(file, canvas_width(c), canvas_height(c), text, sizeof text / sizeof *text,
+                         next_row, c, err);
 }
 
 static struct canvas *
@@ -200,7 +190,7 @@ cost_plot(const struct cost_case *c, size_t *bytes, struct rc_err *err)
         draw_stresses(c, &d[1]);
     canvas = draw(d, stresses ? 2 : 1, err);
     if (canvas != NULL && (file = open_memstream(&png, bytes)) != NULL) {
-        status = put_rows(canvas, file, tool_history(c->tool), err);
+        status = write_picture(canvas, file, tool_history(c->tool), err);
         if (fclose(file) != 0)
             status = RC_FAIL;
     }

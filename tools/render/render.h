@@ -1,6 +1,6 @@
 /*
- * The face of this folder: which frame of a stream rc-render draws. Holds the best one so far and no
- * other.
+ * The face of this folder: which frame of a stream rc-render draws. It holds the best one so far and
+ * no other.
  */
 #ifndef RC_RENDER_H
 #define RC_RENDER_H
