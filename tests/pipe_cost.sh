@@ -66,8 +66,8 @@ front_again() {
             exit bad || count < 2
         }'
 }
-claim "no rung of the front is beaten in time and error by another" front_again
-claim "a JSON line for the reference and each rung, with the table's figures" bash -c '
+claim "no trial of the front is beaten in time and error by another" front_again
+claim "a JSON line for the reference and each trial, with the table's figures" bash -c '
     [ "$(grep -c "\"what\": \"pressure\"" cost.json)" -ge 24 ] && [ "$(grep -c "\"what\": \"reference\"" cost.json)" = 1 ] &&
     [ "$(grep -c "\"state\": \"done\"" cost.json)" = "$(($(grep -cE "^(pcg|pk99)" cost.txt) + 1))" ]'
 claim "the picture is a PNG of 1200 pixels" bash -c '

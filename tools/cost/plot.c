@@ -90,20 +90,21 @@ draw_pressures(const struct cost_case *c, struct drawing *d)
     d->chart.up = "relative L1 error of the pressure";
     d->chart.floor = c->reference.contact.pressure_error;
     d->chart.floor_text = "below the reference's own error";
-    for (size_t k = 0; k < c->rungs; k++) {
-        const struct cost *m = &c->rung[k];
-        struct chart_point *p =
-            m->state == COST_DONE ? new_point(d, ink_of(m->rung.method, m->rung.kernel)) : NULL;
+    for (size_t k = 0; k < c->trials; k++) {
+        const struct cost_trial *m = &c->trial[k];
+        struct chart_point *p = m->state == COST_DONE
+                                    ? new_point(d, ink_of(m->settings.method, m->settings.kernel))
+                                    : NULL;
 
         if (p == NULL)
             continue;
         *p = (struct chart_point){
-            .x = m->seconds, .y = m->error, .hollow = m->rung.coarse > 1, .front = m->front};
-        if (m->rung.coarse > 1) {
-            snprintf(p->label, sizeof p->label, "1/%u", m->rung.coarse);
+            .x = m->seconds, .y = m->error, .hollow = m->settings.coarse > 1, .front = m->front};
+        if (m->settings.coarse > 1) {
+            snprintf(p->label, sizeof p->label, "1/%u", m->settings.coarse);
             d->chart.hollow = "on 1/2, 1/4, 1/8 of the nodes a side";
         } else {
-            snprintf(p->label, sizeof p->label, "%.0e", m->rung.tol);
+            snprintf(p->label, sizeof p->label, "%.0e", m->settings.tol);
         }
     }
 }

@@ -1,5 +1,5 @@
 /*
- * The ladder of stresses: slices by each way and accuracy, under the pressure of the reference.
+ * Trials of the stresses: slices by each engine and accuracy, under the pressure of the reference.
  * Beside each slice the exact one is computed, so that no more than two are held.
  */
 #include "cost.h"
@@ -9,11 +9,11 @@
 #include <string.h>
 
 /* clang-format off */
-static const struct row {
+static const struct entry {
     const char *kernel;
     double tol;
     bool free_only;
-} ladder[] = {
+} entries[] = {
     {"fft", 0, false}, /* the reference: to rounding */
     {"fft", 1e-2, false}, {"fft", 1e-3, false}, {"fft", 1e-4, false}, {"fft", 1e-6, false}, /* deep slices are coarser */
     {"mlms", 1e-2, true}, {"mlms", 1e-4, true}, {"mlms", 1e-6, true},
@@ -22,28 +22,28 @@ static const struct row {
 /* clang-format on */
 
 enum {
-    ROWS = sizeof ladder / sizeof *ladder,
+    ENTRIES = sizeof entries / sizeof *entries,
     DEPTHS = 4096,
     WANTED = (2u << RC_MISES) - 1 /* the six and Mises */
 };
 
 struct cost_stress *
-cost_stress_ladder(const struct cost_case *c, size_t *n)
+cost_stress_trials(const struct cost_case *c, size_t *n)
 {
-    struct cost_stress *s = calloc(ROWS, sizeof *s);
+    struct cost_stress *s = calloc(ENTRIES, sizeof *s);
 
     *n = 0;
-    for (size_t k = 0; s != NULL && k < ROWS; k++)
-        if (c->problem.boundary == RC_FREE || !ladder[k].free_only)
+    for (size_t k = 0; s != NULL && k < ENTRIES; k++)
+        if (c->problem.boundary == RC_FREE || !entries[k].free_only)
             s[(*n)++] = (struct cost_stress){
-                .kernel = ladder[k].kernel, .tol = ladder[k].tol, .reference = k == 0};
+                .kernel = entries[k].kernel, .tol = entries[k].tol, .reference = k == 0};
     return s;
 }
 
 /* In memory shared with the process that computes. */
 struct job {
     const struct cost_case *c;
-    const struct cost_stress *rung;
+    const struct cost_stress *trial;
     size_t depth; /* for progress */
     bool done;
     double seconds, error, rms, mises;
@@ -58,9 +58,9 @@ watch(void *ctx)
 {
     const struct job *j = ctx;
 
-    if (j->rung != NULL)
-        tool_progress(j->c->tool, "stresses by %s, tol %.0e, depth %zu of %zu", j->rung->kernel,
-                      j->rung->tol, j->depth, j->c->depths.n);
+    if (j->trial != NULL)
+        tool_progress(j->c->tool, "stresses by %s, tol %.0e, depth %zu of %zu", j->trial->kernel,
+                      j->trial->tol, j->depth, j->c->depths.n);
 }
 
 /* ---- depths ---- */
@@ -112,22 +112,24 @@ options_of(const struct cost_case *c, const char *kernel, double tol)
                                       .threads = c->tool->threads};
 }
 
-struct sums {
+/* Over all depths and components: the largest error, the sum of squares; the largest Mises' stress, and
+ * the exact one's. */
+struct errors {
     double worst, squares, mises, mises_true;
 };
 
 static void
-compare(size_t n, double *const s[RC_STRESSES], double *const truth[RC_STRESSES], struct sums *sum)
+compare(size_t n, double *const s[RC_STRESSES], double *const truth[RC_STRESSES], struct errors *e)
 {
     for (int c = 0; c <= RC_MISES; c++)
         for (size_t k = 0; k < n; k++) {
             double off = fabs(s[c][k] - truth[c][k]);
 
-            sum->worst = fmax(sum->worst, off);
-            sum->squares += off * off;
+            e->worst = fmax(e->worst, off);
+            e->squares += off * off;
             if (c == RC_MISES) {
-                sum->mises = fmax(sum->mises, s[c][k]);
-                sum->mises_true = fmax(sum->mises_true, truth[c][k]);
+                e->mises = fmax(e->mises, s[c][k]);
+                e->mises_true = fmax(e->mises_true, truth[c][k]);
             }
         }
 }
@@ -137,7 +139,7 @@ slices(struct job *j, struct rc_stress *stress, struct rc_stress *exact,
        double *const s[RC_STRESSES], double *const truth[RC_STRESSES])
 {
     size_t n = j->c->shape.nx * j->c->shape.ny;
-    struct sums sum = {0};
+    struct errors e = {0};
 
     for (j->depth = 0; j->depth < j->c->depths.n; j->depth++) {
         double z = j->c->depths.v[j->depth], start = cost_now();
@@ -145,16 +147,16 @@ slices(struct job *j, struct rc_stress *stress, struct rc_stress *exact,
         if (rc_stress_slice(stress, z, s, &j->err) != RC_OK)
             return false;
         j->seconds += cost_now() - start;
-        if (j->rung->reference)
+        if (j->trial->reference)
             continue;
         if (rc_stress_slice(exact, z, truth, &j->err) != RC_OK)
             return false;
-        compare(n, s, truth, &sum);
+        compare(n, s, truth, &e);
     }
-    j->error = sum.worst / j->c->reference.contact.max_pressure;
-    j->rms = sqrt(sum.squares / ((double)(n * j->c->depths.n) * (RC_MISES + 1))) /
+    j->error = e.worst / j->c->reference.contact.max_pressure;
+    j->rms = sqrt(e.squares / ((double)(n * j->c->depths.n) * (RC_MISES + 1))) /
              j->c->reference.contact.max_pressure;
-    j->mises = sum.mises / sum.mises_true - 1;
+    j->mises = e.mises / e.mises_true - 1;
     j->coarse = rc_stress_counted(stress)->coarse_depths;
     return true;
 }
@@ -164,7 +166,7 @@ work(void *ctx)
 {
     struct job *j = ctx;
     const struct cost_case *c = j->c;
-    struct rc_stress_options o = options_of(c, j->rung->kernel, j->rung->tol),
+    struct rc_stress_options o = options_of(c, j->trial->kernel, j->trial->tol),
                              e = options_of(c, "fft", 0);
     size_t n = c->shape.nx * c->shape.ny;
     double *maps = malloc(2 * n * (RC_MISES + 1) * sizeof *maps), start;
@@ -213,7 +215,7 @@ cost_stress_run(struct cost_case *c, struct cost_stress *s, double allowed)
     do {
         memset(j, 0, sizeof *j);
         j->c = c;
-        j->rung = s;
+        j->trial = s;
         end = cost_run(work, j, allowed - (cost_now() - start), watch);
         if (end != COST_ENDED || !j->done)
             break;

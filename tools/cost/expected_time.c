@@ -1,6 +1,6 @@
 /*
- * How long a rung will take: convolutions that its method will need, times what one takes by its
- * kernel. Both come from the rungs that have been run on this map; before there are any, from
+ * How long a trial will take: convolutions that its method will need, times what one takes by its
+ * kernel. Both come from the trials that have been run on this map; before there are any, from
  * bench-solve and bench-convolution (1024^2, two threads of 2026), which a machine may be several
  * times off.
  */
@@ -43,33 +43,35 @@ known_pace(const struct cost_case *c, const char *kernel, double tol)
 
 /* The nearest tolerance that was run: by the same kernel, if possible by the same method; its
  * convolutions are of the same kind only then. */
-static const struct cost *
-nearest(const struct cost_case *c, const struct cost_rung *r, bool same_method, bool same_kernel)
+static const struct cost_trial *
+nearest(const struct cost_case *c, const struct cost_settings *r, bool same_method,
+        bool same_kernel)
 {
-    const struct cost *near = NULL;
+    const struct cost_trial *near = NULL;
 
-    for (size_t k = 0; k < c->rungs; k++) {
-        const struct cost *m = &c->rung[k];
+    for (size_t k = 0; k < c->trials; k++) {
+        const struct cost_trial *m = &c->trial[k];
 
-        if (m->state == COST_DONE && m->rung.coarse == 1 &&
-            (!same_method || strcmp(m->rung.method, r->method) == 0) &&
-            (!same_kernel || strcmp(m->rung.kernel, r->kernel) == 0) &&
-            (near == NULL || fabs(log(m->rung.tol / r->tol)) <= fabs(log(near->rung.tol / r->tol))))
+        if (m->state == COST_DONE && m->settings.coarse == 1 &&
+            (!same_method || strcmp(m->settings.method, r->method) == 0) &&
+            (!same_kernel || strcmp(m->settings.kernel, r->kernel) == 0) &&
+            (near == NULL ||
+             fabs(log(m->settings.tol / r->tol)) <= fabs(log(near->settings.tol / r->tol))))
             near = m;
     }
     return near;
 }
 
 static double
-pace_of(const struct cost_case *c, const struct cost *m)
+pace_of(const struct cost_case *c, const struct cost_trial *m)
 {
     return m->seconds / m->convolutions / nodes(&c->shape);
 }
 
 static double
-pace(const struct cost_case *c, const struct cost_rung *r)
+pace(const struct cost_case *c, const struct cost_settings *r)
 {
-    const struct cost *near = nearest(c, r, true, true);
+    const struct cost_trial *near = nearest(c, r, true, true);
 
     if (near == NULL)
         near = nearest(c, r, false, true);
@@ -78,14 +80,14 @@ pace(const struct cost_case *c, const struct cost_rung *r)
     if (near == NULL)
         return known_pace(c, r->kernel, r->tol);
     return pace_of(c, near) * known_pace(c, r->kernel, r->tol) /
-           known_pace(c, near->rung.kernel, near->rung.tol);
+           known_pace(c, near->settings.kernel, near->settings.tol);
 }
 
 /* ---- how many of them ---- */
 
 /* pk99 has to find the contact first, and is quick then. */
 static double
-known_convolutions(const struct cost_case *c, const struct cost_rung *r)
+known_convolutions(const struct cost_case *c, const struct cost_settings *r)
 {
     double d = digits(r->tol);
     double some =
@@ -97,25 +99,25 @@ known_convolutions(const struct cost_case *c, const struct cost_rung *r)
 }
 
 static double
-convolutions(const struct cost_case *c, const struct cost_rung *r)
+convolutions(const struct cost_case *c, const struct cost_settings *r)
 {
-    const struct cost *near = nearest(c, r, true, false);
+    const struct cost_trial *near = nearest(c, r, true, false);
 
-    if (near == NULL && strcmp(r->method, c->reference.rung.method) == 0 &&
+    if (near == NULL && strcmp(r->method, c->reference.settings.method) == 0 &&
         c->reference.state == COST_DONE)
         near = &c->reference;
     if (near == NULL)
         return known_convolutions(c, r);
-    return near->convolutions * known_convolutions(c, r) / known_convolutions(c, &near->rung);
+    return near->convolutions * known_convolutions(c, r) / known_convolutions(c, &near->settings);
 }
 
 double
-cost_expect(const struct cost_case *c, const struct cost *rung)
+cost_expect(const struct cost_case *c, const struct cost_trial *trial)
 {
-    double part = nodes(&rung->shape) / nodes(&c->shape);
+    double part = nodes(&trial->shape) / nodes(&c->shape);
 
-    return convolutions(c, &rung->rung) * pace(c, &rung->rung) * nodes(&rung->shape) *
-           (strcmp(rung->rung.kernel, "direct") == 0 ? part : 1);
+    return convolutions(c, &trial->settings) * pace(c, &trial->settings) * nodes(&trial->shape) *
+           (strcmp(trial->settings.kernel, "direct") == 0 ? part : 1);
 }
 
 /* ---- stresses ---- */
@@ -127,7 +129,7 @@ cost_expect_stress(const struct cost_case *c, const struct cost_stress *s)
 {
     double n = nodes(&c->shape), depths = (double)c->depths.n;
     double exact = 5e-8 * n * depths * 2 / (double)c->tool->threads, each;
-    struct cost_rung r = {
+    struct cost_settings r = {
         .method = "pk99", .kernel = s->kernel, .tol = s->tol > 0 ? s->tol : 1e-14};
 
     for (size_t k = 0; k < c->stresses; k++) {
