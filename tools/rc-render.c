@@ -182,14 +182,14 @@ struct words {
     size_t n;
 };
 
-/* Adds a piece to the subtitle; one that finds no room is left out whole. */
+/* Adds a piece to the subtitle; one that does not fit is left out whole. */
 static void
 add_piece(struct words *w, const char *name, const char *value)
 {
-    size_t room = sizeof w->text - w->n;
-    int n = snprintf(w->text + w->n, room, "%s%s%s", w->n > 0 ? BETWEEN : "", name, value);
+    size_t left = sizeof w->text - w->n;
+    int n = snprintf(w->text + w->n, left, "%s%s%s", w->n > 0 ? BETWEEN : "", name, value);
 
-    if (n > 0 && (size_t)n < room)
+    if (n > 0 && (size_t)n < left)
         w->n += (size_t)n;
     else
         w->text[w->n] = '\0';

@@ -212,14 +212,14 @@ frame_shape(const struct run *run, const struct rc_grid *p)
 static char *
 depths_text(struct run *run, const struct rc_grid *p)
 {
-    size_t room = 60000, n = 0;
-    char *text = malloc(room), number[RC_NUMBER_SIZE];
+    size_t size = 60000, n = 0;
+    char *text = malloc(size), number[RC_NUMBER_SIZE];
 
     for (size_t k = 0; text != NULL && k < run->depths.n; k++) {
-        int more = snprintf(text + n, room - n, "%s%s", k == 0 ? "" : ",",
+        int more = snprintf(text + n, size - n, "%s%s", k == 0 ? "" : ",",
                             rc_number_text(number, run->depths.v[k]));
         n += (size_t)more;
-        if (n >= room)
+        if (n >= size)
             tool_die_at(&run->t, p, EXIT_IMPOSSIBLE,
                         "%zu depths are too many for the header of a section: ask for fewer",
                         run->depths.n);

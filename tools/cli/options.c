@@ -317,10 +317,10 @@ struct line {
 static void
 add(struct line *line, const char *a, const char *b)
 {
-    size_t room = sizeof line->text - line->n;
-    int n = snprintf(line->text + line->n, room, "%s%s", a, b);
+    size_t left = sizeof line->text - line->n;
+    int n = snprintf(line->text + line->n, left, "%s%s", a, b);
 
-    line->n += n < 0 ? 0 : (size_t)n < room ? (size_t)n : room - 1;
+    line->n += n < 0 ? 0 : (size_t)n < left ? (size_t)n : left - 1;
 }
 
 static void

@@ -1,7 +1,8 @@
 /*
- * The face of this folder: rc-cost. A trial is one way to solve the contact, and what came of it; a case
- * has many of them, and one reference solution. Each trial runs in a process of its own (process.c), as a
- * command would: what it takes in time and memory is not helped by the trials before it.
+ * The face of this folder: rc-cost. A trial is one way to solve the contact, and what came of it; a
+ * case has many of them, and one reference solution. Each trial runs in a process of its own
+ * (process.c), as a command would: what it takes in time and memory is not helped by the trials
+ * before it.
  */
 #ifndef RC_COST_H
 #define RC_COST_H
@@ -140,8 +141,8 @@ bool cost_stress_run(struct cost_case *c, struct cost_stress *trial, double allo
 /* Leaves out what cannot be done on this map, or need not. */
 void cost_exclude(struct cost_case *c);
 /* Whether a trial that has been run so often, and takes so long, is to be run again. Short ones are
- * repeated, in turns: the least of their times is what the work takes, what is above it is due to other
- * programs. */
+ * repeated, in turns: the least of their times is what the work takes, what is above it is due to
+ * other programs. */
 bool cost_again(size_t runs, double seconds);
 /* Runs what fits into the limit, the quickest first, and what is short several times. */
 void cost_run_trials(struct cost_case *c);

@@ -1,6 +1,6 @@
 /*
- * The front: trials that no other beats in time and error at once. And trials whose estimate of their
- * error was too small.
+ * The front: trials that no other beats in time and error at once. And trials whose estimate of
+ * their error was too small.
  */
 #include "cost.h"
 

@@ -11,7 +11,7 @@
 
 #include "tools/plot/plot.h"
 
-/* Colours that people who see few tell apart (Okabe and Ito 2008), one for a method and its kernel. */
+/* Colours that the colour-blind tell apart (Okabe and Ito 2008), one for a method and its kernel */
 static const struct ink {
     const char *method, *kernel, *name;
     struct rgb colour;

@@ -46,9 +46,9 @@ cost_exclude(struct cost_case *c)
     }
 }
 
-/* Seconds beyond which a trial need not be run to make the choice: three times those of the quickest
- * that is good enough, or of the budget, once anything has been measured. Expectations may be that
- * far off. */
+/* Seconds beyond which a trial need not be run to make the choice: three times those of the
+ * quickest that is good enough, or of the budget, once anything has been measured. Expectations may
+ * be that far off. */
 static double
 too_slow(const struct cost_case *c)
 {
@@ -95,8 +95,8 @@ left(const struct cost_case *c)
  * time. Before them the quick ones are repeated and the stresses are run. */
 static const double slow = 1 / 30.0;
 
-/* Whether it took longer than a trial that does the same work and more: then other programs took part
- * of its time. */
+/* Whether it took longer than a trial that does the same work and more: then other programs took
+ * part of its time. */
 static bool
 disturbed(const struct cost_case *c, const struct cost_trial *m)
 {

@@ -1,5 +1,5 @@
 /*
- * What the rooms of rc-solve share: its options, the run, and what is told about it.
+ * The face of this folder: rc-solve's options, its run, and what is told about it.
  */
 #ifndef RC_SOLVE_H
 #define RC_SOLVE_H
@@ -70,7 +70,7 @@ void solve_plan(struct run *run, const struct rc_grid *g, const struct rc_proble
 bool solve_watch(void *at, const struct rc_shape *grid, size_t iterations, double error,
                  double tol);
 
-/* ---- solve_checkpoint.c; NULL for a checkpoint is allowed: nothing is done ---- */
+/* ---- checkpoint.c; NULL for a checkpoint is allowed: nothing is done ---- */
 
 /* The file `name` (NULL: none), new or, to resume, as it is. Does not return when it cannot be
  * used. */
