@@ -132,16 +132,13 @@ map_new(size_t n)
 const struct rc_engine *
 engine_named(const char *name)
 {
-    static const struct rc_engine *const all[] = {
-#define RC_ENGINE(name) &rc_engine_##name,
-#include "libcontact/operator/engines.list"
-#undef RC_ENGINE
-    };
+    const struct rc_engine *engine = rc_engine_named(name, NULL);
 
-    for (size_t k = 0; k < sizeof all / sizeof *all; k++)
-        if (strcmp(all[k]->name, name) == 0)
-            return all[k];
-    return must(NULL);
+    if (engine == NULL) {
+        fprintf(stderr, "there is no engine '%s'\n", name);
+        exit(1);
+    }
+    return engine;
 }
 
 struct rc_solver *

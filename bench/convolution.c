@@ -94,7 +94,7 @@ peak_bytes(const struct rc_engine *e, const struct rc_sum *sum)
     fflush(stdout);
     child = fork();
     if (child == 0) {
-        execl("/proc/self/exe", "bench-convolution", "peak", e->name, m, boundary, tol,
+        execl("/proc/self/exe", "bench-convolution", "peak", e->info.name, m, boundary, tol,
               (char *)NULL);
         _exit(1);
     }

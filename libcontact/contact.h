@@ -27,20 +27,41 @@ struct rc_solver; /* one contact problem being iterated                    */
 struct rc_stress; /* one pressure map whose stress slices are asked for    */
 
 /* Version of the library, "0.1.0". */
-const char *rc_version(void);
+RC_API const char *rc_version(void);
 /* Processors this process may use, at least 1. */
-size_t rc_threads_available(void);
+RC_API size_t rc_threads_available(void);
+
+/* ---- what can be named ---- */
+
+/* Rows of the tables, k = 0, 1, ...; NULL past the last. The words of an option are made from them. */
+struct rc_kernel_info { /* what a unit load does */
+    const char *name, *summary;
+    size_t components;
+};
+struct rc_engine_info { /* how sums are done */
+    const char *name, *summary;
+    bool periodic; /* on periodic boundaries too                                               */
+    bool mixed;    /* methods may iterate with it in single precision                          */
+    int order;     /* its time grows as the number of nodes to this power                      */
+};
+struct rc_method_info { /* how the contact is iterated; the first is the one that "auto" takes */
+    const char *name, *summary;
+    bool mixed; /* iterates in single precision where the engine allows it                     */
+};
+RC_API const struct rc_kernel_info *rc_kernel_info(size_t k);
+RC_API const struct rc_engine_info *rc_engine_info(size_t k);
+RC_API const struct rc_method_info *rc_method_info(size_t k);
 
 /* ---- surfaces: synth.c ---- */
 
 /* Heights of a sphere of radius R (m), -r^2 / 2R about the middle of the map: the parabola that
  * Hertz's theory means by a sphere. */
-void rc_synth_sphere(const struct rc_shape *shape, double radius, double *h);
+RC_API void rc_synth_sphere(const struct rc_shape *shape, double radius, double *h);
 
 /* amplitude * cos(2 pi x / wavelength_x) * cos(2 pi y / wavelength_y), with a crest at the middle
  * of the map; an INFINITY for a wavelength leaves its factor out. Metres. */
-void rc_synth_wave(const struct rc_shape *shape, double amplitude, double wavelength_x,
-                   double wavelength_y, double *h);
+RC_API void rc_synth_wave(const struct rc_shape *shape, double amplitude, double wavelength_x,
+                          double wavelength_y, double *h);
 
 /* Self-affine random roughness, periodic over nx dx by ny dy. */
 struct rc_selfaffine {
@@ -57,8 +78,9 @@ struct rc_selfaffine {
  * two nodes are left out. The mean is 0. The gradient is that of the waves, not of differences
  * between nodes. RC_FAIL when a value is out of its bounds, no wave of the map lies between the
  * cut-offs, or memory is short. */
-enum rc_status rc_synth_selfaffine(const struct rc_shape *shape, const struct rc_selfaffine *what,
-                                   double *h, struct rc_err *err);
+RC_API enum rc_status rc_synth_selfaffine(const struct rc_shape *shape,
+                                          const struct rc_selfaffine *what, double *h,
+                                          struct rc_err *err);
 
 /* ---- surfaces: detrend.c, fill.c ---- */
 
@@ -70,16 +92,16 @@ enum {
  * RC_FAIL when there are fewer of them than coefficients, their places do not determine the
  * polynomial, one is infinite, or memory is short; h is then as it was. GSL's error handler, which
  * belongs to the process, is off during the call. */
-enum rc_status rc_detrend_poly(const struct rc_shape *shape, size_t degree, double *h,
-                               struct rc_err *err);
+RC_API enum rc_status rc_detrend_poly(const struct rc_shape *shape, size_t degree, double *h,
+                                      struct rc_err *err);
 
 /* Gives every missing value (NaN) the solution of Laplace's equation with the measured ones around
  * it as boundary values and no slope across the edge of the map; *filled counts them. RC_FAIL when
  * nothing was measured, a value is infinite, or memory is short. */
-enum rc_status rc_inpaint(const struct rc_shape *shape, double *h, size_t *filled,
-                          struct rc_err *err);
+RC_API enum rc_status rc_inpaint(const struct rc_shape *shape, double *h, size_t *filled,
+                                 struct rc_err *err);
 /* Bytes that it takes beside h for so many missing values. */
-size_t rc_inpaint_memory(size_t missing);
+RC_API size_t rc_inpaint_memory(size_t missing);
 
 /* ---- measure.c ---- */
 
@@ -93,10 +115,10 @@ struct rc_statistics {
     double sum;                    /* compensated                                        */
 };
 /* Figures of what is there; h's own unit, rms_slope in that unit per metre. */
-void rc_measure(const struct rc_shape *shape, const double *v, struct rc_statistics *result);
+RC_API void rc_measure(const struct rc_shape *shape, const double *v, struct rc_statistics *result);
 
 /* Sum of n doubles with the compensation of Neumaier 1974: its error does not grow with n. */
-double rc_sum(const double *v, size_t n);
+RC_API double rc_sum(const double *v, size_t n);
 
 /* ---- convolution: conv.c ---- */
 
@@ -117,21 +139,24 @@ struct rc_conv_options {
 
 /* u = K p: displacement in metres of the composite modulus estar (Pa) under pressure p (Pa). With
  * RC_PERIODIC the mean of u is 0: the mean pressure moves a periodic half-space without limit. */
-struct rc_conv *rc_conv_new(const struct rc_shape *shape, double estar,
-                            const struct rc_conv_options *options, struct rc_err *err);
+RC_API struct rc_conv *rc_conv_new(const struct rc_shape *shape, double estar,
+                                   const struct rc_conv_options *options, struct rc_err *err);
 /* p and u do not overlap. */
-void rc_conv_apply(struct rc_conv *conv, const double *p, double *u);
+RC_API void rc_conv_apply(struct rc_conv *conv, const double *p, double *u);
 /* Name of the engine, and in a few words why it was taken. */
-const char *rc_conv_engine(const struct rc_conv *conv);
-const char *rc_conv_reason(const struct rc_conv *conv);
+RC_API const char *rc_conv_engine(const struct rc_conv *conv);
+RC_API const char *rc_conv_reason(const struct rc_conv *conv);
 /* The engine's own bound on the error of u, relative to the sum of |K| |p|. */
-double rc_conv_error(const struct rc_conv *conv);
-void rc_conv_free(struct rc_conv *conv);
+RC_API double rc_conv_error(const struct rc_conv *conv);
+RC_API void rc_conv_free(struct rc_conv *conv);
 /* The engine that such a plan would take, and why; "" when there is none of that name. */
-const char *rc_conv_choice(const struct rc_shape *shape, const struct rc_conv_options *options,
-                           const char **reason);
+RC_API const char *rc_conv_choice(const struct rc_shape *shape,
+                                  const struct rc_conv_options *options, const char **reason);
 /* Bytes that such a plan takes beside p and u; 0 when there is no such engine. */
-size_t rc_conv_memory(const struct rc_shape *shape, const struct rc_conv_options *options);
+RC_API size_t rc_conv_memory(const struct rc_shape *shape, const struct rc_conv_options *options);
+/* Seconds that one such sum takes in a solve, the work of the method around it included: measured on
+ * a machine of 2026, and several times off on another. NAN when there is no such engine. */
+RC_API double rc_conv_seconds(const struct rc_shape *shape, const struct rc_conv_options *options);
 
 /* ---- solver: solver.c ---- */
 
@@ -185,53 +210,64 @@ struct rc_contact {
 
 /* `h` (not NaN, not infinite) is copied. RC_FAIL-like NULL when load > hardness * area: the message
  * holds both numbers. */
-struct rc_solver *rc_solver_new(const struct rc_shape *shape, const double *h,
-                                const struct rc_problem *problem, struct rc_err *err);
+RC_API struct rc_solver *rc_solver_new(const struct rc_shape *shape, const double *h,
+                                       const struct rc_problem *problem, struct rc_err *err);
 /* One iteration: RC_MORE, RC_OK when the estimated error is below tol, RC_SHORT when it cannot get
  * there (iteration limit, rounding). */
-enum rc_status rc_solver_step(struct rc_solver *solver);
+RC_API enum rc_status rc_solver_step(struct rc_solver *solver);
 /* Another first loading of the same surface, at a load in N or, with approach > 0, to an
  * approach in m: the last solution is only where it starts. Counts begin anew. RC_FAIL as in
  * rc_solver_new; the solver is then of no further use. */
-enum rc_status rc_solver_again(struct rc_solver *solver, double load, double approach,
-                               struct rc_err *err);
+RC_API enum rc_status rc_solver_again(struct rc_solver *solver, double load, double approach,
+                                      struct rc_err *err);
 /* Goes on from this pressure (nx ny Pa; what leaves the box or the load is put right), as it was
  * left by an earlier solver of the same problem; load (N) is that of this pressure, which
  * matters where an approach is sought. Before the first step of a load. RC_FAIL as in
  * rc_solver_again. */
-enum rc_status rc_solver_start(struct rc_solver *solver, double load, const double *p,
-                               struct rc_err *err);
+RC_API enum rc_status rc_solver_start(struct rc_solver *solver, double load, const double *p,
+                                      struct rc_err *err);
 /* Iterations so far and the last estimate of the error (NAN before the first), for progress. */
-size_t rc_solver_iterations(const struct rc_solver *solver);
-double rc_solver_error(const struct rc_solver *solver);
+RC_API size_t rc_solver_iterations(const struct rc_solver *solver);
+RC_API double rc_solver_error(const struct rc_solver *solver);
 /* Convolutions so far, in equivalents of one double-precision convolution on this grid; coarser
  * grids and single precision count their share. */
-double rc_solver_convolutions(const struct rc_solver *solver);
+RC_API double rc_solver_convolutions(const struct rc_solver *solver);
 /* The load that is set, N: the one given, or the last one tried for an approach. */
-double rc_solver_load(const struct rc_solver *solver);
+RC_API double rc_solver_load(const struct rc_solver *solver);
 /* The pressure reached (nx*ny Pa), valid until the next step. */
-const double *rc_solver_pressure(const struct rc_solver *solver);
+RC_API const double *rc_solver_pressure(const struct rc_solver *solver);
 /* Fresh displacement and gap of that pressure (either may be NULL) and the figures. */
-void rc_solver_result(struct rc_solver *solver, double *displacement, double *gap,
-                      struct rc_contact *contact);
+RC_API void rc_solver_result(struct rc_solver *solver, double *displacement, double *gap,
+                             struct rc_contact *contact);
 /* The height map (nx*ny m) that is left when the bodies are taken apart: where the hardness was
  * reached, what stood into the other body is gone. Pressed again to the same load it carries the
  * same pressure, and nothing more yields. After rc_solver_result. */
-void rc_solver_plastic(const struct rc_solver *solver, double *h);
+RC_API void rc_solver_plastic(const struct rc_solver *solver, double *h);
 /* d load / d approach, N/m, at the solution, after rc_solver_result: what the elastic nodes
  * carry more when the bodies come closer, no node changing sides. NAN when none is elastic, and
  * where a periodic surface is in complete contact. Takes 10 to 20 convolutions; RC_FAIL when
  * memory is short. */
-enum rc_status rc_solver_stiffness(struct rc_solver *solver, double *stiffness, struct rc_err *err);
-const char *rc_solver_engine(const struct rc_solver *solver);
-const char *rc_solver_engine_reason(const struct rc_solver *solver);
-const char *rc_solver_method(const struct rc_solver *solver);
-void rc_solver_free(struct rc_solver *solver);
+RC_API enum rc_status rc_solver_stiffness(struct rc_solver *solver, double *stiffness,
+                                          struct rc_err *err);
+RC_API const char *rc_solver_engine(const struct rc_solver *solver);
+RC_API const char *rc_solver_engine_reason(const struct rc_solver *solver);
+RC_API const char *rc_solver_method(const struct rc_solver *solver);
+RC_API void rc_solver_free(struct rc_solver *solver);
 /* Name of the engine that such a solver would take, and why; "" when there is none of that name. */
-const char *rc_solver_choice(const struct rc_shape *shape, const struct rc_problem *problem,
-                             const char **reason);
+RC_API const char *rc_solver_choice(const struct rc_shape *shape, const struct rc_problem *problem,
+                                    const char **reason);
 /* Bytes that a solver of this size takes. */
-size_t rc_solver_memory(const struct rc_shape *shape, const struct rc_problem *problem);
+RC_API size_t rc_solver_memory(const struct rc_shape *shape, const struct rc_problem *problem);
+
+/* What such a solver will take, by what others took: convolutions (in equivalents, as they are
+ * counted), seconds, bytes. RC_FAIL when there is no such engine or method. */
+struct rc_expected {
+    double convolutions, seconds;
+    size_t memory;
+};
+RC_API enum rc_status rc_solver_expect(const struct rc_shape *shape,
+                                       const struct rc_problem *problem,
+                                       struct rc_expected *expected, struct rc_err *err);
 
 /* ---- stress: stress.c ---- */
 
@@ -251,7 +287,7 @@ enum rc_component {
     RC_STRESSES
 };
 /* "sxx", ... in that order. */
-extern const char *const rc_component_names[RC_STRESSES];
+RC_API extern const char *const rc_component_names[RC_STRESSES];
 
 struct rc_stress_options {
     enum rc_boundary boundary;
@@ -284,35 +320,36 @@ struct rc_stress_counts {
  * szz = -p, sxz = -mu p and sxx = syy = -(1 + 2 nu) p / 2 at every depth, what a patch that grows
  * without end gives. NULL when an option is out of bounds, there is no such engine or none for the
  * boundary or the section, or memory is short. */
-struct rc_stress *rc_stress_new(const struct rc_shape *shape, const double *p,
-                                const struct rc_stress_options *options, struct rc_err *err);
+RC_API struct rc_stress *rc_stress_new(const struct rc_shape *shape, const double *p,
+                                       const struct rc_stress_options *options, struct rc_err *err);
 /* Values of a component at one depth: nx ny, or of the section y = at nx, of x = at ny. */
-size_t rc_stress_values(const struct rc_stress *stress);
+RC_API size_t rc_stress_values(const struct rc_stress *stress);
 /* What is wanted at the depth z >= 0 (m), Pa, tension positive: s[c] for each c of `wanted`; the
  * others are not touched. */
-enum rc_status rc_stress_slice(struct rc_stress *stress, double depth, double *const s[RC_STRESSES],
-                               struct rc_err *err);
-const char *rc_stress_engine(const struct rc_stress *stress);
-const struct rc_stress_counts *rc_stress_counted(const struct rc_stress *stress);
-void rc_stress_free(struct rc_stress *stress);
+RC_API enum rc_status rc_stress_slice(struct rc_stress *stress, double depth,
+                                      double *const s[RC_STRESSES], struct rc_err *err);
+RC_API const char *rc_stress_engine(const struct rc_stress *stress);
+RC_API const struct rc_stress_counts *rc_stress_counted(const struct rc_stress *stress);
+RC_API void rc_stress_free(struct rc_stress *stress);
 /* Bytes that such a plan takes, beside p and the slices. */
-size_t rc_stress_memory(const struct rc_shape *shape, const struct rc_stress_options *options);
+RC_API size_t rc_stress_memory(const struct rc_shape *shape,
+                               const struct rc_stress_options *options);
 
 /* Depths from 0 down at which to look at the stresses under this pressure, *n of them in an array
  * that the caller frees: close together where its short waves are felt, farther apart below, down
  * to three contact radii (free) or to where the waves have died to 1 % (periodic). Successive
  * depths are a quarter of the RMS wave's 1/q apart. RC_FAIL when memory is short. */
-enum rc_status rc_stress_depths(const struct rc_shape *shape, const double *p,
-                                enum rc_boundary boundary, double **depths, size_t *n,
-                                struct rc_err *err);
+RC_API enum rc_status rc_stress_depths(const struct rc_shape *shape, const double *p,
+                                       enum rc_boundary boundary, double **depths, size_t *n,
+                                       struct rc_err *err);
 
 /* Place of the value of largest size; the first of equals. n > 0. */
-size_t rc_largest(size_t n, const double *v);
+RC_API size_t rc_largest(size_t n, const double *v);
 
 /* The derived stresses of n points from their six components: out[c] for each c from RC_MISES on
  * whose bit is set. */
-void rc_stress_derive(unsigned wanted, size_t n, const double *const s[RC_COMPONENTS],
-                      double *const out[RC_STRESSES]);
+RC_API void rc_stress_derive(unsigned wanted, size_t n, const double *const s[RC_COMPONENTS],
+                             double *const out[RC_STRESSES]);
 
 #ifdef __cplusplus
 }

@@ -17,6 +17,13 @@
 extern "C" {
 #endif
 
+/* The names that the shared library offers; all others stay inside. */
+#if defined(__GNUC__)
+#define RC_API __attribute__((visibility("default")))
+#else
+#define RC_API
+#endif
+
 enum rc_status {
     RC_OK = 0,    /* done                                                */
     RC_MORE = 1,  /* an iteration that has not finished: not an error    */
@@ -31,7 +38,7 @@ struct rc_err {
 
 /* Sets the sentence (printf style; cut at the size of the text) and returns RC_FAIL. err may be
  * NULL. */
-enum rc_status rc_err_set(struct rc_err *err, const char *format, ...)
+RC_API enum rc_status rc_err_set(struct rc_err *err, const char *format, ...)
 #if defined(__GNUC__)
     __attribute__((format(printf, 2, 3)))
 #endif
@@ -45,7 +52,7 @@ struct rc_shape {
 
 /* RC_FAIL for a zero size, a spacing that is not positive and finite, or a node count whose bytes
  * would overflow size_t. */
-enum rc_status rc_shape_check(const struct rc_shape *shape, struct rc_err *err);
+RC_API enum rc_status rc_shape_check(const struct rc_shape *shape, struct rc_err *err);
 
 enum rc_type {
     RC_F64,
@@ -69,50 +76,50 @@ struct rc_grid {
 };
 
 /* A grid with uninitialised values. NULL on a bad shape or when memory is short. */
-struct rc_grid *rc_grid_new(const struct rc_shape *shape, const char *channel, const char *unit,
-                            struct rc_err *err);
+RC_API struct rc_grid *rc_grid_new(const struct rc_shape *shape, const char *channel,
+                                   const char *unit, struct rc_err *err);
 /* Same shape and keys as `like`, values uninitialised; type is RC_F64. */
-struct rc_grid *rc_grid_like(const struct rc_grid *like, const char *channel, const char *unit,
-                             struct rc_err *err);
-void rc_grid_free(struct rc_grid *grid); /* NULL is allowed */
+RC_API struct rc_grid *rc_grid_like(const struct rc_grid *like, const char *channel,
+                                    const char *unit, struct rc_err *err);
+RC_API void rc_grid_free(struct rc_grid *grid); /* NULL is allowed */
 
-struct rc_shape rc_grid_shape(const struct rc_grid *grid);
+RC_API struct rc_shape rc_grid_shape(const struct rc_grid *grid);
 
 /* Value of a carried key, or NULL. The required header lines (nx, unit, ...) are fields, not keys. */
-const char *rc_grid_get(const struct rc_grid *grid, const char *name);
+RC_API const char *rc_grid_get(const struct rc_grid *grid, const char *name);
 /* Sets, replaces or, with value NULL, removes a key. RC_FAIL for a name that is not a key name, or
  * that of a field (nx, unit, ...), or when memory is short. */
-enum rc_status rc_grid_set(struct rc_grid *grid, const char *name, const char *value,
-                           struct rc_err *err);
-/* The same with a number, written as rc_number_text does. */
-enum rc_status rc_grid_set_number(struct rc_grid *grid, const char *name, double value,
+RC_API enum rc_status rc_grid_set(struct rc_grid *grid, const char *name, const char *value,
                                   struct rc_err *err);
+/* The same with a number, written as rc_number_text does. */
+RC_API enum rc_status rc_grid_set_number(struct rc_grid *grid, const char *name, double value,
+                                         struct rc_err *err);
 /* Number in a key; false when the key is absent or is not wholly one finite number. */
-bool rc_grid_number(const struct rc_grid *grid, const char *name, double *value);
+RC_API bool rc_grid_number(const struct rc_grid *grid, const char *name, double *value);
 /* The case the frame belongs to: the key `case`, 1 when absent, 0 when it is no whole number > 0. */
-size_t rc_grid_case(const struct rc_grid *grid);
+RC_API size_t rc_grid_case(const struct rc_grid *grid);
 
 /* Adds one step to the key `history`, steps joined by " | "; past 32 KiB middle steps become
  * "...". */
-enum rc_status rc_grid_history(struct rc_grid *grid, const char *step, struct rc_err *err);
+RC_API enum rc_status rc_grid_history(struct rc_grid *grid, const char *step, struct rc_err *err);
 
-bool rc_key_valid(const char *name);
+RC_API bool rc_key_valid(const char *name);
 
 /* Replaces *text by a copy of value. RC_FAIL when memory is short. */
-enum rc_status rc_text_set(char **text, const char *value, struct rc_err *err);
+RC_API enum rc_status rc_text_set(char **text, const char *value, struct rc_err *err);
 
 enum {
     RC_NUMBER_SIZE = 32
 };
 /* The shortest decimal that reads back exactly, with a point in every locale: "1.1e-06", "240". */
-const char *rc_number_text(char text[RC_NUMBER_SIZE], double value);
+RC_API const char *rc_number_text(char text[RC_NUMBER_SIZE], double value);
 /* Reads a decimal number with a point in every locale: returns the first character after it, or
  * NULL when there is none. Accepts no hexadecimal, no white space; "nan" and "inf" only when
  * `special`. */
-const char *rc_number_read(const char *text, bool special, double *value);
+RC_API const char *rc_number_read(const char *text, bool special, double *value);
 
 /* a*b, or RC_FAIL when it does not fit. */
-enum rc_status rc_size_mul(size_t a, size_t b, size_t *product, struct rc_err *err);
+RC_API enum rc_status rc_size_mul(size_t a, size_t b, size_t *product, struct rc_err *err);
 
 #ifdef __cplusplus
 }

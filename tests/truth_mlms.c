@@ -369,7 +369,7 @@ any_stress(void **state)
 
     (void)state;
     for (size_t d = 0; d < sizeof depths / sizeof *depths; d++)
-        for (size_t c = 0; c < rc_kernel_stress.components; c++) {
+        for (size_t c = 0; c < rc_kernel_stress.info.components; c++) {
             struct rc_sum sum = displacement(170, 143, 1, 1.2);
             struct trial t;
             double usual;

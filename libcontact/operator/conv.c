@@ -3,12 +3,13 @@
  */
 #include "engine.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 static const struct rc_engine *const engines[] = {
 #define RC_ENGINE(name) &rc_engine_##name,
-#include "engines.list"
+#include RC_ENGINES_LIST
 #undef RC_ENGINE
 };
 
@@ -24,6 +25,7 @@ static const double sparse = 0.05, sparse_tol = 1e-6;
 
 struct rc_conv {
     const struct rc_engine *engine;
+    bool precise;
     const char *reason;
     void *plan;
 };
@@ -41,12 +43,31 @@ sum_of(const struct rc_shape *shape, double estar, const struct rc_conv_options 
                            .threads = o->threads};
 }
 
-static const struct rc_engine *
-named(const char *name)
+const struct rc_engine_info *
+rc_engine_info(size_t k)
 {
-    for (size_t k = 0; k < ENGINES; k++)
-        if (strcmp(engines[k]->name, name) == 0)
+    for (size_t e = 0; e < ENGINES; e++) {
+        if (k-- == 0)
+            return &engines[e]->info;
+        if (engines[e]->precise.name != NULL && k-- == 0)
+            return &engines[e]->precise;
+    }
+    return NULL;
+}
+
+const struct rc_engine *
+rc_engine_named(const char *name, bool *precise)
+{
+    bool unused;
+
+    if (precise == NULL)
+        precise = &unused;
+    for (size_t k = 0; k < ENGINES; k++) {
+        const char *other = engines[k]->precise.name;
+        *precise = other != NULL && strcmp(other, name) == 0;
+        if (*precise || strcmp(engines[k]->info.name, name) == 0)
             return engines[k];
+    }
     return NULL;
 }
 
@@ -56,41 +77,50 @@ choose(const struct rc_sum *sum, const struct rc_conv_options *o, const char **r
 {
     if (sum->boundary == RC_PERIODIC) {
         *reason = "the boundary is periodic";
-        return named("fft");
+        return &rc_engine_fft;
     }
     if (sum->order != 0) {
         *reason = "its order is given";
-        return named("mlms");
+        return &rc_engine_mlms;
     }
     if (sum->shape.nx * sum->shape.ny <= SMALL) {
         *reason = "the grid is small";
-        return named("direct");
+        return &rc_engine_direct;
     }
-    if (o->memory != 0 && named("fft")->memory(sum) > o->memory &&
-        named("mlms")->memory(sum) <= o->memory) {
+    if (o->memory != 0 && rc_engine_fft.memory(sum) > o->memory &&
+        rc_engine_mlms.memory(sum) <= o->memory) {
         *reason = "the transforms need more memory than is allowed";
-        return named("mlms");
+        return &rc_engine_mlms;
     }
     if (o->loaded > 0 && o->loaded <= sparse && o->tol >= sparse_tol &&
         sum->shape.nx * sum->shape.ny >= LARGE) {
         *reason = "few nodes are loaded, and the asked accuracy allows it";
-        return named("mlms");
+        return &rc_engine_mlms;
     }
     *reason = o->tol > 0 ? "the fastest on a map loaded like this"
                          : "the fastest of those that are exact to rounding";
-    return named("fft");
+    return &rc_engine_fft;
 }
 
+/* The engine that is asked for, or the choice; sets sum->precise where its name says so. */
 static const struct rc_engine *
-find(const struct rc_sum *sum, const struct rc_conv_options *o, const char **reason,
-     struct rc_err *err)
+find(struct rc_sum *sum, const struct rc_conv_options *o, const char **reason, struct rc_err *err)
 {
+    const struct rc_engine *engine;
+
     if (o->engine == NULL || strcmp(o->engine, "auto") == 0)
         return choose(sum, o, reason);
     *reason = "asked for";
-    if (named(o->engine) == NULL)
+    engine = rc_engine_named(o->engine, &sum->precise);
+    if (engine == NULL)
         rc_err_set(err, "there is no engine '%s'", o->engine);
-    return named(o->engine);
+    return engine;
+}
+
+static const char *
+name_of(const struct rc_engine *engine, bool precise)
+{
+    return precise ? engine->precise.name : engine->info.name;
 }
 
 const char *
@@ -100,7 +130,7 @@ rc_conv_choice(const struct rc_shape *shape, const struct rc_conv_options *optio
     struct rc_sum sum = sum_of(shape, 1, options);
     const struct rc_engine *engine = find(&sum, options, reason, NULL);
 
-    return engine == NULL ? "" : engine->name;
+    return engine == NULL ? "" : name_of(engine, sum.precise);
 }
 
 struct rc_conv *
@@ -122,6 +152,7 @@ rc_conv_new(const struct rc_shape *shape, double estar, const struct rc_conv_opt
         rc_conv_free(conv);
         return NULL;
     }
+    conv->precise = sum.precise;
     return conv;
 }
 
@@ -134,7 +165,7 @@ rc_conv_apply(struct rc_conv *conv, const double *p, double *u)
 const char *
 rc_conv_engine(const struct rc_conv *conv)
 {
-    return conv->engine->name;
+    return name_of(conv->engine, conv->precise);
 }
 
 const char *
@@ -167,4 +198,15 @@ rc_conv_memory(const struct rc_shape *shape, const struct rc_conv_options *optio
     const struct rc_engine *engine = find(&sum, options, &reason, NULL);
 
     return engine == NULL ? 0 : engine->memory(&sum);
+}
+
+double
+rc_conv_seconds(const struct rc_shape *shape, const struct rc_conv_options *options)
+{
+    struct rc_sum sum = sum_of(shape, 1, options);
+    const char *reason;
+    const struct rc_engine *engine = find(&sum, options, &reason, NULL);
+    size_t threads = options->threads == 0 ? rc_threads_available() : options->threads;
+
+    return engine == NULL ? NAN : engine->seconds(&sum) * 2 / (double)threads;
 }

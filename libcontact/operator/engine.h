@@ -13,14 +13,19 @@ struct rc_sum {
     const struct rc_kernel *kernel;
     size_t component;
     struct rc_medium medium;
-    double tol;     /* asked error relative to the sum of |K| |p|; 0: as good as rounding      */
-    size_t threads; /* 0: all                                                                  */
+    double tol;     /* asked error relative to the sum of |K| |p|; 0: as good as rounding        */
+    bool precise;   /* in double precision throughout, even where tol would allow less           */
+    size_t threads; /* 0: all                                                        */
     size_t order, correction; /* of mlms by hand: t and m_c of the paper; 0: from tol          */
 };
 
 struct rc_engine {
-    const char *name;
-    const char *summary;
+    struct rc_engine_info info;
+    struct rc_engine_info
+        precise; /* the word that asks for double precision; without a name: none */
+    /* Seconds that one sum takes in a solve, the work of the method around it included; two threads
+     * of 2026. */
+    double (*seconds)(const struct rc_sum *sum);
     /* Bytes of a plan, beside p and u. */
     size_t (*memory)(const struct rc_sum *sum);
     /* All choosing, tabulating and allocating; NULL and *err when that fails. */
@@ -32,8 +37,16 @@ struct rc_engine {
     void (*free)(void *plan);
 };
 
+/* The list may be a longer one that includes this one: so others add engines of their own. */
+#ifndef RC_ENGINES_LIST
+#define RC_ENGINES_LIST "libcontact/operator/engines.list"
+#endif
 #define RC_ENGINE(name) extern const struct rc_engine rc_engine_##name;
-#include "engines.list"
+#include RC_ENGINES_LIST
 #undef RC_ENGINE
+
+/* The engine of that name, or NULL; *precise (which may be NULL): whether the name asks for double
+ * precision. */
+const struct rc_engine *rc_engine_named(const char *name, bool *precise);
 
 #endif

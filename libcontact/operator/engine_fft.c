@@ -1,10 +1,11 @@
 /*
  * Convolution by fast Fourier transforms: exact to rounding on both boundaries, N log N.
  */
-#include "engine_fft.h"
-
 #include <math.h>
 #include <stdlib.h>
+
+#include "engine.h"
+#include "fft.h"
 
 struct plan {
     struct rc_fft *fft;
@@ -12,8 +13,23 @@ struct plan {
     double error;
 };
 
-void
-rc_engine_fft_free(void *at)
+/* Errors below this are asked of double precision; single gives some 1e-6 of the largest |u|. */
+static const double single_floor = 1e-5;
+
+static enum rc_precision
+precision(const struct rc_sum *sum)
+{
+    return sum->tol >= single_floor && !sum->precise ? RC_SINGLE : RC_DOUBLE;
+}
+
+static size_t
+memory(const struct rc_sum *sum)
+{
+    return rc_fft_memory(&sum->shape, sum->boundary, precision(sum));
+}
+
+static void
+plan_free(void *at)
 {
     struct plan *plan = at;
 
@@ -24,8 +40,8 @@ rc_engine_fft_free(void *at)
     free(plan);
 }
 
-void *
-rc_engine_fft_new(const struct rc_sum *sum, enum rc_precision precision, struct rc_err *err)
+static void *
+plan_new(const struct rc_sum *sum, struct rc_err *err)
 {
     struct plan *plan = calloc(1, sizeof *plan);
 
@@ -33,69 +49,56 @@ rc_engine_fft_new(const struct rc_sum *sum, enum rc_precision precision, struct 
         rc_err_set(err, "out of memory for a plan");
         return NULL;
     }
-    if ((plan->fft = rc_fft_new(&sum->shape, sum->boundary, precision, sum->threads, err)) ==
-            NULL ||
-        (plan->kernel = rc_spectrum_new(plan->fft, err)) == NULL ||
+    plan->fft = rc_fft_new(&sum->shape, sum->boundary, precision(sum), sum->threads, err);
+    if (plan->fft == NULL || (plan->kernel = rc_spectrum_new(plan->fft, err)) == NULL ||
         rc_spectrum_set(plan->kernel, plan->fft, sum->kernel, sum->component, &sum->medium, err) !=
             RC_OK) {
-        rc_engine_fft_free(plan);
+        plan_free(plan);
         return NULL;
     }
     /* rounding grows with the depth of the transforms */
-    plan->error = (precision == RC_SINGLE ? 6e-8 : 1e-16) *
+    plan->error = (precision(sum) == RC_SINGLE ? 6e-8 : 1e-16) *
                   log2(4 * (double)sum->shape.nx * (double)sum->shape.ny);
     return plan;
 }
 
-size_t
-rc_engine_fft_memory(const struct rc_sum *sum, enum rc_precision precision)
-{
-    return rc_fft_memory(&sum->shape, sum->boundary, precision);
-}
-
-void
-rc_engine_fft_apply(void *at, const double *p, double *u)
+static void
+apply(void *at, const double *p, double *u)
 {
     struct plan *plan = at;
 
     rc_fft_apply(plan->fft, plan->kernel, p, u);
 }
 
-double
-rc_engine_fft_error(const void *plan)
+static double
+error(const void *at)
 {
-    return ((const struct plan *)plan)->error;
+    return ((const struct plan *)at)->error;
 }
 
-/* ---- the precision that is needed ---- */
-
-/* Errors below this are asked of double precision; single gives some 1e-6 of the largest |u|. */
-static const double single_floor = 1e-5;
-
-static enum rc_precision
-precision(const struct rc_sum *sum)
+static double
+seconds(const struct rc_sum *sum)
 {
-    return sum->tol >= single_floor ? RC_SINGLE : RC_DOUBLE;
-}
+    double n = (double)(sum->shape.nx * sum->shape.ny);
 
-static void *
-plan_new(const struct rc_sum *sum, struct rc_err *err)
-{
-    return rc_engine_fft_new(sum, precision(sum), err);
-}
-
-static size_t
-memory(const struct rc_sum *sum)
-{
-    return rc_engine_fft_memory(sum, precision(sum));
+    return (sum->boundary == RC_FREE ? 18e-9 : 10e-9) * n;
 }
 
 const struct rc_engine rc_engine_fft = {
-    .name = "fft",
-    .summary = "fast Fourier transforms: exact to rounding, N log N",
+    .info = {.name = "fft",
+             .summary = "fast Fourier transforms: exact to rounding, N log N",
+             .periodic = true,
+             .mixed = true,
+             .order = 1},
+    .precise = {.name = "fft64",
+                .summary = "fast Fourier transforms in double precision: exact to rounding, "
+                           "whatever error is asked for",
+                .periodic = true,
+                .order = 1},
+    .seconds = seconds,
     .memory = memory,
     .new = plan_new,
-    .apply = rc_engine_fft_apply,
-    .error = rc_engine_fft_error,
-    .free = rc_engine_fft_free,
+    .apply = apply,
+    .error = error,
+    .free = plan_free,
 };

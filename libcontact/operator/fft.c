@@ -278,7 +278,7 @@ sample_symbol(const struct rc_fft *f, struct rc_spectrum *k, const struct rc_ker
     double *space;
 
     if (kernel->symbol == NULL)
-        return rc_err_set(err, "the kernel '%s' has no periodic form", kernel->name);
+        return rc_err_set(err, "the kernel '%s' has no periodic form", kernel->info.name);
     space = malloc((size_t)l->threads * l->packed * sizeof *space);
     if (space == NULL)
         return rc_err_set(err, "out of memory for a symbol of %zu x %zu values", l->cx, l->packed);

@@ -24,9 +24,7 @@ enum {
 };
 
 struct rc_kernel {
-    const char *name;
-    const char *summary;
-    size_t components;
+    struct rc_kernel_info info;
     const unsigned *parity; /* of each component */
     /* Field at (i sx dx, j sy dy), i < n, first <= j < last, of unit pressure on the cell dx x dy
      * about the origin: out[(j - first) * n + i]. */
@@ -38,8 +36,12 @@ struct rc_kernel {
     double (*symbol)(const struct rc_medium *medium, size_t component, double qx, double qy);
 };
 
+/* The list may be a longer one that includes this one: so others add kernels of their own. */
+#ifndef RC_KERNELS_LIST
+#define RC_KERNELS_LIST "libcontact/operator/kernels.list"
+#endif
 #define RC_KERNEL(name) extern const struct rc_kernel rc_kernel_##name;
-#include "kernels.list"
+#include RC_KERNELS_LIST
 #undef RC_KERNEL
 
 #endif

@@ -115,9 +115,9 @@ symbol(const struct rc_medium *medium, size_t component, double qx, double qy)
 static const unsigned parity[] = {0};
 
 const struct rc_kernel rc_kernel_boussinesq = {
-    .name = "boussinesq",
-    .summary = "normal displacement of the surface, m/Pa",
-    .components = 1,
+    .info = {.name = "boussinesq",
+             .summary = "normal displacement of the surface, m/Pa",
+             .components = 1},
     .parity = parity,
     .rows = rows,
     .symbol = symbol,

@@ -43,9 +43,9 @@ spread_rows(const struct rc_medium *medium, size_t component, const struct rc_la
 static const unsigned even[] = {0};
 
 static const struct rc_kernel spread = {
-    .name = "spread",
-    .summary = "weights of the extension off the working set",
-    .components = 1,
+    .info = {.name = "spread",
+             .summary = "weights of the extension off the working set",
+             .components = 1},
     .parity = even,
     .rows = spread_rows,
 };

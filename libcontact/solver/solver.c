@@ -10,13 +10,19 @@
 
 static const struct rc_method *const methods[] = {
 #define RC_METHOD(name) &rc_method_##name,
-#include "methods.list"
+#include RC_METHODS_LIST
 #undef RC_METHOD
 };
 
 enum {
     METHODS = sizeof methods / sizeof *methods
 };
+
+const struct rc_method_info *
+rc_method_info(size_t k)
+{
+    return k < METHODS ? &methods[k]->info : NULL;
+}
 
 /* ---- new ---- */
 
@@ -26,7 +32,7 @@ choose(const char *name, struct rc_err *err)
     if (name == NULL || strcmp(name, "auto") == 0)
         return methods[0];
     for (size_t k = 0; k < METHODS; k++)
-        if (strcmp(methods[k]->name, name) == 0)
+        if (strcmp(methods[k]->info.name, name) == 0)
             return methods[k];
     rc_err_set(err, "there is no method '%s'", name);
     return NULL;
@@ -267,4 +273,27 @@ rc_solver_memory(const struct rc_shape *shape, const struct rc_problem *problem)
     /* three maps, two of half the width and a mask here; the methods' own; the estimate's */
     return n * (3 * sizeof(double) + 2 * sizeof(float) + 1) + n * 3 * sizeof(double) +
            rc_conv_memory(shape, &options) + rc_preconditioner_memory(shape, problem->boundary);
+}
+
+enum rc_status
+rc_solver_expect(const struct rc_shape *shape, const struct rc_problem *problem,
+                 struct rc_expected *expected, struct rc_err *err)
+{
+    struct rc_conv_options options = conv_options(shape, problem);
+    const struct rc_method *method = choose(problem->method, err);
+    double nodes = (double)(shape->nx * shape->ny), some;
+
+    if (method == NULL)
+        return RC_FAIL;
+    if (rc_conv_memory(shape, &options) == 0)
+        return rc_err_set(err, "there is no engine '%s'", problem->engine);
+    some = method->convolutions(nodes, -log10(tolerance(shape, problem)));
+    if (problem->approach > 0)
+        some *= 3;
+    if (problem->discretization)
+        some += 5;
+    *expected = (struct rc_expected){.convolutions = some,
+                                     .seconds = some * rc_conv_seconds(shape, &options),
+                                     .memory = rc_solver_memory(shape, problem)};
+    return RC_OK;
 }

@@ -15,8 +15,10 @@
 #include "libcontact/operator/operator.h"
 
 struct rc_method {
-    const char *name;
-    const char *summary;
+    struct rc_method_info info;
+    /* Convolutions (in equivalents) that it takes, as others were seen to take: nodes of the grid,
+     * and digits that the tolerance asks for. */
+    double (*convolutions)(double nodes, double digits);
     /* State beside the solver's own; NULL and *err when memory is short. */
     void *(*new)(struct rc_solver *solver, struct rc_err *err);
     void (*step)(struct rc_solver *solver, void *state);
@@ -25,8 +27,12 @@ struct rc_method {
     void (*free)(void *state);
 };
 
+/* The list may be a longer one that includes this one: so others add methods of their own. */
+#ifndef RC_METHODS_LIST
+#define RC_METHODS_LIST "libcontact/solver/methods.list"
+#endif
 #define RC_METHOD(name) extern const struct rc_method rc_method_##name;
-#include "methods.list"
+#include RC_METHODS_LIST
 #undef RC_METHOD
 
 /* seek.c: the search for the load that an approach needs. */

@@ -159,5 +159,5 @@ rc_solver_engine_reason(const struct rc_solver *s)
 const char *
 rc_solver_method(const struct rc_solver *s)
 {
-    return s->method->name;
+    return s->method->info.name;
 }

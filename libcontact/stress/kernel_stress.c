@@ -310,9 +310,9 @@ symbol(const struct rc_medium *m, size_t component, double qx, double qy)
 }
 
 const struct rc_kernel rc_kernel_stress = {
-    .name = "stress",
-    .summary = "the six stress components at a depth under pressure, then under shear, Pa/Pa",
-    .components = RC_STRESS_KERNELS,
+    .info = {.name = "stress",
+             .summary = "the six stress components at a depth under pressure, then shear, Pa/Pa",
+             .components = RC_STRESS_KERNELS},
     .parity = rc_stress_parity,
     .rows = rows,
     .symbol = symbol,

@@ -11,23 +11,9 @@
 struct plan {
     struct rc_stress_task task;
     const struct rc_engine *engine;
-    double *u; /* of one kernel */
+    bool precise; /* asked for by its name */
+    double *u;    /* of one kernel */
 };
-
-static const struct rc_engine *const engines[] = {
-#define RC_ENGINE(name) &rc_engine_##name,
-#include "libcontact/operator/engines.list"
-#undef RC_ENGINE
-};
-
-static const struct rc_engine *
-named(const char *name)
-{
-    for (size_t k = 0; k < sizeof engines / sizeof *engines; k++)
-        if (strcmp(engines[k]->name, name) == 0)
-            return engines[k];
-    return NULL;
-}
 
 /* An engine's tolerance is relative to the sum of |K| |p|. That of |K| grows with the logarithm of
  * the map, to some 2 under pressure and 8 under shear, and errors of the two add. */
@@ -66,7 +52,7 @@ plan_new(const struct rc_stress_task *task, struct rc_err *err)
         return NULL;
     }
     plan->task = *task;
-    if ((plan->engine = named(task->options.engine)) == NULL) {
+    if ((plan->engine = rc_engine_named(task->options.engine, &plan->precise)) == NULL) {
         rc_err_set(err, "there is no engine '%s'", task->options.engine);
         plan_free(plan);
         return NULL;
@@ -77,8 +63,8 @@ plan_new(const struct rc_stress_task *task, struct rc_err *err)
 static size_t
 memory(const struct rc_stress_task *task)
 {
-    const struct rc_engine *engine = named(task->options.engine);
     struct rc_sum sum = sum_of(task, RC_SXX, task->shape.dx);
+    const struct rc_engine *engine = rc_engine_named(task->options.engine, &sum.precise);
 
     return engine == NULL ? 0
                           : engine->memory(&sum) + task->shape.nx * task->shape.ny * sizeof(double);
@@ -106,6 +92,7 @@ layer(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err
         void *one;
         if (!(t->kernels >> k & 1))
             continue;
+        sum.precise = plan->precise;
         if ((one = plan->engine->new (&sum, err)) == NULL)
             return RC_FAIL;
         plan->engine->apply(one, t->p, plan->u);
