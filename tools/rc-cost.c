@@ -24,19 +24,17 @@ static struct args {
           .error = NAN,
           .nu = NAN};
 
+#define AT(field) .at = offsetof(struct args, field)
 #define ABOVE_0 .min = 0, .max = INFINITY, .above = true
 /* clang-format off */
 static const struct opt opts[] = {
-#define AT(field) .at = offsetof(struct args, physics.field)
-#include "tools/cli/physics.list"
-#undef AT
-#define AT(field) .at = offsetof(struct args, field)
-    {.name = "kernel", .type = OPT_WORDS, AT(kernels), .words = COST_KERNELS, .arg = "LIST",
-     .help = "try only these, of fft,fft64,mlms,direct (default: all)"},
-    {.name = "method", .type = OPT_WORDS, AT(methods), .words = COST_METHODS, .arg = "LIST",
-     .help = "try only these, of pcg,pk99 (default: both)"},
+    {.group = physics_options, AT(physics)},
+    {.name = "kernel", .alias = "engine", .type = OPT_WORDS, AT(kernels), .words = words_engine,
+     .arg = "LIST", .help = "try only these, of %s (default: all)"},
+    {.name = "method", .type = OPT_WORDS, AT(methods), .words = words_method, .arg = "LIST",
+     .help = "try only these, of %s (default: all)"},
     {.name = "depths", .type = OPT_NUMBERS, .unit = UNIT_M, AT(depths), .min = 0, .max = INFINITY,
-     .words = "auto", .arg = "LIST",
+     .word = "auto", .arg = "LIST",
      .help = "stresses too, at these depths: a,b,c, a:b:n or auto"},
     {.name = "nu", .type = OPT_NUMBER, AT(nu), .min = -1, .max = 0.5, .above = true, .arg = "RATIO",
      .help = "Poisson's ratio for the stresses (default: --nu1)"},

@@ -103,7 +103,6 @@ double cost_expect_stress(const struct cost_case *c, const struct cost_stress *t
 
 /* ---- process.c ---- */
 
-double cost_now(void);
 /* Memory, zeroed, that a process begun later shares. NULL: memory is short. */
 void *cost_share(size_t bytes);
 void cost_unshare(void *shared, size_t bytes);
@@ -118,8 +117,6 @@ enum cost_end {
  * now and then. No thread may have been started in this process before. */
 enum cost_end cost_run(void (*work)(void *ctx), void *ctx, double allowed,
                        void (*watch)(void *ctx));
-/* Bytes that this process holds at most so far. */
-size_t cost_peak(void);
 
 /* ---- pressure.c ---- */
 

@@ -38,8 +38,8 @@ work(void *ctx)
     struct job *j = ctx;
     const struct rc_shape *shape = &j->trial->shape;
     bool coarse = j->trial->settings.coarse > 1;
-    double start = cost_now(), *h = NULL;
-    size_t before = cost_peak();
+    double start = tool_now(), *h = NULL;
+    size_t before = tool_peak_memory();
     struct rc_solver *solver;
 
     if (coarse && (h = new_map(shape)) == NULL) {
@@ -54,14 +54,14 @@ work(void *ctx)
         j->iterations = rc_solver_iterations(solver);
         j->estimate = rc_solver_error(solver);
     }
-    j->seconds = cost_now() - start;
+    j->seconds = tool_now() - start;
     j->convolutions = rc_solver_convolutions(solver);
-    j->memory = cost_peak() - before;
+    j->memory = tool_peak_memory() - before;
     rc_solver_result(solver, NULL, NULL, &j->contact);
-    start = cost_now();
+    start = tool_now();
     if (coarse) {
         coarse_spread(shape, rc_solver_pressure(solver), &j->map, j->p);
-        j->seconds += cost_now() - start;
+        j->seconds += tool_now() - start;
     } else {
         memcpy(j->p, rc_solver_pressure(solver), shape->nx * shape->ny * sizeof *j->p);
     }

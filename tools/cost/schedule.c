@@ -88,7 +88,7 @@ fits(const struct cost_case *c, struct cost_trial *m, double left)
 static double
 left(const struct cost_case *c)
 {
-    return c->limit - (cost_now() - c->began);
+    return c->limit - (tool_now() - c->began);
 }
 
 /* Part of the limit: trials that are expected to take more come last, because they may use up the
@@ -147,13 +147,13 @@ repeat(struct cost_case *c)
 static void
 run_stresses(struct cost_case *c)
 {
-    double end = cost_now() + left(c) / 2;
+    double end = tool_now() + left(c) / 2;
 
     if (c->stresses > 0 && c->depths.n == 0 && tool_interrupted() == 0)
         cost_stress_depths(c);
     for (size_t k = 0; k < c->stresses && tool_interrupted() == 0; k++) {
         struct cost_stress *s = &c->stress[k];
-        double rest = fmax(end - cost_now(), 0);
+        double rest = fmax(end - tool_now(), 0);
 
         s->expected = cost_expect_stress(c, s);
         if (s->expected <= rest) {
@@ -190,7 +190,7 @@ cost_run_trials(struct cost_case *c)
 {
     bool quick = true;
 
-    c->began = cost_now();
+    c->began = tool_now();
     while (tool_interrupted() == 0) {
         struct cost_trial *m = next(c);
 

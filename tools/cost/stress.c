@@ -143,11 +143,11 @@ slices(struct job *j, struct rc_stress *stress, struct rc_stress *exact,
     struct errors e = {0};
 
     for (j->depth = 0; j->depth < j->c->depths.n; j->depth++) {
-        double z = j->c->depths.v[j->depth], start = cost_now();
+        double z = j->c->depths.v[j->depth], start = tool_now();
 
         if (rc_stress_slice(stress, z, s, &j->err) != RC_OK)
             return false;
-        j->seconds += cost_now() - start;
+        j->seconds += tool_now() - start;
         if (j->trial->reference)
             continue;
         if (rc_stress_slice(exact, z, truth, &j->err) != RC_OK)
@@ -183,10 +183,10 @@ work(void *ctx)
         s[k] = maps + k * n;
         truth[k] = maps + (RC_MISES + 1 + k) * n;
     }
-    start = cost_now();
+    start = tool_now();
     if ((stress = rc_stress_new(&c->shape, c->pressure, &o, &j->err)) == NULL)
         return;
-    j->seconds = cost_now() - start;
+    j->seconds = tool_now() - start;
     if ((exact = rc_stress_new(&c->shape, c->pressure, &e, &j->err)) != NULL)
         j->done = slices(j, stress, exact, s, truth);
 }
@@ -207,7 +207,7 @@ cost_stress_run(struct cost_case *c, struct cost_stress *s, double allowed)
 {
     struct rc_stress_options o = options_of(c, s->kernel, s->tol);
     struct job *j = cost_share(sizeof *j);
-    double start = cost_now();
+    double start = tool_now();
     enum cost_end end;
 
     if (j == NULL)
@@ -217,7 +217,7 @@ cost_stress_run(struct cost_case *c, struct cost_stress *s, double allowed)
         memset(j, 0, sizeof *j);
         j->c = c;
         j->trial = s;
-        end = cost_run(work, j, allowed - (cost_now() - start), watch);
+        end = cost_run(work, j, allowed - (tool_now() - start), watch);
         if (end != COST_ENDED || !j->done)
             break;
         if (s->runs++ == 0 || j->seconds < s->seconds)
