@@ -193,6 +193,8 @@ spectrum(const struct row *row, size_t m)
     size_t n = m * m;
     unsigned char *w = must(malloc(n));
     struct operators o = {.n = n, .w = w, .count = choose(row, s, w)};
+    struct rc_operator_options options = {.boundary = row->boundary, .estar = 1};
+    struct rc_operator *op;
     double least[2], most[2];
     struct rc_err err;
 
@@ -203,7 +205,8 @@ spectrum(const struct row *row, size_t m)
     rc_spectrum_set_reciprocal(o.inverse, o.fft, o.kernel);
     o.single = must(malloc(2 * n * sizeof *o.single));
     extremes(&o, &least[0], &most[0]);
-    o.extension = must(rc_preconditioner_new(&s, row->boundary, 0, &err));
+    op = must(rc_half_space_new(&s, &options, &err));
+    o.extension = must(rc_preconditioner_new(op, &err));
     rc_preconditioner_set(o.extension, w, true);
     extremes(&o, &least[1], &most[1]);
     printf("%-8s %-8s %5zu %8.4f | %8.4f %8.3f | %8.4f %8.3f\n", row->name,
@@ -211,6 +214,7 @@ spectrum(const struct row *row, size_t m)
            most[1], least[0], most[0]);
     fflush(stdout);
     rc_preconditioner_free(o.extension);
+    rc_operator_free(op);
     rc_spectrum_free(o.kernel);
     rc_spectrum_free(o.inverse);
     rc_fft_free(o.fft);

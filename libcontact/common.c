@@ -1,4 +1,4 @@
-#include "contact.h"
+#include "common.h"
 
 #include <omp.h>
 
@@ -14,4 +14,14 @@ rc_threads_available(void)
     int n = omp_get_num_procs();
 
     return n < 1 ? 1 : (size_t)n;
+}
+
+int
+rc_useful_threads(const struct rc_shape *s, size_t threads)
+{
+    size_t most = 1 + s->nx * s->ny / 8192;
+
+    if (threads == 0)
+        threads = rc_threads_available();
+    return (int)(threads < most ? threads : most);
 }

@@ -131,6 +131,7 @@ struct rc_conv_options {
     enum rc_boundary boundary;
     const char *engine; /* a row of engines.list, or NULL or "auto"                              */
     double tol;         /* asked error of u, relative to the sum of |K| |p|; 0: rounding          */
+    bool precise; /* in double precision throughout, even where tol would allow less             */
     size_t order, correction; /* of the engine mlms by hand, both or none: t, m_c                */
     size_t memory;  /* bytes that "auto" may take; 0: any                                    */
     double loaded;  /* fraction of nodes that carry pressure, as "auto" may expect; 0: unknown */
@@ -154,17 +155,12 @@ RC_API const char *rc_conv_choice(const struct rc_shape *shape,
                                   const struct rc_conv_options *options, const char **reason);
 /* Bytes that such a plan takes beside p and u; 0 when there is no such engine. */
 RC_API size_t rc_conv_memory(const struct rc_shape *shape, const struct rc_conv_options *options);
-/* Seconds that one such sum takes in a solve, the work of the method around it included: measured on
- * a machine of 2026, and several times off on another. NAN when there is no such engine. */
+/* Seconds that one such sum takes in a solve, the work of the method around it included:
+ * measured on a machine of 2026, and several times off on another. NAN when there is no such
+ * engine. */
 RC_API double rc_conv_seconds(const struct rc_shape *shape, const struct rc_conv_options *options);
 
 /* ---- solver: solver.c ---- */
-
-/* After each iteration, on the coarser grids of the start too: the size of the grid, iterations
- * on it, the estimated error there and the one asked for. False breaks the start off; what the
- * caller steps himself he ends himself. */
-typedef bool rc_watch(void *watcher, const struct rc_shape *grid, size_t iterations, double error,
-                      double tol);
 
 struct rc_problem {
     enum rc_boundary boundary;
@@ -179,8 +175,6 @@ struct rc_problem {
     size_t max_iterations; /* 0: 100 + 10 sqrt(nx ny)                                            */
     size_t threads;      /* 0: all                                                                */
     bool discretization; /* estimate what the grid leaves out: a coarser one is solved as well   */
-    rc_watch *watch;     /* NULL, or told of each iteration                                       */
-    void *watcher;       /* its first argument                                                    */
 };
 
 /* Relative errors, or figures, of contact area, largest pressure and approach; NAN: unknown. */
@@ -212,21 +206,31 @@ struct rc_contact {
  * holds both numbers. */
 RC_API struct rc_solver *rc_solver_new(const struct rc_shape *shape, const double *h,
                                        const struct rc_problem *problem, struct rc_err *err);
-/* One iteration: RC_MORE, RC_OK when the estimated error is below tol, RC_SHORT when it cannot get
- * there (iteration limit, rounding). */
+/* One iteration, on coarser grids at first: RC_MORE, RC_OK when the estimated error is below
+ * tol, RC_SHORT when it cannot get there (iteration limit, rounding). */
 RC_API enum rc_status rc_solver_step(struct rc_solver *solver);
 /* Another first loading of the same surface, at a load in N or, with approach > 0, to an
  * approach in m: the last solution is only where it starts. Counts begin anew. RC_FAIL as in
  * rc_solver_new; the solver is then of no further use. */
-RC_API enum rc_status rc_solver_again(struct rc_solver *solver, double load, double approach,
-                                      struct rc_err *err);
-/* Goes on from this pressure (nx ny Pa; what leaves the box or the load is put right), as it was
- * left by an earlier solver of the same problem; load (N) is that of this pressure, which
- * matters where an approach is sought. Before the first step of a load. RC_FAIL as in
- * rc_solver_again. */
-RC_API enum rc_status rc_solver_start(struct rc_solver *solver, double load, const double *p,
-                                      struct rc_err *err);
-/* Iterations so far and the last estimate of the error (NAN before the first), for progress. */
+RC_API enum rc_status rc_solver_set_load(struct rc_solver *solver, double load, double approach,
+                                         struct rc_err *err);
+/* Starts from this pressure (nx ny Pa; what leaves the box or the load is put right), as it was
+ * left by an earlier solver of the same problem, instead of from coarser grids; load (N) is that
+ * of this pressure, which matters where an approach is sought. RC_FAIL after the first step of a
+ * load, and as in rc_solver_set_load. */
+RC_API enum rc_status rc_solver_warm_start(struct rc_solver *solver, double load, const double *p,
+                                           struct rc_err *err);
+/* How far it is: the grid that is being iterated, which is a coarser one at first, the
+ * iterations on it, the last estimate of the error there (NAN before the first) and the one
+ * asked for. */
+struct rc_progress {
+    struct rc_shape grid;
+    size_t iterations;
+    double error, tol;
+};
+RC_API void rc_solver_progress(const struct rc_solver *solver, struct rc_progress *progress);
+/* Iterations on this grid so far and the last estimate of the error (NAN before the first), for
+ * progress. */
 RC_API size_t rc_solver_iterations(const struct rc_solver *solver);
 RC_API double rc_solver_error(const struct rc_solver *solver);
 /* Convolutions so far, in equivalents of one double-precision convolution on this grid; coarser
@@ -242,7 +246,8 @@ RC_API void rc_solver_result(struct rc_solver *solver, double *displacement, dou
 /* The height map (nx*ny m) that is left when the bodies are taken apart: where the hardness was
  * reached, what stood into the other body is gone. Pressed again to the same load it carries the
  * same pressure, and nothing more yields. After rc_solver_result. */
-RC_API void rc_solver_plastic(const struct rc_solver *solver, double *h);
+RC_API enum rc_status rc_solver_plastic(const struct rc_solver *solver, double *h,
+                                        struct rc_err *err);
 /* d load / d approach, N/m, at the solution, after rc_solver_result: what the elastic nodes
  * carry more when the bodies come closer, no node changing sides. NAN when none is elastic, and
  * where a periodic surface is in complete contact. Takes 10 to 20 convolutions; RC_FAIL when

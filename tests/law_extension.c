@@ -112,8 +112,12 @@ symmetric_and_positive(void **state)
         unsigned char *w = malloc(n);
         float *v = malloc(4 * n * sizeof *v), *a = v, *b = v + n, *za = v + 2 * n, *zb = v + 3 * n;
         struct rc_err err;
-        struct rc_preconditioner *e = rc_preconditioner_new(&s, boundary, 0, &err);
+        struct rc_operator_options options = {.boundary = boundary, .estar = 1};
+        struct rc_operator *op = rc_half_space_new(&s, &options, &err);
+        struct rc_preconditioner *e;
         uint64_t seed = 2;
+        assert_non_null(op);
+        e = rc_preconditioner_new(op, &err);
         assert_non_null(e);
         count = choose(s, boundary, (enum set_name)(q / 2 % SETS), w);
         assert_true(count > 1);
@@ -142,6 +146,7 @@ symmetric_and_positive(void **state)
                 assert_true(w[k] || za[k] == 0);
         }
         rc_preconditioner_free(e);
+        rc_operator_free(op);
         free(w);
         free(v);
     }
@@ -185,7 +190,9 @@ corrections(struct rc_shape s, enum rc_boundary boundary, const unsigned char *w
     size_t n = s.nx * s.ny;
     float *r = calloc(n, sizeof *r), *z = malloc(n * sizeof *z);
     struct rc_err err;
-    struct rc_preconditioner *e = rc_preconditioner_new(&s, boundary, 0, &err);
+    struct rc_operator_options options = {.boundary = boundary, .estar = 1};
+    struct rc_operator *op = rc_half_space_new(&s, &options, &err);
+    struct rc_preconditioner *e = op == NULL ? NULL : rc_preconditioner_new(op, &err);
     gsl_matrix *b = gsl_matrix_alloc(count, count);
 
     assert_non_null(e);
@@ -198,6 +205,7 @@ corrections(struct rc_shape s, enum rc_boundary boundary, const unsigned char *w
             gsl_matrix_set(b, i, j, (double)z[at[i]]);
     }
     rc_preconditioner_free(e);
+    rc_operator_free(op);
     free(r);
     free(z);
     return b;

@@ -105,8 +105,6 @@ problem_of(struct run *run, const struct rc_grid *g, size_t step)
     problem.method = args.method;
     problem.threads = run->t.threads;
     problem.discretization = args.discretization;
-    problem.watch = solve_watch;
-    problem.watcher = run;
     return problem;
 }
 
@@ -116,8 +114,10 @@ solve(struct run *run, const struct rc_grid *g, struct rc_solver *solver)
     bool kept = checkpoint_case(run->checkpoint, g, solver);
     double start = solve_now();
 
-    while (tool_interrupted() == 0 && rc_solver_step(solver) == RC_MORE)
+    while (tool_interrupted() == 0 && rc_solver_step(solver) == RC_MORE) {
+        solve_progress(run, solver);
         checkpoint_pass(run->checkpoint, g, solver);
+    }
     tool_progress_end(&run->t);
     run->iterate = solve_now() - start;
     if (!kept || rc_solver_iterations(solver) > 1) /* else it is there already */
@@ -205,8 +205,9 @@ do_load(struct run *run, struct rc_grid *g, struct rc_solver *solver)
     rc_solver_result(solver, values(out[SOLVE_DISPLACEMENT]), values(out[SOLVE_GAP]), &c);
     if (out[SOLVE_PRESSURE] != NULL)
         memcpy(out[SOLVE_PRESSURE]->v, rc_solver_pressure(solver), g->nx * g->ny * sizeof *g->v);
-    if (out[SOLVE_PLASTIC] != NULL)
-        rc_solver_plastic(solver, out[SOLVE_PLASTIC]->v);
+    if (out[SOLVE_PLASTIC] != NULL &&
+        rc_solver_plastic(solver, out[SOLVE_PLASTIC]->v, &err) != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     if (run->stiffness && rc_solver_stiffness(solver, &stiffness, &err) != RC_OK)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     c.convolutions = rc_solver_convolutions(solver);
@@ -242,7 +243,7 @@ do_loads(struct run *run, struct rc_grid *g)
             run->began = solve_now();
             run->setup = 0;
             run->number++;
-            if (rc_solver_again(solver, problem.load, problem.approach, &err) != RC_OK)
+            if (rc_solver_set_load(solver, problem.load, problem.approach, &err) != RC_OK)
                 tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
         }
         do_load(run, g, solver);

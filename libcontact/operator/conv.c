@@ -25,7 +25,7 @@ static const double sparse = 0.05, sparse_tol = 1e-6;
 
 struct rc_conv {
     const struct rc_engine *engine;
-    bool precise;
+    bool precise; /* by its name */
     const char *reason;
     void *plan;
 };
@@ -38,6 +38,7 @@ sum_of(const struct rc_shape *shape, double estar, const struct rc_conv_options 
                            .kernel = &rc_kernel_boussinesq,
                            .medium = {.estar = estar},
                            .tol = o->tol,
+                           .precise = o->precise,
                            .order = o->order,
                            .correction = o->correction,
                            .threads = o->threads};
@@ -97,23 +98,26 @@ choose(const struct rc_sum *sum, const struct rc_conv_options *o, const char **r
         *reason = "few nodes are loaded, and the asked accuracy allows it";
         return &rc_engine_mlms;
     }
-    *reason = o->tol > 0 ? "the fastest on a map loaded like this"
-                         : "the fastest of those that are exact to rounding";
+    *reason = o->tol > 0 && !o->precise ? "the fastest on a map loaded like this"
+                                        : "the fastest of those that are exact to rounding";
     return &rc_engine_fft;
 }
 
-/* The engine that is asked for, or the choice; sets sum->precise where its name says so. */
+/* The engine that is asked for, or the choice; *precise when its name asks for double precision. */
 static const struct rc_engine *
-find(struct rc_sum *sum, const struct rc_conv_options *o, const char **reason, struct rc_err *err)
+find(struct rc_sum *sum, const struct rc_conv_options *o, bool *precise, const char **reason,
+     struct rc_err *err)
 {
     const struct rc_engine *engine;
 
+    *precise = false;
     if (o->engine == NULL || strcmp(o->engine, "auto") == 0)
         return choose(sum, o, reason);
     *reason = "asked for";
-    engine = rc_engine_named(o->engine, &sum->precise);
+    engine = rc_engine_named(o->engine, precise);
     if (engine == NULL)
         rc_err_set(err, "there is no engine '%s'", o->engine);
+    sum->precise |= *precise;
     return engine;
 }
 
@@ -128,9 +132,10 @@ rc_conv_choice(const struct rc_shape *shape, const struct rc_conv_options *optio
                const char **reason)
 {
     struct rc_sum sum = sum_of(shape, 1, options);
-    const struct rc_engine *engine = find(&sum, options, reason, NULL);
+    bool precise;
+    const struct rc_engine *engine = find(&sum, options, &precise, reason, NULL);
 
-    return engine == NULL ? "" : name_of(engine, sum.precise);
+    return engine == NULL ? "" : name_of(engine, precise);
 }
 
 struct rc_conv *
@@ -147,13 +152,18 @@ rc_conv_new(const struct rc_shape *shape, double estar, const struct rc_conv_opt
         rc_err_set(err, "out of memory for a plan");
         return NULL;
     }
-    if ((conv->engine = find(&sum, options, &conv->reason, err)) == NULL ||
+    if ((conv->engine = find(&sum, options, &conv->precise, &conv->reason, err)) == NULL ||
         (conv->plan = conv->engine->new (&sum, err)) == NULL) {
         rc_conv_free(conv);
         return NULL;
     }
-    conv->precise = sum.precise;
     return conv;
+}
+
+bool
+rc_conv_mixed(const struct rc_conv *conv)
+{
+    return conv->engine->info.mixed && !conv->precise;
 }
 
 void
@@ -195,7 +205,8 @@ rc_conv_memory(const struct rc_shape *shape, const struct rc_conv_options *optio
 {
     struct rc_sum sum = sum_of(shape, 1, options);
     const char *reason;
-    const struct rc_engine *engine = find(&sum, options, &reason, NULL);
+    bool precise;
+    const struct rc_engine *engine = find(&sum, options, &precise, &reason, NULL);
 
     return engine == NULL ? 0 : engine->memory(&sum);
 }
@@ -205,7 +216,8 @@ rc_conv_seconds(const struct rc_shape *shape, const struct rc_conv_options *opti
 {
     struct rc_sum sum = sum_of(shape, 1, options);
     const char *reason;
-    const struct rc_engine *engine = find(&sum, options, &reason, NULL);
+    bool precise;
+    const struct rc_engine *engine = find(&sum, options, &precise, &reason, NULL);
     size_t threads = options->threads == 0 ? rc_threads_available() : options->threads;
 
     return engine == NULL ? NAN : engine->seconds(&sum) * 2 / (double)threads;

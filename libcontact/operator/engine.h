@@ -49,4 +49,7 @@ struct rc_engine {
  * precision. */
 const struct rc_engine *rc_engine_named(const char *name, bool *precise);
 
+/* Whether methods may iterate with it in single precision. */
+bool rc_conv_mixed(const struct rc_conv *conv);
+
 #endif

@@ -86,16 +86,6 @@ rc_fft_memory(const struct rc_shape *shape, enum rc_boundary boundary, enum rc_p
            rc_spectrum_memory(shape, boundary, precision);
 }
 
-int
-rc_useful_threads(const struct rc_shape *s, size_t threads)
-{
-    size_t most = 1 + s->nx * s->ny / 8192;
-
-    if (threads == 0)
-        threads = rc_threads_available();
-    return (int)(threads < most ? threads : most);
-}
-
 struct rc_fft *
 rc_fft_new(const struct rc_shape *s, enum rc_boundary boundary, enum rc_precision precision,
            size_t threads, struct rc_err *err)

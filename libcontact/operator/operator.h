@@ -1,5 +1,10 @@
 /*
- * The face of this folder: kernels, engines and transforms. Internal: never installed.
+ * What a pressure on the surface does, as the solver sees it: the face of this folder. Internal:
+ * never installed.
+ *
+ * The solver is handed an operator K and asks it for K p, for its inverse as multiplication of wave
+ * numbers, and for a few figures; it never learns which kernel, which engine and which transforms
+ * are behind. A coated body, or rows that several machines own, are further operators.
  */
 #ifndef RC_OPERATOR_H
 #define RC_OPERATOR_H
@@ -8,5 +13,115 @@
 #include "fft.h"
 #include "fourier.h"
 #include "kernel.h"
+
+struct rc_operator;
+
+/* What an operator does; half_space.c ends in one of these. */
+struct rc_operator_type {
+    void (*apply)(struct rc_operator *op, const double *p, double *u);
+    void (*apply_rows)(struct rc_operator *op, rc_row *in, rc_row *out, void *ctx);
+    void (*chain)(struct rc_operator *op, size_t n, const struct rc_spectrum *const *factors,
+                  rc_row *const *rows, void *ctx);
+    struct rc_spectrum *(*spectrum)(struct rc_operator *op, const struct rc_kernel *values,
+                                    struct rc_err *err);
+    struct rc_operator *(*coarse)(const struct rc_operator *op, const struct rc_shape *shape,
+                                  struct rc_err *err);
+    void (*free)(struct rc_operator *op);
+};
+
+/* Constant once it is made. Row by row pressures and displacements are in single precision and in
+ * units of its own: u = unit K' p with K' of about 1, so that no decade of metres or pascals is
+ * lost. Lengths beside them are in units of sqrt(dx dy). */
+struct rc_operator {
+    const struct rc_operator_type *type;
+    struct rc_shape shape;
+    enum rc_boundary boundary;
+    size_t threads;
+    double unit;     /* m/Pa                                                                   */
+    double norm;     /* m/Pa: a bound of the largest eigenvalue                                */
+    double diagonal; /* m/Pa: displacement of a node under unit pressure on its own cell       */
+    /* Of the inverse, in the units of rows: what moves a node by 1 while all others stay where they
+     * are, and how strongly a node is tied to its eight neighbours, up to a factor. */
+    double inverse_diagonal;
+    double neighbour[3][3];
+    double extension;   /* the constant c of the preconditioner's extension                    */
+    double error;       /* of K p, relative to the sum of |K| |p|                              */
+    double row_error;   /* the same, row by row                                                */
+    double row_cost;    /* of K p row by row, in equivalents of K p in double precision        */
+    double factor_cost; /* of each factor of a chain                                           */
+    bool exact;         /* K p can be had in double precision                                  */
+    bool mean_free;     /* the mean of u is 0 whatever the pressure: it has no stiffness       */
+    const char *engine, *reason; /* which does the sums of K p, and why; NULL: none            */
+    const struct rc_spectrum *kernel, *inverse; /* factors for rc_operator_chain: K and K^-1   */
+};
+
+struct rc_operator_options {
+    enum rc_boundary boundary;
+    double estar;       /* composite modulus, Pa                                               */
+    const char *engine; /* NULL: auto                                                          */
+    double tol;         /* error of K p that the engine may make, as in rc_conv_options         */
+    size_t threads;     /* 0: all                                                              */
+};
+
+/* half_space.c: an elastic half-space. NULL when there is no such engine, or none for the boundary,
+ * or memory is short. */
+struct rc_operator *rc_half_space_new(const struct rc_shape *shape,
+                                      const struct rc_operator_options *options,
+                                      struct rc_err *err);
+/* Bytes that it takes; 0 when there is no such engine. */
+size_t rc_half_space_memory(const struct rc_shape *shape,
+                            const struct rc_operator_options *options);
+/* The engine that it would take, and why; "" when there is none of that name. */
+const char *rc_half_space_engine(const struct rc_shape *shape,
+                                 const struct rc_operator_options *options, const char **reason);
+/* Seconds that one K p takes in a solve, as rc_conv_seconds has them. */
+double rc_half_space_seconds(const struct rc_shape *shape,
+                             const struct rc_operator_options *options);
+
+/* The same body on another grid, without K p in double precision. */
+static inline struct rc_operator *
+rc_operator_coarse(const struct rc_operator *op, const struct rc_shape *shape, struct rc_err *err)
+{
+    return op->type->coarse(op, shape, err);
+}
+
+/* u = K p, in m and Pa, in double precision; only where op->exact. */
+static inline void
+rc_operator_apply(struct rc_operator *op, const double *p, double *u)
+{
+    op->type->apply(op, p, u);
+}
+
+/* u = K' p row by row: `in` writes the rows of p (floats), `out` takes those of u. Costs
+ * op->row_cost. */
+static inline void
+rc_operator_apply_rows(struct rc_operator *op, rc_row *in, rc_row *out, void *ctx)
+{
+    op->type->apply_rows(op, in, out, ctx);
+}
+
+/* The factor of an even function of the offset, given by its values at the nodes. NULL when
+ * memory is short; the caller frees it with rc_spectrum_free. */
+static inline struct rc_spectrum *
+rc_operator_spectrum(struct rc_operator *op, const struct rc_kernel *values, struct rc_err *err)
+{
+    return op->type->spectrum(op, values, err);
+}
+
+/* Several convolutions, one after the other, with rows[k] between factor k - 1 and k: as
+ * rc_fft_chain. Each factor costs op->factor_cost. */
+static inline void
+rc_operator_chain(struct rc_operator *op, size_t n, const struct rc_spectrum *const *factors,
+                  rc_row *const *rows, void *ctx)
+{
+    op->type->chain(op, n, factors, rows, ctx);
+}
+
+static inline void
+rc_operator_free(struct rc_operator *op) /* NULL is allowed */
+{
+    if (op != NULL)
+        op->type->free(op);
+}
 
 #endif

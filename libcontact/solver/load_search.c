@@ -1,24 +1,107 @@
 /*
- * The load that an approach needs. The shift grows with the load, nearly as a power of it (2/3 for
- * a sphere, 1 for a punch): secants in logarithms, inside a bracket. Each load starts from the
- * solution of the last, and the first are solved only as well as the next guess can use.
+ * The load: the one that is given, or the one that an approach needs. The shift grows with the
+ * load, nearly as a power of it (2/3 for a sphere, 1 for a punch): secants in logarithms, inside a
+ * bracket. Each load starts from the solution of the last, and the first are solved only as well as
+ * the next guess can use.
  */
 #include "solver.h"
 
+#include <float.h>
 #include <math.h>
 
 static const double loose = 1e-2; /* tolerance of the first loads */
 
-void
-rc_load_search_begin(struct rc_solver *s, double target)
+static void
+set_units(struct rc_load *load, size_t n, double unit)
 {
-    s->tol = fmax(s->goal, loose);
-    s->seek = (struct rc_load_search){.target = target, .high = INFINITY, .power = 1.5};
+    int exponent;
+
+    (void)frexp(load->sum / (double)n, &exponent);
+    load->per_pressure = ldexp(1, -exponent);
+    load->length = unit * ldexp(1, exponent);
 }
+
+enum rc_status
+rc_load_set(struct rc_solver *s, double load, struct rc_err *err)
+{
+    double n = (double)s->posed.n, area = s->posed.cell * n, most = s->posed.hardness * area;
+
+    if (!(load > 0) || isinf(load))
+        return rc_err_set(err, "load %g N: it must be positive and finite", load);
+    if (load > most * (1 + 4 * DBL_EPSILON))
+        return rc_err_set(err,
+                          "load %.9g N is above hardness times area, %.9g Pa x %.9g m2 = "
+                          "%.9g N, where every node yields: no solution exists; lower the "
+                          "load or raise the hardness",
+                          load, s->posed.hardness, area, most);
+    s->load.load = load;
+    s->load.sum = load / s->posed.cell;
+    if (s->load.sum >= s->posed.hardness * n * (1 - 8 * DBL_EPSILON))
+        s->load.sum = s->posed.hardness * n; /* every node yields, whatever the rounding */
+    set_units(&s->load, s->posed.n, s->op->unit);
+    return RC_OK;
+}
+
+/* ---- where it begins ---- */
+
+static void
+begin_search(struct rc_solver *s, double target)
+{
+    s->load.tol = fmax(s->posed.tol, loose);
+    s->load.target = target;
+    s->load.low = s->load.last_load = s->load.last_shift = 0;
+    s->load.high = INFINITY;
+    s->load.power = 1.5;
+}
+
+/* Where the load is sought, the one given is a guess; without one, that of a flat punch as large as
+ * the part of the surface that the approach would cut off. */
+enum rc_status
+rc_load_first(struct rc_solver *s, const struct rc_problem *problem, struct rc_err *err)
+{
+    double guess = problem->load, n = (double)s->posed.n;
+    double most = s->posed.hardness * s->posed.cell * n / 2;
+    size_t cut = 0;
+
+    s->load = (struct rc_load){.tol = s->posed.tol};
+    if (!(problem->approach > 0))
+        return rc_load_set(s, problem->load, err);
+    if (isinf(problem->approach))
+        return rc_err_set(err, "approach %g m: it must be finite", problem->approach);
+    for (size_t k = 0; k < s->posed.n; k++)
+        cut += s->posed.h[k] >= -problem->approach;
+    if (!(guess > 0))
+        guess = s->posed.cell / s->op->unit * problem->approach * sqrt((double)cut);
+    begin_search(s, problem->approach);
+    if (s->op->mean_free && isinf(s->posed.hardness)) {
+        double full = -rc_sum(s->posed.h, s->posed.n) / n;
+        if (problem->approach >= full)
+            return rc_err_set(err,
+                              "approach %.9g m: contact is complete at %.9g m, and from there "
+                              "the load of a periodic surface grows at the same approach; "
+                              "give the load",
+                              problem->approach, full);
+    }
+    return rc_load_set(s, guess < most ? guess : most, err);
+}
+
+enum rc_status
+rc_load_next(struct rc_solver *s, double load, double approach, struct rc_err *err)
+{
+    s->load.tol = s->posed.tol;
+    s->load.target = 0;
+    if (approach > 0) {
+        begin_search(s, approach);
+        load = s->load.load; /* to begin with */
+    }
+    return rc_load_set(s, load, err);
+}
+
+/* ---- the search ---- */
 
 /* The load at which the shift would be the target, by the power law through the last solution. */
 static double
-next_load(const struct rc_load_search *q, double load, double shift)
+next_load(const struct rc_load *q, double load, double shift)
 {
     double next = shift > 0 ? load * pow(q->target / shift, q->power) : 2 * load;
 
@@ -31,38 +114,39 @@ next_load(const struct rc_load_search *q, double load, double shift)
 }
 
 enum rc_status
-rc_load_search_step(struct rc_solver *s)
+rc_load_search(struct rc_solver *s)
 {
-    struct rc_load_search *q = &s->seek;
-    double most = s->hardness * s->cell * (double)s->n, shift, next, off;
+    struct rc_load *q = &s->load;
+    double most = s->posed.hardness * s->posed.cell * (double)s->posed.n, shift, next, off;
 
-    rc_solver_shift(s);
-    shift = s->elastic > 0 ? s->shift : INFINITY; /* saturated: too much */
-    if (q->load > 0 && q->shift > 0 && shift > 0 && !isinf(shift) && shift != q->shift) {
-        double power = log(s->load / q->load) / log(shift / q->shift);
+    rc_iterate_shift(s);
+    shift = s->it.elastic > 0 ? s->it.shift : INFINITY; /* saturated: too much */
+    if (q->last_load > 0 && q->last_shift > 0 && shift > 0 && !isinf(shift) &&
+        shift != q->last_shift) {
+        double power = log(q->load / q->last_load) / log(shift / q->last_shift);
         if (power > 0.2 && power < 20)
             q->power = power;
     }
-    q->load = s->load;
-    q->shift = isinf(shift) ? 0 : shift;
+    q->last_load = q->load;
+    q->last_shift = isinf(shift) ? 0 : shift;
     if (shift < q->target)
-        q->low = fmax(q->low, s->load);
+        q->low = fmax(q->low, q->load);
     else
-        q->high = fmin(q->high, s->load);
-    next = next_load(q, s->load, isinf(shift) ? 1e3 * q->target : shift);
+        q->high = fmin(q->high, q->load);
+    next = next_load(q, q->load, isinf(shift) ? 1e3 * q->target : shift);
     if (next > most)
         next = most;
-    off = fabs(next / s->load - 1);
-    if (off <= 0.1 * s->goal || next == s->load || q->high <= q->low * (1 + 1e-15)) {
-        if (s->tol <= s->goal)
+    off = fabs(next / q->load - 1);
+    if (off <= 0.1 * s->posed.tol || next == q->load || q->high <= q->low * (1 + 1e-15)) {
+        if (q->tol <= s->posed.tol)
             return RC_OK;
-        s->tol = s->goal; /* the right load, but not yet well solved */
-        s->change = 1;
+        q->tol = s->posed.tol; /* the right load, but not yet well solved */
         return RC_MORE;
     }
-    s->tol = fmax(s->goal, fmin(loose, 0.1 * off));
-    if (rc_solver_set_load(s, next, NULL) != RC_OK ||
-        rc_box_balance(s->n, s->hardness, s->sum, s->v, s->p, NULL) != RC_OK)
+    q->tol = fmax(s->posed.tol, fmin(loose, 0.1 * off));
+    if (rc_load_set(s, next, NULL) != RC_OK ||
+        rc_projection_balance(s->posed.n, s->posed.hardness, s->load.sum, s->it.v, s->it.p, NULL) !=
+            RC_OK)
         return RC_SHORT;
     rc_solver_restart(s);
     return RC_MORE;

@@ -1,11 +1,11 @@
 /*
- * Projected conjugate gradients with the extension preconditioner (extension.h).
+ * Projected conjugate gradients with the extension preconditioner (preconditioner.h).
  *
  * Working set W: the elastic nodes and those at a bound that want to leave it, but for those that
- * would only be pushed back (joining.c). Residual r = -g on W with zero mean, z = E' A E r with
+ * would only be pushed back (working_set.c). Residual r = -g on W with zero mean, z = E' A E r with
  * zero mean, direction z + beta delta conjugate to the last step delta unless that was clipped;
  * restarted when beta is negative; components that point out of the box are dropped. The step is
- * projected onto {0 <= p <= H, sum p = S} by one shift of the nodes of W (project.c). Scaling
+ * projected onto {0 <= p <= H, sum p = S} by one shift of the nodes of W (projection.c). Scaling
  * instead, as in (31b) of Polonsky and Keer, fails near saturation; shifting all nodes drags every
  * separated one into contact.
  *
@@ -23,59 +23,558 @@
  * to delta, which shrinks. The sum of what that may have spoilt is kept, and v is renewed in double
  * precision before it matters, and always before the estimate is believed.
  */
-#include "pcg.h"
+#include "solver.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "nested.h"
 #include "libcontact/memory.h"
 
 enum {
-    SPACER = 30,  /* steps after which one is a projected-gradient step                  */
-    PATIENCE = 40 /* steps without a better estimate, one of them a spacer, after which
-                     rounding has the word                                            */
+    SPACER = 30,   /* steps after which one is a projected-gradient step                    */
+    PATIENCE = 40, /* steps without a better estimate, one of them a spacer, after which
+                      rounding has the word                                                */
+    TRIES = 4      /* to shorten a step                                                     */
 };
-/* No step is longer than this, over the load: what the nodes that stay carry would be lost in
- * the rounding of the way there. Only heights beside which the displacement is nothing ask for
- * more. */
+/* No step is longer than this, over the load: what the nodes that stay carry would be lost in the
+ * rounding of the way there. Only heights beside which the displacement is nothing ask for more. */
 static const double longest = 1e6;
+/* How near the lowest point may be for a clipped step to be taken whole: nodes then come to rest at
+ * their bounds. With the lowest point at a part s of the way, the whole of it still gains
+ * (2 s - 1)/s^2 of what could be gained. */
+static const double enough = 0.75;
+/* Where the start is that far off, heights are so large beside the displacement that nodes decide
+ * nearly alone whether they touch, or yield: as springs, each of the stiffness of its own cell. */
+static const double apart = 100;
+
+struct pcg {
+    float *delta, *q; /* the last step and K times it, in the units of the operator's rows */
+    uint16_t *list;   /* scratch of the projection                                         */
+    double curvature; /* delta'q; 0: the next direction is not conjugate to anything       */
+    double alpha;     /* length foretold for the next step                                 */
+    double drift;     /* what single precision may have done to p, relative                */
+    double estimate;  /* the last one; NAN: none yet                                       */
+    double rate;      /* of the last two: how much smaller it has become                   */
+    double best;      /* the least                                                         */
+    size_t best_at;   /* its iteration                                                     */
+};
+
+/* What the passes over all nodes share. */
+struct pass {
+    struct rc_solver *solver;
+    struct pcg *s;
+    double a, b;
+    struct rc_move *move;
+};
 
 static void
 state_free(void *at)
 {
-    struct rc_pcg *s = at;
+    struct pcg *s = at;
 
     if (s == NULL)
         return;
-    free(s->room);
-    free(s->wide);
+    free(s->delta);
+    free(s->q);
+    free(s->list);
     free(s);
 }
 
-static void *
-state_new(struct rc_solver *solver, struct rc_err *err)
+static void
+forget(void *at)
 {
-    struct rc_pcg *s = calloc(1, sizeof *s);
-    bool single = solver->conv == NULL || strcmp(rc_conv_engine(solver->conv), "fft") == 0;
+    struct pcg *s = at;
+
+    s->curvature = 0;
+    s->estimate = NAN;
+    s->best = INFINITY;
+    s->best_at = 0;
+    s->rate = 1;
+}
+
+static void *
+state_new(const struct rc_solver *solver, struct rc_err *err)
+{
+    struct pcg *s = calloc(1, sizeof *s);
+    size_t n = solver->posed.n;
 
     if (s != NULL) {
-        s->room = rc_alloc(solver->n, sizeof *s->room);
-        s->wide = single ? NULL : rc_alloc(2 * solver->n, sizeof *s->wide);
+        s->delta = rc_alloc(n, sizeof *s->delta);
+        s->q = rc_alloc(n, sizeof *s->q);
+        s->list = rc_alloc(n, sizeof *s->list);
     }
-    if (s == NULL || s->room == NULL || (!single && s->wide == NULL)) {
-        rc_err_set(err, "out of memory for the iteration of %zu nodes", solver->n);
+    if (s == NULL || s->delta == NULL || s->q == NULL || s->list == NULL) {
+        rc_err_set(err, "out of memory for the iteration of %zu nodes", n);
         state_free(s);
         return NULL;
     }
-    s->delta = (float *)s->room;
-    s->q = s->delta + solver->n;
     s->alpha = 0.9;
-    s->best = INFINITY;
-    s->rate = 1;
-    rc_nested_start(solver);
+    forget(s);
     return s;
+}
+
+/* ---- K p ---- */
+
+static bool
+pressure_in(void *at, size_t j, void *to)
+{
+    const struct rc_solver *s = ((struct pass *)at)->solver;
+    size_t n = s->posed.shape.nx;
+    const double *p = s->it.p + j * n;
+    float *row = to;
+    bool any = false;
+
+    for (size_t i = 0; i < n; i++) {
+        row[i] = (float)(p[i] * s->load.per_pressure);
+        any |= p[i] > 0;
+    }
+    return any;
+}
+
+static bool
+gap_out(void *at, size_t j, void *from)
+{
+    const struct rc_solver *s = ((struct pass *)at)->solver;
+    size_t n = s->posed.shape.nx;
+    const float *row = from;
+    const double *h = s->posed.h + j * n;
+    double *v = s->it.v + j * n, sum = 0;
+
+    for (size_t i = 0; i < n; i++) {
+        double u = (double)row[i];
+        v[i] = u * s->load.length - h[i];
+        sum += u * u;
+    }
+    rc_reduce_row(s, j)[0] = sum;
+    return true;
+}
+
+/* The first v; single precision will do for a while. */
+static void
+displace(struct rc_solver *solver, struct pcg *s)
+{
+    struct pass c = {.solver = solver, .s = s};
+    double total[RC_SUMS];
+
+    if (solver->op->row_cost >= 1) { /* for the same price in double precision */
+        rc_iterate_displace(solver);
+        return;
+    }
+    rc_reduce_rows_begin(solver);
+    rc_operator_apply_rows(solver->op, pressure_in, gap_out, &c);
+    rc_iterate_count(solver, solver->op->row_cost);
+    rc_reduce_rows_end(solver, total);
+    s->drift = solver->op->row_error * sqrt(total[0] / (double)solver->posed.n);
+    rc_iterate_known(solver);
+}
+
+static void
+begin(struct rc_solver *solver, struct pcg *s)
+{
+    displace(solver, s);
+    rc_iterate_shift(solver);
+    rc_working_set_find(solver, true);
+}
+
+/* v in double precision, and all of the working set: what is estimated from that is believed. */
+static void
+renew(struct rc_solver *solver, struct pcg *s)
+{
+    rc_iterate_displace(solver);
+    s->drift = 0;
+    rc_iterate_shift(solver);
+    rc_working_set_find(solver, false);
+}
+
+/* ---- the direction, and with it the estimate of the error ---- */
+
+enum { /* sums of z */
+    Z,
+    ZQ,
+    Q
+};
+
+static bool
+corrected(void *at, size_t j, void *row)
+{
+    const struct pass *c = at;
+    size_t n = c->solver->posed.shape.nx;
+    const float *z = c->solver->z + j * n, *q = c->s->q + j * n;
+    const unsigned char *w = c->solver->set.w + j * n;
+    double sum = 0, product = 0, other = 0;
+
+    (void)row;
+    if (c->s->curvature > 0) {
+#pragma omp simd reduction(+ : sum, product, other)
+        for (size_t i = 0; i < n; i++) {
+            double a = (double)z[i], b = (double)q[i];
+            sum += a;
+            product += a * b;
+            other += w[i] ? b : 0;
+        }
+    } else {
+#pragma omp simd reduction(+ : sum)
+        for (size_t i = 0; i < n; i++)
+            sum += (double)z[i];
+    }
+    rc_reduce_row(c->solver, j)[Z] = sum;
+    rc_reduce_row(c->solver, j)[ZQ] = product;
+    rc_reduce_row(c->solver, j)[Q] = other;
+    return true;
+}
+
+/* z becomes the direction: a is the mean of z, b beta. */
+RC_CLONES static void
+turn(size_t n, const double *restrict p, double hardness, const unsigned char *restrict w,
+     const float *restrict delta, float mean, float beta, float *restrict z, double *sums)
+{
+    double size = 0, sum = 0;
+    int kept = 0;
+
+#pragma omp simd reduction(+ : size, sum, kept)
+    for (size_t k = 0; k < n; k++) {
+        float e = z[k] - mean, d = e + (beta != 0 ? beta * delta[k] : 0);
+        bool out = ((p[k] <= 0) & (d < 0)) | ((p[k] >= hardness) & (d > 0)) | (w[k] == 0);
+        size += w[k] ? (double)fabsf(e) : 0;
+        d = out ? 0 : d;
+        z[k] = d;
+        sum += (double)d;
+        kept += d != 0;
+    }
+    sums[0] = size;
+    sums[1] = sum;
+    sums[2] = kept;
+}
+
+static void
+turn_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct pass *c = at;
+    const struct rc_solver *s = c->solver;
+
+    turn(n, s->it.p + first, s->posed.hardness, s->set.w + first, c->s->delta + first, (float)c->a,
+         (float)c->b, s->z + first, sums);
+}
+
+/* z becomes the direction, `mean` its mean; the estimate of the error of p. */
+static double
+precondition(struct rc_solver *solver, struct pcg *s, double *mean)
+{
+    struct pass c = {.solver = solver, .s = s};
+    double total[RC_SUMS], above;
+
+    if (solver->set.size < 2)
+        return 0;
+    rc_reduce_rows_begin(solver);
+    rc_working_set_correct(solver, corrected, &c);
+    rc_reduce_rows_end(solver, total);
+    c.a = total[Z] / (double)solver->set.size;
+    above = total[ZQ] - c.a * total[Q];
+    c.b = s->curvature > 0 && above < 0 ? -above / s->curvature : 0;
+    rc_reduce_blocks(solver, turn_block, &c, total);
+    *mean = total[2] > 0 ? total[1] / total[2] : 0;
+    if (solver->it.elastic == 0 && solver->set.size > 0)
+        return INFINITY; /* some want to move, but no gap says how far */
+    return (total[0] + solver->set.left_out) / solver->load.per_pressure / solver->load.sum +
+           rc_iterate_operator_error(solver);
+}
+
+/* What rounding has made of the load is put right. Should memory be short, a little of it is
+ * missing, and the result says so. */
+static void
+restore(struct rc_solver *solver, double carried)
+{
+    (void)rc_projection_restore(solver, carried, NULL);
+}
+
+static void
+start_from_springs(struct rc_solver *solver)
+{
+    double least = 0, stiffness;
+
+    for (size_t k = 0; k < solver->posed.n; k++) /* the highest is 0 */
+        least = fmin(least, solver->posed.h[k]);
+    stiffness = fmin(1 / solver->op->unit,
+                     longest * fmin(solver->posed.hardness, solver->load.sum) / -least);
+    for (size_t k = 0; k < solver->posed.n; k++)
+        solver->it.p[k] = stiffness * solver->posed.h[k];
+    rc_projection_of(solver->posed.n, solver->posed.hardness, solver->load.sum, solver->it.p);
+    restore(solver, rc_iterate_carried(solver));
+}
+
+/* The direction, its mean, and an estimate that may be believed where it is small enough. Where
+ * that is foreseen, the one that would only say so is spared. */
+static void
+look(struct rc_solver *solver, struct pcg *s, double *mean)
+{
+    double before = s->estimate;
+    bool sure = solver->posed.rough || solver->it.fresh;
+
+    if (!sure && before * s->rate <= solver->load.tol) {
+        renew(solver, s);
+        sure = true;
+    }
+    s->estimate = precondition(solver, s, mean);
+    if (solver->it.iterations == 0 && s->estimate > apart && !isinf(s->estimate)) {
+        start_from_springs(solver);
+        begin(solver, s);
+        s->estimate = precondition(solver, s, mean);
+    }
+    if (!sure && (s->estimate <= solver->load.tol || s->estimate < 3 * s->drift)) {
+        renew(solver, s);
+        s->estimate = precondition(solver, s, mean);
+    }
+    s->rate = s->estimate < before ? s->estimate / before : 1;
+}
+
+/* ---- a step along it, clipped, with one convolution of what was left ---- */
+
+enum { /* sums of a move */
+    SIZE,
+    CARRIED
+};
+
+/* W moves by rc_move, the others stay; where nothing is clipped, how much of it fits into the box. */
+RC_CLONES static void
+move_by(size_t n, double *restrict p, const unsigned char *restrict w, const float *restrict d,
+        double hardness, double alpha, double mean, double shift, double scale,
+        float *restrict delta, double *sums)
+{
+    double size = 0, carried = 0;
+
+#pragma omp simd reduction(+ : size, carried)
+    for (size_t k = 0; k < n; k++) {
+        double e = (double)d[k], y = p[k] + shift + (e != 0 ? alpha * (e - mean) : 0), change;
+        y = y > 0 ? y : 0;
+        y = y < hardness ? y : hardness;
+        y = w[k] ? y : p[k];
+        change = y - p[k];
+        p[k] = y;
+        delta[k] = (float)(change * scale);
+        size += fabs(change);
+        carried += y;
+    }
+    sums[SIZE] = size;
+    sums[CARRIED] = carried;
+}
+
+/* After a move: the largest part of the way to a bound that any node has gone. */
+RC_CLONES static double
+farthest(size_t n, const double *restrict p, const float *restrict delta, double hardness,
+         double scale)
+{
+    double most = 0;
+
+#pragma omp simd reduction(max : most)
+    for (size_t k = 0; k < n; k++) {
+        double e = (double)delta[k] * scale, was = p[k] - e;
+        double part = e < 0 ? -e / was : e > 0 ? e / (hardness - was) : 0;
+        most = part > most ? part : most;
+    }
+    return most;
+}
+
+static void
+move_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct pass *c = at;
+    struct rc_solver *s = c->solver;
+    const struct rc_move *m = c->move;
+    float *delta = c->s->delta + first;
+
+    move_by(n, s->it.p + first, s->set.w + first, m->d + first, s->posed.hardness, m->alpha,
+            m->mean, m->shift, s->load.per_pressure, delta, sums);
+    if (!m->clipped)
+        sums[RC_MOST] =
+            farthest(n, s->it.p + first, delta, s->posed.hardness, 1 / s->load.per_pressure);
+}
+
+static bool
+step_in(void *at, size_t j, void *to)
+{
+    const struct pass *c = at;
+    size_t n = c->solver->posed.shape.nx;
+    const float *delta = c->s->delta + j * n;
+    float *row = to;
+    bool any = false;
+
+    for (size_t i = 0; i < n; i++) {
+        row[i] = delta[i];
+        any |= delta[i] != 0;
+    }
+    return any;
+}
+
+enum {
+    SLOPE,     /* delta'g                                  */
+    CURVATURE, /* delta'q                                  */
+    GAP,       /* v after the whole step on elastic nodes  */
+    ELASTIC,
+    SQUARE /* q'q                                      */
+};
+
+RC_CLONES static void
+along(size_t n, const double *restrict p, const double *restrict v, double hardness, double shift,
+      double length, const float *delta, const float *row, float *q, double *sums)
+{
+    double slope = 0, curvature = 0, gap = 0, elastic = 0, square = 0;
+
+#pragma omp simd reduction(+ : slope, curvature, gap, elastic, square)
+    for (size_t i = 0; i < n; i++) {
+        double d = (double)delta[i], u = (double)row[i];
+        bool in = (p[i] > 0) & (p[i] < hardness);
+        q[i] = row[i];
+        slope += d * (v[i] - shift);
+        curvature += d * u;
+        square += u * u;
+        gap += in ? v[i] + length * u : 0;
+        elastic += in ? 1 : 0;
+    }
+    sums[SLOPE] = slope;
+    sums[CURVATURE] = curvature;
+    sums[GAP] = gap;
+    sums[ELASTIC] = elastic;
+    sums[SQUARE] = square;
+}
+
+static bool
+step_out(void *at, size_t j, void *from)
+{
+    const struct pass *c = at;
+    const struct rc_solver *s = c->solver;
+    size_t n = s->posed.shape.nx, k = j * n;
+
+    along(n, s->it.p + k, s->it.v + k, s->posed.hardness, s->it.shift, s->load.length,
+          c->s->delta + k, from, c->s->q + k, rc_reduce_row(s, j));
+    return true;
+}
+
+RC_CLONES static void
+follow(size_t n, const float *restrict q, double factor, double *restrict v)
+{
+    for (size_t k = 0; k < n; k++)
+        v[k] += factor * (double)q[k];
+}
+
+/* v goes along with p: a is how much of the step. */
+static void
+follow_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct pass *c = at;
+
+    (void)sums;
+    follow(n, c->s->q + first, c->a * c->solver->load.length, c->solver->it.v + first);
+}
+
+/* Takes p back by b of the step; what rounding leaves of a node that came from a bound is nothing. */
+static void
+back_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct pass *c = at;
+    double hardness = c->solver->posed.hardness, *p = c->solver->it.p;
+    const float *delta = c->s->delta;
+
+    (void)sums;
+    for (size_t k = first; k < first + n; k++) {
+        double e = (double)delta[k] / c->solver->load.per_pressure, y = p[k] - c->b * e;
+        double rounding = 1e-6 * fabs(e);
+        if (e == 0)
+            continue;
+        p[k] = y <= rounding ? 0 : y >= hardness - rounding ? hardness : y;
+    }
+}
+
+/* What a trial step found. */
+struct trial {
+    double size;    /* relative L1 norm                                            */
+    double carried; /* the sum of p after it                                       */
+    double room;    /* how much of it fits into the box: 1 or, not clipped, more   */
+    double best;    /* how much of it leads to the lowest energy; 0: nowhere       */
+    bool clipped;
+    double total[RC_SUMS];
+};
+
+/* p goes along the direction in z, of that mean, back into the box; delta, q and what they say. */
+static void
+attempt(struct rc_solver *solver, struct pcg *s, double alpha, double mean, struct trial *t)
+{
+    struct rc_move move = {.solver = solver,
+                           .d = solver->z,
+                           .mean = mean,
+                           .list = s->list,
+                           .alpha = alpha / solver->load.per_pressure};
+    struct pass c = {.solver = solver, .s = s, .move = &move};
+    double best;
+
+    rc_move_find(&move);
+    rc_reduce_blocks(solver, move_block, &c, t->total);
+    t->clipped = move.clipped;
+    t->size = t->total[SIZE] / solver->load.sum;
+    t->carried = t->total[CARRIED];
+    t->room = move.clipped || !(t->total[RC_MOST] > 0) ? 1 : 1 / t->total[RC_MOST];
+    rc_reduce_rows_begin(solver);
+    rc_operator_apply_rows(solver->op, step_in, step_out, &c);
+    rc_iterate_count(solver, solver->op->row_cost);
+    rc_reduce_rows_end(solver, t->total);
+    best = -t->total[SLOPE] / (solver->load.length * t->total[CURVATURE]);
+    t->best = t->total[CURVATURE] > 0 && best > 0 ? best : 0;
+}
+
+static void
+undo(struct rc_solver *solver, struct pcg *s, const struct trial *t)
+{
+    struct pass c = {.solver = solver, .s = s, .b = 1};
+    double total[RC_SUMS];
+
+    rc_reduce_blocks(solver, back_block, &c, total);
+    restore(solver, rc_iterate_carried(solver));
+    s->drift += solver->op->row_error * t->size; /* delta was rounded */
+}
+
+/* From p along the direction in z, of that mean, back into the box, to where the energy is low,
+ * or lower; v, the working set and the residual follow. The relative change of p; 0 when that
+ * leads nowhere: p is then where it was. */
+static double
+advance(struct rc_solver *solver, struct pcg *s, double alpha, double mean)
+{
+    struct pass c = {.solver = solver, .s = s};
+    struct trial t;
+    double total[RC_SUMS], part;
+
+    attempt(solver, s, alpha, mean, &t);
+    /* too far: a part of a clipped step would leave nodes just off their bounds, one after another;
+     * a shorter step, clipped anew, brings them to rest */
+    for (int tries = 0; tries < TRIES && t.clipped && t.best < enough; tries++) {
+        undo(solver, s, &t);
+        alpha *= fmax(t.best, 0.2);
+        attempt(solver, s, alpha, mean, &t);
+    }
+    if (t.best == 0) {
+        undo(solver, s, &t);
+        s->curvature = 0;
+        return 0;
+    }
+    part = !t.clipped ? fmin(t.best, t.room) : t.best >= enough ? 1 : t.best;
+    c.a = part;
+    c.b = 1 - part;
+    s->curvature = t.clipped ? 0 : t.total[CURVATURE];
+    s->drift += solver->op->row_error * part * sqrt(t.total[SQUARE] / (double)solver->posed.n);
+    if (part == 1)
+        rc_iterate_moved(solver, t.total[GAP], t.total[ELASTIC]);
+    else
+        rc_iterate_moved(solver, 0, 0);
+    rc_reduce_blocks(solver, follow_block, &c, total);
+    if (part != 1) {
+        rc_reduce_blocks(solver, back_block, &c, total);
+        t.carried = rc_iterate_carried(solver);
+    }
+    restore(solver, t.carried);
+    if (solver->it.elastic == 0)
+        rc_iterate_shift(solver);
+    rc_working_set_find(solver, true);
+    s->alpha = fmin(fmax(alpha * sqrt(t.best), 0.3), 1.2);
+    return t.size * part;
 }
 
 /* ---- the step that is sure ---- */
@@ -83,141 +582,67 @@ state_new(struct rc_solver *solver, struct rc_err *err)
 static void
 gradient_block(void *at, size_t first, size_t n, double *sums)
 {
-    const struct rc_pcg_pass *c = at;
+    const struct pass *c = at;
     struct rc_solver *s = c->solver;
 
     for (size_t k = first; k < first + n; k++) {
-        float d = (float)(-(s->v[k] - s->shift) * c->a);
+        float d = (float)(-(s->it.v[k] - s->it.shift) * c->a);
         s->z[k] = d;
-        s->w[k] = 1;
         sums[0] += fabs((double)d);
     }
 }
 
 /* Descends at any `length`, for the way to a projection always does: 1 / |K|, or that of a
  * single node. */
-static bool
-gradient_step(struct rc_solver *solver, struct rc_pcg *s, double length)
+static double
+gradient_step(struct rc_solver *solver, struct pcg *s, double length)
 {
-    struct rc_pcg_pass c = {.solver = solver, .s = s, .a = solver->per_pressure * length};
-    double total[RC_SUMS], size;
-    bool better;
+    struct pass c = {.solver = solver, .s = s, .a = solver->load.per_pressure * length};
+    double total[RC_SUMS], size, change;
 
-    rc_solver_blocks(solver, gradient_block, &c, total);
-    rc_solver_forget(solver);
-    size = total[0] / solver->per_pressure / solver->sum;
-    better = rc_pcg_advance(solver, s, size > longest ? longest / size : 1, 0);
+    rc_reduce_blocks(solver, gradient_block, &c, total);
+    rc_working_set_all(solver);
+    size = total[0] / solver->load.per_pressure / solver->load.sum;
+    change = advance(solver, s, size > longest ? longest / size : 1, 0);
     s->curvature = 0; /* not a direction to be conjugate to */
-    if (!better)
-        rc_solver_residual(solver, false);
-    return better;
+    if (change == 0)
+        rc_working_set_find(solver, false);
+    return change;
 }
 
-/* Where the start is that far off, heights are so large beside the displacement that nodes
- * decide nearly alone whether they touch, or yield: as springs, each of the stiffness of its own
- * cell. */
-static const double apart = 100;
+/* ---- the iteration ---- */
 
-static void
-start_from_springs(struct rc_solver *solver)
-{
-    double least = 0, stiffness;
-
-    for (size_t k = 0; k < solver->n; k++) /* the highest is 0 */
-        least = fmin(least, solver->h[k]);
-    stiffness = fmin(solver->estar / sqrt(solver->cell),
-                     longest * fmin(solver->hardness, solver->sum) / -least);
-    for (size_t k = 0; k < solver->n; k++)
-        solver->p[k] = stiffness * solver->h[k];
-    rc_box_project(solver->n, NULL, solver->hardness, solver->sum, solver->p);
-    rc_pcg_balance(solver, rc_solver_carried(solver));
-}
-
-/* The first v, in single precision where that will do. */
-static void
-begin(struct rc_solver *solver, struct rc_pcg *s)
-{
-    rc_pcg_begin(solver, s);
-    rc_solver_shift(solver);
-    rc_solver_residual(solver, true);
-}
-
-/* v in double precision, and all of the working set: what is estimated from that is believed. */
-static void
-renew(struct rc_solver *solver, struct rc_pcg *s)
-{
-    rc_solver_displace(solver);
-    s->drift = 0;
-    rc_solver_shift(solver);
-    rc_solver_residual(solver, false);
-}
-
-/* The direction, its mean, and an estimate that may be believed where it is small enough. Where
- * that is foreseen, the one that would only say so is spared. */
-static void
-look(struct rc_solver *solver, struct rc_pcg *s, double *mean)
-{
-    double before = solver->estimate;
-    bool sure = solver->rough || solver->fresh;
-
-    if (!sure && before * s->rate <= solver->tol) {
-        renew(solver, s);
-        sure = true;
-    }
-    solver->estimate = rc_pcg_precondition(solver, s, mean);
-    if (solver->iterations == 0 && solver->estimate > apart && !isinf(solver->estimate)) {
-        start_from_springs(solver);
-        begin(solver, s);
-        solver->estimate = rc_pcg_precondition(solver, s, mean);
-    }
-    if (!sure && (solver->estimate <= solver->tol || solver->estimate < 3 * s->drift)) {
-        renew(solver, s);
-        solver->estimate = rc_pcg_precondition(solver, s, mean);
-    }
-    s->rate = solver->estimate < before ? solver->estimate / before : 1;
-}
-
-static void
+static struct rc_found
 step(struct rc_solver *solver, void *at)
 {
-    struct rc_pcg *s = at;
+    struct pcg *s = at;
+    struct rc_found found = {0};
     double mean = 0, alpha;
     bool still;
 
-    if (!solver->known)
+    if (!solver->it.known)
         begin(solver, s);
-    solver->change = 0;
     look(solver, s, &mean);
-    if (solver->estimate <= solver->tol)
-        return;
-    if (solver->estimate < 0.9 * s->best) {
-        s->best = solver->estimate;
-        s->best_at = solver->iterations;
-    } else if (solver->iterations > s->best_at + PATIENCE) {
-        return; /* rounding: it stands still */
+    found.estimate = s->estimate;
+    if (s->estimate <= solver->load.tol)
+        return found;
+    if (s->estimate < 0.9 * s->best) {
+        s->best = s->estimate;
+        s->best_at = solver->it.iterations;
+    } else if (solver->it.iterations > s->best_at + PATIENCE) {
+        return found; /* rounding: it stands still */
     }
-    alpha = solver->estimate * s->alpha > longest ? longest / solver->estimate : s->alpha;
-    /* A direction cut at the bounds need not descend. Where that happens again and again, what
-     * is wrong is at single nodes at the edges of contact, where a step of 1 / |K| does nothing. */
-    still = solver->iterations > s->best_at + 3;
-    if (solver->iterations % SPACER == SPACER - 1)
-        (void)gradient_step(solver, s, 1 / rc_safeguard_norm(solver));
-    else if (!rc_pcg_advance(solver, s, alpha, mean))
-        (void)gradient_step(solver, s,
-                            still && solver->iterations % 2 == 0
-                                ? solver->estar / sqrt(solver->cell)
-                                : 1 / rc_safeguard_norm(solver));
-}
-
-static void
-again(void *at)
-{
-    struct rc_pcg *s = at;
-
-    s->curvature = 0;
-    s->best = INFINITY;
-    s->best_at = 0;
-    s->rate = 1;
+    /* A direction cut at the bounds need not descend. Where that happens again and again, what is
+     * wrong is at single nodes at the edges of contact, where a step of 1 / |K| does nothing. */
+    alpha = s->estimate * s->alpha > longest ? longest / s->estimate : s->alpha;
+    still = solver->it.iterations > s->best_at + 3;
+    if (solver->it.iterations % SPACER == SPACER - 1)
+        found.change = gradient_step(solver, s, 1 / solver->op->norm);
+    else if ((found.change = advance(solver, s, alpha, mean)) == 0)
+        found.change = gradient_step(
+            solver, s,
+            1 / (still && solver->it.iterations % 2 == 0 ? solver->op->unit : solver->op->norm));
+    return found;
 }
 
 /* As bench-solve found them at 512^2 to 2048^2, 1 to 99 % contact: the grid does not matter. */
@@ -232,9 +657,10 @@ const struct rc_method rc_method_pcg = {
     .info = {.name = "pcg",
              .summary = "projected conjugate gradients with the extension preconditioner",
              .mixed = true},
+    .nested = true,
     .convolutions = convolutions,
     .new = state_new,
     .step = step,
-    .again = again,
+    .forget = forget,
     .free = state_free,
 };

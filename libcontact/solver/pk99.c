@@ -6,7 +6,7 @@
  * contact where the gap is negative.
  *
  * Where many nodes change sides at once the scheme can cycle for ever (one tall node over a plain;
- * loads close to saturation): guard.c takes back what raised the energy.
+ * loads close to saturation): safeguard.c takes back what raised the energy.
  */
 #include "solver.h"
 
@@ -22,7 +22,7 @@ struct state {
     double delta; /* 0: the next direction is steepest descent       */
     double tau;   /* last step length, 0 before the first            */
     double first; /* a length that is safe where (26) is 0/0         */
-    struct rc_safeguard guard;
+    struct rc_safeguard safeguard;
 };
 
 static void
@@ -39,34 +39,30 @@ state_free(void *at)
 }
 
 static void *
-state_new(struct rc_solver *solver, struct rc_err *err)
+state_new(const struct rc_solver *solver, struct rc_err *err)
 {
-    struct rc_medium medium = {.estar = solver->estar};
-    struct rc_lattice cell = {solver->shape.dx, solver->shape.dy, 1, 1};
     struct state *s = calloc(1, sizeof *s);
-    double self;
 
     if (s != NULL) {
-        s->t = calloc(solver->n, sizeof *s->t);
-        s->r = malloc(solver->n * sizeof *s->r);
-        s->old = malloc(solver->n * sizeof *s->old);
+        s->t = calloc(solver->posed.n, sizeof *s->t);
+        s->r = malloc(solver->posed.n * sizeof *s->r);
+        s->old = malloc(solver->posed.n * sizeof *s->old);
     }
     if (s == NULL || s->t == NULL || s->r == NULL || s->old == NULL) {
-        rc_err_set(err, "out of memory for the iteration of %zu nodes", solver->n);
+        rc_err_set(err, "out of memory for the iteration of %zu nodes", solver->posed.n);
         state_free(s);
         return NULL;
     }
     s->G = 1;
-    s->guard.energy = INFINITY;
-    rc_kernel_boussinesq.rows(&medium, 0, &cell, 1, 0, 1, &self);
-    s->first = 1 / self;
+    s->safeguard.energy = INFINITY;
+    s->first = 1 / solver->op->diagonal;
     return s;
 }
 
 static double
 gap(const struct rc_solver *solver, size_t k)
 {
-    return solver->v[k] - solver->shift;
+    return solver->it.v[k] - solver->it.shift;
 }
 
 /* What the passes below share: the solver, its state here, and numbers found by an earlier one. */
@@ -103,10 +99,10 @@ direct(struct rc_solver *solver, struct state *s)
     struct pass c = {.solver = solver, .s = s};
     double total[RC_SUMS], G;
 
-    rc_solver_blocks(solver, norm_block, &c, total);
+    rc_reduce_blocks(solver, norm_block, &c, total);
     G = total[0];
     c.number = s->G > 0 ? s->delta * G / s->G : 0;
-    rc_solver_blocks(solver, direction_block, &c, total);
+    rc_reduce_blocks(solver, direction_block, &c, total);
     s->G = G;
 }
 
@@ -133,17 +129,17 @@ measure(struct rc_solver *solver, struct state *s)
     struct pass c = {.solver = solver, .s = s};
     double total[RC_SUMS], above, below;
 
-    if (solver->elastic < 2 || !(s->G > 0))
+    if (solver->it.elastic < 2 || !(s->G > 0))
         return;
-    rc_conv_apply(solver->conv, s->t, s->r);
-    solver->convolutions++;
-    rc_solver_blocks(solver, length_block, &c, total);
+    rc_operator_apply(solver->op, s->t, s->r);
+    rc_iterate_count(solver, 1);
+    rc_reduce_blocks(solver, length_block, &c, total);
     above = total[1];
-    below = total[2] - total[0] / (double)solver->elastic * total[3];
+    below = total[2] - total[0] / (double)solver->it.elastic * total[3];
     if (below > 0 && above > 0)
         s->tau = above / below;
     else
-        memset(s->t, 0, solver->n * sizeof *s->t);
+        memset(s->t, 0, solver->posed.n * sizeof *s->t);
 }
 
 /* (28) to (30): the step, the box, and the nodes that want to leave their bound, counted. */
@@ -155,16 +151,16 @@ move_block(void *at, size_t first, size_t n, double *sums)
     double tau = c->number;
 
     for (size_t k = first; k < first + n; k++) {
-        double p = solver->p[k], g = gap(solver, k);
+        double p = solver->it.p[k], g = gap(solver, k);
 
         c->s->old[k] = p;
-        if (p > 0 && p < solver->hardness && solver->elastic > 1)
-            p = fmin(fmax(p - tau * c->s->t[k], 0), solver->hardness);
-        if ((p == 0 && g < 0) || (p == solver->hardness && g > 0)) {
-            p = fmin(fmax(p - tau * g, 0), solver->hardness);
+        if (p > 0 && p < solver->posed.hardness && solver->it.elastic > 1)
+            p = fmin(fmax(p - tau * c->s->t[k], 0), solver->posed.hardness);
+        if ((p == 0 && g < 0) || (p == solver->posed.hardness && g > 0)) {
+            p = fmin(fmax(p - tau * g, 0), solver->posed.hardness);
             sums[0]++;
         }
-        solver->p[k] = p;
+        solver->it.p[k] = p;
     }
 }
 
@@ -174,7 +170,7 @@ move(struct rc_solver *solver, struct state *s)
     struct pass c = {.solver = solver, .s = s, .number = s->tau > 0 ? s->tau : s->first};
     double total[RC_SUMS];
 
-    rc_solver_blocks(solver, move_block, &c, total);
+    rc_reduce_blocks(solver, move_block, &c, total);
     s->delta = total[0] > 0 ? 0 : 1;
 }
 
@@ -184,43 +180,44 @@ change_block(void *at, size_t first, size_t n, double *sums)
     const struct pass *c = at;
 
     for (size_t k = first; k < first + n; k++)
-        sums[0] += fabs(c->solver->p[k] - c->s->old[k]);
+        sums[0] += fabs(c->solver->it.p[k] - c->s->old[k]);
 }
 
-static void
+static struct rc_found
 step(struct rc_solver *solver, void *at)
 {
     struct state *s = at;
     struct pass c = {.solver = solver, .s = s};
     double total[RC_SUMS];
 
-    if (!solver->fresh)
-        rc_solver_displace(solver);
-    if (rc_safeguard_raised(&s->guard, solver)) {
+    if (!solver->it.fresh)
+        rc_iterate_displace(solver);
+    if (rc_safeguard_raised(&s->safeguard, solver)) {
         rc_safeguard_step(solver, s->old, s->t, s->r);
         s->delta = 0;
     } else {
-        rc_solver_shift(solver);
+        rc_iterate_shift(solver);
         direct(solver, s);
         measure(solver, s);
         move(solver, s);
     }
-    if (rc_box_balance(solver->n, solver->hardness, solver->sum, solver->v, solver->p, NULL) !=
-        RC_OK)
-        memcpy(solver->p, s->old, solver->n * sizeof *s->old); /* out of memory: stand still */
-    solver->known = solver->fresh = false;
-    rc_solver_blocks(solver, change_block, &c, total);
-    solver->change = total[0] / solver->sum; /* (32) */
+    if (rc_projection_balance(solver->posed.n, solver->posed.hardness, solver->load.sum,
+                              solver->it.v, solver->it.p, NULL) != RC_OK)
+        memcpy(solver->it.p, s->old,
+               solver->posed.n * sizeof *s->old); /* out of memory: stand still */
+    rc_iterate_unknown(solver);
+    rc_reduce_blocks(solver, change_block, &c, total);
+    return (struct rc_found){.change = total[0] / solver->load.sum /* (32) */, .estimate = NAN};
 }
 
 static void
-again(void *at)
+forget(void *at)
 {
     struct state *s = at;
 
     s->G = 1;
     s->delta = s->tau = 0;
-    s->guard.energy = INFINITY;
+    s->safeguard.energy = INFINITY;
 }
 
 /* It has to find the contact first, and is quick then. */
@@ -235,6 +232,6 @@ const struct rc_method rc_method_pk99 = {
     .convolutions = convolutions,
     .new = state_new,
     .step = step,
-    .again = again,
+    .forget = forget,
     .free = state_free,
 };

@@ -8,17 +8,16 @@
 #include "libcontact/memory.h"
 
 struct rc_preconditioner {
-    struct rc_shape unit; /* the grid in units of sqrt(dx dy) */
-    enum rc_boundary boundary;
-    struct rc_fft
-        *fft; /* single precision is enough: only the residual has to be exact           */
-    struct rc_spectrum *kernel, *inverse, *spread; /* K, A and G                           */
-    float *weight;  /* off W: 1 / (sum_j G_ij + d_i^(-1/2) / 2); on W: 0                    */
-    uint16_t *term; /* d_i^(-1/2) / 2, upper halves of floats; 1 on W when they were found  */
+    struct rc_operator *op;     /* the caller's                                                  */
+    struct rc_shape unit;       /* the grid in units of sqrt(dx dy)                              */
+    struct rc_spectrum *spread; /* G                                                         */
+    float fade;                 /* c, for d_i^(-1/2)                                             */
+    float *weight;              /* off W: 1 / (sum_j G_ij + c d_i^(-1/2)); on W: 0               */
+    float *term;                /* c d_i^(-1/2)                                                  */
     const unsigned char *w;
-    bool measure; /* the distances are to be found again                                  */
+    bool measure; /* the distances are to be found again                           */
     int threads;
-    size_t own; /* numbers of scratch of one thread                                     */
+    size_t own; /* numbers of scratch of one thread                              */
     float *scratch;
 };
 
@@ -51,41 +50,34 @@ static const struct rc_kernel spread = {
 };
 
 struct rc_preconditioner *
-rc_preconditioner_new(const struct rc_shape *shape, enum rc_boundary boundary, size_t threads,
-                      struct rc_err *err)
+rc_preconditioner_new(struct rc_operator *op, struct rc_err *err)
 {
-    struct rc_medium medium = {.estar = 1};
     struct rc_preconditioner *e = calloc(1, sizeof *e);
-    size_t n = shape->nx * shape->ny;
-    double unit = sqrt(shape->dx) * sqrt(shape->dy);
+    size_t n = op->shape.nx * op->shape.ny;
+    double unit = sqrt(op->shape.dx) * sqrt(op->shape.dy);
 
     if (e == NULL)
         goto short_of_memory;
-    e->boundary = boundary;
-    e->threads = rc_useful_threads(shape, threads);
-    e->unit = *shape;
+    e->op = op;
+    e->threads = rc_useful_threads(&op->shape, op->threads);
+    e->unit = op->shape;
     e->unit.dx /= unit;
     e->unit.dy /= unit;
-    e->own = rc_distance_scratch(&e->unit) + shape->nx;
+    e->fade = (float)op->extension;
+    e->own = rc_distance_scratch(&e->unit) + op->shape.nx;
     e->weight = rc_alloc(n, sizeof *e->weight);
     e->term = rc_alloc(n, sizeof *e->term);
     e->scratch = rc_alloc((size_t)e->threads * e->own, sizeof *e->scratch);
     if (e->weight == NULL || e->term == NULL || e->scratch == NULL)
         goto short_of_memory;
-    if ((e->fft = rc_fft_new(&e->unit, boundary, RC_SINGLE, threads, err)) == NULL ||
-        (e->kernel = rc_spectrum_new(e->fft, err)) == NULL ||
-        (e->inverse = rc_spectrum_new(e->fft, err)) == NULL ||
-        (e->spread = rc_spectrum_new(e->fft, err)) == NULL ||
-        rc_spectrum_set(e->kernel, e->fft, &rc_kernel_boussinesq, 0, &medium, err) != RC_OK ||
-        rc_spectrum_set_values(e->spread, e->fft, &spread, 0, &medium, err) != RC_OK) {
+    if ((e->spread = rc_operator_spectrum(op, &spread, err)) == NULL) {
         rc_preconditioner_free(e);
         return NULL;
     }
-    rc_spectrum_set_reciprocal(e->inverse, e->fft, e->kernel);
     return e;
 short_of_memory:
-    rc_err_set(err, "out of memory for the error estimate of %zu x %zu nodes", shape->nx,
-               shape->ny);
+    rc_err_set(err, "out of memory for the error estimate of %zu x %zu nodes", op->shape.nx,
+               op->shape.ny);
     rc_preconditioner_free(e);
     return NULL;
 }
@@ -95,9 +87,6 @@ rc_preconditioner_free(struct rc_preconditioner *e)
 {
     if (e == NULL)
         return;
-    rc_fft_free(e->fft);
-    rc_spectrum_free(e->kernel);
-    rc_spectrum_free(e->inverse);
     rc_spectrum_free(e->spread);
     free(e->weight);
     free(e->term);
@@ -108,9 +97,8 @@ rc_preconditioner_free(struct rc_preconditioner *e)
 size_t
 rc_preconditioner_memory(const struct rc_shape *shape, enum rc_boundary boundary)
 {
-    return rc_fft_memory(shape, boundary, RC_SINGLE) +
-           2 * rc_spectrum_memory(shape, boundary, RC_SINGLE) +
-           shape->nx * shape->ny * (sizeof(float) + sizeof(uint16_t));
+    return rc_spectrum_memory(shape, boundary, RC_SINGLE) +
+           shape->nx * shape->ny * 2 * sizeof(float);
 }
 
 /* ---- the working set ---- */
@@ -131,42 +119,22 @@ mask_in(void *at, size_t j, void *row)
     return any != 0;
 }
 
-/* Eight bits are more than these terms are worth. */
-static inline uint16_t
-upper(float x)
-{
-    uint32_t bits;
-
-    memcpy(&bits, &x, sizeof bits);
-    return (uint16_t)(bits >> 16);
-}
-
-static inline float
-whole(uint16_t x)
-{
-    uint32_t bits = (uint32_t)x << 16;
-    float f;
-
-    memcpy(&f, &bits, sizeof f);
-    return f;
-}
-
 RC_CLONES static void
-terms(size_t n, const float *restrict d2, uint16_t *restrict term)
+terms(size_t n, float fade, const float *restrict d2, float *restrict term)
 {
     for (size_t i = 0; i < n; i++) {
         float d = sqrtf(d2[i]) - 0.5f;
-        term[i] = upper(0.5f / sqrtf(d > 0.25f ? d : 0.25f));
+        term[i] = fade / sqrtf(d > 0.25f ? d : 0.25f);
     }
 }
 
 RC_CLONES static void
-weigh(size_t n, const unsigned char *w, const float *sums, const uint16_t *term,
+weigh(size_t n, const unsigned char *w, const float *sums, const float *term,
       float *restrict weight)
 {
     for (size_t i = 0; i < n; i++) {
         float sum = sums[i] > 0 ? sums[i] : 0;
-        weight[i] = w[i] ? 0 : 1 / (sum + whole(term[i]));
+        weight[i] = w[i] ? 0 : 1 / (sum + term[i]);
     }
 }
 
@@ -180,8 +148,8 @@ weights_out(void *at, size_t j, void *row)
     float *d2 = scratch + rc_distance_scratch(&e->unit), *weight = e->weight + j * n;
 
     if (e->measure) {
-        rc_distance_row(&e->unit, e->boundary, scratch, weight, d2);
-        terms(n, d2, e->term + j * n);
+        rc_distance_row(&e->unit, e->op->boundary, scratch, weight, d2);
+        terms(n, e->fade, d2, e->term + j * n);
     }
     weigh(n, e->w + j * n, row, e->term + j * n, weight);
     return true;
@@ -190,14 +158,14 @@ weights_out(void *at, size_t j, void *row)
 void
 rc_preconditioner_set(struct rc_preconditioner *e, const unsigned char *w, bool measure)
 {
-    const struct rc_spectrum *kernels[] = {e->spread};
+    const struct rc_spectrum *factors[] = {e->spread};
     rc_row *rows[] = {mask_in, weights_out};
 
     e->w = w;
     e->measure = measure;
     if (measure)
-        rc_distance_columns(&e->unit, e->boundary, w, e->threads, e->weight);
-    rc_fft_chain(e->fft, 1, kernels, rows, e);
+        rc_distance_columns(&e->unit, e->op->boundary, w, e->threads, e->weight);
+    rc_operator_chain(e->op, 1, factors, rows, e);
 }
 
 /* ---- E' A E ---- */
@@ -290,17 +258,8 @@ rc_preconditioner_apply(struct rc_preconditioner *e, const float *r, float offse
                         rc_row *done, void *ctx)
 {
     struct correction c = {.e = e, .r = r, .offset = offset, .z = z, .done = done, .ctx = ctx};
-    const struct rc_spectrum *kernels[] = {e->spread, e->inverse, e->spread};
+    const struct rc_spectrum *factors[] = {e->spread, e->op->inverse, e->spread};
     rc_row *rows[] = {residual_in, extended, parted, correction_out};
 
-    rc_fft_chain(e->fft, 3, kernels, rows, &c);
-}
-
-void
-rc_preconditioner_displace(struct rc_preconditioner *e, rc_row *in, rc_row *out, void *ctx)
-{
-    const struct rc_spectrum *kernels[] = {e->kernel};
-    rc_row *rows[] = {in, out};
-
-    rc_fft_chain(e->fft, 1, kernels, rows, ctx);
+    rc_operator_chain(e->op, 3, factors, rows, &c);
 }

@@ -9,15 +9,15 @@
 static double
 edge_load(const struct rc_solver *s)
 {
-    size_t nx = s->shape.nx, ny = s->shape.ny;
+    size_t nx = s->posed.shape.nx, ny = s->posed.shape.ny;
     size_t mx = nx < 3 ? 0 : (nx + 49) / 50, my = ny < 3 ? 0 : (ny + 49) / 50;
     double sum = 0;
 
     for (size_t j = 0; j < ny; j++)
         for (size_t i = 0; i < nx; i++)
             if (i < mx || i + mx >= nx || j < my || j + my >= ny)
-                sum += s->p[j * nx + i];
-    return sum / s->sum;
+                sum += s->it.p[j * nx + i];
+    return sum / s->load.sum;
 }
 
 struct figures {
@@ -43,12 +43,12 @@ count_block(void *at, size_t first, size_t n, double *sums)
     const struct rc_solver *s = ((struct figures *)at)->s;
 
     for (size_t k = first; k < first + n; k++) {
-        double p = s->p[k];
+        double p = s->it.p[k];
         sums[CONTACT] += p > 0;
-        sums[PLASTIC] += p >= s->hardness;
+        sums[PLASTIC] += p >= s->posed.hardness;
         sums[PRESSURE] += p;
-        sums[HEIGHT] += s->h[k];
-        sums[V] += s->v[k];
+        sums[HEIGHT] += s->posed.h[k];
+        sums[V] += s->it.v[k];
         sums[RC_MOST] = p > sums[RC_MOST] ? p : sums[RC_MOST];
     }
 }
@@ -61,12 +61,12 @@ spread_block(void *at, size_t first, size_t n, double *sums)
     const struct rc_solver *s = f->s;
 
     for (size_t k = first; k < first + n; k++) {
-        double g = s->v[k] - s->shift, u = s->v[k] + s->h[k], p = s->p[k], worst;
-        double h = s->h[k] - f->mean_h, around = u - f->mean_u;
+        double g = s->it.v[k] - s->it.shift, u = s->it.v[k] + s->posed.h[k], p = s->it.p[k], worst;
+        double h = s->posed.h[k] - f->mean_h, around = u - f->mean_u;
 
         sums[SPREAD_H] += h * h;
         sums[SPREAD_U] += around * around;
-        worst = p <= 0 ? fmax(-g, 0) : p >= s->hardness ? fmax(g, 0) : fabs(g);
+        worst = p <= 0 ? fmax(-g, 0) : p >= s->posed.hardness ? fmax(g, 0) : fabs(g);
         sums[RC_MOST] = worst > sums[RC_MOST] ? worst : sums[RC_MOST];
         if (f->displacement != NULL)
             f->displacement[k] = u;
@@ -79,11 +79,11 @@ spread_block(void *at, size_t first, size_t n, double *sums)
 static size_t
 edge_nodes(const struct rc_solver *s)
 {
-    size_t nx = s->shape.nx, ny = s->shape.ny, count = 0;
+    size_t nx = s->posed.shape.nx, ny = s->posed.shape.ny, count = 0;
 
     for (size_t j = 0; j < ny; j++)
         for (size_t i = 0; i < nx; i++) {
-            const double *p = s->p + j * nx + i;
+            const double *p = s->it.p + j * nx + i;
             count += p[0] > 0 && ((i > 0 && p[-1] <= 0) || (i + 1 < nx && p[1] <= 0) ||
                                   (j > 0 && p[-(ptrdiff_t)nx] <= 0) || (j + 1 < ny && p[nx] <= 0));
         }
@@ -106,53 +106,60 @@ left_out(const struct rc_solver *s, const struct rc_contact *c)
     return d;
 }
 
-void
-rc_solver_plastic(const struct rc_solver *s, double *h)
+enum rc_status
+rc_solver_plastic(const struct rc_solver *s, double *h, struct rc_err *err)
 {
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (size_t k = 0; k < s->n; k++) {
-        double g = s->v[k] - s->shift;
-        h[k] = s->h[k] + s->top + (s->p[k] >= s->hardness && g < 0 ? g : 0);
+    if (s->stage != RC_STAGE_JUDGED)
+        return rc_err_set(err, "the shape after yield is that of a result: ask for "
+                               "rc_solver_result first");
+#pragma omp parallel for num_threads(s->posed.threads) schedule(static)
+    for (size_t k = 0; k < s->posed.n; k++) {
+        double g = s->it.v[k] - s->it.shift;
+        h[k] = s->posed.h[k] + s->posed.top + (s->it.p[k] >= s->posed.hardness && g < 0 ? g : 0);
     }
+    return RC_OK;
 }
 
 void
 rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct rc_contact *c)
 {
     struct figures f = {.s = s, .displacement = displacement, .gap = gap};
-    double total[RC_SUMS], n = (double)s->n, scale;
-    bool stopped = !s->known || !s->fresh;
+    double total[RC_SUMS], n = (double)s->posed.n, scale;
+    bool stopped;
 
-    *c = (struct rc_contact){.iterations = s->iterations};
+    rc_nested_end(s); /* stopped on a coarser grid: the best is what was reached there */
+    *c = (struct rc_contact){.iterations = s->it.iterations};
+    stopped = !s->it.known || !s->it.fresh;
     if (stopped)
-        rc_solver_displace(s);
-    rc_solver_shift(s);
-    rc_solver_blocks(s, count_block, &f, total);
+        rc_iterate_displace(s);
+    rc_iterate_shift(s);
+    rc_reduce_blocks(s, count_block, &f, total);
     c->contact_nodes = (size_t)total[CONTACT];
     c->plastic_nodes = (size_t)total[PLASTIC];
     c->max_pressure = total[RC_MOST];
-    c->load = total[PRESSURE] * s->cell;
+    c->load = total[PRESSURE] * s->posed.cell;
     c->mean_pressure = total[PRESSURE] / n;
-    c->contact_area = s->cell * (double)c->contact_nodes;
+    c->contact_area = s->posed.cell * (double)c->contact_nodes;
     c->contact_fraction = (double)c->contact_nodes / n;
-    c->plastic_area = s->cell * (double)c->plastic_nodes;
+    c->plastic_area = s->posed.cell * (double)c->plastic_nodes;
     c->hardness_active = c->plastic_nodes > 0;
     c->edge_load_fraction = edge_load(s);
-    c->approach = s->elastic > 0 ? s->shift : NAN; /* the highest of s->h is 0 */
-    c->mean_gap = total[V] / n - s->shift;
+    c->approach = s->it.elastic > 0 ? s->it.shift : NAN; /* the highest of h is 0 */
+    c->mean_gap = total[V] / n - s->it.shift;
     f.mean_h = total[HEIGHT] / n;
     f.mean_u = (total[V] + total[HEIGHT]) / n;
-    rc_solver_blocks(s, spread_block, &f, total);
+    rc_reduce_blocks(s, spread_block, &f, total);
     scale = sqrt(fmax(total[SPREAD_H], total[SPREAD_U]) / n);
     if (total[SPREAD_H] == 0) /* one height everywhere: both vanish with the error */
-        scale = rc_safeguard_norm(s) * c->mean_pressure;
+        scale = s->op->norm * c->mean_pressure;
     c->kkt_residual = total[RC_MOST] == 0 ? 0 : total[RC_MOST] / scale;
-    if (stopped || s->judged != s->iterations || isnan(s->error)) {
-        rc_solver_residual(s, false);
-        s->error = rc_solver_estimate(s);
+    if (stopped || s->it.checked != s->it.iterations || isnan(s->it.error)) {
+        rc_working_set_find(s, false);
+        rc_iterate_checked(s, rc_working_set_estimate(s), 1);
     }
-    c->pressure_error = s->error;
-    c->converged = s->error <= s->goal && rc_solver_load_kept(s);
-    c->convolutions = s->convolutions;
+    c->pressure_error = s->it.error;
+    c->converged = s->it.error <= s->posed.tol && rc_iterate_keeps_load(s);
+    c->convolutions = s->it.convolutions;
     c->discretization = left_out(s, c);
+    s->stage = RC_STAGE_JUDGED;
 }

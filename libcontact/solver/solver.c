@@ -1,3 +1,6 @@
+/*
+ * The front: how a solver is made, stepped, judged, and told of other loads and starts.
+ */
 #include "solver.h"
 
 #include <float.h>
@@ -5,7 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "libcontact/operator/operator.h"
 #include "libcontact/memory.h"
 
 static const struct rc_method *const methods[] = {
@@ -24,8 +26,6 @@ rc_method_info(size_t k)
     return k < METHODS ? &methods[k]->info : NULL;
 }
 
-/* ---- new ---- */
-
 static const struct rc_method *
 choose(const char *name, struct rc_err *err)
 {
@@ -37,6 +37,8 @@ choose(const char *name, struct rc_err *err)
     rc_err_set(err, "there is no method '%s'", name);
     return NULL;
 }
+
+/* ---- new ---- */
 
 static enum rc_status
 check(const struct rc_shape *s, const double *h, const struct rc_problem *problem,
@@ -65,159 +67,79 @@ tolerance(const struct rc_shape *shape, const struct rc_problem *problem)
 
 /* The engine's accuracy follows from that of the pressure, which it must not spoil: at a tenth,
  * as in the paper, its own error, which no residual shows, was up to a third of what was left. */
-static struct rc_conv_options
-conv_options(const struct rc_shape *shape, const struct rc_problem *problem)
+static struct rc_operator_options
+operator_options(const struct rc_shape *shape, const struct rc_problem *problem)
 {
-    bool mlms = problem->engine != NULL && strcmp(problem->engine, "mlms") == 0;
-
-    return (struct rc_conv_options){.boundary = problem->boundary,
-                                    .engine = problem->engine,
-                                    .tol = mlms ? 0.02 * tolerance(shape, problem) : 0,
-                                    .threads = problem->threads};
+    return (struct rc_operator_options){.boundary = problem->boundary,
+                                        .estar = problem->estar,
+                                        .engine = problem->engine,
+                                        .tol = 0.02 * tolerance(shape, problem),
+                                        .threads = problem->threads};
 }
 
-static bool
-allocate(struct rc_solver *s, const double *h)
+static enum rc_status
+pose(struct rc_posed *posed, const struct rc_shape *shape, const double *h,
+     const struct rc_problem *problem)
 {
-    size_t blocks = s->n / 4096 + 1 > s->shape.ny ? s->n / 4096 + 1 : s->shape.ny;
     double top = h[0];
+    size_t n = shape->nx * shape->ny;
 
-    s->h = rc_alloc(s->n, sizeof *s->h);
-    s->p = rc_alloc(s->n, sizeof *s->p);
-    s->v = rc_alloc(s->n, sizeof *s->v);
-    s->r = rc_alloc(s->n, sizeof *s->r);
-    s->z = rc_alloc(s->n, sizeof *s->z);
-    s->w = rc_alloc(s->n, sizeof *s->w);
-    s->partial = rc_alloc(blocks, RC_SUMS * sizeof *s->partial);
-    if (s->h == NULL || s->p == NULL || s->v == NULL || s->r == NULL || s->z == NULL ||
-        s->w == NULL || s->partial == NULL)
-        return false;
-    for (size_t k = 0; k < s->n; k++)
+    *posed = (struct rc_posed){.shape = *shape,
+                               .boundary = problem->boundary,
+                               .n = n,
+                               .cell = shape->dx * shape->dy,
+                               .h = rc_alloc(n, sizeof *posed->h),
+                               .hardness = problem->hardness,
+                               .tol = tolerance(shape, problem),
+                               .max_iterations = problem->max_iterations > 0
+                                                     ? problem->max_iterations
+                                                     : 100 + (size_t)(10 * sqrt((double)n)),
+                               .threads = rc_useful_threads(shape, problem->threads),
+                               .discretization = problem->discretization};
+    if (posed->h == NULL)
+        return RC_FAIL;
+    for (size_t k = 0; k < n; k++)
         top = h[k] > top ? h[k] : top;
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (size_t k = 0; k < s->n; k++) {
-        s->h[k] = h[k] - top;
-        s->w[k] = 0;
-    }
-    s->top = top;
-    return true;
-}
-
-/* Single precision has 38 decades, gaps in metres and moduli in pascals can need more: there
- * pressures are of the order of 1, and a power of 2 keeps them exact. */
-static void
-set_units(struct rc_solver *s)
-{
-    int exponent;
-
-    (void)frexp(s->sum / (double)s->n, &exponent);
-    s->per_pressure = ldexp(1, -exponent);
-    s->length = sqrt(s->shape.dx) * sqrt(s->shape.dy) / s->estar * ldexp(1, exponent);
-}
-
-enum rc_status
-rc_solver_set_load(struct rc_solver *s, double load, struct rc_err *err)
-{
-    double area = s->cell * (double)s->n, carried = s->hardness * area;
-
-    if (!(load > 0) || isinf(load))
-        return rc_err_set(err, "load %g N: it must be positive and finite", load);
-    if (load > carried * (1 + 4 * DBL_EPSILON))
-        return rc_err_set(err,
-                          "load %.9g N is above hardness times area, %.9g Pa x %.9g m2 = "
-                          "%.9g N, where every node yields: no solution exists; lower the "
-                          "load or raise the hardness",
-                          load, s->hardness, area, carried);
-    s->load = load;
-    s->sum = load / s->cell;
-    if (s->sum >= s->hardness * (double)s->n * (1 - 8 * DBL_EPSILON))
-        s->sum = s->hardness * (double)s->n; /* every node yields, whatever the rounding */
-    set_units(s);
+#pragma omp parallel for num_threads(posed->threads) schedule(static)
+    for (size_t k = 0; k < n; k++)
+        posed->h[k] = h[k] - top;
+    posed->top = top;
     return RC_OK;
 }
 
-/* Where the load is sought, the one given is a guess; without one, that of a flat punch as large
- * as the part of the surface that the approach would cut off. */
-static enum rc_status
-first_load(struct rc_solver *s, const struct rc_problem *problem, struct rc_err *err)
-{
-    double guess = problem->load, most = s->hardness * s->cell * (double)s->n / 2;
-    size_t cut = 0;
-
-    if (!(problem->approach > 0))
-        return rc_solver_set_load(s, problem->load, err);
-    if (isinf(problem->approach))
-        return rc_err_set(err, "approach %g m: it must be finite", problem->approach);
-    for (size_t k = 0; k < s->n; k++)
-        cut += s->h[k] >= -problem->approach;
-    if (!(guess > 0))
-        guess = s->estar * problem->approach * sqrt((double)cut * s->cell);
-    rc_load_search_begin(s, problem->approach);
-    if (s->boundary == RC_PERIODIC && isinf(s->hardness)) {
-        double full = -rc_sum(s->h, s->n) / (double)s->n;
-        if (problem->approach >= full)
-            return rc_err_set(err,
-                              "approach %.9g m: contact is complete at %.9g m, and from there "
-                              "the load of a periodic surface grows at the same approach; "
-                              "give the load",
-                              problem->approach, full);
-    }
-    return rc_solver_set_load(s, guess < most ? guess : most, err);
-}
-
-void
-rc_solver_level(struct rc_solver *s)
-{
-    double start = fmin(s->sum / (double)s->n, s->hardness);
-
-#pragma omp parallel for num_threads(s->threads) schedule(static)
-    for (size_t k = 0; k < s->n; k++)
-        s->p[k] = start;
-}
-
+/* Takes the operator; NULL: there is none, and *err says why. */
 static struct rc_solver *
 solver_new(const struct rc_shape *shape, const double *h, const struct rc_problem *problem,
-           bool rough, struct rc_err *err)
+           const struct rc_method *method, struct rc_operator *op, struct rc_err *err)
 {
-    struct rc_conv_options options = conv_options(shape, problem);
-    struct rc_solver *s = NULL;
+    struct rc_solver *s = calloc(1, sizeof *s);
+    size_t blocks = shape->nx * shape->ny / RC_BLOCK_NODES + 1;
 
-    if (check(shape, h, problem, err) != RC_OK)
-        return NULL;
-    s = calloc(1, sizeof *s);
-    if (s == NULL)
+    if (s == NULL) {
+        rc_operator_free(op);
         goto short_of_memory;
-    s->shape = *shape;
-    s->boundary = problem->boundary;
-    s->n = shape->nx * shape->ny;
-    s->cell = shape->dx * shape->dy;
-    s->estar = problem->estar;
-    s->hardness = problem->hardness;
-    s->tol = s->goal = tolerance(shape, problem);
-    s->stages = problem->discretization;
-    s->watch = problem->watch;
-    s->watcher = problem->watcher;
-    s->max_iterations = problem->max_iterations > 0 ? problem->max_iterations
-                                                    : 100 + (size_t)(10 * sqrt((double)s->n));
-    s->threads = rc_useful_threads(shape, problem->threads);
-    s->rough = rough;
-    rc_solver_forget(s);
-    s->coarse = (struct rc_discretization){NAN, NAN, NAN};
-    s->change = s->error = s->estimate = NAN;
-    s->next_check = 1;
-    if (!allocate(s, h))
-        goto short_of_memory;
-    if (first_load(s, problem, err) != RC_OK ||
-        (s->method = choose(problem->method, err)) == NULL ||
-        (!rough && (s->conv = rc_conv_new(shape, s->estar, &options, err)) == NULL) ||
-        (s->extension = rc_preconditioner_new(shape, s->boundary, problem->threads, err)) == NULL ||
-        (rc_solver_level(s), s->state = s->method->new (s, err)) == NULL) {
-        rc_solver_free(s);
-        return NULL;
     }
+    s->op = op;
+    s->method = method;
+    s->coarse = (struct rc_discretization){NAN, NAN, NAN};
+    if (op == NULL || method == NULL)
+        goto fail;
+    s->z = rc_alloc(shape->nx * shape->ny, sizeof *s->z);
+    s->partial = rc_alloc(blocks > shape->ny ? blocks : shape->ny, RC_SUMS * sizeof *s->partial);
+    if (s->z == NULL || s->partial == NULL || pose(&s->posed, shape, h, problem) != RC_OK ||
+        rc_iterate_new(s) != RC_OK || rc_working_set_new(s) != RC_OK)
+        goto short_of_memory;
+    s->posed.rough = !op->exact;
+    if (rc_load_first(s, problem, err) != RC_OK ||
+        (s->preconditioner = rc_preconditioner_new(op, err)) == NULL ||
+        (s->state = method->new (s, err)) == NULL)
+        goto fail;
+    rc_iterate_level(s);
+    rc_nested_new(s);
     return s;
 short_of_memory:
     rc_err_set(err, "out of memory for a contact of %zu x %zu nodes", shape->nx, shape->ny);
+fail:
     rc_solver_free(s);
     return NULL;
 }
@@ -226,14 +148,20 @@ struct rc_solver *
 rc_solver_new(const struct rc_shape *shape, const double *h, const struct rc_problem *problem,
               struct rc_err *err)
 {
-    return solver_new(shape, h, problem, false, err);
+    struct rc_operator_options options = operator_options(shape, problem);
+    const struct rc_method *method = choose(problem->method, err);
+
+    if (method == NULL || check(shape, h, problem, err) != RC_OK)
+        return NULL;
+    return solver_new(shape, h, problem, method, rc_half_space_new(shape, &options, err), err);
 }
 
 struct rc_solver *
-rc_solver_rough(const struct rc_shape *shape, const double *h, const struct rc_problem *problem,
-                struct rc_err *err)
+rc_solver_coarse(const struct rc_solver *fine, const struct rc_shape *shape, const double *h,
+                 const struct rc_problem *problem, struct rc_err *err)
 {
-    return solver_new(shape, h, problem, true, err);
+    return solver_new(shape, h, problem, fine->method, rc_operator_coarse(fine->op, shape, err),
+                      err);
 }
 
 void
@@ -241,51 +169,53 @@ rc_solver_free(struct rc_solver *s)
 {
     if (s == NULL)
         return;
+    rc_nested_free(s);
     if (s->state != NULL)
         s->method->free(s->state);
-    rc_conv_free(s->conv);
-    rc_preconditioner_free(s->extension);
-    free(s->h);
-    free(s->p);
-    free(s->v);
-    free(s->r);
+    rc_preconditioner_free(s->preconditioner);
+    rc_operator_free(s->op);
+    rc_iterate_free(s);
+    rc_working_set_free(s);
+    free(s->posed.h);
     free(s->z);
-    free(s->w);
     free(s->partial);
     free(s);
 }
+
+/* ---- what one would be ---- */
 
 const char *
 rc_solver_choice(const struct rc_shape *shape, const struct rc_problem *problem,
                  const char **reason)
 {
-    struct rc_conv_options options = conv_options(shape, problem);
+    struct rc_operator_options options = operator_options(shape, problem);
 
-    return rc_conv_choice(shape, &options, reason);
+    return rc_half_space_engine(shape, &options, reason);
 }
 
 size_t
 rc_solver_memory(const struct rc_shape *shape, const struct rc_problem *problem)
 {
-    struct rc_conv_options options = conv_options(shape, problem);
+    struct rc_operator_options options = operator_options(shape, problem);
     size_t n = shape->nx * shape->ny;
 
-    /* three maps, two of half the width and a mask here; the methods' own; the estimate's */
+    /* three maps, two of half the width and a mask here; the methods' own */
     return n * (3 * sizeof(double) + 2 * sizeof(float) + 1) + n * 3 * sizeof(double) +
-           rc_conv_memory(shape, &options) + rc_preconditioner_memory(shape, problem->boundary);
+           rc_half_space_memory(shape, &options) +
+           rc_preconditioner_memory(shape, problem->boundary);
 }
 
 enum rc_status
 rc_solver_expect(const struct rc_shape *shape, const struct rc_problem *problem,
                  struct rc_expected *expected, struct rc_err *err)
 {
-    struct rc_conv_options options = conv_options(shape, problem);
+    struct rc_operator_options options = operator_options(shape, problem);
     const struct rc_method *method = choose(problem->method, err);
     double nodes = (double)(shape->nx * shape->ny), some;
 
     if (method == NULL)
         return RC_FAIL;
-    if (rc_conv_memory(shape, &options) == 0)
+    if (rc_half_space_memory(shape, &options) == 0)
         return rc_err_set(err, "there is no engine '%s'", problem->engine);
     some = method->convolutions(nodes, -log10(tolerance(shape, problem)));
     if (problem->approach > 0)
@@ -293,7 +223,161 @@ rc_solver_expect(const struct rc_shape *shape, const struct rc_problem *problem,
     if (problem->discretization)
         some += 5;
     *expected = (struct rc_expected){.convolutions = some,
-                                     .seconds = some * rc_conv_seconds(shape, &options),
+                                     .seconds = some * rc_half_space_seconds(shape, &options),
                                      .memory = rc_solver_memory(shape, problem)};
     return RC_OK;
+}
+
+/* ---- step ---- */
+
+/* One iteration at the load that is set. */
+static enum rc_status
+step(struct rc_solver *s)
+{
+    struct rc_iterate *it = &s->it;
+    struct rc_found found = s->method->step(s, s->state);
+    bool last;
+
+    it->iterations++;
+    last = it->iterations >= s->posed.max_iterations;
+    if (!isnan(found.estimate)) {
+        rc_iterate_checked(s, found.estimate, 1);
+        if (it->error <= s->load.tol && (s->posed.rough || rc_iterate_keeps_load(s)))
+            return RC_OK;
+        return last || found.change == 0 ? RC_SHORT : RC_MORE;
+    }
+    last |= found.change <= DBL_EPSILON;
+    /* Four convolutions to judge, two to go on: not before the steps are small, nor every time. */
+    if (!last && (it->iterations < it->next_check || found.change > s->load.tol))
+        return RC_MORE;
+    rc_iterate_checked(s, rc_iterate_judge(s), 5 + it->iterations / 10);
+    if (it->error <= s->load.tol && rc_iterate_keeps_load(s))
+        return RC_OK;
+    return last ? RC_SHORT : RC_MORE;
+}
+
+enum rc_status
+rc_solver_step(struct rc_solver *s)
+{
+    enum rc_status status;
+
+    s->stage = RC_STAGE_STEPPED;
+    if (s->nested != NULL) {
+        rc_nested_step(s);
+        return RC_MORE;
+    }
+    status = step(s);
+    return status == RC_OK && s->load.target > 0 ? rc_load_search(s) : status;
+}
+
+void
+rc_solver_restart(struct rc_solver *s)
+{
+    rc_iterate_forget(s);
+    s->method->forget(s->state);
+    rc_working_set_forget(s);
+}
+
+/* ---- other loads and starts ---- */
+
+enum rc_status
+rc_solver_set_load(struct rc_solver *s, double load, double approach, struct rc_err *err)
+{
+    bool untouched = rc_nested_untouched(s);
+
+    if (!untouched)
+        rc_nested_end(s);
+    if (rc_load_next(s, load, approach, err) != RC_OK)
+        return RC_FAIL;
+    if (untouched)
+        rc_iterate_level(s);
+    else if (rc_projection_balance(s->posed.n, s->posed.hardness, s->load.sum, s->it.v, s->it.p,
+                                   err) != RC_OK)
+        return RC_FAIL;
+    rc_iterate_reset(s);
+    rc_solver_restart(s);
+    s->stage = RC_STAGE_NEW;
+    return RC_OK;
+}
+
+enum rc_status
+rc_solver_warm_start(struct rc_solver *s, double load, const double *p, struct rc_err *err)
+{
+    if (s->stage != RC_STAGE_NEW)
+        return rc_err_set(err, "a pressure to start from comes before the first step of a load");
+    if (s->load.target > 0 && rc_load_set(s, load, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t k = 0; k < s->posed.n; k++)
+        if (!isfinite(p[k]))
+            return rc_err_set(err, "pressure %zu is not a finite number", k);
+    rc_nested_free(s);
+    for (size_t k = 0; k < s->posed.n; k++) {
+        s->it.p[k] = fmin(fmax(p[k], 0), s->posed.hardness);
+        s->it.v[k] = -s->posed.h[k]; /* should nodes have to join, the highest first */
+    }
+    if (rc_projection_restore(s, rc_iterate_carried(s), err) != RC_OK)
+        return RC_FAIL;
+    rc_solver_restart(s);
+    return RC_OK;
+}
+
+/* ---- what has been reached ---- */
+
+void
+rc_solver_progress(const struct rc_solver *s, struct rc_progress *progress)
+{
+    const struct rc_solver *at = rc_nested_at_work(s);
+
+    *progress = (struct rc_progress){.grid = at->posed.shape,
+                                     .iterations = at->it.iterations,
+                                     .error = at->it.error,
+                                     .tol = at->load.tol};
+}
+
+double
+rc_solver_load(const struct rc_solver *s)
+{
+    return s->load.load;
+}
+
+size_t
+rc_solver_iterations(const struct rc_solver *s)
+{
+    return s->it.iterations;
+}
+
+double
+rc_solver_error(const struct rc_solver *s)
+{
+    return s->it.error;
+}
+
+double
+rc_solver_convolutions(const struct rc_solver *s)
+{
+    return s->it.convolutions + rc_nested_convolutions(s);
+}
+
+const double *
+rc_solver_pressure(const struct rc_solver *s)
+{
+    return s->it.p;
+}
+
+const char *
+rc_solver_engine(const struct rc_solver *s)
+{
+    return s->op->engine;
+}
+
+const char *
+rc_solver_engine_reason(const struct rc_solver *s)
+{
+    return s->op->reason;
+}
+
+const char *
+rc_solver_method(const struct rc_solver *s)
+{
+    return s->method->info.name;
 }

@@ -1,29 +1,43 @@
 /*
- * What the solver's front and its methods share. A method is a row of methods.list: it improves
- * solver->p step by step; the front judges, counts and reports.
+ * What the solver's front and its methods share. A method is a row of methods.list: it improves the
+ * pressure step by step; the front (solver.c) judges, counts and reports.
  *
  * The problem: p with 0 <= p <= H and sum p dx dy = load that minimises 1/2 p'Kp - h'p. With the
  * gap g = Kp - h - c, c its mean over the elastic nodes (0 < p < H), the solution has g = 0 there,
  * g >= 0 where p = 0 and g <= 0 where p = H.
+ *
+ * struct rc_solver has four parts, each written by one file: the problem (solver.c), the iterate
+ * (iterate.c; methods move its pressure, and say so), the working set (working_set.c) and the load
+ * (load_search.c).
  */
 #ifndef RC_SOLVER_H
 #define RC_SOLVER_H
 
 #include <math.h>
 
-#include "preconditioner.h"
 #include "libcontact/operator/operator.h"
+#include "preconditioner.h"
+
+/* ---- methods ---- */
+
+/* What a step found. */
+struct rc_found {
+    double change;   /* relative L1 change of p; 0: it stands still                              */
+    double estimate; /* of the relative L1 error of p, from a fresh K p, by a method that has it at
+                        hand; NAN: it has not                                                    */
+};
 
 struct rc_method {
     struct rc_method_info info;
+    bool nested; /* starts from the solution on coarser grids */
     /* Convolutions (in equivalents) that it takes, as others were seen to take: nodes of the grid,
      * and digits that the tolerance asks for. */
     double (*convolutions)(double nodes, double digits);
     /* State beside the solver's own; NULL and *err when memory is short. */
-    void *(*new)(struct rc_solver *solver, struct rc_err *err);
-    void (*step)(struct rc_solver *solver, void *state);
-    /* The load has changed: what belongs to the last one is forgotten. */
-    void (*again)(void *state);
+    void *(*new)(const struct rc_solver *solver, struct rc_err *err);
+    struct rc_found (*step)(struct rc_solver *solver, void *state);
+    /* Another load: what was learnt about the last one is forgotten. */
+    void (*forget)(void *state);
     void (*free)(void *state);
 };
 
@@ -35,168 +49,245 @@ struct rc_method {
 #include RC_METHODS_LIST
 #undef RC_METHOD
 
-/* seek.c: the search for the load that an approach needs. */
-struct rc_load_search {
-    double target;      /* the shift wanted, m; 0: the load is given                    */
-    double low, high;   /* loads with a smaller and a larger shift; 0, INFINITY: none yet */
-    double load, shift; /* of the last solution; 0: none                                */
-    double power;       /* d log load / d log shift                                     */
-};
+/* ---- the state ---- */
 
-struct rc_solver {
+/* The problem as it was posed: constant after rc_solver_new. */
+struct rc_posed {
     struct rc_shape shape;
     enum rc_boundary boundary;
     size_t n;
-    double cell; /* dx dy                                                       */
-    double estar, hardness, load;
-    double tol, goal; /* asked of this load, and at last: looser while the load is sought */
-    double top;       /* what was taken from the heights                             */
-    rc_watch *watch;  /* NULL, or told of each iteration                             */
-    void *watcher;
-    bool stages; /* the coarser grid is solved well enough to compare with      */
-    struct rc_discretization coarse; /* its figures; NAN: none                              */
-    struct rc_load_search seek;
-    double sum; /* load / cell: what the nodal pressures add up to             */
-    size_t max_iterations;
+    double cell;           /* dx dy                                                    */
+    double *h;             /* heights less their maximum: the datum costs digits       */
+    double top;            /* that maximum                                             */
+    double hardness;       /* INFINITY: none                                           */
+    double tol;            /* asked relative L1 error of the pressure                  */
+    size_t max_iterations; /* of one load                                              */
     int threads;
-    bool rough;           /* a coarse grid of another's start: nobody asks for a proof   */
-    struct rc_conv *conv; /* NULL: a rough solver has none                              */
-    struct rc_preconditioner *extension;
-    const struct rc_method *method;
-    void *state;
-    double *h;             /* heights less their maximum: the datum costs digits          */
-    double *p;             /* the iterate: in the box, with the load                      */
-    double *v;             /* K p - h: the gap but for a constant                         */
-    bool known, fresh;     /* v belongs to p; and comes from a double-precision convolution */
-    double shift;          /* c: the gap is v - c                                         */
-    size_t elastic;        /* nodes with 0 < p < H                                        */
-    size_t working;        /* nodes of the working set: those, and those that want to leave
-                                their bound                                                 */
-    unsigned char *w;      /* 1 on the working set, else 0                                */
-    double changed, moved; /* nodes that changed sides since the extension was told w, and since
-                                it measured distances                                       */
-    float *r;              /* residual -g on it, else 0, over `length`                    */
-    float offset;          /* its mean there                                              */
-    double aside;          /* what the nodes sifted out of it would carry, times per_pressure */
-    float *z;              /* scratch of n: corrections, times `per_pressure`             */
-    double per_pressure, length; /* single precision: pressures of about 1, and what those displace
-                                on cells of unit area for E* = 1                           */
-    double *partial;             /* sums of blocks and rows                                     */
+    bool rough;          /* a coarse grid of another's start: its operator is not exact, and its
+                              estimate is taken as it is                               */
+    bool discretization; /* the coarser grid is solved well enough to compare with   */
+};
+
+struct rc_iterate {
+    double *p;         /* in the box, with the load                                          */
+    double *v;         /* K p - h: the gap but for a constant                                */
+    bool known, fresh; /* v belongs to p; and comes from a convolution in double precision   */
+    double shift;      /* c: the gap is v - c                                                */
+    size_t elastic;    /* nodes with 0 < p < H                                               */
     size_t iterations;
-    double convolutions; /* equivalents of one double-precision convolution             */
-    double change;       /* relative L1 change of p in the last step; 0: it stands still */
-    double estimate;     /* of the relative L1 error of p, by a method that has it at hand from a
-                                fresh K p; NAN: it has not                                  */
-    double error;        /* estimated relative L1 error at the last check; NAN: none    */
-    size_t judged;       /* iteration of that check                                     */
-    size_t next_check;   /* iteration at which the error is estimated again             */
+    double convolutions; /* equivalents of one in double precision                             */
+    double error;        /* estimated relative L1 error at the last check; NAN: none           */
+    size_t checked;      /* iteration of that check                                            */
+    size_t next_check;   /* iteration at which it is estimated again                           */
+};
+
+/* The elastic nodes, and those at a bound that want to leave it. */
+struct rc_working_set {
+    unsigned char *w; /* 1 on it, else 0                                                       */
+    float *r;         /* residual -g on it, else 0, over `length` of the load                  */
+    float offset;     /* its mean there                                                        */
+    size_t size;
+    double left_out; /* what the nodes left out of it would carry, times per_pressure          */
+    /* Nodes that changed sides since the preconditioner was told w, and since it measured
+     * distances; INFINITY: w is another set altogether. */
+    double changed, moved;
+};
+
+/* The load that is set, and the search for the one that an approach needs. */
+struct rc_load {
+    double load; /* N                                                                          */
+    double sum;  /* load / cell: what the nodal pressures add up to                            */
+    /* Single precision has 38 decades, gaps in metres and moduli in pascals can need more: there
+     * pressures are of the order of 1, and a power of 2 keeps them exact. */
+    double per_pressure; /* single precision holds p times this ...                            */
+    double length;       /* ... and displacements over this (m)                                */
+    double tol;          /* asked of this load: looser while it is sought                      */
+    double target;       /* the shift wanted, m; 0: the load is given                          */
+    double low, high;    /* loads with a smaller and a larger shift; 0, INFINITY: none yet     */
+    double last_load, last_shift; /* of the last solution; 0: none                             */
+    double power; /* d log load / d log shift                                           */
+};
+
+struct rc_solver {
+    struct rc_posed posed;
+    struct rc_iterate it;
+    struct rc_working_set set;
+    struct rc_load load;
+    struct rc_operator *op;
+    struct rc_preconditioner *preconditioner;
+    const struct rc_method *method;
+    void *state;                     /* the method's                                              */
+    struct rc_nested *nested;        /* the start from coarser grids, until it is done; or NULL   */
+    struct rc_discretization coarse; /* figures of the coarser grid; NAN: none             */
+    float *z;                        /* n numbers: corrections, times per_pressure                */
+    double *partial;                 /* sums of blocks and rows: reduce.c                         */
+    enum rc_stage { /* what has been done, so that no call comes too early        */
+        RC_STAGE_NEW,
+        RC_STAGE_STEPPED,
+        RC_STAGE_JUDGED /* rc_solver_result describes this pressure */
+    } stage;
 };
 
 /* Where a node stands in the box. */
 static inline bool
 rc_elastic(const struct rc_solver *s, size_t k)
 {
-    return s->p[k] > 0 && s->p[k] < s->hardness;
+    return s->it.p[k] > 0 && s->it.p[k] < s->posed.hardness;
 }
 
-/* Sets the load and what follows from it; RC_FAIL when there is no solution. */
-enum rc_status rc_solver_set_load(struct rc_solver *solver, double load, struct rc_err *err);
-/* p becomes the mean pressure everywhere. */
-void rc_solver_level(struct rc_solver *solver);
-/* p has been changed from outside, or the load. */
-void rc_solver_restart(struct rc_solver *solver);
-/* The load is sought that gives this shift: the first ones are solved loosely. */
-void rc_load_search_begin(struct rc_solver *solver, double target);
-/* After a solution: RC_OK when its shift is the one wanted, else the next load is set. */
-enum rc_status rc_load_search_step(struct rc_solver *solver);
-
-/* The same contact on another grid, roughly: a method may start from it. */
-struct rc_solver *rc_solver_rough(const struct rc_shape *shape, const double *h,
-                                  const struct rc_problem *problem, struct rc_err *err);
-
-/* ---- passes.c: what runs over all nodes ---- */
+/* ---- reduce.c: what runs over all nodes ---- */
 
 enum {
     RC_SUMS = 8,
-    RC_MOST = RC_SUMS - 1 /* of this the largest is taken, of the others the sum */
+    RC_MOST = RC_SUMS - 1, /* of this the largest is taken, of the others the sum */
+    RC_BLOCK_NODES = 4096
 };
 /* Does something with nodes first .. first + n - 1 and adds to sums, which begin at 0. Blocks are
  * taken by several threads; their sums are added in order, whoever took them. */
 typedef void rc_block(void *ctx, size_t first, size_t n, double *sums);
-void rc_solver_blocks(const struct rc_solver *solver, rc_block *block, void *ctx,
+void rc_reduce_blocks(const struct rc_solver *solver, rc_block *block, void *ctx,
                       double total[RC_SUMS]);
-/* The same where rows come out of a convolution: each adds to rc_row_sums, between these two. */
-void rc_solver_rows_begin(const struct rc_solver *solver);
-void rc_solver_rows_end(const struct rc_solver *solver, double total[RC_SUMS]);
+/* The same where rows come out of a convolution: each adds to rc_reduce_row, between these two. */
+void rc_reduce_rows_begin(const struct rc_solver *solver);
+void rc_reduce_rows_end(const struct rc_solver *solver, double total[RC_SUMS]);
 static inline double *
-rc_row_sums(const struct rc_solver *s, size_t row)
+rc_reduce_row(const struct rc_solver *s, size_t j)
 {
-    return s->partial + row * RC_SUMS;
+    return s->partial + j * RC_SUMS;
 }
 
-/* v = K p - h by a convolution in double precision. */
-void rc_solver_displace(struct rc_solver *solver);
+/* ---- iterate.c ---- */
+
+enum rc_status rc_iterate_new(struct rc_solver *solver);
+void rc_iterate_free(struct rc_solver *solver);
+/* p becomes the mean pressure everywhere. */
+void rc_iterate_level(struct rc_solver *solver);
+/* p or the load has been changed from outside: nothing is known of it. */
+void rc_iterate_forget(struct rc_solver *solver);
+/* v = K p - h in double precision. */
+void rc_iterate_displace(struct rc_solver *solver);
+/* The method has moved p, and v with it. Where it also summed v over the elastic nodes, that
+ * gives the shift; elastic 0: it has not, or there are none. */
+void rc_iterate_moved(struct rc_solver *solver, double gap, double elastic);
+/* It has moved p alone. */
+void rc_iterate_unknown(struct rc_solver *solver);
+/* v is that of p, in single precision. */
+void rc_iterate_known(struct rc_solver *solver);
+/* Counts begin anew. */
+void rc_iterate_reset(struct rc_solver *solver);
+/* So many more convolutions, in equivalents. */
+void rc_iterate_count(struct rc_solver *solver, double convolutions);
 /* The shift: mean of v over the elastic nodes, or, when there are none, the middle between the
  * largest v under p = H and the smallest under p = 0. Sets `elastic` and `shift`. */
-void rc_solver_shift(struct rc_solver *solver);
-/* The working set and the residual on it, from v and the shift; sifted, without those that would
- * only be pushed back to their bound (joining.h). Sets w, changed, r, offset, working. */
-void rc_solver_residual(struct rc_solver *solver, bool sift);
-/* Forgets what the extension was told: w is another set altogether. */
-static inline void
-rc_solver_forget(struct rc_solver *s)
-{
-    s->changed = s->moved = INFINITY;
-}
-/* z = E' A E r; `done` as in rc_preconditioner_apply. The mean of z is still in it. */
-void rc_solver_correct(struct rc_solver *solver, rc_row *done, void *ctx);
+void rc_iterate_shift(struct rc_solver *solver);
 /* Sum of p. */
-double rc_solver_carried(const struct rc_solver *solver);
+double rc_iterate_carried(const struct rc_solver *solver);
 /* The load is a constraint that every method keeps; should one lose it, the result is none. */
-bool rc_solver_load_kept(const struct rc_solver *solver);
-/* What the engine's own error makes of the pressure, relative. */
-double rc_solver_engine_error(const struct rc_solver *solver);
+bool rc_iterate_keeps_load(const struct rc_solver *solver);
+/* What the operator's own error may make of the pressure, relative. */
+double rc_iterate_operator_error(const struct rc_solver *solver);
+/* The error of p was estimated; it is again after so many iterations. */
+void rc_iterate_checked(struct rc_solver *solver, double error, size_t again);
+/* Estimates the error of p from a fresh K p, with the whole working set. */
+double rc_iterate_judge(struct rc_solver *solver);
+
+/* ---- working_set.c ---- */
+
+enum rc_status rc_working_set_new(struct rc_solver *solver);
+void rc_working_set_free(struct rc_solver *solver);
+/* The working set and the residual on it, from v and the shift; `sift`: without the nodes that
+ * would only be pushed back to their bound. */
+void rc_working_set_find(struct rc_solver *solver, bool sift);
+/* All nodes, with what `r` holds. */
+void rc_working_set_all(struct rc_solver *solver);
+/* The elastic nodes, r = 1 on them; how many. */
+size_t rc_working_set_elastic(struct rc_solver *solver);
+/* z = E' A E r; `done` as in rc_preconditioner_apply. The mean of z is still in it. */
+void rc_working_set_correct(struct rc_solver *solver, rc_row *done, void *ctx);
 /* Relative L1 norm of that correction without its mean: the estimate of the error. */
-double rc_solver_estimate(struct rc_solver *solver);
+double rc_working_set_estimate(struct rc_solver *solver);
 
-/* ---- box.c, project.c ---- */
+/* The next set is another one altogether. */
+void rc_working_set_forget(struct rc_solver *solver);
 
-/* box.c: p becomes the sum by scaling its elastic nodes, as far as the box lets them; what they
- * cannot carry goes to the nodes of smallest g, what is too much is taken from all. */
-enum rc_status rc_box_balance(size_t n, double hardness, double sum, const double *g, double *p,
-                              struct rc_err *err);
+/* ---- solver.c ---- */
 
-/* box.c: the nearest point of {0 <= y <= H, sum y = sum} over the nodes with w set (NULL: all): one
- * shift for them, clipped. They have to be able to carry the sum. */
-void rc_box_project(size_t n, const unsigned char *w, double hardness, double sum, double *y);
+/* p has been changed from outside, or the load: what was learnt is forgotten. */
+void rc_solver_restart(struct rc_solver *solver);
+/* The same contact on another grid, roughly: by the same method, from the same body. */
+struct rc_solver *rc_solver_coarse(const struct rc_solver *fine, const struct rc_shape *shape,
+                                   const double *h, const struct rc_problem *problem,
+                                   struct rc_err *err);
 
-/* project.c: a step and the way back into the box. On W the pressure becomes
+/* ---- load_search.c ---- */
+
+/* Sets the load and what follows from it; RC_FAIL when there is no solution. */
+enum rc_status rc_load_set(struct rc_solver *solver, double load, struct rc_err *err);
+/* The first load: the one given, or where one is sought a guess. */
+enum rc_status rc_load_first(struct rc_solver *solver, const struct rc_problem *problem,
+                             struct rc_err *err);
+/* Another one: given, or, with an approach > 0, sought from the one that is set. */
+enum rc_status rc_load_next(struct rc_solver *solver, double load, double approach,
+                            struct rc_err *err);
+/* After a solution: RC_OK when its shift is the one wanted, else the next load is set. */
+enum rc_status rc_load_search(struct rc_solver *solver);
+
+/* ---- nested.c ---- */
+
+/* Sets solver->nested where the grid is worth a start from a coarser one, and memory allows it.
+ * Nothing is iterated yet. */
+void rc_nested_new(struct rc_solver *solver);
+void rc_nested_free(struct rc_solver *solver);
+/* One iteration on the coarser grids; after the last one the pressure found there is the start
+ * here, and solver->nested is NULL. */
+void rc_nested_step(struct rc_solver *solver);
+/* Ends it where it stands: the pressure reached there is the start here. */
+void rc_nested_end(struct rc_solver *solver);
+/* Whether nothing of it has been done. */
+bool rc_nested_untouched(const struct rc_solver *solver);
+/* The solver of the grid that is being iterated: this one, or one below. */
+const struct rc_solver *rc_nested_at_work(const struct rc_solver *solver);
+/* Convolutions on the coarser grids so far, in equivalents on this one. */
+double rc_nested_convolutions(const struct rc_solver *solver);
+
+/* ---- projection.c ---- */
+
+/* p becomes the sum by scaling its elastic nodes, as far as the box lets them; what they cannot
+ * carry goes to the nodes of smallest g, what is too much is taken from all. */
+enum rc_status rc_projection_balance(size_t n, double hardness, double sum, const double *g,
+                                     double *p, struct rc_err *err);
+/* The same for the solver's own pressure and load, where it is off by more than rounding. */
+enum rc_status rc_projection_restore(struct rc_solver *solver, double carried, struct rc_err *err);
+
+/* The nearest point of {0 <= y <= H, sum y = sum}: one shift for all nodes, clipped. */
+void rc_projection_of(size_t n, double hardness, double sum, double *y);
+
+/* A step and the way back into the box. On the working set the pressure becomes
  *
  *     clip(p + alpha (d - mean)[d != 0] + shift, 0, H),
  *
- * with the one shift that keeps the load: the Euclidean projection of the step, where W can
- * carry its share; where it cannot, all nodes become W. */
+ * with the one shift that keeps the load: the Euclidean projection of the step, where the set
+ * can carry its share; where it cannot, all nodes become the set. */
 struct rc_move {
     struct rc_solver *solver;
     const float *d; /* direction, times per_pressure; not 0 only on W                  */
     double alpha;
-    double mean;  /* of d                                                            */
-    double *room; /* n numbers of scratch                                            */
-    double shift; /* found                                                           */
-    bool clipped; /* found: some node would have left the box                        */
+    double mean;    /* of d                                                            */
+    uint16_t *list; /* n numbers of scratch                                            */
+    double shift;   /* found                                                           */
+    bool clipped;   /* found: some node would have left the box                        */
 };
 void rc_move_find(struct rc_move *move);
-/* guard.c: begins with energy INFINITY. */
+
+/* ---- safeguard.c ---- */
+
 struct rc_safeguard {
-    double energy; /* of the last p that was kept */
+    double energy; /* of the last p that was kept; begins with INFINITY */
 };
-/* A bound of K's largest eigenvalue. */
-double rc_safeguard_norm(const struct rc_solver *solver);
-/* Whether the energy of solver->p has risen above that of the last p kept; else this one
- * is. */
-bool rc_safeguard_raised(struct rc_safeguard *guard, const struct rc_solver *solver);
-/* solver->p goes back to `old`, and from there towards the projection of p - g / |K|, to the lowest
- * point on that way. t, r: scratch of n. Costs two convolutions. */
+/* Whether the energy of the pressure has risen above that of the last one kept; else this one is. */
+bool rc_safeguard_raised(struct rc_safeguard *safeguard, const struct rc_solver *solver);
+/* The pressure goes back to `old`, and from there towards the projection of p - g / |K|, to the
+ * lowest point on that way. t, r: scratch of n. Costs two convolutions. */
 void rc_safeguard_step(struct rc_solver *solver, const double *old, double *t, double *r);
 
 #endif

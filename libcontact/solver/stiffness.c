@@ -27,7 +27,7 @@ static bool
 direction_in(void *at, size_t j, void *to)
 {
     const struct system *c = at;
-    size_t n = c->s->shape.nx;
+    size_t n = c->s->posed.shape.nx;
     const float *d = c->d + j * n;
     bool any = false;
 
@@ -41,9 +41,9 @@ static bool
 displaced(void *at, size_t j, void *from)
 {
     const struct system *c = at;
-    size_t n = c->s->shape.nx;
+    size_t n = c->s->posed.shape.nx;
     const float *row = from, *d = c->d + j * n;
-    const unsigned char *w = c->s->w + j * n;
+    const unsigned char *w = c->s->set.w + j * n;
     float *q = c->q + j * n;
     double sum = 0;
 
@@ -51,7 +51,7 @@ displaced(void *at, size_t j, void *from)
         q[i] = w[i] ? row[i] : 0;
         sum += (double)d[i] * (double)q[i];
     }
-    rc_row_sums(c->s, j)[0] = sum;
+    rc_reduce_row(c->s, j)[0] = sum;
     return true;
 }
 
@@ -64,7 +64,7 @@ move_block(void *at, size_t first, size_t n, double *sums)
     (void)sums;
     for (size_t k = first; k < first + n; k++) {
         c->t[k] += (float)(c->a * (double)c->d[k]);
-        c->s->r[k] -= (float)(c->a * (double)c->q[k]);
+        c->s->set.r[k] -= (float)(c->a * (double)c->q[k]);
     }
 }
 
@@ -74,7 +74,7 @@ product_block(void *at, size_t first, size_t n, double *sums)
     const struct system *c = at;
 
     for (size_t k = first; k < first + n; k++)
-        sums[0] += (double)c->s->r[k] * (double)c->s->z[k];
+        sums[0] += (double)c->s->set.r[k] * (double)c->s->z[k];
 }
 
 static void
@@ -88,47 +88,34 @@ turn_block(void *at, size_t first, size_t n, double *sums)
     }
 }
 
-static void
-begin_block(void *at, size_t first, size_t n, double *sums)
-{
-    const struct system *c = at;
-    struct rc_solver *s = c->s;
-
-    for (size_t k = first; k < first + n; k++) {
-        s->w[k] = rc_elastic(s, k);
-        s->r[k] = s->w[k];
-        c->t[k] = c->d[k] = 0;
-        sums[0] += s->w[k];
-    }
-}
-
 static double
 solve(struct system *c)
 {
     struct rc_solver *s = c->s;
+    const struct rc_spectrum *factors[] = {s->op->kernel};
+    rc_row *rows[] = {direction_in, displaced};
     double total[RC_SUMS], rz = 0, sum = 0;
 
     for (int step = 0; step < STEPS; step++) {
         double last = rz;
 
-        s->offset = 0;
-        rc_solver_correct(s, NULL, NULL);
-        rc_solver_blocks(s, product_block, c, total);
+        rc_working_set_correct(s, NULL, NULL);
+        rc_reduce_blocks(s, product_block, c, total);
         rz = total[0];
         c->a = last > 0 ? rz / last : 0;
-        rc_solver_blocks(s, turn_block, c, total);
+        rc_reduce_blocks(s, turn_block, c, total);
         sum = total[0];
         /* r'z bounds the square of the energy norm of the error from above; that of t is its sum */
         if (!(rz > 0) || (step > 0 && rz <= enough * enough * sum))
             break;
-        rc_solver_rows_begin(s);
-        rc_preconditioner_displace(s->extension, direction_in, displaced, c);
-        s->convolutions += 0.5;
-        rc_solver_rows_end(s, total);
+        rc_reduce_rows_begin(s);
+        rc_operator_chain(s->op, 1, factors, rows, c);
+        rc_iterate_count(s, s->op->factor_cost);
+        rc_reduce_rows_end(s, total);
         if (!(total[0] > 0))
             break;
         c->a = rz / total[0];
-        rc_solver_blocks(s, move_block, c, total);
+        rc_reduce_blocks(s, move_block, c, total);
     }
     return sum;
 }
@@ -137,21 +124,29 @@ enum rc_status
 rc_solver_stiffness(struct rc_solver *s, double *stiffness, struct rc_err *err)
 {
     struct system c = {.s = s};
-    float *room = rc_alloc(3 * s->n, sizeof *room);
-    double total[RC_SUMS];
+    size_t n = s->posed.n, elastic;
 
     *stiffness = NAN;
-    if (room == NULL)
-        return rc_err_set(err, "out of memory for the stiffness of %zu nodes", s->n);
-    c.t = room;
-    c.d = room + s->n;
-    c.q = room + 2 * s->n;
-    rc_solver_blocks(s, begin_block, &c, total);
-    rc_solver_forget(s);
-    if (total[0] > 0 && !(s->boundary == RC_PERIODIC && total[0] == (double)s->n))
-        /* one unit of t displaces by one unit, on cells of unit area for E* = 1 */
-        *stiffness = solve(&c) * s->estar * sqrt(s->cell);
-    rc_solver_forget(s);
-    free(room);
+    if (s->stage != RC_STAGE_JUDGED)
+        return rc_err_set(err, "the stiffness is that of a result: ask for rc_solver_result first");
+    c.t = rc_alloc(n, sizeof *c.t);
+    c.d = rc_alloc(n, sizeof *c.d);
+    c.q = rc_alloc(n, sizeof *c.q);
+    if (c.t == NULL || c.d == NULL || c.q == NULL) {
+        free(c.t);
+        free(c.d);
+        free(c.q);
+        return rc_err_set(err, "out of memory for the stiffness of %zu nodes", n);
+    }
+    memset(c.t, 0, n * sizeof *c.t);
+    memset(c.d, 0, n * sizeof *c.d);
+    elastic = rc_working_set_elastic(s);
+    if (elastic > 0 && !(s->op->mean_free && elastic == n))
+        /* one unit of t displaces by one unit of the operator's rows */
+        *stiffness = solve(&c) * s->posed.cell / s->op->unit;
+    rc_working_set_forget(s);
+    free(c.t);
+    free(c.d);
+    free(c.q);
     return RC_OK;
 }

@@ -210,7 +210,7 @@ checkpoint_case(struct checkpoint *c, const struct rc_grid *g, struct rc_solver 
         tool_die(&c->run->t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", c->name, err.text);
     compare(c, g, saved);
     if (!rc_grid_number(saved, "load", &load) ||
-        rc_solver_start(solver, load, saved->v, &err) != RC_OK)
+        rc_solver_warm_start(solver, load, saved->v, &err) != RC_OK)
         tool_die_at(&c->run->t, g, EXIT_IMPOSSIBLE, "--checkpoint %s: it cannot be started from",
                     c->name);
     rc_reader_free(reader);
@@ -276,8 +276,8 @@ checkpoint_save(struct checkpoint *c, const struct rc_grid *g, const struct rc_s
 void
 checkpoint_pass(struct checkpoint *c, const struct rc_grid *g, const struct rc_solver *solver)
 {
-    if (c == NULL || solve_now() - c->began < c->next)
-        return;
+    if (c == NULL || solve_now() - c->began < c->next || rc_solver_iterations(solver) == 0)
+        return; /* on the coarser grids there is nothing to keep */
     checkpoint_save(c, g, solver);
     c->next *= 2;
 }

@@ -22,18 +22,21 @@ left(struct progress *q, size_t nodes, size_t iterations, double error, double t
     return log(error / tol) / rate;
 }
 
-bool
-solve_watch(void *at, const struct rc_shape *grid, size_t iterations, double error, double tol)
+void
+solve_progress(struct run *run, const struct rc_solver *solver)
 {
-    struct run *run = at;
-    double seconds = left(&run->progress, grid->nx * grid->ny, iterations, error, tol);
+    struct rc_progress p;
     char how_far[64] = "", how_long[64] = "";
+    double seconds;
+    size_t nodes;
 
-    if (!isnan(error))
-        snprintf(how_far, sizeof how_far, ", error %.1e of %.1e", error, tol);
-    if (!isnan(seconds) && grid->nx * grid->ny == run->nodes)
+    rc_solver_progress(solver, &p);
+    nodes = p.grid.nx * p.grid.ny;
+    seconds = left(&run->progress, nodes, p.iterations, p.error, p.tol);
+    if (!isnan(p.error))
+        snprintf(how_far, sizeof how_far, ", error %.1e of %.1e", p.error, p.tol);
+    if (!isnan(seconds) && nodes == run->nodes)
         snprintf(how_long, sizeof how_long, ", about %.*f s left", seconds < 10 ? 1 : 0, seconds);
-    tool_progress(&run->t, "case %zu, %zu x %zu, iteration %zu%s%s", run->number, grid->nx,
-                  grid->ny, iterations, how_far, how_long);
-    return tool_interrupted() == 0;
+    tool_progress(&run->t, "case %zu, %zu x %zu, iteration %zu%s%s", run->number, p.grid.nx,
+                  p.grid.ny, p.iterations, how_far, how_long);
 }

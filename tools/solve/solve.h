@@ -70,9 +70,8 @@ void solve_report(struct run *run, const struct rc_grid *g, const struct rc_solv
 /* What the scene calls for and what it doesn't, and what that costs, in words. */
 void solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *problem);
 
-/* Tells of an iteration; false once a signal has come. Of the type rc_watch, `at` is the run. */
-bool solve_watch(void *at, const struct rc_shape *grid, size_t iterations, double error,
-                 double tol);
+/* Tells where the solver stands. */
+void solve_progress(struct run *run, const struct rc_solver *solver);
 
 /* ---- checkpoint.c; NULL for a checkpoint is allowed: nothing is done ---- */
 

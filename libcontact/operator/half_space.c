@@ -1,0 +1,299 @@
+/*
+ * The operator of an elastic half-space: K p by an engine in double precision, and row by row in
+ * single precision by transforms, which serve the preconditioner too. Where the engine is not to be
+ * mixed with single precision, rows are gathered and summed by it.
+ */
+#include "operator.h"
+
+#include <math.h>
+#include <omp.h>
+#include <stdlib.h>
+
+#include "libcontact/memory.h"
+
+static const double pi = 3.14159265358979323846;
+
+struct half_space {
+    struct rc_operator op;
+    double estar;
+    struct rc_conv *conv; /* K p in double precision, or NULL                        */
+    struct rc_fft *fft;   /* in single precision, on the grid in units of sqrt(dx dy) */
+    struct rc_spectrum *kernel, *inverse;
+    double *p, *u; /* maps and, for each thread, a row: for engines without   */
+    float *row;    /* single precision; else NULL                             */
+    int row_threads;
+};
+
+static struct rc_conv_options
+conv_options(const struct rc_operator_options *o)
+{
+    return (struct rc_conv_options){.boundary = o->boundary,
+                                    .engine = o->engine,
+                                    .tol = o->tol,
+                                    .precise = true,
+                                    .threads = o->threads};
+}
+
+/* ---- figures ---- */
+
+/* On the free boundary the largest row sum of K: what a uniform pressure does in the middle of a
+ * rectangle a x b, 2 (a asinh(b/a) + b asinh(a/b)) / (pi E*) (Love 1929; Johnson 1985, eq.
+ * 3.25). On a periodic map the eigenvalues are known, and the longest wave has the largest, 2 /
+ * (E* q), q = 2 pi / L. */
+static double
+norm(const struct rc_shape *s, enum rc_boundary boundary, double estar)
+{
+    double a = s->dx * (double)s->nx, b = s->dy * (double)s->ny;
+
+    if (boundary == RC_PERIODIC)
+        return fmax(a, b) / (pi * estar);
+    return 2 * (a * asinh(b / a) + b * asinh(a / b)) / (pi * estar);
+}
+
+static double
+diagonal(const struct rc_shape *s, double estar)
+{
+    struct rc_medium medium = {.estar = estar};
+    struct rc_lattice cell = {s->dx, s->dy, 1, 1};
+    double self;
+
+    rc_kernel_boussinesq.rows(&medium, 0, &cell, 1, 0, 1, &self);
+    return self;
+}
+
+/* The mean of |q| / 2 over the wave numbers of the grid, |qx| <= pi/dx and |qy| <= pi/dy,
+ * lengths in units of sqrt(dx dy): half the mean distance of a rectangle's points from its
+ * middle. */
+static double
+inverse_diagonal(const struct rc_shape *unit)
+{
+    double a = pi / unit->dx, b = pi / unit->dy, d = hypot(a, b);
+
+    return (2 * d + a * a / b * asinh(b / a) + b * b / a * asinh(a / b)) / 12;
+}
+
+/* The inverse, (-Laplace)^(1/2) E* / 2, ties two nodes the stronger the nearer they are: as
+ * |x|^(-3). */
+static void
+set_neighbours(struct rc_operator *op, const struct rc_shape *unit)
+{
+    for (int b = -1; b <= 1; b++)
+        for (int a = -1; a <= 1; a++) {
+            double r = hypot(a * unit->dx, b * unit->dy);
+            op->neighbour[b + 1][a + 1] = r > 0 ? 1 / (r * r * r) : 0;
+        }
+}
+
+static struct rc_shape
+unit_of(const struct rc_shape *s)
+{
+    double unit = sqrt(s->dx) * sqrt(s->dy);
+
+    return (struct rc_shape){s->nx, s->ny, s->dx / unit, s->dy / unit};
+}
+
+/* ---- plan ---- */
+
+static const struct rc_operator_type half_space;
+
+static void
+half_space_free(struct rc_operator *op)
+{
+    struct half_space *s = (struct half_space *)op;
+
+    rc_conv_free(s->conv);
+    rc_fft_free(s->fft);
+    rc_spectrum_free(s->kernel);
+    rc_spectrum_free(s->inverse);
+    free(s->p);
+    free(s->u);
+    free(s->row);
+    free(s);
+}
+
+/* Without K p in double precision. */
+static struct half_space *
+half_space_new(const struct rc_shape *shape, const struct rc_operator_options *o,
+               struct rc_err *err)
+{
+    const struct rc_shape unit = unit_of(shape);
+    struct rc_medium medium = {.estar = 1};
+    struct half_space *s = calloc(1, sizeof *s);
+
+    if (s == NULL) {
+        rc_err_set(err, "out of memory for a plan");
+        return NULL;
+    }
+    s->estar = o->estar;
+    s->op = (struct rc_operator){.type = &half_space,
+                                 .shape = *shape,
+                                 .boundary = o->boundary,
+                                 .threads = o->threads,
+                                 .unit = sqrt(shape->dx) * sqrt(shape->dy) / o->estar,
+                                 .norm = norm(shape, o->boundary, o->estar),
+                                 .diagonal = diagonal(shape, o->estar),
+                                 .inverse_diagonal = inverse_diagonal(&unit),
+                                 .extension = 0.5,
+                                 .row_error = 2e-7, /* 1e-5 for |u| of 50, at 1024 x 1024 */
+                                 .row_cost = 0.5,
+                                 .factor_cost = 0.5,
+                                 .mean_free = o->boundary == RC_PERIODIC};
+    set_neighbours(&s->op, &unit);
+    if ((s->fft = rc_fft_new(&unit, o->boundary, RC_SINGLE, o->threads, err)) == NULL ||
+        (s->kernel = rc_spectrum_new(s->fft, err)) == NULL ||
+        (s->inverse = rc_spectrum_new(s->fft, err)) == NULL ||
+        rc_spectrum_set(s->kernel, s->fft, &rc_kernel_boussinesq, 0, &medium, err) != RC_OK) {
+        half_space_free(&s->op);
+        return NULL;
+    }
+    rc_spectrum_set_reciprocal(s->inverse, s->fft, s->kernel);
+    s->op.kernel = s->kernel;
+    s->op.inverse = s->inverse;
+    return s;
+}
+
+struct rc_operator *
+rc_half_space_new(const struct rc_shape *shape, const struct rc_operator_options *o,
+                  struct rc_err *err)
+{
+    struct rc_conv_options options = conv_options(o);
+    size_t n = shape->nx * shape->ny;
+    struct half_space *s;
+
+    if (rc_shape_check(shape, err) != RC_OK || (s = half_space_new(shape, o, err)) == NULL)
+        return NULL;
+    if ((s->conv = rc_conv_new(shape, o->estar, &options, err)) == NULL) {
+        half_space_free(&s->op);
+        return NULL;
+    }
+    s->op.exact = true;
+    s->op.error = rc_conv_error(s->conv);
+    s->op.engine = rc_conv_engine(s->conv);
+    s->op.reason = rc_conv_reason(s->conv);
+    if (rc_conv_mixed(s->conv))
+        return &s->op;
+    s->op.row_cost = 1;
+    s->row_threads = rc_useful_threads(shape, o->threads);
+    s->p = rc_alloc(n, sizeof *s->p);
+    s->u = rc_alloc(n, sizeof *s->u);
+    s->row = rc_alloc((size_t)s->row_threads * shape->nx, sizeof *s->row);
+    if (s->p == NULL || s->u == NULL || s->row == NULL) {
+        rc_err_set(err, "out of memory for the displacements of %zu nodes", n);
+        half_space_free(&s->op);
+        return NULL;
+    }
+    return &s->op;
+}
+
+static struct rc_operator *
+coarse(const struct rc_operator *op, const struct rc_shape *shape, struct rc_err *err)
+{
+    struct rc_operator_options o = {.boundary = op->boundary,
+                                    .estar = ((const struct half_space *)op)->estar,
+                                    .threads = op->threads};
+    struct half_space *s = half_space_new(shape, &o, err);
+
+    return s == NULL ? NULL : &s->op;
+}
+
+size_t
+rc_half_space_memory(const struct rc_shape *shape, const struct rc_operator_options *o)
+{
+    struct rc_conv_options options = conv_options(o);
+    size_t own = rc_fft_memory(shape, o->boundary, RC_SINGLE) +
+                 rc_spectrum_memory(shape, o->boundary, RC_SINGLE);
+    size_t conv = rc_conv_memory(shape, &options);
+
+    return conv == 0 ? 0 : own + conv;
+}
+
+const char *
+rc_half_space_engine(const struct rc_shape *shape, const struct rc_operator_options *o,
+                     const char **reason)
+{
+    struct rc_conv_options options = conv_options(o);
+
+    return rc_conv_choice(shape, &options, reason);
+}
+
+double
+rc_half_space_seconds(const struct rc_shape *shape, const struct rc_operator_options *o)
+{
+    struct rc_conv_options options = conv_options(o);
+
+    return rc_conv_seconds(shape, &options);
+}
+
+/* ---- use ---- */
+
+static void
+apply(struct rc_operator *op, const double *p, double *u)
+{
+    rc_conv_apply(((struct half_space *)op)->conv, p, u);
+}
+
+/* Rows are gathered into a map, summed, and handed out again. */
+static void
+apply_by_map(struct half_space *s, rc_row *in, rc_row *out, void *ctx)
+{
+    size_t nx = s->op.shape.nx, ny = s->op.shape.ny;
+
+#pragma omp parallel for num_threads(s->row_threads) schedule(static)
+    for (size_t j = 0; j < ny; j++) {
+        float *row = s->row + (size_t)omp_get_thread_num() * nx;
+        bool any = in(ctx, j, row);
+        for (size_t i = 0; i < nx; i++)
+            s->p[j * nx + i] = any ? (double)row[i] : 0;
+    }
+    rc_conv_apply(s->conv, s->p, s->u);
+#pragma omp parallel for num_threads(s->row_threads) schedule(static)
+    for (size_t j = 0; j < ny; j++) {
+        float *row = s->row + (size_t)omp_get_thread_num() * nx;
+        for (size_t i = 0; i < nx; i++)
+            row[i] = (float)(s->u[j * nx + i] / s->op.unit);
+        out(ctx, j, row);
+    }
+}
+
+static void
+apply_rows(struct rc_operator *op, rc_row *in, rc_row *out, void *ctx)
+{
+    struct half_space *s = (struct half_space *)op;
+    const struct rc_spectrum *factors[] = {s->kernel};
+    rc_row *rows[] = {in, out};
+
+    if (s->p != NULL)
+        apply_by_map(s, in, out, ctx);
+    else
+        rc_fft_chain(s->fft, 1, factors, rows, ctx);
+}
+
+static void
+chain(struct rc_operator *op, size_t n, const struct rc_spectrum *const *factors,
+      rc_row *const *rows, void *ctx)
+{
+    rc_fft_chain(((struct half_space *)op)->fft, n, factors, rows, ctx);
+}
+
+static struct rc_spectrum *
+spectrum(struct rc_operator *op, const struct rc_kernel *values, struct rc_err *err)
+{
+    const struct half_space *s = (const struct half_space *)op;
+    struct rc_medium none = {0};
+    struct rc_spectrum *k = rc_spectrum_new(s->fft, err);
+
+    if (k != NULL && rc_spectrum_set_values(k, s->fft, values, 0, &none, err) != RC_OK) {
+        rc_spectrum_free(k);
+        return NULL;
+    }
+    return k;
+}
+
+static const struct rc_operator_type half_space = {
+    .apply = apply,
+    .apply_rows = apply_rows,
+    .chain = chain,
+    .spectrum = spectrum,
+    .coarse = coarse,
+    .free = half_space_free,
+};
