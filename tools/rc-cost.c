@@ -233,7 +233,7 @@ open_case(struct run *run, struct rc_grid *g, struct cost_case *c)
                             .depths = args.depths,
                             .nu = args.nu,
                             .mu = args.mu};
-    c->reference.settings = cost_reference;
+    c->reference.settings = cost_reference();
     c->reference.shape = c->shape;
     c->trial = cost_trials(args.kernels, args.methods, &c->trials);
     c->stress = tool_given(&run->t, "depths") ? cost_stress_trials(c, &c->stresses) : NULL;

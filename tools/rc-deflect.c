@@ -26,9 +26,9 @@ static const struct opt opts[] = {
      .result = true, .arg = "ERROR",
      .help = "error allowed, relative to the sum of |K| |p| (default: rounding)"},
     {.name = "order", .type = OPT_COUNT, AT(order), .min = 1, .max = 50, .result = true,
-     .arg = "T", .help = "mlms: transfers of order 2T, together with --correction"},
+     .arg = "T", .help = "multi-level sums: transfers of order 2T, together with --correction"},
     {.name = "correction", .type = OPT_COUNT, AT(correction), .min = 1, .max = 1000,
-     .result = true, .arg = "M", .help = "mlms: corrections over 2M+1 by 2M+1 nodes"},
+     .result = true, .arg = "M", .help = "multi-level sums: corrections over 2M+1 by 2M+1 nodes"},
     {.name = NULL},
 };
 /* clang-format on */

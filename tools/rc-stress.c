@@ -33,7 +33,7 @@ static const struct opt opts[] = {
     {.name = "periodic", .type = OPT_FLAG, AT(periodic), .result = true,
      .help = "the map repeats for ever (default: what the stream says, else free)"},
     {.name = "kernel", .alias = "engine", .type = OPT_CHOICE, AT(kernel),
-     .words = words_engine_or_auto, .help = "how stresses are summed (default auto)"},
+     .words = words_stress_engine_or_auto, .help = "how stresses are summed (default auto)"},
     {.name = "tol", .type = OPT_NUMBER, AT(tol), .min = 0, .max = 1, .above = true,
      .result = true, .arg = "ERROR",
      .help = "error allowed in a component, over the largest pressure (default: rounding)"},

@@ -36,24 +36,32 @@ words_component(size_t k)
     return k < RC_STRESSES ? rc_component_names[k] : NULL;
 }
 
-const struct rc_engine_info *
-words_engine_named(const char *name)
+const char *
+words_stress_engine_or_auto(size_t k)
 {
     const struct rc_engine_info *info;
 
-    for (size_t k = 0; (info = rc_engine_info(k)) != NULL; k++)
-        if (strcmp(info->name, name) == 0)
-            return info;
+    if (k == 0)
+        return "auto";
+    for (size_t e = 0; (info = rc_engine_info(e)) != NULL; e++)
+        if (!info->precise && --k == 0)
+            return info->name;
     return NULL;
 }
 
-const struct rc_method_info *
-words_method_named(const char *name)
+size_t
+words_engine_place(const char *name)
 {
-    const struct rc_method_info *info;
+    const char *word;
+    size_t k = 0;
 
-    for (size_t k = 0; (info = rc_method_info(k)) != NULL; k++)
-        if (strcmp(info->name, name) == 0)
-            return info;
-    return NULL;
+    while ((word = words_engine(k)) != NULL && strcmp(word, name) != 0)
+        k++;
+    return k;
+}
+
+const struct rc_engine_info *
+words_engine_named(const char *name)
+{
+    return rc_engine_info(words_engine_place(name));
 }

@@ -16,8 +16,13 @@ const char *words_method(size_t k);
 const char *words_method_or_auto(size_t k);
 const char *words_component(size_t k); /* of a stress, as in enum rc_component */
 
-/* The row of that name; NULL: there is none, as for "auto". */
+/* Engines for stresses, which are in double precision anyway: without those that differ only in
+ * that. */
+const char *words_stress_engine_or_auto(size_t k);
+
+/* Place of the row of that name; past the last one: there is none, as for "auto". */
+size_t words_engine_place(const char *name);
+/* The row itself; NULL: there is none. */
 const struct rc_engine_info *words_engine_named(const char *name);
-const struct rc_method_info *words_method_named(const char *name);
 
 #endif

@@ -49,13 +49,13 @@ struct cost_trial {
     bool optimistic; /* its estimate is below its error, by more than 1 %                     */
 };
 
-/* The trials, *n of them, which the caller frees. `kernels` and `methods`: bits of the words of
- * COST_KERNELS and COST_METHODS that are wanted. */
-#define COST_KERNELS "fft|fft64|mlms|direct"
-#define COST_METHODS "pcg|pk99"
+/* The trials, *n of them, which the caller frees. `kernels` and `methods`: bit k stands for row
+ * k of libcontact's tables. NULL: memory is short. */
 struct cost_trial *cost_trials(size_t kernels, size_t methods, size_t *n);
+/* Place, among all pairs of a method and an engine that are tried, of that of the settings. */
+size_t cost_series(const struct cost_settings *settings);
 /* Settings of the reference: double precision throughout, to 1e-12. */
-extern const struct cost_settings cost_reference;
+struct cost_settings cost_reference(void);
 
 /* A trial of the stresses. */
 struct cost_stress {
@@ -92,7 +92,7 @@ struct cost_case {
     size_t stresses;
 };
 
-/* "pcg, fft, tol 1e-04, 512 x 512" */
+/* "method, engine, tol 1e-04, 512 x 512" */
 const char *cost_name(char text[128], const struct cost_trial *trial);
 
 /* ---- expected_time.c ---- */

@@ -1,51 +1,34 @@
 /*
- * How long a trial will take: convolutions that its method will need, times what one takes by its
- * kernel. Both come from the trials that have been run on this map; before there are any, from
- * bench-solve and bench-convolution (1024^2, two threads of 2026), which a machine may be several
- * times off.
+ * How long a trial will take: what libcontact expects of its method and engine, corrected by what
+ * the trials that have been run on this map took instead. A machine may be several times off, and a
+ * surface may need fewer convolutions or more.
  */
 #include "cost.h"
 
 #include <math.h>
 #include <string.h>
 
-static double
-digits(double tol)
+/* Of the library, for the trial's own grid. */
+static struct rc_expected
+expected(const struct cost_case *c, const struct cost_trial *t)
 {
-    return -log10(tol);
+    struct rc_problem problem = c->problem;
+    struct rc_expected e;
+
+    problem.method = t->settings.method;
+    problem.engine = t->settings.kernel;
+    problem.tol = t->settings.tol;
+    problem.threads = c->tool->threads;
+    if (rc_solver_expect(&t->shape, &problem, &e, NULL) != RC_OK)
+        e = (struct rc_expected){NAN, NAN, 0};
+    return e;
 }
 
-static double
-nodes(const struct rc_shape *shape)
-{
-    return (double)(shape->nx * shape->ny);
-}
-
-/* ---- what one convolution takes, for one node of the map, in seconds ---- */
-
-/* Beside mlms' own work, (log 1/tol)^2, stands that of the method. */
-static double
-orders(double tol)
-{
-    return (digits(tol) + 6) / 10;
-}
-
-static double
-known_pace(const struct cost_case *c, const char *kernel, double tol)
-{
-    double threads = 2 / (double)c->tool->threads;
-    double transform = c->problem.boundary == RC_FREE ? 18e-9 : 10e-9;
-
-    if (strcmp(kernel, "direct") == 0)
-        return 2.6e-9 * nodes(&c->shape) * threads;
-    return (strcmp(kernel, "mlms") == 0 ? 18e-9 * orders(tol) : transform) * threads;
-}
-
-/* The nearest tolerance that was run: by the same kernel, if possible by the same method; its
- * convolutions are of the same kind only then. */
+/* The trial with the nearest tolerance that was run on the map's own grid, with the same method, or
+ * engine, or both, where there is one. */
 static const struct cost_trial *
-nearest(const struct cost_case *c, const struct cost_settings *r, bool same_method,
-        bool same_kernel)
+nearest(const struct cost_case *c, const struct cost_settings *s, bool same_method,
+        bool same_engine)
 {
     const struct cost_trial *near = NULL;
 
@@ -53,99 +36,91 @@ nearest(const struct cost_case *c, const struct cost_settings *r, bool same_meth
         const struct cost_trial *m = &c->trial[k];
 
         if (m->state == COST_DONE && m->settings.coarse == 1 &&
-            (!same_method || strcmp(m->settings.method, r->method) == 0) &&
-            (!same_kernel || strcmp(m->settings.kernel, r->kernel) == 0) &&
+            (!same_method || strcmp(m->settings.method, s->method) == 0) &&
+            (!same_engine || strcmp(m->settings.kernel, s->kernel) == 0) &&
             (near == NULL ||
-             fabs(log(m->settings.tol / r->tol)) <= fabs(log(near->settings.tol / r->tol))))
+             fabs(log(m->settings.tol / s->tol)) <= fabs(log(near->settings.tol / s->tol))))
             near = m;
     }
     return near;
 }
 
-static double
-pace_of(const struct cost_case *c, const struct cost_trial *m)
+static const struct cost_trial *
+reference_of(const struct cost_case *c)
 {
-    return m->seconds / m->convolutions / nodes(&c->shape);
+    return c->reference.state == COST_DONE ? &c->reference : NULL;
 }
 
+/* How many times the expected convolutions a method took. */
 static double
-pace(const struct cost_case *c, const struct cost_settings *r)
+more_convolutions(const struct cost_case *c, const struct cost_settings *s)
 {
-    const struct cost_trial *near = nearest(c, r, true, true);
+    const struct cost_trial *near = nearest(c, s, true, false);
 
-    if (near == NULL)
-        near = nearest(c, r, false, true);
-    if (near == NULL && c->reference.state == COST_DONE)
-        near = &c->reference;
-    if (near == NULL)
-        return known_pace(c, r->kernel, r->tol);
-    return pace_of(c, near) * known_pace(c, r->kernel, r->tol) /
-           known_pace(c, near->settings.kernel, near->settings.tol);
+    if (near == NULL && strcmp(s->method, c->reference.settings.method) == 0)
+        near = reference_of(c);
+    return near == NULL ? 1 : near->convolutions / expected(c, near).convolutions;
 }
 
-/* ---- how many of them ---- */
-
-/* pk99 has to find the contact first, and is quick then. */
+/* How many times the expected seconds a convolution by an engine took; of the same method if
+ * possible, because the work beside the convolutions is in it. */
 static double
-known_convolutions(const struct cost_case *c, const struct cost_settings *r)
+slower(const struct cost_case *c, const struct cost_settings *s)
 {
-    double d = digits(r->tol);
-    double some =
-        strcmp(r->method, "pk99") != 0
-            ? 8 + 3.5 * d
-            : 0.3 * sqrt(nodes(&c->shape)) * (d < 4 ? pow(3, d / 2 - 1) : 3 + 0.3 * (d - 4));
+    const struct cost_trial *near = nearest(c, s, true, true);
+    struct rc_expected e;
 
-    return c->problem.approach > 0 ? 3 * some : some;
-}
-
-static double
-convolutions(const struct cost_case *c, const struct cost_settings *r)
-{
-    const struct cost_trial *near = nearest(c, r, true, false);
-
-    if (near == NULL && strcmp(r->method, c->reference.settings.method) == 0 &&
-        c->reference.state == COST_DONE)
-        near = &c->reference;
     if (near == NULL)
-        return known_convolutions(c, r);
-    return near->convolutions * known_convolutions(c, r) / known_convolutions(c, &near->settings);
+        near = nearest(c, s, false, true);
+    if (near == NULL)
+        near = reference_of(c);
+    if (near == NULL)
+        return 1;
+    e = expected(c, near);
+    return near->seconds / near->convolutions / (e.seconds / e.convolutions);
 }
 
 double
-cost_expect(const struct cost_case *c, const struct cost_trial *trial)
+cost_expect(const struct cost_case *c, const struct cost_trial *t)
 {
-    double part = nodes(&trial->shape) / nodes(&c->shape);
-
-    return convolutions(c, &trial->settings) * pace(c, &trial->settings) * nodes(&trial->shape) *
-           (strcmp(trial->settings.kernel, "direct") == 0 ? part : 1);
+    return expected(c, t).seconds * more_convolutions(c, &t->settings) * slower(c, &t->settings);
 }
 
 /* ---- stresses ---- */
 
-/* Exact slices take some 30 transforms' time a depth, six sums by another engine seven times
- * theirs. Beside each slice the exact one is computed, to compare. */
+/* One sum of displacements by the engine of a trial, on this machine. */
+static double
+one_sum(const struct cost_case *c, const struct cost_stress *s)
+{
+    struct rc_conv_options options = {.boundary = c->problem.boundary,
+                                      .engine = s->kernel,
+                                      .tol = s->tol,
+                                      .threads = c->tool->threads};
+    struct cost_settings settings = {
+        .method = "", .kernel = s->kernel, .tol = s->tol > 0 ? s->tol : 1e-14};
+
+    return rc_conv_seconds(&c->shape, &options) * slower(c, &settings);
+}
+
+/* Sums that a depth takes, in times of one of displacements: by the transforms of the first
+ * engine, whose plan all components share, and by other engines, component by component. Beside
+ * each slice the exact one is computed, to compare. */
 double
 cost_expect_stress(const struct cost_case *c, const struct cost_stress *s)
 {
-    double n = nodes(&c->shape), depths = (double)c->depths.n;
-    double exact = 5e-8 * n * depths * 2 / (double)c->tool->threads, each;
-    struct cost_settings r = {
-        .method = "pk99", .kernel = s->kernel, .tol = s->tol > 0 ? s->tol : 1e-14};
+    const double sums_exact = 3, sums_other = 7;
+    double depths = (double)c->depths.n, exact = sums_exact * one_sum(c, &c->stress[0]) * depths;
 
-    for (size_t k = 0; k < c->stresses; k++) {
-        const struct cost_stress *m = &c->stress[k];
-
-        if (m->state == COST_DONE && m->reference)
-            exact = m->seconds;
-    }
-    if (strcmp(s->kernel, "fft") == 0)
+    for (size_t k = 0; k < c->stresses; k++)
+        if (c->stress[k].state == COST_DONE && c->stress[k].reference)
+            exact = c->stress[k].seconds;
+    if (strcmp(s->kernel, c->stress[0].kernel) == 0)
         return 2 * exact;
-    each = pace(c, &r);
     for (size_t k = 0; k < c->stresses; k++) {
         const struct cost_stress *m = &c->stress[k];
 
         if (m->state == COST_DONE && strcmp(m->kernel, s->kernel) == 0)
-            return exact + m->seconds * orders(s->tol) / orders(m->tol);
+            return exact + m->seconds * one_sum(c, s) / one_sum(c, m);
     }
-    return exact + 7 * each * n * depths;
+    return exact + sums_other * one_sum(c, s) * depths;
 }

@@ -8,36 +8,53 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* clang-format off */
-static const struct entry {
-    const char *kernel;
-    double tol;
-    bool free_only;
-} entries[] = {
-    {"fft", 0, false}, /* the reference: to rounding */
-    {"fft", 1e-2, false}, {"fft", 1e-3, false}, /* deep slices are coarser */
-    {"fft", 1e-4, false}, {"fft", 1e-6, false},
-    {"mlms", 1e-2, true}, {"mlms", 1e-4, true}, {"mlms", 1e-6, true},
-    {"direct", 0, true},
-};
-/* clang-format on */
-
 enum {
-    ENTRIES = sizeof entries / sizeof *entries,
     DEPTHS = 4096,
     WANTED = (2u << RC_MISES) - 1 /* the six and Mises */
 };
 
+/* ---- which trials there are ---- */
+
+/* The first engine, which "auto" takes, is exact, and is quicker with a tolerance, by coarser
+ * grids for deep slices. Of the others those whose time grows with the square of the nodes take no
+ * tolerance. */
+static const double first_tols[] = {0, 1e-2, 1e-3, 1e-4, 1e-6}, other_tols[] = {1e-2, 1e-4, 1e-6},
+                    rounding[] = {0};
+
+enum {
+    FIRST_TOLS = sizeof first_tols / sizeof *first_tols,
+    OTHER_TOLS = sizeof other_tols / sizeof *other_tols
+};
+
+static size_t
+tolerances(size_t engine, const double **tol)
+{
+    const struct rc_engine_info *info = rc_engine_info(engine);
+
+    if (info->precise)
+        return 0; /* stresses are in double precision anyway */
+    *tol = engine == 0 ? first_tols : info->order == 1 ? other_tols : rounding;
+    return engine == 0 ? FIRST_TOLS : info->order == 1 ? OTHER_TOLS : 1;
+}
+
 struct cost_stress *
 cost_stress_trials(const struct cost_case *c, size_t *n)
 {
-    struct cost_stress *s = calloc(ENTRIES, sizeof *s);
+    const struct rc_engine_info *info;
+    struct cost_stress *s;
+    const double *tol;
+    size_t most = 0;
 
+    for (size_t e = 0; rc_engine_info(e) != NULL; e++)
+        most += tolerances(e, &tol);
+    s = calloc(most, sizeof *s);
     *n = 0;
-    for (size_t k = 0; s != NULL && k < ENTRIES; k++)
-        if (c->problem.boundary == RC_FREE || !entries[k].free_only)
+    for (size_t e = 0; s != NULL && (info = rc_engine_info(e)) != NULL; e++) {
+        size_t count = tolerances(e, &tol);
+        for (size_t k = 0; k < count && (info->periodic || c->problem.boundary == RC_FREE); k++)
             s[(*n)++] = (struct cost_stress){
-                .kernel = entries[k].kernel, .tol = entries[k].tol, .reference = k == 0};
+                .kernel = info->name, .tol = tol[k], .reference = e == 0 && tol[k] == 0};
+    }
     return s;
 }
 
@@ -168,7 +185,7 @@ work(void *ctx)
     struct job *j = ctx;
     const struct cost_case *c = j->c;
     struct rc_stress_options o = options_of(c, j->trial->kernel, j->trial->tol),
-                             e = options_of(c, "fft", 0);
+                             e = options_of(c, words_engine(0), 0);
     size_t n = c->shape.nx * c->shape.ny;
     double *maps = malloc(2 * n * (RC_MISES + 1) * sizeof *maps), start;
     double *s[RC_STRESSES] = {NULL}, *truth[RC_STRESSES] = {NULL};

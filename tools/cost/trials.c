@@ -1,5 +1,7 @@
 /*
- * The trials, in the order in which the table shows them.
+ * Which trials there are, in the order in which the table shows them: every method with every
+ * engine of libcontact's tables. The first of each, which "auto" takes, are tried in small steps of
+ * the tolerance and on coarser grids, the others in larger steps, to compare with.
  */
 #include "cost.h"
 
@@ -7,70 +9,126 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* clang-format off */
-static const struct series {
-    const char *method, *kernel, *arithmetic;
-    unsigned coarse;
-    int from, to, step; /* tolerances 1e-from, ..., 1e-to */
-} series[] = {
-    {"pcg", "fft", "mixed", 8, 2, 2, 1}, /* what these grids leave out hides more */
-    {"pcg", "fft", "mixed", 4, 2, 2, 1},
-    {"pcg", "fft", "mixed", 2, 2, 3, 1},
-    {"pcg", "fft", "mixed", 1, 2, 10, 1},
-    {"pcg", "fft64", "double", 1, 2, 10, 2},
-    {"pcg", "mlms", "double", 1, 2, 10, 2}, /* its order rises with the accuracy */
-    {"pcg", "direct", "double", 1, 2, 10, 4},
-    {"pk99", "fft", "double", 1, 2, 8, 2},
-    {"pk99", "mlms", "double", 1, 2, 4, 2},
+/* Tolerances 1e-2, 1e-(2 + step), ..., 1e-to; step 0: there are none. */
+struct range {
+    int to, step;
 };
-/* clang-format on */
 
 enum {
-    SERIES = sizeof series / sizeof *series
+    FROM = 2
 };
 
-const struct cost_settings cost_reference = {"pcg", "fft64", "double", 1, 1e-12};
-
-/* Place of a word among words separated by '|'. */
-static size_t
-place(const char *words, const char *word)
+static struct range
+range_of(size_t method, size_t engine)
 {
-    size_t k = 0;
+    const struct rc_method_info *m = rc_method_info(method);
+    const struct rc_engine_info *e = rc_engine_info(engine);
 
-    for (size_t n; *words != '\0'; words += n + (words[n] == '|'), k++) {
-        n = strcspn(words, "|");
-        if (strlen(word) == n && strncmp(words, word, n) == 0)
-            break;
-    }
-    return k;
+    if (e->precise && !m->mixed)
+        return (struct range){0, 0}; /* the row before it is the same */
+    if (method == 0)
+        return (struct range){10, e->order > 1 ? 4 : engine == 0 ? 1 : 2};
+    if (e->order > 1)
+        return (struct range){0, 0};
+    return (struct range){engine == 0 ? 8 : 4, 2};
 }
 
-static bool
-wanted(const struct series *s, size_t kernels, size_t methods)
+/* Coarser grids, by the nodes of the map along a side for one of theirs, and the last tolerance
+ * 1e-to: what such a grid leaves out hides more. */
+static const struct {
+    unsigned coarse;
+    int to;
+} coarser[] = {{8, 2}, {4, 2}, {2, 3}};
+
+enum {
+    COARSER = sizeof coarser / sizeof *coarser
+};
+
+struct list {
+    struct cost_trial *trial;
+    size_t n;
+};
+
+static enum rc_status
+add(struct list *list, size_t method, size_t engine, unsigned coarse, struct range range)
 {
-    return (kernels >> place(COST_KERNELS, s->kernel) & 1) &&
-           (methods >> place(COST_METHODS, s->method) & 1);
+    const struct rc_method_info *m = rc_method_info(method);
+    const struct rc_engine_info *e = rc_engine_info(engine);
+
+    for (int digits = FROM; digits <= range.to; digits += range.step) {
+        struct cost_trial *more = realloc(list->trial, (list->n + 1) * sizeof *more);
+
+        if (more == NULL)
+            return RC_FAIL;
+        list->trial = more;
+        list->trial[list->n++] = (struct cost_trial){
+            .settings = {.method = m->name,
+                         .kernel = e->name,
+                         .arithmetic = m->mixed && e->mixed ? "mixed" : "double",
+                         .coarse = coarse,
+                         .tol = 1 / pow(10, digits)}};
+    }
+    return RC_OK;
+}
+
+static enum rc_status
+add_series(struct list *list, size_t method, size_t engine)
+{
+    struct range range = range_of(method, engine);
+    enum rc_status status = RC_OK;
+
+    for (size_t k = 0; k < COARSER && method == 0 && engine == 0 && status == RC_OK; k++)
+        status = add(list, method, engine, coarser[k].coarse, (struct range){coarser[k].to, 1});
+    if (range.step > 0 && status == RC_OK)
+        status = add(list, method, engine, 1, range);
+    return status;
 }
 
 struct cost_trial *
 cost_trials(size_t kernels, size_t methods, size_t *n)
 {
-    struct cost_trial *trial;
-    size_t most = 0;
+    struct list list = {.trial = malloc(sizeof *list.trial)};
+    enum rc_status status = list.trial == NULL ? RC_FAIL : RC_OK;
 
-    for (size_t k = 0; k < SERIES; k++)
-        most += (size_t)((series[k].to - series[k].from) / series[k].step + 1);
-    trial = calloc(most, sizeof *trial);
-    *n = 0;
-    for (size_t k = 0; trial != NULL && k < SERIES; k++)
-        for (int digits = series[k].from; digits <= series[k].to; digits += series[k].step)
-            if (wanted(&series[k], kernels, methods))
-                trial[(*n)++].settings = (struct cost_settings){.method = series[k].method,
-                                                                .kernel = series[k].kernel,
-                                                                .arithmetic = series[k].arithmetic,
-                                                                .coarse = series[k].coarse,
-                                                                .tol = 1 / pow(10, digits)};
-    return trial;
+    for (size_t m = 0; rc_method_info(m) != NULL; m++)
+        for (size_t e = 0; rc_engine_info(e) != NULL && status == RC_OK; e++)
+            if ((methods >> m & 1) && (kernels >> e & 1))
+                status = add_series(&list, m, e);
+    if (status != RC_OK) {
+        free(list.trial);
+        list = (struct list){.trial = NULL};
+    }
+    *n = list.n;
+    return list.trial;
+}
+
+size_t
+cost_series(const struct cost_settings *settings)
+{
+    size_t place = 0;
+
+    for (size_t m = 0; rc_method_info(m) != NULL; m++)
+        for (size_t e = 0; rc_engine_info(e) != NULL; e++) {
+            if (strcmp(rc_method_info(m)->name, settings->method) == 0 &&
+                strcmp(rc_engine_info(e)->name, settings->kernel) == 0)
+                return place;
+            place += range_of(m, e).step > 0;
+        }
+    return place;
+}
+
+struct cost_settings
+cost_reference(void)
+{
+    const struct rc_engine_info *engine = rc_engine_info(0), *info;
+
+    for (size_t e = 0; !engine->precise && (info = rc_engine_info(e)) != NULL; e++)
+        engine = info->precise ? info : engine;
+    return (struct cost_settings){.method = rc_method_info(0)->name,
+                                  .kernel = engine->name,
+                                  .arithmetic = "double",
+                                  .coarse = 1,
+                                  .tol = 1e-12};
 }
 
 const char *

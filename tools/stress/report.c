@@ -104,6 +104,13 @@ section_effect(const struct rc_stress_options *o)
     return o->section != 0 ? "on" : "left out: no --section";
 }
 
+/* "auto" takes the first engine of the table; it alone has coarser grids for deep slices. */
+static const char *
+engine_of(const struct rc_stress_options *o)
+{
+    return strcmp(o->engine, "auto") == 0 ? words_engine(0) : o->engine;
+}
+
 static const char *
 coarse_effect(const struct rc_stress_options *o)
 {
@@ -113,7 +120,7 @@ coarse_effect(const struct rc_stress_options *o)
         return "left out: a section is a line already";
     if (o->boundary == RC_PERIODIC)
         return "left out: the map is periodic";
-    return strcmp(o->engine, "auto") == 0 || strcmp(o->engine, "fft") == 0
+    return strcmp(engine_of(o), words_engine(0)) == 0
                ? "on where depth allows"
                : "left out: the engine has its own tolerance";
 }
@@ -271,7 +278,7 @@ stress_report_plan(FILE *out, const struct rc_grid *p, const struct rc_stress_op
             o->boundary == RC_PERIODIC ? "periodic" : "free");
     fprintf(out, "  %-14s%zu, %g to %g m\n", "depths", depths->n, depths->v[0],
             depths->v[depths->n - 1]);
-    fprintf(out, "  %-14s%s\n", "kernel", strcmp(o->engine, "auto") == 0 ? "fft" : o->engine);
+    fprintf(out, "  %-14s%s\n", "kernel", engine_of(o));
     for (int k = 0; k < EFFECTS; k++)
         fprintf(out, "  %-14s%s\n", effects[k].name, effects[k].of(o));
     for (int c = 0; c < RC_STRESSES; c++)
