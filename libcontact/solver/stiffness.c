@@ -145,6 +145,7 @@ rc_solver_stiffness(struct rc_solver *s, double *stiffness, struct rc_err *err)
         /* one unit of t displaces by one unit of the operator's rows */
         *stiffness = solve(&c) * s->posed.cell / s->op->unit;
     rc_working_set_forget(s);
+    rc_working_set_find(s, false); /* who goes on stepping finds the contact's own residual */
     free(c.t);
     free(c.d);
     free(c.q);
