@@ -343,6 +343,7 @@ draw_figure(struct tool *t, const struct rc_grid *g, struct figure *f)
     const char *section = rc_grid_get(g, "section");
     double *rows = NULL;
     struct canvas *c;
+    char text[512];
     struct rc_err err;
 
     f->across = "x";
@@ -360,6 +361,8 @@ draw_figure(struct tool *t, const struct rc_grid *g, struct figure *f)
     }
     if ((c = figure_draw(f, g, &err)) == NULL)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (canvas_warning(c, text, sizeof text) != NULL)
+        tool_warn(t, "%s", text);
     write_picture(t, g, f, c);
     canvas_free(c);
     free(rows);

@@ -167,7 +167,7 @@ cost_plot(const struct cost_case *c, size_t *bytes, struct rc_err *err)
     struct drawing *d = calloc(2, sizeof *d);
     bool stresses = false;
     struct canvas *canvas = NULL;
-    char *png = NULL;
+    char *png = NULL, text[512];
     FILE *file;
     enum rc_status status = RC_FAIL;
 
@@ -185,6 +185,8 @@ cost_plot(const struct cost_case *c, size_t *bytes, struct rc_err *err)
         if (fclose(file) != 0)
             status = RC_FAIL;
     }
+    if (canvas != NULL && canvas_warning(canvas, text, sizeof text) != NULL)
+        tool_warn(c->tool, "%s", text);
     canvas_free(canvas);
     free(d);
     if (status != RC_OK) {
