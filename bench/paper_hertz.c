@@ -62,7 +62,6 @@ measured(size_t m, bool as_they_did)
     struct rc_shape shape = {m, m, step, step};
     struct rc_problem problem = {.estar = paper_estar,
                                  .load = paper_load,
-                                 .hardness = INFINITY,
                                  .tol = 0.01 * pow((double)m, -1.5),
                                  .threads = threads};
     struct rc_solver *solver;

@@ -50,7 +50,6 @@ in_middle(size_t m, double step, const double *rough, enum rc_boundary boundary,
                                  .estar = paper_estar,
                                  .load = paper_load,
                                  .engine = engine,
-                                 .hardness = INFINITY,
                                  .tol = tol,
                                  .threads = threads,
                                  .method = "pcg"};
@@ -165,13 +164,8 @@ section5(void)
     struct hertz exact = hertz(paper_load, paper_radius, paper_estar);
     double step = width * exact.a / M, *truth = map_new(M * M), *rough = map_new(M * M);
     struct rc_shape shape = {M, M, step, step};
-    struct rc_selfaffine roughness = {.hurst = 0.8,
-                                      .rms_height = 0.405e-6,
-                                      .rms_slope = NAN,
-                                      .short_cut = 16e-6,
-                                      .rolloff = 100e-6,
-                                      .long_cut = NAN,
-                                      .seed = 1999};
+    struct rc_selfaffine roughness = {
+        .hurst = 0.8, .rms_height = 0.405e-6, .short_cut = 16e-6, .rolloff = 100e-6, .seed = 1999};
     struct rc_err err;
 
     for (size_t k = 0; k < M * M; k++)

@@ -8,13 +8,8 @@ static double *
 rough_sphere(struct rc_shape shape, struct rc_problem *problem)
 {
     struct rc_shape whole = {PAPER_NX, PAPER_NY, paper_dx, paper_dy};
-    struct rc_selfaffine roughness = {.hurst = 0.8,
-                                      .rms_height = 0.405e-6,
-                                      .rms_slope = NAN,
-                                      .short_cut = 16e-6,
-                                      .rolloff = 100e-6,
-                                      .long_cut = NAN,
-                                      .seed = 1999};
+    struct rc_selfaffine roughness = {
+        .hurst = 0.8, .rms_height = 0.405e-6, .short_cut = 16e-6, .rolloff = 100e-6, .seed = 1999};
     double *h = map_new(shape.nx * shape.ny), *rough;
     double area = (double)(shape.nx * shape.ny) * shape.dx * shape.dy;
     double length = (double)shape.nx * shape.dx / (PAPER_NX * paper_dx);
@@ -200,7 +195,7 @@ stresses(void)
     double *h = rough_sphere(shape, &problem), *s[RC_STRESSES];
     struct rc_solver *solver;
 
-    problem.tol = NAN;
+    problem.tol = 0;
     solver = solver_new(shape, h, problem);
     solver_run(solver);
     for (int c = 0; c < RC_STRESSES; c++)

@@ -49,16 +49,11 @@ make(const struct surface *what, struct rc_shape shape, double *h)
     double side = (double)shape.nx * shape.dx, area = side * side;
     struct rc_selfaffine roughness = {.hurst = 0.8,
                                       .rms_slope = slope,
-                                      .rms_height = NAN,
                                       .short_cut = 8 * shape.dx,
                                       .rolloff = side / 8,
-                                      .long_cut = NAN,
                                       .seed = 5};
-    struct rc_problem problem = {.boundary = what->boundary,
-                                 .estar = estar,
-                                 .hardness = INFINITY,
-                                 .tol = 1e-4,
-                                 .threads = threads};
+    struct rc_problem problem = {
+        .boundary = what->boundary, .estar = estar, .tol = 1e-4, .threads = threads};
     struct rc_err err;
 
     must_be(rc_synth_selfaffine(&shape, &roughness, h, &err), &err);

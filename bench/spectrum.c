@@ -39,18 +39,10 @@ choose(const struct row *row, struct rc_shape s, unsigned char *w)
     static const double slope = 0.1;
     size_t n = s.nx * s.ny, count = 0;
     double *h = must(malloc(n * sizeof *h)), side = (double)s.nx;
-    struct rc_selfaffine what = {.hurst = 0.8,
-                                 .rms_slope = slope,
-                                 .rms_height = NAN,
-                                 .short_cut = 8,
-                                 .rolloff = side / 8,
-                                 .long_cut = NAN,
-                                 .seed = 5};
-    struct rc_problem problem = {.boundary = row->boundary,
-                                 .estar = 1,
-                                 .hardness = INFINITY,
-                                 .tol = 1e-5,
-                                 .load = row->mean * slope * (double)n};
+    struct rc_selfaffine what = {
+        .hurst = 0.8, .rms_slope = slope, .short_cut = 8, .rolloff = side / 8, .seed = 5};
+    struct rc_problem problem = {
+        .boundary = row->boundary, .estar = 1, .tol = 1e-5, .load = row->mean * slope * (double)n};
     struct rc_solver *solver;
     struct rc_err err;
 

@@ -8,6 +8,13 @@
  * (non-periodic) half-space a pressure value is constant in its cell.
  *
  * Makers return NULL, doers RC_FAIL, when they fail; *err then holds the reason in one sentence.
+ *
+ * In a struct of options 0, or NULL, is the default of every field, so that
+ *
+ *     struct rc_problem problem = {.estar = 114e9, .load = 240};
+ *
+ * is whole, and stays so when fields are added. Figures that are not known are NAN. Arrays stay the
+ * caller's; what has to outlive a call is copied, except where a comment says that the caller keeps it.
  */
 #ifndef RC_CONTACT_H
 #define RC_CONTACT_H
@@ -69,11 +76,11 @@ RC_API void rc_synth_wave(const struct rc_shape *shape, double amplitude, double
 struct rc_selfaffine {
     double hurst;      /* above 0, at most 1: the spectrum falls as q^(-2-2H) on maps, q^(-1-2H)
                           on profiles                                                           */
-    double rms_height; /* asked RMS about the mean, m; NAN when rms_slope is given              */
-    double rms_slope;  /* asked RMS of the gradient's magnitude; NAN when rms_height is given   */
-    double long_cut;   /* longest wavelength, m; NAN: the map itself                            */
-    double rolloff;    /* flat for wavelengths above this one, m; NAN: no flat part             */
-    double short_cut;  /* shortest wavelength, m, at least two nodes; NAN: 2 max(dx, dy)        */
+    double rms_height; /* asked RMS about the mean, m; 0 when rms_slope is given              */
+    double rms_slope;  /* asked RMS of the gradient's magnitude; 0 when rms_height is given   */
+    double long_cut;   /* longest wavelength, m; 0: the map itself                            */
+    double rolloff;    /* flat for wavelengths above this one, m; 0: no flat part             */
+    double short_cut;  /* shortest wavelength, m, at least two nodes; 0: 2 max(dx, dy)        */
     uint64_t seed;     /* the same seed gives the same waves on every grid of the same size in m */
 };
 /* Gaussian Fourier amplitudes with random phases, one draw for each wave vector; waves of exactly
@@ -170,8 +177,8 @@ struct rc_problem {
     double load;        /* total normal force, N, > 0; with an approach a guess, or 0            */
     double approach;    /* m, > 0: the load is sought that brings the bodies so far together from
                            first touch; 0: the load is given                                     */
-    double hardness;    /* upper bound of the pressure, Pa; INFINITY: none                       */
-    double tol;         /* asked relative L1 error of the pressure; NAN: (nx ny)^(-3/4)          */
+    double hardness;    /* upper bound of the pressure, Pa; 0 or INFINITY: none                  */
+    double tol;         /* asked relative L1 error of the pressure; 0: (nx ny)^(-3/4)            */
     const char *engine; /* NULL: auto                                                            */
     const char *method; /* NULL: auto                                                            */
     size_t max_iterations; /* 0: 100 + 10 sqrt(nx ny)                                            */

@@ -39,9 +39,7 @@ heights(const struct row *row, struct rc_shape s)
     size_t n = s.nx * s.ny;
     double *h = calloc(n, sizeof *h), side = s.dx * (double)s.nx;
     struct rc_selfaffine what = {.hurst = row->hurst,
-                                 .rms_height = NAN,
                                  .rms_slope = row->slope,
-                                 .long_cut = NAN,
                                  .rolloff = side / 4,
                                  .short_cut = row->cut * s.dx,
                                  .seed = 5};

@@ -31,16 +31,10 @@ choose(struct rc_shape s, enum rc_boundary boundary, enum set_name name, unsigne
 
     if (name == ROUGH) {
         double *h = malloc(n * sizeof *h);
-        struct rc_selfaffine what = {.hurst = 0.8,
-                                     .rms_height = NAN,
-                                     .rms_slope = 0.1,
-                                     .long_cut = NAN,
-                                     .rolloff = NAN,
-                                     .short_cut = 6 * fmax(s.dx, s.dy),
-                                     .seed = 4};
+        struct rc_selfaffine what = {
+            .hurst = 0.8, .rms_slope = 0.1, .short_cut = 6 * fmax(s.dx, s.dy), .seed = 4};
         struct rc_problem problem = {.boundary = boundary,
                                      .estar = 1e9,
-                                     .hardness = INFINITY,
                                      .load = 1.5e7 * s.dx * s.dy * (double)n,
                                      .tol = 1e-7};
         struct solved a;

@@ -19,8 +19,6 @@ heights(enum rc_boundary boundary)
     double *h = malloc(n * sizeof *h), *ball = malloc(n * sizeof *ball);
     struct rc_selfaffine rough = {.hurst = 0.7,
                                   .rms_slope = boundary == RC_FREE ? 0.005 : 0.1,
-                                  .rms_height = NAN,
-                                  .rolloff = NAN,
                                   .short_cut = 12e-6,
                                   .long_cut = 40e-6,
                                   .seed = 11};
@@ -39,7 +37,6 @@ problem_on(enum rc_boundary boundary)
 {
     return (struct rc_problem){.boundary = boundary,
                                .estar = estar,
-                               .hardness = INFINITY,
                                .load = boundary == RC_FREE ? 0.05 : 0.8,
                                .tol = 1e-7,
                                .method = contact_method};

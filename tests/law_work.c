@@ -27,9 +27,7 @@ work(const struct row *row, size_t m, const char *method)
     struct rc_shape s = {m, m, 1e-6, 1e-6};
     double *h = calloc(m * m, sizeof *h), mean = 1e9 * row->mean, convolutions;
     struct rc_selfaffine what = {.hurst = 0.8,
-                                 .rms_height = NAN,
                                  .rms_slope = 0.1,
-                                 .long_cut = NAN,
                                  .rolloff = (double)m * s.dx / 8,
                                  .short_cut = 8 * s.dx,
                                  .seed = 5};

@@ -22,8 +22,7 @@ static struct solved
 sphere(size_t m)
 {
     struct rc_shape shape = grid(m);
-    struct rc_problem problem = {
-        .estar = estar, .load = load, .hardness = INFINITY, .tol = 1e-7, .threads = 2};
+    struct rc_problem problem = {.estar = estar, .load = load, .tol = 1e-7, .threads = 2};
     double *h = malloc(m * m * sizeof *h);
     struct solved s;
 
@@ -150,11 +149,8 @@ units_and_datum(void **state)
     for (int k = 0; k < 3; k++) {
         double L = unit[k];
         struct rc_shape shape = {M, M, side * L / M, side * L / M};
-        struct rc_problem problem = {.estar = estar / (L * L),
-                                     .load = load,
-                                     .hardness = INFINITY,
-                                     .tol = 1e-9,
-                                     .threads = 1};
+        struct rc_problem problem = {
+            .estar = estar / (L * L), .load = load, .tol = 1e-9, .threads = 1};
         double h[M * M];
         struct solved s;
 

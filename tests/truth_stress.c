@@ -376,11 +376,8 @@ paper_figure_1(void **state)
     for (size_t m = 64; m <= 256; m *= 2) {
         double d = 2.1 * h.a / (double)m, above = 0, below = 0, error;
         struct rc_shape shape = {m, m, d, d};
-        struct rc_problem problem = {.estar = estar,
-                                     .load = load,
-                                     .hardness = INFINITY,
-                                     .tol = 0.1 * pow((double)m, -1.5),
-                                     .threads = 2};
+        struct rc_problem problem = {
+            .estar = estar, .load = load, .tol = 0.1 * pow((double)m, -1.5), .threads = 2};
         struct rc_stress_options options = {
             .nu = nu, .mu = mu, .wanted = 1u << RC_MISES, .threads = 2};
         double *height = malloc(m * m * sizeof *height), *s[RC_STRESSES] = {NULL};
@@ -436,8 +433,6 @@ chosen_depths(void **state)
     struct rc_shape shape = {M, M, 2.6 * h.a / M, 2.6 * h.a / M};
     struct rc_selfaffine roughness = {.hurst = 0.8,
                                       .rms_height = 60e-9,
-                                      .rms_slope = NAN,
-                                      .long_cut = NAN,
                                       .rolloff = h.a / 2,
                                       .short_cut = 5 * shape.dx,
                                       .seed = 5};
@@ -450,8 +445,7 @@ chosen_depths(void **state)
     assert_int_equal(rc_synth_selfaffine(&shape, &roughness, rough, &err), RC_OK);
     for (int k = 0; k < 2; k++) {
         struct rc_stress_options options = {.nu = 0.3, .wanted = 1u << RC_MISES, .threads = 2};
-        struct rc_problem problem = {
-            .estar = estar, .load = load, .hardness = INFINITY, .tol = 1e-5, .threads = 2};
+        struct rc_problem problem = {.estar = estar, .load = load, .tol = 1e-5, .threads = 2};
         double *height = malloc(M * M * sizeof *height), *depths;
         double found = 0, exact = 0.620041 * h.p0;
         struct rc_stress *stress;

@@ -142,13 +142,7 @@ test_transform(void **state)
 
 /* ---- roughness ---- */
 
-static const struct rc_selfaffine rough = {.hurst = 0.73,
-                                           .rms_height = 0.42e-6,
-                                           .rms_slope = NAN,
-                                           .long_cut = NAN,
-                                           .rolloff = NAN,
-                                           .short_cut = NAN,
-                                           .seed = 2385};
+static const struct rc_selfaffine rough = {.hurst = 0.73, .rms_height = 0.42e-6, .seed = 2385};
 
 static double *
 make(const struct rc_shape *s, const struct rc_selfaffine *what)
@@ -205,7 +199,7 @@ check_slope(struct rc_shape s)
     double complex *c = malloc((size_t)((2 * m + 1) * (2 * n + 1)) * sizeof *c);
     double *h, squares = 0;
 
-    what.rms_height = NAN;
+    what.rms_height = 0;
     what.rms_slope = 0.23;
     h = make(&s, &what);
     waves(&s, h, m, n, true, c);
@@ -252,7 +246,7 @@ test_cuts(void **state)
             assert_true(inside ? a > 1e-6 : a < rounding);
         }
     free(h);
-    what.long_cut = what.short_cut = NAN; /* all but the waves of two nodes */
+    what.long_cut = what.short_cut = 0; /* all but the waves of two nodes */
     h = make(&s, &what);
     waves(&s, h, 16, 23, true, c);
     for (long ky = -23; ky <= 23; ky++)
@@ -464,11 +458,13 @@ test_refusals(void **state)
         {offsetof(struct rc_selfaffine, hurst), 0, "Hurst"},
         {offsetof(struct rc_selfaffine, hurst), 1.01, "Hurst"},
         {offsetof(struct rc_selfaffine, hurst), NAN, "Hurst"},
-        {offsetof(struct rc_selfaffine, rms_height), 0, "RMS height"},
+        {offsetof(struct rc_selfaffine, rms_height), -1, "RMS height"},
         {offsetof(struct rc_selfaffine, rms_height), INFINITY, "RMS height"},
-        {offsetof(struct rc_selfaffine, rms_height), NAN, "one of"},
+        {offsetof(struct rc_selfaffine, rms_height), 0, "one of"},
+        {offsetof(struct rc_selfaffine, rms_height), NAN, "RMS height"},
         {offsetof(struct rc_selfaffine, rms_slope), 0.1, "one of"},
-        {offsetof(struct rc_selfaffine, long_cut), 0, "positive"},
+        {offsetof(struct rc_selfaffine, long_cut), -2e-5, "positive"},
+        {offsetof(struct rc_selfaffine, long_cut), NAN, "positive"},
         {offsetof(struct rc_selfaffine, long_cut), 2e-6, "long cut-off"},
         {offsetof(struct rc_selfaffine, rolloff), -1, "positive"},
         {offsetof(struct rc_selfaffine, rolloff), INFINITY, "finite"},

@@ -10,7 +10,6 @@
 
 static struct solve_args args = {
     .physics = PHYSICS_NONE,
-    .tol = NAN,
     .kernel = "auto",
     .method = "auto",
     .interval = 60,

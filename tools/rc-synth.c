@@ -141,16 +141,23 @@ check_selfaffine(struct tool *t, const struct rc_shape *shape)
                  "one follows");
 }
 
+/* The library's word for what was not given is 0. */
+static double
+or_default(double value)
+{
+    return isnan(value) ? 0 : value;
+}
+
 static enum rc_status
 make_selfaffine(const struct rc_shape *shape, double *h, bool *periodic, struct rc_err *err)
 {
     const struct rc_selfaffine what = {
         .hurst = args.hurst,
-        .rms_height = args.rms_height,
-        .rms_slope = args.rms_slope,
-        .long_cut = args.long_cut,
-        .rolloff = args.rolloff,
-        .short_cut = args.short_cut,
+        .rms_height = or_default(args.rms_height),
+        .rms_slope = or_default(args.rms_slope),
+        .long_cut = or_default(args.long_cut),
+        .rolloff = or_default(args.rolloff),
+        .short_cut = or_default(args.short_cut),
         .seed = args.seed,
     };
 

@@ -19,9 +19,9 @@
  *
  * ||z||_1 / ||p||_1 estimates the error of the pressure and costs nothing here: z is at hand.
  *
- * Where the engine is the Fourier one, K delta is summed in single precision: its error is relative
- * to delta, which shrinks. The sum of what that may have spoilt is kept, and v is renewed in double
- * precision before it matters, and always before the estimate is believed.
+ * Where the operator allows it, K delta is summed in single precision: its error is relative to
+ * delta, which shrinks. `drift` adds up what that may have done to p; v is computed anew in double
+ * precision before it matters, and always before an estimate ends the iteration.
  */
 #include "solver.h"
 
@@ -33,19 +33,20 @@
 
 enum {
     SPACER = 30,   /* steps after which one is a projected-gradient step                    */
-    PATIENCE = 40, /* steps without a better estimate, one of them a spacer, after which
-                      rounding has the word                                                */
+    PATIENCE = 40, /* steps without a better estimate, at least one of them a spacer, after
+                      which only rounding is left                                           */
     TRIES = 4      /* to shorten a step                                                     */
 };
-/* No step is longer than this, over the load: what the nodes that stay carry would be lost in the
- * rounding of the way there. Only heights beside which the displacement is nothing ask for more. */
+/* The longest step, relative to the load: beyond it the pressure of the nodes that stay would be lost
+ * in rounding. Only heights that are far larger than the displacement ask for longer ones. */
 static const double longest = 1e6;
 /* How near the lowest point may be for a clipped step to be taken whole: nodes then come to rest at
  * their bounds. With the lowest point at a part s of the way, the whole of it still gains
  * (2 s - 1)/s^2 of what could be gained. */
 static const double enough = 0.75;
-/* Where the start is that far off, heights are so large beside the displacement that nodes decide
- * nearly alone whether they touch, or yield: as springs, each of the stiffness of its own cell. */
+/* An estimate above this at the start means that heights are so much larger than the displacement that
+ * each node touches, or yields, nearly independently of the others: a better start is then that of
+ * springs, each of the stiffness of its own cell. */
 static const double apart = 100;
 
 struct pcg {
@@ -177,7 +178,8 @@ begin(struct rc_solver *solver, struct pcg *s)
     rc_working_set_find(solver, true);
 }
 
-/* v in double precision, and all of the working set: what is estimated from that is believed. */
+/* v in double precision, and the whole working set: an estimate made from these may end the
+ * iteration. */
 static void
 renew(struct rc_solver *solver, struct pcg *s)
 {
@@ -303,10 +305,10 @@ start_from_springs(struct rc_solver *solver)
     restore(solver, rc_iterate_carried(solver));
 }
 
-/* The direction, its mean, and an estimate that may be believed where it is small enough. Where
- * that is foreseen, the one that would only say so is spared. */
+/* The direction, its mean, and the estimate. One that is below the tolerance has to come from v in
+ * double precision; where the last ones let us expect that, v is renewed before the first try. */
 static void
-look(struct rc_solver *solver, struct pcg *s, double *mean)
+find_direction(struct rc_solver *solver, struct pcg *s, double *mean)
 {
     double before = s->estimate;
     bool sure = solver->posed.rough || solver->it.fresh;
@@ -622,7 +624,7 @@ step(struct rc_solver *solver, void *at)
 
     if (!solver->it.known)
         begin(solver, s);
-    look(solver, s, &mean);
+    find_direction(solver, s, &mean);
     found.estimate = s->estimate;
     if (s->estimate <= solver->load.tol)
         return found;

@@ -8,10 +8,14 @@
 #include <math.h>
 #include <string.h>
 
+struct pass {
+    const struct rc_solver *solver;
+};
+
 static void
 energy_block(void *at, size_t first, size_t n, double *sums)
 {
-    const struct rc_solver *s = at;
+    const struct rc_solver *s = ((const struct pass *)at)->solver;
 
     for (size_t k = first; k < first + n; k++) {
         double a = s->it.p[k] * s->it.v[k] / 2,
@@ -24,9 +28,10 @@ energy_block(void *at, size_t first, size_t n, double *sums)
 bool
 rc_safeguard_raised(struct rc_safeguard *safeguard, const struct rc_solver *solver)
 {
+    struct pass c = {solver};
     double total[RC_SUMS];
 
-    rc_reduce_blocks(solver, energy_block, (void *)(size_t)solver, total);
+    rc_reduce_blocks(solver, energy_block, &c, total);
     if (total[0] > safeguard->energy + 1e-13 * total[1]) /* more than rounding */
         return true;
     safeguard->energy = total[0];

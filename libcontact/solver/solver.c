@@ -48,9 +48,9 @@ check(const struct rc_shape *s, const double *h, const struct rc_problem *proble
         return RC_FAIL;
     if (!(problem->estar > 0) || isinf(problem->estar))
         return rc_err_set(err, "E* = %g Pa: it must be positive and finite", problem->estar);
-    if (!(problem->hardness > 0))
+    if (!(problem->hardness >= 0))
         return rc_err_set(err, "hardness %g Pa: it must be positive", problem->hardness);
-    if (problem->tol <= 0)
+    if (!(problem->tol >= 0))
         return rc_err_set(err, "tolerance %g: it must be positive", problem->tol);
     for (size_t k = 0; k < s->nx * s->ny; k++)
         if (!isfinite(h[k]))
@@ -62,7 +62,7 @@ check(const struct rc_shape *s, const double *h, const struct rc_problem *proble
 static double
 tolerance(const struct rc_shape *shape, const struct rc_problem *problem)
 {
-    return isnan(problem->tol) ? pow((double)(shape->nx * shape->ny), -0.75) : problem->tol;
+    return problem->tol == 0 ? pow((double)(shape->nx * shape->ny), -0.75) : problem->tol;
 }
 
 /* The engine's accuracy follows from that of the pressure, which it must not spoil: at a tenth,
@@ -89,7 +89,7 @@ pose(struct rc_posed *posed, const struct rc_shape *shape, const double *h,
                                .n = n,
                                .cell = shape->dx * shape->dy,
                                .h = rc_alloc(n, sizeof *posed->h),
-                               .hardness = problem->hardness,
+                               .hardness = problem->hardness == 0 ? INFINITY : problem->hardness,
                                .tol = tolerance(shape, problem),
                                .max_iterations = problem->max_iterations > 0
                                                      ? problem->max_iterations

@@ -51,10 +51,11 @@ struct spectrum {
 /* Cut-offs are included, whatever way 1/(nx dx) was rounded. */
 static const double slack = 1e-9;
 
+/* 0 means that it is not given. */
 static bool
 bad_length(double length)
 {
-    return !isnan(length) && !(length > 0 && isfinite(length));
+    return !(length >= 0 && isfinite(length));
 }
 
 /* The shortest wavelength that every direction of the grid can hold. */
@@ -71,13 +72,14 @@ resolved(const struct rc_shape *shape)
 static enum rc_status
 check_size(const struct rc_selfaffine *what, struct rc_err *err)
 {
-    double size = isnan(what->rms_height) ? what->rms_slope : what->rms_height;
+    bool slope = what->rms_height == 0;
+    double size = slope ? what->rms_slope : what->rms_height;
 
-    if (isnan(what->rms_height) == isnan(what->rms_slope))
+    if (slope == (what->rms_slope == 0))
         return rc_err_set(err, "give one of RMS height and RMS slope: the other one follows");
     if (!(size > 0) || isinf(size))
         return rc_err_set(err, "RMS %s %g: it must be positive and finite",
-                          isnan(what->rms_height) ? "slope" : "height", size);
+                          slope ? "slope" : "height", size);
     return RC_OK;
 }
 
@@ -93,17 +95,17 @@ check_spectrum(const struct rc_shape *shape, const struct rc_selfaffine *what, s
                           "long cut-off %g m, roll-off %g m, short cut-off %g m: wavelengths "
                           "must be positive and finite",
                           what->long_cut, what->rolloff, what->short_cut);
-    if (what->short_cut < shortest * (1 - slack))
+    if (what->short_cut != 0 && what->short_cut < shortest * (1 - slack))
         return rc_err_set(err,
                           "short cut-off %g m: the nodes hold wavelengths from %g m on, twice "
                           "their spacing",
                           what->short_cut, shortest);
-    if (!isnan(what->short_cut))
+    if (what->short_cut != 0)
         shortest = what->short_cut;
-    if (what->long_cut < shortest)
+    if (what->long_cut != 0 && what->long_cut < shortest)
         return rc_err_set(err, "long cut-off %g m: it must not be below the short one, %g m",
                           what->long_cut, shortest);
-    if (what->rolloff < shortest)
+    if (what->rolloff != 0 && what->rolloff < shortest)
         return rc_err_set(err, "roll-off %g m: it must not be below the short cut-off, %g m",
                           what->rolloff, shortest);
     return check_size(what, err);
@@ -114,13 +116,13 @@ spectrum_of(const struct rc_shape *shape, const struct rc_selfaffine *what)
 {
     bool profile = shape->nx == 1 || shape->ny == 1;
     double size = hypot((double)shape->nx * shape->dx, (double)shape->ny * shape->dy);
-    double shortest = isnan(what->short_cut) ? resolved(shape) : what->short_cut;
+    double shortest = what->short_cut == 0 ? resolved(shape) : what->short_cut;
 
     return (struct spectrum){
-        .low = isnan(what->long_cut) ? 0 : (1 - slack) / what->long_cut,
+        .low = what->long_cut == 0 ? 0 : (1 - slack) / what->long_cut,
         .high = (1 + slack) / shortest,
         /* without a flat part, any wavenumber below all others will do */
-        .bend = 1 / (isnan(what->rolloff) ? size : what->rolloff),
+        .bend = 1 / (what->rolloff == 0 ? size : what->rolloff),
         .power = what->hurst + (profile ? 0.5 : 1),
         .seed = what->seed,
     };
@@ -227,7 +229,7 @@ rc_synth_selfaffine(const struct rc_shape *shape, const struct rc_selfaffine *wh
         goto done;
     }
     scale =
-        isnan(what->rms_slope) ? what->rms_height / sqrt(height2) : what->rms_slope / sqrt(slope2);
+        what->rms_slope == 0 ? what->rms_height / sqrt(height2) : what->rms_slope / sqrt(slope2);
     for (size_t k = 0; k < n; k++)
         s[k] *= scale;
     status = rc_fourier_backward(shape, s, h, err);

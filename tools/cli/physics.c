@@ -129,6 +129,5 @@ physics_problem(const struct physics *a, const struct rc_grid *g, size_t step)
                                          : 0,
         .approach = a->approach.n > 0 ? number : 0,
         .hardness = a->hardness,
-        .tol = NAN,
     };
 }
