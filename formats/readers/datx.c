@@ -208,7 +208,7 @@ datx_score(const struct rc_file *file)
     return n > 5 && strcmp(file->name + n - 5, ".datx") == 0 ? 70 : 0;
 }
 
-RC_FORMAT_IN_CAGE(datx)
+RC_FORMAT_SANDBOXED(datx)
 
 const struct rc_format rc_format_datx = {
     .name = "datx",

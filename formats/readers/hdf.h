@@ -1,5 +1,5 @@
-/* HDF5 in memory; beside writers/hdf5.c the only place that knows libhdf5. To be used in a cage
- * (cage.h): damaged files make the library crash, run round, or ask for any memory. */
+/* HDF5 in memory; beside writers/hdf5.c the only place that knows libhdf5. To be used in the
+ * sandbox (sandbox.h): damaged files make the library crash, loop for ever or ask for any memory. */
 #ifndef RC_HDF_H
 #define RC_HDF_H
 

@@ -1,5 +1,5 @@
-/* Stands in for hdf.c: answers as a library could that a file has got hold of, within what hdf.h
- * says. What the file holds are the answers, one after another; past its end they are zeros. */
+/* In place of hdf.c: whatever libhdf5 could return for a hostile file, within what hdf.h promises.
+ * The bytes of the file are what is returned, one call after another; past its end they are 0. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
