@@ -6,6 +6,7 @@
  * is a finding: the first caller that is neither the C library's nor the sanitizer's decides. A
  * refusal for time or memory is a refusal like any other.
  */
+#define _GNU_SOURCE /* dladdr */
 #include <dlfcn.h>
 #include <execinfo.h>
 #include <fcntl.h>
