@@ -75,9 +75,9 @@ x3p_parts(void **state)
     rc_grid_free(g);
 }
 
-/* Noise in all of its bits does not pack, and is stored; a slope does. */
+/* Noise in all of its bits would not shrink, and is stored; a slope is compressed. */
 static void
-x3p_packs_what_packs(void **state)
+x3p_compresses_what_shrinks(void **state)
 {
     static const zip_uint16_t method[] = {ZIP_CM_STORE, ZIP_CM_DEFLATE};
 
@@ -290,7 +290,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(x3p_parts),
-        cmocka_unit_test(x3p_packs_what_packs),
+        cmocka_unit_test(x3p_compresses_what_shrinks),
         cmocka_unit_test(depths_make_a_stack),
         cmocka_unit_test(a_section_stands_upright),
         cmocka_unit_test(frames_have_names_of_their_own),

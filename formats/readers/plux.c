@@ -123,7 +123,7 @@ read_index(struct plux *p, size_t member, struct rc_err *err)
 
     if (xml == NULL)
         return RC_FAIL;
-    if (rc_zip_read_read(p->archive, member, INDEX_MOST, take_xml, xml, sum, err) == RC_OK)
+    if (rc_zip_read_member(p->archive, member, INDEX_MOST, take_xml, xml, sum, err) == RC_OK)
         status = rc_xml_end(xml, err);
     rc_xml_free(xml);
     return status;
@@ -209,7 +209,7 @@ take_values(void *arg, const unsigned char *bytes, size_t n, struct rc_err *err)
     double **v = arg;
 
     (void)err;
-    rc_bytes_values(&cursor, RC_RAW_F32, *v, n / 4); /* pieces hold whole numbers */
+    rc_bytes_values(&cursor, RC_RAW_F32, *v, n / 4); /* chunks hold whole numbers */
     *v += n / 4;
     return RC_OK;
 }
@@ -267,8 +267,8 @@ read_layer(const struct plux *p, const struct rc_file *file, const struct rc_wis
         return NULL;
     v = g->v;
     if (keep_words(p, g, err) != RC_OK ||
-        rc_zip_read_read(p->archive, member, (uint64_t)p->nx * p->ny * 4, take_values, &v, sum,
-                         err) != RC_OK) {
+        rc_zip_read_member(p->archive, member, (uint64_t)p->nx * p->ny * 4, take_values, &v, sum,
+                           err) != RC_OK) {
         rc_grid_free(g);
         return NULL;
     }

@@ -191,7 +191,7 @@ read_main(struct rc_x3p *x, struct rc_err *err)
 
     if (xml == NULL)
         return RC_FAIL;
-    if (rc_zip_read_read(x->archive, x->main, MAIN_MOST, take_xml, xml, x->sum, err) != RC_OK ||
+    if (rc_zip_read_member(x->archive, x->main, MAIN_MOST, take_xml, xml, x->sum, err) != RC_OK ||
         rc_xml_end(xml, err) != RC_OK)
         goto done;
     if (!x->is_x3p) {

@@ -108,7 +108,7 @@ struct values {
     enum rc_raw raw;
 };
 
-/* Pieces hold whole numbers: RC_PIECE is a multiple of every width, and the size was checked. */
+/* Chunks hold whole numbers: RC_ZIP_CHUNK is a multiple of every width, and the size was checked. */
 static enum rc_status
 take_values(void *arg, const unsigned char *bytes, size_t n, struct rc_err *err)
 {
@@ -140,7 +140,7 @@ read_points(struct rc_x3p *x, size_t member, double *v, struct rc_notes *notes, 
     uint64_t size = (uint64_t)x->n * rc_raw_width(x->raw);
     char sum[RC_MD5_TEXT];
 
-    if (rc_zip_read_read(x->archive, member, size, take_values, &values, sum, err) != RC_OK)
+    if (rc_zip_read_member(x->archive, member, size, take_values, &values, sum, err) != RC_OK)
         return RC_FAIL;
     return check_sum("heights", x->text[RC_X3P_POINTS_SUM], sum, notes, err);
 }

@@ -163,24 +163,24 @@ make_main(struct rc_buffer *b, const struct rc_grid *g, const struct parts *p,
 
 /* Hands the bytes of a buffer over. */
 static enum rc_status
-add_buffer(struct rc_pack *pack, const char *name, struct rc_buffer *b, struct rc_err *err)
+add_buffer(struct rc_zip_write *archive, const char *name, struct rc_buffer *b, struct rc_err *err)
 {
     void *bytes = b->bytes;
 
     if (b->failed)
         return rc_err_set(err, "out of memory for the member '%s'", name);
     b->bytes = NULL;
-    return rc_pack_add(pack, name, bytes, b->n, err);
+    return rc_zip_write_add(archive, name, bytes, b->n, err);
 }
 
 static enum rc_status
-add_bytes(struct rc_pack *pack, const char *name, unsigned char **bytes, size_t n,
+add_bytes(struct rc_zip_write *archive, const char *name, unsigned char **bytes, size_t n,
           struct rc_err *err)
 {
     void *given = *bytes;
 
     *bytes = NULL;
-    return given == NULL ? RC_OK : rc_pack_add(pack, name, given, n, err);
+    return given == NULL ? RC_OK : rc_zip_write_add(archive, name, given, n, err);
 }
 
 static enum rc_status
@@ -189,25 +189,25 @@ x3p_write(FILE *out, struct rc_grid *const *frame, size_t frames, const struct r
 {
     struct rc_buffer xml = {0}, sums = {0};
     enum rc_status status = RC_FAIL;
-    struct rc_pack *pack = NULL;
+    struct rc_zip_write *archive = NULL;
     struct parts p = {0};
     char sum[RC_MD5_TEXT] = "";
 
     (void)frames;
     if (make_parts(&p, frame[0], wish, err) != RC_OK ||
-        (pack = rc_pack_new(wish->time, err)) == NULL)
+        (archive = rc_zip_write_new(wish->time, err)) == NULL)
         goto done;
     make_main(&xml, frame[0], &p, wish);
     if (!xml.failed)
         sum_of(xml.bytes, xml.n, sum);
     rc_buffer_print(&sums, "%s *main.xml\n", sum);
-    if (add_buffer(pack, "main.xml", &xml, err) == RC_OK &&
-        add_bytes(pack, data_name, &p.data, p.data_n, err) == RC_OK &&
-        add_bytes(pack, valid_name, &p.valid, p.valid_n, err) == RC_OK &&
-        add_buffer(pack, "md5checksum.hex", &sums, err) == RC_OK)
-        status = rc_pack_write(pack, out, err);
+    if (add_buffer(archive, "main.xml", &xml, err) == RC_OK &&
+        add_bytes(archive, data_name, &p.data, p.data_n, err) == RC_OK &&
+        add_bytes(archive, valid_name, &p.valid, p.valid_n, err) == RC_OK &&
+        add_buffer(archive, "md5checksum.hex", &sums, err) == RC_OK)
+        status = rc_zip_write_finish(archive, out, err);
 done:
-    rc_pack_free(pack);
+    rc_zip_write_free(archive);
     rc_buffer_free(&xml);
     rc_buffer_free(&sums);
     free(p.data);
