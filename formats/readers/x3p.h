@@ -47,7 +47,7 @@ struct rc_x3p {
     double increment, offset;
     bool wants_list; /* the heights in main.xml are to be kept                       */
     double *list;    /* as far as they were in main.xml                              */
-    size_t listed, room;
+    size_t listed, capacity;
 };
 
 /* Reads main.xml, and what it says is then judged: RC_FAIL for what is no map on a regular grid. */

@@ -93,19 +93,19 @@ real(const char *name, const char *text, double otherwise, double *value, struct
     return RC_OK;
 }
 
-/* Room for one more height of the list; the list is never longer than the bytes it came from. */
+/* Makes the list one longer; it is never longer than the bytes that it comes from. */
 static enum rc_status
 grow(struct rc_x3p *x, struct rc_err *err)
 {
-    size_t room = x->room == 0 ? 1024 : 2 * x->room;
+    size_t capacity = x->capacity == 0 ? 1024 : 2 * x->capacity;
     double *more;
 
-    if (x->listed < x->room)
+    if (x->listed < x->capacity)
         return RC_OK;
-    if ((more = realloc(x->list, room * sizeof *more)) == NULL)
-        return rc_err_set(err, "out of memory for %zu heights", room);
+    if ((more = realloc(x->list, capacity * sizeof *more)) == NULL)
+        return rc_err_set(err, "out of memory for %zu heights", capacity);
     x->list = more;
-    x->room = room;
+    x->capacity = capacity;
     return RC_OK;
 }
 

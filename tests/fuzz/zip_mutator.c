@@ -20,7 +20,7 @@ size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t most, unsigned
 
 struct member {
     char name[256];
-    uint8_t *bytes; /* with room for GROWTH more */
+    uint8_t *bytes; /* n of them, and space for GROWTH more */
     size_t n;
 };
 
