@@ -1,4 +1,5 @@
-/* Whatever a reader does in the sandbox, the program gets a result or a reason, within its bounds. */
+/* Whatever a reader does in the sandbox, the program gets a result or a reason, in bounded time and
+ * memory. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>

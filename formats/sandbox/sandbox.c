@@ -28,8 +28,8 @@ close_pipes(struct rc_pipes *p)
     close(p->reply);
 }
 
-/* Makes the child, which is confined, and the pipes between the two. As fork gives 0 in the child, a
- * number above 0 in the parent, and -1, with the reason, when there is no child. */
+/* Makes the child, which is confined, and the pipes between the two. Gives 0 in the child, 1 in the
+ * parent, and -1 with the reason when there is no child. */
 static int
 start(struct rc_pipes *p, const struct rc_file *file, struct rc_err *err)
 {

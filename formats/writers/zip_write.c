@@ -34,8 +34,8 @@ rc_zip_write_new(int64_t time, struct rc_err *err)
     return w;
 }
 
-/* Whether a few chunks, spread over the member, become at least a tenth smaller. A member that would
- * not is stored as it is: it is then read several times as fast. */
+/* Whether a few chunks, spread over the member, become at least a tenth smaller. A member that
+ * would not is stored as it is: it is then read several times as fast. */
 static bool
 is_compressible(const unsigned char *bytes, size_t n)
 {

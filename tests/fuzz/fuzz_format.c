@@ -1,8 +1,8 @@
 /* Whatever the bytes are, the reader named in RC_FORMAT refuses them with a reason or gives a
  * sound map, in a second and with 16 times their memory and 64 MiB; without RC_FORMAT it is the
  * reader that detection chooses. With RC_FUZZ_BYPASS readers run without their sandbox, in this
- * process, where the sanitizers see them. With RC_FUZZ_BYPASS=library memory is not metered, because
- * the library asks for any amount: the sanitizer bounds it (max_allocation_size_mb). */
+ * process, where the sanitizers see them. With RC_FUZZ_BYPASS=library memory is not metered: the
+ * library may ask for any amount, and the sanitizer bounds it (max_allocation_size_mb). */
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>

@@ -2,8 +2,8 @@
  * Readers that work in the sandbox, run through it: what the child has covered comes back to the
  * fuzzer, and a child that dies says where.
  *
- * A death in the library is what the sandbox is for, and is counted. A death in code of this project
- * is a finding: the first caller that is neither the C library's nor the sanitizer's decides. A
+ * A death in the library is what the sandbox is for, and is counted. A death in code of this
+ * project is a finding: the first caller that is neither the C library's nor the sanitizer's decides. A
  * refusal for time or memory is a refusal like any other.
  */
 #define _GNU_SOURCE /* dladdr */
