@@ -30,12 +30,12 @@ rc_maps_key(struct rc_maps *maps, const char *key, const char *text, size_t n)
 }
 
 void
-rc_maps_keep(struct rc_maps *maps, const struct rc_keep *rows, size_t n, struct rc_piece name,
+rc_maps_keep(struct rc_maps *maps, const struct rc_keep *keep, size_t n, struct rc_piece name,
              struct rc_piece value)
 {
     for (size_t k = 0; k < n; k++)
-        if (rc_piece_is(name, rows[k].name))
-            rc_maps_key(maps, rows[k].key, value.text, value.n);
+        if (rc_piece_is(name, keep[k].name))
+            rc_maps_key(maps, keep[k].key, value.text, value.n);
 }
 
 void

@@ -119,7 +119,7 @@ done:
     return NULL;
 }
 
-/* ---- the row ---- */
+/* ---- the entry in formats.list ---- */
 
 static int
 hdf5_score(const struct rc_file *file)

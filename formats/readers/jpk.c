@@ -243,7 +243,7 @@ done:
     return NULL;
 }
 
-/* ---- the row ---- */
+/* ---- the entry in formats.list ---- */
 
 /* Force curves are a ZIP archive of their own, known by this member. */
 static bool

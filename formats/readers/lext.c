@@ -261,7 +261,7 @@ done:
     return NULL;
 }
 
-/* ---- the row ---- */
+/* ---- the entry in formats.list ---- */
 
 static int
 lext_score(const struct rc_file *file)

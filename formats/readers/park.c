@@ -244,7 +244,7 @@ done:
     return NULL;
 }
 
-/* ---- the row ---- */
+/* ---- the entry in formats.list ---- */
 
 static int
 park_score(const struct rc_file *file)

@@ -298,7 +298,7 @@ plux_read(const struct rc_file *file, const struct rc_wish *wish, size_t index,
     return g;
 }
 
-/* ---- the row ---- */
+/* ---- the entry in formats.list ---- */
 
 static int
 plux_score(const struct rc_file *file)

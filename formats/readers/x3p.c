@@ -96,7 +96,7 @@ make_grid(struct rc_x3p *x, const struct rc_wish *wish, double *metres, struct r
     return g;
 }
 
-/* ---- the row ---- */
+/* ---- the entry in formats.list ---- */
 
 static int
 x3p_score(const struct rc_file *file)

@@ -108,7 +108,8 @@ struct values {
     enum rc_raw raw;
 };
 
-/* Chunks hold whole numbers: RC_ZIP_CHUNK is a multiple of every width, and the size was checked. */
+/* A chunk holds whole numbers: RC_ZIP_CHUNK is a multiple of every width, and the size was
+ * checked. */
 static enum rc_status
 take_values(void *arg, const unsigned char *bytes, size_t n, struct rc_err *err)
 {
