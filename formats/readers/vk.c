@@ -45,7 +45,6 @@ unpack_member(struct rc_zip_read *archive, size_t member, const struct rc_file *
               struct rc_file *inner, struct rc_err *err)
 {
     unsigned char *bytes;
-    char sum[RC_MD5_TEXT];
     uint64_t size;
     size_t n;
 
@@ -54,7 +53,7 @@ unpack_member(struct rc_zip_read *archive, size_t member, const struct rc_file *
     if (size / 16 > file->size + 4194304)
         return rc_err_set(err, "the archive in the file promises %g MB out of %g: that cannot be",
                           (double)size / 1e6, (double)file->size / 1e6);
-    if ((bytes = rc_zip_read_bytes(archive, member, size, &n, sum, err)) == NULL)
+    if ((bytes = rc_zip_read_bytes(archive, member, size, &n, NULL, err)) == NULL)
         return RC_FAIL;
     *inner = (struct rc_file){member_name, bytes, n};
     return RC_OK;

@@ -24,10 +24,10 @@ static const struct {
     [RC_X3P_SIZE_Y] = {"Record3/MatrixDimension/SizeY", NULL},
     [RC_X3P_SIZE_Z] = {"Record3/MatrixDimension/SizeZ", NULL},
     [RC_X3P_POINTS] = {"Record3/DataLink/PointDataLink", NULL},
-    [RC_X3P_POINTS_SUM] = {"Record3/DataLink/MD5ChecksumPointData", NULL},
+    [RC_X3P_POINTS_MD5] = {"Record3/DataLink/MD5ChecksumPointData", NULL},
     [RC_X3P_VALID] = {"Record3/DataLink/ValidPointsLink", NULL},
-    [RC_X3P_VALID_SUM] = {"Record3/DataLink/MD5ChecksumValidPoints", NULL},
-    [RC_X3P_SUM_FILE] = {"Record4/ChecksumFile", NULL},
+    [RC_X3P_VALID_MD5] = {"Record3/DataLink/MD5ChecksumValidPoints", NULL},
+    [RC_X3P_MD5_FILE] = {"Record4/ChecksumFile", NULL},
     [RC_X3P_FIRST_KEY] = {"Record2/Date", "file.date"},
     {"Record2/Creator", "file.creator"},
     {"Record2/Instrument/Manufacturer", "file.manufacturer"},
@@ -191,7 +191,7 @@ read_main(struct rc_x3p *x, struct rc_err *err)
 
     if (xml == NULL)
         return RC_FAIL;
-    if (rc_zip_read_member(x->archive, x->main, MAIN_MOST, take_xml, xml, x->sum, err) != RC_OK ||
+    if (rc_zip_read_member(x->archive, x->main, MAIN_MOST, take_xml, xml, x->md5, err) != RC_OK ||
         rc_xml_end(xml, err) != RC_OK)
         goto done;
     if (!x->is_x3p) {

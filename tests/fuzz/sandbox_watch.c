@@ -3,8 +3,8 @@
  * fuzzer, and a child that dies says where.
  *
  * A death in the library is what the sandbox is for, and is counted. A death in code of this
- * project is a finding: the first caller that is neither the C library's nor the sanitizer's decides. A
- * refusal for time or memory is a refusal like any other.
+ * project is a finding: the first caller that is neither the C library's nor the sanitizer's
+ * decides. A refusal for time or memory is a refusal like any other.
  */
 #define _GNU_SOURCE /* dladdr */
 #include <dlfcn.h>
