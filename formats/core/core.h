@@ -7,6 +7,7 @@
 #include "bytes.h"
 #include "checksum.h"
 #include "header.h"
+#include "limit.h"
 #include "maps.h"
 #include "number_table.h"
 #include "text.h"

@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "limit.h"
+
 struct rc_map *
 rc_maps_add(struct rc_maps *maps, const char *name, size_t n)
 {
@@ -111,9 +113,9 @@ enum rc_status
 rc_map_bound(const struct rc_map *map, const struct rc_file *file, double unpacked,
              struct rc_err *err)
 {
-    double most = 16 * (double)file->size + 67108864;
+    double bytes = 8 * (double)map->nx * (double)map->ny + unpacked;
 
-    if (8 * (double)map->nx * (double)map->ny + unpacked <= most)
+    if (bytes <= (double)rc_memory_limit(file->size))
         return RC_OK;
     return rc_err_set(err, "the header promises %zu x %zu heights in %zu bytes: that cannot be",
                       map->nx, map->ny, file->size);

@@ -71,8 +71,8 @@ void rc_map_hint(struct rc_map *map, double dx, double dy);
 void rc_map_steps(struct rc_map *map, double dx, double dy, struct rc_piece unit);
 /* A whole number from 1 to 2^31 - 1 as a header has it, or RC_FAIL with its name. */
 enum rc_status rc_map_count(const char *what, double number, size_t *count, struct rc_err *err);
-/* RC_FAIL when the map and `unpacked` bytes exceed 16 times the file and 64 MiB: for what is packed
- * in the file. */
+/* RC_FAIL when the map and `unpacked` bytes exceed rc_memory_limit: for what is packed in the
+ * file. */
 enum rc_status rc_map_bound(const struct rc_map *map, const struct rc_file *file, double unpacked,
                             struct rc_err *err);
 /* The fill of a map that is text: numbers parted by white space from `at` on. */

@@ -50,7 +50,7 @@ unpack_member(struct rc_zip_read *archive, size_t member, const struct rc_file *
 
     if (rc_zip_read_size(archive, member, &size, err) != RC_OK)
         return RC_FAIL;
-    if (size / 16 > file->size + 4194304)
+    if (size > rc_memory_limit(file->size))
         return rc_err_set(err, "the archive in the file promises %g MB out of %g: that cannot be",
                           (double)size / 1e6, (double)file->size / 1e6);
     if ((bytes = rc_zip_read_bytes(archive, member, size, &n, NULL, err)) == NULL)

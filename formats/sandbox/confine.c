@@ -73,5 +73,5 @@ rc_confine(const struct rc_file *file)
     limit(RLIMIT_FSIZE, 0);
     limit(RLIMIT_NOFILE, 0); /* a file cannot name others to be read */
     if (space > 0)
-        limit(RLIMIT_AS, (rlim_t)(space + rc_memory_bound(file)));
+        limit(RLIMIT_AS, (rlim_t)(space + rc_memory_limit(file->size)));
 }

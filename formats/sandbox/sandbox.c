@@ -102,7 +102,7 @@ finish(struct rc_pipes *p, const struct rc_file *file, bool whole, struct rc_err
         rc_err_set(err,
                    "the file makes its library fail: it is damaged, or needs more than the "
                    "%zu MiB that %zu bytes may take",
-                   rc_memory_bound(file) >> 20, file->size);
+                   rc_memory_limit(file->size) >> 20, file->size);
 }
 
 size_t

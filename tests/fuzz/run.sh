@@ -4,8 +4,8 @@
 # each; whole where the format is a container). Prints executions and findings, which are kept in
 # BUILD/findings; what was found worth keeping on the way stays in BUILD/corpus for the next time.
 #
-# Limits: 64 MiB and 16 times the size of a file, held at once; a second of the processor, ten by the
-# clock because the machine may be busy; the slowest is named.
+# Limits: rc_memory_limit of memory, held at once; a second of the processor, ten by the clock because
+# the machine may be busy; the slowest is named.
 #
 #     format   the reader in this process
 #     zip      the same, changing what is in the archive
