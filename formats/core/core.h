@@ -10,6 +10,7 @@
 #include "limit.h"
 #include "maps.h"
 #include "number_table.h"
+#include "prefix.h"
 #include "text.h"
 #include "utf8.h"
 #include "values.h"

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "limit.h"
+#include "prefix.h"
 
 struct rc_map *
 rc_maps_add(struct rc_maps *maps, const char *name, size_t n)
@@ -44,33 +45,27 @@ void
 rc_map_unit(struct rc_map *map, const char *text, size_t n)
 {
     static const char *const bases[] = {"V", "A", "N", "Pa", "Hz", "s", "rad", "W", "J", "F"};
-    static const struct {
-        const char *name;
-        double factor;
-    } prefixes[] = {{"", 1},        {"k", 1e3},   {"M", 1e6},  {"G", 1e9},
-                    {"m", 1e-3},    {"u", 1e-6},  {"n", 1e-9}, {"\xc2\xb5", 1e-6},
-                    {"\xb5", 1e-6}, {"p", 1e-12}, {"f", 1e-15}};
+    size_t length;
+    int power;
 
     rc_trim(&text, &n);
     map->si = 1;
-    map->unit[0] = '\0';
-    if (n == 0)
-        return;
     if (rc_length_unit(text, n, &map->si)) {
         strcpy(map->unit, "m");
         return;
     }
-    for (size_t p = 0; p < sizeof prefixes / sizeof *prefixes; p++)
-        for (size_t b = 0; b < sizeof bases / sizeof *bases; b++) {
-            size_t front = strlen(prefixes[p].name);
-            if (n != front + strlen(bases[b]) || memcmp(text, prefixes[p].name, front) != 0 ||
-                memcmp(text + front, bases[b], n - front) != 0)
-                continue;
-            map->si = prefixes[p].factor;
-            strcpy(map->unit, bases[b]);
+    rc_text_clean(map->unit, sizeof map->unit, text, n); /* in Latin-1 the micro sign is one byte */
+    length = strlen(map->unit);
+    for (size_t k = 0; k < sizeof bases / sizeof *bases; k++) {
+        size_t tail = strlen(bases[k]);
+
+        if (length >= tail && strcmp(map->unit + length - tail, bases[k]) == 0 &&
+            rc_prefix_power(map->unit, length - tail, &power)) {
+            map->si = rc_prefix_factor(power);
+            strcpy(map->unit, bases[k]);
             return;
         }
-    rc_text_clean(map->unit, sizeof map->unit, text, n);
+    }
     /* the degree sign, or the ordinal one that stands in for it */
     if (strcmp(map->unit, "\xc2\xb0") == 0 || strcmp(map->unit, "\xc2\xba") == 0)
         strcpy(map->unit, "deg");
