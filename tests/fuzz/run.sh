@@ -4,8 +4,8 @@
 # each; whole where the format is a container). Prints executions and findings, which are kept in
 # BUILD/findings; what was found worth keeping on the way stays in BUILD/corpus for the next time.
 #
-# Limits: rc_memory_limit of memory, held at once; a second of the processor, ten by the clock because
-# the machine may be busy; the slowest is named.
+# Limits: rc_memory_limit of memory, held at once; a second of the processor, ten by the clock
+# because the machine may be busy; the slowest is named.
 #
 #     format   the reader in this process
 #     zip      the same, changing what is in the archive
@@ -39,38 +39,17 @@ harnesses_of() {
     esac
 }
 
-# what the manifest calls the formats that have another name here
-name_here() {
-    case $1 in
-    ascii-matrix | spip-asc) echo ascii ;;
-    sdf-ascii) echo sdf ;;
-    digitalsurf-*) echo sur ;;
-    wyko-opd) echo opd ;;
-    metropro-dat) echo metropro ;;
-    alicona-al3d) echo al3d ;;
-    sensofar-plu) echo plu ;;
-    nanosurf-nid) echo nid ;;
-    igor-ibw) echo ibw ;;
-    mi-picoview) echo mi ;;
-    wsxm-*) echo wsxm ;;
-    bcrf) echo bcr ;;
-    truemap-tmd) echo tmd ;;
-    surfer-grd) echo grd ;;
-    esri-asc) echo esri ;;
-    profile-text) echo profile ;;
-    jpk-image) echo jpk ;;
-    park-tiff) echo park ;;
-    hdf5-generic) echo hdf5 ;;
-    *) echo "$1" ;;
-    esac
+# the reader of what the manifest calls FORMAT; nothing where there is none
+reader_of() {
+    sed -n "s/^CORPUS_FORMAT(\"$1\", \"\(.*\)\")$/\1/p" "$here/tests/corpus.list"
 }
 if [ -r "${RC_CORPUS:-}/manifest.tsv" ]; then
     tail -n +2 "$RC_CORPUS/manifest.tsv" | cut -f 1,2 | while IFS=$'\t' read -r file format; do
-        name=$(name_here "$format")
-        [ -d "$seeds/$name" ] || continue
+        reader=$(reader_of "$format")
+        [ -n "$reader" ] || continue
         bytes=65536
-        [ "$(harnesses_of "$name")" = format ] || bytes=4194304
-        head -c $bytes "$RC_CORPUS/corpus/$file" >"$seeds/$name/${file##*/}"
+        [ "$(harnesses_of "$reader")" = format ] || bytes=4194304
+        head -c $bytes "$RC_CORPUS/corpus/$file" >"$seeds/$reader/${file##*/}"
     done
     cp "$here"/sample_surfaces/*.x3p "$seeds/x3p"
 fi
