@@ -91,7 +91,7 @@ RC_API enum rc_status rc_synth_selfaffine(const struct rc_shape *shape,
                                           const struct rc_selfaffine *what, double *h,
                                           struct rc_err *err);
 
-/* ---- surfaces: detrend.c, fill.c ---- */
+/* ---- surfaces: detrend.c, inpaint.c ---- */
 
 enum {
     RC_DEGREE_MAX = 20
@@ -112,7 +112,7 @@ RC_API enum rc_status rc_inpaint(const struct rc_shape *shape, double *h, size_t
 /* Bytes that it takes beside h for so many missing values. */
 RC_API size_t rc_inpaint_memory(size_t missing);
 
-/* ---- measure.c ---- */
+/* ---- figures and sums of maps: measure.c, common.c ---- */
 
 struct rc_statistics {
     size_t missing;                /* NaN                                                */

@@ -8,9 +8,22 @@
 
 static const double exact_pi = 3.14159265358979323846;
 
-/* The ladder of tolerances: a test names the rung it stands on. */
-static const double rounding = 1e-13; /* a few operations in double precision, relative          */
-static const double summed = 1e-12;   /* sums over a map                                         */
+/* The ladder of tolerances, all relative: a test names the rung it stands on, or says where its
+ * bound comes from. The scripts know these names too (pipe.sh). */
+static const double same = 0;            /* the same number, or a decimal that reads back as it */
+static const double converted = 1e-15;   /* read from text, and its unit applied                */
+static const double of_sum = 1e-14;      /* rounding of a sum, over that of absolute values     */
+static const double rounding = 1e-13;    /* a few operations in double precision                */
+static const double summed = 1e-12;      /* sums over a map                                     */
+static const double six_digits = 5e-6;   /* half a unit of the last of six printed digits       */
+static const double three_digits = 5e-3; /* and of three                                        */
+static const double coarse_grid = 0.01;  /* beside a closed form, tens of nodes in the contact  */
+
+/* What a pressure that is constant in its cells may be off from Hertz's, with n nodes in the radius
+ * of the contact: approach and peak this over n^2, area over n (its edge is a line of nodes). */
+static const double grid_approach = 0.1;
+static const double grid_peak = 0.5;
+static const double grid_area = 1;
 
 /* Sphere of composite radius R on a half-space (Johnson 1985, section 3.4 and 4.2). */
 struct hertz {

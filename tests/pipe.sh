@@ -1,7 +1,14 @@
-# Sourced by every pipe_*.sh: the built tools on PATH, a scratch folder, and three ways to claim.
-set -u
+# Sourced by every pipe_*.sh and law_*.sh: the built tools on PATH, a scratch folder, ways to claim, and
+# the tolerances of tests/exact.h by their names ($rounding, ...).
+#
+# A pipeline fails where any of its commands does, here and in every bash that a claim starts. So grep -q
+# and head, which may end before they have read all, stand at no end of a pipeline in a claim: `says` and
+# `warns` look at what a command said when it has ended.
+set -u -o pipefail
+export SHELLOPTS
 PATH="$RC_BIN:$PATH"
 export LC_ALL=C
+eval "$(sed -n 's/^static const double \([a-z_]*\) = \([0-9][0-9.e-]*\);.*/\1=\2/p' "$RC_SOURCE/tests/exact.h")"
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 cd "$scratch" || exit 1
@@ -27,7 +34,7 @@ claim() {
 refuses() {
     local status=$1 pattern=$2 sentence=$3 command=$4 got
     claims=$((claims + 1))
-    bash -c "set -o pipefail; $command" >refuses.out 2>refuses.err </dev/null
+    bash -c "$command" >refuses.out 2>refuses.err </dev/null
     got=$?
     if [ "$got" = "$status" ] && grep -qE -- "$pattern" refuses.err; then
         echo "ok: $sentence"
@@ -38,15 +45,62 @@ refuses() {
     fi
 }
 
-# near VALUE EXPECTED TOLERANCE "sentence": |VALUE - EXPECTED| <= TOLERANCE |EXPECTED|.
+# says "pattern" command...: it succeeds, and its standard output holds the pattern (grep -E).
+says() {
+    local pattern=$1
+    shift
+    "$@" >says.out || return
+    grep -aqE -- "$pattern" says.out || {
+        head -c 2000 says.out >&2
+        return 1
+    }
+}
+
+# warns "pattern" command...: the same of its standard error.
+warns() {
+    local pattern=$1
+    shift
+    "$@" 2>warns.err >/dev/null
+    local status=$?
+    cat warns.err >&2
+    [ "$status" = 0 ] && grep -aqE -- "$pattern" warns.err
+}
+
+# lacks "pattern" FILE: it is there, it is not empty, and the pattern is not in it.
+lacks() {
+    [ -s "$2" ] && ! grep -aqE -- "$1" "$2"
+}
+
+# reseal: a stream of one frame that was changed on its way gets the checksum of what it holds now.
+reseal() {
+    perl -MCompress::Zlib -0777 -pe \
+        's/(RCG1.*)crc32 [0-9a-f]{8}\n/$1 . sprintf("crc32 %08x\n", crc32($1))/se'
+}
+export -f says warns lacks reseal
+
+# near VALUE EXPECTED TOLERANCE "sentence": |VALUE - EXPECTED| <= TOLERANCE |EXPECTED|, both numbers.
 near() {
     claims=$((claims + 1))
     if awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN {
+        number = "^ *[-+]?[0-9.]+([eE][-+]?[0-9]+)?$"
         d = a - b; if (d < 0) d = -d; m = b < 0 ? -b : b
-        exit !(a != "" && a != "null" && d <= t * m) }'; then
+        exit !(a ~ number && b ~ number && t ~ number && d <= t * m) }'; then
         echo "ok: $4 ($1)"
     else
         echo "NOT OK: $4: $1, expected $2 within a relative $3"
+        failures=$((failures + 1))
+    fi
+}
+
+# between LOW VALUE HIGH "sentence": LOW <= VALUE <= HIGH, all numbers.
+between() {
+    claims=$((claims + 1))
+    if awk -v a="$1" -v x="$2" -v b="$3" 'BEGIN {
+        number = "^ *[-+]?[0-9.]+([eE][-+]?[0-9]+)?$"
+        exit !(a ~ number && x ~ number && b ~ number && a + 0 <= x + 0 && x + 0 <= b + 0) }'; then
+        echo "ok: $4 ($2)"
+    else
+        echo "NOT OK: $4: $2, expected from $1 to $3"
         failures=$((failures + 1))
     fi
 }

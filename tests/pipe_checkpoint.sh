@@ -9,13 +9,14 @@ claim "a list of loads, whole" bash -c "$solve --load 0.1N:0.5N:3 --checkpoint k
 claim "resumed, it is the same to the last bit, one step a case" bash -c "
     $solve --load 0.1N:0.5N:3 --checkpoint kept.rcg --resume --report again.json -o again.rcg rough.rcg &&
     cmp whole.rcg again.rcg && [ \$(grep -c '\"iterations\": 1,' again.json) = 3 ]"
-claim "the checkpoint is a grid stream of a frame a case" bash -c "[ \$(rc-info kept.rcg | grep -c 'frame . (pressure)') = 3 ]"
+claim "the checkpoint is a grid stream of a frame a case" says '^3$' bash -c "rc-info kept.rcg | grep -c 'frame . (pressure)'"
 
 # 300,000 bytes: the first frame and a part of the second
 claim "cut off while it was written, what was whole in it serves" bash -c "
     head -c 300000 kept.rcg >torn.rcg &&
     $solve --load 0.1N:0.5N:3 --checkpoint torn.rcg --resume --report torn.json -o torn-out.rcg rough.rcg &&
-    [ \$(grep -c '\"iterations\": 1,' torn.json) = 1 ] && [ \$(rc-info torn.rcg | grep -c 'frame . (pressure)') = 3 ]"
+    [ \$(grep -c '\"iterations\": 1,' torn.json) = 1 ] &&
+    says '^3$' bash -c \"rc-info torn.rcg | grep -c 'frame . (pressure)'\""
 claim "nothing to resume is a first run" bash -c "
     $solve --load 0.3N --checkpoint fresh.rcg --resume -o fresh-out.rcg rough.rcg && [ -s fresh.rcg ]"
 
@@ -23,7 +24,7 @@ claim "nothing to resume is a first run" bash -c "
 interrupted() {
     local status
     $solve --load 0.3N --method pk99 --tol 1e-12 --checkpoint cut.rcg --interval 0.02 --report cut.json -o cut-out.rcg rough.rcg &
-    until [ -s cut.rcg ]; do sleep 0.02; done
+    until [ -s cut.rcg ] || ! kill -0 $!; do sleep 0.02; done
     kill -TERM $!
     wait $!
     status=$?
@@ -33,33 +34,37 @@ claim "a signal leaves the pressure reached" interrupted
 claim "and from that it goes on" bash -c "
     $solve --load 0.3N --method pk99 --tol 1e-12 --checkpoint cut.rcg --resume --report on.json -o on.rcg rough.rcg &&
     $solve --load 0.3N --method pk99 --tol 1e-12 --report straight.json -o straight.rcg rough.rcg"
+# Both to 1e-12 in the mean over the map; a single pressure may be off by some more.
 near "$(field max_pressure on.json)" "$(field max_pressure straight.json)" 1e-10 "to the same largest pressure"
 claim "in fewer steps than from the start" test "$(field iterations on.json)" -lt "$(field iterations straight.json)"
 claim "an approach goes on from the load it had found" bash -c "
     $solve --approach 0.5um --checkpoint near.rcg --report near.json -o near-out.rcg rough.rcg &&
     $solve --approach 0.5um --checkpoint near.rcg --resume --report near2.json -o near2-out.rcg rough.rcg &&
     [ \$(grep -o '\"iterations\": [0-9]*' near2.json | cut -d' ' -f2) -le 2 ]"
+near "$(field approach near2.json)" "$(field approach near.json)" "$(awk 'BEGIN { print (200 * 150) ^ -0.75 }')" \
+    "and to the same approach, within the tolerance"
 
 cp kept.rcg other.rcg
 refuses 1 'there is one already.*--resume' "a checkpoint is not written over" \
     "$solve --load 0.1N --checkpoint other.rcg -o x.rcg rough.rcg"
-refuses 1 'checkpoint.load was 0.1, is 0.2' "that of another load" \
+refuses 1 'another problem: checkpoint.load was 0.1, is 0.2' "that of another load" \
     "$solve --load 0.2N --checkpoint other.rcg --resume -o x.rcg rough.rcg"
-refuses 1 'estar was 1000000000, is 2000000000' "of another modulus" \
+refuses 1 'another problem: estar was 1000000000, is 2000000000' "of another modulus" \
     "rc-solve --periodic --estar 2GPa --load 0.1N --checkpoint other.rcg --resume -o x.rcg rough.rcg"
-refuses 1 'checkpoint.surface was' "of other heights" \
+refuses 1 'another problem: checkpoint.surface was [0-9a-f]{8}, is [0-9a-f]{8}$' "of other heights" \
     "$solve --radius 1m --load 0.1N --checkpoint other.rcg --resume -o x.rcg rough.rcg"
 refuses 1 'another grid, 200 x 150' "of another grid" \
     "rc-synth sphere --nx 20 --dx 1um --radius 1mm | $solve --load 0.1N --checkpoint other.rcg --resume -o x.rcg"
-refuses 1 'no checkpoint: name another' "a stream that is none" \
+refuses 1 'rough.rcg: a grid stream, but no checkpoint: name another' "a stream that is none" \
     "$solve --load 0.1N --checkpoint rough.rcg --resume -o x.rcg rough.rcg"
 echo "notes of a user" >notes.txt
-refuses 1 'no pressure can be read' "a file that is none" \
+refuses 1 'no pressure can be read from it \(.notes of a user. stands where a frame' "a file that is none" \
     "$solve --load 0.1N --checkpoint notes.txt --resume -o x.rcg rough.rcg"
 claim "which stays as it is" grep -qx "notes of a user" notes.txt
-refuses 2 'need --checkpoint' "--resume alone" "$solve --load 0.1N --resume -o x.rcg rough.rcg"
+refuses 2 '--resume and --interval need --checkpoint' "--resume alone" "$solve --load 0.1N --resume -o x.rcg rough.rcg"
 if [ -w /dev/full ]; then
-    refuses 1 'checkpoint|already' "a device is no checkpoint" "$solve --load 0.1N --checkpoint /dev/full -o x.rcg rough.rcg"
+    refuses 1 '--checkpoint /dev/full: there is one already' "nor over a device" \
+        "$solve --load 0.1N --checkpoint /dev/full -o x.rcg rough.rcg"
 fi
 claim "no refused run left anything" bash -c '! ls x.rcg* 2>/dev/null'
 

@@ -9,27 +9,37 @@ for name in maximum minimum mean; do
     eval "$name=$(statistic $name solved.rcg)"
 done
 
-for kernel in auto fft direct 'mlms --tol 1e-9' 'mlms --order 8 --correction 24'; do
+# mlms: the error that is asked for is relative to the sum of |K| |p|, which is u itself: all is positive
+while read -r within kernel; do
     claim "--kernel $kernel works" bash -c "rc-deflect --kernel $kernel solved.rcg -o u.rcg"
-    near "$(statistic maximum u.rcg)" "$maximum" 1e-8 "  with the solver's largest displacement"
-    near "$(statistic minimum u.rcg)" "$minimum" 1e-8 "  and its smallest"
-    near "$(statistic mean u.rcg)" "$mean" 1e-8 "  and its mean"
-done
-claim "the boundary stands in the stream" bash -c 'rc-info u.rcg | grep -q boundary=free'
+    near "$(statistic maximum u.rcg)" "$maximum" "$within" "  with the solver's largest displacement"
+    near "$(statistic minimum u.rcg)" "$minimum" "$within" "  and its smallest"
+    near "$(statistic mean u.rcg)" "$mean" "$within" "  and its mean"
+done <<END
+$rounding auto
+$rounding fft
+$rounding direct
+1e-9 mlms --tol 1e-9
+1e-9 mlms --order 8 --correction 24
+END
+claim "the boundary stands in the stream" says 'boundary=free' rc-info u.rcg
 claim "--estar wins over the stream" rc-deflect --estar 57GPa solved.rcg -o soft.rcg
-near "$(statistic maximum soft.rcg)" "$(awk -v m="$maximum" 'BEGIN { printf "%.17g", 2 * m }')" 1e-12 \
+near "$(statistic maximum soft.rcg)" "$(awk -v m="$maximum" 'BEGIN { printf "%.17g", 2 * m }')" "$rounding" \
     "  and half the modulus gives twice the displacement"
-claim "--verbose says which engine and why" bash -c \
-    'rc-deflect --verbose solved.rcg -o u.rcg 2>why.txt && grep -q "summed by fft, because" why.txt'
+claim "--verbose says which engine and why" \
+    warns 'summed by fft, because the fastest of those that are exact' rc-deflect --verbose solved.rcg -o u.rcg
 
-# a pressure of a stranger: no boundary, no modulus
-rc-info --json solved.rcg >/dev/null
-refuses 1 'contradicts' "--periodic against the stream" "rc-deflect --periodic solved.rcg"
-refuses 2 'together' "--order without --correction" "rc-deflect --order 3 solved.rcg"
-refuses 2 'one of auto' "an engine that is none" "rc-deflect --kernel guess solved.rcg"
-refuses 2 'above 0' "a modulus of 0" "rc-deflect --estar 0 solved.rcg"
-refuses 1 'no frame with the channel pressure' "a stream without pressure" \
+# a pressure that no rc-solve made: no boundary, no modulus
+rc-synth sphere --nx 40 --dx 1um --radius 1mm | sed 's/^channel=height/channel=pressure/; s/^unit=m/unit=Pa/' | reseal >bare.rcg
+claim "a pressure without keys is free, and needs the modulus" says 'boundary=free' bash -c '
+    rc-deflect --estar 1GPa bare.rcg | rc-info'
+refuses 2 'E\* is not in the stream: give it with --estar' "  which is asked for" "rc-deflect bare.rcg"
+refuses 1 'its boundary is free: --periodic contradicts it' "--periodic against the stream" "rc-deflect --periodic solved.rcg"
+refuses 2 '--order and --correction are given together' "--order without --correction" "rc-deflect --order 3 solved.rcg"
+refuses 2 '--kernel guess: it must be one of auto\|fft' "an engine that is none" "rc-deflect --kernel guess solved.rcg"
+refuses 2 '--estar 0 Pa: it must be above 0' "a modulus of 0" "rc-deflect --estar 0 solved.rcg"
+refuses 1 'no frame with the channel pressure, only height' "a stream without pressure" \
     "rc-synth sphere --nx 9 --dx 1um --radius 1mm | rc-deflect --estar 1GPa"
-refuses 1 'memory' "more memory than is allowed" "rc-deflect --memory 20k solved.rcg"
+refuses 1 'needs 49664 bytes, more than --memory allows' "more memory than is allowed" "rc-deflect --memory 20k solved.rcg"
 
 finish

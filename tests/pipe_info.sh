@@ -9,29 +9,29 @@ rc-import --dx 1.1um --dy 1um --z-unit nm map.txt -o map.rcg
 claim "JSON of a map" bash -c 'rc-info --json map.rcg >map.json'
 claim "a line a frame, which a parser reads" bash -c \
     '[ "$(wc -l <map.json)" = 1 ] && perl -MJSON::PP -e "decode_json(\$_) for <>" map.json'
-near "$(field nx map.json)" 3 0 "nx"
-near "$(field ny map.json)" 2 0 "ny"
-near "$(field dx map.json)" 1.1e-6 0 "dx"
-near "$(field dy map.json)" 1e-6 0 "dy"
-near "$(field minimum map.json)" 1e-9 1e-15 "minimum"
-near "$(field maximum map.json)" 8e-9 1e-15 "maximum"
-near "$(field mean map.json)" 3.6e-9 1e-14 "mean"
-near "$(field sum map.json)" 18e-9 1e-14 "sum"
-near "$(field rms map.json)" 2.4166091947189146e-9 1e-13 "rms: sqrt(29.2 / 5) nm"
+near "$(field nx map.json)" 3 "$same" "nx"
+near "$(field ny map.json)" 2 "$same" "ny"
+near "$(field dx map.json)" 1.1e-6 "$same" "dx"
+near "$(field dy map.json)" 1e-6 "$same" "dy"
+near "$(field minimum map.json)" 1e-9 "$converted" "minimum"
+near "$(field maximum map.json)" 8e-9 "$converted" "maximum"
+near "$(field mean map.json)" 3.6e-9 "$of_sum" "mean"
+near "$(field sum map.json)" 18e-9 "$of_sum" "sum"
+near "$(field rms map.json)" 2.4166091947189146e-9 "$rounding" "rms: sqrt(29.2 / 5) nm"
 # one node has both neighbours: sqrt((1/1.1)^2 + (2/1)^2) nm/um
-near "$(field rms_slope map.json)" 2.1969174497447e-3 1e-12 "rms slope"
-near "$(field missing map.json)" 1 0 "missing"
-near "$(field infinite map.json)" 0 0 "infinite"
+near "$(field rms_slope map.json)" 2.196917449744468e-3 "$rounding" "rms slope"
+near "$(field missing map.json)" 1 "$same" "missing"
+near "$(field infinite map.json)" 0 "$same" "infinite"
 claim "source and history are among the keys" grep -q \
     '"keys": {.*"source": "map.txt".*"history": "rc-import' map.json
 rc-synth sphere --radius 1mm --nx 16 --dx 1um |
     rc-solve --load 1mN --estar 100GPa --output pressure --quiet | rc-info --json >p.json
 claim "a slope is a matter of heights" grep -q '"unit": "Pa".*"rms_slope": null' p.json
-near "$(awk -v s="$(field sum p.json)" 'BEGIN { print s * 1e-12 }')" 1e-3 1e-5 \
+near "$(awk -v s="$(field sum p.json)" 'BEGIN { printf "%.17g", s * 1e-12 }')" 1e-3 "$summed" \
     "a pressure's sum times dx dy is its load"
-claim "what is not there is null" bash -c 'printf "NaN NaN\nNaN NaN\n" |
-    rc-import --dx 1um --z-unit nm - | rc-info --json |
-    grep -q "\"minimum\": null.*\"mean\": null, \"rms\": null, \"rms_slope\": null"'
+claim "what is not there is null" \
+    says '"minimum": null.*"mean": null, "rms": null, "rms_slope": null' bash -c '
+    printf "NaN NaN\nNaN NaN\n" | rc-import --dx 1um --z-unit nm - | rc-info --json'
 
 # ---- text ----
 
@@ -43,32 +43,30 @@ for line in '^map.txt, case 1, frame 1 \(height\)$' '^  grid +3 x 2 nodes, dx 1.
     claim "  has the line $line" grep -qE "$line" map.out
 done
 claim "history goes step by step" bash -c '
-    rc-detrend --plane map.rcg | rc-info | grep -A 1 "^  history  *rc-import" |
-    grep -q "^             rc-detrend [0-9.]* --plane"'
+    rc-detrend --plane map.rcg | rc-info | grep -A 1 "^  history  *rc-import" >steps &&
+    grep -q "^             rc-detrend [0-9.]* --plane" steps'
 claim "control characters do not reach a terminal" bash -c '
-    sed "s/^source=.*/source=\x1b[31mred/" map.rcg |
-    perl -MCompress::Zlib -0777 -pe \
-        "s/(RCG1.*)crc32 ........\n/\$1 . sprintf(qq(crc32 %08x\n), crc32(\$1))/se" |
-    rc-info >red.out && grep -q "[?]\[31mred" red.out && ! grep -q "$(printf "\033")" red.out'
+    sed "s/^source=.*/source=\x1b[31mred/" map.rcg | reseal |
+    rc-info >red.out && grep -q "[?]\[31mred" red.out && lacks "$(printf "\033")" red.out'
 
 # ---- several frames and streams ----
 
-claim "files one after another are cases" bash -c '
-    rc-info --json map.rcg - map.rcg <map.rcg | grep -o "\"case\": [0-9]*, \"frame\": 1," | uniq |
-    wc -l | grep -qx 3'
+claim "files one after another are cases" test "$(rc-info --json map.rcg - map.rcg <map.rcg |
+    grep -o '"case": [0-9]*, "frame": 1,' | tr -d '\n')" = '"case": 1, "frame": 1,"case": 2, "frame": 1,"case": 3, "frame": 1,'
 claim "-o FILE" bash -c 'rc-info --json -o file.json map.rcg && cmp file.json map.json'
 
 # ---- refusals ----
 
 size=$(wc -c <map.rcg)
-refuses 1 'stops' "a stream cut off" "head -c $((size - 20)) map.rcg | rc-info"
-refuses 1 'checksum' "a damaged one" "sed 's/^unit=m/unit=n/' map.rcg | rc-info"
-refuses 1 'no grid stream' "something else" "rc-info map.txt"
-refuses 1 'No such file' "nothing" "rc-info nowhere.rcg"
-refuses 2 'unknown' "an unknown option" "rc-info --yaml map.rcg"
-refuses 1 'No space left|writing failed' "a full disk" "rc-info map.rcg >/dev/full"
+refuses 1 'the stream stops before the checksum of a frame' "a stream cut off" "head -c $((size - 20)) map.rcg | rc-info"
+refuses 1 "the checksum is [0-9a-f]{8}, the data's is [0-9a-f]{8}" "a damaged one" "sed 's/^unit=m/unit=n/' map.rcg | rc-info"
+refuses 1 "'1 2 NaN' stands where a frame .*: this is no grid stream" "something else" "rc-info map.txt"
+refuses 1 'nowhere.rcg: No such file' "nothing" "rc-info nowhere.rcg"
+refuses 2 'unknown or ambiguous option --yaml' "an unknown option" "rc-info --yaml map.rcg"
+refuses 1 'writing failed \(No space left on device\)' "a full disk" "rc-info map.rcg >/dev/full"
 refuses 3 'converged=no' "an unfinished solution" \
     "rc-synth selfaffine --nx 32 --dx 1um --hurst 0.8 --rms-height 10nm |
-        rc-solve --load 100mN --estar 100GPa --tol 1e-18 --quiet -o short.rcg; rc-info short.rcg"
+        rc-solve --load 100mN --estar 100GPa --tol 1e-18 --quiet -o short.rcg
+    [ \$? = 3 ] && rc-info short.rcg"
 
 finish

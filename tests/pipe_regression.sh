@@ -4,8 +4,8 @@
 
 grep -v '^#' "$RC_SOURCE/tests/regression.txt" >table.txt
 
-# Field $2 of the JSON file $1 is $3 within the relative difference $4.
-near() {
+# keeps FILE FIELD VALUE WITHIN: the field of the JSON file is the value within the relative difference.
+keeps() {
     perl -e '
         my ($file, $field, $want, $within) = @ARGV;
         open(my $in, "<", $file) or die; my $text = join "", <$in>;
@@ -13,6 +13,12 @@ near() {
         exit(0) if abs($got - $want) <= $within * abs($want);
         print STDERR "$field: $got, not $want\n"; exit(1);' "$@"
 }
+
+# The relative error of the pressure is 1e-8 in the mean; a single one, and what stands below it, may be off by
+# a hundred times that. Areas are whole nodes: of 10,000 in contact one may change sides, of 1000 at the hardness too.
+beside=1e-6
+of_contact=1e-4
+of_plastic=1e-3
 
 row() {
     local surface=$1 options=$2 area=$3 peak=$4 approach=$5 plastic=$6 mises=$7
@@ -23,9 +29,9 @@ row() {
         rc-solve --quiet $options --tol 1e-8 --output pressure --report solve.json -o pressure.rcg &&
         rc-stress --quiet --nu 0.3 --depths 0.5um,2um,8um --components mises --report stress.json \
             -o mises.rcg pressure.rcg &&
-        near solve.json contact_area "$area" 1e-4 && near solve.json max_pressure "$peak" 1e-6 &&
-        near solve.json approach "$approach" 1e-6 && near solve.json plastic_area "$plastic" 1e-3 &&
-        near stress.json mises "$mises" 1e-6
+        keeps solve.json contact_area "$area" "$of_contact" && keeps solve.json max_pressure "$peak" "$beside" &&
+        keeps solve.json approach "$approach" "$beside" && keeps solve.json plastic_area "$plastic" "$of_plastic" &&
+        keeps stress.json mises "$mises" "$beside"
 }
 
 while IFS=$'\t' read -r surface options numbers; do

@@ -53,12 +53,12 @@ claim "and it is that frame" size 33 47 g.png
 claim "--case chooses" rc-render --raw --case 2 -o c.png cases.rcg
 claim "and it is that frame" size 10 11 c.png
 claim "several cases get a warning and the first is drawn" bash -c \
-    'rc-render --raw -o c.png cases.rcg 2>warned && grep -q "2 cases match: case 1" warned'
+    'warns "2 cases match: case 1" rc-render --raw -o c.png cases.rcg'
 claim "and it is that frame" size 8 9 c.png
-claim "--verbose says which channel was chosen" bash -c \
-    'rc-render --verbose --raw three.rcg 2>&1 >/dev/null | grep -q "drawing pressure"'
-claim "of several depths the one with the largest value is drawn" bash -c \
-    'rc-render --verbose --raw depths.rcg 2>&1 >/dev/null | grep -q "drawing 12.35 µm"'
+claim "--verbose says which channel was chosen" \
+    warns 'drawing pressure' rc-render --verbose --raw three.rcg
+claim "of several depths the one with the largest value is drawn" \
+    warns 'drawing 12.35 µm' rc-render --verbose --raw depths.rcg
 claim "--depth is met to a thousandth" rc-render --depth 12.35um -o d.png depths.rcg
 claim "a figure is as wide as it is asked for" rc-render --width 777 -o w.png height.rcg
 claim "777 pixels" size 777 - w.png
@@ -110,7 +110,7 @@ for kind in --figure --raw "--contour --colormap magma"; do
 done
 claim "the picture says how it was made" describes "rc-render" a.png
 claim "with its options in SI" bash -c \
-    'rc-render --range -1um:2.5um -o a.png height.rcg && grep -aq -- "--range -1e-06:2.5e-06" a.png'
+    'rc-render --range -1um:2.5um -o a.png height.rcg && grep -aqF -- "--range -1e-06:2.5e-06" a.png'
 
 # ---- text ----
 
@@ -130,43 +130,52 @@ none() { [ ! -e out.png ] && [ -z "$(ls out.png.* 2>/dev/null)" ]; }
 
 draw='rc-render -o out.png'
 stream height m 5 5 "" '"nan"' >empty.rcg
-refuses 1 'nothing to draw' "a map without a number" "$draw empty.rcg"
+refuses 1 'none of its 25 values is a finite number: there is nothing to draw' "a map without a number" "$draw empty.rcg"
 refuses 1 'no channel mises: there are height, pressure, gap' "an absent channel" \
     "$draw --channel mises three.rcg"
 refuses 1 'case 7 holds no frame: there are cases 1, 2' "an absent case" "$draw --case 7 cases.rcg"
 refuses 1 'there are 0, 1.23456e-05, 4e-05 m' "an absent depth" "$draw --depth 13um depths.rcg"
-refuses 1 'no frame has a depth' "a depth where there is none" "$draw --depth 13um height.rcg"
+refuses 1 'no frame at depth 1.3e-05 m: no frame has a depth' "a depth where there is none" "$draw --depth 13um height.rcg"
 refuses 1 'no section across x' "an absent section" "$draw --section x section.rcg"
-refuses 1 'no frame' "a stream without frames" "printf 'RCGEND 0\n' | $draw"
-refuses 2 'LO below HI' "a range upside down" "$draw --range 2um:1um height.rcg"
-refuses 2 'LO below HI' "a range without extent" "$draw --range 1um:1um height.rcg"
-refuses 2 'LO below HI' "a range of three" "$draw --range 1,2,3 height.rcg"
-refuses 2 'LO below HI' "a range of one" "$draw --range 1um height.rcg"
-refuses 2 'unknown unit' "a range in another unit" "$draw --range 0:1GPa height.rcg"
-refuses 2 'with and without a unit' "a range in two units" "$draw --range 1:2um height.rcg"
-refuses 2 'must be one of viridis' "an unknown map of colours" "$draw --colormap jet height.rcg"
-refuses 2 'give one' "two kinds of picture" "$draw --raw --figure height.rcg"
-refuses 2 'leave out --contour' "contours in a raw picture" "$draw --raw --contour height.rcg"
-refuses 2 'leave out --width' "a raw picture of some width" "$draw --raw --width 500 height.rcg"
-refuses 2 'at least 320' "a figure too narrow" "$draw --width 100 height.rcg"
-refuses 2 'not UTF-8' "a title that is no text" "$draw --title $'\\xff' height.rcg"
-refuses 2 'unknown or ambiguous option' "an unknown option" "$draw --colour red height.rcg"
+refuses 1 'the stream holds no frame' "a stream without frames" "printf 'RCGEND 0\n' | $draw"
+refuses 2 '--range 2um:1um: it must be LO:HI, two values with LO below HI' "a range upside down" "$draw --range 2um:1um height.rcg"
+refuses 2 '--range 1um:1um: it must be LO:HI' "a range without extent" "$draw --range 1um:1um height.rcg"
+refuses 2 '--range 1,2,3: it must be LO:HI' "a range of three" "$draw --range 1,2,3 height.rcg"
+refuses 2 '--range 1um: it must be LO:HI' "a range of one" "$draw --range 1um height.rcg"
+refuses 2 "--range 0:1GPa: unknown unit 'GPa': m is expected" "a range in another unit" "$draw --range 0:1GPa height.rcg"
+refuses 2 '--range 1:2um: numbers with and without a unit' "a range in two units" "$draw --range 1:2um height.rcg"
+refuses 2 '--colormap jet: it must be one of viridis' "an unknown map of colours" "$draw --colormap jet height.rcg"
+refuses 2 '--raw and --figure are two kinds of picture: give one' "two kinds of picture" "$draw --raw --figure height.rcg"
+refuses 2 '--raw draws nothing but nodes: leave out --contour' "contours in a raw picture" "$draw --raw --contour height.rcg"
+refuses 2 '--raw is as wide as the map has columns: leave out --width' "a raw picture of some width" "$draw --raw --width 500 height.rcg"
+refuses 2 '--width 100: it must be at least 320' "a figure too narrow" "$draw --width 100 height.rcg"
+refuses 2 '--title: the text is not UTF-8' "a title that is no text" "$draw --title $'\\xff' height.rcg"
+refuses 2 'unknown or ambiguous option --colour' "an unknown option" "$draw --colour red height.rcg"
 stream mises Pa 20 4 "section=y depths=0,1e-06" 1 >few.rcg
-refuses 1 'holds 2 depths for 4 rows' "a section with too few depths" "$draw few.rcg"
+refuses 1 'its key depths holds 2 depths for 4 rows' "a section with too few depths" "$draw few.rcg"
 stream mises Pa 20 3 "section=y depths=0,2e-06,1e-06" 1 >falling.rcg
-refuses 1 'must rise' "a section whose depths do not rise" "$draw falling.rcg"
+refuses 1 'its key depths must rise from row to row' "a section whose depths do not rise" "$draw falling.rcg"
 
 whole=$(wc -c <three.rcg)
-for n in 1 100 1000 $((whole / 2)) $((whole - 9)) $((whole - 1)); do
-    refuses 1 '.' "a stream cut after $n of $whole bytes" "head -c $n three.rcg | $draw"
-done
-refuses 1 'out of load' "a producer that failed" \
+while read -r n where; do
+    refuses 1 "the stream stops $where, [0-3] whole frames after its start" "a stream cut after $n of $whole bytes" \
+        "head -c $n three.rcg | $draw"
+done <<END
+0 before it begins
+1 inside a line
+100 inside the values of a frame
+1000 inside the values of a frame
+$((whole / 2)) inside the values of a frame
+$((whole - 9)) without an end line
+$((whole - 1)) inside a line
+END
+refuses 1 'this stream failed: out of load' "a producer that failed" \
     "{ head -c $((whole - 9)) three.rcg; printf 'RCGFAIL out of load\n'; } | $draw"
 claim "none of these left a picture or a part of one behind" none
 cp height.rcg out.png
-refuses 1 '.' "a cut stream over a file that is there" "head -c 1000 three.rcg | $draw"
+refuses 1 'the stream stops inside the values of a frame' "a cut stream over a file that is there" "head -c 1000 three.rcg | $draw"
 claim "leaves that file as it was" cmp height.rcg out.png
-refuses 1 'No space left' "a full device" "rc-render height.rcg >/dev/full"
-refuses 1 'No space left' "a full device named" "rc-render -o /dev/full height.rcg"
+refuses 1 'the PNG cannot be written: No space left on device' "a full device" "rc-render height.rcg >/dev/full"
+refuses 1 'the PNG cannot be written: No space left on device' "a full device named" "rc-render -o /dev/full height.rcg"
 
 finish

@@ -96,6 +96,7 @@ const struct rc_engine rc_engine_fft = {
                 .periodic = true,
                 .precise = true,
                 .order = 1},
+    .transforms = true,
     .seconds = seconds,
     .memory = memory,
     .new = plan_new,

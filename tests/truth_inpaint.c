@@ -1,5 +1,5 @@
-/* Filled points solve Laplace's equation: discretely harmonic surfaces come back exactly, and small
- * maps agree with a dense solution. */
+/* Inpainted points solve Laplace's equation: discretely harmonic surfaces come back exactly, and
+ * small maps agree with a dense solution. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -56,11 +56,11 @@ make(const struct rc_shape *s, surface f)
     return h;
 }
 
-/* Fills h, whose holes were cut out of `whole`, and compares. */
+/* Inpaints h, whose holes were cut out of `whole`, and compares. */
 static void
 check_restored(const struct rc_shape *s, double *h, const double *whole)
 {
-    size_t n = s->nx * s->ny, holes = 0, filled;
+    size_t n = s->nx * s->ny, holes = 0, inpainted;
     double highest = 0;
     struct rc_err err;
 
@@ -69,8 +69,8 @@ check_restored(const struct rc_shape *s, double *h, const double *whole)
         highest = fmax(highest, fabs(whole[k]));
     }
     assert_true(holes > 0);
-    assert_int_equal(rc_inpaint(s, h, &filled, &err), RC_OK);
-    assert_int_equal(filled, holes);
+    assert_int_equal(rc_inpaint(s, h, &inpainted, &err), RC_OK);
+    assert_int_equal(inpainted, holes);
     for (size_t k = 0; k < n; k++)
         if (!(fabs(h[k] - whole[k]) <= solved * highest))
             fail_msg("node %zu: %.17g instead of %.17g", k, h[k], whole[k]);
@@ -257,11 +257,11 @@ test_nothing_to_do(void **state)
     const struct rc_shape s = {2, 2, 1, 1};
     double h[] = {1, 2, 3, 4};
     const double whole[] = {1, 2, 3, 4};
-    size_t filled = 7;
+    size_t inpainted = 7;
 
     (void)state;
-    assert_int_equal(rc_inpaint(&s, h, &filled, NULL), RC_OK);
-    assert_int_equal(filled, 0);
+    assert_int_equal(rc_inpaint(&s, h, &inpainted, NULL), RC_OK);
+    assert_int_equal(inpainted, 0);
     assert_memory_equal(h, whole, sizeof h);
 }
 
@@ -271,12 +271,12 @@ test_refusals(void **state)
     const struct rc_shape s = {2, 2, 1, 1};
     double nothing[] = {NAN, NAN, NAN, NAN}, infinite[] = {NAN, 1, INFINITY, 2};
     struct rc_err err;
-    size_t filled;
+    size_t inpainted;
 
     (void)state;
-    assert_int_equal(rc_inpaint(&s, nothing, &filled, &err), RC_FAIL);
+    assert_int_equal(rc_inpaint(&s, nothing, &inpainted, &err), RC_FAIL);
     assert_non_null(strstr(err.text, "all 4"));
-    assert_int_equal(rc_inpaint(&s, infinite, &filled, &err), RC_FAIL);
+    assert_int_equal(rc_inpaint(&s, infinite, &inpainted, &err), RC_FAIL);
     assert_non_null(strstr(err.text, "infinite"));
     assert_true(isnan(infinite[0]));
 }

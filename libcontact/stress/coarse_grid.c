@@ -6,7 +6,7 @@
  * the coarse field is the same sum over fewer nodes, and it is interpolated back (the multi-level
  * sum of Polonsky and Keer 1999, eqs. 10 and 15, where no corrections are needed).
  */
-#include "coarse.h"
+#include "coarse_grid.h"
 
 #include <math.h>
 #include <omp.h>
@@ -26,10 +26,9 @@ struct axis {
 
 struct rc_coarse {
     struct axis x, y;
-    struct rc_shape shape;
     int threads;
-    double *rows;  /* ny rows of x.coarse: between the two directions of a reduction */
-    double *space; /* for each thread: a coarse row, and one fine phase of it        */
+    double *rows;    /* ny rows of x.coarse: between the two directions of a reduction   */
+    double *scratch; /* for each thread: a coarse row, and the fine nodes of one residue */
 };
 
 /* Largest sum of what such interpolation, of the source and of the field, leaves of any kernel,
@@ -82,6 +81,7 @@ rc_coarse_shape(const struct rc_shape *s, size_t sx, size_t sy)
                              (double)sy * s->dy};
 }
 
+/* Lagrange's polynomials at each r / s between the two middle ones of ORDER nodes. */
 static bool
 set_axis(struct axis *a, size_t n, size_t s)
 {
@@ -99,8 +99,9 @@ set_axis(struct axis *a, size_t n, size_t s)
     return true;
 }
 
+/* Doubles of one thread. */
 static size_t
-space(const struct rc_coarse *c)
+scratch_size(const struct rc_coarse *c)
 {
     return 2 * (c->x.coarse + ORDER);
 }
@@ -112,12 +113,11 @@ rc_coarse_new(const struct rc_shape *shape, size_t sx, size_t sy, size_t threads
     struct rc_coarse *c = calloc(1, sizeof *c);
 
     if (c != NULL && set_axis(&c->x, shape->nx, sx) && set_axis(&c->y, shape->ny, sy)) {
-        c->shape = rc_coarse_shape(shape, sx, sy);
         c->threads = rc_useful_threads(shape, threads);
         c->rows = malloc(shape->ny * c->x.coarse * sizeof *c->rows);
-        c->space = malloc((size_t)c->threads * space(c) * sizeof *c->space);
+        c->scratch = malloc((size_t)c->threads * scratch_size(c) * sizeof *c->scratch);
     }
-    if (c == NULL || c->rows == NULL || c->space == NULL) {
+    if (c == NULL || c->rows == NULL || c->scratch == NULL) {
         rc_err_set(err, "out of memory for a coarser grid of %zu x %zu nodes", shape->nx,
                    shape->ny);
         rc_coarse_free(c);
@@ -134,11 +134,11 @@ rc_coarse_free(struct rc_coarse *c)
     free(c->x.weight);
     free(c->y.weight);
     free(c->rows);
-    free(c->space);
+    free(c->scratch);
     free(c);
 }
 
-/* ---- there ---- */
+/* ---- reduction ---- */
 
 static void
 reduce_row(const struct axis *a, const double *p, double *out)
@@ -179,7 +179,7 @@ rc_coarse_reduce(struct rc_coarse *c, const double *p, double *out)
     }
 }
 
-/* ---- and back ---- */
+/* ---- interpolation ---- */
 
 RC_WIDE_CLONES static void
 weigh_rows(size_t n, size_t stride, const double *restrict w, const double *restrict rows,
@@ -194,13 +194,13 @@ weigh_rows(size_t n, size_t stride, const double *restrict w, const double *rest
 }
 
 static void
-expand_row(const struct axis *a, const double *row, double *phase, double *out)
+expand_row(const struct axis *a, const double *row, double *residue, double *out)
 {
     for (size_t r = 0; r < a->s; r++) {
         size_t n = r < a->n ? (a->n - r + a->s - 1) / a->s : 0;
-        weigh_rows(n, 1, a->weight + r * ORDER, row, phase);
+        weigh_rows(n, 1, a->weight + r * ORDER, row, residue);
         for (size_t i = 0; i < n; i++)
-            out[i * a->s + r] = phase[i];
+            out[i * a->s + r] = residue[i];
     }
 }
 
@@ -211,7 +211,8 @@ rc_coarse_expand(struct rc_coarse *c, const double *u, double *out)
 
 #pragma omp parallel for num_threads(c->threads) schedule(static)
     for (size_t j = 0; j < c->y.n; j++) {
-        double *row = c->space + (size_t)omp_get_thread_num() * space(c), *to = out + j * c->x.n;
+        double *row = c->scratch + (size_t)omp_get_thread_num() * scratch_size(c),
+               *to = out + j * c->x.n;
         const double *from = u + j / c->y.s * wide;
         if (c->y.s > 1)
             weigh_rows(wide, wide, c->y.weight + j % c->y.s * ORDER, from, row);

@@ -1,7 +1,9 @@
-/* Between a map and every s-th node of it, for fields that are smooth there. Internal: never
- * installed. */
-#ifndef RC_STRESS_COARSE_H
-#define RC_STRESS_COARSE_H
+/*
+ * Between a map and a coarser grid of every s-th node, for fields that are smooth on it. Internal:
+ * never installed.
+ */
+#ifndef RC_COARSE_GRID_H
+#define RC_COARSE_GRID_H
 
 #include "stress.h"
 

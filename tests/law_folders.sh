@@ -1,0 +1,229 @@
+# The folders point one way. A file includes, of other folders, only the header that a folder below
+# its own offers; it calls nothing that is defined above; and the solver, the stresses, the surfaces
+# and the tools know no engine and no kernel by name.
+. "$(dirname "$0")/pipe.sh"
+. "$RC_SOURCE/tests/symbols.sh"
+
+# ---- what is allowed ----
+
+# A folder or a file of it | the headers that it may include beside those of its own folder | the
+# folders whose functions and data it may use. X=rc_y_: of X only what is called rc_y_..., the rows
+# of a list. %base is what all folders of libcontact share, %public what others see of libcontact,
+# %physics the folders where that is defined.
+cat >arrows.txt <<'END'
+libcontact          | -                                        | -
+libcontact/tables.c | libcontact/operator/operator.h           | libcontact/operator
+libcontact/tables.c |                                          | libcontact/stress=rc_kernel_
+libcontact/operator | %base                                    | libcontact
+libcontact/solver   | %base libcontact/operator/operator.h     | libcontact libcontact/operator
+libcontact/stress   | %base libcontact/operator/operator.h     | libcontact libcontact/operator
+libcontact/surface  | %base libcontact/operator/operator.h     | libcontact libcontact/operator
+formats/core        | libcontact/grid.h formats/format.h       | libcontact
+formats/rcg         | libcontact/grid.h formats/core/core.h    | libcontact formats/core
+formats/sandbox     | libcontact/grid.h formats/core/core.h    | libcontact formats/core
+formats/sandbox     | formats/format.h                         |
+formats/readers     | libcontact/grid.h formats/core/core.h    | libcontact formats/core
+formats/readers     | formats/sandbox/sandbox.h                | formats/sandbox
+formats/readers     | formats/format.h                         | formats
+formats/writers     | libcontact/grid.h formats/core/core.h    | libcontact formats/core
+formats/writers     | formats/export.h                         | formats
+formats             | libcontact/grid.h formats/core/core.h    | libcontact formats/core
+formats             |                                          | formats/readers=rc_format_
+formats             |                                          | formats/writers=rc_export_
+tools/cli           | %public formats/rcg/rcg.h                | %physics formats/rcg
+tools/plot          | libcontact/grid.h tools/cli/cli.h        | libcontact tools/cli
+tools/cost          | %public tools/cli/cli.h tools/plot/plot.h | %physics tools/cli tools/plot
+tools/solve         | %public tools/cli/cli.h tools/plot/plot.h | %physics tools/cli tools/plot
+tools/solve         |                                          | formats/rcg
+tools               | %public tools/cli/cli.h tools/plot/plot.h | %physics tools/cli tools/plot
+tools               | tools/cost/cost.h tools/solve/solve.h    | tools/cost tools/solve
+tools               | formats/core/core.h formats/rcg/rcg.h    | formats/core formats/rcg
+tools               | formats/format.h formats/export.h        | formats
+END
+base='libcontact/contact.h libcontact/grid.h libcontact/common.h libcontact/memory.h'
+public='libcontact/contact.h libcontact/grid.h'
+physics='libcontact libcontact/tables.c libcontact/operator libcontact/solver libcontact/stress'
+physics="$physics libcontact/surface"
+sed -i "s!%base!$base!; s!%public!$public!; s!%physics!$physics!" arrows.txt
+
+# Where the rules are not kept yet. Each line must be found: one that is mended is taken out here.
+cat >known.txt <<'END'
+include tools/rc-import.c libcontact/memory.h
+include tools/rc-cost.c tools/cli/physics.list
+include tools/rc-solve.c tools/cli/physics.list
+call formats/core formats rc_height_unit
+call formats/core formats rc_lacks_unit
+call formats/core formats rc_spacing
+call formats/sandbox formats rc_note
+private tools rc_alloc
+name tools/cost/climb.c 1
+name tools/cost/expect.c 4
+name tools/cost/ladder.c 10
+name tools/cost/plot.c 11
+name tools/cost/stress.c 10
+name tools/rc-stress.c 4
+name tools/solve/report.c 2
+name tools/stress_report.c 2
+END
+
+# ---- what there is ----
+
+# includes TREE: "file header" of every quoted include of the code.
+includes() {
+    (cd "$1" && find libcontact formats tools -name '*.[ch]' -exec \
+        sed -n 's/^ *# *include *"\(.*\)".*/& \1/; T; F; s/.* //p' {} +) | paste -d ' ' - -
+}
+
+# include_faults TREE: what the table does not allow, as lines of known.txt.
+include_faults() {
+    includes "$1" | awk -v tree="$1" '
+        function exists(file) { return system("test -f \"" tree "/" file "\"") == 0 }
+        NR == FNR { split($0, part, "|"); gsub(/ /, "", part[1])
+            may[part[1]] = may[part[1]] " " part[2] " "; next }
+        {
+            folder = $1; sub(/\/[^\/]*$/, "", folder)
+            place = $1 in may ? $1 : folder
+            if (!(place in may)) print "include", $1, "(a folder without a row)"
+            else if ($2 !~ /\// ? !exists(folder "/" $2) : index(may[place], " " $2 " ") == 0)
+                print "include", $1, $2
+        }' arrows.txt - | sort
+}
+
+# symbols BUILD: "D source name" for what is defined, "U source name" for what is used.
+symbols() {
+    objects "$1" libcontact formats tools | while read -r object source; do
+        nm -g "$object" | awk -v source="$source" '
+            NF == 3 && $2 ~ /^[TDBRVWC]$/ { print "D", source, $3 }
+            NF == 2 && $1 == "U" { print "U", source, $2 }'
+    done | sort -u
+}
+
+# call_faults SYMBOLS: the same of what is called.
+call_faults() {
+    awk '
+        FILENAME == "arrows.txt" { split($0, part, "|"); gsub(/ /, "", part[1])
+            may[part[1]] = may[part[1]] " " part[3]; next }
+        { folder = $2; sub(/\/[^\/]*$/, "", folder); place = $2 in may ? $2 : folder }
+        $1 == "D" { where[$3] = place; home[$3] = folder; next }
+        $3 in where && folder != home[$3] {
+            n = split(may[place], list, " "); found = 0
+            for (k = 1; k <= n; k++) {
+                split(list[k], pair, "=")
+                found = found || pair[1] == where[$3] && (pair[2] == "" || index($3, pair[2]) == 1)
+            }
+            if (!found) print "call", place, where[$3], $3
+        }' arrows.txt "$1" | sort -u
+}
+
+# private_faults SYMBOLS: what formats and tools use of libcontact although its public headers do
+# not declare it.
+private_faults() {
+    declared "$RC_SOURCE/libcontact/contact.h" >public.txt
+    awk '
+        FILENAME == "public.txt" { public[$1] = 1; next }
+        $1 == "D" { if ($2 ~ /^libcontact\//) where[$3] = 1; next }
+        $2 !~ /^libcontact\// && $3 in where && !($3 in public) { sub(/\/.*/, "", $2); print "private", $2, $3 }' \
+        public.txt "$1" | sort -u
+}
+
+# names TREE: how often files name an engine or a kernel in code, as a word in quotes or by its row.
+# Not counted: the kernel of the stresses in their own folder, and the word "stress", which is more
+# than the name of a kernel.
+names() {
+    local words
+    words=$(cd "$1" &&
+        sed -n 's/.*\.name = "\([a-z0-9_]*\)".*/\1/p' libcontact/operator/{engine,kernel}_*.c |
+        paste -s -d '|')
+    (cd "$1" && find libcontact/solver libcontact/stress libcontact/surface tools -name '*.[ch]') |
+        sort |
+        while read -r file; do
+            perl -0777 -ne '
+                BEGIN { ($words, $name) = splice @ARGV, 0, 2 }
+                s#/\*.*?\*/##gs;
+                s/\brc_kernel_stress\b//g if $name =~ m{^libcontact/stress/};
+                my $n = () = /"(?:$words)"|\brc_(?:engine|kernel)_(?:$words|stress)\b/g;
+                print "name $name $n\n" if $n > 0' "$words" "$file" "$1/$file"
+        done
+}
+
+# as_known KIND FOUND: no more and no less than what is known.
+as_known() {
+    grep "^$1 " known.txt | sort | diff - <(sort "$2") >&2
+}
+
+# ---- the tree ----
+
+include_faults "$RC_SOURCE" >include.txt
+claim "every include goes downwards, to the header that a folder offers" as_known include include.txt
+claim "  and there were includes to look at" test "$(includes "$RC_SOURCE" | wc -l)" -gt 200
+claim "  and every header of the table is there" bash -c '
+    cut -d "|" -f 2 arrows.txt | tr " " "\n" | grep / | sort -u | while read -r header; do
+        [ -f "$RC_SOURCE/$header" ] || { echo "$header" >&2; exit 1; }
+    done'
+names "$RC_SOURCE" >name.txt
+claim "no engine and no kernel is named outside the folder of the operators" as_known name name.txt
+
+if command -v nm >/dev/null; then
+    symbols "$(dirname "$RC_BIN")" >symbols.txt
+    call_faults symbols.txt >call.txt
+    claim "nothing calls upwards" as_known call call.txt
+    claim "  and there were calls to look at" test "$(grep -c '^U.* rc_' symbols.txt)" -gt 500
+    private_faults symbols.txt >private.txt
+    claim "formats and tools use of libcontact what its public headers declare" as_known private private.txt
+else
+    echo "not tried: what is called, because nm is not here"
+fi
+
+# ---- a tree where each rule is broken: every fault is seen ----
+
+mkdir -p bad/libcontact/{operator,solver,stress,surface,other} bad/formats/core bad/tools
+cp "$RC_SOURCE"/libcontact/operator/{engine,kernel}_*.c bad/libcontact/operator
+printf '#include "libcontact/solver/solver.h"\n#include "nowhere.h"\n' >bad/libcontact/operator/engine_up.c
+printf '#include "libcontact/operator/operator.h"\n#include "libcontact/operator/fft.h"\n' >bad/libcontact/solver/deep.c
+printf '#include "libcontact/grid.h"\n' >bad/libcontact/other/new.c
+printf '  #  include "libcontact/contact.h"\n' >bad/formats/core/core.c
+include_faults bad | grep -v '/\(engine\|kernel\)_[^u]' >seen.txt
+claim "includes: upwards, of no file, past the offered header, without a row, out of the formats" diff - seen.txt <<'END'
+include formats/core/core.c libcontact/contact.h
+include libcontact/operator/engine_up.c libcontact/solver/solver.h
+include libcontact/operator/engine_up.c nowhere.h
+include libcontact/other/new.c (a folder without a row)
+include libcontact/solver/deep.c libcontact/operator/fft.h
+END
+printf '/* "mlms" */ a = "fft64"; b = &rc_engine_direct; c = "stress"; d = "ffts";\n' >bad/tools/rc-x.c
+printf 'e = &rc_kernel_stress; f = rc_kernel_boussinesq.rows;\n' | tee bad/libcontact/stress/s.c >bad/libcontact/solver/s.c
+names bad >seen.txt
+claim "names: in quotes and as rows, not in comments" diff - seen.txt <<'END'
+name libcontact/solver/s.c 2
+name libcontact/stress/s.c 1
+name tools/rc-x.c 2
+END
+cat >bad-symbols.txt <<'END'
+D libcontact/common.c rc_common
+D libcontact/operator/conv.c rc_conv_apply
+D libcontact/operator/conv.c rc_hidden
+D libcontact/solver/solver.c rc_solver_new
+D libcontact/stress/stress.c rc_stress_new
+D libcontact/stress/kernel_stress.c rc_kernel_stress
+U libcontact/operator/conv.c rc_common
+U libcontact/operator/conv.c rc_solver_new
+U libcontact/solver/solver.c rc_conv_apply
+U libcontact/tables.c rc_kernel_stress
+U libcontact/tables.c rc_stress_new
+U tools/rc-solve.c rc_hidden
+U tools/rc-solve.c rc_solver_new
+U formats/core/text.c rc_conv_apply
+END
+{ call_faults bad-symbols.txt && private_faults bad-symbols.txt; } >seen.txt
+claim "calls: upwards, of more than a row, of physics by a format, of what is private" diff - seen.txt <<'END'
+call formats/core libcontact/operator rc_conv_apply
+call libcontact/operator libcontact/solver rc_solver_new
+call libcontact/tables.c libcontact/stress rc_stress_new
+private tools rc_hidden
+END
+{ cat name.txt && echo 'name tools/rc-new.c 1'; } >more.txt
+refuses 1 '^> name tools/rc-new.c 1' "a fault that is new is told" "$(declare -f as_known); as_known name more.txt"
+sed 1d name.txt >fewer.txt
+refuses 1 '^< name ' "a known one that is gone is told" "$(declare -f as_known); as_known name fewer.txt"
+
+finish

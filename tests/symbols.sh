@@ -1,0 +1,32 @@
+# Sourced by the tests that look at names which the linker sees, after pipe.sh.
+
+# declared HEADER...: functions and objects rc_... that the headers declare, one a line.
+declared() {
+    local header
+    for header; do
+        ${CC:-cc} -E -P -std=c17 -I "$RC_SOURCE" "$header" || return 1
+    done | perl -0777 -ne '
+        my ($round, $curly);
+        $round = qr/\((?:[^()]++|(??{ $round }))*\)/;
+        $curly = qr/\{(?:[^{}]++|(??{ $curly }))*\}/;
+        s/__attribute__\s*$round//g;
+        s/extern\s+"C"\s*\{//g;
+        s/$curly//g;
+        for (split /;/) {
+            next if /\btypedef\b/;
+            print "$1\n" if /^[^(]*?\b(rc_\w+)\s*\(/ || /\bextern\b[^(]*\b(rc_\w+)\s*(?:\[[^\]]*\]\s*)*$/;
+        }' | sort -u
+}
+
+# objects BUILD FOLDER...: the object files of these folders of a build, and the sources that they
+# are made from, as "object source"; not those whose source is gone.
+objects() {
+    local build=$1 object source
+    shift
+    find "${@/#/$build/}" -name '*.o' | while read -r object; do
+        source=$(sed 's,CMakeFiles/[^/]*\.dir/,,; s,\.o$,,' <<<"${object#"$build"/}")
+        if [ -f "$RC_SOURCE/$source" ]; then
+            echo "$object $source"
+        fi
+    done
+}
