@@ -1,4 +1,4 @@
-#include "hdf_inside.h"
+#include "hdf_internal.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -6,7 +6,7 @@
 #include "formats/core/core.h"
 
 enum {
-    ROWS_MOST = 100000 /* of a table */
+    RECORDS_MOST = 100000 /* of a table; values of an attribute */
 };
 
 /* ---- attributes ---- */
@@ -27,7 +27,7 @@ values_in(hid_t attribute)
     hssize_t n = H5Sget_simple_extent_npoints(space);
 
     H5Sclose(space);
-    return n > 0 && n <= ROWS_MOST ? (size_t)n : 0;
+    return n > 0 && n <= RECORDS_MOST ? (size_t)n : 0;
 }
 
 bool
@@ -99,7 +99,7 @@ rc_hdf_text(struct rc_hdf *h, const char *path, const char *name, char *to, size
 
 /* Numbers of a member that is an array or a list of doubles. */
 static void
-take_numbers(hid_t type, const unsigned char *at, struct rc_hdf_row *row)
+take_numbers(hid_t type, const unsigned char *at, struct rc_hdf_record *record)
 {
     hid_t of = H5Tget_super(type);
     hsize_t size[RC_HDF_RANK];
@@ -114,21 +114,21 @@ take_numbers(hid_t type, const unsigned char *at, struct rc_hdf_row *row)
         } else if (H5Tget_array_ndims(type) == 1 && H5Tget_array_dims2(type, size) == 1) {
             n = (size_t)size[0];
         }
-        row->numbers = n < 4 ? n : 4;
-        if (row->numbers > 0)
-            memcpy(row->number, at, row->numbers * sizeof *row->number);
+        record->numbers = n < 4 ? n : 4;
+        if (record->numbers > 0)
+            memcpy(record->number, at, record->numbers * sizeof *record->number);
     }
     H5Tclose(of);
 }
 
 static void
-take_rows(hid_t type, const unsigned char *bytes, size_t n, rc_hdf_take_row *take, void *arg)
+take_records(hid_t type, const unsigned char *bytes, size_t n, rc_hdf_take_record *take, void *arg)
 {
     size_t width = H5Tget_size(type);
     int members = H5Tget_nmembers(type);
 
     for (size_t k = 0; k < n; k++) {
-        struct rc_hdf_row row = {.numbers = 0};
+        struct rc_hdf_record record = {.numbers = 0};
         size_t texts = 0;
 
         for (unsigned m = 0; m < (unsigned)members; m++) {
@@ -137,17 +137,17 @@ take_rows(hid_t type, const unsigned char *bytes, size_t n, rc_hdf_take_row *tak
             H5T_class_t class = H5Tget_class(member);
 
             if (class == H5T_STRING && texts < 3)
-                take_text(member, at, row.text[texts++], sizeof row.text[0]);
-            else if ((class == H5T_VLEN || class == H5T_ARRAY) && row.numbers == 0)
-                take_numbers(member, at, &row);
+                take_text(member, at, record.text[texts++], sizeof record.text[0]);
+            else if ((class == H5T_VLEN || class == H5T_ARRAY) && record.numbers == 0)
+                take_numbers(member, at, &record);
             H5Tclose(member);
         }
-        take(arg, &row);
+        take(arg, &record);
     }
 }
 
 bool
-rc_hdf_table(struct rc_hdf *h, const char *path, const char *attribute, rc_hdf_take_row *take,
+rc_hdf_table(struct rc_hdf *h, const char *path, const char *attribute, rc_hdf_take_record *take,
              void *arg)
 {
     hid_t from = attribute != NULL ? open_attribute(h, path, attribute)
@@ -162,13 +162,13 @@ rc_hdf_table(struct rc_hdf *h, const char *path, const char *attribute, rc_hdf_t
     stored = attribute != NULL ? H5Aget_type(from) : H5Dget_type(from);
     space = attribute != NULL ? H5Aget_space(from) : H5Dget_space(from);
     n = H5Sget_simple_extent_npoints(space);
-    if (H5Tget_class(stored) == H5T_COMPOUND && n > 0 && n <= ROWS_MOST)
+    if (H5Tget_class(stored) == H5T_COMPOUND && n > 0 && n <= RECORDS_MOST)
         type = H5Tget_native_type(stored, H5T_DIR_ASCEND);
     if (type >= 0 && (bytes = calloc((size_t)n, H5Tget_size(type))) != NULL)
         good = (attribute != NULL ? H5Aread(from, type, bytes)
                                   : H5Dread(from, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes)) >= 0;
     if (good) {
-        take_rows(type, bytes, (size_t)n, take, arg);
+        take_records(type, bytes, (size_t)n, take, arg);
         H5Dvlen_reclaim(type, space, H5P_DEFAULT, bytes);
     }
     free(bytes);

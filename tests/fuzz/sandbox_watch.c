@@ -1,11 +1,12 @@
 /*
- * Readers whose library works in a cage (cage.h), run through it: what the child has covered comes
- * back to the fuzzer, and a child that dies tells where.
+ * Readers that work in the sandbox, run through it: what the child has covered comes back to the
+ * fuzzer, and a child that dies says where.
  *
- * A death in the library is what the cage is for, and is counted. A death in code of this project
- * is a finding: the first caller that is neither the C library's nor the sanitizer's decides. A
- * refusal for time or memory is an answer like any other.
+ * A death in the library is what the sandbox is for, and is counted. A death in code of this
+ * project is a finding: the first caller that is neither the C library's nor the sanitizer's
+ * decides. A refusal for time or memory is a refusal like any other.
  */
+#define _GNU_SOURCE /* dladdr */
 #include <dlfcn.h>
 #include <execinfo.h>
 #include <fcntl.h>
@@ -131,7 +132,7 @@ in_parent(void)
 static void
 summary(void)
 {
-    fprintf(stderr, "cage: %lu children, of which %lu died in their library\n", children, died);
+    fprintf(stderr, "sandbox: %lu children, of which %lu died in their library\n", children, died);
 }
 
 int

@@ -7,7 +7,7 @@
 #include <string.h>
 
 static bool
-better(const struct cost_case *c, const struct cost *a, const struct cost *b)
+better(const struct cost_case *c, const struct cost_trial *a, const struct cost_trial *b)
 {
     return b == NULL || (isnan(c->budget) ? a->seconds < b->seconds
                                           : a->error < b->error ||
@@ -36,13 +36,13 @@ put_word(FILE *out, const char *word)
 }
 
 static void
-put_command(struct tool *t, const struct cost *m, FILE *out)
+put_command(struct tool *t, const struct cost_trial *m, FILE *out)
 {
     const char *physics = strstr(tool_history(t), " --"); /* name and version stand before */
     char tol[RC_NUMBER_SIZE];
 
-    fprintf(out, "rc-solve%s --method %s --kernel %s --tol %s", physics, m->rung.method,
-            m->rung.kernel, rc_number_text(tol, m->rung.tol));
+    fprintf(out, "rc-solve%s --method %s --kernel %s --tol %s", physics, m->settings.method,
+            m->settings.kernel, rc_number_text(tol, m->settings.tol));
     if (t->threads != rc_threads_available())
         fprintf(out, " --threads %zu", t->threads);
     for (size_t k = 0; k < t->operands; k++)
@@ -53,15 +53,15 @@ put_command(struct tool *t, const struct cost *m, FILE *out)
 /* Full grids only: no tool takes a map to a coarser one. By the triangle inequality the error is
  * at most that from the reference and the reference's own. */
 void
-cost_choose(const struct cost_case *c, FILE *out)
+cost_command(const struct cost_case *c, FILE *out)
 {
-    const struct cost *best = NULL, *nearest = NULL;
+    const struct cost_trial *best = NULL, *nearest = NULL;
     char name[128];
 
-    for (size_t k = 0; k < c->rungs; k++) {
-        const struct cost *m = &c->rung[k];
+    for (size_t k = 0; k < c->trials; k++) {
+        const struct cost_trial *m = &c->trial[k];
 
-        if (m->state != COST_DONE || m->rung.coarse > 1 || !m->contact.converged)
+        if (m->state != COST_DONE || m->settings.coarse > 1 || !m->contact.converged)
             continue;
         if ((isnan(c->budget) ? m->error + c->reference.contact.pressure_error <= c->error
                               : m->seconds <= c->budget) &&

@@ -1,5 +1,5 @@
 /*
- * One rung: a solution in a process of its own, and how far it is from the reference.
+ * One trial: a solution in a process of its own, and how far its pressure is from the reference.
  */
 #include "cost.h"
 
@@ -7,12 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "coarse.h"
-
 /* In memory shared with the process that solves. */
 struct job {
     struct tool *tool;
-    const struct cost *cost;
+    const struct cost_trial *trial;
     const double *h; /* of the map */
     struct rc_shape map;
     struct rc_problem problem;
@@ -38,10 +36,10 @@ static void
 work(void *ctx)
 {
     struct job *j = ctx;
-    const struct rc_shape *shape = &j->cost->shape;
-    bool coarse = j->cost->rung.coarse > 1;
-    double start = cost_now(), *h = NULL;
-    size_t before = cost_peak();
+    const struct rc_shape *shape = &j->trial->shape;
+    bool coarse = j->trial->settings.coarse > 1;
+    double start = tool_now(), *h = NULL;
+    size_t before = tool_peak_memory();
     struct rc_solver *solver;
 
     if (coarse && (h = new_map(shape)) == NULL) {
@@ -56,14 +54,14 @@ work(void *ctx)
         j->iterations = rc_solver_iterations(solver);
         j->estimate = rc_solver_error(solver);
     }
-    j->seconds = cost_now() - start;
+    j->seconds = tool_now() - start;
     j->convolutions = rc_solver_convolutions(solver);
-    j->memory = cost_peak() - before;
+    j->memory = tool_peak_memory() - before;
     rc_solver_result(solver, NULL, NULL, &j->contact);
-    start = cost_now();
+    start = tool_now();
     if (coarse) {
         coarse_spread(shape, rc_solver_pressure(solver), &j->map, j->p);
-        j->seconds += cost_now() - start;
+        j->seconds += tool_now() - start;
     } else {
         memcpy(j->p, rc_solver_pressure(solver), shape->nx * shape->ny * sizeof *j->p);
     }
@@ -79,9 +77,9 @@ watch(void *ctx)
     char name[128];
 
     if (isnan(j->estimate) || j->iterations == 0)
-        tool_progress(j->tool, "%s, iteration %zu", cost_name(name, j->cost), j->iterations);
+        tool_progress(j->tool, "%s, iteration %zu", cost_name(name, j->trial), j->iterations);
     else
-        tool_progress(j->tool, "%s, iteration %zu, error %.1e", cost_name(name, j->cost),
+        tool_progress(j->tool, "%s, iteration %zu, error %.1e", cost_name(name, j->trial),
                       j->iterations, j->estimate);
 }
 
@@ -98,60 +96,60 @@ distance(size_t n, const double *p, const double *truth)
 }
 
 static void
-compare(const struct cost_case *c, struct cost *cost, const double *p)
+compare(const struct cost_case *c, struct cost_trial *trial, const double *p)
 {
-    const struct rc_contact *truth = &c->reference.contact, *got = &cost->contact;
+    const struct rc_contact *truth = &c->reference.contact, *got = &trial->contact;
 
-    cost->error = distance(c->shape.nx * c->shape.ny, p, c->pressure);
-    cost->area_error = got->contact_area / truth->contact_area - 1;
-    cost->peak_error = got->max_pressure / truth->max_pressure - 1;
-    cost->approach_error = got->approach / truth->approach - 1;
+    trial->error = distance(c->shape.nx * c->shape.ny, p, c->pressure);
+    trial->area_error = got->contact_area / truth->contact_area - 1;
+    trial->peak_error = got->max_pressure / truth->max_pressure - 1;
+    trial->approach_error = got->approach / truth->approach - 1;
 }
 
 static void
-keep(struct cost *cost, const struct job *j, const struct rc_shape *map)
+keep(struct cost_trial *trial, const struct job *j, const struct rc_shape *map)
 {
-    const struct rc_shape *own = &cost->shape;
+    const struct rc_shape *own = &trial->shape;
 
-    if (cost->runs == 0 || j->seconds < cost->seconds)
-        cost->seconds = j->seconds;
-    cost->convolutions =
+    if (trial->runs == 0 || j->seconds < trial->seconds)
+        trial->seconds = j->seconds;
+    trial->convolutions =
         j->convolutions * (double)(own->nx * own->ny) / (double)(map->nx * map->ny);
-    cost->memory = j->memory > cost->memory ? j->memory : cost->memory;
-    cost->contact = j->contact;
-    cost->runs++;
-    cost->state = COST_DONE;
+    trial->memory = j->memory > trial->memory ? j->memory : trial->memory;
+    trial->contact = j->contact;
+    trial->runs++;
+    trial->state = COST_DONE;
 }
 
 static void
-stop(struct cost *cost, enum cost_end end, double allowed, const struct job *j)
+stop(struct cost_trial *trial, enum cost_end end, double allowed, const struct job *j)
 {
-    cost->state = COST_STOPPED;
+    trial->state = COST_STOPPED;
     if (end == COST_LATE)
-        snprintf(cost->why, sizeof cost->why, "stopped after %.2g s, all that was left of --limit",
-                 allowed);
+        snprintf(trial->why, sizeof trial->why,
+                 "stopped after %.2g s, all that was left of --limit", allowed);
     else if (end == COST_INTERRUPTED)
-        snprintf(cost->why, sizeof cost->why, "interrupted");
+        snprintf(trial->why, sizeof trial->why, "interrupted");
     else if (end == COST_DIED)
-        snprintf(cost->why, sizeof cost->why, "its process died: memory may be short");
+        snprintf(trial->why, sizeof trial->why, "its process died: memory may be short");
     else
-        snprintf(cost->why, sizeof cost->why, "%.250s", j->err.text);
+        snprintf(trial->why, sizeof trial->why, "%.250s", j->err.text);
 }
 
 static struct rc_problem
-problem_of(const struct cost_case *c, const struct cost *cost)
+problem_of(const struct cost_case *c, const struct cost_trial *trial)
 {
     struct rc_problem problem = c->problem;
 
-    problem.method = cost->rung.method;
-    problem.engine = cost->rung.kernel;
-    problem.tol = cost->rung.tol;
+    problem.method = trial->settings.method;
+    problem.engine = trial->settings.kernel;
+    problem.tol = trial->settings.tol;
     problem.threads = c->tool->threads;
     return problem;
 }
 
 bool
-cost_solve(struct cost_case *c, struct cost *cost, double allowed, double *pressure)
+cost_trial_run(struct cost_case *c, struct cost_trial *trial, double allowed, double *pressure)
 {
     size_t n = c->shape.nx * c->shape.ny, bytes = sizeof(struct job) + n * sizeof(double);
     struct job *j = cost_share(bytes);
@@ -160,21 +158,21 @@ cost_solve(struct cost_case *c, struct cost *cost, double allowed, double *press
     if (j == NULL)
         tool_die_at(c->tool, c->heights, EXIT_IMPOSSIBLE, "out of memory");
     j->tool = c->tool;
-    j->cost = cost;
+    j->trial = trial;
     j->h = c->heights->v;
     j->map = c->shape;
-    j->problem = problem_of(c, cost);
+    j->problem = problem_of(c, trial);
     j->estimate = NAN;
     end = cost_run(work, j, allowed, watch);
     tool_progress_end(c->tool);
     if (end == COST_ENDED && j->done) {
-        keep(cost, j, &c->shape);
+        keep(trial, j, &c->shape);
         if (c->pressure != NULL)
-            compare(c, cost, j->p);
+            compare(c, trial, j->p);
         if (pressure != NULL)
             memcpy(pressure, j->p, n * sizeof *pressure);
-    } else if (cost->runs == 0) {
-        stop(cost, end, allowed, j);
+    } else if (trial->runs == 0) {
+        stop(trial, end, allowed, j);
     }
     cost_unshare(j, bytes);
     return end != COST_INTERRUPTED;

@@ -1,4 +1,4 @@
-#include "table.h"
+#include "titled_table.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -65,9 +65,9 @@ is_row(struct rc_piece line, size_t columns)
 }
 
 static void
-part_titles(struct rc_table *t, struct rc_piece line)
+part_titles(struct rc_titled_table *t, struct rc_piece line)
 {
-    char marks[2] = {t->rows.separator, '\0'};
+    char marks[2] = {t->numbers.separator, '\0'};
     struct rc_piece one;
 
     line = rc_piece_trim(line);
@@ -79,22 +79,22 @@ part_titles(struct rc_table *t, struct rc_piece line)
             line.n = 0;
         }
         /* between white space a unit in brackets belongs to the word before */
-        if (t->rows.separator == ' ' && t->titles > 0 && one.n > 0 &&
+        if (t->numbers.separator == ' ' && t->titles > 0 && one.n > 0 &&
             (*one.text == '[' || *one.text == '('))
             t->title[t->titles - 1].n = (size_t)(one.text + one.n - t->title[t->titles - 1].text);
-        else if (one.n > 0 || t->rows.separator != ' ')
+        else if (one.n > 0 || t->numbers.separator != ' ')
             t->title[t->titles++] = one;
     }
 }
 
 enum rc_status
-rc_table_open(struct rc_table *t, const struct rc_file *file, size_t columns,
-              const struct rc_wish *wish, struct rc_err *err)
+rc_titled_table_open(struct rc_titled_table *t, const struct rc_file *file, size_t columns,
+                     const struct rc_wish *wish, struct rc_err *err)
 {
     struct rc_piece text = {(const char *)file->data, file->size}, line, before = {"", 0};
     struct rc_lines lines, ahead;
 
-    *t = (struct rc_table){0};
+    *t = (struct rc_titled_table){0};
     if (file->size >= 2 &&
         (memcmp(file->data, "\xff\xfe", 2) == 0 || memcmp(file->data, "\xfe\xff", 2) == 0)) {
         if ((t->own = narrow(file, &text.n)) == NULL)
@@ -113,29 +113,29 @@ rc_table_open(struct rc_table *t, const struct rc_file *file, size_t columns,
             before = line;
         lines = ahead;
     }
-    if (rc_rows_start(&t->rows, &lines, wish, err) != RC_OK)
+    if (rc_number_table_open(&t->numbers, &lines, wish, err) != RC_OK)
         return RC_FAIL;
     part_titles(t, before);
     return RC_OK;
 }
 
 enum rc_status
-rc_table_read(struct rc_table *t, struct rc_err *err)
+rc_titled_table_read(struct rc_titled_table *t, struct rc_err *err)
 {
-    size_t n, bytes = (size_t)(t->rows.end - t->rows.start);
+    size_t n, bytes = (size_t)(t->numbers.end - t->numbers.start);
 
-    if (rc_size_mul(t->rows.rows, t->rows.columns, &n, err) != RC_OK)
+    if (rc_size_mul(t->numbers.rows, t->numbers.columns, &n, err) != RC_OK)
         return RC_FAIL;
     if (n > bytes + 1) /* a value takes a byte at least */
         return rc_err_set(err, "%zu columns and %zu rows in %zu bytes: some row is too short",
-                          t->rows.columns, t->rows.rows, bytes);
+                          t->numbers.columns, t->numbers.rows, bytes);
     if ((t->v = malloc(n * sizeof *t->v)) == NULL)
         return rc_err_set(err, "out of memory for %zu values", n);
-    return rc_rows_read(&t->rows, t->v, err);
+    return rc_number_table_read(&t->numbers, t->v, err);
 }
 
 void
-rc_table_close(struct rc_table *t)
+rc_titled_table_close(struct rc_titled_table *t)
 {
     free(t->own);
     free(t->v);

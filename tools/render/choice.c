@@ -1,10 +1,10 @@
-#include "choice.h"
+#include "render.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "ticks.h"
+#include "tools/plot/plot.h"
 
 struct seen {
     char *channel;
@@ -38,11 +38,11 @@ remember(struct choice *c, struct tool *t, const struct rc_grid *g)
     const char *section = rc_grid_get(g, "section");
     struct seen *s = c->seen;
 
-    if (c->n == c->room) {
-        c->room = c->room == 0 ? 64 : 2 * c->room;
-        s = realloc(c->seen, c->room * sizeof *s);
+    if (c->n == c->capacity) {
+        c->capacity = c->capacity == 0 ? 64 : 2 * c->capacity;
+        s = realloc(c->seen, c->capacity * sizeof *s);
         if (s == NULL)
-            tool_die(t, EXIT_IMPOSSIBLE, "out of memory for a list of %zu frames", c->room);
+            tool_die(t, EXIT_IMPOSSIBLE, "out of memory for a list of %zu frames", c->capacity);
         c->seen = s;
     }
     s += c->n;

@@ -1,6 +1,6 @@
 /* What the files that know libhdf5 share. */
-#ifndef RC_HDF_INSIDE_H
-#define RC_HDF_INSIDE_H
+#ifndef RC_HDF_INTERNAL_H
+#define RC_HDF_INTERNAL_H
 
 #include <hdf5.h>
 

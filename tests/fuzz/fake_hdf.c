@@ -1,5 +1,5 @@
-/* Stands in for hdf.c: answers as a library could that a file has got hold of, within what hdf.h
- * says. What the file holds are the answers, one after another; past its end they are zeros. */
+/* In place of hdf.c: whatever libhdf5 could return for a hostile file, within what hdf.h promises.
+ * The bytes of the file are what is returned, one call after another; past its end they are 0. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -164,21 +164,21 @@ rc_hdf_text(struct rc_hdf *h, const char *path, const char *name, char *to, size
 }
 
 bool
-rc_hdf_table(struct rc_hdf *h, const char *path, const char *attribute, rc_hdf_take_row *take,
+rc_hdf_table(struct rc_hdf *h, const char *path, const char *attribute, rc_hdf_take_record *take,
              void *arg)
 {
     unsigned rows = byte(h) % 16;
 
     (void)path, (void)attribute;
     for (unsigned k = 0; k < rows; k++) {
-        struct rc_hdf_row row = {.numbers = 0};
+        struct rc_hdf_record record = {.numbers = 0};
 
         for (size_t i = 0; i < 3; i++)
-            text(h, row.text[i], sizeof row.text[i]);
-        row.numbers = byte(h) % 5;
-        for (size_t i = 0; i < row.numbers; i++)
-            row.number[i] = number(h);
-        take(arg, &row);
+            text(h, record.text[i], sizeof record.text[i]);
+        record.numbers = byte(h) % 5;
+        for (size_t i = 0; i < record.numbers; i++)
+            record.number[i] = number(h);
+        take(arg, &record);
     }
     return rows > 0;
 }

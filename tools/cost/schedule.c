@@ -1,5 +1,5 @@
 /*
- * Which rungs are run, in what order, and how often.
+ * Which trials are run, in what order, and how often.
  */
 #include "cost.h"
 
@@ -10,22 +10,21 @@ enum {
     SMALLEST = 8 /* nodes along a side from which a coarser grid is worth a look */
 };
 
-/* What can be said of a rung before it runs: it cannot be done, or need not. */
+/* Why a trial cannot be run, or need not be; NULL: it is to be run. */
 static const char *
-obstacle(const struct cost_case *c, const struct cost *m)
+obstacle(const struct cost_case *c, const struct cost_trial *m)
 {
-    bool summed = strncmp(m->rung.kernel, "fft", 3) != 0;
     struct rc_problem problem = c->problem;
     size_t least = m->shape.nx < m->shape.ny ? m->shape.nx : m->shape.ny;
 
-    problem.engine = m->rung.kernel;
-    problem.method = m->rung.method;
-    problem.tol = m->rung.tol;
-    if (summed && c->problem.boundary == RC_PERIODIC)
-        return "left out: on a periodic boundary only fft sums";
-    if (m->rung.coarse > 1 && (least == 1 ? m->shape.nx * m->shape.ny : least) < SMALLEST)
+    problem.engine = m->settings.kernel;
+    problem.method = m->settings.method;
+    problem.tol = m->settings.tol;
+    if (c->problem.boundary == RC_PERIODIC && !words_engine_named(m->settings.kernel)->periodic)
+        return "left out: it does not sum on a periodic boundary";
+    if (m->settings.coarse > 1 && (least == 1 ? m->shape.nx * m->shape.ny : least) < SMALLEST)
         return "left out: the grid is too small to be coarsened so far";
-    if (m->rung.coarse > 1 && c->choosing && !c->shown)
+    if (m->settings.coarse > 1 && c->choosing && !c->shown)
         return "left out: rc-solve does not coarsen";
     if (c->tool->memory != 0 && rc_solver_memory(&m->shape, &problem) > c->tool->memory)
         return "left out: it needs more than --memory";
@@ -33,10 +32,10 @@ obstacle(const struct cost_case *c, const struct cost *m)
 }
 
 void
-cost_sift(struct cost_case *c)
+cost_exclude(struct cost_case *c)
 {
-    for (size_t k = 0; k < c->rungs; k++) {
-        struct cost *m = &c->rung[k];
+    for (size_t k = 0; k < c->trials; k++) {
+        struct cost_trial *m = &c->trial[k];
         const char *why = obstacle(c, m);
 
         if (why == NULL)
@@ -46,19 +45,19 @@ cost_sift(struct cost_case *c)
     }
 }
 
-/* Time beyond which a rung need not be tried to make the choice: three times that of the
- * quickest that is good enough, or of the budget, once anything has been measured. Expectations
- * may be that far off. */
+/* Seconds beyond which a trial need not be run to make the choice: three times those of the
+ * quickest that is good enough, or of the budget, once anything has been measured. Expectations may
+ * be that far off. */
 static double
 too_slow(const struct cost_case *c)
 {
     double least = INFINITY;
     bool any = false;
 
-    for (size_t k = 0; k < c->rungs; k++) {
-        const struct cost *m = &c->rung[k];
+    for (size_t k = 0; k < c->trials; k++) {
+        const struct cost_trial *m = &c->trial[k];
 
-        if (m->state != COST_DONE || m->rung.coarse > 1)
+        if (m->state != COST_DONE || m->settings.coarse > 1)
             continue;
         any = true;
         if (m->error <= c->error)
@@ -70,7 +69,7 @@ too_slow(const struct cost_case *c)
 }
 
 static bool
-fits(const struct cost_case *c, struct cost *m, double left)
+fits(const struct cost_case *c, struct cost_trial *m, double left)
 {
     if (m->expected > left)
         snprintf(m->why, sizeof m->why,
@@ -88,30 +87,38 @@ fits(const struct cost_case *c, struct cost *m, double left)
 static double
 left(const struct cost_case *c)
 {
-    return c->limit - (cost_now() - c->began);
+    return c->limit - (tool_now() - c->began);
 }
 
-/* Before what is slow begins, and may use up the time, what is quick is timed well, and stresses
- * have their turn. */
+/* Part of the limit: trials that are expected to take more come last, because they may use up the
+ * time. Before them the quick ones are repeated and the stresses are run. */
 static const double slow = 1 / 30.0;
 
-/* Whether it took longer than one that does the same and more: then others were at work beside it. */
+/* Whether it took longer than a trial that does the same work and more: then other programs took
+ * part of its time. */
 static bool
-disturbed(const struct cost_case *c, const struct cost *m)
+disturbed(const struct cost_case *c, const struct cost_trial *m)
 {
-    for (size_t k = 0; k < c->rungs; k++) {
-        const struct cost *o = &c->rung[k];
+    for (size_t k = 0; k < c->trials; k++) {
+        const struct cost_trial *o = &c->trial[k];
 
-        if (o->state == COST_DONE && strcmp(o->rung.method, m->rung.method) == 0 &&
-            strcmp(o->rung.kernel, m->rung.kernel) == 0 && o->rung.coarse <= m->rung.coarse &&
-            o->rung.tol <= m->rung.tol && m->seconds > 1.1 * o->seconds)
+        if (o->state == COST_DONE && strcmp(o->settings.method, m->settings.method) == 0 &&
+            strcmp(o->settings.kernel, m->settings.kernel) == 0 &&
+            o->settings.coarse <= m->settings.coarse && o->settings.tol <= m->settings.tol &&
+            m->seconds > 1.1 * o->seconds)
             return true;
     }
     return false;
 }
 
+bool
+cost_again(size_t runs, double seconds)
+{
+    return runs < 5 && (double)runs * seconds < 0.5;
+}
+
 static bool
-again(const struct cost_case *c, const struct cost *m)
+again(const struct cost_case *c, const struct cost_trial *m)
 {
     if (m->state != COST_DONE || m->seconds > left(c))
         return false;
@@ -119,7 +126,7 @@ again(const struct cost_case *c, const struct cost *m)
            (m->runs < 5 && disturbed(c, m));
 }
 
-/* In turns, so that a disturbance does not fall on one rung alone. */
+/* In turns, so that a disturbance does not fall on one trial alone. */
 static void
 repeat(struct cost_case *c)
 {
@@ -127,25 +134,25 @@ repeat(struct cost_case *c)
 
     while (more && tool_interrupted() == 0) {
         more = false;
-        for (size_t k = 0; k < c->rungs && tool_interrupted() == 0; k++)
-            if (again(c, &c->rung[k])) {
+        for (size_t k = 0; k < c->trials && tool_interrupted() == 0; k++)
+            if (again(c, &c->trial[k])) {
                 more = true;
-                cost_solve(c, &c->rung[k], left(c), NULL);
+                cost_trial_run(c, &c->trial[k], left(c), NULL);
             }
     }
 }
 
 /* In half of the time that is left. */
 static void
-climb_stresses(struct cost_case *c)
+run_stresses(struct cost_case *c)
 {
-    double end = cost_now() + left(c) / 2;
+    double end = tool_now() + left(c) / 2;
 
     if (c->stresses > 0 && c->depths.n == 0 && tool_interrupted() == 0)
         cost_stress_depths(c);
     for (size_t k = 0; k < c->stresses && tool_interrupted() == 0; k++) {
         struct cost_stress *s = &c->stress[k];
-        double rest = fmax(end - cost_now(), 0);
+        double rest = fmax(end - tool_now(), 0);
 
         s->expected = cost_expect_stress(c, s);
         if (s->expected <= rest) {
@@ -160,13 +167,13 @@ climb_stresses(struct cost_case *c)
 }
 
 /* The quickest that is still to be run. */
-static struct cost *
+static struct cost_trial *
 next(struct cost_case *c)
 {
-    struct cost *least = NULL;
+    struct cost_trial *least = NULL;
 
-    for (size_t k = 0; k < c->rungs; k++) {
-        struct cost *m = &c->rung[k];
+    for (size_t k = 0; k < c->trials; k++) {
+        struct cost_trial *m = &c->trial[k];
 
         if (m->state != COST_OPEN)
             continue;
@@ -178,22 +185,22 @@ next(struct cost_case *c)
 }
 
 void
-cost_climb(struct cost_case *c)
+cost_run_trials(struct cost_case *c)
 {
     bool quick = true;
 
-    c->began = cost_now();
+    c->began = tool_now();
     while (tool_interrupted() == 0) {
-        struct cost *m = next(c);
+        struct cost_trial *m = next(c);
 
         if (quick && (m == NULL || m->expected > slow * c->limit)) {
             quick = false;
             repeat(c);
-            climb_stresses(c);
+            run_stresses(c);
         } else if (m == NULL) {
             break;
         } else if (fits(c, m, left(c))) {
-            cost_solve(c, m, left(c), NULL);
+            cost_trial_run(c, m, left(c), NULL);
         }
     }
     repeat(c);

@@ -1,21 +1,8 @@
-#include "stress_report.h"
+#include "stress.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
-#include <time.h>
-
-#include "tools/cli/cli.h"
-
-static double
-now(void)
-{
-    struct timespec ts;
-
-    clock_gettime(CLOCK_MONOTONIC, &ts);
-    return (double)ts.tv_sec + 1e-9 * (double)ts.tv_nsec;
-}
 
 /* ---- gathering ---- */
 
@@ -24,7 +11,7 @@ stress_report_begin(struct stress_report *r, const struct rc_grid *p,
                     const struct rc_stress_options *options, const struct numbers *depths,
                     bool peaks, struct rc_err *err)
 {
-    *r = (struct stress_report){.p = p, .options = options, .depths = depths, .began = now()};
+    *r = (struct stress_report){.p = p, .options = options, .depths = depths, .began = tool_now()};
     for (int c = 0; c < RC_STRESSES; c++) {
         if (!peaks || !(options->wanted >> c & 1))
             continue;
@@ -38,13 +25,13 @@ stress_report_begin(struct stress_report *r, const struct rc_grid *p,
 void
 stress_report_ready(struct stress_report *r)
 {
-    r->setup = now() - r->began;
+    r->setup = tool_now() - r->began;
 }
 
 void
 stress_report_start(struct stress_report *r)
 {
-    r->depth_began = now();
+    r->depth_began = tool_now();
 }
 
 /* Where value k of a slice or of a line is. */
@@ -63,7 +50,7 @@ place(const struct stress_report *r, size_t k, struct stress_peak *peak)
 void
 stress_report_depth(struct stress_report *r, size_t k, size_t n, double *const *s)
 {
-    r->slices += now() - r->depth_began;
+    r->slices += tool_now() - r->depth_began;
     for (int c = 0; c < RC_STRESSES; c++) {
         struct stress_peak *peak = &r->peak[c];
         size_t at;
@@ -117,6 +104,13 @@ section_effect(const struct rc_stress_options *o)
     return o->section != 0 ? "on" : "left out: no --section";
 }
 
+/* "auto" takes the first engine of the table; it alone has coarser grids for deep slices. */
+static const char *
+engine_of(const struct rc_stress_options *o)
+{
+    return strcmp(o->engine, "auto") == 0 ? words_engine(0) : o->engine;
+}
+
 static const char *
 coarse_effect(const struct rc_stress_options *o)
 {
@@ -126,7 +120,7 @@ coarse_effect(const struct rc_stress_options *o)
         return "left out: a section is a line already";
     if (o->boundary == RC_PERIODIC)
         return "left out: the map is periodic";
-    return strcmp(o->engine, "auto") == 0 || strcmp(o->engine, "fft") == 0
+    return strcmp(engine_of(o), words_engine(0)) == 0
                ? "on where depth allows"
                : "left out: the engine has its own tolerance";
 }
@@ -192,10 +186,8 @@ stress_report_write(struct stress_report *r, FILE *file, const struct rc_stress 
     const struct rc_stress_options *o = r->options;
     const char *converged = rc_grid_get(r->p, "converged");
     const char section[2] = {o->section, '\0'};
-    struct rusage usage;
     struct json j;
 
-    getrusage(RUSAGE_SELF, &usage);
     json_open(&j, file);
     json_count(&j, "case", rc_grid_case(r->p));
     json_text(&j, "source", rc_grid_get(r->p, "source"));
@@ -230,9 +222,9 @@ stress_report_write(struct stress_report *r, FILE *file, const struct rc_stress 
     json_object(&j, "seconds");
     json_number(&j, "setup", r->setup);
     json_number(&j, "slices", r->slices);
-    json_number(&j, "total", now() - r->began);
+    json_number(&j, "total", tool_now() - r->began);
     json_end(&j, '}');
-    json_count(&j, "peak_memory", (size_t)usage.ru_maxrss * 1024);
+    json_count(&j, "peak_memory", tool_peak_memory());
     json_close(&j);
     return ferror(file) ? RC_FAIL : RC_OK;
 }
@@ -265,10 +257,10 @@ expected_seconds(const struct rc_grid *p, const struct rc_stress_options *option
     if (v != NULL)
         stress = rc_stress_new(&part, v, &o, &err);
     for (int k = 0; stress != NULL && k < 3; k++) {
-        start = now();
+        start = tool_now();
         if (rc_stress_slice(stress, depths->v[depths->n / 2], s, &err) != RC_OK)
             break;
-        seconds = fmin(seconds, now() - start);
+        seconds = fmin(seconds, tool_now() - start);
     }
     rc_stress_free(stress);
     free(v);
@@ -286,7 +278,7 @@ stress_report_plan(FILE *out, const struct rc_grid *p, const struct rc_stress_op
             o->boundary == RC_PERIODIC ? "periodic" : "free");
     fprintf(out, "  %-14s%zu, %g to %g m\n", "depths", depths->n, depths->v[0],
             depths->v[depths->n - 1]);
-    fprintf(out, "  %-14s%s\n", "kernel", strcmp(o->engine, "auto") == 0 ? "fft" : o->engine);
+    fprintf(out, "  %-14s%s\n", "kernel", engine_of(o));
     for (int k = 0; k < EFFECTS; k++)
         fprintf(out, "  %-14s%s\n", effects[k].name, effects[k].of(o));
     for (int c = 0; c < RC_STRESSES; c++)

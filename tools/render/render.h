@@ -1,6 +1,9 @@
-/* Which frame of a stream a picture shows. Holds the best one so far and no other. */
-#ifndef RC_CHOICE_H
-#define RC_CHOICE_H
+/*
+ * The face of this folder: which frame of a stream rc-render draws. It holds the best one so far
+ * and no other.
+ */
+#ifndef RC_RENDER_H
+#define RC_RENDER_H
 
 #include "tools/cli/cli.h"
 
@@ -17,7 +20,7 @@ struct choice {
     double size;          /* its largest |value|                                      */
     bool by_size;         /* settled: preferred to other depths for that              */
     struct seen *seen;    /* every frame that came by, without its values             */
-    size_t n, room;
+    size_t n, capacity;
 };
 
 /* Keeps the frame when it is better than the one kept, or frees it. Of several depths the one with

@@ -1,4 +1,5 @@
-/* Whatever happens in a cage, the process outside gets an answer or a reason, within its bounds. */
+/* Whatever a reader does in the sandbox, the program gets a result or a reason, in bounded time and
+ * memory. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -114,7 +115,7 @@ a_grid_comes_back_whole(void **state)
 {
     struct rc_notes notes = {0};
     struct rc_err err = {""};
-    struct rc_grid *g = rc_cage_read(good, &file, &no_wish, 3, &notes, &err);
+    struct rc_grid *g = rc_sandbox_read(good, &file, &no_wish, 3, &notes, &err);
 
     (void)state;
     if (g == NULL)
@@ -125,9 +126,9 @@ a_grid_comes_back_whole(void **state)
     rc_grid_free(g);
 }
 
-/* What the grid of good() is told as, with its values behind; the caller frees it. */
+/* The bytes by which a child sends the grid of good(), values included; the caller frees them. */
 static char *
-told_answer(size_t *n)
+sent_result(size_t *n)
 {
     struct rc_notes notes = {0};
     struct rc_err err = {""};
@@ -137,31 +138,32 @@ told_answer(size_t *n)
     int end[2];
 
     assert_int_equal(socketpair(AF_UNIX, SOCK_STREAM, 0, end), 0);
-    assert_int_equal(write(end[1], "\2", 1), 1); /* the reply: the values are wanted */
+    assert_int_equal(write(end[1], "\2", 1),
+                     1); /* the reply: the values are wanted through the pipe */
     pipes.reply = end[0];
-    assert_non_null(pipes.answer = open_memstream(&bytes, n));
-    assert_true(rc_answer_send_grid(&pipes, g, &notes, &err));
-    assert_int_equal(fclose(pipes.answer), 0);
+    assert_non_null(pipes.result = open_memstream(&bytes, n));
+    assert_true(rc_result_send_grid(&pipes, g, &notes, &err));
+    assert_int_equal(fclose(pipes.result), 0);
     close(end[0]);
     close(end[1]);
     rc_grid_free(g);
     return bytes;
 }
 
-/* Takes it where no child's memory can be reached: through the pipe. */
+/* Receives it from no child, so that there is no memory to copy from: through the pipe. */
 static bool
-take_told(char *bytes, size_t n, struct rc_grid **g, struct rc_notes *notes)
+receive(char *bytes, size_t n, struct rc_grid **g, struct rc_notes *notes)
 {
-    struct rc_pipes pipes = {.child = -1, .answer = fmemopen(bytes, n, "rb")};
+    struct rc_pipes pipes = {.child = -1, .result = fmemopen(bytes, n, "rb")};
     struct rc_err said;
     int end[2];
     bool whole;
 
-    assert_non_null(pipes.answer);
+    assert_non_null(pipes.result);
     assert_int_equal(socketpair(AF_UNIX, SOCK_STREAM, 0, end), 0);
     pipes.reply = end[0];
-    whole = rc_answer_take_grid(&pipes, &file, g, notes, &said);
-    fclose(pipes.answer);
+    whole = rc_result_receive_grid(&pipes, &file, g, notes, &said);
+    fclose(pipes.result);
     close(end[0]);
     close(end[1]);
     return whole;
@@ -173,15 +175,15 @@ values_come_through_the_pipe_too(void **state)
     struct rc_notes notes = {0};
     struct rc_grid *g = NULL;
     size_t n;
-    char *bytes = told_answer(&n);
+    char *bytes = sent_result(&n);
 
     (void)state;
-    assert_true(take_told(bytes, n, &g, &notes));
+    assert_true(receive(bytes, n, &g, &notes));
     check_good(g);
     assert_string_equal(notes.text[0], "worth saying");
     rc_grid_free(g);
-    for (size_t cut = 0; cut < n; cut += cut < 6000 ? 1 : 9973) {
-        assert_false(cut > 0 && take_told(bytes, cut, &g, &notes));
+    for (size_t cut = 1; cut < n; cut += cut < 6000 ? 1 : 9973) {
+        assert_false(receive(bytes, cut, &g, &notes));
         g = NULL;
     }
     free(bytes);
@@ -189,12 +191,12 @@ values_come_through_the_pipe_too(void **state)
 
 /* A child that a file has got hold of may say anything. */
 static void
-answers_are_not_trusted(void **state)
+results_are_not_trusted(void **state)
 {
     static const unsigned char nasty[] = {0, 1, 2, 0x7f, 0x80, 0xff};
     uint64_t seed = 0x9e3779b97f4a7c15;
     size_t n, taken = 0;
-    char *bytes = told_answer(&n), *bad = malloc(n);
+    char *bytes = sent_result(&n), *bad = malloc(n);
 
     (void)state;
     assert_non_null(bad);
@@ -209,25 +211,25 @@ answers_are_not_trusted(void **state)
             seed ^= seed << 17;
             bad[(seed >> 16) % 6000] = (char)nasty[seed % sizeof nasty];
         }
-        if (take_told(bad, n, &g, &notes)) {
+        if (receive(bad, n, &g, &notes)) {
             assert_true(notes.n <= sizeof notes.text / sizeof *notes.text);
             assert_true(g == NULL || (g->dx > 0 && g->dy > 0 && g->nx * g->ny <= 60000));
             taken++;
         }
         rc_grid_free(g);
     }
-    printf("3000 answers changed at random, %zu of them whole\n", taken);
+    printf("3000 results changed at random, %zu of them whole\n", taken);
     free(bad);
     free(bytes);
 }
 
 static void
-expect(rc_read_in_cage *read, const char *why)
+expect(rc_sandboxed_read *read, const char *why)
 {
     struct rc_notes notes = {0};
     struct rc_err err = {""};
 
-    assert_null(rc_cage_read(read, &file, &no_wish, 0, &notes, &err));
+    assert_null(rc_sandbox_read(read, &file, &no_wish, 0, &notes, &err));
     if (strstr(err.text, why) == NULL)
         fail_msg("refused for '%s', not for '%s'", err.text, why);
 }
@@ -242,7 +244,7 @@ now(void)
 }
 
 static void
-trouble_stays_inside(void **state)
+trouble_stays_in_the_child(void **state)
 {
     double before = now();
 
@@ -263,7 +265,7 @@ memory_is_bounded(void **state)
     const char *said;
 
     (void)state;
-    assert_null(rc_cage_read(greedy, &file, &no_wish, 0, &notes, &err));
+    assert_null(rc_sandbox_read(greedy, &file, &no_wish, 0, &notes, &err));
     printf("%s\n", err.text);
     if ((said = strstr(err.text, "ended after ")) != NULL)
         assert_in_range(strtoul(said + 12, NULL, 10), 32, 64);
@@ -305,11 +307,11 @@ lists_come_back(void **state)
     struct rc_err err = {""};
 
     (void)state;
-    assert_int_equal(rc_cage_list(three, &file, &no_wish, channel, 2, &err), 3);
+    assert_int_equal(rc_sandbox_list(three, &file, &no_wish, channel, 2, &err), 3);
     assert_int_equal(channel[1].nx, 2);
-    assert_int_equal(rc_cage_list(none, &file, &no_wish, channel, 2, &err), 0);
+    assert_int_equal(rc_sandbox_list(none, &file, &no_wish, channel, 2, &err), 0);
     assert_string_equal(err.text, "no channel");
-    assert_int_equal(rc_cage_list(crashing_list, &file, &no_wish, channel, 2, &err), 0);
+    assert_int_equal(rc_sandbox_list(crashing_list, &file, &no_wish, channel, 2, &err), 0);
     assert_non_null(strstr(err.text, "makes its library fail"));
 }
 
@@ -319,8 +321,8 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_grid_comes_back_whole),
         cmocka_unit_test(values_come_through_the_pipe_too),
-        cmocka_unit_test(answers_are_not_trusted),
-        cmocka_unit_test(trouble_stays_inside),
+        cmocka_unit_test(results_are_not_trusted),
+        cmocka_unit_test(trouble_stays_in_the_child),
         cmocka_unit_test(memory_is_bounded),
         cmocka_unit_test(lists_come_back),
     };

@@ -1,6 +1,8 @@
-/* What rc-stress says about a case: its --report and its --dry-run. */
-#ifndef RC_STRESS_REPORT_H
-#define RC_STRESS_REPORT_H
+/*
+ * The face of this folder: what rc-stress says about a case, in its --report and its --dry-run.
+ */
+#ifndef RC_TOOL_STRESS_H
+#define RC_TOOL_STRESS_H
 
 #include <stdio.h>
 

@@ -5,19 +5,9 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <sys/mman.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
-
-double
-cost_now(void)
-{
-    struct timespec ts;
-
-    clock_gettime(CLOCK_MONOTONIC, &ts);
-    return (double)ts.tv_sec + 1e-9 * (double)ts.tv_nsec;
-}
 
 void *
 cost_share(size_t bytes)
@@ -32,15 +22,6 @@ cost_unshare(void *shared, size_t bytes)
 {
     if (shared != NULL)
         munmap(shared, bytes);
-}
-
-size_t
-cost_peak(void)
-{
-    struct rusage usage;
-
-    getrusage(RUSAGE_SELF, &usage);
-    return (size_t)usage.ru_maxrss * 1024;
 }
 
 static _Noreturn void
@@ -65,7 +46,7 @@ end(pid_t child)
 enum cost_end
 cost_run(void (*work)(void *ctx), void *ctx, double allowed, void (*watch)(void *ctx))
 {
-    double start = cost_now(), pause = 1e-3;
+    double start = tool_now(), pause = 1e-3;
     pid_t child, done;
     int status;
 
@@ -77,7 +58,7 @@ cost_run(void (*work)(void *ctx), void *ctx, double allowed, void (*watch)(void 
     while ((done = waitpid(child, &status, WNOHANG)) == 0 || (done < 0 && errno == EINTR)) {
         struct timespec wait = {0, (long)(1e9 * pause)};
 
-        if (tool_interrupted() != 0 || cost_now() - start > allowed) {
+        if (tool_interrupted() != 0 || tool_now() - start > allowed) {
             end(child);
             return tool_interrupted() != 0 ? COST_INTERRUPTED : COST_LATE;
         }
