@@ -6,6 +6,7 @@
 #include <stdint.h>
 #include <fcntl.h>
 #include <math.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -52,6 +53,17 @@ crashing(const struct rc_file *f, const struct rc_wish *wish, size_t index, stru
 {
     (void)f, (void)wish, (void)index, (void)notes, (void)err;
     abort();
+}
+
+/* cmocka catches this one: its handler must not run in the child. */
+static struct rc_grid *
+segfaulting(const struct rc_file *f, const struct rc_wish *wish, size_t index,
+            struct rc_notes *notes, struct rc_err *err)
+{
+    (void)f, (void)wish, (void)index, (void)notes;
+    raise(SIGSEGV);
+    rc_err_set(err, "alive");
+    return NULL;
 }
 
 static struct rc_grid *
@@ -250,7 +262,8 @@ trouble_stays_in_the_child(void **state)
 
     (void)state;
     expect(refusing, "what is wrong: 7");
-    expect(crashing, "makes its library fail");
+    expect(crashing, "makes its library fail (Aborted)");
+    expect(segfaulting, "makes its library fail (Segmentation fault)");
     expect(endless, "busy for more than 0.8 s");
     expect(waiting, "busy for more than 0.8 s");
     expect(nosy, "closed");
