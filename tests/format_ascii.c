@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "formats/format.h"
+#include "made_checks.h"
 
 extern const struct rc_format rc_format_ascii;
 
@@ -37,6 +38,8 @@ read_bytes(const char *text, size_t n, const struct rc_wish *wish, struct rc_not
     g = rc_format_ascii.read(&file, wish, 0, notes, err);
     if (g == NULL && err->text[0] == '\0')
         fail_msg("refused without a reason");
+    if (g != NULL)
+        check_sound(text, g, n);
     free(copy);
     return g;
 }
@@ -69,7 +72,7 @@ refuse(const char *text, const struct rc_wish *wish, const char *why)
 static bool
 is_near(double value, double truth)
 {
-    return isnan(truth) ? isnan(value) : fabs(value - truth) <= 1e-12 * fabs(truth);
+    return isnan(truth) ? isnan(value) : fabs(value - truth) <= last_digit * fabs(truth);
 }
 
 static void

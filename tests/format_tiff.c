@@ -276,7 +276,9 @@ many_large_tags(void **state)
     g = try_read(&rc_format_jpk, &b, &no_wish, 0, &err);
     assert_null(g);
     printf("3000 tags of a megabyte each: %s\n", err.text);
-    assert_true(err.text[0] != '\0');
+    /* by the library, or by the sandbox where the library takes the memory */
+    assert_true(strstr(err.text, "its first page cannot be read") != NULL ||
+                strstr(err.text, "its library") != NULL);
     drop(&b);
 }
 
