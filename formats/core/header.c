@@ -92,11 +92,12 @@ rc_piece_number(struct rc_piece piece, double *value, struct rc_piece *rest)
     return true;
 }
 
-bool
-rc_piece_length(struct rc_piece piece, double unit, double *metres)
+/* "300 nm" in metres; so is a number without a unit. */
+static bool
+read_length(struct rc_piece piece, double *metres)
 {
     struct rc_piece rest;
-    double number;
+    double number, unit = 1;
 
     if (!rc_piece_number(piece, &number, &rest))
         return false;
@@ -120,7 +121,7 @@ rc_field_take(const struct rc_field *field, size_t n, struct rc_piece key, struc
         if (field[k].kind == RC_FIELD_TEXT)
             memcpy(at, &value, sizeof value);
         else if (field[k].kind == RC_FIELD_NUMBER ? !rc_piece_number(value, at, NULL)
-                                                  : !rc_piece_length(value, 1, at))
+                                                  : !read_length(value, at))
             return rc_err_set(err, "%s is '%s': that is no %s", field[k].key,
                               rc_text_shown(quote, value.text, value.n),
                               field[k].kind == RC_FIELD_NUMBER ? "number" : "length");

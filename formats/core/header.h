@@ -24,8 +24,6 @@ bool rc_piece_part(struct rc_piece piece, const char *marks, struct rc_piece *be
 /* The number that it begins with and the trimmed rest (which may be NULL); false when there is
  * none. Decimal commas are read as points. */
 bool rc_piece_number(struct rc_piece piece, double *value, struct rc_piece *rest);
-/* "300 nm": metres; without a unit `unit` metres. */
-bool rc_piece_length(struct rc_piece piece, double unit, double *metres);
 
 enum rc_field_kind {
     RC_FIELD_TEXT,   /* struct rc_piece                                    */

@@ -116,9 +116,9 @@ rc_map_bound(const struct rc_map *map, const struct rc_file *file, double unpack
                       map->nx, map->ny, file->size);
 }
 
-enum rc_status
-rc_map_fill_text(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
-                 double *v, struct rc_err *err)
+static enum rc_status
+fill_text(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
+          double *v, struct rc_err *err)
 {
     struct rc_piece text = {(const char *)file->data + map->at, file->size - map->at};
 
@@ -130,7 +130,7 @@ enum rc_status
 rc_map_is_text(struct rc_map *map, const struct rc_file *file, size_t at, struct rc_err *err)
 {
     map->at = at;
-    map->fill = rc_map_fill_text;
+    map->fill = fill_text;
     if (map->ny <= (file->size - at + 1) / 2 / map->nx) /* a digit and what parts it */
         return RC_OK;
     return rc_err_set(err, "the header promises %zu x %zu numbers, the file has %zu bytes for them",

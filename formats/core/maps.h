@@ -75,10 +75,8 @@ enum rc_status rc_map_count(const char *what, double number, size_t *count, stru
  * file. */
 enum rc_status rc_map_bound(const struct rc_map *map, const struct rc_file *file, double unpacked,
                             struct rc_err *err);
-/* The fill of a map that is text: numbers parted by white space from `at` on. */
-enum rc_status rc_map_fill_text(const struct rc_file *file, const struct rc_wish *wish,
-                                const struct rc_map *map, double *v, struct rc_err *err);
-/* Makes it one, unless the text from `at` on is too short for nx*ny numbers. */
+/* Makes it a map that is text: numbers separated by white space from `at` on. RC_FAIL when the text
+ * is too short for nx*ny of them. */
 enum rc_status rc_map_is_text(struct rc_map *map, const struct rc_file *file, size_t at,
                               struct rc_err *err);
 /* Whether the name of the file ends in one of the suffixes ".a .b", in either case. */

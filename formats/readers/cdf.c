@@ -247,7 +247,7 @@ rc_cdf_close(struct rc_cdf *f)
 enum rc_status
 rc_cdf_open(struct rc_cdf *f, const struct rc_file *file, struct rc_err *err)
 {
-    *f = (struct rc_cdf){.file = file, .b = {.data = file->data, .size = file->size, .big = true}};
+    *f = (struct rc_cdf){.b = {.data = file->data, .size = file->size, .big = true}};
     if (file->size < 8 || memcmp(file->data, "CDF", 3) != 0)
         return rc_err_set(err, "no NetCDF file: it does not begin with 'CDF'");
     f->version = file->data[3];
