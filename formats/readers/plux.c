@@ -11,7 +11,6 @@
 #include "zip_read.h"
 #include "formats/core/core.h"
 #include "formats/format.h"
-#include "xml.h"
 
 #define INDEX_MOST ((uint64_t)1 << 24) /* bytes of index.xml */
 
@@ -28,7 +27,7 @@ struct item {
 struct plux {
     struct rc_zip_read *archive;
     size_t nx, ny;
-    double dx, dy; /* m, NAN when not given */
+    double dx, dy; /* m, NAN when not given; um in index.xml */
     bool sized;
     char date[64];
     char file[LAYERS_MOST][WORD]; /* names of members, "" for none */
@@ -52,31 +51,6 @@ numbered(const char *path, const char *prefix, size_t most, size_t *number, cons
 }
 
 static enum rc_status
-take_size(const char *path, const char *text, size_t *size, struct rc_err *err)
-{
-    char quote[RC_SHOWN];
-
-    if (*text == '\0' || strlen(text) > 9 || text[strspn(text, "0123456789")] != '\0')
-        return rc_err_set(err, "%s is '%s' in index.xml: it must be a whole number", path,
-                          rc_text_shown(quote, text, strlen(text)));
-    *size = strtoul(text, NULL, 10);
-    return RC_OK;
-}
-
-static enum rc_status
-take_step(const char *path, const char *text, double *step, struct rc_err *err)
-{
-    char quote[RC_SHOWN];
-    const char *end = rc_number_read(text, true, step);
-
-    if (end == NULL || *end != '\0')
-        return rc_err_set(err, "%s is '%s' in index.xml: that is no number", path,
-                          rc_text_shown(quote, text, strlen(text)));
-    *step /= 1e6;
-    return RC_OK;
-}
-
-static enum rc_status
 take_element(void *arg, const char *path, const char *text, struct rc_err *err)
 {
     struct plux *p = arg;
@@ -87,14 +61,14 @@ take_element(void *arg, const char *path, const char *text, struct rc_err *err)
     path += *path == '/';
     if (strcmp(path, "GENERAL/IMAGE_SIZE_X") == 0) {
         p->sized = true;
-        return take_size(path, text, &p->nx, err);
+        return rc_xml_whole("index.xml", path, text, &p->nx, err);
     }
     if (strcmp(path, "GENERAL/IMAGE_SIZE_Y") == 0)
-        return take_size(path, text, &p->ny, err);
+        return rc_xml_whole("index.xml", path, text, &p->ny, err);
     if (strcmp(path, "GENERAL/FOV_X") == 0)
-        return take_step(path, text, &p->dx, err);
+        return rc_xml_number("index.xml", path, text, &p->dx, err);
     if (strcmp(path, "GENERAL/FOV_Y") == 0)
-        return take_step(path, text, &p->dy, err);
+        return rc_xml_number("index.xml", path, text, &p->dy, err);
     if (strcmp(path, "GENERAL/DATE") == 0)
         rc_text_clean(p->date, sizeof p->date, text, strlen(text));
     else if (numbered(path, "LAYER_", LAYERS_MOST, &number, &rest) &&
@@ -106,26 +80,6 @@ take_element(void *arg, const char *path, const char *text, struct rc_err *err)
              strcmp(rest, "/VALUE") == 0)
         rc_text_clean(p->item[number].value, sizeof p->item->value, text, strlen(text));
     return RC_OK;
-}
-
-static enum rc_status
-take_xml(void *arg, const unsigned char *bytes, size_t n, struct rc_err *err)
-{
-    return rc_xml_feed(arg, bytes, n, err);
-}
-
-static enum rc_status
-read_index(struct plux *p, size_t member, struct rc_err *err)
-{
-    struct rc_xml *xml = rc_xml_new("index.xml", take_element, p, err);
-    enum rc_status status = RC_FAIL;
-
-    if (xml == NULL)
-        return RC_FAIL;
-    if (rc_zip_read_member(p->archive, member, INDEX_MOST, take_xml, xml, NULL, err) == RC_OK)
-        status = rc_xml_end(xml, err);
-    rc_xml_free(xml);
-    return status;
 }
 
 /* ---- the archive ---- */
@@ -147,21 +101,24 @@ find(const struct rc_zip_read *a, const char *name, size_t *member, struct rc_er
 static enum rc_status
 plux_open(struct plux *p, const struct rc_file *file, struct rc_err *err)
 {
-    size_t member;
+    size_t member, n;
 
     *p = (struct plux){.dx = NAN, .dy = NAN};
     if ((p->archive = rc_zip_read_new(file, err)) == NULL)
         return RC_FAIL;
     if (find(p->archive, "index.xml", &member, NULL) != RC_OK)
         return rc_err_set(err, "a ZIP archive, but no PLUX: it holds no index.xml");
-    if (read_index(p, member, err) != RC_OK)
+    if (rc_zip_read_xml(p->archive, member, INDEX_MOST, "index.xml", take_element, p, NULL, err) !=
+        RC_OK)
         return RC_FAIL;
+    p->dx /= 1e6;
+    p->dy /= 1e6;
     if (!p->sized)
         return rc_err_set(err,
                           "a ZIP archive, but no PLUX: its index.xml gives no size of an image");
     if (p->nx == 0 || p->ny == 0)
         return rc_err_set(err, "an image of %zu x %zu points is empty", p->nx, p->ny);
-    return RC_OK;
+    return rc_size_mul(p->nx, p->ny, &n, err) == RC_OK ? rc_size_mul(n, 4, &n, err) : RC_FAIL;
 }
 
 static size_t

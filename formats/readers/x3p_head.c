@@ -60,33 +60,22 @@ shown(char to[RC_SHOWN], const char *text)
 static enum rc_status
 whole(const char *name, const char *text, size_t *value, struct rc_err *err)
 {
-    char quote[RC_SHOWN];
-
-    *value = 0;
     if (text == NULL || *text == '\0')
         return rc_err_set(err, "main.xml gives no %s", name);
-    if (strlen(text) > 15 || text[strspn(text, "0123456789")] != '\0')
-        return rc_err_set(err, "%s is '%s' in main.xml: it must be a whole number", name,
-                          shown(quote, text));
-    for (; *text != '\0'; text++)
-        *value = 10 * *value + (size_t)(*text - '0');
-    return RC_OK;
+    return rc_xml_whole("main.xml", name, text, value, err);
 }
 
-/* A number that may be absent or empty: then it is `otherwise`. */
+/* A finite number; `otherwise` where main.xml gives none. */
 static enum rc_status
 real(const char *name, const char *text, double otherwise, double *value, struct rc_err *err)
 {
     char quote[RC_SHOWN];
-    const char *end;
 
     *value = otherwise;
     if (text == NULL || *text == '\0')
         return RC_OK;
-    end = rc_number_read(text, true, value);
-    if (end == NULL || *end != '\0')
-        return rc_err_set(err, "%s is '%s' in main.xml: that is no number", name,
-                          shown(quote, text));
+    if (rc_xml_number("main.xml", name, text, value, err) != RC_OK)
+        return RC_FAIL;
     if (!isfinite(*value))
         return rc_err_set(err, "%s is '%s' in main.xml: it must be finite", name,
                           shown(quote, text));
@@ -178,30 +167,14 @@ take_element(void *arg, const char *path, const char *text, struct rc_err *err)
 }
 
 static enum rc_status
-take_xml(void *arg, const unsigned char *bytes, size_t n, struct rc_err *err)
-{
-    return rc_xml_feed(arg, bytes, n, err);
-}
-
-static enum rc_status
 read_main(struct rc_x3p *x, struct rc_err *err)
 {
-    struct rc_xml *xml = rc_xml_new("main.xml", take_element, x, err);
-    enum rc_status status = RC_FAIL;
-
-    if (xml == NULL)
+    if (rc_zip_read_xml(x->archive, x->main, MAIN_MOST, "main.xml", take_element, x, x->md5, err) !=
+        RC_OK)
         return RC_FAIL;
-    if (rc_zip_read_member(x->archive, x->main, MAIN_MOST, take_xml, xml, x->md5, err) != RC_OK ||
-        rc_xml_end(xml, err) != RC_OK)
-        goto done;
-    if (!x->is_x3p) {
-        rc_err_set(err, "a ZIP archive, but no X3P: its main.xml holds no %s", root_name);
-        goto done;
-    }
-    status = RC_OK;
-done:
-    rc_xml_free(xml);
-    return status;
+    if (!x->is_x3p)
+        return rc_err_set(err, "a ZIP archive, but no X3P: its main.xml holds no %s", root_name);
+    return RC_OK;
 }
 
 /* ---- what main.xml says ---- */

@@ -8,7 +8,8 @@
 
 enum {
     PATH_MAX_BYTES = 512,
-    TEXT_MAX_BYTES = 8192
+    TEXT_MAX_BYTES = 8192,
+    DIGITS_MOST = 15
 };
 
 struct rc_xml {
@@ -174,4 +175,32 @@ rc_xml_free(struct rc_xml *x)
         xmlFreeDoc(x->parser->myDoc);
     xmlFreeParserCtxt(x->parser);
     free(x);
+}
+
+/* ---- numbers in it ---- */
+
+enum rc_status
+rc_xml_number(const char *document, const char *name, const char *text, double *value,
+              struct rc_err *err)
+{
+    const char *end = rc_number_read(text, true, value);
+    char quote[RC_SHOWN];
+
+    if (end != NULL && *end == '\0')
+        return RC_OK;
+    return rc_err_set(err, "%s is '%s' in %s: that is no number", name,
+                      rc_text_shown(quote, text, strlen(text)), document);
+}
+
+enum rc_status
+rc_xml_whole(const char *document, const char *name, const char *text, size_t *value,
+             struct rc_err *err)
+{
+    char quote[RC_SHOWN];
+
+    if (*text == '\0' || strlen(text) > DIGITS_MOST || text[strspn(text, "0123456789")] != '\0')
+        return rc_err_set(err, "%s is '%s' in %s: it must be a whole number", name,
+                          rc_text_shown(quote, text, strlen(text)), document);
+    *value = strtoul(text, NULL, 10);
+    return RC_OK;
 }

@@ -259,3 +259,24 @@ rc_zip_read_bytes(struct rc_zip_read *a, size_t member, uint64_t most, size_t *n
     *n = b.n;
     return b.bytes;
 }
+
+static enum rc_status
+take_xml(void *arg, const unsigned char *bytes, size_t n, struct rc_err *err)
+{
+    return rc_xml_feed(arg, bytes, n, err);
+}
+
+enum rc_status
+rc_zip_read_xml(struct rc_zip_read *a, size_t member, uint64_t most, const char *name,
+                rc_element *element, void *arg, char md5[RC_MD5_TEXT], struct rc_err *err)
+{
+    struct rc_xml *xml = rc_xml_new(name, element, arg, err);
+    enum rc_status status = RC_FAIL;
+
+    if (xml == NULL)
+        return RC_FAIL;
+    if (rc_zip_read_member(a, member, most, take_xml, xml, md5, err) == RC_OK)
+        status = rc_xml_end(xml, err);
+    rc_xml_free(xml);
+    return status;
+}
