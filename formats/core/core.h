@@ -6,6 +6,7 @@
 
 #include "bytes.h"
 #include "checksum.h"
+#include "file.h"
 #include "header.h"
 #include "limit.h"
 #include "maps.h"

@@ -53,6 +53,12 @@ rc_piece_trim(struct rc_piece piece)
     return piece;
 }
 
+struct rc_lines
+rc_piece_lines(struct rc_piece piece)
+{
+    return (struct rc_lines){.at = piece.text, .end = piece.text + piece.n};
+}
+
 bool
 rc_piece_part(struct rc_piece piece, const char *marks, struct rc_piece *before,
               struct rc_piece *after)

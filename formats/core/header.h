@@ -18,6 +18,8 @@ bool rc_piece_begins(struct rc_piece piece, const char *word);
 /* Where the word begins in it, or NULL; case counts. */
 const char *rc_piece_find(struct rc_piece piece, const char *word);
 struct rc_piece rc_piece_trim(struct rc_piece piece);
+/* Its lines, before the first one. */
+struct rc_lines rc_piece_lines(struct rc_piece piece);
 /* Parts at the first of the characters `marks`, both trimmed; false when there is none. */
 bool rc_piece_part(struct rc_piece piece, const char *marks, struct rc_piece *before,
                    struct rc_piece *after);

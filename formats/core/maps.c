@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "file.h"
 #include "limit.h"
 #include "prefix.h"
 
@@ -135,46 +136,6 @@ rc_map_is_text(struct rc_map *map, const struct rc_file *file, size_t at, struct
         return RC_OK;
     return rc_err_set(err, "the header promises %zu x %zu numbers, the file has %zu bytes for them",
                       map->nx, map->ny, file->size - at);
-}
-
-bool
-rc_file_named(const struct rc_file *file, const char *suffixes)
-{
-    struct rc_piece name = {file->name, strlen(file->name)};
-    char suffix[16];
-
-    while (*suffixes != '\0') {
-        size_t n = strcspn(suffixes, " ");
-        if (n < sizeof suffix && n <= name.n) {
-            memcpy(suffix, suffixes, n);
-            suffix[n] = '\0';
-            if (rc_piece_is((struct rc_piece){name.text + name.n - n, n}, suffix))
-                return true;
-        }
-        suffixes += n;
-        suffixes += strspn(suffixes, " ");
-    }
-    return false;
-}
-
-bool
-rc_file_holds(const struct rc_file *file, size_t at, const void *bytes, size_t n)
-{
-    return at <= file->size && file->size - at >= n && memcmp(file->data + at, bytes, n) == 0;
-}
-
-struct rc_piece
-rc_file_text(const struct rc_file *file, size_t at, size_t n)
-{
-    const char *text = (const char *)file->data + at;
-
-    return rc_piece_trim((struct rc_piece){text, strnlen(text, n)});
-}
-
-struct rc_bytes
-rc_file_bytes(const struct rc_file *file, bool big)
-{
-    return (struct rc_bytes){.data = file->data, .size = file->size, .big = big};
 }
 
 bool

@@ -79,14 +79,6 @@ enum rc_status rc_map_bound(const struct rc_map *map, const struct rc_file *file
  * is too short for nx*ny of them. */
 enum rc_status rc_map_is_text(struct rc_map *map, const struct rc_file *file, size_t at,
                               struct rc_err *err);
-/* Whether the name of the file ends in one of the suffixes ".a .b", in either case. */
-bool rc_file_named(const struct rc_file *file, const char *suffixes);
-/* Whether the file has these bytes at that place. */
-bool rc_file_holds(const struct rc_file *file, size_t at, const void *bytes, size_t n);
-/* The text at that place, which must be in the file: up to n bytes or a NUL, trimmed. */
-struct rc_piece rc_file_text(const struct rc_file *file, size_t at, size_t n);
-/* A cursor at the first byte; the number at a place, 0 with `past` set where there is none. */
-struct rc_bytes rc_file_bytes(const struct rc_file *file, bool big);
 
 /* Describes a file; RC_FAIL with the reason. */
 typedef enum rc_status rc_maps_find(const struct rc_file *file, const struct rc_wish *wish,

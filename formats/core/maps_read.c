@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "file.h"
+
 /* ---- checking ---- */
 
 static enum rc_status

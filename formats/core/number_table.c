@@ -4,6 +4,8 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "header.h"
+
 enum {
     NUMBER_MOST = 400 /* characters of one number */
 };
@@ -142,17 +144,6 @@ read_number(const struct rc_number_table *t, const char *s, char decimal, struct
 /* ---- words ---- */
 
 static bool
-same_word(const char *word, const char *s, size_t n)
-{
-    if (strlen(word) != n)
-        return false;
-    for (size_t k = 0; k < n; k++)
-        if ((s[k] >= 'A' && s[k] <= 'Z' ? s[k] + ('a' - 'A') : s[k]) != word[k])
-            return false;
-    return true;
-}
-
-static bool
 is_missing(const struct rc_number_table *t, const char *s, size_t n)
 {
     /* the last three are how some C libraries print a NaN */
@@ -162,7 +153,7 @@ is_missing(const struct rc_number_table *t, const char *s, size_t n)
     if (t->missing != NULL && strlen(t->missing) == n && memcmp(t->missing, s, n) == 0)
         return true;
     for (size_t k = 0; k < sizeof words / sizeof *words; k++)
-        if (same_word(words[k], s, n))
+        if (rc_piece_is((struct rc_piece){s, n}, words[k]))
             return true;
     return false;
 }

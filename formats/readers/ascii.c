@@ -30,14 +30,13 @@ static enum rc_status
 ascii_open(const struct rc_file *file, const struct rc_wish *wish, struct rc_ascii_head *h,
            struct rc_number_table *table, struct rc_err *err)
 {
-    const char *text = (const char *)file->data;
-    struct rc_lines lines = {.at = text, .end = text + file->size};
+    struct rc_lines lines = rc_piece_lines(rc_file_piece(file));
 
     *h = (struct rc_ascii_head){0};
-    if (file->size >= 2 && (memcmp(text, "\xff\xfe", 2) == 0 || memcmp(text, "\xfe\xff", 2) == 0))
+    if (rc_file_is_utf16(file))
         return rc_err_set(err, "the text is UTF-16: convert it first (iconv -f UTF-16 -t UTF-8)");
-    if (file->size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0)
-        lines.at += 3;
+    if (rc_file_holds(file, 0, "\xef\xbb\xbf", 3))
+        lines.at += 3; /* the byte order mark of UTF-8 */
     rc_ascii_read_head(h, &lines);
     if (rc_number_table_open(table, &lines, wish, err) != RC_OK)
         return RC_FAIL;
@@ -171,15 +170,13 @@ static const struct rc_wish no_wish = {.dx = NAN, .dy = NAN, .z_unit = NAN};
 static int
 ascii_score(const struct rc_file *file)
 {
-    size_t looked = file->size < 4096 ? file->size : 4096;
     struct rc_number_table table;
     struct rc_ascii_head h;
     unsigned char c;
 
-    if (file->size >= 2 &&
-        (memcmp(file->data, "\xff\xfe", 2) == 0 || memcmp(file->data, "\xfe\xff", 2) == 0))
+    if (rc_file_is_utf16(file))
         return 2;
-    if (file->size == 0 || memchr(file->data, 0, looked) != NULL)
+    if (!rc_file_is_text(file))
         return 0;
     if (ascii_open(file, &no_wish, &h, &table, NULL) == RC_OK)
         return h.known ? 90 : 40;

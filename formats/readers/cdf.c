@@ -248,7 +248,7 @@ enum rc_status
 rc_cdf_open(struct rc_cdf *f, const struct rc_file *file, struct rc_err *err)
 {
     *f = (struct rc_cdf){.b = {.data = file->data, .size = file->size, .big = true}};
-    if (file->size < 8 || memcmp(file->data, "CDF", 3) != 0)
+    if (file->size < 8 || !rc_file_holds(file, 0, "CDF", 3))
         return rc_err_set(err, "no NetCDF file: it does not begin with 'CDF'");
     f->version = file->data[3];
     if (f->version != 1 && f->version != 2 && f->version != 5)

@@ -184,28 +184,16 @@ done:
 
 /* ---- the entry in formats.list ---- */
 
-static bool
-holds(const struct rc_file *file, const char *word)
-{
-    size_t n = strlen(word);
-
-    for (const unsigned char *s = file->data, *end = s + file->size - n;
-         s < end && (s = memchr(s, word[0], (size_t)(end - s))) != NULL; s++)
-        if (memcmp(s, word, n) == 0)
-            return true;
-    return false;
-}
-
 static int
 datx_score(const struct rc_file *file)
 {
-    size_t n = strlen(file->name);
+    struct rc_piece all = rc_file_piece(file);
 
-    if (!rc_hdf_is(file) || file->size < 64)
+    if (!rc_hdf_is(file))
         return 0;
-    if (holds(file, "MetaData") && holds(file, "Z Converter"))
+    if (rc_piece_find(all, "MetaData") != NULL && rc_piece_find(all, "Z Converter") != NULL)
         return 90;
-    return n > 5 && strcmp(file->name + n - 5, ".datx") == 0 ? 70 : 0;
+    return rc_file_named(file, ".datx") ? 70 : 0;
 }
 
 RC_FORMAT_SANDBOXED(datx)

@@ -40,7 +40,7 @@ esri_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps
           struct rc_err *err)
 {
     const char *text = (const char *)file->data, *at = text;
-    struct rc_lines lines = {.at = text, .end = text + file->size};
+    struct rc_lines lines = rc_piece_lines(rc_file_piece(file));
     struct esri e = {.cell = NAN, .dx = NAN, .dy = NAN, .lost = -9999};
     struct rc_map *map = rc_maps_add(maps, "", 0);
     struct rc_piece line, key, value;

@@ -125,19 +125,11 @@ scale_of(const struct lext *l, enum scale axis, double *metres, struct rc_err *e
 
 /* ---- pages ---- */
 
-static bool
-is_named(const char *text, const char *name)
-{
-    for (; *text != '\0' && *name != '\0'; text++, name++)
-        if ((*text >= 'a' && *text <= 'z' ? *text - 'a' + 'A' : *text) != *name)
-            return false;
-    return *text == '\0' && *name == '\0';
-}
-
 static enum rc_status
 find_pages(struct lext *l, struct rc_err *err)
 {
-    char name[WORD];
+    struct rc_piece name;
+    char text[WORD];
     size_t pages;
 
     if (!rc_tiff_page(l->tiff, 0)) /* after the Exif data */
@@ -147,10 +139,11 @@ find_pages(struct lext *l, struct rc_err *err)
     for (size_t page = 1; page < pages; page++) {
         if (!rc_tiff_page(l->tiff, page))
             continue;
-        rc_tiff_text(l->tiff, RC_TIFF_DESCRIPTION, name, sizeof name);
-        if (l->height == 0 && is_named(name, "HEIGHT"))
+        rc_tiff_text(l->tiff, RC_TIFF_DESCRIPTION, text, sizeof text);
+        name = (struct rc_piece){text, strlen(text)};
+        if (l->height == 0 && rc_piece_is(name, "HEIGHT"))
             l->height = page;
-        if (l->invalid == 0 && is_named(name, "INVALID"))
+        if (l->invalid == 0 && rc_piece_is(name, "INVALID"))
             l->invalid = page;
     }
     if (l->height == 0)
@@ -266,15 +259,7 @@ done:
 static int
 lext_score(const struct rc_file *file)
 {
-    size_t n = sizeof magic - 1;
-
-    if (!rc_tiff_is(file))
-        return 0;
-    for (const unsigned char *s = file->data, *end = s + file->size - n;
-         s < end && (s = memchr(s, '<', (size_t)(end - s))) != NULL; s++)
-        if (memcmp(s, magic, n) == 0)
-            return 90;
-    return 0;
+    return rc_tiff_is(file) && rc_piece_find(rc_file_piece(file), magic) != NULL ? 90 : 0;
 }
 
 RC_FORMAT_SANDBOXED(lext)

@@ -104,7 +104,7 @@ mi_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *
         struct rc_err *err)
 {
     const char *text = (const char *)file->data;
-    struct rc_lines lines = {.at = text, .end = text + file->size};
+    struct rc_lines lines = rc_piece_lines(rc_file_piece(file));
     struct mi m = {.width = NAN, .height = NAN};
     struct rc_map *map = NULL;
     struct rc_piece line;

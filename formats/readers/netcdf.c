@@ -237,7 +237,7 @@ done:
 static int
 netcdf_score(const struct rc_file *file)
 {
-    return file->size >= 8 && memcmp(file->data, "CDF", 3) == 0 &&
+    return file->size >= 8 && rc_file_holds(file, 0, "CDF", 3) &&
                    (file->data[3] == 1 || file->data[3] == 2 || file->data[3] == 5)
                ? 90
                : 0;

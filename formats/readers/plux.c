@@ -258,11 +258,11 @@ plux_read(const struct rc_file *file, const struct rc_wish *wish, size_t index,
 static int
 plux_score(const struct rc_file *file)
 {
-    size_t n = strlen(file->name), member;
-    bool named = n > 5 && strcmp(file->name + n - 5, ".plux") == 0, found;
+    bool named = rc_file_named(file, ".plux"), found;
     struct rc_zip_read *archive;
+    size_t member;
 
-    if (file->size < 4 || memcmp(file->data, "PK", 2) != 0)
+    if (!rc_file_holds(file, 0, "PK", 2))
         return 0;
     if ((archive = rc_zip_read_new(file, NULL)) == NULL)
         return named ? 50 : 0;

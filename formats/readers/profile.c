@@ -249,11 +249,10 @@ static int
 profile_score(const struct rc_file *file)
 {
     static const struct rc_wish no_wish = {.dx = NAN, .dy = NAN, .z_unit = NAN};
-    size_t looked = file->size < 4096 ? file->size : 4096;
     struct profile p;
     int score;
 
-    if (looked == 0 || (memchr(file->data, 0, looked) != NULL && file->data[0] < 0xfe))
+    if (!rc_file_is_text(file) && !rc_file_is_utf16(file))
         return 0;
     score = profile_open(&p, file, &no_wish, NULL) == RC_OK ? 60 : 3;
     /* 3: so that a table says what is wrong with it; one column could be anything */

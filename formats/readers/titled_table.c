@@ -91,18 +91,17 @@ enum rc_status
 rc_titled_table_open(struct rc_titled_table *t, const struct rc_file *file, size_t columns,
                      const struct rc_wish *wish, struct rc_err *err)
 {
-    struct rc_piece text = {(const char *)file->data, file->size}, line, before = {"", 0};
+    struct rc_piece text = rc_file_piece(file), line, before = {"", 0};
     struct rc_lines lines, ahead;
 
     *t = (struct rc_titled_table){0};
-    if (file->size >= 2 &&
-        (memcmp(file->data, "\xff\xfe", 2) == 0 || memcmp(file->data, "\xfe\xff", 2) == 0)) {
+    if (rc_file_is_utf16(file)) {
         if ((t->own = narrow(file, &text.n)) == NULL)
             return rc_err_set(err, "out of memory for %zu characters", file->size / 2);
         text.text = t->own;
-    } else if (file->size >= 3 && memcmp(file->data, "\xef\xbb\xbf", 3) == 0)
+    } else if (rc_file_holds(file, 0, "\xef\xbb\xbf", 3)) /* the byte order mark of UTF-8 */
         text = (struct rc_piece){text.text + 3, text.n - 3};
-    lines = ahead = (struct rc_lines){.at = text.text, .end = text.text + text.n};
+    lines = ahead = rc_piece_lines(text);
     for (;;) {
         if (lines.number == HEADER_MOST || !rc_lines_next(&ahead, &line.text, &line.n))
             return rc_err_set(err, "there is no table of numbers in the first %d lines",

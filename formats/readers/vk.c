@@ -62,7 +62,7 @@ unpack_member(struct rc_zip_read *archive, size_t member, const struct rc_file *
 static unsigned char *
 unpack(const struct rc_file *file, size_t *n, struct rc_err *err)
 {
-    struct rc_piece rest = {(const char *)file->data, file->size};
+    struct rc_piece rest = rc_file_piece(file);
     const char *at = rest.text;
 
     for (size_t k = 0; k < STARTS_MOST && at != NULL; k++) {

@@ -75,8 +75,7 @@ static enum rc_status
 wsxm_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
           struct rc_err *err)
 {
-    const char *text = (const char *)file->data;
-    struct rc_lines lines = {.at = text, .end = text + file->size};
+    struct rc_lines lines = rc_piece_lines(rc_file_piece(file));
     struct wsxm w = {
         .width = NAN, .height = NAN, .amplitude = {"", 0}, .channel = {"", 0}, .date = {"", 0}};
     struct rc_map *map;

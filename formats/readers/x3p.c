@@ -103,11 +103,10 @@ x3p_score(const struct rc_file *file)
 {
     struct rc_zip_read *archive;
     char prefix[RC_X3P_NAME];
-    size_t n = strlen(file->name), member;
-    bool named = n > 4 && strcmp(file->name + n - 4, ".x3p") == 0;
-    bool has_main;
+    bool named = rc_file_named(file, ".x3p"), has_main;
+    size_t member;
 
-    if (file->size < 4 || memcmp(file->data, "PK", 2) != 0)
+    if (!rc_file_holds(file, 0, "PK", 2))
         return 0;
     /* Another kind of archive scores a little too, so that its refusal names what it lacks. */
     if ((archive = rc_zip_read_new(file, NULL)) == NULL)

@@ -145,12 +145,11 @@ static int
 xyz_score(const struct rc_file *file)
 {
     static const struct rc_wish no_wish = {.dx = NAN, .dy = NAN, .z_unit = NAN};
-    size_t looked = file->size < 4096 ? file->size : 4096;
     bool named = rc_file_named(file, ".xyz");
     struct cloud c;
     int score = 0;
 
-    if (looked == 0 || (memchr(file->data, 0, looked) != NULL && file->data[0] < 0xfe))
+    if (!rc_file_is_text(file) && !rc_file_is_utf16(file))
         return 0;
     if (cloud_open(&c, file, &no_wish, NULL) == RC_OK)
         score = named ? 80 : c.y.n > 1 && c.table.numbers.rows > 3 ? 60 : 0;

@@ -30,7 +30,7 @@ open_zip(const struct rc_file *file, zip_error_t *why)
 struct rc_zip_read *
 rc_zip_read_new(const struct rc_file *file, struct rc_err *err)
 {
-    if (file->size >= 4 && memcmp(file->data, "PK", 2) == 0)
+    if (file->size >= 4 && rc_file_holds(file, 0, "PK", 2))
         return rc_zip_read_behind(file, err);
     rc_err_set(err, "no ZIP archive: it does not begin with 'PK'");
     return NULL;
