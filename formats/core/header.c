@@ -98,6 +98,18 @@ rc_piece_number(struct rc_piece piece, double *value, struct rc_piece *rest)
     return true;
 }
 
+const char *
+rc_piece_shown(char to[RC_SHOWN], struct rc_piece piece)
+{
+    return rc_text_shown(to, piece.text, piece.n);
+}
+
+enum rc_status
+rc_piece_keep(struct rc_grid *g, const char *key, struct rc_piece piece, struct rc_err *err)
+{
+    return rc_text_keep(g, key, piece.text, piece.n, err);
+}
+
 /* "300 nm" in metres; so is a number without a unit. */
 static bool
 read_length(struct rc_piece piece, double *metres)
@@ -129,7 +141,7 @@ rc_field_take(const struct rc_field *field, size_t n, struct rc_piece key, struc
         else if (field[k].kind == RC_FIELD_NUMBER ? !rc_piece_number(value, at, NULL)
                                                   : !read_length(value, at))
             return rc_err_set(err, "%s is '%s': that is no %s", field[k].key,
-                              rc_text_shown(quote, value.text, value.n),
+                              rc_piece_shown(quote, value),
                               field[k].kind == RC_FIELD_NUMBER ? "number" : "length");
         break;
     }
@@ -190,7 +202,7 @@ rc_flow_read(struct rc_piece *text, double *v, size_t n, struct rc_err *err)
             v[k] = NAN;
         else if (!rc_piece_number(word, &v[k], &rest) || rest.n > 0)
             return rc_err_set(err, "number %zu of the data is '%s': that is no number", k + 1,
-                              rc_text_shown(quote, word.text, word.n));
+                              rc_piece_shown(quote, word));
     }
     return RC_OK;
 }

@@ -27,6 +27,12 @@ bool rc_piece_part(struct rc_piece piece, const char *marks, struct rc_piece *be
  * none. Decimal commas are read as points. */
 bool rc_piece_number(struct rc_piece piece, double *value, struct rc_piece *rest);
 
+/* For quoting in a message; as rc_text_shown. */
+const char *rc_piece_shown(char to[RC_SHOWN], struct rc_piece piece);
+/* Sets a key of the grid; as rc_text_keep. */
+enum rc_status rc_piece_keep(struct rc_grid *grid, const char *key, struct rc_piece piece,
+                             struct rc_err *err);
+
 enum rc_field_kind {
     RC_FIELD_TEXT,   /* struct rc_piece                                    */
     RC_FIELD_NUMBER, /* double, what follows the number is ignored         */

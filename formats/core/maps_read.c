@@ -208,7 +208,7 @@ rc_maps_read(rc_maps_find *find, const struct rc_file *file, const struct rc_wis
             RC_OK ||
         scale(map, si, g->v, err) != RC_OK ||
         (strcmp(map->name, "height") != 0 &&
-         rc_text_keep(g, "file.channel", map->name, strlen(map->name), err) != RC_OK))
+         rc_word_keep(g, "file.channel", map->name, err) != RC_OK))
         goto failed;
     for (size_t k = 0; k < maps.keys; k++)
         if (rc_grid_set(g, maps.key[k].name, maps.key[k].value, err) != RC_OK)

@@ -130,6 +130,12 @@ rc_text_shown(char to[RC_SHOWN], const char *text, size_t n)
     return rc_text_clean(to, RC_SHOWN, text, n);
 }
 
+const char *
+rc_word_shown(char to[RC_SHOWN], const char *word)
+{
+    return rc_text_shown(to, word, strlen(word));
+}
+
 enum rc_status
 rc_text_keep(struct rc_grid *g, const char *key, const char *text, size_t n, struct rc_err *err)
 {
@@ -137,4 +143,10 @@ rc_text_keep(struct rc_grid *g, const char *key, const char *text, size_t n, str
 
     rc_text_clean(value, sizeof value, text, n);
     return *value == '\0' ? RC_OK : rc_grid_set(g, key, value, err);
+}
+
+enum rc_status
+rc_word_keep(struct rc_grid *g, const char *key, const char *word, struct rc_err *err)
+{
+    return rc_text_keep(g, key, word, strlen(word), err);
 }

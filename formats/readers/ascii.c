@@ -143,7 +143,7 @@ read_matrix(const struct rc_ascii_head *h, struct rc_number_table *table,
     if (rc_number_table_read(table, g->v, err) != RC_OK ||
         mind_coordinates(h, table, g->v, err) != RC_OK ||
         get_scales(h, dx, dy, wish, &shape, &metres, notes, err) != RC_OK ||
-        rc_text_keep(g, "file.channel", h->channel.text, h->channel.n, err) != RC_OK) {
+        rc_piece_keep(g, "file.channel", h->channel, err) != RC_OK) {
         rc_grid_free(g);
         return NULL;
     }

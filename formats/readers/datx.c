@@ -168,7 +168,7 @@ read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index
         rc_spacing(wish, s.dx, s.dy, &shape, notes, err) != RC_OK ||
         rc_height_unit(wish, s.metres, s.unit, &metres, notes, err) != RC_OK ||
         (g = rc_grid_new(&shape, "height", "m", err)) == NULL ||
-        rc_text_keep(g, "file.manufacturer", "Zygo", 4, err) != RC_OK ||
+        rc_word_keep(g, "file.manufacturer", "Zygo", err) != RC_OK ||
         rc_hdf_values(s.hdf, &s.set, g->v, err) != RC_OK)
         goto done;
     for (size_t k = 0; k < shape.nx * shape.ny; k++)

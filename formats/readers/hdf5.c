@@ -103,7 +103,7 @@ read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index
         rc_spacing(wish, f.dx, f.dy, &shape, notes, err) != RC_OK ||
         rc_height_unit(wish, f.metres, f.unit, &metres, notes, err) != RC_OK ||
         (g = rc_grid_new(&shape, "height", "m", err)) == NULL ||
-        rc_text_keep(g, "file.channel", set[index].path, strlen(set[index].path), err) != RC_OK ||
+        rc_word_keep(g, "file.channel", set[index].path, err) != RC_OK ||
         rc_hdf_values(h, &set[index], g->v, err) != RC_OK)
         goto done;
     rc_hdf_number(h, set[index].path, "_FillValue", &fill);

@@ -195,7 +195,7 @@ keep_words(const struct scan *s, const struct channel *c, struct rc_grid *g, str
 
     for (size_t k = 0; k < KEYS; k++)
         if (strcmp(words[k].text, "<empty>") != 0 &&
-            rc_text_keep(g, words[k].key, words[k].text, strlen(words[k].text), err) != RC_OK)
+            rc_word_keep(g, words[k].key, words[k].text, err) != RC_OK)
             return RC_FAIL;
     return RC_OK;
 }

@@ -62,7 +62,7 @@ take_element(void *arg, const char *path, const char *text, struct rc_err *err)
         end = rc_number_read(text, false, &l->scale[k]);
         if (end == NULL || *end != '\0')
             return rc_err_set(err, "%s is '%s': that is no number", strrchr(path, '/') + 1,
-                              rc_text_shown(quote, text, strlen(text)));
+                              rc_word_shown(quote, text));
     }
     return RC_OK;
 }
@@ -239,8 +239,8 @@ read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index
         rc_spacing(wish, l.dx, l.dy, &shape, notes, err) != RC_OK ||
         rc_height_unit(wish, l.dz, "", &metres, notes, err) != RC_OK ||
         (g = rc_grid_new(&shape, "height", "m", err)) == NULL ||
-        rc_text_keep(g, "file.date", l.date, strlen(l.date), err) != RC_OK ||
-        rc_text_keep(g, "file.version", l.program, strlen(l.program), err) != RC_OK ||
+        rc_word_keep(g, "file.date", l.date, err) != RC_OK ||
+        rc_word_keep(g, "file.version", l.program, err) != RC_OK ||
         rc_tiff_values(l.tiff, &l.shape, g->v, err) != RC_OK)
         goto done;
     for (size_t k = 0; k < shape.nx * shape.ny; k++)

@@ -140,7 +140,7 @@ set_scale(struct rc_piece header, const struct image *m, struct rc_map *map, int
     }
     if (!number_behind_v(rc_piece_trim(hard), &number, &unit))
         return rc_err_set(err, "image '%s': its Z scale is '%s', in which no value is found",
-                          map->name, rc_text_shown(quote, m->scale.text, m->scale.n));
+                          map->name, rc_piece_shown(quote, m->scale));
     map->scale = ldexp(number, -bits);
     if (!find_sensitivity(header, between(m->scale, '[', ']'), &value) ||
         !number_behind_v(value, &sensitivity, &per) || !rc_piece_part(per, "/", &upper, &lower)) {

@@ -57,7 +57,7 @@ check_bytes(const struct rc_cdf *f, const struct rc_cdf_variable *v, struct rc_e
     uint64_t columns = v->rank == 2 ? length(f, v->dimension[1]) : 1;
     uint64_t row, there = v->at > f->b.size ? 0 : f->b.size - v->at;
 
-    rc_text_shown(quote, v->name.text, v->name.n);
+    rc_piece_shown(quote, v->name);
     if (columns > there / rc_cdf_width[v->type])
         return rc_err_set(err, "variable '%s' promises %llu values a row, the file is too short",
                           quote, (unsigned long long)columns);
@@ -87,7 +87,7 @@ step_of(const struct rc_cdf *f, size_t dimension, double *step, bool *periodic, 
         return RC_OK;
     if (check_bytes(f, v, err) != RC_OK)
         return RC_FAIL;
-    rc_text_shown(quote, v->name.text, v->name.n);
+    rc_piece_shown(quote, v->name);
     if (!rc_length_unit(v->unit.text, v->unit.n, &metres))
         return RC_OK;
     first = rc_cdf_value(place(f, v, 0, 0), v->type);
@@ -216,12 +216,11 @@ netcdf_read(const struct rc_file *file, const struct rc_wish *wish, size_t index
     shape = (struct rc_shape){.nx = m.nx, .ny = m.ny};
     if (rc_map_fits(file, m.nx, m.ny, err) != RC_OK ||
         rc_spacing(wish, m.dx, m.dy, &shape, notes, err) != RC_OK ||
-        rc_height_unit(wish, m.metres, rc_text_shown(unit, v->unit.text, v->unit.n), &metres, notes,
-                       err) != RC_OK ||
+        rc_height_unit(wish, m.metres, rc_piece_shown(unit, v->unit), &metres, notes, err) !=
+            RC_OK ||
         (g = rc_grid_new(&shape, "height", "m", err)) == NULL ||
-        rc_text_keep(g, "file.channel", v->name.text, v->name.n, err) != RC_OK ||
-        rc_text_keep(g, "file.title", v->title.text == NULL ? "" : v->title.text, v->title.n,
-                     err) != RC_OK ||
+        rc_piece_keep(g, "file.channel", v->name, err) != RC_OK ||
+        rc_piece_keep(g, "file.title", v->title, err) != RC_OK ||
         (m.periodic && rc_grid_set(g, "periodic", "yes", err) != RC_OK))
         goto done;
     read_values(&f, &m, metres, g);

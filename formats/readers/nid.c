@@ -211,7 +211,7 @@ add_all(struct rc_piece header, struct rc_piece table, size_t at, struct rc_maps
                               "channel %lu of group %lu is described in section '%s', which "
                               "is not there",
                               entry[k].channel, entry[k].group,
-                              rc_text_shown(quote, entry[k].section.text, entry[k].section.n));
+                              rc_piece_shown(quote, entry[k].section));
         lines = rc_piece_lines(section);
         if (rc_fields_read(fields, sizeof fields / sizeof *fields, &lines, "=", NULL, &s, err) !=
                 RC_OK ||

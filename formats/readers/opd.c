@@ -89,7 +89,7 @@ read_directory(const struct rc_file *file, struct opd *o, struct rc_maps *maps, 
             return rc_err_set(err,
                               "block '%s' takes %g bytes from byte %zu on, the file has %zu "
                               "in all",
-                              rc_text_shown(quote, b.name.text, b.name.n), length, at, file->size);
+                              rc_piece_shown(quote, b.name), length, at, file->size);
         b.n = (size_t)length;
         at += b.n;
         b.name = rc_piece_trim(b.name);

@@ -200,11 +200,11 @@ list_channels(const struct rc_file *file, const struct rc_wish *wish, struct rc_
 static enum rc_status
 keep_words(const struct park *p, struct rc_grid *g, struct rc_err *err)
 {
-    if (rc_text_keep(g, "file.date", p->date, strlen(p->date), err) != RC_OK ||
-        rc_text_keep(g, "file.version", p->program, strlen(p->program), err) != RC_OK ||
-        rc_text_keep(g, "file.mode", p->mode, strlen(p->mode), err) != RC_OK)
+    if (rc_word_keep(g, "file.date", p->date, err) != RC_OK ||
+        rc_word_keep(g, "file.version", p->program, err) != RC_OK ||
+        rc_word_keep(g, "file.mode", p->mode, err) != RC_OK)
         return RC_FAIL;
-    return rc_text_keep(g, "file.channel", p->name, strlen(p->name), err);
+    return rc_word_keep(g, "file.channel", p->name, err);
 }
 
 static struct rc_grid *

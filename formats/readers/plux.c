@@ -191,7 +191,7 @@ find_layer(const struct plux *p, size_t index, size_t *member, struct rc_err *er
 static enum rc_status
 keep_words(const struct plux *p, struct rc_grid *g, struct rc_err *err)
 {
-    if (rc_text_keep(g, "file.date", p->date, strlen(p->date), err) != RC_OK)
+    if (rc_word_keep(g, "file.date", p->date, err) != RC_OK)
         return RC_FAIL;
     for (size_t k = 0; k < ITEMS_MOST; k++) {
         const struct item *i = &p->item[k];
@@ -199,10 +199,10 @@ keep_words(const struct plux *p, struct rc_grid *g, struct rc_err *err)
                           : strcmp(i->name, "Objective") == 0 ? "file.probe"
                           : strcmp(i->name, "Technique") == 0 ? "file.mode"
                                                               : NULL;
-        if (key != NULL && rc_text_keep(g, key, i->value, strlen(i->value), err) != RC_OK)
+        if (key != NULL && rc_word_keep(g, key, i->value, err) != RC_OK)
             return RC_FAIL;
     }
-    return rc_text_keep(g, "file.manufacturer", "Sensofar", 8, err);
+    return rc_word_keep(g, "file.manufacturer", "Sensofar", err);
 }
 
 static struct rc_grid *

@@ -197,7 +197,7 @@ profile_open(struct profile *p, const struct rc_file *file, const struct rc_wish
     unit = unit_of(title_of(p, p->x));
     if (unit.n > 0 && !rc_length_unit(unit.text, unit.n, &metres))
         return rc_err_set(err, "the positions are in '%s', which is no length",
-                          rc_text_shown(quote, unit.text, unit.n));
+                          rc_piece_shown(quote, unit));
     return judge_direction(p, err);
 }
 

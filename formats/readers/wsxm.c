@@ -64,7 +64,7 @@ set_scale(const struct rc_file *file, const struct wsxm *w, struct rc_map *map, 
 
     if (!rc_piece_number(w->amplitude, &amplitude, &unit))
         return rc_err_set(err, "Z Amplitude is '%s': that is no number",
-                          rc_text_shown(quote, w->amplitude.text, w->amplitude.n));
+                          rc_piece_shown(quote, w->amplitude));
     rc_map_unit(map, unit.text, unit.n);
     if (rc_map_range(map, file, &low, &high) && high > low)
         map->scale = amplitude / (high - low);
@@ -99,7 +99,7 @@ wsxm_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps
         t++;
     if (t == sizeof types / sizeof *types)
         return rc_err_set(err, "Image Data Type is '%s': short, float and double are read",
-                          rc_text_shown(quote, w.type.text, w.type.n));
+                          rc_piece_shown(quote, w.type));
     map->raw = types[t].raw; /* old files give none: short */
     map->at = (size_t)w.header;
     map->dx = w.width / (double)map->nx;

@@ -16,12 +16,6 @@
 #include "formats/core/core.h"
 #include "x3p.h"
 
-static const char *
-shown(char to[RC_SHOWN], const char *text)
-{
-    return rc_text_shown(to, text, strlen(text));
-}
-
 /* ---- the archive ---- */
 
 /* main.xml at the top, or under one folder there; macOS adds a folder of its own to archives. */
@@ -72,7 +66,7 @@ x3p_open(struct rc_x3p *x, const struct rc_file *file, bool wants_list, struct r
                           "a ZIP archive, but no X3P: it holds no main.xml (the first of its "
                           "%zu members is '%s')",
                           rc_zip_read_members(x->archive),
-                          shown(quote, rc_zip_read_name(x->archive, 0)));
+                          rc_word_shown(quote, rc_zip_read_name(x->archive, 0)));
     return rc_x3p_head(x, err);
 }
 
@@ -88,8 +82,7 @@ make_grid(struct rc_x3p *x, const struct rc_wish *wish, double *metres, struct r
         (g = rc_grid_new(&shape, "height", "m", err)) == NULL)
         return NULL;
     for (size_t f = RC_X3P_FIRST_KEY; f < RC_X3P_FIELDS; f++)
-        if (x->text[f] != NULL &&
-            rc_text_keep(g, rc_x3p_key(f), x->text[f], strlen(x->text[f]), err) != RC_OK) {
+        if (x->text[f] != NULL && rc_word_keep(g, rc_x3p_key(f), x->text[f], err) != RC_OK) {
             rc_grid_free(g);
             return NULL;
         }

@@ -49,12 +49,6 @@ rc_x3p_key(size_t field)
     return fields[field].key;
 }
 
-static const char *
-shown(char to[RC_SHOWN], const char *text)
-{
-    return rc_text_shown(to, text, strlen(text));
-}
-
 /* ---- main.xml ---- */
 
 static enum rc_status
@@ -78,7 +72,7 @@ real(const char *name, const char *text, double otherwise, double *value, struct
         return RC_FAIL;
     if (!isfinite(*value))
         return rc_err_set(err, "%s is '%s' in main.xml: it must be finite", name,
-                          shown(quote, text));
+                          rc_word_shown(quote, text));
     return RC_OK;
 }
 
@@ -113,10 +107,10 @@ take_datum(struct rc_x3p *x, const char *text, struct rc_err *err)
         return rc_err_set(err,
                           "Datum %zu is '%s': lists with coordinates are not read, only "
                           "matrices of heights",
-                          x->listed + 1, shown(quote, text));
+                          x->listed + 1, rc_word_shown(quote, text));
     if (end == NULL || *end != '\0')
         return rc_err_set(err, "Datum %zu is '%s': that is no number", x->listed + 1,
-                          shown(quote, text));
+                          rc_word_shown(quote, text));
     if (grow(x, err) != RC_OK)
         return RC_FAIL;
     x->list[x->listed++] = value;
@@ -147,7 +141,7 @@ take_element(void *arg, const char *path, const char *text, struct rc_err *err)
             return rc_err_set(err,
                               "a ZIP archive, but no X3P: the root of its main.xml is '%s', "
                               "not %s",
-                              shown(quote, path), root_name);
+                              rc_word_shown(quote, path), root_name);
         return RC_OK;
     }
     x->is_x3p = true;
@@ -189,7 +183,7 @@ judge_axis(const char *name, const char *type, struct rc_err *err)
     return rc_err_set(err,
                       "axis %s is of type '%s': only incremental axes (I), a regular grid, "
                       "are read",
-                      name, type == NULL ? "" : shown(quote, type));
+                      name, type == NULL ? "" : rc_word_shown(quote, type));
 }
 
 /* What kind of data it is, before anything else is asked of it. */
@@ -204,7 +198,8 @@ judge_feature(struct rc_x3p *x, struct rc_err *err)
         return rc_err_set(err, "FeatureType PCL is a cloud of points: only maps (SUR) and profiles "
                                "(PRF) on a regular grid are read");
     if (!x->profile && strcmp(feature, "SUR") != 0)
-        return rc_err_set(err, "FeatureType is '%s': it must be SUR or PRF", shown(quote, feature));
+        return rc_err_set(err, "FeatureType is '%s': it must be SUR or PRF",
+                          rc_word_shown(quote, feature));
     if (judge_axis("CX", x->text[RC_X3P_CX_AXIS], err) != RC_OK)
         return RC_FAIL;
     return x->profile ? RC_OK : judge_axis("CY", x->text[RC_X3P_CY_AXIS], err);
@@ -260,7 +255,8 @@ judge_type(struct rc_x3p *x, struct rc_err *err)
             x->raw = types[k].raw;
             return RC_OK;
         }
-    return rc_err_set(err, "DataType of CZ is '%s': it must be I, L, F or D", shown(quote, type));
+    return rc_err_set(err, "DataType of CZ is '%s': it must be I, L, F or D",
+                      rc_word_shown(quote, type));
 }
 
 static enum rc_status

@@ -10,12 +10,6 @@ enum {
     MASK_PADDING = 7      /* bytes that a writer may round the valid points up by */
 };
 
-static const char *
-shown(char to[RC_SHOWN], const char *text)
-{
-    return rc_text_shown(to, text, strlen(text));
-}
-
 /* The member that a link in main.xml names. */
 static enum rc_status
 follow(const struct rc_x3p *x, const char *link, size_t *member, struct rc_err *err)
@@ -66,7 +60,8 @@ compare_md5(const char *what, const char *given, const char *md5, struct rc_note
     char wanted[RC_MD5_TEXT], quote[RC_SHOWN];
 
     if (!md5_in(given, wanted)) {
-        rc_note(notes, "'%s' is no MD5 sum: the %s are not checked", shown(quote, given), what);
+        rc_note(notes, "'%s' is no MD5 sum: the %s are not checked", rc_word_shown(quote, given),
+                what);
         return RC_OK;
     }
     if (strcmp(wanted, md5) == 0)

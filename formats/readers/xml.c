@@ -188,8 +188,8 @@ rc_xml_number(const char *document, const char *name, const char *text, double *
 
     if (end != NULL && *end == '\0')
         return RC_OK;
-    return rc_err_set(err, "%s is '%s' in %s: that is no number", name,
-                      rc_text_shown(quote, text, strlen(text)), document);
+    return rc_err_set(err, "%s is '%s' in %s: that is no number", name, rc_word_shown(quote, text),
+                      document);
 }
 
 enum rc_status
@@ -200,7 +200,7 @@ rc_xml_whole(const char *document, const char *name, const char *text, size_t *v
 
     if (*text == '\0' || strlen(text) > DIGITS_MOST || text[strspn(text, "0123456789")] != '\0')
         return rc_err_set(err, "%s is '%s' in %s: it must be a whole number", name,
-                          rc_text_shown(quote, text, strlen(text)), document);
+                          rc_word_shown(quote, text), document);
     *value = strtoul(text, NULL, 10);
     return RC_OK;
 }

@@ -94,8 +94,7 @@ rc_zip_read_find(const struct rc_zip_read *a, const char *name, size_t *member, 
             *member = k;
             return RC_OK;
         }
-    return rc_err_set(err, "the archive has no member '%s'",
-                      rc_text_shown(shown, name, strlen(name)));
+    return rc_err_set(err, "the archive has no member '%s'", rc_word_shown(shown, name));
 }
 
 enum rc_status
@@ -107,7 +106,7 @@ rc_zip_read_size(struct rc_zip_read *a, size_t member, uint64_t *size, struct rc
     char shown[RC_SHOWN];
     zip_stat_t st;
 
-    rc_text_shown(shown, name, strlen(name));
+    rc_word_shown(shown, name);
     if (zip_stat_index(a->zip, member, 0, &st) != 0 || (st.valid & needed) != needed)
         return rc_err_set(err, "member '%s' of the archive: no size is given", shown);
     if (st.encryption_method != ZIP_EM_NONE)
@@ -189,7 +188,7 @@ rc_zip_read_member(struct rc_zip_read *a, size_t member, uint64_t most, rc_zip_t
     char shown[RC_SHOWN];
     uint64_t size;
 
-    rc_text_shown(shown, name, strlen(name));
+    rc_word_shown(shown, name);
     if (rc_zip_read_size(a, member, &size, err) != RC_OK)
         goto done;
     if (size > most) {
