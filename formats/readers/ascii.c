@@ -149,18 +149,12 @@ read_matrix(const struct rc_ascii_head *h, struct rc_number_table *table,
     }
     g->dx = shape.dx;
     g->dy = shape.dy;
-    for (size_t k = 0; k < n; k++) {
-        bool missing = isnan(g->v[k]);
-
+    for (size_t k = 0; k < n; k++)
         g->v[k] *= metres;
-        if (!missing && !isfinite(g->v[k])) {
-            rc_err_set(err, "the height at column %zu, row %zu (from 0) is infinite", k % shape.nx,
-                       k / shape.nx);
-            rc_grid_free(g);
-            return NULL;
-        }
-    }
-    return g;
+    if (rc_heights_finite(g, err) == RC_OK)
+        return g;
+    rc_grid_free(g);
+    return NULL;
 }
 
 /* ---- the entry in formats.list ---- */

@@ -163,6 +163,17 @@ lext_open(struct lext *l, const struct rc_file *file, struct rc_err *err)
     return scale_of(l, PIXEL_Z, &l->dz, err);
 }
 
+static struct rc_heights
+heights_of(const struct lext *l)
+{
+    return (struct rc_heights){.nx = l->shape.nx,
+                               .ny = l->shape.ny,
+                               .dx = l->dx,
+                               .dy = l->dy,
+                               .metres = l->dz,
+                               .unit = ""};
+}
+
 static size_t
 list_channels(const struct rc_file *file, const struct rc_wish *wish, struct rc_channel *channel,
               size_t most, struct rc_err *err)
@@ -173,13 +184,10 @@ list_channels(const struct rc_file *file, const struct rc_wish *wish, struct rc_
     (void)wish;
     if (lext_open(&l, file, err) == RC_OK) {
         n = 1;
-        if (most > 0)
-            *channel = (struct rc_channel){.name = "height",
-                                           .unit = "m",
-                                           .nx = l.shape.nx,
-                                           .ny = l.shape.ny,
-                                           .dx = l.dx,
-                                           .dy = l.dy};
+        if (most > 0) {
+            struct rc_heights h = heights_of(&l);
+            *channel = rc_heights_channel(&h, "height");
+        }
     }
     rc_tiff_free(l.tiff);
     return n;
@@ -223,7 +231,7 @@ read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index
             struct rc_notes *notes, struct rc_err *err)
 {
     struct rc_grid *g = NULL;
-    struct rc_shape shape;
+    struct rc_heights h;
     struct lext l;
     double metres;
     bool good = false;
@@ -234,18 +242,15 @@ read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index
         rc_err_set(err, "a LEXT file has one channel of heights, not %zu", index + 1);
         goto done;
     }
-    shape = (struct rc_shape){.nx = l.shape.nx, .ny = l.shape.ny};
-    if (rc_map_fits(file, shape.nx, shape.ny, err) != RC_OK ||
-        rc_spacing(wish, l.dx, l.dy, &shape, notes, err) != RC_OK ||
-        rc_height_unit(wish, l.dz, "", &metres, notes, err) != RC_OK ||
-        (g = rc_grid_new(&shape, "height", "m", err)) == NULL ||
+    h = heights_of(&l);
+    if ((g = rc_heights_new(&h, file, wish, &metres, notes, err)) == NULL ||
         rc_word_keep(g, "file.date", l.date, err) != RC_OK ||
         rc_word_keep(g, "file.version", l.program, err) != RC_OK ||
         rc_tiff_values(l.tiff, &l.shape, g->v, err) != RC_OK)
         goto done;
-    for (size_t k = 0; k < shape.nx * shape.ny; k++)
+    for (size_t k = 0; k < g->nx * g->ny; k++)
         g->v[k] *= metres;
-    good = mask_invalid(&l, g, notes, err) == RC_OK && rc_values_finite(g, err) == RC_OK;
+    good = mask_invalid(&l, g, notes, err) == RC_OK && rc_heights_finite(g, err) == RC_OK;
 done:
     rc_tiff_free(l.tiff);
     if (good)

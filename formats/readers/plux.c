@@ -209,16 +209,13 @@ static struct rc_grid *
 read_layer(const struct plux *p, const struct rc_file *file, const struct rc_wish *wish,
            size_t index, struct rc_notes *notes, struct rc_err *err)
 {
-    struct rc_shape shape = {.nx = p->nx, .ny = p->ny};
+    const struct rc_heights h = {p->nx, p->ny, p->dx, p->dy, 1e-6, "um"};
     struct rc_grid *g = NULL;
     double metres, *v;
     size_t member;
 
     if (find_layer(p, index, &member, err) != RC_OK ||
-        rc_map_fits(file, p->nx, p->ny, err) != RC_OK ||
-        rc_spacing(wish, p->dx, p->dy, &shape, notes, err) != RC_OK ||
-        rc_height_unit(wish, 1e-6, "um", &metres, notes, err) != RC_OK ||
-        (g = rc_grid_new(&shape, "height", "m", err)) == NULL)
+        (g = rc_heights_new(&h, file, wish, &metres, notes, err)) == NULL)
         return NULL;
     v = g->v;
     if (keep_words(p, g, err) != RC_OK ||
@@ -229,7 +226,7 @@ read_layer(const struct plux *p, const struct rc_file *file, const struct rc_wis
     }
     for (size_t k = 0; k < p->nx * p->ny; k++)
         g->v[k] *= metres;
-    if (rc_values_finite(g, err) == RC_OK)
+    if (rc_heights_finite(g, err) == RC_OK)
         return g;
     rc_grid_free(g);
     return NULL;

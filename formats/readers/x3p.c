@@ -71,15 +71,13 @@ x3p_open(struct rc_x3p *x, const struct rc_file *file, bool wants_list, struct r
 }
 
 static struct rc_grid *
-make_grid(struct rc_x3p *x, const struct rc_wish *wish, double *metres, struct rc_notes *notes,
-          struct rc_err *err)
+make_grid(struct rc_x3p *x, const struct rc_file *file, const struct rc_wish *wish, double *metres,
+          struct rc_notes *notes, struct rc_err *err)
 {
-    struct rc_shape shape = {.nx = x->nx, .ny = x->ny};
-    struct rc_grid *g;
+    const struct rc_heights h = {x->nx, x->ny, x->dx, x->dy, 1, "m"};
+    struct rc_grid *g = rc_heights_new(&h, file, wish, metres, notes, err);
 
-    if (rc_spacing(wish, x->dx, x->dy, &shape, notes, err) != RC_OK ||
-        rc_height_unit(wish, 1, "m", metres, notes, err) != RC_OK ||
-        (g = rc_grid_new(&shape, "height", "m", err)) == NULL)
+    if (g == NULL)
         return NULL;
     for (size_t f = RC_X3P_FIRST_KEY; f < RC_X3P_FIELDS; f++)
         if (x->text[f] != NULL && rc_word_keep(g, rc_x3p_key(f), x->text[f], err) != RC_OK) {
@@ -149,9 +147,9 @@ x3p_read(const struct rc_file *file, const struct rc_wish *wish, size_t index,
     rc_x3p_check_main(&x, notes);
     if (x.turned)
         rc_note(notes, "the file turns its axes by a rotation matrix: it is not applied");
-    if ((g = make_grid(&x, wish, &metres, notes, err)) == NULL)
+    if ((g = make_grid(&x, file, wish, &metres, notes, err)) == NULL)
         goto done;
-    good = rc_x3p_values(&x, points, metres, g->v, notes, err) == RC_OK;
+    good = rc_x3p_values(&x, points, metres, g, notes, err) == RC_OK;
 done:
     x3p_close(&x);
     if (good)

@@ -179,27 +179,17 @@ apply_mask(struct rc_x3p *x, double *v, struct rc_notes *notes, struct rc_err *e
     return status;
 }
 
-static enum rc_status
-scale(const struct rc_x3p *x, double metres, double *v, struct rc_err *err)
-{
-    for (size_t k = 0; k < x->n; k++) {
-        if (isnan(v[k]))
-            continue;
-        v[k] = (v[k] * x->increment + x->offset) * metres;
-        if (!isfinite(v[k]))
-            return rc_err_set(err, "the height at column %zu, row %zu (from 0) is infinite",
-                              k % x->nx, k / x->nx);
-    }
-    return RC_OK;
-}
-
 enum rc_status
-rc_x3p_values(struct rc_x3p *x, size_t member, double metres, double *v, struct rc_notes *notes,
-              struct rc_err *err)
+rc_x3p_values(struct rc_x3p *x, size_t member, double metres, struct rc_grid *g,
+              struct rc_notes *notes, struct rc_err *err)
 {
     if (!x->binary)
-        memcpy(v, x->list, x->n * sizeof *v);
-    else if (read_points(x, member, v, notes, err) != RC_OK)
+        memcpy(g->v, x->list, x->n * sizeof *g->v);
+    else if (read_points(x, member, g->v, notes, err) != RC_OK)
         return RC_FAIL;
-    return apply_mask(x, v, notes, err) == RC_OK ? scale(x, metres, v, err) : RC_FAIL;
+    if (apply_mask(x, g->v, notes, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t k = 0; k < x->n; k++)
+        g->v[k] = (g->v[k] * x->increment + x->offset) * metres;
+    return rc_heights_finite(g, err);
 }
