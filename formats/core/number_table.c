@@ -384,6 +384,19 @@ rc_number_table_open(struct rc_number_table *t, const struct rc_lines *lines,
 }
 
 enum rc_status
+rc_number_table_size(const struct rc_number_table *t, size_t *n, struct rc_err *err)
+{
+    size_t bytes = (size_t)(t->end - t->start);
+
+    if (rc_size_mul(t->rows, t->columns, n, err) != RC_OK)
+        return RC_FAIL;
+    if (*n > bytes + 1) /* a value takes a byte at least, but for the last */
+        return rc_err_set(err, "%zu columns and %zu rows in %zu bytes: some row is too short",
+                          t->columns, t->rows, bytes);
+    return RC_OK;
+}
+
+enum rc_status
 rc_number_table_read(struct rc_number_table *t, double *v, struct rc_err *err)
 {
     const char *s = t->start, *bad;

@@ -99,9 +99,7 @@ widen(char *to, size_t size, const char *text, size_t n)
 
         if (used + (c < 0x80 ? 1 : 2) >= size)
             break;
-        if (c >= 0x80)
-            to[used++] = (char)(0xc0 | c >> 6);
-        to[used++] = c < 0x80 ? (char)c : (char)(0x80 | (c & 0x3f));
+        used += rc_utf8_put(to + used, c);
     }
     to[used] = '\0';
 }

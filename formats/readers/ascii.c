@@ -126,18 +126,12 @@ read_matrix(const struct rc_ascii_head *h, struct rc_number_table *table,
             const struct rc_wish *wish, struct rc_notes *notes, struct rc_err *err)
 {
     struct rc_shape shape = {.nx = table->columns, .ny = table->rows, .dx = 1, .dy = 1};
-    size_t n, bytes = (size_t)(table->end - table->start);
     struct rc_grid *g = NULL;
     double dx, dy, metres;
+    size_t n;
 
-    if (rc_size_mul(shape.nx, shape.ny, &n, err) != RC_OK)
-        return NULL;
-    if (n > bytes + 1) { /* a value takes a byte at least, but for the last */
-        rc_err_set(err, "%zu columns and %zu rows in %zu bytes: some row is too short", shape.nx,
-                   shape.ny, bytes);
-        return NULL;
-    }
-    if ((g = rc_grid_new(&shape, "height", "m", err)) == NULL)
+    if (rc_number_table_size(table, &n, err) != RC_OK ||
+        (g = rc_grid_new(&shape, "height", "m", err)) == NULL)
         return NULL;
     spacing(h, table, &dx, &dy);
     if (rc_number_table_read(table, g->v, err) != RC_OK ||
