@@ -18,6 +18,8 @@ const struct rc_format *const rc_formats[] = {
     NULL,
 };
 
+const struct rc_wish rc_no_wish = {.dx = NAN, .dy = NAN, .z_unit = NAN};
+
 void
 rc_note(struct rc_notes *notes, const char *format, ...)
 {

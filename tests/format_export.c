@@ -85,7 +85,7 @@ static void
 compare_reader(size_t f, const struct rc_grid *g, const struct made *made)
 {
     const struct rc_format *reader = rc_format_named(formats[f].reader);
-    struct rc_wish wish = {.dx = NAN, .dy = NAN, .z_unit = NAN};
+    struct rc_wish wish = rc_no_wish;
     struct rc_file file = {.data = (const unsigned char *)made->bytes, .size = made->n};
     struct rc_notes notes = {0};
     struct rc_err err = {""};

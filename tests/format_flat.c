@@ -83,7 +83,7 @@ static struct rc_grid *
 read_made(const char *format, const struct made *m, size_t channel, struct rc_err *err)
 {
     struct rc_file file = {"made", m->b, m->n};
-    struct rc_wish wish = {.dx = NAN, .dy = NAN, .z_unit = NAN};
+    struct rc_wish wish = rc_no_wish;
 
     return rc_format_named(format)->read(&file, &wish, channel, NULL, err);
 }

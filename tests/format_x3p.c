@@ -416,7 +416,7 @@ list_tells_size_and_spacing(void **state)
     struct rc_err err;
 
     (void)state;
-    assert_int_equal(rc_format_x3p.list(&file, &no_wish, &channel, 1, &err), 1);
+    assert_int_equal(rc_format_x3p.list(&file, &rc_no_wish, &channel, 1, &err), 1);
     assert_int_equal(channel.nx, 3);
     assert_int_equal(channel.ny, 2);
     assert_true(channel.dx == 1.1e-6 && channel.dy == 1.29e-6);

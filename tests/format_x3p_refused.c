@@ -204,8 +204,8 @@ survives(const unsigned char *data, size_t n)
 
     memcpy(copy, data, n);
     rc_format_find(&file, &err);
-    rc_format_x3p.list(&file, &no_wish, &channel, 1, &err);
-    g = read_with(&file, &no_wish, &notes, &err);
+    rc_format_x3p.list(&file, &rc_no_wish, &channel, 1, &err);
+    g = read_with(&file, &rc_no_wish, &notes, &err);
     read = g != NULL;
     if (!read && err.text[0] == '\0')
         fail_msg("refused without a reason");
@@ -266,7 +266,7 @@ every_byte_of_the_header_damaged(void **state)
 
             xml[k] = bytes[b];
             file = pack(xml, plain, sizeof plain);
-            g = read_with(&file, &no_wish, &notes, &err);
+            g = read_with(&file, &rc_no_wish, &notes, &err);
             if (g != NULL)
                 check_sound("a damaged header", g, file.size);
             else if (err.text[0] == '\0')

@@ -13,8 +13,6 @@
 #include "formats/format.h"
 #include "made_checks.h"
 
-static const struct rc_wish no_wish = {.dx = NAN, .dy = NAN, .z_unit = NAN};
-
 /* ---- bytes ---- */
 
 struct bytes {
@@ -110,7 +108,7 @@ __attribute__((unused)) static struct rc_grid *
 read_well(const struct rc_format *format, const struct bytes *b, size_t index)
 {
     struct rc_err err;
-    struct rc_grid *g = try_read(format, b, &no_wish, index, &err);
+    struct rc_grid *g = try_read(format, b, &rc_no_wish, index, &err);
 
     if (g == NULL)
         fail_msg("%s refused: %s", format->name, err.text);
@@ -122,7 +120,7 @@ __attribute__((unused)) static void
 refuse(const struct rc_format *format, const struct bytes *b, const char *why)
 {
     struct rc_err err;
-    struct rc_grid *g = try_read(format, b, &no_wish, 0, &err);
+    struct rc_grid *g = try_read(format, b, &rc_no_wish, 0, &err);
 
     if (g != NULL)
         fail_msg("%s: read, and should be refused for: %s", format->name, why);
@@ -156,7 +154,7 @@ refuse_cuts(const struct rc_format *format, const struct bytes *b, size_t least,
         struct rc_grid *g;
 
         memcpy(cut.data, b->data, n); /* of its own size, for the sanitizer */
-        g = try_read(format, &cut, &no_wish, 0, &err);
+        g = try_read(format, &cut, &rc_no_wish, 0, &err);
         if (g != NULL || err.text[0] == '\0')
             fail_msg("%s: cut after %zu of %zu bytes: %s", format->name, n, b->n,
                      g != NULL ? "read" : "refused without a reason");
@@ -194,9 +192,9 @@ survive_changes(const struct rc_format *format, const struct bytes *b, size_t ti
                 seed & 1 ? nasty[(seed >> 1) % sizeof nasty] : (unsigned char)(seed >> 8);
         }
         format->score(&file);
-        n = format->list(&file, &no_wish, channel, 8, &err);
+        n = format->list(&file, &rc_no_wish, channel, 8, &err);
         assert_true(n > 0 || err.text[0] != '\0');
-        g = try_read(format, &bad, &no_wish, 0, &err);
+        g = try_read(format, &bad, &rc_no_wish, 0, &err);
         if (g == NULL && err.text[0] == '\0')
             fail_msg("%s: refused without a reason", format->name);
         if (g != NULL)

@@ -117,7 +117,7 @@ enum {
 __attribute__((unused)) static struct rc_wish
 wish_for(int flags)
 {
-    struct rc_wish wish = {.dx = NAN, .dy = NAN, .z_unit = NAN};
+    struct rc_wish wish = rc_no_wish;
 
     if ((flags & NO_SPACING) != 0) {
         wish.dx = 1.1e-6;

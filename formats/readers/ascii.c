@@ -153,8 +153,6 @@ read_matrix(const struct rc_ascii_head *h, struct rc_number_table *table,
 
 /* ---- the entry in formats.list ---- */
 
-static const struct rc_wish no_wish = {.dx = NAN, .dy = NAN, .z_unit = NAN};
-
 static int
 ascii_score(const struct rc_file *file)
 {
@@ -166,7 +164,7 @@ ascii_score(const struct rc_file *file)
         return 2;
     if (!rc_file_is_text(file))
         return 0;
-    if (ascii_open(file, &no_wish, &h, &table, NULL) == RC_OK)
+    if (ascii_open(file, &rc_no_wish, &h, &table, NULL) == RC_OK)
         return h.known ? 90 : 40;
     /* A little for what begins as numbers do, so that a refusal says what is wrong with them. */
     c = file->data[0];

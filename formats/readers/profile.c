@@ -248,13 +248,12 @@ profile_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_m
 static int
 profile_score(const struct rc_file *file)
 {
-    static const struct rc_wish no_wish = {.dx = NAN, .dy = NAN, .z_unit = NAN};
     struct profile p;
     int score;
 
     if (!rc_file_is_text(file) && !rc_file_is_utf16(file))
         return 0;
-    score = profile_open(&p, file, &no_wish, NULL) == RC_OK ? 60 : 3;
+    score = profile_open(&p, file, &rc_no_wish, NULL) == RC_OK ? 60 : 3;
     /* 3: so that a table says what is wrong with it; one column could be anything */
     if (p.table.v == NULL || p.table.numbers.columns < 2)
         score = 0;

@@ -144,14 +144,13 @@ xyz_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
 static int
 xyz_score(const struct rc_file *file)
 {
-    static const struct rc_wish no_wish = {.dx = NAN, .dy = NAN, .z_unit = NAN};
     bool named = rc_file_named(file, ".xyz");
     struct cloud c;
     int score = 0;
 
     if (!rc_file_is_text(file) && !rc_file_is_utf16(file))
         return 0;
-    if (cloud_open(&c, file, &no_wish, NULL) == RC_OK)
+    if (cloud_open(&c, file, &rc_no_wish, NULL) == RC_OK)
         score = named ? 80 : c.y.n > 1 && c.table.numbers.rows > 3 ? 60 : 0;
     else if (c.table.numbers.columns == 3 && named)
         score = 50;
