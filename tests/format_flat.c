@@ -38,13 +38,13 @@ check(const struct made_file *f, const struct rc_grid *g)
     assert_string_equal(g->unit, "m");
     for (size_t k = 0; k < NX * NY; k++) {
         double wanted = value_of(k, (f->flags & PLAIN) == 0) * f->scale + f->zero;
-        bool lost = k == LOST_AT && (f->flags & HAS_LOST) != 0;
+        bool missing = k == MISSING_AT && (f->flags & HAS_MISSING) != 0;
 
-        if (lost ? !isnan(g->v[k])
-                 : !(fabs(g->v[k] - wanted) <=
-                     float_rounding * fabs(wanted) + last_digit * fabs(f->zero)))
+        if (missing ? !isnan(g->v[k])
+                    : !(fabs(g->v[k] - wanted) <=
+                        float_rounding * fabs(wanted) + last_digit * fabs(f->zero)))
             fail_msg("%s: height %zu is %.17g, not %.17g", f->title, k, g->v[k],
-                     lost ? (double)NAN : wanted);
+                     missing ? (double)NAN : wanted);
     }
 }
 

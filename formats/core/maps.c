@@ -15,7 +15,7 @@ rc_maps_add(struct rc_maps *maps, const char *name, size_t n)
 
     maps->n++;
     *map = (struct rc_map){
-        .si = 1, .scale = 1, .dx = NAN, .dy = NAN, .lost_from = NAN, .lost_to = NAN};
+        .si = 1, .scale = 1, .dx = NAN, .dy = NAN, .missing_from = NAN, .missing_to = NAN};
     rc_text_clean(map->name, sizeof map->name, name, n);
     return map;
 }
@@ -157,7 +157,7 @@ rc_map_range(const struct rc_map *map, const struct rc_file *file, double *low, 
         if (at == 0)
             rc_bytes_values(&bytes, map->raw, some,
                             left < sizeof some / sizeof *some ? left : sizeof some / sizeof *some);
-        if (some[at] >= map->lost_from && some[at] <= map->lost_to)
+        if (some[at] >= map->missing_from && some[at] <= map->missing_to)
             continue;
         *low = some[at] < *low ? some[at] : *low;
         *high = some[at] > *high ? some[at] : *high;

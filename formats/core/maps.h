@@ -30,7 +30,8 @@ struct rc_map {
     size_t padding;  /* bytes after each line of numbers                                   */
     bool by_columns; /* a line of numbers is a column                                      */
     bool bottom_first, right_first;
-    double lost_from, lost_to; /* raw numbers in [from, to] are missing; NAN: none is         */
+    double missing_from,
+        missing_to; /* raw numbers in [from, to] are missing; NAN: none is         */
     /* Instead of raw, at and padding: puts nx*ny raw numbers into v, NAN where missing, in the
      * order that by_columns and so on say. Whoever sets it bounds nx*ny by the file's size. */
     enum rc_status (*fill)(const struct rc_file *file, const struct rc_wish *wish,

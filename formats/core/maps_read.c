@@ -158,7 +158,7 @@ scale(const struct rc_map *map, double si, double *v, struct rc_err *err)
     for (size_t k = 0; k < map->nx * map->ny; k++) {
         if (isnan(v[k]))
             continue;
-        if (v[k] >= map->lost_from && v[k] <= map->lost_to) {
+        if (v[k] >= map->missing_from && v[k] <= map->missing_to) {
             v[k] = NAN;
             continue;
         }

@@ -332,9 +332,10 @@ find_separator(struct rc_number_table *t, const char *s, size_t line, struct rc_
     return RC_OK;
 }
 
-/* "1,5" may be two columns of whole numbers or one of fractions: only the user knows. */
+/* RC_FAIL where "1,5" may be two columns of whole numbers or one of fractions: the user must say. */
 static enum rc_status
-mind_two_columns(const struct rc_number_table *t, const struct rc_wish *wish, struct rc_err *err)
+refuse_ambiguous_comma(const struct rc_number_table *t, const struct rc_wish *wish,
+                       struct rc_err *err)
 {
     if (t->columns != 2 || t->separator != ',' || wish->separator != NULL || wish->decimal != 0 ||
         memchr(t->start, '.', (size_t)(t->end - t->start)) != NULL ||
@@ -380,7 +381,7 @@ rc_number_table_open(struct rc_number_table *t, const struct rc_lines *lines,
         return bad_field(t, line, bad, decimal, err);
     for (t->rows = 1; (s = next_row(t, s, &line)) < t->end; t->rows++)
         s = line_end(t, s);
-    return mind_two_columns(t, wish, err);
+    return refuse_ambiguous_comma(t, wish, err);
 }
 
 enum rc_status

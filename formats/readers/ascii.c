@@ -95,8 +95,8 @@ is_rising(const double *v, size_t rows)
 }
 
 static enum rc_status
-mind_coordinates(const struct rc_ascii_head *h, const struct rc_number_table *table,
-                 const double *v, struct rc_err *err)
+refuse_coordinates(const struct rc_ascii_head *h, const struct rc_number_table *table,
+                   const double *v, struct rc_err *err)
 {
     if (h->nx != 0 || !isnan(h->width) || !isnan(h->pixel))
         return RC_OK;
@@ -135,7 +135,7 @@ read_matrix(const struct rc_ascii_head *h, struct rc_number_table *table,
         return NULL;
     spacing(h, table, &dx, &dy);
     if (rc_number_table_read(table, g->v, err) != RC_OK ||
-        mind_coordinates(h, table, g->v, err) != RC_OK ||
+        refuse_coordinates(h, table, g->v, err) != RC_OK ||
         get_scales(h, dx, dy, wish, &shape, &metres, notes, err) != RC_OK ||
         rc_piece_keep(g, "file.channel", h->channel, err) != RC_OK) {
         rc_grid_free(g);

@@ -129,8 +129,8 @@ opd_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     map->at = o.heights.at + MATRIX;
     map->by_columns = map->bottom_first = true;
     map->raw = size == 2 ? RC_RAW_I16 : RC_RAW_F32;
-    map->lost_from = size == 2 ? 32766 : (double)1e38f;
-    map->lost_to = INFINITY;
+    map->missing_from = size == 2 ? 32766 : (double)1e38f;
+    map->missing_to = INFINITY;
     map->scale = o.wavelength / o.factor;
     map->dx = o.pixel * 1e-3;
     map->dy = o.pixel * o.aspect * 1e-3;

@@ -19,7 +19,7 @@ struct rc_xml {
     void *arg;
     struct rc_err err; /* why the parser was stopped from here */
     bool stopped;
-    size_t path_length, lost; /* lost: levels below it that did not fit into it */
+    size_t path_length, below; /* below: levels under the path that did not fit into it */
     size_t text_length;
     char path[PATH_MAX_BYTES];
     char text[TEXT_MAX_BYTES];
@@ -42,8 +42,8 @@ on_start(void *arg, const xmlChar *name, const xmlChar *prefix, const xmlChar *u
     (void)prefix, (void)uri, (void)spaces, (void)space;
     (void)attributes, (void)defaulted, (void)attribute;
     x->text_length = 0;
-    if (x->lost > 0 || x->path_length + 1 + n >= sizeof x->path) {
-        x->lost++;
+    if (x->below > 0 || x->path_length + 1 + n >= sizeof x->path) {
+        x->below++;
         return;
     }
     if (x->path_length > 0)
@@ -73,8 +73,8 @@ on_end(void *arg, const xmlChar *name, const xmlChar *prefix, const xmlChar *uri
 
     (void)name, (void)prefix, (void)uri;
     x->text_length = 0;
-    if (x->lost > 0) {
-        x->lost--;
+    if (x->below > 0) {
+        x->below--;
         return;
     }
     rc_trim(&text, &n);

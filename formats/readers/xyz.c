@@ -28,7 +28,8 @@ by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The raster of one coordinate: its values stand in heaps, evenly apart. */
+/* The raster of one coordinate: its values, which may be rounded, lie near places that are evenly
+ * apart. */
 static enum rc_status
 find_axis(const double *v, size_t points, char name, struct axis *axis, struct rc_err *err)
 {
