@@ -99,9 +99,7 @@ widen(char *to, size_t size, const char *text, size_t n)
 
         if (used + (c < 0x80 ? 1 : 2) >= size)
             break;
-        if (c >= 0x80)
-            to[used++] = (char)(0xc0 | c >> 6);
-        to[used++] = c < 0x80 ? (char)c : (char)(0x80 | (c & 0x3f));
+        used += rc_utf8_put(to + used, c);
     }
     to[used] = '\0';
 }
@@ -130,6 +128,12 @@ rc_text_shown(char to[RC_SHOWN], const char *text, size_t n)
     return rc_text_clean(to, RC_SHOWN, text, n);
 }
 
+const char *
+rc_word_shown(char to[RC_SHOWN], const char *word)
+{
+    return rc_text_shown(to, word, strlen(word));
+}
+
 enum rc_status
 rc_text_keep(struct rc_grid *g, const char *key, const char *text, size_t n, struct rc_err *err)
 {
@@ -137,4 +141,10 @@ rc_text_keep(struct rc_grid *g, const char *key, const char *text, size_t n, str
 
     rc_text_clean(value, sizeof value, text, n);
     return *value == '\0' ? RC_OK : rc_grid_set(g, key, value, err);
+}
+
+enum rc_status
+rc_word_keep(struct rc_grid *g, const char *key, const char *word, struct rc_err *err)
+{
+    return rc_text_keep(g, key, word, strlen(word), err);
 }

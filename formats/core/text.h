@@ -31,9 +31,12 @@ enum {
 };
 /* The same for quoting in a message: short. */
 const char *rc_text_shown(char to[RC_SHOWN], const char *text, size_t n);
+const char *rc_word_shown(char to[RC_SHOWN], const char *word); /* up to its NUL */
 
 /* Sets a key to the cleaned text; does nothing when that is empty. */
 enum rc_status rc_text_keep(struct rc_grid *grid, const char *key, const char *text, size_t n,
                             struct rc_err *err);
+enum rc_status rc_word_keep(struct rc_grid *grid, const char *key, const char *word,
+                            struct rc_err *err); /* up to its NUL */
 
 #endif

@@ -79,7 +79,7 @@ data_at(const struct rc_file *file)
 static bool
 find_section(struct rc_piece header, struct rc_piece name, struct rc_piece *section)
 {
-    struct rc_lines lines = {.at = header.text, .end = header.text + header.n};
+    struct rc_lines lines = rc_piece_lines(header);
     struct rc_piece line;
     const char *start = NULL;
 
@@ -180,7 +180,7 @@ take_number(struct rc_piece *text, const char *word, unsigned long *number)
 static size_t
 find_entries(struct rc_piece table, struct entry entry[RC_MAPS_MOST])
 {
-    struct rc_lines lines = {.at = table.text, .end = table.text + table.n};
+    struct rc_lines lines = rc_piece_lines(table);
     struct rc_piece line, key;
     size_t n = 0;
 
@@ -211,8 +211,8 @@ add_all(struct rc_piece header, struct rc_piece table, size_t at, struct rc_maps
                               "channel %lu of group %lu is described in section '%s', which "
                               "is not there",
                               entry[k].channel, entry[k].group,
-                              rc_text_shown(quote, entry[k].section.text, entry[k].section.n));
-        lines = (struct rc_lines){.at = section.text, .end = section.text + section.n};
+                              rc_piece_shown(quote, entry[k].section));
+        lines = rc_piece_lines(section);
         if (rc_fields_read(fields, sizeof fields / sizeof *fields, &lines, "=", NULL, &s, err) !=
                 RC_OK ||
             add_set(&s, maps, &at, err) != RC_OK)
@@ -242,7 +242,7 @@ nid_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
         return rc_err_set(err, "no Nanosurf file: its header has no section [DataSet]");
     for (size_t s = 0; s < sizeof about / sizeof *about; s++)
         if (find_section(header, about[s], &section)) {
-            struct rc_lines lines = {.at = section.text, .end = section.text + section.n};
+            struct rc_lines lines = rc_piece_lines(section);
             while (rc_lines_next(&lines, &line.text, &line.n))
                 if (rc_piece_part(line, "=", &key, &value))
                     rc_maps_keep(maps, keys, sizeof keys / sizeof *keys, key, value);

@@ -197,7 +197,7 @@ profile_open(struct profile *p, const struct rc_file *file, const struct rc_wish
     unit = unit_of(title_of(p, p->x));
     if (unit.n > 0 && !rc_length_unit(unit.text, unit.n, &metres))
         return rc_err_set(err, "the positions are in '%s', which is no length",
-                          rc_text_shown(quote, unit.text, unit.n));
+                          rc_piece_shown(quote, unit));
     return judge_direction(p, err);
 }
 
@@ -248,14 +248,12 @@ profile_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_m
 static int
 profile_score(const struct rc_file *file)
 {
-    static const struct rc_wish no_wish = {.dx = NAN, .dy = NAN, .z_unit = NAN};
-    size_t looked = file->size < 4096 ? file->size : 4096;
     struct profile p;
     int score;
 
-    if (looked == 0 || (memchr(file->data, 0, looked) != NULL && file->data[0] < 0xfe))
+    if (!rc_file_is_text(file) && !rc_file_is_utf16(file))
         return 0;
-    score = profile_open(&p, file, &no_wish, NULL) == RC_OK ? 60 : 3;
+    score = profile_open(&p, file, &rc_no_wish, NULL) == RC_OK ? 60 : 3;
     /* 3: so that a table says what is wrong with it; one column could be anything */
     if (p.table.v == NULL || p.table.numbers.columns < 2)
         score = 0;
