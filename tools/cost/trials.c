@@ -102,6 +102,17 @@ cost_trials(size_t kernels, size_t methods, size_t *n)
     return list.trial;
 }
 
+struct rc_shape
+cost_coarse_shape(const struct rc_shape *map, unsigned factor)
+{
+    size_t nx = (map->nx + factor / 2) / factor, ny = (map->ny + factor / 2) / factor;
+
+    nx = nx > 0 ? nx : 1;
+    ny = ny > 0 ? ny : 1;
+    return (struct rc_shape){nx, ny, map->dx * ((double)map->nx / (double)nx),
+                             map->dy * ((double)map->ny / (double)ny)};
+}
+
 size_t
 cost_series(const struct cost_settings *settings)
 {
