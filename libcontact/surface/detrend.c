@@ -11,6 +11,7 @@
 #include <gsl/gsl_multilarge.h>
 #include <gsl/gsl_vector.h>
 #include <math.h>
+#include <pthread.h>
 #include <stdlib.h>
 
 enum {
@@ -222,24 +223,26 @@ subtract(const struct fit *f, double *h)
     }
 }
 
+/* GSL has one error handler for all threads, and its default ends the process: it is off while a fit
+ * is made, by one thread at a time. */
+static pthread_mutex_t handler_lock = PTHREAD_MUTEX_INITIALIZER;
+
 enum rc_status
 rc_detrend_poly(const struct rc_shape *shape, size_t degree, double *h, struct rc_err *err)
 {
+    gsl_error_handler_t *handler;
     enum rc_status status;
+    struct fit f;
 
-    /* GSL has one error handler for all threads, and its default ends the process. */
-#pragma omp critical(rc_gsl)
-    {
-        gsl_error_handler_t *handler = gsl_set_error_handler_off();
-        struct fit f;
-
-        status = fit_new(&f, shape, degree, h, err);
-        if (status == RC_OK)
-            status = solve(&f, err);
-        if (status == RC_OK)
-            subtract(&f, h);
-        fit_free(&f);
-        gsl_set_error_handler(handler);
-    }
+    pthread_mutex_lock(&handler_lock);
+    handler = gsl_set_error_handler_off();
+    status = fit_new(&f, shape, degree, h, err);
+    if (status == RC_OK)
+        status = solve(&f, err);
+    if (status == RC_OK)
+        subtract(&f, h);
+    fit_free(&f);
+    gsl_set_error_handler(handler);
+    pthread_mutex_unlock(&handler_lock);
     return status;
 }
