@@ -107,7 +107,7 @@ check_arguments(struct run *run)
     tool_demand_writable(t, "--report", args.report);
 }
 
-/* To whoever waits in front of a terminal. */
+/* Said where somebody watches: on a terminal, or where progress is asked for. */
 static void
 tell(struct run *run, const char *text)
 {

@@ -64,7 +64,6 @@ struct run {
     struct rc_stress_options options; /* of the case */
     struct numbers depths;            /* of the case */
     struct rc_grid *frame[RC_STRESSES];
-    double *line[RC_STRESSES]; /* the row of a section, in its frame */
     struct stress_report report;
     FILE *file;
 };
