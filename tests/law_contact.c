@@ -74,8 +74,7 @@ the_papers_rough_sphere(void **state)
 {
     struct rc_shape shape = {483, 412, 1.1e-6, 1.29e-6};
     double *h = paper_surface(shape, 7.5e-3), load = 240, hardness = 6e9;
-    struct rc_problem problem = {
-        .estar = estar, .load = load, .hardness = hardness, .threads = 2};
+    struct rc_problem problem = {.estar = estar, .load = load, .hardness = hardness, .threads = 2};
     struct solved s = solve(shape, h, problem);
 
     (void)state;
