@@ -34,7 +34,7 @@ range_of(size_t method, size_t engine)
 }
 
 /* Coarser grids, by the nodes of the map along a side for one of theirs, and the last tolerance
- * 1e-to: what such a grid leaves out hides more. */
+ * 1e-to: below that their discretization error hides what a tolerance changes. */
 static const struct {
     unsigned coarse;
     int to;
