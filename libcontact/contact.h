@@ -209,7 +209,8 @@ struct rc_contact {
     double kkt_residual;       /* worst violation / max(std h, std u), from a
                                                  fresh convolution; for one height everywhere
                                                  over what the mean pressure could displace      */
-    double pressure_error;     /* estimated relative L1 error of the pressure     */
+    double pressure_error;     /* estimated relative L1 error of the pressure; NAN when stopped on
+                                  a coarser grid                                              */
     size_t iterations;
     double convolutions;                     /* equivalents on the finest grid                  */
     struct rc_discretization discretization; /* estimated relative errors that the grid makes   */
