@@ -24,22 +24,11 @@ rc_fourier_number(size_t k, size_t n)
     return 2 * k <= n ? (long)k : -(long)(n - k);
 }
 
-/* Plans without measuring, so that the same map gives the same bytes each time. One of v and s is
- * the input. */
+/* Runs a plan and frees it. Plans are made without measuring, so that the same map gives the same
+ * bytes each time. */
 static enum rc_status
-transform(const struct rc_shape *shape, bool forward, double *v, double complex *s,
-          struct rc_err *err)
+run(const struct rc_shape *shape, fftw_plan plan, struct rc_err *err)
 {
-    const unsigned how = FFTW_ESTIMATE | (forward ? FFTW_PRESERVE_INPUT : FFTW_DESTROY_INPUT);
-    fftw_plan plan;
-
-    if (shape->nx > INT_MAX || shape->ny > INT_MAX)
-        return rc_err_set(err, "%zu x %zu nodes: a side of at most %d can be transformed",
-                          shape->nx, shape->ny, INT_MAX);
-        /* The planner is the one part of FFTW that two threads may not enter at once. */
-#pragma omp critical(rc_fftw_planner)
-    plan = forward ? fftw_plan_dft_r2c_2d((int)shape->ny, (int)shape->nx, v, s, how)
-                   : fftw_plan_dft_c2r_2d((int)shape->ny, (int)shape->nx, s, v, how);
     if (plan == NULL)
         return rc_err_set(err, "out of memory for the Fourier transform of %zu x %zu nodes",
                           shape->nx, shape->ny);
@@ -49,17 +38,44 @@ transform(const struct rc_shape *shape, bool forward, double *v, double complex 
     return RC_OK;
 }
 
+static enum rc_status
+check_sides(const struct rc_shape *shape, struct rc_err *err)
+{
+    if (shape->nx > INT_MAX || shape->ny > INT_MAX)
+        return rc_err_set(err, "%zu x %zu nodes: a side of at most %d can be transformed",
+                          shape->nx, shape->ny, INT_MAX);
+    return RC_OK;
+}
+
 enum rc_status
 rc_fourier_forward(const struct rc_shape *shape, const double *v, double complex *s,
                    struct rc_err *err)
 {
-    return transform(shape, true, (double *)v, s, err);
+    size_t columns = rc_fourier_columns(shape);
+    double *map = (double *)s;
+    fftw_plan plan;
+
+    if (check_sides(shape, err) != RC_OK)
+        return RC_FAIL;
+        /* The planner is the one part of FFTW that two threads may not enter at once. */
+#pragma omp critical(rc_fftw_planner)
+    plan = fftw_plan_dft_r2c_2d((int)shape->ny, (int)shape->nx, map, s, FFTW_ESTIMATE);
+    for (size_t j = 0; plan != NULL && j < shape->ny; j++)
+        memcpy(map + 2 * j * columns, v + j * shape->nx, shape->nx * sizeof *v);
+    return run(shape, plan, err);
 }
 
 enum rc_status
 rc_fourier_backward(const struct rc_shape *shape, double complex *s, double *v, struct rc_err *err)
 {
-    return transform(shape, false, v, s, err);
+    fftw_plan plan;
+
+    if (check_sides(shape, err) != RC_OK)
+        return RC_FAIL;
+#pragma omp critical(rc_fftw_planner)
+    plan = fftw_plan_dft_c2r_2d((int)shape->ny, (int)shape->nx, s, v,
+                                FFTW_ESTIMATE | FFTW_DESTROY_INPUT);
+    return run(shape, plan, err);
 }
 
 /* ---- lines ---- */
