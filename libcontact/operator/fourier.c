@@ -1,4 +1,5 @@
 #include "fourier.h"
+#include "planner.h"
 
 #include <fftw3.h> /* after complex.h: fftw_complex is then double complex */
 #include <limits.h>
@@ -33,8 +34,9 @@ run(const struct rc_shape *shape, fftw_plan plan, struct rc_err *err)
         return rc_err_set(err, "out of memory for the Fourier transform of %zu x %zu nodes",
                           shape->nx, shape->ny);
     fftw_execute(plan);
-#pragma omp critical(rc_fftw_planner)
+    rc_planner_lock();
     fftw_destroy_plan(plan);
+    rc_planner_unlock();
     return RC_OK;
 }
 
@@ -57,9 +59,9 @@ rc_fourier_forward(const struct rc_shape *shape, const double *v, double complex
 
     if (check_sides(shape, err) != RC_OK)
         return RC_FAIL;
-        /* The planner is the one part of FFTW that two threads may not enter at once. */
-#pragma omp critical(rc_fftw_planner)
+    rc_planner_lock();
     plan = fftw_plan_dft_r2c_2d((int)shape->ny, (int)shape->nx, map, s, FFTW_ESTIMATE);
+    rc_planner_unlock();
     for (size_t j = 0; plan != NULL && j < shape->ny; j++)
         memcpy(map + 2 * j * columns, v + j * shape->nx, shape->nx * sizeof *v);
     return run(shape, plan, err);
@@ -72,9 +74,10 @@ rc_fourier_backward(const struct rc_shape *shape, double complex *s, double *v, 
 
     if (check_sides(shape, err) != RC_OK)
         return RC_FAIL;
-#pragma omp critical(rc_fftw_planner)
+    rc_planner_lock();
     plan = fftw_plan_dft_c2r_2d((int)shape->ny, (int)shape->nx, s, v,
                                 FFTW_ESTIMATE | FFTW_DESTROY_INPUT);
+    rc_planner_unlock();
     return run(shape, plan, err);
 }
 
@@ -110,11 +113,10 @@ rc_line_new(size_t n, size_t threads, struct rc_err *err)
     l->scratch = aligned_alloc(64, (threads * l->space * sizeof(double) + 63) / 64 * 64);
     if (l->scratch == NULL)
         goto fail;
-#pragma omp critical(rc_fftw_planner)
-    {
-        l->forward = fftw_plan_dft_r2c_1d((int)n, values_of(l), waves_of(l), FFTW_ESTIMATE);
-        l->backward = fftw_plan_dft_c2r_1d((int)n, waves_of(l), values_of(l), FFTW_ESTIMATE);
-    }
+    rc_planner_lock();
+    l->forward = fftw_plan_dft_r2c_1d((int)n, values_of(l), waves_of(l), FFTW_ESTIMATE);
+    l->backward = fftw_plan_dft_c2r_1d((int)n, waves_of(l), values_of(l), FFTW_ESTIMATE);
+    rc_planner_unlock();
     if (l->forward != NULL && l->backward != NULL)
         return l;
 fail:
@@ -144,11 +146,10 @@ rc_line_free(struct rc_line *l)
 {
     if (l == NULL)
         return;
-#pragma omp critical(rc_fftw_planner)
-    {
-        fftw_destroy_plan(l->forward);
-        fftw_destroy_plan(l->backward);
-    }
+    rc_planner_lock();
+    fftw_destroy_plan(l->forward);
+    fftw_destroy_plan(l->backward);
+    rc_planner_unlock();
     free(l->scratch);
     free(l);
 }
