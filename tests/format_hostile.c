@@ -69,7 +69,7 @@ read_all(const struct made_file *f, const unsigned char *bytes, size_t n, size_t
 }
 
 static bool
-same(const struct rc_grid *a, const struct rc_grid *b)
+same_values(const struct rc_grid *a, const struct rc_grid *b)
 {
     if (a->nx != b->nx || a->ny != b->ny || a->dx != b->dx || a->dy != b->dy)
         return false;
@@ -106,7 +106,7 @@ cut_anywhere(void **state)
             fail_msg("%s: %s", f->title, err.text);
         for (size_t n = 0; n < m.n; n++, cuts++) {
             g = read_all(f, m.b, n, wanted, &err);
-            if (g != NULL && (f->flags & IS_TEXT) == 0 && !same(g, whole))
+            if (g != NULL && (f->flags & IS_TEXT) == 0 && !same_values(g, whole))
                 fail_msg("%s cut to %zu of %zu bytes is read as another map", f->title, n, m.n);
             rc_grid_free(g);
         }
