@@ -25,6 +25,13 @@ static const double grid_approach = 0.1;
 static const double grid_peak = 0.5;
 static const double grid_area = 1;
 
+/* The larger of two numbers, and NaN where one of them is none: fmax would take the other. */
+static inline double
+larger(double a, double b)
+{
+    return isnan(a) || a >= b ? a : b;
+}
+
 /* Sphere of composite radius R on a half-space (Johnson 1985, section 3.4 and 4.2). */
 struct hertz {
     double a, p0, approach;
