@@ -103,8 +103,8 @@ wave_sum(const struct rc_sum *s, const double *p, double *u)
 
 /* ---- the comparison ---- */
 
-/* How far an engine may be from the judge, over the sum of |K| |p|: what is asked for, else rounding,
- * of two sums where it interpolates. */
+/* How far an engine may be from the judge, over the sum of |K| |p|: what is asked for, else
+ * rounding, of two sums where it interpolates. */
 static double
 allowed(const struct rc_engine *engine, double tol, bool precise)
 {
