@@ -248,21 +248,21 @@ counts(void)
         double *p = map_new(n), *u = map_new(n), direct, mlms, terms = (double)n * (double)n;
         uint64_t seed = 1;
         struct rc_err err;
-        void *plan;
+        struct rc_mlms *plan;
+        void *exact;
 
         for (size_t k = 0; k < n; k++)
             p[k] = 1 + uniform(&seed);
         sum.threads = 1;
-        plan = must(rc_engine_direct.new(&sum, &err));
-        direct = seconds(&rc_engine_direct, plan, p, u, m < 512 ? 5 : 2);
-        rc_engine_direct.free(plan);
+        exact = must(rc_engine_direct.new(&sum, &err));
+        direct = seconds(&rc_engine_direct, exact, p, u, m < 512 ? 5 : 2);
+        rc_engine_direct.free(exact);
         sum.order = t;
         sum.correction = paper_correction(t, m);
         plan = must(rc_engine_mlms.new(&sum, &err));
         mlms = seconds(&rc_engine_mlms, plan, p, u, 20);
         printf("%6zu %3zu %4zu %11.4g %11.4g %10.4f %10.5f %8.1f %8.1f\n", m, t, sum.correction,
-               terms, rc_mlms_terms(plan), direct, mlms, terms / rc_mlms_terms(plan),
-               direct / mlms);
+               terms, plan->d.terms, direct, mlms, terms / plan->d.terms, direct / mlms);
         rc_engine_mlms.free(plan);
         free(p);
         free(u);

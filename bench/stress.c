@@ -117,7 +117,7 @@ parts(void)
     struct rc_spectrum *k = must(rc_spectrum_new(fft, &err));
     size_t cx, cy;
     double *x, *out[RC_STRESS_KERNELS] = {NULL};
-    struct rc_dct *halves;
+    struct rc_dct *dct;
     struct field_work field;
 
     rc_fft_quarter(fft, &cx, &cy);
@@ -131,15 +131,15 @@ parts(void)
                 out[c] = must(malloc(cx * sizeof(double)));
         t = now();
         for (size_t j = 0; j < cy; j++)
-            rc_stress_line(&cell, kernels, cx, (double)j * shape.dy, out);
+            rc_stress_line(&cell, kernels, shape.dx, cx, (double)j * shape.dy, out);
         printf("  %zu x %zu coefficients, %s: %.1f ms\n", cx, cy, set[s].what, 1e3 * (now() - t));
     }
-    halves = must(rc_dct_new(cx, false, 1, &err));
+    dct = must(rc_dct_new(cx, 1, &err));
     t = now();
     for (size_t j = 0; j < cy; j++)
-        rc_dct_run(halves, x);
+        rc_dct_run(dct, false, x);
     printf("  %zu lines of a kernel transformed: %.1f ms\n", cy, 1e3 * (now() - t));
-    rc_dct_free(halves);
+    rc_dct_free(dct);
     must_be(rc_fft_load(fft, p, &err), &err);
     field = (struct field_work){fft, k, u};
     take_turns(1, &(struct work){field_run, &field}, 5, 0, &best);

@@ -1,6 +1,7 @@
 /*
  * Exchange formats the other way: struct rc_grid -> bytes. A format that is written is one file,
- * formats/writers/NAME.c, that ends in its row, and one line in exports.list.
+ * formats/writers/NAME.c, that ends in its struct rc_export rc_export_NAME, and one line in
+ * exports.list.
  *
  * What every writer does:
  *   1. writes straight on, without seeking: the output may be a pipe;
@@ -49,12 +50,12 @@ struct rc_export {
                             const struct rc_export_wish *wish, struct rc_err *err);
 };
 
-/* The rows of exports.list, ended by NULL. */
+/* Those of exports.list in its order, ended by NULL. */
 extern const struct rc_export *const rc_exports[];
 
-/* The row of that name, or NULL. */
+/* The one of that name, or NULL. */
 const struct rc_export *rc_export_named(const char *name);
-/* The first row whose suffix the file name has, or NULL. */
+/* The first one whose suffix the file name has, or NULL. */
 const struct rc_export *rc_export_suffixed(const char *file);
 
 /* How values are to lie: as wished, else in the frame's own type, else in the widest of `types`. */

@@ -1,8 +1,9 @@
 /*
- * Instrument and exchange formats: bytes -> struct rc_grid. A format is one file that ends in its
- * row, and one line in formats.list.
+ * Instrument and exchange formats: bytes -> struct rc_grid. A format is one file,
+ * formats/readers/NAME.c, that ends in its struct rc_format rc_format_NAME, and one line in
+ * formats.list.
  *
- * What every reader does (each line is a row of a refusal test):
+ * What every reader does:
  *   1. looks at the magic again, because the user may force a format;
  *   2. trusts no size: checks it against the bytes that are there before allocating;
  *   3. refuses a spacing that is zero, negative, NaN or infinite, and never repairs one;
@@ -81,7 +82,7 @@ enum rc_status rc_height_unit(const struct rc_wish *wish, double by_file, const 
  * heights either, so that both are asked for at once. */
 void rc_lacks_unit(const struct rc_wish *wish, double by_file, struct rc_err *err);
 
-/* The rows of formats.list, ended by NULL. */
+/* Those of formats.list in its order, ended by NULL. */
 extern const struct rc_format *const rc_formats[];
 
 /* The format of that name, or NULL. */

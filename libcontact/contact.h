@@ -40,7 +40,8 @@ RC_API size_t rc_threads_available(void);
 
 /* ---- what can be named ---- */
 
-/* Rows of the tables, k = 0, 1, ...; NULL past the last. The words of an option are made from them. */
+/* Rows of the tables, k = 0, 1, ...; NULL past the last. The words of an option are made from
+ * them. */
 struct rc_kernel_info { /* what a unit load does */
     const char *name, *summary;
     size_t components;
@@ -49,6 +50,7 @@ struct rc_engine_info { /* how sums are done */
     const char *name, *summary;
     bool periodic; /* on periodic boundaries too                                               */
     bool mixed;    /* methods may iterate with it in single precision                          */
+    bool precise;  /* the engine of the row before it, in double precision throughout          */
     int order;     /* its time grows as the number of nodes to this power                      */
 };
 struct rc_method_info { /* how the contact is iterated; the first is the one that "auto" takes */
@@ -89,7 +91,7 @@ RC_API enum rc_status rc_synth_selfaffine(const struct rc_shape *shape,
                                           const struct rc_selfaffine *what, double *h,
                                           struct rc_err *err);
 
-/* ---- surfaces: detrend.c, fill.c ---- */
+/* ---- surfaces: detrend.c, inpaint.c ---- */
 
 enum {
     RC_DEGREE_MAX = 20
@@ -110,7 +112,7 @@ RC_API enum rc_status rc_inpaint(const struct rc_shape *shape, double *h, size_t
 /* Bytes that it takes beside h for so many missing values. */
 RC_API size_t rc_inpaint_memory(size_t missing);
 
-/* ---- measure.c ---- */
+/* ---- figures and sums of maps: measure.c, common.c ---- */
 
 struct rc_statistics {
     size_t missing;                /* NaN                                                */

@@ -52,7 +52,7 @@ whole(const char *at, size_t width)
 }
 
 static double *
-room(const struct map *m)
+new_values(const struct map *m)
 {
     double *v = malloc(m->nx * m->ny * sizeof *v);
 
@@ -82,7 +82,7 @@ decode_sdf(const struct made *made)
     double scale = after(made->bytes, "Zscale      = ");
 
     assert_memory_equal(made->bytes, "aISO-1.0\n", 9);
-    m.v = room(&m);
+    m.v = new_values(&m);
     for (size_t k = 0; k < m.nx * m.ny; k++) {
         char *end;
         at += strspn(at, " \n");
@@ -107,7 +107,7 @@ decode_sdf_binary(const struct made *made)
     assert_int_equal(h[78], 0);
     assert_int_equal(h[80], 0);
     assert_int_equal(made->n, 81 + width * m.nx * m.ny);
-    m.v = room(&m);
+    m.v = new_values(&m);
     for (size_t k = 0; k < m.nx * m.ny; k++) {
         const char *at = h + 81 + width * k;
         double value = type == 7 ? f64(at) : whole(at, width);
@@ -128,7 +128,7 @@ decode_gsf(const struct made *made)
     m.dx = after(made->bytes, "\nXReal = ") / (double)m.nx;
     m.dy = after(made->bytes, "\nYReal = ") / (double)m.ny;
     assert_int_equal(made->n, head + pad + 4 * m.nx * m.ny);
-    m.v = room(&m);
+    m.v = new_values(&m);
     for (size_t k = 0; k < m.nx * m.ny; k++)
         m.v[k] = f32(made->bytes + head + pad + 4 * k);
     return m;
@@ -167,7 +167,7 @@ decode_gwy(const struct made *made)
     for (const char *at = data; at + 8 < end; at++)
         if (memcmp(at, "/0/mask", 8) == 0 && mask == NULL)
             mask = gwy_item(at, end, "data", 'D');
-    m.v = room(&m);
+    m.v = new_values(&m);
     for (size_t k = 0; k < m.nx * m.ny; k++) {
         m.v[k] = f64(data + 4 + 8 * k);
         if (isnan(m.v[k]))
@@ -193,7 +193,7 @@ decode_npy(const struct made *made)
     m.ny = strtoul(shape + 10, &end, 10);
     m.nx = strtoul(end + 1, NULL, 10);
     assert_int_equal(made->n, head + width * m.nx * m.ny);
-    m.v = room(&m);
+    m.v = new_values(&m);
     for (size_t k = 0; k < m.nx * m.ny; k++)
         m.v[k] = width == 8 ? f64(made->bytes + head + 8 * k) : f32(made->bytes + head + 4 * k);
     return m;
@@ -214,7 +214,7 @@ decode_csv(const struct made *made)
         m.ny += *s == '\n';
     m.dx = width / (double)m.nx;
     m.dy = height / (double)m.ny;
-    m.v = room(&m);
+    m.v = new_values(&m);
     for (size_t k = 0; k < m.nx * m.ny; k++) {
         char *end;
         m.v[k] = strtod(at, &end);
@@ -238,7 +238,7 @@ decode_xyz(const struct made *made)
         lines += *s == '\n';
     m.nx = lines;
     m.ny = 1;
-    m.v = room(&m);
+    m.v = new_values(&m);
     m.nx = 0;
     for (size_t k = 0; k < lines; k++) {
         double x = strtod(at, &at);
@@ -276,7 +276,7 @@ decode_sur(const struct made *made)
     assert_string_equal(h + 212, "mm");
     assert_int_equal(made->n, 512 + width * m.nx * m.ny);
     assert_true(low == 0); /* so that subtracting it or not is the same */
-    m.v = room(&m);
+    m.v = new_values(&m);
     for (size_t k = 0; k < m.nx * m.ny; k++) {
         double raw = whole(h + 512 + width * k, width);
         bool missing = bits(h + 86, 2) == 1 && raw == low - 2;
@@ -319,7 +319,7 @@ decode_vtk(const struct made *made, const char *name, const char *type)
     data = appended(made, name, &bytes);
     width = bytes / (m.nx * m.ny);
     assert_int_equal(bytes, width * m.nx * m.ny);
-    m.v = room(&m);
+    m.v = new_values(&m);
     for (size_t k = 0; k < m.nx * m.ny; k++)
         m.v[k] = width == 8 ? f64(data + 8 * k) : f32(data + 4 * k);
     return m;
@@ -380,7 +380,7 @@ decode_hdf5(const struct made *made)
     assert_int_equal(H5Sget_simple_extent_dims(space, size, NULL), 2);
     m = (struct map){
         .nx = size[1], .ny = size[0], .dx = hdf5_number(set, "dx"), .dy = hdf5_number(set, "dy")};
-    m.v = room(&m);
+    m.v = new_values(&m);
     assert_true(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, m.v) >= 0);
     H5Sclose(space);
     H5Dclose(set);

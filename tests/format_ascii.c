@@ -1,4 +1,5 @@
-/* Text matrices mean the same however they are written, and what is no matrix is refused by line. */
+/* Text matrices mean the same however they are written, and what is no matrix is refused with the
+ * number of the line. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -330,10 +331,10 @@ numbers_are_those_of_the_c_library(void **state)
     static const char *const ways[] = {"%.17g", "%.16e", "%.3e", "%.9g", "%.0f", "%.25f", "%.30e"};
     enum {
         ROWS = 3000,
-        ROOM = 400
+        TEXT_MOST = 400
     };
     size_t n = sizeof ways / sizeof *ways;
-    char *text = malloc(ROWS * n * ROOM), *to = text;
+    char *text = malloc(ROWS * n * TEXT_MOST), *to = text;
     double *truth = malloc(ROWS * n * sizeof *truth);
     uint64_t seed = 20250117;
     struct rc_grid *g;
@@ -341,7 +342,7 @@ numbers_are_those_of_the_c_library(void **state)
     (void)state;
     for (size_t k = 0; k < ROWS * n; k++) {
         double value;
-        char one[ROOM];
+        char one[TEXT_MOST];
         seed = seed * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
         value = ((double)(seed >> 11) / 9007199254740992.0 - 0.5) *
                 pow(10, (double)((seed >> 33) % 60) - 45);

@@ -41,7 +41,7 @@ static void
 x3p_parts(void **state)
 {
     struct rc_grid *g = random_grid(5, 2, 0);
-    char xml[8192], bytes[200];
+    char xml[8192], bytes[200], element[100], md5[RC_MD5_TEXT];
     struct made made;
     zip_t *zip;
 
@@ -60,7 +60,15 @@ x3p_parts(void **state)
     assert_non_null(strstr(xml, "<ValidPointsLink>bindata/valid.bin</ValidPointsLink>"));
     member(zip, "bindata/valid.bin", bytes, sizeof bytes);
     assert_memory_equal(bytes, "\xfd\x01", 3);
+    /* of those two bytes, by md5sum(1) */
+    assert_non_null(strstr(xml, "<MD5ChecksumValidPoints>6e21d8e0df90323085b1dd30ef380d95<"));
+    member(zip, "bindata/data.bin", bytes, sizeof bytes);
+    rc_md5_of(bytes, 8 * 10, md5);
+    snprintf(element, sizeof element, "<MD5ChecksumPointData>%s<", md5);
+    assert_non_null(strstr(xml, element));
     member(zip, "md5checksum.hex", bytes, sizeof bytes);
+    rc_md5_of(xml, strlen(xml), md5);
+    assert_memory_equal(bytes, md5, 32);
     assert_string_equal(bytes + 32, " *main.xml\n");
     zip_discard(zip);
     free(made.bytes);
@@ -75,9 +83,9 @@ x3p_parts(void **state)
     rc_grid_free(g);
 }
 
-/* Noise in all of its bits does not pack, and is stored; a slope does. */
+/* Noise in all of its bits would not shrink, and is stored; a slope is compressed. */
 static void
-x3p_packs_what_packs(void **state)
+x3p_compresses_what_shrinks(void **state)
 {
     static const zip_uint16_t method[] = {ZIP_CM_STORE, ZIP_CM_DEFLATE};
 
@@ -290,7 +298,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(x3p_parts),
-        cmocka_unit_test(x3p_packs_what_packs),
+        cmocka_unit_test(x3p_compresses_what_shrinks),
         cmocka_unit_test(depths_make_a_stack),
         cmocka_unit_test(a_section_stands_upright),
         cmocka_unit_test(frames_have_names_of_their_own),

@@ -77,8 +77,8 @@ hdf5_stays_in_its_file(void **state)
     drop(&b);
 }
 
-/* Changed at random and read without a cage, HDF5 files make libhdf5 1.10.8 itself read past its
- * memory (RC_FUZZ=10 RC_FUZZ_OPEN=1): that is what the cage is for.
+/* Changed at random and read without the sandbox, HDF5 files make libhdf5 1.10.8 itself read past
+ * its memory (RC_FUZZ=10 RC_FUZZ_BYPASS=1): that is what the sandbox is for.
  *
  * 128 MiB of zeros in a file of a few hundred KiB: as a map, and as one piece of a tiny map. */
 static void

@@ -6,7 +6,7 @@
 #include <cmocka.h>
 
 #include "formats/format.h"
-#include "formats/core/utf8.h"
+#include "formats/core/core.h"
 #include "made_files.h"
 
 enum {
@@ -20,7 +20,7 @@ check_sound(const struct made_file *f, const struct rc_grid *g, size_t size)
 {
     if (!(g->dx > 0) || !isfinite(g->dx) || !(g->dy > 0) || !isfinite(g->dy))
         fail_msg("%s: the spacing is %g, %g", f->title, g->dx, g->dy);
-    if (8.0 * (double)g->nx * (double)g->ny > 16 * (double)size + 67108864)
+    if (8 * g->nx * g->ny > rc_memory_limit(size))
         fail_msg("%s: %zu x %zu out of %zu bytes", f->title, g->nx, g->ny, size);
     for (size_t k = 0; k < g->nx * g->ny; k++)
         if (isinf(g->v[k]))

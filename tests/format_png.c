@@ -15,6 +15,7 @@
 
 #include "formats/rcg/rcg.h"
 #include "libcontact/grid.h"
+#include "tools/plot/canvas.h"
 #include "tools/plot/colormap.h"
 #include "tools/plot/raster.h"
 #include "tools/plot/ticks.h"
@@ -346,6 +347,127 @@ numbers_read_as_people_write_them(void **state)
         assert_string_equal(ticks_text(text, &t, k), labels[k - t.first]);
 }
 
+/* ---- text ---- */
+
+enum {
+    SIDE = 200 /* pixels of a canvas to write on */
+};
+
+static const struct canvas_font font = {.size = 40};
+
+/* Where there is ink: rows and columns from the first to behind the last; sum: how much. */
+struct ink {
+    size_t left, right, top, bottom;
+    unsigned long sum;
+};
+
+static struct ink
+ink_on(struct canvas *c)
+{
+    struct ink ink = {SIDE, 0, SIDE, 0, 0};
+    unsigned char rgb[3 * SIDE];
+
+    for (size_t y = 0; y < SIDE; y++) {
+        assert_int_equal(canvas_row(c, y, rgb, NULL), RC_OK);
+        for (size_t x = 0; x < SIDE; x++) {
+            if (rgb[3 * x] == 255)
+                continue;
+            ink.left = x < ink.left ? x : ink.left;
+            ink.right = x + 1 > ink.right ? x + 1 : ink.right;
+            ink.top = y < ink.top ? y : ink.top;
+            ink.bottom = y + 1;
+            ink.sum += (unsigned long)(255 - rgb[3 * x]) * (1 + x + SIDE * y);
+        }
+    }
+    return ink;
+}
+
+/* Draws the text in the middle, upwards or to the right, and tells its width. */
+static struct ink
+ink_of(const char *text, bool upwards, double *width)
+{
+    struct canvas *c = canvas_new(SIDE, SIDE, NULL);
+    struct ink ink;
+
+    assert_non_null(c);
+    *width = canvas_text_width(c, &font, text);
+    if (upwards)
+        canvas_text_upwards(c, &font, 100, 100, text);
+    else
+        canvas_text(c, &font, 100, 100, 0.5, text);
+    ink = ink_on(c);
+    canvas_free(c);
+    return ink;
+}
+
+static void
+text_lies_where_it_is_measured(void **state)
+{
+    struct ink flat, upright;
+    double w, w2;
+
+    (void)state;
+    flat = ink_of("HoH", false, &w);
+    assert_true(w > 2 * font.size && w < 3 * font.size);
+    assert_true(fabs((double)flat.left - (100 - w / 2)) < 6);
+    assert_true(fabs((double)flat.right - (100 + w / 2)) < 6);
+    assert_true(flat.bottom >= 100 && flat.bottom <= 102); /* stands on the base line */
+    assert_true(flat.top > 100 - font.size && flat.top < 100 - 0.6 * font.size);
+    upright = ink_of("HoH", true, &w2);
+    assert_true(w == w2);
+    assert_true(fabs((double)upright.top - (double)flat.left) <= 1);
+    assert_true(fabs((double)upright.bottom - (double)flat.right) <= 1);
+    assert_true(upright.right >= 100 && upright.right <= 102);
+}
+
+static void
+raised_digits_are_smaller_and_higher(void **state)
+{
+    static const char *const raised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+    double w, plain, wide;
+
+    (void)state;
+    (void)ink_of("m", false, &plain);
+    for (int digit = 0; digit < 10; digit++) {
+        char text[2] = {(char)('0' + digit), '\0'}, power[16], line[16];
+        struct ink own = ink_of(text, false, &wide), high = ink_of(raised[digit], false, &w);
+        double ratio = (double)(high.bottom - high.top) / (double)(own.bottom - own.top);
+
+        assert_true(ratio > 0.6 && ratio < 0.8);
+        assert_true(fabs(w / wide - 0.7) < 0.02);
+        assert_true(high.bottom < 100 - 0.25 * font.size && high.top < own.top);
+        snprintf(power, sizeof power, "m%s", raised[digit]);
+        snprintf(line, sizeof line, "m%s", text);
+        (void)ink_of(power, false, &w);
+        (void)ink_of(line, false, &wide);
+        assert_true(w > plain && w < wide);
+    }
+}
+
+static void
+what_no_font_has_is_a_question_mark_and_told(void **state)
+{
+    const char *private = "\xf4\x8f\xbf\xbd"; /* U+10FFFD: the last of the private characters */
+    struct canvas *c = canvas_new(SIDE, SIDE, NULL), *d = canvas_new(SIDE, SIDE, NULL);
+    char text[64], told[64];
+
+    (void)state;
+    assert_true(c != NULL && d != NULL);
+    canvas_text(c, &font, 100, 60, 0.5, "Ωж²");
+    assert_string_equal(canvas_unknown(c), "");
+    snprintf(text, sizeof text, "a%sb%s", private, private);
+    canvas_text(c, &font, 100, 120, 0.5, text);
+    snprintf(told, sizeof told, "%s", canvas_unknown(c));
+    assert_string_equal(told, private);
+    canvas_text(d, &font, 100, 60, 0.5, "Ωж²");
+    canvas_text(d, &font, 100, 120, 0.5, "a?b?");
+    assert_int_equal(ink_on(c).sum, ink_on(d).sum);
+    canvas_text(d, &font, 100, 180, 0.5, "\xff\xfe"); /* no text, and no end of the program */
+    assert_int_equal(canvas_check(d, NULL), RC_OK);
+    canvas_free(c);
+    canvas_free(d);
+}
+
 /* ---- chunks ---- */
 
 static void
@@ -425,6 +547,9 @@ main(void)
         cmocka_unit_test(cells_are_means_of_what_they_cover),
         cmocka_unit_test(contours_of_a_plane_are_straight),
         cmocka_unit_test(numbers_read_as_people_write_them),
+        cmocka_unit_test(text_lies_where_it_is_measured),
+        cmocka_unit_test(raised_digits_are_smaller_and_higher),
+        cmocka_unit_test(what_no_font_has_is_a_question_mark_and_told),
         cmocka_unit_test(chunks_say_how_it_was_made),
     };
 

@@ -253,7 +253,7 @@ many_large_tags(void **state)
 {
     enum {
         ENTRIES = 3000,
-        ROOM = 1 << 20
+        SIZE = 1 << 20
     };
     struct bytes b;
     struct rc_err err;
@@ -266,13 +266,13 @@ many_large_tags(void **state)
     for (unsigned k = 0; k < ENTRIES; k++) {
         add_number(&b, 40000 + k, 2);
         add_number(&b, 1, 2);
-        add_number(&b, ROOM - 64, 4);
+        add_number(&b, SIZE - 64, 4);
         add_number(&b, 8, 4);
     }
     add_number(&b, 0, 4);
-    b.data = realloc(b.data, ROOM);
-    memset(b.data + b.n, 0, ROOM - b.n);
-    b.n = ROOM;
+    b.data = realloc(b.data, SIZE);
+    memset(b.data + b.n, 0, SIZE - b.n);
+    b.n = SIZE;
     g = try_read(&rc_format_jpk, &b, &no_wish, 0, &err);
     assert_null(g);
     printf("3000 tags of a megabyte each: %s\n", err.text);

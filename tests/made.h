@@ -164,8 +164,8 @@ refuse_cuts(const struct rc_format *format, const struct bytes *b, size_t least,
 }
 
 /* Bytes changed at random: whatever comes of it, it is a map or a reason. RC_FUZZ in the
- * environment multiplies how often; RC_FUZZ_OPEN leaves the cages open, so that the sanitizers
- * see into them. */
+ * environment multiplies how often; RC_FUZZ_BYPASS reads without the sandbox, so that the
+ * sanitizers see what happens there. */
 __attribute__((unused)) static void
 survive_changes(const struct rc_format *format, const struct bytes *b, size_t times)
 {
@@ -177,7 +177,7 @@ survive_changes(const struct rc_format *format, const struct bytes *b, size_t ti
 
     if (getenv("RC_FUZZ") != NULL)
         times *= strtoul(getenv("RC_FUZZ"), NULL, 10);
-    rc_cage_leave_open(getenv("RC_FUZZ_OPEN") != NULL);
+    rc_sandbox_bypass(getenv("RC_FUZZ_BYPASS") != NULL);
     for (size_t t = 0; t < times; t++) {
         struct rc_file file = file_of(&bad, "made");
         struct rc_err err = {""};
@@ -203,7 +203,7 @@ survive_changes(const struct rc_format *format, const struct bytes *b, size_t ti
     }
     printf("%s: %zu files changed at random, %zu of them read, the others refused\n", format->name,
            times, read);
-    rc_cage_leave_open(false);
+    rc_sandbox_bypass(false);
     drop(&bad);
 }
 

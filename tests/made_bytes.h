@@ -24,16 +24,16 @@ enum {
 
 struct made {
     unsigned char *b;
-    size_t n, room;
+    size_t n, capacity;
     bool big;
 };
 
 static inline void
 put(struct made *m, const void *bytes, size_t n)
 {
-    while (m->n + n > m->room) {
-        m->room = m->room == 0 ? 4096 : 2 * m->room;
-        m->b = realloc(m->b, m->room);
+    while (m->n + n > m->capacity) {
+        m->capacity = m->capacity == 0 ? 4096 : 2 * m->capacity;
+        m->b = realloc(m->b, m->capacity);
     }
     memcpy(m->b + m->n, bytes, n);
     m->n += n;

@@ -2,7 +2,7 @@
 #ifndef MADE_X3P_H
 #define MADE_X3P_H
 
-#include "formats/core/md5.h"
+#include "formats/core/checksum.h"
 #include "made_zip.h"
 
 extern const struct rc_format rc_format_x3p;
@@ -44,27 +44,17 @@ static const char main_xml[] =
     "<Record4><ChecksumFile>md5checksum.hex</ChecksumFile></Record4>\n"
     "</p:ISO5436_2>\n";
 
-static void
-sum_of(const void *bytes, size_t n, char sum[RC_MD5_TEXT])
-{
-    struct rc_md5 md5;
-
-    rc_md5_start(&md5);
-    rc_md5_add(&md5, bytes, n);
-    rc_md5_end(&md5, sum);
-}
-
 /* An archive of main.xml with its checksum, and data.bin when there are bytes. */
 static struct rc_file
 pack(const char *xml, const void *bytes, size_t n)
 {
-    char line[64], sum[RC_MD5_TEXT];
+    char line[64], md5[RC_MD5_TEXT];
     struct member member[3] = {{"main.xml", xml, strlen(xml)},
                                {"md5checksum.hex", line, 0},
                                {"bindata/data.bin", bytes, n}};
 
-    sum_of(xml, strlen(xml), sum);
-    snprintf(line, sizeof line, "%s *main.xml\n", sum);
+    rc_md5_of(xml, strlen(xml), md5);
+    snprintf(line, sizeof line, "%s *main.xml\n", md5);
     member[1].n = strlen(line);
     return archive_file(member, bytes == NULL ? 2 : 3);
 }

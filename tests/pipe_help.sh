@@ -11,7 +11,7 @@ done
 # ---- options ----
 
 help_options() {
-    "$1" --help | grep -oE '^  --?[A-Za-z0-9-]+' | tr -d ' ' | sort
+    "$1" --help | grep -oE '^  --?[A-Za-z0-9-]+(, --[A-Za-z0-9-]+)*' | tr ',' '\n' | tr -d ' ' | sort
 }
 
 page_options() { # -h stands beside --help and is not listed
@@ -26,9 +26,65 @@ same_options() {
         diff help.txt page.txt >&2
 }
 
+# The words that an option takes: "--method auto|pcg|pk99", or "..., of pcg,pk99 (default".
+help_words() {
+    "$1" --help | awk '
+        /^  --/ { name = $1; sub(/,$/, "", name) }
+        /^[^ ]/ { name = "" }
+        name != "" {
+            for (i = 1; i <= NF; i++) {
+                if ($i ~ /^[a-z0-9]+([|][a-z0-9]+)+$/) n = split($i, word, "|")
+                else if ($(i - 1) == "of" && $i ~ /^[a-z0-9]+(,[a-z0-9]+)+$/) n = split($i, word, ",")
+                else continue
+                for (k = 1; k <= n; k++) print name, word[k]
+            }
+        }' | sort -u
+}
+
+# The words that the manual says of the same options, with all others that it marks in their paragraphs.
+page_words() {
+    awk '
+        /^\.It/ || /^\.E[ld]/ || /^\.S[hs]/ { name = "" }
+        /^\.It Fl -/ { name = "-" $3; start = 4 }
+        name != "" && (/^\.It Fl/ || /^\.Cm/) {
+            for (i = 2; i <= NF; i++) if ($i ~ /^[a-z0-9]+$/) print name, $i
+        }' "$1" | sort -u
+}
+
+same_words() {
+    help_words "$1" >help.txt && page_words "$pages/$1.1" >page.txt && comm -23 help.txt page.txt >missing.txt
+    cat missing.txt >&2
+    [ ! -s missing.txt ]
+}
+
+takes_words() {
+    help_words "$1" >help.txt && cut -d ' ' -f 1 help.txt | uniq | tr '\n' ' ' >taking.txt && cat taking.txt >&2 &&
+        [ "$(cat taking.txt)" = "$2" ]
+}
+
 for tool in $tools; do
     claim "$tool: the manual has the options of --help and no other" same_options "$tool"
+    claim "$tool: the manual has the words that its options take" same_words "$tool"
 done
+claim "rc-solve: the options that take words are found in --help" takes_words rc-solve '--kernel --method --output --type '
+
+# ---- two names ----
+
+rc-synth sphere --nx 33 --dx 5um --radius 7.5mm -o ball.rcg
+rc-solve --load 2N --estar 114GPa --quiet -o pressed.rcg ball.rcg
+# same_by ENGINES COMMAND...: it does the same with --engine as with --kernel, and another thing by default.
+same_by() {
+    local engines=$1
+    shift
+    "$@" --kernel "$engines" >kernel.out && "$@" --engine "$engines" >engine.out && "$@" >default.out &&
+        cmp kernel.out engine.out && ! cmp -s kernel.out default.out
+}
+claim "rc-solve: --engine is --kernel" same_by mlms rc-solve --load 2N --estar 114GPa --quiet ball.rcg
+claim "rc-stress: --engine is --kernel" same_by mlms rc-stress --tol 1e-2 --nu 0.3 --depths 5um pressed.rcg
+claim "rc-deflect: --engine is --kernel" same_by mlms rc-deflect --tol 1e-2 pressed.rcg
+claim "rc-cost: --engine is --kernel" same_by fft,direct rc-cost --load 2N --estar 114GPa --dry-run ball.rcg
+refuses 2 'must be one of auto\|fft\|fft64\|mlms\|direct' "an engine that is none, naming those there are" \
+    "rc-solve --load 2N --estar 114GPa --engine fast ball.rcg"
 
 # ---- pages ----
 

@@ -112,6 +112,18 @@ claim "the picture says how it was made" describes "rc-render" a.png
 claim "with its options in SI" bash -c \
     'rc-render --range -1um:2.5um -o a.png height.rcg && grep -aqF -- "--range -1e-06:2.5e-06" a.png'
 
+# ---- text ----
+
+# A character at the end of Unicode's private use, which no font draws.
+private=$(printf '\364\217\277\275')
+claim "a character that no font has is told, and the figure is drawn" bash -c \
+    "rc-render --title 'No $private here' -o f.png height.rcg 2>warned && grep -q \"no font has the characters '$private'\" warned"
+claim "what fonts have is not" bash -c \
+    'rc-render --title "Rauheit, 10⁻³ m²" -o f.png height.rcg 2>warned && [ ! -s warned ]'
+printf '<?xml version="1.0"?>\n<fontconfig><cachedir>%s/cache</cachedir></fontconfig>\n' "$PWD" >fonts.conf
+refuses 1 'no font can be found' "a figure without any font" "FONTCONFIG_FILE='$PWD/fonts.conf' rc-render -o out.png height.rcg"
+claim "a raw picture needs none" env FONTCONFIG_FILE="$PWD/fonts.conf" rc-render --raw -o f.png height.rcg
+
 # ---- refusals ----
 
 none() { [ ! -e out.png ] && [ -z "$(ls out.png.* 2>/dev/null)" ]; }

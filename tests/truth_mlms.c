@@ -488,38 +488,6 @@ zero_gives_zero(void **state)
     trial_free(&t);
 }
 
-/* What is wanted is the same as if all were; the rest is left alone, or the same too. */
-static void
-only_what_is_wanted(void **state)
-{
-    struct rc_sum sum = displacement(700, 610, 1, 1);
-    struct trial t;
-    unsigned char *mask;
-    size_t untouched = 0;
-
-    (void)state;
-    sum.tol = 1e-6;
-    t = trial_new(sum, &rc_engine_fft);
-    mask = calloc(t.n, 1);
-    fill_unevenly(&sum.shape, t.p);
-    rc_engine_mlms.apply(t.mlms, t.p, t.v);
-    mask[13 * 700 + 17] = mask[500 * 700 + 333] = 1;
-    rc_mlms_want(t.mlms, mask);
-    for (size_t i = 0; i < t.n; i++)
-        t.u[i] = -1234;
-    rc_engine_mlms.apply(t.mlms, t.p, t.u);
-    for (size_t i = 0; i < t.n; i++) {
-        untouched += t.u[i] == -1234;
-        assert_true(t.u[i] == t.v[i] || (t.u[i] == -1234 && !mask[i]));
-    }
-    assert_true(untouched > t.n * 9 / 10);
-    rc_mlms_want(t.mlms, NULL);
-    rc_engine_mlms.apply(t.mlms, t.p, t.u);
-    assert_memory_equal(t.u, t.v, t.n * sizeof *t.u);
-    free(mask);
-    trial_free(&t);
-}
-
 static void
 little_memory(void **state)
 {
@@ -565,7 +533,6 @@ main(void)
         cmocka_unit_test(uneven_pressure),
         cmocka_unit_test(threads_change_nothing),
         cmocka_unit_test(zero_gives_zero),
-        cmocka_unit_test(only_what_is_wanted),
         cmocka_unit_test(little_memory),
         cmocka_unit_test(refused),
     };

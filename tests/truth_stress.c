@@ -169,7 +169,8 @@ coefficients_have_no_steps(void **state)
             }
 }
 
-/* A line of nodes far off, where cells share their points, holds what single places hold. */
+/* A line of places holds what single places hold, also far off, where neighbouring cells share
+ * their points, and in steps of several cells. */
 static void
 lines_are_places(void **state)
 {
@@ -183,13 +184,14 @@ lines_are_places(void **state)
     (void)state;
     for (int k = 0; k < RC_STRESS_KERNELS; k++)
         out[k] = line[k];
-    for (size_t c = 0; c < 4; c++)
+    for (size_t c = 0; c < 8; c++)
         for (double y = 0; y < 500; y = 2.3 * y + 1) {
-            const struct rc_cell *cell = &cells[c];
-            rc_stress_line(cell, (1u << RC_STRESS_KERNELS) - 1, N, y, out);
+            const struct rc_cell *cell = &cells[c % 4];
+            double step = c < 4 ? cell->dx : 4 * cell->dx;
+            rc_stress_line(cell, (1u << RC_STRESS_KERNELS) - 1, step, N, y, out);
             for (int k = 0; k < RC_STRESS_KERNELS; k++)
                 for (size_t i = 0; i < N; i++) {
-                    double x = (double)i * cell->dx;
+                    double x = (double)i * step;
                     double one = coefficient(k, cell->nu, x, y, cell->depth, cell->dx, cell->dy);
                     double scale = scale_at(x, y, cell->depth, cell->dx, cell->dy);
                     assert_true(fabs(line[k][i] - one) <= 3e-13 * scale);

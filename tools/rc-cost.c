@@ -5,8 +5,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "tools/cost/cost.h"
 #include "tools/cli/cli.h"
+#include "tools/cost/cost.h"
 
 static struct args {
     struct physics physics;
@@ -24,19 +24,17 @@ static struct args {
           .error = NAN,
           .nu = NAN};
 
+#define AT(field) .at = offsetof(struct args, field)
 #define ABOVE_0 .min = 0, .max = INFINITY, .above = true
 /* clang-format off */
 static const struct opt opts[] = {
-#define AT(field) .at = offsetof(struct args, physics.field)
-#include "tools/cli/physics.list"
-#undef AT
-#define AT(field) .at = offsetof(struct args, field)
-    {.name = "kernel", .type = OPT_WORDS, AT(kernels), .words = COST_KERNELS, .arg = "LIST",
-     .help = "try only these, of fft,fft64,mlms,direct (default: all)"},
-    {.name = "method", .type = OPT_WORDS, AT(methods), .words = COST_METHODS, .arg = "LIST",
-     .help = "try only these, of pcg,pk99 (default: both)"},
+    {.group = physics_options, AT(physics)},
+    {.name = "kernel", .alias = "engine", .type = OPT_WORDS, AT(kernels), .words = words_engine,
+     .arg = "LIST", .help = "try only these, of %s (default: all)"},
+    {.name = "method", .type = OPT_WORDS, AT(methods), .words = words_method, .arg = "LIST",
+     .help = "try only these, of %s (default: all)"},
     {.name = "depths", .type = OPT_NUMBERS, .unit = UNIT_M, AT(depths), .min = 0, .max = INFINITY,
-     .words = "auto", .arg = "LIST",
+     .word = "auto", .arg = "LIST",
      .help = "stresses too, at these depths: a,b,c, a:b:n or auto"},
     {.name = "nu", .type = OPT_NUMBER, AT(nu), .min = -1, .max = 0.5, .above = true, .arg = "RATIO",
      .help = "Poisson's ratio for the stresses (default: --nu1)"},
@@ -127,8 +125,8 @@ plan(struct run *run, struct cost_case *c)
     size_t n = 0, out = 0;
 
     c->reference.expected = cost_expect(c, &c->reference);
-    for (size_t k = 0; k < c->rungs; k++) {
-        struct cost *m = &c->rung[k];
+    for (size_t k = 0; k < c->trials; k++) {
+        struct cost_trial *m = &c->trial[k];
 
         m->expected = cost_expect(c, m);
         if (m->state != COST_OPEN)
@@ -150,11 +148,11 @@ plan(struct run *run, struct cost_case *c)
         return;
     }
     fprintf(run->t.out, "%s\n", text);
-    for (size_t k = 0; k < c->rungs; k++) {
-        struct cost *m = &c->rung[k];
+    for (size_t k = 0; k < c->trials; k++) {
+        struct cost_trial *m = &c->trial[k];
         struct rc_problem problem = c->problem;
 
-        problem.engine = m->rung.kernel;
+        problem.engine = m->settings.kernel;
         if (m->state == COST_OPEN)
             fprintf(run->t.out, "  %-40s about %8.2g s, %zu MiB\n", cost_name(name, m), m->expected,
                     (rc_solver_memory(&m->shape, &problem) >> 20) + 1);
@@ -202,18 +200,18 @@ write_report(struct run *run, const struct cost_case *c)
 static void
 tell_results(struct run *run, struct cost_case *c)
 {
-    cost_judge(c);
+    cost_mark(c);
     write_report(run, c);
     write_plot(run, c);
-    for (size_t k = 0; k < c->rungs; k++)
-        if (c->rung[k].flatters) {
+    for (size_t k = 0; k < c->trials; k++)
+        if (c->trial[k].optimistic) {
             char name[128];
             tool_warn(&run->t, "%s: the estimate %.1e is below the true error %.1e",
-                      cost_name(name, &c->rung[k]), c->rung[k].contact.pressure_error,
-                      c->rung[k].error);
+                      cost_name(name, &c->trial[k]), c->trial[k].contact.pressure_error,
+                      c->trial[k].error);
         }
     if (choosing())
-        cost_choose(c, run->t.out);
+        cost_command(c, run->t.out);
     else
         cost_table(c, run->t.out);
 }
@@ -235,22 +233,22 @@ open_case(struct run *run, struct rc_grid *g, struct cost_case *c)
                             .depths = args.depths,
                             .nu = args.nu,
                             .mu = args.mu};
-    c->reference.rung = cost_reference;
+    c->reference.settings = cost_reference();
     c->reference.shape = c->shape;
-    c->rung = cost_ladder(args.kernels, args.methods, &c->rungs);
-    c->stress = tool_given(&run->t, "depths") ? cost_stress_ladder(c, &c->stresses) : NULL;
-    if (c->rung == NULL || (tool_given(&run->t, "depths") && c->stress == NULL))
+    c->trial = cost_trials(args.kernels, args.methods, &c->trials);
+    c->stress = tool_given(&run->t, "depths") ? cost_stress_trials(c, &c->stresses) : NULL;
+    if (c->trial == NULL || (tool_given(&run->t, "depths") && c->stress == NULL))
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "out of memory");
-    for (size_t k = 0; k < c->rungs; k++)
-        c->rung[k].shape = coarse_shape(&c->shape, c->rung[k].rung.coarse);
-    cost_sift(c);
+    for (size_t k = 0; k < c->trials; k++)
+        c->trial[k].shape = coarse_shape(&c->shape, c->trial[k].settings.coarse);
+    cost_exclude(c);
 }
 
 static void
 close_case(struct cost_case *c)
 {
     free(c->pressure);
-    free(c->rung);
+    free(c->trial);
     free(c->stress);
     if (c->depths.v != args.depths.v)
         free(c->depths.v);
@@ -263,12 +261,12 @@ solve_reference(struct run *run, struct cost_case *c)
     double *p = malloc(n * sizeof *p);
     struct rc_problem problem = c->problem;
 
-    problem.engine = c->reference.rung.kernel;
+    problem.engine = c->reference.settings.kernel;
     tool_demand_memory(&run->t, c->heights,
                        rc_solver_memory(&c->shape, &problem) + 2 * n * sizeof *p);
     if (p == NULL)
         tool_die_at(&run->t, c->heights, EXIT_IMPOSSIBLE, "out of memory");
-    if (!cost_solve(c, &c->reference, args.limit, p))
+    if (!cost_trial_run(c, &c->reference, args.limit, p))
         tool_die_at(&run->t, c->heights, EXIT_IMPOSSIBLE,
                     "interrupted before anything was measured");
     if (c->reference.state != COST_DONE)
@@ -289,7 +287,7 @@ do_case(struct run *run, struct rc_grid *g)
     plan(run, &c);
     if (!args.dry_run) {
         solve_reference(run, &c);
-        cost_climb(&c);
+        cost_run_trials(&c);
         tell_results(run, &c);
     }
     close_case(&c);

@@ -9,7 +9,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "libcontact/memory.h"
 #include "formats/format.h"
 #include "formats/core/core.h"
 
@@ -142,9 +141,9 @@ open_file(struct tool *t, const char *name)
     return in;
 }
 
-/* Room for the whole of a file, when it says how large it is. */
+/* Bytes to begin with: the whole of a file, when it says how large it is. */
 static size_t
-first_room(FILE *in)
+first_size(FILE *in)
 {
     struct stat st;
 
@@ -160,23 +159,23 @@ read_file(struct tool *t, const char *name, struct rc_file *file)
 {
     FILE *in = open_file(t, name);
     const char *slash = strrchr(name, '/');
-    size_t room = first_room(in), n = 0, got;
+    size_t size = first_size(in), n = 0, got;
     unsigned char *data = NULL, *more;
 
     for (;;) {
-        if (t->memory != 0 && room > t->memory)
+        if (t->memory != 0 && size > t->memory)
             tool_die(t, EXIT_IMPOSSIBLE,
                      "%s: reading it needs more memory than the %zu MiB of "
                      "--memory",
                      t->source, t->memory >> 20);
-        if ((more = data == NULL ? rc_alloc(room, 1) : realloc(data, room)) == NULL)
-            tool_die(t, EXIT_IMPOSSIBLE, "%s: out of memory for %zu bytes", t->source, room);
+        if ((more = realloc(data, size)) == NULL)
+            tool_die(t, EXIT_IMPOSSIBLE, "%s: out of memory for %zu bytes", t->source, size);
         data = more;
-        while (n < room && (got = fread(data + n, 1, room - n, in)) > 0)
+        while (n < size && (got = fread(data + n, 1, size - n, in)) > 0)
             n += got;
-        if (n < room)
+        if (n < size)
             break;
-        room *= 2;
+        size *= 2;
     }
     if (ferror(in))
         tool_die(t, EXIT_IMPOSSIBLE, "%s: reading failed (%s)", t->source, strerror(errno));

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "formats/core/core.h"
 #include "libcontact/contact.h"
 
 static struct args {
@@ -77,16 +78,15 @@ enum {
 static const char *
 human(char text[HUMAN], double value, const char *unit)
 {
-    static const char *const prefix[] = {"f", "p", "n", "u", "m", "", "k", "M", "G", "T"};
     bool known = strcmp(unit, "m") == 0 || strcmp(unit, "Pa") == 0 || strcmp(unit, "N") == 0;
-    double most = strcmp(unit, "m") == 0 ? 0 : 4, power = 0;
+    int most = strcmp(unit, "m") == 0 ? 0 : 12, power = 0; /* nobody says Mm */
 
     if (known && value != 0 && isfinite(value)) {
-        power = floor(log10(fabs(value)) / 3);
-        power = power < -5 ? 0 : power > most ? most : power;
+        power = 3 * (int)floor(log10(fabs(value)) / 3);
+        power = power > most ? most : rc_prefix_of(power) == NULL ? 0 : power;
     }
-    snprintf(text, HUMAN, "%.6g%s%s", value / pow(1000, power), *unit == '\0' ? "" : " ",
-             prefix[(int)power + 5]);
+    snprintf(text, HUMAN, "%.6g%s%s", value / pow(10, power), *unit == '\0' ? "" : " ",
+             rc_prefix_of(power));
     return text;
 }
 

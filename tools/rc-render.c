@@ -7,8 +7,9 @@
 
 #include "formats/core/core.h"
 #include "libcontact/contact.h"
-#include "tools/plot/plot.h"
 #include "tools/cli/cli.h"
+#include "tools/plot/plot.h"
+#include "tools/render/render.h"
 
 #define BETWEEN " \xc2\xb7 "
 #define SIGMA "\xcf\x83"
@@ -181,14 +182,14 @@ struct words {
     size_t n;
 };
 
-/* Adds a piece to the subtitle; one that finds no room is left out whole. */
+/* Adds a piece to the subtitle; one that does not fit is left out whole. */
 static void
 add_piece(struct words *w, const char *name, const char *value)
 {
-    size_t room = sizeof w->text - w->n;
-    int n = snprintf(w->text + w->n, room, "%s%s%s", w->n > 0 ? BETWEEN : "", name, value);
+    size_t left = sizeof w->text - w->n;
+    int n = snprintf(w->text + w->n, left, "%s%s%s", w->n > 0 ? BETWEEN : "", name, value);
 
-    if (n > 0 && (size_t)n < room)
+    if (n > 0 && (size_t)n < left)
         w->n += (size_t)n;
     else
         w->text[w->n] = '\0';
@@ -290,43 +291,49 @@ raw_row(const struct rc_grid *g, const struct figure *f, size_t j, unsigned char
     }
 }
 
-/* The canvas, or without one the nodes, as a PNG that says how it was made. */
+/* What is written: a canvas, or without one a pixel for each node. */
+struct drawing {
+    struct tool *tool;
+    const struct rc_grid *grid;
+    const struct figure *figure;
+    struct canvas *canvas;
+    size_t rows;
+};
+
+static enum rc_status
+next_row(void *ctx, size_t y, unsigned char *rgb, struct rc_err *err)
+{
+    const struct drawing *d = ctx;
+
+    tool_progress(d->tool, "row %zu of %zu", y, d->rows);
+    if (d->canvas != NULL)
+        return canvas_row(d->canvas, y, rgb, err);
+    raw_row(d->grid, d->figure, y, rgb);
+    return RC_OK;
+}
+
+/* The picture says how it was made. */
 static void
 write_picture(struct tool *t, const struct rc_grid *g, const struct figure *f, struct canvas *c)
 {
     size_t w = c == NULL ? g->nx : canvas_width(c), h = c == NULL ? g->ny : canvas_height(c);
+    struct drawing d = {t, g, f, c, h};
     const char *history = rc_grid_get(g, "history"), *own = tool_history(t);
-    size_t room = strlen(own) + (history == NULL ? 0 : strlen(history)) + 4;
-    char *made = malloc(room), software[64];
-    struct picture_text text[] = {{"Title", f->title},
-                                  {"Description", made},
-                                  {"Software", software},
-                                  {"Source", rc_grid_get(g, "source")}};
-    struct picture *picture = NULL;
-    unsigned char *rgb = w > SIZE_MAX / 3 ? NULL : malloc(3 * w);
+    size_t size = strlen(own) + (history == NULL ? 0 : strlen(history)) + 4;
+    char *made = malloc(size), software[64];
+    const struct picture_text text[] = {{"Title", f->title},
+                                        {"Description", made},
+                                        {"Software", software},
+                                        {"Source", rc_grid_get(g, "source")}};
     struct rc_err err;
 
-    if (made == NULL || rgb == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "out of memory for a picture of %zu pixels a row", w);
-    snprintf(made, room, "%s%s%s", history == NULL ? "" : history, history == NULL ? "" : " | ",
+    if (made == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
+    snprintf(made, size, "%s%s%s", history == NULL ? "" : history, history == NULL ? "" : " | ",
              own);
     snprintf(software, sizeof software, "rc-render %s", rc_version());
-    picture = picture_new(t->out, w, h, text, sizeof text / sizeof *text, &err);
-    if (picture == NULL)
+    if (picture_write(t->out, w, h, text, sizeof text / sizeof *text, next_row, &d, &err) != RC_OK)
         tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
-    for (size_t j = 0; j < h; j++) {
-        tool_progress(t, "row %zu of %zu", j, h);
-        if (c == NULL)
-            raw_row(g, f, j, rgb);
-        else if (canvas_row(c, j, rgb, &err) != RC_OK)
-            tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
-        if (picture_row(picture, rgb, &err) != RC_OK)
-            tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
-    }
-    if (picture_end(picture, &err) != RC_OK)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
-    picture_free(picture);
-    free(rgb);
     free(made);
 }
 
@@ -336,6 +343,7 @@ draw_figure(struct tool *t, const struct rc_grid *g, struct figure *f)
     const char *section = rc_grid_get(g, "section");
     double *rows = NULL;
     struct canvas *c;
+    char text[512];
     struct rc_err err;
 
     f->across = "x";
@@ -353,6 +361,8 @@ draw_figure(struct tool *t, const struct rc_grid *g, struct figure *f)
     }
     if ((c = figure_draw(f, g, &err)) == NULL)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (canvas_warning(c, text, sizeof text) != NULL)
+        tool_warn(t, "%s", text);
     write_picture(t, g, f, c);
     canvas_free(c);
     free(rows);

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcontact/contact.h"
+#include "tools/cli/cli.h"
 #include "tools/solve/solve.h"
 
 static struct solve_args args = {
@@ -14,24 +16,20 @@ static struct solve_args args = {
     .output = 1 << SOLVE_PRESSURE | 1 << SOLVE_GAP | 1 << SOLVE_DISPLACEMENT | 1 << SOLVE_HEIGHT,
 };
 
-#define ABOVE_0 .min = 0, .max = INFINITY, .above = true
+#define AT(field) .at = offsetof(struct solve_args, field)
 /* clang-format off */
 static const struct opt opts[] = {
-#define AT(field) .at = offsetof(struct solve_args, physics.field)
-#include "tools/cli/physics.list"
-#undef AT
-#define AT(field) .at = offsetof(struct solve_args, field)
-    {.name = "kernel", .type = OPT_CHOICE, AT(kernel), .arg = "auto|fft|fft64|mlms|direct",
-     .help = "how displacements are summed (default auto)"},
-    {.name = "method", .type = OPT_CHOICE, AT(method), .arg = "auto|pcg|pk99",
+    {.group = physics_options, AT(physics)},
+    {.name = "kernel", .alias = "engine", .type = OPT_CHOICE, AT(kernel),
+     .words = words_engine_or_auto, .help = "how displacements are summed (default auto)"},
+    {.name = "method", .type = OPT_CHOICE, AT(method), .words = words_method_or_auto,
      .help = "how the contact is iterated (default auto)"},
     {.name = "tol", .type = OPT_NUMBER, AT(tol), .min = 0, .max = 1, .above = true,
      .result = true, .arg = "ERROR",
      .help = "relative L1 error of the pressure (default N^(-3/4), N nodes)"},
     {.name = "output", .type = OPT_WORDS, AT(output),
-     .words = "pressure|gap|displacement|height|plastic", .arg = "LIST",
-     .help = "frames to write, of pressure,gap,displacement,height,plastic (default: all but "
-             "plastic)"},
+     .words = solve_frame_word, .arg = "LIST",
+     .help = "frames to write, of %s (default: all but plastic)"},
     {.name = "stiffness", .type = OPT_FLAG, AT(stiffness),
      .help = "find how the load grows with the approach (default: with a list)"},
     {.name = "discretization", .type = OPT_FLAG, AT(discretization),
@@ -40,9 +38,12 @@ static const struct opt opts[] = {
      .help = "write one JSON object a case: figures, accuracy, cost"},
     {.name = "checkpoint", .type = OPT_TEXT, AT(checkpoint), .arg = "FILE",
      .help = "keep the pressures reached in FILE, to go on from if the run is cut off"},
-    {.name = "resume", .type = OPT_FLAG, AT(resume), .help = "go on from the --checkpoint of an earlier run"},
-    {.name = "interval", .type = OPT_NUMBER, .unit = UNIT_S, AT(interval), .min = 0, .max = 1e9, .arg = "TIME",
-     .help = "first frame of a case in --checkpoint after this time, then after 2, 4 ... times it (60)"},
+    {.name = "resume", .type = OPT_FLAG, AT(resume),
+     .help = "go on from the --checkpoint of an earlier run"},
+    {.name = "interval", .type = OPT_NUMBER, .unit = UNIT_S, AT(interval), .min = 0, .max = 1e9,
+     .arg = "TIME",
+     .help = "first frame of a case in --checkpoint after this time, then after 2, 4 ... times it "
+             "(60)"},
     {.name = "dry-run", .type = OPT_FLAG, AT(dry_run),
      .help = "say what would be done, and why, with its cost; do nothing else"},
     {.name = NULL},

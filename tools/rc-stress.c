@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "libcontact/contact.h"
-#include "stress_report.h"
 #include "tools/cli/cli.h"
+#include "tools/stress/stress.h"
 
 static struct args {
     struct numbers depths; /* none: auto */
@@ -20,11 +20,10 @@ static struct args {
 /* clang-format off */
 static const struct opt opts[] = {
     {.name = "depths", .type = OPT_NUMBERS, .unit = UNIT_M, AT(depths), .min = 0,
-     .max = INFINITY, .result = true, .words = "auto", .arg = "LIST",
+     .max = INFINITY, .result = true, .word = "auto", .arg = "LIST",
      .help = "depths: a,b,c or a:b:n (n from a to b), or auto: dense where roughness is felt"},
     {.name = "components", .type = OPT_WORDS, AT(components), .result = true,
-     .words = "sxx|syy|szz|sxy|sxz|syz|mises|tresca|s1|s2|s3", .arg = "LIST",
-     .help = "of sxx,syy,szz,sxy,sxz,syz,mises,tresca,s1,s2,s3 (default: the six and mises)"},
+     .words = words_component, .arg = "LIST", .help = "of %s (default: the six and mises)"},
     {.name = "nu", .type = OPT_NUMBER, AT(nu), .min = -1, .max = 0.5, .above = true,
      .result = true, .arg = "RATIO", .help = "Poisson's ratio (default: the stream's own)"},
     {.name = "mu", .type = OPT_NUMBER, AT(mu), .min = -10, .max = 10, .result = true,
@@ -33,8 +32,8 @@ static const struct opt opts[] = {
      .help = "only the vertical plane y=PLACE or x=PLACE: one frame, its rows are the depths"},
     {.name = "periodic", .type = OPT_FLAG, AT(periodic), .result = true,
      .help = "the map repeats for ever (default: what the stream says, else free)"},
-    {.name = "kernel", .type = OPT_CHOICE, AT(kernel), .arg = "auto|fft|mlms|direct",
-     .help = "how stresses are summed (default auto: fft)"},
+    {.name = "kernel", .alias = "engine", .type = OPT_CHOICE, AT(kernel),
+     .words = words_stress_engine_or_auto, .help = "how stresses are summed (default auto)"},
     {.name = "tol", .type = OPT_NUMBER, AT(tol), .min = 0, .max = 1, .above = true,
      .result = true, .arg = "ERROR",
      .help = "error allowed in a component, over the largest pressure (default: rounding)"},
@@ -108,6 +107,15 @@ read_section(struct run *run)
     args.section = si;
 }
 
+/* Engines that sum periodic maps sum sections too: both are sums of waves. */
+static bool
+on_free_maps_only(void)
+{
+    const struct rc_engine_info *engine = words_engine_named(args.kernel);
+
+    return engine != NULL && !engine->periodic;
+}
+
 static void
 check_arguments(struct run *run)
 {
@@ -121,9 +129,9 @@ check_arguments(struct run *run)
     for (size_t k = 1; args.section != NULL && k < args.depths.n; k++)
         if (!(args.depths.v[k] > args.depths.v[k - 1]))
             tool_die(t, EXIT_USAGE, "--depths: those of a section must rise from one to the next");
-    if (args.section != NULL &&
-        (strcmp(args.kernel, "mlms") == 0 || strcmp(args.kernel, "direct") == 0))
-        tool_die(t, EXIT_USAGE, "--section is summed by fft: leave out --kernel %s", args.kernel);
+    if (args.section != NULL && on_free_maps_only())
+        tool_die(t, EXIT_USAGE, "%s does not sum a --section: leave out --kernel %s", args.kernel,
+                 args.kernel);
     tool_demand_writable(t, "--report", args.report);
 }
 
@@ -170,11 +178,10 @@ set_options(struct run *run, const struct rc_grid *p)
     run->options.engine = args.kernel;
     run->options.tol = isnan(args.tol) ? 0 : args.tol;
     run->options.threads = run->t.threads;
-    if (run->options.boundary == RC_PERIODIC &&
-        (strcmp(args.kernel, "mlms") == 0 || strcmp(args.kernel, "direct") == 0))
+    if (run->options.boundary == RC_PERIODIC && on_free_maps_only())
         tool_die_at(&run->t, p, EXIT_IMPOSSIBLE,
-                    "its boundary is periodic, where only fft sums: leave out --kernel %s",
-                    args.kernel);
+                    "its boundary is periodic, where %s does not sum: leave out --kernel %s",
+                    args.kernel, args.kernel);
 }
 
 static void
@@ -212,14 +219,14 @@ frame_shape(const struct run *run, const struct rc_grid *p)
 static char *
 depths_text(struct run *run, const struct rc_grid *p)
 {
-    size_t room = 60000, n = 0;
-    char *text = malloc(room), number[RC_NUMBER_SIZE];
+    size_t size = 60000, n = 0;
+    char *text = malloc(size), number[RC_NUMBER_SIZE];
 
     for (size_t k = 0; text != NULL && k < run->depths.n; k++) {
-        int more = snprintf(text + n, room - n, "%s%s", k == 0 ? "" : ",",
+        int more = snprintf(text + n, size - n, "%s%s", k == 0 ? "" : ",",
                             rc_number_text(number, run->depths.v[k]));
         n += (size_t)more;
-        if (n >= room)
+        if (n >= size)
             tool_die_at(&run->t, p, EXIT_IMPOSSIBLE,
                         "%zu depths are too many for the header of a section: ask for fewer",
                         run->depths.n);

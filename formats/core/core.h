@@ -5,11 +5,12 @@
 #define RC_CORE_H
 
 #include "bytes.h"
+#include "checksum.h"
 #include "header.h"
+#include "limit.h"
 #include "maps.h"
-#include "md5.h"
 #include "number_table.h"
-#include "sums.h"
+#include "prefix.h"
 #include "text.h"
 #include "utf8.h"
 #include "values.h"

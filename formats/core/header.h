@@ -39,8 +39,8 @@ struct rc_field {
     enum rc_field_kind kind;
     size_t at;
 };
-/* Puts the value where the row of that key says; nothing when no row has it. RC_FAIL for a value
- * that is not what it must be. */
+/* Puts the value where the field of that key says, and does nothing when there is none. RC_FAIL for
+ * a value that is not what it must be. */
 enum rc_status rc_field_take(const struct rc_field *field, size_t n, struct rc_piece key,
                              struct rc_piece value, void *into, struct rc_err *err);
 /* All lines that part at `marks`, up to the end or a line that is `last` (which may be NULL). */

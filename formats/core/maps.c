@@ -4,6 +4,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "limit.h"
+#include "prefix.h"
+
 struct rc_map *
 rc_maps_add(struct rc_maps *maps, const char *name, size_t n)
 {
@@ -30,45 +33,39 @@ rc_maps_key(struct rc_maps *maps, const char *key, const char *text, size_t n)
 }
 
 void
-rc_maps_keep(struct rc_maps *maps, const struct rc_keep *rows, size_t n, struct rc_piece name,
+rc_maps_keep(struct rc_maps *maps, const struct rc_keep *keep, size_t n, struct rc_piece name,
              struct rc_piece value)
 {
     for (size_t k = 0; k < n; k++)
-        if (rc_piece_is(name, rows[k].name))
-            rc_maps_key(maps, rows[k].key, value.text, value.n);
+        if (rc_piece_is(name, keep[k].name))
+            rc_maps_key(maps, keep[k].key, value.text, value.n);
 }
 
 void
 rc_map_unit(struct rc_map *map, const char *text, size_t n)
 {
     static const char *const bases[] = {"V", "A", "N", "Pa", "Hz", "s", "rad", "W", "J", "F"};
-    static const struct {
-        const char *name;
-        double factor;
-    } prefixes[] = {{"", 1},        {"k", 1e3},   {"M", 1e6},  {"G", 1e9},
-                    {"m", 1e-3},    {"u", 1e-6},  {"n", 1e-9}, {"\xc2\xb5", 1e-6},
-                    {"\xb5", 1e-6}, {"p", 1e-12}, {"f", 1e-15}};
+    size_t length;
+    int power;
 
     rc_trim(&text, &n);
     map->si = 1;
-    map->unit[0] = '\0';
-    if (n == 0)
-        return;
     if (rc_length_unit(text, n, &map->si)) {
         strcpy(map->unit, "m");
         return;
     }
-    for (size_t p = 0; p < sizeof prefixes / sizeof *prefixes; p++)
-        for (size_t b = 0; b < sizeof bases / sizeof *bases; b++) {
-            size_t front = strlen(prefixes[p].name);
-            if (n != front + strlen(bases[b]) || memcmp(text, prefixes[p].name, front) != 0 ||
-                memcmp(text + front, bases[b], n - front) != 0)
-                continue;
-            map->si = prefixes[p].factor;
-            strcpy(map->unit, bases[b]);
+    rc_text_clean(map->unit, sizeof map->unit, text, n); /* in Latin-1 the micro sign is one byte */
+    length = strlen(map->unit);
+    for (size_t k = 0; k < sizeof bases / sizeof *bases; k++) {
+        size_t tail = strlen(bases[k]);
+
+        if (length >= tail && strcmp(map->unit + length - tail, bases[k]) == 0 &&
+            rc_prefix_power(map->unit, length - tail, &power)) {
+            map->si = rc_prefix_factor(power);
+            strcpy(map->unit, bases[k]);
             return;
         }
-    rc_text_clean(map->unit, sizeof map->unit, text, n);
+    }
     /* the degree sign, or the ordinal one that stands in for it */
     if (strcmp(map->unit, "\xc2\xb0") == 0 || strcmp(map->unit, "\xc2\xba") == 0)
         strcpy(map->unit, "deg");
@@ -111,9 +108,9 @@ enum rc_status
 rc_map_bound(const struct rc_map *map, const struct rc_file *file, double unpacked,
              struct rc_err *err)
 {
-    double most = 16 * (double)file->size + 67108864;
+    double bytes = 8 * (double)map->nx * (double)map->ny + unpacked;
 
-    if (8 * (double)map->nx * (double)map->ny + unpacked <= most)
+    if (bytes <= (double)rc_memory_limit(file->size))
         return RC_OK;
     return rc_err_set(err, "the header promises %zu x %zu heights in %zu bytes: that cannot be",
                       map->nx, map->ny, file->size);

@@ -56,8 +56,8 @@ void rc_maps_key(struct rc_maps *maps, const char *key, const char *text, size_t
 struct rc_keep {
     const char *name, *key;
 };
-/* Keeps the value when a row has that name. */
-void rc_maps_keep(struct rc_maps *maps, const struct rc_keep *rows, size_t n, struct rc_piece name,
+/* Keeps the value when one of keep[0..n) has that name. */
+void rc_maps_keep(struct rc_maps *maps, const struct rc_keep *keep, size_t n, struct rc_piece name,
                   struct rc_piece value);
 /* Sets unit and si from the file's word for it: a length, a unit with an SI prefix, or the word. */
 void rc_map_unit(struct rc_map *map, const char *text, size_t n);
@@ -71,8 +71,8 @@ void rc_map_hint(struct rc_map *map, double dx, double dy);
 void rc_map_steps(struct rc_map *map, double dx, double dy, struct rc_piece unit);
 /* A whole number from 1 to 2^31 - 1 as a header has it, or RC_FAIL with its name. */
 enum rc_status rc_map_count(const char *what, double number, size_t *count, struct rc_err *err);
-/* RC_FAIL when the map and `unpacked` bytes exceed 16 times the file and 64 MiB: for what is packed
- * in the file. */
+/* RC_FAIL when the map and `unpacked` bytes exceed rc_memory_limit: for what is packed in the
+ * file. */
 enum rc_status rc_map_bound(const struct rc_map *map, const struct rc_file *file, double unpacked,
                             struct rc_err *err);
 /* The fill of a map that is text: numbers parted by white space from `at` on. */
@@ -100,7 +100,7 @@ struct rc_grid *rc_maps_read(rc_maps_find *find, const struct rc_file *file,
                              const struct rc_wish *wish, size_t index, struct rc_notes *notes,
                              struct rc_err *err);
 
-/* The functions of a row of formats.list, NAME_list and NAME_read, from NAME_find. */
+/* The functions NAME_list and NAME_read of a format, from its NAME_find. */
 #define RC_FORMAT_OF_MAPS(name)                                                                    \
     static size_t name##_list(const struct rc_file *file, const struct rc_wish *wish,              \
                               struct rc_channel *channel, size_t most, struct rc_err *err)         \

@@ -16,23 +16,23 @@ ends_line(char c)
 
 /* White space that does not separate here. */
 static bool
-is_blank(const struct rc_rows *r, char c)
+is_blank(const struct rc_number_table *t, char c)
 {
-    return c == ' ' || (c == '\t' && r->separator != '\t');
+    return c == ' ' || (c == '\t' && t->separator != '\t');
 }
 
 static const char *
-skip_blanks(const struct rc_rows *r, const char *s)
+skip_blanks(const struct rc_number_table *t, const char *s)
 {
-    while (s < r->end && is_blank(r, *s))
+    while (s < t->end && is_blank(t, *s))
         s++;
     return s;
 }
 
 static bool
-ends_field(const struct rc_rows *r, const char *s)
+ends_field(const struct rc_number_table *t, const char *s)
 {
-    return s == r->end || ends_line(*s) || is_blank(r, *s) || *s == r->separator;
+    return s == t->end || ends_line(*s) || is_blank(t, *s) || *s == t->separator;
 }
 
 /* ---- numbers ---- */
@@ -46,16 +46,16 @@ struct number {
 };
 
 static bool
-is_digit(const struct rc_rows *r, const char *s)
+is_digit(const struct rc_number_table *t, const char *s)
 {
-    return s < r->end && *s >= '0' && *s <= '9';
+    return s < t->end && *s >= '0' && *s <= '9';
 }
 
 /* Digits from s on; past 2^53 they are no longer gathered. */
 static const char *
-gather(const struct rc_rows *r, const char *s, struct number *n, bool fraction)
+gather(const struct rc_number_table *t, const char *s, struct number *n, bool fraction)
 {
-    for (; is_digit(r, s); s++) {
+    for (; is_digit(t, s); s++) {
         if (n->digits >= (UINT64_C(1) << 53) / 10 - 1)
             n->exact = false;
         else {
@@ -67,17 +67,17 @@ gather(const struct rc_rows *r, const char *s, struct number *n, bool fraction)
 }
 
 static const char *
-gather_power(const struct rc_rows *r, const char *s, struct number *n)
+gather_power(const struct rc_number_table *t, const char *s, struct number *n)
 {
     const char *digit = s + 1;
-    bool minus = digit < r->end && *digit == '-';
+    bool minus = digit < t->end && *digit == '-';
     int power = 0;
 
-    if (digit < r->end && (*digit == '-' || *digit == '+'))
+    if (digit < t->end && (*digit == '-' || *digit == '+'))
         digit++;
-    if (!is_digit(r, digit))
+    if (!is_digit(t, digit))
         return s;
-    for (; is_digit(r, digit); digit++)
+    for (; is_digit(t, digit); digit++)
         if (power < 10000)
             power = 10 * power + (*digit - '0');
     n->power += minus ? -power : power;
@@ -105,30 +105,31 @@ read_slowly(const char *start, const char *end, const char *mark_at, double *val
 /* The number at s and where it ends, or NULL when there is none. Up to 2^53 and 10^22 both parts
  * are exact in a double, so that one multiplication or division rounds correctly. */
 static const char *
-read_number(const struct rc_rows *r, const char *s, char decimal, struct number *n, double *value)
+read_number(const struct rc_number_table *t, const char *s, char decimal, struct number *n,
+            double *value)
 {
     static const double tens[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                   1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                   1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
     const char *start = s, *digits, *whole;
-    bool minus = s < r->end && *s == '-';
+    bool minus = s < t->end && *s == '-';
 
     *n = (struct number){.exact = true};
-    if (s < r->end && (*s == '-' || *s == '+'))
+    if (s < t->end && (*s == '-' || *s == '+'))
         s++;
     digits = s;
-    s = whole = gather(r, s, n, false);
-    if (s < r->end && *s != r->separator &&
+    s = whole = gather(t, s, n, false);
+    if (s < t->end && *s != t->separator &&
         (decimal == 0 ? *s == '.' || *s == ',' : *s == decimal)) {
         n->mark = *s;
         n->mark_at = s;
-        s = gather(r, s + 1, n, true);
+        s = gather(t, s + 1, n, true);
         whole = s - 1;
     }
     if (whole == digits)
         return NULL;
-    if (s < r->end && (*s == 'e' || *s == 'E'))
-        s = gather_power(r, s, n);
+    if (s < t->end && (*s == 'e' || *s == 'E'))
+        s = gather_power(t, s, n);
     if (!n->exact || n->power < -22 || n->power > 22)
         return read_slowly(start, s, n->mark_at, value) ? s : NULL;
     *value =
@@ -152,13 +153,13 @@ same_word(const char *word, const char *s, size_t n)
 }
 
 static bool
-is_missing(const struct rc_rows *r, const char *s, size_t n)
+is_missing(const struct rc_number_table *t, const char *s, size_t n)
 {
     /* the last three are how some C libraries print a NaN */
     static const char *const words[] = {"nan", "na",   "n/a",     "bad",    "--",
                                         "---", "-nan", "1.#qnan", "-1.#ind"};
 
-    if (r->missing != NULL && strlen(r->missing) == n && memcmp(r->missing, s, n) == 0)
+    if (t->missing != NULL && strlen(t->missing) == n && memcmp(t->missing, s, n) == 0)
         return true;
     for (size_t k = 0; k < sizeof words / sizeof *words; k++)
         if (same_word(words[k], s, n))
@@ -169,22 +170,22 @@ is_missing(const struct rc_rows *r, const char *s, size_t n)
 /* The value of one field; s is at its first character. *decimal is settled by the first number that
  * has a mark. NULL when it is neither number nor missing. */
 static const char *
-read_field(const struct rc_rows *r, const char *s, char *decimal, double *value)
+read_field(const struct rc_number_table *t, const char *s, char *decimal, double *value)
 {
     struct number n;
-    const char *end = read_number(r, s, *decimal, &n, value);
+    const char *end = read_number(t, s, *decimal, &n, value);
 
-    if (end != NULL && ends_field(r, end)) {
+    if (end != NULL && ends_field(t, end)) {
         if (n.mark != 0)
             *decimal = n.mark;
-        if (*value == r->missing_number)
+        if (*value == t->missing_number)
             *value = NAN;
         return end;
     }
-    for (end = s; !ends_field(r, end);)
+    for (end = s; !ends_field(t, end);)
         end++;
     *value = NAN;
-    return is_missing(r, s, (size_t)(end - s)) ? end : NULL;
+    return is_missing(t, s, (size_t)(end - s)) ? end : NULL;
 }
 
 static const char *
@@ -194,7 +195,8 @@ separator_name(char c)
 }
 
 static enum rc_status
-bad_field(const struct rc_rows *r, size_t line, const char *s, char decimal, struct rc_err *err)
+bad_field(const struct rc_number_table *t, size_t line, const char *s, char decimal,
+          struct rc_err *err)
 {
     const char *end = s;
     char quote[RC_SHOWN], other = decimal == '.' ? ',' : '.';
@@ -203,8 +205,8 @@ bad_field(const struct rc_rows *r, size_t line, const char *s, char decimal, str
         return rc_err_set(err,
                           "line %zu: two values with white space between them, where columns "
                           "are separated by %s: --separator says what is meant",
-                          line, separator_name(r->separator));
-    while (!ends_field(r, end))
+                          line, separator_name(t->separator));
+    while (!ends_field(t, end))
         end++;
     rc_text_shown(quote, s, (size_t)(end - s));
     if (decimal != 0 && memchr(s, other, (size_t)(end - s)) != NULL)
@@ -221,35 +223,35 @@ bad_field(const struct rc_rows *r, size_t line, const char *s, char decimal, str
 /* One row from s, which is not at an empty line. Values beyond `most` are counted, not stored.
  * Gives its end, before the end of the line, or NULL and *bad, the field that is to blame. */
 static const char *
-read_row(const struct rc_rows *r, const char *s, size_t most, double *v, size_t *count,
+read_row(const struct rc_number_table *t, const char *s, size_t most, double *v, size_t *count,
          char *decimal, const char **bad)
 {
-    bool strict = r->separator != ' ', after = false; /* after: a separator came just before */
+    bool strict = t->separator != ' ', after = false; /* after: a separator came just before */
     double value;
 
     *count = 0;
     for (;;) {
-        s = skip_blanks(r, s);
-        if (s == r->end || ends_line(*s)) {
+        s = skip_blanks(t, s);
+        if (s == t->end || ends_line(*s)) {
             if (strict && after && *count + 1 == most)
                 v[(*count)++] = NAN;
             return s;
         }
-        if (strict && *s == r->separator) {
+        if (strict && *s == t->separator) {
             value = NAN; /* nothing before it */
         } else {
             *bad = s;
-            if ((s = read_field(r, s, decimal, &value)) == NULL)
+            if ((s = read_field(t, s, decimal, &value)) == NULL)
                 return NULL;
-            s = skip_blanks(r, s);
+            s = skip_blanks(t, s);
         }
         if (*count < most)
             v[*count] = value;
         ++*count;
-        after = strict && s < r->end && *s == r->separator;
+        after = strict && s < t->end && *s == t->separator;
         if (after)
             s++;
-        else if (strict && s < r->end && !ends_line(*s)) {
+        else if (strict && s < t->end && !ends_line(*s)) {
             *bad = NULL; /* two values with nothing but white space between them */
             return NULL;
         }
@@ -260,28 +262,28 @@ read_row(const struct rc_rows *r, const char *s, size_t most, double *v, size_t 
 
 /* The first row from s on, past empty lines and comments; counts lines. */
 static const char *
-next_row(const struct rc_rows *r, const char *s, size_t *line)
+next_row(const struct rc_number_table *t, const char *s, size_t *line)
 {
     for (;;) {
-        s = skip_blanks(r, s);
-        if (s == r->end)
+        s = skip_blanks(t, s);
+        if (s == t->end)
             return s;
         if (*s == '#' || *s == '%')
-            while (s < r->end && !ends_line(*s))
+            while (s < t->end && !ends_line(*s))
                 s++;
         else if (!ends_line(*s))
             return s;
-        if (s < r->end) {
-            s += *s == '\r' && s + 1 < r->end && s[1] == '\n' ? 2 : 1;
+        if (s < t->end) {
+            s += *s == '\r' && s + 1 < t->end && s[1] == '\n' ? 2 : 1;
             ++*line;
         }
     }
 }
 
 static const char *
-line_end(const struct rc_rows *r, const char *s)
+line_end(const struct rc_number_table *t, const char *s)
 {
-    while (s < r->end && !ends_line(*s))
+    while (s < t->end && !ends_line(*s))
         s++;
     return s;
 }
@@ -311,9 +313,9 @@ loose_commas(const char *s, const char *end)
 /* The separator, from the first row. A comma is one when the row also has points, when white space
  * stands beside every comma, or when there is no other white space in it. */
 static enum rc_status
-find_separator(struct rc_rows *r, const char *s, size_t line, struct rc_err *err)
+find_separator(struct rc_number_table *t, const char *s, size_t line, struct rc_err *err)
 {
-    const char *end = line_end(r, s);
+    const char *end = line_end(t, s);
     size_t commas, loose;
 
     while (end > s && (end[-1] == ' ' || end[-1] == '\t'))
@@ -321,16 +323,16 @@ find_separator(struct rc_rows *r, const char *s, size_t line, struct rc_err *err
     commas = count_of(s, end, ',');
     loose = loose_commas(s, end);
     if (count_of(s, end, ';') > 0)
-        r->separator = ';';
+        t->separator = ';';
     else if (count_of(s, end, '\t') > 0)
-        r->separator = '\t';
-    else if (commas == 0 || r->decimal == ',')
-        r->separator = ' ';
+        t->separator = '\t';
+    else if (commas == 0 || t->decimal == ',')
+        t->separator = ' ';
     else if (count_of(s, end, '.') > 0 || loose == commas || count_of(s, end, ' ') == 0 ||
-             r->decimal == '.')
-        r->separator = ',';
+             t->decimal == '.')
+        t->separator = ',';
     else if (loose == 0)
-        r->separator = ' ';
+        t->separator = ' ';
     else
         return rc_err_set(err,
                           "line %zu: some commas look like decimal marks, others like "
@@ -341,68 +343,68 @@ find_separator(struct rc_rows *r, const char *s, size_t line, struct rc_err *err
 
 /* "1,5" may be two columns of whole numbers or one of fractions: only the user knows. */
 static enum rc_status
-mind_two_columns(const struct rc_rows *r, const struct rc_wish *wish, struct rc_err *err)
+mind_two_columns(const struct rc_number_table *t, const struct rc_wish *wish, struct rc_err *err)
 {
-    if (r->columns != 2 || r->separator != ',' || wish->separator != NULL || wish->decimal != 0 ||
-        memchr(r->start, '.', (size_t)(r->end - r->start)) != NULL ||
-        memchr(r->start, ' ', (size_t)(r->end - r->start)) != NULL)
+    if (t->columns != 2 || t->separator != ',' || wish->separator != NULL || wish->decimal != 0 ||
+        memchr(t->start, '.', (size_t)(t->end - t->start)) != NULL ||
+        memchr(t->start, ' ', (size_t)(t->end - t->start)) != NULL)
         return RC_OK;
     return rc_err_set(err,
                       "line %zu: the comma may be a decimal mark or a separator: --decimal or "
                       "--separator says which",
-                      r->first_line);
+                      t->first_line);
 }
 
 enum rc_status
-rc_rows_start(struct rc_rows *r, const struct rc_lines *lines, const struct rc_wish *wish,
-              struct rc_err *err)
+rc_number_table_open(struct rc_number_table *t, const struct rc_lines *lines,
+                     const struct rc_wish *wish, struct rc_err *err)
 {
     const char *s, *end, *bad;
     size_t line = lines->number + 1;
     char decimal;
 
-    *r = (struct rc_rows){.start = lines->at,
-                          .end = lines->end,
-                          .first_line = line,
-                          .separator = wish->separator == NULL ? '\0' : wish->separator[0],
-                          .decimal = wish->decimal,
-                          .missing = wish->missing};
-    r->missing_number = NAN;
-    if (r->missing != NULL &&
-        ((end = rc_number_read(r->missing, false, &r->missing_number)) == NULL || *end != '\0'))
-        r->missing_number = NAN;
-    s = next_row(r, r->start, &line);
-    if (s == r->end)
+    *t = (struct rc_number_table){.start = lines->at,
+                                  .end = lines->end,
+                                  .first_line = line,
+                                  .separator = wish->separator == NULL ? '\0' : wish->separator[0],
+                                  .decimal = wish->decimal,
+                                  .missing = wish->missing};
+    t->missing_number = NAN;
+    if (t->missing != NULL &&
+        ((end = rc_number_read(t->missing, false, &t->missing_number)) == NULL || *end != '\0'))
+        t->missing_number = NAN;
+    s = next_row(t, t->start, &line);
+    if (s == t->end)
         return rc_err_set(err, "there are no numbers in the file");
-    r->start = s;
-    r->first_line = line;
-    if (r->separator == '\0' && find_separator(r, s, line, err) != RC_OK)
+    t->start = s;
+    t->first_line = line;
+    if (t->separator == '\0' && find_separator(t, s, line, err) != RC_OK)
         return RC_FAIL;
-    if (r->separator == ',' && r->decimal == ',')
+    if (t->separator == ',' && t->decimal == ',')
         return rc_err_set(err, "the comma cannot be separator and decimal mark at once");
-    if (r->separator == ',')
-        r->decimal = '.';
-    decimal = r->decimal;
-    if ((s = read_row(r, s, 0, NULL, &r->columns, &decimal, &bad)) == NULL)
-        return bad_field(r, line, bad, decimal, err);
-    for (r->rows = 1; (s = next_row(r, s, &line)) < r->end; r->rows++)
-        s = line_end(r, s);
-    return mind_two_columns(r, wish, err);
+    if (t->separator == ',')
+        t->decimal = '.';
+    decimal = t->decimal;
+    if ((s = read_row(t, s, 0, NULL, &t->columns, &decimal, &bad)) == NULL)
+        return bad_field(t, line, bad, decimal, err);
+    for (t->rows = 1; (s = next_row(t, s, &line)) < t->end; t->rows++)
+        s = line_end(t, s);
+    return mind_two_columns(t, wish, err);
 }
 
 enum rc_status
-rc_rows_read(struct rc_rows *r, double *v, struct rc_err *err)
+rc_number_table_read(struct rc_number_table *t, double *v, struct rc_err *err)
 {
-    const char *s = r->start, *bad;
-    size_t line = r->first_line, count;
+    const char *s = t->start, *bad;
+    size_t line = t->first_line, count;
 
-    for (size_t j = 0; j < r->rows; j++, v += r->columns) {
-        if ((s = read_row(r, s, r->columns, v, &count, &r->decimal, &bad)) == NULL)
-            return bad_field(r, line, bad, r->decimal, err);
-        if (count != r->columns)
+    for (size_t j = 0; j < t->rows; j++, v += t->columns) {
+        if ((s = read_row(t, s, t->columns, v, &count, &t->decimal, &bad)) == NULL)
+            return bad_field(t, line, bad, t->decimal, err);
+        if (count != t->columns)
             return rc_err_set(err, "line %zu: %zu values, where the first row (line %zu) has %zu",
-                              line, count, r->first_line, r->columns);
-        s = next_row(r, s, &line);
+                              line, count, t->first_line, t->columns);
+        s = next_row(t, s, &line);
     }
     return RC_OK;
 }

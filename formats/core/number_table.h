@@ -1,18 +1,19 @@
 /*
- * Rows of numbers in text, as many columns in each: read in one pass, whatever the locale.
+ * A table of numbers in text, with as many columns in every row: read in one pass, with a point or
+ * a comma as the decimal mark whatever the locale.
  *
  * Columns stand apart by one separator. When it is white space, runs of it count once; otherwise
  * nothing between two separators is a missing value, and a separator at the end of a row ends it.
  * Empty lines and lines that begin with '#' or '%' are skipped. Missing values are NaN, NA, N/A,
  * BAD, -- or --- in either case, and the word that the user gives.
  */
-#ifndef RC_ROWS_H
-#define RC_ROWS_H
+#ifndef RC_NUMBER_TABLE_H
+#define RC_NUMBER_TABLE_H
 
 #include "formats/format.h"
 #include "text.h"
 
-struct rc_rows {
+struct rc_number_table {
     const char *start, *end;
     size_t first_line;     /* number of the line at start, from 1                           */
     char separator;        /* ' ' for white space                                           */
@@ -24,9 +25,9 @@ struct rc_rows {
 
 /* Finds out what the wish leaves open, and counts. RC_FAIL when there is no row, when the first one
  * holds something else than numbers, or where separator and decimal mark cannot be told apart. */
-enum rc_status rc_rows_start(struct rc_rows *rows, const struct rc_lines *lines,
-                             const struct rc_wish *wish, struct rc_err *err);
+enum rc_status rc_number_table_open(struct rc_number_table *table, const struct rc_lines *lines,
+                                    const struct rc_wish *wish, struct rc_err *err);
 /* All values, row by row, NaN where missing. RC_FAIL names the line that is not as it must be. */
-enum rc_status rc_rows_read(struct rc_rows *rows, double *v, struct rc_err *err);
+enum rc_status rc_number_table_read(struct rc_number_table *table, double *v, struct rc_err *err);
 
 #endif

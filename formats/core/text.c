@@ -109,10 +109,10 @@ widen(char *to, size_t size, const char *text, size_t n)
 char *
 rc_text_clean(char *to, size_t size, const char *text, size_t n)
 {
-    size_t room = size - 1, kept;
+    size_t most = size - 1, kept;
 
     rc_trim(&text, &n);
-    kept = n < room ? n : room;
+    kept = n < most ? n : most;
     while (kept < n && kept > 0 && ((unsigned char)text[kept] & 0xc0U) == 0x80)
         kept--; /* not in the middle of a character */
     for (size_t k = 0; k < kept; k++)

@@ -28,7 +28,7 @@
 
 static enum rc_status
 ascii_open(const struct rc_file *file, const struct rc_wish *wish, struct rc_ascii_head *h,
-           struct rc_rows *rows, struct rc_err *err)
+           struct rc_number_table *table, struct rc_err *err)
 {
     const char *text = (const char *)file->data;
     struct rc_lines lines = {.at = text, .end = text + file->size};
@@ -39,28 +39,28 @@ ascii_open(const struct rc_file *file, const struct rc_wish *wish, struct rc_asc
     if (file->size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0)
         lines.at += 3;
     rc_ascii_read_head(h, &lines);
-    if (rc_rows_start(rows, &lines, wish, err) != RC_OK)
+    if (rc_number_table_open(table, &lines, wish, err) != RC_OK)
         return RC_FAIL;
-    if ((h->nx != 0 && h->nx != rows->columns) || (h->ny != 0 && h->ny != rows->rows))
+    if ((h->nx != 0 && h->nx != table->columns) || (h->ny != 0 && h->ny != table->rows))
         return rc_err_set(err,
                           "the header promises %zu columns and %zu rows, the file has %zu and "
                           "%zu",
-                          h->nx == 0 ? rows->columns : h->nx, h->ny == 0 ? rows->rows : h->ny,
-                          rows->columns, rows->rows);
-    if (rows->columns == 1)
+                          h->nx == 0 ? table->columns : h->nx, h->ny == 0 ? table->rows : h->ny,
+                          table->columns, table->rows);
+    if (table->columns == 1)
         return rc_err_set(err,
                           "%zu numbers in one column: that is a profile or a list, no matrix "
                           "(--format profile takes them for heights)",
-                          rows->rows);
+                          table->rows);
     return RC_OK;
 }
 
 /* Spacing as the header has it, NAN where it does not say. */
 static void
-spacing(const struct rc_ascii_head *h, const struct rc_rows *rows, double *dx, double *dy)
+spacing(const struct rc_ascii_head *h, const struct rc_number_table *table, double *dx, double *dy)
 {
-    *dx = isnan(h->pixel) ? h->width / (double)rows->columns : h->pixel;
-    *dy = isnan(h->pixel) ? h->height / (double)rows->rows : h->pixel;
+    *dx = isnan(h->pixel) ? h->width / (double)table->columns : h->pixel;
+    *dy = isnan(h->pixel) ? h->height / (double)table->rows : h->pixel;
     if (isnan(*dy))
         *dy = *dx;
 }
@@ -96,15 +96,15 @@ is_rising(const double *v, size_t rows)
 }
 
 static enum rc_status
-mind_coordinates(const struct rc_ascii_head *h, const struct rc_rows *rows, const double *v,
-                 struct rc_err *err)
+mind_coordinates(const struct rc_ascii_head *h, const struct rc_number_table *table,
+                 const double *v, struct rc_err *err)
 {
     if (h->nx != 0 || !isnan(h->width) || !isnan(h->pixel))
         return RC_OK;
-    if (rows->columns == 2 && is_rising(v, rows->rows))
+    if (table->columns == 2 && is_rising(v, table->rows))
         return rc_err_set(err, "two columns, of which the first rises: that is a profile (x, z), "
                                "no matrix; a header with a width would say otherwise");
-    if (rows->columns == 3 && (is_raster(v, rows->rows, 0, 1) || is_raster(v, rows->rows, 1, 0)))
+    if (table->columns == 3 && (is_raster(v, table->rows, 0, 1) || is_raster(v, table->rows, 1, 0)))
         return rc_err_set(err, "three columns, of which two run through a raster: that is a list "
                                "of points (x, y, z), no matrix; a header with a width would say "
                                "otherwise");
@@ -123,11 +123,11 @@ get_scales(const struct rc_ascii_head *h, double dx, double dy, const struct rc_
 }
 
 static struct rc_grid *
-read_matrix(const struct rc_ascii_head *h, struct rc_rows *rows, const struct rc_wish *wish,
-            struct rc_notes *notes, struct rc_err *err)
+read_matrix(const struct rc_ascii_head *h, struct rc_number_table *table,
+            const struct rc_wish *wish, struct rc_notes *notes, struct rc_err *err)
 {
-    struct rc_shape shape = {.nx = rows->columns, .ny = rows->rows, .dx = 1, .dy = 1};
-    size_t n, bytes = (size_t)(rows->end - rows->start);
+    struct rc_shape shape = {.nx = table->columns, .ny = table->rows, .dx = 1, .dy = 1};
+    size_t n, bytes = (size_t)(table->end - table->start);
     struct rc_grid *g = NULL;
     double dx, dy, metres;
 
@@ -140,8 +140,9 @@ read_matrix(const struct rc_ascii_head *h, struct rc_rows *rows, const struct rc
     }
     if ((g = rc_grid_new(&shape, "height", "m", err)) == NULL)
         return NULL;
-    spacing(h, rows, &dx, &dy);
-    if (rc_rows_read(rows, g->v, err) != RC_OK || mind_coordinates(h, rows, g->v, err) != RC_OK ||
+    spacing(h, table, &dx, &dy);
+    if (rc_number_table_read(table, g->v, err) != RC_OK ||
+        mind_coordinates(h, table, g->v, err) != RC_OK ||
         get_scales(h, dx, dy, wish, &shape, &metres, notes, err) != RC_OK ||
         rc_text_keep(g, "file.channel", h->channel.text, h->channel.n, err) != RC_OK) {
         rc_grid_free(g);
@@ -163,7 +164,7 @@ read_matrix(const struct rc_ascii_head *h, struct rc_rows *rows, const struct rc
     return g;
 }
 
-/* ---- the row ---- */
+/* ---- the entry in formats.list ---- */
 
 static const struct rc_wish no_wish = {.dx = NAN, .dy = NAN, .z_unit = NAN};
 
@@ -171,7 +172,7 @@ static int
 ascii_score(const struct rc_file *file)
 {
     size_t looked = file->size < 4096 ? file->size : 4096;
-    struct rc_rows rows;
+    struct rc_number_table table;
     struct rc_ascii_head h;
     unsigned char c;
 
@@ -180,7 +181,7 @@ ascii_score(const struct rc_file *file)
         return 2;
     if (file->size == 0 || memchr(file->data, 0, looked) != NULL)
         return 0;
-    if (ascii_open(file, &no_wish, &h, &rows, NULL) == RC_OK)
+    if (ascii_open(file, &no_wish, &h, &table, NULL) == RC_OK)
         return h.known ? 90 : 40;
     /* A little for what begins as numbers do, so that a refusal says what is wrong with them. */
     c = file->data[0];
@@ -192,17 +193,17 @@ ascii_list(const struct rc_file *file, const struct rc_wish *wish, struct rc_cha
            size_t most, struct rc_err *err)
 {
     struct rc_channel c = {.name = "height"};
-    struct rc_rows rows;
+    struct rc_number_table table;
     struct rc_ascii_head h;
 
-    if (ascii_open(file, wish, &h, &rows, err) != RC_OK)
+    if (ascii_open(file, wish, &h, &table, err) != RC_OK)
         return 0;
     if (h.channel.n > 0)
         rc_text_clean(c.name, sizeof c.name, h.channel.text, h.channel.n);
     strcpy(c.unit, isnan(h.z) ? h.unit : "m");
-    c.nx = rows.columns;
-    c.ny = rows.rows;
-    spacing(&h, &rows, &c.dx, &c.dy);
+    c.nx = table.columns;
+    c.ny = table.rows;
+    spacing(&h, &table, &c.dx, &c.dy);
     if (most > 0)
         *channel = c;
     return 1;
@@ -212,16 +213,16 @@ static struct rc_grid *
 ascii_read(const struct rc_file *file, const struct rc_wish *wish, size_t index,
            struct rc_notes *notes, struct rc_err *err)
 {
-    struct rc_rows rows;
+    struct rc_number_table table;
     struct rc_ascii_head h;
 
-    if (ascii_open(file, wish, &h, &rows, err) != RC_OK)
+    if (ascii_open(file, wish, &h, &table, err) != RC_OK)
         return NULL;
     if (index != 0) {
         rc_err_set(err, "a text matrix has one channel, not %zu", index + 1);
         return NULL;
     }
-    return read_matrix(&h, &rows, wish, notes, err);
+    return read_matrix(&h, &table, wish, notes, err);
 }
 
 const struct rc_format rc_format_ascii = {

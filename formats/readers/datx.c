@@ -25,12 +25,12 @@ struct lookup {
 };
 
 static void
-look(void *arg, const struct rc_hdf_row *row)
+look(void *arg, const struct rc_hdf_record *record)
 {
     struct lookup *l = arg;
 
-    if (strcmp(row->text[0], l->group) == 0 && strcmp(row->text[1], l->key) == 0)
-        strcpy(l->value, row->text[2]);
+    if (strcmp(record->text[0], l->group) == 0 && strcmp(record->text[1], l->key) == 0)
+        strcpy(l->value, record->text[2]);
 }
 
 static bool
@@ -79,10 +79,10 @@ struct surface {
 };
 
 static void
-take_converter(void *arg, const struct rc_hdf_row *row)
+take_converter(void *arg, const struct rc_hdf_record *record)
 {
-    if (strcmp(row->text[0], "LateralCat") == 0 && row->numbers > 1)
-        *(double *)arg = row->number[1];
+    if (strcmp(record->text[0], "LateralCat") == 0 && record->numbers > 1)
+        *(double *)arg = record->number[1];
 }
 
 /* Metres of one unit; NAN for one that is not known. */
@@ -182,7 +182,7 @@ done:
     return NULL;
 }
 
-/* ---- the row ---- */
+/* ---- the entry in formats.list ---- */
 
 static bool
 holds(const struct rc_file *file, const char *word)
@@ -208,7 +208,7 @@ datx_score(const struct rc_file *file)
     return n > 5 && strcmp(file->name + n - 5, ".datx") == 0 ? 70 : 0;
 }
 
-RC_FORMAT_IN_CAGE(datx)
+RC_FORMAT_SANDBOXED(datx)
 
 const struct rc_format rc_format_datx = {
     .name = "datx",

@@ -62,21 +62,21 @@ step_over(struct rc_bytes *b, size_t end, char type)
     static const struct {
         char one, many;
         size_t width; /* 0: texts and objects, each of its own length */
-    } rows[] = {{'b', 0, 1},   {'c', 'C', 1}, {'i', 'I', 4}, {'q', 'Q', 8},
-                {'d', 'D', 8}, {'s', 'S', 0}, {'o', 'O', 0}};
+    } types[] = {{'b', 0, 1},   {'c', 'C', 1}, {'i', 'I', 4}, {'q', 'Q', 8},
+                 {'d', 'D', 8}, {'s', 'S', 0}, {'o', 'O', 0}};
     struct rc_piece text;
-    size_t row = 0, count = 1, size = 0;
+    size_t k = 0, count = 1, size = 0;
 
-    while (row < sizeof rows / sizeof *rows && type != rows[row].one && type != rows[row].many)
-        row++;
-    if (type == '\0' || row == sizeof rows / sizeof *rows ||
-        (type == rows[row].many && !take_count(b, end, &count)))
+    while (k < sizeof types / sizeof *types && type != types[k].one && type != types[k].many)
+        k++;
+    if (type == '\0' || k == sizeof types / sizeof *types ||
+        (type == types[k].many && !take_count(b, end, &count)))
         return false;
-    if (rows[row].width > 0)
-        return skip(b, end, count, rows[row].width);
+    if (types[k].width > 0)
+        return skip(b, end, count, types[k].width);
     for (; count > 0; count--)
         if (!take_text(b, end, &text) ||
-            (rows[row].one == 'o' && (!take_count(b, end, &size) || !skip(b, end, size, 1))))
+            (types[k].one == 'o' && (!take_count(b, end, &size) || !skip(b, end, size, 1))))
             return false;
     return true;
 }

@@ -1,4 +1,4 @@
-#include "hdf_inside.h"
+#include "hdf_internal.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
-/* HDF5 in memory; beside writers/hdf5.c the only place that knows libhdf5. To be used in a cage
- * (cage.h): damaged files make the library crash, run round, or ask for any memory. */
+/* HDF5 in memory; beside writers/hdf5.c the only place that knows libhdf5. To be used in the
+ * sandbox (sandbox.h): damaged files make the library crash, loop or ask for any memory. */
 #ifndef RC_HDF_H
 #define RC_HDF_H
 
@@ -29,17 +29,17 @@ enum rc_status rc_hdf_values(struct rc_hdf *hdf, const struct rc_hdf_set *set, d
 bool rc_hdf_number(struct rc_hdf *hdf, const char *path, const char *name, double *value);
 char *rc_hdf_text(struct rc_hdf *hdf, const char *path, const char *name, char *to, size_t size);
 
-/* Rows of a table: a dataset or an attribute of compounds. Calls `row` with the text of the first
- * members and the numbers of the first member that is a list of them. */
-struct rc_hdf_row {
+/* A record of a table, which is a dataset or an attribute of compounds: the text of the first
+ * members that are text and the numbers of the first member that is a list of them. */
+struct rc_hdf_record {
     char text[3][128];
     double number[4];
     size_t numbers;
 };
-typedef void rc_hdf_take_row(void *arg, const struct rc_hdf_row *row);
+typedef void rc_hdf_take_record(void *arg, const struct rc_hdf_record *record);
 /* `attribute` NULL: the dataset itself. False when there is no such table. */
 bool rc_hdf_table(struct rc_hdf *hdf, const char *path, const char *attribute,
-                  rc_hdf_take_row *take, void *arg);
+                  rc_hdf_take_record *take, void *arg);
 
 /* Whether it begins as HDF5 does. */
 bool rc_hdf_is(const struct rc_file *file);

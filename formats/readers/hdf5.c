@@ -119,7 +119,7 @@ done:
     return NULL;
 }
 
-/* ---- the row ---- */
+/* ---- the entry in formats.list ---- */
 
 static int
 hdf5_score(const struct rc_file *file)
@@ -127,7 +127,7 @@ hdf5_score(const struct rc_file *file)
     return rc_hdf_is(file) ? 60 : 0; /* instruments have formats of their own in it */
 }
 
-RC_FORMAT_IN_CAGE(hdf5)
+RC_FORMAT_SANDBOXED(hdf5)
 
 const struct rc_format rc_format_hdf5 = {
     .name = "hdf5",

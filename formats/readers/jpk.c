@@ -243,7 +243,7 @@ done:
     return NULL;
 }
 
-/* ---- the row ---- */
+/* ---- the entry in formats.list ---- */
 
 /* Force curves are a ZIP archive of their own, known by this member. */
 static bool
@@ -277,7 +277,7 @@ jpk_list(const struct rc_file *file, const struct rc_wish *wish, struct rc_chann
         rc_err_set(err, "force curves of JPK: only image scans are read");
         return 0;
     }
-    return rc_cage_list(list_channels, file, wish, channel, most, err);
+    return rc_sandbox_list(list_channels, file, wish, channel, most, err);
 }
 
 static struct rc_grid *
@@ -288,7 +288,7 @@ jpk_read(const struct rc_file *file, const struct rc_wish *wish, size_t index,
         rc_err_set(err, "force curves of JPK: only image scans are read");
         return NULL;
     }
-    return rc_cage_read(read_values, file, wish, index, notes, err);
+    return rc_sandbox_read(read_values, file, wish, index, notes, err);
 }
 
 const struct rc_format rc_format_jpk = {

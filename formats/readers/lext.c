@@ -261,7 +261,7 @@ done:
     return NULL;
 }
 
-/* ---- the row ---- */
+/* ---- the entry in formats.list ---- */
 
 static int
 lext_score(const struct rc_file *file)
@@ -277,7 +277,7 @@ lext_score(const struct rc_file *file)
     return 0;
 }
 
-RC_FORMAT_IN_CAGE(lext)
+RC_FORMAT_SANDBOXED(lext)
 
 const struct rc_format rc_format_lext = {
     .name = "lext",

@@ -179,19 +179,20 @@ take_item(struct opdx *o, const struct rc_piece *path, size_t depth, double numb
                      (struct rc_piece){(const char *)o->file->data + at, n});
 }
 
-/* Reads the value of an item of that row of types; false when it does not end before `end`. */
+/* The length of the value of an item of types[kind], at which *b then stands; false when it does
+ * not end before `end`. */
 static bool
-measure(struct rc_bytes *b, size_t end, size_t row, size_t *n)
+measure(struct rc_bytes *b, size_t end, size_t kind, size_t *n)
 {
     struct rc_piece text;
 
-    if (types[row].how == FIXED) {
-        *n = types[row].n;
+    if (types[kind].how == FIXED) {
+        *n = types[kind].n;
         return *n <= end - b->at;
     }
-    if ((types[row].how == TYPED || types[row].how == MATRIX) && !take_text(b, end, &text))
+    if ((types[kind].how == TYPED || types[kind].how == MATRIX) && !take_text(b, end, &text))
         return false;
-    if (types[row].how == MATRIX) {
+    if (types[kind].how == MATRIX) {
         rc_bytes_u32(b);
         if (b->at > end || !take_text(b, end, &text))
             return false;
@@ -206,30 +207,30 @@ walk(struct opdx *o, struct rc_bytes *b, size_t end, struct rc_piece *path, size
     char quote[RC_SHOWN];
 
     while (b->at < end) {
-        size_t start = b->at, row = 0, n = 0, at;
+        size_t start = b->at, kind = 0, n = 0, at;
         double number = NAN;
         int type;
 
         if (depth == DEEPEST || !take_text(b, end, &path[depth]) || b->at >= end)
             return rc_err_set(err, "an item at byte %zu does not end, or lies too deep", start);
         type = (int)rc_bytes_at(b, b->at, RC_RAW_U8);
-        while (row < sizeof types / sizeof *types && types[row].type != type)
-            row++;
-        if (row == sizeof types / sizeof *types)
+        while (kind < sizeof types / sizeof *types && types[kind].type != type)
+            kind++;
+        if (kind == sizeof types / sizeof *types)
             return rc_err_set(err, "item '%s' at byte %zu is of type %d, which is not known",
                               rc_text_shown(quote, path[depth].text, path[depth].n), start, type);
-        if (types[row].how == END)
+        if (types[kind].how == END)
             break;
-        if (!measure(b, end, row, &n))
+        if (!measure(b, end, kind, &n))
             return rc_err_set(err, "item '%s' at byte %zu does not end inside its container",
                               rc_text_shown(quote, path[depth].text, path[depth].n), start);
         at = b->at;
-        if (types[row].how == CONTAINER) {
+        if (types[kind].how == CONTAINER) {
             if (walk(o, b, at + n, path, depth + 1, err) != RC_OK)
                 return RC_FAIL;
         } else {
-            if (types[row].how == FIXED && n <= 8)
-                number = rc_bytes_at(b, at, types[row].raw);
+            if (types[kind].how == FIXED && n <= 8)
+                number = rc_bytes_at(b, at, types[kind].raw);
             take_item(o, path, depth + 1, number, at, n);
         }
         b->at = at + n;

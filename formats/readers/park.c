@@ -244,7 +244,7 @@ done:
     return NULL;
 }
 
-/* ---- the row ---- */
+/* ---- the entry in formats.list ---- */
 
 static int
 park_score(const struct rc_file *file)
@@ -256,7 +256,7 @@ park_score(const struct rc_file *file)
                : 3; /* any other TIFF: to say why it is refused */
 }
 
-RC_FORMAT_IN_CAGE(park)
+RC_FORMAT_SANDBOXED(park)
 
 const struct rc_format rc_format_park = {
     .name = "park",

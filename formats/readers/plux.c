@@ -119,11 +119,10 @@ read_index(struct plux *p, size_t member, struct rc_err *err)
 {
     struct rc_xml *xml = rc_xml_new("index.xml", take_element, p, err);
     enum rc_status status = RC_FAIL;
-    char sum[RC_MD5_TEXT];
 
     if (xml == NULL)
         return RC_FAIL;
-    if (rc_zip_read_read(p->archive, member, INDEX_MOST, take_xml, xml, sum, err) == RC_OK)
+    if (rc_zip_read_member(p->archive, member, INDEX_MOST, take_xml, xml, NULL, err) == RC_OK)
         status = rc_xml_end(xml, err);
     rc_xml_free(xml);
     return status;
@@ -209,7 +208,7 @@ take_values(void *arg, const unsigned char *bytes, size_t n, struct rc_err *err)
     double **v = arg;
 
     (void)err;
-    rc_bytes_values(&cursor, RC_RAW_F32, *v, n / 4); /* pieces hold whole numbers */
+    rc_bytes_values(&cursor, RC_RAW_F32, *v, n / 4); /* chunks hold whole numbers */
     *v += n / 4;
     return RC_OK;
 }
@@ -255,7 +254,6 @@ read_layer(const struct plux *p, const struct rc_file *file, const struct rc_wis
 {
     struct rc_shape shape = {.nx = p->nx, .ny = p->ny};
     struct rc_grid *g = NULL;
-    char sum[RC_MD5_TEXT];
     double metres, *v;
     size_t member;
 
@@ -267,8 +265,8 @@ read_layer(const struct plux *p, const struct rc_file *file, const struct rc_wis
         return NULL;
     v = g->v;
     if (keep_words(p, g, err) != RC_OK ||
-        rc_zip_read_read(p->archive, member, (uint64_t)p->nx * p->ny * 4, take_values, &v, sum,
-                         err) != RC_OK) {
+        rc_zip_read_member(p->archive, member, (uint64_t)p->nx * p->ny * 4, take_values, &v, NULL,
+                           err) != RC_OK) {
         rc_grid_free(g);
         return NULL;
     }
@@ -298,7 +296,7 @@ plux_read(const struct rc_file *file, const struct rc_wish *wish, size_t index,
     return g;
 }
 
-/* ---- the row ---- */
+/* ---- the entry in formats.list ---- */
 
 static int
 plux_score(const struct rc_file *file)

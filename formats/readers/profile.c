@@ -8,10 +8,10 @@
 #include <string.h>
 
 #include "formats/core/core.h"
-#include "table.h"
+#include "titled_table.h"
 
 struct profile {
-    struct rc_table table;
+    struct rc_titled_table table;
     size_t x, z, valid; /* columns; valid = columns: none */
     double first, step; /* of the positions, in the unit of the file */
     bool falls;         /* the positions do                          */
@@ -63,7 +63,7 @@ static bool
 counts(const struct profile *p, size_t c)
 {
     const double *v = column(p, c);
-    size_t rows = p->table.rows.rows, columns = p->table.rows.columns;
+    size_t rows = p->table.numbers.rows, columns = p->table.numbers.columns;
 
     if (rc_piece_begins(title_of(p, c), "index"))
         return true;
@@ -76,19 +76,19 @@ counts(const struct profile *p, size_t c)
 static enum rc_status
 pick_columns(struct profile *p, struct rc_err *err)
 {
-    size_t columns = p->table.rows.columns, c = 0;
+    size_t columns = p->table.numbers.columns, c = 0;
 
     if (columns == 1) {
         p->z = 0;
         p->valid = 1;
-        return rc_table_read(&p->table, err);
+        return rc_titled_table_read(&p->table, err);
     }
     if (columns > 2 && p->table.titles < 2)
         return rc_err_set(err,
                           "a table of %zu columns without titles: which are positions and "
                           "heights?",
                           columns);
-    if (rc_table_read(&p->table, err) != RC_OK)
+    if (rc_titled_table_read(&p->table, err) != RC_OK)
         return RC_FAIL;
     p->valid = columns;
     for (size_t k = 0; k < columns; k++)
@@ -110,7 +110,7 @@ pick_columns(struct profile *p, struct rc_err *err)
 static enum rc_status
 judge_direction(struct profile *p, struct rc_err *err)
 {
-    size_t rows = p->table.rows.rows, columns = p->table.rows.columns;
+    size_t rows = p->table.numbers.rows, columns = p->table.numbers.columns;
     const double *x = column(p, p->x);
 
     if (rows < 3)
@@ -151,7 +151,7 @@ even_place(const struct profile *p, size_t k)
 static enum rc_status
 judge_steps(const struct profile *p, struct rc_err *err)
 {
-    size_t rows = p->table.rows.rows, columns = p->table.rows.columns, worst = 0;
+    size_t rows = p->table.numbers.rows, columns = p->table.numbers.columns, worst = 0;
     const double *x = column(p, p->x);
     double place = last_place(x, rows, columns), most = 0.05 * p->step, off = 0;
     char a[RC_NUMBER_SIZE], b[RC_NUMBER_SIZE], c[RC_NUMBER_SIZE];
@@ -183,16 +183,16 @@ profile_open(struct profile *p, const struct rc_file *file, const struct rc_wish
     char quote[RC_SHOWN];
     double metres;
 
-    if (rc_table_open(&p->table, file, 2, wish, NULL) != RC_OK) {
-        rc_table_close(&p->table);
-        if (rc_table_open(&p->table, file, 1, wish, err) != RC_OK)
+    if (rc_titled_table_open(&p->table, file, 2, wish, NULL) != RC_OK) {
+        rc_titled_table_close(&p->table);
+        if (rc_titled_table_open(&p->table, file, 1, wish, err) != RC_OK)
             return RC_FAIL;
     }
     if (pick_columns(p, err) != RC_OK)
         return RC_FAIL;
     p->falls = false;
     p->step = NAN;
-    if (p->table.rows.columns == 1)
+    if (p->table.numbers.columns == 1)
         return RC_OK;
     unit = unit_of(title_of(p, p->x));
     if (unit.n > 0 && !rc_length_unit(unit.text, unit.n, &metres))
@@ -212,10 +212,10 @@ fill_heights(const struct rc_file *file, const struct rc_wish *wish, const struc
 
     status = profile_open(&p, file, wish, err);
     for (size_t k = 0; k < map->nx && status == RC_OK; k++) {
-        const double *row = p.table.v + k * p.table.rows.columns;
-        v[k] = p.valid < p.table.rows.columns && row[p.valid] == 0 ? NAN : row[p.z];
+        const double *row = p.table.v + k * p.table.numbers.columns;
+        v[k] = p.valid < p.table.numbers.columns && row[p.valid] == 0 ? NAN : row[p.z];
     }
-    rc_table_close(&p.table);
+    rc_titled_table_close(&p.table);
     return status;
 }
 
@@ -229,19 +229,19 @@ profile_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_m
     struct profile p;
 
     status = profile_open(&p, file, wish, err);
-    if (status == RC_OK && p.table.rows.columns > 1)
+    if (status == RC_OK && p.table.numbers.columns > 1)
         status = judge_steps(&p, err);
     if (status == RC_OK) {
-        map->nx = p.table.rows.rows;
+        map->nx = p.table.numbers.rows;
         map->ny = 1;
-        if (p.table.rows.columns > 1)
+        if (p.table.numbers.columns > 1)
             rc_map_steps(map, p.step, p.step, unit_of(title_of(&p, p.x)));
         map->right_first = p.falls;
         map->fill = fill_heights;
         unit = unit_of(title_of(&p, p.z));
         rc_map_unit(map, unit.text, unit.n);
     }
-    rc_table_close(&p.table);
+    rc_titled_table_close(&p.table);
     return status;
 }
 
@@ -257,9 +257,9 @@ profile_score(const struct rc_file *file)
         return 0;
     score = profile_open(&p, file, &no_wish, NULL) == RC_OK ? 60 : 3;
     /* 3: so that a table says what is wrong with it; one column could be anything */
-    if (p.table.v == NULL || p.table.rows.columns < 2)
+    if (p.table.v == NULL || p.table.numbers.columns < 2)
         score = 0;
-    rc_table_close(&p.table);
+    rc_titled_table_close(&p.table);
     return score;
 }
 

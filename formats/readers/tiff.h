@@ -1,5 +1,6 @@
 /* TIFF in memory, for the instrument files that are one; the only place that knows libtiff. To be
- * used in a cage (cage.h): tags that say they are large make the library ask for it. */
+ * used in the sandbox (sandbox.h): tags that say they are large make the library ask for so much
+ * memory. */
 #ifndef RC_TIFF_H
 #define RC_TIFF_H
 

@@ -4,11 +4,11 @@
  *     main.xml           what was measured and how, and the heights themselves when they are few
  *     bindata/data.bin   else the heights: little-endian, row 0 first, x fastest
  *     bindata/valid.bin  one bit a point, lowest bit first, 1 where the height is valid
- *     md5checksum.hex    MD5 sum of main.xml
+ *     md5checksum.hex    MD5 checksum of main.xml
  *
  * A height is number * increment + offset of the axis CZ, in metres. Damage that reaches a height
- * (a wrong sum of data.bin or valid.bin) refuses the file; a wrong sum of main.xml is noted only,
- * because programs that edit the header are known to leave the old sum behind.
+ * (a wrong checksum of data.bin or valid.bin) refuses the file; a wrong one of main.xml is noted
+ * only, because programs that edit the header are known to leave the old checksum behind.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -96,7 +96,7 @@ make_grid(struct rc_x3p *x, const struct rc_wish *wish, double *metres, struct r
     return g;
 }
 
-/* ---- the row ---- */
+/* ---- the entry in formats.list ---- */
 
 static int
 x3p_score(const struct rc_file *file)

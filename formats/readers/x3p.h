@@ -24,10 +24,10 @@ enum rc_x3p_field {
     RC_X3P_SIZE_Y,
     RC_X3P_SIZE_Z,
     RC_X3P_POINTS,
-    RC_X3P_POINTS_SUM,
+    RC_X3P_POINTS_MD5,
     RC_X3P_VALID,
-    RC_X3P_VALID_SUM,
-    RC_X3P_SUM_FILE,
+    RC_X3P_VALID_MD5,
+    RC_X3P_MD5_FILE,
     RC_X3P_FIRST_KEY, /* from here on: kept as keys */
     RC_X3P_FIELDS = RC_X3P_FIRST_KEY + 11
 };
@@ -36,7 +36,7 @@ struct rc_x3p {
     struct rc_zip_read *archive;
     size_t main;               /* member                                                       */
     char prefix[RC_X3P_NAME];  /* the folder that main.xml lies in, with its slash, or ""      */
-    char sum[RC_MD5_TEXT];     /* of main.xml                                                  */
+    char md5[RC_MD5_TEXT];     /* of main.xml                                                  */
     char *text[RC_X3P_FIELDS]; /* NULL: not in the file                                        */
     bool is_x3p, turned;       /* turned: a rotation that is not the identity                  */
     bool profile;
@@ -47,7 +47,7 @@ struct rc_x3p {
     double increment, offset;
     bool wants_list; /* the heights in main.xml are to be kept                       */
     double *list;    /* as far as they were in main.xml                              */
-    size_t listed, room;
+    size_t listed, capacity;
 };
 
 /* Reads main.xml, and what it says is then judged: RC_FAIL for what is no map on a regular grid. */

@@ -24,10 +24,10 @@ static const struct {
     [RC_X3P_SIZE_Y] = {"Record3/MatrixDimension/SizeY", NULL},
     [RC_X3P_SIZE_Z] = {"Record3/MatrixDimension/SizeZ", NULL},
     [RC_X3P_POINTS] = {"Record3/DataLink/PointDataLink", NULL},
-    [RC_X3P_POINTS_SUM] = {"Record3/DataLink/MD5ChecksumPointData", NULL},
+    [RC_X3P_POINTS_MD5] = {"Record3/DataLink/MD5ChecksumPointData", NULL},
     [RC_X3P_VALID] = {"Record3/DataLink/ValidPointsLink", NULL},
-    [RC_X3P_VALID_SUM] = {"Record3/DataLink/MD5ChecksumValidPoints", NULL},
-    [RC_X3P_SUM_FILE] = {"Record4/ChecksumFile", NULL},
+    [RC_X3P_VALID_MD5] = {"Record3/DataLink/MD5ChecksumValidPoints", NULL},
+    [RC_X3P_MD5_FILE] = {"Record4/ChecksumFile", NULL},
     [RC_X3P_FIRST_KEY] = {"Record2/Date", "file.date"},
     {"Record2/Creator", "file.creator"},
     {"Record2/Instrument/Manufacturer", "file.manufacturer"},
@@ -93,19 +93,19 @@ real(const char *name, const char *text, double otherwise, double *value, struct
     return RC_OK;
 }
 
-/* Room for one more height of the list; the list is never longer than the bytes it came from. */
+/* Makes the list one longer; it is never longer than the bytes that it comes from. */
 static enum rc_status
 grow(struct rc_x3p *x, struct rc_err *err)
 {
-    size_t room = x->room == 0 ? 1024 : 2 * x->room;
+    size_t capacity = x->capacity == 0 ? 1024 : 2 * x->capacity;
     double *more;
 
-    if (x->listed < x->room)
+    if (x->listed < x->capacity)
         return RC_OK;
-    if ((more = realloc(x->list, room * sizeof *more)) == NULL)
-        return rc_err_set(err, "out of memory for %zu heights", room);
+    if ((more = realloc(x->list, capacity * sizeof *more)) == NULL)
+        return rc_err_set(err, "out of memory for %zu heights", capacity);
     x->list = more;
-    x->room = room;
+    x->capacity = capacity;
     return RC_OK;
 }
 
@@ -191,7 +191,7 @@ read_main(struct rc_x3p *x, struct rc_err *err)
 
     if (xml == NULL)
         return RC_FAIL;
-    if (rc_zip_read_read(x->archive, x->main, MAIN_MOST, take_xml, xml, x->sum, err) != RC_OK ||
+    if (rc_zip_read_member(x->archive, x->main, MAIN_MOST, take_xml, xml, x->md5, err) != RC_OK ||
         rc_xml_end(xml, err) != RC_OK)
         goto done;
     if (!x->is_x3p) {

@@ -6,8 +6,8 @@
 #include "x3p.h"
 
 enum {
-    SUM_MOST = 4096, /* bytes of md5checksum.hex                             */
-    MASK_PADDING = 7 /* bytes that a writer may round the valid points up by */
+    MD5_FILE_MOST = 4096, /* bytes of md5checksum.hex                             */
+    MASK_PADDING = 7      /* bytes that a writer may round the valid points up by */
 };
 
 static const char *
@@ -37,66 +37,71 @@ follow(const struct rc_x3p *x, const char *link, size_t *member, struct rc_err *
 
 /* ---- checksums ---- */
 
-/* The MD5 sum that text begins with, in lower case; false when there is none. */
+/* Whether main.xml has the element and something in it. */
 static bool
-sum_of(const char *text, char sum[RC_MD5_TEXT])
+is_given(const char *text)
+{
+    return text != NULL && *text != '\0';
+}
+
+/* The MD5 checksum that the text begins with, in lower case; false when there is none. */
+static bool
+md5_in(const char *text, char md5[RC_MD5_TEXT])
 {
     size_t n = strspn(text, "0123456789abcdefABCDEF");
 
     if (n != RC_MD5_TEXT - 1)
         return false;
     for (size_t k = 0; k < n; k++)
-        sum[k] = (char)(text[k] >= 'A' && text[k] <= 'F' ? text[k] + ('a' - 'A') : text[k]);
-    sum[n] = '\0';
+        md5[k] = (char)(text[k] >= 'A' && text[k] <= 'F' ? text[k] + ('a' - 'A') : text[k]);
+    md5[n] = '\0';
     return true;
 }
 
-/* A sum given in main.xml against that of the bytes. */
+/* The checksum that main.xml gives against that of the bytes. */
 static enum rc_status
-check_sum(const char *what, const char *given, const char *sum, struct rc_notes *notes,
-          struct rc_err *err)
+compare_md5(const char *what, const char *given, const char *md5, struct rc_notes *notes,
+            struct rc_err *err)
 {
     char wanted[RC_MD5_TEXT], quote[RC_SHOWN];
 
-    if (given == NULL || *given == '\0')
-        return RC_OK;
-    if (!sum_of(given, wanted)) {
+    if (!md5_in(given, wanted)) {
         rc_note(notes, "'%s' is no MD5 sum: the %s are not checked", shown(quote, given), what);
         return RC_OK;
     }
-    if (strcmp(wanted, sum) == 0)
+    if (strcmp(wanted, md5) == 0)
         return RC_OK;
-    return rc_err_set(err, "the %s are damaged: their MD5 sum is %s, main.xml says %s", what, sum,
+    return rc_err_set(err, "the %s are damaged: their MD5 sum is %s, main.xml says %s", what, md5,
                       wanted);
 }
 
 void
 rc_x3p_check_main(struct rc_x3p *x, struct rc_notes *notes)
 {
-    const char *link = x->text[RC_X3P_SUM_FILE];
+    const char *link = x->text[RC_X3P_MD5_FILE];
     unsigned char *bytes;
-    char wanted[RC_MD5_TEXT], ignored[RC_MD5_TEXT];
+    char wanted[RC_MD5_TEXT];
     struct rc_err err;
     size_t member, n;
 
-    if (link == NULL || *link == '\0')
+    if (!is_given(link))
         link = "md5checksum.hex";
     if (follow(x, link, &member, NULL) != RC_OK) {
         rc_note(notes, "the file has no md5checksum.hex: main.xml is not checked");
         return;
     }
-    bytes = rc_zip_read_bytes(x->archive, member, SUM_MOST, &n, ignored, &err);
+    bytes = rc_zip_read_bytes(x->archive, member, MD5_FILE_MOST, &n, NULL, &err);
     if (bytes == NULL) {
         rc_note(notes, "main.xml is not checked: %s", err.text);
         return;
     }
-    if (!sum_of((const char *)bytes, wanted))
+    if (!md5_in((const char *)bytes, wanted))
         rc_note(notes, "md5checksum.hex holds no MD5 sum: main.xml is not checked");
-    else if (strcmp(wanted, x->sum) != 0)
+    else if (strcmp(wanted, x->md5) != 0)
         rc_note(notes,
                 "main.xml was changed after its checksum was written: its MD5 sum is %s, "
                 "md5checksum.hex says %s",
-                x->sum, wanted);
+                x->md5, wanted);
     free(bytes);
 }
 
@@ -108,7 +113,8 @@ struct values {
     enum rc_raw raw;
 };
 
-/* Pieces hold whole numbers: RC_PIECE is a multiple of every width, and the size was checked. */
+/* A chunk holds whole numbers: RC_ZIP_CHUNK is a multiple of every width, and the size was
+ * checked. */
 static enum rc_status
 take_values(void *arg, const unsigned char *bytes, size_t n, struct rc_err *err)
 {
@@ -138,11 +144,13 @@ read_points(struct rc_x3p *x, size_t member, double *v, struct rc_notes *notes, 
 {
     struct values values = {.v = v, .raw = x->raw};
     uint64_t size = (uint64_t)x->n * rc_raw_width(x->raw);
-    char sum[RC_MD5_TEXT];
+    const char *given = x->text[RC_X3P_POINTS_MD5];
+    char md5[RC_MD5_TEXT];
 
-    if (rc_zip_read_read(x->archive, member, size, take_values, &values, sum, err) != RC_OK)
+    if (rc_zip_read_member(x->archive, member, size, take_values, &values,
+                           is_given(given) ? md5 : NULL, err) != RC_OK)
         return RC_FAIL;
-    return check_sum("heights", x->text[RC_X3P_POINTS_SUM], sum, notes, err);
+    return is_given(given) ? compare_md5("heights", given, md5, notes, err) : RC_OK;
 }
 
 static enum rc_status
@@ -151,10 +159,11 @@ apply_mask(struct rc_x3p *x, double *v, struct rc_notes *notes, struct rc_err *e
     enum rc_status status = RC_FAIL;
     unsigned char *mask;
     size_t member, n, least = x->n / 8 + (x->n % 8 != 0);
-    char sum[RC_MD5_TEXT];
+    const char *given = x->text[RC_X3P_VALID_MD5];
+    char md5[RC_MD5_TEXT];
     uint64_t size;
 
-    if (x->text[RC_X3P_VALID] == NULL || *x->text[RC_X3P_VALID] == '\0')
+    if (!is_given(x->text[RC_X3P_VALID]))
         return RC_OK;
     if (follow(x, x->text[RC_X3P_VALID], &member, err) != RC_OK ||
         rc_zip_read_size(x->archive, member, &size, err) != RC_OK)
@@ -162,9 +171,10 @@ apply_mask(struct rc_x3p *x, double *v, struct rc_notes *notes, struct rc_err *e
     if ((size < least || size > least + MASK_PADDING) &&
         rc_bytes_agree("valid points", least, size, err) != RC_OK)
         return RC_FAIL;
-    if ((mask = rc_zip_read_bytes(x->archive, member, size, &n, sum, err)) == NULL)
+    mask = rc_zip_read_bytes(x->archive, member, size, &n, is_given(given) ? md5 : NULL, err);
+    if (mask == NULL)
         return RC_FAIL;
-    if (check_sum("valid points", x->text[RC_X3P_VALID_SUM], sum, notes, err) == RC_OK) {
+    if (!is_given(given) || compare_md5("valid points", given, md5, notes, err) == RC_OK) {
         for (size_t k = 0; k < x->n; k++)
             if ((mask[k / 8] >> k % 8 & 1) == 0)
                 v[k] = NAN;

@@ -18,7 +18,7 @@ struct rc_xml {
     void *arg;
     struct rc_err err; /* why the parser was stopped from here */
     bool stopped;
-    size_t path_length, lost; /* lost: levels that the path has no room for */
+    size_t path_length, lost; /* lost: levels below it that did not fit into it */
     size_t text_length;
     char path[PATH_MAX_BYTES];
     char text[TEXT_MAX_BYTES];
@@ -55,8 +55,8 @@ static void
 on_text(void *arg, const xmlChar *text, int length)
 {
     struct rc_xml *x = arg;
-    size_t room = sizeof x->text - 1 - x->text_length;
-    size_t n = (size_t)length < room ? (size_t)length : room;
+    size_t left = sizeof x->text - 1 - x->text_length;
+    size_t n = (size_t)length < left ? (size_t)length : left;
 
     memcpy(x->text + x->text_length, text, n);
     x->text_length += n;

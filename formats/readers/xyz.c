@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "formats/core/core.h"
-#include "table.h"
+#include "titled_table.h"
 
 struct axis {
     double first, step;
@@ -16,7 +16,7 @@ struct axis {
 };
 
 struct cloud {
-    struct rc_table table;
+    struct rc_titled_table table;
     struct axis x, y;
 };
 
@@ -69,23 +69,23 @@ static enum rc_status
 cloud_open(struct cloud *c, const struct rc_file *file, const struct rc_wish *wish,
            struct rc_err *err)
 {
-    if (rc_table_open(&c->table, file, 2, wish, err) != RC_OK)
+    if (rc_titled_table_open(&c->table, file, 2, wish, err) != RC_OK)
         return RC_FAIL;
-    if (c->table.rows.columns != 3)
+    if (c->table.numbers.columns != 3)
         return rc_err_set(err, "a list of points has 3 columns, this table has %zu",
-                          c->table.rows.columns);
-    if (rc_table_read(&c->table, err) != RC_OK)
+                          c->table.numbers.columns);
+    if (rc_titled_table_read(&c->table, err) != RC_OK)
         return RC_FAIL;
-    if (find_axis(c->table.v, c->table.rows.rows, 'x', &c->x, err) != RC_OK ||
-        find_axis(c->table.v + 1, c->table.rows.rows, 'y', &c->y, err) != RC_OK)
+    if (find_axis(c->table.v, c->table.numbers.rows, 'x', &c->x, err) != RC_OK ||
+        find_axis(c->table.v + 1, c->table.numbers.rows, 'y', &c->y, err) != RC_OK)
         return RC_FAIL;
     if (c->x.n < 2)
         return rc_err_set(err, "all points have the same x");
-    if (c->y.n > 4 * c->table.rows.rows / c->x.n)
+    if (c->y.n > 4 * c->table.numbers.rows / c->x.n)
         return rc_err_set(err,
                           "the points lie on no raster: %zu of them have %zu different x and "
                           "%zu different y",
-                          c->table.rows.rows, c->x.n, c->y.n);
+                          c->table.numbers.rows, c->x.n, c->y.n);
     return RC_OK;
 }
 
@@ -105,7 +105,7 @@ fill_points(const struct rc_file *file, const struct rc_wish *wish, const struct
     }
     for (size_t k = 0; k < map->nx * map->ny; k++)
         v[k] = NAN;
-    for (size_t k = 0; k < c.table.rows.rows; k++) {
+    for (size_t k = 0; k < c.table.numbers.rows; k++) {
         const double *p = c.table.v + 3 * k;
         size_t at = (size_t)lround((p[1] - c.y.first) / c.y.step) * map->nx +
                     (size_t)lround((p[0] - c.x.first) / c.x.step);
@@ -118,7 +118,7 @@ fill_points(const struct rc_file *file, const struct rc_wish *wish, const struct
     status = RC_OK;
 done:
     free(taken);
-    rc_table_close(&c.table);
+    rc_titled_table_close(&c.table);
     return status;
 }
 
@@ -137,7 +137,7 @@ xyz_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
         map->fill = fill_points;
         rc_map_hint(map, c.x.step, c.y.n > 1 ? c.y.step : c.x.step);
     }
-    rc_table_close(&c.table);
+    rc_titled_table_close(&c.table);
     return status;
 }
 
@@ -153,10 +153,10 @@ xyz_score(const struct rc_file *file)
     if (looked == 0 || (memchr(file->data, 0, looked) != NULL && file->data[0] < 0xfe))
         return 0;
     if (cloud_open(&c, file, &no_wish, NULL) == RC_OK)
-        score = named ? 80 : c.y.n > 1 && c.table.rows.rows > 3 ? 60 : 0;
-    else if (c.table.rows.columns == 3 && named)
+        score = named ? 80 : c.y.n > 1 && c.table.numbers.rows > 3 ? 60 : 0;
+    else if (c.table.numbers.columns == 3 && named)
         score = 50;
-    rc_table_close(&c.table);
+    rc_titled_table_close(&c.table);
     return score;
 }
 

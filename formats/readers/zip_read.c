@@ -148,43 +148,43 @@ read_fully(zip_file_t *f, unsigned char *to, size_t n)
     return (zip_int64_t)have;
 }
 
+/* All bytes of a member, in chunks, to `take` and, unless it is NULL, to `md5`. */
 static enum rc_status
-unpack(zip_file_t *f, const char *name, uint64_t size, struct rc_sums *sums, rc_take *take,
-       void *arg, struct rc_err *err)
+unpack(zip_file_t *f, const char *shown, uint64_t size, unsigned char *chunk, struct rc_md5 *md5,
+       rc_zip_take *take, void *arg, struct rc_err *err)
 {
-    char shown[RC_SHOWN];
     uint64_t done = 0;
 
     /* The read that finds the end is the one that checks the CRC. */
     for (;;) {
-        unsigned char *piece = rc_sums_room(sums);
-        zip_int64_t n = read_fully(f, piece, RC_PIECE);
+        zip_int64_t n = read_fully(f, chunk, RC_ZIP_CHUNK);
 
         if (n < 0)
-            return rc_err_set(err, "member '%s' of the archive is damaged: %s",
-                              rc_text_shown(shown, name, strlen(name)), zip_file_strerror(f));
+            return rc_err_set(err, "member '%s' of the archive is damaged: %s", shown,
+                              zip_file_strerror(f));
         done += (uint64_t)n;
-        if (done > size || (n < RC_PIECE && done < size))
+        if (done > size || (n < RC_ZIP_CHUNK && done < size))
             return rc_err_set(err,
                               "member '%s' of the archive promises %" PRIu64 " bytes and "
                               "holds %s",
-                              rc_text_shown(shown, name, strlen(name)), size,
-                              done > size ? "more" : "fewer");
-        rc_sums_add(sums, (size_t)n);
-        if (n > 0 && take(arg, piece, (size_t)n, err) != RC_OK)
+                              shown, size, done > size ? "more" : "fewer");
+        if (md5 != NULL)
+            rc_md5_add(md5, chunk, (size_t)n);
+        if (n > 0 && take(arg, chunk, (size_t)n, err) != RC_OK)
             return RC_FAIL;
-        if (n < RC_PIECE)
+        if (n < RC_ZIP_CHUNK)
             return RC_OK;
     }
 }
 
 enum rc_status
-rc_zip_read_read(struct rc_zip_read *a, size_t member, uint64_t most, rc_take *take, void *arg,
-                 char sum[RC_MD5_TEXT], struct rc_err *err)
+rc_zip_read_member(struct rc_zip_read *a, size_t member, uint64_t most, rc_zip_take *take,
+                   void *arg, char md5[RC_MD5_TEXT], struct rc_err *err)
 {
     enum rc_status status = RC_FAIL;
     const char *name = rc_zip_read_name(a, member);
-    struct rc_sums *sums = NULL;
+    unsigned char *chunk = NULL;
+    struct rc_md5 *checksum = NULL;
     zip_file_t *f = NULL;
     char shown[RC_SHOWN];
     uint64_t size;
@@ -204,11 +204,18 @@ rc_zip_read_read(struct rc_zip_read *a, size_t member, uint64_t most, rc_take *t
                    zip_strerror(a->zip));
         goto done;
     }
-    if ((sums = rc_sums_new(RC_PIECE, size, err)) == NULL)
+    if ((chunk = malloc(RC_ZIP_CHUNK)) == NULL) {
+        rc_err_set(err, "out of memory for %d bytes", RC_ZIP_CHUNK);
         goto done;
-    status = unpack(f, name, size, sums, take, arg, err);
-    rc_sums_end(sums, sum);
+    }
+    if (md5 != NULL && (checksum = rc_md5_new(err)) == NULL)
+        goto done;
+    status = unpack(f, shown, size, chunk, checksum, take, arg, err);
+    if (status == RC_OK && checksum != NULL)
+        rc_md5_get(checksum, md5);
 done:
+    rc_md5_free(checksum);
+    free(chunk);
     if (f != NULL)
         zip_fclose(f);
     return status;
@@ -232,7 +239,7 @@ take_bytes(void *arg, const unsigned char *bytes, size_t n, struct rc_err *err)
 
 unsigned char *
 rc_zip_read_bytes(struct rc_zip_read *a, size_t member, uint64_t most, size_t *n,
-                  char sum[RC_MD5_TEXT], struct rc_err *err)
+                  char md5[RC_MD5_TEXT], struct rc_err *err)
 {
     struct buffer b = {0};
     uint64_t size;
@@ -244,7 +251,7 @@ rc_zip_read_bytes(struct rc_zip_read *a, size_t member, uint64_t most, size_t *n
         rc_err_set(err, "out of memory for %" PRIu64 " bytes", size);
         return NULL;
     }
-    if (rc_zip_read_read(a, member, most, take_bytes, &b, sum, err) != RC_OK) {
+    if (rc_zip_read_member(a, member, most, take_bytes, &b, md5, err) != RC_OK) {
         free(b.bytes);
         return NULL;
     }

@@ -32,19 +32,20 @@ enum rc_status rc_zip_read_size(struct rc_zip_read *archive, size_t member, uint
                                 struct rc_err *err);
 
 enum {
-    RC_PIECE = 1 << 18
+    RC_ZIP_CHUNK = 1 << 18
 };
-/* Takes the next bytes of a member: RC_PIECE of them but for the last time. */
-typedef enum rc_status rc_take(void *arg, const unsigned char *bytes, size_t n, struct rc_err *err);
-/* Unpacks a member of at most `most` bytes into `take`, and gives its MD5 sum. The sum is that of
- * all its bytes, whose CRC has been checked. */
-enum rc_status rc_zip_read_read(struct rc_zip_read *archive, size_t member, uint64_t most,
-                                rc_take *take, void *arg, char sum[RC_MD5_TEXT],
-                                struct rc_err *err);
+/* Takes the next bytes of a member: RC_ZIP_CHUNK of them but for the last time. */
+typedef enum rc_status rc_zip_take(void *arg, const unsigned char *bytes, size_t n,
+                                   struct rc_err *err);
+/* Unpacks a member of at most `most` bytes into `take`, checks its CRC, and gives the MD5 checksum
+ * of its bytes unless `md5` is NULL. */
+enum rc_status rc_zip_read_member(struct rc_zip_read *archive, size_t member, uint64_t most,
+                                  rc_zip_take *take, void *arg, char md5[RC_MD5_TEXT],
+                                  struct rc_err *err);
 
 /* The whole of a member of at most `most` bytes, with a NUL behind them, which the caller frees;
- * NULL with the reason. */
+ * NULL with the reason. `md5` as above. */
 unsigned char *rc_zip_read_bytes(struct rc_zip_read *archive, size_t member, uint64_t most,
-                                 size_t *n, char sum[RC_MD5_TEXT], struct rc_err *err);
+                                 size_t *n, char md5[RC_MD5_TEXT], struct rc_err *err);
 
 #endif

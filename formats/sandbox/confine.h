@@ -1,14 +1,15 @@
-/* Memory of another process. */
-#ifndef RC_REACH_H
-#define RC_REACH_H
+/* The bounds within which a file may be read by a library that was not made for hostile files. */
+#ifndef RC_CONFINE_H
+#define RC_CONFINE_H
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <sys/types.h>
+#include "formats/format.h"
 
-/* Copies n bytes from where they lie in a child that waits; false where the system does not let, or
- * there are none. */
-bool rc_reach(pid_t child, uint64_t from, void *to, size_t n);
+/* Seconds of processor time that reading the file may take. */
+double rc_confine_seconds(const struct rc_file *file);
+
+/* Bounds the calling process for the rest of its life: rc_confine_seconds of processor time and ten
+ * times that by the clock, rc_memory_limit of memory beyond what it has, no further
+ * open file, no core dump. It ends by SIGPROF or SIGALRM where its time is over. */
+void rc_confine(const struct rc_file *file);
 
 #endif

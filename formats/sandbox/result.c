@@ -5,14 +5,14 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "confine.h"
+#include "child_memory.h"
 #include "formats/core/core.h"
 
 enum {
     TEXT_MOST = 65536, /* bytes of a key's value */
     KEYS_MOST = 256,
-    FETCHED = 1, /* reply: the values have been fetched, */
-    WANTED       /* or are to come through the pipe      */
+    COPIED = 1, /* reply: the parent has copied the values, */
+    WANTED      /* or they are to come through the pipe     */
 };
 
 static bool
@@ -28,7 +28,7 @@ get(FILE *from, void *to, size_t n)
 }
 
 static bool
-get_words(FILE *from, struct rc_err *said)
+get_err(FILE *from, struct rc_err *said)
 {
     bool good = get(from, said, sizeof *said);
 
@@ -39,23 +39,23 @@ get_words(FILE *from, struct rc_err *said)
 /* ---- lists ---- */
 
 bool
-rc_answer_send_list(struct rc_pipes *p, const struct rc_channel *channel, size_t n, size_t most,
+rc_result_send_list(struct rc_pipes *p, const struct rc_channel *channel, size_t n, size_t most,
                     const struct rc_err *said)
 {
-    return put(p->answer, &n, sizeof n) && put(p->answer, said, sizeof *said) &&
-           put(p->answer, channel, (n < most ? n : most) * sizeof *channel);
+    return put(p->result, &n, sizeof n) && put(p->result, said, sizeof *said) &&
+           put(p->result, channel, (n < most ? n : most) * sizeof *channel);
 }
 
 bool
-rc_answer_take_list(struct rc_pipes *p, struct rc_channel *channel, size_t *n, size_t most,
-                    struct rc_err *said)
+rc_result_receive_list(struct rc_pipes *p, struct rc_channel *channel, size_t *n, size_t most,
+                       struct rc_err *said)
 {
     size_t shown;
 
-    if (!get(p->answer, n, sizeof *n) || !get_words(p->answer, said))
+    if (!get(p->result, n, sizeof *n) || !get_err(p->result, said))
         return false;
     shown = *n < most ? *n : most;
-    if (!get(p->answer, channel, shown * sizeof *channel))
+    if (!get(p->result, channel, shown * sizeof *channel))
         return false;
     for (size_t k = 0; k < shown; k++) {
         channel[k].name[sizeof channel->name - 1] = '\0';
@@ -96,9 +96,9 @@ put_values(struct rc_pipes *p, const struct rc_grid *g)
     uint64_t at = (uintptr_t)g->v;
     unsigned char reply;
 
-    if (!put(p->answer, &at, sizeof at) || fflush(p->answer) != 0 || read(p->reply, &reply, 1) != 1)
+    if (!put(p->result, &at, sizeof at) || fflush(p->result) != 0 || read(p->reply, &reply, 1) != 1)
         return false;
-    return reply == FETCHED || put(p->answer, g->v, g->nx * g->ny * sizeof *g->v);
+    return reply == COPIED || put(p->result, g->v, g->nx * g->ny * sizeof *g->v);
 }
 
 static bool
@@ -108,30 +108,30 @@ get_values(struct rc_pipes *p, struct rc_grid *g)
     uint64_t at;
     unsigned char reply;
 
-    if (!get(p->answer, &at, sizeof at))
+    if (!get(p->result, &at, sizeof at))
         return false;
-    reply = rc_reach(p->child, at, g->v, bytes) ? FETCHED : WANTED;
+    reply = rc_child_memory_copy(p->child, at, g->v, bytes) ? COPIED : WANTED;
     if (send(p->reply, &reply, 1, MSG_NOSIGNAL) != 1)
         return false;
-    return reply == FETCHED || get(p->answer, g->v, bytes);
+    return reply == COPIED || get(p->result, g->v, bytes);
 }
 
 bool
-rc_answer_send_grid(struct rc_pipes *p, const struct rc_grid *g, const struct rc_notes *noted,
+rc_result_send_grid(struct rc_pipes *p, const struct rc_grid *g, const struct rc_notes *noted,
                     const struct rc_err *said)
 {
     unsigned char good = g != NULL;
     struct rc_shape shape;
     bool whole;
 
-    if (!put(p->answer, &good, 1) || !put(p->answer, noted, sizeof *noted) ||
-        !put(p->answer, said, sizeof *said) || g == NULL)
+    if (!put(p->result, &good, 1) || !put(p->result, noted, sizeof *noted) ||
+        !put(p->result, said, sizeof *said) || g == NULL)
         return g == NULL;
     shape = rc_grid_shape(g);
-    whole = put(p->answer, &shape, sizeof shape) && put_text(p->answer, g->channel) &&
-            put_text(p->answer, g->unit) && put(p->answer, &g->keys, sizeof g->keys);
+    whole = put(p->result, &shape, sizeof shape) && put_text(p->result, g->channel) &&
+            put_text(p->result, g->unit) && put(p->result, &g->keys, sizeof g->keys);
     for (size_t k = 0; whole && k < g->keys; k++)
-        whole = put_text(p->answer, g->key[k].name) && put_text(p->answer, g->key[k].value);
+        whole = put_text(p->result, g->key[k].name) && put_text(p->result, g->key[k].value);
     return whole && put_values(p, g);
 }
 
@@ -146,7 +146,7 @@ get_key(FILE *from, struct rc_grid *g)
     return good;
 }
 
-/* What was read by a library that a file may have got hold of is not trusted either. */
+/* The shape and the keys are bounded before memory is taken for them. */
 static struct rc_grid *
 get_grid(struct rc_pipes *p, const struct rc_file *file)
 {
@@ -156,14 +156,14 @@ get_grid(struct rc_pipes *p, const struct rc_file *file)
     bool good = false;
     size_t keys;
 
-    if (!get(p->answer, &shape, sizeof shape) ||
+    if (!get(p->result, &shape, sizeof shape) ||
         rc_map_fits(file, shape.nx, shape.ny, NULL) != RC_OK ||
-        (channel = get_text(p->answer)) == NULL || (unit = get_text(p->answer)) == NULL ||
-        !get(p->answer, &keys, sizeof keys) || keys > KEYS_MOST ||
+        (channel = get_text(p->result)) == NULL || (unit = get_text(p->result)) == NULL ||
+        !get(p->result, &keys, sizeof keys) || keys > KEYS_MOST ||
         (g = rc_grid_new(&shape, channel, unit, NULL)) == NULL)
         goto done;
     for (good = true; good && keys > 0; keys--)
-        good = get_key(p->answer, g);
+        good = get_key(p->result, g);
     good = good && get_values(p, g);
 done:
     free(channel);
@@ -175,15 +175,15 @@ done:
 }
 
 bool
-rc_answer_take_grid(struct rc_pipes *p, const struct rc_file *file, struct rc_grid **g,
-                    struct rc_notes *noted, struct rc_err *said)
+rc_result_receive_grid(struct rc_pipes *p, const struct rc_file *file, struct rc_grid **g,
+                       struct rc_notes *noted, struct rc_err *said)
 {
     const size_t most = sizeof noted->text / sizeof *noted->text;
     unsigned char good;
 
     *g = NULL;
-    if (!get(p->answer, &good, 1) || !get(p->answer, noted, sizeof *noted) ||
-        !get_words(p->answer, said))
+    if (!get(p->result, &good, 1) || !get(p->result, noted, sizeof *noted) ||
+        !get_err(p->result, said))
         return false;
     noted->n = noted->n < most ? noted->n : most;
     for (size_t k = 0; k < most; k++)

@@ -9,31 +9,31 @@
 /* ---- a buffer that grows ---- */
 
 static bool
-make_room(struct rc_buffer *b, size_t n)
+reserve(struct rc_buffer *b, size_t n)
 {
-    size_t room = b->room == 0 ? 256 : b->room;
+    size_t capacity = b->capacity == 0 ? 256 : b->capacity;
     char *more;
 
     if (b->failed)
         return false;
-    while (room - b->n <= n && room < SIZE_MAX / 2)
-        room *= 2;
-    if (room == b->room)
+    while (capacity - b->n <= n && capacity < SIZE_MAX / 2)
+        capacity *= 2;
+    if (capacity == b->capacity)
         return true;
-    if (room - b->n <= n || (more = realloc(b->bytes, room)) == NULL) {
+    if (capacity - b->n <= n || (more = realloc(b->bytes, capacity)) == NULL) {
         rc_buffer_free(b);
         b->failed = true;
         return false;
     }
     b->bytes = more;
-    b->room = room;
+    b->capacity = capacity;
     return true;
 }
 
 void
 rc_buffer_add(struct rc_buffer *b, const void *bytes, size_t n)
 {
-    if (!make_room(b, n))
+    if (!reserve(b, n))
         return;
     memcpy(b->bytes + b->n, bytes, n);
     b->n += n;
@@ -49,10 +49,10 @@ rc_buffer_print(struct rc_buffer *b, const char *format, ...)
     va_start(ap, format);
     n = vsnprintf(NULL, 0, format, ap);
     va_end(ap);
-    if (n < 0 || !make_room(b, (size_t)n))
+    if (n < 0 || !reserve(b, (size_t)n))
         return;
     va_start(ap, format);
-    vsnprintf(b->bytes + b->n, b->room - b->n, format, ap);
+    vsnprintf(b->bytes + b->n, b->capacity - b->n, format, ap);
     va_end(ap);
     b->n += (size_t)n;
 }

@@ -14,7 +14,7 @@
 /* Starts as {0}. Once memory was short it stays empty, and rc_buffer_write says so. */
 struct rc_buffer {
     char *bytes; /* n of them, and a NUL */
-    size_t n, room;
+    size_t n, capacity;
     bool failed;
 };
 void rc_buffer_add(struct rc_buffer *buffer, const void *bytes, size_t n);

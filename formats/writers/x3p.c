@@ -1,5 +1,6 @@
 /* X3P, ISO 25178-72: see x3p.c. Heights go into bindata/data.bin, the points that are there into
- * bindata/valid.bin when some are missing, and every part has its MD5 sum. */
+ * bindata/valid.bin when some are missing, and every part has its MD5
+ * checksum. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -19,18 +20,8 @@ struct parts {
     struct rc_code code;
     unsigned char *data, *valid;
     size_t data_n, valid_n;
-    char data_sum[RC_MD5_TEXT], valid_sum[RC_MD5_TEXT];
+    char data_md5[RC_MD5_TEXT], valid_md5[RC_MD5_TEXT];
 };
-
-static void
-sum_of(const void *bytes, size_t n, char sum[RC_MD5_TEXT])
-{
-    struct rc_md5 md5;
-
-    rc_md5_start(&md5);
-    rc_md5_add(&md5, bytes, n);
-    rc_md5_end(&md5, sum);
-}
 
 /* One bit a point, lowest first, 1 where there is a height. */
 static enum rc_status
@@ -44,7 +35,7 @@ make_valid(struct parts *p, const struct rc_grid *g, struct rc_err *err)
     for (size_t k = 0; k < n; k++)
         if (g->v[k] == g->v[k])
             p->valid[k / 8] |= (unsigned char)(1u << k % 8);
-    sum_of(p->valid, p->valid_n, p->valid_sum);
+    rc_md5_of(p->valid, p->valid_n, p->valid_md5);
     return RC_OK;
 }
 
@@ -64,7 +55,7 @@ make_parts(struct parts *p, const struct rc_grid *g, const struct rc_export_wish
         return rc_err_set(err, "out of memory for %zu bytes of heights", p->data_n);
     if (rc_encode(&p->code, g->v, g->nx * g->ny, p->data, err) != RC_OK)
         return RC_FAIL;
-    sum_of(p->data, p->data_n, p->data_sum);
+    rc_md5_of(p->data, p->data_n, p->data_md5);
     return p->range.missing > 0 ? make_valid(p, g, err) : RC_OK;
 }
 
@@ -149,12 +140,12 @@ make_main(struct rc_buffer *b, const struct rc_grid *g, const struct parts *p,
                     "<SizeZ>1</SizeZ></MatrixDimension>\n    <DataLink>"
                     "<PointDataLink>%s</PointDataLink>"
                     "<MD5ChecksumPointData>%s</MD5ChecksumPointData>",
-                    g->nx, g->ny, data_name, p->data_sum);
+                    g->nx, g->ny, data_name, p->data_md5);
     if (p->valid != NULL)
         rc_buffer_print(b,
                         "<ValidPointsLink>%s</ValidPointsLink>"
                         "<MD5ChecksumValidPoints>%s</MD5ChecksumValidPoints>",
-                        valid_name, p->valid_sum);
+                        valid_name, p->valid_md5);
     rc_buffer_print(b, "</DataLink>\n  </Record3>\n  <Record4>"
                        "<ChecksumFile>md5checksum.hex</ChecksumFile></Record4>\n</p:ISO5436_2>\n");
 }
@@ -163,53 +154,53 @@ make_main(struct rc_buffer *b, const struct rc_grid *g, const struct parts *p,
 
 /* Hands the bytes of a buffer over. */
 static enum rc_status
-add_buffer(struct rc_pack *pack, const char *name, struct rc_buffer *b, struct rc_err *err)
+add_buffer(struct rc_zip_write *archive, const char *name, struct rc_buffer *b, struct rc_err *err)
 {
     void *bytes = b->bytes;
 
     if (b->failed)
         return rc_err_set(err, "out of memory for the member '%s'", name);
     b->bytes = NULL;
-    return rc_pack_add(pack, name, bytes, b->n, err);
+    return rc_zip_write_add(archive, name, bytes, b->n, err);
 }
 
 static enum rc_status
-add_bytes(struct rc_pack *pack, const char *name, unsigned char **bytes, size_t n,
+add_bytes(struct rc_zip_write *archive, const char *name, unsigned char **bytes, size_t n,
           struct rc_err *err)
 {
     void *given = *bytes;
 
     *bytes = NULL;
-    return given == NULL ? RC_OK : rc_pack_add(pack, name, given, n, err);
+    return given == NULL ? RC_OK : rc_zip_write_add(archive, name, given, n, err);
 }
 
 static enum rc_status
 x3p_write(FILE *out, struct rc_grid *const *frame, size_t frames, const struct rc_export_wish *wish,
           struct rc_err *err)
 {
-    struct rc_buffer xml = {0}, sums = {0};
+    struct rc_buffer xml = {0}, md5_file = {0};
     enum rc_status status = RC_FAIL;
-    struct rc_pack *pack = NULL;
+    struct rc_zip_write *archive = NULL;
     struct parts p = {0};
-    char sum[RC_MD5_TEXT] = "";
+    char md5[RC_MD5_TEXT] = "";
 
     (void)frames;
     if (make_parts(&p, frame[0], wish, err) != RC_OK ||
-        (pack = rc_pack_new(wish->time, err)) == NULL)
+        (archive = rc_zip_write_new(wish->time, err)) == NULL)
         goto done;
     make_main(&xml, frame[0], &p, wish);
     if (!xml.failed)
-        sum_of(xml.bytes, xml.n, sum);
-    rc_buffer_print(&sums, "%s *main.xml\n", sum);
-    if (add_buffer(pack, "main.xml", &xml, err) == RC_OK &&
-        add_bytes(pack, data_name, &p.data, p.data_n, err) == RC_OK &&
-        add_bytes(pack, valid_name, &p.valid, p.valid_n, err) == RC_OK &&
-        add_buffer(pack, "md5checksum.hex", &sums, err) == RC_OK)
-        status = rc_pack_write(pack, out, err);
+        rc_md5_of(xml.bytes, xml.n, md5);
+    rc_buffer_print(&md5_file, "%s *main.xml\n", md5);
+    if (add_buffer(archive, "main.xml", &xml, err) == RC_OK &&
+        add_bytes(archive, data_name, &p.data, p.data_n, err) == RC_OK &&
+        add_bytes(archive, valid_name, &p.valid, p.valid_n, err) == RC_OK &&
+        add_buffer(archive, "md5checksum.hex", &md5_file, err) == RC_OK)
+        status = rc_zip_write_finish(archive, out, err);
 done:
-    rc_pack_free(pack);
+    rc_zip_write_free(archive);
     rc_buffer_free(&xml);
-    rc_buffer_free(&sums);
+    rc_buffer_free(&md5_file);
     free(p.data);
     free(p.valid);
     return status;

@@ -7,101 +7,103 @@
 #include "encode.h"
 
 enum {
-    PIECE = 1 << 16,
-    LEVEL = 1, /* noise packs no better at a higher one, only slower */
-    LOOKED = 4 /* pieces of a member that are tried                   */
+    CHUNK = 1 << 16,
+    LEVEL = 1, /* noise comes out no smaller at a higher one, only slower */
+    TRIED = 4  /* chunks of a member that are tried                       */
 };
 
-struct rc_pack {
+struct rc_zip_write {
     zip_source_t *made; /* where the archive grows */
     zip_t *zip;         /* NULL once it is closed  */
     time_t time;
 };
 
-struct rc_pack *
-rc_pack_new(int64_t time, struct rc_err *err)
+struct rc_zip_write *
+rc_zip_write_new(int64_t time, struct rc_err *err)
 {
-    struct rc_pack *p = calloc(1, sizeof *p);
+    struct rc_zip_write *w = calloc(1, sizeof *w);
 
-    if (p == NULL || (p->made = zip_source_buffer_create(NULL, 0, 0, NULL)) == NULL ||
-        (p->zip = zip_open_from_source(p->made, ZIP_TRUNCATE, NULL)) == NULL) {
+    if (w == NULL || (w->made = zip_source_buffer_create(NULL, 0, 0, NULL)) == NULL ||
+        (w->zip = zip_open_from_source(w->made, ZIP_TRUNCATE, NULL)) == NULL) {
         rc_err_set(err, "out of memory for an archive");
-        rc_pack_free(p);
+        rc_zip_write_free(w);
         return NULL;
     }
-    zip_source_keep(p->made); /* closing the archive gives up its own hold */
-    p->time = (time_t)time;
-    return p;
+    zip_source_keep(w->made); /* closing the archive gives up its own hold */
+    w->time = (time_t)time;
+    return w;
 }
 
-/* Whether bytes become a tenth fewer at least, as far as pieces spread over them tell. What does
- * not is stored as it is: a reader has them several times as fast. */
+/* Whether a few chunks, spread over the member, become at least a tenth smaller. A member that
+ * would not is stored as it is: it is then read several times as fast. */
 static bool
-packs_well(const unsigned char *bytes, size_t n)
+is_compressible(const unsigned char *bytes, size_t n)
 {
-    static unsigned char packed[PIECE + PIECE / 8];
+    static unsigned char compressed[CHUNK + CHUNK / 8];
     uLong before = 0, after = 0;
 
-    if (n < PIECE)
+    if (n < CHUNK)
         return true;
-    for (size_t k = 0; k < LOOKED; k++) {
-        uLongf size = sizeof packed;
+    for (size_t k = 0; k < TRIED; k++) {
+        uLongf size = sizeof compressed;
 
-        if (compress2(packed, &size, bytes + (n - PIECE) / (LOOKED - 1) * k, PIECE, LEVEL) != Z_OK)
+        if (compress2(compressed, &size, bytes + (n - CHUNK) / (TRIED - 1) * k, CHUNK, LEVEL) !=
+            Z_OK)
             return true;
-        before += PIECE;
+        before += CHUNK;
         after += size;
     }
     return (double)after < 0.9 * (double)before;
 }
 
 enum rc_status
-rc_pack_add(struct rc_pack *p, const char *name, void *bytes, size_t n, struct rc_err *err)
+rc_zip_write_add(struct rc_zip_write *w, const char *name, void *bytes, size_t n,
+                 struct rc_err *err)
 {
-    zip_int32_t method = packs_well(bytes, n) ? ZIP_CM_DEFLATE : ZIP_CM_STORE;
-    zip_source_t *from = zip_source_buffer(p->zip, bytes, n, 1);
+    zip_int32_t method = is_compressible(bytes, n) ? ZIP_CM_DEFLATE : ZIP_CM_STORE;
+    zip_source_t *from = zip_source_buffer(w->zip, bytes, n, 1);
     zip_int64_t index;
 
     if (from == NULL) {
         free(bytes);
         return rc_err_set(err, "out of memory for the member '%s'", name);
     }
-    if ((index = zip_file_add(p->zip, name, from, ZIP_FL_ENC_UTF_8)) < 0) {
+    if ((index = zip_file_add(w->zip, name, from, ZIP_FL_ENC_UTF_8)) < 0) {
         zip_source_free(from);
-        return rc_err_set(err, "the member '%s': %s", name, zip_strerror(p->zip));
+        return rc_err_set(err, "the member '%s': %s", name, zip_strerror(w->zip));
     }
-    if (zip_set_file_compression(p->zip, (zip_uint64_t)index, method, LEVEL) != 0 ||
-        zip_file_set_mtime(p->zip, (zip_uint64_t)index, p->time, 0) != 0)
-        return rc_err_set(err, "the member '%s': %s", name, zip_strerror(p->zip));
+    if (zip_set_file_compression(w->zip, (zip_uint64_t)index, method, LEVEL) != 0 ||
+        zip_file_set_mtime(w->zip, (zip_uint64_t)index, w->time, 0) != 0)
+        return rc_err_set(err, "the member '%s': %s", name, zip_strerror(w->zip));
     return RC_OK;
 }
 
 enum rc_status
-rc_pack_write(struct rc_pack *p, FILE *out, struct rc_err *err)
+rc_zip_write_finish(struct rc_zip_write *w, FILE *out, struct rc_err *err)
 {
-    static char piece[PIECE];
+    static char chunk[CHUNK];
     enum rc_status status = RC_OK;
     zip_int64_t n;
 
-    if (zip_close(p->zip) != 0)
-        return rc_err_set(err, "the archive: %s", zip_strerror(p->zip));
-    p->zip = NULL;
-    if (zip_source_open(p->made) != 0)
+    if (zip_close(w->zip) != 0)
+        return rc_err_set(err, "the archive: %s", zip_strerror(w->zip));
+    w->zip = NULL;
+    if (zip_source_open(w->made) != 0)
         return rc_err_set(err, "the archive cannot be read back");
-    while (status == RC_OK && (n = zip_source_read(p->made, piece, sizeof piece)) > 0)
-        status = rc_put(out, piece, (size_t)n, err);
-    zip_source_close(p->made);
+    while (status == RC_OK && (n = zip_source_read(w->made, chunk, sizeof chunk)) > 0)
+        status = rc_put(out, chunk, (size_t)n, err);
+    zip_source_close(w->made);
     return status == RC_OK && n < 0 ? rc_err_set(err, "the archive cannot be read back") : status;
 }
 
 void
-rc_pack_free(struct rc_pack *p)
+rc_zip_write_free(struct rc_zip_write *w)
 {
-    if (p == NULL)
+    if (w == NULL)
         return;
-    if (p->zip != NULL)
-        zip_discard(p->zip);
-    if (p->made != NULL)
-        zip_source_free(p->made);
-    free(p);
+    if (w->zip != NULL)
+        zip_discard(w->zip);
+    if (w->made != NULL)
+        zip_source_free(w->made);
+    free(w);
 }

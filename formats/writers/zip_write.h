@@ -1,4 +1,4 @@
-/* ZIP archives on their way out; beside archive.c the only place that knows libzip. */
+/* ZIP archives that are written; beside readers/zip_read.c the only place that knows libzip. */
 #ifndef RC_ZIP_WRITE_H
 #define RC_ZIP_WRITE_H
 
@@ -8,15 +8,15 @@
 
 #include "libcontact/grid.h"
 
-struct rc_pack;
+struct rc_zip_write;
 
 /* `time` is that of all members, in seconds since 1970. */
-struct rc_pack *rc_pack_new(int64_t time, struct rc_err *err);
-/* Adds a member. The bytes come from malloc and become the pack's own, whatever the answer. */
-enum rc_status rc_pack_add(struct rc_pack *pack, const char *name, void *bytes, size_t n,
-                           struct rc_err *err);
-/* Packs and writes; once. */
-enum rc_status rc_pack_write(struct rc_pack *pack, FILE *out, struct rc_err *err);
-void rc_pack_free(struct rc_pack *pack); /* NULL is allowed */
+struct rc_zip_write *rc_zip_write_new(int64_t time, struct rc_err *err);
+/* Adds a member. The bytes come from malloc and become the archive's own, also on failure. */
+enum rc_status rc_zip_write_add(struct rc_zip_write *archive, const char *name, void *bytes,
+                                size_t n, struct rc_err *err);
+/* Compresses the members and writes the archive; to be called once, last. */
+enum rc_status rc_zip_write_finish(struct rc_zip_write *archive, FILE *out, struct rc_err *err);
+void rc_zip_write_free(struct rc_zip_write *archive); /* NULL is allowed */
 
 #endif

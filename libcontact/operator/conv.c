@@ -72,6 +72,16 @@ rc_engine_named(const char *name, bool *precise)
     return NULL;
 }
 
+const struct rc_engine *
+rc_engine_of_transforms(void)
+{
+    size_t k = 0;
+
+    while (k + 1 < ENGINES && !engines[k]->transforms)
+        k++;
+    return engines[k];
+}
+
 /* The choice among the engines, with its reason. */
 static const struct rc_engine *
 choose(const struct rc_sum *sum, const struct rc_conv_options *o, const char **reason)

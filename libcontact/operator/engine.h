@@ -22,7 +22,8 @@ struct rc_sum {
 struct rc_engine {
     struct rc_engine_info info;
     struct rc_engine_info
-        precise; /* the word that asks for double precision; without a name: none */
+        precise;     /* the word that asks for double precision; without a name: none */
+    bool transforms; /* by Fourier transforms of maps: fields of one source share its transform */
     /* Seconds that one sum takes in a solve, the work of the method around it included; two threads
      * of 2026. */
     double (*seconds)(const struct rc_sum *sum);
@@ -48,6 +49,9 @@ struct rc_engine {
 /* The engine of that name, or NULL; *precise (which may be NULL): whether the name asks for double
  * precision. */
 const struct rc_engine *rc_engine_named(const char *name, bool *precise);
+
+/* The first engine that sums by Fourier transforms of maps. */
+const struct rc_engine *rc_engine_of_transforms(void);
 
 /* Whether methods may iterate with it in single precision. */
 bool rc_conv_mixed(const struct rc_conv *conv);

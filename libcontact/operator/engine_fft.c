@@ -94,7 +94,9 @@ const struct rc_engine rc_engine_fft = {
                 .summary = "fast Fourier transforms in double precision: exact to rounding, "
                            "whatever error is asked for",
                 .periodic = true,
+                .precise = true,
                 .order = 1},
+    .transforms = true,
     .seconds = seconds,
     .memory = memory,
     .new = plan_new,

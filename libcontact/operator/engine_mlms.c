@@ -111,7 +111,6 @@ plan_free(void *at)
         free(l->p);
         free(l->u);
         free(l->loaded);
-        free(l->wanted);
     }
     rc_direct_free(m->direct);
     free(m->scratch);
@@ -155,8 +154,7 @@ allocate_levels(struct rc_mlms *m, const struct rc_sum *sum)
         struct rc_mlms_level *l = &m->level[q];
         size_t n = m->d.axis[q][RC_X].n * m->d.axis[q][RC_Y].n;
         l->axis = m->d.axis[q];
-        if ((l->loaded = calloc(tiles(l->axis), 1)) == NULL ||
-            (l->wanted = malloc(tiles(l->axis))) == NULL)
+        if ((l->loaded = calloc(tiles(l->axis), 1)) == NULL)
             return false;
         if (q > 0 &&
             ((l->p = calloc(n, sizeof *l->p)) == NULL || (l->u = calloc(n, sizeof *l->u)) == NULL))
@@ -196,7 +194,6 @@ plan_new(const struct rc_sum *sum, struct rc_err *err)
     }
     last = m->d.axis[m->d.levels];
     lattice = (struct rc_lattice){sum->shape.dx, sum->shape.dy, last[RC_X].step, last[RC_Y].step};
-    rc_mlms_want(m, NULL);
     m->direct = rc_direct_new(sum, &lattice, last[RC_X].n, last[RC_Y].n,
                               m->d.levels == 0 ? m->d.threads : 1, err);
     if (m->direct == NULL) {
@@ -204,57 +201,6 @@ plan_new(const struct rc_sum *sum, struct rc_err *err)
         return NULL;
     }
     return m;
-}
-
-/* ---- what is wanted ---- */
-
-static bool
-any(const unsigned char *mask, const struct rc_mlms_axis axis[2], size_t tile)
-{
-    size_t wide = axis[RC_X].tile << axis[RC_X].halved, high = axis[RC_Y].tile << axis[RC_Y].halved;
-    size_t x0 = tile % axis[RC_X].tiles * wide, y0 = tile / axis[RC_X].tiles * high;
-
-    for (size_t y = y0; y < y0 + high && y < axis[RC_Y].n; y++)
-        for (size_t x = x0; x < x0 + wide && x < axis[RC_X].n; x++)
-            if (mask[y * axis[RC_X].n + x])
-                return true;
-    return false;
-}
-
-/* Tiles of the next level that the interpolation to a tile reads, in one direction. */
-static void
-read_by(const struct rc_mlms *m, const struct rc_mlms_level *l, int a, size_t tile, size_t *first,
-        size_t *last)
-{
-    const struct rc_mlms_axis *fine = &l->axis[a], *coarse = &(l + 1)->axis[a];
-    size_t wide = coarse->tile << coarse->halved, from = tile * fine->tile;
-    size_t to = from + fine->tile - 1 + (fine->halved ? 2 * m->d.t - 1 : 0);
-
-    *first = from / wide;
-    *last = to / wide < coarse->tiles ? to / wide : coarse->tiles - 1;
-}
-
-void
-rc_mlms_want(void *plan, const unsigned char *mask)
-{
-    struct rc_mlms *m = plan;
-
-    for (size_t k = 0; k < tiles(m->level[0].axis); k++)
-        m->level[0].wanted[k] = mask == NULL || any(mask, m->level[0].axis, k);
-    for (size_t q = 0; q < m->d.levels; q++) {
-        const struct rc_mlms_level *l = &m->level[q];
-        const struct rc_mlms_axis *ax = l->axis, *next = (l + 1)->axis;
-        memset((l + 1)->wanted, 0, tiles(next));
-        for (size_t k = 0; k < tiles(ax); k++) {
-            size_t x0, x1, y0, y1;
-            if (!l->wanted[k])
-                continue;
-            read_by(m, l, RC_X, k % ax[RC_X].tiles, &x0, &x1);
-            read_by(m, l, RC_Y, k / ax[RC_X].tiles, &y0, &y1);
-            for (size_t y = y0; y <= y1; y++)
-                memset((l + 1)->wanted + y * next[RC_X].tiles + x0, 1, x1 - x0 + 1);
-        }
-    }
 }
 
 /* ---- apply ---- */
@@ -290,8 +236,6 @@ upwards(struct rc_mlms *m, size_t level, const double *p, double *u, const doubl
 
 #pragma omp parallel for num_threads(threads(m, level)) schedule(dynamic)
     for (size_t k = 0; k < n; k++) {
-        if (!m->level[level].wanted[k])
-            continue;
         rc_mlms_expand(m, level, p, u, k, scratch(m));
         if (level > 0)
             rc_mlms_correct(m, level - 1, above, k, scratch(m));
@@ -326,12 +270,6 @@ static double
 error(const void *at)
 {
     return ((const struct rc_mlms *)at)->d.error;
-}
-
-double
-rc_mlms_terms(const void *plan)
-{
-    return ((const struct rc_mlms *)plan)->d.terms;
 }
 
 /* Beside its own work, (log 1/tol)^2, stands that of the method. */

@@ -16,6 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "dct.h"
 #include "fourier.h"
 
 struct rc_fft {
@@ -24,10 +25,17 @@ struct rc_fft {
     struct rc_layout layout;
     const struct rc_fft_ops *ops;
     void *plan;
+    struct rc_dct *along_x, *along_y; /* of a quarter of a kernel; NULL on the periodic boundary */
+    double *columns;                  /* COLUMNS columns of a spectrum for each thread */
+};
+
+enum {
+    COLUMNS = 16, /* of a quarter transformed together: two cache lines, fetched as a pair */
+    AHEAD = 8,    /* rows fetched in advance: they lie pages apart */
+    ROWS = 8      /* of a kernel evaluated together */
 };
 
 struct rc_spectrum {
-    const struct rc_fft_ops *ops;
     unsigned parity;
     void *packed; /* cx columns of layout.packed numbers, divided by px py */
 };
@@ -91,6 +99,7 @@ rc_fft_new(const struct rc_shape *s, enum rc_boundary boundary, enum rc_precisio
            size_t threads, struct rc_err *err)
 {
     struct rc_fft *f;
+    size_t team;
 
     if (rc_shape_check(s, err) != RC_OK)
         return NULL;
@@ -105,10 +114,17 @@ rc_fft_new(const struct rc_shape *s, enum rc_boundary boundary, enum rc_precisio
         f->boundary = boundary;
         f->layout = layout_of(s, boundary, precision);
         f->layout.threads = rc_useful_threads(s, threads);
+        team = (size_t)f->layout.threads;
         f->ops = precision == RC_SINGLE ? &rc_fft_single : &rc_fft_double;
         f->plan = f->ops->new (&f->layout);
+        f->columns = rc_alloc(team * COLUMNS * f->layout.packed, sizeof *f->columns);
     }
-    if (f == NULL || f->plan == NULL) {
+    if (f != NULL && boundary == RC_FREE) {
+        f->along_x = rc_dct_new(f->layout.cx, team, NULL);
+        f->along_y = rc_dct_new(f->layout.packed, team, NULL);
+    }
+    if (f == NULL || f->plan == NULL || f->columns == NULL ||
+        (boundary == RC_FREE && (f->along_x == NULL || f->along_y == NULL))) {
         rc_err_set(err, "out of memory for transforms of %zu x %zu nodes", s->nx, s->ny);
         rc_fft_free(f);
         return NULL;
@@ -123,6 +139,9 @@ rc_fft_free(struct rc_fft *f)
         return;
     if (f->plan != NULL)
         f->ops->free(f->plan);
+    rc_dct_free(f->along_x);
+    rc_dct_free(f->along_y);
+    free(f->columns);
     free(f);
 }
 
@@ -134,10 +153,8 @@ rc_spectrum_new(const struct rc_fft *f, struct rc_err *err)
     const struct rc_layout *l = &f->layout;
     struct rc_spectrum *k = calloc(1, sizeof *k);
 
-    if (k != NULL) {
-        k->ops = f->ops;
+    if (k != NULL)
         k->packed = rc_alloc(l->cx * l->packed, f->ops->real_size);
-    }
     if (k == NULL || k->packed == NULL) {
         rc_err_set(err, "out of memory for a kernel's spectrum of %zu x %zu numbers", l->cx,
                    l->packed);
@@ -156,10 +173,22 @@ rc_spectrum_free(struct rc_spectrum *k)
     free(k);
 }
 
-enum {
-    ROWS = 8,   /* of a kernel's table evaluated together                                    */
-    COLUMNS = 8 /* taken out of it together: a cache line                                    */
-};
+static double *
+columns_of(const struct rc_fft *f)
+{
+    return f->columns + (size_t)omp_get_thread_num() * COLUMNS * f->layout.packed;
+}
+
+static void
+store_column(struct rc_spectrum *k, const struct rc_fft *f, size_t c, const double *s)
+{
+    const struct rc_layout *l = &f->layout;
+
+    f->ops->pack(l, c, 1 / ((double)l->px * (double)l->py), k->parity & RC_ODD_Y ? -1 : 1, s,
+                 k->packed);
+}
+
+/* ---- from a quarter of the values ---- */
 
 void
 rc_fft_quarter(const struct rc_fft *f, size_t *nx, size_t *ny)
@@ -169,123 +198,118 @@ rc_fft_quarter(const struct rc_fft *f, size_t *nx, size_t *ny)
 }
 
 void
-rc_spectrum_begin(struct rc_spectrum *k, unsigned parity)
+rc_fft_quarter_row(const struct rc_fft *f, unsigned parity, double *row)
 {
-    k->parity = parity;
+    rc_dct_run(f->along_x, parity & RC_ODD_X, row);
 }
 
 void
-rc_spectrum_column(struct rc_spectrum *k, const struct rc_fft *f, size_t c, const double *s)
+rc_spectrum_set_quarter(struct rc_spectrum *k, const struct rc_fft *f, unsigned parity,
+                        const double *rows)
 {
-    const struct rc_layout *l = &f->layout;
+    size_t cx = f->layout.cx, cy = f->layout.packed;
 
-    f->ops->pack(l, c, 1 / ((double)l->px * (double)l->py), k->parity & RC_ODD_Y ? -1 : 1, s,
-                 k->packed);
-}
+    k->parity = parity;
+#pragma omp parallel for num_threads(f->layout.threads) schedule(static)
+    for (size_t first = 0; first < cx; first += COLUMNS) {
+        double *columns = columns_of(f);
+        size_t n = cx - first < COLUMNS ? cx - first : COLUMNS;
 
-static void
-finish_column(const struct rc_fft *f, struct rc_spectrum *k, size_t c, const double *s)
-{
-    rc_spectrum_column(k, f, c, s);
-}
-
-/* The kernel's values at the nodes of a quarter period, row by row, each transformed in x. */
-static void
-table_rows(const struct rc_fft *f, const struct rc_kernel *kernel, size_t component,
-           const struct rc_medium *medium, const struct rc_dct *transform, double *table)
-{
-    const struct rc_layout *l = &f->layout;
-    const struct rc_lattice nodes = {f->shape.dx, f->shape.dy, 1, 1};
-
-#pragma omp parallel for num_threads(l->threads) schedule(dynamic)
-    for (size_t first = 0; first < l->packed; first += ROWS) {
-        size_t last = first + ROWS < l->packed ? first + ROWS : l->packed;
-        double *rows = table + first * l->cx;
-
-        kernel->rows(medium, component, &nodes, l->cx, first, last, rows);
-        for (size_t j = first; j < last; j++)
-            rc_dct_run(transform, table + j * l->cx);
-    }
-}
-
-/* Columns of that table, each transformed in y. `space` holds COLUMNS columns for each thread. */
-static void
-table_columns(const struct rc_fft *f, struct rc_spectrum *k, const struct rc_dct *transform,
-              const double *table, double *space)
-{
-    const struct rc_layout *l = &f->layout;
-
-#pragma omp parallel for num_threads(l->threads) schedule(static)
-    for (size_t first = 0; first < l->cx; first += COLUMNS) {
-        double *s = space + (size_t)omp_get_thread_num() * COLUMNS * l->packed;
-        size_t n = l->cx - first < COLUMNS ? l->cx - first : COLUMNS;
-
-        for (size_t j = 0; j < l->packed; j++)
+        for (size_t j = 0; j < cy; j++) {
+            const double *row = rows + j * cx + first;
+            if (j + AHEAD < cy) {
+                __builtin_prefetch(row + AHEAD * cx);
+                __builtin_prefetch(row + AHEAD * cx + COLUMNS / 2);
+            }
             for (size_t b = 0; b < n; b++)
-                s[b * l->packed + j] = table[j * l->cx + first + b];
+                columns[b * cy + j] = row[b];
+        }
         for (size_t b = 0; b < n; b++) {
-            rc_dct_run(transform, s + b * l->packed);
-            finish_column(f, k, first + b, s + b * l->packed);
+            rc_dct_run(f->along_y, parity & RC_ODD_Y, columns + b * cy);
+            store_column(k, f, first + b, columns + b * cy);
         }
     }
 }
 
 static enum rc_status
-transform_values(const struct rc_fft *f, struct rc_spectrum *k, const struct rc_kernel *kernel,
-                 size_t component, const struct rc_medium *medium, struct rc_err *err)
+transform_quarter(const struct rc_fft *f, struct rc_spectrum *k, const struct rc_kernel *kernel,
+                  size_t component, const struct rc_medium *medium, struct rc_err *err)
 {
-    const struct rc_layout *l = &f->layout;
-    size_t threads = (size_t)l->threads;
-    struct rc_dct *along_x = rc_dct_new(l->cx, k->parity & RC_ODD_X, threads, err);
-    struct rc_dct *along_y = rc_dct_new(l->packed, k->parity & RC_ODD_Y, threads, err);
-    size_t n = l->cx * l->packed;
-    double *own = NULL, *table = f->ops->borrow(f->plan, n * sizeof *table);
-    double *space = malloc((size_t)l->threads * COLUMNS * l->packed * sizeof *space);
-    enum rc_status status = RC_FAIL;
+    const struct rc_lattice nodes = {f->shape.dx, f->shape.dy, 1, 1};
+    size_t cx = f->layout.cx, cy = f->layout.packed;
+    unsigned parity = kernel->parity[component];
+    double *own = NULL, *values = f->ops->borrow(f->plan, cx * cy * sizeof *values);
 
-    if (table == NULL)
-        table = own = rc_alloc(n, sizeof *own);
-    if (table == NULL || space == NULL) {
-        rc_err_set(err, "out of memory for a kernel of %zu x %zu values", l->cx, l->packed);
-    } else if (along_x != NULL && along_y != NULL) {
-        table_rows(f, kernel, component, medium, along_x, table);
-        table_columns(f, k, along_y, table, space);
-        status = RC_OK;
+    if (values == NULL)
+        values = own = rc_alloc(cx * cy, sizeof *own);
+    if (values == NULL)
+        return rc_err_set(err, "out of memory for a kernel of %zu x %zu values", cx, cy);
+#pragma omp parallel for num_threads(f->layout.threads) schedule(dynamic)
+    for (size_t first = 0; first < cy; first += ROWS) {
+        size_t last = first + ROWS < cy ? first + ROWS : cy;
+
+        kernel->rows(medium, component, &nodes, cx, first, last, values + first * cx);
+        for (size_t j = first; j < last; j++)
+            rc_fft_quarter_row(f, parity, values + j * cx);
     }
-    rc_dct_free(along_x);
-    rc_dct_free(along_y);
+    rc_spectrum_set_quarter(k, f, parity, values);
     free(own);
-    free(space);
-    return status;
+    return RC_OK;
+}
+
+/* ---- from a function of wave numbers ---- */
+
+void
+rc_spectrum_sample(struct rc_spectrum *k, const struct rc_fft *f, unsigned parity,
+                   rc_symbol *symbol, const void *of)
+{
+    static const double two_pi = 6.28318530717958647692;
+    const struct rc_layout *l = &f->layout;
+
+    k->parity = parity;
+#pragma omp parallel for num_threads(l->threads) schedule(static)
+    for (size_t i = 0; i < l->cx; i++) {
+        double *column = columns_of(f);
+        double qx = two_pi * (double)i / ((double)l->nx * f->shape.dx);
+        bool zero_x = 2 * i == l->nx && parity & RC_ODD_X;
+
+        for (size_t j = 0; j < l->packed; j++) {
+            double qy = two_pi * (double)j / ((double)l->ny * f->shape.dy);
+            bool zero_y = 2 * j == l->ny && parity & RC_ODD_Y;
+            column[j] = zero_x || zero_y ? 0 : symbol(of, qx, qy);
+        }
+        store_column(k, f, i, column);
+    }
+}
+
+/* One component of a kernel in a medium. */
+struct component {
+    const struct rc_kernel *kernel;
+    size_t index;
+    const struct rc_medium *medium;
+};
+
+static double
+symbol_of(const void *of, double qx, double qy)
+{
+    const struct component *c = of;
+
+    return qx == 0 && qy == 0 ? 0 : c->kernel->symbol(c->medium, c->index, qx, qy);
 }
 
 static enum rc_status
 sample_symbol(const struct rc_fft *f, struct rc_spectrum *k, const struct rc_kernel *kernel,
               size_t component, const struct rc_medium *medium, struct rc_err *err)
 {
-    const struct rc_layout *l = &f->layout;
-    const double turn = 2 * 3.14159265358979323846;
-    double *space;
+    const struct component of = {kernel, component, medium};
 
     if (kernel->symbol == NULL)
         return rc_err_set(err, "the kernel '%s' has no periodic form", kernel->info.name);
-    space = malloc((size_t)l->threads * l->packed * sizeof *space);
-    if (space == NULL)
-        return rc_err_set(err, "out of memory for a symbol of %zu x %zu values", l->cx, l->packed);
-#pragma omp parallel for num_threads(l->threads) schedule(static)
-    for (size_t i = 0; i < l->cx; i++) {
-        double *s = space + (size_t)omp_get_thread_num() * l->packed;
-        double qx = turn * (double)i / ((double)l->nx * f->shape.dx);
-
-        for (size_t j = 0; j < l->packed; j++) {
-            double qy = turn * (double)j / ((double)l->ny * f->shape.dy);
-            s[j] = i == 0 && j == 0 ? 0 : kernel->symbol(medium, component, qx, qy);
-        }
-        finish_column(f, k, i, s);
-    }
-    free(space);
+    rc_spectrum_sample(k, f, kernel->parity[component], symbol_of, &of);
     return RC_OK;
 }
+
+/* ---- from the values of a periodic map ---- */
 
 /* Values of an even kernel on the periodic map, each offset by its shortest way around. */
 static void
@@ -310,25 +334,25 @@ transform_wrapped(const struct rc_fft *f, struct rc_spectrum *k, const struct rc
                   size_t component, const struct rc_medium *medium, struct rc_err *err)
 {
     const struct rc_layout *l = &f->layout;
-    double *v = rc_alloc(l->nx * l->ny, sizeof *v), *column = malloc(l->packed * sizeof *column);
+    double *v = rc_alloc(l->nx * l->ny, sizeof *v), *column = columns_of(f);
     double complex *s = rc_alloc(rc_fourier_size(&f->shape), sizeof *s);
     enum rc_status status = RC_FAIL;
 
-    if (v == NULL || s == NULL || column == NULL) {
+    if (v == NULL || s == NULL) {
         rc_err_set(err, "out of memory for a kernel of %zu x %zu values", l->nx, l->ny);
         goto done;
     }
     wrapped_values(f, kernel, component, medium, v);
+    k->parity = kernel->parity[component];
     status = rc_fourier_forward(&f->shape, v, s, err);
     for (size_t i = 0; i < l->cx && status == RC_OK; i++) {
         for (size_t j = 0; j < l->packed; j++)
             column[j] = creal(s[j * l->cx + i]);
-        finish_column(f, k, i, column);
+        store_column(k, f, i, column);
     }
 done:
     free(v);
     free(s);
-    free(column);
     return status;
 }
 
@@ -337,20 +361,19 @@ rc_spectrum_set_values(struct rc_spectrum *k, const struct rc_fft *f,
                        const struct rc_kernel *kernel, size_t component,
                        const struct rc_medium *medium, struct rc_err *err)
 {
-    k->parity = kernel->parity[component];
-    if (f->boundary == RC_FREE)
-        return transform_values(f, k, kernel, component, medium, err);
-    return transform_wrapped(f, k, kernel, component, medium, err);
+    return (f->boundary == RC_FREE ? transform_quarter : transform_wrapped)(f, k, kernel, component,
+                                                                            medium, err);
 }
 
 enum rc_status
 rc_spectrum_set(struct rc_spectrum *k, const struct rc_fft *f, const struct rc_kernel *kernel,
                 size_t component, const struct rc_medium *medium, struct rc_err *err)
 {
-    k->parity = kernel->parity[component];
-    return (f->boundary == RC_FREE ? transform_values : sample_symbol)(f, k, kernel, component,
-                                                                       medium, err);
+    return (f->boundary == RC_FREE ? transform_quarter : sample_symbol)(f, k, kernel, component,
+                                                                        medium, err);
 }
+
+/* ---- from another spectrum ---- */
 
 void
 rc_spectrum_set_reciprocal(struct rc_spectrum *k, const struct rc_fft *f,

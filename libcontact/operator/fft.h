@@ -46,13 +46,20 @@ enum rc_status rc_spectrum_set_values(struct rc_spectrum *spectrum, const struct
                                       const struct rc_kernel *kernel, size_t component,
                                       const struct rc_medium *medium, struct rc_err *err);
 
-/* The same by hand. The spectrum of a kernel of this parity is given column by column: s(q) for
- * q < *ny of column c < *nx, which several threads may do at once. On the free boundary that is the
- * rc_dct transform, in x and in y, of the kernel's values at the offsets i < *nx, j < *ny. */
+/* The same by hand, for a kernel of this parity. On the free boundary: from a quarter of the
+ * kernel's period, its values at the offsets i < *nx, j < *ny. Each row of *nx values is
+ * transformed as soon as it is known, by threads of one OpenMP team; then the spectrum is made from
+ * all rows. */
 void rc_fft_quarter(const struct rc_fft *fft, size_t *nx, size_t *ny);
-void rc_spectrum_begin(struct rc_spectrum *spectrum, unsigned parity);
-void rc_spectrum_column(struct rc_spectrum *spectrum, const struct rc_fft *fft, size_t c,
-                        const double *s);
+void rc_fft_quarter_row(const struct rc_fft *fft, unsigned parity, double *row);
+void rc_spectrum_set_quarter(struct rc_spectrum *spectrum, const struct rc_fft *fft,
+                             unsigned parity, const double *rows);
+/* On the periodic boundary: from the kernel's transform, over (-i)^(number of odd directions), at
+ * wave numbers qx, qy >= 0 in rad/m. Several threads ask at once. Waves of two nodes in a direction
+ * in which the kernel is odd are left out: they are zero at all nodes. */
+typedef double rc_symbol(const void *of, double qx, double qy);
+void rc_spectrum_sample(struct rc_spectrum *spectrum, const struct rc_fft *fft, unsigned parity,
+                        rc_symbol *symbol, const void *of);
 
 /* u = K p. u and p may be the same. */
 void rc_fft_apply(struct rc_fft *fft, const struct rc_spectrum *kernel, const double *p, double *u);

@@ -171,15 +171,6 @@ scratch_of(const struct plan *f)
 
 /* ---- rows ---- */
 
-static bool
-loaded(const double *p, size_t n)
-{
-    for (size_t i = 0; i < n; i++)
-        if (p[i] != 0)
-            return true;
-    return false;
-}
-
 RC_CLONES static void
 to_real(const double *restrict from, size_t n, REAL *restrict to)
 {
@@ -201,7 +192,7 @@ row_in(void *map, size_t j, void *row)
     const struct map *m = map;
     const double *from = m->p + j * m->nx;
 
-    if (!loaded(from, m->nx))
+    if (!rc_any(from, m->nx))
         return false;
     to_real(from, m->nx, row);
     return true;

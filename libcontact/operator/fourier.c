@@ -1,5 +1,4 @@
 #include "fourier.h"
-#include "libcontact/common.h"
 
 #include <fftw3.h> /* after complex.h: fftw_complex is then double complex */
 #include <limits.h>
@@ -136,76 +135,4 @@ rc_line_free(struct rc_line *l)
     }
     free(l->scratch);
     free(l);
-}
-
-/* ---- half lines ---- */
-
-/* The whole period is laid out and transformed as any real line: FFTW's own even and odd transforms
- * of half a period know no vectors and take twice as long (1025 values: 5.0 us against 2.5). */
-struct rc_dct {
-    size_t n;
-    bool odd;
-    struct rc_line *period; /* NULL: an odd line without inner values, or a single value */
-};
-
-struct rc_dct *
-rc_dct_new(size_t n, bool odd, size_t threads, struct rc_err *err)
-{
-    struct rc_dct *h = calloc(1, sizeof *h);
-
-    if (h == NULL) {
-        rc_err_set(err, "out of memory for a transform of %zu values", n);
-        return NULL;
-    }
-    h->n = n;
-    h->odd = odd;
-    if (n > 1 && (h->period = rc_line_new(2 * n - 2, threads, err)) == NULL) {
-        free(h);
-        return NULL;
-    }
-    return h;
-}
-
-RC_CLONES static void
-lay_out(size_t n, double sign, const double *restrict line, double *restrict v)
-{
-    double *end = v + 2 * n - 2;
-
-    memcpy(v, line, n * sizeof *v);
-    for (size_t j = 1; j + 1 < n; j++)
-        *(end - j) = sign * line[j];
-}
-
-/* Every second number, times the sign. */
-RC_CLONES static void
-pick(size_t n, double sign, const double *restrict s, double *restrict line)
-{
-    for (size_t k = 0; k < n; k++)
-        line[k] = sign * s[2 * k];
-}
-
-void
-rc_dct_run(const struct rc_dct *h, double *line)
-{
-    double sign = h->odd ? -1 : 1, *v;
-    const double *s;
-
-    if (h->odd)
-        line[0] = line[h->n - 1] = 0;
-    if (h->period == NULL)
-        return;
-    v = values_of(h->period);
-    lay_out(h->n, sign, line, v);
-    fftw_execute_dft_r2c(h->period->forward, v, waves_of(h->period));
-    s = (const double *)waves_of(h->period);
-    pick(h->n, sign, s + h->odd, line);
-}
-
-void
-rc_dct_free(struct rc_dct *h)
-{
-    if (h == NULL)
-        return;
-    rc_line_free(h->period);
-    free(h);
 }

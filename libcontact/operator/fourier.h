@@ -1,5 +1,5 @@
 /*
- * The two-dimensional Fourier transform of a periodic map. Internal: never installed.
+ * Fourier transforms of periodic maps and lines. Internal: never installed.
  *
  * The spectrum of nx x ny real values has ny rows of nx/2 + 1 complex numbers. Column k is wave
  * number k along x; row k is wave number k along y, or k - ny in the upper half. The other half
@@ -36,14 +36,5 @@ struct rc_line *rc_line_new(size_t n, size_t threads, struct rc_err *err);
 void rc_line_forward(const struct rc_line *line, const double *v, double complex *s);
 void rc_line_backward(const struct rc_line *line, const double complex *s, double *v);
 void rc_line_free(struct rc_line *line); /* NULL is allowed */
-
-/* Real even (or odd) transform of lines of n values: a line holds half a period with both ends,
- * v_0 .. v_(n-1) of a period 2n - 2, and becomes the sum of v_j cos(pi jk / (n-1)) (or sin) over
- * the whole period. An odd line is zero at both ends. NULL when memory is short. */
-struct rc_dct;
-struct rc_dct *rc_dct_new(size_t n, bool odd, size_t threads, struct rc_err *err);
-/* In place; called by threads of one OpenMP team, on lines of their own. */
-void rc_dct_run(const struct rc_dct *halves, double *line);
-void rc_dct_free(struct rc_dct *halves); /* NULL is allowed */
 
 #endif

@@ -68,7 +68,6 @@ struct rc_mlms_level {
     const struct rc_mlms_axis *axis;
     double *p, *u;         /* of this level; NULL on the finest: the caller's           */
     unsigned char *loaded; /* tiles that carry pressure                                 */
-    unsigned char *wanted; /* tiles whose result somebody wants                         */
     struct rc_mlms_stencil fine[4][4]; /* [target][source], class x + 2 y; target 0 unused */
     struct rc_mlms_stencil coarse[4];  /* [source], to coarse nodes; 0 unused              */
 };
@@ -127,12 +126,5 @@ void rc_mlms_correct(const struct rc_mlms *m, size_t level, const double *p, siz
 /* (15), (17): displacements of a tile from those of the next level. */
 void rc_mlms_expand(const struct rc_mlms *m, size_t level, const double *p, double *u, size_t tile,
                     struct rc_mlms_scratch *w);
-
-/* engine_mlms.c */
-/* From now on only tiles that hold a node of mask (nx ny, not zero) need be summed; the others keep
- * what u holds. NULL: all are wanted. */
-void rc_mlms_want(void *plan, const unsigned char *mask);
-/* Products of the sums as (10), (11), (14), (15) and (17) write them. */
-double rc_mlms_terms(const void *plan);
 
 #endif

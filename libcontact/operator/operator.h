@@ -9,6 +9,7 @@
 #ifndef RC_OPERATOR_H
 #define RC_OPERATOR_H
 
+#include "dct.h"
 #include "engine.h"
 #include "fft.h"
 #include "fourier.h"

@@ -9,33 +9,27 @@
 
 #define WIDTH 2
 #define NAME(x) narrow_##x
-#define LANES "2"
 #define TARGET
 #include "simd_body.h"
 #undef WIDTH
 #undef NAME
-#undef LANES
 #undef TARGET
 
 #if defined(__x86_64__) && defined(__GNUC__)
 #define WIDTH 4
 #define NAME(x) avx2_##x
-#define LANES "4 (AVX2)"
 #define TARGET __attribute__((target("avx2,fma")))
 #include "simd_body.h"
 #undef WIDTH
 #undef NAME
-#undef LANES
 #undef TARGET
 
 #define WIDTH 8
 #define NAME(x) avx512_##x
-#define LANES "8 (AVX-512)"
 #define TARGET __attribute__((target("avx2,fma,avx512f,avx512dq,avx512vl")))
 #include "simd_body.h"
 #undef WIDTH
 #undef NAME
-#undef LANES
 #undef TARGET
 #endif
 

@@ -52,7 +52,6 @@ struct rc_scatter {
 };
 
 struct rc_simd {
-    const char *name;
     /* out[y][x] += sum over columns j and their l of c_j[l] column_j[y - l][x]. */
     void (*stencil)(const struct rc_strip *strip);
     void (*scatter)(const struct rc_scatter *scatter);

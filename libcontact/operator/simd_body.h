@@ -334,7 +334,6 @@ NAME(count)(const double *src, size_t n)
 }
 
 static const struct rc_simd NAME(simd) = {
-    .name = LANES,
     .stencil = NAME(stencil),
     .scatter = NAME(scatter),
     .product = NAME(product),

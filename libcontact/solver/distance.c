@@ -1,20 +1,39 @@
 /*
- * Distances to a set, in two passes: along columns by counting, along rows by looking around (as in
- * Felzenszwalb and Huttenlocher, Theory of Computing 8, 2012, d^2 is the least of f_k + (x -
- * x_k)^2, f the squares along the columns). The first NEAR nodes on either side are looked at one
- * by one; farther away blocks of 2, 4, 8, ... stand for their least f at their middle, at most a
- * quarter as wide as they are away: d is then right to a sixth, which is more than a weight needs.
+ * Exact distances to a set of nodes, in time proportional to the size of the map, after
+ * Felzenszwalb and Huttenlocher (Theory of Computing 8, 2012).
+ *
+ * Along the columns: one sweep down and one up count the steps from every node to the nearest node
+ * of the set in its column.
+ *
+ * Along a row: d^2 at column x is the least of f_k + (x - k)^2 over all columns k, where f_k is the
+ * square of the distance along column k; lengths are in units of dx. These are parabolas of one
+ * shape: any two cross once, and beyond the crossing the one whose apex is farther right is the
+ * lower. Their lower envelope is therefore a list of parabolas with apexes from left to right, each
+ * of them the lowest on one run of columns. The list is built from left to right: where a new
+ * parabola is lower than the last of the list already on the first column of its run, the last is
+ * dropped, and the new one is compared with the one before; otherwise the run of the new one begins
+ * at the first column beyond their crossing.
+ *
+ * A periodic row is taken from a column with the least f to the next image of that column: as no f
+ * is less, nothing outside is nearer to a column between these two than they are.
+ *
+ * A column whose f + 1 is not less than the f of either neighbour is the nearest one to no other
+ * column: at the neighbour it is not better than the neighbour itself, and farther away still less
+ * so. Such columns are most of those in and above patches of the set. They are left out of the
+ * envelope, which saves a tenth to two thirds of the work, and every column is compared with its own
+ * f at the end.
+ *
+ * Rounding: squares are in single precision, crossings in double. With dx = dy squares up to 2^24
+ * are whole numbers and exact, that is, all distances up to 4096 steps: everywhere on periodic maps
+ * up to 5792 x 5792 nodes and on free ones up to 2896 x 2896. Longer distances, which maps of 8192
+ * nodes may hold, and those with dx and dy unequal have squares right to four parts in 2^23.
  */
 #include "preconditioner.h"
 
 #include <math.h>
-#include <omp.h>
 
 enum {
-    STRIP = 512, /* columns counted together                                      */
-    LANES = 16,  /* nodes of a row that look around together                        */
-    NEAR = 24,   /* so far, in nodes, one by one: to 9 beyond all LANES from each of them */
-    LEVELS = 10  /* of blocks: 2, 4, 8, ... nodes                                   */
+    STRIP = 512 /* columns counted together */
 };
 static const float far_away = 1e9f; /* steps: no node of the set in this column */
 
@@ -69,157 +88,105 @@ rc_distance_columns(const struct rc_shape *s, enum rc_boundary boundary, const u
     }
 }
 
-static inline float
-largest(const float *v)
-{
-    float most = v[0];
-
-    for (int i = 1; i < LANES; i++)
-        most = v[i] > most ? v[i] : most;
-    return most;
-}
-
-/* d^2 of LANES nodes from the squares f of their columns and of NEAR on either side; false when
- * there may be less farther away. */
-RC_CLONES static bool
-look_around(const float *f, float step, float *restrict d2)
-{
-    for (int i = 0; i < LANES; i++)
-        d2[i] = f[i];
-    for (int k = 1; k <= NEAR; k++) {
-        float s2 = step * (float)k * (step * (float)k);
-        if (k % 2 == 1 && largest(d2) <= s2)
-            return true;
-        for (int i = 0; i < LANES; i++) {
-            float a = f[i - k] + s2, b = f[i + k] + s2;
-            a = a < b ? a : b;
-            d2[i] = a < d2[i] ? a : d2[i];
-        }
-    }
-    return largest(d2) <= step * (NEAR + 1) * (step * (NEAR + 1));
-}
-
-/* A row with what is beyond its ends: nothing, or half a period. */
-struct line {
-    size_t n, margin, length; /* length = n + 2 margin                        */
-    float *f;                 /* length squares, LANES more                   */
-    float *least[LEVELS];     /* of the blocks of each size                   */
+/* A column of a row, and what it gives to the others. */
+struct parabola {
+    float f;
+    int apex, first; /* its own column; the first one on which it is the lowest */
 };
 
-static size_t
-width(size_t level)
+/* f of n columns that lie side by side. */
+static void
+square(size_t n, const float *steps, float aspect, float *restrict f)
 {
-    return (size_t)2 << level;
+    for (size_t k = 0; k < n; k++)
+        f[k] = steps[k] >= far_away ? INFINITY : aspect * steps[k] * (aspect * steps[k]);
 }
 
-static struct line
-line_in(const struct rc_shape *s, bool wrap, float *room)
+/* Lists those of n columns that may be the nearest to another one, and returns how many these are;
+ * f has a number on either side. */
+static size_t
+candidates(size_t n, const float *f, struct parabola *list)
 {
-    struct line l = {.n = s->nx, .margin = wrap && s->nx / 2 > NEAR ? s->nx / 2 : NEAR, .f = room};
+    size_t count = 0;
 
-    l.length = l.n + 2 * l.margin;
-    room += l.length + LANES;
-    for (size_t q = 0; q < LEVELS; q++) {
-        l.least[q] = room;
-        room += l.length / width(q) + 2;
+    for (size_t k = 0; k < n; k++) {
+        list[count].f = f[k];
+        list[count].apex = (int)k;
+        count += f[k] + 1 < (f[k - 1] > f[k + 1] ? f[k - 1] : f[k + 1]);
     }
-    return l;
+    return count;
+}
+
+/* Leaves in the list those that are the lowest on some of the columns 0 to n - 1, sets where each
+ * begins to be, and returns how many these are. */
+static size_t
+envelope(size_t n, size_t count, struct parabola *list)
+{
+    size_t m = 0;
+
+    for (size_t q = 0; q < count; q++) {
+        struct parabola next = list[q];
+        double first = 0;
+
+        for (; m > 0; m--) {
+            struct parabola last = list[m - 1];
+            double apart = next.apex - last.apex;
+            /* how far `next` is above it where its run begins; every column takes 2 apart off */
+            double above =
+                (double)next.f - last.f - apart * (2. * last.first - next.apex - last.apex);
+            if (above >= 0) {
+                first = last.first + 1 + above / (2 * apart);
+                break;
+            }
+        }
+        if (first < (double)n) {
+            next.first = (int)first;
+            list[m++] = next;
+        }
+    }
+    return m;
+}
+
+/* f becomes d^2, in units of dx. */
+static void
+evaluate(size_t n, size_t m, const struct parabola *list, float *restrict f)
+{
+    for (size_t q = 0; q < m; q++) {
+        int end = q + 1 < m ? list[q + 1].first : (int)n;
+        for (int x = list[q].first; x < end; x++) {
+            float d = (float)(x - list[q].apex), d2 = list[q].f + d * d;
+            f[x] = d2 < f[x] ? d2 : f[x];
+        }
+    }
 }
 
 size_t
 rc_distance_scratch(const struct rc_shape *s)
 {
-    struct line l = line_in(s, true, NULL);
-    size_t n = l.length + LANES;
+    size_t n = s->nx + 1; /* with the first column again */
 
-    for (size_t q = 0; q < LEVELS; q++)
-        n += l.length / width(q) + 2;
-    return n;
-}
-
-static void
-fill(const struct line *l, bool wrap, const float *steps, float dy)
-{
-    float *f = l->f + l->margin;
-
-    for (size_t k = 0; k < l->n; k++)
-        f[k] = steps[k] >= far_away ? INFINITY : dy * steps[k] * (dy * steps[k]);
-    for (size_t k = 0; k < l->margin + LANES; k++)
-        f[l->n + k] = wrap && k < l->margin ? f[k % l->n] : INFINITY;
-    for (size_t k = 1; k <= l->margin; k++)
-        f[-(ptrdiff_t)k] = wrap ? f[(l->n - k % l->n) % l->n] : INFINITY;
-}
-
-/* Least f of every block, of all sizes. */
-static void
-gather_blocks(const struct line *l)
-{
-    const float *from = l->f;
-    size_t n = l->length;
-
-    for (size_t q = 0; q < LEVELS; q++) {
-        float *to = l->least[q];
-        for (size_t b = 0; b < n / 2; b++)
-            to[b] = from[2 * b] < from[2 * b + 1] ? from[2 * b] : from[2 * b + 1];
-        if (n % 2 == 1)
-            to[n / 2] = from[n - 1];
-        from = to;
-        n = (n + 1) / 2;
-    }
-}
-
-/* What a block with its middle `offset` nodes after the first of the LANES nodes gives them. */
-static inline void
-look_at(float least, float offset, float step, float *restrict d2)
-{
-    for (int i = 0; i < LANES; i++) {
-        float x = step * (offset - (float)i), y = least + x * x;
-        d2[i] = y < d2[i] ? y : d2[i];
-    }
-}
-
-/* Level by level: blocks of one size from where the last ended to eight times their width away. */
-RC_CLONES static void
-look_far(const struct line *l, size_t at, float step, float *restrict d2)
-{
-    size_t low = at + LANES - 1 - NEAR, high = at + NEAR + 1; /* between: looked at from all */
-
-    for (size_t q = 0; low > 0 || high < l->length; q += q + 1 < LEVELS) {
-        size_t b = width(q), far = 8 * b;
-        size_t away = at - low < high - at - LANES ? at - low : high - at - LANES;
-        float middle = 0.5f * (float)(b - 1) - (float)at, reach;
-
-        if (low == 0 || high >= l->length)
-            away = low == 0 ? high - at - LANES : at - low;
-        reach = step * (float)away;
-        if (reach * reach >= largest(d2))
-            return;
-        if (q + 1 == LEVELS)
-            far = away + 8 * b;
-        for (; low > 0 && at - low < far; low = (low - 1) / b * b)
-            look_at(l->least[q][(low - 1) / b], (float)((low - 1) / b * b) + middle, step, d2);
-        for (; high < l->length && high - at - LANES < far; high = (high / b + 1) * b)
-            look_at(l->least[q][high / b], (float)(high / b * b) + middle, step, d2);
-    }
+    return n + 2 + n * (sizeof(struct parabola) / sizeof(float));
 }
 
 void
 rc_distance_row(const struct rc_shape *s, enum rc_boundary boundary, float *scratch,
                 const float *steps, float *d2)
 {
-    bool wrap = boundary == RC_PERIODIC, gathered = false;
-    struct line l = line_in(s, wrap, scratch);
+    bool wrap = boundary == RC_PERIODIC;
+    size_t n = s->nx, start = 0, ahead, m;
+    float *f = scratch + 1, aspect = (float)(s->dy / s->dx), unit = (float)(s->dx * s->dx);
+    struct parabola *list = (void *)(f + n + 2);
 
-    fill(&l, wrap, steps, (float)s->dy);
-    for (size_t i = 0; i < l.n; i += LANES) {
-        float block[LANES];
-        if (!look_around(l.f + l.margin + i, (float)s->dx, block)) {
-            if (!gathered)
-                gather_blocks(&l);
-            gathered = true;
-            look_far(&l, l.margin + i, (float)s->dx, block);
-        }
-        for (size_t k = 0; k < LANES && i + k < l.n; k++)
-            d2[i + k] = block[k];
-    }
+    for (size_t k = 1; wrap && k < n; k++)
+        start = steps[k] < steps[start] ? k : start;
+    ahead = n - start;
+    square(ahead, steps + start, aspect, f);
+    square(start + wrap, steps, aspect, f + ahead);
+    f[-1] = f[n + wrap] = INFINITY;
+    m = envelope(n, candidates(n + wrap, f, list), list);
+    evaluate(n, m, list, f);
+    for (size_t k = 0; k < ahead; k++)
+        d2[start + k] = unit * f[k];
+    for (size_t k = 0; k < start; k++)
+        d2[k] = unit * f[ahead + k];
 }

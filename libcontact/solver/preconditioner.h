@@ -25,7 +25,7 @@ void rc_preconditioner_free(struct rc_preconditioner *e);
 size_t rc_preconditioner_memory(const struct rc_shape *shape, enum rc_boundary boundary);
 /* The working set: entries 1 of w (0 elsewhere), at least one; w is referred to until the next
  * set. With `measure` the distances d_i are found too, else those of the last set are kept: they
- * change little when it does. Costs one factor of a chain, and with them several times
+ * change little when it does. Costs one factor of a chain, and with them up to three times
  * its time. Entries of w may change afterwards: the map stays symmetric, but E loses
  * quality as they do. */
 void rc_preconditioner_set(struct rc_preconditioner *e, const unsigned char *w, bool measure);
@@ -34,12 +34,14 @@ void rc_preconditioner_set(struct rc_preconditioner *e, const unsigned char *w, 
  * Costs three factors of a chain. */
 void rc_preconditioner_apply(struct rc_preconditioner *e, const float *r, float offset, float *z,
                              rc_row *done, void *ctx);
-/* distance.c: how far every node is from the nearest one with w != 0, right to a sixth, in two
- * passes. First the number of steps along its column, for all nodes ... */
+
+/* distance.c: how far every node is from the nearest one with w != 0, exactly but for rounding, in
+ * two passes. First the number of steps along its column, for all nodes ... */
 void rc_distance_columns(const struct rc_shape *shape, enum rc_boundary boundary,
                          const unsigned char *w, int threads, float *steps);
 /* ... then, row by row, the square of the distance, lengths as dx and dy are, from those of the
- * row. `scratch` holds rc_distance_scratch numbers and belongs to one thread. */
+ * row; infinite when there is no such node. `scratch` holds rc_distance_scratch numbers and belongs
+ * to one thread. */
 size_t rc_distance_scratch(const struct rc_shape *shape);
 void rc_distance_row(const struct rc_shape *shape, enum rc_boundary boundary, float *scratch,
                      const float *steps, float *d2);

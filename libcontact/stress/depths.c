@@ -36,11 +36,11 @@ struct bins {
 static enum rc_status
 collect(const struct rc_shape *s, const double *p, struct bins *b, struct rc_err *err)
 {
-    static const double turn = 6.28318530717958647692;
+    static const double two_pi = 6.28318530717958647692;
     size_t columns = rc_fourier_columns(s);
     double complex *wave = malloc(rc_fourier_size(s) * sizeof *wave);
-    double low = turn / (2 * fmax((double)s->nx * s->dx, (double)s->ny * s->dy));
-    double high = turn / fmin(s->dx, s->dy), step = log(high / low) / BINS;
+    double low = two_pi / (2 * fmax((double)s->nx * s->dx, (double)s->ny * s->dy));
+    double high = two_pi / fmin(s->dx, s->dy), step = log(high / low) / BINS;
 
     if (wave == NULL)
         return rc_err_set(err, "out of memory for the waves of %zu x %zu nodes", s->nx, s->ny);
@@ -54,8 +54,8 @@ collect(const struct rc_shape *s, const double *p, struct bins *b, struct rc_err
     }
     for (size_t j = 0; j < s->ny; j++)
         for (size_t i = 0; i < columns; i++) {
-            double qx = turn * (double)i / ((double)s->nx * s->dx);
-            double qy = turn * (double)rc_fourier_number(j, s->ny) / ((double)s->ny * s->dy);
+            double qx = two_pi * (double)i / ((double)s->nx * s->dx);
+            double qy = two_pi * (double)rc_fourier_number(j, s->ny) / ((double)s->ny * s->dy);
             double q = hypot(qx, qy), a = cabs(wave[j * columns + i]);
             int k = q > 0 ? (int)(log(q / low) / step) : -1;
             if (q > 0) /* columns between the first and the last stand for two */
@@ -67,7 +67,7 @@ collect(const struct rc_shape *s, const double *p, struct bins *b, struct rc_err
     return RC_OK;
 }
 
-/* Wave number of the layer, and what is left of the waves there (squared). */
+/* k(z) of above, and what is left of the waves at that depth, squared. */
 static double
 wave_number(const struct bins *b, double z, double *left)
 {

@@ -1,282 +1,286 @@
 /*
- * Stresses inside a half-space under unit load on a cell of its surface.
+ * Stresses in a half-space, component by component, for a normal and for a tangential load.
  *
- * No single form keeps its digits everywhere. On and next to the cell Love's differences over its
- * four corners hold, down to z = 0; their error is absolute, some 1e-16 of the load, so farther
- * away, where the stress falls as 1/R^2, they lose. There Gauss's rule for the integral of the
- * point loads over the cell is exact to rounding, with fewer points the farther it is. Farthest,
- * on a line of nodes, neighbours share their points: means over cells are taken from the values at
- * the nodes.
+ * Of a unit force at the origin (Boussinesq, Cerruti; Johnson 1985, eqs. 3.19 and 3.75), times
+ * 2 pi, with r = 1/R, w = 1/(R + z), c = 1 - 2 nu:
+ *
+ *     normal  sxx  c (z r^3 - w r + x^2 r^2 w (r + w)) - 3 x^2 z r^5
+ *             sxy  c x y r^2 w (r + w) - 3 x y z r^5
+ *             szz  -3 z^3 r^5         sxz  -3 x z^2 r^5         syz  -3 y z^2 r^5
+ *     along x sxx  -3 x^3 r^5 + c x (r^3 - 3 r w^2 + x^2 r^2 w^2 (r + 2 w))
+ *             syy  -3 x y^2 r^5 + c x r^2 w (z (r + w) + y^2 w (r + 2 w))
+ *             sxy  -3 x^2 y r^5 + c y (x^2 r^2 w^2 (r + 2 w) - r w^2)
+ *             szz  -3 x z^2 r^5       sxz  -3 x^2 z r^5         syz  -3 x y z r^5
+ *
+ * and syy of the normal one is sxx with x and y exchanged.
+ *
+ * Integrated over a cell these are differences over its corners (Love 1929 for the normal load),
+ * with T1 = atan2(XY, zR), T2 = atan2(XY, X^2 + z^2 + zR), LX = asinh(X / sqrt(Y^2 + z^2)):
+ *
+ *     normal  sxx  -2 nu T1 - c T2 + z XY / (R (X^2 + z^2))
+ *             szz  -T1 - z XY / R (1/(X^2 + z^2) + 1/(Y^2 + z^2))
+ *             sxy  -z/R - c ln(R + z)      sxz  z^2 Y / (R (X^2 + z^2))
+ *     along x sxx  2 LY + 2 nu Y/(R + z) + z Y/(R (R + z)) - z^2 Y / (R (X^2 + z^2))
+ *             syy  2 nu LY - 2 nu Y/(R + z) - z Y/(R (R + z))
+ *             sxy  LX - 2 nu X/(R + z) - z X/(R (R + z))
+ *             sxz  -T1 + z XY / (R (X^2 + z^2))   szz as sxz of the normal load   syz  -z/R
+ *
+ * Both arctangents have a second argument that is never negative: no branch is crossed.
+ *
+ * Limits. At z = 0 the terms with a factor z are 0. On an edge or a corner of the cell the
+ * arctangents are 0: with the other corners that is the mean of the limits from all sides, so szz
+ * is -1/2 on an edge and -1/4 at a corner. Logarithms have no limit there (normal: sxy at corners;
+ * along x: sxx and syy on the edges across x, sxy on those along it): they are taken at a small
+ * distance, `floor`.
+ *
+ * The periodic half-space under a wave of pressure or shear: q^2 = qx^2 + qy^2, each times
+ * exp(-q z). Under a uniform load the limit q -> 0 depends on the direction of q: see `mean`.
  */
 #include "stress.h"
 
 #include <math.h>
-#include <string.h>
 
-static const double pi = 3.14159265358979323846;
+/* ---- of a point load ---- */
 
-enum {
-    BLOCK = 256,       /* points evaluated together: their arrays stay in the first cache */
-    ROOM = BLOCK + 24, /* of each: equal places would else fall on the same lines of the cache */
-    MOST = 12          /* points of a rule in one direction                               */
-};
-
-/* Distance over the half side of a cell from which a rule of so many points in that direction
- * leaves less than 1e-13 of load times (cell / distance)^2 / 2 pi of any kernel. */
-static const struct rule {
-    double from;
-    int points;
-} rules[] = {{3, 12}, {4, 9}, {6, 8}, {8, 7}, {10, 6}, {17, 5}, {38, 4}, {160, 3}};
-
-enum {
-    RULES = sizeof rules / sizeof *rules
-};
-
-/* Abscissas and weights of Gauss's rules on (-1, 1), the positive half of each (Abramowitz and
- * Stegun 1964, 25.4). */
-static const struct gauss {
-    double x, w;
-} gauss3[] = {{0, 0.888888888888888889}, {0.774596669241483377, 0.555555555555555556}},
-  gauss4[] = {{0.339981043584856265, 0.652145154862546143},
-              {0.861136311594052575, 0.347854845137453857}},
-  gauss5[] = {{0, 0.568888888888888889},
-              {0.538469310105683091, 0.478628670499366468},
-              {0.906179845938663993, 0.236926885056189088}},
-  gauss6[] = {{0.238619186083196909, 0.467913934572691047},
-              {0.661209386466264514, 0.360761573048138608},
-              {0.932469514203152028, 0.171324492379170345}},
-  gauss7[] = {{0, 0.417959183673469388},
-              {0.405845151377397167, 0.381830050505118945},
-              {0.741531185599394440, 0.279705391489276668},
-              {0.949107912342758525, 0.129484966168869693}},
-  gauss8[] = {{0.183434642495649805, 0.362683783378361983},
-              {0.525532409916328986, 0.313706645877887287},
-              {0.796666477413626740, 0.222381034453374471},
-              {0.960289856497536232, 0.101228536290376259}},
-  gauss9[] = {{0, 0.330239355001259763},
-              {0.324253423403808929, 0.312347077040002840},
-              {0.613371432700590397, 0.260610696402935462},
-              {0.836031107326635794, 0.180648160694857404},
-              {0.968160239507626090, 0.081274388361574412}},
-  gauss12[] = {
-      {0.125233408511468916, 0.249147045813402785}, {0.367831498998180194, 0.233492536538354809},
-      {0.587317954286617447, 0.203167426723065922}, {0.769902674194304687, 0.160078328543346226},
-      {0.904117256370474857, 0.106939325995318431}, {0.981560634246719251, 0.047175336386511827}};
-static const struct gauss *const halves[MOST + 1] = {
-    [3] = gauss3, [4] = gauss4, [5] = gauss5, [6] = gauss6,
-    [7] = gauss7, [8] = gauss8, [9] = gauss9, [12] = gauss12};
-
-/* Point k of n, from the lowest. */
-static struct gauss
-gauss_point(int n, int k)
-{
-    int half = n / 2, from = k - half;
-    struct gauss g;
-
-    if (n % 2 == 0)
-        g = halves[n][from >= 0 ? from : -from - 1];
-    else
-        g = halves[n][from >= 0 ? from : -from];
-    if (from < 0)
-        g.x = -g.x;
-    return g;
-}
-
-/* The rule of a direction at this distance: -1, the corners. Distances from *low up to *high, which
- * are narrowed, have the same. */
-static int
-rule_at(double distance, double half_side, double *low, double *high)
-{
-    int k = -1;
-
-    while (k + 1 < RULES && distance >= rules[k + 1].from * half_side)
-        k++;
-    if (k >= 0)
-        *low = fmax(*low, rules[k].from * half_side);
-    if (k + 1 < RULES)
-        *high = fmin(*high, rules[k + 1].from * half_side);
-    return k;
-}
-
-/* ---- by points ---- */
-
-RC_WIDE_CLONES static void
-distances(size_t n, const double *restrict x, const double *restrict y, double z,
-          double *restrict r, double *restrict w)
-{
-    for (size_t i = 0; i < n; i++) {
-        double R = sqrt(x[i] * x[i] + y[i] * y[i] + z * z);
-        r[i] = 1 / R;
-        w[i] = 1 / (R + z);
+#define POINT(name, value)                                                                         \
+    RC_WIDE_CLONES static void name##_point(const struct rc_points *s, double weight,              \
+                                            double *restrict out)                                  \
+    {                                                                                              \
+        const double *restrict xs = s->x, *restrict ys = s->y;                                     \
+        const double *restrict rs = s->r, *restrict ws = s->w;                                     \
+        double z = s->z, c = 1 - 2 * s->nu;                                                        \
+                                                                                                   \
+        for (size_t i = 0; i < s->n; i++) {                                                        \
+            double x = xs[i], y = ys[i], r = rs[i], w = ws[i], r2 = r * r;                         \
+            (void)x, (void)y, (void)w, (void)z, (void)c, (void)r2;                                 \
+            out[i] += weight * (value);                                                            \
+        }                                                                                          \
     }
-}
 
-RC_WIDE_CLONES static void
-shift(size_t n, const double *restrict from, double by, double *restrict to)
-{
-    for (size_t i = 0; i < n; i++)
-        to[i] = from[i] + by;
-}
+#define R3 (r * r2)
+#define R5 (r * r2 * r2)
+POINT(n_xx, c *(z *R3 - w * r + x * x * r2 * w * (r + w)) - 3 * z * x * x * R5)
+POINT(n_yy, c *(z *R3 - w * r + y * y * r2 * w * (r + w)) - 3 * z * y * y * R5)
+POINT(n_zz, -3 * z * z * z * R5)
+POINT(n_xy, x *y *(c *r2 *w *(r + w) - 3 * z * R5))
+POINT(n_xz, -3 * x * z * z * R5)
+POINT(n_yz, -3 * y * z * z * R5)
+POINT(t_xx, x *(c *(R3 - 3 * r * w * w + x * x * r2 * w * w * (r + 2 * w)) - 3 * x * x * R5))
+POINT(t_yy, x *(c *r2 *w *(z *(r + w) + y * y * w * (r + 2 * w)) - 3 * y * y * R5))
+POINT(t_xy, y *(c *(x *x *r2 *w *w *(r + 2 * w) - r * w * w) - 3 * x * x * R5))
+POINT(t_xz, -3 * z * x * x * R5)
+POINT(t_yz, -3 * z * x * y * R5)
 
-static void
-by_points(const struct rc_cell *c, unsigned kernels, int nx, int ny, size_t n, const double *x,
-          const double *y, double *const out[RC_STRESS_KERNELS], size_t at)
-{
-    double a = c->dx / 2, b = c->dy / 2;
-    _Alignas(64) double u[ROOM], v[ROOM], r[ROOM], w[ROOM];
-    struct rc_points p = {.n = n, .x = u, .y = v, .r = r, .w = w, .z = c->depth, .nu = c->nu};
+/* ---- of a cell, at a corner ---- */
 
-    for (int k = 0; k < RC_STRESS_KERNELS; k++)
-        if (kernels >> k & 1)
-            memset(out[k] + at, 0, n * sizeof(double));
-    for (int l = 0; l < ny; l++) {
-        struct gauss gy = gauss_point(ny, l);
-        shift(n, y, -b * gy.x, v);
-        for (int m = 0; m < nx; m++) {
-            struct gauss gx = gauss_point(nx, m);
-            shift(n, x, -a * gx.x, u);
-            distances(n, u, v, p.z, r, w);
-            for (int k = 0; k < RC_STRESS_KERNELS; k++)
-                if (kernels >> k & 1)
-                    rc_stress_rows[k].point(&p, a * b * gx.w * gy.w / (2 * pi), out[k] + at);
-        }
-    }
-}
-
-/* ---- by points, on a line of nodes ---- */
-
-enum {
-    REACH = 3 /* nodes on either side that a mean is taken from */
-};
-
-/* The mean of a smooth function over a cell from its values f at the nodes: f + d2/24 - 17 d4/5760
- * + 367 d6/967680, with the central differences d2, d4, d6. */
-static const double mean_of[REACH + 1] = {
-    1 - 2 / 24.0 - 6 * 17 / 5760.0 - 20 * 367 / 967680.0,
-    1 / 24.0 + 4 * 17 / 5760.0 + 15 * 367 / 967680.0,
-    -17 / 5760.0 - 6 * 367 / 967680.0,
-    367 / 967680.0,
-};
-
-/* Distance over the cell from which the next term is below 1e-13 of a load's stress. */
-static const double far = 80;
-
-RC_WIDE_CLONES static void
-take_means(size_t n, const double *restrict f, double *restrict out)
-{
-    for (size_t i = 0; i < n; i++)
-        out[i] = mean_of[0] * f[i + 3] + mean_of[1] * (f[i + 2] + f[i + 4]) +
-                 mean_of[2] * (f[i + 1] + f[i + 5]) + mean_of[3] * (f[i] + f[i + 6]);
-}
-
-/* Stresses at x = (first + i) dx, i < n: Gauss's rule across the line, and along it the means. */
-static void
-by_means(const struct rc_cell *c, unsigned kernels, double y, size_t first, size_t n,
-         double *const out[RC_STRESS_KERNELS])
-{
-    double b = c->dy / 2, low = 0, high = INFINITY, x0 = (double)first * c->dx;
-    int rule = rule_at(sqrt(x0 * x0 + y * y + c->depth * c->depth), b, &low, &high);
-    int ny = rules[rule].points;
-    _Alignas(64) double u[ROOM], v[ROOM], r[ROOM], w[ROOM], sum[RC_STRESS_KERNELS][ROOM];
-    struct rc_points p = {
-        .n = n + 2 * REACH, .x = u, .y = v, .r = r, .w = w, .z = c->depth, .nu = c->nu};
-
-    for (size_t i = 0; i < p.n; i++)
-        u[i] = ((double)(first + i) - REACH) * c->dx;
-    for (int k = 0; k < RC_STRESS_KERNELS; k++)
-        if (kernels >> k & 1)
-            memset(sum[k], 0, p.n * sizeof(double));
-    for (int l = 0; l < ny; l++) {
-        struct gauss g = gauss_point(ny, l);
-        for (size_t i = 0; i < p.n; i++)
-            v[i] = y - b * g.x;
-        distances(p.n, u, v, p.z, r, w);
-        for (int k = 0; k < RC_STRESS_KERNELS; k++)
-            if (kernels >> k & 1)
-                rc_stress_rows[k].point(&p, c->dx * b * g.w / (2 * pi), sum[k]);
-    }
-    for (int k = 0; k < RC_STRESS_KERNELS; k++)
-        if (kernels >> k & 1)
-            take_means(n, sum[k], out[k] + first);
-}
-
-/* ---- by corners ---- */
-
-/* A point on an edge but for rounding is on it. */
 static double
-snap(double x, double side)
+t1(const struct rc_corner *k)
 {
-    return fabs(x) < 1e-9 * side ? 0 : x;
+    return atan2(k->x * k->y, k->z * k->r);
+}
+
+/* z XY / (R (X^2 + z^2)), and so on: 0 at the surface. */
+static double
+xy_x(const struct rc_corner *k)
+{
+    return k->z == 0 ? 0 : k->z * k->x * k->y / (k->r * (k->x * k->x + k->z * k->z));
 }
 
 static double
-by_corners(const struct rc_cell *c, int kernel, double x, double y)
+xy_y(const struct rc_corner *k)
 {
-    double sum = 0;
-
-    for (int s = -1; s <= 1; s += 2)
-        for (int t = -1; t <= 1; t += 2) {
-            struct rc_corner k = {.x = snap(x + s * c->dx / 2, c->dx),
-                                  .y = snap(y + t * c->dy / 2, c->dy),
-                                  .z = c->depth,
-                                  .nu = c->nu,
-                                  .floor = 1e-3 * fmin(c->dx, c->dy)};
-            k.r = sqrt(k.x * k.x + k.y * k.y + k.z * k.z);
-            sum += s * t * rc_stress_rows[kernel].corner(&k);
-        }
-    return sum / (2 * pi);
+    return k->z == 0 ? 0 : k->z * k->x * k->y / (k->r * (k->y * k->y + k->z * k->z));
 }
 
-/* ---- both ---- */
-
-void
-rc_stress_coefficients(const struct rc_cell *c, unsigned kernels, size_t n, const double *x,
-                       const double *y, double *const out[RC_STRESS_KERNELS])
+static double
+log_sum(const struct rc_corner *k)
 {
-    double z2 = c->depth * c->depth;
+    return log(fmax(k->r + k->z, k->floor));
+}
 
-    for (size_t i = 0, last; i < n; i = last) {
-        double r2 = x[i] * x[i] + y[i] * y[i] + z2, low = 0, high = INFINITY;
-        int along_x = rule_at(sqrt(r2), c->dx / 2, &low, &high);
-        int along_y = rule_at(sqrt(r2), c->dy / 2, &low, &high);
+/* asinh of a coordinate over the distance from the edge that runs along it. */
+static double
+along(const struct rc_corner *k, double coordinate, double other)
+{
+    return asinh(coordinate / fmax(hypot(other, k->z), k->floor));
+}
 
-        for (last = i + 1; last < n && last - i < BLOCK; last++) {
-            r2 = x[last] * x[last] + y[last] * y[last] + z2;
-            if (!(r2 >= low * low && r2 < high * high))
-                break;
-        }
-        if (along_x >= 0 && along_y >= 0) {
-            by_points(c, kernels, rules[along_x].points, rules[along_y].points, last - i, x + i,
-                      y + i, out, i);
+/* 2 nu Y/(R + z) + z Y / (R (R + z)); Y may be X. */
+static double
+tilt(const struct rc_corner *k, double y)
+{
+    double w = k->r + k->z;
+
+    return w == 0 ? 0 : (2 * k->nu + k->z / k->r) * y / w;
+}
+
+static double
+n_xx_corner(const struct rc_corner *k)
+{
+    double t2 = atan2(k->x * k->y, k->x * k->x + k->z * (k->z + k->r));
+
+    return -2 * k->nu * t1(k) - (1 - 2 * k->nu) * t2 + xy_x(k);
+}
+
+static double
+n_yy_corner(const struct rc_corner *k)
+{
+    double t2 = atan2(k->x * k->y, k->y * k->y + k->z * (k->z + k->r));
+
+    return -2 * k->nu * t1(k) - (1 - 2 * k->nu) * t2 + xy_y(k);
+}
+
+static double
+n_zz_corner(const struct rc_corner *k)
+{
+    return -t1(k) - xy_x(k) - xy_y(k);
+}
+
+static double
+n_xy_corner(const struct rc_corner *k)
+{
+    return (k->z == 0 ? 0 : -k->z / k->r) - (1 - 2 * k->nu) * log_sum(k);
+}
+
+static double
+n_xz_corner(const struct rc_corner *k)
+{
+    return k->z == 0 ? 0 : k->z * k->z * k->y / (k->r * (k->x * k->x + k->z * k->z));
+}
+
+static double
+n_yz_corner(const struct rc_corner *k)
+{
+    return k->z == 0 ? 0 : k->z * k->z * k->x / (k->r * (k->y * k->y + k->z * k->z));
+}
+
+static double
+t_xx_corner(const struct rc_corner *k)
+{
+    return 2 * along(k, k->y, k->x) + tilt(k, k->y) - n_xz_corner(k);
+}
+
+static double
+t_yy_corner(const struct rc_corner *k)
+{
+    return 2 * k->nu * along(k, k->y, k->x) - tilt(k, k->y);
+}
+
+static double
+t_xy_corner(const struct rc_corner *k)
+{
+    return along(k, k->x, k->y) - tilt(k, k->x);
+}
+
+static double
+t_xz_corner(const struct rc_corner *k)
+{
+    return -t1(k) + xy_x(k);
+}
+
+static double
+t_yz_corner(const struct rc_corner *k)
+{
+    return k->z == 0 ? 0 : -k->z / k->r;
+}
+
+/* ---- of a wave ---- */
+
+#define SYMBOL(name, value)                                                                        \
+    static double name##_symbol(const struct rc_wave *s)                                           \
+    {                                                                                              \
+        double qx = s->qx, qy = s->qy, q = s->q, z = s->z, nu = s->nu, c = 1 - 2 * nu;             \
+        (void)qx, (void)qy, (void)q, (void)z, (void)nu, (void)c;                                   \
+        return (value)*s->decay;                                                                   \
+    }
+
+SYMBOL(n_xx, -2 * nu - (c - z * q) * (qx / q) * (qx / q))
+SYMBOL(n_yy, -2 * nu - (c - z * q) * (qy / q) * (qy / q))
+SYMBOL(n_zz, -1 - q * z)
+SYMBOL(n_xy, (c - z * q) * (qx / q) * (qy / q))
+SYMBOL(n_xz, -qx *z)
+SYMBOL(n_yz, -qy *z)
+SYMBOL(t_xx, -(qx / q) * (2 * (1 + nu) - (2 * nu + z * q) * (qx / q) * (qx / q)))
+SYMBOL(t_yy, -(qx / q) * (2 * nu - (2 * nu + z * q) * (qy / q) * (qy / q)))
+SYMBOL(t_xy, -(qy / q) * (1 - (2 * nu + z * q) * (qx / q) * (qx / q)))
+SYMBOL(t_xz, z *q *(qx / q) * (qx / q) - 1)
+SYMBOL(t_yz, -z *q *(qx / q) * (qy / q))
+
+/* ---- the components ---- */
+
+/* Load, component, its forms above, its parity, and the component of the normal load that has the
+ * same values. */
+#define KERNELS                                                                                    \
+    KERNEL(NORMAL, SXX, n_xx, 0, -1)                                                               \
+    KERNEL(NORMAL, SYY, n_yy, 0, -1)                                                               \
+    KERNEL(NORMAL, SZZ, n_zz, 0, -1)                                                               \
+    KERNEL(NORMAL, SXY, n_xy, RC_ODD_X | RC_ODD_Y, -1)                                             \
+    KERNEL(NORMAL, SXZ, n_xz, RC_ODD_X, -1)                                                        \
+    KERNEL(NORMAL, SYZ, n_yz, RC_ODD_Y, -1)                                                        \
+    KERNEL(SHEAR, SXX, t_xx, RC_ODD_X, -1)                                                         \
+    KERNEL(SHEAR, SYY, t_yy, RC_ODD_X, -1)                                                         \
+    KERNEL(SHEAR, SZZ, n_xz, RC_ODD_X, RC_SXZ)                                                     \
+    KERNEL(SHEAR, SXY, t_xy, RC_ODD_Y, -1)                                                         \
+    KERNEL(SHEAR, SXZ, t_xz, 0, -1)                                                                \
+    KERNEL(SHEAR, SYZ, t_yz, RC_ODD_X | RC_ODD_Y, -1)
+
+#define KERNEL(load, component, name, parity, same)                                                \
+    [RC_##load * RC_COMPONENTS + RC_##                                                             \
+        component] = {same, name##_point, name##_corner, name##_symbol},
+const struct rc_stress_forms rc_stress_forms[RC_STRESS_KERNELS] = {KERNELS};
+#undef KERNEL
+
+#define KERNEL(load, component, name, parity, same)                                                \
+    [RC_##load * RC_COMPONENTS + RC_##component] = parity,
+const unsigned rc_stress_parity[RC_STRESS_KERNELS] = {KERNELS};
+#undef KERNEL
+
+int
+rc_stress_kernel(int load, int component)
+{
+    int k = load * RC_COMPONENTS + component, same = rc_stress_forms[k].same;
+
+    return same < 0 ? k : same;
+}
+
+unsigned
+rc_stress_distinct(unsigned components, bool shear)
+{
+    unsigned kernels = 0;
+
+    for (int c = 0; c < RC_COMPONENTS; c++) {
+        if (!(components >> c & 1))
             continue;
-        }
-        for (int k = 0; k < RC_STRESS_KERNELS; k++)
-            for (size_t j = i; kernels >> k & 1 && j < last; j++)
-                out[k][j] = by_corners(c, k, x[j], y[j]);
+        kernels |= 1u << rc_stress_kernel(RC_NORMAL, c);
+        if (shear)
+            kernels |= 1u << rc_stress_kernel(RC_SHEAR, c);
     }
+    return kernels;
 }
 
-void
-rc_stress_line(const struct rc_cell *c, unsigned kernels, size_t n, double y,
-               double *const out[RC_STRESS_KERNELS])
-{
-    double beyond = far * far * fmax(c->dx * c->dx, c->dy * c->dy) - y * y - c->depth * c->depth;
-    double inner = beyond > 0 ? ceil(sqrt(beyond) / c->dx) : 0;
-    size_t near = inner < (double)n ? (size_t)inner : n, room = BLOCK - 2 * REACH;
-    double x[BLOCK], ys[BLOCK], *to[RC_STRESS_KERNELS];
+/* ---- on the periodic map ---- */
 
-    for (size_t start = 0; start < near; start += BLOCK) {
-        size_t count = near - start < BLOCK ? near - start : BLOCK;
-        for (size_t i = 0; i < count; i++) {
-            x[i] = (double)(start + i) * c->dx;
-            ys[i] = y;
-        }
-        for (int k = 0; k < RC_STRESS_KERNELS; k++)
-            to[k] = kernels >> k & 1 ? out[k] + start : NULL;
-        rc_stress_coefficients(c, kernels, count, x, ys, to);
-    }
-    for (size_t start = near; start < n; start += room)
-        by_means(c, kernels, y, start, n - start < room ? n - start : room, out);
+/* The mean over the directions of q, which is also what stands under the middle of a patch that
+ * grows without end: sxx = syy = -(1 + 2 nu)/2, and the sum of the normal stresses is -2 (1 + nu)
+ * as it is for every wave. On a profile q has one direction, and the strain along it is plane. */
+static double
+mean(int kernel, double nu, const struct rc_shape *shape)
+{
+    const struct rc_wave x = {.qx = 1, .q = 1, .decay = 1, .nu = nu};
+    const struct rc_wave y = {.qy = 1, .q = 1, .decay = 1, .nu = nu};
+    const struct rc_stress_forms *forms = &rc_stress_forms[kernel];
+
+    if (rc_stress_parity[kernel] != 0)
+        return 0;
+    if ((shape->nx == 1) == (shape->ny == 1))
+        return (forms->symbol(&x) + forms->symbol(&y)) / 2;
+    return forms->symbol(shape->nx == 1 ? &y : &x);
+}
+
+double
+rc_stress_symbol(int kernel, const struct rc_wave *wave, const struct rc_shape *shape)
+{
+    return wave->q == 0 ? mean(kernel, wave->nu, shape) : rc_stress_forms[kernel].symbol(wave);
 }
 
 /* ---- the row ---- */
@@ -286,27 +290,21 @@ rows(const struct rc_medium *m, size_t component, const struct rc_lattice *at, s
      size_t first, size_t last, double *out)
 {
     const struct rc_cell cell = {at->dx, at->dy, m->depth, m->nu};
-    double x[BLOCK], y[BLOCK], *to[RC_STRESS_KERNELS];
+    double *to[RC_STRESS_KERNELS] = {NULL};
 
-    for (size_t j = first; j < last; j++, out += n)
-        for (size_t start = 0; start < n; start += BLOCK) {
-            size_t count = n - start < BLOCK ? n - start : BLOCK;
-            for (size_t i = 0; i < count; i++) {
-                x[i] = (double)((start + i) * at->sx) * at->dx;
-                y[i] = (double)(j * at->sy) * at->dy;
-            }
-            to[component] = out + start;
-            rc_stress_coefficients(&cell, 1u << component, count, x, y, to);
-        }
+    for (size_t j = first; j < last; j++) {
+        to[component] = out + (j - first) * n;
+        rc_stress_line(&cell, 1u << component, (double)at->sx * at->dx, n,
+                       (double)(j * at->sy) * at->dy, to);
+    }
 }
 
 static double
 symbol(const struct rc_medium *m, size_t component, double qx, double qy)
 {
-    double q = hypot(qx, qy);
-    const struct rc_wave wave = {qx, qy, q, m->depth, exp(-q * m->depth), m->nu};
+    const struct rc_wave wave = rc_stress_wave(qx, qy, m->depth, m->nu);
 
-    return rc_stress_rows[component].symbol(&wave);
+    return rc_stress_forms[component].symbol(&wave);
 }
 
 const struct rc_kernel rc_kernel_stress = {

@@ -5,8 +5,8 @@
  * share their kernels, and lines without pressure cost nothing. On the periodic boundary it is the
  * sum of all waves across the plane, for each wave along it.
  *
- * A section across x is the same with x and y exchanged: the map is turned, the kernels are asked
- * at the exchanged places.
+ * A section across x is the same with x and y exchanged: the map is transposed, and the kernels are
+ * evaluated at the exchanged places.
  */
 #include "stress.h"
 
@@ -19,45 +19,46 @@
 #include "libcontact/operator/operator.h"
 
 enum {
-    SHARES = 16 /* of the sum, added in order: the same for any number of threads */
+    PARTS = 16 /* partial sums, added in order: the result is the same for any number of threads */
 };
 
-/* Lines of pressure at one distance from the plane: their sum, and their difference (that of the
- * side where the offset to the plane is positive first). */
+/* The two lines of pressure at one distance from the plane, or the one that is there: their sum
+ * for kernels that are even across the plane; for odd ones their difference, the line with the
+ * plane on its positive side first. */
 struct pair {
-    double offset; /* m, >= 0                                       */
+    double offset; /* m, >= 0 */
     const double complex *even, *odd;
-    double sign; /* of odd                                        */
+    double sign; /* of odd */
 };
 
 struct plan {
     struct rc_stress_task task;
-    bool turned;   /* across x: what is along is y                              */
-    size_t n, m;   /* nodes along and across                                    */
-    double d, e;   /* their distances                                           */
-    size_t waves;  /* along: 0 .. waves - 1                                     */
-    size_t length; /* of a transform                                            */
+    bool transposed;          /* across x: what is along is y                          */
+    size_t n, m;              /* nodes along and across                                */
+    double d_along, d_across; /* their spacings, m                                     */
+    size_t waves;             /* along: 0 .. waves - 1                                 */
+    size_t length;            /* of a transform                                        */
     int threads;
     struct rc_line *line;
-    struct rc_dct *halves[2];
+    struct rc_dct *dct;     /* of a kernel along; NULL when periodic */
     double complex *source; /* m lines of `waves`; of the waves across, when periodic */
     struct pair *pair;
     size_t pairs;
-    double *space; /* for each thread: offsets, and a line of each kernel     */
-    size_t room;
-    double complex *sum; /* for each share and component                            */
+    double *scratch; /* for each thread: offsets along and across, and a line of each kernel */
+    size_t scratch_size;
+    double complex *sum; /* `waves` for each part and component */
 };
 
-static unsigned
+static bool
 odd_along(const struct plan *plan, int kernel)
 {
-    return (rc_stress_parity[kernel] & (plan->turned ? RC_ODD_Y : RC_ODD_X)) != 0;
+    return (rc_stress_parity[kernel] & (plan->transposed ? RC_ODD_Y : RC_ODD_X)) != 0;
 }
 
-static unsigned
+static bool
 odd_across(const struct plan *plan, int kernel)
 {
-    return (rc_stress_parity[kernel] & (plan->turned ? RC_ODD_X : RC_ODD_Y)) != 0;
+    return (rc_stress_parity[kernel] & (plan->transposed ? RC_ODD_X : RC_ODD_Y)) != 0;
 }
 
 static void
@@ -68,11 +69,10 @@ plan_free(void *at)
     if (plan == NULL)
         return;
     rc_line_free(plan->line);
-    rc_dct_free(plan->halves[0]);
-    rc_dct_free(plan->halves[1]);
+    rc_dct_free(plan->dct);
     free(plan->source);
     free(plan->pair);
-    free(plan->space);
+    free(plan->scratch);
     free(plan->sum);
     free(plan);
 }
@@ -80,17 +80,17 @@ plan_free(void *at)
 static struct plan
 sizes(const struct rc_stress_task *t)
 {
-    struct plan plan = {.task = *t, .turned = t->options.section == 'x'};
+    struct plan plan = {.task = *t, .transposed = t->options.section == 'x'};
     const struct rc_shape *s = &t->shape;
 
-    plan.n = plan.turned ? s->ny : s->nx;
-    plan.m = plan.turned ? s->nx : s->ny;
-    plan.d = plan.turned ? s->dy : s->dx;
-    plan.e = plan.turned ? s->dx : s->dy;
+    plan.n = plan.transposed ? s->ny : s->nx;
+    plan.m = plan.transposed ? s->nx : s->ny;
+    plan.d_along = plan.transposed ? s->dy : s->dx;
+    plan.d_across = plan.transposed ? s->dx : s->dy;
     plan.length = t->options.boundary == RC_FREE ? rc_fft_length(plan.n, 2) : plan.n;
     plan.waves = plan.length / 2 + 1;
     plan.threads = rc_useful_threads(s, t->options.threads);
-    plan.room = (2 + RC_STRESS_KERNELS) * plan.waves;
+    plan.scratch_size = (2 + RC_STRESS_KERNELS) * plan.waves;
     return plan;
 }
 
@@ -98,61 +98,55 @@ static size_t
 memory(const struct rc_stress_task *t)
 {
     struct plan plan = sizes(t);
-    size_t turned = t->shape.nx * t->shape.ny * sizeof(double);
+    size_t transposed = t->shape.nx * t->shape.ny * sizeof(double);
 
-    return sizeof plan + plan.m * plan.waves * sizeof(double complex) + turned +
-           plan.m * sizeof(struct pair) + (size_t)plan.threads * plan.room * sizeof(double) +
-           SHARES * RC_COMPONENTS * plan.waves * sizeof(double complex);
+    return sizeof plan + plan.m * plan.waves * sizeof(double complex) + transposed +
+           plan.m * sizeof(struct pair) +
+           (size_t)plan.threads * plan.scratch_size * sizeof(double) +
+           PARTS * RC_COMPONENTS * plan.waves * sizeof(double complex);
 }
 
-/* The map with what is along the plane along its rows. */
+/* The map with what is along the plane along its rows. NULL when memory is short. */
 static double *
-turn(const struct plan *plan)
+transpose(const struct plan *plan)
 {
     size_t n = plan->n, m = plan->m;
     double *v = malloc(n * m * sizeof *v);
 
     for (size_t j = 0; v != NULL && j < m; j++)
         for (size_t i = 0; i < n; i++)
-            v[j * n + i] = plan->task.p[plan->turned ? i * m + j : j * n + i];
+            v[j * n + i] = plan->task.p[plan->transposed ? i * m + j : j * n + i];
     return v;
 }
 
 /* ---- free: pairs of lines ---- */
 
-static bool
-loaded(const double *p, size_t n)
-{
-    for (size_t i = 0; i < n; i++)
-        if (p[i] != 0)
-            return true;
-    return false;
-}
-
 /* The line as far on the other side of the plane as line j is on this one, or m. */
 static size_t
 opposite(const struct plan *plan, size_t j)
 {
-    double at = (double)(plan->m - 1) - (double)j + 2 * plan->task.options.at / plan->e;
+    double at = (double)(plan->m - 1) - (double)j + 2 * plan->task.options.at / plan->d_across;
     double whole = round(at);
 
     return fabs(at - whole) < 1e-9 && whole >= 0 && whole < (double)plan->m ? (size_t)whole
                                                                             : plan->m;
 }
 
+/* Makes the pair that line j begins, unless the line opposite does. */
 static void
-add_pair(struct plan *plan, const bool *there, size_t j)
+add_pair(struct plan *plan, const bool *loaded, size_t j)
 {
-    double offset = plan->task.options.at - ((double)j - (double)(plan->m - 1) / 2) * plan->e;
+    double offset =
+        plan->task.options.at - ((double)j - (double)(plan->m - 1) / 2) * plan->d_across;
     size_t other = opposite(plan, j);
     double complex *a = plan->source + j * plan->waves, *b = a;
     struct pair *pair = &plan->pair[plan->pairs];
 
-    if (!there[j] || (other != j && other < plan->m && there[other] && offset < 0))
+    if (!loaded[j] || (other != j && other < plan->m && loaded[other] && offset < 0))
         return;
     *pair = (struct pair){fabs(offset), a, a, offset < 0 ? -1 : 1};
     plan->pairs++;
-    if (other == j || other == plan->m || !there[other])
+    if (other == j || other == plan->m || !loaded[other])
         return;
     b = plan->source + other * plan->waves;
     for (size_t q = 0; q < plan->waves; q++) {
@@ -167,26 +161,26 @@ static enum rc_status
 transform_lines(struct plan *plan, const double *p, struct rc_err *err)
 {
     size_t n = plan->n, m = plan->m;
-    bool *there = calloc(m, sizeof *there);
+    bool *loaded = calloc(m, sizeof *loaded);
 
-    if (there == NULL || (plan->pair = malloc(m * sizeof *plan->pair)) == NULL) {
-        free(there);
+    if (loaded == NULL || (plan->pair = malloc(m * sizeof *plan->pair)) == NULL) {
+        free(loaded);
         return rc_err_set(err, "out of memory for %zu lines", m);
     }
 #pragma omp parallel for num_threads(plan->threads) schedule(dynamic, 4)
     for (size_t j = 0; j < m; j++) {
-        double *line = plan->space + (size_t)omp_get_thread_num() * plan->room;
-        if (!(there[j] = loaded(p + j * n, n)))
+        double *line = plan->scratch + (size_t)omp_get_thread_num() * plan->scratch_size;
+        if (!(loaded[j] = rc_any(p + j * n, n)))
             continue;
         memset(line, 0, plan->length * sizeof *line);
         memcpy(line, p + j * n, n * sizeof *line);
         rc_line_forward(plan->line, line, plan->source + j * plan->waves);
     }
     for (size_t j = 0; j < m; j++) {
-        plan->task.counts->line_transforms += there[j];
-        add_pair(plan, there, j);
+        plan->task.counts->line_transforms += loaded[j];
+        add_pair(plan, loaded, j);
     }
-    free(there);
+    free(loaded);
     return RC_OK;
 }
 
@@ -205,20 +199,19 @@ plan_new(const struct rc_stress_task *task, struct rc_err *err)
     }
     *plan = sizes(task);
     threads = (size_t)plan->threads;
-    p = turn(plan);
+    p = transpose(plan);
     plan->source = malloc(plan->m * plan->waves * sizeof *plan->source);
-    plan->space = malloc(threads * plan->room * sizeof *plan->space);
-    plan->sum = malloc(SHARES * RC_COMPONENTS * plan->waves * sizeof *plan->sum);
-    if (p == NULL || plan->source == NULL || plan->space == NULL || plan->sum == NULL) {
+    plan->scratch = malloc(threads * plan->scratch_size * sizeof *plan->scratch);
+    plan->sum = malloc(PARTS * RC_COMPONENTS * plan->waves * sizeof *plan->sum);
+    if (p == NULL || plan->source == NULL || plan->scratch == NULL || plan->sum == NULL) {
         rc_err_set(err, "out of memory for a section of %zu x %zu nodes", plan->n, plan->m);
         goto done;
     }
     if ((plan->line = rc_line_new(plan->length, threads, err)) == NULL ||
-        (!periodic && ((plan->halves[0] = rc_dct_new(plan->waves, false, threads, err)) == NULL ||
-                       (plan->halves[1] = rc_dct_new(plan->waves, true, threads, err)) == NULL)))
+        (!periodic && (plan->dct = rc_dct_new(plan->waves, threads, err)) == NULL))
         goto done;
     if (periodic) {
-        const struct rc_shape shape = {plan->n, plan->m, plan->d, plan->e};
+        const struct rc_shape shape = {plan->n, plan->m, plan->d_along, plan->d_across};
         status = rc_fourier_forward(&shape, p, plan->source, err);
         task->counts->source_transforms++;
     } else {
@@ -255,23 +248,23 @@ sum_pair(struct plan *plan, double depth, const struct pair *pair, double comple
 {
     const struct rc_stress_task *t = &plan->task;
     const struct rc_cell cell = {t->shape.dx, t->shape.dy, depth, t->options.nu};
-    double *along = plan->space + (size_t)omp_get_thread_num() * plan->room;
+    double *along = plan->scratch + (size_t)omp_get_thread_num() * plan->scratch_size;
     double *across = along + plan->waves, *line[RC_STRESS_KERNELS];
 
     for (int k = 0; k < RC_STRESS_KERNELS; k++)
         line[k] = across + (size_t)(k + 1) * plan->waves;
-    if (plan->turned) {
+    if (plan->transposed) {
         for (size_t i = 0; i < plan->waves; i++) {
-            along[i] = (double)i * plan->d;
+            along[i] = (double)i * plan->d_along;
             across[i] = pair->offset;
         }
         rc_stress_coefficients(&cell, t->kernels, plan->waves, across, along, line);
     } else {
-        rc_stress_line(&cell, t->kernels, plan->waves, pair->offset, line);
+        rc_stress_line(&cell, t->kernels, plan->d_along, plan->waves, pair->offset, line);
     }
     for (int k = 0; k < RC_STRESS_KERNELS; k++)
         if (t->kernels >> k & 1)
-            rc_dct_run(plan->halves[odd_along(plan, k)], line[k]);
+            rc_dct_run(plan->dct, odd_along(plan, k), line[k]);
     for (int c = 0; c < RC_COMPONENTS; c++) {
         int normal = rc_stress_kernel(RC_NORMAL, c), shear = rc_stress_kernel(RC_SHEAR, c);
         if (!(t->components >> c & 1))
@@ -288,14 +281,14 @@ sum_free(struct plan *plan, double depth)
 {
     size_t one = RC_COMPONENTS * plan->waves;
 
-    memset(plan->sum, 0, SHARES * one * sizeof *plan->sum);
+    memset(plan->sum, 0, PARTS * one * sizeof *plan->sum);
 #pragma omp parallel for num_threads(plan->threads) schedule(dynamic)
-    for (size_t share = 0; share < SHARES; share++)
-        for (size_t g = share; g < plan->pairs; g += SHARES)
-            sum_pair(plan, depth, &plan->pair[g], plan->sum + share * one);
-    for (size_t share = 1; share < SHARES; share++)
+    for (size_t part = 0; part < PARTS; part++)
+        for (size_t g = part; g < plan->pairs; g += PARTS)
+            sum_pair(plan, depth, &plan->pair[g], plan->sum + part * one);
+    for (size_t part = 1; part < PARTS; part++)
         for (size_t q = 0; q < one; q++)
-            plan->sum[q] += plan->sum[share * one + q];
+            plan->sum[q] += plan->sum[part * one + q];
     for (int k = 0; k < RC_STRESS_KERNELS; k++)
         if (plan->task.kernels >> k & 1) {
             rc_stress_count(&plan->task, k, plan->pairs * plan->waves);
@@ -309,7 +302,7 @@ sum_free(struct plan *plan, double depth)
 static double complex
 response(const struct plan *plan, int component, const struct rc_wave *w, bool last_x, bool last_y)
 {
-    static const double complex turns[] = {1, -I, -1};
+    static const double complex powers[] = {1, -I, -1}; /* of -i */
     const struct rc_stress_task *t = &plan->task;
     double complex sum = 0;
 
@@ -319,8 +312,8 @@ response(const struct plan *plan, int component, const struct rc_wave *w, bool l
         double weight = load == RC_NORMAL ? 1 : t->options.mu;
         if ((parity & RC_ODD_X && last_x) || (parity & RC_ODD_Y && last_y))
             continue;
-        weight *= w->q == 0 ? rc_stress_mean(k, w->nu, &t->shape) : rc_stress_rows[k].symbol(w);
-        sum += weight * turns[((parity & RC_ODD_X) != 0) + ((parity & RC_ODD_Y) != 0)];
+        weight *= rc_stress_symbol(k, w, &t->shape);
+        sum += weight * powers[((parity & RC_ODD_X) != 0) + ((parity & RC_ODD_Y) != 0)];
     }
     return sum;
 }
@@ -328,27 +321,26 @@ response(const struct plan *plan, int component, const struct rc_wave *w, bool l
 static void
 sum_waves(struct plan *plan, double depth)
 {
-    static const double turn = 6.28318530717958647692;
+    static const double two_pi = 6.28318530717958647692;
     const struct rc_stress_task *t = &plan->task;
-    double from_first = t->options.at + (double)(plan->m - 1) / 2 * plan->e;
+    double from_first = t->options.at + (double)(plan->m - 1) / 2 * plan->d_across;
 
 #pragma omp parallel for num_threads(plan->threads) schedule(static)
     for (size_t a = 0; a < plan->waves; a++) {
-        double q_along = turn * (double)a / ((double)plan->n * plan->d);
+        double q_along = two_pi * (double)a / ((double)plan->n * plan->d_along);
         double complex sum[RC_COMPONENTS] = {0};
         for (size_t b = 0; b < plan->m; b++) {
-            double q = turn * (double)rc_fourier_number(b, plan->m) / ((double)plan->m * plan->e);
-            double qx = plan->turned ? q : q_along, qy = plan->turned ? q_along : q;
+            double q =
+                two_pi * (double)rc_fourier_number(b, plan->m) / ((double)plan->m * plan->d_across);
+            double qx = plan->transposed ? q : q_along, qy = plan->transposed ? q_along : q;
             bool last_along = 2 * a == plan->n, last_across = 2 * b == plan->m;
             double complex p = plan->source[b * plan->waves + a];
-            struct rc_wave w = {
-                .qx = qx, .qy = qy, .q = sqrt(qx * qx + qy * qy), .z = depth, .nu = t->options.nu};
-            w.decay = exp(-w.q * depth);
+            const struct rc_wave w = rc_stress_wave(qx, qy, depth, t->options.nu);
             p *= last_across ? CMPLX(cos(q * from_first), 0) : cexp(I * q * from_first);
             for (int c = 0; c < RC_COMPONENTS; c++)
                 if (t->components >> c & 1)
-                    sum[c] += p * response(plan, c, &w, plan->turned ? last_across : last_along,
-                                           plan->turned ? last_along : last_across);
+                    sum[c] += p * response(plan, c, &w, plan->transposed ? last_across : last_along,
+                                           plan->transposed ? last_along : last_across);
         }
         for (int c = 0; c < RC_COMPONENTS; c++)
             plan->sum[(size_t)c * plan->waves + a] = sum[c];
@@ -361,7 +353,7 @@ sum_waves(struct plan *plan, double depth)
 /* ---- both ---- */
 
 static enum rc_status
-layer(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err)
+slice(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err)
 {
     struct plan *plan = at;
     bool periodic = plan->task.options.boundary == RC_PERIODIC;
@@ -375,17 +367,17 @@ layer(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err
     for (int c = 0; c < RC_COMPONENTS; c++) {
         if (!(plan->task.components >> c & 1))
             continue;
-        rc_line_backward(plan->line, plan->sum + (size_t)c * plan->waves, plan->space);
+        rc_line_backward(plan->line, plan->sum + (size_t)c * plan->waves, plan->scratch);
         for (size_t i = 0; i < plan->n; i++)
-            s[c][i] = scale * plan->space[i];
+            s[c][i] = scale * plan->scratch[i];
         plan->task.counts->line_transforms++;
     }
     return RC_OK;
 }
 
-const struct rc_stress_way rc_stress_way_section = {
+const struct rc_stress_evaluator rc_stress_section = {
     .memory = memory,
     .new = plan_new,
-    .layer = layer,
+    .slice = slice,
     .free = plan_free,
 };

@@ -10,9 +10,7 @@
 
 struct plan {
     struct rc_stress_task task;
-    const struct rc_engine *engine;
-    bool precise; /* asked for by its name */
-    double *u;    /* of one kernel */
+    double *u; /* of one kernel */
 };
 
 /* An engine's tolerance is relative to the sum of |K| |p|. That of |K| grows with the logarithm of
@@ -26,6 +24,7 @@ sum_of(const struct rc_stress_task *t, int kernel, double depth)
                            .component = (size_t)kernel,
                            .medium = {.nu = t->options.nu, .depth = depth},
                            .tol = t->options.tol / (2 + 8 * fabs(t->options.mu)),
+                           .precise = t->precise,
                            .threads = t->options.threads};
 }
 
@@ -52,11 +51,6 @@ plan_new(const struct rc_stress_task *task, struct rc_err *err)
         return NULL;
     }
     plan->task = *task;
-    if ((plan->engine = rc_engine_named(task->options.engine, &plan->precise)) == NULL) {
-        rc_err_set(err, "there is no engine '%s'", task->options.engine);
-        plan_free(plan);
-        return NULL;
-    }
     return plan;
 }
 
@@ -64,10 +58,10 @@ static size_t
 memory(const struct rc_stress_task *task)
 {
     struct rc_sum sum = sum_of(task, RC_SXX, task->shape.dx);
-    const struct rc_engine *engine = rc_engine_named(task->options.engine, &sum.precise);
 
-    return engine == NULL ? 0
-                          : engine->memory(&sum) + task->shape.nx * task->shape.ny * sizeof(double);
+    if (task->engine == NULL)
+        return 0;
+    return task->engine->memory(&sum) + task->shape.nx * task->shape.ny * sizeof(double);
 }
 
 static void
@@ -78,7 +72,7 @@ add(size_t n, double weight, const double *u, double *s)
 }
 
 static enum rc_status
-layer(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err)
+slice(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err)
 {
     struct plan *plan = at;
     const struct rc_stress_task *t = &plan->task;
@@ -92,11 +86,10 @@ layer(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err
         void *one;
         if (!(t->kernels >> k & 1))
             continue;
-        sum.precise = plan->precise;
-        if ((one = plan->engine->new (&sum, err)) == NULL)
+        if ((one = t->engine->new (&sum, err)) == NULL)
             return RC_FAIL;
-        plan->engine->apply(one, t->p, plan->u);
-        plan->engine->free(one);
+        t->engine->apply(one, t->p, plan->u);
+        t->engine->free(one);
         t->counts->engine_sums++;
         rc_stress_count(t, k, 0);
         for (int c = 0; c < RC_COMPONENTS; c++) {
@@ -111,9 +104,9 @@ layer(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err
     return RC_OK;
 }
 
-const struct rc_stress_way rc_stress_way_engine = {
+const struct rc_stress_evaluator rc_stress_slices_engine = {
     .memory = memory,
     .new = plan_new,
-    .layer = layer,
+    .slice = slice,
     .free = plan_free,
 };

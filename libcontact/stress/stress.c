@@ -1,5 +1,5 @@
 /*
- * Stress slices and sections: which way they are summed, and what is derived from them.
+ * Stress slices and sections: what evaluates them, and what is derived from them.
  */
 #include "stress.h"
 
@@ -9,7 +9,7 @@
 
 struct rc_stress {
     struct rc_stress_task task;
-    const struct rc_stress_way *way;
+    const struct rc_stress_evaluator *evaluator;
     void *plan;
     size_t values;
     double *own[RC_COMPONENTS]; /* components that are needed but not wanted */
@@ -33,9 +33,19 @@ automatic(const char *engine)
     return engine == NULL || strcmp(engine, "auto") == 0;
 }
 
+/* The engine of that name, NULL when there is none; or the one that sums stresses fastest. */
+static const struct rc_engine *
+engine_of(const char *name, bool *precise)
+{
+    *precise = false;
+    return automatic(name) ? rc_engine_of_transforms() : rc_engine_named(name, precise);
+}
+
 static enum rc_status
 check(const struct rc_shape *shape, const struct rc_stress_options *o, struct rc_err *err)
 {
+    bool precise;
+    const struct rc_engine *engine = engine_of(o->engine, &precise);
     double half =
         o->section == 'x' ? (double)shape->nx * shape->dx / 2 : (double)shape->ny * shape->dy / 2;
 
@@ -51,9 +61,11 @@ check(const struct rc_shape *shape, const struct rc_stress_options *o, struct rc
         return rc_err_set(err, "tolerance %g: it must be at least 0 and below 1", o->tol);
     if (o->section != 0 && !(fabs(o->at) <= half))
         return rc_err_set(err, "section %c = %g m: the map ends at %g m", o->section, o->at, half);
-    if (o->section != 0 && !automatic(o->engine) && strcmp(o->engine, "fft") != 0)
-        return rc_err_set(err, "a section is summed by fft, not by %s: leave the kernel to auto",
-                          o->engine);
+    if (engine == NULL)
+        return rc_err_set(err, "there is no engine '%s'", o->engine);
+    if (o->section != 0 && !engine->transforms)
+        return rc_err_set(err, "a section is summed by %s, not by %s: leave the kernel to auto",
+                          rc_engine_of_transforms()->info.name, o->engine);
     return RC_OK;
 }
 
@@ -63,23 +75,24 @@ task_of(const struct rc_shape *shape, const double *p, const struct rc_stress_op
 {
     bool derived = o->wanted >> RC_COMPONENTS != 0;
     unsigned components = derived ? six : o->wanted & six;
+    struct rc_stress_task task = {.shape = *shape,
+                                  .options = *o,
+                                  .p = p,
+                                  .components = components,
+                                  .kernels = rc_stress_distinct(components, o->mu != 0),
+                                  .counts = counts};
 
-    return (struct rc_stress_task){.shape = *shape,
-                                   .options = *o,
-                                   .p = p,
-                                   .components = components,
-                                   .kernels = rc_stress_distinct(components, o->mu != 0),
-                                   .counts = counts};
+    task.engine = engine_of(o->engine, &task.precise);
+    return task;
 }
 
-static const struct rc_stress_way *
-way_of(const struct rc_stress_options *o)
+static const struct rc_stress_evaluator *
+evaluator_of(const struct rc_stress_task *task)
 {
-    if (o->section != 0)
-        return &rc_stress_way_section;
-    if (automatic(o->engine) || strcmp(o->engine, "fft") == 0)
-        return &rc_stress_way_fft;
-    return &rc_stress_way_engine;
+    if (task->options.section != 0)
+        return &rc_stress_section;
+    return task->engine != NULL && task->engine->transforms ? &rc_stress_slices_fft
+                                                            : &rc_stress_slices_engine;
 }
 
 static size_t
@@ -112,7 +125,7 @@ rc_stress_new(const struct rc_shape *shape, const double *p,
         return NULL;
     }
     stress->task = task_of(shape, p, options, &stress->counts);
-    stress->way = way_of(options);
+    stress->evaluator = evaluator_of(&stress->task);
     stress->values = values_of(shape, options);
     for (int c = 0; c < RC_COMPONENTS; c++)
         if ((stress->task.components & ~options->wanted) >> c & 1 &&
@@ -121,7 +134,7 @@ rc_stress_new(const struct rc_shape *shape, const double *p,
             rc_stress_free(stress);
             return NULL;
         }
-    if ((stress->plan = stress->way->new (&stress->task, err)) == NULL) {
+    if ((stress->plan = stress->evaluator->new (&stress->task, err)) == NULL) {
         rc_stress_free(stress);
         return NULL;
     }
@@ -134,7 +147,7 @@ rc_stress_free(struct rc_stress *stress)
     if (stress == NULL)
         return;
     if (stress->plan != NULL)
-        stress->way->free(stress->plan);
+        stress->evaluator->free(stress->plan);
     for (int c = 0; c < RC_COMPONENTS; c++)
         free(stress->own[c]);
     free(stress);
@@ -149,7 +162,7 @@ rc_stress_memory(const struct rc_shape *shape, const struct rc_stress_options *o
     for (int c = 0; c < RC_COMPONENTS; c++)
         own += (task.components & ~o->wanted) >> c & 1;
     return sizeof(struct rc_stress) + own * values_of(shape, o) * sizeof(double) +
-           way_of(o)->memory(&task);
+           evaluator_of(&task)->memory(&task);
 }
 
 /* ---- slices ---- */
@@ -185,7 +198,7 @@ rc_stress_slice(struct rc_stress *stress, double depth, double *const s[RC_STRES
     for (int c = 0; c < RC_COMPONENTS; c++)
         if (stress->task.components >> c & 1)
             six_of[c] = stress->own[c] != NULL ? stress->own[c] : s[c];
-    if (stress->way->layer(stress->plan, depth, six_of, err) != RC_OK)
+    if (stress->evaluator->slice(stress->plan, depth, six_of, err) != RC_OK)
         return RC_FAIL;
     stress->counts.depths++;
     if (stress->task.options.wanted >> RC_COMPONENTS != 0)
@@ -202,7 +215,9 @@ rc_stress_values(const struct rc_stress *stress)
 const char *
 rc_stress_engine(const struct rc_stress *stress)
 {
-    return stress->way == &rc_stress_way_engine ? stress->task.options.engine : "fft";
+    const struct rc_stress_task *t = &stress->task;
+
+    return t->precise ? t->engine->precise.name : t->engine->info.name;
 }
 
 const struct rc_stress_counts *

@@ -1,9 +1,12 @@
 /*
- * The stresses of a half-space by their parts: one row a component, with its parity, what a point
- * load does, what a uniformly loaded cell does, and what a wave does. Internal: never installed.
+ * The stresses of a half-space by their parts: for each component its parity, what a point load
+ * does, what a uniformly loaded cell does, and what a wave does; and how they are summed over a
+ * map. Internal: never installed.
  */
 #ifndef RC_STRESS_H
 #define RC_STRESS_H
+
+#include <math.h>
 
 #include "libcontact/operator/operator.h"
 
@@ -14,6 +17,8 @@
 #else
 #define RC_WIDE_CLONES
 #endif
+
+/* ---- of a unit load: kernel_stress.c ---- */
 
 enum {
     RC_NORMAL, /* a unit pressure                              */
@@ -29,7 +34,7 @@ struct rc_points {
     double z, nu;
 };
 
-/* A corner of a cell as its middle sees it from the point of the field: X, Y and R at depth z. */
+/* A corner of a cell seen from the point of the field: X, Y and the distance R, at depth z. */
 struct rc_corner {
     double x, y, z, r, nu;
     double floor; /* least distance from an edge that a logarithm is taken at, m */
@@ -40,26 +45,36 @@ struct rc_wave {
     double qx, qy, q, z, decay, nu;
 };
 
-struct rc_stress_row {
-    unsigned parity;
+struct rc_stress_forms {
     int same; /* a kernel that has the same values, or -1 */
     /* out[i] += weight * 2 pi times the stress of a unit force. */
     void (*point)(const struct rc_points *points, double weight, double *out);
     /* Antiderivative in X and Y of 2 pi times that stress. */
     double (*corner)(const struct rc_corner *corner);
-    /* Transform over (-i)^(number of odd directions). */
+    /* Transform over (-i)^(number of odd directions); q > 0. */
     double (*symbol)(const struct rc_wave *wave);
 };
-extern const struct rc_stress_row rc_stress_rows[RC_STRESS_KERNELS];
+extern const struct rc_stress_forms rc_stress_forms[RC_STRESS_KERNELS];
 extern const unsigned rc_stress_parity[RC_STRESS_KERNELS];
 
-/* Stress under a uniform unit load on the periodic map, at any depth. */
-double rc_stress_mean(int kernel, double nu, const struct rc_shape *shape);
+static inline struct rc_wave
+rc_stress_wave(double qx, double qy, double depth, double nu)
+{
+    double q = sqrt(qx * qx + qy * qy);
+
+    return (struct rc_wave){qx, qy, q, depth, exp(-q * depth), nu};
+}
+
+/* The symbol of a kernel at a wave; at q = 0 its mean on the periodic map, which is the same at any
+ * depth. */
+double rc_stress_symbol(int kernel, const struct rc_wave *wave, const struct rc_shape *shape);
 
 /* The kernel of a load and component, or the one that has the same values. */
 int rc_stress_kernel(int load, int component);
 /* Bits of those that these components (bits) need, of the shear too or not. */
 unsigned rc_stress_distinct(unsigned components, bool shear);
+
+/* ---- of a cell: cell.c ---- */
 
 /* A cell and where it is seen from. */
 struct rc_cell {
@@ -73,11 +88,11 @@ struct rc_cell {
 void rc_stress_coefficients(const struct rc_cell *cell, unsigned kernels, size_t n, const double *x,
                             const double *y, double *const out[RC_STRESS_KERNELS]);
 
-/* The same at (i dx, y), i < n, faster. */
-void rc_stress_line(const struct rc_cell *cell, unsigned kernels, size_t n, double y,
+/* The same at (i step, y), i < n; faster where the step is that from cell to cell, dx. */
+void rc_stress_line(const struct rc_cell *cell, unsigned kernels, double step, size_t n, double y,
                     double *const out[RC_STRESS_KERNELS]);
 
-/* ---- ways to sum ---- */
+/* ---- sums over a map ---- */
 
 /* What is to be summed, and the tally of what it took. */
 struct rc_stress_task {
@@ -86,22 +101,25 @@ struct rc_stress_task {
     const double *p;     /* stays the caller's                                             */
     unsigned components; /* bits of the six: what is wanted and what that is derived from  */
     unsigned kernels;    /* bits: what these need, one of each set of equals               */
+    const struct rc_engine *engine; /* asked for or taken; NULL: there is none of that name */
+    bool precise;                   /* in double precision throughout, as its name asks     */
     struct rc_stress_counts *counts;
 };
 /* Counts a kernel that is evaluated: shear is what would not be without the traction. */
 void rc_stress_count(const struct rc_stress_task *task, int kernel, size_t coefficients);
 
-struct rc_stress_way {
+/* What evaluates stresses: slices_fft.c, slices_engine.c and section.c end in one. */
+struct rc_stress_evaluator {
     /* Bytes beside p and the results. */
     size_t (*memory)(const struct rc_stress_task *task);
     void *(*new)(const struct rc_stress_task *task, struct rc_err *err);
-    /* The components at one depth, s[c] for each bit: maps, or lines of a section. */
-    enum rc_status (*layer)(void *plan, double depth, double *const s[RC_COMPONENTS],
+    /* The components at one depth, s[c] for each bit: a map each, or a line of a section. */
+    enum rc_status (*slice)(void *plan, double depth, double *const s[RC_COMPONENTS],
                             struct rc_err *err);
     void (*free)(void *plan);
 };
-extern const struct rc_stress_way rc_stress_way_fft;     /* maps, by transforms            */
-extern const struct rc_stress_way rc_stress_way_engine;  /* maps, by a row of engines.list */
-extern const struct rc_stress_way rc_stress_way_section; /* lines                          */
+extern const struct rc_stress_evaluator rc_stress_slices_fft;    /* by transforms of maps    */
+extern const struct rc_stress_evaluator rc_stress_slices_engine; /* by a row of engines.list */
+extern const struct rc_stress_evaluator rc_stress_section;       /* a line at a time         */
 
 #endif

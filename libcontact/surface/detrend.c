@@ -1,7 +1,8 @@
 /*
  * The least-squares polynomial over the points that are there. Products of Legendre polynomials on
- * the points' bounding box keep the equations well conditioned; a QR factor that takes rows block
- * by block (GSL's tall-skinny QR) keeps memory small and tells when places do not determine it.
+ * the points' bounding box keep the equations well conditioned. A QR factorisation that takes the
+ * equations block by block (GSL's tall-skinny QR) keeps memory small, and its condition number
+ * shows when the points do not determine the polynomial.
  */
 #include "libcontact/contact.h"
 
@@ -10,28 +11,29 @@
 #include <gsl/gsl_multilarge.h>
 #include <gsl/gsl_vector.h>
 #include <math.h>
+#include <pthread.h>
 #include <stdlib.h>
 
 enum {
     BLOCK = 1024 /* points that are factored at a time; above the largest number of terms */
 };
 
-/* A column of the equations less well determined than this is not determined. */
+/* Reciprocal condition number below which the points do not determine the polynomial. */
 static const double deficient = 1e-12;
 
 struct fit {
     const struct rc_shape *shape;
     const double *h;
-    double mean;                       /* taken off first: a datum far away costs no digits   */
+    double mean;                       /* subtracted first: a large datum would cost digits   */
     size_t nx_terms, ny_terms, degree; /* polynomials along x, along y; their sum's bound */
     size_t terms;
-    double *px, *py; /* Legendre polynomials: px[a * nx + i], py[b * ny + j] */
-    gsl_matrix *rows;
+    double *px, *py;       /* Legendre polynomials: px[a * nx + i], py[b * ny + j] */
+    gsl_matrix *equations; /* a block of them */
     gsl_vector *heights, *coefficients;
     gsl_multilarge_linear_workspace *work;
 };
 
-/* Where the points are. */
+/* The bounding box of the points that are there, and how many they are. */
 struct box {
     size_t left, right, top, bottom, count, infinite;
 };
@@ -85,7 +87,7 @@ fit_free(struct fit *f)
     gsl_multilarge_linear_free(f->work);
     gsl_vector_free(f->coefficients);
     gsl_vector_free(f->heights);
-    gsl_matrix_free(f->rows);
+    gsl_matrix_free(f->equations);
     free(f->px);
     free(f->py);
 }
@@ -125,64 +127,65 @@ fit_new(struct fit *f, const struct rc_shape *shape, size_t degree, const double
     f->mean = figures.mean;
     f->px = legendre(f->nx_terms, shape->nx, box.left, box.right);
     f->py = legendre(f->ny_terms, shape->ny, box.top, box.bottom);
-    f->rows = gsl_matrix_alloc(BLOCK, f->terms);
+    f->equations = gsl_matrix_alloc(BLOCK, f->terms);
     f->heights = gsl_vector_alloc(BLOCK);
     f->coefficients = gsl_vector_alloc(f->terms);
     f->work = gsl_multilarge_linear_alloc(gsl_multilarge_linear_tsqr, f->terms);
-    if (f->px == NULL || f->py == NULL || f->rows == NULL || f->heights == NULL ||
+    if (f->px == NULL || f->py == NULL || f->equations == NULL || f->heights == NULL ||
         f->coefficients == NULL || f->work == NULL)
         return rc_err_set(err, "out of memory for a polynomial of degree %zu", degree);
     return RC_OK;
 }
 
-/* The equation of one point: its terms, and its height. */
+/* Equation k of a block, of the point (i, j): its terms, and its height. */
 static void
-put_row(struct fit *f, size_t row, size_t i, size_t j)
+put_equation(struct fit *f, size_t k, size_t i, size_t j)
 {
     const struct rc_shape *s = f->shape;
-    double *to = gsl_matrix_ptr(f->rows, row, 0);
+    double *to = gsl_matrix_ptr(f->equations, k, 0);
 
     for (size_t b = 0; b < f->ny_terms; b++)
         for (size_t a = 0; a < f->nx_terms && a + b <= f->degree; a++)
             *to++ = f->px[a * s->nx + i] * f->py[b * s->ny + j];
-    gsl_vector_set(f->heights, row, f->h[j * s->nx + i] - f->mean);
+    gsl_vector_set(f->heights, k, f->h[j * s->nx + i] - f->mean);
 }
 
-/* Hands over the first n rows, made up to the number of terms with empty equations. */
+/* Hands the first n equations of the block to GSL, which wants at least as many as there are terms:
+ * those that are missing are 0 = 0. */
 static int
-flush(struct fit *f, size_t n)
+factor_block(struct fit *f, size_t n)
 {
     size_t m = n < f->terms ? f->terms : n;
-    gsl_matrix_view rows = gsl_matrix_submatrix(f->rows, 0, 0, m, f->terms);
+    gsl_matrix_view equations = gsl_matrix_submatrix(f->equations, 0, 0, m, f->terms);
     gsl_vector_view heights = gsl_vector_subvector(f->heights, 0, m);
 
-    for (size_t row = n; row < m; row++) {
-        for (size_t k = 0; k < f->terms; k++)
-            gsl_matrix_set(f->rows, row, k, 0);
-        gsl_vector_set(f->heights, row, 0);
+    for (size_t k = n; k < m; k++) {
+        for (size_t term = 0; term < f->terms; term++)
+            gsl_matrix_set(f->equations, k, term, 0);
+        gsl_vector_set(f->heights, k, 0);
     }
-    return gsl_multilarge_linear_accumulate(&rows.matrix, &heights.vector, f->work);
+    return gsl_multilarge_linear_accumulate(&equations.matrix, &heights.vector, f->work);
 }
 
 static enum rc_status
 solve(struct fit *f, struct rc_err *err)
 {
     double rcond = 0, residual, norm;
-    size_t row = 0;
+    size_t n = 0; /* equations in the block */
     int code = GSL_SUCCESS;
 
     for (size_t j = 0; j < f->shape->ny; j++)
         for (size_t i = 0; i < f->shape->nx && code == GSL_SUCCESS; i++) {
             if (isnan(f->h[j * f->shape->nx + i]))
                 continue;
-            put_row(f, row++, i, j);
-            if (row == BLOCK) {
-                code = flush(f, row);
-                row = 0;
+            put_equation(f, n++, i, j);
+            if (n == BLOCK) {
+                code = factor_block(f, n);
+                n = 0;
             }
         }
-    if (code == GSL_SUCCESS && row > 0)
-        code = flush(f, row);
+    if (code == GSL_SUCCESS && n > 0)
+        code = factor_block(f, n);
     if (code != GSL_SUCCESS)
         return rc_err_set(err, "the fit failed: %s", gsl_strerror(code));
     code = gsl_multilarge_linear_rcond(&rcond, f->work);
@@ -198,45 +201,48 @@ solve(struct fit *f, struct rc_err *err)
     return RC_OK;
 }
 
-/* h - mean - polynomial, row by row: in one row it is a polynomial in x alone. */
+/* h - mean - polynomial. In one row of the map that is a polynomial in x alone, with these
+ * coefficients. */
 static void
 subtract(const struct fit *f, double *h)
 {
     size_t nx = f->shape->nx, ny = f->shape->ny;
 
     for (size_t j = 0; j < ny; j++) {
-        double along[RC_DEGREE_MAX + 1] = {0}, *row = h + j * nx;
+        double in_x[RC_DEGREE_MAX + 1] = {0}, *row = h + j * nx;
         const double *c = f->coefficients->data;
         for (size_t b = 0; b < f->ny_terms; b++)
             for (size_t a = 0; a < f->nx_terms && a + b <= f->degree; a++)
-                along[a] += *c++ * f->py[b * ny + j];
+                in_x[a] += *c++ * f->py[b * ny + j];
         for (size_t i = 0; i < nx; i++) {
             double value = 0;
             for (size_t a = 0; a < f->nx_terms; a++)
-                value += along[a] * f->px[a * nx + i];
+                value += in_x[a] * f->px[a * nx + i];
             row[i] = (row[i] - f->mean) - value;
         }
     }
 }
 
+/* GSL has one error handler for all threads, and its default ends the process: it is off while a fit
+ * is made, by one thread at a time. */
+static pthread_mutex_t handler_lock = PTHREAD_MUTEX_INITIALIZER;
+
 enum rc_status
 rc_detrend_poly(const struct rc_shape *shape, size_t degree, double *h, struct rc_err *err)
 {
+    gsl_error_handler_t *handler;
     enum rc_status status;
+    struct fit f;
 
-    /* GSL has one error handler for all threads, and its default ends the process. */
-#pragma omp critical(rc_gsl)
-    {
-        gsl_error_handler_t *handler = gsl_set_error_handler_off();
-        struct fit f;
-
-        status = fit_new(&f, shape, degree, h, err);
-        if (status == RC_OK)
-            status = solve(&f, err);
-        if (status == RC_OK)
-            subtract(&f, h);
-        fit_free(&f);
-        gsl_set_error_handler(handler);
-    }
+    pthread_mutex_lock(&handler_lock);
+    handler = gsl_set_error_handler_off();
+    status = fit_new(&f, shape, degree, h, err);
+    if (status == RC_OK)
+        status = solve(&f, err);
+    if (status == RC_OK)
+        subtract(&f, h);
+    fit_free(&f);
+    gsl_set_error_handler(handler);
+    pthread_mutex_unlock(&handler_lock);
     return status;
 }

@@ -1,8 +1,8 @@
 /*
- * Missing values as the membrane that hangs from the measured ones: Laplace's equation on the
- * five-point stencil, no flux across the edge of the map, solved by conjugate gradients that are
- * preconditioned with the modified incomplete Cholesky factor (Gustafsson 1978), whose number of
- * iterations grows with the square root of the width of a hole only.
+ * Inpainting: missing values as Laplace's equation on the five-point stencil has them, with the
+ * measured ones as boundary values and no flux across the edge of the map. Solved by conjugate
+ * gradients that are preconditioned with the modified incomplete Cholesky factor (Gustafsson 1978),
+ * whose number of iterations grows with the square root of the width of a hole only.
  */
 #include "libcontact/contact.h"
 
@@ -18,23 +18,23 @@ enum {
     VECTORS = 7, /* of the unknowns' length, in doubles */
 };
 
-/* The unknowns, numbered along rows: the neighbour on the left of k is k - 1. */
-struct membrane {
+/* A x = b. Unknowns are numbered along rows: the missing neighbour on the left of k is k - 1. */
+struct equations {
     size_t n;
-    double wx, wy; /* what a neighbour along x, along y pulls with                        */
+    double wx, wy; /* weights of a neighbour along x, along y in the stencil              */
     unsigned char *sides;
     size_t *above;    /* number of the neighbour above, where sides has ABOVE                */
-    double *diagonal; /* weight of all neighbours that are in the map                        */
+    double *diagonal; /* of A: weights of all neighbours that are in the map                 */
     double *pivot;    /* 1 / diagonal of the incomplete factor                               */
     double *x, *r, *z, *d, *q; /* solution, residual, preconditioned, direction, A direction     */
 };
 
 static void
-membrane_free(struct membrane *m)
+equations_free(struct equations *e)
 {
-    free(m->sides);
-    free(m->above);
-    free(m->diagonal);
+    free(e->sides);
+    free(e->above);
+    free(e->diagonal);
 }
 
 size_t
@@ -44,42 +44,42 @@ rc_inpaint_memory(size_t missing)
 }
 
 static enum rc_status
-membrane_new(struct membrane *m, const struct rc_shape *shape, size_t n, struct rc_err *err)
+equations_new(struct equations *e, const struct rc_shape *shape, size_t n, struct rc_err *err)
 {
     size_t bytes;
 
-    *m = (struct membrane){.n = n, .wx = shape->dy / shape->dx, .wy = shape->dx / shape->dy};
+    *e = (struct equations){.n = n, .wx = shape->dy / shape->dx, .wy = shape->dx / shape->dy};
     if (rc_size_mul(n, rc_inpaint_memory(1), &bytes, err) != RC_OK)
         return RC_FAIL;
-    m->sides = calloc(n, 1);
-    m->above = malloc(n * sizeof *m->above);
-    m->diagonal = calloc(VECTORS * n, sizeof *m->diagonal);
-    if (m->sides == NULL || m->above == NULL || m->diagonal == NULL)
+    e->sides = calloc(n, 1);
+    e->above = malloc(n * sizeof *e->above);
+    e->diagonal = calloc(VECTORS * n, sizeof *e->diagonal);
+    if (e->sides == NULL || e->above == NULL || e->diagonal == NULL)
         return rc_err_set(err, "out of memory to fill %zu missing values (%zu bytes)", n, bytes);
-    m->pivot = m->diagonal + n;
-    m->x = m->pivot + n;
-    m->r = m->x + n;
-    m->z = m->r + n;
-    m->d = m->z + n;
-    m->q = m->d + n;
+    e->pivot = e->diagonal + n;
+    e->x = e->pivot + n;
+    e->r = e->x + n;
+    e->z = e->r + n;
+    e->d = e->z + n;
+    e->q = e->d + n;
     return RC_OK;
 }
 
-/* One neighbour of unknown k: missing too, or a value that pulls. */
+/* Enters a neighbour of unknown k: another unknown, or a measured value on the right-hand side. */
 static void
-join(struct membrane *m, size_t k, unsigned char side, double weight, double neighbour,
-     double datum)
+add_neighbour(struct equations *e, size_t k, unsigned char side, double weight, double neighbour,
+              double datum)
 {
-    m->diagonal[k] += weight;
+    e->diagonal[k] += weight;
     if (isnan(neighbour))
-        m->sides[k] |= side;
+        e->sides[k] |= side;
     else
-        m->r[k] += weight * (neighbour - datum);
+        e->r[k] += weight * (neighbour - datum);
 }
 
-/* Sets up the equations: the residual of x = 0, with heights counted from the datum. */
+/* Sets up the equations, and the residual of x = 0: heights are counted from the datum. */
 static void
-connect(struct membrane *m, const struct rc_shape *shape, const double *h, double datum)
+set_up(struct equations *e, const struct rc_shape *shape, const double *h, double datum)
 {
     size_t nx = shape->nx, k = 0;
     size_t row_above = 0; /* first unknown that may be the upper neighbour of the next one */
@@ -93,80 +93,81 @@ connect(struct membrane *m, const struct rc_shape *shape, const double *h, doubl
             if (!isnan(*at))
                 continue;
             if (i > 0)
-                join(m, k, LEFT, m->wx, at[-1], datum);
+                add_neighbour(e, k, LEFT, e->wx, at[-1], datum);
             if (i + 1 < nx)
-                join(m, k, RIGHT, m->wx, at[1], datum);
+                add_neighbour(e, k, RIGHT, e->wx, at[1], datum);
             if (j > 0)
-                join(m, k, ABOVE, m->wy, at[-(ptrdiff_t)nx], datum);
+                add_neighbour(e, k, ABOVE, e->wy, at[-(ptrdiff_t)nx], datum);
             if (j + 1 < shape->ny)
-                join(m, k, BELOW, m->wy, at[nx], datum);
-            m->above[k] = upper - 1; /* meant only where sides has ABOVE */
+                add_neighbour(e, k, BELOW, e->wy, at[nx], datum);
+            e->above[k] = upper - 1; /* meant only where sides has ABOVE */
             k++;
         }
         row_above = row;
     }
 }
 
-/* Pivots that keep the row sums of the matrix. They are positive: each one is at least what its
- * neighbours on the right and below pull with, and the last node of the map is reached from some
- * node that hangs on a measured value. */
+/* Pivots that keep the row sums of A. But for rounding they are positive: each is at least the
+ * weights of the missing neighbours on the right and below, and at the last unknown, which has
+ * neither, what the measured values contribute is left. Where rounding leaves next to nothing, the
+ * diagonal of A stands in for it. */
 static void
-factor(struct membrane *m)
+factor(struct equations *e)
 {
-    double wx = m->wx, wy = m->wy;
+    double wx = e->wx, wy = e->wy;
 
-    for (size_t k = 0; k < m->n; k++) {
-        double pivot = m->diagonal[k];
-        if (m->sides[k] & LEFT) {
+    for (size_t k = 0; k < e->n; k++) {
+        double pivot = e->diagonal[k];
+        if (e->sides[k] & LEFT) {
             size_t l = k - 1;
-            pivot -= wx * m->pivot[l] * (wx + (m->sides[l] & BELOW ? wy : 0));
+            pivot -= wx * e->pivot[l] * (wx + (e->sides[l] & BELOW ? wy : 0));
         }
-        if (m->sides[k] & ABOVE) {
-            size_t a = m->above[k];
-            pivot -= wy * m->pivot[a] * (wy + (m->sides[a] & RIGHT ? wx : 0));
+        if (e->sides[k] & ABOVE) {
+            size_t a = e->above[k];
+            pivot -= wy * e->pivot[a] * (wy + (e->sides[a] & RIGHT ? wx : 0));
         }
-        m->pivot[k] = 1 / (pivot > 1e-6 * m->diagonal[k] ? pivot : m->diagonal[k]);
+        e->pivot[k] = 1 / (pivot > 1e-6 * e->diagonal[k] ? pivot : e->diagonal[k]);
     }
 }
 
-/* z = M^-1 r: down the rows, then up. */
+/* z = M^-1 r: forward substitution along the rows, then backward. */
 static void
-precondition(struct membrane *m)
+precondition(struct equations *e)
 {
-    double *z = m->z;
+    double *z = e->z;
 
-    for (size_t k = 0; k < m->n; k++) {
-        double s = m->r[k];
-        if (m->sides[k] & ABOVE)
-            s += m->wy * z[m->above[k]];
-        if (m->sides[k] & LEFT)
-            s += m->wx * z[k - 1];
-        z[k] = s * m->pivot[k];
+    for (size_t k = 0; k < e->n; k++) {
+        double s = e->r[k];
+        if (e->sides[k] & ABOVE)
+            s += e->wy * z[e->above[k]];
+        if (e->sides[k] & LEFT)
+            s += e->wx * z[k - 1];
+        z[k] = s * e->pivot[k];
     }
-    for (size_t k = m->n; k-- > 0;) {
-        if (m->sides[k] & LEFT)
-            z[k - 1] += m->wx * z[k] * m->pivot[k - 1];
-        if (m->sides[k] & ABOVE)
-            z[m->above[k]] += m->wy * z[k] * m->pivot[m->above[k]];
+    for (size_t k = e->n; k-- > 0;) {
+        if (e->sides[k] & LEFT)
+            z[k - 1] += e->wx * z[k] * e->pivot[k - 1];
+        if (e->sides[k] & ABOVE)
+            z[e->above[k]] += e->wy * z[k] * e->pivot[e->above[k]];
     }
 }
 
 /* q = A d */
 static void
-pull(struct membrane *m)
+multiply(struct equations *e)
 {
-    const double *d = m->d;
-    double *q = m->q;
+    const double *d = e->d;
+    double *q = e->q;
 
-    for (size_t k = 0; k < m->n; k++) {
-        q[k] = m->diagonal[k] * d[k];
-        if (m->sides[k] & LEFT) {
-            q[k] -= m->wx * d[k - 1];
-            q[k - 1] -= m->wx * d[k];
+    for (size_t k = 0; k < e->n; k++) {
+        q[k] = e->diagonal[k] * d[k];
+        if (e->sides[k] & LEFT) {
+            q[k] -= e->wx * d[k - 1];
+            q[k - 1] -= e->wx * d[k];
         }
-        if (m->sides[k] & ABOVE) {
-            q[k] -= m->wy * d[m->above[k]];
-            q[m->above[k]] -= m->wy * d[k];
+        if (e->sides[k] & ABOVE) {
+            q[k] -= e->wy * d[e->above[k]];
+            q[e->above[k]] -= e->wy * d[k];
         }
     }
 }
@@ -181,41 +182,41 @@ dot(const double *a, const double *b, size_t n)
     return s;
 }
 
-/* Conjugate gradients from x = 0 until the residual has fallen to 1e-13 of where it began, or to
- * where rounding holds it up: within 1e-10 that is an answer. */
+/* Conjugate gradients from x = 0 until the residual is 1e-13 of the first one. Rounding may keep it
+ * above that: after too many steps 1e-10 is enough. */
 static enum rc_status
-relax(struct membrane *m, struct rc_err *err)
+solve(struct equations *e, struct rc_err *err)
 {
     const double aim = 1e-13, enough = 1e-10;
-    double start = sqrt(dot(m->r, m->r, m->n)), now = start, rz = 0;
-    size_t most = 200 + 20 * (size_t)sqrt((double)m->n);
+    double start = sqrt(dot(e->r, e->r, e->n)), now = start, rz = 0;
+    size_t most = 200 + 20 * (size_t)sqrt((double)e->n);
 
     for (size_t step = 0; now > aim * start && step < most; step++) {
         double before = rz, alpha, beta;
 
-        precondition(m);
-        rz = dot(m->r, m->z, m->n);
+        precondition(e);
+        rz = dot(e->r, e->z, e->n);
         beta = step == 0 ? 0 : rz / before;
-        for (size_t k = 0; k < m->n; k++)
-            m->d[k] = m->z[k] + beta * m->d[k];
-        pull(m);
-        alpha = rz / dot(m->d, m->q, m->n);
-        for (size_t k = 0; k < m->n; k++) {
-            m->x[k] += alpha * m->d[k];
-            m->r[k] -= alpha * m->q[k];
+        for (size_t k = 0; k < e->n; k++)
+            e->d[k] = e->z[k] + beta * e->d[k];
+        multiply(e);
+        alpha = rz / dot(e->d, e->q, e->n);
+        for (size_t k = 0; k < e->n; k++) {
+            e->x[k] += alpha * e->d[k];
+            e->r[k] -= alpha * e->q[k];
         }
-        now = sqrt(dot(m->r, m->r, m->n));
+        now = sqrt(dot(e->r, e->r, e->n));
     }
     if (!(now <= enough * start))
         return rc_err_set(err, "filling %zu missing values stopped at a relative residual of %g",
-                          m->n, now / start);
+                          e->n, now / start);
     return RC_OK;
 }
 
 enum rc_status
 rc_inpaint(const struct rc_shape *shape, double *h, size_t *filled, struct rc_err *err)
 {
-    struct membrane m = {0};
+    struct equations e = {0};
     struct rc_statistics s;
     enum rc_status status = RC_FAIL;
     size_t nodes = shape->nx * shape->ny;
@@ -231,18 +232,18 @@ rc_inpaint(const struct rc_shape *shape, double *h, size_t *filled, struct rc_er
                           s.infinite, nodes);
     if (s.missing == nodes)
         return rc_err_set(err, "all %zu values are missing: nothing to fill them from", nodes);
-    if (membrane_new(&m, shape, s.missing, err) != RC_OK)
+    if (equations_new(&e, shape, s.missing, err) != RC_OK)
         goto done;
-    connect(&m, shape, h, s.mean);
-    factor(&m);
-    if (relax(&m, err) != RC_OK)
+    set_up(&e, shape, h, s.mean);
+    factor(&e);
+    if (solve(&e, err) != RC_OK)
         goto done;
     for (size_t at = 0, k = 0; at < nodes; at++)
         if (isnan(h[at]))
-            h[at] = s.mean + m.x[k++];
+            h[at] = s.mean + e.x[k++];
     *filled = s.missing;
     status = RC_OK;
 done:
-    membrane_free(&m);
+    equations_free(&e);
     return status;
 }

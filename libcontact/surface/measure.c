@@ -1,44 +1,14 @@
 /* Figures of a map. Sums are compensated and moments taken about the mean, so that neither the
  * number of nodes nor a datum far away eats digits. */
-#include "libcontact/contact.h"
+#include "libcontact/common.h"
 
 #include <math.h>
 
-/* Neumaier 1974: the part of each addition that was rounded away is kept apart. */
-struct sum {
-    double s, lost;
-};
-
-static void
-add(struct sum *sum, double v)
-{
-    double s = sum->s + v;
-
-    sum->lost += fabs(sum->s) >= fabs(v) ? (sum->s - s) + v : (v - s) + sum->s;
-    sum->s = s;
-}
-
-static double
-total(const struct sum *sum)
-{
-    return isfinite(sum->s) ? sum->s + sum->lost : sum->s;
-}
-
-double
-rc_sum(const double *v, size_t n)
-{
-    struct sum sum = {0};
-
-    for (size_t k = 0; k < n; k++)
-        add(&sum, v[k]);
-    return total(&sum);
-}
-
-/* Counts, extremes, sum and mean: what one look at each value gives. */
+/* Counts, extremes, sum and mean: what one pass over the values gives. */
 static size_t
 first_pass(const double *v, size_t n, struct rc_statistics *r)
 {
-    struct sum sum = {0};
+    struct rc_total sum = {0};
     size_t there;
 
     for (size_t k = 0; k < n; k++) {
@@ -51,11 +21,11 @@ first_pass(const double *v, size_t n, struct rc_statistics *r)
                 r->minimum = v[k];
             if (!(v[k] <= r->maximum))
                 r->maximum = v[k];
-            add(&sum, v[k]);
+            rc_total_add(&sum, v[k]);
         }
     }
     there = n - r->missing - r->infinite;
-    r->sum = total(&sum);
+    r->sum = rc_total_value(&sum);
     if (there > 0)
         r->mean = r->sum / (double)there;
     return there;
@@ -64,17 +34,17 @@ first_pass(const double *v, size_t n, struct rc_statistics *r)
 static double
 rms_about(const double *v, size_t n, double mean, size_t there)
 {
-    struct sum squares = {0}, rest = {0};
+    struct rc_total squares = {0}, rest = {0};
     double left;
 
     for (size_t k = 0; k < n; k++)
         if (isfinite(v[k])) {
-            add(&squares, (v[k] - mean) * (v[k] - mean));
-            add(&rest, v[k] - mean);
+            rc_total_add(&squares, (v[k] - mean) * (v[k] - mean));
+            rc_total_add(&rest, v[k] - mean);
         }
     /* the mean itself is rounded: what it misses is taken out */
-    left = total(&rest) / (double)there;
-    return sqrt(fmax(0, total(&squares) / (double)there - left * left));
+    left = rc_total_value(&rest) / (double)there;
+    return sqrt(fmax(0, rc_total_value(&squares) / (double)there - left * left));
 }
 
 /* Over the nodes whose next neighbours along each side that the map has are there. */
@@ -83,7 +53,7 @@ slope(const struct rc_shape *shape, const double *v)
 {
     size_t nx = shape->nx, ny = shape->ny, n = 0;
     size_t right = nx > 1 ? 1 : 0, below = ny > 1 ? nx : 0;
-    struct sum squares = {0};
+    struct rc_total squares = {0};
 
     if (nx == 1 && ny == 1)
         return NAN;
@@ -94,10 +64,10 @@ slope(const struct rc_shape *shape, const double *v)
             double g2 = gx * gx + gy * gy;
             if (!isfinite(*at) || !isfinite(at[right]) || !isfinite(at[below]))
                 continue;
-            add(&squares, g2);
+            rc_total_add(&squares, g2);
             n++;
         }
-    return n == 0 ? NAN : sqrt(total(&squares) / (double)n);
+    return n == 0 ? NAN : sqrt(rc_total_value(&squares) / (double)n);
 }
 
 void

@@ -40,15 +40,15 @@ rc_synth_wave(const struct rc_shape *shape, double amplitude, double wavelength_
 
 /* ---- self-affine roughness ---- */
 
-/* The spectrum asked for; wavenumbers in 1/m without the factor 2 pi: 1 / wavelength. */
+/* The spectrum asked for; wave numbers in 1/m without the factor 2 pi: 1 / wavelength. */
 struct spectrum {
     double low, high; /* waves in between, both included               */
-    double bend;      /* flat below                                    */
+    double rolloff;   /* flat below                                    */
     double power;     /* amplitudes fall as q^-power above             */
     uint64_t seed;
 };
 
-/* Cut-offs are included, whatever way 1/(nx dx) was rounded. */
+/* Waves at a cut-off are included, however 1/(nx dx) was rounded. */
 static const double slack = 1e-9;
 
 /* 0 means that it is not given. */
@@ -121,8 +121,8 @@ spectrum_of(const struct rc_shape *shape, const struct rc_selfaffine *what)
     return (struct spectrum){
         .low = what->long_cut == 0 ? 0 : (1 - slack) / what->long_cut,
         .high = (1 + slack) / shortest,
-        /* without a flat part, any wavenumber below all others will do */
-        .bend = 1 / (what->rolloff == 0 ? size : what->rolloff),
+        /* without a flat part: a wave number below all others */
+        .rolloff = 1 / (what->rolloff == 0 ? size : what->rolloff),
         .power = what->hurst + (profile ? 0.5 : 1),
         .seed = what->seed,
     };
@@ -137,10 +137,10 @@ scramble(uint64_t z)
     return z ^ z >> 31;
 }
 
-/* A complex Gaussian number with mean square 1 that depends on seed, kx and ky alone, turned by
- * `turn` periods (Box and Muller 1958). */
+/* A complex Gaussian number with mean square 1 that depends on seed, kx and ky alone (Box and
+ * Muller 1958), with its phase moved on by so many periods. */
 static double complex
-draw(uint64_t seed, long kx, long ky, double turn)
+draw(uint64_t seed, long kx, long ky, double periods)
 {
     const uint64_t step = UINT64_C(0x9e3779b97f4a7c15);
     uint64_t z = scramble(seed + step);
@@ -149,29 +149,29 @@ draw(uint64_t seed, long kx, long ky, double turn)
     z = scramble(z + step * (uint64_t)kx);
     z = scramble(z + step * (uint64_t)ky);
     u = ((double)(z >> 11) + 1) * 0x1p-53; /* (0, 1] */
-    angle = 2 * pi * ((double)(scramble(z + step) >> 11) * 0x1p-53 + turn);
+    angle = 2 * pi * ((double)(scramble(z + step) >> 11) * 0x1p-53 + periods);
     return sqrt(-log(u)) * (cos(angle) + I * sin(angle));
 }
 
-/* Amplitude of exp(2 pi i (kx x / Lx + ky y / Ly)) with x = y = 0 at the middle of the map, as the
- * transform wants it, whose origin is node (0, 0). Half the plane is drawn, so that the conjugate
- * other half makes the heights real; the waves of two nodes (Nyquist) have no conjugate of their
- * own and are left out. */
+/* Amplitude of the wave exp(2 pi i (kx x / Lx + ky y / Ly)). Numbers are drawn for waves about the
+ * middle of the map, so that they are the same on every grid; the transform counts from node (0,
+ * 0), hence the phase. Heights are real when opposite waves are conjugate: numbers are drawn for
+ * one of each two. Waves of two nodes (Nyquist) are left out: they are their own opposites. */
 static double complex
 amplitude(const struct rc_shape *shape, const struct spectrum *what, long kx, long ky)
 {
     double nx = (double)shape->nx, ny = (double)shape->ny;
     double q = hypot((double)kx / (nx * shape->dx), (double)ky / (ny * shape->dy));
-    double turn = -0.5 * ((double)kx * (nx - 1) / nx + (double)ky * (ny - 1) / ny);
+    double periods = -0.5 * ((double)kx * (nx - 1) / nx + (double)ky * (ny - 1) / ny);
     double size;
 
     if ((kx == 0 && ky == 0) || q < what->low || q > what->high ||
         2 * (size_t)labs(kx) == shape->nx || 2 * (size_t)labs(ky) == shape->ny)
         return 0;
-    size = q > what->bend ? pow(what->bend / q, what->power) : 1;
+    size = q > what->rolloff ? pow(what->rolloff / q, what->power) : 1;
     if (kx == 0 && ky < 0)
-        return size * conj(draw(what->seed, 0, -ky, -turn));
-    return size * draw(what->seed, kx, ky, turn);
+        return size * conj(draw(what->seed, 0, -ky, -periods));
+    return size * draw(what->seed, kx, ky, periods);
 }
 
 /* Fills the spectrum; mean squares of height and of slope follow from Parseval's theorem. */

@@ -1,8 +1,8 @@
-/* Whatever the bytes are, the reader named in RC_FORMAT refuses them with a reason or gives a
- * sound map, in a second and with 16 times their memory and 64 MiB; without RC_FORMAT it is the
- * reader that detection chooses. With RC_FUZZ_OPEN the cages stay open: what works in one runs
- * here, where the sanitizers see it; with RC_FUZZ_OPEN=library a library that asks for any
- * memory, which is bounded by theirs (max_allocation_size_mb). */
+/* Whatever the bytes are, the reader named in RC_FORMAT refuses them with a reason or gives a sound
+ * map, in a second and within rc_memory_limit; without RC_FORMAT it is the reader that detection
+ * chooses. With RC_FUZZ_BYPASS readers run without their sandbox, in this process, where the
+ * sanitizers see them. With RC_FUZZ_BYPASS=library memory is not metered: the library may ask for
+ * any amount, and the sanitizer bounds it (max_allocation_size_mb). */
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -11,7 +11,7 @@
 
 #include "formats/sandbox/sandbox.h"
 #include "formats/format.h"
-#include "formats/core/utf8.h"
+#include "formats/core/core.h"
 #include "meter.h"
 
 enum {
@@ -21,7 +21,7 @@ enum {
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 void watch_judge(void);
 
-/* What is asked after each file; cage_watch.c has another. */
+/* Called after each file; sandbox_watch.c has another one. */
 __attribute__((weak)) void
 watch_judge(void)
 {
@@ -34,7 +34,7 @@ check(const struct rc_grid *g, size_t size)
         fprintf(stderr, "the spacing is %g, %g\n", g->dx, g->dy);
         abort();
     }
-    if (8 * (double)g->nx * (double)g->ny > 16 * (double)size + 67108864) {
+    if (8 * g->nx * g->ny > rc_memory_limit(size)) {
         fprintf(stderr, "%zu x %zu out of %zu bytes\n", g->nx, g->ny, size);
         abort();
     }
@@ -102,11 +102,11 @@ try_file(const uint8_t *data, size_t size)
 int
 LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    const char *open = getenv("RC_FUZZ_OPEN");
-    bool library = open != NULL && strcmp(open, "library") == 0;
+    const char *bypass = getenv("RC_FUZZ_BYPASS");
+    bool library = bypass != NULL && strcmp(bypass, "library") == 0;
 
-    rc_cage_leave_open(open != NULL);
-    meter_start(library ? 0 : 16 * size + 67108864);
+    rc_sandbox_bypass(bypass != NULL);
+    meter_start(library ? 0 : rc_memory_limit(size));
     try_file(data, size);
     meter_stop();
     watch_judge();

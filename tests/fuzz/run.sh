@@ -4,15 +4,15 @@
 # each; whole where the format is a container). Prints executions and findings, which are kept in
 # BUILD/findings; what was found worth keeping on the way stays in BUILD/corpus for the next time.
 #
-# Limits: 64 MiB and 16 times the size of a file, held at once; a second of the processor, ten by the
-# clock because the machine may be busy; the slowest is named.
+# Limits: rc_memory_limit of memory, held at once; a second of the processor, ten by the clock
+# because the machine may be busy; the slowest is named.
 #
 #     format   the reader in this process
 #     zip      the same, changing what is in the archive
-#     open     a reader that works in a cage, without it
-#     cage     the same through its cage: what dies in the library is counted, not found
+#     bypass   a reader that works in the sandbox, without it
+#     sandbox  the same through the sandbox: what dies in the library is counted, not found
 #     whole    the same from whole files, up to 4 MiB
-#     hdf      the reader with answers made up in place of libhdf5's
+#     hdf      the reader with a fake in place of libhdf5
 set -u
 build=$1 seconds=$2
 shift 2
@@ -33,45 +33,23 @@ fi
 harnesses_of() {
     case $1 in
     x3p | plux | vk) echo zip ;;
-    jpk | park | lext) echo open cage whole ;;
-    hdf5 | datx) echo hdf cage whole ;; # libhdf5 1.10 itself reads past its memory: never open| park | lext) echo open cage ;;
-    hdf5 | datx) echo hdf cage ;; # libhdf5 1.10 itself reads past its memory: never open
+    jpk | park | lext) echo bypass sandbox whole ;;
+    hdf5 | datx) echo hdf sandbox whole ;; # libhdf5 1.10 itself reads past its memory: never bypass
     *) echo format ;;
     esac
 }
 
-# what the manifest calls the formats that have another name here
-name_here() {
-    case $1 in
-    ascii-matrix | spip-asc) echo ascii ;;
-    sdf-ascii) echo sdf ;;
-    digitalsurf-*) echo sur ;;
-    wyko-opd) echo opd ;;
-    metropro-dat) echo metropro ;;
-    alicona-al3d) echo al3d ;;
-    sensofar-plu) echo plu ;;
-    nanosurf-nid) echo nid ;;
-    igor-ibw) echo ibw ;;
-    mi-picoview) echo mi ;;
-    wsxm-*) echo wsxm ;;
-    bcrf) echo bcr ;;
-    truemap-tmd) echo tmd ;;
-    surfer-grd) echo grd ;;
-    esri-asc) echo esri ;;
-    profile-text) echo profile ;;
-    jpk-image) echo jpk ;;
-    park-tiff) echo park ;;
-    hdf5-generic) echo hdf5 ;;
-    *) echo "$1" ;;
-    esac
+# the reader of what the manifest calls FORMAT; nothing where there is none
+reader_of() {
+    sed -n "s/^CORPUS_FORMAT(\"$1\", \"\(.*\)\")$/\1/p" "$here/tests/corpus.list"
 }
 if [ -r "${RC_CORPUS:-}/manifest.tsv" ]; then
     tail -n +2 "$RC_CORPUS/manifest.tsv" | cut -f 1,2 | while IFS=$'\t' read -r file format; do
-        name=$(name_here "$format")
-        [ -d "$seeds/$name" ] || continue
+        reader=$(reader_of "$format")
+        [ -n "$reader" ] || continue
         bytes=65536
-        [ "$(harnesses_of "$name")" = format ] || bytes=4194304
-        head -c $bytes "$RC_CORPUS/corpus/$file" >"$seeds/$name/${file##*/}"
+        [ "$(harnesses_of "$reader")" = format ] || bytes=4194304
+        head -c $bytes "$RC_CORPUS/corpus/$file" >"$seeds/$reader/${file##*/}"
     done
     cp "$here"/sample_surfaces/*.x3p "$seeds/x3p"
 fi
@@ -83,18 +61,18 @@ fuzz() { # FORMAT HARNESS
     log=$build/logs/$run corpus=$build/corpus/$run
     mkdir -p "$corpus"
     local folders=("$corpus" "$seeds/$format")
-    local -a open=()
+    local -a bypass=()
     case $harness in
     zip) most=524288 ;;
-    open)
-        program=format open=(RC_FUZZ_OPEN=library)
-        asan=$asan:max_allocation_size_mb=128 # as memory ends in the cage
+    bypass)
+        program=format bypass=(RC_FUZZ_BYPASS=library)
+        asan=$asan:max_allocation_size_mb=128 # as memory ends in the sandbox
         ;;
-    cage) asan=$asan:detect_leaks=0 ;;
-    whole) program=cage most=4194304 asan=$asan:detect_leaks=0 ;;
-    hdf) folders=("$corpus") most=4096 open=(RC_FUZZ_OPEN=1) ;;
+    sandbox) asan=$asan:detect_leaks=0 ;;
+    whole) program=sandbox most=4194304 asan=$asan:detect_leaks=0 ;;
+    hdf) folders=("$corpus") most=4096 bypass=(RC_FUZZ_BYPASS=1) ;;
     esac
-    env "${open[@]}" RC_FORMAT="$format" ASAN_OPTIONS="$asan" "$build/fuzz-$program" \
+    env "${bypass[@]}" RC_FORMAT="$format" ASAN_OPTIONS="$asan" "$build/fuzz-$program" \
         -max_total_time="$seconds" -timeout=10 -max_len="$most" -rss_limit_mb=2048 \
         -malloc_limit_mb=2048 -print_final_stats=1 -entropic_scale_per_exec_time=1 \
         -artifact_prefix="$build/findings/$run-" "${folders[@]}" >"$log" 2>&1
@@ -102,7 +80,7 @@ fuzz() { # FORMAT HARNESS
     echo "$format ($harness): $(sed -n 's/^stat::number_of_executed_units: *//p' "$log") executions," \
         "$(sed -n 's/.*cov: \([0-9]*\).*/\1/p' "$log" | tail -n 1) edges," \
         "slowest $(sed -n 's/^stat::slowest_unit_time_sec: *//p' "$log") s," \
-        "$(sed -n 's/^cage: \(.*\)/\1,/p' "$log")" \
+        "$(sed -n 's/^sandbox: \(.*\)/\1,/p' "$log")" \
         "$([ $bad -eq 0 ] && echo "no finding" ||
             echo "FINDING: $(grep -m 1 -E 'ERROR|runtime error|died in|held|it took|SUMMARY' "$log")")"
     [ $bad -eq 0 ] || status=1

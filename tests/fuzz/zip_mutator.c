@@ -1,13 +1,13 @@
 /* Changes files inside ZIP archives: three times in four a member is unpacked, changed and packed
- * again, so that what is read after the archive is reached; else the bytes as they stand. MD5 sums
- * written in other members follow the member that was changed, half of the time. */
+ * again, so that the fuzzing gets past the archive; else the bytes as they stand. In half of the
+ * cases the MD5 checksums in other members are made to fit the member that was changed. */
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <zip.h>
 
-#include "formats/core/md5.h"
+#include "formats/core/checksum.h"
 
 enum {
     MEMBERS_MOST = 16,
@@ -20,7 +20,7 @@ size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t most, unsigned
 
 struct member {
     char name[256];
-    uint8_t *bytes; /* with room for GROWTH more */
+    uint8_t *bytes; /* n of them, and space for GROWTH more */
     size_t n;
 };
 
@@ -95,17 +95,7 @@ pack(const struct member *member, size_t n, bool deflate, uint8_t *to, size_t mo
 }
 
 static void
-sum_of(const struct member *m, char sum[RC_MD5_TEXT])
-{
-    struct rc_md5 md5;
-
-    rc_md5_start(&md5);
-    rc_md5_add(&md5, m->bytes, m->n);
-    rc_md5_end(&md5, sum);
-}
-
-static void
-sums_follow(struct member *member, size_t n, const char *old, const char *new)
+checksums_follow(struct member *member, size_t n, const char *old, const char *new)
 {
     const size_t length = RC_MD5_TEXT - 1;
 
@@ -128,11 +118,11 @@ LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t most, unsigned seed)
     if (n > 0) {
         struct member *m = &member[seed / 4 % n];
 
-        sum_of(m, old);
+        rc_md5_of(m->bytes, m->n, old);
         m->n = LLVMFuzzerMutate(m->bytes, m->n, m->n + GROWTH);
-        sum_of(m, new);
+        rc_md5_of(m->bytes, m->n, new);
         if (seed / 64 % 2 == 0)
-            sums_follow(member, n, old, new);
+            checksums_follow(member, n, old, new);
         packed = pack(member, n, seed / 128 % 2 == 0, data + front, most - front);
     }
     for (size_t k = 0; k < MEMBERS_MOST; k++)

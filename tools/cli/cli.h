@@ -9,5 +9,6 @@
 #include "physics.h"
 #include "tool.h"
 #include "units.h"
+#include "words.h"
 
 #endif

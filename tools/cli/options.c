@@ -1,12 +1,16 @@
-/* The option tables: parsing, --help, and the line that goes into history. */
+/*
+ * Option tables: how a command line is read by them, and how --help shows them.
+ */
 #include "tool.h"
 
+#include <assert.h>
 #include <getopt.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "libcontact/contact.h"
+#include "parts.h"
 
 /* What every tool has. Offsets point into struct tool itself; `type` is read apart. */
 /* clang-format off */
@@ -29,41 +33,103 @@ static const struct opt common[] = {
 /* clang-format on */
 
 enum {
-    OWN = 1000,    /* getopt values of the tool's own rows  */
-    COMMON = 2000, /* getopt values of the common rows      */
-    COLUMN = 28,   /* where help texts start                */
+    OWN = 1000,    /* getopt values of the tool's own rows */
+    COMMON = 2000, /* getopt values of the common rows     */
+    COLUMN = 28,   /* where help texts start               */
+    LIST = 256,    /* bytes of a list of words             */
 };
 
-static size_t
-rows(const struct opt *table)
-{
-    size_t n = 0;
+/* ---- the table ---- */
 
-    while (table[n].name != NULL)
-        n++;
-    return n;
+static void
+add_rows(struct tool *t, const struct opt *table, size_t at)
+{
+    for (const struct opt *o = table; o->name != NULL || o->group != NULL; o++) {
+        if (o->group != NULL) {
+            add_rows(t, o->group, at + o->at);
+            continue;
+        }
+        assert(t->opts < TOOL_OPTIONS);
+        t->opt[t->opts] = *o;
+        t->opt[t->opts++].at += at;
+    }
 }
+
+/* ---- words ---- */
+
+const char *
+option_word(const struct opt *o, size_t k, size_t *n)
+{
+    const char *word = o->words == NULL ? o->arg : o->words(k);
+
+    if (o->words == NULL) {
+        for (; k > 0 && *word != '\0'; k--)
+            word += strcspn(word, "|") + (word[strcspn(word, "|")] == '|');
+        *n = strcspn(word, "|");
+        return *n == 0 ? NULL : word;
+    }
+    *n = word == NULL ? 0 : strlen(word);
+    return word;
+}
+
+/* Place of text[0..n) among the words, or -1. */
+static int
+word_index(const struct opt *o, const char *text, size_t n)
+{
+    const char *word;
+    size_t length;
+
+    for (size_t k = 0; (word = option_word(o, k, &length)) != NULL; k++)
+        if (length == n && strncmp(word, text, n) == 0)
+            return (int)k;
+    return -1;
+}
+
+static const char *
+word_list(char list[LIST], const struct opt *o, const char *between)
+{
+    const char *word;
+    size_t length, used = 0;
+
+    list[0] = '\0';
+    for (size_t k = 0; (word = option_word(o, k, &length)) != NULL && used < LIST; k++)
+        used += (size_t)snprintf(list + used, LIST - used, "%s%.*s", k == 0 ? "" : between,
+                                 (int)length, word);
+    return list;
+}
+
+/* ---- help ---- */
 
 static void
 help_row(const char *left, const struct opt *o)
 {
-    int n = printf("  %s%s%s%s", left, o->name, o->arg == NULL ? "" : " ",
-                   o->arg == NULL ? "" : o->arg);
+    const char *arg = o->arg, *mark = strstr(o->help, "%s");
+    char list[LIST];
+    int n;
 
+    if (o->type == OPT_CHOICE)
+        arg = word_list(list, o, "|");
+    n = printf("  %s%s%s%s%s%s", left, o->name, o->alias == NULL ? "" : ", --",
+               o->alias == NULL ? "" : o->alias, arg == NULL ? "" : " ", arg == NULL ? "" : arg);
     if (n >= COLUMN)
         printf("\n%*s", COLUMN, "");
     else
         printf("%*s", COLUMN - n, "");
-    printf("%s\n", o->help);
+    if (mark == NULL)
+        printf("%s\n", o->help);
+    else
+        printf("%.*s%s%s\n", (int)(mark - o->help), o->help, word_list(list, o, ","), mark + 2);
 }
 
 static _Noreturn void
-print_help(const struct tool_info *info)
+print_help(const struct tool *t)
 {
+    const struct tool_info *info = t->info;
+
     printf("Usage: %s [OPTION]... %s\n%s.\n\n", info->name, info->operands, info->summary);
-    for (const struct opt *o = info->opts; o->name != NULL; o++)
-        help_row("--", o);
-    if (info->opts->name != NULL)
+    for (size_t k = 0; k < t->opts; k++)
+        help_row("--", &t->opt[k]);
+    if (t->opts > 0)
         printf("\n");
     printf("  %-*swrite to FILE, which appears whole or not at all\n", COLUMN - 2, "-o FILE");
     for (const struct opt *o = common; o->name != NULL; o++)
@@ -75,6 +141,8 @@ print_help(const struct tool_info *info)
     printf("\nThe manual is %s(1); the grid stream is described in rcg(5).\n", info->name);
     exit(fflush(stdout) == 0 ? 0 : EXIT_IMPOSSIBLE);
 }
+
+/* ---- values ---- */
 
 static void
 check_bounds(struct tool *t, const struct opt *o, double value)
@@ -116,38 +184,28 @@ whole(struct tool *t, const struct opt *o, const char *text)
     return value;
 }
 
-/* Place of text[0..n) among words separated by '|', or -1. */
-static int
-word_index(const char *words, const char *text, size_t n)
-{
-    for (int k = 0;; k++) {
-        size_t length = strcspn(words, "|");
-        if (length == n && n > 0 && strncmp(words, text, n) == 0)
-            return k;
-        if (words[length] == '\0')
-            return -1;
-        words += length + 1;
-    }
-}
-
 static void
 check_choice(struct tool *t, const struct opt *o, const char *text)
 {
-    if (word_index(o->arg, text, strlen(text)) < 0)
-        tool_die(t, EXIT_USAGE, "--%s %s: it must be one of %s", o->name, text, o->arg);
+    char list[LIST];
+
+    if (word_index(o, text, strlen(text)) < 0)
+        tool_die(t, EXIT_USAGE, "--%s %s: it must be one of %s", o->name, text,
+                 word_list(list, o, "|"));
 }
 
 static size_t
 word_set(struct tool *t, const struct opt *o, const char *text)
 {
+    char list[LIST];
     size_t set = 0;
 
     for (const char *s = text;; s++) {
         size_t n = strcspn(s, ",");
-        int k = word_index(o->words, s, n);
+        int k = word_index(o, s, n);
         if (k < 0)
             tool_die(t, EXIT_USAGE, "--%s %s: '%.*s' is none of %s", o->name, text, (int)n, s,
-                     o->words);
+                     word_list(list, o, "|"));
         set |= (size_t)1 << k;
         s += n;
         if (*s == '\0')
@@ -175,7 +233,7 @@ set_list(struct tool *t, const struct opt *o, struct numbers *list, const char *
 
     free(list->v);
     *list = (struct numbers){0};
-    if (o->words != NULL && strcmp(text, o->words) == 0)
+    if (o->word != NULL && strcmp(text, o->word) == 0)
         return;
     if (unit_numbers(text, o->unit, list, &err) != RC_OK)
         tool_die(t, EXIT_USAGE, "--%s %s: %s", o->name, text, err.text);
@@ -186,42 +244,44 @@ set_list(struct tool *t, const struct opt *o, struct numbers *list, const char *
 static void
 set_value(struct tool *t, const struct opt *o, void *base, const char *text)
 {
-    char *at = (char *)base + o->at;
+    void *at = (char *)base + o->at;
 
     switch (o->type) {
     case OPT_FLAG:
-        *(bool *)(void *)at = true;
+        *(bool *)at = true;
         break;
     case OPT_NUMBER:
-        *(double *)(void *)at = number(t, o, text);
+        *(double *)at = number(t, o, text);
         break;
     case OPT_COUNT:
-        *(size_t *)(void *)at = (size_t)whole(t, o, text);
+        *(size_t *)at = (size_t)whole(t, o, text);
         break;
     case OPT_CHOICE:
         check_choice(t, o, text);
-        *(const char **)(void *)at = text;
+        *(const char **)at = text;
         break;
     case OPT_WORDS:
-        *(size_t *)(void *)at = word_set(t, o, text);
+        *(size_t *)at = word_set(t, o, text);
         break;
     case OPT_TEXT:
-        *(const char **)(void *)at = text;
+        *(const char **)at = text;
         break;
     case OPT_NUMBERS:
-        set_list(t, o, (struct numbers *)(void *)at, text);
+        set_list(t, o, at, text);
         break;
     case OPT_STEP:
-        add_step(t, o, (struct steps *)(void *)at, text);
+        add_step(t, o, at, text);
         break;
     }
 }
+
+/* ---- the command line ---- */
 
 static void
 set_common(struct tool *t, const struct opt *o, const char *text)
 {
     if (strcmp(o->name, "help") == 0)
-        print_help(t->info);
+        print_help(t);
     if (strcmp(o->name, "version") == 0) {
         printf("%s (libcontact) %s\n", t->info->name, rc_version());
         exit(fflush(stdout) == 0 ? 0 : EXIT_IMPOSSIBLE);
@@ -237,20 +297,26 @@ set_common(struct tool *t, const struct opt *o, const char *text)
     }
 }
 
+/* Rows for getopt: aliases have one of their own, with the value of the option. */
 static struct option *
-getopt_table(const struct opt *own)
+getopt_table(const struct tool *t)
 {
-    size_t a = rows(own), b = rows(common);
-    struct option *table = calloc(a + b + 1, sizeof *table);
+    size_t n = 0, rows = sizeof common / sizeof *common;
+    struct option *table = calloc(2 * t->opts + rows, sizeof *table);
 
-    for (size_t k = 0; table != NULL && k < a + b; k++) {
-        const struct opt *o = k < a ? &own[k] : &common[k - a];
-        table[k] = (struct option){
-            .name = o->name,
-            .has_arg = o->arg == NULL ? no_argument : required_argument,
-            .val = k < a ? OWN + (int)k : COMMON + (int)(k - a),
-        };
+    for (size_t k = 0; table != NULL && k < t->opts; k++) {
+        const struct opt *o = &t->opt[k];
+        int has_arg = o->arg == NULL && o->words == NULL ? no_argument : required_argument;
+
+        table[n++] = (struct option){.name = o->name, .has_arg = has_arg, .val = OWN + (int)k};
+        if (o->alias != NULL)
+            table[n++] = (struct option){.name = o->alias, .has_arg = has_arg, .val = OWN + (int)k};
     }
+    for (size_t k = 0; table != NULL && common[k].name != NULL; k++)
+        table[n++] =
+            (struct option){.name = common[k].name,
+                            .has_arg = common[k].arg == NULL ? no_argument : required_argument,
+                            .val = COMMON + (int)k};
     return table;
 }
 
@@ -269,26 +335,27 @@ bad_option(struct tool *t, int what, char **argv)
 }
 
 void
-tool_options(struct tool *t, int argc, char **argv)
+options_read(struct tool *t, int argc, char **argv)
 {
-    struct option *table = getopt_table(t->info->opts);
+    struct option *table;
     int what;
 
-    if (table == NULL)
+    add_rows(t, t->info->opts, 0);
+    if ((table = getopt_table(t)) == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
     opterr = 0;
     while ((what = getopt_long(argc, argv, ":o:h", table, NULL)) != -1) {
         if (what == 'h')
-            print_help(t->info);
+            print_help(t);
         if (what == 'o') {
             t->out_name = strcmp(optarg, "-") == 0 ? NULL : optarg;
         } else if (what >= COMMON) {
             set_common(t, &common[what - COMMON], optarg);
         } else if (what >= OWN) {
             t->given[what - OWN] = true;
-            if (t->info->opts[what - OWN].text)
+            if (t->opt[what - OWN].text)
                 t->writes = WRITES_TEXT;
-            set_value(t, &t->info->opts[what - OWN], t->args, optarg);
+            set_value(t, &t->opt[what - OWN], t->args, optarg);
         } else {
             bad_option(t, what, argv);
         }
@@ -301,103 +368,8 @@ tool_options(struct tool *t, int argc, char **argv)
 bool
 tool_given(const struct tool *t, const char *name)
 {
-    for (size_t k = 0; t->info->opts[k].name != NULL; k++)
-        if (strcmp(t->info->opts[k].name, name) == 0)
+    for (size_t k = 0; k < t->opts; k++)
+        if (strcmp(t->opt[k].name, name) == 0)
             return t->given[k];
     return false;
-}
-
-/* ---- history ---- */
-
-struct line {
-    char text[8192];
-    size_t n;
-};
-
-static void
-add(struct line *line, const char *a, const char *b)
-{
-    size_t room = sizeof line->text - line->n;
-    int n = snprintf(line->text + line->n, room, "%s%s", a, b);
-
-    line->n += n < 0 ? 0 : (size_t)n < room ? (size_t)n : room - 1;
-}
-
-static void
-add_words(struct line *line, const char *words, size_t set)
-{
-    char word[64];
-    const char *before = " ";
-
-    for (; set != 0; set >>= 1) {
-        size_t n = strcspn(words, "|");
-        if (set & 1) {
-            snprintf(word, sizeof word, "%.*s", (int)n, words);
-            add(line, before, word);
-            before = ",";
-        }
-        words += n + (words[n] == '|');
-    }
-}
-
-static void
-add_value(struct line *line, const struct opt *o, const void *base)
-{
-    const char *at = (const char *)base + o->at;
-    const struct numbers *list;
-    char text[RC_NUMBER_SIZE];
-
-    if (o->type == OPT_NUMBER) {
-        add(line, " ", rc_number_text(text, *(const double *)(const void *)at));
-    } else if (o->type == OPT_COUNT) {
-        snprintf(text, sizeof text, "%zu", *(const size_t *)(const void *)at);
-        add(line, " ", text);
-    } else if (o->type == OPT_TEXT || o->type == OPT_CHOICE) {
-        add(line, " ", *(const char *const *)(const void *)at);
-    } else if (o->type == OPT_WORDS) {
-        add_words(line, o->words, *(const size_t *)(const void *)at);
-    } else if (o->type == OPT_NUMBERS) {
-        list = (const struct numbers *)(const void *)at;
-        if (list->n == 0)
-            add_words(line, o->words, 1);
-        for (size_t k = 0; k < list->n; k++)
-            add(line, k == 0 ? " " : ",", rc_number_text(text, list->v[k]));
-    }
-}
-
-static void
-add_steps(struct line *line, const struct steps *steps)
-{
-    char text[RC_NUMBER_SIZE];
-
-    for (size_t k = 0; k < steps->n; k++) {
-        add(line, " --", steps->step[k].opt->name);
-        if (steps->step[k].opt->arg != NULL)
-            add(line, " ", rc_number_text(text, steps->step[k].value));
-    }
-}
-
-const char *
-tool_history(const struct tool *t)
-{
-    static struct line line;
-    bool steps_done = false;
-
-    line.n = 0;
-    add(&line, t->info->name, " ");
-    add(&line, rc_version(), "");
-    for (size_t k = 0; t->info->opts[k].name != NULL; k++) {
-        const struct opt *o = &t->info->opts[k];
-        if (!t->given[k] || !o->result)
-            continue;
-        if (o->type == OPT_STEP) {
-            if (!steps_done)
-                add_steps(&line, (const struct steps *)(const void *)((char *)t->args + o->at));
-            steps_done = true;
-            continue;
-        }
-        add(&line, " --", o->name);
-        add_value(&line, o, t->args);
-    }
-    return line.text;
 }

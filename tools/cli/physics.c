@@ -6,6 +6,37 @@
 
 /* ---- the command line ---- */
 
+#define AT(field) .at = offsetof(struct physics, field)
+#define ABOVE_0 .min = 0, .max = INFINITY, .above = true
+/* clang-format off */
+const struct opt physics_options[] = {
+    {.name = "load", .type = OPT_NUMBERS, .unit = UNIT_N, AT(load), ABOVE_0, .result = true,
+     .arg = "LIST", .help = "total normal force: one, a,b,c or a:b:n, each a case"},
+    {.name = "mean-pressure", .type = OPT_NUMBERS, .unit = UNIT_PA, AT(mean_pressure), ABOVE_0,
+     .result = true, .arg = "LIST", .help = "the load as a mean over the whole map"},
+    {.name = "approach", .type = OPT_NUMBERS, .unit = UNIT_M, AT(approach), ABOVE_0,
+     .result = true, .arg = "LIST",
+     .help = "instead of the load: how far to come together after first touch"},
+    {.name = "estar", .type = OPT_NUMBER, .unit = UNIT_PA, AT(estar), ABOVE_0, .result = true,
+     .arg = "MODULUS", .help = "composite modulus E*, 1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2"},
+    {.name = "E1", .type = OPT_NUMBER, .unit = UNIT_PA, AT(e1), ABOVE_0, .result = true,
+     .arg = "MODULUS", .help = "Young's modulus of body 1, the one that is analysed"},
+    {.name = "nu1", .type = OPT_NUMBER, AT(nu1), .min = -1, .max = 0.5, .above = true,
+     .result = true, .arg = "RATIO", .help = "Poisson's ratio of body 1"},
+    {.name = "E2", .type = OPT_NUMBER, .unit = UNIT_PA, AT(e2), ABOVE_0, .result = true,
+     .arg = "MODULUS", .help = "Young's modulus of body 2"},
+    {.name = "nu2", .type = OPT_NUMBER, AT(nu2), .min = -1, .max = 0.5, .above = true,
+     .result = true, .arg = "RATIO", .help = "Poisson's ratio of body 2"},
+    {.name = "hardness", .type = OPT_NUMBER, .unit = UNIT_PA, AT(hardness), ABOVE_0,
+     .result = true, .arg = "PRESSURE", .help = "upper bound of the pressure: above it, yield"},
+    {.name = "radius", .type = OPT_NUMBER, .unit = UNIT_M, AT(radius), ABOVE_0, .result = true,
+     .arg = "LENGTH", .help = "add a sphere of this composite radius about the origin"},
+    {.name = "periodic", .type = OPT_FLAG, AT(periodic), .result = true,
+     .help = "the map repeats for ever (default: a free half-space, loaded on the map only)"},
+    {.name = NULL},
+};
+/* clang-format on */
+
 void
 physics_check(struct tool *t, struct physics *a)
 {

@@ -1,7 +1,6 @@
 /*
  * What a contact is, as the tools that solve it are told: load, elasticity, hardness, form,
- * boundary. The options are the rows of physics.list, which each of these tools includes in its own
- * table.
+ * boundary.
  */
 #ifndef RC_PHYSICS_H
 #define RC_PHYSICS_H
@@ -16,6 +15,9 @@ struct physics {
     bool periodic;
 };
 
+/* Its options, for a row of a tool's table: .group = physics_options, .at = where the args keep
+ * it. */
+extern const struct opt physics_options[];
 /* Nothing given. */
 #define PHYSICS_NONE                                                                               \
     {                                                                                              \

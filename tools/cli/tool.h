@@ -1,5 +1,5 @@
 /*
- * The front desk that every rc-* tool shares: options, streams in and out, messages, signals, exit.
+ * What every rc-* tool shares: options, streams in and out, messages, signals, exit.
  * A main reads: start, read, do, write, finish; only *do* differs.
  *
  *     struct args args = {.tol = NAN};
@@ -38,26 +38,34 @@ enum opt_type {
     OPT_NUMBER,  /* double; NAN before means "not given"                                    */
     OPT_COUNT,   /* size_t                                                                  */
     OPT_TEXT,    /* const char *                                                            */
-    OPT_CHOICE,  /* const char *, one of the words in .arg, which are separated by '|'      */
-    OPT_WORDS,   /* size_t: bit k is set when the list holds word k of .words, which are
-                    separated by '|'                                                        */
-    OPT_NUMBERS, /* struct numbers; none (n = 0) for the word in .words, if there is one    */
+    OPT_CHOICE,  /* const char *, one of the words that .words gives, or else of those in
+                    .arg, which are separated by '|'                                        */
+    OPT_WORDS,   /* size_t: bit k is set when the list holds word k of .words               */
+    OPT_NUMBERS, /* struct numbers; none (n = 0) for .word, if there is one                 */
     OPT_STEP,    /* appended to a struct steps: options whose order on the line matters; with
                     .arg it takes a whole number or, with a unit, a number                  */
 };
 
 struct opt {
-    const char *name; /* without the two hyphens                                            */
+    const char *name;  /* without the two hyphens                                           */
+    const char *alias; /* another name of it, or NULL                                       */
     enum opt_type type;
     enum unit unit;
-    size_t at;         /* offsetof the value in the tool's args                              */
-    double min, max;   /* bounds of each number, kept when min < max                         */
-    bool above;        /* min itself is out of bounds                                        */
-    bool result;       /* changes what is computed: goes into history                        */
-    bool text;         /* given, the tool writes text, whatever it writes otherwise          */
-    const char *words; /* of OPT_WORDS; a word instead of OPT_NUMBERS                       */
-    const char *arg;   /* how help names the argument: "FORCE"; NULL: takes none             */
-    const char *help;  /* one line                                                           */
+    size_t at;       /* offsetof the value in the tool's args                              */
+    double min, max; /* bounds of each number, kept when min < max                         */
+    bool above;      /* min itself is out of bounds                                        */
+    bool result;     /* changes what is computed: goes into history                        */
+    bool text;       /* given, the tool writes text, whatever it writes otherwise          */
+    const char *(*words)(size_t k); /* word k; NULL past the last: see words.h              */
+    const char *word;               /* instead of OPT_NUMBERS                               */
+    const char *arg;  /* how help names the argument: "FORCE"; NULL: takes none             */
+    const char *help; /* one line; %s in it stands for the words                            */
+    /* A row without a name: the rows of this table, whose .at are relative to that of the row. */
+    const struct opt *group;
+};
+
+enum {
+    TOOL_OPTIONS = 64 /* rows that a tool may have of its own */
 };
 
 struct steps {
@@ -89,7 +97,7 @@ struct tool_info {
     const char *summary;    /* "contact of a height map with an elastic half-space"          */
     const char *operands;   /* "[FILE...]", as help shows them                               */
     const char *examples;   /* whole lines for the end of --help                             */
-    const struct opt *opts; /* ended by a row without a name                               */
+    const struct opt *opts; /* ended by a row without a name and group                     */
     enum tool_reads reads;
     enum tool_writes writes;
     /* NULL, or called between the options and the output: may change tool->writes. */
@@ -120,7 +128,9 @@ struct tool {
     } now;
     bool type_given, began, warned_short;
     enum rc_type type;
-    bool given[64]; /* by row of the option table                                          */
+    struct opt opt[TOOL_OPTIONS]; /* the tool's own, groups written out                     */
+    size_t opts;
+    bool given[TOOL_OPTIONS]; /* by row of opt                                              */
     int exit_status;
 };
 
@@ -180,8 +190,9 @@ void tool_demand_writable(struct tool *tool, const char *option, const char *nam
 /* Ends the tool when `bytes` are more than --memory allows. */
 void tool_demand_memory(struct tool *tool, const struct rc_grid *grid, size_t bytes);
 
-/* ---- used by tool.c, defined in options.c ---- */
-
-void tool_options(struct tool *tool, int argc, char **argv);
+/* Seconds on a clock that only goes forwards. */
+double tool_now(void);
+/* Bytes that this process has held at most so far. */
+size_t tool_peak_memory(void);
 
 #endif

@@ -6,16 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* clang-format off */
-static const struct prefix {
-    const char *text;
-    int power; /* of ten */
-} prefixes[] = {
-    {"", 0},          {"f", -15},       {"p", -12}, {"n", -9}, {"u", -6},
-    {"\xc2\xb5", -6}, {"\xce\xbc", -6}, {"m", -3},  {"c", -2}, {"k", 3},
-    {"M", 6},         {"G", 9},         {"T", 12},  {NULL, 0},
-};
-/* clang-format on */
+#include "formats/core/core.h"
 
 /* clang-format off */
 static const struct word_unit { /* units that do not go by prefixes */
@@ -88,6 +79,7 @@ apply_unit(const char *digits, size_t length, const char *suffix, size_t n, enum
 {
     const char *base = unit_name(unit);
     size_t tail = strlen(base);
+    int power;
 
     if (unit == UNIT_BYTES || unit == UNIT_S)
         for (const struct word_unit *w = unit == UNIT_S ? time_units : size_units; w->text != NULL;
@@ -102,10 +94,20 @@ apply_unit(const char *digits, size_t length, const char *suffix, size_t n, enum
         return true;
     if (unit == UNIT_NONE || n < tail || memcmp(suffix + n - tail, base, tail) != 0)
         return false;
-    for (const struct prefix *p = prefixes; p->text != NULL; p++)
-        if (same(p->text, suffix, n - tail))
-            return shift(digits, length, p->power, value);
-    return false;
+    return rc_prefix_power(suffix, n - tail, &power) && shift(digits, length, power, value);
+}
+
+/* "f p n u m c k M G T": those that can be typed on every keyboard. */
+static const char *
+prefix_list(char *list, size_t size)
+{
+    size_t n = 0;
+
+    list[0] = '\0';
+    for (const struct rc_prefix *p = rc_prefixes; p->text != NULL && n < size; p++)
+        if (p->text[0] != '\0' && (unsigned char)p->text[0] < 0x80)
+            n += (size_t)snprintf(list + n, size - n, "%s%s", n == 0 ? "" : " ", p->text);
+    return list;
 }
 
 /* The number in text[0..n), and whether it carries a unit. */
@@ -114,6 +116,7 @@ read_one(const char *text, size_t n, enum unit unit, double *value, bool *with_u
          struct rc_err *err)
 {
     const char *end, *stop = text + n;
+    char list[64];
     size_t length;
 
     while (n > 0 && *text == ' ') {
@@ -138,8 +141,8 @@ read_one(const char *text, size_t n, enum unit unit, double *value, bool *with_u
                               (int)(stop - end), end);
         return rc_err_set(err,
                           "unknown unit '%.*s': %s is expected, with or without one of the "
-                          "prefixes f p n u m c k M G T%s",
-                          (int)(stop - end), end, unit_name(unit),
+                          "prefixes %s%s",
+                          (int)(stop - end), end, unit_name(unit), prefix_list(list, sizeof list),
                           unit == UNIT_S ? ", or min or h" : "");
     }
     if (!isfinite(*value))

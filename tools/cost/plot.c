@@ -11,57 +11,44 @@
 
 #include "tools/plot/plot.h"
 
-/* Colours that people who see few tell apart (Okabe and Ito 2008), one for a method and its kernel. */
-static const struct ink {
-    const char *method, *kernel, *name;
-    struct rgb colour;
-} inks[] = {
-    {"pcg", "fft", "pcg, fft", {0x00, 0x72, 0xb2}},
-    {"pcg", "fft64", "pcg, fft64", {0x56, 0xb4, 0xe9}},
-    {"pcg", "mlms", "pcg, mlms", {0x00, 0x9e, 0x73}},
-    {"pcg", "direct", "pcg, direct", {0xe6, 0x9f, 0x00}},
-    {"pk99", "fft", "pk99, fft", {0xd5, 0x5e, 0x00}},
-    {"pk99", "mlms", "pk99, mlms", {0xcc, 0x79, 0xa7}},
-    {NULL, "fft", "fft, deep slices coarser", {0x00, 0x72, 0xb2}},
-    {NULL, "mlms", "mlms", {0x00, 0x9e, 0x73}},
-    {NULL, "direct", "direct", {0xe6, 0x9f, 0x00}},
-};
+/* Colours that the colour-blind tell apart (Okabe and Ito 2008), by the place of a series. */
+static const struct rgb palette[] = {{0x00, 0x72, 0xb2}, {0x56, 0xb4, 0xe9}, {0x00, 0x9e, 0x73},
+                                     {0xe6, 0x9f, 0x00}, {0xd5, 0x5e, 0x00}, {0xcc, 0x79, 0xa7},
+                                     {0xf0, 0xe4, 0x42}, {0x00, 0x00, 0x00}};
 
 enum {
-    INKS = sizeof inks / sizeof *inks,
-    POINTS = 64
+    COLOURS = sizeof palette / sizeof *palette,
+    SERIES = 32,
+    POINTS = 64,
+    NAME = 64
 };
 
 struct drawing {
     struct chart chart;
-    struct chart_series series[INKS];
-    struct chart_point point[INKS][POINTS];
+    struct chart_series series[SERIES];
+    struct chart_point point[SERIES][POINTS];
+    char name[SERIES][NAME];
     char subtitle[400], floor_text[100];
 };
 
+/* Another point of the series of that name, whose colour is the one at `place`; NULL: they are too
+ * many to be drawn. */
 static struct chart_point *
-new_point(struct drawing *d, size_t ink)
+new_point(struct drawing *d, const char *name, size_t place)
 {
-    for (size_t s = 0; s < d->chart.n; s++)
-        if (d->series[s].name == inks[ink].name)
-            return d->series[s].n < POINTS ? &d->point[s][d->series[s].n++] : NULL;
-    d->series[d->chart.n] =
-        (struct chart_series){inks[ink].name, inks[ink].colour, d->point[d->chart.n], 1};
-    d->chart.series = d->series;
-    return &d->point[d->chart.n++][0];
-}
+    size_t s = 0;
 
-static size_t
-ink_of(const char *method, const char *kernel)
-{
-    size_t k = 0;
-
-    while (k + 1 < INKS &&
-           !((method == NULL ? inks[k].method == NULL
-                             : inks[k].method != NULL && strcmp(inks[k].method, method) == 0) &&
-             strcmp(inks[k].kernel, kernel) == 0))
-        k++;
-    return k;
+    while (s < d->chart.n && strcmp(d->name[s], name) != 0)
+        s++;
+    if (s == SERIES || (s < d->chart.n && d->series[s].n == POINTS))
+        return NULL;
+    if (s == d->chart.n) {
+        snprintf(d->name[s], NAME, "%s", name);
+        d->series[s] = (struct chart_series){d->name[s], palette[place % COLOURS], d->point[s], 0};
+        d->chart.series = d->series;
+        d->chart.n++;
+    }
+    return &d->point[s][d->series[s].n++];
 }
 
 static void
@@ -90,20 +77,21 @@ draw_pressures(const struct cost_case *c, struct drawing *d)
     d->chart.up = "relative L1 error of the pressure";
     d->chart.floor = c->reference.contact.pressure_error;
     d->chart.floor_text = "below the reference's own error";
-    for (size_t k = 0; k < c->rungs; k++) {
-        const struct cost *m = &c->rung[k];
-        struct chart_point *p =
-            m->state == COST_DONE ? new_point(d, ink_of(m->rung.method, m->rung.kernel)) : NULL;
+    for (size_t k = 0; k < c->trials; k++) {
+        const struct cost_trial *m = &c->trial[k];
+        struct chart_point *p;
+        char name[NAME];
 
-        if (p == NULL)
+        snprintf(name, sizeof name, "%s, %s", m->settings.method, m->settings.kernel);
+        if (m->state != COST_DONE || (p = new_point(d, name, cost_series(&m->settings))) == NULL)
             continue;
         *p = (struct chart_point){
-            .x = m->seconds, .y = m->error, .hollow = m->rung.coarse > 1, .front = m->front};
-        if (m->rung.coarse > 1) {
-            snprintf(p->label, sizeof p->label, "1/%u", m->rung.coarse);
+            .x = m->seconds, .y = m->error, .hollow = m->settings.coarse > 1, .front = m->front};
+        if (m->settings.coarse > 1) {
+            snprintf(p->label, sizeof p->label, "1/%u", m->settings.coarse);
             d->chart.hollow = "on 1/2, 1/4, 1/8 of the nodes a side";
         } else {
-            snprintf(p->label, sizeof p->label, "%.0e", m->rung.tol);
+            snprintf(p->label, sizeof p->label, "%.0e", m->settings.tol);
         }
     }
 }
@@ -121,10 +109,13 @@ draw_stresses(const struct cost_case *c, struct drawing *d)
     d->chart.floor_text = "rounding";
     for (size_t k = 0; k < c->stresses; k++) {
         const struct cost_stress *s = &c->stress[(k + 1) % c->stresses]; /* the exact one last */
-        struct chart_point *p =
-            s->state == COST_DONE ? new_point(d, ink_of(NULL, s->kernel)) : NULL;
+        const char *remark = s->kernel == c->stress[0].kernel ? ", deep slices coarser" : "";
+        struct chart_point *p;
+        char name[NAME];
 
-        if (p == NULL)
+        snprintf(name, sizeof name, "%s%s", s->kernel, remark);
+        if (s->state != COST_DONE ||
+            (p = new_point(d, name, words_engine_place(s->kernel))) == NULL)
             continue;
         *p = (struct chart_point){
             .x = s->seconds, .y = s->reference ? rounding / 10 : s->error, .front = s->front};
@@ -135,29 +126,19 @@ draw_stresses(const struct cost_case *c, struct drawing *d)
 /* ---- the file ---- */
 
 static enum rc_status
-put_rows(struct canvas *c, FILE *file, const char *made, struct rc_err *err)
+next_row(void *ctx, size_t y, unsigned char *rgb, struct rc_err *err)
 {
-    size_t w = canvas_width(c), h = canvas_height(c);
+    return canvas_row(ctx, y, rgb, err);
+}
+
+static enum rc_status
+write_picture(struct canvas *c, FILE *file, const char *made, struct rc_err *err)
+{
     const struct picture_text text[] = {
         {"Title", "What accuracy costs"}, {"Description", made}, {"Software", "rc-cost"}};
-    unsigned char *rgb = malloc(3 * w);
-    struct picture *picture =
-        rgb == NULL ? NULL : picture_new(file, w, h, text, sizeof text / sizeof *text, err);
-    enum rc_status status = RC_FAIL;
 
-    if (rgb == NULL)
-        rc_err_set(err, "out of memory");
-    if (picture != NULL) {
-        status = RC_OK;
-        for (size_t j = 0; j < h && status == RC_OK; j++)
-            if ((status = canvas_row(c, j, rgb, err)) == RC_OK)
-                status = picture_row(picture, rgb, err);
-        if (status == RC_OK)
-            status = picture_end(picture, err);
-    }
-    picture_free(picture);
-    free(rgb);
-    return status;
+    return picture_write(file, canvas_width(c), canvas_height(c), text, sizeof text / sizeof *text,
+                         next_row, c, err);
 }
 
 static struct canvas *
@@ -186,7 +167,7 @@ cost_plot(const struct cost_case *c, size_t *bytes, struct rc_err *err)
     struct drawing *d = calloc(2, sizeof *d);
     bool stresses = false;
     struct canvas *canvas = NULL;
-    char *png = NULL;
+    char *png = NULL, text[512];
     FILE *file;
     enum rc_status status = RC_FAIL;
 
@@ -200,10 +181,12 @@ cost_plot(const struct cost_case *c, size_t *bytes, struct rc_err *err)
         draw_stresses(c, &d[1]);
     canvas = draw(d, stresses ? 2 : 1, err);
     if (canvas != NULL && (file = open_memstream(&png, bytes)) != NULL) {
-        status = put_rows(canvas, file, tool_history(c->tool), err);
+        status = write_picture(canvas, file, tool_history(c->tool), err);
         if (fclose(file) != 0)
             status = RC_FAIL;
     }
+    if (canvas != NULL && canvas_warning(canvas, text, sizeof text) != NULL)
+        tool_warn(c->tool, "%s", text);
     canvas_free(canvas);
     free(d);
     if (status != RC_OK) {

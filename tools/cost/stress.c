@@ -1,5 +1,5 @@
 /*
- * The ladder of stresses: slices by each way and accuracy, under the pressure of the reference.
+ * Trials of the stresses: slices by each engine and accuracy, under the pressure of the reference.
  * Beside each slice the exact one is computed, so that no more than two are held.
  */
 #include "cost.h"
@@ -8,42 +8,60 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* clang-format off */
-static const struct row {
-    const char *kernel;
-    double tol;
-    bool free_only;
-} ladder[] = {
-    {"fft", 0, false}, /* the reference: to rounding */
-    {"fft", 1e-2, false}, {"fft", 1e-3, false}, {"fft", 1e-4, false}, {"fft", 1e-6, false}, /* deep slices are coarser */
-    {"mlms", 1e-2, true}, {"mlms", 1e-4, true}, {"mlms", 1e-6, true},
-    {"direct", 0, true},
-};
-/* clang-format on */
-
 enum {
-    ROWS = sizeof ladder / sizeof *ladder,
     DEPTHS = 4096,
     WANTED = (2u << RC_MISES) - 1 /* the six and Mises */
 };
 
-struct cost_stress *
-cost_stress_ladder(const struct cost_case *c, size_t *n)
-{
-    struct cost_stress *s = calloc(ROWS, sizeof *s);
+/* ---- which trials there are ---- */
 
+/* The first engine, which "auto" takes, is exact, and is quicker with a tolerance, by coarser
+ * grids for deep slices. Of the others those whose time grows with the square of the nodes take no
+ * tolerance. */
+static const double first_tols[] = {0, 1e-2, 1e-3, 1e-4, 1e-6}, other_tols[] = {1e-2, 1e-4, 1e-6},
+                    rounding[] = {0};
+
+enum {
+    FIRST_TOLS = sizeof first_tols / sizeof *first_tols,
+    OTHER_TOLS = sizeof other_tols / sizeof *other_tols
+};
+
+static size_t
+tolerances(size_t engine, const double **tol)
+{
+    const struct rc_engine_info *info = rc_engine_info(engine);
+
+    if (info->precise)
+        return 0; /* stresses are in double precision anyway */
+    *tol = engine == 0 ? first_tols : info->order == 1 ? other_tols : rounding;
+    return engine == 0 ? FIRST_TOLS : info->order == 1 ? OTHER_TOLS : 1;
+}
+
+struct cost_stress *
+cost_stress_trials(const struct cost_case *c, size_t *n)
+{
+    const struct rc_engine_info *info;
+    struct cost_stress *s;
+    const double *tol;
+    size_t most = 0;
+
+    for (size_t e = 0; rc_engine_info(e) != NULL; e++)
+        most += tolerances(e, &tol);
+    s = calloc(most, sizeof *s);
     *n = 0;
-    for (size_t k = 0; s != NULL && k < ROWS; k++)
-        if (c->problem.boundary == RC_FREE || !ladder[k].free_only)
+    for (size_t e = 0; s != NULL && (info = rc_engine_info(e)) != NULL; e++) {
+        size_t count = tolerances(e, &tol);
+        for (size_t k = 0; k < count && (info->periodic || c->problem.boundary == RC_FREE); k++)
             s[(*n)++] = (struct cost_stress){
-                .kernel = ladder[k].kernel, .tol = ladder[k].tol, .reference = k == 0};
+                .kernel = info->name, .tol = tol[k], .reference = e == 0 && tol[k] == 0};
+    }
     return s;
 }
 
 /* In memory shared with the process that computes. */
 struct job {
     const struct cost_case *c;
-    const struct cost_stress *rung;
+    const struct cost_stress *trial;
     size_t depth; /* for progress */
     bool done;
     double seconds, error, rms, mises;
@@ -58,9 +76,9 @@ watch(void *ctx)
 {
     const struct job *j = ctx;
 
-    if (j->rung != NULL)
-        tool_progress(j->c->tool, "stresses by %s, tol %.0e, depth %zu of %zu", j->rung->kernel,
-                      j->rung->tol, j->depth, j->c->depths.n);
+    if (j->trial != NULL)
+        tool_progress(j->c->tool, "stresses by %s, tol %.0e, depth %zu of %zu", j->trial->kernel,
+                      j->trial->tol, j->depth, j->c->depths.n);
 }
 
 /* ---- depths ---- */
@@ -112,22 +130,24 @@ options_of(const struct cost_case *c, const char *kernel, double tol)
                                       .threads = c->tool->threads};
 }
 
-struct sums {
+/* Over all depths and components: the largest error, the sum of squares; the largest Mises' stress,
+ * and the exact one's. */
+struct errors {
     double worst, squares, mises, mises_true;
 };
 
 static void
-compare(size_t n, double *const s[RC_STRESSES], double *const truth[RC_STRESSES], struct sums *sum)
+compare(size_t n, double *const s[RC_STRESSES], double *const truth[RC_STRESSES], struct errors *e)
 {
     for (int c = 0; c <= RC_MISES; c++)
         for (size_t k = 0; k < n; k++) {
             double off = fabs(s[c][k] - truth[c][k]);
 
-            sum->worst = fmax(sum->worst, off);
-            sum->squares += off * off;
+            e->worst = fmax(e->worst, off);
+            e->squares += off * off;
             if (c == RC_MISES) {
-                sum->mises = fmax(sum->mises, s[c][k]);
-                sum->mises_true = fmax(sum->mises_true, truth[c][k]);
+                e->mises = fmax(e->mises, s[c][k]);
+                e->mises_true = fmax(e->mises_true, truth[c][k]);
             }
         }
 }
@@ -137,24 +157,24 @@ slices(struct job *j, struct rc_stress *stress, struct rc_stress *exact,
        double *const s[RC_STRESSES], double *const truth[RC_STRESSES])
 {
     size_t n = j->c->shape.nx * j->c->shape.ny;
-    struct sums sum = {0};
+    struct errors e = {0};
 
     for (j->depth = 0; j->depth < j->c->depths.n; j->depth++) {
-        double z = j->c->depths.v[j->depth], start = cost_now();
+        double z = j->c->depths.v[j->depth], start = tool_now();
 
         if (rc_stress_slice(stress, z, s, &j->err) != RC_OK)
             return false;
-        j->seconds += cost_now() - start;
-        if (j->rung->reference)
+        j->seconds += tool_now() - start;
+        if (j->trial->reference)
             continue;
         if (rc_stress_slice(exact, z, truth, &j->err) != RC_OK)
             return false;
-        compare(n, s, truth, &sum);
+        compare(n, s, truth, &e);
     }
-    j->error = sum.worst / j->c->reference.contact.max_pressure;
-    j->rms = sqrt(sum.squares / ((double)(n * j->c->depths.n) * (RC_MISES + 1))) /
+    j->error = e.worst / j->c->reference.contact.max_pressure;
+    j->rms = sqrt(e.squares / ((double)(n * j->c->depths.n) * (RC_MISES + 1))) /
              j->c->reference.contact.max_pressure;
-    j->mises = sum.mises / sum.mises_true - 1;
+    j->mises = e.mises / e.mises_true - 1;
     j->coarse = rc_stress_counted(stress)->coarse_depths;
     return true;
 }
@@ -164,8 +184,8 @@ work(void *ctx)
 {
     struct job *j = ctx;
     const struct cost_case *c = j->c;
-    struct rc_stress_options o = options_of(c, j->rung->kernel, j->rung->tol),
-                             e = options_of(c, "fft", 0);
+    struct rc_stress_options o = options_of(c, j->trial->kernel, j->trial->tol),
+                             e = options_of(c, words_engine(0), 0);
     size_t n = c->shape.nx * c->shape.ny;
     double *maps = malloc(2 * n * (RC_MISES + 1) * sizeof *maps), start;
     double *s[RC_STRESSES] = {NULL}, *truth[RC_STRESSES] = {NULL};
@@ -180,10 +200,10 @@ work(void *ctx)
         s[k] = maps + k * n;
         truth[k] = maps + (RC_MISES + 1 + k) * n;
     }
-    start = cost_now();
+    start = tool_now();
     if ((stress = rc_stress_new(&c->shape, c->pressure, &o, &j->err)) == NULL)
         return;
-    j->seconds = cost_now() - start;
+    j->seconds = tool_now() - start;
     if ((exact = rc_stress_new(&c->shape, c->pressure, &e, &j->err)) != NULL)
         j->done = slices(j, stress, exact, s, truth);
 }
@@ -204,7 +224,7 @@ cost_stress_run(struct cost_case *c, struct cost_stress *s, double allowed)
 {
     struct rc_stress_options o = options_of(c, s->kernel, s->tol);
     struct job *j = cost_share(sizeof *j);
-    double start = cost_now();
+    double start = tool_now();
     enum cost_end end;
 
     if (j == NULL)
@@ -213,8 +233,8 @@ cost_stress_run(struct cost_case *c, struct cost_stress *s, double allowed)
     do {
         memset(j, 0, sizeof *j);
         j->c = c;
-        j->rung = s;
-        end = cost_run(work, j, allowed - (cost_now() - start), watch);
+        j->trial = s;
+        end = cost_run(work, j, allowed - (tool_now() - start), watch);
         if (end != COST_ENDED || !j->done)
             break;
         if (s->runs++ == 0 || j->seconds < s->seconds)

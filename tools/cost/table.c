@@ -1,70 +1,7 @@
 /*
- * What was measured, for people, for cut and awk, and as JSON.
+ * What was measured, in columns for people, cut and awk.
  */
 #include "cost.h"
-
-#include <math.h>
-#include <string.h>
-
-#include "tools/cli/cli.h"
-
-/* ---- the front ---- */
-
-/* Below what the reference can tell all errors are the same. */
-static double
-seen(const struct cost_case *c, double error)
-{
-    return fmax(error, c->reference.contact.pressure_error);
-}
-
-static bool
-beaten(const struct cost_case *c, const struct cost *a, const struct cost *by)
-{
-    double e = seen(c, a->error), f = seen(c, by->error);
-
-    return by->state == COST_DONE && by->seconds <= a->seconds && f <= e &&
-           (by->seconds < a->seconds || f < e);
-}
-
-/* Of the reference no error is known: it is rounding. */
-static double
-stress_error(const struct cost_stress *s)
-{
-    return s->reference ? 0 : s->error;
-}
-
-static bool
-stress_beaten(const struct cost_stress *a, const struct cost_stress *by)
-{
-    double e = stress_error(a), f = stress_error(by);
-
-    return by->state == COST_DONE && by->seconds <= a->seconds && f <= e &&
-           (by->seconds < a->seconds || f < e);
-}
-
-void
-cost_judge(struct cost_case *c)
-{
-    for (size_t k = 0; k < c->rungs; k++) {
-        struct cost *a = &c->rung[k];
-
-        a->front = a->state == COST_DONE;
-        for (size_t l = 0; l < c->rungs; l++)
-            a->front = a->front && !beaten(c, a, &c->rung[l]);
-        a->flatters =
-            a->state == COST_DONE && a->rung.coarse == 1 &&
-            a->error > 1.01 * a->contact.pressure_error + c->reference.contact.pressure_error;
-    }
-    for (size_t k = 0; k < c->stresses; k++) {
-        struct cost_stress *a = &c->stress[k];
-
-        a->front = a->state == COST_DONE;
-        for (size_t l = 0; l < c->stresses; l++)
-            a->front = a->front && !stress_beaten(a, &c->stress[l]);
-    }
-}
-
-/* ---- the table ---- */
 
 static void
 put_load(const struct cost_case *c, FILE *out)
@@ -80,7 +17,7 @@ put_load(const struct cost_case *c, FILE *out)
 static void
 put_head(const struct cost_case *c, FILE *out)
 {
-    const struct cost *r = &c->reference;
+    const struct cost_trial *r = &c->reference;
     char where[256];
 
     fprintf(out, "# %s: %zu x %zu nodes, %s, ",
@@ -94,9 +31,9 @@ put_head(const struct cost_case *c, FILE *out)
             "contact area %.9g m2 (%.4g %% of the map, %.3g %% at the hardness), largest pressure "
             "%.9g Pa, "
             "approach %.9g m\n",
-            r->rung.method, r->rung.kernel, r->rung.arithmetic, r->contact.pressure_error,
-            r->rung.tol, r->contact.iterations, r->seconds, r->contact.contact_area,
-            100 * r->contact.contact_fraction,
+            r->settings.method, r->settings.kernel, r->settings.arithmetic,
+            r->contact.pressure_error, r->settings.tol, r->contact.iterations, r->seconds,
+            r->contact.contact_area, 100 * r->contact.contact_fraction,
             100 * r->contact.plastic_area / r->contact.contact_area, r->contact.max_pressure,
             r->contact.approach);
     fprintf(out, "# error: sum |p - reference| / sum reference, on the map's own grid; area, peak, "
@@ -105,17 +42,17 @@ put_head(const struct cost_case *c, FILE *out)
 }
 
 static const char *
-note(const struct cost *m)
+note(const struct cost_trial *m)
 {
     static char text[64];
 
     snprintf(text, sizeof text, "%s%s%s", m->front ? ",front" : "",
-             m->contact.converged ? "" : ",short", m->flatters ? ",flatters" : "");
+             m->contact.converged ? "" : ",short", m->optimistic ? ",optimistic" : "");
     return text[0] == '\0' ? "-" : text + 1;
 }
 
 static void
-put_rung(const struct cost *m, FILE *out)
+put_trial(const struct cost_trial *m, FILE *out)
 {
     char grid[64];
 
@@ -123,9 +60,10 @@ put_rung(const struct cost *m, FILE *out)
     fprintf(
         out,
         "%-6s %-6s %-10s %6.0e %11s %9.4f %4zu %12.1f %11.1f %9.2e %9.2e %10.2e %10.2e %14.2e %s\n",
-        m->rung.method, m->rung.kernel, m->rung.arithmetic, m->rung.tol, grid, m->seconds, m->runs,
-        m->convolutions, (double)m->memory / 1048576, m->contact.pressure_error, m->error,
-        m->area_error, m->peak_error, m->approach_error, note(m));
+        m->settings.method, m->settings.kernel, m->settings.arithmetic, m->settings.tol, grid,
+        m->seconds, m->runs, m->convolutions, (double)m->memory / 1048576,
+        m->contact.pressure_error, m->error, m->area_error, m->peak_error, m->approach_error,
+        note(m));
 }
 
 static void
@@ -164,101 +102,12 @@ cost_table(const struct cost_case *c, FILE *out)
     fprintf(out, "%-6s %-6s %-10s %6s %11s %9s %4s %12s %11s %9s %9s %10s %10s %14s %s\n", "method",
             "kernel", "arithmetic", "tol", "grid", "time[s]", "runs", "convolutions", "memory[MiB]",
             "estimate", "error", "area_error", "peak_error", "approach_error", "note");
-    for (size_t k = 0; k < c->rungs; k++)
-        if (c->rung[k].state == COST_DONE)
-            put_rung(&c->rung[k], out);
-    for (size_t k = 0; k < c->rungs; k++)
-        if (c->rung[k].state != COST_DONE)
-            fprintf(out, "# %s: %s\n", cost_name(name, &c->rung[k]), c->rung[k].why);
+    for (size_t k = 0; k < c->trials; k++)
+        if (c->trial[k].state == COST_DONE)
+            put_trial(&c->trial[k], out);
+    for (size_t k = 0; k < c->trials; k++)
+        if (c->trial[k].state != COST_DONE)
+            fprintf(out, "# %s: %s\n", cost_name(name, &c->trial[k]), c->trial[k].why);
     if (c->depths.n > 0 && c->stresses > 0)
         put_stresses(c, out);
-}
-
-/* ---- JSON ---- */
-
-static const char *
-state_name(enum cost_state state)
-{
-    return state == COST_DONE ? "done" : state == COST_STOPPED ? "stopped" : "left out";
-}
-
-static void
-report_measured(struct json *j, const struct cost *m)
-{
-    bool done = m->state == COST_DONE;
-
-    json_number(j, "seconds", done ? m->seconds : NAN);
-    json_count(j, "runs", m->runs);
-    json_number(j, "convolutions", done ? m->convolutions : NAN);
-    json_number(j, "memory", done ? (double)m->memory : NAN);
-    json_number(j, "iterations", done ? (double)m->contact.iterations : NAN);
-    json_number(j, "pressure_error_estimate", done ? m->contact.pressure_error : NAN);
-    json_number(j, "error", done ? m->error : NAN);
-    json_number(j, "contact_area_error", done ? m->area_error : NAN);
-    json_number(j, "max_pressure_error", done ? m->peak_error : NAN);
-    json_number(j, "approach_error", done ? m->approach_error : NAN);
-    json_bool(j, "converged", done && m->contact.converged);
-    json_bool(j, "front", m->front);
-    json_bool(j, "flatters", m->flatters);
-}
-
-static void
-report_rung(const struct cost_case *c, const struct cost *m, const char *what, FILE *out)
-{
-    struct json j;
-
-    json_open(&j, out);
-    json_count(&j, "case", rc_grid_case(c->heights));
-    json_text(&j, "source", rc_grid_get(c->heights, "source"));
-    json_text(&j, "what", what);
-    json_text(&j, "method", m->rung.method);
-    json_text(&j, "kernel", m->rung.kernel);
-    json_text(&j, "arithmetic", m->rung.arithmetic);
-    json_number(&j, "tol", m->rung.tol);
-    json_count(&j, "coarse", m->rung.coarse);
-    json_count(&j, "nx", m->shape.nx);
-    json_count(&j, "ny", m->shape.ny);
-    json_count(&j, "threads", c->tool->threads);
-    json_text(&j, "state", state_name(m->state));
-    json_text(&j, "why", m->why[0] == '\0' ? NULL : m->why);
-    json_number(&j, "expected_seconds", m->expected);
-    report_measured(&j, m);
-    json_close(&j);
-}
-
-static void
-report_stress(const struct cost_case *c, const struct cost_stress *s, FILE *out)
-{
-    bool done = s->state == COST_DONE;
-    struct json j;
-
-    json_open(&j, out);
-    json_count(&j, "case", rc_grid_case(c->heights));
-    json_text(&j, "source", rc_grid_get(c->heights, "source"));
-    json_text(&j, "what", s->reference ? "stress reference" : "stress");
-    json_text(&j, "kernel", s->kernel);
-    json_number(&j, "tol", s->tol);
-    json_count(&j, "depths", c->depths.n);
-    json_text(&j, "state", state_name(s->state));
-    json_text(&j, "why", s->why[0] == '\0' ? NULL : s->why);
-    json_number(&j, "expected_seconds", s->expected);
-    json_number(&j, "seconds", done ? s->seconds : NAN);
-    json_count(&j, "runs", s->runs);
-    json_number(&j, "coarse_depths", done ? (double)s->coarse : NAN);
-    json_number(&j, "memory", done ? (double)s->memory : NAN);
-    json_number(&j, "error", done ? s->error : NAN);
-    json_number(&j, "rms_error", done ? s->rms : NAN);
-    json_number(&j, "mises_error", done ? s->mises : NAN);
-    json_bool(&j, "front", s->front);
-    json_close(&j);
-}
-
-void
-cost_report(const struct cost_case *c, FILE *out)
-{
-    report_rung(c, &c->reference, "reference", out);
-    for (size_t k = 0; k < c->rungs; k++)
-        report_rung(c, &c->rung[k], "pressure", out);
-    for (size_t k = 0; k < c->stresses && c->depths.n > 0; k++)
-        report_stress(c, &c->stress[k], out);
 }

@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "ticks.h"
+
 static const struct rgb ink = {0x22, 0x22, 0x22}, faint = {0x59, 0x59, 0x59},
                         rule = {0xdd, 0xdd, 0xdd}, pale = {0xf3, 0xf1, 0xec},
                         gold = {0xf4, 0xd0, 0x6f}, white = {255, 255, 255};
@@ -86,23 +88,10 @@ up(const struct panel *p, double y)
 }
 
 static void
-power_text(char text[32], int power)
-{
-    static const char *const raised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-    int size = power < 0 ? -power : power;
-
-    if (power == 0)
-        snprintf(text, 32, "1");
-    else
-        snprintf(text, 32, "10%s%s%s", power < 0 ? "⁻" : "", size >= 10 ? raised[size / 10] : "",
-                 raised[size % 10]);
-}
-
-static void
 draw_up(struct panel *p)
 {
     int step = p->up.hi - p->up.lo > 10 ? 2 : 1;
-    char text[32];
+    char text[TICKS_TEXT];
 
     for (int k = (int)p->up.lo; k <= (int)p->up.hi; k++) {
         double at = up(p, pow(10, k));
@@ -110,9 +99,9 @@ draw_up(struct panel *p)
         canvas_fill(p->c, p->x, at - 0.6, p->w, 1.2, rule);
         if ((k - (int)p->up.hi) % step != 0)
             continue;
-        power_text(text, k);
         canvas_fill(p->c, p->x - 8, at - 0.8, 8, 1.6, ink);
-        canvas_text(p->c, &small, p->x - 14, at + 0.36 * small.size, 1, text);
+        canvas_text(p->c, &small, p->x - 14, at + 0.36 * small.size, 1,
+                    k == 0 ? "1" : power_text(text, k));
     }
     canvas_text_upwards(p->c, &large, p->x - 88, p->y + 0.5 * p->h, p->chart->up);
 }

@@ -13,7 +13,7 @@
 struct chart_point {
     double x, y; /* > 0; y below the lower end of the axis is drawn on it  */
     bool hollow; /* of a second kind                                       */
-    bool front;  /* marked, and labelled where there is room               */
+    bool front;  /* marked, and labelled where a label fits               */
     char label[16];
 };
 

@@ -380,7 +380,7 @@ draw(struct page *p, struct rc_err *err)
     canvas_frame(p->c, x, y, w, h, fmax(1, round(1.2 * p->u)), page_ink);
     draw_marks_across(p, &p->across, x, y + h, w);
     draw_legend(p);
-    return RC_OK;
+    return canvas_check(p->c, err);
 }
 
 struct canvas *

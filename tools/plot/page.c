@@ -213,7 +213,7 @@ natural_side(size_t n)
 }
 
 static void
-set_plot(struct page *p, double room)
+set_plot(struct page *p, double width)
 {
     double x = p->f->right - p->f->left, y = p->f->bottom - p->f->top;
     double aspect = fmin(fmax(x / y, 1.0 / FIGURE_ASPECT), FIGURE_ASPECT);
@@ -222,15 +222,15 @@ set_plot(struct page *p, double room)
     p->distorted = !p->curve && aspect != x / y;
     if (p->curve)
         aspect = 2;
-    if (room > 0)
-        w = fmin(room, 0.85 * (double)p->f->width * aspect);
+    if (width > 0)
+        w = fmin(width, 0.85 * (double)p->f->width * aspect);
     else if (p->curve)
         w = 1000;
     else
         w = aspect >= 1 ? natural_side(p->g->nx) : natural_side(p->g->ny) * aspect;
     p->plot_w = (size_t)fmax(round(w), 1);
     p->plot_h = (size_t)fmax(round(w / aspect), 1);
-    p->u = room > 0   ? fmax((double)p->f->width / 1200, 0.5)
+    p->u = width > 0  ? fmax((double)p->f->width / 1200, 0.5)
            : p->curve ? 1
                       : fmax((double)p->plot_w, (double)p->plot_h) / 900;
     p->bar_below = (double)p->plot_h < 300 * p->u;
@@ -274,7 +274,7 @@ page_swatch(const struct page *p, size_t k)
     return p->note[k].swatch == SWATCH_NOTHING ? 0 : 38 * p->u;
 }
 
-/* What the legend says, and where: side by side as long as the line has room. */
+/* What the legend says, and where: side by side as many as fit a line. */
 static void
 set_legend(struct page *p, double width)
 {
@@ -345,15 +345,15 @@ set_page(struct page *p)
 void
 page_lay_out(struct page *p)
 {
-    double room = 0.8 * (double)p->f->width;
+    double width = 0.8 * (double)p->f->width;
 
     set_axes(p);
     for (int round = 0; round < 6; round++) {
-        set_plot(p, room);
+        set_plot(p, width);
         measure_sides(p);
         if (p->f->width == 0)
             break;
-        room = fmax((double)p->f->width - p->left_w - p->right_w, 1);
+        width = fmax((double)p->f->width - p->left_w - p->right_w, 1);
     }
     set_page(p);
 }

@@ -1,11 +1,11 @@
 /*
- * The face of this folder: figures, charts, colours, pictures as files, and which frame is drawn.
+ * The face of this folder: figures, charts, colours, pictures as files. It knows grids and no tool.
  */
 #ifndef RC_PLOT_H
 #define RC_PLOT_H
 
+#include "canvas.h"
 #include "chart.h"
-#include "choice.h"
 #include "colormap.h"
 #include "figure.h"
 #include "png.h"

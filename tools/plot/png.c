@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* A PNG being written. */
 struct picture {
     png_structp png;
     png_infop info;
@@ -85,31 +86,8 @@ start(struct picture *p, FILE *file, size_t w, size_t h, const struct picture_te
     return RC_OK;
 }
 
-struct picture *
-picture_new(FILE *file, size_t w, size_t h, const struct picture_text *text, size_t texts,
-            struct rc_err *err)
-{
-    struct picture *p;
-
-    if (w > PNG_UINT_31_MAX || h > PNG_UINT_31_MAX || w > SIZE_MAX / 8) {
-        rc_err_set(err, "a picture of %zu by %zu pixels: PNG holds at most 2147483647 a side", w,
-                   h);
-        return NULL;
-    }
-    p = calloc(1, sizeof *p);
-    if (p == NULL) {
-        rc_err_set(err, "out of memory for a PNG");
-        return NULL;
-    }
-    if (start(p, file, w, h, text, texts, err) != RC_OK) {
-        picture_free(p);
-        return NULL;
-    }
-    return p;
-}
-
-enum rc_status
-picture_row(struct picture *p, const unsigned char *rgb, struct rc_err *err)
+static enum rc_status
+put_row(struct picture *p, const unsigned char *rgb, struct rc_err *err)
 {
     if (setjmp(png_jmpbuf(p->png)) != 0)
         return rc_err_set(err, "the PNG cannot be written: %s", p->why);
@@ -117,8 +95,8 @@ picture_row(struct picture *p, const unsigned char *rgb, struct rc_err *err)
     return RC_OK;
 }
 
-enum rc_status
-picture_end(struct picture *p, struct rc_err *err)
+static enum rc_status
+end(struct picture *p, struct rc_err *err)
 {
     if (setjmp(png_jmpbuf(p->png)) != 0)
         return rc_err_set(err, "the PNG cannot be written: %s", p->why);
@@ -126,11 +104,26 @@ picture_end(struct picture *p, struct rc_err *err)
     return RC_OK;
 }
 
-void
-picture_free(struct picture *p)
+enum rc_status
+picture_write(FILE *file, size_t w, size_t h, const struct picture_text *text, size_t texts,
+              picture_row *row, void *ctx, struct rc_err *err)
 {
-    if (p == NULL)
-        return;
-    png_destroy_write_struct(&p->png, &p->info);
-    free(p);
+    struct picture picture = {.png = NULL};
+    unsigned char *rgb;
+    enum rc_status status;
+
+    if (w > PNG_UINT_31_MAX || h > PNG_UINT_31_MAX || w > SIZE_MAX / 8)
+        return rc_err_set(
+            err, "a picture of %zu by %zu pixels: PNG holds at most 2147483647 a side", w, h);
+    if ((rgb = malloc(3 * w)) == NULL)
+        return rc_err_set(err, "out of memory for a picture of %zu pixels a row", w);
+    status = start(&picture, file, w, h, text, texts, err);
+    for (size_t y = 0; y < h && status == RC_OK; y++)
+        if ((status = row(ctx, y, rgb, err)) == RC_OK)
+            status = put_row(&picture, rgb, err);
+    if (status == RC_OK)
+        status = end(&picture, err);
+    png_destroy_write_struct(&picture.png, &picture.info);
+    free(rgb);
+    return status;
 }

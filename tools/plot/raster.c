@@ -167,14 +167,14 @@ raster_free(struct raster *r)
 static enum rc_status
 add_line(struct lines *l, const double from[2], const double to[2], struct rc_err *err)
 {
-    if (l->n == l->room) {
-        size_t room = l->room == 0 ? 1024 : 2 * l->room;
-        double(*at)[4] = realloc(l->at, room * sizeof *at);
+    if (l->n == l->capacity) {
+        size_t capacity = l->capacity == 0 ? 1024 : 2 * l->capacity;
+        double(*at)[4] = realloc(l->at, capacity * sizeof *at);
 
         if (at == NULL)
-            return rc_err_set(err, "out of memory for %zu pieces of lines", room);
+            return rc_err_set(err, "out of memory for %zu pieces of lines", capacity);
         l->at = at;
-        l->room = room;
+        l->capacity = capacity;
     }
     l->at[l->n][0] = from[0];
     l->at[l->n][1] = from[1];

@@ -35,7 +35,7 @@ void raster_free(struct raster *raster); /* NULL is allowed */
  * (i + 0.5, j + 0.5). Zeroed before first use; the caller frees `at`. */
 struct lines {
     double (*at)[4]; /* x0 y0 x1 y1 */
-    size_t n, room;
+    size_t n, capacity;
 };
 
 /* Adds the line where the map, linear between the middles of its cells, has the value `level`;

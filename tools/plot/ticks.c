@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "formats/core/core.h"
+
 #define MINUS "\xe2\x88\x92"
 
 /* Prints a number with a real minus sign in place of the hyphen. */
@@ -43,28 +45,33 @@ takes_prefix(const char *unit)
     return false;
 }
 
-static void
-put_power(char *text, size_t size, int power, const char *unit)
+const char *
+power_text(char text[TICKS_TEXT], int power)
 {
     static const char *const raised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
     char digits[16];
-    size_t n;
 
-    snprintf(digits, sizeof digits, "%d", power < 0 ? -power : power);
-    snprintf(text, size, "10%s", power < 0 ? "⁻" : "");
-    for (const char *s = digits; *s != '\0'; s++) {
-        n = strlen(text);
-        snprintf(text + n, size - n, "%s", raised[*s - '0']);
-    }
-    n = strlen(text);
-    snprintf(text + n, size - n, "%s%.24s", *unit == '\0' ? "" : " ", unit);
+    snprintf(digits, sizeof digits, "%d", abs(power));
+    strcpy(text, power < 0 ? "10⁻" : "10");
+    for (const char *s = digits; *s != '\0'; s++)
+        strcat(text, raised[*s - '0']);
+    return text;
+}
+
+/* As figures have it: a real mu. */
+static const char *
+prefix_of(int power)
+{
+    const char *prefix = rc_prefix_of(power);
+
+    return prefix != NULL && strcmp(prefix, "u") == 0 ? "µ" : prefix;
 }
 
 void
 scale_choose(struct scale *scale, double largest, const char *unit)
 {
-    static const char *const prefixes[] = {"f", "p", "n", "µ", "m", "", "k", "M", "G", "T"};
     double size = fabs(largest);
+    char text[TICKS_TEXT];
     int power = size > 0 && isfinite(size) ? 3 * (int)floor(log10(size) / 3 + 1e-12) : 0;
 
     if (strcmp(unit, "1") == 0)
@@ -72,12 +79,13 @@ scale_choose(struct scale *scale, double largest, const char *unit)
     if (!takes_prefix(unit) && size >= 0.1 && size < 1e4)
         power = 0;
     scale->size = pow(10, power);
-    if (takes_prefix(unit) && power >= -15 && power <= 12)
-        snprintf(scale->unit, sizeof scale->unit, "%s%s", prefixes[power / 3 + 5], unit);
+    if (takes_prefix(unit) && prefix_of(power) != NULL)
+        snprintf(scale->unit, sizeof scale->unit, "%s%s", prefix_of(power), unit);
     else if (power == 0)
         snprintf(scale->unit, sizeof scale->unit, "%.48s", unit);
     else
-        put_power(scale->unit, sizeof scale->unit, power, unit);
+        snprintf(scale->unit, sizeof scale->unit, "%.30s%s%.24s", power_text(text, power),
+                 *unit == '\0' ? "" : " ", unit);
 }
 
 const char *

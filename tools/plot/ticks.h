@@ -13,6 +13,8 @@ struct scale {
     char unit[TICKS_TEXT]; /* "µm", "GPa", "10⁻³"; may be empty */
 };
 
+/* "10⁻³" */
+const char *power_text(char text[TICKS_TEXT], int power);
 /* A unit in which `largest` (SI, its size counts) is written with one to three digits before the
  * point: a prefix where the unit takes one, a power of ten where not. `unit` is as in a stream. */
 void scale_choose(struct scale *scale, double largest, const char *unit);

@@ -4,8 +4,6 @@
 #include <errno.h>
 #include <math.h>
 #include <string.h>
-#include <sys/resource.h>
-#include <time.h>
 
 /* clang-format off */
 const struct solve_frame_kind solve_frames[SOLVE_FRAMES] = {
@@ -17,58 +15,101 @@ const struct solve_frame_kind solve_frames[SOLVE_FRAMES] = {
 };
 /* clang-format on */
 
-double
-solve_now(void)
+const char *
+solve_frame_word(size_t k)
 {
-    struct timespec ts;
-
-    clock_gettime(CLOCK_MONOTONIC, &ts);
-    return (double)ts.tv_sec + 1e-9 * (double)ts.tv_nsec;
+    return k < SOLVE_FRAMES ? solve_frames[k].name : NULL;
 }
 
 /* ---- effects ---- */
 
-/* Before the solution `active` is not known. */
+/* What a state depends on: the run, why the engine was taken, and whether the hardness was reached
+ * (NULL: not known before the solution). */
+struct scene {
+    const struct run *run;
+    const char *engine;
+    const bool *hardness_active;
+};
+
 static const char *
-hardness_effect(const struct run *run, const bool *active)
+kernel_state(const struct scene *s)
 {
-    if (isinf(run->args->physics.hardness))
-        return "left out: no --hardness";
-    if (active == NULL)
-        return "on where the elastic pressure would exceed it; costs nothing elsewhere";
-    return *active ? "on" : "left out: the largest elastic pressure is below it";
+    return s->engine;
 }
 
-struct effect {
-    const char *name, *state;
+static const char *
+hardness_state(const struct scene *s)
+{
+    if (isinf(s->run->args->physics.hardness))
+        return "left out: no --hardness";
+    if (s->hardness_active == NULL)
+        return "on where the elastic pressure would exceed it; costs nothing elsewhere";
+    return *s->hardness_active ? "on" : "left out: the largest elastic pressure is below it";
+}
+
+static const char *
+sphere_state(const struct scene *s)
+{
+    return isnan(s->run->args->physics.radius) ? "left out: no --radius" : "on";
+}
+
+static const char *
+padding_state(const struct scene *s)
+{
+    return s->run->args->physics.periodic ? "left out: the map is periodic" : "on";
+}
+
+static const char *
+approach_state(const struct scene *s)
+{
+    return s->run->args->physics.approach.n > 0 ? "on" : "left out: the load is given";
+}
+
+static const char *
+stiffness_state(const struct scene *s)
+{
+    return s->run->stiffness ? "on" : "left out: one load and no --stiffness";
+}
+
+static const char *
+discretization_state(const struct scene *s)
+{
+    return s->run->args->discretization ? "on" : "left out: no --discretization";
+}
+
+static const struct effect {
+    const char *name;
+    const char *(*state)(const struct scene *scene);
+} effects[] = {
+    {"kernel", kernel_state},
+    {"hardness", hardness_state},
+    {"sphere", sphere_state},
+    {"padding", padding_state},
+    {"approach", approach_state},
+    {"stiffness", stiffness_state},
+    {"discretization", discretization_state},
 };
 
 enum {
-    EFFECTS = 7 + SOLVE_FRAMES
+    EFFECTS = sizeof effects / sizeof *effects
 };
 
-/* Every effect, with `on` or why it is left out; returns how many. */
-static size_t
-effects(const struct run *run, const char *kernel, const bool *active, struct effect e[EFFECTS])
+/* Effect k, and after these the frames of --output: `on`, or why it is left out. False past the
+ * last. */
+static bool
+effect_at(const struct scene *scene, size_t k, const char **name, const char **state)
 {
-    const struct solve_args *a = run->args;
-    size_t n = 0;
-
-    e[n++] = (struct effect){"kernel", kernel};
-    e[n++] = (struct effect){"hardness", hardness_effect(run, active)};
-    e[n++] = (struct effect){"sphere", isnan(a->physics.radius) ? "left out: no --radius" : "on"};
-    e[n++] =
-        (struct effect){"padding", a->physics.periodic ? "left out: the map is periodic" : "on"};
-    e[n++] = (struct effect){"approach",
-                             a->physics.approach.n > 0 ? "on" : "left out: the load is given"};
-    e[n++] = (struct effect){"stiffness",
-                             run->stiffness ? "on" : "left out: one load and no --stiffness"};
-    e[n++] = (struct effect){"discretization",
-                             a->discretization ? "on" : "left out: no --discretization"};
-    for (int f = 0; f < SOLVE_FRAMES; f++)
-        e[n++] = (struct effect){solve_frames[f].name,
-                                 solve_wanted(a, f) ? "on" : "left out: not in --output"};
-    return n;
+    if (k >= EFFECTS + SOLVE_FRAMES)
+        return false;
+    if (k < EFFECTS) {
+        *name = effects[k].name;
+        *state = effects[k].state(scene);
+    } else {
+        *name = solve_frames[k - EFFECTS].name;
+        *state =
+            solve_wanted(scene->run->args, (int)(k - EFFECTS)) ? "on" : "left out: not in --output";
+    }
+    return true;
 }
 
 /* ---- report ---- */
@@ -113,16 +154,14 @@ void
 solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *solver,
              const struct rc_contact *c, double stiffness)
 {
-    struct effect e[EFFECTS];
-    struct rusage usage;
+    struct scene scene = {run, rc_solver_engine_reason(solver), &c->hardness_active};
+    const char *name, *state;
     struct json j;
-    size_t n = effects(run, rc_solver_engine_reason(solver), &c->hardness_active, e);
 
     if (run->args->report == NULL)
         return;
     if (run->report == NULL && (run->report = fopen(run->args->report, "w")) == NULL)
         tool_die(&run->t, EXIT_IMPOSSIBLE, "--report %s: %s", run->args->report, strerror(errno));
-    getrusage(RUSAGE_SELF, &usage);
     json_open(&j, run->report);
     json_count(&j, "case", run->number);
     json_text(&j, "source", rc_grid_get(g, "source"));
@@ -136,8 +175,8 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
     json_count(&j, "threads", run->t.threads);
     report_figures(&j, c, stiffness);
     json_object(&j, "effects");
-    for (size_t k = 0; k < n; k++)
-        json_text(&j, e[k].name, e[k].state);
+    for (size_t k = 0; effect_at(&scene, k, &name, &state); k++)
+        json_text(&j, name, state);
     json_end(&j, '}');
     json_object(&j, "seconds");
     json_number(&j, "setup", run->setup);
@@ -145,7 +184,7 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
     json_number(&j, "result", run->result);
     json_number(&j, "total", solve_now() - run->began);
     json_end(&j, '}');
-    json_count(&j, "peak_memory", (size_t)usage.ru_maxrss * 1024);
+    json_count(&j, "peak_memory", tool_peak_memory());
     json_close(&j);
     if (ferror(run->report))
         tool_die(&run->t, EXIT_IMPOSSIBLE, "--report %s: writing failed", run->args->report);
@@ -153,44 +192,30 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
 
 /* ---- plan ---- */
 
-/* Equivalents and seconds as bench-solve found them at 512^2 to 2048^2, 1 to 99 % contact, 1e-4;
- * each further decade of the tolerance takes about one step more. pk99 goes with the square root
- * of the number of nodes. */
-static double
-expected(const struct run *run, const struct rc_problem *problem, size_t n)
-{
-    double tol = problem->tol == 0 ? pow((double)n, -0.75) : problem->tol;
-    double steps = 16 + 2.3 * fmax(log10(1e-4 / tol), -2);
-
-    if (strcmp(run->args->method, "pk99") == 0)
-        steps = 0.6 * sqrt((double)n) * fmax(1, log10(1 / tol) / 3);
-    if (problem->approach > 0)
-        steps *= 3;
-    return steps + (run->stiffness ? 12 : 0) + (problem->discretization ? 5 : 0);
-}
-
 void
 solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *problem)
 {
+    enum {
+        STIFFNESS = 12 /* convolutions that it takes */
+    };
     struct rc_shape shape = rc_grid_shape(g);
-    struct effect e[EFFECTS];
-    const char *reason, *engine = rc_solver_choice(&shape, problem, &reason);
-    size_t count = effects(run, reason, NULL, e), n = g->nx * g->ny;
-    double each = expected(run, problem, n);
-    double node = strcmp(engine, "direct") == 0  ? 2.6 * (double)n
-                  : strcmp(engine, "mlms") == 0  ? 30
-                  : problem->boundary == RC_FREE ? 18
-                                                 : 8;
+    struct scene scene = {.run = run};
+    const char *engine = rc_solver_choice(&shape, problem, &scene.engine), *name, *state;
+    struct rc_expected e;
+    struct rc_err err;
+    double each;
     char where[256];
 
+    if (rc_solver_expect(&shape, problem, &e, &err) != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    each = e.convolutions + (run->stiffness ? STIFFNESS : 0);
     tool_where(&run->t, g, where, sizeof where);
     fprintf(run->t.out, "%s: %zu x %zu nodes, %zu %s, engine %s\n", where, g->nx, g->ny,
             run->steps->n, run->steps->n == 1 ? "load" : "loads", engine);
-    for (size_t k = 0; k < count; k++)
-        fprintf(run->t.out, "  %-15s %s\n", e[k].name, e[k].state);
+    for (size_t k = 0; effect_at(&scene, k, &name, &state); k++)
+        fprintf(run->t.out, "  %-15s %s\n", name, state);
     fprintf(run->t.out, "  about %.0f convolutions%s, %zu MiB, %.2g s with %zu threads\n", each,
             run->steps->n > 1 ? " for the first load, fewer for the next" : "",
-            (rc_solver_memory(&shape, problem) >> 20) + 1,
-            1e-9 * node * each * (double)n * (double)run->steps->n * 2 / (double)run->t.threads,
+            (e.memory >> 20) + 1, e.seconds * each / e.convolutions * (double)run->steps->n,
             run->t.threads);
 }

@@ -1,5 +1,5 @@
 /*
- * What the rooms of rc-solve share: its options, the run, and what is told about it.
+ * The face of this folder: rc-solve's options, its run, and what is told about it.
  */
 #ifndef RC_SOLVE_H
 #define RC_SOLVE_H
@@ -21,6 +21,7 @@ struct solve_frame_kind {
     const char *name, *unit;
 };
 extern const struct solve_frame_kind solve_frames[SOLVE_FRAMES];
+const char *solve_frame_word(size_t k); /* of --output */
 
 struct solve_args {
     struct physics physics;
@@ -57,8 +58,11 @@ solve_wanted(const struct solve_args *args, int frame)
     return args->output >> frame & 1;
 }
 
-/* Seconds on a clock that only goes forwards. */
-double solve_now(void);
+static inline double
+solve_now(void)
+{
+    return tool_now();
+}
 
 /* One JSON object for the case, where --report asks for it. */
 void solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *solver,

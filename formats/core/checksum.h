@@ -1,0 +1,27 @@
+/*
+ * MD5 (RFC 1321), the checksum of X3P files; the only place that knows libmd. It finds damage that
+ * happened by chance and is no defence against intent.
+ */
+#ifndef RC_CHECKSUM_H
+#define RC_CHECKSUM_H
+
+#include <stddef.h>
+
+#include "libcontact/grid.h"
+
+enum {
+    RC_MD5_TEXT = 33 /* 32 hexadecimal digits in lower case, and the NUL */
+};
+
+/* The checksum of n bytes. */
+void rc_md5_of(const void *bytes, size_t n, char text[RC_MD5_TEXT]);
+
+/* The same of bytes that come one after another. */
+struct rc_md5;
+
+struct rc_md5 *rc_md5_new(struct rc_err *err); /* NULL when memory is short */
+void rc_md5_add(struct rc_md5 *md5, const void *bytes, size_t n);
+void rc_md5_get(struct rc_md5 *md5, char text[RC_MD5_TEXT]); /* once, last */
+void rc_md5_free(struct rc_md5 *md5);                        /* NULL is allowed */
+
+#endif

@@ -1,0 +1,19 @@
+/* What the files that know libhdf5 share. */
+#ifndef RC_HDF_INTERNAL_H
+#define RC_HDF_INTERNAL_H
+
+#include <hdf5.h>
+
+#include "hdf.h"
+
+struct rc_hdf {
+    hid_t file;
+};
+
+enum {
+    RC_HDF_RANK = 8 /* dimensions at most */
+};
+
+bool rc_hdf_is_number(hid_t type);
+
+#endif

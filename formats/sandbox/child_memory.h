@@ -1,0 +1,14 @@
+/* Memory of a child process, read from its parent. */
+#ifndef RC_CHILD_MEMORY_H
+#define RC_CHILD_MEMORY_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <sys/types.h>
+
+/* Copies n bytes from the address `from` of a child, which must stand still meanwhile. False where
+ * the system does not allow it or the child has no such memory. */
+bool rc_child_memory_copy(pid_t child, uint64_t from, void *to, size_t n);
+
+#endif

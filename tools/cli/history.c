@@ -1,0 +1,108 @@
+/*
+ * A tool's line in a stream's history: its name, the version, and the options that change the
+ * result.
+ */
+#include "tool.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "libcontact/contact.h"
+#include "parts.h"
+
+struct line {
+    char text[8192];
+    size_t n;
+};
+
+static void
+add(struct line *line, const char *a, const char *b)
+{
+    size_t left = sizeof line->text - line->n;
+    int n = snprintf(line->text + line->n, left, "%s%s", a, b);
+
+    line->n += n < 0 ? 0 : (size_t)n < left ? (size_t)n : left - 1;
+}
+
+static void
+add_words(struct line *line, const struct opt *o, size_t set)
+{
+    const char *word, *before = " ";
+    char text[64];
+    size_t n;
+
+    for (size_t k = 0; (word = option_word(o, k, &n)) != NULL; k++)
+        if (set >> k & 1) {
+            snprintf(text, sizeof text, "%.*s", (int)n, word);
+            add(line, before, text);
+            before = ",";
+        }
+}
+
+static void
+add_numbers(struct line *line, const struct opt *o, const struct numbers *list)
+{
+    char text[RC_NUMBER_SIZE];
+
+    if (list->n == 0)
+        add(line, " ", o->word);
+    for (size_t k = 0; k < list->n; k++)
+        add(line, k == 0 ? " " : ",", rc_number_text(text, list->v[k]));
+}
+
+static void
+add_value(struct line *line, const struct opt *o, const void *at)
+{
+    char text[RC_NUMBER_SIZE];
+
+    if (o->type == OPT_NUMBER) {
+        add(line, " ", rc_number_text(text, *(const double *)at));
+    } else if (o->type == OPT_COUNT) {
+        snprintf(text, sizeof text, "%zu", *(const size_t *)at);
+        add(line, " ", text);
+    } else if (o->type == OPT_TEXT || o->type == OPT_CHOICE) {
+        add(line, " ", *(const char *const *)at);
+    } else if (o->type == OPT_WORDS) {
+        add_words(line, o, *(const size_t *)at);
+    } else if (o->type == OPT_NUMBERS) {
+        add_numbers(line, o, at);
+    }
+}
+
+static void
+add_steps(struct line *line, const struct steps *steps)
+{
+    char text[RC_NUMBER_SIZE];
+
+    for (size_t k = 0; k < steps->n; k++) {
+        add(line, " --", steps->step[k].opt->name);
+        if (steps->step[k].opt->arg != NULL)
+            add(line, " ", rc_number_text(text, steps->step[k].value));
+    }
+}
+
+const char *
+tool_history(const struct tool *t)
+{
+    static struct line line;
+    bool steps_done = false;
+
+    line.n = 0;
+    add(&line, t->info->name, " ");
+    add(&line, rc_version(), "");
+    for (size_t k = 0; k < t->opts; k++) {
+        const struct opt *o = &t->opt[k];
+        const void *at = (const char *)t->args + o->at;
+        if (!t->given[k] || !o->result)
+            continue;
+        if (o->type == OPT_STEP) { /* all of them in one list, in the order of the line */
+            if (!steps_done)
+                add_steps(&line, at);
+            steps_done = true;
+            continue;
+        }
+        add(&line, " --", o->name);
+        add_value(&line, o, at);
+    }
+    return line.text;
+}

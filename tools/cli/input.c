@@ -1,0 +1,156 @@
+/*
+ * Input: the frames of all streams, one after another, and what has to hold of them.
+ */
+#include "tool.h"
+
+#include <errno.h>
+#include <math.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "parts.h"
+
+static void
+open_next(struct tool *t)
+{
+    const char *name = t->operands == 0 ? "-" : t->operand[t->next_operand];
+    struct rc_err err;
+
+    t->next_operand++;
+    t->frame = 0;
+    if (strcmp(name, "-") == 0) {
+        t->in = stdin;
+        t->source = "standard input";
+    } else {
+        t->source = name;
+        if ((t->in = fopen(name, "rb")) == NULL)
+            tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", name, strerror(errno));
+    }
+    if (isatty(fileno(t->in)))
+        tool_die(t, EXIT_USAGE, "%s is a terminal: pipe a grid stream in or name a file",
+                 t->source);
+    setvbuf(t->in, NULL, _IOFBF, TOOL_BUFFER);
+    t->reader = rc_reader_new(t->in, t->last_case, t->memory, &err);
+    if (t->reader == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
+}
+
+static void
+close_input(struct tool *t)
+{
+    t->last_case = rc_reader_last_case(t->reader);
+    rc_reader_free(t->reader);
+    t->reader = NULL;
+    if (t->in != stdin)
+        fclose(t->in);
+}
+
+static void
+mind_convergence(struct tool *t, const struct rc_grid *g)
+{
+    const char *converged = rc_grid_get(g, "converged");
+    char where[256];
+
+    if (converged == NULL || strcmp(converged, "no") != 0)
+        return;
+    if (!t->warned_short)
+        tool_warn(t,
+                  "%s: this solution stopped short of its accuracy (converged=no): what follows "
+                  "from it does too",
+                  tool_where(t, g, where, sizeof where));
+    t->warned_short = true;
+    tool_fails_with(t, EXIT_SHORT);
+}
+
+struct rc_grid *
+tool_read(struct tool *t)
+{
+    struct rc_grid *g;
+    struct rc_err err;
+    size_t inputs = t->operands == 0 ? 1 : t->operands;
+
+    for (;;) {
+        if (t->reader == NULL) {
+            if (t->next_operand == inputs)
+                return NULL;
+            open_next(t);
+        }
+        switch (rc_reader_next(t->reader, &g, &err)) {
+        case RC_MORE:
+            t->frame++;
+            mind_convergence(t, g);
+            return g;
+        case RC_OK:
+            close_input(t);
+            break;
+        default:
+            tool_die(t, EXIT_IMPOSSIBLE, "%s, frame %zu: %s", t->source, t->frame + 1, err.text);
+        }
+    }
+}
+
+static void
+end_case(struct tool *t, const char *channel)
+{
+    if (t->now.number != 0 && t->now.found == 0)
+        tool_die(t, EXIT_IMPOSSIBLE, "%s, case %zu: no frame with the channel %s, only %s",
+                 t->now.source, t->now.number, channel, t->now.names);
+}
+
+static void
+begin_case(struct tool *t, size_t number)
+{
+    t->now.number = number;
+    t->now.source = t->source;
+    t->now.found = 0;
+    t->now.names[0] = '\0';
+}
+
+struct rc_grid *
+tool_channel(struct tool *t, const char *channel, bool pass)
+{
+    struct rc_grid *g;
+
+    while ((g = tool_read(t)) != NULL) {
+        size_t number = rc_grid_case(g), used;
+
+        if (number != t->now.number) {
+            end_case(t, channel);
+            begin_case(t, number);
+        }
+        used = strlen(t->now.names);
+        snprintf(t->now.names + used, sizeof t->now.names - used, "%s%s", used == 0 ? "" : " ",
+                 g->channel);
+        if (strcmp(g->channel, channel) == 0) {
+            if (t->now.found++ > 0)
+                tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                            "a second %s frame in one case: maps that do not belong together need "
+                            "case numbers of their own",
+                            channel);
+            return g;
+        }
+        if (pass)
+            tool_write(t, g);
+        rc_grid_free(g);
+    }
+    end_case(t, channel);
+    if (t->now.number == 0)
+        tool_die(t, EXIT_IMPOSSIBLE, "%s: the stream holds no frame", t->source);
+    return NULL;
+}
+
+void
+tool_demand_finite(struct tool *t, const struct rc_grid *g, const char *remedy)
+{
+    size_t count = 0, first = 0;
+
+    for (size_t k = g->nx * g->ny; k-- > 0;)
+        if (!isfinite(g->v[k])) {
+            count++;
+            first = k;
+        }
+    if (count > 0)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                    "%zu of %zu values are NaN or infinite, the first in column %zu of row %zu: %s",
+                    count, g->nx * g->ny, first % g->nx, first / g->nx, remedy);
+}

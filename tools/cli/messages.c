@@ -1,0 +1,124 @@
+/*
+ * What a tool says to people: messages, progress, and the last words when it cannot go on.
+ */
+#include "tool.h"
+
+#include <stdarg.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "parts.h"
+
+static bool progress_shown;
+
+static void
+say(struct tool *t, const char *text)
+{
+    tool_progress_end(t);
+    fprintf(stderr, "%s: %s\n", t->info->name, text);
+}
+
+void
+tool_warn(struct tool *t, const char *format, ...)
+{
+    char text[1024];
+    va_list ap;
+
+    if (t->quiet)
+        return;
+    va_start(ap, format);
+    vsnprintf(text, sizeof text, format, ap);
+    va_end(ap);
+    say(t, text);
+}
+
+void
+tool_note(struct tool *t, const char *format, ...)
+{
+    char text[1024];
+    va_list ap;
+
+    if (!t->verbose)
+        return;
+    va_start(ap, format);
+    vsnprintf(text, sizeof text, format, ap);
+    va_end(ap);
+    say(t, text);
+}
+
+void
+tool_progress(struct tool *t, const char *format, ...)
+{
+    static double last;
+    bool terminal = isatty(STDERR_FILENO);
+    va_list ap;
+
+    if (t->quiet || !(terminal || t->progress) || tool_now() - last < 0.1)
+        return;
+    last = tool_now();
+    fprintf(stderr, terminal ? "\r\033[K%s: " : "%s: ", t->info->name);
+    va_start(ap, format);
+    vfprintf(stderr, format, ap);
+    va_end(ap);
+    if (!terminal)
+        fputc('\n', stderr);
+    fflush(stderr);
+    progress_shown = terminal;
+}
+
+void
+tool_progress_end(struct tool *t)
+{
+    (void)t;
+    if (progress_shown)
+        fputs("\r\033[K", stderr);
+    progress_shown = false;
+}
+
+static _Noreturn void
+die(struct tool *t, int status, const char *text)
+{
+    say(t, text);
+    output_abandon(t, text);
+    exit(status);
+}
+
+void
+tool_die(struct tool *t, int status, const char *format, ...)
+{
+    char text[1024];
+    va_list ap;
+
+    va_start(ap, format);
+    vsnprintf(text, sizeof text, format, ap);
+    va_end(ap);
+    die(t, status, text);
+}
+
+const char *
+tool_where(const struct tool *t, const struct rc_grid *g, char *text, size_t size)
+{
+    const char *source = g == NULL ? NULL : rc_grid_get(g, "source");
+
+    if (source == NULL)
+        source = t->source == NULL ? "standard input" : t->source;
+    if (g == NULL)
+        snprintf(text, size, "%s", source);
+    else
+        snprintf(text, size, "%s, case %zu, frame %zu (%s)", source, rc_grid_case(g), t->frame,
+                 g->channel);
+    return text;
+}
+
+void
+tool_die_at(struct tool *t, const struct rc_grid *g, int status, const char *format, ...)
+{
+    char text[1024], where[256], whole[1400];
+    va_list ap;
+
+    va_start(ap, format);
+    vsnprintf(text, sizeof text, format, ap);
+    va_end(ap);
+    snprintf(whole, sizeof whole, "%s: %s", tool_where(t, g, where, sizeof where), text);
+    die(t, status, whole);
+}

@@ -1,0 +1,28 @@
+/*
+ * What the parts of a tool share: options.c, input.c, output.c, tool.c. Not for the tools
+ * themselves.
+ */
+#ifndef RC_PARTS_H
+#define RC_PARTS_H
+
+#include "tool.h"
+
+enum {
+    TOOL_BUFFER = 1 << 20 /* bytes read or written at a time */
+};
+
+/* Word k of an option that takes one of a list, or some: its start and length; NULL past the
+ * last. */
+const char *option_word(const struct opt *option, size_t k, size_t *length);
+/* Reads the command line into tool->args and the options of every tool. */
+void options_read(struct tool *tool, int argc, char **argv);
+
+/* SIGINT, SIGTERM and SIGHUP remove what is half-written and end the tool. */
+void output_mind_signals(void);
+void output_open(struct tool *tool);
+/* Ends the stream, closes, puts the file in place. Where a signal has come, ends by it. */
+void output_end(struct tool *tool);
+/* The tool cannot go on: says so in a stream that has begun, removes what is half-written. */
+void output_abandon(struct tool *tool, const char *why);
+
+#endif

@@ -1,0 +1,87 @@
+/*
+ * The one command line for a time or an accuracy.
+ */
+#include "cost.h"
+
+#include <math.h>
+#include <string.h>
+
+static bool
+better(const struct cost_case *c, const struct cost_trial *a, const struct cost_trial *b)
+{
+    return b == NULL || (isnan(c->budget) ? a->seconds < b->seconds
+                                          : a->error < b->error ||
+                                                (a->error == b->error && a->seconds < b->seconds));
+}
+
+/* A word as a shell reads it. */
+static void
+put_word(FILE *out, const char *word)
+{
+    const char *plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,:+@%=";
+
+    const char *before = word[0] == '-' && word[1] != '\0' ? "./" : ""; /* a name, not an option */
+
+    if (word[0] != '\0' && strspn(word, plain) == strlen(word)) {
+        fprintf(out, " %s%s", before, word);
+        return;
+    }
+    fprintf(out, " %s'", before);
+    for (; *word != '\0'; word++)
+        if (*word == '\'')
+            fputs("'\\''", out);
+        else
+            fputc(*word, out);
+    fputc('\'', out);
+}
+
+static void
+put_command(struct tool *t, const struct cost_trial *m, FILE *out)
+{
+    const char *physics = strstr(tool_history(t), " --"); /* name and version stand before */
+    char tol[RC_NUMBER_SIZE];
+
+    fprintf(out, "rc-solve%s --method %s --kernel %s --tol %s", physics, m->settings.method,
+            m->settings.kernel, rc_number_text(tol, m->settings.tol));
+    if (t->threads != rc_threads_available())
+        fprintf(out, " --threads %zu", t->threads);
+    for (size_t k = 0; k < t->operands; k++)
+        put_word(out, t->operand[k]);
+    fputc('\n', out);
+}
+
+/* Full grids only: no tool takes a map to a coarser one. By the triangle inequality the error is
+ * at most that from the reference and the reference's own. */
+void
+cost_command(const struct cost_case *c, FILE *out)
+{
+    const struct cost_trial *best = NULL, *nearest = NULL;
+    char name[128];
+
+    for (size_t k = 0; k < c->trials; k++) {
+        const struct cost_trial *m = &c->trial[k];
+
+        if (m->state != COST_DONE || m->settings.coarse > 1 || !m->contact.converged)
+            continue;
+        if ((isnan(c->budget) ? m->error + c->reference.contact.pressure_error <= c->error
+                              : m->seconds <= c->budget) &&
+            better(c, m, best))
+            best = m;
+        if (nearest == NULL ||
+            (isnan(c->budget) ? m->error < nearest->error : m->seconds < nearest->seconds))
+            nearest = m;
+    }
+    if (best != NULL) {
+        tool_note(c->tool, "%s: %.3g s, true error %.1e, estimate %.1e", cost_name(name, best),
+                  best->seconds, best->error, best->contact.pressure_error);
+        put_command(c->tool, best, out);
+    } else if (nearest != NULL) {
+        tool_die(c->tool, EXIT_IMPOSSIBLE,
+                 "nothing measured %s: the best was %s, %.3g s, error %.1e; raise %s",
+                 isnan(c->budget) ? "is so near" : "is so quick", cost_name(name, nearest),
+                 nearest->seconds, nearest->error,
+                 isnan(c->budget) ? "--error or --limit" : "--budget");
+    } else {
+        tool_die(c->tool, EXIT_IMPOSSIBLE, "nothing was measured: raise --limit");
+    }
+}

@@ -1,0 +1,179 @@
+/*
+ * One trial: a solution in a process of its own, and how far its pressure is from the reference.
+ */
+#include "cost.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* In memory shared with the process that solves. */
+struct job {
+    struct tool *tool;
+    const struct cost_trial *trial;
+    const double *h; /* of the map */
+    struct rc_shape map;
+    struct rc_problem problem;
+    size_t iterations; /* for progress */
+    double estimate;
+    bool done;
+    double seconds, convolutions;
+    size_t memory;
+    struct rc_contact contact;
+    struct rc_err err;
+    double p[]; /* on the map */
+};
+
+/* ---- the process that solves ---- */
+
+static double *
+new_map(const struct rc_shape *shape)
+{
+    return malloc(shape->nx * shape->ny * sizeof(double));
+}
+
+static void
+work(void *ctx)
+{
+    struct job *j = ctx;
+    const struct rc_shape *shape = &j->trial->shape;
+    bool coarse = j->trial->settings.coarse > 1;
+    double start = tool_now(), *h = NULL;
+    size_t before = tool_peak_memory();
+    struct rc_solver *solver;
+
+    if (coarse && (h = new_map(shape)) == NULL) {
+        rc_err_set(&j->err, "out of memory");
+        return;
+    }
+    if (coarse)
+        coarse_means(&j->map, j->h, shape, h);
+    if ((solver = rc_solver_new(shape, coarse ? h : j->h, &j->problem, &j->err)) == NULL)
+        return;
+    while (rc_solver_step(solver) == RC_MORE) {
+        j->iterations = rc_solver_iterations(solver);
+        j->estimate = rc_solver_error(solver);
+    }
+    j->seconds = tool_now() - start;
+    j->convolutions = rc_solver_convolutions(solver);
+    j->memory = tool_peak_memory() - before;
+    rc_solver_result(solver, NULL, NULL, &j->contact);
+    start = tool_now();
+    if (coarse) {
+        coarse_spread(shape, rc_solver_pressure(solver), &j->map, j->p);
+        j->seconds += tool_now() - start;
+    } else {
+        memcpy(j->p, rc_solver_pressure(solver), shape->nx * shape->ny * sizeof *j->p);
+    }
+    j->done = true;
+}
+
+/* ---- the process that waits ---- */
+
+static void
+watch(void *ctx)
+{
+    const struct job *j = ctx;
+    char name[128];
+
+    if (isnan(j->estimate) || j->iterations == 0)
+        tool_progress(j->tool, "%s, iteration %zu", cost_name(name, j->trial), j->iterations);
+    else
+        tool_progress(j->tool, "%s, iteration %zu, error %.1e", cost_name(name, j->trial),
+                      j->iterations, j->estimate);
+}
+
+static double
+distance(size_t n, const double *p, const double *truth)
+{
+    double sum = 0, all = 0;
+
+    for (size_t k = 0; k < n; k++) {
+        sum += fabs(p[k] - truth[k]);
+        all += truth[k];
+    }
+    return sum / all;
+}
+
+static void
+compare(const struct cost_case *c, struct cost_trial *trial, const double *p)
+{
+    const struct rc_contact *truth = &c->reference.contact, *got = &trial->contact;
+
+    trial->error = distance(c->shape.nx * c->shape.ny, p, c->pressure);
+    trial->area_error = got->contact_area / truth->contact_area - 1;
+    trial->peak_error = got->max_pressure / truth->max_pressure - 1;
+    trial->approach_error = got->approach / truth->approach - 1;
+}
+
+static void
+keep(struct cost_trial *trial, const struct job *j, const struct rc_shape *map)
+{
+    const struct rc_shape *own = &trial->shape;
+
+    if (trial->runs == 0 || j->seconds < trial->seconds)
+        trial->seconds = j->seconds;
+    trial->convolutions =
+        j->convolutions * (double)(own->nx * own->ny) / (double)(map->nx * map->ny);
+    trial->memory = j->memory > trial->memory ? j->memory : trial->memory;
+    trial->contact = j->contact;
+    trial->runs++;
+    trial->state = COST_DONE;
+}
+
+static void
+stop(struct cost_trial *trial, enum cost_end end, double allowed, const struct job *j)
+{
+    trial->state = COST_STOPPED;
+    if (end == COST_LATE)
+        snprintf(trial->why, sizeof trial->why,
+                 "stopped after %.2g s, all that was left of --limit", allowed);
+    else if (end == COST_INTERRUPTED)
+        snprintf(trial->why, sizeof trial->why, "interrupted");
+    else if (end == COST_DIED)
+        snprintf(trial->why, sizeof trial->why, "its process died: memory may be short");
+    else
+        snprintf(trial->why, sizeof trial->why, "%.250s", j->err.text);
+}
+
+static struct rc_problem
+problem_of(const struct cost_case *c, const struct cost_trial *trial)
+{
+    struct rc_problem problem = c->problem;
+
+    problem.method = trial->settings.method;
+    problem.engine = trial->settings.kernel;
+    problem.tol = trial->settings.tol;
+    problem.threads = c->tool->threads;
+    return problem;
+}
+
+bool
+cost_trial_run(struct cost_case *c, struct cost_trial *trial, double allowed, double *pressure)
+{
+    size_t n = c->shape.nx * c->shape.ny, bytes = sizeof(struct job) + n * sizeof(double);
+    struct job *j = cost_share(bytes);
+    enum cost_end end;
+
+    if (j == NULL)
+        tool_die_at(c->tool, c->heights, EXIT_IMPOSSIBLE, "out of memory");
+    j->tool = c->tool;
+    j->trial = trial;
+    j->h = c->heights->v;
+    j->map = c->shape;
+    j->problem = problem_of(c, trial);
+    j->estimate = NAN;
+    end = cost_run(work, j, allowed, watch);
+    tool_progress_end(c->tool);
+    if (end == COST_ENDED && j->done) {
+        keep(trial, j, &c->shape);
+        if (c->pressure != NULL)
+            compare(c, trial, j->p);
+        if (pressure != NULL)
+            memcpy(pressure, j->p, n * sizeof *pressure);
+    } else if (trial->runs == 0) {
+        stop(trial, end, allowed, j);
+    }
+    cost_unshare(j, bytes);
+    return end != COST_INTERRUPTED;
+}

@@ -1,0 +1,140 @@
+/*
+ * Which trials there are, in the order in which the table shows them: every method with every
+ * engine of libcontact's tables. The first of each, which "auto" takes, are tried in small steps of
+ * the tolerance and on coarser grids, the others in larger steps, to compare with.
+ */
+#include "cost.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Tolerances 1e-2, 1e-(2 + step), ..., 1e-to; step 0: there are none. */
+struct range {
+    int to, step;
+};
+
+enum {
+    FROM = 2
+};
+
+static struct range
+range_of(size_t method, size_t engine)
+{
+    const struct rc_method_info *m = rc_method_info(method);
+    const struct rc_engine_info *e = rc_engine_info(engine);
+
+    if (e->precise && !m->mixed)
+        return (struct range){0, 0}; /* the row before it is the same */
+    if (method == 0)
+        return (struct range){10, e->order > 1 ? 4 : engine == 0 ? 1 : 2};
+    if (e->order > 1)
+        return (struct range){0, 0};
+    return (struct range){engine == 0 ? 8 : 4, 2};
+}
+
+/* Coarser grids, by the nodes of the map along a side for one of theirs, and the last tolerance
+ * 1e-to: what such a grid leaves out hides more. */
+static const struct {
+    unsigned coarse;
+    int to;
+} coarser[] = {{8, 2}, {4, 2}, {2, 3}};
+
+enum {
+    COARSER = sizeof coarser / sizeof *coarser
+};
+
+struct list {
+    struct cost_trial *trial;
+    size_t n;
+};
+
+static enum rc_status
+add(struct list *list, size_t method, size_t engine, unsigned coarse, struct range range)
+{
+    const struct rc_method_info *m = rc_method_info(method);
+    const struct rc_engine_info *e = rc_engine_info(engine);
+
+    for (int digits = FROM; digits <= range.to; digits += range.step) {
+        struct cost_trial *more = realloc(list->trial, (list->n + 1) * sizeof *more);
+
+        if (more == NULL)
+            return RC_FAIL;
+        list->trial = more;
+        list->trial[list->n++] = (struct cost_trial){
+            .settings = {.method = m->name,
+                         .kernel = e->name,
+                         .arithmetic = m->mixed && e->mixed ? "mixed" : "double",
+                         .coarse = coarse,
+                         .tol = 1 / pow(10, digits)}};
+    }
+    return RC_OK;
+}
+
+static enum rc_status
+add_series(struct list *list, size_t method, size_t engine)
+{
+    struct range range = range_of(method, engine);
+    enum rc_status status = RC_OK;
+
+    for (size_t k = 0; k < COARSER && method == 0 && engine == 0 && status == RC_OK; k++)
+        status = add(list, method, engine, coarser[k].coarse, (struct range){coarser[k].to, 1});
+    if (range.step > 0 && status == RC_OK)
+        status = add(list, method, engine, 1, range);
+    return status;
+}
+
+struct cost_trial *
+cost_trials(size_t kernels, size_t methods, size_t *n)
+{
+    struct list list = {.trial = malloc(sizeof *list.trial)};
+    enum rc_status status = list.trial == NULL ? RC_FAIL : RC_OK;
+
+    for (size_t m = 0; rc_method_info(m) != NULL; m++)
+        for (size_t e = 0; rc_engine_info(e) != NULL && status == RC_OK; e++)
+            if ((methods >> m & 1) && (kernels >> e & 1))
+                status = add_series(&list, m, e);
+    if (status != RC_OK) {
+        free(list.trial);
+        list = (struct list){.trial = NULL};
+    }
+    *n = list.n;
+    return list.trial;
+}
+
+size_t
+cost_series(const struct cost_settings *settings)
+{
+    size_t place = 0;
+
+    for (size_t m = 0; rc_method_info(m) != NULL; m++)
+        for (size_t e = 0; rc_engine_info(e) != NULL; e++) {
+            if (strcmp(rc_method_info(m)->name, settings->method) == 0 &&
+                strcmp(rc_engine_info(e)->name, settings->kernel) == 0)
+                return place;
+            place += range_of(m, e).step > 0;
+        }
+    return place;
+}
+
+struct cost_settings
+cost_reference(void)
+{
+    const struct rc_engine_info *engine = rc_engine_info(0), *info;
+
+    for (size_t e = 0; !engine->precise && (info = rc_engine_info(e)) != NULL; e++)
+        engine = info->precise ? info : engine;
+    return (struct cost_settings){.method = rc_method_info(0)->name,
+                                  .kernel = engine->name,
+                                  .arithmetic = "double",
+                                  .coarse = 1,
+                                  .tol = 1e-12};
+}
+
+const char *
+cost_name(char text[128], const struct cost_trial *c)
+{
+    snprintf(text, 128, "%s, %s, tol %.0e, %zu x %zu", c->settings.method, c->settings.kernel,
+             c->settings.tol, c->shape.nx, c->shape.ny);
+    return text;
+}

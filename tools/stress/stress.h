@@ -1,0 +1,43 @@
+/*
+ * The face of this folder: what rc-stress says about a case, in its --report and its --dry-run.
+ */
+#ifndef RC_TOOL_STRESS_H
+#define RC_TOOL_STRESS_H
+
+#include <stdio.h>
+
+#include "libcontact/contact.h"
+#include "tools/cli/cli.h"
+
+/* The value of largest size of a channel, its sign kept, and where it is. */
+struct stress_peak {
+    double value, x, y, depth;
+    double *by_depth; /* at each depth; NULL: nobody asks */
+};
+
+struct stress_report {
+    const struct rc_grid *p;
+    const struct rc_stress_options *options;
+    const struct numbers *depths;
+    struct stress_peak peak[RC_STRESSES];
+    double began, depth_began, setup, slices; /* seconds */
+};
+
+/* All three are kept by the caller. `peaks`: the largest values are wanted. */
+enum rc_status stress_report_begin(struct stress_report *report, const struct rc_grid *p,
+                                   const struct rc_stress_options *options,
+                                   const struct numbers *depths, bool peaks, struct rc_err *err);
+/* The plan stands; a depth begins; depth k of n values a channel is there. */
+void stress_report_ready(struct stress_report *report);
+void stress_report_start(struct stress_report *report);
+void stress_report_depth(struct stress_report *report, size_t k, size_t n, double *const *s);
+/* One line of JSON. RC_FAIL when the file did not take it. */
+enum rc_status stress_report_write(struct stress_report *report, FILE *file,
+                                   const struct rc_stress *stress);
+void stress_report_free(struct stress_report *report);
+
+/* What would be done, in words; a part of the map is tried for the time. */
+void stress_report_plan(FILE *out, const struct rc_grid *p, const struct rc_stress_options *options,
+                        const struct numbers *depths);
+
+#endif
