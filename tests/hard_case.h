@@ -159,13 +159,13 @@ hard_violation(const struct hard_case *c, const struct rc_problem *problem, cons
         double g = u[k] - (h[k] - h[0]) - shift;
         spread_u += pow(u[k] - mean_u, 2);
         spread_h += pow(h[k] - h[0] - mean_h, 2);
-        worst = fmax(worst, p[k] <= 0 ? -g : p[k] >= problem->hardness ? g : fabs(g));
+        worst = larger(worst, p[k] <= 0 ? -g : p[k] >= problem->hardness ? g : fabs(g));
     }
-    scale = sqrt(fmax(spread_u, spread_h) / (double)n);
+    scale = sqrt(larger(spread_u, spread_h) / (double)n);
     if (spread_h == 0) /* all heights are one: beside what the mean pressure displaces */
         scale = hard_depth(c, problem);
     free(u);
-    return worst > 0 ? worst / scale : 0;
+    return worst == 0 ? 0 : worst / scale;
 }
 
 static inline bool
@@ -184,7 +184,7 @@ hard_holds(const struct hard_case *c, enum rc_boundary boundary)
             in_box = in_box && s.p[k] >= 0 && s.p[k] <= problem.hardness;
         }
         load = (double)(sum * c->shape.dx * c->shape.dy / problem.load - 1);
-        kkt = fmax(s.c.kkt_residual, hard_violation(c, &problem, h, s.p));
+        kkt = larger(s.c.kkt_residual, hard_violation(c, &problem, h, s.p));
         bound = hard_bound(c, &problem, h);
         off = c->truth == NULL ? 0 : c->truth(c, &problem, h, &s);
         holds = holds && in_box && fabs(load) <= summed && kkt <= bound && off <= 1;

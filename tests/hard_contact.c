@@ -161,8 +161,9 @@ scales(void **state)
             assert_int_equal(s.status, RC_OK);
             if (a == 0 && b == 0)
                 fraction = s.c.contact_fraction;
-            assert_true(s.c.contact_fraction > 0.01 && s.c.contact_fraction < 0.9);
-            assert_true(fabs(s.c.contact_fraction - fraction) < 1e-12);
+            assert_true(s.c.contact_fraction > 0.01 &&
+                        s.c.contact_fraction < 0.9); /* some, not all */
+            assert_true(s.c.contact_fraction == fraction);
             solved_free(&s);
         }
     free(h);
@@ -208,7 +209,7 @@ an_accuracy_out_of_reach(void **state)
     s = solve(shape, h, problem);
     assert_int_equal(s.status, RC_SHORT);
     assert_false(s.c.converged);
-    assert_true(s.c.pressure_error < 1e-13);
+    assert_true(s.c.pressure_error < rounding);
     assert_true(fabs(s.c.load / problem.load - 1) < summed);
     solved_free(&s);
 }

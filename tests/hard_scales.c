@@ -82,7 +82,7 @@ numbers_follow(void **state)
             }
             print_message("x %g, E* x %g: %.1e apart, %zu plastic\n", scales[k][0], scales[k][1],
                           apart / size, s.c.plastic_nodes);
-            assert_true(apart <= 2 * hard_tol * size);
+            assert_true(apart <= 2 * hard_tol * size); /* each to its tolerance */
             assert_true(s.c.plastic_nodes > 0);
             solved_free(&s);
             free(h);

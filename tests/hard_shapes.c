@@ -109,7 +109,8 @@ relative(double value, double truth, double allowed)
     return fabs(value / truth - 1) / allowed;
 }
 
-/* The only node that touches carries everything, and sinks by Love's displacement of its own cell. */
+/* The only node that touches carries everything, and sinks by Love's displacement of its own
+ * cell. */
 static double
 one_node(const struct hard_case *c, const struct rc_problem *problem, const double *h,
          const struct solved *s)
@@ -121,15 +122,14 @@ one_node(const struct hard_case *c, const struct rc_problem *problem, const doub
         top = h[k] > h[top] ? k : top;
     off = s->c.contact_nodes == 1 ? relative(s->p[top], p, rounding) : INFINITY;
     if (problem->boundary == RC_FREE)
-        off = fmax(off, relative(s->c.approach,
-                                 p * love_displacement(0, 0, c->shape.dx / 2, c->shape.dy / 2,
-                                                       problem->estar),
-                                 summed));
+        off = larger(off, relative(s->c.approach,
+                                   p * love_displacement(0, 0, c->shape.dx / 2, c->shape.dy / 2,
+                                                         problem->estar),
+                                   summed));
     return off;
 }
 
-/* Hertz. The errors of a solution that is constant in its cells are given by numerics elsewhere:
- * 2e-5 in approach, 5e-5 in the peak at 43 nodes of contact diameter; area to a line of nodes. */
+/* Hertz. */
 static double
 hertz_answer(const struct hard_case *c, const struct rc_problem *problem, const double *h,
              const struct solved *s)
@@ -138,9 +138,10 @@ hertz_answer(const struct hard_case *c, const struct rc_problem *problem, const 
     double nodes = exact.a / c->shape.dx;
 
     (void)h;
-    return fmax(relative(s->c.approach, exact.approach, 0.1 / (nodes * nodes)),
-                fmax(relative(s->c.max_pressure, exact.p0, 0.5 / (nodes * nodes)),
-                     relative(s->c.contact_area, exact_pi * exact.a * exact.a, 1 / nodes)));
+    return larger(
+        relative(s->c.approach, exact.approach, grid_approach / (nodes * nodes)),
+        larger(relative(s->c.max_pressure, exact.p0, grid_peak / (nodes * nodes)),
+               relative(s->c.contact_area, exact_pi * exact.a * exact.a, grid_area / nodes)));
 }
 
 static double
@@ -150,9 +151,9 @@ cone_answer(const struct hard_case *c, const struct rc_problem *problem, const d
     double a = cone_radius(problem->load, c->a, problem->estar), nodes = a / c->shape.dx;
 
     (void)h;
-    return fmax(
-        relative(s->c.approach, cone_approach(problem->load, c->a, problem->estar), 0.2 / nodes),
-        relative(s->c.contact_area, exact_pi * a * a, 1 / nodes));
+    return larger(relative(s->c.approach, cone_approach(problem->load, c->a, problem->estar),
+                           grid_cone / nodes),
+                  relative(s->c.contact_area, exact_pi * a * a, grid_area / nodes));
 }
 
 /* The disc is a staircase, the pressure at its edge singular: half a node of its radius. */
@@ -210,7 +211,7 @@ even_answer(const struct hard_case *c, const struct rc_problem *problem, const d
     if (problem->boundary == RC_FREE)
         return square_answer(c, problem, h, s);
     for (size_t k = 0; k < c->shape.nx * c->shape.ny; k++)
-        off = fmax(off, relative(s->p[k], c->mean * problem->estar, summed));
+        off = larger(off, relative(s->p[k], c->mean * problem->estar, summed));
     return off;
 }
 
@@ -224,7 +225,7 @@ halves_answer(const struct hard_case *c, const struct rc_problem *problem, const
     (void)h;
     for (size_t k = 0; k < c->shape.nx * c->shape.ny; k++)
         left += k % c->shape.nx < c->shape.nx / 2 ? s->p[k] : 0;
-    return relative(left * c->shape.dx * c->shape.dy, problem->load / 2, 1e-7);
+    return relative(left * c->shape.dx * c->shape.dy, problem->load / 2, 2 * hard_error);
 }
 
 /* ---- tables ---- */

@@ -55,18 +55,18 @@ check_laws(struct rc_shape shape, const double *h, const struct solved *s, doubl
         assert_true(s->p[k] >= 0 && s->p[k] <= hardness);
         sum += s->p[k];
         if (s->p[k] > 0 && s->p[k] < hardness)
-            worst = fmax(worst, fabs(s->gap[k]));
+            worst = larger(worst, fabs(s->gap[k]));
         else if (s->p[k] == 0)
-            worst = fmax(worst, -s->gap[k]);
+            worst = larger(worst, -s->gap[k]);
         else
-            worst = fmax(worst, s->gap[k]);
+            worst = larger(worst, s->gap[k]);
         /* gap = displacement - height - c, approach = c + max(height) */
         assert_true(fabs(s->gap[k] - (s->u[k] - h[k] - (s->c.approach - top))) <
-                    1e-12 * (fabs(top) + s->c.approach));
+                    summed * (fabs(top) + s->c.approach));
     }
     assert_true(fabs((double)sum * shape.dx * shape.dy / load - 1) < summed);
-    assert_true(fabs(worst - s->c.kkt_residual * fmax(deviation(n, h), deviation(n, s->u))) <=
-                1e-9 * worst);
+    assert_true(fabs(worst - s->c.kkt_residual * larger(deviation(n, h), deviation(n, s->u))) <=
+                summed * worst);
 }
 
 static void
@@ -89,7 +89,8 @@ the_papers_rough_sphere(void **state)
     free(h);
 }
 
-/* Against the same problem solved to 1e-10. */
+/* Against the same problem solved to 1e-10; its own error is granted a thousandth of what is
+ * judged. */
 static void
 the_estimate_does_not_flatter(void **state)
 {
@@ -104,7 +105,7 @@ the_estimate_does_not_flatter(void **state)
         struct solved exact = solve(shape, h, problem);
 
         assert_int_equal(exact.status, RC_OK);
-        assert_true(exact.c.kkt_residual < 1e-9);
+        assert_true(exact.c.kkt_residual < 10 * problem.tol); /* gaps are not pressures */
         check_laws(shape, h, &exact, load, hardnesses[k]);
         for (double tol = 1e-2; tol > 1e-8; tol /= 10) {
             struct solved s;
@@ -117,10 +118,10 @@ the_estimate_does_not_flatter(void **state)
                           s.c.pressure_error, error);
             assert_true(error <= tol);
             assert_true(s.c.pressure_error >= error * (1 - 1e-3));
-            /* while the sets are still far off it may be larger */
-            assert_true(s.c.pressure_error <= error * (s.c.pressure_error > 1e-3 ? 4
-                                                       : isinf(hardnesses[k])    ? 1.5
-                                                                                 : 2.5));
+            assert_true(s.c.pressure_error <= error * (s.c.pressure_error > estimate_small
+                                                           ? estimate_early
+                                                       : isinf(hardnesses[k]) ? estimate_elastic
+                                                                              : estimate_plastic));
             solved_free(&s);
         }
         solved_free(&exact);
@@ -148,8 +149,10 @@ mirror_and_scale(void **state)
     b = solve(shape, mirrored, problem);
     for (size_t k = 0; k < n; k++)
         mirrored[k] = b.p[n - 1 - k] / 2;
-    assert_true(distance(n, mirrored, a.p) < 1e-8);
-    assert_true(fabs(a.c.approach / b.c.approach - 1) < 1e-8);
+    assert_int_equal(a.status, RC_OK);
+    assert_int_equal(b.status, RC_OK);
+    assert_true(distance(n, mirrored, a.p) < 2 * problem.tol); /* each to that */
+    assert_true(fabs(a.c.approach / b.c.approach - 1) < 2 * problem.tol);
     solved_free(&a);
     solved_free(&b);
     free(h);
@@ -173,7 +176,8 @@ engines_agree(void **state)
     mlms = solve(shape, h, problem);
     assert_int_equal(mlms.status, RC_OK);
     print_message("MLMS differs from FFT by %.1e\n", distance(shape.nx * shape.ny, mlms.p, fft.p));
-    assert_true(distance(shape.nx * shape.ny, mlms.p, fft.p) < 2e-5); /* both to 1e-5 */
+    assert_int_equal(fft.status, RC_OK);
+    assert_true(distance(shape.nx * shape.ny, mlms.p, fft.p) < 2 * problem.tol); /* each to that */
     solved_free(&fft);
     solved_free(&mlms);
     free(h);
@@ -190,6 +194,7 @@ monotone(void **state)
     for (double load = 0.01; load < 20; load *= 3) {
         struct rc_problem problem = {.estar = estar, .load = load, .tol = 1e-6};
         struct solved s = solve(shape, h, problem);
+        assert_int_equal(s.status, RC_OK);
         assert_true(s.c.contact_area >= area && s.c.approach > approach);
         area = s.c.contact_area;
         approach = s.c.approach;
@@ -201,7 +206,7 @@ monotone(void **state)
             .estar = estar, .load = 240.0 / 64, .hardness = hardness, .tol = 1e-6};
         struct solved s = solve(shape, h, problem);
         assert_int_equal(s.status, RC_OK);
-        assert_true(s.c.contact_area >= area && s.c.approach >= approach * (1 - 1e-5));
+        assert_true(s.c.contact_area >= area && s.c.approach >= approach * (1 - 2 * problem.tol));
         area = s.c.contact_area;
         approach = s.c.approach;
         solved_free(&s);

@@ -1,5 +1,5 @@
 /* The error estimate is never below the true error, at no iteration, and not far above it: once
- * it is under 1e-3 at most 1.5 times, with an active hardness 2.5 times. */
+ * it is under 1e-3 at most 1.5 times, with an active hardness 2.5 times, before some 4 times. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -83,7 +83,7 @@ never_below_never_far_above(void **state)
         size_t judged = 0;
 
         assert_int_equal(exact.status, RC_OK);
-        assert_true(exact.c.kkt_residual < 1e-10);
+        assert_true(exact.c.kkt_residual < 100 * problem.tol); /* gaps are not pressures */
         problem.tol = floor_;
         solver = rc_solver_new(&s, h, &problem, &err);
         assert_non_null(solver);
@@ -94,11 +94,12 @@ never_below_never_far_above(void **state)
             error = distance(n, old, exact.p);
             estimate = rc_solver_error(solver);
             ratio = estimate / error;
+            assert_true(error >= 0);
             if (isnan(estimate) || error < floor_)
                 continue;
             judged++;
-            least = fmin(least, ratio);
-            if (estimate < 1e-3)
+            least = fmin(least, ratio); /* a number: neither estimate nor error is NaN, or 0 */
+            if (estimate < estimate_small)
                 most = fmax(most, ratio);
             else
                 early = fmax(early, ratio);
@@ -106,8 +107,9 @@ never_below_never_far_above(void **state)
         print_message("%s contact %.3f, plastic %.3f, %zu iterations: %.3f to %.2f, before %.2f\n",
                       row->boundary == RC_FREE ? "free    " : "periodic", exact.c.contact_fraction,
                       (double)exact.c.plastic_nodes / (double)n, judged, least, most, early);
-        bound = yields ? 2.5 : 1.5;
-        if (status != RC_OK || judged < 2 || least < 1 || most > bound) {
+        bound = yields ? estimate_plastic : estimate_elastic;
+        if (status != RC_OK || judged < 2 || most == 0 || least < 1 || most > bound ||
+            early > 1.1 * estimate_early) { /* 4.2 where nearly every node yields */
             print_error("out of bounds\n");
             wrong++;
         }

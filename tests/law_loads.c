@@ -108,7 +108,8 @@ loads_are_independent(void **state)
                 (void)finish(s);
                 t = start(h, alone);
                 (void)finish(t);
-                assert_true(apart(rc_solver_pressure(s), rc_solver_pressure(t)) < 4e-7);
+                assert_true(apart(rc_solver_pressure(s), rc_solver_pressure(t)) <
+                            2 * problem.tol); /* each to that */
                 rc_solver_free(t);
             }
             rc_solver_free(s);
@@ -116,7 +117,8 @@ loads_are_independent(void **state)
         }
 }
 
-/* The load that an approach asks for is the one that makes it. */
+/* The load that an approach asks for is the one that makes it: both solved to their tolerance, and
+ * the approach between them to a tenth of it, with a load that grows as less than its square. */
 static void
 approach_is_inverted(void **state)
 {
@@ -132,20 +134,20 @@ approach_is_inverted(void **state)
         (void)finish(s);
         assert_int_equal(rc_solver_set_load(s, 0, first.approach, &err), RC_OK);
         second = finish(s);
-        assert_true(fabs(second.load / first.load - 1) < 2e-6);
+        assert_true(fabs(second.load / first.load - 1) < 4 * problem.tol);
         rc_solver_free(s);
         problem.approach = first.approach;
         problem.load = 0;
         s = start(h, problem);
         second = finish(s);
-        assert_true(fabs(second.load / first.load - 1) < 2e-6);
+        assert_true(fabs(second.load / first.load - 1) < 4 * problem.tol);
         rc_solver_free(s);
         free(h);
     }
 }
 
 /* A periodic surface comes no nearer than complete contact; a load beyond what the hardness
- * carries. */
+ * carries. The refusals hold what was asked for. */
 static void
 impossible_is_refused(void **state)
 {
@@ -157,12 +159,13 @@ impossible_is_refused(void **state)
     (void)state;
     problem.approach = 1;
     assert_null(rc_solver_new(&shape, h, &problem, &err));
-    assert_non_null(strstr(err.text, "complete"));
+    assert_non_null(strstr(err.text, "approach 1 m: contact is complete at "));
     problem.approach = 0;
     problem.hardness = 1e9;
     s = start(h, problem);
     (void)finish(s);
     assert_int_equal(rc_solver_set_load(s, 1e9, 0, &err), RC_FAIL);
+    assert_non_null(strstr(err.text, "load 1e+09 N is above hardness times area"));
     assert_non_null(strstr(err.text, "every node yields"));
     rc_solver_free(s);
     free(h);
@@ -193,8 +196,8 @@ stiffness_is_the_slope(void **state)
             s = start(h, problem);
             (void)finish(s);
             assert_int_equal(rc_solver_stiffness(s, &k, &err), RC_OK);
-            /* the radius is right to a part of a node */
-            assert_true(fabs(k / (2 * estar * radius) - 1) < 0.01);
+            /* the radius, of 16 nodes, is right to a part of one */
+            assert_true(fabs(k / (2 * estar * radius) - 1) < coarse_grid);
             rc_solver_free(s);
         }
         free(h);
@@ -206,10 +209,12 @@ stiffness_is_the_slope(void **state)
 static void
 yielded_shape_holds(void **state)
 {
+    static const double flattened = 1e-9; /* m: less would be no yield to speak of */
+
     (void)state;
     for (int boundary = RC_FREE; boundary <= RC_PERIODIC; boundary++) {
         double *h = heights((enum rc_boundary)boundary);
-        double *flat = malloc(shape.nx * shape.ny * sizeof *flat), most = 0;
+        double *flat = malloc(shape.nx * shape.ny * sizeof *flat), most = 0, top = 0;
         struct rc_problem problem = problem_on((enum rc_boundary)boundary);
         struct rc_solver *s, *t;
         struct rc_contact first, second;
@@ -219,26 +224,31 @@ yielded_shape_holds(void **state)
         s = start(h, problem);
         first = finish(s);
         assert_true(first.plastic_nodes > 10);
+        for (size_t k = 0; k < shape.nx * shape.ny; k++)
+            top = larger(top, fabs(h[k]));
         assert_int_equal(rc_solver_plastic(s, flat, &err), RC_OK);
         for (size_t k = 0; k < shape.nx * shape.ny; k++) {
-            assert_true(flat[k] <= h[k] + 1e-20); /* a datum was taken off and put on again */
-            most = fmax(most, h[k] - flat[k]);
+            /* a datum was taken off and put on again */
+            assert_true(flat[k] <= h[k] + of_sum * top);
+            most = larger(most, h[k] - flat[k]);
         }
-        assert_true(most > 1e-9);
+        assert_true(most > flattened);
         t = start(flat, problem);
         second = finish(t);
-        assert_true(apart(rc_solver_pressure(t), rc_solver_pressure(s)) < 1e-6);
+        /* both to the tolerance, and the shape as well as the first */
+        assert_true(apart(rc_solver_pressure(t), rc_solver_pressure(s)) < 4 * problem.tol);
+        /* of a thousand nodes one may change sides */
         assert_true(fabs((double)second.contact_nodes / (double)first.contact_nodes - 1) < 1e-3);
         memcpy(h, flat, shape.nx * shape.ny * sizeof *h);
         assert_int_equal(rc_solver_plastic(t, flat, &err), RC_OK);
         for (size_t k = 0; k < shape.nx * shape.ny; k++)
-            assert_true(h[k] - flat[k] < 1e-4 * most); /* what the tolerance leaves */
+            assert_true(h[k] - flat[k] < 10 * problem.tol * most);
         assert_int_equal(rc_solver_set_load(t, 1.5 * problem.load, 0, &err), RC_OK);
         (void)finish(t);
         assert_int_equal(rc_solver_plastic(t, flat, &err), RC_OK);
         for (size_t k = 0; k < shape.nx * shape.ny; k++)
-            most = k == 0 ? h[k] - flat[k] : fmax(most, h[k] - flat[k]);
-        assert_true(most > 1e-9);
+            most = k == 0 ? h[k] - flat[k] : larger(most, h[k] - flat[k]);
+        assert_true(most > flattened);
         rc_solver_free(s);
         rc_solver_free(t);
         free(h);
@@ -270,8 +280,10 @@ discretization_is_bounded(void **state)
     assert_true(fabs(c.approach / near - 1) <= c.discretization.approach);
     assert_true(fabs(c.contact_area / (acos(-1) * radius * radius) - 1) <=
                 c.discretization.contact_area);
-    assert_true(c.discretization.max_pressure < 0.02 && c.discretization.approach < 0.02 &&
-                c.discretization.contact_area < 0.2);
+    /* and of use: some times what they bound */
+    assert_true(c.discretization.max_pressure < 2 * coarse_grid &&
+                c.discretization.approach < 2 * coarse_grid &&
+                c.discretization.contact_area < 20 * coarse_grid);
     rc_solver_free(s);
     free(h);
 }
@@ -309,7 +321,7 @@ only_what_is_called_for(void **state)
     assert_int_equal(rc_solver_stiffness(s, &k, &err), RC_OK);
     print_message("%s: stiffness               %6.1f more\n", contact_method,
                   rc_solver_convolutions(s) - with);
-    assert_true(rc_solver_convolutions(s) > with && rc_solver_convolutions(s) < with + 25);
+    assert_true(rc_solver_convolutions(s) > with && rc_solver_convolutions(s) <= with + 20);
     rc_solver_free(s);
     problem.hardness = 0.5 * c.max_pressure;
     s = start(h, problem);
@@ -324,7 +336,7 @@ only_what_is_called_for(void **state)
         (void)finish(s);
         print_message("%s: discretization          %6.1f\n", contact_method,
                       rc_solver_convolutions(s));
-        assert_true(rc_solver_convolutions(s) < plain + 10);
+        assert_true(rc_solver_convolutions(s) < plain + 10); /* the coarser grids, better solved */
         rc_solver_free(s);
     }
     free(h);

@@ -49,11 +49,12 @@ loves_rectangle(void **state)
             for (size_t k = 0; k < n; k++) {
                 double truth = 1e6 * love_displacement(node_x(shape, k) - x0, node_y(shape, k) - y0,
                                                        a, b, estar);
-                worst = fmax(worst, fabs(u[k] / truth - 1));
+                worst = larger(worst, fabs(u[k] / truth - 1));
             }
             print_message("%s, tol %g: %.1e, own bound %.1e\n", rc_conv_engine(c), tols[t], worst,
                           rc_conv_error(c));
-            assert_true(worst <= (tols[t] == 0 ? 5e-14 : tols[t] / 10));
+            /* what is asked for is relative to the largest sum: seen are 1e-6 for 1e-4 */
+            assert_true(worst <= (tols[t] == 0 ? of_sum : tols[t] / 10));
             assert_true(worst <= 30 * rc_conv_error(c)); /* a bound on the sum, not on each u */
             rc_conv_free(c);
         }
@@ -69,6 +70,7 @@ periodic_waves(void **state)
                                              {97, 1, 2e-6, 1e-6},    {1, 60, 1e-6, 2e-6},
                                              {30, 256, 1e-6, 1e-8},  {8, 4, 1, 1}};
     static const int waves[][2] = {{1, 0}, {0, 1}, {2, 3}, {3, -5}, {0, 0}};
+    size_t fitting = 0;
 
     (void)state;
     for (size_t s = 0; s < sizeof shapes / sizeof *shapes; s++)
@@ -77,7 +79,7 @@ periodic_waves(void **state)
             size_t n = shape.nx * shape.ny;
             double qx = 2 * exact_pi * waves[w][0] / ((double)shape.nx * shape.dx);
             double qy = 2 * exact_pi * waves[w][1] / ((double)shape.ny * shape.dy);
-            double q = hypot(qx, qy), factor = q == 0 ? 0 : 2 / (estar * q), worst = 0;
+            double q = hypot(qx, qy), factor = q == 0 ? 0 : 2 / (estar * q), worst = 0, largest;
             double *p = malloc(n * sizeof *p), *u = malloc(n * sizeof *u);
             struct rc_conv *c = conv(shape, (struct rc_conv_options){.boundary = RC_PERIODIC});
             bool fits =
@@ -87,15 +89,18 @@ periodic_waves(void **state)
                 p[k] = cos(qx * node_x(shape, k) + qy * node_y(shape, k) + 0.3);
             rc_conv_apply(c, p, u);
             for (size_t k = 0; k < n; k++)
-                worst = fmax(worst, fabs(u[k] - factor * p[k]));
-            if (fits && worst > 1e-14 * fmax(factor, shape.dx / estar))
+                worst = larger(worst, fabs(u[k] - factor * p[k]));
+            largest = of_sum * fmax(factor, shape.dx / estar);
+            if (fits && !(worst <= largest))
                 print_error("%zu x %zu, wave %d %d: %g of %g\n", shape.nx, shape.ny, waves[w][0],
                             waves[w][1], worst, factor);
-            assert_true(!fits || worst <= 1e-14 * fmax(factor, shape.dx / estar));
+            assert_true(!fits || worst <= largest);
+            fitting += fits;
             rc_conv_free(c);
             free(p);
             free(u);
         }
+    assert_true(fitting == 5 + 5 + 2 + 2 + 5 + 3);
 }
 
 static void
@@ -107,12 +112,14 @@ what_an_engine_cannot_do_is_said(void **state)
 
     (void)state;
     assert_null(rc_conv_new(&shape, estar, &options, &err));
-    assert_non_null(strstr(err.text, "periodic"));
+    assert_non_null(strstr(err.text, "on a periodic boundary"));
     options = (struct rc_conv_options){.engine = "guess"};
     assert_null(rc_conv_new(&shape, estar, &options, &err));
+    assert_non_null(strstr(err.text, "there is no engine 'guess'"));
     shape.dx = -1;
     options = (struct rc_conv_options){.engine = "fft"};
     assert_null(rc_conv_new(&shape, estar, &options, &err));
+    assert_non_null(strstr(err.text, "dx=-1 dy=1 m: both must be positive"));
 }
 
 /* "auto": small grids directly, sparse maps where accuracy allows and maps that do not fit by MLMS,

@@ -48,13 +48,13 @@ errors_at(size_t m)
 
     e.radius = fabs(sqrt(s.c.contact_area / exact_pi) / exact.a - 1);
     e.peak = fabs(s.c.max_pressure / exact.p0 - 1);
-    e.approach = fabs(s.c.approach / exact.approach - 1);
+    e.approach = fabs((s.c.approach + below_apex(shape, radius)) / exact.approach - 1);
     for (size_t k = 0; k < m * m; k++) {
         double r = node_r(shape, k), p = hertz_pressure(exact, r);
         above += fabs(s.p[k] - p);
         below += p;
         e.displacement =
-            fmax(e.displacement, fabs(s.u[k] / hertz_displacement(exact, estar, r) - 1));
+            larger(e.displacement, fabs(s.u[k] / hertz_displacement(exact, estar, r) - 1));
     }
     e.pressure = above / below;
     solved_free(&s);
@@ -69,21 +69,24 @@ radius_pressure_and_approach(void **state)
     struct errors e[3];
 
     (void)state;
-    for (int k = 0; k < 3; k++)
-        e[k] = errors_at((size_t)64 << k);
-    assert_true(e[2].radius < 0.01 && e[2].peak < 0.01 && e[2].approach < 0.01);
-    /* second order in peak and approach; the radius moves by whole nodes: under 1/M, the paper's
-     * bound, and erratic below it */
-    for (int k = 0; k < 3; k++)
-        assert_true(e[k].radius < 1.0 / (double)(64 << k));
+    for (int k = 0; k < 3; k++) {
+        double m = (double)(64 << k), nodes = m / 3;
+        e[k] = errors_at((size_t)m);
+        /* the radius moves by whole nodes: under 1/M, the paper's bound, and erratic below it */
+        assert_true(e[k].radius < 1 / m);
+        assert_true(e[k].peak < grid_peak / (nodes * nodes));
+        assert_true(e[k].approach < grid_approach / (nodes * nodes));
+    }
     assert_true(e[2].radius < e[1].radius);
+    /* second order in peak and approach */
     for (int k = 1; k < 3; k++) {
         assert_true(e[k].peak < e[k - 1].peak / 2);
         assert_true(e[k].approach < e[k - 1].approach / 2);
         assert_true(e[k].pressure < e[k - 1].pressure / 2);
         assert_true(e[k].displacement < e[k - 1].displacement);
     }
-    assert_true(e[2].peak < 5e-5 && e[2].approach < 5e-5);
+    /* what numerics find elsewhere with a quarter of the nodes */
+    assert_true(e[2].peak < 5e-5 && e[2].approach < 2e-5);
 }
 
 /* Largest Mises stress: 0.620041 p0 at a depth of 0.480864 a for nu = 0.3 (the maximum of
@@ -117,16 +120,18 @@ stress_under_the_contact(void **state)
                 largest = mises[k];
                 place = z;
             }
-        /* next to the axis, half a diagonal of a cell away from it */
+        /* Next to the axis, half a diagonal of a cell away from it: r^2 / a^2 is 7e-5. The cells' own
+         * error dies away over the first depths. */
         if (d > 2) {
+            const double off = 1e-3 * exact.p0;
             size_t middle = (M / 2) * M + M / 2;
-            assert_true(fabs(s[RC_SZZ][middle] - hertz_axis_szz(exact, z)) < 1e-3 * exact.p0);
-            assert_true(fabs(s[RC_SXX][middle] - hertz_axis_sxx(exact, nu, z)) < 1e-3 * exact.p0);
-            assert_true(fabs(s[RC_SYY][middle] - hertz_axis_sxx(exact, nu, z)) < 1e-3 * exact.p0);
+            assert_true(fabs(s[RC_SZZ][middle] - hertz_axis_szz(exact, z)) < off);
+            assert_true(fabs(s[RC_SXX][middle] - hertz_axis_sxx(exact, nu, z)) < off);
+            assert_true(fabs(s[RC_SYY][middle] - hertz_axis_sxx(exact, nu, z)) < off);
         }
     }
     print_message("largest Mises stress %.6f p0 at %.4f a\n", largest / exact.p0, place / exact.a);
-    assert_true(fabs(largest / (0.620041 * exact.p0) - 1) < 0.01);
+    assert_true(fabs(largest / (0.620041 * exact.p0) - 1) < coarse_grid);
     assert_true(fabs(place - 0.480864 * exact.a) <= step);
     for (int c = 0; c <= RC_MISES; c++)
         free(s[c]);
@@ -163,9 +168,10 @@ units_and_datum(void **state)
             approach = s.c.approach;
             peak = s.c.max_pressure;
         }
-        assert_true(fabs(s.c.approach / (approach * L) - 1) < 1e-8);
-        assert_true(fabs(s.c.max_pressure * L * L / peak - 1) < 1e-8);
-        assert_true(fabs(s.c.approach / (exact.approach * L) - 1) < 2e-3); /* the grid's error */
+        assert_true(fabs(s.c.approach / (approach * L) - 1) < 2 * problem.tol);
+        assert_true(fabs(s.c.max_pressure * L * L / peak - 1) < 2 * problem.tol);
+        assert_true(fabs((s.c.approach + below_apex(shape, radius * L)) / (exact.approach * L) -
+                         1) < grid_approach / pow(M / 2.9, 2));
         assert_true(fabs(s.c.load / load - 1) < rounding);
         solved_free(&s);
     }

@@ -117,10 +117,11 @@ displacement_is_the_integral(void **state)
             double truth = quadrature(w);
             double value =
                 coefficient(&rc_kernel_boussinesq, 0, 0.3, 0, dx, dy, at[k][0], at[k][1]);
-            if (fabs(value - truth) > 2e-13 * truth)
+            /* the quadrature's own error is a part of it */
+            if (!(fabs(value - truth) <= 2 * rounding * truth))
                 print_error("sides %g %g at %zu %zu: %.17g, quadrature %.17g\n", dx, dy, at[k][0],
                             at[k][1], value, truth);
-            assert_true(fabs(value - truth) <= 2e-13 * truth);
+            assert_true(fabs(value - truth) <= 2 * rounding * truth);
         }
 }
 
@@ -163,11 +164,11 @@ stresses_are_the_integrals(void **state)
                     double truth = quadrature(w);
                     double value =
                         coefficient(&rc_kernel_stress, c, w.nu, w.z, dx, dy, at[k][0], at[k][1]);
-                    if (fabs(value - truth) > 1e-14)
+                    if (!(fabs(value - truth) <= of_sum))
                         print_error("%s nu %g z %g at %zu %zu: %.17g, quadrature %.17g\n",
                                     rc_component_names[c], w.nu, w.z, at[k][0], at[k][1], value,
                                     truth);
-                    assert_true(fabs(value - truth) <= 1e-14); /* of the unit pressure */
+                    assert_true(fabs(value - truth) <= of_sum); /* of the unit pressure */
                 }
 }
 
@@ -180,12 +181,14 @@ stresses_under_a_square(void **state)
                                       {1, -0.7008859, -0.0828904},
                                       {2, -0.3361076, 0.0014088},
                                       {5, -0.0716135, 0.0039679}};
+    const double digits =
+        6e-8; /* seven decimals: half a unit of the last, and what else is in it */
 
     (void)state;
     for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
         double szz = coefficient(&rc_kernel_stress, RC_SZZ, 0.3, table[k][0], 2, 2, 0, 0);
         double sxx = coefficient(&rc_kernel_stress, RC_SXX, 0.3, table[k][0], 2, 2, 0, 0);
-        assert_true(fabs(szz - table[k][1]) < 6e-8 && fabs(sxx - table[k][2]) < 6e-8);
+        assert_true(fabs(szz - table[k][1]) < digits && fabs(sxx - table[k][2]) < digits);
     }
 }
 
@@ -212,6 +215,7 @@ a_coarser_lattice_is_a_sample(void **state)
     struct rc_medium medium = {.estar = 1, .nu = 0.3, .depth = 0.8};
     struct rc_lattice fine = {1.1, 0.9, 1, 1}, coarse = {1.1, 0.9, 2, 3};
     double all[13][13], some[4][5];
+    const double last_bits = 1e-15; /* of a unit pressure, by another rule of Gauss */
 
     (void)state;
     for (size_t c = 0; c <= RC_COMPONENTS; c++) {
@@ -221,7 +225,7 @@ a_coarser_lattice_is_a_sample(void **state)
         k->rows(&medium, component, &coarse, 5, 0, 4, some[0]);
         for (size_t j = 0; j < 4; j++)
             for (size_t i = 0; i < 5; i++)
-                assert_true(fabs(some[j][i] - all[3 * j][2 * i]) <= 1e-15);
+                assert_true(fabs(some[j][i] - all[3 * j][2 * i]) <= last_bits);
     }
 }
 

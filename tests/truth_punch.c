@@ -15,7 +15,7 @@ cone(void **state)
     enum {
         M = 201
     };
-    double slope = 0.013, load = 2.91, a = cone_radius(load, slope, estar);
+    double slope = 0.013, load = 2.91, a = cone_radius(load, slope, estar), nodes = M / 2.5;
     struct rc_shape shape = {M, M, 2.5 * a / M, 2.5 * a / M};
     struct rc_problem problem = {.estar = estar, .load = load, .tol = 1e-6};
     double *h = malloc(M * M * sizeof *h);
@@ -29,8 +29,8 @@ cone(void **state)
     print_message("cone: radius %.2e, approach %.2e off\n",
                   sqrt(s.c.contact_area / exact_pi) / a - 1,
                   s.c.approach / cone_approach(load, slope, estar) - 1);
-    assert_true(fabs(sqrt(s.c.contact_area / exact_pi) / a - 1) < 0.01);
-    assert_true(fabs(s.c.approach / cone_approach(load, slope, estar) - 1) < 0.005);
+    assert_true(fabs(s.c.contact_area / (exact_pi * a * a) - 1) < grid_area / nodes);
+    assert_true(fabs(s.c.approach / cone_approach(load, slope, estar) - 1) < grid_cone / nodes);
     solved_free(&s);
     free(h);
 }
@@ -57,7 +57,8 @@ plastic_cone(void **state)
     assert_true(s.c.max_pressure <= hardness);
     assert_true(fabs(s.c.load / load - 1) < summed);
     assert_true(s.c.plastic_area * hardness <= load);
-    assert_true(s.c.plastic_area * hardness > 0.9 * load);
+    assert_true(s.c.plastic_area * hardness >
+                0.9 * load); /* the rim: a node of 54, and what bends */
     assert_true(s.c.contact_area * hardness >= load);
     solved_free(&s);
     free(h);
@@ -90,7 +91,8 @@ flat_punch(void **state)
     double coarse = punch_error(50), fine = punch_error(199);
 
     (void)state;
-    assert_true(fine < 0.01 && fine < coarse);
+    assert_true(coarse < 0.5 * 2.2 / 50 && fine < 0.5 * 2.2 / 199); /* half a node of the radius */
+    assert_true(fine < coarse);
 }
 
 /* Two equal peaks far apart carry half the load each, and each sinks a little more than alone: by
@@ -122,9 +124,10 @@ two_peaks(void **state)
             left += s.p[k] * shape.dx * shape.dy;
     truth = one.approach + load / 2 / (exact_pi * estar * distance);
     print_message("two peaks: left load %.2e, approach %.2e off\n", 2 * left / load - 1,
-                  s.c.approach / truth - 1);
-    assert_true(fabs(2 * left / load - 1) < 1e-5);
-    assert_true(fabs(s.c.approach / truth - 1) < 1e-3);
+                  (s.c.approach + below_apex(shape, radius)) / truth - 1);
+    assert_true(fabs(2 * left / load - 1) < 2 * problem.tol);
+    assert_true(fabs((s.c.approach + below_apex(shape, radius)) / truth - 1) <
+                grid_approach / (30 * 30));
     solved_free(&s);
     free(h);
 }

@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "exact.h"
 #include "tools/cli/units.h"
 
 static void
@@ -130,7 +131,7 @@ check_list(const char *text, enum unit unit, size_t n, const double *v)
         fail_msg("%s: %s", text, err.text);
     assert_int_equal(list.n, n);
     for (size_t k = 0; k < n; k++)
-        if (!(fabs(list.v[k] - v[k]) <= 1e-15 * fabs(v[k])))
+        if (!(fabs(list.v[k] - v[k]) <= converted * fabs(v[k])))
             fail_msg("%s: number %zu is %.17g instead of %.17g", text, k, list.v[k], v[k]);
     free(list.v);
 }

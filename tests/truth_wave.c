@@ -37,7 +37,7 @@ westergaard(void **state)
 
     (void)state;
     for (size_t k = 0; k < sizeof loads / sizeof *loads; k++) {
-        double mean = loads[k] * full, above = 0, below = 0;
+        double mean = loads[k] * full, above = 0, below = 0, nodes;
         struct solved s = wave(shape, amplitude, length, INFINITY, mean, 1e-7);
         for (size_t i = 0; i < 1024; i++) {
             double p = wave_pressure(mean, full, length, node_x(shape, i));
@@ -47,10 +47,11 @@ westergaard(void **state)
         print_message("%.3f of full: fraction %.5f (%.5f), L1(p) %.1e, %zu iterations\n", loads[k],
                       s.c.contact_fraction, wave_fraction(mean, full), above / below,
                       s.c.iterations);
+        /* a node at either edge, where the pressure ends as a square root: order 3/2 */
+        nodes = 1024 * wave_fraction(mean, full);
         assert_true(fabs(s.c.contact_fraction - wave_fraction(mean, full)) <= 2.0 / 1024);
-        assert_true(above / below < (loads[k] < 0.01 ? 2e-2 : 2e-3));
-        assert_true(fabs(s.c.max_pressure / (2 * sqrt(mean * full)) - 1) <
-                    (loads[k] < 0.01 ? 2e-2 : 1e-3));
+        assert_true(above / below < 1 / pow(nodes, 1.5));
+        assert_true(fabs(s.c.max_pressure / (2 * sqrt(mean * full)) - 1) < 1 / pow(nodes, 1.5));
         solved_free(&s);
     }
 }
@@ -61,15 +62,16 @@ full_contact(void **state)
 {
     struct rc_shape shape = {64, 48, 1e-6, 1.3e-6};
     double lx = 64e-6, amplitude = 1e-7, full = wave_full(amplitude, lx, estar);
-    struct solved s = wave(shape, amplitude, lx, INFINITY, 1.7 * full, 1e-10);
+    const double tol = 1e-10;
+    struct solved s = wave(shape, amplitude, lx, INFINITY, 1.7 * full, tol);
 
     (void)state;
     assert_int_equal(s.c.contact_nodes, 64 * 48);
     for (size_t k = 0; k < 64 * 48; k++) {
         double p = 1.7 * full + full * cos(2 * exact_pi * node_x(shape, k) / lx);
-        assert_true(fabs(s.p[k] - p) < 1e-9 * full);
+        assert_true(fabs(s.p[k] - p) < 10 * tol * full); /* one node, not the mean over all */
     }
-    assert_true(s.c.pressure_error < 1e-10);
+    assert_true(s.c.pressure_error < tol);
     solved_free(&s);
 }
 
@@ -85,6 +87,7 @@ two_dimensional_wave(void **state)
     };
     struct rc_shape shape = {M, M, 1e-6, 1e-6};
     double amplitude = 1e-6, full = sqrt(2) * exact_pi * estar * amplitude / (M * 1e-6);
+    const double known = 0.001;
 
     (void)state;
     for (size_t k = 0; k < 3; k++) {
@@ -92,7 +95,7 @@ two_dimensional_wave(void **state)
         print_message("%.1f of full: fraction %.4f (%.4f), %zu iterations\n", table[k][0],
                       s.c.contact_fraction, table[k][1], s.c.iterations);
         /* the raw count is high by half a node along the edge, some 4 / M */
-        assert_true(s.c.contact_fraction > table[k][1] - 0.002);
+        assert_true(s.c.contact_fraction > table[k][1] - 2 * known);
         assert_true(s.c.contact_fraction < table[k][1] + 4.0 / M);
         solved_free(&s);
     }
@@ -130,12 +133,12 @@ periods_and_shifts(void **state)
     assert_int_equal(a.status, RC_OK);
     assert_int_equal(b.status, RC_OK);
     for (size_t k = 0; k < 96 * 36; k++)
-        worst = fmax(worst, fabs(b.p[k] - a.p[(k / 96 + 5) % 36 * 48 + (k % 96 + 11) % 48]));
+        worst = larger(worst, fabs(b.p[k] - a.p[(k / 96 + 5) % 36 * 48 + (k % 96 + 11) % 48]));
     print_message("%zu nodes at the hardness, worst difference %.1e\n", a.c.plastic_nodes,
                   worst / a.c.max_pressure);
     assert_true(a.c.plastic_nodes > 0);
-    assert_true(worst < 1e-6 * a.c.max_pressure);
-    assert_true(fabs(a.c.approach / b.c.approach - 1) < 1e-8);
+    assert_true(worst < 100 * problem.tol * a.c.max_pressure); /* one node, not the mean over all */
+    assert_true(fabs(a.c.approach / b.c.approach - 1) < 2 * problem.tol);
     solved_free(&a);
     solved_free(&b);
     free(h);
