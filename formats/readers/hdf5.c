@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "formats/sandbox/sandbox.h"
 #include "hdf.h"
 #include "formats/core/core.h"
+#include "formats/sandbox/sandbox.h"
 
 enum {
     SETS_MOST = 256

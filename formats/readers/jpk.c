@@ -9,10 +9,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "zip_read.h"
-#include "formats/sandbox/sandbox.h"
-#include "formats/core/core.h"
 #include "tiff.h"
+#include "zip_read.h"
+#include "formats/core/core.h"
+#include "formats/sandbox/sandbox.h"
 
 enum {
     START_DATE = 0x8003,

@@ -7,9 +7,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "tiff.h"
 #include "formats/core/core.h"
 #include "formats/sandbox/sandbox.h"
-#include "tiff.h"
 
 enum {
     MAGIC_TAG = 50432,

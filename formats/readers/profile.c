@@ -7,8 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "formats/core/core.h"
 #include "titled_table.h"
+#include "formats/core/core.h"
 
 struct profile {
     struct rc_titled_table table;
