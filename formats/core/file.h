@@ -3,8 +3,8 @@
 #define RC_FILE_H
 
 #include "bytes.h"
-#include "formats/format.h"
 #include "header.h"
+#include "formats/format.h"
 
 /* Whether the name of the file ends in one of the suffixes ".a .b", in either case. */
 bool rc_file_named(const struct rc_file *file, const char *suffixes);

@@ -98,6 +98,14 @@ rc_piece_number(struct rc_piece piece, double *value, struct rc_piece *rest)
     return true;
 }
 
+double
+rc_piece_metres(struct rc_piece piece)
+{
+    double metres;
+
+    return rc_length_unit(piece.text, piece.n, &metres) ? metres : NAN;
+}
+
 const char *
 rc_piece_shown(char to[RC_SHOWN], struct rc_piece piece)
 {

@@ -27,6 +27,8 @@ bool rc_piece_part(struct rc_piece piece, const char *marks, struct rc_piece *be
  * none. Decimal commas are read as points. */
 bool rc_piece_number(struct rc_piece piece, double *value, struct rc_piece *rest);
 
+/* Metres in the unit of length that it is; NAN for another word. */
+double rc_piece_metres(struct rc_piece piece);
 /* For quoting in a message; as rc_text_shown. */
 const char *rc_piece_shown(char to[RC_SHOWN], struct rc_piece piece);
 /* Sets a key of the grid; as rc_text_keep. */

@@ -84,9 +84,8 @@ rc_map_hint(struct rc_map *map, double dx, double dy)
 void
 rc_map_steps(struct rc_map *map, double dx, double dy, struct rc_piece unit)
 {
-    double metres = NAN;
+    double metres = rc_piece_metres(unit);
 
-    rc_length_unit(unit.text, unit.n, &metres);
     map->dx = dx * metres;
     map->dy = dy * metres;
     if (isnan(metres))

@@ -9,8 +9,8 @@
 #define RC_MAPS_H
 
 #include "bytes.h"
-#include "formats/format.h"
 #include "header.h"
+#include "formats/format.h"
 
 enum {
     RC_MAPS_MOST = 64, /* that are kept of a file; further ones are counted */

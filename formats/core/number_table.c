@@ -332,7 +332,7 @@ find_separator(struct rc_number_table *t, const char *s, size_t line, struct rc_
     return RC_OK;
 }
 
-/* RC_FAIL where "1,5" may be two columns of whole numbers or one of fractions: the user must say. */
+/* RC_FAIL where "1,5" may be two columns of whole numbers or one of fractions: the user knows. */
 static enum rc_status
 refuse_ambiguous_comma(const struct rc_number_table *t, const struct rc_wish *wish,
                        struct rc_err *err)

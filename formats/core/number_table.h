@@ -10,8 +10,8 @@
 #ifndef RC_NUMBER_TABLE_H
 #define RC_NUMBER_TABLE_H
 
-#include "formats/format.h"
 #include "text.h"
+#include "formats/format.h"
 
 struct rc_number_table {
     const char *start, *end;

@@ -1,5 +1,6 @@
 #include "text.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "utf8.h"
@@ -74,6 +75,14 @@ rc_length_unit(const char *text, size_t n, double *metres)
             return true;
         }
     return false;
+}
+
+double
+rc_word_metres(const char *word)
+{
+    double metres;
+
+    return rc_length_unit(word, strlen(word), &metres) ? metres : NAN;
 }
 
 /* Control characters, U+0080 to U+009F too, would act on the terminal that shows them. */

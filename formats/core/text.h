@@ -21,6 +21,8 @@ void rc_trim(const char **text, size_t *n);
 /* Metres per unit of "nm", "um", "µm" (UTF-8 or Latin-1, either code point), "Å", ...; false when
  * it is no unit of length. */
 bool rc_length_unit(const char *text, size_t n, double *metres);
+/* The same of a word up to its NUL; NAN when it is no unit of length. */
+double rc_word_metres(const char *word);
 
 /* Copies text[0..n) as UTF-8, cut to what fits: bytes that are not UTF-8 are taken as Latin-1,
  * control characters become spaces, white space at both ends goes. Gives `to`. */

@@ -62,11 +62,7 @@ kind_of(const struct rc_file *file, size_t *mark)
 static double
 length(double number, struct rc_piece unit)
 {
-    double metres = 1e-9;
-
-    if (unit.n > 0 && !rc_length_unit(unit.text, unit.n, &metres))
-        return NAN;
-    return number * metres;
+    return number * (unit.n == 0 ? 1e-9 : rc_piece_metres(unit));
 }
 
 static enum rc_status

@@ -10,9 +10,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "formats/sandbox/sandbox.h"
 #include "hdf.h"
 #include "formats/core/core.h"
+#include "formats/sandbox/sandbox.h"
 
 enum {
     WORD = 128

@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "formats/sandbox/sandbox.h"
 #include "hdf.h"
 #include "formats/core/core.h"
+#include "formats/sandbox/sandbox.h"
 
 enum {
     SETS_MOST = 256
@@ -30,8 +30,7 @@ read_facts(struct rc_hdf *h, const struct rc_hdf_set *set, struct facts *f)
     rc_hdf_text(h, set->path, "unit", f->unit, sizeof f->unit);
     if (f->unit[0] == '\0')
         rc_hdf_text(h, set->path, "units", f->unit, sizeof f->unit);
-    if (!rc_length_unit(f->unit, strlen(f->unit), &f->heights.metres))
-        f->heights.metres = NAN;
+    f->heights.metres = rc_word_metres(f->unit);
 }
 
 /* The datasets of a file, which the caller frees; NULL with the reason. */

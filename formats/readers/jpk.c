@@ -9,10 +9,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "zip_read.h"
-#include "formats/sandbox/sandbox.h"
-#include "formats/core/core.h"
 #include "tiff.h"
+#include "zip_read.h"
+#include "formats/core/core.h"
+#include "formats/sandbox/sandbox.h"
 
 enum {
     START_DATE = 0x8003,
@@ -140,15 +140,12 @@ read_channel(struct rc_tiff *t, struct channel *c)
 static struct rc_heights
 heights_of(const struct scan *s, const struct channel *c)
 {
-    struct rc_heights h = {.nx = c->shape.nx,
-                           .ny = c->shape.ny,
-                           .dx = s->width / (double)c->shape.nx,
-                           .dy = s->height / (double)c->shape.ny,
-                           .unit = c->unit};
-
-    if (!rc_length_unit(c->unit, strlen(c->unit), &h.metres))
-        h.metres = NAN;
-    return h;
+    return (struct rc_heights){.nx = c->shape.nx,
+                               .ny = c->shape.ny,
+                               .dx = s->width / (double)c->shape.nx,
+                               .dy = s->height / (double)c->shape.ny,
+                               .metres = rc_word_metres(c->unit),
+                               .unit = c->unit};
 }
 
 static size_t

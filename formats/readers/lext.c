@@ -7,10 +7,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "formats/sandbox/sandbox.h"
-#include "formats/core/core.h"
 #include "tiff.h"
 #include "xml.h"
+#include "formats/core/core.h"
+#include "formats/sandbox/sandbox.h"
 
 enum {
     DEVICE_SETTINGS = 0xa40b,

@@ -127,8 +127,7 @@ judge_map(const struct rc_cdf *f, const struct rc_cdf_variable *v, struct map *m
     y = v->dimension[m->turned ? 1 : 0];
     m->heights = (struct rc_heights){.nx = (size_t)length(f, x), .ny = (size_t)length(f, y)};
     m->heights.unit = rc_piece_shown(m->unit, v->unit);
-    if (!rc_length_unit(v->unit.text, v->unit.n, &m->heights.metres))
-        m->heights.metres = NAN;
+    m->heights.metres = rc_piece_metres(v->unit);
     if (step_of(f, x, &m->heights.dx, &along_x, err) != RC_OK ||
         step_of(f, y, &m->heights.dy, &along_y, err) != RC_OK)
         return RC_FAIL;

@@ -100,15 +100,6 @@ find_section(struct rc_piece header, struct rc_piece name, struct rc_piece *sect
     return start != NULL;
 }
 
-static double
-metres_of(struct rc_piece unit)
-{
-    double metres = NAN;
-
-    rc_length_unit(unit.text, unit.n, &metres);
-    return metres;
-}
-
 /* Adds the map, when it is one, and moves *at behind the data. */
 static enum rc_status
 add_set(const struct set *s, struct rc_maps *maps, size_t *at, struct rc_err *err)
@@ -127,7 +118,7 @@ add_set(const struct set *s, struct rc_maps *maps, size_t *at, struct rc_err *er
         rc_map_count("rows (Lines)", s->rows, &ny, err) != RC_OK ||
         rc_size_mul(nx * (size_t)(s->bits / 8), ny, &n, err) != RC_OK)
         return RC_FAIL;
-    if (!isnan(metres_of(s->x_unit)) && !isnan(metres_of(s->y_unit))) {
+    if (!isnan(rc_piece_metres(s->x_unit)) && !isnan(rc_piece_metres(s->y_unit))) {
         rc_text_clean(name, sizeof name, s->name.text, s->name.n);
         rc_text_clean(frame, sizeof frame, s->frame.text, s->frame.n);
         snprintf(text, sizeof text, "%s%s%s", name, *frame == '\0' ? "" : ", ", frame);
@@ -144,8 +135,8 @@ add_set(const struct set *s, struct rc_maps *maps, size_t *at, struct rc_err *er
             map->raw = s->bits == 16 ? RC_RAW_U16 : RC_RAW_U32;
             map->zero = s->least;
         }
-        map->dx = s->x * metres_of(s->x_unit) / (double)nx;
-        map->dy = s->y * metres_of(s->y_unit) / (double)ny;
+        map->dx = s->x * rc_piece_metres(s->x_unit) / (double)nx;
+        map->dy = s->y * rc_piece_metres(s->y_unit) / (double)ny;
         rc_map_unit(map, s->unit.text, s->unit.n);
     }
     *at = n > SIZE_MAX - *at ? SIZE_MAX : *at + n;

@@ -244,10 +244,7 @@ walk(struct opdx *o, struct rc_bytes *b, size_t end, struct rc_piece *path, size
 static double
 step(struct quantity extent, double n)
 {
-    double metres = NAN;
-
-    rc_length_unit(extent.unit.text, extent.unit.n, &metres);
-    return extent.value * metres / (n > 1 ? n - 1 : 1);
+    return extent.value * rc_piece_metres(extent.unit) / (n > 1 ? n - 1 : 1);
 }
 
 static enum rc_status

@@ -7,9 +7,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "tiff.h"
 #include "formats/core/core.h"
 #include "formats/sandbox/sandbox.h"
-#include "tiff.h"
 
 enum {
     MAGIC_TAG = 50432,
@@ -166,16 +166,12 @@ park_open(struct park *p, const struct rc_file *file, struct rc_err *err)
 static struct rc_heights
 heights_of(const struct park *p)
 {
-    struct rc_heights h = {.nx = p->nx,
-                           .ny = p->ny,
-                           .dx = p->width / (double)p->nx,
-                           .dy = p->height / (double)p->ny,
-                           .metres = 1e-6, /* where the file names no unit */
-                           .unit = p->unit};
-
-    if (p->unit[0] != '\0' && !rc_length_unit(p->unit, strlen(p->unit), &h.metres))
-        h.metres = NAN;
-    return h;
+    return (struct rc_heights){.nx = p->nx,
+                               .ny = p->ny,
+                               .dx = p->width / (double)p->nx,
+                               .dy = p->height / (double)p->ny,
+                               .metres = p->unit[0] == '\0' ? 1e-6 : rc_word_metres(p->unit),
+                               .unit = p->unit};
 }
 
 static size_t

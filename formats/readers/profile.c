@@ -7,8 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "formats/core/core.h"
 #include "titled_table.h"
+#include "formats/core/core.h"
 
 struct profile {
     struct rc_titled_table table;
@@ -30,7 +30,6 @@ static struct rc_piece
 unit_of(struct rc_piece title)
 {
     static const char *const brackets[] = {"()", "[]"};
-    double metres;
 
     for (size_t k = 0; k < sizeof brackets / sizeof *brackets; k++) {
         struct rc_piece before, inside, after;
@@ -45,7 +44,7 @@ unit_of(struct rc_piece title)
             word = rest;
             rest.n = 0;
         }
-        if (rc_length_unit(word.text, word.n, &metres))
+        if (!isnan(rc_piece_metres(word)))
             return word;
     }
     return (struct rc_piece){title.text, 0};
@@ -181,7 +180,6 @@ profile_open(struct profile *p, const struct rc_file *file, const struct rc_wish
 {
     struct rc_piece unit;
     char quote[RC_SHOWN];
-    double metres;
 
     if (rc_titled_table_open(&p->table, file, 2, wish, NULL) != RC_OK) {
         rc_titled_table_close(&p->table);
@@ -195,7 +193,7 @@ profile_open(struct profile *p, const struct rc_file *file, const struct rc_wish
     if (p->table.numbers.columns == 1)
         return RC_OK;
     unit = unit_of(title_of(p, p->x));
-    if (unit.n > 0 && !rc_length_unit(unit.text, unit.n, &metres))
+    if (unit.n > 0 && isnan(rc_piece_metres(unit)))
         return rc_err_set(err, "the positions are in '%s', which is no length",
                           rc_piece_shown(quote, unit));
     return judge_direction(p, err);

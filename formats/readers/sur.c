@@ -159,10 +159,8 @@ static double
 step(const struct rc_file *file, struct rc_bytes *bytes, size_t at, size_t unit_at)
 {
     struct rc_piece unit = rc_file_text(file, unit_at, UNIT);
-    double metres = NAN;
 
-    rc_length_unit(unit.text, unit.n, &metres);
-    return rc_bytes_at(bytes, at, RC_RAW_F32) * metres;
+    return rc_bytes_at(bytes, at, RC_RAW_F32) * rc_piece_metres(unit);
 }
 
 static enum rc_status

@@ -13,8 +13,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "formats/core/core.h"
 #include "x3p.h"
+#include "formats/core/core.h"
 
 /* ---- the archive ---- */
 

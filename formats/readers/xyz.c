@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "formats/core/core.h"
 #include "titled_table.h"
+#include "formats/core/core.h"
 
 struct axis {
     double first, step;

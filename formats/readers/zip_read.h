@@ -11,9 +11,9 @@
 #include <stdint.h>
 
 #include "xml.h"
-#include "libcontact/grid.h"
-#include "formats/format.h"
 #include "formats/core/core.h"
+#include "formats/format.h"
+#include "libcontact/grid.h"
 
 struct rc_zip_read;
 
