@@ -4,7 +4,7 @@
 
 #include "bytes.h"
 #include "header.h"
-#include "formats/format.h"
+#include "wish.h"
 
 /* Whether the name of the file ends in one of the suffixes ".a .b", in either case. */
 bool rc_file_named(const struct rc_file *file, const char *suffixes);

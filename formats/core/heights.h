@@ -2,7 +2,7 @@
 #ifndef RC_HEIGHTS_H
 #define RC_HEIGHTS_H
 
-#include "formats/format.h"
+#include "wish.h"
 
 struct rc_heights {
     size_t nx, ny;

@@ -3,7 +3,7 @@
 #ifndef RC_LIMIT_H
 #define RC_LIMIT_H
 
-#include "formats/format.h"
+#include "wish.h"
 
 /* Bytes beyond its own that reading a file of that size may take: 16 times its size and 64 MiB. */
 size_t rc_memory_limit(size_t file_size);

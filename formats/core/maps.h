@@ -10,7 +10,7 @@
 
 #include "bytes.h"
 #include "header.h"
-#include "formats/format.h"
+#include "wish.h"
 
 enum {
     RC_MAPS_MOST = 64, /* that are kept of a file; further ones are counted */

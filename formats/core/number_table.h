@@ -11,7 +11,7 @@
 #define RC_NUMBER_TABLE_H
 
 #include "text.h"
-#include "formats/format.h"
+#include "wish.h"
 
 struct rc_number_table {
     const char *start, *end;

@@ -25,6 +25,7 @@
 #include <string.h>
 
 #include "ascii_head.h"
+#include "formats/format.h"
 
 static enum rc_status
 ascii_open(const struct rc_file *file, const struct rc_wish *wish, struct rc_ascii_head *h,

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "formats/core/core.h"
+#include "formats/format.h"
 
 enum {
     HEADER = 2048 /* characters */

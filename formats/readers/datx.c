@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "hdf.h"
-#include "formats/core/core.h"
+#include "formats/format.h"
 #include "formats/sandbox/sandbox.h"
 
 enum {

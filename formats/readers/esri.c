@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "formats/core/core.h"
+#include "formats/format.h"
 
 struct esri {
     double columns, rows, cell, dx, dy, missing;

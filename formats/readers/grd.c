@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "formats/core/core.h"
+#include "formats/format.h"
 
 #define BLANK 1.70141e38 /* and above: no value */
 

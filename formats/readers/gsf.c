@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "formats/core/core.h"
+#include "formats/format.h"
 
 static const char magic[] = "Gwyddion Simple Field 1.0\n";
 

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "formats/core/core.h"
+#include "formats/format.h"
 
 struct item {
     struct rc_piece name;

@@ -11,7 +11,7 @@
 
 #include "tiff.h"
 #include "zip_read.h"
-#include "formats/core/core.h"
+#include "formats/format.h"
 #include "formats/sandbox/sandbox.h"
 
 enum {

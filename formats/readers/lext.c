@@ -9,7 +9,7 @@
 
 #include "tiff.h"
 #include "xml.h"
-#include "formats/core/core.h"
+#include "formats/format.h"
 #include "formats/sandbox/sandbox.h"
 
 enum {

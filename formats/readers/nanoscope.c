@@ -18,7 +18,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "formats/core/core.h"
+#include "formats/format.h"
 
 struct image {
     double at, bytes, width, columns, rows;

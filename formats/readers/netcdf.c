@@ -12,7 +12,7 @@
 #include <string.h>
 
 #include "cdf.h"
-#include "formats/core/core.h"
+#include "formats/format.h"
 
 static uint64_t
 length(const struct rc_cdf *f, size_t dimension)

@@ -17,7 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "formats/core/core.h"
+#include "formats/format.h"
 
 enum {
     NAME = 64

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "tiff.h"
-#include "formats/core/core.h"
+#include "formats/format.h"
 #include "formats/sandbox/sandbox.h"
 
 enum {

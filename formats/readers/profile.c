@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "titled_table.h"
-#include "formats/core/core.h"
+#include "formats/format.h"
 
 struct profile {
     struct rc_titled_table table;

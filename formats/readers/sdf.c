@@ -15,7 +15,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "formats/core/core.h"
+#include "formats/format.h"
 
 enum {
     MAGIC = 8,

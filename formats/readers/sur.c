@@ -13,7 +13,7 @@
 #include <string.h>
 #include <zlib.h>
 
-#include "formats/core/core.h"
+#include "formats/format.h"
 
 enum {
     HEADER = 512,

@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "zip_read.h"
-#include "formats/core/core.h"
+#include "formats/format.h"
 
 enum {
     LEAD = 12,       /* magic, version, kind */

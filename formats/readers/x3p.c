@@ -14,7 +14,7 @@
 #include <string.h>
 
 #include "x3p.h"
-#include "formats/core/core.h"
+#include "formats/format.h"
 
 /* ---- the archive ---- */
 

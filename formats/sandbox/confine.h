@@ -2,7 +2,7 @@
 #ifndef RC_CONFINE_H
 #define RC_CONFINE_H
 
-#include "formats/format.h"
+#include "formats/core/core.h"
 
 /* Seconds of processor time that reading the file may take. */
 double rc_confine_seconds(const struct rc_file *file);

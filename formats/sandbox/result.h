@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <sys/types.h>
 
-#include "formats/format.h"
+#include "formats/core/core.h"
 
 /* The child writes to `result` and reads from `reply`, the parent the other way round. */
 struct rc_pipes {

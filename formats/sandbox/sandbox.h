@@ -7,7 +7,7 @@
 #ifndef RC_SANDBOX_H
 #define RC_SANDBOX_H
 
-#include "formats/format.h"
+#include "formats/core/core.h"
 
 /* As those of struct rc_format. */
 typedef size_t rc_sandboxed_list(const struct rc_file *file, const struct rc_wish *wish,

@@ -1,0 +1,56 @@
+/* A file, what the user says beside it, and what is said of it: spacings and units that the file lacks
+ * or that the user overrules. */
+#ifndef RC_WISH_H
+#define RC_WISH_H
+
+#include <stddef.h>
+
+#include "libcontact/grid.h"
+
+/* A file that has been read whole. */
+struct rc_file {
+    const char *name; /* base name, for suffix and messages */
+    const unsigned char *data;
+    size_t size;
+};
+
+/* What the user says beside the file. */
+struct rc_wish {
+    double dx, dy; /* spacing in metres; NAN: as the file says                             */
+    double z_unit; /* metres per unit of the file's heights; NAN: as the file says         */
+    char decimal;  /* '.' or ','; 0: found out                                             */
+    const char *separator; /* of columns in text; NULL: found out                                */
+    const char *missing; /* a word that marks missing values in text, beside NaN, BAD, ...       */
+};
+extern const struct rc_wish rc_no_wish; /* of a user who says nothing: all is as the file says */
+
+/* One map in a file, as --list shows it. */
+struct rc_channel {
+    char name[64];
+    char unit[16]; /* SI unit of the values, "m" for heights; "" when the file does not say    */
+    size_t nx, ny;
+    double dx, dy; /* m; NAN when the file does not say                                        */
+};
+
+/* Things worth saying that are no errors. */
+struct rc_notes {
+    char text[8][200];
+    size_t n;
+};
+void rc_note(struct rc_notes *notes, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* Sets shape->dx and dy: as wished (dy as dx when only dx was), else as the file says; NAN is a
+ * file that does not say. RC_FAIL when neither says, or for a spacing that is not positive and
+ * finite. Notes where a wish overrules the file. */
+enum rc_status rc_spacing(const struct rc_wish *wish, double dx, double dy, struct rc_shape *shape,
+                          struct rc_notes *notes, struct rc_err *err);
+/* Sets *metres, what one unit of the file's heights is worth: as wished, else as the file says.
+ * RC_FAIL when neither does; `unit` is then the file's own word for it, "" for none. */
+enum rc_status rc_height_unit(const struct rc_wish *wish, double by_file, const char *unit,
+                              double *metres, struct rc_notes *notes, struct rc_err *err);
+
+/* Adds to the refusal of a file that does not say its spacing that it does not say the unit of its
+ * heights either, so that both are asked for at once. */
+void rc_lacks_unit(const struct rc_wish *wish, double by_file, struct rc_err *err);
+
+#endif
