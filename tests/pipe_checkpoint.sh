@@ -9,6 +9,10 @@ claim "a list of loads, whole" bash -c "$solve --load 0.1N:0.5N:3 --checkpoint k
 claim "resumed, it is the same to the last bit, one step a case" bash -c "
     $solve --load 0.1N:0.5N:3 --checkpoint kept.rcg --resume --report again.json -o again.rcg rough.rcg &&
     cmp whole.rcg again.rcg && [ \$(grep -c '\"iterations\": 1,' again.json) = 3 ]"
+claim "and what would have been learnt from them is left out, with the reason" bash -c "
+    $solve --load 0.1N:0.5N:3 --checkpoint kept.rcg --resume --discretization --report left.json -o left.rcg rough.rcg &&
+    grep -q '\"discretization\": \"left out: resumed' left.json &&
+    grep -q '\"discretization_error_estimate\": null' left.json"
 claim "the checkpoint is a grid stream of a frame a case" says '^3$' bash -c "rc-info kept.rcg | grep -c 'frame . (pressure)'"
 
 # 300,000 bytes: the first frame and a part of the second
@@ -19,6 +23,10 @@ claim "cut off while it was written, what was whole in it serves" bash -c "
     says '^3$' bash -c \"rc-info torn.rcg | grep -c 'frame . (pressure)'\""
 claim "nothing to resume is a first run" bash -c "
     $solve --load 0.3N --checkpoint fresh.rcg --resume -o fresh-out.rcg rough.rcg && [ -s fresh.rcg ]"
+# K p by rows, weights and a correction, K p in double precision, a correction: 0.5 + 2 + 1 + 1.5
+claim "and resumed does no work on coarser grids" bash -c "
+    $solve --load 0.3N --checkpoint fresh.rcg --resume --report fresh.json -o fresh-out.rcg rough.rcg"
+near "$(field convolutions fresh.json)" 5 1e-15 "but what tells that it is done"
 
 # The scheme of the paper takes hundreds of steps; the signal comes when the first frames are there.
 interrupted() {

@@ -110,16 +110,17 @@ problem_of(struct run *run, const struct rc_grid *g, size_t step)
 static void
 solve(struct run *run, const struct rc_grid *g, struct rc_solver *solver)
 {
-    bool kept = checkpoint_case(run->checkpoint, g, solver);
-    double start = solve_now();
+    double start;
 
+    run->resumed = checkpoint_case(run->checkpoint, g, solver);
+    start = solve_now();
     while (tool_interrupted() == 0 && rc_solver_step(solver) == RC_MORE) {
         solve_progress(run, solver);
         checkpoint_pass(run->checkpoint, g, solver);
     }
     tool_progress_end(&run->t);
     run->iterate = solve_now() - start;
-    if (!kept || rc_solver_iterations(solver) > 1) /* else it is there already */
+    if (!run->resumed || rc_solver_iterations(solver) > 1) /* else it is there already */
         checkpoint_save(run->checkpoint, g, solver);
 }
 

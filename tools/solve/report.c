@@ -74,7 +74,9 @@ stiffness_state(const struct scene *s)
 static const char *
 discretization_state(const struct scene *s)
 {
-    return s->run->args->discretization ? "on" : "left out: no --discretization";
+    if (!s->run->args->discretization)
+        return "left out: no --discretization";
+    return s->run->resumed ? "left out: resumed, no coarser grid was solved" : "on";
 }
 
 static const struct effect {

@@ -45,6 +45,7 @@ struct run {
     const struct numbers *steps; /* the list of loads or approaches               */
     size_t step, number;         /* which of them, from 0; the case that it is    */
     bool stiffness;
+    bool resumed; /* this case, from a checkpoint                      */
     FILE *report;
     struct checkpoint *checkpoint; /* NULL: none */
     size_t nodes;                  /* of the map */
