@@ -12,8 +12,9 @@ need_packages() {
         cat <<'EOT'
 This is neither Debian nor Ubuntu: please see that these are installed, with their headers:
   a C17 compiler with OpenMP, make, CMake 3.20 or later, pkg-config
-  FFTW 3 (double precision), GSL 2.2 or later, libpng, libxml2, libzip, zlib, libhdf5,
-  libtiff, libmd, Pango with cairo, and a sans serif font that fontconfig finds, such as DejaVu Sans
+  FFTW 3.3.5 or later (double and single precision, with threads), GSL 2.2 or later, libpng,
+  libxml2, libzip, zlib, libhdf5, libtiff, libmd, Pango with cairo, and a sans serif font that
+  fontconfig finds, such as DejaVu Sans
   for the tests also: cmocka, mandoc, zip, unzip, perl, clang-format 14
 EOT
         return 0

@@ -16,8 +16,8 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "libcontact/grid.h"
 #include "formats/core/core.h"
+#include "libcontact/grid.h"
 
 /* What the user says beside the frames. */
 struct rc_export_wish {

@@ -18,6 +18,8 @@ const struct rc_format *const rc_formats[] = {
     NULL,
 };
 
+const struct rc_wish rc_no_wish = {.dx = NAN, .dy = NAN, .z_unit = NAN};
+
 void
 rc_note(struct rc_notes *notes, const char *format, ...)
 {
@@ -57,7 +59,7 @@ rc_format_find(const struct rc_file *file, struct rc_err *err)
         return best;
     if (file->size == 0)
         rc_err_set(err, "the file is empty");
-    else if (file->size >= 2 && file->data[0] == 0x1f && file->data[1] == 0x8b)
+    else if (rc_file_holds(file, 0, "\x1f\x8b", 2))
         rc_err_set(err, "the file is compressed with gzip: unpack it first (gunzip)");
     else
         rc_err_set(

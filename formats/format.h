@@ -37,6 +37,7 @@ struct rc_wish {
     const char *separator; /* of columns in text; NULL: found out                                */
     const char *missing; /* a word that marks missing values in text, beside NaN, BAD, ...       */
 };
+extern const struct rc_wish rc_no_wish; /* of a user who says nothing: all is as the file says */
 
 /* One map in a file, as --list shows it. */
 struct rc_channel {

@@ -11,7 +11,7 @@
 
 /* Inner loops are compiled for wider registers too, and the loader takes what the processor has. */
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) &&                             \
-    !defined(__SANITIZE_ADDRESS__)
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define RC_CLONES __attribute__((target_clones("arch=x86-64-v3", "default")))
 #else
 #define RC_CLONES

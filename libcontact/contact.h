@@ -91,7 +91,7 @@ RC_API enum rc_status rc_synth_selfaffine(const struct rc_shape *shape,
                                           const struct rc_selfaffine *what, double *h,
                                           struct rc_err *err);
 
-/* ---- surfaces: detrend.c, inpaint.c ---- */
+/* ---- surfaces: detrend.c, inpaint.c, resample.c ---- */
 
 enum {
     RC_DEGREE_MAX = 20
@@ -111,6 +111,12 @@ RC_API enum rc_status rc_inpaint(const struct rc_shape *shape, double *h, size_t
                                  struct rc_err *err);
 /* Bytes that it takes beside h for so many missing values. */
 RC_API size_t rc_inpaint_memory(size_t missing);
+
+/* Means of v, which is constant in the cells of `from`, over the cells of `to`, a grid of any other
+ * number of nodes on the same area: their spacings are not looked at. The integral stays what it
+ * is. Heights go to a coarser grid so, and pressures back. v and out do not overlap. */
+RC_API void rc_resample_means(const struct rc_shape *from, const double *v,
+                              const struct rc_shape *to, double *out);
 
 /* ---- figures and sums of maps: measure.c, common.c ---- */
 
@@ -203,7 +209,8 @@ struct rc_contact {
     double kkt_residual;       /* worst violation / max(std h, std u), from a
                                                  fresh convolution; for one height everywhere
                                                  over what the mean pressure could displace      */
-    double pressure_error;     /* estimated relative L1 error of the pressure     */
+    double pressure_error;     /* estimated relative L1 error of the pressure; NAN when stopped on
+                                  a coarser grid                                              */
     size_t iterations;
     double convolutions;                     /* equivalents on the finest grid                  */
     struct rc_discretization discretization; /* estimated relative errors that the grid makes   */

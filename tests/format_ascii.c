@@ -12,10 +12,10 @@
 #include <cmocka.h>
 
 #include "formats/format.h"
+#include "made_checks.h"
 
 extern const struct rc_format rc_format_ascii;
 
-static const struct rc_wish no_wish = {.dx = NAN, .dy = NAN, .z_unit = NAN};
 /* for what has no header */
 static const struct rc_wish plain_wish = {.dx = 1.1e-6, .dy = 1.29e-6, .z_unit = 1};
 
@@ -37,6 +37,8 @@ read_bytes(const char *text, size_t n, const struct rc_wish *wish, struct rc_not
     g = rc_format_ascii.read(&file, wish, 0, notes, err);
     if (g == NULL && err->text[0] == '\0')
         fail_msg("refused without a reason");
+    if (g != NULL)
+        check_sound(text, g, n);
     free(copy);
     return g;
 }
@@ -69,7 +71,7 @@ refuse(const char *text, const struct rc_wish *wish, const char *why)
 static bool
 is_near(double value, double truth)
 {
-    return isnan(truth) ? isnan(value) : fabs(value - truth) <= 1e-12 * fabs(truth);
+    return isnan(truth) ? isnan(value) : fabs(value - truth) <= last_digit * fabs(truth);
 }
 
 static void
@@ -137,7 +139,7 @@ headers(void **state)
                  cases[k].text);
         for (size_t i = 0; i < 6; i++)
             height[i] = counts[i] * cases[k].z;
-        g = read_well(text, &no_wish);
+        g = read_well(text, &rc_no_wish);
         check(text, g, 3, 2, height);
         if (!is_near(g->dx, cases[k].dx) || !is_near(g->dy, cases[k].dy))
             fail_msg("'%s': dx is %.17g, dy is %.17g", text, g->dx, g->dy);
@@ -175,7 +177,7 @@ headers_that_are_refused(void **state)
 
     (void)state;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
-        refuse(cases[k].text, &no_wish, cases[k].why);
+        refuse(cases[k].text, &rc_no_wish, cases[k].why);
 }
 
 /* ---- columns ---- */
@@ -315,7 +317,7 @@ lists_of_points_are_no_matrices(void **state)
     for (size_t k = 0; k < 3; k++) {
         refuse(lists[k], &plain_wish, "a list of points (x, y, z)");
         snprintf(text, sizeof text, "%s%s", header, lists[k]);
-        rc_grid_free(read_well(text, &no_wish));
+        rc_grid_free(read_well(text, &rc_no_wish));
     }
     refuse("0 5\n1 4\n3 2\n", &plain_wish, "a profile (x, z)");
     rc_grid_free(read_well("0 5\n1 4\n1 2\n", &plain_wish));
@@ -378,7 +380,7 @@ every_truncation(void **state)
         for (size_t n = 0; n <= strlen(texts[k]); n++) {
             struct rc_notes notes;
             struct rc_err err;
-            rc_grid_free(read_bytes(texts[k], n, &no_wish, &notes, &err));
+            rc_grid_free(read_bytes(texts[k], n, &rc_no_wish, &notes, &err));
             rc_grid_free(read_bytes(texts[k], n, &plain_wish, &notes, &err));
         }
 }
@@ -396,7 +398,7 @@ every_byte_damaged(void **state)
             struct rc_notes notes;
             struct rc_err err;
             text[k] = bytes[b];
-            rc_grid_free(read_bytes(text, sizeof text - 1, &no_wish, &notes, &err));
+            rc_grid_free(read_bytes(text, sizeof text - 1, &rc_no_wish, &notes, &err));
         }
         text[k] = good;
     }

@@ -325,7 +325,7 @@ channel_of(const struct rc_format *format, const struct rc_file *file, const str
 static void
 check_file(char *column[COLUMNS], const char *reader, const struct rc_file *file)
 {
-    struct rc_wish wish = {.dx = NAN, .dy = NAN, .z_unit = NAN};
+    struct rc_wish wish = rc_no_wish;
     const struct rc_format *format;
     struct rc_notes notes = {0};
     struct rc_err err = {""};

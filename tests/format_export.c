@@ -4,45 +4,58 @@
 #include <stddef.h>
 #include <setjmp.h>
 #include <stdint.h>
-#include <locale.h>
 
 #include <cmocka.h>
 
 #include "decoders.h"
 #include "formats/format.h"
+#include "made_checks.h"
+#include "made_locale.h"
 
-/* How far a number may be off: `step` of the range, `part` of the largest. */
+/* How far a number may be off: `step` of the range, `part` of the largest; how far a spacing may
+ * be, and from how many nodes along an axis on the file tells it. */
+/* clang-format off */
 static const struct {
     const char *name;
     int type; /* enum rc_raw, -1: none */
     double step, part, spacing;
+    size_t from;
     struct map (*decode)(const struct made *made);
     const char *reader;
 } formats[] = {
-    {"x3p", RC_RAW_I16, 0.501 / 65534, 1e-15, 0, NULL, "x3p"},
-    {"x3p", RC_RAW_I32, 0.501 / 4294967294.0, 1e-15, 0, NULL, "x3p"},
-    {"x3p", RC_RAW_F32, 0, 6e-8, 0, NULL, "x3p"},
-    {"x3p", RC_RAW_F64, 0, 0, 0, NULL, "x3p"},
-    {"sdf", -1, 0, 0, 0, decode_sdf, "sdf"},
-    {"sdf-binary", RC_RAW_I16, 0, 0.501 / 32767, 0, decode_sdf_binary, "sdf"},
-    {"sdf-binary", RC_RAW_I32, 0, 0.501 / 2147483647.0, 0, decode_sdf_binary, "sdf"},
-    {"sdf-binary", RC_RAW_F64, 0, 0, 0, decode_sdf_binary, "sdf"},
-    {"gsf", -1, 0, 6e-8, 4e-16, decode_gsf, "gsf"},
-    {"gwy", -1, 0, 0, 4e-16, decode_gwy, "gwy"},
-    {"npy", RC_RAW_F32, 0, 6e-8, 0, decode_npy, "npy"},
-    {"npy", RC_RAW_F64, 0, 0, 0, decode_npy, "npy"},
-    {"csv", -1, 0, 0, 4e-16, decode_csv, "ascii"},
-    {"xyz", -1, 0, 0, 4e-16, decode_xyz, "xyz"},
-    {"vti", RC_RAW_F32, 0, 6e-8, 4e-16, decode_vti, NULL},
-    {"vti", RC_RAW_F64, 0, 0, 4e-16, decode_vti, NULL},
-    {"vtr", RC_RAW_F32, 0, 6e-8, 1e-13, decode_vtr, NULL},
-    {"vtr", RC_RAW_F64, 0, 0, 1e-13, decode_vtr, NULL},
-    {"hdf5", RC_RAW_F32, 0, 6e-8, 0, decode_hdf5, "hdf5"},
-    {"hdf5", RC_RAW_F64, 0, 0, 0, decode_hdf5, "hdf5"},
+    {"x3p", RC_RAW_I16, 0.501 / 65534, last_digit, 0, 1, NULL, "x3p"},
+    {"x3p", RC_RAW_I32, 0.501 / 4294967294.0, last_digit, 0, 1, NULL, "x3p"},
+    {"x3p", RC_RAW_F32, 0, float_rounding, 0, 1, NULL, "x3p"},
+    {"x3p", RC_RAW_F64, 0, 0, 0, 1, NULL, "x3p"},
+    {"sdf", -1, 0, 0, 0, 1, decode_sdf, "sdf"},
+    {"sdf-binary", RC_RAW_I16, 0, 0.501 / 32767, 0, 1, decode_sdf_binary, "sdf"},
+    {"sdf-binary", RC_RAW_I32, 0, 0.501 / 2147483647.0, 0, 1, decode_sdf_binary, "sdf"},
+    {"sdf-binary", RC_RAW_F64, 0, 0, 0, 1, decode_sdf_binary, "sdf"},
+    {"gsf", -1, 0, float_rounding, last_digit, 1, decode_gsf, "gsf"},
+    {"gwy", -1, 0, 0, last_digit, 1, decode_gwy, "gwy"},
+    {"npy", RC_RAW_F32, 0, float_rounding, 0, SIZE_MAX, decode_npy, "npy"},
+    {"npy", RC_RAW_F64, 0, 0, 0, SIZE_MAX, decode_npy, "npy"},
+    {"csv", -1, 0, 0, last_digit, 1, decode_csv, "ascii"},
+    {"xyz", -1, 0, 0, last_digit, 2, decode_xyz, "xyz"},
+    {"vti", RC_RAW_F32, 0, float_rounding, last_digit, 2, decode_vti, NULL},
+    {"vti", RC_RAW_F64, 0, 0, last_digit, 2, decode_vti, NULL},
+    {"vtr", RC_RAW_F32, 0, float_rounding, rounding, 2, decode_vtr, NULL},
+    {"vtr", RC_RAW_F64, 0, 0, rounding, 2, decode_vtr, NULL},
+    {"hdf5", RC_RAW_F32, 0, float_rounding, 0, 1, decode_hdf5, "hdf5"},
+    {"hdf5", RC_RAW_F64, 0, 0, 0, 1, decode_hdf5, "hdf5"},
     /* the offset is rounded to a float below, and widens the range by that */
-    {"sur", RC_RAW_I16, 0.501 / 32767, 1e-11, 6e-8, decode_sur, "sur"},
-    {"sur", RC_RAW_I32, 0.501 / 2147483647.0, 1e-15, 6e-8, decode_sur, "sur"},
+    {"sur", RC_RAW_I16, 0.501 / 32767, 1e-11, float_rounding, 1, decode_sur, "sur"},
+    {"sur", RC_RAW_I32, 0.501 / 2147483647.0, last_digit, float_rounding, 1, decode_sur, "sur"},
 };
+/* clang-format on */
+
+static void
+compare_spacing(size_t f, const char *by, size_t n, double wanted, double got)
+{
+    if (isnan(got) ? n >= formats[f].from : fabs(got - wanted) > formats[f].spacing * wanted)
+        fail_msg("%s %s: the spacing of %zu nodes is %.17g, not %.17g", formats[f].name, by, n, got,
+                 wanted);
+}
 
 static void
 compare(size_t f, const char *by, const struct rc_grid *g, const struct map *m)
@@ -51,9 +64,8 @@ compare(size_t f, const char *by, const struct rc_grid *g, const struct map *m)
 
     assert_int_equal(m->nx, g->nx);
     assert_int_equal(m->ny, g->ny);
-    if (fabs(m->dx - g->dx) > formats[f].spacing * g->dx ||
-        fabs(m->dy - g->dy) > formats[f].spacing * g->dy)
-        fail_msg("%s %s: spacings %.17g and %.17g", formats[f].name, by, m->dx, m->dy);
+    compare_spacing(f, by, g->nx, g->dx, m->dx);
+    compare_spacing(f, by, g->ny, g->dy, m->dy);
     for (size_t k = 0; k < g->nx * g->ny; k++) {
         if (isnan(g->v[k]) != isnan(m->v[k]))
             fail_msg("%s %s: value %zu is %g, not %g", formats[f].name, by, k, m->v[k], g->v[k]);
@@ -73,7 +85,7 @@ static void
 compare_reader(size_t f, const struct rc_grid *g, const struct made *made)
 {
     const struct rc_format *reader = rc_format_named(formats[f].reader);
-    struct rc_wish wish = {.dx = NAN, .dy = NAN, .z_unit = NAN};
+    struct rc_wish wish = rc_no_wish;
     struct rc_file file = {.data = (const unsigned char *)made->bytes, .size = made->n};
     struct rc_notes notes = {0};
     struct rc_err err = {""};
@@ -81,7 +93,7 @@ compare_reader(size_t f, const struct rc_grid *g, const struct made *made)
     struct map m;
 
     if (reader == NULL)
-        return;
+        fail_msg("%s: there is no reader '%s'", formats[f].name, formats[f].reader);
     file.name = "made";
     if (strcmp(formats[f].name, "npy") == 0 || strcmp(formats[f].name, "xyz") == 0)
         wish = (struct rc_wish){.dx = g->dx, .dy = g->dy, .z_unit = 1};
@@ -140,10 +152,20 @@ all_formats_on_ugly_sizes(void **state)
         there_and_back(size[k][0], size[k][1], 0.15);
     }
     there_and_back(5, 3, 1);
-    for (size_t f = 0; f < sizeof formats / sizeof *formats; f++)
-        if (formats[f].reader != NULL && rc_format_named(formats[f].reader) == NULL)
-            printf("%s: decoded, but there is no reader '%s' to go through\n", formats[f].name,
-                   formats[f].reader);
+}
+
+static void
+every_format_is_tried(void **state)
+{
+    (void)state;
+    for (const struct rc_export *const *e = rc_exports; *e != NULL; e++) {
+        size_t f = 0;
+
+        while (f < sizeof formats / sizeof *formats && strcmp((*e)->name, formats[f].name) != 0)
+            f++;
+        if (f == sizeof formats / sizeof *formats)
+            fail_msg("%s is in exports.list and not in this test", (*e)->name);
+    }
 }
 
 static void
@@ -174,6 +196,7 @@ equal_heights(void **state)
     }
     rc_grid_free(g);
 }
+
 static void
 same_frames_same_bytes(void **state)
 {
@@ -190,23 +213,21 @@ same_frames_same_bytes(void **state)
     rc_grid_free(g);
 }
 
+/* Numbers have a point in every locale. */
 static void
 comma_locale(void **state)
 {
     struct rc_grid *g = random_grid(3, 2, 0.2);
-    static const char *const names[] = {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "de_DE"};
-    const char *found = NULL;
 
     (void)state;
-    for (size_t k = 0; k < sizeof names / sizeof *names && found == NULL; k++)
-        found = setlocale(LC_NUMERIC, names[k]) == NULL ? NULL : names[k];
-    if (found == NULL)
-        printf("not checked: no locale with a decimal comma is installed\n");
-    for (const struct rc_export *const *e = rc_exports; *e != NULL && found != NULL; e++) {
-        struct made a = export((*e)->name, &g, 1, &plain), b;
+    for (const struct rc_export *const *e = rc_exports; *e != NULL; e++) {
+        struct made a, b;
+
         setlocale(LC_NUMERIC, "C");
+        a = export((*e)->name, &g, 1, &plain);
+        if (!set_comma_locale())
+            skip();
         b = export((*e)->name, &g, 1, &plain);
-        setlocale(LC_NUMERIC, found);
         assert_int_equal(a.n, b.n);
         assert_memory_equal(a.bytes, b.bytes, a.n);
         free(a.bytes);
@@ -220,10 +241,9 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_formats_on_ugly_sizes),
-        cmocka_unit_test(equal_heights),
-        cmocka_unit_test(same_frames_same_bytes),
-        cmocka_unit_test(comma_locale),
+        cmocka_unit_test(every_format_is_tried),  cmocka_unit_test(all_formats_on_ugly_sizes),
+        cmocka_unit_test(equal_heights),          cmocka_unit_test(same_frames_same_bytes),
+        cmocka_unit_test(the_locale_has_a_comma), cmocka_unit_test(comma_locale),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -6,26 +6,13 @@
 #include <cmocka.h>
 
 #include "formats/format.h"
-#include "formats/core/core.h"
+#include "made_checks.h"
 #include "made_files.h"
 
 enum {
     CHANNELS = 3, /* that are read of a file            */
     LOOKED = 1200 /* bytes at the front that are changed */
 };
-
-/* What every map that comes out must be, whatever went in. */
-static void
-check_sound(const struct made_file *f, const struct rc_grid *g, size_t size)
-{
-    if (!(g->dx > 0) || !isfinite(g->dx) || !(g->dy > 0) || !isfinite(g->dy))
-        fail_msg("%s: the spacing is %g, %g", f->title, g->dx, g->dy);
-    if (8 * g->nx * g->ny > rc_memory_limit(size))
-        fail_msg("%s: %zu x %zu out of %zu bytes", f->title, g->nx, g->ny, size);
-    for (size_t k = 0; k < g->nx * g->ny; k++)
-        if (isinf(g->v[k]))
-            fail_msg("%s: an infinite height", f->title);
-}
 
 /* What is said and shown must not act on a terminal. */
 static void
@@ -71,7 +58,7 @@ read_all(const struct made_file *f, const unsigned char *bytes, size_t n, size_t
         check_words(f, channel[k].name);
         check_words(f, channel[k].unit);
         if (g != NULL)
-            check_sound(f, g, n);
+            check_sound(f->title, g, n);
         if (k == wanted)
             kept = g;
         else
@@ -82,7 +69,7 @@ read_all(const struct made_file *f, const unsigned char *bytes, size_t n, size_t
 }
 
 static bool
-same(const struct rc_grid *a, const struct rc_grid *b)
+same_values(const struct rc_grid *a, const struct rc_grid *b)
 {
     if (a->nx != b->nx || a->ny != b->ny || a->dx != b->dx || a->dy != b->dy)
         return false;
@@ -119,7 +106,7 @@ cut_anywhere(void **state)
             fail_msg("%s: %s", f->title, err.text);
         for (size_t n = 0; n < m.n; n++, cuts++) {
             g = read_all(f, m.b, n, wanted, &err);
-            if (g != NULL && (f->flags & IS_TEXT) == 0 && !same(g, whole))
+            if (g != NULL && (f->flags & IS_TEXT) == 0 && !same_values(g, whole))
                 fail_msg("%s cut to %zu of %zu bytes is read as another map", f->title, n, m.n);
             rc_grid_free(g);
         }

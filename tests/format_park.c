@@ -163,7 +163,7 @@ park_is_refused(void **state)
     p = park, p.nx = 0;
     refuse_park(&p, 0, "empty");
     p = park, p.nx = 0xffffffff, p.ny = 0xffffffff;
-    refuse_park(&p, 0, "");
+    refuse_park(&p, 0, "more than this machine can address");
     p = park, p.width = 0;
     refuse_park(&p, 0, "must be positive");
     p = park, p.height = -1;

@@ -51,7 +51,7 @@ plux_is_read(void **state)
 
     (void)state;
     assert_ptr_equal(rc_format_find(&file, NULL), &rc_format_plux);
-    assert_int_equal(rc_format_plux.list(&file, &no_wish, channel, 4, NULL), 2);
+    assert_int_equal(rc_format_plux.list(&file, &rc_no_wish, channel, 4, NULL), 2);
     assert_string_equal(channel[1].name, "Layer 1");
     for (size_t layer = 0; layer < 2; layer++) {
         for (size_t k = 0; k < 6; k++)
@@ -73,7 +73,10 @@ plux_is_refused(void **state)
         {"<IMAGE_SIZE_X>3</IMAGE_SIZE_X>", "", "no size of an image"},
         {"SIZE_X>3", "SIZE_X>0", "empty"},
         {"SIZE_X>3", "SIZE_X>-3", "whole number"},
-        {"SIZE_X>3", "SIZE_X>999999999", "promises"},
+        {"SIZE_X>3", "SIZE_X>999999999", "promises 7999999992 bytes of heights"},
+        {"SIZE_X>3</IMAGE_SIZE_X><IMAGE_SIZE_Y>2",
+         "SIZE_X>999999999999999</IMAGE_SIZE_X><IMAGE_SIZE_Y>999999999999999",
+         "more than this machine can address"},
         {"SIZE_X>3", "SIZE_X>18446744073709551616", "whole number"},
         {"SIZE_X>3", "SIZE_X>4", "promises 32 bytes of heights, the file has 24"},
         {"FOV_X>1.25", "FOV_X>0", "must be positive"},
@@ -116,9 +119,9 @@ plux_infinite(void **state)
     struct rc_err err;
 
     (void)state;
-    assert_null(try_read(&rc_format_plux, &b, &no_wish, 1, &err));
+    assert_null(try_read(&rc_format_plux, &b, &rc_no_wish, 1, &err));
     assert_non_null(strstr(err.text, "column 2, row 1 (from 0) is infinite"));
-    assert_null(try_read(&rc_format_plux, &b, &no_wish, 2, &err));
+    assert_null(try_read(&rc_format_plux, &b, &rc_no_wish, 2, &err));
     assert_non_null(strstr(err.text, "has 2 layers, not 3"));
     drop(&b);
 }

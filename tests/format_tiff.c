@@ -81,7 +81,7 @@ jpk_is_read(void **state)
             double v[6];
 
             assert_ptr_equal(rc_format_find(&file, NULL), &rc_format_jpk);
-            assert_int_equal(rc_format_jpk.list(&file, &no_wish, channel, 4, NULL), 2);
+            assert_int_equal(rc_format_jpk.list(&file, &rc_no_wish, channel, 4, NULL), 2);
             assert_string_equal(channel[0].name, "Height (measured, retrace)");
             assert_string_equal(channel[0].unit, "m");
             assert_string_equal(channel[1].name, "error");
@@ -106,7 +106,7 @@ jpk_volts_need_a_unit(void **state)
     double v[6];
 
     (void)state;
-    assert_null(try_read(&rc_format_jpk, &b, &no_wish, 1, &err));
+    assert_null(try_read(&rc_format_jpk, &b, &rc_no_wish, 1, &err));
     assert_non_null(strstr(err.text, "in 'V', which is no length"));
     g = try_read(&rc_format_jpk, &b, &wish, 1, &err);
     assert_non_null(g);
@@ -114,7 +114,7 @@ jpk_volts_need_a_unit(void **state)
         v[k] = raw[(k + 3) % 6] * 2e-9; /* this page is not reflected */
     check_map(g, 3, 2, 1.1e-6, 1.1e-6, v);
     rc_grid_free(g);
-    assert_null(try_read(&rc_format_jpk, &b, &no_wish, 2, &err));
+    assert_null(try_read(&rc_format_jpk, &b, &rc_no_wish, 2, &err));
     assert_non_null(strstr(err.text, "has 2 channels, not 3"));
     drop(&b);
 }
@@ -273,10 +273,12 @@ many_large_tags(void **state)
     b.data = realloc(b.data, SIZE);
     memset(b.data + b.n, 0, SIZE - b.n);
     b.n = SIZE;
-    g = try_read(&rc_format_jpk, &b, &no_wish, 0, &err);
+    g = try_read(&rc_format_jpk, &b, &rc_no_wish, 0, &err);
     assert_null(g);
     printf("3000 tags of a megabyte each: %s\n", err.text);
-    assert_true(err.text[0] != '\0');
+    /* by the library, or by the sandbox where the library takes the memory */
+    assert_true(strstr(err.text, "its first page cannot be read") != NULL ||
+                strstr(err.text, "its library") != NULL);
     drop(&b);
 }
 

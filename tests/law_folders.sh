@@ -32,8 +32,7 @@ formats             |                                          | formats/readers
 formats             |                                          | formats/writers=rc_export_
 tools/cli           | %public formats/rcg/rcg.h                | %physics formats/rcg
 tools/cli           | formats/core/core.h                      | formats/core
-tools/plot          | libcontact/grid.h tools/cli/cli.h        | libcontact tools/cli
-tools/plot          | formats/core/core.h                      | formats/core
+tools/plot          | libcontact/grid.h formats/core/core.h    | libcontact formats/core
 tools/cost          | %public tools/cli/cli.h tools/plot/plot.h | %physics tools/cli tools/plot
 tools/solve         | %public tools/cli/cli.h tools/plot/plot.h | %physics tools/cli tools/plot
 tools/solve         |                                          | formats/rcg

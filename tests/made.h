@@ -11,8 +11,7 @@
 
 #include "formats/sandbox/sandbox.h"
 #include "formats/format.h"
-
-static const struct rc_wish no_wish = {.dx = NAN, .dy = NAN, .z_unit = NAN};
+#include "made_checks.h"
 
 /* ---- bytes ---- */
 
@@ -109,7 +108,7 @@ __attribute__((unused)) static struct rc_grid *
 read_well(const struct rc_format *format, const struct bytes *b, size_t index)
 {
     struct rc_err err;
-    struct rc_grid *g = try_read(format, b, &no_wish, index, &err);
+    struct rc_grid *g = try_read(format, b, &rc_no_wish, index, &err);
 
     if (g == NULL)
         fail_msg("%s refused: %s", format->name, err.text);
@@ -121,7 +120,7 @@ __attribute__((unused)) static void
 refuse(const struct rc_format *format, const struct bytes *b, const char *why)
 {
     struct rc_err err;
-    struct rc_grid *g = try_read(format, b, &no_wish, 0, &err);
+    struct rc_grid *g = try_read(format, b, &rc_no_wish, 0, &err);
 
     if (g != NULL)
         fail_msg("%s: read, and should be refused for: %s", format->name, why);
@@ -136,12 +135,12 @@ check_map(const struct rc_grid *g, size_t nx, size_t ny, double dx, double dy, c
 {
     assert_int_equal(g->nx, nx);
     assert_int_equal(g->ny, ny);
-    if (fabs(g->dx - dx) > 1e-15 * dx || fabs(g->dy - dy) > 1e-15 * dy)
+    if (fabs(g->dx - dx) > last_digit * dx || fabs(g->dy - dy) > last_digit * dy)
         fail_msg("spacings %.17g and %.17g, not %.17g and %.17g", g->dx, g->dy, dx, dy);
     assert_string_equal(g->channel, "height");
     assert_string_equal(g->unit, "m");
     for (size_t k = 0; k < nx * ny; k++)
-        if (isnan(v[k]) ? !isnan(g->v[k]) : !(fabs(g->v[k] - v[k]) <= 1e-15 * fabs(v[k])))
+        if (isnan(v[k]) ? !isnan(g->v[k]) : !(fabs(g->v[k] - v[k]) <= last_digit * fabs(v[k])))
             fail_msg("value %zu is %.17g, not %.17g", k, g->v[k], v[k]);
 }
 
@@ -155,7 +154,7 @@ refuse_cuts(const struct rc_format *format, const struct bytes *b, size_t least,
         struct rc_grid *g;
 
         memcpy(cut.data, b->data, n); /* of its own size, for the sanitizer */
-        g = try_read(format, &cut, &no_wish, 0, &err);
+        g = try_read(format, &cut, &rc_no_wish, 0, &err);
         if (g != NULL || err.text[0] == '\0')
             fail_msg("%s: cut after %zu of %zu bytes: %s", format->name, n, b->n,
                      g != NULL ? "read" : "refused without a reason");
@@ -163,9 +162,9 @@ refuse_cuts(const struct rc_format *format, const struct bytes *b, size_t least,
     }
 }
 
-/* Bytes changed at random: whatever comes of it, it is a map or a reason. RC_FUZZ in the
- * environment multiplies how often; RC_FUZZ_BYPASS reads without the sandbox, so that the
- * sanitizers see what happens there. */
+/* Bytes changed at random: some files are read as sound maps, the others refused with a reason.
+ * RC_FUZZ in the environment multiplies how often; RC_FUZZ_BYPASS reads without the sandbox, so
+ * that the sanitizers see what happens there. */
 __attribute__((unused)) static void
 survive_changes(const struct rc_format *format, const struct bytes *b, size_t times)
 {
@@ -193,17 +192,20 @@ survive_changes(const struct rc_format *format, const struct bytes *b, size_t ti
                 seed & 1 ? nasty[(seed >> 1) % sizeof nasty] : (unsigned char)(seed >> 8);
         }
         format->score(&file);
-        n = format->list(&file, &no_wish, channel, 8, &err);
+        n = format->list(&file, &rc_no_wish, channel, 8, &err);
         assert_true(n > 0 || err.text[0] != '\0');
-        g = try_read(format, &bad, &no_wish, 0, &err);
+        g = try_read(format, &bad, &rc_no_wish, 0, &err);
         if (g == NULL && err.text[0] == '\0')
             fail_msg("%s: refused without a reason", format->name);
+        if (g != NULL)
+            check_sound(format->name, g, bad.n);
         read += g != NULL;
         rc_grid_free(g);
     }
     printf("%s: %zu files changed at random, %zu of them read, the others refused\n", format->name,
            times, read);
     rc_sandbox_bypass(false);
+    assert_true(read > 0 && read < times);
     drop(&bad);
 }
 

@@ -19,7 +19,7 @@
 enum {
     NX = 3,
     NY = 2,
-    LOST_AT = 4
+    MISSING_AT = 4
 };
 
 struct made {
@@ -111,9 +111,9 @@ enum order {
     RIGHT = 4
 };
 
-/* The six numbers; `lost` stands for the missing one (pass 50 for none). */
+/* The six numbers; `missing` stands for the missing one (pass 50 for none). */
 static inline void
-numbers(struct made *m, enum rc_raw raw, int order, double lost, size_t padding)
+numbers(struct made *m, enum rc_raw raw, int order, double missing, size_t padding)
 {
     size_t outer = (order & COLUMNS) != 0 ? NX : NY, inner = NX * NY / outer;
 
@@ -124,7 +124,7 @@ numbers(struct made *m, enum rc_raw raw, int order, double lost, size_t padding)
             row = (order & BOTTOM) != 0 ? NY - 1 - row : row;
             col = (order & RIGHT) != 0 ? NX - 1 - col : col;
             at = row * NX + col;
-            number(m, raw, at == LOST_AT ? lost : value_of(at, has_sign(raw)));
+            number(m, raw, at == MISSING_AT ? missing : value_of(at, has_sign(raw)));
         }
         zeros(m, padding);
     }

@@ -114,7 +114,7 @@ gwy_field(struct made *m, const char *name, const char *unit, bool is_mask)
     if (!is_mask)
         numbers(m, RC_RAW_F64, ROWS, 50, 0);
     for (size_t k = 0; is_mask && k < NX * NY; k++)
-        number(m, RC_RAW_F64, k == LOST_AT);
+        number(m, RC_RAW_F64, k == MISSING_AT);
     close_object(m, field);
 }
 

@@ -22,7 +22,7 @@ make_sdf_binary(struct made *m, int variant)
 {
     static const struct {
         enum rc_raw raw;
-        double lost;
+        double missing;
     } types[] = {
         {RC_RAW_U8, 50},
         {RC_RAW_U16, 50},
@@ -44,10 +44,10 @@ make_sdf_binary(struct made *m, int variant)
     number(m, RC_RAW_U8, 0);
     number(m, RC_RAW_U8, variant);
     number(m, RC_RAW_U8, 0);
-    numbers(m, types[variant].raw, ROWS, types[variant].lost, 0);
+    numbers(m, types[variant].raw, ROWS, types[variant].missing, 0);
 }
 
-/* 0: 16 bits, 1: 32 bits, 2: compressed in two streams, 3: without lost points */
+/* 0: 16 bits, 1: 32 bits, 2: compressed in two streams, 3: without missing points */
 static void
 make_sur(struct made *m, int variant)
 {

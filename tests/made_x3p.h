@@ -94,7 +94,7 @@ __attribute__((unused)) static struct rc_grid *
 read_file(const struct rc_file *file, struct rc_notes *notes)
 {
     struct rc_err err;
-    struct rc_grid *g = read_with(file, &no_wish, notes, &err);
+    struct rc_grid *g = read_with(file, &rc_no_wish, notes, &err);
 
     if (g == NULL)
         fail_msg("refused: %s", err.text);
@@ -106,7 +106,7 @@ refuse_file(const struct rc_file *file, const char *why)
 {
     struct rc_notes notes;
     struct rc_err err;
-    struct rc_grid *g = read_with(file, &no_wish, &notes, &err);
+    struct rc_grid *g = read_with(file, &rc_no_wish, &notes, &err);
 
     if (g != NULL)
         fail_msg("read, and should be refused for: %s", why);

@@ -53,6 +53,9 @@ claim "its estimates are not below them, nor above 1.5 times them" bash -c "
         n++; if (\$10 < (1 - $three_digits) * \$11 || \$10 > 1.5 * \$11) { bad = 1; print >\"/dev/stderr\" }
     } END { exit bad || n < 10 }' cost.txt"
 
+claim "the coarser grids have 1/8, 1/4 and 1/2 of the nodes a side, rounded" bash -c '
+    awk "\$1 == \"pcg\" && \$5 != \"66x62\" { print \$5 }" cost.txt | uniq | tr "\n" " " | grep -qx "8x8 17x16 33x31 "'
+
 # What is marked, and nothing else, is beaten by none in time and error. Below the error of the
 # reference all errors are the same.
 front_again() {

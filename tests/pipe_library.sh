@@ -13,7 +13,8 @@ fi
 claim "the page holds a program" program "$pages/libcontact.3" hertz.c
 # shellcheck disable=SC2086
 claim "it compiles against the static library" ${CC:-cc} -std=c17 -Wall -Wextra -pedantic \
-    -I "$RC_SOURCE" -o hertz hertz.c "$library/libcontact.a" $flags -lfftw3 -lfftw3f -lgsl -lgslcblas -lm
+    -I "$RC_SOURCE" -o hertz hertz.c "$library/libcontact.a" $flags \
+    -lfftw3_threads -lfftw3f_threads -lfftw3 -lfftw3f -lgsl -lgslcblas -lm
 claim "it runs" bash -c './hertz >hertz.txt'
 # a = 227.934 um, p0 = 2.20563 GPa, approach = 6.92720 um (Johnson 1985, section 4.2)
 near "$(awk '/^approach/ { print $5 }' hertz.txt)" 6.92720e-6 "$six_digits" "approach of Hertz"

@@ -133,7 +133,7 @@ near "$(rc-info --json p.rcg | grep '"szz"' | tail -n 1 | grep -o '"mean": [^,]*
 claim "  at depths of its own" bash -c 'rc-stress --nu 0.3 --depths auto wave.rcg -o p.rcg'
 refuses 1 'its boundary is free: --periodic contradicts it' "--periodic against the stream" \
     "rc-stress --periodic --depths 0 ball.rcg"
-refuses 1 'its boundary is periodic, where mlms does not sum: leave out --kernel mlms' "mlms on a periodic map" \
+refuses 1 'its boundary is periodic, where only fft sums: leave out --kernel mlms' "mlms on a periodic map" \
     "rc-stress --kernel mlms --nu 0.3 --depths 0 wave.rcg"
 
 # ---- engines ----
@@ -159,7 +159,7 @@ refuses 1 'section y = 0.001 m: the map ends at 0.0002695 m' "a section beyond t
     "rc-stress --section y=1mm --depths 0 ball.rcg"
 refuses 2 '--depths: those of a section must rise' "depths of a section that go up and down" \
     "rc-stress --section y=0 --depths 0,5um,2um ball.rcg"
-refuses 2 'mlms does not sum a --section: leave out --kernel mlms' "a section by mlms" \
+refuses 2 '--section is summed by fft: leave out --kernel mlms' "a section by mlms" \
     "rc-stress --section y=0 --kernel mlms --depths 0 ball.rcg"
 refuses 2 "'foo' is none of sxx" "a component that is none" "rc-stress --depths 0 --components sxx,foo ball.rcg"
 refuses 2 'give the depths with --depths' "no depths" "rc-stress ball.rcg"

@@ -107,7 +107,7 @@ check_arguments(struct run *run)
     tool_demand_writable(t, "--report", args.report);
 }
 
-/* To whoever waits in front of a terminal. */
+/* Said where somebody watches: on a terminal, or where progress is asked for. */
 static void
 tell(struct run *run, const char *text)
 {
@@ -240,7 +240,7 @@ open_case(struct run *run, struct rc_grid *g, struct cost_case *c)
     if (c->trial == NULL || (tool_given(&run->t, "depths") && c->stress == NULL))
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "out of memory");
     for (size_t k = 0; k < c->trials; k++)
-        c->trial[k].shape = coarse_shape(&c->shape, c->trial[k].settings.coarse);
+        c->trial[k].shape = cost_coarse_shape(&c->shape, c->trial[k].settings.coarse);
     cost_exclude(c);
 }
 

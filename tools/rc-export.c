@@ -13,6 +13,17 @@ static struct args {
     bool formats;
 } args;
 
+static const struct {
+    const char *name;
+    enum rc_raw raw;
+} types[] = {{"i16", RC_RAW_I16}, {"i32", RC_RAW_I32}, {"f32", RC_RAW_F32}, {"f64", RC_RAW_F64}};
+
+static const char *
+type_word(size_t k)
+{
+    return k < sizeof types / sizeof *types ? types[k].name : NULL;
+}
+
 /* clang-format off */
 static const struct opt opts[] = {
     {.name = "format", .type = OPT_TEXT, .at = offsetof(struct args, format), .result = true,
@@ -23,7 +34,7 @@ static const struct opt opts[] = {
     {.name = "channel", .type = OPT_TEXT, .at = offsetof(struct args, channel), .arg = "LIST",
      .help = "only the frames of these channels, separated by commas"},
     {.name = "type", .type = OPT_CHOICE, .at = offsetof(struct args, type), .result = true,
-     .arg = "i16|i32|f32|f64",
+     .words = type_word,
      .help = "of the values in the file, where the format leaves it open"},
     {.name = "missing", .type = OPT_TEXT, .at = offsetof(struct args, missing), .arg = "WORD",
      .help = "stands for a missing point in text (default: the format's own)"},
@@ -50,11 +61,6 @@ static const struct rc_export *format;
 static struct rc_export_wish wish;
 
 /* ---- what is to be written ---- */
-
-static const struct {
-    const char *name;
-    enum rc_raw raw;
-} types[] = {{"i16", RC_RAW_I16}, {"i32", RC_RAW_I32}, {"f32", RC_RAW_F32}, {"f64", RC_RAW_F64}};
 
 static const char *
 types_text(char text[32], unsigned set)

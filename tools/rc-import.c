@@ -327,7 +327,7 @@ pick_channel(struct tool *t, const struct rc_wish *wish, const struct rc_channel
 }
 
 static void
-mind_memory(struct tool *t, const struct rc_file *file, const struct rc_channel *channel)
+check_memory(struct tool *t, const struct rc_file *file, const struct rc_channel *channel)
 {
     double bytes = (double)file->size + 8.0 * (double)channel->nx * (double)channel->ny;
 
@@ -349,7 +349,7 @@ write_heights(struct tool *t, const struct rc_format *format, const struct rc_fi
     struct rc_grid *g;
     struct rc_err err;
 
-    mind_memory(t, file, &channel[index]);
+    check_memory(t, file, &channel[index]);
     if ((g = format->read(file, wish, index, &notes, &err)) == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", t->source, err.text);
     for (size_t k = 0; k < notes.n; k++)

@@ -1,5 +1,4 @@
 /* rc-render: one map of a grid stream as a PNG. */
-#include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -10,9 +9,6 @@
 #include "tools/cli/cli.h"
 #include "tools/plot/plot.h"
 #include "tools/render/render.h"
-
-#define BETWEEN " \xc2\xb7 "
-#define SIGMA "\xcf\x83"
 
 struct args {
     struct wish wish; /* which frame */
@@ -35,7 +31,7 @@ static const struct opt opts[] = {
      .max = 9e15, .result = true, .arg = "N",
      .help = "of several loads or files (default: the first)"},
     {.name = "colormap", .type = OPT_CHOICE, .at = offsetof(struct args, colormap), .result = true,
-     .arg = COLORMAP_NAMES, .help = "colours for the values (default: what suits the channel)"},
+     .words = colormap_name, .help = "colours for the values (default: what suits the channel)"},
     {.name = "range", .type = OPT_TEXT, .at = offsetof(struct args, range), .result = true,
      .arg = "LO:HI", .help = "values at the ends of the colours, as in 0:2GPa or -50nm:50nm"},
     {.name = "contour", .type = OPT_FLAG, .at = offsetof(struct args, contour), .result = true,
@@ -65,178 +61,10 @@ static const struct tool_info info = {
     .writes = WRITES_BYTES,
 };
 
-/* ---- what channels are ---- */
-
-static const struct channel {
-    const char *name, *title, *colormap;
-    bool from_zero; /* the colours begin at 0 where no value is negative */
-} channels[] = {
-    {"mises", "von Mises stress", "magma", true},
-    {"pressure", "Contact pressure", "magma", true},
-    {"height", "Height", "viridis", false},
-    {"gap", "Gap", "viridis", false},
-    {"displacement", "Normal displacement", "viridis", false},
-    {"plastic", "Height after unloading", "viridis", false},
-    {"tresca", "Tresca stress", "magma", true},
-    {"sxx", "Stress " SIGMA "xx", "bluered", false},
-    {"syy", "Stress " SIGMA "yy", "bluered", false},
-    {"szz", "Stress " SIGMA "zz", "bluered", false},
-    {"sxy", "Stress " SIGMA "xy", "bluered", false},
-    {"sxz", "Stress " SIGMA "xz", "bluered", false},
-    {"syz", "Stress " SIGMA "yz", "bluered", false},
-    {"s1", "Principal stress " SIGMA "1", "bluered", false},
-    {"s2", "Principal stress " SIGMA "2", "bluered", false},
-    {"s3", "Principal stress " SIGMA "3", "bluered", false},
-};
-
-/* A channel that is not in the table is called by its own name, and what has both signs gets
- * colours for both. */
-static struct channel
-describe(const struct rc_grid *g, const struct survey *s)
-{
-    for (size_t k = 0; k < sizeof channels / sizeof *channels; k++)
-        if (strcmp(channels[k].name, g->channel) == 0)
-            return channels[k];
-    return (struct channel){.name = g->channel,
-                            .title = g->channel,
-                            .colormap = s->min < 0 && s->max > 0 ? "bluered" : "viridis"};
-}
-
-static bool
-is_pressure(const struct rc_grid *g)
-{
-    return strcmp(g->channel, "pressure") == 0;
-}
-
 static bool
 is_profile(const struct rc_grid *g)
 {
     return (g->nx == 1) != (g->ny == 1) && rc_grid_get(g, "section") == NULL;
-}
-
-/* ---- range ---- */
-
-static enum unit
-unit_of(const struct rc_grid *g)
-{
-    for (enum unit u = UNIT_M; u <= UNIT_PA; u++)
-        if (strcmp(unit_name(u), g->unit) == 0)
-            return u;
-    return UNIT_NONE;
-}
-
-/* LO:HI or LO,HI. What was asked for goes into the picture's description in SI. */
-static void
-read_range(struct tool *t, struct args *a, const struct rc_grid *g, double *lo, double *hi)
-{
-    static char si[2 * RC_NUMBER_SIZE + 2];
-    char list[256], low[RC_NUMBER_SIZE], high[RC_NUMBER_SIZE];
-    char *colon;
-    struct numbers n = {0};
-    struct rc_err err;
-
-    snprintf(list, sizeof list, "%s", a->range);
-    if ((colon = strchr(list, ':')) != NULL)
-        *colon = ',';
-    if (unit_numbers(list, unit_of(g), &n, &err) != RC_OK)
-        tool_die(t, EXIT_USAGE, "--range %s: %s (channel %s is in %s)", a->range, err.text,
-                 g->channel, g->unit);
-    if (n.n != 2 || !(n.v[0] < n.v[1]))
-        tool_die(t, EXIT_USAGE, "--range %s: it must be LO:HI, two values with LO below HI",
-                 a->range);
-    *lo = n.v[0];
-    *hi = n.v[1];
-    free(n.v);
-    snprintf(si, sizeof si, "%s:%s", rc_number_text(low, *lo), rc_number_text(high, *hi));
-    a->range = si;
-}
-
-/* The ends of the colours when nobody chose them. */
-static void
-choose_range(const struct rc_grid *g, const struct survey *s, const struct colormap *map,
-             const struct channel *what, bool curve, double *lo, double *hi)
-{
-    double size = fmax(fabs(s->min), fabs(s->max)), margin;
-
-    *lo = map->diverging ? -size : what->from_zero && s->min >= 0 ? 0 : s->min;
-    *hi = map->diverging ? size : s->max;
-    if (curve) {
-        margin = 0.05 * s->max - 0.05 * s->min;
-        *lo = what->from_zero && s->min >= 0 ? 0 : fmax(s->min - margin, -DBL_MAX);
-        *hi = fmin(s->max + margin, DBL_MAX);
-    }
-    if (size < 1e-300) { /* zero everywhere: a nanometre about it, or one of what else it is */
-        size = unit_of(g) == UNIT_M ? 1e-9 : 1;
-        *lo = what->from_zero ? 0 : -size;
-        *hi = size;
-    } else if (0.5 * *hi - 0.5 * *lo <= 1e-12 * size) { /* constant, but for rounding */
-        *lo = fmax(s->min - 0.1 * size, -DBL_MAX);
-        *hi = fmin(s->max + 0.1 * size, DBL_MAX);
-    }
-}
-
-/* ---- words ---- */
-
-struct words {
-    char text[1024];
-    size_t n;
-};
-
-/* Adds a piece to the subtitle; one that does not fit is left out whole. */
-static void
-add_piece(struct words *w, const char *name, const char *value)
-{
-    size_t left = sizeof w->text - w->n;
-    int n = snprintf(w->text + w->n, left, "%s%s%s", w->n > 0 ? BETWEEN : "", name, value);
-
-    if (n > 0 && (size_t)n < left)
-        w->n += (size_t)n;
-    else
-        w->text[w->n] = '\0';
-}
-
-static void
-say_where(struct words *w, const struct rc_grid *g, bool largest)
-{
-    const char *section = rc_grid_get(g, "section");
-    char text[TICKS_TEXT], name[TICKS_TEXT + 32];
-    double number;
-
-    if (section != NULL) {
-        snprintf(name, sizeof name, "section %.1s = ", section);
-        add_piece(w, name, rc_grid_number(g, "at", &number) ? scale_value(text, number, "m") : "?");
-    } else if (rc_grid_number(g, "depth", &number)) {
-        scale_value(text, number, "m");
-        snprintf(name, sizeof name, "%s%s", text, largest ? " (where it is largest)" : "");
-        add_piece(w, "depth ", name);
-    }
-}
-
-/* What is a millionth of the other extreme is more likely rounding than a value in its own unit. */
-static const char *
-extreme(char text[TICKS_TEXT], double value, const struct survey *s, const char *unit)
-{
-    if (value != 0 && fabs(value) < 1e-6 * fmax(fabs(s->min), fabs(s->max)))
-        return "\xe2\x89\x88 0";
-    return scale_value(text, value, unit);
-}
-
-static void
-say_subtitle(struct words *w, const struct rc_grid *g, const struct survey *s, bool largest)
-{
-    const char *source = rc_grid_get(g, "source"), *number = rc_grid_get(g, "case");
-    char text[TICKS_TEXT];
-    double load;
-
-    if (source != NULL)
-        add_piece(w, "", source);
-    if (number != NULL)
-        add_piece(w, "case ", number);
-    if (rc_grid_number(g, "load", &load))
-        add_piece(w, "load ", scale_value(text, load, "N"));
-    say_where(w, g, largest);
-    add_piece(w, "min ", extreme(text, s->min, s, g->unit));
-    add_piece(w, "max ", extreme(text, s->max, s, g->unit));
 }
 
 /* ---- sections: rows are depths ---- */
@@ -372,7 +200,7 @@ static void
 render(struct tool *t, struct args *a, const struct rc_grid *g, bool largest)
 {
     struct survey s;
-    struct words subtitle = {.n = 0};
+    struct subtitle subtitle = {.n = 0};
     struct channel what;
     struct figure f;
 
@@ -382,8 +210,8 @@ render(struct tool *t, struct args *a, const struct rc_grid *g, bool largest)
                     "none of its %zu values is a finite number: there is "
                     "nothing to draw",
                     g->nx * g->ny);
-    what = describe(g, &s);
-    say_subtitle(&subtitle, g, &s, largest);
+    what = channel_of(g, &s);
+    subtitle_write(&subtitle, g, &s, largest);
     f = (struct figure){
         .title = a->title == NULL ? what.title : a->title,
         .subtitle = subtitle.text,
@@ -393,14 +221,14 @@ render(struct tool *t, struct args *a, const struct rc_grid *g, bool largest)
         .min = s.min,
         .max = s.max,
         .missing = s.missing,
-        .zero_is_none = is_pressure(g),
+        .zero_is_none = strcmp(g->channel, "pressure") == 0,
         .zeros = s.zeros,
         .contour = a->contour,
         .width = a->width,
     };
-    choose_range(g, &s, f.map, &what, is_profile(g) && !a->raw, &f.lo, &f.hi);
+    range_choose(g, &s, f.map, &what, is_profile(g) && !a->raw, &f.lo, &f.hi);
     if (a->range != NULL)
-        read_range(t, a, g, &f.lo, &f.hi);
+        a->range = range_read(t, a->range, g, &f.lo, &f.hi);
     if (a->contour && is_profile(g))
         tool_warn(t, "a profile is drawn as a curve: --contour does nothing");
     if (a->raw)

@@ -64,7 +64,6 @@ struct run {
     struct rc_stress_options options; /* of the case */
     struct numbers depths;            /* of the case */
     struct rc_grid *frame[RC_STRESSES];
-    double *line[RC_STRESSES]; /* the row of a section, in its frame */
     struct stress_report report;
     FILE *file;
 };
@@ -120,6 +119,7 @@ static void
 check_arguments(struct run *run)
 {
     struct tool *t = &run->t;
+    char list[128];
 
     if (!tool_given(t, "depths"))
         tool_die(t, EXIT_USAGE,
@@ -130,8 +130,8 @@ check_arguments(struct run *run)
         if (!(args.depths.v[k] > args.depths.v[k - 1]))
             tool_die(t, EXIT_USAGE, "--depths: those of a section must rise from one to the next");
     if (args.section != NULL && on_free_maps_only())
-        tool_die(t, EXIT_USAGE, "%s does not sum a --section: leave out --kernel %s", args.kernel,
-                 args.kernel);
+        tool_die(t, EXIT_USAGE, "--section is summed by %s: leave out --kernel %s",
+                 words_periodic_engines(list, sizeof list), args.kernel);
     tool_demand_writable(t, "--report", args.report);
 }
 
@@ -171,6 +171,8 @@ boundary(struct run *run, const struct rc_grid *p)
 static void
 set_options(struct run *run, const struct rc_grid *p)
 {
+    char list[128];
+
     run->options.boundary = boundary(run, p);
     run->options.nu = poisson(run, p);
     run->options.mu = args.mu;
@@ -180,8 +182,8 @@ set_options(struct run *run, const struct rc_grid *p)
     run->options.threads = run->t.threads;
     if (run->options.boundary == RC_PERIODIC && on_free_maps_only())
         tool_die_at(&run->t, p, EXIT_IMPOSSIBLE,
-                    "its boundary is periodic, where %s does not sum: leave out --kernel %s",
-                    args.kernel, args.kernel);
+                    "its boundary is periodic, where only %s sums: leave out --kernel %s",
+                    words_periodic_engines(list, sizeof list), args.kernel);
 }
 
 static void

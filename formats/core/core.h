@@ -6,13 +6,14 @@
 
 #include "bytes.h"
 #include "checksum.h"
+#include "file.h"
 #include "header.h"
+#include "heights.h"
 #include "limit.h"
 #include "maps.h"
 #include "number_table.h"
 #include "prefix.h"
 #include "text.h"
 #include "utf8.h"
-#include "values.h"
 
 #endif

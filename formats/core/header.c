@@ -53,6 +53,12 @@ rc_piece_trim(struct rc_piece piece)
     return piece;
 }
 
+struct rc_lines
+rc_piece_lines(struct rc_piece piece)
+{
+    return (struct rc_lines){.at = piece.text, .end = piece.text + piece.n};
+}
+
 bool
 rc_piece_part(struct rc_piece piece, const char *marks, struct rc_piece *before,
               struct rc_piece *after)
@@ -92,11 +98,32 @@ rc_piece_number(struct rc_piece piece, double *value, struct rc_piece *rest)
     return true;
 }
 
-bool
-rc_piece_length(struct rc_piece piece, double unit, double *metres)
+double
+rc_piece_metres(struct rc_piece piece)
+{
+    double metres;
+
+    return rc_length_unit(piece.text, piece.n, &metres) ? metres : NAN;
+}
+
+const char *
+rc_piece_shown(char to[RC_SHOWN], struct rc_piece piece)
+{
+    return rc_text_shown(to, piece.text, piece.n);
+}
+
+enum rc_status
+rc_piece_keep(struct rc_grid *g, const char *key, struct rc_piece piece, struct rc_err *err)
+{
+    return rc_text_keep(g, key, piece.text, piece.n, err);
+}
+
+/* "300 nm" in metres; so is a number without a unit. */
+static bool
+read_length(struct rc_piece piece, double *metres)
 {
     struct rc_piece rest;
-    double number;
+    double number, unit = 1;
 
     if (!rc_piece_number(piece, &number, &rest))
         return false;
@@ -120,9 +147,9 @@ rc_field_take(const struct rc_field *field, size_t n, struct rc_piece key, struc
         if (field[k].kind == RC_FIELD_TEXT)
             memcpy(at, &value, sizeof value);
         else if (field[k].kind == RC_FIELD_NUMBER ? !rc_piece_number(value, at, NULL)
-                                                  : !rc_piece_length(value, 1, at))
+                                                  : !read_length(value, at))
             return rc_err_set(err, "%s is '%s': that is no %s", field[k].key,
-                              rc_text_shown(quote, value.text, value.n),
+                              rc_piece_shown(quote, value),
                               field[k].kind == RC_FIELD_NUMBER ? "number" : "length");
         break;
     }
@@ -183,7 +210,7 @@ rc_flow_read(struct rc_piece *text, double *v, size_t n, struct rc_err *err)
             v[k] = NAN;
         else if (!rc_piece_number(word, &v[k], &rest) || rest.n > 0)
             return rc_err_set(err, "number %zu of the data is '%s': that is no number", k + 1,
-                              rc_text_shown(quote, word.text, word.n));
+                              rc_piece_shown(quote, word));
     }
     return RC_OK;
 }

@@ -18,14 +18,22 @@ bool rc_piece_begins(struct rc_piece piece, const char *word);
 /* Where the word begins in it, or NULL; case counts. */
 const char *rc_piece_find(struct rc_piece piece, const char *word);
 struct rc_piece rc_piece_trim(struct rc_piece piece);
+/* Its lines, before the first one. */
+struct rc_lines rc_piece_lines(struct rc_piece piece);
 /* Parts at the first of the characters `marks`, both trimmed; false when there is none. */
 bool rc_piece_part(struct rc_piece piece, const char *marks, struct rc_piece *before,
                    struct rc_piece *after);
 /* The number that it begins with and the trimmed rest (which may be NULL); false when there is
  * none. Decimal commas are read as points. */
 bool rc_piece_number(struct rc_piece piece, double *value, struct rc_piece *rest);
-/* "300 nm": metres; without a unit `unit` metres. */
-bool rc_piece_length(struct rc_piece piece, double unit, double *metres);
+
+/* Metres in the unit of length that it is; NAN for another word. */
+double rc_piece_metres(struct rc_piece piece);
+/* For quoting in a message; as rc_text_shown. */
+const char *rc_piece_shown(char to[RC_SHOWN], struct rc_piece piece);
+/* Sets a key of the grid; as rc_text_keep. */
+enum rc_status rc_piece_keep(struct rc_grid *grid, const char *key, struct rc_piece piece,
+                             struct rc_err *err);
 
 enum rc_field_kind {
     RC_FIELD_TEXT,   /* struct rc_piece                                    */

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "file.h"
 #include "limit.h"
 #include "prefix.h"
 
@@ -14,7 +15,7 @@ rc_maps_add(struct rc_maps *maps, const char *name, size_t n)
 
     maps->n++;
     *map = (struct rc_map){
-        .si = 1, .scale = 1, .dx = NAN, .dy = NAN, .lost_from = NAN, .lost_to = NAN};
+        .si = 1, .scale = 1, .dx = NAN, .dy = NAN, .missing_from = NAN, .missing_to = NAN};
     rc_text_clean(map->name, sizeof map->name, name, n);
     return map;
 }
@@ -83,9 +84,8 @@ rc_map_hint(struct rc_map *map, double dx, double dy)
 void
 rc_map_steps(struct rc_map *map, double dx, double dy, struct rc_piece unit)
 {
-    double metres = NAN;
+    double metres = rc_piece_metres(unit);
 
-    rc_length_unit(unit.text, unit.n, &metres);
     map->dx = dx * metres;
     map->dy = dy * metres;
     if (isnan(metres))
@@ -116,9 +116,9 @@ rc_map_bound(const struct rc_map *map, const struct rc_file *file, double unpack
                       map->nx, map->ny, file->size);
 }
 
-enum rc_status
-rc_map_fill_text(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
-                 double *v, struct rc_err *err)
+static enum rc_status
+fill_text(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
+          double *v, struct rc_err *err)
 {
     struct rc_piece text = {(const char *)file->data + map->at, file->size - map->at};
 
@@ -130,51 +130,11 @@ enum rc_status
 rc_map_is_text(struct rc_map *map, const struct rc_file *file, size_t at, struct rc_err *err)
 {
     map->at = at;
-    map->fill = rc_map_fill_text;
+    map->fill = fill_text;
     if (map->ny <= (file->size - at + 1) / 2 / map->nx) /* a digit and what parts it */
         return RC_OK;
     return rc_err_set(err, "the header promises %zu x %zu numbers, the file has %zu bytes for them",
                       map->nx, map->ny, file->size - at);
-}
-
-bool
-rc_file_named(const struct rc_file *file, const char *suffixes)
-{
-    struct rc_piece name = {file->name, strlen(file->name)};
-    char suffix[16];
-
-    while (*suffixes != '\0') {
-        size_t n = strcspn(suffixes, " ");
-        if (n < sizeof suffix && n <= name.n) {
-            memcpy(suffix, suffixes, n);
-            suffix[n] = '\0';
-            if (rc_piece_is((struct rc_piece){name.text + name.n - n, n}, suffix))
-                return true;
-        }
-        suffixes += n;
-        suffixes += strspn(suffixes, " ");
-    }
-    return false;
-}
-
-bool
-rc_file_holds(const struct rc_file *file, size_t at, const void *bytes, size_t n)
-{
-    return at <= file->size && file->size - at >= n && memcmp(file->data + at, bytes, n) == 0;
-}
-
-struct rc_piece
-rc_file_text(const struct rc_file *file, size_t at, size_t n)
-{
-    const char *text = (const char *)file->data + at;
-
-    return rc_piece_trim((struct rc_piece){text, strnlen(text, n)});
-}
-
-struct rc_bytes
-rc_file_bytes(const struct rc_file *file, bool big)
-{
-    return (struct rc_bytes){.data = file->data, .size = file->size, .big = big};
 }
 
 bool
@@ -196,7 +156,7 @@ rc_map_range(const struct rc_map *map, const struct rc_file *file, double *low, 
         if (at == 0)
             rc_bytes_values(&bytes, map->raw, some,
                             left < sizeof some / sizeof *some ? left : sizeof some / sizeof *some);
-        if (some[at] >= map->lost_from && some[at] <= map->lost_to)
+        if (some[at] >= map->missing_from && some[at] <= map->missing_to)
             continue;
         *low = some[at] < *low ? some[at] : *low;
         *high = some[at] > *high ? some[at] : *high;

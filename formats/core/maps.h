@@ -9,8 +9,8 @@
 #define RC_MAPS_H
 
 #include "bytes.h"
-#include "formats/format.h"
 #include "header.h"
+#include "formats/format.h"
 
 enum {
     RC_MAPS_MOST = 64, /* that are kept of a file; further ones are counted */
@@ -30,7 +30,8 @@ struct rc_map {
     size_t padding;  /* bytes after each line of numbers                                   */
     bool by_columns; /* a line of numbers is a column                                      */
     bool bottom_first, right_first;
-    double lost_from, lost_to; /* raw numbers in [from, to] are missing; NAN: none is         */
+    double missing_from,
+        missing_to; /* raw numbers in [from, to] are missing; NAN: none is         */
     /* Instead of raw, at and padding: puts nx*ny raw numbers into v, NAN where missing, in the
      * order that by_columns and so on say. Whoever sets it bounds nx*ny by the file's size. */
     enum rc_status (*fill)(const struct rc_file *file, const struct rc_wish *wish,
@@ -75,20 +76,10 @@ enum rc_status rc_map_count(const char *what, double number, size_t *count, stru
  * file. */
 enum rc_status rc_map_bound(const struct rc_map *map, const struct rc_file *file, double unpacked,
                             struct rc_err *err);
-/* The fill of a map that is text: numbers parted by white space from `at` on. */
-enum rc_status rc_map_fill_text(const struct rc_file *file, const struct rc_wish *wish,
-                                const struct rc_map *map, double *v, struct rc_err *err);
-/* Makes it one, unless the text from `at` on is too short for nx*ny numbers. */
+/* Makes it a map that is text: numbers separated by white space from `at` on. RC_FAIL when the text
+ * is too short for nx*ny of them. */
 enum rc_status rc_map_is_text(struct rc_map *map, const struct rc_file *file, size_t at,
                               struct rc_err *err);
-/* Whether the name of the file ends in one of the suffixes ".a .b", in either case. */
-bool rc_file_named(const struct rc_file *file, const char *suffixes);
-/* Whether the file has these bytes at that place. */
-bool rc_file_holds(const struct rc_file *file, size_t at, const void *bytes, size_t n);
-/* The text at that place, which must be in the file: up to n bytes or a NUL, trimmed. */
-struct rc_piece rc_file_text(const struct rc_file *file, size_t at, size_t n);
-/* A cursor at the first byte; the number at a place, 0 with `past` set where there is none. */
-struct rc_bytes rc_file_bytes(const struct rc_file *file, bool big);
 
 /* Describes a file; RC_FAIL with the reason. */
 typedef enum rc_status rc_maps_find(const struct rc_file *file, const struct rc_wish *wish,

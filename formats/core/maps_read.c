@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "file.h"
+
 /* ---- checking ---- */
 
 static enum rc_status
@@ -156,7 +158,7 @@ scale(const struct rc_map *map, double si, double *v, struct rc_err *err)
     for (size_t k = 0; k < map->nx * map->ny; k++) {
         if (isnan(v[k]))
             continue;
-        if (v[k] >= map->lost_from && v[k] <= map->lost_to) {
+        if (v[k] >= map->missing_from && v[k] <= map->missing_to) {
             v[k] = NAN;
             continue;
         }
@@ -206,7 +208,7 @@ rc_maps_read(rc_maps_find *find, const struct rc_file *file, const struct rc_wis
             RC_OK ||
         scale(map, si, g->v, err) != RC_OK ||
         (strcmp(map->name, "height") != 0 &&
-         rc_text_keep(g, "file.channel", map->name, strlen(map->name), err) != RC_OK))
+         rc_word_keep(g, "file.channel", map->name, err) != RC_OK))
         goto failed;
     for (size_t k = 0; k < maps.keys; k++)
         if (rc_grid_set(g, maps.key[k].name, maps.key[k].value, err) != RC_OK)

@@ -4,6 +4,8 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "header.h"
+
 enum {
     NUMBER_MOST = 400 /* characters of one number */
 };
@@ -142,17 +144,6 @@ read_number(const struct rc_number_table *t, const char *s, char decimal, struct
 /* ---- words ---- */
 
 static bool
-same_word(const char *word, const char *s, size_t n)
-{
-    if (strlen(word) != n)
-        return false;
-    for (size_t k = 0; k < n; k++)
-        if ((s[k] >= 'A' && s[k] <= 'Z' ? s[k] + ('a' - 'A') : s[k]) != word[k])
-            return false;
-    return true;
-}
-
-static bool
 is_missing(const struct rc_number_table *t, const char *s, size_t n)
 {
     /* the last three are how some C libraries print a NaN */
@@ -162,7 +153,7 @@ is_missing(const struct rc_number_table *t, const char *s, size_t n)
     if (t->missing != NULL && strlen(t->missing) == n && memcmp(t->missing, s, n) == 0)
         return true;
     for (size_t k = 0; k < sizeof words / sizeof *words; k++)
-        if (same_word(words[k], s, n))
+        if (rc_piece_is((struct rc_piece){s, n}, words[k]))
             return true;
     return false;
 }
@@ -341,9 +332,10 @@ find_separator(struct rc_number_table *t, const char *s, size_t line, struct rc_
     return RC_OK;
 }
 
-/* "1,5" may be two columns of whole numbers or one of fractions: only the user knows. */
+/* RC_FAIL where "1,5" may be two columns of whole numbers or one of fractions: the user knows. */
 static enum rc_status
-mind_two_columns(const struct rc_number_table *t, const struct rc_wish *wish, struct rc_err *err)
+refuse_ambiguous_comma(const struct rc_number_table *t, const struct rc_wish *wish,
+                       struct rc_err *err)
 {
     if (t->columns != 2 || t->separator != ',' || wish->separator != NULL || wish->decimal != 0 ||
         memchr(t->start, '.', (size_t)(t->end - t->start)) != NULL ||
@@ -389,7 +381,20 @@ rc_number_table_open(struct rc_number_table *t, const struct rc_lines *lines,
         return bad_field(t, line, bad, decimal, err);
     for (t->rows = 1; (s = next_row(t, s, &line)) < t->end; t->rows++)
         s = line_end(t, s);
-    return mind_two_columns(t, wish, err);
+    return refuse_ambiguous_comma(t, wish, err);
+}
+
+enum rc_status
+rc_number_table_size(const struct rc_number_table *t, size_t *n, struct rc_err *err)
+{
+    size_t bytes = (size_t)(t->end - t->start);
+
+    if (rc_size_mul(t->rows, t->columns, n, err) != RC_OK)
+        return RC_FAIL;
+    if (*n > bytes + 1) /* a value takes a byte at least, but for the last */
+        return rc_err_set(err, "%zu columns and %zu rows in %zu bytes: some row is too short",
+                          t->columns, t->rows, bytes);
+    return RC_OK;
 }
 
 enum rc_status

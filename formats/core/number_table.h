@@ -10,8 +10,8 @@
 #ifndef RC_NUMBER_TABLE_H
 #define RC_NUMBER_TABLE_H
 
-#include "formats/format.h"
 #include "text.h"
+#include "formats/format.h"
 
 struct rc_number_table {
     const char *start, *end;
@@ -27,6 +27,9 @@ struct rc_number_table {
  * holds something else than numbers, or where separator and decimal mark cannot be told apart. */
 enum rc_status rc_number_table_open(struct rc_number_table *table, const struct rc_lines *lines,
                                     const struct rc_wish *wish, struct rc_err *err);
+/* columns * rows; RC_FAIL when the text is too short for so many values. */
+enum rc_status rc_number_table_size(const struct rc_number_table *table, size_t *n,
+                                    struct rc_err *err);
 /* All values, row by row, NaN where missing. RC_FAIL names the line that is not as it must be. */
 enum rc_status rc_number_table_read(struct rc_number_table *table, double *v, struct rc_err *err);
 

@@ -1,5 +1,6 @@
 #include "text.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "utf8.h"
@@ -76,6 +77,14 @@ rc_length_unit(const char *text, size_t n, double *metres)
     return false;
 }
 
+double
+rc_word_metres(const char *word)
+{
+    double metres;
+
+    return rc_length_unit(word, strlen(word), &metres) ? metres : NAN;
+}
+
 /* Control characters, U+0080 to U+009F too, would act on the terminal that shows them. */
 static void
 blank_controls(char *text)
@@ -99,9 +108,7 @@ widen(char *to, size_t size, const char *text, size_t n)
 
         if (used + (c < 0x80 ? 1 : 2) >= size)
             break;
-        if (c >= 0x80)
-            to[used++] = (char)(0xc0 | c >> 6);
-        to[used++] = c < 0x80 ? (char)c : (char)(0x80 | (c & 0x3f));
+        used += rc_utf8_put(to + used, c);
     }
     to[used] = '\0';
 }
@@ -130,6 +137,12 @@ rc_text_shown(char to[RC_SHOWN], const char *text, size_t n)
     return rc_text_clean(to, RC_SHOWN, text, n);
 }
 
+const char *
+rc_word_shown(char to[RC_SHOWN], const char *word)
+{
+    return rc_text_shown(to, word, strlen(word));
+}
+
 enum rc_status
 rc_text_keep(struct rc_grid *g, const char *key, const char *text, size_t n, struct rc_err *err)
 {
@@ -137,4 +150,10 @@ rc_text_keep(struct rc_grid *g, const char *key, const char *text, size_t n, str
 
     rc_text_clean(value, sizeof value, text, n);
     return *value == '\0' ? RC_OK : rc_grid_set(g, key, value, err);
+}
+
+enum rc_status
+rc_word_keep(struct rc_grid *g, const char *key, const char *word, struct rc_err *err)
+{
+    return rc_text_keep(g, key, word, strlen(word), err);
 }

@@ -21,6 +21,8 @@ void rc_trim(const char **text, size_t *n);
 /* Metres per unit of "nm", "um", "µm" (UTF-8 or Latin-1, either code point), "Å", ...; false when
  * it is no unit of length. */
 bool rc_length_unit(const char *text, size_t n, double *metres);
+/* The same of a word up to its NUL; NAN when it is no unit of length. */
+double rc_word_metres(const char *word);
 
 /* Copies text[0..n) as UTF-8, cut to what fits: bytes that are not UTF-8 are taken as Latin-1,
  * control characters become spaces, white space at both ends goes. Gives `to`. */
@@ -31,9 +33,12 @@ enum {
 };
 /* The same for quoting in a message: short. */
 const char *rc_text_shown(char to[RC_SHOWN], const char *text, size_t n);
+const char *rc_word_shown(char to[RC_SHOWN], const char *word); /* up to its NUL */
 
 /* Sets a key to the cleaned text; does nothing when that is empty. */
 enum rc_status rc_text_keep(struct rc_grid *grid, const char *key, const char *text, size_t n,
                             struct rc_err *err);
+enum rc_status rc_word_keep(struct rc_grid *grid, const char *key, const char *word,
+                            struct rc_err *err); /* up to its NUL */
 
 #endif

@@ -1,4 +1,4 @@
-/* What reading and writing of a stream share: the order of bytes and the sum over them. */
+/* What reading and writing of a stream share: the order of bytes and the checksum over them. */
 #ifndef RC_STREAM_BYTES_H
 #define RC_STREAM_BYTES_H
 

@@ -208,31 +208,70 @@ read_spacing(const char *name, const char *text, double *d, struct rc_err *err)
     return RC_OK;
 }
 
+static enum rc_status
+read_shape(const struct rc_reader *r, const struct head *head, struct rc_shape *shape,
+           struct rc_err *err)
+{
+    size_t nodes, bytes;
+
+    if (read_size("nx", head->field[NX], &shape->nx, err) != RC_OK ||
+        read_size("ny", head->field[NY], &shape->ny, err) != RC_OK ||
+        read_spacing("dx", head->field[DX], &shape->dx, err) != RC_OK ||
+        read_spacing("dy", head->field[DY], &shape->dy, err) != RC_OK ||
+        rc_size_mul(shape->nx, shape->ny, &nodes, err) != RC_OK ||
+        rc_size_mul(nodes, sizeof(double), &bytes, err) != RC_OK)
+        return RC_FAIL;
+    if (r->memory != 0 && bytes > r->memory)
+        return rc_err_set(err,
+                          "a frame of %zu x %zu nodes needs %zu bytes, more than --memory allows",
+                          shape->nx, shape->ny, bytes);
+    return RC_OK;
+}
+
+static enum rc_status
+set_keys(struct rc_grid *g, const struct head *head, struct rc_err *err)
+{
+    for (size_t k = 0; k < head->extras; k++) {
+        const char *name = head->extra[k];
+
+        if (rc_grid_get(g, name) != NULL)
+            return rc_err_set(err, "header key '%.60s' stands twice", name);
+        if (rc_grid_set(g, name, name + strlen(name) + 1, err) != RC_OK)
+            return RC_FAIL;
+    }
+    return RC_OK;
+}
+
+/* Numbers the frame's case on from those of the streams before this one. */
+static enum rc_status
+number_case(struct rc_reader *r, struct rc_grid *g, struct rc_err *err)
+{
+    size_t number = rc_grid_case(g);
+
+    if (number == 0)
+        return rc_err_set(err, "case=%.40s is not a whole number from 1", rc_grid_get(g, "case"));
+    number += r->first_case;
+    if (r->first_case > 0 && rc_grid_set_number(g, "case", (double)number, err) != RC_OK)
+        return RC_FAIL;
+    if (number > r->last_case)
+        r->last_case = number;
+    return RC_OK;
+}
+
 /* The grid that a header promises, values still to come. */
 static struct rc_grid *
 grid_of_head(struct rc_reader *r, const struct head *head, struct rc_err *err)
 {
     struct rc_shape shape;
-    struct rc_grid *g = NULL;
-    size_t nodes, bytes, number;
+    struct rc_grid *g;
 
     for (int f = 0; f < FIELDS; f++)
         if (head->field[f] == NULL) {
             rc_err_set(err, "the header has no %s= line", field_names[f]);
             return NULL;
         }
-    if (read_size("nx", head->field[NX], &shape.nx, err) != RC_OK ||
-        read_size("ny", head->field[NY], &shape.ny, err) != RC_OK ||
-        read_spacing("dx", head->field[DX], &shape.dx, err) != RC_OK ||
-        read_spacing("dy", head->field[DY], &shape.dy, err) != RC_OK ||
-        rc_size_mul(shape.nx, shape.ny, &nodes, err) != RC_OK ||
-        rc_size_mul(nodes, sizeof(double), &bytes, err) != RC_OK)
+    if (read_shape(r, head, &shape, err) != RC_OK)
         return NULL;
-    if (r->memory != 0 && bytes > r->memory) {
-        rc_err_set(err, "a frame of %zu x %zu nodes needs %zu bytes, more than --memory allows",
-                   shape.nx, shape.ny, bytes);
-        return NULL;
-    }
     if (strcmp(head->field[TYPE], "f64") != 0 && strcmp(head->field[TYPE], "f32") != 0) {
         rc_err_set(err, "type=%.40s is neither f64 nor f32", head->field[TYPE]);
         return NULL;
@@ -241,27 +280,8 @@ grid_of_head(struct rc_reader *r, const struct head *head, struct rc_err *err)
     if (g == NULL)
         return NULL;
     g->type = strcmp(head->field[TYPE], "f32") == 0 ? RC_F32 : RC_F64;
-    for (size_t k = 0; k < head->extras; k++) {
-        const char *name = head->extra[k];
-        if (rc_grid_get(g, name) != NULL) {
-            rc_err_set(err, "header key '%.60s' stands twice", name);
-            goto fail;
-        }
-        if (rc_grid_set(g, name, name + strlen(name) + 1, err) != RC_OK)
-            goto fail;
-    }
-    number = rc_grid_case(g);
-    if (number == 0) {
-        rc_err_set(err, "case=%.40s is not a whole number from 1", rc_grid_get(g, "case"));
-        goto fail;
-    }
-    number += r->first_case;
-    if (r->first_case > 0 && rc_grid_set_number(g, "case", (double)number, err) != RC_OK)
-        goto fail;
-    if (number > r->last_case)
-        r->last_case = number;
-    return g;
-fail:
+    if (set_keys(g, head, err) == RC_OK && number_case(r, g, err) == RC_OK)
+        return g;
     rc_grid_free(g);
     return NULL;
 }

@@ -19,7 +19,7 @@ enum {
 static const char magic[MAGIC + 1] = "AliconaImaging\0\r\n";
 
 struct al3d {
-    double tags, columns, rows, at, dx, dy, lost;
+    double tags, columns, rows, at, dx, dy, missing;
     struct rc_piece creator;
 };
 
@@ -30,7 +30,7 @@ static const struct rc_field fields[] = {
     {"DepthImageOffset", RC_FIELD_NUMBER, offsetof(struct al3d, at)},
     {"PixelSizeXMeter", RC_FIELD_NUMBER, offsetof(struct al3d, dx)},
     {"PixelSizeYMeter", RC_FIELD_NUMBER, offsetof(struct al3d, dy)},
-    {"InvalidPixelValue", RC_FIELD_NUMBER, offsetof(struct al3d, lost)},
+    {"InvalidPixelValue", RC_FIELD_NUMBER, offsetof(struct al3d, missing)},
     {"CreatingApplication", RC_FIELD_TEXT, offsetof(struct al3d, creator)},
 };
 
@@ -60,7 +60,7 @@ static enum rc_status
 al3d_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
           struct rc_err *err)
 {
-    struct al3d a = {.dx = NAN, .dy = NAN, .lost = NAN};
+    struct al3d a = {.dx = NAN, .dy = NAN, .missing = NAN};
     struct rc_map *map = rc_maps_add(maps, "", 0);
 
     (void)wish;
@@ -80,8 +80,8 @@ al3d_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps
     map->padding = map->nx % 2 * 4;
     map->dx = a.dx;
     map->dy = a.dy;
-    map->lost_from = a.lost - 1e-6 * fabs(a.lost); /* its digits are those of a float */
-    map->lost_to = a.lost + 1e-6 * fabs(a.lost);
+    map->missing_from = a.missing - 1e-6 * fabs(a.missing); /* its digits are those of a float */
+    map->missing_to = a.missing + 1e-6 * fabs(a.missing);
     rc_maps_key(maps, "file.creator", a.creator.text, a.creator.n);
     return RC_OK;
 }

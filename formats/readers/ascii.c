@@ -30,14 +30,13 @@ static enum rc_status
 ascii_open(const struct rc_file *file, const struct rc_wish *wish, struct rc_ascii_head *h,
            struct rc_number_table *table, struct rc_err *err)
 {
-    const char *text = (const char *)file->data;
-    struct rc_lines lines = {.at = text, .end = text + file->size};
+    struct rc_lines lines = rc_piece_lines(rc_file_piece(file));
 
     *h = (struct rc_ascii_head){0};
-    if (file->size >= 2 && (memcmp(text, "\xff\xfe", 2) == 0 || memcmp(text, "\xfe\xff", 2) == 0))
+    if (rc_file_is_utf16(file))
         return rc_err_set(err, "the text is UTF-16: convert it first (iconv -f UTF-16 -t UTF-8)");
-    if (file->size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0)
-        lines.at += 3;
+    if (rc_file_holds(file, 0, "\xef\xbb\xbf", 3))
+        lines.at += 3; /* the byte order mark of UTF-8 */
     rc_ascii_read_head(h, &lines);
     if (rc_number_table_open(table, &lines, wish, err) != RC_OK)
         return RC_FAIL;
@@ -96,8 +95,8 @@ is_rising(const double *v, size_t rows)
 }
 
 static enum rc_status
-mind_coordinates(const struct rc_ascii_head *h, const struct rc_number_table *table,
-                 const double *v, struct rc_err *err)
+refuse_coordinates(const struct rc_ascii_head *h, const struct rc_number_table *table,
+                   const double *v, struct rc_err *err)
 {
     if (h->nx != 0 || !isnan(h->width) || !isnan(h->pixel))
         return RC_OK;
@@ -127,61 +126,45 @@ read_matrix(const struct rc_ascii_head *h, struct rc_number_table *table,
             const struct rc_wish *wish, struct rc_notes *notes, struct rc_err *err)
 {
     struct rc_shape shape = {.nx = table->columns, .ny = table->rows, .dx = 1, .dy = 1};
-    size_t n, bytes = (size_t)(table->end - table->start);
     struct rc_grid *g = NULL;
     double dx, dy, metres;
+    size_t n;
 
-    if (rc_size_mul(shape.nx, shape.ny, &n, err) != RC_OK)
-        return NULL;
-    if (n > bytes + 1) { /* a value takes a byte at least, but for the last */
-        rc_err_set(err, "%zu columns and %zu rows in %zu bytes: some row is too short", shape.nx,
-                   shape.ny, bytes);
-        return NULL;
-    }
-    if ((g = rc_grid_new(&shape, "height", "m", err)) == NULL)
+    if (rc_number_table_size(table, &n, err) != RC_OK ||
+        (g = rc_grid_new(&shape, "height", "m", err)) == NULL)
         return NULL;
     spacing(h, table, &dx, &dy);
     if (rc_number_table_read(table, g->v, err) != RC_OK ||
-        mind_coordinates(h, table, g->v, err) != RC_OK ||
+        refuse_coordinates(h, table, g->v, err) != RC_OK ||
         get_scales(h, dx, dy, wish, &shape, &metres, notes, err) != RC_OK ||
-        rc_text_keep(g, "file.channel", h->channel.text, h->channel.n, err) != RC_OK) {
+        rc_piece_keep(g, "file.channel", h->channel, err) != RC_OK) {
         rc_grid_free(g);
         return NULL;
     }
     g->dx = shape.dx;
     g->dy = shape.dy;
-    for (size_t k = 0; k < n; k++) {
-        bool missing = isnan(g->v[k]);
-
+    for (size_t k = 0; k < n; k++)
         g->v[k] *= metres;
-        if (!missing && !isfinite(g->v[k])) {
-            rc_err_set(err, "the height at column %zu, row %zu (from 0) is infinite", k % shape.nx,
-                       k / shape.nx);
-            rc_grid_free(g);
-            return NULL;
-        }
-    }
-    return g;
+    if (rc_heights_finite(g, err) == RC_OK)
+        return g;
+    rc_grid_free(g);
+    return NULL;
 }
 
 /* ---- the entry in formats.list ---- */
 
-static const struct rc_wish no_wish = {.dx = NAN, .dy = NAN, .z_unit = NAN};
-
 static int
 ascii_score(const struct rc_file *file)
 {
-    size_t looked = file->size < 4096 ? file->size : 4096;
     struct rc_number_table table;
     struct rc_ascii_head h;
     unsigned char c;
 
-    if (file->size >= 2 &&
-        (memcmp(file->data, "\xff\xfe", 2) == 0 || memcmp(file->data, "\xfe\xff", 2) == 0))
+    if (rc_file_is_utf16(file))
         return 2;
-    if (file->size == 0 || memchr(file->data, 0, looked) != NULL)
+    if (!rc_file_is_text(file))
         return 0;
-    if (ascii_open(file, &no_wish, &h, &table, NULL) == RC_OK)
+    if (ascii_open(file, &rc_no_wish, &h, &table, NULL) == RC_OK)
         return h.known ? 90 : 40;
     /* A little for what begins as numbers do, so that a refusal says what is wrong with them. */
     c = file->data[0];

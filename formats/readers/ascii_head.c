@@ -19,7 +19,7 @@ enum kind {
 };
 
 static const struct {
-    const char *key; /* in lower case */
+    const char *key; /* in either case */
     enum kind kind;
 } keys[] = {
     {"channel", CHANNEL},
@@ -180,23 +180,13 @@ find_mark(const char *s, size_t n, size_t *width)
     return NULL;
 }
 
-static bool
-key_is(const char *key, const char *s, size_t n)
-{
-    if (strlen(key) != n)
-        return false;
-    for (size_t k = 0; k < n; k++)
-        if ((s[k] >= 'A' && s[k] <= 'Z' ? s[k] + ('a' - 'A') : s[k]) != key[k])
-            return false;
-    return true;
-}
-
 /* `key: value` or `key=value`; whether the key is one of ours. */
 static bool
 take_entry(struct rc_ascii_head *h, const char *s, size_t n, struct rc_piece *value)
 {
-    size_t width, key_n;
+    size_t width;
     const char *mark = find_mark(s, n, &width);
+    struct rc_piece key;
 
     *value = (struct rc_piece){s, 0};
     if (mark == NULL)
@@ -204,10 +194,9 @@ take_entry(struct rc_ascii_head *h, const char *s, size_t n, struct rc_piece *va
     value->text = mark + width;
     value->n = n - (size_t)(value->text - s);
     rc_trim(&value->text, &value->n);
-    key_n = (size_t)(mark - s);
-    rc_trim(&s, &key_n);
+    key = rc_piece_trim((struct rc_piece){s, (size_t)(mark - s)});
     for (size_t k = 0; k < sizeof keys / sizeof *keys; k++)
-        if (key_is(keys[k].key, s, key_n)) {
+        if (rc_piece_is(key, keys[k].key)) {
             take(h, keys[k].kind, *value);
             h->known = true;
             return true;

@@ -15,7 +15,7 @@ enum {
 };
 
 struct bcr {
-    double header, columns, rows, width, height, bit2nm, order, lost, lowest;
+    double header, columns, rows, width, height, bit2nm, order, missing, lowest;
     struct rc_piece x_unit, y_unit, z_unit;
 };
 
@@ -27,7 +27,7 @@ static const struct rc_field fields[] = {
     {"ylength", RC_FIELD_NUMBER, offsetof(struct bcr, height)},
     {"bit2nm", RC_FIELD_NUMBER, offsetof(struct bcr, bit2nm)},
     {"intelmode", RC_FIELD_NUMBER, offsetof(struct bcr, order)},
-    {"voidpixels", RC_FIELD_NUMBER, offsetof(struct bcr, lost)},
+    {"voidpixels", RC_FIELD_NUMBER, offsetof(struct bcr, missing)},
     {"zmin", RC_FIELD_NUMBER, offsetof(struct bcr, lowest)},
     {"xunit", RC_FIELD_TEXT, offsetof(struct bcr, x_unit)},
     {"yunit", RC_FIELD_TEXT, offsetof(struct bcr, y_unit)},
@@ -62,11 +62,7 @@ kind_of(const struct rc_file *file, size_t *mark)
 static double
 length(double number, struct rc_piece unit)
 {
-    double metres = 1e-9;
-
-    if (unit.n > 0 && !rc_length_unit(unit.text, unit.n, &metres))
-        return NAN;
-    return number * metres;
+    return number * (unit.n == 0 ? 1e-9 : rc_piece_metres(unit));
 }
 
 static enum rc_status
@@ -77,7 +73,7 @@ bcr_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
                     .height = NAN,
                     .bit2nm = 1,
                     .order = 1,
-                    .lost = NAN,
+                    .missing = NAN,
                     .lowest = NAN,
                     .header = NAN};
     struct rc_map *map = rc_maps_add(maps, "", 0);
@@ -109,10 +105,10 @@ bcr_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     if (kinds[kind].is_float && b.z_unit.n > 0)
         rc_map_unit(map, b.z_unit.text, b.z_unit.n);
     map->scale = kinds[kind].is_float ? 1 : b.bit2nm;
-    map->lost_from = map->lost_to = b.lost;
-    if (kinds[kind].is_float && b.lost > 1e30) {
-        map->lost_from = b.lost * (1 - 1e-6); /* few digits of the largest float */
-        map->lost_to = INFINITY;
+    map->missing_from = map->missing_to = b.missing;
+    if (kinds[kind].is_float && b.missing > 1e30) {
+        map->missing_from = b.missing * (1 - 1e-6); /* few digits of the largest float */
+        map->missing_to = INFINITY;
     }
     if (!isnan(b.lowest) && rc_map_range(map, file, &low, &high))
         map->zero = b.lowest - (map->scale < 0 ? high : low) * map->scale;

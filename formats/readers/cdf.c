@@ -172,7 +172,7 @@ read_variable(struct rc_cdf *f, struct rc_cdf_variable *v, struct rc_err *err)
     char quote[RC_SHOWN];
     uint64_t rank;
 
-    *v = (struct rc_cdf_variable){.fill = NAN, .factor = 1};
+    *v = (struct rc_cdf_variable){.unit = {"", 0}, .title = {"", 0}, .fill = NAN, .factor = 1};
     v->name = bytes(f, count(f));
     rank = count(f);
     if (f->b.past || rank > RANK_MOST)
@@ -182,7 +182,7 @@ read_variable(struct rc_cdf *f, struct rc_cdf_variable *v, struct rc_err *err)
         uint64_t id = count(f);
         if (id >= f->dimensions)
             return rc_err_set(err, "variable '%s' has dimension %llu of %zu",
-                              rc_text_shown(quote, v->name.text, v->name.n), (unsigned long long)id,
+                              rc_piece_shown(quote, v->name), (unsigned long long)id,
                               f->dimensions);
         if (k < 2)
             v->dimension[k] = (size_t)id;
@@ -194,7 +194,7 @@ read_variable(struct rc_cdf *f, struct rc_cdf_variable *v, struct rc_err *err)
     v->at = f->version == 1 ? rc_bytes_u32(&f->b) : rc_bytes_u64(&f->b);
     if (f->b.past || v->type == 0 || v->type >= RC_CDF_TYPES)
         return rc_err_set(err, "variable '%s' is cut off, or of type %u, which there is not",
-                          rc_text_shown(quote, v->name.text, v->name.n), v->type);
+                          rc_piece_shown(quote, v->name), v->type);
     return RC_OK;
 }
 
@@ -247,8 +247,8 @@ rc_cdf_close(struct rc_cdf *f)
 enum rc_status
 rc_cdf_open(struct rc_cdf *f, const struct rc_file *file, struct rc_err *err)
 {
-    *f = (struct rc_cdf){.file = file, .b = {.data = file->data, .size = file->size, .big = true}};
-    if (file->size < 8 || memcmp(file->data, "CDF", 3) != 0)
+    *f = (struct rc_cdf){.b = {.data = file->data, .size = file->size, .big = true}};
+    if (file->size < 8 || !rc_file_holds(file, 0, "CDF", 3))
         return rc_err_set(err, "no NetCDF file: it does not begin with 'CDF'");
     f->version = file->data[3];
     if (f->version != 1 && f->version != 2 && f->version != 5)

@@ -28,7 +28,6 @@ struct rc_cdf_variable {
 };
 
 struct rc_cdf {
-    const struct rc_file *file;
     struct rc_bytes b;
     unsigned version;
     uint64_t records, record; /* their number; bytes of one */

@@ -10,9 +10,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "formats/sandbox/sandbox.h"
 #include "hdf.h"
 #include "formats/core/core.h"
+#include "formats/sandbox/sandbox.h"
 
 enum {
     WORD = 128
@@ -126,6 +126,17 @@ surface_open(struct surface *s, const struct rc_file *file, struct rc_err *err)
     return RC_OK;
 }
 
+static struct rc_heights
+heights_of(const struct surface *s)
+{
+    return (struct rc_heights){.nx = s->set.columns,
+                               .ny = s->set.rows,
+                               .dx = s->dx,
+                               .dy = s->dy,
+                               .metres = s->metres,
+                               .unit = s->unit};
+}
+
 static size_t
 list_channels(const struct rc_file *file, const struct rc_wish *wish, struct rc_channel *channel,
               size_t most, struct rc_err *err)
@@ -137,10 +148,8 @@ list_channels(const struct rc_file *file, const struct rc_wish *wish, struct rc_
     if (surface_open(&s, file, err) == RC_OK) {
         n = 1;
         if (most > 0) {
-            *channel = (struct rc_channel){
-                .name = "height", .nx = s.set.columns, .ny = s.set.rows, .dx = s.dx, .dy = s.dy};
-            rc_text_clean(channel->unit, sizeof channel->unit, isnan(s.metres) ? s.unit : "m",
-                          isnan(s.metres) ? strlen(s.unit) : 1);
+            struct rc_heights h = heights_of(&s);
+            *channel = rc_heights_channel(&h, "height");
         }
     }
     rc_hdf_free(s.hdf);
@@ -152,7 +161,7 @@ read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index
             struct rc_notes *notes, struct rc_err *err)
 {
     struct rc_grid *g = NULL;
-    struct rc_shape shape;
+    struct rc_heights h;
     struct surface s;
     double metres;
     bool good = false;
@@ -163,17 +172,14 @@ read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index
         rc_err_set(err, "a DATX file has one channel of heights, not %zu", index + 1);
         goto done;
     }
-    shape = (struct rc_shape){.nx = s.set.columns, .ny = s.set.rows};
-    if (rc_map_fits(file, shape.nx, shape.ny, err) != RC_OK ||
-        rc_spacing(wish, s.dx, s.dy, &shape, notes, err) != RC_OK ||
-        rc_height_unit(wish, s.metres, s.unit, &metres, notes, err) != RC_OK ||
-        (g = rc_grid_new(&shape, "height", "m", err)) == NULL ||
-        rc_text_keep(g, "file.manufacturer", "Zygo", 4, err) != RC_OK ||
+    h = heights_of(&s);
+    if ((g = rc_heights_new(&h, file, wish, &metres, notes, err)) == NULL ||
+        rc_word_keep(g, "file.manufacturer", "Zygo", err) != RC_OK ||
         rc_hdf_values(s.hdf, &s.set, g->v, err) != RC_OK)
         goto done;
-    for (size_t k = 0; k < shape.nx * shape.ny; k++)
+    for (size_t k = 0; k < g->nx * g->ny; k++)
         g->v[k] = g->v[k] >= s.none ? NAN : g->v[k] * metres;
-    good = rc_values_finite(g, err) == RC_OK;
+    good = rc_heights_finite(g, err) == RC_OK;
 done:
     rc_hdf_free(s.hdf);
     if (good)
@@ -184,28 +190,16 @@ done:
 
 /* ---- the entry in formats.list ---- */
 
-static bool
-holds(const struct rc_file *file, const char *word)
-{
-    size_t n = strlen(word);
-
-    for (const unsigned char *s = file->data, *end = s + file->size - n;
-         s < end && (s = memchr(s, word[0], (size_t)(end - s))) != NULL; s++)
-        if (memcmp(s, word, n) == 0)
-            return true;
-    return false;
-}
-
 static int
 datx_score(const struct rc_file *file)
 {
-    size_t n = strlen(file->name);
+    struct rc_piece all = rc_file_piece(file);
 
-    if (!rc_hdf_is(file) || file->size < 64)
+    if (!rc_hdf_is(file))
         return 0;
-    if (holds(file, "MetaData") && holds(file, "Z Converter"))
+    if (rc_piece_find(all, "MetaData") != NULL && rc_piece_find(all, "Z Converter") != NULL)
         return 90;
-    return n > 5 && strcmp(file->name + n - 5, ".datx") == 0 ? 70 : 0;
+    return rc_file_named(file, ".datx") ? 70 : 0;
 }
 
 RC_FORMAT_SANDBOXED(datx)

@@ -8,7 +8,7 @@
 #include "formats/core/core.h"
 
 struct esri {
-    double columns, rows, cell, dx, dy, lost;
+    double columns, rows, cell, dx, dy, missing;
 };
 
 static const struct rc_field fields[] = {
@@ -17,7 +17,7 @@ static const struct rc_field fields[] = {
     {"cellsize", RC_FIELD_NUMBER, offsetof(struct esri, cell)},
     {"dx", RC_FIELD_NUMBER, offsetof(struct esri, dx)},
     {"dy", RC_FIELD_NUMBER, offsetof(struct esri, dy)},
-    {"nodata_value", RC_FIELD_NUMBER, offsetof(struct esri, lost)},
+    {"nodata_value", RC_FIELD_NUMBER, offsetof(struct esri, missing)},
 };
 
 static bool
@@ -40,8 +40,8 @@ esri_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps
           struct rc_err *err)
 {
     const char *text = (const char *)file->data, *at = text;
-    struct rc_lines lines = {.at = text, .end = text + file->size};
-    struct esri e = {.cell = NAN, .dx = NAN, .dy = NAN, .lost = -9999};
+    struct rc_lines lines = rc_piece_lines(rc_file_piece(file));
+    struct esri e = {.cell = NAN, .dx = NAN, .dy = NAN, .missing = -9999};
     struct rc_map *map = rc_maps_add(maps, "", 0);
     struct rc_piece line, key, value;
 
@@ -63,7 +63,7 @@ esri_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps
         return RC_FAIL;
     if (rc_map_is_text(map, file, (size_t)(at - text), err) != RC_OK)
         return RC_FAIL;
-    map->lost_from = map->lost_to = e.lost;
+    map->missing_from = map->missing_to = e.missing;
     rc_map_hint(map, isnan(e.dx) ? e.cell : e.dx, isnan(e.dy) ? e.cell : e.dy);
     return RC_OK;
 }

@@ -18,7 +18,7 @@ enum {
     RANGE = 0x6c, /* u32, f64 m a count              */
     HEIGHTS = 0x0b,
     COMMENT = 0x65,
-    LOST = 1
+    MISSING = 1
 };
 
 static const char magic[] = "FRTM_GLIDERV";
@@ -107,7 +107,7 @@ frt_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     map->raw = bits == 16 ? RC_RAW_U16 : RC_RAW_I32;
     map->at = f.heights.at;
     map->bottom_first = true;
-    map->lost_from = map->lost_to = LOST;
+    map->missing_from = map->missing_to = MISSING;
     map->scale = rc_bytes_at(&b, f.range.at + 4, RC_RAW_F64);
     map->dx = rc_bytes_at(&b, f.size.at, RC_RAW_F64) / (double)map->nx;
     map->dy = rc_bytes_at(&b, f.size.at + 8, RC_RAW_F64) / (double)map->ny;

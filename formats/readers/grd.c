@@ -73,7 +73,7 @@ find_new(const struct rc_file *file, struct rc_map *map, struct rc_err *err)
             nx = rc_bytes_at(&b, at + SECTION + 4, RC_RAW_I32);
             dx = rc_bytes_at(&b, at + SECTION + 24, RC_RAW_F64);
             dy = rc_bytes_at(&b, at + SECTION + 32, RC_RAW_F64);
-            map->lost_from = rc_bytes_at(&b, at + SECTION + 64, RC_RAW_F64);
+            map->missing_from = rc_bytes_at(&b, at + SECTION + 64, RC_RAW_F64);
             if (rc_bytes_at(&b, at + SECTION + 56, RC_RAW_F64) != 0)
                 return rc_err_set(err, "the grid is rotated: that is not read");
         }
@@ -110,8 +110,8 @@ grd_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
 
     (void)wish;
     map->bottom_first = true;
-    map->lost_from = BLANK;
-    map->lost_to = INFINITY;
+    map->missing_from = BLANK;
+    map->missing_to = INFINITY;
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
         if (rc_file_holds(file, 0, kinds[k].magic, 4))
             return kinds[k].find(file, map, err);

@@ -102,7 +102,7 @@ next_item(struct rc_bytes *b, size_t end, struct item *item, bool *damaged, stru
         return true;
     }
     rc_err_set(err, "item '%s' at byte %zu has type '%c' and does not end inside its object",
-               rc_text_shown(quote, item->name.text, item->name.n), start,
+               rc_piece_shown(quote, item->name), start,
                item->type >= ' ' && item->type < 127 ? item->type : '?');
     *damaged = true;
     return false;

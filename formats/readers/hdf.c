@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "formats/core/core.h"
+
 static const unsigned char magic[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
 
 enum {
@@ -12,7 +14,7 @@ enum {
 bool
 rc_hdf_is(const struct rc_file *file)
 {
-    return file->size > sizeof magic && memcmp(file->data, magic, sizeof magic) == 0;
+    return file->size > sizeof magic && rc_file_holds(file, 0, magic, sizeof magic);
 }
 
 /* ---- the bytes as they are, where the library would copy them thrice ---- */

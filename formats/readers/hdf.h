@@ -5,8 +5,8 @@
 
 #include <stddef.h>
 
-#include "libcontact/grid.h"
 #include "formats/format.h"
+#include "libcontact/grid.h"
 
 struct rc_hdf;
 

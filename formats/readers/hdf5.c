@@ -7,32 +7,30 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "formats/sandbox/sandbox.h"
 #include "hdf.h"
 #include "formats/core/core.h"
+#include "formats/sandbox/sandbox.h"
 
 enum {
     SETS_MOST = 256
 };
 
 struct facts {
-    double dx, dy, metres; /* NAN when not told */
+    struct rc_heights heights;
     char unit[RC_SHOWN];
 };
 
-static struct facts
-facts_of(struct rc_hdf *h, const char *path)
+static void
+read_facts(struct rc_hdf *h, const struct rc_hdf_set *set, struct facts *f)
 {
-    struct facts f = {.dx = NAN, .dy = NAN, .metres = NAN};
-
-    rc_hdf_number(h, path, "dx", &f.dx);
-    rc_hdf_number(h, path, "dy", &f.dy);
-    rc_hdf_text(h, path, "unit", f.unit, sizeof f.unit);
-    if (f.unit[0] == '\0')
-        rc_hdf_text(h, path, "units", f.unit, sizeof f.unit);
-    if (!rc_length_unit(f.unit, strlen(f.unit), &f.metres))
-        f.metres = NAN;
-    return f;
+    f->heights = (struct rc_heights){
+        .nx = set->columns, .ny = set->rows, .dx = NAN, .dy = NAN, .unit = f->unit};
+    rc_hdf_number(h, set->path, "dx", &f->heights.dx);
+    rc_hdf_number(h, set->path, "dy", &f->heights.dy);
+    rc_hdf_text(h, set->path, "unit", f->unit, sizeof f->unit);
+    if (f->unit[0] == '\0')
+        rc_hdf_text(h, set->path, "units", f->unit, sizeof f->unit);
+    f->heights.metres = rc_word_metres(f->unit);
 }
 
 /* The datasets of a file, which the caller frees; NULL with the reason. */
@@ -65,12 +63,10 @@ list_channels(const struct rc_file *file, const struct rc_wish *wish, struct rc_
     if (h == NULL || (set = find_sets(h, &n, err)) == NULL)
         goto done;
     for (size_t k = 0; k < n && k < most && k < SETS_MOST; k++) {
-        struct facts f = facts_of(h, set[k].path);
-        channel[k] =
-            (struct rc_channel){.nx = set[k].columns, .ny = set[k].rows, .dx = f.dx, .dy = f.dy};
-        rc_text_clean(channel[k].name, sizeof channel->name, set[k].path, strlen(set[k].path));
-        rc_text_clean(channel[k].unit, sizeof channel->unit, isnan(f.metres) ? f.unit : "m",
-                      isnan(f.metres) ? strlen(f.unit) : 1);
+        struct facts f;
+
+        read_facts(h, &set[k], &f);
+        channel[k] = rc_heights_channel(&f.heights, set[k].path);
     }
 done:
     free(set);
@@ -85,7 +81,6 @@ read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index
     struct rc_hdf *h = rc_hdf_new(file, err);
     struct rc_hdf_set *set = NULL;
     struct rc_grid *g = NULL;
-    struct rc_shape shape;
     struct facts f;
     size_t n = 0;
     double fill = NAN, metres;
@@ -97,19 +92,15 @@ read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index
         rc_err_set(err, "the file has %zu datasets of two dimensions, not %zu", n, index + 1);
         goto done;
     }
-    f = facts_of(h, set[index].path);
-    shape = (struct rc_shape){.nx = set[index].columns, .ny = set[index].rows};
-    if (rc_map_fits(file, shape.nx, shape.ny, err) != RC_OK ||
-        rc_spacing(wish, f.dx, f.dy, &shape, notes, err) != RC_OK ||
-        rc_height_unit(wish, f.metres, f.unit, &metres, notes, err) != RC_OK ||
-        (g = rc_grid_new(&shape, "height", "m", err)) == NULL ||
-        rc_text_keep(g, "file.channel", set[index].path, strlen(set[index].path), err) != RC_OK ||
+    read_facts(h, &set[index], &f);
+    if ((g = rc_heights_new(&f.heights, file, wish, &metres, notes, err)) == NULL ||
+        rc_word_keep(g, "file.channel", set[index].path, err) != RC_OK ||
         rc_hdf_values(h, &set[index], g->v, err) != RC_OK)
         goto done;
     rc_hdf_number(h, set[index].path, "_FillValue", &fill);
-    for (size_t k = 0; (!isnan(fill) || metres != 1) && k < shape.nx * shape.ny; k++)
+    for (size_t k = 0; (!isnan(fill) || metres != 1) && k < g->nx * g->ny; k++)
         g->v[k] = g->v[k] == fill ? NAN : g->v[k] * metres;
-    good = rc_values_finite(g, err) == RC_OK;
+    good = rc_heights_finite(g, err) == RC_OK;
 done:
     free(set);
     rc_hdf_free(h);

@@ -106,10 +106,8 @@ static double
 step(const struct rc_file *file, struct rc_bytes *b, size_t dimension)
 {
     struct rc_piece unit = rc_file_text(file, AT_UNITS + UNIT * dimension, UNIT);
-    double metres = NAN;
 
-    rc_length_unit(unit.text, unit.n, &metres);
-    return rc_bytes_at(b, AT_STEPS + 8 * dimension, RC_RAW_F64) * metres;
+    return rc_bytes_at(b, AT_STEPS + 8 * dimension, RC_RAW_F64) * rc_piece_metres(unit);
 }
 
 static enum rc_status

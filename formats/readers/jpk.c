@@ -9,10 +9,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "zip_read.h"
-#include "formats/sandbox/sandbox.h"
-#include "formats/core/core.h"
 #include "tiff.h"
+#include "zip_read.h"
+#include "formats/core/core.h"
+#include "formats/sandbox/sandbox.h"
 
 enum {
     START_DATE = 0x8003,
@@ -137,13 +137,23 @@ read_channel(struct rc_tiff *t, struct channel *c)
     return true;
 }
 
+static struct rc_heights
+heights_of(const struct scan *s, const struct channel *c)
+{
+    return (struct rc_heights){.nx = c->shape.nx,
+                               .ny = c->shape.ny,
+                               .dx = s->width / (double)c->shape.nx,
+                               .dy = s->height / (double)c->shape.ny,
+                               .metres = rc_word_metres(c->unit),
+                               .unit = c->unit};
+}
+
 static size_t
 list_channels(const struct rc_file *file, const struct rc_wish *wish, struct rc_channel *channel,
               size_t most, struct rc_err *err)
 {
     struct channel c;
     struct scan s;
-    double metres;
     size_t n = 0;
 
     (void)wish;
@@ -152,13 +162,8 @@ list_channels(const struct rc_file *file, const struct rc_wish *wish, struct rc_
             if (!rc_tiff_page(s.tiff, page) || !read_channel(s.tiff, &c))
                 continue;
             if (n < most) {
-                struct rc_channel *to = &channel[n];
-                *to = (struct rc_channel){.nx = c.shape.nx,
-                                          .ny = c.shape.ny,
-                                          .dx = s.width / (double)c.shape.nx,
-                                          .dy = s.height / (double)c.shape.ny};
-                strcpy(to->name, c.name);
-                strcpy(to->unit, rc_length_unit(c.unit, strlen(c.unit), &metres) ? "m" : c.unit);
+                struct rc_heights h = heights_of(&s, &c);
+                channel[n] = rc_heights_channel(&h, c.name);
             }
             n++;
         }
@@ -195,7 +200,7 @@ keep_words(const struct scan *s, const struct channel *c, struct rc_grid *g, str
 
     for (size_t k = 0; k < KEYS; k++)
         if (strcmp(words[k].text, "<empty>") != 0 &&
-            rc_text_keep(g, words[k].key, words[k].text, strlen(words[k].text), err) != RC_OK)
+            rc_word_keep(g, words[k].key, words[k].text, err) != RC_OK)
             return RC_FAIL;
     return RC_OK;
 }
@@ -205,7 +210,7 @@ read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index
             struct rc_notes *notes, struct rc_err *err)
 {
     struct rc_grid *g = NULL;
-    struct rc_shape shape;
+    struct rc_heights h;
     struct channel c;
     struct scan s;
     double metres;
@@ -220,21 +225,15 @@ read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index
                    c.name);
         goto done;
     }
-    if (!rc_length_unit(c.unit, strlen(c.unit), &metres))
-        metres = NAN;
-    shape = (struct rc_shape){.nx = c.shape.nx, .ny = c.shape.ny};
-    if (rc_map_fits(file, shape.nx, shape.ny, err) != RC_OK ||
-        rc_spacing(wish, s.width / (double)shape.nx, s.height / (double)shape.ny, &shape, notes,
-                   err) != RC_OK ||
-        rc_height_unit(wish, metres, c.unit, &metres, notes, err) != RC_OK ||
-        (g = rc_grid_new(&shape, "height", "m", err)) == NULL ||
+    h = heights_of(&s, &c);
+    if ((g = rc_heights_new(&h, file, wish, &metres, notes, err)) == NULL ||
         keep_words(&s, &c, g, err) != RC_OK || rc_tiff_values(s.tiff, &c.shape, g->v, err) != RC_OK)
         goto done;
-    for (size_t k = 0; k < shape.nx * shape.ny; k++)
+    for (size_t k = 0; k < g->nx * g->ny; k++)
         g->v[k] = (g->v[k] * c.multiply + c.offset) * metres;
     if (!c.reflected)
-        rc_values_flip(g);
-    good = rc_values_finite(g, err) == RC_OK;
+        rc_heights_flip(g);
+    good = rc_heights_finite(g, err) == RC_OK;
 done:
     rc_tiff_free(s.tiff);
     if (good)

@@ -7,10 +7,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "formats/sandbox/sandbox.h"
-#include "formats/core/core.h"
 #include "tiff.h"
 #include "xml.h"
+#include "formats/core/core.h"
+#include "formats/sandbox/sandbox.h"
 
 enum {
     DEVICE_SETTINGS = 0xa40b,
@@ -62,7 +62,7 @@ take_element(void *arg, const char *path, const char *text, struct rc_err *err)
         end = rc_number_read(text, false, &l->scale[k]);
         if (end == NULL || *end != '\0')
             return rc_err_set(err, "%s is '%s': that is no number", strrchr(path, '/') + 1,
-                              rc_text_shown(quote, text, strlen(text)));
+                              rc_word_shown(quote, text));
     }
     return RC_OK;
 }
@@ -125,19 +125,11 @@ scale_of(const struct lext *l, enum scale axis, double *metres, struct rc_err *e
 
 /* ---- pages ---- */
 
-static bool
-is_named(const char *text, const char *name)
-{
-    for (; *text != '\0' && *name != '\0'; text++, name++)
-        if ((*text >= 'a' && *text <= 'z' ? *text - 'a' + 'A' : *text) != *name)
-            return false;
-    return *text == '\0' && *name == '\0';
-}
-
 static enum rc_status
 find_pages(struct lext *l, struct rc_err *err)
 {
-    char name[WORD];
+    struct rc_piece name;
+    char text[WORD];
     size_t pages;
 
     if (!rc_tiff_page(l->tiff, 0)) /* after the Exif data */
@@ -147,10 +139,11 @@ find_pages(struct lext *l, struct rc_err *err)
     for (size_t page = 1; page < pages; page++) {
         if (!rc_tiff_page(l->tiff, page))
             continue;
-        rc_tiff_text(l->tiff, RC_TIFF_DESCRIPTION, name, sizeof name);
-        if (l->height == 0 && is_named(name, "HEIGHT"))
+        rc_tiff_text(l->tiff, RC_TIFF_DESCRIPTION, text, sizeof text);
+        name = (struct rc_piece){text, strlen(text)};
+        if (l->height == 0 && rc_piece_is(name, "HEIGHT"))
             l->height = page;
-        if (l->invalid == 0 && is_named(name, "INVALID"))
+        if (l->invalid == 0 && rc_piece_is(name, "INVALID"))
             l->invalid = page;
     }
     if (l->height == 0)
@@ -170,6 +163,17 @@ lext_open(struct lext *l, const struct rc_file *file, struct rc_err *err)
     return scale_of(l, PIXEL_Z, &l->dz, err);
 }
 
+static struct rc_heights
+heights_of(const struct lext *l)
+{
+    return (struct rc_heights){.nx = l->shape.nx,
+                               .ny = l->shape.ny,
+                               .dx = l->dx,
+                               .dy = l->dy,
+                               .metres = l->dz,
+                               .unit = ""};
+}
+
 static size_t
 list_channels(const struct rc_file *file, const struct rc_wish *wish, struct rc_channel *channel,
               size_t most, struct rc_err *err)
@@ -180,13 +184,10 @@ list_channels(const struct rc_file *file, const struct rc_wish *wish, struct rc_
     (void)wish;
     if (lext_open(&l, file, err) == RC_OK) {
         n = 1;
-        if (most > 0)
-            *channel = (struct rc_channel){.name = "height",
-                                           .unit = "m",
-                                           .nx = l.shape.nx,
-                                           .ny = l.shape.ny,
-                                           .dx = l.dx,
-                                           .dy = l.dy};
+        if (most > 0) {
+            struct rc_heights h = heights_of(&l);
+            *channel = rc_heights_channel(&h, "height");
+        }
     }
     rc_tiff_free(l.tiff);
     return n;
@@ -230,7 +231,7 @@ read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index
             struct rc_notes *notes, struct rc_err *err)
 {
     struct rc_grid *g = NULL;
-    struct rc_shape shape;
+    struct rc_heights h;
     struct lext l;
     double metres;
     bool good = false;
@@ -241,18 +242,15 @@ read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index
         rc_err_set(err, "a LEXT file has one channel of heights, not %zu", index + 1);
         goto done;
     }
-    shape = (struct rc_shape){.nx = l.shape.nx, .ny = l.shape.ny};
-    if (rc_map_fits(file, shape.nx, shape.ny, err) != RC_OK ||
-        rc_spacing(wish, l.dx, l.dy, &shape, notes, err) != RC_OK ||
-        rc_height_unit(wish, l.dz, "", &metres, notes, err) != RC_OK ||
-        (g = rc_grid_new(&shape, "height", "m", err)) == NULL ||
-        rc_text_keep(g, "file.date", l.date, strlen(l.date), err) != RC_OK ||
-        rc_text_keep(g, "file.version", l.program, strlen(l.program), err) != RC_OK ||
+    h = heights_of(&l);
+    if ((g = rc_heights_new(&h, file, wish, &metres, notes, err)) == NULL ||
+        rc_word_keep(g, "file.date", l.date, err) != RC_OK ||
+        rc_word_keep(g, "file.version", l.program, err) != RC_OK ||
         rc_tiff_values(l.tiff, &l.shape, g->v, err) != RC_OK)
         goto done;
-    for (size_t k = 0; k < shape.nx * shape.ny; k++)
+    for (size_t k = 0; k < g->nx * g->ny; k++)
         g->v[k] *= metres;
-    good = mask_invalid(&l, g, notes, err) == RC_OK && rc_values_finite(g, err) == RC_OK;
+    good = mask_invalid(&l, g, notes, err) == RC_OK && rc_heights_finite(g, err) == RC_OK;
 done:
     rc_tiff_free(l.tiff);
     if (good)
@@ -266,15 +264,7 @@ done:
 static int
 lext_score(const struct rc_file *file)
 {
-    size_t n = sizeof magic - 1;
-
-    if (!rc_tiff_is(file))
-        return 0;
-    for (const unsigned char *s = file->data, *end = s + file->size - n;
-         s < end && (s = memchr(s, '<', (size_t)(end - s))) != NULL; s++)
-        if (memcmp(s, magic, n) == 0)
-            return 90;
-    return 0;
+    return rc_tiff_is(file) && rc_piece_find(rc_file_piece(file), magic) != NULL ? 90 : 0;
 }
 
 RC_FORMAT_SANDBOXED(lext)

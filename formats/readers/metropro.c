@@ -22,7 +22,7 @@ enum {
     AT_FINENESS = 218,
     DATE = 30,
     LEAST = 220, /* bytes of a header that holds all this */
-    LOST_FROM = 2147483640
+    MISSING_FROM = 2147483640
 };
 
 static bool
@@ -72,8 +72,8 @@ metropro_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_
     map->at = (size_t)header + (size_t)intensity;
     map->raw = RC_RAW_I32;
     map->big = true;
-    map->lost_from = LOST_FROM;
-    map->lost_to = INFINITY;
+    map->missing_from = MISSING_FROM;
+    map->missing_to = INFINITY;
     map->scale = rc_bytes_at(&b, AT_SCALE, RC_RAW_F32) * rc_bytes_at(&b, AT_OBLIQUITY, RC_RAW_F32) *
                  rc_bytes_at(&b, AT_WAVELENGTH, RC_RAW_F32) / finenesses[(size_t)fineness];
     map->dx = map->dy = rc_bytes_at(&b, AT_LATERAL, RC_RAW_F32);

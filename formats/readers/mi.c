@@ -63,7 +63,7 @@ take_buffer(struct rc_maps *maps, struct rc_map **map, struct rc_piece key, stru
         rc_map_unit(*map, value.text, value.n);
     if (rc_piece_is(key, "bufferRange") && !rc_piece_number(value, &(*map)->scale, NULL))
         return rc_err_set(err, "bufferRange is '%s': that is no number",
-                          rc_text_shown(quote, value.text, value.n));
+                          rc_piece_shown(quote, value));
     return RC_OK;
 }
 
@@ -80,7 +80,7 @@ place_buffers(const struct mi *m, size_t at, struct rc_maps *maps, struct rc_err
         s++;
     if (s == sizeof storages / sizeof *storages)
         return rc_err_set(err, "the data are stored as '%s': only BINARY and BINARY_32 are read",
-                          rc_text_shown(quote, m->storage.text, m->storage.n));
+                          rc_piece_shown(quote, m->storage));
     if (rc_size_mul(nx * rc_raw_width(storages[s].raw), ny, &bytes, err) != RC_OK)
         return RC_FAIL;
     for (size_t k = 0; k < maps->n && k < RC_MAPS_MOST; k++) {
@@ -104,7 +104,7 @@ mi_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *
         struct rc_err *err)
 {
     const char *text = (const char *)file->data;
-    struct rc_lines lines = {.at = text, .end = text + file->size};
+    struct rc_lines lines = rc_piece_lines(rc_file_piece(file));
     struct mi m = {.width = NAN, .height = NAN};
     struct rc_map *map = NULL;
     struct rc_piece line;
@@ -127,8 +127,7 @@ mi_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *
         rc_maps_keep(maps, keys, sizeof keys / sizeof *keys, key, value);
     }
     if (!rc_piece_is(m.type, "Image"))
-        return rc_err_set(err, "the file is no image but '%s'",
-                          rc_text_shown(quote, m.type.text, m.type.n));
+        return rc_err_set(err, "the file is no image but '%s'", rc_piece_shown(quote, m.type));
     return place_buffers(&m, (size_t)(lines.at - text), maps, err);
 }
 

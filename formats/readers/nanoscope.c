@@ -84,17 +84,11 @@ between(struct rc_piece piece, char first, char last)
 static struct rc_piece
 header_of(const struct rc_file *file)
 {
-    struct rc_piece all = {(const char *)file->data, file->size};
+    struct rc_piece all = rc_file_piece(file);
     const char *end = rc_piece_find(all, "\\*File list end");
 
     all.n = end == NULL ? 0 : (size_t)(end - all.text);
     return all;
-}
-
-static struct rc_lines
-lines_of(struct rc_piece header)
-{
-    return (struct rc_lines){.at = header.text, .end = header.text + header.n};
 }
 
 static bool
@@ -110,7 +104,7 @@ next_line(struct rc_lines *lines, struct rc_piece *line)
 static bool
 find_sensitivity(struct rc_piece header, struct rc_piece name, struct rc_piece *found)
 {
-    struct rc_lines lines = lines_of(header);
+    struct rc_lines lines = rc_piece_lines(header);
     struct rc_piece line, key;
 
     while (name.n > 0 && next_line(&lines, &line))
@@ -146,7 +140,7 @@ set_scale(struct rc_piece header, const struct image *m, struct rc_map *map, int
     }
     if (!number_behind_v(rc_piece_trim(hard), &number, &unit))
         return rc_err_set(err, "image '%s': its Z scale is '%s', in which no value is found",
-                          map->name, rc_text_shown(quote, m->scale.text, m->scale.n));
+                          map->name, rc_piece_shown(quote, m->scale));
     map->scale = ldexp(number, -bits);
     if (!find_sensitivity(header, between(m->scale, '[', ']'), &value) ||
         !number_behind_v(value, &sensitivity, &per) || !rc_piece_part(per, "/", &upper, &lower)) {
@@ -219,7 +213,7 @@ nanoscope_find(const struct rc_file *file, const struct rc_wish *wish, struct rc
                struct rc_err *err)
 {
     struct rc_piece header = header_of(file);
-    struct rc_lines lines = lines_of(header);
+    struct rc_lines lines = rc_piece_lines(header);
     struct image scan = no_image, image = no_image, *into = NULL;
     struct rc_piece line, key, value;
     bool more = true;

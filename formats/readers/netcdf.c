@@ -57,7 +57,7 @@ check_bytes(const struct rc_cdf *f, const struct rc_cdf_variable *v, struct rc_e
     uint64_t columns = v->rank == 2 ? length(f, v->dimension[1]) : 1;
     uint64_t row, there = v->at > f->b.size ? 0 : f->b.size - v->at;
 
-    rc_text_shown(quote, v->name.text, v->name.n);
+    rc_piece_shown(quote, v->name);
     if (columns > there / rc_cdf_width[v->type])
         return rc_err_set(err, "variable '%s' promises %llu values a row, the file is too short",
                           quote, (unsigned long long)columns);
@@ -87,7 +87,7 @@ step_of(const struct rc_cdf *f, size_t dimension, double *step, bool *periodic, 
         return RC_OK;
     if (check_bytes(f, v, err) != RC_OK)
         return RC_FAIL;
-    rc_text_shown(quote, v->name.text, v->name.n);
+    rc_piece_shown(quote, v->name);
     if (!rc_length_unit(v->unit.text, v->unit.n, &metres))
         return RC_OK;
     first = rc_cdf_value(place(f, v, 0, 0), v->type);
@@ -108,9 +108,9 @@ step_of(const struct rc_cdf *f, size_t dimension, double *step, bool *periodic, 
 struct map {
     const struct rc_cdf_variable *v;
     bool turned; /* (x, y): rows run along the first dimension's other */
-    size_t nx, ny;
-    double dx, dy, metres;
     bool periodic;
+    struct rc_heights heights;
+    char unit[RC_SHOWN];
 };
 
 static enum rc_status
@@ -125,12 +125,11 @@ judge_map(const struct rc_cdf *f, const struct rc_cdf_variable *v, struct map *m
                 rc_cdf_is(f->dimension[v->dimension[1]].name, "y");
     x = v->dimension[m->turned ? 0 : 1];
     y = v->dimension[m->turned ? 1 : 0];
-    m->nx = (size_t)length(f, x);
-    m->ny = (size_t)length(f, y);
-    if (!rc_length_unit(v->unit.text, v->unit.n, &m->metres))
-        m->metres = NAN;
-    if (step_of(f, x, &m->dx, &along_x, err) != RC_OK ||
-        step_of(f, y, &m->dy, &along_y, err) != RC_OK)
+    m->heights = (struct rc_heights){.nx = (size_t)length(f, x), .ny = (size_t)length(f, y)};
+    m->heights.unit = rc_piece_shown(m->unit, v->unit);
+    m->heights.metres = rc_piece_metres(v->unit);
+    if (step_of(f, x, &m->heights.dx, &along_x, err) != RC_OK ||
+        step_of(f, y, &m->heights.dy, &along_y, err) != RC_OK)
         return RC_FAIL;
     m->periodic = along_x && along_y;
     return RC_OK;
@@ -140,6 +139,7 @@ static size_t
 netcdf_list(const struct rc_file *file, const struct rc_wish *wish, struct rc_channel *channel,
             size_t most, struct rc_err *err)
 {
+    char name[sizeof channel->name];
     struct rc_cdf f;
     struct map m;
     size_t n = 0;
@@ -155,11 +155,8 @@ netcdf_list(const struct rc_file *file, const struct rc_wish *wish, struct rc_ch
                     n = 0;
                     goto done;
                 }
-                channel[n] = (struct rc_channel){.nx = m.nx, .ny = m.ny, .dx = m.dx, .dy = m.dy};
-                rc_text_clean(channel[n].name, sizeof channel->name, v->name.text, v->name.n);
-                rc_text_clean(channel[n].unit, sizeof channel->unit,
-                              isnan(m.metres) ? v->unit.text : "m",
-                              isnan(m.metres) ? v->unit.n : 1);
+                rc_text_clean(name, sizeof name, v->name.text, v->name.n);
+                channel[n] = rc_heights_channel(&m.heights, name);
             }
             n++;
         }
@@ -178,10 +175,10 @@ read_values(const struct rc_cdf *f, const struct map *m, double metres, struct r
 {
     const struct rc_cdf_variable *v = m->v;
 
-    for (size_t j = 0; j < m->ny; j++)
-        for (size_t i = 0; i < m->nx; i++) {
+    for (size_t j = 0; j < g->ny; j++)
+        for (size_t i = 0; i < g->nx; i++) {
             double raw = rc_cdf_value(place(f, v, m->turned ? i : j, m->turned ? j : i), v->type);
-            g->v[j * m->nx + i] = raw == v->fill ? NAN : (raw * v->factor + v->offset) * metres;
+            g->v[j * g->nx + i] = raw == v->fill ? NAN : (raw * v->factor + v->offset) * metres;
         }
 }
 
@@ -203,29 +200,21 @@ netcdf_read(const struct rc_file *file, const struct rc_wish *wish, size_t index
 {
     const struct rc_cdf_variable *v;
     struct rc_grid *g = NULL;
-    struct rc_shape shape;
     struct rc_cdf f;
     struct map m;
-    char unit[RC_SHOWN];
     double metres;
     bool good = false;
 
     if (rc_cdf_open(&f, file, err) != RC_OK || (v = pick(&f, index, err)) == NULL ||
         check_bytes(&f, v, err) != RC_OK || judge_map(&f, v, &m, err) != RC_OK)
         goto done;
-    shape = (struct rc_shape){.nx = m.nx, .ny = m.ny};
-    if (rc_map_fits(file, m.nx, m.ny, err) != RC_OK ||
-        rc_spacing(wish, m.dx, m.dy, &shape, notes, err) != RC_OK ||
-        rc_height_unit(wish, m.metres, rc_text_shown(unit, v->unit.text, v->unit.n), &metres, notes,
-                       err) != RC_OK ||
-        (g = rc_grid_new(&shape, "height", "m", err)) == NULL ||
-        rc_text_keep(g, "file.channel", v->name.text, v->name.n, err) != RC_OK ||
-        rc_text_keep(g, "file.title", v->title.text == NULL ? "" : v->title.text, v->title.n,
-                     err) != RC_OK ||
+    if ((g = rc_heights_new(&m.heights, file, wish, &metres, notes, err)) == NULL ||
+        rc_piece_keep(g, "file.channel", v->name, err) != RC_OK ||
+        rc_piece_keep(g, "file.title", v->title, err) != RC_OK ||
         (m.periodic && rc_grid_set(g, "periodic", "yes", err) != RC_OK))
         goto done;
     read_values(&f, &m, metres, g);
-    good = rc_values_finite(g, err) == RC_OK;
+    good = rc_heights_finite(g, err) == RC_OK;
 done:
     rc_cdf_close(&f);
     if (good)
@@ -237,7 +226,7 @@ done:
 static int
 netcdf_score(const struct rc_file *file)
 {
-    return file->size >= 8 && memcmp(file->data, "CDF", 3) == 0 &&
+    return file->size >= 8 && rc_file_holds(file, 0, "CDF", 3) &&
                    (file->data[3] == 1 || file->data[3] == 2 || file->data[3] == 5)
                ? 90
                : 0;

@@ -79,7 +79,7 @@ data_at(const struct rc_file *file)
 static bool
 find_section(struct rc_piece header, struct rc_piece name, struct rc_piece *section)
 {
-    struct rc_lines lines = {.at = header.text, .end = header.text + header.n};
+    struct rc_lines lines = rc_piece_lines(header);
     struct rc_piece line;
     const char *start = NULL;
 
@@ -100,15 +100,6 @@ find_section(struct rc_piece header, struct rc_piece name, struct rc_piece *sect
     return start != NULL;
 }
 
-static double
-metres_of(struct rc_piece unit)
-{
-    double metres = NAN;
-
-    rc_length_unit(unit.text, unit.n, &metres);
-    return metres;
-}
-
 /* Adds the map, when it is one, and moves *at behind the data. */
 static enum rc_status
 add_set(const struct set *s, struct rc_maps *maps, size_t *at, struct rc_err *err)
@@ -127,7 +118,7 @@ add_set(const struct set *s, struct rc_maps *maps, size_t *at, struct rc_err *er
         rc_map_count("rows (Lines)", s->rows, &ny, err) != RC_OK ||
         rc_size_mul(nx * (size_t)(s->bits / 8), ny, &n, err) != RC_OK)
         return RC_FAIL;
-    if (!isnan(metres_of(s->x_unit)) && !isnan(metres_of(s->y_unit))) {
+    if (!isnan(rc_piece_metres(s->x_unit)) && !isnan(rc_piece_metres(s->y_unit))) {
         rc_text_clean(name, sizeof name, s->name.text, s->name.n);
         rc_text_clean(frame, sizeof frame, s->frame.text, s->frame.n);
         snprintf(text, sizeof text, "%s%s%s", name, *frame == '\0' ? "" : ", ", frame);
@@ -144,8 +135,8 @@ add_set(const struct set *s, struct rc_maps *maps, size_t *at, struct rc_err *er
             map->raw = s->bits == 16 ? RC_RAW_U16 : RC_RAW_U32;
             map->zero = s->least;
         }
-        map->dx = s->x * metres_of(s->x_unit) / (double)nx;
-        map->dy = s->y * metres_of(s->y_unit) / (double)ny;
+        map->dx = s->x * rc_piece_metres(s->x_unit) / (double)nx;
+        map->dy = s->y * rc_piece_metres(s->y_unit) / (double)ny;
         rc_map_unit(map, s->unit.text, s->unit.n);
     }
     *at = n > SIZE_MAX - *at ? SIZE_MAX : *at + n;
@@ -180,7 +171,7 @@ take_number(struct rc_piece *text, const char *word, unsigned long *number)
 static size_t
 find_entries(struct rc_piece table, struct entry entry[RC_MAPS_MOST])
 {
-    struct rc_lines lines = {.at = table.text, .end = table.text + table.n};
+    struct rc_lines lines = rc_piece_lines(table);
     struct rc_piece line, key;
     size_t n = 0;
 
@@ -211,8 +202,8 @@ add_all(struct rc_piece header, struct rc_piece table, size_t at, struct rc_maps
                               "channel %lu of group %lu is described in section '%s', which "
                               "is not there",
                               entry[k].channel, entry[k].group,
-                              rc_text_shown(quote, entry[k].section.text, entry[k].section.n));
-        lines = (struct rc_lines){.at = section.text, .end = section.text + section.n};
+                              rc_piece_shown(quote, entry[k].section));
+        lines = rc_piece_lines(section);
         if (rc_fields_read(fields, sizeof fields / sizeof *fields, &lines, "=", NULL, &s, err) !=
                 RC_OK ||
             add_set(&s, maps, &at, err) != RC_OK)
@@ -242,7 +233,7 @@ nid_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
         return rc_err_set(err, "no Nanosurf file: its header has no section [DataSet]");
     for (size_t s = 0; s < sizeof about / sizeof *about; s++)
         if (find_section(header, about[s], &section)) {
-            struct rc_lines lines = {.at = section.text, .end = section.text + section.n};
+            struct rc_lines lines = rc_piece_lines(section);
             while (rc_lines_next(&lines, &line.text, &line.n))
                 if (rc_piece_part(line, "=", &key, &value))
                     rc_maps_keep(maps, keys, sizeof keys / sizeof *keys, key, value);

@@ -89,7 +89,7 @@ read_directory(const struct rc_file *file, struct opd *o, struct rc_maps *maps, 
             return rc_err_set(err,
                               "block '%s' takes %g bytes from byte %zu on, the file has %zu "
                               "in all",
-                              rc_text_shown(quote, b.name.text, b.name.n), length, at, file->size);
+                              rc_piece_shown(quote, b.name), length, at, file->size);
         b.n = (size_t)length;
         at += b.n;
         b.name = rc_piece_trim(b.name);
@@ -129,8 +129,8 @@ opd_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     map->at = o.heights.at + MATRIX;
     map->by_columns = map->bottom_first = true;
     map->raw = size == 2 ? RC_RAW_I16 : RC_RAW_F32;
-    map->lost_from = size == 2 ? 32766 : (double)1e38f;
-    map->lost_to = INFINITY;
+    map->missing_from = size == 2 ? 32766 : (double)1e38f;
+    map->missing_to = INFINITY;
     map->scale = o.wavelength / o.factor;
     map->dx = o.pixel * 1e-3;
     map->dy = o.pixel * o.aspect * 1e-3;

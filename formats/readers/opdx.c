@@ -218,12 +218,12 @@ walk(struct opdx *o, struct rc_bytes *b, size_t end, struct rc_piece *path, size
             kind++;
         if (kind == sizeof types / sizeof *types)
             return rc_err_set(err, "item '%s' at byte %zu is of type %d, which is not known",
-                              rc_text_shown(quote, path[depth].text, path[depth].n), start, type);
+                              rc_piece_shown(quote, path[depth]), start, type);
         if (types[kind].how == END)
             break;
         if (!measure(b, end, kind, &n))
             return rc_err_set(err, "item '%s' at byte %zu does not end inside its container",
-                              rc_text_shown(quote, path[depth].text, path[depth].n), start);
+                              rc_piece_shown(quote, path[depth]), start);
         at = b->at;
         if (types[kind].how == CONTAINER) {
             if (walk(o, b, at + n, path, depth + 1, err) != RC_OK)
@@ -244,10 +244,7 @@ walk(struct opdx *o, struct rc_bytes *b, size_t end, struct rc_piece *path, size
 static double
 step(struct quantity extent, double n)
 {
-    double metres = NAN;
-
-    rc_length_unit(extent.unit.text, extent.unit.n, &metres);
-    return extent.value * metres / (n > 1 ? n - 1 : 1);
+    return extent.value * rc_piece_metres(extent.unit) / (n > 1 ? n - 1 : 1);
 }
 
 static enum rc_status

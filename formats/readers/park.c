@@ -7,9 +7,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "tiff.h"
 #include "formats/core/core.h"
 #include "formats/sandbox/sandbox.h"
-#include "tiff.h"
 
 enum {
     MAGIC_TAG = 50432,
@@ -163,15 +163,15 @@ park_open(struct park *p, const struct rc_file *file, struct rc_err *err)
     return take_header(p, &header, version == VERSION_2, err);
 }
 
-/* Metres of one unit, NAN for what is no length. */
-static double
-unit_of(const struct park *p)
+static struct rc_heights
+heights_of(const struct park *p)
 {
-    double metres;
-
-    if (p->unit[0] == '\0')
-        return 1e-6;
-    return rc_length_unit(p->unit, strlen(p->unit), &metres) ? metres : NAN;
+    return (struct rc_heights){.nx = p->nx,
+                               .ny = p->ny,
+                               .dx = p->width / (double)p->nx,
+                               .dy = p->height / (double)p->ny,
+                               .metres = p->unit[0] == '\0' ? 1e-6 : rc_word_metres(p->unit),
+                               .unit = p->unit};
 }
 
 static size_t
@@ -185,12 +185,8 @@ list_channels(const struct rc_file *file, const struct rc_wish *wish, struct rc_
     if (park_open(&p, file, err) == RC_OK) {
         n = 1;
         if (most > 0) {
-            *channel = (struct rc_channel){.nx = p.nx,
-                                           .ny = p.ny,
-                                           .dx = p.width / (double)p.nx,
-                                           .dy = p.height / (double)p.ny};
-            strcpy(channel->name, p.name[0] == '\0' ? "height" : p.name);
-            strcpy(channel->unit, isnan(unit_of(&p)) ? p.unit : "m");
+            struct rc_heights h = heights_of(&p);
+            *channel = rc_heights_channel(&h, p.name[0] == '\0' ? "height" : p.name);
         }
     }
     rc_tiff_free(p.tiff);
@@ -200,11 +196,11 @@ list_channels(const struct rc_file *file, const struct rc_wish *wish, struct rc_
 static enum rc_status
 keep_words(const struct park *p, struct rc_grid *g, struct rc_err *err)
 {
-    if (rc_text_keep(g, "file.date", p->date, strlen(p->date), err) != RC_OK ||
-        rc_text_keep(g, "file.version", p->program, strlen(p->program), err) != RC_OK ||
-        rc_text_keep(g, "file.mode", p->mode, strlen(p->mode), err) != RC_OK)
+    if (rc_word_keep(g, "file.date", p->date, err) != RC_OK ||
+        rc_word_keep(g, "file.version", p->program, err) != RC_OK ||
+        rc_word_keep(g, "file.mode", p->mode, err) != RC_OK)
         return RC_FAIL;
-    return rc_text_keep(g, "file.channel", p->name, strlen(p->name), err);
+    return rc_word_keep(g, "file.channel", p->name, err);
 }
 
 static struct rc_grid *
@@ -212,7 +208,7 @@ read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index
             struct rc_notes *notes, struct rc_err *err)
 {
     struct rc_grid *g = NULL;
-    struct rc_shape shape;
+    struct rc_heights h;
     struct rc_bytes b;
     struct park p;
     double metres;
@@ -224,18 +220,16 @@ read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index
         rc_err_set(err, "a TIFF of Park Systems has one channel, not %zu", index + 1);
         goto done;
     }
-    shape = (struct rc_shape){.nx = p.nx, .ny = p.ny};
-    if (rc_spacing(wish, p.width / (double)p.nx, p.height / (double)p.ny, &shape, notes, err) !=
-            RC_OK ||
-        rc_height_unit(wish, unit_of(&p), p.unit, &metres, notes, err) != RC_OK ||
-        (g = rc_grid_new(&shape, "height", "m", err)) == NULL || keep_words(&p, g, err) != RC_OK)
+    h = heights_of(&p);
+    if ((g = rc_heights_new(&h, file, wish, &metres, notes, err)) == NULL ||
+        keep_words(&p, g, err) != RC_OK)
         goto done;
     b = (struct rc_bytes){.data = p.data, .size = p.size};
     for (size_t j = p.ny; j-- > 0;)
         rc_bytes_values(&b, p.raw, g->v + j * p.nx, p.nx);
     for (size_t k = 0; k < p.nx * p.ny; k++)
         g->v[k] = p.gain * (p.scale * g->v[k] + p.offset) * metres;
-    good = rc_values_finite(g, err) == RC_OK;
+    good = rc_heights_finite(g, err) == RC_OK;
 done:
     rc_tiff_free(p.tiff);
     if (good)

@@ -17,7 +17,7 @@ enum {
     AT_ROWS_AGAIN = 0x1f4,
     AT_COLUMNS_AGAIN = 0x1f8,
     HEADER = 0x1fc,
-    LOST = 1000001,
+    MISSING = 1000001,
     TOPOGRAPHY = 3
 };
 
@@ -56,7 +56,7 @@ plu_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     map->at = HEADER;
     map->dx = rc_bytes_at(&b, AT_X, RC_RAW_F32) * 1e-6;
     map->dy = rc_bytes_at(&b, AT_Y, RC_RAW_F32) * 1e-6;
-    map->lost_from = map->lost_to = LOST;
+    map->missing_from = map->missing_to = MISSING;
     date = rc_file_text(file, 0, DATE);
     rc_maps_key(maps, "file.date", date.text, date.n);
     return RC_OK;

@@ -11,7 +11,6 @@
 #include "zip_read.h"
 #include "formats/core/core.h"
 #include "formats/format.h"
-#include "xml.h"
 
 #define INDEX_MOST ((uint64_t)1 << 24) /* bytes of index.xml */
 
@@ -28,7 +27,7 @@ struct item {
 struct plux {
     struct rc_zip_read *archive;
     size_t nx, ny;
-    double dx, dy; /* m, NAN when not given */
+    double dx, dy; /* m, NAN when not given; um in index.xml */
     bool sized;
     char date[64];
     char file[LAYERS_MOST][WORD]; /* names of members, "" for none */
@@ -52,31 +51,6 @@ numbered(const char *path, const char *prefix, size_t most, size_t *number, cons
 }
 
 static enum rc_status
-take_size(const char *path, const char *text, size_t *size, struct rc_err *err)
-{
-    char quote[RC_SHOWN];
-
-    if (*text == '\0' || strlen(text) > 9 || text[strspn(text, "0123456789")] != '\0')
-        return rc_err_set(err, "%s is '%s' in index.xml: it must be a whole number", path,
-                          rc_text_shown(quote, text, strlen(text)));
-    *size = strtoul(text, NULL, 10);
-    return RC_OK;
-}
-
-static enum rc_status
-take_step(const char *path, const char *text, double *step, struct rc_err *err)
-{
-    char quote[RC_SHOWN];
-    const char *end = rc_number_read(text, true, step);
-
-    if (end == NULL || *end != '\0')
-        return rc_err_set(err, "%s is '%s' in index.xml: that is no number", path,
-                          rc_text_shown(quote, text, strlen(text)));
-    *step /= 1e6;
-    return RC_OK;
-}
-
-static enum rc_status
 take_element(void *arg, const char *path, const char *text, struct rc_err *err)
 {
     struct plux *p = arg;
@@ -87,14 +61,14 @@ take_element(void *arg, const char *path, const char *text, struct rc_err *err)
     path += *path == '/';
     if (strcmp(path, "GENERAL/IMAGE_SIZE_X") == 0) {
         p->sized = true;
-        return take_size(path, text, &p->nx, err);
+        return rc_xml_whole("index.xml", path, text, &p->nx, err);
     }
     if (strcmp(path, "GENERAL/IMAGE_SIZE_Y") == 0)
-        return take_size(path, text, &p->ny, err);
+        return rc_xml_whole("index.xml", path, text, &p->ny, err);
     if (strcmp(path, "GENERAL/FOV_X") == 0)
-        return take_step(path, text, &p->dx, err);
+        return rc_xml_number("index.xml", path, text, &p->dx, err);
     if (strcmp(path, "GENERAL/FOV_Y") == 0)
-        return take_step(path, text, &p->dy, err);
+        return rc_xml_number("index.xml", path, text, &p->dy, err);
     if (strcmp(path, "GENERAL/DATE") == 0)
         rc_text_clean(p->date, sizeof p->date, text, strlen(text));
     else if (numbered(path, "LAYER_", LAYERS_MOST, &number, &rest) &&
@@ -106,26 +80,6 @@ take_element(void *arg, const char *path, const char *text, struct rc_err *err)
              strcmp(rest, "/VALUE") == 0)
         rc_text_clean(p->item[number].value, sizeof p->item->value, text, strlen(text));
     return RC_OK;
-}
-
-static enum rc_status
-take_xml(void *arg, const unsigned char *bytes, size_t n, struct rc_err *err)
-{
-    return rc_xml_feed(arg, bytes, n, err);
-}
-
-static enum rc_status
-read_index(struct plux *p, size_t member, struct rc_err *err)
-{
-    struct rc_xml *xml = rc_xml_new("index.xml", take_element, p, err);
-    enum rc_status status = RC_FAIL;
-
-    if (xml == NULL)
-        return RC_FAIL;
-    if (rc_zip_read_member(p->archive, member, INDEX_MOST, take_xml, xml, NULL, err) == RC_OK)
-        status = rc_xml_end(xml, err);
-    rc_xml_free(xml);
-    return status;
 }
 
 /* ---- the archive ---- */
@@ -147,21 +101,24 @@ find(const struct rc_zip_read *a, const char *name, size_t *member, struct rc_er
 static enum rc_status
 plux_open(struct plux *p, const struct rc_file *file, struct rc_err *err)
 {
-    size_t member;
+    size_t member, n;
 
     *p = (struct plux){.dx = NAN, .dy = NAN};
     if ((p->archive = rc_zip_read_new(file, err)) == NULL)
         return RC_FAIL;
     if (find(p->archive, "index.xml", &member, NULL) != RC_OK)
         return rc_err_set(err, "a ZIP archive, but no PLUX: it holds no index.xml");
-    if (read_index(p, member, err) != RC_OK)
+    if (rc_zip_read_xml(p->archive, member, INDEX_MOST, "index.xml", take_element, p, NULL, err) !=
+        RC_OK)
         return RC_FAIL;
+    p->dx /= 1e6;
+    p->dy /= 1e6;
     if (!p->sized)
         return rc_err_set(err,
                           "a ZIP archive, but no PLUX: its index.xml gives no size of an image");
     if (p->nx == 0 || p->ny == 0)
         return rc_err_set(err, "an image of %zu x %zu points is empty", p->nx, p->ny);
-    return RC_OK;
+    return rc_size_mul(p->nx, p->ny, &n, err) == RC_OK ? rc_size_mul(n, 4, &n, err) : RC_FAIL;
 }
 
 static size_t
@@ -234,7 +191,7 @@ find_layer(const struct plux *p, size_t index, size_t *member, struct rc_err *er
 static enum rc_status
 keep_words(const struct plux *p, struct rc_grid *g, struct rc_err *err)
 {
-    if (rc_text_keep(g, "file.date", p->date, strlen(p->date), err) != RC_OK)
+    if (rc_word_keep(g, "file.date", p->date, err) != RC_OK)
         return RC_FAIL;
     for (size_t k = 0; k < ITEMS_MOST; k++) {
         const struct item *i = &p->item[k];
@@ -242,26 +199,23 @@ keep_words(const struct plux *p, struct rc_grid *g, struct rc_err *err)
                           : strcmp(i->name, "Objective") == 0 ? "file.probe"
                           : strcmp(i->name, "Technique") == 0 ? "file.mode"
                                                               : NULL;
-        if (key != NULL && rc_text_keep(g, key, i->value, strlen(i->value), err) != RC_OK)
+        if (key != NULL && rc_word_keep(g, key, i->value, err) != RC_OK)
             return RC_FAIL;
     }
-    return rc_text_keep(g, "file.manufacturer", "Sensofar", 8, err);
+    return rc_word_keep(g, "file.manufacturer", "Sensofar", err);
 }
 
 static struct rc_grid *
 read_layer(const struct plux *p, const struct rc_file *file, const struct rc_wish *wish,
            size_t index, struct rc_notes *notes, struct rc_err *err)
 {
-    struct rc_shape shape = {.nx = p->nx, .ny = p->ny};
+    const struct rc_heights h = {p->nx, p->ny, p->dx, p->dy, 1e-6, "um"};
     struct rc_grid *g = NULL;
     double metres, *v;
     size_t member;
 
     if (find_layer(p, index, &member, err) != RC_OK ||
-        rc_map_fits(file, p->nx, p->ny, err) != RC_OK ||
-        rc_spacing(wish, p->dx, p->dy, &shape, notes, err) != RC_OK ||
-        rc_height_unit(wish, 1e-6, "um", &metres, notes, err) != RC_OK ||
-        (g = rc_grid_new(&shape, "height", "m", err)) == NULL)
+        (g = rc_heights_new(&h, file, wish, &metres, notes, err)) == NULL)
         return NULL;
     v = g->v;
     if (keep_words(p, g, err) != RC_OK ||
@@ -272,7 +226,7 @@ read_layer(const struct plux *p, const struct rc_file *file, const struct rc_wis
     }
     for (size_t k = 0; k < p->nx * p->ny; k++)
         g->v[k] *= metres;
-    if (rc_values_finite(g, err) == RC_OK)
+    if (rc_heights_finite(g, err) == RC_OK)
         return g;
     rc_grid_free(g);
     return NULL;
@@ -301,11 +255,11 @@ plux_read(const struct rc_file *file, const struct rc_wish *wish, size_t index,
 static int
 plux_score(const struct rc_file *file)
 {
-    size_t n = strlen(file->name), member;
-    bool named = n > 5 && strcmp(file->name + n - 5, ".plux") == 0, found;
+    bool named = rc_file_named(file, ".plux"), found;
     struct rc_zip_read *archive;
+    size_t member;
 
-    if (file->size < 4 || memcmp(file->data, "PK", 2) != 0)
+    if (!rc_file_holds(file, 0, "PK", 2))
         return 0;
     if ((archive = rc_zip_read_new(file, NULL)) == NULL)
         return named ? 50 : 0;

@@ -7,8 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "formats/core/core.h"
 #include "titled_table.h"
+#include "formats/core/core.h"
 
 struct profile {
     struct rc_titled_table table;
@@ -30,7 +30,6 @@ static struct rc_piece
 unit_of(struct rc_piece title)
 {
     static const char *const brackets[] = {"()", "[]"};
-    double metres;
 
     for (size_t k = 0; k < sizeof brackets / sizeof *brackets; k++) {
         struct rc_piece before, inside, after;
@@ -45,7 +44,7 @@ unit_of(struct rc_piece title)
             word = rest;
             rest.n = 0;
         }
-        if (rc_length_unit(word.text, word.n, &metres))
+        if (!isnan(rc_piece_metres(word)))
             return word;
     }
     return (struct rc_piece){title.text, 0};
@@ -181,7 +180,6 @@ profile_open(struct profile *p, const struct rc_file *file, const struct rc_wish
 {
     struct rc_piece unit;
     char quote[RC_SHOWN];
-    double metres;
 
     if (rc_titled_table_open(&p->table, file, 2, wish, NULL) != RC_OK) {
         rc_titled_table_close(&p->table);
@@ -195,9 +193,9 @@ profile_open(struct profile *p, const struct rc_file *file, const struct rc_wish
     if (p->table.numbers.columns == 1)
         return RC_OK;
     unit = unit_of(title_of(p, p->x));
-    if (unit.n > 0 && !rc_length_unit(unit.text, unit.n, &metres))
+    if (unit.n > 0 && isnan(rc_piece_metres(unit)))
         return rc_err_set(err, "the positions are in '%s', which is no length",
-                          rc_text_shown(quote, unit.text, unit.n));
+                          rc_piece_shown(quote, unit));
     return judge_direction(p, err);
 }
 
@@ -248,14 +246,12 @@ profile_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_m
 static int
 profile_score(const struct rc_file *file)
 {
-    static const struct rc_wish no_wish = {.dx = NAN, .dy = NAN, .z_unit = NAN};
-    size_t looked = file->size < 4096 ? file->size : 4096;
     struct profile p;
     int score;
 
-    if (looked == 0 || (memchr(file->data, 0, looked) != NULL && file->data[0] < 0xfe))
+    if (!rc_file_is_text(file) && !rc_file_is_utf16(file))
         return 0;
-    score = profile_open(&p, file, &no_wish, NULL) == RC_OK ? 60 : 3;
+    score = profile_open(&p, file, &rc_no_wish, NULL) == RC_OK ? 60 : 3;
     /* 3: so that a table says what is wrong with it; one column could be anything */
     if (p.table.v == NULL || p.table.numbers.columns < 2)
         score = 0;

@@ -53,7 +53,7 @@ static const struct rc_field fields[] = {
 /* clang-format off */
 static const struct {
     enum rc_raw raw;
-    double lost;
+    double missing;
 } types[] = {
     {RC_RAW_U8, NAN},
     {RC_RAW_U16, NAN},
@@ -108,7 +108,7 @@ find_binary(const struct rc_file *file, struct sdf *s, struct rc_map *map, struc
                           sizeof types / sizeof *types - 1);
     map->at = HEADER;
     map->raw = types[(size_t)s->type].raw;
-    map->lost_from = map->lost_to = types[(size_t)s->type].lost;
+    map->missing_from = map->missing_to = types[(size_t)s->type].missing;
     return RC_OK;
 }
 

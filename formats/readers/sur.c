@@ -29,7 +29,7 @@ enum {
     AT_TYPE = 18,
     AT_NAME = 20,
     AT_OPERATOR = 50,
-    AT_LOST = 86, /* 1: the number two below the smallest is a missing point */
+    AT_MISSING = 86, /* 1: the number two below the smallest is a missing point */
     AT_BITS = 98,
     AT_LEAST = 100,
     AT_COLUMNS = 108,
@@ -159,10 +159,8 @@ static double
 step(const struct rc_file *file, struct rc_bytes *bytes, size_t at, size_t unit_at)
 {
     struct rc_piece unit = rc_file_text(file, unit_at, UNIT);
-    double metres = NAN;
 
-    rc_length_unit(unit.text, unit.n, &metres);
-    return rc_bytes_at(bytes, at, RC_RAW_F32) * metres;
+    return rc_bytes_at(bytes, at, RC_RAW_F32) * rc_piece_metres(unit);
 }
 
 static enum rc_status
@@ -200,8 +198,8 @@ sur_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     map->zero = rc_bytes_at(&bytes, AT_Z_OFFSET, RC_RAW_F32);
     map->dx = step(file, &bytes, AT_X, AT_X_UNIT);
     map->dy = step(file, &bytes, AT_Y, AT_Y_UNIT);
-    if (rc_bytes_at(&bytes, AT_LOST, RC_RAW_I16) == 1)
-        map->lost_from = map->lost_to = rc_bytes_at(&bytes, AT_LEAST, RC_RAW_I32) - 2;
+    if (rc_bytes_at(&bytes, AT_MISSING, RC_RAW_I16) == 1)
+        map->missing_from = map->missing_to = rc_bytes_at(&bytes, AT_LEAST, RC_RAW_I32) - 2;
     comment_n = rc_bytes_at(&bytes, AT_COMMENT, RC_RAW_I16);
     private_n = rc_bytes_at(&bytes, AT_PRIVATE, RC_RAW_I16);
     if (comment_n < 0 || private_n < 0 || HEADER + comment_n + private_n > (double)file->size)

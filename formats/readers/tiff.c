@@ -315,7 +315,7 @@ bool
 rc_tiff_is(const struct rc_file *file)
 {
     return file->size >= 8 &&
-           (memcmp(file->data, "II\x2a\0", 4) == 0 || memcmp(file->data, "MM\0\x2a", 4) == 0);
+           (rc_file_holds(file, 0, "II\x2a\0", 4) || rc_file_holds(file, 0, "MM\0\x2a", 4));
 }
 
 bool

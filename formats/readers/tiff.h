@@ -7,8 +7,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "libcontact/grid.h"
 #include "formats/format.h"
+#include "libcontact/grid.h"
 
 enum {
     RC_TIFF_DESCRIPTION = 270,

@@ -20,17 +20,8 @@ narrow(const struct rc_file *file, size_t *n)
         unsigned c = big ? file->data[at] * 256U + file->data[at + 1]
                          : file->data[at + 1] * 256U + file->data[at];
         if (c >= 0xd800 && c < 0xe000)
-            c = '?';
-        if (c < 0x80)
-            *to++ = (char)c;
-        else if (c < 0x800) {
-            *to++ = (char)(0xc0 | c >> 6);
-            *to++ = (char)(0x80 | (c & 0x3f));
-        } else {
-            *to++ = (char)(0xe0 | c >> 12);
-            *to++ = (char)(0x80 | (c >> 6 & 0x3f));
-            *to++ = (char)(0x80 | (c & 0x3f));
-        }
+            c = '?'; /* half of a surrogate pair */
+        to += rc_utf8_put(to, c);
     }
     *n = (size_t)(to - text);
     return text;
@@ -91,18 +82,17 @@ enum rc_status
 rc_titled_table_open(struct rc_titled_table *t, const struct rc_file *file, size_t columns,
                      const struct rc_wish *wish, struct rc_err *err)
 {
-    struct rc_piece text = {(const char *)file->data, file->size}, line, before = {"", 0};
+    struct rc_piece text = rc_file_piece(file), line, before = {"", 0};
     struct rc_lines lines, ahead;
 
     *t = (struct rc_titled_table){0};
-    if (file->size >= 2 &&
-        (memcmp(file->data, "\xff\xfe", 2) == 0 || memcmp(file->data, "\xfe\xff", 2) == 0)) {
+    if (rc_file_is_utf16(file)) {
         if ((t->own = narrow(file, &text.n)) == NULL)
             return rc_err_set(err, "out of memory for %zu characters", file->size / 2);
         text.text = t->own;
-    } else if (file->size >= 3 && memcmp(file->data, "\xef\xbb\xbf", 3) == 0)
+    } else if (rc_file_holds(file, 0, "\xef\xbb\xbf", 3)) /* the byte order mark of UTF-8 */
         text = (struct rc_piece){text.text + 3, text.n - 3};
-    lines = ahead = (struct rc_lines){.at = text.text, .end = text.text + text.n};
+    lines = ahead = rc_piece_lines(text);
     for (;;) {
         if (lines.number == HEADER_MOST || !rc_lines_next(&ahead, &line.text, &line.n))
             return rc_err_set(err, "there is no table of numbers in the first %d lines",
@@ -122,13 +112,10 @@ rc_titled_table_open(struct rc_titled_table *t, const struct rc_file *file, size
 enum rc_status
 rc_titled_table_read(struct rc_titled_table *t, struct rc_err *err)
 {
-    size_t n, bytes = (size_t)(t->numbers.end - t->numbers.start);
+    size_t n;
 
-    if (rc_size_mul(t->numbers.rows, t->numbers.columns, &n, err) != RC_OK)
+    if (rc_number_table_size(&t->numbers, &n, err) != RC_OK)
         return RC_FAIL;
-    if (n > bytes + 1) /* a value takes a byte at least */
-        return rc_err_set(err, "%zu columns and %zu rows in %zu bytes: some row is too short",
-                          t->numbers.columns, t->numbers.rows, bytes);
     if ((t->v = malloc(n * sizeof *t->v)) == NULL)
         return rc_err_set(err, "out of memory for %zu values", n);
     return rc_number_table_read(&t->numbers, t->v, err);

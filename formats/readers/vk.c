@@ -40,68 +40,65 @@ is_packed(const struct rc_file *file)
 
 /* ---- the archive ---- */
 
-static enum rc_status
-unpack_member(struct rc_zip_read *archive, size_t member, const struct rc_file *file,
-              struct rc_file *inner, struct rc_err *err)
+static unsigned char *
+unpack_member(struct rc_zip_read *archive, size_t member, const struct rc_file *file, size_t *n,
+              struct rc_err *err)
 {
-    unsigned char *bytes;
     uint64_t size;
-    size_t n;
 
     if (rc_zip_read_size(archive, member, &size, err) != RC_OK)
-        return RC_FAIL;
-    if (size > rc_memory_limit(file->size))
-        return rc_err_set(err, "the archive in the file promises %g MB out of %g: that cannot be",
-                          (double)size / 1e6, (double)file->size / 1e6);
-    if ((bytes = rc_zip_read_bytes(archive, member, size, &n, NULL, err)) == NULL)
-        return RC_FAIL;
-    *inner = (struct rc_file){member_name, bytes, n};
-    return RC_OK;
+        return NULL;
+    if (size > rc_memory_limit(file->size)) {
+        rc_err_set(err, "the archive in the file promises %g MB out of %g: that cannot be",
+                   (double)size / 1e6, (double)file->size / 1e6);
+        return NULL;
+    }
+    return rc_zip_read_bytes(archive, member, size, n, NULL, err);
 }
 
-/* The VK4 file that the archive holds; inner->data is the caller's, also on failure. The archive
- * counts its offsets from the start of the file or from its own, PK 3 4, which may stand in the
- * picture too. */
-static enum rc_status
-unpack(const struct rc_file *file, struct rc_file *inner, struct rc_err *err)
+/* The n bytes of the VK4 file that the archive holds, which the caller frees; NULL with the reason.
+ * The archive counts its offsets from the start of the file or from its own, PK 3 4, which may
+ * stand in the picture too. */
+static unsigned char *
+unpack(const struct rc_file *file, size_t *n, struct rc_err *err)
 {
-    struct rc_piece rest = {(const char *)file->data, file->size};
+    struct rc_piece rest = rc_file_piece(file);
     const char *at = rest.text;
 
-    *inner = (struct rc_file){0};
     for (size_t k = 0; k < STARTS_MOST && at != NULL; k++) {
         size_t start = (size_t)(at - (const char *)file->data), member;
         struct rc_file part = {file->name, file->data + start, file->size - start};
         struct rc_zip_read *archive = rc_zip_read_behind(&part, NULL);
-        enum rc_status status = RC_MORE;
+        unsigned char *bytes = NULL;
+        bool found =
+            archive != NULL && rc_zip_read_find(archive, member_name, &member, NULL) == RC_OK;
 
-        if (archive != NULL && rc_zip_read_find(archive, member_name, &member, NULL) == RC_OK)
-            status = unpack_member(archive, member, file, inner, err);
+        if (found)
+            bytes = unpack_member(archive, member, file, n, err);
         rc_zip_read_free(archive);
-        if (status != RC_MORE)
-            return status;
+        if (found)
+            return bytes;
         rest = (struct rc_piece){at + 1, file->size - start - 1};
         at = rc_piece_find(rest, "PK\3\4");
     }
-    return rc_err_set(err, "the file holds no archive with a member %s", member_name);
+    rc_err_set(err, "the file holds no archive with a member %s", member_name);
+    return NULL;
 }
 
 static enum rc_status
 fill_packed(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
             double *v, struct rc_err *err)
 {
-    struct rc_bytes bytes;
-    enum rc_status status;
-    struct rc_file inner;
+    struct rc_bytes cursor = {.at = map->at};
+    unsigned char *bytes = unpack(file, &cursor.size, err);
 
     (void)wish;
-    if ((status = unpack(file, &inner, err)) == RC_OK) {
-        bytes = rc_file_bytes(&inner, false);
-        bytes.at = map->at;
-        rc_bytes_values(&bytes, map->raw, v, map->nx * map->ny);
-    }
-    free((void *)(uintptr_t)inner.data);
-    return status;
+    if (bytes == NULL)
+        return RC_FAIL;
+    cursor.data = bytes;
+    rc_bytes_values(&cursor, map->raw, v, map->nx * map->ny);
+    free(bytes);
+    return RC_OK;
 }
 
 /* ---- VK4 ---- */
@@ -189,23 +186,30 @@ find_plain(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 }
 
 static enum rc_status
-vk_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
-        struct rc_err *err)
+find_packed(const struct rc_file *file, struct rc_maps *maps, struct rc_err *err)
 {
-    struct rc_file inner;
+    struct rc_file inner = {.name = member_name};
+    unsigned char *bytes = unpack(file, &inner.size, err);
     enum rc_status status;
 
-    (void)wish;
-    if (!is_packed(file))
-        return find_plain(file, maps, err);
-    if ((status = unpack(file, &inner, err)) == RC_OK)
-        status = find_plain(&inner, maps, err);
+    if (bytes == NULL)
+        return RC_FAIL;
+    inner.data = bytes;
+    status = find_plain(&inner, maps, err);
     for (size_t k = 0; k < maps->n && status == RC_OK; k++) {
         maps->map[k].fill = fill_packed;
         status = rc_map_bound(&maps->map[k], file, (double)inner.size, err);
     }
-    free((void *)(uintptr_t)inner.data);
+    free(bytes);
     return status;
+}
+
+static enum rc_status
+vk_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
+        struct rc_err *err)
+{
+    (void)wish;
+    return is_packed(file) ? find_packed(file, maps, err) : find_plain(file, maps, err);
 }
 
 static int

@@ -64,7 +64,7 @@ set_scale(const struct rc_file *file, const struct wsxm *w, struct rc_map *map, 
 
     if (!rc_piece_number(w->amplitude, &amplitude, &unit))
         return rc_err_set(err, "Z Amplitude is '%s': that is no number",
-                          rc_text_shown(quote, w->amplitude.text, w->amplitude.n));
+                          rc_piece_shown(quote, w->amplitude));
     rc_map_unit(map, unit.text, unit.n);
     if (rc_map_range(map, file, &low, &high) && high > low)
         map->scale = amplitude / (high - low);
@@ -75,8 +75,7 @@ static enum rc_status
 wsxm_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
           struct rc_err *err)
 {
-    const char *text = (const char *)file->data;
-    struct rc_lines lines = {.at = text, .end = text + file->size};
+    struct rc_lines lines = rc_piece_lines(rc_file_piece(file));
     struct wsxm w = {
         .width = NAN, .height = NAN, .amplitude = {"", 0}, .channel = {"", 0}, .date = {"", 0}};
     struct rc_map *map;
@@ -100,7 +99,7 @@ wsxm_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps
         t++;
     if (t == sizeof types / sizeof *types)
         return rc_err_set(err, "Image Data Type is '%s': short, float and double are read",
-                          rc_text_shown(quote, w.type.text, w.type.n));
+                          rc_piece_shown(quote, w.type));
     map->raw = types[t].raw; /* old files give none: short */
     map->at = (size_t)w.header;
     map->dx = w.width / (double)map->nx;

@@ -13,14 +13,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "formats/core/core.h"
 #include "x3p.h"
-
-static const char *
-shown(char to[RC_SHOWN], const char *text)
-{
-    return rc_text_shown(to, text, strlen(text));
-}
+#include "formats/core/core.h"
 
 /* ---- the archive ---- */
 
@@ -72,24 +66,21 @@ x3p_open(struct rc_x3p *x, const struct rc_file *file, bool wants_list, struct r
                           "a ZIP archive, but no X3P: it holds no main.xml (the first of its "
                           "%zu members is '%s')",
                           rc_zip_read_members(x->archive),
-                          shown(quote, rc_zip_read_name(x->archive, 0)));
+                          rc_word_shown(quote, rc_zip_read_name(x->archive, 0)));
     return rc_x3p_head(x, err);
 }
 
 static struct rc_grid *
-make_grid(struct rc_x3p *x, const struct rc_wish *wish, double *metres, struct rc_notes *notes,
-          struct rc_err *err)
+make_grid(struct rc_x3p *x, const struct rc_file *file, const struct rc_wish *wish, double *metres,
+          struct rc_notes *notes, struct rc_err *err)
 {
-    struct rc_shape shape = {.nx = x->nx, .ny = x->ny};
-    struct rc_grid *g;
+    const struct rc_heights h = {x->nx, x->ny, x->dx, x->dy, 1, "m"};
+    struct rc_grid *g = rc_heights_new(&h, file, wish, metres, notes, err);
 
-    if (rc_spacing(wish, x->dx, x->dy, &shape, notes, err) != RC_OK ||
-        rc_height_unit(wish, 1, "m", metres, notes, err) != RC_OK ||
-        (g = rc_grid_new(&shape, "height", "m", err)) == NULL)
+    if (g == NULL)
         return NULL;
     for (size_t f = RC_X3P_FIRST_KEY; f < RC_X3P_FIELDS; f++)
-        if (x->text[f] != NULL &&
-            rc_text_keep(g, rc_x3p_key(f), x->text[f], strlen(x->text[f]), err) != RC_OK) {
+        if (x->text[f] != NULL && rc_word_keep(g, rc_x3p_key(f), x->text[f], err) != RC_OK) {
             rc_grid_free(g);
             return NULL;
         }
@@ -103,11 +94,10 @@ x3p_score(const struct rc_file *file)
 {
     struct rc_zip_read *archive;
     char prefix[RC_X3P_NAME];
-    size_t n = strlen(file->name), member;
-    bool named = n > 4 && strcmp(file->name + n - 4, ".x3p") == 0;
-    bool has_main;
+    bool named = rc_file_named(file, ".x3p"), has_main;
+    size_t member;
 
-    if (file->size < 4 || memcmp(file->data, "PK", 2) != 0)
+    if (!rc_file_holds(file, 0, "PK", 2))
         return 0;
     /* Another kind of archive scores a little too, so that its refusal names what it lacks. */
     if ((archive = rc_zip_read_new(file, NULL)) == NULL)
@@ -157,9 +147,9 @@ x3p_read(const struct rc_file *file, const struct rc_wish *wish, size_t index,
     rc_x3p_check_main(&x, notes);
     if (x.turned)
         rc_note(notes, "the file turns its axes by a rotation matrix: it is not applied");
-    if ((g = make_grid(&x, wish, &metres, notes, err)) == NULL)
+    if ((g = make_grid(&x, file, wish, &metres, notes, err)) == NULL)
         goto done;
-    good = rc_x3p_values(&x, points, metres, g->v, notes, err) == RC_OK;
+    good = rc_x3p_values(&x, points, metres, g, notes, err) == RC_OK;
 done:
     x3p_close(&x);
     if (good)

@@ -59,8 +59,8 @@ const char *rc_x3p_key(size_t field);
 void rc_x3p_check_main(struct rc_x3p *x, struct rc_notes *notes);
 /* Finds the member of the heights and checks its size before anything is allocated for it. */
 enum rc_status rc_x3p_find_points(struct rc_x3p *x, size_t *member, struct rc_err *err);
-/* Puts the heights into v, in metres; missing ones are NAN. */
-enum rc_status rc_x3p_values(struct rc_x3p *x, size_t member, double metres, double *v,
+/* Puts the heights into the grid, in metres; missing ones are NAN. */
+enum rc_status rc_x3p_values(struct rc_x3p *x, size_t member, double metres, struct rc_grid *grid,
                              struct rc_notes *notes, struct rc_err *err);
 
 #endif

@@ -49,47 +49,30 @@ rc_x3p_key(size_t field)
     return fields[field].key;
 }
 
-static const char *
-shown(char to[RC_SHOWN], const char *text)
-{
-    return rc_text_shown(to, text, strlen(text));
-}
-
 /* ---- main.xml ---- */
 
 static enum rc_status
 whole(const char *name, const char *text, size_t *value, struct rc_err *err)
 {
-    char quote[RC_SHOWN];
-
-    *value = 0;
     if (text == NULL || *text == '\0')
         return rc_err_set(err, "main.xml gives no %s", name);
-    if (strlen(text) > 15 || text[strspn(text, "0123456789")] != '\0')
-        return rc_err_set(err, "%s is '%s' in main.xml: it must be a whole number", name,
-                          shown(quote, text));
-    for (; *text != '\0'; text++)
-        *value = 10 * *value + (size_t)(*text - '0');
-    return RC_OK;
+    return rc_xml_whole("main.xml", name, text, value, err);
 }
 
-/* A number that may be absent or empty: then it is `otherwise`. */
+/* A finite number; `otherwise` where main.xml gives none. */
 static enum rc_status
 real(const char *name, const char *text, double otherwise, double *value, struct rc_err *err)
 {
     char quote[RC_SHOWN];
-    const char *end;
 
     *value = otherwise;
     if (text == NULL || *text == '\0')
         return RC_OK;
-    end = rc_number_read(text, true, value);
-    if (end == NULL || *end != '\0')
-        return rc_err_set(err, "%s is '%s' in main.xml: that is no number", name,
-                          shown(quote, text));
+    if (rc_xml_number("main.xml", name, text, value, err) != RC_OK)
+        return RC_FAIL;
     if (!isfinite(*value))
         return rc_err_set(err, "%s is '%s' in main.xml: it must be finite", name,
-                          shown(quote, text));
+                          rc_word_shown(quote, text));
     return RC_OK;
 }
 
@@ -124,10 +107,10 @@ take_datum(struct rc_x3p *x, const char *text, struct rc_err *err)
         return rc_err_set(err,
                           "Datum %zu is '%s': lists with coordinates are not read, only "
                           "matrices of heights",
-                          x->listed + 1, shown(quote, text));
+                          x->listed + 1, rc_word_shown(quote, text));
     if (end == NULL || *end != '\0')
         return rc_err_set(err, "Datum %zu is '%s': that is no number", x->listed + 1,
-                          shown(quote, text));
+                          rc_word_shown(quote, text));
     if (grow(x, err) != RC_OK)
         return RC_FAIL;
     x->list[x->listed++] = value;
@@ -158,7 +141,7 @@ take_element(void *arg, const char *path, const char *text, struct rc_err *err)
             return rc_err_set(err,
                               "a ZIP archive, but no X3P: the root of its main.xml is '%s', "
                               "not %s",
-                              shown(quote, path), root_name);
+                              rc_word_shown(quote, path), root_name);
         return RC_OK;
     }
     x->is_x3p = true;
@@ -178,30 +161,14 @@ take_element(void *arg, const char *path, const char *text, struct rc_err *err)
 }
 
 static enum rc_status
-take_xml(void *arg, const unsigned char *bytes, size_t n, struct rc_err *err)
-{
-    return rc_xml_feed(arg, bytes, n, err);
-}
-
-static enum rc_status
 read_main(struct rc_x3p *x, struct rc_err *err)
 {
-    struct rc_xml *xml = rc_xml_new("main.xml", take_element, x, err);
-    enum rc_status status = RC_FAIL;
-
-    if (xml == NULL)
+    if (rc_zip_read_xml(x->archive, x->main, MAIN_MOST, "main.xml", take_element, x, x->md5, err) !=
+        RC_OK)
         return RC_FAIL;
-    if (rc_zip_read_member(x->archive, x->main, MAIN_MOST, take_xml, xml, x->md5, err) != RC_OK ||
-        rc_xml_end(xml, err) != RC_OK)
-        goto done;
-    if (!x->is_x3p) {
-        rc_err_set(err, "a ZIP archive, but no X3P: its main.xml holds no %s", root_name);
-        goto done;
-    }
-    status = RC_OK;
-done:
-    rc_xml_free(xml);
-    return status;
+    if (!x->is_x3p)
+        return rc_err_set(err, "a ZIP archive, but no X3P: its main.xml holds no %s", root_name);
+    return RC_OK;
 }
 
 /* ---- what main.xml says ---- */
@@ -216,7 +183,7 @@ judge_axis(const char *name, const char *type, struct rc_err *err)
     return rc_err_set(err,
                       "axis %s is of type '%s': only incremental axes (I), a regular grid, "
                       "are read",
-                      name, type == NULL ? "" : shown(quote, type));
+                      name, type == NULL ? "" : rc_word_shown(quote, type));
 }
 
 /* What kind of data it is, before anything else is asked of it. */
@@ -231,7 +198,8 @@ judge_feature(struct rc_x3p *x, struct rc_err *err)
         return rc_err_set(err, "FeatureType PCL is a cloud of points: only maps (SUR) and profiles "
                                "(PRF) on a regular grid are read");
     if (!x->profile && strcmp(feature, "SUR") != 0)
-        return rc_err_set(err, "FeatureType is '%s': it must be SUR or PRF", shown(quote, feature));
+        return rc_err_set(err, "FeatureType is '%s': it must be SUR or PRF",
+                          rc_word_shown(quote, feature));
     if (judge_axis("CX", x->text[RC_X3P_CX_AXIS], err) != RC_OK)
         return RC_FAIL;
     return x->profile ? RC_OK : judge_axis("CY", x->text[RC_X3P_CY_AXIS], err);
@@ -287,7 +255,8 @@ judge_type(struct rc_x3p *x, struct rc_err *err)
             x->raw = types[k].raw;
             return RC_OK;
         }
-    return rc_err_set(err, "DataType of CZ is '%s': it must be I, L, F or D", shown(quote, type));
+    return rc_err_set(err, "DataType of CZ is '%s': it must be I, L, F or D",
+                      rc_word_shown(quote, type));
 }
 
 static enum rc_status

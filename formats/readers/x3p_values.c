@@ -10,12 +10,6 @@ enum {
     MASK_PADDING = 7      /* bytes that a writer may round the valid points up by */
 };
 
-static const char *
-shown(char to[RC_SHOWN], const char *text)
-{
-    return rc_text_shown(to, text, strlen(text));
-}
-
 /* The member that a link in main.xml names. */
 static enum rc_status
 follow(const struct rc_x3p *x, const char *link, size_t *member, struct rc_err *err)
@@ -66,7 +60,8 @@ compare_md5(const char *what, const char *given, const char *md5, struct rc_note
     char wanted[RC_MD5_TEXT], quote[RC_SHOWN];
 
     if (!md5_in(given, wanted)) {
-        rc_note(notes, "'%s' is no MD5 sum: the %s are not checked", shown(quote, given), what);
+        rc_note(notes, "'%s' is no MD5 sum: the %s are not checked", rc_word_shown(quote, given),
+                what);
         return RC_OK;
     }
     if (strcmp(wanted, md5) == 0)
@@ -184,27 +179,17 @@ apply_mask(struct rc_x3p *x, double *v, struct rc_notes *notes, struct rc_err *e
     return status;
 }
 
-static enum rc_status
-scale(const struct rc_x3p *x, double metres, double *v, struct rc_err *err)
-{
-    for (size_t k = 0; k < x->n; k++) {
-        if (isnan(v[k]))
-            continue;
-        v[k] = (v[k] * x->increment + x->offset) * metres;
-        if (!isfinite(v[k]))
-            return rc_err_set(err, "the height at column %zu, row %zu (from 0) is infinite",
-                              k % x->nx, k / x->nx);
-    }
-    return RC_OK;
-}
-
 enum rc_status
-rc_x3p_values(struct rc_x3p *x, size_t member, double metres, double *v, struct rc_notes *notes,
-              struct rc_err *err)
+rc_x3p_values(struct rc_x3p *x, size_t member, double metres, struct rc_grid *g,
+              struct rc_notes *notes, struct rc_err *err)
 {
     if (!x->binary)
-        memcpy(v, x->list, x->n * sizeof *v);
-    else if (read_points(x, member, v, notes, err) != RC_OK)
+        memcpy(g->v, x->list, x->n * sizeof *g->v);
+    else if (read_points(x, member, g->v, notes, err) != RC_OK)
         return RC_FAIL;
-    return apply_mask(x, v, notes, err) == RC_OK ? scale(x, metres, v, err) : RC_FAIL;
+    if (apply_mask(x, g->v, notes, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t k = 0; k < x->n; k++)
+        g->v[k] = (g->v[k] * x->increment + x->offset) * metres;
+    return rc_heights_finite(g, err);
 }

@@ -8,7 +8,8 @@
 
 enum {
     PATH_MAX_BYTES = 512,
-    TEXT_MAX_BYTES = 8192
+    TEXT_MAX_BYTES = 8192,
+    DIGITS_MOST = 15
 };
 
 struct rc_xml {
@@ -18,7 +19,7 @@ struct rc_xml {
     void *arg;
     struct rc_err err; /* why the parser was stopped from here */
     bool stopped;
-    size_t path_length, lost; /* lost: levels below it that did not fit into it */
+    size_t path_length, below; /* below: levels under the path that did not fit into it */
     size_t text_length;
     char path[PATH_MAX_BYTES];
     char text[TEXT_MAX_BYTES];
@@ -41,8 +42,8 @@ on_start(void *arg, const xmlChar *name, const xmlChar *prefix, const xmlChar *u
     (void)prefix, (void)uri, (void)spaces, (void)space;
     (void)attributes, (void)defaulted, (void)attribute;
     x->text_length = 0;
-    if (x->lost > 0 || x->path_length + 1 + n >= sizeof x->path) {
-        x->lost++;
+    if (x->below > 0 || x->path_length + 1 + n >= sizeof x->path) {
+        x->below++;
         return;
     }
     if (x->path_length > 0)
@@ -72,8 +73,8 @@ on_end(void *arg, const xmlChar *name, const xmlChar *prefix, const xmlChar *uri
 
     (void)name, (void)prefix, (void)uri;
     x->text_length = 0;
-    if (x->lost > 0) {
-        x->lost--;
+    if (x->below > 0) {
+        x->below--;
         return;
     }
     rc_trim(&text, &n);
@@ -174,4 +175,32 @@ rc_xml_free(struct rc_xml *x)
         xmlFreeDoc(x->parser->myDoc);
     xmlFreeParserCtxt(x->parser);
     free(x);
+}
+
+/* ---- numbers in it ---- */
+
+enum rc_status
+rc_xml_number(const char *document, const char *name, const char *text, double *value,
+              struct rc_err *err)
+{
+    const char *end = rc_number_read(text, true, value);
+    char quote[RC_SHOWN];
+
+    if (end != NULL && *end == '\0')
+        return RC_OK;
+    return rc_err_set(err, "%s is '%s' in %s: that is no number", name, rc_word_shown(quote, text),
+                      document);
+}
+
+enum rc_status
+rc_xml_whole(const char *document, const char *name, const char *text, size_t *value,
+             struct rc_err *err)
+{
+    char quote[RC_SHOWN];
+
+    if (*text == '\0' || strlen(text) > DIGITS_MOST || text[strspn(text, "0123456789")] != '\0')
+        return rc_err_set(err, "%s is '%s' in %s: it must be a whole number", name,
+                          rc_word_shown(quote, text), document);
+    *value = strtoul(text, NULL, 10);
+    return RC_OK;
 }

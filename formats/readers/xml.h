@@ -28,4 +28,12 @@ enum rc_status rc_xml_feed(struct rc_xml *xml, const unsigned char *bytes, size_
 enum rc_status rc_xml_end(struct rc_xml *xml, struct rc_err *err);
 void rc_xml_free(struct rc_xml *xml); /* NULL is allowed */
 
+/* An element's text that must be a number, "nan" and "inf" among them; RC_FAIL says so. `name` is
+ * what the element is called in messages, `document` where it stands. */
+enum rc_status rc_xml_number(const char *document, const char *name, const char *text,
+                             double *value, struct rc_err *err);
+/* The same for a whole number, of at most 15 digits. */
+enum rc_status rc_xml_whole(const char *document, const char *name, const char *text, size_t *value,
+                            struct rc_err *err);
+
 #endif

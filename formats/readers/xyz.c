@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "formats/core/core.h"
 #include "titled_table.h"
+#include "formats/core/core.h"
 
 struct axis {
     double first, step;
@@ -28,7 +28,8 @@ by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The raster of one coordinate: its values stand in heaps, evenly apart. */
+/* The raster of one coordinate: its values, which may be rounded, lie near places that are evenly
+ * apart. */
 static enum rc_status
 find_axis(const double *v, size_t points, char name, struct axis *axis, struct rc_err *err)
 {
@@ -144,15 +145,13 @@ xyz_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
 static int
 xyz_score(const struct rc_file *file)
 {
-    static const struct rc_wish no_wish = {.dx = NAN, .dy = NAN, .z_unit = NAN};
-    size_t looked = file->size < 4096 ? file->size : 4096;
     bool named = rc_file_named(file, ".xyz");
     struct cloud c;
     int score = 0;
 
-    if (looked == 0 || (memchr(file->data, 0, looked) != NULL && file->data[0] < 0xfe))
+    if (!rc_file_is_text(file) && !rc_file_is_utf16(file))
         return 0;
-    if (cloud_open(&c, file, &no_wish, NULL) == RC_OK)
+    if (cloud_open(&c, file, &rc_no_wish, NULL) == RC_OK)
         score = named ? 80 : c.y.n > 1 && c.table.numbers.rows > 3 ? 60 : 0;
     else if (c.table.numbers.columns == 3 && named)
         score = 50;

@@ -30,7 +30,7 @@ open_zip(const struct rc_file *file, zip_error_t *why)
 struct rc_zip_read *
 rc_zip_read_new(const struct rc_file *file, struct rc_err *err)
 {
-    if (file->size >= 4 && memcmp(file->data, "PK", 2) == 0)
+    if (file->size >= 4 && rc_file_holds(file, 0, "PK", 2))
         return rc_zip_read_behind(file, err);
     rc_err_set(err, "no ZIP archive: it does not begin with 'PK'");
     return NULL;
@@ -94,8 +94,7 @@ rc_zip_read_find(const struct rc_zip_read *a, const char *name, size_t *member, 
             *member = k;
             return RC_OK;
         }
-    return rc_err_set(err, "the archive has no member '%s'",
-                      rc_text_shown(shown, name, strlen(name)));
+    return rc_err_set(err, "the archive has no member '%s'", rc_word_shown(shown, name));
 }
 
 enum rc_status
@@ -107,7 +106,7 @@ rc_zip_read_size(struct rc_zip_read *a, size_t member, uint64_t *size, struct rc
     char shown[RC_SHOWN];
     zip_stat_t st;
 
-    rc_text_shown(shown, name, strlen(name));
+    rc_word_shown(shown, name);
     if (zip_stat_index(a->zip, member, 0, &st) != 0 || (st.valid & needed) != needed)
         return rc_err_set(err, "member '%s' of the archive: no size is given", shown);
     if (st.encryption_method != ZIP_EM_NONE)
@@ -189,7 +188,7 @@ rc_zip_read_member(struct rc_zip_read *a, size_t member, uint64_t most, rc_zip_t
     char shown[RC_SHOWN];
     uint64_t size;
 
-    rc_text_shown(shown, name, strlen(name));
+    rc_word_shown(shown, name);
     if (rc_zip_read_size(a, member, &size, err) != RC_OK)
         goto done;
     if (size > most) {
@@ -258,4 +257,25 @@ rc_zip_read_bytes(struct rc_zip_read *a, size_t member, uint64_t most, size_t *n
     b.bytes[b.n] = '\0';
     *n = b.n;
     return b.bytes;
+}
+
+static enum rc_status
+take_xml(void *arg, const unsigned char *bytes, size_t n, struct rc_err *err)
+{
+    return rc_xml_feed(arg, bytes, n, err);
+}
+
+enum rc_status
+rc_zip_read_xml(struct rc_zip_read *a, size_t member, uint64_t most, const char *name,
+                rc_element *element, void *arg, char md5[RC_MD5_TEXT], struct rc_err *err)
+{
+    struct rc_xml *xml = rc_xml_new(name, element, arg, err);
+    enum rc_status status = RC_FAIL;
+
+    if (xml == NULL)
+        return RC_FAIL;
+    if (rc_zip_read_member(a, member, most, take_xml, xml, md5, err) == RC_OK)
+        status = rc_xml_end(xml, err);
+    rc_xml_free(xml);
+    return status;
 }

@@ -10,9 +10,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "libcontact/grid.h"
-#include "formats/format.h"
+#include "xml.h"
 #include "formats/core/core.h"
+#include "formats/format.h"
+#include "libcontact/grid.h"
 
 struct rc_zip_read;
 
@@ -47,5 +48,11 @@ enum rc_status rc_zip_read_member(struct rc_zip_read *archive, size_t member, ui
  * NULL with the reason. `md5` as above. */
 unsigned char *rc_zip_read_bytes(struct rc_zip_read *archive, size_t member, uint64_t most,
                                  size_t *n, char md5[RC_MD5_TEXT], struct rc_err *err);
+
+/* Unpacks a member of at most `most` bytes that is an XML document called `name` in messages, with
+ * `element` and `arg` as xml.h has them. `md5` as above. */
+enum rc_status rc_zip_read_xml(struct rc_zip_read *archive, size_t member, uint64_t most,
+                               const char *name, rc_element *element, void *arg,
+                               char md5[RC_MD5_TEXT], struct rc_err *err);
 
 #endif

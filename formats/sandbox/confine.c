@@ -61,8 +61,9 @@ set_timer(int which, double seconds)
 void
 rc_confine(const struct rc_file *file)
 {
-    /* handlers of the parent, which tidy up what it has half written, are not for its child */
-    static const int signals[] = {SIGPROF, SIGALRM, SIGINT, SIGTERM, SIGHUP, SIGPIPE};
+    /* the parent may catch these, to tidy up or to go on; its child is to die of them */
+    static const int signals[] = {SIGPROF, SIGALRM, SIGINT,  SIGTERM, SIGHUP, SIGPIPE,
+                                  SIGSEGV, SIGBUS,  SIGABRT, SIGFPE,  SIGILL, SIGSYS};
     size_t space = space_now();
 
     for (size_t k = 0; k < sizeof signals / sizeof *signals; k++)

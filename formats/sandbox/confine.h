@@ -8,8 +8,9 @@
 double rc_confine_seconds(const struct rc_file *file);
 
 /* Bounds the calling process for the rest of its life: rc_confine_seconds of processor time and ten
- * times that by the clock, rc_memory_limit of memory beyond what it has, no further
- * open file, no core dump. It ends by SIGPROF or SIGALRM where its time is over. */
+ * times that by the clock, rc_memory_limit of memory beyond what it has, no further open file, no
+ * core dump. Signals have their default action again: SIGPROF or SIGALRM ends it when its time is
+ * over. */
 void rc_confine(const struct rc_file *file);
 
 #endif

@@ -6,8 +6,8 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "libcontact/grid.h"
 #include "formats/core/core.h"
+#include "libcontact/grid.h"
 
 /* ---- a buffer that grows ---- */
 

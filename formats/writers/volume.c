@@ -127,7 +127,7 @@ name_arrays(struct rc_volume *v, const struct rc_export_wish *wish, struct rc_er
     if (first == NULL)
         return rc_err_set(err, "out of memory for %zu names", v->arrays);
     for (size_t a = 0; a < v->arrays; a++)
-        first[a] = (struct rc_grid *)(uintptr_t)v->array[a].layer[0];
+        first[a] = v->array[a].layer[0];
     for (size_t a = 0; a < v->arrays; a++) {
         rc_export_label(v->array[a].name, first, v->arrays, a, false);
         v->array[a].raw = rc_export_raw(first[a], wish, RC_VTK_TYPES);

@@ -13,7 +13,7 @@
 
 /* A value at every node: one frame a layer, layers from the shallowest down. */
 struct rc_layers {
-    const struct rc_grid **layer;
+    struct rc_grid **layer;
     char name[RC_LABEL];
     enum rc_raw raw;
 };

@@ -5,9 +5,9 @@
 #include <string.h>
 
 #include "encode.h"
-#include "formats/export.h"
-#include "formats/core/core.h"
 #include "zip_write.h"
+#include "formats/core/core.h"
+#include "formats/export.h"
 
 enum {
     TYPES = RC_TYPE_I16 | RC_TYPE_I32 | RC_TYPE_F32 | RC_TYPE_F64

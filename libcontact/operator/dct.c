@@ -4,6 +4,7 @@
  * 2.5).
  */
 #include "dct.h"
+#include "planner.h"
 #include "libcontact/common.h"
 #include "libcontact/memory.h"
 
@@ -55,9 +56,10 @@ rc_dct_new(size_t n, size_t threads, struct rc_err *err)
     d->scratch = rc_alloc(threads * d->per_thread, sizeof *d->scratch);
     if (d->scratch == NULL)
         goto fail;
-#pragma omp critical(rc_fftw_planner)
+    rc_planner_lock();
     d->plan =
         fftw_plan_dft_r2c_1d((int)period, d->scratch, transform_of(d, d->scratch), FFTW_ESTIMATE);
+    rc_planner_unlock();
     if (d->plan != NULL)
         return d;
 fail:
@@ -71,8 +73,9 @@ rc_dct_free(struct rc_dct *d)
 {
     if (d == NULL)
         return;
-#pragma omp critical(rc_fftw_planner)
+    rc_planner_lock();
     fftw_destroy_plan(d->plan);
+    rc_planner_unlock();
     free(d->scratch);
     free(d);
 }

@@ -21,6 +21,7 @@
 
 #include "fft.h"
 #include "libcontact/memory.h"
+#include "planner.h"
 
 enum {
     LINE = 128 / sizeof(COMPLEX), /* columns taken together: two cache lines, fetched as a pair  */
@@ -78,13 +79,12 @@ plan_free(void *at)
 
     if (f == NULL)
         return;
-#pragma omp critical(rc_fftw_planner)
-    {
-        FFTW(destroy_plan)(f->row_forward);
-        FFTW(destroy_plan)(f->row_back);
-        FFTW(destroy_plan)(f->column_forward);
-        FFTW(destroy_plan)(f->column_back);
-    }
+    rc_planner_lock();
+    FFTW(destroy_plan)(f->row_forward);
+    FFTW(destroy_plan)(f->row_back);
+    FFTW(destroy_plan)(f->column_forward);
+    FFTW(destroy_plan)(f->column_back);
+    rc_planner_unlock();
     free(f->half);
     free(f->source);
     free(f->twiddle);
@@ -108,14 +108,12 @@ make_plans(struct plan *f)
     COMPLEX *half = (COMPLEX *)row - f->l.stride;
     int px = (int)f->l.px, m = (int)f->l.m;
 
-    /* The planner is the one part of FFTW that two threads may not enter at once. */
-#pragma omp critical(rc_fftw_planner)
-    {
-        f->row_forward = FFTW(plan_dft_r2c_1d)(px, row, half, how);
-        f->row_back = FFTW(plan_dft_c2r_1d)(px, half, row, how);
-        f->column_forward = FFTW(plan_dft_1d)(m, a, b, FFTW_FORWARD, how);
-        f->column_back = FFTW(plan_dft_1d)(m, a, b, FFTW_BACKWARD, how);
-    }
+    rc_planner_lock();
+    f->row_forward = FFTW(plan_dft_r2c_1d)(px, row, half, how);
+    f->row_back = FFTW(plan_dft_c2r_1d)(px, half, row, how);
+    f->column_forward = FFTW(plan_dft_1d)(m, a, b, FFTW_FORWARD, how);
+    f->column_back = FFTW(plan_dft_1d)(m, a, b, FFTW_BACKWARD, how);
+    rc_planner_unlock();
     return f->row_forward != NULL && f->row_back != NULL && f->column_forward != NULL &&
            f->column_back != NULL;
 }

@@ -1,4 +1,5 @@
 #include "fourier.h"
+#include "planner.h"
 
 #include <fftw3.h> /* after complex.h: fftw_complex is then double complex */
 #include <limits.h>
@@ -24,28 +25,27 @@ rc_fourier_number(size_t k, size_t n)
     return 2 * k <= n ? (long)k : -(long)(n - k);
 }
 
-/* Plans without measuring, so that the same map gives the same bytes each time. One of v and s is
- * the input. */
+/* Runs a plan and frees it. Plans are made without measuring, so that the same map gives the same
+ * bytes each time. */
 static enum rc_status
-transform(const struct rc_shape *shape, bool forward, double *v, double complex *s,
-          struct rc_err *err)
+run(const struct rc_shape *shape, fftw_plan plan, struct rc_err *err)
 {
-    const unsigned how = FFTW_ESTIMATE | (forward ? FFTW_PRESERVE_INPUT : FFTW_DESTROY_INPUT);
-    fftw_plan plan;
-
-    if (shape->nx > INT_MAX || shape->ny > INT_MAX)
-        return rc_err_set(err, "%zu x %zu nodes: a side of at most %d can be transformed",
-                          shape->nx, shape->ny, INT_MAX);
-        /* The planner is the one part of FFTW that two threads may not enter at once. */
-#pragma omp critical(rc_fftw_planner)
-    plan = forward ? fftw_plan_dft_r2c_2d((int)shape->ny, (int)shape->nx, v, s, how)
-                   : fftw_plan_dft_c2r_2d((int)shape->ny, (int)shape->nx, s, v, how);
     if (plan == NULL)
         return rc_err_set(err, "out of memory for the Fourier transform of %zu x %zu nodes",
                           shape->nx, shape->ny);
     fftw_execute(plan);
-#pragma omp critical(rc_fftw_planner)
+    rc_planner_lock();
     fftw_destroy_plan(plan);
+    rc_planner_unlock();
+    return RC_OK;
+}
+
+static enum rc_status
+check_sides(const struct rc_shape *shape, struct rc_err *err)
+{
+    if (shape->nx > INT_MAX || shape->ny > INT_MAX)
+        return rc_err_set(err, "%zu x %zu nodes: a side of at most %d can be transformed",
+                          shape->nx, shape->ny, INT_MAX);
     return RC_OK;
 }
 
@@ -53,13 +53,32 @@ enum rc_status
 rc_fourier_forward(const struct rc_shape *shape, const double *v, double complex *s,
                    struct rc_err *err)
 {
-    return transform(shape, true, (double *)v, s, err);
+    size_t columns = rc_fourier_columns(shape);
+    double *map = (double *)s;
+    fftw_plan plan;
+
+    if (check_sides(shape, err) != RC_OK)
+        return RC_FAIL;
+    rc_planner_lock();
+    plan = fftw_plan_dft_r2c_2d((int)shape->ny, (int)shape->nx, map, s, FFTW_ESTIMATE);
+    rc_planner_unlock();
+    for (size_t j = 0; plan != NULL && j < shape->ny; j++)
+        memcpy(map + 2 * j * columns, v + j * shape->nx, shape->nx * sizeof *v);
+    return run(shape, plan, err);
 }
 
 enum rc_status
 rc_fourier_backward(const struct rc_shape *shape, double complex *s, double *v, struct rc_err *err)
 {
-    return transform(shape, false, v, s, err);
+    fftw_plan plan;
+
+    if (check_sides(shape, err) != RC_OK)
+        return RC_FAIL;
+    rc_planner_lock();
+    plan = fftw_plan_dft_c2r_2d((int)shape->ny, (int)shape->nx, s, v,
+                                FFTW_ESTIMATE | FFTW_DESTROY_INPUT);
+    rc_planner_unlock();
+    return run(shape, plan, err);
 }
 
 /* ---- lines ---- */
@@ -94,11 +113,10 @@ rc_line_new(size_t n, size_t threads, struct rc_err *err)
     l->scratch = aligned_alloc(64, (threads * l->space * sizeof(double) + 63) / 64 * 64);
     if (l->scratch == NULL)
         goto fail;
-#pragma omp critical(rc_fftw_planner)
-    {
-        l->forward = fftw_plan_dft_r2c_1d((int)n, values_of(l), waves_of(l), FFTW_ESTIMATE);
-        l->backward = fftw_plan_dft_c2r_1d((int)n, waves_of(l), values_of(l), FFTW_ESTIMATE);
-    }
+    rc_planner_lock();
+    l->forward = fftw_plan_dft_r2c_1d((int)n, values_of(l), waves_of(l), FFTW_ESTIMATE);
+    l->backward = fftw_plan_dft_c2r_1d((int)n, waves_of(l), values_of(l), FFTW_ESTIMATE);
+    rc_planner_unlock();
     if (l->forward != NULL && l->backward != NULL)
         return l;
 fail:
@@ -128,11 +146,10 @@ rc_line_free(struct rc_line *l)
 {
     if (l == NULL)
         return;
-#pragma omp critical(rc_fftw_planner)
-    {
-        fftw_destroy_plan(l->forward);
-        fftw_destroy_plan(l->backward);
-    }
+    rc_planner_lock();
+    fftw_destroy_plan(l->forward);
+    fftw_destroy_plan(l->backward);
+    rc_planner_unlock();
     free(l->scratch);
     free(l);
 }

@@ -125,9 +125,9 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
 {
     struct figures f = {.s = s, .displacement = displacement, .gap = gap};
     double total[RC_SUMS], n = (double)s->posed.n, scale;
-    bool stopped;
+    bool early = s->nested != NULL, stopped;
 
-    rc_nested_end(s); /* stopped on a coarser grid: the best is what was reached there */
+    rc_nested_end(s); /* the best is what was reached there */
     *c = (struct rc_contact){.iterations = s->it.iterations};
     stopped = !s->it.known || !s->it.fresh;
     if (stopped)
@@ -153,7 +153,8 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
     if (total[SPREAD_H] == 0) /* one height everywhere: both vanish with the error */
         scale = s->op->norm * c->mean_pressure;
     c->kkt_residual = total[RC_MOST] == 0 ? 0 : total[RC_MOST] / scale;
-    if (stopped || s->it.checked != s->it.iterations || isnan(s->it.error)) {
+    /* Who stops on a coarser grid is in a hurry: nobody knows how far off that is on this one. */
+    if (!early && (stopped || s->it.checked != s->it.iterations || isnan(s->it.error))) {
         rc_working_set_find(s, false);
         rc_iterate_checked(s, rc_working_set_estimate(s), 1);
     }

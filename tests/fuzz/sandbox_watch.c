@@ -24,6 +24,8 @@
 #include <sanitizer/asan_interface.h>
 #include <sanitizer/common_interface_defs.h>
 
+#include "formats/format.h"
+
 int LLVMFuzzerInitialize(int *argc, char ***argv);
 void watch_judge(void);
 void __ubsan_on_report(void);
@@ -48,6 +50,8 @@ static bool is_child;
 
 void __real__exit(int status);
 void __wrap__exit(int status);
+void __real_rc_confine(const struct rc_file *file);
+void __wrap_rc_confine(const struct rc_file *file);
 
 static size_t
 counters(void)
@@ -110,15 +114,23 @@ on_report(void)
 static void
 in_child(void)
 {
-    static const int signals[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP};
     int nothing = open("/dev/null", O_WRONLY);
 
     is_child = true;
     if (nothing >= 0)
         dup2(nothing, 2); /* reports of what is meant to die here */
+    __sanitizer_set_death_callback(on_report);
+}
+
+/* The handlers of the child come after rc_confine, which removes all. */
+void
+__wrap_rc_confine(const struct rc_file *file)
+{
+    static const int signals[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP};
+
+    __real_rc_confine(file);
     for (size_t k = 0; k < sizeof signals / sizeof *signals; k++)
         signal(signals[k], on_signal);
-    __sanitizer_set_death_callback(on_report);
 }
 
 /* ---- in the parent ---- */

@@ -46,7 +46,7 @@ close_input(struct tool *t)
 }
 
 static void
-mind_convergence(struct tool *t, const struct rc_grid *g)
+check_convergence(struct tool *t, const struct rc_grid *g)
 {
     const char *converged = rc_grid_get(g, "converged");
     char where[256];
@@ -78,7 +78,7 @@ tool_read(struct tool *t)
         switch (rc_reader_next(t->reader, &g, &err)) {
         case RC_MORE:
             t->frame++;
-            mind_convergence(t, g);
+            check_convergence(t, g);
             return g;
         case RC_OK:
             close_input(t);
@@ -92,18 +92,18 @@ tool_read(struct tool *t)
 static void
 end_case(struct tool *t, const char *channel)
 {
-    if (t->now.number != 0 && t->now.found == 0)
+    if (t->current.number != 0 && t->current.found == 0)
         tool_die(t, EXIT_IMPOSSIBLE, "%s, case %zu: no frame with the channel %s, only %s",
-                 t->now.source, t->now.number, channel, t->now.names);
+                 t->current.source, t->current.number, channel, t->current.names);
 }
 
 static void
 begin_case(struct tool *t, size_t number)
 {
-    t->now.number = number;
-    t->now.source = t->source;
-    t->now.found = 0;
-    t->now.names[0] = '\0';
+    t->current.number = number;
+    t->current.source = t->source;
+    t->current.found = 0;
+    t->current.names[0] = '\0';
 }
 
 struct rc_grid *
@@ -114,15 +114,15 @@ tool_channel(struct tool *t, const char *channel, bool pass)
     while ((g = tool_read(t)) != NULL) {
         size_t number = rc_grid_case(g), used;
 
-        if (number != t->now.number) {
+        if (number != t->current.number) {
             end_case(t, channel);
             begin_case(t, number);
         }
-        used = strlen(t->now.names);
-        snprintf(t->now.names + used, sizeof t->now.names - used, "%s%s", used == 0 ? "" : " ",
-                 g->channel);
+        used = strlen(t->current.names);
+        snprintf(t->current.names + used, sizeof t->current.names - used, "%s%s",
+                 used == 0 ? "" : " ", g->channel);
         if (strcmp(g->channel, channel) == 0) {
-            if (t->now.found++ > 0)
+            if (t->current.found++ > 0)
                 tool_die_at(t, g, EXIT_IMPOSSIBLE,
                             "a second %s frame in one case: maps that do not belong together need "
                             "case numbers of their own",
@@ -134,7 +134,7 @@ tool_channel(struct tool *t, const char *channel, bool pass)
         rc_grid_free(g);
     }
     end_case(t, channel);
-    if (t->now.number == 0)
+    if (t->current.number == 0)
         tool_die(t, EXIT_IMPOSSIBLE, "%s: the stream holds no frame", t->source);
     return NULL;
 }

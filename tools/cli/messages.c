@@ -9,8 +9,6 @@
 
 #include "parts.h"
 
-static bool progress_shown;
-
 static void
 say(struct tool *t, const char *text)
 {
@@ -49,13 +47,12 @@ tool_note(struct tool *t, const char *format, ...)
 void
 tool_progress(struct tool *t, const char *format, ...)
 {
-    static double last;
     bool terminal = isatty(STDERR_FILENO);
     va_list ap;
 
-    if (t->quiet || !(terminal || t->progress) || tool_now() - last < 0.1)
+    if (t->quiet || !(terminal || t->progress) || tool_now() - t->progress_at < 0.1)
         return;
-    last = tool_now();
+    t->progress_at = tool_now();
     fprintf(stderr, terminal ? "\r\033[K%s: " : "%s: ", t->info->name);
     va_start(ap, format);
     vfprintf(stderr, format, ap);
@@ -63,16 +60,15 @@ tool_progress(struct tool *t, const char *format, ...)
     if (!terminal)
         fputc('\n', stderr);
     fflush(stderr);
-    progress_shown = terminal;
+    t->progress_shown = terminal;
 }
 
 void
 tool_progress_end(struct tool *t)
 {
-    (void)t;
-    if (progress_shown)
+    if (t->progress_shown)
         fputs("\r\033[K", stderr);
-    progress_shown = false;
+    t->progress_shown = false;
 }
 
 static _Noreturn void

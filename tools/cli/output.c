@@ -24,7 +24,7 @@ static char destination[PATH_SIZE];
 /* ---- signals ---- */
 
 static volatile sig_atomic_t interrupted;
-static const int signals_minded[] = {SIGINT, SIGTERM, SIGHUP};
+static const int signals_handled[] = {SIGINT, SIGTERM, SIGHUP};
 
 static void
 end_by(int number)
@@ -45,9 +45,9 @@ note_signal(int number)
 static void
 handle(void (*handler)(int))
 {
-    for (size_t k = 0; k < sizeof signals_minded / sizeof *signals_minded; k++)
-        if (signal(signals_minded[k], handler) == SIG_IGN)
-            signal(signals_minded[k], SIG_IGN); /* nohup stays nohup */
+    for (size_t k = 0; k < sizeof signals_handled / sizeof *signals_handled; k++)
+        if (signal(signals_handled[k], handler) == SIG_IGN)
+            signal(signals_handled[k], SIG_IGN); /* nohup stays nohup */
 }
 
 void
@@ -63,7 +63,7 @@ tool_interrupted(void)
 }
 
 void
-output_mind_signals(void)
+output_handle_signals(void)
 {
     handle(end_by);
 }

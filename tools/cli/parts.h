@@ -18,7 +18,7 @@ const char *option_word(const struct opt *option, size_t k, size_t *length);
 void options_read(struct tool *tool, int argc, char **argv);
 
 /* SIGINT, SIGTERM and SIGHUP remove what is half-written and end the tool. */
-void output_mind_signals(void);
+void output_handle_signals(void);
 void output_open(struct tool *tool);
 /* Ends the stream, closes, puts the file in place. Where a signal has come, ends by it. */
 void output_end(struct tool *tool);

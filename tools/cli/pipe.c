@@ -1,4 +1,4 @@
-/* By itself, because with GNU's names signal() means something else. */
+/* A file of its own: _GNU_SOURCE would change what signal() does in output.c. */
 #define _GNU_SOURCE /* F_SETPIPE_SZ */
 #include "pipe.h"
 

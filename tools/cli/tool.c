@@ -42,7 +42,7 @@ tool_start(struct tool *t, const struct tool_info *info, int argc, char **argv, 
                  info->name);
     if (info->settle != NULL)
         info->settle(t);
-    output_mind_signals();
+    output_handle_signals();
     if (tool_given(t, "dry-run")) { /* words instead of grids, and no file is touched */
         t->writes = WRITES_TEXT;
         t->out_name = NULL;

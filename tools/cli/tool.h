@@ -125,8 +125,10 @@ struct tool {
         size_t number, found;
         const char *source; /* where it began                                             */
         char names[512];    /* its channels, for the message that one is missing          */
-    } now;
+    } current;
     bool type_given, began, warned_short;
+    bool progress_shown; /* a line stands on the terminal                                  */
+    double progress_at;  /* s: when it was written                                         */
     enum rc_type type;
     struct opt opt[TOOL_OPTIONS]; /* the tool's own, groups written out                     */
     size_t opts;

@@ -1,5 +1,6 @@
 #include "words.h"
 
+#include <stdio.h>
 #include <string.h>
 
 const char *
@@ -47,6 +48,19 @@ words_stress_engine_or_auto(size_t k)
         if (!info->precise && --k == 0)
             return info->name;
     return NULL;
+}
+
+const char *
+words_periodic_engines(char *list, size_t size)
+{
+    const struct rc_engine_info *info;
+    size_t n = 0;
+
+    list[0] = '\0';
+    for (size_t e = 0; (info = rc_engine_info(e)) != NULL && n < size; e++)
+        if (info->periodic && !info->precise)
+            n += (size_t)snprintf(list + n, size - n, "%s%s", n == 0 ? "" : " ", info->name);
+    return list;
 }
 
 size_t

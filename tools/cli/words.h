@@ -20,6 +20,10 @@ const char *words_component(size_t k); /* of a stress, as in enum rc_component *
  * that. */
 const char *words_stress_engine_or_auto(size_t k);
 
+/* The engines that sum periodic maps, separated by blanks, but for those that differ only in
+ * precision. */
+const char *words_periodic_engines(char *list, size_t size);
+
 /* Place of the row of that name; past the last one: there is none, as for "auto". */
 size_t words_engine_place(const char *name);
 /* The row itself; NULL: there is none. */

@@ -13,7 +13,6 @@
 
 #include "libcontact/contact.h"
 #include "tools/cli/cli.h"
-#include "coarse.h"
 
 /* ---- trials.c: which trials there are ---- */
 
@@ -52,6 +51,10 @@ struct cost_trial {
 /* The trials, *n of them, which the caller frees. `kernels` and `methods`: bit k stands for row
  * k of libcontact's tables. NULL: memory is short. */
 struct cost_trial *cost_trials(size_t kernels, size_t methods, size_t *n);
+/* A grid of about 1/factor of the nodes a side on the same area, so that a period stays what it was
+ * and a load has the same mean: where the number of nodes cannot be divided its cells are a little
+ * wider or narrower. A side of one node keeps it. */
+struct rc_shape cost_coarse_shape(const struct rc_shape *map, unsigned factor);
 /* Place, among all pairs of a method and an engine that are tried, of that of the settings. */
 size_t cost_series(const struct cost_settings *settings);
 /* Settings of the reference: double precision throughout, to 1e-12. */

@@ -46,8 +46,8 @@ work(void *ctx)
         rc_err_set(&j->err, "out of memory");
         return;
     }
-    if (coarse)
-        coarse_means(&j->map, j->h, shape, h);
+    if (coarse) /* means lower the tips; single nodes would alias what the grid cannot hold */
+        rc_resample_means(&j->map, j->h, shape, h);
     if ((solver = rc_solver_new(shape, coarse ? h : j->h, &j->problem, &j->err)) == NULL)
         return;
     while (rc_solver_step(solver) == RC_MORE) {
@@ -60,7 +60,7 @@ work(void *ctx)
     rc_solver_result(solver, NULL, NULL, &j->contact);
     start = tool_now();
     if (coarse) {
-        coarse_spread(shape, rc_solver_pressure(solver), &j->map, j->p);
+        rc_resample_means(shape, rc_solver_pressure(solver), &j->map, j->p);
         j->seconds += tool_now() - start;
     } else {
         memcpy(j->p, rc_solver_pressure(solver), shape->nx * shape->ny * sizeof *j->p);

@@ -1,4 +1,4 @@
-#define _DEFAULT_SOURCE /* MAP_ANONYMOUS, which POSIX of this year lacks */
+#define _DEFAULT_SOURCE /* MAP_ANONYMOUS, which POSIX 2008 lacks */
 #include "cost.h"
 
 #include <errno.h>

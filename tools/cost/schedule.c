@@ -14,14 +14,19 @@ enum {
 static const char *
 obstacle(const struct cost_case *c, const struct cost_trial *m)
 {
+    static char text[200];
+    char list[128];
     struct rc_problem problem = c->problem;
     size_t least = m->shape.nx < m->shape.ny ? m->shape.nx : m->shape.ny;
 
     problem.engine = m->settings.kernel;
     problem.method = m->settings.method;
     problem.tol = m->settings.tol;
-    if (c->problem.boundary == RC_PERIODIC && !words_engine_named(m->settings.kernel)->periodic)
-        return "left out: it does not sum on a periodic boundary";
+    if (c->problem.boundary == RC_PERIODIC && !words_engine_named(m->settings.kernel)->periodic) {
+        snprintf(text, sizeof text, "left out: on a periodic boundary only %s sums",
+                 words_periodic_engines(list, sizeof list));
+        return text;
+    }
     if (m->settings.coarse > 1 && (least == 1 ? m->shape.nx * m->shape.ny : least) < SMALLEST)
         return "left out: the grid is too small to be coarsened so far";
     if (m->settings.coarse > 1 && c->choosing && !c->shown)

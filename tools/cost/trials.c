@@ -34,7 +34,7 @@ range_of(size_t method, size_t engine)
 }
 
 /* Coarser grids, by the nodes of the map along a side for one of theirs, and the last tolerance
- * 1e-to: what such a grid leaves out hides more. */
+ * 1e-to: below that their discretization error hides what a tolerance changes. */
 static const struct {
     unsigned coarse;
     int to;
@@ -100,6 +100,17 @@ cost_trials(size_t kernels, size_t methods, size_t *n)
     }
     *n = list.n;
     return list.trial;
+}
+
+struct rc_shape
+cost_coarse_shape(const struct rc_shape *map, unsigned factor)
+{
+    size_t nx = (map->nx + factor / 2) / factor, ny = (map->ny + factor / 2) / factor;
+
+    nx = nx > 0 ? nx : 1;
+    ny = ny > 0 ? ny : 1;
+    return (struct rc_shape){nx, ny, map->dx * ((double)map->nx / (double)nx),
+                             map->dy * ((double)map->ny / (double)ny)};
 }
 
 size_t

@@ -1,5 +1,5 @@
 /*
- * Cairo's surface, and Pango's text on it. Nothing else in the house knows either.
+ * An image by cairo, with text by Pango; no other file includes either.
  */
 #include "canvas.h"
 

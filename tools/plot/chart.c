@@ -155,7 +155,7 @@ dot(struct panel *p, double x, double y, double size, struct rgb colour)
     canvas_stroke(p->c, size, colour);
 }
 
-/* The front from left to right; no more of it than there are points. */
+/* Joins the points of the front from left to right. */
 static void
 draw_front(struct panel *p)
 {
@@ -224,7 +224,8 @@ place_free(struct panel *p, const struct box *b)
     return p->labels < LABELS;
 }
 
-/* Lower left of the point, where nothing that is worse lies; else upper right; else no label. */
+/* A label is put to the lower left of its point, where no other point of the front can lie, or,
+ * where that place is taken, at one of the others in turn; where all are taken it is left out. */
 static void
 draw_label(struct panel *p, const struct chart_point *q)
 {

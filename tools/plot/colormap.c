@@ -55,6 +55,12 @@ static const struct colormap maps[] = {
 };
 /* clang-format on */
 
+const char *
+colormap_name(size_t k)
+{
+    return k < sizeof maps / sizeof *maps ? maps[k].name : NULL;
+}
+
 const struct colormap *
 colormap_find(const char *name)
 {

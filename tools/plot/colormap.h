@@ -18,8 +18,8 @@ struct colormap {
     struct rgb missing; /* NaN: not measured                                 */
 };
 
-#define COLORMAP_NAMES "viridis|magma|bluered|grey"
-
+/* Name of map k; NULL past the last. */
+const char *colormap_name(size_t k);
 /* NULL: there is none of that name. */
 const struct colormap *colormap_find(const char *name);
 /* The colour at t from 0 to 1; what is outside gets the colour of the nearer end. */

@@ -192,7 +192,7 @@ paint_bar(struct page *p, size_t x, size_t y, size_t w, size_t h)
                                                              : 1 - ((double)j + 0.5) / (double)h));
 }
 
-/* Points at the ends that values lie beyond. */
+/* Draws a triangle at each end of the bar that some values lie beyond. */
 static void
 point_bar(struct page *p, double x, double y, double w, double h)
 {

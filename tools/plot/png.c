@@ -52,7 +52,8 @@ is_ascii(const char *s)
     return *s == '\0';
 }
 
-/* tEXt is Latin-1 by the standard; what is more than ASCII goes into iTXt, which is UTF-8. */
+/* tEXt is Latin-1 by the standard; what is more than ASCII goes into iTXt, which is UTF-8.
+ * libpng copies the texts; that its pointers are not to const is its interface. */
 static void
 put_texts(struct picture *p, const struct picture_text *text, size_t texts)
 {

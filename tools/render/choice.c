@@ -1,10 +1,11 @@
+/*
+ * Which frame of a stream is drawn.
+ */
 #include "render.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "tools/plot/plot.h"
 
 struct seen {
     char *channel;

@@ -1,11 +1,13 @@
 /*
- * The face of this folder: which frame of a stream rc-render draws. It holds the best one so far
- * and no other.
+ * The face of this folder: which frame of a stream rc-render draws, and what the figure says of it.
  */
 #ifndef RC_RENDER_H
 #define RC_RENDER_H
 
 #include "tools/cli/cli.h"
+#include "tools/plot/plot.h"
+
+/* ---- choice.c: which frame; the best one so far is held, and no other ---- */
 
 struct wish {
     const char *channel; /* NULL: mises, pressure, height, else the first there is    */
@@ -30,5 +32,35 @@ void choice_offer(struct choice *choice, struct tool *tool, struct rc_grid *grid
  * where somebody might have meant that. */
 void choice_settle(struct choice *choice, struct tool *tool);
 void choice_free(struct choice *choice);
+
+/* ---- channels.c ---- */
+
+struct channel {
+    const char *name, *title, *colormap;
+    bool from_zero; /* the colours begin at 0 where no value is negative */
+};
+
+/* A channel that is not known is called by its own name, and what has both signs gets colours for
+ * both. */
+struct channel channel_of(const struct rc_grid *grid, const struct survey *survey);
+/* LO:HI or LO,HI, in the unit of the grid; ends the tool where it is neither. Gives the text in SI,
+ * valid until the next call. */
+const char *range_read(struct tool *tool, const char *text, const struct rc_grid *grid, double *lo,
+                       double *hi);
+/* The ends of the colours, or of the upright axis of a curve, when nobody chose them. */
+void range_choose(const struct rc_grid *grid, const struct survey *survey,
+                  const struct colormap *map, const struct channel *what, bool curve, double *lo,
+                  double *hi);
+
+/* ---- subtitle.c ---- */
+
+struct subtitle {
+    char text[1024];
+    size_t n;
+};
+
+/* `largest`: of several depths this one was chosen because its size is largest. */
+void subtitle_write(struct subtitle *subtitle, const struct rc_grid *grid,
+                    const struct survey *survey, bool largest);
 
 #endif

@@ -1,0 +1,63 @@
+#include "file.h"
+
+#include <string.h>
+
+bool
+rc_file_named(const struct rc_file *file, const char *suffixes)
+{
+    struct rc_piece name = {file->name, strlen(file->name)};
+    char suffix[16];
+
+    while (*suffixes != '\0') {
+        size_t n = strcspn(suffixes, " ");
+        if (n < sizeof suffix && n <= name.n) {
+            memcpy(suffix, suffixes, n);
+            suffix[n] = '\0';
+            if (rc_piece_is((struct rc_piece){name.text + name.n - n, n}, suffix))
+                return true;
+        }
+        suffixes += n;
+        suffixes += strspn(suffixes, " ");
+    }
+    return false;
+}
+
+bool
+rc_file_holds(const struct rc_file *file, size_t at, const void *bytes, size_t n)
+{
+    return at <= file->size && file->size - at >= n && memcmp(file->data + at, bytes, n) == 0;
+}
+
+bool
+rc_file_is_utf16(const struct rc_file *file)
+{
+    return rc_file_holds(file, 0, "\xff\xfe", 2) || rc_file_holds(file, 0, "\xfe\xff", 2);
+}
+
+bool
+rc_file_is_text(const struct rc_file *file)
+{
+    size_t looked = file->size < 4096 ? file->size : 4096;
+
+    return looked > 0 && memchr(file->data, '\0', looked) == NULL;
+}
+
+struct rc_piece
+rc_file_piece(const struct rc_file *file)
+{
+    return (struct rc_piece){(const char *)file->data, file->size};
+}
+
+struct rc_piece
+rc_file_text(const struct rc_file *file, size_t at, size_t n)
+{
+    const char *text = (const char *)file->data + at;
+
+    return rc_piece_trim((struct rc_piece){text, strnlen(text, n)});
+}
+
+struct rc_bytes
+rc_file_bytes(const struct rc_file *file, bool big)
+{
+    return (struct rc_bytes){.data = file->data, .size = file->size, .big = big};
+}

@@ -1,0 +1,24 @@
+/* What a file is, by its name and its first bytes, and places in it. */
+#ifndef RC_FILE_H
+#define RC_FILE_H
+
+#include "bytes.h"
+#include "header.h"
+#include "formats/format.h"
+
+/* Whether the name of the file ends in one of the suffixes ".a .b", in either case. */
+bool rc_file_named(const struct rc_file *file, const char *suffixes);
+/* Whether the file has these bytes at that place. */
+bool rc_file_holds(const struct rc_file *file, size_t at, const void *bytes, size_t n);
+/* Whether it begins with the byte order mark of UTF-16, of either order. */
+bool rc_file_is_utf16(const struct rc_file *file);
+/* Whether it may be text of one byte a character: not empty, and no NUL in its first 4 KiB. */
+bool rc_file_is_text(const struct rc_file *file);
+/* The whole file. */
+struct rc_piece rc_file_piece(const struct rc_file *file);
+/* The text at that place, which must be in the file: up to n bytes or a NUL, trimmed. */
+struct rc_piece rc_file_text(const struct rc_file *file, size_t at, size_t n);
+/* A cursor at the first byte. */
+struct rc_bytes rc_file_bytes(const struct rc_file *file, bool big);
+
+#endif

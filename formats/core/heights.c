@@ -1,0 +1,52 @@
+#include "heights.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "limit.h"
+#include "text.h"
+
+struct rc_grid *
+rc_heights_new(const struct rc_heights *h, const struct rc_file *file, const struct rc_wish *wish,
+               double *metres, struct rc_notes *notes, struct rc_err *err)
+{
+    struct rc_shape shape = {.nx = h->nx, .ny = h->ny};
+
+    if (rc_map_fits(file, h->nx, h->ny, err) != RC_OK ||
+        rc_spacing(wish, h->dx, h->dy, &shape, notes, err) != RC_OK ||
+        rc_height_unit(wish, h->metres, h->unit, metres, notes, err) != RC_OK)
+        return NULL;
+    return rc_grid_new(&shape, "height", "m", err);
+}
+
+struct rc_channel
+rc_heights_channel(const struct rc_heights *h, const char *name)
+{
+    struct rc_channel c = {.nx = h->nx, .ny = h->ny, .dx = h->dx, .dy = h->dy};
+    const char *unit = isnan(h->metres) ? h->unit : "m";
+
+    rc_text_clean(c.name, sizeof c.name, name, strlen(name));
+    rc_text_clean(c.unit, sizeof c.unit, unit, strlen(unit));
+    return c;
+}
+
+void
+rc_heights_flip(struct rc_grid *g)
+{
+    for (size_t j = 0; j < g->ny / 2; j++)
+        for (size_t i = 0; i < g->nx; i++) {
+            double *a = &g->v[j * g->nx + i], *b = &g->v[(g->ny - 1 - j) * g->nx + i], kept = *a;
+            *a = *b;
+            *b = kept;
+        }
+}
+
+enum rc_status
+rc_heights_finite(const struct rc_grid *g, struct rc_err *err)
+{
+    for (size_t k = 0; k < g->nx * g->ny; k++)
+        if (isinf(g->v[k]))
+            return rc_err_set(err, "the height at column %zu, row %zu (from 0) is infinite",
+                              k % g->nx, k / g->nx);
+    return RC_OK;
+}

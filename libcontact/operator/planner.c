@@ -1,0 +1,43 @@
+/*
+ * Two locks. FFTW's own, which fftw_make_planner_thread_safe switches on for the whole process, is
+ * taken in every call of the planner, those of the program that uses this library included. It is
+ * switched on when the library is loaded: a thread that is planning meanwhile would leave it
+ * unlocked for good. libfftw3_omp has that function too, but there it does nothing; with this
+ * library's own lock its plans do not disturb each other even if a program brings that one in first.
+ */
+#include "planner.h"
+
+#include <complex.h> /* before fftw3.h: its complex numbers are then C's own */
+#include <fftw3.h>
+#include <pthread.h>
+
+static pthread_once_t once = PTHREAD_ONCE_INIT;
+static pthread_mutex_t own = PTHREAD_MUTEX_INITIALIZER;
+
+static void
+switch_on(void)
+{
+    fftw_make_planner_thread_safe();
+    fftwf_make_planner_thread_safe();
+}
+
+#if defined(__GNUC__)
+__attribute__((constructor)) static void
+at_load(void)
+{
+    pthread_once(&once, switch_on);
+}
+#endif
+
+void
+rc_planner_lock(void)
+{
+    pthread_once(&once, switch_on); /* where there is no constructor */
+    pthread_mutex_lock(&own);
+}
+
+void
+rc_planner_unlock(void)
+{
+    pthread_mutex_unlock(&own);
+}

@@ -1,0 +1,60 @@
+/* A locale with a decimal comma, for the tests that numbers in files have a point in every one. */
+#ifndef MADE_LOCALE_H
+#define MADE_LOCALE_H
+
+#include <locale.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static char locale_folder[] = "/tmp/made_locale.XXXXXX";
+
+static void
+remove_locale(void)
+{
+    char command[100];
+
+    snprintf(command, sizeof command, "rm -r %s", locale_folder);
+    if (system(command) != 0)
+        perror(locale_folder);
+}
+
+/* Makes the locale by localedef(1), so that none needs to be installed, and sets it for numbers.
+ * False where the system has no such program. */
+static bool
+set_comma_locale(void)
+{
+    char command[400];
+
+    if (setlocale(LC_NUMERIC, "comma") != NULL)
+        return true;
+    if (mkdtemp(locale_folder) == NULL)
+        return false;
+    atexit(remove_locale);
+    /* its exit status tells of warnings too: whether it worked shows by setlocale */
+    snprintf(
+        command, sizeof command,
+        "cd %s && printf 'LC_NUMERIC\\ndecimal_point \",\"\\nthousands_sep \"\"\\ngrouping -1\\n"
+        "END LC_NUMERIC\\n' >source && localedef -c -i source ./comma >/dev/null 2>&1",
+        locale_folder);
+    if (system(command) < 0)
+        return false;
+    setenv("LOCPATH", locale_folder, 1);
+    return setlocale(LC_NUMERIC, "comma") != NULL;
+}
+
+/* The first of the tests that run under it. */
+static void
+the_locale_has_a_comma(void **state)
+{
+    char text[8];
+
+    (void)state;
+    if (!set_comma_locale())
+        skip();
+    snprintf(text, sizeof text, "%.1f", 1.5);
+    assert_string_equal(text, "1,5");
+}
+
+#endif
