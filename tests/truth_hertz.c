@@ -120,8 +120,8 @@ stress_under_the_contact(void **state)
                 largest = mises[k];
                 place = z;
             }
-        /* Next to the axis, half a diagonal of a cell away from it: r^2 / a^2 is 7e-5. The cells' own
-         * error dies away over the first depths. */
+        /* Next to the axis, half a diagonal of a cell away from it: r^2 / a^2 is 7e-5. The cells'
+         * own error dies away over the first depths. */
         if (d > 2) {
             const double off = 1e-3 * exact.p0;
             size_t middle = (M / 2) * M + M / 2;

@@ -208,7 +208,8 @@ stresses_at_the_surface(void **state)
     }
 }
 
-/* A coarser lattice of the same cell holds the same numbers at its nodes, for blocks of rows too. */
+/* A coarser lattice of the same cell holds the same numbers at its nodes, for blocks of rows
+ * too. */
 static void
 a_coarser_lattice_is_a_sample(void **state)
 {

@@ -1,0 +1,105 @@
+/*
+ * An engine that is no part of the library: a file and a row of a list. The double sum, with the
+ * kernel asked for row by row, in the memory of one row.
+ */
+#include "libcontact/operator/operator.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct plan {
+    struct rc_sum sum;
+    double *row; /* the kernel at one offset in y */
+};
+
+static size_t
+memory(const struct rc_sum *sum)
+{
+    return sum->shape.nx * sizeof(double);
+}
+
+static void
+plan_free(void *at)
+{
+    struct plan *plan = at;
+
+    if (plan != NULL)
+        free(plan->row);
+    free(plan);
+}
+
+static void *
+plan_new(const struct rc_sum *sum, struct rc_err *err)
+{
+    struct plan *plan = NULL;
+
+    if (sum->boundary != RC_FREE) {
+        rc_err_set(err, "the toy sums free maps only");
+        return NULL;
+    }
+    if ((plan = calloc(1, sizeof *plan)) == NULL || (plan->row = malloc(memory(sum))) == NULL) {
+        rc_err_set(err, "out of memory for a row of %zu values", sum->shape.nx);
+        plan_free(plan);
+        return NULL;
+    }
+    plan->sum = *sum;
+    return plan;
+}
+
+/* What row `from` of p does to row `to` of u, `sign` the kernel's parity in y. */
+static void
+add(const struct plan *plan, double sign, const double *p, double *u)
+{
+    size_t nx = plan->sum.shape.nx;
+    double mirror = plan->sum.kernel->parity[plan->sum.component] & RC_ODD_X ? -sign : sign;
+
+    for (size_t i = 0; i < nx; i++)
+        for (size_t a = 0; a < nx; a++)
+            u[i] += a > i ? mirror * plan->row[a - i] * p[a] : sign * plan->row[i - a] * p[a];
+}
+
+static void
+apply(void *at, const double *p, double *u)
+{
+    struct plan *plan = at;
+    const struct rc_sum *s = &plan->sum;
+    const struct rc_lattice nodes = {s->shape.dx, s->shape.dy, 1, 1};
+    double mirror = s->kernel->parity[s->component] & RC_ODD_Y ? -1 : 1;
+    size_t nx = s->shape.nx, ny = s->shape.ny;
+
+    memset(u, 0, nx * ny * sizeof *u);
+    for (size_t d = 0; d < ny; d++) {
+        s->kernel->rows(&s->medium, s->component, &nodes, nx, d, d + 1, plan->row);
+        for (size_t j = 0; j + d < ny; j++) {
+            add(plan, 1, p + j * nx, u + (j + d) * nx);
+            if (d > 0)
+                add(plan, mirror, p + (j + d) * nx, u + j * nx);
+        }
+    }
+}
+
+/* As of the engine direct. */
+static double
+error(const void *plan)
+{
+    (void)plan;
+    return 1e-15;
+}
+
+static double
+seconds(const struct rc_sum *sum)
+{
+    double n = (double)(sum->shape.nx * sum->shape.ny);
+
+    return 1e-9 * n * n;
+}
+
+const struct rc_engine rc_engine_toy = {
+    .info = {.name = "toy", .summary = "the double sum, the kernel row by row", .order = 2},
+    .seconds = seconds,
+    .memory = memory,
+    .new = plan_new,
+    .apply = apply,
+    .error = error,
+    .free = plan_free,
+};

@@ -1,0 +1,68 @@
+/* A method that is no part of the library, in a file and a row of a list: steepest descent in the
+ * metric of the preconditioner, each step to the lowest point and from there back into the box. */
+#include "libcontact/solver/solver.h"
+
+#include <stdlib.h>
+
+static void *
+state_new(const struct rc_solver *s, struct rc_err *err)
+{
+    void *state = malloc(3 * s->posed.n * sizeof(double));
+
+    if (state == NULL)
+        rc_err_set(err, "out of memory for %zu nodes", s->posed.n);
+    return state;
+}
+
+static struct rc_found
+step(struct rc_solver *s, void *state)
+{
+    size_t n = s->posed.n;
+    double *d = state, *u = d + n, slope = 0, curvature = 0, change = 0;
+    struct rc_move move = {.solver = s, .d = s->z, .list = (uint16_t *)(u + n)};
+
+    rc_iterate_displace(s);
+    rc_iterate_shift(s);
+    rc_working_set_find(s, true);
+    rc_working_set_correct(s, NULL, NULL);
+    for (size_t k = 0; k < n; k++)
+        move.mean += (double)s->z[k] / (double)s->set.size;
+    for (size_t k = 0; k < n; k++) {
+        d[k] = s->z[k] != 0 ? (double)s->z[k] - move.mean : 0;
+        slope -= (s->it.v[k] - s->it.shift) * d[k];
+    }
+    rc_operator_apply(s->op, d, u);
+    rc_iterate_count(s, 1);
+    for (size_t k = 0; k < n; k++)
+        curvature += u[k] * d[k];
+    move.alpha = slope > 0 ? slope / curvature : 0;
+    rc_move_find(&move);
+    for (size_t k = 0; k < n; k++) {
+        double p = s->it.p[k], to = p + move.alpha * d[k] + move.shift;
+        s->it.p[k] = s->set.w[k] ? fmin(fmax(to, 0), s->posed.hardness) : p;
+        change += fabs(s->it.p[k] - p);
+    }
+    rc_iterate_unknown(s);
+    return (struct rc_found){.change = change / s->load.sum, .estimate = NAN};
+}
+
+static void
+forget(void *state)
+{
+    (void)state;
+}
+
+static double
+convolutions(double nodes, double digits)
+{
+    return nodes > 1 ? 15 * digits : 1;
+}
+
+const struct rc_method rc_method_steepest = {
+    .info = {.name = "steepest", .summary = "preconditioned steepest descent"},
+    .convolutions = convolutions,
+    .new = state_new,
+    .step = step,
+    .forget = forget,
+    .free = free,
+};
