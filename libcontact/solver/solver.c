@@ -217,7 +217,9 @@ rc_solver_expect(const struct rc_shape *shape, const struct rc_problem *problem,
         return RC_FAIL;
     if (rc_half_space_memory(shape, &options) == 0)
         return rc_err_set(err, "there is no engine '%s'", problem->engine);
-    some = method->convolutions(nodes, -log10(tolerance(shape, problem)));
+    some = method->convolutions == NULL
+               ? NAN
+               : method->convolutions(nodes, -log10(tolerance(shape, problem)));
     if (problem->approach > 0)
         some *= 3;
     if (problem->discretization)
@@ -274,7 +276,8 @@ void
 rc_solver_restart(struct rc_solver *s)
 {
     rc_iterate_forget(s);
-    s->method->forget(s->state);
+    if (s->method->forget != NULL)
+        s->method->forget(s->state);
     rc_working_set_forget(s);
 }
 

@@ -31,12 +31,12 @@ struct rc_method {
     struct rc_method_info info;
     bool nested; /* starts from the solution on coarser grids */
     /* Convolutions (in equivalents) that it takes, as others were seen to take: nodes of the grid,
-     * and digits that the tolerance asks for. */
+     * and digits that the tolerance asks for. NULL: nobody knows. */
     double (*convolutions)(double nodes, double digits);
     /* State beside the solver's own; NULL and *err when memory is short. */
     void *(*new)(const struct rc_solver *solver, struct rc_err *err);
     struct rc_found (*step)(struct rc_solver *solver, void *state);
-    /* Another load: what was learnt about the last one is forgotten. */
+    /* Another load: what was learnt about the last one is forgotten. NULL: nothing is learnt. */
     void (*forget)(void *state);
     void (*free)(void *state);
 };

@@ -46,23 +46,9 @@ step(struct rc_solver *s, void *state)
     return (struct rc_found){.change = change / s->load.sum, .estimate = NAN};
 }
 
-static void
-forget(void *state)
-{
-    (void)state;
-}
-
-static double
-convolutions(double nodes, double digits)
-{
-    return nodes > 1 ? 15 * digits : 1;
-}
-
 const struct rc_method rc_method_steepest = {
     .info = {.name = "steepest", .summary = "preconditioned steepest descent"},
-    .convolutions = convolutions,
     .new = state_new,
     .step = step,
-    .forget = forget,
     .free = free,
 };
