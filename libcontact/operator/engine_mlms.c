@@ -16,8 +16,9 @@ largest(size_t a, size_t b)
     return a > b ? a : b;
 }
 
+/* n rounded up to whole vectors. */
 static size_t
-lines(size_t n)
+whole_vectors(size_t n)
 {
     return (n + RC_SIMD_WIDTH - 1) / RC_SIMD_WIDTH * RC_SIMD_WIDTH;
 }
@@ -39,24 +40,24 @@ set_sizes(struct rc_mlms *m)
         const struct rc_mlms_axis *x = &d->axis[q][RC_X], *y = &d->axis[q][RC_Y];
         const struct rc_mlms_axis *next = d->axis[q + 1];
         size_t high = (y->tile + RC_BLOCK - 1) / RC_BLOCK * RC_BLOCK + 2 * y->margin;
-        size_t wide = lines(x->tile + 2 * x->margin);
+        size_t wide = whole_vectors(x->tile + 2 * x->margin);
         size_t coarse = next[RC_X].tile << next[RC_X].halved;
         m->plane_stride = largest(m->plane_stride, wide + RC_SIMD_WIDTH);
         plane_rows = largest(plane_rows, high);
         m->ring_size = largest(m->ring_size, ((x->reach >> x->halved) + 1) *
                                                  (2 * y->margin + RC_BLOCK) * RC_STRIP);
-        m->out_lead = largest(m->out_lead, lines(2 * x->margin + 1));
-        m->mid_stride = largest(m->mid_stride, lines(x->tile));
+        m->out_lead = largest(m->out_lead, whole_vectors(2 * x->margin + 1));
+        m->mid_stride = largest(m->mid_stride, whole_vectors(x->tile));
         rows = largest(rows, (y->tile + RC_BLOCK - 1) / RC_BLOCK * RC_BLOCK);
         row = largest(row, largest(wide << x->halved, 2 * (coarse + 2 * t)));
     }
-    /* single sources reach 2 margins beyond a tile, and up to a vector more at its end */
+    /* single sources add to 2 margins beyond a tile, and up to a vector more at its end */
     m->out_stride = m->mid_stride + 2 * m->out_lead + 2 * RC_SIMD_WIDTH;
     m->plane_size = m->plane_stride * plane_rows;
-    /* two of them also take the halves of a row that is reduced */
-    m->out_size = m->out_lead + largest(m->out_stride * rows, lines(row));
-    m->mid_size = largest(m->mid_stride * (rows + 2 * t), lines(row));
-    m->zeros_size = lines(row);
+    /* two of them also take the even and odd nodes of a row that is reduced */
+    m->out_size = m->out_lead + largest(m->out_stride * rows, whole_vectors(row));
+    m->mid_size = largest(m->mid_stride * (rows + 2 * t), whole_vectors(row));
+    m->zeros_size = whole_vectors(row);
 }
 
 /* Doubles of scratch of one thread. */
@@ -64,7 +65,7 @@ static size_t
 scratch_size(const struct rc_mlms *m)
 {
     return 4 * m->plane_size + 4 * m->out_size + m->ring_size + m->mid_size + m->zeros_size +
-           2 * m->plane_size + lines(2 * m->d.t);
+           2 * m->plane_size + whole_vectors(2 * m->d.t);
 }
 
 static size_t
@@ -73,7 +74,7 @@ stencil_size(const struct rc_mlms_axis axis[2])
     const struct rc_mlms_axis *x = &axis[RC_X], *y = &axis[RC_Y];
     size_t classes = (1 + x->halved) * (1 + y->halved), pairs = (classes - 1) * (classes + 1);
     size_t folded = (x->reach / (1 + x->halved) + 1) * (2 * y->margin + 3 + 2 * RC_BLOCK + 3);
-    size_t unfolded = lines(2 * x->margin + 1) * (2 * y->margin + 1);
+    size_t unfolded = whole_vectors(2 * x->margin + 1) * (2 * y->margin + 1);
 
     return pairs * (folded + unfolded);
 }
@@ -114,7 +115,7 @@ plan_free(void *at)
     }
     rc_direct_free(m->direct);
     free(m->scratch);
-    free(m->store);
+    free(m->scratch_memory);
     free(m);
 }
 
@@ -125,11 +126,11 @@ allocate_scratch(struct rc_mlms *m)
     double *at;
 
     m->scratch = calloc(threads, sizeof *m->scratch);
-    m->store = aligned_alloc(64, threads * size * sizeof(double));
-    if (m->scratch == NULL || m->store == NULL)
+    m->scratch_memory = aligned_alloc(64, threads * size * sizeof(double));
+    if (m->scratch == NULL || m->scratch_memory == NULL)
         return false;
-    memset(m->store, 0, threads * size * sizeof(double));
-    at = m->store;
+    memset(m->scratch_memory, 0, threads * size * sizeof(double));
+    at = m->scratch_memory;
     for (size_t k = 0; k < threads; k++) {
         struct rc_mlms_scratch *w = &m->scratch[k];
         for (int c = 0; c < 4; c++, at += m->plane_size)
@@ -142,7 +143,7 @@ allocate_scratch(struct rc_mlms *m)
         w->list = (uint32_t *)(void *)(at += m->zeros_size);
         w->near = (const double **)(void *)(at += 2 * m->plane_size);
         w->far = w->near + m->d.t;
-        at += lines(2 * m->d.t);
+        at += whole_vectors(2 * m->d.t);
     }
     return true;
 }
@@ -184,7 +185,7 @@ plan_new(const struct rc_sum *sum, struct rc_err *err)
     m->sign[RC_X] = parity & RC_ODD_X ? -1 : 1;
     m->sign[RC_Y] = parity & RC_ODD_Y ? -1 : 1;
     m->simd = rc_simd();
-    rc_mlms_stylus(m->d.t, m->s);
+    rc_mlms_weights(m->d.t, m->s);
     set_sizes(m);
     if (!allocate_levels(m, sum) || !allocate_scratch(m)) {
         rc_err_set(err, "out of memory for the multi-level sum over %zu x %zu nodes", sum->shape.nx,
@@ -211,7 +212,7 @@ scratch(const struct rc_mlms *m)
     return &m->scratch[omp_get_thread_num()];
 }
 
-/* A few tiles are done sooner than another thread wakes. */
+/* A single tile is no work for several threads. */
 static int
 threads(const struct rc_mlms *m, size_t level)
 {
@@ -219,7 +220,7 @@ threads(const struct rc_mlms *m, size_t level)
 }
 
 static void
-downwards(struct rc_mlms *m, size_t level, const double *p)
+reduce(struct rc_mlms *m, size_t level, const double *p)
 {
     size_t n = tiles(m->level[level + 1].axis);
 
@@ -228,9 +229,10 @@ downwards(struct rc_mlms *m, size_t level, const double *p)
         rc_mlms_reduce(m, level, p, k, scratch(m));
 }
 
-/* Displacements of a level, and at once what the level above puts right in them. */
+/* Displacements of a level, and in the same pass what the finer level, whose pressure is `finer`,
+ * corrects in them. */
 static void
-upwards(struct rc_mlms *m, size_t level, const double *p, double *u, const double *above)
+expand(struct rc_mlms *m, size_t level, const double *p, double *u, const double *finer)
 {
     size_t n = tiles(m->level[level].axis);
 
@@ -238,7 +240,7 @@ upwards(struct rc_mlms *m, size_t level, const double *p, double *u, const doubl
     for (size_t k = 0; k < n; k++) {
         rc_mlms_expand(m, level, p, u, k, scratch(m));
         if (level > 0)
-            rc_mlms_correct(m, level - 1, above, k, scratch(m));
+            rc_mlms_correct(m, level - 1, finer, k, scratch(m));
     }
 }
 
@@ -256,14 +258,14 @@ apply(void *at, const double *p, double *u)
     for (size_t k = 0; k < n; k++)
         rc_mlms_scan(m, 0, p, k);
     for (size_t q = 0; q < levels; q++)
-        downwards(m, q, q == 0 ? p : m->level[q].p);
+        reduce(m, q, q == 0 ? p : m->level[q].p);
     rc_direct_apply(m->direct, m->level[levels].p, m->level[levels].u);
     n = tiles(m->level[levels].axis);
     for (size_t k = 0; k < n; k++)
         rc_mlms_correct(m, levels - 1, levels == 1 ? p : m->level[levels - 1].p, k, m->scratch);
     for (size_t q = levels; q-- > 0;)
-        upwards(m, q, q == 0 ? p : m->level[q].p, q == 0 ? u : m->level[q].u,
-                q <= 1 ? p : m->level[q - 1].p);
+        expand(m, q, q == 0 ? p : m->level[q].p, q == 0 ? u : m->level[q].u,
+               q <= 1 ? p : m->level[q - 1].p);
 }
 
 static double

@@ -31,13 +31,13 @@ struct rc_fft {
 
 enum {
     COLUMNS = 16, /* of a quarter transformed together: two cache lines, fetched as a pair */
-    AHEAD = 8,    /* rows fetched in advance: they lie pages apart */
+    PREFETCH = 8, /* rows fetched in advance: they lie pages apart */
     ROWS = 8      /* of a kernel evaluated together */
 };
 
 struct rc_spectrum {
     unsigned parity;
-    void *packed; /* cx columns of layout.packed numbers, divided by px py */
+    void *values; /* cx columns of cy numbers, as fft.h has them, divided by px py */
 };
 
 /* ---- layout ---- */
@@ -67,12 +67,12 @@ layout_of(const struct rc_shape *s, enum rc_boundary boundary, enum rc_precision
     }
     l.cx = l.px / 2 + 1;
     l.stride = (l.cx + line - 1) / line * line;
-    l.split = l.py % 4 == 0 && l.py >= 64 ? 4 : 1;
+    l.radix = l.py % 4 == 0 && l.py >= 64 ? 4 : 1;
     if (boundary == RC_FREE)
-        l.split = 4;
-    l.m = l.py / l.split;
-    l.parts = boundary == RC_FREE ? 2 : l.split;
-    l.packed = l.py / 2 + 1;
+        l.radix = 4;
+    l.m = l.py / l.radix;
+    l.parts = boundary == RC_FREE ? 2 : l.radix;
+    l.cy = l.py / 2 + 1;
     return l;
 }
 
@@ -82,7 +82,7 @@ rc_spectrum_memory(const struct rc_shape *shape, enum rc_boundary boundary,
 {
     struct rc_layout l = layout_of(shape, boundary, precision);
 
-    return l.cx * l.packed * (precision == RC_SINGLE ? sizeof(float) : sizeof(double));
+    return l.cx * l.cy * (precision == RC_SINGLE ? sizeof(float) : sizeof(double));
 }
 
 size_t
@@ -117,11 +117,11 @@ rc_fft_new(const struct rc_shape *s, enum rc_boundary boundary, enum rc_precisio
         team = (size_t)f->layout.threads;
         f->ops = precision == RC_SINGLE ? &rc_fft_single : &rc_fft_double;
         f->plan = f->ops->new (&f->layout);
-        f->columns = rc_alloc(team * COLUMNS * f->layout.packed, sizeof *f->columns);
+        f->columns = rc_alloc(team * COLUMNS * f->layout.cy, sizeof *f->columns);
     }
     if (f != NULL && boundary == RC_FREE) {
         f->along_x = rc_dct_new(f->layout.cx, team, NULL);
-        f->along_y = rc_dct_new(f->layout.packed, team, NULL);
+        f->along_y = rc_dct_new(f->layout.cy, team, NULL);
     }
     if (f == NULL || f->plan == NULL || f->columns == NULL ||
         (boundary == RC_FREE && (f->along_x == NULL || f->along_y == NULL))) {
@@ -154,10 +154,9 @@ rc_spectrum_new(const struct rc_fft *f, struct rc_err *err)
     struct rc_spectrum *k = calloc(1, sizeof *k);
 
     if (k != NULL)
-        k->packed = rc_alloc(l->cx * l->packed, f->ops->real_size);
-    if (k == NULL || k->packed == NULL) {
-        rc_err_set(err, "out of memory for a kernel's spectrum of %zu x %zu numbers", l->cx,
-                   l->packed);
+        k->values = rc_alloc(l->cx * l->cy, f->ops->real_size);
+    if (k == NULL || k->values == NULL) {
+        rc_err_set(err, "out of memory for a kernel's spectrum of %zu x %zu numbers", l->cx, l->cy);
         rc_spectrum_free(k);
         return NULL;
     }
@@ -169,14 +168,14 @@ rc_spectrum_free(struct rc_spectrum *k)
 {
     if (k == NULL)
         return;
-    free(k->packed);
+    free(k->values);
     free(k);
 }
 
 static double *
 columns_of(const struct rc_fft *f)
 {
-    return f->columns + (size_t)omp_get_thread_num() * COLUMNS * f->layout.packed;
+    return f->columns + (size_t)omp_get_thread_num() * COLUMNS * f->layout.cy;
 }
 
 static void
@@ -184,8 +183,8 @@ store_column(struct rc_spectrum *k, const struct rc_fft *f, size_t c, const doub
 {
     const struct rc_layout *l = &f->layout;
 
-    f->ops->pack(l, c, 1 / ((double)l->px * (double)l->py), k->parity & RC_ODD_Y ? -1 : 1, s,
-                 k->packed);
+    f->ops->store(l, c, 1 / ((double)l->px * (double)l->py), k->parity & RC_ODD_Y ? -1 : 1, s,
+                  k->values);
 }
 
 /* ---- from a quarter of the values ---- */
@@ -194,7 +193,7 @@ void
 rc_fft_quarter(const struct rc_fft *f, size_t *nx, size_t *ny)
 {
     *nx = f->layout.cx;
-    *ny = f->layout.packed;
+    *ny = f->layout.cy;
 }
 
 void
@@ -207,7 +206,7 @@ void
 rc_spectrum_set_quarter(struct rc_spectrum *k, const struct rc_fft *f, unsigned parity,
                         const double *rows)
 {
-    size_t cx = f->layout.cx, cy = f->layout.packed;
+    size_t cx = f->layout.cx, cy = f->layout.cy;
 
     k->parity = parity;
 #pragma omp parallel for num_threads(f->layout.threads) schedule(static)
@@ -217,9 +216,9 @@ rc_spectrum_set_quarter(struct rc_spectrum *k, const struct rc_fft *f, unsigned 
 
         for (size_t j = 0; j < cy; j++) {
             const double *row = rows + j * cx + first;
-            if (j + AHEAD < cy) {
-                __builtin_prefetch(row + AHEAD * cx);
-                __builtin_prefetch(row + AHEAD * cx + COLUMNS / 2);
+            if (j + PREFETCH < cy) {
+                __builtin_prefetch(row + PREFETCH * cx);
+                __builtin_prefetch(row + PREFETCH * cx + COLUMNS / 2);
             }
             for (size_t b = 0; b < n; b++)
                 columns[b * cy + j] = row[b];
@@ -236,9 +235,9 @@ transform_quarter(const struct rc_fft *f, struct rc_spectrum *k, const struct rc
                   size_t component, const struct rc_medium *medium, struct rc_err *err)
 {
     const struct rc_lattice nodes = {f->shape.dx, f->shape.dy, 1, 1};
-    size_t cx = f->layout.cx, cy = f->layout.packed;
+    size_t cx = f->layout.cx, cy = f->layout.cy;
     unsigned parity = kernel->parity[component];
-    double *own = NULL, *values = f->ops->borrow(f->plan, cx * cy * sizeof *values);
+    double *own = NULL, *values = f->ops->workspace(f->plan, cx * cy * sizeof *values);
 
     if (values == NULL)
         values = own = rc_alloc(cx * cy, sizeof *own);
@@ -273,7 +272,7 @@ rc_spectrum_sample(struct rc_spectrum *k, const struct rc_fft *f, unsigned parit
         double qx = two_pi * (double)i / ((double)l->nx * f->shape.dx);
         bool zero_x = 2 * i == l->nx && parity & RC_ODD_X;
 
-        for (size_t j = 0; j < l->packed; j++) {
+        for (size_t j = 0; j < l->cy; j++) {
             double qy = two_pi * (double)j / ((double)l->ny * f->shape.dy);
             bool zero_y = 2 * j == l->ny && parity & RC_ODD_Y;
             column[j] = zero_x || zero_y ? 0 : symbol(of, qx, qy);
@@ -346,7 +345,7 @@ transform_wrapped(const struct rc_fft *f, struct rc_spectrum *k, const struct rc
     k->parity = kernel->parity[component];
     status = rc_fourier_forward(&f->shape, v, s, err);
     for (size_t i = 0; i < l->cx && status == RC_OK; i++) {
-        for (size_t j = 0; j < l->packed; j++)
+        for (size_t j = 0; j < l->cy; j++)
             column[j] = creal(s[j * l->cx + i]);
         store_column(k, f, i, column);
     }
@@ -381,18 +380,18 @@ rc_spectrum_set_reciprocal(struct rc_spectrum *k, const struct rc_fft *f,
 {
     const struct rc_layout *l = &f->layout;
     double size = (double)l->px * (double)l->py; /* both are stored divided by it */
-    size_t n = l->cx * l->packed;
+    size_t n = l->cx * l->cy;
 
     k->parity = of->parity;
     if (f->ops->real_size == sizeof(float)) {
-        const float *s = of->packed;
-        float *to = k->packed;
+        const float *s = of->values;
+        float *to = k->values;
 #pragma omp parallel for num_threads(l->threads) schedule(static)
         for (size_t q = 0; q < n; q++)
             to[q] = s[q] == 0 ? 0 : (float)(1 / (size * size * (double)s[q]));
     } else {
-        const double *s = of->packed;
-        double *to = k->packed;
+        const double *s = of->values;
+        double *to = k->values;
 #pragma omp parallel for num_threads(l->threads) schedule(static)
         for (size_t q = 0; q < n; q++)
             to[q] = s[q] == 0 ? 0 : 1 / (size * size * s[q]);
@@ -404,7 +403,7 @@ rc_spectrum_set_reciprocal(struct rc_spectrum *k, const struct rc_fft *f,
 void
 rc_fft_apply(struct rc_fft *f, const struct rc_spectrum *k, const double *p, double *u)
 {
-    f->ops->apply(f->plan, k->packed, k->parity, p, u);
+    f->ops->apply(f->plan, k->values, k->parity, p, u);
 }
 
 void
@@ -415,7 +414,7 @@ rc_fft_chain(struct rc_fft *f, size_t n, const struct rc_spectrum *const *kernel
 
     assert(n <= RC_CHAIN);
     for (size_t k = 0; k < n; k++)
-        links[k] = (struct rc_link){rows[k], kernels[k]->packed, kernels[k]->parity};
+        links[k] = (struct rc_link){rows[k], kernels[k]->values, kernels[k]->parity};
     f->ops->chain(f->plan, n, links, rows[n], ctx);
 }
 
@@ -431,12 +430,12 @@ rc_fft_load(struct rc_fft *f, const double *p, struct rc_err *err)
 void
 rc_fft_field(struct rc_fft *f, const struct rc_spectrum *k, double *u)
 {
-    f->ops->field(f->plan, k->packed, k->parity, NULL, 0, 0, u);
+    f->ops->field(f->plan, k->values, k->parity, NULL, 0, 0, u);
 }
 
 void
 rc_fft_field_pair(struct rc_fft *f, const struct rc_spectrum *k, double weight,
                   const struct rc_spectrum *also, double *u)
 {
-    f->ops->field(f->plan, k->packed, k->parity, also->packed, also->parity, weight, u);
+    f->ops->field(f->plan, k->values, k->parity, also->values, also->parity, weight, u);
 }

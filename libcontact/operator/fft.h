@@ -85,29 +85,31 @@ void rc_fft_field_pair(struct rc_fft *fft, const struct rc_spectrum *k, double w
 
 /* ---- between fft.c and fft_body.h ---- */
 
-/* Columns have length py = split * m and are transformed as `split` interleaved transforms of
+/* Columns have length py = radix * m and are transformed as `radix` interleaved transforms of
  * length m: with w = exp(-2 pi i / py),
  *
- *     X[split k + r] = sum over n < m of y_r[n] exp(-2 pi i n k / m),
- *     y_r[n] = w^(r n) sum over s < parts of (-i)^(r s) x[n + s m],       split = 4
+ *     X[radix k + r] = sum over n < m of y_r[n] exp(-2 pi i n k / m),
+ *     y_r[n] = w^(r n) sum over s < parts of (-i)^(r s) x[n + s m],       radix = 4
  *
- * where only the first `parts` pieces of length m are not zero. split = 1 leaves it to FFTW. */
+ * where only the first `parts` pieces of length m are not zero. radix = 1 leaves it to FFTW.
+ *
+ * A spectrum is given by a quarter of it, cx columns of cy numbers s(q), q <= py/2. A column is
+ * stored in the order of the residues r: A[k] = s(radix k) up to the middle and, for radix 4,
+ * B[k] = s(4k + 1) for all k < m (beyond the middle by symmetry, which also gives residue 3) and
+ * C[k] = s(4k + 2) up to the middle: cy numbers in all. */
 struct rc_layout {
     size_t nx, ny;
     size_t px, py; /* transform lengths                                                     */
-    size_t cx;     /* px/2 + 1 columns                                                      */
+    size_t cx, cy; /* px/2 + 1, py/2 + 1                                                    */
     size_t stride; /* complex numbers from row to row, a whole number of cache lines         */
-    size_t split, m, parts;
-    size_t packed; /* py/2 + 1: numbers of a column of a spectrum                            */
+    size_t radix, m, parts;
     int threads;
 };
 
-/* A column of a spectrum, s(q) for q <= py/2, is stored as A[k] = s(split k) up to the middle
- * and, for split 4, B[k] = s(4k + 1) for all k < m (beyond the middle by symmetry, which also
- * gives residue 3) and C[k] = s(4k + 2) up to the middle: packed = py/2 + 1 numbers in all. */
+/* A row function, and the spectrum that its row is multiplied by; stored as above. */
 struct rc_link {
     rc_row *row;
-    const void *packed;
+    const void *spectrum;
     unsigned parity;
 };
 
@@ -115,16 +117,17 @@ struct rc_fft_ops {
     size_t real_size;                             /* bytes of a real number */
     void *(*new)(const struct rc_layout *layout); /* NULL: out of memory */
     void (*free)(void *plan);
-    /* Room that the plan uses only while it works; NULL: not so much. */
-    void *(*borrow)(void *plan, size_t bytes);
-    /* Column c of a spectrum from s(q), times `scale`; mirror -1: odd in y. */
-    void (*pack)(const struct rc_layout *layout, size_t c, double scale, double mirror,
-                 const double *s, void *packed);
-    void (*apply)(void *plan, const void *packed, unsigned parity, const double *p, double *u);
+    /* Memory of the plan that is in use only while it transforms; NULL: it has not so many
+     * bytes. */
+    void *(*workspace)(void *plan, size_t bytes);
+    /* Stores s(q), q < cy, times `scale` as column c of a spectrum; mirror -1: odd in y. */
+    void (*store)(const struct rc_layout *layout, size_t c, double scale, double mirror,
+                  const double *s, void *spectrum);
+    void (*apply)(void *plan, const void *spectrum, unsigned parity, const double *p, double *u);
     void (*chain)(void *plan, size_t n, const struct rc_link *links, rc_row *last, void *ctx);
     bool (*load)(void *plan, const double *p); /* false: out of memory */
     /* Of one spectrum, or, when `also` is not NULL, of that one too, weighted. */
-    void (*field)(void *plan, const void *packed, unsigned parity, const void *also,
+    void (*field)(void *plan, const void *spectrum, unsigned parity, const void *also,
                   unsigned also_parity, double weight, double *u);
 };
 extern const struct rc_fft_ops rc_fft_double, rc_fft_single;

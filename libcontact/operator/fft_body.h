@@ -3,7 +3,7 @@
  * FFTW(name) and C99(name) are set by the file that includes this.
  *
  * The padded array is never formed. Each row is transformed by itself (real, nx of px values not
- * zero) into `half`, ny rows of px/2 + 1 complex numbers; then the columns, one cache line of them
+ * zero) into `waves`, ny rows of px/2 + 1 complex numbers; then the columns, one cache line of them
  * at a time: gathered, transformed to length py, multiplied, transformed back, and the ny values
  * that are wanted scattered; then the rows. Every pass reads and writes each number once.
  *
@@ -25,7 +25,7 @@
 
 enum {
     LINE = 128 / sizeof(COMPLEX), /* columns taken together: two cache lines, fetched as a pair  */
-    AHEAD = 8,                    /* rows fetched in advance */
+    PREFETCH = 8,                 /* rows fetched in advance */
     GAP = 8, /* complex numbers between pieces: equal places in different pieces
                                     would else fall on the same lines of the cache */
 };
@@ -39,12 +39,12 @@ struct map {
 struct plan {
     struct rc_layout l;
     FFTW(plan) row_forward, row_back, column_forward, column_back;
-    COMPLEX *half;    /* ny rows of `stride`                                                  */
-    COMPLEX *source;  /* cx columns in pieces, transformed: a loaded map; or NULL              */
-    COMPLEX *twiddle; /* w^n, w^2n, w^3n for each n < m (split 4)                              */
-    COMPLEX *scratch; /* for each thread: LINE columns, one more, and a row                    */
-    size_t column;    /* complex numbers of one column in scratch: split pieces and gaps       */
-    size_t space;     /* complex numbers of scratch of one thread                              */
+    COMPLEX *waves;      /* of each row: ny rows of `stride`                                  */
+    COMPLEX *source;     /* cx columns in pieces, transformed: a loaded map; or NULL           */
+    COMPLEX *twiddle;    /* w^n, w^2n, w^3n for each n < m (radix 4)                           */
+    COMPLEX *scratch;    /* for each thread: LINE columns, one more, and a row                 */
+    size_t column;       /* complex numbers of one column in scratch: radix pieces and gaps    */
+    size_t scratch_size; /* complex numbers of scratch of one thread                           */
 };
 
 /* FFTW uses the wide registers only on aligned data: everything it sees begins a cache line. */
@@ -85,7 +85,7 @@ plan_free(void *at)
     FFTW(destroy_plan)(f->column_forward);
     FFTW(destroy_plan)(f->column_back);
     rc_planner_unlock();
-    free(f->half);
+    free(f->waves);
     free(f->source);
     free(f->twiddle);
     free(f->scratch);
@@ -105,12 +105,12 @@ make_plans(struct plan *f)
     const unsigned how = FFTW_ESTIMATE;
     COMPLEX *a = f->scratch, *b = a + f->column;
     REAL *row = row_of(f, a);
-    COMPLEX *half = (COMPLEX *)row - f->l.stride;
+    COMPLEX *waves = (COMPLEX *)row - f->l.stride;
     int px = (int)f->l.px, m = (int)f->l.m;
 
     rc_planner_lock();
-    f->row_forward = FFTW(plan_dft_r2c_1d)(px, row, half, how);
-    f->row_back = FFTW(plan_dft_c2r_1d)(px, half, row, how);
+    f->row_forward = FFTW(plan_dft_r2c_1d)(px, row, waves, how);
+    f->row_back = FFTW(plan_dft_c2r_1d)(px, waves, row, how);
     f->column_forward = FFTW(plan_dft_1d)(m, a, b, FFTW_FORWARD, how);
     f->column_back = FFTW(plan_dft_1d)(m, a, b, FFTW_BACKWARD, how);
     rc_planner_unlock();
@@ -121,12 +121,12 @@ make_plans(struct plan *f)
 static void
 make_twiddles(struct plan *f)
 {
-    const double turn = -2 * 3.14159265358979323846 / (double)f->l.py;
+    const double step = -2 * 3.14159265358979323846 / (double)f->l.py;
     size_t m = f->l.m;
 
     for (size_t n = 0; n < m; n++)
         for (size_t r = 1; r < 4; r++) {
-            double angle = turn * (double)(r * n);
+            double angle = step * (double)(r * n);
             f->twiddle[3 * n + r - 1] = (COMPLEX)(cos(angle) + I * sin(angle));
         }
 }
@@ -139,32 +139,32 @@ plan_new(const struct rc_layout *l)
     if (f == NULL)
         return NULL;
     f->l = *l;
-    f->column = l->split * piece(f);
-    f->space = (LINE + 1) * f->column + l->stride + whole_lines(l->px / 2 + 1);
-    f->half = allocate(l->ny * l->stride);
-    f->scratch = allocate((size_t)l->threads * f->space);
+    f->column = l->radix * piece(f);
+    f->scratch_size = (LINE + 1) * f->column + l->stride + whole_lines(l->px / 2 + 1);
+    f->waves = allocate(l->ny * l->stride);
+    f->scratch = allocate((size_t)l->threads * f->scratch_size);
     f->twiddle = allocate(3 * l->m);
-    if (f->half == NULL || f->scratch == NULL || f->twiddle == NULL || !make_plans(f)) {
+    if (f->waves == NULL || f->scratch == NULL || f->twiddle == NULL || !make_plans(f)) {
         plan_free(f);
         return NULL;
     }
-    if (l->split == 4)
+    if (l->radix == 4)
         make_twiddles(f);
     return f;
 }
 
 static void *
-borrow(void *at, size_t bytes)
+workspace(void *at, size_t bytes)
 {
     struct plan *f = at;
 
-    return bytes <= f->l.ny * f->l.stride * sizeof *f->half ? f->half : NULL;
+    return bytes <= f->l.ny * f->l.stride * sizeof *f->waves ? f->waves : NULL;
 }
 
 static COMPLEX *
 scratch_of(const struct plan *f)
 {
-    return f->scratch + (size_t)omp_get_thread_num() * f->space;
+    return f->scratch + (size_t)omp_get_thread_num() * f->scratch_size;
 }
 
 /* ---- rows ---- */
@@ -208,27 +208,27 @@ row_out(void *map, size_t j, void *row)
 /* Rows are written by one function and read by the next; either may be missing at the ends. Between
  * two kernels a row comes and goes without a map in between. */
 static void
-rows(struct plan *f, void *ctx, rc_row *make, bool back, bool forward)
+transform_rows(struct plan *f, void *ctx, rc_row *make, bool back, bool forward)
 {
     const struct rc_layout *l = &f->l;
 
 #pragma omp parallel for num_threads(l->threads) schedule(static)
     for (size_t j = 0; j < l->ny; j++) {
         REAL *row = row_of(f, scratch_of(f));
-        COMPLEX *half = f->half + j * l->stride;
+        COMPLEX *waves = f->waves + j * l->stride;
         bool any;
 
         if (back)
-            FFTW(execute_dft_c2r)(f->row_back, half, row);
+            FFTW(execute_dft_c2r)(f->row_back, waves, row);
         any = make(ctx, j, row);
         if (!forward)
             continue;
         /* columns that fill up a line are gathered with the others */
-        memset(half + (any ? l->cx : 0), 0, (l->stride - (any ? l->cx : 0)) * sizeof *half);
+        memset(waves + (any ? l->cx : 0), 0, (l->stride - (any ? l->cx : 0)) * sizeof *waves);
         if (!any)
             continue;
         memset(row + l->nx, 0, (l->px - l->nx) * sizeof *row);
-        FFTW(execute_dft_r2c)(f->row_forward, row, half);
+        FFTW(execute_dft_r2c)(f->row_forward, row, waves);
     }
 }
 
@@ -236,7 +236,7 @@ rows(struct plan *f, void *ctx, rc_row *make, bool back, bool forward)
 
 /* Rows lie pages apart: no hardware prefetcher follows. */
 static inline void
-ahead(const COMPLEX *x)
+prefetch(const COMPLEX *x)
 {
     __builtin_prefetch(x);
     __builtin_prefetch(x + LINE / 2);
@@ -245,8 +245,8 @@ ahead(const COMPLEX *x)
 /* One butterfly: y_r = w^r sum_s (-i)^(r s) x_s for a whole line of columns; x_s stand `step`
  * apart, `have` of them, y_r of column b at y + b * column + r * gap. */
 static inline void
-split(const struct plan *f, const COMPLEX *x, size_t step, int have, const COMPLEX w[3],
-      COMPLEX *restrict y)
+butterfly(const struct plan *f, const COMPLEX *x, size_t step, int have, const COMPLEX w[3],
+          COMPLEX *restrict y)
 {
     size_t gap = piece(f);
 
@@ -254,18 +254,18 @@ split(const struct plan *f, const COMPLEX *x, size_t step, int have, const COMPL
         COMPLEX x0 = x[b], x1 = have > 1 ? x[step + b] : 0;
         COMPLEX x2 = have > 2 ? x[2 * step + b] : 0, x3 = have > 2 ? x[3 * step + b] : 0;
         COMPLEX even = x0 + x2, odd = x0 - x2, sum = x1 + x3, cross = x1 - x3;
-        COMPLEX turned = CMPLX_OF(C99(cimag)(cross), -C99(creal)(cross)); /* -i (x1 - x3) */
+        COMPLEX rotated = CMPLX_OF(C99(cimag)(cross), -C99(creal)(cross)); /* -i (x1 - x3) */
         y[0] = even + sum;
-        y[gap] = (odd + turned) * w[0];
+        y[gap] = (odd + rotated) * w[0];
         y[2 * gap] = (even - sum) * w[1];
-        y[3 * gap] = (odd - turned) * w[2];
+        y[3 * gap] = (odd - rotated) * w[2];
     }
 }
 
 /* Its inverse, of which `want` values are written. */
 static inline void
-join(const struct plan *f, COMPLEX *x, size_t step, int want, const COMPLEX w[3],
-     const COMPLEX *restrict y)
+butterfly_back(const struct plan *f, COMPLEX *x, size_t step, int want, const COMPLEX w[3],
+               const COMPLEX *restrict y)
 {
     size_t gap = piece(f);
     COMPLEX w1 = C99(conj)(w[0]), w2 = C99(conj)(w[1]), w3 = C99(conj)(w[2]);
@@ -273,13 +273,13 @@ join(const struct plan *f, COMPLEX *x, size_t step, int want, const COMPLEX w[3]
     for (size_t b = 0; b < LINE; b++, y += f->column) {
         COMPLEX y0 = y[0], y1 = y[gap] * w1, y2 = y[2 * gap] * w2, y3 = y[3 * gap] * w3;
         COMPLEX even = y0 + y2, odd = y0 - y2, sum = y1 + y3, cross = y1 - y3;
-        COMPLEX turned = CMPLX_OF(-C99(cimag)(cross), C99(creal)(cross)); /* i (y1 - y3) */
+        COMPLEX rotated = CMPLX_OF(-C99(cimag)(cross), C99(creal)(cross)); /* i (y1 - y3) */
         x[b] = even + sum;
         if (want > 1)
-            x[step + b] = odd + turned;
+            x[step + b] = odd + rotated;
         if (want > 2) {
             x[2 * step + b] = even - sum;
-            x[3 * step + b] = odd - turned;
+            x[3 * step + b] = odd - rotated;
         }
     }
 }
@@ -291,32 +291,32 @@ partners(const struct rc_layout *l)
     return l->parts > 2 || l->ny < l->m ? 0 : l->ny - l->m;
 }
 
-/* The first stage of the transform of a line of columns from `first`, out of `half`. */
+/* The first stage of the transform of a line of columns from `first`, out of `waves`. */
 RC_CLONES static void
 gather(const struct plan *f, size_t first, COMPLEX *y)
 {
     const struct rc_layout *l = &f->l;
-    const COMPLEX *x = f->half + first, *w = f->twiddle;
+    const COMPLEX *x = f->waves + first, *w = f->twiddle;
     size_t step = l->m * l->stride, both = partners(l), j = 0;
 
-    if (l->split == 1) {
+    if (l->radix == 1) {
         for (; j < l->m; j++, x += l->stride)
             for (size_t b = 0; b < LINE; b++)
                 y[b * f->column + j] = x[b];
     } else if (l->parts > 2) {
         for (; j < l->m; j++, x += l->stride, w += 3) {
             for (size_t q = 0; q < 4; q++)
-                ahead(x + AHEAD * l->stride + q * step);
-            split(f, x, step, 4, w, y + j);
+                prefetch(x + PREFETCH * l->stride + q * step);
+            butterfly(f, x, step, 4, w, y + j);
         }
     } else {
         for (; j < both; j++, x += l->stride, w += 3) {
-            ahead(x + AHEAD * l->stride);
-            ahead(x + AHEAD * l->stride + step);
-            split(f, x, step, 2, w, y + j);
+            prefetch(x + PREFETCH * l->stride);
+            prefetch(x + PREFETCH * l->stride + step);
+            butterfly(f, x, step, 2, w, y + j);
         }
         for (; j < l->m && j < l->ny; j++, x += l->stride, w += 3)
-            split(f, x, step, 1, w, y + j);
+            butterfly(f, x, step, 1, w, y + j);
         for (; j < l->m; j++)
             for (size_t b = 0; b < LINE; b++)
                 for (size_t r = 0; r < 4; r++)
@@ -324,40 +324,40 @@ gather(const struct plan *f, size_t first, COMPLEX *y)
     }
 }
 
-/* The last stage of the transform back, into `half`. */
+/* The last stage of the transform back, into `waves`. */
 RC_CLONES static void
 scatter(struct plan *f, size_t first, const COMPLEX *y)
 {
     const struct rc_layout *l = &f->l;
     const COMPLEX *w = f->twiddle;
-    COMPLEX *x = f->half + first;
+    COMPLEX *x = f->waves + first;
     size_t step = l->m * l->stride, both = partners(l), j = 0;
 
-    if (l->split == 1) {
+    if (l->radix == 1) {
         for (; j < l->m; j++, x += l->stride)
             for (size_t b = 0; b < LINE; b++)
                 x[b] = y[b * f->column + j];
     } else if (l->parts > 2) {
         for (; j < l->m; j++, x += l->stride, w += 3) {
             for (size_t q = 0; q < 4; q++)
-                ahead(x + AHEAD * l->stride + q * step);
-            join(f, x, step, 4, w, y + j);
+                prefetch(x + PREFETCH * l->stride + q * step);
+            butterfly_back(f, x, step, 4, w, y + j);
         }
     } else {
         for (; j < both; j++, x += l->stride, w += 3)
-            join(f, x, step, 2, w, y + j);
+            butterfly_back(f, x, step, 2, w, y + j);
         for (; j < l->m && j < l->ny; j++, x += l->stride, w += 3)
-            join(f, x, step, 1, w, y + j);
+            butterfly_back(f, x, step, 1, w, y + j);
     }
 }
 
-/* z[k] *= s[k] for k < n, or s[-k] when step is -1, times a power of -i. */
+/* z[k] *= s[k] for k < n, or s[-k] when step is -1, times the sign and a power of -i. */
 RC_CLONES static void
-times(COMPLEX *restrict z, size_t n, const REAL *restrict s, ptrdiff_t step, int turns, REAL sign)
+scale(COMPLEX *restrict z, size_t n, const REAL *restrict s, ptrdiff_t step, int power, REAL sign)
 {
     REAL *v = (REAL *)z;
 
-    if (turns == 1) {
+    if (power == 1) {
         for (size_t k = 0; k < n; k++) {
             REAL a = sign * s[(ptrdiff_t)k * step], re = v[2 * k];
             v[2 * k] = a * v[2 * k + 1];
@@ -365,7 +365,7 @@ times(COMPLEX *restrict z, size_t n, const REAL *restrict s, ptrdiff_t step, int
         }
         return;
     }
-    if (turns == 2)
+    if (power == 2)
         sign = -sign;
     if (step > 0)
         for (size_t k = 0; k < n; k++) {
@@ -390,37 +390,37 @@ add(COMPLEX *restrict z, const COMPLEX *restrict y, REAL weight, size_t n)
         v[k] += weight * w[k];
 }
 
-/* Piece r of a transformed column times the kernel's column s (packed). */
+/* Piece r of a transformed column times column s of the kernel's spectrum. */
 static void
 multiply(const struct rc_layout *l, const REAL *s, unsigned parity, size_t r, COMPLEX *z)
 {
     REAL mirror = parity & RC_ODD_Y ? -1 : 1;
-    int turns = ((parity & RC_ODD_X) != 0) + ((parity & RC_ODD_Y) != 0);
+    int power = ((parity & RC_ODD_X) != 0) + ((parity & RC_ODD_Y) != 0);
     size_t m = l->m, a = m / 2 + 1, c = (m + 1) / 2;
     const REAL *A = s, *B = s + a, *C = B + m;
 
     switch (r) {
     case 0: /* A[k], then A[m - k] */
-        times(z, a, A, 1, turns, 1);
+        scale(z, a, A, 1, power, 1);
         if (m > a)
-            times(z + a, m - a, A + m - a, -1, turns, mirror);
+            scale(z + a, m - a, A + m - a, -1, power, mirror);
         break;
     case 1:
-        times(z, m, B, 1, turns, 1);
+        scale(z, m, B, 1, power, 1);
         break;
     case 2: /* C[k], then C[m - 1 - k] */
-        times(z, c, C, 1, turns, 1);
+        scale(z, c, C, 1, power, 1);
         if (m > c)
-            times(z + c, m - c, C + m - 1 - c, -1, turns, mirror);
+            scale(z + c, m - c, C + m - 1 - c, -1, power, mirror);
         break;
     default: /* B[m - 1 - k] */
-        times(z, m, B + m - 1, -1, turns, mirror);
+        scale(z, m, B + m - 1, -1, power, mirror);
     }
 }
 
 /* Columns: transformed, multiplied, transformed back. */
 static void
-columns(struct plan *f, const REAL *s, unsigned parity)
+convolve_columns(struct plan *f, const REAL *s, unsigned parity)
 {
     const struct rc_layout *l = &f->l;
 
@@ -431,10 +431,10 @@ columns(struct plan *f, const REAL *s, unsigned parity)
 
         gather(f, c, y);
         for (size_t b = 0; b < n; b++)
-            for (size_t r = 0; r < l->split; r++) {
+            for (size_t r = 0; r < l->radix; r++) {
                 COMPLEX *one = y + b * f->column + r * piece(f);
                 FFTW(execute_dft)(f->column_forward, one, z);
-                multiply(l, s + (c + b) * l->packed, parity, r, z);
+                multiply(l, s + (c + b) * l->cy, parity, r, z);
                 FFTW(execute_dft)(f->column_back, z, one);
             }
         scatter(f, c, y);
@@ -442,14 +442,14 @@ columns(struct plan *f, const REAL *s, unsigned parity)
 }
 
 static void
-apply(void *at, const void *packed, unsigned parity, const double *p, double *u)
+apply(void *at, const void *spectrum, unsigned parity, const double *p, double *u)
 {
     struct plan *f = at;
     struct map map = {.p = p, .u = u, .nx = f->l.nx};
 
-    rows(f, &map, row_in, false, true);
-    columns(f, packed, parity);
-    rows(f, &map, row_out, true, false);
+    transform_rows(f, &map, row_in, false, true);
+    convolve_columns(f, spectrum, parity);
+    transform_rows(f, &map, row_out, true, false);
 }
 
 static void
@@ -458,10 +458,10 @@ chain(void *at, size_t n, const struct rc_link *links, rc_row *last, void *ctx)
     struct plan *f = at;
 
     for (size_t k = 0; k < n; k++) {
-        rows(f, ctx, links[k].row, k > 0, true);
-        columns(f, links[k].packed, links[k].parity);
+        transform_rows(f, ctx, links[k].row, k > 0, true);
+        convolve_columns(f, links[k].spectrum, links[k].parity);
     }
-    rows(f, ctx, last, true, false);
+    transform_rows(f, ctx, last, true, false);
 }
 
 static bool
@@ -473,7 +473,7 @@ load(void *at, const double *p)
 
     if (f->source == NULL && (f->source = allocate(l->cx * f->column)) == NULL)
         return false;
-    rows(f, &map, row_in, false, true);
+    transform_rows(f, &map, row_in, false, true);
 #pragma omp parallel for num_threads(l->threads) schedule(static)
     for (size_t c = 0; c < l->cx; c += LINE) {
         size_t n = l->cx - c < LINE ? l->cx - c : LINE;
@@ -481,7 +481,7 @@ load(void *at, const double *p)
 
         gather(f, c, y);
         for (size_t b = 0; b < n; b++)
-            for (size_t r = 0; r < l->split; r++)
+            for (size_t r = 0; r < l->radix; r++)
                 FFTW(execute_dft)
         (f->column_forward, y + b * f->column + r * piece(f), source_of(f, c + b, r));
     }
@@ -489,12 +489,12 @@ load(void *at, const double *p)
 }
 
 static void
-field(void *at, const void *packed, unsigned parity, const void *also, unsigned also_parity,
+field(void *at, const void *spectrum, unsigned parity, const void *also, unsigned also_parity,
       double weight, double *u)
 {
     struct plan *f = at;
     const struct rc_layout *l = &f->l;
-    const REAL *s = packed, *t = also;
+    const REAL *s = spectrum, *t = also;
     struct map map = {.u = u, .nx = l->nx};
 
 #pragma omp parallel for num_threads(l->threads) schedule(static)
@@ -503,47 +503,47 @@ field(void *at, const void *packed, unsigned parity, const void *also, unsigned 
         COMPLEX *y = scratch_of(f), *z = y + LINE * f->column;
 
         for (size_t b = 0; b < n; b++)
-            for (size_t r = 0; r < l->split; r++) {
+            for (size_t r = 0; r < l->radix; r++) {
                 COMPLEX *one = y + b * f->column + r * piece(f);
                 memcpy(z, source_of(f, c + b, r), l->m * sizeof *z);
-                multiply(l, s + (c + b) * l->packed, parity, r, z);
+                multiply(l, s + (c + b) * l->cy, parity, r, z);
                 if (t != NULL) {
                     memcpy(one, source_of(f, c + b, r), l->m * sizeof *z);
-                    multiply(l, t + (c + b) * l->packed, also_parity, r, one);
+                    multiply(l, t + (c + b) * l->cy, also_parity, r, one);
                     add(z, one, (REAL)weight, l->m);
                 }
                 FFTW(execute_dft)(f->column_back, z, one);
             }
         scatter(f, c, y);
     }
-    rows(f, &map, row_out, true, false);
+    transform_rows(f, &map, row_out, true, false);
 }
 
 static void
-pack(const struct rc_layout *l, size_t c, double scale, double mirror, const double *s,
-     void *packed)
+store(const struct rc_layout *l, size_t c, double factor, double mirror, const double *s,
+      void *spectrum)
 {
-    REAL *to = (REAL *)packed + c * l->packed;
+    REAL *to = (REAL *)spectrum + c * l->cy;
     size_t m = l->m, py = l->py;
 
     for (size_t k = 0; k <= m / 2; k++)
-        *to++ = (REAL)(scale * s[l->split * k]);
-    if (l->split == 1)
+        *to++ = (REAL)(factor * s[l->radix * k]);
+    if (l->radix == 1)
         return;
     for (size_t k = 0; k < m; k++) {
         size_t q = 4 * k + 1;
-        *to++ = (REAL)(scale * (2 * q <= py ? s[q] : mirror * s[py - q]));
+        *to++ = (REAL)(factor * (2 * q <= py ? s[q] : mirror * s[py - q]));
     }
     for (size_t k = 0; k < (m + 1) / 2; k++)
-        *to++ = (REAL)(scale * s[4 * k + 2]);
+        *to++ = (REAL)(factor * s[4 * k + 2]);
 }
 
 const struct rc_fft_ops OPS = {
     .real_size = sizeof(REAL),
     .new = plan_new,
     .free = plan_free,
-    .borrow = borrow,
-    .pack = pack,
+    .workspace = workspace,
+    .store = store,
     .apply = apply,
     .chain = chain,
     .load = load,

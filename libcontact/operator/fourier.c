@@ -84,7 +84,8 @@ rc_fourier_backward(const struct rc_shape *shape, double complex *s, double *v, 
 /* ---- lines ---- */
 
 struct rc_line {
-    size_t n, space; /* doubles of one thread */
+    size_t n;
+    size_t per_thread; /* doubles of scratch of one thread */
     fftw_plan forward, backward;
     double *scratch;
 };
@@ -92,7 +93,7 @@ struct rc_line {
 static double *
 values_of(const struct rc_line *l)
 {
-    return l->scratch + (size_t)omp_get_thread_num() * l->space;
+    return l->scratch + (size_t)omp_get_thread_num() * l->per_thread;
 }
 
 static double complex *
@@ -109,8 +110,8 @@ rc_line_new(size_t n, size_t threads, struct rc_err *err)
     if (l == NULL || n > INT_MAX)
         goto fail;
     l->n = n;
-    l->space = (n + 7) / 8 * 8 + (n + 2 + 15) / 16 * 16;
-    l->scratch = aligned_alloc(64, (threads * l->space * sizeof(double) + 63) / 64 * 64);
+    l->per_thread = (n + 7) / 8 * 8 + (n + 2 + 15) / 16 * 16;
+    l->scratch = aligned_alloc(64, (threads * l->per_thread * sizeof(double) + 63) / 64 * 64);
     if (l->scratch == NULL)
         goto fail;
     rc_planner_lock();

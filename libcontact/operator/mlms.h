@@ -75,7 +75,7 @@ struct rc_mlms_level {
 /* Of one thread. */
 struct rc_mlms_scratch {
     double *plane[4]; /* pressures by class, with margins            */
-    double *out[4];   /* results by class, with room beside          */
+    double *out[4];   /* results by class, with margins in x         */
     double *ring;     /* columns of a strip                          */
     double *mid;      /* rows that one direction has been applied to */
     uint32_t *list;   /* loaded nodes, y << 16 | x                   */
@@ -93,7 +93,7 @@ struct rc_mlms {
     size_t plane_stride, plane_size, out_stride, out_size; /* doubles, enough on every level */
     size_t ring_size, mid_stride, mid_size, zeros_size, out_lead;
     struct rc_mlms_scratch *scratch;
-    void *store; /* all of the scratch */
+    void *scratch_memory; /* of all threads */
 };
 
 /* mlms_design.c */
@@ -104,7 +104,8 @@ ptrdiff_t rc_mlms_extent(const struct rc_mlms_design *d, const struct rc_shape *
                          const struct rc_mlms_axis axis[2], size_t k, bool odd);
 
 /* mlms_stencil.c */
-void rc_mlms_stylus(size_t t, double *s);
+/* (8): s[i], i < t, weighs the nodes at the distances +-(2i + 1). */
+void rc_mlms_weights(size_t t, double *s);
 bool rc_mlms_stencils(struct rc_mlms *m, const struct rc_sum *sum, size_t level);
 /* What corrections leave out on the worst level: *one, the largest coefficient over the kernel of a
  * node near by, which is the error under pressure on one node; *all, the sum of coefficients over

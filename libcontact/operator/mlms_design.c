@@ -18,9 +18,9 @@
  * largest coefficient that is left out beyond a region of m_c nodes is Q(t, m_c + 1) times the
  * kernel there, and that over the kernel at the node, `one`, is the error under a single loaded
  * node. Pressures of many nodes do worse: those that follow the signs of the error about a node
- * err by `crowd` times that, relative to the largest sum of |K| |p|. Of a kernel that falls faster
- * than 1/r, or that is smooth about the node, it is the sum of the coefficients left out over that
- * of |K| within the region, `all`, that counts (rc_mlms_left_out).
+ * err by many_over_one() times that, relative to the largest sum of |K| |p|. For a kernel that
+ * falls faster than 1/r, or that is smooth about the node, what counts is `all`: the sum of the
+ * coefficients left out over that of |K| within the region (rc_mlms_left_out).
  *
  * Measured on 256 x 256 nodes: e the error about a loaded node (four, of all parities), pressures
  * |e|^a sign(e) with a = 0, 1/2, 1 where |e| is above one of 19 fractions of its largest, and 1
@@ -38,15 +38,15 @@
  *      5   15  3.1e-8    1.01  3.9e-7    5.9e-7 |  12   30  3.1e-14   1.02  5.1e-13   5.5e-13
  */
 static double
-crowd(double t, double reach)
+many_over_one(double t, double reach)
 {
     return 9 + 3.5 * reach / t;
 }
 
-/* What is expected of the displacement kernel on equal spacings, whose cell displaces itself by
- * 3.525 times what its load does at the distance of its own side. */
+/* For the displacement kernel on equal spacings: a cell displaces itself by 3.525 times what its
+ * load, taken as a point load, does at the distance of one spacing. */
 static double
-model(size_t t, size_t reach)
+expected_error(size_t t, size_t reach)
 {
     double r = (double)reach + 1, q = 1.08 / (3.525 * r);
 
@@ -54,10 +54,11 @@ model(size_t t, size_t reach)
         double at = 2 * (double)k - 1;
         q *= at * at / (r * r - at * at);
     }
-    return crowd((double)t, (double)reach) * q;
+    return many_over_one((double)t, (double)reach) * q;
 }
 
-/* The smallest region that is expected to do. One of the whole map leaves nothing out. */
+/* The smallest region whose expected error is at most tol; one of the whole map leaves nothing
+ * out. */
 static size_t
 reach_for(size_t t, double tol, const struct rc_shape *s)
 {
@@ -66,7 +67,7 @@ reach_for(size_t t, double tol, const struct rc_shape *s)
 
     while (low < high) {
         size_t middle = low + (high - low) / 2;
-        if (model(t, middle) > tol)
+        if (expected_error(t, middle) > tol)
             low = middle + 1;
         else
             high = middle;
@@ -82,10 +83,10 @@ spacing(const struct rc_mlms_axis *a, double cell)
     return (double)a->step * cell;
 }
 
-/* Within a distance of `reach` coarser spacings (half a node more, in an ellipse) from the cell of
- * the source: a cell that is longer than wide is near to its neighbours beside its long side,
- * whatever the spacing. Where interpolation in both directions touches the source itself, whose own
- * coefficient is far from smooth on coarse levels, the corners of the ellipse are needed too. */
+/* The region: within `reach` coarser spacings (half a node more, in an ellipse) of the source's
+ * cell, not of its node, since a long cell is near to the nodes beside its long side. Where both
+ * directions are interpolated and the source itself is used, whose own coefficient is far from
+ * smooth on coarse levels, the corners of the ellipse are corrected too. */
 ptrdiff_t
 rc_mlms_extent(const struct rc_mlms_design *d, const struct rc_shape *shape,
                const struct rc_mlms_axis axis[2], size_t k, bool odd)
@@ -127,9 +128,9 @@ count(const struct rc_mlms_design *d, const struct rc_shape *shape,
 
 /* ---- levels ---- */
 
-/* At least two where it is worth waking a second thread. */
+/* Tiles of about RC_MLMS_TILE places; at least two where a second thread pays. */
 static void
-tile(struct rc_mlms_axis *a)
+set_tiles(struct rc_mlms_axis *a)
 {
     size_t places = (a->n + a->halved) >> a->halved;
     size_t tiles = (places + RC_MLMS_TILE / 2) / RC_MLMS_TILE;
@@ -139,9 +140,9 @@ tile(struct rc_mlms_axis *a)
     a->tiles = (places + a->tile - 1) / a->tile;
 }
 
-/* Whether a grid is coarsened, and in which direction: in the one of the smaller spacing until
- * they are alike, else the correction region of the larger would be long in the smaller. A
- * direction that would not shrink is left as it is. */
+/* Whether a grid is coarsened, and in which direction: in that of the smaller spacing until both
+ * spacings are alike, else the correction region would be many nodes long in it. A direction that
+ * would not get shorter is left as it is. */
 static bool
 halve(struct rc_mlms_axis axis[2], const struct rc_shape *shape, size_t t)
 {
@@ -175,8 +176,8 @@ set_reach(const struct rc_mlms_design *d, const struct rc_shape *shape, struct r
         axis[a].margin = axis[a].halved ? (axis[a].reach + 1) / 2 : axis[a].reach;
 }
 
-/* Products of one level as written, and about what they cost: corrections half of their products,
- * because offsets of both signs share one. */
+/* Products of one level as (10) - (17) write them, and about what they cost: corrections only about
+ * half, because offsets of both signs share a product. */
 static double
 level_terms(const struct rc_mlms_design *d, const struct rc_shape *shape,
             const struct rc_mlms_axis axis[2], double *work)
@@ -190,7 +191,7 @@ level_terms(const struct rc_mlms_design *d, const struct rc_shape *shape,
     }
     count(d, shape, axis, &all, &same);
     corrections = (fine - even) * all + coarse * (all - same);
-    /* one direction after the other; there and back are alike */
+    /* one direction after the other; the same for the reduction and for the interpolation back */
     if (axis[RC_Y].halved)
         transfers += 4 * (double)d->t * (double)axis[RC_X].n * (double)axis[RC_Y].n / 2;
     if (axis[RC_X].halved)
@@ -210,7 +211,7 @@ direct_work(const struct rc_mlms_axis axis[2])
 
 /* Coarsens as long as it may, then takes the number of levels that costs least. */
 static void
-lay(struct rc_mlms_design *d, const struct rc_shape *shape)
+choose_levels(struct rc_mlms_design *d, const struct rc_shape *shape)
 {
     double terms = 0, work = 0;
 
@@ -232,7 +233,7 @@ lay(struct rc_mlms_design *d, const struct rc_shape *shape)
         terms += level_terms(d, shape, axis, &more);
         work += more;
         for (int a = 0; a < 2; a++) {
-            tile(&axis[a]);
+            set_tiles(&axis[a]);
             d->axis[q + 1][a] =
                 (struct rc_mlms_axis){.n = axis[a].coarse, .step = axis[a].step << axis[a].halved};
         }
@@ -240,7 +241,7 @@ lay(struct rc_mlms_design *d, const struct rc_shape *shape)
     for (int a = 0; a < 2; a++) {
         struct rc_mlms_axis *last = &d->axis[d->levels][a];
         *last = (struct rc_mlms_axis){.n = last->n, .coarse = last->n, .step = last->step};
-        tile(last);
+        set_tiles(last);
     }
 }
 
@@ -264,7 +265,7 @@ cheapest(struct rc_mlms_design *d, const struct rc_sum *sum, double tol)
     for (size_t t = first; t <= last; t++) {
         d->t = t;
         d->reach = sum->correction > 0 ? sum->correction : reach_for(t, tol, &sum->shape);
-        lay(d, &sum->shape);
+        choose_levels(d, &sum->shape);
         if (d->work < best.work)
             best = *d;
     }
@@ -278,12 +279,12 @@ measured(const struct rc_mlms_design *d, const struct rc_sum *sum)
     double one, all;
 
     rc_mlms_left_out(sum, d, &one, &all);
-    return rounding +
-           fmax(4 * all, fmin(crowd((double)d->t, (double)d->reach) * one, 2 * one + 20 * all));
+    return rounding + fmax(4 * all, fmin(many_over_one((double)d->t, (double)d->reach) * one,
+                                         2 * one + 20 * all));
 }
 
-/* The expectation is for one kernel; what is left out of this one is known, so expect more or less
- * until that fits. */
+/* The expected error is that of one kernel; that of the kernel at hand is then measured, and the
+ * tolerance that is asked of the expectation is changed until the measured error fits. */
 static void
 fit(struct rc_mlms_design *d, const struct rc_sum *sum, double tol)
 {
@@ -303,7 +304,7 @@ fit(struct rc_mlms_design *d, const struct rc_sum *sum, double tol)
         if (ask > 1 || ask < 1e-18)
             break;
     }
-    if (best.work < INFINITY) /* else memory is short, as will be seen */
+    if (best.work < INFINITY) /* else memory is short, and allocating the plan will fail */
         *d = best;
 }
 

@@ -7,9 +7,8 @@
 
 #include "mlms.h"
 
-/* (8) by distance: s[i] belongs to the two nodes at +-(2i + 1), i < t. */
 void
-rc_mlms_stylus(size_t t, double *s)
+rc_mlms_weights(size_t t, double *s)
 {
     for (size_t i = 0; i < t; i++) {
         long double product = 1, at = (long double)(t - i); /* the sum must be 1 to rounding */
@@ -189,7 +188,7 @@ rc_mlms_left_out(const struct rc_sum *sum, const struct rc_mlms_design *d, doubl
     *one = *all = 0;
     m.sign[RC_X] = parity & RC_ODD_X ? -1 : 1;
     m.sign[RC_Y] = parity & RC_ODD_Y ? -1 : 1;
-    rc_mlms_stylus(d->t, m.s);
+    rc_mlms_weights(d->t, m.s);
     for (size_t q = 0; q < d->levels; q++)
         left_out(&m, sum, d->axis[q], one, all);
 }
@@ -248,18 +247,18 @@ stencil(struct rc_mlms_stencil *s, const struct rc_mlms *m, const struct rc_mlms
     ptrdiff_t delta[2] = {(ptrdiff_t)(target & 1) - (ptrdiff_t)(source & 1),
                           (ptrdiff_t)(target >> 1) - (ptrdiff_t)(source >> 1)};
     size_t first = x->halved ? (size_t)labs(delta[RC_X]) : 0, by = 1 + x->halved;
-    size_t space = 2 * y->margin + 3 + 2 * RC_BLOCK;
+    size_t length = 2 * y->margin + 3 + 2 * RC_BLOCK;
 
     s->columns = x->reach >= first ? (x->reach - first) / by + 1 : 0;
     if (s->columns == 0)
         return true;
     s->column = calloc(s->columns, sizeof *s->column);
-    s->values = calloc(s->columns * space, sizeof *s->values);
+    s->values = calloc(s->columns * length, sizeof *s->values);
     if (s->column == NULL || s->values == NULL)
         return false;
     for (size_t j = 0; j < s->columns; j++) {
         size_t k = first + j * by;
-        double *c = s->values + j * space + y->margin + 1 + RC_BLOCK;
+        double *c = s->values + j * length + y->margin + 1 + RC_BLOCK;
         struct rc_column *column = &s->column[j];
         places(y, delta[RC_Y],
                rc_mlms_extent(&m->d, shape, axis, k, delta[RC_X] != 0 && delta[RC_Y] != 0),

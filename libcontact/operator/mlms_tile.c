@@ -17,20 +17,20 @@ rounded(size_t n, size_t to)
     return (n + to - 1) / to * to;
 }
 
-/* Asks for what will be read some rows later: rows are too short, and too far apart, for the
- * processor to see it coming. */
+/* Fetches in advance what will be read some rows later: rows are too short, and too far apart, for
+ * the processor to do so by itself. */
 static void
-fetch(const double *map, const struct rc_mlms_axis axis[2], ptrdiff_t x0, ptrdiff_t y, size_t n)
+prefetch(const double *map, const struct rc_mlms_axis axis[2], ptrdiff_t x0, ptrdiff_t y, size_t n)
 {
     enum {
-        AHEAD = 4
+        ROWS = 4
     };
     ptrdiff_t nx = (ptrdiff_t)axis[RC_X].n, first = x0 > 0 ? x0 : 0, last = x0 + (ptrdiff_t)n;
 
     last = last < nx ? last : nx;
-    if (y + AHEAD >= 0 && y + AHEAD < (ptrdiff_t)axis[RC_Y].n)
+    if (y + ROWS >= 0 && y + ROWS < (ptrdiff_t)axis[RC_Y].n)
         for (ptrdiff_t x = first; x < last; x += RC_SIMD_WIDTH)
-            __builtin_prefetch(map + (y + AHEAD) * nx + x);
+            __builtin_prefetch(map + (y + ROWS) * nx + x);
 }
 
 static size_t
@@ -91,7 +91,7 @@ rc_mlms_scan(const struct rc_mlms *m, size_t level, const double *p, size_t tile
 
     l->loaded[tile] = 0;
     for (size_t y = 0; y < t.ny && !l->loaded[tile]; y++, row += l->axis[RC_X].n)
-        l->loaded[tile] = m->simd->count(row, t.nx) > 0;
+        l->loaded[tile] = m->simd->count_nonzero(row, t.nx) > 0;
 }
 
 /* ---- (10) ---- */
@@ -125,15 +125,15 @@ reduce_rows(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], const do
 
     if (last < first)
         last = first;
-    fetch(p, axis, x0, y + 2 * (ptrdiff_t)m->d.t - 2, n);
-    fetch(p, axis, x0, y + 2 * (ptrdiff_t)m->d.t - 1, n);
+    prefetch(p, axis, x0, y + 2 * (ptrdiff_t)m->d.t - 2, n);
+    prefetch(p, axis, x0, y + 2 * (ptrdiff_t)m->d.t - 1, n);
     for (size_t i = 0; i < m->d.t; i++) {
         ptrdiff_t below = y - 1 - 2 * (ptrdiff_t)i, above = y + 1 + 2 * (ptrdiff_t)i;
         w->near[i] = below >= 0 && below < ny ? p + below * nx + x0 + first : w->zeros;
         w->far[i] = above >= 0 && above < ny ? p + above * nx + x0 + first : w->zeros;
     }
     memset(out, 0, (size_t)first * sizeof *out);
-    m->simd->weigh(m->d.t, m->s, w->near, w->far, on, (size_t)(last - first), out + first);
+    m->simd->weighted_sum(m->d.t, m->s, w->near, w->far, on, (size_t)(last - first), out + first);
     memset(out + last, 0, (n - (size_t)last) * sizeof *out);
 }
 
@@ -145,12 +145,12 @@ reduce_row(const struct rc_mlms *m, const double *row, size_t n, struct rc_mlms_
     size_t t = m->d.t, fine = 2 * (n + 2 * t);
     double *even = w->out[0], *odd = w->out[1];
 
-    m->simd->split(row, fine, even, odd);
+    m->simd->deinterleave(row, fine, even, odd);
     for (size_t i = 0; i < t; i++) {
         w->near[i] = odd + t - 1 - i;
         w->far[i] = odd + t + i;
     }
-    m->simd->weigh(t, m->s, w->near, w->far, even + t, n, out);
+    m->simd->weighted_sum(t, m->s, w->near, w->far, even + t, n, out);
 }
 
 void
@@ -179,15 +179,15 @@ rc_mlms_reduce(const struct rc_mlms *m, size_t level, const double *p, size_t ti
             copy_row(p, l->axis, x0, c.y0 + (ptrdiff_t)y, n, row);
         if (ax->halved)
             reduce_row(m, row, c.nx, w, out);
-        found += m->simd->count(out, c.nx);
+        found += m->simd->count_nonzero(out, c.nx);
     }
     next->loaded[tile] = found > 0;
 }
 
 /* ---- (14), (17) ---- */
 
-/* Pressures about an area of places, class by class, with the margins of the level; what lies
- * outside the map is zero. */
+/* Pressures about an area of places, class by class, with the margins of the level; outside the map
+ * they are zero. */
 static void
 gather(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], const double *p, struct area a,
        struct rc_mlms_scratch *w)
@@ -204,22 +204,22 @@ gather(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], const double 
             ptrdiff_t at = (y0 + (ptrdiff_t)y) * (ptrdiff_t)(1 + ay->halved) + (ptrdiff_t)s;
             double *even = w->plane[2 * s] + y * stride, *odd = w->plane[2 * s + 1] + y * stride;
             const double *row = w->mid;
-            fetch(p, axis, x0, at, n);
+            prefetch(p, axis, x0, at, n);
             if (x0 >= 0 && x0 + (ptrdiff_t)n <= (ptrdiff_t)ax->n && at >= 0 &&
                 at < (ptrdiff_t)ay->n)
                 row = p + at * (ptrdiff_t)ax->n + x0;
             else
                 copy_row(p, axis, x0, at, n, w->mid);
             if (ax->halved)
-                m->simd->split(row, n, even, odd);
+                m->simd->deinterleave(row, n, even, odd);
             else
                 memcpy(even, row, n * sizeof *even);
         }
 }
 
-/* What the pressures of one class do to the target classes of one parity in x, strip by strip.
- * Offsets of both signs of x share their coefficients; between classes delta = target - source
- * apart, offset k is place (k - delta)/2. */
+/* Adds what the pressures of one class do to the target classes of one parity in x, strip by strip.
+ * Offsets of both signs of x share their coefficients; between classes that are delta = target -
+ * source apart, offset k is place (k - delta)/2. */
 static void
 sum_class(const struct rc_mlms *m, const struct rc_mlms_axis axis[2],
           const struct rc_mlms_stencil *const targets[2], size_t tx, size_t source, struct area a,
@@ -255,30 +255,31 @@ sum_class(const struct rc_mlms *m, const struct rc_mlms_axis axis[2],
 /* The nodes of a halo that carry pressure, row and column in it in one number; more than `most` of
  * them are not all listed. */
 static size_t
-list(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], const double *p, struct area h,
-     size_t most, struct rc_mlms_scratch *w)
+list_loaded(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], const double *p,
+            struct area h, size_t most, struct rc_mlms_scratch *w)
 {
     size_t n = 0, wide = rounded(h.nx, RC_SIMD_WIDTH);
 
     for (size_t y = 0; y < h.ny && n <= most; y++) {
         ptrdiff_t at = h.y0 + (ptrdiff_t)y;
         const double *row = w->mid;
-        fetch(p, axis, h.x0, at, wide);
+        prefetch(p, axis, h.x0, at, wide);
         if (at < 0 || at >= (ptrdiff_t)axis[RC_Y].n)
             continue;
         if (h.x0 >= 0 && h.x0 + (ptrdiff_t)wide <= (ptrdiff_t)axis[RC_X].n)
             row = p + at * (ptrdiff_t)axis[RC_X].n + h.x0;
         else
             copy_row(p, axis, h.x0, at, wide, w->mid);
-        n += m->simd->find(row, wide, (uint32_t)y << 16, w->list + n);
+        n += m->simd->find_nonzero(row, wide, (uint32_t)y << 16, w->list + n);
     }
     return n;
 }
 
-/* How many nodes of a halo are cheaper one by one than all at once: measured at 1024 x 1024 with
- * random nodes, both take the same time when 7, 8, 8 % are loaded for 1e-4, 1e-6, 1e-8. */
+/* Up to how many loaded nodes of a halo are cheaper one by one than all at once: measured at
+ * 1024 x 1024 with random nodes, both take the same time when 7, 8, 8 % are loaded for errors of
+ * 1e-4, 1e-6, 1e-8. */
 static size_t
-few(struct area h)
+few_nodes(struct area h)
 {
     static const double break_even = 0.075;
 
@@ -288,8 +289,8 @@ few(struct area h)
 /* The n listed nodes of a halo by class: values in w->plane[class], places behind the list, of
  * which begin[class] .. begin[class + 1] - 1 are the class's. */
 static void
-sort(const struct rc_mlms_axis axis[2], const double *p, struct area h, size_t n,
-     struct rc_mlms_scratch *w, size_t begin[5])
+sort_by_class(const struct rc_mlms_axis axis[2], const double *p, struct area h, size_t n,
+              struct rc_mlms_scratch *w, size_t begin[5])
 {
     const double *corner = p + h.y0 * (ptrdiff_t)axis[RC_X].n + h.x0;
     uint32_t *place = w->list + n;
@@ -315,7 +316,7 @@ scatter(const struct rc_mlms *m, const struct rc_mlms_axis axis[2], const double
 {
     size_t begin[5];
 
-    sort(axis, p, halo(axis, a), n, w, begin);
+    sort_by_class(axis, p, halo(axis, a), n, w, begin);
     for (size_t target = first; target <= last; target++)
         for (size_t c = 0; c < 4; c++) {
             const struct rc_mlms_stencil *s = &targets[target - first][c];
@@ -355,11 +356,11 @@ rc_mlms_correct(const struct rc_mlms *m, size_t level, const double *p, size_t t
             struct area h = halo(l->axis, a);
             size_t n;
 
-            if (!loaded(l, h) || (n = list(m, l->axis, p, h, few(h), w)) == 0)
+            if (!loaded(l, h) || (n = list_loaded(m, l->axis, p, h, few_nodes(h), w)) == 0)
                 continue;
             for (size_t r = 0; r < a.ny; r++)
                 memcpy(w->out[0] + r * m->out_stride, u + r * width, a.nx * sizeof *u);
-            if (n <= few(h)) {
+            if (n <= few_nodes(h)) {
                 scatter(m, l->axis, p, &l->coarse, 0, 0, a, n, w);
             } else {
                 gather(m, l->axis, p, a, w);
@@ -385,7 +386,7 @@ between(const struct rc_mlms *m, const double *from, size_t step, size_t n,
         w->near[i] = from + (m->d.t - 1 - i) * step;
         w->far[i] = from + (m->d.t + i) * step;
     }
-    m->simd->weigh(m->d.t, m->s, w->near, w->far, NULL, n, out);
+    m->simd->weighted_sum(m->d.t, m->s, w->near, w->far, NULL, n, out);
 }
 
 /* Displacements of an area of places from the next level's, class by class. */
@@ -425,8 +426,8 @@ add_corrections(const struct rc_mlms *m, const struct rc_mlms_level *l, const do
 
     if (!loaded(l, h))
         return;
-    n = list(m, l->axis, p, h, few(h), w);
-    if (n <= few(h)) {
+    n = list_loaded(m, l->axis, p, h, few_nodes(h), w);
+    if (n <= few_nodes(h)) {
         scatter(m, l->axis, p, &l->fine[1], 1, 3, a, n, w);
         return;
     }
@@ -458,7 +459,7 @@ rc_mlms_expand(const struct rc_mlms *m, size_t level, const double *p, double *u
     for (size_t y = 0; y < t.ny; y++, row += ax->n) {
         size_t s = hy ? y % 2 * 2 : 0, r = (y >> hy) * m->out_stride;
         if (hx)
-            m->simd->join(w->out[s] + r, w->out[s + 1] + r, t.nx, row);
+            m->simd->interleave(w->out[s] + r, w->out[s + 1] + r, t.nx, row);
         else
             memcpy(row, w->out[s] + r, t.nx * sizeof *row);
     }

@@ -1,9 +1,9 @@
 /*
  * Two locks. FFTW's own, which fftw_make_planner_thread_safe switches on for the whole process, is
- * taken in every call of the planner, those of the program that uses this library included. It is
- * switched on when the library is loaded: a thread that is planning meanwhile would leave it
- * unlocked for good. libfftw3_omp has that function too, but there it does nothing; with this
- * library's own lock its plans do not disturb each other even if a program brings that one in first.
+ * taken in every call of its planner, those of the program that uses this library included. It is
+ * switched on when this library is loaded: a thread that is planning at that moment would leave it
+ * unlocked for good. libfftw3_omp has that function too, but there it does nothing. If a program
+ * brings that one in first, the lock of this library still keeps its own plans apart.
  */
 #include "planner.h"
 

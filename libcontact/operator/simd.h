@@ -1,6 +1,6 @@
 /*
  * The inner loops of the sums in real space, compiled for each width of registers. Rows are
- * contiguous in x; every loop works on whole vectors of x and never on a single node.
+ * contiguous in x; loops work on whole vectors of x, not on single nodes.
  */
 #ifndef RC_SIMD_H
 #define RC_SIMD_H
@@ -37,8 +37,8 @@ struct rc_strip {
     double *ring; /* columns (2 margin + RC_BLOCK) RC_STRIP, aligned to 64 bytes */
 };
 
-/* Single sources, and what a stencil, unfolded, adds to the targets about each. Beside the rows of
- * `out` there is room for what lies outside. */
+/* Single sources, and what a stencil, unfolded, adds to the targets about each. Rows of `out` are
+ * long enough for what lies outside. */
 struct rc_scatter {
     const double *value;
     const uint32_t *place; /* y << 16 | x of each */
@@ -59,16 +59,16 @@ struct rc_simd {
      * x < RC_STRIP. */
     void (*product)(const double *k, const double *q, size_t n, double *out, size_t stride);
     /* out[x] = first[x] + sum over i < t of s[i] (near[i][x] + far[i][x]); first may be NULL. */
-    void (*weigh)(size_t t, const double *s, const double *const *near, const double *const *far,
-                  const double *first, size_t n, double *out);
+    void (*weighted_sum)(size_t t, const double *s, const double *const *near,
+                         const double *const *far, const double *first, size_t n, double *out);
     /* Even and odd places of n values, and back. */
-    void (*split)(const double *src, size_t n, double *even, double *odd);
-    void (*join)(const double *even, const double *odd, size_t n, double *out);
+    void (*deinterleave)(const double *src, size_t n, double *even, double *odd);
+    void (*interleave)(const double *even, const double *odd, size_t n, double *out);
     /* first + x for each src[x] != 0, x < n, a multiple of RC_SIMD_WIDTH; returns how many. The
      * list has room for n. */
-    size_t (*find)(const double *src, size_t n, uint32_t first, uint32_t *list);
+    size_t (*find_nonzero)(const double *src, size_t n, uint32_t first, uint32_t *list);
     /* Values that are not zero. */
-    size_t (*count)(const double *src, size_t n);
+    size_t (*count_nonzero)(const double *src, size_t n);
 };
 
 /* Those for the processor at hand. */

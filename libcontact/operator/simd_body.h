@@ -233,8 +233,8 @@ NAME(product)(const double *k, const double *q, size_t n, double *out, size_t st
 }
 
 TARGET static void
-NAME(weigh)(size_t t, const double *s, const double *const *near, const double *const *far,
-            const double *first, size_t n, double *out)
+NAME(weighted_sum)(size_t t, const double *s, const double *const *near, const double *const *far,
+                   const double *first, size_t n, double *out)
 {
     size_t x = 0;
 
@@ -272,7 +272,8 @@ NAME(weigh)(size_t t, const double *s, const double *const *near, const double *
 }
 
 TARGET static void
-NAME(split)(const double *restrict src, size_t n, double *restrict even, double *restrict odd)
+NAME(deinterleave)(const double *restrict src, size_t n, double *restrict even,
+                   double *restrict odd)
 {
     for (size_t k = 0; k < n / 2; k++) {
         even[k] = src[2 * k];
@@ -283,7 +284,8 @@ NAME(split)(const double *restrict src, size_t n, double *restrict even, double 
 }
 
 TARGET static void
-NAME(join)(const double *restrict even, const double *restrict odd, size_t n, double *restrict out)
+NAME(interleave)(const double *restrict even, const double *restrict odd, size_t n,
+                 double *restrict out)
 {
     for (size_t k = 0; k < n / 2; k++) {
         out[2 * k] = even[k];
@@ -294,7 +296,7 @@ NAME(join)(const double *restrict even, const double *restrict odd, size_t n, do
 }
 
 TARGET static size_t
-NAME(find)(const double *src, size_t n, uint32_t first, uint32_t *list)
+NAME(find_nonzero)(const double *src, size_t n, uint32_t first, uint32_t *list)
 {
     size_t found = 0;
 
@@ -318,7 +320,7 @@ NAME(find)(const double *src, size_t n, uint32_t first, uint32_t *list)
 }
 
 TARGET static size_t
-NAME(count)(const double *src, size_t n)
+NAME(count_nonzero)(const double *src, size_t n)
 {
     const VECTOR zero = {0};
     NAME(flags) sum = {0}; /* comparison gives -1 or 0 */
@@ -337,11 +339,11 @@ static const struct rc_simd NAME(simd) = {
     .stencil = NAME(stencil),
     .scatter = NAME(scatter),
     .product = NAME(product),
-    .weigh = NAME(weigh),
-    .split = NAME(split),
-    .join = NAME(join),
-    .find = NAME(find),
-    .count = NAME(count),
+    .weighted_sum = NAME(weighted_sum),
+    .deinterleave = NAME(deinterleave),
+    .interleave = NAME(interleave),
+    .find_nonzero = NAME(find_nonzero),
+    .count_nonzero = NAME(count_nonzero),
 };
 
 #undef VECTOR

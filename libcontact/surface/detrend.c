@@ -223,8 +223,8 @@ subtract(const struct fit *f, double *h)
     }
 }
 
-/* GSL has one error handler for all threads, and its default ends the process: it is off while a fit
- * is made, by one thread at a time. */
+/* GSL has one error handler for all threads, and its default ends the process: it is off while a
+ * fit is made, by one thread at a time. */
 static pthread_mutex_t handler_lock = PTHREAD_MUTEX_INITIALIZER;
 
 enum rc_status
