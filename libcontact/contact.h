@@ -281,7 +281,8 @@ RC_API const char *rc_solver_choice(const struct rc_shape *shape, const struct r
 RC_API size_t rc_solver_memory(const struct rc_shape *shape, const struct rc_problem *problem);
 
 /* What such a solver will take, by what others took: convolutions (in equivalents, as they are
- * counted), seconds (both NAN where nobody knows), bytes. RC_FAIL when there is no such engine or method. */
+ * counted) and seconds, both NAN where nobody knows, and bytes. RC_FAIL when there is no such engine
+ * or method. */
 struct rc_expected {
     double convolutions, seconds;
     size_t memory;
