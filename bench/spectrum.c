@@ -4,7 +4,7 @@
  *     bench-spectrum [-n SIZE,SIZE...]
  *
  * Extreme eigenvalues of M K between the nodes of contact, on vectors of zero mean, for M = E' A E
- * (extension.h) and for A cut to those nodes (E the extension by zero), by the Lanczos process:
+ * (preconditioner.h) and for A cut to those nodes (E the extension by zero), by the Lanczos process:
  * those of the tridiagonal matrix that conjugate gradients with a random right side leave behind.
  * Contact sets are those of solved rough surfaces, and a disc.
  */

@@ -251,7 +251,7 @@ spectrum(void **state)
         size_t count = 0, m;
         gsl_matrix *k, *b, *z, *l, *c;
         gsl_vector *values;
-        gsl_eigen_symm_workspace *room;
+        gsl_eigen_symm_workspace *workspace;
         double least, most;
 
         (void)choose(s, boundary, (enum set_name)(q / 2), w);
@@ -272,14 +272,14 @@ spectrum(void **state)
         gsl_blas_dtrmm(CblasRight, CblasLower, CblasNoTrans, CblasNonUnit, 1, l, c);
         gsl_blas_dtrmm(CblasLeft, CblasLower, CblasTrans, CblasNonUnit, 1, l, c);
         values = gsl_vector_alloc(m);
-        room = gsl_eigen_symm_alloc(m);
-        gsl_eigen_symm(c, values, room);
+        workspace = gsl_eigen_symm_alloc(m);
+        gsl_eigen_symm(c, values, workspace);
         gsl_vector_minmax(values, &least, &most);
         print_message("%-10s %s, %3zu nodes: eigenvalues %.5f to %.3f\n", set_names[q / 2],
                       boundary == RC_FREE ? "free" : "periodic", count, least, most);
         assert_true(least >= 1 - 1e-4);
         assert_true(most <= above);
-        gsl_eigen_symm_free(room);
+        gsl_eigen_symm_free(workspace);
         gsl_vector_free(values);
         gsl_matrix_free(k);
         gsl_matrix_free(b);

@@ -491,7 +491,7 @@ back_block(void *at, size_t first, size_t n, double *sums)
 struct trial {
     double size;    /* relative L1 norm                                            */
     double carried; /* the sum of p after it                                       */
-    double room;    /* how much of it fits into the box: 1 or, not clipped, more   */
+    double fits;    /* how much of it fits into the box: 1 or, not clipped, more   */
     double best;    /* how much of it leads to the lowest energy; 0: nowhere       */
     bool clipped;
     double total[RC_SUMS];
@@ -514,7 +514,7 @@ attempt(struct rc_solver *solver, struct pcg *s, double alpha, double mean, stru
     t->clipped = move.clipped;
     t->size = t->total[SIZE] / solver->load.sum;
     t->carried = t->total[CARRIED];
-    t->room = move.clipped || !(t->total[RC_MOST] > 0) ? 1 : 1 / t->total[RC_MOST];
+    t->fits = move.clipped || !(t->total[RC_MOST] > 0) ? 1 : 1 / t->total[RC_MOST];
     rc_reduce_rows_begin(solver);
     rc_operator_apply_rows(solver->op, step_in, step_out, &c);
     rc_iterate_count(solver, solver->op->row_cost);
@@ -557,7 +557,7 @@ advance(struct rc_solver *solver, struct pcg *s, double alpha, double mean)
         s->curvature = 0;
         return 0;
     }
-    part = !t.clipped ? fmin(t.best, t.room) : t.best >= enough ? 1 : t.best;
+    part = !t.clipped ? fmin(t.best, t.fits) : t.best >= enough ? 1 : t.best;
     c.a = part;
     c.b = 1 - part;
     s->curvature = t.clipped ? 0 : t.total[CURVATURE];

@@ -153,7 +153,7 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
     if (total[SPREAD_H] == 0) /* one height everywhere: both vanish with the error */
         scale = s->op->norm * c->mean_pressure;
     c->kkt_residual = total[RC_MOST] == 0 ? 0 : total[RC_MOST] / scale;
-    /* Who stops on a coarser grid is in a hurry: nobody knows how far off that is on this one. */
+    /* Stopped on a coarser grid: an estimate here would take longer than the iteration did. */
     if (!early && (stopped || s->it.checked != s->it.iterations || isnan(s->it.error))) {
         rc_working_set_find(s, false);
         rc_iterate_checked(s, rc_working_set_estimate(s), 1);
