@@ -6,6 +6,13 @@ top=$(cd "$(dirname "$0")/.." && pwd)
 cd "$top"
 . cmake/packages.sh
 
+# phase WHAT: how long it took.
+phase() {
+    echo "== $1: $((SECONDS - began)) s"
+    began=$SECONDS
+}
+began=$SECONDS
+
 # shellcheck disable=SC2086
 need_packages $build_packages $test_packages
 
@@ -15,6 +22,7 @@ if clang-format --version 2>/dev/null | grep -q 'version 14\.'; then
 else
     echo "Style: clang-format 14 is not here, so it is not checked."
 fi
+phase "packages and style"
 
 if [ -d ../shared/corpus ]; then
     echo "Real instrument files: those in ../shared/corpus."
@@ -22,11 +30,16 @@ else
     echo "Real instrument files: ../shared/corpus is not here, so the tests on them do not run."
 fi
 
+# build PRESET, and its tests, side by side: none of them measures time closely.
+build() {
+    cmake --preset "$1" >/dev/null
+    cmake --build --preset "$1" --parallel "$(cores)"
+    phase "$1, build"
+    ctest --test-dir "build-$1" --parallel "$(cores)" --output-on-failure --no-tests=error
+    phase "$1, tests"
+}
+
 if [ "${CI-}" = true ]; then
-    cmake --preset sanitize >/dev/null
-    cmake --build --preset sanitize --parallel "$(cores)"
-    ctest --test-dir build-sanitize --output-on-failure --no-tests=error
+    build sanitize
 fi
-cmake --preset ci >/dev/null
-cmake --build --preset ci --parallel "$(cores)"
-ctest --test-dir build-ci --output-on-failure --no-tests=error
+build ci
