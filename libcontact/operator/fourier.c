@@ -19,12 +19,6 @@ rc_fourier_size(const struct rc_shape *shape)
     return shape->ny * rc_fourier_columns(shape);
 }
 
-long
-rc_fourier_number(size_t k, size_t n)
-{
-    return 2 * k <= n ? (long)k : -(long)(n - k);
-}
-
 /* Runs a plan and frees it. Plans are made without measuring, so that the same map gives the same
  * bytes each time. */
 static enum rc_status
