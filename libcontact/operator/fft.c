@@ -8,7 +8,6 @@
  * inverse. Periodic boundary: nothing is padded, the spectrum is the kernel's symbol.
  */
 #include "fft.h"
-#include "libcontact/memory.h"
 
 #include <assert.h>
 #include <math.h>
@@ -18,6 +17,7 @@
 
 #include "dct.h"
 #include "fourier.h"
+#include "libcontact/memory.h"
 
 struct rc_fft {
     struct rc_shape shape;

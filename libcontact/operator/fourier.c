@@ -1,11 +1,12 @@
 #include "fourier.h"
-#include "planner.h"
 
 #include <fftw3.h> /* after complex.h: fftw_complex is then double complex */
 #include <limits.h>
 #include <omp.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "planner.h"
 
 size_t
 rc_fourier_columns(const struct rc_shape *shape)

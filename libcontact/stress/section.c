@@ -16,8 +16,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "libcontact/operator/operator.h"
-
 enum {
     PARTS = 16 /* partial sums, added in order: the result is the same for any number of threads */
 };
