@@ -12,7 +12,6 @@
 #include "bench.h"
 
 #include "libcontact/operator/operator.h"
-#include "libcontact/operator/operator.h"
 #include "libcontact/stress/stress.h"
 
 static size_t threads;

@@ -4,9 +4,6 @@
  * 2.5).
  */
 #include "dct.h"
-#include "planner.h"
-#include "libcontact/common.h"
-#include "libcontact/memory.h"
 
 #include <complex.h> /* before fftw3.h: its complex numbers are then C's own */
 #include <fftw3.h>
@@ -14,6 +11,10 @@
 #include <omp.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "planner.h"
+#include "libcontact/common.h"
+#include "libcontact/memory.h"
 
 struct rc_dct {
     size_t n;

@@ -8,7 +8,6 @@
  * inverse. Periodic boundary: nothing is padded, the spectrum is the kernel's symbol.
  */
 #include "fft.h"
-#include "libcontact/memory.h"
 
 #include <assert.h>
 #include <math.h>
@@ -18,6 +17,7 @@
 
 #include "dct.h"
 #include "fourier.h"
+#include "libcontact/memory.h"
 
 struct rc_fft {
     struct rc_shape shape;
@@ -262,18 +262,17 @@ void
 rc_spectrum_sample(struct rc_spectrum *k, const struct rc_fft *f, unsigned parity,
                    rc_symbol *symbol, const void *of)
 {
-    static const double two_pi = 6.28318530717958647692;
     const struct rc_layout *l = &f->layout;
 
     k->parity = parity;
 #pragma omp parallel for num_threads(l->threads) schedule(static)
     for (size_t i = 0; i < l->cx; i++) {
         double *column = columns_of(f);
-        double qx = two_pi * (double)i / ((double)l->nx * f->shape.dx);
+        double qx = rc_fourier_q(i, l->nx, f->shape.dx);
         bool zero_x = 2 * i == l->nx && parity & RC_ODD_X;
 
         for (size_t j = 0; j < l->cy; j++) {
-            double qy = two_pi * (double)j / ((double)l->ny * f->shape.dy);
+            double qy = rc_fourier_q(j, l->ny, f->shape.dy);
             bool zero_y = 2 * j == l->ny && parity & RC_ODD_Y;
             column[j] = zero_x || zero_y ? 0 : symbol(of, qx, qy);
         }

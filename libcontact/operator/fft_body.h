@@ -20,8 +20,8 @@
 #include <string.h>
 
 #include "fft.h"
-#include "libcontact/memory.h"
 #include "planner.h"
+#include "libcontact/memory.h"
 
 enum {
     LINE = 128 / sizeof(COMPLEX), /* columns taken together: two cache lines, fetched as a pair  */

@@ -1,11 +1,12 @@
 #include "fourier.h"
-#include "planner.h"
 
 #include <fftw3.h> /* after complex.h: fftw_complex is then double complex */
 #include <limits.h>
 #include <omp.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "planner.h"
 
 size_t
 rc_fourier_columns(const struct rc_shape *shape)
@@ -17,12 +18,6 @@ size_t
 rc_fourier_size(const struct rc_shape *shape)
 {
     return shape->ny * rc_fourier_columns(shape);
-}
-
-long
-rc_fourier_number(size_t k, size_t n)
-{
-    return 2 * k <= n ? (long)k : -(long)(n - k);
 }
 
 /* Runs a plan and frees it. Plans are made without measuring, so that the same map gives the same

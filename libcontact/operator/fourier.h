@@ -16,8 +16,20 @@
 /* Complex numbers in one row of the spectrum, and in all of it. */
 size_t rc_fourier_columns(const struct rc_shape *shape);
 size_t rc_fourier_size(const struct rc_shape *shape);
-/* Signed wave number of place k of n. */
-long rc_fourier_number(size_t k, size_t n);
+/* Signed wave number of place k of n; and in rad/m, for n nodes d metres apart. */
+static inline long
+rc_fourier_number(size_t k, size_t n)
+{
+    return 2 * k <= n ? (long)k : -(long)(n - k);
+}
+
+static inline double
+rc_fourier_q(size_t k, size_t n, double d)
+{
+    const double two_pi = 6.28318530717958647692;
+
+    return two_pi * (double)rc_fourier_number(k, n) / ((double)n * d);
+}
 
 /* s_k = sum of v_j exp(-2 pi i jk / n); v is kept. RC_FAIL when a side is too long for FFTW or
  * memory is short. */

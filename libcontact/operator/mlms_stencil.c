@@ -1,11 +1,11 @@
 /*
  * Weights of the interpolation and coefficients of the corrections.
  */
+#include "mlms.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "mlms.h"
 
 void
 rc_mlms_weights(size_t t, double *s)

@@ -1,9 +1,9 @@
 /*
  * One tile of one level: pressures to the coarse grid, corrections there, and displacements back.
  */
-#include <string.h>
-
 #include "mlms.h"
+
+#include <string.h>
 
 /* A rectangle of nodes or places: [x0, x0 + nx) by [y0, y0 + ny); the corner may lie outside. */
 struct area {

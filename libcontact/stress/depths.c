@@ -54,8 +54,8 @@ collect(const struct rc_shape *s, const double *p, struct bins *b, struct rc_err
     }
     for (size_t j = 0; j < s->ny; j++)
         for (size_t i = 0; i < columns; i++) {
-            double qx = two_pi * (double)i / ((double)s->nx * s->dx);
-            double qy = two_pi * (double)rc_fourier_number(j, s->ny) / ((double)s->ny * s->dy);
+            double qx = rc_fourier_q(i, s->nx, s->dx);
+            double qy = rc_fourier_q(j, s->ny, s->dy);
             double q = hypot(qx, qy), a = cabs(wave[j * columns + i]);
             int k = q > 0 ? (int)(log(q / low) / step) : -1;
             if (q > 0) /* columns between the first and the last stand for two */

@@ -16,8 +16,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "libcontact/operator/operator.h"
-
 enum {
     PARTS = 16 /* partial sums, added in order: the result is the same for any number of threads */
 };
@@ -321,17 +319,15 @@ response(const struct plan *plan, int component, const struct rc_wave *w, bool l
 static void
 sum_waves(struct plan *plan, double depth)
 {
-    static const double two_pi = 6.28318530717958647692;
     const struct rc_stress_task *t = &plan->task;
     double from_first = t->options.at + (double)(plan->m - 1) / 2 * plan->d_across;
 
 #pragma omp parallel for num_threads(plan->threads) schedule(static)
     for (size_t a = 0; a < plan->waves; a++) {
-        double q_along = two_pi * (double)a / ((double)plan->n * plan->d_along);
+        double q_along = rc_fourier_q(a, plan->n, plan->d_along);
         double complex sum[RC_COMPONENTS] = {0};
         for (size_t b = 0; b < plan->m; b++) {
-            double q =
-                two_pi * (double)rc_fourier_number(b, plan->m) / ((double)plan->m * plan->d_across);
+            double q = rc_fourier_q(b, plan->m, plan->d_across);
             double qx = plan->transposed ? q : q_along, qy = plan->transposed ? q_along : q;
             bool last_along = 2 * a == plan->n, last_across = 2 * b == plan->m;
             double complex p = plan->source[b * plan->waves + a];

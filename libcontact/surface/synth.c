@@ -180,7 +180,6 @@ make_waves(const struct rc_shape *shape, const struct spectrum *what, double com
            double *height2, double *slope2)
 {
     size_t columns = rc_fourier_columns(shape);
-    double lx = (double)shape->nx * shape->dx, ly = (double)shape->ny * shape->dy;
 
     *height2 = *slope2 = 0;
     for (size_t j = 0; j < shape->ny; j++) {
@@ -188,7 +187,8 @@ make_waves(const struct rc_shape *shape, const struct spectrum *what, double com
         double row_height2 = 0, row_slope2 = 0; /* short sums keep their digits */
         for (size_t i = 0; i < columns; i++) {
             double complex a = amplitude(shape, what, (long)i, ky);
-            double qx = 2 * pi * (double)i / lx, qy = 2 * pi * (double)ky / ly;
+            double qx = rc_fourier_q(i, shape->nx, shape->dx);
+            double qy = rc_fourier_q(j, shape->ny, shape->dy);
             double a2 = creal(a) * creal(a) + cimag(a) * cimag(a);
             if (i > 0)
                 a2 *= 2; /* with the conjugate that is not stored */
