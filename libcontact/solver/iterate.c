@@ -84,11 +84,56 @@ rc_iterate_unknown(struct rc_solver *s)
     s->it.known = s->it.fresh = false;
 }
 
-void
-rc_iterate_known(struct rc_solver *s)
+static bool
+pressure_in(void *at, size_t j, void *to)
 {
+    const struct rc_solver *s = at;
+    size_t n = s->posed.shape.nx;
+    const double *p = s->it.p + j * n;
+    float *row = to;
+    bool any = false;
+
+    for (size_t i = 0; i < n; i++) {
+        row[i] = (float)(p[i] * s->load.per_pressure);
+        any |= p[i] > 0;
+    }
+    return any;
+}
+
+static bool
+gap_out(void *at, size_t j, void *from)
+{
+    const struct rc_solver *s = at;
+    size_t n = s->posed.shape.nx;
+    const float *row = from;
+    const double *h = s->posed.h + j * n;
+    double *v = s->it.v + j * n, sum = 0;
+
+    for (size_t i = 0; i < n; i++) {
+        double u = (double)row[i];
+        v[i] = u * s->load.length - h[i];
+        sum += u * u;
+    }
+    rc_reduce_row(s, j)[0] = sum;
+    return true;
+}
+
+double
+rc_iterate_displace_rows(struct rc_solver *s)
+{
+    double total[RC_SUMS];
+
+    if (s->op->row_cost >= 1) { /* for the same price in double precision */
+        rc_iterate_displace(s);
+        return 0;
+    }
+    rc_reduce_rows_begin(s);
+    rc_operator_apply_rows(s->op, pressure_in, gap_out, s);
+    rc_iterate_count(s, s->op->row_cost);
+    rc_reduce_rows_end(s, total);
     s->it.known = true;
     s->it.fresh = false;
+    return sqrt(total[0] / (double)s->posed.n);
 }
 
 void

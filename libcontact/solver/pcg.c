@@ -115,65 +115,13 @@ state_new(const struct rc_solver *solver, struct rc_err *err)
     return s;
 }
 
-/* ---- K p ---- */
-
-static bool
-pressure_in(void *at, size_t j, void *to)
-{
-    const struct rc_solver *s = ((struct pass *)at)->solver;
-    size_t n = s->posed.shape.nx;
-    const double *p = s->it.p + j * n;
-    float *row = to;
-    bool any = false;
-
-    for (size_t i = 0; i < n; i++) {
-        row[i] = (float)(p[i] * s->load.per_pressure);
-        any |= p[i] > 0;
-    }
-    return any;
-}
-
-static bool
-gap_out(void *at, size_t j, void *from)
-{
-    const struct rc_solver *s = ((struct pass *)at)->solver;
-    size_t n = s->posed.shape.nx;
-    const float *row = from;
-    const double *h = s->posed.h + j * n;
-    double *v = s->it.v + j * n, sum = 0;
-
-    for (size_t i = 0; i < n; i++) {
-        double u = (double)row[i];
-        v[i] = u * s->load.length - h[i];
-        sum += u * u;
-    }
-    rc_reduce_row(s, j)[0] = sum;
-    return true;
-}
+/* ---- v, the working set, the residual ---- */
 
 /* The first v; single precision will do for a while. */
 static void
-displace(struct rc_solver *solver, struct pcg *s)
-{
-    struct pass c = {.solver = solver, .s = s};
-    double total[RC_SUMS];
-
-    if (solver->op->row_cost >= 1) { /* for the same price in double precision */
-        rc_iterate_displace(solver);
-        return;
-    }
-    rc_reduce_rows_begin(solver);
-    rc_operator_apply_rows(solver->op, pressure_in, gap_out, &c);
-    rc_iterate_count(solver, solver->op->row_cost);
-    rc_reduce_rows_end(solver, total);
-    s->drift = solver->op->row_error * sqrt(total[0] / (double)solver->posed.n);
-    rc_iterate_known(solver);
-}
-
-static void
 begin(struct rc_solver *solver, struct pcg *s)
 {
-    displace(solver, s);
+    s->drift = solver->op->row_error * rc_iterate_displace_rows(solver);
     rc_iterate_shift(solver);
     rc_working_set_find(solver, true);
 }

@@ -129,8 +129,10 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
 
     rc_nested_end(s); /* the best is what was reached there */
     *c = (struct rc_contact){.iterations = s->it.iterations};
-    stopped = !s->it.known || !s->it.fresh;
-    if (stopped)
+    stopped = !s->it.known || (!s->it.fresh && !early);
+    if (stopped && early)
+        (void)rc_iterate_displace_rows(s); /* nothing more is known of that pressure anyway */
+    else if (stopped)
         rc_iterate_displace(s);
     rc_iterate_shift(s);
     rc_reduce_blocks(s, count_block, &f, total);

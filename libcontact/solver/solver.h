@@ -166,13 +166,14 @@ void rc_iterate_level(struct rc_solver *solver);
 void rc_iterate_forget(struct rc_solver *solver);
 /* v = K p - h in double precision. */
 void rc_iterate_displace(struct rc_solver *solver);
+/* The same in single precision, where that costs less; the RMS of K p in the units of the operator's
+ * rows, which its error is relative to, or 0 where it was done in double precision. */
+double rc_iterate_displace_rows(struct rc_solver *solver);
 /* The method has moved p, and v with it. Where it also summed v over the elastic nodes, that
  * gives the shift; elastic 0: it has not, or there are none. */
 void rc_iterate_moved(struct rc_solver *solver, double gap, double elastic);
 /* It has moved p alone. */
 void rc_iterate_unknown(struct rc_solver *solver);
-/* v is that of p, in single precision. */
-void rc_iterate_known(struct rc_solver *solver);
 /* Counts begin anew. */
 void rc_iterate_reset(struct rc_solver *solver);
 /* So many more convolutions, in equivalents. */
