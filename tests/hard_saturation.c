@@ -221,7 +221,8 @@ two_waves(const struct hard_case *c, const struct rc_problem *problem, const dou
 
 /* clang-format off */
 static const struct hard_case full_contact[] = {
-    {"wave, full", WAVE, PERIODIC, cosine, 0, 1e-7, 1.001 * 3.14159265358979 * 1e-7 / 64e-6, 0, 0, multiplier, 0},
+    {"wave, full", WAVE, PERIODIC, cosine, 0, 1e-7, 1.001 * 3.14159265358979 * 1e-7 / 64e-6, 0, 0,
+     multiplier, 0},
     {"wave, far beyond", WAVE, PERIODIC, cosine, 0, 1e-7, 0.1, 0, 0, multiplier, 1e-13},
     {"crossed waves, full", WAVE, PERIODIC, crossed, 0, 1e-7, 8e-3, 0, 0, multiplier, 0},
     {"Johnson, 0.05", JGH, PERIODIC, crossed, 0, 1e-6, 0, 0, 0, two_waves, 0},

@@ -96,20 +96,21 @@ test_micrometres(void **state)
 static void
 test_refusals(void **state)
 {
+    /* clang-format off */
     static const struct {
         const char *text;
         enum unit unit;
     } bad[] = {
-        {"", UNIT_M},        {" ", UNIT_M},         {"um", UNIT_M},      {"1.1 u m", UNIT_M},
-        {"1.1umm", UNIT_M},  {"1.1xm", UNIT_M},     {"1.1u", UNIT_M},    {"1.1N", UNIT_M},
-        {"1.1Um", UNIT_M},   {"1,1um", UNIT_M},     {"1.1.2um", UNIT_M}, {"nan", UNIT_M},
-        {"inf", UNIT_M},     {"-inf", UNIT_N},      {"nanm", UNIT_M},    {"0x10", UNIT_N},
-        {"1e400", UNIT_N},   {"1e305GPa", UNIT_PA}, {"--1", UNIT_N},     {"240 N N", UNIT_N},
-        {"5m", UNIT_NONE},   {"5%", UNIT_NONE},     {"6GPa", UNIT_N},    {"6gPa", UNIT_PA},
-        {"6Gpa", UNIT_PA},   {"4X", UNIT_BYTES},    {"4m", UNIT_BYTES},  {"4mn", UNIT_S},
-        {"4hs", UNIT_S},     {"1e", UNIT_NONE},     {"\xc2m", UNIT_M},   {"1.1\xb5m", UNIT_M},
-        {"1um,2um", UNIT_M}, {"0:1:3", UNIT_M},
+        {"", UNIT_M},        {" ", UNIT_M},        {"um", UNIT_M},        {"1.1 u m", UNIT_M},
+        {"1.1umm", UNIT_M},  {"1.1xm", UNIT_M},    {"1.1u", UNIT_M},      {"1.1N", UNIT_M},
+        {"1.1Um", UNIT_M},   {"1,1um", UNIT_M},    {"1.1.2um", UNIT_M},   {"nan", UNIT_M},
+        {"inf", UNIT_M},     {"-inf", UNIT_N},     {"nanm", UNIT_M},      {"0x10", UNIT_N},
+        {"1e400", UNIT_N},   {"1e305GPa", UNIT_PA}, {"--1", UNIT_N},      {"240 N N", UNIT_N},
+        {"5m", UNIT_NONE},   {"5%", UNIT_NONE},    {"6GPa", UNIT_N},      {"6gPa", UNIT_PA},
+        {"6Gpa", UNIT_PA},   {"4X", UNIT_BYTES},   {"4m", UNIT_BYTES},    {"4mn", UNIT_S},   {"4hs", UNIT_S},    {"1e", UNIT_NONE},
+        {"\xc2m", UNIT_M},   {"1.1\xb5m", UNIT_M}, {"1um,2um", UNIT_M},   {"0:1:3", UNIT_M},
     };
+    /* clang-format on */
 
     (void)state;
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
