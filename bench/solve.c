@@ -1,14 +1,18 @@
 /*
  * What a contact costs:
  *
- *     bench-solve [-n SIZE,SIZE...] [-t TOL] [-m METHOD] [table] [estimate]        (default: table)
+ *     bench-solve [-n SIZE,SIZE...] [-t TOL] [-m METHOD] [table] [estimate] [growth] [whole]
  *
  * table     convolution equivalents, iterations and seconds to a true relative L1 error of the
  *           pressure (default 1e-4), coarse levels included, and what the certified solution to that
  *           tolerance costs
+ *           (when nothing is named)
  * estimate  estimate over true error, every iteration
+ * growth    work against size on periodic surfaces rough down to 2 nodes, with and without a
+ *           roll-off, and down to 8: equivalents to the true error, and of the certified solution
+ * whole     seconds of certified solutions beside those of a convolution on the same grid
  *
- * Surfaces: periodic self-affine (Hurst 0.8, cut at 8 nodes, rolled off at an eighth of the map)
+ * Surfaces of the first two: periodic self-affine (Hurst 0.8, cut at 8 nodes, rolled off at an eighth of the map)
  * and a sphere with such roughness on the free half-space. The truth is the same solver at 1e-9.
  * RC_THREADS sets the threads.
  */
@@ -36,6 +40,15 @@ static const struct surface surfaces[] = {
 enum {
     SURFACES = sizeof surfaces / sizeof *surfaces
 };
+
+/* Roughness of a periodic map. */
+struct roughness {
+    double cut;     /* shortest wave, nodes                      */
+    double rolloff; /* longest self-affine one over the side     */
+};
+static const struct roughness roughnesses[] = {{2, 0.25}, {2, 1}, {8, 0.25}};
+/* Mean pressures over E* and RMS slope for contact of about 1, 11, 39, 83 and 97 %. */
+static const double pressures[] = {0.004, 0.045, 0.185, 0.55, 0.9};
 
 /* From the command line. */
 static size_t threads, sizes[16] = {512, 1024, 2048}, count = 3;
@@ -74,13 +87,14 @@ make(const struct surface *what, struct rc_shape shape, double *h)
 }
 
 static double *
-truth(struct rc_shape shape, const double *h, struct rc_problem problem, struct rc_contact *c)
+truth(struct rc_shape shape, const double *h, struct rc_problem problem, double tol,
+      struct rc_contact *c)
 {
     size_t n = shape.nx * shape.ny;
     double *p = map_new(n);
     struct rc_solver *s;
 
-    problem.tol = 1e-9;
+    problem.tol = tol;
     problem.method = NULL;
     s = solver_new(shape, h, problem);
     solver_run(s);
@@ -103,7 +117,7 @@ table(size_t m)
     for (size_t k = 0; k < SURFACES; k++) {
         struct rc_problem problem = make(&surfaces[k], shape, h);
         struct rc_contact exact, c;
-        double *p = truth(shape, h, problem, &exact), seconds, reached = NAN;
+        double *p = truth(shape, h, problem, 1e-9, &exact), seconds, reached = NAN;
         struct rc_solver *s;
         size_t its = 0;
 
@@ -148,7 +162,7 @@ estimate(size_t m)
     for (size_t k = 0; k < SURFACES; k++) {
         struct rc_problem problem = make(&surfaces[k], shape, h);
         struct rc_contact exact;
-        double *p = truth(shape, h, problem, &exact), before, *old = map_new(n);
+        double *p = truth(shape, h, problem, 1e-9, &exact), before, *old = map_new(n);
         struct rc_solver *s;
         enum rc_status status;
 
@@ -171,6 +185,154 @@ estimate(size_t m)
     free(h);
 }
 
+/* ---- work against size ---- */
+
+static struct rc_problem
+make_periodic(const struct roughness *what, double pressure, struct rc_shape shape, double *h)
+{
+    static const double slope = 0.1, estar = 1e9;
+    double side = (double)shape.nx * shape.dx;
+    struct rc_selfaffine roughness = {.hurst = 0.8,
+                                      .rms_slope = slope,
+                                      .short_cut = what->cut * shape.dx,
+                                      .rolloff = what->rolloff * side,
+                                      .seed = 5};
+    struct rc_err err;
+
+    must_be(rc_synth_selfaffine(&shape, &roughness, h, &err), &err);
+    return (struct rc_problem){.boundary = RC_PERIODIC,
+                               .estar = estar,
+                               .load = pressure * estar * slope * side * side,
+                               .tol = wanted,
+                               .threads = threads};
+}
+
+/* Equivalents until the pressure is as near to p as was asked for; *its: iterations. */
+static double
+work_to(const double *p, struct rc_shape shape, const double *h, struct rc_problem problem,
+        size_t *its)
+{
+    struct rc_solver *s;
+    double reached = NAN;
+
+    problem.tol = 1e-12; /* steps without an end: how far is it? */
+    problem.method = method;
+    s = solver_new(shape, h, problem);
+    while (rc_solver_step(s) == RC_MORE)
+        if (error_l1(shape.nx * shape.ny, rc_solver_pressure(s), p) <= wanted) {
+            reached = rc_solver_convolutions(s);
+            break;
+        }
+    *its = rc_solver_iterations(s);
+    rc_solver_free(s);
+    return reached;
+}
+
+static void
+growth(void)
+{
+    printf("periodic, Hurst 0.8, %s, true error %.0e, %zu threads\n", method, wanted, threads);
+    printf("%4s %8s %6s %8s | %4s %6s | %4s %6s %8s %8s %8s\n", "cut", "roll-off", "nodes",
+           "contact", "its", "equiv", "its", "equiv", "seconds", "estimate", "true");
+    for (size_t r = 0; r < sizeof roughnesses / sizeof *roughnesses; r++)
+        for (size_t k = 0; k < sizeof pressures / sizeof *pressures; k++)
+            for (size_t i = 0; i < count; i++) {
+                size_t m = sizes[i], its;
+                struct rc_shape shape = {m, m, 1e-6, 1e-6};
+                double *h = map_new(m * m), *p, reached, seconds;
+                struct rc_problem problem = make_periodic(&roughnesses[r], pressures[k], shape, h);
+                struct rc_contact exact;
+                struct rc_solver *s;
+
+                p = truth(shape, h, problem, 1e-3 * wanted, &exact);
+                reached = work_to(p, shape, h, problem, &its);
+                problem.method = method;
+                seconds = now();
+                s = solver_new(shape, h, problem);
+                solver_run(s);
+                seconds = now() - seconds;
+                printf("%4g %8g %6zu %7.1f%% | %4zu %6.1f | %4zu %6.1f %8.3f %8.1e %8.1e\n",
+                       roughnesses[r].cut, roughnesses[r].rolloff, m, 100 * exact.contact_fraction,
+                       its, reached, rc_solver_iterations(s), rc_solver_convolutions(s), seconds,
+                       rc_solver_error(s), error_l1(m * m, rc_solver_pressure(s), p));
+                fflush(stdout);
+                rc_solver_free(s);
+                free(p);
+                free(h);
+            }
+}
+
+/* ---- a solve beside its convolutions ---- */
+
+struct conv_work {
+    struct rc_conv *conv;
+    const double *p;
+    double *u;
+};
+
+static void
+conv_run(void *at)
+{
+    struct conv_work *w = at;
+
+    rc_conv_apply(w->conv, w->p, w->u);
+}
+
+struct solve {
+    struct rc_shape shape;
+    const double *h;
+    struct rc_problem problem;
+    double convolutions;
+};
+
+static void
+solve_run(void *at)
+{
+    struct solve *w = at;
+    struct rc_solver *s = solver_new(w->shape, w->h, w->problem);
+
+    solver_run(s);
+    w->convolutions = rc_solver_convolutions(s);
+    rc_solver_free(s);
+}
+
+static void
+whole(void)
+{
+    static const size_t some[] = {0, 2, 4};
+
+    printf("periodic, Hurst 0.8, tolerance %.0e, %zu threads\n", wanted, threads);
+    printf("%4s %6s %8s | %8s %8s %10s %6s\n", "cut", "nodes", "pressure", "seconds", "equiv",
+           "one, ms", "ratio");
+    for (size_t r = 0; r < sizeof roughnesses / sizeof *roughnesses; r += 2)
+        for (size_t i = 0; i < count; i++)
+            for (size_t k = 0; k < sizeof some / sizeof *some; k++) {
+                size_t m = sizes[i];
+                struct rc_shape shape = {m, m, 1e-6, 1e-6};
+                double *h = map_new(m * m), *u = map_new(m * m), least[2];
+                double pressure = pressures[some[k]];
+                struct solve one = {.shape = shape, .h = h};
+                struct rc_conv_options options = {.boundary = RC_PERIODIC,
+                                                  .engine = "fft64",
+                                                  .threads = threads};
+                struct rc_err err;
+                struct rc_conv *conv = must(rc_conv_new(&shape, 1e9, &options, &err));
+                struct conv_work convolution = {conv, h, u};
+                struct work work[] = {{solve_run, &one}, {conv_run, &convolution}};
+
+                one.problem = make_periodic(&roughnesses[r], pressure, shape, h);
+                one.problem.method = method;
+                take_turns(2, work, 5, 20, least);
+                printf("%4g %6zu %8g | %8.3f %8.1f %10.2f %6.2f\n", roughnesses[r].cut, m,
+                       pressure, least[0], one.convolutions, 1e3 * least[1],
+                       least[0] / (one.convolutions * least[1]));
+                fflush(stdout);
+                rc_conv_free(conv);
+                free(h);
+                free(u);
+            }
+}
+
 static void
 tables(void)
 {
@@ -188,7 +350,8 @@ estimates(void)
 int
 main(int argc, char **argv)
 {
-    static const struct part parts[] = {{"table", tables, false}, {"estimate", estimates, true}};
+    static const struct part parts[] = {{"table", tables, false}, {"estimate", estimates, true},
+                                        {"growth", growth, true}, {"whole", whole, true}};
 
     threads = threads_wanted();
     for (int option; (option = getopt(argc, argv, "n:t:m:")) != -1;)
