@@ -48,7 +48,7 @@ struct roughness {
 };
 static const struct roughness roughnesses[] = {{2, 0.25}, {2, 1}, {8, 0.25}};
 /* Mean pressures over E* and RMS slope for contact of about 1, 11, 39, 83 and 97 %. */
-static const double pressures[] = {0.004, 0.045, 0.185, 0.55, 0.9};
+static const double pressures[] = {0.004, 0.049, 0.2, 0.6, 1.05};
 
 /* From the command line. */
 static size_t threads, sizes[16] = {512, 1024, 2048}, count = 3;
@@ -312,9 +312,8 @@ whole(void)
                 double *h = map_new(m * m), *u = map_new(m * m), least[2];
                 double pressure = pressures[some[k]];
                 struct solve one = {.shape = shape, .h = h};
-                struct rc_conv_options options = {.boundary = RC_PERIODIC,
-                                                  .engine = "fft64",
-                                                  .threads = threads};
+                struct rc_conv_options options = {
+                    .boundary = RC_PERIODIC, .engine = "fft64", .threads = threads};
                 struct rc_err err;
                 struct rc_conv *conv = must(rc_conv_new(&shape, 1e9, &options, &err));
                 struct conv_work convolution = {conv, h, u};
@@ -323,8 +322,8 @@ whole(void)
                 one.problem = make_periodic(&roughnesses[r], pressure, shape, h);
                 one.problem.method = method;
                 take_turns(2, work, 5, 20, least);
-                printf("%4g %6zu %8g | %8.3f %8.1f %10.2f %6.2f\n", roughnesses[r].cut, m,
-                       pressure, least[0], one.convolutions, 1e3 * least[1],
+                printf("%4g %6zu %8g | %8.3f %8.1f %10.2f %6.2f\n", roughnesses[r].cut, m, pressure,
+                       least[0], one.convolutions, 1e3 * least[1],
                        least[0] / (one.convolutions * least[1]));
                 fflush(stdout);
                 rc_conv_free(conv);
@@ -350,8 +349,10 @@ estimates(void)
 int
 main(int argc, char **argv)
 {
-    static const struct part parts[] = {{"table", tables, false}, {"estimate", estimates, true},
-                                        {"growth", growth, true}, {"whole", whole, true}};
+    static const struct part parts[] = {{"table", tables, false},
+                                        {"estimate", estimates, true},
+                                        {"growth", growth, true},
+                                        {"whole", whole, true}};
 
     threads = threads_wanted();
     for (int option; (option = getopt(argc, argv, "n:t:m:")) != -1;)

@@ -43,7 +43,7 @@ contact_take(size_t m)
 /* What the estimated error may be over the true one: below estimate_small, elastic or with an
  * active hardness, and before. It is never less than 1. */
 static const double estimate_small = 1e-3;
-static const double estimate_elastic = 1.5, estimate_plastic = 2.5, estimate_early = 4;
+static const double estimate_elastic = 1.5, estimate_plastic = 1.6, estimate_early = 4;
 
 static inline struct solved
 solve(struct rc_shape shape, const double *h, struct rc_problem problem)

@@ -37,6 +37,7 @@ enum {
 
 struct rc_spectrum {
     unsigned parity;
+    double total; /* at wave number 0    */
     void *values; /* cx columns of cy numbers, as fft.h has them, divided by px py */
 };
 
@@ -183,8 +184,16 @@ store_column(struct rc_spectrum *k, const struct rc_fft *f, size_t c, const doub
 {
     const struct rc_layout *l = &f->layout;
 
+    if (c == 0)
+        k->total = s[0];
     f->ops->store(l, c, 1 / ((double)l->px * (double)l->py), k->parity & RC_ODD_Y ? -1 : 1, s,
                   k->values);
+}
+
+double
+rc_spectrum_total(const struct rc_spectrum *k)
+{
+    return k->total;
 }
 
 /* ---- from a quarter of the values ---- */

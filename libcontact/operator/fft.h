@@ -31,6 +31,8 @@ size_t rc_spectrum_memory(const struct rc_shape *shape, enum rc_boundary boundar
 /* NULL when memory is short. */
 struct rc_spectrum *rc_spectrum_new(const struct rc_fft *fft, struct rc_err *err);
 void rc_spectrum_free(struct rc_spectrum *spectrum);
+/* Its value at wave number 0: of a kernel given by values, their sum over a period. */
+double rc_spectrum_total(const struct rc_spectrum *spectrum);
 /* Makes it the spectrum of a kernel's component: on the free boundary the transform of its values,
  * on the periodic one its symbol. RC_FAIL when memory is short or the kernel has no symbol. */
 enum rc_status rc_spectrum_set(struct rc_spectrum *spectrum, const struct rc_fft *fft,

@@ -61,15 +61,28 @@ diagonal(const struct rc_shape *s, double estar)
     return self;
 }
 
-/* The mean of |q| / 2 over the wave numbers of the grid, |qx| <= pi/dx and |qy| <= pi/dy,
- * lengths in units of sqrt(dx dy): half the mean distance of a rectangle's points from its
- * middle. */
-static double
-inverse_diagonal(const struct rc_shape *unit)
+/* The mean of |q| / 2 cos(i qx dx) cos(j qy dy) over the wave numbers of the grid, |qx| <= pi/dx and
+ * |qy| <= pi/dy, lengths in units of sqrt(dx dy). Without the cosines it is half the mean distance of a
+ * rectangle's points from its middle; with them, a sum over the middles of cells. */
+static void
+set_inverse_near(struct rc_operator *op, const struct rc_shape *unit)
 {
-    double a = pi / unit->dx, b = pi / unit->dy, d = hypot(a, b);
+    enum {
+        CELLS = 64
+    };
+    double a = pi / unit->dx, b = pi / unit->dy, d = hypot(a, b), sum[2][2] = {{0}};
 
-    return (2 * d + a * a / b * asinh(b / a) + b * b / a * asinh(a / b)) / 12;
+    for (int l = 0; l < CELLS; l++)
+        for (int k = 0; k < CELLS; k++) {
+            double x = (k + 0.5) / CELLS, y = (l + 0.5) / CELLS, q = hypot(a * x, b * y) / 2;
+            sum[0][1] += q * cos(pi * x) / (CELLS * CELLS);
+            sum[1][0] += q * cos(pi * y) / (CELLS * CELLS);
+            sum[1][1] += q * cos(pi * x) * cos(pi * y) / (CELLS * CELLS);
+        }
+    sum[0][0] = (2 * d + a * a / b * asinh(b / a) + b * b / a * asinh(a / b)) / 12;
+    for (int j = 0; j < 3; j++)
+        for (int i = 0; i < 3; i++)
+            op->inverse_near[j][i] = sum[j != 1][i != 1];
 }
 
 /* The inverse, (-Laplace)^(1/2) E* / 2, ties two nodes the stronger the nearer they are: as
@@ -132,12 +145,12 @@ half_space_new(const struct rc_shape *shape, const struct rc_operator_options *o
                                  .unit = sqrt(shape->dx) * sqrt(shape->dy) / o->estar,
                                  .norm = norm(shape, o->boundary, o->estar),
                                  .diagonal = diagonal(shape, o->estar),
-                                 .inverse_diagonal = inverse_diagonal(&unit),
                                  .extension = 0.5,
                                  .row_error = 2e-7, /* 1e-5 for |u| of 50, at 1024 x 1024 */
                                  .row_cost = 0.5,
                                  .factor_cost = 0.5,
                                  .mean_free = o->boundary == RC_PERIODIC};
+    set_inverse_near(&s->op, &unit);
     set_neighbours(&s->op, &unit);
     if ((s->fft = rc_fft_new(&unit, o->boundary, RC_SINGLE, o->threads, err)) == NULL ||
         (s->kernel = rc_spectrum_new(s->fft, err)) == NULL ||

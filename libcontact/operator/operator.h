@@ -41,9 +41,10 @@ struct rc_operator {
     double unit;     /* m/Pa                                                                   */
     double norm;     /* m/Pa: a bound of the largest eigenvalue                                */
     double diagonal; /* m/Pa: displacement of a node under unit pressure on its own cell       */
-    /* Of the inverse, in the units of rows: what moves a node by 1 while all others stay where they
-     * are, and how strongly a node is tied to its eight neighbours, up to a factor. */
-    double inverse_diagonal;
+    /* Of the inverse, in the units of rows: what holds a node and its eight neighbours when it is
+     * moved by 1 and all others stay where they are; and how strongly smooth motions tie it to these
+     * eight, up to a factor. */
+    double inverse_near[3][3];
     double neighbour[3][3];
     double extension;   /* the constant c of the preconditioner's extension                    */
     double error;       /* of K p, relative to the sum of |K| |p|                              */

@@ -4,8 +4,8 @@
  * Working set W: the elastic nodes and those at a bound that want to leave it, but for those that
  * would only be pushed back (working_set.c). Residual r = -g on W with zero mean, z = E' A E r with
  * zero mean, direction z + beta delta conjugate to the last step delta unless that was clipped;
- * restarted when beta is negative; components that point out of the box are dropped. The step is
- * projected onto {0 <= p <= H, sum p = S} by one shift of the nodes of W (projection.c). Scaling
+ * restarted when beta is negative. The step finds its way back into {0 <= p <= H, sum p = S} tile by
+ * tile (tiles.c), or, where that leads nowhere, by one shift of the nodes of W (projection.c). Scaling
  * instead, as in (31b) of Polonsky and Keer, fails near saturation; shifting all nodes drags every
  * separated one into contact.
  *
@@ -47,18 +47,18 @@ static const double enough = 0.75;
 /* An estimate above this at the start means that heights are so much larger than the displacement that
  * each node touches, or yields, nearly independently of the others: a better start is then that of
  * springs, each of the stiffness of its own cell. */
-static const double apart = 100;
+static const double apart = 1;
 
 struct pcg {
-    float *delta, *q; /* the last step and K times it, in the units of the operator's rows */
-    uint16_t *list;   /* scratch of the projection                                         */
-    double curvature; /* delta'q; 0: the next direction is not conjugate to anything       */
-    double alpha;     /* length foretold for the next step                                 */
-    double drift;     /* what single precision may have done to p, relative                */
-    double estimate;  /* the last one; NAN: none yet                                       */
-    double rate;      /* of the last two: how much smaller it has become                   */
-    double best;      /* the least                                                         */
-    size_t best_at;   /* its iteration                                                     */
+    float *delta, *q;      /* the last step and K times it, in the units of the operator's rows */
+    struct rc_tile *tiles; /* scratch of a move                                            */
+    double curvature;      /* delta'q; 0: the next direction is not conjugate to anything       */
+    double alpha;          /* length foretold for the next step                                 */
+    double drift;          /* what single precision may have done to p, relative                */
+    double estimate;       /* the last one; NAN: none yet                                       */
+    double rate;           /* of the last two: how much smaller it has become                   */
+    double best;           /* the least                                                         */
+    size_t best_at;        /* its iteration                                                     */
 };
 
 /* What the passes over all nodes share. */
@@ -66,7 +66,6 @@ struct pass {
     struct rc_solver *solver;
     struct pcg *s;
     double a, b;
-    struct rc_move *move;
 };
 
 static void
@@ -78,7 +77,7 @@ state_free(void *at)
         return;
     free(s->delta);
     free(s->q);
-    free(s->list);
+    free(s->tiles);
     free(s);
 }
 
@@ -103,13 +102,14 @@ state_new(const struct rc_solver *solver, struct rc_err *err)
     if (s != NULL) {
         s->delta = rc_alloc(n, sizeof *s->delta);
         s->q = rc_alloc(n, sizeof *s->q);
-        s->list = rc_alloc(n, sizeof *s->list);
+        s->tiles = rc_alloc(rc_tiles(&solver->posed.shape), sizeof *s->tiles);
     }
-    if (s == NULL || s->delta == NULL || s->q == NULL || s->list == NULL) {
+    if (s == NULL || s->delta == NULL || s->q == NULL || s->tiles == NULL) {
         rc_err_set(err, "out of memory for the iteration of %zu nodes", n);
         state_free(s);
         return NULL;
     }
+    memset(s->q, 0, n * sizeof *s->q);
     s->alpha = 0.9;
     forget(s);
     return s;
@@ -142,100 +142,89 @@ renew(struct rc_solver *solver, struct pcg *s)
 enum { /* sums of z */
     Z,
     ZQ,
-    Q
+    LOAD,
+    LOAD_Q
 };
+
+RC_CLONES static void
+products(size_t n, const unsigned char *restrict w, const float *restrict z,
+         const float *restrict q, const float *restrict weight, double *restrict sums)
+{
+    double sum = 0, product = 0, load = 0, other = 0;
+
+#pragma omp simd reduction(+ : sum, product, load, other)
+    for (size_t i = 0; i < n; i++) {
+        float m = w[i] ? rc_load_of(weight[i]) : 0;
+        double a = (double)z[i], b = (double)q[i];
+        sum += a;
+        product += a * b;
+        load += (double)m;
+        other += (double)m * b;
+    }
+    sums[Z] = sum;
+    sums[ZQ] = product;
+    sums[LOAD] = load;
+    sums[LOAD_Q] = other;
+}
 
 static bool
 corrected(void *at, size_t j, void *row)
 {
     const struct pass *c = at;
-    size_t n = c->solver->posed.shape.nx;
-    const float *z = c->solver->z + j * n, *q = c->s->q + j * n;
-    const unsigned char *w = c->solver->set.w + j * n;
-    double sum = 0, product = 0, other = 0;
+    const struct rc_solver *s = c->solver;
+    size_t n = s->posed.shape.nx, k = j * n;
+    double *sums = rc_reduce_row(s, j);
 
     (void)row;
-    if (c->s->curvature > 0) {
-#pragma omp simd reduction(+ : sum, product, other)
-        for (size_t i = 0; i < n; i++) {
-            double a = (double)z[i], b = (double)q[i];
-            sum += a;
-            product += a * b;
-            other += w[i] ? b : 0;
-        }
-    } else {
-#pragma omp simd reduction(+ : sum)
-        for (size_t i = 0; i < n; i++)
-            sum += (double)z[i];
-    }
-    rc_reduce_row(c->solver, j)[Z] = sum;
-    rc_reduce_row(c->solver, j)[ZQ] = product;
-    rc_reduce_row(c->solver, j)[Q] = other;
+    products(n, s->set.w + k, s->z + k, c->s->q + k, rc_preconditioner_load(s->preconditioner) + k,
+             sums);
     return true;
 }
 
-/* z becomes the direction: a is the mean of z, b beta. */
-RC_CLONES static void
-turn(size_t n, const double *restrict p, double hardness, const unsigned char *restrict w,
-     const float *restrict delta, float mean, float beta, float *restrict z, double *sums)
-{
-    double size = 0, sum = 0;
-    int kept = 0;
-
-#pragma omp simd reduction(+ : size, sum, kept)
-    for (size_t k = 0; k < n; k++) {
-        float e = z[k] - mean, d = e + (beta != 0 ? beta * delta[k] : 0);
-        bool out = ((p[k] <= 0) & (d < 0)) | ((p[k] >= hardness) & (d > 0)) | (w[k] == 0);
-        size += w[k] ? (double)fabsf(e) : 0;
-        d = out ? 0 : d;
-        z[k] = d;
-        sum += (double)d;
-        kept += d != 0;
-    }
-    sums[0] = size;
-    sums[1] = sum;
-    sums[2] = kept;
-}
-
+/* The direction z + b delta on W, and its sum. */
 static void
 turn_block(void *at, size_t first, size_t n, double *sums)
 {
     const struct pass *c = at;
     const struct rc_solver *s = c->solver;
+    const float b = (float)c->b;
 
-    turn(n, s->it.p + first, s->posed.hardness, s->set.w + first, c->s->delta + first, (float)c->a,
-         (float)c->b, s->z + first, sums);
+    for (size_t k = first; k < first + n; k++) {
+        s->z[k] += s->set.w[k] ? b * c->s->delta[k] : 0;
+        sums[0] += s->set.w[k] ? (double)s->z[k] : 0;
+    }
 }
 
-/* z becomes the direction, `mean` its mean; the estimate of the error of p. */
+/* z becomes the direction, `mean` its mean over W; the estimate of the error of p. */
 static double
 precondition(struct rc_solver *solver, struct pcg *s, double *mean)
 {
     struct pass c = {.solver = solver, .s = s};
-    double total[RC_SUMS], above;
+    double total[RC_SUMS], above, share, estimate;
 
+    *mean = 0;
     if (solver->set.size < 2)
         return 0;
     rc_reduce_rows_begin(solver);
     rc_working_set_correct(solver, corrected, &c);
     rc_reduce_rows_end(solver, total);
-    c.a = total[Z] / (double)solver->set.size;
-    above = total[ZQ] - c.a * total[Q];
+    share = total[Z] / total[LOAD];
+    above = total[ZQ] - share * total[LOAD_Q];
     c.b = s->curvature > 0 && above < 0 ? -above / s->curvature : 0;
-    rc_reduce_blocks(solver, turn_block, &c, total);
-    *mean = total[2] > 0 ? total[1] / total[2] : 0;
-    if (solver->it.elastic == 0 && solver->set.size > 0)
-        return INFINITY; /* some want to move, but no gap says how far */
-    return (total[0] + solver->set.left_out) / solver->load.per_pressure / solver->load.sum +
-           rc_iterate_operator_error(solver);
+    estimate = rc_working_set_error(solver, share);
+    if (c.b > 0) {
+        rc_reduce_blocks(solver, turn_block, &c, total);
+        *mean = total[0] / (double)solver->set.size;
+    }
+    return estimate;
 }
 
 /* What rounding has made of the load is put right. Should memory be short, a little of it is
  * missing, and the result says so. */
 static void
-restore(struct rc_solver *solver, double carried)
+restore(struct rc_solver *solver)
 {
-    (void)rc_projection_restore(solver, carried, NULL);
+    (void)rc_projection_restore(solver, rc_iterate_carried(solver), NULL);
 }
 
 static void
@@ -250,7 +239,7 @@ start_from_springs(struct rc_solver *solver)
     for (size_t k = 0; k < solver->posed.n; k++)
         solver->it.p[k] = stiffness * solver->posed.h[k];
     rc_projection_of(solver->posed.n, solver->posed.hardness, solver->load.sum, solver->it.p);
-    restore(solver, rc_iterate_carried(solver));
+    restore(solver);
 }
 
 /* The direction, its mean, and the estimate. One that is below the tolerance has to come from v in
@@ -280,35 +269,6 @@ find_direction(struct rc_solver *solver, struct pcg *s, double *mean)
 
 /* ---- a step along it, clipped, with one convolution of what was left ---- */
 
-enum { /* sums of a move */
-    SIZE,
-    CARRIED
-};
-
-/* W moves by rc_move, the others stay; where nothing is clipped, how much of it fits into the box. */
-RC_CLONES static void
-move_by(size_t n, double *restrict p, const unsigned char *restrict w, const float *restrict d,
-        double hardness, double alpha, double mean, double shift, double scale,
-        float *restrict delta, double *sums)
-{
-    double size = 0, carried = 0;
-
-#pragma omp simd reduction(+ : size, carried)
-    for (size_t k = 0; k < n; k++) {
-        double e = (double)d[k], y = p[k] + shift + (e != 0 ? alpha * (e - mean) : 0), change;
-        y = y > 0 ? y : 0;
-        y = y < hardness ? y : hardness;
-        y = w[k] ? y : p[k];
-        change = y - p[k];
-        p[k] = y;
-        delta[k] = (float)(change * scale);
-        size += fabs(change);
-        carried += y;
-    }
-    sums[SIZE] = size;
-    sums[CARRIED] = carried;
-}
-
 /* After a move: the largest part of the way to a bound that any node has gone. */
 RC_CLONES static double
 farthest(size_t n, const double *restrict p, const float *restrict delta, double hardness,
@@ -326,18 +286,26 @@ farthest(size_t n, const double *restrict p, const float *restrict delta, double
 }
 
 static void
-move_block(void *at, size_t first, size_t n, double *sums)
+farthest_block(void *at, size_t first, size_t n, double *sums)
 {
     const struct pass *c = at;
-    struct rc_solver *s = c->solver;
-    const struct rc_move *m = c->move;
-    float *delta = c->s->delta + first;
+    const struct rc_solver *s = c->solver;
 
-    move_by(n, s->it.p + first, s->set.w + first, m->d + first, s->posed.hardness, m->alpha,
-            m->mean, m->shift, s->load.per_pressure, delta, sums);
-    if (!m->clipped)
-        sums[RC_MOST] =
-            farthest(n, s->it.p + first, delta, s->posed.hardness, 1 / s->load.per_pressure);
+    sums[RC_MOST] = farthest(n, s->it.p + first, c->s->delta + first, s->posed.hardness,
+                             1 / s->load.per_pressure);
+}
+
+RC_CLONES static bool
+copy(size_t n, const float *restrict from, float *restrict to)
+{
+    int any = 0;
+
+#pragma omp simd reduction(| : any)
+    for (size_t i = 0; i < n; i++) {
+        to[i] = from[i];
+        any |= from[i] != 0;
+    }
+    return any != 0;
 }
 
 static bool
@@ -345,47 +313,61 @@ step_in(void *at, size_t j, void *to)
 {
     const struct pass *c = at;
     size_t n = c->solver->posed.shape.nx;
-    const float *delta = c->s->delta + j * n;
-    float *row = to;
-    bool any = false;
 
-    for (size_t i = 0; i < n; i++) {
-        row[i] = delta[i];
-        any |= delta[i] != 0;
-    }
-    return any;
+    return copy(n, c->s->delta + j * n, to);
 }
 
 enum {
-    SLOPE,     /* delta'g                                  */
-    CURVATURE, /* delta'q                                  */
-    GAP,       /* v after the whole step on elastic nodes  */
-    ELASTIC,
-    SQUARE /* q'q                                      */
+    SLOPE,     /* delta'g                       */
+    CURVATURE, /* delta'q                       */
+    SQUARE,    /* q'q                           */
+    GAP,       /* of v over the elastic nodes   */
+    PULL,      /* of q there                    */
+    ELASTIC,   /* how many                      */
+    CARRIED    /* of p                          */
 };
 
 RC_CLONES static void
 along(size_t n, const double *restrict p, const double *restrict v, double hardness, double shift,
-      double length, const float *delta, const float *row, float *q, double *sums)
+      const float *restrict delta, const float *restrict row, float *restrict q,
+      double *restrict sums)
 {
-    double slope = 0, curvature = 0, gap = 0, elastic = 0, square = 0;
+    double slope = 0, curvature = 0, square = 0, gap = 0, pull = 0, elastic = 0, carried = 0;
 
-#pragma omp simd reduction(+ : slope, curvature, gap, elastic, square)
+#pragma omp simd reduction(+ : slope, curvature, square, gap, pull, elastic, carried)
     for (size_t i = 0; i < n; i++) {
         double d = (double)delta[i], u = (double)row[i];
-        bool in = (p[i] > 0) & (p[i] < hardness);
+        double in = p[i] <= 0 ? 0 : p[i] < hardness ? 1 : 0;
         q[i] = row[i];
         slope += d * (v[i] - shift);
         curvature += d * u;
         square += u * u;
-        gap += in ? v[i] + length * u : 0;
-        elastic += in ? 1 : 0;
+        gap += in * v[i];
+        pull += in * u;
+        elastic += in;
+        carried += p[i];
     }
-    sums[SLOPE] = slope;
-    sums[CURVATURE] = curvature;
-    sums[GAP] = gap;
-    sums[ELASTIC] = elastic;
-    sums[SQUARE] = square;
+    sums[SLOPE] += slope;
+    sums[CURVATURE] += curvature;
+    sums[SQUARE] += square;
+    sums[GAP] += gap;
+    sums[PULL] += pull;
+    sums[ELASTIC] += elastic;
+    sums[CARRIED] += carried;
+}
+
+/* Where no node is in the set none has moved or is pressed. */
+RC_CLONES static double
+beside(size_t n, const float *restrict row, float *restrict q)
+{
+    double square = 0;
+
+#pragma omp simd reduction(+ : square)
+    for (size_t i = 0; i < n; i++) {
+        q[i] = row[i];
+        square += (double)row[i] * (double)row[i];
+    }
+    return square;
 }
 
 static bool
@@ -393,10 +375,20 @@ step_out(void *at, size_t j, void *from)
 {
     const struct pass *c = at;
     const struct rc_solver *s = c->solver;
-    size_t n = s->posed.shape.nx, k = j * n;
+    size_t nx = s->posed.shape.nx;
+    double *sums = rc_reduce_row(s, j);
+    const float *row = from;
 
-    along(n, s->it.p + k, s->it.v + k, s->posed.hardness, s->it.shift, s->load.length,
-          c->s->delta + k, from, c->s->q + k, rc_reduce_row(s, j));
+    for (size_t i = 0, n; i < nx; i += n) {
+        size_t k = j * nx + i;
+        bool in;
+        n = rc_working_set_stretch(s, k, nx - i, &in);
+        if (in)
+            along(n, s->it.p + k, s->it.v + k, s->posed.hardness, s->it.shift, c->s->delta + k,
+                  row + i, c->s->q + k, sums);
+        else
+            sums[SQUARE] += beside(n, row + i, c->s->q + k);
+    }
     return true;
 }
 
@@ -437,32 +429,51 @@ back_block(void *at, size_t first, size_t n, double *sums)
 
 /* What a trial step found. */
 struct trial {
-    double size;    /* relative L1 norm                                            */
-    double carried; /* the sum of p after it                                       */
-    double fits;    /* how much of it fits into the box: 1 or, not clipped, more   */
-    double best;    /* how much of it leads to the lowest energy; 0: nowhere       */
+    double size; /* relative L1 norm                                            */
+    double fits; /* how much of it fits into the box: 1 or, not clipped, more   */
+    double best; /* how much of it leads to the lowest energy; 0: nowhere       */
     bool clipped;
     double total[RC_SUMS];
 };
 
+static void
+undo(struct rc_solver *solver, struct pcg *s, double size)
+{
+    struct pass c = {.solver = solver, .s = s, .b = 1};
+    double total[RC_SUMS];
+
+    rc_reduce_blocks(solver, back_block, &c, total);
+    restore(solver);
+    s->drift += solver->op->row_error * size; /* delta was rounded */
+}
+
 /* p goes along the direction in z, of that mean, back into the box; delta, q and what they say. */
 static void
-attempt(struct rc_solver *solver, struct pcg *s, double alpha, double mean, struct trial *t)
+attempt(struct rc_solver *solver, struct pcg *s, double alpha, double mean, bool tiles,
+        struct trial *t)
 {
     struct rc_move move = {.solver = solver,
                            .d = solver->z,
                            .mean = mean,
-                           .list = s->list,
+                           .delta = s->delta,
+                           .tiles = s->tiles,
                            .alpha = alpha / solver->load.per_pressure};
-    struct pass c = {.solver = solver, .s = s, .move = &move};
+    struct pass c = {.solver = solver, .s = s};
     double best;
 
-    rc_move_find(&move);
-    rc_reduce_blocks(solver, move_block, &c, t->total);
+    if (tiles && !rc_move_tiles(&move)) {
+        undo(solver, s, move.size / solver->load.sum);
+        tiles = false;
+    }
+    if (!tiles)
+        rc_move_shift(&move);
     t->clipped = move.clipped;
-    t->size = t->total[SIZE] / solver->load.sum;
-    t->carried = t->total[CARRIED];
-    t->fits = move.clipped || !(t->total[RC_MOST] > 0) ? 1 : 1 / t->total[RC_MOST];
+    t->size = move.size / solver->load.sum;
+    t->fits = 1;
+    if (!move.clipped) {
+        rc_reduce_blocks(solver, farthest_block, &c, t->total);
+        t->fits = t->total[RC_MOST] > 0 ? 1 / t->total[RC_MOST] : 1;
+    }
     rc_reduce_rows_begin(solver);
     rc_operator_apply_rows(solver->op, step_in, step_out, &c);
     rc_iterate_count(solver, solver->op->row_cost);
@@ -471,59 +482,68 @@ attempt(struct rc_solver *solver, struct pcg *s, double alpha, double mean, stru
     t->best = t->total[CURVATURE] > 0 && best > 0 ? best : 0;
 }
 
+/* The best of several trials, the later ones shorter; *alpha: the length of the last. */
 static void
-undo(struct rc_solver *solver, struct pcg *s, const struct trial *t)
+try(struct rc_solver *solver, struct pcg *s, double *alpha, double mean, bool tiles,
+    struct trial *t)
 {
-    struct pass c = {.solver = solver, .s = s, .b = 1};
-    double total[RC_SUMS];
+    attempt(solver, s, *alpha, mean, tiles, t);
+    /* too far: a part of a clipped step would leave nodes just off their bounds, one after another;
+     * a shorter step, clipped anew, brings them to rest */
+    for (int tries = 0; tries < TRIES && t->clipped && t->best < enough; tries++) {
+        undo(solver, s, t->size);
+        *alpha *= fmax(t->best, 0.2);
+        attempt(solver, s, *alpha, mean, tiles, t);
+    }
+    if (t->best == 0)
+        undo(solver, s, t->size);
+}
 
-    rc_reduce_blocks(solver, back_block, &c, total);
-    restore(solver, rc_iterate_carried(solver));
-    s->drift += solver->op->row_error * t->size; /* delta was rounded */
+/* v, the working set and the residual after that part of a step. */
+static void
+follow_step(struct rc_solver *solver, struct pcg *s, const struct trial *t, double part)
+{
+    struct pass c = {.solver = solver, .s = s, .a = part, .b = 1 - part};
+    double total[RC_SUMS], gap = t->total[GAP] + part * solver->load.length * t->total[PULL];
+    bool kept = fabs(t->total[CARRIED] - solver->load.sum) <= 1e-14 * solver->load.sum;
+
+    s->drift += solver->op->row_error * part * sqrt(t->total[SQUARE] / (double)solver->posed.n);
+    if (kept && part == 1 && t->total[ELASTIC] > 0) {
+        rc_iterate_moved(solver, gap, t->total[ELASTIC]);
+        rc_working_set_follow(solver, s->q, solver->load.length);
+        return;
+    }
+    rc_iterate_moved(solver, 0, 0);
+    rc_reduce_blocks(solver, follow_block, &c, total);
+    if (part != 1)
+        rc_reduce_blocks(solver, back_block, &c, total);
+    restore(solver);
+    rc_iterate_shift(solver);
+    rc_working_set_find(solver, true);
 }
 
 /* From p along the direction in z, of that mean, back into the box, to where the energy is low,
  * or lower; v, the working set and the residual follow. The relative change of p; 0 when that
  * leads nowhere: p is then where it was. */
 static double
-advance(struct rc_solver *solver, struct pcg *s, double alpha, double mean)
+advance(struct rc_solver *solver, struct pcg *s, double alpha, double mean, bool tiles)
 {
-    struct pass c = {.solver = solver, .s = s};
     struct trial t;
-    double total[RC_SUMS], part;
+    double length = alpha, part;
 
-    attempt(solver, s, alpha, mean, &t);
-    /* too far: a part of a clipped step would leave nodes just off their bounds, one after another;
-     * a shorter step, clipped anew, brings them to rest */
-    for (int tries = 0; tries < TRIES && t.clipped && t.best < enough; tries++) {
-        undo(solver, s, &t);
-        alpha *= fmax(t.best, 0.2);
-        attempt(solver, s, alpha, mean, &t);
+    try(solver, s, &length, mean, tiles, &t);
+    if (t.best == 0 && tiles) {
+        length = alpha;
+        try(solver, s, &length, mean, false, &t);
     }
     if (t.best == 0) {
-        undo(solver, s, &t);
         s->curvature = 0;
         return 0;
     }
     part = !t.clipped ? fmin(t.best, t.fits) : t.best >= enough ? 1 : t.best;
-    c.a = part;
-    c.b = 1 - part;
     s->curvature = t.clipped ? 0 : t.total[CURVATURE];
-    s->drift += solver->op->row_error * part * sqrt(t.total[SQUARE] / (double)solver->posed.n);
-    if (part == 1)
-        rc_iterate_moved(solver, t.total[GAP], t.total[ELASTIC]);
-    else
-        rc_iterate_moved(solver, 0, 0);
-    rc_reduce_blocks(solver, follow_block, &c, total);
-    if (part != 1) {
-        rc_reduce_blocks(solver, back_block, &c, total);
-        t.carried = rc_iterate_carried(solver);
-    }
-    restore(solver, t.carried);
-    if (solver->it.elastic == 0)
-        rc_iterate_shift(solver);
-    rc_working_set_find(solver, true);
-    s->alpha = fmin(fmax(alpha * sqrt(t.best), 0.3), 1.2);
+    follow_step(solver, s, &t, part);
+    s->alpha = fmin(fmax(length * sqrt(t.best), 0.3), 1.2);
     return t.size * part;
 }
 
@@ -553,7 +573,7 @@ gradient_step(struct rc_solver *solver, struct pcg *s, double length)
     rc_reduce_blocks(solver, gradient_block, &c, total);
     rc_working_set_all(solver);
     size = total[0] / solver->load.per_pressure / solver->load.sum;
-    change = advance(solver, s, size > longest ? longest / size : 1, 0);
+    change = advance(solver, s, size > longest ? longest / size : 1, 0, false);
     s->curvature = 0; /* not a direction to be conjugate to */
     if (change == 0)
         rc_working_set_find(solver, false);
@@ -588,7 +608,7 @@ step(struct rc_solver *solver, void *at)
     still = solver->it.iterations > s->best_at + 3;
     if (solver->it.iterations % SPACER == SPACER - 1)
         found.change = gradient_step(solver, s, 1 / solver->op->norm);
-    else if ((found.change = advance(solver, s, alpha, mean)) == 0)
+    else if ((found.change = advance(solver, s, alpha, mean, true)) == 0)
         found.change = gradient_step(
             solver, s,
             1 / (still && solver->it.iterations % 2 == 0 ? solver->op->unit : solver->op->norm));

@@ -4,8 +4,8 @@
  * With K restricted to the working set W, its exact inverse is the Schur complement of A = K^-1: A
  * applied to the extension of r off W that has the least energy. Here E is an explicit extension,
  *
- *     (E r)_i = r_i on W,   sum_j G_ij r_j / (sum_j G_ij + c d_i^(-1/2)) elsewhere, j over W,
- *     G_ij = |x_i - x_j|^(-5/2),
+ *     (E r)_i = r_i on W,   sum_j G_ij r_j / (sum_j G_ij + f_i) elsewhere, j over W,
+ *     G_ij = |x_i - x_j|^(-5/2),   f_i = c d_i^(-1/2) / (1 + (S_i/3)^4),   S_i = d_i^(1/2) sum_j G_ij,
  *
  * lengths in units of sqrt(dx dy), d_i the distance from i to W less half a unit, at least 1/4. A,
  * its factor in wave numbers, and the constant c are the operator's. The map r -> z is symmetric,
@@ -34,6 +34,15 @@ void rc_preconditioner_set(struct rc_preconditioner *e, const unsigned char *w, 
  * Costs three factors of a chain. */
 void rc_preconditioner_apply(struct rc_preconditioner *e, const float *r, float offset, float *z,
                              rc_row *done, void *ctx);
+
+/* The shift of all of W belongs to no residual: what of z comes with it is taken out. It is spread as
+ * M 1, M = E' A E; rc_load_of(these) is about that, up to a factor, for each node on W. */
+const float *rc_preconditioner_load(const struct rc_preconditioner *e);
+static inline float
+rc_load_of(float weight)
+{
+    return weight < 0 ? -weight : 1e-3F; /* a node that has joined since */
+}
 
 /* distance.c: how far every node is from the nearest one with w != 0, exactly but for rounding, in
  * two passes. First the number of steps along its column, for all nodes ... */

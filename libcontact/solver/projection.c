@@ -4,9 +4,7 @@
  *
  * The Euclidean projection of y on it is clip(y + mu, 0, H) with one shift mu for all nodes. The
  * load phi(mu) = sum clip(y + mu, 0, H) is monotone and piecewise linear in the shift: Newton's
- * method inside a bracket finds it. In a step of the solver most nodes stay on the same piece for
- * every shift that can be meant: they are summed once, the others listed, and the search runs over
- * the list alone.
+ * method inside a bracket finds it. tiles.c has the way back that most steps take.
  */
 #include "solver.h"
 
@@ -17,21 +15,14 @@
 
 /* ---- the shift ---- */
 
-/* The load that is too much at one shift, and how it grows with it. */
-struct excess {
-    double load, slope;
-};
-typedef struct excess excess_at(void *ctx, double shift);
-
-/* The shift between low and high where nothing is too much, from `start`; halved where Newton's
- * step leaves the bracket. `least`: a load that is nothing. */
-static double
-newton(excess_at *at, void *ctx, double low, double high, double start, double least)
+/* The bracket is halved where Newton's step leaves it. */
+double
+rc_newton(rc_excess_at *at, void *ctx, double low, double high, double start, double least)
 {
     double mu = start;
 
     for (int round = 0; round < 200; round++) {
-        struct excess e = at(ctx, mu);
+        struct rc_excess e = at(ctx, mu);
         double next;
 
         if (fabs(e.load) <= least)
@@ -58,11 +49,11 @@ struct map {
     double hardness, sum;
 };
 
-static struct excess
+static struct rc_excess
 excess_of_map(void *ctx, double shift)
 {
     const struct map *m = ctx;
-    struct excess e = {.load = -m->sum};
+    struct rc_excess e = {.load = -m->sum};
 
     for (size_t k = 0; k < m->n; k++) {
         double v = m->y[k] + shift;
@@ -84,160 +75,118 @@ rc_projection_of(size_t n, double hardness, double sum, double *y)
     }
     low = -most; /* nothing above 0 */
     high = isinf(hardness) ? sum / (double)n - least : hardness - least;
-    mu = newton(excess_of_map, &map, low, high, fmin(fmax(0, low), high), 4 * DBL_EPSILON * sum);
+    mu = rc_newton(excess_of_map, &map, low, high, fmin(fmax(0, low), high), 4 * DBL_EPSILON * sum);
     for (size_t k = 0; k < n; k++)
         y[k] = fmin(fmax(y[k] + mu, 0), hardness);
 }
 
 /* ---- of a step ---- */
 
-struct search {
+/* What the passes over all nodes share: on W p becomes y = p + alpha (d - mean), then
+ * clip(y + shift, 0, H). */
+struct step {
     struct rc_move *m;
-    double within; /* shifts of at most this size are meant                            */
-    double shift;
-    double sum, count; /* of listed apart: nodes on the middle piece, and what they carry  */
-    double wanted;     /* the load of the working set                                  */
+    double shift, wanted;
 };
 
 enum {    /* sums of the first pass, */
-    HELD, /* by nodes off W              */
-    CARRIED,
-    INNER, /* nodes of W inside the box   */
-    OUTER, /* outside                     */
+    HELD, /* by nodes off W          */
     WORKING,
     /* of the others */
-    SUM = 0,
-    COUNT
+    CARRIED = 0,
+    COUNT,
+    SIZE = 0
 };
 
 static inline double
-target(const struct rc_move *m, size_t k)
+way(const struct rc_move *m, size_t k)
 {
     double d = (double)m->d[k];
 
-    return m->solver->it.p[k] + (d != 0 ? m->alpha * (d - m->mean) : 0);
+    return d != 0 ? m->alpha * (d - m->mean) : 0;
 }
 
-RC_CLONES static void
-first_block(void *at, size_t first, size_t n, double *sums)
-{
-    const struct rc_move *m = at;
-    const struct rc_solver *s = m->solver;
-    const double *p = s->it.p + first, hardness = s->posed.hardness;
-    const double alpha = m->alpha, mean = m->mean;
-    const unsigned char *w = s->set.w + first;
-    const float *d = m->d + first;
-    double held = 0, carried = 0;
-    int inner = 0, outer = 0, working = 0;
-
-#pragma omp simd reduction(+ : held, carried, inner, outer, working)
-    for (size_t k = 0; k < n; k++) {
-        double e = (double)d[k], y = p[k] + (e != 0 ? alpha * (e - mean) : 0);
-        double c = y > 0 ? y : 0;
-        bool in = w[k] != 0;
-        c = c < hardness ? c : hardness;
-        held += in ? 0 : p[k];
-        carried += in ? c : 0;
-        inner += in & (y > 0) & (y < hardness);
-        outer += in & ((y < 0) | (y > hardness));
-        working += in;
-    }
-    sums[HELD] = held;
-    sums[CARRIED] = carried;
-    sums[INNER] = inner;
-    sums[OUTER] = outer;
-    sums[WORKING] = working;
-}
-
-enum {
-    NO_MORE = UINT16_MAX /* ends the list of a block */
-};
-
-/* Lists the nodes of a block that may change their piece, by their places in it. */
 static void
-list_block(void *at, size_t first, size_t n, double *sums)
+aim_block(void *at, size_t first, size_t n, double *sums)
 {
-    const struct search *q = at;
-    const struct rc_solver *s = q->m->solver;
-    double within = q->within, hardness = s->posed.hardness;
-    uint16_t *list = q->m->list + first;
-    size_t listed = 0;
+    const struct step *c = at;
+    const struct rc_solver *s = c->m->solver;
 
-    for (size_t k = 0; k < n; k++) {
-        double y;
-        if (!s->set.w[first + k])
+    for (size_t k = first; k < first + n; k++) {
+        if (!s->set.w[k]) {
+            sums[HELD] += s->it.p[k];
             continue;
-        y = target(q->m, first + k);
-        if (y > within && y < hardness - within) {
-            sums[SUM] += y;
-            sums[COUNT]++;
-        } else if (y > hardness + within) {
-            sums[SUM] += hardness;
-        } else if (y >= -within) {
-            list[listed++] = (uint16_t)k;
         }
+        sums[WORKING]++;
+        s->it.p[k] += way(c->m, k);
+        sums[RC_MOST] = fmax(sums[RC_MOST], fabs(s->it.p[k]));
     }
-    if (listed < n)
-        list[listed] = NO_MORE;
 }
 
 static void
-sum_block(void *at, size_t first, size_t n, double *sums)
+carried_block(void *at, size_t first, size_t n, double *sums)
 {
-    const struct search *q = at;
-    const uint16_t *list = q->m->list + first;
-    double hardness = q->m->solver->posed.hardness;
+    const struct step *c = at;
+    const struct rc_solver *s = c->m->solver;
+    double hardness = s->posed.hardness;
 
-    for (size_t k = 0; k < n && list[k] != NO_MORE; k++) {
-        double y = target(q->m, first + list[k]) + q->shift;
-        sums[SUM] += y > 0 ? y < hardness ? y : hardness : 0;
+    for (size_t k = first; k < first + n; k++) {
+        double y = s->it.p[k] + c->shift;
+        if (!s->set.w[k])
+            continue;
+        sums[CARRIED] += y > 0 ? y < hardness ? y : hardness : 0;
         sums[COUNT] += y > 0 && y < hardness;
     }
 }
 
-static struct excess
+static struct rc_excess
 excess_of_step(void *ctx, double shift)
 {
-    struct search *q = ctx;
+    struct step *c = ctx;
     double total[RC_SUMS];
 
-    q->shift = shift;
-    rc_reduce_blocks(q->m->solver, sum_block, q, total);
-    return (struct excess){.load = total[SUM] + q->sum + q->count * shift - q->wanted,
-                           .slope = total[COUNT] + q->count};
+    c->shift = shift;
+    rc_reduce_blocks(c->m->solver, carried_block, c, total);
+    return (struct rc_excess){.load = total[CARRIED] - c->wanted, .slope = total[COUNT]};
+}
+
+static void
+settle_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct step *c = at;
+    const struct rc_solver *s = c->m->solver;
+
+    for (size_t k = first; k < first + n; k++) {
+        double y = s->it.p[k], to, change;
+        c->m->delta[k] = 0;
+        if (!s->set.w[k])
+            continue;
+        to = fmin(fmax(y + c->shift, 0), s->posed.hardness);
+        change = to - (y - way(c->m, k));
+        s->it.p[k] = to;
+        c->m->delta[k] = (float)(change * s->load.per_pressure);
+        sums[SIZE] += fabs(change);
+    }
 }
 
 void
-rc_move_find(struct rc_move *m)
+rc_move_shift(struct rc_move *m)
 {
     struct rc_solver *s = m->solver;
-    struct search q = {.m = m};
-    double total[RC_SUMS], excess, load = s->load.sum;
+    struct step c = {.m = m};
+    double total[RC_SUMS], high;
 
-    m->shift = 0;
-    rc_reduce_blocks(s, first_block, m, total);
-    m->clipped = total[OUTER] > 0;
-    if (!m->clipped && fabs(total[HELD] + total[CARRIED] - load) <= 1e-14 * load)
-        return;
-    q.wanted = load - total[HELD];
-    if (!(q.wanted > 0 && q.wanted <= s->posed.hardness * total[WORKING])) {
+    rc_reduce_blocks(s, aim_block, &c, total);
+    c.wanted = s->load.sum - total[HELD];
+    if (!(c.wanted > 0 && c.wanted <= s->posed.hardness * total[WORKING])) {
         rc_working_set_all(s);
-        rc_reduce_blocks(s, first_block, m, total);
-        m->clipped = true;
-        q.wanted = load;
+        c.wanted = s->load.sum;
     }
-    excess = total[CARRIED] - q.wanted;
-    m->shift = total[INNER] > 0 ? -excess / total[INNER] : 0;
-    q.within = m->shift != 0 ? 4 * fabs(m->shift) : load / (double)s->posed.n;
-    for (int round = 0; round<40; round++, q.within *= round> 20 ? 1e10 : 16) {
-        rc_reduce_blocks(s, list_block, &q, total);
-        q.sum = total[SUM];
-        q.count = total[COUNT];
-        m->shift = newton(excess_of_step, &q, -q.within, q.within,
-                          fabs(m->shift) < q.within ? m->shift : 0, 4 * DBL_EPSILON * load);
-        if (fabs(m->shift) < 0.999 * q.within)
-            break;
-    }
+    high = (isinf(s->posed.hardness) ? s->load.sum : s->posed.hardness) + total[RC_MOST];
+    c.shift = rc_newton(excess_of_step, &c, -high, high, 0, 4 * DBL_EPSILON * s->load.sum);
+    rc_reduce_blocks(s, settle_block, &c, total);
+    m->size = total[SIZE];
+    m->clipped = true;
 }
 
 /* ---- by scaling ---- */

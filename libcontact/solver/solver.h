@@ -87,7 +87,8 @@ struct rc_working_set {
     float *r;         /* residual -g on it, else 0, over `length` of the load                  */
     float offset;     /* its mean there                                                        */
     size_t size;
-    double left_out; /* what the nodes left out of it would carry, times per_pressure          */
+    size_t saturated; /* nodes off it at the hardness                                          */
+    double left_out;  /* what the nodes left out of it would carry, times per_pressure          */
     /* Nodes that changed sides since the preconditioner was told w, and since it measured
      * distances; INFINITY: w is another set altogether. */
     double changed, moved;
@@ -199,14 +200,23 @@ void rc_working_set_free(struct rc_solver *solver);
 /* The working set and the residual on it, from v and the shift; `sift`: without the nodes that
  * would only be pushed back to their bound. */
 void rc_working_set_find(struct rc_solver *solver, bool sift);
+/* The same after v has gone `factor` times q further; off the set p is 0 or at the hardness. */
+void rc_working_set_follow(struct rc_solver *solver, const float *q, double factor);
 /* All nodes, with what `r` holds. */
 void rc_working_set_all(struct rc_solver *solver);
 /* The elastic nodes, r = 1 on them; how many. */
 size_t rc_working_set_elastic(struct rc_solver *solver);
 /* z = E' A E r; `done` as in rc_preconditioner_apply. The mean of z is still in it. */
 void rc_working_set_correct(struct rc_solver *solver, rc_row *done, void *ctx);
-/* Relative L1 norm of that correction without its mean: the estimate of the error. */
+/* Takes the shift out of z, `share` times how it is spread (rc_preconditioner_load); the estimate of
+ * the error, the relative L1 norm of what is left. */
+double rc_working_set_error(struct rc_solver *solver, double share);
+/* The same, correction and all. */
 double rc_working_set_estimate(struct rc_solver *solver);
+
+/* How many of the n nodes from `first` on belong together: *in, some are on the set, or may be at the
+ * hardness; not, their pressures are all 0. */
+size_t rc_working_set_stretch(const struct rc_solver *solver, size_t first, size_t n, bool *in);
 
 /* The next set is another one altogether. */
 void rc_working_set_forget(struct rc_solver *solver);
@@ -263,22 +273,43 @@ enum rc_status rc_projection_restore(struct rc_solver *solver, double carried, s
 /* The nearest point of {0 <= y <= H, sum y = sum}: one shift for all nodes, clipped. */
 void rc_projection_of(size_t n, double hardness, double sum, double *y);
 
-/* A step and the way back into the box. On the working set the pressure becomes
- *
- *     clip(p + alpha (d - mean)[d != 0] + shift, 0, H),
- *
- * with the one shift that keeps the load: the Euclidean projection of the step, where the set
- * can carry its share; where it cannot, all nodes become the set. */
+/* What is carried too much at one shift, and how that grows with it; it is monotone. */
+struct rc_excess {
+    double load, slope;
+};
+typedef struct rc_excess rc_excess_at(void *ctx, double shift);
+/* The shift between low and high where nothing is too much, by Newton's method from `start`. `least`:
+ * a load that is nothing. */
+double rc_newton(rc_excess_at *at, void *ctx, double low, double high, double start, double least);
+
+/* A step of the nodes of the working set, p + alpha (d - mean), and the way back into the box. What it
+ * comes to is written to p and, times per_pressure, to delta, which is 0 off the set. */
 struct rc_move {
     struct rc_solver *solver;
-    const float *d; /* direction, times per_pressure; not 0 only on W                  */
-    double alpha;
-    double mean;    /* of d                                                            */
-    uint16_t *list; /* n numbers of scratch                                            */
-    double shift;   /* found                                                           */
-    bool clipped;   /* found: some node would have left the box                        */
+    const float *d; /* direction, times per_pressure; where it is 0 its mean does not count   */
+    double alpha;   /* over per_pressure                                                       */
+    double mean;    /* of d                                                                    */
+    float *delta;
+    struct rc_tile *tiles; /* rc_tiles of them: scratch                                        */
+    double size;           /* found: sum of |delta|, as a pressure                             */
+    bool clipped;          /* found: some node would have left the box                         */
 };
-void rc_move_find(struct rc_move *move);
+/* By one shift of all nodes of the set, the Euclidean projection. Where the set cannot carry its
+ * share all nodes become the set. */
+void rc_move_shift(struct rc_move *move);
+
+/* ---- tiles.c ---- */
+
+/* What is known of a tile after a move. */
+struct rc_tile {
+    double room;  /* by so much all its elastic nodes may be shifted */
+    size_t count; /* of these                                        */
+};
+size_t rc_tiles(const struct rc_shape *shape);
+/* By a shift for each tile of the map. A node at its bound that would leave the box stays there, and
+ * is not called clipped. False when the load cannot be kept that way: what has been moved is in
+ * delta. */
+bool rc_move_tiles(struct rc_move *move);
 
 /* ---- safeguard.c ---- */
 

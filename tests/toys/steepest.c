@@ -7,7 +7,7 @@
 static void *
 state_new(const struct rc_solver *s, struct rc_err *err)
 {
-    void *state = malloc(3 * s->posed.n * sizeof(double));
+    void *state = malloc(2 * s->posed.n * sizeof(double) + s->posed.n * sizeof(float));
 
     if (state == NULL)
         rc_err_set(err, "out of memory for %zu nodes", s->posed.n);
@@ -18,8 +18,8 @@ static struct rc_found
 step(struct rc_solver *s, void *state)
 {
     size_t n = s->posed.n;
-    double *d = state, *u = d + n, slope = 0, curvature = 0, change = 0;
-    struct rc_move move = {.solver = s, .d = s->z, .list = (uint16_t *)(u + n)};
+    double *d = state, *u = d + n, slope = 0, curvature = 0;
+    struct rc_move move = {.solver = s, .d = s->z, .delta = (float *)(u + n)};
 
     rc_iterate_displace(s);
     rc_iterate_shift(s);
@@ -36,14 +36,9 @@ step(struct rc_solver *s, void *state)
     for (size_t k = 0; k < n; k++)
         curvature += u[k] * d[k];
     move.alpha = slope > 0 ? slope / curvature : 0;
-    rc_move_find(&move);
-    for (size_t k = 0; k < n; k++) {
-        double p = s->it.p[k], to = p + move.alpha * d[k] + move.shift;
-        s->it.p[k] = s->set.w[k] ? fmin(fmax(to, 0), s->posed.hardness) : p;
-        change += fabs(s->it.p[k] - p);
-    }
+    rc_move_shift(&move);
     rc_iterate_unknown(s);
-    return (struct rc_found){.change = change / s->load.sum, .estimate = NAN};
+    return (struct rc_found){.change = move.size / s->load.sum, .estimate = NAN};
 }
 
 const struct rc_method rc_method_steepest = {
