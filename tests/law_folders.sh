@@ -34,7 +34,7 @@ tools/cli           | formats/core/core.h                      | formats/core
 tools/plot          | libcontact/grid.h formats/core/core.h    | libcontact formats/core
 tools/cost          | %public tools/cli/cli.h tools/plot/plot.h | %physics tools/cli tools/plot
 tools/solve         | %public tools/cli/cli.h tools/plot/plot.h | %physics tools/cli tools/plot
-tools/solve         |                                          | formats/rcg
+tools/solve         | formats/core/core.h                      | formats/core formats/rcg
 tools/stress        | %public tools/cli/cli.h                  | %physics tools/cli
 tools/render        | libcontact/grid.h tools/cli/cli.h        | libcontact tools/cli
 tools/render        | tools/plot/plot.h                        | tools/plot

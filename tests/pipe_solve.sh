@@ -67,4 +67,31 @@ claim "the shape after yield is a frame of its own" bash -c '
 refuses 2 'give one of --load, --mean-pressure and --approach' "two ways to say the load" \
     "rc-solve --load 1N --approach 1um --estar 1GPa ball.rcg"
 
+# checksums FILE...: those of their frames, headers included, one a line.
+checksums() { cat "$@" | grep -ao 'crc32 [0-9a-f]\{8\}'; }
+export -f checksums
+claim "frames asked for together, which share their memory, are those asked for one by one, to the last bit" bash -c '
+    for frame in pressure gap displacement height plastic; do
+        rc-solve --quiet --load 100N --estar 100GPa --hardness 1GPa --output $frame ball.rcg -o $frame.rcg || exit
+    done
+    rc-solve --quiet --load 100N --estar 100GPa --hardness 1GPa --output pressure,gap,displacement,height,plastic \
+        ball.rcg -o all.rcg &&
+    checksums pressure.rcg gap.rcg displacement.rcg height.rcg plastic.rcg >one.txt && checksums all.rcg >all.txt &&
+    [ "$(wc -l <all.txt)" = 5 ] && cmp one.txt all.txt'
+claim "the heights that come in go out as they were, and in their type" bash -c '
+    rc-synth sphere --nx 33 --ny 29 --dx 20um --radius 7.5mm --type f32 -o narrow.rcg &&
+    rc-solve --quiet --load 100N --estar 100GPa --output height narrow.rcg -o same.rcg &&
+    says "type +f32" rc-info same.rcg &&
+    cmp <(tail -c $((33 * 29 * 4 + 24)) narrow.rcg | head -c $((33 * 29 * 4))) \
+        <(tail -c $((33 * 29 * 4 + 24)) same.rcg | head -c $((33 * 29 * 4)))'
+claim "a step stands once in the history of every case of a list" bash -c '
+    rc-solve --quiet --load 10N:240N:3 --estar 114GPa --output pressure,height ball.rcg -o steps.rcg &&
+    grep -a "^history=" steps.rcg >steps.txt && [ "$(wc -l <steps.txt)" = 6 ] &&
+    [ "$(sort -u steps.txt | wc -l)" = 1 ] && ! grep -q "rc-solve.*rc-solve" steps.txt'
+rc-synth sphere --nx 1024 --dx 1um --radius 7.5mm -o large.rcg
+claim "of all frames one map at a time takes memory, and of the pressure none" bash -c '
+    rc-solve --quiet --periodic --load 1N --estar 100GPa --tol 0.1 --report all.json large.rcg -o all.rcg &&
+    rc-solve --quiet --periodic --load 1N --estar 100GPa --tol 0.1 --report one.json --output pressure large.rcg -o one.rcg'
+claim "that is 8 MiB here" [ "$(($(field peak_memory all.json) - $(field peak_memory one.json)))" -lt $((12 << 20)) ]
+
 finish

@@ -1,5 +1,8 @@
 /* Contact of a height map with an elastic half-space. */
 #include <errno.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -156,58 +159,100 @@ set_keys(struct run *run, struct rc_grid *g, const struct rc_contact *c)
     set_number(run, g, "approach", c->approach);
 }
 
-static struct rc_grid *
-result_grid(struct run *run, const struct rc_grid *g, enum solve_frame f)
+/* Maps of results are made one after another, as they are written, in one buffer. */
+struct results {
+    struct rc_grid *as; /* shape and keys of the frames */
+    double *buffer;
+    double *displacement; /* where it is; NULL: not yet made     */
+    double *own;          /* memory for it beside the buffer, or NULL */
+};
+
+static void
+results_new(struct run *run, const struct rc_grid *g, struct results *r)
 {
     struct rc_err err;
-    struct rc_grid *out = rc_grid_like(g, solve_frames[f].name, solve_frames[f].unit, &err);
 
-    if (out == NULL)
+    *r = (struct results){.as = rc_grid_like(g, g->channel, g->unit, &err)};
+    if (r->as == NULL)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    return out;
-}
-
-static double *
-values(struct rc_grid *g)
-{
-    return g == NULL ? NULL : g->v;
+    /* heights that are not written are done with; pages of the new map that nobody touches take
+     * no memory */
+    r->buffer = solve_wanted(&args, SOLVE_HEIGHT) ? r->as->v : g->v;
 }
 
 static void
-put_out(struct run *run, struct rc_grid *g, struct rc_grid *out[SOLVE_FRAMES],
+results_free(struct results *r)
+{
+    rc_grid_free(r->as);
+    free(r->own);
+}
+
+/* Figures, and the first map. To look at a solution twice costs next to nothing, but for one that
+ * was broken off, of which gap and displacement are made at once. */
+static void
+find_result(struct run *run, struct results *r, struct rc_solver *solver, struct rc_contact *c)
+{
+    size_t nodes = r->as->nx * r->as->ny;
+    bool gap = solve_wanted(&args, SOLVE_GAP);
+
+    if (solve_wanted(&args, SOLVE_DISPLACEMENT) && !gap) {
+        r->displacement = r->buffer;
+    } else if (solve_wanted(&args, SOLVE_DISPLACEMENT) && tool_interrupted() != 0) {
+        r->displacement = r->own = malloc(nodes * sizeof *r->own);
+        if (r->own == NULL)
+            tool_die_at(&run->t, r->as, EXIT_IMPOSSIBLE, "out of memory for the displacement");
+    }
+    rc_solver_result(solver, r->displacement, gap ? r->buffer : NULL, c);
+}
+
+static void
+put(struct run *run, const struct results *r, enum solve_frame f, const double *v)
+{
+    struct rc_grid frame = *r->as; /* as the reader of the stream sees it */
+
+    if (!solve_wanted(&args, f))
+        return;
+    frame.channel = (char *)solve_frames[f].name; /* these and the values are only read */
+    frame.unit = (char *)solve_frames[f].unit;
+    frame.v = (double *)v;
+    tool_write(&run->t, &frame);
+}
+
+static void
+put_out(struct run *run, const struct rc_grid *g, struct results *r, struct rc_solver *solver,
         const struct rc_contact *c)
 {
-    if (solve_wanted(&args, SOLVE_HEIGHT))
-        out[SOLVE_HEIGHT] = g;
-    for (int f = 0; f < SOLVE_FRAMES; f++) {
-        if (out[f] == NULL)
-            continue;
-        set_keys(run, out[f], c);
-        tool_write(&run->t, out[f]);
-        if (out[f] != g)
-            rc_grid_free(out[f]);
+    struct rc_contact again;
+    struct rc_err err;
+
+    set_keys(run, r->as, c);
+    put(run, r, SOLVE_PRESSURE, rc_solver_pressure(solver));
+    put(run, r, SOLVE_GAP, r->buffer);
+    if (r->displacement == NULL && solve_wanted(&args, SOLVE_DISPLACEMENT)) {
+        r->displacement = r->buffer;
+        rc_solver_result(solver, r->displacement, NULL, &again);
     }
+    put(run, r, SOLVE_DISPLACEMENT, r->displacement);
+    r->as->type = g->type;
+    put(run, r, SOLVE_HEIGHT, g->v);
+    r->as->type = RC_F64;
+    if (solve_wanted(&args, SOLVE_PLASTIC) && rc_solver_plastic(solver, r->buffer, &err) != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    put(run, r, SOLVE_PLASTIC, r->buffer);
 }
 
 static void
-do_load(struct run *run, struct rc_grid *g, struct rc_solver *solver)
+do_load(struct run *run, const struct rc_grid *g, struct rc_solver *solver)
 {
-    struct rc_grid *out[SOLVE_FRAMES] = {NULL};
+    struct results r;
     struct rc_contact c;
     struct rc_err err;
     double start, stiffness = NAN;
 
     solve(run, g, solver);
     start = solve_now();
-    for (int f = 0; f < SOLVE_FRAMES; f++)
-        if (f != SOLVE_HEIGHT && solve_wanted(&args, f))
-            out[f] = result_grid(run, g, (enum solve_frame)f);
-    rc_solver_result(solver, values(out[SOLVE_DISPLACEMENT]), values(out[SOLVE_GAP]), &c);
-    if (out[SOLVE_PRESSURE] != NULL)
-        memcpy(out[SOLVE_PRESSURE]->v, rc_solver_pressure(solver), g->nx * g->ny * sizeof *g->v);
-    if (out[SOLVE_PLASTIC] != NULL &&
-        rc_solver_plastic(solver, out[SOLVE_PLASTIC]->v, &err) != RC_OK)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    results_new(run, g, &r);
+    find_result(run, &r, solver, &c);
     if (run->stiffness && rc_solver_stiffness(solver, &stiffness, &err) != RC_OK)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     c.convolutions = rc_solver_convolutions(solver);
@@ -216,12 +261,13 @@ do_load(struct run *run, struct rc_grid *g, struct rc_solver *solver)
     if (!c.converged)
         tool_fails_with(&run->t, EXIT_SHORT);
     solve_report(run, g, solver, &c, stiffness);
-    put_out(run, g, out, &c);
+    put_out(run, g, &r, solver, &c);
+    results_free(&r);
 }
 
 /* The loads of a list, each from the solution of the last. */
 static void
-do_loads(struct run *run, struct rc_grid *g)
+do_loads(struct run *run, const struct rc_grid *g)
 {
     struct rc_shape shape = rc_grid_shape(g);
     struct rc_problem problem = problem_of(run, g, 0);
@@ -265,12 +311,23 @@ do_case(struct run *run, struct rc_grid *g)
     }
 }
 
+/* A map's memory goes back to the system when it is freed: else maps of a coarser grid leave holes
+ * that those of the next one do not fit in. */
+static void
+keep_maps_apart(void)
+{
+#ifdef M_MMAP_THRESHOLD
+    (void)mallopt(M_MMAP_THRESHOLD, 1 << 20);
+#endif
+}
+
 int
 main(int argc, char **argv)
 {
     static struct run run;
     struct rc_grid *g;
 
+    keep_maps_apart();
     tool_start(&run.t, &info, argc, argv, &args);
     check_arguments(&run);
     tool_demand_writable(&run.t, "--report", args.report);

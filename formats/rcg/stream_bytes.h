@@ -6,11 +6,12 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <string.h>
-#include <zlib.h>
 
 enum {
-    RC_CHUNK = 8192,  /* values converted at a time where they are not read as they are */
-    RC_FAIL_MAX = 399 /* bytes of a message in RCGFAIL: what a reader repeats           */
+    RC_CHUNK = 8192,  /* values converted at a time where they are not read as they are  */
+    RC_PIECE = 16384, /* values read or written at a time where they are: while they are
+                         summed, they lie in the cache                                   */
+    RC_FAIL_MAX = 399 /* bytes of a message in RCGFAIL: what a reader repeats            */
 };
 
 static inline bool
@@ -34,12 +35,6 @@ rc_swap_bytes(void *values, size_t n, size_t width)
             b[a] = b[width - 1 - a];
             b[width - 1 - a] = byte;
         }
-}
-
-static inline uint32_t
-rc_crc_add(uint32_t crc, const void *bytes, size_t n)
-{
-    return (uint32_t)crc32_z(crc, bytes, n);
 }
 
 #endif

@@ -171,8 +171,8 @@ read_head(struct rc_reader *r, struct head *head, struct rc_err *err)
             return feof(r->file) || ferror(r->file)
                        ? cut_off(r, "inside a header", err)
                        : rc_err_set(err, "the header holds a NUL byte");
-        r->crc = rc_crc_add(r->crc, at, (size_t)n);
-        r->crc = rc_crc_add(r->crc, "\n", 1);
+        r->crc = rc_crc32_add(r->crc, at, (size_t)n);
+        r->crc = rc_crc32_add(r->crc, "\n", 1);
         if (n == 0)
             return RC_OK;
         if (add_line(head, at, err) != RC_OK)
@@ -289,11 +289,14 @@ grid_of_head(struct rc_reader *r, const struct head *head, struct rc_err *err)
 static enum rc_status
 read_f64(struct rc_reader *r, double *v, size_t n, struct rc_err *err)
 {
-    if (fread(v, sizeof *v, n, r->file) != n)
-        return cut_off(r, "inside the values of a frame", err);
-    r->crc = rc_crc_add(r->crc, v, n * sizeof *v);
-    if (!rc_host_is_little())
-        rc_swap_bytes(v, n, sizeof *v);
+    for (size_t m; n > 0; v += m, n -= m) {
+        m = n < RC_PIECE ? n : RC_PIECE;
+        if (fread(v, sizeof *v, m, r->file) != m)
+            return cut_off(r, "inside the values of a frame", err);
+        r->crc = rc_crc32_add(r->crc, v, m * sizeof *v);
+        if (!rc_host_is_little())
+            rc_swap_bytes(v, m, sizeof *v);
+    }
     return RC_OK;
 }
 
@@ -306,7 +309,7 @@ read_f32(struct rc_reader *r, double *v, size_t n, struct rc_err *err)
         size_t m = n < RC_CHUNK ? n : RC_CHUNK;
         if (fread(part, sizeof *part, m, r->file) != m)
             return cut_off(r, "inside the values of a frame", err);
-        r->crc = rc_crc_add(r->crc, part, m * sizeof *part);
+        r->crc = rc_crc32_add(r->crc, part, m * sizeof *part);
         if (!rc_host_is_little())
             rc_swap_bytes(part, m, sizeof *part);
         for (size_t k = 0; k < m; k++)
@@ -344,7 +347,7 @@ read_frame(struct rc_reader *r, struct rc_grid **grid, struct rc_err *err)
     struct rc_grid *g = NULL;
     enum rc_status status = RC_FAIL;
 
-    r->crc = rc_crc_add(0, "RCG1\n", 5);
+    r->crc = rc_crc32_add(0, "RCG1\n", 5);
     if (head == NULL) {
         rc_err_set(err, "out of memory for a header (%zu bytes)", sizeof *head);
         goto done;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "stream_bytes.h"
+#include "formats/core/core.h"
 
 struct rc_writer {
     FILE *file;
@@ -87,19 +88,20 @@ put_count(struct text *t, const char *name, size_t n)
 static uint32_t
 write_f64(FILE *file, const double *v, size_t n, uint32_t crc)
 {
-    double part[RC_CHUNK];
+    bool as_it_is = rc_host_is_little();
+    double part[RC_PIECE];
 
-    if (rc_host_is_little()) {
-        fwrite(v, sizeof *v, n, file);
-        return rc_crc_add(crc, v, n * sizeof *v);
-    }
-    for (; n > 0; v += RC_CHUNK) {
-        size_t m = n < RC_CHUNK ? n : RC_CHUNK;
-        memcpy(part, v, m * sizeof *v);
-        rc_swap_bytes(part, m, sizeof *part);
-        fwrite(part, sizeof *part, m, file);
-        crc = rc_crc_add(crc, part, m * sizeof *part);
-        n -= m;
+    for (size_t m; n > 0; v += m, n -= m) {
+        const double *piece = v;
+
+        m = n < RC_PIECE ? n : RC_PIECE;
+        if (!as_it_is) {
+            memcpy(part, v, m * sizeof *v);
+            rc_swap_bytes(part, m, sizeof *part);
+            piece = part;
+        }
+        crc = rc_crc32_add(crc, piece, m * sizeof *piece);
+        fwrite(piece, sizeof *piece, m, file);
     }
     return crc;
 }
@@ -116,7 +118,7 @@ write_f32(FILE *file, const double *v, size_t n, uint32_t crc)
         if (!rc_host_is_little())
             rc_swap_bytes(part, m, sizeof *part);
         fwrite(part, sizeof *part, m, file);
-        crc = rc_crc_add(crc, part, m * sizeof *part);
+        crc = rc_crc32_add(crc, part, m * sizeof *part);
         n -= m;
     }
     return crc;
@@ -153,7 +155,7 @@ rc_writer_put(struct rc_writer *w, const struct rc_grid *g, struct rc_err *err)
         goto done;
     }
     fwrite(t->text, 1, t->n, w->file);
-    crc = rc_crc_add(0, t->text, t->n);
+    crc = rc_crc32_add(0, t->text, t->n);
     crc = (g->type == RC_F32 ? write_f32 : write_f64)(w->file, g->v, g->nx * g->ny, crc);
     fprintf(w->file, "crc32 %08" PRIx32 "\n", crc);
     if (ferror(w->file)) {

@@ -1,85 +1,209 @@
 /* Figures of a map. Sums are compensated and moments taken about the mean, so that neither the
- * number of nodes nor a datum far away eats digits. */
+ * number of nodes nor a datum far away eats digits. Values are taken several at a time, each into
+ * sums of its own, and without a branch: the rest of what is computed here waits for memory. */
 #include "libcontact/common.h"
 
+#include <float.h>
 #include <math.h>
 
-/* Counts, extremes, sum and mean: what one pass over the values gives. */
-static size_t
-first_pass(const double *v, size_t n, struct rc_statistics *r)
-{
-    struct rc_total sum = {0};
-    size_t there;
+enum {
+    LANES = 8 /* values taken at a time */
+};
 
-    for (size_t k = 0; k < n; k++) {
-        if (isnan(v[k])) {
-            r->missing++;
-        } else if (isinf(v[k])) {
-            r->infinite++;
-        } else {
-            if (!(v[k] >= r->minimum))
-                r->minimum = v[k];
-            if (!(v[k] <= r->maximum))
-                r->maximum = v[k];
-            rc_total_add(&sum, v[k]);
-        }
-    }
-    there = n - r->missing - r->infinite;
-    r->sum = rc_total_value(&sum);
-    if (there > 0)
-        r->mean = r->sum / (double)there;
-    return there;
+/* The sum of rc_total for each lane; what is rounded away is found without asking which of the
+ * two is larger (Knuth, The Art of Computer Programming 2, 4.2.2, theorem B). */
+struct sums {
+    double sum[LANES], lost[LANES];
+};
+
+static inline void
+add(struct sums *t, size_t lane, double v)
+{
+    double old = t->sum[lane], s = old + v, added = s - old;
+
+    t->lost[lane] += (old - (s - added)) + (v - added);
+    t->sum[lane] = s;
 }
 
 static double
-rms_about(const double *v, size_t n, double mean, size_t there)
+value(const struct sums *t)
 {
-    struct rc_total squares = {0}, rest = {0};
+    struct rc_total all = {0};
+
+    for (size_t l = 0; l < LANES; l++)
+        rc_total_add(&all, t->sum[l]);
+    for (size_t l = 0; l < LANES; l++)
+        rc_total_add(&all, isfinite(all.sum) ? t->lost[l] : 0);
+    return rc_total_value(&all);
+}
+
+static double
+count(const double n[LANES])
+{
+    double all = 0;
+
+    for (size_t l = 0; l < LANES; l++)
+        all += n[l];
+    return all;
+}
+
+static inline bool
+there(double v)
+{
+    return fabs(v) <= DBL_MAX;
+}
+
+/* ---- counts, extremes, sum ---- */
+
+struct first {
+    double there[LANES], missing[LANES], minimum[LANES], maximum[LANES];
+    struct sums sum;
+};
+
+static inline void
+take(struct first *f, size_t lane, double v)
+{
+    bool is = there(v);
+    double low = f->minimum[lane], high = f->maximum[lane];
+
+    f->there[lane] += is ? 1 : 0;
+    f->missing[lane] += v != v ? 1 : 0;
+    f->minimum[lane] = is && v < low ? v : low;
+    f->maximum[lane] = is && v > high ? v : high;
+    add(&f->sum, lane, is ? v : 0);
+}
+
+RC_CLONES static void
+take_row(struct first *restrict to, const double *restrict v, size_t n)
+{
+    struct first f = *to;
+    size_t k = 0;
+
+    for (; k + LANES <= n; k += LANES) {
+#pragma omp simd
+        for (size_t l = 0; l < LANES; l++)
+            take(&f, l, v[k + l]);
+    }
+    for (size_t l = 0; k < n; k++, l++)
+        take(&f, l, v[k]);
+    *to = f;
+}
+
+/* ---- the second moment ---- */
+
+struct second {
+    struct sums squares, rest;
+};
+
+static inline void
+take_about(struct second *s, size_t lane, double v, double mean)
+{
+    double d = there(v) ? v - mean : 0;
+
+    add(&s->squares, lane, d * d);
+    add(&s->rest, lane, d);
+}
+
+RC_CLONES static void
+take_all_about(struct second *restrict to, const double *restrict v, size_t n, double mean)
+{
+    struct second s = *to;
+    size_t k = 0;
+
+    for (; k + LANES <= n; k += LANES) {
+#pragma omp simd
+        for (size_t l = 0; l < LANES; l++)
+            take_about(&s, l, v[k + l], mean);
+    }
+    for (size_t l = 0; k < n; k++, l++)
+        take_about(&s, l, v[k], mean);
+    *to = s;
+}
+
+static double
+rms_about(const double *v, size_t n, double mean, double nodes)
+{
+    struct second s = {0};
     double left;
 
-    for (size_t k = 0; k < n; k++)
-        if (isfinite(v[k])) {
-            rc_total_add(&squares, (v[k] - mean) * (v[k] - mean));
-            rc_total_add(&rest, v[k] - mean);
-        }
+    take_all_about(&s, v, n, mean);
     /* the mean itself is rounded: what it misses is taken out */
-    left = rc_total_value(&rest) / (double)there;
-    return sqrt(fmax(0, rc_total_value(&squares) / (double)there - left * left));
+    left = value(&s.rest) / nodes;
+    return sqrt(fmax(0, value(&s.squares) / nodes - left * left));
 }
 
-/* Over the nodes whose next neighbours along each side that the map has are there. */
-static double
-slope(const struct rc_shape *shape, const double *v)
+/* ---- slope: over the nodes whose next neighbours along each side that the map has are there ---- */
+
+struct slope {
+    double there[LANES];
+    struct sums squares;
+};
+
+static inline void
+take_slope(struct slope *s, size_t lane, double v, double right, double below, const double per[2])
 {
-    size_t nx = shape->nx, ny = shape->ny, n = 0;
-    size_t right = nx > 1 ? 1 : 0, below = ny > 1 ? nx : 0;
-    struct rc_total squares = {0};
+    bool is = there(v) && there(right) && there(below);
+    double gx = (right - v) * per[0], gy = (below - v) * per[1], g2 = gx * gx + gy * gy;
 
-    if (nx == 1 && ny == 1)
-        return NAN;
-    for (size_t j = 0; j + (ny > 1) < ny; j++)
-        for (size_t i = 0; i + right < nx; i++) {
-            const double *at = v + j * nx + i;
-            double gx = (at[right] - *at) / shape->dx, gy = (at[below] - *at) / shape->dy;
-            double g2 = gx * gx + gy * gy;
-            if (!isfinite(*at) || !isfinite(at[right]) || !isfinite(at[below]))
-                continue;
-            rc_total_add(&squares, g2);
-            n++;
-        }
-    return n == 0 ? NAN : sqrt(rc_total_value(&squares) / (double)n);
+    s->there[lane] += is ? 1 : 0;
+    add(&s->squares, lane, is ? g2 : 0);
 }
+
+/* per: 1/dx, 1/dy. */
+RC_CLONES static void
+take_slopes(struct slope *restrict to, const double *v, const double *right, const double *below,
+            size_t n, const double per[2])
+{
+    struct slope s = *to;
+    double by[2] = {per[0], per[1]};
+    size_t k = 0;
+
+    for (; k + LANES <= n; k += LANES) {
+#pragma omp simd
+        for (size_t l = 0; l < LANES; l++)
+            take_slope(&s, l, v[k + l], right[k + l], below[k + l], by);
+    }
+    for (size_t l = 0; k < n; k++, l++)
+        take_slope(&s, l, v[k], right[k], below[k], by);
+    *to = s;
+}
+
+/* ---- all of it ---- */
 
 void
 rc_measure(const struct rc_shape *shape, const double *v, struct rc_statistics *result)
 {
-    size_t n = shape->nx * shape->ny, there;
+    size_t nx = shape->nx, ny = shape->ny;
+    size_t right = nx > 1 ? 1 : 0, below = ny > 1 ? nx : 0;
+    const double per[2] = {1 / shape->dx, 1 / shape->dy};
+    struct first f = {0};
+    struct slope slope = {0};
+    double nodes;
 
     *result = (struct rc_statistics){
         .minimum = NAN, .maximum = NAN, .mean = NAN, .rms = NAN, .rms_slope = NAN};
-    there = first_pass(v, n, result);
-    if (there == 0)
+    for (size_t l = 0; l < LANES; l++) {
+        f.minimum[l] = INFINITY;
+        f.maximum[l] = -INFINITY;
+    }
+    for (size_t j = 0; j < ny; j++) {
+        const double *row = v + j * nx;
+        take_row(&f, row, nx);
+        if (j + 1 < ny || below == 0)
+            take_slopes(&slope, row, row + right, row + below, nx - right, per);
+    }
+    nodes = count(f.there);
+    result->missing = (size_t)count(f.missing);
+    result->infinite = nx * ny - (size_t)nodes - result->missing;
+    result->sum = value(&f.sum);
+    if (nodes == 0)
         return;
-    result->rms = rms_about(v, n, result->mean, there);
-    result->rms_slope = slope(shape, v);
+    for (size_t l = 0; l < LANES; l++) {
+        result->minimum = fmin(result->minimum, f.minimum[l]);
+        result->maximum = fmax(result->maximum, f.maximum[l]);
+    }
+    result->mean = result->sum / nodes;
+    result->rms = rms_about(v, nx * ny, result->mean, nodes);
+    if (right + below > 0 && count(slope.there) > 0)
+        result->rms_slope = sqrt(value(&slope.squares) / count(slope.there));
 }

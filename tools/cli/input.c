@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "parts.h"
+#include "pipe.h"
 
 static void
 open_next(struct tool *t)
@@ -30,6 +31,7 @@ open_next(struct tool *t)
         tool_die(t, EXIT_USAGE, "%s is a terminal: pipe a grid stream in or name a file",
                  t->source);
     setvbuf(t->in, NULL, _IOFBF, TOOL_BUFFER);
+    pipe_widen(fileno(t->in));
     t->reader = rc_reader_new(t->in, t->last_case, t->memory, &err);
     if (t->reader == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);

@@ -64,23 +64,23 @@ physics_steps(const struct physics *a)
 static void
 add_sphere(struct tool *t, const struct physics *a, struct rc_grid *g)
 {
-    struct rc_shape shape = rc_grid_shape(g);
-    double *sphere = malloc(g->nx * g->ny * sizeof *sphere);
+    struct rc_shape along = {g->nx, 1, g->dx, g->dy}, across = {1, g->ny, g->dx, g->dy};
+    double *row = malloc((g->nx + g->ny) * sizeof *row), *column = row + g->nx;
 
-    if (sphere == NULL)
+    if (row == NULL)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "out of memory");
-    rc_synth_sphere(&shape, a->radius, sphere);
-    for (size_t k = 0; k < g->nx * g->ny; k++)
-        g->v[k] += sphere[k];
-    free(sphere);
+    rc_synth_sphere(&along, a->radius, row); /* a parabola is the sum of two */
+    rc_synth_sphere(&across, a->radius, column);
+    for (size_t j = 0; j < g->ny; j++)
+        for (size_t i = 0; i < g->nx; i++)
+            g->v[j * g->nx + i] += row[i] + column[j];
+    free(row);
 }
 
 static void
-warn(struct tool *t, const struct physics *a, const struct rc_grid *g)
+warn(struct tool *t, const struct physics *a, const struct rc_grid *g, double rms_slope)
 {
-    struct rc_shape shape = rc_grid_shape(g);
     const char *periodic = rc_grid_get(g, "periodic");
-    struct rc_statistics st;
     char where[256];
 
     tool_where(t, g, where, sizeof where);
@@ -94,25 +94,29 @@ warn(struct tool *t, const struct physics *a, const struct rc_grid *g)
                   "%s: a profile is solved as a strip %g m wide, not as a ridge without "
                   "end",
                   where, g->dy);
-    rc_measure(&shape, g->v, &st);
-    if (st.rms_slope > 0.3)
+    if (rms_slope > 0.3)
         tool_warn(t,
                   "%s: RMS slope %.2f is beyond the theory of small slopes (0.3): expect "
                   "pressures that are too high",
-                  where, st.rms_slope);
+                  where, rms_slope);
 }
 
 void
 physics_heights(struct tool *t, const struct physics *a, struct rc_grid *g)
 {
+    struct rc_shape shape = rc_grid_shape(g);
+    struct rc_statistics st;
+
     if (strcmp(g->unit, "m") != 0)
         tool_die_at(t, g, EXIT_IMPOSSIBLE,
                     "its unit is '%s': heights are in metres; import the file again with --z-unit",
                     g->unit);
-    tool_demand_finite(t, g, "fill them with rc-detrend --fill");
     if (!isnan(a->radius))
         add_sphere(t, a, g);
-    warn(t, a, g);
+    rc_measure(&shape, g->v, &st);
+    if (st.missing + st.infinite > 0) /* the slow way, which finds the first */
+        tool_demand_finite(t, g, "fill them with rc-detrend --fill");
+    warn(t, a, g, st.rms_slope);
 }
 
 struct rc_problem

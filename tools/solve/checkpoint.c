@@ -10,12 +10,14 @@
 #include "solve.h"
 
 #include <errno.h>
+#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/types.h>
 #include <unistd.h>
-#include <zlib.h>
+
+#include "formats/core/core.h"
 
 static const char end_line[] = "RCGEND 1\n";
 
@@ -128,13 +130,10 @@ checkpoint_close(struct checkpoint *c)
 void
 checkpoint_surface(struct checkpoint *c, const struct rc_grid *g)
 {
-    uLong crc = crc32(0, NULL, 0);
-
     if (c == NULL)
         return;
-    for (size_t j = 0; j < g->ny; j++)
-        crc = crc32(crc, (const Bytef *)(g->v + j * g->nx), (uInt)(g->nx * sizeof *g->v));
-    snprintf(c->surface, sizeof c->surface, "%08lx", crc);
+    snprintf(c->surface, sizeof c->surface, "%08" PRIx32,
+             rc_crc32_add(0, g->v, g->nx * g->ny * sizeof *g->v));
 }
 
 /* What a frame has to agree in with the case that goes on from it. */
