@@ -3,7 +3,8 @@
 # finds it.
 
 build_packages="gcc libc6-dev make cmake pkg-config libfftw3-dev libgsl-dev libpng-dev libxml2-dev
-    libzip-dev zlib1g-dev libhdf5-dev libtiff-dev libmd-dev libpango1.0-dev fonts-dejavu-core"
+    libzip-dev zlib1g-dev libhdf5-dev libtiff-dev libdeflate-dev libmd-dev libpango1.0-dev
+    fonts-dejavu-core"
 test_packages="libcmocka-dev mandoc zip unzip perl clang-format"
 
 need_packages() {
@@ -13,8 +14,8 @@ need_packages() {
 This is neither Debian nor Ubuntu: please see that these are installed, with their headers:
   a C17 compiler with OpenMP, make, CMake 3.20 or later, pkg-config
   FFTW 3.3.5 or later (double and single precision, with threads), GSL 2.2 or later, libpng,
-  libxml2, libzip, zlib, libhdf5, libtiff, libmd, Pango with cairo, and a sans serif font that
-  fontconfig finds, such as DejaVu Sans
+  libxml2, libzip, zlib, libhdf5, libtiff, libdeflate, libmd, Pango with cairo, and a sans serif font
+  that fontconfig finds, such as DejaVu Sans
   for the tests also: cmocka, mandoc, zip, unzip, perl, clang-format 14
 EOT
         return 0

@@ -2,11 +2,11 @@
 #ifndef RC_STREAM_BYTES_H
 #define RC_STREAM_BYTES_H
 
+#include <libdeflate.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <string.h>
-#include <zlib.h>
 
 enum {
     RC_CHUNK = 8192,  /* values converted at a time where they are not read as they are */
@@ -36,10 +36,12 @@ rc_swap_bytes(void *values, size_t n, size_t width)
         }
 }
 
+/* By libdeflate: five times as fast as zlib, whose sum would take as long as the transforms of a
+ * slice of stresses. */
 static inline uint32_t
 rc_crc_add(uint32_t crc, const void *bytes, size_t n)
 {
-    return (uint32_t)crc32_z(crc, bytes, n);
+    return libdeflate_crc32(crc, bytes, n);
 }
 
 #endif
