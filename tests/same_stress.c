@@ -230,7 +230,8 @@ sections_are_lines_of_slices(void **state)
                                               .threads = 2};
                 size_t nx = s.shape.nx, ny = s.shape.ny, along = across ? ny : nx;
                 double *map[RC_STRESSES], *line[RC_STRESSES];
-                for (double z = 0; z < 5e-6; z += 1.3e-6) {
+                /* the last depths are those that some and almost all waves do not reach */
+                for (double z = 0; z < 1e-4; z += z < 4e-6 ? 1.3e-6 : 3 * z) {
                     o.section = 0;
                     compute(&s, o, z, map, NULL);
                     o.section = across ? 'x' : 'y';
@@ -329,6 +330,27 @@ alone_as_in_company(void **state)
     }
     release(all);
     free(s.p);
+}
+
+/* The largest value is the first that no other one exceeds, wherever in a map it is. */
+static void
+largest_as_one_by_one(void **state)
+{
+    static double v[20000];
+    uint64_t seed = 1882;
+
+    (void)state;
+    for (size_t n = 1; n <= sizeof v / sizeof *v; n = n * 5 / 2 + 1) {
+        size_t first = 0;
+        for (size_t k = 0; k < n; k++)
+            v[k] = floor(1000 * random_number(&seed)); /* so many are equal */
+        for (size_t k = 1; k < n; k++)
+            first = fabs(v[k]) > fabs(v[first]) ? k : first;
+        assert_int_equal(rc_largest(n, v), first);
+        v[n / 3] = -7e9;
+        v[n - 1] = 7e9;
+        assert_int_equal(rc_largest(n, v), n / 3);
+    }
 }
 
 /* ---- only what the scene calls for ---- */
@@ -439,6 +461,7 @@ main(void)
         cmocka_unit_test(sections_between_rows),
         cmocka_unit_test(threads_change_no_bit),
         cmocka_unit_test(alone_as_in_company),
+        cmocka_unit_test(largest_as_one_by_one),
         cmocka_unit_test(nothing_is_done_unasked),
     };
 
