@@ -353,8 +353,11 @@ scatter(struct plan *f, size_t first, const COMPLEX *y)
             butterfly_back(f, x, step, 4, w, y + j);
         }
     } else {
-        for (; j < both; j++, x += l->stride, w += 3)
+        for (; j < both; j++, x += l->stride, w += 3) {
+            prefetch(x + PREFETCH * l->stride);
+            prefetch(x + PREFETCH * l->stride + step);
             butterfly_back(f, x, step, 2, w, y + j);
+        }
         for (; j < l->m && j < l->ny; j++, x += l->stride, w += 3)
             butterfly_back(f, x, step, 1, w, y + j);
     }
