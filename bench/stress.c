@@ -151,7 +151,7 @@ write_new(const struct rc_shape *shape, bool stream)
     struct write_work w = {.pipe = must(popen("cat >/dev/null", "w"))};
     struct rc_err err;
 
-    setvbuf(w.pipe, NULL, _IOFBF, 1 << 20);
+    setvbuf(w.pipe, NULL, _IOFBF, 1 << 16);
     pipe_widen(fileno(w.pipe));
     if (stream)
         w.writer = must(rc_writer_new(w.pipe, &err));

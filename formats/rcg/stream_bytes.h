@@ -10,6 +10,7 @@
 
 enum {
     RC_CHUNK = 8192,  /* values converted at a time where they are not read as they are */
+    RC_PIECE = 32768, /* values summed and passed on at a time: they stay in a cache    */
     RC_FAIL_MAX = 399 /* bytes of a message in RCGFAIL: what a reader repeats           */
 };
 

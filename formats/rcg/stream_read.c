@@ -289,11 +289,16 @@ grid_of_head(struct rc_reader *r, const struct head *head, struct rc_err *err)
 static enum rc_status
 read_f64(struct rc_reader *r, double *v, size_t n, struct rc_err *err)
 {
-    if (fread(v, sizeof *v, n, r->file) != n)
-        return cut_off(r, "inside the values of a frame", err);
-    r->crc = rc_crc_add(r->crc, v, n * sizeof *v);
-    if (!rc_host_is_little())
-        rc_swap_bytes(v, n, sizeof *v);
+    while (n > 0) {
+        size_t m = n < RC_PIECE ? n : RC_PIECE;
+        if (fread(v, sizeof *v, m, r->file) != m)
+            return cut_off(r, "inside the values of a frame", err);
+        r->crc = rc_crc_add(r->crc, v, m * sizeof *v);
+        if (!rc_host_is_little())
+            rc_swap_bytes(v, m, sizeof *v);
+        v += m;
+        n -= m;
+    }
     return RC_OK;
 }
 

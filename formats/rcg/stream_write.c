@@ -89,9 +89,11 @@ write_f64(FILE *file, const double *v, size_t n, uint32_t crc)
 {
     double part[RC_CHUNK];
 
-    if (rc_host_is_little()) {
-        fwrite(v, sizeof *v, n, file);
-        return rc_crc_add(crc, v, n * sizeof *v);
+    for (; n > 0 && rc_host_is_little(); v += RC_PIECE) {
+        size_t m = n < RC_PIECE ? n : RC_PIECE;
+        crc = rc_crc_add(crc, v, m * sizeof *v);
+        fwrite(v, sizeof *v, m, file);
+        n -= m;
     }
     for (; n > 0; v += RC_CHUNK) {
         size_t m = n < RC_CHUNK ? n : RC_CHUNK;
