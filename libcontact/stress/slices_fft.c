@@ -7,7 +7,8 @@
  * Periodic: the kernels are known by their symbols, nothing is padded, and only the decay of the
  * waves is tabulated. Waves that do not reach the depth are left out.
  *
- * Free, where a tolerance and the depth allow it: the same on a coarser grid.
+ * Where a tolerance allows it transforms are in single precision, and on a free map, where the depth
+ * allows it too, the same is done on a coarser grid.
  */
 #include "coarse_grid.h"
 
@@ -46,6 +47,17 @@ count(unsigned bits)
     return n;
 }
 
+/* Tolerances below this are left to double precision: single makes an error of up to 1e-6 of the
+ * largest pressure. Errors of the two loads add. */
+static const double single_floor = 1e-5;
+
+static enum rc_precision
+precision_of(const struct rc_stress_task *t)
+{
+    return t->options.tol / (1 + fabs(t->options.mu)) >= single_floor && !t->precise ? RC_SINGLE
+                                                                                     : RC_DOUBLE;
+}
+
 static void
 grid_free(struct grid *g)
 {
@@ -74,7 +86,7 @@ grid_new(const struct rc_stress_task *task, const struct rc_shape *shape, const 
     g->task = task;
     g->shape = *shape;
     g->threads = rc_useful_threads(shape, task->options.threads);
-    g->fft = rc_fft_new(shape, boundary, RC_DOUBLE, task->options.threads, err);
+    g->fft = rc_fft_new(shape, boundary, precision_of(task), task->options.threads, err);
     if (g->fft == NULL)
         goto fail;
     rc_fft_quarter(g->fft, &g->cx, &g->cy);
@@ -104,12 +116,14 @@ static size_t
 grid_memory(const struct rc_stress_task *task, const struct rc_shape *shape)
 {
     enum rc_boundary boundary = task->options.boundary;
-    size_t spectrum = rc_spectrum_memory(shape, boundary, RC_DOUBLE);
+    enum rc_precision precision = precision_of(task);
+    size_t spectrum = rc_spectrum_memory(shape, boundary, precision);
     size_t quarters = boundary == RC_FREE ? count(task->kernels) : 1;
 
-    /* the transform of p is as large as four spectra, a quarter as large as one */
-    return sizeof(struct grid) + rc_fft_memory(shape, boundary, RC_DOUBLE) +
-           ((size_t)(task->options.mu != 0) + 4 + quarters) * spectrum;
+    /* the transform of p is as large as four spectra, a quarter as large as one in double */
+    return sizeof(struct grid) + rc_fft_memory(shape, boundary, precision) +
+           ((size_t)(task->options.mu != 0) + 4) * spectrum +
+           quarters * rc_spectrum_memory(shape, boundary, RC_DOUBLE);
 }
 
 /* ---- kernels ---- */
