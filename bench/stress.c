@@ -1,8 +1,9 @@
 /*
  * What stresses cost:
  *
- *     bench-stress [parts] [sizes] [mlms]       (default: all)
+ *     bench-stress [slice] [parts] [sizes] [mlms]       (default: all)
  *
+ * slice  a slice of six components and Mises against the transforms it needs, and against writing it
  * parts  where the time of a slice goes: coefficients, their transforms, fields
  * sizes  time a slice against one convolution of the deflection, same run
  * mlms   the multi-level sum against the transforms
@@ -11,8 +12,10 @@
  */
 #include "bench.h"
 
+#include "formats/rcg/rcg.h"
 #include "libcontact/operator/operator.h"
 #include "libcontact/stress/stress.h"
+#include "tools/cli/pipe.h"
 
 static size_t threads;
 
@@ -80,7 +83,7 @@ slice_seconds(const struct rc_shape *shape, const double *p, const struct rc_str
     return least;
 }
 
-/* ---- parts ---- */
+/* ---- slice ---- */
 
 struct field_work {
     struct rc_fft *fft;
@@ -95,6 +98,147 @@ field_run(void *what)
 
     rc_fft_field(w->fft, w->k, w->u);
 }
+
+/* A kernel's values on a quarter of the padded map to its spectrum. */
+struct kernel_work {
+    struct rc_fft *fft;
+    struct rc_spectrum *k;
+    double *quarter;
+    size_t cx, cy;
+};
+
+static void
+kernel_run(void *what)
+{
+    const struct kernel_work *w = what;
+
+#pragma omp parallel for num_threads((int)threads) schedule(dynamic, 4)
+    for (size_t j = 0; j < w->cy; j++)
+        rc_fft_quarter_row(w->fft, 0, w->quarter + j * w->cx);
+    rc_spectrum_set_quarter(w->k, w->fft, 0, w->quarter);
+}
+
+enum {
+    FRAMES = RC_COMPONENTS + 1
+};
+
+/* The frames of a slice to a program that reads and forgets them. */
+struct write_work {
+    FILE *pipe;
+    struct rc_writer *writer; /* NULL: their bytes, no stream */
+    struct rc_grid *frame[FRAMES];
+};
+
+static void
+write_run(void *what)
+{
+    const struct write_work *w = what;
+    struct rc_err err;
+
+    for (int c = 0; c < FRAMES; c++) {
+        const struct rc_grid *g = w->frame[c];
+        if (w->writer != NULL)
+            must_be(rc_writer_put(w->writer, g, &err), &err);
+        else
+            fwrite(g->v, sizeof *g->v, g->nx * g->ny, w->pipe);
+    }
+    fflush(w->pipe);
+}
+
+static struct write_work
+write_new(const struct rc_shape *shape, bool stream)
+{
+    struct write_work w = {.pipe = must(popen("cat >/dev/null", "w"))};
+    struct rc_err err;
+
+    setvbuf(w.pipe, NULL, _IOFBF, 1 << 16);
+    pipe_widen(fileno(w.pipe));
+    if (stream)
+        w.writer = must(rc_writer_new(w.pipe, &err));
+    for (int c = 0; c < FRAMES; c++) {
+        w.frame[c] = must(rc_grid_new(shape, rc_component_names[c], "Pa", &err));
+        for (size_t k = 0; k < shape->nx * shape->ny; k++)
+            w.frame[c]->v[k] = (double)k;
+    }
+    return w;
+}
+
+static void
+write_free(struct write_work *w)
+{
+    rc_writer_free(w->writer);
+    pclose(w->pipe);
+    for (int c = 0; c < FRAMES; c++)
+        rc_grid_free(w->frame[c]);
+}
+
+static void
+slice_row(const struct rc_shape *shape, const double *p, const char *name,
+          enum rc_boundary boundary, double depth, struct write_work *stream,
+          struct write_work *bytes)
+{
+    const struct rc_stress_options o = {
+        .boundary = boundary, .nu = 0.3, .wanted = (2u << RC_MISES) - 1, .threads = threads};
+    size_t n = shape->nx * shape->ny;
+    struct rc_err err;
+    struct rc_fft *fft = must(rc_fft_new(shape, boundary, RC_DOUBLE, threads, &err));
+    struct rc_spectrum *k = must(rc_spectrum_new(fft, &err));
+    struct maps maps = maps_new(n);
+    struct slice_work slice = {must(rc_stress_new(shape, p, &o, &err)), depth, maps.s};
+    struct field_work field = {fft, k, maps.s[0]};
+    struct kernel_work kernel = {.fft = fft, .k = k};
+    struct work work[] = {{slice_run, &slice},
+                          {field_run, &field},
+                          {write_run, stream},
+                          {write_run, bytes},
+                          {kernel_run, &kernel}};
+    double least[5] = {0}, transforms;
+
+    rc_fft_quarter(fft, &kernel.cx, &kernel.cy);
+    kernel.quarter = must(calloc(kernel.cx * kernel.cy, sizeof(double)));
+    must_be(rc_fft_load(fft, p, &err), &err);
+    if (boundary == RC_FREE)
+        kernel_run(&kernel);
+    take_turns(boundary == RC_FREE ? 5 : 4, work, 1, 4, least);
+    transforms = RC_COMPONENTS * (least[1] + least[4]);
+    printf("  %-24s%8.1f%8.1f%8.1f%8.2f%10.1f%8.1f%8.2f%8.0f\n", name, 6e3 * least[1],
+           6e3 * least[4], 1e3 * least[0], least[0] / transforms, 1e3 * least[2], 1e3 * least[3],
+           least[2] / least[0],
+           (double)rc_stress_memory(shape, &o) / (double)n + (1 + FRAMES) * sizeof(double));
+    fflush(stdout);
+    free(kernel.quarter);
+    rc_stress_free(slice.stress);
+    rc_spectrum_free(k);
+    rc_fft_free(fft);
+    maps_free(&maps);
+}
+
+static void
+slice(void)
+{
+    enum {
+        M = 1024
+    };
+    struct rc_shape shape;
+    double *p = disc(M, &shape);
+    struct write_work stream = write_new(&shape, true), bytes = write_new(&shape, false);
+
+    printf("slice: %d x %d nodes, six components and Mises, milliseconds, %zu threads.\n"
+           "fields: back from the pressure's transform; kernels: to their spectra; ratio: slice to "
+           "both;\nwritten: %d bytes a node to a pipe, bare: without headers and checksums; "
+           "ratio: written to slice\n",
+           M, M, threads, FRAMES * (int)sizeof(double));
+    printf("  %-24s%8s%8s%8s%8s%10s%8s%8s%8s\n", "depth in spacings", "fields", "kernels", "slice",
+           "ratio", "written", "bare", "ratio", "B/node");
+    slice_row(&shape, p, "free, 5", RC_FREE, 5 * shape.dx, &stream, &bytes);
+    slice_row(&shape, p, "periodic, 5", RC_PERIODIC, 5 * shape.dx, &stream, &bytes);
+    slice_row(&shape, p, "periodic, 40", RC_PERIODIC, 40 * shape.dx, &stream, &bytes);
+    write_free(&stream);
+    write_free(&bytes);
+    free(p);
+}
+
+/* ---- parts ---- */
 
 static void
 parts(void)
@@ -254,8 +398,10 @@ mlms(void)
 int
 main(int argc, char **argv)
 {
-    static const struct part table[] = {
-        {"parts", parts, false}, {"sizes", sizes, false}, {"mlms", mlms, false}};
+    static const struct part table[] = {{"slice", slice, false},
+                                        {"parts", parts, false},
+                                        {"sizes", sizes, false},
+                                        {"mlms", mlms, false}};
 
     threads = threads_wanted();
     return parts_run(sizeof table / sizeof *table, table, argc - 1, argv + 1);

@@ -37,8 +37,9 @@ enum {
 
 struct rc_spectrum {
     unsigned parity;
-    double total; /* at wave number 0    */
-    void *values; /* cx columns of cy numbers, as fft.h has them, divided by px py */
+    size_t columns; /* those from here on are zero */
+    double total;   /* at wave number 0            */
+    void *values;   /* cx columns of cy numbers, as fft.h has them, divided by px py */
 };
 
 /* ---- layout ---- */
@@ -156,6 +157,8 @@ rc_spectrum_new(const struct rc_fft *f, struct rc_err *err)
 
     if (k != NULL)
         k->values = rc_alloc(l->cx * l->cy, f->ops->real_size);
+    if (k != NULL)
+        k->columns = l->cx;
     if (k == NULL || k->values == NULL) {
         rc_err_set(err, "out of memory for a kernel's spectrum of %zu x %zu numbers", l->cx, l->cy);
         rc_spectrum_free(k);
@@ -218,6 +221,7 @@ rc_spectrum_set_quarter(struct rc_spectrum *k, const struct rc_fft *f, unsigned 
     size_t cx = f->layout.cx, cy = f->layout.cy;
 
     k->parity = parity;
+    k->columns = cx;
 #pragma omp parallel for num_threads(f->layout.threads) schedule(static)
     for (size_t first = 0; first < cx; first += COLUMNS) {
         double *columns = columns_of(f);
@@ -272,21 +276,28 @@ rc_spectrum_sample(struct rc_spectrum *k, const struct rc_fft *f, unsigned parit
                    rc_symbol *symbol, const void *of)
 {
     const struct rc_layout *l = &f->layout;
+    size_t columns = 0;
 
     k->parity = parity;
-#pragma omp parallel for num_threads(l->threads) schedule(static)
-    for (size_t i = 0; i < l->cx; i++) {
-        double *column = columns_of(f);
-        double qx = rc_fourier_q(i, l->nx, f->shape.dx);
-        bool zero_x = 2 * i == l->nx && parity & RC_ODD_X;
+#pragma omp parallel num_threads(l->threads) reduction(max : columns)
+    {
+        double *column = columns_of(f), *qy = column + l->cy;
 
-        for (size_t j = 0; j < l->cy; j++) {
-            double qy = rc_fourier_q(j, l->ny, f->shape.dy);
-            bool zero_y = 2 * j == l->ny && parity & RC_ODD_Y;
-            column[j] = zero_x || zero_y ? 0 : symbol(of, qx, qy);
+        for (size_t j = 0; j < l->cy; j++)
+            qy[j] = rc_fourier_q(j, l->ny, f->shape.dy);
+#pragma omp for schedule(static)
+        for (size_t i = 0; i < l->cx; i++) {
+            bool zero = 2 * i == l->nx && parity & RC_ODD_X;
+            if (zero || !symbol(of, i, rc_fourier_q(i, l->nx, f->shape.dx), l->cy, qy, column))
+                memset(column, 0, l->cy * sizeof *column);
+            else
+                columns = i + 1;
+            if (2 * (l->cy - 1) == l->ny && parity & RC_ODD_Y)
+                column[l->cy - 1] = 0;
+            store_column(k, f, i, column);
         }
-        store_column(k, f, i, column);
     }
+    k->columns = columns;
 }
 
 /* One component of a kernel in a medium. */
@@ -296,12 +307,15 @@ struct component {
     const struct rc_medium *medium;
 };
 
-static double
-symbol_of(const void *of, double qx, double qy)
+static bool
+symbol_of(const void *of, size_t i, double qx, size_t n, const double *qy, double *out)
 {
     const struct component *c = of;
 
-    return qx == 0 && qy == 0 ? 0 : c->kernel->symbol(c->medium, c->index, qx, qy);
+    (void)i;
+    for (size_t j = 0; j < n; j++)
+        out[j] = qx == 0 && qy[j] == 0 ? 0 : c->kernel->symbol(c->medium, c->index, qx, qy[j]);
+    return true;
 }
 
 static enum rc_status
@@ -351,6 +365,7 @@ transform_wrapped(const struct rc_fft *f, struct rc_spectrum *k, const struct rc
     }
     wrapped_values(f, kernel, component, medium, v);
     k->parity = kernel->parity[component];
+    k->columns = l->cx;
     status = rc_fourier_forward(&f->shape, v, s, err);
     for (size_t i = 0; i < l->cx && status == RC_OK; i++) {
         for (size_t j = 0; j < l->cy; j++)
@@ -391,6 +406,7 @@ rc_spectrum_set_reciprocal(struct rc_spectrum *k, const struct rc_fft *f,
     size_t n = l->cx * l->cy;
 
     k->parity = of->parity;
+    k->columns = of->columns;
     if (f->ops->real_size == sizeof(float)) {
         const float *s = of->values;
         float *to = k->values;
@@ -438,12 +454,14 @@ rc_fft_load(struct rc_fft *f, const double *p, struct rc_err *err)
 void
 rc_fft_field(struct rc_fft *f, const struct rc_spectrum *k, double *u)
 {
-    f->ops->field(f->plan, k->values, k->parity, NULL, 0, 0, u);
+    f->ops->field(f->plan, k->columns, k->values, k->parity, NULL, 0, 0, u);
 }
 
 void
 rc_fft_field_pair(struct rc_fft *f, const struct rc_spectrum *k, double weight,
                   const struct rc_spectrum *also, double *u)
 {
-    f->ops->field(f->plan, k->values, k->parity, also->values, also->parity, weight, u);
+    size_t columns = k->columns > also->columns ? k->columns : also->columns;
+
+    f->ops->field(f->plan, columns, k->values, k->parity, also->values, also->parity, weight, u);
 }

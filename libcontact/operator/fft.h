@@ -57,9 +57,11 @@ void rc_fft_quarter_row(const struct rc_fft *fft, unsigned parity, double *row);
 void rc_spectrum_set_quarter(struct rc_spectrum *spectrum, const struct rc_fft *fft,
                              unsigned parity, const double *rows);
 /* On the periodic boundary: from the kernel's transform, over (-i)^(number of odd directions), at
- * wave numbers qx, qy >= 0 in rad/m. Several threads ask at once. Waves of two nodes in a direction
- * in which the kernel is odd are left out: they are zero at all nodes. */
-typedef double rc_symbol(const void *of, double qx, double qy);
+ * wave numbers qx, qy >= 0 in rad/m. It is asked, by several threads at once, for a column i of
+ * equal qx: out[j] at qy[j], j < n; it may return false where all are zero. Waves of two nodes in a
+ * direction in which the kernel is odd are left out: they are zero at all nodes. */
+typedef bool rc_symbol(const void *of, size_t i, double qx, size_t n, const double *qy,
+                       double *out);
 void rc_spectrum_sample(struct rc_spectrum *spectrum, const struct rc_fft *fft, unsigned parity,
                         rc_symbol *symbol, const void *of);
 
@@ -128,9 +130,10 @@ struct rc_fft_ops {
     void (*apply)(void *plan, const void *spectrum, unsigned parity, const double *p, double *u);
     void (*chain)(void *plan, size_t n, const struct rc_link *links, rc_row *last, void *ctx);
     bool (*load)(void *plan, const double *p); /* false: out of memory */
-    /* Of one spectrum, or, when `also` is not NULL, of that one too, weighted. */
-    void (*field)(void *plan, const void *spectrum, unsigned parity, const void *also,
-                  unsigned also_parity, double weight, double *u);
+    /* Of one spectrum, or, when `also` is not NULL, of that one too, weighted; from column `columns`
+     * on both are zero. */
+    void (*field)(void *plan, size_t columns, const void *spectrum, unsigned parity,
+                  const void *also, unsigned also_parity, double weight, double *u);
 };
 extern const struct rc_fft_ops rc_fft_double, rc_fft_single;
 

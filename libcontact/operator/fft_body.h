@@ -206,9 +206,10 @@ row_out(void *map, size_t j, void *row)
 }
 
 /* Rows are written by one function and read by the next; either may be missing at the ends. Between
- * two kernels a row comes and goes without a map in between. */
+ * two kernels a row comes and goes without a map in between. What comes back is zero from column
+ * `columns` on, whatever stands there. */
 static void
-transform_rows(struct plan *f, void *ctx, rc_row *make, bool back, bool forward)
+transform_some(struct plan *f, size_t columns, void *ctx, rc_row *make, bool back, bool forward)
 {
     const struct rc_layout *l = &f->l;
 
@@ -218,6 +219,8 @@ transform_rows(struct plan *f, void *ctx, rc_row *make, bool back, bool forward)
         COMPLEX *waves = f->waves + j * l->stride;
         bool any;
 
+        if (back && columns < l->cx)
+            memset(waves + columns, 0, (l->cx - columns) * sizeof *waves);
         if (back)
             FFTW(execute_dft_c2r)(f->row_back, waves, row);
         any = make(ctx, j, row);
@@ -230,6 +233,12 @@ transform_rows(struct plan *f, void *ctx, rc_row *make, bool back, bool forward)
         memset(row + l->nx, 0, (l->px - l->nx) * sizeof *row);
         FFTW(execute_dft_r2c)(f->row_forward, row, waves);
     }
+}
+
+static void
+transform_rows(struct plan *f, void *ctx, rc_row *make, bool back, bool forward)
+{
+    transform_some(f, f->l.cx, ctx, make, back, forward);
 }
 
 /* ---- columns ---- */
@@ -344,8 +353,11 @@ scatter(struct plan *f, size_t first, const COMPLEX *y)
             butterfly_back(f, x, step, 4, w, y + j);
         }
     } else {
-        for (; j < both; j++, x += l->stride, w += 3)
+        for (; j < both; j++, x += l->stride, w += 3) {
+            prefetch(x + PREFETCH * l->stride);
+            prefetch(x + PREFETCH * l->stride + step);
             butterfly_back(f, x, step, 2, w, y + j);
+        }
         for (; j < l->m && j < l->ny; j++, x += l->stride, w += 3)
             butterfly_back(f, x, step, 1, w, y + j);
     }
@@ -489,17 +501,19 @@ load(void *at, const double *p)
 }
 
 static void
-field(void *at, const void *spectrum, unsigned parity, const void *also, unsigned also_parity,
-      double weight, double *u)
+field(void *at, size_t columns, const void *spectrum, unsigned parity, const void *also,
+      unsigned also_parity, double weight, double *u)
 {
     struct plan *f = at;
     const struct rc_layout *l = &f->l;
     const REAL *s = spectrum, *t = also;
     struct map map = {.u = u, .nx = l->nx};
 
+    /* whole lines of columns are scattered */
+    columns = whole_lines(columns) < l->cx ? whole_lines(columns) : l->cx;
 #pragma omp parallel for num_threads(l->threads) schedule(static)
-    for (size_t c = 0; c < l->cx; c += LINE) {
-        size_t n = l->cx - c < LINE ? l->cx - c : LINE;
+    for (size_t c = 0; c < columns; c += LINE) {
+        size_t n = columns - c < LINE ? columns - c : LINE;
         COMPLEX *y = scratch_of(f), *z = y + LINE * f->column;
 
         for (size_t b = 0; b < n; b++)
@@ -516,7 +530,7 @@ field(void *at, const void *spectrum, unsigned parity, const void *also, unsigne
             }
         scatter(f, c, y);
     }
-    transform_rows(f, &map, row_out, true, false);
+    transform_some(f, columns, &map, row_out, true, false);
 }
 
 static void

@@ -36,10 +36,21 @@ largest_size(size_t n, const double *v)
 size_t
 rc_largest(size_t n, const double *v)
 {
-    double size = largest_size(n, v);
+    enum {
+        PIECE = 4096 /* values looked through together: they stay in the first cache */
+    };
+    double largest = -1;
+    size_t from = 0;
 
-    for (size_t k = 0; k < n; k++)
-        if (fabs(v[k]) == size)
+    for (size_t k = 0; k < n; k += PIECE) {
+        double size = largest_size(n - k < PIECE ? n - k : PIECE, v + k);
+        if (size > largest) {
+            largest = size;
+            from = k;
+        }
+    }
+    for (size_t k = from; k < n; k++)
+        if (fabs(v[k]) == largest)
             return k;
     return 0;
 }

@@ -187,24 +187,48 @@ t_yz_corner(const struct rc_corner *k)
 /* ---- of a wave ---- */
 
 #define SYMBOL(name, value)                                                                        \
-    static double name##_symbol(const struct rc_wave *s)                                           \
+    RC_WIDE_CLONES static void name##_symbol(const struct rc_waves *s, double *restrict out)       \
     {                                                                                              \
-        double qx = s->qx, qy = s->qy, q = s->q, z = s->z, nu = s->nu, c = 1 - 2 * nu;             \
-        (void)qx, (void)qy, (void)q, (void)z, (void)nu, (void)c;                                   \
-        return (value)*s->decay;                                                                   \
+        const double *restrict xs = s->x, *restrict ys = s->y;                                     \
+        const double *restrict qs = s->q, *restrict decays = s->decay;                             \
+        double z = s->z, nu = s->nu, c = 1 - 2 * nu;                                               \
+                                                                                                   \
+        for (size_t i = 0; i < s->n; i++) {                                                        \
+            double x = xs[i], y = ys[i], q = qs[i];                                                \
+            (void)x, (void)y, (void)q, (void)z, (void)nu, (void)c;                                 \
+            out[i] = (value)*decays[i];                                                            \
+        }                                                                                          \
     }
 
-SYMBOL(n_xx, -2 * nu - (c - z * q) * (qx / q) * (qx / q))
-SYMBOL(n_yy, -2 * nu - (c - z * q) * (qy / q) * (qy / q))
-SYMBOL(n_zz, -1 - q * z)
-SYMBOL(n_xy, (c - z * q) * (qx / q) * (qy / q))
-SYMBOL(n_xz, -qx *z)
-SYMBOL(n_yz, -qy *z)
-SYMBOL(t_xx, -(qx / q) * (2 * (1 + nu) - (2 * nu + z * q) * (qx / q) * (qx / q)))
-SYMBOL(t_yy, -(qx / q) * (2 * nu - (2 * nu + z * q) * (qy / q) * (qy / q)))
-SYMBOL(t_xy, -(qy / q) * (1 - (2 * nu + z * q) * (qx / q) * (qx / q)))
-SYMBOL(t_xz, z *q *(qx / q) * (qx / q) - 1)
-SYMBOL(t_yz, -z *q *(qx / q) * (qy / q))
+SYMBOL(n_xx, -2 * nu - (c - z * q) * x * x)
+SYMBOL(n_yy, -2 * nu - (c - z * q) * y * y)
+SYMBOL(n_zz, -1 - z * q)
+SYMBOL(n_xy, (c - z * q) * x * y)
+SYMBOL(n_xz, -z *q *x)
+SYMBOL(n_yz, -z *q *y)
+SYMBOL(t_xx, -x *(2 * (1 + nu) - (2 * nu + z * q) * x * x))
+SYMBOL(t_yy, -x *(2 * nu - (2 * nu + z * q) * y * y))
+SYMBOL(t_xy, -y *(1 - (2 * nu + z * q) * x * x))
+SYMBOL(t_xz, z *q *x *x - 1)
+SYMBOL(t_yz, -z *q *x *y)
+
+RC_WIDE_CLONES static void
+directions(size_t n, const double *restrict qx, const double *restrict qy, double *restrict x,
+           double *restrict y, double *restrict q)
+{
+    for (size_t k = 0; k < n; k++) {
+        double size = sqrt(qx[k] * qx[k] + qy[k] * qy[k]), over = size > 0 ? 1 / size : 0;
+        x[k] = qx[k] * over;
+        y[k] = qy[k] * over;
+        q[k] = size;
+    }
+}
+
+void
+rc_stress_directions(size_t n, const double *qx, const double *qy, double *x, double *y, double *q)
+{
+    directions(n, qx, qy, x, y, q);
+}
 
 /* ---- the components ---- */
 
@@ -266,21 +290,25 @@ rc_stress_distinct(unsigned components, bool shear)
 static double
 mean(int kernel, double nu, const struct rc_shape *shape)
 {
-    const struct rc_wave x = {.qx = 1, .q = 1, .decay = 1, .nu = nu};
-    const struct rc_wave y = {.qy = 1, .q = 1, .decay = 1, .nu = nu};
-    const struct rc_stress_forms *forms = &rc_stress_forms[kernel];
+    static const double xs[] = {1, 0}, ys[] = {0, 1}, ones[] = {1, 1};
+    const struct rc_waves waves = {2, xs, ys, ones, ones, 0, nu};
+    double of[2];
 
     if (rc_stress_parity[kernel] != 0)
         return 0;
+    rc_stress_forms[kernel].symbol(&waves, of);
     if ((shape->nx == 1) == (shape->ny == 1))
-        return (forms->symbol(&x) + forms->symbol(&y)) / 2;
-    return forms->symbol(shape->nx == 1 ? &y : &x);
+        return (of[0] + of[1]) / 2;
+    return shape->nx == 1 ? of[1] : of[0];
 }
 
-double
-rc_stress_symbol(int kernel, const struct rc_wave *wave, const struct rc_shape *shape)
+void
+rc_stress_symbol(int kernel, const struct rc_waves *waves, const struct rc_shape *shape,
+                 double *out)
 {
-    return wave->q == 0 ? mean(kernel, wave->nu, shape) : rc_stress_forms[kernel].symbol(wave);
+    rc_stress_forms[kernel].symbol(waves, out);
+    if (waves->q[0] == 0)
+        out[0] = mean(kernel, waves->nu, shape);
 }
 
 /* ---- the row ---- */
@@ -302,9 +330,13 @@ rows(const struct rc_medium *m, size_t component, const struct rc_lattice *at, s
 static double
 symbol(const struct rc_medium *m, size_t component, double qx, double qy)
 {
-    const struct rc_wave wave = rc_stress_wave(qx, qy, m->depth, m->nu);
+    double x, y, q, decay, out;
+    const struct rc_waves wave = {1, &x, &y, &q, &decay, m->depth, m->nu};
 
-    return rc_stress_forms[component].symbol(&wave);
+    rc_stress_directions(1, &qx, &qy, &x, &y, &q);
+    decay = exp(-q * m->depth);
+    rc_stress_forms[component].symbol(&wave, &out);
+    return out;
 }
 
 const struct rc_kernel rc_kernel_stress = {

@@ -42,7 +42,7 @@ struct plan {
     double complex *source; /* m lines of `waves`; of the waves across, when periodic */
     struct pair *pair;
     size_t pairs;
-    double *scratch; /* for each thread: offsets along and across, and a line of each kernel */
+    double *scratch; /* for each thread: a line of each kernel, and where or of what waves   */
     size_t scratch_size;
     double complex *sum; /* `waves` for each part and component */
 };
@@ -88,7 +88,8 @@ sizes(const struct rc_stress_task *t)
     plan.length = t->options.boundary == RC_FREE ? rc_fft_length(plan.n, 2) : plan.n;
     plan.waves = plan.length / 2 + 1;
     plan.threads = rc_useful_threads(s, t->options.threads);
-    plan.scratch_size = (2 + RC_STRESS_KERNELS) * plan.waves;
+    plan.scratch_size = t->options.boundary == RC_FREE ? (2 + RC_STRESS_KERNELS) * plan.waves
+                                                       : (6 + RC_STRESS_KERNELS) * plan.m + plan.n;
     return plan;
 }
 
@@ -296,9 +297,36 @@ sum_free(struct plan *plan, double depth)
 
 /* ---- periodic: waves ---- */
 
-/* Transform of what a wave makes of a component, the friction included. */
+/* Symbols of all kernels at the waves across that belong to wave a along, `symbol` m each. */
+static void
+wave_symbols(const struct plan *plan, size_t a, double depth, double *scratch,
+             double *symbol[RC_STRESS_KERNELS])
+{
+    const struct rc_stress_task *t = &plan->task;
+    size_t m = plan->m;
+    double *along = scratch, *across = along + m, *x = across + m, *y = x + m, *q = y + m;
+    double *decay = q + m;
+    const struct rc_waves waves = {m, x, y, q, decay, depth, t->options.nu};
+
+    for (size_t b = 0; b < m; b++) {
+        along[b] = rc_fourier_q(a, plan->n, plan->d_along);
+        across[b] = rc_fourier_q(b, m, plan->d_across);
+    }
+    rc_stress_directions(m, plan->transposed ? across : along, plan->transposed ? along : across, x,
+                         y, q);
+    for (size_t b = 0; b < m; b++)
+        decay[b] = exp(-q[b] * depth);
+    for (int k = 0; k < RC_STRESS_KERNELS; k++) {
+        symbol[k] = decay + (size_t)(k + 1) * m;
+        if (t->kernels >> k & 1)
+            rc_stress_symbol(k, &waves, &t->shape, symbol[k]);
+    }
+}
+
+/* Transform of what wave b across makes of a component, the friction included. */
 static double complex
-response(const struct plan *plan, int component, const struct rc_wave *w, bool last_x, bool last_y)
+response(const struct plan *plan, int component, double *const symbol[RC_STRESS_KERNELS], size_t b,
+         bool last_x, bool last_y)
 {
     static const double complex powers[] = {1, -I, -1}; /* of -i */
     const struct rc_stress_task *t = &plan->task;
@@ -310,7 +338,7 @@ response(const struct plan *plan, int component, const struct rc_wave *w, bool l
         double weight = load == RC_NORMAL ? 1 : t->options.mu;
         if ((parity & RC_ODD_X && last_x) || (parity & RC_ODD_Y && last_y))
             continue;
-        weight *= rc_stress_symbol(k, w, &t->shape);
+        weight *= symbol[k][b];
         sum += weight * powers[((parity & RC_ODD_X) != 0) + ((parity & RC_ODD_Y) != 0)];
     }
     return sum;
@@ -324,18 +352,19 @@ sum_waves(struct plan *plan, double depth)
 
 #pragma omp parallel for num_threads(plan->threads) schedule(static)
     for (size_t a = 0; a < plan->waves; a++) {
-        double q_along = rc_fourier_q(a, plan->n, plan->d_along);
+        double *scratch = plan->scratch + (size_t)omp_get_thread_num() * plan->scratch_size;
+        double *symbol[RC_STRESS_KERNELS];
         double complex sum[RC_COMPONENTS] = {0};
+        wave_symbols(plan, a, depth, scratch, symbol);
         for (size_t b = 0; b < plan->m; b++) {
             double q = rc_fourier_q(b, plan->m, plan->d_across);
-            double qx = plan->transposed ? q : q_along, qy = plan->transposed ? q_along : q;
             bool last_along = 2 * a == plan->n, last_across = 2 * b == plan->m;
             double complex p = plan->source[b * plan->waves + a];
-            const struct rc_wave w = rc_stress_wave(qx, qy, depth, t->options.nu);
             p *= last_across ? CMPLX(cos(q * from_first), 0) : cexp(I * q * from_first);
             for (int c = 0; c < RC_COMPONENTS; c++)
                 if (t->components >> c & 1)
-                    sum[c] += p * response(plan, c, &w, plan->transposed ? last_across : last_along,
+                    sum[c] += p * response(plan, c, symbol, b,
+                                           plan->transposed ? last_across : last_along,
                                            plan->transposed ? last_along : last_across);
         }
         for (int c = 0; c < RC_COMPONENTS; c++)

@@ -4,9 +4,11 @@
  * spectrum by real even or odd transforms, and one transform back gives each component: the normal
  * load's kernel and mu times the shear's are added before it.
  *
- * Periodic: the kernels are known by their symbols, and nothing is tabulated or padded.
+ * Periodic: the kernels are known by their symbols, nothing is padded, and only the decay of the
+ * waves is tabulated. Waves that do not reach the depth are left out.
  *
- * Free, where a tolerance and the depth allow it: the same on a coarser grid.
+ * Where a tolerance allows it transforms are in single precision, and on a free map, where the depth
+ * allows it too, the same is done on a coarser grid.
  */
 #include "coarse_grid.h"
 
@@ -21,7 +23,8 @@ struct grid {
     int threads;
     size_t cx, cy;                          /* of a quarter of a kernel's period               */
     double *quarter[RC_STRESS_KERNELS];     /* free: cy rows of cx values, transformed in x    */
-    double depth;                           /* of the quarters and spectra, m                  */
+    double *decay;                          /* periodic: of each wave, cx columns of cy         */
+    double depth;                           /* of all the others, m                             */
     struct rc_spectrum *spectrum[RC_LOADS]; /* the last ones made: of each load one          */
     int kernel[RC_LOADS];                   /* of which kernel each is; -1: of none            */
 };
@@ -44,6 +47,17 @@ count(unsigned bits)
     return n;
 }
 
+/* Tolerances below this are left to double precision: single makes an error of up to 1e-6 of the
+ * largest pressure. Errors of the two loads add. */
+static const double single_floor = 1e-5;
+
+static enum rc_precision
+precision_of(const struct rc_stress_task *t)
+{
+    return t->options.tol / (1 + fabs(t->options.mu)) >= single_floor && !t->precise ? RC_SINGLE
+                                                                                     : RC_DOUBLE;
+}
+
 static void
 grid_free(struct grid *g)
 {
@@ -51,6 +65,7 @@ grid_free(struct grid *g)
         return;
     for (int k = 0; k < RC_STRESS_KERNELS; k++)
         free(g->quarter[k]);
+    free(g->decay);
     for (int load = 0; load < RC_LOADS; load++)
         rc_spectrum_free(g->spectrum[load]);
     rc_fft_free(g->fft);
@@ -71,7 +86,7 @@ grid_new(const struct rc_stress_task *task, const struct rc_shape *shape, const 
     g->task = task;
     g->shape = *shape;
     g->threads = rc_useful_threads(shape, task->options.threads);
-    g->fft = rc_fft_new(shape, boundary, RC_DOUBLE, task->options.threads, err);
+    g->fft = rc_fft_new(shape, boundary, precision_of(task), task->options.threads, err);
     if (g->fft == NULL)
         goto fail;
     rc_fft_quarter(g->fft, &g->cx, &g->cy);
@@ -81,6 +96,10 @@ grid_new(const struct rc_stress_task *task, const struct rc_shape *shape, const 
             rc_err_set(err, "out of memory for a kernel of %zu x %zu values", g->cx, g->cy);
             goto fail;
         }
+    if (boundary == RC_PERIODIC && (g->decay = malloc(g->cx * g->cy * sizeof *g->decay)) == NULL) {
+        rc_err_set(err, "out of memory for %zu x %zu waves", g->cx, g->cy);
+        goto fail;
+    }
     for (int load = 0; load < (task->options.mu != 0 ? RC_LOADS : 1); load++)
         if ((g->spectrum[load] = rc_spectrum_new(g->fft, err)) == NULL)
             goto fail;
@@ -97,12 +116,14 @@ static size_t
 grid_memory(const struct rc_stress_task *task, const struct rc_shape *shape)
 {
     enum rc_boundary boundary = task->options.boundary;
-    size_t spectrum = rc_spectrum_memory(shape, boundary, RC_DOUBLE);
-    size_t quarters = boundary == RC_FREE ? count(task->kernels) : 0;
+    enum rc_precision precision = precision_of(task);
+    size_t spectrum = rc_spectrum_memory(shape, boundary, precision);
+    size_t quarters = boundary == RC_FREE ? count(task->kernels) : 1;
 
-    /* the transform of p is as large as four spectra, a quarter as large as one */
-    return sizeof(struct grid) + rc_fft_memory(shape, boundary, RC_DOUBLE) +
-           ((size_t)(task->options.mu != 0) + 4 + quarters) * spectrum;
+    /* the transform of p is as large as four spectra, a quarter as large as one in double */
+    return sizeof(struct grid) + rc_fft_memory(shape, boundary, precision) +
+           ((size_t)(task->options.mu != 0) + 4) * spectrum +
+           quarters * rc_spectrum_memory(shape, boundary, RC_DOUBLE);
 }
 
 /* ---- kernels ---- */
@@ -129,19 +150,56 @@ tabulate(struct grid *g)
             rc_stress_count(t, k, g->cx * g->cy);
 }
 
+/* ---- waves ---- */
+
+/* q z from which on a wave is left out: what all of them together, in step with each other, are at
+ * that depth is less than the rounding of the transforms, (3 + q z) exp(-q z) = 7e-20 each. */
+static const double deepest = 48;
+
+/* What is left of all waves at the depth of a periodic grid. */
+static void
+set_decay(struct grid *g)
+{
+    const struct rc_shape *s = &g->shape;
+
+#pragma omp parallel for num_threads(g->threads) schedule(dynamic, 4)
+    for (size_t i = 0; i < g->cx; i++) {
+        double qx = rc_fourier_q(i, s->nx, s->dx), *column = g->decay + i * g->cy;
+        for (size_t j = 0; j < g->cy; j++) {
+            double qy = rc_fourier_q(j, s->ny, s->dy), qz = sqrt(qx * qx + qy * qy) * g->depth;
+            column[j] = qz < deepest ? exp(-qz) : 0;
+        }
+    }
+}
+
 /* A kernel at the depth of a grid, as rc_spectrum_sample asks for it. */
 struct component {
     const struct grid *grid;
     int kernel;
 };
 
-static double
-symbol(const void *of, double qx, double qy)
+static bool
+symbol(const void *of, size_t i, double qx, size_t n, const double *qy, double *out)
 {
+    enum {
+        PIECE = 256
+    };
     const struct component *c = of;
-    const struct rc_wave wave = rc_stress_wave(qx, qy, c->grid->depth, c->grid->task->options.nu);
+    const struct grid *g = c->grid;
+    double x[PIECE], y[PIECE], q[PIECE], all[PIECE];
 
-    return rc_stress_symbol(c->kernel, &wave, &c->grid->shape);
+    if (qx * g->depth >= deepest)
+        return false;
+    for (size_t k = 0; k < PIECE; k++)
+        all[k] = qx;
+    for (size_t j = 0; j < n; j += PIECE) {
+        size_t m = n - j < PIECE ? n - j : PIECE;
+        const struct rc_waves waves = {
+            m, x, y, q, g->decay + i * g->cy + j, g->depth, g->task->options.nu};
+        rc_stress_directions(m, all, qy + j, x, y, q);
+        rc_stress_symbol(c->kernel, &waves, &g->shape, out + j);
+    }
+    return true;
 }
 
 static void
@@ -186,6 +244,8 @@ go_to_depth(struct grid *g, double depth)
         g->kernel[load] = -1;
     if (g->task->options.boundary == RC_FREE)
         tabulate(g);
+    else
+        set_decay(g);
 }
 
 static void

@@ -40,9 +40,12 @@ struct rc_corner {
     double floor; /* least distance from an edge that a logarithm is taken at, m */
 };
 
-/* A wave of wave number (qx, qy), q, and its decay exp(-q z) at depth z. */
-struct rc_wave {
-    double qx, qy, q, z, decay, nu;
+/* Waves: their directions qx/q and qy/q, their wave numbers q and what exp(-q z) leaves of them at
+ * the depth z. Only the first may have q = 0. */
+struct rc_waves {
+    size_t n;
+    const double *x, *y, *q, *decay;
+    double z, nu;
 };
 
 struct rc_stress_forms {
@@ -51,23 +54,19 @@ struct rc_stress_forms {
     void (*point)(const struct rc_points *points, double weight, double *out);
     /* Antiderivative in X and Y of 2 pi times that stress. */
     double (*corner)(const struct rc_corner *corner);
-    /* Transform over (-i)^(number of odd directions); q > 0. */
-    double (*symbol)(const struct rc_wave *wave);
+    /* Transform over (-i)^(number of odd directions), of each wave; q > 0. */
+    void (*symbol)(const struct rc_waves *waves, double *out);
 };
 extern const struct rc_stress_forms rc_stress_forms[RC_STRESS_KERNELS];
 extern const unsigned rc_stress_parity[RC_STRESS_KERNELS];
 
-static inline struct rc_wave
-rc_stress_wave(double qx, double qy, double depth, double nu)
-{
-    double q = sqrt(qx * qx + qy * qy);
-
-    return (struct rc_wave){qx, qy, q, depth, exp(-q * depth), nu};
-}
-
-/* The symbol of a kernel at a wave; at q = 0 its mean on the periodic map, which is the same at any
- * depth. */
-double rc_stress_symbol(int kernel, const struct rc_wave *wave, const struct rc_shape *shape);
+/* Directions and wave numbers of the waves (qx[k], qy[k]); of q = 0 the direction is 0, 0. */
+void rc_stress_directions(size_t n, const double *qx, const double *qy, double *x, double *y,
+                          double *q);
+/* The symbol of a kernel at each wave; at q = 0 its mean on the periodic map, which is the same at
+ * any depth. */
+void rc_stress_symbol(int kernel, const struct rc_waves *waves, const struct rc_shape *shape,
+                      double *out);
 
 /* The kernel of a load and component, or the one that has the same values. */
 int rc_stress_kernel(int load, int component);

@@ -8,7 +8,7 @@
 #include "tool.h"
 
 enum {
-    TOOL_BUFFER = 1 << 20 /* bytes read or written at a time */
+    TOOL_BUFFER = 1 << 16 /* bytes read or written together; more at once passes it by */
 };
 
 /* Word k of an option that takes one of a list, or some: its start and length; NULL past the
