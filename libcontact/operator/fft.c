@@ -25,8 +25,9 @@ struct rc_fft {
     struct rc_layout layout;
     const struct rc_fft_ops *ops;
     void *plan;
-    struct rc_dct *along_x, *along_y; /* of a quarter of a kernel; NULL on the periodic boundary */
-    double *columns;                  /* COLUMNS columns of a spectrum for each thread */
+    struct rc_dct *along_x,
+        *along_y;    /* of a quarter of a kernel; NULL on periods of odd length   */
+    double *columns; /* COLUMNS columns of a spectrum for each thread */
 };
 
 enum {
@@ -96,6 +97,13 @@ rc_fft_memory(const struct rc_shape *shape, enum rc_boundary boundary, enum rc_p
            rc_spectrum_memory(shape, boundary, precision);
 }
 
+/* Whether a quarter of an even kernel's values, from offset 0 to half a period, tells all. */
+static bool
+by_quarter(const struct rc_layout *l)
+{
+    return l->px % 2 == 0 && l->py % 2 == 0;
+}
+
 struct rc_fft *
 rc_fft_new(const struct rc_shape *s, enum rc_boundary boundary, enum rc_precision precision,
            size_t threads, struct rc_err *err)
@@ -121,12 +129,12 @@ rc_fft_new(const struct rc_shape *s, enum rc_boundary boundary, enum rc_precisio
         f->plan = f->ops->new (&f->layout);
         f->columns = rc_alloc(team * COLUMNS * f->layout.cy, sizeof *f->columns);
     }
-    if (f != NULL && boundary == RC_FREE) {
+    if (f != NULL && by_quarter(&f->layout)) {
         f->along_x = rc_dct_new(f->layout.cx, team, NULL);
         f->along_y = rc_dct_new(f->layout.cy, team, NULL);
     }
     if (f == NULL || f->plan == NULL || f->columns == NULL ||
-        (boundary == RC_FREE && (f->along_x == NULL || f->along_y == NULL))) {
+        (by_quarter(&f->layout) && (f->along_x == NULL || f->along_y == NULL))) {
         rc_err_set(err, "out of memory for transforms of %zu x %zu nodes", s->nx, s->ny);
         rc_fft_free(f);
         return NULL;
@@ -330,7 +338,7 @@ sample_symbol(const struct rc_fft *f, struct rc_spectrum *k, const struct rc_ker
     return RC_OK;
 }
 
-/* ---- from the values of a periodic map ---- */
+/* ---- from the values of a periodic map of odd length ---- */
 
 /* Values of an even kernel on the periodic map, each offset by its shortest way around. */
 static void
@@ -383,7 +391,7 @@ rc_spectrum_set_values(struct rc_spectrum *k, const struct rc_fft *f,
                        const struct rc_kernel *kernel, size_t component,
                        const struct rc_medium *medium, struct rc_err *err)
 {
-    return (f->boundary == RC_FREE ? transform_quarter : transform_wrapped)(f, k, kernel, component,
+    return (by_quarter(&f->layout) ? transform_quarter : transform_wrapped)(f, k, kernel, component,
                                                                             medium, err);
 }
 

@@ -109,7 +109,6 @@ state_new(const struct rc_solver *solver, struct rc_err *err)
         state_free(s);
         return NULL;
     }
-    memset(s->q, 0, n * sizeof *s->q);
     s->alpha = 0.9;
     forget(s);
     return s;
@@ -146,25 +145,35 @@ enum { /* sums of z */
     LOAD_Q
 };
 
+enum {
+    PIECE = 256 /* nodes of a row taken together: what is formed of them stays in the cache */
+};
+
 RC_CLONES static void
 products(size_t n, const unsigned char *restrict w, const float *restrict z,
-         const float *restrict q, const float *restrict weight, double *restrict sums)
+         const float *restrict weight, const float *restrict q, double *restrict sums)
 {
     double sum = 0, product = 0, load = 0, other = 0;
+    float m[PIECE];
 
-#pragma omp simd reduction(+ : sum, product, load, other)
+    for (size_t i = 0; i < n; i++)
+        m[i] = w[i] ? rc_load_of(weight[i]) : 0;
+#pragma omp simd reduction(+ : sum, load)
     for (size_t i = 0; i < n; i++) {
-        float m = w[i] ? rc_load_of(weight[i]) : 0;
-        double a = (double)z[i], b = (double)q[i];
-        sum += a;
-        product += a * b;
-        load += (double)m;
-        other += (double)m * b;
+        sum += (double)z[i];
+        load += (double)m[i];
     }
-    sums[Z] = sum;
-    sums[ZQ] = product;
-    sums[LOAD] = load;
-    sums[LOAD_Q] = other;
+    sums[Z] += sum;
+    sums[LOAD] += load;
+    if (q == NULL)
+        return;
+#pragma omp simd reduction(+ : product, other)
+    for (size_t i = 0; i < n; i++) {
+        product += (double)z[i] * (double)q[i];
+        other += (double)m[i] * (double)q[i];
+    }
+    sums[ZQ] += product;
+    sums[LOAD_Q] += other;
 }
 
 static bool
@@ -172,12 +181,16 @@ corrected(void *at, size_t j, void *row)
 {
     const struct pass *c = at;
     const struct rc_solver *s = c->solver;
-    size_t n = s->posed.shape.nx, k = j * n;
+    size_t nx = s->posed.shape.nx;
+    const float *weight = rc_preconditioner_load(s->preconditioner);
     double *sums = rc_reduce_row(s, j);
 
     (void)row;
-    products(n, s->set.w + k, s->z + k, c->s->q + k, rc_preconditioner_load(s->preconditioner) + k,
-             sums);
+    for (size_t i = 0; i < nx; i += PIECE) {
+        size_t k = j * nx + i;
+        products(nx - i < PIECE ? nx - i : PIECE, s->set.w + k, s->z + k, weight + k,
+                 c->s->curvature > 0 ? c->s->q + k : NULL, sums);
+    }
     return true;
 }
 

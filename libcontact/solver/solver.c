@@ -41,8 +41,7 @@ choose(const char *name, struct rc_err *err)
 /* ---- new ---- */
 
 static enum rc_status
-check(const struct rc_shape *s, const double *h, const struct rc_problem *problem,
-      struct rc_err *err)
+check(const struct rc_shape *s, const struct rc_problem *problem, struct rc_err *err)
 {
     if (rc_shape_check(s, err) != RC_OK)
         return RC_FAIL;
@@ -52,9 +51,6 @@ check(const struct rc_shape *s, const double *h, const struct rc_problem *proble
         return rc_err_set(err, "hardness %g Pa: it must be positive", problem->hardness);
     if (!(problem->tol >= 0))
         return rc_err_set(err, "tolerance %g: it must be positive", problem->tol);
-    for (size_t k = 0; k < s->nx * s->ny; k++)
-        if (!isfinite(h[k]))
-            return rc_err_set(err, "height %zu is not a finite number", k);
     return RC_OK;
 }
 
@@ -77,12 +73,37 @@ operator_options(const struct rc_shape *shape, const struct rc_problem *problem)
                                         .threads = problem->threads};
 }
 
+/* The largest height; NAN where one is not a finite number. */
+static double
+top_of(const double *h, size_t n, int threads)
+{
+    double top = -INFINITY, zero = 0;
+
+#pragma omp parallel for simd num_threads(threads) schedule(static) reduction(max : top)           \
+    reduction(+ : zero)
+    for (size_t k = 0; k < n; k++) {
+        top = h[k] > top ? h[k] : top;
+        zero += h[k] * 0;
+    }
+    return top + zero;
+}
+
+static size_t
+first_not_finite(const double *h, size_t n)
+{
+    size_t k = 0;
+
+    while (k < n && isfinite(h[k]))
+        k++;
+    return k;
+}
+
 static enum rc_status
 pose(struct rc_posed *posed, const struct rc_shape *shape, const double *h,
-     const struct rc_problem *problem)
+     const struct rc_problem *problem, struct rc_err *err)
 {
-    double top = h[0];
     size_t n = shape->nx * shape->ny;
+    double top;
 
     *posed = (struct rc_posed){.shape = *shape,
                                .boundary = problem->boundary,
@@ -97,9 +118,11 @@ pose(struct rc_posed *posed, const struct rc_shape *shape, const double *h,
                                .threads = rc_useful_threads(shape, problem->threads),
                                .discretization = problem->discretization};
     if (posed->h == NULL)
-        return RC_FAIL;
-    for (size_t k = 0; k < n; k++)
-        top = h[k] > top ? h[k] : top;
+        return rc_err_set(err, "out of memory for a contact of %zu x %zu nodes", shape->nx,
+                          shape->ny);
+    top = top_of(h, n, posed->threads);
+    if (isnan(top))
+        return rc_err_set(err, "height %zu is not a finite number", first_not_finite(h, n));
 #pragma omp parallel for num_threads(posed->threads) schedule(static)
     for (size_t k = 0; k < n; k++)
         posed->h[k] = h[k] - top;
@@ -126,8 +149,10 @@ solver_new(const struct rc_shape *shape, const double *h, const struct rc_proble
         goto fail;
     s->z = rc_alloc(shape->nx * shape->ny, sizeof *s->z);
     s->partial = rc_alloc(blocks > shape->ny ? blocks : shape->ny, RC_SUMS * sizeof *s->partial);
-    if (s->z == NULL || s->partial == NULL || pose(&s->posed, shape, h, problem) != RC_OK ||
-        rc_iterate_new(s) != RC_OK || rc_working_set_new(s) != RC_OK)
+    if (pose(&s->posed, shape, h, problem, err) != RC_OK)
+        goto fail;
+    if (s->z == NULL || s->partial == NULL || rc_iterate_new(s) != RC_OK ||
+        rc_working_set_new(s) != RC_OK)
         goto short_of_memory;
     s->posed.rough = !op->exact;
     if (rc_load_first(s, problem, err) != RC_OK ||
@@ -151,7 +176,7 @@ rc_solver_new(const struct rc_shape *shape, const double *h, const struct rc_pro
     struct rc_operator_options options = operator_options(shape, problem);
     const struct rc_method *method = choose(problem->method, err);
 
-    if (method == NULL || check(shape, h, problem, err) != RC_OK)
+    if (method == NULL || check(shape, problem, err) != RC_OK)
         return NULL;
     return solver_new(shape, h, problem, method, rc_half_space_new(shape, &options, err), err);
 }

@@ -84,7 +84,7 @@ struct rc_iterate {
 /* The elastic nodes, and those at a bound that want to leave it. */
 struct rc_working_set {
     unsigned char *w; /* 1 on it, else 0                                                       */
-    float *r;         /* residual -g on it, else 0, over `length` of the load                  */
+    float *r;         /* residual -g on it, over `length` of the load; elsewhere nothing        */
     float offset;     /* its mean there                                                        */
     size_t size;
     size_t saturated; /* nodes off it at the hardness                                          */

@@ -42,10 +42,8 @@ rc_working_set_new(struct rc_solver *s)
     if (s->set.w == NULL || s->set.r == NULL)
         return RC_FAIL;
 #pragma omp parallel for num_threads(s->posed.threads) schedule(static)
-    for (size_t k = 0; k < s->posed.n; k++) {
+    for (size_t k = 0; k < s->posed.n; k++)
         s->set.w[k] = 0;
-        s->set.r[k] = 0;
-    }
     rc_working_set_forget(s);
     return RC_OK;
 }
