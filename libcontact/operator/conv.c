@@ -170,6 +170,12 @@ rc_conv_new(const struct rc_shape *shape, double estar, const struct rc_conv_opt
     return conv;
 }
 
+struct rc_fft *
+rc_conv_fft(struct rc_conv *conv)
+{
+    return conv->engine->fft == NULL ? NULL : conv->engine->fft(conv->plan);
+}
+
 bool
 rc_conv_mixed(const struct rc_conv *conv)
 {

@@ -6,6 +6,8 @@
 
 #include "kernel.h"
 
+struct rc_fft;
+
 /* What is to be summed: one component of one kernel on one grid. */
 struct rc_sum {
     struct rc_shape shape;
@@ -36,6 +38,8 @@ struct rc_engine {
     /* The plan's own bound on the error of u, relative to the sum of |K| |p|. */
     double (*error)(const void *plan);
     void (*free)(void *plan);
+    /* The transforms of a plan that sums by them, for others to share its memory; NULL: none. */
+    struct rc_fft *(*fft)(void *plan);
 };
 
 /* The list may be a longer one that includes this one: so others add engines of their own. */
@@ -52,6 +56,9 @@ const struct rc_engine *rc_engine_named(const char *name, bool *precise);
 
 /* The first engine that sums by Fourier transforms of maps. */
 const struct rc_engine *rc_engine_of_transforms(void);
+
+/* The transforms by which it sums; NULL: it sums in another way. */
+struct rc_fft *rc_conv_fft(struct rc_conv *conv);
 
 /* Whether methods may iterate with it in single precision. */
 bool rc_conv_mixed(const struct rc_conv *conv);

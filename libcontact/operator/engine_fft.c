@@ -76,6 +76,12 @@ error(const void *at)
     return ((const struct plan *)at)->error;
 }
 
+static struct rc_fft *
+fft(void *at)
+{
+    return ((struct plan *)at)->fft;
+}
+
 static double
 seconds(const struct rc_sum *sum)
 {
@@ -103,4 +109,5 @@ const struct rc_engine rc_engine_fft = {
     .apply = apply,
     .error = error,
     .free = plan_free,
+    .fft = fft,
 };

@@ -108,6 +108,21 @@ struct rc_fft *
 rc_fft_new(const struct rc_shape *s, enum rc_boundary boundary, enum rc_precision precision,
            size_t threads, struct rc_err *err)
 {
+    return rc_fft_new_in(NULL, s, boundary, precision, threads, err);
+}
+
+/* Bytes of the rows under way. */
+static size_t
+rows_memory(const struct rc_layout *l, enum rc_precision precision)
+{
+    return l->ny * l->stride * 2 * (precision == RC_SINGLE ? sizeof(float) : sizeof(double));
+}
+
+struct rc_fft *
+rc_fft_new_in(struct rc_fft *lender, const struct rc_shape *s, enum rc_boundary boundary,
+              enum rc_precision precision, size_t threads, struct rc_err *err)
+{
+    void *lent = NULL;
     struct rc_fft *f;
     size_t team;
 
@@ -126,7 +141,9 @@ rc_fft_new(const struct rc_shape *s, enum rc_boundary boundary, enum rc_precisio
         f->layout.threads = rc_useful_threads(s, threads);
         team = (size_t)f->layout.threads;
         f->ops = precision == RC_SINGLE ? &rc_fft_single : &rc_fft_double;
-        f->plan = f->ops->new (&f->layout);
+        if (lender != NULL)
+            lent = lender->ops->workspace(lender->plan, rows_memory(&f->layout, precision));
+        f->plan = f->ops->new (&f->layout, lent);
         f->columns = rc_alloc(team * COLUMNS * f->layout.cy, sizeof *f->columns);
     }
     if (f != NULL && by_quarter(&f->layout)) {

@@ -19,6 +19,11 @@ struct rc_spectrum; /* of one kernel: a quarter of it, real */
 
 struct rc_fft *rc_fft_new(const struct rc_shape *shape, enum rc_boundary boundary,
                           enum rc_precision precision, size_t threads, struct rc_err *err);
+/* The same with the memory in which another plan transforms: never both at a time. `lender` outlives
+ * it; NULL, or too small: the plan takes its own. */
+struct rc_fft *rc_fft_new_in(struct rc_fft *lender, const struct rc_shape *shape,
+                             enum rc_boundary boundary, enum rc_precision precision, size_t threads,
+                             struct rc_err *err);
 void rc_fft_free(struct rc_fft *fft);
 /* Smallest multiple of `step` from 2n up without prime factors over 7. */
 size_t rc_fft_length(size_t n, size_t step);
@@ -118,8 +123,10 @@ struct rc_link {
 };
 
 struct rc_fft_ops {
-    size_t real_size;                             /* bytes of a real number */
-    void *(*new)(const struct rc_layout *layout); /* NULL: out of memory */
+    size_t real_size; /* bytes of a real number */
+    /* NULL: out of memory. `lent`: memory for ny rows of `stride` complex numbers, which outlives the
+     * plan; NULL: it takes its own. */
+    void *(*new)(const struct rc_layout *layout, void *lent);
     void (*free)(void *plan);
     /* Memory of the plan that is in use only while it transforms; NULL: it has not so many
      * bytes. */

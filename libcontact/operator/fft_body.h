@@ -40,6 +40,7 @@ struct plan {
     struct rc_layout l;
     FFTW(plan) row_forward, row_back, column_forward, column_back;
     COMPLEX *waves;      /* of each row: ny rows of `stride`                                  */
+    COMPLEX *own;        /* what of it is to be freed; NULL: it was lent                      */
     COMPLEX *source;     /* cx columns in pieces, transformed: a loaded map; or NULL           */
     COMPLEX *twiddle;    /* w^n, w^2n, w^3n for each n < m (radix 4)                           */
     COMPLEX *scratch;    /* for each thread: LINE columns, one more, and a row                 */
@@ -85,7 +86,7 @@ plan_free(void *at)
     FFTW(destroy_plan)(f->column_forward);
     FFTW(destroy_plan)(f->column_back);
     rc_planner_unlock();
-    free(f->waves);
+    free(f->own);
     free(f->source);
     free(f->twiddle);
     free(f->scratch);
@@ -132,7 +133,7 @@ make_twiddles(struct plan *f)
 }
 
 static void *
-plan_new(const struct rc_layout *l)
+plan_new(const struct rc_layout *l, void *lent)
 {
     struct plan *f = calloc(1, sizeof *f);
 
@@ -141,7 +142,7 @@ plan_new(const struct rc_layout *l)
     f->l = *l;
     f->column = l->radix * piece(f);
     f->scratch_size = (LINE + 1) * f->column + l->stride + whole_lines(l->px / 2 + 1);
-    f->waves = allocate(l->ny * l->stride);
+    f->waves = lent != NULL ? lent : (f->own = allocate(l->ny * l->stride));
     f->scratch = allocate((size_t)l->threads * f->scratch_size);
     f->twiddle = allocate(3 * l->m);
     if (f->waves == NULL || f->scratch == NULL || f->twiddle == NULL || !make_plans(f)) {

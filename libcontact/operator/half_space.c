@@ -114,8 +114,8 @@ half_space_free(struct rc_operator *op)
 {
     struct half_space *s = (struct half_space *)op;
 
+    rc_fft_free(s->fft); /* works in memory of conv */
     rc_conv_free(s->conv);
-    rc_fft_free(s->fft);
     rc_spectrum_free(s->kernel);
     rc_spectrum_free(s->inverse);
     free(s->p);
@@ -124,19 +124,21 @@ half_space_free(struct rc_operator *op)
     free(s);
 }
 
-/* Without K p in double precision. */
+/* Takes conv, K p in double precision, or NULL. */
 static struct half_space *
 half_space_new(const struct rc_shape *shape, const struct rc_operator_options *o,
-               struct rc_err *err)
+               struct rc_conv *conv, struct rc_err *err)
 {
     const struct rc_shape unit = unit_of(shape);
     struct rc_medium medium = {.estar = 1};
     struct half_space *s = calloc(1, sizeof *s);
 
     if (s == NULL) {
+        rc_conv_free(conv);
         rc_err_set(err, "out of memory for a plan");
         return NULL;
     }
+    s->conv = conv;
     s->estar = o->estar;
     s->op = (struct rc_operator){.type = &half_space,
                                  .shape = *shape,
@@ -152,8 +154,9 @@ half_space_new(const struct rc_shape *shape, const struct rc_operator_options *o
                                  .mean_free = o->boundary == RC_PERIODIC};
     set_inverse_near(&s->op, &unit);
     set_neighbours(&s->op, &unit);
-    if ((s->fft = rc_fft_new(&unit, o->boundary, RC_SINGLE, o->threads, err)) == NULL ||
-        (s->kernel = rc_spectrum_new(s->fft, err)) == NULL ||
+    s->fft = rc_fft_new_in(conv == NULL ? NULL : rc_conv_fft(conv), &unit, o->boundary, RC_SINGLE,
+                           o->threads, err);
+    if (s->fft == NULL || (s->kernel = rc_spectrum_new(s->fft, err)) == NULL ||
         (s->inverse = rc_spectrum_new(s->fft, err)) == NULL ||
         rc_spectrum_set(s->kernel, s->fft, &rc_kernel_boussinesq, 0, &medium, err) != RC_OK) {
         half_space_free(&s->op);
@@ -171,14 +174,13 @@ rc_half_space_new(const struct rc_shape *shape, const struct rc_operator_options
 {
     struct rc_conv_options options = conv_options(o);
     size_t n = shape->nx * shape->ny;
+    struct rc_conv *conv;
     struct half_space *s;
 
-    if (rc_shape_check(shape, err) != RC_OK || (s = half_space_new(shape, o, err)) == NULL)
+    if (rc_shape_check(shape, err) != RC_OK ||
+        (conv = rc_conv_new(shape, o->estar, &options, err)) == NULL ||
+        (s = half_space_new(shape, o, conv, err)) == NULL)
         return NULL;
-    if ((s->conv = rc_conv_new(shape, o->estar, &options, err)) == NULL) {
-        half_space_free(&s->op);
-        return NULL;
-    }
     s->op.exact = true;
     s->op.error = rc_conv_error(s->conv);
     s->op.engine = rc_conv_engine(s->conv);
@@ -204,7 +206,7 @@ coarse(const struct rc_operator *op, const struct rc_shape *shape, struct rc_err
     struct rc_operator_options o = {.boundary = op->boundary,
                                     .estar = ((const struct half_space *)op)->estar,
                                     .threads = op->threads};
-    struct half_space *s = half_space_new(shape, &o, err);
+    struct half_space *s = half_space_new(shape, &o, NULL, err);
 
     return s == NULL ? NULL : &s->op;
 }
