@@ -291,7 +291,7 @@ struct rc_move {
     double mean;    /* of d                                                                    */
     float *delta;
     struct rc_tile *tiles; /* rc_tiles of them: scratch                                        */
-    double size;           /* found: sum of |delta|, as a pressure                             */
+    double size;           /* found: sum of |delta|, as a pressure, or a little more           */
     bool clipped;          /* found: some node would have left the box                         */
 };
 /* By one shift of all nodes of the set, the Euclidean projection. Where the set cannot carry its
