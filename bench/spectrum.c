@@ -192,9 +192,8 @@ spectrum(const struct row *row, size_t m)
 
     o.fft = must(rc_fft_new(&s, row->boundary, RC_DOUBLE, 0, &err));
     o.kernel = must(rc_spectrum_new(o.fft, &err));
-    o.inverse = must(rc_spectrum_new(o.fft, &err));
     must_be(rc_spectrum_set(o.kernel, o.fft, &rc_kernel_boussinesq, 0, &medium, &err), &err);
-    rc_spectrum_set_reciprocal(o.inverse, o.fft, o.kernel);
+    o.inverse = must(rc_spectrum_new_reciprocal(o.fft, o.kernel, &err));
     o.single = must(malloc(2 * n * sizeof *o.single));
     extremes(&o, &least[0], &most[0]);
     op = must(rc_half_space_new(&s, &options, &err));

@@ -41,6 +41,7 @@ struct rc_spectrum {
     size_t columns; /* those from here on are zero */
     double total;   /* at wave number 0            */
     void *values;   /* cx columns of cy numbers, as fft.h has them, divided by px py */
+    double over;    /* 0; or over these numbers, which are another's                 */
 };
 
 /* ---- layout ---- */
@@ -197,7 +198,8 @@ rc_spectrum_free(struct rc_spectrum *k)
 {
     if (k == NULL)
         return;
-    free(k->values);
+    if (k->over == 0)
+        free(k->values);
     free(k);
 }
 
@@ -422,37 +424,36 @@ rc_spectrum_set(struct rc_spectrum *k, const struct rc_fft *f, const struct rc_k
 
 /* ---- from another spectrum ---- */
 
-void
-rc_spectrum_set_reciprocal(struct rc_spectrum *k, const struct rc_fft *f,
-                           const struct rc_spectrum *of)
+struct rc_spectrum *
+rc_spectrum_new_reciprocal(const struct rc_fft *f, const struct rc_spectrum *of, struct rc_err *err)
 {
-    const struct rc_layout *l = &f->layout;
-    double size = (double)l->px * (double)l->py; /* both are stored divided by it */
-    size_t n = l->cx * l->cy;
+    struct rc_spectrum *k = malloc(sizeof *k);
+    double size = (double)f->layout.px * (double)f->layout.py;
 
-    k->parity = of->parity;
-    k->columns = of->columns;
-    if (f->ops->real_size == sizeof(float)) {
-        const float *s = of->values;
-        float *to = k->values;
-#pragma omp parallel for num_threads(l->threads) schedule(static)
-        for (size_t q = 0; q < n; q++)
-            to[q] = s[q] == 0 ? 0 : (float)(1 / (size * size * (double)s[q]));
-    } else {
-        const double *s = of->values;
-        double *to = k->values;
-#pragma omp parallel for num_threads(l->threads) schedule(static)
-        for (size_t q = 0; q < n; q++)
-            to[q] = s[q] == 0 ? 0 : 1 / (size * size * s[q]);
+    if (k == NULL) {
+        rc_err_set(err, "out of memory for a spectrum");
+        return NULL;
     }
+    *k = *of;
+    k->over = 1 / (size * size); /* both are divided by it */
+    k->total = of->total == 0 ? 0 : 1 / of->total;
+    return k;
 }
 
 /* ---- use ---- */
 
+static struct rc_factor
+factor_of(const struct rc_spectrum *k)
+{
+    return (struct rc_factor){k->values, k->parity, k->over};
+}
+
 void
 rc_fft_apply(struct rc_fft *f, const struct rc_spectrum *k, const double *p, double *u)
 {
-    f->ops->apply(f->plan, k->values, k->parity, p, u);
+    struct rc_factor factor = factor_of(k);
+
+    f->ops->apply(f->plan, &factor, p, u);
 }
 
 void
@@ -463,7 +464,7 @@ rc_fft_chain(struct rc_fft *f, size_t n, const struct rc_spectrum *const *kernel
 
     assert(n <= RC_CHAIN);
     for (size_t k = 0; k < n; k++)
-        links[k] = (struct rc_link){rows[k], kernels[k]->values, kernels[k]->parity};
+        links[k] = (struct rc_link){rows[k], factor_of(kernels[k])};
     f->ops->chain(f->plan, n, links, rows[n], ctx);
 }
 

@@ -44,9 +44,10 @@ enum rc_status rc_spectrum_set(struct rc_spectrum *spectrum, const struct rc_fft
                                const struct rc_kernel *kernel, size_t component,
                                const struct rc_medium *medium, struct rc_err *err);
 /* The reciprocal of another kernel's spectrum: the inverse of the padded circulant, or of the
- * symbol; zero where that is zero. */
-void rc_spectrum_set_reciprocal(struct rc_spectrum *spectrum, const struct rc_fft *fft,
-                                const struct rc_spectrum *of);
+ * symbol; zero where that is zero. It is formed in use, from the numbers of `of`, which outlives
+ * it; no fields are summed by it. NULL when memory is short. */
+struct rc_spectrum *rc_spectrum_new_reciprocal(const struct rc_fft *fft,
+                                               const struct rc_spectrum *of, struct rc_err *err);
 /* The transform of the kernel's values on either boundary; on the periodic one each offset
  * counts once, by its shortest way around the map. */
 enum rc_status rc_spectrum_set_values(struct rc_spectrum *spectrum, const struct rc_fft *fft,
@@ -115,11 +116,16 @@ struct rc_layout {
     int threads;
 };
 
-/* A row function, and the spectrum that its row is multiplied by; stored as above. */
-struct rc_link {
-    rc_row *row;
+/* What a transform is multiplied by: a spectrum, stored as above, or `over` over it. */
+struct rc_factor {
     const void *spectrum;
     unsigned parity;
+    double over; /* 0: the spectrum itself */
+};
+/* A row function, and what its row is multiplied by. */
+struct rc_link {
+    rc_row *row;
+    struct rc_factor factor;
 };
 
 struct rc_fft_ops {
@@ -134,7 +140,7 @@ struct rc_fft_ops {
     /* Stores s(q), q < cy, times `scale` as column c of a spectrum; mirror -1: odd in y. */
     void (*store)(const struct rc_layout *layout, size_t c, double scale, double mirror,
                   const double *s, void *spectrum);
-    void (*apply)(void *plan, const void *spectrum, unsigned parity, const double *p, double *u);
+    void (*apply)(void *plan, const struct rc_factor *factor, const double *p, double *u);
     void (*chain)(void *plan, size_t n, const struct rc_link *links, rc_row *last, void *ctx);
     bool (*load)(void *plan, const double *p); /* false: out of memory */
     /* Of one spectrum, or, when `also` is not NULL, of that one too, weighted; from column `columns`

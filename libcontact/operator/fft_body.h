@@ -39,12 +39,12 @@ struct map {
 struct plan {
     struct rc_layout l;
     FFTW(plan) row_forward, row_back, column_forward, column_back;
-    COMPLEX *waves;      /* of each row: ny rows of `stride`                                  */
-    COMPLEX *own;        /* what of it is to be freed; NULL: it was lent                      */
-    COMPLEX *source;     /* cx columns in pieces, transformed: a loaded map; or NULL           */
-    COMPLEX *twiddle;    /* w^n, w^2n, w^3n for each n < m (radix 4)                           */
-    COMPLEX *scratch;    /* for each thread: LINE columns, one more, and a row                 */
-    size_t column;       /* complex numbers of one column in scratch: radix pieces and gaps    */
+    COMPLEX *waves;   /* of each row: ny rows of `stride`                                  */
+    COMPLEX *own;     /* what of it is to be freed; NULL: it was lent                      */
+    COMPLEX *source;  /* cx columns in pieces, transformed: a loaded map; or NULL           */
+    COMPLEX *twiddle; /* w^n, w^2n, w^3n for each n < m (radix 4)                           */
+    COMPLEX *scratch; /* for each thread: LINE columns, one more, a row, and a spectrum's column */
+    size_t column;    /* complex numbers of one column in scratch: radix pieces and gaps    */
     size_t scratch_size; /* complex numbers of scratch of one thread                           */
 };
 
@@ -141,7 +141,8 @@ plan_new(const struct rc_layout *l, void *lent)
         return NULL;
     f->l = *l;
     f->column = l->radix * piece(f);
-    f->scratch_size = (LINE + 1) * f->column + l->stride + whole_lines(l->px / 2 + 1);
+    f->scratch_size = (LINE + 1) * f->column + l->stride + whole_lines(l->px / 2 + 1) +
+                      whole_lines(l->cy / 2 + 1);
     f->waves = lent != NULL ? lent : (f->own = allocate(l->ny * l->stride));
     f->scratch = allocate((size_t)l->threads * f->scratch_size);
     f->twiddle = allocate(3 * l->m);
@@ -431,9 +432,17 @@ multiply(const struct rc_layout *l, const REAL *s, unsigned parity, size_t r, CO
     }
 }
 
+/* n numbers `over` s; 0 where s is. */
+RC_CLONES static void
+reciprocal(size_t n, const REAL *restrict s, REAL over, REAL *restrict to)
+{
+    for (size_t k = 0; k < n; k++)
+        to[k] = s[k] == 0 ? 0 : over / s[k];
+}
+
 /* Columns: transformed, multiplied, transformed back. */
 static void
-convolve_columns(struct plan *f, const REAL *s, unsigned parity)
+convolve_columns(struct plan *f, const struct rc_factor *factor)
 {
     const struct rc_layout *l = &f->l;
 
@@ -441,27 +450,34 @@ convolve_columns(struct plan *f, const REAL *s, unsigned parity)
     for (size_t c = 0; c < l->cx; c += LINE) {
         size_t n = l->cx - c < LINE ? l->cx - c : LINE;
         COMPLEX *y = scratch_of(f), *z = y + LINE * f->column;
+        REAL *over = (REAL *)(row_of(f, y)) + 2 * whole_lines(l->px / 2 + 1);
 
         gather(f, c, y);
-        for (size_t b = 0; b < n; b++)
+        for (size_t b = 0; b < n; b++) {
+            const REAL *s = (const REAL *)factor->spectrum + (c + b) * l->cy;
+            if (factor->over != 0) {
+                reciprocal(l->cy, s, (REAL)factor->over, over);
+                s = over;
+            }
             for (size_t r = 0; r < l->radix; r++) {
                 COMPLEX *one = y + b * f->column + r * piece(f);
                 FFTW(execute_dft)(f->column_forward, one, z);
-                multiply(l, s + (c + b) * l->cy, parity, r, z);
+                multiply(l, s, factor->parity, r, z);
                 FFTW(execute_dft)(f->column_back, z, one);
             }
+        }
         scatter(f, c, y);
     }
 }
 
 static void
-apply(void *at, const void *spectrum, unsigned parity, const double *p, double *u)
+apply(void *at, const struct rc_factor *factor, const double *p, double *u)
 {
     struct plan *f = at;
     struct map map = {.p = p, .u = u, .nx = f->l.nx};
 
     transform_rows(f, &map, row_in, false, true);
-    convolve_columns(f, spectrum, parity);
+    convolve_columns(f, factor);
     transform_rows(f, &map, row_out, true, false);
 }
 
@@ -472,7 +488,7 @@ chain(void *at, size_t n, const struct rc_link *links, rc_row *last, void *ctx)
 
     for (size_t k = 0; k < n; k++) {
         transform_rows(f, ctx, links[k].row, k > 0, true);
-        convolve_columns(f, links[k].spectrum, links[k].parity);
+        convolve_columns(f, &links[k].factor);
     }
     transform_rows(f, ctx, last, true, false);
 }

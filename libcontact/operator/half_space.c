@@ -157,12 +157,11 @@ half_space_new(const struct rc_shape *shape, const struct rc_operator_options *o
     s->fft = rc_fft_new_in(conv == NULL ? NULL : rc_conv_fft(conv), &unit, o->boundary, RC_SINGLE,
                            o->threads, err);
     if (s->fft == NULL || (s->kernel = rc_spectrum_new(s->fft, err)) == NULL ||
-        (s->inverse = rc_spectrum_new(s->fft, err)) == NULL ||
-        rc_spectrum_set(s->kernel, s->fft, &rc_kernel_boussinesq, 0, &medium, err) != RC_OK) {
+        rc_spectrum_set(s->kernel, s->fft, &rc_kernel_boussinesq, 0, &medium, err) != RC_OK ||
+        (s->inverse = rc_spectrum_new_reciprocal(s->fft, s->kernel, err)) == NULL) {
         half_space_free(&s->op);
         return NULL;
     }
-    rc_spectrum_set_reciprocal(s->inverse, s->fft, s->kernel);
     s->op.kernel = s->kernel;
     s->op.inverse = s->inverse;
     return s;
@@ -215,8 +214,7 @@ size_t
 rc_half_space_memory(const struct rc_shape *shape, const struct rc_operator_options *o)
 {
     struct rc_conv_options options = conv_options(o);
-    size_t own = rc_fft_memory(shape, o->boundary, RC_SINGLE) +
-                 rc_spectrum_memory(shape, o->boundary, RC_SINGLE);
+    size_t own = rc_fft_memory(shape, o->boundary, RC_SINGLE);
     size_t conv = rc_conv_memory(shape, &options);
 
     return conv == 0 ? 0 : own + conv;
