@@ -13,7 +13,8 @@
 enum {
     COARSEST = 24 /* nodes a side from which a coarser grid is worth solving first */
 };
-static const double coarse_tol = 3e-2;
+/* A nearer start saves no step, but where nodes are at the hardness. */
+static const double coarse_tol = 8e-2, coarse_tol_yielding = 3e-2;
 
 struct rc_nested {
     struct rc_solver *coarse; /* NULL: not yet begun                                   */
@@ -100,7 +101,7 @@ tolerance(const struct rc_solver *s, const struct rc_shape *coarse)
 {
     if (s->posed.discretization)
         return fmax(0.1 / sqrt((double)(coarse->nx * coarse->ny)), s->load.tol);
-    return fmax(coarse_tol, s->load.tol);
+    return fmax(s->load.target > 0 ? coarse_tol_yielding : coarse_tol, s->load.tol);
 }
 
 /* NULL when memory is short: then the constant start stays. */
@@ -183,11 +184,17 @@ rc_nested_end(struct rc_solver *s)
 void
 rc_nested_step(struct rc_solver *s)
 {
+    struct rc_solver *c;
+
     if (s->nested->coarse == NULL) {
         s->nested->coarse = coarse_new(s, &s->nested->sought);
         if (s->nested->coarse == NULL)
             rc_nested_free(s);
-    } else if (rc_solver_step(s->nested->coarse) != RC_MORE) {
-        rc_nested_end(s);
+        return;
     }
+    c = s->nested->coarse;
+    if (c->load.target == 0 && c->set.saturated > 0)
+        c->load.tol = fmin(c->load.tol, fmax(coarse_tol_yielding, s->load.tol));
+    if (rc_solver_step(c) != RC_MORE)
+        rc_nested_end(s);
 }

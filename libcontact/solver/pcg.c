@@ -497,8 +497,8 @@ attempt(struct rc_solver *solver, struct pcg *s, double alpha, double mean, bool
 
 /* The best of several trials, the later ones shorter; *alpha: the length of the last. */
 static void
-try(struct rc_solver *solver, struct pcg *s, double *alpha, double mean, bool tiles,
-    struct trial *t)
+make_best(struct rc_solver *solver, struct pcg *s, double *alpha, double mean, bool tiles,
+          struct trial *t)
 {
     attempt(solver, s, *alpha, mean, tiles, t);
     /* too far: a part of a clipped step would leave nodes just off their bounds, one after another;
@@ -544,10 +544,10 @@ advance(struct rc_solver *solver, struct pcg *s, double alpha, double mean, bool
     struct trial t;
     double length = alpha, part;
 
-    try(solver, s, &length, mean, tiles, &t);
+    make_best(solver, s, &length, mean, tiles, &t);
     if (t.best == 0 && tiles) {
         length = alpha;
-        try(solver, s, &length, mean, false, &t);
+        make_best(solver, s, &length, mean, false, &t);
     }
     if (t.best == 0) {
         s->curvature = 0;
