@@ -12,8 +12,9 @@
  *           roll-off, and down to 8: equivalents to the true error, and of the certified solution
  * whole     seconds of certified solutions beside those of a convolution on the same grid
  *
- * Surfaces of the first two: periodic self-affine (Hurst 0.8, cut at 8 nodes, rolled off at an eighth of the map)
- * and a sphere with such roughness on the free half-space. The truth is the same solver at 1e-9.
+ * Surfaces of the first two: periodic self-affine (Hurst 0.8, cut at 8 nodes, rolled off at an
+ * eighth of the map) and a sphere with such roughness on the free half-space. The truth is the same
+ * solver at 1e-9.
  * RC_THREADS sets the threads.
  */
 #include "bench.h"

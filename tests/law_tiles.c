@@ -130,7 +130,7 @@ move_of(const struct set_up *s)
 static void
 by_tiles(void **state)
 {
-    size_t carried_out = 0, kept = 0;
+    size_t carried_out = 0, kept = 0, all = 0;
 
     (void)state;
     for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
@@ -152,14 +152,15 @@ by_tiles(void **state)
                             got += solver->it.p[k];
                             most += solver->it.p[k] > 0 ? solver->it.p[k] : 0;
                         }
+                    all++;
                     kept += fabs(got - asked) <= 1e-2 * most;
                 }
         }
         take_down(&s);
     }
     assert_true(carried_out >= 6);
-    print_message("%zu of %zu moves, %zu tiles\n", carried_out, sizeof rows / sizeof *rows, kept);
-    assert_true(kept >= 30);
+    print_message("%zu moves, %zu of %zu tiles keep their sums\n", carried_out, kept, all);
+    assert_true(10 * kept >= 8 * all); /* some cannot */
 }
 
 /* The nearest point: no other one of the box with this load is nearer to the step. Its condition is
