@@ -5,6 +5,7 @@
 #ifndef RC_CLI_H
 #define RC_CLI_H
 
+#include "human.h"
 #include "json.h"
 #include "physics.h"
 #include "tool.h"
