@@ -143,7 +143,7 @@ struct mark {
 };
 
 enum {
-    MARKS = 5
+    MARKS = 6
 };
 
 static void
@@ -163,6 +163,11 @@ marks_of(const struct checkpoint *c, struct mark mark[MARKS])
                    : args->mean_pressure.n > 0 ? "checkpoint.mean-pressure"
                                                : "checkpoint.approach";
     rc_number_text(mark[4].value, c->run->steps->v[c->run->step]);
+    mark[5].name = "checkpoint.history"; /* the loads before, which have left their shape */
+    snprintf(mark[5].value, sizeof mark[5].value, "%08" PRIx32,
+             !args->history
+                 ? 0
+                 : rc_crc32_add(0, c->run->steps->v, c->run->step * sizeof *c->run->steps->v));
 }
 
 static void

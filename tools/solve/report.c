@@ -66,6 +66,14 @@ approach_state(const struct scene *s)
 }
 
 static const char *
+history_state(const struct scene *s)
+{
+    if (!s->run->args->physics.history)
+        return "left out: no --history";
+    return "on: each load acts on the shape that those before have left";
+}
+
+static const char *
 stiffness_state(const struct scene *s)
 {
     return s->run->stiffness ? "on" : "left out: one load and no --stiffness";
@@ -83,13 +91,10 @@ static const struct effect {
     const char *name;
     const char *(*state)(const struct scene *scene);
 } effects[] = {
-    {"kernel", kernel_state},
-    {"hardness", hardness_state},
-    {"sphere", sphere_state},
-    {"padding", padding_state},
-    {"approach", approach_state},
-    {"stiffness", stiffness_state},
-    {"discretization", discretization_state},
+    {"kernel", kernel_state},       {"hardness", hardness_state},
+    {"sphere", sphere_state},       {"padding", padding_state},
+    {"approach", approach_state},   {"history", history_state},
+    {"stiffness", stiffness_state}, {"discretization", discretization_state},
 };
 
 enum {
@@ -131,19 +136,23 @@ report_discretization(struct json *j, const struct rc_contact *c)
 }
 
 static void
-report_figures(struct json *j, const struct rc_contact *c, double stiffness)
+report_figures(struct json *j, const struct solution *s)
 {
+    const struct rc_contact *c = &s->contact;
+
     json_number(j, "load", c->load);
     json_number(j, "mean_pressure", c->mean_pressure);
     json_number(j, "max_pressure", c->max_pressure);
     json_count(j, "contact_nodes", c->contact_nodes);
+    json_number(j, "nodes_per_patch", (double)c->contact_nodes / (double)s->patches);
     json_number(j, "contact_area", c->contact_area);
     json_number(j, "contact_fraction", c->contact_fraction);
     json_number(j, "plastic_area", c->plastic_area);
+    json_number(j, "yielded_area", c->yielded_area);
     json_number(j, "edge_load_fraction", c->edge_load_fraction);
     json_number(j, "approach", c->approach);
     json_number(j, "mean_gap", c->mean_gap);
-    json_number(j, "stiffness", stiffness);
+    json_number(j, "stiffness", s->stiffness);
     json_count(j, "iterations", c->iterations);
     json_number(j, "convolutions", c->convolutions);
     json_number(j, "kkt_residual", c->kkt_residual);
@@ -154,9 +163,11 @@ report_figures(struct json *j, const struct rc_contact *c, double stiffness)
 
 void
 solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *solver,
-             const struct rc_contact *c, double stiffness)
+             const struct solution *s)
 {
-    struct scene scene = {run, rc_solver_engine_reason(solver), &c->hardness_active};
+    struct scene scene = {run,
+                          solver == NULL ? "left out: no load" : rc_solver_engine_reason(solver),
+                          &s->contact.hardness_active};
     const char *name, *state;
     struct json j;
 
@@ -172,10 +183,10 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
     json_number(&j, "dx", g->dx);
     json_number(&j, "dy", g->dy);
     json_text(&j, "boundary", run->args->physics.periodic ? "periodic" : "free");
-    json_text(&j, "kernel", rc_solver_engine(solver));
-    json_text(&j, "method", rc_solver_method(solver));
+    json_text(&j, "kernel", solver == NULL ? NULL : rc_solver_engine(solver));
+    json_text(&j, "method", solver == NULL ? NULL : rc_solver_method(solver));
     json_count(&j, "threads", run->t.threads);
-    report_figures(&j, c, stiffness);
+    report_figures(&j, s);
     json_object(&j, "effects");
     for (size_t k = 0; effect_at(&scene, k, &name, &state); k++)
         json_text(&j, name, state);
