@@ -37,8 +37,8 @@ static const struct opt opts[] = {
      .help = "find how the load grows with the approach (default: with a list)"},
     {.name = "discretization", .type = OPT_FLAG, AT(discretization),
      .help = "estimate what the grid leaves out, from a coarser one solved as well"},
-    {.name = "report", .type = OPT_TEXT, AT(report), .arg = "FILE",
-     .help = "write one JSON object a case: figures, accuracy, cost"},
+    {.name = "report", .type = OPT_REPORT, AT(report), .arg = "FILE",
+     .help = "write one JSON object a case, or a row of FILE.tsv: figures, accuracy, cost"},
     {.name = "checkpoint", .type = OPT_TEXT, AT(checkpoint), .arg = "FILE",
      .help = "keep the pressures reached in FILE, to go on from if the run is cut off"},
     {.name = "resume", .type = OPT_FLAG, AT(resume),
@@ -330,7 +330,7 @@ main(int argc, char **argv)
     keep_maps_apart();
     tool_start(&run.t, &info, argc, argv, &args);
     check_arguments(&run);
-    tool_demand_writable(&run.t, "--report", args.report);
+    report_open(&run.report, &run.t, args.report);
     if (!args.dry_run)
         run.checkpoint = checkpoint_open(&run, args.checkpoint, args.resume, args.interval);
     tool_catch_signals();
@@ -339,7 +339,6 @@ main(int argc, char **argv)
         rc_grid_free(g);
     }
     checkpoint_close(run.checkpoint);
-    if (run.report != NULL && fclose(run.report) != 0)
-        tool_die(&run.t, EXIT_IMPOSSIBLE, "--report %s: %s", args.report, strerror(errno));
+    report_close(&run.report);
     return tool_finish(&run.t);
 }

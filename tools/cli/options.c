@@ -264,6 +264,7 @@ set_value(struct tool *t, const struct opt *o, void *base, const char *text)
         *(size_t *)at = word_set(t, o, text);
         break;
     case OPT_TEXT:
+    case OPT_REPORT:
         *(const char **)at = text;
         break;
     case OPT_NUMBERS:

@@ -38,6 +38,8 @@ enum opt_type {
     OPT_NUMBER,  /* double; NAN before means "not given"                                    */
     OPT_COUNT,   /* size_t                                                                  */
     OPT_TEXT,    /* const char *                                                            */
+    OPT_REPORT,  /* const char *: a file for report_open, or - for standard output, where then only
+                    the report is written                                                   */
     OPT_CHOICE,  /* const char *, one of the words that .words gives, or else of those in
                     .arg, which are separated by '|'                                        */
     OPT_WORDS,   /* size_t: bit k is set when the list holds word k of .words               */
@@ -126,6 +128,7 @@ struct tool {
         const char *source; /* where it began                                             */
         char names[512];    /* its channels, for the message that one is missing          */
     } current;
+    bool report_alone; /* standard output is for --report, and there is no other output */
     bool type_given, began, warned_short;
     bool progress_shown; /* a line stands on the terminal                                  */
     double progress_at;  /* s: when it was written                                         */
@@ -151,7 +154,7 @@ struct rc_grid *tool_read(struct tool *tool);
 /* The next frame of this channel, one in each case; the case's other frames are written as they are
  * (`pass`) or dropped. A case that has none of it, or several, ends the tool. NULL at the end. */
 struct rc_grid *tool_channel(struct tool *tool, const char *channel, bool pass);
-/* Writes a frame, in --type when that was given. */
+/* Writes a frame, in --type when that was given; not where a report stands for the stream. */
 void tool_write(struct tool *tool, struct rc_grid *grid);
 /* Ends the stream, closes, puts the file in place; the exit status of main. */
 int tool_finish(struct tool *tool);

@@ -46,7 +46,7 @@ struct run {
     size_t step, number;         /* which of them, from 0; the case that it is    */
     bool stiffness;
     bool resumed; /* this case, from a checkpoint                      */
-    FILE *report;
+    struct report report;
     struct checkpoint *checkpoint; /* NULL: none */
     size_t nodes;                  /* of the map */
     struct progress progress;
@@ -65,7 +65,7 @@ solve_now(void)
     return tool_now();
 }
 
-/* One JSON object for the case, where --report asks for it. */
+/* The row of the case, where --report asks for it. */
 void solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *solver,
                   const struct rc_contact *contact, double stiffness);
 /* What the scene calls for and what it doesn't, and what that costs, in words. */
