@@ -35,7 +35,7 @@ static const struct opt opts[] = {
      .help = "try only these, of %s (default: all)"},
     {.name = "depths", .type = OPT_NUMBERS, .unit = UNIT_M, AT(depths), .min = 0, .max = INFINITY,
      .word = "auto", .arg = "LIST",
-     .help = "stresses too, at these depths: a,b,c, a:b:n or auto"},
+     .help = "stresses too, at these depths: a,b,c, a:b:n, a:b:log:n or auto"},
     {.name = "nu", .type = OPT_NUMBER, AT(nu), .min = -1, .max = 0.5, .above = true, .arg = "RATIO",
      .help = "Poisson's ratio for the stresses (default: --nu1)"},
     {.name = "mu", .type = OPT_NUMBER, AT(mu), .min = -10, .max = 10, .arg = "COEFFICIENT",

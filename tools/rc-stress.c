@@ -21,7 +21,7 @@ static struct args {
 static const struct opt opts[] = {
     {.name = "depths", .type = OPT_NUMBERS, .unit = UNIT_M, AT(depths), .min = 0,
      .max = INFINITY, .result = true, .word = "auto", .arg = "LIST",
-     .help = "depths: a,b,c or a:b:n (n from a to b), or auto: dense where roughness is felt"},
+     .help = "depths: a,b,c, a:b:n or a:b:log:n, or auto: dense where roughness is felt"},
     {.name = "components", .type = OPT_WORDS, AT(components), .result = true,
      .words = words_component, .arg = "LIST", .help = "of %s (default: the six and mises)"},
     {.name = "nu", .type = OPT_NUMBER, AT(nu), .min = -1, .max = 0.5, .above = true,

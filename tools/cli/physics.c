@@ -11,9 +11,10 @@
 /* clang-format off */
 const struct opt physics_options[] = {
     {.name = "load", .type = OPT_NUMBERS, .unit = UNIT_N, AT(load), ABOVE_0, .result = true,
-     .arg = "LIST", .help = "total normal force: one, a,b,c or a:b:n, each a case"},
+     .per_metre = true, .arg = "LIST",
+     .help = "total normal force: one, or a,b,c, a:b:n or a:b:log:n, each a case"},
     {.name = "mean-pressure", .type = OPT_NUMBERS, .unit = UNIT_PA, AT(mean_pressure), ABOVE_0,
-     .result = true, .arg = "LIST", .help = "the load as a mean over the whole map"},
+     .result = true, .arg = "LIST", .help = "the load as a mean over the whole map, also a list"},
     {.name = "approach", .type = OPT_NUMBERS, .unit = UNIT_M, AT(approach), ABOVE_0,
      .result = true, .arg = "LIST",
      .help = "instead of the load: how far to come together after first touch"},
@@ -24,7 +25,7 @@ const struct opt physics_options[] = {
     {.name = "nu1", .type = OPT_NUMBER, AT(nu1), .min = -1, .max = 0.5, .above = true,
      .result = true, .arg = "RATIO", .help = "Poisson's ratio of body 1"},
     {.name = "E2", .type = OPT_NUMBER, .unit = UNIT_PA, AT(e2), ABOVE_0, .result = true,
-     .arg = "MODULUS", .help = "Young's modulus of body 2"},
+     .word = "rigid", .arg = "MODULUS", .help = "Young's modulus of body 2, or rigid"},
     {.name = "nu2", .type = OPT_NUMBER, AT(nu2), .min = -1, .max = 0.5, .above = true,
      .result = true, .arg = "RATIO", .help = "Poisson's ratio of body 2"},
     {.name = "hardness", .type = OPT_NUMBER, .unit = UNIT_PA, AT(hardness), ABOVE_0,
@@ -45,6 +46,8 @@ physics_check(struct tool *t, struct physics *a)
 
     if (tool_given(t, "load") + tool_given(t, "mean-pressure") + tool_given(t, "approach") != 1)
         tool_die(t, EXIT_USAGE, "give one of --load, --mean-pressure and --approach");
+    if (a->load.per_metre)
+        tool_die(t, EXIT_USAGE, "--load in N/m: give the whole force, in N");
     if (tool_given(t, "estar") ? bodies > 0 : bodies != 4)
         tool_die(t, EXIT_USAGE,
                  "give the elasticity, either as --estar or as --E1 --nu1 --E2 "

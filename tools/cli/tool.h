@@ -59,7 +59,8 @@ struct opt {
     bool result;     /* changes what is computed: goes into history                        */
     bool text;       /* given, the tool writes text, whatever it writes otherwise          */
     const char *(*words)(size_t k); /* word k; NULL past the last: see words.h              */
-    const char *word;               /* instead of OPT_NUMBERS                               */
+    const char *word;               /* instead of OPT_NUMBERS; of OPT_NUMBER: for INFINITY  */
+    bool per_metre;                 /* OPT_NUMBERS of forces that may be in N/m             */
     const char *arg;  /* how help names the argument: "FORCE"; NULL: takes none             */
     const char *help; /* one line; %s in it stands for the words                            */
     /* A row without a name: the rows of this table, whose .at are relative to that of the row. */
@@ -135,7 +136,8 @@ struct tool {
     enum rc_type type;
     struct opt opt[TOOL_OPTIONS]; /* the tool's own, groups written out                     */
     size_t opts;
-    bool given[TOOL_OPTIONS]; /* by row of opt                                              */
+    bool given[TOOL_OPTIONS];       /* by row of opt                                              */
+    const char *list[TOOL_OPTIONS]; /* OPT_NUMBERS as it stands on the line, for a warning  */
     int exit_status;
 };
 
