@@ -39,8 +39,8 @@ static const struct opt opts[] = {
      .help = "find how the load grows with the approach (default: with a list)"},
     {.name = "discretization", .type = OPT_FLAG, AT(discretization),
      .help = "estimate what the grid leaves out, from a coarser one solved as well"},
-    {.name = "report", .type = OPT_TEXT, AT(report), .arg = "FILE",
-     .help = "write one JSON object a case: figures, accuracy, cost"},
+    {.name = "report", .type = OPT_REPORT, AT(report), .arg = "FILE",
+     .help = "write one JSON object a case, or a row of FILE.tsv: figures, accuracy, cost"},
     {.name = "checkpoint", .type = OPT_TEXT, AT(checkpoint), .arg = "FILE",
      .help = "keep the pressures reached in FILE, to go on from if the run is cut off"},
     {.name = "resume", .type = OPT_FLAG, AT(resume),
@@ -145,7 +145,8 @@ set_keys(struct run *run, struct rc_grid *g, const struct rc_contact *c)
     set_number(run, g, "estar", args.physics.estar);
     set_number(run, g, "nu", args.physics.nu1);
     /* the load asked for and the one reached are the same but for rounding */
-    set_number(run, g, "load", args.physics.load.n > 0 ? run->steps->v[run->step] : c->load);
+    set_number(run, g, "load",
+               args.physics.load.n > 0 ? problem_of(run, g, run->step).load : c->load);
     set_number(run, g, "hardness", args.physics.hardness);
     set_number(run, g, "approach", c->approach);
 }
@@ -424,7 +425,7 @@ main(int argc, char **argv)
     keep_maps_apart();
     tool_start(&run.t, &info, argc, argv, &args);
     check_arguments(&run);
-    tool_demand_writable(&run.t, "--report", args.report);
+    report_open(&run.report, &run.t, args.report);
     if (!args.dry_run)
         run.checkpoint = checkpoint_open(&run, args.checkpoint, args.resume, args.interval);
     tool_catch_signals();
@@ -433,7 +434,6 @@ main(int argc, char **argv)
         rc_grid_free(g);
     }
     checkpoint_close(run.checkpoint);
-    if (run.report != NULL && fclose(run.report) != 0)
-        tool_die(&run.t, EXIT_IMPOSSIBLE, "--report %s: %s", args.report, strerror(errno));
+    report_close(&run.report);
     return tool_finish(&run.t);
 }

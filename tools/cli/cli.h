@@ -8,6 +8,7 @@
 #include "human.h"
 #include "json.h"
 #include "physics.h"
+#include "report.h"
 #include "tool.h"
 #include "units.h"
 #include "words.h"

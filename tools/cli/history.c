@@ -4,6 +4,7 @@
  */
 #include "tool.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -46,8 +47,10 @@ add_numbers(struct line *line, const struct opt *o, const struct numbers *list)
 
     if (list->n == 0)
         add(line, " ", o->word);
-    for (size_t k = 0; k < list->n; k++)
+    for (size_t k = 0; k < list->n; k++) {
         add(line, k == 0 ? " " : ",", rc_number_text(text, list->v[k]));
+        add(line, list->per_metre ? "N/m" : "", "");
+    }
 }
 
 static void
@@ -56,7 +59,8 @@ add_value(struct line *line, const struct opt *o, const void *at)
     char text[RC_NUMBER_SIZE];
 
     if (o->type == OPT_NUMBER) {
-        add(line, " ", rc_number_text(text, *(const double *)at));
+        double value = *(const double *)at;
+        add(line, " ", o->word != NULL && isinf(value) ? o->word : rc_number_text(text, value));
     } else if (o->type == OPT_COUNT) {
         snprintf(text, sizeof text, "%zu", *(const size_t *)at);
         add(line, " ", text);

@@ -14,9 +14,10 @@
 /* clang-format off */
 const struct opt physics_options[] = {
     {.name = "load", .type = OPT_NUMBERS, .unit = UNIT_N, AT(load), FROM_0, .result = true,
-     .arg = "LIST", .help = "total normal force: one, a,b,c or a:b:n, each a case"},
+     .per_metre = true, .arg = "LIST",
+     .help = "total normal force: one, or a,b,c, a:b:n or a:b:log:n, each a case"},
     {.name = "mean-pressure", .type = OPT_NUMBERS, .unit = UNIT_PA, AT(mean_pressure), FROM_0,
-     .result = true, .arg = "LIST", .help = "the load as a mean over the whole map"},
+     .result = true, .arg = "LIST", .help = "the load as a mean over the whole map, also a list"},
     {.name = "approach", .type = OPT_NUMBERS, .unit = UNIT_M, AT(approach), FROM_0,
      .result = true, .arg = "LIST",
      .help = "instead of the load: how far to come together after first touch"},
@@ -27,7 +28,7 @@ const struct opt physics_options[] = {
     {.name = "nu1", .type = OPT_NUMBER, AT(nu1), .min = -1, .max = 0.5, .above = true,
      .result = true, .arg = "RATIO", .help = "Poisson's ratio of body 1"},
     {.name = "E2", .type = OPT_NUMBER, .unit = UNIT_PA, AT(e2), ABOVE_0, .result = true,
-     .arg = "MODULUS", .help = "Young's modulus of body 2"},
+     .word = "rigid", .arg = "MODULUS", .help = "Young's modulus of body 2, or rigid"},
     {.name = "nu2", .type = OPT_NUMBER, AT(nu2), .min = -1, .max = 0.5, .above = true,
      .result = true, .arg = "RATIO", .help = "Poisson's ratio of body 2"},
     {.name = "hardness", .type = OPT_NUMBER, .unit = UNIT_PA, AT(hardness), ABOVE_0,
@@ -158,6 +159,30 @@ warn_of_seam(struct tool *t, const struct rc_grid *g)
                 human_number(jump, seam.across[side], "m"), seam.across[side] / seam.inside[side]);
 }
 
+/* A force on a profile acts on the one row that there is, which is as wide as its nodes are apart. */
+static void
+check_profile(struct tool *t, const struct physics *a, const struct rc_grid *g)
+{
+    char where[256], width[HUMAN_SIZE];
+
+    if (a->load.per_metre && g->ny != 1)
+        tool_die_at(
+            t, g, EXIT_IMPOSSIBLE,
+            "--load in N/m is for profiles, this map has %zu rows: give the whole force, in N",
+            g->ny);
+    if (g->ny != 1 || g->nx == 1)
+        return;
+    tool_where(t, g, where, sizeof where);
+    human_number(width, g->dy, "m");
+    if (!a->periodic)
+        tool_warn(t, "%s: a profile is solved as a strip %s wide, not as a ridge without end",
+                  where, width);
+    if (a->load.n > 0 && !a->load.per_metre)
+        tool_warn(
+            t, "%s: the force on this profile acts on a width of %s: N/m says it without a width",
+            where, width);
+}
+
 static void
 warn(struct tool *t, const struct physics *a, const struct rc_grid *g)
 {
@@ -170,11 +195,6 @@ warn(struct tool *t, const struct physics *a, const struct rc_grid *g)
                   "%s: the surface is periodic, the solution is not: beyond the map there "
                   "is no material",
                   where);
-    if (!a->periodic && g->ny == 1 && g->nx > 1)
-        tool_warn(t,
-                  "%s: a profile is solved as a strip %g m wide, not as a ridge without "
-                  "end",
-                  where, g->dy);
     if (a->periodic)
         warn_of_seam(t, g);
 }
@@ -194,13 +214,14 @@ physics_heights(struct tool *t, const struct physics *a, struct rc_grid *g)
         zero += 0 * g->v[k];
     if (isnan(zero)) /* the slow way finds the first */
         tool_demand_finite(t, g, "fill them with rc-detrend --fill");
+    check_profile(t, a, g);
     warn(t, a, g);
 }
 
 struct rc_problem
 physics_problem(const struct physics *a, const struct rc_grid *g, size_t step)
 {
-    double number = physics_steps(a)->v[step];
+    double number = physics_steps(a)->v[step] * (a->load.per_metre ? g->dy : 1);
     double area = g->dx * g->dy * (double)(g->nx * g->ny);
 
     return (struct rc_problem){

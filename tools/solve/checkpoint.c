@@ -159,7 +159,8 @@ marks_of(const struct checkpoint *c, struct mark mark[MARKS])
     rc_number_text(mark[2].value, args->estar);
     mark[3].name = "checkpoint.hardness";
     rc_number_text(mark[3].value, args->hardness);
-    mark[4].name = args->load.n > 0            ? "checkpoint.load"
+    mark[4].name = args->load.per_metre        ? "checkpoint.load-per-metre"
+                   : args->load.n > 0          ? "checkpoint.load"
                    : args->mean_pressure.n > 0 ? "checkpoint.mean-pressure"
                                                : "checkpoint.approach";
     rc_number_text(mark[4].value, c->run->steps->v[c->run->step]);

@@ -23,7 +23,7 @@ solve_where(const struct run *run, const struct rc_grid *g, char *text, size_t s
         source = run->t.source == NULL ? "standard input" : run->t.source;
     if (a->load.n > 0) {
         name = "load";
-        unit = "N";
+        unit = a->load.per_metre ? "N/m" : "N";
     } else if (a->mean_pressure.n > 0) {
         name = "mean pressure";
         unit = "Pa";

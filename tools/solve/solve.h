@@ -47,7 +47,7 @@ struct run {
     bool stiffness;
     bool resumed;        /* this case, from a checkpoint                      */
     double height_error; /* m: of the shape that the loads before have left */
-    FILE *report;
+    struct report report;
     struct checkpoint *checkpoint; /* NULL: none */
     size_t nodes;                  /* of the map */
     struct progress progress;
@@ -79,8 +79,7 @@ const char *solve_where(const struct run *run, const struct rc_grid *g, char *te
 /* Warns of a solution that is not what it looks like, and, with --verbose, tells its figures. */
 void solve_judge(struct run *run, const struct rc_grid *g, const struct solution *solution);
 
-/* One JSON object for the case, where --report asks for it. `solver` is NULL for bodies that are
- * apart. */
+/* The row of the case, where --report asks for it. `solver` is NULL for bodies that are apart. */
 void solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *solver,
                   const struct solution *solution);
 /* What the scene calls for and what it doesn't, and what that costs, in words. */
