@@ -7,6 +7,7 @@
 
 #include "json.h"
 #include "physics.h"
+#include "results.h"
 #include "tool.h"
 #include "units.h"
 #include "words.h"

@@ -126,6 +126,11 @@ struct tool {
         const char *source; /* where it began                                             */
         char names[512];    /* its channels, for the message that one is missing          */
     } current;
+    struct { /* of the case that results_demand_none is in; number 0: none yet        */
+        size_t number;
+        bool height;
+        char names[256]; /* channels of its results                                       */
+    } results;
     bool type_given, began, warned_short;
     bool progress_shown; /* a line stands on the terminal                                  */
     double progress_at;  /* s: when it was written                                         */
@@ -149,7 +154,8 @@ const char *tool_history(const struct tool *tool);
 /* The next frame of all inputs, cases numbered on; NULL at their end. The caller frees it. */
 struct rc_grid *tool_read(struct tool *tool);
 /* The next frame of this channel, one in each case; the case's other frames are written as they are
- * (`pass`) or dropped. A case that has none of it, or several, ends the tool. NULL at the end. */
+ * (`pass`) or dropped. A case that has none of it, or several, ends the tool; with `pass` so does one
+ * that holds results beside a height, see results.h. NULL at the end. */
 struct rc_grid *tool_channel(struct tool *tool, const char *channel, bool pass);
 /* Writes a frame, in --type when that was given. */
 void tool_write(struct tool *tool, struct rc_grid *grid);
