@@ -8,6 +8,7 @@
 #include "json.h"
 #include "physics.h"
 #include "results.h"
+#include "shown.h"
 #include "tool.h"
 #include "units.h"
 #include "words.h"
