@@ -6,6 +6,7 @@
 #define RC_CLI_H
 
 #include "json.h"
+#include "name_list.h"
 #include "physics.h"
 #include "results.h"
 #include "shown.h"
