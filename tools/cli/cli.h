@@ -12,6 +12,7 @@
 #include "shown.h"
 #include "tool.h"
 #include "units.h"
+#include "wanted.h"
 #include "words.h"
 
 #endif

@@ -44,6 +44,7 @@ enum opt_type {
     OPT_NUMBERS, /* struct numbers; none (n = 0) for .word, if there is one                 */
     OPT_STEP,    /* appended to a struct steps: options whose order on the line matters; with
                     .arg it takes a whole number or, with a unit, a number                  */
+    OPT_TEXTS,   /* appended too, in the same order; the argument stays a text              */
 };
 
 struct opt {
@@ -72,6 +73,7 @@ struct steps {
     struct step {
         const struct opt *opt;
         double value;
+        const char *text; /* of OPT_TEXTS; goes into history as it is when it is asked for */
     } step[64];
     size_t n;
 };
