@@ -80,7 +80,9 @@ add_steps(struct line *line, const struct steps *steps)
 
     for (size_t k = 0; k < steps->n; k++) {
         add(line, " --", steps->step[k].opt->name);
-        if (steps->step[k].opt->arg != NULL)
+        if (steps->step[k].opt->type == OPT_TEXTS)
+            add(line, " ", steps->step[k].text);
+        else if (steps->step[k].opt->arg != NULL)
             add(line, " ", rc_number_text(text, steps->step[k].value));
     }
 }
@@ -99,7 +101,8 @@ tool_history(const struct tool *t)
         const void *at = (const char *)t->args + o->at;
         if (!t->given[k] || !o->result)
             continue;
-        if (o->type == OPT_STEP) { /* all of them in one list, in the order of the line */
+        if (o->type == OPT_STEP ||
+            o->type == OPT_TEXTS) { /* all of them in one list, in the order of the line */
             if (!steps_done)
                 add_steps(&line, at);
             steps_done = true;

@@ -221,9 +221,9 @@ add_step(struct tool *t, const struct opt *o, struct steps *steps, const char *t
 
     if (steps->n == most)
         tool_die(t, EXIT_USAGE, "more than %zu steps: use two commands", most);
-    if (o->arg != NULL)
+    if (o->type == OPT_STEP && o->arg != NULL)
         value = o->unit == UNIT_NONE ? whole(t, o, text) : number(t, o, text);
-    steps->step[steps->n++] = (struct step){.opt = o, .value = value};
+    steps->step[steps->n++] = (struct step){.opt = o, .value = value, .text = text};
 }
 
 static void
@@ -275,6 +275,7 @@ set_value(struct tool *t, const struct opt *o, void *base, const char *text)
         set_list(t, o, at, text);
         break;
     case OPT_STEP:
+    case OPT_TEXTS:
         add_step(t, o, at, text);
         break;
     }

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "human.h"
+#include "shown.h"
 
 /* ---- the command line ---- */
 
@@ -145,7 +145,7 @@ warn_of_seam(struct tool *t, const struct rc_grid *g)
     static const char *const line[] = {"column", "row"};
     struct rc_shape shape = rc_grid_shape(g);
     struct rc_seam seam;
-    char where[256], jump[HUMAN_SIZE];
+    char where[256], jump[SHOWN_NUMBER];
 
     rc_measure_seam(&shape, g->v, &seam);
     for (int side = 0; side < 2; side++)
@@ -156,14 +156,14 @@ warn_of_seam(struct tool *t, const struct rc_grid *g)
                 "%s (RMS), %.3g times the steps inside: a tilt goes with rc-detrend --plane; "
                 "a surface that is no period is solved without --periodic",
                 tool_where(t, g, where, sizeof where), line[side],
-                human_number(jump, seam.across[side], "m"), seam.across[side] / seam.inside[side]);
+                shown_in_unit(jump, seam.across[side], "m"), seam.across[side] / seam.inside[side]);
 }
 
 /* A force on a profile acts on the one row that there is, which is as wide as its nodes are apart. */
 static void
 check_profile(struct tool *t, const struct physics *a, const struct rc_grid *g)
 {
-    char where[256], width[HUMAN_SIZE];
+    char where[256], width[SHOWN_NUMBER];
 
     if (a->load.per_metre && g->ny != 1)
         tool_die_at(
@@ -173,14 +173,13 @@ check_profile(struct tool *t, const struct physics *a, const struct rc_grid *g)
     if (g->ny != 1 || g->nx == 1)
         return;
     tool_where(t, g, where, sizeof where);
-    human_number(width, g->dy, "m");
+    shown_in_unit(width, g->dy, "m");
     if (!a->periodic)
-        tool_warn(t, "%s: a profile is solved as a strip %s wide, not as a ridge without end",
+        tool_warn(t, "%s: a profile is solved as a strip %s wide%s, not as a ridge without end",
+                  where, width, a->load.n > 0 ? ", which carries the force" : "");
+    else if (a->load.n > 0 && !a->load.per_metre)
+        tool_warn(t, "%s: the force on this profile acts on a width of %s: N/m says it without one",
                   where, width);
-    if (a->load.n > 0 && !a->load.per_metre)
-        tool_warn(
-            t, "%s: the force on this profile acts on a width of %s: N/m says it without a width",
-            where, width);
 }
 
 static void

@@ -46,6 +46,7 @@ enum opt_type {
     OPT_NUMBERS, /* struct numbers; none (n = 0) for .word, if there is one                 */
     OPT_STEP,    /* appended to a struct steps: options whose order on the line matters; with
                     .arg it takes a whole number or, with a unit, a number                  */
+    OPT_TEXTS,   /* appended too, in the same order; the argument stays a text              */
 };
 
 struct opt {
@@ -75,6 +76,7 @@ struct steps {
     struct step {
         const struct opt *opt;
         double value;
+        const char *text; /* of OPT_TEXTS; goes into history as it is when it is asked for */
     } step[64];
     size_t n;
 };
@@ -130,6 +132,11 @@ struct tool {
         char names[512];    /* its channels, for the message that one is missing          */
     } current;
     bool report_alone; /* standard output is for --report, and there is no other output */
+    struct {           /* of the case that results_demand_none is in; number 0: none yet        */
+        size_t number;
+        bool height;
+        char names[256]; /* channels of its results                                       */
+    } results;
     bool type_given, began, warned_short;
     bool progress_shown; /* a line stands on the terminal                                  */
     double progress_at;  /* s: when it was written                                         */
@@ -154,7 +161,8 @@ const char *tool_history(const struct tool *tool);
 /* The next frame of all inputs, cases numbered on; NULL at their end. The caller frees it. */
 struct rc_grid *tool_read(struct tool *tool);
 /* The next frame of this channel, one in each case; the case's other frames are written as they are
- * (`pass`) or dropped. A case that has none of it, or several, ends the tool. NULL at the end. */
+ * (`pass`) or dropped. A case that has none of it, or several, ends the tool; with `pass` so does one
+ * that holds results beside a height, see results.h. NULL at the end. */
 struct rc_grid *tool_channel(struct tool *tool, const char *channel, bool pass);
 /* Writes a frame, in --type when that was given; not where a report stands for the stream. */
 void tool_write(struct tool *tool, struct rc_grid *grid);

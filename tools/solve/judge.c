@@ -17,7 +17,7 @@ solve_where(const struct run *run, const struct rc_grid *g, char *text, size_t s
 {
     const struct physics *a = &run->args->physics;
     const char *source = rc_grid_get(g, "source"), *name = "approach", *unit = "m";
-    char value[HUMAN_SIZE];
+    char value[SHOWN_NUMBER];
 
     if (source == NULL)
         source = run->t.source == NULL ? "standard input" : run->t.source;
@@ -29,7 +29,7 @@ solve_where(const struct run *run, const struct rc_grid *g, char *text, size_t s
         unit = "Pa";
     }
     snprintf(text, size, "%s, case %zu, %s %s", source, run->number, name,
-             human_number(value, run->steps->v[run->step], unit));
+             shown_in_unit(value, run->steps->v[run->step], unit));
     return text;
 }
 
@@ -41,11 +41,12 @@ suspect_unit(struct run *run, const struct rc_grid *g, const char *where, const 
 {
     double width = g->dx * (double)g->nx, length = g->dy * (double)g->ny;
     double estar = run->args->physics.estar;
-    char peak[HUMAN_SIZE], modulus[HUMAN_SIZE], mean[HUMAN_SIZE], x[HUMAN_SIZE], y[HUMAN_SIZE];
+    char peak[SHOWN_NUMBER], modulus[SHOWN_NUMBER], mean[SHOWN_NUMBER], x[SHOWN_NUMBER],
+        y[SHOWN_NUMBER];
 
-    human_number(peak, s->contact.max_pressure, "Pa");
-    human_number(modulus, estar, "Pa");
-    human_number(mean, s->contact.mean_pressure, "Pa");
+    shown_in_unit(peak, s->contact.max_pressure, "Pa");
+    shown_in_unit(modulus, estar, "Pa");
+    shown_in_unit(mean, s->contact.mean_pressure, "Pa");
     if (estar < no_modulus)
         tool_warn(&run->t,
                   "%s: the largest pressure, %s, is above E*, which is %s: was its unit "
@@ -56,7 +57,8 @@ suspect_unit(struct run *run, const struct rc_grid *g, const char *where, const 
             &run->t,
             "%s: the largest pressure, %s, is above E* = %s; on a map of %s by %s the mean is %s: "
             "was the unit of the load forgotten, as in 5mN?",
-            where, peak, modulus, human_number(x, width, "m"), human_number(y, length, "m"), mean);
+            where, peak, modulus, shown_in_unit(x, width, "m"), shown_in_unit(y, length, "m"),
+            mean);
     else
         tool_warn(&run->t,
                   "%s: the largest pressure, %s, is above E* = %s, and the RMS slope in contact is "
@@ -69,7 +71,7 @@ warn_of_theory(struct run *run, const struct rc_grid *g, const char *where,
                const struct solution *s)
 {
     double estar = run->args->physics.estar, peak = s->contact.max_pressure;
-    char most[HUMAN_SIZE];
+    char most[SHOWN_NUMBER];
 
     if (peak > estar)
         suspect_unit(run, g, where, s);
@@ -77,7 +79,7 @@ warn_of_theory(struct run *run, const struct rc_grid *g, const char *where,
         tool_warn(&run->t,
                   "%s: the largest pressure, %s, is %.2g of E*: beyond %g a solid is not linear "
                   "elastic: give its --hardness, or a smaller load",
-                  where, human_number(most, peak, "Pa"), peak / estar, linear);
+                  where, shown_in_unit(most, peak, "Pa"), peak / estar, linear);
     if (s->slope > small_slope)
         tool_warn(&run->t,
                   "%s: RMS slope %.2g where the bodies touch is beyond the theory of small slopes "
@@ -128,11 +130,11 @@ static void
 tell(struct run *run, const char *where, const struct solution *s)
 {
     const struct rc_contact *c = &s->contact;
-    char load[HUMAN_SIZE], area[HUMAN_SIZE], peak[HUMAN_SIZE], approach[HUMAN_SIZE];
-    char gap[HUMAN_SIZE], yielded[HUMAN_SIZE + 32] = "";
+    char load[SHOWN_NUMBER], area[SHOWN_NUMBER], peak[SHOWN_NUMBER], approach[SHOWN_NUMBER];
+    char gap[SHOWN_NUMBER], yielded[SHOWN_NUMBER + 32] = "";
 
     if (c->yielded_nodes > 0) {
-        human_area(area, c->yielded_area);
+        shown_area(area, c->yielded_area);
         snprintf(yielded, sizeof yielded, "%s of it yields, ", area);
     }
     tool_note(
@@ -140,11 +142,11 @@ tell(struct run *run, const char *where, const struct solution *s)
         "%s: force %s, contact area %s (%.3g %% of the map, %zu nodes in %zu %s), %slargest "
         "pressure %s, approach %s, mean gap %s; %s to %.2g in %zu iterations, %.3g convolutions, "
         "%.2g s",
-        where, human_number(load, c->load, "N"), human_area(area, c->contact_area),
+        where, shown_in_unit(load, c->load, "N"), shown_area(area, c->contact_area),
         100 * c->contact_fraction, c->contact_nodes, s->patches,
-        s->patches == 1 ? "patch" : "patches", yielded, human_number(peak, c->max_pressure, "Pa"),
-        isnan(c->approach) ? "unknown" : human_number(approach, c->approach, "m"),
-        human_number(gap, c->mean_gap, "m"), c->converged ? "converged" : "not converged",
+        s->patches == 1 ? "patch" : "patches", yielded, shown_in_unit(peak, c->max_pressure, "Pa"),
+        isnan(c->approach) ? "unknown" : shown_in_unit(approach, c->approach, "m"),
+        shown_in_unit(gap, c->mean_gap, "m"), c->converged ? "converged" : "not converged",
         c->pressure_error, c->iterations, c->convolutions, solve_now() - run->began);
 }
 
