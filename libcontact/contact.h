@@ -191,6 +191,18 @@ RC_API void rc_patches_free(struct rc_patches *patches);
 
 /* ---- convolution: conv.c ---- */
 
+/* Body 1 when it is coated: bonded isotropic layers, the top first, on a half-space. */
+struct rc_layer {
+    double thickness; /* m, > 0                                                                */
+    double e, nu;     /* Young's modulus, Pa, > 0; Poisson's ratio, above -1 and at most 0.5   */
+};
+struct rc_coating {
+    size_t layers; /* at least 1                                                              */
+    const struct rc_layer *layer;
+    double e, nu;      /* of the half-space below; e INFINITY: rigid                          */
+    double compliance; /* (1 - nu2^2)/E2 of the other body, a half-space, 1/Pa; 0: rigid      */
+};
+
 struct rc_conv_options {
     enum rc_boundary boundary;
     const char *engine; /* a row of engines.list, or NULL or "auto"                              */
@@ -200,6 +212,7 @@ struct rc_conv_options {
     size_t memory;  /* bytes that "auto" may take; 0: any                                    */
     double loaded;  /* fraction of nodes that carry pressure, as "auto" may expect; 0: unknown */
     size_t threads; /* 0: all                                                                */
+    const struct rc_coating *coating; /* instead of the modulus; NULL: one material             */
 };
 
 /* u = K p: displacement in metres of the composite modulus estar (Pa) under pressure p (Pa). With
@@ -241,6 +254,7 @@ struct rc_problem {
     size_t max_iterations; /* 0: 100 + 10 sqrt(nx ny)                                            */
     size_t threads;      /* 0: all                                                                */
     bool discretization; /* estimate what the grid leaves out: a coarser one is solved as well   */
+    const struct rc_coating *coating; /* instead of estar; NULL: one material                      */
 };
 
 /* Relative errors, or figures, of contact area, largest pressure and approach; NAN: unknown. */

@@ -28,15 +28,17 @@ struct rc_conv {
     bool precise; /* by its name */
     const char *reason;
     void *plan;
+    struct rc_stack *own; /* of options->coating; NULL: none */
 };
 
 static struct rc_sum
-sum_of(const struct rc_shape *shape, double estar, const struct rc_conv_options *o)
+sum_of(const struct rc_shape *shape, double estar, const struct rc_stack *stack,
+       const struct rc_conv_options *o)
 {
     return (struct rc_sum){.shape = *shape,
                            .boundary = o->boundary,
-                           .kernel = &rc_kernel_boussinesq,
-                           .medium = {.estar = estar},
+                           .kernel = stack == NULL ? &rc_kernel_boussinesq : &rc_kernel_layered,
+                           .medium = {.estar = estar, .stack = stack, .length = 1, .modulus = 1},
                            .tol = o->tol,
                            .precise = o->precise,
                            .order = o->order,
@@ -141,7 +143,7 @@ const char *
 rc_conv_choice(const struct rc_shape *shape, const struct rc_conv_options *options,
                const char **reason)
 {
-    struct rc_sum sum = sum_of(shape, 1, options);
+    struct rc_sum sum = sum_of(shape, 1, NULL, options);
     bool precise;
     const struct rc_engine *engine = find(&sum, options, &precise, reason, NULL);
 
@@ -149,10 +151,10 @@ rc_conv_choice(const struct rc_shape *shape, const struct rc_conv_options *optio
 }
 
 struct rc_conv *
-rc_conv_new(const struct rc_shape *shape, double estar, const struct rc_conv_options *options,
-            struct rc_err *err)
+rc_conv_new_on(const struct rc_stack *stack, const struct rc_shape *shape, double estar,
+               const struct rc_conv_options *options, struct rc_err *err)
 {
-    struct rc_sum sum = sum_of(shape, estar, options);
+    struct rc_sum sum = sum_of(shape, estar, stack, options);
     struct rc_conv *conv = NULL;
 
     if (rc_shape_check(shape, err) != RC_OK)
@@ -167,6 +169,23 @@ rc_conv_new(const struct rc_shape *shape, double estar, const struct rc_conv_opt
         rc_conv_free(conv);
         return NULL;
     }
+    return conv;
+}
+
+struct rc_conv *
+rc_conv_new(const struct rc_shape *shape, double estar, const struct rc_conv_options *options,
+            struct rc_err *err)
+{
+    struct rc_stack *stack = NULL;
+    struct rc_conv *conv;
+
+    if (options->coating != NULL && (stack = rc_stack_new(options->coating, err)) == NULL)
+        return NULL;
+    conv = rc_conv_new_on(stack, shape, estar, options, err);
+    if (conv == NULL)
+        rc_stack_free(stack);
+    else
+        conv->own = stack;
     return conv;
 }
 
@@ -213,13 +232,14 @@ rc_conv_free(struct rc_conv *conv)
         return;
     if (conv->plan != NULL)
         conv->engine->free(conv->plan);
+    rc_stack_free(conv->own);
     free(conv);
 }
 
 size_t
 rc_conv_memory(const struct rc_shape *shape, const struct rc_conv_options *options)
 {
-    struct rc_sum sum = sum_of(shape, 1, options);
+    struct rc_sum sum = sum_of(shape, 1, NULL, options);
     const char *reason;
     bool precise;
     const struct rc_engine *engine = find(&sum, options, &precise, &reason, NULL);
@@ -230,7 +250,7 @@ rc_conv_memory(const struct rc_shape *shape, const struct rc_conv_options *optio
 double
 rc_conv_seconds(const struct rc_shape *shape, const struct rc_conv_options *options)
 {
-    struct rc_sum sum = sum_of(shape, 1, options);
+    struct rc_sum sum = sum_of(shape, 1, NULL, options);
     const char *reason;
     bool precise;
     const struct rc_engine *engine = find(&sum, options, &precise, &reason, NULL);

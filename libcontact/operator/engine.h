@@ -5,6 +5,7 @@
 #define RC_ENGINE_H
 
 #include "kernel.h"
+#include "stack.h"
 
 struct rc_fft;
 
@@ -56,6 +57,11 @@ const struct rc_engine *rc_engine_named(const char *name, bool *precise);
 
 /* The first engine that sums by Fourier transforms of maps. */
 const struct rc_engine *rc_engine_of_transforms(void);
+
+/* rc_conv_new on this stack, which outlives it and stands instead of the modulus; NULL: none. */
+struct rc_conv *rc_conv_new_on(const struct rc_stack *stack, const struct rc_shape *shape,
+                               double estar, const struct rc_conv_options *options,
+                               struct rc_err *err);
 
 /* The transforms by which it sums; NULL: it sums in another way. */
 struct rc_fft *rc_conv_fft(struct rc_conv *conv);

@@ -241,9 +241,9 @@ rc_fft_quarter_row(const struct rc_fft *f, unsigned parity, double *row)
     rc_dct_run(f->along_x, parity & RC_ODD_X, row);
 }
 
-void
-rc_spectrum_set_quarter(struct rc_spectrum *k, const struct rc_fft *f, unsigned parity,
-                        const double *rows)
+static void
+set_quarter(struct rc_spectrum *k, const struct rc_fft *f, unsigned parity, const double *rows,
+            rc_column *each, void *ctx)
 {
     size_t cx = f->layout.cx, cy = f->layout.cy;
 
@@ -265,14 +265,24 @@ rc_spectrum_set_quarter(struct rc_spectrum *k, const struct rc_fft *f, unsigned 
         }
         for (size_t b = 0; b < n; b++) {
             rc_dct_run(f->along_y, parity & RC_ODD_Y, columns + b * cy);
+            if (each != NULL)
+                each(ctx, first + b, cy, columns + b * cy);
             store_column(k, f, first + b, columns + b * cy);
         }
     }
 }
 
-static enum rc_status
-transform_quarter(const struct rc_fft *f, struct rc_spectrum *k, const struct rc_kernel *kernel,
-                  size_t component, const struct rc_medium *medium, struct rc_err *err)
+void
+rc_spectrum_set_quarter(struct rc_spectrum *k, const struct rc_fft *f, unsigned parity,
+                        const double *rows)
+{
+    set_quarter(k, f, parity, rows, NULL, NULL);
+}
+
+enum rc_status
+rc_spectrum_set_by(struct rc_spectrum *k, const struct rc_fft *f, const struct rc_kernel *kernel,
+                   size_t component, const struct rc_medium *medium, rc_column *each, void *ctx,
+                   struct rc_err *err)
 {
     const struct rc_lattice nodes = {f->shape.dx, f->shape.dy, 1, 1};
     size_t cx = f->layout.cx, cy = f->layout.cy;
@@ -291,9 +301,35 @@ transform_quarter(const struct rc_fft *f, struct rc_spectrum *k, const struct rc
         for (size_t j = first; j < last; j++)
             rc_fft_quarter_row(f, parity, values + j * cx);
     }
-    rc_spectrum_set_quarter(k, f, parity, values);
+    set_quarter(k, f, parity, values, each, ctx);
     free(own);
     return RC_OK;
+}
+
+static enum rc_status
+transform_quarter(const struct rc_fft *f, struct rc_spectrum *k, const struct rc_kernel *kernel,
+                  size_t component, const struct rc_medium *medium, struct rc_err *err)
+{
+    return rc_spectrum_set_by(k, f, kernel, component, medium, NULL, NULL, err);
+}
+
+void
+rc_fft_waves(const struct rc_fft *f, size_t *columns, size_t *n)
+{
+    *columns = f->layout.cx;
+    *n = f->layout.cy;
+}
+
+double
+rc_fft_qx(const struct rc_fft *f, size_t i)
+{
+    return rc_fourier_q(i, f->layout.px, f->shape.dx);
+}
+
+double
+rc_fft_qy(const struct rc_fft *f, size_t j)
+{
+    return rc_fourier_q(j, f->layout.py, f->shape.dy);
 }
 
 /* ---- from a function of wave numbers ---- */

@@ -43,6 +43,17 @@ double rc_spectrum_total(const struct rc_spectrum *spectrum);
 enum rc_status rc_spectrum_set(struct rc_spectrum *spectrum, const struct rc_fft *fft,
                                const struct rc_kernel *kernel, size_t component,
                                const struct rc_medium *medium, struct rc_err *err);
+/* The same of a free map; `each` sees, by several threads at once, the n wave numbers along y of column i
+ * along x, and may change them before they are kept. */
+typedef void rc_column(void *ctx, size_t i, size_t n, double *column);
+enum rc_status rc_spectrum_set_by(struct rc_spectrum *spectrum, const struct rc_fft *fft,
+                                  const struct rc_kernel *kernel, size_t component,
+                                  const struct rc_medium *medium, rc_column *each, void *ctx,
+                                  struct rc_err *err);
+/* Wave numbers of a column and along it: of the padded map, rad/m. */
+double rc_fft_qx(const struct rc_fft *fft, size_t i);
+double rc_fft_qy(const struct rc_fft *fft, size_t j);
+void rc_fft_waves(const struct rc_fft *fft, size_t *columns, size_t *n);
 /* The reciprocal of another kernel's spectrum: the inverse of the padded circulant, or of the
  * symbol; zero where that is zero. It is formed in use, from the numbers of `of`, which outlives
  * it; no fields are summed by it. NULL when memory is short. */

@@ -1,5 +1,5 @@
 /*
- * The operator of an elastic half-space: K p by an engine in double precision, and row by row in
+ * The operator of an elastic half-space, bare or coated: K p by an engine in double precision, and row by row in
  * single precision by transforms, which serve the preconditioner too. Where the engine is not to be
  * mixed with single precision, rows are gathered and summed by it.
  */
@@ -8,6 +8,7 @@
 #include <math.h>
 #include <omp.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "libcontact/memory.h"
 
@@ -15,9 +16,11 @@ static const double pi = 3.14159265358979323846;
 
 struct half_space {
     struct rc_operator op;
-    double estar;
-    struct rc_conv *conv; /* K p in double precision, or NULL                        */
-    struct rc_fft *fft;   /* in single precision, on the grid in units of sqrt(dx dy) */
+    double estar;           /* of one material, or what it would have to be in the roughness      */
+    struct rc_stack *stack; /* of the coating; NULL: one material                                 */
+    bool shared;            /* the stack is that of a finer grid                                  */
+    struct rc_conv *conv;   /* K p in double precision, or NULL                        */
+    struct rc_fft *fft;     /* in single precision, on the grid in units of sqrt(dx dy) */
     struct rc_spectrum *kernel, *inverse;
     double *p, *u; /* maps and, for each thread, a row: for engines without   */
     float *row;    /* single precision; else NULL                             */
@@ -36,36 +39,63 @@ conv_options(const struct rc_operator_options *o)
 
 /* ---- figures ---- */
 
+/* g(q) in 1/Pa: of one material 1/E* for every wave. */
+static double
+response(const struct half_space *s, double q)
+{
+    return s->stack == NULL ? 1 / s->estar : rc_stack_response(s->stack, q);
+}
+
+/* The largest of g over all waves, near enough: it is smooth in ln q. */
+static double
+largest_response(const struct half_space *s)
+{
+    double most = response(s, 0);
+
+    for (size_t k = 0; s->stack != NULL && k < s->stack->layers; k++)
+        for (int j = -20; j <= 20; j++)
+            most = fmax(most, response(s, exp(0.5 * j) / s->stack->material[k].thickness));
+    return most;
+}
+
 /* On the free boundary the largest row sum of K: what a uniform pressure does in the middle of a
  * rectangle a x b, 2 (a asinh(b/a) + b asinh(a/b)) / (pi E*) (Love 1929; Johnson 1985, eq.
  * 3.25). On a periodic map the eigenvalues are known, and the longest wave has the largest, 2 /
- * (E* q), q = 2 pi / L. */
+ * (E* q), q = 2 pi / L. A coated body is nowhere more compliant than one of its largest g. */
 static double
-norm(const struct rc_shape *s, enum rc_boundary boundary, double estar)
+norm(const struct half_space *s)
 {
-    double a = s->dx * (double)s->nx, b = s->dy * (double)s->ny;
+    const struct rc_shape *shape = &s->op.shape;
+    double a = shape->dx * (double)shape->nx, b = shape->dy * (double)shape->ny;
+    double most = largest_response(s);
 
-    if (boundary == RC_PERIODIC)
-        return fmax(a, b) / (pi * estar);
-    return 2 * (a * asinh(b / a) + b * asinh(a / b)) / (pi * estar);
+    if (s->op.boundary == RC_PERIODIC)
+        return most * fmax(a, b) / pi;
+    return most * 2 * (a * asinh(b / a) + b * asinh(a / b)) / pi;
+}
+
+static const struct rc_kernel *
+kernel_of(const struct half_space *s)
+{
+    return s->stack == NULL ? &rc_kernel_boussinesq : &rc_kernel_layered;
 }
 
 static double
-diagonal(const struct rc_shape *s, double estar)
+diagonal(const struct half_space *s)
 {
-    struct rc_medium medium = {.estar = estar};
-    struct rc_lattice cell = {s->dx, s->dy, 1, 1};
+    struct rc_medium medium = {.estar = s->estar, .stack = s->stack, .length = 1, .modulus = 1};
+    struct rc_lattice cell = {s->op.shape.dx, s->op.shape.dy, 1, 1};
     double self;
 
-    rc_kernel_boussinesq.rows(&medium, 0, &cell, 1, 0, 1, &self);
+    kernel_of(s)->rows(&medium, 0, &cell, 1, 0, 1, &self);
     return self;
 }
 
-/* The mean of |q| / 2 cos(i qx dx) cos(j qy dy) over the wave numbers of the grid, |qx| <= pi/dx and
- * |qy| <= pi/dy, lengths in units of sqrt(dx dy). Without the cosines it is half the mean distance of a
- * rectangle's points from its middle; with them, a sum over the middles of cells. */
+/* The mean of |q| / 2, over g E*, times cos(i qx dx) cos(j qy dy) over the wave numbers of the grid,
+ * |qx| <= pi/dx and |qy| <= pi/dy, lengths in units of sqrt(dx dy). Without cosines and coating it is
+ * half the mean distance of a rectangle's points from its middle; else a sum over the middles of cells. */
 static void
-set_inverse_near(struct rc_operator *op, const struct rc_shape *unit)
+set_inverse_near(struct half_space *s, const struct rc_shape *unit, double length)
 {
     enum {
         CELLS = 64
@@ -74,15 +104,18 @@ set_inverse_near(struct rc_operator *op, const struct rc_shape *unit)
 
     for (int l = 0; l < CELLS; l++)
         for (int k = 0; k < CELLS; k++) {
-            double x = (k + 0.5) / CELLS, y = (l + 0.5) / CELLS, q = hypot(a * x, b * y) / 2;
-            sum[0][1] += q * cos(pi * x) / (CELLS * CELLS);
-            sum[1][0] += q * cos(pi * y) / (CELLS * CELLS);
-            sum[1][1] += q * cos(pi * x) * cos(pi * y) / (CELLS * CELLS);
+            double x = (k + 0.5) / CELLS, y = (l + 0.5) / CELLS, q = hypot(a * x, b * y);
+            double w = q / (2 * s->estar * response(s, q / length)) / (CELLS * CELLS);
+            sum[0][0] += w;
+            sum[0][1] += w * cos(pi * x);
+            sum[1][0] += w * cos(pi * y);
+            sum[1][1] += w * cos(pi * x) * cos(pi * y);
         }
-    sum[0][0] = (2 * d + a * a / b * asinh(b / a) + b * b / a * asinh(a / b)) / 12;
+    if (s->stack == NULL)
+        sum[0][0] = (2 * d + a * a / b * asinh(b / a) + b * b / a * asinh(a / b)) / 12;
     for (int j = 0; j < 3; j++)
         for (int i = 0; i < 3; i++)
-            op->inverse_near[j][i] = sum[j != 1][i != 1];
+            s->op.inverse_near[j][i] = sum[j != 1][i != 1];
 }
 
 /* The inverse, (-Laplace)^(1/2) E* / 2, ties two nodes the stronger the nearer they are: as
@@ -95,6 +128,20 @@ set_neighbours(struct rc_operator *op, const struct rc_shape *unit)
             double r = hypot(a * unit->dx, b * unit->dy);
             op->neighbour[b + 1][a + 1] = r > 0 ? 1 / (r * r * r) : 0;
         }
+}
+
+/* How fast the preconditioner's extension fades: 0.5 on one material; the slower, the softer the body is to
+ * the longest waves against the shortest. Found by trial on coats from 0.01 to 100 times as stiff as
+ * what they lie on. */
+static double
+extension(const struct half_space *s, double length)
+{
+    const struct rc_shape *shape = &s->op.shape;
+    double side = fmin(shape->dx * (double)shape->nx, shape->dy * (double)shape->ny);
+
+    if (s->stack == NULL)
+        return 0.5;
+    return fmin(fmax(0.5 * sqrt(response(s, pi / length) / response(s, 2 * pi / side)), 0.02), 4);
 }
 
 static struct rc_shape
@@ -118,47 +165,128 @@ half_space_free(struct rc_operator *op)
     rc_conv_free(s->conv);
     rc_spectrum_free(s->kernel);
     rc_spectrum_free(s->inverse);
+    if (!s->shared)
+        rc_stack_free(s->stack);
     free(s->p);
     free(s->u);
     free(s->row);
     free(s);
 }
 
-/* Takes conv, K p in double precision, or NULL. */
+/* ---- the inverse ---- */
+
+/* A stack's padded kernel may have a spectrum that is negative somewhere, on stiff coats that bend over
+ * lengths near that of the map. Its inverse is kept within these bounds of that of a half-space, wave by
+ * wave with the stiffness of the stack. */
+static const double least = 0.7, most = 1.5;
+
+struct bounded {
+    const struct half_space *s;
+    size_t n;
+    double length, longest;
+    double *kernel; /* spectrum of the kernel, column by column */
+};
+
+static void
+keep_column(void *ctx, size_t i, size_t n, double *column)
+{
+    struct bounded *b = ctx;
+
+    memcpy(b->kernel + i * n, column, n * sizeof *column);
+}
+
+/* The column of the spectrum of a half-space of E* = 1 becomes that of the inverse. */
+static void
+invert_column(void *ctx, size_t i, size_t n, double *column)
+{
+    const struct bounded *b = ctx;
+    double qx = rc_fft_qx(b->s->fft, i);
+
+    for (size_t j = 0; j < n; j++) {
+        double q = hypot(qx, rc_fft_qy(b->s->fft, j)), near;
+        near = column[j] * b->s->estar * response(b->s, fmax(q, b->longest) / b->length);
+        column[j] = 1 / fmin(fmax(b->kernel[i * n + j], least * near), most * near);
+    }
+}
+
+static enum rc_status
+set_bounded(struct half_space *s, const struct rc_shape *unit, const struct rc_medium *medium,
+            double length, struct rc_err *err)
+{
+    struct rc_medium bare = {.estar = 1};
+    struct bounded b = {
+        .s = s,
+        .length = length,
+        .longest = pi / (2 * fmax(unit->dx * (double)unit->nx, unit->dy * (double)unit->ny))};
+    size_t columns;
+    enum rc_status status;
+
+    rc_fft_waves(s->fft, &columns, &b.n);
+    if ((b.kernel = rc_alloc(columns * b.n, sizeof *b.kernel)) == NULL)
+        return rc_err_set(err, "out of memory for the inverse of a coated body");
+    status = rc_spectrum_set_by(s->kernel, s->fft, kernel_of(s), 0, medium, keep_column, &b, err);
+    if (status == RC_OK && (s->inverse = rc_spectrum_new(s->fft, err)) != NULL)
+        status = rc_spectrum_set_by(s->inverse, s->fft, &rc_kernel_boussinesq, 0, &bare,
+                                    invert_column, &b, err);
+    else
+        status = RC_FAIL;
+    free(b.kernel);
+    return status;
+}
+
+static enum rc_status
+set_spectra(struct half_space *s, const struct rc_shape *unit, double length, struct rc_err *err)
+{
+    struct rc_medium medium = {
+        .estar = 1, .stack = s->stack, .length = length, .modulus = s->estar};
+
+    if ((s->kernel = rc_spectrum_new(s->fft, err)) == NULL)
+        return RC_FAIL;
+    if (s->stack != NULL && s->op.boundary == RC_FREE)
+        return set_bounded(s, unit, &medium, length, err);
+    if (rc_spectrum_set(s->kernel, s->fft, kernel_of(s), 0, &medium, err) != RC_OK)
+        return RC_FAIL;
+    s->inverse = rc_spectrum_new_reciprocal(s->fft, s->kernel, err);
+    return s->inverse == NULL ? RC_FAIL : RC_OK;
+}
+
+/* Takes conv, K p in double precision, or NULL, and, unless it is shared, the stack. */
 static struct half_space *
 half_space_new(const struct rc_shape *shape, const struct rc_operator_options *o,
-               struct rc_conv *conv, struct rc_err *err)
+               struct rc_stack *stack, bool shared, struct rc_conv *conv, struct rc_err *err)
 {
     const struct rc_shape unit = unit_of(shape);
-    struct rc_medium medium = {.estar = 1};
+    double length = sqrt(shape->dx) * sqrt(shape->dy);
     struct half_space *s = calloc(1, sizeof *s);
 
     if (s == NULL) {
         rc_conv_free(conv);
+        if (!shared)
+            rc_stack_free(stack);
         rc_err_set(err, "out of memory for a plan");
         return NULL;
     }
     s->conv = conv;
-    s->estar = o->estar;
+    s->stack = stack;
+    s->shared = shared;
+    s->estar = stack == NULL ? o->estar : 1 / rc_stack_response(stack, pi / length);
     s->op = (struct rc_operator){.type = &half_space,
                                  .shape = *shape,
                                  .boundary = o->boundary,
                                  .threads = o->threads,
-                                 .unit = sqrt(shape->dx) * sqrt(shape->dy) / o->estar,
-                                 .norm = norm(shape, o->boundary, o->estar),
-                                 .diagonal = diagonal(shape, o->estar),
-                                 .extension = 0.5,
+                                 .unit = length / s->estar,
                                  .row_error = 2e-7, /* 1e-5 for |u| of 50, at 1024 x 1024 */
                                  .row_cost = 0.5,
                                  .factor_cost = 0.5,
                                  .mean_free = o->boundary == RC_PERIODIC};
-    set_inverse_near(&s->op, &unit);
+    s->op.norm = norm(s);
+    s->op.diagonal = diagonal(s);
+    s->op.extension = extension(s, length);
+    set_inverse_near(s, &unit, length);
     set_neighbours(&s->op, &unit);
     s->fft = rc_fft_new_in(conv == NULL ? NULL : rc_conv_fft(conv), &unit, o->boundary, RC_SINGLE,
                            o->threads, err);
-    if (s->fft == NULL || (s->kernel = rc_spectrum_new(s->fft, err)) == NULL ||
-        rc_spectrum_set(s->kernel, s->fft, &rc_kernel_boussinesq, 0, &medium, err) != RC_OK ||
-        (s->inverse = rc_spectrum_new_reciprocal(s->fft, s->kernel, err)) == NULL) {
+    if (s->fft == NULL || set_spectra(s, &unit, length, err) != RC_OK) {
         half_space_free(&s->op);
         return NULL;
     }
@@ -173,12 +301,18 @@ rc_half_space_new(const struct rc_shape *shape, const struct rc_operator_options
 {
     struct rc_conv_options options = conv_options(o);
     size_t n = shape->nx * shape->ny;
+    struct rc_stack *stack = NULL;
     struct rc_conv *conv;
     struct half_space *s;
 
     if (rc_shape_check(shape, err) != RC_OK ||
-        (conv = rc_conv_new(shape, o->estar, &options, err)) == NULL ||
-        (s = half_space_new(shape, o, conv, err)) == NULL)
+        (o->coating != NULL && (stack = rc_stack_new(o->coating, err)) == NULL))
+        return NULL;
+    if ((conv = rc_conv_new_on(stack, shape, o->estar, &options, err)) == NULL) {
+        rc_stack_free(stack);
+        return NULL;
+    }
+    if ((s = half_space_new(shape, o, stack, false, conv, err)) == NULL)
         return NULL;
     s->op.exact = true;
     s->op.error = rc_conv_error(s->conv);
@@ -202,10 +336,10 @@ rc_half_space_new(const struct rc_shape *shape, const struct rc_operator_options
 static struct rc_operator *
 coarse(const struct rc_operator *op, const struct rc_shape *shape, struct rc_err *err)
 {
-    struct rc_operator_options o = {.boundary = op->boundary,
-                                    .estar = ((const struct half_space *)op)->estar,
-                                    .threads = op->threads};
-    struct half_space *s = half_space_new(shape, &o, NULL, err);
+    const struct half_space *fine = (const struct half_space *)op;
+    struct rc_operator_options o = {
+        .boundary = op->boundary, .estar = fine->estar, .threads = op->threads};
+    struct half_space *s = half_space_new(shape, &o, fine->stack, true, NULL, err);
 
     return s == NULL ? NULL : &s->op;
 }

@@ -7,9 +7,11 @@
 #include "libcontact/common.h"
 
 struct rc_medium {
-    double estar; /* Pa  */
-    double nu;    /* -   */
-    double depth; /* m   */
+    double estar;                 /* Pa  */
+    double nu;                    /* -   */
+    double depth;                 /* m   */
+    const struct rc_stack *stack; /* of the kernel layered; then also, of the units of the grid: */
+    double length, modulus;       /* m and Pa                                               */
 };
 
 /* Where a kernel is sampled: a cell, and the step between samples in cells. */

@@ -14,6 +14,8 @@
 #include "fft.h"
 #include "fourier.h"
 #include "kernel.h"
+#include "quadrature.h"
+#include "stack.h"
 
 struct rc_operator;
 
@@ -63,6 +65,7 @@ struct rc_operator_options {
     const char *engine; /* NULL: auto                                                          */
     double tol;         /* error of K p that the engine may make, as in rc_conv_options         */
     size_t threads;     /* 0: all                                                              */
+    const struct rc_coating *coating; /* instead of the modulus; NULL: one material             */
 };
 
 /* half_space.c: an elastic half-space. NULL when there is no such engine, or none for the boundary,

@@ -45,7 +45,7 @@ check(const struct rc_shape *s, const struct rc_problem *problem, struct rc_err 
 {
     if (rc_shape_check(s, err) != RC_OK)
         return RC_FAIL;
-    if (!(problem->estar > 0) || isinf(problem->estar))
+    if (problem->coating == NULL && (!(problem->estar > 0) || isinf(problem->estar)))
         return rc_err_set(err, "E* = %g Pa: it must be positive and finite", problem->estar);
     if (!(problem->hardness >= 0))
         return rc_err_set(err, "hardness %g Pa: it must be positive", problem->hardness);
@@ -70,7 +70,8 @@ operator_options(const struct rc_shape *shape, const struct rc_problem *problem)
                                         .estar = problem->estar,
                                         .engine = problem->engine,
                                         .tol = 0.02 * tolerance(shape, problem),
-                                        .threads = problem->threads};
+                                        .threads = problem->threads,
+                                        .coating = problem->coating};
 }
 
 /* The largest height; NAN where one is not a finite number. */

@@ -17,87 +17,9 @@
 static const double pi = 3.14159265358979323846;
 
 enum {
-    BLOCK = 256,         /* points evaluated together: their arrays stay in the first cache     */
-    STRIDE = BLOCK + 24, /* from array to array: else equal places share a line of the cache */
-    MOST = 12            /* points of a rule in one direction                                   */
+    BLOCK = 256,        /* points evaluated together: their arrays stay in the first cache     */
+    STRIDE = BLOCK + 24 /* from array to array: else equal places share a line of the cache */
 };
-
-/* Distance over the half side of a cell from which a rule of so many points in that direction
- * leaves less than 1e-13 of load times (cell / distance)^2 / 2 pi of any kernel. */
-static const struct rule {
-    double from;
-    int points;
-} rules[] = {{3, 12}, {4, 9}, {6, 8}, {8, 7}, {10, 6}, {17, 5}, {38, 4}, {160, 3}};
-
-enum {
-    RULES = sizeof rules / sizeof *rules
-};
-
-/* Abscissas and weights of Gauss's rules on (-1, 1), the positive half of each (Abramowitz and
- * Stegun 1964, 25.4). */
-static const struct gauss {
-    double x, w;
-} gauss3[] = {{0, 0.888888888888888889}, {0.774596669241483377, 0.555555555555555556}},
-  gauss4[] = {{0.339981043584856265, 0.652145154862546143},
-              {0.861136311594052575, 0.347854845137453857}},
-  gauss5[] = {{0, 0.568888888888888889},
-              {0.538469310105683091, 0.478628670499366468},
-              {0.906179845938663993, 0.236926885056189088}},
-  gauss6[] = {{0.238619186083196909, 0.467913934572691047},
-              {0.661209386466264514, 0.360761573048138608},
-              {0.932469514203152028, 0.171324492379170345}},
-  gauss7[] = {{0, 0.417959183673469388},
-              {0.405845151377397167, 0.381830050505118945},
-              {0.741531185599394440, 0.279705391489276668},
-              {0.949107912342758525, 0.129484966168869693}},
-  gauss8[] = {{0.183434642495649805, 0.362683783378361983},
-              {0.525532409916328986, 0.313706645877887287},
-              {0.796666477413626740, 0.222381034453374471},
-              {0.960289856497536232, 0.101228536290376259}},
-  gauss9[] = {{0, 0.330239355001259763},
-              {0.324253423403808929, 0.312347077040002840},
-              {0.613371432700590397, 0.260610696402935462},
-              {0.836031107326635794, 0.180648160694857404},
-              {0.968160239507626090, 0.081274388361574412}},
-  gauss12[] = {
-      {0.125233408511468916, 0.249147045813402785}, {0.367831498998180194, 0.233492536538354809},
-      {0.587317954286617447, 0.203167426723065922}, {0.769902674194304687, 0.160078328543346226},
-      {0.904117256370474857, 0.106939325995318431}, {0.981560634246719251, 0.047175336386511827}};
-static const struct gauss *const halves[MOST + 1] = {
-    [3] = gauss3, [4] = gauss4, [5] = gauss5, [6] = gauss6,
-    [7] = gauss7, [8] = gauss8, [9] = gauss9, [12] = gauss12};
-
-/* Point k of n, from the lowest. */
-static struct gauss
-gauss_point(int n, int k)
-{
-    int half = n / 2, from = k - half;
-    struct gauss g;
-
-    if (n % 2 == 0)
-        g = halves[n][from >= 0 ? from : -from - 1];
-    else
-        g = halves[n][from >= 0 ? from : -from];
-    if (from < 0)
-        g.x = -g.x;
-    return g;
-}
-
-/* The rule of a direction at this distance: -1, the corners. Distances from *low up to *high, which
- * are narrowed, have the same. */
-static int
-rule_at(double distance, double half_side, double *low, double *high)
-{
-    int k = -1;
-
-    while (k + 1 < RULES && distance >= rules[k + 1].from * half_side)
-        k++;
-    if (k >= 0)
-        *low = fmax(*low, rules[k].from * half_side);
-    if (k + 1 < RULES)
-        *high = fmin(*high, rules[k + 1].from * half_side);
-    return k;
-}
 
 /* ---- by points ---- */
 
@@ -131,10 +53,10 @@ by_points(const struct rc_cell *c, unsigned kernels, int nx, int ny, size_t n, c
         if (kernels >> k & 1)
             memset(out[k] + at, 0, n * sizeof(double));
     for (int l = 0; l < ny; l++) {
-        struct gauss gy = gauss_point(ny, l);
+        struct rc_gauss gy = rc_gauss_point(ny, l);
         shift(n, y, -b * gy.x, v);
         for (int m = 0; m < nx; m++) {
-            struct gauss gx = gauss_point(nx, m);
+            struct rc_gauss gx = rc_gauss_point(nx, m);
             shift(n, x, -a * gx.x, u);
             distances(n, u, v, p.z, r, w);
             for (int k = 0; k < RC_STRESS_KERNELS; k++)
@@ -146,19 +68,6 @@ by_points(const struct rc_cell *c, unsigned kernels, int nx, int ny, size_t n, c
 
 /* ---- by points, on a line of nodes ---- */
 
-enum {
-    REACH = 3 /* nodes on either side that a mean is taken from */
-};
-
-/* The mean of a smooth function over a cell from its values f at the nodes: f + d2/24 - 17 d4/5760
- * + 367 d6/967680, with the central differences d2, d4, d6. */
-static const double mean_of[REACH + 1] = {
-    1 - 2 / 24.0 - 6 * 17 / 5760.0 - 20 * 367 / 967680.0,
-    1 / 24.0 + 4 * 17 / 5760.0 + 15 * 367 / 967680.0,
-    -17 / 5760.0 - 6 * 367 / 967680.0,
-    367 / 967680.0,
-};
-
 /* Distance over the cell from which the next term is below 1e-13 of a load's stress. */
 static const double far = 80;
 
@@ -166,8 +75,8 @@ RC_WIDE_CLONES static void
 take_means(size_t n, const double *restrict f, double *restrict out)
 {
     for (size_t i = 0; i < n; i++)
-        out[i] = mean_of[0] * f[i + 3] + mean_of[1] * (f[i + 2] + f[i + 4]) +
-                 mean_of[2] * (f[i + 1] + f[i + 5]) + mean_of[3] * (f[i] + f[i + 6]);
+        out[i] = rc_mean_of[0] * f[i + 3] + rc_mean_of[1] * (f[i + 2] + f[i + 4]) +
+                 rc_mean_of[2] * (f[i + 1] + f[i + 5]) + rc_mean_of[3] * (f[i] + f[i + 6]);
 }
 
 /* Stresses at x = (first + i) dx, i < n: Gauss's rule across the line, and along it the means. */
@@ -176,19 +85,18 @@ by_means(const struct rc_cell *c, unsigned kernels, double y, size_t first, size
          double *const out[RC_STRESS_KERNELS])
 {
     double b = c->dy / 2, low = 0, high = INFINITY, x0 = (double)first * c->dx;
-    int rule = rule_at(sqrt(x0 * x0 + y * y + c->depth * c->depth), b, &low, &high);
-    int ny = rules[rule].points;
+    int ny = rc_gauss_points(sqrt(x0 * x0 + y * y + c->depth * c->depth), b, &low, &high);
     _Alignas(64) double u[STRIDE], v[STRIDE], r[STRIDE], w[STRIDE], sum[RC_STRESS_KERNELS][STRIDE];
     struct rc_points p = {
-        .n = n + 2 * REACH, .x = u, .y = v, .r = r, .w = w, .z = c->depth, .nu = c->nu};
+        .n = n + 2 * RC_MEAN_REACH, .x = u, .y = v, .r = r, .w = w, .z = c->depth, .nu = c->nu};
 
     for (size_t i = 0; i < p.n; i++)
-        u[i] = ((double)(first + i) - REACH) * c->dx;
+        u[i] = ((double)(first + i) - RC_MEAN_REACH) * c->dx;
     for (int k = 0; k < RC_STRESS_KERNELS; k++)
         if (kernels >> k & 1)
             memset(sum[k], 0, p.n * sizeof(double));
     for (int l = 0; l < ny; l++) {
-        struct gauss g = gauss_point(ny, l);
+        struct rc_gauss g = rc_gauss_point(ny, l);
         for (size_t i = 0; i < p.n; i++)
             v[i] = y - b * g.x;
         distances(p.n, u, v, p.z, r, w);
@@ -238,17 +146,16 @@ rc_stress_coefficients(const struct rc_cell *c, unsigned kernels, size_t n, cons
 
     for (size_t i = 0, last; i < n; i = last) {
         double r2 = x[i] * x[i] + y[i] * y[i] + z2, low = 0, high = INFINITY;
-        int along_x = rule_at(sqrt(r2), c->dx / 2, &low, &high);
-        int along_y = rule_at(sqrt(r2), c->dy / 2, &low, &high);
+        int along_x = rc_gauss_points(sqrt(r2), c->dx / 2, &low, &high);
+        int along_y = rc_gauss_points(sqrt(r2), c->dy / 2, &low, &high);
 
         for (last = i + 1; last < n && last - i < BLOCK; last++) {
             r2 = x[last] * x[last] + y[last] * y[last] + z2;
             if (!(r2 >= low * low && r2 < high * high))
                 break;
         }
-        if (along_x >= 0 && along_y >= 0) {
-            by_points(c, kernels, rules[along_x].points, rules[along_y].points, last - i, x + i,
-                      y + i, out, i);
+        if (along_x > 0 && along_y > 0) {
+            by_points(c, kernels, along_x, along_y, last - i, x + i, y + i, out, i);
             continue;
         }
         for (int k = 0; k < RC_STRESS_KERNELS; k++)
@@ -264,7 +171,7 @@ rc_stress_line(const struct rc_cell *c, unsigned kernels, double step, size_t n,
     double beyond = far * far * fmax(c->dx * c->dx, c->dy * c->dy) - y * y - c->depth * c->depth;
     double inner = beyond > 0 ? ceil(sqrt(beyond) / c->dx) : 0;
     size_t near = step != c->dx || inner >= (double)n ? n : (size_t)inner;
-    size_t most = BLOCK - 2 * REACH;
+    size_t most = BLOCK - 2 * RC_MEAN_REACH;
     double x[BLOCK], ys[BLOCK], *to[RC_STRESS_KERNELS];
 
     for (size_t start = 0; start < near; start += BLOCK) {

@@ -1,0 +1,198 @@
+/*
+ * Normal displacement of the surface of a coated body under unit pressure on a cell dx x dy: that of a
+ * half-space of the top material in closed form, and the integral over the cell of what the rest of the
+ * stack changes, D(r), which is smooth on twice the thickness s/2 of the top layer.
+ *
+ * Integrated is by Gauss's rule, with the fewer points the larger sqrt(r^2 + s^2) is against the sides; a
+ * cell that is too near for any rule is halved. Farther than forty cells means are taken from the values
+ * at the nodes, which neighbours share.
+ */
+#include "kernel.h"
+
+#include <math.h>
+
+#include "quadrature.h"
+#include "radial.h"
+#include "stack.h"
+
+enum {
+    BLOCK = 128, /* distances looked up together                     */
+    TILE = 96,   /* columns whose node values are found together     */
+    TALL = 40,   /* rows of them                                     */
+    NEAREST = 4  /* half sides: below, a cell is halved              */
+};
+static const double far = 40; /* cells */
+
+/* What is integrated, in the units of the grid. */
+struct part {
+    const struct rc_radial *radial;
+    double length; /* m of a unit of length                    */
+    double scale;  /* s in these units                         */
+    double factor; /* of the result                            */
+};
+
+/* Adds up weight * D over n <= BLOCK points. */
+static double
+sum_points(const struct part *d, size_t n, const double *r, const double *weight)
+{
+    double value[BLOCK], sum = 0;
+
+    rc_radial_values(d->radial, n, r, value);
+    for (size_t k = 0; k < n; k++)
+        sum += weight[k] * value[k];
+    return sum;
+}
+
+/* Integral over the rectangle of half sides a, b whose middle is (x, y) away. */
+static double
+integral(const struct part *d, double x, double y, double a, double b)
+{
+    double distance = sqrt(x * x + y * y + d->scale * d->scale), low = 0, high = INFINITY, sum = 0;
+    double r[BLOCK], weight[BLOCK];
+    size_t n = 0;
+    int nx, ny;
+
+    if (distance < NEAREST * fmax(a, b)) {
+        bool along_x = a >= b, along_y = b >= a;
+        for (int j = along_y ? -1 : 0; j <= 1; j += 2)
+            for (int i = along_x ? -1 : 0; i <= 1; i += 2)
+                sum += integral(d, x + i * a / 2, y + j * b / 2, along_x ? a / 2 : a,
+                                along_y ? b / 2 : b);
+        return sum;
+    }
+    nx = rc_gauss_points(distance, a, &low, &high);
+    ny = rc_gauss_points(distance, b, &low, &high);
+    for (int l = 0; l < ny; l++)
+        for (int m = 0; m < nx; m++) {
+            struct rc_gauss u = rc_gauss_point(nx, m), v = rc_gauss_point(ny, l);
+            r[n] = d->length * hypot(x - a * u.x, y - b * v.x);
+            weight[n++] = u.w * v.w;
+            if (n == BLOCK) {
+                sum += sum_points(d, n, r, weight);
+                n = 0;
+            }
+        }
+    return (sum + sum_points(d, n, r, weight)) * a * b;
+}
+
+/* ---- far away: means of node values ---- */
+
+struct tile {
+    double node[TALL][TILE + 2 * RC_MEAN_REACH]; /* D, from three rows above to three below     */
+    double mean[TALL][TILE];                     /* along x                                     */
+};
+
+/* Rows first - 3 .. last + 2 and columns left - 3 .. right + 2 of D. */
+static void
+fill_tile(const struct part *d, const struct rc_lattice *at, size_t left, size_t right,
+          size_t first, size_t last, struct tile *t)
+{
+    size_t n = right - left + 2 * RC_MEAN_REACH;
+    double r[TILE + 2 * RC_MEAN_REACH];
+
+    for (size_t j = 0; j < last - first + 2 * RC_MEAN_REACH; j++) {
+        double y = ((double)(first + j) - RC_MEAN_REACH) * at->dy;
+        double *node = t->node[j];
+        for (size_t i = 0; i < n; i++) {
+            double x = ((double)(left + i) - RC_MEAN_REACH) * at->dx;
+            r[i] = d->length * sqrt(x * x + y * y);
+        }
+        rc_radial_values(d->radial, n, r, node);
+        for (size_t i = 0; i < right - left; i++) {
+            const double *c = node + i + RC_MEAN_REACH;
+            t->mean[j][i] = rc_mean_of[0] * c[0] + rc_mean_of[1] * (c[-1] + c[1]) +
+                            rc_mean_of[2] * (c[-2] + c[2]) + rc_mean_of[3] * (c[-3] + c[3]);
+        }
+    }
+}
+
+static double
+mean_at(const struct tile *t, size_t j, size_t i)
+{
+    size_t c = j + RC_MEAN_REACH;
+
+    return rc_mean_of[0] * t->mean[c][i] + rc_mean_of[1] * (t->mean[c - 1][i] + t->mean[c + 1][i]) +
+           rc_mean_of[2] * (t->mean[c - 2][i] + t->mean[c + 2][i]) +
+           rc_mean_of[3] * (t->mean[c - 3][i] + t->mean[c + 3][i]);
+}
+
+/* Columns of row j nearer than forty cells: they are integrated. All, on a lattice that leaves nodes
+ * out. */
+static size_t
+near_columns(const struct rc_lattice *at, double y, size_t n)
+{
+    double reach = far * fmax(at->dx, at->dy), rest = reach * reach - y * y;
+
+    if (at->sx > 1 || at->sy > 1)
+        return n;
+    return rest > 0 && sqrt(rest) / at->dx < (double)n ? (size_t)ceil(sqrt(rest) / at->dx)
+           : rest > 0                                  ? n
+                                                       : 0;
+}
+
+static void
+add_block(const struct part *d, const struct rc_lattice *at, size_t n, size_t first, size_t last,
+          double *out)
+{
+    double dx = (double)at->sx * at->dx, dy = (double)at->sy * at->dy;
+    size_t least = n;
+    struct tile t;
+
+    for (size_t j = first; j < last; j++) {
+        double y = (double)j * dy, *row = out + (j - first) * n;
+        size_t near = near_columns(at, y, n);
+        for (size_t i = 0; i < near; i++)
+            row[i] += d->factor * integral(d, (double)i * dx, y, at->dx / 2, at->dy / 2);
+        least = near < least ? near : least;
+    }
+    for (size_t left = least; left < n; left += TILE) {
+        size_t right = left + TILE < n ? left + TILE : n;
+        fill_tile(d, at, left, right, first, last, &t);
+        for (size_t j = first; j < last; j++) {
+            double *row = out + (j - first) * n;
+            size_t near = near_columns(at, (double)j * dy, n);
+            for (size_t i = left > near ? left : near; i < right; i++)
+                row[i] += d->factor * at->dx * at->dy * mean_at(&t, j - first, i - left);
+        }
+    }
+}
+
+/* ---- the row ---- */
+
+static void
+rows(const struct rc_medium *medium, size_t component, const struct rc_lattice *at, size_t n,
+     size_t first, size_t last, double *out)
+{
+    const struct rc_stack *s = medium->stack;
+    const struct rc_medium top = {.estar = 1 / (s->top * medium->modulus)};
+    const struct part d = {.radial = s->far,
+                           .length = medium->length,
+                           .scale = 2 * s->material[0].thickness / medium->length,
+                           .factor = medium->modulus * medium->length};
+    size_t most = TALL - 2 * RC_MEAN_REACH;
+
+    rc_kernel_boussinesq.rows(&top, component, at, n, first, last, out);
+    for (; first < last; first += most, out += most * n)
+        add_block(&d, at, n, first, last - first < most ? last : first + most, out);
+}
+
+/* A wave is displaced by 2 g/q of its height. */
+static double
+symbol(const struct rc_medium *medium, size_t component, double qx, double qy)
+{
+    double q = hypot(qx, qy);
+
+    (void)component;
+    return 2 * rc_stack_response(medium->stack, q / medium->length) * medium->modulus / q;
+}
+
+static const unsigned parity[] = {0};
+
+const struct rc_kernel rc_kernel_layered = {
+    .info = {.name = "layered",
+             .summary = "normal displacement of the surface of a coated body, m/Pa",
+             .components = 1},
+    .parity = parity,
+    .rows = rows,
+    .symbol = symbol,
+};

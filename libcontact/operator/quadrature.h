@@ -1,0 +1,34 @@
+/*
+ * Integrals over the cells of a grid of functions that are smooth on the scale of their distance: Gauss's
+ * rule with the fewer points the farther away, and farthest means from the values at the nodes. Internal:
+ * never installed.
+ */
+#ifndef RC_QUADRATURE_H
+#define RC_QUADRATURE_H
+
+#include <stddef.h>
+
+/* Points of a rule on (-1, 1). */
+struct rc_gauss {
+    double x, w;
+};
+enum {
+    RC_GAUSS_MOST = 12
+};
+/* Point k of n, from the lowest; n = 3..9 or 12. */
+struct rc_gauss rc_gauss_point(int n, int k);
+
+/* Points in a direction at this distance from the middle of a cell, of which only `half_side` in that
+ * direction counts, that leave less than 1e-13 of load times (cell / distance)^2 / 2 pi of any kernel
+ * of a half-space; 0: nearer than three half sides no rule does. Distances from *low up to *high, which
+ * are narrowed, have the same. */
+int rc_gauss_points(double distance, double half_side, double *low, double *high);
+
+/* The mean of a smooth function over a cell from its values f at the nodes: mean[0] f_0 + mean[1] (f_-1 +
+ * f_1) + ...; beyond so many cells what is left out is below 1e-13 of a load's field. */
+enum {
+    RC_MEAN_REACH = 3
+};
+extern const double rc_mean_of[RC_MEAN_REACH + 1];
+
+#endif

@@ -1,0 +1,31 @@
+/*
+ * Functions of the distance from a load, given by how they act on waves:
+ *
+ *     f(r) = integral from 0 to infinity of G(q) J_m(q r) q dq
+ *
+ * tabulated once, for all grids. Internal: never installed.
+ */
+#ifndef RC_RADIAL_H
+#define RC_RADIAL_H
+
+#include "libcontact/common.h"
+
+struct rc_radial;
+
+struct rc_radial_source {
+    int order;    /* m >= 0                                        */
+    double scale; /* s, m: f is smooth on it; its nearest singularity is r = i s */
+    double unit;  /* m: wave numbers are taken about 1/unit        */
+    double last;  /* G = 0 where q unit is above this              */
+    double tail;  /* G -> tail/q as q -> 0: f -> tail/r far away; of order 0 */
+    double (*wave)(const void *ctx, double q); /* G */
+    const void *ctx;
+};
+
+/* NULL when memory is short. */
+struct rc_radial *rc_radial_new(const struct rc_radial_source *source);
+void rc_radial_free(struct rc_radial *radial); /* NULL is allowed */
+/* f at n distances r >= 0, m. */
+void rc_radial_values(const struct rc_radial *radial, size_t n, const double *r, double *f);
+
+#endif

@@ -1,0 +1,237 @@
+/*
+ * The frequency response of a stack of bonded isotropic layers, by recursion from below.
+ *
+ * Along a wave of wave number q the displacements are U sin(q l) and W cos(q l), the tractions f = (fx, fz)
+ * on a plane from above. Below a plane (U, W) = Y f. What is carried upwards is not Y but its minors
+ *
+ *     y = (a, b, c, d, e):  Y_xx = c/e,  Y_zz = b/e,  Y_xz = -d/e,  det Y = a/e
+ *
+ * because then no difference of large numbers ever appears. Displacements are in units of 1/q, stresses
+ * in units of the shear modulus of the medium; M is the matrix by which y changes with q z.
+ */
+#include "stack.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "radial.h"
+
+static const double pi = 3.14159265358979323846;
+
+/* Constants of a medium. */
+struct medium {
+    double alpha, beta, gamma;
+};
+
+static struct medium
+medium_of(double nu)
+{
+    return (struct medium){(1 - 2 * nu) / (2 * (1 - nu)), nu / (1 - nu), 2 / (1 - nu)};
+}
+
+struct minors {
+    double a, b, c, d, e;
+};
+
+/* A half-space of this material; nothing gives under a rigid one. */
+static struct minors
+half_space(const struct rc_material *m)
+{
+    if (isinf(m->modulus))
+        return (struct minors){0, 0, 0, 0, 1};
+    return (struct minors){(3 - 4 * m->nu) / 4, 1 - m->nu, 1 - m->nu, (1 - 2 * m->nu) / 2, 1};
+}
+
+/* The same plane seen from the medium above, whose shear modulus is r times that below. */
+static struct minors
+change_medium(struct minors y, double r)
+{
+    return (struct minors){y.a * r * r, y.b * r, y.c * r, y.d * r, y.e};
+}
+
+static struct minors
+times_m(const struct medium *m, struct minors y)
+{
+    return (struct minors){y.b + m->alpha * y.c,
+                           m->gamma * y.a - 2 * m->beta * y.d + m->alpha * y.e, y.e + 2 * y.d,
+                           y.b - m->beta * y.c, m->gamma * y.c};
+}
+
+static struct minors
+plus(struct minors y, double k, struct minors z)
+{
+    return (struct minors){y.a + k * z.a, y.b + k * z.b, y.c + k * z.c, y.d + k * z.d,
+                           y.e + k * z.e};
+}
+
+/* exp(-2x) (sinh 2x - 2x)/8 and exp(-2x) (cosh 2x - 1 - 2 x^2)/16. */
+static void
+third_and_fourth(double x, double th, double *p3, double *p4)
+{
+    double far = x < 1000 ? x : 1000, term, s3 = 0, s4 = 0, x2 = 2 * x;
+
+    if (x > 1) {
+        *p3 = ((1 - th * th) / 2 - 2 * far * th) / 8;
+        *p4 = ((1 - th) * (1 - th) / 2 - 2 * far * far * th) / 16;
+        return;
+    }
+    term = x2 * x2 * x2 / 6; /* (2x)^3 / 3! */
+    for (int k = 0; k < 13; k++) {
+        s3 += term;
+        term *= x2 / (2 * k + 4);
+        s4 += term;
+        term *= x2 / (2 * k + 5);
+    }
+    *p3 = th * s3 / 8;
+    *p4 = th * s4 / 16;
+}
+
+/* From the bottom of a layer to its top, x = q t. */
+static struct minors
+through(struct minors y, const struct medium *m, double x)
+{
+    double th = exp(-2 * x), far = x < 1000 ? x : 1000, p3, p4;
+    struct minors y1 = times_m(m, y), y2 = times_m(m, y1), y3 = times_m(m, y2), y4 = times_m(m, y3);
+    struct minors top = {th * y.a, th * y.b, th * y.c, th * y.d, th * y.e};
+
+    third_and_fourth(x, th, &p3, &p4);
+    top = plus(top, far * th, y1);
+    top = plus(top, far * far * th / 2, y2);
+    top = plus(top, p3, y3);
+    top = plus(top, p4, y4);
+    return (struct minors){top.a / top.e, top.b / top.e, top.c / top.e, top.d / top.e, 1};
+}
+
+/* Minors of the surface. */
+static struct minors
+surface(const struct rc_stack *s, double q)
+{
+    struct minors y = half_space(&s->material[s->layers]);
+
+    for (size_t k = s->layers; k-- > 0;) {
+        const struct rc_material *m = &s->material[k];
+        struct medium constants = medium_of(m->nu);
+        if (!isinf(s->material[k + 1].modulus))
+            y = change_medium(y, m->modulus / s->material[k + 1].modulus);
+        y = through(y, &constants, q * m->thickness);
+    }
+    return y;
+}
+
+double
+rc_stack_response(const struct rc_stack *s, double q)
+{
+    struct minors y = surface(s, q);
+
+    return y.b / (2 * y.e * s->material[0].modulus) + s->compliance;
+}
+
+double
+rc_stack_excess(const struct rc_stack *s, double q)
+{
+    return rc_stack_response(s, q) - s->top;
+}
+
+/* ---- at a distance ---- */
+
+static double
+difference(const void *ctx, double q)
+{
+    return rc_stack_excess(ctx, q) / (pi * q);
+}
+
+/* D(r) = 1/pi integral of (g - g(infinity)) J_0(q r) dq. It falls as exp(-2 q t), t the thickness of the
+ * top layer. */
+static struct rc_radial *
+far(const struct rc_stack *s)
+{
+    struct rc_radial_source source = {.order = 0,
+                                      .scale = 2 * s->material[0].thickness,
+                                      .unit = s->material[0].thickness,
+                                      .last = 25,
+                                      .tail = (s->bottom - s->top) / pi,
+                                      .wave = difference,
+                                      .ctx = s};
+
+    return rc_radial_new(&source);
+}
+
+/* ---- made of a coating ---- */
+
+static enum rc_status
+check_material(const char *what, double e, double nu, bool rigid, struct rc_err *err)
+{
+    if (!(e > 0) || (isinf(e) && !rigid))
+        return rc_err_set(err, "Young's modulus of %s is %g Pa: it must be positive and finite",
+                          what, e);
+    if (!(nu > -1 && nu <= 0.5))
+        return rc_err_set(err, "Poisson's ratio of %s is %g: it must be above -1 and at most 0.5",
+                          what, nu);
+    return RC_OK;
+}
+
+static enum rc_status
+check(const struct rc_coating *c, struct rc_err *err)
+{
+    char what[64];
+
+    if (c->layers == 0)
+        return rc_err_set(err, "a coating without a layer");
+    for (size_t k = 0; k < c->layers; k++) {
+        snprintf(what, sizeof what, "layer %zu", k + 1);
+        if (!(c->layer[k].thickness > 0) || isinf(c->layer[k].thickness))
+            return rc_err_set(err, "%s is %g m thick: it must be positive and finite", what,
+                              c->layer[k].thickness);
+        if (check_material(what, c->layer[k].e, c->layer[k].nu, false, err) != RC_OK)
+            return RC_FAIL;
+    }
+    if (!(c->compliance >= 0) || isinf(c->compliance))
+        return rc_err_set(err, "the other body's (1 - nu^2)/E is %g 1/Pa: it must not be negative",
+                          c->compliance);
+    return check_material("the substrate", c->e, c->nu, true, err);
+}
+
+/* 1/E* of one material. */
+static double
+compliance_of(const struct rc_material *m)
+{
+    return isinf(m->modulus) ? 0 : (1 - m->nu) / (2 * m->modulus);
+}
+
+struct rc_stack *
+rc_stack_new(const struct rc_coating *c, struct rc_err *err)
+{
+    struct rc_stack *s;
+
+    if (check(c, err) != RC_OK)
+        return NULL;
+    s = calloc(1, sizeof *s);
+    if (s == NULL || (s->material = calloc(c->layers + 1, sizeof *s->material)) == NULL)
+        goto short_of_memory;
+    s->layers = c->layers;
+    s->compliance = c->compliance;
+    for (size_t k = 0; k < c->layers; k++)
+        s->material[k] = (struct rc_material){
+            c->layer[k].thickness, c->layer[k].e / (2 * (1 + c->layer[k].nu)), c->layer[k].nu};
+    s->material[c->layers] = (struct rc_material){INFINITY, c->e / (2 * (1 + c->nu)), c->nu};
+    s->top = compliance_of(&s->material[0]) + c->compliance;
+    s->bottom = compliance_of(&s->material[c->layers]) + c->compliance;
+    if ((s->far = far(s)) == NULL)
+        goto short_of_memory;
+    return s;
+short_of_memory:
+    rc_err_set(err, "out of memory for a stack of %zu layers", c->layers);
+    rc_stack_free(s);
+    return NULL;
+}
+
+void
+rc_stack_free(struct rc_stack *s)
+{
+    if (s == NULL)
+        return;
+    rc_radial_free(s->far);
+    free(s->material);
+    free(s);
+}
