@@ -170,7 +170,7 @@ $((whole - 9)) without an end line
 $((whole - 1)) inside a line
 END
 refuses 1 'this stream failed: out of load' "a producer that failed" \
-    "{ head -c $((whole - 9)) three.rcg; printf 'RCGFAIL out of load\n'; } | $draw"
+    "{ head -c $((whole - 9)) three.rcg; printf 'RCGFAIL out of load\n'; } >out-of.rcg; $draw <out-of.rcg"
 claim "none of these left a picture or a part of one behind" none
 cp height.rcg out.png
 refuses 1 'the stream stops inside the values of a frame' "a cut stream over a file that is there" "head -c 1000 three.rcg | $draw"

@@ -66,7 +66,7 @@ claim "  and nothing is left behind" untouched
 refuses 1 'the stream stops without an end line' "a missing end line" "head -c $((size - 9)) good.rcg | $solve -o out.rcg"
 claim "  and nothing is left behind" untouched
 refuses 1 'the program that wrote this stream failed: disk on fire' "a producer that failed" \
-    "{ head -c $((size - 9)) good.rcg; echo 'RCGFAIL disk on fire'; } | $solve -o out.rcg"
+    "{ head -c $((size - 9)) good.rcg; echo 'RCGFAIL disk on fire'; } >fire.rcg; $solve -o out.rcg <fire.rcg"
 refuses 1 'the stream stops before it begins' "an empty stream" "$solve -o out.rcg </dev/null"
 refuses 1 'spacing dx=0 m: it must be positive' "a zero spacing" "sed 's/^dx=.*/dx=0/' good.rcg | $solve -o out.rcg"
 refuses 1 'spacing dy=-1e-6 m: it must be positive' "a negative spacing" "sed 's/^dy=.*/dy=-1e-6/' good.rcg | $solve -o out.rcg"

@@ -64,6 +64,18 @@ check_convergence(struct tool *t, const struct rc_grid *g)
     tool_fails_with(t, EXIT_SHORT);
 }
 
+/* What a program before this one in the pipe has said need not be said again. */
+static _Noreturn void
+cannot_read(struct tool *t, const struct rc_err *err)
+{
+    int status;
+    const char *failure = rc_reader_failure(t->reader, &status);
+
+    if (failure != NULL && pipe_is(fileno(t->in)))
+        fail_as_before(t, failure, status);
+    tool_die(t, EXIT_IMPOSSIBLE, "%s, frame %zu: %s", t->source, t->frame + 1, err->text);
+}
+
 struct rc_grid *
 tool_read(struct tool *t)
 {
@@ -86,7 +98,7 @@ tool_read(struct tool *t)
             close_input(t);
             break;
         default:
-            tool_die(t, EXIT_IMPOSSIBLE, "%s, frame %zu: %s", t->source, t->frame + 1, err.text);
+            cannot_read(t, &err);
         }
     }
 }

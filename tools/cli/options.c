@@ -39,6 +39,8 @@ enum {
     LIST = 256,    /* bytes of a list of words             */
 };
 
+static const char letters[] = ":o:h"; /* options of one letter, for getopt */
+
 /* ---- the table ---- */
 
 static void
@@ -358,6 +360,39 @@ warn_of_commas(struct tool *t)
     }
 }
 
+/* Whether standard output is text once this option is given. */
+static bool
+asks_for_text(const struct tool *t, int what, const char *text)
+{
+    const struct opt *o;
+
+    if (what == 'h')
+        return true;
+    if (what < OWN)
+        return false;
+    if (what >= COMMON) {
+        o = &common[what - COMMON];
+        return strcmp(o->name, "help") == 0 || strcmp(o->name, "version") == 0;
+    }
+    o = &t->opt[what - OWN];
+    return o->text || strcmp(o->name, "dry-run") == 0 ||
+           (o->type == OPT_REPORT && strcmp(text, "-") == 0);
+}
+
+/* Looks through the whole line for where the output leads: whatever is then found to be wrong on
+ * it, the reader of a pipe is told too. */
+static void
+look_for_output(struct tool *t, int argc, char **argv, const struct option *table)
+{
+    int what;
+
+    t->stream_expected = t->info->writes == WRITES_STREAM;
+    while ((what = getopt_long(argc, argv, letters, table, NULL)) != -1)
+        if (what == 'o' ? strcmp(optarg, "-") != 0 : asks_for_text(t, what, optarg))
+            t->stream_expected = false;
+    optind = 1; /* once more from the start */
+}
+
 void
 options_read(struct tool *t, int argc, char **argv)
 {
@@ -368,7 +403,8 @@ options_read(struct tool *t, int argc, char **argv)
     if ((table = getopt_table(t)) == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
     opterr = 0;
-    while ((what = getopt_long(argc, argv, ":o:h", table, NULL)) != -1) {
+    look_for_output(t, argc, argv, table);
+    while ((what = getopt_long(argc, argv, letters, table, NULL)) != -1) {
         if (what == 'h')
             print_help(t);
         if (what == 'o') {
