@@ -150,7 +150,7 @@ refuses 2 '--raw draws nothing but nodes: leave out --contour' "contours in a ra
 refuses 2 '--raw is as wide as the map has columns: leave out --width' "a raw picture of some width" "$draw --raw --width 500 height.rcg"
 refuses 2 '--width 100: it must be at least 320' "a figure too narrow" "$draw --width 100 height.rcg"
 refuses 2 '--title: the text is not UTF-8' "a title that is no text" "$draw --title $'\\xff' height.rcg"
-refuses 2 'unknown or ambiguous option --colour' "an unknown option" "$draw --colour red height.rcg"
+refuses 2 'unknown option --hue: see rc-render --help' "an unknown option" "$draw --hue red height.rcg"
 stream mises Pa 20 4 "section=y depths=0,1e-06" 1 >few.rcg
 refuses 1 'its key depths holds 2 depths for 4 rows' "a section with too few depths" "$draw few.rcg"
 stream mises Pa 20 3 "section=y depths=0,2e-06,1e-06" 1 >falling.rcg
