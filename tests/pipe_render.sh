@@ -161,7 +161,6 @@ while read -r n where; do
     refuses 1 "the stream stops $where, [0-3] whole frames after its start" "a stream cut after $n of $whole bytes" \
         "head -c $n three.rcg | $draw"
 done <<END
-0 before it begins
 1 inside a line
 100 inside the values of a frame
 1000 inside the values of a frame
@@ -169,6 +168,7 @@ $((whole / 2)) inside the values of a frame
 $((whole - 9)) without an end line
 $((whole - 1)) inside a line
 END
+refuses 1 'standard input is empty, the stream stops before it begins' "a stream of nothing" "head -c 0 three.rcg | $draw"
 refuses 1 'this stream failed: out of load' "a producer that failed" \
     "{ head -c $((whole - 9)) three.rcg; printf 'RCGFAIL out of load\n'; } >out-of.rcg; $draw <out-of.rcg"
 claim "none of these left a picture or a part of one behind" none

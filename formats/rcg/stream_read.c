@@ -17,6 +17,9 @@ struct rc_reader {
     size_t frames;                 /* since the last end line                                */
     bool ended;                    /* an end line was read and nothing since                 */
     uint32_t crc;                  /* of the frame so far                                    */
+    bool begun;                    /* a line of a stream was read                */
+    bool empty, foreign;           /* there was none                             */
+    char head[16];                 /* the first bytes of something foreign       */
     char failure[RC_FAIL_MAX + 1]; /* the message of RCGFAIL; empty: none yet    */
     int failure_status;
     char header[RC_HEADER_MAX];
@@ -36,6 +39,7 @@ rc_reader_new(FILE *file, size_t first_case, size_t memory, struct rc_err *err)
     r->first_case = r->last_case = first_case;
     r->frames = 0;
     r->ended = false;
+    r->begun = r->empty = r->foreign = false;
     r->failure[0] = '\0';
     r->failure_status = 0;
     return r;
@@ -415,6 +419,36 @@ rc_reader_failure(const struct rc_reader *r, int *exit_status)
     return r->failure[0] == '\0' ? NULL : r->failure;
 }
 
+/* Whether `text` is a beginning of the word, or all of it. */
+static bool
+begins(const char *word, const char *text)
+{
+    return strncmp(word, text, strlen(text)) == 0;
+}
+
+/* Looks at the first line, n as read_line gives it, whether it is one of a stream. */
+static void
+look_at_first(struct rc_reader *r, const char *line, long n)
+{
+    if (r->begun || ferror(r->file))
+        return;
+    snprintf(r->head, sizeof r->head, "%.15s", line);
+    r->empty = n == -1;
+    if (n >= 0)
+        r->foreign = strcmp(line, "RCG1") != 0 && strncmp(line, "RCGFAIL", 7) != 0 &&
+                     strncmp(line, "RCGEND ", 7) != 0;
+    else /* "RC" is a line that was cut off */
+        r->foreign = r->head[0] == '\0' || !(begins("RCG1", r->head) || begins("RCGEND ", r->head));
+    r->begun = !r->foreign;
+}
+
+bool
+rc_reader_foreign(const struct rc_reader *r, const char **head)
+{
+    *head = r->empty ? NULL : r->head;
+    return r->foreign;
+}
+
 enum rc_status
 rc_reader_next(struct rc_reader *r, struct rc_grid **grid, struct rc_err *err)
 {
@@ -422,8 +456,11 @@ rc_reader_next(struct rc_reader *r, struct rc_grid **grid, struct rc_err *err)
 
     *grid = NULL;
     for (;;) {
-        long n = read_line(r, line, sizeof line);
+        long n;
 
+        memset(line, 0, sizeof r->head);
+        n = read_line(r, line, sizeof line);
+        look_at_first(r, line, n);
         if (n == -1) {
             if (r->ended && !ferror(r->file))
                 return RC_OK;
