@@ -28,7 +28,7 @@ fails '1 1 1 1' '^rc-import: nosuch.x3p: No such file' "a file that is not there
 fails '2 2' '^rc-solve: .*--lod' "a misspelt option" 'rc-solve --lod 3 ball.rcg | rc-info'
 fails '2 2 2 2' '^rc-solve: give one of --load' "an option that is missing, found when the output was open" \
     'rc-solve --estar 1GPa ball.rcg | rc-stress --nu 0.3 --depths 0 | rc-deflect | rc-info'
-fails '2 2 2' '^rc-solve: --load 0 N: it must be above 0' "a value out of bounds, in the middle" \
+fails '2 2 2' '^rc-solve: --load 0: it must be above 0' "a value out of bounds, in the middle" \
     'rc-solve --load 0 --estar 1GPa ball.rcg | rc-detrend --plane | rc-info'
 fails '0 1 1' 'rc-solve: .*no frame with the channel height' "of three the second, when all was read" \
     "rc-stress --nu 0.3 --depths 0 pressed.rcg | $press | rc-info"

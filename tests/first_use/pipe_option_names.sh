@@ -53,7 +53,7 @@ refuses 2 'colormap green: it must be one of' "another colour is none" 'rc-rende
 
 for option in load mean-pressure approach; do
     for value in -1 0 -1e-300 -3:-1:3 1,-1; do
-        refuses 2 "^rc-solve: --$option -?[0-9e-]+ (N|Pa|m): it must be above 0" "--$option $value" \
+        refuses 2 "^rc-solve: --$option -?[0-9e-]+ (N|Pa|m): it must be at least 0|^rc-solve: --$option 0: it must be above 0" "--$option $value" \
             "rc-solve --estar 1GPa --$option $value ball.rcg -o never.rcg"
     done
     for value in nan NaN -nan inf -inf '1,nan' "''" "' '"; do
