@@ -130,6 +130,20 @@ off(const struct rc_sum *sum, const struct rc_engine *engine, const double *p, c
     return worst;
 }
 
+/* Three layers, of the thickness of a few cells. */
+static struct rc_stack *
+new_stack(double spacing)
+{
+    struct rc_layer layer[] = {
+        {1.3 * spacing, 9e9, 0.3}, {0.4 * spacing, 1e9, 0.45}, {5 * spacing, 7e9, 0.2}};
+    struct rc_coating coating = {3, layer, 2e9, 0.28, 1e-11};
+    struct rc_err err;
+    struct rc_stack *stack = rc_stack_new(&coating, &err);
+
+    assert_non_null(stack);
+    return stack;
+}
+
 /* Failures of all engines on one map. */
 static size_t
 compare(struct rc_shape shape, enum rc_boundary boundary, const struct rc_kernel *kernel,
@@ -141,12 +155,18 @@ compare(struct rc_shape shape, enum rc_boundary boundary, const struct rc_kernel
                          .boundary = boundary,
                          .kernel = kernel,
                          .component = component,
-                         .medium = {.estar = 2.385e9, .nu = 0.28, .depth = 0.7 * shape.dx},
+                         .medium = {.estar = 2.385e9,
+                                    .nu = 0.28,
+                                    .depth = 0.7 * shape.dx,
+                                    .length = 1,
+                                    .modulus = 1},
                          .threads = threads};
+    struct rc_stack *stack = new_stack(shape.dx);
     size_t n = shape.nx * shape.ny, failed = 0;
     double *p = malloc(n * sizeof *p), *u = malloc(n * sizeof *u), mean = 0, size;
     uint64_t seed = 1999;
 
+    sum.medium.stack = stack;
     for (size_t k = 0; k < n; k++)
         mean += (p[k] = random_number(&seed)) / (double)n;
     for (size_t k = 0; k < n && boundary == RC_PERIODIC; k++)
@@ -172,6 +192,7 @@ compare(struct rc_shape shape, enum rc_boundary boundary, const struct rc_kernel
                 failed++;
             }
         }
+    rc_stack_free(stack);
     free(p);
     free(u);
     return failed;
