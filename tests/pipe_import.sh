@@ -70,9 +70,9 @@ for format in $(rc-import --formats | cut -d ' ' -f 1); do
 done
 claim "--formats prints the formats" says '^x3p ' rc-import --formats
 claim "--list prints the channels" \
-    says '^ +1 +3 +2 +2e-06 +2.5e-06 +m +1e-09 +5e-09 +Topo$' rc-import --list map.txt
+    says '^[*] +1 +3 +2 +2e-06 +2.5e-06 +m +1e-09 +5e-09 +Topo$' rc-import --list map.txt
 claim "--list shows what the file does not say" \
-    says '^ +1 +3 +3 +- +- +- +1 +9 +height$' rc-import --list bare.txt
+    says '^[*] +1 +3 +3 +- +- +- +1 +9 +height$' rc-import --list bare.txt
 claim "--channel takes a number" says '^nx=3$' rc-import --channel 1 map.txt
 claim "--channel takes a name" says '^nx=3$' rc-import --channel Topo map.txt
 if command -v script >/dev/null; then
@@ -152,7 +152,7 @@ if [ -d "$corpus" ]; then
         "$corpus/profile-text/SurfaceTopography__xy-4.txt"
     di=$corpus/nanoscope/SurfaceTopography__di-4.di
     claim "--list has a line for every channel" \
-        test "$(rc-import --list "$di" | grep -Ec '^ +[123] +512 +512 ')" = 3
+        test "$(rc-import --list "$di" | grep -Ec '^[* ] +[123] +512 +512 ')" = 3
     claim "with its range" says 'm +-2.08214509398651.*e-07 +2.72935345420074.*e-07 Height Sensor$' \
         rc-import --list "$di"
     claim "another channel keeps its name and unit" bash -c "
