@@ -351,6 +351,72 @@ profiles(void **state)
     free(xml);
 }
 
+/* As numbers of both lengths, as a datum, and by the increment. */
+static void
+infinite_heights_are_missing(void **state)
+{
+    static const unsigned char floats[24] = {0,    0, 0x80, 0x3f, 0, 0, 0x80, 0x7f,
+                                             0,    0, 0x40, 0x40, 0, 0, 0x80, 0xff,
+                                             0xff, 0, 0xc0, 0x7f, 0, 0, 0xc0, 0x40};
+    const double doubles[6] = {1, INFINITY, 3, -INFINITY, NAN, 6}, wide[6] = {1, 8, 3, -8, NAN, 6};
+    static const char data[] = "<DataList><Datum>1</Datum><Datum>inf</Datum><Datum>3</Datum>"
+                               "<Datum>-INF</Datum><Datum/><Datum>6</Datum></DataList>";
+    const double height[6] = {-1.75, NAN, -1.25, NAN, NAN, -0.5};
+
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        char *xml = k == 1 ? with(main_xml, "@DATA@", data) : binary_xml(k == 2 ? "F" : "D", "");
+        struct rc_notes notes;
+        struct rc_file file;
+        struct rc_grid *g;
+
+        if (k == 1)
+            alter(&xml, "@TYPE@", "D");
+        if (k == 3)
+            alter(&xml, "<Increment>0.25", "<Increment>2.5e307");
+        file = k == 1   ? pack(xml, NULL, 0)
+               : k == 2 ? pack(xml, floats, sizeof floats)
+                        : pack(xml, k == 3 ? wide : doubles, sizeof doubles);
+        g = read_file(&file, &notes);
+        if (k < 3)
+            check_heights(g, height);
+        for (size_t i = 0; i < 6; i++)
+            assert_int_equal(isnan(g->v[i]), isnan(height[i]));
+        assert_int_equal(notes.n, 1);
+        assert_string_equal(notes.text[0], "2 of 6 values are infinite and read as missing, the "
+                                           "first at column 1, row 0 (from 0)");
+        rc_grid_free(g);
+        drop_file(&file);
+        free(xml);
+    }
+}
+
+static void
+root_without_its_part(void **state)
+{
+    char *xml = binary_xml("D", "");
+    struct rc_notes notes;
+    struct rc_file file;
+    struct rc_grid *g;
+
+    (void)state;
+    alter(&xml, "<p:ISO5436_2 ", "<p:ISO5436 ");
+    refuse_xml(xml, "no whole XML");
+    alter(&xml, "</p:ISO5436_2>", "</p:ISO5436>");
+    file = pack(xml, plain, sizeof plain);
+    g = read_file(&file, &notes);
+    check_heights(g, (const double[6]){-1.75, -1.5, -1.25, -1, -0.75, -0.5});
+    assert_int_equal(notes.n, 1);
+    assert_true(
+        noted(&notes, "the root of its main.xml is ISO5436, where the standard has ISO5436_2"));
+    rc_grid_free(g);
+    drop_file(&file);
+    alter(&xml, "<p:ISO5436 ", "<p:ISO54 ");
+    alter(&xml, "</p:ISO5436>", "</p:ISO54>");
+    refuse_xml(xml, "the root of its main.xml is 'ISO54', not ISO5436_2");
+    free(xml);
+}
+
 static void
 rotation_is_noted(void **state)
 {
@@ -438,6 +504,8 @@ main(void)
         cmocka_unit_test(members_under_one_folder),
         cmocka_unit_test(words_become_keys),
         cmocka_unit_test(profiles),
+        cmocka_unit_test(infinite_heights_are_missing),
+        cmocka_unit_test(root_without_its_part),
         cmocka_unit_test(rotation_is_noted),
         cmocka_unit_test(wishes_win),
         cmocka_unit_test(list_tells_size_and_spacing),

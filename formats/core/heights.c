@@ -42,11 +42,26 @@ rc_heights_flip(struct rc_grid *g)
 }
 
 enum rc_status
-rc_heights_finite(const struct rc_grid *g, struct rc_err *err)
+rc_heights_finite(struct rc_grid *g, struct rc_notes *notes, struct rc_err *err)
 {
-    for (size_t k = 0; k < g->nx * g->ny; k++)
-        if (isinf(g->v[k]))
-            return rc_err_set(err, "the height at column %zu, row %zu (from 0) is infinite",
-                              k % g->nx, k / g->nx);
+    size_t infinite = 0, finite = 0, first = 0;
+
+    for (size_t k = 0; k < g->nx * g->ny; k++) {
+        finite += isfinite(g->v[k]) != 0;
+        if (!isinf(g->v[k]))
+            continue;
+        if (infinite++ == 0)
+            first = k;
+        g->v[k] = NAN;
+    }
+    if (infinite > 0 && finite == 0)
+        return rc_err_set(err, "every value that is there is infinite (%zu of %zu x %zu)", infinite,
+                          g->nx, g->ny);
+    if (infinite > 0)
+        rc_note(notes,
+                "%zu of %zu values %s infinite and read as missing, the first at column %zu, row "
+                "%zu (from 0)",
+                infinite, g->nx * g->ny, infinite == 1 ? "is" : "are", first % g->nx,
+                first / g->nx);
     return RC_OK;
 }

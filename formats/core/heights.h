@@ -22,7 +22,8 @@ struct rc_channel rc_heights_channel(const struct rc_heights *heights, const cha
 
 /* Turns the grid upside down: for formats whose first row is the lowest. */
 void rc_heights_flip(struct rc_grid *grid);
-/* RC_FAIL where a value is infinite; NaN is a missing one. */
-enum rc_status rc_heights_finite(const struct rc_grid *grid, struct rc_err *err);
+/* What every reader does with infinite values: they are missing points, as some programs write those,
+ * and their number is noted. RC_FAIL when there is no other value. */
+enum rc_status rc_heights_finite(struct rc_grid *grid, struct rc_notes *notes, struct rc_err *err);
 
 #endif

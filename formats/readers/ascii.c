@@ -146,7 +146,7 @@ read_matrix(const struct rc_ascii_head *h, struct rc_number_table *table,
     g->dy = shape.dy;
     for (size_t k = 0; k < n; k++)
         g->v[k] *= metres;
-    if (rc_heights_finite(g, err) == RC_OK)
+    if (rc_heights_finite(g, notes, err) == RC_OK)
         return g;
     rc_grid_free(g);
     return NULL;

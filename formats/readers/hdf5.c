@@ -100,7 +100,7 @@ read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index
     rc_hdf_number(h, set[index].path, "_FillValue", &fill);
     for (size_t k = 0; (!isnan(fill) || metres != 1) && k < g->nx * g->ny; k++)
         g->v[k] = g->v[k] == fill ? NAN : g->v[k] * metres;
-    good = rc_heights_finite(g, err) == RC_OK;
+    good = rc_heights_finite(g, notes, err) == RC_OK;
 done:
     free(set);
     rc_hdf_free(h);

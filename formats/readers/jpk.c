@@ -233,7 +233,7 @@ read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index
         g->v[k] = (g->v[k] * c.multiply + c.offset) * metres;
     if (!c.reflected)
         rc_heights_flip(g);
-    good = rc_heights_finite(g, err) == RC_OK;
+    good = rc_heights_finite(g, notes, err) == RC_OK;
 done:
     rc_tiff_free(s.tiff);
     if (good)

@@ -214,7 +214,7 @@ netcdf_read(const struct rc_file *file, const struct rc_wish *wish, size_t index
         (m.periodic && rc_grid_set(g, "periodic", "yes", err) != RC_OK))
         goto done;
     read_values(&f, &m, metres, g);
-    good = rc_heights_finite(g, err) == RC_OK;
+    good = rc_heights_finite(g, notes, err) == RC_OK;
 done:
     rc_cdf_close(&f);
     if (good)

@@ -229,7 +229,7 @@ read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index
         rc_bytes_values(&b, p.raw, g->v + j * p.nx, p.nx);
     for (size_t k = 0; k < p.nx * p.ny; k++)
         g->v[k] = p.gain * (p.scale * g->v[k] + p.offset) * metres;
-    good = rc_heights_finite(g, err) == RC_OK;
+    good = rc_heights_finite(g, notes, err) == RC_OK;
 done:
     rc_tiff_free(p.tiff);
     if (good)

@@ -226,7 +226,7 @@ read_layer(const struct plux *p, const struct rc_file *file, const struct rc_wis
     }
     for (size_t k = 0; k < p->nx * p->ny; k++)
         g->v[k] *= metres;
-    if (rc_heights_finite(g, err) == RC_OK)
+    if (rc_heights_finite(g, notes, err) == RC_OK)
         return g;
     rc_grid_free(g);
     return NULL;

@@ -145,6 +145,10 @@ x3p_read(const struct rc_file *file, const struct rc_wish *wish, size_t index,
         rc_map_fits(file, x.nx, x.ny, err) != RC_OK)
         goto done;
     rc_x3p_check_main(&x, notes);
+    if (x.old_root)
+        rc_note(notes,
+                "the root of its main.xml is ISO5436, where the standard has ISO5436_2: it is "
+                "read as that");
     if (x.turned)
         rc_note(notes, "the file turns its axes by a rotation matrix: it is not applied");
     if ((g = make_grid(&x, file, wish, &metres, notes, err)) == NULL)

@@ -39,6 +39,7 @@ struct rc_x3p {
     char md5[RC_MD5_TEXT];     /* of main.xml                                                  */
     char *text[RC_X3P_FIELDS]; /* NULL: not in the file                                        */
     bool is_x3p, turned;       /* turned: a rotation that is not the identity                  */
+    bool old_root;             /* main.xml calls its root ISO5436, without the part            */
     bool profile;
     bool binary; /* the heights are in a member of their own                     */
     enum rc_raw raw;

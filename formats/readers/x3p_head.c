@@ -42,6 +42,7 @@ static const struct {
 };
 
 static const char root_name[] = "ISO5436_2";
+static const char old_name[] = "ISO5436"; /* of writers that left the part of the standard out */
 
 const char *
 rc_x3p_key(size_t field)
@@ -134,18 +135,22 @@ take_element(void *arg, const char *path, const char *text, struct rc_err *err)
 {
     static const char rotation[] = "Record1/Axes/Rotation/r";
     struct rc_x3p *x = arg;
+    size_t root = strcspn(path, "/");
     char quote[RC_SHOWN];
 
-    if (strncmp(path, root_name, strlen(root_name)) != 0 || path[strlen(root_name)] != '/') {
-        if (strchr(path, '/') == NULL && strcmp(path, root_name) != 0)
+    x->old_root = root == strlen(old_name) && strncmp(path, old_name, root) == 0;
+    if (!x->old_root && (root != strlen(root_name) || strncmp(path, root_name, root) != 0)) {
+        if (path[root] == '\0')
             return rc_err_set(err,
                               "a ZIP archive, but no X3P: the root of its main.xml is '%s', "
                               "not %s",
                               rc_word_shown(quote, path), root_name);
         return RC_OK;
     }
+    if (path[root] == '\0')
+        return RC_OK;
     x->is_x3p = true;
-    path += strlen(root_name) + 1;
+    path += root + 1;
     if (strcmp(path, "Record3/DataList/Datum") == 0)
         return take_datum(x, text, err);
     if (strncmp(path, rotation, strlen(rotation)) == 0 && strlen(path) == strlen(rotation) + 2)

@@ -191,5 +191,5 @@ rc_x3p_values(struct rc_x3p *x, size_t member, double metres, struct rc_grid *g,
         return RC_FAIL;
     for (size_t k = 0; k < x->n; k++)
         g->v[k] = (g->v[k] * x->increment + x->offset) * metres;
-    return rc_heights_finite(g, err);
+    return rc_heights_finite(g, notes, err);
 }
