@@ -44,7 +44,7 @@ rc_format_find(const struct rc_file *file, struct rc_err *err)
     if (file->size == 0)
         rc_err_set(err, "the file is empty");
     else if (rc_file_holds(file, 0, "\x1f\x8b", 2))
-        rc_err_set(err, "the file is compressed with gzip: unpack it first (gunzip)");
+        rc_err_set(err, "the file is packed with gzip twice: unpack it once (gunzip)");
     else
         rc_err_set(
             err,

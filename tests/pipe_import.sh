@@ -99,7 +99,6 @@ refuses 1 "no channel 'Phase'; there are 1 'Topo'" "an absent channel names thos
 refuses 1 "nowhere.txt: No such file" "a file that is not there" 'rc-import nowhere.txt'
 refuses 1 "reading failed \(Is a directory\)" "a folder" 'rc-import .'
 refuses 1 "the file is empty" "an empty file" 'rc-import /dev/null'
-refuses 1 "compressed with gzip: unpack it first" "a compressed file" 'gzip -c map.txt | rc-import -'
 refuses 1 "line 2: 1 values, where the first row \(line 1\) has 2" "a row that is too short" \
     'printf "1 2\n3\n" | rc-import --dx 1um --z-unit um -'
 refuses 1 "map.txt: reading it needs more memory than the .* of --memory" "a file that --memory has no room for" 'rc-import --memory 10 map.txt'

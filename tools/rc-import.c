@@ -121,7 +121,9 @@ make_wish(struct tool *t)
 /* A file that has been read, and what is in it. */
 struct source {
     unsigned char *data;
-    struct rc_file file;
+    struct rc_file file; /* of data; its name is without .gz where it was packed */
+    const char *name;    /* as it came, without its folder */
+    char inner[256];
     const struct rc_format *format;
     struct rc_channel channel[CHANNELS_MOST];
     size_t n;
@@ -138,6 +140,29 @@ refuse_stream(const char *name, struct rc_err *err)
                       piped ? "... | rc-info" : "rc-info ", piped ? "" : name);
 }
 
+/* Puts what was packed with gzip in place of the file. --memory bounds both together. */
+static enum rc_status
+unpack(const struct tool *t, struct source *s, struct rc_err *err)
+{
+    size_t most = t->memory == 0             ? rc_memory_limit(s->file.size)
+                  : t->memory > s->file.size ? t->memory - s->file.size
+                                             : 0;
+    size_t size, n = strlen(s->name);
+    unsigned char *data = rc_file_unpack(&s->file, most, &size, err);
+
+    if (data == NULL)
+        return RC_FAIL;
+    free(s->data);
+    s->data = data;
+    s->file = (struct rc_file){s->name, data, size};
+    if (rc_file_named(&s->file, ".gz") && n < sizeof s->inner) { /* the suffix before it counts */
+        memcpy(s->inner, s->name, n - strlen(".gz"));
+        s->inner[n - strlen(".gz")] = '\0';
+        s->file.name = s->inner;
+    }
+    return RC_OK;
+}
+
 /* Reads a file and finds out what is in it; source_close frees it in either case. */
 static enum rc_status
 source_open(struct tool *t, const char *name, const struct rc_wish *wish, struct source *s,
@@ -146,6 +171,9 @@ source_open(struct tool *t, const char *name, const struct rc_wish *wish, struct
     *s = (struct source){0};
     t->source = import_source(name);
     if ((s->data = import_read(t, name, &s->file, err)) == NULL)
+        return RC_FAIL;
+    s->name = s->file.name;
+    if (rc_file_packed(&s->file) && unpack(t, s, err) != RC_OK)
         return RC_FAIL;
     if (rc_file_holds(&s->file, 0, "RCG1\n", 5))
         return refuse_stream(name, err);
@@ -281,9 +309,8 @@ static enum rc_status
 add_keys(struct tool *t, const struct source *s, size_t number, struct rc_grid *g,
          struct rc_err *err)
 {
-    const char *name = s->file.name;
-
-    if (strcmp(name, "-") != 0 && rc_text_keep(g, "source", name, strlen(name), err) != RC_OK)
+    if (strcmp(s->name, "-") != 0 &&
+        rc_text_keep(g, "source", s->name, strlen(s->name), err) != RC_OK)
         return RC_FAIL;
     if (t->operands > 1 && rc_grid_set_number(g, "case", (double)number, err) != RC_OK)
         return RC_FAIL;

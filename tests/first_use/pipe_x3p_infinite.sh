@@ -55,7 +55,8 @@ claim "a root without the part of the standard is read, with a warning" \
     warns "old.x3p: the root of its main.xml is ISO5436, where the standard has ISO5436_2" rc-import old.x3p -o old.rcg
 x3p new.x3p ISO5436_2 1e-6 2e-6 3e-6 4e-6 5e-6 6e-6
 rc-import new.x3p 2>new.err | sed 's/^source=.*//' >new.txt
-claim "as the same heights" bash -c 'sed "s/^source=.*//" old.rcg | grep -av crc32 | cmp - <(grep -av crc32 new.txt)'
+claim "as the same heights" bash -c '
+    cmp <(sed "s/^source=.*//; s/crc32 [0-9a-f]*$//" old.rcg) <(sed "s/crc32 [0-9a-f]*$//" new.txt)'
 claim "the other needs no warning" test ! -s new.err
 x3p other.x3p html 1e-6 2e-6 3e-6
 refuses 1 "the root of its main.xml is 'html', not ISO5436_2" "another root is refused" 'rc-import other.x3p'
