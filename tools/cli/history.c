@@ -4,6 +4,7 @@
  */
 #include "tool.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -55,6 +56,8 @@ add_value(struct line *line, const struct opt *o, const void *at)
 {
     char text[RC_NUMBER_SIZE];
 
+    if (o->optional && isnan(*(const double *)at))
+        return; /* it stands without its number */
     if (o->type == OPT_NUMBER) {
         add(line, " ", rc_number_text(text, *(const double *)at));
     } else if (o->type == OPT_COUNT) {

@@ -109,8 +109,12 @@ help_row(const char *left, const struct opt *o)
 
     if (o->type == OPT_CHOICE)
         arg = word_list(list, o, "|");
-    n = printf("  %s%s%s%s%s%s", left, o->name, o->alias == NULL ? "" : ", --",
-               o->alias == NULL ? "" : o->alias, arg == NULL ? "" : " ", arg == NULL ? "" : arg);
+    n = printf("  %s%s%s%s%s%s%s", left, o->name, o->alias == NULL ? "" : ", --",
+               o->alias == NULL ? "" : o->alias,
+               arg == NULL   ? ""
+               : o->optional ? " ["
+                             : " ",
+               arg == NULL ? "" : arg, o->optional ? "]" : "");
     if (n >= COLUMN)
         printf("\n%*s", COLUMN, "");
     else
@@ -306,7 +310,9 @@ getopt_table(const struct tool *t)
 
     for (size_t k = 0; table != NULL && k < t->opts; k++) {
         const struct opt *o = &t->opt[k];
-        int has_arg = o->arg == NULL && o->words == NULL ? no_argument : required_argument;
+        int has_arg = o->optional                          ? optional_argument
+                      : o->arg == NULL && o->words == NULL ? no_argument
+                                                           : required_argument;
 
         table[n++] = (struct option){.name = o->name, .has_arg = has_arg, .val = OWN + (int)k};
         if (o->alias != NULL)
@@ -318,6 +324,19 @@ getopt_table(const struct tool *t)
                             .has_arg = common[k].arg == NULL ? no_argument : required_argument,
                             .val = COMMON + (int)k};
     return table;
+}
+
+/* The argument of an option that may have none: behind its "=", or the next word where that is a
+ * number; NULL where there is none. */
+static const char *
+optional_argument_of(const struct opt *o, int argc, char **argv)
+{
+    double value;
+
+    if (optarg != NULL || !o->optional || optind >= argc ||
+        unit_number(argv[optind], o->unit, &value, NULL) != RC_OK)
+        return optarg;
+    return argv[optind++];
 }
 
 static _Noreturn void
@@ -338,6 +357,7 @@ void
 options_read(struct tool *t, int argc, char **argv)
 {
     struct option *table;
+    const char *text;
     int what;
 
     add_rows(t, t->info->opts, 0);
@@ -355,7 +375,9 @@ options_read(struct tool *t, int argc, char **argv)
             t->given[what - OWN] = true;
             if (t->opt[what - OWN].text)
                 t->writes = WRITES_TEXT;
-            set_value(t, &t->opt[what - OWN], t->args, optarg);
+            text = optional_argument_of(&t->opt[what - OWN], argc, argv);
+            if (text != NULL || !t->opt[what - OWN].optional)
+                set_value(t, &t->opt[what - OWN], t->args, text);
         } else {
             bad_option(t, what, argv);
         }

@@ -56,6 +56,7 @@ struct opt {
     bool above;      /* min itself is out of bounds                                        */
     bool result;     /* changes what is computed: goes into history                        */
     bool text;       /* given, the tool writes text, whatever it writes otherwise          */
+    bool optional;   /* OPT_NUMBER: may stand without its number, and then keeps the default */
     const char *(*words)(size_t k); /* word k; NULL past the last: see words.h              */
     const char *word;               /* instead of OPT_NUMBERS                               */
     const char *arg;  /* how help names the argument: "FORCE"; NULL: takes none             */
