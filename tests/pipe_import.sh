@@ -162,7 +162,7 @@ if [ -d "$corpus" ]; then
         "an absent channel names all" "rc-import --channel Topography '$di'"
     refuses 1 "its steps are 1 and 10 of a unit not given" "steps without a unit are named" \
         "rc-import '$corpus/surfer-grd/fatiando__simple_surfer.grd'"
-    refuses 1 "the positions are not evenly apart: the furthest off is row 61" "an uneven profile" \
+    refuses 1 "the positions are not evenly apart: the furthest off is point 61" "an uneven profile" \
         "rc-import --z-unit um '$corpus/profile-text/SurfaceTopography__xy-1.txt'"
 else
     echo "not tried: RC_CORPUS names no folder of real files"

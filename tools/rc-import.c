@@ -9,9 +9,9 @@
 
 static struct args {
     const char *format, *channel, *z_unit, *decimal, *separator, *missing;
-    double dx, dy;
+    double dx, dy, even;
     bool list, formats;
-} args = {.dx = NAN, .dy = NAN};
+} args = {.dx = NAN, .dy = NAN, .even = NAN};
 
 /* clang-format off */
 static const struct opt opts[] = {
@@ -29,6 +29,9 @@ static const struct opt opts[] = {
     {.name = "dy", .type = OPT_NUMBER, .unit = UNIT_M, .at = offsetof(struct args, dy),
      .max = INFINITY, .above = true, .result = true, .arg = "LENGTH",
      .help = "spacing of rows (default with --dx: the same)"},
+    {.name = "even", .type = OPT_NUMBER, .unit = UNIT_M, .at = offsetof(struct args, even),
+     .max = INFINITY, .above = true, .result = true, .optional = true, .arg = "STEP",
+     .help = "resample uneven profiles (default: median spacing)"},
     {.name = "z-unit", .type = OPT_TEXT, .at = offsetof(struct args, z_unit), .result = true,
      .arg = "UNIT", .help = "unit of the file's heights: um, nm or a number of metres"},
     {.name = "decimal", .type = OPT_TEXT, .at = offsetof(struct args, decimal), .result = true,
@@ -102,6 +105,10 @@ make_wish(struct tool *t)
 {
     struct rc_wish wish = {.dx = args.dx, .dy = args.dy, .z_unit = NAN, .missing = args.missing};
 
+    wish.even = tool_given(t, "even");
+    wish.even_step = isnan(args.even) ? 0 : args.even;
+    if (wish.even_step > 0 && !isnan(args.dx))
+        tool_die(t, EXIT_USAGE, "--even STEP and --dx both say how wide a step is: give one");
     wish_unit(t, &wish);
     wish.separator = wish_separator(t);
     if (args.decimal != NULL) {
@@ -304,6 +311,27 @@ check_memory(const struct tool *t, const struct rc_file *file, const struct rc_c
                       channel->nx, channel->ny, ceil(bytes / 1048576), t->memory >> 20);
 }
 
+/* Brings any profile to the step that --even gives, and says where it is not known. */
+static enum rc_status
+even_out(struct tool *t, const struct source *s, const struct rc_wish *wish, struct rc_grid *g,
+         struct rc_err *err)
+{
+    size_t missing = 0;
+
+    if (wish->even_step > 0 && import_even(&s->file, wish, g, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t k = 0; k < g->nx && g->ny == 1; k++)
+        missing += isnan(g->v[k]) != 0;
+    if (missing > 0)
+        tool_warn(t,
+                  "%s: %zu of %zu nodes are missing: the points next to them are, or are more than "
+                  "%d steps apart",
+                  t->source, missing, g->nx, RC_EVEN_GAP);
+    /* history holds the step; with --dx that is it */
+    args.even = wish->even_step > 0 ? wish->even_step : g->ny == 1 && isnan(wish->dx) ? g->dx : NAN;
+    return RC_OK;
+}
+
 /* The keys that an import adds to what its reader found. */
 static enum rc_status
 add_keys(struct tool *t, const struct source *s, size_t number, struct rc_grid *g,
@@ -333,7 +361,8 @@ write_heights(struct tool *t, const struct source *s, const struct rc_wish *wish
         tool_warn(t, "%s: %s", t->source, pick.said);
     for (size_t k = 0; k < notes.n; k++)
         tool_warn(t, "%s: %s", t->source, notes.text[k]);
-    if (add_keys(t, s, number, g, err) != RC_OK) {
+    if ((wish->even && even_out(t, s, wish, g, err) != RC_OK) ||
+        add_keys(t, s, number, g, err) != RC_OK) {
         rc_grid_free(g);
         return RC_FAIL;
     }

@@ -20,6 +20,12 @@ unsigned char *import_read(struct tool *tool, const char *name, struct rc_file *
 /* How messages name it. */
 const char *import_source(const char *name);
 
+/* ---- even.c ---- */
+
+/* Brings a profile to the step wish->even_step. RC_FAIL for a map, and where the step does not fit. */
+enum rc_status import_even(const struct rc_file *file, const struct rc_wish *wish,
+                           struct rc_grid *grid, struct rc_err *err);
+
 /* ---- channel.c ---- */
 
 struct pick {
