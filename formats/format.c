@@ -49,7 +49,9 @@ rc_format_find(const struct rc_file *file, struct rc_err *err)
         rc_err_set(
             err,
             "not recognised: it is none of the formats that --formats lists (it "
-            "begins '%s'); --format NAME says which one it is",
+            "begins '%s'); --format NAME says which one it is, or the program that it comes from "
+            "may "
+            "save X3P, SDF or text",
             rc_text_shown(first, (const char *)file->data, file->size < 24 ? file->size : 24));
     return NULL;
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "limit.h"
+#include "maps.h"
 #include "text.h"
 
 struct rc_grid *
@@ -11,10 +12,21 @@ rc_heights_new(const struct rc_heights *h, const struct rc_file *file, const str
                double *metres, struct rc_notes *notes, struct rc_err *err)
 {
     struct rc_shape shape = {.nx = h->nx, .ny = h->ny};
+    struct rc_map other = {0};
 
-    if (rc_map_fits(file, h->nx, h->ny, err) != RC_OK ||
-        rc_spacing(wish, h->dx, h->dy, &shape, notes, err) != RC_OK ||
-        rc_height_unit(wish, h->metres, h->unit, metres, notes, err) != RC_OK)
+    if (rc_map_fits(file, h->nx, h->ny, err) != RC_OK)
+        return NULL;
+    if (rc_spacing(wish, h->dx, h->dy, &shape, notes, err) != RC_OK) {
+        if (isnan(h->dx) && *h->unit == '\0')
+            rc_lacks_unit(wish, h->metres, err);
+        return NULL;
+    }
+    if (h->name != NULL && isnan(h->metres) && isnan(wish->z_unit) && *h->unit != '\0') {
+        rc_map_unit(&other, h->unit, strlen(h->unit));
+        *metres = other.si;
+        return rc_grid_new(&shape, h->name, other.unit, err);
+    }
+    if (rc_height_unit(wish, h->metres, h->unit, metres, notes, err) != RC_OK)
         return NULL;
     return rc_grid_new(&shape, "height", "m", err);
 }
@@ -23,10 +35,11 @@ struct rc_channel
 rc_heights_channel(const struct rc_heights *h, const char *name)
 {
     struct rc_channel c = {.nx = h->nx, .ny = h->ny, .dx = h->dx, .dy = h->dy};
-    const char *unit = isnan(h->metres) ? h->unit : "m";
+    struct rc_map other = {0};
 
     rc_text_clean(c.name, sizeof c.name, name, strlen(name));
-    rc_text_clean(c.unit, sizeof c.unit, unit, strlen(unit));
+    rc_map_unit(&other, h->unit, strlen(h->unit));
+    strcpy(c.unit, isnan(h->metres) ? other.unit : "m");
     return c;
 }
 

@@ -23,8 +23,12 @@ struct facts {
 static void
 read_facts(struct rc_hdf *h, const struct rc_hdf_set *set, struct facts *f)
 {
-    f->heights = (struct rc_heights){
-        .nx = set->columns, .ny = set->rows, .dx = NAN, .dy = NAN, .unit = f->unit};
+    f->heights = (struct rc_heights){.nx = set->columns,
+                                     .ny = set->rows,
+                                     .dx = NAN,
+                                     .dy = NAN,
+                                     .unit = f->unit,
+                                     .name = set->path};
     rc_hdf_number(h, set->path, "dx", &f->heights.dx);
     rc_hdf_number(h, set->path, "dy", &f->heights.dy);
     rc_hdf_text(h, set->path, "unit", f->unit, sizeof f->unit);

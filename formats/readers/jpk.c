@@ -145,7 +145,8 @@ heights_of(const struct scan *s, const struct channel *c)
                                .dx = s->width / (double)c->shape.nx,
                                .dy = s->height / (double)c->shape.ny,
                                .metres = rc_word_metres(c->unit),
-                               .unit = c->unit};
+                               .unit = c->unit,
+                               .name = c->name};
 }
 
 static size_t

@@ -171,7 +171,8 @@ heights_of(const struct park *p)
                                .dx = p->width / (double)p->nx,
                                .dy = p->height / (double)p->ny,
                                .metres = p->unit[0] == '\0' ? 1e-6 : rc_word_metres(p->unit),
-                               .unit = p->unit};
+                               .unit = p->unit,
+                               .name = p->name[0] == '\0' ? "values" : p->name};
 }
 
 static size_t

@@ -74,7 +74,7 @@ static struct rc_grid *
 make_grid(struct rc_x3p *x, const struct rc_file *file, const struct rc_wish *wish, double *metres,
           struct rc_notes *notes, struct rc_err *err)
 {
-    const struct rc_heights h = {x->nx, x->ny, x->dx, x->dy, 1, "m"};
+    const struct rc_heights h = {x->nx, x->ny, x->dx, x->dy, 1, "m", NULL};
     struct rc_grid *g = rc_heights_new(&h, file, wish, metres, notes, err);
 
     if (g == NULL)

@@ -138,6 +138,9 @@ metropro-dat/SurfaceTopography__metropro-1.dat||Phase
 END
     claim "the way back of a scan says so" says '2 .* Height \(retrace\)$' \
         rc-import --list "$corpus/nanoscope/SurfaceTopography__di-2.di"
+    rc-import --list "$corpus/jpk-image/AFMReader__sample_0.jpk" >jpk.txt 2>jpk.err
+    claim "channels in other units are listed with their ranges" grep -q ' 9 .* deg  *-9[.]6.* -8[.]2.* Lock-In Phase$' jpk.txt
+    claim "without a word on standard error" test ! -s jpk.err
 else
     echo "not tried: RC_CORPUS names no folder of real files"
 fi
