@@ -60,8 +60,8 @@ look_on(const struct rc_file *file, const z_stream *z, bool *more, struct rc_err
     return RC_OK;
 }
 
-/* Unpacks all members into `to`, of *size bytes and one, or, where it is NULL, counts into *size how
- * many they are, up to `most`. */
+/* Unpacks all members into `to`, of *size bytes and one, or, where it is NULL, counts into *size
+ * how many they are, up to `most`. */
 static enum rc_status
 unpack(const struct rc_file *file, size_t most, unsigned char *to, size_t *size, struct rc_err *err)
 {

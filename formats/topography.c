@@ -5,7 +5,8 @@
  * amplitude come in metres too. So the words of the name decide, in this order:
  *
  *     1. names of a topography (Height, Topography, Z-Axis, ZSensor), then names that say nothing
- *        (Raw, Layer 0), then names of something else, whatever other words they have (Height Error)
+ *        (Raw, Layer 0), then names of something else, whatever other words are in them (Height
+ *        Error)
  *     2. as measured before derived (corrected, smoothed, flattened)
  *     3. forward (trace) before backward (retrace)
  *     4. what a sensor of z measured before what drove the piezo: a drive creeps and has hysteresis

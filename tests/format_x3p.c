@@ -369,7 +369,8 @@ profile_xml(const char *data, const char *y_axis)
     return xml;
 }
 
-/* Points at 0, 1, 2, 4 and 5 um on a straight line of numbers 1, 2, 3, 5, 6 lie at even nodes on it. */
+/* Points at 0, 1, 2, 4 and 5 um on a straight line of numbers 1, 2, 3, 5, 6 lie at even nodes on
+ * it. */
 static void
 check_resampled(char *xml, const struct bytes *data)
 {

@@ -22,7 +22,7 @@ static const struct opt opts[] = {
     {.name = "list", .type = OPT_FLAG, .at = offsetof(struct args, list), .text = true,
      .help = "print the channels of the files, * where one is read"},
     {.name = "channel", .type = OPT_TEXT, .at = offsetof(struct args, channel), .result = true,
-     .arg = "NAME", .help = "channel by number or name, or how it begins (default: the topography)"},
+     .arg = "NAME", .help = "by number, name or its beginning (default: the topography)"},
     {.name = "dx", .type = OPT_NUMBER, .unit = UNIT_M, .at = offsetof(struct args, dx),
      .max = INFINITY, .above = true, .result = true, .arg = "LENGTH",
      .help = "spacing of columns, whatever the file says"},

@@ -1,5 +1,5 @@
-/* A file, what the user says beside it, and what is said of it: spacings and units that the file lacks
- * or that the user overrules. */
+/* A file, what the user says beside it, and what is said of it: spacings and units that the file
+ * lacks or that the user overrules. */
 #ifndef RC_WISH_H
 #define RC_WISH_H
 

@@ -66,8 +66,8 @@ spacing(const struct rc_ascii_head *h, const struct rc_number_table *table, doub
 }
 
 /* Whether a raster is run through: column `slow` keeps still while `fast` goes on in one direction,
- * then makes a step, always in one direction too. Four points of one row are a raster, fewer could be
- * anything. */
+ * then makes a step, always in one direction too. Four points of one row are a raster, fewer could
+ * be anything. */
 static bool
 is_raster(const double *v, size_t rows, size_t slow, size_t fast)
 {

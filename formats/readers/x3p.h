@@ -68,8 +68,8 @@ const char *rc_x3p_key(size_t field);
 void rc_x3p_check_main(struct rc_x3p *x, struct rc_notes *notes);
 /* Finds the member of the heights and checks its size before anything is allocated for it. */
 enum rc_status rc_x3p_find_points(struct rc_x3p *x, size_t *member, struct rc_err *err);
-/* Positions x->n, rising, in metres, and heights of a profile that is `absolute`, one behind the other,
- * which the caller frees; NULL with the reason. Of a list they must be wanted. */
+/* Positions x->n, rising, in metres, and heights of a profile that is `absolute`, one behind the
+ * other, which the caller frees; NULL with the reason. Of a list they must be wanted. */
 double *rc_x3p_profile(struct rc_x3p *x, struct rc_notes *notes, struct rc_err *err);
 /* Puts the heights into the grid, in metres; missing ones are NAN. */
 enum rc_status rc_x3p_values(struct rc_x3p *x, size_t member, double metres, struct rc_grid *grid,

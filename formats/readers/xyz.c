@@ -1,8 +1,8 @@
 /*
- * Lists of points: three columns x, y, z in any order of the points, which must lie on a raster, or in
- * one line. The least x and y come first; a point of the raster that the list leaves out is missing. A
- * line of any direction is a profile, from its end that is nearer to the first point. The list holds
- * no unit.
+ * Lists of points: three columns x, y, z in any order of the points, which must lie on a raster,
+ * or in one line. The least x and y come first; a point of the raster that the list leaves out is
+ * missing. A line of any direction is a profile, from its end that is nearer to the first point.
+ * The list holds no unit.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -83,8 +83,8 @@ furthest_from(const double *p, size_t points, size_t k)
     return far;
 }
 
-/* Sorts the points by their places along the line between the two that are furthest apart. False when
- * they are not in a line, to a thousandth of its length, or two are at one place. */
+/* Sorts the points by their places along the line between the two that are furthest apart. False
+ * when they are not in a line, to a thousandth of its length, or two are at one place. */
 static bool
 find_line(struct cloud *c)
 {
@@ -228,7 +228,7 @@ xyz_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     return status;
 }
 
-/* Whether it is a raster, of several rows or of one: a line across it could be columns of a matrix. */
+/* Whether it is a raster, of several rows or of one: another line may be columns of a matrix. */
 static bool
 runs_straight(const struct cloud *c)
 {
