@@ -74,6 +74,7 @@ claim "history says so with the step in SI" \
 
 for option in '--even=0.35um' '--even 0.35um' '--even 3.5e-7' '--ev 350nm'; do
     # shellcheck disable=SC2086
+    rm -f fine.rcg
     rc-import --quiet $option uneven.txt -o fine.rcg
     claim "$option: history" test "$(header history fine.rcg)" = \
         "rc-import $(rc-import --version | sed 's/.* //') --even 3.5e-07"
@@ -163,7 +164,7 @@ corpus="${RC_CORPUS:-}/corpus/profile-text"
 if [ -d "$corpus" ]; then
     for file in SurfaceTopography__xy-1.txt SurfaceTopography__xy-3.txt; do
         refuses 1 "$file: the positions are not evenly apart: .*--even" "$file" "rc-import --z-unit nm $corpus/$file"
-        own=$(rc-import --even --z-unit nm "$corpus/$file" 2>&1 | sed 's/.*its steps are \([^ ]*\) .*/\1/')
+        own=$(rc-import --even --z-unit nm "$corpus/$file" 2>&1 >/dev/null | sed 's/.*its steps are \([^ ]*\) .*/\1/')
         rc-import --quiet --even --z-unit nm --dx "${own}um" "$corpus/$file" -o real.rcg
         (echo; awk 'NF >= 2' "$corpus/$file") >real.txt
         resampled "$own" "$(awk -v s="$own" 'BEGIN { print 5 * s }')" real.txt >real.truth

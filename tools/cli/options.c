@@ -478,13 +478,18 @@ asks_for_text(const struct tool *t, int what, const char *text)
 static void
 look_for_output(struct tool *t, int argc, char **argv, const struct option *table)
 {
+    char **copy = malloc(((size_t)argc + 1) * sizeof *copy); /* getopt sorts its words */
     int what;
 
+    if (copy == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
+    memcpy(copy, argv, ((size_t)argc + 1) * sizeof *copy);
     t->stream_expected = t->info->writes == WRITES_STREAM;
-    while ((what = getopt_long(argc, argv, letters, table, NULL)) != -1)
+    while ((what = getopt_long(argc, copy, letters, table, NULL)) != -1)
         if (what == 'o' ? strcmp(optarg, "-") != 0 : asks_for_text(t, what, optarg))
             t->stream_expected = false;
-    optind = 1; /* once more from the start */
+    free(copy);
+    optind = 0; /* once more from the start, with nothing remembered */
 }
 
 void
