@@ -91,7 +91,7 @@ RC_API enum rc_status rc_synth_selfaffine(const struct rc_shape *shape,
                                           const struct rc_selfaffine *what, double *h,
                                           struct rc_err *err);
 
-/* ---- surfaces: detrend.c, inpaint.c, resample.c ---- */
+/* ---- surfaces: detrend.c, gauss.c, inpaint.c, resample.c ---- */
 
 enum {
     RC_DEGREE_MAX = 20
@@ -103,6 +103,24 @@ enum {
  * belongs to the process, is off during the call. */
 RC_API enum rc_status rc_detrend_poly(const struct rc_shape *shape, size_t degree, double *h,
                                       struct rc_err *err);
+
+/* The Gaussian regression filter of order 0 over the points that are there: ISO 16610-61, of profiles
+ * 16610-21. A missing point stays missing and has no weight, nor has what lies beyond the map unless
+ * that is periodic. */
+struct rc_filter {
+    double cutoff;  /* wavelength of which half gets through, m                                  */
+    bool high;      /* the input less its low-pass, instead of that                              */
+    bool robust;    /* ISO 16610-71, 16610-31: points off the low-pass are weighted by
+                      (1 - (r/c)^2)^2, c = 4.4478 times the median of |r|, anew until c stays  */
+    bool periodic;  /* goes on at the other side of the map                                      */
+    size_t threads; /* 0: all                                                                   */
+};
+/* RC_FAIL when the cut-off is below two nodes or longer than the map, nothing is there, a height is
+ * infinite, or memory is short; h is then as it was. */
+RC_API enum rc_status rc_filter(const struct rc_shape *shape, const struct rc_filter *what,
+                                double *h, struct rc_err *err);
+/* Bytes that it takes beside h; 0 when not even its plan has room. */
+RC_API size_t rc_filter_memory(const struct rc_shape *shape, const struct rc_filter *what);
 
 /* Gives every missing value (NaN) the solution of Laplace's equation with the measured ones around
  * it as boundary values and no slope across the edge of the map; *filled counts them. RC_FAIL when
