@@ -91,16 +91,32 @@ RC_API enum rc_status rc_synth_selfaffine(const struct rc_shape *shape,
                                           const struct rc_selfaffine *what, double *h,
                                           struct rc_err *err);
 
-/* ---- surfaces: detrend.c, gauss.c, inpaint.c, resample.c ---- */
+/* ---- surfaces: detrend.c, round.c, gauss.c, inpaint.c, resample.c ---- */
 
 enum {
     RC_DEGREE_MAX = 20
 };
-/* Subtracts the least-squares polynomial of total degree `degree` (at most RC_DEGREE_MAX) in x and
- * y over the points that are there (not NaN); on a profile, in the one coordinate that varies.
- * RC_FAIL when there are fewer of them than coefficients, their places do not determine the
- * polynomial, one is infinite, or memory is short; h is then as it was. GSL's error handler, which
- * belongs to the process, is off during the call. */
+enum rc_form_kind {
+    RC_POLYNOMIAL, /* of total degree `degree` in x and y; on a profile in the one that varies   */
+    RC_SPHERE,     /* exact, of either sign, its apex anywhere; on a profile a circle            */
+    RC_CYLINDER    /* exact, of either sign, in any direction and tilt; on a profile a circle    */
+};
+struct rc_form {
+    enum rc_form_kind kind;
+    size_t degree;  /* at most RC_DEGREE_MAX                                                      */
+    bool robust;    /* weights (1 - (r/c)^2)^2 of what is left, r, with c = 4.4478 times the median
+                      of |r|, anew until c stays (Beaton and Tukey 1974; ISO 16610-31)           */
+    size_t threads; /* 0: all                                                                     */
+};
+/* Subtracts the form that fits the points that are there (not NaN) best by least squares in z. The
+ * radius of a sphere or a cylinder, m, is positive for a bump and negative for a hollow; NAN of a
+ * polynomial; radius may be NULL. RC_FAIL when there are fewer points than unknowns, their places do
+ * not determine the form, no sphere or cylinder is above them all, one is infinite, or memory is
+ * short; h is then as it was. GSL's error handler, which belongs to the process, is off during the
+ * call. */
+RC_API enum rc_status rc_detrend_form(const struct rc_shape *shape, const struct rc_form *form,
+                                      double *h, double *radius, struct rc_err *err);
+/* The polynomial of this degree, plainly. */
 RC_API enum rc_status rc_detrend_poly(const struct rc_shape *shape, size_t degree, double *h,
                                       struct rc_err *err);
 
