@@ -91,7 +91,7 @@ RC_API enum rc_status rc_synth_selfaffine(const struct rc_shape *shape,
                                           const struct rc_selfaffine *what, double *h,
                                           struct rc_err *err);
 
-/* ---- surfaces: detrend.c, round.c, gauss.c, inpaint.c, resample.c ---- */
+/* ---- surfaces: detrend.c, round.c, gauss.c, outliers.c, taper.c, inpaint.c, resample.c ---- */
 
 enum {
     RC_DEGREE_MAX = 20
@@ -137,6 +137,23 @@ RC_API enum rc_status rc_filter(const struct rc_shape *shape, const struct rc_fi
                                 double *h, struct rc_err *err);
 /* Bytes that it takes beside h; 0 when not even its plan has room. */
 RC_API size_t rc_filter_memory(const struct rc_shape *shape, const struct rc_filter *what);
+
+/* Makes points missing that lie further than `times` times the spread from the median of the others in
+ * the 5 x 5 nodes around them; *count counts them. The spread is 1.4826 times the median absolute
+ * deviation of all such differences, for Gaussian noise its standard deviation. Missing neighbours and,
+ * unless the map is periodic, those beyond it do not count; a point without any stays. RC_FAIL when
+ * `times` is not positive, a height is infinite, or memory is short; h is then as it was. */
+RC_API enum rc_status rc_outliers(const struct rc_shape *shape, double times, bool periodic,
+                                  size_t threads, double *h, size_t *count, struct rc_err *err);
+/* Bytes that it takes beside h. */
+RC_API size_t rc_outliers_memory(const struct rc_shape *shape, size_t threads);
+
+/* Leads the outer `width` (m) of the map to the mean of all heights: what is above it is multiplied by
+ * (1 - cos(pi s / width)) / 2, s being the distance of a node's middle from the edge, for either
+ * direction. The map can then be repeated without a step. RC_FAIL when the width is below a node or
+ * above half of the map, no height is there, one is infinite, or memory is short; h is then as it was. */
+RC_API enum rc_status rc_taper(const struct rc_shape *shape, double width, double *h,
+                               struct rc_err *err);
 
 /* Gives every missing value (NaN) the solution of Laplace's equation with the measured ones around
  * it as boundary values and no slope across the edge of the map; *filled counts them. RC_FAIL when
