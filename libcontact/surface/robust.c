@@ -1,17 +1,23 @@
 /*
  * The median of a map, found by counting: numbers are ordered as their bits are, so a histogram of
- * the highest bits tells in which bin the middle one lies, one of the next 11 bits of those in that
- * bin is the second step, and after six steps all bits are known. Nothing is moved or copied.
+ * the highest bits tells in which bin the middle one lies, and one of the next bits of those in that
+ * bin is the second step. When a small part of all is left in the bin, it is sorted.
  */
 #include "robust.h"
 
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 
+/* Bits that are still unknown after each step. */
+static const int shifts[] = {53, 42, 31, 20, 9, 0};
+/* The key of no number, only of a NaN. */
+static const uint64_t unknown = UINT64_MAX;
+
 enum {
-    BITS = 11, /* that a step finds; the first one those above 55 */
-    BINS = 1 << BITS,
-    FIRST = 55
+    STEPS = sizeof shifts / sizeof *shifts,
+    BINS = 1 << 11, /* at most, of a step */
+    PART = 64,      /* that is small enough to be sorted */
 };
 
 struct values {
@@ -46,38 +52,90 @@ number_of(uint64_t key)
     return d;
 }
 
-/* Counts, by the bits from `shift` on, the numbers whose higher bits are those of `prefix`. */
+/* Counts, by the bits that step k finds, the numbers whose higher bits are those of `prefix`. */
 static void
-count_bins(const struct values *of, uint64_t prefix, int shift, size_t *bins)
+count_bins(const struct values *of, uint64_t prefix, size_t k, size_t *bins)
 {
+    int shift = shifts[k], above = k == 0 ? 63 : shifts[k - 1];
+    uint64_t mask = BINS - 1;
+
+    if (k > 0)
+        mask = (UINT64_C(1) << (above - shift)) - 1;
     memset(bins, 0, BINS * sizeof *bins);
 #pragma omp parallel for num_threads(of->threads) reduction(+ : bins[:BINS])
-    for (size_t k = 0; k < of->n; k++) {
+    for (size_t i = 0; i < of->n; i++) {
         uint64_t key;
-        if (isnan(of->v[k]))
+        if (isnan(of->v[i]))
             continue;
-        key = key_of(of, of->v[k]);
-        if (shift == FIRST || key >> (shift + BITS) == prefix)
-            bins[key >> shift & (BINS - 1)]++;
+        key = key_of(of, of->v[i]);
+        if (k == 0 || key >> above == prefix)
+            bins[key >> shift & mask]++;
     }
 }
 
-/* The key of rank `rank`, from 0; *after: how many keys are at most it. */
-static uint64_t
-select_key(const struct values *of, size_t rank, size_t *after)
+static int
+by_size(const void *a, const void *b)
 {
-    size_t bins[BINS];
-    uint64_t prefix = 0;
-    size_t below = 0;
+    uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
 
-    for (int shift = FIRST; shift >= 0; shift -= BITS) {
-        uint64_t bin = 0;
-        count_bins(of, prefix, shift, bins);
-        while (below + bins[bin] <= rank)
-            below += bins[bin++];
-        prefix = prefix << BITS | bin;
-        *after = below + bins[bin];
+    return x < y ? -1 : x > y;
+}
+
+/* The keys with this prefix, count of them, sorted; NULL when memory is short. */
+static uint64_t *
+sort_bin(const struct values *of, uint64_t prefix, int shift, size_t count)
+{
+    uint64_t *keys = malloc(count * sizeof *keys);
+    size_t used = 0;
+
+    if (keys == NULL)
+        return NULL;
+#pragma omp parallel for num_threads(of->threads)
+    for (size_t i = 0; i < of->n; i++) {
+        uint64_t key = key_of(of, of->v[i]);
+        size_t at;
+        if (isnan(of->v[i]) || key >> shift != prefix)
+            continue;
+#pragma omp atomic capture
+        at = used++;
+        keys[at] = key;
     }
+    qsort(keys, count, sizeof *keys, by_size);
+    return keys;
+}
+
+/* The key in the middle of *count, of an even number of them the lower one; *upper is then the other
+ * one, as far as it is found on the way, else `unknown`. */
+static uint64_t
+middle_key(const struct values *of, size_t *count, uint64_t *upper)
+{
+    size_t bins[BINS], below = 0, rank = 0, bin = 0;
+    uint64_t prefix = 0, *sorted;
+
+    *count = 0;
+    *upper = unknown;
+    for (size_t k = 0; k < STEPS; k++) {
+        count_bins(of, prefix, k, bins);
+        for (size_t b = 0; k == 0 && b < BINS; b++)
+            *count += bins[b];
+        if (*count == 0)
+            return 0;
+        rank = (*count - 1) / 2;
+        for (bin = 0; below + bins[bin] <= rank; bin++)
+            below += bins[bin];
+        prefix = (k == 0 ? 0 : prefix << (shifts[k - 1] - shifts[k])) | bin;
+        if (bins[bin] > *count / PART || k + 1 == STEPS)
+            continue;
+        if ((sorted = sort_bin(of, prefix, shifts[k], bins[bin])) == NULL)
+            continue;
+        prefix = sorted[rank - below];
+        if (rank - below + 1 < bins[bin])
+            *upper = sorted[rank - below + 1];
+        free(sorted);
+        return prefix;
+    }
+    if (rank - below + 1 < bins[bin])
+        *upper = prefix;
     return prefix;
 }
 
@@ -100,18 +158,14 @@ double
 rc_median(const double *v, size_t n, double about, bool magnitude, int threads)
 {
     const struct values of = {v, n, about, magnitude, threads};
-    size_t count = 0, after = 0;
-    double median = NAN;
-    uint64_t lower;
+    size_t count;
+    uint64_t upper, lower = middle_key(&of, &count, &upper);
+    double median = count == 0 ? NAN : number_of(lower);
 
-#pragma omp parallel for num_threads(threads) reduction(+ : count)
-    for (size_t k = 0; k < n; k++)
-        count += isnan(v[k]) ? 0 : 1;
-    if (count > 0) {
-        lower = select_key(&of, (count - 1) / 2, &after);
-        median = number_of(lower);
-        if (count % 2 == 0 && after <= count / 2)
-            median += 0.5 * (number_of(next_key(&of, lower)) - median);
-    }
+    if (count == 0 || count % 2 == 1)
+        return median;
+    if (upper == unknown)
+        upper = next_key(&of, lower);
+    median += 0.5 * (number_of(upper) - median);
     return median;
 }

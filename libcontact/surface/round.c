@@ -28,8 +28,9 @@
 enum {
     UNKNOWNS = 6, /* at most; those of a quadratic polynomial */
     PAIRS = UNKNOWNS * (UNKNOWNS + 1) / 2,
-    LINES = UNKNOWNS + 4, /* that a thread needs */
-    STEPS = 100
+    SEGMENT = 256, /* nodes of a row that are taken at a time */
+    STEPS = 100,
+    START_WEIGHTS = 6 /* rounds of them */
 };
 
 /* Names of the parameters. */
@@ -42,17 +43,18 @@ enum {
     PARAMETERS
 };
 
-/* A part of its size that the surface may still move on average when it is found. */
-static const double settled = 1e-14;
+/* A part of its size by which the last step may move the surface on average; the steps get smaller by
+ * their squares where it fits, by a factor where noise is left. */
+static const double settled = 1e-10;
 /* Sag over the height of the points: below, it is rounding. */
 static const double no_curvature = 1e-11;
 /* Pivot of the normal equations, with a diagonal of 1, below which they determine nothing. */
 static const double no_pivot = 1e-13;
 
-struct round;
-/* The surface in row j: e, which holds heights, becomes what they are above it, NaN where it has no
- * height, and d its derivatives by the unknowns, n numbers each. */
-typedef void surface_row(const struct round *f, const double *p, double y, double *e, double *d);
+/* The surface at n places x of a row y: e, which holds heights, becomes what they are above it, NaN
+ * where it has no height, and d its derivatives by the parameters, n numbers each. */
+typedef void surface_row(const double *p, size_t n, const double *x, double y, double *e,
+                         double *d);
 
 struct round {
     const struct rc_shape *shape;
@@ -63,7 +65,7 @@ struct round {
     double scale;      /* m; lengths are in units of it                                     */
     double middle_x, middle_y; /* nodes                                                         */
     double *residual, reach;   /* robust: what is left of each height, weights are made of      */
-    double *x, *rows, *lines;
+    double *x, *rows;
     int threads;
     size_t unknowns, unknown[UNKNOWNS]; /* which parameters they are                            */
     surface_row *surface;
@@ -97,11 +99,9 @@ height(double a, double q, double *slope, bool *there)
 }
 
 RC_CLONES static void
-sphere_row(const struct round *f, const double *p, double y, double *restrict e, double *restrict d)
+sphere_row(const double *p, size_t n, const double *restrict x, double y, double *restrict e,
+           double *restrict d)
 {
-    size_t n = f->shape->nx;
-    const double *restrict x = f->x;
-
     for (size_t i = 0; i < n; i++) {
         double rho2 = x[i] * x[i] + y * y, slope;
         bool there;
@@ -133,11 +133,9 @@ across_of(const double *p)
 }
 
 RC_CLONES static void
-cylinder_row(const struct round *f, const double *p, double y, double *restrict e,
+cylinder_row(const double *p, size_t n, const double *restrict x, double y, double *restrict e,
              double *restrict d)
 {
-    size_t n = f->shape->nx;
-    const double *restrict x = f->x;
     const struct across c = across_of(p);
     /* how b changes with the rise alone, and with the parameters */
     const double by_rise = c.slope * c.rise / (c.root * c.root * c.root);
@@ -163,15 +161,13 @@ cylinder_row(const struct round *f, const double *p, double y, double *restrict 
 /* ---- rows of the linear equations that start them ---- */
 
 static void
-sphere_equation(const struct round *f, const double *p, double y, double *e, double *d)
+sphere_equation(const double *p, size_t n, const double *x, double y, double *e, double *d)
 {
-    size_t n = f->shape->nx;
-
     (void)p;
     for (size_t i = 0; i < n; i++) {
-        double x = f->x[i], z = e[i];
-        d[i] = -(x * x + y * y + z * z);
-        d[n + i] = -x;
+        double z = e[i];
+        d[i] = -(x[i] * x[i] + y * y + z * z);
+        d[n + i] = -x[i];
         d[2 * n + i] = -y;
         d[3 * n + i] = -1;
     }
@@ -179,13 +175,12 @@ sphere_equation(const struct round *f, const double *p, double y, double *e, dou
 
 /* In the plane across the axis, whose direction and slopes are there. */
 static void
-cylinder_equation(const struct round *f, const double *p, double y, double *e, double *d)
+cylinder_equation(const double *p, size_t n, const double *x, double y, double *e, double *d)
 {
-    size_t n = f->shape->nx;
     const struct across c = across_of(p);
 
     for (size_t i = 0; i < n; i++) {
-        double u = f->x[i] * c.cos + y * c.sin, v = y * c.cos - f->x[i] * c.sin;
+        double u = x[i] * c.cos + y * c.sin, v = y * c.cos - x[i] * c.sin;
         e[i] = (e[i] - c.rise * v) / c.root;
         d[i] = -(u * u + e[i] * e[i]);
         d[n + i] = -u;
@@ -194,30 +189,21 @@ cylinder_equation(const struct round *f, const double *p, double y, double *e, d
 }
 
 static void
-quadratic(const struct round *f, const double *p, double y, double *e, double *d)
+quadratic(const double *p, size_t n, const double *x, double y, double *e, double *d)
 {
-    size_t n = f->shape->nx;
-
     (void)p;
     (void)e;
     for (size_t i = 0; i < n; i++) {
-        double x = f->x[i];
         d[i] = 1;
-        d[n + i] = x;
+        d[n + i] = x[i];
         d[2 * n + i] = y;
-        d[3 * n + i] = x * x;
-        d[4 * n + i] = x * y;
+        d[3 * n + i] = x[i] * x[i];
+        d[4 * n + i] = x[i] * y;
         d[5 * n + i] = y * y;
     }
 }
 
 /* ---- sums over the points ---- */
-
-static double *
-lines_of(const struct round *f)
-{
-    return f->lines + LINES * (size_t)omp_get_thread_num() * f->shape->nx;
-}
 
 static double
 place_y(const struct round *f, size_t j)
@@ -225,7 +211,7 @@ place_y(const struct round *f, size_t j)
     return ((double)j - f->middle_y) * f->shape->dy / f->scale;
 }
 
-RC_CLONES static double
+static inline double
 product_sum(size_t n, const double *restrict a, const double *restrict b)
 {
     double sum = 0;
@@ -236,18 +222,46 @@ product_sum(size_t n, const double *restrict a, const double *restrict b)
     return sum;
 }
 
-/* Heights e of a row and their weights w, both 0 where nothing is there. */
-static void
-weigh_row(const struct round *f, size_t j, double *e, double *w)
+/* Heights of n nodes in units of the scale, and their weights, both 0 where nothing is there; r: the
+ * residuals that weights are made of, or NULL. */
+RC_CLONES static void
+weigh(size_t n, const double *restrict h, const double *restrict r, double reach, double mean,
+      double scale, double *restrict e, double *restrict w)
 {
-    size_t nx = f->shape->nx;
-    const double *h = f->h + j * nx;
-
-    for (size_t i = 0; i < nx; i++) {
-        bool there = !isnan(h[i]);
-        w[i] = !there ? 0 : f->reach > 0 ? rc_biweight(f->residual[j * nx + i], f->reach) : 1;
-        e[i] = there ? (h[i] - f->mean) / f->scale : 0;
+    for (size_t i = 0; i < n; i++) {
+        bool there = h[i] == h[i];
+        w[i] = there ? 1 : 0;
+        e[i] = there ? (h[i] - mean) / scale : 0;
     }
+    for (size_t i = 0; i < n && r != NULL; i++)
+        w[i] *= rc_biweight(r[i], reach);
+}
+
+/* Adds the sums of n nodes; what has weight and no surface is counted. */
+RC_CLONES static void
+add_sums(size_t n, size_t unknowns, const size_t *column, double *restrict e, double *restrict w,
+         const double *restrict d, double *restrict sums)
+{
+    double t[SEGMENT], outside = 0;
+
+    for (size_t i = 0; i < n; i++) {
+        bool there = e[i] == e[i];
+        outside += !there && w[i] > 0 ? 1 : 0;
+        w[i] = there ? w[i] : 0;
+        e[i] = there ? e[i] : 0;
+    }
+    for (size_t a = 0, pair = 0; a < unknowns; a++) {
+        const double *da = d + column[a] * n;
+        for (size_t i = 0; i < n; i++)
+            t[i] = w[i] * da[i];
+        for (size_t b = 0; b <= a; b++)
+            sums[pair++] += product_sum(n, t, d + column[b] * n);
+        sums[PAIRS + a] += product_sum(n, t, e);
+    }
+    for (size_t i = 0; i < n; i++)
+        t[i] = w[i] * e[i];
+    sums[SQUARES] += product_sum(n, t, e);
+    sums[OUTSIDE] += outside;
 }
 
 static void
@@ -255,27 +269,16 @@ sum_row(const struct round *f, size_t j, surface_row *row, const double *p, size
         const size_t *column, double *sums)
 {
     size_t nx = f->shape->nx;
-    double *e = lines_of(f), *w = e + nx, *t = w + nx, *d = t + nx;
+    double e[SEGMENT], w[SEGMENT], d[UNKNOWNS * SEGMENT];
 
-    weigh_row(f, j, e, w);
-    row(f, p, place_y(f, j), e, d);
-    sums[OUTSIDE] = 0;
-    for (size_t i = 0; i < nx; i++)
-        if (isnan(e[i])) {
-            sums[OUTSIDE] += w[i] > 0 ? 1 : 0;
-            e[i] = w[i] = 0;
-        }
-    for (size_t a = 0, pair = 0; a < unknowns; a++) {
-        const double *da = d + column[a] * nx;
-        for (size_t i = 0; i < nx; i++)
-            t[i] = w[i] * da[i];
-        for (size_t b = 0; b <= a; b++)
-            sums[pair++] = product_sum(nx, t, d + column[b] * nx);
-        sums[PAIRS + a] = product_sum(nx, t, e);
+    memset(sums, 0, SUMS * sizeof *sums);
+    for (size_t i = 0; i < nx; i += SEGMENT) {
+        size_t n = nx - i < SEGMENT ? nx - i : SEGMENT, k = j * nx + i;
+        weigh(n, f->h + k, f->reach > 0 ? f->residual + k : NULL, f->reach, f->mean, f->scale, e,
+              w);
+        row(p, n, f->x + i, place_y(f, j), e, d);
+        add_sums(n, unknowns, column, e, w, d, sums);
     }
-    for (size_t i = 0; i < nx; i++)
-        t[i] = w[i] * e[i];
-    sums[SQUARES] = product_sum(nx, t, e);
 }
 
 /* Row by row, and the rows in their order: the sums do not depend on the threads. */
@@ -284,15 +287,13 @@ sum_all(const struct round *f, surface_row *row, const double *p, size_t unknown
         const size_t *column, struct normal *normal)
 {
     double total[SUMS] = {0};
-    size_t pairs = unknowns * (unknowns + 1) / 2;
 
 #pragma omp parallel for schedule(static) num_threads(f->threads)
     for (size_t j = 0; j < f->shape->ny; j++)
         sum_row(f, j, row, p, unknowns, column, f->rows + j * SUMS);
     for (size_t j = 0; j < f->shape->ny; j++)
         for (size_t k = 0; k < SUMS; k++)
-            if (k < pairs || (k >= PAIRS && (k < PAIRS + unknowns || k >= SQUARES)))
-                total[k] += f->rows[j * SUMS + k];
+            total[k] += f->rows[j * SUMS + k];
     for (size_t a = 0, pair = 0; a < unknowns; a++) {
         for (size_t b = 0; b <= a; b++, pair++)
             normal->matrix[a][b] = normal->matrix[b][a] = total[pair];
@@ -308,22 +309,30 @@ sum_surface(const struct round *f, const double *p, struct normal *normal)
     sum_all(f, f->surface, p, f->unknowns, f->unknown, normal);
 }
 
-/* What is left of each height, in units of the scale; infinite where the surface has none. */
+/* What is left of each height in row j, in units of the scale; `beside` where the surface has none. */
+static void
+residual_row(const struct round *f, const double *p, size_t j, double beside, double *to)
+{
+    size_t nx = f->shape->nx;
+    double e[SEGMENT], d[UNKNOWNS * SEGMENT];
+
+    for (size_t i = 0; i < nx; i += SEGMENT) {
+        size_t n = nx - i < SEGMENT ? nx - i : SEGMENT;
+        const double *h = f->h + j * nx + i;
+        for (size_t k = 0; k < n; k++)
+            e[k] = (h[k] - f->mean) / f->scale;
+        f->surface(p, n, f->x + i, place_y(f, j), e, d);
+        for (size_t k = 0; k < n; k++)
+            to[i + k] = isnan(h[k]) ? NAN : isnan(e[k]) ? beside : e[k];
+    }
+}
+
 static void
 find_residuals(const struct round *f, const double *p)
 {
-    size_t nx = f->shape->nx;
-
 #pragma omp parallel for schedule(static) num_threads(f->threads)
-    for (size_t j = 0; j < f->shape->ny; j++) {
-        double *e = lines_of(f), *d = e + nx;
-        const double *h = f->h + j * nx;
-        for (size_t i = 0; i < nx; i++)
-            e[i] = (h[i] - f->mean) / f->scale;
-        f->surface(f, p, place_y(f, j), e, d);
-        for (size_t i = 0; i < nx; i++)
-            f->residual[j * nx + i] = isnan(h[i]) ? NAN : isnan(e[i]) ? INFINITY : e[i];
-    }
+    for (size_t j = 0; j < f->shape->ny; j++)
+        residual_row(f, p, j, INFINITY, f->residual + j * f->shape->nx);
 }
 
 /* ---- the equations ---- */
@@ -385,16 +394,17 @@ undetermined(const struct round *f, struct rc_err *err)
                       f->name);
 }
 
-/* From p on to the least squares, with the weights as they are. */
+/* From p on towards the least squares with the weights as they are, all the way or so many steps. */
 static enum rc_status
-descend(const struct round *f, double *p, struct rc_err *err)
+descend(const struct round *f, double *p, size_t steps, struct rc_err *err)
 {
     double damping = 0, enough = settled * settled * (double)(f->shape->nx * f->shape->ny) *
                                  (f->size / f->scale) * (f->size / f->scale);
     struct normal now, next;
+    size_t taken = 0;
 
     sum_surface(f, p, &now);
-    for (size_t k = 0; k < STEPS; k++) {
+    for (size_t k = 0; k < STEPS && taken < steps; k++) {
         double step[UNKNOWNS], to[PARAMETERS];
         if (!solve_damped(f->unknowns, &now, damping, step)) {
             if (damping > 0)
@@ -407,13 +417,14 @@ descend(const struct round *f, double *p, struct rc_err *err)
             to[f->unknown[a]] += step[a];
         sum_surface(f, to, &next);
         if (next.outside == 0 && next.squares <= now.squares) {
-            bool last = moved(f->unknowns, &now, step) <= enough && damping == 0;
+            bool last = moved(f->unknowns, &now, step) <= enough && damping <= 1e-3;
             memcpy(p, to, sizeof to);
             now = next;
+            taken++;
             damping = damping > 1e-9 ? damping / 10 : 0;
             if (last)
                 break;
-        } else if (next.outside == 0 && moved(f->unknowns, &now, step) <= 1e4 * enough) {
+        } else if (next.outside == 0 && moved(f->unknowns, &now, step) <= enough) {
             break; /* rounding keeps the squares from getting less */
         } else {
             damping = damping > 0 ? 10 * damping : 1e-3;
@@ -494,19 +505,47 @@ start_cylinder(const struct round *f, double *p, struct rc_err *err)
     return RC_OK;
 }
 
-/* Weights that leave out what is far from a quadratic polynomial, itself found so. */
+/* What is left of a quadratic polynomial, whose coefficients are c. */
+static void
+find_quadratic_residuals(const struct round *f, const double c[UNKNOWNS])
+{
+    size_t nx = f->shape->nx;
+
+#pragma omp parallel for schedule(static) num_threads(f->threads)
+    for (size_t j = 0; j < f->shape->ny; j++) {
+        const double y = place_y(f, j), *h = f->h + j * nx;
+        for (size_t i = 0; i < nx; i++) {
+            double x = f->x[i];
+            f->residual[j * nx + i] = (h[i] - f->mean) / f->scale - c[0] - c[1] * x - c[2] * y -
+                                      (c[3] * x + c[4] * y) * x - c[5] * y * y;
+        }
+    }
+}
+
+/* Weights that leave out what is far from a quadratic polynomial, itself found so. They need not be
+ * settled: it is only the start. */
 static enum rc_status
 start_weights(struct round *f, struct rc_err *err)
 {
-    const struct rc_form form = {.degree = 2, .robust = true, .threads = f->form->threads};
-    size_t n = f->shape->nx * f->shape->ny;
+    static const size_t in_x[] = {0, 1, 3}, in_y[] = {0, 2, 5}, all[] = {0, 1, 2, 3, 4, 5};
+    const size_t *column = f->shape->ny == 1 ? in_x : f->shape->nx == 1 ? in_y : all;
+    size_t terms = column == all ? 6 : 3, n = f->shape->nx * f->shape->ny;
+    const double none[PARAMETERS] = {0};
+    struct normal normal;
 
-    memcpy(f->residual, f->h, n * sizeof *f->residual);
-    if (rc_detrend_form(f->shape, &form, f->residual, NULL, err) != RC_OK)
-        return RC_FAIL;
-    for (size_t k = 0; k < n; k++)
-        f->residual[k] /= f->scale;
-    f->reach = rc_biweight_reach * rc_median(f->residual, n, 0, true, f->threads);
+    for (size_t k = 0; k < START_WEIGHTS; k++) {
+        double x[UNKNOWNS], c[UNKNOWNS] = {0}, reach;
+        sum_all(f, quadratic, none, terms, column, &normal);
+        if (!solve_damped(terms, &normal, 0, x))
+            return undetermined(f, err);
+        for (size_t a = 0; a < terms; a++)
+            c[column[a]] = x[a];
+        find_quadratic_residuals(f, c);
+        reach = rc_biweight_reach * rc_median(f->residual, n, 0, true, f->threads);
+        if (!(reach > 0))
+            break;
+        f->reach = reach;
+    }
     return RC_OK;
 }
 
@@ -518,7 +557,6 @@ round_free(struct round *f)
     free(f->residual);
     free(f->x);
     free(f->rows);
-    free(f->lines);
 }
 
 static void
@@ -544,7 +582,6 @@ round_new(struct round *f, const struct rc_shape *shape, const struct rc_form *f
 {
     struct rc_box box = rc_box_of(shape, h);
     struct rc_statistics s;
-    size_t lines;
 
     *f = (struct round){.shape = shape, .form = form, .h = h};
     choose_unknowns(f);
@@ -561,14 +598,11 @@ round_new(struct round *f, const struct rc_shape *shape, const struct rc_form *f
     f->middle_x = 0.5 * (double)(box.left + box.right);
     f->middle_y = 0.5 * (double)(box.top + box.bottom);
     f->threads = rc_useful_threads(shape, form->threads);
-    lines = LINES * (size_t)f->threads;
     f->x = rc_alloc(shape->nx, sizeof *f->x);
     f->rows = rc_alloc(shape->ny, SUMS * sizeof *f->rows);
-    f->lines = rc_alloc(shape->nx, lines * sizeof *f->lines);
     if (form->robust)
         f->residual = rc_alloc(shape->nx * shape->ny, sizeof *f->residual);
-    if (f->x == NULL || f->rows == NULL || f->lines == NULL ||
-        (form->robust && f->residual == NULL))
+    if (f->x == NULL || f->rows == NULL || (form->robust && f->residual == NULL))
         return rc_err_set(err, "out of memory for a %s through %zu heights", f->name, box.count);
     for (size_t i = 0; i < shape->nx; i++)
         f->x[i] = ((double)i - f->middle_x) * shape->dx / f->scale;
@@ -587,11 +621,10 @@ reweight(struct round *f, double *p, struct rc_err *err)
         if (rc_reweighted(reach, before, f->size / f->scale))
             break;
         f->reach = reach;
-        if (descend(f, p, err) != RC_OK)
+        if (descend(f, p, 1, err) != RC_OK)
             return RC_FAIL;
     }
-    f->reach = 0;
-    return RC_OK;
+    return f->reach > 0 ? descend(f, p, STEPS, err) : RC_OK;
 }
 
 static enum rc_status
@@ -606,7 +639,7 @@ fit_round(struct round *f, double *p, struct rc_err *err)
         return RC_FAIL;
     if (!(fabs(p[A]) > no_curvature * f->size / f->scale))
         return undetermined(f, err);
-    if (flatten(f, p, err) != RC_OK || descend(f, p, err) != RC_OK)
+    if (flatten(f, p, err) != RC_OK || descend(f, p, f->form->robust ? 1 : STEPS, err) != RC_OK)
         return RC_FAIL;
     return f->form->robust ? reweight(f, p, err) : RC_OK;
 }
@@ -627,11 +660,12 @@ radius_of(const struct round *f, const double *p)
 
 /* What is left, in metres; nothing is touched when a point lies beside the form. */
 static enum rc_status
-subtract(const struct round *f, const double *p, double radius, double *h, struct rc_err *err)
+subtract(struct round *f, const double *p, double radius, double *h, struct rc_err *err)
 {
     size_t nx = f->shape->nx;
     struct normal normal;
 
+    f->reach = 0; /* all points count */
     sum_surface(f, p, &normal);
     if (normal.outside > 0)
         return rc_err_set(err,
@@ -640,12 +674,9 @@ subtract(const struct round *f, const double *p, double radius, double *h, struc
                           normal.outside, f->name, fabs(radius));
 #pragma omp parallel for schedule(static) num_threads(f->threads)
     for (size_t j = 0; j < f->shape->ny; j++) {
-        double *e = lines_of(f), *d = e + nx;
+        residual_row(f, p, j, NAN, h + j * nx);
         for (size_t i = 0; i < nx; i++)
-            e[i] = (h[j * nx + i] - f->mean) / f->scale;
-        f->surface(f, p, place_y(f, j), e, d);
-        for (size_t i = 0; i < nx; i++)
-            h[j * nx + i] = e[i] * f->scale;
+            h[j * nx + i] *= f->scale;
     }
     return RC_OK;
 }
