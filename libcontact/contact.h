@@ -91,7 +91,7 @@ RC_API enum rc_status rc_synth_selfaffine(const struct rc_shape *shape,
                                           const struct rc_selfaffine *what, double *h,
                                           struct rc_err *err);
 
-/* ---- surfaces: detrend.c, round.c, gauss.c, outliers.c, taper.c, inpaint.c, resample.c ---- */
+/* ---- surfaces: forms, filters, outliers, holes ---- */
 
 enum {
     RC_DEGREE_MAX = 20
@@ -163,6 +163,14 @@ RC_API enum rc_status rc_inpaint(const struct rc_shape *shape, double *h, size_t
 /* Bytes that it takes beside h for so many missing values. */
 RC_API size_t rc_inpaint_memory(size_t missing);
 
+/* Width of the widest hole in m: twice the largest distance of a missing value (NaN) from the nearest
+ * one that is there, node to node: 2 min(dx, dy) for a single missing node, and for a disc its
+ * diameter. A hole at the edge of the map has its rim on one side only, and counts as if it went on
+ * as far beyond. 0 where nothing is missing, INFINITY where nothing is there. Exact but for rounding;
+ * takes 4 bytes a node. RC_FAIL when memory is short. */
+RC_API enum rc_status rc_hole_width(const struct rc_shape *shape, const double *h, double *width,
+                                    struct rc_err *err);
+
 /* Means of v, which is constant in the cells of `from`, over the cells of `to`, a grid of any other
  * number of nodes on the same area: their spacings are not looked at. The integral stays what it
  * is. Heights go to a coarser grid so, and pressures back. v and out do not overlap. */
@@ -186,12 +194,53 @@ RC_API void rc_measure(const struct rc_shape *shape, const double *v, struct rc_
 /* Sum of n doubles with the compensation of Neumaier 1974: its error does not grow with n. */
 RC_API double rc_sum(const double *v, size_t n);
 
-/* ---- convolution: conv.c ---- */
+/* RMS of the gradient's magnitude of the heights h (m) over the nodes where p > 0, by differences to
+ * the next node along each side of the map; NAN when there is none. */
+RC_API double rc_measure_contact_slope(const struct rc_shape *shape, const double *h,
+                                       const double *p);
+
+/* RMS of the steps between neighbours along x, [0], and along y, [1]: inside the map, and from its
+ * last line to its first, where the periods of a periodic map meet. NAN along a side of one node. In
+ * the unit of v, which holds no NaN. */
+struct rc_seam {
+    double inside[2], across[2];
+};
+RC_API void rc_measure_seam(const struct rc_shape *shape, const double *v, struct rc_seam *seam);
+
+/* ---- contact patches: patches.c ---- */
 
 enum rc_boundary {
     RC_FREE,    /* a half-space whose surface goes on, without load, beyond the map            */
     RC_PERIODIC /* the map repeats for ever                                                    */
 };
+
+struct rc_patch_options {
+    enum rc_boundary boundary; /* periodic: patches go on across the edges of the map           */
+    bool each;                 /* fill the list of patches                                      */
+    size_t threads;            /* 0: all                                                        */
+};
+
+struct rc_patch {
+    size_t nodes;
+    double area, perimeter; /* m^2, m */
+};
+
+/* Nodes that carry pressure, joined by their four neighbours. The perimeter is made of the edges
+ * between a node in contact and one that is not; the border of a free map is none. The corrected area
+ * takes off (pi - 1 + ln 2)/24 dx dy for each such edge (Yastrebov, Anciaux and Molinari 2017): a grid
+ * counts every node that the edge of the contact passes through. */
+struct rc_patches {
+    size_t count, contact_nodes;
+    double contact_area, contact_area_corrected, perimeter; /* m^2, m^2, m                        */
+    struct rc_patch *patch; /* `count` of them, the largest first; NULL where nobody asked      */
+};
+/* RC_FAIL when memory is short. rc_patches_free in either case. */
+RC_API enum rc_status rc_patches_find(const struct rc_shape *shape, const double *p,
+                                      const struct rc_patch_options *options,
+                                      struct rc_patches *patches, struct rc_err *err);
+RC_API void rc_patches_free(struct rc_patches *patches);
+
+/* ---- convolution: conv.c ---- */
 
 struct rc_conv_options {
     enum rc_boundary boundary;
@@ -235,6 +284,8 @@ struct rc_problem {
     double approach;    /* m, > 0: the load is sought that brings the bodies so far together from
                            first touch; 0: the load is given                                     */
     double hardness;    /* upper bound of the pressure, Pa; 0 or INFINITY: none                  */
+    double height_error; /* m: what the heights may be off, as the gap_error of the solution that
+                           left their shape; bears on what counts as yielded only                */
     double tol;         /* asked relative L1 error of the pressure; 0: (nx ny)^(-3/4)            */
     const char *engine; /* NULL: auto                                                            */
     const char *method; /* NULL: auto                                                            */
@@ -253,10 +304,15 @@ struct rc_discretization {
 struct rc_contact {
     double load, mean_pressure, max_pressure; /* N, Pa, Pa: summed from the pressure itself      */
     size_t contact_nodes, plastic_nodes;      /* p > 0; p = hardness                             */
-    double contact_area, contact_fraction, plastic_area; /* m^2, -, m^2                          */
+    size_t yielded_nodes; /* p = hardness, and a gap that is negative by more than four times what
+                             it and the heights may be off: what gives way under this load      */
+    double contact_area, contact_fraction;    /* m^2, -                                          */
+    double plastic_area, yielded_area;        /* m^2                                             */
     double edge_load_fraction; /* load on the outer 2 % of the map                */
     double approach;           /* m; NAN when no node is elastic                  */
-    double mean_gap;           /* m, over the whole map                           */
+    double mean_gap;           /* m, of max(gap, 0) over the whole map            */
+    double gap_error;          /* m: worst violation: of gap >= 0 where p = 0, gap = 0 where elastic,
+                                                 gap <= 0 at the hardness                         */
     double kkt_residual;       /* worst violation / max(std h, std u), from a
                                                  fresh convolution; for one height everywhere
                                                  over what the mean pressure could displace      */
@@ -311,8 +367,8 @@ RC_API const double *rc_solver_pressure(const struct rc_solver *solver);
 RC_API void rc_solver_result(struct rc_solver *solver, double *displacement, double *gap,
                              struct rc_contact *contact);
 /* The height map (nx*ny m) that is left when the bodies are taken apart: where the hardness was
- * reached, what stood into the other body is gone. Pressed again to the same load it carries the
- * same pressure, and nothing more yields. After rc_solver_result. */
+ * reached, what stood into the other body is gone; known to within gap_error. Pressed again to the same
+ * load it carries the same pressure, and nothing more yields. After rc_solver_result. */
 RC_API enum rc_status rc_solver_plastic(const struct rc_solver *solver, double *h,
                                         struct rc_err *err);
 /* d load / d approach, N/m, at the solution, after rc_solver_result: what the elastic nodes

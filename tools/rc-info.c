@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "formats/core/core.h"
 #include "libcontact/contact.h"
 
 static struct args {
@@ -70,26 +69,6 @@ show_json(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s
 
 /* ---- text ---- */
 
-enum {
-    HUMAN = 48
-};
-
-/* "1.29 u": six digits and the prefix of the unit that brings the number nearest to 1..1000. */
-static const char *
-human(char text[HUMAN], double value, const char *unit)
-{
-    bool known = strcmp(unit, "m") == 0 || strcmp(unit, "Pa") == 0 || strcmp(unit, "N") == 0;
-    int most = strcmp(unit, "m") == 0 ? 0 : 12, power = 0; /* nobody says Mm */
-
-    if (known && value != 0 && isfinite(value)) {
-        power = 3 * (int)floor(log10(fabs(value)) / 3);
-        power = power > most ? most : rc_prefix_of(power) == NULL ? 0 : power;
-    }
-    snprintf(text, HUMAN, "%.6g%s%s", value / pow(10, power), *unit == '\0' ? "" : " ",
-             rc_prefix_of(power));
-    return text;
-}
-
 /* Text that came with the data, on one line, and nothing in it that a terminal would obey. */
 static void
 put_text(FILE *out, const char *text, size_t n)
@@ -102,26 +81,26 @@ put_text(FILE *out, const char *text, size_t n)
 static void
 put_figure(FILE *out, const char *name, double value, const char *unit)
 {
-    char text[HUMAN];
+    char text[SHOWN_NUMBER];
 
     fprintf(out, "  %-10s ", name);
     if (isnan(value)) {
         fputs("unknown\n", out);
         return;
     }
-    fputs(human(text, value, unit), out);
+    fputs(shown_number(text, value, 6, unit), out);
     put_text(out, unit, strlen(unit));
 }
 
 static void
 put_grid(FILE *out, const struct rc_grid *g)
 {
-    char a[HUMAN], b[HUMAN];
+    char a[SHOWN_NUMBER], b[SHOWN_NUMBER];
 
     fprintf(out, "  %-10s %zu x %zu nodes, dx %sm, dy %sm\n", "grid", g->nx, g->ny,
-            human(a, g->dx, "m"), human(b, g->dy, "m"));
-    fprintf(out, "  %-10s %sm x %sm\n", "size", human(a, (double)g->nx * g->dx, "m"),
-            human(b, (double)g->ny * g->dy, "m"));
+            shown_number(a, g->dx, 6, "m"), shown_number(b, g->dy, 6, "m"));
+    fprintf(out, "  %-10s %sm x %sm\n", "size", shown_number(a, (double)g->nx * g->dx, 6, "m"),
+            shown_number(b, (double)g->ny * g->dy, 6, "m"));
     fprintf(out, "  %-10s %s\n", "type", g->type == RC_F32 ? "f32" : "f64");
 }
 

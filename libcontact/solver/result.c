@@ -24,6 +24,7 @@ struct figures {
     const struct rc_solver *s;
     double *displacement, *gap;
     double mean_h, mean_u;
+    double worst; /* m: what the gap is off where it should be 0, or at least 0 */
 };
 
 enum { /* sums of the first pass, */
@@ -34,7 +35,8 @@ enum { /* sums of the first pass, */
     V,
     /* and of the second */
     SPREAD_H = 0,
-    SPREAD_U
+    SPREAD_U,
+    OPEN,
 };
 
 static void
@@ -66,6 +68,7 @@ spread_block(void *at, size_t first, size_t n, double *sums)
 
         sums[SPREAD_H] += h * h;
         sums[SPREAD_U] += around * around;
+        sums[OPEN] += g > 0 ? g : 0;
         worst = p <= 0 ? fmax(-g, 0) : p >= s->posed.hardness ? fmax(g, 0) : fabs(g);
         sums[RC_MOST] = worst > sums[RC_MOST] ? worst : sums[RC_MOST];
         if (f->displacement != NULL)
@@ -73,6 +76,26 @@ spread_block(void *at, size_t first, size_t n, double *sums)
         if (f->gap != NULL)
             f->gap[k] = g;
     }
+}
+
+/* Nodes at the hardness whose gap is negative by more than `worst`. */
+static void
+yield_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct figures *f = at;
+    const struct rc_solver *s = f->s;
+
+    for (size_t k = first; k < first + n; k++)
+        sums[0] += s->it.p[k] >= s->posed.hardness && s->it.v[k] - s->it.shift < -f->worst;
+}
+
+static size_t
+yielded(const struct rc_solver *s, struct figures *f)
+{
+    double total[RC_SUMS];
+
+    rc_reduce_blocks(s, yield_block, f, total);
+    return (size_t)total[0];
 }
 
 /* Nodes of the contact with a neighbour that is none. */
@@ -147,7 +170,6 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
     c->hardness_active = c->plastic_nodes > 0;
     c->edge_load_fraction = edge_load(s);
     c->approach = s->it.elastic > 0 ? s->it.shift : NAN; /* the highest of h is 0 */
-    c->mean_gap = total[V] / n - s->it.shift;
     f.mean_h = total[HEIGHT] / n;
     f.mean_u = (total[V] + total[HEIGHT]) / n;
     rc_reduce_blocks(s, spread_block, &f, total);
@@ -155,6 +177,12 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
     if (total[SPREAD_H] == 0) /* one height everywhere: both vanish with the error */
         scale = s->op->norm * c->mean_pressure;
     c->kkt_residual = total[RC_MOST] == 0 ? 0 : total[RC_MOST] / scale;
+    c->mean_gap = total[OPEN] / n;
+    c->gap_error = total[RC_MOST];
+    f.worst = 4 * (c->gap_error + s->posed.height_error) + 1e-12 * scale;
+    if (c->hardness_active)
+        c->yielded_nodes = yielded(s, &f);
+    c->yielded_area = s->posed.cell * (double)c->yielded_nodes;
     /* Stopped on a coarser grid: an estimate here would take longer than the iteration did. */
     if (!early && (stopped || s->it.checked != s->it.iterations || isnan(s->it.error))) {
         rc_working_set_find(s, false);

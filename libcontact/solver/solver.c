@@ -116,6 +116,7 @@ pose(struct rc_posed *posed, const struct rc_shape *shape, const double *h,
                                                      ? problem->max_iterations
                                                      : 100 + (size_t)(10 * sqrt((double)n)),
                                .threads = rc_useful_threads(shape, problem->threads),
+                               .height_error = problem->height_error,
                                .discretization = problem->discretization};
     if (posed->h == NULL)
         return rc_err_set(err, "out of memory for a contact of %zu x %zu nodes", shape->nx,

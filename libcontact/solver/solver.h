@@ -60,6 +60,7 @@ struct rc_posed {
     double *h;             /* heights less their maximum: the datum costs digits       */
     double top;            /* that maximum                                             */
     double hardness;       /* INFINITY: none                                           */
+    double height_error;   /* m: what the heights may be off                           */
     double tol;            /* asked relative L1 error of the pressure                  */
     size_t max_iterations; /* of one load                                              */
     int threads;

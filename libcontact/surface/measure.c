@@ -207,3 +207,67 @@ rc_measure(const struct rc_shape *shape, const double *v, struct rc_statistics *
     if (right + below > 0 && count(slope.there) > 0)
         result->rms_slope = sqrt(value(&slope.squares) / count(slope.there));
 }
+
+/* ---- where the bodies touch, and where periods meet ---- */
+
+double
+rc_measure_contact_slope(const struct rc_shape *shape, const double *h, const double *p)
+{
+    size_t nx = shape->nx, ny = shape->ny;
+    size_t right = nx > 1 ? 1 : 0, below = ny > 1 ? nx : 0;
+    const double per[2] = {1 / shape->dx, 1 / shape->dy};
+    struct rc_total squares = {0}, nodes = {0};
+
+    for (size_t j = 0; j + (below > 0 ? 1 : 0) < ny; j++) {
+        const double *row = h + j * nx, *load = p + j * nx;
+        double sum = 0, count = 0;
+#pragma omp simd reduction(+ : sum, count)
+        for (size_t i = 0; i < nx - right; i++) {
+            double gx = (row[i + right] - row[i]) * per[0];
+            double gy = (row[i + below] - row[i]) * per[1];
+            double touches = load[i] > 0 ? 1 : 0;
+            sum += touches * (gx * gx + gy * gy);
+            count += touches;
+        }
+        rc_total_add(&squares, sum);
+        rc_total_add(&nodes, count);
+    }
+    return sqrt(rc_total_value(&squares) / rc_total_value(&nodes));
+}
+
+/* Adds the squared steps from a[i] to b[i]. */
+static void
+add_steps(struct rc_total *squares, const double *a, const double *b, size_t n)
+{
+    double sum = 0;
+
+#pragma omp simd reduction(+ : sum)
+    for (size_t i = 0; i < n; i++)
+        sum += (b[i] - a[i]) * (b[i] - a[i]);
+    rc_total_add(squares, sum);
+}
+
+void
+rc_measure_seam(const struct rc_shape *shape, const double *v, struct rc_seam *seam)
+{
+    size_t nx = shape->nx, ny = shape->ny;
+    struct rc_total inside[2] = {{0}}, across[2] = {{0}};
+
+    for (size_t j = 0; j < ny; j++) {
+        const double *row = v + j * nx;
+        add_steps(&inside[0], row, row + 1, nx - 1);
+        add_steps(&across[0], row + nx - 1, row, 1);
+        if (j > 0)
+            add_steps(&inside[1], row - nx, row, nx);
+    }
+    add_steps(&across[1], v + (ny - 1) * nx, v, nx);
+    *seam = (struct rc_seam){{NAN, NAN}, {NAN, NAN}};
+    if (nx > 1) {
+        seam->inside[0] = sqrt(rc_total_value(&inside[0]) / (double)(ny * (nx - 1)));
+        seam->across[0] = sqrt(rc_total_value(&across[0]) / (double)ny);
+    }
+    if (ny > 1) {
+        seam->inside[1] = sqrt(rc_total_value(&inside[1]) / (double)(nx * (ny - 1)));
+        seam->across[1] = sqrt(rc_total_value(&across[1]) / (double)nx);
+    }
+}

@@ -1,0 +1,53 @@
+#include "shown.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "formats/core/core.h"
+
+enum {
+    DIGITS = 6
+};
+
+const char *
+shown_number(char text[SHOWN_NUMBER], double value, int digits, const char *unit)
+{
+    bool known = strcmp(unit, "m") == 0 || strcmp(unit, "Pa") == 0 || strcmp(unit, "N") == 0;
+    int most = strcmp(unit, "m") == 0 ? 0 : 12, power = 0; /* nobody says Mm */
+
+    if (known && value != 0 && isfinite(value)) {
+        power = 3 * (int)floor(log10(fabs(value)) / 3);
+        power = power > most ? most : rc_prefix_of(power) == NULL ? 0 : power;
+    }
+    snprintf(text, SHOWN_NUMBER, "%.*g%s%s", digits, value / pow(10, power),
+             *unit == '\0' ? "" : " ", rc_prefix_of(power));
+    return text;
+}
+
+const char *
+shown_in_unit(char text[SHOWN_NUMBER], double value, const char *unit)
+{
+    size_t n;
+
+    shown_number(text, value, DIGITS, unit);
+    n = strlen(text);
+    snprintf(text + n, SHOWN_NUMBER - n, "%s", unit);
+    return text;
+}
+
+const char *
+shown_area(char text[SHOWN_NUMBER], double area)
+{
+    static const struct {
+        const char *name;
+        double size;
+    } unit[] = {{"m2", 1}, {"mm2", 1e-6}, {"um2", 1e-12}, {"nm2", 1e-18}};
+    size_t k = 0;
+
+    while (k + 1 < sizeof unit / sizeof *unit && area < 1e-3 * unit[k].size)
+        k++;
+    snprintf(text, SHOWN_NUMBER, "%.*g %s", DIGITS, area / unit[k].size, unit[k].name);
+    return text;
+}
