@@ -55,19 +55,24 @@ near "$(figure maximum a.rcg)" 5e-6 1e-6 "  and a spike is what it was"
 
 # ---- filters ----
 
+# root PART: the root mean square of so much of a wave of 1 um.
+root() {
+    awk "BEGIN { printf \"%.12g\", 1e-6 / sqrt(2) * ($1) }"
+}
+
 wave='rc-synth wave --amplitude 1um --nx 256 --ny 9 --dx 1um'
 claim "of a wave of the length L half gets through" bash -c "
     $wave --wavelength 32um -o wave.rcg && rc-detrend --lowpass 32um wave.rcg -o low.rcg &&
     rc-detrend --highpass 32um wave.rcg -o high.rcg"
-near "$(figure maximum low.rcg)" 0.5e-6 1e-6 "  low"
-near "$(figure maximum high.rcg)" 0.5e-6 1e-6 "  high"
+near "$(figure rms low.rcg)" "$(root 0.5)" 1e-6 "  low"
+near "$(figure rms high.rcg)" "$(root 0.5)" 1e-6 "  high"
 # exp(-ln 2 (50/32)^2)
 claim "of a shorter one less" rc-detrend --lowpass 50um wave.rcg -o low.rcg
-near "$(figure maximum low.rcg)" "$(awk 'BEGIN { print 1e-6 * exp(-log(2) * (50 / 32) ^ 2) }')" 2e-6 "  by the formula"
+near "$(figure rms low.rcg)" "$(root "exp(-log(2) * (50 / 32) ^ 2)")" 2e-6 "  by the formula"
 claim "a filtered surface is as periodic as it was" says '"periodic": "yes"' rc-info --json low.rcg
 claim "a band is two steps" bash -c 'rc-detrend --lowpass 8um --highpass 100um wave.rcg -o band.rcg'
-near "$(figure maximum band.rcg)" \
-    "$(awk 'BEGIN { l = log(2); print 1e-6 * exp(-l / 16) * (1 - exp(-l * (100 / 32) ^ 2)) }')" 2e-6 "  one after the other"
+near "$(figure rms band.rcg)" \
+    "$(root "exp(-log(2) / 16) * (1 - exp(-log(2) * (100 / 32) ^ 2))")" 2e-6 "  one after the other"
 map 40 30 'k % 11 == 5 ? "NaN" : sin(k) + x' holes.rcg
 claim "what is missing stays missing" rc-detrend --lowpass 9um holes.rcg -o low.rcg
 near "$(figure missing low.rcg)" "$(figure missing holes.rcg)" "$same" "  as many points"
