@@ -48,8 +48,9 @@ static const struct tool_info info = {
     .name = "rc-detrend",
     .summary = "Level height maps, remove their form, filter, drop outliers, fill missing points",
     .operands = "[FILE...]",
-    .examples = "  rc-import bench.x3p | rc-detrend --plane --fill > flat.rcg\n"
-                "  rc-import ball.x3p | rc-detrend --sphere --highpass 80um --robust > rough.rcg\n",
+    .examples =
+        "  rc-import bench.x3p | rc-detrend --plane --fill > flat.rcg\n"
+        "  rc-import bench.x3p | rc-detrend --robust --plane --outliers 5 --fill > clean.rcg\n",
     .opts = opts,
     .reads = READS_STREAM,
     .writes = WRITES_STREAM,
