@@ -28,6 +28,7 @@
 
 enum {
     BLOCK = 1024,   /* points that are factored at a time; above the largest number of terms */
+    ROWS = 512,     /* of the map that are summed at a time */
     CORRECTIONS = 4 /* of a solution of the normal equations */
 };
 
@@ -49,7 +50,9 @@ struct fit {
     double *c;               /* coefficients; in a row, of b + a for all a, then the next b */
     double *step;            /* their correction */
     double *residual, reach; /* robust: h - mean - polynomial, weights are made of; else NULL */
-    double *rows;            /* for each row: nx_orders sums of w px, nx_terms sums of w e px */
+    double *rows;            /* of ROWS rows: nx_orders sums of w px, nx_terms sums of w e px */
+    double *of_weights;      /* sums over the map of w T_k(x) T_l(y): at l nx_orders + k */
+    double *of_residuals;    /* and of w e T_k(x) T_l(y): at l nx_terms + k */
     double *lines;           /* for each thread: e, w and w e of a row */
     gsl_matrix *normal;
     gsl_vector *scale, *right;
@@ -112,6 +115,7 @@ fit_free(struct fit *f)
     free(f->c);
     free(f->residual);
     free(f->rows);
+    free(f->of_weights);
     free(f->lines);
 }
 
@@ -134,18 +138,20 @@ fit_allocate(struct fit *f, const struct rc_box *box, bool robust, struct rc_err
     f->px = chebyshev(f->nx_orders, s->nx, box->left, box->right);
     f->py = chebyshev(f->ny_orders, s->ny, box->top, box->bottom);
     f->c = calloc(2 * f->terms, sizeof *f->c);
-    f->rows = rc_alloc(s->ny, row_sums(f) * sizeof *f->rows);
+    f->rows = rc_alloc(ROWS, row_sums(f) * sizeof *f->rows);
+    f->of_weights = rc_alloc(row_sums(f), f->ny_orders * sizeof *f->of_weights);
     f->lines = rc_alloc(s->nx, 3 * (size_t)f->threads * sizeof *f->lines);
     f->normal = gsl_matrix_alloc(f->terms, f->terms);
     f->scale = gsl_vector_alloc(f->terms);
     f->right = gsl_vector_alloc(f->terms);
     if (robust)
         f->residual = rc_alloc(s->nx * s->ny, sizeof *f->residual);
-    if (f->px == NULL || f->py == NULL || f->c == NULL || f->rows == NULL || f->lines == NULL ||
-        f->normal == NULL || f->scale == NULL || f->right == NULL ||
-        (robust && f->residual == NULL))
+    if (f->px == NULL || f->py == NULL || f->c == NULL || f->rows == NULL ||
+        f->of_weights == NULL || f->lines == NULL || f->normal == NULL || f->scale == NULL ||
+        f->right == NULL || (robust && f->residual == NULL))
         return rc_err_set(err, "out of memory for a polynomial of degree %zu", f->degree);
     f->step = f->c + f->terms;
+    f->of_residuals = f->of_weights + f->nx_orders * f->ny_orders;
     return RC_OK;
 }
 
@@ -254,47 +260,68 @@ weigh_row(const struct fit *f, size_t j, double *e, double *w, double *we)
     }
 }
 
-/* Sums of w e over each row, and where asked for of w. */
+/* Sums of w e and, where asked for, of w over the rows from `first` on. */
 static void
-sum_rows(const struct fit *f, bool weights)
+sum_rows(const struct fit *f, size_t first, size_t count, bool weights)
 {
     size_t nx = f->shape->nx;
-    bool all = !f->missing && f->reach == 0; /* every row has the same sums of weights */
 
 #pragma omp parallel for schedule(static) num_threads(f->threads)
-    for (size_t j = 0; j < f->shape->ny; j++) {
-        double *e = lines_of(f), *w = e + nx, *we = w + nx, *to = f->rows + j * row_sums(f);
-        weigh_row(f, j, e, w, we);
-        if (weights && (j == 0 || !all))
+    for (size_t k = 0; k < count; k++) {
+        double *e = lines_of(f), *w = e + nx, *we = w + nx, *to = f->rows + k * row_sums(f);
+        weigh_row(f, first + k, e, w, we);
+        if (weights)
             multiply_sum(nx, f->nx_orders, w, f->px, to);
         multiply_sum(nx, f->nx_terms, we, f->px, to + f->nx_orders);
     }
-    for (size_t j = 1; weights && all && j < f->shape->ny; j++)
-        memcpy(f->rows + j * row_sums(f), f->rows, f->nx_orders * sizeof *f->rows);
+}
+
+/* to[l n + k] += T_l(y) times row[k], for all l */
+static void
+add_row(const struct fit *f, size_t j, const double *row, size_t n, size_t orders, double *to)
+{
+    for (size_t l = 0; l < orders; l++)
+        for (size_t k = 0; k < n; k++)
+            to[l * n + k] += f->py[l * f->shape->ny + j] * row[k];
+}
+
+/* Sums over the map; those of the weights only where asked for. Where nothing is missing and all weigh
+ * alike they are the same in every row. */
+static void
+sum_map(const struct fit *f, bool weights)
+{
+    size_t ny = f->shape->ny, orders = f->nx_orders;
+    bool alike = !f->missing && f->reach == 0;
+    double first[2 * RC_DEGREE_MAX + 1];
+
+    if (weights)
+        memset(f->of_weights, 0, orders * f->ny_orders * sizeof *f->of_weights);
+    memset(f->of_residuals, 0, f->nx_terms * f->ny_terms * sizeof *f->of_residuals);
+    if (weights && alike) {
+        sum_rows(f, 0, 1, true);
+        memcpy(first, f->rows, orders * sizeof *first);
+    }
+    for (size_t j = 0; j < ny; j += ROWS) {
+        size_t count = ny - j < ROWS ? ny - j : ROWS;
+        sum_rows(f, j, count, weights && !alike);
+        for (size_t k = 0; k < count; k++) {
+            const double *row = f->rows + k * row_sums(f);
+            if (weights)
+                add_row(f, j + k, alike ? first : row, orders, f->ny_orders, f->of_weights);
+            add_row(f, j + k, row + orders, f->nx_terms, f->ny_terms, f->of_residuals);
+        }
+    }
 }
 
 /* ---- the normal equations ---- */
 
-/* Sums over the map of w, or w e, times T_k(x) T_l(y): s[l * n + k], k < n, of the sums over rows
- * from `at` on. */
-static void
-sum_map(const struct fit *f, size_t at, size_t n, size_t l_count, double *s)
-{
-    memset(s, 0, n * l_count * sizeof *s);
-    for (size_t j = 0; j < f->shape->ny; j++) {
-        const double *row = f->rows + j * row_sums(f) + at;
-        for (size_t l = 0; l < l_count; l++)
-            for (size_t k = 0; k < n; k++)
-                s[l * n + k] += f->py[l * f->shape->ny + j] * row[k];
-    }
-}
-
 /* T_a T_b = (T_(a+b) + T_|a-b|) / 2 */
 static double
-of_product(const struct fit *f, const double *s, size_t a, size_t b, size_t c, size_t d)
+of_product(const struct fit *f, size_t a, size_t b, size_t c, size_t d)
 {
     size_t n = f->nx_orders, more = a + c, less = a > c ? a - c : c - a;
-    const double *high = s + (b + d) * n, *low = s + (b > d ? b - d : d - b) * n;
+    const double *s = f->of_weights, *high = s + (b + d) * n,
+                 *low = s + (b > d ? b - d : d - b) * n;
 
     return 0.25 * (high[more] + high[less] + low[more] + low[less]);
 }
@@ -302,29 +329,25 @@ of_product(const struct fit *f, const double *s, size_t a, size_t b, size_t c, s
 static void
 set_normal(struct fit *f)
 {
-    double s[(2 * RC_DEGREE_MAX + 1) * (2 * RC_DEGREE_MAX + 1)];
     size_t row = 0;
 
-    sum_map(f, 0, f->nx_orders, f->ny_orders, s);
     for (size_t b = 0; b < f->ny_terms; b++)
         for (size_t a = 0; a < f->nx_terms && a + b <= f->degree; a++, row++) {
             size_t column = 0;
             for (size_t d = 0; d < f->ny_terms; d++)
                 for (size_t c = 0; c < f->nx_terms && c + d <= f->degree; c++, column++)
-                    gsl_matrix_set(f->normal, row, column, of_product(f, s, a, b, c, d));
+                    gsl_matrix_set(f->normal, row, column, of_product(f, a, b, c, d));
         }
 }
 
 static void
 set_right(struct fit *f)
 {
-    double s[(RC_DEGREE_MAX + 1) * (RC_DEGREE_MAX + 1)];
     size_t row = 0;
 
-    sum_map(f, f->nx_orders, f->nx_terms, f->ny_terms, s);
     for (size_t b = 0; b < f->ny_terms; b++)
         for (size_t a = 0; a < f->nx_terms && a + b <= f->degree; a++, row++)
-            gsl_vector_set(f->right, row, s[b * f->nx_terms + a]);
+            gsl_vector_set(f->right, row, f->of_residuals[b * f->nx_terms + a]);
 }
 
 /* Whether the equations are good enough; then they are factored. */
@@ -473,13 +496,13 @@ solve(struct fit *f, struct rc_err *err)
 {
     double first;
 
-    sum_rows(f, true);
+    sum_map(f, true);
     set_normal(f);
     if (!factor_normal(f))
         return solve_all(f, err);
     first = solve_normal(f);
     for (size_t k = 0; k < CORRECTIONS && f->residual == NULL; k++) {
-        sum_rows(f, false);
+        sum_map(f, false);
         if (!(solve_normal(f) > 1e-15 * first))
             break;
     }

@@ -28,6 +28,7 @@
 enum {
     UNKNOWNS = 6, /* at most; those of a quadratic polynomial */
     PAIRS = UNKNOWNS * (UNKNOWNS + 1) / 2,
+    GROUPS = 256,  /* of rows that are summed by one thread */
     SEGMENT = 256, /* nodes of a row that are taken at a time */
     STEPS = 100,
     START_WEIGHTS = 6 /* rounds of them */
@@ -65,7 +66,7 @@ struct round {
     double scale;      /* m; lengths are in units of it                                     */
     double middle_x, middle_y; /* nodes                                                         */
     double *residual, reach;   /* robust: what is left of each height, weights are made of      */
-    double *x, *rows;
+    double *x, *sums;
     int threads;
     size_t unknowns, unknown[UNKNOWNS]; /* which parameters they are                            */
     surface_row *surface;
@@ -271,7 +272,6 @@ sum_row(const struct round *f, size_t j, surface_row *row, const double *p, size
     size_t nx = f->shape->nx;
     double e[SEGMENT], w[SEGMENT], d[UNKNOWNS * SEGMENT];
 
-    memset(sums, 0, SUMS * sizeof *sums);
     for (size_t i = 0; i < nx; i += SEGMENT) {
         size_t n = nx - i < SEGMENT ? nx - i : SEGMENT, k = j * nx + i;
         weigh(n, f->h + k, f->reach > 0 ? f->residual + k : NULL, f->reach, f->mean, f->scale, e,
@@ -281,19 +281,24 @@ sum_row(const struct round *f, size_t j, surface_row *row, const double *p, size
     }
 }
 
-/* Row by row, and the rows in their order: the sums do not depend on the threads. */
+/* Group by group of rows, and the groups in their order: the sums do not depend on the threads. */
 static void
 sum_all(const struct round *f, surface_row *row, const double *p, size_t unknowns,
         const size_t *column, struct normal *normal)
 {
     double total[SUMS] = {0};
+    size_t ny = f->shape->ny;
 
 #pragma omp parallel for schedule(static) num_threads(f->threads)
-    for (size_t j = 0; j < f->shape->ny; j++)
-        sum_row(f, j, row, p, unknowns, column, f->rows + j * SUMS);
-    for (size_t j = 0; j < f->shape->ny; j++)
+    for (size_t g = 0; g < GROUPS; g++) {
+        double *sums = f->sums + g * SUMS;
+        memset(sums, 0, SUMS * sizeof *sums);
+        for (size_t j = g * ny / GROUPS; j < (g + 1) * ny / GROUPS; j++)
+            sum_row(f, j, row, p, unknowns, column, sums);
+    }
+    for (size_t g = 0; g < GROUPS; g++)
         for (size_t k = 0; k < SUMS; k++)
-            total[k] += f->rows[j * SUMS + k];
+            total[k] += f->sums[g * SUMS + k];
     for (size_t a = 0, pair = 0; a < unknowns; a++) {
         for (size_t b = 0; b <= a; b++, pair++)
             normal->matrix[a][b] = normal->matrix[b][a] = total[pair];
@@ -556,7 +561,7 @@ round_free(struct round *f)
 {
     free(f->residual);
     free(f->x);
-    free(f->rows);
+    free(f->sums);
 }
 
 static void
@@ -599,10 +604,10 @@ round_new(struct round *f, const struct rc_shape *shape, const struct rc_form *f
     f->middle_y = 0.5 * (double)(box.top + box.bottom);
     f->threads = rc_useful_threads(shape, form->threads);
     f->x = rc_alloc(shape->nx, sizeof *f->x);
-    f->rows = rc_alloc(shape->ny, SUMS * sizeof *f->rows);
+    f->sums = rc_alloc(GROUPS, SUMS * sizeof *f->sums);
     if (form->robust)
         f->residual = rc_alloc(shape->nx * shape->ny, sizeof *f->residual);
-    if (f->x == NULL || f->rows == NULL || (form->robust && f->residual == NULL))
+    if (f->x == NULL || f->sums == NULL || (form->robust && f->residual == NULL))
         return rc_err_set(err, "out of memory for a %s through %zu heights", f->name, box.count);
     for (size_t i = 0; i < shape->nx; i++)
         f->x[i] = ((double)i - f->middle_x) * shape->dx / f->scale;
