@@ -68,8 +68,8 @@ filter(const struct rc_shape *s, struct rc_filter what, double *h)
 
 /* ---- the sums written out ---- */
 
-/* The factor of the weighting function along one side, for a distance of `steps` nodes; on a periodic
- * map that of all its repetitions within reach. */
+/* The factor of the weighting function along one side, for a distance of `steps` nodes; on a
+ * periodic map that of all its repetitions within reach. */
 static double
 factor(long steps, double d, size_t n, double cutoff, bool periodic)
 {
@@ -172,7 +172,8 @@ test_profiles(void **state)
         }
 }
 
-/* A point of height 1 in a wide plain becomes the weighting function, times the area of its cell. */
+/* A point of height 1 in a wide plain becomes the weighting function, times the area of its
+ * cell. */
 static void
 test_weighting_function(void **state)
 {

@@ -1,5 +1,5 @@
-/* What rc_detrend_form takes off is the form that was put there: polynomials, spheres and cylinders of
- * every sign, place and tilt, with points missing, with noise, and with spikes. */
+/* What rc_detrend_form takes off is the form that was put there: polynomials, spheres and cylinders
+ * of every sign, place and tilt, with points missing, with noise, and with spikes. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -72,8 +72,8 @@ lose(double *h, size_t n, int one_in)
 
 /* ---- the forms ---- */
 
-/* A ball of radius |R| whose middle is at (x, y, z): its upper side, or of a hollow (R < 0) the lower
- * one. */
+/* A ball of radius |R| whose middle is at (x, y, z): its upper side, or of a hollow (R < 0) the
+ * lower one. */
 struct ball {
     double radius, x, y, z;
 };
@@ -91,8 +91,9 @@ make_ball(const struct rc_shape *s, struct ball b, double *h)
     }
 }
 
-/* A cylinder whose axis goes through (x, y, z) along `direction` (rad, from x towards y) and rises by
- * `rise`. A point of it is where the distance from the axis is |R|: a quadratic equation in z. */
+/* A cylinder whose axis goes through (x, y, z) along `direction` (rad, from x towards y) and rises
+ * by `rise`. A point of it is where the distance from the axis is |R|: a quadratic equation in
+ * z. */
 struct rod {
     double radius, direction, rise, x, y, z;
 };
@@ -389,8 +390,8 @@ test_noisy_cylinder_is_least_squares(void **state)
 
 /* ---- spikes ---- */
 
-/* Every form again, with noise and with spikes at one point in ten: what was taken off is the form to
- * half of the noise, and without --robust it is not. */
+/* Every form again, with noise and with spikes at one point in ten: what was taken off is the form
+ * to half of the noise, and without --robust it is not. */
 static void
 check_spikes(struct rc_form form, const double *made, double noise, double spike)
 {

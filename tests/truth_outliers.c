@@ -1,5 +1,5 @@
-/* rc_outliers takes out the points that sorting all neighbourhoods finds, with points missing, at the
- * edges and around them; rc_taper multiplies what is above the mean by a raised cosine. */
+/* rc_outliers takes out the points that sorting all neighbourhoods finds, with points missing, at
+ * the edges and around them; rc_taper multiplies what is above the mean by a raised cosine. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -135,7 +135,8 @@ test_as_by_sorting(void **state)
             }
 }
 
-/* Gaussian noise has 0.27 % of its points beyond three standard deviations, spikes are all found. */
+/* Gaussian noise has 0.27 % of its points beyond three standard deviations, spikes are all
+ * found. */
 static void
 test_share_of_noise(void **state)
 {

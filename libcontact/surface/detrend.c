@@ -2,12 +2,12 @@
  * The least-squares polynomial over the points that are there, in products of Chebyshev polynomials
  * on the points' bounding box.
  *
- * The product of two Chebyshev polynomials is the mean of two others, of the sum and the difference of
- * their degrees. So the normal equations of all terms are made of the sums of the weights times
- * single products, up to twice the degree, and those are sums along rows first. The equations square
- * the condition of the problem; its residual, of which the solution is corrected once more, does not.
- * Where that is not enough, a QR factorisation takes the points' equations block by block (GSL's
- * tall-skinny QR), and its condition number shows when they do not determine the polynomial.
+ * The product of two Chebyshev polynomials is the mean of two others, of the sum and the difference
+ * of their degrees. So the normal equations of all terms are made of the sums of the weights times
+ * single products, up to twice the degree, and those are sums along rows first. The equations
+ * square the condition of the problem; its residual, of which the solution is corrected once more,
+ * does not. Where that is not enough, a QR factorisation takes the points' equations block by block
+ * (GSL's tall-skinny QR), and its condition number shows when they do not determine the polynomial.
  */
 #include "libcontact/common.h"
 
@@ -285,8 +285,8 @@ add_row(const struct fit *f, size_t j, const double *row, size_t n, size_t order
             to[l * n + k] += f->py[l * f->shape->ny + j] * row[k];
 }
 
-/* Sums over the map; those of the weights only where asked for. Where nothing is missing and all weigh
- * alike they are the same in every row. */
+/* Sums over the map; those of the weights only where asked for. Where nothing is missing and all
+ * weigh alike they are the same in every row. */
 static void
 sum_map(const struct fit *f, bool weights)
 {

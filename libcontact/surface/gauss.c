@@ -1,18 +1,18 @@
 /*
- * The Gaussian regression filter of order 0 (ISO 16610-61; of profiles ISO 16610-21), and its robust
- * form (ISO 16610-71, 16610-31). With the weighting function s, and weights w that are 0 where
- * nothing was measured, the low-pass surface is
+ * The Gaussian regression filter of order 0 (ISO 16610-61; of profiles ISO 16610-21), and its
+ * robust form (ISO 16610-71, 16610-31). With the weighting function s, and weights w that are 0
+ * where nothing was measured, the low-pass surface is
  *
  *     s * (w h) / s * w,      s(x, y) = exp(-pi (x^2 + y^2) / a^2),    a = sqrt(ln 2 / pi) L
  *
  * s is a product of a factor of x and one of y, so both sums are done line by line, first along x,
- * then along y. Where a is many nodes long they go by coarser nodes: the product of two Gaussians of
- * the width a / sqrt(2), one about a fine node x and one about another, X, is the Gaussian of width
- * a of x - X times one of width a / 2 about the middle between them. Summed over coarse nodes s
- * apart that is a constant times the Gaussian of x - X but for a part 2 exp(-pi (a / 2s)^2), which is
- * less than rounding where s <= a / 7. The sums to the coarse nodes and back take the same time for
- * every L, and all terms are positive, so that a weighted mean stays one to rounding however few
- * points there are.
+ * then along y. Where a is many nodes long they go by coarser nodes: the product of two Gaussians
+ * of the width a / sqrt(2), one about a fine node x and one about another, X, is the Gaussian of
+ * width a of x - X times one of width a / 2 about the middle between them. Summed over coarse nodes
+ * s apart that is a constant times the Gaussian of x - X but for a part 2 exp(-pi (a / 2s)^2),
+ * which is less than rounding where s <= a / 7. The sums to the coarse nodes and back take the same
+ * time for every L, and all terms are positive, so that a weighted mean stays one to rounding
+ * however few points there are.
  */
 #include "libcontact/common.h"
 
@@ -421,8 +421,8 @@ put_rows(const struct gauss *g, const struct weighted *of, bool low, size_t j, s
             put_row(of, low, (j + l) * nx, i, smaller(i + BLOCK, nx), 2 * lanes, line + l, to);
 }
 
-/* The low-pass of h or, less its mean, the high-pass; `to` may be the residuals that the weights are
- * made of, or h itself. */
+/* The low-pass of h or, less its mean, the high-pass; `to` may be the residuals that the weights
+ * are made of, or h itself. */
 static void
 pass(const struct gauss *g, const struct weighted *of, bool low, double *to)
 {

@@ -1,6 +1,6 @@
 /*
- * Points that stand out of their neighbourhood: measured errors of single points, found by the median
- * of the 24 others in a square of 5 x 5, which a few of them do not move.
+ * Points that stand out of their neighbourhood: measured errors of single points, found by the
+ * median of the 24 others in a square of 5 x 5, which a few of them do not move.
  */
 #include "libcontact/common.h"
 
@@ -56,10 +56,10 @@ middle_two(double v[OTHERS][LANES], double *restrict low, double *restrict high)
     }
 }
 
-/* Differences of LANES points of a row from the medians of their neighbours; `row` holds the SIDE rows
- * around it, shifted so that the square begins with each. Missing neighbours are in turn above and
- * below all others, which leaves the middle where it is: that of an odd number of them is then the
- * lower one of the two. */
+/* Differences of LANES points of a row from the medians of their neighbours; `row` holds the SIDE
+ * rows around it, shifted so that the square begins with each. Missing neighbours are in turn above
+ * and below all others, which leaves the middle where it is: that of an odd number of them is then
+ * the lower one of the two. */
 RC_CLONES static void
 differ(const double *const row[SIDE], double *d)
 {

@@ -5,14 +5,14 @@
  *
  *     A (x^2 + y^2 + z^2) + B x + C y + z + E = 0,        R = sqrt(B^2 + C^2 + 1 - 4 A E) / 2 A,
  *
- * which for A = 0 is a plane (Pratt 1987): no parameter runs away on shallow caps or where the apex is
- * off the map, and R has the sign of a bump or a hollow. With q = A (x^2 + y^2) + B x + C y + E the
- * side on which a surface lies is z = -2 q / (1 + sqrt(1 - 4 A q)). A cylinder whose axis runs along
- * v = y cos t - x sin t and rises with the slope s is the same in the plane across it: of u = x cos t +
- * y sin t and n = (z - s v) / sqrt(1 + s^2). On a profile both are circles.
+ * which for A = 0 is a plane (Pratt 1987): no parameter runs away on shallow caps or where the apex
+ * is off the map, and R has the sign of a bump or a hollow. With q = A (x^2 + y^2) + B x + C y + E
+ * the side on which a surface lies is z = -2 q / (1 + sqrt(1 - 4 A q)). A cylinder whose axis runs
+ * along v = y cos t - x sin t and rises with the slope s is the same in the plane across it: of u =
+ * x cos t + y sin t and n = (z - s v) / sqrt(1 + s^2). On a profile both are circles.
  *
- * The equation itself is linear in A, B, C, E, and its least-squares solution is where the iteration
- * starts (Levenberg 1944, Marquardt 1963).
+ * The equation itself is linear in A, B, C, E, and its least-squares solution is where the
+ * iteration starts (Levenberg 1944, Marquardt 1963).
  */
 #include "libcontact/common.h"
 
@@ -44,8 +44,8 @@ enum {
     PARAMETERS
 };
 
-/* A part of its size by which the last step may move the surface on average; the steps get smaller by
- * their squares where it fits, by a factor where noise is left. */
+/* A part of its size by which the last step may move the surface on average; the steps get smaller
+ * by their squares where it fits, by a factor where noise is left. */
 static const double settled = 1e-10;
 /* Sag over the height of the points: below, it is rounding. */
 static const double no_curvature = 1e-11;
@@ -223,8 +223,8 @@ product_sum(size_t n, const double *restrict a, const double *restrict b)
     return sum;
 }
 
-/* Heights of n nodes in units of the scale, and their weights, both 0 where nothing is there; r: the
- * residuals that weights are made of, or NULL. */
+/* Heights of n nodes in units of the scale, and their weights, both 0 where nothing is there; r:
+ * the residuals that weights are made of, or NULL. */
 RC_CLONES static void
 weigh(size_t n, const double *restrict h, const double *restrict r, double reach, double mean,
       double scale, double *restrict e, double *restrict w)
@@ -314,7 +314,8 @@ sum_surface(const struct round *f, const double *p, struct normal *normal)
     sum_all(f, f->surface, p, f->unknowns, f->unknown, normal);
 }
 
-/* What is left of each height in row j, in units of the scale; `beside` where the surface has none. */
+/* What is left of each height in row j, in units of the scale; `beside` where the surface has
+ * none. */
 static void
 residual_row(const struct round *f, const double *p, size_t j, double beside, double *to)
 {
@@ -399,7 +400,8 @@ undetermined(const struct round *f, struct rc_err *err)
                       f->name);
 }
 
-/* From p on towards the least squares with the weights as they are, all the way or so many steps. */
+/* From p on towards the least squares with the weights as they are, all the way or so many
+ * steps. */
 static enum rc_status
 descend(const struct round *f, double *p, size_t steps, struct rc_err *err)
 {
