@@ -313,7 +313,7 @@ test_robust_is_reweighting(void **state)
             for (size_t k = 0; k < N; k++)
                 r[k] = h[k] - expected[k];
             reach = 4.4478 * median_size(r, N);
-            if (fabs(reach - before) <= 1e-4 * before)
+            if (fabs(reach - before) <= 1e-3 * before)
                 break;
             for (size_t k = 0; k < N; k++)
                 m[k] = fabs(r[k]) < reach ? pow(1 - r[k] * r[k] / (reach * reach), 2) : 0;

@@ -21,7 +21,7 @@ static const double rc_biweight_reach = 4.4478;
 
 /* Reweighting stops when the reach changes by less than this part, after RC_REWEIGHT_MAX times, or
  * when the reach is that part of the heights at which only rounding is left. */
-static const double rc_reweight_tol = 1e-4;
+static const double rc_reweight_tol = 1e-3;
 static const double rc_reweight_floor = 1e-13;
 enum {
     RC_REWEIGHT_MAX = 40
