@@ -113,7 +113,7 @@ refuses 2 '--lowpass 0 m: it must be above 0' "none at all" "rc-detrend --lowpas
 refuses 1 'a taper of 3e-05 m is wider than half the map, 1.815e-05 m' "a taper over half the map" "rc-detrend --taper 30um ball.rcg"
 refuses 2 '--outliers -1: it must be above 0' "no deviations" "rc-detrend --outliers -1 ball.rcg"
 printf '1 NaN\n2 3\n' | rc-import --quiet --dx 1um --z-unit nm - -o few.rcg
-refuses 1 'a sphere has 4 unknowns, and only 3 points are there: take --plane' "a sphere through three points" "rc-detrend --sphere few.rcg"
+refuses 1 'a sphere has 4 unknowns, and only 3 points are there: subtract a plane' "a sphere through three points" "rc-detrend --sphere few.rcg"
 map 9 9 '2 * x - y' plane.rcg
 refuses 1 'do not determine a cylinder: .* no curvature' "a cylinder in a plane" "rc-detrend --cylinder plane.rcg"
 refuses 2 '--robust bears on forms and filters' "--robust with nothing to fit" "rc-detrend --robust --fill few.rcg"

@@ -555,6 +555,11 @@ test_refusals(void **state)
         if (h[k] < 0 && k % 37 != 0)
             h[k] = NAN;
     check_refused((struct rc_form){.kind = RC_SPHERE, .robust = true}, h, "points lie beside");
+    /* more than half on a step, the others strewn: those that keep weight are flat */
+    srand(50);
+    for (size_t k = 0; k < n; k++)
+        h[k] = rand() % 3 == 0 ? 1e-5 * chance() : 1e-6;
+    check_refused((struct rc_form){.kind = RC_CYLINDER, .robust = true}, h, "with weight do not");
     free(h);
 }
 

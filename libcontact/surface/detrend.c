@@ -465,10 +465,9 @@ solve_blocks(struct fit *f, struct blocks *q, struct rc_err *err)
     code = gsl_multilarge_linear_rcond(&rcond, q->work);
     if (code != GSL_SUCCESS || !(rcond > deficient))
         return rc_err_set(err,
-                          "the points that are there do not determine a polynomial of degree "
-                          "%zu: too few rows or columns of them, or all on one curve; take a "
-                          "lower degree",
-                          f->degree);
+                          "the points that %s do not determine a polynomial of degree %zu: too few "
+                          "rows or columns of them, or all on one curve; take a lower degree",
+                          f->reach > 0 ? "are left with weight" : "are there", f->degree);
     code = gsl_multilarge_linear_solve(0, &step.vector, &residual, &norm, q->work);
     if (code != GSL_SUCCESS)
         return rc_err_set(err, "the fit failed: %s", gsl_strerror(code));

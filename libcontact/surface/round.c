@@ -395,9 +395,9 @@ static enum rc_status
 undetermined(const struct round *f, struct rc_err *err)
 {
     return rc_err_set(err,
-                      "the points that are there do not determine a %s: too few rows or columns "
-                      "of them, or no curvature; take --plane",
-                      f->name);
+                      "the points that %s do not determine a %s: too few rows or columns of them, "
+                      "or no curvature; subtract a plane instead",
+                      f->reach > 0 ? "are left with weight" : "are there", f->name);
 }
 
 /* From p on towards the least squares with the weights as they are, all the way or so many
@@ -595,7 +595,8 @@ round_new(struct round *f, const struct rc_shape *shape, const struct rc_form *f
     if (box.infinite > 0)
         return rc_err_set(err, "%zu infinite heights: no %s fits them", box.infinite, f->name);
     if (box.count < f->unknowns)
-        return rc_err_set(err, "a %s has %zu unknowns, and only %zu points are there: take --plane",
+        return rc_err_set(err,
+                          "a %s has %zu unknowns, and only %zu points are there: subtract a plane",
                           f->name, f->unknowns, box.count);
     rc_measure(shape, h, &s);
     f->mean = s.mean;
