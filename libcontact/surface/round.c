@@ -46,7 +46,7 @@ enum {
 
 /* A part of its size by which the last step may move the surface on average; the steps get smaller
  * by their squares where it fits, by a factor where noise is left. */
-static const double settled = 1e-10;
+static const double settled = 1e-9;
 /* Sag over the height of the points: below, it is rounding. */
 static const double no_curvature = 1e-11;
 /* Pivot of the normal equations, with a diagonal of 1, below which they determine nothing. */
@@ -227,12 +227,12 @@ product_sum(size_t n, const double *restrict a, const double *restrict b)
  * the residuals that weights are made of, or NULL. */
 RC_CLONES static void
 weigh(size_t n, const double *restrict h, const double *restrict r, double reach, double mean,
-      double scale, double *restrict e, double *restrict w)
+      double per, double *restrict e, double *restrict w)
 {
     for (size_t i = 0; i < n; i++) {
         bool there = h[i] == h[i];
         w[i] = there ? 1 : 0;
-        e[i] = there ? (h[i] - mean) / scale : 0;
+        e[i] = there ? (h[i] - mean) * per : 0;
     }
     for (size_t i = 0; i < n && r != NULL; i++)
         w[i] *= rc_biweight(r[i], reach);
@@ -274,8 +274,8 @@ sum_row(const struct round *f, size_t j, surface_row *row, const double *p, size
 
     for (size_t i = 0; i < nx; i += SEGMENT) {
         size_t n = nx - i < SEGMENT ? nx - i : SEGMENT, k = j * nx + i;
-        weigh(n, f->h + k, f->reach > 0 ? f->residual + k : NULL, f->reach, f->mean, f->scale, e,
-              w);
+        weigh(n, f->h + k, f->reach > 0 ? f->residual + k : NULL, f->reach, f->mean, 1 / f->scale,
+              e, w);
         row(p, n, f->x + i, place_y(f, j), e, d);
         add_sums(n, unknowns, column, e, w, d, sums);
     }
@@ -320,13 +320,14 @@ static void
 residual_row(const struct round *f, const double *p, size_t j, double beside, double *to)
 {
     size_t nx = f->shape->nx;
+    const double per = 1 / f->scale;
     double e[SEGMENT], d[UNKNOWNS * SEGMENT];
 
     for (size_t i = 0; i < nx; i += SEGMENT) {
         size_t n = nx - i < SEGMENT ? nx - i : SEGMENT;
         const double *h = f->h + j * nx + i;
         for (size_t k = 0; k < n; k++)
-            e[k] = (h[k] - f->mean) / f->scale;
+            e[k] = (h[k] - f->mean) * per;
         f->surface(p, n, f->x + i, place_y(f, j), e, d);
         for (size_t k = 0; k < n; k++)
             to[i + k] = isnan(h[k]) ? NAN : isnan(e[k]) ? beside : e[k];
