@@ -307,7 +307,7 @@ test_robust_is_reweighting(void **state)
     srand(34);
     for (size_t c = 0; c < 2; c++) {
         double *h = spiky(), *low = copy_of(&shape, h), *r = new_map(&shape), *m = new_map(&shape);
-        double *expected = dense(&shape, cutoffs[c], false, h, NULL), reach = 0, before;
+        double *expected = dense(&shape, cutoffs[c], c == 1, h, NULL), reach = 0, before;
         do {
             before = reach;
             for (size_t k = 0; k < N; k++)
@@ -318,9 +318,10 @@ test_robust_is_reweighting(void **state)
             for (size_t k = 0; k < N; k++)
                 m[k] = fabs(r[k]) < reach ? pow(1 - r[k] * r[k] / (reach * reach), 2) : 0;
             free(expected);
-            expected = dense(&shape, cutoffs[c], false, h, m);
+            expected = dense(&shape, cutoffs[c], c == 1, h, m);
         } while (true);
-        filter(&shape, (struct rc_filter){.cutoff = cutoffs[c], .robust = true}, low);
+        filter(&shape, (struct rc_filter){.cutoff = cutoffs[c], .robust = true, .periodic = c == 1},
+               low);
         compare(&shape, low, expected, 1e-10 * 2e-5, "robust");
         free(h);
         free(low);
