@@ -91,18 +91,71 @@ RC_API enum rc_status rc_synth_selfaffine(const struct rc_shape *shape,
                                           const struct rc_selfaffine *what, double *h,
                                           struct rc_err *err);
 
-/* ---- surfaces: detrend.c, inpaint.c, holes.c, resample.c ---- */
+/* ---- surfaces: forms, filters, outliers, holes ---- */
 
 enum {
     RC_DEGREE_MAX = 20
 };
-/* Subtracts the least-squares polynomial of total degree `degree` (at most RC_DEGREE_MAX) in x and
- * y over the points that are there (not NaN); on a profile, in the one coordinate that varies.
- * RC_FAIL when there are fewer of them than coefficients, their places do not determine the
- * polynomial, one is infinite, or memory is short; h is then as it was. GSL's error handler, which
- * belongs to the process, is off during the call. */
+enum rc_form_kind {
+    RC_POLYNOMIAL, /* of total degree `degree` in x and y; on a profile in the one that varies   */
+    RC_SPHERE,     /* exact, of either sign, its apex anywhere; on a profile a circle            */
+    RC_CYLINDER    /* exact, of either sign, in any direction and tilt; on a profile a circle    */
+};
+struct rc_form {
+    enum rc_form_kind kind;
+    size_t degree;  /* at most RC_DEGREE_MAX                                                      */
+    bool robust;    /* weights (1 - (r/c)^2)^2 of what is left, r, with c = 4.4478 times the median
+                      of |r|, anew until c stays (Beaton and Tukey 1974; ISO 16610-31)           */
+    size_t threads; /* 0: all                                                                     */
+};
+/* Subtracts the form that fits the points that are there (not NaN) best by least squares in z. The
+ * radius of a sphere or a cylinder, m, is positive for a bump and negative for a hollow; NAN of a
+ * polynomial; radius may be NULL. RC_FAIL when there are fewer points than unknowns, their places
+ * do not determine the form, no sphere or cylinder is above them all, one is infinite, or memory is
+ * short; h is then as it was. GSL's error handler, which belongs to the process, is off during the
+ * call. */
+RC_API enum rc_status rc_detrend_form(const struct rc_shape *shape, const struct rc_form *form,
+                                      double *h, double *radius, struct rc_err *err);
+/* The same for the plain polynomial of this degree. */
 RC_API enum rc_status rc_detrend_poly(const struct rc_shape *shape, size_t degree, double *h,
                                       struct rc_err *err);
+
+/* The Gaussian regression filter of order 0 over the points that are there: ISO 16610-61, of
+ * profiles 16610-21. A missing point stays missing and has no weight, nor has what lies beyond the
+ * map unless that is periodic. */
+struct rc_filter {
+    double cutoff;  /* wavelength of which half gets through, m                                  */
+    bool high;      /* the input less its low-pass, instead of that                              */
+    bool robust;    /* ISO 16610-71, 16610-31: points off the low-pass are weighted by
+                      (1 - (r/c)^2)^2, c = 4.4478 times the median of |r|, anew until c stays  */
+    bool periodic;  /* goes on at the other side of the map                                      */
+    size_t threads; /* 0: all                                                                   */
+};
+/* RC_FAIL when the cut-off is below two nodes or longer than the map, nothing is there, a height is
+ * infinite, or memory is short; h is then as it was. */
+RC_API enum rc_status rc_filter(const struct rc_shape *shape, const struct rc_filter *what,
+                                double *h, struct rc_err *err);
+/* Bytes that it takes beside h; 0 when not even its plan has room. */
+RC_API size_t rc_filter_memory(const struct rc_shape *shape, const struct rc_filter *what);
+
+/* Makes points missing that lie further than `times` times the spread from the median of the others
+ * in the 5 x 5 nodes around them; *count counts them. The spread is 1.4826 times the median
+ * absolute deviation of all such differences, for Gaussian noise its standard deviation. Missing
+ * neighbours and, unless the map is periodic, those beyond it do not count; a point without any
+ * stays. RC_FAIL when `times` is not positive, a height is infinite, or memory is short; h is then
+ * as it was. */
+RC_API enum rc_status rc_outliers(const struct rc_shape *shape, double times, bool periodic,
+                                  size_t threads, double *h, size_t *count, struct rc_err *err);
+/* Bytes that it takes beside h. */
+RC_API size_t rc_outliers_memory(const struct rc_shape *shape, size_t threads);
+
+/* Leads the outer `width` (m) of the map to the mean of all heights: what is above it is multiplied
+ * by (1 - cos(pi s / width)) / 2, s being the distance of a node's middle from the edge, for either
+ * direction. The map can then be repeated without a step. RC_FAIL when the width is below a node or
+ * above half of the map, no height is there, one is infinite, or memory is short; h is then as it
+ * was. */
+RC_API enum rc_status rc_taper(const struct rc_shape *shape, double width, double *h,
+                               struct rc_err *err);
 
 /* Gives every missing value (NaN) the solution of Laplace's equation with the measured ones around
  * it as boundary values and no slope across the edge of the map; *filled counts them. RC_FAIL when

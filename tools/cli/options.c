@@ -232,7 +232,7 @@ add_step(struct tool *t, const struct opt *o, struct steps *steps, const char *t
     if (steps->n == most)
         tool_die(t, EXIT_USAGE, "more than %zu steps: use two commands", most);
     if (o->type == OPT_STEP && o->arg != NULL)
-        value = o->unit == UNIT_NONE ? whole(t, o, text) : number(t, o, text);
+        value = o->unit == UNIT_NONE && !o->real ? whole(t, o, text) : number(t, o, text);
     steps->step[steps->n++] = (struct step){.opt = o, .value = value, .text = text};
 }
 
