@@ -91,7 +91,7 @@ RC_API enum rc_status rc_synth_selfaffine(const struct rc_shape *shape,
                                           const struct rc_selfaffine *what, double *h,
                                           struct rc_err *err);
 
-/* ---- surfaces: detrend.c, inpaint.c, resample.c ---- */
+/* ---- surfaces: detrend.c, inpaint.c ---- */
 
 enum {
     RC_DEGREE_MAX = 20
@@ -112,11 +112,63 @@ RC_API enum rc_status rc_inpaint(const struct rc_shape *shape, double *h, size_t
 /* Bytes that it takes beside h for so many missing values. */
 RC_API size_t rc_inpaint_memory(size_t missing);
 
+/* ---- surfaces: resample.c, geometry.c ---- */
+
+/* Spacings that differ by less than this, relative, count as equal. */
+#define RC_SAME_SPACING 1e-6
+
 /* Means of v, which is constant in the cells of `from`, over the cells of `to`, a grid of any other
  * number of nodes on the same area: their spacings are not looked at. The integral stays what it
- * is. Heights go to a coarser grid so, and pressures back. v and out do not overlap. */
+ * is. Heights go to a coarser grid so, and pressures back. Where v is missing (NaN) the rest of a
+ * cell decides, where less than half of it is there the mean is missing too. v and out do not
+ * overlap. */
 RC_API void rc_resample_means(const struct rc_shape *from, const double *v,
                               const struct rc_shape *to, double *out);
+
+/* The grid of spacings dx, dy (m) that rc_resample fills: as many whole cells as fit in the map,
+ * middle on middle. Where a spacing stays the same, so do that axis' nodes and spacing; a single
+ * row stays one, of the new width. RC_FAIL when a spacing is not positive or wider than the map, or
+ * the nodes are more than can be counted. */
+RC_API enum rc_status rc_resample_shape(const struct rc_shape *from, double dx, double dy,
+                                        struct rc_shape *to, struct rc_err *err);
+/* Whether the cells of `to` cover the map `from` wholly, within RC_SAME_SPACING: a periodic map
+ * stays periodic then. */
+RC_API bool rc_resample_covers(const struct rc_shape *from, const struct rc_shape *to);
+/* v on the grid `to`, middle on middle. Along an axis where its cells are larger: means over their
+ * area, missing (NaN) where less than half of it is measured. Where they are smaller: cubic
+ * convolution by six nodes (Keys 1981), exact for cubic polynomials, smooth to the first
+ * derivative; it wraps when `periodic`, else the map goes on as a parabola beyond its last node.
+ * Next to a missing value it is bilinear, next to that constant in the old cell, and in a missing
+ * cell missing. Where cells are as they were, nothing changes. v and out do not overlap. RC_FAIL
+ * when `to` reaches beyond the map or memory is short: it takes another map when one axis becomes
+ * coarser and the other finer, else a few rows. */
+RC_API enum rc_status rc_resample(const struct rc_shape *from, const double *v, bool periodic,
+                                  const struct rc_shape *to, double *out, struct rc_err *err);
+
+/* The to->nx by to->ny values from column `left` and row `top` on; out may be v. RC_FAIL when they
+ * reach beyond the map. */
+RC_API enum rc_status rc_crop(const struct rc_shape *from, const double *v, size_t left, size_t top,
+                              const struct rc_shape *to, double *out, struct rc_err *err);
+/* Left to right (axis 'x') or top to bottom ('y'), in place. */
+RC_API void rc_mirror(const struct rc_shape *shape, char axis, double *v);
+/* Quarter turns counterclockwise, row 0 at the top: the shape that comes out (an odd number of them
+ * makes rows of columns), and the values. v and out do not overlap. */
+RC_API struct rc_shape rc_rotate_shape(const struct rc_shape *from, size_t quarters);
+RC_API void rc_rotate(const struct rc_shape *from, const double *v, size_t quarters, double *out);
+
+/* The overlap of two maps that lie middle on middle, with the spacings of a. RC_FAIL when spacings
+ * differ by more than RC_SAME_SPACING. */
+RC_API enum rc_status rc_add_shape(const struct rc_shape *a, const struct rc_shape *b,
+                                   struct rc_shape *sum, struct rc_err *err);
+/* Two surfaces face to face on their overlap (m): ha + hb, b mirrored left to right as it is seen
+ * from a. The larger map is cut evenly; of an odd number of its columns or rows one more at its
+ * own right or bottom. NaN where either is. out may be ha. RC_FAIL as rc_add_shape. */
+RC_API enum rc_status rc_add(const struct rc_shape *a, const double *ha, const struct rc_shape *b,
+                             const double *hb, double *out, struct rc_err *err);
+/* ha - hb, b not mirrored: how a surface has changed. */
+RC_API enum rc_status rc_subtract(const struct rc_shape *a, const double *ha,
+                                  const struct rc_shape *b, const double *hb, double *out,
+                                  struct rc_err *err);
 
 /* ---- figures and sums of maps: measure.c, common.c ---- */
 
@@ -220,16 +272,16 @@ RC_API double rc_conv_seconds(const struct rc_shape *shape, const struct rc_conv
 
 struct rc_problem {
     enum rc_boundary boundary;
-    double estar;       /* composite modulus, Pa, > 0                                            */
-    double load;        /* total normal force, N, > 0; with an approach a guess, or 0            */
-    double approach;    /* m, > 0: the load is sought that brings the bodies so far together from
+    double estar;        /* composite modulus, Pa, > 0                                            */
+    double load;         /* total normal force, N, > 0; with an approach a guess, or 0            */
+    double approach;     /* m, > 0: the load is sought that brings the bodies so far together from
                            first touch; 0: the load is given                                     */
-    double hardness;    /* upper bound of the pressure, Pa; 0 or INFINITY: none                  */
+    double hardness;     /* upper bound of the pressure, Pa; 0 or INFINITY: none                  */
     double height_error; /* m: what the heights may be off, as the gap_error of the solution that
                            left their shape; bears on what counts as yielded only                */
-    double tol;         /* asked relative L1 error of the pressure; 0: (nx ny)^(-3/4)            */
-    const char *engine; /* NULL: auto                                                            */
-    const char *method; /* NULL: auto                                                            */
+    double tol;          /* asked relative L1 error of the pressure; 0: (nx ny)^(-3/4)            */
+    const char *engine;  /* NULL: auto                                                            */
+    const char *method;  /* NULL: auto                                                            */
     size_t max_iterations; /* 0: 100 + 10 sqrt(nx ny)                                            */
     size_t threads;      /* 0: all                                                                */
     bool discretization; /* estimate what the grid leaves out: a coarser one is solved as well   */
@@ -247,17 +299,17 @@ struct rc_contact {
     size_t contact_nodes, plastic_nodes;      /* p > 0; p = hardness                             */
     size_t yielded_nodes; /* p = hardness, and a gap that is negative by more than four times what
                              it and the heights may be off: what gives way under this load      */
-    double contact_area, contact_fraction;    /* m^2, -                                          */
-    double plastic_area, yielded_area;        /* m^2                                             */
-    double edge_load_fraction; /* load on the outer 2 % of the map                */
-    double approach;           /* m; NAN when no node is elastic                  */
-    double mean_gap;           /* m, of max(gap, 0) over the whole map            */
-    double gap_error;          /* m: worst violation: of gap >= 0 where p = 0, gap = 0 where elastic,
+    double contact_area, contact_fraction; /* m^2, -                                          */
+    double plastic_area, yielded_area;     /* m^2                                             */
+    double edge_load_fraction;             /* load on the outer 2 % of the map                */
+    double approach;                       /* m; NAN when no node is elastic                  */
+    double mean_gap;                       /* m, of max(gap, 0) over the whole map            */
+    double gap_error;      /* m: worst violation: of gap >= 0 where p = 0, gap = 0 where elastic,
                                                  gap <= 0 at the hardness                         */
-    double kkt_residual;       /* worst violation / max(std h, std u), from a
+    double kkt_residual;   /* worst violation / max(std h, std u), from a
                                                  fresh convolution; for one height everywhere
                                                  over what the mean pressure could displace      */
-    double pressure_error;     /* estimated relative L1 error of the pressure; NAN when stopped on
+    double pressure_error; /* estimated relative L1 error of the pressure; NAN when stopped on
                                   a coarser grid                                              */
     size_t iterations;
     double convolutions;                     /* equivalents on the finest grid                  */
