@@ -67,6 +67,24 @@ RC_API const struct rc_method_info *rc_method_info(size_t k);
  * Hertz's theory means by a sphere. */
 RC_API void rc_synth_sphere(const struct rc_shape *shape, double radius, double *h);
 
+/* Where the apex of an indenter stands, m from the middle of the map, y down the picture. */
+struct rc_place {
+    double x, y;
+};
+
+/* -s^2 / 2 radius_1 - t^2 / 2 radius_2 about the apex (m), s along `direction`, in degrees
+ * counterclockwise from x with row 0 at the top, t across. An INFINITY for a radius makes a cylinder
+ * whose axis lies along it. */
+RC_API void rc_synth_paraboloid(const struct rc_shape *shape, struct rc_place apex, double radius_1,
+                                double radius_2, double direction, double *h);
+/* -slope r about the apex. */
+RC_API void rc_synth_cone(const struct rc_shape *shape, struct rc_place apex, double slope,
+                          double *h);
+/* A flat circular end of this radius at height 0, and -height around it (m); with an edge (m, above
+ * 0) the flank begins as -(r - radius)^2 / 2 edge. Nodes on the rim belong to the end. */
+RC_API void rc_synth_punch(const struct rc_shape *shape, struct rc_place apex, double radius,
+                           double edge, double height, double *h);
+
 /* amplitude * cos(2 pi x / wavelength_x) * cos(2 pi y / wavelength_y), with a crest at the middle
  * of the map; an INFINITY for a wavelength leaves its factor out. Metres. */
 RC_API void rc_synth_wave(const struct rc_shape *shape, double amplitude, double wavelength_x,
@@ -82,11 +100,22 @@ struct rc_selfaffine {
     double rolloff;    /* flat for wavelengths above this one, m; 0: no flat part             */
     double short_cut;  /* shortest wavelength, m, at least two nodes; 0: 2 max(dx, dy)        */
     uint64_t seed;     /* the same seed gives the same waves on every grid of the same size in m */
+    double anisotropy; /* waves along the lay are so many times as long as those of the same power
+                          across it, at least 1; 0: 1                                           */
+    double direction;  /* of the lay, degrees counterclockwise from x, row 0 at the top         */
+    double skewness;   /* heights of a gamma distribution, at most RC_SKEWNESS_MAX in size; 0:
+                          Gaussian ones                                                         */
+    double weibull;    /* heights of a Weibull distribution of this shape, from RC_WEIBULL_MIN to
+                          RC_WEIBULL_MAX; 0: not                                                */
 };
+#define RC_SKEWNESS_MAX 3.0
+#define RC_WEIBULL_MIN 0.75
+#define RC_WEIBULL_MAX 100.0
 /* Gaussian Fourier amplitudes with random phases, one draw for each wave vector; waves of exactly
  * two nodes are left out. The mean is 0. The gradient is that of the waves, not of differences
- * between nodes. RC_FAIL when a value is out of its bounds, no wave of the map lies between the
- * cut-offs, or memory is short. */
+ * between nodes. Heights of another distribution have it by their ranks, and their waves nearly the
+ * amplitudes that they would have had without (Perez-Rafols and Almqvist 2019). RC_FAIL when a value
+ * is out of its bounds, no wave of the map lies between the cut-offs, or memory is short. */
 RC_API enum rc_status rc_synth_selfaffine(const struct rc_shape *shape,
                                           const struct rc_selfaffine *what, double *h,
                                           struct rc_err *err);

@@ -2,6 +2,7 @@
 
 #include <errno.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "libcontact/contact.h"
@@ -10,14 +11,19 @@ static struct args {
     size_t nx, ny;
     double dx, dy;
     const char *like;
-    double radius, amplitude;
+    struct numbers radius, place;
+    double direction, slope, height, edge, amplitude;
     struct numbers wavelength;
     double hurst, rms_slope, rms_height, rolloff, short_cut, long_cut;
+    double anisotropy, skewness, weibull;
     size_t seed;
 } args = {
     .dx = NAN,
     .dy = NAN,
-    .radius = NAN,
+    .direction = NAN,
+    .slope = NAN,
+    .height = NAN,
+    .edge = NAN,
     .amplitude = NAN,
     .hurst = NAN,
     .rms_slope = NAN,
@@ -25,6 +31,9 @@ static struct args {
     .rolloff = NAN,
     .short_cut = NAN,
     .long_cut = NAN,
+    .anisotropy = NAN,
+    .skewness = NAN,
+    .weibull = NAN,
     .seed = 1,
 };
 
@@ -44,7 +53,21 @@ static const struct opt opts[] = {
     LENGTH("dy", dy, "distance of rows (default: as --dx)"),
     {.name = "like", .type = OPT_TEXT, .at = offsetof(struct args, like), .arg = "FILE",
      .help = "the grid of FILE's first frame instead"},
-    LENGTH("radius", radius, "sphere: its radius"),
+    {.name = "radius", .type = OPT_NUMBERS, .unit = UNIT_M, .at = offsetof(struct args, radius),
+     .max = INFINITY, .above = true, .result = true, .arg = "R1[,R2]",
+     .help = "sphere, cylinder, punch: its radius; paraboloid: two"},
+    {.name = "slope", .type = OPT_NUMBER, .at = offsetof(struct args, slope), .max = INFINITY,
+     .above = true, .result = true, .arg = "SLOPE", .help = "cone: of its flank"},
+    {.name = "height", .type = OPT_NUMBER, .unit = UNIT_M, .at = offsetof(struct args, height),
+     .max = INFINITY, .above = true, .result = true, .arg = "HEIGHT",
+     .help = "punch: of its end over what is around"},
+    LENGTH("edge", edge, "punch: radius of its edge (default: sharp)"),
+    {.name = "direction", .type = OPT_NUMBER, .at = offsetof(struct args, direction), .min = -360,
+     .max = 360, .result = true, .arg = "DEGREES",
+     .help = "cylinder: of its axis; paraboloid: of R1; selfaffine: of the lay"},
+    {.name = "place", .type = OPT_NUMBERS, .unit = UNIT_M, .at = offsetof(struct args, place),
+     .result = true, .word = "highest", .arg = "X,Y|highest",
+     .help = "indenters: where the apex stands (default: the middle)"},
     {.name = "amplitude", .type = OPT_NUMBER, .unit = UNIT_M,
      .at = offsetof(struct args, amplitude), .max = INFINITY, .above = true, .result = true,
      .arg = "HEIGHT", .help = "wave: mean plane to crest"},
@@ -62,6 +85,15 @@ static const struct opt opts[] = {
     LENGTH("rolloff", rolloff, "selfaffine: flat above (default: not flat)"),
     LENGTH("short-cut", short_cut, "selfaffine: shortest wave (default: 2 nodes)"),
     LENGTH("long-cut", long_cut, "selfaffine: longest wave (default: the map)"),
+    {.name = "anisotropy", .type = OPT_NUMBER, .at = offsetof(struct args, anisotropy), .min = 1,
+     .max = INFINITY, .result = true, .arg = "RATIO",
+     .help = "selfaffine: of the waves along the lay to those across"},
+    {.name = "skewness", .type = OPT_NUMBER, .at = offsetof(struct args, skewness),
+     .min = -RC_SKEWNESS_MAX, .max = RC_SKEWNESS_MAX, .result = true, .arg = "S",
+     .help = "selfaffine: of the heights, by a gamma distribution"},
+    {.name = "weibull", .type = OPT_NUMBER, .at = offsetof(struct args, weibull),
+     .min = RC_WEIBULL_MIN, .max = RC_WEIBULL_MAX, .result = true, .arg = "SHAPE",
+     .help = "selfaffine: heights of a Weibull distribution"},
     {.name = "seed", .type = OPT_COUNT, .at = offsetof(struct args, seed), .max = 9e15,
      .result = true, .arg = "N", .help = "selfaffine: another one, another surface (default: 1)"},
     {.name = NULL},
@@ -71,8 +103,9 @@ static const struct opt opts[] = {
 static const struct tool_info info = {
     .name = "rc-synth",
     .summary = "Make an analytic or a random surface",
-    .operands = "sphere|wave|selfaffine",
+    .operands = "sphere|cylinder|paraboloid|cone|punch|wave|selfaffine",
     .examples = "  rc-synth sphere --radius 2mm --nx 65 --dx 1um > sphere.rcg\n"
+                "  rc-synth cone --slope 0.05 --nx 65 --dx 1um > cone.rcg\n"
                 "  rc-synth selfaffine --hurst 0.8 --rms-slope 0.1 --nx 512 --dx 1um | rc-info\n",
     .opts = opts,
     .reads = READS_FILES,
@@ -122,13 +155,87 @@ make_wave(const struct rc_shape *shape, double *h, bool *periodic, struct rc_err
     return RC_OK;
 }
 
+/* The library's word for what was not given is 0. */
+static double
+or_default(double value)
+{
+    return isnan(value) ? 0 : value;
+}
+
+static void
+check_radius(struct tool *t, const struct rc_shape *shape)
+{
+    (void)shape;
+    if (args.radius.n != 1)
+        tool_die(t, EXIT_USAGE, "--radius takes one radius of a %s, not %zu", t->operand[0],
+                 args.radius.n);
+}
+
+static void
+check_paraboloid(struct tool *t, const struct rc_shape *shape)
+{
+    (void)shape;
+    if (args.radius.n != 2)
+        tool_die(t, EXIT_USAGE, "--radius takes the two radii of a paraboloid, R1,R2");
+}
+
+static struct rc_place
+apex(void)
+{
+    if (args.place.n == 0)
+        return (struct rc_place){0, 0};
+    return (struct rc_place){args.place.v[0], args.place.v[1]};
+}
+
 static enum rc_status
 make_sphere(const struct rc_shape *shape, double *h, bool *periodic, struct rc_err *err)
 {
     (void)err;
-    rc_synth_sphere(shape, args.radius, h);
     *periodic = false;
+    rc_synth_paraboloid(shape, apex(), args.radius.v[0], args.radius.v[0], 0, h);
     return RC_OK;
+}
+
+/* Curved across its axis, which lies along y when nothing is said. */
+static enum rc_status
+make_cylinder(const struct rc_shape *shape, double *h, bool *periodic, struct rc_err *err)
+{
+    (void)err;
+    *periodic = false;
+    rc_synth_paraboloid(shape, apex(), INFINITY, args.radius.v[0],
+                        isnan(args.direction) ? 90 : args.direction, h);
+    return RC_OK;
+}
+
+static enum rc_status
+make_paraboloid(const struct rc_shape *shape, double *h, bool *periodic, struct rc_err *err)
+{
+    (void)err;
+    *periodic = false;
+    rc_synth_paraboloid(shape, apex(), args.radius.v[0], args.radius.v[1],
+                        or_default(args.direction), h);
+    return RC_OK;
+}
+
+static enum rc_status
+make_cone(const struct rc_shape *shape, double *h, bool *periodic, struct rc_err *err)
+{
+    (void)err;
+    *periodic = false;
+    rc_synth_cone(shape, apex(), args.slope, h);
+    return RC_OK;
+}
+
+static enum rc_status
+make_punch(const struct rc_shape *shape, double *h, bool *periodic, struct rc_err *err)
+{
+    *periodic = false;
+    rc_synth_punch(shape, apex(), args.radius.v[0], or_default(args.edge), args.height, h);
+    for (size_t k = 0; k < shape->nx * shape->ny; k++)
+        if (h[k] == 0)
+            return RC_OK;
+    return rc_err_set(err, "no node lies within the radius %g m of the punch: take a finer grid",
+                      args.radius.v[0]);
 }
 
 static void
@@ -139,13 +246,11 @@ check_selfaffine(struct tool *t, const struct rc_shape *shape)
         tool_die(t, EXIT_USAGE,
                  "selfaffine needs one of --rms-slope and --rms-height: the other "
                  "one follows");
-}
-
-/* The library's word for what was not given is 0. */
-static double
-or_default(double value)
-{
-    return isnan(value) ? 0 : value;
+    if (!isnan(args.direction) && isnan(args.anisotropy))
+        tool_die(t, EXIT_USAGE, "--direction %g: give --anisotropy too: without it there is no lay",
+                 args.direction);
+    if (!isnan(args.skewness) && !isnan(args.weibull))
+        tool_die(t, EXIT_USAGE, "--skewness and --weibull: heights have one distribution");
 }
 
 static enum rc_status
@@ -159,6 +264,10 @@ make_selfaffine(const struct rc_shape *shape, double *h, bool *periodic, struct 
         .rolloff = or_default(args.rolloff),
         .short_cut = or_default(args.short_cut),
         .seed = args.seed,
+        .anisotropy = or_default(args.anisotropy),
+        .direction = isnan(args.direction) ? 90 : args.direction,
+        .skewness = or_default(args.skewness),
+        .weibull = or_default(args.weibull),
     };
 
     *periodic = true;
@@ -168,18 +277,27 @@ make_selfaffine(const struct rc_shape *shape, double *h, bool *periodic, struct 
 /* clang-format off */
 static const struct shape_row {
     const char *name;
-    const char *needs[4], *takes[8]; /* options, ended by NULL                               */
+    const char *needs[4], *takes[12]; /* options, ended by NULL                               */
     size_t maps;                     /* arrays of the map's size that it takes to make it    */
     void (*check)(struct tool *t, const struct rc_shape *shape); /* may be NULL              */
     enum rc_status (*make)(const struct rc_shape *shape, double *h, bool *periodic,
                            struct rc_err *err);
 } shapes[] = {
-    {.name = "sphere", .needs = {"radius"}, .maps = 1, .make = make_sphere},
+    {.name = "sphere", .needs = {"radius"}, .takes = {"place"}, .maps = 1, .check = check_radius,
+     .make = make_sphere},
+    {.name = "cylinder", .needs = {"radius"}, .takes = {"direction", "place"}, .maps = 1,
+     .check = check_radius, .make = make_cylinder},
+    {.name = "paraboloid", .needs = {"radius"}, .takes = {"direction", "place"}, .maps = 1,
+     .check = check_paraboloid, .make = make_paraboloid},
+    {.name = "cone", .needs = {"slope"}, .takes = {"place"}, .maps = 1, .make = make_cone},
+    {.name = "punch", .needs = {"radius", "height"}, .takes = {"edge", "place"}, .maps = 1,
+     .check = check_radius, .make = make_punch},
     {.name = "wave", .needs = {"amplitude", "wavelength"}, .maps = 1, .check = check_wave,
      .make = make_wave},
     {.name = "selfaffine", .needs = {"hurst"},
-     .takes = {"rms-slope", "rms-height", "rolloff", "short-cut", "long-cut", "seed"}, .maps = 2,
-     .check = check_selfaffine, .make = make_selfaffine},
+     .takes = {"rms-slope", "rms-height", "rolloff", "short-cut", "long-cut", "anisotropy",
+               "direction", "skewness", "weibull", "seed"},
+     .maps = 2, .check = check_selfaffine, .make = make_selfaffine},
     {.name = NULL},
 };
 /* clang-format on */
@@ -223,31 +341,82 @@ check_options(struct tool *t, const struct shape_row *row)
             tool_die(t, EXIT_USAGE, "--%s has no meaning for %s", o->name, row->name);
 }
 
-static struct rc_shape
-shape_of_file(struct tool *t)
+/* The first frame of FILE, or with a channel the first one of that. */
+static struct rc_grid *
+frame_of_file(struct tool *t, const char *channel)
 {
     bool standard = strcmp(args.like, "-") == 0;
     FILE *file = standard ? stdin : fopen(args.like, "rb");
     struct rc_reader *reader;
     struct rc_grid *g = NULL;
-    struct rc_shape shape;
     struct rc_err err;
     enum rc_status status;
 
     if (file == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "--like %s: %s", args.like, strerror(errno));
-    reader = rc_reader_new(file, 0, t->memory, &err);
-    status = reader == NULL ? RC_FAIL : rc_reader_next(reader, &g, &err);
+    if ((reader = rc_reader_new(file, 0, t->memory, &err)) == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "--like %s: %s", args.like, err.text);
+    do {
+        rc_grid_free(g);
+        status = rc_reader_next(reader, &g, &err);
+    } while (status == RC_MORE && channel != NULL && strcmp(g->channel, channel) != 0);
     if (status == RC_FAIL)
         tool_die(t, EXIT_IMPOSSIBLE, "--like %s: %s", args.like, err.text);
     if (g == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "--like %s: no frame is in it", args.like);
-    shape = rc_grid_shape(g);
-    rc_grid_free(g);
+        tool_die(t, EXIT_IMPOSSIBLE, "--like %s: no %sframe is in it", args.like,
+                 channel == NULL ? "" : "height ");
     rc_reader_free(reader);
     if (!standard)
         fclose(file);
+    return g;
+}
+
+/* Where the highest of the nodes that were measured stands, as if --place had said it. */
+static void
+place_highest(struct tool *t, const struct rc_grid *g)
+{
+    size_t n = g->nx * g->ny, top = n;
+
+    for (size_t k = 0; k < n; k++)
+        if (isfinite(g->v[k]) && (top == n || g->v[k] > g->v[top]))
+            top = k;
+    if (top == n)
+        tool_die(t, EXIT_IMPOSSIBLE,
+                 "--like %s: no height was measured: --place highest is nowhere", args.like);
+    args.place.n = 2;
+    if ((args.place.v = malloc(2 * sizeof *args.place.v)) == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
+    args.place.v[0] = ((double)(top % g->nx) - 0.5 * (double)(g->nx - 1)) * g->dx;
+    args.place.v[1] = ((double)(top / g->nx) - 0.5 * (double)(g->ny - 1)) * g->dy;
+}
+
+static struct rc_shape
+shape_of_file(struct tool *t)
+{
+    bool highest = tool_given(t, "place") && args.place.n == 0;
+    struct rc_grid *g = frame_of_file(t, highest ? "height" : NULL);
+    struct rc_shape shape = rc_grid_shape(g);
+
+    if (highest)
+        place_highest(t, g);
+    rc_grid_free(g);
     return shape;
+}
+
+static void
+check_place(struct tool *t, const struct rc_shape *shape)
+{
+    double x = 0.5 * (double)shape->nx * shape->dx, y = 0.5 * (double)shape->ny * shape->dy;
+
+    if (!tool_given(t, "place"))
+        return;
+    if (args.place.n != 2)
+        tool_die(t, EXIT_USAGE,
+                 "--place takes X,Y from the middle of the map, or, with --like, highest");
+    if (fabs(args.place.v[0]) > x || fabs(args.place.v[1]) > y)
+        tool_die(t, EXIT_USAGE,
+                 "--place %g,%g m: beyond the map, which reaches to %g m and %g m from its middle",
+                 args.place.v[0], args.place.v[1], x, y);
 }
 
 static struct rc_shape
@@ -271,7 +440,9 @@ wanted_shape(struct tool *t)
 static void
 check_memory(struct tool *t, const struct shape_row *row, const struct rc_shape *shape)
 {
-    double bytes = 8.0 * (double)row->maps * (double)shape->nx * (double)shape->ny;
+    bool skewed = or_default(args.skewness) != 0 || !isnan(args.weibull);
+    double bytes =
+        8.0 * (double)row->maps * (skewed ? 2 : 1) * (double)shape->nx * (double)shape->ny;
 
     if (t->memory > 0 && bytes > (double)t->memory)
         tool_die(t, EXIT_IMPOSSIBLE,
@@ -306,6 +477,7 @@ main(int argc, char **argv)
     row = find_shape(&t);
     check_options(&t, row);
     shape = wanted_shape(&t);
+    check_place(&t, &shape);
     if (row->check != NULL)
         row->check(&t, &shape);
     check_memory(&t, row, &shape);
