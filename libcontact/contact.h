@@ -120,7 +120,7 @@ RC_API enum rc_status rc_synth_selfaffine(const struct rc_shape *shape,
                                           const struct rc_selfaffine *what, double *h,
                                           struct rc_err *err);
 
-/* ---- surfaces: detrend.c, inpaint.c ---- */
+/* ---- surfaces: detrend.c, inpaint.c, holes.c ---- */
 
 enum {
     RC_DEGREE_MAX = 20
@@ -140,6 +140,14 @@ RC_API enum rc_status rc_inpaint(const struct rc_shape *shape, double *h, size_t
                                  struct rc_err *err);
 /* Bytes that it takes beside h for so many missing values. */
 RC_API size_t rc_inpaint_memory(size_t missing);
+
+/* Width of the widest hole in m: twice the largest distance of a missing value (NaN) from the nearest
+ * one that is there, node to node: 2 min(dx, dy) for a single missing node, and for a disc its
+ * diameter. A hole at the edge of the map has its rim on one side only, and counts as if it went on
+ * as far beyond. 0 where nothing is missing, INFINITY where nothing is there. Exact but for rounding;
+ * takes 4 bytes a node. RC_FAIL when memory is short. */
+RC_API enum rc_status rc_hole_width(const struct rc_shape *shape, const double *h, double *width,
+                                    struct rc_err *err);
 
 /* ---- surfaces: resample.c, geometry.c ---- */
 
@@ -301,16 +309,16 @@ RC_API double rc_conv_seconds(const struct rc_shape *shape, const struct rc_conv
 
 struct rc_problem {
     enum rc_boundary boundary;
-    double estar;        /* composite modulus, Pa, > 0                                            */
-    double load;         /* total normal force, N, > 0; with an approach a guess, or 0            */
-    double approach;     /* m, > 0: the load is sought that brings the bodies so far together from
+    double estar;       /* composite modulus, Pa, > 0                                            */
+    double load;        /* total normal force, N, > 0; with an approach a guess, or 0            */
+    double approach;    /* m, > 0: the load is sought that brings the bodies so far together from
                            first touch; 0: the load is given                                     */
-    double hardness;     /* upper bound of the pressure, Pa; 0 or INFINITY: none                  */
+    double hardness;    /* upper bound of the pressure, Pa; 0 or INFINITY: none                  */
     double height_error; /* m: what the heights may be off, as the gap_error of the solution that
                            left their shape; bears on what counts as yielded only                */
-    double tol;          /* asked relative L1 error of the pressure; 0: (nx ny)^(-3/4)            */
-    const char *engine;  /* NULL: auto                                                            */
-    const char *method;  /* NULL: auto                                                            */
+    double tol;         /* asked relative L1 error of the pressure; 0: (nx ny)^(-3/4)            */
+    const char *engine; /* NULL: auto                                                            */
+    const char *method; /* NULL: auto                                                            */
     size_t max_iterations; /* 0: 100 + 10 sqrt(nx ny)                                            */
     size_t threads;      /* 0: all                                                                */
     bool discretization; /* estimate what the grid leaves out: a coarser one is solved as well   */
@@ -328,17 +336,17 @@ struct rc_contact {
     size_t contact_nodes, plastic_nodes;      /* p > 0; p = hardness                             */
     size_t yielded_nodes; /* p = hardness, and a gap that is negative by more than four times what
                              it and the heights may be off: what gives way under this load      */
-    double contact_area, contact_fraction; /* m^2, -                                          */
-    double plastic_area, yielded_area;     /* m^2                                             */
-    double edge_load_fraction;             /* load on the outer 2 % of the map                */
-    double approach;                       /* m; NAN when no node is elastic                  */
-    double mean_gap;                       /* m, of max(gap, 0) over the whole map            */
-    double gap_error;      /* m: worst violation: of gap >= 0 where p = 0, gap = 0 where elastic,
+    double contact_area, contact_fraction;    /* m^2, -                                          */
+    double plastic_area, yielded_area;        /* m^2                                             */
+    double edge_load_fraction; /* load on the outer 2 % of the map                */
+    double approach;           /* m; NAN when no node is elastic                  */
+    double mean_gap;           /* m, of max(gap, 0) over the whole map            */
+    double gap_error;          /* m: worst violation: of gap >= 0 where p = 0, gap = 0 where elastic,
                                                  gap <= 0 at the hardness                         */
-    double kkt_residual;   /* worst violation / max(std h, std u), from a
+    double kkt_residual;       /* worst violation / max(std h, std u), from a
                                                  fresh convolution; for one height everywhere
                                                  over what the mean pressure could displace      */
-    double pressure_error; /* estimated relative L1 error of the pressure; NAN when stopped on
+    double pressure_error;     /* estimated relative L1 error of the pressure; NAN when stopped on
                                   a coarser grid                                              */
     size_t iterations;
     double convolutions;                     /* equivalents on the finest grid                  */
