@@ -1,6 +1,6 @@
-/* Random surfaces whose heights are not Gaussian have the heights of the distribution that was asked
- * for, the size that was asked for, and nearly the waves that they would have had without; on another
- * grid they are the same surface. */
+/* Random surfaces whose heights are not Gaussian have the heights of the distribution and the size
+ * that were asked for, and nearly the waves that they would have had without; on another grid they
+ * are the same surface. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -66,8 +66,8 @@ moment(const double *h, size_t n, int power)
     return (double)(sum / n / powl(square / n, power / 2.0L));
 }
 
-/* Closed forms: of the gamma distribution of shape k the skewness is 2/sqrt(k), the kurtosis 3 + 6/k;
- * of the Weibull distribution by moments Gamma(1 + n/k). */
+/* Closed forms: the gamma distribution of shape k has a skewness of 2/sqrt(k) and a kurtosis of
+ * 3 + 6/k, the Weibull distribution the moments Gamma(1 + n/k). */
 static void
 own_moments(size_t k, double *mean, double *rms, double *skewness, double *kurtosis)
 {
@@ -111,8 +111,8 @@ below(size_t k, double x)
 }
 
 /* What the heights of a finite map leave out of the tails: of the fourth power some per cent where
- * they are long, of mean and RMS, which are put right, some thousandths: so far a height may be from the
- * one that has as much below it in the distribution itself. */
+ * they are long; of mean and RMS, which are put right, some thousandths: a height may be so far
+ * from the one that has as much below it in the distribution itself. */
 static void
 check_heights(const struct rc_shape *s, size_t k)
 {
@@ -235,7 +235,7 @@ waves_stay_nearly_what_they_are(void **state)
 }
 
 /* With six nodes in the shortest wave: a bend that two grids see differently is a part of what the
- * mapping makes of it. Nodes of the coarse grid stand where every third one of the fine grid does. */
+ * mapping makes of it. Each node of the coarse grid stands on a third one of the fine grid. */
 static void
 another_grid_has_the_same_surface(void **state)
 {

@@ -1,5 +1,5 @@
-/* Made surfaces are what their formulas say: indenters, waves, and random roughness whose every wave
- * has the asked power, belongs to its seed alone, and adds up to the asked size. */
+/* Made surfaces are what their formulas say: indenters, waves, and random roughness, of which every
+ * wave has the asked power, belongs to its seed alone, and adds up to the asked size. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -125,7 +125,7 @@ standardise(double *h, size_t n)
         h[k] = (h[k] - st.mean) / st.rms;
 }
 
-/* The classes: first[c] and last[c] are what the lowest and the highest height of class c become. */
+/* Classes of heights: first[c] and last[c] are what the lowest and the highest of one become. */
 struct classes {
     double low, per_height; /* class of h: (h - low) * per_height */
     size_t n;
