@@ -115,7 +115,8 @@ struct rc_selfaffine {
  * two nodes are left out. The mean is 0. The gradient is that of the waves, not of differences
  * between nodes. Heights of another distribution have it by their ranks, and their waves nearly the
  * amplitudes that they would have had without (Perez-Rafols and Almqvist 2019). RC_FAIL when a value
- * is out of its bounds, no wave of the map lies between the cut-offs, or memory is short. */
+ * is out of its bounds, no wave of the map lies between the cut-offs, or memory is short. GSL's error
+ * handler, which belongs to the process, is off meanwhile. */
 RC_API enum rc_status rc_synth_selfaffine(const struct rc_shape *shape,
                                           const struct rc_selfaffine *what, double *h,
                                           struct rc_err *err);

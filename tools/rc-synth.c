@@ -1,3 +1,4 @@
+/* rc-synth: surfaces made from a formula or from a seed. */
 #include "tools/cli/cli.h"
 
 #include <errno.h>
@@ -6,18 +7,9 @@
 #include <string.h>
 
 #include "libcontact/contact.h"
+#include "tools/synth/synth.h"
 
-static struct args {
-    size_t nx, ny;
-    double dx, dy;
-    const char *like;
-    struct numbers radius, place;
-    double direction, slope, height, edge, amplitude;
-    struct numbers wavelength;
-    double hurst, rms_slope, rms_height, rolloff, short_cut, long_cut;
-    double anisotropy, skewness, weibull;
-    size_t seed;
-} args = {
+static struct synth_args args = {
     .dx = NAN,
     .dy = NAN,
     .direction = NAN,
@@ -39,62 +31,63 @@ static struct args {
 
 #define LENGTH(word, member, what)                                                                 \
     {                                                                                              \
-        .name = word, .type = OPT_NUMBER, .unit = UNIT_M, .at = offsetof(struct args, member),     \
-        .max = INFINITY, .above = true, .result = true, .arg = "LENGTH", .help = what              \
+        .name = word, .type = OPT_NUMBER, .unit = UNIT_M,                                          \
+        .at = offsetof(struct synth_args, member), .max = INFINITY, .above = true, .result = true, \
+        .arg = "LENGTH", .help = what                                                              \
     }
 
 /* clang-format off */
 static const struct opt opts[] = {
-    {.name = "nx", .type = OPT_COUNT, .at = offsetof(struct args, nx), .min = 1, .max = 1e9,
+    {.name = "nx", .type = OPT_COUNT, .at = offsetof(struct synth_args, nx), .min = 1, .max = 1e9,
      .result = true, .arg = "N", .help = "nodes in a row"},
-    {.name = "ny", .type = OPT_COUNT, .at = offsetof(struct args, ny), .min = 1, .max = 1e9,
+    {.name = "ny", .type = OPT_COUNT, .at = offsetof(struct synth_args, ny), .min = 1, .max = 1e9,
      .result = true, .arg = "N", .help = "rows (default: as --nx; 1 makes a profile)"},
     LENGTH("dx", dx, "distance of nodes in a row"),
     LENGTH("dy", dy, "distance of rows (default: as --dx)"),
-    {.name = "like", .type = OPT_TEXT, .at = offsetof(struct args, like), .arg = "FILE",
+    {.name = "like", .type = OPT_TEXT, .at = offsetof(struct synth_args, like), .arg = "FILE",
      .help = "the grid of FILE's first frame instead"},
-    {.name = "radius", .type = OPT_NUMBERS, .unit = UNIT_M, .at = offsetof(struct args, radius),
+    {.name = "radius", .type = OPT_NUMBERS, .unit = UNIT_M, .at = offsetof(struct synth_args, radius),
      .max = INFINITY, .above = true, .result = true, .arg = "R1[,R2]",
      .help = "sphere, cylinder, punch: its radius; paraboloid: two"},
-    {.name = "slope", .type = OPT_NUMBER, .at = offsetof(struct args, slope), .max = INFINITY,
+    {.name = "slope", .type = OPT_NUMBER, .at = offsetof(struct synth_args, slope), .max = INFINITY,
      .above = true, .result = true, .arg = "SLOPE", .help = "cone: of its flank"},
-    {.name = "height", .type = OPT_NUMBER, .unit = UNIT_M, .at = offsetof(struct args, height),
+    {.name = "height", .type = OPT_NUMBER, .unit = UNIT_M, .at = offsetof(struct synth_args, height),
      .max = INFINITY, .above = true, .result = true, .arg = "HEIGHT",
      .help = "punch: of its end over what is around"},
     LENGTH("edge", edge, "punch: radius of its edge (default: sharp)"),
-    {.name = "direction", .type = OPT_NUMBER, .at = offsetof(struct args, direction), .min = -360,
+    {.name = "direction", .type = OPT_NUMBER, .at = offsetof(struct synth_args, direction), .min = -360,
      .max = 360, .result = true, .arg = "DEGREES",
      .help = "cylinder: of its axis; paraboloid: of R1; selfaffine: of the lay"},
-    {.name = "place", .type = OPT_NUMBERS, .unit = UNIT_M, .at = offsetof(struct args, place),
+    {.name = "place", .type = OPT_NUMBERS, .unit = UNIT_M, .at = offsetof(struct synth_args, place),
      .result = true, .word = "highest", .arg = "X,Y|highest",
      .help = "indenters: where the apex stands (default: the middle)"},
     {.name = "amplitude", .type = OPT_NUMBER, .unit = UNIT_M,
-     .at = offsetof(struct args, amplitude), .max = INFINITY, .above = true, .result = true,
+     .at = offsetof(struct synth_args, amplitude), .max = INFINITY, .above = true, .result = true,
      .arg = "HEIGHT", .help = "wave: mean plane to crest"},
     {.name = "wavelength", .type = OPT_NUMBERS, .unit = UNIT_M,
-     .at = offsetof(struct args, wavelength), .max = INFINITY, .result = true, .arg = "LX[,LY]",
+     .at = offsetof(struct synth_args, wavelength), .max = INFINITY, .result = true, .arg = "LX[,LY]",
      .help = "wave: along x, or along x and y (0: none)"},
-    {.name = "hurst", .type = OPT_NUMBER, .at = offsetof(struct args, hurst), .max = 1,
+    {.name = "hurst", .type = OPT_NUMBER, .at = offsetof(struct synth_args, hurst), .max = 1,
      .above = true, .result = true, .arg = "H", .help = "selfaffine: Hurst exponent"},
-    {.name = "rms-slope", .type = OPT_NUMBER, .at = offsetof(struct args, rms_slope),
+    {.name = "rms-slope", .type = OPT_NUMBER, .at = offsetof(struct synth_args, rms_slope),
      .max = INFINITY, .above = true, .result = true, .arg = "SLOPE",
      .help = "selfaffine: RMS slope, or"},
     {.name = "rms-height", .type = OPT_NUMBER, .unit = UNIT_M,
-     .at = offsetof(struct args, rms_height), .max = INFINITY, .above = true, .result = true,
+     .at = offsetof(struct synth_args, rms_height), .max = INFINITY, .above = true, .result = true,
      .arg = "HEIGHT", .help = "selfaffine: RMS height"},
     LENGTH("rolloff", rolloff, "selfaffine: flat above (default: not flat)"),
     LENGTH("short-cut", short_cut, "selfaffine: shortest wave (default: 2 nodes)"),
     LENGTH("long-cut", long_cut, "selfaffine: longest wave (default: the map)"),
-    {.name = "anisotropy", .type = OPT_NUMBER, .at = offsetof(struct args, anisotropy), .min = 1,
+    {.name = "anisotropy", .type = OPT_NUMBER, .at = offsetof(struct synth_args, anisotropy), .min = 1,
      .max = INFINITY, .result = true, .arg = "RATIO",
      .help = "selfaffine: of the waves along the lay to those across"},
-    {.name = "skewness", .type = OPT_NUMBER, .at = offsetof(struct args, skewness),
+    {.name = "skewness", .type = OPT_NUMBER, .at = offsetof(struct synth_args, skewness),
      .min = -RC_SKEWNESS_MAX, .max = RC_SKEWNESS_MAX, .result = true, .arg = "S",
      .help = "selfaffine: of the heights, by a gamma distribution"},
-    {.name = "weibull", .type = OPT_NUMBER, .at = offsetof(struct args, weibull),
+    {.name = "weibull", .type = OPT_NUMBER, .at = offsetof(struct synth_args, weibull),
      .min = RC_WEIBULL_MIN, .max = RC_WEIBULL_MAX, .result = true, .arg = "SHAPE",
      .help = "selfaffine: heights of a Weibull distribution"},
-    {.name = "seed", .type = OPT_COUNT, .at = offsetof(struct args, seed), .max = 9e15,
+    {.name = "seed", .type = OPT_COUNT, .at = offsetof(struct synth_args, seed), .max = 9e15,
      .result = true, .arg = "N", .help = "selfaffine: another one, another surface (default: 1)"},
     {.name = NULL},
 };
@@ -112,196 +105,6 @@ static const struct tool_info info = {
     .writes = WRITES_STREAM,
 };
 
-/* ---- shapes: check, make, and the table ---- */
-
-/* Whether whole waves fit the side; a tolerance for nx * dx / wavelength in decimal numbers. */
-static bool
-fits(size_t n, double d, double wavelength)
-{
-    double waves = (double)n * d / wavelength;
-
-    return n == 1 || isinf(wavelength) ||
-           (waves > 0.5 && fabs(waves - round(waves)) <= 1e-9 * waves);
-}
-
-/* A side of the grid that a wave runs along has at least two nodes for each period. */
-static void
-check_wave(struct tool *t, const struct rc_shape *shape)
-{
-    const struct numbers *w = &args.wavelength;
-    const double d[] = {shape->dx, shape->dy};
-    const size_t n[] = {shape->nx, shape->ny};
-
-    if (w->n > 2 || w->v[0] + (w->n == 2 ? w->v[1] : 0) == 0)
-        tool_die(t, EXIT_USAGE, "--wavelength takes LX, or LX,LY where one of them may be 0");
-    for (size_t k = 0; k < w->n; k++)
-        if (n[k] > 1 && w->v[k] != 0 && w->v[k] < 2 * d[k] * (1 - 1e-9))
-            tool_die(t, EXIT_USAGE,
-                     "--wavelength %g m: shorter than two nodes %g m apart: take a "
-                     "finer grid",
-                     w->v[k], d[k]);
-}
-
-static enum rc_status
-make_wave(const struct rc_shape *shape, double *h, bool *periodic, struct rc_err *err)
-{
-    const struct numbers *w = &args.wavelength;
-    double x = w->v[0] == 0 ? INFINITY : w->v[0];
-    double y = w->n < 2 || w->v[1] == 0 ? INFINITY : w->v[1];
-
-    (void)err;
-    rc_synth_wave(shape, args.amplitude, x, y, h);
-    *periodic = fits(shape->nx, shape->dx, x) && fits(shape->ny, shape->dy, y);
-    return RC_OK;
-}
-
-/* The library's word for what was not given is 0. */
-static double
-or_default(double value)
-{
-    return isnan(value) ? 0 : value;
-}
-
-static void
-check_radius(struct tool *t, const struct rc_shape *shape)
-{
-    (void)shape;
-    if (args.radius.n != 1)
-        tool_die(t, EXIT_USAGE, "--radius takes one radius of a %s, not %zu", t->operand[0],
-                 args.radius.n);
-}
-
-static void
-check_paraboloid(struct tool *t, const struct rc_shape *shape)
-{
-    (void)shape;
-    if (args.radius.n != 2)
-        tool_die(t, EXIT_USAGE, "--radius takes the two radii of a paraboloid, R1,R2");
-}
-
-static struct rc_place
-apex(void)
-{
-    if (args.place.n == 0)
-        return (struct rc_place){0, 0};
-    return (struct rc_place){args.place.v[0], args.place.v[1]};
-}
-
-static enum rc_status
-make_sphere(const struct rc_shape *shape, double *h, bool *periodic, struct rc_err *err)
-{
-    (void)err;
-    *periodic = false;
-    rc_synth_paraboloid(shape, apex(), args.radius.v[0], args.radius.v[0], 0, h);
-    return RC_OK;
-}
-
-/* Curved across its axis, which lies along y when nothing is said. */
-static enum rc_status
-make_cylinder(const struct rc_shape *shape, double *h, bool *periodic, struct rc_err *err)
-{
-    (void)err;
-    *periodic = false;
-    rc_synth_paraboloid(shape, apex(), INFINITY, args.radius.v[0],
-                        isnan(args.direction) ? 90 : args.direction, h);
-    return RC_OK;
-}
-
-static enum rc_status
-make_paraboloid(const struct rc_shape *shape, double *h, bool *periodic, struct rc_err *err)
-{
-    (void)err;
-    *periodic = false;
-    rc_synth_paraboloid(shape, apex(), args.radius.v[0], args.radius.v[1],
-                        or_default(args.direction), h);
-    return RC_OK;
-}
-
-static enum rc_status
-make_cone(const struct rc_shape *shape, double *h, bool *periodic, struct rc_err *err)
-{
-    (void)err;
-    *periodic = false;
-    rc_synth_cone(shape, apex(), args.slope, h);
-    return RC_OK;
-}
-
-static enum rc_status
-make_punch(const struct rc_shape *shape, double *h, bool *periodic, struct rc_err *err)
-{
-    *periodic = false;
-    rc_synth_punch(shape, apex(), args.radius.v[0], or_default(args.edge), args.height, h);
-    for (size_t k = 0; k < shape->nx * shape->ny; k++)
-        if (h[k] == 0)
-            return RC_OK;
-    return rc_err_set(err, "no node lies within the radius %g m of the punch: take a finer grid",
-                      args.radius.v[0]);
-}
-
-static void
-check_selfaffine(struct tool *t, const struct rc_shape *shape)
-{
-    (void)shape;
-    if (isnan(args.rms_slope) == isnan(args.rms_height))
-        tool_die(t, EXIT_USAGE,
-                 "selfaffine needs one of --rms-slope and --rms-height: the other "
-                 "one follows");
-    if (!isnan(args.direction) && isnan(args.anisotropy))
-        tool_die(t, EXIT_USAGE, "--direction %g: give --anisotropy too: without it there is no lay",
-                 args.direction);
-    if (!isnan(args.skewness) && !isnan(args.weibull))
-        tool_die(t, EXIT_USAGE, "--skewness and --weibull: heights have one distribution");
-}
-
-static enum rc_status
-make_selfaffine(const struct rc_shape *shape, double *h, bool *periodic, struct rc_err *err)
-{
-    const struct rc_selfaffine what = {
-        .hurst = args.hurst,
-        .rms_height = or_default(args.rms_height),
-        .rms_slope = or_default(args.rms_slope),
-        .long_cut = or_default(args.long_cut),
-        .rolloff = or_default(args.rolloff),
-        .short_cut = or_default(args.short_cut),
-        .seed = args.seed,
-        .anisotropy = or_default(args.anisotropy),
-        .direction = isnan(args.direction) ? 90 : args.direction,
-        .skewness = or_default(args.skewness),
-        .weibull = or_default(args.weibull),
-    };
-
-    *periodic = true;
-    return rc_synth_selfaffine(shape, &what, h, err);
-}
-
-/* clang-format off */
-static const struct shape_row {
-    const char *name;
-    const char *needs[4], *takes[12]; /* options, ended by NULL                               */
-    size_t maps;                     /* arrays of the map's size that it takes to make it    */
-    void (*check)(struct tool *t, const struct rc_shape *shape); /* may be NULL              */
-    enum rc_status (*make)(const struct rc_shape *shape, double *h, bool *periodic,
-                           struct rc_err *err);
-} shapes[] = {
-    {.name = "sphere", .needs = {"radius"}, .takes = {"place"}, .maps = 1, .check = check_radius,
-     .make = make_sphere},
-    {.name = "cylinder", .needs = {"radius"}, .takes = {"direction", "place"}, .maps = 1,
-     .check = check_radius, .make = make_cylinder},
-    {.name = "paraboloid", .needs = {"radius"}, .takes = {"direction", "place"}, .maps = 1,
-     .check = check_paraboloid, .make = make_paraboloid},
-    {.name = "cone", .needs = {"slope"}, .takes = {"place"}, .maps = 1, .make = make_cone},
-    {.name = "punch", .needs = {"radius", "height"}, .takes = {"edge", "place"}, .maps = 1,
-     .check = check_radius, .make = make_punch},
-    {.name = "wave", .needs = {"amplitude", "wavelength"}, .maps = 1, .check = check_wave,
-     .make = make_wave},
-    {.name = "selfaffine", .needs = {"hurst"},
-     .takes = {"rms-slope", "rms-height", "rolloff", "short-cut", "long-cut", "anisotropy",
-               "direction", "skewness", "weibull", "seed"},
-     .maps = 2, .check = check_selfaffine, .make = make_selfaffine},
-    {.name = NULL},
-};
-/* clang-format on */
-
 /* ---- the command line ---- */
 
 static const char *const grid_options[] = {"nx", "ny", "dx", "dy", "like", NULL};
@@ -315,14 +118,14 @@ listed(const char *const *list, const char *name)
     return false;
 }
 
-static const struct shape_row *
+static const struct synth_shape *
 find_shape(struct tool *t)
 {
     if (t->operands == 0)
         tool_die(t, EXIT_USAGE, "no shape named: one of %s; see rc-synth --help", info.operands);
     if (t->operands > 1)
         tool_die(t, EXIT_USAGE, "'%s' after %s: one shape at a time", t->operand[1], t->operand[0]);
-    for (const struct shape_row *row = shapes; row->name != NULL; row++)
+    for (const struct synth_shape *row = synth_shapes; row->name != NULL; row++)
         if (strcmp(row->name, t->operand[0]) == 0)
             return row;
     tool_die(t, EXIT_USAGE, "unknown shape '%s': one of %s", t->operand[0], info.operands);
@@ -330,7 +133,7 @@ find_shape(struct tool *t)
 
 /* Every option that the shape needs is given, and none that it has no use for. */
 static void
-check_options(struct tool *t, const struct shape_row *row)
+check_options(struct tool *t, const struct synth_shape *row)
 {
     for (const char *const *name = row->needs; *name != NULL; name++)
         if (!tool_given(t, *name))
@@ -438,9 +241,9 @@ wanted_shape(struct tool *t)
 }
 
 static void
-check_memory(struct tool *t, const struct shape_row *row, const struct rc_shape *shape)
+check_memory(struct tool *t, const struct synth_shape *row, const struct rc_shape *shape)
 {
-    bool skewed = or_default(args.skewness) != 0 || !isnan(args.weibull);
+    bool skewed = !(isnan(args.skewness) && isnan(args.weibull));
     double bytes =
         8.0 * (double)row->maps * (skewed ? 2 : 1) * (double)shape->nx * (double)shape->ny;
 
@@ -452,7 +255,7 @@ check_memory(struct tool *t, const struct shape_row *row, const struct rc_shape 
 }
 
 static void
-add_keys(struct tool *t, const struct shape_row *row, struct rc_grid *g, bool periodic)
+add_keys(struct tool *t, const struct synth_shape *row, struct rc_grid *g, bool periodic)
 {
     char step[1024];
     struct rc_err err;
@@ -466,12 +269,12 @@ add_keys(struct tool *t, const struct shape_row *row, struct rc_grid *g, bool pe
 int
 main(int argc, char **argv)
 {
-    const struct shape_row *row;
+    const struct synth_shape *row;
     struct rc_shape shape;
     struct rc_grid *g;
     struct rc_err err;
     struct tool t;
-    bool periodic;
+    bool periodic = false;
 
     tool_start(&t, &info, argc, argv, &args);
     row = find_shape(&t);
@@ -479,10 +282,10 @@ main(int argc, char **argv)
     shape = wanted_shape(&t);
     check_place(&t, &shape);
     if (row->check != NULL)
-        row->check(&t, &shape);
+        row->check(&t, &args, &shape);
     check_memory(&t, row, &shape);
     g = rc_grid_new(&shape, "height", "m", &err);
-    if (g == NULL || row->make(&shape, g->v, &periodic, &err) != RC_OK)
+    if (g == NULL || row->make(&args, &shape, g->v, &periodic, &err) != RC_OK)
         tool_die(&t, EXIT_IMPOSSIBLE, "%s", err.text);
     add_keys(&t, row, g, periodic);
     tool_write(&t, g);
