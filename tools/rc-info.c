@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "formats/core/core.h"
 #include "libcontact/contact.h"
 
 static struct args {
@@ -35,11 +36,78 @@ is_height(const struct rc_grid *g)
     return strcmp(g->channel, "height") == 0;
 }
 
+/* ---- results: what a pressure says ---- */
+
+struct result {
+    double load, contact_area, contact_fraction, max_pressure; /* NAN: unknown, here and below */
+    double approach, hardness, plastic_area;
+    size_t contact_nodes, plastic_nodes;
+    const char *converged; /* "yes", "no"; NULL: unknown */
+};
+
+static bool
+is_pressure(const struct rc_grid *g)
+{
+    return strcmp(g->channel, "pressure") == 0 && strcmp(g->unit, "Pa") == 0;
+}
+
+/* Load and contact are those of the values, so that they hold whoever made them. */
+static void
+result_of(const struct rc_grid *g, const struct rc_statistics *s, struct result *r)
+{
+    const char *converged = rc_grid_get(g, "converged");
+    bool whole = s->missing == 0 && s->infinite == 0;
+    double cell = g->dx * g->dy, most;
+
+    *r = (struct result){NAN, NAN, NAN, NAN, NAN, NAN, NAN, 0, 0, NULL};
+    rc_grid_number(g, "approach", &r->approach);
+    rc_grid_number(g, "hardness", &r->hardness);
+    /* values in single precision cannot reach it any nearer */
+    most = g->type == RC_F32 ? (double)(float)r->hardness : r->hardness;
+    for (size_t k = 0; whole && k < g->nx * g->ny; k++) {
+        r->contact_nodes += g->v[k] > 0 ? 1 : 0;
+        r->plastic_nodes += g->v[k] >= most ? 1 : 0;
+    }
+    if (converged != NULL && (strcmp(converged, "yes") == 0 || strcmp(converged, "no") == 0))
+        r->converged = converged;
+    if (!whole)
+        return;
+    r->load = s->sum * cell;
+    r->max_pressure = s->maximum;
+    r->contact_area = cell * (double)r->contact_nodes;
+    r->contact_fraction = (double)r->contact_nodes / ((double)g->nx * (double)g->ny);
+    if (!isnan(r->hardness))
+        r->plastic_area = cell * (double)r->plastic_nodes;
+}
+
 /* ---- JSON ---- */
+
+static void
+add_result(struct json *j, const struct result *r)
+{
+    json_object(j, "result");
+    json_number(j, "load", r->load);
+    if (isnan(r->contact_area))
+        json_null(j, "contact_nodes");
+    else
+        json_count(j, "contact_nodes", r->contact_nodes);
+    json_number(j, "contact_area", r->contact_area);
+    json_number(j, "contact_fraction", r->contact_fraction);
+    json_number(j, "max_pressure", r->max_pressure);
+    json_number(j, "approach", r->approach);
+    json_number(j, "hardness", r->hardness);
+    json_number(j, "plastic_area", r->plastic_area);
+    if (r->converged == NULL)
+        json_null(j, "converged");
+    else
+        json_bool(j, "converged", strcmp(r->converged, "yes") == 0);
+    json_end(j, '}');
+}
 
 static void
 show_json(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s)
 {
+    struct result result;
     struct json j;
 
     json_open(&j, t->out);
@@ -60,6 +128,10 @@ show_json(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s
     json_number(&j, "sum", s->sum);
     json_count(&j, "missing", s->missing);
     json_count(&j, "infinite", s->infinite);
+    if (is_pressure(g)) {
+        result_of(g, s, &result);
+        add_result(&j, &result);
+    }
     json_object(&j, "keys");
     for (size_t k = 0; k < g->keys; k++)
         json_text(&j, g->key[k].name, g->key[k].value);
@@ -90,6 +162,49 @@ put_figure(FILE *out, const char *name, double value, const char *unit)
     }
     fputs(shown_number(text, value, 6, unit), out);
     put_text(out, unit, strlen(unit));
+}
+
+/* "37.5 um2": the square of the length whose prefix brings the number nearest to 1..1e6. */
+static void
+put_area(FILE *out, double area)
+{
+    int power = 0;
+
+    while (area > 0 && power > -9 && area < pow(10, 2 * power))
+        power -= 3;
+    fprintf(out, "%.6g %sm2", area / pow(10, 2 * power), rc_prefix_of(power));
+}
+
+static void
+put_result(FILE *out, const struct rc_grid *g, const struct result *r)
+{
+    char text[SHOWN_NUMBER];
+
+    if (!isnan(r->load))
+        put_figure(out, "load", r->load, "N");
+    if (!isnan(r->contact_area)) {
+        fprintf(out, "  %-10s ", "contact");
+        put_area(out, r->contact_area);
+        fprintf(out, ", %.3g %% of the map (%zu of %zu nodes)\n", 100 * r->contact_fraction,
+                r->contact_nodes, g->nx * g->ny);
+    }
+    if (!isnan(r->max_pressure))
+        fprintf(out, "  %-10s at most %sPa\n", "pressure",
+                shown_number(text, r->max_pressure, 6, "Pa"));
+    if (!isnan(r->approach))
+        put_figure(out, "approach", r->approach, "m");
+    if (!isnan(r->hardness)) {
+        fprintf(out, "  %-10s %sPa", "hardness", shown_number(text, r->hardness, 6, "Pa"));
+        if (r->plastic_nodes > 0) {
+            fputs(", reached on ", out);
+            put_area(out, r->plastic_area);
+            fprintf(out, " (%zu node%s)", r->plastic_nodes, r->plastic_nodes == 1 ? "" : "s");
+        }
+        fprintf(out, "%s\n", r->plastic_area == 0 ? ", not reached" : "");
+    }
+    if (r->converged != NULL)
+        fprintf(out, "  %-10s %s\n", "converged",
+                strcmp(r->converged, "yes") == 0 ? "yes" : "no: it stopped short of its accuracy");
 }
 
 static void
@@ -157,10 +272,15 @@ put_keys(FILE *out, const struct rc_grid *g)
 static void
 show_text(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s, bool first)
 {
+    struct result result;
     char where[512];
 
     fprintf(t->out, "%s", first ? "" : "\n");
     put_text(t->out, tool_where(t, g, where, sizeof where), sizeof where);
+    if (is_pressure(g)) {
+        result_of(g, s, &result);
+        put_result(t->out, g, &result);
+    }
     put_grid(t->out, g);
     put_statistics(t->out, g, s);
     put_keys(t->out, g);
