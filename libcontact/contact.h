@@ -67,6 +67,24 @@ RC_API const struct rc_method_info *rc_method_info(size_t k);
  * Hertz's theory means by a sphere. */
 RC_API void rc_synth_sphere(const struct rc_shape *shape, double radius, double *h);
 
+/* Where the apex of an indenter stands, m from the middle of the map, y down the picture. */
+struct rc_place {
+    double x, y;
+};
+
+/* -s^2 / 2 radius_1 - t^2 / 2 radius_2 about the apex (m), s along `direction`, in degrees
+ * counterclockwise from x with row 0 at the top, t across. An INFINITY for a radius makes a cylinder
+ * whose axis lies along it. */
+RC_API void rc_synth_paraboloid(const struct rc_shape *shape, struct rc_place apex, double radius_1,
+                                double radius_2, double direction, double *h);
+/* -slope r about the apex. */
+RC_API void rc_synth_cone(const struct rc_shape *shape, struct rc_place apex, double slope,
+                          double *h);
+/* A flat circular end of this radius at height 0, and -height around it (m); with an edge (m, above
+ * 0) the flank begins as -(r - radius)^2 / 2 edge. Nodes on the rim belong to the end. */
+RC_API void rc_synth_punch(const struct rc_shape *shape, struct rc_place apex, double radius,
+                           double edge, double height, double *h);
+
 /* amplitude * cos(2 pi x / wavelength_x) * cos(2 pi y / wavelength_y), with a crest at the middle
  * of the map; an INFINITY for a wavelength leaves its factor out. Metres. */
 RC_API void rc_synth_wave(const struct rc_shape *shape, double amplitude, double wavelength_x,
@@ -82,11 +100,23 @@ struct rc_selfaffine {
     double rolloff;    /* flat for wavelengths above this one, m; 0: no flat part             */
     double short_cut;  /* shortest wavelength, m, at least two nodes; 0: 2 max(dx, dy)        */
     uint64_t seed;     /* the same seed gives the same waves on every grid of the same size in m */
+    double anisotropy; /* waves along the lay are so many times as long as those of the same power
+                          across it, at least 1; 0: 1                                           */
+    double direction;  /* of the lay, degrees counterclockwise from x, row 0 at the top         */
+    double skewness;   /* heights of a gamma distribution, at most RC_SKEWNESS_MAX in size; 0:
+                          Gaussian ones                                                         */
+    double weibull;    /* heights of a Weibull distribution of this shape, from RC_WEIBULL_MIN to
+                          RC_WEIBULL_MAX; 0: not                                                */
 };
+#define RC_SKEWNESS_MAX 3.0
+#define RC_WEIBULL_MIN 0.75
+#define RC_WEIBULL_MAX 100.0
 /* Gaussian Fourier amplitudes with random phases, one draw for each wave vector; waves of exactly
  * two nodes are left out. The mean is 0. The gradient is that of the waves, not of differences
- * between nodes. RC_FAIL when a value is out of its bounds, no wave of the map lies between the
- * cut-offs, or memory is short. */
+ * between nodes. Heights of another distribution have it by their ranks, and their waves nearly the
+ * amplitudes that they would have had without (Perez-Rafols and Almqvist 2019). RC_FAIL when a value
+ * is out of its bounds, no wave of the map lies between the cut-offs, or memory is short. GSL's error
+ * handler, which belongs to the process, is off meanwhile. */
 RC_API enum rc_status rc_synth_selfaffine(const struct rc_shape *shape,
                                           const struct rc_selfaffine *what, double *h,
                                           struct rc_err *err);
@@ -173,11 +203,63 @@ RC_API size_t rc_inpaint_memory(size_t missing);
 RC_API enum rc_status rc_hole_width(const struct rc_shape *shape, const double *h, double *width,
                                     struct rc_err *err);
 
+/* ---- surfaces: resample.c, geometry.c ---- */
+
+/* Spacings that differ by less than this, relative, count as equal. */
+#define RC_SAME_SPACING 1e-6
+
 /* Means of v, which is constant in the cells of `from`, over the cells of `to`, a grid of any other
  * number of nodes on the same area: their spacings are not looked at. The integral stays what it
- * is. Heights go to a coarser grid so, and pressures back. v and out do not overlap. */
+ * is. Heights go to a coarser grid so, and pressures back. Where v is missing (NaN) the rest of a
+ * cell decides, where less than half of it is there the mean is missing too. v and out do not
+ * overlap. */
 RC_API void rc_resample_means(const struct rc_shape *from, const double *v,
                               const struct rc_shape *to, double *out);
+
+/* The grid of spacings dx, dy (m) that rc_resample fills: as many whole cells as fit in the map,
+ * middle on middle. Where a spacing stays the same, so do that axis' nodes and spacing; a single
+ * row stays one, of the new width. RC_FAIL when a spacing is not positive or wider than the map, or
+ * the nodes are more than can be counted. */
+RC_API enum rc_status rc_resample_shape(const struct rc_shape *from, double dx, double dy,
+                                        struct rc_shape *to, struct rc_err *err);
+/* Whether the cells of `to` cover the map `from` wholly, within RC_SAME_SPACING: a periodic map
+ * stays periodic then. */
+RC_API bool rc_resample_covers(const struct rc_shape *from, const struct rc_shape *to);
+/* v on the grid `to`, middle on middle. Along an axis where its cells are larger: means over their
+ * area, missing (NaN) where less than half of it is measured. Where they are smaller: cubic
+ * convolution by six nodes (Keys 1981), exact for cubic polynomials, smooth to the first
+ * derivative; it wraps when `periodic`, else the map goes on as a parabola beyond its last node.
+ * Next to a missing value it is bilinear, next to that constant in the old cell, and in a missing
+ * cell missing. Where cells are as they were, nothing changes. v and out do not overlap. RC_FAIL
+ * when `to` reaches beyond the map or memory is short: it takes another map when one axis becomes
+ * coarser and the other finer, else a few rows. */
+RC_API enum rc_status rc_resample(const struct rc_shape *from, const double *v, bool periodic,
+                                  const struct rc_shape *to, double *out, struct rc_err *err);
+
+/* The to->nx by to->ny values from column `left` and row `top` on; out may be v. RC_FAIL when they
+ * reach beyond the map. */
+RC_API enum rc_status rc_crop(const struct rc_shape *from, const double *v, size_t left, size_t top,
+                              const struct rc_shape *to, double *out, struct rc_err *err);
+/* Left to right (axis 'x') or top to bottom ('y'), in place. */
+RC_API void rc_mirror(const struct rc_shape *shape, char axis, double *v);
+/* Quarter turns counterclockwise, row 0 at the top: the shape that comes out (an odd number of them
+ * makes rows of columns), and the values. v and out do not overlap. */
+RC_API struct rc_shape rc_rotate_shape(const struct rc_shape *from, size_t quarters);
+RC_API void rc_rotate(const struct rc_shape *from, const double *v, size_t quarters, double *out);
+
+/* The overlap of two maps that lie middle on middle, with the spacings of a. RC_FAIL when spacings
+ * differ by more than RC_SAME_SPACING. */
+RC_API enum rc_status rc_add_shape(const struct rc_shape *a, const struct rc_shape *b,
+                                   struct rc_shape *sum, struct rc_err *err);
+/* Two surfaces face to face on their overlap (m): ha + hb, b mirrored left to right as it is seen
+ * from a. The larger map is cut evenly; of an odd number of its columns or rows one more at its
+ * own right or bottom. NaN where either is. out may be ha. RC_FAIL as rc_add_shape. */
+RC_API enum rc_status rc_add(const struct rc_shape *a, const double *ha, const struct rc_shape *b,
+                             const double *hb, double *out, struct rc_err *err);
+/* ha - hb, b not mirrored: how a surface has changed. */
+RC_API enum rc_status rc_subtract(const struct rc_shape *a, const double *ha,
+                                  const struct rc_shape *b, const double *hb, double *out,
+                                  struct rc_err *err);
 
 /* ---- figures and sums of maps: measure.c, common.c ---- */
 
