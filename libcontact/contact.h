@@ -91,7 +91,7 @@ RC_API enum rc_status rc_synth_selfaffine(const struct rc_shape *shape,
                                           const struct rc_selfaffine *what, double *h,
                                           struct rc_err *err);
 
-/* ---- surfaces: detrend.c, inpaint.c, resample.c ---- */
+/* ---- surfaces: detrend.c, inpaint.c, holes.c, resample.c ---- */
 
 enum {
     RC_DEGREE_MAX = 20
@@ -111,6 +111,14 @@ RC_API enum rc_status rc_inpaint(const struct rc_shape *shape, double *h, size_t
                                  struct rc_err *err);
 /* Bytes that it takes beside h for so many missing values. */
 RC_API size_t rc_inpaint_memory(size_t missing);
+
+/* Width of the widest hole in m: twice the largest distance of a missing value (NaN) from the nearest
+ * one that is there, node to node: 2 min(dx, dy) for a single missing node, and for a disc its
+ * diameter. A hole at the edge of the map has its rim on one side only, and counts as if it went on
+ * as far beyond. 0 where nothing is missing, INFINITY where nothing is there. Exact but for rounding;
+ * takes 4 bytes a node. RC_FAIL when memory is short. */
+RC_API enum rc_status rc_hole_width(const struct rc_shape *shape, const double *h, double *width,
+                                    struct rc_err *err);
 
 /* Means of v, which is constant in the cells of `from`, over the cells of `to`, a grid of any other
  * number of nodes on the same area: their spacings are not looked at. The integral stays what it

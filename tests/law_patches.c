@@ -136,7 +136,7 @@ check(const struct rc_shape *s, const double *p, bool wraps, size_t threads)
     assert_near(found.contact_area, (double)nodes * cell);
     assert_near(found.perimeter, perimeter);
     assert_near(found.contact_area_corrected,
-                (double)nodes * cell - 0.11811387315611367 * cell * edges);
+                (double)nodes * cell - (exact_pi - 1 + log(2)) / 24 * cell * edges);
     for (size_t k = 1; k < count; k++)
         assert_true(found.patch[k].nodes <= found.patch[k - 1].nodes);
     qsort(found.patch, count, sizeof *found.patch, by_area);

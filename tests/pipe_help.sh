@@ -120,6 +120,18 @@ for page in "$pages"/*.[1-9]; do
         claim "$name: mandoc finds no fault" bash -c "mandoc -Tlint -Wwarning '$page' >&2"
     fi
 done
+# The overview says of each tool what it does, and where to read on.
+overview() {
+    for tool in $tools; do
+        for line in ".It Xr $tool 1" ".Xr $tool 1 ,"; do
+            grep -qxF "$line" "$pages/contact.7" || {
+                echo "contact.7: no line '$line'" >&2
+                return 1
+            }
+        done
+    done
+}
+claim "contact.7: it names each tool" overview
 if ! command -v mandoc >/dev/null; then
     echo "NOT OK: not checked: mandoc is missing"
     claims=$((claims + 1))

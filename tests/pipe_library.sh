@@ -5,12 +5,10 @@
 . "$RC_SOURCE/tests/symbols.sh"
 
 library=$(dirname "$RC_BIN")/libcontact
-flags="-fopenmp"
-if nm "$library/libcontact.a" 2>/dev/null | grep __asan_init >sanitized.txt; then
-    flags="$flags -fsanitize=address,undefined"
-fi
+flags="-fopenmp $(sanitizers "$library/libcontact.a")"
 
 claim "the page holds a program" program "$pages/libcontact.3" hertz.c
+claim "  in 30 lines at most" [ "$(wc -l <hertz.c)" -le 30 ]
 # shellcheck disable=SC2086
 claim "it compiles against the static library" ${CC:-cc} -std=c17 -Wall -Wextra -pedantic \
     -I "$RC_SOURCE" -o hertz hertz.c "$library/libcontact.a" $flags \
@@ -19,10 +17,13 @@ claim "it runs" bash -c './hertz >hertz.txt'
 # a = 227.934 um, p0 = 2.20563 GPa, approach = 6.92720 um (Johnson 1985, section 4.2)
 near "$(awk '/^approach/ { print $5 }' hertz.txt)" 6.92720e-6 "$six_digits" "approach of Hertz"
 near "$(awk '/^pressure/ { print $5 }' hertz.txt)" 2.20563e9 "$six_digits" "peak pressure of Hertz"
+near "$(awk '/^radius/ { print $5 }' hertz.txt)" 227.934e-6 "$six_digits" "radius of Hertz"
 # 129 nodes are three radii
 on_grid() { awk -v order="$1" 'BEGIN { print order / (129 / 3) ^ 2 }'; }
 near "$(awk '/^approach/ { print $2 }' hertz.txt)" 6.92720e-6 "$(on_grid "$grid_approach")" "approach"
-near "$(awk '/^pressure/ { print $2 }' hertz.txt)" 2.20563e9 "$(on_grid "$grid_peak")" "peak pressure"
+near "$(awk '/^pressure/ { print $2 }' hertz.txt)" 2.20563e9 "$(on_grid "$grid_peak")" "pressure in the middle"
+# The area is off by order / n, the radius by half of that.
+near "$(awk '/^radius/ { print $2 }' hertz.txt)" 227.934e-6 "$(awk -v order="$grid_area" 'BEGIN { print order / (129 / 3) / 2 }')" "radius"
 # shellcheck disable=SC2086
 claim "it compiles against the shared library" ${CC:-cc} -std=c17 -I "$RC_SOURCE" -o shared \
     hertz.c -L "$library" -lcontact $flags -lm

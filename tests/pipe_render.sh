@@ -135,6 +135,8 @@ refuses 1 'no channel mises: there are height, pressure, gap' "an absent channel
     "$draw --channel mises three.rcg"
 refuses 1 'case 7 holds no frame: there are cases 1, 2' "an absent case" "$draw --case 7 cases.rcg"
 refuses 1 'there are 0, 1.23456e-05, 4e-05 m' "an absent depth" "$draw --depth 13um depths.rcg"
+stream szz Pa 8 9 "depth=0" 1 mises Pa 8 9 "depth=0" 1 szz Pa 8 9 "depth=1e-05" 1 mises Pa 8 9 "depth=1e-05" 1 >turns.rcg
+refuses 1 'there are 0, 1e-05 m' "an absent depth of the second channel" "$draw --channel mises --depth 13um turns.rcg"
 refuses 1 'no frame at depth 1.3e-05 m: no frame has a depth' "a depth where there is none" "$draw --depth 13um height.rcg"
 refuses 1 'no section across x' "an absent section" "$draw --section x section.rcg"
 refuses 1 'the stream holds no frame' "a stream without frames" "printf 'RCGEND 0\n' | $draw"

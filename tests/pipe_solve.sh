@@ -43,7 +43,7 @@ refuses 1 "case 1, frame 1 \(height\): its unit is 'rad': heights are in metres"
     "rc-solve --load 1N --estar 1GPa rad.rcg"
 refuses 1 '--report nowhere/r.json: No such file' "a report that cannot be written, before the work" \
     "rc-solve --load 1N --estar 1GPa --report nowhere/r.json ball.rcg"
-refuses 0 'strip 2e-05 m wide' "a profile is solved, with a warning that it is a strip" \
+refuses 0 'strip 20 um wide, which carries the force,' "a profile is solved, with a warning that it is a strip" \
     "rc-synth sphere --nx 50 --ny 1 --dx 20um --radius 1mm | rc-solve --load 1mN --estar 1GPa | cat"
 
 claim "a list of loads is a case each, with its frames and a line of the report" bash -c '

@@ -30,3 +30,12 @@ objects() {
         fi
     done
 }
+
+# sanitizers LIBRARY: the options of the compiler that the archive was made with, and programs that use
+# it have to be.
+sanitizers() {
+    nm "$1" 2>nm.err >nm.txt || cat nm.err >&2
+    if grep -q __asan_init nm.txt; then
+        echo "-fsanitize=address,undefined"
+    fi
+}

@@ -151,6 +151,96 @@ test_lists(void **state)
     check_list("1:2:2", UNIT_NONE, 2, (double[]){1, 2});
 }
 
+/* Values by ratio are the decimals that they ought to be: powers of ten to the last bit. */
+static void
+test_ratios(void **state)
+{
+    struct numbers list;
+
+    (void)state;
+    check_list("1MPa:1GPa:log:4", UNIT_PA, 4, (double[]){1e6, 1e7, 1e8, 1e9});
+    check_list("1:10000:log:5", UNIT_N, 5, (double[]){1, 10, 100, 1000, 10000});
+    check_list("8um:1um:log:4", UNIT_M, 4, (double[]){8e-6, 4e-6, 2e-6, 1e-6});
+    check_list("1nm:1m:log:10", UNIT_M, 10,
+               (double[]){1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 1});
+    check_list("2:3:log:2", UNIT_NONE, 2, (double[]){2, 3});
+    check_list("7:7:log:3", UNIT_NONE, 3, (double[]){7, 7, 7});
+    assert_int_equal(unit_numbers("1MPa:1GPa:log:7", UNIT_PA, &list, NULL), RC_OK);
+    assert_int_equal(list.n, 7);
+    assert_true(list.v[0] == 1e6 && list.v[2] == 1e7 && list.v[4] == 1e8 && list.v[6] == 1e9);
+    for (size_t k = 1; k < 7; k += 2) /* half way: the square root of ten, fourteen digits of it */
+        assert_true(fabs(list.v[k] / list.v[k - 1] - sqrt(10)) <= rounding * sqrt(10));
+    free(list.v);
+    assert_int_equal(unit_numbers("0.1um:0.7um:log:46", UNIT_M, &list, NULL), RC_OK);
+    assert_true(list.v[0] == 0.1e-6 && list.v[45] == 0.7e-6);
+    free(list.v);
+}
+
+/* Forces over a length, where they may be that. */
+static void
+test_forces(void **state)
+{
+    static const struct {
+        const char *text;
+        bool per_metre;
+        double value;
+    } good[] = {
+        {"3mN/m", true, 3e-3},   {"1N/m", true, 1},      {"1.29kN/m", true, 1290},
+        {"2.5N/mm", true, 2500}, {"0.3 N/m", true, 0.3}, {"7mN/um", true, 7e3},
+        {"3mN", false, 3e-3},    {"3", false, 3},        {"0", false, 0},
+    };
+    static const char *const bad[] = {"1N/m,2N", "1N,2N/m", "1N/m,2",   "1N/",  "1/m",
+                                      "1N/s",    "1Pa/m",   "1N/m/m",   "1m/N", "1N/xm",
+                                      "1N/m2",   "1N//m",   "1N:2N/m:3"};
+    struct numbers list;
+    double value;
+
+    (void)state;
+    for (size_t k = 0; k < sizeof good / sizeof *good; k++) {
+        struct rc_err err = {""};
+        if (unit_forces(good[k].text, &list, &err) != RC_OK)
+            fail_msg("%s: %s", good[k].text, err.text);
+        assert_int_equal(list.n, 1);
+        assert_int_equal(list.per_metre, good[k].per_metre);
+        if (list.v[0] != good[k].value)
+            fail_msg("%s: %.17g instead of %.17g", good[k].text, list.v[0], good[k].value);
+        free(list.v);
+    }
+    assert_int_equal(unit_forces("0,1N/m,2N/m", &list, NULL), RC_OK);
+    assert_true(list.per_metre && list.n == 3 && list.v[2] == 2);
+    free(list.v);
+    assert_int_equal(unit_forces("1N/m:1kN/m:log:4", &list, NULL), RC_OK);
+    assert_true(list.per_metre && list.n == 4 && list.v[1] == 10);
+    free(list.v);
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+        struct rc_err err = {""};
+        if (unit_forces(bad[k], &list, &err) != RC_FAIL)
+            fail_msg("'%s' is taken for %g", bad[k], list.v[0]);
+        assert_true(err.text[0] != '\0' && list.v == NULL);
+    }
+    assert_int_equal(unit_numbers("1N/m", UNIT_N, &list, NULL), RC_FAIL);
+    assert_int_equal(unit_number("1N/m", UNIT_N, &value, NULL), RC_FAIL);
+}
+
+static void
+test_decimal_commas(void **state)
+{
+    static const char *const doubtful[] = {"1,5",  "0001,5", "12,34", "1,05",
+                                           "-1,5", "+2,3",   "5,5",   "100,250"};
+    static const char *const clear[] = {"1",     "1.5",   "1,5,9", "1,10",  "10,1",  "0,5",
+                                        "5,0",   "1N,5N", "1.0,5", "1,5.0", "1e0,5", "1,5e0",
+                                        "1:5:2", ",5",    "1,",    "1,-5",  "a,b",   "",
+                                        "1, 5",  "1,5N",  "auto",  "1,5log"};
+
+    (void)state;
+    for (size_t k = 0; k < sizeof doubtful / sizeof *doubtful; k++)
+        if (!unit_decimal_comma(doubtful[k]))
+            fail_msg("'%s' is not doubted", doubtful[k]);
+    for (size_t k = 0; k < sizeof clear / sizeof *clear; k++)
+        if (unit_decimal_comma(clear[k]))
+            fail_msg("'%s' is doubted", clear[k]);
+}
+
 /* Both ends of a range are the numbers themselves. */
 static void
 test_range_ends(void **state)
@@ -169,11 +259,45 @@ test_range_ends(void **state)
 static void
 test_bad_lists(void **state)
 {
-    static const char *const bad[] = {
-        "",         ",",         "1,",        ",1",          "1um,2",    "2,1um",
-        "1um,,2um", "1um 2um",   "0:1um",     "0:1um:1",     "0:1um:0",  "0:1um:2.5",
-        "0:1um:-3", "0:1um:3um", "1:2um:3",   "1um:2:3",     ":1um:3",   "0::3",
-        "0:1um:",   "0:1um:3:4", "0:1um:1e9", "1um,0:2um:3", "0:1um:nan"};
+    static const char *const bad[] = {"",
+                                      ",",
+                                      "1,",
+                                      ",1",
+                                      "1um,2",
+                                      "2,1um",
+                                      "1um,,2um",
+                                      "1um 2um",
+                                      "0:1um",
+                                      "0:1um:1",
+                                      "0:1um:0",
+                                      "0:1um:2.5",
+                                      "0:1um:-3",
+                                      "0:1um:3um",
+                                      "1:2um:3",
+                                      "1um:2:3",
+                                      ":1um:3",
+                                      "0::3",
+                                      "0:1um:",
+                                      "0:1um:3:4",
+                                      "0:1um:1e9",
+                                      "1um,0:2um:3",
+                                      "0:1um:nan",
+                                      "1um:2um:log",
+                                      "1um:2um:log:",
+                                      "1um:2um:log:1",
+                                      "1um:2um:log:2.5",
+                                      "1um:2um:log:log:3",
+                                      "1um:2um:lin:3",
+                                      "0:1um:log:3",
+                                      "1um:0:log:3",
+                                      "-1um:1um:log:3",
+                                      "-2um:-1um:log:3",
+                                      "1um:2:log:3",
+                                      "1um:log:3",
+                                      "log:3",
+                                      "1um:2um:3:log",
+                                      "1um:2um:log:3um",
+                                      "1um,1um:2um:log:3"};
 
     (void)state;
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
@@ -207,7 +331,8 @@ main(void)
         cmocka_unit_test(test_numbers),      cmocka_unit_test(test_micrometres),
         cmocka_unit_test(test_refusals),     cmocka_unit_test(test_lists),
         cmocka_unit_test(test_range_ends),   cmocka_unit_test(test_bad_lists),
-        cmocka_unit_test(test_comma_locale),
+        cmocka_unit_test(test_comma_locale), cmocka_unit_test(test_ratios),
+        cmocka_unit_test(test_forces),       cmocka_unit_test(test_decimal_commas),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -35,7 +35,7 @@ static const struct opt opts[] = {
      .help = "try only these, of %s (default: all)"},
     {.name = "depths", .type = OPT_NUMBERS, .unit = UNIT_M, AT(depths), .min = 0, .max = INFINITY,
      .word = "auto", .arg = "LIST",
-     .help = "stresses too, at these depths: a,b,c, a:b:n or auto"},
+     .help = "stresses too, at these depths: a,b,c, a:b:n, a:b:log:n or auto"},
     {.name = "nu", .type = OPT_NUMBER, AT(nu), .min = -1, .max = 0.5, .above = true, .arg = "RATIO",
      .help = "Poisson's ratio for the stresses (default: --nu1)"},
     {.name = "mu", .type = OPT_NUMBER, AT(mu), .min = -10, .max = 10, .arg = "COEFFICIENT",
@@ -49,8 +49,8 @@ static const struct opt opts[] = {
      .help = "for all of it, after the reference: what would not fit is left out (default 60s)"},
     {.name = "plot", .type = OPT_TEXT, AT(plot), .arg = "FILE",
      .help = "draw error against time as a PNG"},
-    {.name = "report", .type = OPT_TEXT, AT(report), .arg = "FILE",
-     .help = "write one JSON object a way of solving"},
+    {.name = "report", .type = OPT_REPORT, AT(report), .arg = "FILE",
+     .help = "write one JSON object a way of solving, or a row of FILE.tsv"},
     {.name = "dry-run", .type = OPT_FLAG, AT(dry_run),
      .help = "say what would be run, and about how long it would take; do no more"},
     {.name = NULL},
@@ -73,7 +73,7 @@ static const struct tool_info info = {
 struct run {
     struct tool t;
     size_t cases;
-    FILE *report;
+    struct report report;
 };
 
 /* ---- the command line ---- */
@@ -104,7 +104,7 @@ check_arguments(struct run *run)
     if (!tool_given(t, "depths") && (tool_given(t, "nu") || tool_given(t, "mu")))
         tool_die(t, EXIT_USAGE, "--nu and --mu are for stresses: give --depths as well");
     tool_demand_writable(t, "--plot", args.plot);
-    tool_demand_writable(t, "--report", args.report);
+    report_open(&run->report, t, args.report);
 }
 
 /* Said where somebody watches: on a terminal, or where progress is asked for. */
@@ -186,22 +186,10 @@ write_plot(struct run *run, const struct cost_case *c)
 }
 
 static void
-write_report(struct run *run, const struct cost_case *c)
-{
-    if (args.report == NULL)
-        return;
-    if (run->report == NULL && (run->report = fopen(args.report, "w")) == NULL)
-        tool_die(&run->t, EXIT_IMPOSSIBLE, "--report %s: %s", args.report, strerror(errno));
-    cost_report(c, run->report);
-    if (ferror(run->report))
-        tool_die(&run->t, EXIT_IMPOSSIBLE, "--report %s: writing failed", args.report);
-}
-
-static void
 tell_results(struct run *run, struct cost_case *c)
 {
     cost_mark(c);
-    write_report(run, c);
+    cost_report(c, &run->report);
     write_plot(run, c);
     for (size_t k = 0; k < c->trials; k++)
         if (c->trial[k].optimistic) {
@@ -210,6 +198,8 @@ tell_results(struct run *run, struct cost_case *c)
                       cost_name(name, &c->trial[k]), c->trial[k].contact.pressure_error,
                       c->trial[k].error);
         }
+    if (run->t.report_alone)
+        return;
     if (choosing())
         cost_command(c, run->t.out);
     else
@@ -306,8 +296,7 @@ main(int argc, char **argv)
         do_case(&run, g);
         rc_grid_free(g);
     }
-    if (run.report != NULL && fclose(run.report) != 0)
-        tool_die(&run.t, EXIT_IMPOSSIBLE, "--report %s: %s", args.report, strerror(errno));
+    report_close(&run.report);
     free(args.depths.v);
     return tool_finish(&run.t);
 }

@@ -1,6 +1,7 @@
 #include "tools/cli/cli.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
 #include "libcontact/contact.h"
@@ -8,6 +9,8 @@
 static struct args {
     struct steps steps;
 } args;
+
+static const double filled_much = 0.05; /* part of the points beyond which filling is warned of */
 
 /* clang-format off */
 static const struct opt opts[] = {
@@ -58,6 +61,29 @@ count_missing(const struct rc_grid *g)
     return n;
 }
 
+/* A surface that was mostly made up is to be known for one. */
+static enum rc_status
+warn_of_holes(struct tool *t, const struct rc_grid *g, size_t missing, struct rc_err *err)
+{
+    struct rc_shape shape = rc_grid_shape(g);
+    size_t nodes = g->nx * g->ny;
+    char where[256], text[SHOWN_NUMBER];
+    double width;
+
+    if ((double)missing <= filled_much * (double)nodes || missing == nodes || t->quiet)
+        return RC_OK;
+    tool_demand_memory(t, g, nodes * (sizeof *g->v + sizeof(uint32_t)));
+    if (rc_hole_width(&shape, g->v, &width, err) != RC_OK)
+        return RC_FAIL;
+    tool_warn(
+        t,
+        "%s: %.3g %% of the points were missing (%zu of %zu) and are filled from around them; the "
+        "widest hole is %sm wide: what comes out there is a guess",
+        tool_where(t, g, where, sizeof where), 100 * (double)missing / (double)nodes, missing,
+        nodes, shown_number(text, width, 3, "m"));
+    return RC_OK;
+}
+
 /* The key counts the points that were filled by all steps, those of earlier commands included. */
 static enum rc_status
 fill(struct tool *t, struct rc_grid *g, struct rc_err *err)
@@ -65,9 +91,11 @@ fill(struct tool *t, struct rc_grid *g, struct rc_err *err)
     struct rc_shape shape = rc_grid_shape(g);
     char where[256];
     double before = 0;
-    size_t filled, nodes = g->nx * g->ny;
+    size_t filled, nodes = g->nx * g->ny, missing = count_missing(g);
 
-    tool_demand_memory(t, g, nodes * sizeof *g->v + rc_inpaint_memory(count_missing(g)));
+    tool_demand_memory(t, g, nodes * sizeof *g->v + rc_inpaint_memory(missing));
+    if (warn_of_holes(t, g, missing, err) != RC_OK)
+        return RC_FAIL;
     if (rc_inpaint(&shape, g->v, &filled, err) != RC_OK)
         return RC_FAIL;
     tool_note(t, "%s: %zu of %zu points filled", tool_where(t, g, where, sizeof where), filled,

@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "formats/core/core.h"
 #include "libcontact/contact.h"
 
 static struct args {
@@ -82,26 +81,26 @@ put_text(FILE *out, const char *text, size_t n)
 static void
 put_figure(FILE *out, const char *name, double value, const char *unit)
 {
-    char text[HUMAN_SIZE];
+    char text[SHOWN_NUMBER];
 
     fprintf(out, "  %-10s ", name);
     if (isnan(value)) {
         fputs("unknown\n", out);
         return;
     }
-    fputs(human_prefixed(text, value, unit), out);
+    fputs(shown_number(text, value, 6, unit), out);
     put_text(out, unit, strlen(unit));
 }
 
 static void
 put_grid(FILE *out, const struct rc_grid *g)
 {
-    char a[HUMAN_SIZE], b[HUMAN_SIZE];
+    char a[SHOWN_NUMBER], b[SHOWN_NUMBER];
 
     fprintf(out, "  %-10s %zu x %zu nodes, dx %sm, dy %sm\n", "grid", g->nx, g->ny,
-            human_prefixed(a, g->dx, "m"), human_prefixed(b, g->dy, "m"));
-    fprintf(out, "  %-10s %sm x %sm\n", "size", human_prefixed(a, (double)g->nx * g->dx, "m"),
-            human_prefixed(b, (double)g->ny * g->dy, "m"));
+            shown_number(a, g->dx, 6, "m"), shown_number(b, g->dy, 6, "m"));
+    fprintf(out, "  %-10s %sm x %sm\n", "size", shown_number(a, (double)g->nx * g->dx, 6, "m"),
+            shown_number(b, (double)g->ny * g->dy, 6, "m"));
     fprintf(out, "  %-10s %s\n", "type", g->type == RC_F32 ? "f32" : "f64");
 }
 

@@ -23,6 +23,8 @@ static struct solve_args args = {
 /* clang-format off */
 static const struct opt opts[] = {
     {.group = physics_options, AT(physics)},
+    {.name = "history", .type = OPT_FLAG, AT(physics.history), .result = true,
+     .help = "the loads follow each other, each on the shape left by yield; 0 takes the bodies apart"},
     {.name = "kernel", .alias = "engine", .type = OPT_CHOICE, AT(kernel),
      .words = words_engine_or_auto, .help = "how displacements are summed (default auto)"},
     {.name = "method", .type = OPT_CHOICE, AT(method), .words = words_method_or_auto,
@@ -37,8 +39,8 @@ static const struct opt opts[] = {
      .help = "find how the load grows with the approach (default: with a list)"},
     {.name = "discretization", .type = OPT_FLAG, AT(discretization),
      .help = "estimate what the grid leaves out, from a coarser one solved as well"},
-    {.name = "report", .type = OPT_TEXT, AT(report), .arg = "FILE",
-     .help = "write one JSON object a case: figures, accuracy, cost"},
+    {.name = "report", .type = OPT_REPORT, AT(report), .arg = "FILE",
+     .help = "write one JSON object a case, or a row of FILE.tsv: figures, accuracy, cost"},
     {.name = "checkpoint", .type = OPT_TEXT, AT(checkpoint), .arg = "FILE",
      .help = "keep the pressures reached in FILE, to go on from if the run is cut off"},
     {.name = "resume", .type = OPT_FLAG, AT(resume),
@@ -64,6 +66,9 @@ static const struct tool_info info = {
     .writes = WRITES_STREAM,
 };
 
+/* Key of a shape that yield has left: how far off it may be, m. */
+#define HEIGHT_ERROR "height.error"
+
 /* ---- the command line ---- */
 
 static void
@@ -72,30 +77,15 @@ check_arguments(struct run *run)
     if ((args.resume || tool_given(&run->t, "interval")) && args.checkpoint == NULL)
         tool_die(&run->t, EXIT_USAGE, "--resume and --interval need --checkpoint FILE");
     physics_check(&run->t, &args.physics);
+    if (args.physics.history && isinf(args.physics.hardness))
+        tool_warn(&run->t,
+                  "--history without --hardness: nothing yields, so no load leaves a trace");
     run->args = &args;
     run->steps = physics_steps(&args.physics);
     run->stiffness = args.stiffness || run->steps->n > 1;
 }
 
 /* ---- one case ---- */
-
-static void
-warn_after(struct run *run, const struct rc_grid *g, const struct rc_contact *c)
-{
-    char where[256];
-
-    tool_where(&run->t, g, where, sizeof where);
-    if (!args.physics.periodic && c->edge_load_fraction > 0.01)
-        tool_warn(&run->t,
-                  "%s: %.1f %% of the load is on the outer 2 %% of the map: the contact "
-                  "reaches its edge",
-                  where, 100 * c->edge_load_fraction);
-    if (!c->converged && tool_interrupted() == 0)
-        tool_warn(&run->t,
-                  "%s: stopped at an estimated error of %.2g after %zu iterations: raise "
-                  "--tol",
-                  where, c->pressure_error, c->iterations);
-}
 
 static struct rc_problem
 problem_of(struct run *run, const struct rc_grid *g, size_t step)
@@ -107,6 +97,7 @@ problem_of(struct run *run, const struct rc_grid *g, size_t step)
     problem.method = args.method;
     problem.threads = run->t.threads;
     problem.discretization = args.discretization;
+    problem.height_error = run->height_error;
     return problem;
 }
 
@@ -154,7 +145,8 @@ set_keys(struct run *run, struct rc_grid *g, const struct rc_contact *c)
     set_number(run, g, "estar", args.physics.estar);
     set_number(run, g, "nu", args.physics.nu1);
     /* the load asked for and the one reached are the same but for rounding */
-    set_number(run, g, "load", args.physics.load.n > 0 ? run->steps->v[run->step] : c->load);
+    set_number(run, g, "load",
+               args.physics.load.n > 0 ? problem_of(run, g, run->step).load : c->load);
     set_number(run, g, "hardness", args.physics.hardness);
     set_number(run, g, "approach", c->approach);
 }
@@ -175,9 +167,9 @@ results_new(struct run *run, const struct rc_grid *g, struct results *r)
     *r = (struct results){.as = rc_grid_like(g, g->channel, g->unit, &err)};
     if (r->as == NULL)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    /* heights that are not written are done with; pages of the new map that nobody touches take
-     * no memory */
-    r->buffer = solve_wanted(&args, SOLVE_HEIGHT) ? r->as->v : g->v;
+    /* heights that nobody needs any more give their memory; pages of the new map that nobody touches
+     * take none */
+    r->buffer = solve_wanted(&args, SOLVE_HEIGHT) || args.physics.history ? r->as->v : g->v;
 }
 
 static void
@@ -218,6 +210,15 @@ put(struct run *run, const struct results *r, enum solve_frame f, const double *
     tool_write(&run->t, &frame);
 }
 
+/* What yields leaves its mark, known to within the error of the solution it was found by. */
+static void
+put_plastic(struct run *run, const struct results *r, const double *h, const struct rc_contact *c)
+{
+    if (c->yielded_nodes > 0)
+        set_number(run, r->as, HEIGHT_ERROR, fmax(run->height_error, c->gap_error));
+    put(run, r, SOLVE_PLASTIC, h);
+}
+
 static void
 put_out(struct run *run, const struct rc_grid *g, struct results *r, struct rc_solver *solver,
         const struct rc_contact *c)
@@ -238,61 +239,153 @@ put_out(struct run *run, const struct rc_grid *g, struct results *r, struct rc_s
     r->as->type = RC_F64;
     if (solve_wanted(&args, SOLVE_PLASTIC) && rc_solver_plastic(solver, r->buffer, &err) != RC_OK)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    put(run, r, SOLVE_PLASTIC, r->buffer);
+    put_plastic(run, r, r->buffer, c);
+}
+
+/* ---- loads ---- */
+
+static void
+look_at_contact(struct run *run, const struct rc_grid *g, const double *p, struct solution *s)
+{
+    struct rc_shape shape = rc_grid_shape(g);
+    struct rc_patch_options options = {.boundary = args.physics.periodic ? RC_PERIODIC : RC_FREE,
+                                       .threads = run->t.threads};
+    struct rc_patches patches;
+    struct rc_err err;
+
+    if (rc_patches_find(&shape, p, &options, &patches, &err) != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    s->patches = patches.count;
+    s->slope = rc_measure_contact_slope(&shape, g->v, p);
+    rc_patches_free(&patches);
 }
 
 static void
-do_load(struct run *run, const struct rc_grid *g, struct rc_solver *solver)
+do_load(struct run *run, const struct rc_grid *g, struct rc_solver *solver, struct solution *s)
 {
     struct results r;
-    struct rc_contact c;
     struct rc_err err;
-    double start, stiffness = NAN;
+    double start;
 
+    *s = (struct solution){.slope = NAN, .stiffness = NAN};
     solve(run, g, solver);
     start = solve_now();
+    if (tool_interrupted() == 0) /* else there may be nothing on this grid yet */
+        look_at_contact(run, g, rc_solver_pressure(solver), s);
     results_new(run, g, &r);
-    find_result(run, &r, solver, &c);
-    if (run->stiffness && rc_solver_stiffness(solver, &stiffness, &err) != RC_OK)
+    find_result(run, &r, solver, &s->contact);
+    if (run->stiffness && rc_solver_stiffness(solver, &s->stiffness, &err) != RC_OK)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    c.convolutions = rc_solver_convolutions(solver);
+    s->contact.convolutions = rc_solver_convolutions(solver);
     run->result = solve_now() - start;
-    warn_after(run, g, &c);
-    if (!c.converged)
+    solve_judge(run, g, s);
+    if (!s->contact.converged)
         tool_fails_with(&run->t, EXIT_SHORT);
-    solve_report(run, g, solver, &c, stiffness);
-    put_out(run, g, &r, solver, &c);
+    solve_report(run, g, solver, s);
+    put_out(run, g, &r, solver, &s->contact);
     results_free(&r);
 }
 
-/* The loads of a list, each from the solution of the last. */
+/* No load: the bodies are apart by as much as the heights differ from the highest, where they would
+ * touch first. */
 static void
-do_loads(struct run *run, const struct rc_grid *g)
+take_apart(struct run *run, const struct rc_grid *g)
+{
+    size_t nodes = g->nx * g->ny;
+    struct solution s = {.slope = NAN, .stiffness = NAN};
+    struct rc_statistics st;
+    struct rc_shape shape = rc_grid_shape(g);
+    struct results r;
+
+    run->iterate = run->result = 0;
+    rc_measure(&shape, g->v, &st);
+    s.contact = (struct rc_contact){.edge_load_fraction = NAN,
+                                    .approach = NAN,
+                                    .mean_gap = st.maximum - st.mean,
+                                    .discretization = {NAN, NAN, NAN},
+                                    .converged = true};
+    solve_judge(run, g, &s);
+    solve_report(run, g, NULL, &s);
+    results_new(run, g, &r);
+    set_keys(run, r.as, &s.contact);
+    memset(r.buffer, 0, nodes * sizeof *r.buffer);
+    put(run, &r, SOLVE_PRESSURE, r.buffer);
+    for (size_t k = 0; k < nodes; k++)
+        r.buffer[k] = st.maximum - g->v[k];
+    put(run, &r, SOLVE_GAP, r.buffer);
+    memset(r.buffer, 0, nodes * sizeof *r.buffer);
+    put(run, &r, SOLVE_DISPLACEMENT, r.buffer);
+    r.as->type = g->type;
+    put(run, &r, SOLVE_HEIGHT, g->v);
+    r.as->type = RC_F64;
+    put_plastic(run, &r, g->v, &s.contact);
+    results_free(&r);
+}
+
+static struct rc_solver *
+new_solver(struct run *run, const struct rc_grid *g)
 {
     struct rc_shape shape = rc_grid_shape(g);
-    struct rc_problem problem = problem_of(run, g, 0);
+    struct rc_problem problem = problem_of(run, g, run->step);
     struct rc_solver *solver;
     struct rc_err err;
 
-    run->began = solve_now();
-    run->number = run->steps->n == 1 ? rc_grid_case(g) : run->number + 1;
     tool_demand_memory(&run->t, g, rc_solver_memory(&shape, &problem));
     solver = rc_solver_new(&shape, g->v, &problem, &err);
     if (solver == NULL)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     run->setup = solve_now() - run->began;
+    return solver;
+}
+
+/* The heights get the shape that the load has left; true where that is another one. */
+static bool
+keep_shape(struct run *run, struct rc_grid *g, const struct rc_solver *solver,
+           const struct rc_contact *c)
+{
+    struct rc_err err;
+
+    if (!args.physics.history || c->yielded_nodes == 0)
+        return false;
+    if (rc_solver_plastic(solver, g->v, &err) != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    g->type = RC_F64;
+    run->height_error = fmax(run->height_error, c->gap_error);
+    set_number(run, g, HEIGHT_ERROR, run->height_error);
+    return true;
+}
+
+/* The loads of a list, each from the solution of the last; in a history, on the shape that it has
+ * left. */
+static void
+do_loads(struct run *run, struct rc_grid *g)
+{
+    struct rc_solver *solver = NULL;
+    struct solution s;
+    struct rc_err err;
+
+    run->number = run->steps->n == 1 ? rc_grid_case(g) - 1 : run->number;
     for (run->step = 0; run->step < run->steps->n; run->step++) {
+        struct rc_problem problem = problem_of(run, g, run->step);
+
         if (run->step > 0 && tool_interrupted() != 0)
-            break; /* the first has begun with the solver */
-        if (run->step > 0) {
-            problem = problem_of(run, g, run->step);
-            run->began = solve_now();
-            run->setup = 0;
-            run->number++;
-            if (rc_solver_set_load(solver, problem.load, problem.approach, &err) != RC_OK)
-                tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+            break; /* of the first there is something to write */
+        run->began = solve_now();
+        run->setup = 0;
+        run->number++;
+        if (run->steps->v[run->step] == 0) {
+            take_apart(run, g);
+            continue;
         }
-        do_load(run, g, solver);
+        if (solver == NULL)
+            solver = new_solver(run, g);
+        else if (rc_solver_set_load(solver, problem.load, problem.approach, &err) != RC_OK)
+            tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+        do_load(run, g, solver, &s);
+        if (keep_shape(run, g, solver, &s.contact)) {
+            rc_solver_free(solver);
+            solver = NULL;
+        }
     }
     rc_solver_free(solver);
 }
@@ -301,6 +394,8 @@ static void
 do_case(struct run *run, struct rc_grid *g)
 {
     physics_heights(&run->t, &args.physics, g);
+    if (!rc_grid_number(g, HEIGHT_ERROR, &run->height_error))
+        run->height_error = 0;
     run->nodes = g->nx * g->ny;
     checkpoint_surface(run->checkpoint, g);
     if (args.dry_run) {
@@ -330,7 +425,7 @@ main(int argc, char **argv)
     keep_maps_apart();
     tool_start(&run.t, &info, argc, argv, &args);
     check_arguments(&run);
-    tool_demand_writable(&run.t, "--report", args.report);
+    report_open(&run.report, &run.t, args.report);
     if (!args.dry_run)
         run.checkpoint = checkpoint_open(&run, args.checkpoint, args.resume, args.interval);
     tool_catch_signals();
@@ -339,7 +434,6 @@ main(int argc, char **argv)
         rc_grid_free(g);
     }
     checkpoint_close(run.checkpoint);
-    if (run.report != NULL && fclose(run.report) != 0)
-        tool_die(&run.t, EXIT_IMPOSSIBLE, "--report %s: %s", args.report, strerror(errno));
+    report_close(&run.report);
     return tool_finish(&run.t);
 }

@@ -21,7 +21,7 @@ static struct args {
 static const struct opt opts[] = {
     {.name = "depths", .type = OPT_NUMBERS, .unit = UNIT_M, AT(depths), .min = 0,
      .max = INFINITY, .result = true, .word = "auto", .arg = "LIST",
-     .help = "depths: a,b,c or a:b:n (n from a to b), or auto: dense where roughness is felt"},
+     .help = "depths: a,b,c, a:b:n or a:b:log:n, or auto: dense where roughness is felt"},
     {.name = "components", .type = OPT_WORDS, AT(components), .result = true,
      .words = words_component, .arg = "LIST", .help = "of %s (default: the six and mises)"},
     {.name = "nu", .type = OPT_NUMBER, AT(nu), .min = -1, .max = 0.5, .above = true,
@@ -37,8 +37,8 @@ static const struct opt opts[] = {
     {.name = "tol", .type = OPT_NUMBER, AT(tol), .min = 0, .max = 1, .above = true,
      .result = true, .arg = "ERROR",
      .help = "error allowed in a component, over the largest pressure (default: rounding)"},
-    {.name = "report", .type = OPT_TEXT, AT(report), .arg = "FILE",
-     .help = "write one JSON object a case: largest values and their places, counts, cost"},
+    {.name = "report", .type = OPT_REPORT, AT(report), .arg = "FILE",
+     .help = "write one JSON object a case, or a row of FILE.tsv: largest values, counts, cost"},
     {.name = "dry-run", .type = OPT_FLAG, AT(dry_run), .text = true,
      .help = "say what would be computed and what not, memory and time, and do no more"},
     {.name = NULL},
@@ -65,7 +65,7 @@ struct run {
     struct numbers depths;            /* of the case */
     struct rc_grid *frame[RC_STRESSES];
     struct stress_report report;
-    FILE *file;
+    struct report out;
 };
 
 static bool
@@ -132,7 +132,7 @@ check_arguments(struct run *run)
     if (args.section != NULL && on_free_maps_only())
         tool_die(t, EXIT_USAGE, "--section is summed by %s: leave out --kernel %s",
                  words_periodic_engines(list, sizeof list), args.kernel);
-    tool_demand_writable(t, "--report", args.report);
+    report_open(&run->out, t, args.report);
 }
 
 /* ---- a case ---- */
@@ -313,13 +313,6 @@ do_depth(struct run *run, struct rc_stress *stress, size_t k)
 }
 
 static void
-open_report(struct run *run)
-{
-    if (args.report != NULL && run->file == NULL && (run->file = fopen(args.report, "w")) == NULL)
-        tool_die(&run->t, EXIT_IMPOSSIBLE, "--report %s: %s", args.report, strerror(errno));
-}
-
-static void
 do_case(struct run *run, const struct rc_grid *p)
 {
     struct rc_shape shape = rc_grid_shape(p);
@@ -327,7 +320,7 @@ do_case(struct run *run, const struct rc_grid *p)
     struct rc_err err;
 
     demand_memory(run, p);
-    if (stress_report_begin(&run->report, p, &run->options, &run->depths, args.report != NULL,
+    if (stress_report_begin(&run->report, p, &run->options, &run->depths, report_wanted(&run->out),
                             &err) != RC_OK)
         tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
     stress = rc_stress_new(&shape, p->v, &run->options, &err);
@@ -346,9 +339,8 @@ do_case(struct run *run, const struct rc_grid *p)
         rc_grid_free(run->frame[c]);
         run->frame[c] = NULL;
     }
-    open_report(run);
-    if (run->file != NULL && stress_report_write(&run->report, run->file, stress) != RC_OK)
-        tool_die(&run->t, EXIT_IMPOSSIBLE, "--report %s: writing failed", args.report);
+    if (report_wanted(&run->out))
+        stress_report_write(&run->report, &run->out, stress);
     stress_report_free(&run->report);
     rc_stress_free(stress);
 }
@@ -375,8 +367,7 @@ main(int argc, char **argv)
             free(run.depths.v);
         rc_grid_free(p);
     }
-    if (run.file != NULL && fclose(run.file) != 0)
-        tool_die(&run.t, EXIT_IMPOSSIBLE, "--report %s: writing failed", args.report);
+    report_close(&run.out);
     free(args.depths.v);
     return tool_finish(&run.t);
 }

@@ -5,11 +5,15 @@
 #ifndef RC_CLI_H
 #define RC_CLI_H
 
-#include "human.h"
 #include "json.h"
+#include "name_list.h"
 #include "physics.h"
+#include "report.h"
+#include "results.h"
+#include "shown.h"
 #include "tool.h"
 #include "units.h"
+#include "wanted.h"
 #include "words.h"
 
 #endif

@@ -4,6 +4,7 @@
  */
 #include "tool.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -46,8 +47,10 @@ add_numbers(struct line *line, const struct opt *o, const struct numbers *list)
 
     if (list->n == 0)
         add(line, " ", o->word);
-    for (size_t k = 0; k < list->n; k++)
+    for (size_t k = 0; k < list->n; k++) {
         add(line, k == 0 ? " " : ",", rc_number_text(text, list->v[k]));
+        add(line, list->per_metre ? "N/m" : "", "");
+    }
 }
 
 static void
@@ -56,7 +59,8 @@ add_value(struct line *line, const struct opt *o, const void *at)
     char text[RC_NUMBER_SIZE];
 
     if (o->type == OPT_NUMBER) {
-        add(line, " ", rc_number_text(text, *(const double *)at));
+        double value = *(const double *)at;
+        add(line, " ", o->word != NULL && isinf(value) ? o->word : rc_number_text(text, value));
     } else if (o->type == OPT_COUNT) {
         snprintf(text, sizeof text, "%zu", *(const size_t *)at);
         add(line, " ", text);
@@ -76,7 +80,9 @@ add_steps(struct line *line, const struct steps *steps)
 
     for (size_t k = 0; k < steps->n; k++) {
         add(line, " --", steps->step[k].opt->name);
-        if (steps->step[k].opt->arg != NULL)
+        if (steps->step[k].opt->type == OPT_TEXTS)
+            add(line, " ", steps->step[k].text);
+        else if (steps->step[k].opt->arg != NULL)
             add(line, " ", rc_number_text(text, steps->step[k].value));
     }
 }
@@ -95,7 +101,8 @@ tool_history(const struct tool *t)
         const void *at = (const char *)t->args + o->at;
         if (!t->given[k] || !o->result)
             continue;
-        if (o->type == OPT_STEP) { /* all of them in one list, in the order of the line */
+        if (o->type == OPT_STEP ||
+            o->type == OPT_TEXTS) { /* all of them in one list, in the order of the line */
             if (!steps_done)
                 add_steps(&line, at);
             steps_done = true;

@@ -10,6 +10,7 @@
 
 #include "parts.h"
 #include "pipe.h"
+#include "results.h"
 
 static void
 open_next(struct tool *t)
@@ -120,6 +121,8 @@ tool_channel(struct tool *t, const char *channel, bool pass)
             end_case(t, channel);
             begin_case(t, number);
         }
+        if (pass)
+            results_demand_none(t, g);
         used = strlen(t->current.names);
         snprintf(t->current.names + used, sizeof t->current.names - used, "%s%s",
                  used == 0 ? "" : " ", g->channel);

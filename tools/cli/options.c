@@ -145,20 +145,20 @@ print_help(const struct tool *t)
 /* ---- values ---- */
 
 static void
-check_bounds(struct tool *t, const struct opt *o, double value)
+check_bounds(struct tool *t, const struct opt *o, double value, bool per_metre)
 {
     bool low = o->above ? value <= o->min : value < o->min;
     char a[RC_NUMBER_SIZE], b[RC_NUMBER_SIZE], c[RC_NUMBER_SIZE];
     const char *unit = o->unit == UNIT_NONE ? "" : " ";
+    const char *name = per_metre ? "N/m" : unit_name(o->unit);
 
     if (!(o->min < o->max) || (!low && value <= o->max))
         return;
     if (isinf(o->max))
         tool_die(t, EXIT_USAGE, "--%s %s%s%s: it must be %s %s", o->name, rc_number_text(a, value),
-                 unit, unit_name(o->unit), o->above ? "above" : "at least",
-                 rc_number_text(b, o->min));
+                 unit, name, o->above ? "above" : "at least", rc_number_text(b, o->min));
     tool_die(t, EXIT_USAGE, "--%s %s%s%s: it must be %s %s and at most %s", o->name,
-             rc_number_text(a, value), unit, unit_name(o->unit), o->above ? "above" : "at least",
+             rc_number_text(a, value), unit, name, o->above ? "above" : "at least",
              rc_number_text(b, o->min), rc_number_text(c, o->max));
 }
 
@@ -170,7 +170,7 @@ number(struct tool *t, const struct opt *o, const char *text)
 
     if (unit_number(text, o->unit, &value, &err) != RC_OK)
         tool_die(t, EXIT_USAGE, "--%s %s: %s", o->name, text, err.text);
-    check_bounds(t, o, value);
+    check_bounds(t, o, value, false);
     return value;
 }
 
@@ -221,9 +221,9 @@ add_step(struct tool *t, const struct opt *o, struct steps *steps, const char *t
 
     if (steps->n == most)
         tool_die(t, EXIT_USAGE, "more than %zu steps: use two commands", most);
-    if (o->arg != NULL)
+    if (o->type == OPT_STEP && o->arg != NULL)
         value = o->unit == UNIT_NONE ? whole(t, o, text) : number(t, o, text);
-    steps->step[steps->n++] = (struct step){.opt = o, .value = value};
+    steps->step[steps->n++] = (struct step){.opt = o, .value = value, .text = text};
 }
 
 static void
@@ -233,12 +233,15 @@ set_list(struct tool *t, const struct opt *o, struct numbers *list, const char *
 
     free(list->v);
     *list = (struct numbers){0};
+    t->list[o - t->opt] = NULL;
     if (o->word != NULL && strcmp(text, o->word) == 0)
         return;
-    if (unit_numbers(text, o->unit, list, &err) != RC_OK)
+    t->list[o - t->opt] = text;
+    if ((o->per_metre ? unit_forces(text, list, &err) : unit_numbers(text, o->unit, list, &err)) !=
+        RC_OK)
         tool_die(t, EXIT_USAGE, "--%s %s: %s", o->name, text, err.text);
     for (size_t k = 0; k < list->n; k++)
-        check_bounds(t, o, list->v[k]);
+        check_bounds(t, o, list->v[k], list->per_metre);
 }
 
 static void
@@ -251,7 +254,8 @@ set_value(struct tool *t, const struct opt *o, void *base, const char *text)
         *(bool *)at = true;
         break;
     case OPT_NUMBER:
-        *(double *)at = number(t, o, text);
+        *(double *)at =
+            o->word != NULL && strcmp(text, o->word) == 0 ? INFINITY : number(t, o, text);
         break;
     case OPT_COUNT:
         *(size_t *)at = (size_t)whole(t, o, text);
@@ -264,12 +268,14 @@ set_value(struct tool *t, const struct opt *o, void *base, const char *text)
         *(size_t *)at = word_set(t, o, text);
         break;
     case OPT_TEXT:
+    case OPT_REPORT:
         *(const char **)at = text;
         break;
     case OPT_NUMBERS:
         set_list(t, o, at, text);
         break;
     case OPT_STEP:
+    case OPT_TEXTS:
         add_step(t, o, at, text);
         break;
     }
@@ -334,6 +340,25 @@ bad_option(struct tool *t, int what, char **argv)
     tool_die(t, EXIT_USAGE, "unknown or ambiguous option %s: see %s --help", word, t->info->name);
 }
 
+/* "--load 1,5" is two loads; somebody may have meant one and a half. */
+static void
+warn_of_commas(struct tool *t)
+{
+    for (size_t k = 0; k < t->opts; k++) {
+        const struct opt *o = &t->opt[k];
+        const char *unit = unit_name(o->unit), *blank = *unit == '\0' ? "" : " ";
+        const char *text = t->list[k], *comma;
+        const struct numbers *list;
+        if (text == NULL || !unit_decimal_comma(text))
+            continue;
+        list = (const void *)((const char *)t->args + o->at);
+        comma = strchr(text, ',');
+        tool_warn(t, "--%s %s: two values, %g%s%s and %g%s%s: for one number write %.*s.%s",
+                  o->name, text, list->v[0], blank, unit, list->v[1], blank, unit,
+                  (int)(comma - text), text, comma + 1);
+    }
+}
+
 void
 options_read(struct tool *t, int argc, char **argv)
 {
@@ -363,6 +388,7 @@ options_read(struct tool *t, int argc, char **argv)
     free(table);
     t->operand = argv + optind;
     t->operands = (size_t)(argc - optind);
+    warn_of_commas(t);
 }
 
 bool

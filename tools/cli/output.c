@@ -137,6 +137,8 @@ tool_write(struct tool *t, struct rc_grid *g)
     enum rc_type type = g->type;
     struct rc_err err;
 
+    if (t->report_alone)
+        return;
     if (t->type_given)
         g->type = t->type;
     t->began = true;

@@ -4,17 +4,21 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "shown.h"
+
 /* ---- the command line ---- */
 
 #define AT(field) .at = offsetof(struct physics, field)
 #define ABOVE_0 .min = 0, .max = INFINITY, .above = true
+#define FROM_0 .min = 0, .max = INFINITY
 /* clang-format off */
 const struct opt physics_options[] = {
-    {.name = "load", .type = OPT_NUMBERS, .unit = UNIT_N, AT(load), ABOVE_0, .result = true,
-     .arg = "LIST", .help = "total normal force: one, a,b,c or a:b:n, each a case"},
-    {.name = "mean-pressure", .type = OPT_NUMBERS, .unit = UNIT_PA, AT(mean_pressure), ABOVE_0,
-     .result = true, .arg = "LIST", .help = "the load as a mean over the whole map"},
-    {.name = "approach", .type = OPT_NUMBERS, .unit = UNIT_M, AT(approach), ABOVE_0,
+    {.name = "load", .type = OPT_NUMBERS, .unit = UNIT_N, AT(load), FROM_0, .result = true,
+     .per_metre = true, .arg = "LIST",
+     .help = "total normal force: one, or a,b,c, a:b:n or a:b:log:n, each a case"},
+    {.name = "mean-pressure", .type = OPT_NUMBERS, .unit = UNIT_PA, AT(mean_pressure), FROM_0,
+     .result = true, .arg = "LIST", .help = "the load as a mean over the whole map, also a list"},
+    {.name = "approach", .type = OPT_NUMBERS, .unit = UNIT_M, AT(approach), FROM_0,
      .result = true, .arg = "LIST",
      .help = "instead of the load: how far to come together after first touch"},
     {.name = "estar", .type = OPT_NUMBER, .unit = UNIT_PA, AT(estar), ABOVE_0, .result = true,
@@ -24,7 +28,7 @@ const struct opt physics_options[] = {
     {.name = "nu1", .type = OPT_NUMBER, AT(nu1), .min = -1, .max = 0.5, .above = true,
      .result = true, .arg = "RATIO", .help = "Poisson's ratio of body 1"},
     {.name = "E2", .type = OPT_NUMBER, .unit = UNIT_PA, AT(e2), ABOVE_0, .result = true,
-     .arg = "MODULUS", .help = "Young's modulus of body 2"},
+     .word = "rigid", .arg = "MODULUS", .help = "Young's modulus of body 2, or rigid"},
     {.name = "nu2", .type = OPT_NUMBER, AT(nu2), .min = -1, .max = 0.5, .above = true,
      .result = true, .arg = "RATIO", .help = "Poisson's ratio of body 2"},
     {.name = "hardness", .type = OPT_NUMBER, .unit = UNIT_PA, AT(hardness), ABOVE_0,
@@ -37,20 +41,56 @@ const struct opt physics_options[] = {
 };
 /* clang-format on */
 
-void
-physics_check(struct tool *t, struct physics *a)
+static const char *
+name_of_steps(const struct physics *a)
+{
+    return a->load.n > 0 ? "load" : a->mean_pressure.n > 0 ? "mean-pressure" : "approach";
+}
+
+/* Loads of 0 take bodies apart, which means nothing unless they have been together before. */
+static void
+check_steps(struct tool *t, const struct physics *a)
+{
+    const struct numbers *steps = physics_steps(a);
+    const char *name = name_of_steps(a);
+    bool rises = true;
+
+    for (size_t k = 0; k < steps->n; k++) {
+        if (steps->v[k] == 0 && !a->history)
+            tool_die(t, EXIT_USAGE, "--%s 0: it must be above 0%s", name,
+                     steps->n > 1 ? ": 0 takes the bodies apart, in a --history" : "");
+        rises = rises && (k == 0 || steps->v[k] > steps->v[k - 1]);
+    }
+    if (!rises && !a->history)
+        tool_warn(t,
+                  "--%s: the list does not rise: each is a first loading of its own; loads that "
+                  "follow each other are a --history",
+                  name);
+}
+
+static void
+check_elasticity(struct tool *t, struct physics *a)
 {
     int bodies =
         tool_given(t, "E1") + tool_given(t, "nu1") + tool_given(t, "E2") + tool_given(t, "nu2");
+    bool rigid = isinf(a->e2);
 
-    if (tool_given(t, "load") + tool_given(t, "mean-pressure") + tool_given(t, "approach") != 1)
-        tool_die(t, EXIT_USAGE, "give one of --load, --mean-pressure and --approach");
-    if (tool_given(t, "estar") ? bodies > 0 : bodies != 4)
+    if (tool_given(t, "estar") ? bodies > 0 : bodies < (rigid ? 3 : 4))
         tool_die(t, EXIT_USAGE,
                  "give the elasticity, either as --estar or as --E1 --nu1 --E2 "
-                 "--nu2, all four");
+                 "--nu2, all four (--E2 rigid needs no --nu2)");
     if (bodies > 0)
-        a->estar = 1 / ((1 - a->nu1 * a->nu1) / a->e1 + (1 - a->nu2 * a->nu2) / a->e2);
+        a->estar =
+            1 / ((1 - a->nu1 * a->nu1) / a->e1 + (rigid ? 0 : (1 - a->nu2 * a->nu2) / a->e2));
+}
+
+void
+physics_check(struct tool *t, struct physics *a)
+{
+    if (tool_given(t, "load") + tool_given(t, "mean-pressure") + tool_given(t, "approach") != 1)
+        tool_die(t, EXIT_USAGE, "give one of --load, --mean-pressure and --approach");
+    check_steps(t, a);
+    check_elasticity(t, a);
 }
 
 const struct numbers *
@@ -77,8 +117,73 @@ add_sphere(struct tool *t, const struct physics *a, struct rc_grid *g)
     free(row);
 }
 
+/* A sphere that is added is named in the heights, so that it is not added twice. */
 static void
-warn(struct tool *t, const struct physics *a, const struct rc_grid *g, double rms_slope)
+add_form(struct tool *t, const struct physics *a, struct rc_grid *g)
+{
+    const char *form = rc_grid_get(g, "form");
+    char name[RC_NUMBER_SIZE + 8], radius[RC_NUMBER_SIZE];
+    struct rc_err err;
+
+    if (form != NULL)
+        tool_die_at(
+            t, g, EXIT_IMPOSSIBLE,
+            "these heights hold a shape that was added to them already (form=%s): leave out "
+            "--radius",
+            form);
+    add_sphere(t, a, g);
+    snprintf(name, sizeof name, "sphere %s", rc_number_text(radius, a->radius));
+    if (rc_grid_set(g, "form", name, &err) != RC_OK)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+}
+
+/* A map that is no period of anything has a step where its edges meet, and that is where the pressure
+ * goes. */
+static void
+warn_of_seam(struct tool *t, const struct rc_grid *g)
+{
+    static const char *const line[] = {"column", "row"};
+    struct rc_shape shape = rc_grid_shape(g);
+    struct rc_seam seam;
+    char where[256], jump[SHOWN_NUMBER];
+
+    rc_measure_seam(&shape, g->v, &seam);
+    for (int side = 0; side < 2; side++)
+        if (seam.across[side] > 3 * seam.inside[side])
+            tool_warn(
+                t,
+                "%s: the edges do not meet: from the last %s to the first the heights jump by "
+                "%s (RMS), %.3g times the steps inside: a tilt goes with rc-detrend --plane; "
+                "a surface that is no period is solved without --periodic",
+                tool_where(t, g, where, sizeof where), line[side],
+                shown_in_unit(jump, seam.across[side], "m"), seam.across[side] / seam.inside[side]);
+}
+
+/* A force on a profile acts on the one row that there is, which is as wide as its nodes are apart. */
+static void
+check_profile(struct tool *t, const struct physics *a, const struct rc_grid *g)
+{
+    char where[256], width[SHOWN_NUMBER];
+
+    if (a->load.per_metre && g->ny != 1)
+        tool_die_at(
+            t, g, EXIT_IMPOSSIBLE,
+            "--load in N/m is for profiles, this map has %zu rows: give the whole force, in N",
+            g->ny);
+    if (g->ny != 1 || g->nx == 1)
+        return;
+    tool_where(t, g, where, sizeof where);
+    shown_in_unit(width, g->dy, "m");
+    if (!a->periodic)
+        tool_warn(t, "%s: a profile is solved as a strip %s wide%s, not as a ridge without end",
+                  where, width, a->load.n > 0 ? ", which carries the force" : "");
+    else if (a->load.n > 0 && !a->load.per_metre)
+        tool_warn(t, "%s: the force on this profile acts on a width of %s: N/m says it without one",
+                  where, width);
+}
+
+static void
+warn(struct tool *t, const struct physics *a, const struct rc_grid *g)
 {
     const char *periodic = rc_grid_get(g, "periodic");
     char where[256];
@@ -89,40 +194,33 @@ warn(struct tool *t, const struct physics *a, const struct rc_grid *g, double rm
                   "%s: the surface is periodic, the solution is not: beyond the map there "
                   "is no material",
                   where);
-    if (!a->periodic && g->ny == 1 && g->nx > 1)
-        tool_warn(t,
-                  "%s: a profile is solved as a strip %g m wide, not as a ridge without "
-                  "end",
-                  where, g->dy);
-    if (rms_slope > 0.3)
-        tool_warn(t,
-                  "%s: RMS slope %.2f is beyond the theory of small slopes (0.3): expect "
-                  "pressures that are too high",
-                  where, rms_slope);
+    if (a->periodic)
+        warn_of_seam(t, g);
 }
 
 void
 physics_heights(struct tool *t, const struct physics *a, struct rc_grid *g)
 {
-    struct rc_shape shape = rc_grid_shape(g);
-    struct rc_statistics st;
+    double zero = 0;
 
     if (strcmp(g->unit, "m") != 0)
         tool_die_at(t, g, EXIT_IMPOSSIBLE,
                     "its unit is '%s': heights are in metres; import the file again with --z-unit",
                     g->unit);
     if (!isnan(a->radius))
-        add_sphere(t, a, g);
-    rc_measure(&shape, g->v, &st);
-    if (st.missing + st.infinite > 0) /* the slow way, which finds the first */
+        add_form(t, a, g);
+    for (size_t k = 0; k < g->nx * g->ny; k++)
+        zero += 0 * g->v[k];
+    if (isnan(zero)) /* the slow way finds the first */
         tool_demand_finite(t, g, "fill them with rc-detrend --fill");
-    warn(t, a, g, st.rms_slope);
+    check_profile(t, a, g);
+    warn(t, a, g);
 }
 
 struct rc_problem
 physics_problem(const struct physics *a, const struct rc_grid *g, size_t step)
 {
-    double number = physics_steps(a)->v[step];
+    double number = physics_steps(a)->v[step] * (a->load.per_metre ? g->dy : 1);
     double area = g->dx * g->dy * (double)(g->nx * g->ny);
 
     return (struct rc_problem){

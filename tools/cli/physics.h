@@ -13,6 +13,7 @@ struct physics {
     double estar, e1, nu1, e2, nu2;               /* the first, or the others         */
     double hardness, radius;
     bool periodic;
+    bool history; /* a load acts on the shape that those before it have left, and may be 0 */
 };
 
 /* Its options, for a row of a tool's table: .group = physics_options, .at = where the args keep
@@ -30,8 +31,8 @@ void physics_check(struct tool *tool, struct physics *physics);
 /* The loads, mean pressures or approaches. */
 const struct numbers *physics_steps(const struct physics *physics);
 
-/* Ends the tool where a frame does not hold heights that can be pressed; else adds the sphere
- * and warns of what the theory does not cover. */
+/* Ends the tool where a frame does not hold heights that can be pressed; else adds the sphere, which
+ * the key `form` then names, and warns of what the boundary does not suit. */
 void physics_heights(struct tool *tool, const struct physics *physics, struct rc_grid *heights);
 /* The contact at one of the steps; how it is to be solved is left open. */
 struct rc_problem physics_problem(const struct physics *physics, const struct rc_grid *heights,

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -30,6 +31,17 @@ threads_wanted(struct tool *t)
     return (size_t)n;
 }
 
+/* Whether standard output was given to --report. */
+static bool
+reports_to_output(const struct tool *t)
+{
+    for (size_t k = 0; k < t->opts; k++)
+        if (t->opt[k].type == OPT_REPORT && t->given[k] &&
+            strcmp(*(const char *const *)((const char *)t->args + t->opt[k].at), "-") == 0)
+            return true;
+    return false;
+}
+
 void
 tool_start(struct tool *t, const struct tool_info *info, int argc, char **argv, void *args)
 {
@@ -46,6 +58,9 @@ tool_start(struct tool *t, const struct tool_info *info, int argc, char **argv, 
     if (tool_given(t, "dry-run")) { /* words instead of grids, and no file is touched */
         t->writes = WRITES_TEXT;
         t->out_name = NULL;
+    } else if (t->out_name == NULL && reports_to_output(t)) {
+        t->writes = WRITES_TEXT;
+        t->report_alone = true;
     }
     output_open(t);
 }
@@ -72,9 +87,12 @@ tool_demand_writable(struct tool *t, const char *option, const char *name)
 {
     char folder[4096];
     const char *slash, *where = name;
+    struct stat st;
 
     if (name == NULL)
         return;
+    if (stat(name, &st) == 0 && S_ISDIR(st.st_mode))
+        tool_die(t, EXIT_IMPOSSIBLE, "%s %s: this is a folder", option, name);
     if (access(name, F_OK) != 0) { /* to be made: its folder has to let us */
         slash = strrchr(name, '/');
         snprintf(folder, sizeof folder, "%.*s", slash == NULL ? 1 : (int)(slash - name) + 1,

@@ -38,12 +38,15 @@ enum opt_type {
     OPT_NUMBER,  /* double; NAN before means "not given"                                    */
     OPT_COUNT,   /* size_t                                                                  */
     OPT_TEXT,    /* const char *                                                            */
+    OPT_REPORT,  /* const char *: a file for report_open, or - for standard output, where then only
+                    the report is written                                                   */
     OPT_CHOICE,  /* const char *, one of the words that .words gives, or else of those in
                     .arg, which are separated by '|'                                        */
     OPT_WORDS,   /* size_t: bit k is set when the list holds word k of .words               */
     OPT_NUMBERS, /* struct numbers; none (n = 0) for .word, if there is one                 */
     OPT_STEP,    /* appended to a struct steps: options whose order on the line matters; with
                     .arg it takes a whole number or, with a unit, a number                  */
+    OPT_TEXTS,   /* appended too, in the same order; the argument stays a text              */
 };
 
 struct opt {
@@ -57,7 +60,8 @@ struct opt {
     bool result;     /* changes what is computed: goes into history                        */
     bool text;       /* given, the tool writes text, whatever it writes otherwise          */
     const char *(*words)(size_t k); /* word k; NULL past the last: see words.h              */
-    const char *word;               /* instead of OPT_NUMBERS                               */
+    const char *word;               /* instead of OPT_NUMBERS; of OPT_NUMBER: for INFINITY  */
+    bool per_metre;                 /* OPT_NUMBERS of forces that may be in N/m             */
     const char *arg;  /* how help names the argument: "FORCE"; NULL: takes none             */
     const char *help; /* one line; %s in it stands for the words                            */
     /* A row without a name: the rows of this table, whose .at are relative to that of the row. */
@@ -72,6 +76,7 @@ struct steps {
     struct step {
         const struct opt *opt;
         double value;
+        const char *text; /* of OPT_TEXTS; goes into history as it is when it is asked for */
     } step[64];
     size_t n;
 };
@@ -126,13 +131,20 @@ struct tool {
         const char *source; /* where it began                                             */
         char names[512];    /* its channels, for the message that one is missing          */
     } current;
+    bool report_alone; /* standard output is for --report, and there is no other output */
+    struct {           /* of the case that results_demand_none is in; number 0: none yet        */
+        size_t number;
+        bool height;
+        char names[256]; /* channels of its results                                       */
+    } results;
     bool type_given, began, warned_short;
     bool progress_shown; /* a line stands on the terminal                                  */
     double progress_at;  /* s: when it was written                                         */
     enum rc_type type;
     struct opt opt[TOOL_OPTIONS]; /* the tool's own, groups written out                     */
     size_t opts;
-    bool given[TOOL_OPTIONS]; /* by row of opt                                              */
+    bool given[TOOL_OPTIONS];       /* by row of opt                                              */
+    const char *list[TOOL_OPTIONS]; /* OPT_NUMBERS as it stands on the line, for a warning  */
     int exit_status;
 };
 
@@ -149,9 +161,10 @@ const char *tool_history(const struct tool *tool);
 /* The next frame of all inputs, cases numbered on; NULL at their end. The caller frees it. */
 struct rc_grid *tool_read(struct tool *tool);
 /* The next frame of this channel, one in each case; the case's other frames are written as they are
- * (`pass`) or dropped. A case that has none of it, or several, ends the tool. NULL at the end. */
+ * (`pass`) or dropped. A case that has none of it, or several, ends the tool; with `pass` so does one
+ * that holds results beside a height, see results.h. NULL at the end. */
 struct rc_grid *tool_channel(struct tool *tool, const char *channel, bool pass);
-/* Writes a frame, in --type when that was given. */
+/* Writes a frame, in --type when that was given; not where a report stands for the stream. */
 void tool_write(struct tool *tool, struct rc_grid *grid);
 /* Ends the stream, closes, puts the file in place; the exit status of main. */
 int tool_finish(struct tool *tool);

@@ -1,7 +1,6 @@
 #include "units.h"
 
 #include <math.h>
-#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -71,14 +70,23 @@ shift(const char *digits, size_t length, int power, double *value)
     return rc_number_read(text, false, value) != NULL;
 }
 
+/* The power of ten of a unit with its prefix, text[0..n); false when it is another unit. */
+static bool
+unit_power(const char *text, size_t n, enum unit unit, int *power)
+{
+    const char *base = unit_name(unit);
+    size_t tail = strlen(base);
+
+    return n >= tail && memcmp(text + n - tail, base, tail) == 0 &&
+           rc_prefix_power(text, n - tail, power);
+}
+
 /* Applies the unit written as suffix[0..n) after the number digits[0..length); false when there is
  * no such unit. */
 static bool
 apply_unit(const char *digits, size_t length, const char *suffix, size_t n, enum unit unit,
            double *value)
 {
-    const char *base = unit_name(unit);
-    size_t tail = strlen(base);
     int power;
 
     if (unit == UNIT_BYTES || unit == UNIT_S)
@@ -92,9 +100,22 @@ apply_unit(const char *digits, size_t length, const char *suffix, size_t n, enum
         return false;
     if (n == 0)
         return true;
-    if (unit == UNIT_NONE || n < tail || memcmp(suffix + n - tail, base, tail) != 0)
+    if (unit == UNIT_NONE)
         return false;
-    return rc_prefix_power(suffix, n - tail, &power) && shift(digits, length, power, value);
+    return unit_power(suffix, n, unit, &power) && shift(digits, length, power, value);
+}
+
+/* The same of a force over a length, "mN/m" or "N/mm". */
+static bool
+apply_force_per_length(const char *digits, size_t length, const char *suffix, size_t n,
+                       double *value)
+{
+    const char *slash = memchr(suffix, '/', n);
+    int above, below;
+
+    return slash != NULL && unit_power(suffix, (size_t)(slash - suffix), UNIT_N, &above) &&
+           unit_power(slash + 1, (size_t)(suffix + n - slash - 1), UNIT_M, &below) &&
+           shift(digits, length, above - below, value);
 }
 
 /* "f p n u m c k M G T": those that can be typed on every keyboard. */
@@ -110,14 +131,36 @@ prefix_list(char *list, size_t size)
     return list;
 }
 
-/* The number in text[0..n), and whether it carries a unit. */
+/* What is seen of a number. `per_metre`: before, whether N/m will do for N; after, whether it is. */
+struct seen {
+    bool with_unit, per_metre;
+};
+
+/* What to expect instead of the unit suffix[0..n). */
 static enum rc_status
-read_one(const char *text, size_t n, enum unit unit, double *value, bool *with_unit,
+unknown_unit(const char *suffix, size_t n, enum unit unit, bool per_metre, struct rc_err *err)
+{
+    char list[64];
+
+    if (unit == UNIT_BYTES)
+        return rc_err_set(err,
+                          "unknown unit '%.*s': a size in bytes is expected, as in 512M or 4GiB",
+                          (int)n, suffix);
+    return rc_err_set(err,
+                      "unknown unit '%.*s': %s%s is expected, with or without one of the prefixes "
+                      "%s%s",
+                      (int)n, suffix, unit_name(unit), per_metre ? " or N/m" : "",
+                      prefix_list(list, sizeof list), unit == UNIT_S ? ", or min or h" : "");
+}
+
+/* The number in text[0..n). */
+static enum rc_status
+read_one(const char *text, size_t n, enum unit unit, double *value, struct seen *seen,
          struct rc_err *err)
 {
+    bool per_metre = seen->per_metre;
     const char *end, *stop = text + n;
-    char list[64];
-    size_t length;
+    size_t length, rest;
 
     while (n > 0 && *text == ' ') {
         text++;
@@ -129,21 +172,14 @@ read_one(const char *text, size_t n, enum unit unit, double *value, bool *with_u
     length = (size_t)(end - text);
     while (end < stop && *end == ' ')
         end++;
-    *with_unit = end < stop;
-    if (!apply_unit(text, length, end, (size_t)(stop - end), unit, value)) {
+    rest = (size_t)(stop - end);
+    seen->with_unit = rest > 0;
+    seen->per_metre = per_metre && apply_force_per_length(text, length, end, rest, value);
+    if (!seen->per_metre && !apply_unit(text, length, end, rest, unit, value)) {
         if (unit == UNIT_NONE)
             return rc_err_set(err, "'%.*s' after %.*s: a plain number without a unit is expected",
-                              (int)(stop - end), end, (int)length, text);
-        if (unit == UNIT_BYTES)
-            return rc_err_set(err,
-                              "unknown unit '%.*s': a size in bytes is expected, as in 512M "
-                              "or 4GiB",
-                              (int)(stop - end), end);
-        return rc_err_set(err,
-                          "unknown unit '%.*s': %s is expected, with or without one of the "
-                          "prefixes %s%s",
-                          (int)(stop - end), end, unit_name(unit), prefix_list(list, sizeof list),
-                          unit == UNIT_S ? ", or min or h" : "");
+                              (int)rest, end, (int)length, text);
+        return unknown_unit(end, rest, unit, per_metre, err);
     }
     if (!isfinite(*value))
         return rc_err_set(err, "'%.*s' is too large", (int)n, text);
@@ -153,30 +189,40 @@ read_one(const char *text, size_t n, enum unit unit, double *value, bool *with_u
 enum rc_status
 unit_number(const char *text, enum unit unit, double *value, struct rc_err *err)
 {
-    bool with_unit;
+    struct seen seen = {0};
 
-    return read_one(text, strlen(text), unit, value, &with_unit, err);
+    return read_one(text, strlen(text), unit, value, &seen, err);
 }
 
-struct pieces {
-    bool with, without; /* a number with a unit was seen, one without that is not 0 */
+/* ---- lists ---- */
+
+/* How a list is read, and what was seen in it. */
+struct list_state {
+    enum unit unit;
+    bool forces;                   /* N/m will do for N                      */
+    bool with, without;            /* a unit; none, on a number that is not 0 */
+    bool per_metre, not_per_metre; /* with a unit                            */
 };
 
 static enum rc_status
-read_piece(const char *text, size_t n, enum unit unit, struct pieces *seen, double *value,
-           struct rc_err *err)
+read_piece(const char *text, size_t n, struct list_state *state, double *value, struct rc_err *err)
 {
-    bool with_unit;
+    struct seen seen = {.per_metre = state->forces};
 
-    if (read_one(text, n, unit, value, &with_unit, err) != RC_OK)
+    if (read_one(text, n, state->unit, value, &seen, err) != RC_OK)
         return RC_FAIL;
-    if (with_unit)
-        seen->with = true;
-    else if (*value != 0)
-        seen->without = true;
-    if (seen->with && seen->without)
+    if (seen.with_unit) {
+        state->with = true;
+        state->per_metre |= seen.per_metre;
+        state->not_per_metre |= !seen.per_metre;
+    } else if (*value != 0) {
+        state->without = true;
+    }
+    if (state->with && state->without)
         return rc_err_set(err, "numbers with and without a unit in one list: give each its unit, "
-                               "or none");
+                               "or none; the decimal mark is a point");
+    if (state->per_metre && state->not_per_metre)
+        return rc_err_set(err, "N and N/m in one list: give all in one of them");
     return RC_OK;
 }
 
@@ -190,43 +236,60 @@ decimal(double x)
     return strtod(text, NULL);
 }
 
-/* a:b:n with the colons at `first` and `second`. */
+/* Value k of n from a to b, by steps or by ratio. */
+static double
+between(double a, double b, bool by_ratio, size_t k, double n)
+{
+    double part = (double)k / (n - 1);
+
+    if (k == 0)
+        return a;
+    if ((double)k + 1 == n)
+        return b;
+    return decimal(by_ratio ? a * pow(b / a, part) : a + (b - a) * part);
+}
+
+/* a:b:n or a:b:log:n with the first colons at `first` and `second`. */
 static enum rc_status
-read_range(const char *text, const char *first, const char *second, enum unit unit,
+read_range(const char *text, const char *first, const char *second, struct list_state *state,
            struct numbers *list, struct rc_err *err)
 {
-    struct pieces seen = {0};
+    bool by_ratio = strncmp(second + 1, "log:", 4) == 0;
+    const char *count = second + (by_ratio ? 5 : 1);
     double a, b, n;
 
-    if (read_piece(text, (size_t)(first - text), unit, &seen, &a, err) != RC_OK ||
-        read_piece(first + 1, (size_t)(second - first - 1), unit, &seen, &b, err) != RC_OK ||
-        unit_number(second + 1, UNIT_NONE, &n, err) != RC_OK)
+    if (read_piece(text, (size_t)(first - text), state, &a, err) != RC_OK ||
+        read_piece(first + 1, (size_t)(second - first - 1), state, &b, err) != RC_OK ||
+        unit_number(count, UNIT_NONE, &n, err) != RC_OK)
         return RC_FAIL;
     if (n != floor(n) || n < 2 || n > 1e6)
-        return rc_err_set(err, "'%s' in a:b:n must be a whole number of values, at least 2",
-                          second + 1);
+        return rc_err_set(err, "'%s' in %s must be a whole number of values, at least 2", count,
+                          by_ratio ? "a:b:log:n" : "a:b:n");
+    if (by_ratio && !(a > 0 && b > 0))
+        return rc_err_set(err, "from %g to %g: a range by ratio needs both ends above 0", a, b);
     list->n = (size_t)n;
     list->v = malloc(list->n * sizeof *list->v);
     if (list->v == NULL)
         return rc_err_set(err, "out of memory for %zu numbers", list->n);
     for (size_t k = 0; k < list->n; k++)
-        list->v[k] = k + 1 == list->n ? b : decimal(a + (b - a) * (double)k / (n - 1));
+        list->v[k] = between(a, b, by_ratio, k, n);
     return RC_OK;
 }
 
-enum rc_status
-unit_numbers(const char *text, enum unit unit, struct numbers *list, struct rc_err *err)
+static enum rc_status
+read_list(const char *text, struct list_state *state, struct numbers *list, struct rc_err *err)
 {
-    struct pieces seen = {0};
     const char *colon = strchr(text, ':');
     size_t n = 1;
 
-    *list = (struct numbers){0};
     if (colon != NULL) {
         const char *second = strchr(colon + 1, ':');
-        if (second == NULL)
-            return rc_err_set(err, "'%s': a range is a:b:n, n values from a to b", text);
-        return read_range(text, colon, second, unit, list, err);
+        if (second == NULL || strcmp(second, ":log") == 0)
+            return rc_err_set(err,
+                              "'%s': a range is a:b:n, n values from a to b, or a:b:log:n, the "
+                              "same by ratio",
+                              text);
+        return read_range(text, colon, second, state, list, err);
     }
     for (const char *s = text; *s != '\0'; s++)
         n += *s == ',';
@@ -235,12 +298,51 @@ unit_numbers(const char *text, enum unit unit, struct numbers *list, struct rc_e
         return rc_err_set(err, "out of memory for %zu numbers", n);
     for (; list->n < n; list->n++) {
         size_t length = strcspn(text, ",");
-        if (read_piece(text, length, unit, &seen, &list->v[list->n], err) != RC_OK) {
-            free(list->v);
-            *list = (struct numbers){0};
+        if (read_piece(text, length, state, &list->v[list->n], err) != RC_OK)
             return RC_FAIL;
-        }
         text += length + 1;
     }
     return RC_OK;
+}
+
+static enum rc_status
+read_numbers(const char *text, struct list_state state, struct numbers *list, struct rc_err *err)
+{
+    *list = (struct numbers){0};
+    if (read_list(text, &state, list, err) == RC_OK) {
+        list->per_metre = state.per_metre;
+        return RC_OK;
+    }
+    free(list->v);
+    *list = (struct numbers){0};
+    return RC_FAIL;
+}
+
+enum rc_status
+unit_numbers(const char *text, enum unit unit, struct numbers *list, struct rc_err *err)
+{
+    return read_numbers(text, (struct list_state){.unit = unit}, list, err);
+}
+
+enum rc_status
+unit_forces(const char *text, struct numbers *list, struct rc_err *err)
+{
+    return read_numbers(text, (struct list_state){.unit = UNIT_N, .forces = true}, list, err);
+}
+
+bool
+unit_decimal_comma(const char *text)
+{
+    const char *digits = "0123456789", *s = text + (*text == '-' || *text == '+');
+    size_t whole = strspn(s, digits), part;
+    double a, b;
+
+    if (whole == 0 || s[whole] != ',')
+        return false;
+    part = strspn(s + whole + 1, digits);
+    if (part == 0 || s[whole + 1 + part] != '\0')
+        return false;
+    a = strtod(s, NULL);
+    b = strtod(s + whole + 1, NULL);
+    return a > 0 && b > 0 && a < 10 * b && b < 10 * a;
 }

@@ -2,6 +2,7 @@
 #ifndef RC_UNITS_H
 #define RC_UNITS_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "libcontact/grid.h"
@@ -18,6 +19,7 @@ enum unit {
 struct numbers {
     double *v;
     size_t n;
+    bool per_metre; /* forces over a length, N/m instead of N */
 };
 
 const char *unit_name(enum unit unit);
@@ -25,9 +27,14 @@ const char *unit_name(enum unit unit);
 /* One number, with or without its unit, to SI. RC_FAIL says what was expected. */
 enum rc_status unit_number(const char *text, enum unit unit, double *value, struct rc_err *err);
 
-/* `a,b,c` or `a:b:n` (n values, both ends included). Numbers with and without a unit in one list
- * are an error, except 0. The caller frees list->v. */
+/* `a,b,c`, `a:b:n` (n values, both ends included) or `a:b:log:n` (the same, by ratio). Numbers with
+ * and without a unit in one list are an error, except 0. The caller frees list->v. */
 enum rc_status unit_numbers(const char *text, enum unit unit, struct numbers *list,
                             struct rc_err *err);
+/* The same of forces, which may all be given over a length, in N/m. */
+enum rc_status unit_forces(const char *text, struct numbers *list, struct rc_err *err);
+/* Whether a list looks as if it were one number with a decimal comma: two whole numbers without a
+ * unit, of which none is ten times the other. */
+bool unit_decimal_comma(const char *text);
 
 #endif

@@ -154,7 +154,7 @@ void cost_mark(struct cost_case *c);
 /* The one command line for a time or an accuracy; ends the tool where there is none. */
 void cost_command(const struct cost_case *c, FILE *out);
 void cost_table(const struct cost_case *c, FILE *out);
-void cost_report(const struct cost_case *c, FILE *out);
+void cost_report(const struct cost_case *c, struct report *out);
 /* Error against time as a PNG in memory, which the caller frees. */
 unsigned char *cost_plot(const struct cost_case *c, size_t *bytes, struct rc_err *err);
 

@@ -1,5 +1,5 @@
 /*
- * What was measured, as JSON: an object a trial.
+ * What was measured: a row a trial.
  */
 #include "cost.h"
 
@@ -12,78 +12,82 @@ state_name(enum cost_state state)
 }
 
 static void
-report_measured(struct json *j, const struct cost_trial *m)
+report_measured(struct report *out, const struct cost_trial *m)
 {
     bool done = m->state == COST_DONE;
 
-    json_number(j, "seconds", done ? m->seconds : NAN);
-    json_count(j, "runs", m->runs);
-    json_number(j, "convolutions", done ? m->convolutions : NAN);
-    json_number(j, "memory", done ? (double)m->memory : NAN);
-    json_number(j, "iterations", done ? (double)m->contact.iterations : NAN);
-    json_number(j, "pressure_error_estimate", done ? m->contact.pressure_error : NAN);
-    json_number(j, "error", done ? m->error : NAN);
-    json_number(j, "contact_area_error", done ? m->area_error : NAN);
-    json_number(j, "max_pressure_error", done ? m->peak_error : NAN);
-    json_number(j, "approach_error", done ? m->approach_error : NAN);
-    json_bool(j, "converged", done && m->contact.converged);
-    json_bool(j, "front", m->front);
-    json_bool(j, "optimistic", m->optimistic);
+    report_number(out, "seconds", done ? m->seconds : NAN, "s");
+    report_count(out, "runs", m->runs, NULL);
+    report_number(out, "convolutions", done ? m->convolutions : NAN, NULL);
+    report_number(out, "memory", done ? (double)m->memory : NAN, "B");
+    report_number(out, "iterations", done ? (double)m->contact.iterations : NAN, NULL);
+    report_number(out, "pressure_error_estimate", done ? m->contact.pressure_error : NAN, NULL);
+    report_number(out, "error", done ? m->error : NAN, NULL);
+    report_number(out, "contact_area_error", done ? m->area_error : NAN, NULL);
+    report_number(out, "max_pressure_error", done ? m->peak_error : NAN, NULL);
+    report_number(out, "approach_error", done ? m->approach_error : NAN, NULL);
+    report_bool(out, "converged", done && m->contact.converged);
+    report_bool(out, "front", m->front);
+    report_bool(out, "optimistic", m->optimistic);
 }
 
 static void
-report_trial(const struct cost_case *c, const struct cost_trial *m, const char *what, FILE *out)
+report_trial(const struct cost_case *c, const struct cost_trial *m, const char *what,
+             struct report *out)
 {
-    struct json j;
-
-    json_open(&j, out);
-    json_count(&j, "case", rc_grid_case(c->heights));
-    json_text(&j, "source", rc_grid_get(c->heights, "source"));
-    json_text(&j, "what", what);
-    json_text(&j, "method", m->settings.method);
-    json_text(&j, "kernel", m->settings.kernel);
-    json_text(&j, "arithmetic", m->settings.arithmetic);
-    json_number(&j, "tol", m->settings.tol);
-    json_count(&j, "coarse", m->settings.coarse);
-    json_count(&j, "nx", m->shape.nx);
-    json_count(&j, "ny", m->shape.ny);
-    json_count(&j, "threads", c->tool->threads);
-    json_text(&j, "state", state_name(m->state));
-    json_text(&j, "why", m->why[0] == '\0' ? NULL : m->why);
-    json_number(&j, "expected_seconds", m->expected);
-    report_measured(&j, m);
-    json_close(&j);
+    report_begin(out);
+    report_count(out, "case", rc_grid_case(c->heights), NULL);
+    report_text(out, "source", rc_grid_get(c->heights, "source"));
+    report_text(out, "what", what);
+    report_text(out, "method", m->settings.method);
+    report_text(out, "kernel", m->settings.kernel);
+    report_text(out, "arithmetic", m->settings.arithmetic);
+    report_number(out, "tol", m->settings.tol, NULL);
+    report_count(out, "coarse", m->settings.coarse, NULL);
+    report_count(out, "nx", m->shape.nx, NULL);
+    report_count(out, "ny", m->shape.ny, NULL);
+    report_count(out, "threads", c->tool->threads, NULL);
+    report_text(out, "state", state_name(m->state));
+    report_text(out, "why", m->why[0] == '\0' ? NULL : m->why);
+    report_number(out, "expected_seconds", m->expected, "s");
+    report_measured(out, m);
+    if (c->stress != NULL) {
+        report_column(out, "depths", NULL);
+        report_column(out, "coarse_depths", NULL);
+        report_column(out, "rms_error", NULL);
+        report_column(out, "mises_error", NULL);
+    }
+    report_finish_row(out);
 }
 
 static void
-report_stress(const struct cost_case *c, const struct cost_stress *s, FILE *out)
+report_stress(const struct cost_case *c, const struct cost_stress *s, struct report *out)
 {
     bool done = s->state == COST_DONE;
-    struct json j;
 
-    json_open(&j, out);
-    json_count(&j, "case", rc_grid_case(c->heights));
-    json_text(&j, "source", rc_grid_get(c->heights, "source"));
-    json_text(&j, "what", s->reference ? "stress reference" : "stress");
-    json_text(&j, "kernel", s->kernel);
-    json_number(&j, "tol", s->tol);
-    json_count(&j, "depths", c->depths.n);
-    json_text(&j, "state", state_name(s->state));
-    json_text(&j, "why", s->why[0] == '\0' ? NULL : s->why);
-    json_number(&j, "expected_seconds", s->expected);
-    json_number(&j, "seconds", done ? s->seconds : NAN);
-    json_count(&j, "runs", s->runs);
-    json_number(&j, "coarse_depths", done ? (double)s->coarse : NAN);
-    json_number(&j, "memory", done ? (double)s->memory : NAN);
-    json_number(&j, "error", done ? s->error : NAN);
-    json_number(&j, "rms_error", done ? s->rms : NAN);
-    json_number(&j, "mises_error", done ? s->mises : NAN);
-    json_bool(&j, "front", s->front);
-    json_close(&j);
+    report_begin(out);
+    report_count(out, "case", rc_grid_case(c->heights), NULL);
+    report_text(out, "source", rc_grid_get(c->heights, "source"));
+    report_text(out, "what", s->reference ? "stress reference" : "stress");
+    report_text(out, "kernel", s->kernel);
+    report_number(out, "tol", s->tol, NULL);
+    report_count(out, "depths", c->depths.n, NULL);
+    report_text(out, "state", state_name(s->state));
+    report_text(out, "why", s->why[0] == '\0' ? NULL : s->why);
+    report_number(out, "expected_seconds", s->expected, "s");
+    report_number(out, "seconds", done ? s->seconds : NAN, "s");
+    report_count(out, "runs", s->runs, NULL);
+    report_number(out, "coarse_depths", done ? (double)s->coarse : NAN, NULL);
+    report_number(out, "memory", done ? (double)s->memory : NAN, "B");
+    report_number(out, "error", done ? s->error : NAN, NULL);
+    report_number(out, "rms_error", done ? s->rms : NAN, NULL);
+    report_number(out, "mises_error", done ? s->mises : NAN, NULL);
+    report_bool(out, "front", s->front);
+    report_finish_row(out);
 }
 
 void
-cost_report(const struct cost_case *c, FILE *out)
+cost_report(const struct cost_case *c, struct report *out)
 {
     report_trial(c, &c->reference, "reference", out);
     for (size_t k = 0; k < c->trials; k++)

@@ -17,8 +17,7 @@ struct seen {
 static const char *const preferred[] = {"mises", "pressure", "height"};
 
 enum {
-    PREFERRED = sizeof preferred / sizeof *preferred,
-    NAMED = 12 /* things that a message names one by one */
+    PREFERRED = sizeof preferred / sizeof *preferred
 };
 
 static size_t
@@ -135,86 +134,61 @@ choice_offer(struct choice *c, struct tool *t, struct rc_grid *g)
 
 /* ---- what is said about it ---- */
 
-struct list {
-    char text[640];
-    size_t n, named;
-};
-
-/* Adds a name that is not in the list yet; past NAMED they are only counted. */
-static void
-add_name(struct list *l, const char *name)
-{
-    size_t used = strlen(l->text);
-
-    l->n++;
-    if (l->named == NAMED || used + strlen(name) + 8 > sizeof l->text)
-        return;
-    l->named++;
-    snprintf(l->text + used, sizeof l->text - used, "%s%s", used > 0 ? ", " : "", name);
-}
-
-static const char *
-end_list(struct list *l)
-{
-    size_t used = strlen(l->text);
-
-    if (l->n > l->named)
-        snprintf(l->text + used, sizeof l->text - used, ", ... (%zu in all)", l->n);
-    return l->text;
-}
-
 static _Noreturn void
 no_channel(struct choice *c, struct tool *t)
 {
-    struct list l = {.n = 0};
+    struct name_list l = {.n = 0};
 
     for (size_t k = 0, i; k < c->n; k++) {
         for (i = 0; i < k && strcmp(c->seen[i].channel, c->seen[k].channel) != 0;)
             i++;
         if (i == k)
-            add_name(&l, c->seen[k].channel);
+            name_list_add(&l, c->seen[k].channel);
     }
     tool_die(t, EXIT_IMPOSSIBLE, "%s: there is no channel %s: there are %s", t->source,
-             c->wish->channel, end_list(&l));
+             c->wish->channel, name_list_end(&l));
 }
 
 static _Noreturn void
 no_case(struct choice *c, struct tool *t)
 {
     char text[TICKS_TEXT];
-    struct list l = {.n = 0};
+    struct name_list l = {.n = 0};
 
     for (size_t k = 0; k < c->n; k++) {
         if (!right_channel(c->wish, &c->seen[k]) ||
             (k > 0 && c->seen[k].number == c->seen[k - 1].number && l.n > 0))
             continue;
         snprintf(text, sizeof text, "%zu", c->seen[k].number);
-        add_name(&l, text);
+        name_list_add(&l, text);
     }
     tool_die(t, EXIT_IMPOSSIBLE, "%s: case %zu holds no %s: there are cases %s", t->source,
-             c->wish->number, c->wish->channel == NULL ? "frame" : c->wish->channel, end_list(&l));
+             c->wish->number, c->wish->channel == NULL ? "frame" : c->wish->channel,
+             name_list_end(&l));
 }
 
 static _Noreturn void
 no_depth(struct choice *c, struct tool *t)
 {
     char text[TICKS_TEXT];
-    struct list l = {.n = 0};
+    struct name_list l = {.n = 0};
 
     for (size_t k = 0, i; k < c->n; k++) {
         const struct seen *s = &c->seen[k];
 
         if (isnan(s->depth) || !right_channel(c->wish, s) || !right_case(c->wish, s))
             continue;
-        for (i = 0; i < k && c->seen[i].depth != s->depth;)
+        for (i = 0;
+             i < k && (c->seen[i].depth != s->depth || !right_channel(c->wish, &c->seen[i]) ||
+                       !right_case(c->wish, &c->seen[i]));)
             i++;
         if (i == k)
-            add_name(&l, rc_number_text(text, s->depth));
+            name_list_add(&l, rc_number_text(text, s->depth));
     }
     tool_die(t, EXIT_IMPOSSIBLE, "%s: there is no %s at depth %s m: %s%s%s", t->source,
              c->wish->channel == NULL ? "frame" : c->wish->channel,
              rc_number_text(text, c->wish->depth), l.n == 0 ? "no frame has a depth" : "there are ",
-             end_list(&l), l.n == 0 ? "" : " m");
+             name_list_end(&l), l.n == 0 ? "" : " m");
 }
 
 static _Noreturn void

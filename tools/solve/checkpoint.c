@@ -143,7 +143,7 @@ struct mark {
 };
 
 enum {
-    MARKS = 5
+    MARKS = 6
 };
 
 static void
@@ -159,10 +159,16 @@ marks_of(const struct checkpoint *c, struct mark mark[MARKS])
     rc_number_text(mark[2].value, args->estar);
     mark[3].name = "checkpoint.hardness";
     rc_number_text(mark[3].value, args->hardness);
-    mark[4].name = args->load.n > 0            ? "checkpoint.load"
+    mark[4].name = args->load.per_metre        ? "checkpoint.load-per-metre"
+                   : args->load.n > 0          ? "checkpoint.load"
                    : args->mean_pressure.n > 0 ? "checkpoint.mean-pressure"
                                                : "checkpoint.approach";
     rc_number_text(mark[4].value, c->run->steps->v[c->run->step]);
+    mark[5].name = "checkpoint.history"; /* the loads before, which have left their shape */
+    snprintf(mark[5].value, sizeof mark[5].value, "%08" PRIx32,
+             !args->history
+                 ? 0
+                 : rc_crc32_add(0, c->run->steps->v, c->run->step * sizeof *c->run->steps->v));
 }
 
 static void

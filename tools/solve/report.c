@@ -1,7 +1,6 @@
 /* What rc-solve tells about a solution, or about one that it is to make. */
 #include "solve.h"
 
-#include <errno.h>
 #include <math.h>
 #include <string.h>
 
@@ -66,6 +65,14 @@ approach_state(const struct scene *s)
 }
 
 static const char *
+history_state(const struct scene *s)
+{
+    if (!s->run->args->physics.history)
+        return "left out: no --history";
+    return "on: each load acts on the shape that those before have left";
+}
+
+static const char *
 stiffness_state(const struct scene *s)
 {
     return s->run->stiffness ? "on" : "left out: one load and no --stiffness";
@@ -83,13 +90,10 @@ static const struct effect {
     const char *name;
     const char *(*state)(const struct scene *scene);
 } effects[] = {
-    {"kernel", kernel_state},
-    {"hardness", hardness_state},
-    {"sphere", sphere_state},
-    {"padding", padding_state},
-    {"approach", approach_state},
-    {"stiffness", stiffness_state},
-    {"discretization", discretization_state},
+    {"kernel", kernel_state},       {"hardness", hardness_state},
+    {"sphere", sphere_state},       {"padding", padding_state},
+    {"approach", approach_state},   {"history", history_state},
+    {"stiffness", stiffness_state}, {"discretization", discretization_state},
 };
 
 enum {
@@ -117,79 +121,81 @@ effect_at(const struct scene *scene, size_t k, const char **name, const char **s
 /* ---- report ---- */
 
 static void
-report_discretization(struct json *j, const struct rc_contact *c)
+report_discretization(struct report *r, const struct rc_contact *c)
 {
     if (isnan(c->discretization.max_pressure)) {
-        json_null(j, "discretization_error_estimate");
+        report_no_object(r, "discretization_error_estimate");
         return;
     }
-    json_object(j, "discretization_error_estimate");
-    json_number(j, "contact_area", c->discretization.contact_area);
-    json_number(j, "max_pressure", c->discretization.max_pressure);
-    json_number(j, "approach", c->discretization.approach);
-    json_end(j, '}');
+    report_object(r, "discretization_error_estimate");
+    report_number(r, "contact_area", c->discretization.contact_area, "m2");
+    report_number(r, "max_pressure", c->discretization.max_pressure, "Pa");
+    report_number(r, "approach", c->discretization.approach, "m");
+    report_end(r);
 }
 
 static void
-report_figures(struct json *j, const struct rc_contact *c, double stiffness)
+report_figures(struct report *r, const struct solution *s)
 {
-    json_number(j, "load", c->load);
-    json_number(j, "mean_pressure", c->mean_pressure);
-    json_number(j, "max_pressure", c->max_pressure);
-    json_count(j, "contact_nodes", c->contact_nodes);
-    json_number(j, "contact_area", c->contact_area);
-    json_number(j, "contact_fraction", c->contact_fraction);
-    json_number(j, "plastic_area", c->plastic_area);
-    json_number(j, "edge_load_fraction", c->edge_load_fraction);
-    json_number(j, "approach", c->approach);
-    json_number(j, "mean_gap", c->mean_gap);
-    json_number(j, "stiffness", stiffness);
-    json_count(j, "iterations", c->iterations);
-    json_number(j, "convolutions", c->convolutions);
-    json_number(j, "kkt_residual", c->kkt_residual);
-    json_number(j, "pressure_error_estimate", c->pressure_error);
-    report_discretization(j, c);
-    json_bool(j, "converged", c->converged);
+    const struct rc_contact *c = &s->contact;
+
+    report_number(r, "load", c->load, "N");
+    report_number(r, "mean_pressure", c->mean_pressure, "Pa");
+    report_number(r, "max_pressure", c->max_pressure, "Pa");
+    report_count(r, "contact_nodes", c->contact_nodes, NULL);
+    report_number(r, "nodes_per_patch", (double)c->contact_nodes / (double)s->patches, NULL);
+    report_number(r, "contact_area", c->contact_area, "m2");
+    report_number(r, "contact_fraction", c->contact_fraction, NULL);
+    report_number(r, "plastic_area", c->plastic_area, "m2");
+    report_number(r, "yielded_area", c->yielded_area, "m2");
+    report_number(r, "edge_load_fraction", c->edge_load_fraction, NULL);
+    report_number(r, "approach", c->approach, "m");
+    report_number(r, "mean_gap", c->mean_gap, "m");
+    report_number(r, "stiffness", s->stiffness, "N/m");
+    report_count(r, "iterations", c->iterations, NULL);
+    report_number(r, "convolutions", c->convolutions, NULL);
+    report_number(r, "kkt_residual", c->kkt_residual, NULL);
+    report_number(r, "pressure_error_estimate", c->pressure_error, NULL);
+    report_discretization(r, c);
+    report_bool(r, "converged", c->converged);
 }
 
 void
 solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *solver,
-             const struct rc_contact *c, double stiffness)
+             const struct solution *s)
 {
-    struct scene scene = {run, rc_solver_engine_reason(solver), &c->hardness_active};
+    struct scene scene = {run,
+                          solver == NULL ? "left out: no load" : rc_solver_engine_reason(solver),
+                          &s->contact.hardness_active};
     const char *name, *state;
-    struct json j;
+    struct report *r = &run->report;
 
-    if (run->args->report == NULL)
+    if (!report_wanted(r))
         return;
-    if (run->report == NULL && (run->report = fopen(run->args->report, "w")) == NULL)
-        tool_die(&run->t, EXIT_IMPOSSIBLE, "--report %s: %s", run->args->report, strerror(errno));
-    json_open(&j, run->report);
-    json_count(&j, "case", run->number);
-    json_text(&j, "source", rc_grid_get(g, "source"));
-    json_count(&j, "nx", g->nx);
-    json_count(&j, "ny", g->ny);
-    json_number(&j, "dx", g->dx);
-    json_number(&j, "dy", g->dy);
-    json_text(&j, "boundary", run->args->physics.periodic ? "periodic" : "free");
-    json_text(&j, "kernel", rc_solver_engine(solver));
-    json_text(&j, "method", rc_solver_method(solver));
-    json_count(&j, "threads", run->t.threads);
-    report_figures(&j, c, stiffness);
-    json_object(&j, "effects");
+    report_begin(r);
+    report_count(r, "case", run->number, NULL);
+    report_text(r, "source", rc_grid_get(g, "source"));
+    report_count(r, "nx", g->nx, NULL);
+    report_count(r, "ny", g->ny, NULL);
+    report_number(r, "dx", g->dx, "m");
+    report_number(r, "dy", g->dy, "m");
+    report_text(r, "boundary", run->args->physics.periodic ? "periodic" : "free");
+    report_text(r, "kernel", solver == NULL ? NULL : rc_solver_engine(solver));
+    report_text(r, "method", solver == NULL ? NULL : rc_solver_method(solver));
+    report_count(r, "threads", run->t.threads, NULL);
+    report_figures(r, s);
+    report_object(r, "effects");
     for (size_t k = 0; effect_at(&scene, k, &name, &state); k++)
-        json_text(&j, name, state);
-    json_end(&j, '}');
-    json_object(&j, "seconds");
-    json_number(&j, "setup", run->setup);
-    json_number(&j, "iterate", run->iterate);
-    json_number(&j, "result", run->result);
-    json_number(&j, "total", solve_now() - run->began);
-    json_end(&j, '}');
-    json_count(&j, "peak_memory", tool_peak_memory());
-    json_close(&j);
-    if (ferror(run->report))
-        tool_die(&run->t, EXIT_IMPOSSIBLE, "--report %s: writing failed", run->args->report);
+        report_text(r, name, state);
+    report_end(r);
+    report_object(r, "seconds");
+    report_number(r, "setup", run->setup, "s");
+    report_number(r, "iterate", run->iterate, "s");
+    report_number(r, "result", run->result, "s");
+    report_number(r, "total", solve_now() - run->began, "s");
+    report_end(r);
+    report_count(r, "peak_memory", tool_peak_memory(), "B");
+    report_finish_row(r);
 }
 
 /* ---- plan ---- */

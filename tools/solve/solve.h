@@ -45,8 +45,9 @@ struct run {
     const struct numbers *steps; /* the list of loads or approaches               */
     size_t step, number;         /* which of them, from 0; the case that it is    */
     bool stiffness;
-    bool resumed; /* this case, from a checkpoint                      */
-    FILE *report;
+    bool resumed;        /* this case, from a checkpoint                      */
+    double height_error; /* m: of the shape that the loads before have left */
+    struct report report;
     struct checkpoint *checkpoint; /* NULL: none */
     size_t nodes;                  /* of the map */
     struct progress progress;
@@ -65,9 +66,22 @@ solve_now(void)
     return tool_now();
 }
 
-/* One JSON object for the case, where --report asks for it. */
+/* What is known of a solution. */
+struct solution {
+    struct rc_contact contact;
+    size_t patches;   /* of the contact                                          */
+    double slope;     /* RMS, where the bodies touch; NAN: not looked at         */
+    double stiffness; /* N/m; NAN: unknown                                       */
+};
+
+/* "steel.x3p, case 2, load 3 N": which solution is meant, for messages. */
+const char *solve_where(const struct run *run, const struct rc_grid *g, char *text, size_t size);
+/* Warns of a solution that is not what it looks like, and, with --verbose, tells its figures. */
+void solve_judge(struct run *run, const struct rc_grid *g, const struct solution *solution);
+
+/* The row of the case, where --report asks for it. `solver` is NULL for bodies that are apart. */
 void solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *solver,
-                  const struct rc_contact *contact, double stiffness);
+                  const struct solution *solution);
 /* What the scene calls for and what it doesn't, and what that costs, in words. */
 void solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *problem);
 

@@ -142,91 +142,89 @@ enum {
 /* ---- the report ---- */
 
 static void
-report_peaks(const struct stress_report *r, struct json *j)
+write_peaks(const struct stress_report *r, struct report *out)
 {
-    json_object(j, "largest");
+    report_object(out, "largest");
     for (int c = 0; c < RC_STRESSES; c++) {
         const struct stress_peak *peak = &r->peak[c];
         if (peak->by_depth == NULL)
             continue;
-        json_object(j, rc_component_names[c]);
-        json_number(j, "value", peak->value);
-        json_number(j, "x", peak->x);
-        json_number(j, "y", peak->y);
-        json_number(j, "depth", peak->depth);
-        json_array(j, "by_depth");
+        report_object(out, rc_component_names[c]);
+        report_number(out, "value", peak->value, "Pa");
+        report_number(out, "x", peak->x, "m");
+        report_number(out, "y", peak->y, "m");
+        report_number(out, "depth", peak->depth, "m");
+        report_array(out, "by_depth");
         for (size_t k = 0; k < r->depths->n; k++)
-            json_number(j, NULL, peak->by_depth[k]);
-        json_end(j, ']');
-        json_end(j, '}');
+            report_number(out, NULL, peak->by_depth[k], "Pa");
+        report_end(out);
+        report_end(out);
     }
-    json_end(j, '}');
+    report_end(out);
 }
 
 static void
-report_counts(struct json *j, const struct rc_stress_counts *c)
+write_counts(struct report *out, const struct rc_stress_counts *c)
 {
-    json_object(j, "counts");
-    json_count(j, "depths", c->depths);
-    json_count(j, "coarse_depths", c->coarse_depths);
-    json_count(j, "normal_kernels", c->normal_kernels);
-    json_count(j, "shear_kernels", c->shear_kernels);
-    json_count(j, "coefficients", c->coefficients);
-    json_count(j, "source_transforms", c->source_transforms);
-    json_count(j, "kernel_transforms", c->kernel_transforms);
-    json_count(j, "field_transforms", c->field_transforms);
-    json_count(j, "line_transforms", c->line_transforms);
-    json_count(j, "engine_sums", c->engine_sums);
-    json_end(j, '}');
+    report_object(out, "counts");
+    report_count(out, "depths", c->depths, NULL);
+    report_count(out, "coarse_depths", c->coarse_depths, NULL);
+    report_count(out, "normal_kernels", c->normal_kernels, NULL);
+    report_count(out, "shear_kernels", c->shear_kernels, NULL);
+    report_count(out, "coefficients", c->coefficients, NULL);
+    report_count(out, "source_transforms", c->source_transforms, NULL);
+    report_count(out, "kernel_transforms", c->kernel_transforms, NULL);
+    report_count(out, "field_transforms", c->field_transforms, NULL);
+    report_count(out, "line_transforms", c->line_transforms, NULL);
+    report_count(out, "engine_sums", c->engine_sums, NULL);
+    report_end(out);
 }
 
-enum rc_status
-stress_report_write(struct stress_report *r, FILE *file, const struct rc_stress *stress)
+void
+stress_report_write(struct stress_report *r, struct report *out, const struct rc_stress *stress)
 {
     const struct rc_stress_options *o = r->options;
     const char *converged = rc_grid_get(r->p, "converged");
     const char section[2] = {o->section, '\0'};
-    struct json j;
 
-    json_open(&j, file);
-    json_count(&j, "case", rc_grid_case(r->p));
-    json_text(&j, "source", rc_grid_get(r->p, "source"));
-    json_count(&j, "nx", r->p->nx);
-    json_count(&j, "ny", r->p->ny);
-    json_number(&j, "dx", r->p->dx);
-    json_number(&j, "dy", r->p->dy);
-    json_text(&j, "boundary", o->boundary == RC_PERIODIC ? "periodic" : "free");
-    json_text(&j, "kernel", rc_stress_engine(stress));
-    json_count(&j, "threads", o->threads);
-    json_number(&j, "nu", o->nu);
-    json_number(&j, "mu", o->mu);
-    json_text(&j, "section", o->section == 0 ? NULL : section);
-    json_number(&j, "at", o->section == 0 ? NAN : o->at);
-    json_number(&j, "tol", o->tol);
-    json_array(&j, "depths");
+    report_begin(out);
+    report_count(out, "case", rc_grid_case(r->p), NULL);
+    report_text(out, "source", rc_grid_get(r->p, "source"));
+    report_count(out, "nx", r->p->nx, NULL);
+    report_count(out, "ny", r->p->ny, NULL);
+    report_number(out, "dx", r->p->dx, "m");
+    report_number(out, "dy", r->p->dy, "m");
+    report_text(out, "boundary", o->boundary == RC_PERIODIC ? "periodic" : "free");
+    report_text(out, "kernel", rc_stress_engine(stress));
+    report_count(out, "threads", o->threads, NULL);
+    report_number(out, "nu", o->nu, NULL);
+    report_number(out, "mu", o->mu, NULL);
+    report_text(out, "section", o->section == 0 ? NULL : section);
+    report_number(out, "at", o->section == 0 ? NAN : o->at, "m");
+    report_number(out, "tol", o->tol, NULL);
+    report_array(out, "depths");
     for (size_t k = 0; k < r->depths->n; k++)
-        json_number(&j, NULL, r->depths->v[k]);
-    json_end(&j, ']');
-    report_peaks(r, &j);
+        report_number(out, NULL, r->depths->v[k], "m");
+    report_end(out);
+    write_peaks(r, out);
     if (converged == NULL)
-        json_null(&j, "converged");
+        report_text(out, "converged", NULL);
     else
-        json_bool(&j, "converged", strcmp(converged, "no") != 0);
-    json_object(&j, "effects");
+        report_bool(out, "converged", strcmp(converged, "no") != 0);
+    report_object(out, "effects");
     for (int k = 0; k < EFFECTS; k++)
-        json_text(&j, effects[k].name, effects[k].of(o));
+        report_text(out, effects[k].name, effects[k].of(o));
     for (int c = 0; c < RC_STRESSES; c++)
-        json_text(&j, rc_component_names[c], component_effect(o, c));
-    json_end(&j, '}');
-    report_counts(&j, rc_stress_counted(stress));
-    json_object(&j, "seconds");
-    json_number(&j, "setup", r->setup);
-    json_number(&j, "slices", r->slices);
-    json_number(&j, "total", tool_now() - r->began);
-    json_end(&j, '}');
-    json_count(&j, "peak_memory", tool_peak_memory());
-    json_close(&j);
-    return ferror(file) ? RC_FAIL : RC_OK;
+        report_text(out, rc_component_names[c], component_effect(o, c));
+    report_end(out);
+    write_counts(out, rc_stress_counted(stress));
+    report_object(out, "seconds");
+    report_number(out, "setup", r->setup, "s");
+    report_number(out, "slices", r->slices, "s");
+    report_number(out, "total", tool_now() - r->began, "s");
+    report_end(out);
+    report_count(out, "peak_memory", tool_peak_memory(), "B");
+    report_finish_row(out);
 }
 
 /* ---- the plan ---- */

@@ -31,9 +31,9 @@ enum rc_status stress_report_begin(struct stress_report *report, const struct rc
 void stress_report_ready(struct stress_report *report);
 void stress_report_start(struct stress_report *report);
 void stress_report_depth(struct stress_report *report, size_t k, size_t n, double *const *s);
-/* One line of JSON. RC_FAIL when the file did not take it. */
-enum rc_status stress_report_write(struct stress_report *report, FILE *file,
-                                   const struct rc_stress *stress);
+/* The row of the case. */
+void stress_report_write(struct stress_report *report, struct report *out,
+                         const struct rc_stress *stress);
 void stress_report_free(struct stress_report *report);
 
 /* What would be done, in words; a part of the map is tried for the time. */

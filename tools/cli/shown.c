@@ -1,4 +1,4 @@
-#include "human.h"
+#include "shown.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -12,7 +12,7 @@ enum {
 };
 
 const char *
-human_prefixed(char text[HUMAN_SIZE], double value, const char *unit)
+shown_number(char text[SHOWN_NUMBER], double value, int digits, const char *unit)
 {
     bool known = strcmp(unit, "m") == 0 || strcmp(unit, "Pa") == 0 || strcmp(unit, "N") == 0;
     int most = strcmp(unit, "m") == 0 ? 0 : 12, power = 0; /* nobody says Mm */
@@ -21,24 +21,24 @@ human_prefixed(char text[HUMAN_SIZE], double value, const char *unit)
         power = 3 * (int)floor(log10(fabs(value)) / 3);
         power = power > most ? most : rc_prefix_of(power) == NULL ? 0 : power;
     }
-    snprintf(text, HUMAN_SIZE, "%.*g%s%s", DIGITS, value / pow(10, power), *unit == '\0' ? "" : " ",
-             rc_prefix_of(power));
+    snprintf(text, SHOWN_NUMBER, "%.*g%s%s", digits, value / pow(10, power),
+             *unit == '\0' ? "" : " ", rc_prefix_of(power));
     return text;
 }
 
 const char *
-human_number(char text[HUMAN_SIZE], double value, const char *unit)
+shown_in_unit(char text[SHOWN_NUMBER], double value, const char *unit)
 {
     size_t n;
 
-    human_prefixed(text, value, unit);
+    shown_number(text, value, DIGITS, unit);
     n = strlen(text);
-    snprintf(text + n, HUMAN_SIZE - n, "%s", unit);
+    snprintf(text + n, SHOWN_NUMBER - n, "%s", unit);
     return text;
 }
 
 const char *
-human_area(char text[HUMAN_SIZE], double area)
+shown_area(char text[SHOWN_NUMBER], double area)
 {
     static const struct {
         const char *name;
@@ -48,6 +48,6 @@ human_area(char text[HUMAN_SIZE], double area)
 
     while (k + 1 < sizeof unit / sizeof *unit && area < 1e-3 * unit[k].size)
         k++;
-    snprintf(text, HUMAN_SIZE, "%.*g %s", DIGITS, area / unit[k].size, unit[k].name);
+    snprintf(text, SHOWN_NUMBER, "%.*g %s", DIGITS, area / unit[k].size, unit[k].name);
     return text;
 }

@@ -1,0 +1,140 @@
+# What is installed works where it stands, moved since and under a name with a blank: tools run, man finds
+# the pages, and programs of others are built against the library, shared and static, by pkg-config
+# and by find_package.
+. "$(dirname "$0")/../pipe.sh"
+. "$RC_SOURCE/tests/manual.sh"
+. "$RC_SOURCE/tests/symbols.sh"
+
+build=$(dirname "$RC_BIN")
+prefix="$scratch/my prefix"
+sanitizers=$(sanitizers "$build/libcontact/libcontact.a")
+unset PKG_CONFIG_PATH PKG_CONFIG_LIBDIR PKG_CONFIG_SYSROOT_DIR CMAKE_PREFIX_PATH DESTDIR LD_LIBRARY_PATH MANPATH
+
+# Folders that no prefix moves are the machine's: there a test does not install.
+if grep -E '^CMAKE_INSTALL_(BIN|LIB|INCLUDE|DATAROOT|MAN)DIR:[A-Z]*=/' "$build/CMakeCache.txt"; then
+    echo "not tried: this build is installed in folders of its own, whatever the prefix"
+    exit 77
+fi
+claim "it is installed" cmake --install "$build" --prefix "$scratch/first"
+mv first "$prefix"
+pc=$(find "$prefix" -name libcontact.pc)
+libdir=$(dirname "$(dirname "$pc")")
+
+# ---- tools and pages ----
+
+for source in "$RC_SOURCE"/tools/rc-*.c; do
+    tool=$(basename "$source" .c)
+    claim "$tool runs" says "^$tool .*[0-9]\.[0-9]" "$prefix/bin/$tool" --version
+done
+
+# found_by READER... SECTION NAME: man finds this page, and no other of the name.
+found_by() {
+    local page
+    page=$(PATH="$prefix/bin:$PATH" "$@") && [ "${page%.gz}" -ef "$prefix/share/man/man${*: -2:1}/${*: -1}.${*: -2:1}" ]
+}
+if says '^man [0-9]' man --version 2>man.err; then
+    reader=(man -w) # looks beside the tools
+elif command -v mman >/dev/null; then
+    reader=(mman -M "$prefix/share/man" -w)
+else
+    reader=(man -M "$prefix/share/man" -w)
+fi
+for page in "$pages"/*.[1-9]; do
+    name=$(basename "$page")
+    claim "man finds $name" found_by "${reader[@]}" "${name##*.}" "${name%.*}"
+done
+
+# ---- a program of others, by pkg-config ----
+
+claim "the manual has a program" program "$pages/libcontact.3" hertz.c
+# finds_hertz PROGRAM [LIBDIR]: it runs, and finds Hertz's pressure as well as 129 nodes for three radii can.
+finds_hertz() {
+    LD_LIBRARY_PATH=${2-} "$1" >hertz.txt && awk -v order="$grid_peak" '
+        /^pressure/ { off = $2 / 2.20563e9 - 1; most = order / (129 / 3) ^ 2; found = off <= most && -off <= most }
+        END { exit !found }' hertz.txt
+}
+
+# compiled PC PROGRAM OPTION...: by what pkg-config tells of the library whose file this is, in words for
+# a shell. A sanitizer's runtime is shared, so that what uses it is never wholly static.
+compiled() {
+    local words program=$2 kind=${3-}
+    words=$(PKG_CONFIG_PATH=$(dirname "$1") pkg-config --cflags --libs "${@:3}" libcontact) || return
+    case $kind$sanitizers in
+    --static) words="-static $words" ;;
+    --static*) words=${words/ -lcontact/ -l:libcontact.a} ;;
+    esac
+    eval "${CC:-cc} -std=c17 $sanitizers -o $program hertz.c $words -lm"
+}
+
+claim "pkg-config: shared" compiled "$pc" shared
+claim "  it runs" finds_hertz ./shared "$libdir"
+claim "pkg-config: static" compiled "$pc" static --static
+claim "  it runs, by itself" finds_hertz ./static
+
+# ---- by find_package ----
+
+mkdir outside
+cp hertz.c outside
+cat >outside/CMakeLists.txt <<'END'
+cmake_minimum_required(VERSION 3.20)
+project(outside LANGUAGES C)
+find_package(libcontact 0.1 REQUIRED COMPONENTS ${KINDS})
+foreach(library IN LISTS LIBRARIES)
+    add_executable(with_${library} hertz.c)
+    target_link_libraries(with_${library} PRIVATE libcontact::${library} m)
+endforeach()
+END
+# project FOLDER KINDS LIBRARIES OPTION...: configured and built there.
+project() {
+    cmake -S outside -B "$1" -DCMAKE_C_COMPILER="${CC:-cc}" -DCMAKE_C_FLAGS="$sanitizers" -DKINDS="$2" -DLIBRARIES="$3" \
+        "${@:4}" && cmake --build "$1"
+}
+claim "find_package" project found 'shared;static' 'contact;contact_static' -DCMAKE_PREFIX_PATH="$prefix"
+claim "  libcontact::contact runs" finds_hertz found/with_contact
+claim "  libcontact::contact_static runs" finds_hertz found/with_contact_static
+mv "$libdir" away
+claim "  by itself" finds_hertz found/with_contact_static
+claim "  and the other does not" bash -c '! found/with_contact'
+mv away "$libdir"
+refuses 1 'no libcontact::contact_static, which needs fftw3 fftw3f gsl' "without FFTW and GSL, what is asked for is refused" \
+    "PKG_CONFIG_LIBDIR=/ cmake -S outside -B lacking -DCMAKE_C_COMPILER='${CC:-cc}' -DKINDS=static -DCMAKE_PREFIX_PATH='$prefix'"
+bare() { PKG_CONFIG_LIBDIR=/ project bare '' contact -DCMAKE_PREFIX_PATH="$prefix"; }
+claim "  the shared library needs neither" bare
+claim "  it runs" finds_hertz bare/with_contact
+refuses 1 'requested version "1\.0"' "another major version is refused" \
+    "sed 's/libcontact 0.1 /libcontact 1.0 /' outside/CMakeLists.txt >newer.txt && mkdir newer && cp newer.txt newer/CMakeLists.txt &&
+        cmake -S newer -B newer/build -DCMAKE_C_COMPILER='${CC:-cc}' -DCMAKE_PREFIX_PATH='$prefix'"
+
+# ---- other layouts ----
+
+# layout PREFIX OPTION...: the library of this build, installed there as another configuration would.
+layout() {
+    cmake -S "$RC_SOURCE" -B other -DCMAKE_C_COMPILER="${CC:-cc}" -DRC_TESTS=OFF "${@:2}" &&
+        cp -P "$build"/libcontact/libcontact.{a,so*} other/libcontact &&
+        cmake --install other/libcontact --prefix "$1"
+}
+export DESTDIR=$scratch/stage
+claim "staged, in a folder of its architecture" layout /opt/contact -DCMAKE_INSTALL_LIBDIR=lib/x86_64-linux-gnu
+unset DESTDIR
+staged=stage/opt/contact/lib/x86_64-linux-gnu
+claim "  pkg-config" compiled $staged/pkgconfig/libcontact.pc staged
+claim "  it runs" finds_hertz ./staged $staged
+claim "  find_package" project found_staged '' contact -DCMAKE_PREFIX_PATH="$scratch/stage/opt/contact" \
+    -DCMAKE_LIBRARY_ARCHITECTURE=x86_64-linux-gnu
+claim "  it runs" finds_hertz found_staged/with_contact
+
+claim "libraries in a folder that the prefix does not hold" \
+    layout "beside it" -DCMAKE_INSTALL_LIBDIR="$scratch/their own"
+claim "  pkg-config" compiled "their own/pkgconfig/libcontact.pc" apart
+claim "  it runs" finds_hertz ./apart "their own"
+claim "  find_package" project found_apart '' contact -DCMAKE_PREFIX_PATH="$scratch/beside it"
+claim "  it runs" finds_hertz found_apart/with_contact
+
+# names_none FOLDER...: what finds the library holds no path but those it was told.
+names_none() {
+    find "$@" \( -name '*.pc' -o -name '*.cmake' \) -exec cat {} + >finders.txt &&
+        [ -s finders.txt ] && ! grep -nF -e "$build" -e "$RC_SOURCE" -e /usr/local -e "$scratch/first" finders.txt >&2
+}
+claim "no path of the build is left" names_none "$prefix" stage "beside it" "their own"
+
+finish

@@ -1,0 +1,60 @@
+# A list of numbers may go by ratio, a:b:log:n, wherever a list is taken, and --help says so; a word that stands
+# for a number is written into the history as that word.
+. "$(dirname "$0")/../pipe.sh"
+
+rc-synth sphere --nx 17 --dx 5um --radius 7.5mm -o ball.rcg
+rc-synth wave --nx 16 --dx 1um --wavelength 16um --amplitude 10nm -o wave.rcg
+
+# column NAME TABLE: the cells under it, one a line.
+column() {
+    awk -F '\t' -v name="$1" 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == name) c = k; next } { print $c }' "$2"
+}
+
+claim "loads by ratio, a case each" \
+    rc-solve --load 10mN:10N:log:4 --estar 114GPa --quiet --report loads.tsv -o loads.rcg ball.rcg
+k=-2
+for load in $(column load/N loads.tsv); do
+    near "$load" "1e$k" "$summed" "each ten times the last"
+    k=$((k + 1))
+done
+claim "  four of them" test "$k" = 2
+claim "  history has the numbers" says 'rc-solve [^|]*--load 0\.01,0\.1,1,10 ' head -c 2000 loads.rcg
+claim "mean pressures by ratio" \
+    rc-solve --periodic --mean-pressure 1MPa:100MPa:log:3 --estar 114GPa --quiet --report means.tsv -o means.rcg wave.rcg
+near "$(column mean_pressure/Pa means.tsv | sed -n 2p)" 1e7 "$summed" "the middle one"
+claim "approaches by ratio" \
+    rc-solve --approach 1nm:100nm:log:3 --tol 1e-6 --estar 114GPa --quiet --report near.tsv -o near.rcg ball.rcg
+near "$(column approach/m near.tsv | sed -n 2p)" 1e-8 "$six_digits" "the middle one"
+claim "depths by ratio" \
+    rc-stress --nu 0.3 --depths 1um:100um:log:3 --components szz -o depths.rcg loads.rcg
+claim "  the middle one is at 10 um" says '^depth=1e-05$' cat depths.rcg
+
+refuses 2 'from 0 to 1: a range by ratio needs both ends above 0' "an end at 0" \
+    "rc-solve --load 0:1:log:3 --estar 1GPa ball.rcg"
+refuses 2 "a:b:log:n must be a whole number" "half a value" "rc-solve --load 1:2:log:2.5 --estar 1GPa ball.rcg"
+refuses 2 "a range is a:b:n, n values from a to b, or a:b:log:n" "no number of values" \
+    "rc-solve --load 1:2:log --estar 1GPa ball.rcg"
+for option in 'rc-solve --load' 'rc-cost --load' 'rc-stress --depths' 'rc-cost --depths'; do
+    claim "$option: --help says how" \
+        bash -c "${option% *} --help | grep -A 1 '^  $(sed 's/.* //' <<<"$option") ' | says a:b:log:n cat"
+done
+
+# ---- forces over a length ----
+
+refuses 2 'N and N/m in one list' "forces of two kinds" "rc-solve --load 1N/m,2N --estar 1GPa ball.rcg"
+refuses 2 "unknown unit 'N/s': N or N/m is expected" "a force over a time" \
+    "rc-solve --load 1N/s --estar 1GPa ball.rcg"
+refuses 2 'load -1 N/m: it must be above 0' "a negative one, in its own unit" \
+    "rc-solve --load=-1N/m --estar 1GPa ball.rcg"
+
+# ---- words for numbers ----
+
+steel="--load 1 --E1 210GPa --nu1 0.3 --nu2 0.3"
+claim "a rigid body" rc-solve $steel --E2 rigid --quiet -o rigid.rcg ball.rcg
+claim "  its word is in the history" says 'rc-solve [^|]*--E2 rigid ' head -c 2000 rigid.rcg
+near "$(sed -n '/^estar=/{s///p;q}' rigid.rcg)" 230769230769.23077 "$rounding" "  E* is E1 / (1 - nu1^2)"
+refuses 2 "E2 hard: 'hard' is not a number" "another word" "rc-solve $steel --E2 hard ball.rcg"
+refuses 2 "E1 rigid: 'rigid' is not a number" "an option without the word" \
+    "rc-solve --load 1 --E1 rigid --nu1 0.3 --E2 1GPa --nu2 0.3 ball.rcg"
+
+finish

@@ -1,0 +1,116 @@
+# rc-pick passes on the frames that are asked for, whole, with the keys that are set, and says what there
+# is where something is missing.
+. "$(dirname "$0")/../pipe.sh"
+
+rc-synth selfaffine --nx 32 --dx 1um --hurst 0.8 --rms-height 10nm --seed 2 -o surface.rcg
+rc-solve --quiet --tol 1e-9 --load 10mN,20mN --estar 100GPa --hardness 2GPa --output pressure,gap,height,plastic \
+    surface.rcg -o result.rcg
+rc-stress --nu 0.3 --depths 0,5um,10um --components mises,szz result.rcg -o stress.rcg
+
+# frames FILE: "case channel depth" of each, a line.
+frames() {
+    rc-info --json "$@" | perl -ne '
+        my ($case) = /"case": (\d+)/; my ($channel) = /"channel": "(\w+)"/; my ($depth) = /"depth": "([^"]*)"/;
+        print join(" ", $case, $channel, defined $depth ? $depth : ()), "\n"'
+}
+export -f frames
+# values FILE: all values of a stream, as they lie: what is between the headers and the checksums.
+values() {
+    perl -0777 -ne 'while (/\GRCG1\n(.*?)\n\n/gcs) { my %k = map { split /=/, $_, 2 } split /\n/, $1;
+        my $n = $k{nx} * $k{ny} * ($k{type} eq "f64" ? 8 : 4); /\G(.{$n})crc32 \w{8}\n/gcs or die; print $1 }' "$1"
+}
+export -f values
+
+# ---- choosing ----
+
+claim "a channel, of every case" bash -c '
+    rc-pick --channel gap result.rcg -o gap.rcg && [ "$(frames gap.rcg | tr "\n" ,)" = "1 gap,2 gap," ]'
+claim "its values are those of the solution" bash -c '
+    rc-solve --quiet --tol 1e-9 --load 10mN,20mN --estar 100GPa --hardness 2GPa --output gap surface.rcg -o want.rcg
+    values gap.rcg >a && values want.rcg >b && [ -s a ] && cmp a b'
+claim "several channels, in the order of the stream" bash -c '
+    [ "$(rc-pick --channel height,pressure result.rcg | frames | tr "\n" ,)" = "1 pressure,1 height,2 pressure,2 height," ]'
+claim "a case keeps its number" bash -c '[ "$(rc-pick --case 2 --channel gap <result.rcg | frames)" = "2 gap" ]'
+claim "the cases of several files are counted on" bash -c '
+    [ "$(rc-pick --case 1,3 surface.rcg result.rcg | frames | cut -d " " -f 1 | uniq | tr "\n" ,)" = "1,3," ]'
+claim "depths, met within a thousandth" bash -c '
+    [ "$(rc-pick --depth 0,10.009um --case 1 --channel szz stress.rcg | frames | tr "\n" ,)" = "1 szz 0,1 szz 1e-05," ]'
+claim "a range of depths" bash -c '[ "$(rc-pick --depth 0:10um:3 stress.rcg | frames | wc -l)" = 12 ]'
+claim "without a choice every frame" bash -c '
+    rc-pick --set load= result.rcg -o all.rcg && values all.rcg >a && values result.rcg >b && cmp a b'
+claim "the number of stress frames is not told where it may be another" bash -c '
+    rc-pick --channel szz stress.rcg -o s.rcg && lacks "frames=" s.rcg && says frames=6 cat stress.rcg'
+claim "values go out in another type when that is asked for" says '"type": "f32"' bash -c \
+    'rc-pick --type f32 --channel gap result.rcg | rc-info --json'
+
+# ---- setting ----
+
+claim "a plastic shape becomes a height that can be pressed" bash -c '
+    rc-pick --case 2 --channel plastic --set channel=height result.rcg -o plastic.rcg &&
+    [ "$(frames plastic.rcg)" = "2 height" ] &&
+    rc-solve --quiet --tol 1e-9 --load 20mN --estar 100GPa --hardness 2GPa --output pressure plastic.rcg -o again.rcg'
+rc-info --json again.rcg >again.json
+rc-pick --case 2 --channel pressure result.rcg | rc-info --json >first.json
+# each pressure is right to 1e-9 of its sum, 1024 times the mean of 19.5 MPa; all of it in one node makes
+# 2e-9 1024 19.5 MPa / 32 in the rms
+near "$(field rms again.json)" "$(field rms first.json)" 2e-8 "  and it carries what it carried"
+claim "keys are set, replaced and removed" bash -c '
+    rc-pick --channel gap --set load=7 --set colour="blue = sky" --set estar= --set dx=2um --set dy=0.003mm \
+        --set unit=nm result.rcg | rc-info --json >set.json'
+for line in '"load": "7"' '"colour": "blue = sky"' '"unit": "nm"' '"dx": 2e-06' '"dy": 3e-06' \
+    '"hardness": "2000000000"'; do
+    claim "  $line" grep -q "$line" set.json
+done
+claim "  and no estar" lacks '"estar"' set.json
+near "$(field minimum set.json)" "$(rc-pick --channel gap result.rcg | rc-info --json >g && field minimum g)" "$same" \
+    "  with the values as they were"
+claim "history has it, in SI and in order" says \
+    'rc-pick [0-9.]* --channel gap --depth 0 --case 1 --set dx=2e-06 --set load= --set load=7"' bash -c '
+    rc-pick --channel gap --set depth=0 result.rcg | rc-pick --channel gap --depth 0um --case 1 --set dx=2um \
+        --set load= --set load=7 | rc-info --json'
+claim "a height without results gets its spacing" says 'dx 3 um, dy 1 um' bash -c 'rc-pick --set dx=3um surface.rcg | rc-info'
+
+# ---- refusals ----
+
+refuses 2 'nothing to do: give --channel, --depth or --case, or --set KEY=VALUE' "nothing to do" 'rc-pick surface.rcg'
+while read -r key why; do
+    refuses 2 "--set $key=1: $key cannot be set: $why" "$key is not set" "rc-pick --set $key=1 surface.rcg"
+done <<'END'
+nx it counts
+ny it counts
+type --type says
+crc32 it is made of
+case frames of a case belong together
+history it tells
+END
+for key in channel unit dx dy; do
+    refuses 2 "--set $key=: every frame has a $key" "$key is not removed" "rc-pick --set $key= surface.rcg"
+done
+refuses 2 '--set Load=1: KEY=VALUE is expected' "a key with a capital letter" 'rc-pick --set Load=1 surface.rcg'
+refuses 2 '--set load: KEY=VALUE is expected' "a key without a value" 'rc-pick --set load surface.rcg'
+refuses 2 "--set dx=1Pa: unknown unit 'Pa'" "a spacing that is no length" 'rc-pick --set dx=1Pa surface.rcg'
+refuses 2 '--set dx=0: it must be above 0' "no spacing" 'rc-pick --set dx=0 surface.rcg'
+refuses 2 '--case 1.5: it must be a whole number' "half a case" 'rc-pick --case 1.5 surface.rcg'
+refuses 2 "--channel 'a,,b': a name is empty" "a list with a hole" 'rc-pick --channel a,,b surface.rcg'
+refuses 1 'no frame with the channel mises, only pressure, gap, height, plastic' "a channel that is not there, naming those that are" \
+    'rc-pick --channel pressure,mises -o out.rcg result.rcg'
+claim "  and nothing is left behind" test ! -e out.rcg
+refuses 1 'no case 3: there are cases 1, 2' "nor is a case" 'rc-pick --case 1,3 result.rcg | cat'
+refuses 1 'no frame at depth 6e-06 m: there are 0, 5e-06, 1e-05 m' "nor a depth" 'rc-pick --channel mises --depth 6um stress.rcg | cat'
+refuses 1 'no frame has a depth' "nor any" 'rc-pick --depth 6um result.rcg | cat'
+rc-pick --case 1 --channel mises stress.rcg >one.rcg
+rc-pick --case 2 --channel szz stress.rcg >two.rcg
+{ head -c -9 one.rcg; head -c -9 two.rcg; printf 'RCGEND 6\n'; } >mixed.rcg
+refuses 1 'no frame with the channel szz among the cases and depths' "a channel of another case" \
+    'rc-pick --channel mises,szz --case 1 mixed.rcg | cat'
+refuses 1 'give pressure and gap of one case the same name: choose one by --channel' "two channels of one name" \
+    'rc-pick --set channel=height result.rcg | cat'
+claim "  but one at several depths" says '^6$' bash -c '
+    rc-pick --channel szz --set channel=below stress.rcg | frames | grep -c below'
+refuses 1 'case 1, frame 3 .*: take the height alone' "a spacing of a height beside its pressure" \
+    'rc-pick --set dx=2um result.rcg | cat'
+refuses 1 'this stream failed' "a failed choice fails its reader too" 'rc-pick --channel gap --case 1,9 result.rcg 2>/dev/null >cut; rc-info cut'
+refuses 1 'the stream holds no frame' "an empty stream" 'printf "RCGEND 0\n" | rc-pick --channel height | cat'
+refuses 1 'No space left' "a full device" 'rc-pick --channel gap result.rcg >/dev/full'
+
+finish

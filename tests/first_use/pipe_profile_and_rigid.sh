@@ -1,0 +1,28 @@
+# The force on a profile may be given per width, and says otherwise what width it acts on; a rigid body
+# needs no modulus.
+. "$(dirname "$0")/../pipe.sh"
+
+# A cylinder on a half-space in plane strain: p0 = sqrt(P E*/(pi R)), a = 2 sqrt(P R/(pi E*)) (Johnson 1985,
+# section 4.2c); P = 5 kN/m, R = 10 mm, E* = 100 GPa: p0 = 126.157 MPa, a = 25.2313 um; a period of 2 mm.
+rc-synth sphere --nx 4096 --ny 1 --dx 500nm --radius 10mm -o ridge.rcg
+press() { rc-solve --periodic --estar 100GPa --output pressure --report r.json "$@" ridge.rcg -o p.rcg; }
+export -f press
+claim "5 kN/m: not a word" bash -c 'press --load 5kN/m 2>err && [ ! -s err ]'
+near "$(field max_pressure r.json)" 126.157e6 1e-3 "Hertz's largest pressure of a line contact"
+near "$(field load r.json)" 2.5e-3 "$summed" "  5 kN/m on 500 nm: 2.5 mN"
+claim "  in the history as it was given" says 'rc-solve.* --load 5000N/m' rc-info p.rcg
+claim "the same force says what it acts on" warns 'the force on this profile acts on a width of 500 nm: N/m' press --load 2.5mN
+near "$(field max_pressure r.json)" 126.157e6 1e-3 "  and does the same"
+refuses 1 "in N/m is for profiles, this map has 33 rows: give the whole force, in N" "a map carries a force" \
+    "rc-synth sphere --nx 33 --dx 1um --radius 1mm | rc-solve --load 1N/m --estar 1GPa | cat >/dev/null"
+
+rc-synth sphere --nx 33 --dx 10um --radius 10mm -o ball.rcg
+rc-solve --load 1N --E1 210GPa --nu1 0.3 --E2 rigid --output pressure --report rigid.json ball.rcg -o rigid.rcg
+# E* = 210 GPa/(1 - 0.09)
+rc-solve --load 1N --estar 230.769230769230769GPa --output pressure --report estar.json ball.rcg -o estar.rcg
+near "$(field max_pressure rigid.json)" "$(field max_pressure estar.json)" "$summed" "--E2 rigid leaves E1/(1 - nu1^2)"
+claim "  and the word in the history" says 'E2 rigid' rc-info rigid.rcg
+refuses 2 'all four \(--E2 rigid needs no --nu2\)' "two moduli need two ratios" \
+    "rc-solve --load 1N --E1 210GPa --nu1 0.3 --E2 1GPa ball.rcg"
+
+finish

@@ -1,0 +1,64 @@
+/*
+ * What --report writes: a row for each case, as it is done, with figures in SI units. A row is a
+ * JSON object on a line of its own; in a file that is called .tsv it is a line of a table, with
+ * tabs between the cells and the names of the columns in the first line. A table holds scalars
+ * only: objects and arrays are left out of it. What is unknown is null, in a table NaN, which
+ * keeps its place also for readers that split lines at blanks.
+ */
+#ifndef RC_REPORT_H
+#define RC_REPORT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+#include "json.h"
+#include "tool.h"
+
+enum {
+    REPORT_COLUMNS = 64, /* of a table                               */
+    REPORT_DEPTH = 4     /* of objects and arrays inside one another */
+};
+
+struct report {
+    struct tool *tool;
+    const char *name; /* NULL: none is wanted, and nothing is written */
+    FILE *file;       /* NULL: no row was written yet                 */
+    struct json json;
+    char bracket[REPORT_DEPTH]; /* that end the objects and arrays begun */
+    size_t depth;
+    bool table;
+    struct {
+        const char *name, *unit;
+    } column[REPORT_COLUMNS]; /* set by the first row */
+    size_t columns;
+    char *cell[REPORT_COLUMNS]; /* of this row; NULL: it has none */
+    bool headed;                /* the names of the columns are written */
+};
+
+/* `name` is what --report was given: a file, `-` for standard output, or NULL. Ends the tool when
+ * the file cannot be written; makes it with the first row. */
+void report_open(struct report *report, struct tool *tool, const char *name);
+bool report_wanted(const struct report *report);
+
+/* A row. In a table all rows have the columns of the first one, whatever their order. Names and
+ * units have to last; a unit NULL stands for a plain number. */
+void report_begin(struct report *report);
+void report_number(struct report *report, const char *name, double value, const char *unit);
+void report_count(struct report *report, const char *name, size_t value, const char *unit);
+void report_text(struct report *report, const char *name, const char *value); /* NULL: unknown */
+void report_bool(struct report *report, const char *name, bool value);
+/* A column of the table that this row has nothing for; not in JSON. */
+void report_column(struct report *report, const char *name, const char *unit);
+/* What comes up to report_end is inside; numbers of an array have the name NULL. */
+void report_object(struct report *report, const char *name);
+void report_array(struct report *report, const char *name);
+void report_end(struct report *report);
+/* Instead of an object that is unknown. */
+void report_no_object(struct report *report, const char *name);
+/* Writes the row; ends the tool when that fails. */
+void report_finish_row(struct report *report);
+
+void report_close(struct report *report);
+
+#endif

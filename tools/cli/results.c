@@ -1,0 +1,68 @@
+/*
+ * Results beside the height that they were computed from.
+ */
+#include "results.h"
+
+#include <string.h>
+
+#include "libcontact/contact.h"
+
+bool
+results_channel(const char *channel)
+{
+    static const char *const solved[] = {"pressure", "gap", "displacement", "plastic"};
+
+    for (size_t k = 0; k < sizeof solved / sizeof *solved; k++)
+        if (strcmp(channel, solved[k]) == 0)
+            return true;
+    for (size_t k = 0; k < RC_STRESSES; k++)
+        if (strcmp(channel, rc_component_names[k]) == 0)
+            return true;
+    return false;
+}
+
+/* Adds a channel to a list that does not hold it yet. */
+static void
+add_name(char *list, size_t size, const char *name)
+{
+    size_t n = strlen(name), used = strlen(list);
+
+    for (const char *s = list; (s = strstr(s, name)) != NULL; s += n)
+        if ((s == list || s[-1] == ' ') && (s[n] == ',' || s[n] == '\0'))
+            return;
+    snprintf(list + used, size - used, "%s%s", used == 0 ? "" : ", ", name);
+}
+
+/* Where the height came first, the results that follow it are named too. */
+static _Noreturn void
+refuse(struct tool *t, const struct rc_grid *g)
+{
+    char where[256];
+    struct rc_grid *next;
+
+    tool_where(t, g, where, sizeof where);
+    while (results_channel(g->channel) && (next = tool_read(t)) != NULL &&
+           rc_grid_case(next) == rc_grid_case(g))
+        if (results_channel(next->channel))
+            add_name(t->results.names, sizeof t->results.names, next->channel);
+    tool_die(t, EXIT_IMPOSSIBLE,
+             "%s: the case holds a height and what was computed from it (%s), which would not "
+             "belong together any more: take the height alone, rc-pick --channel height",
+             where, t->results.names);
+}
+
+void
+results_demand_none(struct tool *t, const struct rc_grid *g)
+{
+    if (rc_grid_case(g) != t->results.number) {
+        t->results.number = rc_grid_case(g);
+        t->results.names[0] = '\0';
+        t->results.height = false;
+    }
+    if (results_channel(g->channel))
+        add_name(t->results.names, sizeof t->results.names, g->channel);
+    else if (strcmp(g->channel, "height") == 0)
+        t->results.height = true;
+    if (t->results.height && t->results.names[0] != '\0')
+        refuse(t, g);
+}

@@ -1,0 +1,17 @@
+/* Numbers for people to read. */
+#ifndef RC_SHOWN_NUMBERS_H
+#define RC_SHOWN_NUMBERS_H
+
+enum {
+    SHOWN_NUMBER = 48
+};
+
+/* "1.29 u" of 1.29e-6 and "m": that many digits and the prefix of the unit that brings the number
+ * nearest to 1..1000, for the unit to be put behind it. Other units than m, Pa and N get no prefix. */
+const char *shown_number(char text[SHOWN_NUMBER], double value, int digits, const char *unit);
+/* "1.29 um": six digits and the unit. */
+const char *shown_in_unit(char text[SHOWN_NUMBER], double value, const char *unit);
+/* "0.163 mm2", of square metres. */
+const char *shown_area(char text[SHOWN_NUMBER], double area);
+
+#endif

@@ -1,0 +1,214 @@
+/* rc-pick: some frames of a stream, and what their headers say. */
+#include "tools/cli/cli.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "formats/core/core.h"
+#include "libcontact/contact.h"
+
+static struct args {
+    struct wanted wanted;
+    struct steps steps;
+} args;
+
+/* clang-format off */
+static const struct opt opts[] = {
+    WANTED_OPTIONS(struct args, wanted, true),
+    {.name = "set", .type = OPT_TEXTS, .at = offsetof(struct args, steps), .result = true,
+     .arg = "KEY=VALUE",
+     .help = "set a key of every frame, again for each; KEY= removes it"},
+    {.name = NULL},
+};
+/* clang-format on */
+
+static void settle(struct tool *t);
+
+static const struct tool_info info = {
+    .name = "rc-pick",
+    .summary = "Choose frames of a grid stream, and set the keys of their headers",
+    .operands = "[FILE...]",
+    .examples = "  rc-pick --channel height result.rcg -o surface.rcg\n"
+                "  rc-pick --channel pressure --set load= result.rcg | rc-info\n",
+    .opts = opts,
+    .reads = READS_STREAM,
+    .writes = WRITES_STREAM,
+    .settle = settle,
+};
+
+/* ---- --set KEY=VALUE ---- */
+
+/* Lines of the header that hold what a grid is, and those that hold the stream together. */
+static const struct {
+    const char *key, *why;
+} kept[] = {
+    {"nx", "it counts the values of a row"},
+    {"ny", "it counts the rows"},
+    {"type", "--type says how values are written"},
+    {"crc32", "it is made of what is written"},
+    {"case", "frames of a case belong together, and keep its number"},
+    {"history", "it tells what was done, this step too"},
+};
+
+static bool
+is_spacing(const char *key)
+{
+    return strcmp(key, "dx") == 0 || strcmp(key, "dy") == 0;
+}
+
+static bool
+is_field(const char *key)
+{
+    return is_spacing(key) || strcmp(key, "channel") == 0 || strcmp(key, "unit") == 0;
+}
+
+/* The step's text in two, for good; lengths in SI, as history has them. */
+static void
+settle_set(struct tool *t, struct step *step)
+{
+    size_t n = strcspn(step->text, "="), size = strlen(step->text) + RC_NUMBER_SIZE;
+    const char *value = step->text + n + (step->text[n] == '=');
+    char *text = malloc(size);
+    struct rc_err err;
+
+    if (text == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %zu bytes of text", size);
+    snprintf(text, size, "%.*s", (int)n, step->text);
+    if (step->text[n] == '\0' || !rc_key_valid(text))
+        tool_die(
+            t, EXIT_USAGE,
+            "--set %s: KEY=VALUE is expected, with a key of lower-case letters, digits, points, "
+            "underscores and hyphens",
+            step->text);
+    for (size_t k = 0; k < sizeof kept / sizeof *kept; k++)
+        if (strcmp(kept[k].key, text) == 0)
+            tool_die(t, EXIT_USAGE, "--set %s: %s cannot be set: %s", step->text, text,
+                     kept[k].why);
+    if (*value == '\0' && is_field(text))
+        tool_die(t, EXIT_USAGE, "--set %s: every frame has a %s: give it a value", step->text,
+                 text);
+    if (!rc_utf8_valid(value))
+        tool_die(t, EXIT_USAGE, "--set %s...: the value is not UTF-8", text);
+    if (is_spacing(text)) {
+        if (unit_number(value, UNIT_M, &step->value, &err) != RC_OK)
+            tool_die(t, EXIT_USAGE, "--set %s: %s", step->text, err.text);
+        if (!(step->value > 0))
+            tool_die(t, EXIT_USAGE, "--set %s: it must be above 0", step->text);
+        text[n] = '=';
+        rc_number_text(text + n + 1, step->value);
+    } else {
+        memcpy(text + n, step->text + n, strlen(step->text + n) + 1);
+    }
+    step->text = text;
+}
+
+/* Whether the steps make another surface of a height. */
+static bool
+changes_heights(void)
+{
+    for (size_t k = 0; k < args.steps.n; k++)
+        if (strncmp(args.steps.step[k].text, "dx=", 3) == 0 ||
+            strncmp(args.steps.step[k].text, "dy=", 3) == 0 ||
+            strncmp(args.steps.step[k].text, "unit=", 5) == 0)
+            return true;
+    return false;
+}
+
+static enum rc_status
+set(struct rc_grid *g, const struct step *step, struct rc_err *err)
+{
+    const char *value = strchr(step->text, '=') + 1;
+    enum rc_status status;
+    char *key;
+
+    if (strncmp(step->text, "dx=", 3) == 0 || strncmp(step->text, "dy=", 3) == 0) {
+        *(step->text[1] == 'x' ? &g->dx : &g->dy) = step->value;
+        return RC_OK;
+    }
+    if (strncmp(step->text, "channel=", 8) == 0)
+        return rc_text_set(&g->channel, value, err);
+    if (strncmp(step->text, "unit=", 5) == 0)
+        return rc_text_set(&g->unit, value, err);
+    if ((key = strndup(step->text, (size_t)(value - step->text) - 1)) == NULL)
+        return rc_err_set(err, "out of memory for the name of a key");
+    status = rc_grid_set(g, key, *value == '\0' ? NULL : value, err);
+    free(key);
+    return status;
+}
+
+/* ---- the command line ---- */
+
+static void
+settle(struct tool *t)
+{
+    wanted_check(&args.wanted, t);
+    if (args.steps.n == 0 && args.wanted.channel == NULL && args.wanted.depth.n == 0 &&
+        args.wanted.number.n == 0)
+        tool_die(t, EXIT_USAGE,
+                 "nothing to do: give --channel, --depth or --case, or --set KEY=VALUE");
+    for (size_t k = 0; k < args.steps.n; k++)
+        settle_set(t, &args.steps.step[k]);
+}
+
+/* ---- frame by frame ---- */
+
+/* Two channels of a case under one name could not be told apart any more. */
+static void
+demand_one_channel(struct tool *t, const struct rc_grid *g)
+{
+    static char first[256];
+    static size_t number; /* of the case that it is of; 0: none yet */
+
+    if (rc_grid_case(g) != number) {
+        number = rc_grid_case(g);
+        snprintf(first, sizeof first, "%s", g->channel);
+    } else if (strncmp(first, g->channel, sizeof first - 1) != 0) {
+        tool_die_at(
+            t, g, EXIT_IMPOSSIBLE,
+            "--set channel=... would give %s and %s of one case the same name: choose one by "
+            "--channel",
+            first, g->channel);
+    }
+}
+
+static void
+change(struct tool *t, struct rc_grid *g)
+{
+    enum rc_status status = RC_OK;
+    struct rc_err err;
+    bool renamed = false;
+
+    for (size_t k = 0; k < args.steps.n; k++)
+        renamed = renamed || strncmp(args.steps.step[k].text, "channel=", 8) == 0;
+    if (renamed)
+        demand_one_channel(t, g);
+    if (changes_heights())
+        results_demand_none(t, g);
+    if (args.wanted.channel != NULL || args.wanted.depth.n > 0)
+        status = rc_grid_set(g, "frames", NULL, &err); /* there may be fewer now */
+    for (size_t k = 0; k < args.steps.n && status == RC_OK; k++)
+        status = set(g, &args.steps.step[k], &err);
+    if (status == RC_OK)
+        status = rc_grid_history(g, tool_history(t), &err);
+    if (status != RC_OK)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+}
+
+int
+main(int argc, char **argv)
+{
+    struct rc_grid *g;
+    struct tool t;
+
+    tool_start(&t, &info, argc, argv, &args);
+    while ((g = tool_read(&t)) != NULL) {
+        if (wanted_frame(&args.wanted, &t, g)) {
+            change(&t, g);
+            tool_write(&t, g);
+        }
+        rc_grid_free(g);
+    }
+    wanted_end(&args.wanted, &t);
+    return tool_finish(&t);
+}

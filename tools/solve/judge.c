@@ -1,0 +1,171 @@
+/*
+ * What is said of a solution on standard error: what makes it less than it looks, and its figures.
+ */
+#include "solve.h"
+
+#include <math.h>
+
+static const double edge_load = 0.01;   /* of the load, on the outer 2 % of the map          */
+static const double linear = 0.1;       /* of E*: the pressures of linear elasticity         */
+static const double small_slope = 0.3;  /* RMS: the slopes of contact theory                 */
+static const double no_modulus = 1e5;   /* Pa: softer than any E* of a solid                 */
+static const size_t fewest_nodes = 100; /* that resolve a contact                            */
+static const double fewest_each = 4;    /* that resolve a patch of it                        */
+
+const char *
+solve_where(const struct run *run, const struct rc_grid *g, char *text, size_t size)
+{
+    const struct physics *a = &run->args->physics;
+    const char *source = rc_grid_get(g, "source"), *name = "approach", *unit = "m";
+    char value[SHOWN_NUMBER];
+
+    if (source == NULL)
+        source = run->t.source == NULL ? "standard input" : run->t.source;
+    if (a->load.n > 0) {
+        name = "load";
+        unit = a->load.per_metre ? "N/m" : "N";
+    } else if (a->mean_pressure.n > 0) {
+        name = "mean pressure";
+        unit = "Pa";
+    }
+    snprintf(text, size, "%s, case %zu, %s %s", source, run->number, name,
+             shown_in_unit(value, run->steps->v[run->step], unit));
+    return text;
+}
+
+/* ---- beyond the theory ---- */
+
+/* A pressure above E* itself is no contact of solids, but a number that means something else. */
+static void
+suspect_unit(struct run *run, const struct rc_grid *g, const char *where, const struct solution *s)
+{
+    double width = g->dx * (double)g->nx, length = g->dy * (double)g->ny;
+    double estar = run->args->physics.estar;
+    char peak[SHOWN_NUMBER], modulus[SHOWN_NUMBER], mean[SHOWN_NUMBER], x[SHOWN_NUMBER],
+        y[SHOWN_NUMBER];
+
+    shown_in_unit(peak, s->contact.max_pressure, "Pa");
+    shown_in_unit(modulus, estar, "Pa");
+    shown_in_unit(mean, s->contact.mean_pressure, "Pa");
+    if (estar < no_modulus)
+        tool_warn(&run->t,
+                  "%s: the largest pressure, %s, is above E*, which is %s: was its unit "
+                  "forgotten, as in 114GPa?",
+                  where, peak, modulus);
+    else if (s->contact.mean_pressure > linear * estar)
+        tool_warn(
+            &run->t,
+            "%s: the largest pressure, %s, is above E* = %s; on a map of %s by %s the mean is %s: "
+            "was the unit of the load forgotten, as in 5mN?",
+            where, peak, modulus, shown_in_unit(x, width, "m"), shown_in_unit(y, length, "m"),
+            mean);
+    else
+        tool_warn(&run->t,
+                  "%s: the largest pressure, %s, is above E* = %s, and the RMS slope in contact is "
+                  "%.3g: are heights and spacings in their right units (rc-import --z-unit, --dx)?",
+                  where, peak, modulus, s->slope);
+}
+
+static void
+warn_of_theory(struct run *run, const struct rc_grid *g, const char *where,
+               const struct solution *s)
+{
+    double estar = run->args->physics.estar, peak = s->contact.max_pressure;
+    char most[SHOWN_NUMBER];
+
+    if (peak > estar)
+        suspect_unit(run, g, where, s);
+    else if (peak > linear * estar)
+        tool_warn(&run->t,
+                  "%s: the largest pressure, %s, is %.2g of E*: beyond %g a solid is not linear "
+                  "elastic: give its --hardness, or a smaller load",
+                  where, shown_in_unit(most, peak, "Pa"), peak / estar, linear);
+    if (s->slope > small_slope)
+        tool_warn(&run->t,
+                  "%s: RMS slope %.2g where the bodies touch is beyond the theory of small slopes "
+                  "(%g): expect pressures that are too high",
+                  where, s->slope, small_slope);
+}
+
+/* ---- beyond the grid ---- */
+
+static void
+warn_of_grid(struct run *run, const char *where, const struct solution *s)
+{
+    size_t nodes = s->contact.contact_nodes;
+
+    if (nodes >= fewest_nodes && (double)nodes >= fewest_each * (double)s->patches)
+        return;
+    tool_warn(&run->t,
+              "%s: %zu %s in contact, in %zu %s: the grid does not resolve it: area and "
+              "largest pressure may be far off: --discretization estimates by how much",
+              where, nodes, nodes == 1 ? "node" : "nodes", s->patches,
+              s->patches == 1 ? "patch" : "patches");
+}
+
+/* ---- not at its end ---- */
+
+static void
+warn_of_end(struct run *run, const char *where, const struct rc_contact *c)
+{
+    char error[64] = "its error is not known";
+
+    if (c->converged)
+        return;
+    if (!isnan(c->pressure_error))
+        snprintf(error, sizeof error, "its estimated error is %.2g", c->pressure_error);
+    if (tool_interrupted() != 0)
+        tool_warn(&run->t,
+                  "%s: interrupted after %zu iterations: what is written is the best so far, not a "
+                  "solution: %s",
+                  where, c->iterations, error);
+    else
+        tool_warn(&run->t, "%s: stopped short after %zu iterations: %s: raise --tol", where,
+                  c->iterations, error);
+}
+
+/* ---- figures ---- */
+
+static void
+tell(struct run *run, const char *where, const struct solution *s)
+{
+    const struct rc_contact *c = &s->contact;
+    char load[SHOWN_NUMBER], area[SHOWN_NUMBER], peak[SHOWN_NUMBER], approach[SHOWN_NUMBER];
+    char gap[SHOWN_NUMBER], yielded[SHOWN_NUMBER + 32] = "";
+
+    if (c->yielded_nodes > 0) {
+        shown_area(area, c->yielded_area);
+        snprintf(yielded, sizeof yielded, "%s of it yields, ", area);
+    }
+    tool_note(
+        &run->t,
+        "%s: force %s, contact area %s (%.3g %% of the map, %zu nodes in %zu %s), %slargest "
+        "pressure %s, approach %s, mean gap %s; %s to %.2g in %zu iterations, %.3g convolutions, "
+        "%.2g s",
+        where, shown_in_unit(load, c->load, "N"), shown_area(area, c->contact_area),
+        100 * c->contact_fraction, c->contact_nodes, s->patches,
+        s->patches == 1 ? "patch" : "patches", yielded, shown_in_unit(peak, c->max_pressure, "Pa"),
+        isnan(c->approach) ? "unknown" : shown_in_unit(approach, c->approach, "m"),
+        shown_in_unit(gap, c->mean_gap, "m"), c->converged ? "converged" : "not converged",
+        c->pressure_error, c->iterations, c->convolutions, solve_now() - run->began);
+}
+
+void
+solve_judge(struct run *run, const struct rc_grid *g, const struct solution *s)
+{
+    char where[512];
+
+    solve_where(run, g, where, sizeof where);
+    tell(run, where, s);
+    if (!run->args->physics.periodic && s->contact.edge_load_fraction > edge_load)
+        tool_warn(
+            &run->t,
+            "%s: %.1f %% of the load is on the outer 2 %% of the map: the contact reaches its "
+            "edge",
+            where, 100 * s->contact.edge_load_fraction);
+    if (tool_interrupted() == 0 && s->contact.contact_nodes > 0) {
+        warn_of_theory(run, g, where, s);
+        warn_of_grid(run, where, s);
+    }
+    warn_of_end(run, where, &s->contact);
+}
