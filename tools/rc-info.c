@@ -5,15 +5,28 @@
 #include <string.h>
 
 #include "libcontact/contact.h"
+#include "tools/info/info.h"
 
 static struct args {
     bool json;
+    struct info_wanted wanted;
 } args;
 
 /* clang-format off */
 static const struct opt opts[] = {
     {.name = "json", .type = OPT_FLAG, .at = offsetof(struct args, json),
      .help = "one JSON object a line, a line a frame, in SI"},
+    {.name = "areal", .type = OPT_FLAG, .at = offsetof(struct args, wanted.areal),
+     .help = "of heights: parameters of ISO 25178-2, of profiles of ISO 21920-2"},
+    {.name = "psd", .type = OPT_FLAG, .at = offsetof(struct args, wanted.psd),
+     .help = "of heights: power spectral density over rings, Hurst exponent"},
+    {.name = "fit", .type = OPT_NUMBERS, .unit = UNIT_M, .at = offsetof(struct args, wanted.fit),
+     .min = 0, .max = INFINITY, .above = true, .arg = "LMIN,LMAX",
+     .help = "wavelengths that the Hurst exponent is fitted to (--psd)"},
+    {.name = "psd-map", .type = OPT_TEXT, .at = offsetof(struct args, wanted.psd_map),
+     .arg = "FILE", .help = "write the spectrum itself, a frame psd, to FILE (--psd)"},
+    {.name = "patches", .type = OPT_FLAG, .at = offsetof(struct args, wanted.patches),
+     .help = "of pressures: patches of contact, corrected area, perimeter, histogram"},
     {.name = NULL},
 };
 /* clang-format on */
@@ -23,7 +36,8 @@ static const struct tool_info info = {
     .summary = "Show what is in a grid stream, with its statistics",
     .operands = "[FILE...]",
     .examples = "  rc-info flat.rcg\n"
-                "  rc-solve --load 240N --estar 116GPa flat.rcg | rc-info --json\n",
+                "  rc-info --areal --psd flat.rcg\n"
+                "  rc-solve --load 240N --estar 116GPa flat.rcg | rc-info --json --patches\n",
     .opts = opts,
     .reads = READS_STREAM,
     .writes = WRITES_TEXT,
@@ -38,7 +52,8 @@ is_height(const struct rc_grid *g)
 /* ---- JSON ---- */
 
 static void
-show_json(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s)
+show_json(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s,
+          const struct info_figures *f)
 {
     struct json j;
 
@@ -64,6 +79,7 @@ show_json(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s
     for (size_t k = 0; k < g->keys; k++)
         json_text(&j, g->key[k].name, g->key[k].value);
     json_end(&j, '}');
+    info_json(f, &j);
     json_close(&j);
 }
 
@@ -155,7 +171,8 @@ put_keys(FILE *out, const struct rc_grid *g)
 }
 
 static void
-show_text(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s, bool first)
+show_text(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s,
+          const struct info_figures *f, bool first)
 {
     char where[512];
 
@@ -163,6 +180,7 @@ show_text(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s
     put_text(t->out, tool_where(t, g, where, sizeof where), sizeof where);
     put_grid(t->out, g);
     put_statistics(t->out, g, s);
+    info_text(f, t->out);
     put_keys(t->out, g);
 }
 
@@ -170,20 +188,25 @@ int
 main(int argc, char **argv)
 {
     struct rc_statistics statistics;
+    struct info_figures figures;
     struct rc_grid *g;
     struct tool t;
     bool first = true;
 
     tool_start(&t, &info, argc, argv, &args);
+    info_check(&args.wanted, &t);
     while ((g = tool_read(&t)) != NULL) {
         struct rc_shape shape = rc_grid_shape(g);
         rc_measure(&shape, g->v, &statistics);
+        info_compute(&args.wanted, &t, g, &figures);
         if (args.json)
-            show_json(&t, g, &statistics);
+            show_json(&t, g, &statistics, &figures);
         else
-            show_text(&t, g, &statistics, first);
+            show_text(&t, g, &statistics, &figures, first);
         first = false;
+        info_free(&figures);
         rc_grid_free(g);
     }
+    info_end(&args.wanted, &t);
     return tool_finish(&t);
 }

@@ -29,8 +29,8 @@ enum {
  * and exponents of surfaces, give or take. */
 static const double model_error = 0.05, price = 4, span = 3, fits = 3;
 static const double lowest = -0.05, highest = 1.1;
-/* A wave at the end of a range belongs to it. */
-static const double slack = 1e-9;
+/* A wave at the end of a range belongs to it; of the largest density, what rounding leaves. */
+static const double slack = 1e-9, rounded = 1e-27;
 /* Waves that count for one under Hann's window, along each side: (35/128) / (3/8)^2. It spreads a
  * wave to its neighbours: the lowest rings hold what leaks from the mean, and a range that is told is
  * entered so many rings from either end, because waves beyond it may be of another kind. */
@@ -231,16 +231,18 @@ log_variance(double n)
 static size_t
 make_bins(const struct rings *r, bool windowed, struct bin *bin)
 {
-    double share = 2; /* waves that make one independent square */
+    double share = 2, most = 0; /* share: waves that make one independent square */
     size_t bins = 0, b = 0;
 
+    for (size_t k = 0; k < r->n; k++)
+        most = r->ring[k].n > 0 ? fmax(most, r->ring[k].c / r->ring[k].n) : most;
     if (windowed)
         share *= r->steep == 3 ? hann_neighbours * hann_neighbours : hann_neighbours;
     while (b < r->n) {
         double n = 0, q = 0, c = 0, end = INFINITY, low = 0, high = 0;
         for (; b < r->n && (double)b * r->width < end; b++) {
             const struct ring *ring = &r->ring[b];
-            if (ring->fit_n == 0)
+            if (ring->fit_n == 0 || ring->c <= rounded * most * ring->n)
                 continue;
             if (n == 0) {
                 low = ring->fit_q / ring->fit_n;
@@ -251,7 +253,7 @@ make_bins(const struct rings *r, bool windowed, struct bin *bin)
             c += ring->fit_c;
             high = ring->fit_q / ring->fit_n;
         }
-        if (n > 0 && c > 0) {
+        if (n > 0) {
             double m = fmax(n / share, 1);
             bin[bins++] = (struct bin){.x = log(q / n),
                                        .y = log(c / n) + log_bias(m),
