@@ -248,8 +248,9 @@ struct rc_psd {
     double *c;     /* m^4; of a profile m^3                                                       */
     size_t *modes; /* waves, opposite ones both, in a ring: at least one                          */
     bool windowed;
-    double hurst; /* of c ~ q^(-2-2H), of a profile q^(-1-2H); NAN: there is no power law         */
-    double shortest, longest; /* m: the waves that it was fitted to; NAN: none */
+    double hurst;             /* of c ~ q^(-2-2H), of a profile q^(-1-2H); NAN: no power law     */
+    double hurst_error;       /* its standard error                                              */
+    double shortest, longest; /* m: the waves that it was fitted to; NAN: none                   */
 };
 /* NULL when a height is missing or infinite, the range is none or holds too few waves, a side is too
  * long for a Fourier transform, or memory is short. */

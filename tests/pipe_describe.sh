@@ -72,7 +72,7 @@ near_to rough.json '$_->{psd}{fit}[0]' 1e-6 0.05 "  and begins at two nodes"
 rc-info --json --psd --fit 2um,30um rough.rcg >told.json
 claim "  a range that is told is the range" test "$(ask told.json '$_->{psd}{fit}')" = '[2e-06,3e-05]'
 near_to told.json '$_->{psd}{hurst}' 0.7 0.0714 "  and its exponent"
-claim "  --fit alone asks for it" says '^  Hurst +0\.[67][0-9]+ \(wavelengths from 2 um to 30 um\)$' rc-info --fit 2um,30um rough.rcg
+claim "  --fit alone asks for it" says '^  Hurst +0\.[67][0-9]+ \+- 0\.0[0-9]+ \(wavelengths from 2 um to 30 um\)$' rc-info --fit 2um,30um rough.rcg
 claim "text of a spectrum" says '^  psd +wavelength +q, rad/m +c, m4 +waves$' rc-info --psd rough.rcg
 claim "  of a profile" says 'c, m3' rc-info --psd profile.rcg
 claim "  where there is no power law" says '^  Hurst +not defined' rc-info --psd profile.rcg

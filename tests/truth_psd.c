@@ -211,6 +211,10 @@ worst(const struct made *made, double hurst, enum rc_boundary boundary, bool tol
             print_message("H %g: %g, from %g to %g m, seed %u\n", hurst, psd->hurst, psd->shortest,
                           psd->longest, (unsigned)seed);
         most = larger(fabs(psd->hurst - hurst), most);
+        /* the standard error says as much, of some fifty surfaces; most of it is what no surface of a
+         * formula is off its power law */
+        assert_true(fabs(psd->hurst - hurst) <= 3 * psd->hurst_error);
+        assert_true(psd->hurst_error < exponent);
         /* the range that is found lies in the one that was made, give or take where it is not seen
          * yet that it ends, and holds half of it */
         assert_true(psd->shortest >= 0.9 * shortest && psd->longest <= 2 * longest);

@@ -301,15 +301,16 @@ hurst_of(const struct rings *r, double slope)
 }
 
 /* Fits bins from .. to-1. */
-static double
-fit(const struct rings *r, const struct bin *bin, size_t from, size_t to)
+static void
+fit(const struct rings *r, const struct bin *bin, size_t from, size_t to, struct rc_psd *psd)
 {
     struct line l = {0};
     double left;
 
     for (size_t b = from; b < to; b++)
         line_add(&l, &bin[b]);
-    return hurst_of(r, line_slope(&l, &left));
+    psd->hurst = hurst_of(r, line_slope(&l, &left));
+    psd->hurst_error = 0.5 / sqrt(l.xx - l.x * l.x / l.w);
 }
 
 /* The bins that a power law explains best; from = to: none. */
@@ -352,7 +353,7 @@ fit_hurst(const struct rings *r, const struct rc_psd_options *options, struct rc
     if (!told)
         find_range(r, bin, bins, &from, &to);
     if (to > from + 1) {
-        psd->hurst = fit(r, bin, from, to);
+        fit(r, bin, from, to, psd);
         psd->shortest = told ? options->shortest : 2 * pi / bin[to - 1].high;
         psd->longest = told ? options->longest : 2 * pi / bin[from].low;
     }
@@ -463,7 +464,7 @@ rc_psd_new(const struct rc_shape *shape, const double *h, const struct rc_psd_op
         goto done;
     }
     psd->windowed = options->boundary == RC_FREE;
-    psd->hurst = psd->shortest = psd->longest = NAN;
+    psd->hurst = psd->hurst_error = psd->shortest = psd->longest = NAN;
     status = make(shape, h, options, power, wx, psd, err);
 done:
     free(wx);

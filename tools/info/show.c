@@ -122,8 +122,8 @@ psd_text(const struct info_figures *f, FILE *out)
     if (isnan(psd->hurst))
         fprintf(out, "  %-10s not defined: no wavelengths follow a power law\n", "Hurst");
     else
-        fprintf(out, "  %-10s %.3f (wavelengths from %s to %s)\n", "Hurst", psd->hurst,
-                shown_in_unit(shortest, psd->shortest, "m"),
+        fprintf(out, "  %-10s %.3f +- %.2g (wavelengths from %s to %s)\n", "Hurst", psd->hurst,
+                psd->hurst_error, shown_in_unit(shortest, psd->shortest, "m"),
                 shown_in_unit(longest, psd->longest, "m"));
 }
 
@@ -145,6 +145,7 @@ psd_json(const struct rc_psd *psd, struct json *j)
     json_end(j, ']');
     json_text(j, "window", psd->windowed ? "hann" : "none");
     json_number(j, "hurst", psd->hurst);
+    json_number(j, "hurst_error", psd->hurst_error);
     json_array(j, "fit");
     json_number(j, NULL, psd->shortest);
     json_number(j, NULL, psd->longest);
