@@ -239,15 +239,16 @@ struct rc_psd_options {
 /* Power spectral density |FFT|^2 dx dy/(nx ny), averaged over rings of wave numbers as wide as the
  * lowest one (Persson et al. 2005, J. Phys. Condens. Matter 17, R1; Jacobs, Junge and Pastewka 2017,
  * Surf. Topogr. 5, 013001: C^iso, and of a profile C^1D); the mean is no wave. Its sum over all
- * waves, over the area of the map, is Sq^2. A windowed spectrum is multiplied by what the window
- * has taken from the mean square, so that this stays true; the window is that of Hann along each
- * side, about the mean that it sees itself. */
+ * waves, over the area of the map, is Sq^2. Under a window w it is |FFT(w h)|^2 dx dy/(nx ny)/mean(w^2)
+ * times window_factor, which makes that sum what it is: 1 but for what lies near the edges. The window
+ * is that of Hann along each side, about the mean that it sees itself. */
 struct rc_psd {
     size_t rings;
     double *q;     /* rad/m: mean over the waves of a ring                                        */
     double *c;     /* m^4; of a profile m^3                                                       */
     size_t *modes; /* waves, opposite ones both, in a ring: at least one                          */
     bool windowed;
+    double window_factor;     /* what the window had taken, given back; 1 without one            */
     double hurst;             /* of c ~ q^(-2-2H), of a profile q^(-1-2H); NAN: no power law     */
     double hurst_error;       /* its standard error                                              */
     double shortest, longest; /* m: the waves that it was fitted to; NAN: none                   */

@@ -156,6 +156,8 @@ test_window(void **state)
         seen += w[k] * w[k] * (h[k] - mean) * (h[k] - mean);
     }
     psd = spectrum(&s, h, &(struct rc_psd_options){.map = map});
+    /* 9/64 is the mean of w^2 */
+    assert_near(psd->window_factor, all * 9 / 64 / seen, summed);
     for (long ky = -9; ky < 9; ky += 2)
         for (long kx = -12; kx < 12; kx += 3) {
             double re = 0, im = 0;

@@ -93,9 +93,23 @@ sum_windowed(const struct windowed *w, bool squared, double mean, double sum[2])
     sum[1] = rc_total_value(&b);
 }
 
-/* Lays the window, if there is one, and gives the factor that makes |FFT|^2 a density. */
+/* Of Hann's window over n nodes, sides of one and two nodes apart: 3/8. */
+static double
+mean_square(const struct windowed *w)
+{
+    double product = 1;
+
+    for (int side = 0; side < 2; side++) {
+        size_t n = side == 0 ? w->shape->nx : w->shape->ny;
+        product *= n == 1 ? 1 : n == 2 ? 0.25 : 0.375;
+    }
+    return product;
+}
+
+/* Lays the window, if there is one, and gives the factor that makes |FFT|^2 a density, and what of it
+ * is due to what the window has taken. */
 static enum rc_status
-lay_window(struct windowed *w, double *factor, struct rc_err *err)
+lay_window(struct windowed *w, double *factor, double *taken, struct rc_err *err)
 {
     const struct rc_shape *s = w->shape;
     double nodes = (double)s->nx * (double)s->ny, mean = rc_sum(w->h, s->nx * s->ny) / nodes;
@@ -116,6 +130,7 @@ lay_window(struct windowed *w, double *factor, struct rc_err *err)
     *factor = (s->nx > 1 ? s->dx / (double)s->nx : 1) * (s->ny > 1 ? s->dy / (double)s->ny : 1);
     if (w->wx != NULL && sum[1] > 0)
         *factor *= sum[0] / sum[1];
+    *taken = w->wx != NULL && sum[1] > 0 ? sum[0] * mean_square(w) / sum[1] : 1;
     return RC_OK;
 }
 
@@ -435,7 +450,7 @@ make(const struct rc_shape *s, const double *h, const struct rc_psd_options *opt
         r.low += spread * r.width;
         r.high -= spread * r.width;
     }
-    if (lay_window(&w, &factor, err) == RC_OK &&
+    if (lay_window(&w, &factor, &psd->window_factor, err) == RC_OK &&
         rc_power(s, windowed_row, &w, options->threads, power, err) == RC_OK &&
         fill_rings(&r, power, factor, rc_useful_threads(s, options->threads), err) == RC_OK &&
         list_rings(&r, psd, err) == RC_OK)

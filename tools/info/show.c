@@ -118,7 +118,10 @@ psd_text(const struct info_figures *f, FILE *out)
     char shortest[SHOWN_NUMBER], longest[SHOWN_NUMBER];
 
     psd_lines(psd, profile ? "c, m3" : "c, m4", out);
-    fprintf(out, "  %-10s %s\n", "window", psd->windowed ? "hann" : "none");
+    fprintf(out, "  %-10s %s", "window", psd->windowed ? "hann" : "none");
+    if (psd->windowed)
+        fprintf(out, ", times %.4g for what it took", psd->window_factor);
+    fputs("\n", out);
     if (isnan(psd->hurst))
         fprintf(out, "  %-10s not defined: no wavelengths follow a power law\n", "Hurst");
     else
@@ -144,6 +147,7 @@ psd_json(const struct rc_psd *psd, struct json *j)
         json_count(j, NULL, psd->modes[k]);
     json_end(j, ']');
     json_text(j, "window", psd->windowed ? "hann" : "none");
+    json_number(j, "window_factor", psd->window_factor);
     json_number(j, "hurst", psd->hurst);
     json_number(j, "hurst_error", psd->hurst_error);
     json_array(j, "fit");
