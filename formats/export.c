@@ -1,6 +1,8 @@
 #include "export.h"
 
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
@@ -59,6 +61,70 @@ rc_export_raw(const struct rc_grid *g, const struct rc_export_wish *wish, unsign
         raw--;
     return raw;
 }
+
+/* ---- sections: rows are depths ---- */
+
+enum rc_status
+rc_export_depths(const struct rc_grid *g, double *at, struct rc_err *err)
+{
+    const char *text = rc_grid_get(g, "depths"), *end;
+
+    for (size_t k = 0; k < g->ny; k++) {
+        while (text != NULL && (*text == ',' || *text == ' '))
+            text++;
+        if (text == NULL || (end = rc_number_read(text, false, &at[k])) == NULL)
+            return rc_err_set(err, "a section of %zu rows without as many depths", g->ny);
+        if (k > 0 && !(at[k] > at[k - 1]))
+            return rc_err_set(err, "the depths of a section must rise from row to row");
+        text = end;
+    }
+    return RC_OK;
+}
+
+bool
+rc_export_even(const double *at, size_t n, double *step)
+{
+    *step = n > 1 ? (at[n - 1] - at[0]) / (double)(n - 1) : 0;
+    for (size_t k = 1; k < n; k++)
+        if (!(fabs(at[k] - at[0] - (double)k * *step) <= 1e-9 * fabs(*step)))
+            return false;
+    return true;
+}
+
+static enum rc_status
+check_section(const struct rc_export *format, const struct rc_grid *g, struct rc_err *err)
+{
+    enum rc_status status = RC_FAIL;
+    double *at, step;
+
+    if (rc_grid_get(g, "section") == NULL || rc_grid_get(g, "depths") == NULL)
+        return RC_OK;
+    if ((at = malloc(g->ny * sizeof *at)) == NULL)
+        return rc_err_set(err, "out of memory for %zu depths", g->ny);
+    if (rc_export_depths(g, at, err) == RC_OK) {
+        if (format->uneven || rc_export_even(at, g->ny, &step))
+            status = RC_OK;
+        else
+            rc_err_set(err,
+                       "the depths have uneven steps, which %s cannot say: write vtr, or resample "
+                       "them with --even",
+                       format->name);
+    }
+    free(at);
+    return status;
+}
+
+enum rc_status
+rc_export_write(const struct rc_export *format, FILE *out, struct rc_grid *const *frame,
+                size_t frames, const struct rc_export_wish *wish, struct rc_err *err)
+{
+    for (size_t k = 0; k < frames; k++)
+        if (check_section(format, frame[k], err) != RC_OK)
+            return RC_FAIL;
+    return format->write(out, frame, frames, wish, err);
+}
+
+/* ---- words ---- */
 
 /* The name of one frame alone; `cases` and `depths` say what has to be told apart. */
 static void

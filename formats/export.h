@@ -42,6 +42,8 @@ struct rc_export {
     const char *summary;  /* one line                                                         */
     bool text;            /* for people too: may be written to a terminal                     */
     bool several;         /* takes several frames; else just one                              */
+    bool stack;           /* or the depths of one channel and case                            */
+    bool uneven;          /* says where each row of a section is: its depths may be uneven    */
     bool heights;         /* says metres by its definition: holds heights only                */
     unsigned types;       /* that it can hold, of the bits above; 0: text                     */
     /* Writes frame[0..frames), frames > 0. RC_FAIL for what the format cannot hold, or when the
@@ -49,6 +51,12 @@ struct rc_export {
     enum rc_status (*write)(FILE *out, struct rc_grid *const *frame, size_t frames,
                             const struct rc_export_wish *wish, struct rc_err *err);
 };
+
+/* Writes the frames, what no writer but some can hold refused: a section whose rows have uneven
+ * depths. */
+enum rc_status rc_export_write(const struct rc_export *format, FILE *out,
+                               struct rc_grid *const *frame, size_t frames,
+                               const struct rc_export_wish *wish, struct rc_err *err);
 
 /* Those of exports.list in its order, ended by NULL. */
 extern const struct rc_export *const rc_exports[];
@@ -61,6 +69,12 @@ const struct rc_export *rc_export_suffixed(const char *file);
 /* How values are to lie: as wished, else in the frame's own type, else in the widest of `types`. */
 enum rc_raw rc_export_raw(const struct rc_grid *grid, const struct rc_export_wish *wish,
                           unsigned types);
+
+/* Depths of the rows of a section, ny numbers into at, as its key `depths` has them: separated by
+ * commas or spaces. RC_FAIL where there are not as many, or they do not rise from row to row. */
+enum rc_status rc_export_depths(const struct rc_grid *grid, double *at, struct rc_err *err);
+/* Whether n places have even steps, but for rounding, and the step; 0 for a single one. */
+bool rc_export_even(const double *at, size_t n, double *step);
 
 enum {
     RC_LABEL = 160

@@ -192,6 +192,267 @@ depths_make_a_stack(void **state)
     drop_stack(frame);
 }
 
+/* The header as NumPy's format description has it, then mises slice by slice. */
+static void
+depths_make_an_array(void **state)
+{
+    static const double even[] = {1e-6, 2.5e-6, 4e-6}, uneven[] = {0, 1e-6, 4e-6};
+    static const char head[] = "\x93NUMPY\x01\x00\x76\x00"
+                               "{'descr': '<f8', 'fortran_order': False, 'shape': (3, 2, 3), }";
+    struct rc_grid *frame[STACK], *deepest[3];
+    struct made made;
+
+    (void)state;
+    make_stack(frame, even);
+    for (size_t k = 0; k < 3; k++)
+        deepest[k] = frame[4 - 2 * k];
+    made = export("npy", deepest, 3, &plain);
+    assert_int_equal(made.n, 128 + 8 * 18);
+    assert_memory_equal(made.bytes, head, sizeof head - 1);
+    for (size_t k = 0; k < 18; k++)
+        assert_true(f64(made.bytes + 128 + 8 * k) == 10.0 * (double)(k / 6) + (double)(k % 6));
+    free(made.bytes);
+    made = export("npy", deepest, 1, &plain); /* one depth is a map */
+    assert_non_null(strstr(made.bytes + 10, "'shape': (2, 3), }"));
+    assert_true(made.n == 128 + 8 * 6 && f64(made.bytes + 128 + 8) == 21);
+    free(made.bytes);
+    refuse("npy", frame, STACK, &plain, "one map or the depths of one channel and case");
+    rc_grid_set(frame[2], "case", "2", NULL);
+    refuse("npy", deepest, 3, &plain, "one map or the depths of one channel and case");
+    drop_stack(frame);
+    make_stack(frame, uneven);
+    for (size_t k = 0; k < 3; k++)
+        deepest[k] = frame[2 * k];
+    refuse("npy", deepest, 3, &plain, "uneven steps, which npy cannot say: write vtr or hdf5");
+    rc_grid_set_number(frame[2], "depth", 0, NULL);
+    refuse("npy", deepest, 3, &plain, "two frames of channel mises at one depth");
+    drop_stack(frame);
+}
+
+/* ---- HDF5: the file as its library reads it ---- */
+
+static hid_t
+open_hdf5(const struct made *made)
+{
+    hid_t access = H5Pcreate(H5P_FILE_ACCESS), file;
+
+    H5Pset_fapl_core(access, 1 << 16, false);
+    assert_true(H5Pset_file_image(access, made->bytes, made->n) >= 0);
+    file = H5Fopen("made", H5F_ACC_RDONLY, access);
+    assert_true(file >= 0);
+    H5Pclose(access);
+    return file;
+}
+
+/* The values of a dataset of this rank; its sizes into `size`. */
+static double *
+hdf5_values(hid_t set, int rank, hsize_t *size)
+{
+    hid_t space = H5Dget_space(set);
+    double *v;
+    size_t n = 1;
+
+    assert_true(set >= 0);
+    assert_int_equal(H5Sget_simple_extent_ndims(space), rank);
+    H5Sget_simple_extent_dims(space, size, NULL);
+    for (int k = 0; k < rank; k++)
+        n *= size[k];
+    v = malloc(n * sizeof *v);
+    assert_true(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, v) >= 0);
+    H5Sclose(space);
+    return v;
+}
+
+/* The scale of the first axis leads to these depths: by the attribute DIMENSION_LIST, whose entries
+ * are lists of references, as the dimension scale specification has it. Gives its name. */
+static void
+check_scale(hid_t set, int rank, const double *depth, size_t n, char *name, size_t size)
+{
+    hid_t attribute = H5Aopen(set, "DIMENSION_LIST", H5P_DEFAULT), type = H5Aget_type(attribute);
+    hid_t scale, word, text;
+    hvl_t list[3];
+    hsize_t rows;
+    char class[32] = "";
+    double *v;
+
+    assert_true(attribute >= 0 && H5Aread(attribute, type, list) >= 0);
+    assert_int_equal(list[0].len, 1);
+    for (int k = 1; k < rank; k++)
+        assert_int_equal(list[k].len, 0);
+    scale = H5Rdereference2(set, H5P_DEFAULT, H5R_OBJECT, list[0].p);
+    free(list[0].p);
+    v = hdf5_values(scale, 1, &rows);
+    assert_int_equal(rows, n);
+    for (size_t k = 0; k < n; k++)
+        assert_true(v[k] == depth[k]);
+    free(v);
+    word = H5Aopen(scale, "CLASS", H5P_DEFAULT);
+    text = H5Aget_type(word);
+    assert_true(H5Aread(word, text, class) >= 0);
+    assert_string_equal(class, "DIMENSION_SCALE");
+    H5Tclose(text);
+    assert_true(H5Iget_name(scale, name, size) > 0);
+    H5Aclose(word);
+    H5Dclose(scale);
+    H5Tclose(type);
+    H5Aclose(attribute);
+}
+
+static void
+hdf5_stacks_know_their_depths(void **state)
+{
+    static const double uneven[] = {0, 1e-6, 4e-6};
+    static const char *const name[] = {"mises", "szz"};
+    struct rc_grid *frame[STACK];
+    char scale[2][64];
+    struct made made, again;
+    hsize_t size[3];
+    hid_t file, set;
+
+    (void)state;
+    make_stack(frame, uneven);
+    made = export("hdf5", frame, STACK, &plain);
+    file = open_hdf5(&made);
+    for (size_t a = 0; a < 2; a++) {
+        double *v;
+
+        set = H5Dopen2(file, name[a], H5P_DEFAULT);
+        v = hdf5_values(set, 3, size);
+
+        assert_true(size[0] == 3 && size[1] == 2 && size[2] == 3);
+        for (size_t k = 0; k < 18; k++)
+            assert_true(v[k] == 100.0 * (double)a + 10.0 * (double)(k / 6) + (double)(k % 6));
+        free(v);
+        check_scale(set, 3, uneven, 3, scale[a], sizeof scale[a]);
+        assert_true(hdf5_number(set, "dx") == 1e-6 && hdf5_number(set, "dy") == 2e-6);
+        assert_int_equal(H5Aexists(set, "depth"), 0); /* no depth is that of all slices */
+        H5Dclose(set);
+    }
+    assert_string_equal(scale[0], "/depth");
+    assert_string_equal(scale[1], "/depth"); /* one for both */
+    H5Fclose(file);
+    again = export("hdf5", frame, STACK, &plain);
+    assert_int_equal(made.n, again.n);
+    assert_memory_equal(made.bytes, again.bytes, made.n);
+    free(again.bytes);
+    free(made.bytes);
+    made = export("hdf5", frame, 1, &plain); /* one depth is a map that knows it */
+    file = open_hdf5(&made);
+    set = H5Dopen2(file, "mises_z0", H5P_DEFAULT);
+    free(hdf5_values(set, 2, size));
+    H5Dclose(set);
+    H5Fclose(file);
+    free(made.bytes);
+    drop_stack(frame);
+}
+
+/* A channel may be called depth, and its depths be others than those of the next. */
+static void
+hdf5_scales_have_names_of_their_own(void **state)
+{
+    static const double uneven[] = {0, 1e-6, 4e-6}, other[] = {0, 1e-6, 5e-6};
+    struct rc_grid *frame[STACK];
+    char scale[64];
+    struct made made;
+    hsize_t size[3];
+    hid_t file, set;
+
+    (void)state;
+    make_stack(frame, uneven);
+    rc_grid_set_number(frame[5], "depth", other[2], NULL);
+    for (size_t k = 1; k < STACK; k += 2)
+        rc_text_set(&frame[k]->channel, "depth", NULL);
+    made = export("hdf5", frame, STACK, &plain);
+    file = open_hdf5(&made);
+    set = H5Dopen2(file, "depth", H5P_DEFAULT);
+    free(hdf5_values(set, 3, size));
+    check_scale(set, 3, other, 3, scale, sizeof scale);
+    assert_string_equal(scale, "/depth_3");
+    H5Dclose(set);
+    set = H5Dopen2(file, "mises", H5P_DEFAULT);
+    check_scale(set, 3, uneven, 3, scale, sizeof scale);
+    assert_string_equal(scale, "/depth_2");
+    H5Dclose(set);
+    H5Fclose(file);
+    free(made.bytes);
+    drop_stack(frame);
+}
+
+/* ---- sections ---- */
+
+static struct rc_grid *
+make_section(const char *depths)
+{
+    struct rc_shape shape = {.nx = 2, .ny = 3, .dx = 1e-6, .dy = 2e-6};
+    struct rc_grid *g = rc_grid_new(&shape, "height", "m", NULL);
+
+    for (size_t k = 0; k < 6; k++)
+        g->v[k] = (double)k;
+    rc_grid_set(g, "section", "y", NULL);
+    rc_grid_set_number(g, "at", 7e-6, NULL);
+    rc_grid_set(g, "depths", depths, NULL);
+    return g;
+}
+
+static void
+uneven_depths_are_not_made_even(void **state)
+{
+    static const char *const tell[] = {"vtr", "xyz", "hdf5"};
+    struct rc_grid *even = make_section("0,2e-06,4e-06"), *uneven = make_section("0,1e-06,4e-06");
+    struct rc_grid *few = make_section("0,1e-06"), *back = make_section("0,2e-06,1e-06");
+
+    (void)state;
+    for (const struct rc_export *const *e = rc_exports; *e != NULL; e++) {
+        bool tells = false;
+        struct made made = export((*e)->name, &even, 1, &plain);
+
+        free(made.bytes);
+        for (size_t k = 0; k < sizeof tell / sizeof *tell; k++)
+            tells = tells || strcmp((*e)->name, tell[k]) == 0;
+        refuse((*e)->name, &few, 1, &plain, "3 rows without as many depths");
+        refuse((*e)->name, &back, 1, &plain, "must rise from row to row");
+        if (!tells) {
+            refuse((*e)->name, &uneven, 1, &plain,
+                   "cannot say: write vtr, or resample them with --even");
+            continue;
+        }
+        made = export((*e)->name, &uneven, 1, &plain);
+        free(made.bytes);
+    }
+    rc_grid_free(even);
+    rc_grid_free(uneven);
+    rc_grid_free(few);
+    rc_grid_free(back);
+}
+
+static void
+those_that_can_tell_where_rows_are(void **state)
+{
+    static const double depth[] = {0, 1e-6, 4e-6};
+    struct rc_grid *g = make_section("0,1e-06,4e-06");
+    struct made made = export("xyz", &g, 1, &plain);
+    char scale[64];
+    hsize_t size[2];
+    hid_t file, set;
+    double *v;
+
+    (void)state;
+    assert_string_equal(made.bytes, "-5e-07 0 0\n5e-07 0 1\n-5e-07 1e-06 2\n5e-07 1e-06 3\n"
+                                    "-5e-07 4e-06 4\n5e-07 4e-06 5\n");
+    free(made.bytes);
+    made = export("hdf5", &g, 1, &plain);
+    file = open_hdf5(&made);
+    set = H5Dopen2(file, "height", H5P_DEFAULT);
+    v = hdf5_values(set, 2, size);
+    assert_true(size[0] == 3 && size[1] == 2 && v[5] == 5);
+    check_scale(set, 2, depth, 3, scale, sizeof scale);
+    free(v);
+    H5Dclose(set);
+    H5Fclose(file);
+    free(made.bytes);
+    rc_grid_free(g);
+}
+
 static void
 a_section_stands_upright(void **state)
 {
@@ -300,6 +561,11 @@ main(void)
         cmocka_unit_test(x3p_parts),
         cmocka_unit_test(x3p_compresses_what_shrinks),
         cmocka_unit_test(depths_make_a_stack),
+        cmocka_unit_test(depths_make_an_array),
+        cmocka_unit_test(hdf5_stacks_know_their_depths),
+        cmocka_unit_test(hdf5_scales_have_names_of_their_own),
+        cmocka_unit_test(uneven_depths_are_not_made_even),
+        cmocka_unit_test(those_that_can_tell_where_rows_are),
         cmocka_unit_test(a_section_stands_upright),
         cmocka_unit_test(frames_have_names_of_their_own),
         cmocka_unit_test(what_cannot_be_said),

@@ -13,6 +13,7 @@
 #include <string.h>
 #include <zlib.h>
 
+#include "formats/core/core.h"
 #include "formats/rcg/rcg.h"
 
 /* With the address sanitizer, memory that cannot be had is still NULL. */
@@ -340,7 +341,7 @@ failed_stream(const char *message)
     struct rc_writer *w = rc_writer_new(file, NULL);
 
     rc_writer_put(w, g, NULL);
-    rc_writer_fail(w, message);
+    rc_stream_fail(file, message, 1);
     rc_writer_free(w);
     fclose(file);
     rc_grid_free(g);
@@ -359,6 +360,69 @@ test_failure_is_repeated(void **state)
     memset(message, 'x', sizeof message);
     message[sizeof message - 1] = '\0';
     check_refused(failed_stream(message), 1, "failed: xxx");
+}
+
+/* The bytes that rc_stream_fail writes where nothing was written before. */
+static struct bytes
+failure(const char *message, int status)
+{
+    struct bytes b = {0};
+    FILE *file = open_memstream(&b.data, &b.size);
+
+    rc_stream_fail(file, message, status);
+    fclose(file);
+    return b;
+}
+
+static void
+check_failure(const char *message, int status, const char *expected)
+{
+    struct bytes b = failure(message, status);
+    FILE *file = fmemopen(b.data, b.size, "rb");
+    struct rc_reader *r;
+    struct rc_grid *g;
+    struct rc_err err;
+    int read = 0;
+
+    assert_true(b.size <= strlen("RCGFAIL \n") + 399);
+    assert_true(rc_utf8_valid(b.data));
+    r = rc_reader_new(file, 0, 0, &err);
+    assert_null(rc_reader_failure(r, &read));
+    assert_int_equal(rc_reader_next(r, &g, &err), RC_FAIL);
+    assert_non_null(rc_reader_failure(r, &read));
+    assert_string_equal(rc_reader_failure(r, &read), expected);
+    assert_int_equal(read, status);
+    rc_reader_free(r);
+    fclose(file);
+    free(b.data);
+}
+
+/* A stream that fails before it begins: what is read is the message and the exit status written,
+ * whole characters of it where it is too long. */
+static void
+test_failure_and_its_status(void **state)
+{
+    char text[1000], cut[1000];
+
+    (void)state;
+    check_failure("rc-solve: no", 1, "rc-solve: no");
+    check_failure("rc-solve: no", 2, "rc-solve: no");
+    check_failure("", 2, "without a message");
+    check_failure("one\ttwo\x1b[2J", 2, "one two [2J");
+    check_failure("caf\xe9", 1, "caf?");
+    check_failure("(exit status 2) of another", 1, "(exit status 2) of another");
+    for (int before = 0; before < 4; before++) { /* the bounds fall on each byte of a character */
+        size_t n = 0;
+        memset(text, 'x', (size_t)before);
+        text[before] = '\0';
+        for (n = (size_t)before; n + 3 < 900; n += 3)
+            memcpy(text + n, "\xe2\x82\xac", 4);
+        strcpy(cut, text);
+        cut[before + (399 - before) / 3 * 3] = '\0';
+        check_failure(text, 1, cut);
+        cut[before + (399 - 16 - before) / 3 * 3] = '\0';
+        check_failure(text, 2, cut);
+    }
 }
 
 /* ---- headers ---- */
@@ -687,6 +751,7 @@ main(void)
         cmocka_unit_test(test_wrong_checksum_and_count),
         cmocka_unit_test(test_lying_sizes),
         cmocka_unit_test(test_failure_is_repeated),
+        cmocka_unit_test(test_failure_and_its_status),
         cmocka_unit_test(test_missing_and_doubled_keys),
         cmocka_unit_test(test_spacings),
         cmocka_unit_test(test_sizes),

@@ -62,7 +62,7 @@ try_export(const char *name, struct rc_grid *const *frame, size_t frames,
     f = open_memstream(&made->bytes, &made->n);
     assert_non_null(f);
     err->text[0] = '\0';
-    status = format->write(f, frame, frames, wish, err);
+    status = rc_export_write(format, f, frame, frames, wish, err);
     fclose(f);
     return status;
 }

@@ -73,7 +73,7 @@ refuses 1 'case 1: no frame with the channel height, only weight' "a case withou
 claim "  and nothing is left behind" test ! -e no.rcg
 refuses 1 'case 2: no frame with the channel height, only weight' "the second case without heights" \
     "rc-detrend --plane plane.rcg weight.rcg | cat >cut.rcg"
-refuses 1 'this stream failed: weight.rcg, case 2: no frame' "  and its reader fails too" "rc-info cut.rcg"
+refuses 1 'this stream failed: rc-detrend: weight.rcg, case 2: no frame' "  and its reader fails too" "rc-info cut.rcg"
 claim "every case is levelled" bash -c '
     cat plane.rcg plane.rcg | rc-detrend --plane | rc-info --json >two.json &&
     [ "$(wc -l <two.json)" = 2 ] && grep -q "\"case\": 2" two.json'

@@ -55,9 +55,9 @@ refuses 1 "No space left" "with text too" 'rc-export --format xyz one.rcg >/dev/
 
 refuses 1 "a second frame, and gsf holds one map" "one map is one frame" 'rc-export -o a.gsf many.rcg'
 refuses 1 "a second frame of channel mises" "several of one channel too" \
-    'rc-export -o a.npy --channel mises deep.rcg'
+    'rc-export -o a.gsf --channel mises deep.rcg'
 claim "--channel chooses" rc-export --channel height many.rcg -o height.x3p
-refuses 1 "no frame with the channel strain, only pressure gap displacement height" \
+refuses 1 "no frame with the channel strain, only pressure, gap, displacement, height" \
     "an absent channel names those present" 'rc-export -o a.npy --channel strain many.rcg'
 refuses 1 "heights in metres, these values are in 'Pa'" "metres are metres" \
     'rc-export -o a.x3p --channel pressure many.rcg'

@@ -60,9 +60,9 @@ claim "-o FILE" bash -c 'rc-info --json -o file.json map.rcg && cmp file.json ma
 size=$(wc -c <map.rcg)
 refuses 1 'the stream stops before the checksum of a frame' "a stream cut off" "head -c $((size - 20)) map.rcg | rc-info"
 refuses 1 "the checksum is [0-9a-f]{8}, the data's is [0-9a-f]{8}" "a damaged one" "sed 's/^unit=m/unit=n/' map.rcg | rc-info"
-refuses 1 "'1 2 NaN' stands where a frame .*: this is no grid stream" "something else" "rc-info map.txt"
+refuses 1 '^rc-info: map.txt is no grid stream, it looks like text: rc-import map.txt [|] rc-info ...$' "something else" "rc-info map.txt"
 refuses 1 'nowhere.rcg: No such file' "nothing" "rc-info nowhere.rcg"
-refuses 2 'unknown or ambiguous option --yaml' "an unknown option" "rc-info --yaml map.rcg"
+refuses 2 'unknown option --yaml: see rc-info --help' "an unknown option" "rc-info --yaml map.rcg"
 refuses 1 'writing failed \(No space left on device\)' "a full disk" "rc-info map.rcg >/dev/full"
 refuses 3 'converged=no' "an unfinished solution" \
     "rc-synth selfaffine --nx 32 --dx 1um --hurst 0.8 --rms-height 10nm |

@@ -152,7 +152,7 @@ refuses 2 '--raw draws nothing but nodes: leave out --contour' "contours in a ra
 refuses 2 '--raw is as wide as the map has columns: leave out --width' "a raw picture of some width" "$draw --raw --width 500 height.rcg"
 refuses 2 '--width 100: it must be at least 320' "a figure too narrow" "$draw --width 100 height.rcg"
 refuses 2 '--title: the text is not UTF-8' "a title that is no text" "$draw --title $'\\xff' height.rcg"
-refuses 2 'unknown or ambiguous option --colour' "an unknown option" "$draw --colour red height.rcg"
+refuses 2 'unknown option --hue: see rc-render --help' "an unknown option" "$draw --hue red height.rcg"
 stream mises Pa 20 4 "section=y depths=0,1e-06" 1 >few.rcg
 refuses 1 'its key depths holds 2 depths for 4 rows' "a section with too few depths" "$draw few.rcg"
 stream mises Pa 20 3 "section=y depths=0,2e-06,1e-06" 1 >falling.rcg
@@ -163,7 +163,6 @@ while read -r n where; do
     refuses 1 "the stream stops $where, [0-3] whole frames after its start" "a stream cut after $n of $whole bytes" \
         "head -c $n three.rcg | $draw"
 done <<END
-0 before it begins
 1 inside a line
 100 inside the values of a frame
 1000 inside the values of a frame
@@ -171,8 +170,9 @@ $((whole / 2)) inside the values of a frame
 $((whole - 9)) without an end line
 $((whole - 1)) inside a line
 END
+refuses 1 'standard input is empty, the stream stops before it begins' "a stream of nothing" "head -c 0 three.rcg | $draw"
 refuses 1 'this stream failed: out of load' "a producer that failed" \
-    "{ head -c $((whole - 9)) three.rcg; printf 'RCGFAIL out of load\n'; } | $draw"
+    "{ head -c $((whole - 9)) three.rcg; printf 'RCGFAIL out of load\n'; } >out-of.rcg; $draw <out-of.rcg"
 claim "none of these left a picture or a part of one behind" none
 cp height.rcg out.png
 refuses 1 'the stream stops inside the values of a frame' "a cut stream over a file that is there" "head -c 1000 three.rcg | $draw"

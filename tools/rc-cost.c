@@ -103,6 +103,7 @@ check_arguments(struct run *run)
         tool_die(t, EXIT_USAGE, "--depths: stresses need Poisson's ratio: give --nu");
     if (!tool_given(t, "depths") && (tool_given(t, "nu") || tool_given(t, "mu")))
         tool_die(t, EXIT_USAGE, "--nu and --mu are for stresses: give --depths as well");
+    ending_demand_png(t, "--plot", args.plot);
     tool_demand_writable(t, "--plot", args.plot);
     report_open(&run->report, t, args.report);
 }

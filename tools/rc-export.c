@@ -1,6 +1,7 @@
 #include "tools/cli/cli.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -8,9 +9,14 @@
 #include "formats/export.h"
 #include "libcontact/contact.h"
 
+enum {
+    EVEN_ROWS = 4096 /* that --even makes at the most */
+};
+
 static struct args {
-    const char *format, *channel, *type, *missing;
-    bool formats;
+    struct wanted wanted;
+    const char *format, *type, *missing;
+    bool formats, even;
 } args;
 
 static const struct {
@@ -31,8 +37,9 @@ static const struct opt opts[] = {
      .help = "write this format (default: as the suffix of -o FILE says)"},
     {.name = "formats", .type = OPT_FLAG, .at = offsetof(struct args, formats), .text = true,
      .help = "print the table of formats"},
-    {.name = "channel", .type = OPT_TEXT, .at = offsetof(struct args, channel), .arg = "LIST",
-     .help = "only the frames of these channels, separated by commas"},
+    WANTED_OPTIONS(struct args, wanted, false),
+    {.name = "even", .type = OPT_FLAG, .at = offsetof(struct args, even), .result = true,
+     .help = "give sections with uneven depths even ones, linearly in between"},
     {.name = "type", .type = OPT_CHOICE, .at = offsetof(struct args, type), .result = true,
      .words = type_word,
      .help = "of the values in the file, where the format leaves it open"},
@@ -141,6 +148,7 @@ settle(struct tool *t)
         tool_die(t, EXIT_USAGE,
                  "which format? --format NAME says it, or the suffix of -o FILE; "
                  "--formats prints them");
+    wanted_check(&args.wanted, t);
     settle_type(t);
     settle_missing(t);
     settle_time(t);
@@ -150,39 +158,139 @@ settle(struct tool *t)
         t->writes = WRITES_TEXT;
 }
 
+/* ---- sections: rows are depths ---- */
+
+/* Depths that are decimal numbers have decimal ones between them: 6e-06, not 6.000000000000001e-06. */
+static double
+decimal(double x)
+{
+    char text[32];
+
+    snprintf(text, sizeof text, "%.14g", x);
+    return strtod(text, NULL);
+}
+
+static void
+set_depths(struct tool *t, struct rc_grid *g, double first, double step)
+{
+    size_t size = g->ny * RC_NUMBER_SIZE, n = 0;
+    char *text = malloc(size), number[RC_NUMBER_SIZE];
+    struct rc_err err;
+
+    if (text == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %zu depths", g->ny);
+    for (size_t j = 0; j < g->ny; j++)
+        n += (size_t)snprintf(text + n, size - n, "%s%s", j == 0 ? "" : ",",
+                              rc_number_text(number, decimal(first + (double)j * step)));
+    if (rc_grid_set(g, "depths", text, &err) != RC_OK)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    free(text);
+}
+
+/* The same channel and keys on another grid. */
+static struct rc_grid *
+with_rows_of(struct tool *t, const struct rc_grid *g, const struct rc_shape *shape)
+{
+    struct rc_err err;
+    struct rc_grid *to;
+
+    tool_demand_memory(t, g, (g->nx * g->ny + shape->nx * shape->ny) * sizeof *g->v);
+    to = rc_grid_new(shape, g->channel, g->unit, &err);
+    for (size_t k = 0; to != NULL && k < g->keys; k++)
+        if (rc_grid_set(to, g->key[k].name, g->key[k].value, &err) != RC_OK)
+            tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (to == NULL)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    to->type = g->type;
+    return to;
+}
+
+/* Rows of `to`, step apart from the first depth on, between those of `from` at the depths `at`. */
+static void
+interpolate(const struct rc_grid *from, const double *at, struct rc_grid *to, double step)
+{
+    size_t nx = from->nx, k = 0;
+
+    for (size_t j = 0; j < to->ny; j++) {
+        double z = j + 1 < to->ny ? at[0] + (double)j * step : at[from->ny - 1], part;
+        const double *a, *b;
+
+        while (k + 2 < from->ny && at[k + 1] <= z)
+            k++;
+        part = (z - at[k]) / (at[k + 1] - at[k]);
+        a = from->v + k * nx;
+        b = a + nx;
+        for (size_t i = 0; i < nx; i++) /* a row that is met is that row, whatever is beside it */
+            to->v[j * nx + i] = part <= 0   ? a[i]
+                                : part >= 1 ? b[i]
+                                            : (1 - part) * a[i] + part * b[i];
+    }
+}
+
+/* Rows that depths `at` need in steps of the smallest one, or as many as there may be. */
+static size_t
+rows_needed(struct tool *t, const struct rc_grid *g, const double *at)
+{
+    double range = at[g->ny - 1] - at[0], smallest = range, needed;
+
+    for (size_t j = 1; j < g->ny; j++)
+        smallest = fmin(smallest, at[j] - at[j - 1]);
+    needed = ceil(range / smallest * (1 - 1e-9)) + 1;
+    if (needed <= EVEN_ROWS)
+        return (size_t)needed;
+    tool_warn(t, "--even: the smallest step of its depths would make %.0f rows: %d are made",
+              needed, EVEN_ROWS);
+    return EVEN_ROWS;
+}
+
+/* The frame, or if it is a section with uneven depths one with even ones in its place. */
+static struct rc_grid *
+even_rows(struct tool *t, struct rc_grid *g)
+{
+    struct rc_shape shape = rc_grid_shape(g);
+    struct rc_grid *even = NULL;
+    double *at, step;
+    struct rc_err err;
+
+    if (rc_grid_get(g, "section") == NULL || rc_grid_get(g, "depths") == NULL)
+        return g;
+    if ((at = malloc(g->ny * sizeof *at)) == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %zu depths", g->ny);
+    if (rc_export_depths(g, at, &err) != RC_OK)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (!rc_export_even(at, g->ny, &step)) {
+        shape.ny = rows_needed(t, g, at);
+        shape.dy = step = decimal((at[g->ny - 1] - at[0]) / (double)(shape.ny - 1));
+        even = with_rows_of(t, g, &shape);
+        interpolate(g, at, even, step);
+        set_depths(t, even, at[0], step);
+        rc_grid_free(g);
+    }
+    free(at);
+    return even == NULL ? g : even;
+}
+
 /* ---- frames ---- */
 
+/* Whether the frame is another depth of the first one. */
 static bool
-is_wanted(const struct rc_grid *g)
+is_deeper(const struct rc_grid *first, const struct rc_grid *g)
 {
-    const char *s = args.channel;
-    size_t n;
-
-    for (; s != NULL; s = s[n] == ',' ? s + n + 1 : NULL) {
-        n = strcspn(s, ",");
-        if (strlen(g->channel) == n && strncmp(g->channel, s, n) == 0)
-            return true;
-    }
-    return args.channel == NULL;
+    return rc_grid_get(first, "depth") != NULL && rc_grid_get(g, "depth") != NULL &&
+           strcmp(first->channel, g->channel) == 0 && rc_grid_case(first) == rc_grid_case(g);
 }
 
 static void
-add_name(char *list, size_t size, const char *name)
+check_frame(struct tool *t, const struct rc_grid *first, const struct rc_grid *g)
 {
-    size_t used = strlen(list);
+    const char *channel = args.wanted.channel;
 
-    snprintf(list + used, size - used, "%s%s", used == 0 ? "" : " ", name);
-}
-
-static void
-check_frame(struct tool *t, const struct rc_grid *g, size_t frames)
-{
-    if (frames > 0 && !format->several)
+    if (first != NULL && !format->several && !(format->stack && is_deeper(first, g)))
         tool_die_at(t, g, EXIT_IMPOSSIBLE,
-                    "a second frame%s%s, and %s holds one map: choose by --channel, or send one "
-                    "case and depth",
-                    args.channel == NULL ? "" : " of channel ",
-                    args.channel == NULL ? "" : args.channel, format->name);
+                    "a second frame%s%s, and %s holds one map%s: choose by --channel, --case and "
+                    "--depth",
+                    channel == NULL ? "" : " of channel ", channel == NULL ? "" : channel,
+                    format->name, format->stack ? " or the depths of one channel and case" : "");
     if (format->heights && strcmp(g->unit, "m") != 0)
         tool_die_at(t, g, EXIT_IMPOSSIBLE,
                     "%s holds heights in metres, these values are in '%s': choose a format that "
@@ -195,18 +303,18 @@ static struct rc_grid **
 read_frames(struct tool *t, size_t *frames)
 {
     struct rc_grid **frame = NULL, **more, *g;
-    char others[256] = "";
     struct rc_err err;
     size_t bytes = 0;
 
     *frames = 0;
     while ((g = tool_read(t)) != NULL) {
-        if (!is_wanted(g)) {
-            add_name(others, sizeof others, g->channel);
+        if (!wanted_frame(&args.wanted, t, g)) {
             rc_grid_free(g);
             continue;
         }
-        check_frame(t, g, *frames);
+        check_frame(t, *frames == 0 ? NULL : frame[0], g);
+        if (args.even)
+            g = even_rows(t, g);
         if (rc_grid_history(g, tool_history(t), &err) != RC_OK)
             tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
         bytes += g->nx * g->ny * sizeof *g->v;
@@ -216,11 +324,7 @@ read_frames(struct tool *t, size_t *frames)
         frame = more;
         frame[(*frames)++] = g;
     }
-    if (*frames == 0 && others[0] != '\0')
-        tool_die(t, EXIT_IMPOSSIBLE, "%s: no frame with the channel %s, only %s", t->source,
-                 args.channel, others);
-    if (*frames == 0)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s: the stream holds no frame", t->source);
+    wanted_end(&args.wanted, t);
     return frame;
 }
 
@@ -232,7 +336,10 @@ print_formats(struct tool *t)
     for (const struct rc_export *const *e = rc_exports; *e != NULL; e++)
         fprintf(t->out, "%-10s  %-12s  %-16s  %-7s  %s\n", (*e)->name, (*e)->suffixes,
                 (*e)->types == 0 ? "text" : types_text(list, (*e)->types),
-                (*e)->several ? "several" : "one map", (*e)->summary);
+                (*e)->several ? "several"
+                : (*e)->stack ? "a stack"
+                              : "one map",
+                (*e)->summary);
 }
 
 int
@@ -249,7 +356,7 @@ main(int argc, char **argv)
         return tool_finish(&t);
     }
     frame = read_frames(&t, &frames);
-    if (format->write(t.out, frame, frames, &wish, &err) != RC_OK)
+    if (rc_export_write(format, t.out, frame, frames, &wish, &err) != RC_OK)
         tool_die_at(&t, frame[0], EXIT_IMPOSSIBLE, "%s", err.text);
     tool_note(&t, "%zu frame%s as %s", frames, frames == 1 ? "" : "s", format->name);
     for (size_t k = 0; k < frames; k++)

@@ -49,12 +49,79 @@ is_height(const struct rc_grid *g)
     return strcmp(g->channel, "height") == 0;
 }
 
+/* ---- results: what a pressure says ---- */
+
+struct result {
+    double load, contact_area, contact_fraction, max_pressure; /* NAN: unknown, here and below */
+    double approach, hardness, plastic_area;
+    size_t contact_nodes, plastic_nodes;
+    const char *converged; /* "yes", "no"; NULL: unknown */
+};
+
+static bool
+is_pressure(const struct rc_grid *g)
+{
+    return strcmp(g->channel, "pressure") == 0 && strcmp(g->unit, "Pa") == 0;
+}
+
+/* Load and contact are those of the values, so that they hold whoever made them. */
+static void
+result_of(const struct rc_grid *g, const struct rc_statistics *s, struct result *r)
+{
+    const char *converged = rc_grid_get(g, "converged");
+    bool whole = s->missing == 0 && s->infinite == 0;
+    double cell = g->dx * g->dy, most;
+
+    *r = (struct result){NAN, NAN, NAN, NAN, NAN, NAN, NAN, 0, 0, NULL};
+    rc_grid_number(g, "approach", &r->approach);
+    rc_grid_number(g, "hardness", &r->hardness);
+    /* values in single precision cannot reach it any nearer */
+    most = g->type == RC_F32 ? (double)(float)r->hardness : r->hardness;
+    for (size_t k = 0; whole && k < g->nx * g->ny; k++) {
+        r->contact_nodes += g->v[k] > 0 ? 1 : 0;
+        r->plastic_nodes += g->v[k] >= most ? 1 : 0;
+    }
+    if (converged != NULL && (strcmp(converged, "yes") == 0 || strcmp(converged, "no") == 0))
+        r->converged = converged;
+    if (!whole)
+        return;
+    r->load = s->sum * cell;
+    r->max_pressure = s->maximum;
+    r->contact_area = cell * (double)r->contact_nodes;
+    r->contact_fraction = (double)r->contact_nodes / ((double)g->nx * (double)g->ny);
+    if (!isnan(r->hardness))
+        r->plastic_area = cell * (double)r->plastic_nodes;
+}
+
 /* ---- JSON ---- */
+
+static void
+add_result(struct json *j, const struct result *r)
+{
+    json_object(j, "result");
+    json_number(j, "load", r->load);
+    if (isnan(r->contact_area))
+        json_null(j, "contact_nodes");
+    else
+        json_count(j, "contact_nodes", r->contact_nodes);
+    json_number(j, "contact_area", r->contact_area);
+    json_number(j, "contact_fraction", r->contact_fraction);
+    json_number(j, "max_pressure", r->max_pressure);
+    json_number(j, "approach", r->approach);
+    json_number(j, "hardness", r->hardness);
+    json_number(j, "plastic_area", r->plastic_area);
+    if (r->converged == NULL)
+        json_null(j, "converged");
+    else
+        json_bool(j, "converged", strcmp(r->converged, "yes") == 0);
+    json_end(j, '}');
+}
 
 static void
 show_json(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s,
           const struct info_figures *f)
 {
+    struct result result;
     struct json j;
 
     json_open(&j, t->out);
@@ -75,6 +142,10 @@ show_json(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s
     json_number(&j, "sum", s->sum);
     json_count(&j, "missing", s->missing);
     json_count(&j, "infinite", s->infinite);
+    if (is_pressure(g)) {
+        result_of(g, s, &result);
+        add_result(&j, &result);
+    }
     json_object(&j, "keys");
     for (size_t k = 0; k < g->keys; k++)
         json_text(&j, g->key[k].name, g->key[k].value);
@@ -106,6 +177,35 @@ put_figure(FILE *out, const char *name, double value, const char *unit)
     }
     fputs(shown_number(text, value, 6, unit), out);
     put_text(out, unit, strlen(unit));
+}
+
+static void
+put_result(FILE *out, const struct rc_grid *g, const struct result *r)
+{
+    char text[SHOWN_NUMBER];
+
+    if (!isnan(r->load))
+        put_figure(out, "load", r->load, "N");
+    if (!isnan(r->contact_area)) {
+        fprintf(out, "  %-10s %s, %.3g %% of the map (%zu of %zu nodes)\n", "contact",
+                shown_area(text, r->contact_area), 100 * r->contact_fraction, r->contact_nodes,
+                g->nx * g->ny);
+    }
+    if (!isnan(r->max_pressure))
+        fprintf(out, "  %-10s at most %sPa\n", "pressure",
+                shown_number(text, r->max_pressure, 6, "Pa"));
+    if (!isnan(r->approach))
+        put_figure(out, "approach", r->approach, "m");
+    if (!isnan(r->hardness)) {
+        fprintf(out, "  %-10s %sPa", "hardness", shown_number(text, r->hardness, 6, "Pa"));
+        if (r->plastic_nodes > 0)
+            fprintf(out, ", reached on %s (%zu node%s)", shown_area(text, r->plastic_area),
+                    r->plastic_nodes, r->plastic_nodes == 1 ? "" : "s");
+        fprintf(out, "%s\n", r->plastic_area == 0 ? ", not reached" : "");
+    }
+    if (r->converged != NULL)
+        fprintf(out, "  %-10s %s\n", "converged",
+                strcmp(r->converged, "yes") == 0 ? "yes" : "no: it stopped short of its accuracy");
 }
 
 static void
@@ -174,10 +274,15 @@ static void
 show_text(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s,
           const struct info_figures *f, bool first)
 {
+    struct result result;
     char where[512];
 
     fprintf(t->out, "%s", first ? "" : "\n");
     put_text(t->out, tool_where(t, g, where, sizeof where), sizeof where);
+    if (is_pressure(g)) {
+        result_of(g, s, &result);
+        put_result(t->out, g, &result);
+    }
     put_grid(t->out, g);
     put_statistics(t->out, g, s);
     info_text(f, t->out);

@@ -49,6 +49,13 @@ static const struct opt opts[] = {
 };
 /* clang-format on */
 
+/* Before a file is made of that name. */
+static void
+settle(struct tool *t)
+{
+    ending_demand_png(t, "-o", t->out_name);
+}
+
 static const struct tool_info info = {
     .name = "rc-render",
     .summary = "Draw one map of a grid stream as a PNG",
@@ -59,6 +66,7 @@ static const struct tool_info info = {
     .opts = opts,
     .reads = READS_STREAM,
     .writes = WRITES_BYTES,
+    .settle = settle,
 };
 
 static bool
@@ -151,6 +159,7 @@ write_picture(struct tool *t, const struct rc_grid *g, const struct figure *f, s
     char *made = malloc(size), software[64];
     const struct picture_text text[] = {{"Title", f->title},
                                         {"Description", made},
+                                        {"Warning", f->stamp},
                                         {"Software", software},
                                         {"Source", rc_grid_get(g, "source")}};
     struct rc_err err;
@@ -196,6 +205,15 @@ draw_figure(struct tool *t, const struct rc_grid *g, struct figure *f)
     free(rows);
 }
 
+/* What nobody may overlook; NULL: nothing. */
+static const char *
+stamp_of(const struct rc_grid *g)
+{
+    const char *converged = rc_grid_get(g, "converged");
+
+    return converged != NULL && strcmp(converged, "no") == 0 ? "not converged" : NULL;
+}
+
 static void
 render(struct tool *t, struct args *a, const struct rc_grid *g, bool largest)
 {
@@ -215,6 +233,7 @@ render(struct tool *t, struct args *a, const struct rc_grid *g, bool largest)
     f = (struct figure){
         .title = a->title == NULL ? what.title : a->title,
         .subtitle = subtitle.text,
+        .stamp = stamp_of(g),
         .quantity = what.title,
         .unit = g->unit,
         .map = colormap_find(a->colormap == NULL ? what.colormap : a->colormap),

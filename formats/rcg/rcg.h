@@ -7,6 +7,7 @@
 #ifndef RC_RCG_H
 #define RC_RCG_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
 
@@ -27,6 +28,14 @@ struct rc_reader *rc_reader_new(FILE *file, size_t first_case, size_t memory, st
  * RC_FAIL: damaged, cut off, or ended by RCGFAIL, whose message is repeated. */
 enum rc_status rc_reader_next(struct rc_reader *reader, struct rc_grid **grid, struct rc_err *err);
 
+/* After RC_FAIL: the message of the RCGFAIL that ended the stream, and the exit status of the
+ * program that wrote it, 1 or 2; NULL when something else was wrong. Valid as long as the reader. */
+const char *rc_reader_failure(const struct rc_reader *reader, int *exit_status);
+
+/* After RC_FAIL: whether the input is no stream at all, from its first byte on. `head` is then how
+ * it begins, a few bytes up to the first NUL, or NULL where it is empty. */
+bool rc_reader_foreign(const struct rc_reader *reader, const char **head);
+
 /* Largest case number seen so far: `first_case` of the reader that goes on with the next file. */
 size_t rc_reader_last_case(const struct rc_reader *reader);
 void rc_reader_free(struct rc_reader *reader);
@@ -39,9 +48,10 @@ enum rc_status rc_writer_put(struct rc_writer *writer, const struct rc_grid *gri
                              struct rc_err *err);
 /* Writes the end line and flushes. */
 enum rc_status rc_writer_end(struct rc_writer *writer, struct rc_err *err);
-/* Ends the stream with RCGFAIL and the message: whoever reads it fails too. Says nothing when even
- * that cannot be written. */
-void rc_writer_fail(struct rc_writer *writer, const char *message);
 void rc_writer_free(struct rc_writer *writer);
+
+/* Ends a stream, or one that has not begun, with RCGFAIL, the message and the exit status to come,
+ * 1 or 2: whoever reads it fails too. Says nothing when even that cannot be written. */
+void rc_stream_fail(FILE *file, const char *message, int exit_status);
 
 #endif

@@ -14,6 +14,9 @@ enum {
     RC_FAIL_MAX = 399 /* bytes of a message in RCGFAIL: what a reader repeats            */
 };
 
+/* Before the exit status in RCGFAIL, where it is not 1; ")" follows it. */
+#define RC_FAIL_STATUS " (exit status "
+
 static inline bool
 rc_host_is_little(void)
 {

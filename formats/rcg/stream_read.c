@@ -12,11 +12,16 @@
 struct rc_reader {
     FILE *file;
     size_t memory;
-    size_t first_case; /* added to the case numbers of the stream being read     */
-    size_t last_case;  /* the largest one given out                              */
-    size_t frames;     /* since the last end line                                */
-    bool ended;        /* an end line was read and nothing since                 */
-    uint32_t crc;      /* of the frame so far                                    */
+    size_t first_case;             /* added to the case numbers of the stream being read     */
+    size_t last_case;              /* the largest one given out                              */
+    size_t frames;                 /* since the last end line                                */
+    bool ended;                    /* an end line was read and nothing since                 */
+    uint32_t crc;                  /* of the frame so far                                    */
+    bool begun;                    /* a line of a stream was read                */
+    bool empty, foreign;           /* there was none                             */
+    char head[16];                 /* the first bytes of something foreign       */
+    char failure[RC_FAIL_MAX + 1]; /* the message of RCGFAIL; empty: none yet    */
+    int failure_status;
     char header[RC_HEADER_MAX];
 };
 
@@ -34,6 +39,9 @@ rc_reader_new(FILE *file, size_t first_case, size_t memory, struct rc_err *err)
     r->first_case = r->last_case = first_case;
     r->frames = 0;
     r->ended = false;
+    r->begun = r->empty = r->foreign = false;
+    r->failure[0] = '\0';
+    r->failure_status = 0;
     return r;
 }
 
@@ -383,6 +391,64 @@ read_end(struct rc_reader *r, const char *count, struct rc_err *err)
     return RC_OK;
 }
 
+/* The message after RCGFAIL and the exit status at its end; it is shown to people, on terminals. */
+static enum rc_status
+read_failure(struct rc_reader *r, const char *text, struct rc_err *err)
+{
+    size_t tail = strlen(RC_FAIL_STATUS "2)"), n;
+
+    snprintf(r->failure, sizeof r->failure, "%.*s", RC_FAIL_MAX, text[0] == ' ' ? text + 1 : text);
+    for (char *s = r->failure; *s != '\0'; s++)
+        if ((unsigned char)*s < 0x20 || *s == 0x7f)
+            *s = '?';
+    n = strlen(r->failure);
+    r->failure_status = 1;
+    if (n >= tail && strcmp(r->failure + n - tail, RC_FAIL_STATUS "2)") == 0) {
+        r->failure_status = 2;
+        r->failure[n - tail] = '\0';
+    }
+    if (r->failure[0] == '\0')
+        strcpy(r->failure, "without a message");
+    return rc_err_set(err, "the program that wrote this stream failed: %s", r->failure);
+}
+
+const char *
+rc_reader_failure(const struct rc_reader *r, int *exit_status)
+{
+    *exit_status = r->failure_status;
+    return r->failure[0] == '\0' ? NULL : r->failure;
+}
+
+/* Whether `text` is a beginning of the word, or all of it. */
+static bool
+begins(const char *word, const char *text)
+{
+    return strncmp(word, text, strlen(text)) == 0;
+}
+
+/* Looks at the first line, n as read_line gives it, whether it is one of a stream. */
+static void
+look_at_first(struct rc_reader *r, const char *line, long n)
+{
+    if (r->begun || ferror(r->file))
+        return;
+    snprintf(r->head, sizeof r->head, "%.15s", line);
+    r->empty = n == -1;
+    if (n >= 0)
+        r->foreign = strcmp(line, "RCG1") != 0 && strncmp(line, "RCGFAIL", 7) != 0 &&
+                     strncmp(line, "RCGEND ", 7) != 0;
+    else /* "RC" is a line that was cut off */
+        r->foreign = r->head[0] == '\0' || !(begins("RCG1", r->head) || begins("RCGEND ", r->head));
+    r->begun = !r->foreign;
+}
+
+bool
+rc_reader_foreign(const struct rc_reader *r, const char **head)
+{
+    *head = r->empty ? NULL : r->head;
+    return r->foreign;
+}
+
 enum rc_status
 rc_reader_next(struct rc_reader *r, struct rc_grid **grid, struct rc_err *err)
 {
@@ -390,8 +456,11 @@ rc_reader_next(struct rc_reader *r, struct rc_grid **grid, struct rc_err *err)
 
     *grid = NULL;
     for (;;) {
-        long n = read_line(r, line, sizeof line);
+        long n;
 
+        memset(line, 0, sizeof r->head);
+        n = read_line(r, line, sizeof line);
+        look_at_first(r, line, n);
         if (n == -1) {
             if (r->ended && !ferror(r->file))
                 return RC_OK;
@@ -405,7 +474,7 @@ rc_reader_next(struct rc_reader *r, struct rc_grid **grid, struct rc_err *err)
         if (strcmp(line, "RCG1") == 0)
             return read_frame(r, grid, err);
         if (strncmp(line, "RCGFAIL", 7) == 0)
-            return rc_err_set(err, "the program that wrote this stream failed:%.400s", line + 7);
+            return read_failure(r, line + 7, err);
         if (strncmp(line, "RCGEND ", 7) != 0)
             return rc_err_set(err,
                               "'%.40s' stands where a frame or an end line should: this is no "

@@ -177,11 +177,23 @@ rc_writer_end(struct rc_writer *w, struct rc_err *err)
 }
 
 void
-rc_writer_fail(struct rc_writer *w, const char *message)
+rc_stream_fail(FILE *file, const char *message, int exit_status)
 {
-    fputs("RCGFAIL ", w->file);
-    for (int n = 0; *message != '\0' && n < RC_FAIL_MAX; message++, n++)
-        putc(*message == '\n' ? ' ' : *message, w->file);
-    putc('\n', w->file);
-    fflush(w->file);
+    char tail[32] = "", text[RC_FAIL_MAX + 1];
+    bool valid = rc_utf8_valid(message);
+    size_t n = 0, most;
+
+    if (exit_status != 1)
+        snprintf(tail, sizeof tail, RC_FAIL_STATUS "%d)", exit_status);
+    most = RC_FAIL_MAX - strlen(tail);
+    for (const char *s = message; *s != '\0' && n < most; s++) {
+        unsigned char c = (unsigned char)*s;
+        text[n++] = c < 0x20 || c == 0x7f ? ' ' : c >= 0x80 && !valid ? '?' : *s;
+    }
+    if (valid && n < strlen(message)) /* no part of a character at the end */
+        while (n > 0 && ((unsigned char)message[n] & 0xc0) == 0x80)
+            n--;
+    text[n] = '\0';
+    fprintf(file, "RCGFAIL %s%s\n", text, tail);
+    fflush(file);
 }

@@ -1,15 +1,19 @@
 /*
- * HDF5: a dataset for each frame, rows by columns, named by its channel. Its attributes are dx and
- * dy (m), unit, channel, and every key of the frame as text; a missing point is NaN.
+ * HDF5: a dataset for each frame, rows by columns, named by its channel; the depths of one channel and
+ * case are one dataset, depth by rows by columns. Its attributes are dx and dy (m), unit, channel, and
+ * every key of the frame as text; a missing point is NaN. Where rows or slices are depths, these are a
+ * dataset too, the dimension scale of their axis.
  *
  * The library wants to seek, so it makes the file in memory.
  */
 #include <hdf5.h>
+#include <hdf5_hl.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "encode.h"
 #include "formats/export.h"
+#include "stack.h"
 
 enum {
     TYPES = RC_TYPE_F32 | RC_TYPE_F64,
@@ -44,32 +48,160 @@ put_text(hid_t set, const char *name, const char *value)
     return good;
 }
 
+/* Of the depths of a stack each has a depth of its own, which the scale tells. */
 static bool
-put_attributes(hid_t set, const struct rc_grid *g)
+put_attributes(hid_t set, const struct rc_grid *g, bool stack)
 {
     bool good = put_number(set, "dx", g->dx) && put_number(set, "dy", g->dy) &&
                 put_text(set, "unit", g->unit) && put_text(set, "channel", g->channel);
 
     for (size_t k = 0; good && k < g->keys; k++)
-        good = put_text(set, g->key[k].name, g->key[k].value);
+        if (!stack || strcmp(g->key[k].name, "depth") != 0)
+            good = put_text(set, g->key[k].name, g->key[k].value);
     return good;
 }
 
-static bool
-put_frame(hid_t file, const char *name, const struct rc_grid *g, enum rc_raw raw)
+static hid_t
+new_set(hid_t file, const char *name, int rank, const hsize_t *size, enum rc_raw raw)
 {
-    const hsize_t size[2] = {g->ny, g->nx};
-    hid_t space = H5Screate_simple(2, size, NULL), options = H5Pcreate(H5P_DATASET_CREATE), set;
-    bool good;
+    hid_t space = H5Screate_simple(rank, size, NULL), options = H5Pcreate(H5P_DATASET_CREATE), set;
 
     H5Pset_obj_track_times(options, false); /* the same frames give the same bytes */
     set = H5Dcreate2(file, name, raw == RC_RAW_F32 ? H5T_IEEE_F32LE : H5T_IEEE_F64LE, space,
                      H5P_DEFAULT, options, H5P_DEFAULT);
-    good = set >= 0 && H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, g->v) >= 0 &&
-           put_attributes(set, g);
-    H5Dclose(set);
     H5Pclose(options);
     H5Sclose(space);
+    return set;
+}
+
+/* ---- depths along an axis ---- */
+
+struct scale {
+    double *at;
+    size_t n;
+    char name[RC_LABEL];
+};
+
+/* The file under construction. */
+struct output {
+    hid_t file;
+    struct scale *scale; /* those written so far */
+    size_t scales;
+};
+
+/* Where the slices of a stack or the rows of a section are, which the caller frees; NULL where neither
+ * is known or memory is short. */
+static double *
+depths_of(const struct rc_stack *s, size_t *n)
+{
+    const struct rc_grid *g = s->layer[0];
+    bool section = rc_grid_get(g, "section") != NULL && rc_grid_get(g, "depths") != NULL;
+    double *at;
+
+    *n = s->n > 1 ? s->n : g->ny;
+    if ((s->n == 1 && !section) || (at = malloc(*n * sizeof *at)) == NULL)
+        return NULL;
+    for (size_t k = 0; s->n > 1 && k < s->n; k++)
+        at[k] = rc_stack_depth(s, k);
+    if (s->n > 1 || rc_export_depths(g, at, NULL) == RC_OK)
+        return at;
+    free(at);
+    return NULL;
+}
+
+/* Writes the scale; its name is the first of depth, depth_2, ... that is free. */
+static bool
+put_scale(struct output *o, struct scale *scale)
+{
+    const hsize_t size = scale->n;
+    hid_t set;
+    bool good;
+
+    strcpy(scale->name, "depth");
+    for (int k = 2; H5Lexists(o->file, scale->name, H5P_DEFAULT) > 0; k++)
+        snprintf(scale->name, sizeof scale->name, "depth_%d", k);
+    set = new_set(o->file, scale->name, 1, &size, RC_RAW_F64);
+    good = set >= 0 &&
+           H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, scale->at) >= 0 &&
+           H5DSset_scale(set, "depth") >= 0 && put_text(set, "unit", "m");
+    H5Dclose(set);
+    return good;
+}
+
+/* Makes the depths the scale of the first axis: one that was written before, where it is the same.
+ * Takes `at` over. */
+static bool
+attach_depths(struct output *o, hid_t set, double *at, size_t n)
+{
+    size_t k = 0;
+    hid_t scale;
+    bool good;
+
+    while (k < o->scales && (o->scale[k].n != n || memcmp(o->scale[k].at, at, n * sizeof *at) != 0))
+        k++;
+    if (k < o->scales) {
+        free(at);
+    } else {
+        o->scale[o->scales++] = (struct scale){.at = at, .n = n};
+        if (!put_scale(o, &o->scale[k]))
+            return false;
+    }
+    scale = H5Dopen2(o->file, o->scale[k].name, H5P_DEFAULT);
+    good =
+        scale >= 0 && H5DSattach_scale(set, scale, 0) >= 0 && H5DSset_label(set, 0, "depth") >= 0;
+    H5Dclose(scale);
+    return good;
+}
+
+/* ---- frames ---- */
+
+static bool
+put_layer(hid_t set, const struct rc_stack *s, size_t k)
+{
+    const struct rc_grid *g = s->layer[k];
+    const hsize_t from[3] = {k, 0, 0}, size[3] = {1, g->ny, g->nx};
+    hid_t memory = H5Screate_simple(3, size, NULL), space = H5Dget_space(set);
+    bool good;
+
+    if (s->n == 1)
+        H5Sselect_all(space);
+    else
+        H5Sselect_hyperslab(space, H5S_SELECT_SET, from, NULL, size, NULL);
+    good = H5Dwrite(set, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, g->v) >= 0;
+    H5Sclose(memory);
+    H5Sclose(space);
+    return good;
+}
+
+static bool
+put_stack(struct output *o, const char *name, const struct rc_stack *s, enum rc_raw raw)
+{
+    const struct rc_grid *g = s->layer[0];
+    const hsize_t size[3] = {s->n, g->ny, g->nx};
+    bool deep = s->n > 1;
+    hid_t set = new_set(o->file, name, deep ? 3 : 2, deep ? size : size + 1, raw);
+    bool good = set >= 0;
+
+    for (size_t k = 0; good && k < s->n; k++)
+        good = put_layer(set, s, k);
+    good = good && put_attributes(set, g, deep);
+    H5Dclose(set);
+    return good;
+}
+
+static bool
+put_depths(struct output *o, const char *name, const struct rc_stack *s)
+{
+    size_t n;
+    double *at = depths_of(s, &n);
+    hid_t set;
+    bool good;
+
+    if (at == NULL)
+        return true;
+    set = H5Dopen2(o->file, name, H5P_DEFAULT);
+    good = attach_depths(o, set, at, n);
+    H5Dclose(set);
     return good;
 }
 
@@ -103,41 +235,67 @@ clean_name(char *name)
 }
 
 static enum rc_status
+put_stacks(struct output *o, const struct rc_stack *stack, size_t stacks,
+           const struct rc_export_wish *wish, struct rc_err *err)
+{
+    struct rc_grid **first = calloc(stacks, sizeof(struct rc_grid *));
+    char(*name)[RC_LABEL] = calloc(stacks, sizeof *name);
+    enum rc_status status = RC_OK;
+
+    o->scale = calloc(stacks, sizeof *o->scale);
+    if (first == NULL || name == NULL || o->scale == NULL)
+        status = rc_err_set(err, "out of memory for %zu names", stacks);
+    for (size_t a = 0; status == RC_OK && a < stacks; a++)
+        first[a] = stack[a].layer[0];
+    for (size_t a = 0; status == RC_OK && a < stacks; a++) {
+        rc_export_label(name[a], first, stacks, a, stack[a].n == 1);
+        clean_name(name[a]);
+        if (!put_stack(o, name[a], &stack[a], rc_export_raw(first[a], wish, TYPES)))
+            status = rc_err_set(err, "the HDF5 library could not write %s", name[a]);
+    }
+    for (size_t a = 0; status == RC_OK && a < stacks; a++) /* last: names of frames come first */
+        if (!put_depths(o, name[a], &stack[a]))
+            status = rc_err_set(err, "the HDF5 library could not write the depths of %s", name[a]);
+    for (size_t k = 0; k < o->scales; k++)
+        free(o->scale[k].at);
+    free(o->scale);
+    free(name);
+    free(first);
+    return status;
+}
+
+static enum rc_status
 hdf5_write(FILE *out, struct rc_grid *const *frame, size_t frames,
            const struct rc_export_wish *wish, struct rc_err *err)
 {
-    enum rc_status status = RC_FAIL;
-    char name[RC_LABEL];
-    hid_t access, file;
+    struct output o = {.file = -1};
+    hid_t access;
+    struct rc_stack *stack;
+    size_t stacks;
+    enum rc_status status = rc_stacks_make(&stack, &stacks, frame, frames, err);
 
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     access = H5Pcreate(H5P_FILE_ACCESS);
     H5Pset_fapl_core(access, GROWTH, false);
-    file = H5Fcreate("export", H5F_ACC_TRUNC, H5P_DEFAULT, access);
-    if (file < 0) {
-        rc_err_set(err, "the HDF5 library could not make a file in memory");
-        goto done;
+    if (status == RC_OK) {
+        o.file = H5Fcreate("export", H5F_ACC_TRUNC, H5P_DEFAULT, access);
+        status = o.file < 0 ? rc_err_set(err, "the HDF5 library could not make a file in memory")
+                            : put_stacks(&o, stack, stacks, wish, err);
     }
-    for (size_t k = 0; k < frames; k++) {
-        rc_export_label(name, frame, frames, k, true);
-        clean_name(name);
-        if (!put_frame(file, name, frame[k], rc_export_raw(frame[k], wish, TYPES))) {
-            rc_err_set(err, "the HDF5 library could not write frame %zu (%s)", k + 1, name);
-            goto done;
-        }
-    }
-    status = put_image(file, out, err);
-done:
-    H5Fclose(file);
+    if (status == RC_OK)
+        status = put_image(o.file, out, err);
+    H5Fclose(o.file);
     H5Pclose(access);
+    rc_stacks_free(stack, stacks);
     return status;
 }
 
 const struct rc_export rc_export_hdf5 = {
     .name = "hdf5",
     .suffixes = ".h5 .hdf5",
-    .summary = "HDF5, a dataset for each frame",
+    .summary = "HDF5, a dataset for each frame or stack of depths",
     .several = true,
     .types = TYPES,
+    .uneven = true,
     .write = hdf5_write,
 };

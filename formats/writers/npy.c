@@ -1,7 +1,11 @@
 /* NumPy array, version 1.0: a magic, the header as a Python dictionary padded to a multiple of 64,
- * and the values row by row. It says nothing of spacing and unit. */
+ * and the values row by row, of a stack slice by slice from the shallowest down. It says nothing of
+ * spacing and unit. */
+#include <stdlib.h>
+
 #include "encode.h"
 #include "formats/export.h"
+#include "stack.h"
 
 enum {
     TYPES = RC_TYPE_F32 | RC_TYPE_F64,
@@ -9,27 +13,65 @@ enum {
     ALIGN = 64
 };
 
+/* Even depths, as far as an array can go: it does not say where they are. */
 static enum rc_status
-npy_write(FILE *out, struct rc_grid *const *frame, size_t frames, const struct rc_export_wish *wish,
-          struct rc_err *err)
+check_stack(const struct rc_stack *s, size_t stacks, struct rc_err *err)
 {
-    const struct rc_grid *g = frame[0];
-    const struct rc_code code = {.raw = rc_export_raw(g, wish, TYPES)};
-    enum rc_status status = RC_FAIL;
-    struct rc_buffer head = {0}, b = {0};
+    enum rc_status status = RC_OK;
+    double *at, step;
 
-    (void)frames;
-    rc_buffer_print(&b, "{'descr': '<f%zu', 'fortran_order': False, 'shape': (%zu, %zu), }",
-                    rc_raw_width(code.raw), g->ny, g->nx);
+    if (stacks > 1)
+        return rc_err_set(err, "npy holds one map or the depths of one channel and case, on one "
+                               "grid: choose by --channel, --case and --depth");
+    if ((at = malloc(s->n * sizeof *at)) == NULL)
+        return rc_err_set(err, "out of memory for %zu depths", s->n);
+    for (size_t k = 0; k < s->n; k++)
+        at[k] = rc_stack_depth(s, k);
+    if (!rc_export_even(at, s->n, &step))
+        status = rc_err_set(err, "the depths have uneven steps, which npy cannot say: write vtr or "
+                                 "hdf5");
+    free(at);
+    return status;
+}
+
+static enum rc_status
+put_head(FILE *out, const struct rc_stack *s, enum rc_raw raw, struct rc_err *err)
+{
+    struct rc_buffer head = {0}, b = {0};
+    enum rc_status status = RC_FAIL;
+
+    rc_buffer_print(&b, "{'descr': '<f%zu', 'fortran_order': False, 'shape': (", rc_raw_width(raw));
+    if (s->n > 1)
+        rc_buffer_print(&b, "%zu, ", s->n);
+    rc_buffer_print(&b, "%zu, %zu), }", s->layer[0]->ny, s->layer[0]->nx);
     while ((FIXED + b.n + 1) % ALIGN != 0 && !b.failed)
         rc_buffer_add(&b, " ", 1);
     rc_buffer_add(&b, "\n", 1);
     rc_buffer_add(&head, "\x93NUMPY\x01\x00", 8);
     rc_buffer_u16(&head, (uint16_t)b.n);
-    if (rc_buffer_write(&head, out, err) == RC_OK && rc_buffer_write(&b, out, err) == RC_OK)
-        status = rc_encode_file(&code, g->v, g->nx * g->ny, out, err);
+    if (rc_buffer_write(&head, out, err) == RC_OK)
+        status = rc_buffer_write(&b, out, err);
     rc_buffer_free(&head);
     rc_buffer_free(&b);
+    return status;
+}
+
+static enum rc_status
+npy_write(FILE *out, struct rc_grid *const *frame, size_t frames, const struct rc_export_wish *wish,
+          struct rc_err *err)
+{
+    const struct rc_code code = {.raw = rc_export_raw(frame[0], wish, TYPES)};
+    size_t node = frame[0]->nx * frame[0]->ny, stacks;
+    struct rc_stack *stack;
+    enum rc_status status = rc_stacks_make(&stack, &stacks, frame, frames, err);
+
+    if (status == RC_OK)
+        status = check_stack(stack, stacks, err);
+    if (status == RC_OK)
+        status = put_head(out, stack, code.raw, err);
+    for (size_t k = 0; status == RC_OK && k < stack->n; k++)
+        status = rc_encode_file(&code, stack->layer[k]->v, node, out, err);
+    rc_stacks_free(stack, stacks);
     return status;
 }
 
@@ -37,6 +79,7 @@ const struct rc_export rc_export_npy = {
     .name = "npy",
     .suffixes = ".npy",
     .summary = "NumPy array: values only, no spacing, no unit",
+    .stack = true,
     .types = TYPES,
     .write = npy_write,
 };

@@ -42,80 +42,43 @@ check_alike(struct rc_grid *const *frame, size_t frames, struct rc_err *err)
     return RC_OK;
 }
 
-/* Whether the frame is another depth of what the array holds. */
-static bool
-is_layer(const struct rc_layers *a, const struct rc_grid *g)
-{
-    double depth;
-
-    return depth_of(g, &depth) && strcmp(a->layer[0]->channel, g->channel) == 0 &&
-           rc_grid_case(a->layer[0]) == rc_grid_case(g);
-}
-
-static int
-by_depth(const void *a, const void *b)
-{
-    const struct rc_grid *const *left = a, *const *right = b;
-    double x = 0, y = 0;
-
-    depth_of(*left, &x);
-    depth_of(*right, &y);
-    return (x > y) - (x < y);
-}
-
 static enum rc_status
-sort_frames(struct rc_volume *v, struct rc_grid *const *frame, size_t frames, struct rc_err *err)
+stack_frames(struct rc_volume *v, struct rc_grid *const *frame, size_t frames, struct rc_err *err)
 {
-    size_t *count = calloc(frames, sizeof *count);
+    struct rc_stack *stack;
+    enum rc_status status = rc_stacks_make(&stack, &v->arrays, frame, frames, err);
 
-    v->array = calloc(frames, sizeof *v->array);
-    if (count == NULL || v->array == NULL) {
-        free(count);
-        return rc_err_set(err, "out of memory for %zu frames", frames);
+    if (status == RC_OK && (v->array = calloc(v->arrays, sizeof *v->array)) == NULL)
+        status = rc_err_set(err, "out of memory for %zu frames", frames);
+    if (status != RC_OK) {
+        rc_stacks_free(stack, v->arrays);
+        v->arrays = 0;
+        return RC_FAIL;
     }
-    for (size_t k = 0; k < frames; k++) {
-        size_t a = 0;
-        while (a < v->arrays && !is_layer(&v->array[a], frame[k]))
-            a++;
-        if (a == v->arrays) {
-            v->array[v->arrays].layer = calloc(frames, sizeof(struct rc_grid *));
-            if (v->array[v->arrays++].layer == NULL) {
-                free(count);
-                return rc_err_set(err, "out of memory for %zu frames", frames);
-            }
-        }
-        v->array[a].layer[count[a]++] = frame[k];
-    }
-    v->layers = count[0];
     for (size_t a = 0; a < v->arrays; a++)
-        if (count[a] != v->layers) {
-            rc_err_set(err, "%s has %zu depths and %s has %zu: one file holds one stack",
-                       frame[0]->channel, v->layers, v->array[a].layer[0]->channel, count[a]);
-            free(count);
-            return RC_FAIL;
-        }
-    free(count);
+        v->array[a].stack = stack[a];
+    free(stack);
+    v->layers = v->array[0].stack.n;
     for (size_t a = 0; a < v->arrays; a++)
-        qsort(v->array[a].layer, v->layers, sizeof(struct rc_grid *), by_depth);
+        if (v->array[a].stack.n != v->layers)
+            return rc_err_set(err, "%s has %zu depths and %s has %zu: one file holds one stack",
+                              frame[0]->channel, v->layers, v->array[a].stack.layer[0]->channel,
+                              v->array[a].stack.n);
     return RC_OK;
 }
 
 static enum rc_status
 check_depths(const struct rc_volume *v, struct rc_err *err)
 {
-    char text[RC_NUMBER_SIZE];
+    const struct rc_stack *first = &v->array[0].stack;
 
-    for (size_t k = 1; k < v->layers; k++)
-        if (by_depth(&v->array[0].layer[k - 1], &v->array[0].layer[k]) == 0)
-            return rc_err_set(err, "two frames of channel %s at one depth (%s m)",
-                              v->array[0].layer[0]->channel, rc_number_text(text, v->at[2][k]));
     for (size_t a = 1; a < v->arrays; a++)
         for (size_t k = 0; k < v->layers; k++)
-            if (by_depth(&v->array[a].layer[k], &v->array[0].layer[k]) != 0)
+            if (rc_stack_depth(&v->array[a].stack, k) != rc_stack_depth(first, k))
                 return rc_err_set(err,
                                   "channels %s and %s have different depths: one file holds "
                                   "one stack",
-                                  v->array[0].layer[0]->channel, v->array[a].layer[0]->channel);
+                                  first->layer[0]->channel, v->array[a].stack.layer[0]->channel);
     return RC_OK;
 }
 
@@ -127,7 +90,7 @@ name_arrays(struct rc_volume *v, const struct rc_export_wish *wish, struct rc_er
     if (first == NULL)
         return rc_err_set(err, "out of memory for %zu names", v->arrays);
     for (size_t a = 0; a < v->arrays; a++)
-        first[a] = v->array[a].layer[0];
+        first[a] = v->array[a].stack.layer[0];
     for (size_t a = 0; a < v->arrays; a++) {
         rc_export_label(v->array[a].name, first, v->arrays, a, false);
         v->array[a].raw = rc_export_raw(first[a], wish, RC_VTK_TYPES);
@@ -137,21 +100,6 @@ name_arrays(struct rc_volume *v, const struct rc_export_wish *wish, struct rc_er
 }
 
 /* ---- where the nodes are ---- */
-
-/* The `depths` of a section, one for each of its rows: numbers separated by commas or spaces. */
-static bool
-take_depths(const char *text, double *at, size_t n)
-{
-    for (size_t k = 0; k < n; k++) {
-        const char *end;
-        while (text != NULL && (*text == ',' || *text == ' '))
-            text++;
-        if (text == NULL || (end = rc_number_read(text, false, &at[k])) == NULL)
-            return false;
-        text = end;
-    }
-    return true;
-}
 
 static enum rc_status
 place_nodes(struct rc_volume *v, const struct rc_grid *g, struct rc_err *err)
@@ -175,12 +123,10 @@ place_nodes(struct rc_volume *v, const struct rc_grid *g, struct rc_err *err)
     for (size_t j = 0; j < g->ny && !cut; j++)
         v->at[1][j] = ((double)j - 0.5 * ((double)g->ny - 1)) * g->dy;
     for (size_t k = 0; k < v->layers && !cut; k++)
-        depth_of(v->array[0].layer[k], &v->at[2][k]);
+        v->at[2][k] = rc_stack_depth(&v->array[0].stack, k);
     if (cut && rc_grid_number(g, "at", &at))
         v->at[other][0] = at;
-    if (cut && !take_depths(rc_grid_get(g, "depths"), v->at[2], g->ny))
-        return rc_err_set(err, "a section of %zu rows without as many depths", g->ny);
-    return RC_OK;
+    return cut ? rc_export_depths(g, v->at[2], err) : RC_OK;
 }
 
 enum rc_status
@@ -188,7 +134,7 @@ rc_volume_make(struct rc_volume *v, struct rc_grid *const *frame, size_t frames,
                const struct rc_export_wish *wish, struct rc_err *err)
 {
     *v = (struct rc_volume){.node = frame[0]->nx * frame[0]->ny};
-    if (check_alike(frame, frames, err) != RC_OK || sort_frames(v, frame, frames, err) != RC_OK ||
+    if (check_alike(frame, frames, err) != RC_OK || stack_frames(v, frame, frames, err) != RC_OK ||
         place_nodes(v, frame[0], err) != RC_OK || check_depths(v, err) != RC_OK)
         return RC_FAIL;
     return name_arrays(v, wish, err);
@@ -198,23 +144,10 @@ void
 rc_volume_free(struct rc_volume *v)
 {
     for (size_t a = 0; a < v->arrays; a++)
-        free(v->array[a].layer);
+        free(v->array[a].stack.layer);
     free(v->array);
     for (int axis = 0; axis < 3; axis++)
         free(v->at[axis]);
-}
-
-bool
-rc_volume_even(const struct rc_volume *v, int axis, double *step)
-{
-    const double *at = v->at[axis];
-    size_t n = v->n[axis];
-
-    *step = n > 1 ? (at[n - 1] - at[0]) / (double)(n - 1) : 0;
-    for (size_t k = 1; k < n; k++)
-        if (!(fabs(at[k] - at[0] - (double)k * *step) <= 1e-9 * fabs(*step)))
-            return false;
-    return true;
 }
 
 /* ---- XML and appended data ---- */
@@ -240,7 +173,7 @@ rc_vtk_arrays(struct rc_buffer *b, const struct rc_volume *v, uint64_t offset)
                         "          <InformationKey name=\"UNITS_LABEL\" "
                         "location=\"vtkDataArray\">",
                         (unsigned long long)offset);
-        rc_buffer_escaped(b, v->array[a].layer[0]->unit);
+        rc_buffer_escaped(b, v->array[a].stack.layer[0]->unit);
         rc_buffer_print(b, "</InformationKey>\n        </DataArray>\n");
         offset += rc_vtk_bytes(v->node * v->layers, v->array[a].raw);
     }
@@ -292,7 +225,7 @@ rc_vtk_put_arrays(FILE *out, const struct rc_volume *v, struct rc_err *err)
         if (put_length(out, v->node * v->layers, code.raw, err) != RC_OK)
             return RC_FAIL;
         for (size_t k = 0; k < v->layers; k++)
-            if (rc_encode_file(&code, v->array[a].layer[k]->v, v->node, out, err) != RC_OK)
+            if (rc_encode_file(&code, v->array[a].stack.layer[k]->v, v->node, out, err) != RC_OK)
                 return RC_FAIL;
     }
     return RC_OK;

@@ -10,10 +10,11 @@
 
 #include "encode.h"
 #include "formats/export.h"
+#include "stack.h"
 
-/* A value at every node: one frame a layer, layers from the shallowest down. */
+/* A value at every node: one frame a layer. */
 struct rc_layers {
-    struct rc_grid **layer;
+    struct rc_stack stack;
     char name[RC_LABEL];
     enum rc_raw raw;
 };
@@ -21,7 +22,7 @@ struct rc_layers {
 struct rc_volume {
     size_t n[3];   /* nodes along x, y, z             */
     double *at[3]; /* n of them: where the nodes are  */
-    size_t layers; /* frames in a struct rc_layers    */
+    size_t layers; /* frames in each stack            */
     size_t node;   /* values in a layer               */
     struct rc_layers *array;
     size_t arrays;
@@ -31,9 +32,6 @@ struct rc_volume {
 enum rc_status rc_volume_make(struct rc_volume *volume, struct rc_grid *const *frame, size_t frames,
                               const struct rc_export_wish *wish, struct rc_err *err);
 void rc_volume_free(struct rc_volume *volume);
-
-/* Whether an axis has even steps, and the step; 0 for an axis of one node. */
-bool rc_volume_even(const struct rc_volume *volume, int axis, double *step);
 
 /* Bytes that an array of n values takes in the file, with the count before it. */
 uint64_t rc_vtk_bytes(size_t n, enum rc_raw raw);

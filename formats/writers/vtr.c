@@ -61,5 +61,6 @@ const struct rc_export rc_export_vtr = {
     .summary = "VTK RectilinearGrid (ParaView): as vti, for uneven depths",
     .several = true,
     .types = RC_VTK_TYPES,
+    .uneven = true,
     .write = vtr_write,
 };

@@ -1,6 +1,8 @@
 /* Points as text: x, y and value of every node, x fastest, in SI, with the origin in the middle of
- * the map; NaN where nothing was measured, so that the raster stays whole. */
+ * the map; NaN where nothing was measured, so that the raster stays whole. In a section the second
+ * number is the depth. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "encode.h"
@@ -17,22 +19,38 @@ xyz_write(FILE *out, struct rc_grid *const *frame, size_t frames, const struct r
           struct rc_err *err)
 {
     const char *missing = wish->missing == NULL ? "NaN" : wish->missing;
+    bool section = rc_grid_get(frame[0], "section") && rc_grid_get(frame[0], "depths");
+    enum rc_status status = RC_FAIL;
     char x[RC_NUMBER_SIZE], y[RC_NUMBER_SIZE], z[RC_NUMBER_SIZE];
     const struct rc_grid *g = frame[0];
+    double *at = malloc(g->ny * sizeof *at);
 
     (void)frames;
+    if (at == NULL) {
+        rc_err_set(err, "out of memory for %zu rows", g->ny);
+        goto done;
+    }
+    for (size_t j = 0; j < g->ny; j++)
+        at[j] = place(j, g->ny, g->dy);
+    if (section && rc_export_depths(g, at, err) != RC_OK)
+        goto done;
     for (size_t j = 0; j < g->ny; j++) {
-        rc_number_text(y, place(j, g->ny, g->dy));
+        rc_number_text(y, at[j]);
         for (size_t i = 0; i < g->nx; i++) {
             double value = g->v[j * g->nx + i];
 
             rc_number_text(z, value);
             if (fprintf(out, "%s %s %s\n", rc_number_text(x, place(i, g->nx, g->dx)), y,
-                        isnan(value) ? missing : z) < 0)
-                return rc_put_failed(err);
+                        isnan(value) ? missing : z) < 0) {
+                rc_put_failed(err);
+                goto done;
+            }
         }
     }
-    return RC_OK;
+    status = RC_OK;
+done:
+    free(at);
+    return status;
 }
 
 const struct rc_export rc_export_xyz = {
@@ -40,5 +58,6 @@ const struct rc_export rc_export_xyz = {
     .suffixes = ".xyz",
     .summary = "points as text: x, y, value",
     .text = true,
+    .uneven = true,
     .write = xyz_write,
 };

@@ -44,7 +44,7 @@ done
 refuses 2 'N and N/m in one list' "forces of two kinds" "rc-solve --load 1N/m,2N --estar 1GPa ball.rcg"
 refuses 2 "unknown unit 'N/s': N or N/m is expected" "a force over a time" \
     "rc-solve --load 1N/s --estar 1GPa ball.rcg"
-refuses 2 'load -1 N/m: it must be above 0' "a negative one, in its own unit" \
+refuses 2 'load -1 N/m: it must be at least 0' "a negative one, in its own unit" \
     "rc-solve --load=-1N/m --estar 1GPa ball.rcg"
 
 # ---- words for numbers ----

@@ -5,6 +5,7 @@
 #ifndef RC_CLI_H
 #define RC_CLI_H
 
+#include "ending.h"
 #include "json.h"
 #include "name_list.h"
 #include "physics.h"

@@ -8,6 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "foreign.h"
 #include "parts.h"
 #include "pipe.h"
 #include "results.h"
@@ -65,6 +66,28 @@ check_convergence(struct tool *t, const struct rc_grid *g)
     tool_fails_with(t, EXIT_SHORT);
 }
 
+/* What a program before this one in the pipe has said need not be said again. */
+static _Noreturn void
+cannot_read(struct tool *t, const struct rc_err *err)
+{
+    int status;
+    const char *failure = rc_reader_failure(t->reader, &status), *head;
+    char text[1024];
+
+    if (failure != NULL && pipe_is(fileno(t->in)))
+        fail_as_before(t, failure, status);
+    if (rc_reader_foreign(t->reader, &head) && head != NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "%s",
+                 foreign_message(text, sizeof text, t->info->name, t->in == stdin ? "-" : t->source,
+                                 head));
+    if (rc_reader_foreign(t->reader, &head))
+        tool_die(t, EXIT_IMPOSSIBLE, "%s is empty, the stream stops before it begins: %s",
+                 t->source,
+                 pipe_is(fileno(t->in)) ? "the program before this one in the pipe wrote nothing"
+                                        : "make it again");
+    tool_die(t, EXIT_IMPOSSIBLE, "%s, frame %zu: %s", t->source, t->frame + 1, err->text);
+}
+
 struct rc_grid *
 tool_read(struct tool *t)
 {
@@ -87,7 +110,7 @@ tool_read(struct tool *t)
             close_input(t);
             break;
         default:
-            tool_die(t, EXIT_IMPOSSIBLE, "%s, frame %zu: %s", t->source, t->frame + 1, err.text);
+            cannot_read(t, &err);
         }
     }
 }

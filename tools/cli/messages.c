@@ -74,8 +74,20 @@ tool_progress_end(struct tool *t)
 static _Noreturn void
 die(struct tool *t, int status, const char *text)
 {
+    char whole[1500];
+
     say(t, text);
-    output_abandon(t, text);
+    snprintf(whole, sizeof whole, "%s: %s", t->info->name, text);
+    output_abandon(t, whole, status);
+    exit(status);
+}
+
+void
+fail_as_before(struct tool *t, const char *message, int status)
+{
+    tool_note(t, "%s: the program that wrote it failed: %s", t->source, message);
+    tool_progress_end(t);
+    output_abandon(t, message, status);
     exit(status);
 }
 

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "libcontact/contact.h"
+#include "names.h"
 #include "parts.h"
 
 /* What every tool has. Offsets point into struct tool itself; `type` is read apart. */
@@ -38,6 +39,8 @@ enum {
     COLUMN = 28,   /* where help texts start               */
     LIST = 256,    /* bytes of a list of words             */
 };
+
+static const char letters[] = ":o:h"; /* options of one letter, for getopt */
 
 /* ---- the table ---- */
 
@@ -80,7 +83,7 @@ word_index(const struct opt *o, const char *text, size_t n)
     size_t length;
 
     for (size_t k = 0; (word = option_word(o, k, &length)) != NULL; k++)
-        if (length == n && strncmp(word, text, n) == 0)
+        if (name_same(text, n, word, length))
             return (int)k;
     return -1;
 }
@@ -184,14 +187,17 @@ whole(struct tool *t, const struct opt *o, const char *text)
     return value;
 }
 
-static void
-check_choice(struct tool *t, const struct opt *o, const char *text)
+/* The word as the table has it, whatever its spelling on the line. */
+static const char *
+choice(struct tool *t, const struct opt *o, const char *text)
 {
     char list[LIST];
+    int k = word_index(o, text, strlen(text));
 
-    if (word_index(o, text, strlen(text)) < 0)
+    if (k < 0)
         tool_die(t, EXIT_USAGE, "--%s %s: it must be one of %s", o->name, text,
                  word_list(list, o, "|"));
+    return o->words == NULL ? text : o->words((size_t)k);
 }
 
 static size_t
@@ -261,8 +267,7 @@ set_value(struct tool *t, const struct opt *o, void *base, const char *text)
         *(size_t *)at = (size_t)whole(t, o, text);
         break;
     case OPT_CHOICE:
-        check_choice(t, o, text);
-        *(const char **)at = text;
+        *(const char **)at = choice(t, o, text);
         break;
     case OPT_WORDS:
         *(size_t *)at = word_set(t, o, text);
@@ -295,49 +300,120 @@ set_common(struct tool *t, const struct opt *o, const char *text)
     if (strcmp(o->name, "memory") == 0) {
         t->memory = (size_t)number(t, o, text);
     } else if (strcmp(o->name, "type") == 0) {
-        check_choice(t, o, text);
         t->type_given = true;
-        t->type = strcmp(text, "f32") == 0 ? RC_F32 : RC_F64;
+        t->type = strcmp(choice(t, o, text), "f32") == 0 ? RC_F32 : RC_F64;
     } else {
         set_value(t, o, t, text);
     }
 }
 
-/* Rows for getopt: aliases have one of their own, with the value of the option. */
-static struct option *
+struct getopt_rows {
+    struct option *row;
+    size_t n;
+};
+
+/* A row, and one for the other spelling of its name. */
+static void
+add_name(struct getopt_rows *rows, const char *name, int has_arg, int val)
+{
+    char other[NAME_SIZE];
+
+    rows->row[rows->n++] = (struct option){.name = name, .has_arg = has_arg, .val = val};
+    if (name_respelt(name, other) != NULL && (name = strdup(other)) != NULL)
+        rows->row[rows->n++] = (struct option){.name = name, .has_arg = has_arg, .val = val};
+}
+
+/* Rows for getopt: aliases have one of their own, with the value of the option. They last as long
+ * as the tool, for its messages. */
+static const struct option *
 getopt_table(const struct tool *t)
 {
-    size_t n = 0, rows = sizeof common / sizeof *common;
-    struct option *table = calloc(2 * t->opts + rows, sizeof *table);
+    static struct getopt_rows rows;
 
-    for (size_t k = 0; table != NULL && k < t->opts; k++) {
+    rows.row = calloc(4 * t->opts + 2 * sizeof common / sizeof *common, sizeof *rows.row);
+    if (rows.row == NULL)
+        return NULL;
+    for (size_t k = 0; k < t->opts; k++) {
         const struct opt *o = &t->opt[k];
         int has_arg = o->arg == NULL && o->words == NULL ? no_argument : required_argument;
 
-        table[n++] = (struct option){.name = o->name, .has_arg = has_arg, .val = OWN + (int)k};
+        add_name(&rows, o->name, has_arg, OWN + (int)k);
         if (o->alias != NULL)
-            table[n++] = (struct option){.name = o->alias, .has_arg = has_arg, .val = OWN + (int)k};
+            add_name(&rows, o->alias, has_arg, OWN + (int)k);
     }
-    for (size_t k = 0; table != NULL && common[k].name != NULL; k++)
-        table[n++] =
-            (struct option){.name = common[k].name,
-                            .has_arg = common[k].arg == NULL ? no_argument : required_argument,
-                            .val = COMMON + (int)k};
-    return table;
+    for (size_t k = 0; common[k].name != NULL; k++)
+        add_name(&rows, common[k].name, common[k].arg == NULL ? no_argument : required_argument,
+                 COMMON + (int)k);
+    return rows.row;
+}
+
+/* ---- what is wrong with an option ---- */
+
+/* An option of which only the beginning was typed, as getopt allows, and which could be several. */
+static void
+check_ambiguous(struct tool *t, const struct option *table, const char *typed)
+{
+    char list[LIST] = "";
+    size_t n = 0, used = 0;
+    int last = 0;
+
+    for (const struct option *o = table; o->name != NULL && used < LIST; o++)
+        if (strncmp(o->name, typed, strlen(typed)) == 0 && o->val != last) {
+            used +=
+                (size_t)snprintf(list + used, LIST - used, "%s--%s", n++ == 0 ? "" : ", ", o->name);
+            last = o->val; /* names of one option stand together */
+        }
+    if (n > 1)
+        tool_die(t, EXIT_USAGE, "option --%s is ambiguous: %s", typed, list);
+}
+
+/* The name that was meant, or NULL where none is near. */
+static const char *
+nearest(const struct option *table, const char *typed)
+{
+    size_t least = NAME_FAR, distance;
+    const char *name = NULL;
+
+    for (const struct option *o = table; o->name != NULL; o++)
+        if ((distance = name_distance(typed, o->name)) < least) {
+            least = distance;
+            name = o->name;
+        }
+    return name;
+}
+
+/* `word` as it stands on the line, `hyphens` of it before the name. */
+static _Noreturn void
+unknown_option(struct tool *t, const struct option *table, const char *word, size_t hyphens)
+{
+    char typed[NAME_SIZE];
+    int n = (int)strcspn(word, "=");
+    const char *name;
+
+    snprintf(typed, sizeof typed, "%.*s", n - (int)hyphens, word + hyphens);
+    if (hyphens == 2)
+        check_ambiguous(t, table, typed);
+    if ((name = nearest(table, typed)) != NULL)
+        tool_die(t, EXIT_USAGE, "unknown option %.*s: did you mean --%s?", n, word, name);
+    tool_die(t, EXIT_USAGE, "unknown option %.*s: see %s --help", n, word, t->info->name);
 }
 
 static _Noreturn void
-bad_option(struct tool *t, int what, char **argv)
+bad_option(struct tool *t, int what, char **argv, const struct option *table)
 {
-    const char *word = argv[optind - 1];
+    const char *word = argv[optind - 1], *rest = argv[optind];
+    char letter[3];
 
     if (what == ':')
         tool_die(t, EXIT_USAGE, "option %s needs an argument: see %s --help", word, t->info->name);
-    if (optopt != 0 && optopt < OWN)
-        tool_die(t, EXIT_USAGE, "unknown option -%c: see %s --help", optopt, t->info->name);
     if (optopt >= OWN)
         tool_die(t, EXIT_USAGE, "option %s takes no argument: see %s --help", word, t->info->name);
-    tool_die(t, EXIT_USAGE, "unknown or ambiguous option %s: see %s --help", word, t->info->name);
+    if (optopt == 0)
+        unknown_option(t, table, word, 2);
+    snprintf(letter, sizeof letter, "-%c", optopt);
+    if (rest != NULL && strncmp(rest, letter, 2) == 0) /* one hyphen, and more letters follow */
+        unknown_option(t, table, rest, 1);
+    tool_die(t, EXIT_USAGE, "unknown option %s: see %s --help", letter, t->info->name);
 }
 
 /* "--load 1,5" is two loads; somebody may have meant one and a half. */
@@ -359,17 +435,51 @@ warn_of_commas(struct tool *t)
     }
 }
 
+/* Whether standard output is text once this option is given. */
+static bool
+asks_for_text(const struct tool *t, int what, const char *text)
+{
+    const struct opt *o;
+
+    if (what == 'h')
+        return true;
+    if (what < OWN)
+        return false;
+    if (what >= COMMON) {
+        o = &common[what - COMMON];
+        return strcmp(o->name, "help") == 0 || strcmp(o->name, "version") == 0;
+    }
+    o = &t->opt[what - OWN];
+    return o->text || strcmp(o->name, "dry-run") == 0 ||
+           (o->type == OPT_REPORT && strcmp(text, "-") == 0);
+}
+
+/* Looks through the whole line for where the output leads: whatever is then found to be wrong on
+ * it, the reader of a pipe is told too. */
+static void
+look_for_output(struct tool *t, int argc, char **argv, const struct option *table)
+{
+    int what;
+
+    t->stream_expected = t->info->writes == WRITES_STREAM;
+    while ((what = getopt_long(argc, argv, letters, table, NULL)) != -1)
+        if (what == 'o' ? strcmp(optarg, "-") != 0 : asks_for_text(t, what, optarg))
+            t->stream_expected = false;
+    optind = 1; /* once more from the start */
+}
+
 void
 options_read(struct tool *t, int argc, char **argv)
 {
-    struct option *table;
+    const struct option *table;
     int what;
 
     add_rows(t, t->info->opts, 0);
     if ((table = getopt_table(t)) == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
     opterr = 0;
-    while ((what = getopt_long(argc, argv, ":o:h", table, NULL)) != -1) {
+    look_for_output(t, argc, argv, table);
+    while ((what = getopt_long(argc, argv, letters, table, NULL)) != -1) {
         if (what == 'h')
             print_help(t);
         if (what == 'o') {
@@ -382,10 +492,9 @@ options_read(struct tool *t, int argc, char **argv)
                 t->writes = WRITES_TEXT;
             set_value(t, &t->opt[what - OWN], t->args, optarg);
         } else {
-            bad_option(t, what, argv);
+            bad_option(t, what, argv, table);
         }
     }
-    free(table);
     t->operand = argv + optind;
     t->operands = (size_t)(argc - optind);
     warn_of_commas(t);

@@ -155,7 +155,7 @@ output_end(struct tool *t)
 
     if (t->writer != NULL && rc_writer_end(t->writer, &err) != RC_OK)
         tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", name, err.text);
-    t->began = false; /* an end line is out: nothing may follow it */
+    t->ended = true; /* an end line is out: nothing may follow it */
     rc_writer_free(t->writer);
     t->writer = NULL;
     if (fflush(t->out) != 0 || ferror(t->out) || fclose(t->out) != 0)
@@ -167,11 +167,29 @@ output_end(struct tool *t)
         end_by(interrupted);
 }
 
-void
-output_abandon(struct tool *t, const char *why)
+/* Where RCGFAIL is to stand; NULL: nowhere. A reader in a pipe waits for a stream also where none
+ * has begun; a file that has none yet gets none. */
+static FILE *
+stream_to_fail(const struct tool *t)
 {
-    if (t->writer != NULL && t->began && half_written[0] == '\0')
-        rc_writer_fail(t->writer, why);
+    bool before = interrupted == 0;
+
+    if (half_written[0] != '\0' || t->ended)
+        return NULL;
+    if (t->out == NULL) /* the command line is being read */
+        return t->stream_expected && before && pipe_is(STDOUT_FILENO) ? stdout : NULL;
+    return t->writer != NULL && (t->began || (before && pipe_is(fileno(t->out)))) ? t->out : NULL;
+}
+
+void
+output_abandon(struct tool *t, const char *why, int exit_status)
+{
+    FILE *stream = stream_to_fail(t);
+
+    if (stream != NULL) {
+        signal(SIGPIPE, SIG_IGN); /* a reader that has gone does not change the exit status */
+        rc_stream_fail(stream, why, exit_status);
+    }
     if (half_written[0] != '\0')
         unlink(half_written);
     half_written[0] = '\0';

@@ -22,7 +22,11 @@ void output_handle_signals(void);
 void output_open(struct tool *tool);
 /* Ends the stream, closes, puts the file in place. Where a signal has come, ends by it. */
 void output_end(struct tool *tool);
-/* The tool cannot go on: says so in a stream that has begun, removes what is half-written. */
-void output_abandon(struct tool *tool, const char *why);
+/* The tool cannot go on: says so in a stream that has begun, in a pipe also before it has, and
+ * removes what is half-written. */
+void output_abandon(struct tool *tool, const char *why, int exit_status);
+/* Ends the tool as the one before it in the pipe, which has said why: with its message and its exit
+ * status. */
+_Noreturn void fail_as_before(struct tool *tool, const char *message, int exit_status);
 
 #endif

@@ -3,6 +3,7 @@
 #include "pipe.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 
 void
 pipe_widen(int fd)
@@ -12,4 +13,12 @@ pipe_widen(int fd)
 #else
     (void)fd;
 #endif
+}
+
+bool
+pipe_is(int fd)
+{
+    struct stat st;
+
+    return fstat(fd, &st) == 0 && (S_ISFIFO(st.st_mode) || S_ISSOCK(st.st_mode));
 }

@@ -103,13 +103,27 @@ tool_demand_writable(struct tool *t, const char *option, const char *name)
         tool_die(t, EXIT_IMPOSSIBLE, "%s %s: %s", option, name, strerror(errno));
 }
 
+/* In the largest unit of which there is at least one. */
+static const char *
+size_text(char text[32], size_t bytes)
+{
+    if (bytes < 1 << 10)
+        snprintf(text, 32, "%zu bytes", bytes);
+    else if (bytes < 1 << 20)
+        snprintf(text, 32, "%zu KiB", bytes >> 10);
+    else
+        snprintf(text, 32, "%zu MiB", bytes >> 20);
+    return text;
+}
+
 void
 tool_demand_memory(struct tool *t, const struct rc_grid *g, size_t bytes)
 {
+    char allowed[32];
+
     if (t->memory != 0 && bytes > t->memory)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE,
-                    "%zu x %zu nodes need about %zu MiB, --memory allows %zu", g->nx, g->ny,
-                    (bytes >> 20) + 1, t->memory >> 20);
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%zu x %zu nodes need about %zu MiB, --memory allows %s",
+                    g->nx, g->ny, (bytes >> 20) + 1, size_text(allowed, t->memory));
 }
 
 /* ---- what the work took ---- */

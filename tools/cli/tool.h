@@ -131,13 +131,14 @@ struct tool {
         const char *source; /* where it began                                             */
         char names[512];    /* its channels, for the message that one is missing          */
     } current;
-    bool report_alone; /* standard output is for --report, and there is no other output */
-    struct {           /* of the case that results_demand_none is in; number 0: none yet        */
+    struct { /* of the case that results_demand_none is in; number 0: none yet        */
         size_t number;
         bool height;
         char names[256]; /* channels of its results                                       */
     } results;
-    bool type_given, began, warned_short;
+    bool report_alone;    /* standard output is for --report, and there is no other output */
+    bool stream_expected; /* by whoever reads standard output, as far as the command line says */
+    bool type_given, began, ended, warned_short; /* began, ended: the stream written    */
     bool progress_shown; /* a line stands on the terminal                                  */
     double progress_at;  /* s: when it was written                                         */
     enum rc_type type;
@@ -171,8 +172,8 @@ int tool_finish(struct tool *tool);
 /* Exit with status at the end, unless something worse comes. */
 void tool_fails_with(struct tool *tool, int status);
 
-/* "rc-solve: message" on standard error, RCGFAIL into a stream that has begun, nothing half-written
- * left behind. */
+/* "rc-solve: message" on standard error, RCGFAIL into a stream that has begun and into a pipe that
+ * waits for one, nothing half-written left behind. */
 _Noreturn void tool_die(struct tool *tool, int status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 /* The same, naming source, case and channel of the frame that is to blame. */

@@ -131,7 +131,8 @@ prefix_list(char *list, size_t size)
     return list;
 }
 
-/* What is seen of a number. `per_metre`: before, whether N/m will do for N; after, whether it is. */
+/* What is seen of a number. `per_metre`: before, whether N/m will do for N; after, whether it
+ * stands there. */
 struct seen {
     bool with_unit, per_metre;
 };

@@ -317,6 +317,21 @@ draw_curve(struct page *p)
 
 /* ---- the whole ---- */
 
+/* Over the plot, where it hides nothing. */
+static void
+draw_stamp(struct page *p, double middle, double y)
+{
+    double size = p->stamp.size, w, line = fmax(2, round(2.4 * p->u));
+
+    if (p->f->stamp == NULL)
+        return;
+    w = canvas_text_width(p->c, &p->stamp, p->f->stamp) + 1.6 * size;
+    y += 0.4 * size;
+    canvas_frame(p->c, round(middle - 0.5 * w), round(y), round(w), round(1.55 * size), line,
+                 page_alarm);
+    canvas_text(p->c, &p->stamp, middle, y + 1.12 * size, 0.5, p->f->stamp);
+}
+
 static void
 draw_text(struct page *p)
 {
@@ -330,6 +345,7 @@ draw_text(struct page *p)
         canvas_text(p->c, &p->subheading, middle, y + p->subheading.size, 0.5, p->subtitle.line[k]);
         y += 1.4 * p->subheading.size;
     }
+    draw_stamp(p, middle, y);
 }
 
 static void

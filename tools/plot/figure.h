@@ -22,6 +22,7 @@ enum {
 struct figure {
     const char *title;         /* large, over everything                                */
     const char *subtitle;      /* under it; lines break at " · "                        */
+    const char *stamp;         /* a warning in a frame of its own; NULL: none            */
     const char *quantity;      /* what the values are: "Gap"                            */
     const char *unit;          /* of the values, as in a stream                         */
     const char *across, *down; /* what the axes are: "x", "y", "depth"                  */

@@ -7,6 +7,7 @@
 #define BETWEEN " \xc2\xb7 "
 #define CUT "\xe2\x80\xa6"
 
+const struct rgb page_alarm = {0xb0, 0x1e, 0x1e};
 const struct rgb page_ink = {0x22, 0x22, 0x22}, page_faint = {0x59, 0x59, 0x59};
 
 /* ---- text ---- */
@@ -197,6 +198,7 @@ set_fonts(struct page *p)
     p->large = (struct canvas_font){.size = 23 * p->u, .colour = page_ink};
     p->heading = (struct canvas_font){.size = 28 * p->u, .bold = true, .colour = page_ink};
     p->subheading = (struct canvas_font){.size = 20 * p->u, .colour = page_faint};
+    p->stamp = (struct canvas_font){.size = 24 * p->u, .bold = true, .colour = page_alarm};
 }
 
 /* Pixels of the longer side of a plot of n nodes: a whole number of them for a node, or of nodes
@@ -329,7 +331,8 @@ set_page(struct page *p)
     wrap(p, &p->heading, text_w, " ", p->f->title, &p->title);
     wrap(p, &p->subheading, text_w, BETWEEN, p->f->subtitle, &p->subtitle);
     set_legend(p, text_w);
-    p->above = 24 * u + 1.3 * p->heading.size * (double)p->title.n +
+    p->stamp_h = p->f->stamp == NULL ? 0 : 2.1 * p->stamp.size;
+    p->above = 24 * u + p->stamp_h + 1.3 * p->heading.size * (double)p->title.n +
                1.4 * p->subheading.size * (double)p->subtitle.n + 22 * u + over;
     if (p->bar_below && !p->curve)
         marks = page_bar_below(p) + 28 * u + marks;

@@ -41,7 +41,7 @@ struct page {
     struct canvas *c;
     bool curve, bar_below, distorted;
     double u; /* the unit of the design: text, gaps and lines grow with the plot       */
-    struct canvas_font small, large, heading, subheading;
+    struct canvas_font small, large, heading, subheading, stamp;
     struct axis across, down, values;
     struct text title, subtitle;
     struct {
@@ -51,11 +51,14 @@ struct page {
     } note[NOTES];
     size_t notes;
     double legend_h;
+    double stamp_h;                       /* 0 without one */
     double left_w, right_w, above, below; /* around the plot, margins included         */
     size_t plot_x, plot_y, plot_w, plot_h, w, h;
 };
 
 extern const struct rgb page_ink, page_faint;
+
+extern const struct rgb page_alarm;
 
 /* Settles everything of a page whose f, g and curve are set, measuring text on c. */
 void page_lay_out(struct page *page);

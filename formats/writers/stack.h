@@ -1,0 +1,21 @@
+/* Frames that are the depths of one thing: of one channel and case, on one grid. */
+#ifndef RC_STACK_H
+#define RC_STACK_H
+
+#include "libcontact/grid.h"
+
+struct rc_stack {
+    struct rc_grid **layer; /* n of them, from the shallowest down; one without a depth is alone */
+    size_t n;
+};
+
+/* All stacks of the frames, in the order of their first ones. RC_FAIL for two frames of a stack at one
+ * depth, and when memory is short. Free them in either case. */
+enum rc_status rc_stacks_make(struct rc_stack **stack, size_t *stacks, struct rc_grid *const *frame,
+                              size_t frames, struct rc_err *err);
+void rc_stacks_free(struct rc_stack *stack, size_t stacks);
+
+/* The depth of layer k; 0 where there is none. */
+double rc_stack_depth(const struct rc_stack *stack, size_t k);
+
+#endif

@@ -1,0 +1,66 @@
+#include "foreign.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+/* How files begin that people have at hand; `readable`: rc-import may know what to do. */
+static const struct kind {
+    const char *magic, *what;
+    bool readable;
+} kinds[] = {
+    {"PK\003\004", "a ZIP archive", true},
+    {"\037\213", "GZIP", true},
+    {"\211HDF", "HDF5", true},
+    {"\211PNG", "a PNG picture", false},
+    {"\377\330\377", "a JPEG picture", false},
+    {"%PDF", "PDF", false},
+    {"{\"", "JSON", false},
+};
+
+static bool
+is_text(const char *head)
+{
+    for (const char *s = head; *s != '\0'; s++)
+        if (((unsigned char)*s < 0x20 && strchr("\t\r\n", *s) == NULL) || *s == 0x7f)
+            return false;
+    return *head != '\0';
+}
+
+/* The name as a shell takes it: in quotes unless all of it is plain. */
+static const char *
+shell_name(char *text, size_t size, const char *name)
+{
+    const char *plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._/+-";
+
+    if (name[strspn(name, plain)] == '\0' || strchr(name, '\'') != NULL)
+        snprintf(text, size, "%s", name);
+    else
+        snprintf(text, size, "'%s'", name);
+    return text;
+}
+
+const char *
+foreign_message(char *text, size_t size, const char *tool, const char *name, const char *head)
+{
+    const struct kind *kind = NULL;
+    const char *what = is_text(head) ? "text" : NULL;
+    const char *shown = strcmp(name, "-") == 0 ? "standard input" : name;
+    char word[256];
+
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
+        if (strncmp(head, kinds[k].magic, strlen(kinds[k].magic)) == 0)
+            kind = &kinds[k];
+    if (kind != NULL)
+        what = kind->what;
+    if (strncmp(head, "RCG1\r", 5) == 0)
+        snprintf(text, size, "%s: its line ends were changed on the way: copy it as binary", shown);
+    else if (kind != NULL && !kind->readable)
+        snprintf(text, size, "%s is no grid stream, it looks like %s: %s reads those of rc-import",
+                 shown, what, tool);
+    else
+        snprintf(text, size, "%s is no grid stream%s%s: rc-import %s | %s ...", shown,
+                 what == NULL ? "" : ", it looks like ", what == NULL ? "" : what,
+                 shell_name(word, sizeof word, name), tool);
+    return text;
+}
