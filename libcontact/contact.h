@@ -218,8 +218,7 @@ struct rc_areal {
 };
 /* h in m; what is not finite was not measured and is left out. The line of the material ratio curve
  * is that of least squares over the 40 % of smallest secant slope (ISO 25178-2, ISO 13565-2), the
- * first of equals. RC_FAIL when nothing is there, a side is too long for a Fourier transform, or
- * memory is short. */
+ * first of equals. RC_FAIL when a side is too long for a Fourier transform, or memory is short. */
 RC_API enum rc_status rc_areal(const struct rc_shape *shape, const double *h,
                                const struct rc_surface_options *options, struct rc_areal *areal,
                                struct rc_err *err);

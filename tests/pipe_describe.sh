@@ -55,6 +55,9 @@ near_to holes.json '$_->{areal}{sq}' 2.4166091947189146e-9 "$rounding" "Sq over 
 near_to holes.json '$_->{areal}{sdq}' 2.9931050e-3 "$six_digits" "Sdq: the mean square of each direction by itself"
 refuses 1 'holes|txt|standard input.*missing.*rc-detrend --fill' "a spectrum of holes, naming what fills them" "rc-info --psd holes.rcg"
 
+claim "where nothing was measured nothing is defined" test "$(printf 'NaN NaN\nNaN NaN\n' |
+    rc-import --dx 1um --z-unit nm - | rc-info --areal | grep -c 'not defined')" = 22
+
 # ---- spectra ----
 
 rc-synth selfaffine --nx 256 --dx 0.5um --hurst 0.7 --rms-height 30nm --rolloff 40um --seed 2 -o rough.rcg
@@ -131,11 +134,19 @@ refuses 2 '\-\-fit takes two wavelengths, the shortest first' "a range that is t
 refuses 1 'no two rings of waves from 0.001 m to 0.002 m' "a range without waves" "rc-info --fit 1mm,2mm rough.rcg"
 refuses 1 '\-\-psd-map nowhere/x.rcg: No such file' "a folder that is not there" "rc-info --psd-map nowhere/x.rcg rough.rcg"
 refuses 2 '\-\-psd-map -: standard output is for the figures' "a map among the figures" "rc-info --psd-map - rough.rcg"
-refuses 1 'none of the 4 heights was measured' "nothing measured" 'printf "NaN NaN\nNaN NaN\n" |
-    rc-import --dx 1um --z-unit nm - | rc-info --areal'
 refuses 1 'need about .* MiB, --memory allows 1' "more memory than allowed" "rc-info --areal --memory 1M rough.rcg"
 claim "what fails leaves no map behind" bash -c '
     cat rough.rcg holes.rcg >both.rcg; ! rc-info --psd-map left.rcg both.rcg >/dev/null 2>&1 &&
     [ -z "$(ls | grep "^left")" ]'
+
+
+# ---- the manual ----
+
+# The example that rc-info(1) explains, line by line.
+claim "the manual's worked example is what comes out" bash -c '
+    rc-import "$RC_SOURCE/sample_surfaces/rough-steel.x3p" | rc-detrend --fill --poly 2 |
+        rc-info --areal --psd --fit 10um,90um >example.out
+    sed -n "/^among others:/,/^.Ed/p" "$RC_SOURCE/man/rc-info.1" | grep "^  " >example.txt
+    [ "$(wc -l <example.txt)" -ge 10 ] && ! grep -vxFf example.out example.txt >&2'
 
 finish

@@ -312,6 +312,28 @@ test_no_power_law(void **state)
     free(h);
 }
 
+/* The number of threads changes no digit. */
+static void
+test_threads(void **state)
+{
+    const struct rc_shape s = {300, 257, 1e-6, 1.1e-6};
+    double *h = malloc(s.nx * s.ny * sizeof *h);
+    struct rc_psd *one, *many;
+
+    (void)state;
+    srand(17);
+    for (size_t k = 0; k < s.nx * s.ny; k++)
+        h[k] = 1e-9 * rand() / RAND_MAX;
+    one = spectrum(&s, h, &(struct rc_psd_options){.threads = 1});
+    many = spectrum(&s, h, &(struct rc_psd_options){.threads = 7});
+    assert_int_equal(one->rings, many->rings);
+    assert_memory_equal(one->q, many->q, one->rings * sizeof *one->q);
+    assert_memory_equal(one->c, many->c, one->rings * sizeof *one->c);
+    rc_psd_free(one);
+    rc_psd_free(many);
+    free(h);
+}
+
 /* ---- refusals ---- */
 
 static void
@@ -348,7 +370,8 @@ main(void)
         cmocka_unit_test(test_wave),           cmocka_unit_test(test_parseval),
         cmocka_unit_test(test_window),         cmocka_unit_test(test_hurst),
         cmocka_unit_test(test_hurst_windowed), cmocka_unit_test(test_hurst_of_profiles),
-        cmocka_unit_test(test_no_power_law),   cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_no_power_law),   cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_refusals),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -119,8 +119,11 @@ lay_window(struct windowed *w, double *factor, double *taken, struct rc_err *err
         size_t bad = 0;
         for (size_t k = 0; k < s->nx * s->ny; k++)
             bad += rc_there(w->h[k]) ? 0 : 1;
-        return rc_err_set(err, "%zu of %zu heights are missing or infinite: a spectrum needs all",
-                          bad, s->nx * s->ny);
+        return bad == 0 ? rc_err_set(err, "the heights are too large to be added up")
+                        : rc_err_set(err,
+                                     "%zu of %zu heights are missing or infinite: a spectrum "
+                                     "needs all",
+                                     bad, s->nx * s->ny);
     }
     for (size_t i = 0; w->wx != NULL && i < s->nx; i++)
         w->wx[i] = rc_hann(i, s->nx);
@@ -197,12 +200,20 @@ add_column(const struct rings *r, const double *power, size_t k, double factor, 
     }
 }
 
+/* Parts into which a spectrum of so many columns is cut: their rings together are a fraction of it. */
+static size_t
+parts_of(const struct rings *r)
+{
+    size_t most = rc_fourier_columns(&r->shape) * r->shape.ny / (4 * r->n);
+
+    return most < 1 ? 1 : most < PARTS ? most : PARTS;
+}
+
 /* Each part of the spectrum into rings of its own, which are then added up in their order. */
 static enum rc_status
 fill_rings(struct rings *r, const double *power, double factor, int threads, struct rc_err *err)
 {
-    size_t columns = rc_fourier_columns(&r->shape), most = columns * r->shape.ny / (4 * r->n);
-    size_t parts = most < 1 ? 1 : most < PARTS ? most : PARTS;
+    size_t columns = rc_fourier_columns(&r->shape), parts = parts_of(r);
 
     r->ring = calloc(parts * r->n, sizeof *r->ring);
     if (r->ring == NULL)
@@ -505,5 +516,9 @@ rc_psd_free(struct rc_psd *psd)
 size_t
 rc_psd_memory(const struct rc_shape *shape)
 {
-    return rc_power_memory(shape, NULL) + rc_fourier_size(shape) * sizeof(double);
+    struct rings r = rings_of(shape);
+    size_t after = parts_of(&r) * r.n * sizeof(struct ring) + r.n * sizeof(struct bin);
+    size_t transform = rc_power_memory(shape, NULL);
+
+    return rc_fourier_size(shape) * sizeof(double) + (after > transform ? after : transform);
 }
