@@ -59,6 +59,7 @@ struct opt {
     bool above;      /* min itself is out of bounds                                        */
     bool result;     /* changes what is computed: goes into history                        */
     bool text;       /* given, the tool writes text, whatever it writes otherwise          */
+    bool optional;   /* OPT_NUMBER: may stand without its number, and then keeps the default */
     const char *(*words)(size_t k); /* word k; NULL past the last: see words.h              */
     const char *word;               /* instead of OPT_NUMBERS; of OPT_NUMBER: for INFINITY  */
     bool per_metre;                 /* OPT_NUMBERS of forces that may be in N/m             */
