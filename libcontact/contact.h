@@ -324,6 +324,77 @@ RC_API enum rc_status rc_patches_find(const struct rc_shape *shape, const double
                                       struct rc_patches *patches, struct rc_err *err);
 RC_API void rc_patches_free(struct rc_patches *patches);
 
+/* ---- what a surface is like: areal.c, material_ratio.c, texture.c, spectrum.c ---- */
+
+struct rc_surface_options {
+    enum rc_boundary boundary; /* periodic: waves and correlations go on across the edges        */
+    size_t threads;            /* 0: all                                                         */
+};
+
+/* The parameters of ISO 25178-2 (of a profile those of ISO 21920-2 over its whole length), about the
+ * mean of what is there. NAN: not defined. A node stands for its cell. */
+struct rc_areal {
+    double sq, sa;     /* m: RMS, mean size                                                       */
+    double ssk, sku;   /* skewness, kurtosis; not of a flat                                       */
+    double sp, sv, sz; /* m: highest peak, deepest pit (both positive), and their sum             */
+    double sdq;        /* RMS gradient: of differences of neighbours, each direction by itself    */
+    double sdr;        /* developed area over its projection, less 1: triangles along either
+                          diagonal of each four nodes                                             */
+    double sal;        /* m: nearest offset whose correlation has fallen to 0.2                   */
+    double str;        /* sal over the farthest offset up to which it has not; NAN where it does
+                          not fall in some direction within half the map, and of a profile        */
+    double std;        /* degrees, 0 <= std < 180: direction of the strongest waves, from x
+                          counterclockwise in the picture; not of a profile                       */
+    double sk, spk, svk; /* m: core height, reduced peak and pit height              */
+    double smr1, smr2;   /* material ratios, as fractions, above and below the core  */
+    double vmp, vmc;     /* m, that is m^3/m^2: material volume of peaks and core    */
+    double vvc, vvv;     /* and void volume of core and pits; core: 10 % to 80 %     */
+    double sxp;          /* m: height between 2.5 % and 50 % material ratio          */
+};
+/* h in m; what is not finite was not measured and is left out. The line of the material ratio curve
+ * is that of least squares over the 40 % of smallest secant slope (ISO 25178-2, ISO 13565-2), the
+ * first of equals. RC_FAIL when a side is too long for a Fourier transform, or memory is short. */
+RC_API enum rc_status rc_areal(const struct rc_shape *shape, const double *h,
+                               const struct rc_surface_options *options, struct rc_areal *areal,
+                               struct rc_err *err);
+/* Bytes that it takes beside h. */
+RC_API size_t rc_areal_memory(const struct rc_shape *shape,
+                              const struct rc_surface_options *options);
+
+struct rc_psd_options {
+    enum rc_boundary boundary; /* free: a Hann window is laid over the map                        */
+    double shortest, longest;  /* m: waves that the Hurst exponent is fitted to; both 0: those where
+                                  the spectrum follows a power law                                */
+    double *map;    /* NULL, or room for nx ny values: the spectrum itself, m^4, wave number 0 at
+                       node (nx/2, ny/2), 2 pi/(nx dx) rad/m from column to column                */
+    size_t threads; /* 0: all                                                                     */
+};
+
+/* Power spectral density |FFT|^2 dx dy/(nx ny), averaged over rings of wave numbers as wide as the
+ * lowest one (Persson et al. 2005, J. Phys. Condens. Matter 17, R1; Jacobs, Junge and Pastewka 2017,
+ * Surf. Topogr. 5, 013001: C^iso, and of a profile C^1D); the mean is no wave. Its sum over all
+ * waves, over the area of the map, is Sq^2. Under a window w it is |FFT(w h)|^2 dx dy/(nx ny)/mean(w^2)
+ * times window_factor, which makes that sum what it is: 1 but for what lies near the edges. The window
+ * is that of Hann along each side, about the mean that it sees itself. */
+struct rc_psd {
+    size_t rings;
+    double *q;     /* rad/m: mean over the waves of a ring                                        */
+    double *c;     /* m^4; of a profile m^3                                                       */
+    size_t *modes; /* waves, opposite ones both, in a ring: at least one                          */
+    bool windowed;
+    double window_factor;     /* what the window had taken, given back; 1 without one            */
+    double hurst;             /* of c ~ q^(-2-2H), of a profile q^(-1-2H); NAN: no power law     */
+    double hurst_error;       /* its standard error                                              */
+    double shortest, longest; /* m: the waves that it was fitted to; NAN: none                   */
+};
+/* NULL when a height is missing or infinite, the range is none or holds too few waves, a side is too
+ * long for a Fourier transform, or memory is short. */
+RC_API struct rc_psd *rc_psd_new(const struct rc_shape *shape, const double *h,
+                                 const struct rc_psd_options *options, struct rc_err *err);
+RC_API void rc_psd_free(struct rc_psd *psd); /* NULL is allowed */
+/* Bytes that making it takes beside h and map. */
+RC_API size_t rc_psd_memory(const struct rc_shape *shape);
+
 /* ---- convolution: conv.c ---- */
 
 struct rc_conv_options {

@@ -14,6 +14,7 @@
 #include "fft.h"
 #include "fourier.h"
 #include "kernel.h"
+#include "power.h"
 
 struct rc_operator;
 
