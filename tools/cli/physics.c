@@ -153,8 +153,8 @@ warn_of_seam(struct tool *t, const struct rc_grid *g)
             tool_warn(
                 t,
                 "%s: the edges do not meet: from the last %s to the first the heights jump by "
-                "%s (RMS), %.3g times the steps inside: a tilt goes with rc-detrend --plane; "
-                "a surface that is no period is solved without --periodic",
+                "%s (RMS), %.3g times the steps inside: rc-detrend --plane takes a tilt off, "
+                "--taper leads the edges together; or solve it without --periodic",
                 tool_where(t, g, where, sizeof where), line[side],
                 shown_in_unit(jump, seam.across[side], "m"), seam.across[side] / seam.inside[side]);
 }

@@ -94,13 +94,13 @@ warn_of_grid(struct run *run, const char *where, const struct solution *s)
 {
     size_t nodes = s->contact.contact_nodes;
 
-    if (nodes >= fewest_nodes && (double)nodes >= fewest_each * (double)s->patches)
+    if (nodes >= fewest_nodes && (double)nodes >= fewest_each * (double)s->patches.count)
         return;
     tool_warn(&run->t,
               "%s: %zu %s in contact, in %zu %s: the grid does not resolve it: area and "
               "largest pressure may be far off: --discretization estimates by how much",
-              where, nodes, nodes == 1 ? "node" : "nodes", s->patches,
-              s->patches == 1 ? "patch" : "patches");
+              where, nodes, nodes == 1 ? "node" : "nodes", s->patches.count,
+              s->patches.count == 1 ? "patch" : "patches");
 }
 
 /* ---- not at its end ---- */
@@ -143,8 +143,9 @@ tell(struct run *run, const char *where, const struct solution *s)
         "pressure %s, approach %s, mean gap %s; %s to %.2g in %zu iterations, %.3g convolutions, "
         "%.2g s",
         where, shown_in_unit(load, c->load, "N"), shown_area(area, c->contact_area),
-        100 * c->contact_fraction, c->contact_nodes, s->patches,
-        s->patches == 1 ? "patch" : "patches", yielded, shown_in_unit(peak, c->max_pressure, "Pa"),
+        100 * c->contact_fraction, c->contact_nodes, s->patches.count,
+        s->patches.count == 1 ? "patch" : "patches", yielded,
+        shown_in_unit(peak, c->max_pressure, "Pa"),
         isnan(c->approach) ? "unknown" : shown_in_unit(approach, c->approach, "m"),
         shown_in_unit(gap, c->mean_gap, "m"), c->converged ? "converged" : "not converged",
         c->pressure_error, c->iterations, c->convolutions, solve_now() - run->began);
