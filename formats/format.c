@@ -44,12 +44,14 @@ rc_format_find(const struct rc_file *file, struct rc_err *err)
     if (file->size == 0)
         rc_err_set(err, "the file is empty");
     else if (rc_file_holds(file, 0, "\x1f\x8b", 2))
-        rc_err_set(err, "the file is compressed with gzip: unpack it first (gunzip)");
+        rc_err_set(err, "the file is packed with gzip twice: unpack it once (gunzip)");
     else
         rc_err_set(
             err,
             "not recognised: it is none of the formats that --formats lists (it "
-            "begins '%s'); --format NAME says which one it is",
+            "begins '%s'); --format NAME says which one it is, or the program that it comes from "
+            "may "
+            "save X3P, SDF or text",
             rc_text_shown(first, (const char *)file->data, file->size < 24 ? file->size : 24));
     return NULL;
 }

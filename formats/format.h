@@ -46,4 +46,28 @@ const struct rc_format *rc_format_named(const char *name);
 /* The one that is surest of the file, or NULL with the reason. */
 const struct rc_format *rc_format_find(const struct rc_file *file, struct rc_err *err);
 
+/* Whether a file was packed with gzip. */
+bool rc_file_packed(const struct rc_file *file);
+/* Its *size bytes unpacked, up to `most`, which the caller frees; NULL where they are more, cut
+ * short or damaged, before any memory is taken for them. */
+unsigned char *rc_file_unpack(const struct rc_file *file, size_t most, size_t *size,
+                              struct rc_err *err);
+
+/* What the name of a channel says of it. */
+enum rc_named {
+    RC_NAMED_TOPOGRAPHY,
+    RC_NAMED_NOTHING,   /* neither */
+    RC_NAMED_OTHERWISE, /* something else: a deflection, an error signal, ... */
+};
+
+/* The channel that a user means who names none. */
+struct rc_topography {
+    size_t index;        /* of the channel; the number of channels: none has the unit   */
+    enum rc_named named; /* by its name                                                 */
+    size_t alike;        /* channels with the unit of which the names say the same      */
+};
+/* Of channel[0..n), those with this unit (NULL: with any): by names, see topography.c. */
+struct rc_topography rc_format_topography(const struct rc_channel *channel, size_t n,
+                                          const char *unit);
+
 #endif

@@ -67,6 +67,24 @@ RC_API const struct rc_method_info *rc_method_info(size_t k);
  * Hertz's theory means by a sphere. */
 RC_API void rc_synth_sphere(const struct rc_shape *shape, double radius, double *h);
 
+/* Where the apex of an indenter stands, m from the middle of the map, y down the picture. */
+struct rc_place {
+    double x, y;
+};
+
+/* -s^2 / 2 radius_1 - t^2 / 2 radius_2 about the apex (m), s along `direction`, in degrees
+ * counterclockwise from x with row 0 at the top, t across. An INFINITY for a radius makes a cylinder
+ * whose axis lies along it. */
+RC_API void rc_synth_paraboloid(const struct rc_shape *shape, struct rc_place apex, double radius_1,
+                                double radius_2, double direction, double *h);
+/* -slope r about the apex. */
+RC_API void rc_synth_cone(const struct rc_shape *shape, struct rc_place apex, double slope,
+                          double *h);
+/* A flat circular end of this radius at height 0, and -height around it (m); with an edge (m, above
+ * 0) the flank begins as -(r - radius)^2 / 2 edge. Nodes on the rim belong to the end. */
+RC_API void rc_synth_punch(const struct rc_shape *shape, struct rc_place apex, double radius,
+                           double edge, double height, double *h);
+
 /* amplitude * cos(2 pi x / wavelength_x) * cos(2 pi y / wavelength_y), with a crest at the middle
  * of the map; an INFINITY for a wavelength leaves its factor out. Metres. */
 RC_API void rc_synth_wave(const struct rc_shape *shape, double amplitude, double wavelength_x,
@@ -82,27 +100,92 @@ struct rc_selfaffine {
     double rolloff;    /* flat for wavelengths above this one, m; 0: no flat part             */
     double short_cut;  /* shortest wavelength, m, at least two nodes; 0: 2 max(dx, dy)        */
     uint64_t seed;     /* the same seed gives the same waves on every grid of the same size in m */
+    double anisotropy; /* waves along the lay are so many times as long as those of the same power
+                          across it, at least 1; 0: 1                                           */
+    double direction;  /* of the lay, degrees counterclockwise from x, row 0 at the top         */
+    double skewness;   /* heights of a gamma distribution, at most RC_SKEWNESS_MAX in size; 0:
+                          Gaussian ones                                                         */
+    double weibull;    /* heights of a Weibull distribution of this shape, from RC_WEIBULL_MIN to
+                          RC_WEIBULL_MAX; 0: not                                                */
 };
+#define RC_SKEWNESS_MAX 3.0
+#define RC_WEIBULL_MIN 0.75
+#define RC_WEIBULL_MAX 100.0
 /* Gaussian Fourier amplitudes with random phases, one draw for each wave vector; waves of exactly
  * two nodes are left out. The mean is 0. The gradient is that of the waves, not of differences
- * between nodes. RC_FAIL when a value is out of its bounds, no wave of the map lies between the
- * cut-offs, or memory is short. */
+ * between nodes. Heights of another distribution have it by their ranks, and their waves nearly the
+ * amplitudes that they would have had without (Perez-Rafols and Almqvist 2019). RC_FAIL when a value
+ * is out of its bounds, no wave of the map lies between the cut-offs, or memory is short. GSL's error
+ * handler, which belongs to the process, is off meanwhile. */
 RC_API enum rc_status rc_synth_selfaffine(const struct rc_shape *shape,
                                           const struct rc_selfaffine *what, double *h,
                                           struct rc_err *err);
 
-/* ---- surfaces: detrend.c, inpaint.c, holes.c, resample.c ---- */
+/* ---- surfaces: forms, filters, outliers, holes ---- */
 
 enum {
     RC_DEGREE_MAX = 20
 };
-/* Subtracts the least-squares polynomial of total degree `degree` (at most RC_DEGREE_MAX) in x and
- * y over the points that are there (not NaN); on a profile, in the one coordinate that varies.
- * RC_FAIL when there are fewer of them than coefficients, their places do not determine the
- * polynomial, one is infinite, or memory is short; h is then as it was. GSL's error handler, which
- * belongs to the process, is off during the call. */
+enum rc_form_kind {
+    RC_POLYNOMIAL, /* of total degree `degree` in x and y; on a profile in the one that varies   */
+    RC_SPHERE,     /* exact, of either sign, its apex anywhere; on a profile a circle            */
+    RC_CYLINDER    /* exact, of either sign, in any direction and tilt; on a profile a circle    */
+};
+struct rc_form {
+    enum rc_form_kind kind;
+    size_t degree;  /* at most RC_DEGREE_MAX                                                      */
+    bool robust;    /* weights (1 - (r/c)^2)^2 of what is left, r, with c = 4.4478 times the median
+                      of |r|, anew until c stays (Beaton and Tukey 1974; ISO 16610-31)           */
+    size_t threads; /* 0: all                                                                     */
+};
+/* Subtracts the form that fits the points that are there (not NaN) best by least squares in z. The
+ * radius of a sphere or a cylinder, m, is positive for a bump and negative for a hollow; NAN of a
+ * polynomial; radius may be NULL. RC_FAIL when there are fewer points than unknowns, their places
+ * do not determine the form, no sphere or cylinder is above them all, one is infinite, or memory is
+ * short; h is then as it was. GSL's error handler, which belongs to the process, is off during the
+ * call. */
+RC_API enum rc_status rc_detrend_form(const struct rc_shape *shape, const struct rc_form *form,
+                                      double *h, double *radius, struct rc_err *err);
+/* The same for the plain polynomial of this degree. */
 RC_API enum rc_status rc_detrend_poly(const struct rc_shape *shape, size_t degree, double *h,
                                       struct rc_err *err);
+
+/* The Gaussian regression filter of order 0 over the points that are there: ISO 16610-61, of
+ * profiles 16610-21. A missing point stays missing and has no weight, nor has what lies beyond the
+ * map unless that is periodic. */
+struct rc_filter {
+    double cutoff;  /* wavelength of which half gets through, m                                  */
+    bool high;      /* the input less its low-pass, instead of that                              */
+    bool robust;    /* ISO 16610-71, 16610-31: points off the low-pass are weighted by
+                      (1 - (r/c)^2)^2, c = 4.4478 times the median of |r|, anew until c stays  */
+    bool periodic;  /* goes on at the other side of the map                                      */
+    size_t threads; /* 0: all                                                                   */
+};
+/* RC_FAIL when the cut-off is below two nodes or longer than the map, nothing is there, a height is
+ * infinite, or memory is short; h is then as it was. */
+RC_API enum rc_status rc_filter(const struct rc_shape *shape, const struct rc_filter *what,
+                                double *h, struct rc_err *err);
+/* Bytes that it takes beside h; 0 when not even its plan has room. */
+RC_API size_t rc_filter_memory(const struct rc_shape *shape, const struct rc_filter *what);
+
+/* Makes points missing that lie further than `times` times the spread from the median of the others
+ * in the 5 x 5 nodes around them; *count counts them. The spread is 1.4826 times the median
+ * absolute deviation of all such differences, for Gaussian noise its standard deviation. Missing
+ * neighbours and, unless the map is periodic, those beyond it do not count; a point without any
+ * stays. RC_FAIL when `times` is not positive, a height is infinite, or memory is short; h is then
+ * as it was. */
+RC_API enum rc_status rc_outliers(const struct rc_shape *shape, double times, bool periodic,
+                                  size_t threads, double *h, size_t *count, struct rc_err *err);
+/* Bytes that it takes beside h. */
+RC_API size_t rc_outliers_memory(const struct rc_shape *shape, size_t threads);
+
+/* Leads the outer `width` (m) of the map to the mean of all heights: what is above it is multiplied
+ * by (1 - cos(pi s / width)) / 2, s being the distance of a node's middle from the edge, for either
+ * direction. The map can then be repeated without a step. RC_FAIL when the width is below a node or
+ * above half of the map, no height is there, one is infinite, or memory is short; h is then as it
+ * was. */
+RC_API enum rc_status rc_taper(const struct rc_shape *shape, double width, double *h,
+                               struct rc_err *err);
 
 /* Gives every missing value (NaN) the solution of Laplace's equation with the measured ones around
  * it as boundary values and no slope across the edge of the map; *filled counts them. RC_FAIL when
@@ -120,11 +203,63 @@ RC_API size_t rc_inpaint_memory(size_t missing);
 RC_API enum rc_status rc_hole_width(const struct rc_shape *shape, const double *h, double *width,
                                     struct rc_err *err);
 
+/* ---- surfaces: resample.c, geometry.c ---- */
+
+/* Spacings that differ by less than this, relative, count as equal. */
+#define RC_SAME_SPACING 1e-6
+
 /* Means of v, which is constant in the cells of `from`, over the cells of `to`, a grid of any other
  * number of nodes on the same area: their spacings are not looked at. The integral stays what it
- * is. Heights go to a coarser grid so, and pressures back. v and out do not overlap. */
+ * is. Heights go to a coarser grid so, and pressures back. Where v is missing (NaN) the rest of a
+ * cell decides, where less than half of it is there the mean is missing too. v and out do not
+ * overlap. */
 RC_API void rc_resample_means(const struct rc_shape *from, const double *v,
                               const struct rc_shape *to, double *out);
+
+/* The grid of spacings dx, dy (m) that rc_resample fills: as many whole cells as fit in the map,
+ * middle on middle. Where a spacing stays the same, so do that axis' nodes and spacing; a single
+ * row stays one, of the new width. RC_FAIL when a spacing is not positive or wider than the map, or
+ * the nodes are more than can be counted. */
+RC_API enum rc_status rc_resample_shape(const struct rc_shape *from, double dx, double dy,
+                                        struct rc_shape *to, struct rc_err *err);
+/* Whether the cells of `to` cover the map `from` wholly, within RC_SAME_SPACING: a periodic map
+ * stays periodic then. */
+RC_API bool rc_resample_covers(const struct rc_shape *from, const struct rc_shape *to);
+/* v on the grid `to`, middle on middle. Along an axis where its cells are larger: means over their
+ * area, missing (NaN) where less than half of it is measured. Where they are smaller: cubic
+ * convolution by six nodes (Keys 1981), exact for cubic polynomials, smooth to the first
+ * derivative; it wraps when `periodic`, else the map goes on as a parabola beyond its last node.
+ * Next to a missing value it is bilinear, next to that constant in the old cell, and in a missing
+ * cell missing. Where cells are as they were, nothing changes. v and out do not overlap. RC_FAIL
+ * when `to` reaches beyond the map or memory is short: it takes another map when one axis becomes
+ * coarser and the other finer, else a few rows. */
+RC_API enum rc_status rc_resample(const struct rc_shape *from, const double *v, bool periodic,
+                                  const struct rc_shape *to, double *out, struct rc_err *err);
+
+/* The to->nx by to->ny values from column `left` and row `top` on; out may be v. RC_FAIL when they
+ * reach beyond the map. */
+RC_API enum rc_status rc_crop(const struct rc_shape *from, const double *v, size_t left, size_t top,
+                              const struct rc_shape *to, double *out, struct rc_err *err);
+/* Left to right (axis 'x') or top to bottom ('y'), in place. */
+RC_API void rc_mirror(const struct rc_shape *shape, char axis, double *v);
+/* Quarter turns counterclockwise, row 0 at the top: the shape that comes out (an odd number of them
+ * makes rows of columns), and the values. v and out do not overlap. */
+RC_API struct rc_shape rc_rotate_shape(const struct rc_shape *from, size_t quarters);
+RC_API void rc_rotate(const struct rc_shape *from, const double *v, size_t quarters, double *out);
+
+/* The overlap of two maps that lie middle on middle, with the spacings of a. RC_FAIL when spacings
+ * differ by more than RC_SAME_SPACING. */
+RC_API enum rc_status rc_add_shape(const struct rc_shape *a, const struct rc_shape *b,
+                                   struct rc_shape *sum, struct rc_err *err);
+/* Two surfaces face to face on their overlap (m): ha + hb, b mirrored left to right as it is seen
+ * from a. The larger map is cut evenly; of an odd number of its columns or rows one more at its
+ * own right or bottom. NaN where either is. out may be ha. RC_FAIL as rc_add_shape. */
+RC_API enum rc_status rc_add(const struct rc_shape *a, const double *ha, const struct rc_shape *b,
+                             const double *hb, double *out, struct rc_err *err);
+/* ha - hb, b not mirrored: how a surface has changed. */
+RC_API enum rc_status rc_subtract(const struct rc_shape *a, const double *ha,
+                                  const struct rc_shape *b, const double *hb, double *out,
+                                  struct rc_err *err);
 
 /* ---- figures and sums of maps: measure.c, common.c ---- */
 
@@ -189,6 +324,77 @@ RC_API enum rc_status rc_patches_find(const struct rc_shape *shape, const double
                                       struct rc_patches *patches, struct rc_err *err);
 RC_API void rc_patches_free(struct rc_patches *patches);
 
+/* ---- what a surface is like: areal.c, material_ratio.c, texture.c, spectrum.c ---- */
+
+struct rc_surface_options {
+    enum rc_boundary boundary; /* periodic: waves and correlations go on across the edges        */
+    size_t threads;            /* 0: all                                                         */
+};
+
+/* The parameters of ISO 25178-2 (of a profile those of ISO 21920-2 over its whole length), about the
+ * mean of what is there. NAN: not defined. A node stands for its cell. */
+struct rc_areal {
+    double sq, sa;     /* m: RMS, mean size                                                       */
+    double ssk, sku;   /* skewness, kurtosis; not of a flat                                       */
+    double sp, sv, sz; /* m: highest peak, deepest pit (both positive), and their sum             */
+    double sdq;        /* RMS gradient: of differences of neighbours, each direction by itself    */
+    double sdr;        /* developed area over its projection, less 1: triangles along either
+                          diagonal of each four nodes                                             */
+    double sal;        /* m: nearest offset whose correlation has fallen to 0.2                   */
+    double str;        /* sal over the farthest offset up to which it has not; NAN where it does
+                          not fall in some direction within half the map, and of a profile        */
+    double std;        /* degrees, 0 <= std < 180: direction of the strongest waves, from x
+                          counterclockwise in the picture; not of a profile                       */
+    double sk, spk, svk; /* m: core height, reduced peak and pit height              */
+    double smr1, smr2;   /* material ratios, as fractions, above and below the core  */
+    double vmp, vmc;     /* m, that is m^3/m^2: material volume of peaks and core    */
+    double vvc, vvv;     /* and void volume of core and pits; core: 10 % to 80 %     */
+    double sxp;          /* m: height between 2.5 % and 50 % material ratio          */
+};
+/* h in m; what is not finite was not measured and is left out. The line of the material ratio curve
+ * is that of least squares over the 40 % of smallest secant slope (ISO 25178-2, ISO 13565-2), the
+ * first of equals. RC_FAIL when a side is too long for a Fourier transform, or memory is short. */
+RC_API enum rc_status rc_areal(const struct rc_shape *shape, const double *h,
+                               const struct rc_surface_options *options, struct rc_areal *areal,
+                               struct rc_err *err);
+/* Bytes that it takes beside h. */
+RC_API size_t rc_areal_memory(const struct rc_shape *shape,
+                              const struct rc_surface_options *options);
+
+struct rc_psd_options {
+    enum rc_boundary boundary; /* free: a Hann window is laid over the map                        */
+    double shortest, longest;  /* m: waves that the Hurst exponent is fitted to; both 0: those where
+                                  the spectrum follows a power law                                */
+    double *map;    /* NULL, or room for nx ny values: the spectrum itself, m^4, wave number 0 at
+                       node (nx/2, ny/2), 2 pi/(nx dx) rad/m from column to column                */
+    size_t threads; /* 0: all                                                                     */
+};
+
+/* Power spectral density |FFT|^2 dx dy/(nx ny), averaged over rings of wave numbers as wide as the
+ * lowest one (Persson et al. 2005, J. Phys. Condens. Matter 17, R1; Jacobs, Junge and Pastewka 2017,
+ * Surf. Topogr. 5, 013001: C^iso, and of a profile C^1D); the mean is no wave. Its sum over all
+ * waves, over the area of the map, is Sq^2. Under a window w it is |FFT(w h)|^2 dx dy/(nx ny)/mean(w^2)
+ * times window_factor, which makes that sum what it is: 1 but for what lies near the edges. The window
+ * is that of Hann along each side, about the mean that it sees itself. */
+struct rc_psd {
+    size_t rings;
+    double *q;     /* rad/m: mean over the waves of a ring                                        */
+    double *c;     /* m^4; of a profile m^3                                                       */
+    size_t *modes; /* waves, opposite ones both, in a ring: at least one                          */
+    bool windowed;
+    double window_factor;     /* what the window had taken, given back; 1 without one            */
+    double hurst;             /* of c ~ q^(-2-2H), of a profile q^(-1-2H); NAN: no power law     */
+    double hurst_error;       /* its standard error                                              */
+    double shortest, longest; /* m: the waves that it was fitted to; NAN: none                   */
+};
+/* NULL when a height is missing or infinite, the range is none or holds too few waves, a side is too
+ * long for a Fourier transform, or memory is short. */
+RC_API struct rc_psd *rc_psd_new(const struct rc_shape *shape, const double *h,
+                                 const struct rc_psd_options *options, struct rc_err *err);
+RC_API void rc_psd_free(struct rc_psd *psd); /* NULL is allowed */
+/* Bytes that making it takes beside h and map. */
+RC_API size_t rc_psd_memory(const struct rc_shape *shape);
+
 /* ---- convolution: conv.c ---- */
 
 /* Body 1 when it is coated: bonded isotropic layers, the top first, on a half-space. */
@@ -241,16 +447,16 @@ RC_API double rc_conv_seconds(const struct rc_shape *shape, const struct rc_conv
 
 struct rc_problem {
     enum rc_boundary boundary;
-    double estar;       /* composite modulus, Pa, > 0                                            */
-    double load;        /* total normal force, N, > 0; with an approach a guess, or 0            */
-    double approach;    /* m, > 0: the load is sought that brings the bodies so far together from
+    double estar;        /* composite modulus, Pa, > 0                                            */
+    double load;         /* total normal force, N, > 0; with an approach a guess, or 0            */
+    double approach;     /* m, > 0: the load is sought that brings the bodies so far together from
                            first touch; 0: the load is given                                     */
-    double hardness;    /* upper bound of the pressure, Pa; 0 or INFINITY: none                  */
+    double hardness;     /* upper bound of the pressure, Pa; 0 or INFINITY: none                  */
     double height_error; /* m: what the heights may be off, as the gap_error of the solution that
                            left their shape; bears on what counts as yielded only                */
-    double tol;         /* asked relative L1 error of the pressure; 0: (nx ny)^(-3/4)            */
-    const char *engine; /* NULL: auto                                                            */
-    const char *method; /* NULL: auto                                                            */
+    double tol;          /* asked relative L1 error of the pressure; 0: (nx ny)^(-3/4)            */
+    const char *engine;  /* NULL: auto                                                            */
+    const char *method;  /* NULL: auto                                                            */
     size_t max_iterations; /* 0: 100 + 10 sqrt(nx ny)                                            */
     size_t threads;      /* 0: all                                                                */
     bool discretization; /* estimate what the grid leaves out: a coarser one is solved as well   */
@@ -267,25 +473,27 @@ struct rc_discretization {
 struct rc_contact {
     double load, mean_pressure, max_pressure; /* N, Pa, Pa: summed from the pressure itself      */
     size_t contact_nodes, plastic_nodes;      /* p > 0; p = hardness                             */
-    size_t yielded_nodes; /* p = hardness, and a gap that is negative by more than four times what
-                             it and the heights may be off: what gives way under this load      */
-    double contact_area, contact_fraction;    /* m^2, -                                          */
-    double plastic_area, yielded_area;        /* m^2                                             */
-    double edge_load_fraction; /* load on the outer 2 % of the map                */
-    double approach;           /* m; NAN when no node is elastic                  */
-    double mean_gap;           /* m, of max(gap, 0) over the whole map            */
-    double gap_error;          /* m: worst violation: of gap >= 0 where p = 0, gap = 0 where elastic,
-                                                 gap <= 0 at the hardness                         */
-    double kkt_residual;       /* worst violation / max(std h, std u), from a
-                                                 fresh convolution; for one height everywhere
-                                                 over what the mean pressure could displace      */
-    double pressure_error;     /* estimated relative L1 error of the pressure; NAN when stopped on
-                                  a coarser grid                                              */
+    /* p = hardness, and a gap that is negative by more than four times what it and the heights may
+     * be off: what gives way under this load */
+    size_t yielded_nodes;
+    double contact_area, contact_fraction; /* m^2, -                                             */
+    double plastic_area, yielded_area;     /* m^2                                                */
+    double edge_load_fraction;             /* load on the outer 2 % of the map                   */
+    double approach;                       /* m; NAN when no node is elastic                     */
+    double mean_gap;                       /* m, of max(gap, 0) over the whole map               */
+    /* m: the worst violation of gap >= 0 where p = 0, gap = 0 where elastic, gap <= 0 at the
+     * hardness, from a fresh convolution */
+    double gap_error;
+    /* the same over max(std h, std u); for one height everywhere over what the mean pressure could
+     * displace */
+    double kkt_residual;
+    /* estimated relative L1 error of the pressure; NAN when stopped on a coarser grid */
+    double pressure_error;
     size_t iterations;
-    double convolutions;                     /* equivalents on the finest grid                  */
-    struct rc_discretization discretization; /* estimated relative errors that the grid makes   */
-    bool converged;                          /* pressure_error <= tol                           */
-    bool hardness_active;                    /* some node is at the hardness                    */
+    double convolutions;                     /* equivalents on the finest grid                   */
+    struct rc_discretization discretization; /* estimated relative errors that the grid makes    */
+    bool converged;                          /* pressure_error <= tol                            */
+    bool hardness_active;                    /* some node is at the hardness                     */
 };
 
 /* `h` (not NaN, not infinite) is copied. RC_FAIL-like NULL when load > hardness * area: the message

@@ -270,7 +270,7 @@ columns_that_are_refused(void **state)
         {"1 2 3\n4 five 6\n", "line 2: 'five' is no number"},
         {"1 2 3\n4 5x 6\n", "line 2: '5x' is no number"},
         {"1 2 3\n4 0x1p3 6\n", "line 2: '0x1p3' is no number"},
-        {"1 2 3\n4 inf 6\n", "line 2: 'inf' is no number"},
+        {"1 2 3\n4 infi 6\n", "line 2: 'infi' is no number"},
         {"1 2 3\n4 1e999 6\n", "line 2: '1e999' is no number"},
         {"1 2 3\n4 - 6\n", "line 2: '-' is no number"},
         {"1 2 3\n4 . 6\n", "line 2: '.' is no number"},
@@ -291,14 +291,32 @@ columns_that_are_refused(void **state)
         refuse(cases[k].text, &plain_wish, cases[k].why);
 }
 
+/* In the words of C libraries, and where the unit makes them so. */
 static void
-infinite_heights_are_refused(void **state)
+infinite_heights_are_missing(void **state)
 {
+    static const char *const texts[] = {"1 2\n3 inf\n", "1, 2\n3, -inf\n", "1 2\n3 +Infinity\n",
+                                        "1;2\n3;-1.#INF\n", "1 2\n3 4e300\n"};
     struct rc_wish wish = plain_wish;
 
     (void)state;
-    wish.z_unit = 1e300;
-    refuse("1 2\n3 4e100\n", &wish, "column 1, row 1 (from 0) is infinite");
+    wish.z_unit = 1e100;
+    for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
+        struct rc_file file = {"a.txt", (const unsigned char *)texts[k], strlen(texts[k])};
+        struct rc_notes notes = {0};
+        struct rc_err err = {""};
+        struct rc_grid *g = rc_format_ascii.read(&file, &wish, 0, &notes, &err);
+
+        if (g == NULL)
+            fail_msg("'%s' is refused: %s", texts[k], err.text);
+        assert_true(g->v[0] == 1e100 && g->v[1] == 2 * 1e100 && g->v[2] == 3 * 1e100 &&
+                    isnan(g->v[3]));
+        assert_int_equal(notes.n, 1);
+        assert_string_equal(notes.text[0], "1 of 4 values is infinite and read as missing, the "
+                                           "first at column 1, row 1 (from 0)");
+        rc_grid_free(g);
+    }
+    refuse("inf inf\nnan -inf\n", &wish, "every value that is there is infinite (3 of 2 x 2)");
 }
 
 static void
@@ -444,7 +462,7 @@ main(void)
         cmocka_unit_test(wishes_for_text),
         cmocka_unit_test(missing_values),
         cmocka_unit_test(columns_that_are_refused),
-        cmocka_unit_test(infinite_heights_are_refused),
+        cmocka_unit_test(infinite_heights_are_missing),
         cmocka_unit_test(lists_of_points_are_no_matrices),
         cmocka_unit_test(numbers_are_those_of_the_c_library),
         cmocka_unit_test(every_truncation),

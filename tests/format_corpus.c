@@ -270,17 +270,17 @@ check_grid(char *column[COLUMNS], struct rc_grid *g)
                g->ny, s.missing, probes);
 }
 
-/* The channel that a user gets who names none: the first height. */
+/* The channel that a user gets who names none. */
 static size_t
-first_height(const struct rc_format *format, const struct rc_file *file, const struct rc_wish *wish)
+topography_of(const struct rc_format *format, const struct rc_file *file,
+              const struct rc_wish *wish)
 {
     struct rc_channel channel[64];
-    size_t n = format->list(file, wish, channel, 64, NULL);
+    size_t n = format->list(file, wish, channel, 64, NULL), index;
 
-    for (size_t k = 0; k < n && k < 64; k++)
-        if (strcmp(channel[k].unit, "m") == 0)
-            return k;
-    return 0;
+    n = n < 64 ? n : 64;
+    index = rc_format_topography(channel, n, "m").index;
+    return index < n ? index : 0;
 }
 
 /* A file that has steps without a unit is refused by them; they must be those of the manifest. */
@@ -306,7 +306,7 @@ check_steps(char *column[COLUMNS], const struct rc_format *format, const struct 
     steps_checked++;
 }
 
-/* The channel that the manifest means: "Height#6" is the one named Height; the first of heights
+/* The channel that the manifest means: "Height#6" is the one named Height; the topography
  * where none has that name. */
 static size_t
 channel_of(const struct rc_format *format, const struct rc_file *file, const struct rc_wish *wish,
@@ -319,7 +319,7 @@ channel_of(const struct rc_format *format, const struct rc_file *file, const str
     for (size_t k = 0; k < n && k < 64; k++)
         if (strlen(channel[k].name) == length && strncmp(channel[k].name, name, length) == 0)
             return k;
-    return first_height(format, file, wish);
+    return topography_of(format, file, wish);
 }
 
 static void
@@ -472,7 +472,7 @@ check_bad(char *line)
     }
     file.data = data;
     if ((format = rc_format_find(&file, &err)) != NULL)
-        g = format->read(&file, &wish, first_height(format, &file, &wish), NULL, &err);
+        g = format->read(&file, &wish, topography_of(format, &file, &wish), NULL, &err);
     if (g != NULL)
         fault("%s is read by %s", name, format->name);
     else if (strstr(err.text, bad[k].refused_for) == NULL)

@@ -243,6 +243,28 @@ refuse_cdf(const struct cdf *c, const char *why)
 }
 
 static void
+other_units_stay(void **state)
+{
+    struct cdf c = cdf;
+    struct bytes b, plain = cdf_file(&cdf);
+    struct rc_grid *g, *of = read_well(&rc_format_netcdf, &plain, 0);
+
+    (void)state;
+    c.unit = "K";
+    b = cdf_file(&c);
+    g = read_well(&rc_format_netcdf, &b, 0);
+    assert_string_equal(g->unit, "K");
+    assert_string_equal(g->channel, rc_grid_get(g, "file.channel"));
+    for (size_t k = 0; k < g->nx * g->ny; k++) /* the numbers that are nanometres in the other */
+        assert_true(isnan(of->v[k]) ? isnan(g->v[k])
+                                    : fabs(of->v[k] - 1e-9 * g->v[k]) <= rounding * fabs(of->v[k]));
+    rc_grid_free(g);
+    rc_grid_free(of);
+    drop(&b);
+    drop(&plain);
+}
+
+static void
 netcdf_is_refused(void **state)
 {
     struct cdf c = cdf;
@@ -251,8 +273,6 @@ netcdf_is_refused(void **state)
     (void)state;
     c.coordinates = false;
     refuse_cdf(&c, "does not give the spacing");
-    c = cdf, c.unit = "K";
-    refuse_cdf(&c, "'K', which is no length");
     c = cdf, c.step_y = 0;
     refuse_cdf(&c, "must be positive");
     c = cdf, c.step_y = -1;
@@ -281,6 +301,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(netcdf_is_read),
+        cmocka_unit_test(other_units_stay),
         cmocka_unit_test(netcdf_is_refused),
     };
 

@@ -146,6 +146,31 @@ refuse_park(const struct park *p, size_t less, const char *why)
     drop(&b);
 }
 
+/* In millivolts the numbers are those of metres, a thousandth each. */
+static void
+other_units_stay(void **state)
+{
+    struct park p = park, m = park;
+    struct bytes volts, metres;
+    struct rc_grid *g, *of;
+
+    (void)state;
+    p.unit = "mV";
+    m.unit = "mm";
+    volts = park_file(&p, false, 0);
+    metres = park_file(&m, false, 0);
+    g = read_well(&rc_format_park, &volts, 0);
+    of = read_well(&rc_format_park, &metres, 0);
+    assert_string_equal(g->unit, "V");
+    assert_string_equal(g->channel, rc_grid_get(g, "file.channel"));
+    for (size_t k = 0; k < g->nx * g->ny; k++)
+        assert_true(fabs(g->v[k] - of->v[k]) <= last_digit * fabs(of->v[k]));
+    rc_grid_free(g);
+    rc_grid_free(of);
+    drop(&volts);
+    drop(&metres);
+}
+
 static void
 park_is_refused(void **state)
 {
@@ -174,8 +199,6 @@ park_is_refused(void **state)
     refuse_park(&p, 0, "must be positive and finite");
     p = park, p.gain = INFINITY;
     refuse_park(&p, 0, "must be finite");
-    p = park, p.unit = "V";
-    refuse_park(&p, 0, "no length");
     b = park_file(&park, true, 0);
     refuse_cuts(&rc_format_park, &b, b.n - 4, 1);
     survive_changes(&rc_format_park, &b, 150);
@@ -188,6 +211,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(park_is_read),
         cmocka_unit_test(park_defaults),
+        cmocka_unit_test(other_units_stay),
         cmocka_unit_test(park_is_refused),
     };
 

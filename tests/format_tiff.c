@@ -97,7 +97,7 @@ jpk_is_read(void **state)
 }
 
 static void
-jpk_volts_need_a_unit(void **state)
+jpk_volts_stay_volts_or_get_a_unit(void **state)
 {
     struct bytes b = jpk_file(false, true, "LinearScaling", 1);
     struct rc_wish wish = {.dx = NAN, .dy = NAN, .z_unit = 2e-9};
@@ -106,8 +106,13 @@ jpk_volts_need_a_unit(void **state)
     double v[6];
 
     (void)state;
-    assert_null(try_read(&rc_format_jpk, &b, &rc_no_wish, 1, &err));
-    assert_non_null(strstr(err.text, "in 'V', which is no length"));
+    g = read_well(&rc_format_jpk, &b, 1);
+    assert_string_equal(g->unit, "V");
+    assert_string_not_equal(g->channel, "height");
+    assert_string_equal(g->channel, rc_grid_get(g, "file.channel"));
+    for (size_t k = 0; k < 6; k++)
+        assert_true(g->v[k] == raw[(k + 3) % 6]);
+    rc_grid_free(g);
     g = try_read(&rc_format_jpk, &b, &wish, 1, &err);
     assert_non_null(g);
     for (size_t k = 0; k < 6; k++)
@@ -315,7 +320,7 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(jpk_is_read),     cmocka_unit_test(jpk_volts_need_a_unit),
+        cmocka_unit_test(jpk_is_read),     cmocka_unit_test(jpk_volts_stay_volts_or_get_a_unit),
         cmocka_unit_test(jpk_is_refused),  cmocka_unit_test(lext_is_read),
         cmocka_unit_test(lext_is_refused), cmocka_unit_test(pictures_are_refused),
         cmocka_unit_test(many_large_tags), cmocka_unit_test(endless_directories),

@@ -351,6 +351,186 @@ profiles(void **state)
     free(xml);
 }
 
+/* main.xml of a profile of 5 points whose x (and y) come with them, x in nanometres. */
+static char *
+profile_xml(const char *data, const char *y_axis)
+{
+    char *xml = with(main_xml, "@DATA@", data);
+
+    alter(&xml, "@TYPE@", "D");
+    alter(&xml, "SUR", "PRF");
+    alter(&xml,
+          "<CX><AxisType>I</AxisType><DataType>D</DataType><Increment>1.1e-6</Increment>"
+          "<Offset>0</Offset>",
+          "<CX><AxisType>A</AxisType><DataType>L</DataType><Increment>1e-9</Increment>"
+          "<Offset>7e-3</Offset>");
+    alter(&xml, "<CY><AxisType>I</AxisType><DataType>D</DataType>", y_axis);
+    alter(&xml, "<SizeX>3</SizeX><SizeY>2</SizeY>", "<SizeX>5</SizeX><SizeY>1</SizeY>");
+    return xml;
+}
+
+/* Points at 0, 1, 2, 4 and 5 um on a straight line of numbers 1, 2, 3, 5, 6 lie at even nodes on
+ * it. */
+static void
+check_resampled(char *xml, const struct bytes *data)
+{
+    static const struct rc_wish even = {.dx = NAN, .dy = NAN, .z_unit = NAN, .even = true};
+    struct rc_file file = pack(xml, data->data, data->n);
+    struct rc_notes notes;
+    struct rc_err err;
+    struct rc_grid *g;
+
+    refuse_file(&file, "the positions are not evenly apart: the furthest off is point 3");
+    refuse_file(&file, "--even resamples the profile to even steps");
+    g = read_with(&file, &even, &notes, &err);
+    if (g == NULL)
+        fail_msg("refused: %s", err.text);
+    assert_int_equal(g->nx, 6);
+    assert_int_equal(g->ny, 1);
+    assert_true(fabs(g->dx - 1e-6) <= rounding * 7e-3 &&
+                g->dy == g->dx); /* as far as 7 mm + 1 um is */
+    for (size_t k = 0; k < 6; k++)
+        assert_true(fabs(g->v[k] - (-1.75 + 0.25 * (double)k)) <= rounding * 7e-3 / 1e-6);
+    rc_grid_free(g);
+    drop_file(&file);
+    free(xml);
+}
+
+static void
+profiles_with_positions(void **state)
+{
+    static const double x[5] = {0, 1000, 2000, 4000, 5000}, z[5] = {1, 2, 3, 5, 6};
+    static const char incremental[] = "<CY><AxisType>I</AxisType><DataType>D</DataType>",
+                      absolute[] = "<CY><AxisType>A</AxisType><DataType>I</DataType>";
+    struct bytes none = {0}, two = {0}, three = {0}, falling = {0};
+    char link[200];
+
+    (void)state;
+    for (size_t k = 0; k < 5; k++) {
+        add_number(&two, (uint64_t)x[k], 4);
+        add_f64(&two, z[k]);
+        add_number(&three, (uint64_t)x[k], 4);
+        add_number(&three, 17, 2);
+        add_f64(&three, z[k]);
+        add_number(&falling, (uint64_t)x[4 - k], 4);
+        add_f64(&falling, z[4 - k]);
+    }
+    check_resampled(profile_xml("<DataList><Datum>0;1</Datum><Datum>1000;2</Datum><Datum>2000;3"
+                                "</Datum><Datum>4000;5</Datum><Datum>5000;6</Datum></DataList>",
+                                incremental),
+                    &none);
+    check_resampled(
+        profile_xml("<DataList><Datum>5000;0;6</Datum><Datum>4000;0;5</Datum><Datum>2000"
+                    ";0;3</Datum><Datum>1000;;2</Datum><Datum>0;0;1</Datum></DataList>",
+                    absolute),
+        &none);
+    snprintf(link, sizeof link, "%s", binary_link);
+    *strstr(link, "@MORE@") = '\0';
+    strcat(link, "</DataLink>");
+    check_resampled(profile_xml(link, incremental), &two);
+    check_resampled(profile_xml(link, absolute), &three);
+    check_resampled(profile_xml(link, incremental), &falling);
+    drop(&two);
+    drop(&three);
+    drop(&falling);
+}
+
+static void
+positions_that_are_refused(void **state)
+{
+    static const struct {
+        const char *list, *why;
+    } wrong[] = {
+        {"<Datum>0;1</Datum><Datum>2;1</Datum><Datum>1;1</Datum><Datum>3;1</Datum><Datum>4;1</"
+         "Datum>",
+         "the positions do not run on at point 3"},
+        {"<Datum>0;1</Datum><Datum>0;1</Datum><Datum>1;1</Datum><Datum>3;1</Datum><Datum>4;1</"
+         "Datum>",
+         "the positions do not run on at point 2"},
+        {"<Datum>0;1</Datum><Datum/>", "Datum 2 is '': x;z are expected"},
+        {"<Datum>0;1;2</Datum>", "Datum 1 is '0;1;2': x;z are expected"},
+        {"<Datum>5</Datum>", "Datum 1 is '5': x;z are expected"},
+        {"<Datum>inf;1</Datum>", "Datum 1 is 'inf;1': x;z are expected"},
+        {"<Datum>0;1</Datum>", "main.xml lists 1"},
+    };
+
+    (void)state;
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        char data[400], *xml;
+
+        snprintf(data, sizeof data, "<DataList>%s</DataList>", wrong[k].list);
+        xml = profile_xml(data, "<CY><AxisType>I</AxisType><DataType>D</DataType>");
+        refuse_xml(xml, wrong[k].why);
+        free(xml);
+    }
+}
+
+/* As numbers of both lengths, as a datum, and by the increment. */
+static void
+infinite_heights_are_missing(void **state)
+{
+    static const unsigned char floats[24] = {0,    0, 0x80, 0x3f, 0, 0, 0x80, 0x7f,
+                                             0,    0, 0x40, 0x40, 0, 0, 0x80, 0xff,
+                                             0xff, 0, 0xc0, 0x7f, 0, 0, 0xc0, 0x40};
+    const double doubles[6] = {1, INFINITY, 3, -INFINITY, NAN, 6}, wide[6] = {1, 8, 3, -8, NAN, 6};
+    static const char data[] = "<DataList><Datum>1</Datum><Datum>inf</Datum><Datum>3</Datum>"
+                               "<Datum>-INF</Datum><Datum/><Datum>6</Datum></DataList>";
+    const double height[6] = {-1.75, NAN, -1.25, NAN, NAN, -0.5};
+
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        char *xml = k == 1 ? with(main_xml, "@DATA@", data) : binary_xml(k == 2 ? "F" : "D", "");
+        struct rc_notes notes;
+        struct rc_file file;
+        struct rc_grid *g;
+
+        if (k == 1)
+            alter(&xml, "@TYPE@", "D");
+        if (k == 3)
+            alter(&xml, "<Increment>0.25", "<Increment>2.5e307");
+        file = k == 1   ? pack(xml, NULL, 0)
+               : k == 2 ? pack(xml, floats, sizeof floats)
+                        : pack(xml, k == 3 ? wide : doubles, sizeof doubles);
+        g = read_file(&file, &notes);
+        if (k < 3)
+            check_heights(g, height);
+        for (size_t i = 0; i < 6; i++)
+            assert_int_equal(isnan(g->v[i]), isnan(height[i]));
+        assert_int_equal(notes.n, 1);
+        assert_string_equal(notes.text[0], "2 of 6 values are infinite and read as missing, the "
+                                           "first at column 1, row 0 (from 0)");
+        rc_grid_free(g);
+        drop_file(&file);
+        free(xml);
+    }
+}
+
+static void
+root_without_its_part(void **state)
+{
+    char *xml = binary_xml("D", "");
+    struct rc_notes notes;
+    struct rc_file file;
+    struct rc_grid *g;
+
+    (void)state;
+    alter(&xml, "<p:ISO5436_2 ", "<p:ISO5436 ");
+    refuse_xml(xml, "no whole XML");
+    alter(&xml, "</p:ISO5436_2>", "</p:ISO5436>");
+    file = pack(xml, plain, sizeof plain);
+    g = read_file(&file, &notes);
+    check_heights(g, (const double[6]){-1.75, -1.5, -1.25, -1, -0.75, -0.5});
+    assert_int_equal(notes.n, 1);
+    assert_true(
+        noted(&notes, "the root of its main.xml is ISO5436, where the standard has ISO5436_2"));
+    rc_grid_free(g);
+    drop_file(&file);
+    alter(&xml, "<p:ISO5436 ", "<p:ISO54 ");
+    alter(&xml, "</p:ISO5436>", "</p:ISO54>");
+    refuse_xml(xml, "the root of its main.xml is 'ISO54', not ISO5436_2");
+    free(xml);
+}
+
 static void
 rotation_is_noted(void **state)
 {
@@ -438,6 +618,10 @@ main(void)
         cmocka_unit_test(members_under_one_folder),
         cmocka_unit_test(words_become_keys),
         cmocka_unit_test(profiles),
+        cmocka_unit_test(profiles_with_positions),
+        cmocka_unit_test(positions_that_are_refused),
+        cmocka_unit_test(infinite_heights_are_missing),
+        cmocka_unit_test(root_without_its_part),
         cmocka_unit_test(rotation_is_noted),
         cmocka_unit_test(wishes_win),
         cmocka_unit_test(list_tells_size_and_spacing),

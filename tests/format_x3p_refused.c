@@ -31,7 +31,6 @@ wrong_headers(void **state)
         {"0.25", "0", "increment of CZ is 0"},
         {"0.25", "nan", "must be finite"},
         {"-2<", "1e400<", "must be finite"},
-        {"0.25", "1e308", "column 1, row 0 (from 0) is infinite"},
         {"<SizeX>3", "<SizeX>0", "0 x 2 points is empty"},
         {"<SizeX>3", "<SizeX>-3", "must be a whole number"},
         {"<SizeX>3", "<SizeX>3.0", "must be a whole number"},

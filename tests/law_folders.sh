@@ -35,12 +35,20 @@ tools/plot          | libcontact/grid.h formats/core/core.h    | libcontact form
 tools/cost          | %public tools/cli/cli.h tools/plot/plot.h | %physics tools/cli tools/plot
 tools/solve         | %public tools/cli/cli.h tools/plot/plot.h | %physics tools/cli tools/plot
 tools/solve         | formats/core/core.h                      | formats/core formats/rcg
+tools/import        | libcontact/grid.h tools/cli/cli.h        | libcontact tools/cli
+tools/import        | formats/core/core.h formats/format.h     | formats formats/core
 tools/stress        | %public tools/cli/cli.h                  | %physics tools/cli
+tools/pick          | %public tools/cli/cli.h                  | %physics tools/cli
+tools/synth         | %public tools/cli/cli.h                  | %physics tools/cli
+tools/info          | %public tools/cli/cli.h                  | %physics tools/cli formats/rcg
 tools/render        | libcontact/grid.h tools/cli/cli.h        | libcontact tools/cli
 tools/render        | tools/plot/plot.h                        | tools/plot
 tools               | %public tools/cli/cli.h tools/plot/plot.h | %physics tools/cli tools/plot
 tools               | tools/cost/cost.h tools/solve/solve.h    | tools/cost tools/solve
 tools               | tools/stress/stress.h tools/render/render.h | tools/stress tools/render
+tools               | tools/info/info.h                        | tools/info
+tools               | tools/import/import.h                    | tools/import
+tools               | tools/pick/pick.h tools/synth/synth.h    | tools/pick tools/synth
 tools               | formats/core/core.h formats/rcg/rcg.h    | formats/core formats/rcg
 tools               | formats/format.h formats/export.h        | formats
 END

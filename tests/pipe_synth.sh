@@ -40,6 +40,42 @@ claim "also from standard input, and no file name is in it" bash -c '
 
 claim "single precision when asked" says '"type": "f32"' rc-info --json other.rcg
 
+# ---- indenters ----
+
+claim "a cylinder lies along y" bash -c 'rc-synth cylinder --radius 1mm --nx 21 --dx 1um -o a.rcg &&
+    rc-synth cylinder --radius 1mm --nx 21 --dx 1um --direction 90 -o b.rcg &&
+    rc-info --json a.rcg >info.json && cmp <(rc-export --format csv a.rcg) <(rc-export --format csv b.rcg)'
+# (10 um)^2 / 2 mm
+near "$(field minimum info.json)" -5e-08 "$converted" "its lowest line"
+claim "a cylinder along the diagonal" info rc-synth cylinder --radius 1mm --nx 21 --dx 1um --direction -45
+# the other corners are sqrt(2) 10 um away: 2 (10 um)^2 / 2 mm
+near "$(field minimum info.json)" -1e-07 "$rounding" "its lowest corner"
+claim "a paraboloid" info rc-synth paraboloid --radius 1mm,0.5mm --nx 21 --dx 1um
+# (10 um)^2 / 2 mm + (10 um)^2 / 1 mm
+near "$(field minimum info.json)" -1.5e-07 "$rounding" "its lowest corner"
+claim "a cone" info rc-synth cone --slope 0.04 --nx 21 --dx 1um
+near "$(field minimum info.json)" -5.65685424949238e-07 "$rounding" "its lowest corner" # 0.04 sqrt(2) 10 um
+claim "a punch" info rc-synth punch --radius 5um --height 2um --nx 21 --dx 1um
+near "$(field minimum info.json)" -2e-06 "$same" "what is around its end"
+# 81 lattice points within 5 of 441: the mean is -2 um (1 - 81/441)
+near "$(field mean info.json)" -1.6326530612244898e-06 "$rounding" "and how much"
+claim "a punch with an edge" info rc-synth punch --radius 5um --height 20um --edge 50um --nx 21 --dx 1um
+# corner: (sqrt(200) um - 5 um)^2 / 100 um
+near "$(field minimum info.json)" -8.357864376269047e-07 "$rounding" "its corner"
+
+claim "an indenter at a place" bash -c 'rc-synth cone --slope 0.04 --nx 21 --dx 1um --place 10um,-10um | rc-info --json >info.json'
+# the far corner is 20 um away on each side
+near "$(field minimum info.json)" -1.1313708498984762e-06 "$rounding" "its far corner"
+rc-synth selfaffine --hurst 0.8 --rms-height 1um --nx 40 --ny 31 --dx 1um -o rough.rcg
+rc-solve --quiet --load 1N --estar 100GPa -o solved.rcg rough.rcg
+highest() {
+    rc-export --format xyz "$1" | grep -v '^#' | sort -g -k 3,3 | tail -n 1 | cut -d ' ' -f 1,2
+}
+claim "an indenter on the highest node" bash -c 'rc-synth sphere --radius 1mm --place highest --like rough.rcg -o ball.rcg &&
+    rc-synth sphere --radius 1mm --place highest --like - <solved.rcg >ball2.rcg && cmp ball.rcg ball2.rcg'
+claim "  of the same place as that" test "$(highest ball.rcg)" = "$(highest rough.rcg)"
+claim "  which history tells" says 'rc-synth [0-9.]* --radius 0.001 --place -?[0-9.e-]+,-?[0-9.e-]+ sphere' rc-info ball.rcg
+
 # ---- waves ----
 
 # 40 nodes are 4 wavelengths of 11 um: the mean square of a cosine is 1/2, of two 1/4
@@ -70,6 +106,20 @@ near "$(field rms_slope info.json)" 0.23 0.02 "its RMS slope"
 claim "the same seed gives the same bytes, whatever the threads" bash -c "
     $rough --rms-slope 0.1 --seed 7 --threads 1 -o a.rcg &&
     $rough --rms-slope 0.1 --seed 7 --threads 2 -o b.rcg && cmp a.rcg b.rcg"
+claim "heights of another distribution, and a lay" bash -c "
+    $rough --rms-height 0.42um --skewness -1.2 --anisotropy 3 --direction 30 | rc-info --json >info.json"
+near "$(field rms info.json)" 0.42e-6 "$rounding" "its RMS height"
+claim "  which history tells" grep -q -- '--direction 30 .*--anisotropy 3 --skewness -1.2 selfaffine' info.json
+claim "heights of Weibull's" bash -c "$rough --rms-height 0.42um --weibull 1.5 | rc-info --json >info.json"
+near "$(field rms info.json)" 0.42e-6 "$rounding" "its RMS height"
+# the lowest of a Weibull distribution is its mean away, Gamma(1 + 1/k) of a standard deviation of
+# sqrt(Gamma(1 + 2/k) - Gamma(1 + 1/k)^2): 1.4723 for k = 1.5
+near "$(field minimum info.json)" -6.18e-07 "$three_digits" "its lowest height"
+claim "the lay lies along y" bash -c "
+    $rough --rms-height 0.42um --anisotropy 3 -o a.rcg &&
+    $rough --rms-height 0.42um --anisotropy 3 --direction 90 -o b.rcg"
+claim "  by default" cmp <(rc-export --format csv a.rcg) <(rc-export --format csv b.rcg)
+
 # the values alone: before the last two lines, 24 bytes
 values() {
     tail -c $((8 * 128 * 97 + 24)) "$1" | head -c $((8 * 128 * 97))
@@ -88,10 +138,40 @@ claim "another seed gives other heights" perl -e '
 # ---- refusals ----
 
 grid='--nx 16 --dx 1um'
-refuses 2 'no shape named: one of sphere\|wave\|selfaffine' "no shape" "rc-synth $grid"
+refuses 2 'no shape named: one of sphere\|cylinder\|paraboloid\|cone\|punch\|wave\|selfaffine' "no shape" "rc-synth $grid"
 refuses 2 "unknown shape 'cube'" "an unknown shape" "rc-synth cube $grid"
 refuses 2 "'wave' after sphere: one shape at a time" "two shapes" "rc-synth sphere wave $grid --radius 1mm"
 refuses 2 'sphere needs --radius' "a sphere without radius" "rc-synth sphere $grid"
+refuses 2 'cone needs --slope' "a cone without slope" "rc-synth cone $grid"
+refuses 2 'punch needs --height' "a punch without height" "rc-synth punch --radius 1um $grid"
+refuses 2 '--radius takes the two radii of a paraboloid, R1,R2' "a paraboloid of one radius" "rc-synth paraboloid --radius 1mm $grid"
+refuses 2 '--radius takes one radius of a sphere, not 2' "a sphere of two radii" "rc-synth sphere --radius 1mm,2mm $grid"
+refuses 2 '--radius takes one radius of a punch, not 3' "a punch of three" "rc-synth punch --height 1um --radius 1mm,2mm,3mm $grid"
+refuses 2 '--edge has no meaning for cone' "a cone with an edge" "rc-synth cone --slope 0.1 --edge 1um $grid"
+refuses 2 '--place has no meaning for wave' "a wave at a place" "rc-synth wave --amplitude 1um --wavelength 4um --place 0,0 $grid"
+refuses 1 'no node lies within the radius 6e-07 m of the punch: take a finer grid' "a punch between the nodes" \
+    "rc-synth punch --radius 0.6um --height 1um $grid"
+refuses 2 '--place takes X,Y from the middle of the map, or, with --like, highest' "a place on a line" \
+    "rc-synth cone --slope 0.1 --place 1um $grid"
+refuses 2 '--place takes X,Y .* or, with --like, highest' "the highest of nothing" "rc-synth cone --slope 0.1 --place highest $grid"
+refuses 2 '--place 9e-06,0 m: beyond the map, which reaches to 8e-06 m and 8e-06 m' "a place beyond the map" \
+    "rc-synth cone --slope 0.1 --place 9um,0 $grid"
+rc-solve --quiet --output pressure --load 1N --estar 100GPa -o pressure.rcg rough.rcg
+refuses 1 '--like pressure.rcg: no height frame is in it' "the highest of a pressure" \
+    "rc-synth cone --slope 0.1 --place highest --like pressure.rcg"
+printf 'NaN NaN\nNaN NaN\n' | rc-import --dx 1um --z-unit um -o missing.rcg - 2>/dev/null
+refuses 1 '--like missing.rcg: no height was measured: --place highest is nowhere' "the highest of nothing measured" \
+    "rc-synth cone --slope 0.1 --place highest --like missing.rcg"
+refuses 2 '--direction 30: give --anisotropy too' "a lay without anisotropy" \
+    "rc-synth selfaffine --hurst 0.8 --rms-height 1um --direction 30 $grid"
+refuses 2 '--skewness and --weibull: heights have one distribution' "two distributions" \
+    "rc-synth selfaffine --hurst 0.8 --rms-height 1um --skewness 1 --weibull 2 $grid"
+refuses 2 '--skewness 3.5: it must be at least -3 and at most 3' "more skewness than can be" \
+    "rc-synth selfaffine --hurst 0.8 --rms-height 1um --skewness 3.5 $grid"
+refuses 1 'anisotropy 2: a profile has one direction only' "a profile with a lay" \
+    "rc-synth selfaffine --hurst 0.8 --rms-height 1um --anisotropy 2 --ny 1 $grid"
+refuses 1 'need 8192 bytes, more than --memory' "a distribution takes twice the memory" \
+    "rc-synth selfaffine --hurst 0.8 --rms-height 1um --skewness 1 --memory 5k $grid"
 refuses 2 'wave needs --wavelength' "a wave without length" "rc-synth wave --amplitude 1um $grid"
 refuses 2 'selfaffine needs --hurst' "roughness without exponent" "rc-synth selfaffine $grid"
 refuses 2 'selfaffine needs one of --rms-slope and --rms-height' "roughness without size" \

@@ -1,5 +1,5 @@
-/* Made surfaces are what their formulas say: spheres, waves, and random roughness whose every wave
- * has the asked power, belongs to its seed alone, and adds up to the asked size. */
+/* Made surfaces are what their formulas say: indenters, waves, and random roughness, of which every
+ * wave has the asked power, belongs to its seed alone, and adds up to the asked size. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -64,6 +64,95 @@ test_wave(void **state)
     }
     rc_synth_wave(&s, amplitude, INFINITY, ly, h);
     assert_true(h[23 * 34] == amplitude && h[23 * 34 + 33] == amplitude);
+}
+
+/* ---- indenters ---- */
+
+static const struct rc_shape oblong = {33, 47, 1.1e-6, 1e-6};
+static const struct rc_place off = {2.3e-6, -5.7e-6};
+
+/* Where node k is from the apex: along a direction that leads counterclockwise from x in a picture
+ * whose rows go down, and across it. */
+static void
+from_apex(size_t k, double degrees, double *along, double *across)
+{
+    double x = place(k % 33, 33, oblong.dx) - off.x, up = -(place(k / 33, 47, oblong.dy) - off.y);
+    double a = degrees * exact_pi / 180;
+
+    *along = x * cos(a) + up * sin(a);
+    *across = up * cos(a) - x * sin(a);
+}
+
+static void
+test_paraboloid(void **state)
+{
+    const double r1 = 2.385e-3, r2 = 0.71e-3, angles[] = {0, 30, 90, 180, -45, 270, 360};
+    double h[33 * 47], along, across;
+
+    (void)state;
+    for (size_t a = 0; a < 7; a++) {
+        rc_synth_paraboloid(&oblong, off, r1, r2, angles[a], h);
+        for (size_t k = 0; k < 33 * 47; k++) {
+            from_apex(k, angles[a], &along, &across);
+            assert_near(h[k], -along * along / (2 * r1) - across * across / (2 * r2), rounding);
+        }
+        rc_synth_paraboloid(&oblong, off, INFINITY, r2, angles[a], h);
+        for (size_t k = 0; k < 33 * 47; k++) {
+            from_apex(k, angles[a], &along, &across);
+            assert_true(fabs(h[k] + across * across / (2 * r2)) <=
+                        rounding * (along * along + across * across) / r2);
+            /* an axis along y: the same in every row, and along x in every column */
+            assert_true((angles[a] != 90 && angles[a] != 270) || h[k] == h[k % 33]);
+            assert_true((angles[a] != 0 && angles[a] != 180) || h[k] == h[k - k % 33]);
+        }
+    }
+    rc_synth_paraboloid(&oblong, off, r1, r1, 77, h); /* a sphere looks the same all round */
+    for (size_t k = 0; k < 33 * 47; k++) {
+        from_apex(k, 0, &along, &across);
+        assert_near(h[k], -(along * along + across * across) / (2 * r1), rounding);
+    }
+}
+
+static void
+test_cone(void **state)
+{
+    double h[33 * 47], along, across;
+
+    (void)state;
+    rc_synth_cone(&oblong, off, 0.037, h);
+    for (size_t k = 0; k < 33 * 47; k++) {
+        from_apex(k, 0, &along, &across);
+        assert_near(h[k], -0.037 * hypot(along, across), rounding);
+    }
+    rc_synth_cone(&oblong, (struct rc_place){0, 0}, 0.037, h);
+    assert_true(h[23 * 33 + 16] == 0 && !signbit(h[23 * 33 + 16]));
+}
+
+static void
+test_punch(void **state)
+{
+    const struct rc_shape s = {21, 21, 0.1e-6, 0.1e-6};
+    const double radius = 7.35e-6, edge = 20e-6, height = 0.4e-6;
+    double h[33 * 47], along, across;
+    size_t end = 0;
+
+    (void)state;
+    for (int rounded = 0; rounded < 2; rounded++) {
+        rc_synth_punch(&oblong, off, radius, rounded ? edge : 0, height, h);
+        for (size_t k = 0; k < 33 * 47; k++) {
+            double r, depth;
+
+            from_apex(k, 0, &along, &across);
+            r = hypot(along, across) - radius;
+            depth = r <= 0 ? 0 : rounded ? r * r / (2 * edge) : height;
+            assert_true(fabs(h[k] + (depth < height ? depth : height)) <= rounding * height);
+        }
+    }
+    /* nodes on the rim belong to the end: of lattice points with i^2 + j^2 <= 25 there are 81 */
+    rc_synth_punch(&s, (struct rc_place){0, 0}, 5 * 0.1e-6, 0, height, h);
+    for (size_t k = 0; k < 441; k++)
+        end += h[k] == 0 ? 1 : 0;
+    assert_int_equal(end, 81);
 }
 
 /* ---- the transform, as sums ---- */
@@ -432,6 +521,60 @@ test_power_law_of_profiles(void **state)
     assert_law(low, 38);
 }
 
+/* With a lay the power is that of the wave whose number along it is so many times as large. */
+static void
+check_lay(double anisotropy, double degrees)
+{
+    enum {
+        M = 9,
+        N = 12,
+        COUNT = (2 * M + 1) * (2 * N + 1)
+    };
+    const struct rc_shape s = {21, 29, 1.1e-6, 1.7e-6}; /* 23.1 um x 49.3 um */
+    struct rc_selfaffine what = rough;
+    double square[COUNT], fourth[COUNT], law[COUNT], high[COUNT], bend = 1 / 15e-6;
+    double a = degrees * exact_pi / 180;
+    struct group low = {0}, along = {0}, across = {0};
+
+    what.rolloff = 15e-6;
+    what.short_cut = 4e-6;
+    what.anisotropy = anisotropy;
+    what.direction = degrees;
+    for (long k = 0; k < COUNT; k++) {
+        double x = (double)(k % (2 * M + 1) - M) / 23.1e-6;
+        double up = -(double)(k / (2 * M + 1) - N) / 49.3e-6;
+        double q = hypot(anisotropy * (x * cos(a) + up * sin(a)), up * cos(a) - x * sin(a));
+
+        law[k] = q == 0 || q > 1 / 4e-6 ? 0 : pow(fmax(1, q / bend), -2 - 2 * what.hurst);
+        high[k] = q > 1.2 * bend ? law[k] : 0;
+    }
+    ensemble(&s, what, M, N, high, square, fourth);
+    for (long k = 0; k < COUNT; k++) {
+        double x = (double)(k % (2 * M + 1) - M) / 23.1e-6;
+        double up = -(double)(k / (2 * M + 1) - N) / 49.3e-6;
+
+        if (law[k] == 0)
+            assert_true(square[k] < rounding);
+        else if (high[k] == 0)
+            put(&low, square[k] / law[k]);
+        else
+            put(fabs(x * cos(a) + up * sin(a)) * 2 > hypot(x, up) ? &along : &across,
+                square[k] / law[k]);
+    }
+    assert_law(low, 10);
+    assert_law(along, 4);
+    assert_law(across, 10);
+}
+
+static void
+test_lay(void **state)
+{
+    (void)state;
+    check_lay(2.3, 30);
+    check_lay(1.9, 90);
+    check_lay(1.7, -60);
+}
+
 /* ---- refusals ---- */
 
 static void
@@ -471,7 +614,18 @@ test_refusals(void **state)
         {offsetof(struct rc_selfaffine, rolloff), 2e-6, "roll-off"},
         {offsetof(struct rc_selfaffine, short_cut), 2.1e-6, "short cut-off"},
         {offsetof(struct rc_selfaffine, short_cut), 1, "no wave"},
+        {offsetof(struct rc_selfaffine, anisotropy), 0.99,
+         "anisotropy 0.99: it must be at least 1"},
+        {offsetof(struct rc_selfaffine, anisotropy), NAN, "anisotropy"},
+        {offsetof(struct rc_selfaffine, anisotropy), INFINITY, "anisotropy"},
+        {offsetof(struct rc_selfaffine, direction), NAN, "direction"},
+        {offsetof(struct rc_selfaffine, skewness), 3.1, "skewness 3.1: it must be from -3 to 3"},
+        {offsetof(struct rc_selfaffine, skewness), NAN, "skewness"},
+        {offsetof(struct rc_selfaffine, weibull), 0.7, "Weibull shape 0.7: it must be from 0.75"},
+        {offsetof(struct rc_selfaffine, weibull), 101, "to 100"},
+        {offsetof(struct rc_selfaffine, weibull), NAN, "Weibull"},
     };
+    struct rc_selfaffine both = rough, lay = rough;
 
     (void)state;
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
@@ -479,6 +633,11 @@ test_refusals(void **state)
         memcpy((char *)&what + bad[k].at, &bad[k].value, sizeof(double));
         check_refused(s, what, bad[k].reason);
     }
+    both.skewness = 1;
+    both.weibull = 2;
+    check_refused(s, both, "give one of them");
+    lay.anisotropy = 2;
+    check_refused((struct rc_shape){101, 1, 1e-6, 1e-6}, lay, "one direction only");
     check_refused((struct rc_shape){2, 2, 1, 1}, rough, "no wave");
     check_refused((struct rc_shape){1, 1, 1, 1}, rough, "no wave");
 }
@@ -488,6 +647,9 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_sphere),
+        cmocka_unit_test(test_paraboloid),
+        cmocka_unit_test(test_cone),
+        cmocka_unit_test(test_punch),
         cmocka_unit_test(test_wave),
         cmocka_unit_test(test_transform),
         cmocka_unit_test(test_height_is_exact),
@@ -497,6 +659,7 @@ main(void)
         cmocka_unit_test(test_seeds_differ),
         cmocka_unit_test(test_power_law),
         cmocka_unit_test(test_power_law_of_profiles),
+        cmocka_unit_test(test_lay),
         cmocka_unit_test(test_refusals),
     };
 

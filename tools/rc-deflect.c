@@ -68,6 +68,27 @@ modulus(struct tool *t, const struct rc_grid *p)
     return estar;
 }
 
+/* The body of a pressure that was solved on layers; its E* is that of the substrate and the other body,
+ * which so has what is left of it. */
+static const struct rc_coating *
+coating_of(struct tool *t, const struct rc_grid *p, double estar, struct coating *c)
+{
+    struct rc_coating *body = &c->coating;
+    struct rc_err err;
+
+    if (coating_read(p, c, &err) != RC_OK)
+        tool_die_at(t, p, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (c->text == NULL)
+        return NULL;
+    if (!isnan(args.estar))
+        tool_die_at(t, p, EXIT_IMPOSSIBLE,
+                    "it was solved on layers, which say how stiff they are: leave out --estar");
+    body->compliance = 1 / estar - (isinf(body->e) ? 0 : (1 - body->nu * body->nu) / body->e);
+    if (body->compliance < 1e-12 / estar) /* rounding */
+        body->compliance = 0;
+    return body;
+}
+
 static double
 loaded_fraction(const struct rc_grid *p)
 {
@@ -91,10 +112,12 @@ do_case(struct tool *t, const struct rc_grid *p)
                                       .loaded = loaded_fraction(p),
                                       .threads = t->threads};
     double estar = modulus(t, p);
+    struct coating coating;
     struct rc_conv *conv;
     struct rc_grid *u;
     struct rc_err err;
 
+    options.coating = coating_of(t, p, estar, &coating);
     tool_demand_finite(t, p, "a pressure map has none; make it again");
     tool_demand_memory(t, p, rc_conv_memory(&shape, &options) + 2 * p->nx * p->ny * sizeof(double));
     conv = rc_conv_new(&shape, estar, &options, &err);
@@ -110,6 +133,7 @@ do_case(struct tool *t, const struct rc_grid *p)
         tool_die_at(t, p, EXIT_IMPOSSIBLE, "%s", err.text);
     rc_conv_apply(conv, p->v, u->v);
     rc_conv_free(conv);
+    coating_free(&coating);
     tool_write(t, u);
     rc_grid_free(u);
 }

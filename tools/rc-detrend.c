@@ -8,9 +8,11 @@
 
 static struct args {
     struct steps steps;
+    bool robust;
 } args;
 
-static const double filled_much = 0.05; /* part of the points beyond which filling is warned of */
+static const double filled_much = 0.05;   /* part of the points beyond which filling is warned of */
+static const double outliers_much = 0.05; /* and beyond which outliers are */
 
 /* clang-format off */
 static const struct opt opts[] = {
@@ -18,37 +20,170 @@ static const struct opt opts[] = {
      .help = "subtract the least-squares plane"},
     {.name = "poly", .type = OPT_STEP, .at = offsetof(struct args, steps), .max = RC_DEGREE_MAX,
      .result = true, .arg = "N", .help = "subtract the polynomial of degree N (0: the mean)"},
+    {.name = "sphere", .type = OPT_STEP, .at = offsetof(struct args, steps), .result = true,
+     .help = "subtract the sphere that fits, and tell its radius"},
+    {.name = "cylinder", .type = OPT_STEP, .at = offsetof(struct args, steps), .result = true,
+     .help = "subtract the cylinder that fits, of any direction and tilt"},
+    {.name = "lowpass", .type = OPT_STEP, .unit = UNIT_M, .at = offsetof(struct args, steps),
+     .max = INFINITY, .above = true, .result = true, .arg = "L",
+     .help = "keep waves longer than L (Gaussian filter, half of L itself)"},
+    {.name = "highpass", .type = OPT_STEP, .unit = UNIT_M, .at = offsetof(struct args, steps),
+     .max = INFINITY, .above = true, .result = true, .arg = "L",
+     .help = "keep waves shorter than L: the input less its low-pass"},
+    {.name = "outliers", .type = OPT_STEP, .at = offsetof(struct args, steps), .real = true,
+     .max = INFINITY, .above = true, .result = true, .arg = "T",
+     .help = "drop points T deviations off the median around"},
     {.name = "fill", .type = OPT_STEP, .at = offsetof(struct args, steps), .result = true,
      .help = "fill missing points smoothly from around them"},
+    {.name = "taper", .type = OPT_STEP, .unit = UNIT_M, .at = offsetof(struct args, steps),
+     .max = INFINITY, .above = true, .result = true, .arg = "W",
+     .help = "lead the outer W to the mean, so that the map repeats"},
+    {.name = "robust", .type = OPT_FLAG, .at = offsetof(struct args, robust), .result = true,
+     .help = "forms and filters that single points far off do not bend"},
     {.name = NULL},
 };
 /* clang-format on */
 
 static const struct tool_info info = {
     .name = "rc-detrend",
-    .summary = "Level height maps, remove their form, fill missing points",
+    .summary = "Level height maps, remove their form, filter, drop outliers, fill missing points",
     .operands = "[FILE...]",
-    .examples = "  rc-import bench.x3p | rc-detrend --plane --fill > flat.rcg\n",
+    .examples =
+        "  rc-import bench.x3p | rc-detrend --plane --fill > flat.rcg\n"
+        "  rc-import bench.x3p | rc-detrend --robust --plane --outliers 5 --fill > clean.rcg\n",
     .opts = opts,
     .reads = READS_STREAM,
     .writes = WRITES_STREAM,
 };
 
+static bool
+is_periodic(const struct rc_grid *g)
+{
+    const char *periodic = rc_grid_get(g, "periodic");
+
+    return periodic != NULL && strcmp(periodic, "yes") == 0;
+}
+
 /* A form that is taken off a periodic surface opens a step where the periods meet. */
 static enum rc_status
-remove_form(struct tool *t, struct rc_grid *g, size_t degree, struct rc_err *err)
+remove_form(struct tool *t, struct rc_grid *g, struct rc_form form, struct rc_err *err)
 {
     struct rc_shape shape = rc_grid_shape(g);
-    const char *periodic = rc_grid_get(g, "periodic");
-    char where[256];
+    char where[256], text[SHOWN_NUMBER];
+    double radius;
 
-    if (rc_detrend_poly(&shape, degree, g->v, err) != RC_OK)
+    form.robust = args.robust;
+    form.threads = t->threads;
+    tool_demand_memory(t, g, g->nx * g->ny * (args.robust ? 2 : 1) * sizeof *g->v);
+    if (rc_detrend_form(&shape, &form, g->v, &radius, err) != RC_OK)
         return RC_FAIL;
-    if (degree == 0 || periodic == NULL || strcmp(periodic, "yes") != 0)
+    tool_where(t, g, where, sizeof where);
+    if (form.kind != RC_POLYNOMIAL) {
+        tool_note(t, "%s: a %s of radius %sm", where, radius > 0 ? "bump" : "hollow",
+                  shown_number(text, fabs(radius), 6, "m"));
+        if (rc_grid_set_number(g, "form.radius", radius, err) != RC_OK)
+            return RC_FAIL;
+    }
+    if ((form.kind == RC_POLYNOMIAL && form.degree == 0) || !is_periodic(g))
         return RC_OK;
     tool_warn(t, "%s: a periodic surface is not periodic without its form: periodic=no from here",
-              tool_where(t, g, where, sizeof where));
+              where);
     return rc_grid_set(g, "periodic", "no", err);
+}
+
+static enum rc_status
+plane(struct tool *t, struct rc_grid *g, double value, struct rc_err *err)
+{
+    (void)value;
+    return remove_form(t, g, (struct rc_form){.degree = 1}, err);
+}
+
+static enum rc_status
+poly(struct tool *t, struct rc_grid *g, double degree, struct rc_err *err)
+{
+    return remove_form(t, g, (struct rc_form){.degree = (size_t)degree}, err);
+}
+
+static enum rc_status
+sphere(struct tool *t, struct rc_grid *g, double value, struct rc_err *err)
+{
+    (void)value;
+    return remove_form(t, g, (struct rc_form){.kind = RC_SPHERE}, err);
+}
+
+static enum rc_status
+cylinder(struct tool *t, struct rc_grid *g, double value, struct rc_err *err)
+{
+    (void)value;
+    return remove_form(t, g, (struct rc_form){.kind = RC_CYLINDER}, err);
+}
+
+static enum rc_status
+filter(struct tool *t, struct rc_grid *g, double cutoff, bool high, struct rc_err *err)
+{
+    struct rc_shape shape = rc_grid_shape(g);
+    const struct rc_filter what = {.cutoff = cutoff,
+                                   .high = high,
+                                   .robust = args.robust,
+                                   .periodic = is_periodic(g),
+                                   .threads = t->threads};
+
+    tool_demand_memory(t, g, g->nx * g->ny * sizeof *g->v + rc_filter_memory(&shape, &what));
+    return rc_filter(&shape, &what, g->v, err);
+}
+
+static enum rc_status
+lowpass(struct tool *t, struct rc_grid *g, double cutoff, struct rc_err *err)
+{
+    return filter(t, g, cutoff, false, err);
+}
+
+static enum rc_status
+highpass(struct tool *t, struct rc_grid *g, double cutoff, struct rc_err *err)
+{
+    return filter(t, g, cutoff, true, err);
+}
+
+/* Adds to a key that counts what all steps have done, those of earlier commands included. */
+static enum rc_status
+add_to_key(struct rc_grid *g, const char *key, size_t count, struct rc_err *err)
+{
+    double before = 0;
+
+    if (rc_grid_get(g, key) != NULL && !rc_grid_number(g, key, &before))
+        return rc_err_set(err, "%s=%s is not a number", key, rc_grid_get(g, key));
+    return rc_grid_set_number(g, key, before + (double)count, err);
+}
+
+static enum rc_status
+outliers(struct tool *t, struct rc_grid *g, double times, struct rc_err *err)
+{
+    struct rc_shape shape = rc_grid_shape(g);
+    size_t count, nodes = g->nx * g->ny;
+    char where[256];
+
+    tool_demand_memory(t, g, nodes * sizeof *g->v + rc_outliers_memory(&shape, t->threads));
+    if (rc_outliers(&shape, times, is_periodic(g), t->threads, g->v, &count, err) != RC_OK)
+        return RC_FAIL;
+    tool_where(t, g, where, sizeof where);
+    tool_note(t, "%s: %zu of %zu points are outliers", where, count, nodes);
+    if ((double)count > outliers_much * (double)nodes)
+        tool_warn(t,
+                  "%s: %.3g %% of the points (%zu of %zu) are outliers at T = %g and are missing "
+                  "from here: a larger T leaves more of them",
+                  where, 100 * (double)count / (double)nodes, count, nodes, times);
+    return add_to_key(g, "outliers", count, err);
+}
+
+static enum rc_status
+taper(struct tool *t, struct rc_grid *g, double width, struct rc_err *err)
+{
+    struct rc_shape shape = rc_grid_shape(g);
+
+    (void)t;
+    if (rc_taper(&shape, width, g->v, err) != RC_OK)
+        return RC_FAIL;
+    return rc_grid_set(g, "periodic", "yes", err);
 }
 
 static size_t
@@ -84,15 +219,14 @@ warn_of_holes(struct tool *t, const struct rc_grid *g, size_t missing, struct rc
     return RC_OK;
 }
 
-/* The key counts the points that were filled by all steps, those of earlier commands included. */
 static enum rc_status
-fill(struct tool *t, struct rc_grid *g, struct rc_err *err)
+fill(struct tool *t, struct rc_grid *g, double value, struct rc_err *err)
 {
     struct rc_shape shape = rc_grid_shape(g);
     char where[256];
-    double before = 0;
     size_t filled, nodes = g->nx * g->ny, missing = count_missing(g);
 
+    (void)value;
     tool_demand_memory(t, g, nodes * sizeof *g->v + rc_inpaint_memory(missing));
     if (warn_of_holes(t, g, missing, err) != RC_OK)
         return RC_FAIL;
@@ -100,9 +234,27 @@ fill(struct tool *t, struct rc_grid *g, struct rc_err *err)
         return RC_FAIL;
     tool_note(t, "%s: %zu of %zu points filled", tool_where(t, g, where, sizeof where), filled,
               nodes);
-    if (rc_grid_get(g, "filled") != NULL && !rc_grid_number(g, "filled", &before))
-        return rc_err_set(err, "filled=%s is not a number", rc_grid_get(g, "filled"));
-    return rc_grid_set_number(g, "filled", before + (double)filled, err);
+    return add_to_key(g, "filled", filled, err);
+}
+
+/* What is done at a step, by the name of its option. */
+static const struct work {
+    const char *name;
+    enum rc_status (*run)(struct tool *t, struct rc_grid *g, double value, struct rc_err *err);
+} works[] = {
+    {"plane", plane},       {"poly", poly},       {"sphere", sphere},
+    {"cylinder", cylinder}, {"lowpass", lowpass}, {"highpass", highpass},
+    {"outliers", outliers}, {"fill", fill},       {"taper", taper},
+};
+
+static enum rc_status
+run_step(struct tool *t, struct rc_grid *g, const struct step *step, struct rc_err *err)
+{
+    size_t k = 0;
+
+    while (strcmp(works[k].name, step->opt->name) != 0)
+        k++;
+    return works[k].run(t, g, step->value, err);
 }
 
 static void
@@ -111,17 +263,39 @@ detrend(struct tool *t, struct rc_grid *g)
     struct rc_err err;
     enum rc_status status = RC_OK;
 
-    for (size_t k = 0; k < args.steps.n && status == RC_OK; k++) {
-        const struct step *step = &args.steps.step[k];
-        if (strcmp(step->opt->name, "fill") == 0)
-            status = fill(t, g, &err);
-        else
-            status = remove_form(t, g, step->opt->arg == NULL ? 1 : (size_t)step->value, &err);
-    }
+    for (size_t k = 0; k < args.steps.n && status == RC_OK; k++)
+        status = run_step(t, g, &args.steps.step[k], &err);
     if (status == RC_OK)
         status = rc_grid_history(g, tool_history(t), &err);
     if (status != RC_OK)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+}
+
+/* Steps on which --robust bears. */
+static bool
+is_fitted(const struct step *step)
+{
+    static const char *const names[] = {"plane",    "poly",    "sphere",
+                                        "cylinder", "lowpass", "highpass"};
+
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++)
+        if (strcmp(step->opt->name, names[k]) == 0)
+            return true;
+    return false;
+}
+
+static void
+check_steps(struct tool *t)
+{
+    bool fitted = false;
+
+    if (args.steps.n == 0)
+        tool_die(t, EXIT_USAGE,
+                 "nothing to do: give --plane, --poly N or --fill, or another step of --help");
+    for (size_t k = 0; k < args.steps.n; k++)
+        fitted = fitted || is_fitted(&args.steps.step[k]);
+    if (args.robust && !fitted)
+        tool_die(t, EXIT_USAGE, "--robust bears on forms and filters: give one of them");
 }
 
 static void
@@ -148,8 +322,7 @@ main(int argc, char **argv)
     struct tool t;
 
     tool_start(&t, &info, argc, argv, &args);
-    if (args.steps.n == 0)
-        tool_die(&t, EXIT_USAGE, "nothing to do: give --plane, --poly N or --fill");
+    check_steps(&t);
     while ((g = tool_channel(&t, "height", true)) != NULL) {
         refuse_infinite(&t, g);
         detrend(&t, g);

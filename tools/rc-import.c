@@ -1,26 +1,17 @@
 /* Instrument and exchange files -> a stream of height maps, a case each. */
 #include "tools/cli/cli.h"
 
-#include <errno.h>
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
-#include "formats/format.h"
-#include "formats/core/core.h"
-
-enum {
-    CHANNELS_MOST = 64 /* that are looked at in one file */
-};
+#include "tools/import/import.h"
 
 static struct args {
     const char *format, *channel, *z_unit, *decimal, *separator, *missing;
-    double dx, dy;
+    double dx, dy, even;
     bool list, formats;
-} args = {.dx = NAN, .dy = NAN};
+} args = {.dx = NAN, .dy = NAN, .even = NAN};
 
 /* clang-format off */
 static const struct opt opts[] = {
@@ -29,15 +20,18 @@ static const struct opt opts[] = {
     {.name = "formats", .type = OPT_FLAG, .at = offsetof(struct args, formats), .text = true,
      .help = "print the table of formats"},
     {.name = "list", .type = OPT_FLAG, .at = offsetof(struct args, list), .text = true,
-     .help = "print the channels of the files"},
+     .help = "print the channels of the files, * where one is read"},
     {.name = "channel", .type = OPT_TEXT, .at = offsetof(struct args, channel), .result = true,
-     .arg = "NAME", .help = "channel by name or number (default: the first height)"},
+     .arg = "NAME", .help = "by number, name or its beginning (default: the topography)"},
     {.name = "dx", .type = OPT_NUMBER, .unit = UNIT_M, .at = offsetof(struct args, dx),
      .max = INFINITY, .above = true, .result = true, .arg = "LENGTH",
      .help = "spacing of columns, whatever the file says"},
     {.name = "dy", .type = OPT_NUMBER, .unit = UNIT_M, .at = offsetof(struct args, dy),
      .max = INFINITY, .above = true, .result = true, .arg = "LENGTH",
      .help = "spacing of rows (default with --dx: the same)"},
+    {.name = "even", .type = OPT_NUMBER, .unit = UNIT_M, .at = offsetof(struct args, even),
+     .max = INFINITY, .above = true, .result = true, .optional = true, .arg = "STEP",
+     .help = "resample uneven profiles (default: median spacing)"},
     {.name = "z-unit", .type = OPT_TEXT, .at = offsetof(struct args, z_unit), .result = true,
      .arg = "UNIT", .help = "unit of the file's heights: um, nm or a number of metres"},
     {.name = "decimal", .type = OPT_TEXT, .at = offsetof(struct args, decimal), .result = true,
@@ -111,6 +105,10 @@ make_wish(struct tool *t)
 {
     struct rc_wish wish = {.dx = args.dx, .dy = args.dy, .z_unit = NAN, .missing = args.missing};
 
+    wish.even = tool_given(t, "even");
+    wish.even_step = isnan(args.even) ? 0 : args.even;
+    if (wish.even_step > 0 && !isnan(args.dx))
+        tool_die(t, EXIT_USAGE, "--even STEP and --dx both say how wide a step is: give one");
     wish_unit(t, &wish);
     wish.separator = wish_separator(t);
     if (args.decimal != NULL) {
@@ -127,90 +125,88 @@ make_wish(struct tool *t)
 
 /* ---- files ---- */
 
-static FILE *
-open_file(struct tool *t, const char *name)
-{
-    bool standard = strcmp(name, "-") == 0;
-    FILE *in = standard ? stdin : fopen(name, "rb");
-
-    t->source = standard ? "standard input" : name;
-    if (in == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", name, strerror(errno));
-    if (isatty(fileno(in)))
-        tool_die(t, EXIT_USAGE, "%s is a terminal: name a file", t->source);
-    return in;
-}
-
-/* Bytes to begin with: the whole of a file, when it says how large it is. */
-static size_t
-first_size(FILE *in)
-{
-    struct stat st;
-
-    if (fstat(fileno(in), &st) == 0 && S_ISREG(st.st_mode) && st.st_size > 0 &&
-        (uintmax_t)st.st_size < SIZE_MAX / 2)
-        return (size_t)st.st_size + 1;
-    return 1 << 16;
-}
-
-/* The bytes of the file, which the caller frees. */
-static unsigned char *
-read_file(struct tool *t, const char *name, struct rc_file *file)
-{
-    FILE *in = open_file(t, name);
-    const char *slash = strrchr(name, '/');
-    size_t size = first_size(in), n = 0, got;
-    unsigned char *data = NULL, *more;
-
-    for (;;) {
-        if (t->memory != 0 && size > t->memory)
-            tool_die(t, EXIT_IMPOSSIBLE,
-                     "%s: reading it needs more memory than the %zu MiB of "
-                     "--memory",
-                     t->source, t->memory >> 20);
-        if ((more = realloc(data, size)) == NULL)
-            tool_die(t, EXIT_IMPOSSIBLE, "%s: out of memory for %zu bytes", t->source, size);
-        data = more;
-        while (n < size && (got = fread(data + n, 1, size - n, in)) > 0)
-            n += got;
-        if (n < size)
-            break;
-        size *= 2;
-    }
-    if (ferror(in))
-        tool_die(t, EXIT_IMPOSSIBLE, "%s: reading failed (%s)", t->source, strerror(errno));
-    if (in != stdin)
-        fclose(in);
-    *file = (struct rc_file){slash == NULL ? name : slash + 1, data, n};
-    return data;
-}
-
-static const struct rc_format *
-format_of(struct tool *t, const struct rc_file *file)
-{
+/* A file that has been read, and what is in it. */
+struct source {
+    unsigned char *data;
+    struct rc_file file; /* of data; its name is without .gz where it was packed */
+    const char *name;    /* as it came, without its folder */
+    char inner[256];
     const struct rc_format *format;
-    struct rc_err err;
+    struct rc_channel channel[CHANNELS_MOST];
+    size_t n;
+};
 
-    if (args.format != NULL)
-        return rc_format_named(args.format);
-    if ((format = rc_format_find(file, &err)) == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", t->source, err.text);
-    return format;
+static enum rc_status
+refuse_stream(const char *name, struct rc_err *err)
+{
+    bool piped = strcmp(name, "-") == 0;
+
+    return rc_err_set(err,
+                      "it is a grid stream already and needs no import: give it to the next "
+                      "tool, as in '%s%s'",
+                      piped ? "... | rc-info" : "rc-info ", piped ? "" : name);
 }
 
-static size_t
-list_of(struct tool *t, const struct rc_format *format, const struct rc_file *file,
-        const struct rc_wish *wish, struct rc_channel channel[CHANNELS_MOST])
+/* Puts what was packed with gzip in place of the file. --memory bounds both together. */
+static enum rc_status
+unpack(const struct tool *t, struct source *s, struct rc_err *err)
 {
-    struct rc_err err;
-    size_t n = format->list(file, wish, channel, CHANNELS_MOST, &err);
+    size_t most = t->memory == 0             ? rc_memory_limit(s->file.size)
+                  : t->memory > s->file.size ? t->memory - s->file.size
+                                             : 0;
+    size_t size, n = strlen(s->name);
+    unsigned char *data = rc_file_unpack(&s->file, most, &size, err);
 
-    if (n == 0)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", t->source, err.text);
-    if (n > CHANNELS_MOST)
+    if (data == NULL)
+        return RC_FAIL;
+    free(s->data);
+    s->data = data;
+    s->file = (struct rc_file){s->name, data, size};
+    if (rc_file_named(&s->file, ".gz") && n < sizeof s->inner) { /* the suffix before it counts */
+        memcpy(s->inner, s->name, n - strlen(".gz"));
+        s->inner[n - strlen(".gz")] = '\0';
+        s->file.name = s->inner;
+    }
+    return RC_OK;
+}
+
+/* Reads a file and finds out what is in it; source_close frees it in either case. */
+static enum rc_status
+source_open(struct tool *t, const char *name, const struct rc_wish *wish, struct source *s,
+            struct rc_err *err)
+{
+    *s = (struct source){0};
+    t->source = import_source(name);
+    if ((s->data = import_read(t, name, &s->file, err)) == NULL)
+        return RC_FAIL;
+    s->name = s->file.name;
+    if (rc_file_packed(&s->file) && unpack(t, s, err) != RC_OK)
+        return RC_FAIL;
+    if (rc_file_holds(&s->file, 0, "RCG1\n", 5))
+        return refuse_stream(name, err);
+    s->format = args.format == NULL ? rc_format_find(&s->file, err) : rc_format_named(args.format);
+    if (s->format == NULL ||
+        (s->n = s->format->list(&s->file, wish, s->channel, CHANNELS_MOST, err)) == 0)
+        return RC_FAIL;
+    if (s->n > CHANNELS_MOST) {
         tool_warn(t, "%s: only the first %d of its %zu channels are looked at", t->source,
-                  CHANNELS_MOST, n);
-    return n < CHANNELS_MOST ? n : CHANNELS_MOST;
+                  CHANNELS_MOST, s->n);
+        s->n = CHANNELS_MOST;
+    }
+    return RC_OK;
+}
+
+static void
+source_close(struct source *s)
+{
+    free(s->data);
+}
+
+static enum rc_status
+pick_channel(const struct source *s, const struct rc_wish *wish, struct pick *pick,
+             struct rc_err *err)
+{
+    return import_pick(s->channel, s->n, args.channel, !isnan(wish->z_unit), pick, err);
 }
 
 /* ---- text output ---- */
@@ -231,10 +227,10 @@ number_or_dash(char text[RC_NUMBER_SIZE], double value)
 /* Least and greatest value of a channel, in its unit or, where the file gives none, as it stands
  * there; false when it cannot be read, which is said. */
 static bool
-range_of(struct tool *t, const struct rc_format *format, const struct rc_file *file,
-         const struct rc_wish *wish, const struct rc_channel *channel, size_t index,
+range_of(struct tool *t, const struct source *s, const struct rc_wish *wish, size_t index,
          double range[2])
 {
+    const struct rc_channel *channel = &s->channel[index];
     struct rc_wish lax = *wish;
     struct rc_grid *g;
     struct rc_err err;
@@ -245,7 +241,7 @@ range_of(struct tool *t, const struct rc_format *format, const struct rc_file *f
         lax.z_unit = 1;
     range[0] = INFINITY;
     range[1] = -INFINITY;
-    if ((g = format->read(file, &lax, index, NULL, &err)) == NULL) {
+    if ((g = s->format->read(&s->file, &lax, index, NULL, &err)) == NULL) {
         tool_warn(t, "%s: channel %zu: %s", t->source, index + 1, err.text);
         return false;
     }
@@ -257,119 +253,142 @@ range_of(struct tool *t, const struct rc_format *format, const struct rc_file *f
     return range[0] <= range[1];
 }
 
+/* A star marks the channel that is read. */
 static void
-print_list(struct tool *t, const struct rc_format *format, const struct rc_file *file,
-           const struct rc_wish *wish)
+print_list(struct tool *t, const struct source *s, const struct rc_wish *wish)
 {
-    struct rc_channel channel[CHANNELS_MOST];
-    size_t n = list_of(t, format, file, wish, channel);
     char dx[RC_NUMBER_SIZE], dy[RC_NUMBER_SIZE], low[RC_NUMBER_SIZE], high[RC_NUMBER_SIZE];
+    struct pick pick;
 
-    fprintf(t->out, "%s: %s\n", t->source, format->name);
-    fprintf(t->out, "%7s %8s %8s %22s %22s %-6s %24s %24s %s\n", "channel", "nx", "ny", "dx/m",
+    if (pick_channel(s, wish, &pick, NULL) != RC_OK)
+        pick.index = s->n;
+    fprintf(t->out, "%s: %s\n", t->source, s->format->name);
+    fprintf(t->out, "%9s %8s %8s %22s %22s %-6s %24s %24s %s\n", "channel", "nx", "ny", "dx/m",
             "dy/m", "unit", "least", "greatest", "name");
-    for (size_t k = 0; k < n; k++) {
+    for (size_t k = 0; k < s->n; k++) {
+        const struct rc_channel *c = &s->channel[k];
         double range[2];
-        bool known = range_of(t, format, file, wish, &channel[k], k, range);
+        bool known = range_of(t, s, wish, k, range);
 
-        fprintf(t->out, "%7zu %8zu %8zu %22s %22s %-6s %24s %24s %s\n", k + 1, channel[k].nx,
-                channel[k].ny, number_or_dash(dx, channel[k].dx), number_or_dash(dy, channel[k].dy),
-                channel[k].unit[0] == '\0' ? "-" : channel[k].unit,
+        fprintf(t->out, "%c %7zu %8zu %8zu %22s %22s %-6s %24s %24s %s\n",
+                k == pick.index ? '*' : ' ', k + 1, c->nx, c->ny, number_or_dash(dx, c->dx),
+                number_or_dash(dy, c->dy), c->unit[0] == '\0' ? "-" : c->unit,
                 number_or_dash(low, known ? range[0] : NAN),
-                number_or_dash(high, known ? range[1] : NAN), channel[k].name);
+                number_or_dash(high, known ? range[1] : NAN), c->name);
     }
+}
+
+/* A file that cannot be listed does not keep the next ones from being. */
+static void
+list_file(struct tool *t, const char *name, const struct rc_wish *wish)
+{
+    struct source s;
+    struct rc_err err;
+
+    if (source_open(t, name, wish, &s, &err) == RC_OK) {
+        print_list(t, &s, wish);
+    } else {
+        fflush(t->out); /* so that what a terminal shows stays in the order of the files */
+        fprintf(stderr, "%s: %s: %s\n", info.name, t->source, err.text);
+        tool_fails_with(t, EXIT_IMPOSSIBLE);
+    }
+    source_close(&s);
 }
 
 /* ---- heights ---- */
 
-/* "1 'Phase' in deg, 2 'Current' in A" */
-static const char *
-channel_names(const struct rc_channel *channel, size_t n, char *names, size_t size)
-{
-    names[0] = '\0';
-    for (size_t k = 0; k < n; k++) {
-        size_t used = strlen(names);
-        bool in = channel[k].unit[0] != '\0';
-        snprintf(names + used, size - used, "%s%zu '%.*s'%s%s", used == 0 ? "" : ", ", k + 1,
-                 (int)sizeof channel[k].name - 1, channel[k].name, in ? " in " : "",
-                 channel[k].unit);
-    }
-    return names;
-}
-
-static size_t
-pick_channel(struct tool *t, const struct rc_wish *wish, const struct rc_channel *channel, size_t n)
-{
-    char names[CHANNELS_MOST * (sizeof *channel + 16)];
-    double number;
-    const char *end;
-
-    if (args.channel == NULL) {
-        for (size_t k = 0; k < n; k++)
-            if (strcmp(channel[k].unit, "m") == 0)
-                return k;
-        if (!isnan(wish->z_unit) || channel[0].unit[0] == '\0')
-            return 0; /* its reader says what it lacks */
-        tool_die(t, EXIT_IMPOSSIBLE,
-                 "%s: no channel is a height: there are %s; --channel takes one "
-                 "as it is, --z-unit says how many metres its unit is",
-                 t->source, channel_names(channel, n, names, sizeof names));
-    }
-    for (size_t k = 0; k < n; k++)
-        if (strcmp(channel[k].name, args.channel) == 0)
-            return k;
-    end = rc_number_read(args.channel, false, &number);
-    if (end != NULL && *end == '\0' && number >= 1 && number <= (double)n &&
-        number == floor(number))
-        return (size_t)number - 1;
-    tool_die(t, EXIT_IMPOSSIBLE, "%s: no channel '%s'; there are %s", t->source, args.channel,
-             channel_names(channel, n, names, sizeof names));
-}
-
-static void
-check_memory(struct tool *t, const struct rc_file *file, const struct rc_channel *channel)
+static enum rc_status
+check_memory(const struct tool *t, const struct rc_file *file, const struct rc_channel *channel,
+             struct rc_err *err)
 {
     double bytes = (double)file->size + 8.0 * (double)channel->nx * (double)channel->ny;
 
-    if (t->memory != 0 && bytes > (double)t->memory)
-        tool_die(t, EXIT_IMPOSSIBLE,
-                 "%s: %zu x %zu nodes and the file need about %.0f MiB, "
-                 "--memory allows %zu",
-                 t->source, channel->nx, channel->ny, ceil(bytes / 1048576), t->memory >> 20);
+    if (t->memory == 0 || bytes <= (double)t->memory)
+        return RC_OK;
+    return rc_err_set(err,
+                      "%zu x %zu nodes and the file need about %.0f MiB, "
+                      "--memory allows %zu",
+                      channel->nx, channel->ny, ceil(bytes / 1048576), t->memory >> 20);
+}
+
+/* Brings any profile to the step that --even gives, and says where it is not known. */
+static enum rc_status
+even_out(struct tool *t, const struct source *s, const struct rc_wish *wish, struct rc_grid *g,
+         struct rc_err *err)
+{
+    size_t missing = 0;
+
+    if (wish->even_step > 0 && import_even(&s->file, wish, g, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t k = 0; k < g->nx && g->ny == 1; k++)
+        missing += isnan(g->v[k]) != 0;
+    if (missing > 0)
+        tool_warn(t,
+                  "%s: %zu of %zu nodes are missing: the points next to them are, or are more than "
+                  "%d steps apart",
+                  t->source, missing, g->nx, RC_EVEN_GAP);
+    /* history holds the step; with --dx that is it */
+    args.even = wish->even_step > 0 ? wish->even_step : g->ny == 1 && isnan(wish->dx) ? g->dx : NAN;
+    return RC_OK;
+}
+
+/* The keys that an import adds to what its reader found. */
+static enum rc_status
+add_keys(struct tool *t, const struct source *s, size_t number, struct rc_grid *g,
+         struct rc_err *err)
+{
+    if (strcmp(s->name, "-") != 0 &&
+        rc_text_keep(g, "source", s->name, strlen(s->name), err) != RC_OK)
+        return RC_FAIL;
+    if (t->operands > 1 && rc_grid_set_number(g, "case", (double)number, err) != RC_OK)
+        return RC_FAIL;
+    return rc_grid_history(g, tool_history(t), err);
+}
+
+static enum rc_status
+write_heights(struct tool *t, const struct source *s, const struct rc_wish *wish, size_t number,
+              struct rc_err *err)
+{
+    struct rc_notes notes = {0};
+    struct rc_grid *g;
+    struct pick pick;
+
+    if (pick_channel(s, wish, &pick, err) != RC_OK ||
+        check_memory(t, &s->file, &s->channel[pick.index], err) != RC_OK ||
+        (g = s->format->read(&s->file, wish, pick.index, &notes, err)) == NULL)
+        return RC_FAIL;
+    if (pick.said[0] != '\0')
+        tool_warn(t, "%s: %s", t->source, pick.said);
+    for (size_t k = 0; k < notes.n; k++)
+        tool_warn(t, "%s: %s", t->source, notes.text[k]);
+    if ((wish->even && even_out(t, s, wish, g, err) != RC_OK) ||
+        add_keys(t, s, number, g, err) != RC_OK) {
+        rc_grid_free(g);
+        return RC_FAIL;
+    }
+    tool_note(t, "%s: %s, channel %zu '%s', %zu x %zu nodes", t->source, s->format->name,
+              pick.index + 1, s->channel[pick.index].name, g->nx, g->ny);
+    tool_write(t, g);
+    rc_grid_free(g);
+    return RC_OK;
 }
 
 static void
-write_heights(struct tool *t, const struct rc_format *format, const struct rc_file *file,
-              const struct rc_wish *wish, size_t number)
+import_file(struct tool *t, const char *name, const struct rc_wish *wish, size_t number)
 {
-    struct rc_channel channel[CHANNELS_MOST];
-    size_t n = list_of(t, format, file, wish, channel);
-    size_t index = pick_channel(t, wish, channel, n);
-    struct rc_notes notes = {0};
-    struct rc_grid *g;
+    struct source s;
     struct rc_err err;
 
-    check_memory(t, file, &channel[index]);
-    if ((g = format->read(file, wish, index, &notes, &err)) == NULL)
+    if (source_open(t, name, wish, &s, &err) != RC_OK ||
+        write_heights(t, &s, wish, number, &err) != RC_OK)
         tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", t->source, err.text);
-    for (size_t k = 0; k < notes.n; k++)
-        tool_warn(t, "%s: %s", t->source, notes.text[k]);
-    if ((strcmp(file->name, "-") != 0 &&
-         rc_text_keep(g, "source", file->name, strlen(file->name), &err) != RC_OK) ||
-        (t->operands > 1 && rc_grid_set_number(g, "case", (double)number, &err) != RC_OK) ||
-        rc_grid_history(g, tool_history(t), &err) != RC_OK)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", t->source, err.text);
-    tool_note(t, "%s: %s, channel %zu '%s', %zu x %zu nodes", t->source, format->name, index + 1,
-              channel[index].name, g->nx, g->ny);
-    tool_write(t, g);
-    rc_grid_free(g);
+    source_close(&s);
 }
 
 int
 main(int argc, char **argv)
 {
     struct rc_wish wish;
-    struct rc_file file;
     struct tool t;
 
     tool_start(&t, &info, argc, argv, &args);
@@ -380,15 +399,10 @@ main(int argc, char **argv)
     }
     if (t.operands == 0)
         tool_die(&t, EXIT_USAGE, "name the files to import, or - for standard input");
-    for (size_t k = 0; k < t.operands; k++) {
-        unsigned char *data = read_file(&t, t.operand[k], &file);
-        const struct rc_format *format = format_of(&t, &file);
-
+    for (size_t k = 0; k < t.operands; k++)
         if (args.list)
-            print_list(&t, format, &file, &wish);
+            list_file(&t, t.operand[k], &wish);
         else
-            write_heights(&t, format, &file, &wish, k + 1);
-        free(data);
-    }
+            import_file(&t, t.operand[k], &wish, k + 1);
     return tool_finish(&t);
 }

@@ -4,17 +4,29 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "formats/core/core.h"
 #include "libcontact/contact.h"
+#include "tools/info/info.h"
 
 static struct args {
     bool json;
+    struct info_wanted wanted;
 } args;
 
 /* clang-format off */
 static const struct opt opts[] = {
     {.name = "json", .type = OPT_FLAG, .at = offsetof(struct args, json),
      .help = "one JSON object a line, a line a frame, in SI"},
+    {.name = "areal", .type = OPT_FLAG, .at = offsetof(struct args, wanted.areal),
+     .help = "of heights: parameters of ISO 25178-2, of profiles of ISO 21920-2"},
+    {.name = "psd", .type = OPT_FLAG, .at = offsetof(struct args, wanted.psd),
+     .help = "of heights: power spectral density over rings, Hurst exponent"},
+    {.name = "fit", .type = OPT_NUMBERS, .unit = UNIT_M, .at = offsetof(struct args, wanted.fit),
+     .min = 0, .max = INFINITY, .above = true, .arg = "LMIN,LMAX",
+     .help = "wavelengths that the Hurst exponent is fitted to (--psd)"},
+    {.name = "psd-map", .type = OPT_TEXT, .at = offsetof(struct args, wanted.psd_map),
+     .arg = "FILE", .help = "write the spectrum itself, a frame psd, to FILE (--psd)"},
+    {.name = "patches", .type = OPT_FLAG, .at = offsetof(struct args, wanted.patches),
+     .help = "of pressures: patches of contact, corrected area, perimeter, histogram"},
     {.name = NULL},
 };
 /* clang-format on */
@@ -24,7 +36,8 @@ static const struct tool_info info = {
     .summary = "Show what is in a grid stream, with its statistics",
     .operands = "[FILE...]",
     .examples = "  rc-info flat.rcg\n"
-                "  rc-solve --load 240N --estar 116GPa flat.rcg | rc-info --json\n",
+                "  rc-info --areal --psd flat.rcg\n"
+                "  rc-solve --load 240N --estar 116GPa flat.rcg | rc-info --json --patches\n",
     .opts = opts,
     .reads = READS_STREAM,
     .writes = WRITES_TEXT,
@@ -105,7 +118,8 @@ add_result(struct json *j, const struct result *r)
 }
 
 static void
-show_json(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s)
+show_json(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s,
+          const struct info_figures *f)
 {
     struct result result;
     struct json j;
@@ -136,6 +150,7 @@ show_json(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s
     for (size_t k = 0; k < g->keys; k++)
         json_text(&j, g->key[k].name, g->key[k].value);
     json_end(&j, '}');
+    info_json(f, &j);
     json_close(&j);
 }
 
@@ -164,17 +179,6 @@ put_figure(FILE *out, const char *name, double value, const char *unit)
     put_text(out, unit, strlen(unit));
 }
 
-/* "37.5 um2": the square of the length whose prefix brings the number nearest to 1..1e6. */
-static void
-put_area(FILE *out, double area)
-{
-    int power = 0;
-
-    while (area > 0 && power > -9 && area < pow(10, 2 * power))
-        power -= 3;
-    fprintf(out, "%.6g %sm2", area / pow(10, 2 * power), rc_prefix_of(power));
-}
-
 static void
 put_result(FILE *out, const struct rc_grid *g, const struct result *r)
 {
@@ -183,10 +187,9 @@ put_result(FILE *out, const struct rc_grid *g, const struct result *r)
     if (!isnan(r->load))
         put_figure(out, "load", r->load, "N");
     if (!isnan(r->contact_area)) {
-        fprintf(out, "  %-10s ", "contact");
-        put_area(out, r->contact_area);
-        fprintf(out, ", %.3g %% of the map (%zu of %zu nodes)\n", 100 * r->contact_fraction,
-                r->contact_nodes, g->nx * g->ny);
+        fprintf(out, "  %-10s %s, %.3g %% of the map (%zu of %zu nodes)\n", "contact",
+                shown_area(text, r->contact_area), 100 * r->contact_fraction, r->contact_nodes,
+                g->nx * g->ny);
     }
     if (!isnan(r->max_pressure))
         fprintf(out, "  %-10s at most %sPa\n", "pressure",
@@ -195,11 +198,9 @@ put_result(FILE *out, const struct rc_grid *g, const struct result *r)
         put_figure(out, "approach", r->approach, "m");
     if (!isnan(r->hardness)) {
         fprintf(out, "  %-10s %sPa", "hardness", shown_number(text, r->hardness, 6, "Pa"));
-        if (r->plastic_nodes > 0) {
-            fputs(", reached on ", out);
-            put_area(out, r->plastic_area);
-            fprintf(out, " (%zu node%s)", r->plastic_nodes, r->plastic_nodes == 1 ? "" : "s");
-        }
+        if (r->plastic_nodes > 0)
+            fprintf(out, ", reached on %s (%zu node%s)", shown_area(text, r->plastic_area),
+                    r->plastic_nodes, r->plastic_nodes == 1 ? "" : "s");
         fprintf(out, "%s\n", r->plastic_area == 0 ? ", not reached" : "");
     }
     if (r->converged != NULL)
@@ -270,7 +271,8 @@ put_keys(FILE *out, const struct rc_grid *g)
 }
 
 static void
-show_text(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s, bool first)
+show_text(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s,
+          const struct info_figures *f, bool first)
 {
     struct result result;
     char where[512];
@@ -283,6 +285,7 @@ show_text(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s
     }
     put_grid(t->out, g);
     put_statistics(t->out, g, s);
+    info_text(f, t->out);
     put_keys(t->out, g);
 }
 
@@ -290,20 +293,25 @@ int
 main(int argc, char **argv)
 {
     struct rc_statistics statistics;
+    struct info_figures figures;
     struct rc_grid *g;
     struct tool t;
     bool first = true;
 
     tool_start(&t, &info, argc, argv, &args);
+    info_check(&args.wanted, &t);
     while ((g = tool_read(&t)) != NULL) {
         struct rc_shape shape = rc_grid_shape(g);
         rc_measure(&shape, g->v, &statistics);
+        info_compute(&args.wanted, &t, g, &figures);
         if (args.json)
-            show_json(&t, g, &statistics);
+            show_json(&t, g, &statistics, &figures);
         else
-            show_text(&t, g, &statistics, first);
+            show_text(&t, g, &statistics, &figures, first);
         first = false;
+        info_free(&figures);
         rc_grid_free(g);
     }
+    info_end(&args.wanted, &t);
     return tool_finish(&t);
 }

@@ -1,4 +1,4 @@
-/* rc-pick: some frames of a stream, and what their headers say. */
+/* rc-pick: some frames of a stream, parts of their maps, and what their headers say. */
 #include "tools/cli/cli.h"
 
 #include <math.h>
@@ -7,15 +7,26 @@
 
 #include "formats/core/core.h"
 #include "libcontact/contact.h"
+#include "tools/pick/pick.h"
 
 static struct args {
     struct wanted wanted;
     struct steps steps;
 } args;
 
+#define STEP(word, argument, what)                                                                 \
+    {                                                                                              \
+        .name = word, .type = OPT_TEXTS, .at = offsetof(struct args, steps), .result = true,       \
+        .arg = argument, .help = what                                                              \
+    }
+
 /* clang-format off */
 static const struct opt opts[] = {
     WANTED_OPTIONS(struct args, wanted, true),
+    STEP("crop", "X,Y,W,H", "cut out a part: nodes, or lengths with their unit"),
+    STEP("resample", "DX[,DY]|NXxNY", "to other spacings, or numbers of nodes"),
+    STEP("mirror", "x|y", "left to right, or top to bottom"),
+    STEP("rotate", "90|180|270", "counterclockwise"),
     {.name = "set", .type = OPT_TEXTS, .at = offsetof(struct args, steps), .result = true,
      .arg = "KEY=VALUE",
      .help = "set a key of every frame, again for each; KEY= removes it"},
@@ -27,9 +38,10 @@ static void settle(struct tool *t);
 
 static const struct tool_info info = {
     .name = "rc-pick",
-    .summary = "Choose frames of a grid stream, and set the keys of their headers",
+    .summary = "Choose frames of a grid stream, cut, resample and turn them, set their keys",
     .operands = "[FILE...]",
     .examples = "  rc-pick --channel height result.rcg -o surface.rcg\n"
+                "  rc-pick --crop 10um,0,20um,20um --resample 1um surface.rcg | rc-info\n"
                 "  rc-pick --channel pressure --set load= result.rcg | rc-info\n",
     .opts = opts,
     .reads = READS_STREAM,
@@ -146,9 +158,13 @@ settle(struct tool *t)
     if (args.steps.n == 0 && args.wanted.channel == NULL && args.wanted.depth.n == 0 &&
         args.wanted.number.n == 0)
         tool_die(t, EXIT_USAGE,
-                 "nothing to do: give --channel, --depth or --case, or --set KEY=VALUE");
+                 "nothing to do: give --channel, --depth or --case, or --set KEY=VALUE, or --crop, "
+                 "--resample, --mirror or --rotate");
     for (size_t k = 0; k < args.steps.n; k++)
-        settle_set(t, &args.steps.step[k]);
+        if (pick_geometry(&args.steps.step[k]))
+            pick_geometry_settle(t, &args.steps.step[k]);
+        else
+            settle_set(t, &args.steps.step[k]);
 }
 
 /* ---- frame by frame ---- */
@@ -188,7 +204,10 @@ change(struct tool *t, struct rc_grid *g)
     if (args.wanted.channel != NULL || args.wanted.depth.n > 0)
         status = rc_grid_set(g, "frames", NULL, &err); /* there may be fewer now */
     for (size_t k = 0; k < args.steps.n && status == RC_OK; k++)
-        status = set(g, &args.steps.step[k], &err);
+        if (pick_geometry(&args.steps.step[k]))
+            pick_geometry_do(t, g, &args.steps.step[k]);
+        else
+            status = set(g, &args.steps.step[k], &err);
     if (status == RC_OK)
         status = rc_grid_history(g, tool_history(t), &err);
     if (status != RC_OK)

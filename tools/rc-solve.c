@@ -138,6 +138,8 @@ set_keys(struct run *run, struct rc_grid *g, const struct rc_contact *c)
 
     if (rc_grid_set(g, "boundary", args.physics.periodic ? "periodic" : "free", &err) != RC_OK ||
         rc_grid_set(g, "converged", c->converged ? "yes" : "no", &err) != RC_OK ||
+        coating_set(g, args.physics.coating.layers > 0 ? &args.physics.coating : NULL, &err) !=
+            RC_OK ||
         rc_grid_history(g, tool_history(&run->t), &err) != RC_OK)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     if (run->steps->n > 1)
@@ -249,15 +251,13 @@ look_at_contact(struct run *run, const struct rc_grid *g, const double *p, struc
 {
     struct rc_shape shape = rc_grid_shape(g);
     struct rc_patch_options options = {.boundary = args.physics.periodic ? RC_PERIODIC : RC_FREE,
+                                       .each = report_wanted(&run->report),
                                        .threads = run->t.threads};
-    struct rc_patches patches;
     struct rc_err err;
 
-    if (rc_patches_find(&shape, p, &options, &patches, &err) != RC_OK)
+    if (rc_patches_find(&shape, p, &options, &s->patches, &err) != RC_OK)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    s->patches = patches.count;
     s->slope = rc_measure_contact_slope(&shape, g->v, p);
-    rc_patches_free(&patches);
 }
 
 static void
@@ -283,6 +283,7 @@ do_load(struct run *run, const struct rc_grid *g, struct rc_solver *solver, stru
         tool_fails_with(&run->t, EXIT_SHORT);
     solve_report(run, g, solver, s);
     put_out(run, g, &r, solver, &s->contact);
+    rc_patches_free(&s->patches);
     results_free(&r);
 }
 

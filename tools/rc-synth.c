@@ -1,23 +1,21 @@
+/* rc-synth: surfaces made from a formula or from a seed. */
 #include "tools/cli/cli.h"
 
 #include <errno.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "libcontact/contact.h"
+#include "tools/synth/synth.h"
 
-static struct args {
-    size_t nx, ny;
-    double dx, dy;
-    const char *like;
-    double radius, amplitude;
-    struct numbers wavelength;
-    double hurst, rms_slope, rms_height, rolloff, short_cut, long_cut;
-    size_t seed;
-} args = {
+static struct synth_args args = {
     .dx = NAN,
     .dy = NAN,
-    .radius = NAN,
+    .direction = NAN,
+    .slope = NAN,
+    .height = NAN,
+    .edge = NAN,
     .amplitude = NAN,
     .hurst = NAN,
     .rms_slope = NAN,
@@ -25,44 +23,71 @@ static struct args {
     .rolloff = NAN,
     .short_cut = NAN,
     .long_cut = NAN,
+    .anisotropy = NAN,
+    .skewness = NAN,
+    .weibull = NAN,
     .seed = 1,
 };
 
 #define LENGTH(word, member, what)                                                                 \
     {                                                                                              \
-        .name = word, .type = OPT_NUMBER, .unit = UNIT_M, .at = offsetof(struct args, member),     \
-        .max = INFINITY, .above = true, .result = true, .arg = "LENGTH", .help = what              \
+        .name = word, .type = OPT_NUMBER, .unit = UNIT_M,                                          \
+        .at = offsetof(struct synth_args, member), .max = INFINITY, .above = true, .result = true, \
+        .arg = "LENGTH", .help = what                                                              \
     }
 
 /* clang-format off */
 static const struct opt opts[] = {
-    {.name = "nx", .type = OPT_COUNT, .at = offsetof(struct args, nx), .min = 1, .max = 1e9,
+    {.name = "nx", .type = OPT_COUNT, .at = offsetof(struct synth_args, nx), .min = 1, .max = 1e9,
      .result = true, .arg = "N", .help = "nodes in a row"},
-    {.name = "ny", .type = OPT_COUNT, .at = offsetof(struct args, ny), .min = 1, .max = 1e9,
+    {.name = "ny", .type = OPT_COUNT, .at = offsetof(struct synth_args, ny), .min = 1, .max = 1e9,
      .result = true, .arg = "N", .help = "rows (default: as --nx; 1 makes a profile)"},
     LENGTH("dx", dx, "distance of nodes in a row"),
     LENGTH("dy", dy, "distance of rows (default: as --dx)"),
-    {.name = "like", .type = OPT_TEXT, .at = offsetof(struct args, like), .arg = "FILE",
+    {.name = "like", .type = OPT_TEXT, .at = offsetof(struct synth_args, like), .arg = "FILE",
      .help = "the grid of FILE's first frame instead"},
-    LENGTH("radius", radius, "sphere: its radius"),
+    {.name = "radius", .type = OPT_NUMBERS, .unit = UNIT_M, .at = offsetof(struct synth_args, radius),
+     .max = INFINITY, .above = true, .result = true, .arg = "R1[,R2]",
+     .help = "sphere, cylinder, punch: its radius; paraboloid: two"},
+    {.name = "slope", .type = OPT_NUMBER, .at = offsetof(struct synth_args, slope), .max = INFINITY,
+     .above = true, .result = true, .arg = "SLOPE", .help = "cone: of its flank"},
+    {.name = "height", .type = OPT_NUMBER, .unit = UNIT_M, .at = offsetof(struct synth_args, height),
+     .max = INFINITY, .above = true, .result = true, .arg = "HEIGHT",
+     .help = "punch: of its end over what is around"},
+    LENGTH("edge", edge, "punch: radius of its edge (default: sharp)"),
+    {.name = "direction", .type = OPT_NUMBER, .at = offsetof(struct synth_args, direction), .min = -360,
+     .max = 360, .result = true, .arg = "DEGREES",
+     .help = "cylinder: of its axis; paraboloid: of R1; selfaffine: of the lay"},
+    {.name = "place", .type = OPT_NUMBERS, .unit = UNIT_M, .at = offsetof(struct synth_args, place),
+     .result = true, .word = "highest", .arg = "X,Y|highest",
+     .help = "indenters: where the apex stands (default: the middle)"},
     {.name = "amplitude", .type = OPT_NUMBER, .unit = UNIT_M,
-     .at = offsetof(struct args, amplitude), .max = INFINITY, .above = true, .result = true,
+     .at = offsetof(struct synth_args, amplitude), .max = INFINITY, .above = true, .result = true,
      .arg = "HEIGHT", .help = "wave: mean plane to crest"},
     {.name = "wavelength", .type = OPT_NUMBERS, .unit = UNIT_M,
-     .at = offsetof(struct args, wavelength), .max = INFINITY, .result = true, .arg = "LX[,LY]",
+     .at = offsetof(struct synth_args, wavelength), .max = INFINITY, .result = true, .arg = "LX[,LY]",
      .help = "wave: along x, or along x and y (0: none)"},
-    {.name = "hurst", .type = OPT_NUMBER, .at = offsetof(struct args, hurst), .max = 1,
+    {.name = "hurst", .type = OPT_NUMBER, .at = offsetof(struct synth_args, hurst), .max = 1,
      .above = true, .result = true, .arg = "H", .help = "selfaffine: Hurst exponent"},
-    {.name = "rms-slope", .type = OPT_NUMBER, .at = offsetof(struct args, rms_slope),
+    {.name = "rms-slope", .type = OPT_NUMBER, .at = offsetof(struct synth_args, rms_slope),
      .max = INFINITY, .above = true, .result = true, .arg = "SLOPE",
      .help = "selfaffine: RMS slope, or"},
     {.name = "rms-height", .type = OPT_NUMBER, .unit = UNIT_M,
-     .at = offsetof(struct args, rms_height), .max = INFINITY, .above = true, .result = true,
+     .at = offsetof(struct synth_args, rms_height), .max = INFINITY, .above = true, .result = true,
      .arg = "HEIGHT", .help = "selfaffine: RMS height"},
     LENGTH("rolloff", rolloff, "selfaffine: flat above (default: not flat)"),
     LENGTH("short-cut", short_cut, "selfaffine: shortest wave (default: 2 nodes)"),
     LENGTH("long-cut", long_cut, "selfaffine: longest wave (default: the map)"),
-    {.name = "seed", .type = OPT_COUNT, .at = offsetof(struct args, seed), .max = 9e15,
+    {.name = "anisotropy", .type = OPT_NUMBER, .at = offsetof(struct synth_args, anisotropy), .min = 1,
+     .max = INFINITY, .result = true, .arg = "RATIO",
+     .help = "selfaffine: of the waves along the lay to those across"},
+    {.name = "skewness", .type = OPT_NUMBER, .at = offsetof(struct synth_args, skewness),
+     .min = -RC_SKEWNESS_MAX, .max = RC_SKEWNESS_MAX, .result = true, .arg = "S",
+     .help = "selfaffine: of the heights, by a gamma distribution"},
+    {.name = "weibull", .type = OPT_NUMBER, .at = offsetof(struct synth_args, weibull),
+     .min = RC_WEIBULL_MIN, .max = RC_WEIBULL_MAX, .result = true, .arg = "SHAPE",
+     .help = "selfaffine: heights of a Weibull distribution"},
+    {.name = "seed", .type = OPT_COUNT, .at = offsetof(struct synth_args, seed), .max = 9e15,
      .result = true, .arg = "N", .help = "selfaffine: another one, another surface (default: 1)"},
     {.name = NULL},
 };
@@ -71,118 +96,14 @@ static const struct opt opts[] = {
 static const struct tool_info info = {
     .name = "rc-synth",
     .summary = "Make an analytic or a random surface",
-    .operands = "sphere|wave|selfaffine",
+    .operands = "sphere|cylinder|paraboloid|cone|punch|wave|selfaffine",
     .examples = "  rc-synth sphere --radius 2mm --nx 65 --dx 1um > sphere.rcg\n"
+                "  rc-synth cone --slope 0.05 --nx 65 --dx 1um > cone.rcg\n"
                 "  rc-synth selfaffine --hurst 0.8 --rms-slope 0.1 --nx 512 --dx 1um | rc-info\n",
     .opts = opts,
     .reads = READS_FILES,
     .writes = WRITES_STREAM,
 };
-
-/* ---- shapes: check, make, and the table ---- */
-
-/* Whether whole waves fit the side; a tolerance for nx * dx / wavelength in decimal numbers. */
-static bool
-fits(size_t n, double d, double wavelength)
-{
-    double waves = (double)n * d / wavelength;
-
-    return n == 1 || isinf(wavelength) ||
-           (waves > 0.5 && fabs(waves - round(waves)) <= 1e-9 * waves);
-}
-
-/* A side of the grid that a wave runs along has at least two nodes for each period. */
-static void
-check_wave(struct tool *t, const struct rc_shape *shape)
-{
-    const struct numbers *w = &args.wavelength;
-    const double d[] = {shape->dx, shape->dy};
-    const size_t n[] = {shape->nx, shape->ny};
-
-    if (w->n > 2 || w->v[0] + (w->n == 2 ? w->v[1] : 0) == 0)
-        tool_die(t, EXIT_USAGE, "--wavelength takes LX, or LX,LY where one of them may be 0");
-    for (size_t k = 0; k < w->n; k++)
-        if (n[k] > 1 && w->v[k] != 0 && w->v[k] < 2 * d[k] * (1 - 1e-9))
-            tool_die(t, EXIT_USAGE,
-                     "--wavelength %g m: shorter than two nodes %g m apart: take a "
-                     "finer grid",
-                     w->v[k], d[k]);
-}
-
-static enum rc_status
-make_wave(const struct rc_shape *shape, double *h, bool *periodic, struct rc_err *err)
-{
-    const struct numbers *w = &args.wavelength;
-    double x = w->v[0] == 0 ? INFINITY : w->v[0];
-    double y = w->n < 2 || w->v[1] == 0 ? INFINITY : w->v[1];
-
-    (void)err;
-    rc_synth_wave(shape, args.amplitude, x, y, h);
-    *periodic = fits(shape->nx, shape->dx, x) && fits(shape->ny, shape->dy, y);
-    return RC_OK;
-}
-
-static enum rc_status
-make_sphere(const struct rc_shape *shape, double *h, bool *periodic, struct rc_err *err)
-{
-    (void)err;
-    rc_synth_sphere(shape, args.radius, h);
-    *periodic = false;
-    return RC_OK;
-}
-
-static void
-check_selfaffine(struct tool *t, const struct rc_shape *shape)
-{
-    (void)shape;
-    if (isnan(args.rms_slope) == isnan(args.rms_height))
-        tool_die(t, EXIT_USAGE,
-                 "selfaffine needs one of --rms-slope and --rms-height: the other "
-                 "one follows");
-}
-
-/* The library's word for what was not given is 0. */
-static double
-or_default(double value)
-{
-    return isnan(value) ? 0 : value;
-}
-
-static enum rc_status
-make_selfaffine(const struct rc_shape *shape, double *h, bool *periodic, struct rc_err *err)
-{
-    const struct rc_selfaffine what = {
-        .hurst = args.hurst,
-        .rms_height = or_default(args.rms_height),
-        .rms_slope = or_default(args.rms_slope),
-        .long_cut = or_default(args.long_cut),
-        .rolloff = or_default(args.rolloff),
-        .short_cut = or_default(args.short_cut),
-        .seed = args.seed,
-    };
-
-    *periodic = true;
-    return rc_synth_selfaffine(shape, &what, h, err);
-}
-
-/* clang-format off */
-static const struct shape_row {
-    const char *name;
-    const char *needs[4], *takes[8]; /* options, ended by NULL                               */
-    size_t maps;                     /* arrays of the map's size that it takes to make it    */
-    void (*check)(struct tool *t, const struct rc_shape *shape); /* may be NULL              */
-    enum rc_status (*make)(const struct rc_shape *shape, double *h, bool *periodic,
-                           struct rc_err *err);
-} shapes[] = {
-    {.name = "sphere", .needs = {"radius"}, .maps = 1, .make = make_sphere},
-    {.name = "wave", .needs = {"amplitude", "wavelength"}, .maps = 1, .check = check_wave,
-     .make = make_wave},
-    {.name = "selfaffine", .needs = {"hurst"},
-     .takes = {"rms-slope", "rms-height", "rolloff", "short-cut", "long-cut", "seed"}, .maps = 2,
-     .check = check_selfaffine, .make = make_selfaffine},
-    {.name = NULL},
-};
-/* clang-format on */
 
 /* ---- the command line ---- */
 
@@ -197,14 +118,14 @@ listed(const char *const *list, const char *name)
     return false;
 }
 
-static const struct shape_row *
+static const struct synth_shape *
 find_shape(struct tool *t)
 {
     if (t->operands == 0)
         tool_die(t, EXIT_USAGE, "no shape named: one of %s; see rc-synth --help", info.operands);
     if (t->operands > 1)
         tool_die(t, EXIT_USAGE, "'%s' after %s: one shape at a time", t->operand[1], t->operand[0]);
-    for (const struct shape_row *row = shapes; row->name != NULL; row++)
+    for (const struct synth_shape *row = synth_shapes; row->name != NULL; row++)
         if (strcmp(row->name, t->operand[0]) == 0)
             return row;
     tool_die(t, EXIT_USAGE, "unknown shape '%s': one of %s", t->operand[0], info.operands);
@@ -212,7 +133,7 @@ find_shape(struct tool *t)
 
 /* Every option that the shape needs is given, and none that it has no use for. */
 static void
-check_options(struct tool *t, const struct shape_row *row)
+check_options(struct tool *t, const struct synth_shape *row)
 {
     for (const char *const *name = row->needs; *name != NULL; name++)
         if (!tool_given(t, *name))
@@ -223,31 +144,82 @@ check_options(struct tool *t, const struct shape_row *row)
             tool_die(t, EXIT_USAGE, "--%s has no meaning for %s", o->name, row->name);
 }
 
-static struct rc_shape
-shape_of_file(struct tool *t)
+/* The first frame of FILE, or with a channel the first one of that. */
+static struct rc_grid *
+frame_of_file(struct tool *t, const char *channel)
 {
     bool standard = strcmp(args.like, "-") == 0;
     FILE *file = standard ? stdin : fopen(args.like, "rb");
     struct rc_reader *reader;
     struct rc_grid *g = NULL;
-    struct rc_shape shape;
     struct rc_err err;
     enum rc_status status;
 
     if (file == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "--like %s: %s", args.like, strerror(errno));
-    reader = rc_reader_new(file, 0, t->memory, &err);
-    status = reader == NULL ? RC_FAIL : rc_reader_next(reader, &g, &err);
+    if ((reader = rc_reader_new(file, 0, t->memory, &err)) == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "--like %s: %s", args.like, err.text);
+    do {
+        rc_grid_free(g);
+        status = rc_reader_next(reader, &g, &err);
+    } while (status == RC_MORE && channel != NULL && strcmp(g->channel, channel) != 0);
     if (status == RC_FAIL)
         tool_die(t, EXIT_IMPOSSIBLE, "--like %s: %s", args.like, err.text);
     if (g == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "--like %s: no frame is in it", args.like);
-    shape = rc_grid_shape(g);
-    rc_grid_free(g);
+        tool_die(t, EXIT_IMPOSSIBLE, "--like %s: no %sframe is in it", args.like,
+                 channel == NULL ? "" : "height ");
     rc_reader_free(reader);
     if (!standard)
         fclose(file);
+    return g;
+}
+
+/* Where the highest of the nodes that were measured stands, as if --place had said it. */
+static void
+place_highest(struct tool *t, const struct rc_grid *g)
+{
+    size_t n = g->nx * g->ny, top = n;
+
+    for (size_t k = 0; k < n; k++)
+        if (isfinite(g->v[k]) && (top == n || g->v[k] > g->v[top]))
+            top = k;
+    if (top == n)
+        tool_die(t, EXIT_IMPOSSIBLE,
+                 "--like %s: no height was measured: --place highest is nowhere", args.like);
+    args.place.n = 2;
+    if ((args.place.v = malloc(2 * sizeof *args.place.v)) == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
+    args.place.v[0] = ((double)(top % g->nx) - 0.5 * (double)(g->nx - 1)) * g->dx;
+    args.place.v[1] = ((double)(top / g->nx) - 0.5 * (double)(g->ny - 1)) * g->dy;
+}
+
+static struct rc_shape
+shape_of_file(struct tool *t)
+{
+    bool highest = tool_given(t, "place") && args.place.n == 0;
+    struct rc_grid *g = frame_of_file(t, highest ? "height" : NULL);
+    struct rc_shape shape = rc_grid_shape(g);
+
+    if (highest)
+        place_highest(t, g);
+    rc_grid_free(g);
     return shape;
+}
+
+static void
+check_place(struct tool *t, const struct rc_shape *shape)
+{
+    double x = 0.5 * (double)shape->nx * shape->dx, y = 0.5 * (double)shape->ny * shape->dy;
+
+    if (!tool_given(t, "place"))
+        return;
+    if (args.place.n != 2)
+        tool_die(t, EXIT_USAGE,
+                 "--place takes X,Y from the middle of the map, or, with --like, highest");
+    if (fabs(args.place.v[0]) > x || fabs(args.place.v[1]) > y)
+        tool_die(t, EXIT_USAGE,
+                 "--place %g,%g m: beyond the map, which reaches to %g m and %g m from its middle",
+                 args.place.v[0], args.place.v[1], x, y);
 }
 
 static struct rc_shape
@@ -269,9 +241,11 @@ wanted_shape(struct tool *t)
 }
 
 static void
-check_memory(struct tool *t, const struct shape_row *row, const struct rc_shape *shape)
+check_memory(struct tool *t, const struct synth_shape *row, const struct rc_shape *shape)
 {
-    double bytes = 8.0 * (double)row->maps * (double)shape->nx * (double)shape->ny;
+    bool skewed = !(isnan(args.skewness) && isnan(args.weibull));
+    double bytes =
+        8.0 * (double)row->maps * (skewed ? 2 : 1) * (double)shape->nx * (double)shape->ny;
 
     if (t->memory > 0 && bytes > (double)t->memory)
         tool_die(t, EXIT_IMPOSSIBLE,
@@ -281,7 +255,7 @@ check_memory(struct tool *t, const struct shape_row *row, const struct rc_shape 
 }
 
 static void
-add_keys(struct tool *t, const struct shape_row *row, struct rc_grid *g, bool periodic)
+add_keys(struct tool *t, const struct synth_shape *row, struct rc_grid *g, bool periodic)
 {
     char step[1024];
     struct rc_err err;
@@ -295,22 +269,23 @@ add_keys(struct tool *t, const struct shape_row *row, struct rc_grid *g, bool pe
 int
 main(int argc, char **argv)
 {
-    const struct shape_row *row;
+    const struct synth_shape *row;
     struct rc_shape shape;
     struct rc_grid *g;
     struct rc_err err;
     struct tool t;
-    bool periodic;
+    bool periodic = false;
 
     tool_start(&t, &info, argc, argv, &args);
     row = find_shape(&t);
     check_options(&t, row);
     shape = wanted_shape(&t);
+    check_place(&t, &shape);
     if (row->check != NULL)
-        row->check(&t, &shape);
+        row->check(&t, &args, &shape);
     check_memory(&t, row, &shape);
     g = rc_grid_new(&shape, "height", "m", &err);
-    if (g == NULL || row->make(&shape, g->v, &periodic, &err) != RC_OK)
+    if (g == NULL || row->make(&args, &shape, g->v, &periodic, &err) != RC_OK)
         tool_die(&t, EXIT_IMPOSSIBLE, "%s", err.text);
     add_keys(&t, row, g, periodic);
     tool_write(&t, g);

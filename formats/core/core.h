@@ -7,6 +7,7 @@
 #include "bytes.h"
 #include "checksum.h"
 #include "crc32.h"
+#include "even.h"
 #include "file.h"
 #include "header.h"
 #include "heights.h"

@@ -179,6 +179,21 @@ is_white(char c)
     return c == ' ' || (c >= '\t' && c <= '\r') || c == '\0';
 }
 
+bool
+rc_piece_infinite(struct rc_piece piece, double *value)
+{
+    static const char *const words[] = {"inf", "infinity", "1.#inf"};
+    bool minus = piece.n > 0 && *piece.text == '-';
+
+    if (piece.n > 0 && (minus || *piece.text == '+'))
+        piece = (struct rc_piece){piece.text + 1, piece.n - 1};
+    *value = minus ? -INFINITY : INFINITY;
+    for (size_t k = 0; k < sizeof words / sizeof *words; k++)
+        if (rc_piece_is(piece, words[k]))
+            return true;
+    return false;
+}
+
 static bool
 is_missing(struct rc_piece word)
 {
@@ -208,7 +223,8 @@ rc_flow_read(struct rc_piece *text, double *v, size_t n, struct rc_err *err)
             return rc_err_set(err, "the header promises %zu numbers, the file has %zu", n, k);
         if (is_missing(word))
             v[k] = NAN;
-        else if (!rc_piece_number(word, &v[k], &rest) || rest.n > 0)
+        else if ((!rc_piece_number(word, &v[k], &rest) || rest.n > 0) &&
+                 !rc_piece_infinite(word, &v[k]))
             return rc_err_set(err, "number %zu of the data is '%s': that is no number", k + 1,
                               rc_piece_shown(quote, word));
     }

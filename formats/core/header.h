@@ -26,6 +26,8 @@ bool rc_piece_part(struct rc_piece piece, const char *marks, struct rc_piece *be
 /* The number that it begins with and the trimmed rest (which may be NULL); false when there is
  * none. Decimal commas are read as points. */
 bool rc_piece_number(struct rc_piece piece, double *value, struct rc_piece *rest);
+/* Whether it is a word for infinity, as C libraries print one: inf, -Infinity, 1.#INF. */
+bool rc_piece_infinite(struct rc_piece piece, double *value);
 
 /* Metres in the unit of length that it is; NAN for another word. */
 double rc_piece_metres(struct rc_piece piece);

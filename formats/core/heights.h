@@ -9,11 +9,13 @@ struct rc_heights {
     double dx, dy;    /* m; NAN when the file does not say                              */
     double metres;    /* that a number of the file is worth; NAN when it does not say   */
     const char *unit; /* the file's own word for that; "" for none                      */
+    const char *name; /* NULL, or what it is called: values in another unit are read too */
 };
 
 /* A grid for them, its values still to come, and in *metres what a number is worth: both by the
- * wish or else by the file. RC_FAIL (NULL) when neither says, or when the map is larger than a file
- * of this size can hold (limit.h). */
+ * wish or else by the file. What is no length keeps its name, and *metres is that in its SI unit.
+ * RC_FAIL (NULL) when neither says, or when the map is larger than a file of this size can hold
+ * (limit.h). */
 struct rc_grid *rc_heights_new(const struct rc_heights *heights, const struct rc_file *file,
                                const struct rc_wish *wish, double *metres, struct rc_notes *notes,
                                struct rc_err *err);
@@ -22,7 +24,8 @@ struct rc_channel rc_heights_channel(const struct rc_heights *heights, const cha
 
 /* Turns the grid upside down: for formats whose first row is the lowest. */
 void rc_heights_flip(struct rc_grid *grid);
-/* RC_FAIL where a value is infinite; NaN is a missing one. */
-enum rc_status rc_heights_finite(const struct rc_grid *grid, struct rc_err *err);
+/* What every reader does with infinite values: they are missing points, as some programs write
+ * those, and their number is noted. RC_FAIL when there is no other value. */
+enum rc_status rc_heights_finite(struct rc_grid *grid, struct rc_notes *notes, struct rc_err *err);
 
 #endif

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "file.h"
+#include "heights.h"
 
 /* ---- checking ---- */
 
@@ -152,8 +153,8 @@ fill(const struct rc_map *map, const struct rc_file *file, const struct rc_wish 
     return RC_OK;
 }
 
-static enum rc_status
-scale(const struct rc_map *map, double si, double *v, struct rc_err *err)
+static void
+scale(const struct rc_map *map, double si, double *v)
 {
     for (size_t k = 0; k < map->nx * map->ny; k++) {
         if (isnan(v[k]))
@@ -163,11 +164,7 @@ scale(const struct rc_map *map, double si, double *v, struct rc_err *err)
             continue;
         }
         v[k] = (v[k] * map->scale + map->zero) * si;
-        if (!isfinite(v[k]))
-            return rc_err_set(err, "the value at column %zu, row %zu (from 0) is infinite",
-                              k % map->nx, k / map->nx);
     }
-    return RC_OK;
 }
 
 struct rc_grid *
@@ -205,8 +202,10 @@ rc_maps_read(rc_maps_find *find, const struct rc_file *file, const struct rc_wis
                          err)) == NULL)
         return NULL;
     if ((map->fill == NULL ? decode(map, file, g->v, err) : fill(map, file, wish, g->v, err)) !=
-            RC_OK ||
-        scale(map, si, g->v, err) != RC_OK ||
+        RC_OK)
+        goto failed;
+    scale(map, si, g->v);
+    if (rc_heights_finite(g, notes, err) != RC_OK ||
         (strcmp(map->name, "height") != 0 &&
          rc_word_keep(g, "file.channel", map->name, err) != RC_OK))
         goto failed;

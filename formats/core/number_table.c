@@ -175,6 +175,8 @@ read_field(const struct rc_number_table *t, const char *s, char *decimal, double
     }
     for (end = s; !ends_field(t, end);)
         end++;
+    if (rc_piece_infinite((struct rc_piece){s, (size_t)(end - s)}, value))
+        return end;
     *value = NAN;
     return is_missing(t, s, (size_t)(end - s)) ? end : NULL;
 }

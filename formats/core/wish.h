@@ -1,8 +1,9 @@
-/* A file, what the user says beside it, and what is said of it: spacings and units that the file lacks
- * or that the user overrules. */
+/* A file, what the user says beside it, and what is said of it: spacings and units that the file
+ * lacks or that the user overrules. */
 #ifndef RC_WISH_H
 #define RC_WISH_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "libcontact/grid.h"
@@ -21,6 +22,8 @@ struct rc_wish {
     char decimal;  /* '.' or ','; 0: found out                                             */
     const char *separator; /* of columns in text; NULL: found out                                */
     const char *missing; /* a word that marks missing values in text, beside NaN, BAD, ...       */
+    bool even;           /* profiles whose points are not evenly apart are resampled             */
+    double even_step;    /* m, to this step; 0: to one of their own                              */
 };
 extern const struct rc_wish rc_no_wish; /* of a user who says nothing: all is as the file says */
 

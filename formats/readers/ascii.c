@@ -66,7 +66,8 @@ spacing(const struct rc_ascii_head *h, const struct rc_number_table *table, doub
 }
 
 /* Whether a raster is run through: column `slow` keeps still while `fast` goes on in one direction,
- * then makes a step, always in one direction too. */
+ * then makes a step, always in one direction too. Four points of one row are a raster, fewer could
+ * be anything. */
 static bool
 is_raster(const double *v, size_t rows, size_t slow, size_t fast)
 {
@@ -83,7 +84,7 @@ is_raster(const double *v, size_t rows, size_t slow, size_t fast)
         *way = d > 0 ? 1 : -1;
         rests = rests || ds == 0;
     }
-    return rests && slow_way != 0;
+    return rests && (slow_way != 0 || rows > 3);
 }
 
 static bool
@@ -146,7 +147,7 @@ read_matrix(const struct rc_ascii_head *h, struct rc_number_table *table,
     g->dy = shape.dy;
     for (size_t k = 0; k < n; k++)
         g->v[k] *= metres;
-    if (rc_heights_finite(g, err) == RC_OK)
+    if (rc_heights_finite(g, notes, err) == RC_OK)
         return g;
     rc_grid_free(g);
     return NULL;

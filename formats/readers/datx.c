@@ -179,7 +179,7 @@ read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index
         goto done;
     for (size_t k = 0; k < g->nx * g->ny; k++)
         g->v[k] = g->v[k] >= s.none ? NAN : g->v[k] * metres;
-    good = rc_heights_finite(g, err) == RC_OK;
+    good = rc_heights_finite(g, notes, err) == RC_OK;
 done:
     rc_hdf_free(s.hdf);
     if (good)

@@ -23,8 +23,12 @@ struct facts {
 static void
 read_facts(struct rc_hdf *h, const struct rc_hdf_set *set, struct facts *f)
 {
-    f->heights = (struct rc_heights){
-        .nx = set->columns, .ny = set->rows, .dx = NAN, .dy = NAN, .unit = f->unit};
+    f->heights = (struct rc_heights){.nx = set->columns,
+                                     .ny = set->rows,
+                                     .dx = NAN,
+                                     .dy = NAN,
+                                     .unit = f->unit,
+                                     .name = set->path};
     rc_hdf_number(h, set->path, "dx", &f->heights.dx);
     rc_hdf_number(h, set->path, "dy", &f->heights.dy);
     rc_hdf_text(h, set->path, "unit", f->unit, sizeof f->unit);
@@ -100,7 +104,7 @@ read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index
     rc_hdf_number(h, set[index].path, "_FillValue", &fill);
     for (size_t k = 0; (!isnan(fill) || metres != 1) && k < g->nx * g->ny; k++)
         g->v[k] = g->v[k] == fill ? NAN : g->v[k] * metres;
-    good = rc_heights_finite(g, err) == RC_OK;
+    good = rc_heights_finite(g, notes, err) == RC_OK;
 done:
     free(set);
     rc_hdf_free(h);

@@ -145,7 +145,8 @@ heights_of(const struct scan *s, const struct channel *c)
                                .dx = s->width / (double)c->shape.nx,
                                .dy = s->height / (double)c->shape.ny,
                                .metres = rc_word_metres(c->unit),
-                               .unit = c->unit};
+                               .unit = c->unit,
+                               .name = c->name};
 }
 
 static size_t
@@ -233,7 +234,7 @@ read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index
         g->v[k] = (g->v[k] * c.multiply + c.offset) * metres;
     if (!c.reflected)
         rc_heights_flip(g);
-    good = rc_heights_finite(g, err) == RC_OK;
+    good = rc_heights_finite(g, notes, err) == RC_OK;
 done:
     rc_tiff_free(s.tiff);
     if (good)

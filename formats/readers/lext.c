@@ -250,7 +250,7 @@ read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index
         goto done;
     for (size_t k = 0; k < g->nx * g->ny; k++)
         g->v[k] *= metres;
-    good = mask_invalid(&l, g, notes, err) == RC_OK && rc_heights_finite(g, err) == RC_OK;
+    good = mask_invalid(&l, g, notes, err) == RC_OK && rc_heights_finite(g, notes, err) == RC_OK;
 done:
     rc_tiff_free(l.tiff);
     if (good)

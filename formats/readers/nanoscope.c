@@ -22,11 +22,11 @@
 
 struct image {
     double at, bytes, width, columns, rows;
-    struct rc_piece size, scale, data, note;
+    struct rc_piece size, scale, data, note, line;
 };
 
 static const struct image no_image = {
-    .size = {"", 0}, .scale = {"", 0}, .data = {"", 0}, .note = {"", 0}};
+    .size = {"", 0}, .scale = {"", 0}, .data = {"", 0}, .note = {"", 0}, .line = {"", 0}};
 
 static const struct rc_field image_fields[] = {
     {"\\Data offset", RC_FIELD_NUMBER, offsetof(struct image, at)},
@@ -38,6 +38,7 @@ static const struct rc_field image_fields[] = {
     {"\\@2:Z scale", RC_FIELD_TEXT, offsetof(struct image, scale)},
     {"\\@2:Image Data", RC_FIELD_TEXT, offsetof(struct image, data)},
     {"\\Note", RC_FIELD_TEXT, offsetof(struct image, note)},
+    {"\\Line direction", RC_FIELD_TEXT, offsetof(struct image, line)},
 };
 
 static const struct rc_keep keys[] = {
@@ -208,6 +209,22 @@ add_image(const struct rc_file *file, struct rc_piece header, const struct image
     return set_scale(header, m, map, map->raw == RC_RAW_I16 ? 16 : 32, err);
 }
 
+/* A scan of both ways gives two images of one name: that of the way back says so. */
+static void
+mark_retrace(struct rc_maps *maps, const bool back[RC_MAPS_MOST])
+{
+    static const char mark[] = " (retrace)";
+    size_t n = maps->n < RC_MAPS_MOST ? maps->n : RC_MAPS_MOST;
+
+    for (size_t k = 0; k < n; k++)
+        for (size_t l = 0; l < n && back[k]; l++)
+            if (!back[l] && strcmp(maps->map[l].name, maps->map[k].name) == 0 &&
+                strlen(maps->map[k].name) + sizeof mark <= sizeof maps->map[k].name) {
+                strcat(maps->map[k].name, mark);
+                break;
+            }
+}
+
 static enum rc_status
 nanoscope_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
                struct rc_err *err)
@@ -216,7 +233,7 @@ nanoscope_find(const struct rc_file *file, const struct rc_wish *wish, struct rc
     struct rc_lines lines = rc_piece_lines(header);
     struct image scan = no_image, image = no_image, *into = NULL;
     struct rc_piece line, key, value;
-    bool more = true;
+    bool more = true, back[RC_MAPS_MOST] = {false};
 
     (void)wish;
     if (!rc_file_holds(file, 0, "\\*File list", 11) && !rc_file_holds(file, 0, "\\*Ciao", 6))
@@ -226,8 +243,12 @@ nanoscope_find(const struct rc_file *file, const struct rc_wish *wish, struct rc
     while (more) {
         more = next_line(&lines, &line);
         if (!more || rc_piece_begins(line, "\\*")) {
-            if (into == &image && add_image(file, header, &image, &scan, maps, err) != RC_OK)
-                return RC_FAIL;
+            if (into == &image) {
+                if (add_image(file, header, &image, &scan, maps, err) != RC_OK)
+                    return RC_FAIL;
+                if (maps->n <= RC_MAPS_MOST)
+                    back[maps->n - 1] = rc_piece_is(image.line, "Retrace");
+            }
             into = rc_piece_is(line, "\\*Ciao image list")  ? &image
                    : rc_piece_is(line, "\\*Ciao scan list") ? &scan
                                                             : NULL;
@@ -241,6 +262,7 @@ nanoscope_find(const struct rc_file *file, const struct rc_wish *wish, struct rc
             return RC_FAIL;
         rc_maps_keep(maps, keys, sizeof keys / sizeof *keys, key, value);
     }
+    mark_retrace(maps, back);
     if (maps->n == 0)
         return rc_err_set(err, "the header names no image (\\*Ciao image list)");
     return RC_OK;

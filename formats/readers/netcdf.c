@@ -111,6 +111,7 @@ struct map {
     bool periodic;
     struct rc_heights heights;
     char unit[RC_SHOWN];
+    char name[RC_SHOWN];
 };
 
 static enum rc_status
@@ -127,6 +128,7 @@ judge_map(const struct rc_cdf *f, const struct rc_cdf_variable *v, struct map *m
     y = v->dimension[m->turned ? 1 : 0];
     m->heights = (struct rc_heights){.nx = (size_t)length(f, x), .ny = (size_t)length(f, y)};
     m->heights.unit = rc_piece_shown(m->unit, v->unit);
+    m->heights.name = rc_piece_shown(m->name, v->name);
     m->heights.metres = rc_piece_metres(v->unit);
     if (step_of(f, x, &m->heights.dx, &along_x, err) != RC_OK ||
         step_of(f, y, &m->heights.dy, &along_y, err) != RC_OK)
@@ -214,7 +216,7 @@ netcdf_read(const struct rc_file *file, const struct rc_wish *wish, size_t index
         (m.periodic && rc_grid_set(g, "periodic", "yes", err) != RC_OK))
         goto done;
     read_values(&f, &m, metres, g);
-    good = rc_heights_finite(g, err) == RC_OK;
+    good = rc_heights_finite(g, notes, err) == RC_OK;
 done:
     rc_cdf_close(&f);
     if (good)

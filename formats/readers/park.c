@@ -171,7 +171,8 @@ heights_of(const struct park *p)
                                .dx = p->width / (double)p->nx,
                                .dy = p->height / (double)p->ny,
                                .metres = p->unit[0] == '\0' ? 1e-6 : rc_word_metres(p->unit),
-                               .unit = p->unit};
+                               .unit = p->unit,
+                               .name = p->name[0] == '\0' ? "values" : p->name};
 }
 
 static size_t
@@ -229,7 +230,7 @@ read_values(const struct rc_file *file, const struct rc_wish *wish, size_t index
         rc_bytes_values(&b, p.raw, g->v + j * p.nx, p.nx);
     for (size_t k = 0; k < p.nx * p.ny; k++)
         g->v[k] = p.gain * (p.scale * g->v[k] + p.offset) * metres;
-    good = rc_heights_finite(g, err) == RC_OK;
+    good = rc_heights_finite(g, notes, err) == RC_OK;
 done:
     rc_tiff_free(p.tiff);
     if (good)

@@ -209,7 +209,7 @@ static struct rc_grid *
 read_layer(const struct plux *p, const struct rc_file *file, const struct rc_wish *wish,
            size_t index, struct rc_notes *notes, struct rc_err *err)
 {
-    const struct rc_heights h = {p->nx, p->ny, p->dx, p->dy, 1e-6, "um"};
+    const struct rc_heights h = {p->nx, p->ny, p->dx, p->dy, 1e-6, "um", NULL};
     struct rc_grid *g = NULL;
     double metres, *v;
     size_t member;
@@ -226,7 +226,7 @@ read_layer(const struct plux *p, const struct rc_file *file, const struct rc_wis
     }
     for (size_t k = 0; k < p->nx * p->ny; k++)
         g->v[k] *= metres;
-    if (rc_heights_finite(g, err) == RC_OK)
+    if (rc_heights_finite(g, notes, err) == RC_OK)
         return g;
     rc_grid_free(g);
     return NULL;

@@ -5,6 +5,7 @@
  * 0. A single column is of heights.
  */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "titled_table.h"
@@ -13,8 +14,7 @@
 struct profile {
     struct rc_titled_table table;
     size_t x, z, valid; /* columns; valid = columns: none */
-    double first, step; /* of the positions, in the unit of the file */
-    bool falls;         /* the positions do                          */
+    bool falls;         /* the positions do */
 };
 
 static const double *
@@ -120,58 +120,7 @@ judge_direction(struct profile *p, struct rc_err *err)
         if (!isfinite(x[k * columns]) || !(d > 0))
             return rc_err_set(err, "the positions do not run on at row %zu of the table", k + 1);
     }
-    p->first = x[0];
-    p->step = fabs(x[(rows - 1) * columns] - x[0]) / (double)(rows - 1);
     return RC_OK;
-}
-
-/* The place of the last decimal that any position has: 0.01 when they are 0.5, 0.75, 1. */
-static double
-last_place(const double *x, size_t rows, size_t columns)
-{
-    double place = 1, scaled;
-
-    for (size_t k = 0; k < rows; k++)
-        while (place > 1e-12 && (scaled = x[k * columns] / place,
-                                 fabs(scaled - round(scaled)) > 1e-6 * fmax(1, fabs(scaled))))
-            place /= 10;
-    return place;
-}
-
-/* Where row k would be with even steps. */
-static double
-even_place(const struct profile *p, size_t k)
-{
-    return p->first + (p->falls ? -p->step : p->step) * (double)k;
-}
-
-/* Positions may be rounded in the file, or off by a twentieth of a step: a stylus drifts that
- * much, and heights between two points so near say nothing else. */
-static enum rc_status
-judge_steps(const struct profile *p, struct rc_err *err)
-{
-    size_t rows = p->table.numbers.rows, columns = p->table.numbers.columns, worst = 0;
-    const double *x = column(p, p->x);
-    double place = last_place(x, rows, columns), most = 0.05 * p->step, off = 0;
-    char a[RC_NUMBER_SIZE], b[RC_NUMBER_SIZE], c[RC_NUMBER_SIZE];
-
-    if (place < 0.7 * p->step)
-        most = fmax(most, 1.01 * place);
-    for (size_t k = 0; k < rows; k++) {
-        double here = fabs(x[k * columns] - even_place(p, k));
-        if (here > off) {
-            off = here;
-            worst = k;
-        }
-    }
-    if (off <= most)
-        return RC_OK;
-    return rc_err_set(err,
-                      "the positions are not evenly apart: the furthest off is row %zu of the "
-                      "table, at %s where even steps of %s lead to %s, %.2g steps away; up to "
-                      "%.2g is let pass: resample the profile to even steps",
-                      worst + 1, rc_number_text(a, x[worst * columns]), rc_number_text(c, p->step),
-                      rc_number_text(b, even_place(p, worst)), off / p->step, most / p->step);
 }
 
 static enum rc_status
@@ -189,7 +138,6 @@ profile_open(struct profile *p, const struct rc_file *file, const struct rc_wish
     if (pick_columns(p, err) != RC_OK)
         return RC_FAIL;
     p->falls = false;
-    p->step = NAN;
     if (p->table.numbers.columns == 1)
         return RC_OK;
     unit = unit_of(title_of(p, p->x));
@@ -201,18 +149,53 @@ profile_open(struct profile *p, const struct rc_file *file, const struct rc_wish
 
 /* ---- the map ---- */
 
+static double
+height_of(const struct profile *p, size_t row)
+{
+    const double *v = p->table.v + row * p->table.numbers.columns;
+
+    return p->valid < p->table.numbers.columns && v[p->valid] == 0 ? NAN : v[p->z];
+}
+
+/* Lays even nodes along the profile and, unless v is NULL, puts the heights there into v. Falling
+ * positions are turned round: the last point is the first node, at the same place as before. */
+static enum rc_status
+lay_nodes(const struct profile *p, const struct rc_file *file, const struct rc_wish *wish,
+          struct rc_even *even, double *v, struct rc_err *err)
+{
+    size_t rows = p->table.numbers.rows, columns = p->table.numbers.columns;
+    double *x = malloc(2 * rows * sizeof *x), *z = x + rows;
+    double metres = rc_piece_metres(unit_of(title_of(p, p->x)));
+    enum rc_status status;
+
+    if (x == NULL)
+        return rc_err_set(err, "out of memory for %zu points", rows);
+    for (size_t k = 0; k < rows; k++) {
+        size_t row = p->falls ? rows - 1 - k : k;
+        x[k] = column(p, p->x)[row * columns];
+        z[k] = height_of(p, row);
+    }
+    status = rc_even_new(x, rows, metres, file, wish, even, err);
+    if (status == RC_OK && v != NULL)
+        rc_even_heights(even, x, z, rows, v);
+    free(x);
+    return status;
+}
+
 static enum rc_status
 fill_heights(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
              double *v, struct rc_err *err)
 {
     enum rc_status status;
+    struct rc_even even;
     struct profile p;
 
     status = profile_open(&p, file, wish, err);
-    for (size_t k = 0; k < map->nx && status == RC_OK; k++) {
-        const double *row = p.table.v + k * p.table.numbers.columns;
-        v[k] = p.valid < p.table.numbers.columns && row[p.valid] == 0 ? NAN : row[p.z];
-    }
+    if (status == RC_OK && p.table.numbers.columns > 1)
+        status = lay_nodes(&p, file, wish, &even, v, err);
+    else
+        for (size_t k = 0; k < map->nx && status == RC_OK; k++)
+            v[k] = height_of(&p, k);
     rc_titled_table_close(&p.table);
     return status;
 }
@@ -224,17 +207,18 @@ profile_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_m
     struct rc_map *map = rc_maps_add(maps, "", 0);
     struct rc_piece unit;
     enum rc_status status;
+    struct rc_even even;
     struct profile p;
 
     status = profile_open(&p, file, wish, err);
+    even.n = p.table.numbers.rows;
     if (status == RC_OK && p.table.numbers.columns > 1)
-        status = judge_steps(&p, err);
+        status = lay_nodes(&p, file, wish, &even, NULL, err);
     if (status == RC_OK) {
-        map->nx = p.table.numbers.rows;
+        map->nx = even.n;
         map->ny = 1;
         if (p.table.numbers.columns > 1)
-            rc_map_steps(map, p.step, p.step, unit_of(title_of(&p, p.x)));
-        map->right_first = p.falls;
+            rc_map_steps(map, even.step, even.step, unit_of(title_of(&p, p.x)));
         map->fill = fill_heights;
         unit = unit_of(title_of(&p, p.z));
         rc_map_unit(map, unit.text, unit.n);

@@ -74,7 +74,7 @@ static struct rc_grid *
 make_grid(struct rc_x3p *x, const struct rc_file *file, const struct rc_wish *wish, double *metres,
           struct rc_notes *notes, struct rc_err *err)
 {
-    const struct rc_heights h = {x->nx, x->ny, x->dx, x->dy, 1, "m"};
+    const struct rc_heights h = {x->nx, x->ny, x->dx, x->dy, 1, "m", NULL};
     struct rc_grid *g = rc_heights_new(&h, file, wish, metres, notes, err);
 
     if (g == NULL)
@@ -87,7 +87,7 @@ make_grid(struct rc_x3p *x, const struct rc_file *file, const struct rc_wish *wi
     return g;
 }
 
-/* ---- the entry in formats.list ---- */
+/* ---- what it is ---- */
 
 static int
 x3p_score(const struct rc_file *file)
@@ -107,20 +107,77 @@ x3p_score(const struct rc_file *file)
     return has_main ? (named ? 95 : 80) : 5;
 }
 
+/* ---- profiles with positions ---- */
+
+/* Lays even nodes along a profile whose points have positions of their own, sets x->nx and the
+ * spacings, and gives the heights at the nodes, which the caller frees; NULL with the reason. */
+static double *
+lay_nodes(struct rc_x3p *x, const struct rc_file *file, const struct rc_wish *wish,
+          struct rc_notes *notes, struct rc_err *err)
+{
+    double *points = NULL, *v = NULL;
+    struct rc_even even;
+
+    if (x->n < 2) {
+        rc_err_set(err, "a profile of one point with a position has no spacing");
+        return NULL;
+    }
+    if (rc_map_fits(file, x->n, 16, err) != RC_OK ||
+        (points = rc_x3p_profile(x, notes, err)) == NULL ||
+        rc_even_new(points, x->n, 1, file, wish, &even, err) != RC_OK)
+        goto done;
+    if ((v = malloc(even.n * sizeof *v)) == NULL) {
+        rc_err_set(err, "out of memory for %zu nodes", even.n);
+        goto done;
+    }
+    rc_even_heights(&even, points, points + x->n, x->n, v);
+    x->nx = even.n;
+    x->dx = x->dy = even.step;
+done:
+    free(points);
+    return v;
+}
+
+static struct rc_grid *
+read_profile(struct rc_x3p *x, const struct rc_file *file, const struct rc_wish *wish,
+             struct rc_notes *notes, struct rc_err *err)
+{
+    double *v = lay_nodes(x, file, wish, notes, err), metres;
+    struct rc_grid *g = v == NULL ? NULL : make_grid(x, file, wish, &metres, notes, err);
+    bool good = g != NULL;
+
+    for (size_t k = 0; good && k < g->nx; k++)
+        g->v[k] = v[k] * metres;
+    good = good && rc_heights_finite(g, notes, err) == RC_OK;
+    free(v);
+    if (good)
+        return g;
+    rc_grid_free(g);
+    return NULL;
+}
+
+/* ---- the entry in formats.list ---- */
+
 static size_t
 x3p_list(const struct rc_file *file, const struct rc_wish *wish, struct rc_channel *channel,
          size_t most, struct rc_err *err)
 {
     struct rc_x3p x;
+    enum rc_status status = x3p_open(&x, file, false, err);
+    double *v = NULL;
     size_t n = 0;
 
-    (void)wish;
-    if (x3p_open(&x, file, false, err) == RC_OK) {
+    if (status == RC_OK && x.absolute) {
+        x3p_close(&x);
+        status = x3p_open(&x, file, true, err);
+    }
+    if (status == RC_OK && (!x.absolute || (v = lay_nodes(&x, file, wish, NULL, err)) != NULL)) {
         if (most > 0)
             *channel = (struct rc_channel){
                 .name = "height", .unit = "m", .nx = x.nx, .ny = x.ny, .dx = x.dx, .dy = x.dy};
         n = 1;
     }
+    free(v);
     x3p_close(&x);
     return n;
 }
@@ -141,12 +198,21 @@ x3p_read(const struct rc_file *file, const struct rc_wish *wish, size_t index,
         rc_err_set(err, "an X3P file has one channel, not %zu", index + 1);
         goto done;
     }
-    if ((x.binary && rc_x3p_find_points(&x, &points, err) != RC_OK) ||
-        rc_map_fits(file, x.nx, x.ny, err) != RC_OK)
+    if (!x.absolute && ((x.binary && rc_x3p_find_points(&x, &points, err) != RC_OK) ||
+                        rc_map_fits(file, x.nx, x.ny, err) != RC_OK))
         goto done;
     rc_x3p_check_main(&x, notes);
+    if (x.old_root)
+        rc_note(notes,
+                "the root of its main.xml is ISO5436, where the standard has ISO5436_2: it is "
+                "read as that");
     if (x.turned)
         rc_note(notes, "the file turns its axes by a rotation matrix: it is not applied");
+    if (x.absolute) {
+        g = read_profile(&x, file, wish, notes, err);
+        good = g != NULL;
+        goto done;
+    }
     if ((g = make_grid(&x, file, wish, &metres, notes, err)) == NULL)
         goto done;
     good = rc_x3p_values(&x, points, metres, g, notes, err) == RC_OK;

@@ -14,8 +14,11 @@ enum {
 enum rc_x3p_field {
     RC_X3P_FEATURE,
     RC_X3P_CX_AXIS,
+    RC_X3P_CX_TYPE,
     RC_X3P_CX_INCREMENT,
+    RC_X3P_CX_OFFSET,
     RC_X3P_CY_AXIS,
+    RC_X3P_CY_TYPE,
     RC_X3P_CY_INCREMENT,
     RC_X3P_CZ_TYPE,
     RC_X3P_CZ_INCREMENT,
@@ -23,6 +26,7 @@ enum rc_x3p_field {
     RC_X3P_SIZE_X,
     RC_X3P_SIZE_Y,
     RC_X3P_SIZE_Z,
+    RC_X3P_LIST,
     RC_X3P_POINTS,
     RC_X3P_POINTS_MD5,
     RC_X3P_VALID,
@@ -39,15 +43,20 @@ struct rc_x3p {
     char md5[RC_MD5_TEXT];     /* of main.xml                                                  */
     char *text[RC_X3P_FIELDS]; /* NULL: not in the file                                        */
     bool is_x3p, turned;       /* turned: a rotation that is not the identity                  */
+    bool old_root;             /* main.xml calls its root ISO5436, without the part            */
     bool profile;
     bool binary; /* the heights are in a member of their own                     */
     enum rc_raw raw;
     size_t nx, ny, n; /* n = nx*ny                                                    */
     double dx, dy;    /* m, NAN when not given                                        */
     double increment, offset;
-    bool wants_list; /* the heights in main.xml are to be kept                       */
-    double *list;    /* as far as they were in main.xml                              */
-    size_t listed, capacity;
+    bool absolute;     /* a profile whose points have positions of their own               */
+    enum rc_raw raw_x; /* of these: each point is x, y where that is absolute too, and z   */
+    size_t before_z;   /* bytes of a point that come before z                              */
+    double x_increment, x_offset;
+    bool wants_list;         /* the heights in main.xml are to be kept                       */
+    double *list;            /* as far as they were in main.xml; positions and heights by turns  */
+    size_t listed, capacity; /* data, and numbers that the list can hold              */
 };
 
 /* Reads main.xml, and what it says is then judged: RC_FAIL for what is no map on a regular grid. */
@@ -59,6 +68,9 @@ const char *rc_x3p_key(size_t field);
 void rc_x3p_check_main(struct rc_x3p *x, struct rc_notes *notes);
 /* Finds the member of the heights and checks its size before anything is allocated for it. */
 enum rc_status rc_x3p_find_points(struct rc_x3p *x, size_t *member, struct rc_err *err);
+/* Positions x->n, rising, in metres, and heights of a profile that is `absolute`, one behind the
+ * other, which the caller frees; NULL with the reason. Of a list they must be wanted. */
+double *rc_x3p_profile(struct rc_x3p *x, struct rc_notes *notes, struct rc_err *err);
 /* Puts the heights into the grid, in metres; missing ones are NAN. */
 enum rc_status rc_x3p_values(struct rc_x3p *x, size_t member, double metres, struct rc_grid *grid,
                              struct rc_notes *notes, struct rc_err *err);

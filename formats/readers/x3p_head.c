@@ -14,8 +14,11 @@ static const struct {
 } fields[RC_X3P_FIELDS] = {
     [RC_X3P_FEATURE] = {"Record1/FeatureType", NULL},
     [RC_X3P_CX_AXIS] = {"Record1/Axes/CX/AxisType", NULL},
+    [RC_X3P_CX_TYPE] = {"Record1/Axes/CX/DataType", NULL},
     [RC_X3P_CX_INCREMENT] = {"Record1/Axes/CX/Increment", NULL},
+    [RC_X3P_CX_OFFSET] = {"Record1/Axes/CX/Offset", NULL},
     [RC_X3P_CY_AXIS] = {"Record1/Axes/CY/AxisType", NULL},
+    [RC_X3P_CY_TYPE] = {"Record1/Axes/CY/DataType", NULL},
     [RC_X3P_CY_INCREMENT] = {"Record1/Axes/CY/Increment", NULL},
     [RC_X3P_CZ_TYPE] = {"Record1/Axes/CZ/DataType", NULL},
     [RC_X3P_CZ_INCREMENT] = {"Record1/Axes/CZ/Increment", NULL},
@@ -23,6 +26,7 @@ static const struct {
     [RC_X3P_SIZE_X] = {"Record3/MatrixDimension/SizeX", NULL},
     [RC_X3P_SIZE_Y] = {"Record3/MatrixDimension/SizeY", NULL},
     [RC_X3P_SIZE_Z] = {"Record3/MatrixDimension/SizeZ", NULL},
+    [RC_X3P_LIST] = {"Record3/ListDimension", NULL},
     [RC_X3P_POINTS] = {"Record3/DataLink/PointDataLink", NULL},
     [RC_X3P_POINTS_MD5] = {"Record3/DataLink/MD5ChecksumPointData", NULL},
     [RC_X3P_VALID] = {"Record3/DataLink/ValidPointsLink", NULL},
@@ -42,6 +46,7 @@ static const struct {
 };
 
 static const char root_name[] = "ISO5436_2";
+static const char old_name[] = "ISO5436"; /* of writers that left the part of the standard out */
 
 const char *
 rc_x3p_key(size_t field)
@@ -76,19 +81,64 @@ real(const char *name, const char *text, double otherwise, double *value, struct
     return RC_OK;
 }
 
-/* Makes the list one longer; it is never longer than the bytes that it comes from. */
+/* Makes room in the list for n numbers; it is never longer than the bytes that it comes from. */
 static enum rc_status
-grow(struct rc_x3p *x, struct rc_err *err)
+grow(struct rc_x3p *x, size_t n, struct rc_err *err)
 {
     size_t capacity = x->capacity == 0 ? 1024 : 2 * x->capacity;
     double *more;
 
-    if (x->listed < x->capacity)
+    if (n <= x->capacity)
         return RC_OK;
     if ((more = realloc(x->list, capacity * sizeof *more)) == NULL)
         return rc_err_set(err, "out of memory for %zu heights", capacity);
     x->list = more;
     x->capacity = capacity;
+    return RC_OK;
+}
+
+static bool
+is(const char *text, const char *word)
+{
+    return text != NULL && strcmp(text, word) == 0;
+}
+
+/* A profile whose points have positions of their own; the axes stand before the data. */
+static bool
+is_absolute(const struct rc_x3p *x)
+{
+    return is(x->text[RC_X3P_FEATURE], "PRF") && is(x->text[RC_X3P_CX_AXIS], "A");
+}
+
+/* "x;z", or "x;y;z" where y is absolute too; z may be missing, x may not. */
+static enum rc_status
+take_point(struct rc_x3p *x, const char *text, struct rc_err *err)
+{
+    size_t n = is(x->text[RC_X3P_CY_AXIS], "A") ? 3 : 2, k = 0;
+    double value[3] = {NAN, NAN, NAN};
+    const char *end = text;
+    char quote[RC_SHOWN];
+
+    while (k < n && end != NULL) {
+        if (*end != ';' && *end != '\0')
+            end = rc_number_read(end, true, &value[k]);
+        k++;
+        if (end == NULL || *end != ';')
+            break;
+        end++;
+    }
+    if (end == NULL || *end != '\0' || k != n || !isfinite(value[0]))
+        return rc_err_set(err, "Datum %zu is '%s': %s are expected", x->listed + 1,
+                          rc_word_shown(quote, text), n == 3 ? "x;y;z" : "x;z");
+    if (!x->wants_list) {
+        x->listed++;
+        return RC_OK;
+    }
+    if (grow(x, 2 * x->listed + 2, err) != RC_OK)
+        return RC_FAIL;
+    x->list[2 * x->listed] = value[0];
+    x->list[2 * x->listed + 1] = value[n - 1];
+    x->listed++;
     return RC_OK;
 }
 
@@ -99,6 +149,8 @@ take_datum(struct rc_x3p *x, const char *text, struct rc_err *err)
     double value = NAN; /* an empty one is a missing point */
     const char *end = *text == '\0' ? text : rc_number_read(text, true, &value);
 
+    if (is_absolute(x))
+        return take_point(x, text, err);
     if (!x->wants_list) {
         x->listed++;
         return RC_OK;
@@ -111,7 +163,7 @@ take_datum(struct rc_x3p *x, const char *text, struct rc_err *err)
     if (end == NULL || *end != '\0')
         return rc_err_set(err, "Datum %zu is '%s': that is no number", x->listed + 1,
                           rc_word_shown(quote, text));
-    if (grow(x, err) != RC_OK)
+    if (grow(x, x->listed + 1, err) != RC_OK)
         return RC_FAIL;
     x->list[x->listed++] = value;
     return RC_OK;
@@ -134,18 +186,22 @@ take_element(void *arg, const char *path, const char *text, struct rc_err *err)
 {
     static const char rotation[] = "Record1/Axes/Rotation/r";
     struct rc_x3p *x = arg;
+    size_t root = strcspn(path, "/");
     char quote[RC_SHOWN];
 
-    if (strncmp(path, root_name, strlen(root_name)) != 0 || path[strlen(root_name)] != '/') {
-        if (strchr(path, '/') == NULL && strcmp(path, root_name) != 0)
+    x->old_root = root == strlen(old_name) && strncmp(path, old_name, root) == 0;
+    if (!x->old_root && (root != strlen(root_name) || strncmp(path, root_name, root) != 0)) {
+        if (path[root] == '\0')
             return rc_err_set(err,
                               "a ZIP archive, but no X3P: the root of its main.xml is '%s', "
                               "not %s",
                               rc_word_shown(quote, path), root_name);
         return RC_OK;
     }
+    if (path[root] == '\0')
+        return RC_OK;
     x->is_x3p = true;
-    path += strlen(root_name) + 1;
+    path += root + 1;
     if (strcmp(path, "Record3/DataList/Datum") == 0)
         return take_datum(x, text, err);
     if (strncmp(path, rotation, strlen(rotation)) == 0 && strlen(path) == strlen(rotation) + 2)
@@ -200,7 +256,8 @@ judge_feature(struct rc_x3p *x, struct rc_err *err)
     if (!x->profile && strcmp(feature, "SUR") != 0)
         return rc_err_set(err, "FeatureType is '%s': it must be SUR or PRF",
                           rc_word_shown(quote, feature));
-    if (judge_axis("CX", x->text[RC_X3P_CX_AXIS], err) != RC_OK)
+    x->absolute = is_absolute(x);
+    if (!x->absolute && judge_axis("CX", x->text[RC_X3P_CX_AXIS], err) != RC_OK)
         return RC_FAIL;
     return x->profile ? RC_OK : judge_axis("CY", x->text[RC_X3P_CY_AXIS], err);
 }
@@ -208,11 +265,15 @@ judge_feature(struct rc_x3p *x, struct rc_err *err)
 static enum rc_status
 judge_sizes(struct rc_x3p *x, struct rc_err *err)
 {
-    size_t nz, bytes;
+    size_t nz = 1, bytes;
 
-    if (whole("SizeX", x->text[RC_X3P_SIZE_X], &x->nx, err) != RC_OK ||
-        whole("SizeY", x->text[RC_X3P_SIZE_Y], &x->ny, err) != RC_OK ||
-        whole("SizeZ", x->text[RC_X3P_SIZE_Z], &nz, err) != RC_OK)
+    if (x->profile && x->text[RC_X3P_LIST] != NULL && x->text[RC_X3P_SIZE_X] == NULL) {
+        x->ny = 1;
+        if (whole("ListDimension", x->text[RC_X3P_LIST], &x->nx, err) != RC_OK)
+            return RC_FAIL;
+    } else if (whole("SizeX", x->text[RC_X3P_SIZE_X], &x->nx, err) != RC_OK ||
+               whole("SizeY", x->text[RC_X3P_SIZE_Y], &x->ny, err) != RC_OK ||
+               whole("SizeZ", x->text[RC_X3P_SIZE_Z], &nz, err) != RC_OK)
         return RC_FAIL;
     if (nz != 1)
         return rc_err_set(err, "SizeZ is %zu: only maps of one layer are read", nz);
@@ -231,7 +292,10 @@ judge_scales(struct rc_x3p *x, struct rc_err *err)
     if (real("the increment of CX", x->text[RC_X3P_CX_INCREMENT], NAN, &x->dx, err) != RC_OK ||
         real("the increment of CY", x->text[RC_X3P_CY_INCREMENT], NAN, &x->dy, err) != RC_OK ||
         real("the increment of CZ", x->text[RC_X3P_CZ_INCREMENT], 1, &x->increment, err) != RC_OK ||
-        real("the offset of CZ", x->text[RC_X3P_CZ_OFFSET], 0, &x->offset, err) != RC_OK)
+        real("the offset of CZ", x->text[RC_X3P_CZ_OFFSET], 0, &x->offset, err) != RC_OK ||
+        real("the increment of CX", x->text[RC_X3P_CX_INCREMENT], 1, &x->x_increment, err) !=
+            RC_OK ||
+        real("the offset of CX", x->text[RC_X3P_CX_OFFSET], 0, &x->x_offset, err) != RC_OK)
         return RC_FAIL;
     if (x->increment == 0)
         return rc_err_set(err, "the increment of CZ is 0 in main.xml: all heights would be one");
@@ -241,29 +305,48 @@ judge_scales(struct rc_x3p *x, struct rc_err *err)
 }
 
 static enum rc_status
-judge_type(struct rc_x3p *x, struct rc_err *err)
+judge_type(const char *axis, const char *type, enum rc_raw *raw, struct rc_err *err)
 {
     static const struct {
         const char *letter;
         enum rc_raw raw;
     } types[] = {{"I", RC_RAW_I16}, {"L", RC_RAW_I32}, {"F", RC_RAW_F32}, {"D", RC_RAW_F64}};
-    const char *type = x->text[RC_X3P_CZ_TYPE] == NULL ? "" : x->text[RC_X3P_CZ_TYPE];
     char quote[RC_SHOWN];
 
     for (size_t k = 0; k < sizeof types / sizeof *types; k++)
-        if (strcmp(type, types[k].letter) == 0) {
-            x->raw = types[k].raw;
+        if (is(type, types[k].letter)) {
+            *raw = types[k].raw;
             return RC_OK;
         }
-    return rc_err_set(err, "DataType of CZ is '%s': it must be I, L, F or D",
-                      rc_word_shown(quote, type));
+    return rc_err_set(err, "DataType of %s is '%s': it must be I, L, F or D", axis,
+                      type == NULL ? "" : rc_word_shown(quote, type));
+}
+
+static enum rc_status
+judge_types(struct rc_x3p *x, struct rc_err *err)
+{
+    enum rc_raw raw_y = RC_RAW_F64;
+
+    if (judge_type("CZ", x->text[RC_X3P_CZ_TYPE], &x->raw, err) != RC_OK)
+        return RC_FAIL;
+    if (!x->absolute)
+        return RC_OK;
+    if (judge_type("CX", x->text[RC_X3P_CX_TYPE], &x->raw_x, err) != RC_OK)
+        return RC_FAIL;
+    x->before_z = rc_raw_width(x->raw_x);
+    if (!is(x->text[RC_X3P_CY_AXIS], "A"))
+        return RC_OK;
+    if (judge_type("CY", x->text[RC_X3P_CY_TYPE], &raw_y, err) != RC_OK)
+        return RC_FAIL;
+    x->before_z += rc_raw_width(raw_y);
+    return RC_OK;
 }
 
 static enum rc_status
 judge(struct rc_x3p *x, struct rc_err *err)
 {
     if (judge_feature(x, err) != RC_OK || judge_sizes(x, err) != RC_OK ||
-        judge_scales(x, err) != RC_OK || judge_type(x, err) != RC_OK)
+        judge_scales(x, err) != RC_OK || judge_types(x, err) != RC_OK)
         return RC_FAIL;
     x->binary = x->text[RC_X3P_POINTS] != NULL && *x->text[RC_X3P_POINTS] != '\0';
     if (!x->binary && x->listed != x->n)

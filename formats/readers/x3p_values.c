@@ -126,7 +126,7 @@ take_values(void *arg, const unsigned char *bytes, size_t n, struct rc_err *err)
 enum rc_status
 rc_x3p_find_points(struct rc_x3p *x, size_t *member, struct rc_err *err)
 {
-    uint64_t size, wanted = (uint64_t)x->n * rc_raw_width(x->raw);
+    uint64_t size, wanted = (uint64_t)x->n * (x->before_z + rc_raw_width(x->raw));
 
     if (follow(x, x->text[RC_X3P_POINTS], member, err) != RC_OK ||
         rc_zip_read_size(x->archive, *member, &size, err) != RC_OK)
@@ -179,6 +179,72 @@ apply_mask(struct rc_x3p *x, double *v, struct rc_notes *notes, struct rc_err *e
     return status;
 }
 
+/* ---- profiles with positions ---- */
+
+/* The points of a member, x and z by turns. */
+static enum rc_status
+read_profile(struct rc_x3p *x, double *xz, struct rc_notes *notes, struct rc_err *err)
+{
+    size_t member, got, size = x->n * (x->before_z + rc_raw_width(x->raw));
+    const char *given = x->text[RC_X3P_POINTS_MD5];
+    struct rc_bytes bytes;
+    unsigned char *data;
+    char md5[RC_MD5_TEXT];
+
+    if (rc_x3p_find_points(x, &member, err) != RC_OK ||
+        (data = rc_zip_read_bytes(x->archive, member, size, &got, is_given(given) ? md5 : NULL,
+                                  err)) == NULL)
+        return RC_FAIL;
+    bytes = (struct rc_bytes){.data = data, .size = got};
+    for (size_t k = 0; k < x->n; k++) {
+        bytes.at = k * (x->before_z + rc_raw_width(x->raw));
+        rc_bytes_values(&bytes, x->raw_x, &xz[2 * k], 1);
+        bytes.at = k * (x->before_z + rc_raw_width(x->raw)) + x->before_z;
+        rc_bytes_values(&bytes, x->raw, &xz[2 * k + 1], 1);
+    }
+    free(data);
+    return is_given(given) ? compare_md5("points", given, md5, notes, err) : RC_OK;
+}
+
+double *
+rc_x3p_profile(struct rc_x3p *x, struct rc_notes *notes, struct rc_err *err)
+{
+    double *p = malloc(4 * x->n * sizeof *p), *xz, *z;
+    bool falls;
+
+    if (p == NULL) {
+        rc_err_set(err, "out of memory for %zu points", x->n);
+        return NULL;
+    }
+    z = p + x->n;
+    xz = p + 2 * x->n;
+    if (!x->binary)
+        memcpy(xz, x->list, 2 * x->n * sizeof *xz);
+    else if (read_profile(x, xz, notes, err) != RC_OK)
+        goto failed;
+    for (size_t k = 0; k < x->n; k++)
+        z[k] = xz[2 * k + 1];
+    if (apply_mask(x, z, notes, err) != RC_OK)
+        goto failed;
+    falls = x->n > 1 && (xz[2] - xz[0]) * x->x_increment < 0;
+    for (size_t k = 0; k < x->n; k++) {
+        size_t from = falls ? x->n - 1 - k : k;
+
+        xz[2 * k + 1] = z[from] * x->increment + x->offset;
+        p[k] = xz[2 * from] * x->x_increment + x->x_offset;
+        if (!isfinite(p[k]) || (k > 0 && !(p[k] > p[k - 1]))) {
+            rc_err_set(err, "the positions do not run on at point %zu", from + 1);
+            goto failed;
+        }
+    }
+    for (size_t k = 0; k < x->n; k++)
+        z[k] = xz[2 * k + 1];
+    return p;
+failed:
+    free(p);
+    return NULL;
+}
+
 enum rc_status
 rc_x3p_values(struct rc_x3p *x, size_t member, double metres, struct rc_grid *g,
               struct rc_notes *notes, struct rc_err *err)
@@ -191,5 +257,5 @@ rc_x3p_values(struct rc_x3p *x, size_t member, double metres, struct rc_grid *g,
         return RC_FAIL;
     for (size_t k = 0; k < x->n; k++)
         g->v[k] = (g->v[k] * x->increment + x->offset) * metres;
-    return rc_heights_finite(g, err);
+    return rc_heights_finite(g, notes, err);
 }

@@ -1,7 +1,8 @@
 /*
- * Lists of points: three columns x, y, z in any order of the points, which must lie on a raster.
- * The least x and y come first; a point of the raster that the list leaves out is missing. The list
- * holds no unit.
+ * Lists of points: three columns x, y, z in any order of the points, which must lie on a raster,
+ * or in one line. The least x and y come first; a point of the raster that the list leaves out is
+ * missing. A line of any direction is a profile, from its end that is nearer to the first point.
+ * The list holds no unit.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -18,6 +19,7 @@ struct axis {
 struct cloud {
     struct rc_titled_table table;
     struct axis x, y;
+    double *along, *z; /* of a line, by their places along it; NULL: a raster */
 };
 
 static int
@@ -66,10 +68,76 @@ find_axis(const double *v, size_t points, char name, struct axis *axis, struct r
     return status;
 }
 
+/* ---- points in a line ---- */
+
+/* The point that is furthest from point k. */
+static size_t
+furthest_from(const double *p, size_t points, size_t k)
+{
+    size_t far = k;
+
+    for (size_t l = 0; l < points; l++)
+        if (hypot(p[3 * l] - p[3 * k], p[3 * l + 1] - p[3 * k + 1]) >
+            hypot(p[3 * far] - p[3 * k], p[3 * far + 1] - p[3 * k + 1]))
+            far = l;
+    return far;
+}
+
+/* Sorts the points by their places along the line between the two that are furthest apart. False
+ * when they are not in a line, to a thousandth of its length, or two are at one place. */
+static bool
+find_line(struct cloud *c)
+{
+    size_t points = c->table.numbers.rows, first, last;
+    const double *p = c->table.v;
+    double *pair = malloc(4 * points * sizeof *pair), *sorted, dx, dy, length;
+    bool line = pair != NULL && points > 2;
+
+    last = line ? furthest_from(p, points, 0) : 0;
+    first = line ? furthest_from(p, points, last) : 0;
+    dx = p[3 * last] - p[3 * first];
+    dy = p[3 * last + 1] - p[3 * first + 1];
+    length = hypot(dx, dy);
+    line = line && length > 0 && isfinite(length);
+    for (size_t k = 0; k < points && line; k++) {
+        double x = p[3 * k] - p[3 * first], y = p[3 * k + 1] - p[3 * first + 1];
+
+        pair[2 * k] = (x * dx + y * dy) / length;
+        pair[2 * k + 1] = p[3 * k + 2];
+        line = fabs(x * dy - y * dx) <= 1e-3 * length * length;
+    }
+    if (line)
+        qsort(pair, points, 2 * sizeof *pair, by_value);
+    sorted = line ? pair + 2 * points : NULL;
+    for (size_t k = 0; k < points && line; k++) {
+        sorted[k] = pair[2 * k];
+        sorted[points + k] = pair[2 * k + 1];
+        line = k == 0 || sorted[k] > sorted[k - 1];
+    }
+    if (!line) {
+        free(pair);
+        return false;
+    }
+    memmove(pair, sorted, 2 * points * sizeof *pair);
+    c->along = pair;
+    c->z = pair + points;
+    return true;
+}
+
+/* ---- the list ---- */
+
+static void
+cloud_close(struct cloud *c)
+{
+    free(c->along);
+    rc_titled_table_close(&c->table);
+}
+
 static enum rc_status
 cloud_open(struct cloud *c, const struct rc_file *file, const struct rc_wish *wish,
            struct rc_err *err)
 {
+    c->along = NULL;
     if (rc_titled_table_open(&c->table, file, 2, wish, err) != RC_OK)
         return RC_FAIL;
     if (c->table.numbers.columns != 3)
@@ -79,9 +147,11 @@ cloud_open(struct cloud *c, const struct rc_file *file, const struct rc_wish *wi
         return RC_FAIL;
     if (find_axis(c->table.v, c->table.numbers.rows, 'x', &c->x, err) != RC_OK ||
         find_axis(c->table.v + 1, c->table.numbers.rows, 'y', &c->y, err) != RC_OK)
-        return RC_FAIL;
+        return find_line(c) ? RC_OK : RC_FAIL;
     if (c->x.n < 2)
-        return rc_err_set(err, "all points have the same x");
+        return find_line(c) ? RC_OK : rc_err_set(err, "all points have the same x");
+    if (c->y.n > 4 * c->table.numbers.rows / c->x.n && find_line(c))
+        return RC_OK;
     if (c->y.n > 4 * c->table.numbers.rows / c->x.n)
         return rc_err_set(err,
                           "the points lie on no raster: %zu of them have %zu different x and "
@@ -100,6 +170,14 @@ fill_points(const struct rc_file *file, const struct rc_wish *wish, const struct
 
     if (cloud_open(&c, file, wish, err) != RC_OK)
         goto done;
+    if (c.along != NULL) {
+        struct rc_even even;
+
+        status = rc_even_new(c.along, c.table.numbers.rows, NAN, file, wish, &even, err);
+        if (status == RC_OK)
+            rc_even_heights(&even, c.along, c.z, c.table.numbers.rows, v);
+        goto done;
+    }
     if ((taken = calloc(map->nx, map->ny)) == NULL) {
         rc_err_set(err, "out of memory for %zu points", map->nx * map->ny);
         goto done;
@@ -119,7 +197,7 @@ fill_points(const struct rc_file *file, const struct rc_wish *wish, const struct
     status = RC_OK;
 done:
     free(taken);
-    rc_titled_table_close(&c.table);
+    cloud_close(&c);
     return status;
 }
 
@@ -129,17 +207,34 @@ xyz_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
 {
     struct rc_map *map = rc_maps_add(maps, "", 0);
     enum rc_status status;
+    struct rc_even even;
     struct cloud c;
 
     status = cloud_open(&c, file, wish, err);
-    if (status == RC_OK) {
+    if (status == RC_OK && c.along != NULL) {
+        status = rc_even_new(c.along, c.table.numbers.rows, NAN, file, wish, &even, err);
+        map->nx = even.n;
+        map->ny = 1;
+        map->fill = fill_points;
+        if (status == RC_OK)
+            rc_map_hint(map, even.step, even.step);
+    } else if (status == RC_OK) {
         map->nx = c.x.n;
         map->ny = c.y.n;
         map->fill = fill_points;
         rc_map_hint(map, c.x.step, c.y.n > 1 ? c.y.step : c.x.step);
     }
-    rc_titled_table_close(&c.table);
+    cloud_close(&c);
     return status;
+}
+
+/* Whether it is a raster, of several rows or of one: another line may be columns of a matrix. */
+static bool
+runs_straight(const struct cloud *c)
+{
+    const double *p = c->table.v, *last = p + 3 * (c->table.numbers.rows - 1);
+
+    return c->along == NULL || p[0] == last[0] || p[1] == last[1];
 }
 
 static int
@@ -152,10 +247,10 @@ xyz_score(const struct rc_file *file)
     if (!rc_file_is_text(file) && !rc_file_is_utf16(file))
         return 0;
     if (cloud_open(&c, file, &rc_no_wish, NULL) == RC_OK)
-        score = named ? 80 : c.y.n > 1 && c.table.numbers.rows > 3 ? 60 : 0;
+        score = named ? 80 : c.table.numbers.rows > 3 && runs_straight(&c) ? 60 : 0;
     else if (c.table.numbers.columns == 3 && named)
         score = 50;
-    rc_titled_table_close(&c.table);
+    cloud_close(&c);
     return score;
 }
 

@@ -14,6 +14,7 @@
 #include "fft.h"
 #include "fourier.h"
 #include "kernel.h"
+#include "power.h"
 #include "quadrature.h"
 #include "stack.h"
 

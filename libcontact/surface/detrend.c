@@ -1,24 +1,40 @@
 /*
- * The least-squares polynomial over the points that are there. Products of Legendre polynomials on
- * the points' bounding box keep the equations well conditioned. A QR factorisation that takes the
- * equations block by block (GSL's tall-skinny QR) keeps memory small, and its condition number
- * shows when the points do not determine the polynomial.
+ * The least-squares polynomial over the points that are there, in products of Chebyshev polynomials
+ * on the points' bounding box.
+ *
+ * The product of two Chebyshev polynomials is the mean of two others, of the sum and the difference
+ * of their degrees. So the normal equations of all terms are made of the sums of the weights times
+ * single products, up to twice the degree, and those are sums along rows first. The equations
+ * square the condition of the problem; its residual, of which the solution is corrected once more,
+ * does not. Where that is not enough, a QR factorisation takes the points' equations block by block
+ * (GSL's tall-skinny QR), and its condition number shows when they do not determine the polynomial.
  */
-#include "libcontact/contact.h"
+#include "libcontact/common.h"
 
 #include <gsl/gsl_errno.h>
+#include <gsl/gsl_linalg.h>
 #include <gsl/gsl_matrix.h>
 #include <gsl/gsl_multilarge.h>
 #include <gsl/gsl_vector.h>
 #include <math.h>
+#include <omp.h>
 #include <pthread.h>
 #include <stdlib.h>
+#include <string.h>
+
+#include "form.h"
+#include "libcontact/memory.h"
+#include "robust.h"
 
 enum {
-    BLOCK = 1024 /* points that are factored at a time; above the largest number of terms */
+    BLOCK = 1024,   /* points that are factored at a time; above the largest number of terms */
+    ROWS = 512,     /* of the map that are summed at a time */
+    CORRECTIONS = 4 /* of a solution of the normal equations */
 };
 
-/* Reciprocal condition number below which the points do not determine the polynomial. */
+/* Reciprocal condition numbers: of the normal equations, below which they are left to the QR
+ * factorisation; and of that, below which the points do not determine the polynomial. */
+static const double too_squared = 1e-10;
 static const double deficient = 1e-12;
 
 struct fit {
@@ -27,21 +43,31 @@ struct fit {
     double mean;                       /* subtracted first: a large datum would cost digits   */
     size_t nx_terms, ny_terms, degree; /* polynomials along x, along y; their sum's bound */
     size_t terms;
-    double *px, *py;       /* Legendre polynomials: px[a * nx + i], py[b * ny + j] */
-    gsl_matrix *equations; /* a block of them */
-    gsl_vector *heights, *coefficients;
-    gsl_multilarge_linear_workspace *work;
+    size_t nx_orders, ny_orders; /* of the products of two of them */
+    int threads;
+    bool missing;
+    double *px, *py;         /* Chebyshev polynomials: px[a * nx + i], py[b * ny + j] */
+    double *c;               /* coefficients; in a row, of b + a for all a, then the next b */
+    double *step;            /* their correction */
+    double *residual, reach; /* robust: h - mean - polynomial, weights are made of; else NULL */
+    double *rows;            /* of ROWS rows: nx_orders sums of w px, nx_terms sums of w e px */
+    double *of_weights;      /* sums over the map of w T_k(x) T_l(y): at l nx_orders + k */
+    double *of_residuals;    /* and of w e T_k(x) T_l(y): at l nx_terms + k */
+    double *lines;           /* for each thread: e, w and w e of a row */
+    gsl_matrix *normal;
+    gsl_vector *scale, *right;
 };
 
-/* The bounding box of the points that are there, and how many they are. */
-struct box {
-    size_t left, right, top, bottom, count, infinite;
-};
-
-static struct box
-bounding_box(const struct rc_shape *shape, const double *h)
+static size_t
+row_sums(const struct fit *f)
 {
-    struct box b = {.left = shape->nx, .top = shape->ny};
+    return f->nx_orders + f->nx_terms;
+}
+
+struct rc_box
+rc_box_of(const struct rc_shape *shape, const double *h)
+{
+    struct rc_box b = {.left = shape->nx, .top = shape->ny};
 
     for (size_t j = 0; j < shape->ny; j++)
         for (size_t i = 0; i < shape->nx; i++) {
@@ -58,21 +84,18 @@ bounding_box(const struct rc_shape *shape, const double *h)
     return b;
 }
 
-/* P_0 ... P_(terms-1) at the n nodes of a side, first..last being -1..1 (Bonnet's recursion). */
+/* T_0 ... T_(orders-1) at the n nodes of a side, first..last being -1..1. */
 static double *
-legendre(size_t terms, size_t n, size_t first, size_t last)
+chebyshev(size_t orders, size_t n, size_t first, size_t last)
 {
     double middle = 0.5 * ((double)first + (double)last);
     double half = last > first ? 0.5 * (double)(last - first) : 1;
-    double *p = NULL;
-    size_t size;
+    double *p = rc_alloc(n, orders * sizeof *p);
 
-    if (rc_size_mul(terms * sizeof *p, n, &size, NULL) != RC_OK || (p = malloc(size)) == NULL)
-        return NULL;
-    for (size_t i = 0; i < n; i++) {
-        double s = ((double)i - middle) / half, before = 0, now = 1;
-        for (size_t a = 0; a < terms; a++) {
-            double next = ((2 * (double)a + 1) * s * now - (double)a * before) / ((double)a + 1);
+    for (size_t i = 0; i < n && p != NULL; i++) {
+        double s = ((double)i - middle) / half, before = s, now = 1;
+        for (size_t a = 0; a < orders; a++) {
+            double next = 2 * s * now - before;
             p[a * n + i] = now;
             before = now;
             now = next;
@@ -84,12 +107,16 @@ legendre(size_t terms, size_t n, size_t first, size_t last)
 static void
 fit_free(struct fit *f)
 {
-    gsl_multilarge_linear_free(f->work);
-    gsl_vector_free(f->coefficients);
-    gsl_vector_free(f->heights);
-    gsl_matrix_free(f->equations);
+    gsl_matrix_free(f->normal);
+    gsl_vector_free(f->scale);
+    gsl_vector_free(f->right);
     free(f->px);
     free(f->py);
+    free(f->c);
+    free(f->residual);
+    free(f->rows);
+    free(f->of_weights);
+    free(f->lines);
 }
 
 static size_t
@@ -104,131 +131,435 @@ count_terms(size_t nx_terms, size_t ny_terms, size_t degree)
 }
 
 static enum rc_status
-fit_new(struct fit *f, const struct rc_shape *shape, size_t degree, const double *h,
+fit_allocate(struct fit *f, const struct rc_box *box, bool robust, struct rc_err *err)
+{
+    const struct rc_shape *s = f->shape;
+
+    f->px = chebyshev(f->nx_orders, s->nx, box->left, box->right);
+    f->py = chebyshev(f->ny_orders, s->ny, box->top, box->bottom);
+    f->c = calloc(2 * f->terms, sizeof *f->c);
+    f->rows = rc_alloc(ROWS, row_sums(f) * sizeof *f->rows);
+    f->of_weights = rc_alloc(row_sums(f), f->ny_orders * sizeof *f->of_weights);
+    f->lines = rc_alloc(s->nx, 3 * (size_t)f->threads * sizeof *f->lines);
+    f->normal = gsl_matrix_alloc(f->terms, f->terms);
+    f->scale = gsl_vector_alloc(f->terms);
+    f->right = gsl_vector_alloc(f->terms);
+    if (robust)
+        f->residual = rc_alloc(s->nx * s->ny, sizeof *f->residual);
+    if (f->px == NULL || f->py == NULL || f->c == NULL || f->rows == NULL ||
+        f->of_weights == NULL || f->lines == NULL || f->normal == NULL || f->scale == NULL ||
+        f->right == NULL || (robust && f->residual == NULL))
+        return rc_err_set(err, "out of memory for a polynomial of degree %zu", f->degree);
+    f->step = f->c + f->terms;
+    f->of_residuals = f->of_weights + f->nx_orders * f->ny_orders;
+    return RC_OK;
+}
+
+static enum rc_status
+fit_new(struct fit *f, const struct rc_shape *shape, const struct rc_form *form, const double *h,
         struct rc_err *err)
 {
     struct rc_statistics figures;
-    struct box box = bounding_box(shape, h);
+    struct rc_box box = rc_box_of(shape, h);
 
-    *f = (struct fit){.shape = shape, .h = h, .degree = degree};
-    if (degree > RC_DEGREE_MAX)
-        return rc_err_set(err, "a polynomial of degree %zu: at most %d", degree, RC_DEGREE_MAX);
-    f->nx_terms = shape->nx > 1 ? degree + 1 : 1;
-    f->ny_terms = shape->ny > 1 ? degree + 1 : 1;
-    f->terms = count_terms(f->nx_terms, f->ny_terms, degree);
+    *f = (struct fit){.shape = shape, .h = h, .degree = form->degree};
+    if (f->degree > RC_DEGREE_MAX)
+        return rc_err_set(err, "a polynomial of degree %zu: at most %d", f->degree, RC_DEGREE_MAX);
+    f->nx_terms = shape->nx > 1 ? f->degree + 1 : 1;
+    f->ny_terms = shape->ny > 1 ? f->degree + 1 : 1;
+    f->nx_orders = 2 * f->nx_terms - 1;
+    f->ny_orders = 2 * f->ny_terms - 1;
+    f->terms = count_terms(f->nx_terms, f->ny_terms, f->degree);
+    f->threads = rc_useful_threads(shape, form->threads);
+    f->missing = box.count < shape->nx * shape->ny;
     if (box.infinite > 0)
         return rc_err_set(err, "%zu infinite heights: no polynomial fits them", box.infinite);
     if (box.count < f->terms)
         return rc_err_set(err,
                           "a polynomial of degree %zu has %zu coefficients, and only %zu "
                           "points are there: take a lower degree",
-                          degree, f->terms, box.count);
+                          f->degree, f->terms, box.count);
     rc_measure(shape, h, &figures);
     f->mean = figures.mean;
-    f->px = legendre(f->nx_terms, shape->nx, box.left, box.right);
-    f->py = legendre(f->ny_terms, shape->ny, box.top, box.bottom);
-    f->equations = gsl_matrix_alloc(BLOCK, f->terms);
-    f->heights = gsl_vector_alloc(BLOCK);
-    f->coefficients = gsl_vector_alloc(f->terms);
-    f->work = gsl_multilarge_linear_alloc(gsl_multilarge_linear_tsqr, f->terms);
-    if (f->px == NULL || f->py == NULL || f->equations == NULL || f->heights == NULL ||
-        f->coefficients == NULL || f->work == NULL)
-        return rc_err_set(err, "out of memory for a polynomial of degree %zu", degree);
-    return RC_OK;
+    return fit_allocate(f, &box, form->robust, err);
 }
 
-/* Equation k of a block, of the point (i, j): its terms, and its height. */
-static void
-put_equation(struct fit *f, size_t k, size_t i, size_t j)
+/* ---- along rows ---- */
+
+/* Sums over a row of v times each of `orders` polynomials. */
+RC_CLONES static void
+multiply_sum(size_t n, size_t orders, const double *restrict v, const double *restrict p,
+             double *restrict out)
 {
-    const struct rc_shape *s = f->shape;
-    double *to = gsl_matrix_ptr(f->equations, k, 0);
+    for (size_t a = 0; a < orders; a++, p += n) {
+        double sum = 0;
+#pragma omp simd reduction(+ : sum)
+        for (size_t i = 0; i < n; i++)
+            sum += v[i] * p[i];
+        out[a] = sum;
+    }
+}
+
+/* to = from - mean - sum of c_a px_a */
+RC_CLONES static void
+subtract_row(size_t n, size_t terms, const double *c, const double *restrict px, double mean,
+             const double *from, double *to, double *restrict value)
+{
+    memset(value, 0, n * sizeof *value);
+    for (size_t a = 0; a < terms; a++, px += n)
+        for (size_t i = 0; i < n; i++)
+            value[i] += c[a] * px[i];
+    for (size_t i = 0; i < n; i++)
+        to[i] = (from[i] - mean) - value[i];
+}
+
+/* `to` = h - mean - polynomial in row j, which is there a polynomial in x alone. */
+static void
+residual_row(const struct fit *f, size_t j, double *to, double *scratch)
+{
+    double in_x[RC_DEGREE_MAX + 1] = {0};
+    const double *c = f->c;
 
     for (size_t b = 0; b < f->ny_terms; b++)
         for (size_t a = 0; a < f->nx_terms && a + b <= f->degree; a++)
-            *to++ = f->px[a * s->nx + i] * f->py[b * s->ny + j];
-    gsl_vector_set(f->heights, k, f->h[j * s->nx + i] - f->mean);
+            in_x[a] += *c++ * f->py[b * f->shape->ny + j];
+    subtract_row(f->shape->nx, f->nx_terms, in_x, f->px, f->mean, f->h + j * f->shape->nx, to,
+                 scratch);
+}
+
+static double *
+lines_of(const struct fit *f)
+{
+    return f->lines + 3 * (size_t)omp_get_thread_num() * f->shape->nx;
+}
+
+/* Everywhere, into `to`, which may be h. */
+static void
+subtract(const struct fit *f, double *to)
+{
+#pragma omp parallel for schedule(static) num_threads(f->threads)
+    for (size_t j = 0; j < f->shape->ny; j++)
+        residual_row(f, j, to + j * f->shape->nx, lines_of(f));
+}
+
+/* Residuals e and weights w of a row, both 0 where nothing is there, and w e. */
+static void
+weigh_row(const struct fit *f, size_t j, double *e, double *w, double *we)
+{
+    size_t nx = f->shape->nx;
+
+    if (f->residual != NULL)
+        memcpy(e, f->residual + j * nx, nx * sizeof *e);
+    else
+        residual_row(f, j, e, w);
+    for (size_t i = 0; i < nx; i++) {
+        bool there = !isnan(e[i]);
+        w[i] = !there ? 0 : f->reach > 0 ? rc_biweight(e[i], f->reach) : 1;
+        e[i] = there ? e[i] : 0;
+        we[i] = w[i] * e[i];
+    }
+}
+
+/* Sums of w e and, where asked for, of w over the rows from `first` on. */
+static void
+sum_rows(const struct fit *f, size_t first, size_t count, bool weights)
+{
+    size_t nx = f->shape->nx;
+
+#pragma omp parallel for schedule(static) num_threads(f->threads)
+    for (size_t k = 0; k < count; k++) {
+        double *e = lines_of(f), *w = e + nx, *we = w + nx, *to = f->rows + k * row_sums(f);
+        weigh_row(f, first + k, e, w, we);
+        if (weights)
+            multiply_sum(nx, f->nx_orders, w, f->px, to);
+        multiply_sum(nx, f->nx_terms, we, f->px, to + f->nx_orders);
+    }
+}
+
+/* to[l n + k] += T_l(y) times row[k], for all l */
+static void
+add_row(const struct fit *f, size_t j, const double *row, size_t n, size_t orders, double *to)
+{
+    for (size_t l = 0; l < orders; l++)
+        for (size_t k = 0; k < n; k++)
+            to[l * n + k] += f->py[l * f->shape->ny + j] * row[k];
+}
+
+/* Sums over the map; those of the weights only where asked for. Where nothing is missing and all
+ * weigh alike they are the same in every row. */
+static void
+sum_map(const struct fit *f, bool weights)
+{
+    size_t ny = f->shape->ny, orders = f->nx_orders;
+    bool alike = !f->missing && f->reach == 0;
+    double first[2 * RC_DEGREE_MAX + 1];
+
+    if (weights)
+        memset(f->of_weights, 0, orders * f->ny_orders * sizeof *f->of_weights);
+    memset(f->of_residuals, 0, f->nx_terms * f->ny_terms * sizeof *f->of_residuals);
+    if (weights && alike) {
+        sum_rows(f, 0, 1, true);
+        memcpy(first, f->rows, orders * sizeof *first);
+    }
+    for (size_t j = 0; j < ny; j += ROWS) {
+        size_t count = ny - j < ROWS ? ny - j : ROWS;
+        sum_rows(f, j, count, weights && !alike);
+        for (size_t k = 0; k < count; k++) {
+            const double *row = f->rows + k * row_sums(f);
+            if (weights)
+                add_row(f, j + k, alike ? first : row, orders, f->ny_orders, f->of_weights);
+            add_row(f, j + k, row + orders, f->nx_terms, f->ny_terms, f->of_residuals);
+        }
+    }
+}
+
+/* ---- the normal equations ---- */
+
+/* T_a T_b = (T_(a+b) + T_|a-b|) / 2 */
+static double
+of_product(const struct fit *f, size_t a, size_t b, size_t c, size_t d)
+{
+    size_t n = f->nx_orders, more = a + c, less = a > c ? a - c : c - a;
+    const double *s = f->of_weights, *high = s + (b + d) * n,
+                 *low = s + (b > d ? b - d : d - b) * n;
+
+    return 0.25 * (high[more] + high[less] + low[more] + low[less]);
+}
+
+static void
+set_normal(struct fit *f)
+{
+    size_t row = 0;
+
+    for (size_t b = 0; b < f->ny_terms; b++)
+        for (size_t a = 0; a < f->nx_terms && a + b <= f->degree; a++, row++) {
+            size_t column = 0;
+            for (size_t d = 0; d < f->ny_terms; d++)
+                for (size_t c = 0; c < f->nx_terms && c + d <= f->degree; c++, column++)
+                    gsl_matrix_set(f->normal, row, column, of_product(f, a, b, c, d));
+        }
+}
+
+static void
+set_right(struct fit *f)
+{
+    size_t row = 0;
+
+    for (size_t b = 0; b < f->ny_terms; b++)
+        for (size_t a = 0; a < f->nx_terms && a + b <= f->degree; a++, row++)
+            gsl_vector_set(f->right, row, f->of_residuals[b * f->nx_terms + a]);
+}
+
+/* Whether the equations are good enough; then they are factored. */
+static bool
+factor_normal(struct fit *f)
+{
+    gsl_vector *work = gsl_vector_alloc(3 * f->terms);
+    double rcond = 0;
+    bool good = work != NULL && gsl_linalg_cholesky_decomp2(f->normal, f->scale) == GSL_SUCCESS &&
+                gsl_linalg_cholesky_rcond(f->normal, &rcond, work) == GSL_SUCCESS &&
+                rcond > too_squared;
+
+    gsl_vector_free(work);
+    return good;
+}
+
+/* Adds the step to the coefficients; its largest number. */
+static double
+take_step(struct fit *f)
+{
+    double largest = 0;
+
+    for (size_t k = 0; k < f->terms; k++) {
+        f->c[k] += f->step[k];
+        largest = fmax(largest, fabs(f->step[k]));
+    }
+    return largest;
+}
+
+static double
+solve_normal(struct fit *f)
+{
+    gsl_vector_view step = gsl_vector_view_array(f->step, f->terms);
+
+    set_right(f);
+    gsl_linalg_cholesky_solve2(f->normal, f->scale, f->right, &step.vector);
+    return take_step(f);
+}
+
+/* ---- the factorisation of all equations ---- */
+
+struct blocks {
+    gsl_matrix *equations; /* one block of them */
+    gsl_vector *heights;
+    gsl_multilarge_linear_workspace *work;
+};
+
+/* Equation k of a block, of the point (i, j), its residual e and its weight. */
+static void
+put_equation(const struct fit *f, struct blocks *q, size_t k, size_t i, size_t j, double e,
+             double w)
+{
+    const struct rc_shape *s = f->shape;
+    double *to = gsl_matrix_ptr(q->equations, k, 0);
+
+    for (size_t b = 0; b < f->ny_terms; b++)
+        for (size_t a = 0; a < f->nx_terms && a + b <= f->degree; a++)
+            *to++ = sqrt(w) * f->px[a * s->nx + i] * f->py[b * s->ny + j];
+    gsl_vector_set(q->heights, k, sqrt(w) * e);
 }
 
 /* Hands the first n equations of the block to GSL, which wants at least as many as there are terms:
  * those that are missing are 0 = 0. */
 static int
-factor_block(struct fit *f, size_t n)
+factor_block(struct fit *f, struct blocks *q, size_t n)
 {
     size_t m = n < f->terms ? f->terms : n;
-    gsl_matrix_view equations = gsl_matrix_submatrix(f->equations, 0, 0, m, f->terms);
-    gsl_vector_view heights = gsl_vector_subvector(f->heights, 0, m);
+    gsl_matrix_view equations = gsl_matrix_submatrix(q->equations, 0, 0, m, f->terms);
+    gsl_vector_view heights = gsl_vector_subvector(q->heights, 0, m);
 
     for (size_t k = n; k < m; k++) {
         for (size_t term = 0; term < f->terms; term++)
-            gsl_matrix_set(f->equations, k, term, 0);
-        gsl_vector_set(f->heights, k, 0);
+            gsl_matrix_set(q->equations, k, term, 0);
+        gsl_vector_set(q->heights, k, 0);
     }
-    return gsl_multilarge_linear_accumulate(&equations.matrix, &heights.vector, f->work);
+    return gsl_multilarge_linear_accumulate(&equations.matrix, &heights.vector, q->work);
 }
 
-static enum rc_status
-solve(struct fit *f, struct rc_err *err)
+static int
+factor_all(struct fit *f, struct blocks *q)
 {
-    double rcond = 0, residual, norm;
-    size_t n = 0; /* equations in the block */
+    double *e = f->lines, *w = e + f->shape->nx, *we = w + f->shape->nx;
     int code = GSL_SUCCESS;
+    size_t n = 0; /* equations in the block */
 
-    for (size_t j = 0; j < f->shape->ny; j++)
+    for (size_t j = 0; j < f->shape->ny; j++) {
+        weigh_row(f, j, e, w, we);
         for (size_t i = 0; i < f->shape->nx && code == GSL_SUCCESS; i++) {
-            if (isnan(f->h[j * f->shape->nx + i]))
+            if (!(w[i] > 0))
                 continue;
-            put_equation(f, n++, i, j);
+            put_equation(f, q, n++, i, j, e[i], w[i]);
             if (n == BLOCK) {
-                code = factor_block(f, n);
+                code = factor_block(f, q, n);
                 n = 0;
             }
         }
-    if (code == GSL_SUCCESS && n > 0)
-        code = factor_block(f, n);
-    if (code != GSL_SUCCESS)
+    }
+    return code == GSL_SUCCESS && n > 0 ? factor_block(f, q, n) : code;
+}
+
+static enum rc_status
+solve_blocks(struct fit *f, struct blocks *q, struct rc_err *err)
+{
+    gsl_vector_view step = gsl_vector_view_array(f->step, f->terms);
+    double rcond = 0, residual, norm;
+    int code;
+
+    q->equations = gsl_matrix_alloc(BLOCK, f->terms);
+    q->heights = gsl_vector_alloc(BLOCK);
+    q->work = gsl_multilarge_linear_alloc(gsl_multilarge_linear_tsqr, f->terms);
+    if (q->equations == NULL || q->heights == NULL || q->work == NULL)
+        return rc_err_set(err, "out of memory for a polynomial of degree %zu", f->degree);
+    if ((code = factor_all(f, q)) != GSL_SUCCESS)
         return rc_err_set(err, "the fit failed: %s", gsl_strerror(code));
-    code = gsl_multilarge_linear_rcond(&rcond, f->work);
+    code = gsl_multilarge_linear_rcond(&rcond, q->work);
     if (code != GSL_SUCCESS || !(rcond > deficient))
         return rc_err_set(err,
-                          "the points that are there do not determine a polynomial of degree "
-                          "%zu: too few rows or columns of them, or all on one curve; take a "
-                          "lower degree",
-                          f->degree);
-    code = gsl_multilarge_linear_solve(0, f->coefficients, &residual, &norm, f->work);
+                          "the points that %s do not determine a polynomial of degree %zu: too few "
+                          "rows or columns of them, or all on one curve; take a lower degree",
+                          f->reach > 0 ? "are left with weight" : "are there", f->degree);
+    code = gsl_multilarge_linear_solve(0, &step.vector, &residual, &norm, q->work);
     if (code != GSL_SUCCESS)
         return rc_err_set(err, "the fit failed: %s", gsl_strerror(code));
+    take_step(f);
     return RC_OK;
 }
 
-/* h - mean - polynomial. In one row of the map that is a polynomial in x alone, with these
- * coefficients. */
-static void
-subtract(const struct fit *f, double *h)
+static enum rc_status
+solve_all(struct fit *f, struct rc_err *err)
 {
-    size_t nx = f->shape->nx, ny = f->shape->ny;
+    struct blocks q = {0};
+    enum rc_status status = solve_blocks(f, &q, err);
 
-    for (size_t j = 0; j < ny; j++) {
-        double in_x[RC_DEGREE_MAX + 1] = {0}, *row = h + j * nx;
-        const double *c = f->coefficients->data;
-        for (size_t b = 0; b < f->ny_terms; b++)
-            for (size_t a = 0; a < f->nx_terms && a + b <= f->degree; a++)
-                in_x[a] += *c++ * f->py[b * ny + j];
-        for (size_t i = 0; i < nx; i++) {
-            double value = 0;
-            for (size_t a = 0; a < f->nx_terms; a++)
-                value += in_x[a] * f->px[a * nx + i];
-            row[i] = (row[i] - f->mean) - value;
-        }
+    gsl_multilarge_linear_free(q.work);
+    gsl_vector_free(q.heights);
+    gsl_matrix_free(q.equations);
+    return status;
+}
+
+/* ---- the fit ---- */
+
+/* The polynomial of least squares with the weights as they are, from any coefficients. */
+static enum rc_status
+solve(struct fit *f, struct rc_err *err)
+{
+    double first;
+
+    sum_map(f, true);
+    set_normal(f);
+    if (!factor_normal(f))
+        return solve_all(f, err);
+    first = solve_normal(f);
+    for (size_t k = 0; k < CORRECTIONS && f->residual == NULL; k++) {
+        sum_map(f, false);
+        if (!(solve_normal(f) > 1e-15 * first))
+            break;
     }
+    return RC_OK;
+}
+
+/* Each time the polynomial is corrected by that of the residuals. */
+static enum rc_status
+reweight(struct fit *f, double size, struct rc_err *err)
+{
+    size_t n = f->shape->nx * f->shape->ny;
+
+    for (size_t k = 0; k < RC_REWEIGHT_MAX; k++) {
+        double before = f->reach, reach;
+        reach = rc_biweight_reach * rc_median(f->residual, n, 0, true, f->threads);
+        if (rc_reweighted(reach, before, size))
+            break;
+        f->reach = reach;
+        if (solve(f, err) != RC_OK)
+            return RC_FAIL;
+        subtract(f, f->residual);
+    }
+    return RC_OK;
+}
+
+static double
+largest(const double *v, size_t n)
+{
+    double most = 0;
+
+    for (size_t k = 0; k < n; k++)
+        most = fabs(v[k]) > most ? fabs(v[k]) : most;
+    return most;
+}
+
+static enum rc_status
+fit_form(struct fit *f, struct rc_err *err)
+{
+    size_t n = f->shape->nx * f->shape->ny;
+    double size;
+
+    if (f->residual == NULL)
+        return solve(f, err);
+    subtract(f, f->residual);
+    size = largest(f->residual, n);
+    if (solve(f, err) != RC_OK)
+        return RC_FAIL;
+    subtract(f, f->residual);
+    return reweight(f, size, err);
 }
 
 /* GSL has one error handler for all threads, and its default ends the process: it is off while a
  * fit is made, by one thread at a time. */
 static pthread_mutex_t handler_lock = PTHREAD_MUTEX_INITIALIZER;
 
-enum rc_status
-rc_detrend_poly(const struct rc_shape *shape, size_t degree, double *h, struct rc_err *err)
+static enum rc_status
+detrend_polynomial(const struct rc_shape *shape, const struct rc_form *form, double *h,
+                   struct rc_err *err)
 {
     gsl_error_handler_t *handler;
     enum rc_status status;
@@ -236,13 +567,30 @@ rc_detrend_poly(const struct rc_shape *shape, size_t degree, double *h, struct r
 
     pthread_mutex_lock(&handler_lock);
     handler = gsl_set_error_handler_off();
-    status = fit_new(&f, shape, degree, h, err);
+    status = fit_new(&f, shape, form, h, err);
     if (status == RC_OK)
-        status = solve(&f, err);
+        status = fit_form(&f, err);
     if (status == RC_OK)
         subtract(&f, h);
     fit_free(&f);
     gsl_set_error_handler(handler);
     pthread_mutex_unlock(&handler_lock);
     return status;
+}
+
+enum rc_status
+rc_detrend_form(const struct rc_shape *shape, const struct rc_form *form, double *h, double *radius,
+                struct rc_err *err)
+{
+    if (radius != NULL)
+        *radius = NAN;
+    if (form->kind == RC_POLYNOMIAL)
+        return detrend_polynomial(shape, form, h, err);
+    return rc_detrend_round(shape, form, h, radius, err);
+}
+
+enum rc_status
+rc_detrend_poly(const struct rc_shape *shape, size_t degree, double *h, struct rc_err *err)
+{
+    return rc_detrend_form(shape, &(struct rc_form){.degree = degree}, h, NULL, err);
 }

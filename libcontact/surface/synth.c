@@ -1,5 +1,5 @@
 /* Surfaces made from a formula or from a seed. */
-#include "libcontact/contact.h"
+#include "synth.h"
 
 #include <complex.h>
 #include <math.h>
@@ -8,6 +8,8 @@
 #include "libcontact/operator/operator.h"
 
 static const double pi = 3.14159265358979323846;
+/* Waves at a cut-off and nodes on a rim are included, however decimal numbers were rounded. */
+static const double slack = 1e-9;
 
 static double
 place(size_t i, size_t n, double d)
@@ -15,16 +17,69 @@ place(size_t i, size_t n, double d)
     return ((double)i - 0.5 * (double)(n - 1)) * d;
 }
 
+/* Cosine and sine of degrees, with no rounding at right angles. */
+static void
+direction_of(double degrees, double *c, double *s)
+{
+    double quarter = remainder(degrees, 360) / 90;
+
+    *c = quarter == -1 || quarter == 1 ? 0 : cos(quarter * pi / 2);
+    *s = quarter == 0 || quarter == -2 || quarter == 2 ? 0 : sin(quarter * pi / 2);
+}
+
 void
 rc_synth_sphere(const struct rc_shape *shape, double radius, double *h)
 {
+    rc_synth_paraboloid(shape, (struct rc_place){0, 0}, radius, radius, 0, h);
+}
+
+void
+rc_synth_paraboloid(const struct rc_shape *shape, struct rc_place apex, double radius_1,
+                    double radius_2, double direction, double *h)
+{
+    double c, s;
+
+    direction_of(direction, &c, &s);
     for (size_t j = 0; j < shape->ny; j++) {
-        double y = place(j, shape->ny, shape->dy);
+        double y = place(j, shape->ny, shape->dy) - apex.y;
         for (size_t i = 0; i < shape->nx; i++) {
-            double x = place(i, shape->nx, shape->dx);
-            h[j * shape->nx + i] = 0 - (x * x + y * y) / (2 * radius); /* never -0 */
+            double x = place(i, shape->nx, shape->dx) - apex.x;
+            double along = c * x - s * y, across = s * x + c * y;
+            double sag = radius_1 == radius_2
+                             ? (x * x + y * y) / (2 * radius_1)
+                             : along * along / (2 * radius_1) + across * across / (2 * radius_2);
+            h[j * shape->nx + i] = 0 - sag; /* never -0 */
         }
     }
+}
+
+/* Distance of a node from the apex. */
+static double
+distance(const struct rc_shape *shape, struct rc_place apex, size_t i, size_t j)
+{
+    return hypot(place(i, shape->nx, shape->dx) - apex.x, place(j, shape->ny, shape->dy) - apex.y);
+}
+
+void
+rc_synth_cone(const struct rc_shape *shape, struct rc_place apex, double slope, double *h)
+{
+    for (size_t j = 0; j < shape->ny; j++)
+        for (size_t i = 0; i < shape->nx; i++)
+            h[j * shape->nx + i] = 0 - slope * distance(shape, apex, i, j);
+}
+
+void
+rc_synth_punch(const struct rc_shape *shape, struct rc_place apex, double radius, double edge,
+               double height, double *h)
+{
+    for (size_t j = 0; j < shape->ny; j++)
+        for (size_t i = 0; i < shape->nx; i++) {
+            double out = distance(shape, apex, i, j) - radius;
+            double depth = out <= slack * radius ? 0
+                           : edge > 0            ? fmin(out * out / (2 * edge), height)
+                                                 : height;
+            h[j * shape->nx + i] = 0 - depth;
+        }
 }
 
 void
@@ -40,16 +95,18 @@ rc_synth_wave(const struct rc_shape *shape, double amplitude, double wavelength_
 
 /* ---- self-affine roughness ---- */
 
+enum {
+    STEPS = 20 /* between heights and waves: more change little */
+};
+
 /* The spectrum asked for; wave numbers in 1/m without the factor 2 pi: 1 / wavelength. */
 struct spectrum {
     double low, high; /* waves in between, both included               */
     double rolloff;   /* flat below                                    */
     double power;     /* amplitudes fall as q^-power above             */
     uint64_t seed;
+    double anisotropy, c, s; /* of the lay: its ratio, cosine and sine of its direction */
 };
-
-/* Waves at a cut-off are included, however 1/(nx dx) was rounded. */
-static const double slack = 1e-9;
 
 /* 0 means that it is not given. */
 static bool
@@ -84,6 +141,18 @@ check_size(const struct rc_selfaffine *what, struct rc_err *err)
 }
 
 static enum rc_status
+check_lay(const struct rc_shape *shape, const struct rc_selfaffine *what, struct rc_err *err)
+{
+    if (what->anisotropy != 0 && !(what->anisotropy >= 1 && isfinite(what->anisotropy)))
+        return rc_err_set(err, "anisotropy %g: it must be at least 1", what->anisotropy);
+    if (what->anisotropy > 1 && (shape->nx == 1 || shape->ny == 1))
+        return rc_err_set(err, "anisotropy %g: a profile has one direction only", what->anisotropy);
+    if (!isfinite(what->direction))
+        return rc_err_set(err, "direction %g: it must be finite", what->direction);
+    return RC_OK;
+}
+
+static enum rc_status
 check_spectrum(const struct rc_shape *shape, const struct rc_selfaffine *what, struct rc_err *err)
 {
     double shortest = resolved(shape);
@@ -108,6 +177,8 @@ check_spectrum(const struct rc_shape *shape, const struct rc_selfaffine *what, s
     if (what->rolloff != 0 && what->rolloff < shortest)
         return rc_err_set(err, "roll-off %g m: it must not be below the short cut-off, %g m",
                           what->rolloff, shortest);
+    if (check_lay(shape, what, err) != RC_OK || rc_heights_check(what, err) != RC_OK)
+        return RC_FAIL;
     return check_size(what, err);
 }
 
@@ -117,15 +188,26 @@ spectrum_of(const struct rc_shape *shape, const struct rc_selfaffine *what)
     bool profile = shape->nx == 1 || shape->ny == 1;
     double size = hypot((double)shape->nx * shape->dx, (double)shape->ny * shape->dy);
     double shortest = what->short_cut == 0 ? resolved(shape) : what->short_cut;
-
-    return (struct spectrum){
+    struct spectrum s = {
         .low = what->long_cut == 0 ? 0 : (1 - slack) / what->long_cut,
         .high = (1 + slack) / shortest,
         /* without a flat part: a wave number below all others */
         .rolloff = 1 / (what->rolloff == 0 ? size : what->rolloff),
         .power = what->hurst + (profile ? 0.5 : 1),
         .seed = what->seed,
+        .anisotropy = what->anisotropy == 0 ? 1 : what->anisotropy,
     };
+    direction_of(what->direction, &s.c, &s.s);
+    return s;
+}
+
+/* Of waves with the same power: that of the one across the lay. */
+static double
+wave_number(const struct spectrum *what, double qx, double qy)
+{
+    if (what->anisotropy == 1)
+        return hypot(qx, qy);
+    return hypot(what->anisotropy * (what->c * qx - what->s * qy), what->s * qx + what->c * qy);
 }
 
 /* The finaliser of splitmix64 (Steele, Lea, Flood 2014): every input bit moves every output bit. */
@@ -161,7 +243,7 @@ static double complex
 amplitude(const struct rc_shape *shape, const struct spectrum *what, long kx, long ky)
 {
     double nx = (double)shape->nx, ny = (double)shape->ny;
-    double q = hypot((double)kx / (nx * shape->dx), (double)ky / (ny * shape->dy));
+    double q = wave_number(what, (double)kx / (nx * shape->dx), (double)ky / (ny * shape->dy));
     double periods = -0.5 * ((double)kx * (nx - 1) / nx + (double)ky * (ny - 1) / ny);
     double size;
 
@@ -201,6 +283,36 @@ make_waves(const struct rc_shape *shape, const struct spectrum *what, double com
     }
 }
 
+/* Gives heights of mean 0 and RMS 1 the size asked for; s is room for their waves. */
+static enum rc_status
+set_size(const struct rc_shape *shape, const struct rc_selfaffine *what, double complex *s,
+         double *h, struct rc_err *err)
+{
+    size_t columns = rc_fourier_columns(shape), n = shape->nx * shape->ny;
+    double size = what->rms_height, slope2 = 0;
+
+    if (what->rms_slope != 0) {
+        if (rc_fourier_forward(shape, h, s, err) != RC_OK)
+            return RC_FAIL;
+        for (size_t j = 0; j < shape->ny; j++) {
+            double row = 0; /* short sums keep their digits */
+
+            for (size_t i = 0; i < columns; i++) {
+                double q = hypot(rc_fourier_q(i, shape->nx, shape->dx),
+                                 rc_fourier_q(j, shape->ny, shape->dy));
+                double a = cabs(s[j * columns + i]) * q / (double)n;
+
+                row += a * a * (i == 0 || 2 * i == shape->nx ? 1 : 2);
+            }
+            slope2 += row;
+        }
+        size = what->rms_slope / sqrt(slope2);
+    }
+    for (size_t k = 0; k < n; k++)
+        h[k] *= size;
+    return RC_OK;
+}
+
 enum rc_status
 rc_synth_selfaffine(const struct rc_shape *shape, const struct rc_selfaffine *what, double *h,
                     struct rc_err *err)
@@ -209,7 +321,7 @@ rc_synth_selfaffine(const struct rc_shape *shape, const struct rc_selfaffine *wh
     double complex *s = NULL;
     struct spectrum spectrum;
     size_t n = rc_fourier_size(shape);
-    double height2, slope2, scale;
+    double height2, slope2, scale, misfit;
 
     if (check_spectrum(shape, what, err) != RC_OK)
         goto done;
@@ -233,6 +345,10 @@ rc_synth_selfaffine(const struct rc_shape *shape, const struct rc_selfaffine *wh
     for (size_t k = 0; k < n; k++)
         s[k] *= scale;
     status = rc_fourier_backward(shape, s, h, err);
+    if (status == RC_OK && rc_heights_skewed(what))
+        status = rc_heights_shape(shape, what, STEPS, h, &misfit, err);
+    if (status == RC_OK && rc_heights_skewed(what))
+        status = set_size(shape, what, s, h, err);
 done:
     free(s);
     return status;

@@ -21,4 +21,6 @@ claim "a tilt along y: the last row" warns 'from the last row to the first' pres
 claim "  a plane mends it" bash -c 'rc-detrend --plane ramp-x.rcg | press 2>err; ! grep -q "do not meet" err'
 claim "a free solve has no seam" bash -c 'rc-solve --load 10mN --estar 100GPa --output pressure ramp-x.rcg -o p.rcg 2>err; ! grep -q "do not meet" err'
 
+claim "so does a taper" bash -c 'rc-detrend --quiet --taper 12um ramp-x.rcg | press 2>err; ! grep -q "do not meet" err'
+
 finish

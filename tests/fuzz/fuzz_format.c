@@ -62,9 +62,13 @@ check_words(const char *words)
 static void
 try_file(const uint8_t *data, size_t size)
 {
-    /* half of the files are read with what the user adds */
+    /* half of the files are read with what the user adds, a quarter resampled */
     bool wishes = size > 0 && (data[size - 1] & 1) != 0;
-    struct rc_wish wish = {.dx = wishes ? 1e-6 : NAN, .dy = NAN, .z_unit = wishes ? 1e-9 : NAN};
+    struct rc_wish wish = {.dx = wishes ? 1e-6 : NAN,
+                           .dy = NAN,
+                           .z_unit = wishes ? 1e-9 : NAN,
+                           .even = size > 0 && (data[size - 1] & 2) != 0,
+                           .even_step = size > 0 && (data[size - 1] & 4) != 0 ? 1e-7 : 0};
     const char *name = getenv("RC_FORMAT");
     struct rc_file file = {"fuzz.dat", data, size};
     const struct rc_format *format = rc_format_find(&file, NULL);
@@ -99,6 +103,31 @@ try_file(const uint8_t *data, size_t size)
     }
 }
 
+/* The file as it is, or what it unpacks to: RC_GZIP in the environment puts the header of a member
+ * before it, so that mutation need not keep that right. */
+static void
+try_packed(const uint8_t *data, size_t size)
+{
+    static const uint8_t header[10] = {0x1f, 0x8b, 8};
+    uint8_t *packed = malloc(sizeof header + size);
+    struct rc_file file = {"fuzz.gz", packed, sizeof header + size};
+    unsigned char *unpacked;
+    struct rc_err err = {""};
+    size_t n;
+
+    if (packed == NULL)
+        return;
+    memcpy(packed, header, sizeof header);
+    memcpy(packed + sizeof header, data, size);
+    unpacked =
+        rc_file_unpack(&file, rc_memory_limit(size) - (1 << 20), &n, &err); /* zlib takes some */
+    if ((unpacked == NULL) != (err.text[0] != '\0'))
+        abort();
+    check_words(err.text);
+    free(unpacked);
+    free(packed);
+}
+
 int
 LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
@@ -107,7 +136,10 @@ LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 
     rc_sandbox_bypass(bypass != NULL);
     meter_start(library ? 0 : rc_memory_limit(size));
-    try_file(data, size);
+    if (getenv("RC_GZIP") != NULL)
+        try_packed(data, size);
+    else
+        try_file(data, size);
     meter_stop();
     watch_judge();
     return 0;

@@ -13,6 +13,7 @@
 #     sandbox  the same through the sandbox: what dies in the library is counted, not found
 #     whole    the same from whole files, up to 4 MiB
 #     hdf      the reader with a fake in place of libhdf5
+#     gzip     no reader: what unpacks files, of any FORMAT (run.sh BUILD SECONDS any:gzip)
 set -u
 build=$1 seconds=$2
 shift 2
@@ -70,6 +71,7 @@ fuzz() { # FORMAT HARNESS
         ;;
     sandbox) asan=$asan:detect_leaks=0 ;;
     whole) program=sandbox most=4194304 asan=$asan:detect_leaks=0 ;;
+    gzip) program=format folders=("$corpus") bypass=(RC_GZIP=1) ;;
     hdf) folders=("$corpus") most=4096 bypass=(RC_FUZZ_BYPASS=1) ;;
     esac
     env "${bypass[@]}" RC_FORMAT="$format" ASAN_OPTIONS="$asan" "$build/fuzz-$program" \

@@ -5,6 +5,7 @@
 #ifndef RC_CLI_H
 #define RC_CLI_H
 
+#include "coating.h"
 #include "ending.h"
 #include "json.h"
 #include "name_list.h"

@@ -58,6 +58,8 @@ add_value(struct line *line, const struct opt *o, const void *at)
 {
     char text[RC_NUMBER_SIZE];
 
+    if (o->optional && isnan(*(const double *)at))
+        return; /* it stands without its number */
     if (o->type == OPT_NUMBER) {
         double value = *(const double *)at;
         add(line, " ", o->word != NULL && isinf(value) ? o->word : rc_number_text(text, value));

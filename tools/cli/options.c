@@ -112,8 +112,12 @@ help_row(const char *left, const struct opt *o)
 
     if (o->type == OPT_CHOICE)
         arg = word_list(list, o, "|");
-    n = printf("  %s%s%s%s%s%s", left, o->name, o->alias == NULL ? "" : ", --",
-               o->alias == NULL ? "" : o->alias, arg == NULL ? "" : " ", arg == NULL ? "" : arg);
+    n = printf("  %s%s%s%s%s%s%s", left, o->name, o->alias == NULL ? "" : ", --",
+               o->alias == NULL ? "" : o->alias,
+               arg == NULL   ? ""
+               : o->optional ? " ["
+                             : " ",
+               arg == NULL ? "" : arg, o->optional ? "]" : "");
     if (n >= COLUMN)
         printf("\n%*s", COLUMN, "");
     else
@@ -228,7 +232,7 @@ add_step(struct tool *t, const struct opt *o, struct steps *steps, const char *t
     if (steps->n == most)
         tool_die(t, EXIT_USAGE, "more than %zu steps: use two commands", most);
     if (o->type == OPT_STEP && o->arg != NULL)
-        value = o->unit == UNIT_NONE ? whole(t, o, text) : number(t, o, text);
+        value = o->unit == UNIT_NONE && !o->real ? whole(t, o, text) : number(t, o, text);
     steps->step[steps->n++] = (struct step){.opt = o, .value = value, .text = text};
 }
 
@@ -335,7 +339,9 @@ getopt_table(const struct tool *t)
         return NULL;
     for (size_t k = 0; k < t->opts; k++) {
         const struct opt *o = &t->opt[k];
-        int has_arg = o->arg == NULL && o->words == NULL ? no_argument : required_argument;
+        int has_arg = o->optional                          ? optional_argument
+                      : o->arg == NULL && o->words == NULL ? no_argument
+                                                           : required_argument;
 
         add_name(&rows, o->name, has_arg, OWN + (int)k);
         if (o->alias != NULL)
@@ -396,6 +402,19 @@ unknown_option(struct tool *t, const struct option *table, const char *word, siz
     if ((name = nearest(table, typed)) != NULL)
         tool_die(t, EXIT_USAGE, "unknown option %.*s: did you mean --%s?", n, word, name);
     tool_die(t, EXIT_USAGE, "unknown option %.*s: see %s --help", n, word, t->info->name);
+}
+
+/* The argument of an option that may have none: behind its "=", or the next word where that is a
+ * number; NULL where there is none. */
+static const char *
+optional_argument_of(const struct opt *o, int argc, char **argv)
+{
+    double value;
+
+    if (optarg != NULL || !o->optional || optind >= argc ||
+        unit_number(argv[optind], o->unit, &value, NULL) != RC_OK)
+        return optarg;
+    return argv[optind++];
 }
 
 static _Noreturn void
@@ -459,19 +478,25 @@ asks_for_text(const struct tool *t, int what, const char *text)
 static void
 look_for_output(struct tool *t, int argc, char **argv, const struct option *table)
 {
+    char **copy = malloc(((size_t)argc + 1) * sizeof *copy); /* getopt sorts its words */
     int what;
 
+    if (copy == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
+    memcpy(copy, argv, ((size_t)argc + 1) * sizeof *copy);
     t->stream_expected = t->info->writes == WRITES_STREAM;
-    while ((what = getopt_long(argc, argv, letters, table, NULL)) != -1)
+    while ((what = getopt_long(argc, copy, letters, table, NULL)) != -1)
         if (what == 'o' ? strcmp(optarg, "-") != 0 : asks_for_text(t, what, optarg))
             t->stream_expected = false;
-    optind = 1; /* once more from the start */
+    free(copy);
+    optind = 0; /* once more from the start, with nothing remembered */
 }
 
 void
 options_read(struct tool *t, int argc, char **argv)
 {
     const struct option *table;
+    const char *text;
     int what;
 
     add_rows(t, t->info->opts, 0);
@@ -490,7 +515,9 @@ options_read(struct tool *t, int argc, char **argv)
             t->given[what - OWN] = true;
             if (t->opt[what - OWN].text)
                 t->writes = WRITES_TEXT;
-            set_value(t, &t->opt[what - OWN], t->args, optarg);
+            text = optional_argument_of(&t->opt[what - OWN], argc, argv);
+            if (text != NULL || !t->opt[what - OWN].optional)
+                set_value(t, &t->opt[what - OWN], t->args, text);
         } else {
             bad_option(t, what, argv, table);
         }

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "coating.h"
 #include "shown.h"
 
 /* ---- the command line ---- */
@@ -31,6 +32,8 @@ const struct opt physics_options[] = {
      .word = "rigid", .arg = "MODULUS", .help = "Young's modulus of body 2, or rigid"},
     {.name = "nu2", .type = OPT_NUMBER, AT(nu2), .min = -1, .max = 0.5, .above = true,
      .result = true, .arg = "RATIO", .help = "Poisson's ratio of body 2"},
+    {.name = "layer", .type = OPT_TEXTS, AT(layer), .result = true, .arg = "T,E,NU",
+     .help = "a layer on body 1: thickness, Young's modulus, Poisson's ratio; again for more, top first"},
     {.name = "hardness", .type = OPT_NUMBER, .unit = UNIT_PA, AT(hardness), ABOVE_0,
      .result = true, .arg = "PRESSURE", .help = "upper bound of the pressure: above it, yield"},
     {.name = "radius", .type = OPT_NUMBER, .unit = UNIT_M, AT(radius), ABOVE_0, .result = true,
@@ -68,6 +71,12 @@ check_steps(struct tool *t, const struct physics *a)
                   name);
 }
 
+static double
+plane_compliance(double e, double nu)
+{
+    return isinf(e) ? 0 : (1 - nu * nu) / e;
+}
+
 static void
 check_elasticity(struct tool *t, struct physics *a)
 {
@@ -80,8 +89,43 @@ check_elasticity(struct tool *t, struct physics *a)
                  "give the elasticity, either as --estar or as --E1 --nu1 --E2 "
                  "--nu2, all four (--E2 rigid needs no --nu2)");
     if (bodies > 0)
-        a->estar =
-            1 / ((1 - a->nu1 * a->nu1) / a->e1 + (rigid ? 0 : (1 - a->nu2 * a->nu2) / a->e2));
+        a->estar = 1 / (plane_compliance(a->e1, a->nu1) + plane_compliance(a->e2, a->nu2));
+}
+
+/* The layers lie on body 1. History has them in SI. */
+static void
+check_layers(struct tool *t, struct physics *a)
+{
+    size_t n = a->layer.n;
+    struct rc_err err;
+    char h[RC_NUMBER_SIZE], e[RC_NUMBER_SIZE], nu[RC_NUMBER_SIZE], *si;
+
+    a->surface_estar = a->estar;
+    if (n == 0)
+        return;
+    if (tool_given(t, "estar"))
+        tool_die(t, EXIT_USAGE,
+                 "layers lie on a substrate: give its --E1 and --nu1, and the other "
+                 "body's --E2 and --nu2 (or --E2 rigid), not --estar");
+    if ((a->layers = calloc(n, sizeof *a->layers)) == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
+    for (size_t k = 0; k < n; k++) {
+        struct rc_layer *m = &a->layers[k];
+        if (coating_layer(a->layer.step[k].text, m, &err) != RC_OK)
+            tool_die(t, EXIT_USAGE, "--layer %s: %s", a->layer.step[k].text, err.text);
+        if ((si = malloc(3 * RC_NUMBER_SIZE)) == NULL)
+            tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
+        snprintf(si, 3 * RC_NUMBER_SIZE, "%s,%s,%s", rc_number_text(h, m->thickness),
+                 rc_number_text(e, m->e), rc_number_text(nu, m->nu));
+        a->layer.step[k].text = si;
+    }
+    a->coating = (struct rc_coating){.layers = n,
+                                     .layer = a->layers,
+                                     .e = a->e1,
+                                     .nu = a->nu1,
+                                     .compliance = plane_compliance(a->e2, a->nu2)};
+    a->surface_estar =
+        1 / (plane_compliance(a->layers[0].e, a->layers[0].nu) + a->coating.compliance);
 }
 
 void
@@ -91,6 +135,7 @@ physics_check(struct tool *t, struct physics *a)
         tool_die(t, EXIT_USAGE, "give one of --load, --mean-pressure and --approach");
     check_steps(t, a);
     check_elasticity(t, a);
+    check_layers(t, a);
 }
 
 const struct numbers *
@@ -153,8 +198,8 @@ warn_of_seam(struct tool *t, const struct rc_grid *g)
             tool_warn(
                 t,
                 "%s: the edges do not meet: from the last %s to the first the heights jump by "
-                "%s (RMS), %.3g times the steps inside: a tilt goes with rc-detrend --plane; "
-                "a surface that is no period is solved without --periodic",
+                "%s (RMS), %.3g times the steps inside: rc-detrend --plane takes a tilt off, "
+                "--taper leads the edges together; or solve it without --periodic",
                 tool_where(t, g, where, sizeof where), line[side],
                 shown_in_unit(jump, seam.across[side], "m"), seam.across[side] / seam.inside[side]);
 }
@@ -231,5 +276,6 @@ physics_problem(const struct physics *a, const struct rc_grid *g, size_t step)
                                          : 0,
         .approach = a->approach.n > 0 ? number : 0,
         .hardness = a->hardness,
+        .coating = a->coating.layers > 0 ? &a->coating : NULL,
     };
 }

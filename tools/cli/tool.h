@@ -45,7 +45,7 @@ enum opt_type {
     OPT_WORDS,   /* size_t: bit k is set when the list holds word k of .words               */
     OPT_NUMBERS, /* struct numbers; none (n = 0) for .word, if there is one                 */
     OPT_STEP,    /* appended to a struct steps: options whose order on the line matters; with
-                    .arg it takes a whole number or, with a unit, a number                  */
+                    .arg it takes a whole number or, with a unit or .real, a number                */
     OPT_TEXTS,   /* appended too, in the same order; the argument stays a text              */
 };
 
@@ -57,8 +57,10 @@ struct opt {
     size_t at;       /* offsetof the value in the tool's args                              */
     double min, max; /* bounds of each number, kept when min < max                         */
     bool above;      /* min itself is out of bounds                                        */
+    bool real;       /* OPT_STEP without a unit: not whole numbers only                  */
     bool result;     /* changes what is computed: goes into history                        */
     bool text;       /* given, the tool writes text, whatever it writes otherwise          */
+    bool optional;   /* OPT_NUMBER: may stand without its number, and then keeps the default */
     const char *(*words)(size_t k); /* word k; NULL past the last: see words.h              */
     const char *word;               /* instead of OPT_NUMBERS; of OPT_NUMBER: for INFINITY  */
     bool per_metre;                 /* OPT_NUMBERS of forces that may be in N/m             */

@@ -36,22 +36,37 @@ put_word(FILE *out, const char *word)
 }
 
 static void
+put_files(const struct tool *t, FILE *out)
+{
+    for (size_t k = 0; k < t->operands; k++)
+        put_word(out, t->operand[k]);
+}
+
+/* On a coarser grid rc-pick makes the means of the cells first; a sphere that rc-solve adds is on any grid
+ * what its means are, but for a constant. */
+static void
 put_command(struct tool *t, const struct cost_trial *m, FILE *out)
 {
     const char *physics = strstr(tool_history(t), " --"); /* name and version stand before */
+    bool coarse = m->settings.coarse > 1;
     char tol[RC_NUMBER_SIZE];
 
+    if (coarse) {
+        fprintf(out, "rc-pick --resample %zux%zu", m->shape.nx, m->shape.ny);
+        put_files(t, out);
+        fputs(" | ", out);
+    }
     fprintf(out, "rc-solve%s --method %s --kernel %s --tol %s", physics, m->settings.method,
             m->settings.kernel, rc_number_text(tol, m->settings.tol));
     if (t->threads != rc_threads_available())
         fprintf(out, " --threads %zu", t->threads);
-    for (size_t k = 0; k < t->operands; k++)
-        put_word(out, t->operand[k]);
+    if (!coarse)
+        put_files(t, out);
     fputc('\n', out);
 }
 
-/* Full grids only: no tool takes a map to a coarser one. By the triangle inequality the error is
- * at most that from the reference and the reference's own. */
+/* By the triangle inequality the error is at most that from the reference and the reference's own; of a
+ * coarser grid it is that of its pressures, which are means over its cells. */
 void
 cost_command(const struct cost_case *c, FILE *out)
 {
@@ -61,7 +76,7 @@ cost_command(const struct cost_case *c, FILE *out)
     for (size_t k = 0; k < c->trials; k++) {
         const struct cost_trial *m = &c->trial[k];
 
-        if (m->state != COST_DONE || m->settings.coarse > 1 || !m->contact.converged)
+        if (m->state != COST_DONE || !m->contact.converged)
             continue;
         if ((isnan(c->budget) ? m->error + c->reference.contact.pressure_error <= c->error
                               : m->seconds <= c->budget) &&

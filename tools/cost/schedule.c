@@ -29,8 +29,6 @@ obstacle(const struct cost_case *c, const struct cost_trial *m)
     }
     if (m->settings.coarse > 1 && (least == 1 ? m->shape.nx * m->shape.ny : least) < SMALLEST)
         return "left out: the grid is too small to be coarsened so far";
-    if (m->settings.coarse > 1 && c->choosing && !c->shown)
-        return "left out: rc-solve does not coarsen";
     if (c->tool->memory != 0 && rc_solver_memory(&m->shape, &problem) > c->tool->memory)
         return "left out: it needs more than --memory";
     return NULL;
@@ -62,7 +60,7 @@ too_slow(const struct cost_case *c)
     for (size_t k = 0; k < c->trials; k++) {
         const struct cost_trial *m = &c->trial[k];
 
-        if (m->state != COST_DONE || m->settings.coarse > 1)
+        if (m->state != COST_DONE)
             continue;
         any = true;
         if (m->error <= c->error)

@@ -40,7 +40,7 @@ static void
 suspect_unit(struct run *run, const struct rc_grid *g, const char *where, const struct solution *s)
 {
     double width = g->dx * (double)g->nx, length = g->dy * (double)g->ny;
-    double estar = run->args->physics.estar;
+    double estar = run->args->physics.surface_estar;
     char peak[SHOWN_NUMBER], modulus[SHOWN_NUMBER], mean[SHOWN_NUMBER], x[SHOWN_NUMBER],
         y[SHOWN_NUMBER];
 
@@ -70,7 +70,7 @@ static void
 warn_of_theory(struct run *run, const struct rc_grid *g, const char *where,
                const struct solution *s)
 {
-    double estar = run->args->physics.estar, peak = s->contact.max_pressure;
+    double estar = run->args->physics.surface_estar, peak = s->contact.max_pressure;
     char most[SHOWN_NUMBER];
 
     if (peak > estar)
@@ -94,13 +94,13 @@ warn_of_grid(struct run *run, const char *where, const struct solution *s)
 {
     size_t nodes = s->contact.contact_nodes;
 
-    if (nodes >= fewest_nodes && (double)nodes >= fewest_each * (double)s->patches)
+    if (nodes >= fewest_nodes && (double)nodes >= fewest_each * (double)s->patches.count)
         return;
     tool_warn(&run->t,
               "%s: %zu %s in contact, in %zu %s: the grid does not resolve it: area and "
               "largest pressure may be far off: --discretization estimates by how much",
-              where, nodes, nodes == 1 ? "node" : "nodes", s->patches,
-              s->patches == 1 ? "patch" : "patches");
+              where, nodes, nodes == 1 ? "node" : "nodes", s->patches.count,
+              s->patches.count == 1 ? "patch" : "patches");
 }
 
 /* ---- not at its end ---- */
@@ -143,8 +143,9 @@ tell(struct run *run, const char *where, const struct solution *s)
         "pressure %s, approach %s, mean gap %s; %s to %.2g in %zu iterations, %.3g convolutions, "
         "%.2g s",
         where, shown_in_unit(load, c->load, "N"), shown_area(area, c->contact_area),
-        100 * c->contact_fraction, c->contact_nodes, s->patches,
-        s->patches == 1 ? "patch" : "patches", yielded, shown_in_unit(peak, c->max_pressure, "Pa"),
+        100 * c->contact_fraction, c->contact_nodes, s->patches.count,
+        s->patches.count == 1 ? "patch" : "patches", yielded,
+        shown_in_unit(peak, c->max_pressure, "Pa"),
         isnan(c->approach) ? "unknown" : shown_in_unit(approach, c->approach, "m"),
         shown_in_unit(gap, c->mean_gap, "m"), c->converged ? "converged" : "not converged",
         c->pressure_error, c->iterations, c->convolutions, solve_now() - run->began);

@@ -37,6 +37,18 @@ kernel_state(const struct scene *s)
 }
 
 static const char *
+layers_state(const struct scene *s)
+{
+    static char text[64];
+    size_t n = s->run->args->physics.coating.layers;
+
+    if (n == 0)
+        return "left out: one material";
+    snprintf(text, sizeof text, "on: %zu on a substrate", n);
+    return text;
+}
+
+static const char *
 hardness_state(const struct scene *s)
 {
     if (isinf(s->run->args->physics.hardness))
@@ -90,10 +102,15 @@ static const struct effect {
     const char *name;
     const char *(*state)(const struct scene *scene);
 } effects[] = {
-    {"kernel", kernel_state},       {"hardness", hardness_state},
-    {"sphere", sphere_state},       {"padding", padding_state},
-    {"approach", approach_state},   {"history", history_state},
-    {"stiffness", stiffness_state}, {"discretization", discretization_state},
+    {"kernel", kernel_state},
+    {"layers", layers_state},
+    {"hardness", hardness_state},
+    {"sphere", sphere_state},
+    {"padding", padding_state},
+    {"approach", approach_state},
+    {"history", history_state},
+    {"stiffness", stiffness_state},
+    {"discretization", discretization_state},
 };
 
 enum {
@@ -134,6 +151,24 @@ report_discretization(struct report *r, const struct rc_contact *c)
     report_end(r);
 }
 
+/* The largest; all of them are in `rc-info --patches`. */
+static void
+report_patches(struct report *r, const struct rc_patches *patches)
+{
+    enum {
+        LARGEST = 10
+    };
+
+    report_object(r, "patches");
+    report_count(r, "count", patches->count, NULL);
+    report_number(r, "perimeter", patches->perimeter, "m");
+    report_array(r, "largest_areas");
+    for (size_t k = 0; k < patches->count && k < LARGEST && patches->patch != NULL; k++)
+        report_number(r, NULL, patches->patch[k].area, "m2");
+    report_end(r);
+    report_end(r);
+}
+
 static void
 report_figures(struct report *r, const struct solution *s)
 {
@@ -143,8 +178,9 @@ report_figures(struct report *r, const struct solution *s)
     report_number(r, "mean_pressure", c->mean_pressure, "Pa");
     report_number(r, "max_pressure", c->max_pressure, "Pa");
     report_count(r, "contact_nodes", c->contact_nodes, NULL);
-    report_number(r, "nodes_per_patch", (double)c->contact_nodes / (double)s->patches, NULL);
+    report_number(r, "nodes_per_patch", (double)c->contact_nodes / (double)s->patches.count, NULL);
     report_number(r, "contact_area", c->contact_area, "m2");
+    report_number(r, "contact_area_corrected", s->patches.contact_area_corrected, "m2");
     report_number(r, "contact_fraction", c->contact_fraction, NULL);
     report_number(r, "plastic_area", c->plastic_area, "m2");
     report_number(r, "yielded_area", c->yielded_area, "m2");
@@ -158,6 +194,7 @@ report_figures(struct report *r, const struct solution *s)
     report_number(r, "pressure_error_estimate", c->pressure_error, NULL);
     report_discretization(r, c);
     report_bool(r, "converged", c->converged);
+    report_patches(r, &s->patches);
 }
 
 void

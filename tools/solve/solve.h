@@ -69,9 +69,9 @@ solve_now(void)
 /* What is known of a solution. */
 struct solution {
     struct rc_contact contact;
-    size_t patches;   /* of the contact                                          */
-    double slope;     /* RMS, where the bodies touch; NAN: not looked at         */
-    double stiffness; /* N/m; NAN: unknown                                       */
+    struct rc_patches patches; /* of the contact; the list of them only for a report */
+    double slope;              /* RMS, where the bodies touch; NAN: not looked at         */
+    double stiffness;          /* N/m; NAN: unknown                                       */
 };
 
 /* "steel.x3p, case 2, load 3 N": which solution is meant, for messages. */

@@ -1,0 +1,145 @@
+#include "even.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "limit.h"
+
+/* The place of the last decimal that any position has: 0.01 when they are 0.5, 0.75, 1. */
+static double
+last_place(const double *x, size_t points)
+{
+    double place = 1, scaled;
+
+    for (size_t k = 0; k < points; k++)
+        while (place > 1e-12 &&
+               (scaled = x[k] / place, fabs(scaled - round(scaled)) > 1e-6 * fmax(1, fabs(scaled))))
+            place /= 10;
+    return place;
+}
+
+/* Positions may be rounded in the file, or off by a twentieth of a step: a stylus drifts that
+ * much, and heights between two points so near say nothing else. */
+static enum rc_status
+judge_steps(const double *x, size_t points, struct rc_err *err)
+{
+    double step = (x[points - 1] - x[0]) / (double)(points - 1), place = last_place(x, points);
+    double most = 0.05 * step, off = 0;
+    char a[RC_NUMBER_SIZE], b[RC_NUMBER_SIZE], c[RC_NUMBER_SIZE];
+    size_t worst = 0;
+
+    if (place < 0.7 * step)
+        most = fmax(most, 1.01 * place);
+    for (size_t k = 0; k < points; k++) {
+        double here = fabs(x[k] - (x[0] + step * (double)k));
+        if (here > off) {
+            off = here;
+            worst = k;
+        }
+    }
+    if (off <= most)
+        return RC_OK;
+    return rc_err_set(err,
+                      "the positions are not evenly apart: the furthest off is point %zu, at %s "
+                      "where even steps of %s lead to %s, %.2g steps away; up to %.2g is let pass: "
+                      "--even resamples the profile to even steps",
+                      worst + 1, rc_number_text(a, x[worst]), rc_number_text(c, step),
+                      rc_number_text(b, x[0] + step * (double)worst), off / step, most / step);
+}
+
+static int
+by_value(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+
+    return (x > y) - (x < y);
+}
+
+static enum rc_status
+median_spacing(const double *x, size_t points, double *median, struct rc_err *err)
+{
+    size_t n = points - 1;
+    double *d = malloc(n * sizeof *d);
+
+    if (d == NULL)
+        return rc_err_set(err, "out of memory for %zu spacings", n);
+    for (size_t k = 0; k < n; k++)
+        d[k] = x[k + 1] - x[k];
+    qsort(d, n, sizeof *d, by_value);
+    *median = (d[(n - 1) / 2] + d[n / 2]) / 2;
+    free(d);
+    return RC_OK;
+}
+
+/* The wished step in the unit of the positions, or that of the points. */
+static enum rc_status
+pick_step(const struct rc_wish *wish, double metres, double length, double median, double *step,
+          struct rc_err *err)
+{
+    char a[RC_NUMBER_SIZE], b[RC_NUMBER_SIZE];
+
+    if (!(wish->even_step > 0)) {
+        *step = length / fmax(1, round(length / median));
+        return RC_OK;
+    }
+    if (isnan(metres))
+        return rc_err_set(err,
+                          "the positions have no unit, so that --even takes no step here: --even "
+                          "without one resamples, and --dx says how wide its step is");
+    *step = wish->even_step / metres;
+    if (*step <= length * (1 + 1e-9))
+        return RC_OK;
+    return rc_err_set(err, "--even %s m is longer than the profile, %s m",
+                      rc_number_text(a, wish->even_step), rc_number_text(b, length * metres));
+}
+
+enum rc_status
+rc_even_new(const double *x, size_t points, double metres, const struct rc_file *file,
+            const struct rc_wish *wish, struct rc_even *even, struct rc_err *err)
+{
+    double length = x[points - 1] - x[0], median = 0, nodes;
+
+    *even = (struct rc_even){
+        .first = x[0], .step = length / (double)(points - 1), .n = points, .widest = 0};
+    if (!wish->even)
+        return judge_steps(x, points, err);
+    if (!(wish->even_step > 0) && judge_steps(x, points, NULL) == RC_OK)
+        return RC_OK;
+    if (median_spacing(x, points, &median, err) != RC_OK ||
+        pick_step(wish, metres, length, median, &even->step, err) != RC_OK)
+        return RC_FAIL;
+    nodes = floor(length / even->step * (1 + 1e-12) + 1e-9) + 1;
+    if (!(nodes < 1e15))
+        return rc_err_set(err, "%g nodes are too many: --even STEP gives a wider step", nodes);
+    even->n = (size_t)nodes;
+    even->widest = RC_EVEN_GAP * fmax(median, even->step) * (1 + 1e-9);
+    return rc_map_fits(file, even->n, 4, err); /* a reader holds them more than once */
+}
+
+void
+rc_even_heights(const struct rc_even *even, const double *x, const double *z, size_t points,
+                double *v)
+{
+    double near = 1e-9 * even->step; /* so far off a node a point counts as on it */
+    size_t left = 0;
+
+    if (even->widest == 0) {
+        memcpy(v, z, points * sizeof *v);
+        return;
+    }
+    for (size_t k = 0; k < even->n; k++) {
+        double at = even->first + even->step * (double)k, gap;
+
+        while (left + 2 < points && x[left + 1] <= at + near)
+            left++;
+        gap = x[left + 1] - x[left];
+        if (fabs(at - x[left]) <= near)
+            v[k] = z[left];
+        else if (at >= x[left + 1] - near)
+            v[k] = z[left + 1];
+        else
+            v[k] = gap > even->widest ? NAN
+                                      : z[left] + (z[left + 1] - z[left]) * ((at - x[left]) / gap);
+    }
+}

@@ -1,0 +1,128 @@
+/*
+ * Files that were packed with gzip (RFC 1952): one member or several, one after another.
+ *
+ * Packed data can promise any number of bytes in a few, so that they are unpacked twice: once to
+ * count and to check them, piece by piece, and then into memory of just their size.
+ */
+#include "format.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <zlib.h>
+
+enum {
+    PIECE = 1 << 16,      /* bytes that are unpacked at once when they are only counted */
+    GZIP = 16 + MAX_WBITS /* how zlib is told that a gzip header comes                  */
+};
+
+bool
+rc_file_packed(const struct rc_file *file)
+{
+    return rc_file_holds(file, 0, "\x1f\x8b", 2);
+}
+
+/* Fills the input again when it is empty: zlib counts in 32 bits. */
+static void
+feed(z_stream *z, const struct rc_file *file, size_t *given)
+{
+    size_t left = file->size - *given;
+
+    if (z->avail_in > 0)
+        return;
+    z->avail_in = (uInt)(left < (1u << 30) ? left : (1u << 30));
+    *given += z->avail_in;
+}
+
+/* What zlib says, in words. */
+static enum rc_status
+refuse(const z_stream *z, int status, size_t n, struct rc_err *err)
+{
+    if (status == Z_MEM_ERROR)
+        return rc_err_set(err, "out of memory for zlib");
+    if (status == Z_BUF_ERROR)
+        return rc_err_set(err, "its gzip data are cut short: they end after %zu unpacked bytes", n);
+    return rc_err_set(err, "its gzip data are damaged after %zu unpacked bytes (%s)", n,
+                      z->msg == NULL ? "zlib" : z->msg);
+}
+
+/* Whether what follows a member is another one; zeros that fill a block up are none. */
+static enum rc_status
+look_on(const struct rc_file *file, const z_stream *z, bool *more, struct rc_err *err)
+{
+    size_t at = (size_t)(z->next_in - file->data);
+    struct rc_file rest = {.data = file->data + at, .size = file->size - at};
+
+    *more = rc_file_packed(&rest);
+    for (size_t k = 0; k < rest.size && !*more; k++)
+        if (rest.data[k] != 0)
+            return rc_err_set(err, "behind its gzip data stand %zu bytes that are none", rest.size);
+    return RC_OK;
+}
+
+/* Unpacks all members into `to`, of *size bytes and one, or, where it is NULL, counts into *size
+ * how many they are, up to `most`. */
+static enum rc_status
+unpack(const struct rc_file *file, size_t most, unsigned char *to, size_t *size, struct rc_err *err)
+{
+    unsigned char *piece = to == NULL ? malloc(PIECE) : NULL;
+    z_stream z = {.next_in = (z_const Bytef *)(uintptr_t)file->data};
+    enum rc_status status = RC_FAIL;
+    size_t given = 0, n = 0;
+    bool more = true;
+    int said;
+
+    if ((to == NULL && piece == NULL) || inflateInit2(&z, GZIP) != Z_OK) {
+        free(piece);
+        return rc_err_set(err, "out of memory for zlib");
+    }
+    while (more) {
+        size_t left = *size + 1 - n; /* one more, so that zlib always has where to write */
+        size_t room = to == NULL ? PIECE : left < (1u << 30) ? left : (1u << 30);
+
+        feed(&z, file, &given);
+        z.next_out = to == NULL ? piece : to + n;
+        z.avail_out = (uInt)room;
+        said = inflate(&z, Z_NO_FLUSH);
+        n += room - z.avail_out;
+        if (n > most) {
+            rc_err_set(err,
+                       "its %zu bytes of gzip data unpack to more than %zu MiB, which is the limit "
+                       "for so few: --memory LIMIT sets another",
+                       file->size, most >> 20);
+            goto done;
+        }
+        if (said == Z_STREAM_END) {
+            if (look_on(file, &z, &more, err) != RC_OK)
+                goto done;
+            inflateReset(&z);
+        } else if (said != Z_OK) {
+            refuse(&z, said, n, err);
+            goto done;
+        }
+    }
+    *size = n;
+    status = RC_OK;
+done:
+    inflateEnd(&z);
+    free(piece);
+    return status;
+}
+
+unsigned char *
+rc_file_unpack(const struct rc_file *file, size_t most, size_t *size, struct rc_err *err)
+{
+    unsigned char *data;
+
+    *size = 0;
+    if (unpack(file, most, NULL, size, err) != RC_OK)
+        return NULL;
+    if ((data = malloc(*size + 1)) == NULL) {
+        rc_err_set(err, "out of memory for %zu unpacked bytes", *size);
+        return NULL;
+    }
+    if (unpack(file, most, data, size, err) == RC_OK)
+        return data;
+    free(data);
+    return NULL;
+}

@@ -1,0 +1,32 @@
+/*
+ * Power of the waves of real maps, and what follows from it alone: autocorrelations. Internal: never
+ * installed.
+ */
+#ifndef RC_POWER_H
+#define RC_POWER_H
+
+#include "libcontact/grid.h"
+
+/* Writes row j of a map, nx values. Rows are asked for by several threads, each once. */
+typedef void rc_map_row(const void *map, size_t j, double *row);
+
+/* |s|^2 of the waves of a map, for s as in fourier.h, column by column: wave number k along x and
+ * place j along y stand at power[k ny + j], k <= nx/2. The other half plane is the same. threads 0:
+ * all. RC_FAIL when a side is too long for FFTW or memory is short. */
+enum rc_status rc_power(const struct rc_shape *shape, rc_map_row *row, const void *map,
+                        size_t threads, double *power, struct rc_err *err);
+
+/* Sums of the products of nodes that are so far apart, for 0 <= y <= my and -mx <= x <= mx nodes,
+ * my + 1 rows of 2 mx + 1 sums: those of opposite offsets are the same. The map is set in zeros to
+ * px x py nodes and repeats, px = nx, py = ny, or goes on with zeros as far as these offsets reach,
+ * px >= nx + mx, py >= ny + my; mx <= px/2, my <= py/2, my < ny. Fails likewise. */
+struct rc_offsets {
+    size_t px, py, mx, my;
+};
+enum rc_status rc_autocorrelate(const struct rc_shape *shape, const struct rc_offsets *offsets,
+                                rc_map_row *row, const void *map, size_t threads, double *sums,
+                                struct rc_err *err);
+/* Bytes that either takes beside its result. */
+size_t rc_power_memory(const struct rc_shape *shape, const struct rc_offsets *offsets);
+
+#endif

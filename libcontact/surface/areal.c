@@ -1,0 +1,301 @@
+/*
+ * Parameters of a surface by ISO 25178-2: heights and slopes here, the rest in files of its own.
+ * Sums are taken over pieces of the map, then over the pieces in their order: the number of threads
+ * changes no digit.
+ */
+#include "areal.h"
+
+#include <stdlib.h>
+
+enum {
+    PIECE = 4096 /* values of a sum that needs no compensation */
+};
+
+/* ---- heights ---- */
+
+struct extent {
+    double there, sum, minimum, maximum;
+};
+
+RC_CLONES static struct extent
+extent_of(const double *v, size_t n)
+{
+    double there = 0, sum = 0, minimum = INFINITY, maximum = -INFINITY;
+
+#pragma omp simd reduction(+ : there, sum) reduction(min : minimum) reduction(max : maximum)
+    for (size_t k = 0; k < n; k++) {
+        bool is = fabs(v[k]) <= DBL_MAX;
+        there += is ? 1 : 0;
+        sum += is ? v[k] : 0;
+        minimum = is && v[k] < minimum ? v[k] : minimum;
+        maximum = is && v[k] > maximum ? v[k] : maximum;
+    }
+    return (struct extent){there, sum, minimum, maximum};
+}
+
+/* Sums of the powers of d = v - mean, and of |d|. */
+struct moments {
+    double first, size, second, third, fourth;
+};
+
+RC_CLONES static struct moments
+moments_of(const double *v, size_t n, double mean)
+{
+    double first = 0, size = 0, second = 0, third = 0, fourth = 0;
+
+#pragma omp simd reduction(+ : first, size, second, third, fourth)
+    for (size_t k = 0; k < n; k++) {
+        double d = fabs(v[k]) <= DBL_MAX ? v[k] - mean : 0, d2 = d * d;
+        first += d;
+        size += fabs(d);
+        second += d2;
+        third += d2 * d;
+        fourth += d2 * d2;
+    }
+    return (struct moments){first, size, second, third, fourth};
+}
+
+/* Room for one piece's sums each; the largest that a piece makes. */
+union piece {
+    struct extent extent;
+    struct moments moments;
+};
+
+static void
+measure_extent(struct rc_relief *r, union piece *piece, size_t pieces)
+{
+    size_t n = r->shape.nx * r->shape.ny;
+    struct rc_total there = {0}, sum = {0};
+
+#pragma omp parallel for num_threads(r->threads) schedule(static)
+    for (size_t k = 0; k < pieces; k++)
+        piece[k].extent = extent_of(r->h + k * PIECE, k + 1 < pieces ? PIECE : n - k * PIECE);
+    r->minimum = INFINITY;
+    r->maximum = -INFINITY;
+    for (size_t k = 0; k < pieces; k++) {
+        const struct extent *e = &piece[k].extent;
+        rc_total_add(&there, e->there);
+        rc_total_add(&sum, e->sum);
+        r->minimum = fmin(r->minimum, e->minimum);
+        r->maximum = fmax(r->maximum, e->maximum);
+    }
+    r->there = (size_t)rc_total_value(&there);
+    r->mean = rc_total_value(&sum) / (double)r->there;
+    /* rounding may leave it outside, and off a flat's own height */
+    r->mean = fmin(fmax(r->mean, r->minimum), r->maximum);
+}
+
+static void
+measure_heights(const struct rc_relief *r, union piece *piece, size_t pieces, struct rc_areal *a)
+{
+    size_t n = r->shape.nx * r->shape.ny;
+    double there = (double)r->there, variance, left;
+    struct rc_total sum[5] = {{0}};
+
+#pragma omp parallel for num_threads(r->threads) schedule(static)
+    for (size_t k = 0; k < pieces; k++)
+        piece[k].moments =
+            moments_of(r->h + k * PIECE, k + 1 < pieces ? PIECE : n - k * PIECE, r->mean);
+    for (size_t k = 0; k < pieces; k++) {
+        const struct moments *m = &piece[k].moments;
+        rc_total_add(&sum[0], m->first);
+        rc_total_add(&sum[1], m->size);
+        rc_total_add(&sum[2], m->second);
+        rc_total_add(&sum[3], m->third);
+        rc_total_add(&sum[4], m->fourth);
+    }
+    left = rc_total_value(&sum[0]) / there; /* the mean itself is rounded */
+    variance = fmax(0, rc_total_value(&sum[2]) / there - left * left);
+    a->sq = sqrt(variance);
+    a->sa = rc_total_value(&sum[1]) / there;
+    if (variance > 0) {
+        a->ssk = rc_total_value(&sum[3]) / there / (variance * a->sq);
+        a->sku = rc_total_value(&sum[4]) / there / (variance * variance);
+    }
+    a->sp = r->maximum - r->mean;
+    a->sv = r->mean - r->minimum;
+    a->sz = r->maximum - r->minimum;
+}
+
+/* ---- slopes ---- */
+
+/* Sums and counts over pairs along x and y, and over triangles. */
+struct slopes {
+    double x2, x_pairs, y2, y_pairs, excess, triangles;
+};
+
+/* What a slope adds to an area or a length, over its projection; g2 is its square. */
+static inline double
+excess(double g2)
+{
+    return g2 / (1 + sqrt(1 + g2));
+}
+
+/* Of n steps from v[i] to v[i + 1]. */
+RC_CLONES static void
+add_steps(const double *v, size_t n, double per_dx, struct slopes *to)
+{
+    double x2 = 0, pairs = 0;
+
+#pragma omp simd reduction(+ : x2, pairs)
+    for (size_t i = 0; i < n; i++) {
+        double g = (v[i + 1] - v[i]) * per_dx;
+        bool is = fabs(v[i]) <= DBL_MAX && fabs(v[i + 1]) <= DBL_MAX;
+        x2 += is ? g * g : 0;
+        pairs += is ? 1 : 0;
+    }
+    to->x2 += x2;
+    to->x_pairs += pairs;
+}
+
+/* Of n steps from v[i] to below[i]. */
+RC_CLONES static void
+add_steps_down(const double *v, const double *below, size_t n, double per_dy, struct slopes *to)
+{
+    double y2 = 0, pairs = 0;
+
+#pragma omp simd reduction(+ : y2, pairs)
+    for (size_t i = 0; i < n; i++) {
+        double g = (below[i] - v[i]) * per_dy;
+        bool is = fabs(v[i]) <= DBL_MAX && fabs(below[i]) <= DBL_MAX;
+        y2 += is ? g * g : 0;
+        pairs += is ? 1 : 0;
+    }
+    to->y2 += y2;
+    to->y_pairs += pairs;
+}
+
+/* Four triangles of each four nodes: both halves along either diagonal, each with a side along x and
+ * one along y. NaN in a corner makes its triangles NaN. */
+RC_CLONES static void
+add_triangles(const double *v, const double *below, size_t n, double per_dx, double per_dy,
+              struct slopes *to)
+{
+    double sum = 0, count = 0;
+
+#pragma omp simd reduction(+ : sum, count)
+    for (size_t i = 0; i < n; i++) {
+        double top = (v[i + 1] - v[i]) * per_dx, bottom = (below[i + 1] - below[i]) * per_dx;
+        double left = (below[i] - v[i]) * per_dy, right = (below[i + 1] - v[i + 1]) * per_dy;
+        double t2 = top * top, b2 = bottom * bottom, l2 = left * left, r2 = right * right;
+        double tl = t2 + l2, tr = t2 + r2, bl = b2 + l2, br = b2 + r2;
+        sum += tl <= DBL_MAX ? excess(tl) : 0;
+        sum += tr <= DBL_MAX ? excess(tr) : 0;
+        sum += bl <= DBL_MAX ? excess(bl) : 0;
+        sum += br <= DBL_MAX ? excess(br) : 0;
+        count += tl <= DBL_MAX ? 1 : 0;
+        count += tr <= DBL_MAX ? 1 : 0;
+        count += bl <= DBL_MAX ? 1 : 0;
+        count += br <= DBL_MAX ? 1 : 0;
+    }
+    to->excess += sum;
+    to->triangles += count;
+}
+
+/* A profile's segments stand for its triangles. */
+static void
+add_segment(double from, double to_next, double per, struct slopes *to)
+{
+    double g = (to_next - from) * per, g2 = g * g;
+
+    if (!(g2 <= DBL_MAX))
+        return;
+    to->excess += excess(g2);
+    to->triangles++;
+}
+
+static struct slopes
+slopes_of_row(const struct rc_relief *r, size_t j)
+{
+    size_t nx = r->shape.nx, ny = r->shape.ny;
+    double per_dx = 1 / r->shape.dx, per_dy = 1 / r->shape.dy;
+    const double *v = r->h + j * nx, *below = v + nx;
+    struct slopes s = {0};
+
+    add_steps(v, nx - 1, per_dx, &s);
+    for (size_t i = 0; ny == 1 && i + 1 < nx; i++)
+        add_segment(v[i], v[i + 1], per_dx, &s);
+    if (j + 1 == ny)
+        return s;
+    add_steps_down(v, below, nx, per_dy, &s);
+    if (nx == 1)
+        add_segment(v[0], below[0], per_dy, &s);
+    else
+        add_triangles(v, below, nx - 1, per_dx, per_dy, &s);
+    return s;
+}
+
+static void
+measure_slopes(const struct rc_relief *r, struct slopes *row, struct rc_areal *a)
+{
+    struct rc_total sum[6] = {{0}};
+    double x, y;
+
+#pragma omp parallel for num_threads(r->threads) schedule(static)
+    for (size_t j = 0; j < r->shape.ny; j++)
+        row[j] = slopes_of_row(r, j);
+    for (size_t j = 0; j < r->shape.ny; j++) {
+        rc_total_add(&sum[0], row[j].x2);
+        rc_total_add(&sum[1], row[j].x_pairs);
+        rc_total_add(&sum[2], row[j].y2);
+        rc_total_add(&sum[3], row[j].y_pairs);
+        rc_total_add(&sum[4], row[j].excess);
+        rc_total_add(&sum[5], row[j].triangles);
+    }
+    /* without a pair along a side that has several nodes 0/0, and NAN, it is */
+    x = r->shape.nx > 1 ? rc_total_value(&sum[0]) / rc_total_value(&sum[1]) : 0;
+    y = r->shape.ny > 1 ? rc_total_value(&sum[2]) / rc_total_value(&sum[3]) : 0;
+    if (r->shape.nx * r->shape.ny > 1)
+        a->sdq = sqrt(x + y);
+    a->sdr = rc_total_value(&sum[4]) / rc_total_value(&sum[5]);
+}
+
+/* ---- all of it ---- */
+
+enum rc_status
+rc_areal(const struct rc_shape *shape, const double *h, const struct rc_surface_options *options,
+         struct rc_areal *a, struct rc_err *err)
+{
+    struct rc_relief r = {.h = h, .boundary = options->boundary};
+    enum rc_status status = RC_FAIL;
+    union piece *piece = NULL;
+    struct slopes *row = NULL;
+    size_t pieces;
+
+    *a = (struct rc_areal){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN,
+                           NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+    if (rc_shape_check(shape, err) != RC_OK)
+        return RC_FAIL;
+    r.shape = *shape;
+    r.threads = rc_useful_threads(shape, options->threads);
+    pieces = (shape->nx * shape->ny - 1) / PIECE + 1;
+    piece = malloc(pieces * sizeof *piece);
+    row = malloc(shape->ny * sizeof *row);
+    if (piece == NULL || row == NULL) {
+        rc_err_set(err, "out of memory for the figures of %zu x %zu nodes", shape->nx, shape->ny);
+        goto done;
+    }
+    measure_extent(&r, piece, pieces);
+    if (r.there == 0) {
+        status = RC_OK;
+        goto done;
+    }
+    measure_heights(&r, piece, pieces, a);
+    measure_slopes(&r, row, a);
+    if (rc_material_ratio(&r, a, err) != RC_OK)
+        goto done;
+    status = r.maximum > r.minimum ? rc_texture(&r, a, err) : RC_OK;
+done:
+    free(row);
+    free(piece);
+    return status;
+}
+
+size_t
+rc_areal_memory(const struct rc_shape *shape, const struct rc_surface_options *options)
+{
+    size_t sorted = rc_material_ratio_memory(shape);
+    size_t waves = rc_texture_memory(shape, options->boundary);
+
+    return sorted > waves ? sorted : waves;
+}

@@ -1,0 +1,210 @@
+/*
+ * The material ratio curve (Abbott and Firestone 1933): all heights, the highest first. Node k of n
+ * stands for the ratios k/n to (k+1)/n, so that areas under the curve are sums, and heights between
+ * nodes are interpolated from (k + 1/2)/n.
+ *
+ * The core's line is that of least squares over the 40 % of smallest secant slope (ISO 25178-2, ISO
+ * 13565-2); it meets the ratios 0 and 1 at the top and the bottom of the core. What stands above the
+ * top, or lies below the bottom, is made a triangle of the same area on the ratios that it takes.
+ */
+#include "areal.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "libcontact/memory.h"
+
+/* ---- sorting: 16.7 million heights twice as fast as by comparing them ---- */
+
+enum {
+    DIGIT = 11,
+    PASSES = 6, /* of DIGIT bits make 64 */
+    BUCKETS = 1 << DIGIT
+};
+
+/* Whole numbers in the order of the doubles reversed: the highest is the smallest. */
+static uint64_t
+key_of(double v)
+{
+    uint64_t bits;
+
+    memcpy(&bits, &v, sizeof bits);
+    return bits >> 63 ? bits : ~bits ^ UINT64_C(1) << 63;
+}
+
+static double
+height_of(uint64_t key)
+{
+    uint64_t bits = key >> 63 ? key : ~(key ^ UINT64_C(1) << 63);
+    double v;
+
+    memcpy(&v, &bits, sizeof v);
+    return v;
+}
+
+/* Sorts n keys digit by digit, the lowest first; returns where they lie in the end. A digit that all
+ * share, as the lowest of values that were once single precision, takes no pass. */
+static uint64_t *
+sort(uint64_t *key, uint64_t *other, size_t n, size_t (*count)[BUCKETS])
+{
+    memset(count, 0, PASSES * sizeof *count);
+    for (size_t k = 0; k < n; k++)
+        for (unsigned p = 0; p < PASSES; p++)
+            count[p][key[k] >> p * DIGIT & (BUCKETS - 1)]++;
+    for (unsigned p = 0; p < PASSES; p++) {
+        size_t *place = count[p], sum = 0;
+        uint64_t *to = other;
+        if (place[key[0] >> p * DIGIT & (BUCKETS - 1)] == n)
+            continue;
+        for (size_t b = 0; b < BUCKETS; b++) {
+            size_t here = place[b];
+            place[b] = sum;
+            sum += here;
+        }
+        for (size_t k = 0; k < n; k++)
+            to[place[key[k] >> p * DIGIT & (BUCKETS - 1)]++] = key[k];
+        other = key;
+        key = to;
+    }
+    return key;
+}
+
+/* The heights that are there, about the mean, the highest first, in room[0] or room[1]. */
+static double *
+sorted_heights(const struct rc_relief *r, uint64_t *room[2], size_t (*count)[BUCKETS])
+{
+    size_t n = 0;
+    uint64_t *key;
+
+    for (size_t k = 0; k < r->shape.nx * r->shape.ny; k++)
+        if (rc_there(r->h[k]))
+            room[0][n++] = key_of(r->h[k]);
+    key = sort(room[0], room[1], n, count);
+    for (size_t k = 0; k < n; k++) {
+        double v = height_of(key[k]) - r->mean;
+        memcpy(&key[k], &v, sizeof v);
+    }
+    return (double *)(void *)key;
+}
+
+/* ---- the curve ---- */
+
+/* Height that this part of the surface reaches. */
+static double
+height_at(const double *z, size_t n, double ratio)
+{
+    double place = ratio * (double)n - 0.5, below = floor(place);
+    size_t k = below < 0 ? 0 : (size_t)below;
+
+    if (below < 0 || k + 1 >= n)
+        return z[k < n ? k : n - 1];
+    return z[k] + (place - below) * (z[k + 1] - z[k]);
+}
+
+/* Mean of what stands above a height, and the part of the surface that does. */
+static double
+material_above(const double *z, size_t n, double height, double *ratio)
+{
+    struct rc_total sum = {0};
+    size_t k = 0;
+
+    for (; k < n && z[k] > height; k++)
+        rc_total_add(&sum, z[k] - height);
+    *ratio = (double)k / (double)n;
+    return rc_total_value(&sum) / (double)n;
+}
+
+/* And of what is void below it. */
+static double
+void_below(const double *z, size_t n, double height, double *ratio)
+{
+    struct rc_total sum = {0};
+    size_t k = n;
+
+    for (; k > 0 && z[k - 1] < height; k--)
+        rc_total_add(&sum, height - z[k - 1]);
+    *ratio = (double)(n - k) / (double)n;
+    return rc_total_value(&sum) / (double)n;
+}
+
+/* The line top + slope ratio of least squares over m nodes from `first` on. */
+static void
+core_line(const double *z, size_t n, size_t first, size_t m, double *top, double *slope)
+{
+    struct rc_total sum = {0}, product = {0};
+    double base = z[first + m / 2], middle = 0.5 * (double)(m - 1), squares, mean;
+
+    for (size_t k = 0; k < m; k++) {
+        double d = z[first + k] - base; /* exactly 0 on a plateau */
+        rc_total_add(&sum, d);
+        rc_total_add(&product, d * ((double)k - middle));
+    }
+    squares = (double)m * ((double)m * (double)m - 1) / 12;
+    mean = rc_total_value(&sum) / (double)m;
+    *slope = m > 1 ? rc_total_value(&product) / squares * (double)n : 0;
+    *top = base + mean - *slope * ((double)first + middle + 0.5) / (double)n;
+}
+
+static void
+measure_core(const double *z, size_t n, struct rc_areal *a)
+{
+    size_t m = (size_t)floor(0.4 * (double)n + 0.5), first = 0;
+    double least = INFINITY, top, slope, material, air, below;
+
+    m = m < 1 ? 1 : m;
+    for (size_t k = 0; k + m <= n; k++) {
+        /* the secant goes from node to node, m - 1 steps: the last m nodes have one too */
+        double drop = z[k] - z[k + m - 1];
+        first = drop < least ? k : first;
+        least = drop < least ? drop : least;
+    }
+    core_line(z, n, first, m, &top, &slope);
+    a->sk = 0 - slope; /* never -0 */
+    material = material_above(z, n, top, &a->smr1);
+    air = void_below(z, n, top + slope, &below);
+    a->smr2 = 1 - below;
+    a->spk = a->smr1 > 0 ? 2 * material / a->smr1 : 0;
+    a->svk = below > 0 ? 2 * air / below : 0;
+}
+
+static void
+measure_volumes(const double *z, size_t n, struct rc_areal *a)
+{
+    double peaks = height_at(z, n, 0.1), pits = height_at(z, n, 0.8), ratio;
+
+    a->vmp = material_above(z, n, peaks, &ratio);
+    a->vmc = material_above(z, n, pits, &ratio) - a->vmp;
+    a->vvv = void_below(z, n, pits, &ratio);
+    a->vvc = void_below(z, n, peaks, &ratio) - a->vvv;
+    a->sxp = height_at(z, n, 0.025) - height_at(z, n, 0.5);
+}
+
+enum rc_status
+rc_material_ratio(const struct rc_relief *r, struct rc_areal *a, struct rc_err *err)
+{
+    enum rc_status status = RC_FAIL;
+    size_t(*count)[BUCKETS] = malloc(PASSES * sizeof *count);
+    uint64_t *room[2] = {rc_alloc(r->there, sizeof **room), rc_alloc(r->there, sizeof **room)};
+    const double *z;
+
+    if (count == NULL || room[0] == NULL || room[1] == NULL) {
+        rc_err_set(err, "out of memory for sorting %zu heights", r->there);
+        goto done;
+    }
+    z = sorted_heights(r, room, count);
+    measure_core(z, r->there, a);
+    measure_volumes(z, r->there, a);
+    status = RC_OK;
+done:
+    free(room[0]);
+    free(room[1]);
+    free(count);
+    return status;
+}
+
+size_t
+rc_material_ratio_memory(const struct rc_shape *shape)
+{
+    return 2 * shape->nx * shape->ny * sizeof(double);
+}

@@ -1,0 +1,184 @@
+/*
+ * Points that stand out of their neighbourhood: measured errors of single points, found by the
+ * median of the 24 others in a square of 5 x 5, which a few of them do not move.
+ */
+#include "libcontact/common.h"
+
+#include <math.h>
+#include <omp.h>
+#include <stdlib.h>
+
+#include "libcontact/memory.h"
+#include "robust.h"
+
+enum {
+    HALF = 2, /* nodes of the square on either side */
+    SIDE = 2 * HALF + 1,
+    OTHERS = SIDE * SIDE - 1,
+    LANES = 8 /* points whose medians are found at a time */
+};
+
+/* ---- the median of 24 ---- */
+
+/* The smaller one of each lane to a, the larger one to b. */
+static inline void
+order(double *restrict a, double *restrict b)
+{
+#pragma omp simd
+    for (size_t l = 0; l < LANES; l++) {
+        double low = a[l] < b[l] ? a[l] : b[l], high = a[l] < b[l] ? b[l] : a[l];
+        a[l] = low;
+        b[l] = high;
+    }
+}
+
+/* The two in the middle of 24. Of 14 of them the smallest and the largest are neither: they are
+ * forgotten, another one comes in, and so on until none is left to come. */
+static inline void
+middle_two(double v[OTHERS][LANES], double *restrict low, double *restrict high)
+{
+    size_t next = OTHERS / 2 + 2;
+
+    for (size_t k = OTHERS / 2 + 2; k >= 4; k--) {
+        for (size_t i = 0; i < k / 2; i++)
+            order(v[i], v[k - 1 - i]);
+        for (size_t i = 1; i <= (k - 1) / 2; i++)
+            order(v[0], v[i]);
+        for (size_t i = k / 2; i + 1 < k; i++)
+            order(v[i], v[k - 1]);
+        for (size_t l = 0; l < LANES && next < OTHERS; l++)
+            v[0][l] = v[next][l];
+        next++;
+    }
+    for (size_t l = 0; l < LANES; l++) {
+        low[l] = v[1][l] < v[2][l] ? v[1][l] : v[2][l];
+        high[l] = v[1][l] < v[2][l] ? v[2][l] : v[1][l];
+    }
+}
+
+/* Differences of LANES points of a row from the medians of their neighbours; `row` holds the SIDE
+ * rows around it, shifted so that the square begins with each. Missing neighbours are in turn above
+ * and below all others, which leaves the middle where it is: that of an odd number of them is then
+ * the lower one of the two. */
+RC_CLONES static void
+differ(const double *const row[SIDE], double *d)
+{
+    double v[OTHERS][LANES], far[LANES], low[LANES], high[LANES], missing[LANES] = {0};
+    const double *middle = row[HALF] + HALF;
+
+    for (size_t l = 0; l < LANES; l++)
+        far[l] = INFINITY;
+    for (size_t k = 0; k < OTHERS; k++) {
+        size_t place = k < OTHERS / 2 ? k : k + 1;
+        const double *at = row[place / SIDE] + place % SIDE;
+#pragma omp simd
+        for (size_t l = 0; l < LANES; l++) {
+            bool there = at[l] == at[l];
+            v[k][l] = there ? at[l] : far[l];
+            far[l] = there ? far[l] : -far[l];
+            missing[l] += there ? 0 : 1;
+        }
+    }
+    middle_two(v, low, high);
+    for (size_t l = 0; l < LANES; l++) {
+        double median = far[l] < 0 ? low[l] : low[l] + 0.5 * (high[l] - low[l]);
+        d[l] = missing[l] < OTHERS ? middle[l] - median : NAN;
+    }
+}
+
+/* ---- the map ---- */
+
+struct square {
+    const struct rc_shape *shape;
+    bool periodic;
+    size_t width;  /* of a row with its margins */
+    double *lines; /* for each thread: SIDE such rows */
+};
+
+/* Row j, which may lie outside, with HALF nodes more at its start and enough at its end. */
+static void
+take_row(const struct square *s, const double *h, ptrdiff_t j, double *to)
+{
+    ptrdiff_t nx = (ptrdiff_t)s->shape->nx, ny = (ptrdiff_t)s->shape->ny;
+    bool there = s->periodic || (j >= 0 && j < ny);
+    const double *row = h + (there ? (j % ny + ny) % ny : 0) * nx;
+
+    for (ptrdiff_t i = 0; i < (ptrdiff_t)s->width; i++) {
+        ptrdiff_t k = i - HALF;
+        bool inside = k >= 0 && k < nx;
+        if (s->periodic && k < nx + HALF)
+            to[i] = row[(k % nx + nx) % nx];
+        else
+            to[i] = there && inside ? row[k] : NAN;
+    }
+}
+
+static void
+find_differences(const struct square *s, const double *h, int threads, double *d)
+{
+    size_t nx = s->shape->nx;
+
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (size_t j = 0; j < s->shape->ny; j++) {
+        double *line = s->lines + SIDE * (size_t)omp_get_thread_num() * s->width;
+        for (size_t k = 0; k < SIDE; k++)
+            take_row(s, h, (ptrdiff_t)(j + k) - HALF, line + k * s->width);
+        for (size_t i = 0; i < nx; i += LANES) {
+            const double *row[SIDE];
+            double some[LANES];
+            for (size_t k = 0; k < SIDE; k++)
+                row[k] = line + k * s->width + i;
+            differ(row, some);
+            for (size_t l = 0; l < LANES && i + l < nx; l++)
+                d[j * nx + i + l] = some[l];
+        }
+    }
+}
+
+size_t
+rc_outliers_memory(const struct rc_shape *shape, size_t threads)
+{
+    size_t width = shape->nx + 2 * HALF + LANES;
+    size_t lines = SIDE * (size_t)rc_useful_threads(shape, threads) * width;
+
+    return (shape->nx * shape->ny + lines) * sizeof(double);
+}
+
+enum rc_status
+rc_outliers(const struct rc_shape *shape, double times, bool periodic, size_t threads, double *h,
+            size_t *count, struct rc_err *err)
+{
+    struct square s = {shape, periodic, shape->nx + 2 * HALF + LANES, NULL};
+    int team = rc_useful_threads(shape, threads);
+    size_t n = shape->nx * shape->ny;
+    enum rc_status status = RC_FAIL;
+    struct rc_statistics figures;
+    double *d = NULL, limit;
+
+    *count = 0;
+    rc_measure(shape, h, &figures);
+    if (!(times > 0))
+        return rc_err_set(err, "outliers beyond %g deviations: the number must be above 0", times);
+    if (figures.infinite > 0)
+        return rc_err_set(err, "%zu infinite heights have no distance from others",
+                          figures.infinite);
+    d = rc_alloc(n, sizeof *d);
+    s.lines = rc_alloc((size_t)team, SIDE * s.width * sizeof *s.lines);
+    if (d == NULL || s.lines == NULL) {
+        rc_err_set(err, "out of memory for outliers among %zu heights", n);
+        goto done;
+    }
+    find_differences(&s, h, team, d);
+    /* 1.4826 times the median absolute deviation is the standard deviation of a Gaussian */
+    limit = times * 1.4826 * rc_median(d, n, rc_median(d, n, 0, false, team), true, team);
+    for (size_t k = 0; k < n; k++)
+        if (fabs(d[k]) > limit) {
+            h[k] = NAN;
+            ++*count;
+        }
+    status = RC_OK;
+done:
+    free(d);
+    free(s.lines);
+    return status;
+}

@@ -1,0 +1,48 @@
+/*
+ * What resists single points that lie far off: the median, and weights that leave such points out.
+ * Internal: never installed.
+ */
+#ifndef RC_ROBUST_H
+#define RC_ROBUST_H
+
+#include <math.h>
+#include <stddef.h>
+
+#include "libcontact/grid.h"
+
+/* The median of v - about or, with `magnitude`, of |v - about|, over the values that are there (not
+ * NaN); of an even number of them the mean of the two in the middle. It is exact, whatever the
+ * number of threads. NAN when nothing is there. */
+double rc_median(const double *v, size_t n, double about, bool magnitude, int threads);
+
+/* Median of |r| times this is where a point loses all weight (ISO 16610-31, 16610-71): three
+ * standard deviations where the residuals are Gaussian. */
+static const double rc_biweight_reach = 4.4478;
+
+/* Reweighting stops when the reach changes by less than this part, after RC_REWEIGHT_MAX times, or
+ * when the reach is that part of the heights at which only rounding is left. */
+static const double rc_reweight_tol = 1e-3;
+static const double rc_reweight_floor = 1e-13;
+enum {
+    RC_REWEIGHT_MAX = 40
+};
+
+/* Weight of a point with the residual r (Beaton and Tukey 1974): 0 from |r| = reach on, and where r
+ * is NaN. */
+static inline double
+rc_biweight(double r, double reach)
+{
+    double s = r / reach, left = 1 - s * s;
+
+    return left > 0 ? left * left : 0;
+}
+
+/* Whether reweighting has come to its end: with `before`, the reach of the time before, and the
+ * size of the heights. */
+static inline bool
+rc_reweighted(double reach, double before, double size)
+{
+    return !(reach > rc_reweight_floor * size) || fabs(reach - before) <= rc_reweight_tol * before;
+}
+
+#endif

@@ -1,0 +1,524 @@
+/*
+ * Power spectral densities, and the Hurst exponent.
+ *
+ * A window is laid over a map that is not periodic, about the mean that it sees, so that no wave
+ * leaks from the mean; what it takes from the mean square is given back as a factor.
+ *
+ * The Hurst exponent is fitted to log c over log q, by least squares over 24 bins a decade. A bin of n
+ * waves is known to about 1/sqrt(n/2) (their squares are distributed exponentially, and opposite
+ * waves are the same), and the mean of a logarithm lies psi(n/2) - ln(n/2) too low; no real surface
+ * follows a power law closer than a few per cent, which bounds the weight of the many short waves.
+ * Without a range, the one is taken that balances what the line leaves against the bins left out.
+ */
+#include "areal.h"
+
+#include <stdlib.h>
+
+#include "libcontact/memory.h"
+#include "libcontact/operator/operator.h"
+
+static const double pi = 3.14159265358979323846;
+
+enum {
+    PARTS = 64,     /* of the spectrum, at the most, summed by themselves */
+    PER_DECADE = 24 /* bins of the fit                                     */
+};
+
+/* What a power law may be off, relative; the price of a bin left out, that of being off by twice what
+ * is expected; wavelengths that show a power law, at least; what it may leave over what is expected;
+ * and exponents of surfaces, give or take. */
+static const double model_error = 0.05, price = 4, span = 3, fits = 3;
+static const double lowest = -0.05, highest = 1.1;
+/* A wave at the end of a range belongs to it; of the largest density, what rounding leaves. */
+static const double slack = 1e-9, rounded = 1e-27;
+/* Waves that count for one under Hann's window, along each side: (35/128) / (3/8)^2. It spreads a
+ * wave to its neighbours: the lowest rings hold what leaks from the mean, and a range that is told is
+ * entered so many rings from either end, because waves beyond it may be of another kind. */
+static const double hann_neighbours = 35.0 / 18, leaked = 2.5, spread = 1.5;
+/* Of the shortest wave that all directions hold: waves of just two nodes are seen in part. */
+static const double resolved = 0.98;
+
+double
+rc_hann(size_t i, size_t n)
+{
+    double s = sin(pi * ((double)i + 0.5) / (double)n);
+
+    return n == 1 ? 1 : s * s;
+}
+
+/* ---- windows ---- */
+
+struct windowed {
+    const struct rc_shape *shape;
+    const double *h;
+    double *wx;  /* NULL: no window */
+    double mean; /* taken off before */
+};
+
+static double
+weight(const struct windowed *w, size_t j)
+{
+    return w->wx == NULL ? 1 : rc_hann(j, w->shape->ny);
+}
+
+static void
+windowed_row(const void *of, size_t j, double *row)
+{
+    const struct windowed *w = of;
+    const double *h = w->h + j * w->shape->nx, wy = weight(w, j);
+
+    for (size_t i = 0; i < w->shape->nx; i++)
+        row[i] = (w->wx == NULL ? 1 : w->wx[i] * wy) * (h[i] - w->mean);
+}
+
+/* Sums over the map of weight and weight times height about `mean`, or, `squared`, of the squares
+ * of height, and of weighted height. */
+static void
+sum_windowed(const struct windowed *w, bool squared, double mean, double sum[2])
+{
+    struct rc_total a = {0}, b = {0};
+
+    for (size_t j = 0; j < w->shape->ny; j++) {
+        const double *h = w->h + j * w->shape->nx, wy = weight(w, j);
+        double row_a = 0, row_b = 0;
+        for (size_t i = 0; i < w->shape->nx; i++) {
+            double f = w->wx == NULL ? 1 : w->wx[i] * wy, d = f * (h[i] - w->mean);
+            row_a += squared ? (h[i] - mean) * (h[i] - mean) : f;
+            row_b += squared ? d * d : f * (h[i] - mean);
+        }
+        rc_total_add(&a, row_a);
+        rc_total_add(&b, row_b);
+    }
+    sum[0] = rc_total_value(&a);
+    sum[1] = rc_total_value(&b);
+}
+
+/* Of Hann's window over n nodes, sides of one and two nodes apart: 3/8. */
+static double
+mean_square(const struct windowed *w)
+{
+    double product = 1;
+
+    for (int side = 0; side < 2; side++) {
+        size_t n = side == 0 ? w->shape->nx : w->shape->ny;
+        product *= n == 1 ? 1 : n == 2 ? 0.25 : 0.375;
+    }
+    return product;
+}
+
+/* Lays the window, if there is one, and gives the factor that makes |FFT|^2 a density, and what of it
+ * is due to what the window has taken. */
+static enum rc_status
+lay_window(struct windowed *w, double *factor, double *taken, struct rc_err *err)
+{
+    const struct rc_shape *s = w->shape;
+    double nodes = (double)s->nx * (double)s->ny, mean = rc_sum(w->h, s->nx * s->ny) / nodes;
+    double sum[2];
+
+    if (!isfinite(mean)) {
+        size_t bad = 0;
+        for (size_t k = 0; k < s->nx * s->ny; k++)
+            bad += rc_there(w->h[k]) ? 0 : 1;
+        return bad == 0 ? rc_err_set(err, "the heights are too large to be added up")
+                        : rc_err_set(err,
+                                     "%zu of %zu heights are missing or infinite: a spectrum "
+                                     "needs all",
+                                     bad, s->nx * s->ny);
+    }
+    for (size_t i = 0; w->wx != NULL && i < s->nx; i++)
+        w->wx[i] = rc_hann(i, s->nx);
+    sum_windowed(w, false, mean, sum);
+    w->mean = mean + sum[1] / sum[0];
+    sum_windowed(w, true, mean, sum);
+    *factor = (s->nx > 1 ? s->dx / (double)s->nx : 1) * (s->ny > 1 ? s->dy / (double)s->ny : 1);
+    if (w->wx != NULL && sum[1] > 0)
+        *factor *= sum[0] / sum[1];
+    *taken = w->wx != NULL && sum[1] > 0 ? sum[0] * mean_square(w) / sum[1] : 1;
+    return RC_OK;
+}
+
+/* ---- rings ---- */
+
+/* Of one ring: all waves, and those of the fit. */
+struct ring {
+    double n, q, c;
+    double fit_n, fit_q, fit_c; /* fit_c: of c q^`steep` */
+};
+
+struct rings {
+    struct rc_shape shape;
+    double width; /* rad/m */
+    size_t n;
+    double low, high; /* of the fit, rad/m                                      */
+    int steep;        /* c q^steep hardly changes across a ring                 */
+    struct ring *ring;
+};
+
+/* Wave number of the shortest wave that all directions hold. */
+static double
+nyquist(const struct rc_shape *s)
+{
+    return pi / (s->nx == 1 ? s->dy : s->ny == 1 ? s->dx : fmax(s->dx, s->dy));
+}
+
+static struct rings
+rings_of(const struct rc_shape *s)
+{
+    double qx = s->nx > 1 ? rc_fourier_q(1, s->nx, s->dx) : INFINITY;
+    double qy = s->ny > 1 ? rc_fourier_q(1, s->ny, s->dy) : INFINITY;
+    double corner = hypot(s->nx > 1 ? rc_fourier_q(s->nx / 2, s->nx, s->dx) : 0,
+                          s->ny > 1 ? rc_fourier_q(s->ny / 2, s->ny, s->dy) : 0);
+    struct rings r = {.shape = *s, .steep = s->nx > 1 && s->ny > 1 ? 3 : 2};
+
+    /* on a strip whose sides differ by much most rings of the lowest wave's width would be empty */
+    r.width = fmax(fmin(fabs(qx), fabs(qy)), corner / (2 * (double)(s->nx + s->ny)));
+    r.n = (size_t)floor(corner / r.width + 0.5) + 1;
+    return r;
+}
+
+static void
+add_column(const struct rings *r, const double *power, size_t k, double factor, struct ring *ring)
+{
+    const struct rc_shape *s = &r->shape;
+    double qx = rc_fourier_q(k, s->nx, s->dx), twice = k == 0 || 2 * k == s->nx ? 1 : 2;
+
+    for (size_t j = 0; j < s->ny; j++) {
+        double qy = rc_fourier_q(j, s->ny, s->dy), q = sqrt(qx * qx + qy * qy);
+        double c = factor * power[k * s->ny + j];
+        struct ring *to;
+        if (k == 0 && j == 0)
+            continue;
+        to = &ring[(size_t)(q / r->width + 0.5)];
+        to->n += twice;
+        to->q += twice * q;
+        to->c += twice * c;
+        if (q < r->low || q > r->high)
+            continue;
+        to->fit_n += twice;
+        to->fit_q += twice * q;
+        to->fit_c += twice * c * (r->steep == 3 ? q * q * q : q * q);
+    }
+}
+
+/* Parts into which a spectrum of so many columns is cut: their rings together are a fraction of it. */
+static size_t
+parts_of(const struct rings *r)
+{
+    size_t most = rc_fourier_columns(&r->shape) * r->shape.ny / (4 * r->n);
+
+    return most < 1 ? 1 : most < PARTS ? most : PARTS;
+}
+
+/* Each part of the spectrum into rings of its own, which are then added up in their order. */
+static enum rc_status
+fill_rings(struct rings *r, const double *power, double factor, int threads, struct rc_err *err)
+{
+    size_t columns = rc_fourier_columns(&r->shape), parts = parts_of(r);
+
+    r->ring = calloc(parts * r->n, sizeof *r->ring);
+    if (r->ring == NULL)
+        return rc_err_set(err, "out of memory for %zu rings of wave numbers", r->n);
+#pragma omp parallel for num_threads(threads) schedule(dynamic)
+    for (size_t part = 0; part < parts; part++)
+        for (size_t k = columns * part / parts; k < columns * (part + 1) / parts; k++)
+            add_column(r, power, k, factor, r->ring + part * r->n);
+    for (size_t part = 1; part < parts; part++)
+        for (size_t b = 0; b < r->n; b++) {
+            struct ring *to = &r->ring[b];
+            const struct ring *from = &r->ring[part * r->n + b];
+            *to = (struct ring){to->n + from->n,         to->q + from->q,
+                                to->c + from->c,         to->fit_n + from->fit_n,
+                                to->fit_q + from->fit_q, to->fit_c + from->fit_c};
+        }
+    return RC_OK;
+}
+
+/* ---- the power law ---- */
+
+/* Bins of the fit: log of c q^steep over log of q, its variance, and the wave numbers it holds. */
+struct bin {
+    double x, y, variance, low, high;
+};
+
+/* ln(n) - psi(n): Abramowitz and Stegun 6.3.18, n >= 1. */
+static double
+log_bias(double n)
+{
+    return 1 / (2 * n) + 1 / (12 * n * n) - 1 / (120 * n * n * n * n);
+}
+
+/* psi'(n), 6.4.12. */
+static double
+log_variance(double n)
+{
+    return 1 / n + 1 / (2 * n * n) + 1 / (6 * n * n * n);
+}
+
+static size_t
+make_bins(const struct rings *r, bool windowed, struct bin *bin)
+{
+    double share = 2, most = 0; /* share: waves that make one independent square */
+    size_t bins = 0, b = 0;
+
+    for (size_t k = 0; k < r->n; k++)
+        most = r->ring[k].n > 0 ? fmax(most, r->ring[k].c / r->ring[k].n) : most;
+    if (windowed)
+        share *= r->steep == 3 ? hann_neighbours * hann_neighbours : hann_neighbours;
+    while (b < r->n) {
+        double n = 0, q = 0, c = 0, end = INFINITY, low = 0, high = 0;
+        for (; b < r->n && (double)b * r->width < end; b++) {
+            const struct ring *ring = &r->ring[b];
+            if (ring->fit_n == 0 || ring->c <= rounded * most * ring->n)
+                continue;
+            if (n == 0) {
+                low = ring->fit_q / ring->fit_n;
+                end = low * pow(10, 1.0 / PER_DECADE);
+            }
+            n += ring->fit_n;
+            q += ring->fit_q;
+            c += ring->fit_c;
+            high = ring->fit_q / ring->fit_n;
+        }
+        if (n > 0) {
+            double m = fmax(n / share, 1);
+            bin[bins++] = (struct bin){.x = log(q / n),
+                                       .y = log(c / n) + log_bias(m),
+                                       .variance = log_variance(m) + model_error * model_error,
+                                       .low = low,
+                                       .high = high};
+        }
+    }
+    return bins;
+}
+
+struct line {
+    double w, x, y, xx, xy, yy; /* weighted sums */
+};
+
+static void
+line_add(struct line *l, const struct bin *b)
+{
+    double w = 1 / b->variance;
+
+    l->w += w;
+    l->x += w * b->x;
+    l->y += w * b->y;
+    l->xx += w * b->x * b->x;
+    l->xy += w * b->x * b->y;
+    l->yy += w * b->y * b->y;
+}
+
+/* Slope, and what is left over in squares of what is expected. */
+static double
+line_slope(const struct line *l, double *left)
+{
+    double sxx = l->xx - l->x * l->x / l->w, sxy = l->xy - l->x * l->y / l->w;
+    double slope = sxy / sxx;
+
+    *left = l->yy - l->y * l->y / l->w - slope * sxy;
+    return slope;
+}
+
+/* c ~ q^(-2-2H) on maps, q^(-1-2H) on profiles. */
+static double
+hurst_of(const struct rings *r, double slope)
+{
+    return 0.5 * ((double)r->steep - slope - (r->steep == 3 ? 2 : 1));
+}
+
+/* Fits bins from .. to-1. */
+static void
+fit(const struct rings *r, const struct bin *bin, size_t from, size_t to, struct rc_psd *psd)
+{
+    struct line l = {0};
+    double left;
+
+    for (size_t b = from; b < to; b++)
+        line_add(&l, &bin[b]);
+    psd->hurst = hurst_of(r, line_slope(&l, &left));
+    psd->hurst_error = 0.5 / sqrt(l.xx - l.x * l.x / l.w);
+}
+
+/* The bins that a power law explains best; from = to: none. */
+static void
+find_range(const struct rings *r, const struct bin *bin, size_t bins, size_t *from, size_t *to)
+{
+    double best = INFINITY;
+
+    *from = *to = 0;
+    for (size_t a = 0; a < bins; a++) {
+        struct line l = {0};
+        for (size_t b = a; b < bins; b++) {
+            double left, cost, hurst;
+            line_add(&l, &bin[b]);
+            if (bin[b].high < span * bin[a].low || b < a + 3)
+                continue;
+            hurst = hurst_of(r, line_slope(&l, &left));
+            cost = left + price * (double)(bins - (b + 1 - a));
+            if (hurst < lowest || hurst > highest || left > fits * (double)(b - a - 1) ||
+                cost >= best)
+                continue;
+            best = cost;
+            *from = a;
+            *to = b + 1;
+        }
+    }
+}
+
+static enum rc_status
+fit_hurst(const struct rings *r, const struct rc_psd_options *options, struct rc_psd *psd,
+          struct rc_err *err)
+{
+    bool told = options->shortest > 0;
+    struct bin *bin = malloc(r->n * sizeof *bin);
+    size_t bins, from = 0, to;
+
+    if (bin == NULL)
+        return rc_err_set(err, "out of memory for %zu rings of wave numbers", r->n);
+    to = bins = make_bins(r, psd->windowed, bin);
+    if (!told)
+        find_range(r, bin, bins, &from, &to);
+    if (to > from + 1) {
+        fit(r, bin, from, to, psd);
+        psd->shortest = told ? options->shortest : 2 * pi / bin[to - 1].high;
+        psd->longest = told ? options->longest : 2 * pi / bin[from].low;
+    }
+    free(bin);
+    if (told && bins < 2 && psd->c[0] > 0)
+        return rc_err_set(err, "the map holds no two rings of waves from %g m to %g m",
+                          options->shortest, options->longest);
+    return RC_OK;
+}
+
+/* ---- results ---- */
+
+static enum rc_status
+list_rings(const struct rings *r, struct rc_psd *psd, struct rc_err *err)
+{
+    psd->q = malloc(r->n * sizeof *psd->q);
+    psd->c = malloc(r->n * sizeof *psd->c);
+    psd->modes = malloc(r->n * sizeof *psd->modes);
+    if (psd->q == NULL || psd->c == NULL || psd->modes == NULL)
+        return rc_err_set(err, "out of memory for %zu rings of wave numbers", r->n);
+    for (size_t b = 0; b < r->n; b++) {
+        const struct ring *ring = &r->ring[b];
+        if (ring->n == 0)
+            continue;
+        psd->q[psd->rings] = ring->q / ring->n;
+        psd->c[psd->rings] = ring->c / ring->n;
+        psd->modes[psd->rings++] = (size_t)ring->n;
+    }
+    return RC_OK;
+}
+
+/* The whole plane, wave number 0 at node (nx/2, ny/2). */
+static void
+draw_map(const struct rc_shape *s, const double *power, double factor, double *map)
+{
+    for (size_t j = 0; j < s->ny; j++)
+        for (size_t i = 0; i < s->nx; i++) {
+            size_t k = (i + s->nx - s->nx / 2) % s->nx, l = (j + s->ny - s->ny / 2) % s->ny;
+            if (2 * k > s->nx) { /* the opposite wave is kept */
+                k = s->nx - k;
+                l = (s->ny - l) % s->ny;
+            }
+            map[j * s->nx + i] = k == 0 && l == 0 ? 0 : factor * power[k * s->ny + l];
+        }
+}
+
+static enum rc_status
+check(const struct rc_shape *s, const struct rc_psd_options *o, struct rc_err *err)
+{
+    if (rc_shape_check(s, err) != RC_OK)
+        return RC_FAIL;
+    if (s->nx * s->ny == 1)
+        return rc_err_set(err, "a single node has no spectrum");
+    if ((o->shortest != 0 || o->longest != 0) &&
+        !(o->shortest > 0 && o->longest > o->shortest && isfinite(o->longest)))
+        return rc_err_set(err,
+                          "wavelengths from %g m to %g m: the shortest comes first, both are "
+                          "positive",
+                          o->shortest, o->longest);
+    return RC_OK;
+}
+
+static enum rc_status
+make(const struct rc_shape *s, const double *h, const struct rc_psd_options *options, double *power,
+     double *wx, struct rc_psd *psd, struct rc_err *err)
+{
+    struct windowed w = {.shape = s, .h = h, .wx = psd->windowed ? wx : NULL};
+    struct rings r = rings_of(s);
+    enum rc_status status = RC_FAIL;
+    double factor = 0;
+
+    r.low = psd->windowed ? leaked * r.width : 0;
+    r.high = resolved * nyquist(s);
+    if (options->shortest > 0) {
+        r.low = (1 - slack) * 2 * pi / options->longest;
+        r.high = (1 + slack) * 2 * pi / options->shortest;
+    }
+    if (options->shortest > 0 && psd->windowed && r.high - r.low > 6 * spread * r.width) {
+        r.low += spread * r.width;
+        r.high -= spread * r.width;
+    }
+    if (lay_window(&w, &factor, &psd->window_factor, err) == RC_OK &&
+        rc_power(s, windowed_row, &w, options->threads, power, err) == RC_OK &&
+        fill_rings(&r, power, factor, rc_useful_threads(s, options->threads), err) == RC_OK &&
+        list_rings(&r, psd, err) == RC_OK)
+        status = fit_hurst(&r, options, psd, err);
+    if (status == RC_OK && options->map != NULL)
+        draw_map(s, power, factor, options->map);
+    free(r.ring);
+    return status;
+}
+
+struct rc_psd *
+rc_psd_new(const struct rc_shape *shape, const double *h, const struct rc_psd_options *options,
+           struct rc_err *err)
+{
+    enum rc_status status = RC_FAIL;
+    struct rc_psd *psd = NULL;
+    double *power = NULL, *wx = NULL;
+
+    if (check(shape, options, err) != RC_OK)
+        return NULL;
+    psd = calloc(1, sizeof *psd);
+    power = rc_alloc(rc_fourier_size(shape), sizeof *power);
+    wx = rc_alloc(shape->nx, sizeof *wx);
+    if (psd == NULL || power == NULL || wx == NULL) {
+        rc_err_set(err, "out of memory for the spectrum of %zu x %zu nodes", shape->nx, shape->ny);
+        goto done;
+    }
+    psd->windowed = options->boundary == RC_FREE;
+    psd->hurst = psd->hurst_error = psd->shortest = psd->longest = NAN;
+    status = make(shape, h, options, power, wx, psd, err);
+done:
+    free(wx);
+    free(power);
+    if (status != RC_OK) {
+        rc_psd_free(psd);
+        psd = NULL;
+    }
+    return psd;
+}
+
+void
+rc_psd_free(struct rc_psd *psd)
+{
+    if (psd == NULL)
+        return;
+    free(psd->q);
+    free(psd->c);
+    free(psd->modes);
+    free(psd);
+}
+
+size_t
+rc_psd_memory(const struct rc_shape *shape)
+{
+    struct rings r = rings_of(shape);
+    size_t after = parts_of(&r) * r.n * sizeof(struct ring) + r.n * sizeof(struct bin);
+    size_t transform = rc_power_memory(shape, NULL);
+
+    return rc_fourier_size(shape) * sizeof(double) + (after > transform ? after : transform);
+}

@@ -1,0 +1,73 @@
+/* Edges led to one height, so that a map can be repeated. */
+#include "libcontact/common.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Weight of each node of a side: a raised cosine of its middle's distance from the edge, up to the
+ * width; 1 on a side of one node. NULL when memory is short. */
+static double *
+weights(size_t n, double d, double width)
+{
+    double *w = calloc(n, sizeof *w);
+
+    for (size_t i = 0; i < n && w != NULL; i++) {
+        double from = ((double)(i < n - 1 - i ? i : n - 1 - i) + 0.5) * d;
+        w[i] = n == 1 || from >= width ? 1 : 0.5 - 0.5 * cos(acos(-1) * from / width);
+    }
+    return w;
+}
+
+static enum rc_status
+check(const struct rc_shape *shape, double width, const struct rc_statistics *s, struct rc_err *err)
+{
+    double node = 0, side = INFINITY;
+
+    if (shape->nx > 1 || shape->ny == 1) {
+        node = shape->dx;
+        side = (double)shape->nx * shape->dx;
+    }
+    if (shape->ny > 1) {
+        node = fmax(node, shape->dy);
+        side = fmin(side, (double)shape->ny * shape->dy);
+    }
+    if (!(width >= node))
+        return rc_err_set(err, "a taper of %g m is narrower than a node, %g m", width, node);
+    if (!(width <= 0.5 * side))
+        return rc_err_set(err, "a taper of %g m is wider than half the map, %g m", width,
+                          0.5 * side);
+    if (s->infinite > 0)
+        return rc_err_set(err, "%zu infinite heights: they have no mean", s->infinite);
+    if (s->missing == shape->nx * shape->ny)
+        return rc_err_set(err, "all %zu heights are missing: nothing to taper", s->missing);
+    return RC_OK;
+}
+
+enum rc_status
+rc_taper(const struct rc_shape *shape, double width, double *h, struct rc_err *err)
+{
+    enum rc_status status = RC_FAIL;
+    double *wx = NULL, *wy = NULL;
+    struct rc_statistics s;
+
+    rc_measure(shape, h, &s);
+    if (check(shape, width, &s, err) != RC_OK)
+        return RC_FAIL;
+    wx = weights(shape->nx, shape->dx, width);
+    wy = weights(shape->ny, shape->dy, width);
+    if (wx == NULL || wy == NULL) {
+        rc_err_set(err, "out of memory for the edges of %zu x %zu nodes", shape->nx, shape->ny);
+        goto done;
+    }
+    for (size_t j = 0; j < shape->ny; j++)
+        for (size_t i = 0; i < shape->nx; i++) {
+            double *at = h + j * shape->nx + i, w = wx[i] * wy[j];
+            if (w < 1)
+                *at = s.mean + w * (*at - s.mean);
+        }
+    status = RC_OK;
+done:
+    free(wx);
+    free(wy);
+    return status;
+}

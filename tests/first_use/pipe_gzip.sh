@@ -1,0 +1,65 @@
+# What was packed with gzip is unpacked in flight, whatever its format, and a bomb takes no memory.
+. "$(dirname "$0")/../pipe.sh"
+
+printf '# Channel: Topo\n# Width: 6 um\n# Height: 5 um\n# Value units: nm\n1 2 3\n4 5 NaN\n' >map.txt
+rc-synth sphere --nx 33 --ny 47 --dx 1.1um --dy 1um --radius 1mm -o ball.rcg
+
+# same_as PLAIN PACKED: both give the same stream but for the name of the source.
+same_as() {
+    rc-import --dx 1um --z-unit nm --quiet "$1" | sed 's/^source=.*//; s/crc32 [0-9a-f]*$//' >plain.out &&
+        rc-import --dx 1um --z-unit nm --quiet "$2" | sed 's/^source=.*//; s/crc32 [0-9a-f]*$//' >packed.out &&
+        grep -aq '^channel=height' plain.out && cmp plain.out packed.out
+}
+
+for format in x3p sdf gsf npy sur gwy h5 xyz; do
+    rc-export -o "ball.$format" ball.rcg
+    gzip -k "ball.$format"
+    claim "$format: the packed file is the same as the plain one" same_as "ball.$format" "ball.$format.gz"
+done
+gzip -k map.txt
+claim "so is text" same_as map.txt map.txt.gz
+claim "and standard input" bash -c 'rc-import - <map.txt.gz | cmp - <(rc-import - <map.txt)'
+claim "the source is the name of the file that is there" says '^source=map.txt.gz$' rc-import map.txt.gz
+claim "the suffix is not needed" bash -c 'cp map.txt.gz packed && rc-import packed | grep -a ^nx=3'
+claim "--list names it and what it is" says '^map.txt.gz: ascii$' rc-import --list map.txt.gz
+
+# a column of two is a profile or a list of points by its name alone
+printf '0 0 1\n1 0 2\n2 0 3\n' >line.xyz
+gzip -k line.xyz
+cp line.xyz.gz line.gz
+claim "the suffix before .gz tells the format" says 'line.xyz.gz: xyz$' rc-import --list line.xyz.gz
+claim "without one the content does" bash -c '! rc-import --list line.gz 2>&1 | grep ": xyz$"'
+
+# ---- members, padding, damage ----
+
+(head -n 4 map.txt | gzip; tail -n 2 map.txt | gzip) >members.txt.gz
+claim "several members are one file" same_as map.txt members.txt.gz
+(gzip -c map.txt; head -c 700 /dev/zero) >padded.txt.gz
+claim "zeros behind the last are nothing" same_as map.txt padded.txt.gz
+(gzip -c map.txt; printf 'more') >more.txt.gz
+refuses 1 "more.txt.gz: behind its gzip data stand 4 bytes that are none" "other bytes are" 'rc-import more.txt.gz'
+size=$(wc -c <ball.sdf.gz)
+for n in 2 3 9 10 11 100 $((size / 2)) $((size - 9)) $((size - 8)) $((size - 1)); do
+    head -c "$n" ball.sdf.gz >cut.sdf.gz
+    refuses 1 "cut.sdf.gz: its gzip data are cut short" "cut after $n of $size bytes" 'rc-import cut.sdf.gz'
+done
+perl -e 'local $/; $_ = <>; substr($_, length() / 2, 1) ^= "\x10"; print' ball.sdf.gz >damaged.sdf.gz
+refuses 1 "damaged.sdf.gz: its gzip data are (damaged after [0-9]+ unpacked bytes|cut short)" "damage inside" \
+    'rc-import damaged.sdf.gz'
+perl -e 'local $/; $_ = <>; substr($_, -8, 1) ^= "\x10"; print' ball.sdf.gz >sum.sdf.gz
+refuses 1 "sum.sdf.gz: its gzip data are damaged after [0-9]+ unpacked bytes \(incorrect data check\)" \
+    "a checksum that is not that of the bytes" 'rc-import sum.sdf.gz'
+refuses 1 "packed with gzip twice: unpack it once" "packed twice" 'gzip -c map.txt.gz | rc-import -'
+refuses 1 "the file is empty" "nothing, packed" 'gzip -c </dev/null | rc-import -'
+refuses 1 "it is a grid stream already" "a packed stream" 'gzip -c ball.rcg | rc-import -'
+
+# ---- bombs ----
+
+head -c 128M /dev/zero | gzip -1 >bomb.gz
+refuses 1 "bomb.gz: its [0-9]+ bytes of gzip data unpack to more than 7[0-9] MiB, which is the limit for so few: --memory LIMIT" \
+    "a bomb is refused (tests/format_gzip.c measures the memory)" 'rc-import bomb.gz'
+refuses 1 "bomb.gz: its [0-9]+ bytes of gzip data unpack to more than 9 MiB" "by --memory too" \
+    'rc-import --memory 10M bomb.gz'
+refuses 1 "bomb.gz: not recognised" "--memory may also allow it" 'rc-import --memory 200M bomb.gz'
+
+finish

@@ -1,0 +1,24 @@
+# rc-import --list of many files says of each what it is or why not, and fails in the end where one was bad.
+. "$(dirname "$0")/../pipe.sh"
+
+printf '# Channel: Topo\n# Width: 6 um\n# Height: 5 um\n# Value units: nm\n1 2 3\n4 5 6\n' >a.txt
+sed 's/Topo/Other/' a.txt >c.txt
+printf 'neither here nor there\n' >b.txt
+refuses 1 '^rc-import: b.txt: not recognised' "a bad file among good ones is told of" \
+    'rc-import --list a.txt b.txt c.txt >list.txt'
+claim "those before and after it are listed" test "$(grep -o '^[ac].txt: ascii\|Topo$\|Other$' list.txt | tr '\n' ' ')" = \
+    "a.txt: ascii Topo c.txt: ascii Other "
+refuses 1 '^rc-import: nowhere.txt: No such file' "so is one that is not there" \
+    'rc-import --list nowhere.txt a.txt >list.txt'
+claim "the next one is listed all the same" grep -q Topo list.txt
+refuses 1 '^rc-import: [.]: reading failed \(Is a directory\)' "so is a folder" 'rc-import --list . a.txt'
+refuses 1 '^rc-import: b.txt: not recognised' "--quiet hides no failure" 'rc-import --quiet --list b.txt a.txt'
+refuses 1 '^rc-import: b.txt: ' "with -o" 'rc-import --list -o listed.txt b.txt a.txt'
+claim "the list is there" grep -q Topo listed.txt
+claim "nothing bad, status 0" rc-import --list a.txt c.txt
+rc-import --list a.txt b.txt c.txt >both.txt 2>&1
+claim "what a terminal shows is in the order of the files" \
+    test "$(grep -oE '^a.txt|b.txt|^c.txt' both.txt | tr '\n' ' ')" = "a.txt b.txt c.txt "
+refuses 1 'b.txt: not recognised' "without --list the first bad file ends it" 'rc-import a.txt b.txt c.txt'
+
+finish

@@ -1,0 +1,78 @@
+/* The bytes of a file. */
+#include "import.h"
+
+#include <errno.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+const char *
+import_source(const char *name)
+{
+    return strcmp(name, "-") == 0 ? "standard input" : name;
+}
+
+/* Bytes to begin with: the whole of a file, when it says how large it is. */
+static size_t
+first_size(FILE *in)
+{
+    struct stat st;
+
+    if (fstat(fileno(in), &st) == 0 && S_ISREG(st.st_mode) && st.st_size > 0 &&
+        (uintmax_t)st.st_size < SIZE_MAX / 2)
+        return (size_t)st.st_size + 1;
+    return 1 << 16;
+}
+
+/* All that `in` holds, or NULL. */
+static unsigned char *
+whole(struct tool *t, FILE *in, size_t *n, struct rc_err *err)
+{
+    size_t size = first_size(in), got;
+    unsigned char *data = NULL, *more;
+
+    for (*n = 0;; size *= 2) {
+        if (t->memory != 0 && size > t->memory) {
+            rc_err_set(err, "reading it needs more memory than the %zu MiB of --memory",
+                       t->memory >> 20);
+            break;
+        }
+        if ((more = realloc(data, size)) == NULL) {
+            rc_err_set(err, "out of memory for %zu bytes", size);
+            break;
+        }
+        data = more;
+        while (*n < size && (got = fread(data + *n, 1, size - *n, in)) > 0)
+            *n += got;
+        if (*n == size)
+            continue;
+        if (!ferror(in))
+            return data;
+        rc_err_set(err, "reading failed (%s)", strerror(errno));
+        break;
+    }
+    free(data);
+    return NULL;
+}
+
+unsigned char *
+import_read(struct tool *t, const char *name, struct rc_file *file, struct rc_err *err)
+{
+    FILE *in = strcmp(name, "-") == 0 ? stdin : fopen(name, "rb");
+    const char *slash = strrchr(name, '/');
+    unsigned char *data;
+
+    if (in == NULL) {
+        rc_err_set(err, "%s", strerror(errno));
+        return NULL;
+    }
+    if (isatty(fileno(in)))
+        tool_die(t, EXIT_USAGE, "%s is a terminal: name a file", import_source(name));
+    *file = (struct rc_file){.name = slash == NULL ? name : slash + 1};
+    file->data = data = whole(t, in, &file->size, err);
+    if (in != stdin)
+        fclose(in);
+    return data;
+}

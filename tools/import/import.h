@@ -1,0 +1,42 @@
+/*
+ * The face of this folder: the bytes of a file, and which of its channels is read.
+ */
+#ifndef RC_IMPORT_H
+#define RC_IMPORT_H
+
+#include "formats/format.h"
+#include "tools/cli/cli.h"
+
+enum {
+    CHANNELS_MOST = 64 /* that are looked at in one file */
+};
+
+/* ---- file.c ---- */
+
+/* The bytes of a file, or of standard input for "-", which the caller frees, and *file of them;
+ * NULL when it cannot be read or needs more than --memory allows. */
+unsigned char *import_read(struct tool *tool, const char *name, struct rc_file *file,
+                           struct rc_err *err);
+/* How messages name it. */
+const char *import_source(const char *name);
+
+/* ---- even.c ---- */
+
+/* Brings a profile to the step wish->even_step. RC_FAIL for a map, and where the step is no fit. */
+enum rc_status import_even(const struct rc_file *file, const struct rc_wish *wish,
+                           struct rc_grid *grid, struct rc_err *err);
+
+/* ---- channel.c ---- */
+
+struct pick {
+    size_t index;
+    char said[400]; /* what the user should know of it; "": nothing */
+};
+
+/* Picks the channel that `wanted` names: in these words, by its number from 1, by its first
+ * letters; NULL: the topography. `any_unit`: the user has said what its unit is worth. RC_FAIL
+ * where there is none or it could be several, which are named. */
+enum rc_status import_pick(const struct rc_channel *channel, size_t n, const char *wanted,
+                           bool any_unit, struct pick *pick, struct rc_err *err);
+
+#endif

@@ -1,0 +1,203 @@
+#include "info.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- what goes with what ---- */
+
+static bool
+is(const struct rc_grid *g, const char *channel)
+{
+    return strcmp(g->channel, channel) == 0;
+}
+
+static bool
+says(const struct rc_grid *g, const char *key, const char *value)
+{
+    const char *is_value = rc_grid_get(g, key);
+
+    return is_value != NULL && strcmp(is_value, value) == 0;
+}
+
+/* A result has a boundary; a surface is periodic or is not. */
+static enum rc_boundary
+boundary_of(const struct rc_grid *g)
+{
+    if (rc_grid_get(g, "boundary") != NULL)
+        return says(g, "boundary", "periodic") ? RC_PERIODIC : RC_FREE;
+    return says(g, "periodic", "yes") ? RC_PERIODIC : RC_FREE;
+}
+
+void
+info_check(struct info_wanted *w, struct tool *t)
+{
+    if (w->fit.n != 0 && (w->fit.n != 2 || !(w->fit.v[0] > 0 && w->fit.v[1] > w->fit.v[0])))
+        tool_die(t, EXIT_USAGE, "--fit takes two wavelengths, the shortest first: --fit 2um,50um");
+    w->psd = w->psd || w->fit.n != 0 || w->psd_map != NULL;
+    if (w->psd_map != NULL)
+        w->file = info_file_new(t, "--psd-map", w->psd_map);
+}
+
+void
+info_end(struct info_wanted *w, struct tool *t)
+{
+    if ((w->areal || w->psd) && !w->height)
+        tool_die(t, EXIT_IMPOSSIBLE, "%s is of heights, and no frame is a height; there is: %s",
+                 w->areal ? "--areal" : "--psd", name_list_end(&w->present));
+    if (w->patches && !w->pressure)
+        tool_die(t, EXIT_IMPOSSIBLE,
+                 "--patches is of pressures, and no frame is a pressure; there is: %s",
+                 name_list_end(&w->present));
+    if (w->file != NULL)
+        info_file_end(w->file);
+}
+
+/* ---- figures ---- */
+
+static void *
+room(struct tool *t, size_t n, size_t size)
+{
+    void *p = calloc(n, size);
+
+    if (p == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
+    return p;
+}
+
+static size_t
+bytes_of(const struct rc_grid *g)
+{
+    return g->nx * g->ny * sizeof *g->v;
+}
+
+static void
+find_areal(struct tool *t, const struct rc_grid *g, struct info_figures *f)
+{
+    const struct rc_surface_options options = {.boundary = boundary_of(g), .threads = t->threads};
+    const struct rc_shape shape = rc_grid_shape(g);
+    struct rc_err err;
+
+    tool_demand_memory(t, g, bytes_of(g) + rc_areal_memory(&shape, &options));
+    f->areal = room(t, 1, sizeof *f->areal);
+    if (rc_areal(&shape, g->v, &options, f->areal, &err) != RC_OK)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+}
+
+/* The spectrum as a frame: spacings are those of wave numbers. */
+static struct rc_grid *
+map_frame(struct tool *t, const struct rc_grid *g, enum rc_boundary boundary)
+{
+    const double two_pi = 6.28318530717958647692;
+    bool row = g->ny == 1, column = g->nx == 1;
+    char step[64];
+    struct rc_err err;
+    struct rc_grid *map = rc_grid_like(g, "psd", row || column ? "m3" : "m4", &err);
+
+    if (map == NULL)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    map->dx = two_pi / ((double)g->nx * g->dx);
+    map->dy = two_pi / ((double)g->ny * g->dy);
+    if (row)
+        map->dy = map->dx;
+    if (column)
+        map->dx = map->dy;
+    snprintf(step, sizeof step, "rc-info %s --psd-map", rc_version());
+    if (rc_grid_set(map, "periodic", NULL, &err) != RC_OK ||
+        rc_grid_set(map, "window", boundary == RC_PERIODIC ? "none" : "hann", &err) != RC_OK ||
+        rc_grid_history(map, step, &err) != RC_OK)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    return map;
+}
+
+static void
+find_psd(struct info_wanted *w, struct tool *t, const struct rc_grid *g, struct info_figures *f)
+{
+    struct rc_psd_options options = {.boundary = boundary_of(g), .threads = t->threads};
+    const struct rc_shape shape = rc_grid_shape(g);
+    struct rc_grid *map = NULL;
+    struct rc_err err;
+
+    tool_demand_finite(t, g, "fill them first, with rc-detrend --fill");
+    tool_demand_memory(t, g, (w->file != NULL ? 2 : 1) * bytes_of(g) + rc_psd_memory(&shape));
+    if (w->fit.n == 2) {
+        options.shortest = w->fit.v[0];
+        options.longest = w->fit.v[1];
+    }
+    if (w->file != NULL) {
+        map = map_frame(t, g, options.boundary);
+        options.map = map->v;
+    }
+    if ((f->psd = rc_psd_new(&shape, g->v, &options, &err)) == NULL)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (map != NULL)
+        info_file_put(w->file, map);
+    rc_grid_free(map);
+}
+
+/* Nodes in contact by their pressures, in bins of equal width from 0 to the largest. */
+static void
+count_pressures(struct tool *t, const struct rc_grid *g, struct info_figures *f)
+{
+    double largest = 0;
+
+    for (size_t k = 0; k < g->nx * g->ny; k++)
+        largest = g->v[k] > largest ? g->v[k] : largest;
+    if (largest == 0)
+        return;
+    f->edges = room(t, INFO_BINS + 1, sizeof *f->edges);
+    f->counts = room(t, INFO_BINS, sizeof *f->counts);
+    for (size_t b = 0; b <= INFO_BINS; b++)
+        f->edges[b] = largest * ((double)b / INFO_BINS);
+    for (size_t k = 0; k < g->nx * g->ny; k++)
+        if (g->v[k] > 0) {
+            size_t b = (size_t)(g->v[k] / largest * INFO_BINS);
+            b = b < INFO_BINS ? b : INFO_BINS - 1; /* the largest itself */
+            f->counts[b]++;
+        }
+}
+
+static void
+find_patches(struct tool *t, const struct rc_grid *g, struct info_figures *f)
+{
+    const struct rc_patch_options options = {
+        .boundary = boundary_of(g), .each = true, .threads = t->threads};
+    const struct rc_shape shape = rc_grid_shape(g);
+    struct rc_err err;
+
+    tool_demand_finite(t, g, "solve the contact again");
+    f->patches = room(t, 1, sizeof *f->patches);
+    if (rc_patches_find(&shape, g->v, &options, f->patches, &err) != RC_OK)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    count_pressures(t, g, f);
+}
+
+void
+info_compute(struct info_wanted *w, struct tool *t, const struct rc_grid *g, struct info_figures *f)
+{
+    bool height = is(g, "height"), pressure = is(g, "pressure");
+
+    *f = (struct info_figures){.grid = g};
+    name_list_add(&w->present, g->channel);
+    w->height = w->height || height;
+    w->pressure = w->pressure || pressure;
+    if (w->areal && height)
+        find_areal(t, g, f);
+    if (w->psd && height)
+        find_psd(w, t, g, f);
+    if (w->patches && pressure)
+        find_patches(t, g, f);
+}
+
+void
+info_free(struct info_figures *f)
+{
+    free(f->areal);
+    rc_psd_free(f->psd);
+    if (f->patches != NULL)
+        rc_patches_free(f->patches);
+    free(f->patches);
+    free(f->edges);
+    free(f->counts);
+    *f = (struct info_figures){0};
+}

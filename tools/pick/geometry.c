@@ -1,0 +1,396 @@
+/* Parts of maps, other spacings, mirrors and quarter turns. */
+#include "pick.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "libcontact/contact.h"
+
+/* What an argument asks for: nodes, or lengths in metres. */
+struct request {
+    bool lengths;
+    double v[4];
+    size_t n; /* of v */
+};
+
+struct geometry {
+    const char *option;
+    bool turns;
+    /* RC_FAIL for words that are no request. */
+    enum rc_status (*read)(const char *text, struct request *r, struct rc_err *err);
+    enum rc_status (*apply)(struct tool *t, struct rc_grid *g, const struct request *r,
+                            struct rc_err *err);
+};
+
+/* ---- arguments ---- */
+
+/* The numbers between commas, at most four, and which of them carry a unit. */
+static enum rc_status
+read_numbers(const char *text, struct request *r, bool with_unit[4], struct rc_err *err)
+{
+    for (r->n = 0;; text++) {
+        size_t n = strcspn(text, ",");
+        const char *end;
+        char one[64];
+
+        if (r->n == 4 || n >= sizeof one)
+            return rc_err_set(err, "'%s': more than four numbers", text);
+        memcpy(one, text, n);
+        one[n] = '\0';
+        if (unit_number(one, UNIT_M, &r->v[r->n], err) != RC_OK)
+            return RC_FAIL;
+        end = rc_number_read(one, false, &(double){0});
+        with_unit[r->n++] = end != NULL && end[strspn(end, " ")] != '\0';
+        text += n;
+        if (*text == '\0')
+            return RC_OK;
+    }
+}
+
+static enum rc_status
+read_crop(const char *text, struct request *r, struct rc_err *err)
+{
+    bool with_unit[4] = {false};
+
+    if (read_numbers(text, r, with_unit, err) != RC_OK)
+        return RC_FAIL;
+    if (r->n != 4)
+        return rc_err_set(err, "four numbers X,Y,W,H are expected: where the part begins from the "
+                               "left and upper edge, its width and height");
+    for (size_t k = 0; k < 4; k++)
+        r->lengths = r->lengths || with_unit[k];
+    for (size_t k = 0; k < 4; k++) {
+        if (r->v[k] < 0 || (k >= 2 && r->v[k] == 0))
+            return rc_err_set(err, "the part has to begin in the map and to have a width and a "
+                                   "height");
+        if (r->lengths ? !with_unit[k] && r->v[k] != 0
+                       : r->v[k] != floor(r->v[k]) || r->v[k] > 9e15)
+            return rc_err_set(err, "plain whole numbers are nodes, lengths carry their unit: four "
+                                   "of one kind are expected");
+    }
+    return RC_OK;
+}
+
+/* Digits up to `end`, as a count of nodes. */
+static bool
+read_count(const char *text, const char *end, double *count)
+{
+    size_t n = (size_t)(end - text);
+
+    return n > 0 && n <= 15 && strspn(text, "0123456789") >= n &&
+           rc_number_read(text, false, count) != NULL && *count > 0;
+}
+
+static enum rc_status
+read_resample(const char *text, struct request *r, struct rc_err *err)
+{
+    const char *by = strchr(text, 'x');
+    bool with_unit[4];
+
+    r->n = 2;
+    r->lengths = by == NULL;
+    if (by != NULL && read_count(text, by, &r->v[0]) &&
+        read_count(by + 1, by + strlen(by), &r->v[1]))
+        return RC_OK;
+    if (by != NULL || read_numbers(text, r, with_unit, err) != RC_OK || r->n > 2)
+        return rc_err_set(err, "spacings DX or DX,DY are expected, or numbers of nodes, NXxNY");
+    if (r->n == 1)
+        r->v[r->n++] = r->v[0];
+    if (!(r->v[0] > 0 && r->v[1] > 0))
+        return rc_err_set(err, "spacings must be above 0");
+    return RC_OK;
+}
+
+static enum rc_status
+read_mirror(const char *text, struct request *r, struct rc_err *err)
+{
+    if (strcmp(text, "x") != 0 && strcmp(text, "y") != 0)
+        return rc_err_set(err, "it must be x, left to right, or y, top to bottom");
+    r->v[0] = text[0];
+    r->n = 1;
+    return RC_OK;
+}
+
+static enum rc_status
+read_rotate(const char *text, struct request *r, struct rc_err *err)
+{
+    static const char *const turn[] = {"90", "180", "270"};
+
+    for (size_t k = 0; k < 3; k++)
+        if (strcmp(text, turn[k]) == 0) {
+            r->v[0] = (double)(k + 1);
+            r->n = 1;
+            return RC_OK;
+        }
+    return rc_err_set(err, "it must be 90, 180 or 270 degrees");
+}
+
+/* ---- maps ---- */
+
+static enum rc_status
+new_map(struct tool *t, const struct rc_grid *g, const struct rc_shape *shape, struct rc_grid **to,
+        struct rc_err *err)
+{
+    size_t nodes, bytes;
+
+    if (rc_shape_check(shape, err) != RC_OK ||
+        rc_size_mul(shape->nx, shape->ny, &nodes, err) != RC_OK ||
+        rc_size_mul(nodes, sizeof *g->v, &bytes, err) != RC_OK)
+        return RC_FAIL;
+    if (bytes > SIZE_MAX / 2)
+        return rc_err_set(err, "%zu nodes are more than this machine can address", nodes);
+    tool_demand_memory(t, g, bytes + g->nx * g->ny * sizeof *g->v);
+    *to = rc_grid_new(shape, g->channel, g->unit, err);
+    return *to == NULL ? RC_FAIL : RC_OK;
+}
+
+/* Gives g the grid and the values of `to`, which goes. */
+static void
+replace(struct rc_grid *g, struct rc_grid *to)
+{
+    double *v = g->v;
+
+    g->v = to->v;
+    to->v = v;
+    g->nx = to->nx;
+    g->ny = to->ny;
+    g->dx = to->dx;
+    g->dy = to->dy;
+    rc_grid_free(to);
+}
+
+/* ---- keys ---- */
+
+static bool
+has(const struct rc_grid *g, const char *key, const char *value)
+{
+    const char *is = rc_grid_get(g, key);
+
+    return is != NULL && strcmp(is, value) == 0;
+}
+
+static enum rc_status
+remove_keys(struct rc_grid *g, const char *const *name, struct rc_err *err)
+{
+    enum rc_status status = RC_OK;
+
+    for (; *name != NULL && status == RC_OK; name++)
+        status = rc_grid_set(g, *name, NULL, err);
+    return status;
+}
+
+/* Counts of points are not those of other points. */
+static enum rc_status
+forget_counts(struct rc_grid *g, struct rc_err *err)
+{
+    return remove_keys(g, (const char *const[]){"filled", "outliers", NULL}, err);
+}
+
+/* The map is no longer a whole period. */
+static enum rc_status
+forget_period(struct tool *t, struct rc_grid *g, struct rc_err *err)
+{
+    char where[256];
+
+    if (has(g, "boundary", "periodic") && rc_grid_set(g, "boundary", NULL, err) != RC_OK)
+        return RC_FAIL;
+    if (!has(g, "periodic", "yes"))
+        return RC_OK;
+    tool_warn(t, "%s: a part of a periodic map is not periodic: periodic=no from here",
+              tool_where(t, g, where, sizeof where));
+    return rc_grid_set(g, "periodic", "no", err);
+}
+
+/* ---- steps ---- */
+
+/* Nodes between two places on a side, lengths from its edge: those whose middles lie there. */
+static enum rc_status
+nodes_between(double from, double length, size_t n, double d, size_t *first, size_t *count,
+              struct rc_err *err)
+{
+    double side = (double)n * d, last = from + length;
+
+    if (last > side * (1 + 1e-9))
+        return rc_err_set(err, "%g m and %g m more are beyond the map, which is %g m there", from,
+                          length, side);
+    *first = (size_t)floor(from / d + 0.5);
+    *count = (size_t)fmin(floor(last / d + 0.5), (double)n);
+    if (*count <= *first)
+        return rc_err_set(err, "no node lies in %g m from %g m on: they are %g m apart", length,
+                          from, d);
+    *count -= *first;
+    return RC_OK;
+}
+
+static enum rc_status
+crop(struct tool *t, struct rc_grid *g, const struct request *r, struct rc_err *err)
+{
+    struct rc_shape from = rc_grid_shape(g), to = from;
+    size_t left = (size_t)r->v[0], top = (size_t)r->v[1];
+
+    to.nx = (size_t)r->v[2];
+    to.ny = (size_t)r->v[3];
+    if (r->lengths &&
+        (nodes_between(r->v[0], r->v[2], from.nx, from.dx, &left, &to.nx, err) != RC_OK ||
+         nodes_between(r->v[1], r->v[3], from.ny, from.dy, &top, &to.ny, err) != RC_OK))
+        return RC_FAIL;
+    if (rc_crop(&from, g->v, left, top, &to, g->v, err) != RC_OK)
+        return RC_FAIL;
+    if (to.nx == from.nx && to.ny == from.ny)
+        return RC_OK;
+    g->nx = to.nx;
+    g->ny = to.ny;
+    if (forget_period(t, g, err) != RC_OK || forget_counts(g, err) != RC_OK)
+        return RC_FAIL;
+    return remove_keys(g, (const char *const[]){"load", NULL}, err);
+}
+
+static enum rc_status
+new_shape(const struct rc_shape *from, const struct request *r, struct rc_shape *to,
+          struct rc_err *err)
+{
+    if (r->lengths)
+        return rc_resample_shape(from, r->v[0], r->v[1], to, err);
+    *to = (struct rc_shape){.nx = (size_t)r->v[0],
+                            .ny = (size_t)r->v[1],
+                            .dx = from->dx * ((double)from->nx / r->v[0]),
+                            .dy = from->dy * ((double)from->ny / r->v[1])};
+    if (from->ny == 1 && to->ny == 1 && from->dy == from->dx)
+        to->dy = to->dx; /* a profile is as wide as its nodes are apart */
+    return rc_shape_check(to, err);
+}
+
+/* The load is what it was where means cover the map. */
+static enum rc_status
+resample(struct tool *t, struct rc_grid *g, const struct request *r, struct rc_err *err)
+{
+    struct rc_shape from = rc_grid_shape(g), to;
+    bool periodic = has(g, "periodic", "yes") || has(g, "boundary", "periodic"), covers, same;
+    struct rc_grid *map = NULL;
+
+    if (new_shape(&from, r, &to, err) != RC_OK)
+        return RC_FAIL;
+    covers = rc_resample_covers(&from, &to);
+    same = covers && from.nx == to.nx && from.ny == to.ny;
+    if (same && from.dx == to.dx && from.dy == to.dy)
+        return RC_OK;
+    if (new_map(t, g, &to, &map, err) != RC_OK)
+        return RC_FAIL;
+    if (rc_resample(&from, g->v, periodic, &to, map->v, err) != RC_OK) {
+        rc_grid_free(map);
+        return RC_FAIL;
+    }
+    replace(g, map);
+    if ((!covers && forget_period(t, g, err) != RC_OK) || (!same && forget_counts(g, err) != RC_OK))
+        return RC_FAIL;
+    if (covers && to.nx <= from.nx && to.ny <= from.ny)
+        return RC_OK;
+    return remove_keys(g, (const char *const[]){"load", NULL}, err);
+}
+
+static enum rc_status
+mirror(struct tool *t, struct rc_grid *g, const struct request *r, struct rc_err *err)
+{
+    struct rc_shape shape = rc_grid_shape(g);
+
+    (void)t;
+    (void)err;
+    rc_mirror(&shape, (char)r->v[0], g->v);
+    return RC_OK;
+}
+
+static enum rc_status
+rotate(struct tool *t, struct rc_grid *g, const struct request *r, struct rc_err *err)
+{
+    struct rc_shape from = rc_grid_shape(g), to = rc_rotate_shape(&from, (size_t)r->v[0]);
+    struct rc_grid *map = NULL;
+
+    if (new_map(t, g, &to, &map, err) != RC_OK)
+        return RC_FAIL;
+    rc_rotate(&from, g->v, (size_t)r->v[0], map->v);
+    replace(g, map);
+    return RC_OK;
+}
+
+/* ---- the table ---- */
+
+static const struct geometry steps[] = {
+    {"crop", false, read_crop, crop},
+    {"resample", false, read_resample, resample},
+    {"mirror", true, read_mirror, mirror},
+    {"rotate", true, read_rotate, rotate},
+};
+
+static const struct geometry *
+find(const struct step *step)
+{
+    for (size_t k = 0; k < sizeof steps / sizeof *steps; k++)
+        if (strcmp(step->opt->name, steps[k].option) == 0)
+            return &steps[k];
+    return NULL;
+}
+
+bool
+pick_geometry(const struct step *step)
+{
+    return find(step) != NULL;
+}
+
+void
+pick_geometry_settle(struct tool *t, struct step *step)
+{
+    const struct geometry *what = find(step);
+    struct request r = {0};
+    size_t size = sizeof r.v / sizeof *r.v * (RC_NUMBER_SIZE + 2), n = 0;
+    struct rc_err err;
+    char *text, number[RC_NUMBER_SIZE];
+
+    if (what->read(step->text, &r, &err) != RC_OK)
+        tool_die(t, EXIT_USAGE, "--%s %s: %s", what->option, step->text, err.text);
+    if (!r.lengths)
+        return;
+    if ((text = malloc(size)) == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %zu bytes of text", size);
+    for (size_t k = 0; k < r.n; k++)
+        n += (size_t)snprintf(text + n, size - n, "%s%s%s", k == 0 ? "" : ",",
+                              rc_number_text(number, r.v[k]), r.v[k] == 0 ? "" : "m");
+    step->text = text;
+}
+
+static void
+demand_map(struct tool *t, const struct rc_grid *g, const struct geometry *what)
+{
+    if (rc_grid_get(g, "section") != NULL)
+        tool_die_at(
+            t, g, EXIT_IMPOSSIBLE,
+            "--%s: a section is no map: its rows are depths: choose the frames that are maps "
+            "by --channel",
+            what->option);
+    if (strcmp(g->channel, "psd") == 0)
+        tool_die_at(
+            t, g, EXIT_IMPOSSIBLE,
+            "--%s: a spectrum has its zero in the middle: do it to the surface, and take the "
+            "spectrum of that",
+            what->option);
+    for (size_t k = 0; what->turns && k < RC_STRESSES; k++)
+        if (strcmp(g->channel, rc_component_names[k]) == 0)
+            tool_die_at(
+                t, g, EXIT_IMPOSSIBLE,
+                "--%s: stresses would change sign or places: do it to the pressure, and run "
+                "rc-stress on that",
+                what->option);
+}
+
+void
+pick_geometry_do(struct tool *t, struct rc_grid *g, const struct step *step)
+{
+    const struct geometry *what = find(step);
+    struct request r = {0};
+    struct rc_err err;
+
+    demand_map(t, g, what);
+    if (what->read(step->text, &r, &err) != RC_OK || what->apply(t, g, &r, &err) != RC_OK)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "--%s %s: %s", what->option, step->text, err.text);
+}

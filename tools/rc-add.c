@@ -1,0 +1,300 @@
+/* rc-add: two surfaces face to face, as one that is pressed against a flat. */
+#include "tools/cli/cli.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "libcontact/contact.h"
+
+static struct args {
+    bool subtract;
+} args;
+
+/* clang-format off */
+static const struct opt opts[] = {
+    {.name = "subtract", .type = OPT_FLAG, .at = offsetof(struct args, subtract), .result = true,
+     .help = "A - B as they lie: what has changed between two measurements"},
+    {.name = NULL},
+};
+/* clang-format on */
+
+static const struct tool_info info = {
+    .name = "rc-add",
+    .summary = "Add two surfaces that face each other, or subtract one from the other",
+    .operands = "A B",
+    .examples = "  rc-synth sphere --radius 2mm --like flat.rcg | rc-add flat.rcg - > both.rcg\n"
+                "  rc-add --subtract flat.rcg surface.rcg > change.rcg\n",
+    .opts = opts,
+    .reads = READS_FILES,
+    .writes = WRITES_STREAM,
+};
+
+enum {
+    HISTORY = 4096 /* bytes of B's history that are told in that of the sum */
+};
+
+/* ---- the two streams ---- */
+
+/* B is read by a second set of a tool's readers, which reports by the first one's name and breaks
+ * off its output. */
+struct second {
+    struct tool t;
+    struct rc_grid *g; /* of the case that A is in */
+    size_t n;          /* surfaces read so far     */
+};
+
+static struct rc_grid *
+read_second(struct tool *t, struct second *b)
+{
+    struct rc_grid *g;
+
+    b->t.began = t->began;
+    g = tool_channel(&b->t, "height", false);
+    if (b->t.exit_status != 0)
+        tool_fails_with(t, b->t.exit_status);
+    return g;
+}
+
+/* The surface of B for the next one of A: one goes with all of A, several go one by one. */
+static void
+next_second(struct tool *t, struct second *b, const struct rc_grid *a)
+{
+    struct rc_grid *g = read_second(t, b);
+
+    if (g == NULL && b->n > 1)
+        tool_die_at(t, a, EXIT_IMPOSSIBLE,
+                    "%s holds %zu surfaces, and this is one more: B holds one for all of A, or as "
+                    "many as A",
+                    t->operand[1], b->n);
+    if (g == NULL)
+        return;
+    rc_grid_free(b->g);
+    b->g = g;
+    b->n++;
+}
+
+static void
+demand_end(struct tool *t, struct second *b, size_t first)
+{
+    struct rc_grid *g = read_second(t, b);
+
+    if (g != NULL)
+        tool_die(t, EXIT_IMPOSSIBLE,
+                 "%s holds more surfaces than the %zu of %s: put the one that holds several first",
+                 t->operand[1], first, t->operand[0]);
+}
+
+/* ---- demands ---- */
+
+static void
+demand_heights(struct tool *t, const struct rc_grid *g)
+{
+    size_t count = 0, first = 0;
+
+    if (strcmp(g->unit, "m") != 0)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                    "its unit is '%s': heights are in metres; import the file again with --z-unit",
+                    g->unit);
+    for (size_t k = g->nx * g->ny; k-- > 0;)
+        if (isinf(g->v[k])) {
+            count++;
+            first = k;
+        }
+    if (count > 0)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                    "%zu heights are infinite, the first in column %zu of row %zu: a point without "
+                    "a measurement is NaN",
+                    count, first % g->nx, first / g->nx);
+}
+
+/* Finer nodes are averaged rather than coarse ones interpolated, where one of the maps is the finer
+ * one. */
+static _Noreturn void
+refuse_spacings(struct tool *t, const struct rc_grid *a, const struct rc_grid *b)
+{
+    bool first = a->dx <= b->dx && a->dy <= b->dy;
+    const struct rc_grid *to = first ? b : a;
+    char ax[RC_NUMBER_SIZE], ay[RC_NUMBER_SIZE], bx[RC_NUMBER_SIZE], by[RC_NUMBER_SIZE];
+    char tx[RC_NUMBER_SIZE], ty[RC_NUMBER_SIZE];
+
+    tool_die_at(t, a, EXIT_IMPOSSIBLE,
+                "spacings of %s x %s m, and in %s of %s x %s m: bring them together by rc-pick "
+                "--resample %s,%s %s",
+                rc_number_text(ax, a->dx), rc_number_text(ay, a->dy),
+                strcmp(t->operand[1], "-") == 0 ? "standard input" : t->operand[1],
+                rc_number_text(bx, b->dx), rc_number_text(by, b->dy), rc_number_text(tx, to->dx),
+                rc_number_text(ty, to->dy), t->operand[first ? 0 : 1]);
+}
+
+/* ---- keys ---- */
+
+static bool
+is_periodic(const struct rc_grid *g)
+{
+    const char *periodic = rc_grid_get(g, "periodic");
+
+    return periodic != NULL && strcmp(periodic, "yes") == 0;
+}
+
+static enum rc_status
+set_periodic(struct tool *t, struct rc_grid *a, const struct rc_grid *b, bool cut,
+             struct rc_err *err)
+{
+    char where[256];
+
+    if (!is_periodic(a) || (is_periodic(b) && !cut))
+        return RC_OK;
+    tool_warn(
+        t, "%s: this surface is periodic, what comes out is not, because %s: periodic=no from here",
+        tool_where(t, a, where, sizeof where),
+        cut ? "the maps are cut to their overlap" : "the other one is not");
+    return rc_grid_set(a, "periodic", "no", err);
+}
+
+/* A shape that was added to either is in the sum; the same one in both is not in the difference. */
+static enum rc_status
+set_form(struct rc_grid *a, const struct rc_grid *b, struct rc_err *err)
+{
+    const char *of_a = rc_grid_get(a, "form"), *of_b = rc_grid_get(b, "form");
+    enum rc_status status;
+    size_t size;
+    char *both;
+
+    if (of_b == NULL)
+        return RC_OK;
+    if (args.subtract)
+        return of_a != NULL && strcmp(of_a, of_b) == 0 ? rc_grid_set(a, "form", NULL, err) : RC_OK;
+    if (of_a == NULL)
+        return rc_grid_set(a, "form", of_b, err);
+    size = strlen(of_a) + strlen(of_b) + sizeof " + ";
+    if ((both = malloc(size)) == NULL)
+        return rc_err_set(err, "out of memory for %zu bytes of text", size);
+    snprintf(both, size, "%s + %s", of_a, of_b);
+    status = rc_grid_set(a, "form", both, err);
+    free(both);
+    return status;
+}
+
+/* What a surface came from: its source, or the file's own name without folders. */
+static const char *
+name_of(const struct rc_grid *g, const char *operand)
+{
+    const char *source = rc_grid_get(g, "source"), *slash = strrchr(operand, '/');
+
+    return source != NULL ? source : slash != NULL ? slash + 1 : operand;
+}
+
+/* Appends text, the steps of a history parted by semicolons, up to `room` bytes of it and to a
+ * whole character. */
+static void
+append_history(char *to, const char *text, size_t room)
+{
+    size_t n = strlen(to);
+
+    for (; *text != '\0' && room > 0; room--) {
+        if (strncmp(text, " | ", 3) == 0) {
+            to[n++] = ';';
+            text += 2;
+        } else {
+            to[n++] = *text++;
+        }
+    }
+    while (*text != '\0' && n > 0 && ((unsigned char)*text & 0xc0) == 0x80) {
+        text--;
+        n--;
+    }
+    strcpy(to + n, *text == '\0' ? "" : "...");
+}
+
+/* "rc-add 0.1.0 a.x3p b.x3p (b.x3p: rc-import 0.1.0; rc-detrend 0.1.0 --plane)": the history of A
+ * goes on, that of B stands in it. */
+static enum rc_status
+add_history(struct tool *t, struct rc_grid *a, const struct rc_grid *b, struct rc_err *err)
+{
+    const char *first = name_of(a, t->operand[0]), *second = name_of(b, t->operand[1]);
+    const char *history = rc_grid_get(b, "history");
+    size_t size = strlen(tool_history(t)) + strlen(first) + 2 * strlen(second) + HISTORY + 16;
+    char *step = malloc(size);
+    enum rc_status status;
+
+    if (step == NULL)
+        return rc_err_set(err, "out of memory for %zu bytes of history", size);
+    snprintf(step, size, "%s %s %s", tool_history(t), first, second);
+    if (history != NULL) {
+        snprintf(step + strlen(step), size - strlen(step), " (%s: ", second);
+        append_history(step, history, HISTORY);
+        strcat(step, ")");
+    }
+    status = rc_grid_history(a, step, err);
+    free(step);
+    return status;
+}
+
+/* ---- the sum ---- */
+
+/* In the place of A, whose keys it has. */
+static void
+add(struct tool *t, struct rc_grid *a, const struct rc_grid *b)
+{
+    struct rc_shape sa = rc_grid_shape(a), sb = rc_grid_shape(b), sum;
+    char where[256];
+    struct rc_err err;
+    bool cut;
+
+    if (rc_add_shape(&sa, &sb, &sum, &err) != RC_OK)
+        refuse_spacings(t, a, b);
+    cut = sa.nx != sb.nx || sa.ny != sb.ny;
+    if (cut)
+        tool_note(t, "%s: %zu x %zu nodes and %zu x %zu of B: cut to the %zu x %zu that they share",
+                  tool_where(t, a, where, sizeof where), sa.nx, sa.ny, sb.nx, sb.ny, sum.nx,
+                  sum.ny);
+    if ((args.subtract ? rc_subtract : rc_add)(&sa, a->v, &sb, b->v, a->v, &err) != RC_OK ||
+        set_periodic(t, a, b, cut, &err) != RC_OK || set_form(a, b, &err) != RC_OK ||
+        add_history(t, a, b, &err) != RC_OK)
+        tool_die_at(t, a, EXIT_IMPOSSIBLE, "%s", err.text);
+    a->nx = sum.nx;
+    a->ny = sum.ny;
+    if (b->type == RC_F64)
+        a->type = RC_F64;
+}
+
+/* ---- the command line ---- */
+
+static void
+open_two(struct tool *t, struct second *b)
+{
+    if (t->operands != 2)
+        tool_die(t, EXIT_USAGE, "%zu files named: give two, A and B; - is standard input",
+                 t->operands);
+    if (strcmp(t->operand[0], "-") == 0 && strcmp(t->operand[1], "-") == 0)
+        tool_die(t, EXIT_USAGE, "- and -: standard input is one surface, A or B");
+    *b = (struct second){.t = *t};
+    b->t.operand = t->operand + 1;
+    t->operands = b->t.operands = 1;
+}
+
+int
+main(int argc, char **argv)
+{
+    struct second b;
+    struct rc_grid *a;
+    struct tool t;
+    size_t n = 0;
+
+    tool_start(&t, &info, argc, argv, &args);
+    open_two(&t, &b);
+    while ((a = tool_channel(&t, "height", true)) != NULL) {
+        next_second(&t, &b, a);
+        demand_heights(&t, a);
+        demand_heights(&b.t, b.g);
+        tool_demand_memory(&t, a, (a->nx * a->ny + b.g->nx * b.g->ny) * sizeof *a->v);
+        add(&t, a, b.g);
+        tool_write(&t, a);
+        rc_grid_free(a);
+        n++;
+    }
+    demand_end(&t, &b, n);
+    rc_grid_free(b.g);
+    return tool_finish(&t);
+}

@@ -1,0 +1,200 @@
+/* Shapes: what their options have to be, how they are made, and the table of them. */
+#include "synth.h"
+
+#include <math.h>
+
+/* ---- waves ---- */
+
+/* Whether whole waves fit the side; a tolerance for nx * dx / wavelength in decimal numbers. */
+static bool
+fits(size_t n, double d, double wavelength)
+{
+    double waves = (double)n * d / wavelength;
+
+    return n == 1 || isinf(wavelength) ||
+           (waves > 0.5 && fabs(waves - round(waves)) <= 1e-9 * waves);
+}
+
+/* A side of the grid that a wave runs along has at least two nodes for each period. */
+static void
+check_wave(struct tool *t, const struct synth_args *a, const struct rc_shape *shape)
+{
+    const struct numbers *w = &a->wavelength;
+    const double d[] = {shape->dx, shape->dy};
+    const size_t n[] = {shape->nx, shape->ny};
+
+    if (w->n > 2 || w->v[0] + (w->n == 2 ? w->v[1] : 0) == 0)
+        tool_die(t, EXIT_USAGE, "--wavelength takes LX, or LX,LY where one of them may be 0");
+    for (size_t k = 0; k < w->n; k++)
+        if (n[k] > 1 && w->v[k] != 0 && w->v[k] < 2 * d[k] * (1 - 1e-9))
+            tool_die(t, EXIT_USAGE,
+                     "--wavelength %g m: shorter than two nodes %g m apart: take a "
+                     "finer grid",
+                     w->v[k], d[k]);
+}
+
+static enum rc_status
+make_wave(const struct synth_args *a, const struct rc_shape *shape, double *h, bool *periodic,
+          struct rc_err *err)
+{
+    const struct numbers *w = &a->wavelength;
+    double x = w->v[0] == 0 ? INFINITY : w->v[0];
+    double y = w->n < 2 || w->v[1] == 0 ? INFINITY : w->v[1];
+
+    (void)err;
+    rc_synth_wave(shape, a->amplitude, x, y, h);
+    *periodic = fits(shape->nx, shape->dx, x) && fits(shape->ny, shape->dy, y);
+    return RC_OK;
+}
+
+/* ---- indenters ---- */
+
+/* The library's word for what was not given is 0. */
+static double
+or_default(double value)
+{
+    return isnan(value) ? 0 : value;
+}
+
+static void
+check_radius(struct tool *t, const struct synth_args *a, const struct rc_shape *shape)
+{
+    (void)shape;
+    if (a->radius.n != 1)
+        tool_die(t, EXIT_USAGE, "--radius takes one radius of a %s, not %zu", t->operand[0],
+                 a->radius.n);
+}
+
+static void
+check_paraboloid(struct tool *t, const struct synth_args *a, const struct rc_shape *shape)
+{
+    (void)shape;
+    if (a->radius.n != 2)
+        tool_die(t, EXIT_USAGE, "--radius takes the two radii of a paraboloid, R1,R2");
+}
+
+static struct rc_place
+apex(const struct synth_args *a)
+{
+    if (a->place.n == 0)
+        return (struct rc_place){0, 0};
+    return (struct rc_place){a->place.v[0], a->place.v[1]};
+}
+
+static enum rc_status
+make_sphere(const struct synth_args *a, const struct rc_shape *shape, double *h, bool *periodic,
+            struct rc_err *err)
+{
+    (void)err;
+    (void)periodic;
+    rc_synth_paraboloid(shape, apex(a), a->radius.v[0], a->radius.v[0], 0, h);
+    return RC_OK;
+}
+
+/* Curved across its axis, which lies along y when nothing is said. */
+static enum rc_status
+make_cylinder(const struct synth_args *a, const struct rc_shape *shape, double *h, bool *periodic,
+              struct rc_err *err)
+{
+    (void)err;
+    (void)periodic;
+    rc_synth_paraboloid(shape, apex(a), INFINITY, a->radius.v[0],
+                        isnan(a->direction) ? 90 : a->direction, h);
+    return RC_OK;
+}
+
+static enum rc_status
+make_paraboloid(const struct synth_args *a, const struct rc_shape *shape, double *h, bool *periodic,
+                struct rc_err *err)
+{
+    (void)err;
+    (void)periodic;
+    rc_synth_paraboloid(shape, apex(a), a->radius.v[0], a->radius.v[1], or_default(a->direction),
+                        h);
+    return RC_OK;
+}
+
+static enum rc_status
+make_cone(const struct synth_args *a, const struct rc_shape *shape, double *h, bool *periodic,
+          struct rc_err *err)
+{
+    (void)err;
+    (void)periodic;
+    rc_synth_cone(shape, apex(a), a->slope, h);
+    return RC_OK;
+}
+
+static enum rc_status
+make_punch(const struct synth_args *a, const struct rc_shape *shape, double *h, bool *periodic,
+           struct rc_err *err)
+{
+    (void)periodic;
+    rc_synth_punch(shape, apex(a), a->radius.v[0], or_default(a->edge), a->height, h);
+    for (size_t k = 0; k < shape->nx * shape->ny; k++)
+        if (h[k] == 0)
+            return RC_OK;
+    return rc_err_set(err, "no node lies within the radius %g m of the punch: take a finer grid",
+                      a->radius.v[0]);
+}
+
+/* ---- roughness ---- */
+
+static void
+check_selfaffine(struct tool *t, const struct synth_args *a, const struct rc_shape *shape)
+{
+    (void)shape;
+    if (isnan(a->rms_slope) == isnan(a->rms_height))
+        tool_die(t, EXIT_USAGE,
+                 "selfaffine needs one of --rms-slope and --rms-height: the other "
+                 "one follows");
+    if (!isnan(a->direction) && isnan(a->anisotropy))
+        tool_die(t, EXIT_USAGE, "--direction %g: give --anisotropy too: without it there is no lay",
+                 a->direction);
+    if (!isnan(a->skewness) && !isnan(a->weibull))
+        tool_die(t, EXIT_USAGE, "--skewness and --weibull: heights have one distribution");
+}
+
+static enum rc_status
+make_selfaffine(const struct synth_args *a, const struct rc_shape *shape, double *h, bool *periodic,
+                struct rc_err *err)
+{
+    const struct rc_selfaffine what = {
+        .hurst = a->hurst,
+        .rms_height = or_default(a->rms_height),
+        .rms_slope = or_default(a->rms_slope),
+        .long_cut = or_default(a->long_cut),
+        .rolloff = or_default(a->rolloff),
+        .short_cut = or_default(a->short_cut),
+        .seed = a->seed,
+        .anisotropy = or_default(a->anisotropy),
+        .direction = isnan(a->direction) ? 90 : a->direction,
+        .skewness = or_default(a->skewness),
+        .weibull = or_default(a->weibull),
+    };
+
+    *periodic = true;
+    return rc_synth_selfaffine(shape, &what, h, err);
+}
+
+/* ---- the table ---- */
+
+/* clang-format off */
+const struct synth_shape synth_shapes[] = {
+    {.name = "sphere", .needs = {"radius"}, .takes = {"place"}, .maps = 1, .check = check_radius,
+     .make = make_sphere},
+    {.name = "cylinder", .needs = {"radius"}, .takes = {"direction", "place"}, .maps = 1,
+     .check = check_radius, .make = make_cylinder},
+    {.name = "paraboloid", .needs = {"radius"}, .takes = {"direction", "place"}, .maps = 1,
+     .check = check_paraboloid, .make = make_paraboloid},
+    {.name = "cone", .needs = {"slope"}, .takes = {"place"}, .maps = 1, .make = make_cone},
+    {.name = "punch", .needs = {"radius", "height"}, .takes = {"edge", "place"}, .maps = 1,
+     .check = check_radius, .make = make_punch},
+    {.name = "wave", .needs = {"amplitude", "wavelength"}, .maps = 1, .check = check_wave,
+     .make = make_wave},
+    {.name = "selfaffine", .needs = {"hurst"},
+     .takes = {"rms-slope", "rms-height", "rolloff", "short-cut", "long-cut", "anisotropy",
+               "direction", "skewness", "weibull", "seed"},
+     .maps = 2, .check = check_selfaffine, .make = make_selfaffine},
+    {.name = NULL},
+};
+/* clang-format on */
