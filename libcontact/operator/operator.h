@@ -15,6 +15,7 @@
 #include "fourier.h"
 #include "kernel.h"
 #include "quadrature.h"
+#include "radial.h"
 #include "stack.h"
 
 struct rc_operator;
