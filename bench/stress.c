@@ -267,8 +267,8 @@ parts(void)
     x = must(calloc(cx, sizeof *x));
     printf("parts, %d x %d nodes, one thread for coefficients and lines:\n", M, M);
     for (int s = 0; s < 3; s++) {
-        unsigned kernels = rc_stress_distinct(set[s].components, set[s].shear);
-        const struct rc_cell cell = {shape.dx, shape.dy, 5 * shape.dx, 0.3};
+        unsigned kernels = rc_stress_distinct(set[s].components, set[s].shear, false);
+        const struct rc_cell cell = {shape.dx, shape.dy, 5 * shape.dx, 0.3, NULL};
         for (int c = 0; c < RC_STRESS_KERNELS; c++)
             if (kernels >> c & 1 && out[c] == NULL)
                 out[c] = must(malloc(cx * sizeof(double)));

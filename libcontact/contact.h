@@ -362,6 +362,10 @@ RC_API enum rc_status rc_solver_expect(const struct rc_shape *shape,
                                        const struct rc_problem *problem,
                                        struct rc_expected *expected, struct rc_err *err);
 
+/* Material at a depth (m) of a coated body, 0 the top layer, `layers` the half-space below: an interface
+ * belongs to the one above it. */
+RC_API size_t rc_coating_material(const struct rc_coating *coating, double depth);
+
 /* ---- stress: stress.c ---- */
 
 enum rc_component {
@@ -413,14 +417,16 @@ struct rc_stress_counts {
 /* Stresses under the pressure p (Pa; kept by the caller, who does not change it) on a half-space.
  * Free: the pressure is constant in each cell. Periodic: it is band-limited, and its mean gives
  * szz = -p, sxz = -mu p and sxx = syy = -(1 + 2 nu) p / 2 at every depth, what a patch that grows
- * without end gives. NULL when an option is out of bounds, there is no such engine or none for the
- * boundary or the section, or memory is short. */
+ * without end gives; in a coated body it is that of the half-space below, whose strains along the
+ * surface the layers share. NULL when an option is out of bounds, there is no such engine or none for
+ * the boundary or the section, or memory is short. */
 RC_API struct rc_stress *rc_stress_new(const struct rc_shape *shape, const double *p,
                                        const struct rc_stress_options *options, struct rc_err *err);
 /* Values of a component at one depth: nx ny, or of the section y = at nx, of x = at ny. */
 RC_API size_t rc_stress_values(const struct rc_stress *stress);
 /* What is wanted at the depth z >= 0 (m), Pa, tension positive: s[c] for each c of `wanted`; the
- * others are not touched. */
+ * others are not touched. At an interface sxx, syy and sxy jump: it belongs to the material above it,
+ * and one that is deeper by a part in 1e12 to the one below. RC_FAIL also inside a rigid half-space. */
 RC_API enum rc_status rc_stress_slice(struct rc_stress *stress, double depth,
                                       double *const s[RC_STRESSES], struct rc_err *err);
 RC_API const char *rc_stress_engine(const struct rc_stress *stress);
@@ -433,10 +439,12 @@ RC_API size_t rc_stress_memory(const struct rc_shape *shape,
 /* Depths from 0 down at which to look at the stresses under this pressure, *n of them in an array
  * that the caller frees: close together where its short waves are felt, farther apart below, down
  * to three contact radii (free) or to where the waves have died to 1 % (periodic). Successive
- * depths are a quarter of the RMS wave's 1/q apart. RC_FAIL when memory is short. */
+ * depths are a quarter of the RMS wave's 1/q apart. In a coated body they are at most a quarter of the
+ * layer apart, and each interface has two, itself and one a millionth deeper; none is in a rigid
+ * half-space. RC_FAIL when memory is short. */
 RC_API enum rc_status rc_stress_depths(const struct rc_shape *shape, const double *p,
-                                       enum rc_boundary boundary, double **depths, size_t *n,
-                                       struct rc_err *err);
+                                       enum rc_boundary boundary, const struct rc_coating *coating,
+                                       double **depths, size_t *n, struct rc_err *err);
 
 /* Place of the value of largest size; the first of equals. n > 0. */
 RC_API size_t rc_largest(size_t n, const double *v);

@@ -138,17 +138,33 @@ rc_stack_excess(const struct rc_stack *s, double q)
 
 /* ---- inside ---- */
 
+/* Sums of thicknesses are rounded, and a depth that is meant to be one must not be below it. */
+static bool
+within(double depth, double bottom)
+{
+    return depth <= bottom * (1 + 1e-13);
+}
+
 size_t
 rc_stack_medium(const struct rc_stack *s, double depth)
 {
     double bottom = 0;
+    size_t k = 0;
 
-    for (size_t k = 0; k < s->layers; k++) {
-        bottom += s->material[k].thickness;
-        if (depth <= bottom * (1 + 1e-13))
-            return k;
-    }
-    return s->layers;
+    while (k < s->layers && !within(depth, bottom += s->material[k].thickness))
+        k++;
+    return k;
+}
+
+size_t
+rc_coating_material(const struct rc_coating *c, double depth)
+{
+    double bottom = 0;
+    size_t k = 0;
+
+    while (k < c->layers && !within(depth, bottom += c->layer[k].thickness))
+        k++;
+    return k;
 }
 
 double

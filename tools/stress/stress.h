@@ -9,10 +9,25 @@
 #include "libcontact/contact.h"
 #include "tools/cli/cli.h"
 
+/* A coated body, as the pressure says of it. */
+struct stress_layers {
+    const char *text;          /* the key; NULL: one material */
+    struct rc_layer *layer;    /* the substrate last          */
+    struct rc_coating coating; /* where there is a text       */
+};
+/* RC_FAIL when the key makes no sense. stress_layers_free in either case. */
+enum rc_status stress_layers_read(const struct rc_grid *p, struct stress_layers *layers,
+                                  struct rc_err *err);
+void stress_layers_free(struct stress_layers *layers);
+/* How many materials a body has, and that of a depth, 0 on top. */
+size_t stress_materials(const struct rc_stress_options *options);
+size_t stress_material(const struct rc_stress_options *options, double depth);
+
 /* The value of largest size of a channel, its sign kept, and where it is. */
 struct stress_peak {
     double value, x, y, depth;
-    double *by_depth; /* at each depth; NULL: nobody asks */
+    double *by_depth;    /* at each depth; NULL: nobody asks       */
+    double *by_material; /* NAN: no depth is in it                 */
 };
 
 struct stress_report {
