@@ -350,6 +350,58 @@ maps_bonded(void **state)
     free(t);
 }
 
+/* Depths that are chosen: they rise, both sides of each interface are there, each layer has its share, and
+ * the largest Mises stress found is that of a close scan. */
+static void
+chosen_depths(void **state)
+{
+    const struct rc_shape shape = {48, 40, 0.7e-6, 0.8e-6};
+    const struct rc_coating rigid = {3, three, INFINITY, 0.3, 0};
+    size_t n = shape.nx * shape.ny, count, in[MEDIA] = {0};
+    double *p = malloc(n * sizeof *p), *m = malloc(n * sizeof *m), *z, bottom = 0, found = 0,
+           most = 0;
+    double *s[RC_STRESSES] = {[RC_MISES] = m};
+    struct rc_stress_options o = {.wanted = 1u << RC_MISES, .coating = &coating, .threads = 2};
+    struct rc_err err;
+    struct rc_stress *stress;
+
+    (void)state;
+    for (size_t k = 0; k < n; k++)
+        p[k] = node_r(shape, k) < 9e-6 ? 1e9 * sqrt(1 - pow(node_r(shape, k) / 9e-6, 2)) : 0;
+    stress = rc_stress_new(&shape, p, &o, &err);
+    assert_int_equal(rc_stress_depths(&shape, p, RC_FREE, &coating, &z, &count, &err), RC_OK);
+    assert_true(z[0] == 0 && z[count - 1] > 2.5 * 9e-6);
+    for (size_t k = 0; k < count; k++) {
+        assert_true(k == 0 || z[k] > z[k - 1]);
+        in[rc_coating_material(&coating, z[k])]++;
+        assert_int_equal(rc_stress_slice(stress, z[k], s, &err), RC_OK);
+        found = larger(found, m[rc_largest(n, m)]);
+    }
+    for (int k = 0; k < MEDIA; k++)
+        assert_true(in[k] >= 4);
+    for (int k = 0; k + 1 < MEDIA; k++) {
+        size_t sides = 0;
+        bottom += three[k].thickness;
+        for (size_t i = 0; i < count; i++)
+            sides += fabs(z[i] / bottom - 1) < 2e-6;
+        assert_int_equal(sides, 2);
+    }
+    for (double d = 0; d < 20e-6; d += 0.1e-6) {
+        assert_int_equal(rc_stress_slice(stress, d, s, &err), RC_OK);
+        most = larger(most, m[rc_largest(n, m)]);
+    }
+    print_message("%zu depths, largest Mises %.4f of a scan's\n", count, found / most);
+    assert_true(found >= 0.98 * most);
+    assert_true(count < 80);
+    free(z);
+    assert_int_equal(rc_stress_depths(&shape, p, RC_FREE, &rigid, &z, &count, &err), RC_OK);
+    assert_true(fabs(z[count - 1] / bottom - 1) <= rounding);
+    free(z);
+    rc_stress_free(stress);
+    free(p);
+    free(m);
+}
+
 /* A rigid substrate has no stresses, its face has. What makes no sense is refused. */
 static void
 refused(void **state)
@@ -388,6 +440,7 @@ main(void)
         cmocka_unit_test(free_is_periodic_far_apart),
         cmocka_unit_test(every_depth_carries_the_load),
         cmocka_unit_test(maps_bonded),
+        cmocka_unit_test(chosen_depths),
         cmocka_unit_test(refused),
     };
 

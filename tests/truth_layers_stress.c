@@ -9,7 +9,7 @@
 #include <gsl/gsl_linalg.h>
 
 #include "contact_case.h"
-#include "libcontact/operator/operator.h"
+#include "libcontact/stress/stress.h"
 
 /* ---- a paraboloid on one layer, on the axis ---- */
 
@@ -350,6 +350,189 @@ uniform_pressure(void **state)
     }
 }
 
+/* ---- coefficients of a cell ---- */
+
+/* Integral over all waves of what a unit load on the cell dx x dy is made of: polar, by panels in q, by
+ * even steps of the angle, which converge like nothing else. In the top layer without what one material
+ * does. */
+struct wave_sum {
+    const struct rc_stack *stack;
+    size_t medium;
+    double z, x, y, dx, dy, scale;
+};
+
+static double
+sinc(double x)
+{
+    return fabs(x) < 1e-4 ? 1 - x * x / 6 : sin(x) / x;
+}
+
+/* Stresses of a wave exp(i(qx x + qy y)) of pressure, and of traction along x, from those along it and
+ * across it: a traction along x is its part c along the wave and -s across. */
+static void
+stresses_of_wave(double c, double s, const double *f, double complex out[12])
+{
+    const double *t = f + RC_T_S;
+    double along[2][4] = {{f[RC_P_S], f[RC_P_T], f[RC_P_L], f[RC_P_N]}, {t[0], t[1], t[2], t[3]}};
+
+    for (int load = 0; load < 2; load++) {
+        /* a pressure as cos: szz, sll, snn as cos, slz as sin = -i; a traction as sin, i.e. times i */
+        double complex even = load == 0 ? 1 : I * c, odd = load == 0 ? -I : c;
+        double complex zz = even * along[load][0], lz = odd * along[load][1];
+        double complex ll = even * along[load][2], nn = even * along[load][3];
+        double complex nz = load == 0 ? 0 : -f[RC_T_R] * -s, ln = load == 0 ? 0 : I * f[RC_T_V] * s;
+        double complex *to = out + 6 * load;
+        /* l = (c, s), n = (-s, c) */
+        to[RC_SXX] = c * c * ll + s * s * nn - 2 * c * s * -ln;
+        to[RC_SYY] = s * s * ll + c * c * nn + 2 * c * s * -ln;
+        to[RC_SZZ] = zz;
+        to[RC_SXY] = c * s * (ll - nn) + (c * c - s * s) * -ln;
+        to[RC_SXZ] = c * lz - s * nz;
+        to[RC_SYZ] = s * lz + c * nz;
+    }
+}
+
+static void
+sum_waves(const struct wave_sum *w, double sum[12])
+{
+    gsl_integration_glfixed_table *g = gsl_integration_glfixed_table_alloc(PANEL);
+    double reach = hypot(w->x, w->y) + hypot(w->dx, w->dy), last = 40 / w->scale;
+    double most = fmin(8 / reach, last / 20),
+           width = 1e-3; /* a coat is felt from 1/(t E_1/E_s) on */
+
+    for (int k = 0; k < 12; k++)
+        sum[k] = 0;
+    for (double from = 0; from < last; from += width, width = fmin(most, from))
+        for (size_t k = 0; k < PANEL; k++) {
+            double q, weight, f[RC_UNDER_BOTH], b[RC_UNDER_BOTH];
+            int n;
+            gsl_integration_glfixed_point(from, from + width, k, &q, &weight, g);
+            n = 2 * (int)(q * reach / 2 + 20);
+            rc_stack_inside(w->stack, w->medium, w->z, q, RC_UNDER_BOTH, f);
+            if (w->medium == 0) {
+                double x = q * w->z, e = exp(-x), nu = w->stack->material[0].nu;
+                const double half[] = {-(1 + x), -x, x - 1, -2 * nu, x, x - 1, 2 - x, 2 * nu, 1, 1};
+                for (int i = 0; i < RC_UNDER_BOTH; i++)
+                    b[i] = half[i] * e;
+                for (int i = 0; i < RC_UNDER_BOTH; i++)
+                    f[i] -= b[i];
+            }
+            for (int j = 0; j < 2 * n; j++) {
+                double angle = exact_pi * (j + 0.5) / n, c = cos(angle), s = sin(angle);
+                double cell = sinc(q * c * w->dx / 2) * sinc(q * s * w->dy / 2) * w->dx * w->dy;
+                double complex wave = cexp(I * q * (c * w->x + s * w->y)), out[12];
+                stresses_of_wave(c, s, f, out);
+                for (int i = 0; i < 12; i++)
+                    sum[i] += weight * q * cell * creal(out[i] * wave) * exact_pi / n /
+                              (4 * exact_pi * exact_pi);
+            }
+        }
+    gsl_integration_glfixed_table_free(g);
+}
+
+/* Cells from many times the top layer's thickness to a part of it, on stiff, soft and several layers, on
+ * both sides of interfaces. */
+static void
+coefficients(void **state)
+{
+    static const struct rc_layer stiff[] = {{0.12, 100, 0.2}}, soft[] = {{3, 0.02, 0.5}},
+                                 three[] = {{1, 4, 0.2}, {0.6, 0.2, 0.45}, {2, 10, 0.3}};
+    static const struct {
+        struct rc_coating coating;
+        double z[4];
+        double x[4], y[4];
+    } cases[] = {
+        {{1, stiff, 1, 0.3, 0}, {0.03, 0.12, 0.13, 0.5}, {0, 1, 0, 1}, {0, 0, 1.3, 1.3}},
+        {{1, soft, 1, 0.3, 0}, {0.4, 2, 3.1, 9}, {0, 1, 0, 9}, {0, 0, 1.3, 5.2}},
+        {{3, three, 1, 0.3, 0}, {0.7, 1, 1.4, 1.8}, {0, 2, 5, 12}, {0, 1.3, 2.6, 7.8}},
+    };
+
+    (void)state;
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        struct rc_err err;
+        struct rc_stack *s = rc_stack_new(&cases[k].coating, &err);
+        for (int d = 0; d < 4; d++) {
+            double z = cases[k].z[d], off = 0, largest = 1;
+            struct rc_stress_task task = {.coated = true, .stack = s, .options = {.mu = 1}};
+            struct rc_inside *inside = rc_inside_new(&task, z, &err);
+            const struct rc_cell cell = {1, 1.3, z, NAN, inside};
+            assert_non_null(inside);
+            for (int i = 0; i < 4; i++) {
+                size_t medium = rc_stack_medium(s, z);
+                double x = cases[k].x[i], y = cases[k].y[i], value[12], sum[12], *to[12];
+                const struct wave_sum w = {.stack = s,
+                                           .medium = medium,
+                                           .z = z,
+                                           .x = x,
+                                           .y = y,
+                                           .dx = 1,
+                                           .dy = 1.3,
+                                           .scale =
+                                               medium > 0 ? z : 2 * s->material[0].thickness - z};
+                sum_waves(&w, sum);
+                for (int c = 0; c < 12; c++) {
+                    to[c] = &value[c];
+                    if (medium == 0)
+                        sum[c] +=
+                            rectangle_stress(c >= 6, c % 6, s->material[0].nu, x, y, z, 0.5, 0.65);
+                }
+                rc_stress_coefficients(&cell, (1u << 12) - 1, 1, &x, &y, to);
+                for (int c = 0; c < 12; c++) {
+                    off = larger(off, fabs(value[c] - sum[c]));
+                    largest = larger(largest, fabs(sum[c]));
+                }
+            }
+            print_message("body %zu, depth %g: off by %.1e of %.2g\n", k, z, off, largest);
+            assert_true(off <= summed * largest);
+            rc_inside_free(inside);
+        }
+        rc_stack_free(s);
+    }
+}
+
+/* A line of nodes has the values of its places; from 80 cells on it takes them from the nodes. */
+static void
+lines_are_places(void **state)
+{
+    enum {
+        LENGTH = 300
+    };
+    static const struct rc_layer three[] = {{1, 4, 0.2}, {0.6, 0.2, 0.45}, {2, 10, 0.3}};
+    static const struct rc_coating body = {3, three, 1, 0.3, 0};
+    static const double depths_of[] = {0, 0.5, 1, 1.3, 5, 100}, lines[] = {0, 1.3, 26, 130};
+    struct rc_err err;
+    struct rc_stack *s = rc_stack_new(&body, &err);
+    double line[12][LENGTH], places[12][LENGTH], x[LENGTH], y[LENGTH], *a[12], *b[12];
+    double off = 0;
+
+    (void)state;
+    for (int k = 0; k < 12; k++) {
+        a[k] = line[k];
+        b[k] = places[k];
+    }
+    for (int d = 0; d < 6; d++) {
+        struct rc_stress_task task = {.coated = true, .stack = s, .options = {.mu = 1}};
+        struct rc_inside *inside = rc_inside_new(&task, depths_of[d], &err);
+        const struct rc_cell cell = {1, 1.3, depths_of[d], NAN, inside};
+        assert_non_null(inside);
+        for (int l = 0; l < 4; l++) {
+            for (int i = 0; i < LENGTH; i++) {
+                x[i] = i;
+                y[i] = lines[l];
+            }
+            rc_stress_line(&cell, (1u << 12) - 1, 1, LENGTH, lines[l], a);
+            rc_stress_coefficients(&cell, (1u << 12) - 1, LENGTH, x, y, b);
+            for (int k = 0; k < 12; k++)
+                for (int i = 0; i < LENGTH; i++)
+                    off = larger(off, fabs(line[k][i] - places[k][i]));
+        }
+        rc_inside_free(inside);
+    }
+    print_message("lines are off by %.1e\n", off);
+    assert_true(off <= rounding);
+    rc_stack_free(s);
+}
+
 /* ---- a solved contact ---- */
 
 /* The same paraboloid by the solver, with some 25 nodes in the radius of the contact, and the slices
@@ -401,7 +584,8 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(axis_of_a_paraboloid), cmocka_unit_test(axis_of_a_solution),
+        cmocka_unit_test(axis_of_a_paraboloid), cmocka_unit_test(coefficients),
+        cmocka_unit_test(lines_are_places),     cmocka_unit_test(axis_of_a_solution),
         cmocka_unit_test(one_material_free),    cmocka_unit_test(one_material_periodic),
         cmocka_unit_test(uniform_pressure),
     };

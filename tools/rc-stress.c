@@ -47,7 +47,7 @@ static const struct opt opts[] = {
 
 static const struct tool_info info = {
     .name = "rc-stress",
-    .summary = "Stresses in an elastic half-space under a pressure map",
+    .summary = "Stresses in an elastic half-space, coated or not, under a pressure map",
     .operands = "[FILE...]",
     .examples = "  rc-solve --load 240N --estar 114GPa surface.rcg |\n"
                 "      rc-stress --nu 0.3 --depths 0:50um:26 --components mises -o mises.rcg\n"

@@ -45,9 +45,12 @@ stress_layers_read(const struct rc_grid *p, struct stress_layers *l, struct rc_e
     if ((l->layer = calloc(most, sizeof *l->layer)) == NULL)
         return rc_err_set(err, "out of memory for %zu layers", most - 1);
     s = text;
-    for (size_t k = 0; k < most; k++) {
+    for (size_t k = 0; k < most; k++)
         if ((k > 0 && *s++ != ';') || !read_material(&s, &l->layer[k]))
             goto wrong;
+    if (*s != '\0')
+        goto wrong;
+    for (size_t k = 0; k < most; k++)
         if (!sensible(&l->layer[k], k + 1 == most)) {
             stress_layers_free(l);
             return rc_err_set(
@@ -57,9 +60,6 @@ stress_layers_read(const struct rc_grid *p, struct stress_layers *l, struct rc_e
                 "and the substrate alone has t = inf and may be rigid, E = inf",
                 k + 1, text);
         }
-    }
-    if (*s != '\0')
-        goto wrong;
     l->coating = (struct rc_coating){.layers = most - 1,
                                      .layer = l->layer,
                                      .e = l->layer[most - 1].e,
