@@ -5,6 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum {
+    MOST = 1000 /* materials: enough for one that changes gradually */
+};
+
 /* "t,E,nu" at *text, which goes to what follows it. */
 static bool
 read_material(const char **text, struct rc_layer *m)
@@ -42,6 +46,8 @@ stress_layers_read(const struct rc_grid *p, struct stress_layers *l, struct rc_e
         most += *s == ';';
     if (most < 2)
         goto wrong;
+    if (most > MOST)
+        return rc_err_set(err, "its layers are of %zu materials: at most %d are taken", most, MOST);
     if ((l->layer = calloc(most, sizeof *l->layer)) == NULL)
         return rc_err_set(err, "out of memory for %zu layers", most - 1);
     s = text;
