@@ -202,6 +202,9 @@ struct rc_coating {
     double e, nu;      /* of the half-space below; e INFINITY: rigid                          */
     double compliance; /* (1 - nu2^2)/E2 of the other body, a half-space, 1/Pa; 0: rigid      */
 };
+/* Material at a depth (m), 0 the top layer, `layers` the half-space below: an interface belongs to the one
+ * above it. */
+RC_API size_t rc_coating_material(const struct rc_coating *coating, double depth);
 
 struct rc_conv_options {
     enum rc_boundary boundary;
@@ -241,21 +244,20 @@ RC_API double rc_conv_seconds(const struct rc_shape *shape, const struct rc_conv
 
 struct rc_problem {
     enum rc_boundary boundary;
-    double estar;        /* composite modulus, Pa, > 0                                            */
-    double load;         /* total normal force, N, > 0; with an approach a guess, or 0            */
-    double approach;     /* m, > 0: the load is sought that brings the bodies so far together from
+    double estar;       /* composite modulus, Pa, > 0                                            */
+    double load;        /* total normal force, N, > 0; with an approach a guess, or 0            */
+    double approach;    /* m, > 0: the load is sought that brings the bodies so far together from
                            first touch; 0: the load is given                                     */
-    double hardness;     /* upper bound of the pressure, Pa; 0 or INFINITY: none                  */
+    double hardness;    /* upper bound of the pressure, Pa; 0 or INFINITY: none                  */
     double height_error; /* m: what the heights may be off, as the gap_error of the solution that
                            left their shape; bears on what counts as yielded only                */
-    double tol;          /* asked relative L1 error of the pressure; 0: (nx ny)^(-3/4)            */
-    const char *engine;  /* NULL: auto                                                            */
-    const char *method;  /* NULL: auto                                                            */
+    double tol;         /* asked relative L1 error of the pressure; 0: (nx ny)^(-3/4)            */
+    const char *engine; /* NULL: auto                                                            */
+    const char *method; /* NULL: auto                                                            */
     size_t max_iterations; /* 0: 100 + 10 sqrt(nx ny)                                            */
     size_t threads;      /* 0: all                                                                */
     bool discretization; /* estimate what the grid leaves out: a coarser one is solved as well   */
-    const struct rc_coating
-        *coating; /* instead of estar; NULL: one material                      */
+    const struct rc_coating *coating; /* instead of estar; NULL: one material                      */
 };
 
 /* Relative errors, or figures, of contact area, largest pressure and approach; NAN: unknown. */
@@ -270,17 +272,17 @@ struct rc_contact {
     size_t contact_nodes, plastic_nodes;      /* p > 0; p = hardness                             */
     size_t yielded_nodes; /* p = hardness, and a gap that is negative by more than four times what
                              it and the heights may be off: what gives way under this load      */
-    double contact_area, contact_fraction; /* m^2, -                                          */
-    double plastic_area, yielded_area;     /* m^2                                             */
-    double edge_load_fraction;             /* load on the outer 2 % of the map                */
-    double approach;                       /* m; NAN when no node is elastic                  */
-    double mean_gap;                       /* m, of max(gap, 0) over the whole map            */
-    double gap_error;      /* m: worst violation: of gap >= 0 where p = 0, gap = 0 where elastic,
+    double contact_area, contact_fraction;    /* m^2, -                                          */
+    double plastic_area, yielded_area;        /* m^2                                             */
+    double edge_load_fraction; /* load on the outer 2 % of the map                */
+    double approach;           /* m; NAN when no node is elastic                  */
+    double mean_gap;           /* m, of max(gap, 0) over the whole map            */
+    double gap_error;          /* m: worst violation: of gap >= 0 where p = 0, gap = 0 where elastic,
                                                  gap <= 0 at the hardness                         */
-    double kkt_residual;   /* worst violation / max(std h, std u), from a
+    double kkt_residual;       /* worst violation / max(std h, std u), from a
                                                  fresh convolution; for one height everywhere
                                                  over what the mean pressure could displace      */
-    double pressure_error; /* estimated relative L1 error of the pressure; NAN when stopped on
+    double pressure_error;     /* estimated relative L1 error of the pressure; NAN when stopped on
                                   a coarser grid                                              */
     size_t iterations;
     double convolutions;                     /* equivalents on the finest grid                  */
@@ -362,10 +364,6 @@ RC_API enum rc_status rc_solver_expect(const struct rc_shape *shape,
                                        const struct rc_problem *problem,
                                        struct rc_expected *expected, struct rc_err *err);
 
-/* Material at a depth (m) of a coated body, 0 the top layer, `layers` the half-space below: an interface
- * belongs to the one above it. */
-RC_API size_t rc_coating_material(const struct rc_coating *coating, double depth);
-
 /* ---- stress: stress.c ---- */
 
 enum rc_component {
@@ -396,8 +394,7 @@ struct rc_stress_options {
     const char *engine; /* a row of engines.list, or NULL or "auto"                               */
     double tol;         /* asked error of a component over the largest pressure; 0: rounding      */
     size_t threads;     /* 0: all                                                                 */
-    const struct rc_coating
-        *coating; /* body 1 is coated; NULL: one material                      */
+    const struct rc_coating *coating; /* body 1 is coated; NULL: one material               */
 };
 
 /* What has been computed, to see that nothing was that nobody asked for. */
@@ -439,9 +436,9 @@ RC_API size_t rc_stress_memory(const struct rc_shape *shape,
 /* Depths from 0 down at which to look at the stresses under this pressure, *n of them in an array
  * that the caller frees: close together where its short waves are felt, farther apart below, down
  * to three contact radii (free) or to where the waves have died to 1 % (periodic). Successive
- * depths are a quarter of the RMS wave's 1/q apart. In a coated body they are at most a quarter of the
- * layer apart, and each interface has two, itself and one a millionth deeper; none is in a rigid
- * half-space. RC_FAIL when memory is short. */
+ * depths are a quarter of the RMS wave's 1/q apart. In a coated body, coating not NULL, they are at most
+ * a quarter of the layer apart, and each interface has two, itself and one a millionth deeper; none is in
+ * a rigid half-space. RC_FAIL when memory is short. */
 RC_API enum rc_status rc_stress_depths(const struct rc_shape *shape, const double *p,
                                        enum rc_boundary boundary, const struct rc_coating *coating,
                                        double **depths, size_t *n, struct rc_err *err);
