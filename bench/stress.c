@@ -1,12 +1,13 @@
 /*
  * What stresses cost:
  *
- *     bench-stress [slice] [parts] [sizes] [mlms]       (default: all)
+ *     bench-stress [slice] [parts] [sizes] [mlms] [layers]       (default: all)
  *
  * slice  a slice of six components and Mises against the transforms it needs, and against writing it
  * parts  where the time of a slice goes: coefficients, their transforms, fields
  * sizes  time a slice against one convolution of the deflection, same run
  * mlms   the multi-level sum against the transforms
+ * layers a slice and a section of coated bodies against those of one material
  *
  * Times are the least of several runs. RC_THREADS sets the threads.
  */
@@ -267,8 +268,8 @@ parts(void)
     x = must(calloc(cx, sizeof *x));
     printf("parts, %d x %d nodes, one thread for coefficients and lines:\n", M, M);
     for (int s = 0; s < 3; s++) {
-        unsigned kernels = rc_stress_distinct(set[s].components, set[s].shear);
-        const struct rc_cell cell = {shape.dx, shape.dy, 5 * shape.dx, 0.3};
+        unsigned kernels = rc_stress_distinct(set[s].components, set[s].shear, false);
+        const struct rc_cell cell = {shape.dx, shape.dy, 5 * shape.dx, 0.3, NULL};
         for (int c = 0; c < RC_STRESS_KERNELS; c++)
             if (kernels >> c & 1 && out[c] == NULL)
                 out[c] = must(malloc(cx * sizeof(double)));
@@ -395,13 +396,53 @@ mlms(void)
     }
 }
 
+/* ---- layers ---- */
+
+static void
+layers(void)
+{
+    enum {
+        M = 512
+    };
+    static const struct rc_layer one[] = {{0.03, 4e11, 0.2}}, three[] = {{0.01, 4e11, 0.2},
+                                                                         {0.01, 2e10, 0.45},
+                                                                         {0.01, 9e10, 0.3}};
+    static const struct rc_coating coats[] = {{1, one, 2e11, 0.3, 0}, {3, three, 2e11, 0.3, 0}};
+    struct rc_shape shape;
+    double *p = disc(M, &shape);
+    struct maps m = maps_new(M * M);
+
+    printf("\n%d^2, seconds: one material; one layer, in it and below; three, in the second and "
+           "below\n",
+           M);
+    for (int k = 0; k < 8; k++) {
+        struct rc_stress_options o = {.boundary = k & 4 ? RC_PERIODIC : RC_FREE,
+                                      .nu = 0.3,
+                                      .mu = k & 2 ? 0.3 : 0,
+                                      .wanted = (2u << RC_MISES) - 1,
+                                      .section = k & 1 ? 'y' : 0,
+                                      .threads = threads};
+        printf("%-9s%-9s%-9s%.4f", k & 4 ? "periodic" : "free", k & 2 ? "friction" : "",
+               k & 1 ? "section" : "slice", slice_seconds(&shape, p, &o, 0.015, &m, 5));
+        for (int body = 0; body < 2; body++) {
+            o.coating = &coats[body];
+            printf("  %.4f %.4f", slice_seconds(&shape, p, &o, 0.015, &m, 5),
+                   slice_seconds(&shape, p, &o, 0.05, &m, 5));
+        }
+        printf("\n");
+    }
+    maps_free(&m);
+    free(p);
+}
+
 int
 main(int argc, char **argv)
 {
     static const struct part table[] = {{"slice", slice, false},
                                         {"parts", parts, false},
                                         {"sizes", sizes, false},
-                                        {"mlms", mlms, false}};
+                                        {"mlms", mlms, false},
+                                        {"layers", layers, false}};
 
     threads = threads_wanted();
     return parts_run(sizeof table / sizeof *table, table, argc - 1, argv + 1);

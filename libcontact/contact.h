@@ -408,6 +408,9 @@ struct rc_coating {
     double e, nu;      /* of the half-space below; e INFINITY: rigid                          */
     double compliance; /* (1 - nu2^2)/E2 of the other body, a half-space, 1/Pa; 0: rigid      */
 };
+/* Material at a depth (m), 0 the top layer, `layers` the half-space below: an interface belongs to the one
+ * above it. */
+RC_API size_t rc_coating_material(const struct rc_coating *coating, double depth);
 
 struct rc_conv_options {
     enum rc_boundary boundary;
@@ -460,7 +463,8 @@ struct rc_problem {
     size_t max_iterations; /* 0: 100 + 10 sqrt(nx ny)                                            */
     size_t threads;      /* 0: all                                                                */
     bool discretization; /* estimate what the grid leaves out: a coarser one is solved as well   */
-    const struct rc_coating *coating; /* instead of estar; NULL: one material                      */
+    const struct rc_coating
+        *coating; /* instead of estar; NULL: one material                      */
 };
 
 /* Relative errors, or figures, of contact area, largest pressure and approach; NAN: unknown. */
@@ -591,7 +595,7 @@ RC_API extern const char *const rc_component_names[RC_STRESSES];
 
 struct rc_stress_options {
     enum rc_boundary boundary;
-    double nu;          /* Poisson's ratio, above -1 and at most 0.5                              */
+    double nu;          /* Poisson's ratio, above -1 and at most 0.5; of no use with a coating    */
     double mu;          /* the surface also carries the traction mu p along +x                    */
     unsigned wanted;    /* bits of enum rc_component                                              */
     char section;       /* 'x' or 'y': only the plane x = at, or y = at; 0: maps                  */
@@ -599,6 +603,7 @@ struct rc_stress_options {
     const char *engine; /* a row of engines.list, or NULL or "auto"                               */
     double tol;         /* asked error of a component over the largest pressure; 0: rounding      */
     size_t threads;     /* 0: all                                                                 */
+    const struct rc_coating *coating; /* body 1 is coated; NULL: one material               */
 };
 
 /* What has been computed, to see that nothing was that nobody asked for. */
@@ -618,14 +623,16 @@ struct rc_stress_counts {
 /* Stresses under the pressure p (Pa; kept by the caller, who does not change it) on a half-space.
  * Free: the pressure is constant in each cell. Periodic: it is band-limited, and its mean gives
  * szz = -p, sxz = -mu p and sxx = syy = -(1 + 2 nu) p / 2 at every depth, what a patch that grows
- * without end gives. NULL when an option is out of bounds, there is no such engine or none for the
- * boundary or the section, or memory is short. */
+ * without end gives; in a coated body it is that of the half-space below, whose strains along the
+ * surface the layers share. NULL when an option is out of bounds, there is no such engine or none for
+ * the boundary or the section, or memory is short. */
 RC_API struct rc_stress *rc_stress_new(const struct rc_shape *shape, const double *p,
                                        const struct rc_stress_options *options, struct rc_err *err);
 /* Values of a component at one depth: nx ny, or of the section y = at nx, of x = at ny. */
 RC_API size_t rc_stress_values(const struct rc_stress *stress);
 /* What is wanted at the depth z >= 0 (m), Pa, tension positive: s[c] for each c of `wanted`; the
- * others are not touched. */
+ * others are not touched. At an interface sxx, syy and sxy jump: it belongs to the material above it,
+ * and one that is deeper by a part in 1e12 to the one below. RC_FAIL also inside a rigid half-space. */
 RC_API enum rc_status rc_stress_slice(struct rc_stress *stress, double depth,
                                       double *const s[RC_STRESSES], struct rc_err *err);
 RC_API const char *rc_stress_engine(const struct rc_stress *stress);
@@ -638,10 +645,12 @@ RC_API size_t rc_stress_memory(const struct rc_shape *shape,
 /* Depths from 0 down at which to look at the stresses under this pressure, *n of them in an array
  * that the caller frees: close together where its short waves are felt, farther apart below, down
  * to three contact radii (free) or to where the waves have died to 1 % (periodic). Successive
- * depths are a quarter of the RMS wave's 1/q apart. RC_FAIL when memory is short. */
+ * depths are a quarter of the RMS wave's 1/q apart. In a coated body, coating not NULL, they are at most
+ * a quarter of the layer apart, and each interface has two, itself and one a millionth deeper; none is in
+ * a rigid half-space. RC_FAIL when memory is short. */
 RC_API enum rc_status rc_stress_depths(const struct rc_shape *shape, const double *p,
-                                       enum rc_boundary boundary, double **depths, size_t *n,
-                                       struct rc_err *err);
+                                       enum rc_boundary boundary, const struct rc_coating *coating,
+                                       double **depths, size_t *n, struct rc_err *err);
 
 /* Place of the value of largest size; the first of equals. n > 0. */
 RC_API size_t rc_largest(size_t n, const double *v);

@@ -57,7 +57,7 @@ quadrature(struct where w)
 static double
 coefficient(int kernel, double nu, double x, double y, double z, double dx, double dy)
 {
-    const struct rc_cell cell = {dx, dy, z, nu};
+    const struct rc_cell cell = {dx, dy, z, nu, NULL};
     double value, *out[RC_STRESS_KERNELS] = {NULL};
 
     out[kernel] = &value;
@@ -174,8 +174,10 @@ coefficients_have_no_steps(void **state)
 static void
 lines_are_places(void **state)
 {
-    static const struct rc_cell cells[] = {
-        {1, 1, 0, 0.3}, {1.1, 0.9, 7, 0.3}, {0.5, 2, 90, 0.1}, {2, 0.5, 0.3, 0.5}};
+    static const struct rc_cell cells[] = {{1, 1, 0, 0.3, NULL},
+                                           {1.1, 0.9, 7, 0.3, NULL},
+                                           {0.5, 2, 90, 0.1, NULL},
+                                           {2, 0.5, 0.3, 0.5, NULL}};
     enum {
         N = 700
     };
@@ -457,7 +459,8 @@ chosen_depths(void **state)
         for (size_t i = 0; k == 1 && i < M * M; i++)
             height[i] += rough[i];
         solved = solve(shape, height, problem);
-        assert_int_equal(rc_stress_depths(&shape, solved.p, RC_FREE, &depths, &n, &err), RC_OK);
+        assert_int_equal(rc_stress_depths(&shape, solved.p, RC_FREE, NULL, &depths, &n, &err),
+                         RC_OK);
         stress = rc_stress_new(&shape, solved.p, &options, &err);
         assert_true(depths[0] == 0 && depths[n - 1] > 2.9 * h.a && depths[n - 1] < 4 * h.a);
         near_surface[k] = 0;

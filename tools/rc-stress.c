@@ -47,7 +47,7 @@ static const struct opt opts[] = {
 
 static const struct tool_info info = {
     .name = "rc-stress",
-    .summary = "Stresses in an elastic half-space under a pressure map",
+    .summary = "Stresses in an elastic half-space, coated or not, under a pressure map",
     .operands = "[FILE...]",
     .examples = "  rc-solve --load 240N --estar 114GPa surface.rcg |\n"
                 "      rc-stress --nu 0.3 --depths 0:50um:26 --components mises -o mises.rcg\n"
@@ -62,6 +62,7 @@ static const struct tool_info info = {
 struct run {
     struct tool t;
     struct rc_stress_options options; /* of the case */
+    struct coating layers;            /* of the case */
     struct numbers depths;            /* of the case */
     struct rc_grid *frame[RC_STRESSES];
     struct stress_report report;
@@ -168,13 +169,29 @@ boundary(struct run *run, const struct rc_grid *p)
     return periodic ? RC_PERIODIC : RC_FREE;
 }
 
+/* A coated body's materials have each their own Poisson's ratio. */
+static void
+set_material(struct run *run, const struct rc_grid *p)
+{
+    struct rc_err err;
+
+    if (coating_read(p, &run->layers, &err) != RC_OK)
+        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (run->layers.text != NULL && !isnan(args.nu))
+        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE,
+                    "its body is coated and each material has its own Poisson's ratio: --nu "
+                    "contradicts its layers, leave it out");
+    run->options.coating = run->layers.text != NULL ? &run->layers.coating : NULL;
+    run->options.nu = run->layers.text != NULL ? NAN : poisson(run, p);
+}
+
 static void
 set_options(struct run *run, const struct rc_grid *p)
 {
     char list[128];
 
     run->options.boundary = boundary(run, p);
-    run->options.nu = poisson(run, p);
+    set_material(run, p);
     run->options.mu = args.mu;
     run->options.wanted = (unsigned)args.components;
     run->options.engine = args.kernel;
@@ -186,6 +203,20 @@ set_options(struct run *run, const struct rc_grid *p)
                     words_periodic_engines(list, sizeof list), args.kernel);
 }
 
+/* A rigid substrate has a face, but no stresses inside. */
+static void
+refuse_rigid(struct run *run, const struct rc_grid *p)
+{
+    const struct rc_stress_options *o = &run->options;
+
+    for (size_t k = 0; o->coating != NULL && isinf(o->coating->e) && k < run->depths.n; k++)
+        if (stress_material(o, run->depths.v[k]) == o->coating->layers)
+            tool_die_at(&run->t, p, EXIT_IMPOSSIBLE,
+                        "depth %g m is inside its rigid substrate, where stresses are unknown: "
+                        "give depths down to its face",
+                        run->depths.v[k]);
+}
+
 static void
 set_depths(struct run *run, const struct rc_grid *p)
 {
@@ -193,9 +224,11 @@ set_depths(struct run *run, const struct rc_grid *p)
     struct rc_err err;
 
     run->depths = args.depths;
-    if (args.depths.n == 0 && rc_stress_depths(&shape, p->v, run->options.boundary, &run->depths.v,
-                                               &run->depths.n, &err) != RC_OK)
+    if (args.depths.n == 0 &&
+        rc_stress_depths(&shape, p->v, run->options.boundary, run->options.coating, &run->depths.v,
+                         &run->depths.n, &err) != RC_OK)
         tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
+    refuse_rigid(run, p);
     if (args.depths.n == 0)
         tool_note(&run->t, "%zu depths, down to %g m", run->depths.n,
                   run->depths.v[run->depths.n - 1]);
@@ -245,7 +278,9 @@ set_keys(struct run *run, const struct rc_grid *p, struct rc_grid *g)
     size_t frames = channels() * (plane ? 1 : run->depths.n);
     struct rc_err err;
 
-    if (rc_grid_set_number(g, "nu", run->options.nu, &err) != RC_OK ||
+    if (rc_grid_set(g, "nu", NULL, &err) != RC_OK ||
+        (run->options.coating == NULL &&
+         rc_grid_set_number(g, "nu", run->options.nu, &err) != RC_OK) ||
         rc_grid_set(g, "boundary", run->options.boundary == RC_PERIODIC ? "periodic" : "free",
                     &err) != RC_OK ||
         rc_grid_set(g, "mu", NULL, &err) != RC_OK ||
@@ -288,6 +323,19 @@ demand_memory(struct run *run, const struct rc_grid *p)
                            (channels() * frame.nx * frame.ny + p->nx * p->ny) * sizeof(double));
 }
 
+/* Where a slice is: its depth and, of a coated body, its material. */
+static enum rc_status
+set_place(const struct run *run, struct rc_grid *g, double depth, struct rc_err *err)
+{
+    const struct rc_stress_options *o = &run->options;
+
+    if (rc_grid_set_number(g, "depth", depth, err) != RC_OK)
+        return RC_FAIL;
+    if (o->coating == NULL)
+        return RC_OK;
+    return rc_grid_set_number(g, "material", (double)stress_material(o, depth) + 1, err);
+}
+
 static void
 do_depth(struct run *run, struct rc_stress *stress, size_t k)
 {
@@ -306,7 +354,7 @@ do_depth(struct run *run, struct rc_stress *stress, size_t k)
     for (int c = 0; c < RC_STRESSES && !plane; c++) {
         if (!wanted(c))
             continue;
-        if (rc_grid_set_number(run->frame[c], "depth", run->depths.v[k], &err) != RC_OK)
+        if (set_place(run, run->frame[c], run->depths.v[k], &err) != RC_OK)
             tool_die(&run->t, EXIT_IMPOSSIBLE, "%s", err.text);
         tool_write(&run->t, run->frame[c]);
     }
@@ -365,6 +413,7 @@ main(int argc, char **argv)
             do_case(&run, p);
         if (run.depths.v != args.depths.v)
             free(run.depths.v);
+        coating_free(&run.layers);
         rc_grid_free(p);
     }
     report_close(&run.out);

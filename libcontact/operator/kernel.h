@@ -12,6 +12,7 @@ struct rc_medium {
     double depth;                 /* m   */
     const struct rc_stack *stack; /* of the kernel layered; then also, of the units of the grid: */
     double length, modulus;       /* m and Pa                                               */
+    const struct rc_inside *inside; /* of the kernel stress, in a coated body: at the depth      */
 };
 
 /* Where a kernel is sampled: a cell, and the step between samples in cells. */

@@ -16,6 +16,7 @@
 #include "kernel.h"
 #include "power.h"
 #include "quadrature.h"
+#include "radial.h"
 #include "stack.h"
 
 struct rc_operator;

@@ -30,12 +30,13 @@ static const double near = 0.125;   /* of s: from there on the table        */
 static const double farthest = 1e6; /* of s: from there on as at its end    */
 
 struct rc_radial {
-    int order;
+    size_t n; /* functions                                          */
+    int order[RC_RADIAL_MOST];
     double scale, near;
-    double series[TERMS]; /* coefficients of r^(m + 2k)                        */
-    double first;         /* ln r of table[0]                                  */
-    size_t n;
-    double *table; /* f sqrt(r^2 + s^2)                                 */
+    double series[TERMS][RC_RADIAL_MOST]; /* coefficients of r^(m + 2k)                   */
+    double first;                         /* ln r of table[0]                                  */
+    size_t length;
+    double *table; /* f sqrt(r^2 + s^2), of all functions at each r       */
 };
 
 static double
@@ -54,9 +55,9 @@ turn(int order, double w)
     return w * log(2) + 2 * angle.val;
 }
 
-/* r f(r), without its tail, at r = exp(j step/FINER)/q_last, j < FINER SAMPLES; in out[2 j]. */
+/* r f(r) of function i, without its tail, at r = exp(j step/FINER)/q_last, j < FINER SAMPLES; in out[2 j]. */
 static void
-transform(const struct rc_radial_source *source, const double *g, double *out)
+transform(const struct rc_radial_source *source, size_t i, const double *g, double *out)
 {
     size_t all = (size_t)SAMPLES * FINER;
     double *h = out; /* SAMPLES complex numbers, then all */
@@ -64,7 +65,7 @@ transform(const struct rc_radial_source *source, const double *g, double *out)
 
     for (size_t n = 0; n < SAMPLES; n++) {
         double q = sample(n, source->unit);
-        h[2 * n] = q * g[n] - source->tail * exp(-q * source->scale);
+        h[2 * n] = q * g[n * source->n + i] - source->tail * exp(-q * source->scale);
         h[2 * n + 1] = 0;
     }
     gsl_fft_complex_radix2_forward(h, 1, SAMPLES);
@@ -80,7 +81,7 @@ transform(const struct rc_radial_source *source, const double *g, double *out)
     for (size_t k = 0; k < SAMPLES / 2; k++) {
         /* r begins at 1/q_last: ln(q_0 r) = - range there */
         double w = 2 * pi * (double)k / (SAMPLES * step),
-               angle = turn(source->order, w) + w * range;
+               angle = turn(source->order[i], w) + w * range;
         double c = cos(angle), s = sin(angle), re = out[2 * k], im = out[2 * k + 1];
         size_t minus = all - k;
 
@@ -96,66 +97,92 @@ transform(const struct rc_radial_source *source, const double *g, double *out)
         out[2 * j] /= SAMPLES;
 }
 
+/* Powers of q s: else they overflow. */
 static void
 set_series(struct rc_radial *f, const struct rc_radial_source *source, const double *g)
 {
-    for (int k = 0; k < TERMS; k++) {
-        double sum = 0, factor = k % 2 == 0 ? 1 : -1;
+    double per = step / (source->scale * source->scale);
 
-        for (size_t n = 0; n < SAMPLES; n++) {
-            double q = sample(n, source->unit) * source->scale; /* else powers overflow */
-            if (g[n] != 0)
-                sum += pow(q, source->order + 2 * k + 2) * g[n];
+    for (size_t n = 0; n < SAMPLES; n++) {
+        double q = sample(n, source->unit) * source->scale;
+        for (size_t i = 0; i < f->n; i++) {
+            double power = g[n * f->n + i] == 0 ? 0 : pow(q, f->order[i] + 2) * g[n * f->n + i];
+            for (int k = 0; k < TERMS && power != 0; k++, power *= q * q)
+                f->series[k][i] += power;
         }
-        for (int i = 1; i <= source->order + k; i++)
-            factor /= i;
-        for (int i = 1; i <= k; i++)
-            factor /= i;
-        /* of (r/s)^(m + 2k) */
-        f->series[k] =
-            factor * step * sum / pow(2, source->order + 2 * k) / (source->scale * source->scale);
     }
+    for (size_t i = 0; i < f->n; i++)
+        for (int k = 0; k < TERMS; k++) {
+            double factor = k % 2 == 0 ? 1 : -1;
+            for (int l = 1; l <= f->order[i] + k; l++)
+                factor /= l;
+            for (int l = 1; l <= k; l++)
+                factor /= l;
+            /* of (r/s)^(m + 2k) */
+            f->series[k][i] *= factor * per / pow(2, f->order[i] + 2 * k);
+        }
 }
 
-/* The table from what stands at out[2 j]. */
-static enum rc_status
-set_table(struct rc_radial *f, const struct rc_radial_source *source, const double *out)
+static void
+table_range(const struct rc_radial_source *source, size_t *from, size_t *to)
 {
     double fine = step / FINER, begin = -log(sample(SAMPLES - 1, source->unit));
-    size_t from = (size_t)((log(near * source->scale) - begin) / fine) - POINTS;
-    size_t to = (size_t)((log(farthest * source->scale) - begin) / fine) + POINTS;
 
-    f->first = begin + (double)from * fine;
-    f->n = to - from;
-    if ((f->table = rc_alloc(f->n, sizeof *f->table)) == NULL)
-        return RC_FAIL;
-    for (size_t j = 0; j < f->n; j++) {
-        double r = exp(f->first + (double)j * fine);
-        f->table[j] = source->tail + out[2 * (from + j)] / r * hypot(r, source->scale);
+    *from = (size_t)((log(near * source->scale) - begin) / fine) - POINTS;
+    *to = (size_t)((log(farthest * source->scale) - begin) / fine) + POINTS;
+}
+
+static enum rc_status
+table_new(struct rc_radial *f, const struct rc_radial_source *source)
+{
+    size_t from, to;
+
+    table_range(source, &from, &to);
+    f->first = -log(sample(SAMPLES - 1, source->unit)) + (double)from * step / FINER;
+    f->length = to - from;
+    f->table = rc_alloc(f->length, f->n * sizeof *f->table);
+    return f->table == NULL ? RC_FAIL : RC_OK;
+}
+
+/* The table of function i from what stands at out[2 j]. */
+static void
+set_table(struct rc_radial *f, const struct rc_radial_source *source, size_t i, const double *out)
+{
+    size_t from, to;
+
+    table_range(source, &from, &to);
+    for (size_t j = 0; j < f->length; j++) {
+        double r = exp(f->first + (double)j * step / FINER);
+        f->table[j * f->n + i] = source->tail + out[2 * (from + j)] / r * hypot(r, source->scale);
     }
-    return RC_OK;
 }
 
 struct rc_radial *
 rc_radial_new(const struct rc_radial_source *source)
 {
     struct rc_radial *f = calloc(1, sizeof *f);
-    double *g = malloc(SAMPLES * sizeof *g);
+    double *g = calloc(SAMPLES * source->n, sizeof *g);
     double *out = malloc(2 * (size_t)SAMPLES * FINER * sizeof *out);
 
     if (f == NULL || g == NULL || out == NULL)
         goto fail;
-    f->order = source->order;
+    f->n = source->n;
     f->scale = source->scale;
     f->near = near * source->scale;
+    if (table_new(f, source) != RC_OK)
+        goto fail;
+    for (size_t i = 0; i < f->n; i++)
+        f->order[i] = source->order[i];
     for (size_t n = 0; n < SAMPLES; n++) {
         double q = sample(n, source->unit);
-        g[n] = q * source->unit > source->last ? 0 : source->wave(source->ctx, q);
+        if (q * source->unit <= source->last)
+            source->wave(source->ctx, q, g + n * f->n);
     }
     set_series(f, source, g);
-    transform(source, g, out);
-    if (set_table(f, source, out) != RC_OK)
-        goto fail;
+    for (size_t i = 0; i < f->n; i++) {
+        transform(source, i, g, out);
+        set_table(f, source, i, out);
+    }
     free(g);
     free(out);
     return f;
@@ -164,6 +191,14 @@ fail:
     free(out);
     rc_radial_free(f);
     return NULL;
+}
+
+size_t
+rc_radial_memory(size_t functions)
+{
+    size_t range = (size_t)(log(farthest / near) * FINER / step) + 2 * POINTS + 1;
+
+    return sizeof(struct rc_radial) + range * functions * sizeof(double);
 }
 
 void
@@ -177,46 +212,58 @@ rc_radial_free(struct rc_radial *f)
 
 /* ---- values ---- */
 
-static double
-by_series(const struct rc_radial *f, double r)
+static void
+by_series(const struct rc_radial *f, double r, double *out)
 {
-    double x = r / f->scale, sum = 0;
+    double x = r / f->scale, x2 = x * x;
 
-    for (int k = TERMS; k-- > 0;)
-        sum = sum * x * x + f->series[k];
-    for (int k = 0; k < f->order; k++)
-        sum *= x;
-    return sum;
+    for (size_t i = 0; i < f->n; i++) {
+        double sum = 0;
+        for (int k = TERMS; k-- > 0;)
+            sum = sum * x2 + f->series[k][i];
+        for (int k = 0; k < f->order[i]; k++)
+            sum *= x;
+        out[i] = sum;
+    }
 }
 
-/* Lagrange's polynomial through six even points, at t from the third of them, 0 <= t < 1. */
-static inline double
-interpolate(const double *v, double t)
+/* Weights of Lagrange's polynomial through six even points, at t from the third of them, 0 <= t < 1. */
+static inline void
+weigh(double t, double w[POINTS])
 {
     double a = t + 2, b = t + 1, c = t, d = t - 1, e = t - 2, f = t - 3;
 
-    return -v[0] * b * c * d * e * f / 120 + v[1] * a * c * d * e * f / 24 -
-           v[2] * a * b * d * e * f / 12 + v[3] * a * b * c * e * f / 12 -
-           v[4] * a * b * c * d * f / 24 + v[5] * a * b * c * d * e / 120;
+    w[0] = -b * c * d * e * f / 120;
+    w[1] = a * c * d * e * f / 24;
+    w[2] = -a * b * d * e * f / 12;
+    w[3] = a * b * c * e * f / 12;
+    w[4] = -a * b * c * d * f / 24;
+    w[5] = a * b * c * d * e / 120;
 }
 
 void
-rc_radial_values(const struct rc_radial *f, size_t n, const double *r, double *out)
+rc_radial_values(const struct rc_radial *f, size_t points, const double *r, double *out)
 {
     const double per = FINER / step;
-    double most = (double)(f->n - POINTS);
+    double most = (double)(f->length - POINTS);
+    size_t n = f->n;
 
-    for (size_t k = 0; k < n; k++) {
-        double x, whole;
+    for (size_t k = 0; k < points; k++, out += n) {
+        double x, whole, over, w[POINTS];
+        const double *v;
 
         if (r[k] < f->near) {
-            out[k] = by_series(f, r[k]);
+            by_series(f, r[k], out);
             continue;
         }
         x = (log(r[k]) - f->first) * per;
         x = x < most ? x : most;
         whole = floor(x);
-        out[k] = interpolate(f->table + (size_t)whole - 2, x - whole) /
-                 sqrt(r[k] * r[k] + f->scale * f->scale);
+        weigh(x - whole, w);
+        v = f->table + ((size_t)whole - 2) * n;
+        over = 1 / sqrt(r[k] * r[k] + f->scale * f->scale);
+        for (size_t i = 0; i < n; i++)
+            out[i] = over * (w[0] * v[i] + w[1] * v[n + i] + w[2] * v[2 * n + i] +
+                             w[3] * v[3 * n + i] + w[4] * v[4 * n + i] + w[5] * v[5 * n + i]);
     }
 }

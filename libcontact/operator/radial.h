@@ -3,7 +3,7 @@
  *
  *     f(r) = integral from 0 to infinity of G(q) J_m(q r) q dq
  *
- * tabulated once, for all grids. Internal: never installed.
+ * tabulated once, for all grids, several of them together. Internal: never installed.
  */
 #ifndef RC_RADIAL_H
 #define RC_RADIAL_H
@@ -12,20 +12,27 @@
 
 struct rc_radial;
 
+enum {
+    RC_RADIAL_MOST = 11
+};
+
 struct rc_radial_source {
-    int order;    /* m >= 0                                        */
-    double scale; /* s, m: f is smooth on it; its nearest singularity is r = i s */
-    double unit;  /* m: wave numbers are taken about 1/unit        */
-    double last;  /* G = 0 where q unit is above this              */
-    double tail;  /* G -> tail/q as q -> 0: f -> tail/r far away; of order 0 */
-    double (*wave)(const void *ctx, double q); /* G */
+    size_t n;         /* functions that are looked up together, at most RC_RADIAL_MOST */
+    const int *order; /* m >= 0 of each                                */
+    double scale;     /* s, m: f is smooth on it; its nearest singularity is r = i s */
+    double unit;      /* m: wave numbers are taken about 1/unit        */
+    double last;      /* G = 0 where q unit is above this              */
+    double tail;      /* G -> tail/q as q -> 0: f -> tail/r far away; of order 0 */
+    void (*wave)(const void *ctx, double q, double *g); /* all n G */
     const void *ctx;
 };
 
 /* NULL when memory is short. */
 struct rc_radial *rc_radial_new(const struct rc_radial_source *source);
 void rc_radial_free(struct rc_radial *radial); /* NULL is allowed */
-/* f at n distances r >= 0, m. */
-void rc_radial_values(const struct rc_radial *radial, size_t n, const double *r, double *f);
+/* Bytes of such a table. */
+size_t rc_radial_memory(size_t functions);
+/* f at `points` distances r >= 0, m: out[point * n + function]. */
+void rc_radial_values(const struct rc_radial *radial, size_t points, const double *r, double *out);
 
 #endif

@@ -87,9 +87,10 @@ third_and_fourth(double x, double th, double *p3, double *p4)
     *p4 = th * s4 / 16;
 }
 
-/* From the bottom of a layer to its top, x = q t. */
+/* From the bottom of a layer to its top, x = q t. *grown is what e becomes of 1 before it is made 1
+ * again, times exp(-2x). */
 static struct minors
-through(struct minors y, const struct medium *m, double x)
+through(struct minors y, const struct medium *m, double x, double *grown)
 {
     double th = exp(-2 * x), far = x < 1000 ? x : 1000, p3, p4;
     struct minors y1 = times_m(m, y), y2 = times_m(m, y1), y3 = times_m(m, y2), y4 = times_m(m, y3);
@@ -100,6 +101,7 @@ through(struct minors y, const struct medium *m, double x)
     top = plus(top, far * far * th / 2, y2);
     top = plus(top, p3, y3);
     top = plus(top, p4, y4);
+    *grown = top.e;
     return (struct minors){top.a / top.e, top.b / top.e, top.c / top.e, top.d / top.e, 1};
 }
 
@@ -108,13 +110,14 @@ static struct minors
 surface(const struct rc_stack *s, double q)
 {
     struct minors y = half_space(&s->material[s->layers]);
+    double grown;
 
     for (size_t k = s->layers; k-- > 0;) {
         const struct rc_material *m = &s->material[k];
         struct medium constants = medium_of(m->nu);
         if (!isinf(s->material[k + 1].modulus))
             y = change_medium(y, m->modulus / s->material[k + 1].modulus);
-        y = through(y, &constants, q * m->thickness);
+        y = through(y, &constants, q * m->thickness, &grown);
     }
     return y;
 }
@@ -133,12 +136,195 @@ rc_stack_excess(const struct rc_stack *s, double q)
     return rc_stack_response(s, q) - s->top;
 }
 
+/* ---- inside ---- */
+
+/* Sums of thicknesses are rounded, and a depth that is meant to be one must not be below it. */
+static bool
+within(double depth, double bottom)
+{
+    return depth <= bottom * (1 + 1e-13);
+}
+
+size_t
+rc_stack_medium(const struct rc_stack *s, double depth)
+{
+    double bottom = 0;
+    size_t k = 0;
+
+    while (k < s->layers && !within(depth, bottom += s->material[k].thickness))
+        k++;
+    return k;
+}
+
+size_t
+rc_coating_material(const struct rc_coating *c, double depth)
+{
+    double bottom = 0;
+    size_t k = 0;
+
+    while (k < c->layers && !within(depth, bottom += c->layer[k].thickness))
+        k++;
+    return k;
+}
+
+double
+rc_stack_top(const struct rc_stack *s, size_t medium)
+{
+    double top = 0;
+
+    for (size_t k = 0; k < medium; k++)
+        top += s->material[k].thickness;
+    return top;
+}
+
+/* Tractions on a plane, along the wave and down, and those across the wave, each per unit load. */
+struct traction {
+    double x, z, across;
+};
+/* What stands below a plane: minors with e = 1, and across the wave the one number that is left. */
+struct below {
+    struct minors y;
+    double across;
+};
+
+static struct below
+below_all(const struct rc_material *substrate)
+{
+    return (struct below){half_space(substrate), isinf(substrate->modulus) ? 0 : 1};
+}
+
+/* The same plane seen from the medium `above` it. */
+static struct below
+seen_from(const struct rc_material *above, const struct rc_material *m, struct below b)
+{
+    double r = isinf(m->modulus) ? 0 : above->modulus / m->modulus;
+
+    if (r == 0)
+        return b;
+    return (struct below){change_medium(b.y, r), b.across * r};
+}
+
+/* At the top of a piece, x = q h, of what stands below it. */
+static struct below
+above_piece(struct below b, const struct medium *m, double x)
+{
+    double th = exp(-2 * x), grown;
+
+    b.y = through(b.y, m, x, &grown);
+    b.across = (b.across * (1 + th) + (1 - th)) / ((1 + th) + b.across * (1 - th));
+    return b;
+}
+
+struct state {
+    double u, w, fx, fz;
+};
+
+static struct state
+times_q(const struct medium *m, struct state v)
+{
+    return (struct state){v.fx - v.w, m->alpha * v.fz + m->beta * v.u,
+                          m->gamma * v.u - m->beta * v.fz, v.fx};
+}
+
+/* x cosh x - sinh x, times exp(-x). */
+static double
+third(double x, double ch, double sh)
+{
+    double term = x, sum = 0; /* x^(2k + 1)/(2k + 1)! */
+
+    if (x >= 1)
+        return x * ch - sh;
+    for (int k = 1; k <= 10; k++) {
+        term *= x * x / (2 * k * (2 * k + 1));
+        sum += 2 * k * term;
+    }
+    return exp(-x) * sum;
+}
+
+/* What of exp(x Q) v acts on a plane, times exp(-x). */
+static struct traction
+carried(const struct medium *m, double x, struct state v)
+{
+    double th = exp(-2 * x), ch = (1 + th) / 2, sh = (1 - th) / 2;
+    double k3 = third(x, ch, sh) / 2, k0 = ch - x * sh / 2, k1 = sh - k3, k2 = x * sh / 2;
+    struct state v1 = times_q(m, v), v2 = times_q(m, v1), v3 = times_q(m, v2);
+
+    return (struct traction){.x = k0 * v.fx + k1 * v1.fx + k2 * v2.fx + k3 * v3.fx,
+                             .z = k0 * v.fz + k1 * v1.fz + k2 * v2.fz + k3 * v3.fz};
+}
+
+/* From the top of a piece, x = q h, to its bottom, where b stands below. */
+static struct traction
+down_piece(struct traction f, struct below b, const struct medium *m, double x)
+{
+    struct traction c1 = carried(m, x, (struct state){b.y.c, -b.y.d, 1, 0});
+    struct traction c2 = carried(m, x, (struct state){-b.y.d, b.y.b, 0, 1});
+    double th = exp(-2 * x), decay = exp(-x), grown;
+
+    through(b.y, m, x, &grown);
+    return (struct traction){.x = decay / grown * (c2.z * f.x - c2.x * f.z),
+                             .z = decay / grown * (c1.x * f.z - c1.z * f.x),
+                             .across = 2 * decay / ((1 + th) + b.across * (1 - th)) * f.across};
+}
+
+/* Tractions f[0] under the pressure and f[1] under the shear at the bottom of layer j, below which b
+ * stands, seen from it: up to the surface and, on the way back, down. */
+static void
+go_down(const struct rc_stack *s, double q, size_t j, struct below b, struct traction f[2])
+{
+    const struct rc_material *m = &s->material[j];
+    struct medium constants = medium_of(m->nu);
+    double x = q * m->thickness;
+
+    if (j > 0)
+        go_down(s, q, j - 1, seen_from(m - 1, m, above_piece(b, &constants, x)), f);
+    for (int load = 0; load < 2; load++)
+        f[load] = down_piece(f[load], b, &constants, x);
+}
+
+void
+rc_stack_inside(const struct rc_stack *s, size_t medium, double depth, double q, size_t n,
+                double *out)
+{
+    const struct rc_material *m = &s->material[medium];
+    struct medium constants = medium_of(m->nu);
+    double h = fmin(fmax(depth - rc_stack_top(s, medium), 0), m->thickness);
+    struct traction f[2] = {{0, 1, 0}, {1, 0, 1}};
+    struct below b = below_all(&s->material[s->layers]), at;
+
+    for (size_t k = s->layers; k > medium; k--) {
+        if (k < s->layers) {
+            struct medium c = medium_of(s->material[k].nu);
+            b = above_piece(b, &c, q * s->material[k].thickness);
+        }
+        b = seen_from(&s->material[k - 1], &s->material[k], b);
+    }
+    at = medium == s->layers ? b : above_piece(b, &constants, q * (m->thickness - h));
+    if (medium > 0)
+        go_down(s, q, medium - 1, seen_from(m - 1, m, above_piece(at, &constants, q * h)), f);
+    for (int load = 0; load < 2; load++) {
+        f[load] = down_piece(f[load], at, &constants, q * h);
+        if (load == 1 && n <= RC_UNDER_PRESSURE)
+            break;
+        double *to = out + (load == 0 ? RC_P_S : RC_T_S);
+        double u = at.y.c * f[load].x - at.y.d * f[load].z;
+        to[RC_P_S] = -f[load].z;
+        to[RC_P_T] = -f[load].x;
+        to[RC_P_L] = constants.beta * to[RC_P_S] + constants.gamma * u;
+        to[RC_P_N] = m->nu * (to[RC_P_S] + to[RC_P_L]);
+    }
+    if (n > RC_UNDER_PRESSURE) {
+        out[RC_T_R] = f[1].across;
+        out[RC_T_V] = at.across * f[1].across;
+    }
+}
+
 /* ---- at a distance ---- */
 
-static double
-difference(const void *ctx, double q)
+static void
+difference(const void *ctx, double q, double *g)
 {
-    return rc_stack_excess(ctx, q) / (pi * q);
+    *g = rc_stack_excess(ctx, q) / (pi * q);
 }
 
 /* D(r) = 1/pi integral of (g - g(infinity)) J_0(q r) dq. It falls as exp(-2 q t), t the thickness of the
@@ -146,7 +332,9 @@ difference(const void *ctx, double q)
 static struct rc_radial *
 far(const struct rc_stack *s)
 {
-    struct rc_radial_source source = {.order = 0,
+    static const int order = 0;
+    struct rc_radial_source source = {.n = 1,
+                                      .order = &order,
                                       .scale = 2 * s->material[0].thickness,
                                       .unit = s->material[0].thickness,
                                       .last = 25,

@@ -31,4 +31,31 @@ double rc_stack_response(const struct rc_stack *stack, double q);
 /* g(q) - g(infinity). */
 double rc_stack_excess(const struct rc_stack *stack, double q);
 
+/* The medium at a depth, 0 on top: an interface belongs to the medium above it. And the depth of its
+ * upper side. */
+size_t rc_stack_medium(const struct rc_stack *stack, double depth);
+double rc_stack_top(const struct rc_stack *stack, size_t medium);
+
+/* Stresses that waves leave inside, each over the load at the surface. l is along the wave, which goes as
+ * cos(q l) for a pressure of that form: szz = S cos, slz = T sin, sll = L cos, and across it snn = N cos.
+ * Of a traction along the wave as sin(q l) the same; of one across it szn = -R, sln = V. */
+enum {
+    RC_P_S,
+    RC_P_T,
+    RC_P_L,
+    RC_P_N,
+    RC_UNDER_PRESSURE, /* so many of the pressure alone */
+    RC_T_S = RC_UNDER_PRESSURE,
+    RC_T_T,
+    RC_T_L,
+    RC_T_N,
+    RC_T_R,
+    RC_T_V,
+    RC_UNDER_BOTH
+};
+/* The first n, RC_UNDER_PRESSURE or RC_UNDER_BOTH, at a depth (m) in a medium, to which its two sides
+ * belong; it is not a rigid one. */
+void rc_stack_inside(const struct rc_stack *stack, size_t medium, double depth, double q, size_t n,
+                     double *out);
+
 #endif

@@ -136,11 +136,11 @@ by_corners(const struct rc_cell *c, int kernel, double x, double y)
     return sum / (2 * pi);
 }
 
-/* ---- both ---- */
+/* ---- of one material ---- */
 
-void
-rc_stress_coefficients(const struct rc_cell *c, unsigned kernels, size_t n, const double *x,
-                       const double *y, double *const out[RC_STRESS_KERNELS])
+static void
+closed_coefficients(const struct rc_cell *c, unsigned kernels, size_t n, const double *x,
+                    const double *y, double *const out[RC_STRESS_KERNELS])
 {
     double z2 = c->depth * c->depth;
 
@@ -164,9 +164,9 @@ rc_stress_coefficients(const struct rc_cell *c, unsigned kernels, size_t n, cons
     }
 }
 
-void
-rc_stress_line(const struct rc_cell *c, unsigned kernels, double step, size_t n, double y,
-               double *const out[RC_STRESS_KERNELS])
+static void
+closed_line(const struct rc_cell *c, unsigned kernels, double step, size_t n, double y,
+            double *const out[RC_STRESS_KERNELS])
 {
     double beyond = far * far * fmax(c->dx * c->dx, c->dy * c->dy) - y * y - c->depth * c->depth;
     double inner = beyond > 0 ? ceil(sqrt(beyond) / c->dx) : 0;
@@ -182,8 +182,49 @@ rc_stress_line(const struct rc_cell *c, unsigned kernels, double step, size_t n,
         }
         for (int k = 0; k < RC_STRESS_KERNELS; k++)
             to[k] = kernels >> k & 1 ? out[k] + start : NULL;
-        rc_stress_coefficients(c, kernels, count, x, ys, to);
+        closed_coefficients(c, kernels, count, x, ys, to);
     }
     for (size_t start = near; start < n; start += most)
         by_means(c, kernels, y, start, n - start < most ? n - start : most, out);
+}
+
+/* ---- of a coated body too ---- */
+
+/* The cell on one material, of a coated body on that of its top layer where that has a part in it; else
+ * false, and all values are 0. */
+static bool
+closed(const struct rc_cell *c, unsigned kernels, size_t n, double *const out[RC_STRESS_KERNELS],
+       struct rc_cell *bare)
+{
+    *bare = *c;
+    if (c->inside == NULL || rc_inside_closed(c->inside, &bare->nu))
+        return true;
+    for (int k = 0; k < RC_STRESS_KERNELS; k++)
+        if (kernels >> k & 1)
+            memset(out[k], 0, n * sizeof(double));
+    return false;
+}
+
+void
+rc_stress_coefficients(const struct rc_cell *c, unsigned kernels, size_t n, const double *x,
+                       const double *y, double *const out[RC_STRESS_KERNELS])
+{
+    struct rc_cell bare;
+
+    if (closed(c, kernels, n, out, &bare))
+        closed_coefficients(&bare, kernels, n, x, y, out);
+    if (c->inside != NULL)
+        rc_inside_add(c, kernels, n, x, y, out);
+}
+
+void
+rc_stress_line(const struct rc_cell *c, unsigned kernels, double step, size_t n, double y,
+               double *const out[RC_STRESS_KERNELS])
+{
+    struct rc_cell bare;
+
+    if (closed(c, kernels, n, out, &bare))
+        closed_line(&bare, kernels, step, n, y, out);
+    if (c->inside != NULL)
+        rc_inside_add_line(c, kernels, step, n, y, out);
 }

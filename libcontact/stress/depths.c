@@ -11,6 +11,8 @@
  * fixed part of 1/k, more where less is left. The last depth of a contact on a free half-space is
  * three radii of the Hertzian contact that is as spread out; on a periodic map it is where the
  * waves have died away.
+ *
+ * In a coated body the stresses change over the thickness of a layer too, and jump at its sides.
  */
 #include "libcontact/contact.h"
 
@@ -27,6 +29,8 @@ enum {
 
 /* A quarter of the scale leaves the largest Mises stress of Hertz's contact within 1 %. */
 static const double part = 0.25, most_part = 0.75, radii = 3, died = 0.01;
+/* Of a layer, and of what is just below an interface. */
+static const double layer_part = 0.25, just_below = 1e-6;
 
 struct bins {
     double q[BINS], power[BINS];
@@ -108,21 +112,83 @@ contact_radius(const struct rc_shape *s, const double *p)
     return sqrt(2.5 * (r2 / sum + (s->dx * s->dx + s->dy * s->dy) / 12));
 }
 
-/* Three digits are enough to choose a depth by. */
 static double
-rounded(double z)
+rounded(double z, int digits)
 {
-    double scale = pow(10, 2 - floor(log10(z)));
+    double scale = pow(10, digits - 1 - floor(log10(z)));
 
     return round(z * scale) / scale;
 }
 
+/* ---- down through layers ---- */
+
+struct descent {
+    const struct rc_coating *coating; /* NULL: one material         */
+    size_t layer;                     /* where z is                 */
+    double bottom;                    /* m, of that layer           */
+    double z;                         /* m                          */
+    double *depths;
+    size_t n;
+};
+
+static void
+add(struct descent *d, double z)
+{
+    d->depths[d->n++] = z;
+}
+
+static bool
+in_layer(const struct descent *d)
+{
+    return d->coating != NULL && d->layer < d->coating->layers;
+}
+
+/* Both sides of the interface below; false where nothing follows. */
+static bool
+cross(struct descent *d)
+{
+    const struct rc_coating *c = d->coating;
+    double side = d->bottom, past;
+
+    add(d, side);
+    d->layer++;
+    if (!in_layer(d) && isinf(c->e))
+        return false;
+    past = just_below * (in_layer(d) ? fmin(side, c->layer[d->layer].thickness) : side);
+    d->z = rounded(side + past, 8);
+    if (!(fabs(d->z - side - past) < 0.1 * past))
+        d->z = side + past;
+    add(d, d->z);
+    if (in_layer(d))
+        d->bottom += c->layer[d->layer].thickness;
+    return true;
+}
+
+/* Three digits are enough, where they do not leave the layer or stand still. */
+static bool
+go_down(struct descent *d, double step)
+{
+    double z;
+
+    if (in_layer(d)) {
+        double thickness = d->coating->layer[d->layer].thickness;
+        step = fmin(step, layer_part * thickness);
+        if (d->z + step > d->bottom - layer_part / 4 * thickness)
+            return cross(d);
+    }
+    d->z += step;
+    z = rounded(d->z, 3);
+    add(d, z > d->depths[d->n - 1] && !(in_layer(d) && z >= d->bottom) ? z : d->z);
+    return true;
+}
+
 enum rc_status
 rc_stress_depths(const struct rc_shape *shape, const double *p, enum rc_boundary boundary,
-                 double **depths, size_t *n, struct rc_err *err)
+                 const struct rc_coating *coating, double **depths, size_t *n, struct rc_err *err)
 {
+    struct descent d = {.coating = coating};
     struct bins *b;
-    double radius, all, left, z = 0;
+    double radius, all, left;
 
     *depths = NULL;
     *n = 0;
@@ -139,18 +205,21 @@ rc_stress_depths(const struct rc_shape *shape, const double *p, enum rc_boundary
         return RC_FAIL;
     }
     radius = contact_radius(shape, p);
-    (*depths)[(*n)++] = 0;
+    d.depths = *depths;
+    d.bottom = in_layer(&d) ? coating->layer[0].thickness : INFINITY;
+    add(&d, 0);
     wave_number(b, 0, &all);
-    for (size_t k = 1; k < MOST && all > 0; k++) {
-        double q = wave_number(b, z, &left);
+    while (d.n + 2 <= MOST && all > 0) {
+        double q = wave_number(b, d.z, &left);
         if (boundary == RC_FREE)
             q = fmax(q, 1 / radius); /* the longest waves do not fit on the map */
-        if (boundary == RC_FREE ? z >= radii * radius : left <= died * died * all)
+        if (boundary == RC_FREE ? d.z >= radii * radius : left <= died * died * all)
             break;
-        z +=
-            fmax(fmin(part * pow(all / left, 0.25), most_part) / q, fmin(shape->dx, shape->dy) / 2);
-        (*depths)[(*n)++] = rounded(z);
+        if (!go_down(&d, fmax(fmin(part * pow(all / left, 0.25), most_part) / q,
+                              fmin(shape->dx, shape->dy) / 2)))
+            break;
     }
+    *n = d.n;
     free(b);
     return RC_OK;
 }

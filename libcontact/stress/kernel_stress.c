@@ -260,24 +260,24 @@ const unsigned rc_stress_parity[RC_STRESS_KERNELS] = {KERNELS};
 #undef KERNEL
 
 int
-rc_stress_kernel(int load, int component)
+rc_stress_kernel(int load, int component, bool coated)
 {
     int k = load * RC_COMPONENTS + component, same = rc_stress_forms[k].same;
 
-    return same < 0 ? k : same;
+    return same < 0 || coated ? k : same;
 }
 
 unsigned
-rc_stress_distinct(unsigned components, bool shear)
+rc_stress_distinct(unsigned components, bool shear, bool coated)
 {
     unsigned kernels = 0;
 
     for (int c = 0; c < RC_COMPONENTS; c++) {
         if (!(components >> c & 1))
             continue;
-        kernels |= 1u << rc_stress_kernel(RC_NORMAL, c);
+        kernels |= 1u << rc_stress_kernel(RC_NORMAL, c, coated);
         if (shear)
-            kernels |= 1u << rc_stress_kernel(RC_SHEAR, c);
+            kernels |= 1u << rc_stress_kernel(RC_SHEAR, c, coated);
     }
     return kernels;
 }
@@ -291,7 +291,7 @@ static double
 mean(int kernel, double nu, const struct rc_shape *shape)
 {
     static const double xs[] = {1, 0}, ys[] = {0, 1}, ones[] = {1, 1};
-    const struct rc_waves waves = {2, xs, ys, ones, ones, 0, nu};
+    const struct rc_waves waves = {.n = 2, .x = xs, .y = ys, .q = ones, .decay = ones, .nu = nu};
     double of[2];
 
     if (rc_stress_parity[kernel] != 0)
@@ -306,9 +306,13 @@ void
 rc_stress_symbol(int kernel, const struct rc_waves *waves, const struct rc_shape *shape,
                  double *out)
 {
-    rc_stress_forms[kernel].symbol(waves, out);
+    if (waves->inside != NULL)
+        rc_inside_symbol(waves->inside, kernel, waves->n, waves->x, waves->y, waves->numbers, out);
+    else
+        rc_stress_forms[kernel].symbol(waves, out);
     if (waves->q[0] == 0)
-        out[0] = mean(kernel, waves->nu, shape);
+        out[0] = waves->inside != NULL ? rc_inside_mean(waves->inside, kernel, shape)
+                                       : mean(kernel, waves->nu, shape);
 }
 
 /* ---- the row ---- */
@@ -317,7 +321,7 @@ static void
 rows(const struct rc_medium *m, size_t component, const struct rc_lattice *at, size_t n,
      size_t first, size_t last, double *out)
 {
-    const struct rc_cell cell = {at->dx, at->dy, m->depth, m->nu};
+    const struct rc_cell cell = {at->dx, at->dy, m->depth, m->nu, m->inside};
     double *to[RC_STRESS_KERNELS] = {NULL};
 
     for (size_t j = first; j < last; j++) {
@@ -330,10 +334,16 @@ rows(const struct rc_medium *m, size_t component, const struct rc_lattice *at, s
 static double
 symbol(const struct rc_medium *m, size_t component, double qx, double qy)
 {
-    double x, y, q, decay, out;
-    const struct rc_waves wave = {1, &x, &y, &q, &decay, m->depth, m->nu};
+    double x, y, q, decay, out, numbers[RC_UNDER_BOTH];
+    const struct rc_waves wave = {
+        .n = 1, .x = &x, .y = &y, .q = &q, .decay = &decay, .z = m->depth, .nu = m->nu};
 
     rc_stress_directions(1, &qx, &qy, &x, &y, &q);
+    if (m->inside != NULL) {
+        rc_inside_wave(m->inside, q, numbers);
+        rc_inside_symbol(m->inside, (int)component, 1, &x, &y, numbers, &out);
+        return out;
+    }
     decay = exp(-q * m->depth);
     rc_stress_forms[component].symbol(&wave, &out);
     return out;

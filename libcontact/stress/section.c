@@ -44,7 +44,8 @@ struct plan {
     size_t pairs;
     double *scratch; /* for each thread: a line of each kernel, and where or of what waves   */
     size_t scratch_size;
-    double complex *sum; /* `waves` for each part and component */
+    double complex *sum;      /* `waves` for each part and component */
+    struct rc_inside *inside; /* at the depth of a coated body */
 };
 
 static bool
@@ -88,8 +89,9 @@ sizes(const struct rc_stress_task *t)
     plan.length = t->options.boundary == RC_FREE ? rc_fft_length(plan.n, 2) : plan.n;
     plan.waves = plan.length / 2 + 1;
     plan.threads = rc_useful_threads(s, t->options.threads);
-    plan.scratch_size = t->options.boundary == RC_FREE ? (2 + RC_STRESS_KERNELS) * plan.waves
-                                                       : (6 + RC_STRESS_KERNELS) * plan.m + plan.n;
+    plan.scratch_size = t->options.boundary == RC_FREE
+                            ? (2 + RC_STRESS_KERNELS) * plan.waves
+                            : (6 + RC_STRESS_KERNELS + RC_UNDER_BOTH) * plan.m + plan.n;
     return plan;
 }
 
@@ -102,7 +104,7 @@ memory(const struct rc_stress_task *t)
     return sizeof plan + plan.m * plan.waves * sizeof(double complex) + transposed +
            plan.m * sizeof(struct pair) +
            (size_t)plan.threads * plan.scratch_size * sizeof(double) +
-           PARTS * RC_COMPONENTS * plan.waves * sizeof(double complex);
+           PARTS * RC_COMPONENTS * plan.waves * sizeof(double complex) + rc_inside_memory(t);
 }
 
 /* The map with what is along the plane along its rows. NULL when memory is short. */
@@ -246,7 +248,8 @@ static void
 sum_pair(struct plan *plan, double depth, const struct pair *pair, double complex *sum)
 {
     const struct rc_stress_task *t = &plan->task;
-    const struct rc_cell cell = {t->shape.dx, t->shape.dy, depth, t->options.nu};
+    const struct rc_cell cell = {t->shape.dx, t->shape.dy, depth, t->options.nu, plan->inside};
+    bool coated = t->coated;
     double *along = plan->scratch + (size_t)omp_get_thread_num() * plan->scratch_size;
     double *across = along + plan->waves, *line[RC_STRESS_KERNELS];
 
@@ -265,7 +268,8 @@ sum_pair(struct plan *plan, double depth, const struct pair *pair, double comple
         if (t->kernels >> k & 1)
             rc_dct_run(plan->dct, odd_along(plan, k), line[k]);
     for (int c = 0; c < RC_COMPONENTS; c++) {
-        int normal = rc_stress_kernel(RC_NORMAL, c), shear = rc_stress_kernel(RC_SHEAR, c);
+        int normal = rc_stress_kernel(RC_NORMAL, c, coated),
+            shear = rc_stress_kernel(RC_SHEAR, c, coated);
         if (!(t->components >> c & 1))
             continue;
         add_product(plan, normal, 1, line[normal], pair, sum + (size_t)c * plan->waves);
@@ -297,6 +301,22 @@ sum_free(struct plan *plan, double depth)
 
 /* ---- periodic: waves ---- */
 
+/* Of a coated body: waves m - b across are as long as waves b. */
+static void
+set_numbers(const struct plan *plan, const double *q, double *numbers)
+{
+    size_t n = rc_inside_numbers(plan->inside), m = plan->m;
+
+    for (size_t b = 0; b < m; b++) {
+        if (2 * b > m)
+            memcpy(numbers + b * n, numbers + (m - b) * n, n * sizeof *numbers);
+        else if (q[b] > 0)
+            rc_inside_wave(plan->inside, q[b], numbers + b * n);
+        else
+            memset(numbers + b * n, 0, n * sizeof *numbers);
+    }
+}
+
 /* Symbols of all kernels at the waves across that belong to wave a along, `symbol` m each. */
 static void
 wave_symbols(const struct plan *plan, size_t a, double depth, double *scratch,
@@ -305,8 +325,8 @@ wave_symbols(const struct plan *plan, size_t a, double depth, double *scratch,
     const struct rc_stress_task *t = &plan->task;
     size_t m = plan->m;
     double *along = scratch, *across = along + m, *x = across + m, *y = x + m, *q = y + m;
-    double *decay = q + m;
-    const struct rc_waves waves = {m, x, y, q, decay, depth, t->options.nu};
+    double *decay = q + m, *numbers = decay + (1 + RC_STRESS_KERNELS) * m;
+    const struct rc_waves waves = {m, x, y, q, decay, depth, t->options.nu, plan->inside, numbers};
 
     for (size_t b = 0; b < m; b++) {
         along[b] = rc_fourier_q(a, plan->n, plan->d_along);
@@ -316,6 +336,8 @@ wave_symbols(const struct plan *plan, size_t a, double depth, double *scratch,
                          y, q);
     for (size_t b = 0; b < m; b++)
         decay[b] = exp(-q[b] * depth);
+    if (plan->inside != NULL)
+        set_numbers(plan, q, numbers);
     for (int k = 0; k < RC_STRESS_KERNELS; k++) {
         symbol[k] = decay + (size_t)(k + 1) * m;
         if (t->kernels >> k & 1)
@@ -330,10 +352,11 @@ response(const struct plan *plan, int component, double *const symbol[RC_STRESS_
 {
     static const double complex powers[] = {1, -I, -1}; /* of -i */
     const struct rc_stress_task *t = &plan->task;
+    bool coated = t->coated;
     double complex sum = 0;
 
     for (int load = RC_NORMAL; load <= (t->options.mu != 0 ? RC_SHEAR : RC_NORMAL); load++) {
-        int k = rc_stress_kernel(load, component);
+        int k = rc_stress_kernel(load, component, coated);
         unsigned parity = rc_stress_parity[k];
         double weight = load == RC_NORMAL ? 1 : t->options.mu;
         if ((parity & RC_ODD_X && last_x) || (parity & RC_ODD_Y && last_y))
@@ -384,7 +407,8 @@ slice(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err
     bool periodic = plan->task.options.boundary == RC_PERIODIC;
     double scale = 1 / ((double)plan->length * (periodic ? (double)plan->m : 1));
 
-    (void)err;
+    if (plan->task.coated && (plan->inside = rc_inside_new(&plan->task, depth, err)) == NULL)
+        return RC_FAIL;
     if (periodic)
         sum_waves(plan, depth);
     else
@@ -397,6 +421,8 @@ slice(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err
             s[c][i] = scale * plan->scratch[i];
         plan->task.counts->line_transforms++;
     }
+    rc_inside_free(plan->inside);
+    plan->inside = NULL;
     return RC_OK;
 }
 

@@ -16,13 +16,13 @@ struct plan {
 /* An engine's tolerance is relative to the sum of |K| |p|. That of |K| grows with the logarithm of
  * the map, to some 2 under pressure and 8 under shear, and errors of the two add. */
 static struct rc_sum
-sum_of(const struct rc_stress_task *t, int kernel, double depth)
+sum_of(const struct rc_stress_task *t, int kernel, double depth, const struct rc_inside *inside)
 {
     return (struct rc_sum){.shape = t->shape,
                            .boundary = t->options.boundary,
                            .kernel = &rc_kernel_stress,
                            .component = (size_t)kernel,
-                           .medium = {.nu = t->options.nu, .depth = depth},
+                           .medium = {.nu = t->options.nu, .depth = depth, .inside = inside},
                            .tol = t->options.tol / (2 + 8 * fabs(t->options.mu)),
                            .precise = t->precise,
                            .threads = t->options.threads};
@@ -57,11 +57,12 @@ plan_new(const struct rc_stress_task *task, struct rc_err *err)
 static size_t
 memory(const struct rc_stress_task *task)
 {
-    struct rc_sum sum = sum_of(task, RC_SXX, task->shape.dx);
+    struct rc_sum sum = sum_of(task, RC_SXX, task->shape.dx, NULL);
 
     if (task->engine == NULL)
         return 0;
-    return task->engine->memory(&sum) + task->shape.nx * task->shape.ny * sizeof(double);
+    return task->engine->memory(&sum) + task->shape.nx * task->shape.ny * sizeof(double) +
+           rc_inside_memory(task);
 }
 
 static void
@@ -77,17 +78,24 @@ slice(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err
     struct plan *plan = at;
     const struct rc_stress_task *t = &plan->task;
     size_t n = t->shape.nx * t->shape.ny;
+    bool coated = t->coated;
+    struct rc_inside *inside = NULL;
+    enum rc_status status = RC_OK;
 
+    if (coated && (inside = rc_inside_new(t, depth, err)) == NULL)
+        return RC_FAIL;
     for (int c = 0; c < RC_COMPONENTS; c++)
         if (t->components >> c & 1)
             memset(s[c], 0, n * sizeof *s[c]);
-    for (int k = 0; k < RC_STRESS_KERNELS; k++) {
-        struct rc_sum sum = sum_of(t, k, depth);
+    for (int k = 0; k < RC_STRESS_KERNELS && status == RC_OK; k++) {
+        struct rc_sum sum = sum_of(t, k, depth, inside);
         void *one;
         if (!(t->kernels >> k & 1))
             continue;
-        if ((one = t->engine->new (&sum, err)) == NULL)
-            return RC_FAIL;
+        if ((one = t->engine->new (&sum, err)) == NULL) {
+            status = RC_FAIL;
+            break;
+        }
         t->engine->apply(one, t->p, plan->u);
         t->engine->free(one);
         t->counts->engine_sums++;
@@ -95,13 +103,14 @@ slice(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err
         for (int c = 0; c < RC_COMPONENTS; c++) {
             if (!(t->components >> c & 1))
                 continue;
-            if (rc_stress_kernel(RC_NORMAL, c) == k)
+            if (rc_stress_kernel(RC_NORMAL, c, coated) == k)
                 add(n, 1, plan->u, s[c]);
-            if (t->options.mu != 0 && rc_stress_kernel(RC_SHEAR, c) == k)
+            if (t->options.mu != 0 && rc_stress_kernel(RC_SHEAR, c, coated) == k)
                 add(n, t->options.mu, plan->u, s[c]);
         }
     }
-    return RC_OK;
+    rc_inside_free(inside);
+    return status;
 }
 
 const struct rc_stress_evaluator rc_stress_slices_engine = {

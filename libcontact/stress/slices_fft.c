@@ -14,6 +14,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* One grid: the transform of the pressure on it, and the kernels at one depth. */
 struct grid {
@@ -23,7 +24,9 @@ struct grid {
     int threads;
     size_t cx, cy;                          /* of a quarter of a kernel's period               */
     double *quarter[RC_STRESS_KERNELS];     /* free: cy rows of cx values, transformed in x    */
-    double *decay;                          /* periodic: of each wave, cx columns of cy         */
+    double *decay;                          /* periodic: of each wave, cx columns of cy: what   */
+    size_t numbers;                         /* is left of it; of a coated body so many numbers  */
+    struct rc_inside *inside;               /* at the depth of a coated body                    */
     double depth;                           /* of all the others, m                             */
     struct rc_spectrum *spectrum[RC_LOADS]; /* the last ones made: of each load one          */
     int kernel[RC_LOADS];                   /* of which kernel each is; -1: of none            */
@@ -66,10 +69,18 @@ grid_free(struct grid *g)
     for (int k = 0; k < RC_STRESS_KERNELS; k++)
         free(g->quarter[k]);
     free(g->decay);
+    rc_inside_free(g->inside);
     for (int load = 0; load < RC_LOADS; load++)
         rc_spectrum_free(g->spectrum[load]);
     rc_fft_free(g->fft);
     free(g);
+}
+
+/* What is kept of each wave of a periodic map. */
+static size_t
+numbers_of(const struct rc_stress_task *t)
+{
+    return !t->coated ? 1 : t->options.mu != 0 ? RC_UNDER_BOTH : RC_UNDER_PRESSURE;
 }
 
 static struct grid *
@@ -96,7 +107,9 @@ grid_new(const struct rc_stress_task *task, const struct rc_shape *shape, const 
             rc_err_set(err, "out of memory for a kernel of %zu x %zu values", g->cx, g->cy);
             goto fail;
         }
-    if (boundary == RC_PERIODIC && (g->decay = malloc(g->cx * g->cy * sizeof *g->decay)) == NULL) {
+    g->numbers = numbers_of(task);
+    if (boundary == RC_PERIODIC &&
+        (g->decay = malloc(g->cx * g->cy * g->numbers * sizeof *g->decay)) == NULL) {
         rc_err_set(err, "out of memory for %zu x %zu waves", g->cx, g->cy);
         goto fail;
     }
@@ -118,12 +131,12 @@ grid_memory(const struct rc_stress_task *task, const struct rc_shape *shape)
     enum rc_boundary boundary = task->options.boundary;
     enum rc_precision precision = precision_of(task);
     size_t spectrum = rc_spectrum_memory(shape, boundary, precision);
-    size_t quarters = boundary == RC_FREE ? count(task->kernels) : 1;
+    size_t quarters = boundary == RC_FREE ? count(task->kernels) : numbers_of(task);
 
     /* the transform of p is as large as four spectra, a quarter as large as one in double */
     return sizeof(struct grid) + rc_fft_memory(shape, boundary, precision) +
            ((size_t)(task->options.mu != 0) + 4) * spectrum +
-           quarters * rc_spectrum_memory(shape, boundary, RC_DOUBLE);
+           quarters * rc_spectrum_memory(shape, boundary, RC_DOUBLE) + rc_inside_memory(task);
 }
 
 /* ---- kernels ---- */
@@ -133,7 +146,7 @@ static void
 tabulate(struct grid *g)
 {
     const struct rc_stress_task *t = g->task;
-    const struct rc_cell cell = {t->shape.dx, t->shape.dy, g->depth, t->options.nu};
+    const struct rc_cell cell = {t->shape.dx, t->shape.dy, g->depth, t->options.nu, g->inside};
 
 #pragma omp parallel for num_threads(g->threads) schedule(dynamic, 4)
     for (size_t j = 0; j < g->cy; j++) {
@@ -164,10 +177,16 @@ set_decay(struct grid *g)
 
 #pragma omp parallel for num_threads(g->threads) schedule(dynamic, 4)
     for (size_t i = 0; i < g->cx; i++) {
-        double qx = rc_fourier_q(i, s->nx, s->dx), *column = g->decay + i * g->cy;
+        double qx = rc_fourier_q(i, s->nx, s->dx), *column = g->decay + i * g->cy * g->numbers;
         for (size_t j = 0; j < g->cy; j++) {
-            double qy = rc_fourier_q(j, s->ny, s->dy), qz = sqrt(qx * qx + qy * qy) * g->depth;
-            column[j] = qz < deepest ? exp(-qz) : 0;
+            double qy = rc_fourier_q(j, s->ny, s->dy), q = sqrt(qx * qx + qy * qy);
+            double qz = q * g->depth;
+            if (g->inside == NULL)
+                column[j] = qz < deepest ? exp(-qz) : 0;
+            else if (q > 0 && qz < deepest)
+                rc_inside_wave(g->inside, q, column + j * g->numbers);
+            else
+                memset(column + j * g->numbers, 0, g->numbers * sizeof *column);
         }
     }
 }
@@ -194,8 +213,9 @@ symbol(const void *of, size_t i, double qx, size_t n, const double *qy, double *
         all[k] = qx;
     for (size_t j = 0; j < n; j += PIECE) {
         size_t m = n - j < PIECE ? n - j : PIECE;
-        const struct rc_waves waves = {
-            m, x, y, q, g->decay + i * g->cy + j, g->depth, g->task->options.nu};
+        const double *kept = g->decay + (i * g->cy + j) * g->numbers;
+        const struct rc_waves waves = {m,         x,   y, q, kept, g->depth, g->task->options.nu,
+                                       g->inside, kept};
         rc_stress_directions(m, all, qy + j, x, y, q);
         rc_stress_symbol(c->kernel, &waves, &g->shape, out + j);
     }
@@ -236,9 +256,13 @@ spectrum_of(struct grid *g, int kernel, const struct rc_spectrum *in_use)
 static const enum rc_component order[RC_COMPONENTS] = {RC_SXX, RC_SYY, RC_SXY,
                                                        RC_SYZ, RC_SZZ, RC_SXZ};
 
-static void
-go_to_depth(struct grid *g, double depth)
+static enum rc_status
+go_to_depth(struct grid *g, double depth, struct rc_err *err)
 {
+    rc_inside_free(g->inside);
+    g->inside = NULL;
+    if (g->task->coated && (g->inside = rc_inside_new(g->task, depth, err)) == NULL)
+        return RC_FAIL;
     g->depth = depth;
     for (int load = 0; load < RC_LOADS; load++)
         g->kernel[load] = -1;
@@ -246,32 +270,34 @@ go_to_depth(struct grid *g, double depth)
         tabulate(g);
     else
         set_decay(g);
+    return RC_OK;
 }
 
 static void
 component_field(struct grid *g, int c, double *s)
 {
-    const struct rc_spectrum *normal = spectrum_of(g, rc_stress_kernel(RC_NORMAL, c), NULL);
+    bool coated = g->task->coated;
+    const struct rc_spectrum *normal = spectrum_of(g, rc_stress_kernel(RC_NORMAL, c, coated), NULL);
     double mu = g->task->options.mu;
 
     if (mu == 0)
         rc_fft_field(g->fft, normal, s);
     else
-        rc_fft_field_pair(g->fft, normal, mu, spectrum_of(g, rc_stress_kernel(RC_SHEAR, c), normal),
-                          s);
+        rc_fft_field_pair(g->fft, normal, mu,
+                          spectrum_of(g, rc_stress_kernel(RC_SHEAR, c, coated), normal), s);
     g->task->counts->field_transforms++;
 }
 
 /* ---- coarser grids ---- */
 
 /* Whether a coarser grid does at this depth, and its steps. Errors of the two loads add; those of
- * the shear's kernels are the smaller. */
+ * the shear's kernels are the smaller. The spacing that a depth allows is known of one material. */
 static bool
 may_be_coarse(const struct rc_stress_task *t, double depth, size_t *sx, size_t *sy)
 {
     double tol = t->options.tol / (1 + fabs(t->options.mu));
 
-    return t->options.boundary == RC_FREE &&
+    return t->options.boundary == RC_FREE && !t->coated &&
            rc_coarse_steps(&t->shape, rc_coarse_spacing(depth, tol), sx, sy);
 }
 
@@ -366,7 +392,8 @@ slice(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err
         g = plan->coarse;
         plan->task.counts->coarse_depths++;
     }
-    go_to_depth(g, depth);
+    if (go_to_depth(g, depth, err) != RC_OK)
+        return RC_FAIL;
     for (int k = 0; k < RC_COMPONENTS; k++) {
         int c = (int)order[k];
         if (!(plan->task.components >> c & 1))

@@ -11,6 +11,7 @@ struct rc_stress {
     struct rc_stress_task task;
     const struct rc_stress_evaluator *evaluator;
     void *plan;
+    struct rc_stack *stack; /* of a coated body */
     size_t values;
     double *own[RC_COMPONENTS]; /* components that are needed but not wanted */
     struct rc_stress_counts counts;
@@ -51,7 +52,7 @@ check(const struct rc_shape *shape, const struct rc_stress_options *o, struct rc
 
     if (rc_shape_check(shape, err) != RC_OK)
         return RC_FAIL;
-    if (!(o->nu > -1 && o->nu <= 0.5))
+    if (o->coating == NULL && !(o->nu > -1 && o->nu <= 0.5))
         return rc_err_set(err, "Poisson's ratio %g: it must be above -1 and at most 0.5", o->nu);
     if (!isfinite(o->mu))
         return rc_err_set(err, "friction coefficient %g: it must be finite", o->mu);
@@ -70,18 +71,22 @@ check(const struct rc_shape *shape, const struct rc_stress_options *o, struct rc
 }
 
 static struct rc_stress_task
-task_of(const struct rc_shape *shape, const double *p, const struct rc_stress_options *o,
-        struct rc_stress_counts *counts)
+task_of(const struct rc_shape *shape, const double *p, const struct rc_stack *stack,
+        const struct rc_stress_options *o, struct rc_stress_counts *counts)
 {
     bool derived = o->wanted >> RC_COMPONENTS != 0;
     unsigned components = derived ? six : o->wanted & six;
-    struct rc_stress_task task = {.shape = *shape,
-                                  .options = *o,
-                                  .p = p,
-                                  .components = components,
-                                  .kernels = rc_stress_distinct(components, o->mu != 0),
-                                  .counts = counts};
+    struct rc_stress_task task = {
+        .shape = *shape,
+        .options = *o,
+        .p = p,
+        .stack = stack,
+        .coated = o->coating != NULL,
+        .components = components,
+        .kernels = rc_stress_distinct(components, o->mu != 0, o->coating != NULL),
+        .counts = counts};
 
+    task.options.coating = NULL; /* the caller's, who may give it up */
     task.engine = engine_of(o->engine, &task.precise);
     return task;
 }
@@ -104,7 +109,7 @@ values_of(const struct rc_shape *shape, const struct rc_stress_options *o)
 void
 rc_stress_count(const struct rc_stress_task *t, int kernel, size_t coefficients)
 {
-    bool normal = rc_stress_distinct(t->components, false) >> kernel & 1;
+    bool normal = rc_stress_distinct(t->components, false, t->coated) >> kernel & 1;
 
     *(normal ? &t->counts->normal_kernels : &t->counts->shear_kernels) += 1;
     t->counts->coefficients += coefficients;
@@ -124,7 +129,11 @@ rc_stress_new(const struct rc_shape *shape, const double *p,
         rc_err_set(err, "out of memory for a plan");
         return NULL;
     }
-    stress->task = task_of(shape, p, options, &stress->counts);
+    if (options->coating != NULL && (stress->stack = rc_stack_new(options->coating, err)) == NULL) {
+        rc_stress_free(stress);
+        return NULL;
+    }
+    stress->task = task_of(shape, p, stress->stack, options, &stress->counts);
     stress->evaluator = evaluator_of(&stress->task);
     stress->values = values_of(shape, options);
     for (int c = 0; c < RC_COMPONENTS; c++)
@@ -150,13 +159,14 @@ rc_stress_free(struct rc_stress *stress)
         stress->evaluator->free(stress->plan);
     for (int c = 0; c < RC_COMPONENTS; c++)
         free(stress->own[c]);
+    rc_stack_free(stress->stack);
     free(stress);
 }
 
 size_t
 rc_stress_memory(const struct rc_shape *shape, const struct rc_stress_options *o)
 {
-    struct rc_stress_task task = task_of(shape, NULL, o, NULL);
+    struct rc_stress_task task = task_of(shape, NULL, NULL, o, NULL);
     size_t own = 0;
 
     for (int c = 0; c < RC_COMPONENTS; c++)

@@ -46,10 +46,12 @@ struct rc_waves {
     size_t n;
     const double *x, *y, *q, *decay;
     double z, nu;
+    const struct rc_inside *inside; /* of a coated body; then also, of each wave: */
+    const double *numbers;          /* rc_inside_wave instead of decay            */
 };
 
 struct rc_stress_forms {
-    int same; /* a kernel that has the same values, or -1 */
+    int same; /* a kernel that has the same values in one material, or -1 */
     /* out[i] += weight * 2 pi times the stress of a unit force. */
     void (*point)(const struct rc_points *points, double weight, double *out);
     /* Antiderivative in X and Y of 2 pi times that stress. */
@@ -69,9 +71,9 @@ void rc_stress_symbol(int kernel, const struct rc_waves *waves, const struct rc_
                       double *out);
 
 /* The kernel of a load and component, or the one that has the same values. */
-int rc_stress_kernel(int load, int component);
+int rc_stress_kernel(int load, int component, bool coated);
 /* Bits of those that these components (bits) need, of the shear too or not. */
-unsigned rc_stress_distinct(unsigned components, bool shear);
+unsigned rc_stress_distinct(unsigned components, bool shear, bool coated);
 
 /* ---- of a cell: cell.c ---- */
 
@@ -80,6 +82,7 @@ struct rc_cell {
     double dx, dy; /* m          */
     double depth;  /* m          */
     double nu;
+    const struct rc_inside *inside; /* at this depth of a coated body, instead of nu; or NULL */
 };
 
 /* Stresses at (x[i], y[i]), i < n, of unit load on the cell about the origin, of every kernel whose
@@ -97,7 +100,9 @@ void rc_stress_line(const struct rc_cell *cell, unsigned kernels, double step, s
 struct rc_stress_task {
     struct rc_shape shape;
     struct rc_stress_options options;
-    const double *p;     /* stays the caller's                                             */
+    const double *p; /* stays the caller's                                             */
+    bool coated;
+    const struct rc_stack *stack; /* of a coated body that is to be computed                    */
     unsigned components; /* bits of the six: what is wanted and what that is derived from  */
     unsigned kernels;    /* bits: what these need, one of each set of equals               */
     const struct rc_engine *engine; /* asked for or taken; NULL: there is none of that name */
@@ -106,6 +111,30 @@ struct rc_stress_task {
 };
 /* Counts a kernel that is evaluated: shear is what would not be without the traction. */
 void rc_stress_count(const struct rc_stress_task *task, int kernel, size_t coefficients);
+
+/* ---- of a coated body: layered.c ---- */
+
+/* One depth of it. */
+struct rc_inside *rc_inside_new(const struct rc_stress_task *task, double depth,
+                                struct rc_err *err);
+void rc_inside_free(struct rc_inside *inside); /* NULL is allowed */
+size_t rc_inside_memory(const struct rc_stress_task *task);
+/* Whether closed forms, of this nu, are a part of it. */
+bool rc_inside_closed(const struct rc_inside *inside, double *nu);
+/* Numbers that are known of a wave, and these: see rc_stack_inside. */
+size_t rc_inside_numbers(const struct rc_inside *inside);
+void rc_inside_wave(const struct rc_inside *inside, double q, double *out);
+/* The symbol of a kernel, from the numbers of each of n waves; and the mean on the periodic map. */
+void rc_inside_symbol(const struct rc_inside *inside, int kernel, size_t n, const double *x,
+                      const double *y, const double *numbers, double *out);
+double rc_inside_mean(const struct rc_inside *inside, int kernel, const struct rc_shape *shape);
+/* Adds what no closed form knows to rc_stress_coefficients, and to rc_stress_line. */
+void rc_inside_add(const struct rc_cell *cell, unsigned kernels, size_t n, const double *x,
+                   const double *y, double *const out[RC_STRESS_KERNELS]);
+void rc_inside_add_line(const struct rc_cell *cell, unsigned kernels, double step, size_t n,
+                        double y, double *const out[RC_STRESS_KERNELS]);
+
+/* ---- what evaluates stresses ---- */
 
 /* What evaluates stresses: slices_fft.c, slices_engine.c and section.c end in one. */
 struct rc_stress_evaluator {

@@ -89,7 +89,7 @@ work_depths(void *ctx)
     struct job *j = ctx;
     double *z = NULL;
 
-    if (rc_stress_depths(&j->c->shape, j->c->pressure, j->c->problem.boundary, &z, &j->depths,
+    if (rc_stress_depths(&j->c->shape, j->c->pressure, j->c->problem.boundary, NULL, &z, &j->depths,
                          &j->err) != RC_OK)
         return;
     j->depths = j->depths < DEPTHS ? j->depths : DEPTHS;

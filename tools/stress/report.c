@@ -4,6 +4,18 @@
 #include <stdlib.h>
 #include <string.h>
 
+size_t
+stress_materials(const struct rc_stress_options *o)
+{
+    return o->coating == NULL ? 1 : o->coating->layers + 1;
+}
+
+size_t
+stress_material(const struct rc_stress_options *o, double depth)
+{
+    return o->coating == NULL ? 0 : rc_coating_material(o->coating, depth);
+}
+
 /* ---- gathering ---- */
 
 enum rc_status
@@ -16,8 +28,12 @@ stress_report_begin(struct stress_report *r, const struct rc_grid *p,
         if (!peaks || !(options->wanted >> c & 1))
             continue;
         r->peak[c].value = NAN;
-        if ((r->peak[c].by_depth = malloc(depths->n * sizeof(double))) == NULL)
+        r->peak[c].by_depth = malloc(depths->n * sizeof(double));
+        r->peak[c].by_material = malloc(stress_materials(options) * sizeof(double));
+        if (r->peak[c].by_depth == NULL || r->peak[c].by_material == NULL)
             return rc_err_set(err, "out of memory for a report of %zu depths", depths->n);
+        for (size_t m = 0; m < stress_materials(options); m++)
+            r->peak[c].by_material[m] = NAN;
     }
     return RC_OK;
 }
@@ -50,6 +66,8 @@ place(const struct stress_report *r, size_t k, struct stress_peak *peak)
 void
 stress_report_depth(struct stress_report *r, size_t k, size_t n, double *const *s)
 {
+    size_t material = stress_material(r->options, r->depths->v[k]);
+
     r->slices += tool_now() - r->depth_began;
     for (int c = 0; c < RC_STRESSES; c++) {
         struct stress_peak *peak = &r->peak[c];
@@ -58,6 +76,8 @@ stress_report_depth(struct stress_report *r, size_t k, size_t n, double *const *
             continue;
         at = rc_largest(n, s[c]);
         peak->by_depth[k] = s[c][at];
+        if (!(fabs(s[c][at]) <= fabs(peak->by_material[material])))
+            peak->by_material[material] = s[c][at];
         if (!(fabs(s[c][at]) <= fabs(peak->value))) {
             peak->value = s[c][at];
             peak->depth = r->depths->v[k];
@@ -69,8 +89,10 @@ stress_report_depth(struct stress_report *r, size_t k, size_t n, double *const *
 void
 stress_report_free(struct stress_report *r)
 {
-    for (int c = 0; c < RC_STRESSES; c++)
+    for (int c = 0; c < RC_STRESSES; c++) {
         free(r->peak[c].by_depth);
+        free(r->peak[c].by_material);
+    }
 }
 
 /* ---- effects ---- */
@@ -90,6 +112,12 @@ static const char *
 friction_effect(const struct rc_stress_options *o)
 {
     return o->mu != 0 ? "on" : "left out: mu = 0";
+}
+
+static const char *
+coating_effect(const struct rc_stress_options *o)
+{
+    return o->coating != NULL ? "on" : "left out: the stream has no layers, one material";
 }
 
 static const char *
@@ -120,6 +148,8 @@ coarse_effect(const struct rc_stress_options *o)
         return "left out: a section is a line already";
     if (o->boundary == RC_PERIODIC)
         return "left out: the map is periodic";
+    if (o->coating != NULL)
+        return "left out: the body is coated";
     return strcmp(engine_of(o), words_engine(0)) == 0
                ? "on where depth allows"
                : "left out: the engine has its own tolerance";
@@ -129,10 +159,8 @@ static const struct {
     const char *name;
     const char *(*of)(const struct rc_stress_options *options);
 } effects[] = {
-    {"friction", friction_effect},
-    {"padding", padding_effect},
-    {"section", section_effect},
-    {"coarse_grids", coarse_effect},
+    {"friction", friction_effect}, {"coating", coating_effect},     {"padding", padding_effect},
+    {"section", section_effect},   {"coarse_grids", coarse_effect},
 };
 
 enum {
@@ -157,6 +185,10 @@ write_peaks(const struct stress_report *r, struct report *out)
         report_array(out, "by_depth");
         for (size_t k = 0; k < r->depths->n; k++)
             report_number(out, NULL, peak->by_depth[k], "Pa");
+        report_end(out);
+        report_array(out, "by_material");
+        for (size_t m = 0; m < stress_materials(r->options); m++)
+            report_number(out, NULL, peak->by_material[m], "Pa");
         report_end(out);
         report_end(out);
     }
@@ -197,7 +229,8 @@ stress_report_write(struct stress_report *r, struct report *out, const struct rc
     report_text(out, "boundary", o->boundary == RC_PERIODIC ? "periodic" : "free");
     report_text(out, "kernel", rc_stress_engine(stress));
     report_count(out, "threads", o->threads, NULL);
-    report_number(out, "nu", o->nu, NULL);
+    report_number(out, "nu", o->coating == NULL ? o->nu : NAN, NULL);
+    report_text(out, "layers", rc_grid_get(r->p, "layers"));
     report_number(out, "mu", o->mu, NULL);
     report_text(out, "section", o->section == 0 ? NULL : section);
     report_number(out, "at", o->section == 0 ? NAN : o->at, "m");
@@ -205,6 +238,10 @@ stress_report_write(struct stress_report *r, struct report *out, const struct rc
     report_array(out, "depths");
     for (size_t k = 0; k < r->depths->n; k++)
         report_number(out, NULL, r->depths->v[k], "m");
+    report_end(out);
+    report_array(out, "materials");
+    for (size_t k = 0; k < r->depths->n; k++)
+        report_count(out, NULL, stress_material(o, r->depths->v[k]) + 1, NULL);
     report_end(out);
     write_peaks(r, out);
     if (converged == NULL)
@@ -266,6 +303,25 @@ expected_seconds(const struct rc_grid *p, const struct rc_stress_options *option
            ((double)n * log2(4 * (double)n));
 }
 
+/* The materials of a coated body, and how many of the depths are in each. */
+static void
+say_materials(FILE *out, const struct rc_stress_options *o, const struct numbers *depths)
+{
+    const struct rc_coating *c = o->coating;
+    double top = 0;
+
+    for (size_t m = 0; c != NULL && m <= c->layers; m++) {
+        double e = m < c->layers ? c->layer[m].e : c->e;
+        double nu = m < c->layers ? c->layer[m].nu : c->nu;
+        size_t in = 0;
+        for (size_t k = 0; k < depths->n; k++)
+            in += stress_material(o, depths->v[k]) == m;
+        fprintf(out, "  material %-5zufrom %g m, E %g Pa, nu %g: %zu of the depths\n", m + 1, top,
+                e, nu, in);
+        top += m < c->layers ? c->layer[m].thickness : 0;
+    }
+}
+
 void
 stress_report_plan(FILE *out, const struct rc_grid *p, const struct rc_stress_options *o,
                    const struct numbers *depths)
@@ -276,6 +332,7 @@ stress_report_plan(FILE *out, const struct rc_grid *p, const struct rc_stress_op
             o->boundary == RC_PERIODIC ? "periodic" : "free");
     fprintf(out, "  %-14s%zu, %g to %g m\n", "depths", depths->n, depths->v[0],
             depths->v[depths->n - 1]);
+    say_materials(out, o, depths);
     fprintf(out, "  %-14s%s\n", "kernel", engine_of(o));
     for (int k = 0; k < EFFECTS; k++)
         fprintf(out, "  %-14s%s\n", effects[k].name, effects[k].of(o));
