@@ -44,6 +44,10 @@ for page in "$pages"/*.[1-9]; do
     claim "man finds $name" found_by "${reader[@]}" "${name##*.}" "${name%.*}"
 done
 
+# ---- for users of numpy ----
+
+claim "rcg.py is there, for pip and to be copied" diff -r -x __pycache__ "$RC_SOURCE/python" "$prefix/share/libcontact/python"
+
 # ---- a program of others, by pkg-config ----
 
 claim "the manual has a program" program "$pages/libcontact.3" hertz.c
