@@ -54,7 +54,8 @@ def text_is(name, key, text):
 
 def missing(name, row, column):
     values = rcg.read(name)[0].values
-    assert [list(place) for place in numpy.argwhere(numpy.isnan(values))] == [[int(row), int(column)]]
+    places = [list(place) for place in numpy.argwhere(numpy.isnan(values))]
+    assert places == [[int(row), int(column)]]
 
 
 def same_values(name, npy):
@@ -113,8 +114,9 @@ def headers():
         assert refused(data), data[:200]
         assert tool('rc-info', input=data)[0] == 1, data[:200]
     for data in (stream(good), stream(good[::-1]), stream(good + [b'note=']), whole + whole,
-                 stream(good + [b'note=\\\\n\\n=\xc2\xb5']), stream(good + [b'case=123456789012345']),
-                 with_line(b'dx', b'dx=1'), with_line(b'dx', b'dx=1.e-6'), with_line(b'dx', b'dx=+1E-6'),
+                 stream(good + [b'note=\\\\n\\n=\xc2\xb5']),
+                 stream(good + [b'case=123456789012345']), with_line(b'dx', b'dx=1'),
+                 with_line(b'dx', b'dx=1.e-6'), with_line(b'dx', b'dx=+1E-6'),
                  with_line(b'dx', b'dx=5.'), with_line(b'dx', b'dx=.5')):
         assert refused(data) == (tool('rc-info', input=data)[0] == 1), data[:200]
     assert not refused(whole)
@@ -155,11 +157,13 @@ def arrays():
     assert (f.dx, f.dy, f.unit, f.channel) == (1e-6, 0.1 + 0.2, 'm', 'height')
     keys = [f.keys[name] for name in ('dx', 'dy', 'case', 'load', 'area', 'periodic', 'nodes')]
     assert keys == ['1e-06', '0.30000000000000004', '2', '60', '1e-12', 'yes', '7'], keys
-    assert rcg.frame('mises', a, 1e-6).unit == 'Pa' and rcg.frame('dirt', a, 1, unit='kg').unit == 'kg'
+    assert rcg.frame('mises', a, 1e-6).unit == 'Pa'
+    assert rcg.frame('dirt', a, 1, unit='kg').unit == 'kg'
     f.values, f.channel = f.values[:, :2].astype('f4'), 'gap'  # the header follows
     f = rcg.loads(rcg.dumps(f))[0]
     assert [f.keys[k] for k in ('channel', 'nx', 'ny', 'type')] == ['gap', '2', '3', 'f32']
-    status, text = tool('rc-info', '--json', input=rcg.dumps([f, rcg.frame('height', a, 1e-6, case=3)]))
+    two = [f, rcg.frame('height', a, 1e-6, case=3)]
+    status, text = tool('rc-info', '--json', input=rcg.dumps(two))
     assert status == 0 and json.loads(text.decode().splitlines()[1])['maximum'] == 11
 
 
@@ -172,8 +176,10 @@ def no_frames():
             (ValueError, ('height', a[None], 1), {}), (ValueError, ('height', a[:0], 1), {}),
             (TypeError, ('height', a * 1j, 1), {}), (TypeError, ('height', [['a']], 1), {}),
             (TypeError, ('height', a, None), {}), (ValueError, ('height', a, 1), {'nx': 2}),
-            (ValueError, ('height', a, 1), {'Note': 'x'}), (ValueError, ('height', a, 1), {'case': 0}),
-            (ValueError, ('height', a, 1), {'note': 'a\0b'}), (TypeError, ('height', a, 1), {'note': [1]}),
+            (ValueError, ('height', a, 1), {'Note': 'x'}),
+            (ValueError, ('height', a, 1), {'case': 0}),
+            (ValueError, ('height', a, 1), {'note': 'a\0b'}),
+            (TypeError, ('height', a, 1), {'note': [1]}),
             (ValueError, ('height', a, 1), {'note': 'x' * 65536})):
         try:
             rcg.frame(*arguments, **keys)
@@ -204,15 +210,18 @@ def hertz(order):
 
 def run(name):
     ball = rcg.read(name)
-    first = ['rc-solve', '--load', '0.5,1.25', '--estar', '114e9', '--output', 'pressure,gap', '--quiet']
+    first = ['rc-solve', '--load', '0.5,1.25', '--estar', '114e9', '--output', 'pressure,gap',
+             '--quiet']
     second = ['rc-stress', '--nu', '0.3', '--depths', '0:3um:3', '--components', 'mises,szz']
     solved = tool(*first, input=content(name))[1]
     stressed = tool(*second, input=solved)[1]
-    frames = rcg.run('rc-solve', ball, load=[0.5, 1.25], estar=114e9, output='pressure,gap', quiet=True)
+    frames = rcg.run('rc-solve', ball, load=[0.5, 1.25], estar=114e9, output='pressure,gap',
+                     quiet=True)
     assert rcg.dumps(frames) == solved and len(frames) == 4
     frames = rcg.run('rc-stress', frames, nu=0.3, depths='0:3um:3', components=['mises', 'szz'])
     assert rcg.dumps(frames) == stressed and len(frames) == 12
-    made = rcg.run('rc-synth', None, 'sphere', nx=33, ny=47, dx='1.1um', dy='1.29um', radius='2.385mm')
+    made = rcg.run('rc-synth', None, 'sphere', nx=33, ny=47, dx='1.1um', dy='1.29um',
+                   radius='2.385mm')
     assert rcg.dumps(made) == content(name)
 
 
@@ -220,7 +229,8 @@ def report(name):
     ball, wanted = rcg.read(name)[0], dict(load='1,2', estar='114GPa', quiet=True)
     frames, lines = rcg.report('rc-solve', ball, **wanted)
     assert rcg.dumps(frames) == rcg.dumps(rcg.run('rc-solve', ball, **wanted))
-    text = tool('rc-solve', '--load', '1,2', '--estar', '114GPa', '--quiet', '--report', '-', name)[1]
+    text = tool('rc-solve', '--load', '1,2', '--estar', '114GPa', '--quiet', '--report', '-',
+                name)[1]
     there = [json.loads(line) for line in text.decode().splitlines()]
     assert len(lines) == 2 and list(lines[0]) == list(there[0])
     for ours, theirs in zip(lines, there):
@@ -243,7 +253,8 @@ def options(name):
     assert '--mean-pressure 10000000' in pressed.keys['history'], pressed.keys['history']
     for load, text in ((0.1 + 0.2, '0.30000000000000004'), (numpy.float64(0.25), '0.25'),
                        (numpy.float32(0.5), '0.5'), (numpy.int16(2), '2'), (1e-7, '1e-07')):
-        pressed = rcg.run('rc-solve', ball, load=load, estar=114e9, output='pressure', quiet=True)[0]
+        pressed = rcg.run('rc-solve', ball, load=load, estar=114e9, output='pressure',
+                          quiet=True)[0]
         assert pressed.keys['load'] == text, pressed.keys['load']
     assert rcg.run('rc-render', ball, '--raw', o='ball.png') == []
     assert content('ball.png')[1:4] == b'PNG'
@@ -280,7 +291,8 @@ def fails(name):
 
 
 def short():
-    rough = rcg.run('rc-synth', None, 'selfaffine', nx=64, dx='1um', hurst=0.8, rms_height='100nm', seed=5)
+    rough = rcg.run('rc-synth', None, 'selfaffine', nx=64, dx='1um', hurst=0.8,
+                    rms_height='100nm', seed=5)
     wanted = dict(periodic=True, load='0.1N', estar='100GPa', tol=1e-17, output='pressure')
     error = error_of('rc-solve', rough, **wanted)
     assert error.status == 3 and 'stopped short' in str(error)
@@ -297,7 +309,8 @@ def short():
 def warns():
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter('always')
-        wave = rcg.run('rc-synth', None, 'wave', nx=32, dx='1um', amplitude='1um', wavelength='32um')
+        wave = rcg.run('rc-synth', None, 'wave', nx=32, dx='1um', amplitude='1um',
+                       wavelength='32um')
         assert not caught
         rcg.run('rc-solve', wave, load=0.01, estar='1GPa')
         assert len(caught) == 1 and str(caught[0].message).startswith('rc-solve: ')
