@@ -18,6 +18,20 @@ enum argument {
     CHANNELS, /* of the streams named on the line, separated by commas */
 };
 
+/* Whether a text is a list of words, "x|y", as an argument and operands may be shown. */
+static bool
+are_words(const char *text)
+{
+    return strchr(text, '|') != NULL &&
+           text[strspn(text, "abcdefghijklmnopqrstuvwxyz0123456789-|")] == '\0';
+}
+
+static bool
+has_words(const struct opt *o)
+{
+    return o->words != NULL || o->type == OPT_CHOICE || (o->arg != NULL && are_words(o->arg));
+}
+
 static enum argument
 argument_of(const struct tool_info *info, const struct opt *o)
 {
@@ -25,7 +39,7 @@ argument_of(const struct tool_info *info, const struct opt *o)
         return NOTHING;
     if (o->type == OPT_WORDS)
         return LIST;
-    if (o->type == OPT_CHOICE || o->words != NULL)
+    if (has_words(o))
         return WORD;
     if (o->unit != UNIT_NONE || o->word != NULL)
         return NUMBER;
@@ -34,13 +48,11 @@ argument_of(const struct tool_info *info, const struct opt *o)
     return strcmp(o->name, "channel") == 0 && info->reads == READS_STREAM ? CHANNELS : ANYTHING;
 }
 
-/* Where operands are a list of words, "sphere|wave", these; else NULL. */
+/* Where operands are words, "sphere|wave", these; else NULL. */
 static const char *
 operand_words(const struct tool_info *info)
 {
-    return strchr(info->operands, '|') != NULL && strchr(info->operands, '[') == NULL
-               ? info->operands
-               : NULL;
+    return are_words(info->operands) ? info->operands : NULL;
 }
 
 /* ---- pieces ---- */
@@ -64,7 +76,7 @@ put_words(const struct opt *o)
     const char *word;
     size_t n;
 
-    if (o->type == OPT_CHOICE || o->words != NULL)
+    if (has_words(o))
         for (size_t k = 0; (word = option_word(o, k, &n)) != NULL; k++)
             printf("%s%.*s", k == 0 ? "" : " ", (int)n, word);
     else if (o->word != NULL)
