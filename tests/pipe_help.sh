@@ -10,45 +10,9 @@ done
 
 # ---- options ----
 
-help_options() {
-    "$1" --help | grep -oE '^  --?[A-Za-z0-9-]+(, --[A-Za-z0-9-]+)*' | tr ',' '\n' | tr -d ' ' | sort
-}
-
-page_options() { # -h stands beside --help and is not listed
-    awk '/^\.It Fl/ {
-        for (i = 3; i <= NF && $i !~ /^(Ar|Cm|Ns|Op|Oo)$/; i++)
-            if ($i != "," && $i != "|" && $i != "h" && $i != "Fl") print "-" $i
-    }' "$1" | sort
-}
-
 same_options() {
     help_options "$1" >help.txt && page_options "$pages/$1.1" >page.txt &&
         diff help.txt page.txt >&2
-}
-
-# The words that an option takes: "--method auto|pcg|pk99", or "..., of pcg,pk99 (default".
-help_words() {
-    "$1" --help | awk '
-        /^  --/ { name = $1; sub(/,$/, "", name) }
-        /^[^ ]/ { name = "" }
-        name != "" {
-            for (i = 1; i <= NF; i++) {
-                if ($i ~ /^[a-z0-9]+([|][a-z0-9]+)+$/) n = split($i, word, "|")
-                else if ($(i - 1) == "of" && $i ~ /^[a-z0-9]+(,[a-z0-9]+)+$/) n = split($i, word, ",")
-                else continue
-                for (k = 1; k <= n; k++) print name, word[k]
-            }
-        }' | sort -u
-}
-
-# The words that the manual says of the same options, with all others that it marks in their paragraphs.
-page_words() {
-    awk '
-        /^\.It/ || /^\.E[ld]/ || /^\.S[hs]/ { name = "" }
-        /^\.It Fl -/ { name = "-" $3; start = 4 }
-        name != "" && (/^\.It Fl/ || /^\.Cm/) {
-            for (i = 2; i <= NF; i++) if ($i ~ /^[a-z0-9]+$/) print name, $i
-        }' "$1" | sort -u
 }
 
 same_words() {

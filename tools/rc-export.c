@@ -30,10 +30,16 @@ type_word(size_t k)
     return k < sizeof types / sizeof *types ? types[k].name : NULL;
 }
 
+static const char *
+format_word(size_t k)
+{
+    return rc_exports[k] == NULL ? NULL : rc_exports[k]->name;
+}
+
 /* clang-format off */
 static const struct opt opts[] = {
     {.name = "format", .type = OPT_TEXT, .at = offsetof(struct args, format), .result = true,
-     .arg = "NAME",
+     .words = format_word, .arg = "NAME",
      .help = "write this format (default: as the suffix of -o FILE says)"},
     {.name = "formats", .type = OPT_FLAG, .at = offsetof(struct args, formats), .text = true,
      .help = "print the table of formats"},

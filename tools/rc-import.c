@@ -13,10 +13,16 @@ static struct args {
     bool list, formats;
 } args = {.dx = NAN, .dy = NAN, .even = NAN};
 
+static const char *
+format_word(size_t k)
+{
+    return rc_formats[k] == NULL ? NULL : rc_formats[k]->name;
+}
+
 /* clang-format off */
 static const struct opt opts[] = {
     {.name = "format", .type = OPT_TEXT, .at = offsetof(struct args, format), .result = true,
-     .arg = "NAME", .help = "read as this format (default: found out)"},
+     .words = format_word, .arg = "NAME", .help = "read as this format (default: found out)"},
     {.name = "formats", .type = OPT_FLAG, .at = offsetof(struct args, formats), .text = true,
      .help = "print the table of formats"},
     {.name = "list", .type = OPT_FLAG, .at = offsetof(struct args, list), .text = true,

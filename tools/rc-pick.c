@@ -81,7 +81,8 @@ settle_set(struct tool *t, struct step *step)
 {
     size_t n = strcspn(step->text, "="), size = strlen(step->text) + RC_NUMBER_SIZE;
     const char *value = step->text + n + (step->text[n] == '=');
-    char *text = malloc(size);
+    static char *made[sizeof args.steps.step / sizeof *args.steps.step]; /* kept to the end */
+    char *text = made[step - args.steps.step] = malloc(size);
     struct rc_err err;
 
     if (text == NULL)

@@ -44,6 +44,23 @@ for page in "$pages"/*.[1-9]; do
     claim "man finds $name" found_by "${reader[@]}" "${name##*.}" "${name%.*}"
 done
 
+# ---- what shells complete ----
+
+# has_completions TOOL: where bash, zsh and fish look by themselves.
+has_completions() {
+    for file in "bash-completion/completions/$1" "zsh/site-functions/_$1" "fish/vendor_completions.d/$1.fish"; do
+        [ -s "$prefix/share/$file" ] && grep -q -e "$1" "$prefix/share/$file" || return
+    done
+}
+for source in "$RC_SOURCE"/tools/rc-*.c; do
+    tool=$(basename "$source" .c)
+    claim "completions of $tool" has_completions "$tool"
+done
+
+# ---- for users of numpy ----
+
+claim "rcg.py is there, for pip and to be copied" diff -r -x __pycache__ "$RC_SOURCE/python" "$prefix/share/libcontact/python"
+
 # ---- a program of others, by pkg-config ----
 
 claim "the manual has a program" program "$pages/libcontact.3" hertz.c

@@ -58,6 +58,21 @@ add_rows(struct tool *t, const struct opt *table, size_t at)
     }
 }
 
+const struct opt *
+option_common(const struct tool_info *info, size_t k)
+{
+    const struct opt *o = common;
+
+    for (;; o++) {
+        if (o->name == NULL)
+            return NULL;
+        if (strcmp(o->name, "type") == 0 && info->writes != WRITES_STREAM)
+            continue;
+        if (k-- == 0)
+            return o;
+    }
+}
+
 /* ---- words ---- */
 
 const char *
@@ -132,6 +147,7 @@ static _Noreturn void
 print_help(const struct tool *t)
 {
     const struct tool_info *info = t->info;
+    const struct opt *o;
 
     printf("Usage: %s [OPTION]... %s\n%s.\n\n", info->name, info->operands, info->summary);
     for (size_t k = 0; k < t->opts; k++)
@@ -139,9 +155,8 @@ print_help(const struct tool *t)
     if (t->opts > 0)
         printf("\n");
     printf("  %-*swrite to FILE, which appears whole or not at all\n", COLUMN - 2, "-o FILE");
-    for (const struct opt *o = common; o->name != NULL; o++)
-        if (strcmp(o->name, "type") != 0 || info->writes == WRITES_STREAM)
-            help_row("--", o);
+    for (size_t k = 0; (o = option_common(info, k)) != NULL; k++)
+        help_row("--", o);
     printf("\nNumbers may carry a unit (1.1um, 240N, 6GPa); without one they are SI.\n");
     if (info->examples != NULL)
         printf("\nExamples:\n%s", info->examples);
@@ -500,6 +515,9 @@ options_read(struct tool *t, int argc, char **argv)
     int what;
 
     add_rows(t, t->info->opts, 0);
+    /* for the build, which installs them: no option, and no part of --help */
+    if (argc == 3 && strcmp(argv[1], "--completions") == 0 && completions_print(t, argv[2]))
+        exit(fflush(stdout) == 0 ? 0 : EXIT_IMPOSSIBLE);
     if ((table = getopt_table(t)) == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
     opterr = 0;

@@ -14,6 +14,11 @@ enum {
 /* Word k of an option that takes one of a list, or some: its start and length; NULL past the
  * last. */
 const char *option_word(const struct opt *option, size_t k, size_t *length);
+/* Row k of those that every tool has; NULL past the last one that this one has. */
+const struct opt *option_common(const struct tool_info *info, size_t k);
+/* Prints what bash, zsh or fish is to complete on the tool's command line; false: it is none of
+ * them. */
+bool completions_print(const struct tool *tool, const char *shell);
 /* Reads the command line into tool->args and the options of every tool. */
 void options_read(struct tool *tool, int argc, char **argv);
 

@@ -61,7 +61,8 @@ struct opt {
     bool result;     /* changes what is computed: goes into history                        */
     bool text;       /* given, the tool writes text, whatever it writes otherwise          */
     bool optional;   /* OPT_NUMBER: may stand without its number, and then keeps the default */
-    const char *(*words)(size_t k); /* word k; NULL past the last: see words.h              */
+    const char *(*words)(size_t k); /* word k; NULL past the last: see words.h; of OPT_TEXT those
+                                       that a shell offers, any other may be given      */
     const char *word;               /* instead of OPT_NUMBERS; of OPT_NUMBER: for INFINITY  */
     bool per_metre;                 /* OPT_NUMBERS of forces that may be in N/m             */
     const char *arg;  /* how help names the argument: "FORCE"; NULL: takes none             */

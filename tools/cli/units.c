@@ -43,6 +43,15 @@ unit_name(enum unit unit)
     return names[unit];
 }
 
+const char *
+unit_usual(enum unit unit)
+{
+    static const char *const usual[] = {"",        "nm um mm m", "mN N kN", "kPa MPa GPa",
+                                        "s min h", "M G"};
+
+    return usual[unit];
+}
+
 static bool
 same(const char *word, const char *text, size_t n)
 {

@@ -23,6 +23,8 @@ struct numbers {
 };
 
 const char *unit_name(enum unit unit);
+/* What is usual on a command line, separated by blanks. */
+const char *unit_usual(enum unit unit);
 
 /* One number, with or without its unit, to SI. RC_FAIL says what was expected. */
 enum rc_status unit_number(const char *text, enum unit unit, double *value, struct rc_err *err);

@@ -1,0 +1,51 @@
+# cmake -D SOURCE=... -D OUT=... -D VERSION=... -P html.cmake: the manual as a folder of pages that refer to each
+# other, and an index of them. Pages of others are looked for where mandoc's own manual is.
+get_filename_component(OUT "${OUT}" ABSOLUTE)
+get_filename_component(SOURCE "${SOURCE}" ABSOLUTE)
+find_program(MANDOC mandoc REQUIRED)
+file(REMOVE_RECURSE ${OUT})
+file(MAKE_DIRECTORY ${OUT})
+set(sections 7 1 5 3)
+set(titles Overview Tools Formats Library)
+set(style "body { max-width: 52em; margin: 1em auto; padding: 0 1em; font-family: sans-serif; line-height: 1.4 }
+table.head, table.foot { width: 100% }
+td.head-rtitle, td.foot-os { text-align: right }
+td.head-vol { text-align: center }
+div.Bd-indent { margin-left: 3em }
+pre, code { font-family: monospace }
+pre { overflow-x: auto }
+dd { margin-left: 3em }
+table.Bl-column td { vertical-align: top; padding-right: 1em }
+a.permalink { color: inherit; text-decoration: none }
+")
+file(WRITE ${OUT}/style.css "${style}")
+
+set(body "")
+foreach(section title IN ZIP_LISTS sections titles)
+    string(APPEND body "<h2>${title}</h2>\n<dl>\n")
+    file(GLOB pages ${SOURCE}/man/*.${section})
+    foreach(page IN LISTS pages)
+        get_filename_component(file ${page} NAME)
+        get_filename_component(name ${page} NAME_WE)
+        execute_process(COMMAND ${MANDOC} -Thtml
+            "-Ostyle=style.css,man=%N.%S.html\\;https://man.openbsd.org/%N.%S" ${page}
+            WORKING_DIRECTORY ${SOURCE}/man # where mandoc looks whether a page is ours
+            OUTPUT_FILE ${OUT}/${file}.html COMMAND_ERROR_IS_FATAL ANY)
+        file(STRINGS ${page} what REGEX "^\\.Nd " LIMIT_COUNT 1)
+        string(REGEX REPLACE "^\\.Nd " "" what "${what}")
+        string(APPEND body "<dt><a href=\"${file}.html\">${name}(${section})</a></dt>\n<dd>${what}</dd>\n")
+    endforeach()
+    string(APPEND body "</dl>\n")
+endforeach()
+file(WRITE ${OUT}/index.html "<!DOCTYPE html>
+<html lang=\"en\">
+<head>
+<meta charset=\"utf-8\">
+<link rel=\"stylesheet\" href=\"style.css\">
+<title>libcontact ${VERSION}: the manual</title>
+</head>
+<body>
+<h1>libcontact ${VERSION}: the manual</h1>
+${body}</body>
+</html>
+")

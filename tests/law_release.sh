@@ -1,0 +1,65 @@
+# What is released has one version wherever it is written, is whole without git, and its manual as web pages
+# leads nowhere into the void.
+. "$(dirname "$0")/pipe.sh"
+. "$RC_SOURCE/tests/manual.sh"
+
+version=$(sed -n 's/^project(libcontact VERSION \([0-9.]*\).*/\1/p' "$RC_SOURCE/CMakeLists.txt")
+claim "the version is one" bash -c "[[ '$version' =~ ^[0-9]+\.[0-9]+\.[0-9]+\$ ]]"
+claim "  it is that of the tools" says " $version\$" rc-info --version
+# line FILE "text": it stands in the file as a line, whole.
+line() { grep -qxF -- "$2" "$RC_SOURCE/$1"; }
+claim "  of CITATION.cff" line CITATION.cff "version: $version"
+claim "  of the newest section of CHANGELOG.md" test "$(grep -m 1 '^## ' "$RC_SOURCE/CHANGELOG.md")" = "## $version"
+claim "  of rcg.py" line python/rcg.py "__version__ = '$version'"
+claim "  of the Debian packages" says "^libcontact \($version-" head -n 1 "$RC_SOURCE/debian/changelog"
+claim "  and the name of the library has its beginning" grep -q "^Package: libcontact${version%%.*}\$" "$RC_SOURCE/debian/control"
+
+# ---- a tarball ----
+
+# dist SOURCE OUT: the tarball of this tree, there.
+dist() {
+    mkdir -p "$2" && cmake -D SOURCE="$1" -D OUT="$2" -D NAME="libcontact-$version" -P "$1/cmake/dist.cmake"
+}
+tarball=libcontact-$version.tar.gz
+claim "a tarball is made of the tree" dist "$RC_SOURCE" first
+claim "  it unpacks into one folder" test "$(tar tzf "first/$tarball" | cut -d / -f 1 | sort -u)" = "libcontact-$version"
+tar xzf "first/$tarball"
+claim "  without git, the same is made of what was unpacked" dist "$PWD/libcontact-$version" second
+listed() { tar tzf "$1" | grep -v '/$' | sort; }
+claim "  file by file" diff <(listed "first/$tarball") <(listed "second/$tarball")
+claim "  with all that the build and the tests look for" bash -c '
+    cd "$0" && ls CMakeLists.txt CMakePresets.json LICENSE README.md CHANGELOG.md CITATION.cff .clang-format python/rcg.py \
+        sample_surfaces/*.x3p tests/*.sh tests/first_use/*.sh debian/control' "libcontact-$version"
+claim "  it configures alone" cmake -S "libcontact-$version" -B alone -DRC_TESTS=ON -DCMAKE_C_COMPILER="${CC:-cc}"
+tests_in() { sed -n 's/^add_test(\[*=*\[*\([a-z_0-9]*\).*/\1/p' "$1/tests/CTestTestfile.cmake" | sort; }
+claim "  with every test" diff <(tests_in "$(dirname "$RC_BIN")") <(tests_in alone)
+claim "  of which there are many" test "$(tests_in alone | wc -l)" -gt 50
+
+# ---- web pages ----
+
+if command -v mandoc >/dev/null; then
+    claim "the manual becomes web pages" \
+        cmake -D SOURCE="$RC_SOURCE" -D OUT="$PWD/html" -D VERSION="$version" -P "$RC_SOURCE/cmake/html.cmake"
+    # leads_on FILE: each of its links that stays here leads to a file, and to a place in it.
+    leads_on() {
+        grep -o 'href="[^"]*"' "$1" | sed 's/^href="//; s/"$//' | grep -v '^https://' | sort -u | while read -r link; do
+            file=${link%%#*}
+            file=html/${file:-${1#html/}}
+            [ -s "$file" ] && { [ "${link%#*}" = "$link" ] || grep -qF "id=\"${link#*#}\"" "$file"; } || {
+                echo "$1: $link" >&2
+                exit 1
+            }
+        done
+    }
+    for page in "$pages"/*.[1-9]; do
+        name=$(basename "$page")
+        claim "$name: the index leads to it" grep -qF "href=\"$name.html\"" html/index.html
+        claim "$name:   and on from there" leads_on "html/$name.html"
+    done
+    claim "rc-solve.1 leads to rcg.5, here" grep -q 'href="rcg.5.html"' html/rc-solve.1.html
+    claim "  and the index to what there is" leads_on html/index.html
+else
+    echo "not tried: web pages, because mandoc is not here"
+fi
+
+finish

@@ -1,0 +1,336 @@
+"""What pipe_python.sh claims of rcg.py, a function each: python_rcg.py NAME ARGUMENT..."""
+import io
+import json
+import math
+import os
+import subprocess
+import sys
+import warnings
+import zlib
+
+import numpy
+
+import rcg
+
+
+def tool(*command, **more):
+    """Exit status and standard output of a command."""
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, **more)
+    return done.returncode, done.stdout
+
+
+def content(name):
+    with open(name, 'rb') as file:
+        return file.read()
+
+
+def refused(data):
+    try:
+        rcg.loads(data)
+    except rcg.Error as error:
+        assert str(error) and error.status in (1, 2)
+        return True
+    return False
+
+
+# ---- streams ----
+
+def round_trip(*names):
+    for name in names:
+        data = content(name)
+        assert rcg.dumps(rcg.loads(data)) == data, name
+        rcg.write('copy.rcg', rcg.read(name))
+        assert content('copy.rcg') == data, name
+        with open(name, 'rb') as file:
+            out = io.BytesIO()
+            rcg.write(out, rcg.read(file))
+        assert out.getvalue() == data, name
+
+
+def text_is(name, key, text):
+    # older Pythons take an argument for ASCII where the locale says so
+    assert rcg.read(name)[0].keys[key] == os.fsencode(text).decode('utf-8')
+
+
+def missing(name, row, column):
+    values = rcg.read(name)[0].values
+    places = [list(place) for place in numpy.argwhere(numpy.isnan(values))]
+    assert places == [[int(row), int(column)]]
+
+
+def same_values(name, npy):
+    values, expected = rcg.read(name)[0].values, numpy.load(npy)
+    assert values.dtype == expected.dtype and values.shape == expected.shape
+    assert values.tobytes() == expected.tobytes()
+    values[0, 0] = 1  # an array of one's own
+
+
+def joined(name, numbered):
+    ours = [(f.keys.get('case', '1'), f.channel) for f in rcg.read(name)]
+    assert ours == [(f.keys.get('case', '1'), f.channel) for f in rcg.read(numbered)]
+    assert {case for case, channel in ours} == set('12345')
+
+
+def cut(name):
+    data = content(name)
+    for n in range(len(data)):
+        assert refused(data[:n]), n
+
+
+def changed(name):
+    data = content(name)
+    for n in range(len(data)):
+        bad = data[:n] + bytes([data[n] ^ 0x10]) + data[n + 1:]
+        assert refused(bad), n
+
+
+def headers():
+    """Streams that are whole, but for what stands in their headers."""
+    good = [b'channel=height', b'nx=2', b'ny=1', b'dx=1e-06', b'dy=1e-06', b'unit=m', b'type=f64']
+
+    def stream(lines, values=bytes(16)):
+        body = b'RCG1\n' + b''.join(line + b'\n' for line in lines) + b'\n' + values
+        return body + b'crc32 %08x\nRCGEND 1\n' % zlib.crc32(body)
+
+    def with_line(old, new):
+        return stream([new if line.startswith(old) else line for line in good])
+
+    cases = [stream(good[:k] + good[k + 1:]) for k in range(len(good))]
+    cases += [stream(good + [line]) for line in good]
+    cases += [stream(good + [line]) for line in (
+        b'note', b'=1', b'Note=1', b'1note=1', b'no te=1', b'note=\\t', b'note=\\', b'note=\\\\\\',
+        b'note=\xff', b'note=\xed\xa0\x80', b'note=a\0b', b'case=0', b'case=', b'case=1.0',
+        b'case=-1', b'case=1234567890123456', b'note=' + b'x' * 65536, b'n\xc3\xb6te=1')]
+    cases += [with_line(b'nx', b'nx=' + text) for text in (
+        b'0', b'-2', b'+2', b'2.0', b' 2', b'2 ', b'', b'1e0', b'99999999999999999999', b'3')]
+    cases += [with_line(b'dx', b'dx=' + text) for text in (
+        b'0', b'-1', b'nan', b'inf', b'1e999', b'1,5', b' 1', b'', b'0x1', b'1_0')]
+    cases += [with_line(b'type', b'type=' + text) for text in (b'f16', b'F64', b'', b'f32')]
+    cases += [stream([b'\r' if not line else line + b'\r' for line in good])]
+    whole = stream(good)
+    cases += [whole.replace(b'RCGEND 1', b'RCGEND ' + text) for text in (b'2', b'01', b'', b'1 ')]
+    cases += [b'', b'RCG2\n', b'PK\3\4', b'nonsense', whole + b'RCG', whole + b'\n', whole[:-9]]
+    for data in cases:
+        assert refused(data), data[:200]
+        assert tool('rc-info', input=data)[0] == 1, data[:200]
+    for data in (stream(good), stream(good[::-1]), stream(good + [b'note=']), whole + whole,
+                 stream(good + [b'note=\\\\n\\n=\xc2\xb5']),
+                 stream(good + [b'case=123456789012345']), with_line(b'dx', b'dx=1'),
+                 with_line(b'dx', b'dx=1.e-6'), with_line(b'dx', b'dx=+1E-6'),
+                 with_line(b'dx', b'dx=5.'), with_line(b'dx', b'dx=.5')):
+        assert refused(data) == (tool('rc-info', input=data)[0] == 1), data[:200]
+    assert not refused(whole)
+
+
+def failed(name):
+    try:
+        rcg.read(name)
+    except rcg.Error as error:
+        assert str(error).endswith('failed: rc-solve: disk on fire'), error
+        assert error.status == 2
+        return
+    raise AssertionError('read')
+
+
+# ---- frames ----
+
+def arrays():
+    def back(values, **more):
+        return rcg.loads(rcg.dumps(rcg.frame('height', values, 1e-6, **more)))[0]
+
+    a = numpy.arange(12.0).reshape(3, 4)
+    for values in (a, a.astype(int), a.astype('>f8'), a.astype('f2'), a.astype(numpy.longdouble),
+                   numpy.asfortranarray(a), a.T[::-1].T[::-1].T[::-1].T[::-1], a.tolist(), a > -1):
+        f = back(values)
+        assert f.values.dtype == numpy.float64 and f.keys['type'] == 'f64'
+        assert numpy.array_equal(f.values, numpy.asarray(values, float))
+    for values in (a.astype('f4'), a.astype('>f4')):
+        f = back(values)
+        assert f.values.dtype == numpy.float32 and f.keys['type'] == 'f32'
+        assert numpy.array_equal(f.values, a)
+    for kind in (float, 'f4', int):
+        f = back(numpy.ma.masked_equal(a.astype(kind), 5))
+        assert numpy.isnan(f.values[1, 1]) and numpy.isnan(f.values).sum() == 1
+    f = back(a[0])
+    assert f.values.shape == (1, 4) and f.keys['ny'] == '1'
+    f = back(a, dy=0.1 + 0.2, case=2, load=60.0, area=1e-12, periodic=True, nodes=numpy.int64(7))
+    assert (f.dx, f.dy, f.unit, f.channel) == (1e-6, 0.1 + 0.2, 'm', 'height')
+    keys = [f.keys[name] for name in ('dx', 'dy', 'case', 'load', 'area', 'periodic', 'nodes')]
+    assert keys == ['1e-06', '0.30000000000000004', '2', '60', '1e-12', 'yes', '7'], keys
+    assert rcg.frame('mises', a, 1e-6).unit == 'Pa'
+    assert rcg.frame('dirt', a, 1, unit='kg').unit == 'kg'
+    f.values, f.channel = f.values[:, :2].astype('f4'), 'gap'  # the header follows
+    f = rcg.loads(rcg.dumps(f))[0]
+    assert [f.keys[k] for k in ('channel', 'nx', 'ny', 'type')] == ['gap', '2', '3', 'f32']
+    two = [f, rcg.frame('height', a, 1e-6, case=3)]
+    status, text = tool('rc-info', '--json', input=rcg.dumps(two))
+    assert status == 0 and json.loads(text.decode().splitlines()[1])['maximum'] == 11
+
+
+def no_frames():
+    a = numpy.ones((2, 2))
+    for wrong, arguments, keys in (
+            (ValueError, ('dirt', a, 1), {}), (ValueError, ('height', a, 0), {}),
+            (ValueError, ('height', a, -1e-6), {}), (ValueError, ('height', a, math.nan), {}),
+            (ValueError, ('height', a, math.inf), {}), (ValueError, ('height', a, '1.1um'), {}),
+            (ValueError, ('height', a[None], 1), {}), (ValueError, ('height', a[:0], 1), {}),
+            (TypeError, ('height', a * 1j, 1), {}), (TypeError, ('height', [['a']], 1), {}),
+            (TypeError, ('height', a, None), {}), (ValueError, ('height', a, 1), {'nx': 2}),
+            (ValueError, ('height', a, 1), {'Note': 'x'}),
+            (ValueError, ('height', a, 1), {'case': 0}),
+            (ValueError, ('height', a, 1), {'note': 'a\0b'}),
+            (TypeError, ('height', a, 1), {'note': [1]}),
+            (ValueError, ('height', a, 1), {'note': 'x' * 65536})):
+        try:
+            rcg.frame(*arguments, **keys)
+        except wrong as error:
+            assert str(error)
+        else:
+            raise AssertionError((arguments, keys))
+
+
+def hertz(order):
+    """R = 2.385 mm, E* = 114 GPa, 2 N on 129 x 121 nodes: to what cells along a radius can."""
+    radius, estar, load, dx, dy = 2.385e-3, 114e9, 2.0, 1.1e-6, 1.2e-6
+    nx, ny = 129, 121
+    x, y = (numpy.arange(nx) - (nx - 1) / 2) * dx, (numpy.arange(ny) - (ny - 1) / 2) * dy
+    ball = rcg.frame('height', -(x ** 2 + y[:, None] ** 2) / (2 * radius), dx, dy)
+    frames, lines = rcg.report('rc-solve', ball, load=load, estar=estar, output='pressure')
+    a = (3 * load * radius / (4 * estar)) ** (1 / 3)
+    p = frames[0].values
+    assert abs(p.max() * 2 * math.pi * a ** 2 / (3 * load) - 1) <= float(order) * (dy / a) ** 2
+    assert abs(p.sum() * dx * dy / load - 1) < 1e-9
+    # the disc's area in cells is wrong by less than the cells that its edge crosses
+    crossed = 2 * math.pi * a * math.hypot(dx, dy)
+    assert abs((p > 0).sum() * dx * dy - math.pi * a ** 2) < crossed
+    assert abs(lines[0]['contact_area'] - (p > 0).sum() * dx * dy) < 1e-6 * dx * dy
+
+
+# ---- tools ----
+
+def run(name):
+    ball = rcg.read(name)
+    first = ['rc-solve', '--load', '0.5,1.25', '--estar', '114e9', '--output', 'pressure,gap',
+             '--quiet']
+    second = ['rc-stress', '--nu', '0.3', '--depths', '0:3um:3', '--components', 'mises,szz']
+    solved = tool(*first, input=content(name))[1]
+    stressed = tool(*second, input=solved)[1]
+    frames = rcg.run('rc-solve', ball, load=[0.5, 1.25], estar=114e9, output='pressure,gap',
+                     quiet=True)
+    assert rcg.dumps(frames) == solved and len(frames) == 4
+    frames = rcg.run('rc-stress', frames, nu=0.3, depths='0:3um:3', components=['mises', 'szz'])
+    assert rcg.dumps(frames) == stressed and len(frames) == 12
+    made = rcg.run('rc-synth', None, 'sphere', nx=33, ny=47, dx='1.1um', dy='1.29um',
+                   radius='2.385mm')
+    assert rcg.dumps(made) == content(name)
+
+
+def report(name):
+    ball, wanted = rcg.read(name)[0], dict(load='1,2', estar='114GPa', quiet=True)
+    frames, lines = rcg.report('rc-solve', ball, **wanted)
+    assert rcg.dumps(frames) == rcg.dumps(rcg.run('rc-solve', ball, **wanted))
+    text = tool('rc-solve', '--load', '1,2', '--estar', '114GPa', '--quiet', '--report', '-',
+                name)[1]
+    there = [json.loads(line) for line in text.decode().splitlines()]
+    assert len(lines) == 2 and list(lines[0]) == list(there[0])
+    for ours, theirs in zip(lines, there):
+        for key in ours:
+            # what differs from run to run, and what a name tells
+            if key not in ('seconds', 'peak_memory', 'source'):
+                assert ours[key] == theirs[key], key
+    frames, lines = rcg.report('rc-info', ball)
+    assert frames == [] and len(lines) == 1 and lines[0]['channel'] == 'height'
+    assert lines[0]['maximum'] == ball.values.max() and lines[0]['nx'] == 33
+
+
+def options(name):
+    ball = rcg.read(name)
+    pressed = rcg.run('rc-solve', ball, load=1, estar=114e9, periodic=True, resume=False, tol=None,
+                      stiffness=True, type='f32', output='pressure', quiet=True)[0]
+    history = pressed.keys['history']
+    assert '--periodic' in history and '--load 1' in history and pressed.keys['type'] == 'f32'
+    pressed = rcg.run('rc-solve', ball, mean_pressure='10MPa', estar='114GPa', quiet=True)[0]
+    assert '--mean-pressure 10000000' in pressed.keys['history'], pressed.keys['history']
+    for load, text in ((0.1 + 0.2, '0.30000000000000004'), (numpy.float64(0.25), '0.25'),
+                       (numpy.float32(0.5), '0.5'), (numpy.int16(2), '2'), (1e-7, '1e-07')):
+        pressed = rcg.run('rc-solve', ball, load=load, estar=114e9, output='pressure',
+                          quiet=True)[0]
+        assert pressed.keys['load'] == text, pressed.keys['load']
+    assert rcg.run('rc-render', ball, '--raw', o='ball.png') == []
+    assert content('ball.png')[1:4] == b'PNG'
+    picked = rcg.run('rc-pick', ball, '--set', 'a=1', '--set', 'b=2')[0]
+    assert picked.keys['a'] + picked.keys['b'] == '12'
+
+
+def error_of(*arguments, **more):
+    try:
+        rcg.run(*arguments, **more)
+    except rcg.Error as error:
+        return error
+    raise AssertionError('it ran')
+
+
+def fails(name):
+    hole = rcg.read(name)
+    error = error_of('rc-solve', hole, load=1, estar=114e9)
+    assert error.status == 1 and str(error).startswith('rc-solve: ') and 'NaN' in str(error), error
+    error = error_of('rc-solve', hole, lod=1)
+    assert error.status == 2
+    assert str(error) == 'rc-solve: unknown option --lod: did you mean --load?', error
+    error = error_of('rc-nothing', hole)
+    assert error.status == 127 and 'rc-nothing: not found' in str(error)
+    error = error_of('rc-info', hole)
+    assert error.status == 1 and 'rc-info' in str(error)
+    error = error_of('sh', None, '-c', 'kill -9 $$')
+    assert error.status == -9 and str(error) == 'sh: ended by signal 9'
+    error = error_of('sh', hole, '-c', 'echo RCGFAIL sh: halfway')
+    assert 'sh: halfway' in str(error)
+    big = rcg.frame('height', numpy.zeros((1500, 1500)), 1)  # more than a pipe holds
+    error = error_of('rc-solve', big, '--nonsense')
+    assert error.status == 2
+
+
+def short():
+    rough = rcg.run('rc-synth', None, 'selfaffine', nx=64, dx='1um', hurst=0.8,
+                    rms_height='100nm', seed=5)
+    wanted = dict(periodic=True, load='0.1N', estar='100GPa', tol=1e-17, output='pressure')
+    error = error_of('rc-solve', rough, **wanted)
+    assert error.status == 3 and 'stopped short' in str(error)
+    assert [f.keys['converged'] for f in error.frames] == ['no'] and error.lines == []
+    try:
+        rcg.report('rc-solve', rough, **wanted)
+    except rcg.Error as error:
+        assert error.status == 3 and len(error.frames) == 1
+        assert [line['converged'] for line in error.lines] == [False]
+        return
+    raise AssertionError('it ran')
+
+
+def warns():
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter('always')
+        wave = rcg.run('rc-synth', None, 'wave', nx=32, dx='1um', amplitude='1um',
+                       wavelength='32um')
+        assert not caught
+        rcg.run('rc-solve', wave, load=0.01, estar='1GPa')
+        assert len(caught) == 1 and str(caught[0].message).startswith('rc-solve: ')
+        assert caught[0].filename == __file__
+        rcg.run('rc-solve', wave, load=0.01, estar='1GPa', quiet=True)
+        assert len(caught) == 1
+
+
+def drawn(script):
+    """The page's script, and what its lists hold: areas that grow as the load to 2/3."""
+    names = {}
+    os.environ['MPLBACKEND'] = 'Agg'
+    exec(compile(content(script), script, 'exec'), names)
+    radius, estar = names['radius'], names['estar']
+    cell = names['dx']
+    assert len(names['lines']) >= 5
+    for line in names['lines']:
+        a = (3 * line['load'] * radius / (4 * estar)) ** (1 / 3)
+        crossed = 2 * math.pi * a * math.sqrt(2) * cell
+        assert abs(line['contact_area'] - math.pi * a ** 2) < crossed, line
+
+
+globals()[sys.argv[1]](*sys.argv[2:])
