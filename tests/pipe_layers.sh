@@ -36,5 +36,9 @@ done
 claim "--dry-run names them" says 'layers +on: 2 on a substrate' solve --layer 1um,1GPa,0.3 --layer 2um,1GPa,0.3 --dry-run ball.rcg
 claim "rc-cost too solves coated bodies" says '^pcg' rc-cost --E1 100GPa --nu1 0.3 --E2 rigid --load 350N --layer 1mm,1000GPa,0.3 \
     --method pcg --kernel fft ball.rcg
+claim "  and their stresses" says '^fft +1e-04' rc-cost --E1 100GPa --nu1 0.3 --E2 rigid --load 350N --layer 1mm,1000GPa,0.3 \
+    --method pcg --kernel fft --depths 0,0.5mm,2mm ball.rcg
+refuses 2 'each layer has its own' "  without another Poisson's ratio" \
+    "rc-cost --E1 100GPa --nu1 0.3 --E2 rigid --load 350N --layer 1mm,1000GPa,0.3 --depths 0 --nu 0.2 ball.rcg"
 
 finish

@@ -89,8 +89,8 @@ work_depths(void *ctx)
     struct job *j = ctx;
     double *z = NULL;
 
-    if (rc_stress_depths(&j->c->shape, j->c->pressure, j->c->problem.boundary, NULL, &z, &j->depths,
-                         &j->err) != RC_OK)
+    if (rc_stress_depths(&j->c->shape, j->c->pressure, j->c->problem.boundary,
+                         j->c->problem.coating, &z, &j->depths, &j->err) != RC_OK)
         return;
     j->depths = j->depths < DEPTHS ? j->depths : DEPTHS;
     memcpy(j->z, z, j->depths * sizeof *z);
@@ -127,7 +127,8 @@ options_of(const struct cost_case *c, const char *kernel, double tol)
                                       .wanted = WANTED,
                                       .engine = kernel,
                                       .tol = tol,
-                                      .threads = c->tool->threads};
+                                      .threads = c->tool->threads,
+                                      .coating = c->problem.coating};
 }
 
 /* Over all depths and components: the largest error, the sum of squares; the largest Mises' stress,
