@@ -1,8 +1,9 @@
-/* rc-render: one map of a grid stream as a PNG. */
+/* rc-render: one map of a grid stream as a picture: PNG, SVG or PDF. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "formats/core/core.h"
 #include "libcontact/contact.h"
@@ -13,7 +14,8 @@
 struct args {
     struct wish wish; /* which frame */
     const char *colormap, *range, *title;
-    size_t width;
+    const char *width, *font;
+    double dpi;
     bool contour, figure, raw;
 };
 
@@ -42,9 +44,14 @@ static const struct opt opts[] = {
      .help = "one pixel for each node and nothing else"},
     {.name = "title", .type = OPT_TEXT, .at = offsetof(struct args, title), .result = true,
      .arg = "TEXT", .help = "over the figure (default: what the channel is)"},
-    {.name = "width", .type = OPT_COUNT, .at = offsetof(struct args, width), .min = FIGURE_NARROW,
-     .max = FIGURE_WIDE, .result = true, .arg = "PIXELS",
-     .help = "of the whole figure (default: what suits the map)"},
+    {.name = "width", .type = OPT_TEXT, .at = offsetof(struct args, width), .result = true,
+     .arg = "WIDTH",
+     .help = "of the whole figure: pixels, or with a unit its width on paper, as in 85mm"},
+    {.name = "dpi", .type = OPT_NUMBER, .at = offsetof(struct args, dpi), .min = 50, .max = 2400,
+     .result = true, .arg = "PIXELS",
+     .help = "pixels an inch; text is then 7 points high (default for a --width in mm: 300)"},
+    {.name = "font", .type = OPT_TEXT, .at = offsetof(struct args, font), .result = true,
+     .arg = "FAMILY", .help = "of all text (default: the sans serif of the system)"},
     {.name = NULL},
 };
 /* clang-format on */
@@ -53,12 +60,12 @@ static const struct opt opts[] = {
 static void
 settle(struct tool *t)
 {
-    ending_demand_png(t, "-o", t->out_name);
+    ending_demand_picture(t, "-o", t->out_name);
 }
 
 static const struct tool_info info = {
     .name = "rc-render",
-    .summary = "Draw one map of a grid stream as a PNG",
+    .summary = "Draw one map of a grid stream as a PNG, SVG or PDF",
     .operands = "[FILE...]",
     .examples =
         "  rc-synth sphere --nx 65 --ny 65 --dx 1um --radius 1mm | rc-render -o sphere.png\n"
@@ -68,6 +75,9 @@ static const struct tool_info info = {
     .writes = WRITES_BYTES,
     .settle = settle,
 };
+
+/* Metres: text and axes leave no room for a map on less. */
+#define NARROW_PAPER 0.04
 
 static bool
 is_profile(const struct rc_grid *g)
@@ -127,13 +137,11 @@ raw_row(const struct rc_grid *g, const struct figure *f, size_t j, unsigned char
     }
 }
 
-/* What is written: a canvas, or without one a pixel for each node. */
+/* A raw picture, row by row. */
 struct drawing {
     struct tool *tool;
     const struct rc_grid *grid;
     const struct figure *figure;
-    struct canvas *canvas;
-    size_t rows;
 };
 
 static enum rc_status
@@ -141,19 +149,17 @@ next_row(void *ctx, size_t y, unsigned char *rgb, struct rc_err *err)
 {
     const struct drawing *d = ctx;
 
-    tool_progress(d->tool, "row %zu of %zu", y, d->rows);
-    if (d->canvas != NULL)
-        return canvas_row(d->canvas, y, rgb, err);
+    (void)err;
+    tool_progress(d->tool, "row %zu of %zu", y, d->grid->ny);
     raw_row(d->grid, d->figure, y, rgb);
     return RC_OK;
 }
 
-/* The picture says how it was made. */
+/* The picture, without a canvas a pixel for each node, says how it was made. */
 static void
 write_picture(struct tool *t, const struct rc_grid *g, const struct figure *f, struct canvas *c)
 {
-    size_t w = c == NULL ? g->nx : canvas_width(c), h = c == NULL ? g->ny : canvas_height(c);
-    struct drawing d = {t, g, f, c, h};
+    struct drawing d = {t, g, f};
     const char *history = rc_grid_get(g, "history"), *own = tool_history(t);
     size_t size = strlen(own) + (history == NULL ? 0 : strlen(history)) + 4;
     char *made = malloc(size), software[64];
@@ -162,6 +168,7 @@ write_picture(struct tool *t, const struct rc_grid *g, const struct figure *f, s
                                         {"Warning", f->stamp},
                                         {"Software", software},
                                         {"Source", rc_grid_get(g, "source")}};
+    size_t texts = sizeof text / sizeof *text;
     struct rc_err err;
 
     if (made == NULL)
@@ -169,9 +176,28 @@ write_picture(struct tool *t, const struct rc_grid *g, const struct figure *f, s
     snprintf(made, size, "%s%s%s", history == NULL ? "" : history, history == NULL ? "" : " | ",
              own);
     snprintf(software, sizeof software, "rc-render %s", rc_version());
-    if (picture_write(t->out, w, h, text, sizeof text / sizeof *text, next_row, &d, &err) != RC_OK)
+    if ((c != NULL
+             ? canvas_write(c, canvas_format(ending_of(t->out_name)), text, texts, t->out, &err)
+             : picture_write(t->out, g->nx, g->ny, f->dpi, text, texts, next_row, &d, &err)) !=
+        RC_OK)
         tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
     free(made);
+}
+
+/* Fontconfig always finds something. */
+static void
+warn_of_family(struct tool *t, const char *wanted, const char *found)
+{
+    static const char *const any[] = {"sans", "sans-serif", "serif", "monospace"};
+
+    for (size_t k = 0; k < sizeof any / sizeof *any; k++)
+        if (strcasecmp(wanted, any[k]) == 0)
+            return;
+    if (strcasecmp(wanted, found) != 0)
+        tool_warn(t,
+                  "--font %s: there is no font of that name, %s is used: fc-list shows those "
+                  "there are",
+                  wanted, found);
 }
 
 static void
@@ -200,6 +226,8 @@ draw_figure(struct tool *t, const struct rc_grid *g, struct figure *f)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     if (canvas_warning(c, text, sizeof text) != NULL)
         tool_warn(t, "%s", text);
+    if (f->family != NULL)
+        warn_of_family(t, f->family, canvas_set_family(c, f->family));
     write_picture(t, g, f, c);
     canvas_free(c);
     free(rows);
@@ -212,6 +240,32 @@ stamp_of(const struct rc_grid *g)
     const char *converged = rc_grid_get(g, "converged");
 
     return converged != NULL && strcmp(converged, "no") == 0 ? "not converged" : NULL;
+}
+
+/* Pixels when plain, or a length on paper. */
+static void
+read_width(struct tool *t, const struct args *a, struct figure *f)
+{
+    const double dpi = 300, inch = 0.0254;
+    bool plain = a->width != NULL && a->width[strspn(a->width, "0123456789")] == '\0';
+    double width = 0;
+    struct rc_err err;
+
+    f->dpi = isnan(a->dpi) ? 0 : a->dpi;
+    if (a->width == NULL)
+        return;
+    if (unit_number(a->width, plain ? UNIT_NONE : UNIT_M, &width, &err) != RC_OK)
+        tool_die(t, EXIT_USAGE, "--width %s: %s", a->width, err.text);
+    if (!plain) {
+        f->dpi = f->dpi > 0 ? f->dpi : dpi;
+        width *= f->dpi / inch;
+    }
+    if (f->dpi > 0 && !(width >= NARROW_PAPER / inch * f->dpi))
+        tool_die(t, EXIT_USAGE, "--width %s: on paper it must be at least 40mm", a->width);
+    if (!(width >= FIGURE_NARROW && width <= FIGURE_WIDE))
+        tool_die(t, EXIT_USAGE, "--width %s: it must be %d to %d pixels%s", a->width, FIGURE_NARROW,
+                 FIGURE_WIDE, plain ? "" : ", which is a matter of --dpi");
+    f->width = (size_t)round(width);
 }
 
 static void
@@ -243,8 +297,10 @@ render(struct tool *t, struct args *a, const struct rc_grid *g, bool largest)
         .zero_is_none = strcmp(g->channel, "pressure") == 0,
         .zeros = s.zeros,
         .contour = a->contour,
-        .width = a->width,
+        .vector = canvas_format(ending_of(t->out_name)) != CANVAS_PNG,
+        .family = a->font,
     };
+    read_width(t, a, &f);
     range_choose(g, &s, f.map, &what, is_profile(g) && !a->raw, &f.lo, &f.hi);
     if (a->range != NULL)
         a->range = range_read(t, a->range, g, &f.lo, &f.hi);
@@ -263,8 +319,13 @@ check_options(struct tool *t, const struct args *a)
         tool_die(t, EXIT_USAGE, "--raw and --figure are two kinds of picture: give one");
     if (a->raw && a->contour)
         tool_die(t, EXIT_USAGE, "--raw draws nothing but nodes: leave out --contour");
-    if (a->raw && a->width != 0)
+    if (a->raw && a->width != NULL)
         tool_die(t, EXIT_USAGE, "--raw is as wide as the map has columns: leave out --width");
+    if (a->raw && a->font != NULL)
+        tool_die(t, EXIT_USAGE, "--raw holds no text: leave out --font");
+    if (a->raw && canvas_format(ending_of(t->out_name)) != CANVAS_PNG)
+        tool_die(t, EXIT_USAGE,
+                 "--raw has a pixel for each node, which only a PNG has: -o must end in .png");
     if (a->title != NULL && !rc_utf8_valid(a->title))
         tool_die(t, EXIT_USAGE, "--title: the text is not UTF-8");
 }
@@ -272,7 +333,7 @@ check_options(struct tool *t, const struct args *a)
 int
 main(int argc, char **argv)
 {
-    struct args args = {.wish = {.depth = NAN}};
+    struct args args = {.wish = {.depth = NAN}, .dpi = NAN};
     struct choice choice = {.wish = &args.wish};
     struct rc_grid *g;
     struct tool t;

@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "page.h"
 #include "raster.h"
@@ -9,6 +10,11 @@
 
 static const struct rgb rule = {0xdd, 0xdd, 0xdd}, curve_ink = {0x1f, 0x4e, 0x8c},
                         light = {0xff, 0xff, 0xff};
+
+enum {
+    STEPS = 512,      /* of the colours in the bar                                          */
+    IMAGE_MOST = 2400 /* pixels a side of a map in a PDF or SVG: 600 an inch over 100 mm    */
+};
 
 /* ---- axes ---- */
 
@@ -67,29 +73,39 @@ missing_at(const struct page *p, size_t x, size_t y)
                                           : mix(p->f->map->missing, 0.5, light, 0.5);
 }
 
-static void
-paint(struct page *p, const struct raster *r)
+static struct rgb
+cell_colour(const struct page *p, const struct raster *r, size_t i, size_t j)
 {
     const struct figure *f = p->f;
+    size_t k = j * r->w + i;
+    double none = (double)r->none[k], missing = (double)r->missing[k];
+    struct rgb colour = missing_at(p, i, j), value;
 
+    if (isnan(r->v[k]))
+        return none > 0 ? mix(f->map->none, none, colour, 1 - none) : colour;
+    value = colormap_value(f->map, f->lo, f->hi, r->v[k]);
+    if (missing > 0)
+        value = mix(value, fmax(0, 1 - missing), colour, fmin(missing, 1));
+    return none > 0 ? mix(value, fmax(0, 1 - none), f->map->none, fmin(none, 1)) : value;
+}
+
+static enum rc_status
+paint(struct page *p, const struct raster *r, struct rc_err *err)
+{
+    unsigned char *rgb = malloc(3 * r->w * r->h);
+
+    if (rgb == NULL)
+        return rc_err_set(err, "out of memory for a map of %zu by %zu pixels", r->w, r->h);
     for (size_t j = 0; j < r->h; j++)
         for (size_t i = 0; i < r->w; i++) {
-            size_t k = j * r->w + i;
-            double none = (double)r->none[k], missing = (double)r->missing[k];
-            struct rgb colour = missing_at(p, i, j);
+            struct rgb colour = cell_colour(p, r, i, j);
 
-            if (isnan(r->v[k])) {
-                if (none > 0)
-                    colour = mix(f->map->none, none, colour, 1 - none);
-            } else {
-                struct rgb value = colormap_value(f->map, f->lo, f->hi, r->v[k]);
-                if (missing > 0)
-                    value = mix(value, fmax(0, 1 - missing), colour, fmin(missing, 1));
-                colour =
-                    none > 0 ? mix(value, fmax(0, 1 - none), f->map->none, fmin(none, 1)) : value;
-            }
-            canvas_pixel(p->c, p->plot_x + i, p->plot_y + j, colour);
+            memcpy(rgb + 3 * (j * r->w + i), (unsigned char[]){colour.r, colour.g, colour.b}, 3);
         }
+    canvas_image(p->c, (double)p->plot_x, (double)p->plot_y, (double)p->plot_w, (double)p->plot_h,
+                 rgb, r->w, r->h);
+    free(rgb);
+    return RC_OK;
 }
 
 /* From cells of a raster to the share of the plot's height: rows that are uneven lie where they
@@ -155,22 +171,27 @@ draw_contours(struct page *p, const struct raster *r, struct rc_err *err)
     return status;
 }
 
-/* Contours run through the nodes of a map that is enlarged, through the pixels of one that is
- * reduced. */
+/* In a PDF or SVG a node is a pixel, however large it is drawn; missing nodes are chequered and rows
+ * of a section uneven, which takes the pixels of the page. Contours run through the nodes of a map
+ * that is enlarged, through the pixels of one that is reduced. */
 static enum rc_status
 draw_map(struct page *p, struct rc_err *err)
 {
     const struct figure *f = p->f;
-    struct raster *r = raster_new(p->g, f->row_edge, f->zero_is_none, p->plot_w, p->plot_h, err);
-    size_t nx = p->g->nx, ny = p->g->ny;
+    size_t nx = p->g->nx, ny = p->g->ny, w = p->plot_w, h = p->plot_h;
+    struct raster *r;
     enum rc_status status;
 
-    if (r == NULL)
+    if (f->vector && f->missing == 0 && f->row_edge == NULL) {
+        w = nx < IMAGE_MOST ? nx : IMAGE_MOST;
+        h = ny < IMAGE_MOST ? ny : IMAGE_MOST;
+    }
+    if ((r = raster_new(p->g, f->row_edge, f->zero_is_none, w, h, err)) == NULL)
         return RC_FAIL;
-    paint(p, r);
+    status = paint(p, r, err);
     raster_free(r);
-    if (!f->contour)
-        return RC_OK;
+    if (!f->contour || status != RC_OK)
+        return status;
     r = raster_new(p->g, ny > p->plot_h ? f->row_edge : NULL, f->zero_is_none,
                    nx < p->plot_w ? nx : p->plot_w, ny < p->plot_h ? ny : p->plot_h, err);
     if (r == NULL)
@@ -180,16 +201,19 @@ draw_map(struct page *p, struct rc_err *err)
     return status;
 }
 
-/* The colours from (x, y) over w by h pixels, along the longer way, low values left or at the
- * bottom. */
+/* The colours over the rectangle, along the longer way, low values left or at the bottom. */
 static void
-paint_bar(struct page *p, size_t x, size_t y, size_t w, size_t h)
+paint_bar(struct page *p, double x, double y, double w, double h)
 {
-    for (size_t j = 0; j < h; j++)
-        for (size_t i = 0; i < w; i++)
-            canvas_pixel(p->c, x + i, y + j,
-                         colormap_at(p->f->map, p->bar_below ? ((double)i + 0.5) / (double)w
-                                                             : 1 - ((double)j + 0.5) / (double)h));
+    unsigned char rgb[3 * STEPS];
+
+    for (size_t k = 0; k < STEPS; k++) {
+        double t = ((double)k + 0.5) / STEPS;
+        struct rgb c = colormap_at(p->f->map, p->bar_below ? t : 1 - t);
+
+        memcpy(rgb + 3 * k, (unsigned char[]){c.r, c.g, c.b}, 3);
+    }
+    canvas_image(p->c, x, y, w, h, rgb, p->bar_below ? STEPS : 1, p->bar_below ? 1 : STEPS);
 }
 
 /* Draws a triangle at each end of the bar that some values lie beyond. */
@@ -231,7 +255,7 @@ draw_bar(struct page *p)
         x = round(x + w + page_bar_right(p));
         w = thick;
     }
-    paint_bar(p, (size_t)x, (size_t)y, (size_t)w, (size_t)h);
+    paint_bar(p, x, y, w, h);
     point_bar(p, x, y, w, h);
     for (long long k = a->ticks.first; p->f->contour && k <= a->ticks.last; k++) {
         double t = page_place(a, ticks_at(&a->ticks, k));
@@ -363,11 +387,11 @@ draw_legend(struct page *p)
         double left = round(x + p->note[k].x), top = round(y + p->note[k].y);
         size_t n = (size_t)round(side);
 
-        for (size_t j = 0; p->note[k].swatch != SWATCH_NOTHING && j < n; j++)
+        if (p->note[k].swatch == SWATCH_NONE)
+            canvas_fill(p->c, left, top, (double)(n + n / 3), (double)n, p->f->map->none);
+        for (size_t j = 0; p->note[k].swatch == SWATCH_MISSING && j < n; j++)
             for (size_t i = 0; i < n + n / 3; i++)
-                canvas_pixel(p->c, (size_t)left + i, (size_t)top + j,
-                             p->note[k].swatch == SWATCH_NONE ? p->f->map->none
-                                                              : missing_at(p, i, j));
+                canvas_pixel(p->c, (size_t)left + i, (size_t)top + j, missing_at(p, i, j));
         if (p->note[k].swatch != SWATCH_NOTHING)
             canvas_frame(p->c, left, top, (double)(n + n / 3), (double)n, fmax(1, round(1.2 * u)),
                          page_ink);
@@ -407,10 +431,15 @@ figure_draw(const struct figure *f, const struct rc_grid *g, struct rc_err *err)
 
     if ((page.c = canvas_new(1, 1, err)) == NULL) /* to measure text on */
         return NULL;
+    if (f->family != NULL)
+        canvas_set_family(page.c, f->family);
     page_lay_out(&page);
     canvas_free(page.c);
     if ((page.c = canvas_new(page.w, page.h, err)) == NULL)
         return NULL;
+    if (f->family != NULL)
+        canvas_set_family(page.c, f->family);
+    canvas_set_dpi(page.c, page.dpi, f->width > 0 && f->dpi == 0);
     if (draw(&page, err) != RC_OK) {
         canvas_free(page.c);
         return NULL;

@@ -16,6 +16,7 @@
 enum {
     FIGURE_ASPECT = 12, /* longest side of a plot over its shortest                      */
     FIGURE_NARROW = 320,
+    FIGURE_POINTS = 7,   /* of the text at the marks, where the size on paper counts           */
     FIGURE_WIDE = 16000, /* bounds of a width that is asked for, pixels                  */
 };
 
@@ -30,14 +31,18 @@ struct figure {
     double top, bottom;        /* the same downwards: top < bottom                      */
     const double *row_edge;    /* metres, ny + 1 rising numbers; NULL: even rows        */
     const struct colormap *map;
-    double lo, hi;     /* values at the ends of the colour bar, lo < hi         */
-    double min, max;   /* of the values there are: the bar gets a point where
+    double lo, hi;      /* values at the ends of the colour bar, lo < hi         */
+    double min, max;    /* of the values there are: the bar gets a point where
                                    they go on beyond its end                             */
-    size_t missing;    /* nodes that are NaN                                    */
-    bool zero_is_none; /* value 0 means no contact                              */
-    size_t zeros;      /* nodes of that value                                   */
-    bool contour;      /* lines at the marks of the bar, and the contact's edge */
-    size_t width;      /* pixels of the whole figure; 0: what suits the map     */
+    size_t missing;     /* nodes that are NaN                                    */
+    bool zero_is_none;  /* value 0 means no contact                              */
+    size_t zeros;       /* nodes of that value                                   */
+    bool contour;       /* lines at the marks of the bar, and the contact's edge */
+    size_t width;       /* pixels of the whole figure; 0: what suits the map     */
+    double dpi;         /* of them an inch: text has its size on paper then;
+                                   0: as many as give the marks FIGURE_POINTS           */
+    bool vector;        /* for a PDF or SVG: the map keeps its own resolution    */
+    const char *family; /* of the text; NULL: sans                               */
 };
 
 /* The grid holds values, nx and ny; *figure says where they lie. NULL when memory is short. */

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#define SMALL 21 /* marks, where the unit of the design is 1 */
 #define BETWEEN " \xc2\xb7 "
 #define CUT "\xe2\x80\xa6"
 
@@ -194,7 +195,7 @@ page_bar_below(const struct page *p)
 static void
 set_fonts(struct page *p)
 {
-    p->small = (struct canvas_font){.size = 21 * p->u, .colour = page_ink};
+    p->small = (struct canvas_font){.size = SMALL * p->u, .colour = page_ink};
     p->large = (struct canvas_font){.size = 23 * p->u, .colour = page_ink};
     p->heading = (struct canvas_font){.size = 28 * p->u, .bold = true, .colour = page_ink};
     p->subheading = (struct canvas_font){.size = 20 * p->u, .colour = page_faint};
@@ -204,9 +205,9 @@ set_fonts(struct page *p)
 /* Pixels of the longer side of a plot of n nodes: a whole number of them for a node, or of nodes
  * for one, so that all cells look alike. */
 static double
-natural_side(size_t n)
+natural_side(size_t n, double u)
 {
-    const double wish = 900, most = 1350;
+    double wish = 900 * (u > 0 ? u : 1), most = 1.5 * wish;
     double nodes = (double)n;
 
     if (nodes <= most)
@@ -219,7 +220,7 @@ set_plot(struct page *p, double width)
 {
     double x = p->f->right - p->f->left, y = p->f->bottom - p->f->top;
     double aspect = fmin(fmax(x / y, 1.0 / FIGURE_ASPECT), FIGURE_ASPECT);
-    double w;
+    double paper = p->f->dpi * FIGURE_POINTS / 72 / SMALL, w; /* paper: u there; 0: not asked for */
 
     p->distorted = !p->curve && aspect != x / y;
     if (p->curve)
@@ -227,14 +228,15 @@ set_plot(struct page *p, double width)
     if (width > 0)
         w = fmin(width, 0.85 * (double)p->f->width * aspect);
     else if (p->curve)
-        w = 1000;
+        w = paper > 0 ? 1000 * paper : 1000;
     else
-        w = aspect >= 1 ? natural_side(p->g->nx) : natural_side(p->g->ny) * aspect;
+        w = aspect >= 1 ? natural_side(p->g->nx, paper) : natural_side(p->g->ny, paper) * aspect;
     p->plot_w = (size_t)fmax(round(w), 1);
     p->plot_h = (size_t)fmax(round(w / aspect), 1);
-    p->u = width > 0  ? fmax((double)p->f->width / 1200, 0.5)
-           : p->curve ? 1
-                      : fmax((double)p->plot_w, (double)p->plot_h) / 900;
+    p->u = paper > 0   ? paper
+           : width > 0 ? fmax((double)p->f->width / 1200, 0.5)
+           : p->curve  ? 1
+                       : fmax((double)p->plot_w, (double)p->plot_h) / 900;
     p->bar_below = (double)p->plot_h < 300 * p->u;
     set_fonts(p);
 }
@@ -341,6 +343,7 @@ set_page(struct page *p)
     p->plot_x = (size_t)round(p->left_w + 0.5 * free);
     p->plot_y = (size_t)round(p->above);
     p->h = (size_t)ceil(p->above + (double)p->plot_h + p->below);
+    p->dpi = p->f->dpi > 0 ? p->f->dpi : 72 * p->small.size / FIGURE_POINTS;
 }
 
 /* Sizes depend on texts, texts on marks, marks on sizes: with a width that is asked for a few

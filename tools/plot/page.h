@@ -54,6 +54,7 @@ struct page {
     double stamp_h;                       /* 0 without one */
     double left_w, right_w, above, below; /* around the plot, margins included         */
     size_t plot_x, plot_y, plot_w, plot_h, w, h;
+    double dpi; /* pixels of the page in an inch of paper */
 };
 
 extern const struct rgb page_ink, page_faint;
