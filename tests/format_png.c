@@ -138,6 +138,119 @@ range_is_kept_and_passed_with_the_end_colours(void **state)
     }
 }
 
+/* 1000 values 0 to 999 um in an order of their own: node k holds 7 k modulo 1000 (7 and 1000 have no
+ * common factor). */
+static void
+put_thousand(double first)
+{
+    static double v[1000];
+
+    for (int k = 0; k < 1000; k++)
+        v[k] = (7 * k % 1000) * 1e-6;
+    if (first != 0)
+        v[0] = first;
+    put_stream(grid_of("height", "m", 40, 25, v));
+}
+
+/* Whether node k is as grey as its place between lo and hi says. */
+static void
+is_between(const struct png *p, size_t k, double value, double lo, double hi)
+{
+    double t = fmin(fmax((value - lo) / (hi - lo), 0), 1);
+
+    is_colour(pixel(p, k % p->head.width, k / p->head.width),
+              0x010101 * (unsigned)floor(255 * t + 0.5), 1);
+}
+
+static void
+percentiles_are_ranks(void **state)
+{
+    struct png p;
+
+    (void)state;
+    put_thousand(0);
+    p = render("--raw --colormap grey --range 10%:90%");
+    for (size_t k = 0; k < 1000; k++) /* place 0.1 * 999 among 0, 1, 2, ... is 99.9 */
+        is_between(&p, k, (double)(7 * k % 1000), 99.9, 899.1);
+    free(p.rgb);
+    p = render("--raw --colormap grey --clip");
+    for (size_t k = 0; k < 1000; k++)
+        is_between(&p, k, (double)(7 * k % 1000), 4.995, 994.005);
+    free(p.rgb);
+    p = render("--raw --colormap grey --range symmetric");
+    for (size_t k = 0; k < 1000; k++)
+        is_between(&p, k, (double)(7 * k % 1000), -999, 999);
+    free(p.rgb);
+}
+
+/* One value far from those about it does not take the colours of the others; many do. */
+static void
+an_outlier_is_left_beyond_the_colours(void **state)
+{
+    struct png p;
+    double v[900];
+
+    (void)state;
+    put_thousand(5e-3); /* 999 of 1 to 999 um, and one of 5000 */
+    p = render("--raw --colormap grey");
+    for (size_t k = 1; k < 1000; k++) /* ranks count from the least, which is 1 */
+        is_between(&p, k, (double)(7 * k % 1000), 1 + 4.995, 1 + 994.005);
+    is_colour(pixel(&p, 0, 0), 0xffffff, 0);
+    free(p.rgb);
+    p = render("--raw --colormap grey --range 0%:100%");
+    for (size_t k = 1; k < 1000; k++)
+        is_between(&p, k, (double)(7 * k % 1000), 1, 5000);
+    free(p.rgb);
+    for (int k = 0; k < 900; k++) /* a peak that its neighbours lead up to is none */
+        v[k] = exp(-0.05 * (pow(k % 30 - 12.0, 2) + pow(floor(k / 30.0) - 9, 2)));
+    put_stream(grid_of("height", "m", 30, 30, v));
+    p = render("--raw --colormap grey");
+    for (size_t k = 0; k < 900; k++)
+        is_between(&p, k, v[k], 0, 1);
+    free(p.rgb);
+}
+
+static void
+logarithms_give_equal_steps_to_equal_ratios(void **state)
+{
+    static const double v[] = {1e6, 1e7, 1e8, 1e9, 0, 3e7};
+    static const double t[] = {0, 1.0 / 3, 2.0 / 3, 1, 0, 0.492374};
+    struct png p;
+
+    (void)state;
+    put_stream(grid_of("some.stress", "Pa", 6, 1, v));
+    p = render("--raw --colormap grey --log");
+    for (size_t k = 0; k < 6; k++)
+        is_between(&p, k, t[k], 0, 1);
+    free(p.rgb);
+    p = render("--raw --colormap grey --log --range 1e5:1e9");
+    for (size_t k = 0; k < 4; k++)
+        is_between(&p, k, 1 + (double)k, 0, 4);
+    free(p.rgb);
+}
+
+/* magma's ends, as published, for what is on one side of 0: there they lie. */
+static void
+one_signed_stresses_end_at_zero(void **state)
+{
+    static const double below[] = {-4e9, -1e9, 0, 1e3}, above[] = {4e9, 1e9, 0, -1e3};
+    struct png p;
+
+    (void)state;
+    put_stream(grid_of("szz", "Pa", 4, 1, below));
+    p = render("--raw");
+    is_colour(pixel(&p, 0, 0), 0x000004, 1);
+    is_colour(pixel(&p, 2, 0), 0xfcfdbf, 1);
+    is_colour(pixel(&p, 3, 0), 0xfcfdbf, 1);
+    free(p.rgb);
+    put_stream(grid_of("szz", "Pa", 4, 1, above));
+    p = render("--raw");
+    is_colour(pixel(&p, 0, 0), 0xfcfdbf, 1);
+    is_colour(pixel(&p, 2, 0), 0x000004, 1);
+    is_colour(pixel(&p, 3, 0), 0x000004, 1);
+    free(p.rgb);
+}
+
 /* Ends and middle as published (van der Walt and Smith 2015). */
 static void
 channels_get_their_colours(void **state)
@@ -544,6 +657,10 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(raw_is_one_pixel_a_node),
         cmocka_unit_test(range_is_kept_and_passed_with_the_end_colours),
+        cmocka_unit_test(percentiles_are_ranks),
+        cmocka_unit_test(an_outlier_is_left_beyond_the_colours),
+        cmocka_unit_test(logarithms_give_equal_steps_to_equal_ratios),
+        cmocka_unit_test(one_signed_stresses_end_at_zero),
         cmocka_unit_test(channels_get_their_colours),
         cmocka_unit_test(missing_and_no_contact_are_no_values),
         cmocka_unit_test(lightness_rises_and_evenly),

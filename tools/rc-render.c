@@ -16,7 +16,7 @@ struct args {
     const char *colormap, *range, *title;
     const char *width, *font;
     double dpi;
-    bool contour, figure, raw;
+    bool contour, figure, raw, log, clip;
 };
 
 /* clang-format off */
@@ -35,7 +35,12 @@ static const struct opt opts[] = {
     {.name = "colormap", .type = OPT_CHOICE, .at = offsetof(struct args, colormap), .result = true,
      .words = colormap_name, .help = "colours for the values (default: what suits the channel)"},
     {.name = "range", .type = OPT_TEXT, .at = offsetof(struct args, range), .result = true,
-     .arg = "LO:HI", .help = "values at the ends of the colours, as in 0:2GPa or -50nm:50nm"},
+     .arg = "LO:HI",
+     .help = "ends of the colours: values as 0:2GPa, percentiles as 1%:99%, or symmetric"},
+    {.name = "log", .type = OPT_FLAG, .at = offsetof(struct args, log), .result = true,
+     .help = "colours by the logarithm of the value"},
+    {.name = "clip", .type = OPT_FLAG, .at = offsetof(struct args, clip), .result = true,
+     .help = "leave half a per cent of the nodes beyond each end of the colours"},
     {.name = "contour", .type = OPT_FLAG, .at = offsetof(struct args, contour), .result = true,
      .help = "draw lines at the marks of the colour bar, and the edge of contact"},
     {.name = "figure", .type = OPT_FLAG, .at = offsetof(struct args, figure), .result = true,
@@ -129,7 +134,7 @@ raw_row(const struct rc_grid *g, const struct figure *f, size_t j, unsigned char
     for (size_t i = 0; i < g->nx; i++) {
         struct rgb c = isnan(v[i])                    ? f->map->missing
                        : f->zero_is_none && v[i] == 0 ? f->map->none
-                                                      : colormap_value(f->map, f->lo, f->hi, v[i]);
+                                                      : figure_colour(f, v[i]);
 
         rgb[3 * i] = c.r;
         rgb[3 * i + 1] = c.g;
@@ -269,11 +274,31 @@ read_width(struct tool *t, const struct args *a, struct figure *f)
 }
 
 static void
+choose_range(struct tool *t, struct args *a, const struct rc_grid *g, const struct survey *s,
+             const struct channel *what, struct figure *f, struct range *r)
+{
+    *r = (struct range){.kind = a->clip ? RANGE_CLIP : RANGE_AUTO};
+    if (a->range != NULL)
+        range_read(t, a->range, g, r);
+    range_choose(g, s, f->map, what, is_profile(g) && !a->raw, r);
+    if (r->kind == RANGE_VALUES)
+        a->range = range_text(r);
+    if (a->log)
+        range_take_logarithm(t, g, r);
+    f->lo = r->lo;
+    f->hi = r->hi;
+    f->min = range_least(g, s, r);
+    f->log = a->log;
+    f->note = r->note[0] == '\0' ? NULL : r->note;
+}
+
+static void
 render(struct tool *t, struct args *a, const struct rc_grid *g, bool largest)
 {
     struct survey s;
     struct subtitle subtitle = {.n = 0};
     struct channel what;
+    struct range range;
     struct figure f;
 
     survey_map(g, &s);
@@ -301,9 +326,7 @@ render(struct tool *t, struct args *a, const struct rc_grid *g, bool largest)
         .family = a->font,
     };
     read_width(t, a, &f);
-    range_choose(g, &s, f.map, &what, is_profile(g) && !a->raw, &f.lo, &f.hi);
-    if (a->range != NULL)
-        a->range = range_read(t, a->range, g, &f.lo, &f.hi);
+    choose_range(t, a, g, &s, &what, &f, &range);
     if (a->contour && is_profile(g))
         tool_warn(t, "a profile is drawn as a curve: --contour does nothing");
     if (a->raw)
@@ -326,6 +349,8 @@ check_options(struct tool *t, const struct args *a)
     if (a->raw && canvas_format(ending_of(t->out_name)) != CANVAS_PNG)
         tool_die(t, EXIT_USAGE,
                  "--raw has a pixel for each node, which only a PNG has: -o must end in .png");
+    if (a->clip && a->range != NULL)
+        tool_die(t, EXIT_USAGE, "--clip chooses the range: leave out --range");
     if (a->title != NULL && !rc_utf8_valid(a->title))
         tool_die(t, EXIT_USAGE, "--title: the text is not UTF-8");
 }

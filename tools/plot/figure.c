@@ -63,6 +63,14 @@ mix(struct rgb a, double x, struct rgb b, double y)
                         (unsigned char)(x * a.b + y * b.b + 0.5)};
 }
 
+struct rgb
+figure_colour(const struct figure *f, double value)
+{
+    if (!f->log)
+        return colormap_value(f->map, f->lo, f->hi, value);
+    return colormap_at(f->map, value > f->lo ? log(value / f->lo) / log(f->hi / f->lo) : 0);
+}
+
 /* Missing nodes are chequered, so that no colour of any map can be taken for them. */
 static struct rgb
 missing_at(const struct page *p, size_t x, size_t y)
@@ -83,7 +91,7 @@ cell_colour(const struct page *p, const struct raster *r, size_t i, size_t j)
 
     if (isnan(r->v[k]))
         return none > 0 ? mix(f->map->none, none, colour, 1 - none) : colour;
-    value = colormap_value(f->map, f->lo, f->hi, r->v[k]);
+    value = figure_colour(f, r->v[k]);
     if (missing > 0)
         value = mix(value, fmax(0, 1 - missing), colour, fmin(missing, 1));
     return none > 0 ? mix(value, fmax(0, 1 - none), f->map->none, fmin(none, 1)) : value;
@@ -143,7 +151,7 @@ stroke_lines(struct page *p, struct lines *l, const struct raster *r, double wid
 static struct rgb
 line_colour(const struct figure *f, double value)
 {
-    return colormap_is_dark(colormap_value(f->map, f->lo, f->hi, value)) ? light : page_ink;
+    return colormap_is_dark(figure_colour(f, value)) ? light : page_ink;
 }
 
 static enum rc_status
@@ -221,7 +229,7 @@ static void
 point_bar(struct page *p, double x, double y, double w, double h)
 {
     const struct figure *f = p->f;
-    double reach = 16 * p->u, gap = 3 * p->u;
+    double reach = 18 * p->u, gap = 4 * p->u;
 
     for (int end = 0; end < 2; end++) {
         struct rgb colour = colormap_at(f->map, end);
@@ -237,6 +245,12 @@ point_bar(struct page *p, double x, double y, double w, double h)
             corner[k][1] = p->bar_below ? y + along * h : (end == 0 ? y + h : y) - out;
         }
         canvas_triangle(p->c, corner, colour);
+        for (int k = 0; k < 4; k++) /* white paper would swallow a pale end */
+            if (k == 0)
+                canvas_move(p->c, corner[0][0], corner[0][1]);
+            else
+                canvas_draw_to(p->c, corner[k % 3][0], corner[k % 3][1]);
+        canvas_stroke(p->c, fmax(1, 1.2 * p->u), page_ink);
     }
 }
 

@@ -32,6 +32,8 @@ struct figure {
     const double *row_edge;    /* metres, ny + 1 rising numbers; NULL: even rows        */
     const struct colormap *map;
     double lo, hi;      /* values at the ends of the colour bar, lo < hi         */
+    bool log;           /* the colours go by the logarithm; 0 < lo               */
+    const char *note;   /* on the colours, in the legend; NULL: none             */
     double min, max;    /* of the values there are: the bar gets a point where
                                    they go on beyond its end                             */
     size_t missing;     /* nodes that are NaN                                    */
@@ -44,6 +46,9 @@ struct figure {
     bool vector;        /* for a PDF or SVG: the map keeps its own resolution    */
     const char *family; /* of the text; NULL: sans                               */
 };
+
+/* The colour of a value. */
+struct rgb figure_colour(const struct figure *figure, double value);
 
 /* The grid holds values, nx and ny; *figure says where they lie. NULL when memory is short. */
 struct canvas *figure_draw(const struct figure *figure, const struct rc_grid *grid,

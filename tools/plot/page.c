@@ -108,12 +108,18 @@ choose_marks(struct page *p, struct axis *a, double length, bool upright)
     double gap = 14 * p->u, height = 1.05 * p->small.size;
 
     for (double most = 9; most > 1e-3; most = most > 1 ? most - 1 : 0.5 * most) {
-        ticks_choose(&a->ticks, a->lo, a->hi, most);
+        double step;
+
+        if (a->log)
+            ticks_choose_log(&a->ticks, a->lo, a->hi, most);
+        else
+            ticks_choose(&a->ticks, a->lo, a->hi, most);
         a->widest = widest_mark(p, &a->ticks);
         if (a->ticks.first >= a->ticks.last)
             return;
-        if (ticks_at(&a->ticks, 1) / (a->hi - a->lo) * length >=
-            (upright ? height : a->widest + gap))
+        step = page_place(a, ticks_at(&a->ticks, a->ticks.last)) -
+               page_place(a, ticks_at(&a->ticks, a->ticks.last - 1));
+        if (step * length >= (upright ? height : a->widest + gap))
             return;
     }
 }
@@ -157,6 +163,8 @@ set_axes(struct page *p)
     double x = fmax(fabs(f->left), fabs(f->right)), y = fmax(fabs(f->top), fabs(f->bottom));
     double both = fmax(x, y);
 
+    p->values.log = f->log;
+
     set_axis(&p->values, f->quantity, f->unit, f->lo, f->hi, fmax(fabs(f->lo), fabs(f->hi)));
     if (p->curve && p->g->nx == 1) {
         set_axis(&p->across, f->down, "m", f->top, f->bottom, y);
@@ -169,6 +177,8 @@ set_axes(struct page *p)
 double
 page_place(const struct axis *a, double value)
 {
+    if (a->log)
+        return value > 0 ? log(value / a->lo) / log(a->hi / a->lo) : -INFINITY;
     return (value - a->lo) / (a->hi - a->lo);
 }
 
@@ -292,6 +302,8 @@ set_legend(struct page *p, double width)
              p->f->missing, p->g->nx * p->g->ny);
     if (p->f->missing > 0)
         add_note(p, p->curve ? SWATCH_NOTHING : SWATCH_MISSING, text);
+    if (p->f->note != NULL && !p->curve)
+        add_note(p, SWATCH_NOTHING, p->f->note);
     if (p->distorted)
         add_note(p, SWATCH_NOTHING, "the axes differ in scale");
     for (size_t k = 0; k < p->notes; k++) {

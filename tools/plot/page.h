@@ -13,7 +13,7 @@
 enum {
     LINE = 1024, /* bytes of a line of text */
     LINES = 4,
-    NOTES = 3,
+    NOTES = 4,
 };
 
 struct axis {
@@ -21,6 +21,7 @@ struct axis {
     struct ticks ticks;
     double lo, hi; /* in the unit of the scale   */
     double widest; /* mark's text, pixels        */
+    bool log;
     char label[LINE];
 };
 

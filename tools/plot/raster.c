@@ -13,8 +13,14 @@ survey_map(const struct rc_grid *g, struct survey *s)
         if (isnan(v))
             s->missing++;
         else if (isfinite(v)) {
-            s->min = v < s->min || isnan(s->min) ? v : s->min;
-            s->max = v > s->max || isnan(s->max) ? v : s->max;
+            if (v < s->min || isnan(s->min)) {
+                s->min = v;
+                s->min_at = k;
+            }
+            if (v > s->max || isnan(s->max)) {
+                s->max = v;
+                s->max_at = k;
+            }
             s->zeros += v == 0;
         }
     }

@@ -9,9 +9,10 @@
 
 /* What is in a map. Infinite values are in neither min nor max. */
 struct survey {
-    double min, max; /* NaN when there is no finite value         */
-    size_t missing;  /* NaN                                       */
-    size_t zeros;    /* nodes of value 0: no contact in pressures */
+    double min, max;       /* NaN when there is no finite value         */
+    size_t min_at, max_at; /* the first nodes of these values      */
+    size_t missing;        /* NaN                                       */
+    size_t zeros;          /* nodes of value 0: no contact in pressures */
 };
 
 void survey_map(const struct rc_grid *grid, struct survey *survey);

@@ -38,19 +38,46 @@ void choice_free(struct choice *choice);
 struct channel {
     const char *name, *title, *colormap;
     bool from_zero; /* the colours begin at 0 where no value is negative */
+    bool to_zero;   /* they end there                                    */
 };
 
 /* A channel that is not known is called by its own name, and what has both signs gets colours for
  * both. */
 struct channel channel_of(const struct rc_grid *grid, const struct survey *survey);
-/* LO:HI or LO,HI, in the unit of the grid; ends the tool where it is neither. Gives the text in SI,
- * valid until the next call. */
-const char *range_read(struct tool *tool, const char *text, const struct rc_grid *grid, double *lo,
-                       double *hi);
-/* The ends of the colours, or of the upright axis of a curve, when nobody chose them. */
+/* ---- range.c ---- */
+
+enum range_kind {
+    RANGE_AUTO, /* all values, but for outliers          */
+    RANGE_VALUES,
+    RANGE_PERCENT,
+    RANGE_SYMMETRIC, /* as far below 0 as above               */
+    RANGE_CLIP       /* without half a per cent at each end   */
+};
+
+struct range {
+    enum range_kind kind;
+    double low_percent, high_percent;
+    double lo, hi;
+    char note[80]; /* what the legend says of it; may be empty */
+};
+
+/* LO:HI or LO,HI in the unit of the grid, P%:Q% or symmetric; ends the tool where it is neither. */
+void range_read(struct tool *tool, const char *text, const struct rc_grid *grid,
+                struct range *range);
+/* "LO:HI" in SI, valid until the next call. */
+const char *range_text(const struct range *range);
+/* The ends of the colours, or of the upright axis of a curve, as far as nobody chose them. */
 void range_choose(const struct rc_grid *grid, const struct survey *survey,
-                  const struct colormap *map, const struct channel *what, bool curve, double *lo,
-                  double *hi);
+                  const struct colormap *map, const struct channel *what, bool curve,
+                  struct range *range);
+/* Moves the lower end above 0, to the least value above it, six decades down at most. */
+void range_take_logarithm(struct tool *tool, const struct rc_grid *grid, struct range *range);
+/* The least value; the end of the range where it is below that by rounding only. */
+double range_least(const struct rc_grid *grid, const struct survey *survey,
+                   const struct range *range);
+/* The value that so many per cent of the finite ones are below, straight between two of them; of a
+ * pressure only those in contact count. */
+double range_percentile(const struct rc_grid *grid, double percent);
 
 /* ---- subtitle.c ---- */
 
