@@ -385,7 +385,7 @@ cells_are_means_of_what_they_cover(void **state)
 {
     static const double v[] = {1, 3, 0, 2, NAN, 8, 5, 7, 0, 0, 6, NAN};
     struct rc_grid *g = grid_of("pressure", "Pa", 6, 2, v);
-    struct raster *r = raster_new(g, NULL, true, 3, 1, NULL);
+    struct raster *r = raster_new(g, true, 3, 1, NULL);
 
     (void)state;
     assert_non_null(r);
@@ -394,7 +394,7 @@ cells_are_means_of_what_they_cover(void **state)
     assert_true(fabs(r->v[1] - 2) <= 2 * rounding && r->none[1] == 0.75F);
     assert_true(fabs(r->v[2] - 7) <= 7 * rounding && r->missing[2] == 0.5F);
     raster_free(r);
-    r = raster_new(g, NULL, true, 6 * 5, 2 * 3, NULL); /* enlarged: every node a block of its own */
+    r = raster_new(g, true, 6 * 5, 2 * 3, NULL); /* enlarged: every node a block of its own */
     assert_non_null(r);
     for (size_t j = 0; j < r->h; j++)
         for (size_t i = 0; i < r->w; i++) {
@@ -420,7 +420,7 @@ contours_of_a_plane_are_straight(void **state)
     for (size_t k = 0; k < 35; k++)
         v[k] = 2.0 * (double)(k % 7) + 1;
     g = grid_of("height", "m", 7, 5, v);
-    r = raster_new(g, NULL, false, 7, 5, NULL);
+    r = raster_new(g, false, 7, 5, NULL);
     assert_int_equal(raster_contour(r, 4.5, &l, NULL), RC_OK); /* at column 1.75, middle 2.25 */
     for (size_t k = 0; k < l.n; k++) {
         assert_true(fabs(l.at[k][0] - 2.25) <= 2.25 * rounding);

@@ -14,9 +14,9 @@
 struct args {
     struct wish wish; /* which frame */
     const char *colormap, *range, *title;
-    const char *width, *font;
+    const char *width, *font, *window, *depths, *keep;
     double dpi;
-    bool contour, figure, raw, log, clip;
+    bool contour, figure, raw, log, clip, hertz;
 };
 
 /* clang-format off */
@@ -43,6 +43,14 @@ static const struct opt opts[] = {
      .help = "leave half a per cent of the nodes beyond each end of the colours"},
     {.name = "contour", .type = OPT_FLAG, .at = offsetof(struct args, contour), .result = true,
      .help = "draw lines at the marks of the colour bar, and the edge of contact"},
+    {.name = "hertz", .type = OPT_FLAG, .at = offsetof(struct args, hertz), .result = true,
+     .help = "draw the circle of Hertz: of a sphere added to the height, without roughness"},
+    {.name = "window", .type = OPT_TEXT, .at = offsetof(struct args, window), .result = true,
+     .arg = "X0:X1,Y0:Y1", .help = "the part of the map to draw; or contact: what touches; or all"},
+    {.name = "depth-range", .type = OPT_TEXT, .at = offsetof(struct args, depths), .result = true,
+     .arg = "Z0:Z1", .help = "the depths of a section to draw"},
+    {.name = "keep", .type = OPT_CHOICE, .at = offsetof(struct args, keep), .result = true,
+     .arg = "mean|max", .help = "of the nodes that share a pixel: their mean (default) or largest"},
     {.name = "figure", .type = OPT_FLAG, .at = offsetof(struct args, figure), .result = true,
      .help = "with axes, colour bar and title: the default"},
     {.name = "raw", .type = OPT_FLAG, .at = offsetof(struct args, raw), .result = true,
@@ -88,40 +96,6 @@ static bool
 is_profile(const struct rc_grid *g)
 {
     return (g->nx == 1) != (g->ny == 1) && rc_grid_get(g, "section") == NULL;
-}
-
-/* ---- sections: rows are depths ---- */
-
-/* Where the rows of a section begin and end; the surface bounds the first one. */
-static double *
-section_rows(struct tool *t, const struct rc_grid *g)
-{
-    const char *depths = rc_grid_get(g, "depths");
-    double *edge = malloc((g->ny + 1) * sizeof *edge);
-    struct numbers d = {0};
-    struct rc_err err;
-
-    if (edge == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %zu depths", g->ny);
-    if (depths != NULL && unit_numbers(depths, UNIT_M, &d, &err) != RC_OK)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "its key depths: %s", err.text);
-    if (depths != NULL && d.n != g->ny)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "its key depths holds %zu depths for %zu rows", d.n,
-                    g->ny);
-    for (size_t j = 0; j <= g->ny; j++)
-        edge[j] = ((double)j - 0.5) * g->dy;
-    for (size_t j = 1; depths != NULL && j < g->ny; j++) {
-        if (!(d.v[j] > d.v[j - 1]))
-            tool_die_at(t, g, EXIT_IMPOSSIBLE, "its key depths must rise from row to row");
-        edge[j] = 0.5 * (d.v[j] + d.v[j - 1]);
-    }
-    if (depths != NULL && g->ny > 1) {
-        edge[0] = d.v[0] - (edge[1] - d.v[0]);
-        edge[g->ny] = d.v[g->ny - 1] + (d.v[g->ny - 1] - edge[g->ny - 1]);
-    }
-    edge[0] = fmax(edge[0], 0);
-    free(d.v);
-    return edge;
 }
 
 /* ---- pictures ---- */
@@ -205,29 +179,45 @@ warn_of_family(struct tool *t, const char *wanted, const char *found)
                   wanted, found);
 }
 
-static void
-draw_figure(struct tool *t, const struct rc_grid *g, struct figure *f)
+/* A section on even rows, between the depths that are asked for. */
+static struct rc_grid *
+lay_section(struct tool *t, const struct args *a, const struct rc_grid *g, const struct survey *s,
+            struct figure *f, struct words *w)
 {
-    const char *section = rc_grid_get(g, "section");
-    double *rows = NULL;
+    double *depth = section_depths(t, g);
+    size_t at = fabs(s->min) > fabs(s->max) ? s->min_at : s->max_at;
+    struct rc_grid *even;
+
+    section_range(t, a->depths, g, depth, &f->top, &f->bottom);
+    f->across = strcmp(rc_grid_get(g, "section"), "x") == 0 ? "y" : "x";
+    f->down = "depth";
+    f->section = true;
+    f->largest_x = f->left + ((double)(at % g->nx) + 0.5) * g->dx;
+    f->largest_y = depth[at / g->nx];
+    if (f->largest_y >= f->top && f->largest_y <= f->bottom)
+        f->largest = words_largest(w, g, g->v[at], f->across, f->largest_x, f->largest_y);
+    even = section_even(t, g, depth, f->top, f->bottom);
+    free(depth);
+    return even;
+}
+
+static void
+draw_figure(struct tool *t, const struct args *a, const struct rc_grid *g, const struct survey *s,
+            struct figure *f)
+{
+    struct rc_grid *even = NULL;
+    struct words words;
     struct canvas *c;
     char text[512];
     struct rc_err err;
 
     f->across = "x";
     f->down = "y";
-    f->right = 0.5 * (double)g->nx * g->dx;
-    f->left = -f->right;
-    f->bottom = 0.5 * (double)g->ny * g->dy;
-    f->top = -f->bottom;
-    if (section != NULL) {
-        f->row_edge = rows = section_rows(t, g);
-        f->across = strcmp(section, "x") == 0 ? "y" : "x";
-        f->down = "depth";
-        f->top = rows[0];
-        f->bottom = rows[g->ny];
-    }
-    if ((c = figure_draw(f, g, &err)) == NULL)
+    if (rc_grid_get(g, "section") != NULL)
+        even = lay_section(t, a, g, s, f, &words);
+    if (a->hertz)
+        f->circle = words_hertz(t, &words, g, &f->radius);
+    if ((c = figure_draw(f, even == NULL ? g : even, &err)) == NULL)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     if (canvas_warning(c, text, sizeof text) != NULL)
         tool_warn(t, "%s", text);
@@ -235,7 +225,7 @@ draw_figure(struct tool *t, const struct rc_grid *g, struct figure *f)
         warn_of_family(t, f->family, canvas_set_family(c, f->family));
     write_picture(t, g, f, c);
     canvas_free(c);
-    free(rows);
+    rc_grid_free(even);
 }
 
 /* What nobody may overlook; NULL: nothing. */
@@ -245,6 +235,19 @@ stamp_of(const struct rc_grid *g)
     const char *converged = rc_grid_get(g, "converged");
 
     return converged != NULL && strcmp(converged, "no") == 0 ? "not converged" : NULL;
+}
+
+/* From which pressure on a node yields; 0: none does. */
+static double
+hardness_of(const struct rc_grid *g)
+{
+    const double rounding = 1e-9;
+    double hardness;
+
+    if (strcmp(g->channel, "pressure") != 0 || !rc_grid_number(g, "hardness", &hardness) ||
+        !(hardness > 0) || !isfinite(hardness))
+        return 0;
+    return (1 - rounding) * hardness;
 }
 
 /* Pixels when plain, or a length on paper. */
@@ -293,14 +296,17 @@ choose_range(struct tool *t, struct args *a, const struct rc_grid *g, const stru
 }
 
 static void
-render(struct tool *t, struct args *a, const struct rc_grid *g, bool largest)
+render(struct tool *t, struct args *a, struct rc_grid *g, bool largest)
 {
+    char title[256];
+    struct window w;
     struct survey s;
     struct subtitle subtitle = {.n = 0};
     struct channel what;
     struct range range;
     struct figure f;
 
+    window_cut(t, a->window, a->raw, g, &w);
     survey_map(g, &s);
     if (isnan(s.min))
         tool_die_at(t, g, EXIT_IMPOSSIBLE,
@@ -308,9 +314,10 @@ render(struct tool *t, struct args *a, const struct rc_grid *g, bool largest)
                     "nothing to draw",
                     g->nx * g->ny);
     what = channel_of(g, &s);
-    subtitle_write(&subtitle, g, &s, largest);
+    snprintf(title, sizeof title, "%s%s", what.title, w.contact ? " about the contact" : "");
+    subtitle_write(&subtitle, g, &s, w.part, largest);
     f = (struct figure){
-        .title = a->title == NULL ? what.title : a->title,
+        .title = a->title == NULL ? title : a->title,
         .subtitle = subtitle.text,
         .stamp = stamp_of(g),
         .quantity = what.title,
@@ -322,17 +329,25 @@ render(struct tool *t, struct args *a, const struct rc_grid *g, bool largest)
         .zero_is_none = strcmp(g->channel, "pressure") == 0,
         .zeros = s.zeros,
         .contour = a->contour,
+        .hard = hardness_of(g),
+        .keep_max = a->keep != NULL && strcmp(a->keep, "max") == 0,
+        .left = w.left,
+        .right = w.right,
+        .top = w.top,
+        .bottom = w.bottom,
         .vector = canvas_format(ending_of(t->out_name)) != CANVAS_PNG,
         .family = a->font,
     };
     read_width(t, a, &f);
     choose_range(t, a, g, &s, &what, &f, &range);
+    if (a->depths != NULL && rc_grid_get(g, "section") == NULL)
+        tool_warn(t, "--depth-range is for sections: this %s has no rows of depths", g->channel);
     if (a->contour && is_profile(g))
         tool_warn(t, "a profile is drawn as a curve: --contour does nothing");
     if (a->raw)
         write_picture(t, g, &f, NULL);
     else
-        draw_figure(t, g, &f);
+        draw_figure(t, a, g, &s, &f);
 }
 
 static void
@@ -349,6 +364,8 @@ check_options(struct tool *t, const struct args *a)
     if (a->raw && canvas_format(ending_of(t->out_name)) != CANVAS_PNG)
         tool_die(t, EXIT_USAGE,
                  "--raw has a pixel for each node, which only a PNG has: -o must end in .png");
+    if (a->raw && a->hertz)
+        tool_die(t, EXIT_USAGE, "--raw draws nothing but nodes: leave out --hertz");
     if (a->clip && a->range != NULL)
         tool_die(t, EXIT_USAGE, "--clip chooses the range: leave out --range");
     if (a->title != NULL && !rc_utf8_valid(a->title))

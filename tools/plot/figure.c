@@ -9,7 +9,8 @@
 #include "ticks.h"
 
 static const struct rgb rule = {0xdd, 0xdd, 0xdd}, curve_ink = {0x1f, 0x4e, 0x8c},
-                        light = {0xff, 0xff, 0xff};
+                        light = {0xff, 0xff, 0xff}, hard_ink = {0x00, 0x9e, 0x73},
+                        circle_ink = {0x1f, 0x8f, 0xd1};
 
 enum {
     STEPS = 512,      /* of the colours in the bar                                          */
@@ -116,33 +117,16 @@ paint(struct page *p, const struct raster *r, struct rc_err *err)
     return RC_OK;
 }
 
-/* From cells of a raster to the share of the plot's height: rows that are uneven lie where they
- * lie, and between their middles a line is straight. */
-static double
-down_at(const struct page *p, const struct raster *r, double y)
-{
-    const double *e = p->f->row_edge;
-    double j = floor(y - 0.5), a, b;
-    size_t k, ny = p->g->ny;
-
-    if (e == NULL || r->h != ny || ny < 2)
-        return y / (double)r->h;
-    k = j < 0 ? 0 : (size_t)j < ny - 1 ? (size_t)j : ny - 2;
-    a = 0.5 * (e[k] + e[k + 1]);
-    b = 0.5 * (e[k + 1] + e[k + 2]);
-    return (a + (y - 0.5 - (double)k) * (b - a) - e[0]) / (e[ny] - e[0]);
-}
-
 static void
 stroke_lines(struct page *p, struct lines *l, const struct raster *r, double width,
              struct rgb colour)
 {
     double x = (double)p->plot_x, y = (double)p->plot_y;
-    double sx = (double)p->plot_w / (double)r->w, h = (double)p->plot_h;
+    double sx = (double)p->plot_w / (double)r->w, sy = (double)p->plot_h / (double)r->h;
 
     for (size_t k = 0; k < l->n; k++) {
-        canvas_move(p->c, x + sx * l->at[k][0], y + h * down_at(p, r, l->at[k][1]));
-        canvas_draw_to(p->c, x + sx * l->at[k][2], y + h * down_at(p, r, l->at[k][3]));
+        canvas_move(p->c, x + sx * l->at[k][0], y + sy * l->at[k][1]);
+        canvas_draw_to(p->c, x + sx * l->at[k][2], y + sy * l->at[k][3]);
     }
     canvas_stroke(p->c, width, colour);
     l->n = 0;
@@ -152,6 +136,62 @@ static struct rgb
 line_colour(const struct figure *f, double value)
 {
     return colormap_is_dark(figure_colour(f, value)) ? light : page_ink;
+}
+
+/* Thinner than a node: a line must not hide the one that it goes around. */
+static double
+border_width(const struct page *p)
+{
+    double node = fmin((double)p->plot_w / (double)p->g->nx, (double)p->plot_h / (double)p->g->ny);
+
+    return fmin(1.5 * p->u, fmax(0.35 * node, 0.4 * p->u));
+}
+
+/* Where a place of the map, in metres, lies on the page. */
+static double
+page_x(const struct page *p, double x)
+{
+    return (double)p->plot_x + (x - p->f->left) / (p->f->right - p->f->left) * (double)p->plot_w;
+}
+
+static double
+page_y(const struct page *p, double y)
+{
+    return (double)p->plot_y + (y - p->f->top) / (p->f->bottom - p->f->top) * (double)p->plot_h;
+}
+
+static void
+draw_circle(struct page *p)
+{
+    const int steps = 360;
+
+    canvas_clip(p->c, (double)p->plot_x, (double)p->plot_y, (double)p->plot_w, (double)p->plot_h);
+    for (int k = 0; k <= steps; k++) {
+        double turn = 4 * acos(0.0) * k / steps;
+        double x = page_x(p, p->f->radius * cos(turn)), y = page_y(p, p->f->radius * sin(turn));
+
+        if (k == 0)
+            canvas_move(p->c, x, y);
+        else
+            canvas_draw_to(p->c, x, y);
+    }
+    canvas_dashes(p->c, 2 * p->u, 9 * p->u, circle_ink);
+    canvas_clip(p->c, 0, 0, 0, 0);
+}
+
+/* A cross with a light rim, seen on every colour. */
+static void
+draw_cross(struct page *p, double x, double y)
+{
+    for (int layer = 0; layer < 2; layer++) {
+        double reach = (layer == 0 ? 11 : 10) * p->u;
+
+        canvas_move(p->c, x - reach, y);
+        canvas_draw_to(p->c, x + reach, y);
+        canvas_move(p->c, x, y - reach);
+        canvas_draw_to(p->c, x, y + reach);
+        canvas_stroke(p->c, (layer == 0 ? 5 : 2) * p->u, layer == 0 ? light : page_ink);
+    }
 }
 
 static enum rc_status
@@ -168,19 +208,32 @@ draw_contours(struct page *p, const struct raster *r, struct rc_err *err)
         if (p->f->zero_is_none && k == 0)
             continue; /* the contact's edge says that better */
         status = raster_contour(r, level, &lines, err);
-        stroke_lines(p, &lines, r, 1.5 * p->u, line_colour(p->f, level));
+        stroke_lines(p, &lines, r, p->f->zero_is_none ? border_width(p) : 1.5 * p->u,
+                     line_colour(p->f, level));
     }
     if (status == RC_OK && p->f->zero_is_none) {
-        status = raster_edge(r, &lines, err);
-        stroke_lines(p, &lines, r, 1.5 * p->u, page_ink);
+        status = raster_border(p->g, 0, r->w, r->h, &lines, err);
+        stroke_lines(p, &lines, r, border_width(p), page_ink);
+    }
+    if (status == RC_OK && p->f->hard > 0) {
+        status = raster_border(p->g, p->f->hard, r->w, r->h, &lines, err);
+        stroke_lines(p, &lines, r, border_width(p), hard_ink);
     }
     canvas_clip(p->c, 0, 0, 0, 0);
     free(lines.at);
     return status;
 }
 
-/* In a PDF or SVG a node is a pixel, however large it is drawn; missing nodes are chequered and rows
- * of a section uneven, which takes the pixels of the page. Contours run through the nodes of a map
+static struct raster *
+new_raster(struct page *p, size_t w, size_t h, struct rc_err *err)
+{
+    if (p->f->keep_max && (w < p->g->nx || h < p->g->ny))
+        return raster_new_max(p->g, p->f->zero_is_none, w, h, err);
+    return raster_new(p->g, p->f->zero_is_none, w, h, err);
+}
+
+/* In a PDF or SVG a node is a pixel, however large it is drawn; missing nodes are chequered, which
+ * takes the pixels of the page. Contours run through the nodes of a map
  * that is enlarged, through the pixels of one that is reduced. */
 static enum rc_status
 draw_map(struct page *p, struct rc_err *err)
@@ -190,18 +243,17 @@ draw_map(struct page *p, struct rc_err *err)
     struct raster *r;
     enum rc_status status;
 
-    if (f->vector && f->missing == 0 && f->row_edge == NULL) {
+    if (f->vector && f->missing == 0) {
         w = nx < IMAGE_MOST ? nx : IMAGE_MOST;
         h = ny < IMAGE_MOST ? ny : IMAGE_MOST;
     }
-    if ((r = raster_new(p->g, f->row_edge, f->zero_is_none, w, h, err)) == NULL)
+    if ((r = new_raster(p, w, h, err)) == NULL)
         return RC_FAIL;
     status = paint(p, r, err);
     raster_free(r);
     if (!f->contour || status != RC_OK)
         return status;
-    r = raster_new(p->g, ny > p->plot_h ? f->row_edge : NULL, f->zero_is_none,
-                   nx < p->plot_w ? nx : p->plot_w, ny < p->plot_h ? ny : p->plot_h, err);
+    r = new_raster(p, nx < p->plot_w ? nx : p->plot_w, ny < p->plot_h ? ny : p->plot_h, err);
     if (r == NULL)
         return RC_FAIL;
     status = draw_contours(p, r, err);
@@ -386,6 +438,31 @@ draw_text(struct page *p)
     draw_stamp(p, middle, y);
 }
 
+/* Across n pixels and a third more, n high. */
+static void
+draw_swatch(struct page *p, enum swatch swatch, double x, double y, size_t n)
+{
+    double w = (double)(n + n / 3), h = (double)n, u = p->u;
+
+    if (swatch == SWATCH_LARGEST)
+        draw_cross(p, x + 0.5 * w, y + 0.5 * h);
+    if (swatch == SWATCH_CONTACT || swatch == SWATCH_HARD || swatch == SWATCH_CIRCLE) {
+        canvas_move(p->c, x, y + 0.5 * h);
+        canvas_draw_to(p->c, x + w, y + 0.5 * h);
+        if (swatch == SWATCH_CIRCLE)
+            canvas_dashes(p->c, 2 * u, 9 * u, circle_ink);
+        else
+            canvas_stroke(p->c, 2 * u, swatch == SWATCH_HARD ? hard_ink : page_ink);
+    }
+    if (swatch == SWATCH_NONE)
+        canvas_fill(p->c, x, y, w, h, p->f->map->none);
+    for (size_t j = 0; swatch == SWATCH_MISSING && j < n; j++)
+        for (size_t i = 0; i < n + n / 3; i++)
+            canvas_pixel(p->c, (size_t)x + i, (size_t)y + j, missing_at(p, i, j));
+    if (swatch == SWATCH_NONE || swatch == SWATCH_MISSING)
+        canvas_frame(p->c, x, y, w, h, fmax(1, round(1.2 * u)), page_ink);
+}
+
 static void
 draw_legend(struct page *p)
 {
@@ -401,14 +478,7 @@ draw_legend(struct page *p)
         double left = round(x + p->note[k].x), top = round(y + p->note[k].y);
         size_t n = (size_t)round(side);
 
-        if (p->note[k].swatch == SWATCH_NONE)
-            canvas_fill(p->c, left, top, (double)(n + n / 3), (double)n, p->f->map->none);
-        for (size_t j = 0; p->note[k].swatch == SWATCH_MISSING && j < n; j++)
-            for (size_t i = 0; i < n + n / 3; i++)
-                canvas_pixel(p->c, (size_t)left + i, (size_t)top + j, missing_at(p, i, j));
-        if (p->note[k].swatch != SWATCH_NOTHING)
-            canvas_frame(p->c, left, top, (double)(n + n / 3), (double)n, fmax(1, round(1.2 * u)),
-                         page_ink);
+        draw_swatch(p, p->note[k].swatch, left, top, n);
         canvas_text(p->c, &p->small, left + page_swatch(p, k),
                     top + 0.5 * side + 0.36 * p->small.size, 0, p->note[k].text);
     }
@@ -428,6 +498,10 @@ draw(struct page *p, struct rc_err *err)
     } else {
         if (draw_map(p, err) != RC_OK)
             return RC_FAIL;
+        if (p->f->circle != NULL)
+            draw_circle(p);
+        if (p->f->largest != NULL)
+            draw_cross(p, page_x(p, p->f->largest_x), page_y(p, p->f->largest_y));
         draw_bar(p);
         draw_marks_upright(p, &p->down, x, y, h, true, true);
     }
@@ -440,8 +514,7 @@ draw(struct page *p, struct rc_err *err)
 struct canvas *
 figure_draw(const struct figure *f, const struct rc_grid *g, struct rc_err *err)
 {
-    struct page page = {
-        .f = f, .g = g, .curve = f->row_edge == NULL && (g->nx == 1) != (g->ny == 1)};
+    struct page page = {.f = f, .g = g, .curve = !f->section && (g->nx == 1) != (g->ny == 1)};
 
     if ((page.c = canvas_new(1, 1, err)) == NULL) /* to measure text on */
         return NULL;

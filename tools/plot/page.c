@@ -170,8 +170,9 @@ set_axes(struct page *p)
         set_axis(&p->across, f->down, "m", f->top, f->bottom, y);
         return;
     }
-    set_axis(&p->across, f->across, "m", f->left, f->right, x < 0.01 * both ? x : both);
-    set_axis(&p->down, f->down, "m", f->top, f->bottom, y < 0.01 * both ? y : both);
+    set_axis(&p->across, f->across, "m", f->left, f->right,
+             f->section || x < 0.01 * both ? x : both);
+    set_axis(&p->down, f->down, "m", f->top, f->bottom, f->section || y < 0.01 * both ? y : both);
 }
 
 double
@@ -302,6 +303,14 @@ set_legend(struct page *p, double width)
              p->f->missing, p->g->nx * p->g->ny);
     if (p->f->missing > 0)
         add_note(p, p->curve ? SWATCH_NOTHING : SWATCH_MISSING, text);
+    if (p->f->contour && p->f->zero_is_none && !p->curve)
+        add_note(p, SWATCH_CONTACT, "edge of contact");
+    if (p->f->contour && p->f->hard > 0 && p->f->max >= p->f->hard && !p->curve)
+        add_note(p, SWATCH_HARD, "pressure at the hardness");
+    if (p->f->circle != NULL && !p->curve)
+        add_note(p, SWATCH_CIRCLE, p->f->circle);
+    if (p->f->largest != NULL && !p->curve)
+        add_note(p, SWATCH_LARGEST, p->f->largest);
     if (p->f->note != NULL && !p->curve)
         add_note(p, SWATCH_NOTHING, p->f->note);
     if (p->distorted)

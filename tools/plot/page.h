@@ -13,7 +13,7 @@
 enum {
     LINE = 1024, /* bytes of a line of text */
     LINES = 4,
-    NOTES = 4,
+    NOTES = 8,
 };
 
 struct axis {
@@ -33,7 +33,11 @@ struct text {
 enum swatch {
     SWATCH_NOTHING,
     SWATCH_NONE,
-    SWATCH_MISSING
+    SWATCH_MISSING,
+    SWATCH_CONTACT,
+    SWATCH_HARD,
+    SWATCH_CIRCLE,
+    SWATCH_LARGEST
 };
 
 struct page {

@@ -44,6 +44,32 @@ struct channel {
 /* A channel that is not known is called by its own name, and what has both signs gets colours for
  * both. */
 struct channel channel_of(const struct rc_grid *grid, const struct survey *survey);
+/* ---- window.c ---- */
+
+struct window {
+    double left, right, top, bottom; /* metres from the middle of the whole map, its outer edges */
+    double part;                     /* of the map's area that is drawn                          */
+    bool contact;                    /* it is about what touches                                 */
+};
+
+/* Cuts the map to the window of `text`: X0:X1,Y0:Y1, contact, all, or NULL: about the contact where
+ * that is a speck of the map, unless each node is to be a pixel (`raw`). The values move to the front
+ * of the grid. */
+void window_cut(struct tool *tool, const char *text, bool raw, struct rc_grid *grid,
+                struct window *window);
+
+/* ---- section.c ---- */
+
+/* The depths of the rows of a section, metres, which the caller frees. */
+double *section_depths(struct tool *tool, const struct rc_grid *grid);
+/* Which depths are drawn: all, or those of `text`, Z0:Z1. */
+void section_range(struct tool *tool, const char *text, const struct rc_grid *grid,
+                   const double *depth, double *top, double *bottom);
+/* The section from top to bottom on even rows, between its own ones a curve without corners that
+ * never leaves the values beside it, and straight between columns. */
+struct rc_grid *section_even(struct tool *tool, const struct rc_grid *grid, const double *depth,
+                             double top, double bottom);
+
 /* ---- range.c ---- */
 
 enum range_kind {
@@ -86,8 +112,20 @@ struct subtitle {
     size_t n;
 };
 
-/* `largest`: of several depths this one was chosen because its size is largest. */
+/* `part` of the map is drawn; `largest`: of several depths this one was chosen because its size is
+ * largest. */
 void subtitle_write(struct subtitle *subtitle, const struct rc_grid *grid,
-                    const struct survey *survey, bool largest);
+                    const struct survey *survey, double part, bool largest);
+
+struct words { /* of the legend */
+    char largest[256], circle[96];
+};
+
+/* "largest 2.3 GPa at x = 3 µm, depth 12 µm" */
+const char *words_largest(struct words *words, const struct rc_grid *grid, double value,
+                          const char *across, double x, double depth);
+/* "Hertz, radius 12 µm", and that radius; ends the tool when the keys do not say it. */
+const char *words_hertz(struct tool *tool, struct words *words, const struct rc_grid *grid,
+                        double *radius);
 
 #endif
