@@ -359,6 +359,106 @@ lightness_rises_and_evenly(void **state)
     }
 }
 
+/* ---- as other eyes see the colours ---- */
+
+static const struct {
+    const char *name;
+    double of[3][3]; /* on linear red, green, blue */
+} eyes[] = {
+    {"all cones", {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
+    /* Machado, Oliveira and Fernandes 2009, severity 1 */
+    {"protanopia",
+     {{0.152286, 1.052583, -0.204868},
+      {0.114503, 0.786281, 0.099216},
+      {-0.003882, -0.048116, 1.051998}}},
+    {"deuteranopia",
+     {{0.367322, 0.860646, -0.227968},
+      {0.280085, 0.672501, 0.047413},
+      {-0.011820, 0.042940, 0.968881}}},
+    {"tritanopia",
+     {{1.255528, -0.076749, -0.178779},
+      {-0.078411, 0.930809, 0.147602},
+      {0.004733, 0.691367, 0.303900}}},
+};
+
+static double
+cube_root(double t)
+{
+    return t > 216.0 / 24389 ? cbrt(t) : (t * 24389 / 27 + 16) / 116;
+}
+
+/* CIELAB of a colour seen by those eyes (IEC 61966-2-1, D65). */
+static void
+seen(struct rgb c, size_t by, double lab[3])
+{
+    static const double xyz[3][3] = {
+        {0.4124, 0.3576, 0.1805}, {0.2126, 0.7152, 0.0722}, {0.0193, 0.1192, 0.9505}};
+    static const double white[3] = {0.9505, 1, 1.089};
+    const unsigned char byte[3] = {c.r, c.g, c.b};
+    double linear[3], other[3] = {0}, f[3];
+
+    for (int k = 0; k < 3; k++) {
+        double s = byte[k] / 255.0;
+        linear[k] = s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4);
+    }
+    for (int k = 0; k < 3; k++) {
+        for (int l = 0; l < 3; l++)
+            other[k] += eyes[by].of[k][l] * linear[l];
+        other[k] = fmin(fmax(other[k], 0), 1);
+    }
+    for (int k = 0; k < 3; k++) {
+        double sum = 0;
+        for (int l = 0; l < 3; l++)
+            sum += xyz[k][l] * other[l];
+        f[k] = cube_root(sum / white[k]);
+    }
+    lab[0] = 116 * f[1] - 16;
+    lab[1] = 500 * (f[0] - f[1]);
+    lab[2] = 200 * (f[1] - f[2]);
+}
+
+static double
+difference(const struct colormap *map, double s, double t, size_t by)
+{
+    double a[3], b[3];
+
+    seen(colormap_at(map, s), by, a);
+    seen(colormap_at(map, t), by, b);
+    return sqrt(pow(a[0] - b[0], 2) + pow(a[1] - b[1], 2) + pow(a[2] - b[2], 2));
+}
+
+/* Lightness goes one way along a map, or along each half of one about 0, and what is a tenth of the
+ * range apart looks different: 5 is twice what is just noticed. */
+static void
+other_eyes_tell_values_apart(void **state)
+{
+    const char *name;
+
+    (void)state;
+    for (size_t m = 0; (name = colormap_name(m)) != NULL; m++)
+        for (size_t by = 0; by < sizeof eyes / sizeof *eyes; by++) {
+            const struct colormap *map = colormap_find(name);
+            double last[3], lab[3];
+
+            seen(colormap_at(map, 0), by, last);
+            for (int k = 1; k <= 64; k++) {
+                bool rises = !map->diverging || k <= 32;
+
+                seen(colormap_at(map, k / 64.0), by, lab);
+                if (rises ? lab[0] <= last[0] : lab[0] >= last[0])
+                    fail_msg("%s, %s: lightness turns at %d of 64", name, eyes[by].name, k);
+                memcpy(last, lab, sizeof last);
+            }
+            for (int k = 0; k <= 54; k++)
+                if (!(map->diverging && k < 30 && k + 6 > 30) &&
+                    difference(map, k / 60.0, (k + 6) / 60.0, by) < 5)
+                    fail_msg("%s, %s: too alike from %d of 60", name, eyes[by].name, k);
+            for (int k = 8; map->diverging && k <= 30; k++)
+                if (difference(map, (30 - k) / 60.0, (30 + k) / 60.0, by) < 10)
+                    fail_msg("%s, %s: both signs alike at %d of 30", name, eyes[by].name, k);
+        }
+}
+
 static void
 bluered_is_as_light_on_both_sides(void **state)
 {
@@ -450,6 +550,11 @@ numbers_read_as_people_write_them(void **state)
         {999.96, "m", "1 km"},
         {0.31, "1", "0.31"},
         {2e-5, "rad", "20·10⁻⁶ rad"},
+        {3.5e-24, "m4", "3.5·10⁻²⁴ m⁴"},
+        {12, "W/m2*K", "12 W/m²·K"},
+        {12, "m-1", "12 m⁻¹"},
+        {12, "um", "12 µm"},
+        {12, "H2O", "12 H2O"},
     };
     static const char *const labels[] = {"−0.2", "0.0", "0.2", "0.4", "0.6"};
     char text[TICKS_TEXT];
@@ -665,6 +770,7 @@ main(void)
         cmocka_unit_test(missing_and_no_contact_are_no_values),
         cmocka_unit_test(lightness_rises_and_evenly),
         cmocka_unit_test(bluered_is_as_light_on_both_sides),
+        cmocka_unit_test(other_eyes_tell_values_apart),
         cmocka_unit_test(cells_are_means_of_what_they_cover),
         cmocka_unit_test(contours_of_a_plane_are_straight),
         cmocka_unit_test(numbers_read_as_people_write_them),

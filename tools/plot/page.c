@@ -33,6 +33,7 @@ copy_text(char line[LINE], const char *text, size_t n)
     line[n] = '\0';
 }
 
+/* Cut behind a word, unless the first one is too long already. */
 static void
 shorten(struct page *p, const struct canvas_font *font, double width, char line[LINE])
 {
@@ -42,7 +43,13 @@ shorten(struct page *p, const struct canvas_font *font, double width, char line[
         return;
     n = n < LINE - 4 ? n : LINE - 4;
     do {
-        n = whole_characters(line, n - 1);
+        size_t word = n - 1;
+
+        while (word > 0 && line[word] != ' ')
+            word--;
+        while (word > 0 && line[word - 1] == ' ')
+            word--;
+        n = word > 0 ? word : whole_characters(line, n - 1);
         strcpy(line + n, CUT);
     } while (n > 0 && canvas_text_width(p->c, font, line) > width);
 }
@@ -343,6 +350,22 @@ overhang(struct page *p)
     return fmax(0, 0.5 * (longest - (double)p->plot_h));
 }
 
+static double
+longest_word(struct page *p, const struct canvas_font *font, const char *text)
+{
+    char word[LINE];
+    double longest = 1;
+
+    while (*text != '\0') {
+        size_t n = piece(text, " ");
+
+        copy_text(word, text, n);
+        longest = fmax(longest, canvas_text_width(p->c, font, word));
+        text += text[n] == '\0' ? n : n + 1;
+    }
+    return longest;
+}
+
 static void
 set_page(struct page *p)
 {
@@ -351,6 +374,7 @@ set_page(struct page *p)
 
     p->w = p->f->width != 0 ? p->f->width : (size_t)ceil(fmax(content, 680 * u));
     text_w = (double)p->w - 48 * u;
+    p->heading.size *= fmin(1, fmax(0.5, text_w / longest_word(p, &p->heading, p->f->title)));
     wrap(p, &p->heading, text_w, " ", p->f->title, &p->title);
     wrap(p, &p->subheading, text_w, BETWEEN, p->f->subtitle, &p->subtitle);
     set_legend(p, text_w);

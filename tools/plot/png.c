@@ -6,6 +6,11 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <zlib.h>
+
+enum {
+    FAST = 4000000 /* pixels from which on a PNG is written quickly rather than small */
+};
 
 /* A PNG being written. */
 struct picture {
@@ -81,6 +86,11 @@ start(struct picture *p, FILE *file, size_t w, size_t h, double dpi,
     png_set_user_limits(p->png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
     png_set_IHDR(p->png, p->info, (png_uint_32)w, (png_uint_32)h, 8, PNG_COLOR_TYPE_RGB,
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    if (w > FAST / h) { /* rows of a map are much like the ones above them */
+        png_set_compression_strategy(p->png, Z_RLE);
+        png_set_compression_level(p->png, 1);
+        png_set_filter(p->png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
+    }
     png_set_sRGB(p->png, p->info, PNG_sRGB_INTENT_PERCEPTUAL);
     if (dpi > 0) {
         png_uint_32 a_metre = (png_uint_32)(dpi / 0.0254 + 0.5);

@@ -192,7 +192,7 @@ put_base64(struct svg *s, const unsigned char *bytes, size_t n)
 /* Some viewers blend the pixels of an image into each other whatever the file asks for: pixels that
  * are made of many stay sharp but for their very edge. */
 enum {
-    SHARP = 2048, /* pixels a side up to which that is done */
+    SHARP = 1600, /* pixels a side up to which that is done */
 };
 
 struct enlarged {

@@ -1,5 +1,6 @@
 #include "ticks.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -45,16 +46,17 @@ takes_prefix(const char *unit)
     return false;
 }
 
+static const char *const raised_digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+
 const char *
 power_text(char text[TICKS_TEXT], int power)
 {
-    static const char *const raised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
     char digits[16];
 
     snprintf(digits, sizeof digits, "%d", abs(power));
     strcpy(text, power < 0 ? "10⁻" : "10");
     for (const char *s = digits; *s != '\0'; s++)
-        strcat(text, raised[*s - '0']);
+        strcat(text, raised_digits[*s - '0']);
     return text;
 }
 
@@ -67,11 +69,39 @@ prefix_of(int power)
     return prefix != NULL && strcmp(prefix, "u") == 0 ? "µ" : prefix;
 }
 
+/* A unit as it is printed: powers raised, a real mu and a real point. A digit is a power where a
+ * letter is before it and none behind it: m2, not H2O. */
+static const char *
+unit_text(char text[TICKS_TEXT], const char *unit)
+{
+    size_t n = 0;
+
+    if (strcmp(unit, "um") == 0)
+        unit = "µm";
+    for (const char *s = unit; *s != '\0' && n + 8 < TICKS_TEXT; s++) {
+        bool behind = s > unit && isalpha((unsigned char)s[-1]);
+        bool minus = behind && *s == '-' && isdigit((unsigned char)s[1]);
+        const char *digit = minus ? s + 1 : s;
+        bool power = behind && isdigit((unsigned char)*digit) && !isalnum((unsigned char)digit[1]);
+
+        if (power) {
+            n += (size_t)sprintf(text + n, "%s%s", minus ? "⁻" : "", raised_digits[*digit - '0']);
+            s = digit;
+        } else if (*s == '*') {
+            n += (size_t)sprintf(text + n, "·");
+        } else {
+            text[n++] = *s;
+        }
+    }
+    text[n] = '\0';
+    return text;
+}
+
 void
 scale_choose(struct scale *scale, double largest, const char *unit)
 {
     double size = fabs(largest);
-    char text[TICKS_TEXT];
+    char text[TICKS_TEXT], printed[TICKS_TEXT];
     int power = size > 0 && isfinite(size) ? 3 * (int)floor(log10(size) / 3 + 1e-12) : 0;
 
     if (strcmp(unit, "1") == 0)
@@ -82,10 +112,10 @@ scale_choose(struct scale *scale, double largest, const char *unit)
     if (takes_prefix(unit) && prefix_of(power) != NULL)
         snprintf(scale->unit, sizeof scale->unit, "%s%s", prefix_of(power), unit);
     else if (power == 0)
-        snprintf(scale->unit, sizeof scale->unit, "%.48s", unit);
+        snprintf(scale->unit, sizeof scale->unit, "%.48s", unit_text(printed, unit));
     else
         snprintf(scale->unit, sizeof scale->unit, "%.30s%s%.24s", power_text(text, power),
-                 *unit == '\0' ? "" : " ", unit);
+                 *unit == '\0' ? "" : " ", unit_text(printed, unit));
 }
 
 const char *
