@@ -75,6 +75,12 @@ claim "  and 0 at a mark" grep -q '^0 ' marks.txt
 made 30 sxx Pa '($i - 3) * 1e7' >signed.rcg
 claim "a stress of both signs" rc-render --width 1200 -o signed.svg signed.rcg
 marks_lie signed.svg -260 260 0 "has 0 in the middle"
+made 30 pressure Pa '$i < 9 ? 0 : 1e6 * ($i - 8) ** 2' >touch.rcg
+claim "a pressure" rc-render --width 1200 --log -o touch.svg touch.rcg
+claim "by the logarithm begins where it touches, and nothing is below" test "$(arrows touch.svg)" = 0
+marks_lie touch.svg 1 441 1 "  nor off its mark"
+claim "a pressure from 10 MPa" rc-render --width 1200 --range 10MPa:500MPa -o touch.svg touch.rcg
+claim "has contact below" test "$(arrows touch.svg)" = 1
 made 30 szz Pa '-$i * 1e7' >pressed.rcg
 claim "a stress of one sign" rc-render --width 1200 -o pressed.svg pressed.rcg
 marks_lie pressed.svg -290 0 0 "ends at 0"

@@ -336,5 +336,7 @@ range_least(const struct rc_grid *g, const struct survey *s, const struct range 
 {
     double slack = rounding(g, fmax(fabs(s->min), fabs(s->max)));
 
+    if (strcmp(g->channel, "pressure") == 0 && s->min == 0)
+        return range_percentile(g, 0); /* what does not touch is not below the range */
     return s->min < r->lo && s->min >= r->lo - slack ? r->lo : s->min;
 }
