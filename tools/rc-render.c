@@ -239,15 +239,17 @@ stamp_of(const struct rc_grid *g)
 
 /* From which pressure on a node yields; 0: none does. */
 static double
-hardness_of(const struct rc_grid *g)
+hardness_of(const struct rc_grid *p)
 {
     const double rounding = 1e-9;
-    double hardness;
+    double hardness, largest = 0;
 
-    if (strcmp(g->channel, "pressure") != 0 || !rc_grid_number(g, "hardness", &hardness) ||
-        !(hardness > 0) || !isfinite(hardness))
+    if (p == NULL || !rc_grid_number(p, "hardness", &hardness) || !(hardness > 0))
         return 0;
-    return (1 - rounding) * hardness;
+    for (size_t k = 0; k < p->nx * p->ny; k++)
+        largest = fmax(largest, p->v[k]);
+    hardness *= 1 - rounding;
+    return largest >= hardness ? hardness : 0;
 }
 
 /* Pixels when plain, or a length on paper. */
@@ -296,8 +298,9 @@ choose_range(struct tool *t, struct args *a, const struct rc_grid *g, const stru
 }
 
 static void
-render(struct tool *t, struct args *a, struct rc_grid *g, bool largest)
+render(struct tool *t, struct args *a, struct rc_grid *g, struct rc_grid *beside, bool largest)
 {
+    const struct rc_grid *pressure = strcmp(g->channel, "pressure") == 0 ? g : beside;
     char title[256];
     struct window w;
     struct survey s;
@@ -306,7 +309,7 @@ render(struct tool *t, struct args *a, struct rc_grid *g, bool largest)
     struct range range;
     struct figure f;
 
-    window_cut(t, a->window, a->raw, g, &w);
+    window_cut(t, a->window, a->raw, g, beside, &w);
     survey_map(g, &s);
     if (isnan(s.min))
         tool_die_at(t, g, EXIT_IMPOSSIBLE,
@@ -329,7 +332,8 @@ render(struct tool *t, struct args *a, struct rc_grid *g, bool largest)
         .zero_is_none = strcmp(g->channel, "pressure") == 0,
         .zeros = s.zeros,
         .contour = a->contour,
-        .hard = hardness_of(g),
+        .pressure = pressure,
+        .hard = hardness_of(pressure),
         .keep_max = a->keep != NULL && strcmp(a->keep, "max") == 0,
         .left = w.left,
         .right = w.right,
@@ -382,10 +386,12 @@ main(int argc, char **argv)
 
     tool_start(&t, &info, argc, argv, &args);
     check_options(&t, &args);
+    args.wish.contact =
+        args.contour || (args.window != NULL && strcmp(args.window, "contact") == 0);
     while ((g = tool_read(&t)) != NULL)
         choice_offer(&choice, &t, g);
     choice_settle(&choice, &t);
-    render(&t, &args, choice.grid, choice.by_size);
+    render(&t, &args, choice.grid, choice.pressure, choice.by_size);
     choice_free(&choice);
     return tool_finish(&t);
 }

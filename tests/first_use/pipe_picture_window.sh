@@ -100,6 +100,15 @@ claim "the yielded nodes have their border" eval "paths k.svg '#009e73' 1 -43 -2
 claim "  and a word" says 'pressure at the hardness' cat k.svg
 claim "the contact has its border" eval \
     "grep -n 'path' k.svg >/dev/null; n=\$(grep -c 'fill=\"none\".*stroke=\"#222222\"' k.svg); for k in \$(seq \$n); do paths k.svg '#222222' \$k -43 -27 -75 -59 | within -40 -30 -70 -64 && break; done"
+# the same lines over the height of the case, which comes behind its pressure
+{ made 200 200 pressure Pa "$keys" '$i >= 60 && $i < 70 && $j >= 30 && $j < 36 ? ($i < 64 ? 2e9 : 1e8 * ($i - 59)) : 0' | sed '/^RCGEND/d'
+  made 200 200 height m '' '0' | sed 's/^RCGEND 1/RCGEND 2/'; } >both.rcg
+claim "the height with its contact" rc-render --width 1200 --channel height --window contact --contour -o both.svg both.rcg
+axes both.svg -43 -27 -75 -59 "is windowed by the pressure"
+claim "  what yields has its border there too" eval "paths both.svg '#009e73' 1 -43 -27 -75 -59 | within -40 -36 -70 -64"
+claim "  and the title says what it is" says '>Height about the contact</text>' cat both.svg
+claim "without these options all of it is drawn" rc-render --width 1200 --channel height -o both.svg both.rcg
+axes both.svg -100 100 -100 100 "the whole height"
 # a single node of a map where it is two pixels wide, and lines that are thinner than that
 made 400 400 pressure Pa '' '$i == 200 && $j == 100 || $i > 250 ? 1e9 : 0' >node.rcg
 claim "a contact of one node" rc-render --width 1200 --contour -o n.svg node.rcg

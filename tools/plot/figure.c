@@ -211,12 +211,12 @@ draw_contours(struct page *p, const struct raster *r, struct rc_err *err)
         stroke_lines(p, &lines, r, p->f->zero_is_none ? border_width(p) : 1.5 * p->u,
                      line_colour(p->f, level));
     }
-    if (status == RC_OK && p->f->zero_is_none) {
-        status = raster_border(p->g, 0, r->w, r->h, &lines, err);
+    if (status == RC_OK && p->f->pressure != NULL) {
+        status = raster_border(p->f->pressure, 0, r->w, r->h, &lines, err);
         stroke_lines(p, &lines, r, border_width(p), page_ink);
     }
     if (status == RC_OK && p->f->hard > 0) {
-        status = raster_border(p->g, p->f->hard, r->w, r->h, &lines, err);
+        status = raster_border(p->f->pressure, p->f->hard, r->w, r->h, &lines, err);
         stroke_lines(p, &lines, r, border_width(p), hard_ink);
     }
     canvas_clip(p->c, 0, 0, 0, 0);

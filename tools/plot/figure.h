@@ -32,10 +32,11 @@ struct figure {
     bool section;              /* y is depth: its axis has a unit of its own            */
     const char *largest;       /* a cross at (x, y), and this in the legend; NULL: none */
     double largest_x, largest_y;
-    const char *circle; /* dashes about the origin, and this in the legend; NULL */
-    double radius;      /* metres                                                */
-    double hard;        /* with `contour`: a line about what reaches it; 0: none */
-    bool keep_max;      /* a reduced map keeps the largest value of each pixel   */
+    const char *circle;             /* dashes about the origin, and this in the legend; NULL */
+    double radius;                  /* metres                                                */
+    const struct rc_grid *pressure; /* on the same grid: `contour` has its contact; NULL   */
+    double hard;   /* of these some reach it, and have a line about them; 0: none */
+    bool keep_max; /* a reduced map keeps the largest value of each pixel   */
     const struct colormap *map;
     double lo, hi;      /* values at the ends of the colour bar, lo < hi         */
     bool log;           /* the colours go by the logarithm; 0 < lo               */

@@ -310,9 +310,9 @@ set_legend(struct page *p, double width)
              p->f->missing, p->g->nx * p->g->ny);
     if (p->f->missing > 0)
         add_note(p, p->curve ? SWATCH_NOTHING : SWATCH_MISSING, text);
-    if (p->f->contour && p->f->zero_is_none && !p->curve)
+    if (p->f->contour && p->f->pressure != NULL && !p->curve)
         add_note(p, SWATCH_CONTACT, "edge of contact");
-    if (p->f->contour && p->f->hard > 0 && p->f->max >= p->f->hard && !p->curve)
+    if (p->f->contour && p->f->hard > 0 && !p->curve)
         add_note(p, SWATCH_HARD, "pressure at the hardness");
     if (p->f->circle != NULL && !p->curve)
         add_note(p, SWATCH_CIRCLE, p->f->circle);

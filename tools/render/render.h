@@ -14,14 +14,16 @@ struct wish {
     const char *section; /* "x" or "y": a section across that axis; NULL: whatever    */
     double depth;        /* metres, met within a thousandth; NAN: whatever            */
     size_t number;       /* of the case; 0: the first                                 */
+    bool contact;        /* the pressure of its case is kept too                      */
 };
 
 struct choice {
     const struct wish *wish;
-    struct rc_grid *grid; /* the best so far; NULL: none matched                      */
-    double size;          /* its largest |value|                                      */
-    bool by_size;         /* settled: preferred to other depths for that              */
-    struct seen *seen;    /* every frame that came by, without its values             */
+    struct rc_grid *grid;     /* the best so far; NULL: none matched                      */
+    struct rc_grid *pressure; /* of its case, on its grid; NULL: none, or it is `grid`  */
+    double size;              /* its largest |value|                                      */
+    bool by_size;             /* settled: preferred to other depths for that              */
+    struct seen *seen;        /* every frame that came by, without its values             */
     size_t n, capacity;
 };
 
@@ -52,11 +54,11 @@ struct window {
     bool contact;                    /* it is about what touches                                 */
 };
 
-/* Cuts the map to the window of `text`: X0:X1,Y0:Y1, contact, all, or NULL: about the contact where
- * that is a speck of the map, unless each node is to be a pixel (`raw`). The values move to the front
- * of the grid. */
+/* Cuts the map, and the pressure beside it unless that is NULL, to the window of `text`:
+ * X0:X1,Y0:Y1, contact, all, or NULL: about the contact where that is a speck of the map of a
+ * pressure, unless each node is to be a pixel (`raw`). The values move to the front of the grids. */
 void window_cut(struct tool *tool, const char *text, bool raw, struct rc_grid *grid,
-                struct window *window);
+                struct rc_grid *pressure, struct window *window);
 
 /* ---- section.c ---- */
 

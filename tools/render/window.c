@@ -18,23 +18,35 @@ place(const struct rc_grid *g, struct window *w)
     w->top = -w->bottom;
 }
 
-/* Keeps columns x0 to x1 and rows y0 to y1, the last ones not among them, where the values are. */
+/* Nodes of a window: first and behind the last, along each axis. */
+struct box {
+    size_t x0, x1, y0, y1;
+};
+
 static void
-cut(struct rc_grid *g, struct window *w, size_t x0, size_t x1, size_t y0, size_t y1)
+cut_values(struct rc_grid *g, size_t x0, size_t nx, size_t y0, size_t ny)
 {
-    size_t nx = x1 - x0, ny = y1 - y0;
+    for (size_t j = 0; j < ny; j++)
+        memmove(g->v + j * nx, g->v + (y0 + j) * g->nx + x0, nx * sizeof *g->v);
+    g->nx = nx;
+    g->ny = ny;
+}
+
+static void
+cut(struct rc_grid *g, struct rc_grid *pressure, struct window *w, const struct box *b)
+{
+    size_t x0 = b->x0, x1 = b->x1, y0 = b->y0, y1 = b->y1, nx = x1 - x0, ny = y1 - y0;
 
     if (nx == g->nx && ny == g->ny)
         return;
-    for (size_t j = 0; j < ny; j++)
-        memmove(g->v + j * nx, g->v + (y0 + j) * g->nx + x0, nx * sizeof *g->v);
+    w->part = (double)nx * (double)ny / ((double)g->nx * (double)g->ny);
+    cut_values(g, x0, nx, y0, ny);
+    if (pressure != NULL)
+        cut_values(pressure, x0, nx, y0, ny);
     w->right = w->left + (double)x1 * g->dx;
     w->left += (double)x0 * g->dx;
     w->bottom = w->top + (double)y1 * g->dy;
     w->top += (double)y0 * g->dy;
-    w->part = (double)nx * (double)ny / ((double)g->nx * (double)g->ny);
-    g->nx = nx;
-    g->ny = ny;
 }
 
 /* Nodes from first to behind last whose middles lie from lo to hi, of n about the origin. */
@@ -54,11 +66,6 @@ nodes_between(double lo, double hi, size_t n, double step, size_t *first, size_t
 }
 
 /* ---- the contact ---- */
-
-/* Nodes that touch: first and behind the last, along each axis. */
-struct box {
-    size_t x0, x1, y0, y1;
-};
 
 static bool
 find_contact(const struct rc_grid *g, struct box *b)
@@ -135,7 +142,8 @@ read_pair(struct tool *t, const char *window, const char *text, double pair[2])
 }
 
 static void
-cut_lengths(struct tool *t, const char *text, struct rc_grid *g, struct window *w)
+cut_lengths(struct tool *t, const char *text, struct rc_grid *g, struct rc_grid *pressure,
+            struct window *w)
 {
     bool section = rc_grid_get(g, "section") != NULL;
     char first[256], at[TICKS_TEXT], end[TICKS_TEXT];
@@ -160,31 +168,34 @@ cut_lengths(struct tool *t, const char *text, struct rc_grid *g, struct window *
                     "%s below it",
                     text, scale_value(at, 0.5 * (double)g->nx * g->dx, "m"),
                     scale_value(end, 0.5 * (double)g->ny * g->dy, "m"));
-    cut(g, w, b.x0, b.x1, b.y0, b.y1);
+    cut(g, pressure, w, &b);
 }
 
 void
-window_cut(struct tool *t, const char *text, bool raw, struct rc_grid *g, struct window *w)
+window_cut(struct tool *t, const char *text, bool raw, struct rc_grid *g, struct rc_grid *pressure,
+           struct window *w)
 {
     const double speck = 0.25; /* of the sides of the map */
-    bool pressure = strcmp(g->channel, "pressure") == 0, asked;
+    const struct rc_grid *p = strcmp(g->channel, "pressure") == 0 ? g : pressure;
+    bool asked;
     struct box b;
 
     *w = (struct window){.part = 1};
     place(g, w);
     asked = text != NULL && strcmp(text, "contact") == 0;
-    if (asked && !pressure)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE,
-                    "--window contact goes by the pressure: draw that, or give the window as "
-                    "X0:X1,Y0:Y1");
+    if (asked && p == NULL)
+        tool_die_at(
+            t, g, EXIT_IMPOSSIBLE,
+            "--window contact goes by the pressure, and there is none on this grid: give the "
+            "window as X0:X1,Y0:Y1");
     if (text != NULL && !asked) {
         if (strcmp(text, "all") != 0)
-            cut_lengths(t, text, g, w);
+            cut_lengths(t, text, g, pressure, w);
         return;
     }
-    if (!pressure || (raw && !asked))
+    if (p == NULL || (!asked && (raw || p != g)))
         return;
-    if (!contact_box(g, &b)) {
+    if (!contact_box(p, &b)) {
         if (asked)
             tool_warn(t, "nothing touches: the whole map is drawn");
         return;
@@ -192,6 +203,6 @@ window_cut(struct tool *t, const char *text, bool raw, struct rc_grid *g, struct
     if (!asked && (g->nx == 1 || g->ny == 1 || (double)(b.x1 - b.x0) > speck * (double)g->nx ||
                    (double)(b.y1 - b.y0) > speck * (double)g->ny))
         return;
-    cut(g, w, b.x0, b.x1, b.y0, b.y1);
+    cut(g, pressure, w, &b);
     w->contact = w->part < 1;
 }
