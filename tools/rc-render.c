@@ -90,7 +90,7 @@ static const struct tool_info info = {
 };
 
 /* Metres: text and axes leave no room for a map on less. */
-#define NARROW_PAPER 0.04
+#define NARROW_PAPER 0.06
 
 static bool
 is_profile(const struct rc_grid *g)
@@ -271,7 +271,7 @@ read_width(struct tool *t, const struct args *a, struct figure *f)
         width *= f->dpi / inch;
     }
     if (f->dpi > 0 && !(width >= NARROW_PAPER / inch * f->dpi))
-        tool_die(t, EXIT_USAGE, "--width %s: on paper it must be at least 40mm", a->width);
+        tool_die(t, EXIT_USAGE, "--width %s: on paper it must be at least 60mm", a->width);
     if (!(width >= FIGURE_NARROW && width <= FIGURE_WIDE))
         tool_die(t, EXIT_USAGE, "--width %s: it must be %d to %d pixels%s", a->width, FIGURE_NARROW,
                  FIGURE_WIDE, plain ? "" : ", which is a matter of --dpi");
@@ -317,10 +317,12 @@ render(struct tool *t, struct args *a, struct rc_grid *g, struct rc_grid *beside
                     "nothing to draw",
                     g->nx * g->ny);
     what = channel_of(g, &s);
-    snprintf(title, sizeof title, "%s%s", what.title, w.contact ? " about the contact" : "");
+    snprintf(title, sizeof title, "%.80s about the contact", what.title);
     subtitle_write(&subtitle, g, &s, w.part, largest);
     f = (struct figure){
-        .title = a->title == NULL ? title : a->title,
+        .title = a->title != NULL ? a->title
+                 : w.contact      ? title
+                                  : what.title,
         .subtitle = subtitle.text,
         .stamp = stamp_of(g),
         .quantity = what.title,
@@ -346,8 +348,9 @@ render(struct tool *t, struct args *a, struct rc_grid *g, struct rc_grid *beside
     choose_range(t, a, g, &s, &what, &f, &range);
     if (a->depths != NULL && rc_grid_get(g, "section") == NULL)
         tool_warn(t, "--depth-range is for sections: this %s has no rows of depths", g->channel);
-    if (a->contour && is_profile(g))
-        tool_warn(t, "a profile is drawn as a curve: --contour does nothing");
+    if ((a->contour || a->hertz) && is_profile(g))
+        tool_warn(t, "a profile is drawn as a curve: --%s does nothing",
+                  a->contour ? "contour" : "hertz");
     if (a->raw)
         write_picture(t, g, &f, NULL);
     else

@@ -283,17 +283,25 @@ measure_sides(struct page *p)
             page_bar_right(p) + 28 * u + 14 * u + p->values.widest + 1.8 * p->large.size + 24 * u;
 }
 
-static void
-add_note(struct page *p, enum swatch swatch, const char *text)
-{
-    p->note[p->notes].swatch = swatch;
-    copy_text(p->note[p->notes++].text, text, strlen(text));
-}
-
 double
 page_swatch(const struct page *p, size_t k)
 {
     return p->note[k].swatch == SWATCH_NOTHING ? 0 : 38 * p->u;
+}
+
+/* What is too long for the width goes on in a note of its own. */
+static void
+add_note(struct page *p, double width, enum swatch swatch, const char *text)
+{
+    while (*text != '\0' && p->notes < NOTES) {
+        size_t n;
+
+        p->note[p->notes].swatch = swatch;
+        n = fit(p, &p->small, width - page_swatch(p, p->notes), " ", text);
+        copy_text(p->note[p->notes++].text, text, n);
+        text += text[n] == '\0' ? n : n + 1;
+        swatch = SWATCH_NOTHING;
+    }
 }
 
 /* What the legend says, and where: side by side as many as fit a line. */
@@ -305,23 +313,23 @@ set_legend(struct page *p, double width)
 
     p->notes = 0;
     if (p->f->zero_is_none && p->f->zeros > 0 && !p->curve)
-        add_note(p, SWATCH_NONE, "no contact");
+        add_note(p, width, SWATCH_NONE, "no contact");
     snprintf(text, sizeof text, "%snot measured (%zu of %zu nodes)", p->curve ? "gaps: " : "",
              p->f->missing, p->g->nx * p->g->ny);
     if (p->f->missing > 0)
-        add_note(p, p->curve ? SWATCH_NOTHING : SWATCH_MISSING, text);
+        add_note(p, width, p->curve ? SWATCH_NOTHING : SWATCH_MISSING, text);
     if (p->f->contour && p->f->pressure != NULL && !p->curve)
-        add_note(p, SWATCH_CONTACT, "edge of contact");
+        add_note(p, width, SWATCH_CONTACT, "edge of contact");
     if (p->f->contour && p->f->hard > 0 && !p->curve)
-        add_note(p, SWATCH_HARD, "pressure at the hardness");
+        add_note(p, width, SWATCH_HARD, "pressure at the hardness");
     if (p->f->circle != NULL && !p->curve)
-        add_note(p, SWATCH_CIRCLE, p->f->circle);
+        add_note(p, width, SWATCH_CIRCLE, p->f->circle);
     if (p->f->largest != NULL && !p->curve)
-        add_note(p, SWATCH_LARGEST, p->f->largest);
+        add_note(p, width, SWATCH_LARGEST, p->f->largest);
     if (p->f->note != NULL && !p->curve)
-        add_note(p, SWATCH_NOTHING, p->f->note);
+        add_note(p, width, SWATCH_NOTHING, p->f->note);
     if (p->distorted)
-        add_note(p, SWATCH_NOTHING, "the axes differ in scale");
+        add_note(p, width, SWATCH_NOTHING, "the axes differ in scale");
     for (size_t k = 0; k < p->notes; k++) {
         double w;
 

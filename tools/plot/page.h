@@ -13,7 +13,7 @@
 enum {
     LINE = 1024, /* bytes of a line of text */
     LINES = 4,
-    NOTES = 8,
+    NOTES = 16,
 };
 
 struct axis {

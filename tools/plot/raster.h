@@ -26,7 +26,8 @@ struct raster {
     float *missing; /* part of the cell that was not measured                     */
 };
 
-/* With `zero_is_none` value 0 means no contact and is left out of the means. NULL: memory is short. */
+/* With `zero_is_none` value 0 means no contact and is left out of the means. NULL: memory is
+ * short. */
 struct raster *raster_new(const struct rc_grid *grid, bool zero_is_none, size_t w, size_t h,
                           struct rc_err *err);
 /* The same with the largest value of the nodes that a cell covers in place of their mean; a cell is

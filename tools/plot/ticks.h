@@ -24,8 +24,8 @@ const char *scale_value(char text[TICKS_TEXT], double value, const char *unit);
 /* "Gap (µm)": what an axis is, with the unit in brackets. */
 void scale_label(char *text, size_t size, const char *quantity, const struct scale *scale);
 
-/* Marks at k * step for k from first to last; step is digit * 10^power. Of a logarithmic axis mark k
- * is at 10^(k * step), or, with `between`, at 1, 2 and 5 times powers of ten in turn. */
+/* Marks at k * step for k from first to last; step is digit * 10^power. Of a logarithmic axis mark
+ * k is at 10^(k * step), or, with `between`, at 1, 2 and 5 times powers of ten in turn. */
 struct ticks {
     long long first, last;
     int digit, power;

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What is left beyond each end of the colours where an outlier would take most of them: per cent. */
+/* Per cent left beyond each end of the colours where an outlier would take most of them. */
 #define BEYOND 0.5
 
 static enum unit
@@ -62,8 +62,8 @@ bin_of(double v, double lo, double step)
     return (size_t)fmin((v - lo) / step, BINS - 1);
 }
 
-/* The value of n, from lo to hi, that k others are below: they are counted in bins, then those of one
- * bin in finer ones, without another map in memory. */
+/* The value of n, from lo to hi, that k others are below: they are counted in bins, then those of
+ * one bin in finer ones, without another map in memory. */
 static double
 ranked(const struct rc_grid *g, double lo, double hi, size_t n, size_t k)
 {

@@ -56,7 +56,8 @@ struct window {
 
 /* Cuts the map, and the pressure beside it unless that is NULL, to the window of `text`:
  * X0:X1,Y0:Y1, contact, all, or NULL: about the contact where that is a speck of the map of a
- * pressure, unless each node is to be a pixel (`raw`). The values move to the front of the grids. */
+ * pressure, unless each node is to be a pixel (`raw`). The values move to the front of the
+ * grids. */
 void window_cut(struct tool *tool, const char *text, bool raw, struct rc_grid *grid,
                 struct rc_grid *pressure, struct window *window);
 

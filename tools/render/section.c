@@ -1,6 +1,6 @@
 /*
- * Sections: the rows of a map at depths of any spacing become even rows, so that each depth is where the
- * axis says.
+ * Sections: the rows of a map at depths of any spacing become even rows, so that each depth is
+ * where the axis says.
  */
 #include "render.h"
 
