@@ -59,18 +59,12 @@ put_stream(struct rc_grid *g)
     rc_grid_free(g);
 }
 
-/* Runs rc-render on the stream that was put and reads its picture. */
 static struct png
-render(const char *options)
+read_png(void)
 {
-    const char *bin = getenv("RC_BIN");
     struct png p = {.head = {.version = PNG_IMAGE_VERSION}};
-    char text[1024];
+    char text[128];
 
-    assert_non_null(bin);
-    snprintf(text, sizeof text, "'%s/rc-render' %s -o %s/out.png %s/in.rcg", bin, options, folder,
-             folder);
-    assert_int_equal(system(text), 0);
     snprintf(text, sizeof text, "%s/out.png", folder);
     assert_true(png_image_begin_read_from_file(&p.head, text));
     assert_int_equal(p.head.format & (PNG_FORMAT_FLAG_ALPHA | PNG_FORMAT_FLAG_LINEAR), 0);
@@ -79,6 +73,20 @@ render(const char *options)
     assert_non_null(p.rgb);
     assert_true(png_image_finish_read(&p.head, NULL, p.rgb, 0, NULL));
     return p;
+}
+
+/* Runs rc-render on the stream that was put and reads its picture. */
+static struct png
+render(const char *options)
+{
+    const char *bin = getenv("RC_BIN");
+    char text[1024];
+
+    assert_non_null(bin);
+    snprintf(text, sizeof text, "'%s/rc-render' %s -o %s/out.png %s/in.rcg", bin, options, folder,
+             folder);
+    assert_int_equal(system(text), 0);
+    return read_png();
 }
 
 static const unsigned char *
@@ -117,6 +125,48 @@ raw_is_one_pixel_a_node(void **state)
     free(p.rgb);
 }
 
+/* As others draw it: where the file says that the map is, each node has the colour of its value, its
+ * whole cell but for the very edge. */
+static void
+an_svg_has_the_nodes_at_their_places(void **state)
+{
+    static const double v[] = {0, 51e-6, 102e-6, 153e-6, 204e-6, 255e-6};
+    const char *bin = getenv("RC_BIN");
+    char text[1024], line[512];
+    double x, y, w = 0, h;
+    struct png p;
+    FILE *file;
+
+    (void)state;
+    assert_non_null(bin);
+    put_stream(grid_of("height", "m", 3, 2, v));
+    snprintf(text, sizeof text,
+             "cd %s && '%s/rc-render' --colormap grey --width 600 -o out.svg in.rcg && "
+             "rsvg-convert -o out.png out.svg",
+             folder, bin);
+    assert_int_equal(system(text), 0);
+    snprintf(text, sizeof text, "%s/out.svg", folder);
+    file = fopen(text, "r");
+    assert_non_null(file);
+    while (w == 0 && fgets(line, sizeof line, file) != NULL)
+        if (sscanf(line, "<image x=\"%lf\" y=\"%lf\" width=\"%lf\" height=\"%lf\"", &x, &y, &w,
+                   &h) != 4)
+            w = 0;
+    fclose(file);
+    assert_true(w > 200 && h > 100);
+    p = read_png();
+    assert_int_equal(p.head.width, 600);
+    for (size_t k = 0; k < 6; k++)
+        for (int place = 0; place < 9; place++) {
+            double across = (double)(k % 3) + 0.5 + 0.48 * (place % 3 - 1);
+            double down = (double)(k / 3) + 0.5 + 0.48 * (place / 3 - 1);
+
+            is_colour(pixel(&p, (size_t)(x + across / 3 * w), (size_t)(y + down / 2 * h)),
+                      0x333333 * (unsigned)k, 1);
+        }
+    free(p.rgb);
+}
+
 static void
 range_is_kept_and_passed_with_the_end_colours(void **state)
 {
@@ -138,8 +188,8 @@ range_is_kept_and_passed_with_the_end_colours(void **state)
     }
 }
 
-/* 1000 values 0 to 999 um in an order of their own: node k holds 7 k modulo 1000 (7 and 1000 have no
- * common factor). */
+/* 1000 values 0 to 999 um in an order of their own: node k holds 7 k modulo 1000 (7 and 1000 have
+ * no common factor). */
 static void
 put_thousand(double first)
 {
@@ -745,11 +795,11 @@ make_folder(void **state)
 static int
 clear_folder(void **state)
 {
-    static const char *const names[] = {"in.rcg", "out.png"};
+    static const char *const names[] = {"in.rcg", "out.png", "out.svg"};
     char name[128];
 
     (void)state;
-    for (size_t k = 0; k < 2; k++) {
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
         snprintf(name, sizeof name, "%s/%s", folder, names[k]);
         unlink(name);
     }
@@ -761,6 +811,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(raw_is_one_pixel_a_node),
+        cmocka_unit_test(an_svg_has_the_nodes_at_their_places),
         cmocka_unit_test(range_is_kept_and_passed_with_the_end_colours),
         cmocka_unit_test(percentiles_are_ranks),
         cmocka_unit_test(an_outlier_is_left_beyond_the_colours),
