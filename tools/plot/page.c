@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#define SMALL 21 /* marks, where the unit of the design is 1 */
 #define BETWEEN " \xc2\xb7 "
 #define CUT "\xe2\x80\xa6"
 
@@ -32,6 +33,7 @@ copy_text(char line[LINE], const char *text, size_t n)
     line[n] = '\0';
 }
 
+/* Cut behind a word, unless the first one is too long already. */
 static void
 shorten(struct page *p, const struct canvas_font *font, double width, char line[LINE])
 {
@@ -41,7 +43,13 @@ shorten(struct page *p, const struct canvas_font *font, double width, char line[
         return;
     n = n < LINE - 4 ? n : LINE - 4;
     do {
-        n = whole_characters(line, n - 1);
+        size_t word = n - 1;
+
+        while (word > 0 && line[word] != ' ')
+            word--;
+        while (word > 0 && line[word - 1] == ' ')
+            word--;
+        n = word > 0 ? word : whole_characters(line, n - 1);
         strcpy(line + n, CUT);
     } while (n > 0 && canvas_text_width(p->c, font, line) > width);
 }
@@ -107,12 +115,18 @@ choose_marks(struct page *p, struct axis *a, double length, bool upright)
     double gap = 14 * p->u, height = 1.05 * p->small.size;
 
     for (double most = 9; most > 1e-3; most = most > 1 ? most - 1 : 0.5 * most) {
-        ticks_choose(&a->ticks, a->lo, a->hi, most);
+        double step;
+
+        if (a->log)
+            ticks_choose_log(&a->ticks, a->lo, a->hi, most);
+        else
+            ticks_choose(&a->ticks, a->lo, a->hi, most);
         a->widest = widest_mark(p, &a->ticks);
         if (a->ticks.first >= a->ticks.last)
             return;
-        if (ticks_at(&a->ticks, 1) / (a->hi - a->lo) * length >=
-            (upright ? height : a->widest + gap))
+        step = page_place(a, ticks_at(&a->ticks, a->ticks.last)) -
+               page_place(a, ticks_at(&a->ticks, a->ticks.last - 1));
+        if (step * length >= (upright ? height : a->widest + gap))
             return;
     }
 }
@@ -156,18 +170,23 @@ set_axes(struct page *p)
     double x = fmax(fabs(f->left), fabs(f->right)), y = fmax(fabs(f->top), fabs(f->bottom));
     double both = fmax(x, y);
 
+    p->values.log = f->log;
+
     set_axis(&p->values, f->quantity, f->unit, f->lo, f->hi, fmax(fabs(f->lo), fabs(f->hi)));
     if (p->curve && p->g->nx == 1) {
         set_axis(&p->across, f->down, "m", f->top, f->bottom, y);
         return;
     }
-    set_axis(&p->across, f->across, "m", f->left, f->right, x < 0.01 * both ? x : both);
-    set_axis(&p->down, f->down, "m", f->top, f->bottom, y < 0.01 * both ? y : both);
+    set_axis(&p->across, f->across, "m", f->left, f->right,
+             f->section || x < 0.01 * both ? x : both);
+    set_axis(&p->down, f->down, "m", f->top, f->bottom, f->section || y < 0.01 * both ? y : both);
 }
 
 double
 page_place(const struct axis *a, double value)
 {
+    if (a->log)
+        return value > 0 ? log(value / a->lo) / log(a->hi / a->lo) : -INFINITY;
     return (value - a->lo) / (a->hi - a->lo);
 }
 
@@ -194,7 +213,7 @@ page_bar_below(const struct page *p)
 static void
 set_fonts(struct page *p)
 {
-    p->small = (struct canvas_font){.size = 21 * p->u, .colour = page_ink};
+    p->small = (struct canvas_font){.size = SMALL * p->u, .colour = page_ink};
     p->large = (struct canvas_font){.size = 23 * p->u, .colour = page_ink};
     p->heading = (struct canvas_font){.size = 28 * p->u, .bold = true, .colour = page_ink};
     p->subheading = (struct canvas_font){.size = 20 * p->u, .colour = page_faint};
@@ -204,9 +223,9 @@ set_fonts(struct page *p)
 /* Pixels of the longer side of a plot of n nodes: a whole number of them for a node, or of nodes
  * for one, so that all cells look alike. */
 static double
-natural_side(size_t n)
+natural_side(size_t n, double u)
 {
-    const double wish = 900, most = 1350;
+    double wish = 900 * (u > 0 ? u : 1), most = 1.5 * wish;
     double nodes = (double)n;
 
     if (nodes <= most)
@@ -219,7 +238,7 @@ set_plot(struct page *p, double width)
 {
     double x = p->f->right - p->f->left, y = p->f->bottom - p->f->top;
     double aspect = fmin(fmax(x / y, 1.0 / FIGURE_ASPECT), FIGURE_ASPECT);
-    double w;
+    double paper = p->f->dpi * FIGURE_POINTS / 72 / SMALL, w; /* paper: u there; 0: not asked for */
 
     p->distorted = !p->curve && aspect != x / y;
     if (p->curve)
@@ -227,14 +246,15 @@ set_plot(struct page *p, double width)
     if (width > 0)
         w = fmin(width, 0.85 * (double)p->f->width * aspect);
     else if (p->curve)
-        w = 1000;
+        w = paper > 0 ? 1000 * paper : 1000;
     else
-        w = aspect >= 1 ? natural_side(p->g->nx) : natural_side(p->g->ny) * aspect;
+        w = aspect >= 1 ? natural_side(p->g->nx, paper) : natural_side(p->g->ny, paper) * aspect;
     p->plot_w = (size_t)fmax(round(w), 1);
     p->plot_h = (size_t)fmax(round(w / aspect), 1);
-    p->u = width > 0  ? fmax((double)p->f->width / 1200, 0.5)
-           : p->curve ? 1
-                      : fmax((double)p->plot_w, (double)p->plot_h) / 900;
+    p->u = paper > 0   ? paper
+           : width > 0 ? fmax((double)p->f->width / 1200, 0.5)
+           : p->curve  ? 1
+                       : fmax((double)p->plot_w, (double)p->plot_h) / 900;
     p->bar_below = (double)p->plot_h < 300 * p->u;
     set_fonts(p);
 }
@@ -263,17 +283,25 @@ measure_sides(struct page *p)
             page_bar_right(p) + 28 * u + 14 * u + p->values.widest + 1.8 * p->large.size + 24 * u;
 }
 
-static void
-add_note(struct page *p, enum swatch swatch, const char *text)
-{
-    p->note[p->notes].swatch = swatch;
-    copy_text(p->note[p->notes++].text, text, strlen(text));
-}
-
 double
 page_swatch(const struct page *p, size_t k)
 {
     return p->note[k].swatch == SWATCH_NOTHING ? 0 : 38 * p->u;
+}
+
+/* What is too long for the width goes on in a note of its own. */
+static void
+add_note(struct page *p, double width, enum swatch swatch, const char *text)
+{
+    while (*text != '\0' && p->notes < NOTES) {
+        size_t n;
+
+        p->note[p->notes].swatch = swatch;
+        n = fit(p, &p->small, width - page_swatch(p, p->notes), " ", text);
+        copy_text(p->note[p->notes++].text, text, n);
+        text += text[n] == '\0' ? n : n + 1;
+        swatch = SWATCH_NOTHING;
+    }
 }
 
 /* What the legend says, and where: side by side as many as fit a line. */
@@ -285,13 +313,23 @@ set_legend(struct page *p, double width)
 
     p->notes = 0;
     if (p->f->zero_is_none && p->f->zeros > 0 && !p->curve)
-        add_note(p, SWATCH_NONE, "no contact");
+        add_note(p, width, SWATCH_NONE, "no contact");
     snprintf(text, sizeof text, "%snot measured (%zu of %zu nodes)", p->curve ? "gaps: " : "",
              p->f->missing, p->g->nx * p->g->ny);
     if (p->f->missing > 0)
-        add_note(p, p->curve ? SWATCH_NOTHING : SWATCH_MISSING, text);
+        add_note(p, width, p->curve ? SWATCH_NOTHING : SWATCH_MISSING, text);
+    if (p->f->contour && p->f->pressure != NULL && !p->curve)
+        add_note(p, width, SWATCH_CONTACT, "edge of contact");
+    if (p->f->contour && p->f->hard > 0 && !p->curve)
+        add_note(p, width, SWATCH_HARD, "pressure at the hardness");
+    if (p->f->circle != NULL && !p->curve)
+        add_note(p, width, SWATCH_CIRCLE, p->f->circle);
+    if (p->f->largest != NULL && !p->curve)
+        add_note(p, width, SWATCH_LARGEST, p->f->largest);
+    if (p->f->note != NULL && !p->curve)
+        add_note(p, width, SWATCH_NOTHING, p->f->note);
     if (p->distorted)
-        add_note(p, SWATCH_NOTHING, "the axes differ in scale");
+        add_note(p, width, SWATCH_NOTHING, "the axes differ in scale");
     for (size_t k = 0; k < p->notes; k++) {
         double w;
 
@@ -320,6 +358,22 @@ overhang(struct page *p)
     return fmax(0, 0.5 * (longest - (double)p->plot_h));
 }
 
+static double
+longest_word(struct page *p, const struct canvas_font *font, const char *text)
+{
+    char word[LINE];
+    double longest = 1;
+
+    while (*text != '\0') {
+        size_t n = piece(text, " ");
+
+        copy_text(word, text, n);
+        longest = fmax(longest, canvas_text_width(p->c, font, word));
+        text += text[n] == '\0' ? n : n + 1;
+    }
+    return longest;
+}
+
 static void
 set_page(struct page *p)
 {
@@ -328,6 +382,7 @@ set_page(struct page *p)
 
     p->w = p->f->width != 0 ? p->f->width : (size_t)ceil(fmax(content, 680 * u));
     text_w = (double)p->w - 48 * u;
+    p->heading.size *= fmin(1, fmax(0.5, text_w / longest_word(p, &p->heading, p->f->title)));
     wrap(p, &p->heading, text_w, " ", p->f->title, &p->title);
     wrap(p, &p->subheading, text_w, BETWEEN, p->f->subtitle, &p->subtitle);
     set_legend(p, text_w);
@@ -341,6 +396,7 @@ set_page(struct page *p)
     p->plot_x = (size_t)round(p->left_w + 0.5 * free);
     p->plot_y = (size_t)round(p->above);
     p->h = (size_t)ceil(p->above + (double)p->plot_h + p->below);
+    p->dpi = p->f->dpi > 0 ? p->f->dpi : 72 * p->small.size / FIGURE_POINTS;
 }
 
 /* Sizes depend on texts, texts on marks, marks on sizes: with a width that is asked for a few

@@ -13,7 +13,7 @@
 enum {
     LINE = 1024, /* bytes of a line of text */
     LINES = 4,
-    NOTES = 3,
+    NOTES = 16,
 };
 
 struct axis {
@@ -21,6 +21,7 @@ struct axis {
     struct ticks ticks;
     double lo, hi; /* in the unit of the scale   */
     double widest; /* mark's text, pixels        */
+    bool log;
     char label[LINE];
 };
 
@@ -32,7 +33,11 @@ struct text {
 enum swatch {
     SWATCH_NOTHING,
     SWATCH_NONE,
-    SWATCH_MISSING
+    SWATCH_MISSING,
+    SWATCH_CONTACT,
+    SWATCH_HARD,
+    SWATCH_CIRCLE,
+    SWATCH_LARGEST
 };
 
 struct page {
@@ -54,6 +59,7 @@ struct page {
     double stamp_h;                       /* 0 without one */
     double left_w, right_w, above, below; /* around the plot, margins included         */
     size_t plot_x, plot_y, plot_w, plot_h, w, h;
+    double dpi; /* pixels of the page in an inch of paper */
 };
 
 extern const struct rgb page_ink, page_faint;

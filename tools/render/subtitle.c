@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #define BETWEEN " \xc2\xb7 " /* where a figure breaks the line */
 
@@ -48,7 +49,8 @@ extreme(char text[TICKS_TEXT], double value, const struct survey *s, const char 
 }
 
 void
-subtitle_write(struct subtitle *w, const struct rc_grid *g, const struct survey *s, bool largest)
+subtitle_write(struct subtitle *w, const struct rc_grid *g, const struct survey *s, double part,
+               bool largest)
 {
     const char *source = rc_grid_get(g, "source"), *number = rc_grid_get(g, "case");
     char text[TICKS_TEXT];
@@ -61,6 +63,47 @@ subtitle_write(struct subtitle *w, const struct rc_grid *g, const struct survey 
     if (rc_grid_number(g, "load", &load))
         add_piece(w, "load ", scale_value(text, load, "N"));
     say_where(w, g, largest);
+    if (part < 1) {
+        snprintf(text, sizeof text, part < 1e-4 ? "%.1g" : "%.2g", 100 * part);
+        add_piece(w, text, " % of the map");
+    }
     add_piece(w, "min ", extreme(text, s->min, s, g->unit));
     add_piece(w, "max ", extreme(text, s->max, s, g->unit));
+}
+
+/* ---- the legend ---- */
+
+const char *
+words_largest(struct words *w, const struct rc_grid *g, double value, const char *across, double x,
+              double depth)
+{
+    char size[TICKS_TEXT], at[TICKS_TEXT], down[TICKS_TEXT];
+
+    snprintf(w->largest, sizeof w->largest, "%s %s at %s = %s, depth %s",
+             value < 0 ? "least" : "largest", scale_value(size, value, g->unit), across,
+             scale_value(at, x, "m"), scale_value(down, depth, "m"));
+    return w->largest;
+}
+
+/* Hertz (1882): a sphere of radius R touches a disc, a^3 = 3 F R / (4 E*). */
+const char *
+words_hertz(struct tool *t, struct words *w, const struct rc_grid *g, double *radius)
+{
+    const char *form = rc_grid_get(g, "form");
+    char text[TICKS_TEXT];
+    double load, estar, r = 0;
+    struct rc_err err;
+
+    if (rc_grid_get(g, "section") != NULL)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "--hertz is a circle on a map, and this is a section");
+    if (form == NULL || strncmp(form, "sphere ", 7) != 0 ||
+        unit_number(form + 7, UNIT_M, &r, &err) != RC_OK || !(r > 0) ||
+        !rc_grid_number(g, "load", &load) || !rc_grid_number(g, "estar", &estar) || !(load > 0) ||
+        !(estar > 0))
+        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                    "--hertz needs the keys load, estar and form=sphere RADIUS, which rc-solve "
+                    "--radius leaves: leave it out");
+    *radius = cbrt(0.75 * load * r / estar);
+    snprintf(w->circle, sizeof w->circle, "Hertz, radius %s", scale_value(text, *radius, "m"));
+    return w->circle;
 }
