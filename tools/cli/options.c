@@ -112,8 +112,12 @@ help_row(const char *left, const struct opt *o)
 
     if (o->type == OPT_CHOICE)
         arg = word_list(list, o, "|");
-    n = printf("  %s%s%s%s%s%s", left, o->name, o->alias == NULL ? "" : ", --",
-               o->alias == NULL ? "" : o->alias, arg == NULL ? "" : " ", arg == NULL ? "" : arg);
+    n = printf("  %s%s%s%s%s%s%s", left, o->name, o->alias == NULL ? "" : ", --",
+               o->alias == NULL ? "" : o->alias,
+               arg == NULL   ? ""
+               : o->optional ? " ["
+                             : " ",
+               arg == NULL ? "" : arg, o->optional ? "]" : "");
     if (n >= COLUMN)
         printf("\n%*s", COLUMN, "");
     else
@@ -192,8 +196,10 @@ static const char *
 choice(struct tool *t, const struct opt *o, const char *text)
 {
     char list[LIST];
-    int k = word_index(o, text, strlen(text));
+    int k = text == NULL ? 0 : word_index(o, text, strlen(text));
 
+    if (text == NULL)
+        return "";
     if (k < 0)
         tool_die(t, EXIT_USAGE, "--%s %s: it must be one of %s", o->name, text,
                  word_list(list, o, "|"));
@@ -335,7 +341,9 @@ getopt_table(const struct tool *t)
         return NULL;
     for (size_t k = 0; k < t->opts; k++) {
         const struct opt *o = &t->opt[k];
-        int has_arg = o->arg == NULL && o->words == NULL ? no_argument : required_argument;
+        int has_arg = o->arg == NULL && o->words == NULL ? no_argument
+                      : o->optional                      ? optional_argument
+                                                         : required_argument;
 
         add_name(&rows, o->name, has_arg, OWN + (int)k);
         if (o->alias != NULL)
@@ -454,6 +462,19 @@ asks_for_text(const struct tool *t, int what, const char *text)
            (o->type == OPT_REPORT && strcmp(text, "-") == 0);
 }
 
+/* An argument that may be left out is there when what follows is one of the words, also without =. */
+static int
+next_option(const struct tool *t, int argc, char **argv, const struct option *table)
+{
+    int what = getopt_long(argc, argv, letters, table, NULL);
+    const struct opt *o = what >= OWN && what < COMMON ? &t->opt[what - OWN] : NULL;
+
+    if (o != NULL && o->optional && optarg == NULL && optind < argc &&
+        word_index(o, argv[optind], strlen(argv[optind])) >= 0)
+        optarg = argv[optind++];
+    return what;
+}
+
 /* Looks through the whole line for where the output leads: whatever is then found to be wrong on
  * it, the reader of a pipe is told too. */
 static void
@@ -462,7 +483,7 @@ look_for_output(struct tool *t, int argc, char **argv, const struct option *tabl
     int what;
 
     t->stream_expected = t->info->writes == WRITES_STREAM;
-    while ((what = getopt_long(argc, argv, letters, table, NULL)) != -1)
+    while ((what = next_option(t, argc, argv, table)) != -1)
         if (what == 'o' ? strcmp(optarg, "-") != 0 : asks_for_text(t, what, optarg))
             t->stream_expected = false;
     optind = 1; /* once more from the start */
@@ -479,7 +500,7 @@ options_read(struct tool *t, int argc, char **argv)
         tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
     opterr = 0;
     look_for_output(t, argc, argv, table);
-    while ((what = getopt_long(argc, argv, letters, table, NULL)) != -1) {
+    while ((what = next_option(t, argc, argv, table)) != -1) {
         if (what == 'h')
             print_help(t);
         if (what == 'o') {

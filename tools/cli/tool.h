@@ -60,8 +60,9 @@ struct opt {
     bool result;     /* changes what is computed: goes into history                        */
     bool text;       /* given, the tool writes text, whatever it writes otherwise          */
     const char *(*words)(size_t k); /* word k; NULL past the last: see words.h              */
-    const char *word;               /* instead of OPT_NUMBERS; of OPT_NUMBER: for INFINITY  */
-    bool per_metre;                 /* OPT_NUMBERS of forces that may be in N/m             */
+    bool optional;    /* OPT_CHOICE: the argument may be left out, for the value ""  */
+    const char *word; /* instead of OPT_NUMBERS; of OPT_NUMBER: for INFINITY  */
+    bool per_metre;   /* OPT_NUMBERS of forces that may be in N/m             */
     const char *arg;  /* how help names the argument: "FORCE"; NULL: takes none             */
     const char *help; /* one line; %s in it stands for the words                            */
     /* A row without a name: the rows of this table, whose .at are relative to that of the row. */
@@ -105,6 +106,9 @@ struct tool_info {
     const struct opt *opts; /* ended by a row without a name and group                     */
     enum tool_reads reads;
     enum tool_writes writes;
+    /* NULL, or what to do with an input that is no grid stream and begins so; it gives NULL where
+     * there is nothing else to say than in every tool. */
+    const char *(*foreign)(const char *head);
     /* NULL, or called between the options and the output: may change tool->writes. */
     void (*settle)(struct tool *tool);
 };
