@@ -1,4 +1,4 @@
-/* rc-render: one map of a grid stream as a PNG. */
+/* rc-render: maps of a grid stream, or curves of a report, as a PNG. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -15,6 +15,8 @@ struct args {
     const char *colormap, *range, *title;
     size_t width;
     bool contour, figure, raw;
+    const char *curve; /* X:Y[,Y...]: tables are drawn instead of maps */
+    struct curve_style style;
 };
 
 /* clang-format off */
@@ -45,6 +47,21 @@ static const struct opt opts[] = {
     {.name = "width", .type = OPT_COUNT, .at = offsetof(struct args, width), .min = FIGURE_NARROW,
      .max = FIGURE_WIDE, .result = true, .arg = "PIXELS",
      .help = "of the whole figure (default: what suits the map)"},
+    {.name = "curve", .type = OPT_TEXT, .at = offsetof(struct args, curve), .result = true,
+     .arg = "X:Y[,Y...]", .help = "draw columns Y over X of reports or tables instead of a map"},
+    {.name = "log", .type = OPT_CHOICE, .at = offsetof(struct args, style.log), .result = true,
+     .arg = "x|y|xy", .optional = true, .help = "logarithmic axes of curves (alone: both)"},
+    {.name = "law", .type = OPT_CHOICE, .at = offsetof(struct args, style.law), .result = true,
+     .words = law_word, .help = "draw a published law beside the curve"},
+    {.name = "estar", .type = OPT_NUMBER, .unit = UNIT_PA,
+     .at = offsetof(struct args, style.given.estar), .min = 0, .max = INFINITY, .above = true,
+     .result = true, .arg = "MODULUS", .help = "composite modulus E*, for --law"},
+    {.name = "radius", .type = OPT_NUMBER, .unit = UNIT_M,
+     .at = offsetof(struct args, style.given.radius), .min = 0, .max = INFINITY, .above = true,
+     .result = true, .arg = "LENGTH", .help = "composite radius of the sphere, for --law hertz"},
+    {.name = "rms-slope", .type = OPT_NUMBER, .at = offsetof(struct args, style.given.rms_slope),
+     .min = 0, .max = INFINITY, .above = true, .result = true, .arg = "SLOPE",
+     .help = "RMS gradient of the surface, for --law persson"},
     {.name = NULL},
 };
 /* clang-format on */
@@ -58,11 +75,14 @@ settle(struct tool *t)
 
 static const struct tool_info info = {
     .name = "rc-render",
-    .summary = "Draw one map of a grid stream as a PNG",
+    .summary = "Draw maps of a grid stream, or curves of a report, as a PNG",
     .operands = "[FILE...]",
+    .foreign = table_remedy,
     .examples =
         "  rc-synth sphere --nx 65 --ny 65 --dx 1um --radius 1mm | rc-render -o sphere.png\n"
-        "  rc-render --channel pressure --range 0:6GPa --contour -o contact.png result.rcg\n",
+        "  rc-render --channel pressure --range 0:6GPa --contour -o contact.png result.rcg\n"
+        "  rc-solve --radius 2mm --load 0.1N:1N:4 --estar 114GPa --report r.tsv -o r.rcg flat.rcg\n"
+        "  rc-render --curve load:contact_area --log -o area.png r.tsv\n",
     .opts = opts,
     .reads = READS_STREAM,
     .writes = WRITES_BYTES,
@@ -148,20 +168,21 @@ next_row(void *ctx, size_t y, unsigned char *rgb, struct rc_err *err)
     return RC_OK;
 }
 
-/* The picture says how it was made. */
+/* The picture says how it was made. Without a grid the words are in the figure's. */
 static void
 write_picture(struct tool *t, const struct rc_grid *g, const struct figure *f, struct canvas *c)
 {
     size_t w = c == NULL ? g->nx : canvas_width(c), h = c == NULL ? g->ny : canvas_height(c);
     struct drawing d = {t, g, f, c, h};
-    const char *history = rc_grid_get(g, "history"), *own = tool_history(t);
+    const char *history = g == NULL ? NULL : rc_grid_get(g, "history"), *own = tool_history(t);
     size_t size = strlen(own) + (history == NULL ? 0 : strlen(history)) + 4;
     char *made = malloc(size), software[64];
-    const struct picture_text text[] = {{"Title", f->title},
-                                        {"Description", made},
-                                        {"Warning", f->stamp},
-                                        {"Software", software},
-                                        {"Source", rc_grid_get(g, "source")}};
+    const struct picture_text text[] = {
+        {"Title", f->title},
+        {"Description", made},
+        {"Warning", f->stamp},
+        {"Software", software},
+        {"Source", g == NULL ? f->subtitle : rc_grid_get(g, "source")}};
     struct rc_err err;
 
     if (made == NULL)
@@ -175,12 +196,20 @@ write_picture(struct tool *t, const struct rc_grid *g, const struct figure *f, s
 }
 
 static void
+warn_of_characters(struct tool *t, const struct canvas *c)
+{
+    char text[512];
+
+    if (canvas_warning(c, text, sizeof text) != NULL)
+        tool_warn(t, "%s", text);
+}
+
+static void
 draw_figure(struct tool *t, const struct rc_grid *g, struct figure *f)
 {
     const char *section = rc_grid_get(g, "section");
     double *rows = NULL;
     struct canvas *c;
-    char text[512];
     struct rc_err err;
 
     f->across = "x";
@@ -198,8 +227,7 @@ draw_figure(struct tool *t, const struct rc_grid *g, struct figure *f)
     }
     if ((c = figure_draw(f, g, &err)) == NULL)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    if (canvas_warning(c, text, sizeof text) != NULL)
-        tool_warn(t, "%s", text);
+    warn_of_characters(t, c);
     write_picture(t, g, f, c);
     canvas_free(c);
     free(rows);
@@ -256,6 +284,42 @@ render(struct tool *t, struct args *a, const struct rc_grid *g, bool largest)
         draw_figure(t, g, &f);
 }
 
+/* ---- curves ---- */
+
+static void
+render_curves(struct tool *t, struct args *a)
+{
+    struct drawn drawn = {.stamp = NULL};
+    struct figure words;
+    struct canvas *c;
+
+    a->style.title = a->title;
+    a->style.width = a->width;
+    c = curves_draw(t, a->curve, &a->style, &drawn);
+    words = (struct figure){.title = drawn.title,
+                            .stamp = drawn.stamp,
+                            .subtitle = *drawn.source == '\0' ? NULL : drawn.source};
+    warn_of_characters(t, c);
+    write_picture(t, NULL, &words, c);
+    canvas_free(c);
+}
+
+/* Options that mean something of one kind of picture only. */
+static void
+check_curves(struct tool *t, const struct args *a)
+{
+    static const char *const of_maps[] = {"channel", "depth", "section", "case",   "colormap",
+                                          "range",   "raw",   "figure",  "contour"};
+    static const char *const of_curves[] = {"log", "law", "estar", "radius", "rms-slope"};
+
+    for (size_t k = 0; k < sizeof of_maps / sizeof *of_maps; k++)
+        if (a->curve != NULL && tool_given(t, of_maps[k]))
+            tool_die(t, EXIT_USAGE, "--curve draws tables, not maps: leave out --%s", of_maps[k]);
+    for (size_t k = 0; k < sizeof of_curves / sizeof *of_curves; k++)
+        if (a->curve == NULL && tool_given(t, of_curves[k]))
+            tool_die(t, EXIT_USAGE, "--%s is for curves: add --curve X:Y", of_curves[k]);
+}
+
 static void
 check_options(struct tool *t, const struct args *a)
 {
@@ -272,13 +336,19 @@ check_options(struct tool *t, const struct args *a)
 int
 main(int argc, char **argv)
 {
-    struct args args = {.wish = {.depth = NAN}};
+    struct args args = {.wish = {.depth = NAN},
+                        .style.given = {.estar = NAN, .radius = NAN, .rms_slope = NAN}};
     struct choice choice = {.wish = &args.wish};
     struct rc_grid *g;
     struct tool t;
 
     tool_start(&t, &info, argc, argv, &args);
     check_options(&t, &args);
+    check_curves(&t, &args);
+    if (args.curve != NULL) {
+        render_curves(&t, &args);
+        return tool_finish(&t);
+    }
     while ((g = tool_read(&t)) != NULL)
         choice_offer(&choice, &t, g);
     choice_settle(&choice, &t);

@@ -332,8 +332,8 @@ draw_stamp(struct page *p, double middle, double y)
     canvas_text(p->c, &p->stamp, middle, y + 1.12 * size, 0.5, p->f->stamp);
 }
 
-static void
-draw_text(struct page *p)
+void
+page_heading(struct page *p)
 {
     double y = 24 * p->u, middle = 0.5 * (double)p->w;
 
@@ -382,7 +382,7 @@ draw(struct page *p, struct rc_err *err)
     double x = (double)p->plot_x, y = (double)p->plot_y, w = (double)p->plot_w,
            h = (double)p->plot_h;
 
-    draw_text(p);
+    page_heading(p);
     if (p->curve) {
         draw_rules(p);
         draw_curve(p);

@@ -32,8 +32,8 @@ copy_text(char line[LINE], const char *text, size_t n)
     line[n] = '\0';
 }
 
-static void
-shorten(struct page *p, const struct canvas_font *font, double width, char line[LINE])
+void
+page_shorten(struct page *p, const struct canvas_font *font, double width, char line[LINE])
 {
     size_t n = strlen(line);
 
@@ -74,15 +74,15 @@ fit(struct page *p, const struct canvas_font *font, double width, const char *se
 }
 
 /* Breaks text at the separators into lines that fit; what is too much for the last one is cut. */
-static void
-wrap(struct page *p, const struct canvas_font *font, double width, const char *separator,
-     const char *text, struct text *t)
+void
+page_wrap(struct page *p, const struct canvas_font *font, double width, const char *separator,
+          const char *text, struct text *t)
 {
     for (t->n = 0; *text != '\0' && t->n < LINES; t->n++) {
         size_t n = t->n + 1 < LINES ? fit(p, font, width, separator, text) : strlen(text);
 
         copy_text(t->line[t->n], text, n);
-        shorten(p, font, width, t->line[t->n]);
+        page_shorten(p, font, width, t->line[t->n]);
         text += text[n] == '\0' ? n : n + strlen(separator);
     }
 }
@@ -191,8 +191,8 @@ page_bar_below(const struct page *p)
     return page_marks(p) + 18 * p->u;
 }
 
-static void
-set_fonts(struct page *p)
+void
+page_fonts(struct page *p)
 {
     p->small = (struct canvas_font){.size = 21 * p->u, .colour = page_ink};
     p->large = (struct canvas_font){.size = 23 * p->u, .colour = page_ink};
@@ -236,7 +236,7 @@ set_plot(struct page *p, double width)
            : p->curve ? 1
                       : fmax((double)p->plot_w, (double)p->plot_h) / 900;
     p->bar_below = (double)p->plot_h < 300 * p->u;
-    set_fonts(p);
+    page_fonts(p);
 }
 
 /* What the axes and the bar take to the left and to the right of the plot. */
@@ -295,7 +295,7 @@ set_legend(struct page *p, double width)
     for (size_t k = 0; k < p->notes; k++) {
         double w;
 
-        shorten(p, &p->small, width - page_swatch(p, k), p->note[k].text);
+        page_shorten(p, &p->small, width - page_swatch(p, k), p->note[k].text);
         w = page_swatch(p, k) + canvas_text_width(p->c, &p->small, p->note[k].text);
         if (x > 0 && x + w > width) {
             x = 0;
@@ -328,8 +328,8 @@ set_page(struct page *p)
 
     p->w = p->f->width != 0 ? p->f->width : (size_t)ceil(fmax(content, 680 * u));
     text_w = (double)p->w - 48 * u;
-    wrap(p, &p->heading, text_w, " ", p->f->title, &p->title);
-    wrap(p, &p->subheading, text_w, BETWEEN, p->f->subtitle, &p->subtitle);
+    page_wrap(p, &p->heading, text_w, " ", p->f->title, &p->title);
+    page_wrap(p, &p->subheading, text_w, BETWEEN, p->f->subtitle, &p->subtitle);
     set_legend(p, text_w);
     p->stamp_h = p->f->stamp == NULL ? 0 : 2.1 * p->stamp.size;
     p->above = 24 * u + p->stamp_h + 1.3 * p->heading.size * (double)p->title.n +

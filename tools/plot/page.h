@@ -69,6 +69,15 @@ double page_bar_right(const struct page *page);
 double page_bar_below(const struct page *page);
 /* What marks and label take below an axis. */
 double page_marks(const struct page *page);
+/* Sets the fonts of the page for its u. */
+void page_fonts(struct page *page);
+/* Cuts the end of a line that is wider than `width`. */
+void page_shorten(struct page *page, const struct canvas_font *font, double width, char line[LINE]);
+/* Breaks text at the separators into lines that fit; what is too much for the last one is cut. */
+void page_wrap(struct page *page, const struct canvas_font *font, double width,
+               const char *separator, const char *text, struct text *lines);
+/* Draws title, subtitle and stamp, over the plot. In figure.c. */
+void page_heading(struct page *page);
 /* Where a value of the axis lies between its ends, 0 to 1. */
 double page_place(const struct axis *axis, double value);
 

@@ -8,6 +8,7 @@
 #include "chart.h"
 #include "colormap.h"
 #include "figure.h"
+#include "graph.h"
 #include "png.h"
 #include "raster.h"
 #include "ticks.h"

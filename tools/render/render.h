@@ -63,4 +63,75 @@ struct subtitle {
 void subtitle_write(struct subtitle *subtitle, const struct rc_grid *grid,
                     const struct survey *survey, bool largest);
 
+/* ---- table.c: columns of reports: tables with tabs, lines of JSON ---- */
+
+struct column {
+    const char *name;  /* as asked for: of JSON also what is inside objects, "psd.q" or "q" */
+    bool optional;     /* may be absent: then all its values are NaN                        */
+    bool found, words; /* words: some of its cells are text                                 */
+    char unit[24];     /* from the heading; empty: not said                                 */
+    double *v;         /* true is 1, false 0; NaN: unknown                                  */
+};
+
+struct table {
+    const char *source; /* name of the file, for messages                               */
+    struct column *column;
+    size_t columns, rows, capacity;
+    size_t *piece; /* rows at which curves of their own begin: arrays of further lines  */
+    size_t pieces;
+};
+
+/* Reads the columns whose names are set; "-" is standard input. Ends the tool where the file is no
+ * table, or lacks a column, naming those that it has. */
+void table_read(struct table *table, struct tool *tool, const char *file);
+void table_free(struct table *table);
+/* What to do with an input that begins like a table; NULL: it does not. */
+const char *table_remedy(const char *head);
+
+/* ---- law.c: published laws beside the points ---- */
+
+struct law_given {
+    double estar, radius, rms_slope; /* Pa, m, 1; NAN: not given */
+    double area;                     /* of the map, m2            */
+};
+
+const char *law_word(size_t k);
+/* What the law is called in a legend, with its source. */
+const char *law_title(const char *law);
+/* What it needs and is not given, as options; NULL: nothing. */
+const char *law_lacks(const char *law, const struct law_given *given);
+/* Whether it ties the two quantities, which are called as in reports of rc-solve. */
+bool law_knows(const char *law, const char *x, const char *y);
+/* Names of the quantities that it ties. */
+const char *law_quantities(const char *law);
+/* Whether the area of the map comes in. */
+bool law_needs_area(const char *law, const struct law_given *given, const char *x, const char *y);
+/* y where the other is x, SI; NAN: the law does not say. */
+double law_value(const char *law, const struct law_given *given, const char *x, double x_value,
+                 const char *y);
+/* Density of the pressure p over the whole map, 1/Pa, under the mean pressure `mean` (Persson). */
+double law_pressure_density(const struct law_given *given, double mean, double p);
+
+/* ---- curves.c ---- */
+
+/* What all pictures of curves share. */
+struct curve_style {
+    const char *log; /* NULL: linear; "" or "xy": both axes, "x", "y"   */
+    const char *title, *law;
+    struct law_given given;
+    size_t width;
+};
+
+/* What a picture says of itself beside its canvas. */
+struct drawn {
+    char title[256], source[256]; /* source empty: several */
+    const char *stamp;            /* NULL: none */
+};
+
+/* Reads the tables named on the command line and draws the columns asked for as X:Y[,Y...]. */
+struct canvas *curves_draw(struct tool *tool, const char *columns, const struct curve_style *style,
+                           struct drawn *drawn);
+/* Whether --log asks for that axis. */
+bool curve_log(const struct curve_style *style, char axis);
+
 #endif

@@ -1,0 +1,77 @@
+# Tables and reports become curves: rc-render reads what rc-solve writes, in both forms, and refuses
+# what is no table, lacks a column, or is no curve, with the right status and no picture left behind.
+. "$(dirname "$0")/pipe.sh"
+
+rc-synth sphere --nx 65 --dx 10um --radius 7.5mm -o ball.rcg
+rc-solve --quiet --load 1N,2N,4N --estar 114GPa --report r.tsv --output pressure -o p.rcg ball.rcg
+rc-solve --quiet --load 1N,2N,4N --estar 114GPa --report - ball.rcg >r.json
+draw='rc-render -o out.png'
+
+# ---- what is drawn ----
+
+claim "a table" rc-render --curve load:contact_area -o t.png r.tsv
+claim "lines of JSON" rc-render --curve load:contact_area -o j.png r.json
+claim "  from a pipe" bash -c 'rc-render --curve load:contact_area <r.json >k.png'
+claim "the same numbers are the same picture, but for the name of the file" bash -c '
+    mkdir -p a b && cp r.tsv a/r && cp r.json b/r &&
+    rc-render --curve load:contact_area --quiet -o a.png a/r &&
+    rc-render --curve load:contact_area --quiet -o b.png b/r && cmp a.png b.png'
+claim "several columns, several files, a law" bash -c '
+    rc-render --curve load:contact_area,plastic_area --log x -o m.png r.tsv r.json &&
+    rc-render --curve load:max_pressure --law hertz --radius 7.5mm --estar 114GPa -o l.png r.tsv'
+claim "the words of --log stand with = or without, or not at all" bash -c '
+    rc-render --curve load:approach --log=xy --title T <r.json >a.png &&
+    rc-render --curve load:approach --log xy --title T <r.json >b.png &&
+    rc-render --curve load:approach --log --title T <r.json >c.png &&
+    rc-render --log y --curve load:approach --title T <r.json >d.png &&
+    for f in a b c d; do perl -0777 -ne "print \$1 while /IDAT(.*?)....IEND/gs" $f.png >$f.idat; done
+    cmp a.idat b.idat && cmp a.idat c.idat && ! cmp -s a.idat d.idat'
+claim "the picture says how it was made" grep -aqF -- '--title T --curve load:approach --log' c.png
+claim "unknown values are gaps" bash -c '
+    printf "x/m\ty/m\n1\t1\n2\tNaN\n3\t\n4\t2\n" | rc-render --curve x:y -o g.png'
+sed 's/"converged": true/"converged": false/' r.json >short.json
+rc-render --curve load:approach --quiet -o s.png short.json
+claim "a solution that stopped short makes the exit status 3" test $? = 3
+claim "  and the picture says so" bash -c 'tr "\0" = <s.png | says "tEXtWarning=not converged" cat'
+
+# ---- what is not ----
+
+refuses 1 'p.rcg is a grid stream: --curve draws tables' "a stream" "$draw --curve load:approach p.rcg"
+refuses 1 'r.json is no grid stream: it looks like a table: draw columns of it, as in --curve' \
+    "a report without --curve" "$draw r.json"
+refuses 1 'standard input is no grid stream: it looks like a table' "a table in a pipe without --curve" "$draw <r.tsv"
+refuses 1 'r.tsv: there is no column force: there are case, source, nx' "a column that is not there" \
+    "$draw --curve force:approach r.tsv"
+refuses 1 'r.json: there is no column force: there are case, source, nx' "the same of JSON" "$draw --curve force:approach r.json"
+refuses 1 'r.tsv: column boundary holds no number, but words' "a column of words" "$draw --curve load:boundary r.tsv"
+refuses 1 'approach is in m, contact_area in m2: an axis has one unit' "two units on an axis" \
+    "$draw --curve load:contact_area,approach r.tsv"
+refuses 1 'line 3: it has 1 columns, the heading has 2' "a row too short" \
+    "printf 'a\tb\n1\t2\n3\n' | $draw --curve a:b"
+refuses 1 "line 2: this is no JSON: '}' is missing|line 2: this is no JSON: ',' is missing" "JSON that is cut off" \
+    "printf '{\"a\": 1, \"b\": 2}\n{\"a\": 3' | $draw --curve a:b"
+refuses 1 'this is no JSON' "half of JSON" "printf '{\"a\": 1, \"b\" 2}' | $draw --curve a:b"
+refuses 1 'its JSON is nested too deep' "JSON of a thousand brackets" \
+    "perl -e 'print \"{\\\"a\\\":\" . \"[\" x 100000' | $draw --curve a:b"
+refuses 1 'its arrays have 3 and 2 values' "arrays that differ" \
+    "printf '{\"a\": [1,2,3], \"b\": [1,2]}' | $draw --curve a:b"
+refuses 1 'it holds binary data' "a table with a NUL" "printf 'a\tb\n1\t\0002\n' | $draw --curve a:b"
+refuses 1 'standard input is empty' "nothing" "$draw --curve a:b </dev/null"
+refuses 1 'a heading and no row' "a heading alone" "printf 'a\tb\n' | $draw --curve a:b"
+refuses 1 'no point has a number above 0 on that axis: leave out --log' "a logarithm of nothing" \
+    "printf 'a\tb\n1\t-1\n' | $draw --curve a:b --log"
+refuses 1 'a table of more than 100 bytes is not read' "a table over --memory" "$draw --memory 100 --curve load:approach r.tsv"
+refuses 1 'nowhere.tsv: No such file' "a file that is not there" "$draw --curve a:b nowhere.tsv"
+refuses 2 'it must be X:Y' "no colon" "$draw --curve load r.tsv"
+refuses 2 'it must be X:Y' "no column" "$draw --curve load:approach, r.tsv"
+refuses 2 '--curve draws tables, not maps: leave out --channel' "an option of maps" "$draw --curve load:approach --channel gap r.tsv"
+refuses 2 '--law is for curves: add --curve X:Y' "a law of no curve" "$draw --law hertz p.rcg"
+refuses 2 '--law hertz needs --radius: give it' "a law without its radius" "$draw --curve load:approach --law hertz --estar 1GPa r.tsv"
+refuses 2 '--law persson: it ties contact_fraction or contact_area over load' "a law of something else" \
+    "$draw --curve load:approach --law persson --estar 1GPa --rms-slope 0.1 r.tsv"
+printf 'load/N\tcontact_fraction\n1\t0.5\n' >few.tsv
+refuses 1 'it needs the area of the map, the columns nx, ny, dx and dy' "a law without the area of the map" \
+    "$draw --curve load:contact_fraction --law hertz --estar 1GPa --radius 1mm few.tsv"
+claim "none of these left a picture behind" bash -c '[ ! -e out.png ] && [ -z "$(ls out.png.* 2>/dev/null)" ]'
+
+finish
