@@ -15,6 +15,9 @@
 
 #include <cmocka.h>
 
+#include "formats/rcg/rcg.h"
+#include "libcontact/grid.h"
+
 /* |a - b| <= most, said where it is not so. */
 #define assert_near(a, b, most) check_near((a), (b), (most), __FILE__, __LINE__)
 static inline void
@@ -44,6 +47,27 @@ put_file(const char *name, const char *text)
     assert_non_null(file);
     fputs(text, file);
     assert_int_equal(fclose(file), 0);
+}
+
+/* Writes frames, which it frees, as a stream. */
+static inline void
+put_stream(const char *name, struct rc_grid **grid, size_t n)
+{
+    char path[256];
+    FILE *file;
+    struct rc_writer *w;
+
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    file = fopen(path, "wb");
+    assert_non_null(file);
+    w = rc_writer_new(file, NULL);
+    for (size_t k = 0; k < n; k++) {
+        assert_int_equal(rc_writer_put(w, grid[k], NULL), RC_OK);
+        rc_grid_free(grid[k]);
+    }
+    assert_int_equal(rc_writer_end(w, NULL), RC_OK);
+    rc_writer_free(w);
+    fclose(file);
 }
 
 /* Runs a command in the folder, the tools on its PATH, and reads the picture out.png that it made. */

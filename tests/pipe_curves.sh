@@ -65,13 +65,32 @@ refuses 1 'nowhere.tsv: No such file' "a file that is not there" "$draw --curve 
 refuses 2 'it must be X:Y' "no colon" "$draw --curve load r.tsv"
 refuses 2 'it must be X:Y' "no column" "$draw --curve load:approach, r.tsv"
 refuses 2 '--curve draws tables, not maps: leave out --channel' "an option of maps" "$draw --curve load:approach --channel gap r.tsv"
-refuses 2 '--law is for curves: add --curve X:Y' "a law of no curve" "$draw --law hertz p.rcg"
+refuses 2 'laws stand beside --curve and --histogram: leave out --law' "a law of no curve" "$draw --law hertz p.rcg"
 refuses 2 '--law hertz needs --radius: give it' "a law without its radius" "$draw --curve load:approach --law hertz --estar 1GPa r.tsv"
 refuses 2 '--law persson: it ties contact_fraction or contact_area over load' "a law of something else" \
     "$draw --curve load:approach --law persson --estar 1GPa --rms-slope 0.1 r.tsv"
 printf 'load/N\tcontact_fraction\n1\t0.5\n' >few.tsv
 refuses 1 'it needs the area of the map, the columns nx, ny, dx and dy' "a law without the area of the map" \
     "$draw --curve load:contact_fraction --law hertz --estar 1GPa --radius 1mm few.tsv"
+claim "none of these left a picture behind" bash -c '[ ! -e out.png ] && [ -z "$(ls out.png.* 2>/dev/null)" ]'
+
+
+# ---- curves of frames ----
+
+draw='rc-render -o out.png'
+claim "a cut of several cases" rc-render --cut x=0.1mm --case 1,3 -o c.png p.rcg
+claim "of a section by depth and by place" bash -c '
+    rc-stress --quiet --nu 0.3 --section y=0 --depths 5um,10um,40um --components mises p.rcg >s.rcg &&
+    rc-render --cut depth=9um --case 1 -o c.png s.rcg && rc-render --cut x=0 --case 1,2 -o d.png s.rcg'
+refuses 2 '--cut z=0: it must be x=PLACE or y=PLACE, as in y=0' "a cut across no axis" "$draw --cut z=0 --case 1 p.rcg"
+refuses 2 '--cut y=0: it must be x=PLACE or depth=PLACE' "a cut of a section across y" "$draw --cut y=0 --case 1 s.rcg"
+refuses 2 "--cut y=3N: unknown unit 'N'|--cut y=3N" "a place in newtons" "$draw --cut y=3N --case 1 p.rcg"
+refuses 1 'it has nodes from y = −320 µm to 320 µm' "a cut beyond the map" "$draw --cut y=1mm --case 1 p.rcg"
+refuses 1 'holds no frame|no frame|no case|case 7' "a case that is not there" "$draw --cut y=0 --case 1,7 p.rcg"
+refuses 2 'kinds of picture: give one' "two kinds of curves" "$draw --cut y=0 --histogram p.rcg"
+refuses 2 'a curve has no colours: leave out --colormap' "colours of a curve" "$draw --cut y=0 --colormap grey p.rcg"
+refuses 2 '--law hertz: a histogram has the law persson' "another law" "$draw --histogram --case 1 --law hertz --radius 1mm p.rcg"
+refuses 2 '--law persson needs --rms-slope' "a law without its slope" "$draw --histogram --case 1 --law persson p.rcg"
 claim "none of these left a picture behind" bash -c '[ ! -e out.png ] && [ -z "$(ls out.png.* 2>/dev/null)" ]'
 
 finish

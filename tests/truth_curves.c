@@ -127,6 +127,114 @@ law_is_drawn_through(void **state)
     free(p.rgb);
 }
 
+/* ---- curves of frames ---- */
+
+static struct rc_grid *
+new_grid(const char *channel, const char *unit, size_t nx, size_t ny)
+{
+    struct rc_shape shape = {nx, ny, 2e-6, 3e-6};
+    struct rc_grid *g = rc_grid_new(&shape, channel, unit, NULL);
+
+    assert_non_null(g);
+    memset(g->v, 0, nx * ny * sizeof *g->v);
+    return g;
+}
+
+/* The line runs through the nodes of the row that is meant: one of them stands out. */
+static void
+cut_of_a_map(void **state)
+{
+    struct rc_grid *g = new_grid("height", "m", 21, 6);
+    struct picture p;
+    struct frame f;
+    double major[16];
+    size_t n, top = 0;
+
+    (void)state;
+    for (size_t i = 0; i < 21; i++)
+        g->v[1 * 21 + i] = 5e-6 * (double)i; /* another row */
+    g->v[4 * 21 + 15] = 1e-6;                /* x = 10 um, y = 4.5 um */
+    put_stream("g.rcg", &g, 1);
+    p = draw("rc-render --cut y=5um -o out.png g.rcg");
+    f = find_frame(&p);
+    n = find_marks(&p, 1, f.bottom + 8, f.left, f.right, major, 16);
+    assert_int_equal(n, 9);                           /* -20 ... 20 um */
+    for (size_t j = f.bottom - 2; j > f.top + 2; j--) /* the row where it is highest */
+        for (size_t i = f.left + 2; i < f.right - 1; i++)
+            if (pixel(&p, i, j) == blue) {
+                top = i;
+                break;
+            }
+    assert_near((double)top, major[4] + 2 * (major[5] - major[4]), 1.5); /* 10 um past 0 */
+    free(p.rgb);
+}
+
+/* Heights whose share above v is 1 - sqrt(v): the curve is the parabola v = (1 - share)^2. */
+static void
+material_ratio_of_a_parabola(void **state)
+{
+    struct rc_grid *g = new_grid("height", "m", 125, 80);
+    struct picture p;
+    struct frame f;
+    double up[16];
+    size_t found = 0, n;
+
+    (void)state;
+    for (size_t k = 0; k < 10000; k++) /* in an order that is none */
+        g->v[k] = pow(((double)(k * 7919 % 10000) + 0.5) / 10000, 2) * 1e-6;
+    put_stream("g.rcg", &g, 1);
+    p = draw("rc-render --material-ratio -o out.png g.rcg");
+    f = find_frame(&p);
+    n = find_marks(&p, 0, f.left - 8, f.top, f.bottom + 1, up, 16);
+    assert_int_equal(n, 6); /* 0 0.2 ... 1 um: up[0] is 1 um */
+    for (size_t i = f.left + 9; i < f.right - 9; i += 7) {
+        double share = (double)(i - f.left) / (double)(f.right - f.left);
+        double sum = 0, ink = 0;
+
+        for (size_t j = f.top + 2; j < f.bottom - 1; j++)
+            if (pixel(&p, i, j) == blue) {
+                sum += (double)j;
+                ink++;
+            }
+        if (ink == 0)
+            continue;
+        assert_near(sum / ink, up[5] - (1 - share) * (1 - share) * (up[5] - up[0]), 2);
+        found++;
+    }
+    assert_true(found > 80);
+    free(p.rgb);
+}
+
+/* Three nodes in one bin stand three times as high as one in another. */
+static void
+histogram_of_few(void **state)
+{
+    struct rc_grid *g = new_grid("pressure", "Pa", 10, 1);
+    static const double v[10] = {0, 1.01e9, 1.02e9, 0, 0, 1.03e9, 0, 3.99e9, 0, 0};
+    struct picture p;
+    struct frame f;
+    size_t high[2] = {0, 0}, x[2];
+    double major[16];
+
+    (void)state;
+    memcpy(g->v, v, sizeof v);
+    put_stream("g.rcg", &g, 1);
+    p = draw("rc-render --histogram -o out.png g.rcg && rc-render --histogram --verbose -o x.png "
+             "g.rcg 2>&1 | grep -q 'out of contact: 60 %'");
+    f = find_frame(&p);
+    assert_int_equal(find_marks(&p, 1, f.bottom + 8, f.left - 1, f.right, major, 16), 9);
+    for (int k = 0; k < 2; k++) { /* GPa: between 1 and 1.1, between 3.9 and 4 */
+        x[k] = (size_t)(major[0] + (k == 0 ? 1.05 : 3.95) / 0.5 * (major[1] - major[0]));
+        for (size_t j = f.top + 1; j < f.bottom; j++) {
+            unsigned c = pixel(&p, x[k], j);
+            high[k] += (c & 0xff) > (c >> 16) + 40; /* bluish */
+        }
+    }
+    assert_true(high[0] > 300);
+    assert_near((double)high[0] / (double)high[1], 3, 0.03);
+    free(p.rgb);
+}
+
 /* ---- laws ---- */
 
 static const struct law_given steel = {
@@ -216,8 +324,9 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(marks_of_decades), cmocka_unit_test(points_of_two_files),
         cmocka_unit_test(arrays_of_json),   cmocka_unit_test(law_is_drawn_through),
-        cmocka_unit_test(hertz_by_hand),    cmocka_unit_test(persson_adds_up),
-        cmocka_unit_test(what_laws_need),
+        cmocka_unit_test(cut_of_a_map),     cmocka_unit_test(material_ratio_of_a_parabola),
+        cmocka_unit_test(histogram_of_few), cmocka_unit_test(hertz_by_hand),
+        cmocka_unit_test(persson_adds_up),  cmocka_unit_test(what_laws_need),
     };
     char remove[64];
     int failed;

@@ -15,7 +15,10 @@ struct args {
     const char *colormap, *range, *title;
     size_t width;
     bool contour, figure, raw;
-    const char *curve; /* X:Y[,Y...]: tables are drawn instead of maps */
+    struct numbers depth, number; /* as asked for: of several frames, or the one of wish */
+    const char *curve;            /* X:Y[,Y...]: tables are drawn instead of maps */
+    const char *cut;
+    bool histogram, material_ratio;
     struct curve_style style;
 };
 
@@ -24,13 +27,13 @@ static const struct opt opts[] = {
     {.name = "channel", .type = OPT_TEXT, .at = offsetof(struct args, wish.channel),
      .result = true, .arg = "NAME",
      .help = "what to draw (default: mises, pressure, height, else the first)"},
-    {.name = "depth", .type = OPT_NUMBER, .unit = UNIT_M, .at = offsetof(struct args, wish.depth),
-     .min = 0, .max = INFINITY, .result = true, .arg = "LENGTH",
+    {.name = "depth", .type = OPT_NUMBERS, .unit = UNIT_M, .at = offsetof(struct args, depth),
+     .min = 0, .max = INFINITY, .result = true, .arg = "LIST",
      .help = "of a stress (default: where its size is largest)"},
     {.name = "section", .type = OPT_CHOICE, .at = offsetof(struct args, wish.section),
      .result = true, .arg = "x|y", .help = "a section across this axis instead of a map"},
-    {.name = "case", .type = OPT_COUNT, .at = offsetof(struct args, wish.number), .min = 1,
-     .max = 9e15, .result = true, .arg = "N",
+    {.name = "case", .type = OPT_NUMBERS, .at = offsetof(struct args, number), .min = 1,
+     .max = 9e15, .whole = true, .result = true, .arg = "LIST",
      .help = "of several loads or files (default: the first)"},
     {.name = "colormap", .type = OPT_CHOICE, .at = offsetof(struct args, colormap), .result = true,
      .words = colormap_name, .help = "colours for the values (default: what suits the channel)"},
@@ -47,6 +50,12 @@ static const struct opt opts[] = {
     {.name = "width", .type = OPT_COUNT, .at = offsetof(struct args, width), .min = FIGURE_NARROW,
      .max = FIGURE_WIDE, .result = true, .arg = "PIXELS",
      .help = "of the whole figure (default: what suits the map)"},
+    {.name = "cut", .type = OPT_TEXT, .at = offsetof(struct args, cut), .result = true,
+     .arg = "AXIS=PLACE", .help = "draw the values along a line, as in y=0"},
+    {.name = "histogram", .type = OPT_FLAG, .at = offsetof(struct args, histogram), .result = true,
+     .help = "draw how the values spread; of pressures, those in contact"},
+    {.name = "material-ratio", .type = OPT_FLAG, .at = offsetof(struct args, material_ratio),
+     .result = true, .help = "draw the share of the map at or above each value"},
     {.name = "curve", .type = OPT_TEXT, .at = offsetof(struct args, curve), .result = true,
      .arg = "X:Y[,Y...]", .help = "draw columns Y over X of reports or tables instead of a map"},
     {.name = "log", .type = OPT_CHOICE, .at = offsetof(struct args, style.log), .result = true,
@@ -304,20 +313,89 @@ render_curves(struct tool *t, struct args *a)
     canvas_free(c);
 }
 
-/* Options that mean something of one kind of picture only. */
-static void
-check_curves(struct tool *t, const struct args *a)
+/* Curves of frames: along a line, how values spread, material ratio. */
+static bool
+draws_lines(const struct args *a)
 {
-    static const char *const of_maps[] = {"channel", "depth", "section", "case",   "colormap",
-                                          "range",   "raw",   "figure",  "contour"};
-    static const char *const of_curves[] = {"log", "law", "estar", "radius", "rms-slope"};
+    return a->cut != NULL || a->histogram || a->material_ratio;
+}
 
-    for (size_t k = 0; k < sizeof of_maps / sizeof *of_maps; k++)
-        if (a->curve != NULL && tool_given(t, of_maps[k]))
-            tool_die(t, EXIT_USAGE, "--curve draws tables, not maps: leave out --%s", of_maps[k]);
-    for (size_t k = 0; k < sizeof of_curves / sizeof *of_curves; k++)
-        if (a->curve == NULL && tool_given(t, of_curves[k]))
-            tool_die(t, EXIT_USAGE, "--%s is for curves: add --curve X:Y", of_curves[k]);
+static struct canvas *
+draw_lines(struct tool *t, struct args *a, const struct frames *f, struct drawn *drawn)
+{
+    double lo = NAN, hi = NAN;
+
+    if (a->cut == NULL)
+        return (a->histogram ? histogram_draw : material_ratio_draw)(t, f->grid, f->n, &a->style,
+                                                                     drawn);
+    if (a->range != NULL)
+        a->range = range_read(t, a->range, f->grid[0], &lo, &hi);
+    return cut_draw(t, f->grid, f->n, a->cut, lo, hi, &a->style, drawn);
+}
+
+static void
+render_lines(struct tool *t, struct args *a, const struct frames *f)
+{
+    struct drawn drawn = {.stamp = NULL};
+    struct canvas *c;
+
+    a->style.title = a->title;
+    a->style.width = a->width;
+    c = draw_lines(t, a, f, &drawn);
+    warn_of_characters(t, c);
+    write_picture(t, f->grid[0], &(struct figure){.title = drawn.title, .stamp = drawn.stamp}, c);
+    canvas_free(c);
+}
+
+/* ---- which picture ---- */
+
+/* Options that go with some kinds of pictures only. */
+static void
+leave_out(struct tool *t, const char *kind, const char *const *option)
+{
+    for (; *option != NULL; option++)
+        if (tool_given(t, *option))
+            tool_die(t, EXIT_USAGE, "%s: leave out --%s", kind, *option);
+}
+
+static void
+check_kinds(struct tool *t, const struct args *a)
+{
+    static const char *const of_maps[] = {"channel",  "depth", "section", "case",
+                                          "colormap", "range", "contour", NULL};
+    static const char *const of_colours[] = {"colormap", "contour", NULL};
+    static const char *const of_laws[] = {"law", "estar", "radius", "rms-slope", NULL};
+    int kinds = (a->curve != NULL) + (a->cut != NULL) + a->histogram + a->material_ratio +
+                (a->raw || a->figure);
+
+    if (kinds > 1 && !(a->raw && a->figure))
+        tool_die(t, EXIT_USAGE,
+                 "--raw, --figure, --curve, --cut, --histogram and --material-ratio are kinds of "
+                 "picture: give one");
+    if (a->curve != NULL)
+        leave_out(t, "--curve draws tables, not maps", of_maps);
+    if (draws_lines(a))
+        leave_out(t, "a curve has no colours", of_colours);
+    if (a->range != NULL && (a->histogram || a->material_ratio))
+        tool_die(t, EXIT_USAGE, "--range is for maps and for --cut: leave it out");
+    if (a->curve == NULL && !draws_lines(a) && a->style.log != NULL)
+        tool_die(t, EXIT_USAGE, "--log is for curves: add --curve X:Y");
+    if (a->curve == NULL && !a->histogram)
+        leave_out(t, "laws stand beside --curve and --histogram", of_laws);
+}
+
+/* Of lists the one frame that a picture shows, or the several that curves show. */
+static void
+check_lists(struct tool *t, struct args *a)
+{
+    bool several = a->depth.n > 1 || a->number.n > 1;
+
+    if (several && !draws_lines(a))
+        tool_die(t, EXIT_USAGE, "a picture shows one frame: give one --depth and one --case");
+    if (a->depth.n == 1)
+        a->wish.depth = a->depth.v[0];
+    if (a->number.n == 1)
+        a->wish.number = (size_t)a->number.v[0];
 }
 
 static void
@@ -333,26 +411,54 @@ check_options(struct tool *t, const struct args *a)
         tool_die(t, EXIT_USAGE, "--title: the text is not UTF-8");
 }
 
+/* One frame: the best of all. */
+static void
+read_one(struct tool *t, struct args *a)
+{
+    struct choice choice = {.wish = &a->wish};
+    struct rc_grid *g;
+
+    while ((g = tool_read(t)) != NULL)
+        choice_offer(&choice, t, g);
+    choice_settle(&choice, t);
+    if (draws_lines(a))
+        render_lines(t, a, &(struct frames){.grid = {choice.grid}, .n = 1});
+    else
+        render(t, a, choice.grid, choice.by_size);
+    choice_free(&choice);
+}
+
+static void
+read_several(struct tool *t, struct args *a)
+{
+    static struct frames frames;
+
+    frames.wish = a->wish;
+    frames.wanted = (struct wanted){.depth = a->depth, .number = a->number};
+    frames_read(&frames, t); /* frees the lists */
+    a->depth = a->number = (struct numbers){0};
+    render_lines(t, a, &frames);
+    frames_free(&frames);
+}
+
 int
 main(int argc, char **argv)
 {
     struct args args = {.wish = {.depth = NAN},
                         .style.given = {.estar = NAN, .radius = NAN, .rms_slope = NAN}};
-    struct choice choice = {.wish = &args.wish};
-    struct rc_grid *g;
     struct tool t;
 
     tool_start(&t, &info, argc, argv, &args);
     check_options(&t, &args);
-    check_curves(&t, &args);
-    if (args.curve != NULL) {
+    check_kinds(&t, &args);
+    check_lists(&t, &args);
+    if (args.curve != NULL)
         render_curves(&t, &args);
-        return tool_finish(&t);
-    }
-    while ((g = tool_read(&t)) != NULL)
-        choice_offer(&choice, &t, g);
-    choice_settle(&choice, &t);
-    render(&t, &args, choice.grid, choice.by_size);
-    choice_free(&choice);
+    else if (args.depth.n > 1 || args.number.n > 1)
+        read_several(&t, &args);
+    else
+        read_one(&t, &args);
+    free(args.depth.v);
+    free(args.number.v);
     return tool_finish(&t);
 }

@@ -252,8 +252,11 @@ set_list(struct tool *t, const struct opt *o, struct numbers *list, const char *
     if ((o->per_metre ? unit_forces(text, list, &err) : unit_numbers(text, o->unit, list, &err)) !=
         RC_OK)
         tool_die(t, EXIT_USAGE, "--%s %s: %s", o->name, text, err.text);
-    for (size_t k = 0; k < list->n; k++)
+    for (size_t k = 0; k < list->n; k++) {
         check_bounds(t, o, list->v[k], list->per_metre);
+        if (o->whole && list->v[k] != floor(list->v[k]))
+            tool_die(t, EXIT_USAGE, "--%s %s: it must be a whole number", o->name, text);
+    }
 }
 
 static void
@@ -433,7 +436,7 @@ warn_of_commas(struct tool *t)
         const char *unit = unit_name(o->unit), *blank = *unit == '\0' ? "" : " ";
         const char *text = t->list[k], *comma;
         const struct numbers *list;
-        if (text == NULL || !unit_decimal_comma(text))
+        if (text == NULL || o->whole || !unit_decimal_comma(text))
             continue;
         list = (const void *)((const char *)t->args + o->at);
         comma = strchr(text, ',');

@@ -62,6 +62,7 @@ struct opt {
     const char *(*words)(size_t k); /* word k; NULL past the last: see words.h              */
     bool optional;    /* OPT_CHOICE: the argument may be left out, for the value ""  */
     const char *word; /* instead of OPT_NUMBERS; of OPT_NUMBER: for INFINITY  */
+    bool whole;       /* OPT_NUMBERS: whole numbers, whose commas are no decimal marks */
     bool per_metre;   /* OPT_NUMBERS of forces that may be in N/m             */
     const char *arg;  /* how help names the argument: "FORCE"; NULL: takes none             */
     const char *help; /* one line; %s in it stands for the words                            */

@@ -68,6 +68,14 @@ choose_scale(struct scale *s, double largest, const char *unit)
         strcpy(s->unit, areas[k].unit);
         return;
     }
+    if (strncmp(unit, "1/", 2) == 0 && largest > 0) { /* 1/GPa */
+        struct scale of;
+
+        scale_choose(&of, pow(1000, ceil(-log10(largest) / 3 - 1e-12)), unit + 2);
+        s->size = 1 / of.size;
+        snprintf(s->unit, sizeof s->unit, "1/%.40s", of.unit);
+        return;
+    }
     scale_choose(s, largest, unit);
     last = s->unit + strlen(s->unit) - (s->unit[0] != '\0');
     if (strcmp(last, "2") == 0)
@@ -351,7 +359,8 @@ draw_bars(struct graph_page *p, const struct graph_series *s, struct rgb colour)
     double floor_y = p->top + p->h;
 
     for (size_t k = 0; k + 1 < s->n; k++) {
-        double x = x_of(p, s->x[k]), end = x_of(p, s->x[k + 1]), y = y_of(p, s->y[k]);
+        double x = round(x_of(p, s->x[k])), end = round(x_of(p, s->x[k + 1]));
+        double y = y_of(p, s->y[k]);
 
         canvas_fill(p->c, x, y, end - x, fmax(floor_y - y, 0), pale(colour));
     }

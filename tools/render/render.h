@@ -32,6 +32,8 @@ void choice_offer(struct choice *choice, struct tool *tool, struct rc_grid *grid
  * where somebody might have meant that. */
 void choice_settle(struct choice *choice, struct tool *tool);
 void choice_free(struct choice *choice);
+/* Place of a channel among those that are preferred; the others share the one past them. */
+size_t choice_rank(const char *channel);
 
 /* ---- channels.c ---- */
 
@@ -59,6 +61,12 @@ struct subtitle {
     size_t n;
 };
 
+/* Adds a piece to the subtitle; one that does not fit is left out whole. */
+void subtitle_add(struct subtitle *subtitle, const char *name, const char *value);
+/* What all frames of a picture have in common: source, case, load, depth. */
+void subtitle_common(struct subtitle *subtitle, struct rc_grid *const *grid, size_t n);
+/* "load 10 N, depth 5 um": in what frame k differs from others of its picture. */
+void frame_label(char *text, size_t size, struct rc_grid *const *grid, size_t n, size_t k);
 /* `largest`: of several depths this one was chosen because its size is largest. */
 void subtitle_write(struct subtitle *subtitle, const struct rc_grid *grid,
                     const struct survey *survey, bool largest);
@@ -133,5 +141,36 @@ struct canvas *curves_draw(struct tool *tool, const char *columns, const struct 
                            struct drawn *drawn);
 /* Whether --log asks for that axis. */
 bool curve_log(const struct curve_style *style, char axis);
+
+/* ---- frames.c: several frames of one channel in one picture ---- */
+
+enum {
+    FRAMES = 64
+};
+
+struct frames {
+    struct wish wish;     /* channel and section; of depths and cases the lists count */
+    struct wanted wanted; /* depths and cases asked for; none: all                    */
+    struct rc_grid *grid[FRAMES];
+    size_t n;
+    size_t left; /* frames that were too many */
+};
+
+/* Reads all inputs and keeps the frames that are asked for, of the channel that stands first in the
+ * order of struct wish where none is. Ends the tool when there is none. Frees the lists. */
+void frames_read(struct frames *frames, struct tool *tool);
+void frames_free(struct frames *frames);
+
+/* ---- frame_curves.c: curves of frames, one each ---- */
+
+/* The values along the line `cut`, as in "y=0"; lo and hi: of the upright axis, NAN: what suits. */
+struct canvas *cut_draw(struct tool *tool, struct rc_grid *const *grid, size_t n, const char *cut,
+                        double lo, double hi, const struct curve_style *style, struct drawn *drawn);
+/* How values spread over the map; of pressures those above 0, the rest as a note. */
+struct canvas *histogram_draw(struct tool *tool, struct rc_grid *const *grid, size_t n,
+                              const struct curve_style *style, struct drawn *drawn);
+/* The share of the map at or above each value. */
+struct canvas *material_ratio_draw(struct tool *tool, struct rc_grid *const *grid, size_t n,
+                                   const struct curve_style *style, struct drawn *drawn);
 
 #endif
