@@ -91,6 +91,23 @@ refuses 2 'kinds of picture: give one' "two kinds of curves" "$draw --cut y=0 --
 refuses 2 'a curve has no colours: leave out --colormap' "colours of a curve" "$draw --cut y=0 --colormap grey p.rcg"
 refuses 2 '--law hertz: a histogram has the law persson' "another law" "$draw --histogram --case 1 --law hertz --radius 1mm p.rcg"
 refuses 2 '--law persson needs --rms-slope' "a law without its slope" "$draw --histogram --case 1 --law persson p.rcg"
+
+# ---- sheets ----
+
+claim "a list of cases is a sheet" rc-render --case 1,3 -o c.png p.rcg
+claim "a sheet of sections" rc-render --sheet 1x3 -o c.png s.rcg
+claim "the words of a sheet are those of its frames" bash -c 'grep -aqF -- "--sheet 1x3" c.png'
+refuses 1 '3 frames match, --sheet 1x2 holds 2' "a sheet too small" "$draw --sheet 1x2 p.rcg"
+refuses 2 '--sheet 2: it must be COLSxROWS, as in 3x2, or auto' "a sheet of one number" "$draw --sheet 2 p.rcg"
+refuses 2 '--sheet 0x2: it must be' "a sheet of no column" "$draw --sheet 0x2 p.rcg"
+refuses 2 '--raw shows one frame' "raw pictures of several" "$draw --raw --case 1,2 p.rcg"
+refuses 2 '--sheet is for maps' "a sheet of curves" "$draw --sheet auto --histogram p.rcg"
+refuses 1 '20 columns on 400 pixels leave' "a sheet too narrow" "$draw --sheet 20x1 --width 400 p.rcg"
+rc-synth sphere --nx 33 --dx 10um --radius 7.5mm -o small.rcg
+refuses 1 'a sheet shows maps of one size' "maps of two sizes" "$draw --sheet auto ball.rcg small.rcg"
+rc-synth wave --nx 30 --ny 1 --dx 1um --amplitude 1um --wavelength 10um -o wave.rcg
+refuses 1 'a profile is no map: draw several as curves' "profiles" "$draw --sheet auto wave.rcg wave.rcg"
+claim "profiles are curves" rc-render --cut y=0 --case 1,2 -o c.png wave.rcg wave.rcg
 claim "none of these left a picture behind" bash -c '[ ! -e out.png ] && [ -z "$(ls out.png.* 2>/dev/null)" ]'
 
 finish

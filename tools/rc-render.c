@@ -18,6 +18,7 @@ struct args {
     struct numbers depth, number; /* as asked for: of several frames, or the one of wish */
     const char *curve;            /* X:Y[,Y...]: tables are drawn instead of maps */
     const char *cut;
+    const char *sheet; /* COLSxROWS or "auto" */
     bool histogram, material_ratio;
     struct curve_style style;
 };
@@ -50,6 +51,9 @@ static const struct opt opts[] = {
     {.name = "width", .type = OPT_COUNT, .at = offsetof(struct args, width), .min = FIGURE_NARROW,
      .max = FIGURE_WIDE, .result = true, .arg = "PIXELS",
      .help = "of the whole figure (default: what suits the map)"},
+    {.name = "sheet", .type = OPT_TEXT, .at = offsetof(struct args, sheet), .result = true,
+     .arg = "COLSxROWS",
+     .help = "all frames that match in one picture, in so many columns and rows, or auto"},
     {.name = "cut", .type = OPT_TEXT, .at = offsetof(struct args, cut), .result = true,
      .arg = "AXIS=PLACE", .help = "draw the values along a line, as in y=0"},
     {.name = "histogram", .type = OPT_FLAG, .at = offsetof(struct args, histogram), .result = true,
@@ -213,13 +217,13 @@ warn_of_characters(struct tool *t, const struct canvas *c)
         tool_warn(t, "%s", text);
 }
 
-static void
-draw_figure(struct tool *t, const struct rc_grid *g, struct figure *f)
+/* Where the values of a frame lie; gives the edges of its rows, which the caller frees, of a section
+ * and NULL of a map. */
+static double *
+set_extent(struct tool *t, const struct rc_grid *g, struct figure *f)
 {
     const char *section = rc_grid_get(g, "section");
-    double *rows = NULL;
-    struct canvas *c;
-    struct rc_err err;
+    double *rows;
 
     f->across = "x";
     f->down = "y";
@@ -227,13 +231,23 @@ draw_figure(struct tool *t, const struct rc_grid *g, struct figure *f)
     f->left = -f->right;
     f->bottom = 0.5 * (double)g->ny * g->dy;
     f->top = -f->bottom;
-    if (section != NULL) {
-        f->row_edge = rows = section_rows(t, g);
-        f->across = strcmp(section, "x") == 0 ? "y" : "x";
-        f->down = "depth";
-        f->top = rows[0];
-        f->bottom = rows[g->ny];
-    }
+    if (section == NULL)
+        return NULL;
+    f->row_edge = rows = section_rows(t, g);
+    f->across = strcmp(section, "x") == 0 ? "y" : "x";
+    f->down = "depth";
+    f->top = rows[0];
+    f->bottom = rows[g->ny];
+    return rows;
+}
+
+static void
+draw_figure(struct tool *t, const struct rc_grid *g, struct figure *f)
+{
+    double *rows = set_extent(t, g, f);
+    struct canvas *c;
+    struct rc_err err;
+
     if ((c = figure_draw(f, g, &err)) == NULL)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     warn_of_characters(t, c);
@@ -251,12 +265,39 @@ stamp_of(const struct rc_grid *g)
     return converged != NULL && strcmp(converged, "no") == 0 ? "not converged" : NULL;
 }
 
+/* What a figure of these values is like, but for its subtitle and where they lie. */
+static struct figure
+set_figure(struct tool *t, struct args *a, const struct rc_grid *g, const struct survey *s)
+{
+    static struct channel what; /* its title lasts */
+    struct figure f;
+
+    what = channel_of(g, s);
+    f = (struct figure){
+        .title = a->title == NULL ? what.title : a->title,
+        .stamp = stamp_of(g),
+        .quantity = what.title,
+        .unit = g->unit,
+        .map = colormap_find(a->colormap == NULL ? what.colormap : a->colormap),
+        .min = s->min,
+        .max = s->max,
+        .missing = s->missing,
+        .zero_is_none = strcmp(g->channel, "pressure") == 0,
+        .zeros = s->zeros,
+        .contour = a->contour,
+        .width = a->width,
+    };
+    range_choose(g, s, f.map, &what, is_profile(g) && !a->raw, &f.lo, &f.hi);
+    if (a->range != NULL)
+        a->range = range_read(t, a->range, g, &f.lo, &f.hi);
+    return f;
+}
+
 static void
 render(struct tool *t, struct args *a, const struct rc_grid *g, bool largest)
 {
     struct survey s;
     struct subtitle subtitle = {.n = 0};
-    struct channel what;
     struct figure f;
 
     survey_map(g, &s);
@@ -265,32 +306,139 @@ render(struct tool *t, struct args *a, const struct rc_grid *g, bool largest)
                     "none of its %zu values is a finite number: there is "
                     "nothing to draw",
                     g->nx * g->ny);
-    what = channel_of(g, &s);
     subtitle_write(&subtitle, g, &s, largest);
-    f = (struct figure){
-        .title = a->title == NULL ? what.title : a->title,
-        .subtitle = subtitle.text,
-        .stamp = stamp_of(g),
-        .quantity = what.title,
-        .unit = g->unit,
-        .map = colormap_find(a->colormap == NULL ? what.colormap : a->colormap),
-        .min = s.min,
-        .max = s.max,
-        .missing = s.missing,
-        .zero_is_none = strcmp(g->channel, "pressure") == 0,
-        .zeros = s.zeros,
-        .contour = a->contour,
-        .width = a->width,
-    };
-    range_choose(g, &s, f.map, &what, is_profile(g) && !a->raw, &f.lo, &f.hi);
-    if (a->range != NULL)
-        a->range = range_read(t, a->range, g, &f.lo, &f.hi);
+    f = set_figure(t, a, g, &s);
+    f.subtitle = subtitle.text;
     if (a->contour && is_profile(g))
         tool_warn(t, "a profile is drawn as a curve: --contour does nothing");
     if (a->raw)
         write_picture(t, g, &f, NULL);
     else
         draw_figure(t, g, &f);
+}
+
+/* ---- sheets ---- */
+
+/* "3x2", or 0 by 0 for auto. */
+static void
+read_sheet(struct tool *t, const char *text, size_t *columns, size_t *rows)
+{
+    double value[2] = {0, 0};
+    const char *end = rc_number_read(text, false, &value[0]);
+
+    *columns = *rows = 0;
+    if (strcmp(text, "auto") == 0)
+        return;
+    if (end != NULL && *end == 'x')
+        end = rc_number_read(end + 1, false, &value[1]);
+    else
+        end = NULL;
+    for (int k = 0; k < 2; k++)
+        if (end == NULL || *end != '\0' || !(value[k] >= 1 && value[k] <= FRAMES) ||
+            value[k] != floor(value[k]))
+            tool_die(t, EXIT_USAGE, "--sheet %s: it must be COLSxROWS, as in 3x2, or auto", text);
+    *columns = (size_t)value[0];
+    *rows = (size_t)value[1];
+}
+
+/* One colour bar is for maps of one extent. */
+static void
+check_alike(struct tool *t, const struct rc_grid *first, const struct figure *of_first,
+            const struct rc_grid *g, const struct figure *f)
+{
+    double size = fabs(of_first->right - of_first->left), high = of_first->bottom - of_first->top;
+
+    if (is_profile(g))
+        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                    "a profile is no map: draw several as curves, with --cut y=0");
+    if (strcmp(first->unit, g->unit) != 0 || strcmp(f->down, of_first->down) != 0 ||
+        strcmp(f->across, of_first->across) != 0 || fabs(f->right - f->left - size) > 1e-6 * size ||
+        fabs(f->bottom - f->top - high) > 1e-6 * high)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                    "it is not of the size of the frame before: a sheet shows maps of one size: "
+                    "choose with --case and --depth");
+}
+
+/* All values together. */
+static void
+survey_all(struct tool *t, const struct frames *frames, struct survey *all)
+{
+    *all = (struct survey){.min = NAN, .max = NAN};
+    for (size_t k = 0; k < frames->n; k++) {
+        struct survey s;
+
+        survey_map(frames->grid[k], &s);
+        if (isnan(s.min))
+            tool_die_at(t, frames->grid[k], EXIT_IMPOSSIBLE,
+                        "none of its %zu values is a finite number: there is nothing to draw",
+                        frames->grid[k]->nx * frames->grid[k]->ny);
+        all->min = fmin(all->min, s.min);
+        all->max = fmax(all->max, s.max);
+        all->missing += s.missing;
+        all->zeros += s.zeros;
+    }
+}
+
+/* "a) load 10 N"; past z it is aa). */
+static void
+set_label(struct panel *panel, const struct frames *frames, size_t k)
+{
+    char what[200];
+
+    frame_label(what, sizeof what, frames->grid, frames->n, k);
+    snprintf(panel->label, sizeof panel->label, "%s%c) %s",
+             k < 26   ? ""
+             : k < 52 ? "a"
+                      : "b",
+             (char)('a' + k % 26), what);
+}
+
+static void
+render_sheet(struct tool *t, struct args *a, const struct frames *frames)
+{
+    struct panel *panel = calloc(frames->n, sizeof *panel);
+    struct subtitle subtitle = {.n = 0};
+    struct survey all;
+    struct figure f;
+    size_t columns, rows, nodes = 0;
+    double *edge[FRAMES + 1];
+    struct canvas *c;
+    struct rc_err err;
+
+    if (panel == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
+    read_sheet(t, a->sheet == NULL ? "auto" : a->sheet, &columns, &rows);
+    if (columns > 0 && frames->n > columns * rows)
+        tool_die(t, EXIT_IMPOSSIBLE,
+                 "%zu frames match, --sheet %s holds %zu: choose with --case and --depth",
+                 frames->n, a->sheet, columns * rows);
+    survey_all(t, frames, &all);
+    f = set_figure(t, a, frames->grid[0], &all);
+    subtitle_common(&subtitle, frames->grid, frames->n);
+    subtitle_range(&subtitle, &all, frames->grid[0]->unit);
+    f.subtitle = subtitle.text;
+    for (size_t k = 0; k < frames->n; k++) {
+        panel[k].figure = f;
+        panel[k].grid = frames->grid[k];
+        edge[k] = set_extent(t, frames->grid[k], &panel[k].figure);
+        check_alike(t, frames->grid[0], &panel[0].figure, frames->grid[k], &panel[k].figure);
+        set_label(&panel[k], frames, k);
+        f.stamp = f.stamp == NULL ? stamp_of(frames->grid[k]) : f.stamp;
+        nodes += frames->grid[k]->nx * frames->grid[k]->ny;
+    }
+    f.nodes = nodes;
+    edge[frames->n] = set_extent(t, frames->grid[0], &f);
+    if (columns == 0)
+        columns = panels_columns(frames->n, (f.right - f.left) / (f.bottom - f.top));
+    c = panels_draw(&(struct panels){&f, panel, frames->n, columns, a->width}, &err);
+    if (c == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
+    warn_of_characters(t, c);
+    write_picture(t, frames->grid[0], &f, c);
+    canvas_free(c);
+    for (size_t k = 0; k <= frames->n; k++)
+        free(edge[k]);
+    free(panel);
 }
 
 /* ---- curves ---- */
@@ -384,14 +532,21 @@ check_kinds(struct tool *t, const struct args *a)
         leave_out(t, "laws stand beside --curve and --histogram", of_laws);
 }
 
-/* Of lists the one frame that a picture shows, or the several that curves show. */
+/* A list of several, or a sheet, shows several frames. */
+static bool
+shows_several(const struct args *a)
+{
+    return a->depth.n > 1 || a->number.n > 1 || a->sheet != NULL;
+}
+
+/* Of lists the one frame that a picture shows, unless it shows several. */
 static void
 check_lists(struct tool *t, struct args *a)
 {
-    bool several = a->depth.n > 1 || a->number.n > 1;
-
-    if (several && !draws_lines(a))
-        tool_die(t, EXIT_USAGE, "a picture shows one frame: give one --depth and one --case");
+    if (shows_several(a) && (a->raw || a->curve != NULL))
+        tool_die(t, EXIT_USAGE, "--raw shows one frame: give one --depth and one --case");
+    if (a->sheet != NULL && (a->raw || a->curve != NULL || draws_lines(a)))
+        tool_die(t, EXIT_USAGE, "--sheet is for maps: leave it out");
     if (a->depth.n == 1)
         a->wish.depth = a->depth.v[0];
     if (a->number.n == 1)
@@ -437,7 +592,7 @@ read_several(struct tool *t, struct args *a)
     frames.wanted = (struct wanted){.depth = a->depth, .number = a->number};
     frames_read(&frames, t); /* frees the lists */
     a->depth = a->number = (struct numbers){0};
-    render_lines(t, a, &frames);
+    (draws_lines(a) ? render_lines : render_sheet)(t, a, &frames);
     frames_free(&frames);
 }
 
@@ -454,7 +609,7 @@ main(int argc, char **argv)
     check_lists(&t, &args);
     if (args.curve != NULL)
         render_curves(&t, &args);
-    else if (args.depth.n > 1 || args.number.n > 1)
+    else if (shows_several(&args))
         read_several(&t, &args);
     else
         read_one(&t, &args);

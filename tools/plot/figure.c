@@ -417,3 +417,28 @@ figure_draw(const struct figure *f, const struct rc_grid *g, struct rc_err *err)
     }
     return page.c;
 }
+
+/* ---- pages of several plots ---- */
+
+enum rc_status
+page_map(struct page *p, bool left, bool below, struct rc_err *err)
+{
+    double x = (double)p->plot_x, y = (double)p->plot_y, w = (double)p->plot_w,
+           h = (double)p->plot_h;
+
+    if (draw_map(p, err) != RC_OK)
+        return RC_FAIL;
+    canvas_frame(p->c, x, y, w, h, fmax(1, round(1.2 * p->u)), page_ink);
+    if (left)
+        draw_marks_upright(p, &p->down, x, y, h, true, true);
+    if (below)
+        draw_marks_across(p, &p->across, x, y + h, w);
+    return RC_OK;
+}
+
+void
+page_bar(struct page *p)
+{
+    draw_bar(p);
+    draw_legend(p);
+}

@@ -34,6 +34,7 @@ struct figure {
     double min, max;   /* of the values there are: the bar gets a point where
                                    they go on beyond its end                             */
     size_t missing;    /* nodes that are NaN                                    */
+    size_t nodes;      /* of so many; 0: those of the map                       */
     bool zero_is_none; /* value 0 means no contact                              */
     size_t zeros;      /* nodes of that value                                   */
     bool contour;      /* lines at the marks of the bar, and the contact's edge */

@@ -287,7 +287,7 @@ set_legend(struct page *p, double width)
     if (p->f->zero_is_none && p->f->zeros > 0 && !p->curve)
         add_note(p, SWATCH_NONE, "no contact");
     snprintf(text, sizeof text, "%snot measured (%zu of %zu nodes)", p->curve ? "gaps: " : "",
-             p->f->missing, p->g->nx * p->g->ny);
+             p->f->missing, p->f->nodes != 0 ? p->f->nodes : p->g->nx * p->g->ny);
     if (p->f->missing > 0)
         add_note(p, p->curve ? SWATCH_NOTHING : SWATCH_MISSING, text);
     if (p->distorted)
@@ -359,4 +359,22 @@ page_lay_out(struct page *p)
         width = fmax((double)p->f->width - p->left_w - p->right_w, 1);
     }
     set_page(p);
+}
+
+/* ---- pages of several plots ---- */
+
+void
+page_measure(struct page *p)
+{
+    set_axes(p);
+    choose_marks(p, &p->across, (double)p->plot_w, false);
+    choose_marks(p, &p->down, (double)p->plot_h, true);
+    even_steps(p);
+    choose_marks(p, &p->values, (double)p->plot_h, true);
+}
+
+void
+page_legend(struct page *p, double width)
+{
+    set_legend(p, width);
 }

@@ -78,6 +78,14 @@ void page_wrap(struct page *page, const struct canvas_font *font, double width,
                const char *separator, const char *text, struct text *lines);
 /* Draws title, subtitle and stamp, over the plot. In figure.c. */
 void page_heading(struct page *page);
+/* Chooses the marks of all axes for a plot of plot_w by plot_h pixels, the bar as high as that. */
+void page_measure(struct page *page);
+/* Settles what the legend says, and its height. */
+void page_legend(struct page *page, double width);
+/* Draws the map in its frame, with the axes asked for. In figure.c, as what follows. */
+enum rc_status page_map(struct page *page, bool left, bool below, struct rc_err *err);
+/* Draws the colour bar beside the plot, and the legend at the foot of the page. */
+void page_bar(struct page *page);
 /* Where a value of the axis lies between its ends, 0 to 1. */
 double page_place(const struct axis *axis, double value);
 

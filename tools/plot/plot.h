@@ -9,6 +9,7 @@
 #include "colormap.h"
 #include "figure.h"
 #include "graph.h"
+#include "panels.h"
 #include "png.h"
 #include "raster.h"
 #include "ticks.h"

@@ -63,6 +63,8 @@ struct subtitle {
 
 /* Adds a piece to the subtitle; one that does not fit is left out whole. */
 void subtitle_add(struct subtitle *subtitle, const char *name, const char *value);
+/* The extremes. */
+void subtitle_range(struct subtitle *subtitle, const struct survey *survey, const char *unit);
 /* What all frames of a picture have in common: source, case, load, depth. */
 void subtitle_common(struct subtitle *subtitle, struct rc_grid *const *grid, size_t n);
 /* "load 10 N, depth 5 um": in what frame k differs from others of its picture. */

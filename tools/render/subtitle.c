@@ -49,6 +49,15 @@ extreme(char text[TICKS_TEXT], double value, const struct survey *s, const char 
 }
 
 void
+subtitle_range(struct subtitle *w, const struct survey *s, const char *unit)
+{
+    char text[TICKS_TEXT];
+
+    subtitle_add(w, "min ", extreme(text, s->min, s, unit));
+    subtitle_add(w, "max ", extreme(text, s->max, s, unit));
+}
+
+void
 subtitle_write(struct subtitle *w, const struct rc_grid *g, const struct survey *s, bool largest)
 {
     const char *source = rc_grid_get(g, "source"), *number = rc_grid_get(g, "case");
@@ -62,8 +71,7 @@ subtitle_write(struct subtitle *w, const struct rc_grid *g, const struct survey 
     if (rc_grid_number(g, "load", &load))
         subtitle_add(w, "load ", scale_value(text, load, "N"));
     say_where(w, g, largest);
-    subtitle_add(w, "min ", extreme(text, s->min, s, g->unit));
-    subtitle_add(w, "max ", extreme(text, s->max, s, g->unit));
+    subtitle_range(w, s, g->unit);
 }
 
 /* ---- several frames ---- */
