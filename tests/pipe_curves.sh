@@ -108,6 +108,27 @@ refuses 1 'a sheet shows maps of one size' "maps of two sizes" "$draw --sheet au
 rc-synth wave --nx 30 --ny 1 --dx 1um --amplitude 1um --wavelength 10um -o wave.rcg
 refuses 1 'a profile is no map: draw several as curves' "profiles" "$draw --sheet auto wave.rcg wave.rcg"
 claim "profiles are curves" rc-render --cut y=0 --case 1,2 -o c.png wave.rcg wave.rcg
+
+# ---- reliefs ----
+
+claim "reliefs, from any side" bash -c '
+    rc-render --view 30,35 -o v.png ball.rcg && rc-render --view=-400e-1,10 -o w.png ball.rcg'
+printf '0 1 0 nan\n1 3 1 2\n0 nan 0 1\n1 1 1 1\n' >holes.txt
+claim "a map with holes is drawn" bash -c '
+    rc-import --dx 1um --z-unit um holes.txt | rc-render --view 30,35 --quiet -o h.png && [ -s h.png ]'
+claim "a map of 2 by 3 nodes, one of the same everywhere, one in a hundred times as long as wide" bash -c '
+    rc-synth wave --nx 2 --ny 3 --dx 1um --amplitude 1um --wavelength 2um | rc-render --view 30,35 -o h.png &&
+    printf '2 2 2\\n2 2 2\\n2 2 2\\n' >flat.txt && rc-import --dx 1um --z-unit um flat.txt | rc-render --view 30,35 -o h.png &&
+    rc-synth wave --nx 400 --ny 4 --dx 1um --amplitude 1um --wavelength 20um | rc-render --view 30,35 -o h.png'
+claim "a map with shadows, and a sheet of them" bash -c '
+    rc-render --hillshade -o h.png ball.rcg && rc-render --hillshade --sheet 2x2 -o h.png p.rcg'
+refuses 2 '--view 30: it must be AZ,EL in degrees' "one angle" "$draw --view 30 ball.rcg"
+refuses 2 '--view 30,0: it must be AZ,EL' "a view along the map" "$draw --view 30,0 ball.rcg"
+refuses 2 '--view 30,91: it must be AZ,EL' "a view from below the other side" "$draw --view 30,91 ball.rcg"
+refuses 2 '--view x,y: ' "a view of words" "$draw --view x,y ball.rcg"
+refuses 2 '--view draws one map as a relief: leave out' "a raw relief" "$draw --view 30,35 --raw ball.rcg"
+refuses 2 '--hillshade is for flat maps' "shadows on a relief" "$draw --view 30,35 --hillshade ball.rcg"
+refuses 1 'a relief is of a map, this is a profile or a section' "a relief of a section" "$draw --view 30,35 --case 1 s.rcg"
 claim "none of these left a picture behind" bash -c '[ ! -e out.png ] && [ -z "$(ls out.png.* 2>/dev/null)" ]'
 
 finish

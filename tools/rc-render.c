@@ -18,8 +18,9 @@ struct args {
     struct numbers depth, number; /* as asked for: of several frames, or the one of wish */
     const char *curve;            /* X:Y[,Y...]: tables are drawn instead of maps */
     const char *cut;
+    const char *view;  /* AZ,EL: a relief */
     const char *sheet; /* COLSxROWS or "auto" */
-    bool histogram, material_ratio;
+    bool histogram, material_ratio, hillshade;
     struct curve_style style;
 };
 
@@ -51,6 +52,10 @@ static const struct opt opts[] = {
     {.name = "width", .type = OPT_COUNT, .at = offsetof(struct args, width), .min = FIGURE_NARROW,
      .max = FIGURE_WIDE, .result = true, .arg = "PIXELS",
      .help = "of the whole figure (default: what suits the map)"},
+    {.name = "view", .type = OPT_TEXT, .at = offsetof(struct args, view), .result = true,
+     .arg = "AZ,EL", .help = "as a lit surface, seen from azimuth and elevation in degrees"},
+    {.name = "hillshade", .type = OPT_FLAG, .at = offsetof(struct args, hillshade), .result = true,
+     .help = "with light from the upper left on the slopes of the map"},
     {.name = "sheet", .type = OPT_TEXT, .at = offsetof(struct args, sheet), .result = true,
      .arg = "COLSxROWS",
      .help = "all frames that match in one picture, in so many columns and rows, or auto"},
@@ -256,6 +261,67 @@ draw_figure(struct tool *t, const struct rc_grid *g, struct figure *f)
     free(rows);
 }
 
+/* ---- reliefs ---- */
+
+/* Ends the tool where --view is no two angles. */
+static void
+read_view(struct tool *t, const char *text, struct view *view)
+{
+    struct numbers n = {0};
+    struct rc_err err;
+
+    if (unit_numbers(text, UNIT_NONE, &n, &err) != RC_OK)
+        tool_die(t, EXIT_USAGE, "--view %s: %s", text, err.text);
+    if (n.n != 2 || !(fabs(n.v[0]) <= 360) || !(n.v[1] > 0 && n.v[1] <= 90))
+        tool_die(t, EXIT_USAGE,
+                 "--view %s: it must be AZ,EL in degrees, as in 30,35, EL above 0 and at most 90",
+                 text);
+    view->azimuth = n.v[0];
+    view->elevation = n.v[1];
+    free(n.v);
+}
+
+/* What a relief leaves to be said, after what the figure says. */
+static void
+say_relief(const struct figure *f, struct subtitle *subtitle)
+{
+    char text[TICKS_TEXT];
+
+    if (strcmp(f->unit, "m") == 0) {
+        snprintf(text, sizeof text, "%.15g times", relief_exaggeration(f));
+        subtitle_add(subtitle, "height exaggerated ", text);
+    }
+    if (f->missing > 0) {
+        snprintf(text, sizeof text, "%zu nodes", f->missing);
+        subtitle_add(subtitle, "holes: not measured, ", text);
+    }
+}
+
+static void
+draw_relief(struct tool *t, const struct args *a, const struct rc_grid *g, struct figure *f,
+            struct subtitle *subtitle)
+{
+    struct view view;
+    double *rows;
+    struct canvas *c;
+    struct rc_err err;
+
+    read_view(t, a->view, &view);
+    if (is_profile(g) || rc_grid_get(g, "section") != NULL || g->nx == 1 || g->ny == 1)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                    "a relief is of a map, this is a profile or a section: leave out --view");
+    view.peaks = f->zero_is_none;
+    rows = set_extent(t, g, f);
+    say_relief(f, subtitle);
+    f->missing = 0; /* they are holes */
+    if ((c = relief_draw(f, &view, g, &err)) == NULL)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    warn_of_characters(t, c);
+    write_picture(t, g, f, c);
+    canvas_free(c);
+    free(rows);
+}
+
 /* What nobody may overlook; NULL: nothing. */
 static const char *
 stamp_of(const struct rc_grid *g)
@@ -285,6 +351,7 @@ set_figure(struct tool *t, struct args *a, const struct rc_grid *g, const struct
         .zero_is_none = strcmp(g->channel, "pressure") == 0,
         .zeros = s->zeros,
         .contour = a->contour,
+        .hillshade = a->hillshade,
         .width = a->width,
     };
     range_choose(g, s, f.map, &what, is_profile(g) && !a->raw, &f.lo, &f.hi);
@@ -292,6 +359,8 @@ set_figure(struct tool *t, struct args *a, const struct rc_grid *g, const struct
         a->range = range_read(t, a->range, g, &f.lo, &f.hi);
     return f;
 }
+
+static const char shaded[] = "shaded, light from the upper left";
 
 static void
 render(struct tool *t, struct args *a, const struct rc_grid *g, bool largest)
@@ -309,10 +378,15 @@ render(struct tool *t, struct args *a, const struct rc_grid *g, bool largest)
     subtitle_write(&subtitle, g, &s, largest);
     f = set_figure(t, a, g, &s);
     f.subtitle = subtitle.text;
-    if (a->contour && is_profile(g))
-        tool_warn(t, "a profile is drawn as a curve: --contour does nothing");
+    if (a->hillshade && !is_profile(g))
+        subtitle_add(&subtitle, shaded, "");
+    if ((a->contour || a->hillshade) && is_profile(g))
+        tool_warn(t, "a profile is drawn as a curve: --%s does nothing",
+                  a->contour ? "contour" : "hillshade");
     if (a->raw)
         write_picture(t, g, &f, NULL);
+    else if (a->view != NULL)
+        draw_relief(t, a, g, &f, &subtitle);
     else
         draw_figure(t, g, &f);
 }
@@ -416,6 +490,8 @@ render_sheet(struct tool *t, struct args *a, const struct frames *frames)
     f = set_figure(t, a, frames->grid[0], &all);
     subtitle_common(&subtitle, frames->grid, frames->n);
     subtitle_range(&subtitle, &all, frames->grid[0]->unit);
+    if (a->hillshade)
+        subtitle_add(&subtitle, shaded, "");
     f.subtitle = subtitle.text;
     for (size_t k = 0; k < frames->n; k++) {
         panel[k].figure = f;
@@ -545,6 +621,12 @@ check_lists(struct tool *t, struct args *a)
 {
     if (shows_several(a) && (a->raw || a->curve != NULL))
         tool_die(t, EXIT_USAGE, "--raw shows one frame: give one --depth and one --case");
+    if (a->hillshade && (a->raw || a->curve != NULL || draws_lines(a) || a->view != NULL))
+        tool_die(t, EXIT_USAGE, "--hillshade is for flat maps with axes: leave it out");
+    if (a->view != NULL &&
+        (a->raw || a->curve != NULL || draws_lines(a) || a->contour || shows_several(a)))
+        tool_die(t, EXIT_USAGE,
+                 "--view draws one map as a relief: leave out --raw, --contour, curves and lists");
     if (a->sheet != NULL && (a->raw || a->curve != NULL || draws_lines(a)))
         tool_die(t, EXIT_USAGE, "--sheet is for maps: leave it out");
     if (a->depth.n == 1)

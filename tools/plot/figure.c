@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "hillshade.h"
 #include "page.h"
 #include "raster.h"
 #include "ticks.h"
@@ -67,8 +68,54 @@ missing_at(const struct page *p, size_t x, size_t y)
                                           : mix(p->f->map->missing, 0.5, light, 0.5);
 }
 
+/* Light and shadow by nodes, or by pixels where there are more nodes than those. */
+struct shades {
+    struct raster *raster;
+    float *bright; /* NULL: none are wanted */
+};
+
+static enum rc_status
+shades_new(const struct page *p, struct shades *s, struct rc_err *err)
+{
+    const struct figure *f = p->f;
+    size_t w = p->g->nx < p->plot_w ? p->g->nx : p->plot_w;
+    size_t h = p->g->ny < p->plot_h ? p->g->ny : p->plot_h;
+    double aspect = (f->bottom - f->top) / (double)h / ((f->right - f->left) / (double)w);
+
+    *s = (struct shades){NULL, NULL};
+    if (!f->hillshade)
+        return RC_OK;
+    if ((s->raster = raster_new(p->g, f->row_edge, f->zero_is_none, w, h, err)) == NULL)
+        return RC_FAIL;
+    if ((s->bright = hillshade_new(s->raster, aspect, err)) != NULL)
+        return RC_OK;
+    raster_free(s->raster);
+    return RC_FAIL;
+}
+
 static void
-paint(struct page *p, const struct raster *r)
+shades_free(struct shades *s)
+{
+    raster_free(s->raster);
+    free(s->bright);
+}
+
+/* The colour of cell (i, j) of w by h as it is lit. */
+static struct rgb
+lit(const struct shades *s, struct rgb c, size_t i, size_t j, size_t w, size_t h)
+{
+    double b;
+
+    if (s->bright == NULL)
+        return c;
+    b = (double)s->bright[j * s->raster->h / h * s->raster->w + i * s->raster->w / w];
+    return (struct rgb){(unsigned char)fmin(255, c.r * b + 0.5),
+                        (unsigned char)fmin(255, c.g * b + 0.5),
+                        (unsigned char)fmin(255, c.b * b + 0.5)};
+}
+
+static void
+paint(struct page *p, const struct raster *r, const struct shades *shades)
 {
     const struct figure *f = p->f;
 
@@ -88,7 +135,7 @@ paint(struct page *p, const struct raster *r)
                 colour =
                     none > 0 ? mix(value, fmax(0, 1 - none), f->map->none, fmin(none, 1)) : value;
             }
-            canvas_pixel(p->c, p->plot_x + i, p->plot_y + j, colour);
+            canvas_pixel(p->c, p->plot_x + i, p->plot_y + j, lit(shades, colour, i, j, r->w, r->h));
         }
 }
 
@@ -163,11 +210,17 @@ draw_map(struct page *p, struct rc_err *err)
     const struct figure *f = p->f;
     struct raster *r = raster_new(p->g, f->row_edge, f->zero_is_none, p->plot_w, p->plot_h, err);
     size_t nx = p->g->nx, ny = p->g->ny;
+    struct shades shades;
     enum rc_status status;
 
     if (r == NULL)
         return RC_FAIL;
-    paint(p, r);
+    if (shades_new(p, &shades, err) != RC_OK) {
+        raster_free(r);
+        return RC_FAIL;
+    }
+    paint(p, r, &shades);
+    shades_free(&shades);
     raster_free(r);
     if (!f->contour)
         return RC_OK;

@@ -38,6 +38,7 @@ struct figure {
     bool zero_is_none; /* value 0 means no contact                              */
     size_t zeros;      /* nodes of that value                                   */
     bool contour;      /* lines at the marks of the bar, and the contact's edge */
+    bool hillshade;    /* with light and shadow                                 */
     size_t width;      /* pixels of the whole figure; 0: what suits the map     */
 };
 

@@ -12,6 +12,7 @@
 #include "panels.h"
 #include "png.h"
 #include "raster.h"
+#include "relief.h"
 #include "ticks.h"
 
 #endif
