@@ -288,8 +288,8 @@ say_relief(const struct figure *f, struct subtitle *subtitle)
     char text[TICKS_TEXT];
 
     if (strcmp(f->unit, "m") == 0) {
-        snprintf(text, sizeof text, "%.15g times", relief_exaggeration(f));
-        subtitle_add(subtitle, "height exaggerated ", text);
+        snprintf(text, sizeof text, "%.15g", relief_exaggeration(f));
+        subtitle_add(subtitle, "vertical exaggeration ", text);
     }
     if (f->missing > 0) {
         snprintf(text, sizeof text, "%zu nodes", f->missing);

@@ -49,9 +49,10 @@ struct graph_page {
 
 /* ---- axes ---- */
 
-/* Square metres get the prefix of a length; powers of a unit stand raised. */
+/* Square metres get the prefix of a length; powers of a unit stand raised. A unit without a prefix
+ * stays as it is on a logarithmic axis. */
 static void
-choose_scale(struct scale *s, double largest, const char *unit)
+choose_scale(struct scale *s, double largest, const char *unit, bool log)
 {
     static const struct {
         double size;
@@ -77,6 +78,10 @@ choose_scale(struct scale *s, double largest, const char *unit)
         return;
     }
     scale_choose(s, largest, unit);
+    if (log && strncmp(s->unit, "10", 2) == 0) { /* powers of ten stand at the marks */
+        s->size = 1;
+        snprintf(s->unit, sizeof s->unit, "%.40s", strcmp(unit, "1") == 0 ? "" : unit);
+    }
     last = s->unit + strlen(s->unit) - (s->unit[0] != '\0');
     if (strcmp(last, "2") == 0)
         strcpy(last, "²");
@@ -143,7 +148,7 @@ set_range(struct side *s, const struct graph *g, bool up, struct rc_err *err)
         return rc_err_set(err, "%s: no point has a number %son that axis%s", a->quantity,
                           a->log ? "above 0 " : "",
                           a->log ? ": leave out --log, or give the other axis" : "");
-    choose_scale(&s->scale, fmax(fabs(lo), fabs(hi)), a->unit);
+    choose_scale(&s->scale, fmax(fabs(lo), fabs(hi)), a->unit, a->log);
     scale_label(s->label, sizeof s->label, a->quantity, &s->scale);
     lo /= s->scale.size;
     hi /= s->scale.size;

@@ -424,7 +424,8 @@ struct side {
     const struct axis *axis;
     struct vec a, b;
     double out[2];
-    bool flip; /* values fall from a to b */
+    bool flip;     /* values fall from a to b                                   */
+    bool keep_off; /* no number at the corner that is nearest: another axis has one there */
 };
 
 static void
@@ -455,6 +456,10 @@ draw_side(struct scene *s, const struct side *side)
         canvas_stroke(p->c, 1.6 * u, page_ink);
         part = 0.5 - 0.5 * fmin(fmax(1.6 * side->out[0], -1), 1);
         ticks_text(text, &ticks, k);
+        if (side->keep_off &&
+            hypot(x - (t < 0.5 ? x0 : x1), y - (t < 0.5 ? y0 : y1)) < 1.6 * p->small.size &&
+            (t < 0.5) == (y0 > y1))
+            continue;
         widest = fmax(widest, canvas_text_width(p->c, &p->small, text));
         canvas_text(p->c, &p->small, x + 15 * u * side->out[0],
                     y + 15 * u * side->out[1] + (0.36 + 0.42 * side->out[1]) * p->small.size, part,
@@ -495,8 +500,11 @@ set_sides(const struct scene *s, struct side side[3])
     left = dot(a, s->right) < dot(b, s->right) ? a : b;
     side[0] = (struct side){
         .axis = &s->page.across, .a = {-0.5 * s->lx, fy, 0}, .b = {0.5 * s->lx, fy, 0}};
-    side[1] = (struct side){
-        .axis = &s->page.down, .a = {fx, -0.5 * s->ly, 0}, .b = {fx, 0.5 * s->ly, 0}, .flip = true};
+    side[1] = (struct side){.axis = &s->page.down,
+                            .a = {fx, -0.5 * s->ly, 0},
+                            .b = {fx, 0.5 * s->ly, 0},
+                            .flip = true,
+                            .keep_off = true};
     side[2] = (struct side){
         .axis = &s->page.values, .a = left, .b = {left.x, left.y, s->lz}, .out = {-1, 0}};
     set_out(s, &side[0], (struct vec){0, fy, 0});
