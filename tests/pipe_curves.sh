@@ -34,6 +34,17 @@ rc-render --curve load:approach --quiet -o s.png short.json
 claim "a solution that stopped short makes the exit status 3" test $? = 3
 claim "  and the picture says so" bash -c 'tr "\0" = <s.png | says "tEXtWarning=not converged" cat'
 
+while read -r x y; do
+    claim "a point at $x and $y" bash -c "printf 'x/m\ty/Pa\n0\t0\n$x\t$y\n' | rc-render --curve x:y -o g.png"
+    claim "  alone" bash -c "printf 'x/m\ty/Pa\n$x\t$y\n' | rc-render --curve x:y -o g.png"
+    claim "  on logarithmic axes" bash -c "printf 'x/m\ty/m2\n${x#-}\t${y#-}\n1e-3\t7\n' | rc-render --curve x:y --log -o g.png"
+done <<'END'
+1e308 -1e308
+5e-324 1e-300
+1e300 1e-300
+1.0000000000001 1
+END
+
 # ---- what is not ----
 
 refuses 1 'p.rcg is a grid stream: --curve draws tables' "a stream" "$draw --curve load:approach p.rcg"
@@ -58,7 +69,7 @@ refuses 1 'its arrays have 3 and 2 values' "arrays that differ" \
 refuses 1 'it holds binary data' "a table with a NUL" "printf 'a\tb\n1\t\0002\n' | $draw --curve a:b"
 refuses 1 'standard input is empty' "nothing" "$draw --curve a:b </dev/null"
 refuses 1 'a heading and no row' "a heading alone" "printf 'a\tb\n' | $draw --curve a:b"
-refuses 1 'no point has a number above 0 on that axis: leave out --log' "a logarithm of nothing" \
+refuses 1 'no point lies above 0 on its logarithmic axes: leave out --log' "a logarithm of nothing" \
     "printf 'a\tb\n1\t-1\n' | $draw --curve a:b --log"
 refuses 1 'a table of more than 100 bytes is not read' "a table over --memory" "$draw --memory 100 --curve load:approach r.tsv"
 refuses 1 'nowhere.tsv: No such file' "a file that is not there" "$draw --curve a:b nowhere.tsv"
@@ -72,6 +83,7 @@ refuses 2 '--law persson: it ties contact_fraction or contact_area over load' "a
 printf 'load/N\tcontact_fraction\n1\t0.5\n' >few.tsv
 refuses 1 'it needs the area of the map, the columns nx, ny, dx and dy' "a law without the area of the map" \
     "$draw --curve load:contact_fraction --law hertz --estar 1GPa --radius 1mm few.tsv"
+refuses 1 'no point has a number on both axes' "points of halves" "printf 'a\tb\nNaN\t1\n2\tNaN\n' | $draw --curve a:b"
 claim "none of these left a picture behind" bash -c '[ ! -e out.png ] && [ -z "$(ls out.png.* 2>/dev/null)" ]'
 
 

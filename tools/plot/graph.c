@@ -145,9 +145,10 @@ set_range(struct side *s, const struct graph *g, bool up, struct rc_err *err)
     s->axis = a;
     extremes(g, up, &lo, &hi);
     if (!(lo <= hi))
-        return rc_err_set(err, "%s: no point has a number %son that axis%s", a->quantity,
-                          a->log ? "above 0 " : "",
-                          a->log ? ": leave out --log, or give the other axis" : "");
+        return g->x.log || g->y.log
+                   ? rc_err_set(err, "no point lies above 0 on its logarithmic axes: leave out "
+                                     "--log, or give it one axis, x or y")
+                   : rc_err_set(err, "%s: no point has a number on both axes", a->quantity);
     choose_scale(&s->scale, fmax(fabs(lo), fabs(hi)), a->unit, a->log);
     scale_label(s->label, sizeof s->label, a->quantity, &s->scale);
     lo /= s->scale.size;
