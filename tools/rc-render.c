@@ -263,40 +263,6 @@ draw_figure(struct tool *t, const struct rc_grid *g, struct figure *f)
 
 /* ---- reliefs ---- */
 
-/* Ends the tool where --view is no two angles. */
-static void
-read_view(struct tool *t, const char *text, struct view *view)
-{
-    struct numbers n = {0};
-    struct rc_err err;
-
-    if (unit_numbers(text, UNIT_NONE, &n, &err) != RC_OK)
-        tool_die(t, EXIT_USAGE, "--view %s: %s", text, err.text);
-    if (n.n != 2 || !(fabs(n.v[0]) <= 360) || !(n.v[1] > 0 && n.v[1] <= 90))
-        tool_die(t, EXIT_USAGE,
-                 "--view %s: it must be AZ,EL in degrees, as in 30,35, EL above 0 and at most 90",
-                 text);
-    view->azimuth = n.v[0];
-    view->elevation = n.v[1];
-    free(n.v);
-}
-
-/* What a relief leaves to be said, after what the figure says. */
-static void
-say_relief(const struct figure *f, struct subtitle *subtitle)
-{
-    char text[TICKS_TEXT];
-
-    if (strcmp(f->unit, "m") == 0) {
-        snprintf(text, sizeof text, "%.15g", relief_exaggeration(f));
-        subtitle_add(subtitle, "vertical exaggeration ", text);
-    }
-    if (f->missing > 0) {
-        snprintf(text, sizeof text, "%zu nodes", f->missing);
-        subtitle_add(subtitle, "holes: not measured, ", text);
-    }
-}
-
 static void
 draw_relief(struct tool *t, const struct args *a, const struct rc_grid *g, struct figure *f,
             struct subtitle *subtitle)
@@ -306,13 +272,13 @@ draw_relief(struct tool *t, const struct args *a, const struct rc_grid *g, struc
     struct canvas *c;
     struct rc_err err;
 
-    read_view(t, a->view, &view);
+    view_read(t, a->view, &view);
     if (is_profile(g) || rc_grid_get(g, "section") != NULL || g->nx == 1 || g->ny == 1)
         tool_die_at(t, g, EXIT_IMPOSSIBLE,
                     "a relief is of a map, this is a profile or a section: leave out --view");
     view.peaks = f->zero_is_none;
     rows = set_extent(t, g, f);
-    say_relief(f, subtitle);
+    view_say(f, subtitle);
     f->missing = 0; /* they are holes */
     if ((c = relief_draw(f, &view, g, &err)) == NULL)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
@@ -393,80 +359,6 @@ render(struct tool *t, struct args *a, const struct rc_grid *g, bool largest)
 
 /* ---- sheets ---- */
 
-/* "3x2", or 0 by 0 for auto. */
-static void
-read_sheet(struct tool *t, const char *text, size_t *columns, size_t *rows)
-{
-    double value[2] = {0, 0};
-    const char *end = rc_number_read(text, false, &value[0]);
-
-    *columns = *rows = 0;
-    if (strcmp(text, "auto") == 0)
-        return;
-    if (end != NULL && *end == 'x')
-        end = rc_number_read(end + 1, false, &value[1]);
-    else
-        end = NULL;
-    for (int k = 0; k < 2; k++)
-        if (end == NULL || *end != '\0' || !(value[k] >= 1 && value[k] <= FRAMES) ||
-            value[k] != floor(value[k]))
-            tool_die(t, EXIT_USAGE, "--sheet %s: it must be COLSxROWS, as in 3x2, or auto", text);
-    *columns = (size_t)value[0];
-    *rows = (size_t)value[1];
-}
-
-/* One colour bar is for maps of one extent. */
-static void
-check_alike(struct tool *t, const struct rc_grid *first, const struct figure *of_first,
-            const struct rc_grid *g, const struct figure *f)
-{
-    double size = fabs(of_first->right - of_first->left), high = of_first->bottom - of_first->top;
-
-    if (is_profile(g))
-        tool_die_at(t, g, EXIT_IMPOSSIBLE,
-                    "a profile is no map: draw several as curves, with --cut y=0");
-    if (strcmp(first->unit, g->unit) != 0 || strcmp(f->down, of_first->down) != 0 ||
-        strcmp(f->across, of_first->across) != 0 || fabs(f->right - f->left - size) > 1e-6 * size ||
-        fabs(f->bottom - f->top - high) > 1e-6 * high)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE,
-                    "it is not of the size of the frame before: a sheet shows maps of one size: "
-                    "choose with --case and --depth");
-}
-
-/* All values together. */
-static void
-survey_all(struct tool *t, const struct frames *frames, struct survey *all)
-{
-    *all = (struct survey){.min = NAN, .max = NAN};
-    for (size_t k = 0; k < frames->n; k++) {
-        struct survey s;
-
-        survey_map(frames->grid[k], &s);
-        if (isnan(s.min))
-            tool_die_at(t, frames->grid[k], EXIT_IMPOSSIBLE,
-                        "none of its %zu values is a finite number: there is nothing to draw",
-                        frames->grid[k]->nx * frames->grid[k]->ny);
-        all->min = fmin(all->min, s.min);
-        all->max = fmax(all->max, s.max);
-        all->missing += s.missing;
-        all->zeros += s.zeros;
-    }
-}
-
-/* "a) load 10 N"; past z it is aa). */
-static void
-set_label(struct panel *panel, const struct frames *frames, size_t k)
-{
-    char what[200];
-
-    frame_label(what, sizeof what, frames->grid, frames->n, k);
-    snprintf(panel->label, sizeof panel->label, "%s%c) %s",
-             k < 26   ? ""
-             : k < 52 ? "a"
-                      : "b",
-             (char)('a' + k % 26), what);
-}
-
 static void
 render_sheet(struct tool *t, struct args *a, const struct frames *frames)
 {
@@ -481,12 +373,12 @@ render_sheet(struct tool *t, struct args *a, const struct frames *frames)
 
     if (panel == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
-    read_sheet(t, a->sheet == NULL ? "auto" : a->sheet, &columns, &rows);
+    sheet_size(t, a->sheet == NULL ? "auto" : a->sheet, &columns, &rows);
     if (columns > 0 && frames->n > columns * rows)
         tool_die(t, EXIT_IMPOSSIBLE,
                  "%zu frames match, --sheet %s holds %zu: choose with --case and --depth",
                  frames->n, a->sheet, columns * rows);
-    survey_all(t, frames, &all);
+    sheet_survey(t, frames, &all);
     f = set_figure(t, a, frames->grid[0], &all);
     subtitle_common(&subtitle, frames->grid, frames->n);
     subtitle_range(&subtitle, &all, frames->grid[0]->unit);
@@ -497,8 +389,8 @@ render_sheet(struct tool *t, struct args *a, const struct frames *frames)
         panel[k].figure = f;
         panel[k].grid = frames->grid[k];
         edge[k] = set_extent(t, frames->grid[k], &panel[k].figure);
-        check_alike(t, frames->grid[0], &panel[0].figure, frames->grid[k], &panel[k].figure);
-        set_label(&panel[k], frames, k);
+        sheet_check_alike(t, frames->grid[0], &panel[0].figure, frames->grid[k], &panel[k].figure);
+        sheet_label(&panel[k], frames, k);
         f.stamp = f.stamp == NULL ? stamp_of(frames->grid[k]) : f.stamp;
         nodes += frames->grid[k]->nx * frames->grid[k]->ny;
     }

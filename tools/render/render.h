@@ -163,6 +163,27 @@ struct frames {
 void frames_read(struct frames *frames, struct tool *tool);
 void frames_free(struct frames *frames);
 
+/* ---- sheet.c: the frames as panels ---- */
+
+/* "3x2"; "auto" gives 0 by 0. Ends the tool where it is neither. */
+void sheet_size(struct tool *tool, const char *text, size_t *columns, size_t *rows);
+/* Ends the tool when the frame and the first one, of which the figures say where they lie, cannot
+ * share a scale. */
+void sheet_check_alike(struct tool *tool, const struct rc_grid *first,
+                       const struct figure *of_first, const struct rc_grid *grid,
+                       const struct figure *figure);
+/* All values together; ends the tool where a frame has no finite one. */
+void sheet_survey(struct tool *tool, const struct frames *frames, struct survey *all);
+/* "a) load 10 N"; past z it is aa). */
+void sheet_label(struct panel *panel, const struct frames *frames, size_t k);
+
+/* ---- view.c: reliefs ---- */
+
+/* AZ,EL in degrees; ends the tool where it is no such. */
+void view_read(struct tool *tool, const char *text, struct view *view);
+/* What a relief leaves to be said, after what the figure says. */
+void view_say(const struct figure *figure, struct subtitle *subtitle);
+
 /* ---- frame_curves.c: curves of frames, one each ---- */
 
 /* The values along the line `cut`, as in "y=0"; lo and hi: of the upright axis, NAN: what suits. */
