@@ -1,4 +1,4 @@
-/* Pictures that rc-render draws, as a test looks at them: pixels, and what lies where in a graph. */
+/* Pictures of rc-render as a test looks at them: pixels, and what lies where in a graph. */
 #ifndef RC_TEST_PICTURES_H
 #define RC_TEST_PICTURES_H
 
@@ -71,7 +71,7 @@ put_stream(const char *name, struct rc_grid **grid, size_t n)
     fclose(file);
 }
 
-/* Runs a command in the folder, the tools on its PATH, and reads the picture out.png that it made. */
+/* Runs a command in the folder, the tools on its PATH, and reads the picture out.png. */
 static inline struct picture
 draw(const char *command)
 {

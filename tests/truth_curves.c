@@ -71,7 +71,7 @@ points_of_two_files(void **state)
     free(p.rgb);
 }
 
-/* Rows of arrays are curves; a point at 0 of a logarithmic axis is left out, and the line with it. */
+/* Rows of arrays are curves; a point at 0 of a logarithmic axis is left out. */
 static void
 arrays_of_json(void **state)
 {

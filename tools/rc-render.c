@@ -222,8 +222,8 @@ warn_of_characters(struct tool *t, const struct canvas *c)
         tool_warn(t, "%s", text);
 }
 
-/* Where the values of a frame lie; gives the edges of its rows, which the caller frees, of a section
- * and NULL of a map. */
+/* Where the values of a frame lie. Gives, of a section, the edges of its rows, which the caller
+ * frees; NULL of a map. */
 static double *
 set_extent(struct tool *t, const struct rc_grid *g, struct figure *f)
 {

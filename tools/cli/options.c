@@ -465,7 +465,8 @@ asks_for_text(const struct tool *t, int what, const char *text)
            (o->type == OPT_REPORT && strcmp(text, "-") == 0);
 }
 
-/* An argument that may be left out is there when what follows is one of the words, also without =. */
+/* An argument that may be left out is there when what follows is one of its words, with or without
+ * a =. */
 static int
 next_option(const struct tool *t, int argc, char **argv, const struct option *table)
 {

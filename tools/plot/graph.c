@@ -14,6 +14,8 @@ static const struct rgb palette[GRAPH_COLOURS] = {
     {0xe6, 0x9f, 0x00}, {0x56, 0xb4, 0xe9}, {0x22, 0x22, 0x22}};
 static const struct rgb rule = {0xe2, 0xe2, 0xe2};
 
+static const double nothing = 1e-290; /* as good as 0 on an axis */
+
 enum {
     MARKS = 256,  /* on an axis                                             */
     CROWDED = 60, /* points of a series that are too many for markers       */
@@ -60,7 +62,11 @@ choose_scale(struct scale *s, double largest, const char *unit, bool log)
     } areas[] = {{1, "m²"}, {1e-6, "mm²"}, {1e-12, "µm²"}, {1e-18, "nm²"}};
     char *last;
 
-    if (strcmp(unit, "m2") == 0 && largest > 0) {
+    if (largest < nothing) { /* of which no power of ten is left to divide by */
+        scale_choose(s, 1, unit);
+        return;
+    }
+    if (strcmp(unit, "m2") == 0) {
         size_t k = 0;
 
         while (k < 3 && largest < 0.01 * areas[k].size)
@@ -69,7 +75,7 @@ choose_scale(struct scale *s, double largest, const char *unit, bool log)
         strcpy(s->unit, areas[k].unit);
         return;
     }
-    if (strncmp(unit, "1/", 2) == 0 && largest > 0) { /* 1/GPa */
+    if (strncmp(unit, "1/", 2) == 0) { /* 1/GPa */
         struct scale of;
 
         scale_choose(&of, pow(1000, ceil(-log10(largest) / 3 - 1e-12)), unit + 2);
@@ -151,6 +157,8 @@ set_range(struct side *s, const struct graph *g, bool up, struct rc_err *err)
                    : rc_err_set(err, "%s: no point has a number on both axes", a->quantity);
     choose_scale(&s->scale, fmax(fabs(lo), fabs(hi)), a->unit, a->log);
     scale_label(s->label, sizeof s->label, a->quantity, &s->scale);
+    if (!a->log && fmax(fabs(lo), fabs(hi)) < nothing)
+        lo = hi = 0;
     lo /= s->scale.size;
     hi /= s->scale.size;
     if (a->log) {

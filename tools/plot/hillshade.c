@@ -12,7 +12,7 @@ value_at(const struct raster *r, size_t i, size_t j)
     return isnan(r->v[k]) && r->none[k] > 0 ? 0 : r->v[k];
 }
 
-/* Slopes to the right and downwards, a cell's width the unit, from the neighbours that are there. */
+/* Slopes to the right and down, a cell's width the unit, from the neighbours that are there. */
 static void
 slopes(const struct raster *r, double aspect, size_t i, size_t j, double *right, double *down)
 {
