@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "hillshade.h"
 #include "page.h"
 #include "raster.h"
 #include "ticks.h"
@@ -82,6 +83,52 @@ missing_at(const struct page *p, size_t x, size_t y)
                                           : mix(p->f->map->missing, 0.5, light, 0.5);
 }
 
+/* Light and shadow by nodes, or by cells of the image where there are more nodes than those. */
+struct shades {
+    struct raster *raster;
+    float *bright; /* NULL: none are wanted */
+};
+
+static enum rc_status
+shades_new(const struct page *p, const struct raster *image, struct shades *s, struct rc_err *err)
+{
+    const struct figure *f = p->f;
+    size_t w = p->g->nx < image->w ? p->g->nx : image->w;
+    size_t h = p->g->ny < image->h ? p->g->ny : image->h;
+    double aspect = (f->bottom - f->top) / (double)h / ((f->right - f->left) / (double)w);
+
+    *s = (struct shades){NULL, NULL};
+    if (!f->hillshade)
+        return RC_OK;
+    if ((s->raster = raster_new(p->g, f->zero_is_none, w, h, err)) == NULL)
+        return RC_FAIL;
+    if ((s->bright = hillshade_new(s->raster, aspect, err)) != NULL)
+        return RC_OK;
+    raster_free(s->raster);
+    return RC_FAIL;
+}
+
+static void
+shades_free(struct shades *s)
+{
+    raster_free(s->raster);
+    free(s->bright);
+}
+
+/* The colour of cell (i, j) of w by h as it is lit. */
+static struct rgb
+lit(const struct shades *s, struct rgb c, size_t i, size_t j, size_t w, size_t h)
+{
+    double b;
+
+    if (s->bright == NULL)
+        return c;
+    b = (double)s->bright[j * s->raster->h / h * s->raster->w + i * s->raster->w / w];
+    return (struct rgb){(unsigned char)fmin(255, c.r * b + 0.5),
+                        (unsigned char)fmin(255, c.g * b + 0.5),
+                        (unsigned char)fmin(255, c.b * b + 0.5)};
+}
+
 static struct rgb
 cell_colour(const struct page *p, const struct raster *r, size_t i, size_t j)
 {
@@ -102,17 +149,23 @@ static enum rc_status
 paint(struct page *p, const struct raster *r, struct rc_err *err)
 {
     unsigned char *rgb = malloc(3 * r->w * r->h);
+    struct shades shades;
 
     if (rgb == NULL)
         return rc_err_set(err, "out of memory for a map of %zu by %zu pixels", r->w, r->h);
+    if (shades_new(p, r, &shades, err) != RC_OK) {
+        free(rgb);
+        return RC_FAIL;
+    }
     for (size_t j = 0; j < r->h; j++)
         for (size_t i = 0; i < r->w; i++) {
-            struct rgb colour = cell_colour(p, r, i, j);
+            struct rgb colour = lit(&shades, cell_colour(p, r, i, j), i, j, r->w, r->h);
 
             memcpy(rgb + 3 * (j * r->w + i), (unsigned char[]){colour.r, colour.g, colour.b}, 3);
         }
     canvas_image(p->c, (double)p->plot_x, (double)p->plot_y, (double)p->plot_w, (double)p->plot_h,
                  rgb, r->w, r->h);
+    shades_free(&shades);
     free(rgb);
     return RC_OK;
 }
@@ -422,8 +475,8 @@ draw_stamp(struct page *p, double middle, double y)
     canvas_text(p->c, &p->stamp, middle, y + 1.12 * size, 0.5, p->f->stamp);
 }
 
-static void
-draw_text(struct page *p)
+void
+page_heading(struct page *p)
 {
     double y = 24 * p->u, middle = 0.5 * (double)p->w;
 
@@ -490,7 +543,7 @@ draw(struct page *p, struct rc_err *err)
     double x = (double)p->plot_x, y = (double)p->plot_y, w = (double)p->plot_w,
            h = (double)p->plot_h;
 
-    draw_text(p);
+    page_heading(p);
     if (p->curve) {
         draw_rules(p);
         draw_curve(p);
@@ -516,20 +569,40 @@ figure_draw(const struct figure *f, const struct rc_grid *g, struct rc_err *err)
 {
     struct page page = {.f = f, .g = g, .curve = !f->section && (g->nx == 1) != (g->ny == 1)};
 
-    if ((page.c = canvas_new(1, 1, err)) == NULL) /* to measure text on */
+    if ((page.c = page_canvas(&page, 1, 1, err)) == NULL) /* to measure text on */
         return NULL;
-    if (f->family != NULL)
-        canvas_set_family(page.c, f->family);
     page_lay_out(&page);
     canvas_free(page.c);
-    if ((page.c = canvas_new(page.w, page.h, err)) == NULL)
+    if ((page.c = page_canvas(&page, page.w, page.h, err)) == NULL)
         return NULL;
-    if (f->family != NULL)
-        canvas_set_family(page.c, f->family);
-    canvas_set_dpi(page.c, page.dpi, f->width > 0 && f->dpi == 0);
     if (draw(&page, err) != RC_OK) {
         canvas_free(page.c);
         return NULL;
     }
     return page.c;
+}
+
+/* ---- pages of several plots ---- */
+
+enum rc_status
+page_map(struct page *p, bool left, bool below, struct rc_err *err)
+{
+    double x = (double)p->plot_x, y = (double)p->plot_y, w = (double)p->plot_w,
+           h = (double)p->plot_h;
+
+    if (draw_map(p, err) != RC_OK)
+        return RC_FAIL;
+    canvas_frame(p->c, x, y, w, h, fmax(1, round(1.2 * p->u)), page_ink);
+    if (left)
+        draw_marks_upright(p, &p->down, x, y, h, true, true);
+    if (below)
+        draw_marks_across(p, &p->across, x, y + h, w);
+    return RC_OK;
+}
+
+void
+page_bar(struct page *p)
+{
+    draw_bar(p);
+    draw_legend(p);
 }

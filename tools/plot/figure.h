@@ -44,9 +44,11 @@ struct figure {
     double min, max;    /* of the values there are: the bar gets a point where
                                    they go on beyond its end                             */
     size_t missing;     /* nodes that are NaN                                    */
+    size_t nodes;       /* of so many; 0: those of the map                       */
     bool zero_is_none;  /* value 0 means no contact                              */
     size_t zeros;       /* nodes of that value                                   */
     bool contour;       /* lines at the marks of the bar, and the contact's edge */
+    bool hillshade;     /* with light and shadow                                 */
     size_t width;       /* pixels of the whole figure; 0: what suits the map     */
     double dpi;         /* of them an inch: text has its size on paper then;
                                    0: as many as give the marks FIGURE_POINTS           */

@@ -34,8 +34,8 @@ copy_text(char line[LINE], const char *text, size_t n)
 }
 
 /* Cut behind a word, unless the first one is too long already. */
-static void
-shorten(struct page *p, const struct canvas_font *font, double width, char line[LINE])
+void
+page_shorten(struct page *p, const struct canvas_font *font, double width, char line[LINE])
 {
     size_t n = strlen(line);
 
@@ -82,15 +82,15 @@ fit(struct page *p, const struct canvas_font *font, double width, const char *se
 }
 
 /* Breaks text at the separators into lines that fit; what is too much for the last one is cut. */
-static void
-wrap(struct page *p, const struct canvas_font *font, double width, const char *separator,
-     const char *text, struct text *t)
+void
+page_wrap(struct page *p, const struct canvas_font *font, double width, const char *separator,
+          const char *text, struct text *t)
 {
     for (t->n = 0; *text != '\0' && t->n < LINES; t->n++) {
         size_t n = t->n + 1 < LINES ? fit(p, font, width, separator, text) : strlen(text);
 
         copy_text(t->line[t->n], text, n);
-        shorten(p, font, width, t->line[t->n]);
+        page_shorten(p, font, width, t->line[t->n]);
         text += text[n] == '\0' ? n : n + strlen(separator);
     }
 }
@@ -210,14 +210,27 @@ page_bar_below(const struct page *p)
     return page_marks(p) + 18 * p->u;
 }
 
-static void
-set_fonts(struct page *p)
+void
+page_fonts(struct page *p)
 {
     p->small = (struct canvas_font){.size = SMALL * p->u, .colour = page_ink};
     p->large = (struct canvas_font){.size = 23 * p->u, .colour = page_ink};
     p->heading = (struct canvas_font){.size = 28 * p->u, .bold = true, .colour = page_ink};
     p->subheading = (struct canvas_font){.size = 20 * p->u, .colour = page_faint};
     p->stamp = (struct canvas_font){.size = 24 * p->u, .bold = true, .colour = page_alarm};
+}
+
+/* The unit of the design where text has its size on paper; 0: that is not asked for. */
+static double
+unit_on_paper(const struct figure *f)
+{
+    return f->dpi * FIGURE_POINTS / 72 / SMALL;
+}
+
+static void
+set_dpi(struct page *p)
+{
+    p->dpi = p->f->dpi > 0 ? p->f->dpi : 72 * p->small.size / FIGURE_POINTS;
 }
 
 /* Pixels of the longer side of a plot of n nodes: a whole number of them for a node, or of nodes
@@ -238,7 +251,7 @@ set_plot(struct page *p, double width)
 {
     double x = p->f->right - p->f->left, y = p->f->bottom - p->f->top;
     double aspect = fmin(fmax(x / y, 1.0 / FIGURE_ASPECT), FIGURE_ASPECT);
-    double paper = p->f->dpi * FIGURE_POINTS / 72 / SMALL, w; /* paper: u there; 0: not asked for */
+    double paper = unit_on_paper(p->f), w;
 
     p->distorted = !p->curve && aspect != x / y;
     if (p->curve)
@@ -256,7 +269,7 @@ set_plot(struct page *p, double width)
            : p->curve  ? 1
                        : fmax((double)p->plot_w, (double)p->plot_h) / 900;
     p->bar_below = (double)p->plot_h < 300 * p->u;
-    set_fonts(p);
+    page_fonts(p);
 }
 
 /* What the axes and the bar take to the left and to the right of the plot. */
@@ -315,7 +328,7 @@ set_legend(struct page *p, double width)
     if (p->f->zero_is_none && p->f->zeros > 0 && !p->curve)
         add_note(p, width, SWATCH_NONE, "no contact");
     snprintf(text, sizeof text, "%snot measured (%zu of %zu nodes)", p->curve ? "gaps: " : "",
-             p->f->missing, p->g->nx * p->g->ny);
+             p->f->missing, p->f->nodes != 0 ? p->f->nodes : p->g->nx * p->g->ny);
     if (p->f->missing > 0)
         add_note(p, width, p->curve ? SWATCH_NOTHING : SWATCH_MISSING, text);
     if (p->f->contour && p->f->pressure != NULL && !p->curve)
@@ -333,7 +346,7 @@ set_legend(struct page *p, double width)
     for (size_t k = 0; k < p->notes; k++) {
         double w;
 
-        shorten(p, &p->small, width - page_swatch(p, k), p->note[k].text);
+        page_shorten(p, &p->small, width - page_swatch(p, k), p->note[k].text);
         w = page_swatch(p, k) + canvas_text_width(p->c, &p->small, p->note[k].text);
         if (x > 0 && x + w > width) {
             x = 0;
@@ -358,6 +371,8 @@ overhang(struct page *p)
     return fmax(0, 0.5 * (longest - (double)p->plot_h));
 }
 
+/* ---- title and subtitle ---- */
+
 static double
 longest_word(struct page *p, const struct canvas_font *font, const char *text)
 {
@@ -374,6 +389,22 @@ longest_word(struct page *p, const struct canvas_font *font, const char *text)
     return longest;
 }
 
+void
+page_words(struct page *p, double width)
+{
+    p->heading.size *= fmin(1, fmax(0.5, width / longest_word(p, &p->heading, p->f->title)));
+    page_wrap(p, &p->heading, width, " ", p->f->title, &p->title);
+    page_wrap(p, &p->subheading, width, BETWEEN, p->f->subtitle, &p->subtitle);
+    p->stamp_h = p->f->stamp == NULL ? 0 : 2.1 * p->stamp.size;
+}
+
+double
+page_words_height(const struct page *p)
+{
+    return 24 * p->u + p->stamp_h + 1.3 * p->heading.size * (double)p->title.n +
+           1.4 * p->subheading.size * (double)p->subtitle.n;
+}
+
 static void
 set_page(struct page *p)
 {
@@ -382,13 +413,9 @@ set_page(struct page *p)
 
     p->w = p->f->width != 0 ? p->f->width : (size_t)ceil(fmax(content, 680 * u));
     text_w = (double)p->w - 48 * u;
-    p->heading.size *= fmin(1, fmax(0.5, text_w / longest_word(p, &p->heading, p->f->title)));
-    wrap(p, &p->heading, text_w, " ", p->f->title, &p->title);
-    wrap(p, &p->subheading, text_w, BETWEEN, p->f->subtitle, &p->subtitle);
+    page_words(p, text_w);
     set_legend(p, text_w);
-    p->stamp_h = p->f->stamp == NULL ? 0 : 2.1 * p->stamp.size;
-    p->above = 24 * u + p->stamp_h + 1.3 * p->heading.size * (double)p->title.n +
-               1.4 * p->subheading.size * (double)p->subtitle.n + 22 * u + over;
+    p->above = page_words_height(p) + 22 * u + over;
     if (p->bar_below && !p->curve)
         marks = page_bar_below(p) + 28 * u + marks;
     p->below = fmax(marks, over) + p->legend_h + 22 * u;
@@ -396,7 +423,7 @@ set_page(struct page *p)
     p->plot_x = (size_t)round(p->left_w + 0.5 * free);
     p->plot_y = (size_t)round(p->above);
     p->h = (size_t)ceil(p->above + (double)p->plot_h + p->below);
-    p->dpi = p->f->dpi > 0 ? p->f->dpi : 72 * p->small.size / FIGURE_POINTS;
+    set_dpi(p);
 }
 
 /* Sizes depend on texts, texts on marks, marks on sizes: with a width that is asked for a few
@@ -415,4 +442,48 @@ page_lay_out(struct page *p)
         width = fmax((double)p->f->width - p->left_w - p->right_w, 1);
     }
     set_page(p);
+}
+
+struct canvas *
+page_canvas(const struct page *p, size_t w, size_t h, struct rc_err *err)
+{
+    struct canvas *c = canvas_new(w, h, err);
+
+    if (c == NULL)
+        return NULL;
+    if (p->f->family != NULL)
+        canvas_set_family(c, p->f->family);
+    canvas_set_dpi(c, p->dpi, p->f->width > 0 && p->f->dpi == 0);
+    return c;
+}
+
+/* ---- pages of other shapes ---- */
+
+void
+page_size(struct page *p, size_t design)
+{
+    double paper = unit_on_paper(p->f), w = (double)p->f->width;
+
+    if (p->f->width == 0)
+        w = round((double)design * (paper > 0 ? paper : 1));
+    p->w = (size_t)w;
+    p->u = paper > 0 ? paper : fmax(w / (double)design, 0.5);
+    page_fonts(p);
+    set_dpi(p);
+}
+
+void
+page_measure(struct page *p)
+{
+    set_axes(p);
+    choose_marks(p, &p->across, (double)p->plot_w, false);
+    choose_marks(p, &p->down, (double)p->plot_h, true);
+    even_steps(p);
+    choose_marks(p, &p->values, (double)p->plot_h, true);
+}
+
+void
+page_legend(struct page *p, double width)
+{
+    set_legend(p, width);
 }

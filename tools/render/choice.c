@@ -20,8 +20,8 @@ enum {
     PREFERRED = sizeof preferred / sizeof *preferred
 };
 
-static size_t
-rank(const char *channel)
+size_t
+choice_rank(const char *channel)
 {
     size_t k = 0;
 
@@ -102,8 +102,8 @@ is_better(const struct choice *c, const struct rc_grid *g, const struct seen *s,
 
     if (old == NULL)
         return true;
-    if (c->wish->channel == NULL && rank(g->channel) != rank(old->channel))
-        return rank(g->channel) < rank(old->channel);
+    if (c->wish->channel == NULL && choice_rank(g->channel) != choice_rank(old->channel))
+        return choice_rank(g->channel) < choice_rank(old->channel);
     if (strcmp(g->channel, old->channel) != 0 || s->number != rc_grid_case(old) ||
         isnan(s->depth) || !rc_grid_number(old, "depth", &depth))
         return false;

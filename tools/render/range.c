@@ -22,6 +22,12 @@ unit_of(const struct rc_grid *g)
 
 /* ---- percentiles ---- */
 
+/* All frames of a picture count as one. */
+struct frames_of {
+    struct rc_grid *const *grid;
+    size_t n;
+};
+
 /* Of a pressure, what touches. */
 static bool
 counts(const struct rc_grid *g, double v)
@@ -44,14 +50,18 @@ enum {
 
 /* Value number k, from 0, of the few from lo to hi. */
 static double
-pick(const struct rc_grid *g, double lo, double hi, size_t k)
+pick(const struct frames_of *f, double lo, double hi, size_t k)
 {
     double few[FEW];
     size_t n = 0;
 
-    for (size_t i = 0; i < g->nx * g->ny && n < FEW; i++)
-        if (counts(g, g->v[i]) && g->v[i] >= lo && g->v[i] <= hi)
-            few[n++] = g->v[i];
+    for (size_t m = 0; m < f->n; m++) {
+        const struct rc_grid *g = f->grid[m];
+
+        for (size_t i = 0; i < g->nx * g->ny && n < FEW; i++)
+            if (counts(g, g->v[i]) && g->v[i] >= lo && g->v[i] <= hi)
+                few[n++] = g->v[i];
+    }
     qsort(few, n, sizeof *few, by_size);
     return few[k < n ? k : n - 1];
 }
@@ -62,58 +72,86 @@ bin_of(double v, double lo, double step)
     return (size_t)fmin((v - lo) / step, BINS - 1);
 }
 
+/* How many values from lo to hi lie in each bin from lo on. */
+static void
+count_bins(const struct frames_of *f, double lo, double hi, double step, size_t count[BINS])
+{
+    memset(count, 0, BINS * sizeof *count);
+    for (size_t m = 0; m < f->n; m++) {
+        const struct rc_grid *g = f->grid[m];
+
+        for (size_t i = 0; i < g->nx * g->ny; i++)
+            if (counts(g, g->v[i]) && g->v[i] >= lo && g->v[i] <= hi)
+                count[bin_of(g->v[i], lo, step)]++;
+    }
+}
+
+/* Narrows lo and hi to the values of a bin. */
+static void
+enter_bin(const struct frames_of *f, double *lo, double *hi, double step, size_t bin)
+{
+    double low = INFINITY, high = -INFINITY;
+
+    for (size_t m = 0; m < f->n; m++) {
+        const struct rc_grid *g = f->grid[m];
+
+        for (size_t i = 0; i < g->nx * g->ny; i++)
+            if (counts(g, g->v[i]) && g->v[i] >= *lo && g->v[i] <= *hi &&
+                bin_of(g->v[i], *lo, step) == bin) {
+                low = fmin(low, g->v[i]);
+                high = fmax(high, g->v[i]);
+            }
+    }
+    *lo = low;
+    *hi = high;
+}
+
 /* The value of n, from lo to hi, that k others are below: they are counted in bins, then those of
  * one bin in finer ones, without another map in memory. */
 static double
-ranked(const struct rc_grid *g, double lo, double hi, size_t n, size_t k)
+ranked(const struct frames_of *f, double lo, double hi, size_t n, size_t k)
 {
     size_t count[BINS];
 
     while (n > FEW && hi > lo) {
-        double step = hi / BINS - lo / BINS, low = INFINITY, high = -INFINITY;
+        double step = hi / BINS - lo / BINS;
         size_t bin = 0;
 
         if (!(step > 0)) /* of the smallest numbers there are */
             return lo;
-        memset(count, 0, sizeof count);
-        for (size_t i = 0; i < g->nx * g->ny; i++)
-            if (counts(g, g->v[i]) && g->v[i] >= lo && g->v[i] <= hi)
-                count[bin_of(g->v[i], lo, step)]++;
+        count_bins(f, lo, hi, step, count);
         while (bin + 1 < BINS && k >= count[bin])
             k -= count[bin++];
-        for (size_t i = 0; i < g->nx * g->ny; i++)
-            if (counts(g, g->v[i]) && g->v[i] >= lo && g->v[i] <= hi &&
-                bin_of(g->v[i], lo, step) == bin) {
-                low = fmin(low, g->v[i]);
-                high = fmax(high, g->v[i]);
-            }
+        enter_bin(f, &lo, &hi, step, bin);
         n = count[bin];
-        lo = low;
-        hi = high;
     }
-    return hi > lo ? pick(g, lo, hi, k) : lo;
+    return hi > lo ? pick(f, lo, hi, k) : lo;
 }
 
-double
-range_percentile(const struct rc_grid *g, double percent)
+static double
+percentile(const struct frames_of *f, double percent)
 {
     double lo = INFINITY, hi = -INFINITY, place, below;
     size_t n = 0, k;
 
-    for (size_t i = 0; i < g->nx * g->ny; i++)
-        if (counts(g, g->v[i])) {
-            lo = fmin(lo, g->v[i]);
-            hi = fmax(hi, g->v[i]);
-            n++;
-        }
+    for (size_t m = 0; m < f->n; m++) {
+        const struct rc_grid *g = f->grid[m];
+
+        for (size_t i = 0; i < g->nx * g->ny; i++)
+            if (counts(g, g->v[i])) {
+                lo = fmin(lo, g->v[i]);
+                hi = fmax(hi, g->v[i]);
+                n++;
+            }
+    }
     if (n == 0)
         return 0;
     place = percent / 100 * (double)(n - 1);
     k = (size_t)place;
-    below = ranked(g, lo, hi, n, k);
+    below = ranked(f, lo, hi, n, k);
     if (k + 1 >= n || place == (double)k)
         return below;
-    return below + (place - (double)k) * (ranked(g, lo, hi, n, k + 1) - below);
+    return below + (place - (double)k) * (ranked(f, lo, hi, n, k + 1) - below);
 }
 
 /* ---- outliers ---- */
@@ -133,7 +171,7 @@ around(const struct rc_grid *g, size_t node)
     return near[n / 2];
 }
 
-/* Whether one value takes more than half of the range: it stands alone, far from those about it,
+/* Of one map: whether one value takes more than half of the range: it stands alone, far from those about it,
  * which no solution does that its grid resolves. */
 static bool
 has_outlier(const struct rc_grid *g, const struct survey *s)
@@ -263,15 +301,15 @@ widen(const struct rc_grid *g, const struct channel *what, struct range *r)
 }
 
 static void
-take_percentiles(const struct rc_grid *g, struct range *r, double low, double high)
+take_percentiles(const struct frames_of *f, struct range *r, double low, double high)
 {
     char lo[RC_NUMBER_SIZE], hi[RC_NUMBER_SIZE];
 
-    r->lo = range_percentile(g, low);
-    r->hi = range_percentile(g, high);
+    r->lo = percentile(f, low);
+    r->hi = percentile(f, high);
     snprintf(r->note, sizeof r->note, "colours from %s %% to %s %% of the %s",
              rc_number_text(lo, low), rc_number_text(hi, high),
-             strcmp(g->channel, "pressure") == 0 ? "contact" : "nodes");
+             strcmp(f->grid[0]->channel, "pressure") == 0 ? "contact" : "nodes");
 }
 
 /* The axis of a curve has room beyond its ends. */
@@ -287,19 +325,22 @@ take_axis(const struct rc_grid *g, const struct survey *s, const struct channel 
 }
 
 void
-range_choose(const struct rc_grid *g, const struct survey *s, const struct colormap *map,
-             const struct channel *what, bool curve, struct range *r)
+range_choose(struct rc_grid *const *grid, size_t n, const struct survey *s,
+             const struct colormap *map, const struct channel *what, bool curve, struct range *r)
 {
+    const struct frames_of all = {grid, n};
+    const struct rc_grid *g = grid[0];
+
     if (r->kind == RANGE_VALUES)
         return;
     r->lo = s->min;
     r->hi = s->max;
     if (r->kind == RANGE_PERCENT)
-        take_percentiles(g, r, r->low_percent, r->high_percent);
+        take_percentiles(&all, r, r->low_percent, r->high_percent);
     else if (curve && r->kind != RANGE_SYMMETRIC)
         take_axis(g, s, what, r);
-    else if (r->kind == RANGE_CLIP || (r->kind == RANGE_AUTO && has_outlier(g, s)))
-        take_percentiles(g, r, BEYOND, 100 - BEYOND);
+    else if (r->kind == RANGE_CLIP || (r->kind == RANGE_AUTO && n == 1 && has_outlier(g, s)))
+        take_percentiles(&all, r, BEYOND, 100 - BEYOND);
     if (r->kind == RANGE_AUTO && r->note[0] != '\0' && r->hi - r->lo > 0.5 * (s->max - s->min)) {
         r->lo = s->min; /* there are too many of them to be left out */
         r->hi = s->max;
@@ -311,7 +352,7 @@ range_choose(const struct rc_grid *g, const struct survey *s, const struct color
 }
 
 void
-range_take_logarithm(struct tool *t, const struct rc_grid *g, struct range *r)
+range_take_logarithm(struct tool *t, struct rc_grid *const *grid, size_t n, struct range *r)
 {
     const double decades = 1e-6;
     double least = INFINITY;
@@ -320,11 +361,12 @@ range_take_logarithm(struct tool *t, const struct rc_grid *g, struct range *r)
         tool_die(t, EXIT_USAGE, "--log has no place for 0 and below: give a --range above it");
     if (r->lo > 0)
         return;
-    for (size_t k = 0; k < g->nx * g->ny; k++)
-        if (g->v[k] > 0)
-            least = fmin(least, g->v[k]);
+    for (size_t m = 0; m < n; m++)
+        for (size_t k = 0; k < grid[m]->nx * grid[m]->ny; k++)
+            if (grid[m]->v[k] > 0)
+                least = fmin(least, grid[m]->v[k]);
     if (!(r->hi > 0) || !isfinite(least))
-        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+        tool_die_at(t, grid[0], EXIT_IMPOSSIBLE,
                     "no value is above 0, and only those have a logarithm: leave out --log");
     r->lo = fmax(least, decades * r->hi);
     if (r->lo >= 0.999 * r->hi)
@@ -332,11 +374,12 @@ range_take_logarithm(struct tool *t, const struct rc_grid *g, struct range *r)
 }
 
 double
-range_least(const struct rc_grid *g, const struct survey *s, const struct range *r)
+range_least(struct rc_grid *const *grid, size_t n, const struct survey *s, const struct range *r)
 {
-    double slack = rounding(g, fmax(fabs(s->min), fabs(s->max)));
+    double slack = rounding(grid[0], fmax(fabs(s->min), fabs(s->max)));
 
-    if (strcmp(g->channel, "pressure") == 0 && s->min == 0)
-        return range_percentile(g, 0); /* what does not touch is not below the range */
+    if (strcmp(grid[0]->channel, "pressure") == 0 && s->min == 0)
+        return percentile(&(struct frames_of){grid, n},
+                          0); /* what does not touch is not below the range */
     return s->min < r->lo && s->min >= r->lo - slack ? r->lo : s->min;
 }

@@ -34,6 +34,8 @@ void choice_offer(struct choice *choice, struct tool *tool, struct rc_grid *grid
  * where somebody might have meant that. */
 void choice_settle(struct choice *choice, struct tool *tool);
 void choice_free(struct choice *choice);
+/* Place of a channel among those that are preferred; the others share the one past them. */
+size_t choice_rank(const char *channel);
 
 /* ---- channels.c ---- */
 
@@ -95,18 +97,19 @@ void range_read(struct tool *tool, const char *text, const struct rc_grid *grid,
                 struct range *range);
 /* "LO:HI" in SI, valid until the next call. */
 const char *range_text(const struct range *range);
-/* The ends of the colours, or of the upright axis of a curve, as far as nobody chose them. */
-void range_choose(const struct rc_grid *grid, const struct survey *survey,
+/* The ends of the colours of n frames, of which all values count as those of one, or of the upright
+ * axis of a curve, as far as nobody chose them. A percentile is the value that so many per cent of
+ * the finite ones are below, straight between two of them; of a pressure only those in contact
+ * count. */
+void range_choose(struct rc_grid *const *grid, size_t n, const struct survey *survey,
                   const struct colormap *map, const struct channel *what, bool curve,
                   struct range *range);
 /* Moves the lower end above 0, to the least value above it, six decades down at most. */
-void range_take_logarithm(struct tool *tool, const struct rc_grid *grid, struct range *range);
+void range_take_logarithm(struct tool *tool, struct rc_grid *const *grid, size_t n,
+                          struct range *range);
 /* The least value; the end of the range where it is below that by rounding only. */
-double range_least(const struct rc_grid *grid, const struct survey *survey,
+double range_least(struct rc_grid *const *grid, size_t n, const struct survey *survey,
                    const struct range *range);
-/* The value that so many per cent of the finite ones are below, straight between two of them; of a
- * pressure only those in contact count. */
-double range_percentile(const struct rc_grid *grid, double percent);
 
 /* ---- subtitle.c ---- */
 
@@ -115,8 +118,17 @@ struct subtitle {
     size_t n;
 };
 
-/* `part` of the map is drawn; `largest`: of several depths this one was chosen because its size is
- * largest. */
+/* Adds a piece to the subtitle; one that does not fit is left out whole. */
+void subtitle_add(struct subtitle *subtitle, const char *name, const char *value);
+/* The extremes. */
+void subtitle_range(struct subtitle *subtitle, const struct survey *survey, const char *unit);
+/* What all frames of a picture have in common: source, case, load, depth. */
+void subtitle_common(struct subtitle *subtitle, struct rc_grid *const *grid, size_t n);
+/* "load 10 N, depth 5 um": in what frame k differs from others of its picture. */
+void frame_label(char *text, size_t size, struct rc_grid *const *grid, size_t n, size_t k);
+/* `part` of the map is drawn. */
+void subtitle_part(struct subtitle *subtitle, double part);
+/* `largest`: of several depths this one was chosen because its size is largest. */
 void subtitle_write(struct subtitle *subtitle, const struct rc_grid *grid,
                     const struct survey *survey, double part, bool largest);
 
@@ -130,5 +142,130 @@ const char *words_largest(struct words *words, const struct rc_grid *grid, doubl
 /* "Hertz, radius 12 µm", and that radius; ends the tool when the keys do not say it. */
 const char *words_hertz(struct tool *tool, struct words *words, const struct rc_grid *grid,
                         double *radius);
+
+/* ---- table.c: columns of reports: tables with tabs, lines of JSON ---- */
+
+struct column {
+    const char *name;  /* as asked for: of JSON also what is inside objects, "psd.q" or "q" */
+    bool optional;     /* may be absent: then all its values are NaN                        */
+    bool found, words; /* words: some of its cells are text                                 */
+    char unit[24];     /* from the heading; empty: not said                                 */
+    double *v;         /* true is 1, false 0; NaN: unknown                                  */
+};
+
+struct table {
+    const char *source; /* name of the file, for messages                               */
+    struct column *column;
+    size_t columns, rows, capacity;
+    size_t *piece; /* rows at which curves of their own begin: arrays of further lines  */
+    size_t pieces;
+};
+
+/* Reads the columns whose names are set; "-" is standard input. Ends the tool where the file is no
+ * table, or lacks a column, naming those that it has. */
+void table_read(struct table *table, struct tool *tool, const char *file);
+void table_free(struct table *table);
+/* What to do with an input that begins like a table; NULL: it does not. */
+const char *table_remedy(const char *head);
+
+/* ---- law.c: published laws beside the points ---- */
+
+struct law_given {
+    double estar, radius, rms_slope; /* Pa, m, 1; NAN: not given */
+    double area;                     /* of the map, m2            */
+};
+
+const char *law_word(size_t k);
+/* What the law is called in a legend, with its source. */
+const char *law_title(const char *law);
+/* What it needs and is not given, as options; NULL: nothing. */
+const char *law_lacks(const char *law, const struct law_given *given);
+/* Whether it ties the two quantities, which are called as in reports of rc-solve. */
+bool law_knows(const char *law, const char *x, const char *y);
+/* Names of the quantities that it ties. */
+const char *law_quantities(const char *law);
+/* Whether the area of the map comes in. */
+bool law_needs_area(const char *law, const struct law_given *given, const char *x, const char *y);
+/* y where the other is x, SI; NAN: the law does not say. */
+double law_value(const char *law, const struct law_given *given, const char *x, double x_value,
+                 const char *y);
+/* Density of the pressure p over the whole map, 1/Pa, under the mean pressure `mean` (Persson). */
+double law_pressure_density(const struct law_given *given, double mean, double p);
+
+/* ---- curves.c ---- */
+
+/* What all pictures of curves share. */
+struct curve_style {
+    const char *log; /* NULL: linear; "" or "xy": both axes, "x", "y"   */
+    const char *title, *law;
+    struct law_given given;
+    size_t width; /* as of a figure */
+    double dpi;
+    const char *family;
+};
+
+/* What a picture says of itself beside its canvas. */
+struct drawn {
+    char title[256], source[256]; /* source empty: several */
+    const char *stamp;            /* NULL: none */
+};
+
+/* Reads the tables named on the command line and draws the columns asked for as X:Y[,Y...]. */
+struct canvas *curves_draw(struct tool *tool, const char *columns, const struct curve_style *style,
+                           struct drawn *drawn);
+/* Whether --log asks for that axis. */
+bool curve_log(const struct curve_style *style, char axis);
+
+/* ---- frames.c: several frames of one channel in one picture ---- */
+
+enum {
+    FRAMES = 64
+};
+
+struct frames {
+    struct wish wish;     /* channel and section; of depths and cases the lists count */
+    struct wanted wanted; /* depths and cases asked for; none: all                    */
+    struct rc_grid *grid[FRAMES];
+    size_t n;
+    size_t left; /* frames that were too many */
+};
+
+/* Reads all inputs and keeps the frames that are asked for, of the channel that stands first in the
+ * order of struct wish where none is. Ends the tool when there is none. Frees the lists. */
+void frames_read(struct frames *frames, struct tool *tool);
+void frames_free(struct frames *frames);
+
+/* ---- sheet.c: the frames as panels ---- */
+
+/* "3x2"; "auto" gives 0 by 0. Ends the tool where it is neither. */
+void sheet_size(struct tool *tool, const char *text, size_t *columns, size_t *rows);
+/* Ends the tool when the frame and the first one, of which the figures say where they lie, cannot
+ * share a scale. */
+void sheet_check_alike(struct tool *tool, const struct rc_grid *first,
+                       const struct figure *of_first, const struct rc_grid *grid,
+                       const struct figure *figure);
+/* All values together; ends the tool where a frame has no finite one. */
+void sheet_survey(struct tool *tool, const struct frames *frames, struct survey *all);
+/* "a) load 10 N"; past z it is aa). */
+void sheet_label(struct panel *panel, const struct frames *frames, size_t k);
+
+/* ---- view.c: reliefs ---- */
+
+/* AZ,EL in degrees; ends the tool where it is no such. */
+void view_read(struct tool *tool, const char *text, struct view *view);
+/* What a relief leaves to be said, after what the figure says. */
+void view_say(const struct figure *figure, struct subtitle *subtitle);
+
+/* ---- frame_curves.c: curves of frames, one each ---- */
+
+/* The values along the line `cut`, as in "y=0"; lo and hi: of the upright axis, NAN: what suits. */
+struct canvas *cut_draw(struct tool *tool, struct rc_grid *const *grid, size_t n, const char *cut,
+                        double lo, double hi, const struct curve_style *style, struct drawn *drawn);
+/* How values spread over the map; of pressures those above 0, the rest as a note. */
+struct canvas *histogram_draw(struct tool *tool, struct rc_grid *const *grid, size_t n,
+                              const struct curve_style *style, struct drawn *drawn);
+/* The share of the map at or above each value. */
+struct canvas *material_ratio_draw(struct tool *tool, struct rc_grid *const *grid, size_t n,
+                                   const struct curve_style *style, struct drawn *drawn);
 
 #endif
