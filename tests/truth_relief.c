@@ -237,13 +237,50 @@ upper_left_is_bright(void **state)
     free(p.rgb);
 }
 
+static double
+hilly(size_t i, size_t j)
+{
+    double x = (double)i - 60, y = (double)j - 90;
+
+    return i > 120 && j > 130 && i < 150 && j < 170 ? NAN : 20 * exp(-(x * x + y * y) / 1500);
+}
+
+/* Letters and lines have other edges there. */
+static void
+svg_is_the_same(void **state)
+{
+    struct picture p, q;
+    size_t other = 0;
+
+    (void)state;
+    put_map("height", "m", 1e-6, hilly);
+    p = draw("rc-render --quiet --view 30,50 --width 900 -o out.png m.rcg");
+    q = draw("rc-render --quiet --view 30,50 --width 900 -o out.svg m.rcg && "
+             "rsvg-convert -o out.png out.svg");
+    assert_int_equal(p.head.width, q.head.width);
+    assert_int_equal(p.head.height, q.head.height);
+    for (size_t y = 0; y < p.head.height; y++)
+        for (size_t x = 0; x < p.head.width; x++) {
+            unsigned a = pixel(&p, x, y), b = pixel(&q, x, y);
+
+            for (int k = 0; k < 24; k += 8)
+                if (abs((int)(a >> k & 0xff) - (int)(b >> k & 0xff)) > 64) {
+                    other++;
+                    break;
+                }
+        }
+    assert_true(other < p.head.width * p.head.height / 100);
+    free(p.rgb);
+    free(q.rgb);
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ditch_is_hidden),         cmocka_unit_test(map_turns),
         cmocka_unit_test(heights_are_exaggerated), cmocka_unit_test(peak_is_drawn),
-        cmocka_unit_test(upper_left_is_bright),
+        cmocka_unit_test(upper_left_is_bright),    cmocka_unit_test(svg_is_the_same),
     };
     char remove[64];
     int failed;

@@ -242,26 +242,27 @@ put_image(struct svg *s, struct item *i, struct rc_err *err)
     return status;
 }
 
-/* Pixels that do not fill their rectangle: those of one row and colour that stand together. */
-static void
-put_dots(struct svg *s, const struct item *i)
+/* Pixels that do not fill their rectangle: of the image shows what was set, row by row. */
+static enum rc_status
+put_dots(struct svg *s, struct item *i, struct rc_err *err)
 {
+    enum rc_status status;
+
+    fprintf(s->file, "<clipPath id=\"clip%zu\"><path d=\"", ++s->clips);
     for (size_t y = 0; y < i->ny; y++)
         for (size_t x = 0, n; x < i->nx; x += n) {
-            const unsigned char *rgb = i->rgb + 3 * (y * i->nx + x);
+            const unsigned char *inked = i->inked + y * i->nx + x;
 
-            for (n = 1; x + n < i->nx && i->inked[y * i->nx + x + n] == i->inked[y * i->nx + x] &&
-                        memcmp(rgb, rgb + 3 * n, 3) == 0;)
+            for (n = 1; x + n < i->nx && inked[n] == inked[0];)
                 n++;
-            if (!i->inked[y * i->nx + x])
-                continue;
-            fputs("<rect", s->file);
-            put_rectangle(
-                s, &(struct item){
-                       .x = i->x + (double)x, .y = i->y + (double)y, .w = (double)n, .h = 1});
-            put_colour(s, "fill", (struct rgb){rgb[0], rgb[1], rgb[2]});
-            fputs("/>\n", s->file);
+            if (inked[0])
+                fprintf(s->file, "M%.0f %.0fh%zuv1h-%zuz", i->x + (double)x, i->y + (double)y, n,
+                        n);
         }
+    fprintf(s->file, "\"/></clipPath>\n<g clip-path=\"url(#clip%zu)\">\n", s->clips);
+    status = put_image(s, i, err);
+    fputs("</g>\n", s->file);
+    return status;
 }
 
 /* ---- the whole ---- */
@@ -295,8 +296,7 @@ put_item(struct svg *s, struct item *i, struct rc_err *err)
     case ITEM_IMAGE:
         if (i->inked == NULL)
             return put_image(s, i, err);
-        put_dots(s, i);
-        break;
+        return put_dots(s, i, err);
     }
     return RC_OK;
 }
