@@ -428,6 +428,13 @@ struct side {
     bool keep_off; /* no number at the corner that is nearest: another axis has one there */
 };
 
+/* Of all axes. */
+static double
+widest_number(const struct page *p)
+{
+    return fmax(p->values.widest, fmax(p->across.widest, p->down.widest));
+}
+
 static void
 draw_side(struct scene *s, const struct side *side)
 {
@@ -466,6 +473,8 @@ draw_side(struct scene *s, const struct side *side)
                     text);
     }
     if (fabs(x1 - x0) < 0.02 * length) {
+        if (canvas_text_width(p->c, &p->large, a->label) > length - p->small.size)
+            widest = widest_number(p); /* it hangs down beside a mark of the floor */
         canvas_text_upwards(p->c, &p->large, x0 - widest - 26 * u, 0.5 * (y0 + y1), a->label);
     } else {
         double far = 24 * u + fabs(side->out[0]) * widest + fabs(side->out[1]) * p->small.size;
@@ -554,7 +563,7 @@ lay_out(struct scene *s)
     }
     p->plot_w = p->plot_h = (size_t)(600 * u);
     page_measure(p);
-    p->left_w = 24 * u + 1.4 * p->large.size + p->values.widest + 40 * u;
+    p->left_w = 24 * u + 1.4 * p->large.size + widest_number(p) + 40 * u;
     p->right_w = 110 * u + 28 * u + 14 * u + p->values.widest + 1.8 * p->large.size + 24 * u;
     page_words(p, text_w);
     page_legend(p, text_w);
