@@ -2,6 +2,8 @@
  * colours. */
 #include "pictures.h"
 
+#include <math.h>
+
 static const double value[] = {1, 2, 3}; /* GPa; 0 is black, 4 GPa white */
 static const unsigned shade[] = {0x404040, 0x808080, 0xbfbfbf};
 
@@ -106,13 +108,76 @@ colours_of_all(void **state)
     free(p.rgb);
 }
 
+static unsigned
+middle(const struct picture *p, const struct box *b)
+{
+    return pixel(p, (b->left + b->right) / 2, (b->top + b->bottom) / 2);
+}
+
+/* The grey of a panel whose value lies at t between the ends of the colours. */
+static void
+assert_greys(const char *options, const double t[3])
+{
+    char command[256];
+    struct picture p;
+    struct box b[3];
+
+    panels("--sheet 3x1", b);
+    snprintf(command, sizeof command, "rc-render --colormap grey --sheet 3x1 %s -o out.png d.rcg",
+             options);
+    p = draw(command);
+    for (size_t k = 0; k < 3; k++) {
+        unsigned c = middle(&p, &b[k]);
+
+        assert_near((double)(c & 0xff), 255 * t[k], 1);
+        assert_int_equal(c, (c & 0xff) * 0x10101);
+    }
+    free(p.rgb);
+}
+
+/* Of 600 values a third are 1, a third 2 and a third 3: half are below 2, all are below 3. */
+static void
+percentiles_of_all(void **state)
+{
+    (void)state;
+    assert_greys("--range 0%:50%", (const double[]){0, 1, 1});
+    assert_greys("--range 0%:100%", (const double[]){0, 0.5, 1});
+    assert_greys("--range 40%:100%", (const double[]){0, 0, 1});
+}
+
+/* From the least of all values, or from the lower end of a range. */
+static void
+logarithm_of_all(void **state)
+{
+    (void)state;
+    assert_greys("--log", (const double[]){0, log(2) / log(3), 1});
+    assert_greys("--log --range 0.5GPa:8GPa", (const double[]){0.25, 0.5, log(6) / log(16)});
+}
+
+/* 20 by 10 nodes of 1 um: from -5 to 5 um there are 10, from -2 to 2 um 4 of them. */
+static void
+window_of_all(void **state)
+{
+    struct picture p;
+
+    (void)state;
+    p = draw("rc-render --colormap grey --range 0:4GPa --sheet 3x1 --window -5um:5um,-2um:2um "
+             "-o out.png d.rcg");
+    for (size_t k = 0; k < 3; k++) {
+        struct box b = find_box(&p, shade[k]);
+
+        assert_near((double)(b.right - b.left + 1) / (double)(b.bottom - b.top + 1), 2.5, 0.03);
+    }
+    free(p.rgb);
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(side_by_side),
-        cmocka_unit_test(row_by_row),
-        cmocka_unit_test(colours_of_all),
+        cmocka_unit_test(side_by_side),     cmocka_unit_test(row_by_row),
+        cmocka_unit_test(colours_of_all),   cmocka_unit_test(percentiles_of_all),
+        cmocka_unit_test(logarithm_of_all), cmocka_unit_test(window_of_all),
     };
     char remove[64];
     int failed;
