@@ -11,22 +11,6 @@
 #include "tools/plot/plot.h"
 #include "tools/render/render.h"
 
-struct args {
-    struct wish wish; /* which frame */
-    const char *colormap, *range, *title;
-    const char *width, *window, *depths, *keep;
-    double dpi; /* as given */
-    bool contour, figure, raw, clip, hertz;
-    struct numbers depth, number; /* as asked for: of several frames, or the one of wish */
-    const char *curve;            /* X:Y[,Y...]: tables are drawn instead of maps */
-    const char *cut;
-    const char *view;  /* AZ,EL: a relief */
-    const char *sheet; /* COLSxROWS or "auto" */
-    bool histogram, material_ratio, hillshade;
-    struct curve_style
-        style; /* its width, dpi and family are those of every picture, its log too */
-};
-
 /* clang-format off */
 static const struct opt opts[] = {
     {.name = "channel", .type = OPT_TEXT, .at = offsetof(struct args, wish.channel),
@@ -127,12 +111,6 @@ static const struct tool_info info = {
     .settle = settle,
 };
 
-static bool
-is_profile(const struct rc_grid *g)
-{
-    return (g->nx == 1) != (g->ny == 1) && rc_grid_get(g, "section") == NULL;
-}
-
 /* ---- pictures ---- */
 
 static void
@@ -227,33 +205,6 @@ warn_of_text(struct tool *t, const struct args *a, struct canvas *c)
         warn_of_family(t, a->style.family, canvas_set_family(c, a->style.family));
 }
 
-static void
-set_extent(const struct window *w, struct figure *f)
-{
-    f->across = "x";
-    f->down = "y";
-    f->left = w->left;
-    f->right = w->right;
-    f->top = w->top;
-    f->bottom = w->bottom;
-}
-
-/* A section on even rows, between the depths that are asked for. */
-static struct rc_grid *
-lay_section(struct tool *t, const struct args *a, const struct rc_grid *g, struct figure *f)
-{
-    double *depth = section_depths(t, g);
-    struct rc_grid *even;
-
-    section_range(t, a->depths, g, depth, &f->top, &f->bottom);
-    f->across = strcmp(rc_grid_get(g, "section"), "x") == 0 ? "y" : "x";
-    f->down = "depth";
-    f->section = true;
-    even = section_even(t, g, depth, f->top, f->bottom);
-    free(depth);
-    return even;
-}
-
 /* A cross where the size is largest, where that is drawn. */
 static void
 mark_largest(struct tool *t, const struct rc_grid *g, const struct survey *s, struct figure *f,
@@ -279,7 +230,7 @@ draw_figure(struct tool *t, const struct args *a, const struct rc_grid *g, const
     struct rc_err err;
 
     if (rc_grid_get(g, "section") != NULL) {
-        even = lay_section(t, a, g, f);
+        even = look_section(t, a, g, f);
         mark_largest(t, g, s, f, &words);
     }
     if (a->hertz)
@@ -303,7 +254,7 @@ draw_relief(struct tool *t, const struct args *a, const struct rc_grid *g, struc
     struct rc_err err;
 
     view_read(t, a->view, &view);
-    if (is_profile(g) || rc_grid_get(g, "section") != NULL || g->nx == 1 || g->ny == 1)
+    if (look_is_profile(g) || rc_grid_get(g, "section") != NULL || g->nx == 1 || g->ny == 1)
         tool_die_at(t, g, EXIT_IMPOSSIBLE,
                     "a relief is of a map, this is a profile or a section: leave out --view");
     view.peaks = a->keep == NULL ? f->zero_is_none : f->keep_max;
@@ -314,98 +265,6 @@ draw_relief(struct tool *t, const struct args *a, const struct rc_grid *g, struc
     warn_of_text(t, a, c);
     write_picture(t, g, f, c);
     canvas_free(c);
-}
-
-/* ---- what a figure is like ---- */
-
-/* What nobody may overlook; NULL: nothing. */
-static const char *
-stamp_of(const struct rc_grid *g)
-{
-    const char *converged = rc_grid_get(g, "converged");
-
-    return converged != NULL && strcmp(converged, "no") == 0 ? "not converged" : NULL;
-}
-
-/* From which pressure on a node yields; 0: none does. */
-static double
-hardness_of(const struct rc_grid *p)
-{
-    const double rounding = 1e-9;
-    double hardness, largest = 0;
-
-    if (p == NULL || !rc_grid_number(p, "hardness", &hardness) || !(hardness > 0))
-        return 0;
-    for (size_t k = 0; k < p->nx * p->ny; k++)
-        largest = fmax(largest, p->v[k]);
-    hardness *= 1 - rounding;
-    return largest >= hardness ? hardness : 0;
-}
-
-/* What a figure says in words of its own. */
-struct look {
-    struct channel what;
-    struct range range;
-};
-
-static void
-choose_range(struct tool *t, struct args *a, struct rc_grid *const *grid, size_t n,
-             const struct survey *s, struct look *look, struct figure *f)
-{
-    struct range *r = &look->range;
-
-    *r = (struct range){.kind = a->clip ? RANGE_CLIP : RANGE_AUTO};
-    if (a->range != NULL)
-        range_read(t, a->range, grid[0], r);
-    range_choose(grid, n, s, f->map, &look->what, is_profile(grid[0]) && !a->raw, r);
-    if (r->kind == RANGE_VALUES)
-        a->range = range_text(r);
-    if (a->style.log != NULL)
-        range_take_logarithm(t, grid, n, r);
-    f->lo = r->lo;
-    f->hi = r->hi;
-    f->min = range_least(grid, n, s, r);
-    f->log = a->style.log != NULL;
-    f->note = r->note[0] == '\0' ? NULL : r->note;
-}
-
-/* What a figure of n frames is like, but for its subtitle, what touches, and where they lie. */
-static void
-set_figure(struct tool *t, struct args *a, struct rc_grid *const *grid, size_t n,
-           const struct survey *s, struct look *look, struct figure *f)
-{
-    const struct rc_grid *g = grid[0];
-
-    look->what = channel_of(g, s);
-    *f = (struct figure){
-        .title = a->title == NULL ? look->what.title : a->title,
-        .stamp = stamp_of(g),
-        .quantity = look->what.title,
-        .unit = g->unit,
-        .map = colormap_find(a->colormap == NULL ? look->what.colormap : a->colormap),
-        .min = s->min,
-        .max = s->max,
-        .missing = s->missing,
-        .zero_is_none = strcmp(g->channel, "pressure") == 0,
-        .zeros = s->zeros,
-        .contour = a->contour,
-        .hillshade = a->hillshade,
-        .keep_max = a->keep != NULL && strcmp(a->keep, "max") == 0,
-        .width = a->style.width,
-        .dpi = a->style.dpi,
-        .family = a->style.family,
-        .vector = canvas_format(ending_of(t->out_name)) != CANVAS_PNG,
-    };
-    choose_range(t, a, grid, n, s, look, f);
-    if (a->depths != NULL && rc_grid_get(g, "section") == NULL)
-        tool_warn(t, "--depth-range is for sections: this %s has no rows of depths", g->channel);
-}
-
-static void
-set_contact(struct figure *f, const struct rc_grid *pressure)
-{
-    f->pressure = pressure;
-    f->hard = hardness_of(pressure);
 }
 
 static const char shaded[] = "shaded, light from the upper left";
@@ -428,16 +287,16 @@ render(struct tool *t, struct args *a, struct rc_grid *g, struct rc_grid *beside
                     "nothing to draw",
                     g->nx * g->ny);
     subtitle_write(&subtitle, g, &s, w.part, largest);
-    set_figure(t, a, &g, 1, &s, &look, &f);
-    set_extent(&w, &f);
-    set_contact(&f, f.zero_is_none ? g : beside);
+    look_figure(t, a, &g, 1, &s, &look, &f);
+    look_extent(&w, &f);
+    look_contact(&f, f.zero_is_none ? g : beside);
     snprintf(title, sizeof title, "%.80s about the contact", look.what.title);
     if (a->title == NULL && w.contact)
         f.title = title;
     f.subtitle = subtitle.text;
-    if (a->hillshade && !is_profile(g))
+    if (a->hillshade && !look_is_profile(g))
         subtitle_add(&subtitle, shaded, "");
-    if ((a->contour || a->hertz || a->hillshade) && is_profile(g))
+    if ((a->contour || a->hertz || a->hillshade) && look_is_profile(g))
         tool_warn(t, "a profile is drawn as a curve: --%s does nothing",
                   a->contour ? "contour"
                   : a->hertz ? "hertz"
@@ -466,20 +325,20 @@ set_panels(struct tool *t, const struct args *a, const struct frames *frames,
         struct figure *of = &panel[k].figure;
 
         *of = *f;
-        set_extent(&window[k], of);
-        even[k] = rc_grid_get(g, "section") == NULL ? NULL : lay_section(t, a, g, of);
+        look_extent(&window[k], of);
+        even[k] = rc_grid_get(g, "section") == NULL ? NULL : look_section(t, a, g, of);
         panel[k].grid = even[k] == NULL ? g : even[k];
         if (of->zero_is_none)
-            set_contact(of, g);
+            look_contact(of, g);
         hard = fmax(hard, of->hard);
         sheet_check_alike(t, frames->grid[0], &panel[0].figure, g, of);
         sheet_label(&panel[k], frames, k);
     }
     for (size_t k = 0; k < frames->n; k++) {
-        f->stamp = f->stamp == NULL ? stamp_of(frames->grid[k]) : f->stamp;
+        f->stamp = f->stamp == NULL ? look_stamp(frames->grid[k]) : f->stamp;
         f->nodes += frames->grid[k]->nx * frames->grid[k]->ny;
     }
-    set_extent(&window[0], f);
+    look_extent(&window[0], f);
     f->top = panel[0].figure.top;
     f->bottom = panel[0].figure.bottom;
     f->across = panel[0].figure.across;
@@ -523,7 +382,7 @@ render_sheet(struct tool *t, struct args *a, const struct frames *frames)
         window_cut(t, a->window == NULL ? "all" : a->window, false, frames->grid[k], NULL,
                    &window[k]);
     sheet_survey(t, frames, &all);
-    set_figure(t, a, frames->grid, frames->n, &all, &look, &f);
+    look_figure(t, a, frames->grid, frames->n, &all, &look, &f);
     say_of_sheet(&subtitle, a, frames, &all, window[0].part);
     f.subtitle = subtitle.text;
     set_panels(t, a, frames, window, &f, panel, even);
@@ -558,13 +417,6 @@ render_curves(struct tool *t, struct args *a)
     canvas_free(c);
 }
 
-/* Curves of frames: along a line, how values spread, material ratio. */
-static bool
-draws_lines(const struct args *a)
-{
-    return a->cut != NULL || a->histogram || a->material_ratio;
-}
-
 static struct canvas *
 draw_lines(struct tool *t, struct args *a, const struct frames *f, struct drawn *drawn)
 {
@@ -597,129 +449,6 @@ render_lines(struct tool *t, struct args *a, const struct frames *f)
 
 /* ---- which picture ---- */
 
-/* Options that go with some kinds of pictures only. */
-static void
-leave_out(struct tool *t, const char *kind, const char *const *option)
-{
-    for (; *option != NULL; option++)
-        if (tool_given(t, *option))
-            tool_die(t, EXIT_USAGE, "%s: leave out --%s", kind, *option);
-}
-
-static void
-check_kinds(struct tool *t, const struct args *a)
-{
-    static const char *const of_maps[] = {"channel", "depth", "section", "case", "range", NULL};
-    static const char *const of_colours[] = {"colormap", "contour", "clip", "keep", NULL};
-    static const char *const of_places[] = {"window", "depth-range", "hertz", NULL};
-    static const char *const of_laws[] = {"law", "estar", "radius", "rms-slope", NULL};
-    int kinds = (a->curve != NULL) + (a->cut != NULL) + a->histogram + a->material_ratio +
-                (a->raw || a->figure);
-
-    if (kinds > 1 && !(a->raw && a->figure))
-        tool_die(t, EXIT_USAGE,
-                 "--raw, --figure, --curve, --cut, --histogram and --material-ratio are kinds of "
-                 "picture: give one");
-    if (a->curve != NULL)
-        leave_out(t, "--curve draws tables, not maps", of_maps);
-    if (a->curve != NULL || draws_lines(a)) {
-        leave_out(t, "a curve has no colours", of_colours);
-        leave_out(t, "a curve is no part of a map", of_places);
-    }
-    if (a->range != NULL && (a->histogram || a->material_ratio))
-        tool_die(t, EXIT_USAGE, "--range is for maps and for --cut: leave it out");
-    if (a->curve == NULL && !draws_lines(a) && a->style.log != NULL && *a->style.log != '\0')
-        tool_die(t, EXIT_USAGE,
-                 "--log %s names an axis of a curve: of a map --log stands alone, or add --curve "
-                 "X:Y",
-                 a->style.log);
-    if (a->curve == NULL && !a->histogram)
-        leave_out(t, "laws stand beside --curve and --histogram", of_laws);
-}
-
-/* A list of several, or a sheet, shows several frames. */
-static bool
-shows_several(const struct args *a)
-{
-    return a->depth.n > 1 || a->number.n > 1 || a->sheet != NULL;
-}
-
-/* Of lists the one frame that a picture shows, unless it shows several. */
-static void
-check_lists(struct tool *t, struct args *a)
-{
-    if (shows_several(a) && (a->raw || a->curve != NULL))
-        tool_die(t, EXIT_USAGE, "--raw shows one frame: give one --depth and one --case");
-    if (a->hillshade && (a->raw || a->curve != NULL || draws_lines(a) || a->view != NULL))
-        tool_die(t, EXIT_USAGE, "--hillshade is for flat maps with axes: leave it out");
-    if (a->view != NULL &&
-        (a->raw || a->curve != NULL || draws_lines(a) || a->contour || shows_several(a)))
-        tool_die(t, EXIT_USAGE,
-                 "--view draws one map as a relief: leave out --raw, --contour, curves and lists");
-    if (a->view != NULL && a->style.log != NULL)
-        tool_die(t, EXIT_USAGE, "--view has an even axis upwards: leave out --log");
-    if (a->hertz && (a->view != NULL || shows_several(a)))
-        tool_die(t, EXIT_USAGE, "--hertz is for one flat map: leave it out");
-    if (shows_several(a) && a->window != NULL && strcmp(a->window, "contact") == 0)
-        tool_die(t, EXIT_USAGE,
-                 "--window contact is another one in each map: of several give it as X0:X1,Y0:Y1");
-    if (a->sheet != NULL && (a->raw || a->curve != NULL || draws_lines(a)))
-        tool_die(t, EXIT_USAGE, "--sheet is for maps: leave it out");
-    if (a->depth.n == 1)
-        a->wish.depth = a->depth.v[0];
-    if (a->number.n == 1)
-        a->wish.number = (size_t)a->number.v[0];
-}
-
-/* Pixels when plain, or a length on paper. */
-static void
-read_width(struct tool *t, struct args *a)
-{
-    const double dpi = 300, inch = 0.0254;
-    const double narrow = 0.06; /* metres: text and axes leave no room for a map on less */
-    bool plain = a->width != NULL && a->width[strspn(a->width, "0123456789")] == '\0';
-    double width = 0;
-    struct rc_err err;
-
-    a->style.dpi = isnan(a->dpi) ? 0 : a->dpi;
-    if (a->width == NULL)
-        return;
-    if (unit_number(a->width, plain ? UNIT_NONE : UNIT_M, &width, &err) != RC_OK)
-        tool_die(t, EXIT_USAGE, "--width %s: %s", a->width, err.text);
-    if (!plain) {
-        a->style.dpi = a->style.dpi > 0 ? a->style.dpi : dpi;
-        width *= a->style.dpi / inch;
-    }
-    if (a->style.dpi > 0 && !(width >= narrow / inch * a->style.dpi))
-        tool_die(t, EXIT_USAGE, "--width %s: on paper it must be at least 60mm", a->width);
-    if (!(width >= FIGURE_NARROW && width <= FIGURE_WIDE))
-        tool_die(t, EXIT_USAGE, "--width %s: it must be %d to %d pixels%s", a->width, FIGURE_NARROW,
-                 FIGURE_WIDE, plain ? "" : ", which is a matter of --dpi");
-    a->style.width = (size_t)round(width);
-}
-
-static void
-check_options(struct tool *t, const struct args *a)
-{
-    if (a->raw && a->figure)
-        tool_die(t, EXIT_USAGE, "--raw and --figure are two kinds of picture: give one");
-    if (a->raw && a->contour)
-        tool_die(t, EXIT_USAGE, "--raw draws nothing but nodes: leave out --contour");
-    if (a->raw && a->width != NULL)
-        tool_die(t, EXIT_USAGE, "--raw is as wide as the map has columns: leave out --width");
-    if (a->raw && a->style.family != NULL)
-        tool_die(t, EXIT_USAGE, "--raw holds no text: leave out --font");
-    if (a->raw && canvas_format(ending_of(t->out_name)) != CANVAS_PNG)
-        tool_die(t, EXIT_USAGE,
-                 "--raw has a pixel for each node, which only a PNG has: -o must end in .png");
-    if (a->raw && a->hertz)
-        tool_die(t, EXIT_USAGE, "--raw draws nothing but nodes: leave out --hertz");
-    if (a->clip && a->range != NULL)
-        tool_die(t, EXIT_USAGE, "--clip chooses the range: leave out --range");
-    if (a->title != NULL && !rc_utf8_valid(a->title))
-        tool_die(t, EXIT_USAGE, "--title: the text is not UTF-8");
-}
-
 /* One frame: the best of all. */
 static void
 read_one(struct tool *t, struct args *a)
@@ -731,7 +460,7 @@ read_one(struct tool *t, struct args *a)
     while ((g = tool_read(t)) != NULL)
         choice_offer(&choice, t, g);
     choice_settle(&choice, t);
-    if (draws_lines(a))
+    if (args_lines(a))
         render_lines(t, a, &(struct frames){.grid = {choice.grid}, .n = 1});
     else
         render(t, a, choice.grid, choice.pressure, choice.by_size);
@@ -747,7 +476,7 @@ read_several(struct tool *t, struct args *a)
     frames.wanted = (struct wanted){.depth = a->depth, .number = a->number};
     frames_read(&frames, t); /* frees the lists */
     a->depth = a->number = (struct numbers){0};
-    (draws_lines(a) ? render_lines : render_sheet)(t, a, &frames);
+    (args_lines(a) ? render_lines : render_sheet)(t, a, &frames);
     frames_free(&frames);
 }
 
@@ -760,13 +489,12 @@ main(int argc, char **argv)
     struct tool t;
 
     tool_start(&t, &info, argc, argv, &args);
-    check_options(&t, &args);
-    read_width(&t, &args);
-    check_kinds(&t, &args);
-    check_lists(&t, &args);
+    args_check(&t, &args);
+    if (args.title != NULL && !rc_utf8_valid(args.title))
+        tool_die(&t, EXIT_USAGE, "--title: the text is not UTF-8");
     if (args.curve != NULL)
         render_curves(&t, &args);
-    else if (shows_several(&args))
+    else if (args_several(&args))
         read_several(&t, &args);
     else
         read_one(&t, &args);

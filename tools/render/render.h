@@ -48,6 +48,7 @@ struct channel {
 /* A channel that is not known is called by its own name, and what has both signs gets colours for
  * both. */
 struct channel channel_of(const struct rc_grid *grid, const struct survey *survey);
+
 /* ---- window.c ---- */
 
 struct window {
@@ -267,5 +268,52 @@ struct canvas *histogram_draw(struct tool *tool, struct rc_grid *const *grid, si
 /* The share of the map at or above each value. */
 struct canvas *material_ratio_draw(struct tool *tool, struct rc_grid *const *grid, size_t n,
                                    const struct curve_style *style, struct drawn *drawn);
+
+/* ---- args.c: what was asked for ---- */
+
+struct args {
+    struct wish wish; /* which frame */
+    const char *colormap, *range, *title;
+    const char *width, *window, *depths, *keep;
+    double dpi; /* as given */
+    bool contour, figure, raw, clip, hertz;
+    struct numbers depth, number; /* as asked for: of several frames, or the one of wish */
+    const char *curve;            /* X:Y[,Y...]: tables are drawn instead of maps */
+    const char *cut;
+    const char *view;  /* AZ,EL: a relief */
+    const char *sheet; /* COLSxROWS or "auto" */
+    bool histogram, material_ratio, hillshade;
+    struct curve_style style; /* log, width, dpi and family: of every picture */
+};
+
+/* Ends the tool where options do not go together; settles the size of the picture, and of lists the
+ * one depth and case that a picture of one frame shows. */
+void args_check(struct tool *tool, struct args *args);
+/* Whether the picture has curves of frames: along a line, how values spread, material ratio. */
+bool args_lines(const struct args *args);
+/* Whether it shows several frames: of a list of several, or a sheet. */
+bool args_several(const struct args *args);
+
+/* ---- look.c: what a figure is like ---- */
+
+/* What a figure says in words of its own. */
+struct look {
+    struct channel what;
+    struct range range;
+};
+
+bool look_is_profile(const struct rc_grid *grid);
+/* What nobody may overlook; NULL: nothing. */
+const char *look_stamp(const struct rc_grid *grid);
+/* What a figure of n frames is like, but for its subtitle, what touches, and where they lie. */
+void look_figure(struct tool *tool, struct args *args, struct rc_grid *const *grid, size_t n,
+                 const struct survey *survey, struct look *look, struct figure *figure);
+/* What touches, by the pressure on the same grid; NULL: that is not known. */
+void look_contact(struct figure *figure, const struct rc_grid *pressure);
+/* Where a map lies. */
+void look_extent(const struct window *window, struct figure *figure);
+/* Where a section lies, between the depths that are asked for; gives it on even rows. */
+struct rc_grid *look_section(struct tool *tool, const struct args *args, const struct rc_grid *grid,
+                             struct figure *figure);
 
 #endif
