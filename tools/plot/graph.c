@@ -350,6 +350,10 @@ draw_bars(struct graph_page *p, const struct graph_series *s, struct rgb colour)
         double y = y_of(p, s->y[k]);
 
         canvas_fill(p->c, x, y, end - x, fmax(floor_y - y, 0), pale(colour));
+        if (k > 0) { /* no light between two bars */
+            y = fmax(y, y_of(p, s->y[k - 1]));
+            canvas_fill(p->c, x - 1, y, 2, fmax(floor_y - y, 0), pale(colour));
+        }
     }
     for (size_t k = 0; k + 1 < s->n; k++) {
         double y = y_of(p, s->y[k]);
