@@ -62,6 +62,8 @@ rm -f out.*
 draw='rc-render -o out.png'
 refuses 2 '--log x names an axis of a curve' "an axis of a map" "$draw --log x p.rcg"
 refuses 2 '--view has an even axis upwards: leave out --log' "a relief by logarithm" "$draw --view 30,35 --log p.rcg"
+refuses 1 'there is no room for a relief: ask for a larger --width' "a relief on 60 mm" \
+    "$draw --view 30,35 --width 60mm ball.rcg"
 refuses 2 '--hertz is for one flat map' "the circle of Hertz on a sheet" "$draw --hertz --sheet auto p.rcg"
 refuses 2 '--window contact is another one in each map' "a window of what touches on a sheet" \
     "$draw --window contact --sheet auto p.rcg"

@@ -543,9 +543,10 @@ below_box(const struct scene *s)
 /* ---- the whole ---- */
 
 /* The box as large as fits beside the bar. */
-static void
-lay_out(struct scene *s)
+static enum rc_status
+lay_out(struct scene *s, struct rc_err *err)
 {
+    const double least = 150; /* units of the design: on less, marks touch each other */
     struct page *p = &s->page;
     double u = p->u, x0 = INFINITY, x1 = -INFINITY, y0 = INFINITY, y1 = -INFINITY;
     double text_w = (double)p->w - 48 * u, above;
@@ -568,14 +569,21 @@ lay_out(struct scene *s)
     page_words(p, text_w);
     page_legend(p, text_w);
     above = page_words_height(p) + 22 * u;
-    s->scale = fmax(((double)p->w - p->left_w - p->right_w) / (x1 - x0), 1);
+    s->scale = ((double)p->w - p->left_w - p->right_w) / (x1 - x0);
+    if (s->scale * (x1 - x0) < least * u)
+        return rc_err_set(err,
+                          "on a page of %zu pixels with text of that size there is no room for a "
+                          "relief: ask for a larger --width",
+                          p->w);
     p->plot_x = (size_t)round(p->left_w);
     p->plot_y = (size_t)round(above);
     p->plot_w = (size_t)ceil(s->scale * (x1 - x0)) + 1;
     p->plot_h = (size_t)ceil(s->scale * (y1 - y0)) + 1;
     s->ox = (double)p->plot_x - s->scale * x0;
     s->oy = (double)p->plot_y - s->scale * y0;
+    page_measure(p); /* the bar is as high as the box */
     p->h = (size_t)ceil(above + (double)p->plot_h + below_box(s) + p->legend_h + 22 * u);
+    return RC_OK;
 }
 
 static enum rc_status
@@ -617,7 +625,10 @@ relief_draw(const struct figure *f, const struct view *view, const struct rc_gri
     set_view(s);
     if (set_mesh(s, g, err) != RC_OK || (s->page.c = page_canvas(&s->page, 1, 1, err)) == NULL)
         goto done;
-    lay_out(s);
+    if (lay_out(s, err) != RC_OK) {
+        canvas_free(s->page.c);
+        goto done;
+    }
     canvas_free(s->page.c);
     if ((s->page.c = page_canvas(&s->page, s->page.w, s->page.h, err)) == NULL)
         goto done;
