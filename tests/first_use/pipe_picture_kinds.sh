@@ -47,6 +47,8 @@ END
 
 claim "a legend of curves is text" says 'Hertz \(Johnson 1985' cat curve.txt
 claim "what stands over a panel is text" says 'a\) load 1 N +b\) load 2 N' cat sheet.txt
+claim "  whole also where panels are narrow" bash -c \
+    'rc-render --quiet --sheet 2x1 --width 60mm -o narrow.svg p.rcg && says ">a\) load 1 N<" cat narrow.svg && says ">b\) load 2 N<" cat narrow.svg'
 claim "a relief of an SVG is one image" test "$(grep -c '<image' relief.svg)" = 2
 claim "  and the PNG has the SVG's size" test "$(png relief.png | cut -d ' ' -f 1)" = 1417
 

@@ -16,6 +16,7 @@ struct sheet {
     struct page page;
     size_t columns, rows;
     double w, h, across, down; /* of a panel, and from one to the next */
+    struct canvas_font label;  /* smaller where panels are narrow */
 };
 
 static double
@@ -93,7 +94,6 @@ draw_panel(struct sheet *s, size_t k, struct rc_err *err)
     const struct panel *panel = &s->panels->panel[k];
     struct page *p = malloc(sizeof *p);
     size_t column = k % s->columns, row = k / s->columns;
-    struct canvas_font bold = s->page.small;
     char label[LINE];
     enum rc_status status;
 
@@ -106,18 +106,31 @@ draw_panel(struct sheet *s, size_t k, struct rc_err *err)
     p->plot_y += (size_t)(s->down * (double)row);
     p->plot_w = (size_t)s->w;
     p->plot_h = (size_t)s->h;
-    bold.bold = true;
     snprintf(label, sizeof label, "%s", panel->label);
-    page_shorten(p, &bold, s->w, label);
-    canvas_text(p->c, &bold, (double)p->plot_x, (double)p->plot_y - 0.45 * bold.size, 0, label);
+    page_shorten(p, &s->label, s->w, label);
+    canvas_text(p->c, &s->label, (double)p->plot_x, (double)p->plot_y - 0.45 * s->page.small.size,
+                0, label);
     status = page_map(p, column == 0, k + s->columns >= s->panels->n, err);
     free(p);
     return status;
 }
 
+static void
+set_label(struct sheet *s)
+{
+    double widest = 1;
+
+    s->label = s->page.small;
+    s->label.bold = true;
+    for (size_t k = 0; k < s->panels->n; k++)
+        widest = fmax(widest, canvas_text_width(s->page.c, &s->label, s->panels->panel[k].label));
+    s->label.size *= fmin(1, fmax(0.6, 0.97 * s->w / widest));
+}
+
 static enum rc_status
 draw(struct sheet *s, struct rc_err *err)
 {
+    set_label(s);
     page_heading(&s->page);
     for (size_t k = 0; k < s->panels->n; k++)
         if (draw_panel(s, k, err) != RC_OK)
