@@ -59,18 +59,12 @@ put_stream(struct rc_grid *g)
     rc_grid_free(g);
 }
 
-/* Runs rc-render on the stream that was put and reads its picture. */
 static struct png
-render(const char *options)
+read_png(void)
 {
-    const char *bin = getenv("RC_BIN");
     struct png p = {.head = {.version = PNG_IMAGE_VERSION}};
-    char text[1024];
+    char text[128];
 
-    assert_non_null(bin);
-    snprintf(text, sizeof text, "'%s/rc-render' %s -o %s/out.png %s/in.rcg", bin, options, folder,
-             folder);
-    assert_int_equal(system(text), 0);
     snprintf(text, sizeof text, "%s/out.png", folder);
     assert_true(png_image_begin_read_from_file(&p.head, text));
     assert_int_equal(p.head.format & (PNG_FORMAT_FLAG_ALPHA | PNG_FORMAT_FLAG_LINEAR), 0);
@@ -79,6 +73,20 @@ render(const char *options)
     assert_non_null(p.rgb);
     assert_true(png_image_finish_read(&p.head, NULL, p.rgb, 0, NULL));
     return p;
+}
+
+/* Runs rc-render on the stream that was put and reads its picture. */
+static struct png
+render(const char *options)
+{
+    const char *bin = getenv("RC_BIN");
+    char text[1024];
+
+    assert_non_null(bin);
+    snprintf(text, sizeof text, "'%s/rc-render' %s -o %s/out.png %s/in.rcg", bin, options, folder,
+             folder);
+    assert_int_equal(system(text), 0);
+    return read_png();
 }
 
 static const unsigned char *
@@ -117,6 +125,48 @@ raw_is_one_pixel_a_node(void **state)
     free(p.rgb);
 }
 
+/* As others draw it: where the file says that the map is, each node has the colour of its value, its
+ * whole cell but for the very edge. */
+static void
+an_svg_has_the_nodes_at_their_places(void **state)
+{
+    static const double v[] = {0, 51e-6, 102e-6, 153e-6, 204e-6, 255e-6};
+    const char *bin = getenv("RC_BIN");
+    char text[1024], line[512];
+    double x, y, w = 0, h;
+    struct png p;
+    FILE *file;
+
+    (void)state;
+    assert_non_null(bin);
+    put_stream(grid_of("height", "m", 3, 2, v));
+    snprintf(text, sizeof text,
+             "cd %s && '%s/rc-render' --colormap grey --width 600 -o out.svg in.rcg && "
+             "rsvg-convert -o out.png out.svg",
+             folder, bin);
+    assert_int_equal(system(text), 0);
+    snprintf(text, sizeof text, "%s/out.svg", folder);
+    file = fopen(text, "r");
+    assert_non_null(file);
+    while (w == 0 && fgets(line, sizeof line, file) != NULL)
+        if (sscanf(line, "<image x=\"%lf\" y=\"%lf\" width=\"%lf\" height=\"%lf\"", &x, &y, &w,
+                   &h) != 4)
+            w = 0;
+    fclose(file);
+    assert_true(w > 200 && h > 100);
+    p = read_png();
+    assert_int_equal(p.head.width, 600);
+    for (size_t k = 0; k < 6; k++)
+        for (int place = 0; place < 9; place++) {
+            double across = (double)(k % 3) + 0.5 + 0.48 * (place % 3 - 1);
+            double down = (double)(k / 3) + 0.5 + 0.48 * (place / 3 - 1);
+
+            is_colour(pixel(&p, (size_t)(x + across / 3 * w), (size_t)(y + down / 2 * h)),
+                      0x333333 * (unsigned)k, 1);
+        }
+    free(p.rgb);
+}
+
 static void
 range_is_kept_and_passed_with_the_end_colours(void **state)
 {
@@ -136,6 +186,119 @@ range_is_kept_and_passed_with_the_end_colours(void **state)
             is_colour(pixel(&p, k, 0), grey[k], 1);
         free(p.rgb);
     }
+}
+
+/* 1000 values 0 to 999 um in an order of their own: node k holds 7 k modulo 1000 (7 and 1000 have
+ * no common factor). */
+static void
+put_thousand(double first)
+{
+    static double v[1000];
+
+    for (int k = 0; k < 1000; k++)
+        v[k] = (7 * k % 1000) * 1e-6;
+    if (first != 0)
+        v[0] = first;
+    put_stream(grid_of("height", "m", 40, 25, v));
+}
+
+/* Whether node k is as grey as its place between lo and hi says. */
+static void
+is_between(const struct png *p, size_t k, double value, double lo, double hi)
+{
+    double t = fmin(fmax((value - lo) / (hi - lo), 0), 1);
+
+    is_colour(pixel(p, k % p->head.width, k / p->head.width),
+              0x010101 * (unsigned)floor(255 * t + 0.5), 1);
+}
+
+static void
+percentiles_are_ranks(void **state)
+{
+    struct png p;
+
+    (void)state;
+    put_thousand(0);
+    p = render("--raw --colormap grey --range 10%:90%");
+    for (size_t k = 0; k < 1000; k++) /* place 0.1 * 999 among 0, 1, 2, ... is 99.9 */
+        is_between(&p, k, (double)(7 * k % 1000), 99.9, 899.1);
+    free(p.rgb);
+    p = render("--raw --colormap grey --clip");
+    for (size_t k = 0; k < 1000; k++)
+        is_between(&p, k, (double)(7 * k % 1000), 4.995, 994.005);
+    free(p.rgb);
+    p = render("--raw --colormap grey --range symmetric");
+    for (size_t k = 0; k < 1000; k++)
+        is_between(&p, k, (double)(7 * k % 1000), -999, 999);
+    free(p.rgb);
+}
+
+/* One value far from those about it does not take the colours of the others; many do. */
+static void
+an_outlier_is_left_beyond_the_colours(void **state)
+{
+    struct png p;
+    double v[900];
+
+    (void)state;
+    put_thousand(5e-3); /* 999 of 1 to 999 um, and one of 5000 */
+    p = render("--raw --colormap grey");
+    for (size_t k = 1; k < 1000; k++) /* ranks count from the least, which is 1 */
+        is_between(&p, k, (double)(7 * k % 1000), 1 + 4.995, 1 + 994.005);
+    is_colour(pixel(&p, 0, 0), 0xffffff, 0);
+    free(p.rgb);
+    p = render("--raw --colormap grey --range 0%:100%");
+    for (size_t k = 1; k < 1000; k++)
+        is_between(&p, k, (double)(7 * k % 1000), 1, 5000);
+    free(p.rgb);
+    for (int k = 0; k < 900; k++) /* a peak that its neighbours lead up to is none */
+        v[k] = exp(-0.05 * (pow(k % 30 - 12.0, 2) + pow(floor(k / 30.0) - 9, 2)));
+    put_stream(grid_of("height", "m", 30, 30, v));
+    p = render("--raw --colormap grey");
+    for (size_t k = 0; k < 900; k++)
+        is_between(&p, k, v[k], 0, 1);
+    free(p.rgb);
+}
+
+static void
+logarithms_give_equal_steps_to_equal_ratios(void **state)
+{
+    static const double v[] = {1e6, 1e7, 1e8, 1e9, 0, 3e7};
+    static const double t[] = {0, 1.0 / 3, 2.0 / 3, 1, 0, 0.492374};
+    struct png p;
+
+    (void)state;
+    put_stream(grid_of("some.stress", "Pa", 6, 1, v));
+    p = render("--raw --colormap grey --log");
+    for (size_t k = 0; k < 6; k++)
+        is_between(&p, k, t[k], 0, 1);
+    free(p.rgb);
+    p = render("--raw --colormap grey --log --range 1e5:1e9");
+    for (size_t k = 0; k < 4; k++)
+        is_between(&p, k, 1 + (double)k, 0, 4);
+    free(p.rgb);
+}
+
+/* magma's ends, as published, for what is on one side of 0: there they lie. */
+static void
+one_signed_stresses_end_at_zero(void **state)
+{
+    static const double below[] = {-4e9, -1e9, 0, 1e3}, above[] = {4e9, 1e9, 0, -1e3};
+    struct png p;
+
+    (void)state;
+    put_stream(grid_of("szz", "Pa", 4, 1, below));
+    p = render("--raw");
+    is_colour(pixel(&p, 0, 0), 0x000004, 1);
+    is_colour(pixel(&p, 2, 0), 0xfcfdbf, 1);
+    is_colour(pixel(&p, 3, 0), 0xfcfdbf, 1);
+    free(p.rgb);
+    put_stream(grid_of("szz", "Pa", 4, 1, above));
+    p = render("--raw");
+    is_colour(pixel(&p, 0, 0), 0xfcfdbf, 1);
+    is_colour(pixel(&p, 2, 0), 0x000004, 1);
+    is_colour(pixel(&p, 3, 0), 0x000004, 1);
+    free(p.rgb);
 }
 
 /* Ends and middle as published (van der Walt and Smith 2015). */
@@ -246,6 +409,106 @@ lightness_rises_and_evenly(void **state)
     }
 }
 
+/* ---- as other eyes see the colours ---- */
+
+static const struct {
+    const char *name;
+    double of[3][3]; /* on linear red, green, blue */
+} eyes[] = {
+    {"all cones", {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
+    /* Machado, Oliveira and Fernandes 2009, severity 1 */
+    {"protanopia",
+     {{0.152286, 1.052583, -0.204868},
+      {0.114503, 0.786281, 0.099216},
+      {-0.003882, -0.048116, 1.051998}}},
+    {"deuteranopia",
+     {{0.367322, 0.860646, -0.227968},
+      {0.280085, 0.672501, 0.047413},
+      {-0.011820, 0.042940, 0.968881}}},
+    {"tritanopia",
+     {{1.255528, -0.076749, -0.178779},
+      {-0.078411, 0.930809, 0.147602},
+      {0.004733, 0.691367, 0.303900}}},
+};
+
+static double
+cube_root(double t)
+{
+    return t > 216.0 / 24389 ? cbrt(t) : (t * 24389 / 27 + 16) / 116;
+}
+
+/* CIELAB of a colour seen by those eyes (IEC 61966-2-1, D65). */
+static void
+seen(struct rgb c, size_t by, double lab[3])
+{
+    static const double xyz[3][3] = {
+        {0.4124, 0.3576, 0.1805}, {0.2126, 0.7152, 0.0722}, {0.0193, 0.1192, 0.9505}};
+    static const double white[3] = {0.9505, 1, 1.089};
+    const unsigned char byte[3] = {c.r, c.g, c.b};
+    double linear[3], other[3] = {0}, f[3];
+
+    for (int k = 0; k < 3; k++) {
+        double s = byte[k] / 255.0;
+        linear[k] = s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4);
+    }
+    for (int k = 0; k < 3; k++) {
+        for (int l = 0; l < 3; l++)
+            other[k] += eyes[by].of[k][l] * linear[l];
+        other[k] = fmin(fmax(other[k], 0), 1);
+    }
+    for (int k = 0; k < 3; k++) {
+        double sum = 0;
+        for (int l = 0; l < 3; l++)
+            sum += xyz[k][l] * other[l];
+        f[k] = cube_root(sum / white[k]);
+    }
+    lab[0] = 116 * f[1] - 16;
+    lab[1] = 500 * (f[0] - f[1]);
+    lab[2] = 200 * (f[1] - f[2]);
+}
+
+static double
+difference(const struct colormap *map, double s, double t, size_t by)
+{
+    double a[3], b[3];
+
+    seen(colormap_at(map, s), by, a);
+    seen(colormap_at(map, t), by, b);
+    return sqrt(pow(a[0] - b[0], 2) + pow(a[1] - b[1], 2) + pow(a[2] - b[2], 2));
+}
+
+/* Lightness goes one way along a map, or along each half of one about 0, and what is a tenth of the
+ * range apart looks different: 5 is twice what is just noticed. */
+static void
+other_eyes_tell_values_apart(void **state)
+{
+    const char *name;
+
+    (void)state;
+    for (size_t m = 0; (name = colormap_name(m)) != NULL; m++)
+        for (size_t by = 0; by < sizeof eyes / sizeof *eyes; by++) {
+            const struct colormap *map = colormap_find(name);
+            double last[3], lab[3];
+
+            seen(colormap_at(map, 0), by, last);
+            for (int k = 1; k <= 64; k++) {
+                bool rises = !map->diverging || k <= 32;
+
+                seen(colormap_at(map, k / 64.0), by, lab);
+                if (rises ? lab[0] <= last[0] : lab[0] >= last[0])
+                    fail_msg("%s, %s: lightness turns at %d of 64", name, eyes[by].name, k);
+                memcpy(last, lab, sizeof last);
+            }
+            for (int k = 0; k <= 54; k++)
+                if (!(map->diverging && k < 30 && k + 6 > 30) &&
+                    difference(map, k / 60.0, (k + 6) / 60.0, by) < 5)
+                    fail_msg("%s, %s: too alike from %d of 60", name, eyes[by].name, k);
+            for (int k = 8; map->diverging && k <= 30; k++)
+                if (difference(map, (30 - k) / 60.0, (30 + k) / 60.0, by) < 10)
+                    fail_msg("%s, %s: both signs alike at %d of 30", name, eyes[by].name, k);
+        }
+}
+
 static void
 bluered_is_as_light_on_both_sides(void **state)
 {
@@ -272,7 +535,7 @@ cells_are_means_of_what_they_cover(void **state)
 {
     static const double v[] = {1, 3, 0, 2, NAN, 8, 5, 7, 0, 0, 6, NAN};
     struct rc_grid *g = grid_of("pressure", "Pa", 6, 2, v);
-    struct raster *r = raster_new(g, NULL, true, 3, 1, NULL);
+    struct raster *r = raster_new(g, true, 3, 1, NULL);
 
     (void)state;
     assert_non_null(r);
@@ -281,7 +544,7 @@ cells_are_means_of_what_they_cover(void **state)
     assert_true(fabs(r->v[1] - 2) <= 2 * rounding && r->none[1] == 0.75F);
     assert_true(fabs(r->v[2] - 7) <= 7 * rounding && r->missing[2] == 0.5F);
     raster_free(r);
-    r = raster_new(g, NULL, true, 6 * 5, 2 * 3, NULL); /* enlarged: every node a block of its own */
+    r = raster_new(g, true, 6 * 5, 2 * 3, NULL); /* enlarged: every node a block of its own */
     assert_non_null(r);
     for (size_t j = 0; j < r->h; j++)
         for (size_t i = 0; i < r->w; i++) {
@@ -307,7 +570,7 @@ contours_of_a_plane_are_straight(void **state)
     for (size_t k = 0; k < 35; k++)
         v[k] = 2.0 * (double)(k % 7) + 1;
     g = grid_of("height", "m", 7, 5, v);
-    r = raster_new(g, NULL, false, 7, 5, NULL);
+    r = raster_new(g, false, 7, 5, NULL);
     assert_int_equal(raster_contour(r, 4.5, &l, NULL), RC_OK); /* at column 1.75, middle 2.25 */
     for (size_t k = 0; k < l.n; k++) {
         assert_true(fabs(l.at[k][0] - 2.25) <= 2.25 * rounding);
@@ -337,6 +600,11 @@ numbers_read_as_people_write_them(void **state)
         {999.96, "m", "1 km"},
         {0.31, "1", "0.31"},
         {2e-5, "rad", "20·10⁻⁶ rad"},
+        {3.5e-24, "m4", "3.5·10⁻²⁴ m⁴"},
+        {12, "W/m2*K", "12 W/m²·K"},
+        {12, "m-1", "12 m⁻¹"},
+        {12, "um", "12 µm"},
+        {12, "H2O", "12 H2O"},
     };
     static const char *const labels[] = {"−0.2", "0.0", "0.2", "0.4", "0.6"};
     char text[TICKS_TEXT];
@@ -527,11 +795,11 @@ make_folder(void **state)
 static int
 clear_folder(void **state)
 {
-    static const char *const names[] = {"in.rcg", "out.png"};
+    static const char *const names[] = {"in.rcg", "out.png", "out.svg"};
     char name[128];
 
     (void)state;
-    for (size_t k = 0; k < 2; k++) {
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
         snprintf(name, sizeof name, "%s/%s", folder, names[k]);
         unlink(name);
     }
@@ -543,11 +811,17 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(raw_is_one_pixel_a_node),
+        cmocka_unit_test(an_svg_has_the_nodes_at_their_places),
         cmocka_unit_test(range_is_kept_and_passed_with_the_end_colours),
+        cmocka_unit_test(percentiles_are_ranks),
+        cmocka_unit_test(an_outlier_is_left_beyond_the_colours),
+        cmocka_unit_test(logarithms_give_equal_steps_to_equal_ratios),
+        cmocka_unit_test(one_signed_stresses_end_at_zero),
         cmocka_unit_test(channels_get_their_colours),
         cmocka_unit_test(missing_and_no_contact_are_no_values),
         cmocka_unit_test(lightness_rises_and_evenly),
         cmocka_unit_test(bluered_is_as_light_on_both_sides),
+        cmocka_unit_test(other_eyes_tell_values_apart),
         cmocka_unit_test(cells_are_means_of_what_they_cover),
         cmocka_unit_test(contours_of_a_plane_are_straight),
         cmocka_unit_test(numbers_read_as_people_write_them),

@@ -48,7 +48,7 @@ static const struct opt opts[] = {
     {.name = "limit", .type = OPT_NUMBER, .unit = UNIT_S, AT(limit), ABOVE_0, .arg = "TIME",
      .help = "for all of it, after the reference: what would not fit is left out (default 60s)"},
     {.name = "plot", .type = OPT_TEXT, AT(plot), .arg = "FILE",
-     .help = "draw error against time as a PNG"},
+     .help = "draw error against time: a .png, .svg or .pdf"},
     {.name = "report", .type = OPT_REPORT, AT(report), .arg = "FILE",
      .help = "write one JSON object a way of solving, or a row of FILE.tsv"},
     {.name = "dry-run", .type = OPT_FLAG, AT(dry_run),
@@ -105,7 +105,7 @@ check_arguments(struct run *run)
         tool_die(t, EXIT_USAGE, "--depths: stresses need Poisson's ratio: give --nu");
     if (!tool_given(t, "depths") && (tool_given(t, "nu") || tool_given(t, "mu")))
         tool_die(t, EXIT_USAGE, "--nu and --mu are for stresses: give --depths as well");
-    ending_demand_png(t, "--plot", args.plot);
+    ending_demand_picture(t, "--plot", args.plot);
     tool_demand_writable(t, "--plot", args.plot);
     report_open(&run->report, t, args.report);
 }
@@ -171,21 +171,21 @@ write_plot(struct run *run, const struct cost_case *c)
 {
     size_t bytes;
     struct rc_err err;
-    unsigned char *png;
+    unsigned char *picture;
     FILE *file;
 
     if (args.plot == NULL)
         return;
-    if ((png = cost_plot(c, &bytes, &err)) == NULL)
+    if ((picture = cost_plot(c, ending_of(args.plot), &bytes, &err)) == NULL)
         tool_die(&run->t, EXIT_IMPOSSIBLE, "--plot %s: %s", args.plot, err.text);
     if ((file = fopen(args.plot, "wb")) == NULL)
         tool_die(&run->t, EXIT_IMPOSSIBLE, "--plot %s: %s", args.plot, strerror(errno));
-    if ((fwrite(png, 1, bytes, file) != bytes) | (fclose(file) != 0)) {
+    if ((fwrite(picture, 1, bytes, file) != bytes) | (fclose(file) != 0)) {
         int why = errno;
         remove(args.plot);
         tool_die(&run->t, EXIT_IMPOSSIBLE, "--plot %s: %s", args.plot, strerror(why));
     }
-    free(png);
+    free(picture);
 }
 
 static void

@@ -1,8 +1,9 @@
-/* rc-render: one map of a grid stream as a PNG. */
+/* rc-render: maps of a grid stream, or curves of a report, as a picture: PNG, SVG or PDF. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "formats/core/core.h"
 #include "libcontact/contact.h"
@@ -10,41 +11,79 @@
 #include "tools/plot/plot.h"
 #include "tools/render/render.h"
 
-struct args {
-    struct wish wish; /* which frame */
-    const char *colormap, *range, *title;
-    size_t width;
-    bool contour, figure, raw;
-};
-
 /* clang-format off */
 static const struct opt opts[] = {
     {.name = "channel", .type = OPT_TEXT, .at = offsetof(struct args, wish.channel),
      .result = true, .arg = "NAME",
      .help = "what to draw (default: mises, pressure, height, else the first)"},
-    {.name = "depth", .type = OPT_NUMBER, .unit = UNIT_M, .at = offsetof(struct args, wish.depth),
-     .min = 0, .max = INFINITY, .result = true, .arg = "LENGTH",
+    {.name = "depth", .type = OPT_NUMBERS, .unit = UNIT_M, .at = offsetof(struct args, depth),
+     .min = 0, .max = INFINITY, .result = true, .arg = "LIST",
      .help = "of a stress (default: where its size is largest)"},
     {.name = "section", .type = OPT_CHOICE, .at = offsetof(struct args, wish.section),
      .result = true, .arg = "x|y", .help = "a section across this axis instead of a map"},
-    {.name = "case", .type = OPT_COUNT, .at = offsetof(struct args, wish.number), .min = 1,
-     .max = 9e15, .result = true, .arg = "N",
+    {.name = "case", .type = OPT_NUMBERS, .at = offsetof(struct args, number), .min = 1,
+     .max = 9e15, .whole = true, .result = true, .arg = "LIST",
      .help = "of several loads or files (default: the first)"},
     {.name = "colormap", .type = OPT_CHOICE, .at = offsetof(struct args, colormap), .result = true,
      .words = colormap_name, .help = "colours for the values (default: what suits the channel)"},
     {.name = "range", .type = OPT_TEXT, .at = offsetof(struct args, range), .result = true,
-     .arg = "LO:HI", .help = "values at the ends of the colours, as in 0:2GPa or -50nm:50nm"},
+     .arg = "LO:HI",
+     .help = "ends of the colours: values as 0:2GPa, percentiles as 1%:99%, or symmetric"},
+    {.name = "log", .type = OPT_CHOICE, .at = offsetof(struct args, style.log), .result = true,
+     .arg = "x|y|xy", .optional = true,
+     .help = "colours, or the axes of curves, by the logarithm (alone: both axes)"},
+    {.name = "clip", .type = OPT_FLAG, .at = offsetof(struct args, clip), .result = true,
+     .help = "leave half a per cent of the nodes beyond each end of the colours"},
     {.name = "contour", .type = OPT_FLAG, .at = offsetof(struct args, contour), .result = true,
      .help = "draw lines at the marks of the colour bar, and the edge of contact"},
+    {.name = "hertz", .type = OPT_FLAG, .at = offsetof(struct args, hertz), .result = true,
+     .help = "draw the circle of Hertz: of a sphere added to the height, without roughness"},
+    {.name = "window", .type = OPT_TEXT, .at = offsetof(struct args, window), .result = true,
+     .arg = "X0:X1,Y0:Y1", .help = "the part of the map to draw; or contact: what touches; or all"},
+    {.name = "depth-range", .type = OPT_TEXT, .at = offsetof(struct args, depths), .result = true,
+     .arg = "Z0:Z1", .help = "the depths of a section to draw"},
+    {.name = "keep", .type = OPT_CHOICE, .at = offsetof(struct args, keep), .result = true,
+     .arg = "mean|max", .help = "of the nodes that share a pixel: their mean (default) or largest"},
     {.name = "figure", .type = OPT_FLAG, .at = offsetof(struct args, figure), .result = true,
      .help = "with axes, colour bar and title: the default"},
     {.name = "raw", .type = OPT_FLAG, .at = offsetof(struct args, raw), .result = true,
      .help = "one pixel for each node and nothing else"},
     {.name = "title", .type = OPT_TEXT, .at = offsetof(struct args, title), .result = true,
      .arg = "TEXT", .help = "over the figure (default: what the channel is)"},
-    {.name = "width", .type = OPT_COUNT, .at = offsetof(struct args, width), .min = FIGURE_NARROW,
-     .max = FIGURE_WIDE, .result = true, .arg = "PIXELS",
-     .help = "of the whole figure (default: what suits the map)"},
+    {.name = "width", .type = OPT_TEXT, .at = offsetof(struct args, width), .result = true,
+     .arg = "WIDTH",
+     .help = "of the whole figure: pixels, or with a unit its width on paper, as in 85mm"},
+    {.name = "dpi", .type = OPT_NUMBER, .at = offsetof(struct args, dpi), .min = 50, .max = 2400,
+     .result = true, .arg = "PIXELS",
+     .help = "pixels an inch; text is then 7 points high (default for a --width in mm: 300)"},
+    {.name = "font", .type = OPT_TEXT, .at = offsetof(struct args, style.family), .result = true,
+     .arg = "FAMILY", .help = "of all text (default: the sans serif of the system)"},
+    {.name = "view", .type = OPT_TEXT, .at = offsetof(struct args, view), .result = true,
+     .arg = "AZ,EL", .help = "as a lit surface, seen from azimuth and elevation in degrees"},
+    {.name = "hillshade", .type = OPT_FLAG, .at = offsetof(struct args, hillshade), .result = true,
+     .help = "with light from the upper left on the slopes of the map"},
+    {.name = "sheet", .type = OPT_TEXT, .at = offsetof(struct args, sheet), .result = true,
+     .arg = "COLSxROWS",
+     .help = "all frames that match in one picture, in so many columns and rows, or auto"},
+    {.name = "cut", .type = OPT_TEXT, .at = offsetof(struct args, cut), .result = true,
+     .arg = "AXIS=PLACE", .help = "draw the values along a line, as in y=0"},
+    {.name = "histogram", .type = OPT_FLAG, .at = offsetof(struct args, histogram), .result = true,
+     .help = "draw how the values spread; of pressures, those in contact"},
+    {.name = "material-ratio", .type = OPT_FLAG, .at = offsetof(struct args, material_ratio),
+     .result = true, .help = "draw the share of the map at or above each value"},
+    {.name = "curve", .type = OPT_TEXT, .at = offsetof(struct args, curve), .result = true,
+     .arg = "X:Y[,Y...]", .help = "draw columns Y over X of reports or tables instead of a map"},
+    {.name = "law", .type = OPT_CHOICE, .at = offsetof(struct args, style.law), .result = true,
+     .words = law_word, .help = "draw a published law beside the curve"},
+    {.name = "estar", .type = OPT_NUMBER, .unit = UNIT_PA,
+     .at = offsetof(struct args, style.given.estar), .min = 0, .max = INFINITY, .above = true,
+     .result = true, .arg = "MODULUS", .help = "composite modulus E*, for --law"},
+    {.name = "radius", .type = OPT_NUMBER, .unit = UNIT_M,
+     .at = offsetof(struct args, style.given.radius), .min = 0, .max = INFINITY, .above = true,
+     .result = true, .arg = "LENGTH", .help = "composite radius of the sphere, for --law hertz"},
+    {.name = "rms-slope", .type = OPT_NUMBER, .at = offsetof(struct args, style.given.rms_slope),
+     .min = 0, .max = INFINITY, .above = true, .result = true, .arg = "SLOPE",
+     .help = "RMS gradient of the surface, for --law persson"},
     {.name = NULL},
 };
 /* clang-format on */
@@ -53,61 +92,24 @@ static const struct opt opts[] = {
 static void
 settle(struct tool *t)
 {
-    ending_demand_png(t, "-o", t->out_name);
+    ending_demand_picture(t, "-o", t->out_name);
 }
 
 static const struct tool_info info = {
     .name = "rc-render",
-    .summary = "Draw one map of a grid stream as a PNG",
+    .summary = "Draw maps of a grid stream, or curves of a report, as a PNG, SVG or PDF",
     .operands = "[FILE...]",
+    .foreign = table_remedy,
     .examples =
         "  rc-synth sphere --nx 65 --ny 65 --dx 1um --radius 1mm | rc-render -o sphere.png\n"
-        "  rc-render --channel pressure --range 0:6GPa --contour -o contact.png result.rcg\n",
+        "  rc-render --channel pressure --range 0:6GPa --contour -o contact.png result.rcg\n"
+        "  rc-solve --radius 2mm --load 0.1N:1N:4 --estar 114GPa --report r.tsv -o r.rcg flat.rcg\n"
+        "  rc-render --curve load:contact_area --log -o area.png r.tsv\n",
     .opts = opts,
     .reads = READS_STREAM,
     .writes = WRITES_BYTES,
     .settle = settle,
 };
-
-static bool
-is_profile(const struct rc_grid *g)
-{
-    return (g->nx == 1) != (g->ny == 1) && rc_grid_get(g, "section") == NULL;
-}
-
-/* ---- sections: rows are depths ---- */
-
-/* Where the rows of a section begin and end; the surface bounds the first one. */
-static double *
-section_rows(struct tool *t, const struct rc_grid *g)
-{
-    const char *depths = rc_grid_get(g, "depths");
-    double *edge = malloc((g->ny + 1) * sizeof *edge);
-    struct numbers d = {0};
-    struct rc_err err;
-
-    if (edge == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %zu depths", g->ny);
-    if (depths != NULL && unit_numbers(depths, UNIT_M, &d, &err) != RC_OK)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "its key depths: %s", err.text);
-    if (depths != NULL && d.n != g->ny)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "its key depths holds %zu depths for %zu rows", d.n,
-                    g->ny);
-    for (size_t j = 0; j <= g->ny; j++)
-        edge[j] = ((double)j - 0.5) * g->dy;
-    for (size_t j = 1; depths != NULL && j < g->ny; j++) {
-        if (!(d.v[j] > d.v[j - 1]))
-            tool_die_at(t, g, EXIT_IMPOSSIBLE, "its key depths must rise from row to row");
-        edge[j] = 0.5 * (d.v[j] + d.v[j - 1]);
-    }
-    if (depths != NULL && g->ny > 1) {
-        edge[0] = d.v[0] - (edge[1] - d.v[0]);
-        edge[g->ny] = d.v[g->ny - 1] + (d.v[g->ny - 1] - edge[g->ny - 1]);
-    }
-    edge[0] = fmax(edge[0], 0);
-    free(d.v);
-    return edge;
-}
 
 /* ---- pictures ---- */
 
@@ -119,7 +121,7 @@ raw_row(const struct rc_grid *g, const struct figure *f, size_t j, unsigned char
     for (size_t i = 0; i < g->nx; i++) {
         struct rgb c = isnan(v[i])                    ? f->map->missing
                        : f->zero_is_none && v[i] == 0 ? f->map->none
-                                                      : colormap_value(f->map, f->lo, f->hi, v[i]);
+                                                      : figure_colour(f, v[i]);
 
         rgb[3 * i] = c.r;
         rgb[3 * i + 1] = c.g;
@@ -127,13 +129,11 @@ raw_row(const struct rc_grid *g, const struct figure *f, size_t j, unsigned char
     }
 }
 
-/* What is written: a canvas, or without one a pixel for each node. */
+/* A raw picture, row by row. */
 struct drawing {
     struct tool *tool;
     const struct rc_grid *grid;
     const struct figure *figure;
-    struct canvas *canvas;
-    size_t rows;
 };
 
 static enum rc_status
@@ -141,27 +141,28 @@ next_row(void *ctx, size_t y, unsigned char *rgb, struct rc_err *err)
 {
     const struct drawing *d = ctx;
 
-    tool_progress(d->tool, "row %zu of %zu", y, d->rows);
-    if (d->canvas != NULL)
-        return canvas_row(d->canvas, y, rgb, err);
+    (void)err;
+    tool_progress(d->tool, "row %zu of %zu", y, d->grid->ny);
     raw_row(d->grid, d->figure, y, rgb);
     return RC_OK;
 }
 
-/* The picture says how it was made. */
+/* The picture, without a canvas a pixel for each node, says how it was made. Without a grid the words
+ * are in the figure's. */
 static void
 write_picture(struct tool *t, const struct rc_grid *g, const struct figure *f, struct canvas *c)
 {
-    size_t w = c == NULL ? g->nx : canvas_width(c), h = c == NULL ? g->ny : canvas_height(c);
-    struct drawing d = {t, g, f, c, h};
-    const char *history = rc_grid_get(g, "history"), *own = tool_history(t);
+    struct drawing d = {t, g, f};
+    const char *history = g == NULL ? NULL : rc_grid_get(g, "history"), *own = tool_history(t);
     size_t size = strlen(own) + (history == NULL ? 0 : strlen(history)) + 4;
     char *made = malloc(size), software[64];
-    const struct picture_text text[] = {{"Title", f->title},
-                                        {"Description", made},
-                                        {"Warning", f->stamp},
-                                        {"Software", software},
-                                        {"Source", rc_grid_get(g, "source")}};
+    const struct picture_text text[] = {
+        {"Title", f->title},
+        {"Description", made},
+        {"Warning", f->stamp},
+        {"Software", software},
+        {"Source", g == NULL ? f->subtitle : rc_grid_get(g, "source")}};
+    size_t texts = sizeof text / sizeof *text;
     struct rc_err err;
 
     if (made == NULL)
@@ -169,120 +170,335 @@ write_picture(struct tool *t, const struct rc_grid *g, const struct figure *f, s
     snprintf(made, size, "%s%s%s", history == NULL ? "" : history, history == NULL ? "" : " | ",
              own);
     snprintf(software, sizeof software, "rc-render %s", rc_version());
-    if (picture_write(t->out, w, h, text, sizeof text / sizeof *text, next_row, &d, &err) != RC_OK)
+    if ((c != NULL
+             ? canvas_write(c, canvas_format(ending_of(t->out_name)), text, texts, t->out, &err)
+             : picture_write(t->out, g->nx, g->ny, f->dpi, text, texts, next_row, &d, &err)) !=
+        RC_OK)
         tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
     free(made);
 }
 
+/* Fontconfig always finds something. */
 static void
-draw_figure(struct tool *t, const struct rc_grid *g, struct figure *f)
+warn_of_family(struct tool *t, const char *wanted, const char *found)
 {
-    const char *section = rc_grid_get(g, "section");
-    double *rows = NULL;
-    struct canvas *c;
-    char text[512];
-    struct rc_err err;
+    static const char *const any[] = {"sans", "sans-serif", "serif", "monospace"};
 
-    f->across = "x";
-    f->down = "y";
-    f->right = 0.5 * (double)g->nx * g->dx;
-    f->left = -f->right;
-    f->bottom = 0.5 * (double)g->ny * g->dy;
-    f->top = -f->bottom;
-    if (section != NULL) {
-        f->row_edge = rows = section_rows(t, g);
-        f->across = strcmp(section, "x") == 0 ? "y" : "x";
-        f->down = "depth";
-        f->top = rows[0];
-        f->bottom = rows[g->ny];
-    }
-    if ((c = figure_draw(f, g, &err)) == NULL)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    for (size_t k = 0; k < sizeof any / sizeof *any; k++)
+        if (strcasecmp(wanted, any[k]) == 0)
+            return;
+    if (strcasecmp(wanted, found) != 0)
+        tool_warn(t,
+                  "--font %s: there is no font of that name, %s is used: fc-list shows those "
+                  "there are",
+                  wanted, found);
+}
+
+static void
+warn_of_text(struct tool *t, const struct args *a, struct canvas *c)
+{
+    char text[512];
+
     if (canvas_warning(c, text, sizeof text) != NULL)
         tool_warn(t, "%s", text);
-    write_picture(t, g, f, c);
-    canvas_free(c);
-    free(rows);
+    if (a->style.family != NULL)
+        warn_of_family(t, a->style.family, canvas_set_family(c, a->style.family));
 }
 
-/* What nobody may overlook; NULL: nothing. */
-static const char *
-stamp_of(const struct rc_grid *g)
+/* A cross where the size is largest, where that is drawn. */
+static void
+mark_largest(struct tool *t, const struct rc_grid *g, const struct survey *s, struct figure *f,
+             struct words *w)
 {
-    const char *converged = rc_grid_get(g, "converged");
+    double *depth = section_depths(t, g);
+    size_t at = fabs(s->min) > fabs(s->max) ? s->min_at : s->max_at;
 
-    return converged != NULL && strcmp(converged, "no") == 0 ? "not converged" : NULL;
+    f->largest_x = f->left + ((double)(at % g->nx) + 0.5) * g->dx;
+    f->largest_y = depth[at / g->nx];
+    if (f->largest_y >= f->top && f->largest_y <= f->bottom)
+        f->largest = words_largest(w, g, g->v[at], f->across, f->largest_x, f->largest_y);
+    free(depth);
 }
 
 static void
-render(struct tool *t, struct args *a, const struct rc_grid *g, bool largest)
+draw_figure(struct tool *t, const struct args *a, const struct rc_grid *g, const struct survey *s,
+            struct figure *f)
 {
+    struct rc_grid *even = NULL;
+    struct words words;
+    struct canvas *c;
+    struct rc_err err;
+
+    if (rc_grid_get(g, "section") != NULL) {
+        even = look_section(t, a, g, f);
+        mark_largest(t, g, s, f, &words);
+    }
+    if (a->hertz)
+        f->circle = words_hertz(t, &words, g, &f->radius);
+    if ((c = figure_draw(f, even == NULL ? g : even, &err)) == NULL)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    warn_of_text(t, a, c);
+    write_picture(t, g, f, c);
+    canvas_free(c);
+    rc_grid_free(even);
+}
+
+/* ---- reliefs ---- */
+
+static void
+draw_relief(struct tool *t, const struct args *a, const struct rc_grid *g, struct figure *f,
+            struct subtitle *subtitle)
+{
+    struct view view;
+    struct canvas *c;
+    struct rc_err err;
+
+    view_read(t, a->view, &view);
+    if (look_is_profile(g) || rc_grid_get(g, "section") != NULL || g->nx == 1 || g->ny == 1)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                    "a relief is of a map, this is a profile or a section: leave out --view");
+    view.peaks = a->keep == NULL ? f->zero_is_none : f->keep_max;
+    view_say(f, subtitle);
+    f->missing = 0; /* they are holes */
+    if ((c = relief_draw(f, &view, g, &err)) == NULL)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    warn_of_text(t, a, c);
+    write_picture(t, g, f, c);
+    canvas_free(c);
+}
+
+static const char shaded[] = "shaded, light from the upper left";
+
+static void
+render(struct tool *t, struct args *a, struct rc_grid *g, struct rc_grid *beside, bool largest)
+{
+    char title[256];
+    struct window w;
     struct survey s;
     struct subtitle subtitle = {.n = 0};
-    struct channel what;
+    struct look look;
     struct figure f;
 
+    window_cut(t, a->window, a->raw, g, beside, &w);
     survey_map(g, &s);
     if (isnan(s.min))
         tool_die_at(t, g, EXIT_IMPOSSIBLE,
                     "none of its %zu values is a finite number: there is "
                     "nothing to draw",
                     g->nx * g->ny);
-    what = channel_of(g, &s);
-    subtitle_write(&subtitle, g, &s, largest);
-    f = (struct figure){
-        .title = a->title == NULL ? what.title : a->title,
-        .subtitle = subtitle.text,
-        .stamp = stamp_of(g),
-        .quantity = what.title,
-        .unit = g->unit,
-        .map = colormap_find(a->colormap == NULL ? what.colormap : a->colormap),
-        .min = s.min,
-        .max = s.max,
-        .missing = s.missing,
-        .zero_is_none = strcmp(g->channel, "pressure") == 0,
-        .zeros = s.zeros,
-        .contour = a->contour,
-        .width = a->width,
-    };
-    range_choose(g, &s, f.map, &what, is_profile(g) && !a->raw, &f.lo, &f.hi);
-    if (a->range != NULL)
-        a->range = range_read(t, a->range, g, &f.lo, &f.hi);
-    if (a->contour && is_profile(g))
-        tool_warn(t, "a profile is drawn as a curve: --contour does nothing");
+    subtitle_write(&subtitle, g, &s, w.part, largest);
+    look_figure(t, a, &g, 1, &s, &look, &f);
+    look_extent(&w, &f);
+    look_contact(&f, f.zero_is_none ? g : beside);
+    snprintf(title, sizeof title, "%.80s about the contact", look.what.title);
+    if (a->title == NULL && w.contact)
+        f.title = title;
+    f.subtitle = subtitle.text;
+    if (a->hillshade && !look_is_profile(g))
+        subtitle_add(&subtitle, shaded, "");
+    if ((a->contour || a->hertz || a->hillshade) && look_is_profile(g))
+        tool_warn(t, "a profile is drawn as a curve: --%s does nothing",
+                  a->contour ? "contour"
+                  : a->hertz ? "hertz"
+                             : "hillshade");
     if (a->raw)
         write_picture(t, g, &f, NULL);
+    else if (a->view != NULL)
+        draw_relief(t, a, g, &f, &subtitle);
     else
-        draw_figure(t, g, &f);
+        draw_figure(t, a, g, &s, &f);
+}
+
+/* ---- sheets ---- */
+
+/* The panels, and what their legend says of all; gives the maps that are drawn for sections, NULL
+ * for others, which the caller frees. */
+static void
+set_panels(struct tool *t, const struct args *a, const struct frames *frames,
+           const struct window *window, struct figure *f, struct panel *panel,
+           struct rc_grid **even)
+{
+    double hard = 0;
+
+    for (size_t k = 0; k < frames->n; k++) {
+        struct rc_grid *g = frames->grid[k];
+        struct figure *of = &panel[k].figure;
+
+        *of = *f;
+        look_extent(&window[k], of);
+        even[k] = rc_grid_get(g, "section") == NULL ? NULL : look_section(t, a, g, of);
+        panel[k].grid = even[k] == NULL ? g : even[k];
+        if (of->zero_is_none)
+            look_contact(of, g);
+        hard = fmax(hard, of->hard);
+        sheet_check_alike(t, frames->grid[0], &panel[0].figure, g, of);
+        sheet_label(&panel[k], frames, k);
+    }
+    for (size_t k = 0; k < frames->n; k++) {
+        f->stamp = f->stamp == NULL ? look_stamp(frames->grid[k]) : f->stamp;
+        f->nodes += frames->grid[k]->nx * frames->grid[k]->ny;
+    }
+    look_extent(&window[0], f);
+    f->top = panel[0].figure.top;
+    f->bottom = panel[0].figure.bottom;
+    f->across = panel[0].figure.across;
+    f->down = panel[0].figure.down;
+    f->section = panel[0].figure.section;
+    f->pressure = panel[0].figure.pressure;
+    f->hard = hard;
 }
 
 static void
-check_options(struct tool *t, const struct args *a)
+say_of_sheet(struct subtitle *subtitle, const struct args *a, const struct frames *frames,
+             const struct survey *all, double part)
 {
-    if (a->raw && a->figure)
-        tool_die(t, EXIT_USAGE, "--raw and --figure are two kinds of picture: give one");
-    if (a->raw && a->contour)
-        tool_die(t, EXIT_USAGE, "--raw draws nothing but nodes: leave out --contour");
-    if (a->raw && a->width != 0)
-        tool_die(t, EXIT_USAGE, "--raw is as wide as the map has columns: leave out --width");
-    if (a->title != NULL && !rc_utf8_valid(a->title))
-        tool_die(t, EXIT_USAGE, "--title: the text is not UTF-8");
+    subtitle_common(subtitle, frames->grid, frames->n);
+    subtitle_part(subtitle, part);
+    subtitle_range(subtitle, all, frames->grid[0]->unit);
+    if (a->hillshade)
+        subtitle_add(subtitle, shaded, "");
+}
+
+static void
+render_sheet(struct tool *t, struct args *a, const struct frames *frames)
+{
+    static struct panel panel[FRAMES];
+    struct window window[FRAMES];
+    struct rc_grid *even[FRAMES];
+    struct subtitle subtitle = {.n = 0};
+    struct survey all;
+    struct look look;
+    struct figure f;
+    size_t columns, rows;
+    struct canvas *c;
+    struct rc_err err;
+
+    sheet_size(t, a->sheet == NULL ? "auto" : a->sheet, &columns, &rows);
+    if (columns > 0 && frames->n > columns * rows)
+        tool_die(t, EXIT_IMPOSSIBLE,
+                 "%zu frames match, --sheet %s holds %zu: choose with --case and --depth",
+                 frames->n, a->sheet, columns * rows);
+    for (size_t k = 0; k < frames->n; k++)
+        window_cut(t, a->window == NULL ? "all" : a->window, false, frames->grid[k], NULL,
+                   &window[k]);
+    sheet_survey(t, frames, &all);
+    look_figure(t, a, frames->grid, frames->n, &all, &look, &f);
+    say_of_sheet(&subtitle, a, frames, &all, window[0].part);
+    f.subtitle = subtitle.text;
+    set_panels(t, a, frames, window, &f, panel, even);
+    if (columns == 0)
+        columns = panels_columns(frames->n, (f.right - f.left) / (f.bottom - f.top));
+    c = panels_draw(&(struct panels){&f, panel, frames->n, columns}, &err);
+    if (c == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
+    warn_of_text(t, a, c);
+    write_picture(t, frames->grid[0], &f, c);
+    canvas_free(c);
+    for (size_t k = 0; k < frames->n; k++)
+        rc_grid_free(even[k]);
+}
+
+/* ---- curves ---- */
+
+static void
+render_curves(struct tool *t, struct args *a)
+{
+    struct drawn drawn = {.stamp = NULL};
+    struct figure words;
+    struct canvas *c;
+
+    a->style.title = a->title;
+    c = curves_draw(t, a->curve, &a->style, &drawn);
+    words = (struct figure){.title = drawn.title,
+                            .stamp = drawn.stamp,
+                            .subtitle = *drawn.source == '\0' ? NULL : drawn.source};
+    warn_of_text(t, a, c);
+    write_picture(t, NULL, &words, c);
+    canvas_free(c);
+}
+
+static struct canvas *
+draw_lines(struct tool *t, struct args *a, const struct frames *f, struct drawn *drawn)
+{
+    struct range range = {.lo = NAN, .hi = NAN};
+
+    if (a->cut == NULL)
+        return (a->histogram ? histogram_draw : material_ratio_draw)(t, f->grid, f->n, &a->style,
+                                                                     drawn);
+    if (a->range != NULL) {
+        range_read(t, a->range, f->grid[0], &range);
+        if (range.kind != RANGE_VALUES)
+            tool_die(t, EXIT_USAGE, "--range %s: for --cut it must be LO:HI, two values", a->range);
+        a->range = range_text(&range);
+    }
+    return cut_draw(t, f->grid, f->n, a->cut, range.lo, range.hi, &a->style, drawn);
+}
+
+static void
+render_lines(struct tool *t, struct args *a, const struct frames *f)
+{
+    struct drawn drawn = {.stamp = NULL};
+    struct canvas *c;
+
+    a->style.title = a->title;
+    c = draw_lines(t, a, f, &drawn);
+    warn_of_text(t, a, c);
+    write_picture(t, f->grid[0], &(struct figure){.title = drawn.title, .stamp = drawn.stamp}, c);
+    canvas_free(c);
+}
+
+/* ---- which picture ---- */
+
+/* One frame: the best of all. */
+static void
+read_one(struct tool *t, struct args *a)
+{
+    struct choice choice = {.wish = &a->wish};
+    struct rc_grid *g;
+
+    a->wish.contact = a->contour || (a->window != NULL && strcmp(a->window, "contact") == 0);
+    while ((g = tool_read(t)) != NULL)
+        choice_offer(&choice, t, g);
+    choice_settle(&choice, t);
+    if (args_lines(a))
+        render_lines(t, a, &(struct frames){.grid = {choice.grid}, .n = 1});
+    else
+        render(t, a, choice.grid, choice.pressure, choice.by_size);
+    choice_free(&choice);
+}
+
+static void
+read_several(struct tool *t, struct args *a)
+{
+    static struct frames frames;
+
+    frames.wish = a->wish;
+    frames.wanted = (struct wanted){.depth = a->depth, .number = a->number};
+    frames_read(&frames, t); /* frees the lists */
+    a->depth = a->number = (struct numbers){0};
+    (args_lines(a) ? render_lines : render_sheet)(t, a, &frames);
+    frames_free(&frames);
 }
 
 int
 main(int argc, char **argv)
 {
-    struct args args = {.wish = {.depth = NAN}};
-    struct choice choice = {.wish = &args.wish};
-    struct rc_grid *g;
+    struct args args = {.wish = {.depth = NAN},
+                        .dpi = NAN,
+                        .style.given = {.estar = NAN, .radius = NAN, .rms_slope = NAN}};
     struct tool t;
 
     tool_start(&t, &info, argc, argv, &args);
-    check_options(&t, &args);
-    while ((g = tool_read(&t)) != NULL)
-        choice_offer(&choice, &t, g);
-    choice_settle(&choice, &t);
-    render(&t, &args, choice.grid, choice.by_size);
-    choice_free(&choice);
+    args_check(&t, &args);
+    if (args.title != NULL && !rc_utf8_valid(args.title))
+        tool_die(&t, EXIT_USAGE, "--title: the text is not UTF-8");
+    if (args.curve != NULL)
+        render_curves(&t, &args);
+    else if (args_several(&args))
+        read_several(&t, &args);
+    else
+        read_one(&t, &args);
+    free(args.depth.v);
+    free(args.number.v);
     return tool_finish(&t);
 }

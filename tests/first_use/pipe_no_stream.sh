@@ -20,7 +20,7 @@ refuses 1 'heights.gz is no grid stream, it looks like GZIP' "something compress
 refuses 1 '^rc-info: standard input is no grid stream, it looks like text: rc-import - [|] rc-info' "through a pipe" "cat heights.txt | rc-info"
 refuses 1 'ball.png is no grid stream, it looks like a PNG picture: rc-info reads those of rc-import$' "a picture" "rc-info ball.png"
 printf '{"case": 1}\n' >report.json
-refuses 1 'report.json is no grid stream, it looks like JSON' "a report" "rc-render -o x.png report.json"
+refuses 1 'report.json is no grid stream: it looks like a table: draw columns of it, as in --curve' "a report" "rc-render -o x.png report.json"
 head -c 3000 /dev/zero >zeros
 refuses 1 'zeros is no grid stream: rc-import zeros [|] rc-info' "zeros" "rc-info zeros"
 tr '\0' 'x' <zeros >exes

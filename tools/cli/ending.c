@@ -4,15 +4,42 @@
 #include <strings.h>
 #include <sys/stat.h>
 
-void
-ending_demand_png(struct tool *t, const char *option, const char *name)
+static const char *const endings[] = {"png", "svg", "pdf"};
+
+enum {
+    ENDINGS = sizeof endings / sizeof *endings
+};
+
+/* NULL: it has none of them. */
+static const char *
+find(const char *name)
 {
-    size_t n = name == NULL ? 0 : strlen(name);
+    size_t n = strlen(name);
+
+    for (size_t k = 0; n >= 4 && k < ENDINGS; k++)
+        if (name[n - 4] == '.' && strcasecmp(name + n - 3, endings[k]) == 0)
+            return endings[k];
+    return NULL;
+}
+
+const char *
+ending_of(const char *name)
+{
+    const char *ending = name == NULL ? NULL : find(name);
+
+    return ending == NULL ? endings[0] : ending;
+}
+
+void
+ending_demand_picture(struct tool *t, const char *option, const char *name)
+{
     struct stat st;
 
-    if (name == NULL || (n >= 4 && strcasecmp(name + n - 4, ".png") == 0))
+    if (name == NULL || find(name) != NULL)
         return;
     if (strncmp(name, "/dev/", 5) == 0 || (stat(name, &st) == 0 && !S_ISREG(st.st_mode)))
         return;
-    tool_die(t, EXIT_USAGE, "%s %s: a picture is a PNG: its name has to end in .png", option, name);
+    tool_die(t, EXIT_USAGE,
+             "%s %s: a picture is a PNG, SVG or PDF: its name has to end in .png, .svg or .pdf",
+             option, name);
 }

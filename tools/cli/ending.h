@@ -1,11 +1,14 @@
-/* What the name of an output has to end in. */
+/* What the name of a picture has to end in. */
 #ifndef RC_ENDING_H
 #define RC_ENDING_H
 
 #include "tool.h"
 
-/* Ends the tool, the command line being wrong, when the picture that an option names (NULL: none) does
- * not end in .png, in whatever case. Devices, FIFOs and folders have the names that they have. */
-void ending_demand_png(struct tool *tool, const char *option, const char *name);
+/* "png", "svg" or "pdf", whatever the case of the name's own ending: what kind of picture it is. A
+ * name with none of them, as devices, FIFOs and folders have it, and NULL are "png". */
+const char *ending_of(const char *name);
+/* Ends the tool, the command line being wrong, when the picture that an option names (NULL: none)
+ * has none of these endings. Devices, FIFOs and folders have the names that they have. */
+void ending_demand_picture(struct tool *tool, const char *option, const char *name);
 
 #endif

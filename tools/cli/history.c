@@ -67,7 +67,8 @@ add_value(struct line *line, const struct opt *o, const void *at)
         snprintf(text, sizeof text, "%zu", *(const size_t *)at);
         add(line, " ", text);
     } else if (o->type == OPT_TEXT || o->type == OPT_CHOICE) {
-        add(line, " ", *(const char *const *)at);
+        const char *word = *(const char *const *)at;
+        add(line, *word == '\0' ? "" : " ", word);
     } else if (o->type == OPT_WORDS) {
         add_words(line, o, *(const size_t *)at);
     } else if (o->type == OPT_NUMBERS) {

@@ -71,11 +71,14 @@ static _Noreturn void
 cannot_read(struct tool *t, const struct rc_err *err)
 {
     int status;
-    const char *failure = rc_reader_failure(t->reader, &status), *head;
+    const char *failure = rc_reader_failure(t->reader, &status), *head, *remedy;
     char text[1024];
 
     if (failure != NULL && pipe_is(fileno(t->in)))
         fail_as_before(t, failure, status);
+    if (rc_reader_foreign(t->reader, &head) && head != NULL && t->info->foreign != NULL &&
+        (remedy = t->info->foreign(head)) != NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "%s is no grid stream: %s", t->source, remedy);
     if (rc_reader_foreign(t->reader, &head) && head != NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "%s",
                  foreign_message(text, sizeof text, t->info->name, t->in == stdin ? "-" : t->source,

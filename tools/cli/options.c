@@ -211,8 +211,10 @@ static const char *
 choice(struct tool *t, const struct opt *o, const char *text)
 {
     char list[LIST];
-    int k = word_index(o, text, strlen(text));
+    int k = text == NULL ? 0 : word_index(o, text, strlen(text));
 
+    if (text == NULL)
+        return "";
     if (k < 0)
         tool_die(t, EXIT_USAGE, "--%s %s: it must be one of %s", o->name, text,
                  word_list(list, o, "|"));
@@ -265,8 +267,11 @@ set_list(struct tool *t, const struct opt *o, struct numbers *list, const char *
     if ((o->per_metre ? unit_forces(text, list, &err) : unit_numbers(text, o->unit, list, &err)) !=
         RC_OK)
         tool_die(t, EXIT_USAGE, "--%s %s: %s", o->name, text, err.text);
-    for (size_t k = 0; k < list->n; k++)
+    for (size_t k = 0; k < list->n; k++) {
         check_bounds(t, o, list->v[k], list->per_metre);
+        if (o->whole && list->v[k] != floor(list->v[k]))
+            tool_die(t, EXIT_USAGE, "--%s %s: it must be a whole number", o->name, text);
+    }
 }
 
 static void
@@ -419,17 +424,24 @@ unknown_option(struct tool *t, const struct option *table, const char *word, siz
     tool_die(t, EXIT_USAGE, "unknown option %.*s: see %s --help", n, word, t->info->name);
 }
 
-/* The argument of an option that may have none: behind its "=", or the next word where that is a
- * number; NULL where there is none. */
-static const char *
-optional_argument_of(const struct opt *o, int argc, char **argv)
+static bool
+could_be_argument(const struct opt *o, const char *word)
 {
     double value;
 
-    if (optarg != NULL || !o->optional || optind >= argc ||
-        unit_number(argv[optind], o->unit, &value, NULL) != RC_OK)
-        return optarg;
-    return argv[optind++];
+    if (o->type == OPT_CHOICE)
+        return word_index(o, word, strlen(word)) >= 0;
+    return unit_number(word, o->unit, &value, NULL) == RC_OK;
+}
+
+/* The argument of an option that may have none: behind its "=", or the next word where that is a
+ * number, or of a choice one of its words; NULL where there is none. */
+static const char *
+optional_argument_of(const struct opt *o, int argc, char **argv)
+{
+    if (optarg == NULL && o->optional && optind < argc && could_be_argument(o, argv[optind]))
+        return argv[optind++];
+    return optarg;
 }
 
 static _Noreturn void
@@ -459,7 +471,7 @@ warn_of_commas(struct tool *t)
         const char *unit = unit_name(o->unit), *blank = *unit == '\0' ? "" : " ";
         const char *text = t->list[k], *comma;
         const struct numbers *list;
-        if (text == NULL || !unit_decimal_comma(text))
+        if (text == NULL || o->whole || !unit_decimal_comma(text))
             continue;
         list = (const void *)((const char *)t->args + o->at);
         comma = strchr(text, ',');
@@ -534,7 +546,8 @@ options_read(struct tool *t, int argc, char **argv)
             if (t->opt[what - OWN].text)
                 t->writes = WRITES_TEXT;
             text = optional_argument_of(&t->opt[what - OWN], argc, argv);
-            if (text != NULL || !t->opt[what - OWN].optional)
+            if (text != NULL || !t->opt[what - OWN].optional ||
+                t->opt[what - OWN].type == OPT_CHOICE)
                 set_value(t, &t->opt[what - OWN], t->args, text);
         } else {
             bad_option(t, what, argv, table);

@@ -60,11 +60,13 @@ struct opt {
     bool real;       /* OPT_STEP without a unit: not whole numbers only                  */
     bool result;     /* changes what is computed: goes into history                        */
     bool text;       /* given, the tool writes text, whatever it writes otherwise          */
-    bool optional;   /* OPT_NUMBER: may stand without its number, and then keeps the default */
+    bool optional;   /* the argument may be left out: of OPT_NUMBER for the default, of
+                        OPT_CHOICE for the value ""                                    */
     const char *(*words)(size_t k); /* word k; NULL past the last: see words.h; of OPT_TEXT those
                                        that a shell offers, any other may be given      */
     const char *word;               /* instead of OPT_NUMBERS; of OPT_NUMBER: for INFINITY  */
-    bool per_metre;                 /* OPT_NUMBERS of forces that may be in N/m             */
+    bool whole;       /* OPT_NUMBERS: whole numbers, whose commas are no decimal marks */
+    bool per_metre;   /* OPT_NUMBERS of forces that may be in N/m             */
     const char *arg;  /* how help names the argument: "FORCE"; NULL: takes none             */
     const char *help; /* one line; %s in it stands for the words                            */
     /* A row without a name: the rows of this table, whose .at are relative to that of the row. */
@@ -108,6 +110,9 @@ struct tool_info {
     const struct opt *opts; /* ended by a row without a name and group                     */
     enum tool_reads reads;
     enum tool_writes writes;
+    /* NULL, or what to do with an input that is no grid stream and begins so; it gives NULL where
+     * there is nothing else to say than in every tool. */
+    const char *(*foreign)(const char *head);
     /* NULL, or called between the options and the output: may change tool->writes. */
     void (*settle)(struct tool *tool);
 };

@@ -155,7 +155,9 @@ void cost_mark(struct cost_case *c);
 void cost_command(const struct cost_case *c, FILE *out);
 void cost_table(const struct cost_case *c, FILE *out);
 void cost_report(const struct cost_case *c, struct report *out);
-/* Error against time as a PNG in memory, which the caller frees. */
-unsigned char *cost_plot(const struct cost_case *c, size_t *bytes, struct rc_err *err);
+/* Error against time as a PNG, SVG or PDF (`ending`: "png", ...) in memory, which the caller
+ * frees. */
+unsigned char *cost_plot(const struct cost_case *c, const char *ending, size_t *bytes,
+                         struct rc_err *err);
 
 #endif

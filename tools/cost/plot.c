@@ -126,19 +126,13 @@ draw_stresses(const struct cost_case *c, struct drawing *d)
 /* ---- the file ---- */
 
 static enum rc_status
-next_row(void *ctx, size_t y, unsigned char *rgb, struct rc_err *err)
-{
-    return canvas_row(ctx, y, rgb, err);
-}
-
-static enum rc_status
-write_picture(struct canvas *c, FILE *file, const char *made, struct rc_err *err)
+write_picture(struct canvas *c, enum canvas_format format, FILE *file, const char *made,
+              struct rc_err *err)
 {
     const struct picture_text text[] = {
         {"Title", "What accuracy costs"}, {"Description", made}, {"Software", "rc-cost"}};
 
-    return picture_write(file, canvas_width(c), canvas_height(c), text, sizeof text / sizeof *text,
-                         next_row, c, err);
+    return canvas_write(c, format, text, sizeof text / sizeof *text, file, err);
 }
 
 static struct canvas *
@@ -162,12 +156,12 @@ draw(const struct drawing *d, size_t n, struct rc_err *err)
 }
 
 unsigned char *
-cost_plot(const struct cost_case *c, size_t *bytes, struct rc_err *err)
+cost_plot(const struct cost_case *c, const char *ending, size_t *bytes, struct rc_err *err)
 {
     struct drawing *d = calloc(2, sizeof *d);
     bool stresses = false;
     struct canvas *canvas = NULL;
-    char *png = NULL, text[512];
+    char *picture = NULL, text[512];
     FILE *file;
     enum rc_status status = RC_FAIL;
 
@@ -180,8 +174,8 @@ cost_plot(const struct cost_case *c, size_t *bytes, struct rc_err *err)
     if (stresses)
         draw_stresses(c, &d[1]);
     canvas = draw(d, stresses ? 2 : 1, err);
-    if (canvas != NULL && (file = open_memstream(&png, bytes)) != NULL) {
-        status = write_picture(canvas, file, tool_history(c->tool), err);
+    if (canvas != NULL && (file = open_memstream(&picture, bytes)) != NULL) {
+        status = write_picture(canvas, canvas_format(ending), file, tool_history(c->tool), err);
         if (fclose(file) != 0)
             status = RC_FAIL;
     }
@@ -190,8 +184,8 @@ cost_plot(const struct cost_case *c, size_t *bytes, struct rc_err *err)
     canvas_free(canvas);
     free(d);
     if (status != RC_OK) {
-        free(png);
-        png = NULL;
+        free(picture);
+        picture = NULL;
     }
-    return (unsigned char *)png;
+    return (unsigned char *)picture;
 }

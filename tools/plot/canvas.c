@@ -1,46 +1,14 @@
 /*
- * An image by cairo, with text by Pango; no other file includes either.
+ * The list of what is on the page; cairo_page.c and svg.c turn it into files.
  */
 #include "canvas.h"
 
 #include <math.h>
-#include <pango/pangocairo.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
-struct canvas {
-    cairo_surface_t *surface;
-    cairo_t *cairo;
-    PangoLayout *layout;
-    GString *unknown; /* characters that no font has, each once */
-    bool no_font;     /* not even a question mark has a glyph   */
-    size_t w, h;
-};
-
-static void
-set_colour(struct canvas *c, struct rgb colour)
-{
-    cairo_set_source_rgb(c->cairo, colour.r / 255.0, colour.g / 255.0, colour.b / 255.0);
-}
-
-/* Shades of grey and unrounded widths: text looks the same whatever the screen of the machine. */
-static PangoLayout *
-new_layout(cairo_t *cairo)
-{
-    PangoLayout *layout = pango_cairo_create_layout(cairo);
-    PangoContext *context = pango_layout_get_context(layout);
-    cairo_font_options_t *font = cairo_font_options_create();
-
-    cairo_font_options_set_antialias(font, CAIRO_ANTIALIAS_GRAY);
-    cairo_font_options_set_hint_style(font, CAIRO_HINT_STYLE_SLIGHT);
-    cairo_font_options_set_hint_metrics(font, CAIRO_HINT_METRICS_OFF);
-    pango_cairo_context_set_font_options(context, font);
-    cairo_font_options_destroy(font);
-    pango_context_set_round_glyph_positions(context, FALSE);
-    pango_layout_set_single_paragraph_mode(layout, TRUE);
-    return layout;
-}
+#include "canvas_list.h"
 
 struct canvas *
 canvas_new(size_t w, size_t h, struct rc_err *err)
@@ -52,23 +20,25 @@ canvas_new(size_t w, size_t h, struct rc_err *err)
         return NULL;
     }
     c = calloc(1, sizeof *c);
-    if (c == NULL) {
+    if (c == NULL || (c->lettering = lettering_new()) == NULL) {
+        free(c);
         rc_err_set(err, "out of memory for a figure");
         return NULL;
     }
-    *c = (struct canvas){.w = w, .h = h};
-    c->surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)w, (int)h);
-    c->cairo = cairo_create(c->surface);
-    if (cairo_status(c->cairo) != CAIRO_STATUS_SUCCESS) {
-        rc_err_set(err, "a figure of %zu by %zu pixels: %s", w, h,
-                   cairo_status_to_string(cairo_status(c->cairo)));
-        canvas_free(c);
-        return NULL;
-    }
-    c->layout = new_layout(c->cairo);
-    c->unknown = g_string_new(NULL);
+    c->w = w;
+    c->h = h;
+    c->dpi = 216;
     canvas_fill(c, 0, 0, (double)w, (double)h, (struct rgb){255, 255, 255});
     return c;
+}
+
+static void
+item_clear(struct item *i)
+{
+    free(i->text);
+    free(i->point);
+    free(i->rgb);
+    free(i->inked);
 }
 
 void
@@ -76,12 +46,13 @@ canvas_free(struct canvas *c)
 {
     if (c == NULL)
         return;
-    if (c->layout != NULL)
-        g_object_unref(c->layout);
-    if (c->unknown != NULL)
-        g_string_free(c->unknown, TRUE);
-    cairo_destroy(c->cairo);
-    cairo_surface_destroy(c->surface);
+    for (size_t k = 0; k < c->items; k++)
+        item_clear(&c->item[k]);
+    item_clear(&c->dots);
+    free(c->item);
+    free(c->path);
+    lettering_free(c->lettering);
+    drawn_free(c->drawn);
     free(c);
 }
 
@@ -97,169 +68,89 @@ canvas_height(const struct canvas *c)
     return c->h;
 }
 
+/* Takes over what the item owns, also when it fails. */
+static void
+append(struct canvas *c, struct item item)
+{
+    if (c->items == c->capacity) {
+        size_t capacity = c->capacity == 0 ? 64 : 2 * c->capacity;
+        struct item *list = realloc(c->item, capacity * sizeof *list);
+
+        if (list == NULL) {
+            c->short_of_memory = true;
+            item_clear(&item);
+            return;
+        }
+        c->item = list;
+        c->capacity = capacity;
+    }
+    c->item[c->items++] = item;
+}
+
+static void
+add(struct canvas *c, struct item item)
+{
+    canvas_settle(c);
+    append(c, item);
+}
+
 /* ---- text ---- */
 
-/* The plain character that stands for a raised one; 0: it is none. */
-static gunichar
-lowered(gunichar raised)
+const char *
+canvas_set_family(struct canvas *c, const char *family)
 {
-    switch (raised) {
-    case 0xb9:
-        return '1';
-    case 0xb2:
-        return '2';
-    case 0xb3:
-        return '3';
-    case 0x207a:
-        return '+';
-    case 0x207b:
-        return 0x2212; /* minus */
-    default:
-        return raised == 0x2070 || (raised >= 0x2074 && raised <= 0x2079) ? '0' + raised - 0x2070
-                                                                          : 0;
-    }
-}
-
-static void
-add_raise(PangoAttrList *list, guint from, guint to, const struct canvas_font *f)
-{
-    PangoAttribute *scale = pango_attr_scale_new(0.7);
-    PangoAttribute *rise = pango_attr_rise_new((int)(0.36 * f->size * PANGO_SCALE));
-
-    scale->start_index = rise->start_index = from;
-    scale->end_index = rise->end_index = to;
-    pango_attr_list_insert(list, scale);
-    pango_attr_list_insert(list, rise);
-}
-
-/* Puts the text into the layout. Raised digits become digits that are set higher, of one design and
- * whatever raised ones the font has; what no font has becomes a question mark. */
-static void
-put_text(struct canvas *c, const struct canvas_font *f, const char *text)
-{
-    PangoAttrList *list = pango_attr_list_new();
-    GString *plain = g_string_new(NULL);
-
-    for (const char *s = text; *s != '\0'; s = g_utf8_next_char(s)) {
-        gunichar own = g_utf8_get_char(s), low = lowered(own);
-        gsize from = plain->len;
-
-        if (g_utf8_strchr(c->unknown->str, -1, own) != NULL)
-            low = '?';
-        g_string_append_unichar(plain, low != 0 ? low : own);
-        if (low != 0 && low != '?')
-            add_raise(list, (guint)from, (guint)plain->len, f);
-    }
-    pango_layout_set_text(c->layout, plain->str, (int)plain->len);
-    pango_layout_set_attributes(c->layout, list);
-    pango_attr_list_unref(list);
-    g_string_free(plain, TRUE);
-}
-
-/* Adds the characters of the layout that have no glyph to c->unknown. */
-static void
-find_unknown(struct canvas *c)
-{
-    PangoLayoutIter *iter = pango_layout_get_iter(c->layout);
-
-    do {
-        const PangoLayoutRun *run = pango_layout_iter_get_run_readonly(iter);
-
-        for (int k = 0; run != NULL && k < run->glyphs->num_glyphs; k++) {
-            PangoGlyph glyph = run->glyphs->glyphs[k].glyph;
-            gunichar character = glyph & ~PANGO_GLYPH_UNKNOWN_FLAG;
-
-            if (glyph & PANGO_GLYPH_UNKNOWN_FLAG && glyph != PANGO_GLYPH_EMPTY &&
-                g_utf8_strchr(c->unknown->str, -1, character) == NULL)
-                g_string_append_unichar(c->unknown, character);
-        }
-    } while (pango_layout_iter_next_run(iter));
-    pango_layout_iter_free(iter);
-}
-
-static void
-set_text(struct canvas *c, const struct canvas_font *f, const char *text)
-{
-    PangoFontDescription *font = pango_font_description_new();
-    char *valid = g_utf8_make_valid(text, -1);
-
-    pango_font_description_set_family_static(font, "sans");
-    pango_font_description_set_weight(font, f->bold ? PANGO_WEIGHT_BOLD : PANGO_WEIGHT_NORMAL);
-    pango_font_description_set_absolute_size(font, f->size * PANGO_SCALE);
-    pango_layout_set_font_description(c->layout, font);
-    pango_font_description_free(font);
-    put_text(c, f, valid);
-    if (pango_layout_get_unknown_glyphs_count(c->layout) > 0) {
-        find_unknown(c);
-        put_text(c, f, valid);
-        c->no_font = c->no_font || pango_layout_get_unknown_glyphs_count(c->layout) > 0;
-    }
-    g_free(valid);
-}
-
-static double
-width_of_layout(const struct canvas *c)
-{
-    PangoRectangle logical;
-
-    pango_layout_get_extents(c->layout, NULL, &logical);
-    return (double)logical.width / PANGO_SCALE;
-}
-
-/* Draws the layout, its base line beginning at the current point. */
-static void
-show_layout(struct canvas *c, struct rgb colour)
-{
-    set_colour(c, colour);
-    pango_cairo_update_layout(c->cairo, c->layout);
-    pango_cairo_show_layout_line(c->cairo, pango_layout_get_line_readonly(c->layout, 0));
-    cairo_new_path(c->cairo);
+    lettering_set_family(c->lettering, family);
+    return lettering_family(c->lettering);
 }
 
 double
 canvas_text_width(struct canvas *c, const struct canvas_font *f, const char *text)
 {
-    set_text(c, f, text);
-    return width_of_layout(c);
+    return lettering_width(c->lettering, f, text);
+}
+
+static void
+add_text(struct canvas *c, struct item item, const char *text)
+{
+    item.kind = ITEM_TEXT;
+    item.length = lettering_width(c->lettering, &item.font, text);
+    if ((item.text = strdup(text)) == NULL)
+        c->short_of_memory = true;
+    else
+        add(c, item);
 }
 
 void
 canvas_text(struct canvas *c, const struct canvas_font *f, double x, double y, double part,
             const char *text)
 {
-    set_text(c, f, text);
-    cairo_move_to(c->cairo, x - part * width_of_layout(c), y);
-    show_layout(c, f->colour);
+    add_text(c, (struct item){.font = *f, .x = x, .y = y, .part = part}, text);
 }
 
 void
 canvas_text_upwards(struct canvas *c, const struct canvas_font *f, double x, double y,
                     const char *text)
 {
-    set_text(c, f, text);
-    cairo_save(c->cairo);
-    cairo_translate(c->cairo, x, y + 0.5 * width_of_layout(c));
-    cairo_rotate(c->cairo, -acos(0.0));
-    cairo_move_to(c->cairo, 0, 0);
-    show_layout(c, f->colour);
-    cairo_restore(c->cairo);
+    add_text(c, (struct item){.font = *f, .x = x, .y = y, .part = 0.5, .upwards = true}, text);
 }
 
 const char *
 canvas_unknown(const struct canvas *c)
 {
-    return c->unknown->str;
+    return lettering_unknown(c->lettering);
 }
 
 const char *
 canvas_warning(const struct canvas *c, char *text, size_t size)
 {
-    if (c->unknown->len == 0)
+    const char *unknown = canvas_unknown(c);
+
+    if (*unknown == '\0')
         return NULL;
     snprintf(text, size,
              "no font has the characters '%s': a question mark is drawn for each; install a font "
              "that has them",
-             c->unknown->str);
+             unknown);
     return text;
 }
 
@@ -268,109 +159,227 @@ canvas_warning(const struct canvas *c, char *text, size_t size)
 void
 canvas_fill(struct canvas *c, double x, double y, double w, double h, struct rgb colour)
 {
-    set_colour(c, colour);
-    cairo_rectangle(c->cairo, x, y, w, h);
-    cairo_fill(c->cairo);
+    add(c, (struct item){.kind = ITEM_FILL, .x = x, .y = y, .w = w, .h = h, .colour = colour});
 }
 
 void
 canvas_frame(struct canvas *c, double x, double y, double w, double h, double width,
              struct rgb colour)
 {
-    set_colour(c, colour);
-    cairo_set_line_width(c->cairo, width);
-    cairo_set_line_join(c->cairo, CAIRO_LINE_JOIN_MITER);
-    cairo_rectangle(c->cairo, x - 0.5 * width, y - 0.5 * width, w + width, h + width);
-    cairo_stroke(c->cairo);
-}
-
-void
-canvas_triangle(struct canvas *c, double corner[3][2], struct rgb colour)
-{
-    set_colour(c, colour);
-    for (int k = 0; k < 3; k++)
-        cairo_line_to(c->cairo, corner[k][0], corner[k][1]);
-    cairo_close_path(c->cairo);
-    cairo_fill(c->cairo);
+    add(c, (struct item){.kind = ITEM_FRAME,
+                         .x = x - 0.5 * width,
+                         .y = y - 0.5 * width,
+                         .w = w + width,
+                         .h = h + width,
+                         .width = width,
+                         .colour = colour});
 }
 
 void
 canvas_clip(struct canvas *c, double x, double y, double w, double h)
 {
-    cairo_reset_clip(c->cairo);
-    if (w <= 0)
-        return;
-    cairo_rectangle(c->cairo, x, y, w, h);
-    cairo_clip(c->cairo);
+    add(c, (struct item){.kind = ITEM_CLIP, .x = x, .y = y, .w = w > 0 ? w : 0, .h = h});
+}
+
+static void
+add_point(struct canvas *c, double x, double y, bool begins)
+{
+    if (c->points == c->point_capacity) {
+        size_t capacity = c->point_capacity == 0 ? 64 : 2 * c->point_capacity;
+        struct item_point *path = realloc(c->path, capacity * sizeof *path);
+
+        if (path == NULL) {
+            c->short_of_memory = true;
+            return;
+        }
+        c->path = path;
+        c->point_capacity = capacity;
+    }
+    c->path[c->points++] = (struct item_point){x, y, begins};
 }
 
 void
 canvas_move(struct canvas *c, double x, double y)
 {
-    cairo_move_to(c->cairo, x, y);
+    add_point(c, x, y, true);
 }
 
 void
 canvas_draw_to(struct canvas *c, double x, double y)
 {
-    cairo_line_to(c->cairo, x, y);
+    add_point(c, x, y, c->points == 0);
+}
+
+/* The path so far becomes an item. */
+static void
+add_path(struct canvas *c, struct item item)
+{
+    item.point = c->path;
+    item.points = c->points;
+    c->path = NULL;
+    c->points = c->point_capacity = 0;
+    add(c, item);
 }
 
 void
 canvas_stroke(struct canvas *c, double width, struct rgb colour)
 {
-    set_colour(c, colour);
-    cairo_set_line_width(c->cairo, width);
-    cairo_set_line_cap(c->cairo, CAIRO_LINE_CAP_ROUND);
-    cairo_set_line_join(c->cairo, CAIRO_LINE_JOIN_ROUND);
-    cairo_stroke(c->cairo);
-    cairo_set_line_cap(c->cairo, CAIRO_LINE_CAP_BUTT);
+    canvas_dashes(c, width, 0, colour);
 }
 
-/* ---- pixels: 32 bits each, 0xXXRRGGBB in the byte order of the machine ---- */
-
-static uint32_t *
-row_at(struct canvas *c, size_t y)
+void
+canvas_dashes(struct canvas *c, double width, double dash, struct rgb colour)
 {
-    size_t stride = (size_t)cairo_image_surface_get_stride(c->surface);
+    add_path(c, (struct item){.kind = ITEM_LINES, .width = width, .dash = dash, .colour = colour});
+}
 
-    return (uint32_t *)(void *)(cairo_image_surface_get_data(c->surface) + y * stride);
+void
+canvas_triangle(struct canvas *c, double corner[3][2], struct rgb colour)
+{
+    for (int k = 0; k < 3; k++)
+        add_point(c, corner[k][0], corner[k][1], k == 0);
+    add_path(c, (struct item){.kind = ITEM_POLYGON, .colour = colour});
+}
+
+/* ---- pixels ---- */
+
+void
+canvas_image(struct canvas *c, double x, double y, double w, double h, const unsigned char *rgb,
+             size_t nx, size_t ny)
+{
+    unsigned char *own = malloc(3 * nx * ny);
+
+    if (own == NULL) {
+        c->short_of_memory = true;
+        return;
+    }
+    memcpy(own, rgb, 3 * nx * ny);
+    add(c, (struct item){
+               .kind = ITEM_IMAGE, .x = x, .y = y, .w = w, .h = h, .rgb = own, .nx = nx, .ny = ny});
 }
 
 void
 canvas_pixel(struct canvas *c, size_t x, size_t y, struct rgb colour)
 {
-    cairo_surface_flush(c->surface);
-    row_at(c, y)[x] = (uint32_t)colour.r << 16 | (uint32_t)colour.g << 8 | colour.b;
-    cairo_surface_mark_dirty_rectangle(c->surface, (int)x, (int)y, 1, 1);
+    size_t at = y * c->w + x;
+
+    if (x >= c->w || y >= c->h)
+        return;
+    if (c->dots.rgb == NULL) {
+        c->dots.rgb = calloc(c->w * c->h, 3);
+        c->dots.inked = calloc(c->w * c->h, 1);
+        if (c->dots.rgb == NULL || c->dots.inked == NULL) {
+            c->short_of_memory = true;
+            item_clear(&c->dots);
+            c->dots = (struct item){.rgb = NULL};
+            return;
+        }
+        c->dots_left = c->dots_right = x;
+        c->dots_top = c->dots_bottom = y;
+    }
+    c->dots_left = x < c->dots_left ? x : c->dots_left;
+    c->dots_right = x > c->dots_right ? x : c->dots_right;
+    c->dots_top = y < c->dots_top ? y : c->dots_top;
+    c->dots_bottom = y > c->dots_bottom ? y : c->dots_bottom;
+    memcpy(c->dots.rgb + 3 * at, (unsigned char[]){colour.r, colour.g, colour.b}, 3);
+    c->dots.inked[at] = 1;
+}
+
+/* Cut to what was set: in the same memory, rows move to the front. */
+void
+canvas_settle(struct canvas *c)
+{
+    struct item i = c->dots;
+    size_t left = c->dots_left, top = c->dots_top;
+    bool whole = true;
+
+    if (i.rgb == NULL)
+        return;
+    c->dots = (struct item){.rgb = NULL};
+    i.kind = ITEM_IMAGE;
+    i.nx = c->dots_right - left + 1;
+    i.ny = c->dots_bottom - top + 1;
+    i.x = (double)left;
+    i.y = (double)top;
+    i.w = (double)i.nx;
+    i.h = (double)i.ny;
+    for (size_t j = 0; j < i.ny; j++) {
+        size_t from = (top + j) * c->w + left;
+
+        memmove(i.rgb + 3 * j * i.nx, i.rgb + 3 * from, 3 * i.nx);
+        memmove(i.inked + j * i.nx, i.inked + from, i.nx);
+    }
+    for (size_t k = 0; k < i.nx * i.ny && whole; k++)
+        whole = i.inked[k];
+    if (whole) {
+        free(i.inked);
+        i.inked = NULL;
+    }
+    append(c, i);
 }
 
 enum rc_status
 canvas_check(const struct canvas *c, struct rc_err *err)
 {
-    if (c->no_font)
+    if (lettering_has_no_font(c->lettering))
         return rc_err_set(err,
                           "no font can be found: install one, such as DejaVu Sans, or see that "
                           "fontconfig knows it");
-    if (cairo_status(c->cairo) != CAIRO_STATUS_SUCCESS)
-        return rc_err_set(err, "the figure cannot be drawn: %s",
-                          cairo_status_to_string(cairo_status(c->cairo)));
+    if (c->short_of_memory)
+        return rc_err_set(err, "the figure cannot be drawn: out of memory");
     return RC_OK;
 }
 
 enum rc_status
 canvas_row(struct canvas *c, size_t y, unsigned char *rgb, struct rc_err *err)
 {
-    const uint32_t *row;
+    const unsigned *row;
 
-    if (canvas_check(c, err) != RC_OK)
+    canvas_settle(c);
+    if (canvas_check(c, err) != RC_OK || drawn_update(c, err) != RC_OK)
         return RC_FAIL;
-    cairo_surface_flush(c->surface);
-    row = row_at(c, y);
+    row = drawn_row(c->drawn, y);
     for (size_t x = 0; x < c->w; x++) {
         rgb[3 * x] = (unsigned char)(row[x] >> 16 & 0xff);
         rgb[3 * x + 1] = (unsigned char)(row[x] >> 8 & 0xff);
         rgb[3 * x + 2] = (unsigned char)(row[x] & 0xff);
     }
     return RC_OK;
+}
+
+/* ---- files ---- */
+
+void
+canvas_set_dpi(struct canvas *c, double dpi, bool pixels)
+{
+    c->dpi = dpi;
+    c->screen = pixels;
+}
+
+enum canvas_format
+canvas_format(const char *name)
+{
+    return strcmp(name, "svg") == 0   ? CANVAS_SVG
+           : strcmp(name, "pdf") == 0 ? CANVAS_PDF
+                                      : CANVAS_PNG;
+}
+
+static enum rc_status
+next_row(void *ctx, size_t y, unsigned char *rgb, struct rc_err *err)
+{
+    return canvas_row(ctx, y, rgb, err);
+}
+
+enum rc_status
+canvas_write(struct canvas *c, enum canvas_format format, const struct picture_text *text,
+             size_t texts, FILE *file, struct rc_err *err)
+{
+    canvas_settle(c);
+    if (canvas_check(c, err) != RC_OK)
+        return RC_FAIL;
+    if (format == CANVAS_SVG)
+        return svg_write(c, text, texts, file, err);
+    if (format == CANVAS_PDF)
+        return pdf_write(c, text, texts, file, err);
+    return picture_write(file, c->w, c->h, c->dpi, text, texts, next_row, c, err);
 }

@@ -1,15 +1,18 @@
 /*
- * An image to draw figures on, in pixels from the upper left corner. Text is UTF-8 in the sans
- * serif of the system, and in other fonts for the characters that it lacks.
+ * A page to draw figures on, in pixels from the upper left corner: what is drawn is kept as shapes
+ * and words, and becomes pixels, a PDF or an SVG when it is written. Text is UTF-8 in the sans
+ * serif of the system or the font asked for, and in other fonts for the characters that it lacks.
  */
 #ifndef RC_CANVAS_H
 #define RC_CANVAS_H
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdio.h>
 
 #include "libcontact/grid.h"
 #include "colormap.h"
+#include "png.h"
 
 struct canvas;
 
@@ -20,6 +23,10 @@ enum {
 /* White. NULL when a side is more than CANVAS_MOST or memory is short. */
 struct canvas *canvas_new(size_t w, size_t h, struct rc_err *err);
 void canvas_free(struct canvas *canvas); /* NULL is allowed */
+
+/* The family of all text from now on, "sans" without one. Gives the name of the font that is there
+ * for it: another one when none is called so. */
+const char *canvas_set_family(struct canvas *canvas, const char *family);
 
 struct canvas_font {
     double size; /* pixels */
@@ -55,13 +62,43 @@ void canvas_clip(struct canvas *canvas, double x, double y, double w, double h);
 void canvas_move(struct canvas *canvas, double x, double y);
 void canvas_draw_to(struct canvas *canvas, double x, double y);
 void canvas_stroke(struct canvas *canvas, double width, struct rgb colour);
+/* The same in dashes of that length with gaps as long. */
+void canvas_dashes(struct canvas *canvas, double width, double dash, struct rgb colour);
 
+/* An image of nx by ny pixels (red, green, blue, row by row) over the rectangle, its pixels with
+ * sharp edges however large they become. */
+void canvas_image(struct canvas *canvas, double x, double y, double w, double h,
+                  const unsigned char *rgb, size_t nx, size_t ny);
+/* A pixel of the page; in a PDF or SVG pixels set one after another are one image. */
 void canvas_pixel(struct canvas *canvas, size_t x, size_t y, struct rgb colour);
+
 /* RC_FAIL when something before could not be drawn, or there is no font. */
 enum rc_status canvas_check(const struct canvas *canvas, struct rc_err *err);
 /* Row y as width times red, green, blue. RC_FAIL as canvas_check. */
 enum rc_status canvas_row(struct canvas *canvas, size_t y, unsigned char *rgb, struct rc_err *err);
 size_t canvas_width(const struct canvas *canvas);
 size_t canvas_height(const struct canvas *canvas);
+
+/* ---- files ---- */
+
+enum canvas_format {
+    CANVAS_PNG,
+    CANVAS_SVG,
+    CANVAS_PDF
+};
+
+/* "png", "svg" or "pdf" as a format: any other is a PNG. */
+enum canvas_format canvas_format(const char *name);
+
+/* How large the page is on paper: so many of its pixels in an inch (216 until this is called). With
+ * `pixels` the size of an SVG is in the pixels of a screen, one for each of the page. */
+void canvas_set_dpi(struct canvas *canvas, double dpi, bool pixels);
+
+/* Writes the page on `file`, which stays the caller's. No time is written: the same page is the
+ * same bytes. `text` goes into the chunks of a PNG; of the others Title, Description and Software
+ * have a place. RC_FAIL as canvas_check, or when the device refuses. */
+enum rc_status canvas_write(struct canvas *canvas, enum canvas_format format,
+                            const struct picture_text *text, size_t texts, FILE *file,
+                            struct rc_err *err);
 
 #endif

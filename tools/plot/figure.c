@@ -2,13 +2,21 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "hillshade.h"
 #include "page.h"
 #include "raster.h"
 #include "ticks.h"
 
 static const struct rgb rule = {0xdd, 0xdd, 0xdd}, curve_ink = {0x1f, 0x4e, 0x8c},
-                        light = {0xff, 0xff, 0xff};
+                        light = {0xff, 0xff, 0xff}, hard_ink = {0x00, 0x9e, 0x73},
+                        circle_ink = {0x1f, 0x8f, 0xd1};
+
+enum {
+    STEPS = 512,      /* of the colours in the bar                                          */
+    IMAGE_MOST = 2400 /* pixels a side of a map in a PDF or SVG: 600 an inch over 100 mm    */
+};
 
 /* ---- axes ---- */
 
@@ -57,6 +65,14 @@ mix(struct rgb a, double x, struct rgb b, double y)
                         (unsigned char)(x * a.b + y * b.b + 0.5)};
 }
 
+struct rgb
+figure_colour(const struct figure *f, double value)
+{
+    if (!f->log)
+        return colormap_value(f->map, f->lo, f->hi, value);
+    return colormap_at(f->map, value > f->lo ? log(value / f->lo) / log(f->hi / f->lo) : 0);
+}
+
 /* Missing nodes are chequered, so that no colour of any map can be taken for them. */
 static struct rgb
 missing_at(const struct page *p, size_t x, size_t y)
@@ -67,46 +83,91 @@ missing_at(const struct page *p, size_t x, size_t y)
                                           : mix(p->f->map->missing, 0.5, light, 0.5);
 }
 
-static void
-paint(struct page *p, const struct raster *r)
+/* Light and shadow by nodes, or by cells of the image where there are more nodes than those. */
+struct shades {
+    struct raster *raster;
+    float *bright; /* NULL: none are wanted */
+};
+
+static enum rc_status
+shades_new(const struct page *p, const struct raster *image, struct shades *s, struct rc_err *err)
 {
     const struct figure *f = p->f;
+    size_t w = p->g->nx < image->w ? p->g->nx : image->w;
+    size_t h = p->g->ny < image->h ? p->g->ny : image->h;
+    double aspect = (f->bottom - f->top) / (double)h / ((f->right - f->left) / (double)w);
 
-    for (size_t j = 0; j < r->h; j++)
-        for (size_t i = 0; i < r->w; i++) {
-            size_t k = j * r->w + i;
-            double none = (double)r->none[k], missing = (double)r->missing[k];
-            struct rgb colour = missing_at(p, i, j);
-
-            if (isnan(r->v[k])) {
-                if (none > 0)
-                    colour = mix(f->map->none, none, colour, 1 - none);
-            } else {
-                struct rgb value = colormap_value(f->map, f->lo, f->hi, r->v[k]);
-                if (missing > 0)
-                    value = mix(value, fmax(0, 1 - missing), colour, fmin(missing, 1));
-                colour =
-                    none > 0 ? mix(value, fmax(0, 1 - none), f->map->none, fmin(none, 1)) : value;
-            }
-            canvas_pixel(p->c, p->plot_x + i, p->plot_y + j, colour);
-        }
+    *s = (struct shades){NULL, NULL};
+    if (!f->hillshade)
+        return RC_OK;
+    if ((s->raster = raster_new(p->g, f->zero_is_none, w, h, err)) == NULL)
+        return RC_FAIL;
+    if ((s->bright = hillshade_new(s->raster, aspect, err)) != NULL)
+        return RC_OK;
+    raster_free(s->raster);
+    return RC_FAIL;
 }
 
-/* From cells of a raster to the share of the plot's height: rows that are uneven lie where they
- * lie, and between their middles a line is straight. */
-static double
-down_at(const struct page *p, const struct raster *r, double y)
+static void
+shades_free(struct shades *s)
 {
-    const double *e = p->f->row_edge;
-    double j = floor(y - 0.5), a, b;
-    size_t k, ny = p->g->ny;
+    raster_free(s->raster);
+    free(s->bright);
+}
 
-    if (e == NULL || r->h != ny || ny < 2)
-        return y / (double)r->h;
-    k = j < 0 ? 0 : (size_t)j < ny - 1 ? (size_t)j : ny - 2;
-    a = 0.5 * (e[k] + e[k + 1]);
-    b = 0.5 * (e[k + 1] + e[k + 2]);
-    return (a + (y - 0.5 - (double)k) * (b - a) - e[0]) / (e[ny] - e[0]);
+/* The colour of cell (i, j) of w by h as it is lit. */
+static struct rgb
+lit(const struct shades *s, struct rgb c, size_t i, size_t j, size_t w, size_t h)
+{
+    double b;
+
+    if (s->bright == NULL)
+        return c;
+    b = (double)s->bright[j * s->raster->h / h * s->raster->w + i * s->raster->w / w];
+    return (struct rgb){(unsigned char)fmin(255, c.r * b + 0.5),
+                        (unsigned char)fmin(255, c.g * b + 0.5),
+                        (unsigned char)fmin(255, c.b * b + 0.5)};
+}
+
+static struct rgb
+cell_colour(const struct page *p, const struct raster *r, size_t i, size_t j)
+{
+    const struct figure *f = p->f;
+    size_t k = j * r->w + i;
+    double none = (double)r->none[k], missing = (double)r->missing[k];
+    struct rgb colour = missing_at(p, i, j), value;
+
+    if (isnan(r->v[k]))
+        return none > 0 ? mix(f->map->none, none, colour, 1 - none) : colour;
+    value = figure_colour(f, r->v[k]);
+    if (missing > 0)
+        value = mix(value, fmax(0, 1 - missing), colour, fmin(missing, 1));
+    return none > 0 ? mix(value, fmax(0, 1 - none), f->map->none, fmin(none, 1)) : value;
+}
+
+static enum rc_status
+paint(struct page *p, const struct raster *r, struct rc_err *err)
+{
+    unsigned char *rgb = malloc(3 * r->w * r->h);
+    struct shades shades;
+
+    if (rgb == NULL)
+        return rc_err_set(err, "out of memory for a map of %zu by %zu pixels", r->w, r->h);
+    if (shades_new(p, r, &shades, err) != RC_OK) {
+        free(rgb);
+        return RC_FAIL;
+    }
+    for (size_t j = 0; j < r->h; j++)
+        for (size_t i = 0; i < r->w; i++) {
+            struct rgb colour = lit(&shades, cell_colour(p, r, i, j), i, j, r->w, r->h);
+
+            memcpy(rgb + 3 * (j * r->w + i), (unsigned char[]){colour.r, colour.g, colour.b}, 3);
+        }
+    canvas_image(p->c, (double)p->plot_x, (double)p->plot_y, (double)p->plot_w, (double)p->plot_h,
+                 rgb, r->w, r->h);
+    shades_free(&shades);
+    free(rgb);
+    return RC_OK;
 }
 
 static void
@@ -114,11 +175,11 @@ stroke_lines(struct page *p, struct lines *l, const struct raster *r, double wid
              struct rgb colour)
 {
     double x = (double)p->plot_x, y = (double)p->plot_y;
-    double sx = (double)p->plot_w / (double)r->w, h = (double)p->plot_h;
+    double sx = (double)p->plot_w / (double)r->w, sy = (double)p->plot_h / (double)r->h;
 
     for (size_t k = 0; k < l->n; k++) {
-        canvas_move(p->c, x + sx * l->at[k][0], y + h * down_at(p, r, l->at[k][1]));
-        canvas_draw_to(p->c, x + sx * l->at[k][2], y + h * down_at(p, r, l->at[k][3]));
+        canvas_move(p->c, x + sx * l->at[k][0], y + sy * l->at[k][1]);
+        canvas_draw_to(p->c, x + sx * l->at[k][2], y + sy * l->at[k][3]);
     }
     canvas_stroke(p->c, width, colour);
     l->n = 0;
@@ -127,7 +188,63 @@ stroke_lines(struct page *p, struct lines *l, const struct raster *r, double wid
 static struct rgb
 line_colour(const struct figure *f, double value)
 {
-    return colormap_is_dark(colormap_value(f->map, f->lo, f->hi, value)) ? light : page_ink;
+    return colormap_is_dark(figure_colour(f, value)) ? light : page_ink;
+}
+
+/* Thinner than a node: a line must not hide the one that it goes around. */
+static double
+border_width(const struct page *p)
+{
+    double node = fmin((double)p->plot_w / (double)p->g->nx, (double)p->plot_h / (double)p->g->ny);
+
+    return fmin(1.5 * p->u, fmax(0.35 * node, 0.4 * p->u));
+}
+
+/* Where a place of the map, in metres, lies on the page. */
+static double
+page_x(const struct page *p, double x)
+{
+    return (double)p->plot_x + (x - p->f->left) / (p->f->right - p->f->left) * (double)p->plot_w;
+}
+
+static double
+page_y(const struct page *p, double y)
+{
+    return (double)p->plot_y + (y - p->f->top) / (p->f->bottom - p->f->top) * (double)p->plot_h;
+}
+
+static void
+draw_circle(struct page *p)
+{
+    const int steps = 360;
+
+    canvas_clip(p->c, (double)p->plot_x, (double)p->plot_y, (double)p->plot_w, (double)p->plot_h);
+    for (int k = 0; k <= steps; k++) {
+        double turn = 4 * acos(0.0) * k / steps;
+        double x = page_x(p, p->f->radius * cos(turn)), y = page_y(p, p->f->radius * sin(turn));
+
+        if (k == 0)
+            canvas_move(p->c, x, y);
+        else
+            canvas_draw_to(p->c, x, y);
+    }
+    canvas_dashes(p->c, 2 * p->u, 9 * p->u, circle_ink);
+    canvas_clip(p->c, 0, 0, 0, 0);
+}
+
+/* A cross with a light rim, seen on every colour. */
+static void
+draw_cross(struct page *p, double x, double y)
+{
+    for (int layer = 0; layer < 2; layer++) {
+        double reach = (layer == 0 ? 11 : 10) * p->u;
+
+        canvas_move(p->c, x - reach, y);
+        canvas_draw_to(p->c, x + reach, y);
+        canvas_move(p->c, x, y - reach);
+        canvas_draw_to(p->c, x, y + reach);
+        canvas_stroke(p->c, (layer == 0 ? 5 : 2) * p->u, layer == 0 ? light : page_ink);
+    }
 }
 
 static enum rc_status
@@ -144,35 +261,52 @@ draw_contours(struct page *p, const struct raster *r, struct rc_err *err)
         if (p->f->zero_is_none && k == 0)
             continue; /* the contact's edge says that better */
         status = raster_contour(r, level, &lines, err);
-        stroke_lines(p, &lines, r, 1.5 * p->u, line_colour(p->f, level));
+        stroke_lines(p, &lines, r, p->f->zero_is_none ? border_width(p) : 1.5 * p->u,
+                     line_colour(p->f, level));
     }
-    if (status == RC_OK && p->f->zero_is_none) {
-        status = raster_edge(r, &lines, err);
-        stroke_lines(p, &lines, r, 1.5 * p->u, page_ink);
+    if (status == RC_OK && p->f->pressure != NULL) {
+        status = raster_border(p->f->pressure, 0, r->w, r->h, &lines, err);
+        stroke_lines(p, &lines, r, border_width(p), page_ink);
+    }
+    if (status == RC_OK && p->f->hard > 0) {
+        status = raster_border(p->f->pressure, p->f->hard, r->w, r->h, &lines, err);
+        stroke_lines(p, &lines, r, border_width(p), hard_ink);
     }
     canvas_clip(p->c, 0, 0, 0, 0);
     free(lines.at);
     return status;
 }
 
-/* Contours run through the nodes of a map that is enlarged, through the pixels of one that is
- * reduced. */
+static struct raster *
+new_raster(struct page *p, size_t w, size_t h, struct rc_err *err)
+{
+    if (p->f->keep_max && (w < p->g->nx || h < p->g->ny))
+        return raster_new_max(p->g, p->f->zero_is_none, w, h, err);
+    return raster_new(p->g, p->f->zero_is_none, w, h, err);
+}
+
+/* In a PDF or SVG a node is a pixel, however large it is drawn; missing nodes are chequered, which
+ * takes the pixels of the page. Contours run through the nodes of a map
+ * that is enlarged, through the pixels of one that is reduced. */
 static enum rc_status
 draw_map(struct page *p, struct rc_err *err)
 {
     const struct figure *f = p->f;
-    struct raster *r = raster_new(p->g, f->row_edge, f->zero_is_none, p->plot_w, p->plot_h, err);
-    size_t nx = p->g->nx, ny = p->g->ny;
+    size_t nx = p->g->nx, ny = p->g->ny, w = p->plot_w, h = p->plot_h;
+    struct raster *r;
     enum rc_status status;
 
-    if (r == NULL)
+    if (f->vector && f->missing == 0) {
+        w = nx < IMAGE_MOST ? nx : IMAGE_MOST;
+        h = ny < IMAGE_MOST ? ny : IMAGE_MOST;
+    }
+    if ((r = new_raster(p, w, h, err)) == NULL)
         return RC_FAIL;
-    paint(p, r);
+    status = paint(p, r, err);
     raster_free(r);
-    if (!f->contour)
-        return RC_OK;
-    r = raster_new(p->g, ny > p->plot_h ? f->row_edge : NULL, f->zero_is_none,
-                   nx < p->plot_w ? nx : p->plot_w, ny < p->plot_h ? ny : p->plot_h, err);
+    if (!f->contour || status != RC_OK)
+        return status;
+    r = new_raster(p, nx < p->plot_w ? nx : p->plot_w, ny < p->plot_h ? ny : p->plot_h, err);
     if (r == NULL)
         return RC_FAIL;
     status = draw_contours(p, r, err);
@@ -180,16 +314,19 @@ draw_map(struct page *p, struct rc_err *err)
     return status;
 }
 
-/* The colours from (x, y) over w by h pixels, along the longer way, low values left or at the
- * bottom. */
+/* The colours over the rectangle, along the longer way, low values left or at the bottom. */
 static void
-paint_bar(struct page *p, size_t x, size_t y, size_t w, size_t h)
+paint_bar(struct page *p, double x, double y, double w, double h)
 {
-    for (size_t j = 0; j < h; j++)
-        for (size_t i = 0; i < w; i++)
-            canvas_pixel(p->c, x + i, y + j,
-                         colormap_at(p->f->map, p->bar_below ? ((double)i + 0.5) / (double)w
-                                                             : 1 - ((double)j + 0.5) / (double)h));
+    unsigned char rgb[3 * STEPS];
+
+    for (size_t k = 0; k < STEPS; k++) {
+        double t = ((double)k + 0.5) / STEPS;
+        struct rgb c = colormap_at(p->f->map, p->bar_below ? t : 1 - t);
+
+        memcpy(rgb + 3 * k, (unsigned char[]){c.r, c.g, c.b}, 3);
+    }
+    canvas_image(p->c, x, y, w, h, rgb, p->bar_below ? STEPS : 1, p->bar_below ? 1 : STEPS);
 }
 
 /* Draws a triangle at each end of the bar that some values lie beyond. */
@@ -197,7 +334,7 @@ static void
 point_bar(struct page *p, double x, double y, double w, double h)
 {
     const struct figure *f = p->f;
-    double reach = 16 * p->u, gap = 3 * p->u;
+    double reach = 18 * p->u, gap = 4 * p->u;
 
     for (int end = 0; end < 2; end++) {
         struct rgb colour = colormap_at(f->map, end);
@@ -213,6 +350,12 @@ point_bar(struct page *p, double x, double y, double w, double h)
             corner[k][1] = p->bar_below ? y + along * h : (end == 0 ? y + h : y) - out;
         }
         canvas_triangle(p->c, corner, colour);
+        for (int k = 0; k < 4; k++) /* white paper would swallow a pale end */
+            if (k == 0)
+                canvas_move(p->c, corner[0][0], corner[0][1]);
+            else
+                canvas_draw_to(p->c, corner[k % 3][0], corner[k % 3][1]);
+        canvas_stroke(p->c, fmax(1, 1.2 * p->u), page_ink);
     }
 }
 
@@ -231,7 +374,7 @@ draw_bar(struct page *p)
         x = round(x + w + page_bar_right(p));
         w = thick;
     }
-    paint_bar(p, (size_t)x, (size_t)y, (size_t)w, (size_t)h);
+    paint_bar(p, x, y, w, h);
     point_bar(p, x, y, w, h);
     for (long long k = a->ticks.first; p->f->contour && k <= a->ticks.last; k++) {
         double t = page_place(a, ticks_at(&a->ticks, k));
@@ -332,8 +475,8 @@ draw_stamp(struct page *p, double middle, double y)
     canvas_text(p->c, &p->stamp, middle, y + 1.12 * size, 0.5, p->f->stamp);
 }
 
-static void
-draw_text(struct page *p)
+void
+page_heading(struct page *p)
 {
     double y = 24 * p->u, middle = 0.5 * (double)p->w;
 
@@ -346,6 +489,31 @@ draw_text(struct page *p)
         y += 1.4 * p->subheading.size;
     }
     draw_stamp(p, middle, y);
+}
+
+/* Across n pixels and a third more, n high. */
+static void
+draw_swatch(struct page *p, enum swatch swatch, double x, double y, size_t n)
+{
+    double w = (double)(n + n / 3), h = (double)n, u = p->u;
+
+    if (swatch == SWATCH_LARGEST)
+        draw_cross(p, x + 0.5 * w, y + 0.5 * h);
+    if (swatch == SWATCH_CONTACT || swatch == SWATCH_HARD || swatch == SWATCH_CIRCLE) {
+        canvas_move(p->c, x, y + 0.5 * h);
+        canvas_draw_to(p->c, x + w, y + 0.5 * h);
+        if (swatch == SWATCH_CIRCLE)
+            canvas_dashes(p->c, 2 * u, 9 * u, circle_ink);
+        else
+            canvas_stroke(p->c, 2 * u, swatch == SWATCH_HARD ? hard_ink : page_ink);
+    }
+    if (swatch == SWATCH_NONE)
+        canvas_fill(p->c, x, y, w, h, p->f->map->none);
+    for (size_t j = 0; swatch == SWATCH_MISSING && j < n; j++)
+        for (size_t i = 0; i < n + n / 3; i++)
+            canvas_pixel(p->c, (size_t)x + i, (size_t)y + j, missing_at(p, i, j));
+    if (swatch == SWATCH_NONE || swatch == SWATCH_MISSING)
+        canvas_frame(p->c, x, y, w, h, fmax(1, round(1.2 * u)), page_ink);
 }
 
 static void
@@ -363,14 +531,7 @@ draw_legend(struct page *p)
         double left = round(x + p->note[k].x), top = round(y + p->note[k].y);
         size_t n = (size_t)round(side);
 
-        for (size_t j = 0; p->note[k].swatch != SWATCH_NOTHING && j < n; j++)
-            for (size_t i = 0; i < n + n / 3; i++)
-                canvas_pixel(p->c, (size_t)left + i, (size_t)top + j,
-                             p->note[k].swatch == SWATCH_NONE ? p->f->map->none
-                                                              : missing_at(p, i, j));
-        if (p->note[k].swatch != SWATCH_NOTHING)
-            canvas_frame(p->c, left, top, (double)(n + n / 3), (double)n, fmax(1, round(1.2 * u)),
-                         page_ink);
+        draw_swatch(p, p->note[k].swatch, left, top, n);
         canvas_text(p->c, &p->small, left + page_swatch(p, k),
                     top + 0.5 * side + 0.36 * p->small.size, 0, p->note[k].text);
     }
@@ -382,7 +543,7 @@ draw(struct page *p, struct rc_err *err)
     double x = (double)p->plot_x, y = (double)p->plot_y, w = (double)p->plot_w,
            h = (double)p->plot_h;
 
-    draw_text(p);
+    page_heading(p);
     if (p->curve) {
         draw_rules(p);
         draw_curve(p);
@@ -390,6 +551,10 @@ draw(struct page *p, struct rc_err *err)
     } else {
         if (draw_map(p, err) != RC_OK)
             return RC_FAIL;
+        if (p->f->circle != NULL)
+            draw_circle(p);
+        if (p->f->largest != NULL)
+            draw_cross(p, page_x(p, p->f->largest_x), page_y(p, p->f->largest_y));
         draw_bar(p);
         draw_marks_upright(p, &p->down, x, y, h, true, true);
     }
@@ -402,18 +567,42 @@ draw(struct page *p, struct rc_err *err)
 struct canvas *
 figure_draw(const struct figure *f, const struct rc_grid *g, struct rc_err *err)
 {
-    struct page page = {
-        .f = f, .g = g, .curve = f->row_edge == NULL && (g->nx == 1) != (g->ny == 1)};
+    struct page page = {.f = f, .g = g, .curve = !f->section && (g->nx == 1) != (g->ny == 1)};
 
-    if ((page.c = canvas_new(1, 1, err)) == NULL) /* to measure text on */
+    if ((page.c = page_canvas(&page, 1, 1, err)) == NULL) /* to measure text on */
         return NULL;
     page_lay_out(&page);
     canvas_free(page.c);
-    if ((page.c = canvas_new(page.w, page.h, err)) == NULL)
+    if ((page.c = page_canvas(&page, page.w, page.h, err)) == NULL)
         return NULL;
     if (draw(&page, err) != RC_OK) {
         canvas_free(page.c);
         return NULL;
     }
     return page.c;
+}
+
+/* ---- pages of several plots ---- */
+
+enum rc_status
+page_map(struct page *p, bool left, bool below, struct rc_err *err)
+{
+    double x = (double)p->plot_x, y = (double)p->plot_y, w = (double)p->plot_w,
+           h = (double)p->plot_h;
+
+    if (draw_map(p, err) != RC_OK)
+        return RC_FAIL;
+    canvas_frame(p->c, x, y, w, h, fmax(1, round(1.2 * p->u)), page_ink);
+    if (left)
+        draw_marks_upright(p, &p->down, x, y, h, true, true);
+    if (below)
+        draw_marks_across(p, &p->across, x, y + h, w);
+    return RC_OK;
+}
+
+void
+page_bar(struct page *p)
+{
+    draw_bar(p);
+    draw_legend(p);
 }

@@ -16,6 +16,7 @@
 enum {
     FIGURE_ASPECT = 12, /* longest side of a plot over its shortest                      */
     FIGURE_NARROW = 320,
+    FIGURE_POINTS = 7,   /* of the text at the marks, where the size on paper counts           */
     FIGURE_WIDE = 16000, /* bounds of a width that is asked for, pixels                  */
 };
 
@@ -28,17 +29,35 @@ struct figure {
     const char *across, *down; /* what the axes are: "x", "y", "depth"                  */
     double left, right;        /* metres, the outer edges of the map: left < right      */
     double top, bottom;        /* the same downwards: top < bottom                      */
-    const double *row_edge;    /* metres, ny + 1 rising numbers; NULL: even rows        */
+    bool section;              /* y is depth: its axis has a unit of its own            */
+    const char *largest;       /* a cross at (x, y), and this in the legend; NULL: none */
+    double largest_x, largest_y;
+    const char *circle;             /* dashes about the origin, and this in the legend; NULL */
+    double radius;                  /* metres                                                */
+    const struct rc_grid *pressure; /* on the same grid: `contour` has its contact; NULL   */
+    double hard;   /* of these some reach it, and have a line about them; 0: none */
+    bool keep_max; /* a reduced map keeps the largest value of each pixel   */
     const struct colormap *map;
-    double lo, hi;     /* values at the ends of the colour bar, lo < hi         */
-    double min, max;   /* of the values there are: the bar gets a point where
+    double lo, hi;      /* values at the ends of the colour bar, lo < hi         */
+    bool log;           /* the colours go by the logarithm; 0 < lo               */
+    const char *note;   /* on the colours, in the legend; NULL: none             */
+    double min, max;    /* of the values there are: the bar gets a point where
                                    they go on beyond its end                             */
-    size_t missing;    /* nodes that are NaN                                    */
-    bool zero_is_none; /* value 0 means no contact                              */
-    size_t zeros;      /* nodes of that value                                   */
-    bool contour;      /* lines at the marks of the bar, and the contact's edge */
-    size_t width;      /* pixels of the whole figure; 0: what suits the map     */
+    size_t missing;     /* nodes that are NaN                                    */
+    size_t nodes;       /* of so many; 0: those of the map                       */
+    bool zero_is_none;  /* value 0 means no contact                              */
+    size_t zeros;       /* nodes of that value                                   */
+    bool contour;       /* lines at the marks of the bar, and the contact's edge */
+    bool hillshade;     /* with light and shadow                                 */
+    size_t width;       /* pixels of the whole figure; 0: what suits the map     */
+    double dpi;         /* of them an inch: text has its size on paper then;
+                                   0: as many as give the marks FIGURE_POINTS           */
+    bool vector;        /* for a PDF or SVG: the map keeps its own resolution    */
+    const char *family; /* of the text; NULL: sans                               */
 };
+
+/* The colour of a value. */
+struct rgb figure_colour(const struct figure *figure, double value);
 
 /* The grid holds values, nx and ny; *figure says where they lie. NULL when memory is short. */
 struct canvas *figure_draw(const struct figure *figure, const struct rc_grid *grid,

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#define SMALL 21 /* marks, where the unit of the design is 1 */
 #define BETWEEN " \xc2\xb7 "
 #define CUT "\xe2\x80\xa6"
 
@@ -32,8 +33,9 @@ copy_text(char line[LINE], const char *text, size_t n)
     line[n] = '\0';
 }
 
-static void
-shorten(struct page *p, const struct canvas_font *font, double width, char line[LINE])
+/* Cut behind a word, unless the first one is too long already. */
+void
+page_shorten(struct page *p, const struct canvas_font *font, double width, char line[LINE])
 {
     size_t n = strlen(line);
 
@@ -41,7 +43,13 @@ shorten(struct page *p, const struct canvas_font *font, double width, char line[
         return;
     n = n < LINE - 4 ? n : LINE - 4;
     do {
-        n = whole_characters(line, n - 1);
+        size_t word = n - 1;
+
+        while (word > 0 && line[word] != ' ')
+            word--;
+        while (word > 0 && line[word - 1] == ' ')
+            word--;
+        n = word > 0 ? word : whole_characters(line, n - 1);
         strcpy(line + n, CUT);
     } while (n > 0 && canvas_text_width(p->c, font, line) > width);
 }
@@ -74,15 +82,15 @@ fit(struct page *p, const struct canvas_font *font, double width, const char *se
 }
 
 /* Breaks text at the separators into lines that fit; what is too much for the last one is cut. */
-static void
-wrap(struct page *p, const struct canvas_font *font, double width, const char *separator,
-     const char *text, struct text *t)
+void
+page_wrap(struct page *p, const struct canvas_font *font, double width, const char *separator,
+          const char *text, struct text *t)
 {
     for (t->n = 0; *text != '\0' && t->n < LINES; t->n++) {
         size_t n = t->n + 1 < LINES ? fit(p, font, width, separator, text) : strlen(text);
 
         copy_text(t->line[t->n], text, n);
-        shorten(p, font, width, t->line[t->n]);
+        page_shorten(p, font, width, t->line[t->n]);
         text += text[n] == '\0' ? n : n + strlen(separator);
     }
 }
@@ -107,12 +115,18 @@ choose_marks(struct page *p, struct axis *a, double length, bool upright)
     double gap = 14 * p->u, height = 1.05 * p->small.size;
 
     for (double most = 9; most > 1e-3; most = most > 1 ? most - 1 : 0.5 * most) {
-        ticks_choose(&a->ticks, a->lo, a->hi, most);
+        double step;
+
+        if (a->log)
+            ticks_choose_log(&a->ticks, a->lo, a->hi, most);
+        else
+            ticks_choose(&a->ticks, a->lo, a->hi, most);
         a->widest = widest_mark(p, &a->ticks);
         if (a->ticks.first >= a->ticks.last)
             return;
-        if (ticks_at(&a->ticks, 1) / (a->hi - a->lo) * length >=
-            (upright ? height : a->widest + gap))
+        step = page_place(a, ticks_at(&a->ticks, a->ticks.last)) -
+               page_place(a, ticks_at(&a->ticks, a->ticks.last - 1));
+        if (step * length >= (upright ? height : a->widest + gap))
             return;
     }
 }
@@ -156,18 +170,23 @@ set_axes(struct page *p)
     double x = fmax(fabs(f->left), fabs(f->right)), y = fmax(fabs(f->top), fabs(f->bottom));
     double both = fmax(x, y);
 
+    p->values.log = f->log;
+
     set_axis(&p->values, f->quantity, f->unit, f->lo, f->hi, fmax(fabs(f->lo), fabs(f->hi)));
     if (p->curve && p->g->nx == 1) {
         set_axis(&p->across, f->down, "m", f->top, f->bottom, y);
         return;
     }
-    set_axis(&p->across, f->across, "m", f->left, f->right, x < 0.01 * both ? x : both);
-    set_axis(&p->down, f->down, "m", f->top, f->bottom, y < 0.01 * both ? y : both);
+    set_axis(&p->across, f->across, "m", f->left, f->right,
+             f->section || x < 0.01 * both ? x : both);
+    set_axis(&p->down, f->down, "m", f->top, f->bottom, f->section || y < 0.01 * both ? y : both);
 }
 
 double
 page_place(const struct axis *a, double value)
 {
+    if (a->log)
+        return value > 0 ? log(value / a->lo) / log(a->hi / a->lo) : -INFINITY;
     return (value - a->lo) / (a->hi - a->lo);
 }
 
@@ -191,22 +210,35 @@ page_bar_below(const struct page *p)
     return page_marks(p) + 18 * p->u;
 }
 
-static void
-set_fonts(struct page *p)
+void
+page_fonts(struct page *p)
 {
-    p->small = (struct canvas_font){.size = 21 * p->u, .colour = page_ink};
+    p->small = (struct canvas_font){.size = SMALL * p->u, .colour = page_ink};
     p->large = (struct canvas_font){.size = 23 * p->u, .colour = page_ink};
     p->heading = (struct canvas_font){.size = 28 * p->u, .bold = true, .colour = page_ink};
     p->subheading = (struct canvas_font){.size = 20 * p->u, .colour = page_faint};
     p->stamp = (struct canvas_font){.size = 24 * p->u, .bold = true, .colour = page_alarm};
 }
 
+/* The unit of the design where text has its size on paper; 0: that is not asked for. */
+static double
+unit_on_paper(const struct figure *f)
+{
+    return f->dpi * FIGURE_POINTS / 72 / SMALL;
+}
+
+static void
+set_dpi(struct page *p)
+{
+    p->dpi = p->f->dpi > 0 ? p->f->dpi : 72 * p->small.size / FIGURE_POINTS;
+}
+
 /* Pixels of the longer side of a plot of n nodes: a whole number of them for a node, or of nodes
  * for one, so that all cells look alike. */
 static double
-natural_side(size_t n)
+natural_side(size_t n, double u)
 {
-    const double wish = 900, most = 1350;
+    double wish = 900 * (u > 0 ? u : 1), most = 1.5 * wish;
     double nodes = (double)n;
 
     if (nodes <= most)
@@ -219,7 +251,7 @@ set_plot(struct page *p, double width)
 {
     double x = p->f->right - p->f->left, y = p->f->bottom - p->f->top;
     double aspect = fmin(fmax(x / y, 1.0 / FIGURE_ASPECT), FIGURE_ASPECT);
-    double w;
+    double paper = unit_on_paper(p->f), w;
 
     p->distorted = !p->curve && aspect != x / y;
     if (p->curve)
@@ -227,16 +259,17 @@ set_plot(struct page *p, double width)
     if (width > 0)
         w = fmin(width, 0.85 * (double)p->f->width * aspect);
     else if (p->curve)
-        w = 1000;
+        w = paper > 0 ? 1000 * paper : 1000;
     else
-        w = aspect >= 1 ? natural_side(p->g->nx) : natural_side(p->g->ny) * aspect;
+        w = aspect >= 1 ? natural_side(p->g->nx, paper) : natural_side(p->g->ny, paper) * aspect;
     p->plot_w = (size_t)fmax(round(w), 1);
     p->plot_h = (size_t)fmax(round(w / aspect), 1);
-    p->u = width > 0  ? fmax((double)p->f->width / 1200, 0.5)
-           : p->curve ? 1
-                      : fmax((double)p->plot_w, (double)p->plot_h) / 900;
+    p->u = paper > 0   ? paper
+           : width > 0 ? fmax((double)p->f->width / 1200, 0.5)
+           : p->curve  ? 1
+                       : fmax((double)p->plot_w, (double)p->plot_h) / 900;
     p->bar_below = (double)p->plot_h < 300 * p->u;
-    set_fonts(p);
+    page_fonts(p);
 }
 
 /* What the axes and the bar take to the left and to the right of the plot. */
@@ -263,17 +296,25 @@ measure_sides(struct page *p)
             page_bar_right(p) + 28 * u + 14 * u + p->values.widest + 1.8 * p->large.size + 24 * u;
 }
 
-static void
-add_note(struct page *p, enum swatch swatch, const char *text)
-{
-    p->note[p->notes].swatch = swatch;
-    copy_text(p->note[p->notes++].text, text, strlen(text));
-}
-
 double
 page_swatch(const struct page *p, size_t k)
 {
     return p->note[k].swatch == SWATCH_NOTHING ? 0 : 38 * p->u;
+}
+
+/* What is too long for the width goes on in a note of its own. */
+static void
+add_note(struct page *p, double width, enum swatch swatch, const char *text)
+{
+    while (*text != '\0' && p->notes < NOTES) {
+        size_t n;
+
+        p->note[p->notes].swatch = swatch;
+        n = fit(p, &p->small, width - page_swatch(p, p->notes), " ", text);
+        copy_text(p->note[p->notes++].text, text, n);
+        text += text[n] == '\0' ? n : n + 1;
+        swatch = SWATCH_NOTHING;
+    }
 }
 
 /* What the legend says, and where: side by side as many as fit a line. */
@@ -285,17 +326,27 @@ set_legend(struct page *p, double width)
 
     p->notes = 0;
     if (p->f->zero_is_none && p->f->zeros > 0 && !p->curve)
-        add_note(p, SWATCH_NONE, "no contact");
+        add_note(p, width, SWATCH_NONE, "no contact");
     snprintf(text, sizeof text, "%snot measured (%zu of %zu nodes)", p->curve ? "gaps: " : "",
-             p->f->missing, p->g->nx * p->g->ny);
+             p->f->missing, p->f->nodes != 0 ? p->f->nodes : p->g->nx * p->g->ny);
     if (p->f->missing > 0)
-        add_note(p, p->curve ? SWATCH_NOTHING : SWATCH_MISSING, text);
+        add_note(p, width, p->curve ? SWATCH_NOTHING : SWATCH_MISSING, text);
+    if (p->f->contour && p->f->pressure != NULL && !p->curve)
+        add_note(p, width, SWATCH_CONTACT, "edge of contact");
+    if (p->f->contour && p->f->hard > 0 && !p->curve)
+        add_note(p, width, SWATCH_HARD, "pressure at the hardness");
+    if (p->f->circle != NULL && !p->curve)
+        add_note(p, width, SWATCH_CIRCLE, p->f->circle);
+    if (p->f->largest != NULL && !p->curve)
+        add_note(p, width, SWATCH_LARGEST, p->f->largest);
+    if (p->f->note != NULL && !p->curve)
+        add_note(p, width, SWATCH_NOTHING, p->f->note);
     if (p->distorted)
-        add_note(p, SWATCH_NOTHING, "the axes differ in scale");
+        add_note(p, width, SWATCH_NOTHING, "the axes differ in scale");
     for (size_t k = 0; k < p->notes; k++) {
         double w;
 
-        shorten(p, &p->small, width - page_swatch(p, k), p->note[k].text);
+        page_shorten(p, &p->small, width - page_swatch(p, k), p->note[k].text);
         w = page_swatch(p, k) + canvas_text_width(p->c, &p->small, p->note[k].text);
         if (x > 0 && x + w > width) {
             x = 0;
@@ -320,6 +371,40 @@ overhang(struct page *p)
     return fmax(0, 0.5 * (longest - (double)p->plot_h));
 }
 
+/* ---- title and subtitle ---- */
+
+static double
+longest_word(struct page *p, const struct canvas_font *font, const char *text)
+{
+    char word[LINE];
+    double longest = 1;
+
+    while (*text != '\0') {
+        size_t n = piece(text, " ");
+
+        copy_text(word, text, n);
+        longest = fmax(longest, canvas_text_width(p->c, font, word));
+        text += text[n] == '\0' ? n : n + 1;
+    }
+    return longest;
+}
+
+void
+page_words(struct page *p, double width)
+{
+    p->heading.size *= fmin(1, fmax(0.5, width / longest_word(p, &p->heading, p->f->title)));
+    page_wrap(p, &p->heading, width, " ", p->f->title, &p->title);
+    page_wrap(p, &p->subheading, width, BETWEEN, p->f->subtitle, &p->subtitle);
+    p->stamp_h = p->f->stamp == NULL ? 0 : 2.1 * p->stamp.size;
+}
+
+double
+page_words_height(const struct page *p)
+{
+    return 24 * p->u + p->stamp_h + 1.3 * p->heading.size * (double)p->title.n +
+           1.4 * p->subheading.size * (double)p->subtitle.n;
+}
+
 static void
 set_page(struct page *p)
 {
@@ -328,12 +413,9 @@ set_page(struct page *p)
 
     p->w = p->f->width != 0 ? p->f->width : (size_t)ceil(fmax(content, 680 * u));
     text_w = (double)p->w - 48 * u;
-    wrap(p, &p->heading, text_w, " ", p->f->title, &p->title);
-    wrap(p, &p->subheading, text_w, BETWEEN, p->f->subtitle, &p->subtitle);
+    page_words(p, text_w);
     set_legend(p, text_w);
-    p->stamp_h = p->f->stamp == NULL ? 0 : 2.1 * p->stamp.size;
-    p->above = 24 * u + p->stamp_h + 1.3 * p->heading.size * (double)p->title.n +
-               1.4 * p->subheading.size * (double)p->subtitle.n + 22 * u + over;
+    p->above = page_words_height(p) + 22 * u + over;
     if (p->bar_below && !p->curve)
         marks = page_bar_below(p) + 28 * u + marks;
     p->below = fmax(marks, over) + p->legend_h + 22 * u;
@@ -341,6 +423,7 @@ set_page(struct page *p)
     p->plot_x = (size_t)round(p->left_w + 0.5 * free);
     p->plot_y = (size_t)round(p->above);
     p->h = (size_t)ceil(p->above + (double)p->plot_h + p->below);
+    set_dpi(p);
 }
 
 /* Sizes depend on texts, texts on marks, marks on sizes: with a width that is asked for a few
@@ -359,4 +442,48 @@ page_lay_out(struct page *p)
         width = fmax((double)p->f->width - p->left_w - p->right_w, 1);
     }
     set_page(p);
+}
+
+struct canvas *
+page_canvas(const struct page *p, size_t w, size_t h, struct rc_err *err)
+{
+    struct canvas *c = canvas_new(w, h, err);
+
+    if (c == NULL)
+        return NULL;
+    if (p->f->family != NULL)
+        canvas_set_family(c, p->f->family);
+    canvas_set_dpi(c, p->dpi, p->f->width > 0 && p->f->dpi == 0);
+    return c;
+}
+
+/* ---- pages of other shapes ---- */
+
+void
+page_size(struct page *p, size_t design)
+{
+    double paper = unit_on_paper(p->f), w = (double)p->f->width;
+
+    if (p->f->width == 0)
+        w = round((double)design * (paper > 0 ? paper : 1));
+    p->w = (size_t)w;
+    p->u = paper > 0 ? paper : fmax(w / (double)design, 0.5);
+    page_fonts(p);
+    set_dpi(p);
+}
+
+void
+page_measure(struct page *p)
+{
+    set_axes(p);
+    choose_marks(p, &p->across, (double)p->plot_w, false);
+    choose_marks(p, &p->down, (double)p->plot_h, true);
+    even_steps(p);
+    choose_marks(p, &p->values, (double)p->plot_h, true);
+}
+
+void
+page_legend(struct page *p, double width)
+{
+    set_legend(p, width);
 }

@@ -13,7 +13,7 @@
 enum {
     LINE = 1024, /* bytes of a line of text */
     LINES = 4,
-    NOTES = 3,
+    NOTES = 16,
 };
 
 struct axis {
@@ -21,6 +21,7 @@ struct axis {
     struct ticks ticks;
     double lo, hi; /* in the unit of the scale   */
     double widest; /* mark's text, pixels        */
+    bool log;
     char label[LINE];
 };
 
@@ -32,7 +33,11 @@ struct text {
 enum swatch {
     SWATCH_NOTHING,
     SWATCH_NONE,
-    SWATCH_MISSING
+    SWATCH_MISSING,
+    SWATCH_CONTACT,
+    SWATCH_HARD,
+    SWATCH_CIRCLE,
+    SWATCH_LARGEST
 };
 
 struct page {
@@ -54,6 +59,7 @@ struct page {
     double stamp_h;                       /* 0 without one */
     double left_w, right_w, above, below; /* around the plot, margins included         */
     size_t plot_x, plot_y, plot_w, plot_h, w, h;
+    double dpi; /* pixels of the page in an inch of paper */
 };
 
 extern const struct rgb page_ink, page_faint;
@@ -69,6 +75,33 @@ double page_bar_right(const struct page *page);
 double page_bar_below(const struct page *page);
 /* What marks and label take below an axis. */
 double page_marks(const struct page *page);
+/* Sets width, unit, fonts and dpi as the figure asks for, of a page that is `design` pixels wide where
+ * nothing is asked for. */
+void page_size(struct page *page, size_t design);
+/* A canvas of that size for the page, with the font and the size on paper that the figure asks for.
+ * NULL as canvas_new. */
+struct canvas *page_canvas(const struct page *page, size_t w, size_t h, struct rc_err *err);
+/* Sets the fonts of the page for its u. */
+void page_fonts(struct page *page);
+/* Cuts the end of a line that is wider than `width`. */
+void page_shorten(struct page *page, const struct canvas_font *font, double width, char line[LINE]);
+/* Breaks text at the separators into lines that fit; what is too much for the last one is cut. */
+void page_wrap(struct page *page, const struct canvas_font *font, double width,
+               const char *separator, const char *text, struct text *lines);
+/* Breaks title and subtitle into lines; a title with a word that is too long for one gets smaller. */
+void page_words(struct page *page, double width);
+/* What they and the stamp take above a plot. */
+double page_words_height(const struct page *page);
+/* Draws title, subtitle and stamp, over the plot. In figure.c. */
+void page_heading(struct page *page);
+/* Chooses the marks of all axes for a plot of plot_w by plot_h pixels, the bar as high as that. */
+void page_measure(struct page *page);
+/* Settles what the legend says, and its height. */
+void page_legend(struct page *page, double width);
+/* Draws the map in its frame, with the axes asked for. In figure.c, as what follows. */
+enum rc_status page_map(struct page *page, bool left, bool below, struct rc_err *err);
+/* Draws the colour bar beside the plot, and the legend at the foot of the page. */
+void page_bar(struct page *page);
 /* Where a value of the axis lies between its ends, 0 to 1. */
 double page_place(const struct axis *axis, double value);
 

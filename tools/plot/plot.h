@@ -8,8 +8,11 @@
 #include "chart.h"
 #include "colormap.h"
 #include "figure.h"
+#include "graph.h"
+#include "panels.h"
 #include "png.h"
 #include "raster.h"
+#include "relief.h"
 #include "ticks.h"
 
 #endif

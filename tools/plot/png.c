@@ -6,6 +6,11 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <zlib.h>
+
+enum {
+    FAST = 4000000 /* pixels from which on a PNG is written quickly rather than small */
+};
 
 /* A PNG being written. */
 struct picture {
@@ -69,8 +74,8 @@ put_texts(struct picture *p, const struct picture_text *text, size_t texts)
 }
 
 static enum rc_status
-start(struct picture *p, FILE *file, size_t w, size_t h, const struct picture_text *text,
-      size_t texts, struct rc_err *err)
+start(struct picture *p, FILE *file, size_t w, size_t h, double dpi,
+      const struct picture_text *text, size_t texts, struct rc_err *err)
 {
     p->png = png_create_write_struct(PNG_LIBPNG_VER_STRING, p, give_up, ignore);
     if (p->png == NULL || (p->info = png_create_info_struct(p->png)) == NULL)
@@ -81,7 +86,17 @@ start(struct picture *p, FILE *file, size_t w, size_t h, const struct picture_te
     png_set_user_limits(p->png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
     png_set_IHDR(p->png, p->info, (png_uint_32)w, (png_uint_32)h, 8, PNG_COLOR_TYPE_RGB,
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    if (w > FAST / h) { /* rows of a map are much like the ones above them */
+        png_set_compression_strategy(p->png, Z_RLE);
+        png_set_compression_level(p->png, 1);
+        png_set_filter(p->png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
+    }
     png_set_sRGB(p->png, p->info, PNG_sRGB_INTENT_PERCEPTUAL);
+    if (dpi > 0) {
+        png_uint_32 a_metre = (png_uint_32)(dpi / 0.0254 + 0.5);
+
+        png_set_pHYs(p->png, p->info, a_metre, a_metre, PNG_RESOLUTION_METER);
+    }
     put_texts(p, text, texts);
     png_write_info(p->png, p->info);
     return RC_OK;
@@ -106,8 +121,8 @@ end(struct picture *p, struct rc_err *err)
 }
 
 enum rc_status
-picture_write(FILE *file, size_t w, size_t h, const struct picture_text *text, size_t texts,
-              picture_row *row, void *ctx, struct rc_err *err)
+picture_write(FILE *file, size_t w, size_t h, double dpi, const struct picture_text *text,
+              size_t texts, picture_row *row, void *ctx, struct rc_err *err)
 {
     struct picture picture = {.png = NULL};
     unsigned char *rgb;
@@ -118,7 +133,7 @@ picture_write(FILE *file, size_t w, size_t h, const struct picture_text *text, s
             err, "a picture of %zu by %zu pixels: PNG holds at most 2147483647 a side", w, h);
     if ((rgb = malloc(3 * w)) == NULL)
         return rc_err_set(err, "out of memory for a picture of %zu pixels a row", w);
-    status = start(&picture, file, w, h, text, texts, err);
+    status = start(&picture, file, w, h, dpi, text, texts, err);
     for (size_t y = 0; y < h && status == RC_OK; y++)
         if ((status = row(ctx, y, rgb, err)) == RC_OK)
             status = put_row(&picture, rgb, err);

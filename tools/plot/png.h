@@ -15,10 +15,11 @@ struct picture_text {
 /* Gives row y, from the top, as width times red, green, blue. */
 typedef enum rc_status picture_row(void *ctx, size_t y, unsigned char *rgb, struct rc_err *err);
 
-/* Writes a PNG of w by h pixels on `file`, which stays the caller's. No time is written: the same
- * picture is the same bytes. RC_FAIL when the size is more than PNG holds, a row cannot be had, the
- * device refuses or memory is short. */
-enum rc_status picture_write(FILE *file, size_t w, size_t h, const struct picture_text *text,
-                             size_t texts, picture_row *row, void *ctx, struct rc_err *err);
+/* Writes a PNG of w by h pixels, dpi of them an inch (0: not said), on `file`, which stays the
+ * caller's. No time is written: the same picture is the same bytes. RC_FAIL when the size is more
+ * than PNG holds, a row cannot be had, the device refuses or memory is short. */
+enum rc_status picture_write(FILE *file, size_t w, size_t h, double dpi,
+                             const struct picture_text *text, size_t texts, picture_row *row,
+                             void *ctx, struct rc_err *err);
 
 #endif

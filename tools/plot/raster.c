@@ -13,8 +13,14 @@ survey_map(const struct rc_grid *g, struct survey *s)
         if (isnan(v))
             s->missing++;
         else if (isfinite(v)) {
-            s->min = v < s->min || isnan(s->min) ? v : s->min;
-            s->max = v > s->max || isnan(s->max) ? v : s->max;
+            if (v < s->min || isnan(s->min)) {
+                s->min = v;
+                s->min_at = k;
+            }
+            if (v > s->max || isnan(s->max)) {
+                s->max = v;
+                s->max_at = k;
+            }
             s->zeros += v == 0;
         }
     }
@@ -37,16 +43,8 @@ spans_free(struct spans *s)
     free(s->weight);
 }
 
-static double
-edge_at(const double *edge, size_t n, size_t k)
-{
-    if (edge == NULL)
-        return (double)k / (double)n;
-    return (edge[k] - edge[0]) / (edge[n] - edge[0]);
-}
-
 static enum rc_status
-spans_new(struct spans *s, const double *edge, size_t n, size_t cells, struct rc_err *err)
+spans_new(struct spans *s, size_t n, size_t cells, struct rc_err *err)
 {
     const double sliver = 1e-9; /* a share that is only rounding: it could be the share of a NaN */
     size_t node = 0, used = 0;
@@ -61,12 +59,12 @@ spans_new(struct spans *s, const double *edge, size_t n, size_t cells, struct rc
     for (size_t c = 0; c < cells; c++) {
         double a = (double)c / (double)cells, b = (double)(c + 1) / (double)cells;
 
-        while (node + 1 < n && edge_at(edge, n, node + 1) - a <= sliver * (b - a))
+        while (node + 1 < n && (double)(node + 1) / (double)n - a <= sliver * (b - a))
             node++;
         s->first[c] = node;
         s->start[c] = used;
         for (size_t k = node; k < n; k++) {
-            double from = fmax(a, edge_at(edge, n, k)), to = fmin(b, edge_at(edge, n, k + 1));
+            double from = fmax(a, (double)k / (double)n), to = fmin(b, (double)(k + 1) / (double)n);
             double share = (to - from) / (b - a);
 
             if (k > node && share <= sliver)
@@ -117,25 +115,35 @@ fill(struct raster *r, const struct rc_grid *g, const struct spans *x, const str
     }
 }
 
-struct raster *
-raster_new(const struct rc_grid *g, const double *row_edge, bool zero_is_none, size_t w, size_t h,
-           struct rc_err *err)
+static struct raster *
+raster_blank(size_t w, size_t h, struct rc_err *err)
 {
     struct raster *r = calloc(1, sizeof *r);
+
+    if (r != NULL)
+        *r = (struct raster){.w = w,
+                             .h = h,
+                             .v = calloc(w * h, sizeof *r->v),
+                             .none = calloc(w * h, sizeof *r->none),
+                             .missing = calloc(w * h, sizeof *r->missing)};
+    if (r == NULL || r->v == NULL || r->none == NULL || r->missing == NULL) {
+        raster_free(r);
+        rc_err_set(err, "out of memory for a picture of %zu by %zu pixels", w, h);
+        return NULL;
+    }
+    return r;
+}
+
+struct raster *
+raster_new(const struct rc_grid *g, bool zero_is_none, size_t w, size_t h, struct rc_err *err)
+{
+    struct raster *r = raster_blank(w, h, err);
     struct spans x = {0}, y = {0};
     double *weight = calloc(w, sizeof *weight);
     bool done = false;
 
-    if (r == NULL || weight == NULL)
-        goto done;
-    *r = (struct raster){.w = w,
-                         .h = h,
-                         .v = calloc(w * h, sizeof *r->v),
-                         .none = calloc(w * h, sizeof *r->none),
-                         .missing = calloc(w * h, sizeof *r->missing)};
-    if (r->v == NULL || r->none == NULL || r->missing == NULL ||
-        spans_new(&x, NULL, g->nx, w, err) != RC_OK ||
-        spans_new(&y, row_edge, g->ny, h, err) != RC_OK)
+    if (r == NULL || weight == NULL || spans_new(&x, g->nx, w, err) != RC_OK ||
+        spans_new(&y, g->ny, h, err) != RC_OK)
         goto done;
     fill(r, g, &x, &y, zero_is_none, weight);
     done = true;
@@ -147,6 +155,38 @@ done:
         rc_err_set(err, "out of memory for a picture of %zu by %zu pixels", w, h);
         raster_free(r);
         r = NULL;
+    }
+    return r;
+}
+
+struct raster *
+raster_new_max(const struct rc_grid *g, bool zero_is_none, size_t w, size_t h, struct rc_err *err)
+{
+    struct raster *r = raster_blank(w, h, err);
+
+    if (r == NULL)
+        return NULL;
+    for (size_t row = 0; row < h; row++) {
+        size_t first = row * g->ny / h, last = ((row + 1) * g->ny - 1) / h;
+
+        for (size_t c = 0; c < w; c++) {
+            size_t at = row * w + c, from = c * g->nx / w, to = ((c + 1) * g->nx - 1) / w;
+            double largest = NAN;
+            bool none = false;
+
+            for (size_t j = first; j <= last; j++)
+                for (size_t i = from; i <= to; i++) {
+                    double v = g->v[j * g->nx + i];
+
+                    if (zero_is_none && v == 0)
+                        none = true;
+                    else if (v > largest || isnan(largest))
+                        largest = v;
+                }
+            r->v[at] = largest;
+            r->none[at] = isnan(largest) && none ? 1 : 0;
+            r->missing[at] = isnan(largest) && !none ? 1 : 0;
+        }
     }
     return r;
 }
@@ -243,27 +283,43 @@ raster_contour(const struct raster *r, double level, struct lines *l, struct rc_
 }
 
 static bool
-touches(const struct raster *r, size_t i, size_t j)
+reaches(const struct rc_grid *g, size_t i, size_t j, double level)
 {
-    size_t k = j * r->w + i;
+    double v = g->v[j * g->nx + i];
 
-    return !isnan(r->v[k]) && r->none[k] < 0.5F;
+    return level > 0 ? v >= level : v > 0;
+}
+
+/* Whether the border along a row of edges, or a column of them, passes here. */
+static bool
+parts(const struct rc_grid *g, size_t i, size_t j, bool below, double level)
+{
+    return reaches(g, i, j, level) != reaches(g, below ? i : i + 1, below ? j + 1 : j, level);
 }
 
 enum rc_status
-raster_edge(const struct raster *r, struct lines *l, struct rc_err *err)
+raster_border(const struct rc_grid *g, double level, size_t w, size_t h, struct lines *l,
+              struct rc_err *err)
 {
-    for (size_t j = 0; j < r->h; j++)
-        for (size_t i = 0; i < r->w; i++) {
-            double x = (double)i, y = (double)j;
-            double corner[3][2] = {{x + 1, y}, {x + 1, y + 1}, {x, y + 1}};
+    double sx = (double)w / (double)g->nx, sy = (double)h / (double)g->ny;
 
-            if (i + 1 < r->w && touches(r, i, j) != touches(r, i + 1, j) &&
-                add_line(l, corner[0], corner[1], err) != RC_OK)
-                return RC_FAIL;
-            if (j + 1 < r->h && touches(r, i, j) != touches(r, i, j + 1) &&
-                add_line(l, corner[1], corner[2], err) != RC_OK)
-                return RC_FAIL;
-        }
+    for (int below = 0; below < 2; below++) {
+        size_t rows = below ? g->ny : g->nx, n = below ? g->nx : g->ny;
+
+        for (size_t r = 0; r + 1 < rows; r++)
+            for (size_t k = 0, end; k < n; k = end + 1) {
+                double from[2], to[2];
+
+                for (end = k; end < n && parts(g, below ? end : r, below ? r : end, below, level);)
+                    end++;
+                if (end == k)
+                    continue;
+                from[!below] = (double)k * (below ? sx : sy);
+                to[!below] = (double)end * (below ? sx : sy);
+                from[below] = to[below] = (double)(r + 1) * (below ? sy : sx);
+                if (add_line(l, from, to, err) != RC_OK)
+                    return RC_FAIL;
+            }
+    }
     return RC_OK;
 }

@@ -9,9 +9,10 @@
 
 /* What is in a map. Infinite values are in neither min nor max. */
 struct survey {
-    double min, max; /* NaN when there is no finite value         */
-    size_t missing;  /* NaN                                       */
-    size_t zeros;    /* nodes of value 0: no contact in pressures */
+    double min, max;       /* NaN when there is no finite value         */
+    size_t min_at, max_at; /* the first nodes of these values      */
+    size_t missing;        /* NaN                                       */
+    size_t zeros;          /* nodes of value 0: no contact in pressures */
 };
 
 void survey_map(const struct rc_grid *grid, struct survey *survey);
@@ -25,10 +26,14 @@ struct raster {
     float *missing; /* part of the cell that was not measured                     */
 };
 
-/* `row_edge` (ny + 1 rising numbers) says where rows begin and end; NULL: even rows. With
- * `zero_is_none` value 0 means no contact and is left out of the means. NULL: memory is short. */
-struct raster *raster_new(const struct rc_grid *grid, const double *row_edge, bool zero_is_none,
-                          size_t w, size_t h, struct rc_err *err);
+/* With `zero_is_none` value 0 means no contact and is left out of the means. NULL: memory is
+ * short. */
+struct raster *raster_new(const struct rc_grid *grid, bool zero_is_none, size_t w, size_t h,
+                          struct rc_err *err);
+/* The same with the largest value of the nodes that a cell covers in place of their mean; a cell is
+ * in contact, and measured, where one of its nodes is. */
+struct raster *raster_new_max(const struct rc_grid *grid, bool zero_is_none, size_t w, size_t h,
+                              struct rc_err *err);
 void raster_free(struct raster *raster); /* NULL is allowed */
 
 /* Straight pieces of lines, in cells from the upper left corner: the middle of cell (i, j) is
@@ -42,7 +47,9 @@ struct lines {
  * parts without contact count as 0, missing cells have no line. */
 enum rc_status raster_contour(const struct raster *raster, double level, struct lines *lines,
                               struct rc_err *err);
-/* Adds the borders between cells in contact and cells that are not: contact ends with a cell. */
-enum rc_status raster_edge(const struct raster *raster, struct lines *lines, struct rc_err *err);
+/* Adds the borders between nodes of at least `level` (above 0: level 0) and the others, along the
+ * edges of their cells, in cells of a raster of w by h. */
+enum rc_status raster_border(const struct rc_grid *grid, double level, size_t w, size_t h,
+                             struct lines *lines, struct rc_err *err);
 
 #endif

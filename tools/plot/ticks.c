@@ -1,5 +1,6 @@
 #include "ticks.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -37,7 +38,7 @@ put_number(char text[TICKS_TEXT], const char *format, int digits, double value)
 static bool
 takes_prefix(const char *unit)
 {
-    static const char *const units[] = {"m", "Pa", "N", "J", "W", "s", "V", "A", "Hz", "K"};
+    static const char *const units[] = {"m", "Pa", "N", "J", "W", "s", "V", "A", "Hz", "K", "N/m"};
 
     for (size_t k = 0; k < sizeof units / sizeof *units; k++)
         if (strcmp(units[k], unit) == 0)
@@ -45,16 +46,17 @@ takes_prefix(const char *unit)
     return false;
 }
 
+static const char *const raised_digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+
 const char *
 power_text(char text[TICKS_TEXT], int power)
 {
-    static const char *const raised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
     char digits[16];
 
     snprintf(digits, sizeof digits, "%d", abs(power));
     strcpy(text, power < 0 ? "10⁻" : "10");
     for (const char *s = digits; *s != '\0'; s++)
-        strcat(text, raised[*s - '0']);
+        strcat(text, raised_digits[*s - '0']);
     return text;
 }
 
@@ -67,11 +69,39 @@ prefix_of(int power)
     return prefix != NULL && strcmp(prefix, "u") == 0 ? "µ" : prefix;
 }
 
+/* A unit as it is printed: powers raised, a real mu and a real point. A digit is a power where a
+ * letter is before it and none behind it: m2, not H2O. */
+static const char *
+unit_text(char text[TICKS_TEXT], const char *unit)
+{
+    size_t n = 0;
+
+    if (strcmp(unit, "um") == 0)
+        unit = "µm";
+    for (const char *s = unit; *s != '\0' && n + 8 < TICKS_TEXT; s++) {
+        bool behind = s > unit && isalpha((unsigned char)s[-1]);
+        bool minus = behind && *s == '-' && isdigit((unsigned char)s[1]);
+        const char *digit = minus ? s + 1 : s;
+        bool power = behind && isdigit((unsigned char)*digit) && !isalnum((unsigned char)digit[1]);
+
+        if (power) {
+            n += (size_t)sprintf(text + n, "%s%s", minus ? "⁻" : "", raised_digits[*digit - '0']);
+            s = digit;
+        } else if (*s == '*') {
+            n += (size_t)sprintf(text + n, "·");
+        } else {
+            text[n++] = *s;
+        }
+    }
+    text[n] = '\0';
+    return text;
+}
+
 void
 scale_choose(struct scale *scale, double largest, const char *unit)
 {
     double size = fabs(largest);
-    char text[TICKS_TEXT];
+    char text[TICKS_TEXT], printed[TICKS_TEXT];
     int power = size > 0 && isfinite(size) ? 3 * (int)floor(log10(size) / 3 + 1e-12) : 0;
 
     if (strcmp(unit, "1") == 0)
@@ -82,10 +112,10 @@ scale_choose(struct scale *scale, double largest, const char *unit)
     if (takes_prefix(unit) && prefix_of(power) != NULL)
         snprintf(scale->unit, sizeof scale->unit, "%s%s", prefix_of(power), unit);
     else if (power == 0)
-        snprintf(scale->unit, sizeof scale->unit, "%.48s", unit);
+        snprintf(scale->unit, sizeof scale->unit, "%.48s", unit_text(printed, unit));
     else
         snprintf(scale->unit, sizeof scale->unit, "%.30s%s%.24s", power_text(text, power),
-                 *unit == '\0' ? "" : " ", unit);
+                 *unit == '\0' ? "" : " ", unit_text(printed, unit));
 }
 
 const char *
@@ -125,6 +155,7 @@ ticks_choose(struct ticks *t, double lo, double hi, double most)
     double least = (hi - lo) / most, step;
     int k = 0;
 
+    t->log = t->between = false;
     /* as far as doubles tell numbers apart: a range of one unit in the last place gets a mark too
      */
     least = fmax(least, 1e-15 * fmax(fabs(lo), fabs(hi)));
@@ -141,10 +172,42 @@ ticks_choose(struct ticks *t, double lo, double hi, double most)
     t->last = (long long)floor(hi / step + slack);
 }
 
+void
+ticks_choose_log(struct ticks *t, double lo, double hi, double most)
+{
+    const double slack = 1e-9;
+    double low = log10(lo) - slack, high = log10(hi) + slack, decades = high - low;
+
+    *t = (struct ticks){.digit = 1, .log = true, .between = 3 * decades <= most};
+    if (t->between) {
+        t->first = 3 * (long long)floor(low);
+        t->last = 3 * (long long)ceil(high);
+        while (log10(ticks_at(t, t->first)) < low)
+            t->first++;
+        while (log10(ticks_at(t, t->last)) > high)
+            t->last--;
+    }
+    if (t->between && t->first < t->last)
+        return;
+    if (floor(high) - ceil(low) < 1) { /* less than two powers: marks as on a linear axis */
+        ticks_choose(t, lo, hi, most);
+        return;
+    }
+    t->between = false;
+    t->digit = (int)fmax(1, ceil(decades / most));
+    t->first = (long long)ceil(low / t->digit);
+    t->last = (long long)floor(high / t->digit);
+}
+
 double
 ticks_at(const struct ticks *t, long long k)
 {
+    static const int digits[] = {1, 2, 5};
     double n = (double)k * t->digit;
+    int within = (int)(k % 3 < 0 ? k % 3 + 3 : k % 3);
+
+    if (t->log)
+        return t->between ? digits[within] * pow(10, (double)((k - within) / 3)) : pow(10, n);
 
     /* dividing by a whole power of ten is exact where multiplying by 0.1 is not */
     return t->power < 0 ? n / pow(10, -t->power) : n * pow(10, t->power);
@@ -153,6 +216,14 @@ ticks_at(const struct ticks *t, long long k)
 const char *
 ticks_text(char text[TICKS_TEXT], const struct ticks *t, long long k)
 {
+    /* all marks alike: powers where one of them would be too long */
+    if (t->log && (ticks_at(t, t->first) < 0.999e-2 || ticks_at(t, t->last) > 1.001e3) &&
+        !t->between)
+        return power_text(text, (int)k * t->digit);
+    if (t->log) {
+        put_number(text, "%.*g", 3, ticks_at(t, k));
+        return text;
+    }
     put_number(text, "%.*f", t->power < 0 ? -t->power : 0, ticks_at(t, k));
     return text;
 }

@@ -20,8 +20,8 @@ enum {
     PREFERRED = sizeof preferred / sizeof *preferred
 };
 
-static size_t
-rank(const char *channel)
+size_t
+choice_rank(const char *channel)
 {
     size_t k = 0;
 
@@ -102,14 +102,29 @@ is_better(const struct choice *c, const struct rc_grid *g, const struct seen *s,
 
     if (old == NULL)
         return true;
-    if (c->wish->channel == NULL && rank(g->channel) != rank(old->channel))
-        return rank(g->channel) < rank(old->channel);
+    if (c->wish->channel == NULL && choice_rank(g->channel) != choice_rank(old->channel))
+        return choice_rank(g->channel) < choice_rank(old->channel);
     if (strcmp(g->channel, old->channel) != 0 || s->number != rc_grid_case(old) ||
         isnan(s->depth) || !rc_grid_number(old, "depth", &depth))
         return false;
     if (!isnan(c->wish->depth))
         return fabs(s->depth - c->wish->depth) < fabs(depth - c->wish->depth);
     return size > c->size;
+}
+
+/* A frame that is not drawn, or not any more. */
+static void
+let_go(struct choice *c, struct rc_grid *g)
+{
+    bool same = c->grid != NULL && g != NULL && rc_grid_case(c->grid) == rc_grid_case(g);
+
+    if (g == NULL || !c->wish->contact || strcmp(g->channel, "pressure") != 0 ||
+        !(c->pressure == NULL || same)) {
+        rc_grid_free(g);
+        return;
+    }
+    rc_grid_free(c->pressure);
+    c->pressure = g;
 }
 
 void
@@ -124,11 +139,13 @@ choice_offer(struct choice *c, struct tool *t, struct rc_grid *g)
     size = isnan(s->depth) ? 0 : largest(g);
     if (right_channel(w, s) && right_case(w, s) && right_section(w, s) && right_depth(w, s) &&
         is_better(c, g, s, size)) {
-        rc_grid_free(c->grid);
+        struct rc_grid *old = c->grid;
+
         c->grid = g;
         c->size = size;
+        let_go(c, old);
     } else {
-        rc_grid_free(g);
+        let_go(c, g);
     }
 }
 
@@ -217,6 +234,15 @@ fail(struct choice *c, struct tool *t)
     no_depth(c, t);
 }
 
+/* Whether node k of one is node k of the other. */
+static bool
+is_beside(const struct rc_grid *p, const struct rc_grid *g)
+{
+    return rc_grid_case(p) == rc_grid_case(g) && rc_grid_get(g, "section") == NULL &&
+           strcmp(g->channel, "pressure") != 0 && p->nx == g->nx && p->ny == g->ny &&
+           p->dx == g->dx && p->dy == g->dy;
+}
+
 void
 choice_settle(struct choice *c, struct tool *t)
 {
@@ -227,6 +253,10 @@ choice_settle(struct choice *c, struct tool *t)
 
     if (c->grid == NULL)
         fail(c, t);
+    if (c->pressure != NULL && !is_beside(c->pressure, c->grid)) {
+        rc_grid_free(c->pressure);
+        c->pressure = NULL;
+    }
     number = rc_grid_case(c->grid);
     for (size_t k = 0; k < c->n; k++) {
         const struct seen *s = &c->seen[k];
@@ -258,6 +288,7 @@ void
 choice_free(struct choice *c)
 {
     rc_grid_free(c->grid);
+    rc_grid_free(c->pressure);
     for (size_t k = 0; k < c->n; k++)
         free(c->seen[k].channel);
     free(c->seen);

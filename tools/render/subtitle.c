@@ -5,12 +5,12 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #define BETWEEN " \xc2\xb7 " /* where a figure breaks the line */
 
-/* Adds a piece to the subtitle; one that does not fit is left out whole. */
-static void
-add_piece(struct subtitle *w, const char *name, const char *value)
+void
+subtitle_add(struct subtitle *w, const char *name, const char *value)
 {
     size_t left = sizeof w->text - w->n;
     int n = snprintf(w->text + w->n, left, "%s%s%s", w->n > 0 ? BETWEEN : "", name, value);
@@ -30,11 +30,12 @@ say_where(struct subtitle *w, const struct rc_grid *g, bool largest)
 
     if (section != NULL) {
         snprintf(name, sizeof name, "section %.1s = ", section);
-        add_piece(w, name, rc_grid_number(g, "at", &number) ? scale_value(text, number, "m") : "?");
+        subtitle_add(w, name,
+                     rc_grid_number(g, "at", &number) ? scale_value(text, number, "m") : "?");
     } else if (rc_grid_number(g, "depth", &number)) {
         scale_value(text, number, "m");
         snprintf(name, sizeof name, "%s%s", text, largest ? " (where it is largest)" : "");
-        add_piece(w, "depth ", name);
+        subtitle_add(w, "depth ", name);
     }
 }
 
@@ -48,19 +49,144 @@ extreme(char text[TICKS_TEXT], double value, const struct survey *s, const char 
 }
 
 void
-subtitle_write(struct subtitle *w, const struct rc_grid *g, const struct survey *s, bool largest)
+subtitle_range(struct subtitle *w, const struct survey *s, const char *unit)
+{
+    char text[TICKS_TEXT];
+
+    subtitle_add(w, "min ", extreme(text, s->min, s, unit));
+    subtitle_add(w, "max ", extreme(text, s->max, s, unit));
+}
+
+void
+subtitle_part(struct subtitle *w, double part)
+{
+    char text[TICKS_TEXT];
+
+    if (!(part < 1))
+        return;
+    snprintf(text, sizeof text, part < 1e-4 ? "%.1g" : "%.2g", 100 * part);
+    subtitle_add(w, text, " % of the map");
+}
+
+void
+subtitle_write(struct subtitle *w, const struct rc_grid *g, const struct survey *s, double part,
+               bool largest)
 {
     const char *source = rc_grid_get(g, "source"), *number = rc_grid_get(g, "case");
     char text[TICKS_TEXT];
     double load;
 
     if (source != NULL)
-        add_piece(w, "", source);
+        subtitle_add(w, "", source);
     if (number != NULL)
-        add_piece(w, "case ", number);
+        subtitle_add(w, "case ", number);
     if (rc_grid_number(g, "load", &load))
-        add_piece(w, "load ", scale_value(text, load, "N"));
+        subtitle_add(w, "load ", scale_value(text, load, "N"));
     say_where(w, g, largest);
-    add_piece(w, "min ", extreme(text, s->min, s, g->unit));
-    add_piece(w, "max ", extreme(text, s->max, s, g->unit));
+    subtitle_part(w, part);
+    subtitle_range(w, s, g->unit);
+}
+
+/* ---- several frames ---- */
+
+static bool
+same_text(struct rc_grid *const *grid, size_t n, const char *key)
+{
+    const char *first = rc_grid_get(grid[0], key), *other;
+
+    for (size_t k = 1; k < n; k++) {
+        other = rc_grid_get(grid[k], key);
+        if ((first == NULL) != (other == NULL) || (first != NULL && strcmp(first, other) != 0))
+            return false;
+    }
+    return true;
+}
+
+/* Names of keys with the units of their numbers; a text has none. */
+static const struct {
+    const char *key, *name, *unit;
+} pieces[] = {{"source", "", NULL},
+              {"case", "case ", NULL},
+              {"load", "load ", "N"},
+              {"depth", "depth ", "m"}};
+
+enum {
+    PIECES = sizeof pieces / sizeof *pieces
+};
+
+static const char *
+piece_text(char text[TICKS_TEXT], const struct rc_grid *g, size_t p)
+{
+    double number;
+
+    if (pieces[p].unit != NULL && rc_grid_number(g, pieces[p].key, &number))
+        return scale_value(text, number, pieces[p].unit);
+    return rc_grid_get(g, pieces[p].key);
+}
+
+void
+subtitle_common(struct subtitle *w, struct rc_grid *const *grid, size_t n)
+{
+    char text[TICKS_TEXT];
+
+    for (size_t p = 0; p < PIECES; p++)
+        if (rc_grid_get(grid[0], pieces[p].key) != NULL && same_text(grid, n, pieces[p].key))
+            subtitle_add(w, pieces[p].name, piece_text(text, grid[0], p));
+}
+
+/* Where the load says which frame it is, the number of its case is left out. */
+void
+frame_label(char *text, size_t size, struct rc_grid *const *grid, size_t n, size_t k)
+{
+    bool loads = !same_text(grid, n, "load");
+    char value[TICKS_TEXT];
+    size_t used = 0;
+
+    text[0] = '\0';
+    for (size_t p = 0; p < PIECES && used < size; p++) {
+        if (rc_grid_get(grid[k], pieces[p].key) == NULL || same_text(grid, n, pieces[p].key) ||
+            (loads && strcmp(pieces[p].key, "case") == 0))
+            continue;
+        used += (size_t)snprintf(text + used, size - used, "%s%s%s", used == 0 ? "" : ", ",
+                                 pieces[p].name, piece_text(value, grid[k], p));
+    }
+    if (used == 0)
+        snprintf(text, size, "frame %zu", k + 1);
+}
+
+/* ---- the legend ---- */
+
+const char *
+words_largest(struct words *w, const struct rc_grid *g, double value, const char *across, double x,
+              double depth)
+{
+    char size[TICKS_TEXT], at[TICKS_TEXT], down[TICKS_TEXT];
+
+    snprintf(w->largest, sizeof w->largest, "%s %s at %s = %s, depth %s",
+             value < 0 ? "least" : "largest", scale_value(size, value, g->unit), across,
+             scale_value(at, x, "m"), scale_value(down, depth, "m"));
+    return w->largest;
+}
+
+/* Hertz (1882): a sphere of radius R touches a disc, a^3 = 3 F R / (4 E*). */
+const char *
+words_hertz(struct tool *t, struct words *w, const struct rc_grid *g, double *radius)
+{
+    const char *form = rc_grid_get(g, "form");
+    char text[TICKS_TEXT];
+    double load, estar, r = 0;
+    struct rc_err err;
+
+    if (rc_grid_get(g, "section") != NULL)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "--hertz is a circle on a map, and this is a section");
+    if (form == NULL || strncmp(form, "sphere ", 7) != 0 ||
+        unit_number(form + 7, UNIT_M, &r, &err) != RC_OK || !(r > 0) ||
+        !rc_grid_number(g, "load", &load) || !rc_grid_number(g, "estar", &estar) || !(load > 0) ||
+        !(estar > 0))
+        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                    "--hertz needs the keys load, estar and form=sphere RADIUS, which rc-solve "
+                    "--radius leaves: leave it out");
+    *radius = cbrt(0.75 * load * r / estar);
+    snprintf(w->circle, sizeof w->circle, "Hertz, radius %s", scale_value(text, *radius, "m"));
+    return w->circle;
 }

@@ -1,0 +1,77 @@
+# Curves, sheets and reliefs come out as PNG, SVG and PDF like single maps: of the width on paper that
+# was asked for, their words as text, in the font that was asked for.
+. "$(dirname "$0")/../pipe.sh"
+
+rc-synth sphere --nx 65 --dx 10um --radius 7.5mm -o ball.rcg
+rc-solve --quiet --load 1N,2N --estar 114GPa --report r.tsv --output pressure -o p.rcg ball.rcg
+
+# pixels across, and those in an inch, of a PNG
+png() {
+    perl -e 'open my $f, "<:raw", $ARGV[0] or die; local $/; my $b = <$f>;
+        my $at = index $b, "pHYs"; die "no pHYs" if $at < 0;
+        printf "%d %.2f\n", unpack("N", substr $b, 16), 0.0254 * unpack("N", substr $b, $at + 4)' "$1"
+}
+
+# kind, what stands under an axis across, and the options
+while read -r kind across options; do
+    draw="rc-render --quiet --title Gutenberg --width 120mm $options"
+    for ending in png svg pdf; do
+        claim "$kind.$ending" $draw -o "$kind.$ending"
+    done
+    read -r w dpi <<<"$(png "$kind.png")"
+    near "$w" 1417.3 0.0004 "$kind.png: 120 mm are 1417 pixels"
+    near "$dpi" 300 1e-3 "  of which 300 are an inch"
+    near "$(pdfinfo "$kind.pdf" | awk '/^Page size/ { print $3 }')" 340.16 1e-3 "  the PDF is 340.2 points wide"
+    claim "  and the SVG 120 mm" says 'width="(120|119\.9[0-9]*|120\.0[0-9]*)mm"' head -n 5 "$kind.svg"
+    pdftotext -layout "$kind.pdf" "$kind.txt"
+    claim "  the PDF has its title as text" says '^ *Gutenberg$' cat "$kind.txt"
+    claim "  and its axis" says "$across \(" cat "$kind.txt"
+    claim "  the SVG too" says ">Gutenberg</text>" cat "$kind.svg"
+    claim "  and its axis" says "<text .*>$across \(" cat "$kind.svg"
+    # 7 points of 300 pixels an inch
+    near "$(sed -n 's/.*<text [^>]*font-size="\([0-9.]*\)".*/\1/p' "$kind.svg" | sort -g | head -n 1)" 27.8 0.05 \
+        "  and no text of it is smaller than 6.7 points"
+    claim "  librsvg draws it" rsvg-convert -o "$kind.from.png" "$kind.svg"
+    claim "  the same again is the same bytes" bash -c "$draw -o again.pdf && cmp again.pdf $kind.pdf"
+    claim "  in pixels it is as wide as asked for" bash -c "
+        ${draw/120mm/700} -o px.png && perl -e 'open F, q(px.png); read F, \$_, 20; exit(unpack(q(N), substr \$_, 16) != 700)'"
+    claim "  a font that is not there is told" warns "no font of that name" ${draw/--quiet/} --font Gutenbergia -o no.pdf
+done <<'END'
+curve Load --curve load:contact_area --law hertz --radius 7.5mm --estar 114GPa r.tsv
+cut x --cut y=0 --case 1,2 p.rcg
+histogram Pressure|pressure --histogram --case 1 p.rcg
+ratio Material.ratio --material-ratio ball.rcg
+sheet x --sheet 2x1 --contour p.rcg
+relief x --view 30,35 ball.rcg
+END
+
+claim "a legend of curves is text" says 'Hertz \(Johnson 1985' cat curve.txt
+claim "what stands over a panel is text" says 'a\) load 1 N +b\) load 2 N' cat sheet.txt
+claim "  whole also where panels are narrow" bash -c \
+    'rc-render --quiet --sheet 2x1 --width 60mm -o narrow.svg p.rcg && says ">a\) load 1 N<" cat narrow.svg && says ">b\) load 2 N<" cat narrow.svg'
+claim "a relief of an SVG is one image" test "$(grep -c '<image' relief.svg)" = 2
+claim "  and the PNG has the SVG's size" test "$(png relief.png | cut -d ' ' -f 1)" = 1417
+
+# ---- options of maps ----
+
+claim "a sheet of logarithmic colours" bash -c 'rc-render --quiet --sheet auto --log --range 1MPa:100MPa -o out.pdf p.rcg &&
+    pdftotext out.pdf - | says "^5$" cat' # even steps have 20, 40, 60
+# 11 by 11 of 65 by 65 nodes
+claim "a sheet of one window" bash -c 'rc-render --quiet --sheet auto --window -50um:50um,-50um:50um -o out.pdf p.rcg &&
+    pdftotext out.pdf - | says "2.9 % of the map" cat'
+claim "a relief of a window" rc-render --quiet --view 30,35 --window -50um:50um,-50um:50um -o out.svg ball.rcg
+rm -f out.*
+draw='rc-render -o out.png'
+refuses 2 '--log x names an axis of a curve' "an axis of a map" "$draw --log x p.rcg"
+refuses 2 '--view has an even axis upwards: leave out --log' "a relief by logarithm" "$draw --view 30,35 --log p.rcg"
+refuses 1 'there is no room for a relief: ask for a larger --width' "a relief on 60 mm" \
+    "$draw --view 30,35 --width 60mm ball.rcg"
+refuses 2 '--hertz is for one flat map' "the circle of Hertz on a sheet" "$draw --hertz --sheet auto p.rcg"
+refuses 2 '--window contact is another one in each map' "a window of what touches on a sheet" \
+    "$draw --window contact --sheet auto p.rcg"
+refuses 2 'a curve is no part of a map: leave out --window' "a window of a curve" "$draw --cut y=0 --window 0:9um,0:9um p.rcg"
+refuses 2 'a curve has no colours: leave out --clip' "clipped curves" "$draw --curve load:approach --clip r.tsv"
+refuses 2 '--range 1%:99%: for --cut it must be LO:HI' "percentiles of a curve" "$draw --cut y=0 --range 1%:99% p.rcg"
+claim "none of these left a picture behind" bash -c '[ ! -e out.png ]'
+
+finish

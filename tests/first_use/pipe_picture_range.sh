@@ -1,0 +1,95 @@
+# The colour bar says where its colours begin and end: marks lie where their values do, what is beyond an
+# end has an arrow there that white paper does not swallow, and gaps begin at 0.
+. "$(dirname "$0")/../pipe.sh"
+
+# made NX CHANNEL UNIT 'perl expression of $i, $j': a stream of NX by NX nodes
+made() {
+    perl -MCompress::Zlib -e 'binmode STDOUT; my ($n, $channel, $unit, $value) = @ARGV;
+        my $f = "RCG1\nchannel=$channel\nnx=$n\nny=$n\ndx=1e-06\ndy=1e-06\nunit=$unit\ntype=f64\n\n";
+        my $get = eval "sub { my (\$i, \$j) = \@_; $value }";
+        for my $j (0 .. $n - 1) { $f .= pack "d<", $get->($_, $j) for 0 .. $n - 1 }
+        printf "%scrc32 %08x\nRCGEND 1\n", $f, crc32($f)' "$@"
+}
+
+# bar FILE: "top height" of the colour bar, the image of one column; marks FILE: "number y" of each mark
+# to the right of it; arrows FILE: how many, with "inked" when each has a dark outline.
+bar() {
+    sed -n 's/.*<image x="[0-9.]*" y="\([0-9.]*\)" width="28" height="\([0-9.]*\)".*/\1 \2/p' "$1"
+}
+marks() {
+    sed -n 's/.*<text x="\([0-9.]*\)" y="\([0-9.]*\)" font-size="21" text-anchor="end".*>\(.*\)<\/text>/\1 \2 \3/p' "$1" |
+        sed 's/−/-/' | awk '$1 > 1000 { print $3, $2 - 0.36 * 21 }'
+}
+arrows() {
+    grep -c '<path d="[^"]*Z" fill' "$1"
+}
+
+# marks_lie FILE LO HI LOG "sentence": each within a thousandth of the bar of its place
+marks_lie() {
+    marks "$1" >marks.txt
+    claim "$5" awk -v bar="$(bar "$1")" -v lo="$2" -v hi="$3" -v log_axis="$4" '
+        BEGIN { split(bar, b) }
+        { t = log_axis ? log($1 / lo) / log(hi / lo) : ($1 - lo) / (hi - lo)
+          off = ($2 - (b[1] + (1 - t) * b[2])) / b[2]; n++; bad += off > 1e-3 || off < -1e-3 }
+        END { exit !(n >= 3 && bad == 0 && b[2] > 100) }' marks.txt
+}
+
+made 30 height m '($i - 10) * 1e-7' >ramp.rcg
+claim "a ramp" rc-render --width 1200 -o ramp.svg ramp.rcg
+marks_lie ramp.svg -1 1.9 0 "marks lie at their values from end to end"
+claim "and nothing is beyond" test "$(arrows ramp.svg)" = 0
+claim "a chosen range" rc-render --width 1200 --range -500nm:3um -o wide.svg ramp.rcg
+marks_lie wide.svg -0.5 3 0 "is where the marks say"
+claim "what is below it has an arrow" test "$(arrows wide.svg)" = 1
+claim "  with a dark outline" bash -c 'grep -A 1 "Z\" fill" wide.svg | grep -q "fill=\"none\".*stroke=\"#222222\""'
+claim "symmetric" rc-render --width 1200 --range symmetric -o both.svg ramp.rcg
+marks_lie both.svg -1.9 1.9 0 "is as far to one side of 0 as to the other"
+claim "percentiles" rc-render --width 1200 --range 10%:90% -o part.svg ramp.rcg
+# 900 values, 30 of each column: place 89.9 is between the last of column 2 and the first of 3
+marks_lie part.svg -0.71 1.61 0 "end where their columns do"
+claim "  with an arrow at each end" test "$(arrows part.svg)" = 2
+claim "  and a word" says 'colours from 10 % to 90 % of the nodes' cat part.svg
+claim "logarithms" rc-render --width 1200 --log --range 1nm:10um -o log.svg ramp.rcg
+sed -i 's/10<tspan[^>]*>\([−0-9]*\)<\/tspan>/1e\1/' log.svg
+marks_lie log.svg 0.001 10 1 "have their powers where they are"
+
+made 30 height m '$i == 7 && $j == 9 ? 1e-3 : sin($i / 3) * 1e-6' >spike.rcg
+claim "one outlier" rc-render --width 1200 -o spike.svg spike.rcg
+claim "leaves the colours to the others, with a word" says 'colours from 0.5 % to 99.5 % of the nodes' cat spike.svg
+claim "  and an arrow" test "$(arrows spike.svg)" -ge 1
+claim "  and its height in the subtitle" says 'max 1 mm' cat spike.svg
+claim "--range 0%:100% takes it in" rc-render --width 1200 --range 0%:100% -o all.svg spike.rcg
+claim "  without an arrow" test "$(arrows all.svg)" = 0
+
+made 30 gap m '$i < 9 ? -1e-12 * ($j % 2) : ($i - 8) * 1e-8' >gap.rcg
+claim "a gap" rc-render --width 1200 -o gap.svg gap.rcg
+marks_lie gap.svg 0 210 0 "begins at 0"
+claim "  and what is rounding is not beyond it" test "$(arrows gap.svg)" = 0
+made 30 gap m '($i + 5) * 1e-8' >open.rcg
+claim "a gap that is open everywhere" rc-render --width 1200 -o open.svg open.rcg
+marks_lie open.svg 0 340 0 "shows 0 too"
+made 30 gap m '($i - 8) * 1e-8' >dent.rcg
+claim "one that yields" rc-render --width 1200 -o dent.svg dent.rcg
+marks_lie dent.svg -80 210 0 "has its sign"
+claim "  and 0 at a mark" grep -q '^0 ' marks.txt
+made 30 sxx Pa '($i - 3) * 1e7' >signed.rcg
+claim "a stress of both signs" rc-render --width 1200 -o signed.svg signed.rcg
+marks_lie signed.svg -260 260 0 "has 0 in the middle"
+made 30 pressure Pa '$i < 9 ? 0 : 1e6 * ($i - 8) ** 2' >touch.rcg
+claim "a pressure" rc-render --width 1200 --log -o touch.svg touch.rcg
+claim "by the logarithm begins where it touches, and nothing is below" test "$(arrows touch.svg)" = 0
+marks_lie touch.svg 1 441 1 "  nor off its mark"
+claim "a pressure from 10 MPa" rc-render --width 1200 --range 10MPa:500MPa -o touch.svg touch.rcg
+claim "has contact below" test "$(arrows touch.svg)" = 1
+made 30 szz Pa '-$i * 1e7' >pressed.rcg
+claim "a stress of one sign" rc-render --width 1200 -o pressed.svg pressed.rcg
+marks_lie pressed.svg -290 0 0 "ends at 0"
+
+for range in 1%:2 1%:101% 5%:5% 90%:10% -1%:5% 1% %:5% x%:5%; do
+    refuses 2 "--range $range: percentiles are P%:Q%" "--range $range" "rc-render --range $range ramp.rcg >no.png"
+done
+refuses 2 '--clip chooses the range: leave out --range' "two ranges" 'rc-render --clip --range 0:1um ramp.rcg >no.png'
+refuses 2 '--log has no place for 0 and below' "a logarithm of less than 0" 'rc-render --log --range -1um:1um ramp.rcg >no.png'
+refuses 1 'no value is above 0, and only those have a logarithm' "a logarithm of nothing" 'rc-render --log pressed.rcg >no.png'
+
+finish

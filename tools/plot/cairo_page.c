@@ -1,0 +1,237 @@
+/*
+ * The items of a canvas by cairo: as pixels, or as the pages of a PDF.
+ */
+#include <cairo-pdf.h>
+#include <cairo.h>
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "canvas_list.h"
+
+static void
+set_colour(cairo_t *cairo, struct rgb colour)
+{
+    cairo_set_source_rgb(cairo, colour.r / 255.0, colour.g / 255.0, colour.b / 255.0);
+}
+
+/* ---- items ---- */
+
+static void
+show_text(struct canvas *c, cairo_t *cairo, const struct item *i)
+{
+    cairo_save(cairo);
+    cairo_translate(cairo, i->x, i->y);
+    if (i->upwards)
+        cairo_rotate(cairo, -acos(0.0));
+    cairo_move_to(cairo, -i->part * i->length, 0);
+    lettering_show(c->lettering, cairo, &i->font, i->text);
+    cairo_restore(cairo);
+}
+
+static void
+show_lines(cairo_t *cairo, const struct item *i)
+{
+    for (size_t k = 0; k < i->points; k++)
+        if (i->point[k].begins)
+            cairo_move_to(cairo, i->point[k].x, i->point[k].y);
+        else
+            cairo_line_to(cairo, i->point[k].x, i->point[k].y);
+    set_colour(cairo, i->colour);
+    if (i->kind == ITEM_POLYGON) {
+        cairo_close_path(cairo);
+        cairo_fill(cairo);
+        return;
+    }
+    cairo_set_line_width(cairo, i->width);
+    cairo_set_line_cap(cairo, i->dash > 0 ? CAIRO_LINE_CAP_BUTT : CAIRO_LINE_CAP_ROUND);
+    cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
+    if (i->dash > 0)
+        cairo_set_dash(cairo, &i->dash, 1, 0);
+    cairo_stroke(cairo);
+    cairo_set_dash(cairo, NULL, 0, 0);
+}
+
+/* Pixels are 0xAARRGGBB. */
+static void
+show_image(cairo_t *cairo, const struct item *i)
+{
+    cairo_surface_t *image = cairo_image_surface_create(
+        i->inked != NULL ? CAIRO_FORMAT_ARGB32 : CAIRO_FORMAT_RGB24, (int)i->nx, (int)i->ny);
+    unsigned char *to = cairo_image_surface_get_data(image);
+    size_t stride = (size_t)cairo_image_surface_get_stride(image);
+
+    for (size_t y = 0; y < i->ny && to != NULL; y++)
+        for (size_t x = 0; x < i->nx; x++) {
+            const unsigned char *from = i->rgb + 3 * (y * i->nx + x);
+            unsigned pixel =
+                0xff000000U | (unsigned)from[0] << 16 | (unsigned)from[1] << 8 | from[2];
+
+            if (i->inked != NULL && !i->inked[y * i->nx + x])
+                pixel = 0;
+            memcpy(to + y * stride + 4 * x, &pixel, sizeof pixel);
+        }
+    cairo_surface_mark_dirty(image);
+    cairo_save(cairo);
+    cairo_translate(cairo, i->x, i->y);
+    cairo_scale(cairo, i->w / (double)i->nx, i->h / (double)i->ny);
+    cairo_set_source_surface(cairo, image, 0, 0);
+    cairo_pattern_set_filter(cairo_get_source(cairo), CAIRO_FILTER_NEAREST);
+    cairo_rectangle(cairo, 0, 0, (double)i->nx, (double)i->ny);
+    cairo_fill(cairo);
+    cairo_restore(cairo);
+    cairo_surface_destroy(image);
+}
+
+static void
+show(struct canvas *c, cairo_t *cairo, const struct item *i)
+{
+    switch (i->kind) {
+    case ITEM_TEXT:
+        show_text(c, cairo, i);
+        break;
+    case ITEM_FILL:
+        set_colour(cairo, i->colour);
+        cairo_rectangle(cairo, i->x, i->y, i->w, i->h);
+        cairo_fill(cairo);
+        break;
+    case ITEM_FRAME:
+        set_colour(cairo, i->colour);
+        cairo_set_line_width(cairo, i->width);
+        cairo_set_line_join(cairo, CAIRO_LINE_JOIN_MITER);
+        cairo_rectangle(cairo, i->x, i->y, i->w, i->h);
+        cairo_stroke(cairo);
+        break;
+    case ITEM_CLIP:
+        cairo_reset_clip(cairo);
+        if (i->w > 0) {
+            cairo_rectangle(cairo, i->x, i->y, i->w, i->h);
+            cairo_clip(cairo);
+        }
+        break;
+    case ITEM_POLYGON:
+    case ITEM_LINES:
+        show_lines(cairo, i);
+        break;
+    case ITEM_IMAGE:
+        show_image(cairo, i);
+        break;
+    }
+}
+
+static enum rc_status
+check(cairo_t *cairo, struct rc_err *err)
+{
+    if (cairo_status(cairo) != CAIRO_STATUS_SUCCESS)
+        return rc_err_set(err, "the figure cannot be drawn: %s",
+                          cairo_status_to_string(cairo_status(cairo)));
+    return RC_OK;
+}
+
+/* ---- pixels ---- */
+
+struct drawn {
+    cairo_surface_t *surface;
+    cairo_t *cairo;
+    size_t items; /* of the canvas, that are on it */
+};
+
+enum rc_status
+drawn_update(struct canvas *c, struct rc_err *err)
+{
+    struct drawn *d = c->drawn;
+
+    if (d == NULL) {
+        if ((d = c->drawn = calloc(1, sizeof *d)) == NULL)
+            return rc_err_set(err, "out of memory for a figure");
+        d->surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)c->w, (int)c->h);
+        d->cairo = cairo_create(d->surface);
+    }
+    if (d->items == c->items)
+        return check(d->cairo, err);
+    while (d->items < c->items)
+        show(c, d->cairo, &c->item[d->items++]);
+    cairo_surface_flush(d->surface);
+    return check(d->cairo, err);
+}
+
+const unsigned *
+drawn_row(const struct drawn *d, size_t y)
+{
+    size_t stride = (size_t)cairo_image_surface_get_stride(d->surface);
+
+    return (const unsigned *)(const void *)(cairo_image_surface_get_data(d->surface) + y * stride);
+}
+
+void
+drawn_free(struct drawn *d)
+{
+    if (d == NULL)
+        return;
+    cairo_destroy(d->cairo);
+    cairo_surface_destroy(d->surface);
+    free(d);
+}
+
+/* ---- PDF ---- */
+
+struct sink {
+    FILE *file;
+    int why;
+};
+
+static cairo_status_t
+put(void *ctx, const unsigned char *bytes, unsigned n)
+{
+    struct sink *s = ctx;
+
+    if (fwrite(bytes, 1, n, s->file) == n)
+        return CAIRO_STATUS_SUCCESS;
+    s->why = errno;
+    return CAIRO_STATUS_WRITE_ERROR;
+}
+
+static const char *
+find(const struct picture_text *text, size_t texts, const char *keyword)
+{
+    for (size_t k = 0; k < texts; k++)
+        if (strcmp(text[k].keyword, keyword) == 0 && text[k].text != NULL)
+            return text[k].text;
+    return "";
+}
+
+enum rc_status
+pdf_write(struct canvas *c, const struct picture_text *text, size_t texts, FILE *file,
+          struct rc_err *err)
+{
+    struct sink sink = {.file = file};
+    double point = 72 / c->dpi;
+    cairo_surface_t *surface =
+        cairo_pdf_surface_create_for_stream(put, &sink, point * (double)c->w, point * (double)c->h);
+    cairo_t *cairo = cairo_create(surface);
+    enum rc_status status;
+
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, find(text, texts, "Title"));
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_SUBJECT,
+                                   find(text, texts, "Description"));
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_KEYWORDS,
+                                   find(text, texts, "Warning"));
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATOR,
+                                   find(text, texts, "Software"));
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, NULL);
+    cairo_scale(cairo, point, point);
+    for (size_t k = 0; k < c->items; k++)
+        show(c, cairo, &c->item[k]);
+    cairo_show_page(cairo);
+    status = check(cairo, err);
+    cairo_destroy(cairo);
+    cairo_surface_finish(surface);
+    if (sink.why != 0)
+        status = rc_err_set(err, "the PDF cannot be written: %s", strerror(sink.why));
+    else if (status == RC_OK && cairo_surface_status(surface) != CAIRO_STATUS_SUCCESS)
+        status = rc_err_set(err, "the PDF cannot be written: %s",
+                            cairo_status_to_string(cairo_surface_status(surface)));
+    cairo_surface_destroy(surface);
+    return status;
+}

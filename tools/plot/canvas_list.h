@@ -1,0 +1,76 @@
+/* What is on a canvas, for the files that turn it into pixels, PDF or SVG. */
+#ifndef RC_CANVAS_LIST_H
+#define RC_CANVAS_LIST_H
+
+#include "canvas.h"
+#include "lettering.h"
+
+enum item_kind {
+    ITEM_TEXT,
+    ITEM_FILL,
+    ITEM_FRAME, /* the middle of its line is the rectangle */
+    ITEM_POLYGON,
+    ITEM_CLIP,
+    ITEM_LINES,
+    ITEM_IMAGE
+};
+
+struct item_point {
+    double x, y;
+    bool begins; /* a line of its own */
+};
+
+struct item {
+    enum item_kind kind;
+    double x, y, w, h; /* rectangles; of a text the place of its part, on the base line   */
+    double width, dash;
+    struct rgb colour;
+    /* text */
+    struct canvas_font font;
+    char *text;
+    double part, length; /* length: pixels of the text */
+    bool upwards;
+    /* lines and polygons */
+    struct item_point *point;
+    size_t points;
+    /* images; `inked` NULL: all pixels show */
+    unsigned char *rgb, *inked;
+    size_t nx, ny;
+};
+
+struct drawn; /* the page as pixels */
+
+struct canvas {
+    size_t w, h;
+    double dpi;
+    bool screen; /* the size of an SVG is in pixels */
+    struct item *item;
+    size_t items, capacity;
+    struct item_point *path; /* the line being drawn */
+    size_t points, point_capacity;
+    struct item dots; /* pixels set one by one; rgb NULL: none yet                             */
+    size_t dots_left, dots_right, dots_top, dots_bottom;
+    struct lettering *lettering;
+    struct drawn *drawn;
+    bool short_of_memory;
+};
+
+/* The items that are pixels set one by one become an image in the list. */
+void canvas_settle(struct canvas *canvas);
+
+/* ---- cairo_page.c ---- */
+
+/* The page as pixels, brought up to the last item: row y is 32 bits a pixel, 0xXXRRGGBB. */
+enum rc_status drawn_update(struct canvas *canvas, struct rc_err *err);
+const unsigned *drawn_row(const struct drawn *drawn, size_t y);
+void drawn_free(struct drawn *drawn); /* NULL is allowed */
+
+enum rc_status pdf_write(struct canvas *canvas, const struct picture_text *text, size_t texts,
+                         FILE *file, struct rc_err *err);
+
+/* ---- svg.c ---- */
+
+enum rc_status svg_write(struct canvas *canvas, const struct picture_text *text, size_t texts,
+                         FILE *file, struct rc_err *err);
+
+#endif

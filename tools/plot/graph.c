@@ -1,0 +1,620 @@
+#include "graph.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "page.h"
+#include "ticks.h"
+
+/* Colours that the colour-blind tell apart (Okabe and Ito 2008). */
+static const struct rgb palette[GRAPH_COLOURS] = {
+    {0x00, 0x72, 0xb2}, {0xd5, 0x5e, 0x00}, {0x00, 0x9e, 0x73}, {0xcc, 0x79, 0xa7},
+    {0xe6, 0x9f, 0x00}, {0x56, 0xb4, 0xe9}, {0x22, 0x22, 0x22}};
+static const struct rgb rule = {0xe2, 0xe2, 0xe2};
+
+static const double nothing = 1e-290; /* as good as 0 on an axis */
+
+enum {
+    MARKS = 256,  /* on an axis                                             */
+    CROWDED = 60, /* points of a series that are too many for markers       */
+    MARKERS = 4,  /* shapes: circle, square, triangle, diamond              */
+    SWATCH = 56   /* length of a line in the legend, in units of the design */
+};
+
+/* An axis settled: a value v lies at `place` between its ends. */
+struct side {
+    const struct graph_axis *axis;
+    struct scale scale;
+    double lo, hi; /* in the unit of the scale; of a logarithmic axis their decimal logarithms */
+    char label[LINE];
+    struct {
+        double at; /* 0 to 1 */
+        char text[TICKS_TEXT];
+        bool major;
+    } mark[MARKS];
+    size_t marks;
+    double widest;
+};
+
+struct graph_page {
+    const struct graph *g;
+    struct canvas *c;
+    struct page page; /* fonts, title, subtitle, stamp */
+    struct figure words;
+    struct side x, y;
+    double left, top, w, h; /* the plot */
+    double u;
+    size_t lost; /* points that a logarithmic axis cannot hold */
+};
+
+/* ---- axes ---- */
+
+/* Square metres get the prefix of a length; powers of a unit stand raised. A unit without a prefix
+ * stays as it is on a logarithmic axis. */
+static void
+choose_scale(struct scale *s, double largest, const char *unit, bool log)
+{
+    static const struct {
+        double size;
+        const char *unit;
+    } areas[] = {{1, "m²"}, {1e-6, "mm²"}, {1e-12, "µm²"}, {1e-18, "nm²"}};
+    char *last;
+
+    if (largest < nothing) { /* of which no power of ten is left to divide by */
+        scale_choose(s, 1, unit);
+        return;
+    }
+    if (strcmp(unit, "m2") == 0) {
+        size_t k = 0;
+
+        while (k < 3 && largest < 0.01 * areas[k].size)
+            k++;
+        s->size = areas[k].size;
+        strcpy(s->unit, areas[k].unit);
+        return;
+    }
+    if (strncmp(unit, "1/", 2) == 0) { /* 1/GPa */
+        struct scale of;
+
+        scale_choose(&of, pow(1000, ceil(-log10(largest) / 3 - 1e-12)), unit + 2);
+        s->size = 1 / of.size;
+        snprintf(s->unit, sizeof s->unit, "1/%.40s", of.unit);
+        return;
+    }
+    scale_choose(s, largest, unit);
+    if (log && strncmp(s->unit, "10", 2) == 0) { /* powers of ten stand at the marks */
+        s->size = 1;
+        snprintf(s->unit, sizeof s->unit, "%.40s", strcmp(unit, "1") == 0 ? "" : unit);
+    }
+    last = s->unit + strlen(s->unit) - (s->unit[0] != '\0');
+    if (strcmp(last, "2") == 0)
+        strcpy(last, "²");
+    else if (strcmp(last, "3") == 0)
+        strcpy(last, "³");
+    else if (strcmp(last, "4") == 0)
+        strcpy(last, "⁴");
+}
+
+static double
+place(const struct side *s, double value)
+{
+    double v = value / s->scale.size;
+
+    return ((s->axis->log ? log10(v) : v) - s->lo) / (s->hi - s->lo);
+}
+
+static bool
+shows(const struct graph_axis *a, double value)
+{
+    return isfinite(value) && (value > 0 || !a->log);
+}
+
+/* Whether point k of a series is drawn. */
+static bool
+is_point(const struct graph *g, const struct graph_series *s, size_t k)
+{
+    return shows(&g->x, s->x[k]) && (s->kind == GRAPH_BARS || shows(&g->y, s->y[k]));
+}
+
+/* The least and the largest value of an axis; lo > hi: there is none. Bars stand on 0. */
+static void
+extremes(const struct graph *g, bool up, double *lo, double *hi)
+{
+    const struct graph_axis *a = up ? &g->y : &g->x;
+
+    *lo = INFINITY;
+    *hi = -INFINITY;
+    for (size_t s = 0; s < g->n; s++)
+        for (size_t k = 0; k < g->series[s].n; k++) {
+            const struct graph_series *q = &g->series[s];
+            bool last = q->kind == GRAPH_BARS && k + 1 == q->n;
+            double v = up ? last ? NAN : q->y[k] : q->x[k];
+
+            if (!is_point(g, q, k) || !shows(a, v))
+                continue;
+            *lo = fmin(*lo, up && q->kind == GRAPH_BARS && !a->log ? 0 : v);
+            *hi = fmax(*hi, v);
+        }
+    *lo = isnan(a->lo) ? *lo : a->lo;
+    *hi = isnan(a->hi) ? *hi : a->hi;
+}
+
+/* A little air at both ends, but none between the curves and a 0 that they begin at. */
+static enum rc_status
+set_range(struct side *s, const struct graph *g, bool up, struct rc_err *err)
+{
+    const struct graph_axis *a = up ? &g->y : &g->x;
+    double lo, hi, air;
+
+    s->axis = a;
+    extremes(g, up, &lo, &hi);
+    if (!(lo <= hi))
+        return g->x.log || g->y.log
+                   ? rc_err_set(err, "no point lies above 0 on its logarithmic axes: leave out "
+                                     "--log, or give it one axis, x or y")
+                   : rc_err_set(err, "%s: no point has a number on both axes", a->quantity);
+    choose_scale(&s->scale, fmax(fabs(lo), fabs(hi)), a->unit, a->log);
+    scale_label(s->label, sizeof s->label, a->quantity, &s->scale);
+    if (!a->log && fmax(fabs(lo), fabs(hi)) < nothing)
+        lo = hi = 0;
+    lo /= s->scale.size;
+    hi /= s->scale.size;
+    if (a->log) {
+        lo = log10(lo);
+        hi = log10(hi);
+    }
+    if (hi - lo <= 1e-9 * fmax(fabs(lo), fabs(hi)) || hi == lo) {
+        air = a->log ? 0.5 : lo == 0 ? 1 : 0.1 * fabs(lo);
+        lo -= air;
+        hi += air;
+    }
+    air = 0.04 * (hi - lo);
+    s->lo = !isnan(a->lo) || (!a->log && lo == 0) ? lo : lo - air;
+    s->hi = isnan(a->hi) ? hi + air : hi;
+    if (!a->log && isnan(a->lo) && lo > 0 && lo < 0.3 * hi)
+        s->lo = 0;
+    return RC_OK;
+}
+
+static void
+add_mark(struct side *s, double at, bool major, const struct ticks *t, long long k)
+{
+    if (s->marks == MARKS || at < -1e-9 || at > 1 + 1e-9)
+        return;
+    s->mark[s->marks].at = at;
+    s->mark[s->marks].major = major;
+    s->mark[s->marks].text[0] = '\0';
+    if (major && t != NULL)
+        ticks_text(s->mark[s->marks].text, t, k);
+    s->marks++;
+}
+
+/* Steps of 1, 2 or 5; minor marks cut them into 5, 4 and 5. */
+static void
+mark_evenly(struct side *s, double most)
+{
+    struct ticks t;
+    double lo = s->axis->log ? pow(10, s->lo) : s->lo, hi = s->axis->log ? pow(10, s->hi) : s->hi;
+    int parts;
+
+    ticks_choose(&t, lo, hi, most);
+    parts = t.digit == 2 ? 4 : 5;
+    for (long long k = t.first - 1; k <= t.last; k++)
+        for (int m = 0; m < parts; m++) {
+            double v = ticks_at(&t, k) + m * ticks_at(&t, 1) / parts;
+
+            if (v > 0 || !s->axis->log)
+                add_mark(s, place(s, v * s->scale.size), m == 0, &t, k);
+        }
+}
+
+/* Powers of ten, with minor marks at 2 to 9 times each; of few of them 2 and 5 have a number too.
+ * Numbers are plain where all of them are short. */
+static void
+mark_decades(struct side *s, double most)
+{
+    int first = (int)floor(s->lo), last = (int)ceil(s->hi);
+    int step = (int)ceil((s->hi - s->lo) / most);
+    bool plain = s->lo > -3.5 && s->hi < 4.5, few = s->hi - s->lo < 2.5;
+
+    for (int k = first; k <= last; k++)
+        for (int d = 1; d < 10; d++) {
+            struct ticks t = {.digit = d, .power = k};
+            double at = place(s, ticks_at(&t, 1) * s->scale.size);
+            bool major = d == 1 ? k % step == 0 : few && plain && (d == 2 || d == 5);
+
+            if (d > 1 && s->hi - s->lo > 12)
+                continue;
+            add_mark(s, at, major, &t, 1);
+            if (major && !plain && s->marks > 0 && at >= -1e-9 && at <= 1 + 1e-9)
+                power_text(s->mark[s->marks - 1].text, k);
+        }
+}
+
+/* Leaves out numbers that would touch the one before them. */
+static void
+thin_marks(struct graph_page *p, struct side *s, double length, bool upright)
+{
+    double end = -INFINITY, gap = 12 * p->u;
+
+    s->widest = 0;
+    for (size_t k = 0; k < s->marks; k++) {
+        double w, half, at = s->mark[k].at * length;
+
+        if (s->mark[k].text[0] == '\0')
+            continue;
+        w = canvas_text_width(p->c, &p->page.small, s->mark[k].text);
+        half = upright ? 0.55 * p->page.small.size : 0.5 * (w + gap);
+        if (at - half < end) {
+            s->mark[k].text[0] = '\0';
+            continue;
+        }
+        end = at + half;
+        s->widest = fmax(s->widest, w);
+    }
+}
+
+static void
+set_marks(struct graph_page *p, struct side *s, double length, bool upright)
+{
+    double most = fmin(9, length / (p->page.small.size * (upright ? 2 : 4.5)));
+
+    s->marks = 0;
+    if (s->axis->log && s->hi - s->lo >= 1)
+        mark_decades(s, most);
+    else
+        mark_evenly(s, most);
+    thin_marks(p, s, length, upright);
+}
+
+/* ---- drawing ---- */
+
+static double
+x_of(const struct graph_page *p, double value)
+{
+    return p->left + fmin(fmax(place(&p->x, value), -10), 10) * p->w;
+}
+
+static double
+y_of(const struct graph_page *p, double value)
+{
+    double t = p->g->y.log && !(value > 0) ? -10 : place(&p->y, value);
+
+    return p->top + (1 - fmin(fmax(t, -10), 10)) * p->h;
+}
+
+static void
+draw_marker(struct graph_page *p, size_t which, double x, double y, double size, struct rgb colour)
+{
+    static const double corner[3][4][2] = {
+        {{-0.9, -0.9}, {0.9, -0.9}, {0.9, 0.9}, {-0.9, 0.9}},  /* square   */
+        {{0, -1.15}, {1.1, 0.85}, {-1.1, 0.85}, {-1.1, 0.85}}, /* triangle */
+        {{0, -1.25}, {1.25, 0}, {0, 1.25}, {-1.25, 0}}};       /* diamond  */
+    double r = 0.5 * size, at[3][2];
+
+    if (which % MARKERS == 0) {
+        canvas_move(p->c, x, y);
+        canvas_draw_to(p->c, x, y);
+        canvas_stroke(p->c, size, colour);
+        return;
+    }
+    for (int half = 0; half < 2; half++) {
+        for (int k = 0; k < 3; k++) {
+            const double *q = corner[which % MARKERS - 1][half == 0 ? k : (k + 2) % 4];
+
+            at[k][0] = x + r * q[0];
+            at[k][1] = y + r * q[1];
+        }
+        canvas_triangle(p->c, at, colour);
+    }
+}
+
+/* Laws are dashed. */
+static void
+draw_line(struct graph_page *p, const struct graph_series *s, struct rgb colour)
+{
+    bool pen_down = false;
+
+    for (size_t k = 0; k < s->n; k++) {
+        if (!is_point(p->g, s, k)) {
+            pen_down = false;
+            continue;
+        }
+        if (!pen_down)
+            canvas_move(p->c, x_of(p, s->x[k]), y_of(p, s->y[k]));
+        canvas_draw_to(p->c, x_of(p, s->x[k]), y_of(p, s->y[k]));
+        pen_down = true;
+    }
+    if (s->kind == GRAPH_LAW)
+        canvas_dashes(p->c, 2 * p->u, 11 * p->u, colour);
+    else
+        canvas_stroke(p->c, 2.2 * p->u, colour);
+}
+
+static struct rgb
+pale(struct rgb c)
+{
+    return (struct rgb){(unsigned char)((c.r + 2 * 255) / 3), (unsigned char)((c.g + 2 * 255) / 3),
+                        (unsigned char)((c.b + 2 * 255) / 3)};
+}
+
+static void
+draw_bars(struct graph_page *p, const struct graph_series *s, struct rgb colour)
+{
+    double floor_y = p->top + p->h;
+
+    for (size_t k = 0; k + 1 < s->n; k++) {
+        double x = round(x_of(p, s->x[k])), end = round(x_of(p, s->x[k + 1]));
+        double y = y_of(p, s->y[k]);
+
+        canvas_fill(p->c, x, y, end - x, fmax(floor_y - y, 0), pale(colour));
+        if (k > 0) { /* no light between two bars */
+            y = fmax(y, y_of(p, s->y[k - 1]));
+            canvas_fill(p->c, x - 1, y, 2, fmax(floor_y - y, 0), pale(colour));
+        }
+    }
+    for (size_t k = 0; k + 1 < s->n; k++) {
+        double y = y_of(p, s->y[k]);
+
+        if (k == 0)
+            canvas_move(p->c, x_of(p, s->x[0]), floor_y);
+        canvas_draw_to(p->c, x_of(p, s->x[k]), y);
+        canvas_draw_to(p->c, x_of(p, s->x[k + 1]), y);
+    }
+    if (s->n > 1)
+        canvas_draw_to(p->c, x_of(p, s->x[s->n - 1]), floor_y);
+    canvas_stroke(p->c, 1.6 * p->u, colour);
+}
+
+static struct rgb
+colour_of(const struct graph_series *s)
+{
+    return s->kind == GRAPH_LAW ? page_ink : palette[s->place % GRAPH_COLOURS];
+}
+
+static bool
+has_markers(const struct graph_series *s)
+{
+    return s->kind == GRAPH_MARKS && s->n <= CROWDED;
+}
+
+static size_t
+marker_of(const struct graph_series *s)
+{
+    return s->place + s->place / GRAPH_COLOURS;
+}
+
+static void
+draw_series(struct graph_page *p, const struct graph_series *s)
+{
+    struct rgb colour = colour_of(s);
+
+    if (s->kind == GRAPH_BARS)
+        draw_bars(p, s, colour);
+    else
+        draw_line(p, s, colour);
+}
+
+/* Whole also where they stand on the frame. */
+static void
+draw_markers(struct graph_page *p, const struct graph_series *s)
+{
+    for (size_t k = 0; has_markers(s) && k < s->n; k++) {
+        double x, y;
+
+        if (!is_point(p->g, s, k))
+            continue;
+        x = x_of(p, s->x[k]);
+        y = y_of(p, s->y[k]);
+        if (x >= p->left - 1 && x <= p->left + p->w + 1 && y >= p->top - 1 &&
+            y <= p->top + p->h + 1)
+            draw_marker(p, marker_of(s), x, y, 12 * p->u, colour_of(s));
+    }
+}
+
+static void
+draw_across(struct graph_page *p)
+{
+    const struct side *s = &p->x;
+    double u = p->u, y = p->top + p->h;
+
+    for (size_t k = 0; k < s->marks; k++) {
+        double at = p->left + s->mark[k].at * p->w, length = (s->mark[k].major ? 9 : 5) * u;
+
+        canvas_fill(p->c, at - 0.8 * u, y, 1.6 * u, length, page_ink);
+        if (s->mark[k].text[0] != '\0')
+            canvas_text(p->c, &p->page.small, at, y + 13 * u + 0.78 * p->page.small.size, 0.5,
+                        s->mark[k].text);
+    }
+    canvas_text(p->c, &p->page.large, p->left + 0.5 * p->w,
+                y + 13 * u + p->page.small.size + 1.1 * p->page.large.size, 0.5, s->label);
+}
+
+static void
+draw_up(struct graph_page *p)
+{
+    const struct side *s = &p->y;
+    double u = p->u, x = p->left;
+
+    for (size_t k = 0; k < s->marks; k++) {
+        double at = p->top + (1 - s->mark[k].at) * p->h, length = (s->mark[k].major ? 9 : 5) * u;
+
+        canvas_fill(p->c, x - length, at - 0.8 * u, length, 1.6 * u, page_ink);
+        if (s->mark[k].text[0] != '\0')
+            canvas_text(p->c, &p->page.small, x - 14 * u, at + 0.36 * p->page.small.size, 1,
+                        s->mark[k].text);
+    }
+    canvas_text_upwards(p->c, &p->page.large, x - 14 * u - s->widest - 12 * u, p->top + 0.5 * p->h,
+                        s->label);
+}
+
+static void
+draw_rules(struct graph_page *p)
+{
+    for (size_t k = 0; k < p->x.marks; k++)
+        if (p->x.mark[k].major)
+            canvas_fill(p->c, p->left + p->x.mark[k].at * p->w - 0.6 * p->u, p->top, 1.2 * p->u,
+                        p->h, rule);
+    for (size_t k = 0; k < p->y.marks; k++)
+        if (p->y.mark[k].major)
+            canvas_fill(p->c, p->left, p->top + (1 - p->y.mark[k].at) * p->h - 0.6 * p->u, p->w,
+                        1.2 * p->u, rule);
+}
+
+/* ---- legend ---- */
+
+static void
+draw_swatch(struct graph_page *p, const struct graph_series *s, double x, double y)
+{
+    double w = (SWATCH - 14) * p->u;
+    struct rgb colour = colour_of(s);
+
+    if (s->kind == GRAPH_BARS) {
+        canvas_fill(p->c, x, y - 8 * p->u, w, 16 * p->u, pale(colour));
+        canvas_frame(p->c, x, y - 8 * p->u, w, 16 * p->u, 1.6 * p->u, colour);
+        return;
+    }
+    for (int k = 0; k < (s->kind == GRAPH_LAW ? 3 : 1); k++) {
+        canvas_move(p->c, s->kind == GRAPH_LAW ? x + 0.37 * k * w : x, y);
+        canvas_draw_to(p->c, s->kind == GRAPH_LAW ? x + (0.37 * k + 0.26) * w : x + w, y);
+    }
+    canvas_stroke(p->c, 2.2 * p->u, colour);
+    if (has_markers(s))
+        draw_marker(p, marker_of(s), x + 0.5 * w, y, 12 * p->u, colour);
+}
+
+/* Draws the entries from y down, side by side as many as fit, the note last; gives the height that
+ * they take. */
+static double
+legend(struct graph_page *p, double y, bool draw)
+{
+    double line = 1.55 * p->page.small.size, x = p->left, from = y;
+    double right = p->left + p->w, swatch = SWATCH * p->u;
+    struct canvas_font faint = p->page.small;
+    struct text note = {.n = 0};
+    char text[LINE];
+
+    faint.colour = page_faint;
+    for (size_t k = 0; k < p->g->n; k++) {
+        const struct graph_series *s = &p->g->series[k];
+        double w;
+
+        if (s->name == NULL)
+            continue;
+        snprintf(text, sizeof text, "%s", s->name);
+        page_shorten(&p->page, &p->page.small, p->w - swatch, text);
+        w = swatch + canvas_text_width(p->c, &p->page.small, text);
+        if (x > p->left && x + w > right) {
+            x = p->left;
+            y += line;
+        }
+        if (draw) {
+            draw_swatch(p, s, x, y + 0.5 * line);
+            canvas_text(p->c, &p->page.small, x + swatch, y + 0.5 * line + 0.36 * faint.size, 0,
+                        text);
+        }
+        x += w + 34 * p->u;
+    }
+    y += x > p->left ? line : 0;
+    snprintf(text, sizeof text, "%s", p->g->note == NULL ? "" : p->g->note);
+    if (p->lost > 0)
+        snprintf(text + strlen(text), sizeof text - strlen(text),
+                 "%s%zu %s at or below 0 cannot be on a logarithmic axis", *text ? " · " : "",
+                 p->lost, p->lost == 1 ? "point" : "points");
+    page_wrap(&p->page, &faint, p->w, " · ", text, &note);
+    for (size_t k = 0; k < note.n; k++, y += line)
+        if (draw)
+            canvas_text(p->c, &faint, p->left, y + 0.5 * line + 0.36 * faint.size, 0, note.line[k]);
+    return y - from;
+}
+
+/* ---- the whole ---- */
+
+static void
+count_lost(struct graph_page *p)
+{
+    const struct graph *g = p->g;
+
+    for (size_t s = 0; s < g->n; s++)
+        for (size_t k = 0; k < g->series[s].n && g->series[s].kind != GRAPH_BARS; k++)
+            p->lost += isfinite(g->series[s].x[k]) && isfinite(g->series[s].y[k]) &&
+                       !is_point(g, &g->series[s], k);
+}
+
+/* Gives the height of the picture. */
+static double
+lay_out(struct graph_page *p)
+{
+    struct page *page = &p->page;
+    double u = p->u, width = (double)page->w;
+
+    p->h = round(0.56 * width);
+    set_marks(p, &p->y, p->h, true);
+    p->left = round(26 * u + 1.1 * page->large.size + p->y.widest + 28 * u);
+    for (int k = 0; k < 2; k++) {
+        p->w = round(width - p->left - 30 * u - 0.5 * p->x.widest);
+        set_marks(p, &p->x, p->w, false);
+    }
+    page_words(page, width - 48 * u);
+    p->top = round(page_words_height(page) + 22 * u);
+    return p->top + p->h + page_marks(page) + 14 * u + legend(p, 0, false) + 18 * u;
+}
+
+static void
+draw(struct graph_page *p)
+{
+    page_heading(&p->page);
+    draw_rules(p);
+    canvas_clip(p->c, p->left, p->top, p->w, p->h);
+    for (size_t s = 0; s < p->g->n; s++)
+        draw_series(p, &p->g->series[s]);
+    canvas_clip(p->c, 0, 0, 0, 0);
+    canvas_frame(p->c, p->left, p->top, p->w, p->h, fmax(1, round(1.2 * p->u)), page_ink);
+    for (size_t s = 0; s < p->g->n; s++)
+        draw_markers(p, &p->g->series[s]);
+    draw_across(p);
+    draw_up(p);
+    legend(p, p->top + p->h + page_marks(&p->page) + 14 * p->u, true);
+}
+
+struct canvas *
+graph_draw(const struct graph *g, struct rc_err *err)
+{
+    double height;
+    struct graph_page *p = calloc(1, sizeof *p);
+    struct canvas *drawn = NULL;
+
+    if (p == NULL) {
+        rc_err_set(err, "out of memory for a figure");
+        return NULL;
+    }
+    p->g = g;
+    p->words = (struct figure){.title = g->title,
+                               .subtitle = g->subtitle,
+                               .stamp = g->stamp,
+                               .width = g->width,
+                               .dpi = g->dpi,
+                               .family = g->family};
+    p->page.f = &p->words;
+    page_size(&p->page, GRAPH_WIDTH);
+    p->u = p->page.u;
+    if (set_range(&p->x, g, false, err) != RC_OK || set_range(&p->y, g, true, err) != RC_OK)
+        goto done;
+    count_lost(p);
+    if ((p->c = p->page.c = page_canvas(&p->page, 1, 1, err)) == NULL) /* to measure text on */
+        goto done;
+    height = lay_out(p);
+    canvas_free(p->c);
+    if ((p->c = p->page.c = page_canvas(&p->page, p->page.w, (size_t)ceil(height), err)) == NULL)
+        goto done;
+    draw(p);
+    if (canvas_check(p->c, err) == RC_OK)
+        drawn = p->c;
+    else
+        canvas_free(p->c);
+done:
+    free(p);
+    return drawn;
+}

@@ -1,0 +1,56 @@
+/*
+ * Curves of one quantity over another, on axes that are linear or logarithmic: lines with markers,
+ * bars, dashed laws; the legend stands under the plot.
+ */
+#ifndef RC_GRAPH_H
+#define RC_GRAPH_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "libcontact/grid.h"
+#include "canvas.h"
+#include "colormap.h"
+
+enum graph_kind {
+    GRAPH_MARKS, /* points joined by a line, each with a marker where they are few */
+    GRAPH_LINE,
+    GRAPH_LAW,  /* dashed, without markers                                          */
+    GRAPH_BARS, /* from x[k] to x[k + 1], y[k] high: n is the number of edges       */
+};
+
+struct graph_series {
+    const char *name; /* NULL: not in the legend                                  */
+    enum graph_kind kind;
+    size_t place;        /* counted from 0: chooses colour and marker               */
+    const double *x, *y; /* SI; a point that is not finite is a gap                 */
+    size_t n;
+};
+
+struct graph_axis {
+    const char *quantity, *unit; /* as in a stream                                 */
+    bool log;
+    double lo, hi; /* SI; NAN: what suits the points                               */
+};
+
+struct graph {
+    const char *title, *subtitle; /* lines of the subtitle break at " · "          */
+    const char *stamp;            /* NULL: none                                    */
+    struct graph_axis x, y;
+    const struct graph_series *series;
+    size_t n;
+    const char *note; /* a line under the legend; NULL: none                        */
+    size_t width;     /* pixels; 0: GRAPH_WIDTH                                     */
+    double dpi;       /* as of a figure                                             */
+    const char *family;
+};
+
+enum {
+    GRAPH_WIDTH = 1200,
+    GRAPH_COLOURS = 7 /* series after so many have a colour again, with another marker */
+};
+
+/* NULL when memory is short or an axis has no point: a logarithmic one holds none at or below 0. */
+struct canvas *graph_draw(const struct graph *graph, struct rc_err *err);
+
+#endif

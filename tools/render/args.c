@@ -1,0 +1,142 @@
+/*
+ * What was asked for: which options go together, and what they come to.
+ */
+#include "render.h"
+
+#include <math.h>
+#include <string.h>
+
+bool
+args_lines(const struct args *a)
+{
+    return a->cut != NULL || a->histogram || a->material_ratio;
+}
+
+/* Options that go with some kinds of pictures only. */
+static void
+leave_out(struct tool *t, const char *kind, const char *const *option)
+{
+    for (; *option != NULL; option++)
+        if (tool_given(t, *option))
+            tool_die(t, EXIT_USAGE, "%s: leave out --%s", kind, *option);
+}
+
+static void
+check_kinds(struct tool *t, const struct args *a)
+{
+    static const char *const of_maps[] = {"channel", "depth", "section", "case", "range", NULL};
+    static const char *const of_colours[] = {"colormap", "contour", "clip", "keep", NULL};
+    static const char *const of_places[] = {"window", "depth-range", "hertz", NULL};
+    static const char *const of_laws[] = {"law", "estar", "radius", "rms-slope", NULL};
+    int kinds = (a->curve != NULL) + (a->cut != NULL) + a->histogram + a->material_ratio +
+                (a->raw || a->figure);
+
+    if (kinds > 1 && !(a->raw && a->figure))
+        tool_die(t, EXIT_USAGE,
+                 "--raw, --figure, --curve, --cut, --histogram and --material-ratio are kinds of "
+                 "picture: give one");
+    if (a->curve != NULL)
+        leave_out(t, "--curve draws tables, not maps", of_maps);
+    if (a->curve != NULL || args_lines(a)) {
+        leave_out(t, "a curve has no colours", of_colours);
+        leave_out(t, "a curve is no part of a map", of_places);
+    }
+    if (a->range != NULL && (a->histogram || a->material_ratio))
+        tool_die(t, EXIT_USAGE, "--range is for maps and for --cut: leave it out");
+    if (a->curve == NULL && !args_lines(a) && a->style.log != NULL && *a->style.log != '\0')
+        tool_die(t, EXIT_USAGE,
+                 "--log %s names an axis of a curve: of a map --log stands alone, or add --curve "
+                 "X:Y",
+                 a->style.log);
+    if (a->curve == NULL && !a->histogram)
+        leave_out(t, "laws stand beside --curve and --histogram", of_laws);
+}
+
+bool
+args_several(const struct args *a)
+{
+    return a->depth.n > 1 || a->number.n > 1 || a->sheet != NULL;
+}
+
+/* Of lists the one frame that a picture shows, unless it shows several. */
+static void
+check_lists(struct tool *t, struct args *a)
+{
+    if (args_several(a) && (a->raw || a->curve != NULL))
+        tool_die(t, EXIT_USAGE, "--raw shows one frame: give one --depth and one --case");
+    if (a->hillshade && (a->raw || a->curve != NULL || args_lines(a) || a->view != NULL))
+        tool_die(t, EXIT_USAGE, "--hillshade is for flat maps with axes: leave it out");
+    if (a->view != NULL &&
+        (a->raw || a->curve != NULL || args_lines(a) || a->contour || args_several(a)))
+        tool_die(t, EXIT_USAGE,
+                 "--view draws one map as a relief: leave out --raw, --contour, curves and lists");
+    if (a->view != NULL && a->style.log != NULL)
+        tool_die(t, EXIT_USAGE, "--view has an even axis upwards: leave out --log");
+    if (a->hertz && (a->view != NULL || args_several(a)))
+        tool_die(t, EXIT_USAGE, "--hertz is for one flat map: leave it out");
+    if (args_several(a) && a->window != NULL && strcmp(a->window, "contact") == 0)
+        tool_die(t, EXIT_USAGE,
+                 "--window contact is another one in each map: of several give it as X0:X1,Y0:Y1");
+    if (a->sheet != NULL && (a->raw || a->curve != NULL || args_lines(a)))
+        tool_die(t, EXIT_USAGE, "--sheet is for maps: leave it out");
+    if (a->depth.n == 1)
+        a->wish.depth = a->depth.v[0];
+    if (a->number.n == 1)
+        a->wish.number = (size_t)a->number.v[0];
+}
+
+/* Pixels when plain, or a length on paper. */
+static void
+read_width(struct tool *t, struct args *a)
+{
+    const double dpi = 300, inch = 0.0254;
+    const double narrow = 0.06; /* metres: text and axes leave no room for a map on less */
+    bool plain = a->width != NULL && a->width[strspn(a->width, "0123456789")] == '\0';
+    double width = 0;
+    struct rc_err err;
+
+    a->style.dpi = isnan(a->dpi) ? 0 : a->dpi;
+    if (a->width == NULL)
+        return;
+    if (unit_number(a->width, plain ? UNIT_NONE : UNIT_M, &width, &err) != RC_OK)
+        tool_die(t, EXIT_USAGE, "--width %s: %s", a->width, err.text);
+    if (!plain) {
+        a->style.dpi = a->style.dpi > 0 ? a->style.dpi : dpi;
+        width *= a->style.dpi / inch;
+    }
+    if (a->style.dpi > 0 && !(width >= narrow / inch * a->style.dpi))
+        tool_die(t, EXIT_USAGE, "--width %s: on paper it must be at least 60mm", a->width);
+    if (!(width >= FIGURE_NARROW && width <= FIGURE_WIDE))
+        tool_die(t, EXIT_USAGE, "--width %s: it must be %d to %d pixels%s", a->width, FIGURE_NARROW,
+                 FIGURE_WIDE, plain ? "" : ", which is a matter of --dpi");
+    a->style.width = (size_t)round(width);
+}
+
+static void
+check_options(struct tool *t, const struct args *a)
+{
+    if (a->raw && a->figure)
+        tool_die(t, EXIT_USAGE, "--raw and --figure are two kinds of picture: give one");
+    if (a->raw && a->contour)
+        tool_die(t, EXIT_USAGE, "--raw draws nothing but nodes: leave out --contour");
+    if (a->raw && a->width != NULL)
+        tool_die(t, EXIT_USAGE, "--raw is as wide as the map has columns: leave out --width");
+    if (a->raw && a->style.family != NULL)
+        tool_die(t, EXIT_USAGE, "--raw holds no text: leave out --font");
+    if (a->raw && canvas_format(ending_of(t->out_name)) != CANVAS_PNG)
+        tool_die(t, EXIT_USAGE,
+                 "--raw has a pixel for each node, which only a PNG has: -o must end in .png");
+    if (a->raw && a->hertz)
+        tool_die(t, EXIT_USAGE, "--raw draws nothing but nodes: leave out --hertz");
+    if (a->clip && a->range != NULL)
+        tool_die(t, EXIT_USAGE, "--clip chooses the range: leave out --range");
+}
+
+void
+args_check(struct tool *t, struct args *a)
+{
+    check_options(t, a);
+    read_width(t, a);
+    check_kinds(t, a);
+    check_lists(t, a);
+}

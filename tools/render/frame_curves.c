@@ -1,0 +1,422 @@
+/*
+ * Curves of frames: values along a line, how they spread, and the share of the map above them.
+ */
+#include "render.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    BINS = 60,      /* of a histogram, at most          */
+    SAMPLES = 1000, /* of a long curve                  */
+    LAW = 300,      /* points of a law                  */
+    LABEL = 256
+};
+
+/* Curves of n frames, and one of a law. */
+struct set {
+    struct tool *tool;
+    struct rc_grid *const *grid;
+    size_t n;
+    const struct curve_style *style;
+    struct graph_series *series; /* n + 1 */
+    double **x, **y;             /* n + 1 each, of which the series are made */
+    char (*label)[LABEL];
+    struct subtitle subtitle;
+    struct channel channel;
+};
+
+static const char *
+stamp_of(const struct set *s)
+{
+    for (size_t k = 0; k < s->n; k++) {
+        const char *converged = rc_grid_get(s->grid[k], "converged");
+
+        if (converged != NULL && strcmp(converged, "no") == 0)
+            return "not converged";
+    }
+    return NULL;
+}
+
+static _Noreturn void
+no_memory(struct tool *t)
+{
+    tool_die(t, EXIT_IMPOSSIBLE, "out of memory for a curve");
+}
+
+static void
+set_begin(struct set *s)
+{
+    struct survey survey;
+
+    s->series = calloc(s->n + 1, sizeof *s->series);
+    s->x = calloc(s->n + 1, sizeof *s->x);
+    s->y = calloc(s->n + 1, sizeof *s->y);
+    s->label = calloc(s->n + 1, sizeof *s->label);
+    if (s->series == NULL || s->x == NULL || s->y == NULL || s->label == NULL)
+        no_memory(s->tool);
+    for (size_t k = 0; k < s->n; k++) {
+        survey_map(s->grid[k], &survey);
+        if (isnan(survey.min))
+            tool_die_at(s->tool, s->grid[k], EXIT_IMPOSSIBLE,
+                        "none of its %zu values is a finite number: there is nothing to draw",
+                        s->grid[k]->nx * s->grid[k]->ny);
+        frame_label(s->label[k], LABEL, s->grid, s->n, k);
+    }
+    s->channel = channel_of(s->grid[0], &survey);
+    subtitle_common(&s->subtitle, s->grid, s->n);
+}
+
+/* Room for series k, which is named where there are several or a law. */
+static void
+set_series(struct set *s, size_t k, enum graph_kind kind, size_t n)
+{
+    s->x[k] = malloc((n + 1) * sizeof *s->x[k]);
+    s->y[k] = malloc((n + 1) * sizeof *s->y[k]);
+    if (s->x[k] == NULL || s->y[k] == NULL)
+        no_memory(s->tool);
+    s->series[k] = (struct graph_series){.name = s->n > 1 ? s->label[k] : NULL,
+                                         .kind = kind,
+                                         .place = k,
+                                         .x = s->x[k],
+                                         .y = s->y[k],
+                                         .n = n};
+}
+
+static struct canvas *
+set_draw(struct set *s, struct graph *graph, const char *title, struct drawn *drawn)
+{
+    const char *source = rc_grid_get(s->grid[0], "source");
+    struct canvas *canvas;
+    struct rc_err err;
+
+    snprintf(drawn->title, sizeof drawn->title, "%s",
+             s->style->title == NULL ? title : s->style->title);
+    snprintf(drawn->source, sizeof drawn->source, "%s", source == NULL ? "" : source);
+    drawn->stamp = stamp_of(s);
+    graph->title = drawn->title;
+    graph->subtitle = s->subtitle.text;
+    graph->stamp = drawn->stamp;
+    graph->series = s->series;
+    graph->width = s->style->width;
+    graph->dpi = s->style->dpi;
+    graph->family = s->style->family;
+    graph->x.log = curve_log(s->style, 'x');
+    graph->y.log = curve_log(s->style, 'y');
+    if ((canvas = graph_draw(graph, &err)) == NULL)
+        tool_die(s->tool, EXIT_IMPOSSIBLE, "%s", err.text);
+    for (size_t k = 0; k <= s->n; k++) {
+        free(s->x[k]);
+        free(s->y[k]);
+    }
+    free(s->series);
+    free(s->x);
+    free(s->y);
+    free(s->label);
+    return canvas;
+}
+
+/* ---- along a line ---- */
+
+/* One axis of a map or a section: the coordinates of its nodes. */
+struct line {
+    const char *name;
+    size_t n;
+    double step, *at; /* at NULL: even steps, the origin in the middle */
+};
+
+static double
+line_at(const struct line *l, size_t k)
+{
+    return l->at != NULL ? l->at[k] : ((double)k - 0.5 * (double)(l->n - 1)) * l->step;
+}
+
+/* The two axes of a frame. In a section one of them is the depth, which need not be even. */
+static void
+set_lines(struct tool *t, const struct rc_grid *g, struct line *across, struct line *down)
+{
+    const char *section = rc_grid_get(g, "section"), *depths = rc_grid_get(g, "depths");
+    struct numbers list = {0};
+    struct rc_err err;
+
+    *across = (struct line){section != NULL && section[0] == 'x' ? "y" : "x", g->nx, g->dx, NULL};
+    *down = (struct line){section != NULL ? "depth" : "y", g->ny, g->dy, NULL};
+    if (section == NULL)
+        return;
+    if (depths != NULL && (unit_numbers(depths, UNIT_M, &list, &err) != RC_OK || list.n != g->ny))
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "its key depths does not hold a depth for each row");
+    down->at = depths != NULL ? list.v : malloc(g->ny * sizeof *down->at);
+    if (down->at == NULL)
+        no_memory(t);
+    for (size_t j = 0; depths == NULL && j < g->ny; j++)
+        down->at[j] = (double)j * g->dy;
+}
+
+/* The node nearest to the place; of two that are as near the later one. */
+static size_t
+nearest(struct tool *t, const struct rc_grid *g, const struct line *l, double place)
+{
+    size_t best = 0;
+    char first[TICKS_TEXT], last[TICKS_TEXT];
+    double slack = 0.5 * l->step * (1 + 1e-9);
+
+    if (place < line_at(l, 0) - slack || place > line_at(l, l->n - 1) + slack)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "--cut: it has nodes from %s = %s to %s", l->name,
+                    scale_value(first, line_at(l, 0), "m"),
+                    scale_value(last, line_at(l, l->n - 1), "m"));
+    for (size_t k = 1; k < l->n; k++)
+        if (fabs(line_at(l, k) - place) <= fabs(line_at(l, best) - place) + 1e-9 * l->step)
+            best = k;
+    return best;
+}
+
+/* NAME=PLACE: the axis that is crossed and where; ends the tool where it is neither. */
+static double
+read_cut(struct tool *t, const char *cut, const struct line *across, const struct line *down,
+         bool *along_x)
+{
+    const char *is = strchr(cut, '=');
+    size_t n = is == NULL ? 0 : (size_t)(is - cut);
+    struct rc_err err;
+    double place;
+
+    *along_x = n == strlen(down->name) && strncmp(cut, down->name, n) == 0;
+    if (is == NULL || (!*along_x && (n != strlen(across->name) || strncmp(cut, across->name, n))))
+        tool_die(t, EXIT_USAGE, "--cut %s: it must be %s=PLACE or %s=PLACE, as in %s=0", cut,
+                 across->name, down->name, down->name);
+    if (unit_number(is + 1, UNIT_M, &place, &err) != RC_OK)
+        tool_die(t, EXIT_USAGE, "--cut %s: %s", cut, err.text);
+    return place;
+}
+
+struct canvas *
+cut_draw(struct tool *t, struct rc_grid *const *grid, size_t n, const char *cut, double lo,
+         double hi, const struct curve_style *style, struct drawn *drawn)
+{
+    struct set s = {.tool = t, .grid = grid, .n = n, .style = style};
+    struct graph graph = {.n = n, .y.lo = lo, .y.hi = hi, .x.lo = NAN, .x.hi = NAN};
+    char where[TICKS_TEXT], text[TICKS_TEXT + 32], quantity[8];
+
+    set_begin(&s);
+    for (size_t k = 0; k < n; k++) {
+        const struct rc_grid *g = grid[k];
+        struct line across, down;
+        const struct line *along, *over;
+        bool along_x;
+        size_t at;
+        double place;
+
+        set_lines(t, g, &across, &down);
+        place = read_cut(t, cut, &across, &down, &along_x);
+        along = along_x ? &across : &down;
+        over = along_x ? &down : &across;
+        at = nearest(t, g, over, place);
+        set_series(&s, k, GRAPH_LINE, along->n);
+        for (size_t i = 0; i < along->n; i++) {
+            s.x[k][i] = line_at(along, i);
+            s.y[k][i] = g->v[along_x ? at * g->nx + i : i * g->nx + at];
+        }
+        snprintf(quantity, sizeof quantity, "%s", along->name);
+        snprintf(text, sizeof text, "%s = %s", over->name,
+                 scale_value(where, line_at(over, at), "m"));
+        free(down.at);
+        if (k == 0)
+            subtitle_add(&s.subtitle, "along ", text);
+    }
+    graph.x.quantity = quantity;
+    graph.x.unit = "m";
+    graph.y.quantity = s.channel.title;
+    graph.y.unit = grid[0]->unit;
+    return set_draw(&s, &graph, s.channel.title, drawn);
+}
+
+/* ---- how values spread ---- */
+
+/* Whether the value belongs to the histogram. */
+static bool
+counts(const struct rc_grid *g, double v)
+{
+    return isfinite(v) && (v > 0 || strcmp(g->channel, "pressure") != 0);
+}
+
+static void
+find_range(const struct set *s, double *lo, double *hi)
+{
+    *lo = INFINITY;
+    *hi = -INFINITY;
+    for (size_t k = 0; k < s->n; k++)
+        for (size_t i = 0; i < s->grid[k]->nx * s->grid[k]->ny; i++)
+            if (counts(s->grid[k], s->grid[k]->v[i])) {
+                *lo = fmin(*lo, s->grid[k]->v[i]);
+                *hi = fmax(*hi, s->grid[k]->v[i]);
+            }
+    if (*lo > *hi)
+        tool_die_at(s->tool, s->grid[0], EXIT_IMPOSSIBLE,
+                    "no node is in contact: there is no pressure to count");
+    if (strcmp(s->grid[0]->channel, "pressure") == 0)
+        *lo = 0;
+    if (!(*hi - *lo > 1e-12 * fmax(fabs(*lo), fabs(*hi)))) {
+        double size = *hi == 0 ? 1e-9 : 0.1 * fabs(*hi);
+
+        *lo -= size;
+        *hi += size;
+    }
+}
+
+/* Counts one frame into bins; says in *out which share of its measured nodes is left out. */
+static double
+fill_bins(const struct rc_grid *g, double first, double step, size_t bins, double *density,
+          double *mean)
+{
+    size_t measured = 0, out = 0;
+
+    *mean = 0;
+    for (size_t b = 0; b < bins; b++)
+        density[b] = 0;
+    for (size_t i = 0; i < g->nx * g->ny; i++) {
+        double v = g->v[i], place;
+
+        if (!isfinite(v))
+            continue;
+        measured++;
+        *mean += v;
+        if (!counts(g, v)) {
+            out++;
+            continue;
+        }
+        place = floor((v - first) / step);
+        density[place < 0 ? 0 : place < (double)bins ? (size_t)place : bins - 1] += 1;
+    }
+    for (size_t b = 0; b < bins; b++)
+        density[b] /= (double)measured * step;
+    *mean /= (double)measured;
+    return (double)out / (double)measured;
+}
+
+/* Persson's distribution of the pressures about their mean, where it is asked for. */
+static bool
+add_distribution(struct set *s, double mean, double lo, double hi)
+{
+    struct law_given given = s->style->given;
+    const char *lacks;
+    double estar;
+
+    if (s->style->law == NULL)
+        return false;
+    if (strcmp(s->style->law, "persson") != 0 || strcmp(s->grid[0]->channel, "pressure") != 0 ||
+        s->n > 1)
+        tool_die(s->tool, EXIT_USAGE, "--law %s: a histogram has the law persson, of one pressure",
+                 s->style->law);
+    if (isnan(given.estar) && rc_grid_number(s->grid[0], "estar", &estar))
+        given.estar = estar;
+    if ((lacks = law_lacks("persson", &given)) != NULL)
+        tool_die(s->tool, EXIT_USAGE, "--law persson needs %s: give it", lacks);
+    set_series(s, s->n, GRAPH_LAW, LAW);
+    s->series[s->n].name = law_title("persson");
+    s->series[0].name = "pressures of the map";
+    for (size_t k = 0; k < LAW; k++) {
+        s->x[s->n][k] = lo + (hi - lo) * (double)k / (LAW - 1);
+        s->y[s->n][k] = law_pressure_density(&given, mean, s->x[s->n][k]);
+    }
+    return true;
+}
+
+struct canvas *
+histogram_draw(struct tool *t, struct rc_grid *const *grid, size_t n,
+               const struct curve_style *style, struct drawn *drawn)
+{
+    struct set s = {.tool = t, .grid = grid, .n = n, .style = style};
+    bool pressure = strcmp(grid[0]->channel, "pressure") == 0;
+    double lo, hi, step, first, mean = 0;
+    char note[1024] = "", unit[64], title[LABEL];
+    struct ticks ticks;
+    size_t bins, used = 0;
+    struct graph graph = {.x.lo = NAN, .x.hi = NAN, .y.lo = NAN, .y.hi = NAN, .note = note};
+
+    set_begin(&s);
+    find_range(&s, &lo, &hi);
+    ticks_choose(&ticks, lo, hi, BINS);
+    step = ticks_at(&ticks, 1);
+    first = floor(lo / step + 1e-9) * step;
+    bins = (size_t)fmax(1, ceil((hi - first) / step - 1e-9));
+    for (size_t k = 0; k < n; k++) {
+        double out;
+
+        set_series(&s, k, n == 1 ? GRAPH_BARS : GRAPH_LINE, n == 1 ? bins + 1 : bins);
+        out = fill_bins(grid[k], first, step, bins, s.y[k], &mean);
+        for (size_t b = 0; b <= bins; b++)
+            s.x[k][b] = first + ((double)b + (n == 1 ? 0 : 0.5)) * step;
+        if (pressure && used < sizeof note)
+            used += (size_t)snprintf(note + used, sizeof note - used,
+                                     "%s%s%sout of contact: %.4g %%", used == 0 ? "" : " · ",
+                                     n > 1 ? s.label[k] : "", n > 1 ? ": " : "", 100 * out);
+    }
+    if (pressure)
+        tool_note(t, "%s", note);
+    graph.n = n + add_distribution(&s, mean, lo, first + (double)bins * step);
+    snprintf(unit, sizeof unit, "1/%.40s", grid[0]->unit);
+    snprintf(title, sizeof title, "How the %s spreads", s.channel.title);
+    if (s.channel.title != grid[0]->channel)
+        title[8] = (char)(title[8] | 0x20); /* lower case, after "How the " */
+    graph.x.quantity = s.channel.title;
+    graph.x.unit = grid[0]->unit;
+    graph.y.quantity = "Probability density";
+    graph.y.unit = unit;
+    return set_draw(&s, &graph, title, drawn);
+}
+
+/* ---- the share above a value ---- */
+
+static int
+falling(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+
+    return (x < y) - (x > y);
+}
+
+static size_t
+sort_values(struct set *s, const struct rc_grid *g, double **values)
+{
+    size_t n = 0;
+
+    if ((*values = malloc(g->nx * g->ny * sizeof **values)) == NULL)
+        no_memory(s->tool);
+    for (size_t i = 0; i < g->nx * g->ny; i++)
+        if (isfinite(g->v[i]))
+            (*values)[n++] = g->v[i];
+    qsort(*values, n, sizeof **values, falling);
+    return n;
+}
+
+struct canvas *
+material_ratio_draw(struct tool *t, struct rc_grid *const *grid, size_t n,
+                    const struct curve_style *style, struct drawn *drawn)
+{
+    struct set s = {.tool = t, .grid = grid, .n = n, .style = style};
+    struct graph graph = {
+        .n = n, .x = {"Material ratio", "%", false, 0, 100}, .y.lo = NAN, .y.hi = NAN};
+
+    set_begin(&s);
+    for (size_t k = 0; k < n; k++) {
+        double *value;
+        size_t nodes = sort_values(&s, grid[k], &value);
+        size_t points = nodes < SAMPLES ? nodes : SAMPLES;
+
+        set_series(&s, k, GRAPH_LINE, points);
+        for (size_t p = 0; p < points; p++) {
+            size_t i =
+                points == nodes ? p : (size_t)((double)p / (SAMPLES - 1) * (double)(nodes - 1));
+
+            s.x[k][p] = 100 * ((double)i + 0.5) / (double)nodes;
+            s.y[k][p] = value[i];
+        }
+        free(value);
+    }
+    if (curve_log(style, 'x'))
+        graph.x.lo = NAN;
+    graph.y.quantity = s.channel.title;
+    graph.y.unit = grid[0]->unit;
+    return set_draw(&s, &graph, "Material ratio", drawn);
+}

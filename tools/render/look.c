@@ -1,0 +1,122 @@
+/*
+ * What a figure of frames is like: its words, its colours, what touches, and where it lies.
+ */
+#include "render.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool
+look_is_profile(const struct rc_grid *g)
+{
+    return (g->nx == 1) != (g->ny == 1) && rc_grid_get(g, "section") == NULL;
+}
+
+const char *
+look_stamp(const struct rc_grid *g)
+{
+    const char *converged = rc_grid_get(g, "converged");
+
+    return converged != NULL && strcmp(converged, "no") == 0 ? "not converged" : NULL;
+}
+
+/* From which pressure on a node yields; 0: none does. */
+static double
+hardness_of(const struct rc_grid *p)
+{
+    const double rounding = 1e-9;
+    double hardness, largest = 0;
+
+    if (p == NULL || !rc_grid_number(p, "hardness", &hardness) || !(hardness > 0))
+        return 0;
+    for (size_t k = 0; k < p->nx * p->ny; k++)
+        largest = fmax(largest, p->v[k]);
+    hardness *= 1 - rounding;
+    return largest >= hardness ? hardness : 0;
+}
+
+static void
+choose_range(struct tool *t, struct args *a, struct rc_grid *const *grid, size_t n,
+             const struct survey *s, struct look *look, struct figure *f)
+{
+    struct range *r = &look->range;
+
+    *r = (struct range){.kind = a->clip ? RANGE_CLIP : RANGE_AUTO};
+    if (a->range != NULL)
+        range_read(t, a->range, grid[0], r);
+    range_choose(grid, n, s, f->map, &look->what, look_is_profile(grid[0]) && !a->raw, r);
+    if (r->kind == RANGE_VALUES)
+        a->range = range_text(r);
+    if (a->style.log != NULL)
+        range_take_logarithm(t, grid, n, r);
+    f->lo = r->lo;
+    f->hi = r->hi;
+    f->min = range_least(grid, n, s, r);
+    f->log = a->style.log != NULL;
+    f->note = r->note[0] == '\0' ? NULL : r->note;
+}
+
+void
+look_figure(struct tool *t, struct args *a, struct rc_grid *const *grid, size_t n,
+            const struct survey *s, struct look *look, struct figure *f)
+{
+    const struct rc_grid *g = grid[0];
+
+    look->what = channel_of(g, s);
+    *f = (struct figure){
+        .title = a->title == NULL ? look->what.title : a->title,
+        .stamp = look_stamp(g),
+        .quantity = look->what.title,
+        .unit = g->unit,
+        .map = colormap_find(a->colormap == NULL ? look->what.colormap : a->colormap),
+        .min = s->min,
+        .max = s->max,
+        .missing = s->missing,
+        .zero_is_none = strcmp(g->channel, "pressure") == 0,
+        .zeros = s->zeros,
+        .contour = a->contour,
+        .hillshade = a->hillshade,
+        .keep_max = a->keep != NULL && strcmp(a->keep, "max") == 0,
+        .width = a->style.width,
+        .dpi = a->style.dpi,
+        .family = a->style.family,
+        .vector = canvas_format(ending_of(t->out_name)) != CANVAS_PNG,
+    };
+    choose_range(t, a, grid, n, s, look, f);
+    if (a->depths != NULL && rc_grid_get(g, "section") == NULL)
+        tool_warn(t, "--depth-range is for sections: this %s has no rows of depths", g->channel);
+}
+
+void
+look_contact(struct figure *f, const struct rc_grid *pressure)
+{
+    f->pressure = pressure;
+    f->hard = hardness_of(pressure);
+}
+
+void
+look_extent(const struct window *w, struct figure *f)
+{
+    f->across = "x";
+    f->down = "y";
+    f->left = w->left;
+    f->right = w->right;
+    f->top = w->top;
+    f->bottom = w->bottom;
+}
+
+struct rc_grid *
+look_section(struct tool *t, const struct args *a, const struct rc_grid *g, struct figure *f)
+{
+    double *depth = section_depths(t, g);
+    struct rc_grid *even;
+
+    section_range(t, a->depths, g, depth, &f->top, &f->bottom);
+    f->across = strcmp(rc_grid_get(g, "section"), "x") == 0 ? "y" : "x";
+    f->down = "depth";
+    f->section = true;
+    even = section_even(t, g, depth, f->top, f->bottom);
+    free(depth);
+    return even;
+}

@@ -1,0 +1,385 @@
+/*
+ * From which value to which the colours go.
+ */
+#include "render.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Per cent left beyond each end of the colours where an outlier would take most of them. */
+#define BEYOND 0.5
+
+static enum unit
+unit_of(const struct rc_grid *g)
+{
+    for (enum unit u = UNIT_M; u <= UNIT_PA; u++)
+        if (strcmp(unit_name(u), g->unit) == 0)
+            return u;
+    return UNIT_NONE;
+}
+
+/* ---- percentiles ---- */
+
+/* All frames of a picture count as one. */
+struct frames_of {
+    struct rc_grid *const *grid;
+    size_t n;
+};
+
+/* Of a pressure, what touches. */
+static bool
+counts(const struct rc_grid *g, double v)
+{
+    return isfinite(v) && (v != 0 || strcmp(g->channel, "pressure") != 0);
+}
+
+static int
+by_size(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+
+    return (x > y) - (x < y);
+}
+
+enum {
+    BINS = 4096,
+    FEW = 4096
+};
+
+/* Value number k, from 0, of the few from lo to hi. */
+static double
+pick(const struct frames_of *f, double lo, double hi, size_t k)
+{
+    double few[FEW];
+    size_t n = 0;
+
+    for (size_t m = 0; m < f->n; m++) {
+        const struct rc_grid *g = f->grid[m];
+
+        for (size_t i = 0; i < g->nx * g->ny && n < FEW; i++)
+            if (counts(g, g->v[i]) && g->v[i] >= lo && g->v[i] <= hi)
+                few[n++] = g->v[i];
+    }
+    qsort(few, n, sizeof *few, by_size);
+    return few[k < n ? k : n - 1];
+}
+
+static size_t
+bin_of(double v, double lo, double step)
+{
+    return (size_t)fmin((v - lo) / step, BINS - 1);
+}
+
+/* How many values from lo to hi lie in each bin from lo on. */
+static void
+count_bins(const struct frames_of *f, double lo, double hi, double step, size_t count[BINS])
+{
+    memset(count, 0, BINS * sizeof *count);
+    for (size_t m = 0; m < f->n; m++) {
+        const struct rc_grid *g = f->grid[m];
+
+        for (size_t i = 0; i < g->nx * g->ny; i++)
+            if (counts(g, g->v[i]) && g->v[i] >= lo && g->v[i] <= hi)
+                count[bin_of(g->v[i], lo, step)]++;
+    }
+}
+
+/* Narrows lo and hi to the values of a bin. */
+static void
+enter_bin(const struct frames_of *f, double *lo, double *hi, double step, size_t bin)
+{
+    double low = INFINITY, high = -INFINITY;
+
+    for (size_t m = 0; m < f->n; m++) {
+        const struct rc_grid *g = f->grid[m];
+
+        for (size_t i = 0; i < g->nx * g->ny; i++)
+            if (counts(g, g->v[i]) && g->v[i] >= *lo && g->v[i] <= *hi &&
+                bin_of(g->v[i], *lo, step) == bin) {
+                low = fmin(low, g->v[i]);
+                high = fmax(high, g->v[i]);
+            }
+    }
+    *lo = low;
+    *hi = high;
+}
+
+/* The value of n, from lo to hi, that k others are below: they are counted in bins, then those of
+ * one bin in finer ones, without another map in memory. */
+static double
+ranked(const struct frames_of *f, double lo, double hi, size_t n, size_t k)
+{
+    size_t count[BINS];
+
+    while (n > FEW && hi > lo) {
+        double step = hi / BINS - lo / BINS;
+        size_t bin = 0;
+
+        if (!(step > 0)) /* of the smallest numbers there are */
+            return lo;
+        count_bins(f, lo, hi, step, count);
+        while (bin + 1 < BINS && k >= count[bin])
+            k -= count[bin++];
+        enter_bin(f, &lo, &hi, step, bin);
+        n = count[bin];
+    }
+    return hi > lo ? pick(f, lo, hi, k) : lo;
+}
+
+static double
+percentile(const struct frames_of *f, double percent)
+{
+    double lo = INFINITY, hi = -INFINITY, place, below;
+    size_t n = 0, k;
+
+    for (size_t m = 0; m < f->n; m++) {
+        const struct rc_grid *g = f->grid[m];
+
+        for (size_t i = 0; i < g->nx * g->ny; i++)
+            if (counts(g, g->v[i])) {
+                lo = fmin(lo, g->v[i]);
+                hi = fmax(hi, g->v[i]);
+                n++;
+            }
+    }
+    if (n == 0)
+        return 0;
+    place = percent / 100 * (double)(n - 1);
+    k = (size_t)place;
+    below = ranked(f, lo, hi, n, k);
+    if (k + 1 >= n || place == (double)k)
+        return below;
+    return below + (place - (double)k) * (ranked(f, lo, hi, n, k + 1) - below);
+}
+
+/* ---- outliers ---- */
+
+/* The middle one of the values about a node. */
+static double
+around(const struct rc_grid *g, size_t node)
+{
+    size_t i = node % g->nx, j = node / g->nx, n = 0;
+    double near[25];
+
+    for (size_t y = j < 2 ? 0 : j - 2; y < g->ny && y <= j + 2; y++)
+        for (size_t x = i < 2 ? 0 : i - 2; x < g->nx && x <= i + 2; x++)
+            if (counts(g, g->v[y * g->nx + x]))
+                near[n++] = g->v[y * g->nx + x];
+    qsort(near, n, sizeof *near, by_size);
+    return near[n / 2];
+}
+
+/* Of one map: whether one value takes more than half of the range: it stands alone, far from those about it,
+ * which no solution does that its grid resolves. */
+static bool
+has_outlier(const struct rc_grid *g, const struct survey *s)
+{
+    const size_t fewest = 400; /* nodes: of less, half a per cent is none */
+    double half = 0.5 * s->max - 0.5 * s->min;
+
+    if (g->nx * g->ny < fewest || g->nx < 3 || g->ny < 3 || !(half > 0) || !isfinite(2 * half))
+        return false;
+    return (counts(g, s->max) && s->max - around(g, s->max_at) > half) ||
+           (counts(g, s->min) && around(g, s->min_at) - s->min > half);
+}
+
+/* ---- what was asked for ---- */
+
+static bool
+is_percent(const char *text, double *value)
+{
+    char number[64];
+    size_t n = strlen(text);
+    struct rc_err err;
+
+    if (n < 2 || n >= sizeof number || text[n - 1] != '%')
+        return false;
+    memcpy(number, text, n - 1);
+    number[n - 1] = '\0';
+    return unit_number(number, UNIT_NONE, value, &err) == RC_OK && *value >= 0 && *value <= 100;
+}
+
+/* P%:Q% or P%,Q% */
+static void
+read_percent(struct tool *t, const char *text, char *list, struct range *r)
+{
+    char *second = strchr(list, ',');
+
+    if (second != NULL)
+        *second++ = '\0';
+    if (second == NULL || !is_percent(list, &r->low_percent) ||
+        !is_percent(second, &r->high_percent) || !(r->low_percent < r->high_percent))
+        tool_die(t, EXIT_USAGE,
+                 "--range %s: percentiles are P%%:Q%%, from 0%% to 100%%, with P below Q", text);
+    r->kind = RANGE_PERCENT;
+}
+
+void
+range_read(struct tool *t, const char *text, const struct rc_grid *g, struct range *r)
+{
+    char list[256];
+    char *colon;
+    struct numbers n = {0};
+    struct rc_err err;
+
+    r->kind = RANGE_SYMMETRIC;
+    if (strcmp(text, "symmetric") == 0)
+        return;
+    snprintf(list, sizeof list, "%s", text);
+    if ((colon = strchr(list, ':')) != NULL)
+        *colon = ',';
+    if (strchr(text, '%') != NULL) {
+        read_percent(t, text, list, r);
+        return;
+    }
+    if (unit_numbers(list, unit_of(g), &n, &err) != RC_OK)
+        tool_die(t, EXIT_USAGE, "--range %s: %s (channel %s is in %s)", text, err.text, g->channel,
+                 g->unit);
+    if (n.n != 2 || !(n.v[0] < n.v[1]))
+        tool_die(t, EXIT_USAGE,
+                 "--range %s: it must be LO:HI, two values with LO below HI, P%%:Q%% or symmetric",
+                 text);
+    r->kind = RANGE_VALUES;
+    r->lo = n.v[0];
+    r->hi = n.v[1];
+    free(n.v);
+}
+
+const char *
+range_text(const struct range *r)
+{
+    static char si[2 * RC_NUMBER_SIZE + 2];
+    char low[RC_NUMBER_SIZE], high[RC_NUMBER_SIZE];
+
+    snprintf(si, sizeof si, "%s:%s", rc_number_text(low, r->lo), rc_number_text(high, r->hi));
+    return si;
+}
+
+/* ---- the ends ---- */
+
+/* What is as small beside 0 is rounding: a hundredth of an atom, or a thousand millionth of the
+ * values. */
+static double
+rounding(const struct rc_grid *g, double size)
+{
+    return unit_of(g) == UNIT_M ? 1e-12 : 1e-9 * size;
+}
+
+/* Colours from 0, to 0, or about it. */
+static void
+anchor(const struct rc_grid *g, const struct colormap *map, const struct channel *what,
+       struct range *r)
+{
+    double size = fmax(fabs(r->lo), fabs(r->hi));
+
+    if (map->diverging || r->kind == RANGE_SYMMETRIC) {
+        r->lo = -size;
+        r->hi = size;
+    } else if (what->to_zero) {
+        r->hi = 0;
+    } else if (what->from_zero && r->lo >= -fmin(rounding(g, size), size)) {
+        r->lo = 0;
+    }
+}
+
+/* A range needs some extent. */
+static void
+widen(const struct rc_grid *g, const struct channel *what, struct range *r)
+{
+    double size = fmax(fabs(r->lo), fabs(r->hi));
+
+    if (size < 1e-300) { /* zero everywhere: a nanometre about it, or one of what else it is */
+        size = unit_of(g) == UNIT_M ? 1e-9 : 1;
+        r->lo = what->from_zero ? 0 : -size;
+        r->hi = size;
+    } else if (0.5 * r->hi - 0.5 * r->lo <= 1e-12 * size) { /* constant, but for rounding */
+        r->lo = fmax(r->lo - 0.1 * size, -DBL_MAX);
+        r->hi = fmin(r->hi + 0.1 * size, DBL_MAX);
+    }
+}
+
+static void
+take_percentiles(const struct frames_of *f, struct range *r, double low, double high)
+{
+    char lo[RC_NUMBER_SIZE], hi[RC_NUMBER_SIZE];
+
+    r->lo = percentile(f, low);
+    r->hi = percentile(f, high);
+    snprintf(r->note, sizeof r->note, "colours from %s %% to %s %% of the %s",
+             rc_number_text(lo, low), rc_number_text(hi, high),
+             strcmp(f->grid[0]->channel, "pressure") == 0 ? "contact" : "nodes");
+}
+
+/* The axis of a curve has room beyond its ends. */
+static void
+take_axis(const struct rc_grid *g, const struct survey *s, const struct channel *what,
+          struct range *r)
+{
+    double margin = 0.05 * s->max - 0.05 * s->min;
+    bool zero = what->from_zero && s->min >= -fmin(rounding(g, s->max), fabs(s->max));
+
+    r->lo = zero ? 0 : fmax(s->min - margin, -DBL_MAX);
+    r->hi = fmin(s->max + margin, DBL_MAX);
+}
+
+void
+range_choose(struct rc_grid *const *grid, size_t n, const struct survey *s,
+             const struct colormap *map, const struct channel *what, bool curve, struct range *r)
+{
+    const struct frames_of all = {grid, n};
+    const struct rc_grid *g = grid[0];
+
+    if (r->kind == RANGE_VALUES)
+        return;
+    r->lo = s->min;
+    r->hi = s->max;
+    if (r->kind == RANGE_PERCENT)
+        take_percentiles(&all, r, r->low_percent, r->high_percent);
+    else if (curve && r->kind != RANGE_SYMMETRIC)
+        take_axis(g, s, what, r);
+    else if (r->kind == RANGE_CLIP || (r->kind == RANGE_AUTO && n == 1 && has_outlier(g, s)))
+        take_percentiles(&all, r, BEYOND, 100 - BEYOND);
+    if (r->kind == RANGE_AUTO && r->note[0] != '\0' && r->hi - r->lo > 0.5 * (s->max - s->min)) {
+        r->lo = s->min; /* there are too many of them to be left out */
+        r->hi = s->max;
+        r->note[0] = '\0';
+    }
+    if (r->kind != RANGE_PERCENT && (!curve || r->kind == RANGE_SYMMETRIC))
+        anchor(g, map, what, r);
+    widen(g, what, r);
+}
+
+void
+range_take_logarithm(struct tool *t, struct rc_grid *const *grid, size_t n, struct range *r)
+{
+    const double decades = 1e-6;
+    double least = INFINITY;
+
+    if (r->kind == RANGE_VALUES && !(r->lo > 0))
+        tool_die(t, EXIT_USAGE, "--log has no place for 0 and below: give a --range above it");
+    if (r->lo > 0)
+        return;
+    for (size_t m = 0; m < n; m++)
+        for (size_t k = 0; k < grid[m]->nx * grid[m]->ny; k++)
+            if (grid[m]->v[k] > 0)
+                least = fmin(least, grid[m]->v[k]);
+    if (!(r->hi > 0) || !isfinite(least))
+        tool_die_at(t, grid[0], EXIT_IMPOSSIBLE,
+                    "no value is above 0, and only those have a logarithm: leave out --log");
+    r->lo = fmax(least, decades * r->hi);
+    if (r->lo >= 0.999 * r->hi)
+        r->lo = 0.1 * r->hi;
+}
+
+double
+range_least(struct rc_grid *const *grid, size_t n, const struct survey *s, const struct range *r)
+{
+    double slack = rounding(grid[0], fmax(fabs(s->min), fabs(s->max)));
+
+    if (strcmp(grid[0]->channel, "pressure") == 0 && s->min == 0)
+        return percentile(&(struct frames_of){grid, n},
+                          0); /* what does not touch is not below the range */
+    return s->min < r->lo && s->min >= r->lo - slack ? r->lo : s->min;
+}

@@ -1,0 +1,166 @@
+/*
+ * Sections: the rows of a map at depths of any spacing become even rows, so that each depth is
+ * where the axis says.
+ */
+#include "render.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    ROWS = 900, /* of the even map, and about its columns */
+    COLUMNS = 900
+};
+
+double *
+section_depths(struct tool *t, const struct rc_grid *g)
+{
+    const char *text = rc_grid_get(g, "depths");
+    struct numbers d = {0};
+    struct rc_err err;
+
+    if (text == NULL) {
+        if ((d.v = malloc(g->ny * sizeof *d.v)) == NULL)
+            tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %zu depths", g->ny);
+        for (size_t j = 0; j < g->ny; j++)
+            d.v[j] = (double)j * g->dy;
+        return d.v;
+    }
+    if (unit_numbers(text, UNIT_M, &d, &err) != RC_OK)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "its key depths: %s", err.text);
+    if (d.n != g->ny)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "its key depths holds %zu depths for %zu rows", d.n,
+                    g->ny);
+    for (size_t j = 1; j < g->ny; j++)
+        if (!(d.v[j] > d.v[j - 1]))
+            tool_die_at(t, g, EXIT_IMPOSSIBLE, "its key depths must rise from row to row");
+    return d.v;
+}
+
+/* ---- between rows ---- */
+
+/* The slope at row j of a curve that rises and falls with the values and has no corner (Fritsch and
+ * Butland 1984): a weighted harmonic mean of those beside it, 0 at an extreme. */
+static double
+slope(const double *z, const double *v, size_t n, size_t j)
+{
+    double before, after, h0, h1, w0, w1;
+
+    if (j == 0 || j + 1 == n) {
+        size_t k = j == 0 ? 0 : n - 2;
+        return (v[k + 1] - v[k]) / (z[k + 1] - z[k]);
+    }
+    h0 = z[j] - z[j - 1];
+    h1 = z[j + 1] - z[j];
+    before = (v[j] - v[j - 1]) / h0;
+    after = (v[j + 1] - v[j]) / h1;
+    if (!(before * after > 0))
+        return 0;
+    w0 = 2 * h1 + h0;
+    w1 = h1 + 2 * h0;
+    return (w0 + w1) / (w0 / before + w1 / after);
+}
+
+/* The value at depth `at`, between rows j and j + 1. */
+static double
+between(const double *z, const double *v, size_t n, size_t j, double at)
+{
+    double h = z[j + 1] - z[j], t = (at - z[j]) / h, s = 1 - t;
+
+    if (isnan(v[j]) || isnan(v[j + 1]))
+        return t < 0.5 ? v[j] : v[j + 1];
+    return v[j] * s * s * (1 + 2 * t) + v[j + 1] * t * t * (3 - 2 * t) +
+           h * t * s * (slope(z, v, n, j) * s - slope(z, v, n, j + 1) * t);
+}
+
+/* ---- the even map ---- */
+
+/* Column i of `even`, each `times` columns of it one of the map: straight between their middles. */
+static double
+across(const struct rc_grid *g, size_t row, size_t i, size_t times)
+{
+    double x = ((double)i + 0.5) / (double)times - 0.5, t;
+    size_t k;
+
+    if (x <= 0 || g->nx == 1)
+        return g->v[row * g->nx];
+    if (x >= (double)g->nx - 1)
+        return g->v[row * g->nx + g->nx - 1];
+    k = (size_t)x;
+    t = x - (double)k;
+    if (t == 0)
+        return g->v[row * g->nx + k];
+    return (1 - t) * g->v[row * g->nx + k] + t * g->v[row * g->nx + k + 1];
+}
+
+static void
+fill_column(const struct rc_grid *g, const double *depth, struct rc_grid *even, size_t i,
+            double top, double *v)
+{
+    size_t times = even->nx / g->nx, j = 0;
+
+    for (size_t k = 0; k < g->ny; k++)
+        v[k] = across(g, k, i, times);
+    for (size_t k = 0; k < even->ny; k++) {
+        double at = top + ((double)k + 0.5) * even->dy;
+
+        while (j + 2 < g->ny && at > depth[j + 1])
+            j++;
+        even->v[k * even->nx + i] = g->ny == 1 ? v[0] : between(depth, v, g->ny, j, at);
+    }
+}
+
+struct rc_grid *
+section_even(struct tool *t, const struct rc_grid *g, const double *depth, double top,
+             double bottom)
+{
+    size_t times = g->nx < COLUMNS ? (size_t)fmax(1, round((double)COLUMNS / (double)g->nx)) : 1;
+    struct rc_shape shape = {times * g->nx, ROWS, g->dx / (double)times, (bottom - top) / ROWS};
+    double *v = malloc(g->ny * sizeof *v);
+    struct rc_grid *even;
+    struct rc_err err;
+
+    if ((even = rc_grid_new(&shape, g->channel, g->unit, &err)) == NULL || v == NULL)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", even == NULL ? err.text : "out of memory");
+    for (size_t i = 0; i < even->nx; i++)
+        fill_column(g, depth, even, i, top, v);
+    free(v);
+    return even;
+}
+
+/* ---- which depths ---- */
+
+void
+section_range(struct tool *t, const char *text, const struct rc_grid *g, const double *depth,
+              double *top, double *bottom)
+{
+    double first = depth[0], last = depth[g->ny - 1];
+    char list[128], from[TICKS_TEXT], to[TICKS_TEXT];
+    char *colon;
+    struct numbers n = {0};
+    struct rc_err err;
+
+    *top = first;
+    *bottom = last;
+    if (g->ny == 1) { /* a strip about the only depth */
+        *top = fmax(0, first - 0.5 * g->dy);
+        *bottom = *top + g->dy;
+    }
+    if (text == NULL)
+        return;
+    snprintf(list, sizeof list, "%s", text);
+    if ((colon = strchr(list, ':')) != NULL)
+        *colon = ',';
+    if (unit_numbers(list, UNIT_M, &n, &err) != RC_OK)
+        tool_die(t, EXIT_USAGE, "--depth-range %s: %s", text, err.text);
+    if (colon == NULL || n.n != 2 || !(n.v[0] < n.v[1]) || n.v[0] < 0)
+        tool_die(t, EXIT_USAGE, "--depth-range %s: it must be Z0:Z1, two depths, the lesser first",
+                 text);
+    *top = fmax(n.v[0], first);
+    *bottom = fmin(n.v[1], last);
+    free(n.v);
+    if (!(*top < *bottom))
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "--depth-range %s: its depths go from %s to %s", text,
+                    scale_value(from, first, "m"), scale_value(to, last, "m"));
+}

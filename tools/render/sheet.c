@@ -1,0 +1,78 @@
+/*
+ * Several maps in one picture: how many columns and rows, what they have to have in common, what
+ * stands over each.
+ */
+#include "render.h"
+
+#include <math.h>
+#include <string.h>
+
+void
+sheet_size(struct tool *t, const char *text, size_t *columns, size_t *rows)
+{
+    double value[2] = {0, 0};
+    const char *end = rc_number_read(text, false, &value[0]);
+
+    *columns = *rows = 0;
+    if (strcmp(text, "auto") == 0)
+        return;
+    if (end != NULL && *end == 'x')
+        end = rc_number_read(end + 1, false, &value[1]);
+    else
+        end = NULL;
+    for (int k = 0; k < 2; k++)
+        if (end == NULL || *end != '\0' || !(value[k] >= 1 && value[k] <= FRAMES) ||
+            value[k] != floor(value[k]))
+            tool_die(t, EXIT_USAGE, "--sheet %s: it must be COLSxROWS, as in 3x2, or auto", text);
+    *columns = (size_t)value[0];
+    *rows = (size_t)value[1];
+}
+
+void
+sheet_check_alike(struct tool *t, const struct rc_grid *first, const struct figure *of_first,
+                  const struct rc_grid *g, const struct figure *f)
+{
+    double size = fabs(of_first->right - of_first->left), high = of_first->bottom - of_first->top;
+
+    if ((g->nx == 1) != (g->ny == 1) && rc_grid_get(g, "section") == NULL)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                    "a profile is no map: draw several as curves, with --cut y=0");
+    if (strcmp(first->unit, g->unit) != 0 || strcmp(f->down, of_first->down) != 0 ||
+        strcmp(f->across, of_first->across) != 0 || fabs(f->right - f->left - size) > 1e-6 * size ||
+        fabs(f->bottom - f->top - high) > 1e-6 * high)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                    "it is not of the size of the frame before: a sheet shows maps of one size: "
+                    "choose with --case and --depth");
+}
+
+void
+sheet_survey(struct tool *t, const struct frames *frames, struct survey *all)
+{
+    *all = (struct survey){.min = NAN, .max = NAN};
+    for (size_t k = 0; k < frames->n; k++) {
+        struct survey s;
+
+        survey_map(frames->grid[k], &s);
+        if (isnan(s.min))
+            tool_die_at(t, frames->grid[k], EXIT_IMPOSSIBLE,
+                        "none of its %zu values is a finite number: there is nothing to draw",
+                        frames->grid[k]->nx * frames->grid[k]->ny);
+        all->min = fmin(all->min, s.min);
+        all->max = fmax(all->max, s.max);
+        all->missing += s.missing;
+        all->zeros += s.zeros;
+    }
+}
+
+void
+sheet_label(struct panel *panel, const struct frames *frames, size_t k)
+{
+    char what[200];
+
+    frame_label(what, sizeof what, frames->grid, frames->n, k);
+    snprintf(panel->label, sizeof panel->label, "%s%c) %s",
+             k < 26   ? ""
+             : k < 52 ? "a"
+                      : "b",
+             (char)('a' + k % 26), what);
+}

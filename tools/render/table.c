@@ -1,0 +1,526 @@
+/*
+ * Columns of numbers out of reports: tables with tabs, whose first line names the columns as
+ * `load/N`, and JSON, an object a row. An array of JSON is a column in itself: each object with
+ * arrays is then a curve of its own.
+ */
+#include "render.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum {
+    INSIDE = 32,  /* objects and arrays of JSON inside one another */
+    PATH = 512,   /* bytes of a name with those that it is inside of */
+    CELLS = 1024, /* columns of a table                              */
+};
+
+static const size_t most_bytes = (size_t)1 << 30; /* of a file, without --memory */
+
+struct reading {
+    struct tool *tool;
+    struct table *table;
+    const char *at, *end;
+    struct name_list there; /* names of what could have been asked for */
+    size_t line;
+    /* of JSON */
+    char path[PATH];
+    size_t depth;
+    struct { /* what the object holds of each column */
+        double *v;
+        size_t n, capacity;
+        bool array, taken;
+    } * got;
+};
+
+const char *
+table_remedy(const char *head)
+{
+    if (head[0] == '{' || (isalpha((unsigned char)head[0]) && strchr(head, '\t') != NULL))
+        return "it looks like a table: draw columns of it, as in --curve load:contact_fraction";
+    return NULL;
+}
+
+static _Noreturn void
+bad(struct reading *r, const char *what)
+{
+    tool_die(r->tool, EXIT_IMPOSSIBLE, "%s, line %zu: %s", r->table->source, r->line, what);
+}
+
+static _Noreturn void
+no_memory(struct tool *t, const char *source)
+{
+    tool_die(t, EXIT_IMPOSSIBLE, "%s: out of memory for its table", source);
+}
+
+/* ---- the file ---- */
+
+/* The whole of it, ended by a NUL. */
+static char *
+read_file(struct tool *t, const char *source, FILE *file, size_t *size)
+{
+    size_t most = t->memory != 0 ? t->memory : most_bytes, capacity = 1 << 16, n = 0, got;
+    char *text = malloc(capacity), *larger;
+
+    if (text == NULL)
+        no_memory(t, source);
+    while ((got = fread(text + n, 1, capacity - n - 1, file)) > 0) {
+        n += got;
+        if (n > most)
+            tool_die(t, EXIT_IMPOSSIBLE, "%s: a table of more than %zu bytes is not read", source,
+                     most);
+        if (n + 1 < capacity)
+            continue;
+        if ((larger = realloc(text, capacity *= 2)) == NULL)
+            no_memory(t, source);
+        text = larger;
+    }
+    if (ferror(file))
+        tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", source, strerror(errno));
+    text[n] = '\0';
+    *size = n;
+    return text;
+}
+
+/* ---- rows ---- */
+
+static void
+make_room(struct reading *r, size_t rows)
+{
+    struct table *table = r->table;
+    size_t capacity = table->capacity == 0 ? 256 : table->capacity;
+
+    while (capacity < rows)
+        capacity *= 2;
+    if (capacity == table->capacity)
+        return;
+    for (size_t k = 0; k < table->columns; k++) {
+        double *v = realloc(table->column[k].v, capacity * sizeof *v);
+
+        if (v == NULL)
+            no_memory(r->tool, table->source);
+        table->column[k].v = v;
+    }
+    table->capacity = capacity;
+}
+
+static void
+begin_piece(struct reading *r)
+{
+    struct table *table = r->table;
+    size_t *piece = realloc(table->piece, (table->pieces + 1) * sizeof *piece);
+
+    if (piece == NULL)
+        no_memory(r->tool, table->source);
+    table->piece = piece;
+    table->piece[table->pieces++] = table->rows;
+}
+
+/* ---- tables with tabs ---- */
+
+/* A number, or true and false as 1 and 0; NAN of anything else. */
+static double
+cell_value(const char *text, size_t n, bool *words)
+{
+    static const struct {
+        const char *word;
+        double value;
+    } known[] = {{"true", 1}, {"false", 0}, {"yes", 1}, {"no", 0}, {"null", NAN}, {"", NAN}};
+    char word[64];
+    const char *end;
+    double value;
+
+    snprintf(word, sizeof word, "%.*s", (int)(n < sizeof word ? n : sizeof word - 1), text);
+    for (size_t k = 0; k < sizeof known / sizeof *known; k++)
+        if (strcmp(word, known[k].word) == 0)
+            return known[k].value;
+    end = rc_number_read(word, true, &value);
+    if (end != NULL && *end == '\0' && n < sizeof word)
+        return value;
+    *words = true;
+    return NAN;
+}
+
+static const char *
+line_end(const struct reading *r)
+{
+    const char *end = memchr(r->at, '\n', (size_t)(r->end - r->at));
+
+    return end == NULL ? r->end : end;
+}
+
+/* Cells of the line that ends at `end`; gives their number. */
+static size_t
+split(struct reading *r, const char *end, const char *start[CELLS], size_t length[CELLS])
+{
+    size_t n = 0;
+
+    if (end > r->at && end[-1] == '\r')
+        end--;
+    for (const char *s = r->at;; s++) {
+        const char *tab = memchr(s, '\t', (size_t)(end - s));
+
+        if (n == CELLS)
+            bad(r, "it has more than 1024 columns");
+        start[n] = s;
+        length[n++] = (size_t)((tab == NULL ? end : tab) - s);
+        if (tab == NULL)
+            return n;
+        s = tab;
+    }
+}
+
+/* Which cell each column is in; CELLS: in none. */
+static void
+read_heading(struct reading *r, const char *start[CELLS], const size_t length[CELLS], size_t n,
+             size_t *where)
+{
+    char name[PATH];
+
+    for (size_t c = 0; c < r->table->columns; c++)
+        where[c] = CELLS;
+    for (size_t k = 0; k < n; k++) {
+        const char *slash = memchr(start[k], '/', length[k]);
+        size_t size = slash == NULL ? length[k] : (size_t)(slash - start[k]);
+
+        snprintf(name, sizeof name, "%.*s", (int)(size < PATH ? size : PATH - 1), start[k]);
+        name_list_add(&r->there, name);
+        for (size_t c = 0; c < r->table->columns; c++) {
+            struct column *column = &r->table->column[c];
+
+            if (column->found || strcmp(column->name, name) != 0)
+                continue;
+            column->found = true;
+            where[c] = k;
+            if (slash != NULL)
+                snprintf(column->unit, sizeof column->unit, "%.*s", (int)(length[k] - size - 1),
+                         slash + 1);
+        }
+    }
+}
+
+static void
+read_tabs(struct reading *r)
+{
+    const char **start = malloc(CELLS * sizeof *start), *end;
+    size_t *length = malloc(CELLS * sizeof *length), cells, n;
+    size_t *where = malloc(r->table->columns * sizeof *where);
+    char text[128];
+
+    if (start == NULL || length == NULL || where == NULL)
+        no_memory(r->tool, r->table->source);
+    end = line_end(r);
+    n = split(r, end, start, length);
+    read_heading(r, start, length, n, where);
+    begin_piece(r);
+    while (r->line++, end < r->end && (r->at = end + 1) < r->end) {
+        end = line_end(r);
+        if (end == r->at || *r->at == '\r')
+            continue;
+        if ((cells = split(r, end, start, length)) != n) {
+            snprintf(text, sizeof text, "it has %zu columns, the heading has %zu", cells, n);
+            bad(r, text);
+        }
+        make_room(r, r->table->rows + 1);
+        for (size_t c = 0; c < r->table->columns; c++) {
+            struct column *column = &r->table->column[c];
+
+            column->v[r->table->rows] =
+                where[c] == CELLS ? NAN
+                                  : cell_value(start[where[c]], length[where[c]], &column->words);
+        }
+        r->table->rows++;
+    }
+    free(start);
+    free(length);
+    free(where);
+}
+
+/* ---- JSON ---- */
+
+static void read_value(struct reading *r, bool element);
+
+static char
+peek(struct reading *r)
+{
+    while (r->at < r->end && strchr(" \t\r\n", *r->at) != NULL && *r->at != '\0')
+        r->line += *r->at++ == '\n';
+    return r->at < r->end ? *r->at : '\0';
+}
+
+static void
+expect(struct reading *r, char c)
+{
+    char text[64];
+
+    if (peek(r) != c) {
+        snprintf(text, sizeof text, "this is no JSON: '%c' is missing", c);
+        bad(r, text);
+    }
+    r->at++;
+}
+
+/* Steps over a string; escapes stay as they are. */
+static void
+read_string(struct reading *r, const char **start, size_t *n)
+{
+    expect(r, '"');
+    *start = r->at;
+    while (r->at < r->end && *r->at != '"' && *r->at != '\n')
+        r->at += *r->at == '\\' && r->at + 1 < r->end ? 2 : 1;
+    if (r->at >= r->end || *r->at != '"')
+        bad(r, "this is no JSON: a text does not end");
+    *n = (size_t)(r->at++ - *start);
+}
+
+/* A column is what has its name, or what ends in it after a point. */
+static bool
+is_named(const char *path, const char *name)
+{
+    size_t p = strlen(path), n = strlen(name);
+
+    return p >= n && strcmp(path + p - n, name) == 0 && (p == n || path[p - n - 1] == '.');
+}
+
+static void
+take(struct reading *r, double value, bool words, bool element)
+{
+    if (!element && r->table->rows == 0)
+        name_list_add(&r->there, r->path);
+    for (size_t c = 0; c < r->table->columns; c++) {
+        size_t n = r->got[c].n;
+
+        if (!is_named(r->path, r->table->column[c].name) || r->got[c].taken)
+            continue;
+        if (n == r->got[c].capacity) {
+            size_t capacity = n == 0 ? 16 : 2 * n;
+            double *v = realloc(r->got[c].v, capacity * sizeof *v);
+
+            if (v == NULL)
+                no_memory(r->tool, r->table->source);
+            r->got[c].v = v;
+            r->got[c].capacity = capacity;
+        }
+        r->got[c].v[r->got[c].n++] = value;
+        r->got[c].array = element;
+        r->got[c].taken = !element;
+        r->table->column[c].found = true;
+        r->table->column[c].words = r->table->column[c].words || words;
+    }
+}
+
+static void
+read_array(struct reading *r)
+{
+    char path[PATH];
+
+    expect(r, '[');
+    if (r->table->rows == 0)
+        name_list_add(&r->there, r->path);
+    snprintf(path, sizeof path, "%s", r->path);
+    if (peek(r) == ']')
+        r->at++;
+    else
+        for (;;) {
+            read_value(r, true);
+            if (peek(r) == ']') {
+                r->at++;
+                break;
+            }
+            expect(r, ',');
+        }
+    for (size_t c = 0; c < r->table->columns; c++)
+        r->got[c].taken = r->got[c].taken || r->got[c].n > 0;
+}
+
+static void
+read_object(struct reading *r)
+{
+    size_t base = strlen(r->path), n;
+    const char *key;
+
+    expect(r, '{');
+    if (peek(r) == '}') {
+        r->at++;
+        return;
+    }
+    for (;;) {
+        peek(r);
+        read_string(r, &key, &n);
+        if (base + n + 2 > PATH)
+            bad(r, "a name is longer than 500 bytes");
+        snprintf(r->path + base, PATH - base, "%s%.*s", base == 0 ? "" : ".", (int)n, key);
+        expect(r, ':');
+        read_value(r, false);
+        r->path[base] = '\0';
+        if (peek(r) == '}') {
+            r->at++;
+            return;
+        }
+        expect(r, ',');
+    }
+}
+
+static void
+read_word(struct reading *r, bool element)
+{
+    const char *start = r->at;
+    bool words = false;
+    double value;
+
+    while (r->at < r->end && (isalnum((unsigned char)*r->at) || strchr("+-.", *r->at) != NULL) &&
+           *r->at != '\0')
+        r->at++;
+    value = cell_value(start, (size_t)(r->at - start), &words);
+    if (words || r->at == start)
+        bad(r, "this is no JSON: a value is no number, text, true, false or null");
+    take(r, value, false, element);
+}
+
+static void
+read_value(struct reading *r, bool element)
+{
+    const char *text;
+    size_t n;
+
+    if (++r->depth > INSIDE)
+        bad(r, "its JSON is nested too deep");
+    switch (peek(r)) {
+    case '{':
+        read_object(r);
+        break;
+    case '[':
+        read_array(r);
+        break;
+    case '"':
+        read_string(r, &text, &n);
+        take(r, NAN, true, element);
+        break;
+    default:
+        read_word(r, element);
+    }
+    r->depth--;
+}
+
+/* What one object held becomes a row, or, with arrays, a piece of as many rows as they have. */
+static void
+add_rows(struct reading *r)
+{
+    struct table *table = r->table;
+    size_t rows = 1;
+    bool arrays = false;
+    char text[128];
+
+    for (size_t c = 0; c < table->columns; c++) {
+        if (!r->got[c].array || r->got[c].n == 0)
+            continue;
+        if (arrays && r->got[c].n != rows) {
+            snprintf(text, sizeof text, "its arrays have %zu and %zu values", rows, r->got[c].n);
+            bad(r, text);
+        }
+        rows = r->got[c].n;
+        arrays = true;
+    }
+    if (arrays || table->pieces == 0)
+        begin_piece(r);
+    make_room(r, table->rows + rows);
+    for (size_t c = 0; c < table->columns; c++) {
+        for (size_t k = 0; k < rows; k++)
+            table->column[c].v[table->rows + k] = r->got[c].n == 0  ? NAN
+                                                  : r->got[c].array ? r->got[c].v[k]
+                                                                    : r->got[c].v[0];
+        r->got[c].n = 0;
+        r->got[c].array = r->got[c].taken = false;
+    }
+    table->rows += rows;
+}
+
+static void
+read_json(struct reading *r)
+{
+    r->got = calloc(r->table->columns, sizeof *r->got);
+    if (r->got == NULL)
+        no_memory(r->tool, r->table->source);
+    while (peek(r) != '\0') {
+        if (*r->at != '{')
+            bad(r, "this is no JSON: an object has to begin with '{'");
+        read_value(r, false);
+        add_rows(r);
+    }
+    for (size_t c = 0; c < r->table->columns; c++)
+        free(r->got[c].v);
+    free(r->got);
+}
+
+/* ---- the whole ---- */
+
+static void
+check_columns(struct reading *r)
+{
+    const struct table *table = r->table;
+
+    for (size_t c = 0; c < table->columns; c++) {
+        const struct column *column = &table->column[c];
+        bool any = false;
+
+        if (column->optional)
+            continue;
+        if (!column->found)
+            tool_die(r->tool, EXIT_IMPOSSIBLE, "%s: there is no column %s: there are %s",
+                     table->source, column->name, name_list_end(&r->there));
+        for (size_t k = 0; k < table->rows; k++)
+            any = any || isfinite(column->v[k]);
+        if (!any)
+            tool_die(r->tool, EXIT_IMPOSSIBLE, "%s: column %s holds no number%s", table->source,
+                     column->name, column->words ? ", but words" : "");
+    }
+}
+
+void
+table_read(struct table *table, struct tool *t, const char *file)
+{
+    struct reading r = {.tool = t, .table = table, .line = 1};
+    bool standard = strcmp(file, "-") == 0;
+    FILE *in = standard ? stdin : fopen(file, "rb");
+    size_t size;
+    char *text;
+
+    table->source = standard ? "standard input" : file;
+    if (in == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", file, strerror(errno));
+    if (isatty(fileno(in)))
+        tool_die(t, EXIT_USAGE, "%s is a terminal: pipe a table in or name a file", table->source);
+    text = read_file(t, table->source, in, &size);
+    if (!standard)
+        fclose(in);
+    r.at = text;
+    r.end = text + size;
+    if (strncmp(text, "RCG", 3) == 0)
+        tool_die(t, EXIT_IMPOSSIBLE,
+                 "%s is a grid stream: --curve draws tables, such as rc-solve --report FILE.tsv "
+                 "writes; of a map draw a line with --cut, or leave out --curve",
+                 table->source);
+    if (size == 0)
+        tool_die(t, EXIT_IMPOSSIBLE, "%s is empty: there is no table to draw", table->source);
+    if (memchr(text, '\0', size) != NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "%s is no table: it holds binary data", table->source);
+    if (peek(&r) == '{')
+        read_json(&r);
+    else
+        read_tabs(&r);
+    free(text);
+    if (table->rows == 0)
+        tool_die(t, EXIT_IMPOSSIBLE, "%s: the table has a heading and no row", table->source);
+    check_columns(&r);
+}
+
+void
+table_free(struct table *table)
+{
+    for (size_t c = 0; c < table->columns; c++)
+        free(table->column[c].v);
+    free(table->piece);
+}

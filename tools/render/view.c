@@ -1,0 +1,40 @@
+/*
+ * From where a relief is seen, and what its figure says of that.
+ */
+#include "render.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void
+view_read(struct tool *t, const char *text, struct view *view)
+{
+    struct numbers n = {0};
+    struct rc_err err;
+
+    if (unit_numbers(text, UNIT_NONE, &n, &err) != RC_OK)
+        tool_die(t, EXIT_USAGE, "--view %s: %s", text, err.text);
+    if (n.n != 2 || !(fabs(n.v[0]) <= 360) || !(n.v[1] > 0 && n.v[1] <= 90))
+        tool_die(t, EXIT_USAGE,
+                 "--view %s: it must be AZ,EL in degrees, as in 30,35, EL above 0 and at most 90",
+                 text);
+    view->azimuth = n.v[0];
+    view->elevation = n.v[1];
+    free(n.v);
+}
+
+void
+view_say(const struct figure *f, struct subtitle *subtitle)
+{
+    char text[TICKS_TEXT];
+
+    if (strcmp(f->unit, "m") == 0) {
+        snprintf(text, sizeof text, "%.15g", relief_exaggeration(f));
+        subtitle_add(subtitle, "vertical exaggeration ", text);
+    }
+    if (f->missing > 0) {
+        snprintf(text, sizeof text, "%zu nodes", f->missing);
+        subtitle_add(subtitle, "holes: not measured, ", text);
+    }
+}

@@ -1,0 +1,208 @@
+/*
+ * Which part of a map is drawn, and where it lies.
+ */
+#include "render.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- where it lies ---- */
+
+static void
+place(const struct rc_grid *g, struct window *w)
+{
+    w->right = 0.5 * (double)g->nx * g->dx;
+    w->left = -w->right;
+    w->bottom = 0.5 * (double)g->ny * g->dy;
+    w->top = -w->bottom;
+}
+
+/* Nodes of a window: first and behind the last, along each axis. */
+struct box {
+    size_t x0, x1, y0, y1;
+};
+
+static void
+cut_values(struct rc_grid *g, size_t x0, size_t nx, size_t y0, size_t ny)
+{
+    for (size_t j = 0; j < ny; j++)
+        memmove(g->v + j * nx, g->v + (y0 + j) * g->nx + x0, nx * sizeof *g->v);
+    g->nx = nx;
+    g->ny = ny;
+}
+
+static void
+cut(struct rc_grid *g, struct rc_grid *pressure, struct window *w, const struct box *b)
+{
+    size_t x0 = b->x0, x1 = b->x1, y0 = b->y0, y1 = b->y1, nx = x1 - x0, ny = y1 - y0;
+
+    if (nx == g->nx && ny == g->ny)
+        return;
+    w->part = (double)nx * (double)ny / ((double)g->nx * (double)g->ny);
+    cut_values(g, x0, nx, y0, ny);
+    if (pressure != NULL)
+        cut_values(pressure, x0, nx, y0, ny);
+    w->right = w->left + (double)x1 * g->dx;
+    w->left += (double)x0 * g->dx;
+    w->bottom = w->top + (double)y1 * g->dy;
+    w->top += (double)y0 * g->dy;
+}
+
+/* Nodes from first to behind last whose middles lie from lo to hi, of n about the origin. */
+static bool
+nodes_between(double lo, double hi, size_t n, double step, size_t *first, size_t *last)
+{
+    double middle = 0.5 * ((double)n - 1), slack = 1e-6;
+    double from = ceil(lo / step + middle - slack), to = floor(hi / step + middle + slack);
+
+    from = fmax(from, 0);
+    to = fmin(to, (double)n - 1);
+    if (!(from <= to))
+        return false;
+    *first = (size_t)from;
+    *last = (size_t)to + 1;
+    return true;
+}
+
+/* ---- the contact ---- */
+
+static bool
+find_contact(const struct rc_grid *g, struct box *b)
+{
+    *b = (struct box){g->nx, 0, g->ny, 0};
+    for (size_t j = 0; j < g->ny; j++)
+        for (size_t i = 0; i < g->nx; i++)
+            if (g->v[j * g->nx + i] > 0) {
+                b->x0 = i < b->x0 ? i : b->x0;
+                b->x1 = i + 1 > b->x1 ? i + 1 : b->x1;
+                b->y0 = j < b->y0 ? j : b->y0;
+                b->y1 = j + 1;
+            }
+    return b->x1 > b->x0;
+}
+
+/* Widens first..last, as a length, to `length` about its middle, within n nodes. */
+static void
+widen(size_t *first, size_t *last, double length, double step, size_t n)
+{
+    double middle = 0.5 * (double)(*first + *last), half = 0.5 * length / step;
+    double from = fmax(floor(middle - half), 0), to = fmin(ceil(middle + half), (double)n);
+
+    *first = (size_t)from < *first ? (size_t)from : *first;
+    *last = (size_t)to > *last ? (size_t)to : *last;
+}
+
+/* A square about what touches, with a quarter of its side as a margin all around; of a profile a
+ * length. False: nothing touches. */
+static bool
+contact_box(const struct rc_grid *g, struct box *b)
+{
+    const double margin = 0.25, least = 8; /* nodes: of less nobody sees where they are */
+    double w, h, side;
+
+    if (!find_contact(g, b))
+        return false;
+    w = (double)(b->x1 - b->x0) * g->dx;
+    h = (double)(b->y1 - b->y0) * g->dy;
+    side = (1 + 2 * margin) * fmax(fmax(w, h), least * fmin(g->dx, g->dy));
+    widen(&b->x0, &b->x1, side, g->dx, g->nx);
+    widen(&b->y0, &b->y1, side, g->dy, g->ny);
+    return true;
+}
+
+/* ---- what was asked for ---- */
+
+static void
+read_pair(struct tool *t, const char *window, const char *text, double pair[2])
+{
+    char list[128];
+    char *colon;
+    struct numbers n = {0};
+    struct rc_err err;
+
+    snprintf(list, sizeof list, "%s", text);
+    if ((colon = strchr(list, ':')) != NULL)
+        *colon = ',';
+    if (strlen(text) >= sizeof list || colon == NULL)
+        tool_die(t, EXIT_USAGE,
+                 "--window %s: it must be X0:X1,Y0:Y1, two lengths with the lower first for each "
+                 "axis, contact or all",
+                 window);
+    if (unit_numbers(list, UNIT_M, &n, &err) != RC_OK)
+        tool_die(t, EXIT_USAGE, "--window %s: %s", window, err.text);
+    if (n.n != 2 || !(n.v[0] < n.v[1]))
+        tool_die(t, EXIT_USAGE,
+                 "--window %s: it must be X0:X1,Y0:Y1, two lengths with the lower first for each "
+                 "axis, contact or all",
+                 window);
+    pair[0] = n.v[0];
+    pair[1] = n.v[1];
+    free(n.v);
+}
+
+static void
+cut_lengths(struct tool *t, const char *text, struct rc_grid *g, struct rc_grid *pressure,
+            struct window *w)
+{
+    bool section = rc_grid_get(g, "section") != NULL;
+    char first[256], at[TICKS_TEXT], end[TICKS_TEXT];
+    char *second;
+    double x[2], y[2] = {-INFINITY, INFINITY};
+    struct box b = {.y1 = g->ny};
+
+    snprintf(first, sizeof first, "%s", text);
+    if ((second = strchr(first, ',')) != NULL)
+        *second++ = '\0';
+    if (section && second != NULL)
+        tool_die(t, EXIT_USAGE,
+                 "--window %s: of a section it is X0:X1 only: choose depths with --depth-range",
+                 text);
+    read_pair(t, text, first, x);
+    if (second != NULL)
+        read_pair(t, text, second, y);
+    if (!nodes_between(x[0], x[1], g->nx, g->dx, &b.x0, &b.x1) ||
+        (second != NULL && !nodes_between(y[0], y[1], g->ny, g->dy, &b.y0, &b.y1)))
+        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                    "no node lies in the window %s: the map ends %s to the right of its middle and "
+                    "%s below it",
+                    text, scale_value(at, 0.5 * (double)g->nx * g->dx, "m"),
+                    scale_value(end, 0.5 * (double)g->ny * g->dy, "m"));
+    cut(g, pressure, w, &b);
+}
+
+void
+window_cut(struct tool *t, const char *text, bool raw, struct rc_grid *g, struct rc_grid *pressure,
+           struct window *w)
+{
+    const double speck = 0.25; /* of the sides of the map */
+    const struct rc_grid *p = strcmp(g->channel, "pressure") == 0 ? g : pressure;
+    bool asked;
+    struct box b;
+
+    *w = (struct window){.part = 1};
+    place(g, w);
+    asked = text != NULL && strcmp(text, "contact") == 0;
+    if (asked && p == NULL)
+        tool_die_at(
+            t, g, EXIT_IMPOSSIBLE,
+            "--window contact goes by the pressure, and there is none on this grid: give the "
+            "window as X0:X1,Y0:Y1");
+    if (text != NULL && !asked) {
+        if (strcmp(text, "all") != 0)
+            cut_lengths(t, text, g, pressure, w);
+        return;
+    }
+    if (p == NULL || (!asked && (raw || p != g)))
+        return;
+    if (!contact_box(p, &b)) {
+        if (asked)
+            tool_warn(t, "nothing touches: the whole map is drawn");
+        return;
+    }
+    if (!asked && (g->nx == 1 || g->ny == 1 || (double)(b.x1 - b.x0) > speck * (double)g->nx ||
+                   (double)(b.y1 - b.y0) > speck * (double)g->ny))
+        return;
+    cut(g, pressure, w, &b);
+    w->contact = w->part < 1;
+}
