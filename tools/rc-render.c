@@ -147,8 +147,8 @@ next_row(void *ctx, size_t y, unsigned char *rgb, struct rc_err *err)
     return RC_OK;
 }
 
-/* The picture, without a canvas a pixel for each node, says how it was made. Without a grid the words
- * are in the figure's. */
+/* The picture, without a canvas a pixel for each node, says how it was made. Without a grid the
+ * source is the figure's subtitle. */
 static void
 write_picture(struct tool *t, const struct rc_grid *g, const struct figure *f, struct canvas *c)
 {

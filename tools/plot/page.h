@@ -75,8 +75,8 @@ double page_bar_right(const struct page *page);
 double page_bar_below(const struct page *page);
 /* What marks and label take below an axis. */
 double page_marks(const struct page *page);
-/* Sets width, unit, fonts and dpi as the figure asks for, of a page that is `design` pixels wide where
- * nothing is asked for. */
+/* Sets width, unit, fonts and dpi as the figure asks for, of a page that is `design` pixels wide
+ * where nothing is asked for. */
 void page_size(struct page *page, size_t design);
 /* A canvas of that size for the page, with the font and the size on paper that the figure asks for.
  * NULL as canvas_new. */
@@ -88,7 +88,7 @@ void page_shorten(struct page *page, const struct canvas_font *font, double widt
 /* Breaks text at the separators into lines that fit; what is too much for the last one is cut. */
 void page_wrap(struct page *page, const struct canvas_font *font, double width,
                const char *separator, const char *text, struct text *lines);
-/* Breaks title and subtitle into lines; a title with a word that is too long for one gets smaller. */
+/* Breaks title and subtitle into lines; a title with a word too long for one gets smaller. */
 void page_words(struct page *page, double width);
 /* What they and the stamp take above a plot. */
 double page_words_height(const struct page *page);

@@ -171,8 +171,8 @@ around(const struct rc_grid *g, size_t node)
     return near[n / 2];
 }
 
-/* Of one map: whether one value takes more than half of the range: it stands alone, far from those about it,
- * which no solution does that its grid resolves. */
+/* Of one map: whether one value takes more than half of the range: it stands alone, far from those
+ * about it, which no solution does that its grid resolves. */
 static bool
 has_outlier(const struct rc_grid *g, const struct survey *s)
 {
