@@ -1,0 +1,51 @@
+#!/usr/bin/env bash
+# Every kind of picture that rc-render draws, once for a screen (800 pixels) and once for the column of a
+# journal (85 mm, PDF): to be looked at when the drawing has changed.
+#
+#     sample_surfaces/pictures.sh FOLDER        # the tools on PATH, or those of build/
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+folder=${1:?"usage: pictures.sh FOLDER"}
+command -v rc-render >/dev/null || PATH="$here/../build/tools:$PATH"
+mkdir -p "$folder"
+cd "$folder"
+
+# draw NAME ARGUMENT...: NAME.png and NAME.pdf
+draw() {
+    local name=$1
+    shift
+    rc-render --quiet --width 800 -o "$name.png" "$@"
+    rc-render --quiet --width 85mm -o "$name.pdf" "$@"
+    echo "$name"
+}
+
+rc-import --quiet "$here/rough-sphere.x3p" -o surface.rcg
+rc-solve --quiet --radius 7.5mm --load 240N --estar 113.93GPa --hardness 6GPa --output pressure,gap,height surface.rcg -o contact.rcg
+rc-stress --nu 0.3 --mu 0.15 --section y=0 --depths 0:300um:151 --components mises contact.rcg -o section.rcg
+rc-stress --nu 0.3 --mu 0.15 --depths 0,5um,20um,80um --components mises,sxx contact.rcg -o slices.rcg
+rc-solve --quiet --periodic --load 1N:60N:log:9 --estar 113.93GPa --report sweep.tsv --output pressure surface.rcg -o sweep.rcg
+
+draw heights --channel height surface.rcg
+draw pressure --channel pressure --contour contact.rcg
+draw gap --channel gap contact.rcg
+draw section section.rcg
+draw slice --channel sxx --depth 5um slices.rcg
+rc-synth selfaffine --nx 200 --ny 150 --dx 1um --hurst 0.8 --rms-height 20nm --seed 4 -o rough.rcg
+rc-export --format xyz rough.rcg | awk '/^[-0-9]/ && ++n == 15060 { $3 = 4e-6 } { print }' >spike.xyz
+rc-import --quiet --format xyz --dx 1um --z-unit m spike.xyz -o outlier.rcg
+draw outlier outlier.rcg
+rc-synth selfaffine --nx 400 --dx 5um --hurst 0.8 --rms-height 5nm --rolloff 200um --short-cut 50um --seed 2 |
+    rc-solve --quiet --radius 10mm --load 1N --estar 100GPa --output pressure -o speck.rcg
+draw speck --hertz speck.rcg
+rc-pick --crop 0,100,483,1 surface.rcg -o profile.rcg
+draw profile profile.rcg
+rc-pick --resample 6um,1.5um surface.rcg -o oblong.rcg
+draw oblong oblong.rcg
+rc-detrend --quiet --outliers 3 rough.rcg -o missing.rcg
+draw missing missing.rcg
+draw sheet --channel mises --depth 0,5um,20um,80um --sheet 2x2 slices.rcg
+draw relief --channel pressure --view 30,40 contact.rcg
+draw curve --curve load:contact_fraction --log xy sweep.tsv
+draw cut --channel pressure --cut y=0 contact.rcg
+draw histogram --channel pressure --histogram contact.rcg
+draw hillshade --channel height --hillshade surface.rcg
