@@ -112,6 +112,7 @@ prepare() {
     rc-solve --quiet --radius 2mm --load 1N --estar 114GPa --hardness 6GPa surface.rcg -o result.rcg
     cp surface.rcg flat.rcg
     cp "$RC_SOURCE/sample_surfaces/rough-steel.x3p" surface.x3p
+    cp "$RC_SOURCE/sample_surfaces/rough-sphere.x3p" .
     cp surface.x3p bench.x3p
     printf '0 1 0\n1 3 1\n0 1 0\n' >heights.txt
     cd ..
