@@ -107,7 +107,9 @@ test_refusals(void **state)
         {"inf", UNIT_M},     {"-inf", UNIT_N},     {"nanm", UNIT_M},      {"0x10", UNIT_N},
         {"1e400", UNIT_N},   {"1e305GPa", UNIT_PA}, {"--1", UNIT_N},      {"240 N N", UNIT_N},
         {"5m", UNIT_NONE},   {"5%", UNIT_NONE},    {"6GPa", UNIT_N},      {"6gPa", UNIT_PA},
-        {"6Gpa", UNIT_PA},   {"4X", UNIT_BYTES},   {"4m", UNIT_BYTES},    {"4mn", UNIT_S},   {"4hs", UNIT_S},    {"1e", UNIT_NONE},
+        {"6Gpa", UNIT_PA},
+        {"4X", UNIT_BYTES},   {"4m", UNIT_BYTES},    {"4mn", UNIT_S},   
+        {"4hs", UNIT_S},    {"1e", UNIT_NONE},
         {"\xc2m", UNIT_M},   {"1.1\xb5m", UNIT_M}, {"1um,2um", UNIT_M},   {"0:1:3", UNIT_M},
     };
     /* clang-format on */

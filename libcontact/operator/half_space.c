@@ -1,7 +1,7 @@
 /*
- * The operator of an elastic half-space, bare or coated: K p by an engine in double precision, and row by row in
- * single precision by transforms, which serve the preconditioner too. Where the engine is not to be
- * mixed with single precision, rows are gathered and summed by it.
+ * The operator of an elastic half-space, bare or coated: K p by an engine in double precision, and row
+ * by row in single precision by transforms, which serve the preconditioner too. Where the engine is not
+ * to be mixed with single precision, rows are gathered and summed by it.
  */
 #include "operator.h"
 

@@ -38,6 +38,8 @@ while read -r kind across options; do
     claim "  a font that is not there is told" warns "no font of that name" ${draw/--quiet/} --font Gutenbergia -o no.pdf
 done <<'END'
 curve Load --curve load:contact_area --law hertz --radius 7.5mm --estar 114GPa r.tsv
+gap Load --curve load:mean_gap --log xy r.tsv
+stiffness Load --curve load:stiffness --log xy r.tsv
 cut x --cut y=0 --case 1,2 p.rcg
 histogram Pressure|pressure --histogram --case 1 p.rcg
 ratio Material.ratio --material-ratio ball.rcg

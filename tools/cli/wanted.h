@@ -24,7 +24,7 @@ struct wanted {          /* starts as {0}: every frame                          
      .min = 0, .max = INFINITY, .result = in_history, .arg = "LIST",                               \
      .help = "only the frames at these depths, met within a thousandth"},                          \
     {.name = "case", .type = OPT_NUMBERS, .at = offsetof(args, member.number), .min = 1,           \
-     .max = 9e15, .whole = true, .result = in_history, .arg = "LIST",                                             \
+     .max = 9e15, .whole = true, .result = in_history, .arg = "LIST",                              \
      .help = "only the frames of these cases"}
 /* clang-format on */
 
