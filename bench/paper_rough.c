@@ -121,6 +121,20 @@ exponents(const char *name, const double *nodes, size_t first, const struct seri
     printf("\n");
 }
 
+static void
+fig3_heading(void)
+{
+    printf("\nFig. 3: rough spheres with a hardness, tolerance M_min^(-3/2), %zu threads\n",
+           threads);
+    printf("%14s %8s", "", "");
+    for (int w = 0; w < WAYS; w++)
+        printf(" | %-33s", ways[w].title);
+    printf("\n%14s %8s", "nodes", "wanted");
+    for (int w = 0; w < WAYS; w++)
+        printf(" | %6s %7s %9s %8s", "steps", "equiv", "seconds", "error");
+    printf("\n");
+}
+
 void
 fig3(void)
 {
@@ -136,16 +150,7 @@ fig3(void)
     struct series way[WAYS] = {0};
     double nodes[GRIDS];
 
-    printf("\nFig. 3: rough spheres with a hardness, tolerance M_min^(-3/2), %zu threads\n",
-           threads);
-    printf("%14s %8s", "", "");
-    for (int w = 0; w < WAYS; w++)
-        printf(" | %-33s", ways[w].title);
-    printf("\n");
-    printf("%14s %8s", "nodes", "wanted");
-    for (int w = 0; w < WAYS; w++)
-        printf(" | %6s %7s %9s %8s", "steps", "equiv", "seconds", "error");
-    printf("\n");
+    fig3_heading();
     for (size_t k = 0, at = 0; at < GRIDS; at++) {
         struct rc_shape shape = grids[at];
         double m = (double)(shape.nx < shape.ny ? shape.nx : shape.ny), *h, *truth;

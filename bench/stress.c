@@ -16,7 +16,7 @@
 #include "formats/rcg/rcg.h"
 #include "libcontact/operator/operator.h"
 #include "libcontact/stress/stress.h"
-#include "tools/cli/pipe.h"
+#include "tools/machine/machine.h"
 
 static size_t threads;
 
@@ -116,7 +116,7 @@ kernel_run(void *what)
 #pragma omp parallel for num_threads((int)threads) schedule(dynamic, 4)
     for (size_t j = 0; j < w->cy; j++)
         rc_fft_quarter_row(w->fft, 0, w->quarter + j * w->cx);
-    rc_spectrum_set_quarter(w->k, w->fft, 0, w->quarter);
+    (void)rc_spectrum_set_quarter(w->k, w->fft, 0, w->quarter, NULL); /* needs none but of ranks */
 }
 
 enum {
@@ -228,7 +228,7 @@ slice(void)
            "fields: back from the pressure's transform; kernels: to their spectra; ratio: slice to "
            "both;\nwritten: %d bytes a node to a pipe, bare: without headers and checksums; "
            "ratio: written to slice\n",
-           M, M, threads, FRAMES * (int)sizeof(double));
+           M, M, threads, (int)(FRAMES * sizeof(double)));
     printf("  %-24s%8s%8s%8s%8s%10s%8s%8s%8s\n", "depth in spacings", "fields", "kernels", "slice",
            "ratio", "written", "bare", "ratio", "B/node");
     slice_row(&shape, p, "free, 5", RC_FREE, 5 * shape.dx, &stream, &bytes);

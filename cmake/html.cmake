@@ -16,6 +16,7 @@ pre, code { font-family: monospace }
 pre { overflow-x: auto }
 dd { margin-left: 3em }
 table.Bl-column td { vertical-align: top; padding-right: 1em }
+img { max-width: 100% }
 a.permalink { color: inherit; text-decoration: none }
 ")
 file(WRITE ${OUT}/style.css "${style}")
@@ -23,14 +24,28 @@ file(WRITE ${OUT}/style.css "${style}")
 set(body "")
 foreach(section title IN ZIP_LISTS sections titles)
     string(APPEND body "<h2>${title}</h2>\n<dl>\n")
-    file(GLOB pages ${SOURCE}/man/*.${section})
-    foreach(page IN LISTS pages)
-        get_filename_component(file ${page} NAME)
-        get_filename_component(name ${page} NAME_WE)
+    file(GLOB names RELATIVE ${SOURCE}/man ${SOURCE}/man/*.${section})
+    list(TRANSFORM names REPLACE "\\.${section}$" "") # contact stands before contact-theory
+    list(SORT names)
+    foreach(name IN LISTS names)
+        set(file ${name}.${section})
+        set(page ${SOURCE}/man/${file})
         execute_process(COMMAND ${MANDOC} -Thtml
             "-Ostyle=style.css,man=%N.%S.html\\;https://man.openbsd.org/%N.%S" ${page}
             WORKING_DIRECTORY ${SOURCE}/man # where mandoc looks whether a page is ours
             OUTPUT_FILE ${OUT}/${file}.html COMMAND_ERROR_IS_FATAL ANY)
+        # A picture that a page names is shown, over its words.
+        file(STRINGS ${page} pictures REGEX "^\\.Lk [^ ]*\\.png ")
+        if(pictures)
+            file(READ ${OUT}/${file}.html text)
+            string(REGEX REPLACE "<a class=\"Lk\" href=\"([^\"]*\\.png)\">([^<]*)</a>"
+                "<img src=\"\\1\" alt=\"\\2\"><br><i>\\2</i>" text "${text}")
+            file(WRITE ${OUT}/${file}.html "${text}")
+            foreach(line IN LISTS pictures)
+                string(REGEX REPLACE "^\\.Lk ([^ ]*) .*" "\\1" picture "${line}")
+                file(COPY ${SOURCE}/sample_surfaces/${picture} DESTINATION ${OUT})
+            endforeach()
+        endif()
         file(STRINGS ${page} what REGEX "^\\.Nd " LIMIT_COUNT 1)
         string(REGEX REPLACE "^\\.Nd " "" what "${what}")
         string(APPEND body "<dt><a href=\"${file}.html\">${name}(${section})</a></dt>\n<dd>${what}</dd>\n")

@@ -4,7 +4,8 @@
 
 build_packages="gcc libc6-dev make cmake pkg-config libfftw3-dev libgsl-dev libpng-dev libxml2-dev
     libzip-dev zlib1g-dev libdeflate-dev libhdf5-dev libtiff-dev libmd-dev libpango1.0-dev fonts-dejavu-core"
-test_packages="libcmocka-dev mandoc zip unzip perl clang-format poppler-utils librsvg2-bin"
+test_packages="libcmocka-dev mandoc zip unzip perl clang-format poppler-utils librsvg2-bin
+    python3-numpy python3-matplotlib zsh fish openmpi-bin libopenmpi-dev"
 
 need_packages() {
     local missing="" package as_root=""
@@ -15,7 +16,8 @@ This is neither Debian nor Ubuntu: please see that these are installed, with the
   FFTW 3.3.5 or later (double and single precision, with threads), GSL 2.2 or later, libpng,
   libxml2, libzip, zlib, libdeflate, libhdf5, libtiff, libmd, Pango with cairo, and a sans serif font that
   fontconfig finds, such as DejaVu Sans
-  for the tests also: cmocka, mandoc, zip, unzip, perl, poppler, rsvg-convert, clang-format 14
+  for the tests also: cmocka, mandoc, zip, unzip, perl, poppler, rsvg-convert, clang-format 14,
+  Python with numpy and matplotlib, zsh and fish; where Octave or Julia is, the readers in their languages are tried too
 EOT
         return 0
     fi

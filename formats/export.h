@@ -46,6 +46,8 @@ struct rc_export {
     bool uneven;          /* says where each row of a section is: its depths may be uneven    */
     bool heights;         /* says metres by its definition: holds heights only                */
     unsigned types;       /* that it can hold, of the bits above; 0: text                     */
+    unsigned copies;      /* of all values that it has in memory, as they lie in the file     */
+    size_t library;       /* bytes of code that comes into memory with it                     */
     /* Writes frame[0..frames), frames > 0. RC_FAIL for what the format cannot hold, or when the
      * device refuses. */
     enum rc_status (*write)(FILE *out, struct rc_grid *const *frame, size_t frames,

@@ -36,6 +36,9 @@ struct rc_format {
      * "height" when its unit is metres. */
     struct rc_grid *(*read)(const struct rc_file *file, const struct rc_wish *wish, size_t index,
                             struct rc_notes *notes, struct rc_err *err);
+    bool
+        sandboxed; /* both in a process of its own, which has the values too until they are read, */
+    bool copies;   /* and its library a copy of the file                                          */
 };
 
 /* Those of formats.list in its order, ended by NULL. */

@@ -32,6 +32,15 @@ extern "C" {
 struct rc_conv;   /* one influence kernel on one grid, ready to be applied */
 struct rc_solver; /* one contact problem being iterated                    */
 struct rc_stress; /* one pressure map whose stress slices are asked for    */
+struct rc_ranks;  /* processes that share a map: contact_mpi.h; NULL: none */
+
+/* What processes that share maps have sent to each other, all together. */
+struct rc_sent {
+    size_t exchanges;       /* of whole maps: rows to columns, or back           */
+    double messages, bytes; /* of these                                          */
+    double other_bytes;     /* of sums, rows beside those held, coarser grids    */
+    double seconds;         /* in exchanges of maps, of the process that took most */
+};
 
 /* Version of the library, "0.1.0". */
 RC_API const char *rc_version(void);
@@ -282,6 +291,10 @@ RC_API double rc_sum(const double *v, size_t n);
  * the next node along each side of the map; NAN when there is none. */
 RC_API double rc_measure_contact_slope(const struct rc_shape *shape, const double *h,
                                        const double *p);
+/* The same of a map that ranks share, of which h and p hold the rows held here. */
+RC_API double rc_measure_contact_slope_on(const struct rc_ranks *ranks,
+                                          const struct rc_shape *shape, const double *h,
+                                          const double *p);
 
 /* RMS of the steps between neighbours along x, [0], and along y, [1]: inside the map, and from its
  * last line to its first, where the periods of a periodic map meet. NAN along a side of one node. In
@@ -290,6 +303,9 @@ struct rc_seam {
     double inside[2], across[2];
 };
 RC_API void rc_measure_seam(const struct rc_shape *shape, const double *v, struct rc_seam *seam);
+/* The same of a map that ranks share, of which v holds the rows held here. */
+RC_API void rc_measure_seam_on(const struct rc_ranks *ranks, const struct rc_shape *shape,
+                               const double *v, struct rc_seam *seam);
 
 /* ---- contact patches: patches.c ---- */
 
@@ -302,6 +318,7 @@ struct rc_patch_options {
     enum rc_boundary boundary; /* periodic: patches go on across the edges of the map           */
     bool each;                 /* fill the list of patches                                      */
     size_t threads;            /* 0: all                                                        */
+    const struct rc_ranks *ranks; /* processes that share the map; NULL: none                   */
 };
 
 struct rc_patch {
@@ -323,6 +340,8 @@ RC_API enum rc_status rc_patches_find(const struct rc_shape *shape, const double
                                       const struct rc_patch_options *options,
                                       struct rc_patches *patches, struct rc_err *err);
 RC_API void rc_patches_free(struct rc_patches *patches);
+/* Bytes that it takes, beside p, which may be NULL: about what a rough contact takes. */
+RC_API size_t rc_patches_memory(const struct rc_shape *shape, const double *p);
 
 /* ---- what a surface is like: areal.c, material_ratio.c, texture.c, spectrum.c ---- */
 
@@ -422,6 +441,7 @@ struct rc_conv_options {
     double loaded;  /* fraction of nodes that carry pressure, as "auto" may expect; 0: unknown */
     size_t threads; /* 0: all                                                                */
     const struct rc_coating *coating; /* instead of the modulus; NULL: one material             */
+    const struct rc_ranks *ranks; /* processes that share the map; NULL: none                   */
 };
 
 /* u = K p: displacement in metres of the composite modulus estar (Pa) under pressure p (Pa). With
@@ -464,7 +484,8 @@ struct rc_problem {
     size_t threads;      /* 0: all                                                                */
     bool discretization; /* estimate what the grid leaves out: a coarser one is solved as well   */
     const struct rc_coating
-        *coating; /* instead of estar; NULL: one material                      */
+        *coating;                 /* instead of estar; NULL: one material                      */
+    const struct rc_ranks *ranks; /* processes that share the map; NULL: none                   */
 };
 
 /* Relative errors, or figures, of contact area, largest pressure and approach; NAN: unknown. */
@@ -559,8 +580,11 @@ RC_API void rc_solver_free(struct rc_solver *solver);
 /* Name of the engine that such a solver would take, and why; "" when there is none of that name. */
 RC_API const char *rc_solver_choice(const struct rc_shape *shape, const struct rc_problem *problem,
                                     const char **reason);
-/* Bytes that a solver of this size takes. */
+/* Bytes that a solver of this size takes, its copies of the heights and of the pressure included. As of the
+ * other estimates here: beside the caller's arrays, code, and FFTW's plans, 2 to 3 MiB a precision. */
 RC_API size_t rc_solver_memory(const struct rc_shape *shape, const struct rc_problem *problem);
+/* Bytes that rc_solver_stiffness takes beside it, for as long as it runs. */
+RC_API size_t rc_solver_stiffness_memory(const struct rc_shape *shape);
 
 /* What such a solver will take, by what others took: convolutions (in equivalents, as they are
  * counted) and seconds, both NAN where nobody knows, and bytes. RC_FAIL when there is no such engine
@@ -604,6 +628,11 @@ struct rc_stress_options {
     double tol;         /* asked error of a component over the largest pressure; 0: rounding      */
     size_t threads;     /* 0: all                                                                 */
     const struct rc_coating *coating; /* body 1 is coated; NULL: one material               */
+    const struct rc_ranks *ranks; /* processes that share the map; NULL: none                   */
+    /* What only rc_stress_memory uses: */
+    const double *depth; /* m: those that will be asked for,                                      */
+    size_t depths;       /* so many; 0: it counts with any                                        */
+    size_t loaded;       /* lines along a section that carry pressure; 0: it counts with all      */
 };
 
 /* What has been computed, to see that nothing was that nobody asked for. */
@@ -651,6 +680,13 @@ RC_API size_t rc_stress_memory(const struct rc_shape *shape,
 RC_API enum rc_status rc_stress_depths(const struct rc_shape *shape, const double *p,
                                        enum rc_boundary boundary, const struct rc_coating *coating,
                                        double **depths, size_t *n, struct rc_err *err);
+
+/* The same of a map that ranks share, of which p holds the rows held here. */
+RC_API enum rc_status rc_stress_depths_on(const struct rc_ranks *ranks,
+                                          const struct rc_shape *shape, const double *p,
+                                          enum rc_boundary boundary,
+                                          const struct rc_coating *coating, double **depths,
+                                          size_t *n, struct rc_err *err);
 
 /* Place of the value of largest size; the first of equals. n > 0. */
 RC_API size_t rc_largest(size_t n, const double *v);

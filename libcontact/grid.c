@@ -89,12 +89,19 @@ rc_text_set(char **text, const char *value, struct rc_err *err)
 struct rc_grid *
 rc_grid_new(const struct rc_shape *shape, const char *channel, const char *unit, struct rc_err *err)
 {
+    return rc_grid_new_part(shape, shape->ny, channel, unit, err);
+}
+
+struct rc_grid *
+rc_grid_new_part(const struct rc_shape *shape, size_t rows, const char *channel, const char *unit,
+                 struct rc_err *err)
+{
     struct rc_grid *g = NULL;
     size_t bytes;
 
     if (rc_shape_check(shape, err) != RC_OK)
         return NULL;
-    bytes = shape->nx * shape->ny * sizeof(double);
+    bytes = shape->nx * rows * sizeof(double);
     g = calloc(1, sizeof *g);
     if (g == NULL || (g->v = rc_alloc(bytes, 1)) == NULL) {
         rc_err_set(err, "out of memory for a map of %zu x %zu nodes (%zu bytes)", shape->nx,
@@ -103,6 +110,7 @@ rc_grid_new(const struct rc_shape *shape, const char *channel, const char *unit,
     }
     g->nx = shape->nx;
     g->ny = shape->ny;
+    g->elsewhere = shape->ny - rows;
     g->dx = shape->dx;
     g->dy = shape->dy;
     g->type = RC_F64;
@@ -119,7 +127,7 @@ struct rc_grid *
 rc_grid_like(const struct rc_grid *like, const char *channel, const char *unit, struct rc_err *err)
 {
     struct rc_shape shape = rc_grid_shape(like);
-    struct rc_grid *g = rc_grid_new(&shape, channel, unit, err);
+    struct rc_grid *g = rc_grid_new_part(&shape, like->ny - like->elsewhere, channel, unit, err);
 
     for (size_t k = 0; g != NULL && k < like->keys; k++) {
         if (rc_grid_set(g, like->key[k].name, like->key[k].value, err) != RC_OK) {
@@ -150,6 +158,12 @@ struct rc_shape
 rc_grid_shape(const struct rc_grid *g)
 {
     return (struct rc_shape){.nx = g->nx, .ny = g->ny, .dx = g->dx, .dy = g->dy};
+}
+
+size_t
+rc_grid_nodes(const struct rc_grid *g)
+{
+    return g->nx * (g->ny - g->elsewhere);
 }
 
 static struct rc_key *

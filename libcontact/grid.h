@@ -72,12 +72,18 @@ struct rc_grid {
     enum rc_type type;  /* how the values are stored in a stream; in memory always double      */
     struct rc_key *key; /* every other header line, in order: case, source, history, ...       */
     size_t keys;
-    double *v; /* nx*ny values, row 0 first; NaN where nothing was measured           */
+    double *v;        /* nx*ny values, row 0 first; NaN where nothing was measured           */
+    size_t elsewhere; /* of the ny rows, those that are not in v: other processes hold them */
 };
 
 /* A grid with uninitialised values. NULL on a bad shape or when memory is short. */
 RC_API struct rc_grid *rc_grid_new(const struct rc_shape *shape, const char *channel,
                                    const char *unit, struct rc_err *err);
+/* The same for some of its rows only, which may be none. */
+RC_API struct rc_grid *rc_grid_new_part(const struct rc_shape *shape, size_t rows,
+                                        const char *channel, const char *unit, struct rc_err *err);
+/* Values in v. */
+RC_API size_t rc_grid_nodes(const struct rc_grid *grid);
 /* Same shape and keys as `like`, values uninitialised; type is RC_F64. */
 RC_API struct rc_grid *rc_grid_like(const struct rc_grid *like, const char *channel,
                                     const char *unit, struct rc_err *err);

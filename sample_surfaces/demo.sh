@@ -5,12 +5,13 @@
 #
 # Installs what is missing (Debian, Ubuntu), builds the tools, and runs the pipeline on a sample, or
 # on FILE, any surface that rc-import reads. Results appear in the folder rc-demo. With RC_BIN=FOLDER
-# in the environment the tools are those in FOLDER, and nothing is installed or built.
+# in the environment the tools are those in FOLDER, and nothing is installed or built; away from the
+# sources of libcontact they are those that are installed.
 set -euo pipefail
 
 case "${1-}" in
 -h | --help)
-    sed -n '2,8s/^# \{0,1\}//p' "$0"
+    sed -n '2,10s/^# \{0,1\}//p' "$0"
     exit 0
     ;;
 -*)
@@ -25,7 +26,7 @@ file=${1-$top/sample_surfaces/rough-steel.x3p}
     echo "demo.sh: $file: no such file, or not readable" >&2
     exit 1
 }
-if [ -z "${RC_BIN-}" ]; then
+if [ -z "${RC_BIN-}" ] && [ -f "$top/CMakeLists.txt" ]; then
     . "$top/cmake/packages.sh"
     # shellcheck disable=SC2086
     need_packages $build_packages
@@ -39,15 +40,23 @@ if [ -z "${RC_BIN-}" ]; then
         echo "demo.sh: the build failed; $top/build/demo.log has all of it" >&2
         exit 1
     }
+    RC_BIN=$top/build/tools
 fi
-PATH="${RC_BIN:-$top/build/tools}:$PATH"
+PATH="${RC_BIN:+$RC_BIN:}$PATH"
+command -v rc-import >/dev/null || {
+    echo "demo.sh: no rc-import on PATH: install the tools, or name their folder in RC_BIN" >&2
+    exit 1
+}
 
 # The sample is a flat rough specimen under a ball of 7.5 mm diameter against steel: half the size
 # and a quarter of the load of Polonsky and Keer's example (1999). A file of your own is pressed
-# against a flat at a mean pressure, because nobody knows how large it is.
+# against a flat at a mean pressure, because nobody knows how large it is, and keeps its spikes, because
+# what looks like one may be a feature.
 if [ $# -eq 0 ]; then
+    fit="--poly 2 --outliers 5 --fill"
     load="--radius 3.75mm --load 60N"
 else
+    fit="--poly 2 --fill"
     load="--mean-pressure 50MPa"
 fi
 mkdir -p rc-demo
@@ -59,7 +68,7 @@ run() {
 }
 
 surface=$(printf '%q' "$file")
-run "rc-import $surface | rc-detrend --fill --poly 2 |
+run "rc-import $surface | rc-detrend $fit |
     rc-solve $load --estar 114GPa --hardness 6GPa --report rc-demo/report.json |
     tee rc-demo/contact.rcg |
     rc-stress --nu 0.28 --depths 0:20um:21 --components mises |

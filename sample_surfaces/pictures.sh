@@ -29,6 +29,11 @@ draw heights --channel height surface.rcg
 draw pressure --channel pressure --contour contact.rcg
 draw gap --channel gap contact.rcg
 draw section section.rcg
+rc-solve --quiet --radius 7.5mm --load 240N --E1 208GPa --nu1 0.3 --E2 208GPa --nu2 0.3 --layer 20um,400GPa,0.2 --layer 5um,280GPa,0.21 \
+    --output pressure surface.rcg -o coated.rcg
+rc-stress --section y=0 --depths auto --components mises,sxx coated.rcg -o media.rcg
+draw media --depth-range 0:300um media.rcg
+draw media-cut --channel sxx --cut x=0 media.rcg
 draw slice --channel sxx --depth 5um slices.rcg
 rc-synth selfaffine --nx 200 --ny 150 --dx 1um --hurst 0.8 --rms-height 20nm --seed 4 -o rough.rcg
 rc-export --format xyz rough.rcg | awk '/^[-0-9]/ && ++n == 15060 { $3 = 4e-6 } { print }' >spike.xyz

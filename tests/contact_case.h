@@ -45,6 +45,35 @@ contact_take(size_t m)
 static const double estimate_small = 1e-3;
 static const double estimate_elastic = 1.5, estimate_plastic = 1.6, estimate_early = 4;
 
+#ifdef CONTACT_RANKS /* the same tests under mpirun: the processes share every map that can be shared */
+#include "contact_ranks.h"
+#else
+struct contact_part { /* of the map, what is held here: everything */
+    const double *h;
+    double *p, *gap, *u;
+};
+static inline struct contact_part
+contact_share(struct rc_shape shape, const double *h, struct rc_problem *problem, struct solved *s)
+{
+    (void)shape;
+    (void)problem;
+    return (struct contact_part){h, s->p, s->gap, s->u};
+}
+static inline size_t
+contact_nodes_here(struct rc_shape shape, const struct rc_problem *problem)
+{
+    (void)problem;
+    return shape.nx * shape.ny;
+}
+static inline void
+contact_gather(struct rc_shape shape, const struct rc_problem *problem, struct solved *s)
+{
+    (void)shape;
+    (void)problem;
+    (void)s;
+}
+#endif
+
 static inline struct solved
 solve(struct rc_shape shape, const double *h, struct rc_problem problem)
 {
@@ -52,11 +81,12 @@ solve(struct rc_shape shape, const double *h, struct rc_problem problem)
     struct solved s = {.p = calloc(n, sizeof(double)),
                        .gap = calloc(n, sizeof(double)),
                        .u = calloc(n, sizeof(double))};
+    struct contact_part here = contact_share(shape, h, &problem, &s);
     struct rc_solver *solver;
 
     if (problem.method == NULL)
         problem.method = contact_method;
-    solver = rc_solver_new(&shape, h, &problem, &s.err);
+    solver = rc_solver_new(&shape, here.h, &problem, &s.err);
     if (solver == NULL) {
         s.status = RC_FAIL;
         return s;
@@ -64,9 +94,11 @@ solve(struct rc_shape shape, const double *h, struct rc_problem problem)
     do
         s.status = rc_solver_step(solver);
     while (s.status == RC_MORE);
-    rc_solver_result(solver, s.u, s.gap, &s.c);
-    memcpy(s.p, rc_solver_pressure(solver), n * sizeof(double));
+    rc_solver_result(solver, here.u, here.gap, &s.c);
+    memcpy(here.p, rc_solver_pressure(solver),
+           contact_nodes_here(shape, &problem) * sizeof(double));
     rc_solver_free(solver);
+    contact_gather(shape, &problem, &s);
     return s;
 }
 
@@ -95,13 +127,17 @@ solved_free(struct solved *s)
 static inline double
 node_x(struct rc_shape s, size_t k)
 {
-    return ((double)(k % s.nx) - (double)(s.nx - 1) / 2) * s.dx;
+    size_t i = k % s.nx;
+
+    return ((double)i - (double)(s.nx - 1) / 2) * s.dx;
 }
 
 static inline double
 node_y(struct rc_shape s, size_t k)
 {
-    return ((double)(k / s.nx) - (double)(s.ny - 1) / 2) * s.dy;
+    size_t j = k / s.nx;
+
+    return ((double)j - (double)(s.ny - 1) / 2) * s.dy;
 }
 
 static inline double

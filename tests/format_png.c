@@ -133,7 +133,7 @@ an_svg_has_the_nodes_at_their_places(void **state)
     static const double v[] = {0, 51e-6, 102e-6, 153e-6, 204e-6, 255e-6};
     const char *bin = getenv("RC_BIN");
     char text[1024], line[512];
-    double x, y, w = 0, h;
+    double x = 0, y = 0, w = 0, h = 0;
     struct png p;
     FILE *file;
 
@@ -158,8 +158,10 @@ an_svg_has_the_nodes_at_their_places(void **state)
     assert_int_equal(p.head.width, 600);
     for (size_t k = 0; k < 6; k++)
         for (int place = 0; place < 9; place++) {
-            double across = (double)(k % 3) + 0.5 + 0.48 * (place % 3 - 1);
-            double down = (double)(k / 3) + 0.5 + 0.48 * (place / 3 - 1);
+            size_t column = k % 3, row = k / 3;
+            int right = place % 3 - 1, below = place / 3 - 1;
+            double across = (double)column + 0.5 + 0.48 * right;
+            double down = (double)row + 0.5 + 0.48 * below;
 
             is_colour(pixel(&p, (size_t)(x + across / 3 * w), (size_t)(y + down / 2 * h)),
                       0x333333 * (unsigned)k, 1);
@@ -684,7 +686,7 @@ text_lies_where_it_is_measured(void **state)
     assert_true(fabs((double)flat.left - (100 - w / 2)) < 6);
     assert_true(fabs((double)flat.right - (100 + w / 2)) < 6);
     assert_true(flat.bottom >= 100 && flat.bottom <= 102); /* stands on the base line */
-    assert_true(flat.top > 100 - font.size && flat.top < 100 - 0.6 * font.size);
+    assert_true((double)flat.top > 100 - font.size && (double)flat.top < 100 - 0.6 * font.size);
     upright = ink_of("HoH", true, &w2);
     assert_true(w == w2);
     assert_true(fabs((double)upright.top - (double)flat.left) <= 1);
@@ -707,7 +709,7 @@ raised_digits_are_smaller_and_higher(void **state)
 
         assert_true(ratio > 0.6 && ratio < 0.8);
         assert_true(fabs(w / wide - 0.7) < 0.02);
-        assert_true(high.bottom < 100 - 0.25 * font.size && high.top < own.top);
+        assert_true((double)high.bottom < 100 - 0.25 * font.size && high.top < own.top);
         snprintf(power, sizeof power, "m%s", raised[digit]);
         snprintf(line, sizeof line, "m%s", text);
         (void)ink_of(power, false, &w);

@@ -48,11 +48,37 @@ hard_heights(const struct hard_case *c)
     return h;
 }
 
+/* What the bodies of all cases are coated with; NULL: nothing. */
+static const struct rc_coating *hard_coating = NULL;
+
+static inline struct rc_stack *
+hard_stack(void)
+{
+    struct rc_err err;
+    struct rc_stack *stack = NULL;
+
+    if (hard_coating != NULL) {
+        stack = rc_stack_new(hard_coating, &err);
+        assert_non_null(stack);
+    }
+    return stack;
+}
+
+/* E* as a wave of wave number q feels it. */
+static inline double
+hard_modulus(const struct hard_case *c, const struct rc_stack *stack, double q)
+{
+    return stack != NULL ? 1 / rc_stack_response(stack, q) : c->estar > 0 ? c->estar : 114e9;
+}
+
 static inline struct rc_problem
 hard_problem(const struct hard_case *c, enum rc_boundary boundary)
 {
-    double estar = c->estar > 0 ? c->estar : 114e9, mean = c->mean * estar;
+    struct rc_stack *stack = hard_stack();
+    double estar = hard_modulus(c, stack, 2 * exact_pi / (8 * c->shape.dx));
+    double mean = c->mean * estar;
 
+    rc_stack_free(stack);
     return (struct rc_problem){
         .boundary = boundary,
         .estar = estar,
@@ -63,6 +89,7 @@ hard_problem(const struct hard_case *c, enum rc_boundary boundary)
                : c->hardness > 0 ? 0.3 * hard_tol
                                  : hard_tol,
         .method = "pcg",
+        .coating = hard_coating,
     };
 }
 
@@ -75,10 +102,12 @@ hard_displace(const struct hard_case *c, const struct rc_problem *problem, const
     struct rc_shape s = c->shape;
     size_t columns = rc_fourier_columns(&s), n = s.nx * s.ny;
     double complex *f;
+    struct rc_stack *stack;
     struct rc_err err;
 
     if (problem->boundary == RC_FREE) {
-        struct rc_conv_options options = {.engine = n <= 5000 ? "direct" : "fft"};
+        struct rc_conv_options options = {.engine = n <= 5000 ? "direct" : "fft",
+                                          .coating = hard_coating};
         struct rc_conv *conv = rc_conv_new(&s, problem->estar, &options, &err);
         assert_non_null(conv);
         rc_conv_apply(conv, p, u);
@@ -87,15 +116,17 @@ hard_displace(const struct hard_case *c, const struct rc_problem *problem, const
     }
     f = malloc(rc_fourier_size(&s) * sizeof *f);
     assert_non_null(f);
+    stack = hard_stack();
     assert_int_equal(rc_fourier_forward(&s, p, f, &err), RC_OK);
     for (size_t j = 0; j < s.ny; j++)
         for (size_t i = 0; i < columns; i++) {
             double qx = 2 * exact_pi * (double)i / (s.dx * (double)s.nx);
             double qy = 2 * exact_pi * (double)rc_fourier_number(j, s.ny) / (s.dy * (double)s.ny);
             double q = hypot(qx, qy);
-            f[j * columns + i] *= q > 0 ? 2 / (problem->estar * q * (double)n) : 0;
+            f[j * columns + i] *= q > 0 ? 2 / (hard_modulus(c, stack, q) * q * (double)n) : 0;
         }
     assert_int_equal(rc_fourier_backward(&s, f, u, &err), RC_OK);
+    rc_stack_free(stack);
     free(f);
 }
 
@@ -106,10 +137,12 @@ hard_depth(const struct hard_case *c, const struct rc_problem *problem)
 {
     double a = c->shape.dx * (double)c->shape.nx, b = c->shape.dy * (double)c->shape.ny;
     double mean = problem->load / (a * b);
+    struct rc_stack *stack = hard_stack();
+    double estar = hard_modulus(c, stack, 2 * exact_pi / fmax(a, b));
 
-    return problem->boundary == RC_FREE
-               ? mean * love_displacement(0, 0, a / 2, b / 2, problem->estar)
-               : mean * fmax(a, b) / (exact_pi * problem->estar);
+    rc_stack_free(stack);
+    return problem->boundary == RC_FREE ? mean * love_displacement(0, 0, a / 2, b / 2, estar)
+                                        : mean * fmax(a, b) / (exact_pi * estar);
 }
 
 /* The bound of the KKT residual: where the heights spread less than 1e-7 of the displacement,

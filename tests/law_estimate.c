@@ -54,11 +54,17 @@ heights(const struct row *row, struct rc_shape s)
     return h;
 }
 
-/* Where a solve ends its estimate is made with the whole working set. Least and most of them over
- * the true errors. */
+/* Estimates over true errors. */
+struct ratios {
+    double least, most; /* most: of those that are small */
+    double early;       /* the most of the others       */
+    size_t judged;      /* steps                        */
+};
+
+/* Where a solve ends its estimate is made with the whole working set. */
 static void
 ends(struct rc_shape s, const double *h, struct rc_problem problem, const double *exact,
-     double *least, double *most)
+     struct ratios *r)
 {
     static const double tols[] = {1e-3, 3e-4, 1e-4, 1e-6};
 
@@ -69,8 +75,8 @@ ends(struct rc_shape s, const double *h, struct rc_problem problem, const double
         a = solve(s, h, problem);
         assert_int_equal(a.status, RC_OK);
         ratio = a.c.pressure_error / distance(s.nx * s.ny, a.p, exact);
-        *least = fmin(*least, ratio);
-        *most = fmax(*most, ratio);
+        r->least = fmin(r->least, ratio);
+        r->most = fmax(r->most, ratio);
         solved_free(&a);
     }
 }
@@ -89,6 +95,41 @@ another_says_so(struct rc_shape s, const double *h, struct rc_problem problem, c
     solved_free(&a);
 }
 
+/* Of each step down to a tolerance: its estimate is that of the pressure before it. */
+static enum rc_status
+steps(struct rc_shape s, const double *h, struct rc_problem problem, const double *exact,
+      struct ratios *r)
+{
+    size_t n = s.nx * s.ny;
+    double *old = malloc(n * sizeof *old);
+    struct rc_err err;
+    struct rc_solver *solver = rc_solver_new(&s, h, &problem, &err);
+    enum rc_status status;
+
+    assert_non_null(old);
+    assert_non_null(solver);
+    do {
+        double error, estimate, ratio;
+        memcpy(old, rc_solver_pressure(solver), n * sizeof *old);
+        status = rc_solver_step(solver);
+        error = distance(n, old, exact);
+        estimate = rc_solver_error(solver);
+        ratio = estimate / error;
+        assert_true(error >= 0);
+        if (isnan(estimate) || error < problem.tol)
+            continue;
+        r->judged++;
+        r->least = fmin(r->least, ratio); /* a number: neither estimate nor error is NaN, or 0 */
+        if (estimate < estimate_small)
+            r->most = fmax(r->most, ratio);
+        else
+            r->early = fmax(r->early, ratio);
+    } while (status == RC_MORE);
+    rc_solver_free(solver);
+    free(old);
+    return status;
+}
+
 /* The truth is the same method at 1e-12, whose KKT residual says that it is one; the ratio is
  * taken down to 1e-9. */
 static void
@@ -102,9 +143,7 @@ never_below_never_far_above(void **state)
         const struct row *row = &rows[k];
         size_t m = row->large > 0 ? row->large : 128, n = m * m;
         struct rc_shape s = {m, m, 1e-6, 1e-6};
-        double *old = malloc(n * sizeof *old);
-        double *h = heights(row, s), mean = 1e9 * row->mean, least = INFINITY, most = 0, early = 0,
-               bound;
+        double *h = heights(row, s), mean = 1e9 * row->mean, bound;
         struct rc_problem problem = {.boundary = row->boundary,
                                      .estar = 1e9,
                                      .method = "pcg",
@@ -114,50 +153,29 @@ never_below_never_far_above(void **state)
                                          row->hardness > 0 ? row->hardness * mean : INFINITY};
         struct solved exact = solve(s, h, problem);
         bool yields = exact.c.plastic_nodes > 0;
-        struct rc_solver *solver;
-        struct rc_err err;
+        struct ratios r = {.least = INFINITY};
         enum rc_status status;
-        size_t judged = 0;
 
         assert_int_equal(exact.status, RC_OK);
         assert_true(exact.c.kkt_residual < 100 * problem.tol); /* gaps are not pressures */
         if (m == 128)
             another_says_so(s, h, problem, exact.p);
-        ends(s, h, problem, exact.p, &least, &most);
+        ends(s, h, problem, exact.p, &r);
         problem.tol = floor_;
-        solver = rc_solver_new(&s, h, &problem, &err);
-        assert_non_null(solver);
-        do { /* the estimate of a step is that of the pressure before it */
-            double error, estimate, ratio;
-            memcpy(old, rc_solver_pressure(solver), n * sizeof *old);
-            status = rc_solver_step(solver);
-            error = distance(n, old, exact.p);
-            estimate = rc_solver_error(solver);
-            ratio = estimate / error;
-            assert_true(error >= 0);
-            if (isnan(estimate) || error < floor_)
-                continue;
-            judged++;
-            least = fmin(least, ratio); /* a number: neither estimate nor error is NaN, or 0 */
-            if (estimate < estimate_small)
-                most = fmax(most, ratio);
-            else
-                early = fmax(early, ratio);
-        } while (status == RC_MORE);
+        status = steps(s, h, problem, exact.p, &r);
         print_message("%s contact %.3f, plastic %.3f, %zu iterations: %.3f to %.2f, before %.2f\n",
                       row->boundary == RC_FREE ? "free    " : "periodic", exact.c.contact_fraction,
-                      (double)exact.c.plastic_nodes / (double)n, judged, least, most, early);
+                      (double)exact.c.plastic_nodes / (double)n, r.judged, r.least, r.most,
+                      r.early);
         bound = yields ? estimate_plastic : estimate_elastic;
-        if (status != RC_OK || judged < 2 || most == 0 || least < 1 || most > bound ||
-            early > 1.1 * estimate_early) { /* 4.2 where nearly every node yields */
+        if (status != RC_OK || r.judged < 2 || r.most == 0 || r.least < 1 || r.most > bound ||
+            r.early > 1.1 * estimate_early) { /* 4.2 where nearly every node yields */
             print_error("out of bounds\n");
             wrong++;
         }
         assert_true(yields == (row->hardness > 0));
-        rc_solver_free(solver);
         solved_free(&exact);
         free(h);
-        free(old);
     }
     assert_int_equal(wrong, 0);
 }

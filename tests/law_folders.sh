@@ -14,10 +14,16 @@ cat >arrows.txt <<'END'
 libcontact          | -                                        | -
 libcontact/tables.c | libcontact/operator/operator.h           | libcontact/operator
 libcontact/tables.c |                                          | libcontact/stress=rc_kernel_
-libcontact/operator | %base                                    | libcontact
-libcontact/solver   | %base libcontact/operator/operator.h     | libcontact libcontact/operator
-libcontact/stress   | %base libcontact/operator/operator.h     | libcontact libcontact/operator
-libcontact/surface  | %base libcontact/operator/operator.h     | libcontact libcontact/operator
+libcontact/ranks    | libcontact/common.h libcontact/contact_mpi.h | libcontact
+libcontact/transform | %base                                   | libcontact
+libcontact/layers   | %base                                    | libcontact
+libcontact/operator | %base %ranks                             | libcontact libcontact/ranks
+libcontact/operator | libcontact/transform/transform.h libcontact/layers/layers.h | libcontact/transform libcontact/layers
+libcontact/solver   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator
+libcontact/stress   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator
+libcontact/stress   |                                          | libcontact/transform libcontact/layers
+libcontact/surface  | %base %ranks                             | libcontact libcontact/ranks
+libcontact/surface  | libcontact/transform/transform.h         | libcontact/transform
 formats/core        | libcontact/grid.h                        | libcontact
 formats/rcg         | libcontact/grid.h formats/core/core.h    | libcontact formats/core
 formats/sandbox     | libcontact/grid.h formats/core/core.h    | libcontact formats/core
@@ -29,21 +35,25 @@ formats/writers     | formats/export.h                         | formats
 formats             | libcontact/grid.h formats/core/core.h    | libcontact formats/core
 formats             |                                          | formats/readers=rc_format_
 formats             |                                          | formats/writers=rc_export_
+tools/text          | libcontact/grid.h formats/core/core.h    | libcontact formats/core
+tools/machine       | -                                        | -
+tools/cli           | tools/text/text.h tools/machine/machine.h | tools/text tools/machine
 tools/cli           | %public formats/rcg/rcg.h                | %physics formats/rcg
 tools/cli           | formats/core/core.h                      | formats/core
+tools/cli           | libcontact/contact_mpi.h                 |
 tools/plot          | libcontact/grid.h formats/core/core.h    | libcontact formats/core
-tools/cost          | %public tools/cli/cli.h tools/plot/plot.h | %physics tools/cli tools/plot
-tools/solve         | %public tools/cli/cli.h tools/plot/plot.h | %physics tools/cli tools/plot
+tools/cost          | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli tools/plot
+tools/solve         | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli tools/plot
 tools/solve         | formats/core/core.h                      | formats/core formats/rcg
-tools/import        | libcontact/grid.h tools/cli/cli.h        | libcontact tools/cli
+tools/import        | libcontact/grid.h tools/cli/cli.h        | libcontact %cli
 tools/import        | formats/core/core.h formats/format.h     | formats formats/core
-tools/stress        | %public tools/cli/cli.h                  | %physics tools/cli
-tools/pick          | %public tools/cli/cli.h                  | %physics tools/cli
-tools/synth         | %public tools/cli/cli.h                  | %physics tools/cli
-tools/info          | %public tools/cli/cli.h                  | %physics tools/cli formats/rcg
-tools/render        | libcontact/grid.h tools/cli/cli.h        | libcontact tools/cli
+tools/stress        | %public tools/cli/cli.h                  | %physics %cli
+tools/pick          | %public tools/cli/cli.h                  | %physics %cli
+tools/synth         | %public tools/cli/cli.h                  | %physics %cli
+tools/info          | %public tools/cli/cli.h                  | %physics %cli formats/rcg
+tools/render        | libcontact/grid.h tools/cli/cli.h        | libcontact %cli
 tools/render        | tools/plot/plot.h                        | tools/plot
-tools               | %public tools/cli/cli.h tools/plot/plot.h | %physics tools/cli tools/plot
+tools               | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli tools/plot
 tools               | tools/cost/cost.h tools/solve/solve.h    | tools/cost tools/solve
 tools               | tools/stress/stress.h tools/render/render.h | tools/stress tools/render
 tools               | tools/info/info.h                        | tools/info
@@ -54,9 +64,10 @@ tools               | formats/format.h formats/export.h        | formats
 END
 base='libcontact/contact.h libcontact/grid.h libcontact/common.h libcontact/memory.h'
 public='libcontact/contact.h libcontact/grid.h'
-physics='libcontact libcontact/tables.c libcontact/operator libcontact/solver libcontact/stress'
+physics='libcontact libcontact/tables.c libcontact/layers libcontact/operator libcontact/solver libcontact/stress'
 physics="$physics libcontact/surface"
-sed -i "s!%base!$base!; s!%public!$public!; s!%physics!$physics!" arrows.txt
+cli='tools/cli tools/text tools/machine'
+sed -i "s!%base!$base!; s!%public!$public!; s!%physics!$physics!; s!%cli!$cli!; s!%ranks!libcontact/ranks/ranks.h!" arrows.txt
 
 # ---- what there is ----
 
@@ -152,6 +163,16 @@ claim "  and every header of the table is there" bash -c '
     cut -d "|" -f 2 arrows.txt | tr " " "\n" | grep / | sort -u | while read -r header; do
         [ -f "$RC_SOURCE/$header" ] || { echo "$header" >&2; exit 1; }
     done'
+# The picture of the folders in CONTRIBUTING.md: each folder by its name, with the header that it offers.
+drawn() {
+    awk '/^## The house/ { on = 1; next } /^## / { on = 0 } on' "$RC_SOURCE/CONTRIBUTING.md" >picture.txt
+    (cd "$RC_SOURCE" && find libcontact formats tools -mindepth 1 -type d) | while read -r folder; do
+        grep -qE "(^|[^a-z])$(basename "$folder")([^a-z]|$)" picture.txt &&
+            { [ ! -e "$RC_SOURCE/$folder/$(basename "$folder").h" ] || grep -qE "[( ]$(basename "$folder")\\.h[,)]" picture.txt; } ||
+            { echo "not in the picture: $folder" >&2; exit 1; }
+    done
+}
+claim "the picture in CONTRIBUTING.md has every folder and its header" drawn
 names "$RC_SOURCE" >name.txt
 claim "no engine and no kernel is named outside the folder of the operators" none name.txt
 

@@ -274,6 +274,71 @@ rough(struct rc_shape shape, double radius, double *p)
     }
 }
 
+/* In each medium d sxj/dx + d syj/dy + d szj/dz = 0 and the sum of the normal stresses is harmonic, by
+ * differences in the slice and between seven slices, with friction, away from the edges of a map. Sources are
+ * eight nodes away or more: differences of sixth order leave 1e-4 of the terms. */
+static void
+maps_in_equilibrium(void **state)
+{
+    enum {
+        NX = 72,
+        NY = 60,
+        N = NX * NY
+    };
+    static const int of[3][3] = {
+        {RC_SXX, RC_SXY, RC_SXZ}, {RC_SXY, RC_SYY, RC_SYZ}, {RC_SXZ, RC_SYZ, RC_SZZ}};
+    static const double depths[MEDIA] = {1.15e-6, 2.85e-6, 5.4e-6, 9e-6};
+    static const double curve[7] = {2, -27, 270, -490, 270, -27, 2};
+    const struct rc_shape shape = {NX, NY, 0.13e-6, 0.14e-6};
+    const double step = 0.06e-6;
+    double *p = malloc(N * sizeof *p), *s = malloc(7 * 6 * N * sizeof *s);
+
+    (void)state;
+    rough(shape, 3e-6, p);
+    for (int b = 0; b < 2; b++)
+        for (int m = 0; m < MEDIA; m++) {
+            double off = 0, most = 0, harmonic = 0, bent = 0;
+            for (int i = 0; i < 7; i++)
+                slice(shape, (enum rc_boundary)b, p, depths[m] + (i - 3) * step, s + i * 6 * N);
+            for (size_t k = 3 * NX; k < N - 3 * NX; k++) {
+                double lap[3] = {0}, v[3][7];
+                if (k % NX < 3 || k % NX > NX - 4)
+                    continue;
+                for (int c = 0; c < 3; c++) {
+                    double force = 0, d[3] = {shape.dx, shape.dy, step};
+                    for (int to = 0; to < 3; to++) {
+                        double one;
+                        for (int i = 0; i < 7; i++) {
+                            ptrdiff_t by = to == 0 ? i - 3 : to == 1 ? (i - 3) * NX : 0;
+                            v[to][i] =
+                                s[(to == 2 ? i : 3) * 6 * N + of[c][to] * N + (ptrdiff_t)k + by];
+                        }
+                        one = slope(v[to], d[to]);
+                        force += one;
+                        most = larger(most, fabs(one));
+                    }
+                    off = larger(off, fabs(force));
+                    for (int to = 0; to < 3; to++)
+                        for (int i = 0; i < 7; i++) {
+                            ptrdiff_t by = to == 0 ? i - 3 : to == 1 ? (i - 3) * NX : 0;
+                            lap[to] +=
+                                curve[i] / (180 * d[to] * d[to]) *
+                                s[(to == 2 ? i : 3) * 6 * N + of[c][c] * N + (ptrdiff_t)k + by];
+                        }
+                }
+                harmonic = larger(harmonic, fabs(lap[0] + lap[1] + lap[2]));
+                bent = larger(bent, fabs(lap[2]));
+            }
+            print_message(
+                "%s, medium %d: forces off by %.1e, the sum's Laplacian by %.1e of its terms\n",
+                b == 0 ? "free" : "periodic", m + 1, off / most, harmonic / bent);
+            assert_true(off < 1e-4 * most);
+            assert_true(harmonic < 1e-3 * bent);
+        }
+    free(p);
+    free(s);
+}
+
 /* The sum of szz over a plane is the load, but for what is beyond the map, which falls as the third power
  * of its size: on a map twice as large an eighth of it is left. */
 static void
@@ -409,7 +474,7 @@ refused(void **state)
     const struct rc_layer layer = {1e-6, 1e9, 0.4};
     struct rc_coating rigid = {1, &layer, INFINITY, 0.3, 0};
     const struct rc_shape shape = {4, 4, 1e-6, 1e-6};
-    double p[16] = {1}, v[16], *s[RC_STRESSES] = {[RC_SZZ] = v};
+    double p[16] = {1}, v[16] = {NAN}, *s[RC_STRESSES] = {[RC_SZZ] = v};
     struct rc_stress_options o = {.wanted = 1 << RC_SZZ, .coating = &rigid, .threads = 1};
     struct rc_err err;
 
@@ -439,6 +504,7 @@ main(void)
         cmocka_unit_test(extreme_stacks),
         cmocka_unit_test(free_is_periodic_far_apart),
         cmocka_unit_test(every_depth_carries_the_load),
+        cmocka_unit_test(maps_in_equilibrium),
         cmocka_unit_test(maps_bonded),
         cmocka_unit_test(chosen_depths),
         cmocka_unit_test(refused),

@@ -56,6 +56,12 @@ if command -v mandoc >/dev/null; then
         claim "$name: the index leads to it" grep -qF "href=\"$name.html\"" html/index.html
         claim "$name:   and on from there" leads_on "html/$name.html"
     done
+    pictures=$(cat "$pages"/*.7 | sed -n 's/^\.Lk \([^ ]*\.png\) .*/\1/p')
+    claim "pictures of the tutorial are shown, and are there" bash -c '
+        [ $# -gt 5 ] && for picture; do
+            grep -qF "<img src=\"$picture\" alt=" html/contact*.html && cmp "html/$picture" "$RC_SOURCE/sample_surfaces/$picture" ||
+                { echo "$picture" >&2; exit 1; }
+        done' - $pictures
     claim "rc-solve.1 leads to rcg.5, here" grep -q 'href="rcg.5.html"' html/rc-solve.1.html
     claim "  and the index to what there is" leads_on html/index.html
 else

@@ -402,6 +402,41 @@ far_walls_do_not_matter(void **state)
     assert_true(off[1] < off[0] / 3.5 && off[2] < off[1] / 3.5 && off[2] < 2e-4);
 }
 
+/* What makes no sense is refused, with what it is. */
+static void
+refused(void **state)
+{
+    const struct rc_stress_options fine = options(RC_FREE, 0.3, 0.1);
+    struct rc_stress_options bad[9];
+    static const char *const reason[] = {
+        "Poisson's ratio 0.51", "Poisson's ratio -1",      "friction coefficient inf",
+        "no stress is wanted",  "one that does not exist", "tolerance 1",
+        "tolerance -0.1",       "the map ends at",         "there is no engine 'abacus'"};
+    double *p = calloc(N, sizeof *p);
+    struct rc_err err;
+
+    (void)state;
+    assert_non_null(p);
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
+        bad[k] = fine;
+    bad[0].nu = 0.51;
+    bad[1].nu = -1;
+    bad[2].mu = INFINITY;
+    bad[3].wanted = 0;
+    bad[4].wanted = 1u << RC_STRESSES;
+    bad[5].tol = 1;
+    bad[6].tol = -0.1;
+    bad[7].section = 'x';
+    bad[7].at = 0.51 * NX * shape.dx;
+    bad[8].engine = "abacus";
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+        assert_null(rc_stress_new(&shape, p, &bad[k], &err));
+        if (strstr(err.text, reason[k]) == NULL)
+            fail_msg("'%s' does not say '%s'", err.text, reason[k]);
+    }
+    free(p);
+}
+
 int
 main(void)
 {
@@ -415,6 +450,7 @@ main(void)
         cmocka_unit_test(one_wave),
         cmocka_unit_test(mirrors_and_sums),
         cmocka_unit_test(far_walls_do_not_matter),
+        cmocka_unit_test(refused),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

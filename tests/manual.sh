@@ -1,13 +1,16 @@
 # Sourced by the tests of the manual, after pipe.sh: what stands in a page is taken out of it, and what --help says.
 pages=$RC_SOURCE/man
 
-# blocks PAGE SECTION FOLDER: the literal displays of a section, as files 1, 2, ... in FOLDER.
+# blocks PAGE SECTION FOLDER: the literal displays of a section, or of all with '', as files 1, 2, ... in FOLDER. After the
+# comment "prints" a display is what the one before it prints: 1.prints; after "not run: why" it is left out.
 blocks() {
     mkdir -p "$3"
     awk -v section="$2" -v folder="$3" '
-        /^\.Sh / { inside = $0 == ".Sh " section; on = 0 }
-        inside && /^\.Bd -literal/ { on = 1; file = folder "/" ++n; next }
+        /^\.Sh / { inside = section == "" || $0 == ".Sh " section; on = 0 }
+        /^\.\\" / { mark = $2; next }
+        inside && /^\.Bd -literal/ { on = mark != "not"; file = folder "/" (mark == "prints" ? n ".prints" : ++n) }
         /^\.Ed/ { on = 0 }
+        /^\./ { mark = ""; next }
         on {
             sub(/^\\&/, "")
             gsub(/\\-/, "-")
@@ -29,6 +32,11 @@ program() {
     done
     echo "$1: no program in EXAMPLES" >&2
     return 1
+}
+
+# pictures PAGE: the files of the pictures that it shows.
+pictures() {
+    sed -n 's/^\.Lk \([^ ]*\.png\) .*/\1/p' "$1"
 }
 
 # ---- options and their words, of --help and of a page ----

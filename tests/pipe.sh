@@ -110,6 +110,15 @@ field() {
     grep -o "\"$1\": [^,}]*" "$2" | head -n 1 | sed 's/^[^:]*: //; s/"//g'
 }
 
+# skip_with_address_sanitizer "why": ends a test that its memory would disturb.
+skip_with_address_sanitizer() {
+    nm -D "$(command -v rc-solve)" >symbols.txt 2>/dev/null
+    if grep -q __asan symbols.txt; then
+        echo "skipped with the address sanitizer: $1"
+        exit 77
+    fi
+}
+
 finish() {
     echo "$claims claims, $failures failed"
     [ "$claims" -gt 0 ] && [ "$failures" = 0 ]

@@ -56,7 +56,7 @@ same_options() {
 
 # Those of --format stand in a table of the tool's own.
 format_words() {
-    if help_options "$1" | grep -qx -- --formats; then
+    if says "^--formats\$" help_options "$1"; then
         "$1" --formats | awk 'NR > 1 || !/^(name|format)/ { print "--format", $1 }'
     fi
 }

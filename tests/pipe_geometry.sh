@@ -134,6 +134,8 @@ refuses 1 'crop 4e-06m,0,5e-06m,1e-06m: 4e-06 m and 5e-06 m more are beyond the 
     "rc-pick --crop 4um,0,5um,1um map.rcg"
 refuses 1 'no node lies in 2e-07 m from 0 m on: they are 2e-06 m apart' "between nodes" "rc-pick --crop 0,0,0.2um,1um map.rcg"
 refuses 1 'columns 0 to 3' "far beyond" "rc-pick --crop 9000000000000000,0,1,1 map.rcg"
+refuses 1 'nodes need about [0-9]{9,} MiB|4294967295 x 3 is more than this machine can address' "more nodes than memory has" \
+    "rc-pick --resample 858993459200004x3 map.rcg"
 for bad in 1,2,3 1,2,3,4,5 1,2,3um,4 1.5,2,3,4 1um,1um,2um,3 -1,0,1,1 0,0,0,1 0,0,1um,0 '' 1,,2,3 a,b,c,d 1e16,0,1,1; do
     refuses 2 "rc-pick: --crop $bad: " "--crop $bad" "rc-pick --crop '$bad' map.rcg"
 done

@@ -113,7 +113,7 @@ claim "nothing is left behind" bash -c '! ls half2.rcg* 2>/dev/null'
 corpus="${RC_CORPUS:-}/corpus"
 if [ -d "$corpus" ]; then
     # file, format, nx, ny, dx, dy and the probe at the first point, as the manifest has them
-    # with the unit of x and z in the file: the others are read by tests/format_corpus
+    # with the unit of x and z in the file: the others are read by tests/formats/format_corpus.c
     awk -F '\t' '$2 ~ /^(x3p|ascii-matrix|sdf-ascii|digitalsurf-sur|wyko-opd|metropro-dat|alicona-al3d|sensofar-plu|nanoscope|nanosurf-nid|gsf|igor-ibw|mi-picoview|wsxm-stp|wsxm-top|bcrf|frt)$/ &&
         $11 == "m" && $13 == "m" && $1 !~ / / { print $1, $7, $8, $9, $10, $19 }' \
         "$RC_CORPUS/manifest.tsv" >rows.txt

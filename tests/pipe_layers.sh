@@ -37,7 +37,10 @@ claim "--dry-run names them" says 'layers +on: 2 on a substrate' solve --layer 1
 claim "rc-cost too solves coated bodies" says '^pcg' rc-cost --E1 100GPa --nu1 0.3 --E2 rigid --load 350N --layer 1mm,1000GPa,0.3 \
     --method pcg --kernel fft ball.rcg
 claim "  and their stresses" says '^fft +1e-04' rc-cost --E1 100GPa --nu1 0.3 --E2 rigid --load 350N --layer 1mm,1000GPa,0.3 \
-    --method pcg --kernel fft --depths 0,0.5mm,2mm ball.rcg
+    --method pcg --kernel fft --limit 100s --depths 0,0.5mm,2mm ball.rcg
+claim "  and says so, in the table and under the title" bash -c 'rc-cost --E1 100GPa --nu1 0.3 --E2 rigid --load 350N --layer 1mm,1000GPa,0.3 \
+    --layer 2mm,90GPa,0.3 --method pcg --kernel fft --plot cost.svg -o cost.txt ball.rcg &&
+    says "free, load 350 N, 2 layers, " cat cost.txt && says "free · 2 layers · load" cat cost.svg'
 refuses 2 'each layer has its own' "  without another Poisson's ratio" \
     "rc-cost --E1 100GPa --nu1 0.3 --E2 rigid --load 350N --layer 1mm,1000GPa,0.3 --depths 0 --nu 0.2 ball.rcg"
 

@@ -38,6 +38,8 @@ offered() {
 }
 if command -v nm >/dev/null; then
     claim "the shared library offers what its headers declare, and nothing else" offered
+    packaged() { sed -n 's/^ \(.*\)@Base .*/\1/p' "$RC_SOURCE/debian/libcontact0.symbols" | sort | diff - offered.txt >&2; }
+    claim "  its Debian package says the same" packaged
     claim "  functions and an object" bash -c 'grep -qx rc_solver_new offered.txt && grep -qx rc_component_names offered.txt'
 else
     echo "not tried: what the shared library offers, because nm is not here"

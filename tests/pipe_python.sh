@@ -2,10 +2,10 @@
 # what comes out is what a shell would have got, and a failure has the tool's words and exit status.
 . "$(dirname "$0")/pipe.sh"
 . "$RC_SOURCE/tests/manual.sh"
+. "$RC_SOURCE/tests/python.sh"
 
-python=${RC_PYTHON:-python3}
-if ! "$python" -c 'import numpy' 2>python.err; then
-    echo "not tried: no numpy for $python: $(tail -n 1 python.err)"
+if ! python=$(python_with numpy matplotlib 2>/dev/null) && ! python=$(python_with numpy 2>why.txt); then
+    echo "not tried: $(cat why.txt)"
     exit 77
 fi
 "$python" -c 'import numpy, sys; print("Python", sys.version.split()[0] + ", numpy", numpy.__version__)'
@@ -69,12 +69,12 @@ claim "its version is that of the tools" says "^$version\$" "$python" -c 'import
 
 claim "rcg(5) has a script for numpy" bash -c '. "$RC_SOURCE/tests/manual.sh"; blocks "$pages/rcg.5" NUMPY script && [ -s script/1 ]'
 claim "  of 15 lines at the most" bash -c '[ $(grep -c . script/1) -le 15 ]'
-if "$python" -c 'import matplotlib' 2>python.err; then
+if python_with numpy matplotlib >/dev/null 2>why.txt; then
     claim "  it runs" env MPLBACKEND=Agg "$python" script/1
     claim "  and draws" says 'PNG image data|PNG' head -c 8 area.png
     claim "  the area that Hertz finds under every load" check drawn script/1
 else
-    echo "not tried: the script of rcg(5), without matplotlib: $(tail -n 1 python.err)"
+    echo "not tried: the script of rcg(5), $(cat why.txt)"
 fi
 
 finish

@@ -2,6 +2,7 @@
 # size and largest value as rc-info does, in both types, and each fails where the stream is cut off.
 . "$(dirname "$0")/pipe.sh"
 . "$RC_SOURCE/tests/manual.sh"
+. "$RC_SOURCE/tests/python.sh"
 
 rc-synth selfaffine --nx 33 --ny 47 --dx 1.1um --dy 1.29um --hurst 0.7 --rms-height 0.4um --seed 5 -o rough.rcg
 rc-solve --quiet --load 0.5,1 --estar 114GPa rough.rcg -o f64.rcg
@@ -53,12 +54,11 @@ try C in_c
 in_awk() { LC_ALL=C awk -f readers/3 "$1"; }
 try awk in_awk
 
-python=${RC_PYTHON:-python3}
-if "$python" -c 'import numpy' 2>python.err; then
+if python=$(python_with numpy 2>why.txt); then
     in_python() { "$python" readers/2 <"$1"; }
     try Python in_python
 else
-    echo "not tried: Python, without numpy: $(tail -n 1 python.err)"
+    echo "not tried: Python: $(cat why.txt)"
 fi
 
 # on FILE PROGRAM...: a program that reads surface.rcg in its folder.

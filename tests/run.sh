@@ -43,3 +43,10 @@ if [ "${CI-}" = true ]; then
     build sanitize
 fi
 build ci
+
+# What is different under mpirun: the tools and the test that use it, on two processes.
+cmake --preset mpi >/dev/null
+cmake --build --preset mpi --parallel "$(cores)" --target rc-solve rc-deflect rc-stress rc-synth rc-pick rc-info same_ranks
+phase "mpi, build"
+ctest --test-dir build-mpi -R _ranks --output-on-failure --no-tests=error
+phase "mpi, tests"

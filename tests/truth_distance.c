@@ -20,10 +20,11 @@ find(struct rc_shape shape, enum rc_boundary boundary, const unsigned char *w, i
      float *d2)
 {
     size_t n = shape.nx * shape.ny;
+    const struct rc_rows rows = rc_rows_of(NULL, &shape);
     float *scratch = malloc(rc_distance_scratch(&shape) * sizeof *scratch);
     float *steps = malloc(n * sizeof *steps);
 
-    rc_distance_columns(&shape, boundary, w, threads, steps);
+    rc_distance_columns(&shape, &rows, boundary, w, threads, NULL, steps);
     for (size_t k = 0; k < n; k += shape.nx)
         rc_distance_row(&shape, boundary, scratch, steps + k, d2 + k);
     free(scratch);

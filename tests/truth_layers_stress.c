@@ -459,7 +459,7 @@ coefficients(void **state)
             assert_non_null(inside);
             for (int i = 0; i < 4; i++) {
                 size_t medium = rc_stack_medium(s, z);
-                double x = cases[k].x[i], y = cases[k].y[i], value[12], sum[12], *to[12];
+                double x = cases[k].x[i], y = cases[k].y[i], value[12] = {NAN}, sum[12], *to[12];
                 const struct wave_sum w = {.stack = s,
                                            .medium = medium,
                                            .z = z,

@@ -63,6 +63,7 @@ magnitude(struct trial *t)
     double *absolute = malloc(t->n * sizeof *absolute), *field = malloc(t->n * sizeof *field);
     double sum = 0, largest = 0;
 
+    assert_true(t->n > 0 && absolute != NULL && field != NULL);
     for (size_t j = 0; j < ny; j++)
         for (size_t i = 0; i < nx; i++) {
             size_t a = i > mx ? i - mx : mx - i, b = j > my ? j - my : my - j;
@@ -251,20 +252,20 @@ table_1(void **state)
 static double
 contrived_pressures(struct trial *t)
 {
-    size_t nx = t->sum.shape.nx, middle = t->sum.shape.ny / 2 * nx + nx / 2;
-    double *e = malloc(t->n * sizeof *e), largest = 0;
+    size_t nx = t->sum.shape.nx, middle = t->sum.shape.ny / 2 * nx + nx / 2, n = t->n;
+    double *e = malloc(n * sizeof *e), largest = 0;
 
     for (size_t k = 0; k < 4; k++) {
         double most = 0;
-        memset(t->p, 0, t->n * sizeof *t->p);
+        memset(t->p, 0, n * sizeof *t->p);
         t->p[middle + k % 2 + k / 2 * nx] = 1;
         worst(t);
-        for (size_t i = 0; i < t->n; i++) {
+        for (size_t i = 0; i < n; i++) {
             e[i] = t->u[i] - t->v[i];
             most = fmax(most, fabs(e[i]));
         }
         for (double part = 0.5; part > 0.01; part /= 2) {
-            for (size_t i = 0; i < t->n; i++)
+            for (size_t i = 0; i < n; i++)
                 t->p[i] = fabs(e[i]) < part * most ? 0 : e[i] < 0 ? -1 : 1;
             largest = fmax(largest, worst(t));
         }

@@ -27,8 +27,9 @@ areas(size_t n, double x, double y, double *plain, double *corrected)
     struct rc_solver *solver;
 
     for (size_t k = 0; k < n * n; k++) {
-        double u = (double)(k % n) - 0.5 * (double)(n - 1) - x;
-        double v = (double)(k / n) - 0.5 * (double)(n - 1) - y;
+        size_t i = k % n, j = k / n;
+        double u = (double)i - 0.5 * (double)(n - 1) - x;
+        double v = (double)j - 0.5 * (double)(n - 1) - y;
         h[k] = -(u * u + v * v) * d * d / (2 * radius);
     }
     solver = rc_solver_new(&s, h, &problem, NULL);

@@ -100,6 +100,11 @@ whole_cells_that_fit(void **state)
     assert_int_equal(rc_resample_shape(&map, 1e-6, INFINITY, &to, &err), RC_FAIL);
     assert_int_equal(rc_resample_shape(&map, 1e-300, 1e-6, &to, &err), RC_FAIL);
     assert_int_equal(rc_resample_shape(&map, 1e-16, 1e-16, &to, &err), RC_FAIL);
+    /* more than 32 bits count, in one row */
+    if (rc_resample_shape(&line, 2e-14, 1e-6, &to, &err) == RC_OK)
+        assert_true(to.nx > UINT32_MAX);
+    else
+        assert_non_null(strstr(err.text, " nodes of 100"));
 }
 
 static void

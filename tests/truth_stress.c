@@ -58,7 +58,7 @@ static double
 coefficient(int kernel, double nu, double x, double y, double z, double dx, double dy)
 {
     const struct rc_cell cell = {dx, dy, z, nu, NULL};
-    double value, *out[RC_STRESS_KERNELS] = {NULL};
+    double value = NAN, *out[RC_STRESS_KERNELS] = {NULL};
 
     out[kernel] = &value;
     rc_stress_coefficients(&cell, 1u << kernel, 1, &x, &y, out);
@@ -504,7 +504,7 @@ principal_stresses(void **state)
         for (int turn = 0; turn < 20; turn++) {
             /* the rotation of a random unit quaternion */
             double q[4], n = 0, R[3][3], t[6], mises, size = fabs(e[k][0]) + fabs(e[k][2]);
-            double out[RC_STRESSES], *to[RC_STRESSES];
+            double out[RC_STRESSES] = {0}, *to[RC_STRESSES];
             const double *s[RC_COMPONENTS];
             for (int c = 0; c < RC_STRESSES; c++)
                 to[c] = &out[c];

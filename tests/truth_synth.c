@@ -478,8 +478,10 @@ test_power_law(void **state)
     what.rolloff = 15e-6;
     what.short_cut = 4e-6;
     for (long k = 0; k < COUNT; k++) {
-        qx[k] = (double)(k % (2 * M + 1) - M) / 23.1e-6;
-        qy[k] = (double)(k / (2 * M + 1) - N) / 49.3e-6;
+        const long column = k % (2 * M + 1) - M, row = k / (2 * M + 1) - N;
+
+        qx[k] = (double)column / 23.1e-6;
+        qy[k] = (double)row / 49.3e-6;
         q[k] = hypot(qx[k], qy[k]);
         law[k] = q[k] == 0 || q[k] > 1 / 4e-6 ? 0 : pow(fmax(1, q[k] / bend), -2 - 2 * what.hurst);
         high[k] = q[k] > 2 * bend ? law[k] : 0;
@@ -541,8 +543,8 @@ check_lay(double anisotropy, double degrees)
     what.anisotropy = anisotropy;
     what.direction = degrees;
     for (long k = 0; k < COUNT; k++) {
-        double x = (double)(k % (2 * M + 1) - M) / 23.1e-6;
-        double up = -(double)(k / (2 * M + 1) - N) / 49.3e-6;
+        const long column = k % (2 * M + 1) - M, row = k / (2 * M + 1) - N;
+        double x = (double)column / 23.1e-6, up = -(double)row / 49.3e-6;
         double q = hypot(anisotropy * (x * cos(a) + up * sin(a)), up * cos(a) - x * sin(a));
 
         law[k] = q == 0 || q > 1 / 4e-6 ? 0 : pow(fmax(1, q / bend), -2 - 2 * what.hurst);
@@ -550,8 +552,8 @@ check_lay(double anisotropy, double degrees)
     }
     ensemble(&s, what, M, N, high, square, fourth);
     for (long k = 0; k < COUNT; k++) {
-        double x = (double)(k % (2 * M + 1) - M) / 23.1e-6;
-        double up = -(double)(k / (2 * M + 1) - N) / 49.3e-6;
+        const long column = k % (2 * M + 1) - M, row = k / (2 * M + 1) - N;
+        double x = (double)column / 23.1e-6, up = -(double)row / 49.3e-6;
 
         if (law[k] == 0)
             assert_true(square[k] < rounding);

@@ -13,7 +13,7 @@
 #include <string.h>
 
 #include "exact.h"
-#include "tools/cli/units.h"
+#include "tools/text/text.h"
 
 static void
 test_numbers(void **state)

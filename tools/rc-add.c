@@ -286,9 +286,12 @@ main(int argc, char **argv)
     open_two(&t, &b);
     while ((a = tool_channel(&t, "height", true)) != NULL) {
         next_second(&t, &b, a);
+        if (b.t.expected_memory > t.expected_memory) /* that reader knew of A in memory */
+            t.expected_memory = b.t.expected_memory;
+        t.missing |= b.t.missing;
+        t.infinite |= b.t.infinite;
         demand_heights(&t, a);
         demand_heights(&b.t, b.g);
-        tool_demand_memory(&t, a, (a->nx * a->ny + b.g->nx * b.g->ny) * sizeof *a->v);
         add(&t, a, b.g);
         tool_write(&t, a);
         rc_grid_free(a);

@@ -171,6 +171,7 @@ write_plot(struct run *run, const struct cost_case *c)
 {
     size_t bytes;
     struct rc_err err;
+    struct whole_file whole;
     unsigned char *picture;
     FILE *file;
 
@@ -178,13 +179,9 @@ write_plot(struct run *run, const struct cost_case *c)
         return;
     if ((picture = cost_plot(c, ending_of(args.plot), &bytes, &err)) == NULL)
         tool_die(&run->t, EXIT_IMPOSSIBLE, "--plot %s: %s", args.plot, err.text);
-    if ((file = fopen(args.plot, "wb")) == NULL)
+    if ((file = whole_file_open(&whole, args.plot)) == NULL ||
+        fwrite(picture, 1, bytes, file) != bytes || !whole_file_put(&whole, file))
         tool_die(&run->t, EXIT_IMPOSSIBLE, "--plot %s: %s", args.plot, strerror(errno));
-    if ((fwrite(picture, 1, bytes, file) != bytes) | (fclose(file) != 0)) {
-        int why = errno;
-        remove(args.plot);
-        tool_die(&run->t, EXIT_IMPOSSIBLE, "--plot %s: %s", args.plot, strerror(why));
-    }
     free(picture);
 }
 
@@ -247,17 +244,36 @@ close_case(struct cost_case *c)
         free(c->depths.v);
 }
 
+/* Of the largest trial, which runs in a process of its own beside the maps of this one: the
+ * reference, the pressure that comes back, and that of a trial. */
+static size_t
+memory_for(const struct cost_case *c)
+{
+    size_t most = 0, map = c->shape.nx * c->shape.ny * sizeof(double);
+
+    for (size_t k = 0; k <= c->trials; k++) {
+        const struct cost_trial *trial = k < c->trials ? &c->trial[k] : &c->reference;
+        struct rc_problem problem = c->problem;
+        size_t bytes;
+
+        if (trial->state != COST_OPEN)
+            continue;
+        problem.engine = trial->settings.kernel;
+        problem.method = trial->settings.method;
+        bytes = rc_solver_memory(&trial->shape, &problem) + 2 * (size_t)TOOL_TRANSFORMS;
+        most = bytes > most ? bytes : most;
+    }
+    return most + 3 * map;
+}
+
 static void
 solve_reference(struct run *run, struct cost_case *c)
 {
     size_t n = c->shape.nx * c->shape.ny;
-    double *p = malloc(n * sizeof *p);
-    struct rc_problem problem = c->problem;
+    double *p;
 
-    problem.engine = c->reference.settings.kernel;
-    tool_demand_memory(&run->t, c->heights,
-                       rc_solver_memory(&c->shape, &problem) + 2 * n * sizeof *p);
-    if (p == NULL)
+    tool_demand_memory(&run->t, c->heights, memory_for(c));
+    if ((p = malloc(n * sizeof *p)) == NULL)
         tool_die_at(&run->t, c->heights, EXIT_IMPOSSIBLE, "out of memory");
     if (!cost_trial_run(c, &c->reference, args.limit, p))
         tool_die_at(&run->t, c->heights, EXIT_IMPOSSIBLE,

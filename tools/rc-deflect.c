@@ -42,6 +42,7 @@ static const struct tool_info info = {
     .opts = opts,
     .reads = READS_STREAM,
     .writes = WRITES_STREAM,
+    .shares = true,
 };
 
 /* A pressure solved on one boundary has no displacement on the other. */
@@ -90,13 +91,56 @@ coating_of(struct tool *t, const struct rc_grid *p, double estar, struct coating
 }
 
 static double
-loaded_fraction(const struct rc_grid *p)
+loaded_fraction(const struct tool *t, const struct rc_grid *p)
 {
     size_t count = 0;
 
-    for (size_t k = 0; k < p->nx * p->ny; k++)
+    for (size_t k = 0; k < rc_grid_nodes(p); k++)
         count += p->v[k] != 0;
-    return (double)count / (double)(p->nx * p->ny);
+    return ranks_sum(t, (double)count) / (double)(p->nx * p->ny);
+}
+
+struct demand {
+    const struct tool *tool;
+    const struct rc_grid *p;
+    const struct rc_conv_options *options;
+};
+
+/* Bytes of code and plans of the sums by this engine: of transforms, in single precision too. */
+static size_t
+code_for(const char *engine, const struct rc_conv_options *options)
+{
+    const struct rc_engine_info *e;
+
+    for (size_t k = 0; (e = rc_engine_info(k)) != NULL; k++)
+        if (strcmp(e->name, engine) == 0 && e->periodic) /* by transforms */
+            return (options->tol > 0 && !e->precise ? 2 : 1) * (size_t)TOOL_TRANSFORMS;
+    return 0;
+}
+
+static size_t
+memory_by(const void *ctx, const char *engine)
+{
+    const struct demand *d = ctx;
+    struct rc_shape shape = rc_grid_shape(d->p);
+    struct rc_conv_options options = *d->options;
+    size_t bytes = rc_grid_nodes(d->p) * sizeof *d->p->v;
+    const char *reason;
+
+    options.engine = engine;
+    engine = rc_conv_choice(&shape, &options, &reason);
+    return bytes + tool_code(d->tool, code_for(engine, &options)) +
+           rc_conv_memory(&shape, &options);
+}
+
+/* Where the map would fit with another engine, that is said. */
+static void
+demand_memory(struct tool *t, const struct rc_grid *p, const struct rc_conv_options *options)
+{
+    const struct demand d = {t, p, options};
+
+    tool_demand_memory_or(t, p, memory_by(&d, options->engine),
+                          tool_leaner_engine(t, options->boundary == RC_PERIODIC, memory_by, &d));
 }
 
 static void
@@ -108,9 +152,10 @@ do_case(struct tool *t, const struct rc_grid *p)
                                       .tol = isnan(args.tol) ? 0 : args.tol,
                                       .order = args.order,
                                       .correction = args.correction,
-                                      .memory = t->memory,
-                                      .loaded = loaded_fraction(p),
-                                      .threads = t->threads};
+                                      .memory = tool_memory_left(t),
+                                      .loaded = loaded_fraction(t, p),
+                                      .threads = t->threads,
+                                      .ranks = ranks_of(t)};
     double estar = modulus(t, p);
     struct coating coating;
     struct rc_conv *conv;
@@ -119,10 +164,11 @@ do_case(struct tool *t, const struct rc_grid *p)
 
     options.coating = coating_of(t, p, estar, &coating);
     tool_demand_finite(t, p, "a pressure map has none; make it again");
-    tool_demand_memory(t, p, rc_conv_memory(&shape, &options) + 2 * p->nx * p->ny * sizeof(double));
+    demand_memory(t, p, &options);
     conv = rc_conv_new(&shape, estar, &options, &err);
     if (conv == NULL)
         tool_die_at(t, p, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_code_there(t, code_for(rc_conv_engine(conv), &options));
     tool_note(t, "summed by %s, because %s; error at most %.1e of the sum of |K| |p|",
               rc_conv_engine(conv), rc_conv_reason(conv), rc_conv_error(conv));
     u = rc_grid_like(p, "displacement", "m", &err);

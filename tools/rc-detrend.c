@@ -74,14 +74,15 @@ remove_form(struct tool *t, struct rc_grid *g, struct rc_form form, struct rc_er
 
     form.robust = args.robust;
     form.threads = t->threads;
-    tool_demand_memory(t, g, g->nx * g->ny * (args.robust ? 2 : 1) * sizeof *g->v);
+    tool_demand_memory(t, g, args.robust ? g->nx * g->ny * sizeof *g->v : 0);
     if (rc_detrend_form(&shape, &form, g->v, &radius, err) != RC_OK)
         return RC_FAIL;
     tool_where(t, g, where, sizeof where);
     if (form.kind != RC_POLYNOMIAL) {
         tool_note(t, "%s: a %s of radius %sm", where, radius > 0 ? "bump" : "hollow",
                   shown_number(text, fabs(radius), 6, "m"));
-        if (rc_grid_set_number(g, "form.radius", radius, err) != RC_OK)
+        if ((isfinite(radius) ? rc_grid_set_number(g, "form.radius", radius, err)
+                              : rc_grid_set(g, "form.radius", NULL, err)) != RC_OK) /* flat */
             return RC_FAIL;
     }
     if ((form.kind == RC_POLYNOMIAL && form.degree == 0) || !is_periodic(g))
@@ -128,7 +129,7 @@ filter(struct tool *t, struct rc_grid *g, double cutoff, bool high, struct rc_er
                                    .periodic = is_periodic(g),
                                    .threads = t->threads};
 
-    tool_demand_memory(t, g, g->nx * g->ny * sizeof *g->v + rc_filter_memory(&shape, &what));
+    tool_demand_memory(t, g, rc_filter_memory(&shape, &what));
     return rc_filter(&shape, &what, g->v, err);
 }
 
@@ -162,9 +163,10 @@ outliers(struct tool *t, struct rc_grid *g, double times, struct rc_err *err)
     size_t count, nodes = g->nx * g->ny;
     char where[256];
 
-    tool_demand_memory(t, g, nodes * sizeof *g->v + rc_outliers_memory(&shape, t->threads));
+    tool_demand_memory(t, g, rc_outliers_memory(&shape, t->threads));
     if (rc_outliers(&shape, times, is_periodic(g), t->threads, g->v, &count, err) != RC_OK)
         return RC_FAIL;
+    t->missing = true;
     tool_where(t, g, where, sizeof where);
     tool_note(t, "%s: %zu of %zu points are outliers", where, count, nodes);
     if ((double)count > outliers_much * (double)nodes)
@@ -207,7 +209,7 @@ warn_of_holes(struct tool *t, const struct rc_grid *g, size_t missing, struct rc
 
     if ((double)missing <= filled_much * (double)nodes || missing == nodes || t->quiet)
         return RC_OK;
-    tool_demand_memory(t, g, nodes * (sizeof *g->v + sizeof(uint32_t)));
+    tool_demand_memory(t, g, nodes * sizeof(uint32_t));
     if (rc_hole_width(&shape, g->v, &width, err) != RC_OK)
         return RC_FAIL;
     tool_warn(
@@ -227,7 +229,7 @@ fill(struct tool *t, struct rc_grid *g, double value, struct rc_err *err)
     size_t filled, nodes = g->nx * g->ny, missing = count_missing(g);
 
     (void)value;
-    tool_demand_memory(t, g, nodes * sizeof *g->v + rc_inpaint_memory(missing));
+    tool_demand_memory(t, g, rc_inpaint_memory(missing));
     if (warn_of_holes(t, g, missing, err) != RC_OK)
         return RC_FAIL;
     if (rc_inpaint(&shape, g->v, &filled, err) != RC_OK)

@@ -200,7 +200,7 @@ with_rows_of(struct tool *t, const struct rc_grid *g, const struct rc_shape *sha
     struct rc_err err;
     struct rc_grid *to;
 
-    tool_demand_memory(t, g, (g->nx * g->ny + shape->nx * shape->ny) * sizeof *g->v);
+    tool_demand_memory(t, g, shape->nx * shape->ny * sizeof *g->v);
     to = rc_grid_new(shape, g->channel, g->unit, &err);
     for (size_t k = 0; to != NULL && k < g->keys; k++)
         if (rc_grid_set(to, g->key[k].name, g->key[k].value, &err) != RC_OK)
@@ -310,7 +310,6 @@ read_frames(struct tool *t, size_t *frames)
 {
     struct rc_grid **frame = NULL, **more, *g;
     struct rc_err err;
-    size_t bytes = 0;
 
     *frames = 0;
     while ((g = tool_read(t)) != NULL) {
@@ -323,8 +322,6 @@ read_frames(struct tool *t, size_t *frames)
             g = even_rows(t, g);
         if (rc_grid_history(g, tool_history(t), &err) != RC_OK)
             tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-        bytes += g->nx * g->ny * sizeof *g->v;
-        tool_demand_memory(t, g, bytes);
         if ((more = realloc(frame, (*frames + 1) * sizeof(struct rc_grid *))) == NULL)
             tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %zu frames", *frames + 1);
         frame = more;
@@ -332,6 +329,17 @@ read_frames(struct tool *t, size_t *frames)
     }
     wanted_end(&args.wanted, t);
     return frame;
+}
+
+static void
+demand_memory(struct tool *t, struct rc_grid *const *frame, size_t frames)
+{
+    size_t bytes = format->library;
+
+    for (size_t k = 0; k < frames && format->copies > 0; k++)
+        bytes += format->copies * frame[k]->nx * frame[k]->ny *
+                 rc_raw_width(rc_export_raw(frame[k], &wish, format->types));
+    tool_demand_memory(t, frame[0], bytes);
 }
 
 static void
@@ -362,6 +370,8 @@ main(int argc, char **argv)
         return tool_finish(&t);
     }
     frame = read_frames(&t, &frames);
+    if (frames > 0)
+        demand_memory(&t, frame, frames);
     if (rc_export_write(format, t.out, frame, frames, &wish, &err) != RC_OK)
         tool_die_at(&t, frame[0], EXIT_IMPOSSIBLE, "%s", err.text);
     tool_note(&t, "%zu frame%s as %s", frames, frames == 1 ? "" : "s", format->name);

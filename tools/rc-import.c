@@ -249,6 +249,7 @@ range_of(struct tool *t, const struct source *s, const struct rc_wish *wish, siz
     range[1] = -INFINITY;
     if ((g = s->format->read(&s->file, &lax, index, NULL, &err)) == NULL) {
         tool_warn(t, "%s: channel %zu: %s", t->source, index + 1, err.text);
+        tool_fails_with(t, EXIT_IMPOSSIBLE);
         return false;
     }
     for (size_t k = 0; k < g->nx * g->ny; k++) {
@@ -303,18 +304,24 @@ list_file(struct tool *t, const char *name, const struct rc_wish *wish)
 
 /* ---- heights ---- */
 
+enum {
+    CHILD = 1 << 19 /* bytes that a process takes which reads a file, beside its map */
+};
+
+/* The file is there already. What a process of its own reads is there twice, while it is handed over. */
 static enum rc_status
-check_memory(const struct tool *t, const struct rc_file *file, const struct rc_channel *channel,
+check_memory(struct tool *t, const struct source *s, const struct rc_channel *channel,
              struct rc_err *err)
 {
-    double bytes = (double)file->size + 8.0 * (double)channel->nx * (double)channel->ny;
+    const struct rc_shape shape = {channel->nx, channel->ny, 1, 1};
+    size_t nodes, bytes;
 
-    if (t->memory == 0 || bytes <= (double)t->memory)
-        return RC_OK;
-    return rc_err_set(err,
-                      "%zu x %zu nodes and the file need about %.0f MiB, "
-                      "--memory allows %zu",
-                      channel->nx, channel->ny, ceil(bytes / 1048576), t->memory >> 20);
+    if (rc_size_mul(channel->nx, channel->ny, &nodes, err) != RC_OK ||
+        rc_size_mul(nodes, (s->format->sandboxed ? 2 : 1) * sizeof(double), &bytes, err) != RC_OK)
+        return RC_FAIL;
+    if (s->format->sandboxed)
+        bytes += CHILD + (s->format->copies ? s->file.size : 0);
+    return tool_ask_memory(t, &shape, bytes, "the file itself takes memory too", err);
 }
 
 /* Brings any profile to the step that --even gives, and says where it is not known. */
@@ -360,9 +367,10 @@ write_heights(struct tool *t, const struct source *s, const struct rc_wish *wish
     struct pick pick;
 
     if (pick_channel(s, wish, &pick, err) != RC_OK ||
-        check_memory(t, &s->file, &s->channel[pick.index], err) != RC_OK ||
+        check_memory(t, s, &s->channel[pick.index], err) != RC_OK ||
         (g = s->format->read(&s->file, wish, pick.index, &notes, err)) == NULL)
         return RC_FAIL;
+    t->beside_memory = notes.held > t->beside_memory ? notes.held : t->beside_memory;
     if (pick.said[0] != '\0')
         tool_warn(t, "%s: %s", t->source, pick.said);
     for (size_t k = 0; k < notes.n; k++)
@@ -398,6 +406,7 @@ main(int argc, char **argv)
     struct tool t;
 
     tool_start(&t, &info, argc, argv, &args);
+    t.missing = t.infinite = true; /* as they stand in the file */
     wish = make_wish(&t);
     if (args.formats) {
         print_formats(&t);

@@ -227,6 +227,7 @@ draw_figure(struct tool *t, const struct args *a, const struct rc_grid *g, const
     struct rc_grid *even = NULL;
     struct words words;
     struct canvas *c;
+    size_t bytes;
     struct rc_err err;
 
     if (rc_grid_get(g, "section") != NULL) {
@@ -235,12 +236,16 @@ draw_figure(struct tool *t, const struct args *a, const struct rc_grid *g, const
     }
     if (a->hertz)
         f->circle = words_hertz(t, &words, g, &f->radius);
+    if (figure_memory(f, even == NULL ? g : even, &bytes, &err) != RC_OK)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_demand_memory(t, g, bytes + look_code(t));
     if ((c = figure_draw(f, even == NULL ? g : even, &err)) == NULL)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     warn_of_text(t, a, c);
     write_picture(t, g, f, c);
     canvas_free(c);
     rc_grid_free(even);
+    free(f->medium);
 }
 
 /* ---- reliefs ---- */
@@ -251,6 +256,7 @@ draw_relief(struct tool *t, const struct args *a, const struct rc_grid *g, struc
 {
     struct view view;
     struct canvas *c;
+    size_t bytes;
     struct rc_err err;
 
     view_read(t, a->view, &view);
@@ -260,6 +266,9 @@ draw_relief(struct tool *t, const struct args *a, const struct rc_grid *g, struc
     view.peaks = a->keep == NULL ? f->zero_is_none : f->keep_max;
     view_say(f, subtitle);
     f->missing = 0; /* they are holes */
+    if (relief_memory(f, &view, g, &bytes, &err) != RC_OK)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_demand_memory(t, g, bytes + look_code(t));
     if ((c = relief_draw(f, &view, g, &err)) == NULL)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     warn_of_text(t, a, c);
@@ -344,6 +353,10 @@ set_panels(struct tool *t, const struct args *a, const struct frames *frames,
     f->across = panel[0].figure.across;
     f->down = panel[0].figure.down;
     f->section = panel[0].figure.section;
+    if (sheet_one_body(frames)) {
+        f->medium = panel[0].figure.medium;
+        f->media = panel[0].figure.media;
+    }
     f->pressure = panel[0].figure.pressure;
     f->hard = hard;
 }
@@ -369,7 +382,8 @@ render_sheet(struct tool *t, struct args *a, const struct frames *frames)
     struct survey all;
     struct look look;
     struct figure f;
-    size_t columns, rows;
+    size_t columns, rows, bytes;
+    struct panels panels;
     struct canvas *c;
     struct rc_err err;
 
@@ -388,17 +402,29 @@ render_sheet(struct tool *t, struct args *a, const struct frames *frames)
     set_panels(t, a, frames, window, &f, panel, even);
     if (columns == 0)
         columns = panels_columns(frames->n, (f.right - f.left) / (f.bottom - f.top));
-    c = panels_draw(&(struct panels){&f, panel, frames->n, columns}, &err);
-    if (c == NULL)
+    panels = (struct panels){&f, panel, frames->n, columns};
+    if (panels_memory(&panels, &bytes, &err) != RC_OK)
+        tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_demand_memory(t, frames->grid[0], bytes + look_code(t));
+    if ((c = panels_draw(&panels, &err)) == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
     warn_of_text(t, a, c);
     write_picture(t, frames->grid[0], &f, c);
     canvas_free(c);
-    for (size_t k = 0; k < frames->n; k++)
+    for (size_t k = 0; k < frames->n; k++) {
         rc_grid_free(even[k]);
+        free(panel[k].figure.medium);
+    }
 }
 
 /* ---- curves ---- */
+
+static void
+settle_style(struct tool *t, struct args *a)
+{
+    a->style.title = a->title;
+    a->style.vector = canvas_format(ending_of(t->out_name)) != CANVAS_PNG;
+}
 
 static void
 render_curves(struct tool *t, struct args *a)
@@ -407,7 +433,7 @@ render_curves(struct tool *t, struct args *a)
     struct figure words;
     struct canvas *c;
 
-    a->style.title = a->title;
+    settle_style(t, a);
     c = curves_draw(t, a->curve, &a->style, &drawn);
     words = (struct figure){.title = drawn.title,
                             .stamp = drawn.stamp,
@@ -440,7 +466,7 @@ render_lines(struct tool *t, struct args *a, const struct frames *f)
     struct drawn drawn = {.stamp = NULL};
     struct canvas *c;
 
-    a->style.title = a->title;
+    settle_style(t, a);
     c = draw_lines(t, a, f, &drawn);
     warn_of_text(t, a, c);
     write_picture(t, f->grid[0], &(struct figure){.title = drawn.title, .stamp = drawn.stamp}, c);

@@ -1,8 +1,5 @@
 /* Contact of a height map with an elastic half-space. */
 #include <errno.h>
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -64,6 +61,7 @@ static const struct tool_info info = {
     .opts = opts,
     .reads = READS_STREAM,
     .writes = WRITES_STREAM,
+    .shares = true,
 };
 
 /* Key of a shape that yield has left: how far off it may be, m. */
@@ -96,6 +94,7 @@ problem_of(struct run *run, const struct rc_grid *g, size_t step)
     problem.engine = args.kernel;
     problem.method = args.method;
     problem.threads = run->t.threads;
+    problem.ranks = ranks_of(&run->t);
     problem.discretization = args.discretization;
     problem.height_error = run->height_error;
     return problem;
@@ -186,13 +185,13 @@ results_free(struct results *r)
 static void
 find_result(struct run *run, struct results *r, struct rc_solver *solver, struct rc_contact *c)
 {
-    size_t nodes = r->as->nx * r->as->ny;
+    size_t nodes = rc_grid_nodes(r->as);
     bool gap = solve_wanted(&args, SOLVE_GAP);
 
     if (solve_wanted(&args, SOLVE_DISPLACEMENT) && !gap) {
         r->displacement = r->buffer;
     } else if (solve_wanted(&args, SOLVE_DISPLACEMENT) && tool_interrupted() != 0) {
-        r->displacement = r->own = malloc(nodes * sizeof *r->own);
+        r->displacement = r->own = malloc((nodes + 1) * sizeof *r->own);
         if (r->own == NULL)
             tool_die_at(&run->t, r->as, EXIT_IMPOSSIBLE, "out of memory for the displacement");
     }
@@ -204,7 +203,7 @@ put(struct run *run, const struct results *r, enum solve_frame f, const double *
 {
     struct rc_grid frame = *r->as; /* as the reader of the stream sees it */
 
-    if (!solve_wanted(&args, f))
+    if (!solve_wanted(&args, (int)f))
         return;
     frame.channel = (char *)solve_frames[f].name; /* these and the values are only read */
     frame.unit = (char *)solve_frames[f].unit;
@@ -252,12 +251,13 @@ look_at_contact(struct run *run, const struct rc_grid *g, const double *p, struc
     struct rc_shape shape = rc_grid_shape(g);
     struct rc_patch_options options = {.boundary = args.physics.periodic ? RC_PERIODIC : RC_FREE,
                                        .each = report_wanted(&run->report),
-                                       .threads = run->t.threads};
+                                       .threads = run->t.threads,
+                                       .ranks = ranks_of(&run->t)};
     struct rc_err err;
 
     if (rc_patches_find(&shape, p, &options, &s->patches, &err) != RC_OK)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    s->slope = rc_measure_contact_slope(&shape, g->v, p);
+    s->slope = rc_measure_contact_slope_on(ranks_of(&run->t), &shape, g->v, p);
 }
 
 static void
@@ -292,17 +292,19 @@ do_load(struct run *run, const struct rc_grid *g, struct rc_solver *solver, stru
 static void
 take_apart(struct run *run, const struct rc_grid *g)
 {
-    size_t nodes = g->nx * g->ny;
+    size_t nodes = rc_grid_nodes(g);
     struct solution s = {.slope = NAN, .stiffness = NAN};
-    struct rc_statistics st;
-    struct rc_shape shape = rc_grid_shape(g);
+    double highest = -INFINITY, mean;
     struct results r;
 
     run->iterate = run->result = 0;
-    rc_measure(&shape, g->v, &st);
+    for (size_t k = 0; k < nodes; k++)
+        highest = fmax(highest, g->v[k]);
+    highest = ranks_most(&run->t, highest);
+    mean = ranks_sum(&run->t, rc_sum(g->v, nodes)) / (double)(g->nx * g->ny);
     s.contact = (struct rc_contact){.edge_load_fraction = NAN,
                                     .approach = NAN,
-                                    .mean_gap = st.maximum - st.mean,
+                                    .mean_gap = highest - mean,
                                     .discretization = {NAN, NAN, NAN},
                                     .converged = true};
     solve_judge(run, g, &s);
@@ -312,7 +314,7 @@ take_apart(struct run *run, const struct rc_grid *g)
     memset(r.buffer, 0, nodes * sizeof *r.buffer);
     put(run, &r, SOLVE_PRESSURE, r.buffer);
     for (size_t k = 0; k < nodes; k++)
-        r.buffer[k] = st.maximum - g->v[k];
+        r.buffer[k] = highest - g->v[k];
     put(run, &r, SOLVE_GAP, r.buffer);
     memset(r.buffer, 0, nodes * sizeof *r.buffer);
     put(run, &r, SOLVE_DISPLACEMENT, r.buffer);
@@ -323,6 +325,33 @@ take_apart(struct run *run, const struct rc_grid *g)
     results_free(&r);
 }
 
+struct demand {
+    const struct run *run;
+    const struct rc_grid *g;
+    const struct rc_problem *problem;
+};
+
+static size_t
+memory_by(const void *ctx, const char *engine)
+{
+    const struct demand *d = ctx;
+    struct rc_problem problem = *d->problem;
+
+    problem.engine = engine;
+    return solve_memory(d->run, d->g, &problem);
+}
+
+/* Where the map would fit with another engine, that is said. */
+static void
+demand_memory(struct run *run, const struct rc_grid *g, const struct rc_problem *problem)
+{
+    const struct demand d = {run, g, problem};
+
+    tool_demand_memory_or(
+        &run->t, g, solve_memory(run, g, problem),
+        tool_leaner_engine(&run->t, problem->boundary == RC_PERIODIC, memory_by, &d));
+}
+
 static struct rc_solver *
 new_solver(struct run *run, const struct rc_grid *g)
 {
@@ -331,10 +360,11 @@ new_solver(struct run *run, const struct rc_grid *g)
     struct rc_solver *solver;
     struct rc_err err;
 
-    tool_demand_memory(&run->t, g, rc_solver_memory(&shape, &problem));
+    demand_memory(run, g, &problem);
     solver = rc_solver_new(&shape, g->v, &problem, &err);
     if (solver == NULL)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_code_there(&run->t, SOLVE_CODE);
     run->setup = solve_now() - run->began;
     return solver;
 }
@@ -407,23 +437,12 @@ do_case(struct run *run, struct rc_grid *g)
     }
 }
 
-/* A map's memory goes back to the system when it is freed: else maps of a coarser grid leave holes
- * that those of the next one do not fit in. */
-static void
-keep_maps_apart(void)
-{
-#ifdef M_MMAP_THRESHOLD
-    (void)mallopt(M_MMAP_THRESHOLD, 1 << 20);
-#endif
-}
-
 int
 main(int argc, char **argv)
 {
     static struct run run;
     struct rc_grid *g;
 
-    keep_maps_apart();
     tool_start(&run.t, &info, argc, argv, &args);
     check_arguments(&run);
     report_open(&run.report, &run.t, args.report);

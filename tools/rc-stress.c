@@ -57,6 +57,7 @@ static const struct tool_info info = {
     .opts = opts,
     .reads = READS_STREAM,
     .writes = WRITES_STREAM,
+    .shares = true,
 };
 
 struct run {
@@ -197,6 +198,7 @@ set_options(struct run *run, const struct rc_grid *p)
     run->options.engine = args.kernel;
     run->options.tol = isnan(args.tol) ? 0 : args.tol;
     run->options.threads = run->t.threads;
+    run->options.ranks = ranks_of(&run->t);
     if (run->options.boundary == RC_PERIODIC && on_free_maps_only())
         tool_die_at(&run->t, p, EXIT_IMPOSSIBLE,
                     "its boundary is periodic, where only %s sums: leave out --kernel %s",
@@ -225,8 +227,8 @@ set_depths(struct run *run, const struct rc_grid *p)
 
     run->depths = args.depths;
     if (args.depths.n == 0 &&
-        rc_stress_depths(&shape, p->v, run->options.boundary, run->options.coating, &run->depths.v,
-                         &run->depths.n, &err) != RC_OK)
+        rc_stress_depths_on(run->options.ranks, &shape, p->v, run->options.boundary,
+                            run->options.coating, &run->depths.v, &run->depths.n, &err) != RC_OK)
         tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
     refuse_rigid(run, p);
     if (args.depths.n == 0)
@@ -257,7 +259,9 @@ depths_text(struct run *run, const struct rc_grid *p)
     size_t size = 60000, n = 0;
     char *text = malloc(size), number[RC_NUMBER_SIZE];
 
-    for (size_t k = 0; text != NULL && k < run->depths.n; k++) {
+    if (text == NULL)
+        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "out of memory for the depths of a section");
+    for (size_t k = 0; k < run->depths.n; k++) {
         int more = snprintf(text + n, size - n, "%s%s", k == 0 ? "" : ",",
                             rc_number_text(number, run->depths.v[k]));
         n += (size_t)more;
@@ -300,7 +304,8 @@ new_frame(struct run *run, const struct rc_grid *p, int channel)
 {
     struct rc_shape shape = frame_shape(run, p);
     struct rc_err err;
-    struct rc_grid *g = rc_grid_new(&shape, rc_component_names[channel], "Pa", &err);
+    size_t rows = run->options.section != 0 ? shape.ny : p->ny - p->elsewhere;
+    struct rc_grid *g = rc_grid_new_part(&shape, rows, rc_component_names[channel], "Pa", &err);
 
     for (size_t k = 0; g != NULL && k < p->keys; k++)
         if (rc_grid_set(g, p->key[k].name, p->key[k].value, &err) != RC_OK)
@@ -313,14 +318,44 @@ new_frame(struct run *run, const struct rc_grid *p, int channel)
 
 /* ---- the work ---- */
 
-static void
-demand_memory(struct run *run, const struct rc_grid *p)
+/* Lines along the section that carry pressure. */
+static size_t
+loaded_lines(const struct run *run, const struct rc_grid *p)
+{
+    bool across = run->options.section == 'x';
+    size_t rows = p->ny - p->elsewhere, lines = 0;
+    size_t n = across ? p->nx : rows, along = across ? rows : p->nx;
+
+    for (size_t k = 0; k < n; k++) {
+        bool any = false;
+        for (size_t i = 0; i < along && !any; i++)
+            any = p->v[across ? i * p->nx + k : k * p->nx + i] != 0;
+        lines += any;
+    }
+    return lines;
+}
+
+static size_t
+code_for(const struct run *run)
+{
+    return (run->options.tol > 0 ? 2 : 1) * (size_t)TOOL_TRANSFORMS;
+}
+
+static size_t
+memory_for(const struct run *run, const struct rc_grid *p)
 {
     struct rc_shape shape = rc_grid_shape(p), frame = frame_shape(run, p);
+    struct rc_stress_options options = run->options;
+    size_t frames = channels() * frame.nx * (frame.ny - p->elsewhere) * sizeof(double);
+    size_t map = rc_grid_nodes(p) * sizeof *p->v;
 
-    tool_demand_memory(&run->t, p,
-                       rc_stress_memory(&shape, &run->options) +
-                           (channels() * frame.nx * frame.ny + p->nx * p->ny) * sizeof(double));
+    if (options.section != 0) /* a copy of the map goes before the frames come */
+        frames -= frames < map ? frames : map;
+    if (options.section != 0)
+        options.loaded = loaded_lines(run, p);
+    options.depth = run->depths.v;
+    options.depths = run->depths.n;
+    return rc_stress_memory(&shape, &options) + frames + tool_code(&run->t, code_for(run));
 }
 
 /* Where a slice is: its depth and, of a coated body, its material. */
@@ -350,7 +385,7 @@ do_depth(struct run *run, struct rc_stress *stress, size_t k)
     stress_report_start(&run->report);
     if (rc_stress_slice(stress, run->depths.v[k], s, &err) != RC_OK)
         tool_die(&run->t, EXIT_IMPOSSIBLE, "%s", err.text);
-    stress_report_depth(&run->report, k, rc_stress_values(stress), s);
+    stress_report_depth(&run->report, &run->t, k, rc_stress_values(stress), s);
     for (int c = 0; c < RC_STRESSES && !plane; c++) {
         if (!wanted(c))
             continue;
@@ -367,13 +402,14 @@ do_case(struct run *run, const struct rc_grid *p)
     struct rc_stress *stress;
     struct rc_err err;
 
-    demand_memory(run, p);
+    tool_demand_memory(&run->t, p, memory_for(run, p));
     if (stress_report_begin(&run->report, p, &run->options, &run->depths, report_wanted(&run->out),
                             &err) != RC_OK)
         tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
     stress = rc_stress_new(&shape, p->v, &run->options, &err);
     if (stress == NULL)
         tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_code_there(&run->t, code_for(run));
     stress_report_ready(&run->report);
     for (int c = 0; c < RC_STRESSES; c++)
         if (wanted(c))
@@ -408,7 +444,8 @@ main(int argc, char **argv)
         set_options(&run, p);
         set_depths(&run, p);
         if (args.dry_run)
-            stress_report_plan(run.t.out, p, &run.options, &run.depths);
+            stress_report_plan(run.t.out, p, &run.options, &run.depths,
+                               tool_memory_with(memory_for(&run, p)));
         else
             do_case(&run, p);
         if (run.depths.v != args.depths.v)

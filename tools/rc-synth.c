@@ -178,7 +178,7 @@ frame_of_file(struct tool *t, const char *channel)
 static void
 place_highest(struct tool *t, const struct rc_grid *g)
 {
-    size_t n = g->nx * g->ny, top = n;
+    size_t n = g->nx * g->ny, top = n, i, j;
 
     for (size_t k = 0; k < n; k++)
         if (isfinite(g->v[k]) && (top == n || g->v[k] > g->v[top]))
@@ -189,8 +189,10 @@ place_highest(struct tool *t, const struct rc_grid *g)
     args.place.n = 2;
     if ((args.place.v = malloc(2 * sizeof *args.place.v)) == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
-    args.place.v[0] = ((double)(top % g->nx) - 0.5 * (double)(g->nx - 1)) * g->dx;
-    args.place.v[1] = ((double)(top / g->nx) - 0.5 * (double)(g->ny - 1)) * g->dy;
+    i = top % g->nx;
+    j = top / g->nx;
+    args.place.v[0] = ((double)i - 0.5 * (double)(g->nx - 1)) * g->dx;
+    args.place.v[1] = ((double)j - 0.5 * (double)(g->ny - 1)) * g->dy;
 }
 
 static struct rc_shape
@@ -240,18 +242,25 @@ wanted_shape(struct tool *t)
     };
 }
 
+/* A random surface takes half a map of complex waves beside it, and FFTW; a distribution other than
+ * Gauss's moreover the amplitudes that are wanted, half a map, and the heights in order. */
 static void
-check_memory(struct tool *t, const struct synth_shape *row, const struct rc_shape *shape)
+demand_memory(struct tool *t, const struct synth_shape *row, const struct rc_shape *shape)
 {
+    enum {
+        GSL = 1 << 20 /* code of distributions */
+    };
     bool skewed = !(isnan(args.skewness) && isnan(args.weibull));
-    double bytes =
-        8.0 * (double)row->maps * (skewed ? 2 : 1) * (double)shape->nx * (double)shape->ny;
+    size_t halves = 2 * row->maps + (skewed ? 3 : 0), nodes, bytes;
+    struct rc_err err;
 
-    if (t->memory > 0 && bytes > (double)t->memory)
-        tool_die(t, EXIT_IMPOSSIBLE,
-                 "%zu x %zu nodes of %s need %.0f bytes, more than --memory "
-                 "allows",
-                 shape->nx, shape->ny, row->name, bytes);
+    if (rc_shape_check(shape, &err) != RC_OK ||
+        rc_size_mul(shape->nx, shape->ny, &nodes, &err) != RC_OK ||
+        rc_size_mul(nodes, halves * sizeof(double) / 2, &bytes, &err) != RC_OK ||
+        tool_ask_memory(t, shape,
+                        bytes + (row->maps > 1 ? TOOL_TRANSFORMS : 0) + (skewed ? GSL : 0),
+                        "take fewer nodes: --nx, --ny", &err) != RC_OK)
+        tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
 }
 
 static void
@@ -283,7 +292,7 @@ main(int argc, char **argv)
     check_place(&t, &shape);
     if (row->check != NULL)
         row->check(&t, &args, &shape);
-    check_memory(&t, row, &shape);
+    demand_memory(&t, row, &shape);
     g = rc_grid_new(&shape, "height", "m", &err);
     if (g == NULL || row->make(&args, &shape, g->v, &periodic, &err) != RC_OK)
         tool_die(&t, EXIT_IMPOSSIBLE, "%s", err.text);

@@ -10,5 +10,7 @@
 
 /* The checksum of what `crc` is the checksum of (0: of nothing) with n more bytes behind it. */
 uint32_t rc_crc32_add(uint32_t crc, const void *bytes, size_t n);
+/* The checksum of two parts one after another, the second of n bytes. */
+uint32_t rc_crc32_join(uint32_t first, uint32_t second, uint64_t n);
 
 #endif

@@ -1,6 +1,7 @@
 #include "even.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -60,7 +61,7 @@ static enum rc_status
 median_spacing(const double *x, size_t points, double *median, struct rc_err *err)
 {
     size_t n = points - 1;
-    double *d = malloc(n * sizeof *d);
+    double *d = calloc(points, sizeof *d);
 
     if (d == NULL)
         return rc_err_set(err, "out of memory for %zu spacings", n);
@@ -110,7 +111,7 @@ rc_even_new(const double *x, size_t points, double metres, const struct rc_file 
         pick_step(wish, metres, length, median, &even->step, err) != RC_OK)
         return RC_FAIL;
     nodes = floor(length / even->step * (1 + 1e-12) + 1e-9) + 1;
-    if (!(nodes < 1e15))
+    if (!(nodes < 1e15 && nodes < (double)SIZE_MAX))
         return rc_err_set(err, "%g nodes are too many: --even STEP gives a wider step", nodes);
     even->n = (size_t)nodes;
     even->widest = RC_EVEN_GAP * fmax(median, even->step) * (1 + 1e-9);

@@ -223,6 +223,7 @@ read_row(const struct rc_number_table *t, const char *s, size_t most, double *v,
     double value;
 
     *count = 0;
+    *bad = NULL;
     for (;;) {
         s = skip_blanks(t, s);
         if (s == t->end || ends_line(*s)) {

@@ -39,6 +39,7 @@ struct rc_channel {
 struct rc_notes {
     char text[8][200];
     size_t n;
+    size_t held; /* bytes that the process which read the file held of its own; 0: this one did */
 };
 void rc_note(struct rc_notes *notes, const char *format, ...) __attribute__((format(printf, 2, 3)));
 

@@ -9,12 +9,29 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 #include <stdio.h>
 
 #include "libcontact/grid.h"
 
 enum {
     RC_HEADER_MAX = 65536 /* bytes of one frame's header, first to last line feed */
+};
+
+/* Several processes that read or write one file, each the rows of every map that it holds. All call the same
+ * functions with the same headers; those that fail do so for all. */
+struct rc_share {
+    void *ctx;
+    bool first; /* this one writes what stands between the values */
+    void (*rows)(void *ctx, const struct rc_shape *shape, size_t *first, size_t *n);
+    /* Bytes of this process at a place of the file; 0 of them is a part too. */
+    enum rc_status (*read)(void *ctx, uint64_t at, void *to, size_t bytes, struct rc_err *err);
+    enum rc_status (*write)(void *ctx, uint64_t at, const void *from, size_t bytes,
+                            struct rc_err *err);
+    /* CRC-32 of the parts of all, one after another. */
+    uint32_t (*crc)(void *ctx, uint32_t own, size_t bytes);
+    /* RC_OK where all can go on; else RC_FAIL for all, with the sentence of one who cannot. */
+    enum rc_status (*agree)(void *ctx, enum rc_status status, struct rc_err *err);
 };
 
 struct rc_reader;
@@ -24,6 +41,15 @@ struct rc_reader;
  * refused; 0 sets no limit. NULL when memory is short. */
 struct rc_reader *rc_reader_new(FILE *file, size_t first_case, size_t memory, struct rc_err *err);
 
+/* From now on values are read by several, `share` being this one's part in it and outliving the
+ * reader; `file` is the same file, which every process has opened. */
+void rc_reader_share(struct rc_reader *reader, const struct rc_share *share);
+
+/* Whether a frame of this shape, whose values take `bytes`, may be read; RC_FAIL, and *err says why. */
+typedef enum rc_status rc_reader_allow(void *ctx, const struct rc_shape *shape, size_t bytes,
+                                       struct rc_err *err);
+/* From now on asks before memory is taken for a frame. */
+void rc_reader_ask(struct rc_reader *reader, rc_reader_allow *allow, void *ctx);
 /* RC_MORE and the next frame, which the caller frees; RC_OK and NULL after the last end line; or
  * RC_FAIL: damaged, cut off, or ended by RCGFAIL, whose message is repeated. */
 enum rc_status rc_reader_next(struct rc_reader *reader, struct rc_grid **grid, struct rc_err *err);
@@ -43,6 +69,9 @@ void rc_reader_free(struct rc_reader *reader);
 struct rc_writer;
 
 struct rc_writer *rc_writer_new(FILE *file, struct rc_err *err);
+/* One whose file is written by several, from this place on. */
+struct rc_writer *rc_writer_new_shared(const struct rc_share *share, uint64_t at,
+                                       struct rc_err *err);
 /* Writes one frame, in grid->type. RC_FAIL when the header grows too long or the device refuses. */
 enum rc_status rc_writer_put(struct rc_writer *writer, const struct rc_grid *grid,
                              struct rc_err *err);

@@ -5,13 +5,17 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/types.h>
 
 #include "stream_bytes.h"
 #include "formats/core/core.h"
 
 struct rc_reader {
     FILE *file;
+    const struct rc_share *share; /* NULL: all values are read here */
     size_t memory;
+    rc_reader_allow *allow; /* NULL: none */
+    void *allow_ctx;
     size_t first_case;             /* added to the case numbers of the stream being read     */
     size_t last_case;              /* the largest one given out                              */
     size_t frames;                 /* since the last end line                                */
@@ -36,6 +40,9 @@ rc_reader_new(FILE *file, size_t first_case, size_t memory, struct rc_err *err)
     }
     r->file = file;
     r->memory = memory;
+    r->share = NULL;
+    r->allow = NULL;
+    r->allow_ctx = NULL;
     r->first_case = r->last_case = first_case;
     r->frames = 0;
     r->ended = false;
@@ -43,6 +50,19 @@ rc_reader_new(FILE *file, size_t first_case, size_t memory, struct rc_err *err)
     r->failure[0] = '\0';
     r->failure_status = 0;
     return r;
+}
+
+void
+rc_reader_share(struct rc_reader *r, const struct rc_share *share)
+{
+    r->share = share;
+}
+
+void
+rc_reader_ask(struct rc_reader *r, rc_reader_allow *allow, void *ctx)
+{
+    r->allow = allow;
+    r->allow_ctx = ctx;
 }
 
 void
@@ -198,8 +218,10 @@ read_size(const char *name, const char *text, size_t *n, struct rc_err *err)
 
     errno = 0;
     value = strtoumax(text, &end, 10);
-    if (*text < '0' || *text > '9' || *end != '\0' || errno != 0 || value == 0 || value > SIZE_MAX)
+    if (*text < '0' || *text > '9' || *end != '\0' || value == 0)
         return rc_err_set(err, "%s=%.40s is not a whole number above 0", name, text);
+    if (errno != 0 || value > SIZE_MAX)
+        return rc_err_set(err, "%s=%.40s is more than this machine can address", name, text);
     *n = (size_t)value;
     return RC_OK;
 }
@@ -229,11 +251,16 @@ read_shape(const struct rc_reader *r, const struct head *head, struct rc_shape *
         rc_size_mul(shape->nx, shape->ny, &nodes, err) != RC_OK ||
         rc_size_mul(nodes, sizeof(double), &bytes, err) != RC_OK)
         return RC_FAIL;
-    if (r->memory != 0 && bytes > r->memory)
+    if (r->memory != 0 && r->share == NULL && bytes > r->memory)
         return rc_err_set(err,
                           "a frame of %zu x %zu nodes needs %zu bytes, more than --memory allows",
                           shape->nx, shape->ny, bytes);
-    return RC_OK;
+    if (r->share != NULL) {
+        size_t first, rows;
+        r->share->rows(r->share->ctx, shape, &first, &rows);
+        bytes = shape->nx * rows * sizeof(double);
+    }
+    return r->allow == NULL ? RC_OK : r->allow(r->allow_ctx, shape, bytes, err);
 }
 
 static enum rc_status
@@ -272,6 +299,7 @@ grid_of_head(struct rc_reader *r, const struct head *head, struct rc_err *err)
 {
     struct rc_shape shape;
     struct rc_grid *g;
+    size_t first, rows;
 
     for (int f = 0; f < FIELDS; f++)
         if (head->field[f] == NULL) {
@@ -284,7 +312,10 @@ grid_of_head(struct rc_reader *r, const struct head *head, struct rc_err *err)
         rc_err_set(err, "type=%.40s is neither f64 nor f32", head->field[TYPE]);
         return NULL;
     }
-    g = rc_grid_new(&shape, head->field[CHANNEL], head->field[UNIT], err);
+    rows = shape.ny;
+    if (r->share != NULL)
+        r->share->rows(r->share->ctx, &shape, &first, &rows);
+    g = rc_grid_new_part(&shape, rows, head->field[CHANNEL], head->field[UNIT], err);
     if (g == NULL)
         return NULL;
     g->type = strcmp(head->field[TYPE], "f32") == 0 ? RC_F32 : RC_F64;
@@ -328,6 +359,47 @@ read_f32(struct rc_reader *r, double *v, size_t n, struct rc_err *err)
     return RC_OK;
 }
 
+/* The rows that this process holds, each of them in a file that all read. */
+static enum rc_status
+read_part(struct rc_reader *r, struct rc_grid *g, struct rc_err *err)
+{
+    const struct rc_share *share = r->share;
+    size_t width = g->type == RC_F32 ? sizeof(float) : sizeof(double), nodes = rc_grid_nodes(g);
+    const struct rc_shape shape = rc_grid_shape(g);
+    const off_t at = ftello(r->file);
+    /* single values come to the second half of the room for double ones */
+    char *to = (char *)g->v + nodes * (sizeof *g->v - width);
+    size_t first, rows;
+    uint32_t crc;
+
+    if (at < 0)
+        return rc_err_set(err, "several processes read a file, this is none (%s)", strerror(errno));
+    share->rows(share->ctx, &shape, &first, &rows);
+    if (share->read(share->ctx, (uint64_t)at + first * g->nx * width, to, nodes * width, err) !=
+        RC_OK)
+        return RC_FAIL;
+    crc = share->crc(share->ctx, rc_crc32_add(0, to, nodes * width), nodes * width);
+    r->crc = rc_crc32_join(r->crc, crc, g->nx * g->ny * width);
+    if (!rc_host_is_little())
+        rc_swap_bytes(to, nodes, width);
+    for (size_t k = 0; k < nodes && width < sizeof *g->v; k++) {
+        float v;
+        memcpy(&v, to + k * width, sizeof v);
+        g->v[k] = (double)v;
+    }
+    if (fseeko(r->file, at + (off_t)(g->nx * g->ny * width), SEEK_SET) != 0)
+        return rc_err_set(err, "reading failed (%s)", strerror(errno));
+    return RC_OK;
+}
+
+static enum rc_status
+read_values(struct rc_reader *r, struct rc_grid *g, struct rc_err *err)
+{
+    if (r->share != NULL)
+        return read_part(r, g, err);
+    return (g->type == RC_F32 ? read_f32 : read_f64)(r, g->v, g->nx * g->ny, err);
+}
+
 static enum rc_status
 read_crc(struct rc_reader *r, struct rc_err *err)
 {
@@ -362,8 +434,7 @@ read_frame(struct rc_reader *r, struct rc_grid **grid, struct rc_err *err)
     }
     if (read_head(r, head, err) != RC_OK || (g = grid_of_head(r, head, err)) == NULL)
         goto done;
-    if ((g->type == RC_F32 ? read_f32 : read_f64)(r, g->v, g->nx * g->ny, err) != RC_OK ||
-        read_crc(r, err) != RC_OK)
+    if (read_values(r, g, err) != RC_OK || read_crc(r, err) != RC_OK)
         goto done;
     *grid = g;
     g = NULL;

@@ -9,7 +9,9 @@
 #include "formats/core/core.h"
 
 struct rc_writer {
-    FILE *file;
+    FILE *file;                   /* NULL: several write                    */
+    const struct rc_share *share; /* then; and where the next byte comes to */
+    uint64_t at;
     size_t frames;
 };
 
@@ -23,6 +25,18 @@ rc_writer_new(FILE *file, struct rc_err *err)
         return NULL;
     }
     *w = (struct rc_writer){.file = file};
+    return w;
+}
+
+struct rc_writer *
+rc_writer_new_shared(const struct rc_share *share, uint64_t at, struct rc_err *err)
+{
+    struct rc_writer *w = rc_writer_new(NULL, err);
+
+    if (w != NULL) {
+        w->share = share;
+        w->at = at;
+    }
     return w;
 }
 
@@ -124,15 +138,88 @@ write_f32(FILE *file, const double *v, size_t n, uint32_t crc)
     return crc;
 }
 
+/* ---- a file that several write ---- */
+
+/* What stands between values, the same for all: the first of them writes it. */
+static enum rc_status
+write_text(struct rc_writer *w, const char *text, size_t n, struct rc_err *err)
+{
+    const struct rc_share *share = w->share;
+
+    if (share->write(share->ctx, w->at, text, share->first ? n : 0, err) != RC_OK)
+        return RC_FAIL;
+    w->at += n;
+    return RC_OK;
+}
+
+/* The values of this process as they stand in the file. Memory: NULL where they are that already. */
+static enum rc_status
+as_stored(const struct rc_grid *g, void **own, struct rc_err *err)
+{
+    size_t n = rc_grid_nodes(g), width = g->type == RC_F32 ? sizeof(float) : sizeof(double);
+    char *to;
+
+    *own = NULL;
+    if (g->type == RC_F64 && rc_host_is_little())
+        return RC_OK;
+    if ((*own = to = malloc(n * width + 1)) == NULL)
+        return rc_err_set(err, "out of memory for the %zu values of a frame", n);
+    for (size_t k = 0; k < n; k++) {
+        float v = (float)g->v[k];
+        memcpy(to + k * width, g->type == RC_F32 ? (const void *)&v : &g->v[k], width);
+    }
+    if (!rc_host_is_little())
+        rc_swap_bytes(to, n, width);
+    return RC_OK;
+}
+
+static enum rc_status
+put_shared(struct rc_writer *w, const struct text *t, const struct rc_grid *g, struct rc_err *err)
+{
+    const struct rc_share *share = w->share;
+    const struct rc_shape shape = rc_grid_shape(g);
+    size_t width = g->type == RC_F32 ? sizeof(float) : sizeof(double), first, rows;
+    size_t bytes = rc_grid_nodes(g) * width, all = g->nx * g->ny * width;
+    void *own;
+    const void *from;
+    char line[32];
+    uint32_t crc;
+
+    share->rows(share->ctx, &shape, &first, &rows);
+    if (share->agree(share->ctx, as_stored(g, &own, err), err) != RC_OK) {
+        free(own);
+        return RC_FAIL;
+    }
+    from = own == NULL ? g->v : own;
+    crc = share->crc(share->ctx, rc_crc32_add(0, from, bytes), bytes);
+    crc = rc_crc32_join(rc_crc32_add(0, t->text, t->n), crc, all);
+    if (write_text(w, t->text, t->n, err) != RC_OK ||
+        share->write(share->ctx, w->at + first * g->nx * width, from, bytes, err) != RC_OK) {
+        free(own);
+        return RC_FAIL;
+    }
+    free(own);
+    w->at += all;
+    snprintf(line, sizeof line, "crc32 %08" PRIx32 "\n", crc);
+    return write_text(w, line, strlen(line), err);
+}
+
+/* ---- frames ---- */
+
 enum rc_status
 rc_writer_put(struct rc_writer *w, const struct rc_grid *g, struct rc_err *err)
 {
     struct text *t = malloc(sizeof *t);
-    enum rc_status status = RC_FAIL;
+    enum rc_status status = RC_OK;
     uint32_t crc;
 
     if (t == NULL)
-        return rc_err_set(err, "out of memory for a header (%zu bytes)", sizeof *t);
+        status = rc_err_set(err, "out of memory for a header (%zu bytes)", sizeof *t);
+    if (w->share != NULL)
+        status = w->share->agree(w->share->ctx, status, err);
+    if (status != RC_OK)
+        goto done;
+    status = RC_FAIL;
     t->n = 0;
     t->full = false;
     for (const char *s = "RCG1\n"; *s != '\0'; s++)
@@ -154,6 +241,11 @@ rc_writer_put(struct rc_writer *w, const struct rc_grid *g, struct rc_err *err)
                    RC_HEADER_MAX);
         goto done;
     }
+    if (w->share != NULL) {
+        status = put_shared(w, t, g, err);
+        w->frames += status == RC_OK;
+        goto done;
+    }
     fwrite(t->text, 1, t->n, w->file);
     crc = rc_crc32_add(0, t->text, t->n);
     crc = (g->type == RC_F32 ? write_f32 : write_f64)(w->file, g->v, g->nx * g->ny, crc);
@@ -172,6 +264,12 @@ done:
 enum rc_status
 rc_writer_end(struct rc_writer *w, struct rc_err *err)
 {
+    char line[32];
+
+    if (w->share != NULL) {
+        snprintf(line, sizeof line, "RCGEND %zu\n", w->frames);
+        return write_text(w, line, strlen(line), err);
+    }
     fprintf(w->file, "RCGEND %zu\n", w->frames);
     return fflush(w->file) != 0 || ferror(w->file) ? refused(err) : RC_OK;
 }

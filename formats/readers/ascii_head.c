@@ -93,7 +93,9 @@ count_of(struct rc_piece p)
 {
     double value = number_of(p);
 
-    return value >= 1 && value <= 1e15 && value == floor(value) ? (size_t)value : 0;
+    if (!(value >= 1 && value <= 1e15 && value == floor(value)))
+        return 0;
+    return value < (double)SIZE_MAX ? (size_t)value : SIZE_MAX;
 }
 
 /* "10 10 um", or one number for both. */

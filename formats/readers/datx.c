@@ -211,4 +211,5 @@ const struct rc_format rc_format_datx = {
     .score = datx_score,
     .list = datx_list,
     .read = datx_read,
+    .sandboxed = true,
 };

@@ -134,8 +134,9 @@ shape_of(hid_t set, struct rc_hdf_set *to)
             if (good)
                 last[wide++] = size[k];
         }
-    to->rows = (size_t)last[0];
-    to->columns = (size_t)last[1];
+    /* where a size is more than memory has, it stays so: sizes of the file have 64 bits everywhere */
+    to->rows = last[0] < SIZE_MAX ? (size_t)last[0] : SIZE_MAX;
+    to->columns = last[1] < SIZE_MAX ? (size_t)last[1] : SIZE_MAX;
     H5Tclose(type);
     H5Sclose(space);
     return good && wide == 2;
@@ -160,8 +161,17 @@ struct search {
     size_t n, most;
 };
 
+/* HDF5 1.12 tells of an object in another structure, by a function of another name. */
+#if H5_VERSION_GE(1, 12, 0)
+#define visit_objects H5Ovisit3
+#define object_info H5O_info2_t
+#else
+#define visit_objects H5Ovisit2
+#define object_info H5O_info_t
+#endif
+
 static herr_t
-visit(hid_t from, const char *name, const H5O_info_t *info, void *arg)
+visit(hid_t from, const char *name, const object_info *info, void *arg)
 {
     struct search *s = arg;
     struct rc_hdf_set set;
@@ -180,7 +190,7 @@ rc_hdf_sets(struct rc_hdf *h, struct rc_hdf_set *set, size_t most)
 {
     struct search s = {.hdf = h, .set = set, .most = most};
 
-    H5Ovisit2(h->file, H5_INDEX_NAME, H5_ITER_INC, visit, &s, H5O_INFO_BASIC);
+    visit_objects(h->file, H5_INDEX_NAME, H5_ITER_INC, visit, &s, H5O_INFO_BASIC);
     return s.n;
 }
 

@@ -131,4 +131,5 @@ const struct rc_format rc_format_hdf5 = {
     .score = hdf5_score,
     .list = hdf5_list,
     .read = hdf5_read,
+    .sandboxed = true,
 };

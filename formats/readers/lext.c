@@ -276,4 +276,5 @@ const struct rc_format rc_format_lext = {
     .score = lext_score,
     .list = lext_list,
     .read = lext_read,
+    .sandboxed = true,
 };

@@ -123,13 +123,14 @@ opd_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     size = rc_bytes_at(&bytes, o.heights.at + 4, RC_RAW_U16);
     if (size != 2 && size != 4)
         return rc_err_set(err, "a height takes %g bytes: it must take 2 or 4", size);
-    if (o.heights.n - MATRIX < (double)map->nx * (double)map->ny * size)
+    if ((double)(o.heights.n - MATRIX) < (double)map->nx * (double)map->ny * size)
         return rc_err_set(err, "the header promises %zu x %zu heights, their block has %zu bytes",
                           map->nx, map->ny, o.heights.n);
     map->at = o.heights.at + MATRIX;
     map->by_columns = map->bottom_first = true;
     map->raw = size == 2 ? RC_RAW_I16 : RC_RAW_F32;
-    map->missing_from = size == 2 ? 32766 : (double)1e38f;
+    /* rounded to a float, which the constant alone is not where floats are computed as doubles */
+    map->missing_from = size == 2 ? 32766 : (double)(float)1e38;
     map->missing_to = INFINITY;
     map->scale = o.wavelength / o.factor;
     map->dx = o.pixel * 1e-3;

@@ -260,4 +260,6 @@ const struct rc_format rc_format_park = {
     .score = park_score,
     .list = park_list,
     .read = park_read,
+    .sandboxed = true,
+    .copies = true,
 };

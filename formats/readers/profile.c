@@ -164,12 +164,13 @@ lay_nodes(const struct profile *p, const struct rc_file *file, const struct rc_w
           struct rc_even *even, double *v, struct rc_err *err)
 {
     size_t rows = p->table.numbers.rows, columns = p->table.numbers.columns;
-    double *x = malloc(2 * rows * sizeof *x), *z = x + rows;
+    double *x = calloc(rows, 2 * sizeof *x), *z;
     double metres = rc_piece_metres(unit_of(title_of(p, p->x)));
     enum rc_status status;
 
     if (x == NULL)
         return rc_err_set(err, "out of memory for %zu points", rows);
+    z = x + rows;
     for (size_t k = 0; k < rows; k++) {
         size_t row = p->falls ? rows - 1 - k : k;
         x[k] = column(p, p->x)[row * columns];
@@ -207,7 +208,7 @@ profile_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_m
     struct rc_map *map = rc_maps_add(maps, "", 0);
     struct rc_piece unit;
     enum rc_status status;
-    struct rc_even even;
+    struct rc_even even = {0};
     struct profile p;
 
     status = profile_open(&p, file, wish, err);

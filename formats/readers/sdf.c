@@ -90,6 +90,7 @@ find_binary(const struct rc_file *file, struct sdf *s, struct rc_map *map, struc
 {
     struct rc_bytes bytes = rc_file_bytes(file, false);
     const char *text = (const char *)file->data;
+    const size_t known = sizeof types / sizeof *types;
 
     if (file->size < HEADER)
         return rc_err_set(err, "the header takes %d bytes, the file has %zu", HEADER, file->size);
@@ -103,9 +104,8 @@ find_binary(const struct rc_file *file, struct sdf *s, struct rc_map *map, struc
     s->scale = rc_bytes_at(&bytes, Z_AT, RC_RAW_F64);
     s->compression = rc_bytes_at(&bytes, COMPRESSION_AT, RC_RAW_U8);
     s->type = rc_bytes_at(&bytes, TYPE_AT, RC_RAW_U8);
-    if (!(s->type < (double)(sizeof types / sizeof *types)))
-        return rc_err_set(err, "DataType is %g: it must be 0 to %zu", s->type,
-                          sizeof types / sizeof *types - 1);
+    if (!(s->type < (double)known))
+        return rc_err_set(err, "DataType is %g: it must be 0 to %zu", s->type, known - 1);
     map->at = HEADER;
     map->raw = types[(size_t)s->type].raw;
     map->missing_from = map->missing_to = types[(size_t)s->type].missing;

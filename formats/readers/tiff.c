@@ -14,7 +14,8 @@ enum {
 struct rc_tiff {
     TIFF *tiff;
     const unsigned char *data;
-    size_t size, at;
+    size_t size;
+    toff_t at; /* wherever libtiff has been told to go, beyond the end too */
 };
 
 /* ---- a file in memory, as libtiff sees it ---- */
@@ -23,11 +24,11 @@ static tmsize_t
 read_some(thandle_t handle, void *to, tmsize_t n)
 {
     struct rc_tiff *t = handle;
-    size_t wanted = n < 0 ? 0 : (size_t)n, there = t->at < t->size ? t->size - t->at : 0;
+    size_t wanted = n < 0 ? 0 : (size_t)n, there = t->at < t->size ? t->size - (size_t)t->at : 0;
 
     if (wanted > there)
         wanted = there;
-    memcpy(to, t->data + (wanted > 0 ? t->at : 0), wanted);
+    memcpy(to, t->data + (wanted > 0 ? (size_t)t->at : 0), wanted);
     t->at += wanted;
     return (tmsize_t)wanted;
 }

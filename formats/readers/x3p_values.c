@@ -140,7 +140,7 @@ read_points(struct rc_x3p *x, size_t member, double *v, struct rc_notes *notes, 
     struct values values = {.v = v, .raw = x->raw};
     uint64_t size = (uint64_t)x->n * rc_raw_width(x->raw);
     const char *given = x->text[RC_X3P_POINTS_MD5];
-    char md5[RC_MD5_TEXT];
+    char md5[RC_MD5_TEXT] = "";
 
     if (rc_zip_read_member(x->archive, member, size, take_values, &values,
                            is_given(given) ? md5 : NULL, err) != RC_OK)
@@ -155,7 +155,7 @@ apply_mask(struct rc_x3p *x, double *v, struct rc_notes *notes, struct rc_err *e
     unsigned char *mask;
     size_t member, n, least = x->n / 8 + (x->n % 8 != 0);
     const char *given = x->text[RC_X3P_VALID_MD5];
-    char md5[RC_MD5_TEXT];
+    char md5[RC_MD5_TEXT] = "";
     uint64_t size;
 
     if (!is_given(x->text[RC_X3P_VALID]))
@@ -189,7 +189,7 @@ read_profile(struct rc_x3p *x, double *xz, struct rc_notes *notes, struct rc_err
     const char *given = x->text[RC_X3P_POINTS_MD5];
     struct rc_bytes bytes;
     unsigned char *data;
-    char md5[RC_MD5_TEXT];
+    char md5[RC_MD5_TEXT] = "";
 
     if (rc_x3p_find_points(x, &member, err) != RC_OK ||
         (data = rc_zip_read_bytes(x->archive, member, size, &got, is_given(given) ? md5 : NULL,

@@ -111,6 +111,7 @@ get_values(struct rc_pipes *p, struct rc_grid *g)
     if (!get(p->result, &at, sizeof at))
         return false;
     reply = rc_child_memory_copy(p->child, at, g->v, bytes) ? COPIED : WANTED;
+    p->held = rc_child_memory_held(p->child);
     if (send(p->reply, &reply, 1, MSG_NOSIGNAL) != 1)
         return false;
     return reply == COPIED || get(p->result, g->v, bytes);

@@ -12,7 +12,8 @@
 struct rc_pipes {
     pid_t child;
     FILE *result;
-    int reply; /* a socket: writing to a child that has died must not end the parent by SIGPIPE */
+    size_t held; /* parent: rc_child_memory_held when the values came */
+    int reply;   /* a socket: writing to a child that has died must not end the parent by SIGPIPE */
 };
 
 /* Each gives whether all of it went through. A list is n channels, of which the first `most` are

@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "calls.h"
 #include "confine.h"
 #include "result.h"
 #include "formats/core/core.h"
@@ -45,6 +46,7 @@ start(struct rc_pipes *p, const struct rc_file *file, struct rc_err *err)
         close(result[1]);
         return -1;
     }
+    p->held = 0;
     p->child = fork();
     own = p->child == 0; /* the child writes results at end 1, the parent reads them at end 0 */
     close(result[!own]);
@@ -55,6 +57,7 @@ start(struct rc_pipes *p, const struct rc_file *file, struct rc_err *err)
         if (p->result == NULL)
             _exit(1);
         rc_confine(file);
+        rc_calls_filter(fileno(p->result), p->reply);
         return 0;
     }
     if (p->result != NULL)
@@ -150,6 +153,8 @@ rc_sandbox_read(rc_sandboxed_read *read, const struct rc_file *file, const struc
         leave(&pipes, rc_result_send_grid(&pipes, g, &noted, &said));
     }
     whole = rc_result_receive_grid(&pipes, file, &g, &noted, &said);
+    if (notes != NULL)
+        notes->held = pipes.held;
     for (size_t k = 0; whole && k < noted.n; k++)
         rc_note(notes, "%s", noted.text[k]);
     if (whole && g == NULL)

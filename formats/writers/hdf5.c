@@ -296,6 +296,8 @@ const struct rc_export rc_export_hdf5 = {
     .summary = "HDF5, a dataset for each frame or stack of depths",
     .several = true,
     .types = TYPES,
+    .copies = 2,
+    .library = (size_t)4 << 20,
     .uneven = true,
     .write = hdf5_write,
 };

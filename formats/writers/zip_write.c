@@ -1,5 +1,6 @@
 #include "zip_write.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <zip.h>
 #include <zlib.h>
@@ -9,13 +10,18 @@
 enum {
     CHUNK = 1 << 16,
     LEVEL = 1, /* noise comes out no smaller at a higher one, only slower */
-    TRIED = 4  /* chunks of a member that are tried                       */
+    TRIED = 4, /* chunks of a member that are tried                       */
+    MEMBERS = 16
 };
 
 struct rc_zip_write {
     zip_source_t *made; /* where the archive grows */
     zip_t *zip;         /* NULL once it is closed  */
     time_t time;
+    /* Freed at the end: where memory is short libzip frees what it was given, or does not, and no one
+     * can tell which. */
+    void *given[MEMBERS];
+    size_t members;
 };
 
 struct rc_zip_write *
@@ -61,13 +67,13 @@ rc_zip_write_add(struct rc_zip_write *w, const char *name, void *bytes, size_t n
                  struct rc_err *err)
 {
     zip_int32_t method = is_compressible(bytes, n) ? ZIP_CM_DEFLATE : ZIP_CM_STORE;
-    zip_source_t *from = zip_source_buffer(w->zip, bytes, n, 1);
+    zip_source_t *from;
     zip_int64_t index;
 
-    if (from == NULL) {
-        free(bytes);
+    assert(w->members < MEMBERS);
+    w->given[w->members++] = bytes;
+    if ((from = zip_source_buffer(w->zip, bytes, n, 0)) == NULL)
         return rc_err_set(err, "out of memory for the member '%s'", name);
-    }
     if ((index = zip_file_add(w->zip, name, from, ZIP_FL_ENC_UTF_8)) < 0) {
         zip_source_free(from);
         return rc_err_set(err, "the member '%s': %s", name, zip_strerror(w->zip));
@@ -105,5 +111,7 @@ rc_zip_write_free(struct rc_zip_write *w)
         zip_discard(w->zip);
     if (w->made != NULL)
         zip_source_free(w->made);
+    while (w->members > 0)
+        free(w->given[--w->members]);
     free(w);
 }

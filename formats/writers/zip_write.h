@@ -12,7 +12,8 @@ struct rc_zip_write;
 
 /* `time` is that of all members, in seconds since 1970. */
 struct rc_zip_write *rc_zip_write_new(int64_t time, struct rc_err *err);
-/* Adds a member. The bytes come from malloc and become the archive's own, also on failure. */
+/* Adds a member, of which there are at most 16. The bytes come from malloc and become the archive's
+ * own, also on failure. */
 enum rc_status rc_zip_write_add(struct rc_zip_write *archive, const char *name, void *bytes,
                                 size_t n, struct rc_err *err);
 /* Compresses the members and writes the archive; to be called once, last. */

@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcontact/ranks/ranks.h"
+
 static const struct rc_engine *const engines[] = {
 #define RC_ENGINE(name) &rc_engine_##name,
 #include RC_ENGINES_LIST
@@ -43,7 +45,8 @@ sum_of(const struct rc_shape *shape, double estar, const struct rc_stack *stack,
                            .precise = o->precise,
                            .order = o->order,
                            .correction = o->correction,
-                           .threads = o->threads};
+                           .threads = o->threads,
+                           .ranks = rc_ranks_count(o->ranks) > 1 ? o->ranks : NULL};
 }
 
 const struct rc_engine_info *
@@ -92,6 +95,10 @@ choose(const struct rc_sum *sum, const struct rc_conv_options *o, const char **r
         *reason = "the boundary is periodic";
         return &rc_engine_fft;
     }
+    if (sum->ranks != NULL) {
+        *reason = "several processes share the map";
+        return rc_engine_of_transforms();
+    }
     if (sum->order != 0) {
         *reason = "its order is given";
         return &rc_engine_mlms;
@@ -130,6 +137,14 @@ find(struct rc_sum *sum, const struct rc_conv_options *o, bool *precise, const c
     if (engine == NULL)
         rc_err_set(err, "there is no engine '%s'", o->engine);
     sum->precise |= *precise;
+    if (engine != NULL && sum->ranks != NULL && !engine->transforms) {
+        rc_err_set(
+            err,
+            "the engine '%s' needs the whole map in one process: on several leave the choice "
+            "to auto, or take '%s'",
+            o->engine, rc_engine_of_transforms()->info.name);
+        return NULL;
+    }
     return engine;
 }
 
@@ -256,5 +271,6 @@ rc_conv_seconds(const struct rc_shape *shape, const struct rc_conv_options *opti
     const struct rc_engine *engine = find(&sum, options, &precise, &reason, NULL);
     size_t threads = options->threads == 0 ? rc_threads_available() : options->threads;
 
+    threads *= rc_ranks_count(options->ranks);
     return engine == NULL ? NAN : engine->seconds(&sum) * 2 / (double)threads;
 }

@@ -5,7 +5,7 @@
 #define RC_ENGINE_H
 
 #include "kernel.h"
-#include "stack.h"
+#include "libcontact/layers/layers.h"
 
 struct rc_fft;
 
@@ -20,13 +20,15 @@ struct rc_sum {
     bool precise;   /* in double precision throughout, even where tol would allow less           */
     size_t threads; /* 0: all                                                        */
     size_t order, correction; /* of mlms by hand: t and m_c of the paper; 0: from tol          */
+    const struct rc_ranks *ranks; /* that share the map; only engines that transform can        */
 };
 
 struct rc_engine {
     struct rc_engine_info info;
     struct rc_engine_info
-        precise;     /* the word that asks for double precision; without a name: none */
-    bool transforms; /* by Fourier transforms of maps: fields of one source share its transform */
+        precise; /* the word that asks for double precision; without a name: none */
+    /* By Fourier transforms of maps: fields of one source share its transform, and ranks a map. */
+    bool transforms;
     /* Seconds that one sum takes in a solve, the work of the method around it included; two threads
      * of 2026. */
     double (*seconds)(const struct rc_sum *sum);

@@ -25,7 +25,8 @@ precision(const struct rc_sum *sum)
 static size_t
 memory(const struct rc_sum *sum)
 {
-    return rc_fft_memory(&sum->shape, sum->boundary, precision(sum));
+    return rc_fft_memory(&sum->shape, sum->boundary, precision(sum), rc_ranks_count(sum->ranks)) +
+           rc_fft_scratch(&sum->shape, sum->boundary, precision(sum), sum->threads);
 }
 
 static void
@@ -49,7 +50,8 @@ plan_new(const struct rc_sum *sum, struct rc_err *err)
         rc_err_set(err, "out of memory for a plan");
         return NULL;
     }
-    plan->fft = rc_fft_new(&sum->shape, sum->boundary, precision(sum), sum->threads, err);
+    plan->fft = rc_fft_new_on(sum->ranks, NULL, &sum->shape, sum->boundary, precision(sum),
+                              sum->threads, err);
     if (plan->fft == NULL || (plan->kernel = rc_spectrum_new(plan->fft, err)) == NULL ||
         rc_spectrum_set(plan->kernel, plan->fft, sum->kernel, sum->component, &sum->medium, err) !=
             RC_OK) {

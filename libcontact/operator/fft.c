@@ -10,14 +10,23 @@
 #include "fft.h"
 
 #include <assert.h>
+#include <complex.h>
 #include <math.h>
 #include <omp.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "dct.h"
-#include "fourier.h"
 #include "libcontact/memory.h"
+#include "libcontact/transform/transform.h"
+
+/* Transforms of half a period of even or odd values; of a period of odd length, which has no node in its
+ * middle, of even values only, by way of all of it. */
+struct half {
+    struct rc_dct *dct;   /* of even length     */
+    struct rc_line *line; /* of odd length      */
+    size_t length, n;     /* of the period; half */
+    double *scratch;      /* for each thread: the period and its waves */
+};
 
 struct rc_fft {
     struct rc_shape shape;
@@ -25,15 +34,16 @@ struct rc_fft {
     struct rc_layout layout;
     const struct rc_fft_ops *ops;
     void *plan;
-    struct rc_dct *along_x,
-        *along_y;    /* of a quarter of a kernel; NULL on periods of odd length   */
-    double *columns; /* COLUMNS columns of a spectrum for each thread */
+    struct half along_x, along_y; /* of a quarter of a kernel                                  */
+    double *columns;              /* COLUMNS columns of a spectrum for each thread              */
+    struct rc_turn turn, quarter; /* of waves, and of the rows of a quarter; where ranks share it */
 };
 
 enum {
-    COLUMNS = 16, /* of a quarter transformed together: two cache lines, fetched as a pair */
-    PREFETCH = 8, /* rows fetched in advance: they lie pages apart */
-    ROWS = 8      /* of a kernel evaluated together */
+    COLUMNS = 16,    /* of a quarter transformed together: two cache lines, fetched as a pair */
+    PREFETCH = 8,    /* rows fetched in advance: they lie pages apart */
+    ROWS = 8,        /* of a kernel evaluated together */
+    LINE_BYTES = 128 /* of waves that are transformed together */
 };
 
 struct rc_spectrum {
@@ -46,28 +56,27 @@ struct rc_spectrum {
 
 /* ---- layout ---- */
 
-size_t
-rc_fft_length(size_t n, size_t step)
+static size_t
+line_of(enum rc_precision precision)
 {
-    for (size_t length = (2 * n + step - 1) / step * step;; length += step) {
-        size_t rest = length;
-        for (size_t f = 2; f <= 7; f++)
-            while (rest % f == 0)
-                rest /= f;
-        if (rest == 1)
-            return length;
-    }
+    return precision == RC_SINGLE ? rc_fft_single.line : rc_fft_double.line;
+}
+
+static size_t
+real_size(enum rc_precision precision)
+{
+    return precision == RC_SINGLE ? sizeof(float) : sizeof(double);
 }
 
 static struct rc_layout
 layout_of(const struct rc_shape *s, enum rc_boundary boundary, enum rc_precision precision)
 {
-    const size_t line = precision == RC_SINGLE ? 16 : 8; /* complex numbers in two cache lines */
+    const size_t line = line_of(precision);
     struct rc_layout l = {.nx = s->nx, .ny = s->ny, .px = s->nx, .py = s->ny};
 
     if (boundary == RC_FREE) {
-        l.px = rc_fft_length(s->nx, 2);
-        l.py = rc_fft_length(s->ny, 4);
+        l.px = rc_fourier_length(s->nx, 2);
+        l.py = rc_fourier_length(s->ny, 4);
     }
     l.cx = l.px / 2 + 1;
     l.stride = (l.cx + line - 1) / line * line;
@@ -77,55 +86,186 @@ layout_of(const struct rc_shape *s, enum rc_boundary boundary, enum rc_precision
     l.m = l.py / l.radix;
     l.parts = boundary == RC_FREE ? 2 : l.radix;
     l.cy = l.py / 2 + 1;
+    l.rows = l.ny;
+    l.columns = l.cx;
+    l.wide = l.stride;
     return l;
+}
+
+/* What rank `own` of `count` has of it: rows as maps are shared, lines of columns dealt out. */
+static void
+share_layout(struct rc_layout *l, enum rc_precision precision, size_t count, size_t own,
+             const struct rc_turn *turn)
+{
+    size_t line = line_of(precision), lines = l->stride / line;
+    size_t first = rc_rows_dealt(lines, 1, count, own),
+           last = rc_rows_dealt(lines, 1, count, own + 1);
+
+    l->first = first * line < l->cx ? first * line : l->cx;
+    l->wide = (last - first) * line;
+    l->columns = last * line < l->cx ? l->wide : l->cx - l->first;
+    l->turn = turn;
+}
+
+/* Columns of one of so many ranks, the most. */
+static size_t
+most_columns(const struct rc_layout *l, size_t line, size_t ranks)
+{
+    return (l->stride / line + ranks - 1) / ranks * line;
 }
 
 size_t
 rc_spectrum_memory(const struct rc_shape *shape, enum rc_boundary boundary,
-                   enum rc_precision precision)
+                   enum rc_precision precision, size_t ranks)
 {
     struct rc_layout l = layout_of(shape, boundary, precision);
+    size_t columns = ranks < 2 ? l.cx : most_columns(&l, line_of(precision), ranks);
 
-    return l.cx * l.cy * (precision == RC_SINGLE ? sizeof(float) : sizeof(double));
+    return columns * l.cy * real_size(precision);
 }
 
 size_t
-rc_fft_memory(const struct rc_shape *shape, enum rc_boundary boundary, enum rc_precision precision)
+rc_fft_memory(const struct rc_shape *shape, enum rc_boundary boundary, enum rc_precision precision,
+              size_t ranks)
 {
     struct rc_layout l = layout_of(shape, boundary, precision);
+    size_t waves = l.ny * l.stride;
 
-    return l.ny * l.stride * 2 * (precision == RC_SINGLE ? sizeof(float) : sizeof(double)) +
-           rc_spectrum_memory(shape, boundary, precision);
+    if (ranks > 1)
+        waves = l.ny * most_columns(&l, line_of(precision), ranks) +
+                rc_rows_most(shape, ranks) * l.stride;
+    return waves * 2 * real_size(precision) + rc_spectrum_memory(shape, boundary, precision, ranks);
 }
 
-/* Whether a quarter of an even kernel's values, from offset 0 to half a period, tells all. */
-static bool
-by_quarter(const struct rc_layout *l)
+size_t
+rc_fft_scratch(const struct rc_shape *shape, enum rc_boundary boundary, enum rc_precision precision,
+               size_t threads)
 {
-    return l->px % 2 == 0 && l->py % 2 == 0;
+    struct rc_layout l = layout_of(shape, boundary, precision);
+    size_t number = 2 * (precision == RC_SINGLE ? sizeof(float) : sizeof(double));
+    size_t column = l.py * number, lines = 128 / number;
+    /* fft_body.h: columns taken together and one more, a row and its transform, a spectrum's column */
+    size_t each = (lines + 1) * column + 2 * l.stride * number + column / 4;
+
+    each += COLUMNS * l.cy * sizeof(double) + 4 * (l.px + l.py) * sizeof(double); /* and dct.c */
+    return (size_t)rc_useful_threads(shape, threads) * each + 3 * l.m * number;
 }
+
+/* ---- half a period ---- */
+
+static void
+half_free(struct half *h)
+{
+    rc_dct_free(h->dct);
+    rc_line_free(h->line);
+    free(h->scratch);
+}
+
+static bool
+half_new(struct half *h, size_t length, size_t threads)
+{
+    *h = (struct half){.length = length, .n = length / 2 + 1};
+    if (length % 2 == 0)
+        return (h->dct = rc_dct_new(h->n, threads, NULL)) != NULL;
+    h->line = rc_line_new(length, threads, NULL);
+    h->scratch = rc_alloc(threads * (length + 1 + 2 * h->n), sizeof *h->scratch);
+    return h->line != NULL && h->scratch != NULL;
+}
+
+static void
+half_run(const struct half *h, bool odd, double *v)
+{
+    double *all;
+    double complex *waves;
+
+    if (h->dct != NULL) {
+        rc_dct_run(h->dct, odd, v);
+        return;
+    }
+    assert(!odd);
+    all = h->scratch + (size_t)omp_get_thread_num() * (h->length + 1 + 2 * h->n);
+    waves = (double complex *)(void *)(all + h->length + 1); /* the length is odd */
+    memcpy(all, v, h->n * sizeof *all);
+    for (size_t k = h->n; k < h->length; k++)
+        all[k] = v[h->length - k];
+    rc_line_forward(h->line, all, waves);
+    for (size_t k = 0; k < h->n; k++)
+        v[k] = creal(waves[k]);
+}
+
+/* ---- plan ---- */
 
 struct rc_fft *
 rc_fft_new(const struct rc_shape *s, enum rc_boundary boundary, enum rc_precision precision,
            size_t threads, struct rc_err *err)
 {
-    return rc_fft_new_in(NULL, s, boundary, precision, threads, err);
-}
-
-/* Bytes of the rows under way. */
-static size_t
-rows_memory(const struct rc_layout *l, enum rc_precision precision)
-{
-    return l->ny * l->stride * 2 * (precision == RC_SINGLE ? sizeof(float) : sizeof(double));
+    return rc_fft_new_on(NULL, NULL, s, boundary, precision, threads, err);
 }
 
 struct rc_fft *
 rc_fft_new_in(struct rc_fft *lender, const struct rc_shape *s, enum rc_boundary boundary,
               enum rc_precision precision, size_t threads, struct rc_err *err)
 {
+    return rc_fft_new_on(NULL, lender, s, boundary, precision, threads, err);
+}
+
+/* Who has which rows and columns; false: memory is short. */
+static bool
+share(struct rc_fft *f, const struct rc_ranks *ranks, enum rc_precision precision)
+{
+    struct rc_layout *l = &f->layout;
+    struct rc_rows rows = rc_rows_of(ranks, &f->shape);
+    size_t count = rc_ranks_count(ranks), line = line_of(precision), lines = l->stride / line;
+
+    if (count == 1)
+        return true;
+    if (!rc_turn_new(&f->turn, ranks, l->ny, rc_rows_unit(f->shape.nx), lines, LINE_BYTES) ||
+        !rc_turn_new(&f->quarter, ranks, l->cy, ROWS, lines, line * sizeof(double)))
+        return false;
+    share_layout(l, precision, count, rc_ranks_own(ranks), &f->turn);
+    l->rows = rows.n;
+    return true;
+}
+
+static struct rc_fft *
+fft_new(const struct rc_ranks *ranks, struct rc_fft *lender, const struct rc_shape *s,
+        enum rc_boundary boundary, enum rc_precision precision, size_t threads)
+{
+    struct rc_fft *f = calloc(1, sizeof *f);
+    struct rc_shape own = {s->nx, rc_rows_of(ranks, s).n, s->dx, s->dy};
     void *lent = NULL;
-    struct rc_fft *f;
     size_t team;
+
+    if (f == NULL)
+        return NULL;
+    f->shape = *s;
+    f->boundary = boundary;
+    f->layout = layout_of(s, boundary, precision);
+    f->layout.threads =
+        rc_useful_threads(&own, threads); /* those of all that works on these rows */
+    team = (size_t)f->layout.threads;
+    f->ops = precision == RC_SINGLE ? &rc_fft_single : &rc_fft_double;
+    if (!share(f, ranks, precision))
+        goto fail;
+    if (lender != NULL)
+        lent = lender->ops->workspace(lender->plan,
+                                      rc_layout_rows(&f->layout) * 2 * real_size(precision));
+    f->plan = f->ops->new (&f->layout, lent);
+    f->columns = rc_alloc(team * COLUMNS * f->layout.cy, sizeof *f->columns);
+    if (f->plan != NULL && f->columns != NULL && half_new(&f->along_x, f->layout.px, team) &&
+        half_new(&f->along_y, f->layout.py, team))
+        return f;
+fail:
+    rc_fft_free(f);
+    return NULL;
+}
+
+struct rc_fft *
+rc_fft_new_on(const struct rc_ranks *ranks, struct rc_fft *lender, const struct rc_shape *s,
+              enum rc_boundary boundary, enum rc_precision precision, size_t threads,
+              struct rc_err *err)
+{
+    struct rc_fft *f;
 
     if (rc_shape_check(s, err) != RC_OK)
         return NULL;
@@ -134,30 +274,19 @@ rc_fft_new_in(struct rc_fft *lender, const struct rc_shape *s, enum rc_boundary 
                    s->ny);
         return NULL;
     }
-    f = calloc(1, sizeof *f);
-    if (f != NULL) {
-        f->shape = *s;
-        f->boundary = boundary;
-        f->layout = layout_of(s, boundary, precision);
-        f->layout.threads = rc_useful_threads(s, threads);
-        team = (size_t)f->layout.threads;
-        f->ops = precision == RC_SINGLE ? &rc_fft_single : &rc_fft_double;
-        if (lender != NULL)
-            lent = lender->ops->workspace(lender->plan, rows_memory(&f->layout, precision));
-        f->plan = f->ops->new (&f->layout, lent);
-        f->columns = rc_alloc(team * COLUMNS * f->layout.cy, sizeof *f->columns);
-    }
-    if (f != NULL && by_quarter(&f->layout)) {
-        f->along_x = rc_dct_new(f->layout.cx, team, NULL);
-        f->along_y = rc_dct_new(f->layout.cy, team, NULL);
-    }
-    if (f == NULL || f->plan == NULL || f->columns == NULL ||
-        (by_quarter(&f->layout) && (f->along_x == NULL || f->along_y == NULL))) {
+    f = fft_new(ranks, lender, s, boundary, precision, threads);
+    if (f == NULL)
         rc_err_set(err, "out of memory for transforms of %zu x %zu nodes", s->nx, s->ny);
-        rc_fft_free(f);
-        return NULL;
-    }
-    return f;
+    if (rc_ranks_agree(ranks, f == NULL ? RC_FAIL : RC_OK, err) == RC_OK)
+        return f;
+    rc_fft_free(f);
+    return NULL;
+}
+
+static const struct rc_ranks *
+ranks_of(const struct rc_fft *f)
+{
+    return f->layout.turn == NULL ? NULL : f->layout.turn->ranks;
 }
 
 void
@@ -167,8 +296,10 @@ rc_fft_free(struct rc_fft *f)
         return;
     if (f->plan != NULL)
         f->ops->free(f->plan);
-    rc_dct_free(f->along_x);
-    rc_dct_free(f->along_y);
+    half_free(&f->along_x);
+    half_free(&f->along_y);
+    rc_turn_free(&f->turn);
+    rc_turn_free(&f->quarter);
     free(f->columns);
     free(f);
 }
@@ -182,11 +313,13 @@ rc_spectrum_new(const struct rc_fft *f, struct rc_err *err)
     struct rc_spectrum *k = calloc(1, sizeof *k);
 
     if (k != NULL)
-        k->values = rc_alloc(l->cx * l->cy, f->ops->real_size);
+        k->values = rc_alloc(l->columns * l->cy, f->ops->real_size);
     if (k != NULL)
         k->columns = l->cx;
-    if (k == NULL || k->values == NULL) {
+    if (k == NULL || k->values == NULL)
         rc_err_set(err, "out of memory for a kernel's spectrum of %zu x %zu numbers", l->cx, l->cy);
+    if (rc_ranks_agree(ranks_of(f), k == NULL || k->values == NULL ? RC_FAIL : RC_OK, err) !=
+        RC_OK) {
         rc_spectrum_free(k);
         return NULL;
     }
@@ -209,15 +342,29 @@ columns_of(const struct rc_fft *f)
     return f->columns + (size_t)omp_get_thread_num() * COLUMNS * f->layout.cy;
 }
 
+/* Column c of those held here. */
 static void
 store_column(struct rc_spectrum *k, const struct rc_fft *f, size_t c, const double *s)
 {
     const struct rc_layout *l = &f->layout;
 
-    if (c == 0)
+    if (l->first + c == 0)
         k->total = s[0];
     f->ops->store(l, c, 1 / ((double)l->px * (double)l->py), k->parity & RC_ODD_Y ? -1 : 1, s,
                   k->values);
+}
+
+/* The total is known to whoever holds the first column. */
+static void
+share_total(struct rc_spectrum *k, const struct rc_fft *f)
+{
+    size_t root = 0;
+
+    if (f->layout.turn == NULL)
+        return;
+    while (f->turn.column[root + 1] == 0)
+        root++;
+    rc_ranks_share(f->turn.ranks, root, sizeof k->total, &k->total);
 }
 
 double
@@ -236,47 +383,94 @@ rc_fft_quarter(const struct rc_fft *f, size_t *nx, size_t *ny)
 }
 
 void
-rc_fft_quarter_row(const struct rc_fft *f, unsigned parity, double *row)
+rc_fft_quarter_rows(const struct rc_fft *f, size_t *first, size_t *n)
 {
-    rc_dct_run(f->along_x, parity & RC_ODD_X, row);
+    const struct rc_turn *t = &f->quarter;
+
+    *first = f->layout.turn == NULL ? 0 : t->row[t->own];
+    *n = f->layout.turn == NULL ? f->layout.cy : t->row[t->own + 1] - *first;
 }
 
+void
+rc_fft_quarter_row(const struct rc_fft *f, unsigned parity, double *row)
+{
+    half_run(&f->along_x, parity & RC_ODD_X, row);
+}
+
+/* From all rows of the columns held here, `wide` numbers from row to row. */
 static void
 set_quarter(struct rc_spectrum *k, const struct rc_fft *f, unsigned parity, const double *rows,
-            rc_column *each, void *ctx)
+            size_t wide, rc_column *each, void *ctx)
 {
-    size_t cx = f->layout.cx, cy = f->layout.cy;
+    size_t cx = f->layout.columns, cy = f->layout.cy;
 
     k->parity = parity;
-    k->columns = cx;
+    k->columns = f->layout.cx;
 #pragma omp parallel for num_threads(f->layout.threads) schedule(static)
     for (size_t first = 0; first < cx; first += COLUMNS) {
         double *columns = columns_of(f);
         size_t n = cx - first < COLUMNS ? cx - first : COLUMNS;
 
         for (size_t j = 0; j < cy; j++) {
-            const double *row = rows + j * cx + first;
+            const double *row = rows + j * wide + first;
             if (j + PREFETCH < cy) {
-                __builtin_prefetch(row + PREFETCH * cx);
-                __builtin_prefetch(row + PREFETCH * cx + COLUMNS / 2);
+                __builtin_prefetch(row + PREFETCH * wide);
+                __builtin_prefetch(row + PREFETCH * wide + COLUMNS / 2);
             }
             for (size_t b = 0; b < n; b++)
                 columns[b * cy + j] = row[b];
         }
         for (size_t b = 0; b < n; b++) {
-            rc_dct_run(f->along_y, parity & RC_ODD_Y, columns + b * cy);
+            half_run(&f->along_y, parity & RC_ODD_Y, columns + b * cy);
             if (each != NULL)
-                each(ctx, first + b, cy, columns + b * cy);
+                each(ctx, f->layout.first + first + b, cy, columns + b * cy);
             store_column(k, f, first + b, columns + b * cy);
         }
     }
+    share_total(k, f);
 }
 
-void
-rc_spectrum_set_quarter(struct rc_spectrum *k, const struct rc_fft *f, unsigned parity,
-                        const double *rows)
+/* From the rows held here. */
+static enum rc_status
+turn_quarter(struct rc_spectrum *k, const struct rc_fft *f, unsigned parity, const double *rows,
+             rc_column *each, void *ctx, struct rc_err *err)
 {
-    set_quarter(k, f, parity, rows, NULL, NULL);
+    const struct rc_layout *l = &f->layout;
+    size_t own = rc_ranks_own(ranks_of(f)), n;
+    double *pieces, *columns, *row;
+    enum rc_status status;
+
+    if (l->turn == NULL) {
+        set_quarter(k, f, parity, rows, l->cx, each, ctx);
+        return RC_OK;
+    }
+    n = f->quarter.row[own + 1] - f->quarter.row[own];
+    pieces = rc_alloc(n * l->stride, sizeof *pieces);
+    columns = rc_alloc(l->cy * l->wide, sizeof *columns);
+    row = calloc(l->stride, sizeof *row);
+    status = pieces == NULL || columns == NULL || row == NULL ? RC_FAIL : RC_OK;
+    if (status != RC_OK)
+        rc_err_set(err, "out of memory for a kernel of %zu x %zu values", l->cx, l->cy);
+    status = rc_ranks_agree(ranks_of(f), status, err);
+    if (status == RC_OK) {
+        for (size_t j = 0; j < n; j++) {
+            memcpy(row, rows + j * l->cx, l->cx * sizeof *row);
+            rc_turn_put(&f->quarter, j, row, pieces);
+        }
+        rc_ranks_turn(&f->quarter, false, pieces, columns);
+        set_quarter(k, f, parity, columns, l->wide, each, ctx);
+    }
+    free(pieces);
+    free(columns);
+    free(row);
+    return status;
+}
+
+enum rc_status
+rc_spectrum_set_quarter(struct rc_spectrum *k, const struct rc_fft *f, unsigned parity,
+                        const double *rows, struct rc_err *err)
+{
+    return turn_quarter(k, f, parity, rows, NULL, NULL, err);
 }
 
 enum rc_status
@@ -285,25 +479,32 @@ rc_spectrum_set_by(struct rc_spectrum *k, const struct rc_fft *f, const struct r
                    struct rc_err *err)
 {
     const struct rc_lattice nodes = {f->shape.dx, f->shape.dy, 1, 1};
-    size_t cx = f->layout.cx, cy = f->layout.cy;
+    size_t cx = f->layout.cx, from, rows;
     unsigned parity = kernel->parity[component];
-    double *own = NULL, *values = f->ops->workspace(f->plan, cx * cy * sizeof *values);
+    double *own = NULL, *values = NULL;
+    enum rc_status status = RC_OK;
 
+    rc_fft_quarter_rows(f, &from, &rows);
+    values = f->ops->workspace(f->plan, rows * cx * sizeof *values);
     if (values == NULL)
-        values = own = rc_alloc(cx * cy, sizeof *own);
+        values = own = rc_alloc(rows * cx, sizeof *own);
     if (values == NULL)
-        return rc_err_set(err, "out of memory for a kernel of %zu x %zu values", cx, cy);
-#pragma omp parallel for num_threads(f->layout.threads) schedule(dynamic)
-    for (size_t first = 0; first < cy; first += ROWS) {
-        size_t last = first + ROWS < cy ? first + ROWS : cy;
-
-        kernel->rows(medium, component, &nodes, cx, first, last, values + first * cx);
-        for (size_t j = first; j < last; j++)
-            rc_fft_quarter_row(f, parity, values + j * cx);
+        status = rc_err_set(err, "out of memory for a kernel of %zu x %zu values", cx, rows);
+    if (rc_ranks_agree(ranks_of(f), status, err) != RC_OK) {
+        free(own);
+        return RC_FAIL;
     }
-    set_quarter(k, f, parity, values, each, ctx);
+#pragma omp parallel for num_threads(f->layout.threads) schedule(dynamic)
+    for (size_t first = from; first < from + rows; first += ROWS) {
+        size_t last = first + ROWS < from + rows ? first + ROWS : from + rows;
+
+        kernel->rows(medium, component, &nodes, cx, first, last, values + (first - from) * cx);
+        for (size_t j = first; j < last; j++)
+            rc_fft_quarter_row(f, parity, values + (j - from) * cx);
+    }
+    status = turn_quarter(k, f, parity, values, each, ctx, err);
     free(own);
-    return RC_OK;
+    return status;
 }
 
 static enum rc_status
@@ -318,6 +519,19 @@ rc_fft_waves(const struct rc_fft *f, size_t *columns, size_t *n)
 {
     *columns = f->layout.cx;
     *n = f->layout.cy;
+}
+
+int
+rc_fft_threads(const struct rc_fft *f)
+{
+    return f->layout.threads;
+}
+
+void
+rc_fft_columns(const struct rc_fft *f, size_t *first, size_t *n)
+{
+    *first = f->layout.first;
+    *n = f->layout.columns;
 }
 
 double
@@ -349,7 +563,8 @@ rc_spectrum_sample(struct rc_spectrum *k, const struct rc_fft *f, unsigned parit
         for (size_t j = 0; j < l->cy; j++)
             qy[j] = rc_fourier_q(j, l->ny, f->shape.dy);
 #pragma omp for schedule(static)
-        for (size_t i = 0; i < l->cx; i++) {
+        for (size_t c = 0; c < l->columns; c++) {
+            size_t i = l->first + c;
             bool zero = 2 * i == l->nx && parity & RC_ODD_X;
             if (zero || !symbol(of, i, rc_fourier_q(i, l->nx, f->shape.dx), l->cy, qy, column))
                 memset(column, 0, l->cy * sizeof *column);
@@ -357,10 +572,11 @@ rc_spectrum_sample(struct rc_spectrum *k, const struct rc_fft *f, unsigned parit
                 columns = i + 1;
             if (2 * (l->cy - 1) == l->ny && parity & RC_ODD_Y)
                 column[l->cy - 1] = 0;
-            store_column(k, f, i, column);
+            store_column(k, f, c, column);
         }
     }
-    k->columns = columns;
+    k->columns = (size_t)rc_ranks_most(ranks_of(f), (double)columns);
+    share_total(k, f);
 }
 
 /* One component of a kernel in a medium. */
@@ -393,61 +609,12 @@ sample_symbol(const struct rc_fft *f, struct rc_spectrum *k, const struct rc_ker
     return RC_OK;
 }
 
-/* ---- from the values of a periodic map of odd length ---- */
-
-/* Values of an even kernel on the periodic map, each offset by its shortest way around. */
-static void
-wrapped_values(const struct rc_fft *f, const struct rc_kernel *kernel, size_t component,
-               const struct rc_medium *medium, double *v)
-{
-    const struct rc_lattice nodes = {f->shape.dx, f->shape.dy, 1, 1};
-    size_t nx = f->shape.nx, ny = f->shape.ny;
-
-    for (size_t j = 0; j <= ny / 2; j++) {
-        double *row = v + j * nx;
-        kernel->rows(medium, component, &nodes, nx / 2 + 1, j, j + 1, row);
-        for (size_t i = nx / 2 + 1; i < nx; i++)
-            row[i] = row[nx - i];
-        if (j > 0 && ny - j != j)
-            memcpy(v + (ny - j) * nx, row, nx * sizeof *row);
-    }
-}
-
-static enum rc_status
-transform_wrapped(const struct rc_fft *f, struct rc_spectrum *k, const struct rc_kernel *kernel,
-                  size_t component, const struct rc_medium *medium, struct rc_err *err)
-{
-    const struct rc_layout *l = &f->layout;
-    double *v = rc_alloc(l->nx * l->ny, sizeof *v), *column = columns_of(f);
-    double complex *s = rc_alloc(rc_fourier_size(&f->shape), sizeof *s);
-    enum rc_status status = RC_FAIL;
-
-    if (v == NULL || s == NULL) {
-        rc_err_set(err, "out of memory for a kernel of %zu x %zu values", l->nx, l->ny);
-        goto done;
-    }
-    wrapped_values(f, kernel, component, medium, v);
-    k->parity = kernel->parity[component];
-    k->columns = l->cx;
-    status = rc_fourier_forward(&f->shape, v, s, err);
-    for (size_t i = 0; i < l->cx && status == RC_OK; i++) {
-        for (size_t j = 0; j < l->cy; j++)
-            column[j] = creal(s[j * l->cx + i]);
-        store_column(k, f, i, column);
-    }
-done:
-    free(v);
-    free(s);
-    return status;
-}
-
 enum rc_status
 rc_spectrum_set_values(struct rc_spectrum *k, const struct rc_fft *f,
                        const struct rc_kernel *kernel, size_t component,
                        const struct rc_medium *medium, struct rc_err *err)
 {
-    return (by_quarter(&f->layout) ? transform_quarter : transform_wrapped)(f, k, kernel, component,
-                                                                            medium, err);
+    return transform_quarter(f, k, kernel, component, medium, err);
 }
 
 enum rc_status
@@ -466,8 +633,10 @@ rc_spectrum_new_reciprocal(const struct rc_fft *f, const struct rc_spectrum *of,
     struct rc_spectrum *k = malloc(sizeof *k);
     double size = (double)f->layout.px * (double)f->layout.py;
 
-    if (k == NULL) {
+    if (k == NULL)
         rc_err_set(err, "out of memory for a spectrum");
+    if (rc_ranks_agree(ranks_of(f), k == NULL ? RC_FAIL : RC_OK, err) != RC_OK) {
+        free(k);
         return NULL;
     }
     *k = *of;

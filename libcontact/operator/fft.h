@@ -8,6 +8,7 @@
 #define RC_FFT_H
 
 #include "kernel.h"
+#include "libcontact/ranks/ranks.h"
 
 enum rc_precision {
     RC_DOUBLE,
@@ -24,14 +25,21 @@ struct rc_fft *rc_fft_new(const struct rc_shape *shape, enum rc_boundary boundar
 struct rc_fft *rc_fft_new_in(struct rc_fft *lender, const struct rc_shape *shape,
                              enum rc_boundary boundary, enum rc_precision precision, size_t threads,
                              struct rc_err *err);
+/* The same of a map that ranks share: `shape` is that of all of it. Maps and rows are those held here,
+ * row 0 the first of these, and spectra have the columns that are multiplied here. */
+struct rc_fft *rc_fft_new_on(const struct rc_ranks *ranks, struct rc_fft *lender,
+                             const struct rc_shape *shape, enum rc_boundary boundary,
+                             enum rc_precision precision, size_t threads, struct rc_err *err);
 void rc_fft_free(struct rc_fft *fft);
-/* Smallest multiple of `step` from 2n up without prime factors over 7. */
-size_t rc_fft_length(size_t n, size_t step);
-/* Bytes of a plan with one spectrum, and of each further spectrum. */
+/* Bytes of a plan with one spectrum, and of each further spectrum; of one of `ranks` that share it, the one
+ * that takes most. */
 size_t rc_fft_memory(const struct rc_shape *shape, enum rc_boundary boundary,
-                     enum rc_precision precision);
+                     enum rc_precision precision, size_t ranks);
 size_t rc_spectrum_memory(const struct rc_shape *shape, enum rc_boundary boundary,
-                          enum rc_precision precision);
+                          enum rc_precision precision, size_t ranks);
+/* Bytes beside them in which rows and columns are transformed: they grow with the threads. */
+size_t rc_fft_scratch(const struct rc_shape *shape, enum rc_boundary boundary,
+                      enum rc_precision precision, size_t threads);
 
 /* NULL when memory is short. */
 struct rc_spectrum *rc_spectrum_new(const struct rc_fft *fft, struct rc_err *err);
@@ -44,7 +52,7 @@ enum rc_status rc_spectrum_set(struct rc_spectrum *spectrum, const struct rc_fft
                                const struct rc_kernel *kernel, size_t component,
                                const struct rc_medium *medium, struct rc_err *err);
 /* The same of a free map; `each` sees, by several threads at once, the n wave numbers along y of column i
- * along x, and may change them before they are kept. */
+ * along x, and may change them before they are kept. Columns are those held here: rc_fft_columns. */
 typedef void rc_column(void *ctx, size_t i, size_t n, double *column);
 enum rc_status rc_spectrum_set_by(struct rc_spectrum *spectrum, const struct rc_fft *fft,
                                   const struct rc_kernel *kernel, size_t component,
@@ -54,6 +62,10 @@ enum rc_status rc_spectrum_set_by(struct rc_spectrum *spectrum, const struct rc_
 double rc_fft_qx(const struct rc_fft *fft, size_t i);
 double rc_fft_qy(const struct rc_fft *fft, size_t j);
 void rc_fft_waves(const struct rc_fft *fft, size_t *columns, size_t *n);
+/* Columns that are multiplied here: `n` from `first` on; without ranks all. */
+void rc_fft_columns(const struct rc_fft *fft, size_t *first, size_t *n);
+/* Threads that may hand in rows of a quarter. */
+int rc_fft_threads(const struct rc_fft *fft);
 /* The reciprocal of another kernel's spectrum: the inverse of the padded circulant, or of the
  * symbol; zero where that is zero. It is formed in use, from the numbers of `of`, which outlives
  * it; no fields are summed by it. NULL when memory is short. */
@@ -68,11 +80,13 @@ enum rc_status rc_spectrum_set_values(struct rc_spectrum *spectrum, const struct
 /* The same by hand, for a kernel of this parity. On the free boundary: from a quarter of the
  * kernel's period, its values at the offsets i < *nx, j < *ny. Each row of *nx values is
  * transformed as soon as it is known, by threads of one OpenMP team; then the spectrum is made from
- * all rows. */
+ * all rows. Ranks make rows *first .. *first + *n - 1 each, and hand in these; RC_FAIL when memory for
+ * the others' is short, which without ranks it never is. */
 void rc_fft_quarter(const struct rc_fft *fft, size_t *nx, size_t *ny);
+void rc_fft_quarter_rows(const struct rc_fft *fft, size_t *first, size_t *n);
 void rc_fft_quarter_row(const struct rc_fft *fft, unsigned parity, double *row);
-void rc_spectrum_set_quarter(struct rc_spectrum *spectrum, const struct rc_fft *fft,
-                             unsigned parity, const double *rows);
+enum rc_status rc_spectrum_set_quarter(struct rc_spectrum *spectrum, const struct rc_fft *fft,
+                                       unsigned parity, const double *rows, struct rc_err *err);
 /* On the periodic boundary: from the kernel's transform, over (-i)^(number of odd directions), at
  * wave numbers qx, qy >= 0 in rad/m. It is asked, by several threads at once, for a column i of
  * equal qx: out[j] at qy[j], j < n; it may return false where all are zero. Waves of two nodes in a
@@ -125,7 +139,18 @@ struct rc_layout {
     size_t stride; /* complex numbers from row to row, a whole number of cache lines         */
     size_t radix, m, parts;
     int threads;
+    /* What is here of it; without ranks all: rows, columns and how many complex numbers lie from row to row
+     * where all rows of these columns are together. */
+    size_t rows, first, columns, wide;
+    const struct rc_turn *turn; /* rows to columns in units of `line`; NULL: all is here */
 };
+
+/* Complex numbers of rows under way: columns of all rows, and with ranks rows to send and receive. */
+static inline size_t
+rc_layout_rows(const struct rc_layout *l)
+{
+    return l->ny * l->wide + (l->turn == NULL ? 0 : l->rows * l->stride);
+}
 
 /* What a transform is multiplied by: a spectrum, stored as above, or `over` over it. */
 struct rc_factor {
@@ -140,9 +165,10 @@ struct rc_link {
 };
 
 struct rc_fft_ops {
-    size_t real_size; /* bytes of a real number */
-    /* NULL: out of memory. `lent`: memory for ny rows of `stride` complex numbers, which outlives the
-     * plan; NULL: it takes its own. */
+    size_t real_size; /* bytes of a real number                                  */
+    size_t line;      /* complex numbers that are transformed together as columns */
+    /* NULL: out of memory. `lent`: memory for the rows under way, rc_layout_rows of complex numbers, which
+     * outlives the plan; NULL: it takes its own. */
     void *(*new)(const struct rc_layout *layout, void *lent);
     void (*free)(void *plan);
     /* Memory of the plan that is in use only while it transforms; NULL: it has not so many

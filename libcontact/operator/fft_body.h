@@ -20,7 +20,7 @@
 #include <string.h>
 
 #include "fft.h"
-#include "planner.h"
+#include "libcontact/transform/transform.h"
 #include "libcontact/memory.h"
 
 enum {
@@ -39,7 +39,8 @@ struct map {
 struct plan {
     struct rc_layout l;
     FFTW(plan) row_forward, row_back, column_forward, column_back;
-    COMPLEX *waves;   /* of each row: ny rows of `stride`                                  */
+    COMPLEX *waves;   /* of each row, the columns that are here: ny rows of `wide`          */
+    COMPLEX *pieces;  /* of the rows that are here, for other ranks; NULL: all is here      */
     COMPLEX *own;     /* what of it is to be freed; NULL: it was lent                      */
     COMPLEX *source;  /* cx columns in pieces, transformed: a loaded map; or NULL           */
     COMPLEX *twiddle; /* w^n, w^2n, w^3n for each n < m (radix 4)                           */
@@ -143,13 +144,15 @@ plan_new(const struct rc_layout *l, void *lent)
     f->column = l->radix * piece(f);
     f->scratch_size = (LINE + 1) * f->column + l->stride + whole_lines(l->px / 2 + 1) +
                       whole_lines(l->cy / 2 + 1);
-    f->waves = lent != NULL ? lent : (f->own = allocate(l->ny * l->stride));
+    f->waves = lent != NULL ? lent : (f->own = allocate(rc_layout_rows(l)));
     f->scratch = allocate((size_t)l->threads * f->scratch_size);
     f->twiddle = allocate(3 * l->m);
     if (f->waves == NULL || f->scratch == NULL || f->twiddle == NULL || !make_plans(f)) {
         plan_free(f);
         return NULL;
     }
+    if (l->turn != NULL)
+        f->pieces = f->waves + l->ny * l->wide;
     if (l->radix == 4)
         make_twiddles(f);
     return f;
@@ -160,7 +163,7 @@ workspace(void *at, size_t bytes)
 {
     struct plan *f = at;
 
-    return bytes <= f->l.ny * f->l.stride * sizeof *f->waves ? f->waves : NULL;
+    return bytes <= rc_layout_rows(&f->l) * sizeof *f->waves ? f->waves : NULL;
 }
 
 static COMPLEX *
@@ -216,11 +219,13 @@ transform_some(struct plan *f, size_t columns, void *ctx, rc_row *make, bool bac
     const struct rc_layout *l = &f->l;
 
 #pragma omp parallel for num_threads(l->threads) schedule(static)
-    for (size_t j = 0; j < l->ny; j++) {
+    for (size_t j = 0; j < l->rows; j++) {
         REAL *row = row_of(f, scratch_of(f));
-        COMPLEX *waves = f->waves + j * l->stride;
+        COMPLEX *waves = l->turn == NULL ? f->waves + j * l->wide : (COMPLEX *)row - l->stride;
         bool any;
 
+        if (back && l->turn != NULL)
+            rc_turn_get(l->turn, j, f->pieces, waves);
         if (back && columns < l->cx)
             memset(waves + columns, 0, (l->cx - columns) * sizeof *waves);
         if (back)
@@ -230,11 +235,25 @@ transform_some(struct plan *f, size_t columns, void *ctx, rc_row *make, bool bac
             continue;
         /* columns that fill up a line are gathered with the others */
         memset(waves + (any ? l->cx : 0), 0, (l->stride - (any ? l->cx : 0)) * sizeof *waves);
-        if (!any)
-            continue;
-        memset(row + l->nx, 0, (l->px - l->nx) * sizeof *row);
-        FFTW(execute_dft_r2c)(f->row_forward, row, waves);
+        if (any) {
+            memset(row + l->nx, 0, (l->px - l->nx) * sizeof *row);
+            FFTW(execute_dft_r2c)(f->row_forward, row, waves);
+        }
+        if (l->turn != NULL)
+            rc_turn_put(l->turn, j, waves, f->pieces);
     }
+}
+
+/* From rows to columns, and back. */
+static void
+turn(struct plan *f, bool back)
+{
+    if (f->l.turn == NULL)
+        return;
+    if (back)
+        rc_ranks_turn(f->l.turn, true, f->waves, f->pieces);
+    else
+        rc_ranks_turn(f->l.turn, false, f->pieces, f->waves);
 }
 
 static void
@@ -308,25 +327,25 @@ gather(const struct plan *f, size_t first, COMPLEX *y)
 {
     const struct rc_layout *l = &f->l;
     const COMPLEX *x = f->waves + first, *w = f->twiddle;
-    size_t step = l->m * l->stride, both = partners(l), j = 0;
+    size_t step = l->m * l->wide, both = partners(l), j = 0;
 
     if (l->radix == 1) {
-        for (; j < l->m; j++, x += l->stride)
+        for (; j < l->m; j++, x += l->wide)
             for (size_t b = 0; b < LINE; b++)
                 y[b * f->column + j] = x[b];
     } else if (l->parts > 2) {
-        for (; j < l->m; j++, x += l->stride, w += 3) {
+        for (; j < l->m; j++, x += l->wide, w += 3) {
             for (size_t q = 0; q < 4; q++)
-                prefetch(x + PREFETCH * l->stride + q * step);
+                prefetch(x + PREFETCH * l->wide + q * step);
             butterfly(f, x, step, 4, w, y + j);
         }
     } else {
-        for (; j < both; j++, x += l->stride, w += 3) {
-            prefetch(x + PREFETCH * l->stride);
-            prefetch(x + PREFETCH * l->stride + step);
+        for (; j < both; j++, x += l->wide, w += 3) {
+            prefetch(x + PREFETCH * l->wide);
+            prefetch(x + PREFETCH * l->wide + step);
             butterfly(f, x, step, 2, w, y + j);
         }
-        for (; j < l->m && j < l->ny; j++, x += l->stride, w += 3)
+        for (; j < l->m && j < l->ny; j++, x += l->wide, w += 3)
             butterfly(f, x, step, 1, w, y + j);
         for (; j < l->m; j++)
             for (size_t b = 0; b < LINE; b++)
@@ -342,25 +361,25 @@ scatter(struct plan *f, size_t first, const COMPLEX *y)
     const struct rc_layout *l = &f->l;
     const COMPLEX *w = f->twiddle;
     COMPLEX *x = f->waves + first;
-    size_t step = l->m * l->stride, both = partners(l), j = 0;
+    size_t step = l->m * l->wide, both = partners(l), j = 0;
 
     if (l->radix == 1) {
-        for (; j < l->m; j++, x += l->stride)
+        for (; j < l->m; j++, x += l->wide)
             for (size_t b = 0; b < LINE; b++)
                 x[b] = y[b * f->column + j];
     } else if (l->parts > 2) {
-        for (; j < l->m; j++, x += l->stride, w += 3) {
+        for (; j < l->m; j++, x += l->wide, w += 3) {
             for (size_t q = 0; q < 4; q++)
-                prefetch(x + PREFETCH * l->stride + q * step);
+                prefetch(x + PREFETCH * l->wide + q * step);
             butterfly_back(f, x, step, 4, w, y + j);
         }
     } else {
-        for (; j < both; j++, x += l->stride, w += 3) {
-            prefetch(x + PREFETCH * l->stride);
-            prefetch(x + PREFETCH * l->stride + step);
+        for (; j < both; j++, x += l->wide, w += 3) {
+            prefetch(x + PREFETCH * l->wide);
+            prefetch(x + PREFETCH * l->wide + step);
             butterfly_back(f, x, step, 2, w, y + j);
         }
-        for (; j < l->m && j < l->ny; j++, x += l->stride, w += 3)
+        for (; j < l->m && j < l->ny; j++, x += l->wide, w += 3)
             butterfly_back(f, x, step, 1, w, y + j);
     }
 }
@@ -447,8 +466,8 @@ convolve_columns(struct plan *f, const struct rc_factor *factor)
     const struct rc_layout *l = &f->l;
 
 #pragma omp parallel for num_threads(l->threads) schedule(static)
-    for (size_t c = 0; c < l->cx; c += LINE) {
-        size_t n = l->cx - c < LINE ? l->cx - c : LINE;
+    for (size_t c = 0; c < l->columns; c += LINE) {
+        size_t n = l->columns - c < LINE ? l->columns - c : LINE;
         COMPLEX *y = scratch_of(f), *z = y + LINE * f->column;
         REAL *over = (REAL *)(row_of(f, y)) + 2 * whole_lines(l->px / 2 + 1);
 
@@ -477,7 +496,9 @@ apply(void *at, const struct rc_factor *factor, const double *p, double *u)
     struct map map = {.p = p, .u = u, .nx = f->l.nx};
 
     transform_rows(f, &map, row_in, false, true);
+    turn(f, false);
     convolve_columns(f, factor);
+    turn(f, true);
     transform_rows(f, &map, row_out, true, false);
 }
 
@@ -488,7 +509,9 @@ chain(void *at, size_t n, const struct rc_link *links, rc_row *last, void *ctx)
 
     for (size_t k = 0; k < n; k++) {
         transform_rows(f, ctx, links[k].row, k > 0, true);
+        turn(f, false);
         convolve_columns(f, &links[k].factor);
+        turn(f, true);
     }
     transform_rows(f, ctx, last, true, false);
 }
@@ -500,12 +523,15 @@ load(void *at, const double *p)
     const struct rc_layout *l = &f->l;
     struct map map = {.p = p, .nx = l->nx};
 
-    if (f->source == NULL && (f->source = allocate(l->cx * f->column)) == NULL)
+    if (f->source == NULL)
+        f->source = allocate(l->columns * f->column);
+    if (rc_ranks_sum(l->turn == NULL ? NULL : l->turn->ranks, f->source == NULL) > 0)
         return false;
     transform_rows(f, &map, row_in, false, true);
+    turn(f, false);
 #pragma omp parallel for num_threads(l->threads) schedule(static)
-    for (size_t c = 0; c < l->cx; c += LINE) {
-        size_t n = l->cx - c < LINE ? l->cx - c : LINE;
+    for (size_t c = 0; c < l->columns; c += LINE) {
+        size_t n = l->columns - c < LINE ? l->columns - c : LINE;
         COMPLEX *y = scratch_of(f);
 
         gather(f, c, y);
@@ -525,12 +551,16 @@ field(void *at, size_t columns, const void *spectrum, unsigned parity, const voi
     const struct rc_layout *l = &f->l;
     const REAL *s = spectrum, *t = also;
     struct map map = {.u = u, .nx = l->nx};
+    size_t here; /* columns that are not zero */
 
     /* whole lines of columns are scattered */
     columns = whole_lines(columns) < l->cx ? whole_lines(columns) : l->cx;
+    here = columns < l->first                ? 0
+           : columns - l->first < l->columns ? columns - l->first
+                                             : l->columns;
 #pragma omp parallel for num_threads(l->threads) schedule(static)
-    for (size_t c = 0; c < columns; c += LINE) {
-        size_t n = columns - c < LINE ? columns - c : LINE;
+    for (size_t c = 0; c < here; c += LINE) {
+        size_t n = here - c < LINE ? here - c : LINE;
         COMPLEX *y = scratch_of(f), *z = y + LINE * f->column;
 
         for (size_t b = 0; b < n; b++)
@@ -547,6 +577,7 @@ field(void *at, size_t columns, const void *spectrum, unsigned parity, const voi
             }
         scatter(f, c, y);
     }
+    turn(f, true);
     transform_some(f, columns, &map, row_out, true, false);
 }
 
@@ -571,6 +602,7 @@ store(const struct rc_layout *l, size_t c, double factor, double mirror, const d
 
 const struct rc_fft_ops OPS = {
     .real_size = sizeof(REAL),
+    .line = LINE,
     .new = plan_new,
     .free = plan_free,
     .workspace = workspace,

@@ -34,7 +34,8 @@ conv_options(const struct rc_operator_options *o)
                                     .engine = o->engine,
                                     .tol = o->tol,
                                     .precise = true,
-                                    .threads = o->threads};
+                                    .threads = o->threads,
+                                    .ranks = o->ranks};
 }
 
 /* ---- figures ---- */
@@ -65,7 +66,7 @@ largest_response(const struct half_space *s)
 static double
 norm(const struct half_space *s)
 {
-    const struct rc_shape *shape = &s->op.shape;
+    const struct rc_shape *shape = &s->op.whole;
     double a = shape->dx * (double)shape->nx, b = shape->dy * (double)shape->ny;
     double most = largest_response(s);
 
@@ -84,7 +85,7 @@ static double
 diagonal(const struct half_space *s)
 {
     struct rc_medium medium = {.estar = s->estar, .stack = s->stack, .length = 1, .modulus = 1};
-    struct rc_lattice cell = {s->op.shape.dx, s->op.shape.dy, 1, 1};
+    struct rc_lattice cell = {s->op.whole.dx, s->op.whole.dy, 1, 1};
     double self;
 
     kernel_of(s)->rows(&medium, 0, &cell, 1, 0, 1, &self);
@@ -136,7 +137,7 @@ set_neighbours(struct rc_operator *op, const struct rc_shape *unit)
 static double
 extension(const struct half_space *s, double length)
 {
-    const struct rc_shape *shape = &s->op.shape;
+    const struct rc_shape *shape = &s->op.whole;
     double side = fmin(shape->dx * (double)shape->nx, shape->dy * (double)shape->ny);
 
     if (s->stack == NULL)
@@ -182,7 +183,7 @@ static const double least = 0.7, most = 1.5;
 
 struct bounded {
     const struct half_space *s;
-    size_t n;
+    size_t first, n; /* first: of the columns held here              */
     double length, longest;
     double *kernel; /* spectrum of the kernel, column by column */
 };
@@ -192,7 +193,7 @@ keep_column(void *ctx, size_t i, size_t n, double *column)
 {
     struct bounded *b = ctx;
 
-    memcpy(b->kernel + i * n, column, n * sizeof *column);
+    memcpy(b->kernel + (i - b->first) * n, column, n * sizeof *column);
 }
 
 /* The column of the spectrum of a half-space of E* = 1 becomes that of the inverse. */
@@ -203,9 +204,11 @@ invert_column(void *ctx, size_t i, size_t n, double *column)
     double qx = rc_fft_qx(b->s->fft, i);
 
     for (size_t j = 0; j < n; j++) {
-        double q = hypot(qx, rc_fft_qy(b->s->fft, j)), near;
-        near = column[j] * b->s->estar * response(b->s, fmax(q, b->longest) / b->length);
-        column[j] = 1 / fmin(fmax(b->kernel[i * n + j], least * near), most * near);
+        double q = fmax(hypot(qx, rc_fft_qy(b->s->fft, j)), b->longest) / b->length, q2 = q * q, g,
+               near;
+        rc_stack_responses(b->s->stack, 1, &q2, &g);
+        near = column[j] * b->s->estar * g;
+        column[j] = 1 / fmin(fmax(b->kernel[(i - b->first) * n + j], least * near), most * near);
     }
 }
 
@@ -222,8 +225,14 @@ set_bounded(struct half_space *s, const struct rc_shape *unit, const struct rc_m
     enum rc_status status;
 
     rc_fft_waves(s->fft, &columns, &b.n);
-    if ((b.kernel = rc_alloc(columns * b.n, sizeof *b.kernel)) == NULL)
-        return rc_err_set(err, "out of memory for the inverse of a coated body");
+    rc_fft_columns(s->fft, &b.first, &columns);
+    status = (b.kernel = rc_alloc(columns * b.n, sizeof *b.kernel)) == NULL ? RC_FAIL : RC_OK;
+    if (status != RC_OK)
+        rc_err_set(err, "out of memory for the inverse of a coated body");
+    if (rc_ranks_agree(s->op.rows.ranks, status, err) != RC_OK) {
+        free(b.kernel);
+        return RC_FAIL;
+    }
     status = rc_spectrum_set_by(s->kernel, s->fft, kernel_of(s), 0, medium, keep_column, &b, err);
     if (status == RC_OK && (s->inverse = rc_spectrum_new(s->fft, err)) != NULL)
         status = rc_spectrum_set_by(s->inverse, s->fft, &rc_kernel_boussinesq, 0, &bare,
@@ -259,11 +268,13 @@ half_space_new(const struct rc_shape *shape, const struct rc_operator_options *o
     double length = sqrt(shape->dx) * sqrt(shape->dy);
     struct half_space *s = calloc(1, sizeof *s);
 
-    if (s == NULL) {
+    if (s == NULL)
+        rc_err_set(err, "out of memory for a plan");
+    if (rc_ranks_agree(o->ranks, s == NULL ? RC_FAIL : RC_OK, err) != RC_OK) {
         rc_conv_free(conv);
         if (!shared)
             rc_stack_free(stack);
-        rc_err_set(err, "out of memory for a plan");
+        free(s);
         return NULL;
     }
     s->conv = conv;
@@ -271,7 +282,8 @@ half_space_new(const struct rc_shape *shape, const struct rc_operator_options *o
     s->shared = shared;
     s->estar = stack == NULL ? o->estar : 1 / rc_stack_response(stack, pi / length);
     s->op = (struct rc_operator){.type = &half_space,
-                                 .shape = *shape,
+                                 .whole = *shape,
+                                 .rows = rc_rows_of(o->ranks, shape),
                                  .boundary = o->boundary,
                                  .threads = o->threads,
                                  .unit = length / s->estar,
@@ -279,13 +291,14 @@ half_space_new(const struct rc_shape *shape, const struct rc_operator_options *o
                                  .row_cost = 0.5,
                                  .factor_cost = 0.5,
                                  .mean_free = o->boundary == RC_PERIODIC};
+    s->op.shape = rc_rows_shape(&s->op.rows, shape);
     s->op.norm = norm(s);
     s->op.diagonal = diagonal(s);
     s->op.extension = extension(s, length);
     set_inverse_near(s, &unit, length);
     set_neighbours(&s->op, &unit);
-    s->fft = rc_fft_new_in(conv == NULL ? NULL : rc_conv_fft(conv), &unit, o->boundary, RC_SINGLE,
-                           o->threads, err);
+    s->fft = rc_fft_new_on(o->ranks, conv == NULL ? NULL : rc_conv_fft(conv), &unit, o->boundary,
+                           RC_SINGLE, o->threads, err);
     if (s->fft == NULL || set_spectra(s, &unit, length, err) != RC_OK) {
         half_space_free(&s->op);
         return NULL;
@@ -300,7 +313,7 @@ rc_half_space_new(const struct rc_shape *shape, const struct rc_operator_options
                   struct rc_err *err)
 {
     struct rc_conv_options options = conv_options(o);
-    size_t n = shape->nx * shape->ny;
+    size_t n; /* nodes held here */
     struct rc_stack *stack = NULL;
     struct rc_conv *conv;
     struct half_space *s;
@@ -321,12 +334,15 @@ rc_half_space_new(const struct rc_shape *shape, const struct rc_operator_options
     if (rc_conv_mixed(s->conv))
         return &s->op;
     s->op.row_cost = 1;
-    s->row_threads = rc_useful_threads(shape, o->threads);
+    n = shape->nx * s->op.rows.n;
+    s->row_threads = rc_useful_threads(&s->op.shape, o->threads);
     s->p = rc_alloc(n, sizeof *s->p);
     s->u = rc_alloc(n, sizeof *s->u);
     s->row = rc_alloc((size_t)s->row_threads * shape->nx, sizeof *s->row);
-    if (s->p == NULL || s->u == NULL || s->row == NULL) {
+    if (s->p == NULL || s->u == NULL || s->row == NULL)
         rc_err_set(err, "out of memory for the displacements of %zu nodes", n);
+    if (rc_ranks_agree(o->ranks, s->p == NULL || s->u == NULL || s->row == NULL ? RC_FAIL : RC_OK,
+                       err) != RC_OK) {
         half_space_free(&s->op);
         return NULL;
     }
@@ -334,11 +350,12 @@ rc_half_space_new(const struct rc_shape *shape, const struct rc_operator_options
 }
 
 static struct rc_operator *
-coarse(const struct rc_operator *op, const struct rc_shape *shape, struct rc_err *err)
+coarse(const struct rc_operator *op, const struct rc_ranks *ranks, const struct rc_shape *shape,
+       struct rc_err *err)
 {
     const struct half_space *fine = (const struct half_space *)op;
     struct rc_operator_options o = {
-        .boundary = op->boundary, .estar = fine->estar, .threads = op->threads};
+        .boundary = op->boundary, .estar = fine->estar, .threads = op->threads, .ranks = ranks};
     struct half_space *s = half_space_new(shape, &o, fine->stack, true, NULL, err);
 
     return s == NULL ? NULL : &s->op;
@@ -348,10 +365,23 @@ size_t
 rc_half_space_memory(const struct rc_shape *shape, const struct rc_operator_options *o)
 {
     struct rc_conv_options options = conv_options(o);
-    size_t own = rc_fft_memory(shape, o->boundary, RC_SINGLE);
-    size_t conv = rc_conv_memory(shape, &options);
+    const char *reason;
+    const struct rc_engine *engine;
+    size_t conv = rc_conv_memory(shape, &options), own;
+    bool precise, bounded = o->coating != NULL && o->boundary == RC_FREE;
+    size_t ranks = rc_ranks_count(o->ranks);
 
-    return conv == 0 ? 0 : own + conv;
+    if (conv == 0)
+        return 0;
+    engine = rc_engine_named(rc_conv_choice(shape, &options, &reason), &precise);
+    own = rc_spectrum_memory(shape, o->boundary, RC_SINGLE, ranks) * (bounded ? 2 : 1) +
+          rc_fft_scratch(shape, o->boundary, RC_SINGLE, o->threads);
+    if (engine->fft == NULL) /* else rows are transformed in the memory of conv */
+        own += rc_fft_memory(shape, o->boundary, RC_SINGLE, ranks) -
+               rc_spectrum_memory(shape, o->boundary, RC_SINGLE, ranks);
+    if (!engine->info.mixed || precise)
+        own += 2 * shape->nx * shape->ny * sizeof(double);
+    return own + conv;
 }
 
 const char *

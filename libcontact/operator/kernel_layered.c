@@ -11,9 +11,7 @@
 
 #include <math.h>
 
-#include "quadrature.h"
-#include "radial.h"
-#include "stack.h"
+#include "libcontact/layers/layers.h"
 
 enum {
     BLOCK = 128, /* distances looked up together                     */
@@ -25,19 +23,19 @@ static const double far = 40; /* cells */
 
 /* What is integrated, in the units of the grid. */
 struct part {
-    const struct rc_radial *radial;
-    double length; /* m of a unit of length                    */
+    const struct rc_stack *stack;
+    double unit;   /* m^2 of a unit of squared length          */
     double scale;  /* s in these units                         */
     double factor; /* of the result                            */
 };
 
 /* Adds up weight * D over n <= BLOCK points. */
 static double
-sum_points(const struct part *d, size_t n, const double *r, const double *weight)
+sum_points(const struct part *d, size_t n, const double *r2, const double *weight)
 {
     double value[BLOCK], sum = 0;
 
-    rc_radial_values(d->radial, n, r, value);
+    rc_stack_far(d->stack, n, r2, value);
     for (size_t k = 0; k < n; k++)
         sum += weight[k] * value[k];
     return sum;
@@ -48,7 +46,7 @@ static double
 integral(const struct part *d, double x, double y, double a, double b)
 {
     double distance = sqrt(x * x + y * y + d->scale * d->scale), low = 0, high = INFINITY, sum = 0;
-    double r[BLOCK], weight[BLOCK];
+    double r2[BLOCK], weight[BLOCK];
     size_t n = 0;
     int nx, ny;
 
@@ -65,14 +63,14 @@ integral(const struct part *d, double x, double y, double a, double b)
     for (int l = 0; l < ny; l++)
         for (int m = 0; m < nx; m++) {
             struct rc_gauss u = rc_gauss_point(nx, m), v = rc_gauss_point(ny, l);
-            r[n] = d->length * hypot(x - a * u.x, y - b * v.x);
+            r2[n] = d->unit * (pow(x - a * u.x, 2) + pow(y - b * v.x, 2));
             weight[n++] = u.w * v.w;
             if (n == BLOCK) {
-                sum += sum_points(d, n, r, weight);
+                sum += sum_points(d, n, r2, weight);
                 n = 0;
             }
         }
-    return (sum + sum_points(d, n, r, weight)) * a * b;
+    return (sum + sum_points(d, n, r2, weight)) * a * b;
 }
 
 /* ---- far away: means of node values ---- */
@@ -88,16 +86,16 @@ fill_tile(const struct part *d, const struct rc_lattice *at, size_t left, size_t
           size_t first, size_t last, struct tile *t)
 {
     size_t n = right - left + 2 * RC_MEAN_REACH;
-    double r[TILE + 2 * RC_MEAN_REACH];
+    double r2[TILE + 2 * RC_MEAN_REACH];
 
     for (size_t j = 0; j < last - first + 2 * RC_MEAN_REACH; j++) {
         double y = ((double)(first + j) - RC_MEAN_REACH) * at->dy;
         double *node = t->node[j];
         for (size_t i = 0; i < n; i++) {
             double x = ((double)(left + i) - RC_MEAN_REACH) * at->dx;
-            r[i] = d->length * sqrt(x * x + y * y);
+            r2[i] = d->unit * (x * x + y * y);
         }
-        rc_radial_values(d->radial, n, r, node);
+        rc_stack_far(d->stack, n, r2, node);
         for (size_t i = 0; i < right - left; i++) {
             const double *c = node + i + RC_MEAN_REACH;
             t->mean[j][i] = rc_mean_of[0] * c[0] + rc_mean_of[1] * (c[-1] + c[1]) +
@@ -165,8 +163,8 @@ rows(const struct rc_medium *medium, size_t component, const struct rc_lattice *
 {
     const struct rc_stack *s = medium->stack;
     const struct rc_medium top = {.estar = 1 / (s->top * medium->modulus)};
-    const struct part d = {.radial = s->far,
-                           .length = medium->length,
+    const struct part d = {.stack = s,
+                           .unit = medium->length * medium->length,
                            .scale = 2 * s->material[0].thickness / medium->length,
                            .factor = medium->modulus * medium->length};
     size_t most = TALL - 2 * RC_MEAN_REACH;
@@ -180,10 +178,11 @@ rows(const struct rc_medium *medium, size_t component, const struct rc_lattice *
 static double
 symbol(const struct rc_medium *medium, size_t component, double qx, double qy)
 {
-    double q = hypot(qx, qy);
+    double q = sqrt(qx * qx + qy * qy), q2 = pow(q / medium->length, 2), g;
 
     (void)component;
-    return 2 * rc_stack_response(medium->stack, q / medium->length) * medium->modulus / q;
+    rc_stack_responses(medium->stack, 1, &q2, &g);
+    return 2 * g * medium->modulus / q;
 }
 
 static const unsigned parity[] = {0};

@@ -4,20 +4,16 @@
  *
  * The solver is handed an operator K and asks it for K p, for its inverse as multiplication of wave
  * numbers, and for a few figures; it never learns which kernel, which engine and which transforms
- * are behind. A coated body, or rows that several machines own, are further operators.
+ * are behind, nor where the rows are that others hold: maps and rows are those held here.
  */
 #ifndef RC_OPERATOR_H
 #define RC_OPERATOR_H
 
-#include "dct.h"
 #include "engine.h"
 #include "fft.h"
-#include "fourier.h"
 #include "kernel.h"
-#include "power.h"
-#include "quadrature.h"
-#include "radial.h"
-#include "stack.h"
+#include "libcontact/layers/layers.h"
+#include "libcontact/transform/transform.h"
 
 struct rc_operator;
 
@@ -29,8 +25,8 @@ struct rc_operator_type {
                   rc_row *const *rows, void *ctx);
     struct rc_spectrum *(*spectrum)(struct rc_operator *op, const struct rc_kernel *values,
                                     struct rc_err *err);
-    struct rc_operator *(*coarse)(const struct rc_operator *op, const struct rc_shape *shape,
-                                  struct rc_err *err);
+    struct rc_operator *(*coarse)(const struct rc_operator *op, const struct rc_ranks *ranks,
+                                  const struct rc_shape *shape, struct rc_err *err);
     void (*free)(struct rc_operator *op);
 };
 
@@ -39,7 +35,8 @@ struct rc_operator_type {
  * lost. Lengths beside them are in units of sqrt(dx dy). */
 struct rc_operator {
     const struct rc_operator_type *type;
-    struct rc_shape shape;
+    struct rc_shape whole, shape; /* of the map, and of what is held here of it                */
+    struct rc_rows rows;          /* which of its rows that is                                 */
     enum rc_boundary boundary;
     size_t threads;
     double unit;     /* m/Pa                                                                   */
@@ -68,6 +65,7 @@ struct rc_operator_options {
     double tol;         /* error of K p that the engine may make, as in rc_conv_options         */
     size_t threads;     /* 0: all                                                              */
     const struct rc_coating *coating; /* instead of the modulus; NULL: one material             */
+    const struct rc_ranks *ranks;     /* that share the map                                     */
 };
 
 /* half_space.c: an elastic half-space. NULL when there is no such engine, or none for the boundary,
@@ -85,11 +83,12 @@ const char *rc_half_space_engine(const struct rc_shape *shape,
 double rc_half_space_seconds(const struct rc_shape *shape,
                              const struct rc_operator_options *options);
 
-/* The same body on another grid, without K p in double precision. */
+/* The same body on another grid, which these ranks share, without K p in double precision. */
 static inline struct rc_operator *
-rc_operator_coarse(const struct rc_operator *op, const struct rc_shape *shape, struct rc_err *err)
+rc_operator_coarse(const struct rc_operator *op, const struct rc_ranks *ranks,
+                   const struct rc_shape *shape, struct rc_err *err)
 {
-    return op->type->coarse(op, shape, err);
+    return op->type->coarse(op, ranks, shape, err);
 }
 
 /* u = K p, in m and Pa, in double precision; only where op->exact. */

@@ -37,54 +37,124 @@ enum {
 };
 static const float far_away = 1e9f; /* steps: no node of the set in this column */
 
-/* Steps down the columns [first, last) from the last node of the set above each row, and, on a
- * periodic map, from the other end. */
-static void
-count_down(const struct rc_shape *s, bool wrap, const unsigned char *w, size_t first, size_t last,
-           float *run, float *steps)
+/* The columns [first, last), down and up, or one of these. */
+struct columns {
+    const struct rc_shape *s;
+    const unsigned char *w;
+    size_t first, last;
+    float *steps;
+    const double *above,
+        *below; /* the last row of the set before those held here, and, counted from 0 down,
+                                    the first after them, of each column; NULL: all rows are here */
+};
+
+/* Steps to a row of the set that another rank holds: the map's rows are counted on into its next image. */
+static float
+from_outside(const double *row, size_t i, double here)
 {
+    double d = row == NULL ? INFINITY : here - row[i];
+
+    return d < far_away ? (float)d : far_away;
+}
+
+/* Steps down the columns from the last node of the set above each row, and, on a periodic map, from the
+ * other end. */
+static void
+count_down(const struct columns *c, bool wrap, double before, float *run)
+{
+    const struct rc_shape *s = c->s;
+    size_t first = c->first, last = c->last;
+
     for (size_t i = first; i < last; i++)
-        run[i - first] = far_away;
+        run[i - first] = from_outside(c->above, i, before);
     for (size_t j = 0; wrap && j < s->ny; j++)
         for (size_t i = first; i < last; i++)
-            run[i - first] = w[j * s->nx + i] ? 0 : run[i - first] + 1;
+            run[i - first] = c->w[j * s->nx + i] ? 0 : run[i - first] + 1;
     for (size_t j = 0; j < s->ny; j++)
         for (size_t i = first; i < last; i++) {
-            run[i - first] = w[j * s->nx + i] ? 0 : run[i - first] + 1;
-            steps[j * s->nx + i] = run[i - first];
+            run[i - first] = c->w[j * s->nx + i] ? 0 : run[i - first] + 1;
+            c->steps[j * s->nx + i] = run[i - first];
         }
 }
 
 static void
-count_up(const struct rc_shape *s, bool wrap, const unsigned char *w, size_t first, size_t last,
-         float *run, float *steps)
+count_up(const struct columns *c, bool wrap, double after, float *run)
 {
+    const struct rc_shape *s = c->s;
+    size_t first = c->first, last = c->last;
+
     for (size_t i = first; i < last; i++)
-        run[i - first] = far_away;
+        run[i - first] = from_outside(c->below, i, after);
     for (size_t j = s->ny; wrap && j-- > 0;)
         for (size_t i = first; i < last; i++)
-            run[i - first] = w[j * s->nx + i] ? 0 : run[i - first] + 1;
+            run[i - first] = c->w[j * s->nx + i] ? 0 : run[i - first] + 1;
     for (size_t j = s->ny; j-- > 0;)
         for (size_t i = first; i < last; i++) {
-            float *at = &steps[j * s->nx + i], up = run[i - first] + 1;
+            float *at = &c->steps[j * s->nx + i], up = run[i - first] + 1;
             *at = up < *at ? up : *at;
             run[i - first] = *at;
         }
 }
 
+/* The last row of the set of each column before the rows held here, as others hold it; `back`: the first
+ * after them, as the last of rows that are counted from the end of the map. On a periodic map that may be one
+ * of the image before: less by ny. -INFINITY: none. */
+static void
+find_outside(const struct rc_shape *s, const struct rc_rows *rows, bool wrap, bool back,
+             const unsigned char *w, double *row, double *all)
+{
+    size_t nx = s->nx;
+
+    for (size_t i = 0; i < nx; i++)
+        row[i] = -INFINITY;
+    for (size_t k = 0; k < s->ny; k++) {
+        size_t j = back ? s->ny - 1 - k : k;
+        size_t counted = back ? rows->ny - 1 - (rows->first + j) : rows->first + j;
+        for (size_t i = 0; i < nx; i++)
+            if (w[j * nx + i])
+                row[i] = (double)counted;
+    }
+    for (size_t i = 0; wrap && i < nx; i++)
+        all[i] = row[i];
+    rc_ranks_before(rows->ranks, back, nx, -INFINITY, row);
+    if (!wrap)
+        return;
+    rc_ranks_largest(rows->ranks, nx, all);
+    for (size_t i = 0; i < nx; i++)
+        row[i] = fmax(row[i], all[i] - (double)rows->ny);
+}
+
 void
-rc_distance_columns(const struct rc_shape *s, enum rc_boundary boundary, const unsigned char *w,
-                    int threads, float *steps)
+rc_distance_columns(const struct rc_shape *s, const struct rc_rows *rows, enum rc_boundary boundary,
+                    const unsigned char *w, int threads, double *lines, float *steps)
 {
     bool wrap = boundary == RC_PERIODIC;
+    double *above = NULL, *below = NULL, before = 0, after = 0;
 
+    if (rows->ranks != NULL) {
+        double *all = lines + 2 * s->nx;
+        above = lines;
+        below = lines + s->nx;
+        find_outside(s, rows, wrap, false, w, above, all);
+        find_outside(s, rows, wrap, true, w, below, all);
+        /* of the row beside: one step less than to the first row here */
+        before = (double)rows->first - 1;
+        after = (double)(rows->ny - rows->first - rows->n) - 1;
+        wrap = false;
+    }
 #pragma omp parallel for num_threads(threads) schedule(static)
     for (size_t first = 0; first < s->nx; first += STRIP) {
-        size_t last = s->nx - first < STRIP ? s->nx : first + STRIP;
+        struct columns c = {.s = s,
+                            .w = w,
+                            .first = first,
+                            .last = s->nx - first < STRIP ? s->nx : first + STRIP,
+                            .steps = steps,
+                            .above = above,
+                            .below = below};
         float run[STRIP];
 
-        count_down(s, wrap, w, first, last, run, steps);
-        count_up(s, wrap, w, first, last, run, steps);
+        count_down(&c, wrap, before, run);
+        count_up(&c, wrap, after, run);
     }
 }
 

@@ -27,7 +27,7 @@ rc_iterate_free(struct rc_solver *s)
 void
 rc_iterate_level(struct rc_solver *s)
 {
-    double start = fmin(s->load.sum / (double)s->posed.n, s->posed.hardness);
+    double start = fmin(s->load.sum / (double)s->posed.nodes, s->posed.hardness);
 
 #pragma omp parallel for num_threads(s->posed.threads) schedule(static)
     for (size_t k = 0; k < s->posed.n; k++)
@@ -133,7 +133,7 @@ rc_iterate_displace_rows(struct rc_solver *s)
     rc_reduce_rows_end(s, total);
     s->it.known = true;
     s->it.fresh = false;
-    return sqrt(total[0] / (double)s->posed.n);
+    return sqrt(total[0] / (double)s->posed.nodes);
 }
 
 void
@@ -179,6 +179,8 @@ middle(const struct rc_solver *s)
             low = fmax(low, s->it.v[k]);
         else
             high = fmin(high, s->it.v[k]);
+    low = rc_ranks_most(s->posed.rows.ranks, low);
+    high = -rc_ranks_most(s->posed.rows.ranks, -high);
     return isinf(low) ? high : isinf(high) ? low : (low + high) / 2;
 }
 

@@ -24,7 +24,7 @@ set_units(struct rc_load *load, size_t n, double unit)
 enum rc_status
 rc_load_set(struct rc_solver *s, double load, struct rc_err *err)
 {
-    double n = (double)s->posed.n, area = s->posed.cell * n, most = s->posed.hardness * area;
+    double n = (double)s->posed.nodes, area = s->posed.cell * n, most = s->posed.hardness * area;
 
     if (!(load > 0) || isinf(load))
         return rc_err_set(err, "load %g N: it must be positive and finite", load);
@@ -38,7 +38,7 @@ rc_load_set(struct rc_solver *s, double load, struct rc_err *err)
     s->load.sum = load / s->posed.cell;
     if (s->load.sum >= s->posed.hardness * n * (1 - 8 * DBL_EPSILON))
         s->load.sum = s->posed.hardness * n; /* every node yields, whatever the rounding */
-    set_units(&s->load, s->posed.n, s->op->unit);
+    set_units(&s->load, s->posed.nodes, s->op->unit);
     return RC_OK;
 }
 
@@ -54,12 +54,20 @@ begin_search(struct rc_solver *s, double target)
     s->load.power = 1.5;
 }
 
+static void
+height_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct rc_solver *s = at;
+
+    sums[0] = rc_sum(s->posed.h + first, n);
+}
+
 /* Where the load is sought, the one given is a guess; without one, that of a flat punch as large as
  * the part of the surface that the approach would cut off. */
 enum rc_status
 rc_load_first(struct rc_solver *s, const struct rc_problem *problem, struct rc_err *err)
 {
-    double guess = problem->load, n = (double)s->posed.n;
+    double guess = problem->load, n = (double)s->posed.nodes, total[RC_SUMS];
     double most = s->posed.hardness * s->posed.cell * n / 2;
     size_t cut = 0;
 
@@ -70,11 +78,14 @@ rc_load_first(struct rc_solver *s, const struct rc_problem *problem, struct rc_e
         return rc_err_set(err, "approach %g m: it must be finite", problem->approach);
     for (size_t k = 0; k < s->posed.n; k++)
         cut += s->posed.h[k] >= -problem->approach;
+    cut = rc_ranks_sum(s->posed.rows.ranks, cut);
     if (!(guess > 0))
         guess = s->posed.cell / s->op->unit * problem->approach * sqrt((double)cut);
     begin_search(s, problem->approach);
     if (s->op->mean_free && isinf(s->posed.hardness)) {
-        double full = -rc_sum(s->posed.h, s->posed.n) / n;
+        double full;
+        rc_reduce_blocks(s, height_block, s, total);
+        full = -total[0] / n;
         if (problem->approach >= full)
             return rc_err_set(err,
                               "approach %.9g m: contact is complete at %.9g m, and from there "
@@ -117,7 +128,7 @@ enum rc_status
 rc_load_search(struct rc_solver *s)
 {
     struct rc_load *q = &s->load;
-    double most = s->posed.hardness * s->posed.cell * (double)s->posed.n, shift, next, off;
+    double most = s->posed.hardness * s->posed.cell * (double)s->posed.nodes, shift, next, off;
 
     rc_iterate_shift(s);
     shift = s->it.elastic > 0 ? s->it.shift : INFINITY; /* saturated: too much */
@@ -144,10 +155,9 @@ rc_load_search(struct rc_solver *s)
         return RC_MORE;
     }
     q->tol = fmax(s->posed.tol, fmin(loose, 0.1 * off));
-    if (rc_load_set(s, next, NULL) != RC_OK ||
-        rc_projection_balance(s->posed.n, s->posed.hardness, s->load.sum, s->it.v, s->it.p, NULL) !=
-            RC_OK)
+    if (rc_load_set(s, next, NULL) != RC_OK)
         return RC_SHORT;
+    rc_projection_balance(s, s->it.v);
     rc_solver_restart(s);
     return RC_MORE;
 }

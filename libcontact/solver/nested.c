@@ -11,7 +11,8 @@
 #include "libcontact/memory.h"
 
 enum {
-    COARSEST = 24 /* nodes a side from which a coarser grid is worth solving first */
+    COARSEST = 24,    /* nodes a side from which a coarser grid is worth solving first */
+    FEW_NODES = 16384 /* a rank, below which each solves the whole grid for itself */
 };
 /* A nearer start saves no step, but where nodes are at the hardness. */
 static const double coarse_tol = 8e-2, coarse_tol_yielding = 3e-2;
@@ -24,9 +25,13 @@ struct rc_nested {
 void
 rc_nested_new(struct rc_solver *s)
 {
-    if (!s->method->nested || s->posed.shape.nx < COARSEST || s->posed.shape.ny < COARSEST)
+    if (!s->method->nested || s->posed.whole.nx < COARSEST || s->posed.whole.ny < COARSEST)
         return;
     s->nested = calloc(1, sizeof *s->nested);
+    if (rc_ranks_agree(s->posed.rows.ranks, s->nested == NULL ? RC_FAIL : RC_OK, NULL) != RC_OK) {
+        free(s->nested);
+        s->nested = NULL;
+    }
 }
 
 void
@@ -61,22 +66,29 @@ rc_nested_convolutions(const struct rc_solver *s)
     if (s->nested == NULL || s->nested->coarse == NULL)
         return 0;
     c = s->nested->coarse;
-    return (c->it.convolutions + rc_nested_convolutions(c)) * (double)c->posed.n /
-           (double)s->posed.n;
+    return (c->it.convolutions + rc_nested_convolutions(c)) * (double)c->posed.nodes /
+           (double)s->posed.nodes;
 }
 
-/* ---- down ---- */
+/* ---- rows ---- */
 
-/* Means of the (up to) four nodes under each coarse node. */
+/* Rows of the coarser grid that lie under those held here: no two rows of one are held by two ranks. */
+static size_t
+rows_under(const struct rc_rows *fine)
+{
+    return (fine->n + 1) / 2;
+}
+
+/* Means of the (up to) four nodes under each coarse node, of these rows. */
 static void
-coarsen(const struct rc_posed *fine, const struct rc_shape *coarse, double *h)
+coarsen(const struct rc_posed *fine, size_t coarse_nx, double *h)
 {
     size_t nx = fine->shape.nx, ny = fine->shape.ny;
 
 #pragma omp parallel for num_threads(fine->threads) schedule(static)
-    for (size_t j = 0; j < coarse->ny; j++) {
+    for (size_t j = 0; j < rows_under(&fine->rows); j++) {
         const double *a = fine->h + 2 * j * nx, *b = 2 * j + 1 < ny ? a + nx : a;
-        double *to = h + j * coarse->nx;
+        double *to = h + j * coarse_nx;
         for (size_t i = 0; i < nx / 2; i++)
             to[i] = (a[2 * i] + a[2 * i + 1] + b[2 * i] + b[2 * i + 1]) / 4;
         if (nx % 2 == 1)
@@ -85,14 +97,109 @@ coarsen(const struct rc_posed *fine, const struct rc_shape *coarse, double *h)
 }
 
 static double
-largest(const double *v, size_t n)
+largest(const struct rc_ranks *ranks, const double *v, size_t n)
 {
-    double most = v[0];
+    double most = -INFINITY;
 
-    for (size_t k = 1; k < n; k++)
+    for (size_t k = 0; k < n; k++)
         most = v[k] > most ? v[k] : most;
-    return most;
+    return rc_ranks_most(ranks, most);
 }
+
+/* ---- between ranks ---- */
+
+/* Who holds which rows of the coarser grid: those under the fine rows that each has, and those that
+ * each is to solve; the latter NULL: all solve all of them. */
+struct dealt {
+    size_t *under, *own;
+};
+
+static bool
+deal(const struct rc_posed *fine, const struct rc_rows *coarse, struct dealt *d)
+{
+    size_t count = rc_ranks_count(fine->rows.ranks);
+
+    *d = (struct dealt){.under = malloc((count + 1) * sizeof *d->under),
+                        .own = malloc((count + 1) * sizeof *d->own)};
+    for (size_t r = 0; r <= count && d->under != NULL && d->own != NULL; r++) {
+        size_t unit = rc_rows_unit(fine->whole.nx), nx = (fine->whole.nx + 1) / 2;
+        d->under[r] = (rc_rows_dealt(fine->whole.ny, unit, count, r) + 1) / 2;
+        d->own[r] = rc_rows_dealt(coarse->ny, rc_rows_unit(nx), count, r);
+    }
+    return d->under != NULL && d->own != NULL;
+}
+
+static void
+dealt_free(struct dealt *d)
+{
+    free(d->under);
+    free(d->own);
+}
+
+/* Rows of few nodes a rank are solved by every rank for itself: to wait for each other's sums takes
+ * longer. */
+static const struct rc_ranks *
+ranks_for(const struct rc_solver *s, const struct rc_shape *coarse)
+{
+    const struct rc_ranks *ranks = s->posed.rows.ranks;
+
+    return coarse->nx * coarse->ny < FEW_NODES * rc_ranks_count(ranks) ? NULL : ranks;
+}
+
+/* The heights that belong to a coarse grid, of the rows that are solved here; NULL when memory is short,
+ * here or on another rank. */
+static double *
+coarse_heights(const struct rc_solver *s, const struct rc_shape *shape, const struct rc_rows *rows)
+{
+    const struct rc_ranks *ranks = s->posed.rows.ranks;
+    double *h = rc_alloc(rows_under(&s->posed.rows) * shape->nx, sizeof *h), *own = NULL;
+    struct dealt d = {NULL, NULL};
+    bool fine = h != NULL;
+
+    if (ranks != NULL) {
+        own = rc_alloc(rows->n * shape->nx, sizeof *own);
+        fine = deal(&s->posed, rows, &d) && fine && own != NULL;
+    }
+    if (rc_ranks_agree(ranks, fine ? RC_OK : RC_FAIL, NULL) != RC_OK) {
+        free(h);
+        free(own);
+        dealt_free(&d);
+        return NULL;
+    }
+    coarsen(&s->posed, shape->nx, h);
+    if (ranks == NULL)
+        return h;
+    rc_ranks_move(ranks, shape->nx * sizeof *h, d.under, rows->ranks == NULL ? NULL : d.own, h,
+                  own);
+    dealt_free(&d);
+    free(h);
+    return own;
+}
+
+/* The coarse pressure of the rows under those held here: moved to `room`, where other ranks have solved for
+ * it. NULL when memory is short, here or on another rank. */
+static const double *
+pressure_under(const struct rc_solver *s, const struct rc_solver *c, double **room)
+{
+    const struct rc_ranks *ranks = s->posed.rows.ranks;
+    size_t nx = c->posed.whole.nx;
+    struct dealt d;
+    bool fine;
+
+    *room = NULL;
+    if (c->posed.rows.ranks == NULL) /* all rows are here */
+        return c->it.p + (s->posed.rows.first + 1) / 2 * nx;
+    *room = rc_alloc(rows_under(&s->posed.rows) * nx, sizeof **room);
+    fine = deal(&s->posed, &c->posed.rows, &d) && *room != NULL;
+    if (rc_ranks_agree(ranks, fine ? RC_OK : RC_FAIL, NULL) == RC_OK)
+        rc_ranks_move(ranks, nx * sizeof **room, d.own, d.under, c->it.p, *room);
+    else
+        fine = false;
+    dealt_free(&d);
+    return fine ? *room : NULL;
+}
+
+/* ---- down ---- */
 
 /* What the grid leaves out is seen where the coarser one is solved to below it, which goes with the
  * spacing. */
@@ -108,26 +215,30 @@ tolerance(const struct rc_solver *s, const struct rc_shape *coarse)
 static struct rc_solver *
 coarse_new(const struct rc_solver *s, bool *sought)
 {
-    const struct rc_shape *fine = &s->posed.shape;
+    const struct rc_shape *fine = &s->posed.whole;
     struct rc_shape shape = {(fine->nx + 1) / 2, (fine->ny + 1) / 2, 2 * fine->dx, 2 * fine->dy};
     struct rc_problem problem = {.boundary = s->posed.boundary,
                                  .load = s->load.load,
                                  .hardness = s->posed.hardness,
                                  .tol = tolerance(s, &shape),
-                                 .threads = (size_t)s->posed.threads};
-    double *h = rc_alloc(shape.nx * shape.ny, sizeof *h), lower;
+                                 .threads = (size_t)s->posed.threads,
+                                 .ranks = ranks_for(s, &shape)};
+    struct rc_rows rows = rc_rows_of(problem.ranks, &shape);
+    double *h = coarse_heights(s, &shape, &rows), lower;
     struct rc_solver *c;
 
     if (h == NULL)
         return NULL;
-    coarsen(&s->posed, &shape, h);
-    lower = -largest(h, shape.nx * shape.ny); /* that of the fine heights is 0 */
+    lower = -largest(rows.ranks, h, rows.n * shape.nx); /* that of the fine heights is 0 */
     *sought = s->load.target > 2 * lower;
     if (*sought)
         problem.approach = s->load.target - lower;
     c = rc_solver_coarse(s, &shape, h, &problem, NULL);
     free(h);
-    return c;
+    if (rc_ranks_agree(s->posed.rows.ranks, c == NULL ? RC_FAIL : RC_OK, NULL) == RC_OK)
+        return c;
+    rc_solver_free(c);
+    return NULL;
 }
 
 /* ---- up ---- */
@@ -135,20 +246,23 @@ coarse_new(const struct rc_solver *s, bool *sought)
 static void
 repeat(struct rc_solver *s, const struct rc_solver *c)
 {
-    size_t nx = s->posed.shape.nx, ny = s->posed.shape.ny, n = s->posed.n;
-    double *p = s->it.p, *v = s->it.v;
+    size_t nx = s->posed.shape.nx, ny = s->posed.shape.ny, wide = c->posed.shape.nx;
+    double *room;
+    const double *from = pressure_under(s, c, &room);
 
+    if (from == NULL)
+        return;
 #pragma omp parallel for num_threads(s->posed.threads) schedule(static)
     for (size_t j = 0; j < ny; j++)
         for (size_t i = 0; i < nx; i++)
-            p[j * nx + i] = c->it.p[j / 2 * c->posed.shape.nx + i / 2];
+            s->it.p[j * nx + i] = from[j / 2 * wide + i / 2];
+    free(room);
     if (fabs(rc_iterate_carried(s) - s->load.sum) <= 1e-14 * s->load.sum)
         return;
     /* an odd line too much; should nodes have to join, the highest first */
-    for (size_t k = 0; k < n; k++)
-        v[k] = -s->posed.h[k];
-    if (rc_projection_balance(n, s->posed.hardness, s->load.sum, v, p, NULL) != RC_OK)
-        rc_iterate_level(s);
+    for (size_t k = 0; k < s->posed.n; k++)
+        s->it.v[k] = -s->posed.h[k];
+    rc_projection_balance(s, s->it.v);
 }
 
 /* Figures of the coarse solution. An approach that was asked for is right on both grids. */
@@ -159,8 +273,8 @@ compare(struct rc_solver *s, struct rc_solver *c)
 
     for (size_t k = 0; k < c->posed.n; k++)
         contact += c->it.p[k] > 0;
-    s->coarse.contact_area = (double)contact * c->posed.cell;
-    s->coarse.max_pressure = largest(c->it.p, c->posed.n);
+    s->coarse.contact_area = (double)rc_ranks_sum(c->posed.rows.ranks, contact) * c->posed.cell;
+    s->coarse.max_pressure = largest(c->posed.rows.ranks, c->it.p, c->posed.n);
     rc_iterate_shift(c);
     s->coarse.approach = c->it.elastic > 0 && s->load.target == 0 ? c->it.shift : NAN;
 }
@@ -176,7 +290,7 @@ rc_nested_end(struct rc_solver *s)
             repeat(s, c);
         if (s->posed.discretization && c->it.iterations > 0)
             compare(s, c);
-        rc_iterate_count(s, c->it.convolutions * (double)c->posed.n / (double)s->posed.n);
+        rc_iterate_count(s, c->it.convolutions * (double)c->posed.nodes / (double)s->posed.nodes);
     }
     rc_nested_free(s);
 }

@@ -38,6 +38,12 @@ state_free(void *at)
     free(s);
 }
 
+static size_t
+memory(const struct rc_shape *shape)
+{
+    return shape->nx * shape->ny * 3 * sizeof(double);
+}
+
 static void *
 state_new(const struct rc_solver *solver, struct rc_err *err)
 {
@@ -201,10 +207,7 @@ step(struct rc_solver *solver, void *at)
         measure(solver, s);
         move(solver, s);
     }
-    if (rc_projection_balance(solver->posed.n, solver->posed.hardness, solver->load.sum,
-                              solver->it.v, solver->it.p, NULL) != RC_OK)
-        memcpy(solver->it.p, s->old,
-               solver->posed.n * sizeof *s->old); /* out of memory: stand still */
+    rc_projection_balance(solver, solver->it.v);
     rc_iterate_unknown(solver);
     rc_reduce_blocks(solver, change_block, &c, total);
     return (struct rc_found){.change = total[0] / solver->load.sum /* (32) */, .estimate = NAN};
@@ -230,6 +233,7 @@ convolutions(double nodes, double digits)
 const struct rc_method rc_method_pk99 = {
     .info = {.name = "pk99", .summary = "conjugate gradients of Polonsky and Keer, 1999"},
     .convolutions = convolutions,
+    .memory = memory,
     .new = state_new,
     .step = step,
     .forget = forget,

@@ -20,6 +20,7 @@ struct rc_preconditioner {
     int threads;
     size_t own; /* numbers of scratch of one thread                              */
     float *scratch;
+    double *lines; /* three, where ranks share the map; else NULL                    */
 };
 
 /* |x|^(-5/2); a node has no weight in itself, because no node is both on W and off it. */
@@ -71,6 +72,12 @@ rc_preconditioner_new(struct rc_operator *op, struct rc_err *err)
     e->scratch = rc_alloc((size_t)e->threads * e->own, sizeof *e->scratch);
     if (e->weight == NULL || e->closeness == NULL || e->scratch == NULL)
         goto short_of_memory;
+    if (op->rows.ranks != NULL && (e->lines = rc_alloc(3 * op->shape.nx, sizeof *e->lines)) == NULL)
+        goto short_of_memory;
+    if (rc_ranks_agree(op->rows.ranks, RC_OK, err) != RC_OK) {
+        rc_preconditioner_free(e);
+        return NULL;
+    }
     if ((e->spread = rc_operator_spectrum(op, &spread, err)) == NULL) {
         rc_preconditioner_free(e);
         return NULL;
@@ -80,6 +87,7 @@ rc_preconditioner_new(struct rc_operator *op, struct rc_err *err)
 short_of_memory:
     rc_err_set(err, "out of memory for the error estimate of %zu x %zu nodes", op->shape.nx,
                op->shape.ny);
+    (void)rc_ranks_agree(op->rows.ranks, RC_FAIL, err);
     rc_preconditioner_free(e);
     return NULL;
 }
@@ -93,14 +101,17 @@ rc_preconditioner_free(struct rc_preconditioner *e)
     free(e->weight);
     free(e->closeness);
     free(e->scratch);
+    free(e->lines);
     free(e);
 }
 
 size_t
-rc_preconditioner_memory(const struct rc_shape *shape, enum rc_boundary boundary)
+rc_preconditioner_memory(const struct rc_shape *shape, enum rc_boundary boundary, size_t ranks)
 {
-    return rc_spectrum_memory(shape, boundary, RC_SINGLE) +
-           shape->nx * shape->ny * (sizeof(float) + sizeof(uint16_t));
+    size_t rows = ranks > 1 ? rc_rows_most(shape, ranks) : shape->ny;
+
+    return rc_spectrum_memory(shape, boundary, RC_SINGLE, ranks) +
+           shape->nx * rows * (sizeof(float) + sizeof(uint16_t));
 }
 
 /* ---- the working set ---- */
@@ -186,7 +197,8 @@ rc_preconditioner_set(struct rc_preconditioner *e, const unsigned char *w, bool 
     e->w = w;
     e->measure = measure;
     if (measure)
-        rc_distance_columns(&e->unit, e->op->boundary, w, e->threads, e->weight);
+        rc_distance_columns(&e->unit, &e->op->rows, e->op->boundary, w, e->threads, e->lines,
+                            e->weight);
     rc_operator_chain(e->op, 1, factors, rows, e);
 }
 

@@ -22,7 +22,8 @@ struct rc_preconditioner;
 /* `op` stays the caller's and outlives it. NULL when memory is short. */
 struct rc_preconditioner *rc_preconditioner_new(struct rc_operator *op, struct rc_err *err);
 void rc_preconditioner_free(struct rc_preconditioner *e);
-size_t rc_preconditioner_memory(const struct rc_shape *shape, enum rc_boundary boundary);
+size_t rc_preconditioner_memory(const struct rc_shape *shape, enum rc_boundary boundary,
+                                size_t ranks);
 /* The working set: entries 1 of w (0 elsewhere), at least one; w is referred to until the next
  * set. With `measure` the distances d_i are found too, else those of the last set are kept: they
  * change little when it does. Costs one factor of a chain, and with them up to three times
@@ -45,9 +46,11 @@ rc_load_of(float weight)
 }
 
 /* distance.c: how far every node is from the nearest one with w != 0, exactly but for rounding, in
- * two passes. First the number of steps along its column, for all nodes ... */
-void rc_distance_columns(const struct rc_shape *shape, enum rc_boundary boundary,
-                         const unsigned char *w, int threads, float *steps);
+ * two passes. First the number of steps along its column, for all nodes of these rows (rows->ranks
+ * NULL: of all; else `lines` is scratch of three lines) ... */
+void rc_distance_columns(const struct rc_shape *shape, const struct rc_rows *rows,
+                         enum rc_boundary boundary, const unsigned char *w, int threads,
+                         double *lines, float *steps);
 /* ... then, row by row, the square of the distance, lengths as dx and dy are, from those of the
  * row; infinite when there is no such node. `scratch` holds rc_distance_scratch numbers and belongs
  * to one thread. */

@@ -10,7 +10,6 @@
 
 #include <float.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* ---- the shift ---- */
@@ -44,39 +43,56 @@ rc_newton(rc_excess_at *at, void *ctx, double low, double high, double start, do
 /* ---- of a map ---- */
 
 struct map {
-    size_t n;
-    const double *y;
-    double hardness, sum;
+    const struct rc_solver *s;
+    double *y, shift;
 };
+
+enum { /* sums of a map */
+    LOAD,
+    ELASTIC
+};
+
+static void
+load_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct map *m = at;
+    double hardness = m->s->posed.hardness;
+
+    for (size_t k = first; k < first + n; k++) {
+        double v = m->y[k] + m->shift;
+        sums[LOAD] += fmin(fmax(v, 0), hardness);
+        sums[ELASTIC] += v > 0 && v < hardness;
+    }
+}
 
 static struct rc_excess
 excess_of_map(void *ctx, double shift)
 {
-    const struct map *m = ctx;
-    struct rc_excess e = {.load = -m->sum};
+    struct map *m = ctx;
+    double total[RC_SUMS];
 
-    for (size_t k = 0; k < m->n; k++) {
-        double v = m->y[k] + shift;
-        e.load += fmin(fmax(v, 0), m->hardness);
-        e.slope += v > 0 && v < m->hardness;
-    }
-    return e;
+    m->shift = shift;
+    rc_reduce_blocks(m->s, load_block, m, total);
+    return (struct rc_excess){.load = total[LOAD] - m->s->load.sum, .slope = total[ELASTIC]};
 }
 
 void
-rc_projection_of(size_t n, double hardness, double sum, double *y)
+rc_projection_of(const struct rc_solver *s, double *y)
 {
-    struct map map = {.n = n, .y = y, .hardness = hardness, .sum = sum};
-    double least = INFINITY, most = -INFINITY, low, high, mu;
+    struct map map = {.s = s, .y = y};
+    double least = INFINITY, most = -INFINITY, low, high, mu, hardness = s->posed.hardness;
+    double sum = s->load.sum;
 
-    for (size_t k = 0; k < n; k++) {
+    for (size_t k = 0; k < s->posed.n; k++) {
         least = fmin(least, y[k]);
         most = fmax(most, y[k]);
     }
+    most = rc_ranks_most(s->posed.rows.ranks, most);
+    least = -rc_ranks_most(s->posed.rows.ranks, -least);
     low = -most; /* nothing above 0 */
-    high = isinf(hardness) ? sum / (double)n - least : hardness - least;
+    high = isinf(hardness) ? sum / (double)s->posed.nodes - least : hardness - least;
     mu = rc_newton(excess_of_map, &map, low, high, fmin(fmax(0, low), high), 4 * DBL_EPSILON * sum);
-    for (size_t k = 0; k < n; k++)
+    for (size_t k = 0; k < s->posed.n; k++)
         y[k] = fmin(fmax(y[k] + mu, 0), hardness);
 }
 
@@ -191,122 +207,236 @@ rc_move_shift(struct rc_move *m)
 
 /* ---- by scaling ---- */
 
+struct scale {
+    struct rc_solver *s;
+    double f;
+    bool cap; /* nodes that the factor brings to the bound go there; else all are multiplied */
+    const double *g;
+    double least, most; /* gaps between which nodes are counted */
+};
+
+/* Of the elastic nodes; sums[1]: how many would reach the bound with the factor f. */
+static void
+elastic_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct scale *c = at;
+    struct rc_total sum = {0};
+
+    for (size_t k = first; k < first + n; k++)
+        if (rc_elastic(c->s, k)) {
+            rc_total_add(&sum, c->s->it.p[k]);
+            sums[1] += c->f > 1 && c->f * c->s->it.p[k] >= c->s->posed.hardness;
+        }
+    sums[0] = rc_total_value(&sum);
+}
+
+static void
+multiply_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct scale *c = at;
+    double *p = c->s->it.p, hardness = c->s->posed.hardness;
+
+    (void)sums;
+    for (size_t k = first; k < first + n; k++)
+        if (rc_elastic(c->s, k) && (!c->cap || c->f * p[k] >= hardness))
+            p[k] = c->cap ? hardness : c->f * p[k];
+}
+
 /* Factor f with sum over the elastic nodes of min(f p, H) = target. A node that reaches the bound
  * at one factor stays there at every larger one, so each round fixes some and the rest is linear. */
 static void
-scale_elastic(size_t n, double hardness, double target, double *p)
+scale_elastic(struct rc_solver *s, double target)
 {
-    for (;;) {
-        double free_sum = 0, error = 0, f;
-        bool capped = false;
+    struct scale c = {.s = s};
+    double total[RC_SUMS], capped;
 
-        for (size_t k = 0; k < n; k++)
-            if (p[k] > 0 && p[k] < hardness) {
-                double y = p[k] - error, t = free_sum + y; /* Kahan */
-                error = (t - free_sum) - y;
-                free_sum = t;
-            }
-        if (!(free_sum > 0))
+    do {
+        c.f = 0;
+        rc_reduce_blocks(s, elastic_block, &c, total);
+        if (!(total[0] > 0))
             return;
-        f = target / free_sum;
-        for (size_t k = 0; k < n && f > 1; k++)
-            if (p[k] > 0 && p[k] < hardness && f * p[k] >= hardness) {
-                p[k] = hardness;
-                target -= hardness;
-                capped = true;
-            }
-        if (capped)
-            continue;
-        for (size_t k = 0; k < n; k++)
-            if (p[k] > 0 && p[k] < hardness)
-                p[k] *= f;
+        c.f = target / total[0];
+        rc_reduce_blocks(s, elastic_block, &c, total);
+        capped = total[1];
+        c.cap = capped > 0;
+        rc_reduce_blocks(s, multiply_block, &c, total);
+        target -= capped * s->posed.hardness;
+    } while (capped > 0);
+}
+
+/* Nodes without pressure whose gap is at least `least` and at most `most`. */
+static void
+count_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct scale *c = at;
+
+    for (size_t k = first; k < first + n; k++)
+        sums[0] += c->s->it.p[k] <= 0 && c->g[k] >= c->least && c->g[k] <= c->most;
+}
+
+static double
+count_gaps(struct scale *c, double least, double most)
+{
+    double total[RC_SUMS];
+
+    c->least = least;
+    c->most = most;
+    rc_reduce_blocks(c->s, count_block, c, total);
+    return total[0];
+}
+
+/* Doubles in their order as whole numbers, and back. */
+static int64_t
+rank_of(double v)
+{
+    int64_t bits;
+
+    memcpy(&bits, &v, sizeof bits);
+    return bits < 0 ? INT64_MIN - bits : bits;
+}
+
+static double
+of_rank(int64_t rank)
+{
+    int64_t bits = rank < 0 ? INT64_MIN - rank : rank;
+    double v;
+
+    memcpy(&v, &bits, sizeof v);
+    return v;
+}
+
+/* The gap of the last node that joins when `wanted` do: bisection over all doubles. */
+static double
+last_gap(struct scale *c, double wanted)
+{
+    int64_t low = rank_of(-INFINITY), high = rank_of(INFINITY);
+
+    while (low < high) {
+        int64_t middle = low + (int64_t)(((uint64_t)high - (uint64_t)low) / 2);
+        if (count_gaps(c, -INFINITY, of_rank(middle)) >= wanted)
+            high = middle;
+        else
+            low = middle + 1;
+    }
+    return of_rank(low);
+}
+
+/* Nodes without pressure of just this gap in rows that are held before those here. */
+static double
+equal_before(const struct scale *c, double gap)
+{
+    size_t here = 0;
+
+    if (c->s->posed.rows.ranks == NULL)
+        return 0;
+    for (size_t k = 0; k < c->s->posed.n; k++)
+        here += c->s->it.p[k] <= 0 && c->g[k] == gap;
+    return (double)rc_ranks_sum_before(c->s->posed.rows.ranks, here);
+}
+
+/* All loaded nodes, if any, are at the bound and `rest` is still missing: nodes join by their gap, those of
+ * equal gap by their place. All but the last come to the bound. */
+static void
+add_nodes(struct rc_solver *s, double rest, const double *g)
+{
+    double hardness = s->posed.hardness, wanted = 1, part = rest, last, before, equal;
+    struct scale c = {.s = s, .g = g};
+
+    if (!isinf(hardness)) {
+        wanted = ceil(rest / hardness - 4 * DBL_EPSILON);
+        part = rest - (wanted - 1) * hardness;
+    }
+    if (!(wanted > 0))
         return;
+    wanted = fmin(wanted, count_gaps(&c, -INFINITY, INFINITY));
+    last = last_gap(&c, wanted);
+    before = count_gaps(&c, -INFINITY, last) - count_gaps(&c, last, last);
+    equal = wanted - before - equal_before(&c, last); /* of this gap, those here that join */
+    for (size_t k = 0; k < s->posed.n; k++) {
+        if (s->it.p[k] > 0 || g[k] > last)
+            continue;
+        if (g[k] < last)
+            s->it.p[k] = hardness;
+        else if (equal-- > 0)
+            s->it.p[k] = equal == 0 ? fmin(part, hardness) : hardness;
     }
 }
 
-struct candidate {
-    double g;
-    size_t k;
-};
-
-static int
-by_gap(const void *a, const void *b)
+static void
+pressure_block(void *at, size_t first, size_t n, double *sums)
 {
-    const struct candidate *x = a, *y = b;
+    const struct scale *c = at;
 
-    if (x->g != y->g)
-        return x->g < y->g ? -1 : 1;
-    return x->k < y->k ? -1 : 1;
+    sums[0] = rc_sum(c->s->it.p + first, n);
 }
 
-/* All loaded nodes, if any, are at the bound and `rest` is still missing: nodes join by their gap. */
-static enum rc_status
-add_nodes(size_t n, double hardness, double rest, const double *g, double *p, struct rc_err *err)
+static void
+times_block(void *at, size_t first, size_t n, double *sums)
 {
-    struct candidate *list = NULL;
-    size_t count = 0, c = 0;
+    const struct scale *c = at;
 
-    for (size_t k = 0; k < n; k++)
-        count += p[k] <= 0;
-    list = malloc((count + 1) * sizeof *list);
-    if (list == NULL)
-        return rc_err_set(err, "out of memory for %zu nodes", count);
-    for (size_t k = 0; k < n; k++)
-        if (p[k] <= 0)
-            list[c++] = (struct candidate){.g = g[k], .k = k};
-    qsort(list, count, sizeof *list, by_gap);
-    for (c = 0; c < count && rest > (isinf(hardness) ? 0 : 4 * DBL_EPSILON * hardness); c++) {
-        p[list[c].k] = rest < hardness ? rest : hardness;
-        rest -= p[list[c].k];
-    }
-    free(list);
-    return RC_OK;
+    (void)sums;
+    for (size_t k = first; k < first + n; k++)
+        c->s->it.p[k] *= c->f;
 }
 
 /* The nodes at the bound carry too much by themselves. */
 static void
-scale_all(size_t n, double sum, double *p)
+scale_all(struct rc_solver *s)
 {
-    double f = sum / rc_sum(p, n);
+    struct scale c = {.s = s};
+    double total[RC_SUMS];
 
-    for (size_t k = 0; k < n; k++)
-        p[k] *= f;
+    rc_reduce_blocks(s, pressure_block, &c, total);
+    c.f = s->load.sum / total[0];
+    rc_reduce_blocks(s, times_block, &c, total);
 }
 
-enum rc_status
-rc_projection_balance(size_t n, double hardness, double sum, const double *g, double *p,
-                      struct rc_err *err)
-{
-    size_t elastic = 0, full = 0;
-    double target;
+enum { /* nodes */
+    IN_BETWEEN,
+    FULL
+};
 
-    for (size_t k = 0; k < n; k++) {
-        elastic += p[k] > 0 && p[k] < hardness;
-        full += p[k] >= hardness;
+static void
+stand_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct scale *c = at;
+
+    for (size_t k = first; k < first + n; k++) {
+        sums[IN_BETWEEN] += rc_elastic(c->s, k);
+        sums[FULL] += c->s->it.p[k] >= c->s->posed.hardness;
     }
-    target = full == 0 ? sum : sum - hardness * (double)full;
+}
+
+void
+rc_projection_balance(struct rc_solver *s, const double *g)
+{
+    struct scale c = {.s = s};
+    double total[RC_SUMS], hardness = s->posed.hardness, sum = s->load.sum, elastic, full, target;
+
+    rc_reduce_blocks(s, stand_block, &c, total);
+    elastic = total[IN_BETWEEN];
+    full = total[FULL];
+    target = full == 0 ? sum : sum - hardness * full;
     if (elastic == 0 && fabs(target) <= 4 * DBL_EPSILON * sum)
-        return RC_OK; /* every loaded node at the bound, and that is the load */
-    if (elastic > 0 && target > 0 && target <= hardness * (double)elastic) {
-        scale_elastic(n, hardness, target, p);
-        return RC_OK;
+        return; /* every loaded node at the bound, and that is the load */
+    if (elastic > 0 && target > 0 && target <= hardness * elastic) {
+        scale_elastic(s, target);
+        return;
     }
-    if (elastic + full == 0 || target > hardness * (double)elastic) {
-        for (size_t k = 0; k < n; k++)
-            if (p[k] > 0)
-                p[k] = hardness;
-        return add_nodes(n, hardness,
-                         elastic + full == 0 ? sum : sum - hardness * (double)(elastic + full), g,
-                         p, err);
+    if (elastic + full == 0 || target > hardness * elastic) {
+        for (size_t k = 0; k < s->posed.n; k++)
+            if (s->it.p[k] > 0)
+                s->it.p[k] = hardness;
+        add_nodes(s, elastic + full == 0 ? sum : sum - hardness * (elastic + full), g);
+        return;
     }
-    scale_all(n, sum, p);
-    return RC_OK;
+    scale_all(s);
 }
 
-enum rc_status
-rc_projection_restore(struct rc_solver *s, double carried, struct rc_err *err)
+void
+rc_projection_restore(struct rc_solver *s, double carried)
 {
-    if (fabs(carried - s->load.sum) <= 1e-14 * s->load.sum)
-        return RC_OK;
-    return rc_projection_balance(s->posed.n, s->posed.hardness, s->load.sum, s->it.v, s->it.p, err);
+    if (fabs(carried - s->load.sum) > 1e-14 * s->load.sum)
+        rc_projection_balance(s, s->it.v);
 }

@@ -1,35 +1,56 @@
 /*
- * Sums over all nodes that do not depend on the number of threads: each block or row adds up by
- * itself, and their sums are added in order.
+ * Sums over all nodes that do not depend on the number of threads, nor of ranks: each block or row adds up by
+ * itself, and their sums are added in order, with what the additions round away. A block is some rows, or a
+ * part of one, that one rank holds.
  */
 #include "solver.h"
 
 #include <string.h>
 
 static void
-total_of(const double *partial, size_t n, double total[RC_SUMS])
+total_of(const struct rc_solver *s, size_t n, double total[RC_SUMS])
 {
-    memset(total, 0, RC_SUMS * sizeof *total);
+    struct rc_total sum[RC_SUMS] = {{0}};
+    const double *partial = s->partial;
+    double most = 0;
+
     for (size_t b = 0; b < n; b++, partial += RC_SUMS) {
         for (size_t q = 0; q < RC_MOST; q++)
-            total[q] += partial[q];
-        if (partial[RC_MOST] > total[RC_MOST])
-            total[RC_MOST] = partial[RC_MOST];
+            rc_total_add(&sum[q], partial[q]);
+        if (partial[RC_MOST] > most)
+            most = partial[RC_MOST];
     }
+    if (s->posed.rows.ranks != NULL)
+        rc_ranks_totals(s->posed.rows.ranks, RC_MOST, sum, total, &most);
+    else
+        for (size_t q = 0; q < RC_MOST; q++)
+            total[q] = rc_total_value(&sum[q]);
+    total[RC_MOST] = most;
 }
 
 void
 rc_reduce_blocks(const struct rc_solver *s, rc_block *block, void *ctx, double total[RC_SUMS])
 {
-    const size_t size = RC_BLOCK_NODES;
-    size_t nodes = s->posed.n, n = (nodes + size - 1) / size;
+    size_t nx = s->posed.shape.nx, rows = rc_rows_block(nx);
+    size_t size = rows > 1 || nx <= RC_BLOCK_NODES ? rows * nx : RC_BLOCK_NODES;
+    size_t parts = (rows * nx + size - 1) / size; /* of a row that is longer than a block */
+    size_t n = (s->posed.shape.ny + rows - 1) / rows * parts;
 
     memset(s->partial, 0, n * RC_SUMS * sizeof *s->partial);
 #pragma omp parallel for num_threads(s->posed.threads) schedule(static)
-    for (size_t b = 0; b < n; b++)
-        block(ctx, b * size, nodes - b * size < size ? nodes - b * size : size,
-              s->partial + b * RC_SUMS);
-    total_of(s->partial, n, total);
+    for (size_t b = 0; b < n; b++) {
+        size_t first = b / parts * rows * nx + b % parts * size;
+        size_t end = parts == 1 ? s->posed.n : (b / parts + 1) * nx;
+        block(ctx, first, end - first < size ? end - first : size, s->partial + b * RC_SUMS);
+    }
+    total_of(s, n, total);
+}
+
+size_t
+rc_reduce_partials(const struct rc_shape *shape)
+{
+    /* no more than the rows, or the parts of them */
+    return shape->ny * (shape->nx / RC_BLOCK_NODES + 1) + 1;
 }
 
 void
@@ -41,5 +62,5 @@ rc_reduce_rows_begin(const struct rc_solver *s)
 void
 rc_reduce_rows_end(const struct rc_solver *s, double total[RC_SUMS])
 {
-    total_of(s->partial, s->posed.shape.ny, total);
+    total_of(s, s->posed.shape.ny, total);
 }

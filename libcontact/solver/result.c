@@ -9,15 +9,20 @@
 static double
 edge_load(const struct rc_solver *s)
 {
-    size_t nx = s->posed.shape.nx, ny = s->posed.shape.ny;
+    size_t nx = s->posed.whole.nx, ny = s->posed.whole.ny;
     size_t mx = nx < 3 ? 0 : (nx + 49) / 50, my = ny < 3 ? 0 : (ny + 49) / 50;
-    double sum = 0;
+    double total[RC_SUMS];
 
-    for (size_t j = 0; j < ny; j++)
+    rc_reduce_rows_begin(s);
+    for (size_t j = 0; j < s->posed.shape.ny; j++) {
+        size_t y = s->posed.rows.first + j;
+        double *sums = rc_reduce_row(s, j);
         for (size_t i = 0; i < nx; i++)
-            if (i < mx || i + mx >= nx || j < my || j + my >= ny)
-                sum += s->it.p[j * nx + i];
-    return sum / s->load.sum;
+            if (i < mx || i + mx >= nx || y < my || y + my >= ny)
+                sums[0] += s->it.p[j * nx + i];
+    }
+    rc_reduce_rows_end(s, total);
+    return total[0] / s->load.sum;
 }
 
 struct figures {
@@ -98,19 +103,35 @@ yielded(const struct rc_solver *s, struct figures *f)
     return (size_t)total[0];
 }
 
+enum {
+    PIECE =
+        1024 /* columns of which rows that others hold are fetched at a time: so there is always room */
+};
+
 /* Nodes of the contact with a neighbour that is none. */
 static size_t
 edge_nodes(const struct rc_solver *s)
 {
+    const struct rc_rows *rows = &s->posed.rows;
     size_t nx = s->posed.shape.nx, ny = s->posed.shape.ny, count = 0;
+    double before[PIECE], after[PIECE];
+    bool has[2] = {false, false};
 
-    for (size_t j = 0; j < ny; j++)
-        for (size_t i = 0; i < nx; i++) {
-            const double *p = s->it.p + j * nx + i;
-            count += p[0] > 0 && ((i > 0 && p[-1] <= 0) || (i + 1 < nx && p[1] <= 0) ||
-                                  (j > 0 && p[-(ptrdiff_t)nx] <= 0) || (j + 1 < ny && p[nx] <= 0));
+    for (size_t first = 0; first < nx; first += PIECE) {
+        size_t last = nx - first < PIECE ? nx : first + PIECE;
+        if (rows->ranks != NULL)
+            rc_ranks_beside(rows, false, (last - first) * sizeof *before, s->it.p + first,
+                            s->it.p + (ny > 0 ? (ny - 1) * nx : 0) + first, before, after, has);
+        for (size_t j = 0; j < ny; j++) {
+            const double *p = s->it.p + j * nx;
+            const double *above = j > 0 ? p + first - nx : has[0] ? before : p + first;
+            const double *below = j + 1 < ny ? p + first + nx : has[1] ? after : p + first;
+            for (size_t i = first; i < last; i++)
+                count += p[i] > 0 && ((i > 0 && p[i - 1] <= 0) || (i + 1 < nx && p[i + 1] <= 0) ||
+                                      above[i - first] <= 0 || below[i - first] <= 0);
         }
-    return count;
+    }
+    return rc_ranks_sum(rows->ranks, count);
 }
 
 /* What a grid of half the nodes a side gave beside what this one gives. Peak pressure and approach
@@ -147,7 +168,7 @@ void
 rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct rc_contact *c)
 {
     struct figures f = {.s = s, .displacement = displacement, .gap = gap};
-    double total[RC_SUMS], n = (double)s->posed.n, scale;
+    double total[RC_SUMS], n = (double)s->posed.nodes, scale;
     bool early = s->nested != NULL, stopped;
 
     rc_nested_end(s); /* the best is what was reached there */

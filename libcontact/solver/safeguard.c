@@ -50,37 +50,87 @@ longest(const struct rc_solver *solver, const double *t)
         else if (t[k] > 0)
             most = fmin(most, (solver->posed.hardness - solver->it.p[k]) / t[k]);
     }
-    return most;
+    return -rc_ranks_most(solver->posed.rows.ranks, -most);
+}
+
+/* What the passes of a step share. */
+struct way {
+    struct rc_solver *solver;
+    double *t, *r;
+    double length;
+};
+
+enum { /* sums along the way */
+    ABOVE,
+    BELOW
+};
+
+static void
+aim_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct way *w = at;
+    const struct rc_solver *s = w->solver;
+
+    (void)sums;
+    for (size_t k = first; k < first + n; k++)
+        w->t[k] = s->it.p[k] - (s->it.v[k] - s->it.shift) / s->op->norm;
+}
+
+static void
+turn_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct way *w = at;
+
+    for (size_t k = first; k < first + n; k++) {
+        w->t[k] -= w->solver->it.p[k];
+        sums[0] += fabs(w->t[k]);
+    }
+}
+
+static void
+product_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct way *w = at;
+    const struct rc_solver *s = w->solver;
+
+    for (size_t k = first; k < first + n; k++) {
+        /* without the shift: t adds up to 0 but for rounding */
+        sums[ABOVE] -= (s->it.v[k] - s->it.shift) * w->t[k];
+        sums[BELOW] += w->r[k] * w->t[k];
+    }
+}
+
+static void
+move_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct way *w = at;
+    struct rc_solver *s = w->solver;
+
+    (void)sums;
+    for (size_t k = first; k < first + n; k++)
+        s->it.p[k] = fmin(fmax(s->it.p[k] + w->length * w->t[k], 0), s->posed.hardness);
 }
 
 void
 rc_safeguard_step(struct rc_solver *solver, const double *old, double *t, double *r)
 {
-    double above = 0, below = 0, size = 0, length, norm = solver->op->norm;
+    struct way w = {.solver = solver, .t = t, .r = r};
+    double total[RC_SUMS], above, below;
 
     memcpy(solver->it.p, old, solver->posed.n * sizeof *old);
     rc_iterate_displace(solver);
     rc_iterate_shift(solver);
-    for (size_t k = 0; k < solver->posed.n; k++)
-        t[k] = solver->it.p[k] - (solver->it.v[k] - solver->it.shift) / norm;
-    rc_projection_of(solver->posed.n, solver->posed.hardness, solver->load.sum, t);
-    for (size_t k = 0; k < solver->posed.n; k++) {
-        t[k] -= solver->it.p[k];
-        size += fabs(t[k]);
-    }
-    if (size <= 1e-15 * solver->load.sum)
+    rc_reduce_blocks(solver, aim_block, &w, total);
+    rc_projection_of(solver, t);
+    rc_reduce_blocks(solver, turn_block, &w, total);
+    if (total[0] <= 1e-15 * solver->load.sum)
         return; /* this is as near as rounding lets us come */
     rc_operator_apply(solver->op, t, r);
     rc_iterate_count(solver, 1);
-    for (size_t k = 0; k < solver->posed.n;
-         k++) { /* without the shift: t adds up to 0 but for rounding */
-        above -= (solver->it.v[k] - solver->it.shift) * t[k];
-        below += r[k] * t[k];
-    }
-    length = fmin(below > 0 && above > 0 ? above / below : 0, longest(solver, t));
-    for (size_t k = 0; k < solver->posed.n; k++)
-        solver->it.p[k] = fmin(fmax(solver->it.p[k] + length * t[k], 0), solver->posed.hardness);
-    /* what rounding took of the load; should memory be short, that little is missing */
-    (void)rc_projection_balance(solver->posed.n, solver->posed.hardness, solver->load.sum,
-                                solver->it.v, solver->it.p, NULL);
+    rc_reduce_blocks(solver, product_block, &w, total);
+    above = total[ABOVE];
+    below = total[BELOW];
+    w.length = fmin(below > 0 && above > 0 ? above / below : 0, longest(solver, t));
+    rc_reduce_blocks(solver, move_block, &w, total);
+    rc_projection_balance(solver, solver->it.v); /* what rounding took of the load */
 }

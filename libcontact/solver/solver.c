@@ -71,10 +71,11 @@ operator_options(const struct rc_shape *shape, const struct rc_problem *problem)
                                         .engine = problem->engine,
                                         .tol = 0.02 * tolerance(shape, problem),
                                         .threads = problem->threads,
-                                        .coating = problem->coating};
+                                        .coating = problem->coating,
+                                        .ranks = problem->ranks};
 }
 
-/* The largest height; NAN where one is not a finite number. */
+/* The largest height, -INFINITY of none; NAN where one is not a finite number. */
 static double
 top_of(const double *h, size_t n, int threads)
 {
@@ -103,33 +104,61 @@ static enum rc_status
 pose(struct rc_posed *posed, const struct rc_shape *shape, const double *h,
      const struct rc_problem *problem, struct rc_err *err)
 {
-    size_t n = shape->nx * shape->ny;
+    const struct rc_rows rows = rc_rows_of(problem->ranks, shape);
+    const struct rc_shape own = rc_rows_shape(&rows, shape);
+    size_t n = own.nx * own.ny, nodes = shape->nx * shape->ny;
+    enum rc_status status = RC_OK;
     double top;
 
-    *posed = (struct rc_posed){.shape = *shape,
+    *posed = (struct rc_posed){.whole = *shape,
+                               .shape = own,
+                               .rows = rows,
                                .boundary = problem->boundary,
                                .n = n,
+                               .nodes = nodes,
                                .cell = shape->dx * shape->dy,
                                .h = rc_alloc(n, sizeof *posed->h),
                                .hardness = problem->hardness == 0 ? INFINITY : problem->hardness,
                                .tol = tolerance(shape, problem),
                                .max_iterations = problem->max_iterations > 0
                                                      ? problem->max_iterations
-                                                     : 100 + (size_t)(10 * sqrt((double)n)),
-                               .threads = rc_useful_threads(shape, problem->threads),
+                                                     : 100 + (size_t)(10 * sqrt((double)nodes)),
+                               .threads = rc_useful_threads(&own, problem->threads),
                                .height_error = problem->height_error,
                                .discretization = problem->discretization};
     if (posed->h == NULL)
-        return rc_err_set(err, "out of memory for a contact of %zu x %zu nodes", shape->nx,
-                          shape->ny);
+        status =
+            rc_err_set(err, "out of memory for a contact of %zu x %zu nodes", shape->nx, shape->ny);
     top = top_of(h, n, posed->threads);
-    if (isnan(top))
-        return rc_err_set(err, "height %zu is not a finite number", first_not_finite(h, n));
+    if (status == RC_OK && isnan(top))
+        status = rc_err_set(err, "height %zu is not a finite number",
+                            rows.first * own.nx + first_not_finite(h, n));
+    if (rc_ranks_agree(rows.ranks, status, err) != RC_OK)
+        return RC_FAIL;
+    top = rc_ranks_most(rows.ranks, top);
 #pragma omp parallel for num_threads(posed->threads) schedule(static)
     for (size_t k = 0; k < n; k++)
         posed->h[k] = h[k] - top;
     posed->top = top;
     return RC_OK;
+}
+
+/* Maps of the solver's own, and the method's state: no rank goes on alone. */
+static enum rc_status
+make_room(struct rc_solver *s, struct rc_err *err)
+{
+    const struct rc_shape *whole = &s->posed.whole;
+    enum rc_status status = RC_OK;
+
+    s->z = rc_alloc(s->posed.n, sizeof *s->z);
+    s->partial = rc_alloc(rc_reduce_partials(&s->posed.shape), RC_SUMS * sizeof *s->partial);
+    if (s->z == NULL || s->partial == NULL || rc_iterate_new(s) != RC_OK ||
+        rc_working_set_new(s) != RC_OK)
+        status =
+            rc_err_set(err, "out of memory for a contact of %zu x %zu nodes", whole->nx, whole->ny);
+    if (status == RC_OK && (s->state = s->method->new (s, err)) == NULL)
+        status = RC_FAIL;
+    return rc_ranks_agree(s->posed.rows.ranks, status, err);
 }
 
 /* Takes the operator; NULL: there is none, and *err says why. */
@@ -138,34 +167,26 @@ solver_new(const struct rc_shape *shape, const double *h, const struct rc_proble
            const struct rc_method *method, struct rc_operator *op, struct rc_err *err)
 {
     struct rc_solver *s = calloc(1, sizeof *s);
-    size_t blocks = shape->nx * shape->ny / RC_BLOCK_NODES + 1;
 
-    if (s == NULL) {
+    if (s == NULL)
+        rc_err_set(err, "out of memory for a contact of %zu x %zu nodes", shape->nx, shape->ny);
+    if (rc_ranks_agree(problem->ranks, s == NULL || op == NULL ? RC_FAIL : RC_OK, err) != RC_OK) {
         rc_operator_free(op);
-        goto short_of_memory;
+        free(s);
+        return NULL;
     }
     s->op = op;
     s->method = method;
     s->coarse = (struct rc_discretization){NAN, NAN, NAN};
-    if (op == NULL || method == NULL)
+    if (pose(&s->posed, shape, h, problem, err) != RC_OK || make_room(s, err) != RC_OK)
         goto fail;
-    s->z = rc_alloc(shape->nx * shape->ny, sizeof *s->z);
-    s->partial = rc_alloc(blocks > shape->ny ? blocks : shape->ny, RC_SUMS * sizeof *s->partial);
-    if (pose(&s->posed, shape, h, problem, err) != RC_OK)
-        goto fail;
-    if (s->z == NULL || s->partial == NULL || rc_iterate_new(s) != RC_OK ||
-        rc_working_set_new(s) != RC_OK)
-        goto short_of_memory;
     s->posed.rough = !op->exact;
     if (rc_load_first(s, problem, err) != RC_OK ||
-        (s->preconditioner = rc_preconditioner_new(op, err)) == NULL ||
-        (s->state = method->new (s, err)) == NULL)
+        (s->preconditioner = rc_preconditioner_new(op, err)) == NULL)
         goto fail;
     rc_iterate_level(s);
     rc_nested_new(s);
     return s;
-short_of_memory:
-    rc_err_set(err, "out of memory for a contact of %zu x %zu nodes", shape->nx, shape->ny);
 fail:
     rc_solver_free(s);
     return NULL;
@@ -187,8 +208,8 @@ struct rc_solver *
 rc_solver_coarse(const struct rc_solver *fine, const struct rc_shape *shape, const double *h,
                  const struct rc_problem *problem, struct rc_err *err)
 {
-    return solver_new(shape, h, problem, fine->method, rc_operator_coarse(fine->op, shape, err),
-                      err);
+    return solver_new(shape, h, problem, fine->method,
+                      rc_operator_coarse(fine->op, problem->ranks, shape, err), err);
 }
 
 void
@@ -224,12 +245,21 @@ size_t
 rc_solver_memory(const struct rc_shape *shape, const struct rc_problem *problem)
 {
     struct rc_operator_options options = operator_options(shape, problem);
-    size_t n = shape->nx * shape->ny;
+    const struct rc_method *method = choose(problem->method, NULL);
+    size_t ranks = rc_ranks_count(problem->ranks);
+    struct rc_shape held = *shape;
+    size_t n;
 
-    /* three maps, two of half the width and a mask here; the methods' own */
-    return n * (3 * sizeof(double) + 2 * sizeof(float) + 1) + n * 3 * sizeof(double) +
+    if (ranks > 1)
+        held.ny = rc_rows_most(shape, ranks);
+    n = held.nx * held.ny;
+
+    /* Heights, pressures and gaps, corrections and residuals of half the width, a mask. The coarser
+     * grids of a nested start are gone before most of this is touched. */
+    return n * (3 * sizeof(double) + 2 * sizeof(float) + 1) +
+           (method != NULL && method->memory != NULL ? method->memory(&held) : 0) +
            rc_half_space_memory(shape, &options) +
-           rc_preconditioner_memory(shape, problem->boundary);
+           rc_preconditioner_memory(shape, problem->boundary, ranks);
 }
 
 enum rc_status
@@ -321,9 +351,8 @@ rc_solver_set_load(struct rc_solver *s, double load, double approach, struct rc_
         return RC_FAIL;
     if (untouched)
         rc_iterate_level(s);
-    else if (rc_projection_balance(s->posed.n, s->posed.hardness, s->load.sum, s->it.v, s->it.p,
-                                   err) != RC_OK)
-        return RC_FAIL;
+    else
+        rc_projection_balance(s, s->it.v);
     rc_iterate_reset(s);
     rc_solver_restart(s);
     s->stage = RC_STAGE_NEW;
@@ -333,20 +362,24 @@ rc_solver_set_load(struct rc_solver *s, double load, double approach, struct rc_
 enum rc_status
 rc_solver_warm_start(struct rc_solver *s, double load, const double *p, struct rc_err *err)
 {
+    enum rc_status status = RC_OK;
+    size_t bad;
+
     if (s->stage != RC_STAGE_NEW)
         return rc_err_set(err, "a pressure to start from comes before the first step of a load");
     if (s->load.target > 0 && rc_load_set(s, load, err) != RC_OK)
         return RC_FAIL;
-    for (size_t k = 0; k < s->posed.n; k++)
-        if (!isfinite(p[k]))
-            return rc_err_set(err, "pressure %zu is not a finite number", k);
+    if ((bad = first_not_finite(p, s->posed.n)) < s->posed.n)
+        status = rc_err_set(err, "pressure %zu is not a finite number",
+                            s->posed.rows.first * s->posed.shape.nx + bad);
+    if (rc_ranks_agree(s->posed.rows.ranks, status, err) != RC_OK)
+        return RC_FAIL;
     rc_nested_free(s);
     for (size_t k = 0; k < s->posed.n; k++) {
         s->it.p[k] = fmin(fmax(p[k], 0), s->posed.hardness);
         s->it.v[k] = -s->posed.h[k]; /* should nodes have to join, the highest first */
     }
-    if (rc_projection_restore(s, rc_iterate_carried(s), err) != RC_OK)
-        return RC_FAIL;
+    rc_projection_restore(s, rc_iterate_carried(s));
     rc_solver_restart(s);
     return RC_OK;
 }
@@ -358,7 +391,7 @@ rc_solver_progress(const struct rc_solver *s, struct rc_progress *progress)
 {
     const struct rc_solver *at = rc_nested_at_work(s);
 
-    *progress = (struct rc_progress){.grid = at->posed.shape,
+    *progress = (struct rc_progress){.grid = at->posed.whole,
                                      .iterations = at->it.iterations,
                                      .error = at->it.error,
                                      .tol = at->load.tol};

@@ -33,6 +33,8 @@ struct rc_method {
     /* Convolutions (in equivalents) that it takes, as others were seen to take: nodes of the grid,
      * and digits that the tolerance asks for. NULL: nobody knows. */
     double (*convolutions)(double nodes, double digits);
+    /* Bytes of its state; NULL: nobody knows. */
+    size_t (*memory)(const struct rc_shape *shape);
     /* State beside the solver's own; NULL and *err when memory is short. */
     void *(*new)(const struct rc_solver *solver, struct rc_err *err);
     struct rc_found (*step)(struct rc_solver *solver, void *state);
@@ -53,9 +55,11 @@ struct rc_method {
 
 /* The problem as it was posed: constant after rc_solver_new. */
 struct rc_posed {
-    struct rc_shape shape;
+    struct rc_shape whole,
+        shape;           /* of the map, and of what is held here of it: maps are these rows */
+    struct rc_rows rows; /* which of its rows that is                     */
     enum rc_boundary boundary;
-    size_t n;
+    size_t n, nodes;       /* nodes held here, and of the whole map            */
     double cell;           /* dx dy                                                    */
     double *h;             /* heights less their maximum: the datum costs digits       */
     double top;            /* that maximum                                             */
@@ -87,6 +91,9 @@ struct rc_working_set {
     unsigned char *w; /* 1 on it, else 0                                                       */
     float *r;         /* residual -g on it, over `length` of the load; elsewhere nothing        */
     float offset;     /* its mean there                                                        */
+    /* w and r of the rows before and after those held here, while nodes are sifted; NULL: without ranks */
+    unsigned char *beside_w;
+    float *beside_r;
     size_t size;
     size_t saturated; /* nodes off it at the hardness                                          */
     double left_out;  /* what the nodes left out of it would carry, times per_pressure          */
@@ -141,14 +148,16 @@ rc_elastic(const struct rc_solver *s, size_t k)
 
 enum {
     RC_SUMS = 8,
-    RC_MOST = RC_SUMS - 1, /* of this the largest is taken, of the others the sum */
-    RC_BLOCK_NODES = 4096
+    RC_MOST = RC_SUMS - 1 /* of this the largest is taken, of the others the sum */
 };
-/* Does something with nodes first .. first + n - 1 and adds to sums, which begin at 0. Blocks are
- * taken by several threads; their sums are added in order, whoever took them. */
+/* Does something with nodes first .. first + n - 1, at most RC_BLOCK_NODES, and adds to sums, which begin at
+ * 0. Blocks are taken by several threads, and by the ranks that hold them; the totals are those of the whole
+ * map, on all ranks, whoever took which. All ranks call these. */
 typedef void rc_block(void *ctx, size_t first, size_t n, double *sums);
 void rc_reduce_blocks(const struct rc_solver *solver, rc_block *block, void *ctx,
                       double total[RC_SUMS]);
+/* Rows of RC_SUMS numbers that these need. */
+size_t rc_reduce_partials(const struct rc_shape *shape);
 /* The same where rows come out of a convolution: each adds to rc_reduce_row, between these two. */
 void rc_reduce_rows_begin(const struct rc_solver *solver);
 void rc_reduce_rows_end(const struct rc_solver *solver, double total[RC_SUMS]);
@@ -264,15 +273,14 @@ double rc_nested_convolutions(const struct rc_solver *solver);
 
 /* ---- projection.c ---- */
 
-/* p becomes the sum by scaling its elastic nodes, as far as the box lets them; what they cannot
+/* The pressure gets the load by scaling its elastic nodes, as far as the box lets them; what they cannot
  * carry goes to the nodes of smallest g, what is too much is taken from all. */
-enum rc_status rc_projection_balance(size_t n, double hardness, double sum, const double *g,
-                                     double *p, struct rc_err *err);
-/* The same for the solver's own pressure and load, where it is off by more than rounding. */
-enum rc_status rc_projection_restore(struct rc_solver *solver, double carried, struct rc_err *err);
+void rc_projection_balance(struct rc_solver *solver, const double *g);
+/* The same where the load is off by more than rounding; nodes join by v. */
+void rc_projection_restore(struct rc_solver *solver, double carried);
 
-/* The nearest point of {0 <= y <= H, sum y = sum}: one shift for all nodes, clipped. */
-void rc_projection_of(size_t n, double hardness, double sum, double *y);
+/* The nearest point of {0 <= y <= H, sum y = S} to this map: one shift for all nodes, clipped. */
+void rc_projection_of(const struct rc_solver *solver, double *y);
 
 /* What is carried too much at one shift, and how that grows with it; it is monotone. */
 struct rc_excess {

@@ -120,11 +120,20 @@ solve(struct system *c)
     return sum;
 }
 
+size_t
+rc_solver_stiffness_memory(const struct rc_shape *shape)
+{
+    const struct system *c = NULL;
+
+    return shape->nx * shape->ny * (sizeof *c->t + sizeof *c->d + sizeof *c->q);
+}
+
 enum rc_status
 rc_solver_stiffness(struct rc_solver *s, double *stiffness, struct rc_err *err)
 {
     struct system c = {.s = s};
     size_t n = s->posed.n, elastic;
+    enum rc_status status = RC_OK;
 
     *stiffness = NAN;
     if (s->stage != RC_STAGE_JUDGED)
@@ -132,16 +141,18 @@ rc_solver_stiffness(struct rc_solver *s, double *stiffness, struct rc_err *err)
     c.t = rc_alloc(n, sizeof *c.t);
     c.d = rc_alloc(n, sizeof *c.d);
     c.q = rc_alloc(n, sizeof *c.q);
-    if (c.t == NULL || c.d == NULL || c.q == NULL) {
+    if (c.t == NULL || c.d == NULL || c.q == NULL)
+        status = rc_err_set(err, "out of memory for the stiffness of %zu nodes", n);
+    if (rc_ranks_agree(s->posed.rows.ranks, status, err) != RC_OK) {
         free(c.t);
         free(c.d);
         free(c.q);
-        return rc_err_set(err, "out of memory for the stiffness of %zu nodes", n);
+        return RC_FAIL;
     }
     memset(c.t, 0, n * sizeof *c.t);
     memset(c.d, 0, n * sizeof *c.d);
     elastic = rc_working_set_elastic(s);
-    if (elastic > 0 && !(s->op->mean_free && elastic == n))
+    if (elastic > 0 && !(s->op->mean_free && elastic == s->posed.nodes))
         /* one unit of t displaces by one unit of the operator's rows */
         *stiffness = solve(&c) * s->posed.cell / s->op->unit;
     rc_working_set_forget(s);

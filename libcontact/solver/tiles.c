@@ -24,7 +24,7 @@
 #include <string.h>
 
 enum {
-    TILE = 16, /* nodes a side */
+    TILE = RC_TILE_ROWS, /* nodes a side */
     NODES = TILE * TILE,
     EDGE = TILE + 2, /* with one node around */
     ROUNDS = 60      /* of Newton's method in a tile: 3 or 4 do */
@@ -152,7 +152,7 @@ shift_of(const float *y, float hardness, float sum)
 #pragma omp simd reduction(+ : load, slope)
         for (size_t k = 0; k < NODES; k++) {
             float v = y[k] + shift;
-            slope += (v > 0) & (v < hardness) ? 1.0F : 0.0F;
+            slope += ((v > 0) & (v < hardness)) ? 1.0F : 0.0F;
             v = v > 0 ? v : 0;
             load += v < hardness ? v : hardness;
         }
@@ -358,11 +358,14 @@ excess_of(void *ctx, double shift)
     return (struct rc_excess){.load = total[0] - a->shift, .slope = total[1]};
 }
 
-/* The tile whose elastic nodes have most room; the number of tiles when there is none. */
+/* The tile here whose elastic nodes have most room, which *room is; the number of tiles when there is
+ * none, or another rank holds one with as much before or more. */
 static size_t
 roomiest(const struct tiles *a, double *room)
 {
-    size_t best = a->nx * a->ny;
+    const struct rc_ranks *ranks = a->m->solver->posed.rows.ranks;
+    size_t best = a->nx * a->ny, none = best, before;
+    double own;
 
     *room = 0;
     for (size_t q = 0; q < a->nx * a->ny; q++) {
@@ -372,6 +375,11 @@ roomiest(const struct tiles *a, double *room)
             best = q;
         }
     }
+    own = *room;
+    *room = rc_ranks_most(ranks, own);
+    before = rc_ranks_sum_before(ranks, own == *room);
+    if (own < *room || before > 0)
+        best = none;
     return best;
 }
 
@@ -384,6 +392,7 @@ share(struct tiles *a, double rest)
 
     for (size_t q = 0; q < a->nx * a->ny; q++)
         count += (double)a->tiles[q].count;
+    count = (double)rc_ranks_sum(s->posed.rows.ranks, (size_t)count);
     end = rest < 0 ? -sum : isinf(hardness) ? rest : hardness;
     a->shift = rest;
     if (count == 0 || (excess_of(a, end).load > 0) != (rest > 0))
@@ -429,7 +438,8 @@ rc_move_tiles(struct rc_move *m)
         return true;
     q = roomiest(&a, &room);
     if (fabs(rest) <= little * s->load.tol * sum && fabs(rest) < room / 2) {
-        shift_tile(&a, q, rest / (double)a.tiles[q].count);
+        if (q < a.nx * a.ny)
+            shift_tile(&a, q, rest / (double)a.tiles[q].count);
         return true;
     }
     return share(&a, rest);

@@ -39,6 +39,12 @@ rc_working_set_new(struct rc_solver *s)
 {
     s->set.w = rc_alloc(s->posed.n, sizeof *s->set.w);
     s->set.r = rc_alloc(s->posed.n, sizeof *s->set.r);
+    if (s->posed.rows.ranks != NULL) {
+        s->set.beside_w = rc_alloc(2 * s->posed.shape.nx, sizeof *s->set.beside_w);
+        s->set.beside_r = rc_alloc(2 * s->posed.shape.nx, sizeof *s->set.beside_r);
+        if (s->set.beside_w == NULL || s->set.beside_r == NULL)
+            return RC_FAIL;
+    }
     if (s->set.w == NULL || s->set.r == NULL)
         return RC_FAIL;
 #pragma omp parallel for num_threads(s->posed.threads) schedule(static)
@@ -53,6 +59,8 @@ rc_working_set_free(struct rc_solver *s)
 {
     free(s->set.w);
     free(s->set.r);
+    free(s->set.beside_w);
+    free(s->set.beside_r);
 }
 
 /* ---- nodes that would only be pushed back ---- */
@@ -60,32 +68,74 @@ rc_working_set_free(struct rc_solver *s)
 struct sift {
     struct rc_solver *s;
     float weight[3][3]; /* a_ij */
+    bool beside[2];     /* other ranks hold a row before, and after */
 };
 
-/* sum_j a_kj (r_k - r_j) over the neighbours of k = j nx + i that are in the set. */
-static float
-pull(const struct sift *c, size_t i, size_t j)
+/* A row and the two next to it; NULL where there is none. */
+struct three {
+    const unsigned char *w[3];
+    const float *r[3];
+};
+
+static struct three
+rows_about(const struct sift *c, size_t j)
 {
     const struct rc_solver *s = c->s;
     size_t nx = s->posed.shape.nx, ny = s->posed.shape.ny;
-    bool round = s->posed.boundary == RC_PERIODIC;
-    float own = s->set.r[j * nx + i], sum = 0;
+    bool shared = s->posed.rows.ranks != NULL, round = s->posed.boundary == RC_PERIODIC;
+    struct three t = {{NULL}, {NULL}};
 
     for (size_t b = 0; b < 3; b++) {
         size_t y = j + b; /* one more than the row */
-        if ((y == 0 || y > ny) && !round)
+        bool out = y == 0 || y > ny;
+        if (out && shared) {
+            t.w[b] = c->beside[b / 2] ? s->set.beside_w + b / 2 * nx : NULL;
+            t.r[b] = c->beside[b / 2] ? s->set.beside_r + b / 2 * nx : NULL;
+        } else if (!out || round) {
+            y = y == 0 ? ny - 1 : y > ny ? 0 : y - 1;
+            t.w[b] = s->set.w + y * nx;
+            t.r[b] = s->set.r + y * nx;
+        }
+    }
+    return t;
+}
+
+/* sum_j a_kj (r_k - r_j) over the neighbours of node i of a row that are in the set. */
+static float
+pull(const struct sift *c, const struct three *t, size_t i)
+{
+    size_t nx = c->s->posed.shape.nx;
+    bool round = c->s->posed.boundary == RC_PERIODIC;
+    float own = t->r[1][i], sum = 0;
+
+    for (size_t b = 0; b < 3; b++) {
+        if (t->w[b] == NULL)
             continue;
-        y = y == 0 ? ny - 1 : y > ny ? 0 : y - 1;
         for (size_t a = 0; a < 3; a++) {
-            size_t x = i + a, k;
+            size_t x = i + a;
             if ((x == 0 || x > nx) && !round)
                 continue;
             x = x == 0 ? nx - 1 : x > nx ? 0 : x - 1;
-            k = y * nx + x;
-            sum += s->set.w[k] != 0 ? c->weight[b][a] * (own - s->set.r[k]) : 0;
+            sum += t->w[b][x] != 0 ? c->weight[b][a] * (own - t->r[b][x]) : 0;
         }
     }
     return sum;
+}
+
+/* Fetches the rows beside those held here. */
+static void
+look_beside(struct sift *c)
+{
+    struct rc_solver *s = c->s;
+    size_t nx = s->posed.shape.nx, last = s->posed.n > 0 ? s->posed.n - nx : 0;
+    bool round = s->posed.boundary == RC_PERIODIC;
+
+    if (s->posed.rows.ranks == NULL)
+        return;
+    rc_ranks_beside(&s->posed.rows, round, nx * sizeof *s->set.w, s->set.w, s->set.w + last,
+                    s->set.beside_w, s->set.beside_w + nx, c->beside);
+    rc_ranks_beside(&s->posed.rows, round, nx * sizeof *s->set.r, s->set.r, s->set.r + last,
+                    s->set.beside_r, s->set.beside_r + nx, c->beside);
 }
 
 /* First of the nodes from k on that wants to join, or end. */
@@ -114,12 +164,14 @@ decide(const struct sift *c)
     size_t nx = s->posed.shape.nx;
 
 #pragma omp parallel for num_threads(s->posed.threads) schedule(static)
-    for (size_t j = 0; j < s->posed.shape.ny; j++)
+    for (size_t j = 0; j < s->posed.shape.ny; j++) {
+        struct three t = rows_about(c, j);
         for (size_t k = next(s->set.w, j * nx, (j + 1) * nx); k < (j + 1) * nx;
              k = next(s->set.w, k + 1, (j + 1) * nx)) {
-            float f = pull(c, k - j * nx, j);
+            float f = pull(c, &t, k - j * nx);
             s->z[k] = (s->it.p[k] > 0 ? -f : f) < 0 ? 0 : 1;
         }
+    }
 }
 
 enum { /* sums */
@@ -161,6 +213,7 @@ sift_out(struct rc_solver *s, double *residual, double *count, double *changed)
     for (int b = 0; b < 3; b++)
         for (int a = 0; a < 3; a++)
             c.weight[b][a] = (float)s->op->neighbour[b][a];
+    look_beside(&c);
     decide(&c);
     rc_reduce_blocks(s, settle_block, s, total);
     *residual -= total[RESIDUAL];

@@ -90,7 +90,7 @@ set_axis(struct axis *a, size_t n, size_t s)
         return false;
     for (size_t r = 0; r < s; r++)
         for (int k = 0; k < ORDER; k++) {
-            double at = (double)r / (double)s + ORDER / 2 - 1, w = 1;
+            double at = (double)r / (double)s + (double)(ORDER / 2 - 1), w = 1;
             for (int l = 0; l < ORDER; l++)
                 if (l != k)
                     w *= (at - l) / (k - l);

@@ -20,6 +20,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "libcontact/memory.h"
 #include "libcontact/operator/operator.h"
 
 enum {
@@ -36,15 +37,50 @@ struct bins {
     double q[BINS], power[BINS];
 };
 
-/* Sums |p_q|^2 over bins of q; the mean is left out. */
+/* ---- waves ---- */
+
+struct scan {
+    const struct rc_shape *s;
+    struct bins *b;
+    double low, step; /* of the bins: the lowest q, and from one to the next */
+};
+
+static struct scan
+scan_of(const struct rc_shape *s, struct bins *b)
+{
+    static const double two_pi = 6.28318530717958647692;
+    double high = two_pi / fmin(s->dx, s->dy);
+    struct scan c = {
+        .s = s, .b = b, .low = two_pi / (2 * fmax((double)s->nx * s->dx, (double)s->ny * s->dy))};
+
+    c.step = log(high / c.low) / BINS;
+    for (int k = 0; k < BINS; k++) {
+        b->q[k] = c.low * exp((k + 0.5) * c.step);
+        b->power[k] = 0;
+    }
+    return c;
+}
+
+/* Wave i along x and j along y has so much power; the mean is left out. */
+static void
+collect_wave(struct scan *c, size_t i, size_t j, double power)
+{
+    double q = hypot(rc_fourier_q(i, c->s->nx, c->s->dx), rc_fourier_q(j, c->s->ny, c->s->dy));
+    int k = q > 0 ? (int)(log(q / c->low) / c->step) : -1;
+
+    if (q > 0) /* columns between the first and the last stand for two */
+        c->b->power[k < 0      ? 0
+                    : k < BINS ? k
+                               : BINS - 1] += (i == 0 || 2 * i == c->s->nx ? 1 : 2) * power;
+}
+
+/* Sums |p_q|^2 over bins of q. */
 static enum rc_status
 collect(const struct rc_shape *s, const double *p, struct bins *b, struct rc_err *err)
 {
-    static const double two_pi = 6.28318530717958647692;
     size_t columns = rc_fourier_columns(s);
     double complex *wave = malloc(rc_fourier_size(s) * sizeof *wave);
-    double low = two_pi / (2 * fmax((double)s->nx * s->dx, (double)s->ny * s->dy));
-    double high = two_pi / fmin(s->dx, s->dy), step = log(high / low) / BINS;
+    struct scan c = scan_of(s, b);
 
     if (wave == NULL)
         return rc_err_set(err, "out of memory for the waves of %zu x %zu nodes", s->nx, s->ny);
@@ -52,24 +88,118 @@ collect(const struct rc_shape *s, const double *p, struct bins *b, struct rc_err
         free(wave);
         return RC_FAIL;
     }
-    for (int k = 0; k < BINS; k++) {
-        b->q[k] = low * exp((k + 0.5) * step);
-        b->power[k] = 0;
-    }
     for (size_t j = 0; j < s->ny; j++)
         for (size_t i = 0; i < columns; i++) {
-            double qx = rc_fourier_q(i, s->nx, s->dx);
-            double qy = rc_fourier_q(j, s->ny, s->dy);
-            double q = hypot(qx, qy), a = cabs(wave[j * columns + i]);
-            int k = q > 0 ? (int)(log(q / low) / step) : -1;
-            if (q > 0) /* columns between the first and the last stand for two */
-                b->power[k < 0      ? 0
-                         : k < BINS ? k
-                                    : BINS - 1] += (i == 0 || 2 * i == s->nx ? 1 : 2) * a * a;
+            double a = cabs(wave[j * columns + i]);
+            collect_wave(&c, i, j, a * a);
         }
     free(wave);
     return RC_OK;
 }
+
+/* ---- waves of a map that ranks share ---- */
+
+struct shared {
+    struct rc_turn turn;
+    struct rc_line *along_x, *along_y;
+    double complex *pieces, *columns, *line; /* of rows, of the columns held here; one of each */
+    double *part;                            /* a column's real or imaginary part               */
+    double *power;                           /* of all ranks, bin by bin                       */
+};
+
+static void
+shared_free(struct shared *w)
+{
+    rc_turn_free(&w->turn);
+    rc_line_free(w->along_x);
+    rc_line_free(w->along_y);
+    free(w->pieces);
+    free(w->columns);
+    free(w->line);
+    free(w->part);
+    free(w->power);
+}
+
+static enum rc_status
+shared_new(struct shared *w, const struct rc_ranks *ranks, const struct rc_shape *s,
+           struct rc_err *err)
+{
+    size_t columns = rc_fourier_columns(s), most = columns > s->ny ? columns : s->ny, rows, here;
+    enum rc_status status = RC_FAIL;
+
+    *w = (struct shared){.along_x = rc_line_new(s->nx, 1, NULL),
+                         .along_y = rc_line_new(s->ny, 1, NULL)};
+    if (rc_turn_new(&w->turn, ranks, s->ny, rc_rows_unit(s->nx), columns, sizeof *w->line)) {
+        rows = w->turn.row[w->turn.own + 1] - w->turn.row[w->turn.own];
+        here = w->turn.column[w->turn.own + 1] - w->turn.column[w->turn.own];
+        w->pieces = rc_alloc(rows * columns, sizeof *w->pieces);
+        w->columns = rc_alloc(here * s->ny, sizeof *w->columns);
+        w->line = rc_alloc(2 * most, sizeof *w->line);
+        w->part = rc_alloc(s->ny, sizeof *w->part);
+        w->power = rc_alloc(rc_ranks_count(ranks) * BINS, sizeof *w->power);
+        if (w->along_x != NULL && w->along_y != NULL && w->pieces != NULL && w->columns != NULL &&
+            w->line != NULL && w->part != NULL && w->power != NULL)
+            status = RC_OK;
+    }
+    if (status != RC_OK)
+        rc_err_set(err, "out of memory for the waves of %zu x %zu nodes", s->nx, s->ny);
+    return rc_ranks_agree(ranks, status, err);
+}
+
+/* The waves of a column of complex numbers, from those of its parts. */
+static void
+collect_column(struct scan *c, struct shared *w, size_t i, size_t here, size_t wide)
+{
+    size_t ny = c->s->ny;
+    double complex *re = w->line, *im = w->line + ny / 2 + 1;
+
+    for (size_t j = 0; j < ny; j++)
+        w->part[j] = creal(w->columns[j * wide + here]);
+    rc_line_forward(w->along_y, w->part, re);
+    for (size_t j = 0; j < ny; j++)
+        w->part[j] = cimag(w->columns[j * wide + here]);
+    rc_line_forward(w->along_y, w->part, im);
+    for (size_t j = 0; j < ny; j++) {
+        size_t k = 2 * j <= ny ? j : ny - j;
+        double complex a = re[k], b = im[k];
+        double power = k == j ? cabs(a + I * b) : cabs(conj(a) + I * conj(b));
+        collect_wave(c, i, j, power * power);
+    }
+}
+
+static enum rc_status
+collect_shared(const struct rc_ranks *ranks, const struct rc_shape *s, const double *p,
+               struct bins *b, struct rc_err *err)
+{
+    struct rc_rows rows = rc_rows_of(ranks, s);
+    struct scan c = scan_of(s, b);
+    struct shared w;
+    size_t first, n;
+
+    if (shared_new(&w, ranks, s, err) != RC_OK) {
+        shared_free(&w);
+        return RC_FAIL;
+    }
+    for (size_t j = 0; j < rows.n; j++) {
+        rc_line_forward(w.along_x, p + j * s->nx, w.line);
+        rc_turn_put(&w.turn, j, w.line, w.pieces);
+    }
+    rc_ranks_turn(&w.turn, false, w.pieces, w.columns);
+    first = w.turn.column[w.turn.own];
+    n = w.turn.column[w.turn.own + 1] - first;
+    for (size_t i = 0; i < n; i++)
+        collect_column(&c, &w, first + i, i, n);
+    rc_ranks_gather(ranks, sizeof b->power, b->power, w.power);
+    for (int k = 0; k < BINS; k++) {
+        b->power[k] = 0;
+        for (size_t q = 0; q < rc_ranks_count(ranks); q++)
+            b->power[k] += w.power[q * BINS + (size_t)k];
+    }
+    shared_free(&w);
+    return RC_OK;
+}
+
+/* ---- scales ---- */
 
 /* k(z) of above, and what is left of the waves at that depth, squared. */
 static double
@@ -88,28 +218,31 @@ wave_number(const struct bins *b, double z, double *left)
 
 /* Radius of the Hertzian contact with the same second moment, 2 a^2 / 5. */
 static double
-contact_radius(const struct rc_shape *s, const double *p)
+contact_radius(const struct rc_ranks *ranks, const struct rc_shape *s, const double *p)
 {
-    double sum = 0, x = 0, y = 0, r2 = 0;
+    struct rc_rows rows = rc_rows_of(ranks, s);
+    double total[3] = {0}, second, most = 0, cx, cy;
+    struct rc_total sum[3] = {{0}}, r2 = {0};
 
-    for (int pass = 0; pass < 2; pass++) {
-        double cx = pass == 0 ? 0 : x / sum, cy = pass == 0 ? 0 : y / sum;
-        for (size_t k = 0; k < s->nx * s->ny; k++) {
-            double u = (double)(k % s->nx) * s->dx - cx, v = (double)(k / s->nx) * s->dy - cy;
-            double weight = fabs(p[k]);
-            if (pass == 0) {
-                sum += weight;
-                x += weight * u;
-                y += weight * v;
-            } else {
-                r2 += weight * (u * u + v * v);
-            }
-        }
-        if (!(sum > 0))
-            return 0;
+    for (size_t k = 0; k < s->nx * rows.n; k++) {
+        double weight = fabs(p[k]);
+        rc_total_add(&sum[0], weight);
+        rc_total_add(&sum[1], weight * (double)(k % s->nx) * s->dx);
+        rc_total_add(&sum[2], weight * (double)(rows.first + k / s->nx) * s->dy);
     }
+    rc_ranks_totals(ranks, 3, sum, total, &most);
+    if (!(total[0] > 0))
+        return 0;
+    cx = total[1] / total[0];
+    cy = total[2] / total[0];
+    for (size_t k = 0; k < s->nx * rows.n; k++) {
+        double u = (double)(k % s->nx) * s->dx - cx;
+        double v = (double)(rows.first + k / s->nx) * s->dy - cy;
+        rc_total_add(&r2, fabs(p[k]) * (u * u + v * v));
+    }
+    second = rc_ranks_total(ranks, r2);
     /* at least that of a single cell */
-    return sqrt(2.5 * (r2 / sum + (s->dx * s->dx + s->dy * s->dy) / 12));
+    return sqrt(2.5 * (second / total[0] + (s->dx * s->dx + s->dy * s->dy) / 12));
 }
 
 static double
@@ -186,6 +319,15 @@ enum rc_status
 rc_stress_depths(const struct rc_shape *shape, const double *p, enum rc_boundary boundary,
                  const struct rc_coating *coating, double **depths, size_t *n, struct rc_err *err)
 {
+    return rc_stress_depths_on(NULL, shape, p, boundary, coating, depths, n, err);
+}
+
+enum rc_status
+rc_stress_depths_on(const struct rc_ranks *ranks, const struct rc_shape *shape, const double *p,
+                    enum rc_boundary boundary, const struct rc_coating *coating, double **depths,
+                    size_t *n, struct rc_err *err)
+{
+    enum rc_status status = RC_OK;
     struct descent d = {.coating = coating};
     struct bins *b;
     double radius, all, left;
@@ -196,15 +338,17 @@ rc_stress_depths(const struct rc_shape *shape, const double *p, enum rc_boundary
         return RC_FAIL;
     b = malloc(sizeof *b);
     *depths = malloc(MOST * sizeof **depths);
-    if (b == NULL || *depths == NULL) {
-        free(b);
-        return rc_err_set(err, "out of memory for depths");
-    }
-    if (collect(shape, p, b, err) != RC_OK) {
+    if (b == NULL || *depths == NULL)
+        status = rc_err_set(err, "out of memory for depths");
+    status = rc_ranks_agree(ranks, status, err);
+    if (status == RC_OK)
+        status = rc_ranks_count(ranks) > 1 ? collect_shared(ranks, shape, p, b, err)
+                                           : collect(shape, p, b, err);
+    if (status != RC_OK) {
         free(b);
         return RC_FAIL;
     }
-    radius = contact_radius(shape, p);
+    radius = contact_radius(ranks, shape, p);
     d.depths = *depths;
     d.bottom = in_layer(&d) ? coating->layer[0].thickness : INFINITY;
     add(&d, 0);

@@ -86,7 +86,7 @@ sizes(const struct rc_stress_task *t)
     plan.m = plan.transposed ? s->nx : s->ny;
     plan.d_along = plan.transposed ? s->dy : s->dx;
     plan.d_across = plan.transposed ? s->dx : s->dy;
-    plan.length = t->options.boundary == RC_FREE ? rc_fft_length(plan.n, 2) : plan.n;
+    plan.length = t->options.boundary == RC_FREE ? rc_fourier_length(plan.n, 2) : plan.n;
     plan.waves = plan.length / 2 + 1;
     plan.threads = rc_useful_threads(s, t->options.threads);
     plan.scratch_size = t->options.boundary == RC_FREE
@@ -99,12 +99,17 @@ static size_t
 memory(const struct rc_stress_task *t)
 {
     struct plan plan = sizes(t);
-    size_t transposed = t->shape.nx * t->shape.ny * sizeof(double);
+    size_t transposed = t->shape.nx * t->shape.ny * sizeof(double), lines = plan.m;
+    size_t rest = plan.m * sizeof(struct pair) +
+                  (size_t)plan.threads * plan.scratch_size * sizeof(double) +
+                  PARTS * RC_COMPONENTS * plan.waves * sizeof(double complex) + rc_inside_memory(t);
 
-    return sizeof plan + plan.m * plan.waves * sizeof(double complex) + transposed +
-           plan.m * sizeof(struct pair) +
-           (size_t)plan.threads * plan.scratch_size * sizeof(double) +
-           PARTS * RC_COMPONENTS * plan.waves * sizeof(double complex) + rc_inside_memory(t);
+    /* of a free map the lines that carry nothing are left untouched */
+    if (t->options.boundary == RC_FREE && t->options.loaded > 0 && t->options.loaded < lines)
+        lines = t->options.loaded;
+    /* the transposed map goes before the rest comes */
+    return sizeof plan + lines * plan.waves * sizeof(double complex) +
+           (transposed > rest ? transposed : rest);
 }
 
 /* The map with what is along the plane along its rows. NULL when memory is short. */
@@ -140,7 +145,7 @@ add_pair(struct plan *plan, const bool *loaded, size_t j)
     double offset =
         plan->task.options.at - ((double)j - (double)(plan->m - 1) / 2) * plan->d_across;
     size_t other = opposite(plan, j);
-    double complex *a = plan->source + j * plan->waves, *b = a;
+    double complex *a = plan->source + j * plan->waves, *b;
     struct pair *pair = &plan->pair[plan->pairs];
 
     if (!loaded[j] || (other != j && other < plan->m && loaded[other] && offset < 0))

@@ -16,6 +16,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcontact/memory.h"
+
 /* One grid: the transform of the pressure on it, and the kernels at one depth. */
 struct grid {
     const struct rc_stress_task *task;
@@ -23,8 +25,10 @@ struct grid {
     struct rc_fft *fft;
     int threads;
     size_t cx, cy;                          /* of a quarter of a kernel's period               */
-    double *quarter[RC_STRESS_KERNELS];     /* free: cy rows of cx values, transformed in x    */
-    double *decay;                          /* periodic: of each wave, cx columns of cy: what   */
+    size_t first_row, rows;                 /* of these rows, those that are made here         */
+    size_t first_column, columns;           /* and of the columns                              */
+    double *quarter[RC_STRESS_KERNELS];     /* free: these rows of cx values, transformed in x */
+    double *decay;                          /* periodic: of each wave, columns of cy: what      */
     size_t numbers;                         /* is left of it; of a coated body so many numbers  */
     struct rc_inside *inside;               /* at the depth of a coated body                    */
     double depth;                           /* of all the others, m                             */
@@ -83,36 +87,48 @@ numbers_of(const struct rc_stress_task *t)
     return !t->coated ? 1 : t->options.mu != 0 ? RC_UNDER_BOTH : RC_UNDER_PRESSURE;
 }
 
+/* Room for what is tabulated at a depth. */
+static enum rc_status
+make_tables(struct grid *g, struct rc_err *err)
+{
+    const struct rc_stress_task *task = g->task;
+    enum rc_status status = RC_OK;
+
+    rc_fft_quarter(g->fft, &g->cx, &g->cy);
+    rc_fft_quarter_rows(g->fft, &g->first_row, &g->rows);
+    rc_fft_columns(g->fft, &g->first_column, &g->columns);
+    g->numbers = numbers_of(task);
+    for (int k = 0; k < RC_STRESS_KERNELS; k++)
+        if (task->options.boundary == RC_FREE && task->kernels >> k & 1 &&
+            (g->quarter[k] = rc_alloc(g->cx * g->rows, sizeof(double))) == NULL)
+            status =
+                rc_err_set(err, "out of memory for a kernel of %zu x %zu values", g->cx, g->cy);
+    if (task->options.boundary == RC_PERIODIC &&
+        (g->decay = rc_alloc(g->columns * g->cy * g->numbers, sizeof *g->decay)) == NULL)
+        status = rc_err_set(err, "out of memory for %zu x %zu waves", g->cx, g->cy);
+    return rc_ranks_agree(task->options.ranks, status, err);
+}
+
 static struct grid *
 grid_new(const struct rc_stress_task *task, const struct rc_shape *shape, const double *p,
          struct rc_err *err)
 {
     struct grid *g = calloc(1, sizeof *g);
-    enum rc_boundary boundary = task->options.boundary;
+    const struct rc_ranks *ranks = task->options.ranks;
 
-    if (g == NULL) {
+    if (g == NULL)
         rc_err_set(err, "out of memory for a plan");
-        return NULL;
-    }
+    if (rc_ranks_agree(ranks, g == NULL ? RC_FAIL : RC_OK, err) != RC_OK)
+        goto fail;
     g->task = task;
     g->shape = *shape;
-    g->threads = rc_useful_threads(shape, task->options.threads);
-    g->fft = rc_fft_new(shape, boundary, precision_of(task), task->options.threads, err);
+    g->fft = rc_fft_new_on(ranks, NULL, shape, task->options.boundary, precision_of(task),
+                           task->options.threads, err);
     if (g->fft == NULL)
         goto fail;
-    rc_fft_quarter(g->fft, &g->cx, &g->cy);
-    for (int k = 0; k < RC_STRESS_KERNELS; k++)
-        if (boundary == RC_FREE && task->kernels >> k & 1 &&
-            (g->quarter[k] = malloc(g->cx * g->cy * sizeof(double))) == NULL) {
-            rc_err_set(err, "out of memory for a kernel of %zu x %zu values", g->cx, g->cy);
-            goto fail;
-        }
-    g->numbers = numbers_of(task);
-    if (boundary == RC_PERIODIC &&
-        (g->decay = malloc(g->cx * g->cy * g->numbers * sizeof *g->decay)) == NULL) {
-        rc_err_set(err, "out of memory for %zu x %zu waves", g->cx, g->cy);
+    g->threads = rc_fft_threads(g->fft);
+    if (make_tables(g, err) != RC_OK)
         goto fail;
-    }
     for (int load = 0; load < (task->options.mu != 0 ? RC_LOADS : 1); load++)
         if ((g->spectrum[load] = rc_spectrum_new(g->fft, err)) == NULL)
             goto fail;
@@ -130,13 +146,16 @@ grid_memory(const struct rc_stress_task *task, const struct rc_shape *shape)
 {
     enum rc_boundary boundary = task->options.boundary;
     enum rc_precision precision = precision_of(task);
-    size_t spectrum = rc_spectrum_memory(shape, boundary, precision);
+    size_t ranks = rc_ranks_count(task->options.ranks);
+    size_t spectrum = rc_spectrum_memory(shape, boundary, precision, ranks);
     size_t quarters = boundary == RC_FREE ? count(task->kernels) : numbers_of(task);
 
     /* the transform of p is as large as four spectra, a quarter as large as one in double */
-    return sizeof(struct grid) + rc_fft_memory(shape, boundary, precision) +
+    return sizeof(struct grid) + rc_fft_memory(shape, boundary, precision, ranks) +
+           rc_fft_scratch(shape, boundary, precision, task->options.threads) +
            ((size_t)(task->options.mu != 0) + 4) * spectrum +
-           quarters * rc_spectrum_memory(shape, boundary, RC_DOUBLE) + rc_inside_memory(task);
+           quarters * rc_spectrum_memory(shape, boundary, RC_DOUBLE, ranks) +
+           rc_inside_memory(task);
 }
 
 /* ---- kernels ---- */
@@ -149,11 +168,11 @@ tabulate(struct grid *g)
     const struct rc_cell cell = {t->shape.dx, t->shape.dy, g->depth, t->options.nu, g->inside};
 
 #pragma omp parallel for num_threads(g->threads) schedule(dynamic, 4)
-    for (size_t j = 0; j < g->cy; j++) {
-        double *row[RC_STRESS_KERNELS];
+    for (size_t j = 0; j < g->rows; j++) {
+        double *row[RC_STRESS_KERNELS], y = (double)(g->first_row + j) * g->shape.dy;
         for (int k = 0; k < RC_STRESS_KERNELS; k++)
             row[k] = g->quarter[k] == NULL ? NULL : g->quarter[k] + j * g->cx;
-        rc_stress_line(&cell, t->kernels, g->shape.dx, g->cx, (double)j * g->shape.dy, row);
+        rc_stress_line(&cell, t->kernels, g->shape.dx, g->cx, y, row);
         for (int k = 0; k < RC_STRESS_KERNELS; k++)
             if (row[k] != NULL)
                 rc_fft_quarter_row(g->fft, rc_stress_parity[k], row[k]);
@@ -176,8 +195,9 @@ set_decay(struct grid *g)
     const struct rc_shape *s = &g->shape;
 
 #pragma omp parallel for num_threads(g->threads) schedule(dynamic, 4)
-    for (size_t i = 0; i < g->cx; i++) {
-        double qx = rc_fourier_q(i, s->nx, s->dx), *column = g->decay + i * g->cy * g->numbers;
+    for (size_t i = 0; i < g->columns; i++) {
+        double qx = rc_fourier_q(g->first_column + i, s->nx, s->dx);
+        double *column = g->decay + i * g->cy * g->numbers;
         for (size_t j = 0; j < g->cy; j++) {
             double qy = rc_fourier_q(j, s->ny, s->dy), q = sqrt(qx * qx + qy * qy);
             double qz = q * g->depth;
@@ -213,7 +233,7 @@ symbol(const void *of, size_t i, double qx, size_t n, const double *qy, double *
         all[k] = qx;
     for (size_t j = 0; j < n; j += PIECE) {
         size_t m = n - j < PIECE ? n - j : PIECE;
-        const double *kept = g->decay + (i * g->cy + j) * g->numbers;
+        const double *kept = g->decay + ((i - g->first_column) * g->cy + j) * g->numbers;
         const struct rc_waves waves = {m,         x,   y, q, kept, g->depth, g->task->options.nu,
                                        g->inside, kept};
         rc_stress_directions(m, all, qy + j, x, y, q);
@@ -222,30 +242,36 @@ symbol(const void *of, size_t i, double qx, size_t n, const double *qy, double *
     return true;
 }
 
-static void
-set_spectrum(struct grid *g, int kernel, struct rc_spectrum *s)
+static enum rc_status
+set_spectrum(struct grid *g, int kernel, struct rc_spectrum *s, struct rc_err *err)
 {
     const struct component of = {g, kernel};
 
     if (g->task->options.boundary == RC_FREE) {
-        rc_spectrum_set_quarter(s, g->fft, rc_stress_parity[kernel], g->quarter[kernel]);
+        if (rc_spectrum_set_quarter(s, g->fft, rc_stress_parity[kernel], g->quarter[kernel], err) !=
+            RC_OK)
+            return RC_FAIL;
         g->task->counts->kernel_transforms++;
     } else {
         rc_spectrum_sample(s, g->fft, rc_stress_parity[kernel], symbol, &of);
         rc_stress_count(g->task, kernel, g->cx * g->cy);
     }
+    return RC_OK;
 }
 
-/* The spectrum of a kernel: one that is there, or made in the place of one that is not `in_use`. */
+/* The spectrum of a kernel: one that is there, or made in the place of one that is not `in_use`. NULL when
+ * memory is short. */
 static const struct rc_spectrum *
-spectrum_of(struct grid *g, int kernel, const struct rc_spectrum *in_use)
+spectrum_of(struct grid *g, int kernel, const struct rc_spectrum *in_use, struct rc_err *err)
 {
     int k = g->spectrum[1] == NULL || g->spectrum[1] == in_use ? 0 : 1;
 
     for (int load = 0; load < RC_LOADS; load++)
         if (g->spectrum[load] != NULL && g->kernel[load] == kernel)
             return g->spectrum[load];
-    set_spectrum(g, kernel, g->spectrum[k]);
+    g->kernel[k] = -1;
+    if (set_spectrum(g, kernel, g->spectrum[k], err) != RC_OK)
+        return NULL;
     g->kernel[k] = kernel;
     return g->spectrum[k];
 }
@@ -261,7 +287,10 @@ go_to_depth(struct grid *g, double depth, struct rc_err *err)
 {
     rc_inside_free(g->inside);
     g->inside = NULL;
-    if (g->task->coated && (g->inside = rc_inside_new(g->task, depth, err)) == NULL)
+    if (g->task->coated)
+        g->inside = rc_inside_new(g->task, depth, err);
+    if (rc_ranks_agree(g->task->options.ranks,
+                       g->task->coated && g->inside == NULL ? RC_FAIL : RC_OK, err) != RC_OK)
         return RC_FAIL;
     g->depth = depth;
     for (int load = 0; load < RC_LOADS; load++)
@@ -273,19 +302,24 @@ go_to_depth(struct grid *g, double depth, struct rc_err *err)
     return RC_OK;
 }
 
-static void
-component_field(struct grid *g, int c, double *s)
+static enum rc_status
+component_field(struct grid *g, int c, double *s, struct rc_err *err)
 {
     bool coated = g->task->coated;
-    const struct rc_spectrum *normal = spectrum_of(g, rc_stress_kernel(RC_NORMAL, c, coated), NULL);
+    const struct rc_spectrum *normal, *shear = NULL;
     double mu = g->task->options.mu;
 
+    normal = spectrum_of(g, rc_stress_kernel(RC_NORMAL, c, coated), NULL, err);
+    if (normal != NULL && mu != 0)
+        shear = spectrum_of(g, rc_stress_kernel(RC_SHEAR, c, coated), normal, err);
+    if (normal == NULL || (mu != 0 && shear == NULL))
+        return RC_FAIL;
     if (mu == 0)
         rc_fft_field(g->fft, normal, s);
     else
-        rc_fft_field_pair(g->fft, normal, mu,
-                          spectrum_of(g, rc_stress_kernel(RC_SHEAR, c, coated), normal), s);
+        rc_fft_field_pair(g->fft, normal, mu, shear, s);
     g->task->counts->field_transforms++;
+    return RC_OK;
 }
 
 /* ---- coarser grids ---- */
@@ -297,7 +331,8 @@ may_be_coarse(const struct rc_stress_task *t, double depth, size_t *sx, size_t *
 {
     double tol = t->options.tol / (1 + fabs(t->options.mu));
 
-    return t->options.boundary == RC_FREE && !t->coated &&
+    /* which rows a coarser node is made of, other ranks hold */
+    return t->options.boundary == RC_FREE && !t->coated && t->options.ranks == NULL &&
            rc_coarse_steps(&t->shape, rc_coarse_spacing(depth, tol), sx, sy);
 }
 
@@ -352,8 +387,10 @@ plan_new(const struct rc_stress_task *task, struct rc_err *err)
 {
     struct plan *plan = calloc(1, sizeof *plan);
 
-    if (plan == NULL) {
+    if (plan == NULL)
         rc_err_set(err, "out of memory for a plan");
+    if (rc_ranks_agree(task->options.ranks, plan == NULL ? RC_FAIL : RC_OK, err) != RC_OK) {
+        free(plan);
         return NULL;
     }
     plan->task = *task;
@@ -365,17 +402,28 @@ plan_new(const struct rc_stress_task *task, struct rc_err *err)
 }
 
 static size_t
+coarse_memory(const struct rc_stress_task *task, size_t sx, size_t sy)
+{
+    struct rc_shape c = rc_coarse_shape(&task->shape, sx, sy);
+
+    return grid_memory(task, &c) + (c.nx * c.ny + task->shape.ny * c.nx) * sizeof(double);
+}
+
+static size_t
 memory(const struct rc_stress_task *task)
 {
-    size_t bytes = sizeof(struct plan) + grid_memory(task, &task->shape), sx, sy;
-    struct rc_shape c;
+    const struct rc_stress_options *o = &task->options;
+    size_t coarse = 0, bytes, sx, sy;
 
-    /* of coarser grids there is one at a time, the first one the largest */
-    if (may_be_coarse(task, INFINITY, &sx, &sy)) {
-        c = rc_coarse_shape(&task->shape, sx > 1 ? 2 : 1, sy > 1 ? 2 : 1);
-        bytes += grid_memory(task, &c) + (c.nx * c.ny + task->shape.ny * c.nx) * sizeof(double);
-    }
-    return bytes;
+    /* of coarser grids there is one at a time; at an unknown depth it may be the largest */
+    if (o->depths == 0 && may_be_coarse(task, INFINITY, &sx, &sy))
+        coarse = coarse_memory(task, sx > 1 ? 2 : 1, sy > 1 ? 2 : 1);
+    for (size_t k = 0; k < o->depths; k++)
+        if (may_be_coarse(task, o->depth[k], &sx, &sy)) {
+            bytes = coarse_memory(task, sx, sy);
+            coarse = bytes > coarse ? bytes : coarse;
+        }
+    return sizeof(struct plan) + grid_memory(task, &task->shape) + coarse;
 }
 
 static enum rc_status
@@ -398,7 +446,8 @@ slice(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err
         int c = (int)order[k];
         if (!(plan->task.components >> c & 1))
             continue;
-        component_field(g, c, coarse ? plan->field : s[c]);
+        if (component_field(g, c, coarse ? plan->field : s[c], err) != RC_OK)
+            return RC_FAIL;
         if (coarse)
             rc_coarse_expand(plan->between, plan->field, s[c]);
     }

@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcontact/memory.h"
+
 struct rc_stress {
     struct rc_stress_task task;
     const struct rc_stress_evaluator *evaluator;
@@ -64,6 +66,16 @@ check(const struct rc_shape *shape, const struct rc_stress_options *o, struct rc
         return rc_err_set(err, "section %c = %g m: the map ends at %g m", o->section, o->at, half);
     if (engine == NULL)
         return rc_err_set(err, "there is no engine '%s'", o->engine);
+    if (rc_ranks_count(o->ranks) > 1 && o->section != 0)
+        return rc_err_set(
+            err, "a section is computed by one process, which holds the whole map: take maps "
+                 "at these depths, or one process");
+    if (rc_ranks_count(o->ranks) > 1 && !engine->transforms)
+        return rc_err_set(
+            err,
+            "the engine '%s' needs the whole map in one process: on several leave the "
+            "choice to auto, or take '%s'",
+            o->engine, rc_engine_of_transforms()->info.name);
     if (o->section != 0 && !engine->transforms)
         return rc_err_set(err, "a section is summed by %s, not by %s: leave the kernel to auto",
                           rc_engine_of_transforms()->info.name, o->engine);
@@ -87,6 +99,8 @@ task_of(const struct rc_shape *shape, const double *p, const struct rc_stack *st
         .counts = counts};
 
     task.options.coating = NULL; /* the caller's, who may give it up */
+    if (rc_ranks_count(o->ranks) == 1)
+        task.options.ranks = NULL;
     task.engine = engine_of(o->engine, &task.precise);
     return task;
 }
@@ -103,7 +117,9 @@ evaluator_of(const struct rc_stress_task *task)
 static size_t
 values_of(const struct rc_shape *shape, const struct rc_stress_options *o)
 {
-    return o->section == 'y' ? shape->nx : o->section == 'x' ? shape->ny : shape->nx * shape->ny;
+    struct rc_rows rows = rc_rows_of(o->ranks, shape);
+
+    return o->section == 'y' ? shape->nx : o->section == 'x' ? shape->ny : shape->nx * rows.n;
 }
 
 void
@@ -121,15 +137,17 @@ struct rc_stress *
 rc_stress_new(const struct rc_shape *shape, const double *p,
               const struct rc_stress_options *options, struct rc_err *err)
 {
+    enum rc_status status = RC_OK;
     struct rc_stress *stress;
 
     if (check(shape, options, err) != RC_OK)
         return NULL;
-    if ((stress = calloc(1, sizeof *stress)) == NULL) {
-        rc_err_set(err, "out of memory for a plan");
-        return NULL;
-    }
-    if (options->coating != NULL && (stress->stack = rc_stack_new(options->coating, err)) == NULL) {
+    if ((stress = calloc(1, sizeof *stress)) == NULL)
+        status = rc_err_set(err, "out of memory for a plan");
+    else if (options->coating != NULL &&
+             (stress->stack = rc_stack_new(options->coating, err)) == NULL)
+        status = RC_FAIL;
+    if (rc_ranks_agree(options->ranks, status, err) != RC_OK) {
         rc_stress_free(stress);
         return NULL;
     }
@@ -138,11 +156,12 @@ rc_stress_new(const struct rc_shape *shape, const double *p,
     stress->values = values_of(shape, options);
     for (int c = 0; c < RC_COMPONENTS; c++)
         if ((stress->task.components & ~options->wanted) >> c & 1 &&
-            (stress->own[c] = malloc(stress->values * sizeof *stress->own[c])) == NULL) {
-            rc_err_set(err, "out of memory for %zu values of a stress", stress->values);
-            rc_stress_free(stress);
-            return NULL;
-        }
+            (stress->own[c] = rc_alloc(stress->values, sizeof *stress->own[c])) == NULL)
+            status = rc_err_set(err, "out of memory for %zu values of a stress", stress->values);
+    if (rc_ranks_agree(options->ranks, status, err) != RC_OK) {
+        rc_stress_free(stress);
+        return NULL;
+    }
     if ((stress->plan = stress->evaluator->new (&stress->task, err)) == NULL) {
         rc_stress_free(stress);
         return NULL;

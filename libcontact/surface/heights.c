@@ -16,7 +16,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "libcontact/operator/operator.h"
+#include "libcontact/transform/transform.h"
 
 enum {
     TABLE = 2049,     /* quantiles that are computed; a spline goes through them */

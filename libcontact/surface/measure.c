@@ -2,6 +2,7 @@
  * number of nodes nor a datum far away eats digits. Values are taken several at a time, each into
  * sums of its own, and without a branch: the rest of what is computed here waits for memory. */
 #include "libcontact/common.h"
+#include "libcontact/ranks/ranks.h"
 
 #include <float.h>
 #include <math.h>
@@ -124,12 +125,13 @@ static double
 rms_about(const double *v, size_t n, double mean, double nodes)
 {
     struct second s = {0};
-    double left;
+    double left, square;
 
     take_all_about(&s, v, n, mean);
     /* the mean itself is rounded: what it misses is taken out */
     left = value(&s.rest) / nodes;
-    return sqrt(fmax(0, value(&s.squares) / nodes - left * left));
+    square = value(&s.squares) / nodes - left * left;
+    return square <= 0 ? 0 : sqrt(square); /* NaN, of squares beyond all numbers, stays so */
 }
 
 /* ---- slope: over the nodes whose next neighbours along each side that the map has are there ---- */
@@ -213,61 +215,142 @@ rc_measure(const struct rc_shape *shape, const double *v, struct rc_statistics *
 double
 rc_measure_contact_slope(const struct rc_shape *shape, const double *h, const double *p)
 {
-    size_t nx = shape->nx, ny = shape->ny;
-    size_t right = nx > 1 ? 1 : 0, below = ny > 1 ? nx : 0;
-    const double per[2] = {1 / shape->dx, 1 / shape->dy};
-    struct rc_total squares = {0}, nodes = {0};
-
-    for (size_t j = 0; j + (below > 0 ? 1 : 0) < ny; j++) {
-        const double *row = h + j * nx, *load = p + j * nx;
-        double sum = 0, count = 0;
-#pragma omp simd reduction(+ : sum, count)
-        for (size_t i = 0; i < nx - right; i++) {
-            double gx = (row[i + right] - row[i]) * per[0];
-            double gy = (row[i + below] - row[i]) * per[1];
-            double touches = load[i] > 0 ? 1 : 0;
-            sum += touches * (gx * gx + gy * gy);
-            count += touches;
-        }
-        rc_total_add(&squares, sum);
-        rc_total_add(&nodes, count);
-    }
-    return sqrt(rc_total_value(&squares) / rc_total_value(&nodes));
+    return rc_measure_contact_slope_on(NULL, shape, h, p);
 }
 
-/* Adds the squared steps from a[i] to b[i]. */
+enum {
+    PIECE =
+        1024 /* columns of which rows that others hold are fetched at a time: so there is always room */
+};
+
+static size_t
+piece_of(size_t nx, size_t first)
+{
+    return nx - first < PIECE ? nx - first : PIECE;
+}
+
+/* The rows before and after those held here, n of their columns: PIECE numbers each. */
+static void
+fetch_beside(const struct rc_rows *rows, bool round, const struct rc_shape *shape, const double *v,
+             size_t first, size_t n, double *beside, bool has[2])
+{
+    size_t last = (rows->n > 0 ? rows->n - 1 : 0) * shape->nx;
+
+    if (rows->n == 0)
+        first = 0;
+    rc_ranks_beside(rows, round, n * sizeof *v, v + first, v + last + first, beside, beside + PIECE,
+                    has);
+}
+
+/* Adds the squared slopes of n nodes that touch, and how many these are; `right` the columns to the next. */
+static void
+take_contact(struct rc_total sums[2], const double *row, const double *below, const double *load,
+             size_t n, size_t right, const double per[2])
+{
+    double sum = 0, count = 0;
+
+#pragma omp simd reduction(+ : sum, count)
+    for (size_t i = 0; i < n; i++) {
+        double gx = (row[i + right] - row[i]) * per[0];
+        double gy = (below[i] - row[i]) * per[1];
+        double touches = load[i] > 0 ? 1 : 0;
+        sum += touches * (gx * gx + gy * gy);
+        count += touches;
+    }
+    rc_total_add(&sums[0], sum);
+    rc_total_add(&sums[1], count);
+}
+
+double
+rc_measure_contact_slope_on(const struct rc_ranks *ranks, const struct rc_shape *shape,
+                            const double *h, const double *p)
+{
+    const struct rc_rows rows = rc_rows_of(ranks, shape);
+    size_t nx = shape->nx, right = nx > 1 ? 1 : 0;
+    const double per[2] = {1 / shape->dx, 1 / shape->dy};
+    struct rc_total sums[2] = {{0}};
+    double beside[2 * PIECE] = {0}, total[2], most = 0;
+    bool has[2] = {false, false};
+
+    for (size_t first = 0; first < nx; first += PIECE) {
+        size_t n = piece_of(nx, first), steps = first + n < nx ? n : n - right;
+        if (rows.ranks != NULL)
+            fetch_beside(&rows, false, shape, h, first, n, beside, has);
+        for (size_t j = 0; j < rows.n; j++) {
+            const double *row = h + j * nx + first;
+            const double *below = j + 1 < rows.n ? row + nx : has[1] ? beside + PIECE : row;
+            if (below == row && shape->ny > 1)
+                break;
+            take_contact(sums, row, below, p + j * nx + first, steps, right, per);
+        }
+    }
+    rc_ranks_totals(rows.ranks, 2, sums, total, &most);
+    return sqrt(total[0] / total[1]);
+}
+
+/* Adds the squared steps from a[i] to b[i], piece by piece, as they are where others hold a row. */
 static void
 add_steps(struct rc_total *squares, const double *a, const double *b, size_t n)
 {
-    double sum = 0;
-
+    for (size_t first = 0; first < n; first += PIECE) {
+        size_t last = first + piece_of(n, first);
+        double sum = 0;
 #pragma omp simd reduction(+ : sum)
-    for (size_t i = 0; i < n; i++)
-        sum += (b[i] - a[i]) * (b[i] - a[i]);
-    rc_total_add(squares, sum);
+        for (size_t i = first; i < last; i++)
+            sum += (b[i] - a[i]) * (b[i] - a[i]);
+        rc_total_add(squares, sum);
+    }
 }
 
 void
 rc_measure_seam(const struct rc_shape *shape, const double *v, struct rc_seam *seam)
 {
-    size_t nx = shape->nx, ny = shape->ny;
-    struct rc_total inside[2] = {{0}}, across[2] = {{0}};
+    rc_measure_seam_on(NULL, shape, v, seam);
+}
 
-    for (size_t j = 0; j < ny; j++) {
+enum { /* squared steps */
+    INSIDE_X,
+    INSIDE_Y,
+    ACROSS_X,
+    ACROSS_Y,
+    STEPS
+};
+
+void
+rc_measure_seam_on(const struct rc_ranks *ranks, const struct rc_shape *shape, const double *v,
+                   struct rc_seam *seam)
+{
+    const struct rc_rows rows = rc_rows_of(ranks, shape);
+    size_t nx = shape->nx, ny = shape->ny;
+    struct rc_total squares[STEPS] = {{0}};
+    double beside[2 * PIECE] = {0}, sum[STEPS], most = 0;
+    bool has[2];
+
+    for (size_t j = 0; j < rows.n; j++) {
         const double *row = v + j * nx;
-        add_steps(&inside[0], row, row + 1, nx - 1);
-        add_steps(&across[0], row + nx - 1, row, 1);
+        add_steps(&squares[INSIDE_X], row, row + 1, nx - 1);
+        add_steps(&squares[ACROSS_X], row + nx - 1, row, 1);
         if (j > 0)
-            add_steps(&inside[1], row - nx, row, nx);
+            add_steps(&squares[INSIDE_Y], row - nx, row, nx);
     }
-    add_steps(&across[1], v + (ny - 1) * nx, v, nx);
+    for (size_t first = 0; first < nx; first += PIECE) { /* from the row before those held here */
+        size_t n = piece_of(nx, first);
+        const double *before = v + (rows.n > 0 ? (rows.n - 1) * nx + first : 0);
+        if (rows.ranks != NULL) {
+            fetch_beside(&rows, true, shape, v, first, n, beside, has);
+            before = beside;
+        }
+        if (rows.n > 0)
+            add_steps(&squares[rows.first > 0 ? INSIDE_Y : ACROSS_Y], before, v + first, n);
+    }
+    rc_ranks_totals(rows.ranks, STEPS, squares, sum, &most);
     *seam = (struct rc_seam){{NAN, NAN}, {NAN, NAN}};
     if (nx > 1) {
-        seam->inside[0] = sqrt(rc_total_value(&inside[0]) / (double)(ny * (nx - 1)));
-        seam->across[0] = sqrt(rc_total_value(&across[0]) / (double)ny);
+        seam->inside[0] = sqrt(sum[INSIDE_X] / (double)(ny * (nx - 1)));
+        seam->across[0] = sqrt(sum[ACROSS_X] / (double)ny);
     }
     if (ny > 1) {
-        seam->inside[1] = sqrt(rc_total_value(&inside[1]) / (double)(nx * (ny - 1)));
-        seam->across[1] = sqrt(rc_total_value(&across[1]) / (double)nx);
+        seam->inside[1] = sqrt(sum[INSIDE_Y] / (double)(nx * (ny - 1)));
+        seam->across[1] = sqrt(sum[ACROSS_Y] / (double)nx);
     }
 }

@@ -2,6 +2,10 @@
  * Patches of the contact: nodes that carry pressure, joined by their four neighbours. Each row is cut
  * into runs of contact; runs of neighbouring rows that overlap belong to one patch, which is found
  * by union-find. Bands of rows are joined side by side, then band to band.
+ *
+ * Where ranks share the map each looks at its rows and at the one before and after these, of which only the
+ * joins count. A run of the row before is one of the last row of the rank that holds that: by these pairs the
+ * patches of all ranks are joined.
  */
 #include "libcontact/contact.h"
 
@@ -10,6 +14,7 @@
 
 #include "libcontact/common.h"
 #include "libcontact/memory.h"
+#include "libcontact/ranks/ranks.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -22,6 +27,19 @@ struct run {
     size_t
         sides; /* and along it: of length dx                                                    */
 };
+
+/* The rows that are looked at. */
+struct field {
+    size_t nx, rows;  /* rows: with those beside                     */
+    size_t own, last; /* of these, the ones held here: own .. last-1 */
+    const double *p, *before, *after;
+};
+
+static const double *
+row_of(const struct field *f, size_t j)
+{
+    return j < f->own ? f->before : j < f->last ? f->p + (j - f->own) * f->nx : f->after;
+}
 
 struct runs {
     size_t *first; /* row j holds runs first[j] .. first[j+1]-1 */
@@ -112,30 +130,30 @@ join_rows(struct runs *r, size_t above, size_t below)
 }
 
 static enum rc_status
-find_runs(const struct rc_shape *s, const double *p, bool wraps, int threads, struct runs *r)
+find_runs(const struct field *f, bool wraps, int threads, struct runs *r)
 {
-    size_t nx = s->nx, ny = s->ny;
+    size_t nx = f->nx, ny = f->rows;
 
     if ((r->first = rc_alloc(ny + 1, sizeof *r->first)) == NULL)
         return RC_FAIL;
     r->first[0] = 0;
 #pragma omp parallel for num_threads(threads) schedule(static)
     for (size_t j = 0; j < ny; j++)
-        r->first[j + 1] = count_row(p + j * nx, nx);
+        r->first[j + 1] = count_row(row_of(f, j), nx);
     for (size_t j = 0; j < ny; j++)
         r->first[j + 1] += r->first[j];
     if ((r->run = rc_alloc(r->first[ny] + 1, sizeof *r->run)) == NULL)
         return RC_FAIL;
 #pragma omp parallel for num_threads(threads) schedule(static)
     for (size_t j = 0; j < ny; j++)
-        find_row(p + j * nx, nx, wraps, r->run + r->first[j], r->first[j]);
+        find_row(row_of(f, j), nx, wraps, r->run + r->first[j], r->first[j]);
     return RC_OK;
 }
 
 static void
-join_all(const struct rc_shape *s, bool wraps, int threads, struct runs *r)
+join_all(const struct field *f, bool wraps, bool whole, int threads, struct runs *r)
 {
-    size_t nx = s->nx, ny = s->ny, bands = (size_t)threads < ny ? (size_t)threads : ny;
+    size_t nx = f->nx, ny = f->rows, bands = (size_t)threads < ny ? (size_t)threads : ny;
 
     /* A band's patches only hold runs of the band. */
 #pragma omp parallel for num_threads(threads) schedule(static)
@@ -146,13 +164,228 @@ join_all(const struct rc_shape *s, bool wraps, int threads, struct runs *r)
         join_rows(r, ny * band / bands - 1, ny * band / bands);
     if (!wraps)
         return;
-    join_rows(r, ny - 1, 0); /* of a map of one row: the row with itself */
+    if (whole)
+        join_rows(r, ny - 1, 0); /* of a map of one row: the row with itself */
     for (size_t j = 0; j < ny; j++)
         if (r->first[j] < r->first[j + 1]) {
             size_t left = r->first[j], right = r->first[j + 1] - 1;
             if (r->run[left].from == 0 && r->run[right].to == nx)
                 join(r->run, left, right);
         }
+}
+
+/* ---- patches ---- */
+
+/* A patch, or the part of one that a rank holds. */
+struct part {
+    size_t at; /* its first run, counted over all ranks */
+    size_t nodes, ends, sides;
+};
+
+/* What each run of the rows held here has goes to the first of its patch; of each patch that then has nodes a
+ * part, in their order. */
+static size_t
+make_parts(const struct field *f, struct runs *r, size_t before, struct part *part)
+{
+    size_t runs = r->first[f->rows], n = 0;
+
+    for (size_t k = 0; k < runs; k++)
+        part[k] = (struct part){.at = before + k};
+    for (size_t k = r->first[f->own]; k < r->first[f->last]; k++) {
+        const struct run *run = &r->run[k];
+        struct part *first = &part[find(r->run, k)];
+        first->nodes += run->to - run->from;
+        first->ends += run->ends;
+        first->sides += run->sides;
+    }
+    for (size_t k = 0; k < runs; k++)
+        if (part[k].nodes > 0)
+            part[n++] = part[k];
+    return n;
+}
+
+/* Two runs that are one, seen by two ranks: the patches that they are part of there. */
+struct pair {
+    size_t a, b;
+};
+
+/* What all ranks know: parts, where each rank's begin, and what joins them. */
+struct all {
+    struct part *part;
+    struct pair *pair;
+    size_t parts, pairs;
+};
+
+/* Things of so many bytes of each rank, one after another, in memory that the caller frees; *n
+ * becomes how many there are of all. NULL when memory is short. */
+static void *
+gather_lists(const struct rc_ranks *ranks, size_t bytes, const void *own, size_t *n)
+{
+    size_t count = rc_ranks_count(ranks), *from = calloc(count + 1, sizeof *from);
+    void *all = NULL;
+
+    if (rc_ranks_agree(ranks, from == NULL ? RC_FAIL : RC_OK, NULL) == RC_OK) {
+        rc_ranks_gather(ranks, sizeof *n, n, from + 1);
+        for (size_t q = 0; q < count; q++)
+            from[q + 1] += from[q];
+        *n = from[count];
+        all = malloc((*n + 1) * bytes);
+        if (rc_ranks_agree(ranks, all == NULL ? RC_FAIL : RC_OK, NULL) == RC_OK) {
+            rc_ranks_move(ranks, bytes, from, NULL, own, all);
+        } else {
+            free(all);
+            all = NULL;
+        }
+    }
+    free(from);
+    return all;
+}
+
+/* Where the patches of a row's runs are, counted over all ranks. */
+static void
+patches_of_row(struct runs *r, size_t j, size_t before, size_t *at)
+{
+    for (size_t k = r->first[j]; k < r->first[j + 1]; k++)
+        *at++ = before + find(r->run, k);
+}
+
+/* The pairs that this rank knows: of its row before, and of the last row of who holds that. */
+static enum rc_status
+make_pairs(const struct rc_rows *rows, bool wraps, const struct field *f, struct runs *r,
+           size_t before, struct pair **pairs, size_t *n)
+{
+    size_t most = f->nx / 2 + 1, *line = calloc(4 * most, sizeof *line);
+    bool has[2];
+
+    *n = f->own > 0 ? r->first[1] : 0;
+    *pairs = malloc((*n + 1) * sizeof **pairs);
+    if (rc_ranks_agree(rows->ranks, line == NULL || *pairs == NULL ? RC_FAIL : RC_OK, NULL) !=
+        RC_OK) {
+        free(line);
+        return RC_FAIL;
+    }
+    if (f->last > f->own)
+        patches_of_row(r, f->last - 1, before, line);
+    if (*n > 0)
+        patches_of_row(r, 0, before, line + most);
+    rc_ranks_beside(rows, wraps, most * sizeof *line, line, line, line + 2 * most, line + 3 * most,
+                    has);
+    for (size_t k = 0; k < *n; k++)
+        (*pairs)[k] = (struct pair){line[most + k], line[2 * most + k]};
+    free(line);
+    return RC_OK;
+}
+
+/* Parts and pairs of all ranks; a part's place then is that of its patch's first run anywhere. */
+static enum rc_status
+gather_all(const struct rc_rows *rows, bool wraps, const struct field *f, struct runs *r,
+           struct part *own, size_t parts, size_t before, struct all *all)
+{
+    struct pair *pair = NULL;
+    enum rc_status status;
+
+    *all = (struct all){.parts = parts};
+    if (rows->ranks == NULL) {
+        all->part = own;
+        return RC_OK;
+    }
+    status = make_pairs(rows, wraps, f, r, before, &pair, &all->pairs);
+    if (status == RC_OK) {
+        all->part = gather_lists(rows->ranks, sizeof *own, own, &all->parts);
+        all->pair = gather_lists(rows->ranks, sizeof *pair, pair, &all->pairs);
+        status = all->part == NULL || all->pair == NULL ? RC_FAIL : RC_OK;
+    }
+    free(own);
+    free(pair);
+    return status;
+}
+
+/* ---- joining what ranks have ---- */
+
+/* Places in increasing order, and the place of each in the list of its patch's first. */
+struct places {
+    size_t n, *at, *parent;
+};
+
+static int
+by_size(const void *a, const void *b)
+{
+    const size_t *x = a, *y = b;
+
+    return (*x > *y) - (*x < *y);
+}
+
+static size_t
+place(struct places *q, size_t at)
+{
+    size_t *found = bsearch(&at, q->at, q->n, sizeof at, by_size), k;
+
+    if (found == NULL)
+        return q->n;
+    for (k = (size_t)(found - q->at); q->parent[k] != k; k = q->parent[k])
+        q->parent[k] = q->parent[q->parent[k]];
+    return k;
+}
+
+/* Each part gets the place of the first part of its patch. */
+static enum rc_status
+join_parts(struct all *all)
+{
+    struct places q = {.at = malloc((2 * all->pairs + 1) * sizeof *q.at),
+                       .parent = malloc((2 * all->pairs + 1) * sizeof *q.parent)};
+    bool fine = q.at != NULL && q.parent != NULL;
+
+    for (size_t k = 0; k < all->pairs && fine; k++) {
+        q.at[2 * k] = all->pair[k].a;
+        q.at[2 * k + 1] = all->pair[k].b;
+    }
+    if (fine) {
+        qsort(q.at, 2 * all->pairs, sizeof *q.at, by_size);
+        for (size_t k = 0; k < 2 * all->pairs; k++)
+            if (q.n == 0 || q.at[q.n - 1] != q.at[k])
+                q.at[q.n++] = q.at[k];
+    }
+    for (size_t k = 0; k < q.n; k++)
+        q.parent[k] = k;
+    for (size_t k = 0; k < all->pairs && fine; k++) {
+        size_t a = place(&q, all->pair[k].a), b = place(&q, all->pair[k].b);
+        q.parent[a < b ? b : a] = a < b ? a : b;
+    }
+    for (size_t k = 0; k < all->parts && fine; k++) {
+        size_t first = place(&q, all->part[k].at);
+        if (first < q.n)
+            all->part[k].at = q.at[first];
+    }
+    free(q.at);
+    free(q.parent);
+    return fine ? RC_OK : RC_FAIL;
+}
+
+static int
+by_place(const void *a, const void *b)
+{
+    const struct part *x = a, *y = b;
+
+    return (x->at > y->at) - (x->at < y->at);
+}
+
+/* Parts of one patch become one. */
+static void
+merge_parts(struct all *all)
+{
+    size_t n = 0;
+
+    qsort(all->part, all->parts, sizeof *all->part, by_place);
+    for (size_t k = 0; k < all->parts; k++) {
+        if (n > 0 && all->part[n - 1].at == all->part[k].at) {
+            all->part[n - 1].nodes += all->part[k].nodes;
+            all->part[n - 1].ends += all->part[k].ends;
+            all->part[n - 1].sides += all->part[k].sides;
+        } else {
+            all->part[n++] = all->part[k];
+        }
+    }
+    all->parts = n;
 }
 
 /* ---- figures ---- */
@@ -165,47 +398,33 @@ larger_first(const void *a, const void *b)
     return (x->nodes < y->nodes) - (x->nodes > y->nodes);
 }
 
-/* What each run has goes to the first of its patch, which comes before it. */
 static enum rc_status
-list_patches(const struct rc_shape *s, struct runs *r, struct rc_patches *patches)
+list_patches(const struct rc_shape *s, const struct all *all, struct rc_patches *patches)
 {
-    size_t runs = r->first[s->ny], n = 0;
-
-    if ((patches->patch = rc_alloc(patches->count + 1, sizeof *patches->patch)) == NULL)
+    if ((patches->patch = rc_alloc(all->parts + 1, sizeof *patches->patch)) == NULL)
         return RC_FAIL;
-    for (size_t k = 0; k < runs; k++) {
-        struct run *run = &r->run[k], *first = &r->run[find(r->run, k)];
-        if (run == first)
-            continue;
-        first->to += run->to - run->from;
-        first->ends += run->ends;
-        first->sides += run->sides;
+    for (size_t k = 0; k < all->parts; k++) {
+        const struct part *part = &all->part[k];
+        patches->patch[k] = (struct rc_patch){.nodes = part->nodes,
+                                              .area = (double)part->nodes * s->dx * s->dy,
+                                              .perimeter = (double)part->ends * s->dy +
+                                                           (double)part->sides * s->dx};
     }
-    for (size_t k = 0; k < runs; k++) {
-        const struct run *run = &r->run[k];
-        size_t nodes = run->to - run->from;
-        if (run->parent == k)
-            patches->patch[n++] = (struct rc_patch){.nodes = nodes,
-                                                    .area = (double)nodes * s->dx * s->dy,
-                                                    .perimeter = (double)run->ends * s->dy +
-                                                                 (double)run->sides * s->dx};
-    }
-    qsort(patches->patch, n, sizeof *patches->patch, larger_first);
+    qsort(patches->patch, all->parts, sizeof *patches->patch, larger_first);
     return RC_OK;
 }
 
 static void
-add_up(const struct rc_shape *s, const struct runs *r, struct rc_patches *patches)
+add_up(const struct rc_shape *s, const struct all *all, struct rc_patches *patches)
 {
     size_t ends = 0, sides = 0;
     double cell = s->dx * s->dy;
 
-    for (size_t k = 0; k < r->first[s->ny]; k++) {
-        const struct run *run = &r->run[k];
-        patches->count += run->parent == k;
-        patches->contact_nodes += run->to - run->from;
-        ends += run->ends;
-        sides += run->sides;
+    patches->count = all->parts;
+    for (size_t k = 0; k < all->parts; k++) {
+        patches->contact_nodes += all->part[k].nodes;
+        ends += all->part[k].ends;
+        sides += all->part[k].sides;
     }
     patches->contact_area = (double)patches->contact_nodes * cell;
     patches->perimeter = (double)ends * s->dy + (double)sides * s->dx;
@@ -213,30 +432,86 @@ add_up(const struct rc_shape *s, const struct runs *r, struct rc_patches *patche
         patches->contact_area - (pi - 1 + log(2)) / 24 * cell * (double)(ends + sides);
 }
 
+/* The rows held here, and those beside, which come to `room`, two rows. */
+static struct field
+field_of(const struct rc_rows *rows, size_t nx, bool wraps, const double *p, double *room)
+{
+    struct field f = {.nx = nx, .rows = rows->n, .last = rows->n, .p = p};
+    bool has[2] = {false, false};
+
+    if (rows->ranks == NULL)
+        return f;
+    rc_ranks_beside(rows, wraps, nx * sizeof *p, p, p + (rows->n > 0 ? rows->n - 1 : 0) * nx, room,
+                    room + nx, has);
+    f.before = room;
+    f.after = room + nx;
+    f.own = has[0];
+    f.last = has[0] + rows->n;
+    f.rows = f.last + has[1];
+    return f;
+}
+
+/* The parts of all ranks, each the whole of a patch. */
+static enum rc_status
+find_parts(const struct rc_rows *rows, const struct field *f, bool wraps, int threads,
+           struct runs *r, struct all *all)
+{
+    enum rc_status status = find_runs(f, wraps, threads, r);
+    struct part *part = NULL;
+    size_t before, n;
+
+    if (status == RC_OK && (part = malloc((r->first[f->rows] + 1) * sizeof *part)) == NULL)
+        status = RC_FAIL;
+    if (rc_ranks_agree(rows->ranks, status, NULL) != RC_OK) {
+        free(part);
+        return RC_FAIL;
+    }
+    join_all(f, wraps, rows->ranks == NULL, threads, r);
+    before = rows->ranks == NULL ? 0 : rc_ranks_sum_before(rows->ranks, r->first[f->rows]);
+    n = make_parts(f, r, before, part);
+    status = gather_all(rows, wraps, f, r, part, n, before, all);
+    if (status == RC_OK && rows->ranks != NULL) {
+        status = join_parts(all);
+        merge_parts(all);
+    }
+    return status;
+}
+
 enum rc_status
 rc_patches_find(const struct rc_shape *shape, const double *p,
                 const struct rc_patch_options *options, struct rc_patches *patches,
                 struct rc_err *err)
 {
+    const struct rc_rows rows = rc_rows_of(options->ranks, shape);
+    const struct rc_shape own = rc_rows_shape(&rows, shape);
     bool wraps = options->boundary == RC_PERIODIC;
-    int threads = rc_useful_threads(shape, options->threads);
-    enum rc_status status = RC_FAIL;
+    double *room = NULL;
+    enum rc_status status;
     struct runs r = {0};
+    struct all all = {0};
+    struct field f;
 
     *patches = (struct rc_patches){0};
     if (rc_shape_check(shape, err) != RC_OK)
         return RC_FAIL;
-    if (find_runs(shape, p, wraps, threads, &r) != RC_OK)
-        goto done;
-    join_all(shape, wraps, threads, &r);
-    add_up(shape, &r, patches);
-    status = options->each ? list_patches(shape, &r, patches) : RC_OK;
-done:
-    if (status != RC_OK)
-        rc_err_set(err, "out of memory for the contact patches of %zu x %zu nodes", shape->nx,
-                   shape->ny);
+    room = rc_alloc(2 * shape->nx, sizeof *room);
+    status = rc_ranks_agree(rows.ranks, room == NULL ? RC_FAIL : RC_OK, NULL);
+    if (status == RC_OK) {
+        f = field_of(&rows, shape->nx, wraps, p, room);
+        status = find_parts(&rows, &f, wraps, rc_useful_threads(&own, options->threads), &r, &all);
+    }
     free(r.first);
     free(r.run);
+    if (status == RC_OK)
+        add_up(shape, &all, patches);
+    if (status == RC_OK && options->each)
+        status = list_patches(shape, &all, patches);
+    if (rc_ranks_agree(rows.ranks, status, NULL) != RC_OK)
+        status = rc_err_set(err, "out of memory for the contact patches of %zu x %zu nodes",
+                            shape->nx, shape->ny);
+    free(room);
+    free(all.part);
+    free(all.pair);
     return status;
 }
 
@@ -245,4 +520,22 @@ rc_patches_free(struct rc_patches *patches)
 {
     free(patches->patch);
     *patches = (struct rc_patches){0};
+}
+
+/* Runs of contact in a rough one: one in so many nodes of the map; in a fifth of it, of three nodes. */
+enum {
+    NODES_A_RUN = 16
+};
+
+size_t
+rc_patches_memory(const struct rc_shape *s, const double *p)
+{
+    size_t runs = s->nx * s->ny / NODES_A_RUN;
+
+    if (p != NULL) {
+        runs = 0;
+        for (size_t j = 0; j < s->ny; j++)
+            runs += count_row(p + j * s->nx, s->nx);
+    }
+    return (s->ny + 1) * sizeof(size_t) + runs * (sizeof(struct run) + sizeof(struct part));
 }

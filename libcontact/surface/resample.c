@@ -315,7 +315,7 @@ fit(size_t from, double from_d, double d, size_t *n, double *to_d, struct rc_err
     if (cells < 1)
         return rc_err_set(err, "a cell of %g m is wider than the map, %g m", d,
                           (double)from * from_d);
-    if (cells > 1e15)
+    if (cells > 1e15 || cells >= (double)SIZE_MAX)
         return rc_err_set(err, "spacing %g m: that makes %g nodes of %zu", d, cells, from);
     *n = (size_t)cells;
     return RC_OK;

@@ -15,7 +15,7 @@
 #include <stdlib.h>
 
 #include "libcontact/memory.h"
-#include "libcontact/operator/operator.h"
+#include "libcontact/transform/transform.h"
 
 static const double pi = 3.14159265358979323846;
 

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "libcontact/operator/operator.h"
+#include "libcontact/transform/transform.h"
 
 static const double pi = 3.14159265358979323846;
 /* Waves at a cut-off and nodes on a rim are included, however decimal numbers were rounded. */

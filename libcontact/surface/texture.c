@@ -14,7 +14,7 @@
 #include <stdlib.h>
 
 #include "libcontact/memory.h"
-#include "libcontact/operator/operator.h"
+#include "libcontact/transform/transform.h"
 
 static const double pi = 3.14159265358979323846, fallen = 0.2, rounded = 1e-9;
 /* What a wave may take of the angular spectrum, to either side, radians. */
@@ -74,8 +74,8 @@ offsets_of(const struct rc_shape *s, enum rc_boundary boundary)
     struct rc_offsets at = {.px = s->nx, .py = s->ny, .mx = s->nx / 2, .my = s->ny / 2};
 
     if (boundary == RC_FREE) {
-        at.px = rc_fft_length((at.px + at.mx + 1) / 2, 1);
-        at.py = rc_fft_length((at.py + at.my + 1) / 2, 1);
+        at.px = rc_fourier_length((at.px + at.mx + 1) / 2, 1);
+        at.py = rc_fourier_length((at.py + at.my + 1) / 2, 1);
     }
     return at;
 }
@@ -242,9 +242,9 @@ add_power(double *bin, double angle, double half_width, double power)
 {
     double middle = angle * ANGLES / pi, half = half_width * ANGLES / pi, below = 0;
 
-    for (double b = floor(middle - half); b < middle + half; b++) {
-        double up_to = triangle_below((b + 1 - middle) / half);
-        bin[((size_t)(b + 4 * ANGLES)) % ANGLES] += power * (up_to - below);
+    for (long b = (long)floor(middle - half); (double)b < middle + half; b++) {
+        double up_to = triangle_below(((double)b + 1 - middle) / half);
+        bin[(size_t)(b + 4 * ANGLES) % ANGLES] += power * (up_to - below);
         below = up_to;
     }
 }

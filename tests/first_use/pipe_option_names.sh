@@ -66,10 +66,10 @@ for value in 0 -1 0.5; do
     refuses 2 "memory $value bytes: it must be at least 1" "--memory $value" "$press -o never.rcg --memory $value"
 done
 refuses 2 "memory nan: 'nan' is not a number" "--memory nan" "$press -o never.rcg --memory nan"
-refuses 1 'memory allows 600 KiB$' "a limit under a mebibyte" "$press -o never.rcg --memory 600k"
-refuses 1 'memory allows 2 MiB$' "a limit above it" "$press -o never.rcg --memory 2M"
+refuses 1 'memory allows 600 KiB: ' "a limit under a mebibyte" "$press -o never.rcg --memory 600k"
+refuses 1 'memory allows 2 MiB: ' "a limit above it" "$press -o never.rcg --memory 2M"
 rc-synth sphere --nx 5 --dx 1um --radius 1mm -o small.rcg
-refuses 1 'memory allows 900 bytes$' "a limit under a kibibyte" "rc-solve --load 1 --estar 1GPa -o never.rcg --memory 900 small.rcg"
+refuses 1 'memory allows 900 bytes: ' "a limit under a kibibyte" "rc-solve --load 1 --estar 1GPa -o never.rcg --memory 900 small.rcg"
 claim "nothing was written" test ! -e never.rcg
 
 finish

@@ -55,7 +55,7 @@ press="rc-solve --quiet --estar 114GPa --radius 2.385mm --hardness 6GPa --thread
 claim "rc-solve writes a table of a list of loads" $press --load 0.1:0.5:5 --report loads.tsv -o pressed.rcg rough.rcg
 claim "rc-solve writes the same run as lines" $press --load 0.1:0.5:5 --report loads.json -o again.rcg rough.rcg
 claim "a row for each load, and the names" test "$(wc -l <loads.tsv)" = 6
-claim "rc-solve: the cells are the scalars of the lines" same_cells loads.tsv loads.json peak_memory
+claim "rc-solve: the cells are the scalars of the lines" same_cells loads.tsv loads.json peak_memory memory_estimate
 k=0
 for load in $(cells load/N loads.tsv); do
     k=$((k + 1))
@@ -85,7 +85,7 @@ claim "  in a table of two lines" test "$(wc -l <named.tsv)" = 2
 strain="rc-stress --nu 0.3 --depths 1um,5um --components szz,mises --threads 1 --quiet"
 claim "rc-stress writes a table" $strain --report stress.tsv -o /dev/null pressed.rcg
 claim "rc-stress writes lines" $strain --report stress.json -o /dev/null pressed.rcg
-claim "rc-stress: the cells are the scalars of the lines" same_cells stress.tsv stress.json peak_memory
+claim "rc-stress: the cells are the scalars of the lines" same_cells stress.tsv stress.json peak_memory memory_estimate
 claim "  a row for each case" test "$(wc -l <stress.tsv)" = 6
 
 # ---- rc-cost ----

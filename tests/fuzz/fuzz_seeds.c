@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <sys/stat.h>
 
-#include "tests/made_files.h"
+#include "tests/formats/made_files.h"
 
 int
 main(int argc, char **argv)

@@ -14,6 +14,9 @@
 #     whole    the same from whole files, up to 4 MiB
 #     hdf      the reader with a fake in place of libhdf5
 #     gzip     no reader: what unpacks files, of any FORMAT (run.sh BUILD SECONDS any:gzip)
+#     stream   that of grid streams (run.sh BUILD SECONDS rcg:stream), from streams of the tools in RC_BIN
+#
+# RC_RUNS in the environment ends each after so many executions; SECONDS 0 then sets no time.
 set -u
 build=$1 seconds=$2
 shift 2
@@ -42,7 +45,7 @@ harnesses_of() {
 
 # the reader of what the manifest calls FORMAT; nothing where there is none
 reader_of() {
-    sed -n "s/^CORPUS_FORMAT(\"$1\", \"\(.*\)\")$/\1/p" "$here/tests/corpus.list"
+    sed -n "s/^CORPUS_FORMAT(\"$1\", \"\(.*\)\")$/\1/p" "$here/tests/formats/corpus.list"
 }
 if [ -r "${RC_CORPUS:-}/manifest.tsv" ]; then
     tail -n +2 "$RC_CORPUS/manifest.tsv" | cut -f 1,2 | while IFS=$'\t' read -r file format; do
@@ -54,6 +57,24 @@ if [ -r "${RC_CORPUS:-}/manifest.tsv" ]; then
     done
     cp "$here"/sample_surfaces/*.x3p "$seeds/x3p"
 fi
+
+# Streams of every tool that writes one: of a map, of cases, of depths, of sections, in either type, several
+# in one file, ended by a failure.
+stream_seeds() (
+    set -e
+    PATH="$RC_BIN:$PATH"
+    mkdir -p "$seeds/rcg" && cd "$seeds/rcg" || exit 1
+    rc-synth sphere --nx 5 --ny 4 --dx 1.1um --dy 1um --radius 2mm -o sphere
+    rc-synth wave --nx 3 --ny 1 --dx 1um --amplitude 1nm --wavelength 3um --type f32 -o profile
+    rc-pick --set 'note=a\b' --set source=x sphere -o keys
+    rc-solve --quiet --load 1mN:2mN:2 --estar 1GPa --hardness 5GPa sphere -o contact
+    rc-solve --quiet --load 1mN --E1 1GPa --nu1 0.3 --E2 rigid --layer 1um,2GPa,0.3 sphere -o coated
+    rc-stress --quiet --nu 0.3 --depths 1um,2um --components mises,sxz contact -o stress
+    rc-stress --quiet --nu 0.3 --section y=0 --depths 0:2um:3 --components szz --type f32 contact -o section
+    cat sphere profile >two
+    { sed '/^RCGEND/d' sphere && echo "RCGFAIL a tool: it failed (exit status 2)"; } >failed
+)
+if [ -d "${RC_BIN:-}" ]; then stream_seeds || exit 1; fi
 
 status=0
 fuzz() { # FORMAT HARNESS
@@ -72,10 +93,11 @@ fuzz() { # FORMAT HARNESS
     sandbox) asan=$asan:detect_leaks=0 ;;
     whole) program=sandbox most=4194304 asan=$asan:detect_leaks=0 ;;
     gzip) program=format folders=("$corpus") bypass=(RC_GZIP=1) ;;
+    stream) program=stream ;;
     hdf) folders=("$corpus") most=4096 bypass=(RC_FUZZ_BYPASS=1) ;;
     esac
     env "${bypass[@]}" RC_FORMAT="$format" ASAN_OPTIONS="$asan" "$build/fuzz-$program" \
-        -max_total_time="$seconds" -timeout=10 -max_len="$most" -rss_limit_mb=2048 \
+        -max_total_time="$seconds" -runs="${RC_RUNS:--1}" -timeout=10 -max_len="$most" -rss_limit_mb=2048 \
         -malloc_limit_mb=2048 -print_final_stats=1 -entropic_scale_per_exec_time=1 \
         -artifact_prefix="$build/findings/$run-" "${folders[@]}" >"$log" 2>&1
     bad=$?

@@ -7,14 +7,13 @@
 
 #include "coating.h"
 #include "ending.h"
-#include "json.h"
-#include "name_list.h"
+#include "tools/text/text.h"
+#include "tools/machine/machine.h"
 #include "physics.h"
+#include "ranks.h"
 #include "report.h"
 #include "results.h"
-#include "shown.h"
 #include "tool.h"
-#include "units.h"
 #include "wanted.h"
 #include "words.h"
 

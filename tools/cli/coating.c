@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "formats/core/core.h"
-#include "units.h"
+#include "tools/text/text.h"
 
 enum {
     MOST = 1000 /* materials: enough for one that changes gradually */
@@ -88,6 +88,12 @@ coating_free(struct coating *l)
 {
     free(l->layer);
     *l = (struct coating){0};
+}
+
+size_t
+coating_material(const struct coating *l, double depth)
+{
+    return l->layer == NULL ? 0 : rc_coating_material(&l->coating, depth);
 }
 
 /* ---- the other way ---- */

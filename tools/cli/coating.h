@@ -18,6 +18,8 @@ struct coating {
 enum rc_status coating_read(const struct rc_grid *grid, struct coating *coating,
                             struct rc_err *err);
 void coating_free(struct coating *coating);
+/* Material at a depth (m), 0 the top; an interface belongs to the one above it. */
+size_t coating_material(const struct coating *coating, double depth);
 
 /* One layer as it stands on a command line, "2um,300GPa,0.25". */
 enum rc_status coating_layer(const char *text, struct rc_layer *layer, struct rc_err *err);

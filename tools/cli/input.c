@@ -4,14 +4,22 @@
 #include "tool.h"
 
 #include <errno.h>
+#include <float.h>
 #include <math.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "foreign.h"
 #include "parts.h"
-#include "pipe.h"
+#include "tools/machine/machine.h"
+#include "ranks.h"
 #include "results.h"
+
+static enum rc_status
+allow(void *t, const struct rc_shape *shape, size_t bytes, struct rc_err *err)
+{
+    return tool_ask_memory(t, shape, bytes, "make it smaller where it comes from", err);
+}
 
 static void
 open_next(struct tool *t)
@@ -29,14 +37,24 @@ open_next(struct tool *t)
         if ((t->in = fopen(name, "rb")) == NULL)
             tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", name, strerror(errno));
     }
+    if (t->ranks != NULL && (t->in == stdin || fseeko(t->in, 0, SEEK_CUR) != 0))
+        tool_die(
+            t, EXIT_USAGE,
+            "%s: several processes read a file, each its part of it: name one instead of a pipe",
+            t->source);
     if (isatty(fileno(t->in)))
         tool_die(t, EXIT_USAGE, "%s is a terminal: pipe a grid stream in or name a file",
                  t->source);
     setvbuf(t->in, NULL, _IOFBF, TOOL_BUFFER);
     pipe_widen(fileno(t->in));
-    t->reader = rc_reader_new(t->in, t->last_case, t->memory, &err);
+    t->reader = rc_reader_new(t->in, t->last_case, 0, &err);
     if (t->reader == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (t->ranks != NULL) {
+        t->in_share = ranks_read(t, name);
+        rc_reader_share(t->reader, t->in_share);
+    }
+    rc_reader_ask(t->reader, allow, t);
 }
 
 static void
@@ -45,6 +63,8 @@ close_input(struct tool *t)
     t->last_case = rc_reader_last_case(t->reader);
     rc_reader_free(t->reader);
     t->reader = NULL;
+    ranks_close(t, t->in_share);
+    t->in_share = NULL;
     if (t->in != stdin)
         fclose(t->in);
 }
@@ -91,6 +111,35 @@ cannot_read(struct tool *t, const struct rc_err *err)
     tool_die(t, EXIT_IMPOSSIBLE, "%s, frame %zu: %s", t->source, t->frame + 1, err->text);
 }
 
+struct not_finite
+not_finite(const struct rc_grid *g)
+{
+    const double most = g->type == RC_F32 ? (double)FLT_MAX : DBL_MAX;
+    struct not_finite n = {0, 0};
+    double outside = 0;
+
+    for (size_t k = 0; k < rc_grid_nodes(g);
+         k++) /* in vector registers: nearly always there is none */
+        outside += fabs(g->v[k]) <= most ? 0 : 1;
+    for (size_t k = 0; outside > 0 && k < rc_grid_nodes(g); k++) {
+        n.missing += isnan(g->v[k]) ? 1 : 0;
+        n.infinite += fabs(g->v[k]) > most ? 1 : 0;
+    }
+    return n;
+}
+
+static void
+note_not_finite(struct tool *t, const struct rc_grid *g)
+{
+    struct not_finite n;
+
+    if (t->missing && t->infinite)
+        return;
+    n = not_finite(g);
+    t->missing |= n.missing > 0;
+    t->infinite |= n.infinite > 0;
+}
+
 struct rc_grid *
 tool_read(struct tool *t)
 {
@@ -108,6 +157,7 @@ tool_read(struct tool *t)
         case RC_MORE:
             t->frame++;
             check_convergence(t, g);
+            note_not_finite(t, g);
             return g;
         case RC_OK:
             close_input(t);
@@ -170,16 +220,28 @@ tool_channel(struct tool *t, const char *channel, bool pass)
     return NULL;
 }
 
+size_t
+tool_first_row(const struct tool *t, const struct rc_grid *g)
+{
+    struct rc_shape shape = rc_grid_shape(g);
+    size_t first, n;
+
+    ranks_rows(t, &shape, &first, &n);
+    return first;
+}
+
 void
 tool_demand_finite(struct tool *t, const struct rc_grid *g, const char *remedy)
 {
-    size_t count = 0, first = 0;
+    size_t count = 0, first = g->nx * g->ny, before = tool_first_row(t, g) * g->nx;
 
-    for (size_t k = g->nx * g->ny; k-- > 0;)
+    for (size_t k = rc_grid_nodes(g); k-- > 0;)
         if (!isfinite(g->v[k])) {
             count++;
-            first = k;
+            first = before + k;
         }
+    count = (size_t)ranks_sum(t, (double)count);
+    first = (size_t)-ranks_most(t, -(double)first);
     if (count > 0)
         tool_die_at(t, g, EXIT_IMPOSSIBLE,
                     "%zu of %zu values are NaN or infinite, the first in column %zu of row %zu: %s",

@@ -8,11 +8,28 @@
 #include <unistd.h>
 
 #include "parts.h"
+#include "ranks.h"
+
+/* Names, keys and words of a file stand in messages, and must not act on a terminal: control characters,
+ * also those of two bytes in UTF-8, become question marks. */
+static void
+make_harmless(char *text)
+{
+    for (unsigned char *s = (unsigned char *)text; *s != '\0'; s++) {
+        if (*s < 0x20 || *s == 0x7f)
+            *s = '?';
+        if (s[0] == 0xc2 && s[1] >= 0x80 && s[1] < 0xa0)
+            s[0] = s[1] = '?';
+    }
+}
 
 static void
-say(struct tool *t, const char *text)
+say(struct tool *t, char *text)
 {
+    if (!ranks_speak(t)) /* the first of several says the same */
+        return;
     tool_progress_end(t);
+    make_harmless(text);
     fprintf(stderr, "%s: %s\n", t->info->name, text);
 }
 
@@ -50,7 +67,8 @@ tool_progress(struct tool *t, const char *format, ...)
     bool terminal = isatty(STDERR_FILENO);
     va_list ap;
 
-    if (t->quiet || !(terminal || t->progress) || tool_now() - t->progress_at < 0.1)
+    if (t->quiet || !ranks_speak(t) || !(terminal || t->progress) ||
+        tool_now() - t->progress_at < 0.1)
         return;
     t->progress_at = tool_now();
     fprintf(stderr, terminal ? "\r\033[K%s: " : "%s: ", t->info->name);
@@ -71,14 +89,24 @@ tool_progress_end(struct tool *t)
     t->progress_shown = false;
 }
 
-static _Noreturn void
-die(struct tool *t, int status, const char *text)
+static void
+last_words(struct tool *t, int status, const char *text)
 {
     char whole[1500];
 
-    say(t, text);
+    tool_progress_end(t);
+    fprintf(stderr, "%s: %s\n", t->info->name, text);
     snprintf(whole, sizeof whole, "%s: %s", t->info->name, text);
     output_abandon(t, whole, status);
+}
+
+static _Noreturn void
+die(struct tool *t, int status, char *text)
+{
+    make_harmless(text);
+    if (t->ranks != NULL)
+        ranks_die(t, status, text, last_words);
+    last_words(t, status, text);
     exit(status);
 }
 

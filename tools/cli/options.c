@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "libcontact/contact.h"
-#include "names.h"
+#include "tools/text/text.h"
 #include "parts.h"
 
 /* What every tool has. Offsets point into struct tool itself; `type` is read apart. */
@@ -206,6 +206,17 @@ whole(struct tool *t, const struct opt *o, const char *text)
     return value;
 }
 
+/* As many as the machine can count: where addresses have 32 bits, fewer than numbers may say. */
+static size_t
+count(struct tool *t, const struct opt *o, const char *text)
+{
+    double value = whole(t, o, text);
+
+    if (value > (double)SIZE_MAX)
+        tool_die(t, EXIT_USAGE, "--%s %s: this machine counts to %zu", o->name, text, SIZE_MAX);
+    return (size_t)value;
+}
+
 /* The word as the table has it, whatever its spelling on the line. */
 static const char *
 choice(struct tool *t, const struct opt *o, const char *text)
@@ -266,7 +277,8 @@ set_list(struct tool *t, const struct opt *o, struct numbers *list, const char *
     t->list[o - t->opt] = text;
     if ((o->per_metre ? unit_forces(text, list, &err) : unit_numbers(text, o->unit, list, &err)) !=
         RC_OK)
-        tool_die(t, EXIT_USAGE, "--%s %s: %s", o->name, text, err.text);
+        tool_die(t, list->no_memory ? EXIT_IMPOSSIBLE : EXIT_USAGE, "--%s %s: %s", o->name, text,
+                 err.text);
     for (size_t k = 0; k < list->n; k++) {
         check_bounds(t, o, list->v[k], list->per_metre);
         if (o->whole && list->v[k] != floor(list->v[k]))
@@ -288,7 +300,7 @@ set_value(struct tool *t, const struct opt *o, void *base, const char *text)
             o->word != NULL && strcmp(text, o->word) == 0 ? INFINITY : number(t, o, text);
         break;
     case OPT_COUNT:
-        *(size_t *)at = (size_t)whole(t, o, text);
+        *(size_t *)at = count(t, o, text);
         break;
     case OPT_CHOICE:
         *(const char **)at = choice(t, o, text);
@@ -322,7 +334,7 @@ set_common(struct tool *t, const struct opt *o, const char *text)
         exit(fflush(stdout) == 0 ? 0 : EXIT_IMPOSSIBLE);
     }
     if (strcmp(o->name, "memory") == 0) {
-        t->memory = (size_t)number(t, o, text);
+        t->memory = unit_size(number(t, o, text));
     } else if (strcmp(o->name, "type") == 0) {
         t->type_given = true;
         t->type = strcmp(choice(t, o, text), "f32") == 0 ? RC_F32 : RC_F64;

@@ -11,35 +11,48 @@
 #include <unistd.h>
 
 #include "parts.h"
-#include "pipe.h"
+#include "tools/machine/machine.h"
+#include "ranks.h"
 
-enum {
-    PATH_SIZE = 4096
-};
-
-/* The file under construction: a signal handler has to find it, so there is one. */
-static char half_written[PATH_SIZE];
-static char destination[PATH_SIZE];
+/* What -o names; a signal handler has to know of it. */
+static struct whole_file output = {.slot = -1};
 
 /* ---- signals ---- */
 
 static volatile sig_atomic_t interrupted;
+static const struct tool *together; /* of several processes that share the maps; NULL: alone */
+static char no_time[256];           /* what it says when it is in a hurry */
 static const int signals_handled[] = {SIGINT, SIGTERM, SIGHUP};
 
 static void
 end_by(int number)
 {
-    if (half_written[0] != '\0')
-        unlink(half_written);
+    whole_files_remove();
     signal(number, SIG_DFL);
     raise(number);
+}
+
+/* Of several processes: the launcher kills before what was reached could be written. The exit status
+ * is one of those of a tool, as the launcher hands on that of whichever process ends first. */
+static void
+end_in_time(int number)
+{
+    (void)number;
+    whole_files_remove();
+    if (ranks_speak(together))
+        (void)!write(STDERR_FILENO, no_time, strlen(no_time));
+    _exit(EXIT_IMPOSSIBLE);
 }
 
 static void
 note_signal(int number)
 {
+    if (together != NULL && whole_file_is_half(&output))
+        end_in_time(number); /* one of several may have died */
     interrupted = number;
     signal(number, SIG_DFL); /* a second one is final */
+    if (together != NULL)
+        ranks_hurry(together);
 }
 
 static void
@@ -53,13 +66,15 @@ handle(void (*handler)(int))
 void
 tool_catch_signals(void)
 {
+    if (together != NULL)
+        signal(SIGALRM, end_in_time);
     handle(note_signal);
 }
 
 int
 tool_interrupted(void)
 {
-    return interrupted;
+    return together == NULL ? interrupted : (int)ranks_most(together, (double)interrupted);
 }
 
 void
@@ -70,35 +85,43 @@ output_handle_signals(void)
 
 /* ---- the file or the stream ---- */
 
-/* Where -o leads when it is to appear whole: through symbolic links, so that a link stays one. */
+/* Several processes write into one file: there has to be one. It is made when there is something to write, so
+ * that nothing is left where one of them is killed on the way. */
 static void
-resolve(struct tool *t, const char *name)
+demand_shared_file(struct tool *t)
 {
-    char *real = realpath(name, NULL);
+    struct stat st;
 
-    if (strlen(real == NULL ? name : real) >= PATH_SIZE - 8)
-        tool_die(t, EXIT_IMPOSSIBLE, "-o %s: the name is too long", name);
-    strcpy(destination, real == NULL ? name : real);
-    free(real);
+    if (t->out_name == NULL)
+        tool_die(
+            t, EXIT_USAGE,
+            "several processes write a file, each its part of it: give -o FILE instead of a pipe");
+    if (stat(t->out_name, &st) == 0 && !S_ISREG(st.st_mode))
+        tool_die(t, EXIT_IMPOSSIBLE,
+                 "-o %s: several processes write a file, each its part of it: this is none",
+                 t->out_name);
+    tool_demand_writable(t, "-o", t->out_name);
 }
 
+/* The first process makes the file, all open it. */
 static void
-open_temporary(struct tool *t)
+open_shared(struct tool *t)
 {
-    mode_t mask = umask(0);
-    char name[PATH_SIZE];
-    int fd;
+    struct rc_err err;
+    char name[WHOLE_PATH];
 
-    umask(mask);
-    resolve(t, t->out_name);
-    snprintf(name, sizeof name, "%s", destination);
-    strcat(name, ".XXXXXX");
-    fd = mkstemp(name);
-    if (fd < 0)
-        tool_die(t, EXIT_IMPOSSIBLE, "-o %s: %s", t->out_name, strerror(errno));
-    strcpy(half_written, name);
-    if (fchmod(fd, 0666 & ~mask) != 0 || (t->out = fdopen(fd, "wb")) == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "-o %s: %s", t->out_name, strerror(errno));
+    if (ranks_speak(t)) {
+        FILE *file = whole_file_open(&output, t->out_name);
+        if (file == NULL || fclose(file) != 0)
+            tool_die(t, EXIT_IMPOSSIBLE, "-o %s: %s", t->out_name, strerror(errno));
+        snprintf(name, sizeof name, "%s", whole_file_name(&output));
+    }
+    ranks_share(t, 0, name, sizeof name);
+    if (!ranks_speak(t))
+        whole_file_share(&output, name); /* whoever is the last to live removes it */
+    t->out_share = ranks_write(t, name);
+    if ((t->writer = rc_writer_new_shared(t->out_share, 0, &err)) == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
 }
 
 void
@@ -108,20 +131,26 @@ output_open(struct tool *t)
     struct rc_err err;
     bool binary = t->writes != WRITES_TEXT;
 
+    together = t->ranks == NULL ? NULL : t;
+    snprintf(no_time, sizeof no_time,
+             "%s: ended by a signal, without time to write what was reached: see contact-mpi(7)\n",
+             t->info->name);
+    if (t->ranks != NULL && t->writes == WRITES_STREAM) {
+        demand_shared_file(t);
+        return;
+    }
     if (t->out_name == NULL) {
         if (binary && isatty(STDOUT_FILENO))
             tool_die(t, EXIT_IMPOSSIBLE,
                      "standard output is a terminal: pipe it into the next tool or give -o FILE");
         t->out = stdout;
-    } else if (stat(t->out_name, &st) == 0 && !S_ISREG(st.st_mode)) {
-        if (S_ISDIR(st.st_mode))
+    } else {
+        if (stat(t->out_name, &st) == 0 && S_ISDIR(st.st_mode))
             tool_die(t, EXIT_IMPOSSIBLE, "-o %s: this is a folder", t->out_name);
-        if ((t->out = fopen(t->out_name, "wb")) == NULL)
+        if ((t->out = whole_file_open(&output, t->out_name)) == NULL)
             tool_die(t, EXIT_IMPOSSIBLE, "-o %s: %s", t->out_name, strerror(errno));
         if (binary && isatty(fileno(t->out)))
             tool_die(t, EXIT_IMPOSSIBLE, "-o %s: this is a terminal", t->out_name);
-    } else {
-        open_temporary(t);
     }
     if (binary)
         setvbuf(t->out, NULL, _IOFBF, TOOL_BUFFER);
@@ -129,6 +158,30 @@ output_open(struct tool *t)
         pipe_widen(fileno(t->out));
     if (t->writes == WRITES_STREAM && (t->writer = rc_writer_new(t->out, &err)) == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
+}
+
+/* Numbers near the ends of what a double can be lose themselves on the way; better none than those. */
+static void
+demand_no_new(struct tool *t, const struct rc_grid *g)
+{
+    struct not_finite n;
+
+    if (t->missing && t->infinite)
+        return;
+    n = not_finite(g);
+    if (n.infinite > 0 && !t->infinite)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                    "%zu of %zu values of %s came out larger than %s can hold: are the units of "
+                    "heights, spacings, loads and moduli right?%s",
+                    n.infinite, g->nx * g->ny, g->channel,
+                    g->type == RC_F32 ? "single precision" : "a number",
+                    g->type == RC_F32 ? " --type f64 holds more" : "");
+    if (n.missing > 0 && !t->missing)
+        tool_die_at(
+            t, g, EXIT_IMPOSSIBLE,
+            "%zu of %zu values of %s came out undefined, of numbers too large or too small: "
+            "are the units of heights, spacings, loads and moduli right?",
+            n.missing, g->nx * g->ny, g->channel);
 }
 
 void
@@ -139,8 +192,11 @@ tool_write(struct tool *t, struct rc_grid *g)
 
     if (t->report_alone)
         return;
+    if (t->ranks != NULL && t->writer == NULL)
+        open_shared(t);
     if (t->type_given)
         g->type = t->type;
+    demand_no_new(t, g);
     t->began = true;
     if (rc_writer_put(t->writer, g, &err) != RC_OK)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
@@ -153,16 +209,26 @@ output_end(struct tool *t)
     const char *name = t->out_name == NULL ? "standard output" : t->out_name;
     struct rc_err err;
 
+    if (t->ranks != NULL && t->writes == WRITES_STREAM && t->writer == NULL)
+        open_shared(t); /* of no frame */
     if (t->writer != NULL && rc_writer_end(t->writer, &err) != RC_OK)
         tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", name, err.text);
     t->ended = true; /* an end line is out: nothing may follow it */
     rc_writer_free(t->writer);
     t->writer = NULL;
-    if (fflush(t->out) != 0 || ferror(t->out) || fclose(t->out) != 0)
+    if (ranks_settle(t->out_share, &err) != RC_OK)
+        tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", name, err.text);
+    ranks_close(t, t->out_share);
+    t->out_share = NULL;
+    if (!ranks_speak(t))
+        whole_file_share(&output, ""); /* the first one puts it in its place */
+    if (!whole_file_put(&output, t->out))
         tool_die(t, EXIT_IMPOSSIBLE, "%s: writing failed (%s)", name, strerror(errno));
-    if (half_written[0] != '\0' && rename(half_written, destination) != 0)
-        tool_die(t, EXIT_IMPOSSIBLE, "-o %s: %s", t->out_name, strerror(errno));
-    half_written[0] = '\0';
+}
+
+void
+output_end_by_signal(void)
+{
     if (interrupted != 0)
         end_by(interrupted);
 }
@@ -174,7 +240,9 @@ stream_to_fail(const struct tool *t)
 {
     bool before = interrupted == 0;
 
-    if (half_written[0] != '\0' || t->ended)
+    if (t->ranks != NULL)
+        return NULL;
+    if (whole_file_is_half(&output) || t->ended)
         return NULL;
     if (t->out == NULL) /* the command line is being read */
         return t->stream_expected && before && pipe_is(STDOUT_FILENO) ? stdout : NULL;
@@ -190,9 +258,7 @@ output_abandon(struct tool *t, const char *why, int exit_status)
         signal(SIGPIPE, SIG_IGN); /* a reader that has gone does not change the exit status */
         rc_stream_fail(stream, why, exit_status);
     }
-    if (half_written[0] != '\0')
-        unlink(half_written);
-    half_written[0] = '\0';
+    whole_files_remove();
     if (interrupted != 0)
         end_by(interrupted); /* the signal broke off a read or a write: it is the reason */
 }

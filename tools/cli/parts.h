@@ -22,11 +22,18 @@ bool completions_print(const struct tool *tool, const char *shell);
 /* Reads the command line into tool->args and the options of every tool. */
 void options_read(struct tool *tool, int argc, char **argv);
 
+/* How many values are NaN, and how many infinite, or would be in the frame's type. */
+struct not_finite {
+    size_t missing, infinite;
+} not_finite(const struct rc_grid *grid);
+
 /* SIGINT, SIGTERM and SIGHUP remove what is half-written and end the tool. */
 void output_handle_signals(void);
 void output_open(struct tool *tool);
-/* Ends the stream, closes, puts the file in place. Where a signal has come, ends by it. */
+/* Ends the stream, closes, puts the file in place. */
 void output_end(struct tool *tool);
+/* Where a signal has come, ends by it. */
+void output_end_by_signal(void);
 /* The tool cannot go on: says so in a stream that has begun, in a pipe also before it has, and
  * removes what is half-written. */
 void output_abandon(struct tool *tool, const char *why, int exit_status);

@@ -5,7 +5,8 @@
 #include <string.h>
 
 #include "coating.h"
-#include "shown.h"
+#include "tools/text/text.h"
+#include "ranks.h"
 
 /* ---- the command line ---- */
 
@@ -150,15 +151,17 @@ static void
 add_sphere(struct tool *t, const struct physics *a, struct rc_grid *g)
 {
     struct rc_shape along = {g->nx, 1, g->dx, g->dy}, across = {1, g->ny, g->dx, g->dy};
-    double *row = malloc((g->nx + g->ny) * sizeof *row), *column = row + g->nx;
+    double *row = malloc((g->nx + g->ny) * sizeof *row), *column;
+    size_t first = tool_first_row(t, g);
 
     if (row == NULL)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "out of memory");
+    column = row + g->nx;
     rc_synth_sphere(&along, a->radius, row); /* a parabola is the sum of two */
     rc_synth_sphere(&across, a->radius, column);
-    for (size_t j = 0; j < g->ny; j++)
+    for (size_t j = 0; j < g->ny - g->elsewhere; j++)
         for (size_t i = 0; i < g->nx; i++)
-            g->v[j * g->nx + i] += row[i] + column[j];
+            g->v[j * g->nx + i] += row[i] + column[first + j];
     free(row);
 }
 
@@ -192,7 +195,7 @@ warn_of_seam(struct tool *t, const struct rc_grid *g)
     struct rc_seam seam;
     char where[256], jump[SHOWN_NUMBER];
 
-    rc_measure_seam(&shape, g->v, &seam);
+    rc_measure_seam_on(ranks_of(t), &shape, g->v, &seam);
     for (int side = 0; side < 2; side++)
         if (seam.across[side] > 3 * seam.inside[side])
             tool_warn(
@@ -254,9 +257,9 @@ physics_heights(struct tool *t, const struct physics *a, struct rc_grid *g)
                     g->unit);
     if (!isnan(a->radius))
         add_form(t, a, g);
-    for (size_t k = 0; k < g->nx * g->ny; k++)
+    for (size_t k = 0; k < rc_grid_nodes(g); k++)
         zero += 0 * g->v[k];
-    if (isnan(zero)) /* the slow way finds the first */
+    if (ranks_most(t, isnan(zero)) > 0) /* the slow way finds the first */
         tool_demand_finite(t, g, "fill them with rc-detrend --fill");
     check_profile(t, a, g);
     warn(t, a, g);

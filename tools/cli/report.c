@@ -7,6 +7,8 @@
 #include <string.h>
 #include <strings.h>
 
+#include "ranks.h"
+
 /* ---- the file ---- */
 
 static bool
@@ -118,7 +120,9 @@ report_begin(struct report *r)
     if (r->name == NULL)
         return;
     if (r->file == NULL)
-        r->file = is_standard_output(r->name) ? stdout : fopen(r->name, "w");
+        r->file = is_standard_output(r->name)
+                      ? stdout
+                      : fopen(ranks_speak(r->tool) ? r->name : "/dev/null", "w");
     if (r->file == NULL)
         tool_die(r->tool, EXIT_IMPOSSIBLE, "--report %s: %s", r->name, strerror(errno));
     if (!r->table)
@@ -240,4 +244,20 @@ report_finish_row(struct report *r)
         json_close(&r->json);
     if (ferror(r->file))
         failed(r);
+}
+
+void
+report_ranks(struct report *r, const struct tool *t)
+{
+    struct rc_sent sent;
+
+    ranks_sent(t, &sent); /* all together, wanted or not */
+    if (r->name == NULL || t->ranks == NULL)
+        return;
+    report_count(r, "ranks", ranks_count(t), NULL);
+    report_count(r, "exchanges", sent.exchanges, NULL);
+    report_number(r, "messages", sent.messages, NULL);
+    report_number(r, "bytes_exchanged", sent.bytes, "B");
+    report_number(r, "other_bytes", sent.other_bytes, "B");
+    report_number(r, "exchange_seconds", sent.seconds, "s");
 }

@@ -12,7 +12,7 @@
 #include <stddef.h>
 #include <stdio.h>
 
-#include "json.h"
+#include "tools/text/text.h"
 #include "tool.h"
 
 enum {
@@ -56,6 +56,8 @@ void report_array(struct report *report, const char *name);
 void report_end(struct report *report);
 /* Instead of an object that is unknown. */
 void report_no_object(struct report *report, const char *name);
+/* What several processes that share the maps have sent to each other so far; nothing where there is one. */
+void report_ranks(struct report *report, const struct tool *tool);
 /* Writes the row; ends the tool when that fails. */
 void report_finish_row(struct report *report);
 

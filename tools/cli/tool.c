@@ -7,13 +7,14 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
 #include "libcontact/contact.h"
+#include "tools/machine/machine.h"
 #include "parts.h"
+#include "ranks.h"
 
 /* ---- start and finish ---- */
 
@@ -46,6 +47,9 @@ void
 tool_start(struct tool *t, const struct tool_info *info, int argc, char **argv, void *args)
 {
     *t = (struct tool){.info = info, .args = args, .writes = info->writes};
+    memory_keep_maps_apart();
+    if (info->shares)
+        ranks_start(t);
     options_read(t, argc, argv);
     if (t->threads == 0)
         t->threads = threads_wanted(t);
@@ -72,11 +76,22 @@ tool_fails_with(struct tool *t, int status)
         t->exit_status = status;
 }
 
+static double
+mebibytes(size_t bytes)
+{
+    return (double)bytes / (1 << 20);
+}
+
 int
 tool_finish(struct tool *t)
 {
     tool_progress_end(t);
     output_end(t);
+    ranks_end(t);
+    output_end_by_signal();
+    if (t->expected_memory > 0)
+        tool_note(t, "memory: %.1f MiB expected, %.1f MiB taken", mebibytes(t->expected_memory),
+                  mebibytes(memory_peak() + t->beside_memory));
     return t->exit_status;
 }
 
@@ -103,29 +118,6 @@ tool_demand_writable(struct tool *t, const char *option, const char *name)
         tool_die(t, EXIT_IMPOSSIBLE, "%s %s: %s", option, name, strerror(errno));
 }
 
-/* In the largest unit of which there is at least one. */
-static const char *
-size_text(char text[32], size_t bytes)
-{
-    if (bytes < 1 << 10)
-        snprintf(text, 32, "%zu bytes", bytes);
-    else if (bytes < 1 << 20)
-        snprintf(text, 32, "%zu KiB", bytes >> 10);
-    else
-        snprintf(text, 32, "%zu MiB", bytes >> 20);
-    return text;
-}
-
-void
-tool_demand_memory(struct tool *t, const struct rc_grid *g, size_t bytes)
-{
-    char allowed[32];
-
-    if (t->memory != 0 && bytes > t->memory)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%zu x %zu nodes need about %zu MiB, --memory allows %s",
-                    g->nx, g->ny, (bytes >> 20) + 1, size_text(allowed, t->memory));
-}
-
 /* ---- what the work took ---- */
 
 double
@@ -140,8 +132,5 @@ tool_now(void)
 size_t
 tool_peak_memory(void)
 {
-    struct rusage usage;
-
-    getrusage(RUSAGE_SELF, &usage);
-    return (size_t)usage.ru_maxrss * 1024;
+    return memory_peak();
 }

@@ -23,7 +23,7 @@
 
 #include "formats/rcg/rcg.h"
 #include "libcontact/grid.h"
-#include "units.h"
+#include "tools/text/text.h"
 
 enum {
     EXIT_IMPOSSIBLE = 1, /* bad data, I/O, impossible request             */
@@ -115,6 +115,7 @@ struct tool_info {
     const char *(*foreign)(const char *head);
     /* NULL, or called between the options and the output: may change tool->writes. */
     void (*settle)(struct tool *tool);
+    bool shares; /* under mpirun its processes share the maps */
 };
 
 struct tool {
@@ -123,9 +124,15 @@ struct tool {
     /* the options of every tool */
     size_t threads; /* at least 1                                                          */
     size_t memory;  /* bytes; 0: no limit                                                  */
+    size_t expected_memory; /* bytes: the most of the estimates made so far                */
+    size_t beside_memory;   /* bytes: the most that a process started by this one held of its own */
+    size_t unseen_memory;   /* bytes asked for since the machine was last looked at        */
+    size_t code_memory;     /* bytes: the most of tool_code_there                          */
     bool quiet, verbose, progress;
     enum tool_writes writes; /* info->writes, or text where an option asks for it          */
     const char *out_name;    /* NULL: standard output                                         */
+    struct ranks *ranks;     /* the processes that share the maps; NULL: alone. See ranks.h    */
+    const struct rc_share *in_share, *out_share; /* then: this one's part in the files          */
     /* streams */
     char **operand;
     size_t operands, next_operand;
@@ -133,6 +140,7 @@ struct tool {
     FILE *in, *out;
     struct rc_reader *reader;
     struct rc_writer *writer;
+    bool missing, infinite;  /* NaN, infinity has come in, or is rightly made: it may go out */
     size_t last_case, frame; /* frame: place in the current source, from 1                 */
     struct {                 /* the case that tool_channel is in; number 0: none yet       */
         size_t number, found;
@@ -173,6 +181,8 @@ struct rc_grid *tool_read(struct tool *tool);
  * (`pass`) or dropped. A case that has none of it, or several, ends the tool; with `pass` so does one
  * that holds results beside a height, see results.h. NULL at the end. */
 struct rc_grid *tool_channel(struct tool *tool, const char *channel, bool pass);
+/* First of the rows of a map that this process holds: 0 when it holds all. */
+size_t tool_first_row(const struct tool *tool, const struct rc_grid *grid);
 /* Writes a frame, in --type when that was given; not where a report stands for the stream. */
 void tool_write(struct tool *tool, struct rc_grid *grid);
 /* Ends the stream, closes, puts the file in place; the exit status of main. */
@@ -196,8 +206,9 @@ void tool_progress(struct tool *tool, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 void tool_progress_end(struct tool *tool);
 
-/* Ctrl-C and SIGTERM remove what is half-written and end the tool; after this call the first one
- * only sets what tool_interrupted gives (the signal's number), and tool_finish ends by it. */
+/* Ctrl-C and SIGTERM remove what is half-written and end the tool; after this call the first one only
+ * sets what tool_interrupted gives (the signal's number), and tool_finish ends by it. Processes that
+ * share maps ask together. */
 void tool_catch_signals(void);
 int tool_interrupted(void);
 
@@ -211,8 +222,33 @@ void tool_demand_finite(struct tool *tool, const struct rc_grid *grid, const cha
 /* Ends the tool when the file that an option names (NULL: none) cannot be written: said before the
  * work, not after it. */
 void tool_demand_writable(struct tool *tool, const char *option, const char *name);
-/* Ends the tool when `bytes` are more than --memory allows. */
+enum {
+    TOOL_TRANSFORMS = 9 << 18 /* bytes of code and plans of Fourier transforms in one precision */
+};
+/* What is still to come of code and plans of so many bytes, which stay in memory once work has brought
+ * them: less for the next frame, or the next step of a history, than for the first. */
+size_t tool_code(const struct tool *tool, size_t bytes);
+/* That work has begun: they are there. */
+void tool_code_there(struct tool *tool, size_t bytes);
+/* Before work on a map that will take `bytes` beside what the tool holds by now: ends the tool when
+ * both together are more than --memory allows, or `bytes` more than the machine has. */
 void tool_demand_memory(struct tool *tool, const struct rc_grid *grid, size_t bytes);
+/* The same, with what the user could do about it instead of taking a smaller map; NULL: nothing. */
+void tool_demand_memory_or(struct tool *tool, const struct rc_grid *grid, size_t bytes,
+                           const char *remedy);
+/* The same before the map is there, or of curves (shape NULL); RC_FAIL when it is too much, and *err says
+ * so. */
+enum rc_status tool_ask_memory(struct tool *tool, const struct rc_shape *shape, size_t bytes,
+                               const char *remedy, struct rc_err *err);
+/* A remedy for tool_demand_memory_or: the first engine that is not slow, asked for as `bytes` of it says,
+ * fits; NULL: none does. Valid until the next call. */
+const char *tool_leaner_engine(const struct tool *tool, bool periodic,
+                               size_t (*bytes)(const void *ctx, const char *engine),
+                               const void *ctx);
+/* Bytes that may still be taken; SIZE_MAX: nothing is known to bound them. */
+size_t tool_memory_left(const struct tool *tool);
+/* What the tool will have held at most once it has taken `bytes` more. */
+size_t tool_memory_with(size_t bytes);
 
 /* Seconds on a clock that only goes forwards. */
 double tool_now(void);

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "name_list.h"
+#include "tools/text/text.h"
 
 struct seen {
     char *channel;
@@ -77,13 +77,18 @@ is_wanted(const struct wanted *w, const struct seen *s)
 
 /* ---- frame by frame ---- */
 
+static bool
+anything_goes(const struct wanted *w)
+{
+    return w->channel == NULL && w->depth.n == 0 && w->number.n == 0;
+}
+
 void
 wanted_check(const struct wanted *w, struct tool *t)
 {
-    const char *name;
     size_t n;
 
-    for (size_t k = 0; (name = name_at(w->channel, k, &n)) != NULL; k++)
+    for (size_t k = 0; name_at(w->channel, k, &n) != NULL; k++)
         if (n == 0)
             tool_die(t, EXIT_USAGE, "--channel '%s': a name is empty", w->channel);
     for (size_t k = 0; k < w->number.n; k++)
@@ -96,6 +101,9 @@ wanted_frame(struct wanted *w, struct tool *t, const struct rc_grid *g)
 {
     struct seen *s = w->seen;
 
+    if (w->n > 0 &&
+        anything_goes(w)) /* nothing will have to be named: the first tells that there is one */
+        return true;
     if (w->n == w->capacity) {
         w->capacity = w->capacity == 0 ? 64 : 2 * w->capacity;
         if ((s = realloc(w->seen, w->capacity * sizeof *s)) == NULL)

@@ -147,6 +147,10 @@ bool cost_again(size_t runs, double seconds);
 /* Runs what fits into the limit, the quickest first, and what is short several times. */
 void cost_run_trials(struct cost_case *c);
 
+enum {
+    COST_BODY = 48
+};
+
 /* ---- what was measured: front.c, command.c, table.c, report.c, plot.c ---- */
 
 /* Sets `front` and `optimistic` of all trials. */
@@ -154,6 +158,8 @@ void cost_mark(struct cost_case *c);
 /* The one command line for a time or an accuracy; ends the tool where there is none. */
 void cost_command(const struct cost_case *c, FILE *out);
 void cost_table(const struct cost_case *c, FILE *out);
+/* "2 layers" after `between`; nothing of one material. */
+const char *cost_body(const struct cost_case *c, const char *between, char text[COST_BODY]);
 void cost_report(const struct cost_case *c, struct report *out);
 /* Error against time as a PNG, SVG or PDF (`ending`: "png", ...) in memory, which the caller
  * frees. */

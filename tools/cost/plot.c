@@ -55,12 +55,12 @@ static void
 describe(const struct cost_case *c, struct drawing *d)
 {
     const char *source = rc_grid_get(c->heights, "source");
-    char text[TICKS_TEXT];
+    char text[TICKS_TEXT], body[COST_BODY];
 
     snprintf(d->subtitle, sizeof d->subtitle,
-             "%.60s%s%zu × %zu nodes, %s · %s %s · %.3g %% contact · %zu threads",
+             "%.60s%s%zu × %zu nodes, %s%s · %s %s · %.3g %% contact · %zu threads",
              source == NULL ? "" : source, source == NULL ? "" : " · ", c->shape.nx, c->shape.ny,
-             c->problem.boundary == RC_FREE ? "free" : "periodic",
+             c->problem.boundary == RC_FREE ? "free" : "periodic", cost_body(c, " · ", body),
              c->problem.approach > 0 ? "approach" : "load",
              c->problem.approach > 0 ? scale_value(text, c->problem.approach, "m")
                                      : scale_value(text, c->problem.load, "N"),

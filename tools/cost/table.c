@@ -14,17 +14,28 @@ put_load(const struct cost_case *c, FILE *out)
         fprintf(out, "load %s N", rc_number_text(text, c->problem.load));
 }
 
+const char *
+cost_body(const struct cost_case *c, const char *between, char text[COST_BODY])
+{
+    size_t n = c->problem.coating == NULL ? 0 : c->problem.coating->layers;
+
+    text[0] = '\0';
+    if (n > 0)
+        snprintf(text, COST_BODY, "%s%zu layer%s", between, n, n == 1 ? "" : "s");
+    return text;
+}
+
 static void
 put_head(const struct cost_case *c, FILE *out)
 {
     const struct cost_trial *r = &c->reference;
-    char where[256];
+    char where[256], body[COST_BODY];
 
     fprintf(out, "# %s: %zu x %zu nodes, %s, ",
             tool_where(c->tool, c->heights, where, sizeof where), c->shape.nx, c->shape.ny,
             c->problem.boundary == RC_FREE ? "free" : "periodic");
     put_load(c, out);
-    fprintf(out, ", %zu threads\n", c->tool->threads);
+    fprintf(out, "%s, %zu threads\n", cost_body(c, ", ", body), c->tool->threads);
     fprintf(out,
             "# reference: %s, %s in %s precision, estimated error %.1e (asked %.0e), %zu steps, "
             "%.3g s: "

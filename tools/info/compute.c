@@ -65,12 +65,6 @@ room(struct tool *t, size_t n, size_t size)
     return p;
 }
 
-static size_t
-bytes_of(const struct rc_grid *g)
-{
-    return g->nx * g->ny * sizeof *g->v;
-}
-
 static void
 find_areal(struct tool *t, const struct rc_grid *g, struct info_figures *f)
 {
@@ -78,7 +72,8 @@ find_areal(struct tool *t, const struct rc_grid *g, struct info_figures *f)
     const struct rc_shape shape = rc_grid_shape(g);
     struct rc_err err;
 
-    tool_demand_memory(t, g, bytes_of(g) + rc_areal_memory(&shape, &options));
+    tool_demand_memory(t, g, rc_areal_memory(&shape, &options) + tool_code(t, TOOL_TRANSFORMS));
+    tool_code_there(t, TOOL_TRANSFORMS);
     f->areal = room(t, 1, sizeof *f->areal);
     if (rc_areal(&shape, g->v, &options, f->areal, &err) != RC_OK)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
@@ -119,7 +114,9 @@ find_psd(struct info_wanted *w, struct tool *t, const struct rc_grid *g, struct 
     struct rc_err err;
 
     tool_demand_finite(t, g, "fill them first, with rc-detrend --fill");
-    tool_demand_memory(t, g, (w->file != NULL ? 2 : 1) * bytes_of(g) + rc_psd_memory(&shape));
+    /* a map of it is drawn when the transform, which took as much, has given its memory back */
+    tool_demand_memory(t, g, rc_psd_memory(&shape) + tool_code(t, TOOL_TRANSFORMS));
+    tool_code_there(t, TOOL_TRANSFORMS);
     if (w->fit.n == 2) {
         options.shortest = w->fit.v[0];
         options.longest = w->fit.v[1];
@@ -166,6 +163,7 @@ find_patches(struct tool *t, const struct rc_grid *g, struct info_figures *f)
     struct rc_err err;
 
     tool_demand_finite(t, g, "solve the contact again");
+    tool_demand_memory(t, g, rc_patches_memory(&shape, g->v));
     f->patches = room(t, 1, sizeof *f->patches);
     if (rc_patches_find(&shape, g->v, &options, f->patches, &err) != RC_OK)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);

@@ -1,60 +1,22 @@
 #include "info.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-enum {
-    PATH_SIZE = 4096
-};
 
 struct info_file {
     struct tool *tool;
     const char *option, *name;
     FILE *file;
+    struct whole_file whole;
     struct rc_writer *writer;
 };
-
-/* Where it is under construction: a tool that ends on the way has to find it. */
-static char half_written[PATH_SIZE];
-
-static void
-remove_half_written(void)
-{
-    if (half_written[0] != '\0')
-        unlink(half_written);
-}
 
 static _Noreturn void
 failed(struct info_file *f)
 {
     tool_die(f->tool, EXIT_IMPOSSIBLE, "%s %s: %s", f->option, f->name, strerror(errno));
-}
-
-/* A device or a FIFO is written directly; so that of the file itself, or of one beside it. */
-static FILE *
-open_file(struct info_file *f)
-{
-    struct stat st;
-    mode_t mask = umask(0);
-    int fd;
-
-    umask(mask);
-    if (stat(f->name, &st) == 0 && !S_ISREG(st.st_mode))
-        return fopen(f->name, "wb");
-    if (strlen(f->name) >= PATH_SIZE - 8) {
-        errno = ENAMETOOLONG;
-        return NULL;
-    }
-    snprintf(half_written, sizeof half_written, "%s.XXXXXX", f->name);
-    if ((fd = mkstemp(half_written)) < 0) {
-        half_written[0] = '\0';
-        return NULL;
-    }
-    atexit(remove_half_written);
-    return fchmod(fd, 0666 & ~mask) == 0 ? fdopen(fd, "wb") : NULL;
 }
 
 struct info_file *
@@ -69,7 +31,7 @@ info_file_new(struct tool *t, const char *option, const char *name)
     if (strcmp(name, "-") == 0)
         tool_die(t, EXIT_USAGE, "%s -: standard output is for the figures: name a file", option);
     tool_demand_writable(t, option, name);
-    if ((f->file = open_file(f)) == NULL)
+    if ((f->file = whole_file_open(&f->whole, name)) == NULL)
         failed(f);
     if ((f->writer = rc_writer_new(f->file, &err)) == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
@@ -81,6 +43,13 @@ info_file_put(struct info_file *f, const struct rc_grid *g)
 {
     struct rc_err err;
 
+    for (size_t k = 0; k < g->nx * g->ny; k++)
+        if (!isfinite(g->v[k]))
+            tool_die_at(
+                f->tool, g, EXIT_IMPOSSIBLE,
+                "%s: powers came out larger than a number can hold: are the units of heights "
+                "and spacings right?",
+                f->option);
     if (rc_writer_put(f->writer, g, &err) != RC_OK)
         tool_die_at(f->tool, g, EXIT_IMPOSSIBLE, "%s %s: %s", f->option, f->name, err.text);
 }
@@ -93,10 +62,7 @@ info_file_end(struct info_file *f)
     if (rc_writer_end(f->writer, &err) != RC_OK)
         tool_die(f->tool, EXIT_IMPOSSIBLE, "%s %s: %s", f->option, f->name, err.text);
     rc_writer_free(f->writer);
-    if (fclose(f->file) != 0)
+    if (!whole_file_put(&f->whole, f->file))
         failed(f);
-    if (half_written[0] != '\0' && rename(half_written, f->name) != 0)
-        failed(f);
-    half_written[0] = '\0';
     free(f);
 }

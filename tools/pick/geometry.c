@@ -141,7 +141,7 @@ new_map(struct tool *t, const struct rc_grid *g, const struct rc_shape *shape, s
         return RC_FAIL;
     if (bytes > SIZE_MAX / 2)
         return rc_err_set(err, "%zu nodes are more than this machine can address", nodes);
-    tool_demand_memory(t, g, bytes + g->nx * g->ny * sizeof *g->v);
+    tool_demand_memory(t, g, bytes);
     *to = rc_grid_new(shape, g->channel, g->unit, err);
     return *to == NULL ? RC_FAIL : RC_OK;
 }
@@ -228,10 +228,10 @@ static enum rc_status
 crop(struct tool *t, struct rc_grid *g, const struct request *r, struct rc_err *err)
 {
     struct rc_shape from = rc_grid_shape(g), to = from;
-    size_t left = (size_t)r->v[0], top = (size_t)r->v[1];
+    size_t left = unit_size(r->v[0]), top = unit_size(r->v[1]);
 
-    to.nx = (size_t)r->v[2];
-    to.ny = (size_t)r->v[3];
+    to.nx = unit_size(r->v[2]);
+    to.ny = unit_size(r->v[3]);
     if (r->lengths &&
         (nodes_between(r->v[0], r->v[2], from.nx, from.dx, &left, &to.nx, err) != RC_OK ||
          nodes_between(r->v[1], r->v[3], from.ny, from.dy, &top, &to.ny, err) != RC_OK))
@@ -253,8 +253,8 @@ new_shape(const struct rc_shape *from, const struct request *r, struct rc_shape 
 {
     if (r->lengths)
         return rc_resample_shape(from, r->v[0], r->v[1], to, err);
-    *to = (struct rc_shape){.nx = (size_t)r->v[0],
-                            .ny = (size_t)r->v[1],
+    *to = (struct rc_shape){.nx = unit_size(r->v[0]),
+                            .ny = unit_size(r->v[1]),
                             .dx = from->dx * ((double)from->nx / r->v[0]),
                             .dy = from->dy * ((double)from->ny / r->v[1])};
     if (from->ny == 1 && to->ny == 1 && from->dy == from->dx)

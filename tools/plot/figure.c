@@ -551,6 +551,7 @@ draw(struct page *p, struct rc_err *err)
     } else {
         if (draw_map(p, err) != RC_OK)
             return RC_FAIL;
+        media_draw(p);
         if (p->f->circle != NULL)
             draw_circle(p);
         if (p->f->largest != NULL)
@@ -562,6 +563,84 @@ draw(struct page *p, struct rc_err *err)
     draw_marks_across(p, &p->across, x, y + h, w);
     draw_legend(p);
     return canvas_check(p->c, err);
+}
+
+/* Nodes beside which the contact ends, on their right or below. */
+static size_t
+count_edges(const struct rc_grid *g)
+{
+    size_t n = 0;
+
+    for (size_t j = 0; j < g->ny; j++)
+        for (size_t i = 0; i < g->nx; i++) {
+            size_t k = j * g->nx + i;
+            n += i + 1 < g->nx && (g->v[k] > 0) != (g->v[k + 1] > 0);
+            n += j + 1 < g->ny && (g->v[k] > 0) != (g->v[k + g->nx] > 0);
+        }
+    return n;
+}
+
+enum {
+    PAINTED = 4 /* bytes of a pixel of an image, as cairo takes it */
+};
+
+struct page_bytes
+page_map_bytes(const struct page *p)
+{
+    enum {
+        RASTER = 14, /* bytes of a pixel: its mean, its colour twice    */
+        SHADE = 12,  /* of a node, reduced to no finer than pixels        */
+        COLOUR = 3,  /* of a pixel                                      */
+        /* seen of rough contacts: pieces of lines at all levels, as path and item, with their pointers */
+        EDGE = sizeof(void *) > 4 ? 650 : 500
+    };
+    const struct figure *f = p->f;
+    size_t plot = p->plot_w * p->plot_h, nodes = p->g->nx * p->g->ny, raster = plot, edges;
+    struct page_bytes bytes;
+
+    if (f->vector && f->missing == 0)
+        raster = (p->g->nx < IMAGE_MOST ? p->g->nx : IMAGE_MOST) *
+                 (p->g->ny < IMAGE_MOST ? p->g->ny : IMAGE_MOST);
+    edges = f->contour && f->pressure != NULL ? EDGE * count_edges(f->pressure) : 0;
+    bytes.drawn = RASTER * raster + edges;
+    if (f->hillshade)
+        bytes.drawn += SHADE * (nodes < plot ? nodes : plot);
+    bytes.kept = COLOUR * raster + edges;
+    bytes.painted = PAINTED * raster;
+    return bytes;
+}
+
+size_t
+page_pixel_bytes(const struct page *p)
+{
+    return p->f->vector ? 0 : PAINTED * p->w * p->h;
+}
+
+/* First the map is reduced to means and coloured, then, of pixels, all is painted on the page. */
+static size_t
+memory_of(const struct page *p)
+{
+    struct page_bytes map;
+    size_t then;
+
+    if (p->curve)
+        return page_pixel_bytes(p);
+    map = page_map_bytes(p);
+    then = p->f->vector ? 0 : page_pixel_bytes(p) + map.kept + map.painted;
+    return map.drawn > then ? map.drawn : then;
+}
+
+enum rc_status
+figure_memory(const struct figure *f, const struct rc_grid *g, size_t *bytes, struct rc_err *err)
+{
+    struct page page = {.f = f, .g = g, .curve = !f->section && (g->nx == 1) != (g->ny == 1)};
+
+    if ((page.c = page_canvas(&page, 1, 1, err)) == NULL)
+        return RC_FAIL;
+    page_lay_out(&page);
+    canvas_free(page.c);
+    *bytes = memory_of(&page);
+    return RC_OK;
 }
 
 struct canvas *
@@ -592,6 +671,7 @@ page_map(struct page *p, bool left, bool below, struct rc_err *err)
 
     if (draw_map(p, err) != RC_OK)
         return RC_FAIL;
+    media_draw(p);
     canvas_frame(p->c, x, y, w, h, fmax(1, round(1.2 * p->u)), page_ink);
     if (left)
         draw_marks_upright(p, &p->down, x, y, h, true, true);

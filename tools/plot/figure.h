@@ -20,6 +20,12 @@ enum {
     FIGURE_WIDE = 16000, /* bounds of a width that is asked for, pixels                  */
 };
 
+/* What lies between two depths of a section. */
+struct medium {
+    double bottom; /* m; INFINITY: the last */
+    char text[96]; /* of the legend         */
+};
+
 struct figure {
     const char *title;         /* large, over everything                                */
     const char *subtitle;      /* under it; lines break at " · "                        */
@@ -32,6 +38,8 @@ struct figure {
     bool section;              /* y is depth: its axis has a unit of its own            */
     const char *largest;       /* a cross at (x, y), and this in the legend; NULL: none */
     double largest_x, largest_y;
+    struct medium *medium; /* of a section, the top first, with lines between them; NULL: one */
+    size_t media;
     const char *circle;             /* dashes about the origin, and this in the legend; NULL */
     double radius;                  /* metres                                                */
     const struct rc_grid *pressure; /* on the same grid: `contour` has its contact; NULL   */
@@ -53,12 +61,16 @@ struct figure {
     double dpi;         /* of them an inch: text has its size on paper then;
                                    0: as many as give the marks FIGURE_POINTS           */
     bool vector;        /* for a PDF or SVG: the map keeps its own resolution    */
+    bool paper;         /* of these a PDF */
     const char *family; /* of the text; NULL: sans                               */
 };
 
 /* The colour of a value. */
 struct rgb figure_colour(const struct figure *figure, double value);
 
+/* Bytes that drawing takes beside the map, once lettering is in memory, which this call brings there. */
+enum rc_status figure_memory(const struct figure *figure, const struct rc_grid *grid, size_t *bytes,
+                             struct rc_err *err);
 /* The grid holds values, nx and ny; *figure says where they lie. NULL when memory is short. */
 struct canvas *figure_draw(const struct figure *figure, const struct rc_grid *grid,
                            struct rc_err *err);

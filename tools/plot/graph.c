@@ -463,6 +463,21 @@ draw_rules(struct graph_page *p)
                         1.2 * p->u, rule);
 }
 
+/* Where an axis of depths leaves a medium, for one. */
+static void
+draw_uprights(struct graph_page *p)
+{
+    for (size_t k = 0; k < p->g->uprights; k++) {
+        double at = place(&p->x, p->g->upright[k]);
+
+        if (!(at >= 0 && at <= 1))
+            continue;
+        canvas_move(p->c, p->left + at * p->w, p->top);
+        canvas_draw_to(p->c, p->left + at * p->w, p->top + p->h);
+    }
+    canvas_dashes(p->c, 1.4 * p->u, 5 * p->u, page_faint);
+}
+
 /* ---- legend ---- */
 
 static void
@@ -524,9 +539,11 @@ legend(struct graph_page *p, double y, bool draw)
                  "%s%zu %s at or below 0 cannot be on a logarithmic axis", *text ? " · " : "",
                  p->lost, p->lost == 1 ? "point" : "points");
     page_wrap(&p->page, &faint, p->w, " · ", text, &note);
-    for (size_t k = 0; k < note.n; k++, y += line)
+    for (size_t k = 0; k < note.n; k++) {
         if (draw)
             canvas_text(p->c, &faint, p->left, y + 0.5 * line + 0.36 * faint.size, 0, note.line[k]);
+        y += line;
+    }
     return y - from;
 }
 
@@ -568,6 +585,7 @@ draw(struct graph_page *p)
     page_heading(&p->page);
     draw_rules(p);
     canvas_clip(p->c, p->left, p->top, p->w, p->h);
+    draw_uprights(p);
     for (size_t s = 0; s < p->g->n; s++)
         draw_series(p, &p->g->series[s]);
     canvas_clip(p->c, 0, 0, 0, 0);
@@ -579,12 +597,11 @@ draw(struct graph_page *p)
     legend(p, p->top + p->h + page_marks(&p->page) + 14 * p->u, true);
 }
 
-struct canvas *
-graph_draw(const struct graph *g, struct rc_err *err)
+/* Laid out, its height in page.h; NULL when memory is short or an axis has no point. */
+static struct graph_page *
+graph_page_new(const struct graph *g, struct rc_err *err)
 {
-    double height;
     struct graph_page *p = calloc(1, sizeof *p);
-    struct canvas *drawn = NULL;
 
     if (p == NULL) {
         rc_err_set(err, "out of memory for a figure");
@@ -601,13 +618,52 @@ graph_draw(const struct graph *g, struct rc_err *err)
     page_size(&p->page, GRAPH_WIDTH);
     p->u = p->page.u;
     if (set_range(&p->x, g, false, err) != RC_OK || set_range(&p->y, g, true, err) != RC_OK)
-        goto done;
+        goto fail;
     count_lost(p);
     if ((p->c = p->page.c = page_canvas(&p->page, 1, 1, err)) == NULL) /* to measure text on */
-        goto done;
-    height = lay_out(p);
+        goto fail;
+    p->page.h = (size_t)ceil(lay_out(p));
     canvas_free(p->c);
-    if ((p->c = p->page.c = page_canvas(&p->page, p->page.w, (size_t)ceil(height), err)) == NULL)
+    return p;
+fail:
+    free(p);
+    return NULL;
+}
+
+/* Points are a path, then an item of it, then what the page is painted with. */
+enum rc_status
+graph_memory(const struct graph *g, size_t *bytes, struct rc_err *err)
+{
+    enum {
+        PIXEL = 4,  /* bytes of a pixel of the page              */
+        POINT = 24, /* of an item's point                        */
+        PATH = 194  /* more of the longest curve's, as pixels: seen of one with short steps */
+    };
+    struct graph_page *p = graph_page_new(g, err);
+    size_t longest = 0, points = 0;
+
+    if (p == NULL)
+        return RC_FAIL;
+    for (size_t s = 0; s < g->n; s++) {
+        points += g->series[s].n;
+        longest = g->series[s].n > longest ? g->series[s].n : longest;
+    }
+    *bytes = POINT * points;
+    if (!g->vector)
+        *bytes += PATH * longest + PIXEL * p->page.w * p->page.h;
+    free(p);
+    return RC_OK;
+}
+
+struct canvas *
+graph_draw(const struct graph *g, struct rc_err *err)
+{
+    struct graph_page *p = graph_page_new(g, err);
+    struct canvas *drawn = NULL;
+
+    if (p == NULL)
+        return NULL;
+    if ((p->c = p->page.c = page_canvas(&p->page, p->page.w, p->page.h, err)) == NULL)
         goto done;
     draw(p);
     if (canvas_check(p->c, err) == RC_OK)

@@ -39,10 +39,13 @@ struct graph {
     struct graph_axis x, y;
     const struct graph_series *series;
     size_t n;
+    const double *upright; /* SI: a dashed line across the plot at each, where x is that */
+    size_t uprights;
     const char *note; /* a line under the legend; NULL: none                        */
     size_t width;     /* pixels; 0: GRAPH_WIDTH                                     */
     double dpi;       /* as of a figure                                             */
     const char *family;
+    bool vector; /* it will be a PDF or SVG */
 };
 
 enum {
@@ -50,6 +53,8 @@ enum {
     GRAPH_COLOURS = 7 /* series after so many have a colour again, with another marker */
 };
 
+/* Bytes that drawing it will take. RC_FAIL as graph_draw. */
+enum rc_status graph_memory(const struct graph *graph, size_t *bytes, struct rc_err *err);
 /* NULL when memory is short or an axis has no point: a logarithmic one holds none at or below 0. */
 struct canvas *graph_draw(const struct graph *graph, struct rc_err *err);
 

@@ -49,19 +49,21 @@ hillshade_new(const struct raster *r, double aspect, struct rc_err *err)
         rc_err_set(err, "out of memory for the shades of a map");
         return NULL;
     }
-    for (size_t k = 0; k < r->w * r->h; k++) {
-        slopes(r, aspect, k % r->w, k / r->w, &right, &down);
-        if (isfinite(right) && isfinite(down)) {
-            sum += right * right + down * down;
-            n++;
+    for (size_t j = 0; j < r->h; j++)
+        for (size_t i = 0; i < r->w; i++) {
+            slopes(r, aspect, i, j, &right, &down);
+            if (isfinite(right) && isfinite(down)) {
+                sum += right * right + down * down;
+                n++;
+            }
         }
-    }
     factor = sum > 0 ? steep / sqrt(sum / (double)n) : 0;
-    for (size_t k = 0; k < r->w * r->h; k++) {
-        slopes(r, aspect, k % r->w, k / r->w, &right, &down);
-        shade[k] = isfinite(right) && isfinite(down)
-                       ? (float)brightness(factor * right, factor * down)
-                       : 1;
-    }
+    for (size_t j = 0; j < r->h; j++)
+        for (size_t i = 0; i < r->w; i++) {
+            slopes(r, aspect, i, j, &right, &down);
+            shade[j * r->w + i] = isfinite(right) && isfinite(down)
+                                      ? (float)brightness(factor * right, factor * down)
+                                      : 1;
+        }
     return shade;
 }

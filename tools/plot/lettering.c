@@ -151,8 +151,8 @@ lettering_piece(const struct lettering *l, const char *text, size_t *at, char **
     }
     *at = (size_t)(s - valid);
     g_free(valid);
-    *letters = piece->len == 0 ? NULL : strdup(piece->str);
-    g_string_free(piece, TRUE);
+    /* handed over and not copied: a copy for which memory is short would be words left out */
+    *letters = g_string_free(piece, piece->len == 0);
     return *letters != NULL;
 }
 
@@ -179,7 +179,7 @@ put_text(struct lettering *l, const struct canvas_font *f, const char *text)
     GString *plain = g_string_new(NULL);
     size_t at = 0;
     char *letters;
-    bool raised;
+    bool raised = false;
 
     while (lettering_piece(l, text, &at, &letters, &raised)) {
         gsize from = plain->len;

@@ -114,6 +114,8 @@ choose_marks(struct page *p, struct axis *a, double length, bool upright)
 {
     double gap = 14 * p->u, height = 1.05 * p->small.size;
 
+    /* 9 to 1, then halves, all of them exact */
+    /* NOLINTNEXTLINE(cert-flp30-c,clang-analyzer-security.FloatLoopCounter) */
     for (double most = 9; most > 1e-3; most = most > 1 ? most - 1 : 0.5 * most) {
         double step;
 
@@ -201,7 +203,7 @@ page_marks(const struct page *p)
 double
 page_bar_right(const struct page *p)
 {
-    return fmax(28 * p->u, 0.5 * p->across.widest + 10 * p->u);
+    return fmax(28 * p->u + p->gutter, 0.5 * p->across.widest + 10 * p->u);
 }
 
 double
@@ -285,7 +287,8 @@ measure_sides(struct page *p)
         even_steps(p);
     half = 0.5 * p->across.widest;
     p->left_w = 24 * u + 1.3 * p->large.size + 8 * u + upright->widest + 14 * u;
-    p->right_w = 24 * u + half;
+    p->gutter = media_gutter(p);
+    p->right_w = 24 * u + fmax(half, p->gutter);
     if (p->curve)
         return;
     choose_marks(p, &p->values, (double)(p->bar_below ? p->plot_w : p->plot_h), !p->bar_below);
@@ -317,6 +320,24 @@ add_note(struct page *p, double width, enum swatch swatch, const char *text)
     }
 }
 
+/* Their numbers stand beside the plot. */
+static void
+add_media(struct page *p, double width)
+{
+    char text[LINE];
+    size_t first, n = media_seen(p->f, &first);
+
+    if (n > MEDIA_TOLD) {
+        snprintf(text, sizeof text, "lines: where %zu media meet", n);
+        add_note(p, width, SWATCH_NOTHING, text);
+        return;
+    }
+    for (size_t k = first; k < first + n; k++) {
+        snprintf(text, sizeof text, "%zu: %s", k + 1, p->f->medium[k].text);
+        add_note(p, width, SWATCH_NOTHING, text);
+    }
+}
+
 /* What the legend says, and where: side by side as many as fit a line. */
 static void
 set_legend(struct page *p, double width)
@@ -339,6 +360,8 @@ set_legend(struct page *p, double width)
         add_note(p, width, SWATCH_CIRCLE, p->f->circle);
     if (p->f->largest != NULL && !p->curve)
         add_note(p, width, SWATCH_LARGEST, p->f->largest);
+    if (!p->curve)
+        add_media(p, width);
     if (p->f->note != NULL && !p->curve)
         add_note(p, width, SWATCH_NOTHING, p->f->note);
     if (p->distorted)
@@ -480,6 +503,7 @@ page_measure(struct page *p)
     choose_marks(p, &p->down, (double)p->plot_h, true);
     even_steps(p);
     choose_marks(p, &p->values, (double)p->plot_h, true);
+    p->gutter = media_gutter(p);
 }
 
 void

@@ -14,6 +14,7 @@ enum {
     LINE = 1024, /* bytes of a line of text */
     LINES = 4,
     NOTES = 16,
+    MEDIA_TOLD = 8 /* numbered, and described in the legend: more are lines only */
 };
 
 struct axis {
@@ -56,6 +57,7 @@ struct page {
     } note[NOTES];
     size_t notes;
     double legend_h;
+    double gutter;                        /* right of a plot, for the numbers of media */
     double stamp_h;                       /* 0 without one */
     double left_w, right_w, above, below; /* around the plot, margins included         */
     size_t plot_x, plot_y, plot_w, plot_h, w, h;
@@ -100,9 +102,26 @@ void page_measure(struct page *page);
 void page_legend(struct page *page, double width);
 /* Draws the map in its frame, with the axes asked for. In figure.c, as what follows. */
 enum rc_status page_map(struct page *page, bool left, bool below, struct rc_err *err);
+/* Bytes that a map of the page takes while it is drawn, and that of it are kept, and more while the page is
+ * painted. */
+struct page_bytes {
+    size_t drawn, kept, painted;
+};
+struct page_bytes page_map_bytes(const struct page *page);
+/* Of the page as pixels; of a PDF or SVG none. */
+size_t page_pixel_bytes(const struct page *page);
 /* Draws the colour bar beside the plot, and the legend at the foot of the page. */
 void page_bar(struct page *page);
 /* Where a value of the axis lies between its ends, 0 to 1. */
 double page_place(const struct axis *axis, double value);
+
+/* ---- media.c ---- */
+
+/* The media that the figure shows a part of: the first, and how many. */
+size_t media_seen(const struct figure *figure, size_t *first);
+/* What their numbers take right of a plot; 0 without any. */
+double media_gutter(const struct page *page);
+/* Lines where they meet, and right of the plot their numbers, if it has a gutter. */
+void media_draw(struct page *page);
 
 #endif

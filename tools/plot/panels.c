@@ -63,7 +63,7 @@ lay_out(struct sheet *s, struct rc_err *err)
         p->left_w = 24 * u + 1.3 * p->large.size + 8 * u + p->down.widest + 14 * u;
         p->right_w =
             page_bar_right(p) + 28 * u + 14 * u + p->values.widest + 1.8 * p->large.size + 24 * u;
-        s->across = fmax(22 * u, p->across.widest + 14 * u); /* marks at both edges */
+        s->across = fmax(22 * u + p->gutter, p->across.widest + 14 * u); /* marks at both edges */
         s->w =
             floor(((double)p->w - p->left_w - p->right_w - s->across * (double)(s->columns - 1)) /
                   (double)s->columns);
@@ -139,11 +139,12 @@ draw(struct sheet *s, struct rc_err *err)
     return canvas_check(s->page.c, err);
 }
 
-struct canvas *
-panels_draw(const struct panels *panels, struct rc_err *err)
+/* Laid out; NULL when memory is short or the page too narrow. */
+static struct sheet *
+sheet_new(const struct panels *panels, struct rc_err *err)
 {
     struct sheet *s = calloc(1, sizeof *s);
-    struct canvas *drawn = NULL;
+    enum rc_status status;
 
     if (s == NULL) {
         rc_err_set(err, "out of memory for a figure");
@@ -155,13 +156,53 @@ panels_draw(const struct panels *panels, struct rc_err *err)
     s->page.f = panels->figure;
     s->page.g = panels->panel[0].grid;
     page_size(&s->page, PANELS_WIDTH);
-    if ((s->page.c = page_canvas(&s->page, 1, 1, err)) == NULL) /* to measure text on */
-        goto done;
-    if (lay_out(s, err) != RC_OK) {
+    if ((s->page.c = page_canvas(&s->page, 1, 1, err)) != NULL) { /* to measure text on */
+        status = lay_out(s, err);
         canvas_free(s->page.c);
-        goto done;
+        if (status == RC_OK)
+            return s;
     }
-    canvas_free(s->page.c);
+    free(s);
+    return NULL;
+}
+
+/* Maps are drawn one after another, each beside what is kept of those before; then all are painted. */
+enum rc_status
+panels_memory(const struct panels *panels, size_t *bytes, struct rc_err *err)
+{
+    struct sheet *s = sheet_new(panels, err);
+    size_t kept = 0, first = 0, painted = 0;
+    bool together = panels->figure->paper; /* cairo keeps all images of a PDF to its end */
+
+    if (s == NULL)
+        return RC_FAIL;
+    for (size_t k = 0; k < panels->n; k++) {
+        struct page_bytes map;
+
+        s->page.f = &panels->panel[k].figure;
+        s->page.g = panels->panel[k].grid;
+        s->page.plot_w = (size_t)s->w;
+        s->page.plot_h = (size_t)s->h;
+        map = page_map_bytes(&s->page);
+        first = kept + map.drawn > first ? kept + map.drawn : first;
+        kept += map.kept;
+        painted = together ? painted + map.painted : map.painted > painted ? map.painted : painted;
+    }
+    s->page.f = panels->figure;
+    kept += page_pixel_bytes(&s->page) + painted;
+    *bytes = first > kept ? first : kept;
+    free(s);
+    return RC_OK;
+}
+
+struct canvas *
+panels_draw(const struct panels *panels, struct rc_err *err)
+{
+    struct sheet *s = sheet_new(panels, err);
+    struct canvas *drawn = NULL;
+
+    if (s == NULL)
+        return NULL;
     if ((s->page.c = page_canvas(&s->page, s->page.w, s->page.h, err)) == NULL)
         goto done;
     if (draw(s, err) == RC_OK)

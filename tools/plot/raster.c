@@ -43,6 +43,7 @@ spans_free(struct spans *s)
     free(s->weight);
 }
 
+/* spans_free in either case. */
 static enum rc_status
 spans_new(struct spans *s, size_t n, size_t cells, struct rc_err *err)
 {
@@ -52,10 +53,8 @@ spans_new(struct spans *s, size_t n, size_t cells, struct rc_err *err)
     *s = (struct spans){.first = malloc(cells * sizeof *s->first),
                         .start = malloc((cells + 1) * sizeof *s->start),
                         .weight = malloc((n + 2 * cells) * sizeof *s->weight)};
-    if (s->first == NULL || s->start == NULL || s->weight == NULL) {
-        spans_free(s);
+    if (s->first == NULL || s->start == NULL || s->weight == NULL)
         return rc_err_set(err, "out of memory for a picture of %zu pixels a row", cells);
-    }
     for (size_t c = 0; c < cells; c++) {
         double a = (double)c / (double)cells, b = (double)(c + 1) / (double)cells;
 

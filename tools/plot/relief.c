@@ -606,12 +606,29 @@ draw(struct scene *s, struct rc_err *err)
     return canvas_check(p->c, err);
 }
 
-struct canvas *
-relief_draw(const struct figure *f, const struct view *view, const struct rc_grid *g,
-            struct rc_err *err)
+/* Of a scene that is laid out: the mesh, and the pixels behind it before and on the page. */
+static size_t
+memory_of(const struct scene *s)
+{
+    enum {
+        FINE = 7,   /* bytes of a pixel of the image: its depth and its colour */
+        IMAGE = 10, /* of one of the plot: its colour on the way to the page   */
+        PIXEL = 4   /* of the page                                             */
+    };
+    size_t nx = s->page.g->nx < RELIEF_SIDE ? s->page.g->nx : RELIEF_SIDE;
+    size_t ny = s->page.g->ny < RELIEF_SIDE ? s->page.g->ny : RELIEF_SIDE;
+    size_t plot = s->page.plot_w * s->page.plot_h, fine = plot < 5000000 ? 4 : 1;
+    size_t first = FINE * fine * plot + 3 * plot;
+    size_t then = IMAGE * plot + (s->f->vector ? 0 : PIXEL * s->page.w * s->page.h);
+
+    return nx * ny * sizeof *s->value + (first > then ? first : then);
+}
+
+static struct scene *
+scene_new(const struct figure *f, const struct view *view, const struct rc_grid *g,
+          struct rc_err *err)
 {
     struct scene *s = calloc(1, sizeof *s);
-    struct canvas *drawn = NULL;
 
     if (s == NULL) {
         rc_err_set(err, "out of memory for a figure");
@@ -623,6 +640,36 @@ relief_draw(const struct figure *f, const struct view *view, const struct rc_gri
     s->page.g = g;
     page_size(&s->page, RELIEF_WIDTH);
     set_view(s);
+    return s;
+}
+
+enum rc_status
+relief_memory(const struct figure *f, const struct view *view, const struct rc_grid *g,
+              size_t *bytes, struct rc_err *err)
+{
+    struct scene *s = scene_new(f, view, g, err);
+    enum rc_status status = RC_FAIL;
+
+    if (s == NULL)
+        return RC_FAIL;
+    if ((s->page.c = page_canvas(&s->page, 1, 1, err)) != NULL) {
+        status = lay_out(s, err);
+        *bytes = memory_of(s);
+        canvas_free(s->page.c);
+    }
+    free(s);
+    return status;
+}
+
+struct canvas *
+relief_draw(const struct figure *f, const struct view *view, const struct rc_grid *g,
+            struct rc_err *err)
+{
+    struct scene *s = scene_new(f, view, g, err);
+    struct canvas *drawn = NULL;
+
+    if (s == NULL)
+        return NULL;
     if (set_mesh(s, g, err) != RC_OK || (s->page.c = page_canvas(&s->page, 1, 1, err)) == NULL)
         goto done;
     if (lay_out(s, err) != RC_OK) {

@@ -85,6 +85,8 @@ unit_text(char text[TICKS_TEXT], const char *unit)
         bool power = behind && isdigit((unsigned char)*digit) && !isalnum((unsigned char)digit[1]);
 
         if (power) {
+            /* it is 0 to 9, which the analyzer does not know of isdigit */
+            /* NOLINTNEXTLINE(clang-analyzer-core.CallAndMessage) */
             n += (size_t)sprintf(text + n, "%s%s", minus ? "⁻" : "", raised_digits[*digit - '0']);
             s = digit;
         } else if (*s == '*') {
@@ -206,8 +208,13 @@ ticks_at(const struct ticks *t, long long k)
     double n = (double)k * t->digit;
     int within = (int)(k % 3 < 0 ? k % 3 + 3 : k % 3);
 
+    if (t->log && t->between) {
+        long long power = (k - within) / 3;
+
+        return digits[within] * pow(10, (double)power);
+    }
     if (t->log)
-        return t->between ? digits[within] * pow(10, (double)((k - within) / 3)) : pow(10, n);
+        return pow(10, n);
 
     /* dividing by a whole power of ten is exact where multiplying by 0.1 is not */
     return t->power < 0 ? n / pow(10, -t->power) : n * pow(10, t->power);

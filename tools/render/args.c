@@ -82,7 +82,7 @@ check_lists(struct tool *t, struct args *a)
     if (a->depth.n == 1)
         a->wish.depth = a->depth.v[0];
     if (a->number.n == 1)
-        a->wish.number = (size_t)a->number.v[0];
+        a->wish.number = unit_size(a->number.v[0]);
 }
 
 /* Pixels when plain, or a length on paper. */

@@ -229,8 +229,9 @@ fail(struct choice *c, struct tool *t)
     if (!number)
         no_case(c, t);
     if (!section)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s: there is no section across %s", t->source,
-                 c->wish->section);
+        tool_die(t, EXIT_IMPOSSIBLE,
+                 "%s: there is no section across %s, such as rc-stress --section %s=0 makes",
+                 t->source, c->wish->section, c->wish->section);
     no_depth(c, t);
 }
 

@@ -90,6 +90,7 @@ set_draw(struct set *s, struct graph *graph, const char *title, struct drawn *dr
     const char *source = rc_grid_get(s->grid[0], "source");
     struct canvas *canvas;
     struct rc_err err;
+    size_t bytes;
 
     snprintf(drawn->title, sizeof drawn->title, "%s",
              s->style->title == NULL ? title : s->style->title);
@@ -104,6 +105,10 @@ set_draw(struct set *s, struct graph *graph, const char *title, struct drawn *dr
     graph->family = s->style->family;
     graph->x.log = curve_log(s->style, 'x');
     graph->y.log = curve_log(s->style, 'y');
+    graph->vector = s->style->vector;
+    if (graph_memory(graph, &bytes, &err) != RC_OK)
+        tool_die(s->tool, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_demand_memory(s->tool, s->grid[0], bytes + look_code(s->tool));
     if ((canvas = graph_draw(graph, &err)) == NULL)
         tool_die(s->tool, EXIT_IMPOSSIBLE, "%s", err.text);
     for (size_t k = 0; k <= s->n; k++) {
@@ -190,13 +195,34 @@ read_cut(struct tool *t, const char *cut, const struct line *across, const struc
     return place;
 }
 
+/* Lines at the interfaces, and a note that says what they are; the caller frees their depths. */
+static double *
+mark_interfaces(const struct rc_grid *g, struct graph *graph, char *note, size_t size)
+{
+    double *bottom = media_bottoms(g, &graph->uprights);
+    char depth[TICKS_TEXT];
+    size_t used = 0;
+
+    if (bottom == NULL)
+        return NULL;
+    graph->upright = bottom;
+    graph->note = note;
+    used = (size_t)snprintf(note, size, "dashed: where media meet, at a depth of ");
+    for (size_t k = 0; k < graph->uprights && used < size; k++)
+        used += (size_t)snprintf(note + used, size - used, "%s%s", k == 0 ? "" : ", ",
+                                 scale_value(depth, bottom[k], "m"));
+    return bottom;
+}
+
 struct canvas *
 cut_draw(struct tool *t, struct rc_grid *const *grid, size_t n, const char *cut, double lo,
          double hi, const struct curve_style *style, struct drawn *drawn)
 {
     struct set s = {.tool = t, .grid = grid, .n = n, .style = style};
     struct graph graph = {.n = n, .y.lo = lo, .y.hi = hi, .x.lo = NAN, .x.hi = NAN};
-    char where[TICKS_TEXT], text[TICKS_TEXT + 32], quantity[8];
+    char where[TICKS_TEXT], text[TICKS_TEXT + 32], quantity[8], note[512] = "";
+    struct canvas *canvas;
+    double *bottom = NULL;
 
     set_begin(&s);
     for (size_t k = 0; k < n; k++) {
@@ -228,7 +254,11 @@ cut_draw(struct tool *t, struct rc_grid *const *grid, size_t n, const char *cut,
     graph.x.unit = "m";
     graph.y.quantity = s.channel.title;
     graph.y.unit = grid[0]->unit;
-    return set_draw(&s, &graph, s.channel.title, drawn);
+    if (strcmp(quantity, "depth") == 0 && subtitle_same(grid, n, "layers"))
+        bottom = mark_interfaces(grid[0], &graph, note, sizeof note);
+    canvas = set_draw(&s, &graph, s.channel.title, drawn);
+    free(bottom);
+    return canvas;
 }
 
 /* ---- how values spread ---- */
@@ -381,6 +411,7 @@ sort_values(struct set *s, const struct rc_grid *g, double **values)
 {
     size_t n = 0;
 
+    tool_demand_memory(s->tool, g, 2 * g->nx * g->ny * sizeof **values); /* qsort takes as much */
     if ((*values = malloc(g->nx * g->ny * sizeof **values)) == NULL)
         no_memory(s->tool);
     for (size_t i = 0; i < g->nx * g->ny; i++)

@@ -57,6 +57,16 @@ choose_range(struct tool *t, struct args *a, struct rc_grid *const *grid, size_t
     f->note = r->note[0] == '\0' ? NULL : r->note;
 }
 
+size_t
+look_code(const struct tool *t)
+{
+    enum {
+        CAIRO = 1 << 20 /* an SVG is written without it */
+    };
+
+    return canvas_format(ending_of(t->out_name)) == CANVAS_SVG ? 0 : CAIRO;
+}
+
 void
 look_figure(struct tool *t, struct args *a, struct rc_grid *const *grid, size_t n,
             const struct survey *s, struct look *look, struct figure *f)
@@ -82,6 +92,7 @@ look_figure(struct tool *t, struct args *a, struct rc_grid *const *grid, size_t 
         .dpi = a->style.dpi,
         .family = a->style.family,
         .vector = canvas_format(ending_of(t->out_name)) != CANVAS_PNG,
+        .paper = canvas_format(ending_of(t->out_name)) == CANVAS_PDF,
     };
     choose_range(t, a, grid, n, s, look, f);
     if (a->depths != NULL && rc_grid_get(g, "section") == NULL)
@@ -110,13 +121,17 @@ struct rc_grid *
 look_section(struct tool *t, const struct args *a, const struct rc_grid *g, struct figure *f)
 {
     double *depth = section_depths(t, g);
+    struct coating coating;
     struct rc_grid *even;
 
+    media_read(t, g, &coating);
+    media_set(t, &coating, f);
     section_range(t, a->depths, g, depth, &f->top, &f->bottom);
     f->across = strcmp(rc_grid_get(g, "section"), "x") == 0 ? "y" : "x";
     f->down = "depth";
     f->section = true;
-    even = section_even(t, g, depth, f->top, f->bottom);
+    even = section_even(t, g, depth, &coating, f->top, f->bottom);
+    coating_free(&coating);
     free(depth);
     return even;
 }

@@ -72,9 +72,25 @@ double *section_depths(struct tool *tool, const struct rc_grid *grid);
 void section_range(struct tool *tool, const char *text, const struct rc_grid *grid,
                    const double *depth, double *top, double *bottom);
 /* The section from top to bottom on even rows, between its own ones a curve without corners that
- * never leaves the values beside it, and straight between columns. */
+ * never leaves the values beside it, and straight between columns. Between rows in two media it
+ * keeps the value of the row in the same one. */
 struct rc_grid *section_even(struct tool *tool, const struct rc_grid *grid, const double *depth,
-                             double top, double bottom);
+                             const struct coating *coating, double top, double bottom);
+
+/* ---- media.c: what a coated body is made of ---- */
+
+enum {
+    MEDIA_NAME = 32
+};
+
+/* From the key `layers`; ends the tool where that makes no sense. */
+void media_read(struct tool *tool, const struct rc_grid *grid, struct coating *coating);
+/* The media of a section's figure, of which the caller frees `medium`. */
+void media_set(struct tool *tool, const struct coating *coating, struct figure *figure);
+/* "layer 2" or "substrate": where a slice of stresses lies; NULL: its keys do not say. */
+const char *media_name(char text[MEDIA_NAME], const struct rc_grid *grid);
+/* Depths of the interfaces, metres, which the caller frees; NULL: there is none. */
+double *media_bottoms(const struct rc_grid *grid, size_t *n);
 
 /* ---- range.c ---- */
 
@@ -125,6 +141,8 @@ void subtitle_add(struct subtitle *subtitle, const char *name, const char *value
 void subtitle_range(struct subtitle *subtitle, const struct survey *survey, const char *unit);
 /* What all frames of a picture have in common: source, case, load, depth. */
 void subtitle_common(struct subtitle *subtitle, struct rc_grid *const *grid, size_t n);
+/* Whether a key is the same in all frames. */
+bool subtitle_same(struct rc_grid *const *grid, size_t n, const char *key);
 /* "load 10 N, depth 5 um": in what frame k differs from others of its picture. */
 void frame_label(char *text, size_t size, struct rc_grid *const *grid, size_t n, size_t k);
 /* `part` of the map is drawn. */
@@ -203,7 +221,11 @@ struct curve_style {
     size_t width; /* as of a figure */
     double dpi;
     const char *family;
+    bool vector; /* as of a figure */
 };
+
+/* Bytes of code of what paints or writes the page. */
+size_t look_code(const struct tool *tool);
 
 /* What a picture says of itself beside its canvas. */
 struct drawn {
@@ -247,6 +269,8 @@ void sheet_check_alike(struct tool *tool, const struct rc_grid *first,
                        const struct figure *figure);
 /* All values together; ends the tool where a frame has no finite one. */
 void sheet_survey(struct tool *tool, const struct frames *frames, struct survey *all);
+/* Whether all are of one material, or of the same ones: one legend does for them. */
+bool sheet_one_body(const struct frames *frames);
 /* "a) load 10 N"; past z it is aa). */
 void sheet_label(struct panel *panel, const struct frames *frames, size_t k);
 
@@ -312,7 +336,8 @@ void look_figure(struct tool *tool, struct args *args, struct rc_grid *const *gr
 void look_contact(struct figure *figure, const struct rc_grid *pressure);
 /* Where a map lies. */
 void look_extent(const struct window *window, struct figure *figure);
-/* Where a section lies, between the depths that are asked for; gives it on even rows. */
+/* Where a section lies, between the depths that are asked for, and what it is made of; gives it on
+ * even rows, which the caller frees, and the medium of the figure. */
 struct rc_grid *look_section(struct tool *tool, const struct args *args, const struct rc_grid *grid,
                              struct figure *figure);
 

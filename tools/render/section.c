@@ -1,6 +1,6 @@
 /*
  * Sections: the rows of a map at depths of any spacing become even rows, so that each depth is
- * where the axis says.
+ * where the axis says. In a coated body stresses jump where two media meet: curves end there.
  */
 #include "render.h"
 
@@ -94,38 +94,73 @@ across(const struct rc_grid *g, size_t row, size_t i, size_t times)
     return (1 - t) * g->v[row * g->nx + k] + t * g->v[row * g->nx + k + 1];
 }
 
+/* The rows of a section: their depths, and the medium that each is in. */
+struct rows {
+    const double *depth;
+    const struct coating *coating;
+    size_t *medium;
+    double *v; /* of one column */
+    size_t n;
+};
+
+/* The value at depth `at`, between rows j and j + 1: on the curve through all rows next to them that are in
+ * the same medium, or, where the two are in different ones, that of the row which is in the one of `at`. */
+static double
+value_at(const struct rows *r, size_t j, double at)
+{
+    size_t first = j, end = j + 1, in;
+
+    if (r->medium[j] != r->medium[j + 1]) {
+        in = coating_material(r->coating, at);
+        if (in != r->medium[j] && in != r->medium[j + 1]) /* a medium without a row */
+            return at - r->depth[j] < r->depth[j + 1] - at ? r->v[j] : r->v[j + 1];
+        return in == r->medium[j] ? r->v[j] : r->v[j + 1];
+    }
+    /* two rows on each side are all that slopes look at */
+    for (int k = 0; k < 2 && first > 0 && r->medium[first - 1] == r->medium[j]; k++)
+        first--;
+    for (int k = 0; k < 2 && end + 1 < r->n && r->medium[end + 1] == r->medium[j]; k++)
+        end++;
+    return between(r->depth + first, r->v + first, end - first + 1, j - first, at);
+}
+
 static void
-fill_column(const struct rc_grid *g, const double *depth, struct rc_grid *even, size_t i,
-            double top, double *v)
+fill_column(const struct rc_grid *g, const struct rows *r, struct rc_grid *even, size_t i,
+            double top)
 {
     size_t times = even->nx / g->nx, j = 0;
 
     for (size_t k = 0; k < g->ny; k++)
-        v[k] = across(g, k, i, times);
+        r->v[k] = across(g, k, i, times);
     for (size_t k = 0; k < even->ny; k++) {
         double at = top + ((double)k + 0.5) * even->dy;
 
-        while (j + 2 < g->ny && at > depth[j + 1])
+        while (j + 2 < g->ny && at > r->depth[j + 1])
             j++;
-        even->v[k * even->nx + i] = g->ny == 1 ? v[0] : between(depth, v, g->ny, j, at);
+        even->v[k * even->nx + i] = g->ny == 1 ? r->v[0] : value_at(r, j, at);
     }
 }
 
 struct rc_grid *
-section_even(struct tool *t, const struct rc_grid *g, const double *depth, double top,
-             double bottom)
+section_even(struct tool *t, const struct rc_grid *g, const double *depth,
+             const struct coating *coating, double top, double bottom)
 {
     size_t times = g->nx < COLUMNS ? (size_t)fmax(1, round((double)COLUMNS / (double)g->nx)) : 1;
     struct rc_shape shape = {times * g->nx, ROWS, g->dx / (double)times, (bottom - top) / ROWS};
-    double *v = malloc(g->ny * sizeof *v);
+    struct rows r = {depth, coating, malloc(g->ny * sizeof *r.medium), malloc(g->ny * sizeof *r.v),
+                     g->ny};
     struct rc_grid *even;
     struct rc_err err;
 
-    if ((even = rc_grid_new(&shape, g->channel, g->unit, &err)) == NULL || v == NULL)
+    if ((even = rc_grid_new(&shape, g->channel, g->unit, &err)) == NULL || r.medium == NULL ||
+        r.v == NULL)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", even == NULL ? err.text : "out of memory");
+    for (size_t j = 0; j < g->ny; j++)
+        r.medium[j] = coating_material(coating, depth[j]);
     for (size_t i = 0; i < even->nx; i++)
-        fill_column(g, depth, even, i, top, v);
-    free(v);
+        fill_column(g, &r, even, i, top);
+    free(r.medium);
+    free(r.v);
     return even;
 }
 
@@ -157,8 +192,11 @@ section_range(struct tool *t, const char *text, const struct rc_grid *g, const d
     if (colon == NULL || n.n != 2 || !(n.v[0] < n.v[1]) || n.v[0] < 0)
         tool_die(t, EXIT_USAGE, "--depth-range %s: it must be Z0:Z1, two depths, the lesser first",
                  text);
-    *top = fmax(n.v[0], first);
-    *bottom = fmin(n.v[1], last);
+    if (g->ny > 1) {
+        *top = fmax(n.v[0], first);
+        *bottom = fmin(n.v[1], last);
+    } else if (n.v[0] > first || n.v[1] < first)
+        *bottom = *top; /* the only depth is left out */
     free(n.v);
     if (!(*top < *bottom))
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "--depth-range %s: its depths go from %s to %s", text,

@@ -25,7 +25,8 @@ static void
 say_where(struct subtitle *w, const struct rc_grid *g, bool largest)
 {
     const char *section = rc_grid_get(g, "section");
-    char text[TICKS_TEXT], name[TICKS_TEXT + 32];
+    char text[TICKS_TEXT], name[TICKS_TEXT + 32], medium[MEDIA_NAME];
+    const char *in;
     double number;
 
     if (section != NULL) {
@@ -36,6 +37,8 @@ say_where(struct subtitle *w, const struct rc_grid *g, bool largest)
         scale_value(text, number, "m");
         snprintf(name, sizeof name, "%s%s", text, largest ? " (where it is largest)" : "");
         subtitle_add(w, "depth ", name);
+        if ((in = media_name(medium, g)) != NULL)
+            subtitle_add(w, "", in);
     }
 }
 
@@ -89,8 +92,8 @@ subtitle_write(struct subtitle *w, const struct rc_grid *g, const struct survey 
 
 /* ---- several frames ---- */
 
-static bool
-same_text(struct rc_grid *const *grid, size_t n, const char *key)
+bool
+subtitle_same(struct rc_grid *const *grid, size_t n, const char *key)
 {
     const char *first = rc_grid_get(grid[0], key), *other;
 
@@ -108,7 +111,8 @@ static const struct {
 } pieces[] = {{"source", "", NULL},
               {"case", "case ", NULL},
               {"load", "load ", "N"},
-              {"depth", "depth ", "m"}};
+              {"depth", "depth ", "m"},
+              {"material", "", NULL}}; /* a word of its own */
 
 enum {
     PIECES = sizeof pieces / sizeof *pieces
@@ -117,7 +121,11 @@ enum {
 static const char *
 piece_text(char text[TICKS_TEXT], const struct rc_grid *g, size_t p)
 {
+    const char *name;
     double number;
+
+    if (strcmp(pieces[p].key, "material") == 0)
+        return (name = media_name(text, g)) == NULL ? "?" : name;
 
     if (pieces[p].unit != NULL && rc_grid_number(g, pieces[p].key, &number))
         return scale_value(text, number, pieces[p].unit);
@@ -130,7 +138,7 @@ subtitle_common(struct subtitle *w, struct rc_grid *const *grid, size_t n)
     char text[TICKS_TEXT];
 
     for (size_t p = 0; p < PIECES; p++)
-        if (rc_grid_get(grid[0], pieces[p].key) != NULL && same_text(grid, n, pieces[p].key))
+        if (rc_grid_get(grid[0], pieces[p].key) != NULL && subtitle_same(grid, n, pieces[p].key))
             subtitle_add(w, pieces[p].name, piece_text(text, grid[0], p));
 }
 
@@ -138,13 +146,13 @@ subtitle_common(struct subtitle *w, struct rc_grid *const *grid, size_t n)
 void
 frame_label(char *text, size_t size, struct rc_grid *const *grid, size_t n, size_t k)
 {
-    bool loads = !same_text(grid, n, "load");
+    bool loads = !subtitle_same(grid, n, "load");
     char value[TICKS_TEXT];
     size_t used = 0;
 
     text[0] = '\0';
     for (size_t p = 0; p < PIECES && used < size; p++) {
-        if (rc_grid_get(grid[k], pieces[p].key) == NULL || same_text(grid, n, pieces[p].key) ||
+        if (rc_grid_get(grid[k], pieces[p].key) == NULL || subtitle_same(grid, n, pieces[p].key) ||
             (loads && strcmp(pieces[p].key, "case") == 0))
             continue;
         used += (size_t)snprintf(text + used, size - used, "%s%s%s", used == 0 ? "" : ", ",

@@ -10,6 +10,7 @@
 #include "solve.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
@@ -56,12 +57,14 @@ look_through(struct checkpoint *c)
     struct tool *t = &c->run->t;
     struct rc_err err;
     struct rc_reader *reader = rc_reader_new(c->file, 0, t->memory, &err);
+    const struct rc_share *share = ranks_read(t, c->name);
     struct rc_grid *g;
     off_t end = 0;
     double number;
 
     if (reader == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
+    rc_reader_share(reader, share);
     while (rc_reader_next(reader, &g, &err) == RC_MORE) {
         if (!rc_grid_number(g, "checkpoint.case", &number))
             tool_die(t, EXIT_IMPOSSIBLE,
@@ -72,6 +75,7 @@ look_through(struct checkpoint *c)
         rc_grid_free(g);
     }
     rc_reader_free(reader);
+    ranks_close(t, share);
     clearerr(c->file);
     if (c->count == 0 && (fseeko(c->file, 0, SEEK_END) != 0 || ftello(c->file) > 0))
         tool_die(t, EXIT_IMPOSSIBLE,
@@ -79,10 +83,54 @@ look_through(struct checkpoint *c)
                  c->name, err.text);
     if (c->count == 0)
         return;
+    if (!ranks_speak(t)) { /* the first one cuts it off */
+        ranks_wait(t);
+        return;
+    }
     end -= (off_t)strlen(end_line);
     if (ftruncate(fileno(c->file), end) != 0 || fseeko(c->file, end, SEEK_SET) != 0 ||
         fputs(end_line, c->file) == EOF || fflush(c->file) != 0)
         tool_die(t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", c->name, strerror(errno));
+    ranks_wait(t);
+}
+
+/* NULL and errno where it cannot be opened so. Of several processes the first opens it so, the others what it
+ * has found or made: each by itself could find what the first has just made. All get NULL, or none. */
+static FILE *
+open_file(struct checkpoint *c, const char *mode)
+{
+    struct tool *t = &c->run->t;
+    FILE *file = NULL;
+    int problem = 0;
+
+    if (ranks_speak(t) && (file = fopen(c->name, mode)) == NULL)
+        problem = errno;
+    ranks_share(t, 0, &problem, sizeof problem);
+    if (problem == 0 && file == NULL && (file = fopen(c->name, "r+b")) == NULL)
+        problem = errno;
+    problem = (int)ranks_most(t, problem);
+    if (problem != 0 && file != NULL)
+        (void)fclose(file);
+    errno = problem;
+    return problem == 0 ? file : NULL;
+}
+
+/* Two runs that add to one file would spoil it. The lock ends with the process, also when it is killed; a
+ * file system without locks does without. */
+static void
+lock(struct checkpoint *c)
+{
+    struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+    bool taken = false;
+
+    if (ranks_speak(&c->run->t)) /* of several processes that write it together the first */
+        taken =
+            fcntl(fileno(c->file), F_SETLK, &whole) != 0 && (errno == EACCES || errno == EAGAIN);
+    ranks_share(&c->run->t, 0, &taken, sizeof taken);
+    if (taken)
+        tool_die(&c->run->t, EXIT_IMPOSSIBLE,
+                 "--checkpoint %s: another run is adding to it: wait until it has ended, or end it",
+                 c->name);
 }
 
 struct checkpoint *
@@ -92,25 +140,30 @@ checkpoint_open(struct run *run, const char *name, bool resume, double interval)
 
     if (name == NULL)
         return NULL;
+    if (strcmp(name, "-") == 0)
+        tool_die(&run->t, EXIT_USAGE,
+                 "--checkpoint -: it is read and added to, which a pipe is not: name a file");
     c = calloc(1, sizeof *c);
     if (c == NULL)
         tool_die(&run->t, EXIT_IMPOSSIBLE, "out of memory");
     c->run = run;
     c->name = name;
     c->wait = interval;
-    if (resume && (c->file = fopen(name, "r+b")) != NULL) {
+    if (resume && (c->file = open_file(c, "r+b")) != NULL) {
+        lock(c);
         look_through(c);
         return c;
     }
     if (resume && errno != ENOENT)
         tool_die(&run->t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", name, strerror(errno));
-    c->file = fopen(name, "w+bx");
+    c->file = open_file(c, "w+bx");
     if (c->file == NULL && errno == EEXIST)
         tool_die(&run->t, EXIT_IMPOSSIBLE,
                  "--checkpoint %s: there is one already: go on from it with --resume, or remove it",
                  name);
     if (c->file == NULL)
         tool_die(&run->t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", name, strerror(errno));
+    lock(c);
     return c;
 }
 
@@ -130,10 +183,13 @@ checkpoint_close(struct checkpoint *c)
 void
 checkpoint_surface(struct checkpoint *c, const struct rc_grid *g)
 {
+    size_t bytes;
+
     if (c == NULL)
         return;
+    bytes = rc_grid_nodes(g) * sizeof *g->v;
     snprintf(c->surface, sizeof c->surface, "%08" PRIx32,
-             rc_crc32_add(0, g->v, g->nx * g->ny * sizeof *g->v));
+             ranks_crc(&c->run->t, rc_crc32_add(0, g->v, bytes), bytes));
 }
 
 /* What a frame has to agree in with the case that goes on from it. */
@@ -194,6 +250,7 @@ compare(struct checkpoint *c, const struct rc_grid *g, const struct rc_grid *sav
 bool
 checkpoint_case(struct checkpoint *c, const struct rc_grid *g, struct rc_solver *solver)
 {
+    const struct rc_share *share;
     struct rc_reader *reader;
     struct rc_grid *saved = NULL;
     struct rc_err err;
@@ -211,6 +268,9 @@ checkpoint_case(struct checkpoint *c, const struct rc_grid *g, struct rc_solver 
     if (fseeko(c->file, c->saved[k - 1].at, SEEK_SET) != 0)
         tool_die(&c->run->t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", c->name, strerror(errno));
     reader = rc_reader_new(c->file, 0, 0, &err);
+    share = ranks_read(&c->run->t, c->name);
+    if (reader != NULL)
+        rc_reader_share(reader, share);
     if (reader == NULL || rc_reader_next(reader, &saved, &err) != RC_MORE)
         tool_die(&c->run->t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", c->name, err.text);
     compare(c, g, saved);
@@ -220,26 +280,44 @@ checkpoint_case(struct checkpoint *c, const struct rc_grid *g, struct rc_solver 
                     c->name);
     rc_reader_free(reader);
     rc_grid_free(saved);
+    ranks_close(&c->run->t, share);
     return true;
 }
 
 /* ---- saving ---- */
 
+/* A stream of one frame behind what is there; of several processes, by all of them: where one fails none has
+ * done it. */
 static enum rc_status
-put(struct checkpoint *c, struct rc_grid *out, struct rc_err *err)
+put(struct checkpoint *c, struct rc_grid *out, off_t at, struct rc_err *err)
 {
-    struct rc_writer *writer = rc_writer_new(c->file, err);
-    enum rc_status status;
+    struct tool *t = &c->run->t;
+    const struct rc_share *share = ranks_write(t, c->name);
+    struct rc_writer *writer = share == NULL ? rc_writer_new(c->file, err)
+                                             : rc_writer_new_shared(share, (uint64_t)at, err);
+    enum rc_status status = ranks_agree(t, writer == NULL ? RC_FAIL : RC_OK, err);
 
-    if (writer == NULL)
-        return RC_FAIL;
-    status = rc_writer_put(writer, out, err);
+    if (status == RC_OK)
+        status = rc_writer_put(writer, out, err);
     if (status == RC_OK)
         status = rc_writer_end(writer, err);
     rc_writer_free(writer);
-    if (status == RC_OK && fsync(fileno(c->file)) != 0)
+    if (status == RC_OK)
+        status = ranks_settle(share, err);
+    ranks_close(t, share);
+    if (status == RC_OK && share == NULL && !file_settle(c->file))
         return rc_err_set(err, "%s", strerror(errno));
     return status;
+}
+
+/* Where the next frame goes; false: nowhere. */
+static bool
+find_end(struct checkpoint *c, off_t *at)
+{
+    bool fine = fseeko(c->file, 0, SEEK_END) == 0 && (*at = ftello(c->file)) >= 0;
+
+    ranks_share(&c->run->t, 0, at, sizeof *at);
+    return ranks_most(&c->run->t, fine ? 0 : 1) == 0;
 }
 
 void
@@ -248,14 +326,14 @@ checkpoint_save(struct checkpoint *c, const struct rc_grid *g, const struct rc_s
     struct mark mark[MARKS];
     struct rc_grid *out;
     struct rc_err err;
-    off_t at;
+    off_t at = 0;
 
     if (c == NULL || c->file == NULL)
         return;
     out = rc_grid_like(g, "pressure", "Pa", &err);
     if (out == NULL)
         tool_die_at(&c->run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    memcpy(out->v, rc_solver_pressure(solver), g->nx * g->ny * sizeof *out->v);
+    memcpy(out->v, rc_solver_pressure(solver), rc_grid_nodes(g) * sizeof *out->v);
     marks_of(c, mark);
     (void)rc_grid_set(out, "case", NULL, &err); /* each is a stream of its own */
     for (size_t k = 0; k < MARKS; k++)
@@ -265,8 +343,7 @@ checkpoint_save(struct checkpoint *c, const struct rc_grid *g, const struct rc_s
         rc_grid_set_number(out, "load", rc_solver_load(solver), &err) != RC_OK ||
         rc_grid_history(out, tool_history(&c->run->t), &err) != RC_OK)
         tool_die_at(&c->run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    if (fseeko(c->file, 0, SEEK_END) != 0 || (at = ftello(c->file)) < 0 ||
-        put(c, out, &err) != RC_OK) {
+    if (!find_end(c, &at) || put(c, out, at, &err) != RC_OK) {
         tool_warn(&c->run->t,
                   "--checkpoint %s: writing failed: what is in it stays, nothing is added",
                   c->name);
@@ -281,8 +358,10 @@ checkpoint_save(struct checkpoint *c, const struct rc_grid *g, const struct rc_s
 void
 checkpoint_pass(struct checkpoint *c, const struct rc_grid *g, const struct rc_solver *solver)
 {
-    if (c == NULL || solve_now() - c->began < c->next || rc_solver_iterations(solver) == 0)
+    if (c == NULL || rc_solver_iterations(solver) == 0)
         return; /* on the coarser grids there is nothing to keep */
+    if (ranks_most(&c->run->t, solve_now() - c->began) < c->next)
+        return;
     checkpoint_save(c, g, solver);
     c->next *= 2;
 }

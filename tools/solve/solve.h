@@ -9,6 +9,10 @@
 #include "libcontact/contact.h"
 #include "tools/cli/cli.h"
 
+enum {
+    SOLVE_CODE = 2 * TOOL_TRANSFORMS /* bytes, of both precisions */
+};
+
 enum solve_frame { /* in the order of --output's words, and of writing */
     SOLVE_PRESSURE,
     SOLVE_GAP,
@@ -82,6 +86,9 @@ void solve_judge(struct run *run, const struct rc_grid *g, const struct solution
 /* The row of the case, where --report asks for it. `solver` is NULL for bodies that are apart. */
 void solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *solver,
                   const struct solution *solution);
+/* Bytes that a solution of this map takes beside the map. */
+size_t solve_memory(const struct run *run, const struct rc_grid *g,
+                    const struct rc_problem *problem);
 /* What the scene calls for and what it doesn't, and what that costs, in words. */
 void solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *problem);
 

@@ -63,25 +63,42 @@ place(const struct stress_report *r, size_t k, struct stress_peak *peak)
     peak->y = section == 'y' ? r->options->at : ((double)j - (double)(p->ny - 1) / 2) * p->dy;
 }
 
+/* The value of largest size of all n, or of those that several processes hold, and where it is. */
+static struct stress_peak
+peak_of(const struct stress_report *r, const struct tool *t, size_t n, const double *s)
+{
+    struct stress_peak peak = {.value = 0};
+    size_t at = n > 0 ? rc_largest(n, s) : 0;
+
+    if (n > 0) {
+        peak.value = s[at];
+        place(r, tool_first_row(t, r->p) * r->p->nx + at, &peak);
+    }
+    if (t->ranks != NULL)
+        ranks_share(t, ranks_where_most(t, n > 0 ? fabs(peak.value) : -1), &peak, sizeof peak);
+    return peak;
+}
+
 void
-stress_report_depth(struct stress_report *r, size_t k, size_t n, double *const *s)
+stress_report_depth(struct stress_report *r, const struct tool *t, size_t k, size_t n,
+                    double *const *s)
 {
     size_t material = stress_material(r->options, r->depths->v[k]);
 
     r->slices += tool_now() - r->depth_began;
     for (int c = 0; c < RC_STRESSES; c++) {
-        struct stress_peak *peak = &r->peak[c];
-        size_t at;
+        struct stress_peak *peak = &r->peak[c], here;
         if (peak->by_depth == NULL)
             continue;
-        at = rc_largest(n, s[c]);
-        peak->by_depth[k] = s[c][at];
-        if (!(fabs(s[c][at]) <= fabs(peak->by_material[material])))
-            peak->by_material[material] = s[c][at];
-        if (!(fabs(s[c][at]) <= fabs(peak->value))) {
-            peak->value = s[c][at];
+        here = peak_of(r, t, n, s[c]);
+        peak->by_depth[k] = here.value;
+        if (!(fabs(here.value) <= fabs(peak->by_material[material])))
+            peak->by_material[material] = here.value;
+        if (!(fabs(here.value) <= fabs(peak->value))) {
+            peak->value = here.value;
             peak->depth = r->depths->v[k];
-            place(r, at, peak);
+            peak->x = here.x;
+            peak->y = here.y;
         }
     }
 }
@@ -260,7 +277,10 @@ stress_report_write(struct stress_report *r, struct report *out, const struct rc
     report_number(out, "slices", r->slices, "s");
     report_number(out, "total", tool_now() - r->began, "s");
     report_end(out);
-    report_count(out, "peak_memory", tool_peak_memory(), "B");
+    report_count(out, "peak_memory", (size_t)ranks_most(out->tool, (double)tool_peak_memory()),
+                 "B");
+    report_count(out, "memory_estimate", out->tool->expected_memory, "B");
+    report_ranks(out, out->tool);
     report_finish_row(out);
 }
 
@@ -324,10 +344,8 @@ say_materials(FILE *out, const struct rc_stress_options *o, const struct numbers
 
 void
 stress_report_plan(FILE *out, const struct rc_grid *p, const struct rc_stress_options *o,
-                   const struct numbers *depths)
+                   const struct numbers *depths, size_t memory)
 {
-    struct rc_shape shape = rc_grid_shape(p);
-
     fprintf(out, "case %zu: %zu x %zu nodes, %s boundary\n", rc_grid_case(p), p->nx, p->ny,
             o->boundary == RC_PERIODIC ? "periodic" : "free");
     fprintf(out, "  %-14s%zu, %g to %g m\n", "depths", depths->n, depths->v[0],
@@ -338,7 +356,6 @@ stress_report_plan(FILE *out, const struct rc_grid *p, const struct rc_stress_op
         fprintf(out, "  %-14s%s\n", effects[k].name, effects[k].of(o));
     for (int c = 0; c < RC_STRESSES; c++)
         fprintf(out, "  %-14s%s\n", rc_component_names[c], component_effect(o, c));
-    fprintf(out, "  %-14s%zu MiB beside the maps\n", "memory",
-            (rc_stress_memory(&shape, o) >> 20) + 1);
+    fprintf(out, "  %-14sabout %zu MiB\n", "memory", (memory >> 20) + 1);
     fprintf(out, "  %-14sabout %.2g s\n", "time", expected_seconds(p, o, depths));
 }

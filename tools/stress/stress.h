@@ -35,14 +35,15 @@ enum rc_status stress_report_begin(struct stress_report *report, const struct rc
 /* The plan stands; a depth begins; depth k of n values a channel is there. */
 void stress_report_ready(struct stress_report *report);
 void stress_report_start(struct stress_report *report);
-void stress_report_depth(struct stress_report *report, size_t k, size_t n, double *const *s);
+void stress_report_depth(struct stress_report *report, const struct tool *tool, size_t k, size_t n,
+                         double *const *s);
 /* The row of the case. */
 void stress_report_write(struct stress_report *report, struct report *out,
                          const struct rc_stress *stress);
 void stress_report_free(struct stress_report *report);
 
-/* What would be done, in words; a part of the map is tried for the time. */
+/* What would be done, in words, in so many bytes; a part of the map is tried for the time. */
 void stress_report_plan(FILE *out, const struct rc_grid *p, const struct rc_stress_options *options,
-                        const struct numbers *depths);
+                        const struct numbers *depths, size_t memory);
 
 #endif

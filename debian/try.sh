@@ -1,0 +1,145 @@
+#!/usr/bin/env bash
+# Makes the Debian packages in a root of their own and tries them in another one that is clean:
+#
+#     debian/try.sh [--keep FOLDER] SUITE [FILE]
+#
+# SUITE is a release of Debian, such as bookworm. Both roots are made by debootstrap, with packages from
+# MIRROR where the environment names one. The packages are built, source and binary, and looked over by lintian,
+# which is to find nothing; installed by apt, tried by the demo on FILE, any surface that rc-import reads, and
+# purged, which is to leave no file behind; installed again and tried by debian/tests through
+# autopkgtest. FOLDER gets the packages and the pictures of the demo. To be run by root, who alone may
+# change into another root.
+set -euo pipefail
+
+usage() {
+    sed -n '2,11s/^# \{0,1\}//p' "$0"
+}
+fail() {
+    echo "try.sh: $*" >&2
+    exit "${status:-1}"
+}
+keep=
+case "${1-}" in
+-h | --help)
+    usage
+    exit 0
+    ;;
+--keep)
+    keep=${2-}
+    [ -n "$keep" ] || status=2 fail "--keep needs a folder: see try.sh --help"
+    shift 2
+    ;;
+-*) status=2 fail "unknown option $1: see try.sh --help" ;;
+esac
+[ $# -ge 1 ] && [ $# -le 2 ] || status=2 fail "a suite, and at most a file: see try.sh --help"
+suite=$1
+file=$(realpath "${2-$(dirname "$0")/../sample_surfaces/rough-steel.x3p}")
+[ -r "$file" ] || fail "$file: no such file, or not readable"
+[ -z "$keep" ] || mkdir -p "$keep"
+[ "$(id -u)" = 0 ] || fail "this needs root, for debootstrap and chroot"
+command -v debootstrap >/dev/null || fail "debootstrap is not here: apt-get install debootstrap"
+command -v cmake >/dev/null || fail "cmake is not here, which makes the tarball"
+
+top=$(cd "$(dirname "$0")/.." && pwd)
+work=$(mktemp -d)
+trap 'rm -rf --one-file-system "$work"' EXIT
+began=$SECONDS
+
+# phase WHAT: said before it.
+phase() {
+    echo "== $suite, $((SECONDS - began)) s: $*"
+}
+
+# inside ROOT COMMAND...: the command there, with a /proc, a /dev and a process tree that end with it.
+inside() {
+    # shellcheck disable=SC2016
+    unshare --mount --pid --fork --kill-child bash -c '
+        mount -t proc proc "$0/proc" && mount --rbind /dev "$0/dev" && exec chroot "$0" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin \
+            LANG=C.UTF-8 HOME=/root DEBIAN_FRONTEND=noninteractive bash -euo pipefail -c "$@"' "$@"
+}
+# in_root ROOT 'COMMANDS': in the folder with the packages.
+in_root() {
+    inside "$1" "cd /packages && $2"
+}
+get='apt-get -q=2 -y --no-install-recommends -o Dpkg::Use-Pty=0 -o APT::Keep-Downloaded-Packages=true'
+get="$get -o APT::AutoRemove::SuggestsImportant=false -o APT::AutoRemove::RecommendsImportant=false"
+
+# downloaded ROOT: megabytes that apt has fetched there, lists and packages.
+downloaded() {
+    find "$1/var/cache/apt/archives" "$1/var/lib/apt/lists" -type f -printf '%s\n' | awk '{ n += $1 } END { printf "%d", n / 1e6 }'
+}
+
+# everything ROOT: what is there, but for what apt, dpkg and adduser note of all they do.
+everything() {
+    (cd "$1" && find . \( -path ./packages -o -path ./proc -o -path ./dev -o -path ./tmp -o -path ./run -o -path './etc/*-' -o -path ./var/cache -o -path ./var/log \
+        -o -path ./var/lib/apt -o -path ./var/lib/dpkg \) -prune -o -print | sort)
+}
+
+phase "two roots"
+debootstrap --variant=minbase "$suite" "$work/clean" ${MIRROR:+"$MIRROR"} >"$work/log" 2>&1 || {
+    tail -n 5 "$work/log" >&2
+    fail "no root of $suite"
+}
+mkdir "$work/clean/packages"
+inside "$work/clean" "apt-get update -q=2 && apt-get clean"
+cp -a "$work/clean" "$work/build"
+
+phase "packages"
+version=$(sed -n 's/^project(libcontact VERSION \([0-9.]*\).*/\1/p' "$top/CMakeLists.txt")
+name=libcontact-$version
+cmake -D SOURCE="$top" -D OUT="$work" -D NAME="$name" -P "$top/cmake/dist.cmake" >/dev/null
+tar xzf "$work/$name.tar.gz" -C "$work/build/packages"
+tar czf "$work/build/packages/libcontact_$version.orig.tar.gz" --exclude="$name/debian" -C "$work/build/packages" "$name"
+in_root "$work/build" "
+    $get install build-essential lintian >/dev/null 2>&1
+    $get build-dep ./$name >/dev/null 2>&1
+    cd $name && DEB_BUILD_OPTIONS=terse dpkg-buildpackage -us -uc >../log 2>&1" || {
+    [ -z "$keep" ] || cp "$work/build/packages/log" "$keep"
+    { grep -iE -A 8 'error' "$work/build/packages/log" || tail "$work/build/packages/log"; } | head -n 60 >&2
+    fail "the packages are not built; with --keep FOLDER the whole log is there"
+}
+if grep -n 'warning:' "$work/build/packages/log"; then
+    fail "the compiler warns"
+fi
+
+phase "lintian"
+# No bug of Debian's asks for these packages, which a changelog of Debian's own would close.
+in_root "$work/build" "
+    lintian --version
+    lintian --allow-root --info --display-info --fail-on error,warning \
+        --suppress-tags initial-upload-closes-no-bugs *.changes" || fail "lintian is not content"
+
+phase "installed by apt"
+for folder in "$work/clean/packages" ${keep:+"$keep"}; do
+    find "$work/build/packages" -maxdepth 1 -type f -exec cp -t "$folder" {} +
+done
+before=$(downloaded "$work/clean")
+start=$SECONDS
+in_root "$work/clean" "$get install ./libcontact0_*.deb ./rough-contact_*.deb >/dev/null 2>&1"
+echo "rough-contact and what it needs: $(($(downloaded "$work/clean") - before)) MB fetched, $((SECONDS - start)) s"
+in_root "$work/clean" "$get purge rough-contact libcontact0 >/dev/null && $get autoremove --purge >/dev/null
+    # this stays; what only the packages need goes with them
+    $get install man-db >/dev/null 2>&1"
+everything "$work/clean" >"$work/before"
+in_root "$work/clean" "$get install ./*.deb >/dev/null"
+in_root "$work/clean" "dpkg -l | awk '/contact|rcg/ { print \$2, \$3 }'"
+
+phase "the demo on $(basename "$file")"
+cp "$file" "$work/clean/packages/"
+in_root "$work/clean" "
+    man -k contact
+    /usr/share/doc/rough-contact/examples/sample_surfaces/demo.sh '$(basename "$file")'"
+if [ -n "$keep" ]; then
+    cp "$work"/clean/packages/rc-demo/*.png "$keep"
+fi
+
+phase "purged"
+in_root "$work/clean" "$get purge '~ncontact' '~nrcg' >/dev/null && $get autoremove --purge >/dev/null"
+everything "$work/clean" >"$work/after"
+diff "$work/before" "$work/after" || fail "these files were left, or taken, by what is gone"
+
+phase "debian/tests"
+in_root "$work/clean" "
+    $get install autopkgtest gcc libc6-dev octave pkgconf python3-matplotlib ./*.deb >/dev/null 2>&1
+    autopkgtest -q --no-built-binaries *.dsc *.deb -- null" || fail "a test of the packages fails"
+phase "done"

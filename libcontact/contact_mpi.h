@@ -1,0 +1,41 @@
+/*
+ * libcontact on several processes: the ranks of an MPI communicator share a map, each with rows of its own.
+ * Only in a library built with MPI (-DRC_MPI=ON).
+ *
+ *     struct rc_ranks *ranks = rc_ranks_new(MPI_COMM_WORLD, &err);
+ *     rc_ranks_rows(ranks, &shape, &first, &n);           which rows are this rank's
+ *     struct rc_problem problem = {..., .ranks = ranks};
+ *     solver = rc_solver_new(&shape, h, &problem, &err);  shape: the whole map; h: its n rows
+ *
+ * Shapes are those of whole maps; every array of values holds the rows of this rank only, and may be empty.
+ * Calls that take such an object are made by all ranks, with equal arguments but for arrays; what they
+ * return, errors included, is the same on all. MPI_THREAD_FUNNELED is enough: MPI is called by the calling
+ * thread alone.
+ */
+#ifndef RC_CONTACT_MPI_H
+#define RC_CONTACT_MPI_H
+
+#include <mpi.h>
+
+#include "contact.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* By all ranks of comm, which is duplicated. NULL when memory is short. */
+RC_API struct rc_ranks *rc_ranks_new(MPI_Comm comm, struct rc_err *err);
+/* By all, before MPI_Finalize and after all that was made with it. NULL is allowed. */
+RC_API void rc_ranks_free(struct rc_ranks *ranks);
+/* Rows of a map that this rank holds: `n` from `first` on; n may be 0. */
+RC_API void rc_ranks_rows(const struct rc_ranks *ranks, const struct rc_shape *shape, size_t *first,
+                          size_t *n);
+
+/* What all ranks together have sent to each other since these were made. */
+RC_API void rc_ranks_sent(const struct rc_ranks *ranks, struct rc_sent *sent);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

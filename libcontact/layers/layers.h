@@ -1,0 +1,13 @@
+/*
+ * The face of this folder: layers on a half-space, how they answer waves, and the integrals that make
+ * answers at a distance of these. Internal: never installed.
+ */
+#ifndef RC_LAYERS_H
+#define RC_LAYERS_H
+
+#include "octaves.h"
+#include "quadrature.h"
+#include "radial.h"
+#include "stack.h"
+
+#endif

@@ -1,0 +1,288 @@
+/*
+ * What passes between ranks, by MPI. Only the thread that made the ranks calls these.
+ */
+#include <limits.h>
+#include <mpi.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "libcontact/contact_mpi.h"
+#include "ranks.h"
+
+struct rc_ranks {
+    MPI_Comm comm, back; /* back: in reverse order */
+    size_t count, own;
+    int *number;                /* scratch: 4 * count          */
+    struct rc_traffic *traffic; /* counted where all is const  */
+    void *room;                 /* RC_RANKS_ROOM * count       */
+};
+
+struct rc_ranks *
+rc_ranks_new(MPI_Comm comm, struct rc_err *err)
+{
+    struct rc_ranks *r = calloc(1, sizeof *r);
+    int count, own, fine;
+
+    MPI_Comm_size(comm, &count);
+    MPI_Comm_rank(comm, &own);
+    if (r != NULL) {
+        r->number = malloc(4 * (size_t)count * sizeof *r->number);
+        r->traffic = calloc(1, sizeof *r->traffic);
+        r->room = malloc(RC_RANKS_ROOM * (size_t)count);
+        r->count = (size_t)count;
+        r->own = (size_t)own;
+    }
+    fine = r != NULL && r->number != NULL && r->traffic != NULL && r->room != NULL;
+    MPI_Allreduce(MPI_IN_PLACE, &fine, 1, MPI_INT, MPI_MIN, comm);
+    if (!fine) {
+        rc_err_set(err, "out of memory for %d processes that share a map", count);
+        if (r != NULL) {
+            free(r->number);
+            free(r->traffic);
+            free(r->room);
+        }
+        free(r);
+        return NULL;
+    }
+    MPI_Comm_dup(comm, &r->comm);
+    MPI_Comm_split(comm, 0, count - own, &r->back);
+    return r;
+}
+
+void
+rc_ranks_free(struct rc_ranks *r)
+{
+    if (r == NULL)
+        return;
+    MPI_Comm_free(&r->comm);
+    MPI_Comm_free(&r->back);
+    free(r->number);
+    free(r->traffic);
+    free(r->room);
+    free(r);
+}
+
+void
+rc_ranks_rows(const struct rc_ranks *r, const struct rc_shape *whole, size_t *first, size_t *n)
+{
+    struct rc_rows rows = rc_rows_of(r, whole);
+
+    *first = rows.first;
+    *n = rows.n;
+}
+
+size_t
+rc_ranks_count(const struct rc_ranks *r)
+{
+    return r == NULL ? 1 : r->count;
+}
+
+size_t
+rc_ranks_own(const struct rc_ranks *r)
+{
+    return r == NULL ? 0 : r->own;
+}
+
+struct rc_traffic *
+rc_ranks_traffic(const struct rc_ranks *r)
+{
+    return r->traffic;
+}
+
+void
+rc_ranks_sent(const struct rc_ranks *r, struct rc_sent *sent)
+{
+    double all[3] = {r->traffic->messages, r->traffic->turned, r->traffic->other}, seconds;
+
+    MPI_Allreduce(MPI_IN_PLACE, all, 3, MPI_DOUBLE, MPI_SUM, r->comm);
+    MPI_Allreduce(&r->traffic->seconds, &seconds, 1, MPI_DOUBLE, MPI_MAX, r->comm);
+    *sent = (struct rc_sent){r->traffic->turns, all[0], all[1], all[2], seconds};
+}
+
+void *
+rc_ranks_room(const struct rc_ranks *r)
+{
+    return r->room;
+}
+
+static bool
+alone(const struct rc_ranks *r)
+{
+    return r == NULL || r->count == 1;
+}
+
+/* ---- small things ---- */
+
+void
+rc_ranks_gather(const struct rc_ranks *r, size_t bytes, const void *own, void *all)
+{
+    if (alone(r)) {
+        memcpy(all, own, bytes);
+        return;
+    }
+    MPI_Allgather(own, (int)bytes, MPI_BYTE, all, (int)bytes, MPI_BYTE, r->comm);
+    r->traffic->other += (double)(bytes * (r->count - 1));
+}
+
+void
+rc_ranks_share(const struct rc_ranks *r, size_t root, size_t bytes, void *v)
+{
+    if (alone(r))
+        return;
+    MPI_Bcast(v, (int)bytes, MPI_BYTE, (int)root, r->comm);
+    r->traffic->other += r->own == root ? (double)(bytes * (r->count - 1)) : 0;
+}
+
+enum rc_status
+rc_ranks_agree(const struct rc_ranks *r, enum rc_status status, struct rc_err *err)
+{
+    struct rc_err text = {""};
+    int first;
+
+    if (alone(r))
+        return status;
+    first = status == RC_FAIL ? (int)r->own : INT_MAX;
+    MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, r->comm);
+    if (first == INT_MAX)
+        return status;
+    if (err != NULL && r->own == (size_t)first)
+        text = *err;
+    MPI_Bcast(&text, sizeof text, MPI_BYTE, first, r->comm);
+    if (err != NULL)
+        *err = text;
+    return RC_FAIL;
+}
+
+void
+rc_ranks_before(const struct rc_ranks *r, bool back, size_t n, double none, double *v)
+{
+    enum {
+        PIECE = 4096
+    };
+    double got[PIECE];
+    bool first = r->own == (back ? r->count - 1 : 0);
+
+    for (size_t k = 0; k < n; k += PIECE) {
+        size_t m = n - k < PIECE ? n - k : PIECE;
+        MPI_Exscan(v + k, got, (int)m, MPI_DOUBLE, MPI_MAX, back ? r->back : r->comm);
+        for (size_t i = 0; i < m; i++)
+            v[k + i] = first ? none : got[i];
+    }
+    r->traffic->other += (double)(n * sizeof *v);
+}
+
+void
+rc_ranks_largest(const struct rc_ranks *r, size_t n, double *v)
+{
+    if (alone(r))
+        return;
+    MPI_Allreduce(MPI_IN_PLACE, v, (int)n, MPI_DOUBLE, MPI_MAX, r->comm);
+    r->traffic->other += (double)(n * sizeof *v);
+}
+
+/* ---- maps ---- */
+
+/* A type of so many bytes, so that counts of them fit an int. */
+static MPI_Datatype
+type_of(size_t bytes)
+{
+    MPI_Datatype type;
+
+    MPI_Type_contiguous((int)bytes, MPI_BYTE, &type);
+    MPI_Type_commit(&type);
+    return type;
+}
+
+void
+rc_ranks_turn(const struct rc_turn *t, bool back, const void *from, void *to)
+{
+    const struct rc_ranks *r = t->ranks;
+    int *pieces = r->number, *at = pieces + r->count, *columns = at + r->count,
+        *from_row = columns + r->count;
+    size_t rows = t->row[t->own + 1] - t->row[t->own];
+    size_t wide = t->column[t->own + 1] - t->column[t->own];
+    MPI_Datatype type = type_of(t->unit);
+    double began = MPI_Wtime();
+
+    for (size_t q = 0; q < r->count; q++) {
+        size_t theirs = t->column[q + 1] - t->column[q], height = t->row[q + 1] - t->row[q];
+        size_t out = back ? height * wide : rows * theirs;
+        pieces[q] = (int)(rows * theirs);
+        at[q] = (int)(rows * t->column[q]);
+        columns[q] = (int)(height * wide);
+        from_row[q] = (int)(t->row[q] * wide);
+        if (q == t->own || out == 0)
+            continue;
+        r->traffic->turned += (double)out * (double)t->unit;
+        r->traffic->messages++;
+    }
+    r->traffic->turns++;
+    if (back)
+        MPI_Alltoallv(from, columns, from_row, type, to, pieces, at, type, r->comm);
+    else
+        MPI_Alltoallv(from, pieces, at, type, to, columns, from_row, type, r->comm);
+    MPI_Type_free(&type);
+    r->traffic->seconds += MPI_Wtime() - began;
+}
+
+void
+rc_ranks_move(const struct rc_ranks *r, size_t bytes, const size_t *from, const size_t *to,
+              const void *v, void *w)
+{
+    int *out = r->number, *out_at = out + r->count, *in = out_at + r->count, *in_at = in + r->count;
+    size_t me = r->own;
+    MPI_Datatype type = type_of(bytes);
+
+    for (size_t q = 0; q < r->count; q++) {
+        size_t low = to == NULL ? 0 : to[q], high = to == NULL ? from[r->count] : to[q + 1];
+        size_t a = from[me] > low ? from[me] : low, b = from[me + 1] < high ? from[me + 1] : high;
+        out[q] = b > a ? (int)(b - a) : 0;
+        out_at[q] = b > a ? (int)(a - from[me]) : 0;
+        if (q != me)
+            r->traffic->other += (double)out[q] * (double)bytes;
+        low = to == NULL ? 0 : to[me];
+        high = to == NULL ? from[r->count] : to[me + 1];
+        a = from[q] > low ? from[q] : low;
+        b = from[q + 1] < high ? from[q + 1] : high;
+        in[q] = b > a ? (int)(b - a) : 0;
+        in_at[q] = b > a ? (int)(a - low) : 0;
+    }
+    MPI_Alltoallv(v, out, out_at, type, w, in, in_at, type, r->comm);
+    MPI_Type_free(&type);
+}
+
+/* The next rank that has rows, that way, or this one when there is no other. */
+static int
+neighbour(const struct rc_ranks *r, const int *has, int step)
+{
+    int count = (int)r->count, q = (int)r->own;
+
+    do
+        q = (q + step + count) % count;
+    while (has[q] == 0 && q != (int)r->own);
+    return q;
+}
+
+void
+rc_ranks_beside(const struct rc_rows *rows, bool round, size_t bytes, const void *first,
+                const void *last, void *before, void *after, bool has[2])
+{
+    const struct rc_ranks *r = rows->ranks;
+    int own = rows->n > 0, above, below;
+    MPI_Request request[4];
+
+    has[0] = own && (round || rows->first > 0);
+    has[1] = own && (round || rows->first + rows->n < rows->ny);
+    MPI_Allgather(&own, 1, MPI_INT, r->number, 1, MPI_INT, r->comm);
+    if (!own)
+        return;
+    above = neighbour(r, r->number, -1);
+    below = neighbour(r, r->number, 1);
+    /* also between the ends of a map that does not go round: nobody looks at it */
+    MPI_Irecv(before, (int)bytes, MPI_BYTE, above, 1, r->comm, &request[0]);
+    MPI_Irecv(after, (int)bytes, MPI_BYTE, below, 2, r->comm, &request[1]);
+    MPI_Isend(last, (int)bytes, MPI_BYTE, below, 1, r->comm, &request[2]);
+    MPI_Isend(first, (int)bytes, MPI_BYTE, above, 2, r->comm, &request[3]);
+    MPI_Waitall(4, request, MPI_STATUSES_IGNORE);
+    r->traffic->other += 2 * (double)bytes;
+}

@@ -1,0 +1,179 @@
+/*
+ * Who owns which rows, and sums over ranks that do not show where the ranks begin.
+ */
+#include "ranks.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- rows ---- */
+
+size_t
+rc_rows_block(size_t nx)
+{
+    size_t rows = 1;
+
+    while (2 * rows * nx <= RC_BLOCK_NODES)
+        rows *= 2;
+    return rows;
+}
+
+size_t
+rc_rows_unit(size_t nx)
+{
+    size_t block = rc_rows_block(nx);
+
+    return block < RC_TILE_ROWS ? RC_TILE_ROWS : block;
+}
+
+size_t
+rc_rows_dealt(size_t n, size_t unit, size_t count, size_t r)
+{
+    size_t units = (n + unit - 1) / unit;
+    /* units * r / count without its overflow */
+    size_t first = (units / count * r + units % count * r / count) * unit;
+
+    return first < n ? first : n;
+}
+
+size_t
+rc_rows_most(const struct rc_shape *whole, size_t count)
+{
+    size_t unit = rc_rows_unit(whole->nx), units = (whole->ny + unit - 1) / unit;
+    size_t most = (units + count - 1) / count * unit;
+
+    return most < whole->ny ? most : whole->ny;
+}
+
+struct rc_rows
+rc_rows_of(const struct rc_ranks *ranks, const struct rc_shape *whole)
+{
+    size_t count = rc_ranks_count(ranks), own = rc_ranks_own(ranks), unit = rc_rows_unit(whole->nx);
+    struct rc_rows rows = {.ranks = count > 1 ? ranks : NULL, .ny = whole->ny};
+
+    rows.first = rc_rows_dealt(whole->ny, unit, count, own);
+    rows.n = rc_rows_dealt(whole->ny, unit, count, own + 1) - rows.first;
+    return rows;
+}
+
+/* ---- a map turned round ---- */
+
+bool
+rc_turn_new(struct rc_turn *t, const struct rc_ranks *ranks, size_t rows, size_t row_unit,
+            size_t columns, size_t unit)
+{
+    size_t count = rc_ranks_count(ranks);
+
+    *t = (struct rc_turn){.ranks = ranks, .count = count, .own = rc_ranks_own(ranks), .unit = unit};
+    t->row = malloc(2 * (count + 1) * sizeof *t->row);
+    if (t->row == NULL)
+        return false;
+    t->column = t->row + count + 1;
+    for (size_t r = 0; r <= count; r++) {
+        t->row[r] = rc_rows_dealt(rows, row_unit, count, r);
+        t->column[r] = rc_rows_dealt(columns, 1, count, r);
+    }
+    return true;
+}
+
+void
+rc_turn_free(struct rc_turn *t)
+{
+    free(t->row);
+    t->row = t->column = NULL;
+}
+
+void
+rc_turn_put(const struct rc_turn *t, size_t j, const void *row, void *pieces)
+{
+    size_t rows = t->row[t->own + 1] - t->row[t->own];
+
+    for (size_t r = 0; r < t->count; r++) {
+        size_t wide = t->column[r + 1] - t->column[r];
+        memcpy((char *)pieces + (rows * t->column[r] + j * wide) * t->unit,
+               (const char *)row + t->column[r] * t->unit, wide * t->unit);
+    }
+}
+
+void
+rc_turn_get(const struct rc_turn *t, size_t j, const void *pieces, void *row)
+{
+    size_t rows = t->row[t->own + 1] - t->row[t->own];
+
+    for (size_t r = 0; r < t->count; r++) {
+        size_t wide = t->column[r + 1] - t->column[r];
+        memcpy((char *)row + t->column[r] * t->unit,
+               (const char *)pieces + (rows * t->column[r] + j * wide) * t->unit, wide * t->unit);
+    }
+}
+
+/* ---- sums ---- */
+
+enum {
+    MOST = 8 /* totals at once */
+};
+struct all {
+    struct rc_total total[MOST];
+    double most;
+};
+_Static_assert(sizeof(struct all) <= RC_RANKS_ROOM, "what ranks gather has room");
+
+void
+rc_ranks_totals(const struct rc_ranks *ranks, size_t n, const struct rc_total *totals, double *sums,
+                double *most)
+{
+    size_t count = rc_ranks_count(ranks);
+    struct all own = {.most = *most}, alone, *all = count > 1 ? rc_ranks_room(ranks) : &alone, sum;
+
+    if (n > 0)
+        memcpy(own.total, totals, n * sizeof *totals);
+    rc_ranks_gather(ranks, sizeof own, &own, all);
+    sum = all[0];
+    for (size_t r = 1; r < count; r++) {
+        for (size_t k = 0; k < n; k++) {
+            rc_total_add(&sum.total[k], all[r].total[k].sum);
+            sum.total[k].lost += all[r].total[k].lost;
+        }
+        sum.most = all[r].most > sum.most ? all[r].most : sum.most;
+    }
+    for (size_t k = 0; k < n; k++)
+        sums[k] = rc_total_value(&sum.total[k]);
+    *most = sum.most;
+}
+
+double
+rc_ranks_total(const struct rc_ranks *ranks, struct rc_total total)
+{
+    double sum, most = 0;
+
+    rc_ranks_totals(ranks, 1, &total, &sum, &most);
+    return sum;
+}
+
+double
+rc_ranks_most(const struct rc_ranks *ranks, double v)
+{
+    rc_ranks_totals(ranks, 0, NULL, NULL, &v);
+    return v;
+}
+
+size_t
+rc_ranks_sum(const struct rc_ranks *ranks, size_t n)
+{
+    /* whole numbers below 2^53 */
+    return (size_t)rc_ranks_total(ranks, (struct rc_total){.sum = (double)n});
+}
+
+size_t
+rc_ranks_sum_before(const struct rc_ranks *ranks, size_t n)
+{
+    size_t count = rc_ranks_count(ranks), own = rc_ranks_own(ranks), sum = 0, *all;
+
+    if (count == 1)
+        return 0;
+    all = rc_ranks_room(ranks);
+    rc_ranks_gather(ranks, sizeof n, &n, all);
+    for (size_t r = 0; r < own; r++)
+        sum += all[r];
+    return sum;
+}

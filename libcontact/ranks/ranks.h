@@ -1,0 +1,211 @@
+/*
+ * Processes that share a map, each with rows of its own: the lowest folder, and the only one that knows
+ * MPI. Internal: never installed (what users need of it is contact_mpi.h).
+ *
+ * Rank r of P owns whole rows, in units that neither a tile of the projection (16 rows) nor a block of the
+ * sums (solver/reduce.c) straddles; maps of few units leave ranks without rows, which then only take part
+ * in what all do together. NULL for the ranks, and a build without MPI, is one process that owns all: every
+ * function is then empty, and nothing is copied.
+ *
+ * Results do not depend on P, bit for bit: rows and columns are transformed by themselves by the same plans,
+ * blocks add up in the same order whoever owns them, and their sums are added with what the additions round
+ * away, so that the rounding of the total does not show where the ranks begin (but for ties: 1 in 1e15).
+ *
+ * What is not local to rows, and how it is done:
+ *
+ *   convolutions          rows are transformed, one exchange makes whole columns of them, multiplied there
+ *                         by the columns of the spectrum that are kept there only, one exchange back
+ *                         (fft_body.h)
+ *   spectra of kernels    the same with the rows of a quarter (fft.c)
+ *   sums, largest values  solver/reduce.c: every rank gets the sums of all, and adds them in order
+ *   projection: the load  Newton's method on such sums; nodes that join by their gap: the gap of the last
+ *                         one by bisection on counts (projection.c)
+ *   tiles                 never straddle; the roomiest one of all is found by comparing (tiles.c)
+ *   the sift of nodes     looks at eight neighbours: rows beside those owned are fetched (working_set.c)
+ *   edge of the contact   the same (result.c)
+ *   distances             along columns: the last row of the set above and the first below, by a scan over
+ *                         the ranks (distance.c); along rows: local
+ *   nested start          rows of the coarser grid are moved to who owns them there; grids of few nodes a
+ *                         rank are solved by every rank for itself, which costs no message (nested.c)
+ *   patches of contact    labelled row by row, joined across the seams between ranks (surface/patches.c)
+ *   failures              no rank goes on alone: makers agree on their status before any of them returns
+ */
+#ifndef RC_RANKS_H
+#define RC_RANKS_H
+
+#include "libcontact/common.h"
+
+/* ---- rows ---- */
+
+struct rc_rows {
+    const struct rc_ranks *ranks; /* NULL: all rows are here           */
+    size_t ny;                    /* of the whole map                  */
+    size_t first, n;              /* held here: first .. first + n - 1 */
+};
+
+enum {
+    RC_BLOCK_NODES = 4096, /* that add up by themselves  */
+    RC_TILE_ROWS = 16      /* that are never split       */
+};
+/* Rows of a map of such lines that make a block; 1 also where a line is more than one. */
+size_t rc_rows_block(size_t nx);
+/* Rows that belong to one rank together; most rows that one of `count` ranks holds. */
+size_t rc_rows_unit(size_t nx);
+size_t rc_rows_most(const struct rc_shape *whole, size_t count);
+/* Those that are held here of a map. */
+struct rc_rows rc_rows_of(const struct rc_ranks *ranks, const struct rc_shape *whole);
+/* n things in units of `unit` dealt out to `count` ranks: the first one of rank r; r = count: n. */
+size_t rc_rows_dealt(size_t n, size_t unit, size_t count, size_t r);
+
+static inline struct rc_shape
+rc_rows_shape(const struct rc_rows *rows, const struct rc_shape *whole)
+{
+    return (struct rc_shape){whole->nx, rows->n, whole->dx, whole->dy};
+}
+
+/* A map turned round: ranks that hold `row[r]` .. `row[r + 1] - 1` of its rows come to hold columns
+ * `column[r]` .. `column[r + 1] - 1` of all of them, row by row. On the side of rows each rank keeps a piece
+ * for every other rank, one after another; columns are in units of `unit` bytes. */
+struct rc_turn {
+    const struct rc_ranks *ranks;
+    size_t count, own, unit;
+    size_t *row, *column; /* count + 1 each */
+};
+/* false: memory is short. rows and columns are dealt out in units of row_unit and 1. */
+bool rc_turn_new(struct rc_turn *turn, const struct rc_ranks *ranks, size_t rows, size_t row_unit,
+                 size_t columns, size_t unit);
+void rc_turn_free(struct rc_turn *turn);
+/* Row j of those held here, to its pieces and from them. */
+void rc_turn_put(const struct rc_turn *turn, size_t j, const void *row, void *pieces);
+void rc_turn_get(const struct rc_turn *turn, size_t j, const void *pieces, void *row);
+
+/* ---- what passes between ranks ---- */
+
+/* What this rank has sent to others. */
+struct rc_traffic {
+    size_t turns;            /* exchanges of whole maps: rows to columns, or back               */
+    double turned, messages; /* bytes and messages of these                                     */
+    double seconds;          /* in them                                                         */
+    double other;            /* bytes of all that is small: sums, rows at seams, coarser grids  */
+};
+
+enum {
+    RC_RANKS_ROOM = 160 /* bytes of a rank */
+};
+#ifdef RC_MPI
+/* Memory for so many bytes of each rank, until the next call that gathers. */
+void *rc_ranks_room(const struct rc_ranks *ranks);
+size_t rc_ranks_count(const struct rc_ranks *ranks);
+size_t rc_ranks_own(const struct rc_ranks *ranks);
+/* all[r] becomes what rank r gave, `bytes` each. */
+void rc_ranks_gather(const struct rc_ranks *ranks, size_t bytes, const void *own, void *all);
+/* All get what rank `root` has. */
+void rc_ranks_share(const struct rc_ranks *ranks, size_t root, size_t bytes, void *v);
+/* RC_OK when it is that on all ranks; else RC_FAIL on all, and the sentence of the first that failed. */
+enum rc_status rc_ranks_agree(const struct rc_ranks *ranks, enum rc_status status,
+                              struct rc_err *err);
+/* v[k] becomes the largest of those of the ranks before, or, `back`, after this one; `none` where there is
+ * none. */
+void rc_ranks_before(const struct rc_ranks *ranks, bool back, size_t n, double none, double *v);
+/* v[k] becomes the largest of those of all ranks. */
+void rc_ranks_largest(const struct rc_ranks *ranks, size_t n, double *v);
+/* Pieces to columns, or, `back`, columns to pieces. */
+void rc_ranks_turn(const struct rc_turn *turn, bool back, const void *from, void *to);
+/* Rows of `bytes`, from[r] .. from[r + 1] - 1 held by rank r, go to those who are to hold them; to NULL:
+ * to all. */
+void rc_ranks_move(const struct rc_ranks *ranks, size_t bytes, const size_t *from, const size_t *to,
+                   const void *v, void *w);
+/* The row before the first one held here and the one after the last; false where there is none: at the ends
+ * of the map, unless it goes `round`. Ranks without rows take part. */
+void rc_ranks_beside(const struct rc_rows *rows, bool round, size_t bytes, const void *first,
+                     const void *last, void *before, void *after, bool has[2]);
+struct rc_traffic *rc_ranks_traffic(const struct rc_ranks *ranks);
+#else
+static inline size_t
+rc_ranks_count(const struct rc_ranks *ranks)
+{
+    (void)ranks;
+    return 1;
+}
+
+static inline size_t
+rc_ranks_own(const struct rc_ranks *ranks)
+{
+    (void)ranks;
+    return 0;
+}
+
+static inline void
+rc_ranks_gather(const struct rc_ranks *ranks, size_t bytes, const void *own, void *all)
+{
+    (void)ranks;
+    __builtin_memcpy(all, own, bytes);
+}
+
+static inline void
+rc_ranks_share(const struct rc_ranks *ranks, size_t root, size_t bytes, void *v)
+{
+    (void)ranks, (void)root, (void)bytes, (void)v;
+}
+
+static inline enum rc_status
+rc_ranks_agree(const struct rc_ranks *ranks, enum rc_status status, struct rc_err *err)
+{
+    (void)ranks, (void)err;
+    return status;
+}
+
+static inline void
+rc_ranks_move(const struct rc_ranks *ranks, size_t bytes, const size_t *from, const size_t *to,
+              const void *v, void *w)
+{
+    (void)ranks, (void)to;
+    __builtin_memcpy(w, v, (from[1] - from[0]) * bytes);
+}
+
+/* These are never reached where there is one rank. */
+static inline void *
+rc_ranks_room(const struct rc_ranks *ranks)
+{
+    (void)ranks;
+    return NULL;
+}
+
+static inline void
+rc_ranks_before(const struct rc_ranks *ranks, bool back, size_t n, double none, double *v)
+{
+    (void)ranks, (void)back, (void)n, (void)none, (void)v;
+}
+
+static inline void
+rc_ranks_largest(const struct rc_ranks *ranks, size_t n, double *v)
+{
+    (void)ranks, (void)n, (void)v;
+}
+
+static inline void
+rc_ranks_turn(const struct rc_turn *turn, bool back, const void *from, void *to)
+{
+    (void)turn, (void)back, (void)from, (void)to;
+}
+
+static inline void
+rc_ranks_beside(const struct rc_rows *rows, bool round, size_t bytes, const void *first,
+                const void *last, void *before, void *after, bool has[2])
+{
+    (void)rows, (void)round, (void)bytes, (void)first, (void)last, (void)before, (void)after;
+    has[0] = has[1] = false;
+}
+#endif
+
+/* The sum over all ranks, that does not depend on how many there are; the largest; of counts. */
+double rc_ranks_total(const struct rc_ranks *ranks, struct rc_total total);
+double rc_ranks_most(const struct rc_ranks *ranks, double v);
+size_t rc_ranks_sum(const struct rc_ranks *ranks, size_t n);
+/* The sum over the ranks before this one. */
+size_t rc_ranks_sum_before(const struct rc_ranks *ranks, size_t n);
+/* Several totals and the largest of one more value at once. */
+void rc_ranks_totals(const struct rc_ranks *ranks, size_t n, const struct rc_total *totals,
+                     double *sums, double *most);
+
+#endif

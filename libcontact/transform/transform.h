@@ -1,0 +1,13 @@
+/*
+ * The face of this folder: Fourier transforms of maps and lines by FFTW, and what follows from the
+ * power of their waves. Internal: never installed.
+ */
+#ifndef RC_TRANSFORM_H
+#define RC_TRANSFORM_H
+
+#include "dct.h"
+#include "fourier.h"
+#include "planner.h"
+#include "power.h"
+
+#endif

@@ -1,0 +1,167 @@
+# Sourced by the tests of this folder, after pipe.sh: small inputs, and a command line of every kind of work
+# of every tool, each of which writes `out` or standard output and nothing else. Before each stands how many times coarser
+# than others its allocations are tried.
+
+# What can be tried is tried in one thread: which allocation or call is number n must not depend on luck.
+export RC_THREADS=1
+# Formats that bear a date bear this one.
+export SOURCE_DATE_EPOCH=1700000000
+
+make_inputs() {
+    rc-synth selfaffine --nx 16 --ny 18 --dx 1um --hurst 0.8 --rms-slope 0.1 --seed 3 -o h.rcg
+    rc-solve --quiet --estar 1GPa --load 1mN h.rcg -o c.rcg
+    rc-solve --quiet --E1 1GPa --nu1 0.3 --E2 rigid --layer 2um,2GPa,0.3 --load 1mN h.rcg -o l.rcg
+    local format
+    for format in x3p sdf gsf npy csv xyz hdf5 gwy sur; do rc-export h.rcg -o "h.$format"; done
+    gzip -kn h.gsf
+    printf '5 6 7\n6 NaN 8\n7 8 9\n' >hole.txt
+    rc-import --dx 1um --z-unit nm hole.txt -o hole.rcg
+}
+
+# Lines: how many times as coarsely as the others it is swept; the command.
+commands=$(
+    cat <<'LIST'
+1 rc-synth selfaffine --nx 16 --dx 1um --hurst 0.8 --rms-slope 0.1 --weibull 2 -o out
+1 rc-synth sphere --nx 16 --dx 1um --radius 1mm --type f32
+1 rc-import h.x3p -o out
+1 rc-import h.sdf -o out
+1 rc-import h.gsf.gz -o out
+1 rc-import --dx 1um --z-unit m h.npy -o out
+1 rc-import --dx 1um --z-unit m h.csv -o out
+1 rc-import --z-unit m --dx 1um h.xyz -o out
+2 rc-import h.hdf5 -o out
+1 rc-import h.gwy -o out
+1 rc-import h.sur -o out
+1 rc-import --list h.gwy
+2 rc-detrend --plane --poly 3 --lowpass 6um --outliers 5 --taper 3um h.rcg -o out
+1 rc-detrend --sphere --robust h.rcg -o out
+1 rc-detrend --cylinder h.rcg -o out
+1 rc-detrend --fill hole.rcg -o out
+1 rc-detrend --robust --highpass 6um h.rcg -o out
+1 rc-pick --crop 2,2,12,12 --resample 0.7um,1.6um --mirror x --rotate 90 --set note=a h.rcg -o out
+1 rc-pick --channel pressure c.rcg
+1 rc-add h.rcg h.rcg -o out
+2 rc-solve --quiet --periodic --estar 1GPa --hardness 20MPa --load 1mN:2mN:2 --history --output pressure,plastic h.rcg -o out
+1 rc-solve --quiet --kernel mlms --estar 1GPa --approach 0.1um --report /dev/null h.rcg -o out
+1 rc-solve --quiet --method pk99 --kernel direct --estar 1GPa --load 1mN --discretization h.rcg -o out
+1 rc-solve --quiet --E1 1GPa --nu1 0.3 --E2 rigid --layer 2um,2GPa,0.3 --load 1mN h.rcg -o out
+1 rc-solve --quiet --estar 1GPa --load 1mN --dry-run h.rcg
+5 rc-stress --nu 0.3 --depths auto c.rcg -o out
+2 rc-stress --nu 0.3 --mu 0.1 --depths 1um,2um --components mises,s1 --report /dev/null c.rcg -o out
+3 rc-stress --nu 0.3 --section y=0 --depths 0:4um:4 c.rcg -o out
+5 rc-stress --depths auto l.rcg -o out
+1 rc-deflect --estar 1GPa c.rcg -o out
+1 rc-deflect --estar 1GPa --kernel mlms c.rcg -o out
+1 rc-info --areal --psd h.rcg -o out
+1 rc-info --json --areal --psd h.rcg
+1 rc-info --patches --json c.rcg -o out
+1 rc-info --psd --psd-map map h.rcg -o out
+1 rc-solve --quiet --estar 1GPa --load 1mN --checkpoint kept --resume h.rcg -o out
+1 rc-export --format x3p h.rcg -o out
+1 rc-export --format sdf h.rcg -o out
+1 rc-export --format npy h.rcg -o out
+1 rc-export --format gwy --channel height c.rcg -o out
+1 rc-export --format hdf5 c.rcg -o out
+1 rc-export --format vti c.rcg -o out
+1 rc-export --format vtr c.rcg -o out
+1 rc-export --format csv h.rcg
+3 rc-render --raw --channel pressure c.rcg -o out.png
+6 rc-render --figure --channel pressure c.rcg -o out.pdf
+1 rc-cost --quiet --periodic --estar 1GPa --load 1mN --kernel fft --method pk99 --plot plot.png h.rcg -o out
+1 rc-cost --quiet --periodic --estar 1GPa --load 1mN --kernel fft --method pk99 --nu 0.3 --depths 1um,2um h.rcg -o out
+1 rc-cost --quiet --estar 1GPa --load 1mN --kernel direct --dry-run h.rcg
+LIST
+)
+
+# written COMMAND: the file that it writes; nothing: standard output.
+written() {
+    case $1 in *' -o '*) echo "${1##* -o }" ;; esac
+}
+
+# What a command writes beside it is whole, or not there; a checkpoint can be gone on from.
+whole_beside() {
+    [ ! -e map ] || rc-info --quiet map >/dev/null 2>&1 || return 1
+    [ ! -e plot.png ] || [ "$(tail -c 8 plot.png | head -c 4)" = IEND ] || return 1
+    [ ! -e kept ] || [ ! -s kept ] || rc-solve --quiet --estar 1GPa --load 1mN --checkpoint kept --resume --output pressure h.rcg >/dev/null 2>&1 || return 1
+    rm -f map kept plot.png
+}
+
+# What is there beside what a run may leave.
+others() {
+    local f
+    for f in * .[!.]*; do
+        case $f in map | kept | plot.png | out | out.png | out.pdf | run.out | run.err | clean | clean.out | count | '.[!.]*') ;; *) echo "$f" ;; esac
+    done
+}
+
+# costs_of FILE: of a table of rc-cost what does not depend on the moment, as times and memory do: settings and
+# errors. Nothing of any other file.
+costs_of() {
+    awk '$1 ~ /^(pcg|pk99)$/ { print $1, $2, $3, $4, $5, $8, $10, $11, $12, $13, $14 }
+        $1 ~ /^(fft|mlms|direct)$/ { print $1, $2, $5, $7, $8, $9 }' "$1" 2>/dev/null
+}
+
+# same_costs A B: but for what A says could not be run.
+same_costs() {
+    local extra missing
+    extra=$(comm -23 <(costs_of "$1" | sort) <(costs_of "$2" | sort) | wc -l)
+    missing=$(comm -13 <(costs_of "$1" | sort) <(costs_of "$2" | sort) | wc -l)
+    [ -n "$(costs_of "$1")" ] && [ "$extra" = 0 ] && [ "$missing" = "$(grep -ac '^# .*: its process died' "$1")" ]
+}
+
+# same_work A B: equal files, or streams with the same headers and values that are equal to rounding: where
+# the C library has no memory to sort in it sorts in another way, and sums come in another order.
+same_work() {
+    cmp -s "$1" "$2" || same_costs "$1" "$2" || perl -e '
+        sub frames {
+            local $/; open my $f, "<:raw", $_[0] or exit 1; my $s = <$f>; my @frames;
+            while ($s =~ /\G(RCG1\n.*?\n\n)/gcs) {
+                my ($head, $at) = ($1, pos $s);
+                my ($nx) = $head =~ /^nx=(\d+)/m; my ($ny) = $head =~ /^ny=(\d+)/m;
+                my $wide = $head =~ /^type=f32/m ? 4 : 8;
+                push @frames, [$head, unpack(($wide == 4 ? "f" : "d") . "<*", substr $s, $at, $wide * $nx * $ny)];
+                pos($s) = $at + $wide * $nx * $ny; $s =~ /\Gcrc32 \w+\n/gc;
+            }
+            exit 1 unless @frames && $s =~ /\GRCGEND \d+\n$/gc; return @frames;
+        }
+        my @a = frames($ARGV[0]); my @b = frames($ARGV[1]); exit 1 if @a != @b;
+        for my $f (0 .. $#a) {
+            my ($x, $y) = ($a[$f], $b[$f]); my $most = 0;
+            exit 1 if $x->[0] ne $y->[0] || @$x != @$y;
+            for (1 .. $#$x) { $most = abs $x->[$_] if abs $x->[$_] > $most }
+            for (1 .. $#$x) { exit 1 if !(abs($x->[$_] - $y->[$_]) <= 1e-13 * $most) && "$x->[$_]" ne "$y->[$_]" }
+        }' "$1" "$2"
+}
+
+# same_said FILE FILE: standard output, but for the mebibytes of a plan: they count what the process holds, and with it what
+# makes its allocations fail. law_memory holds that they need no memory themselves.
+same_said() {
+    cmp -s "$1" "$2" || cmp -s <(sed 's/, [0-9]* MiB, / MiB, /' "$1") <(sed 's/, [0-9]* MiB, / MiB, /' "$2")
+}
+
+# judge STATUS OUT WHERE: a run that was disturbed has either done all of its work or has failed cleanly.
+# Says what is wrong; fails then.
+judge() {
+    local status=$1 out=$2 where=$3 tool=${4%% *}
+    whole_beside || {
+        echo "$where: map or checkpoint is not whole"
+        return 1
+    }
+    case $status in
+    0)
+        if { [ -z "$out" ] || same_work "$out" clean; } && same_said run.out clean.out; then return 0; fi
+        echo "$where: exit status 0 and another output"
+        ;;
+    1)
+        if [ -n "$out" ] && [ "$(tr -d '\0' <"$out")" != old ]; then
+            echo "$where: the old file is not as it was"
+        elif ! grep -aq "^$tool: " run.err; then
+            echo "$where: no message, only: $(head -c 300 run.err | tr -d '\0')"
+        else
+            return 0
+        fi
+        ;;
+    *) echo "$where: exit status $status: $(head -c 600 run.err | tr -d '\0')" ;;
+    esac
+    return 1
+}

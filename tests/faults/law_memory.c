@@ -1,0 +1,637 @@
+/* Whichever allocation fails in a public function of libcontact, alone or with all after it: the answer is
+ * right all the same, or it is a failure with its reason, what is in place is as it was, and nothing is
+ * held. Which functions those are is read from the headers; one that is tried nowhere is a failure. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "failing_malloc.h"
+#include "tools/machine/machine.h"
+#include "libcontact/contact.h"
+#include "tests/exact.h"
+
+enum {
+    NX = 16,
+    NY = 18,
+    N = NX * NY,
+    OUT = 4 * N /* numbers that a use may give */
+};
+
+static const struct rc_shape shape = {NX, NY, 1.1e-6, 1e-6};
+static const struct rc_layer layer = {2e-6, 2e9, 0.3};
+static const struct rc_coating coating = {.layers = 1, .layer = &layer, .e = 1e9, .nu = 0.3};
+static double rough[N], holed[N], pressure[N];
+
+/* A use of some functions: writes what they give to the front of out, zeros before. */
+typedef enum rc_status use(double *out, struct rc_err *err);
+
+/* A map that was to be changed in place is what it was where that has failed. */
+static enum rc_status
+or_as_before(enum rc_status status, const double *map, const double *before)
+{
+    if (status != RC_OK)
+        assert_memory_equal(map, before, N * sizeof *map);
+    return status;
+}
+
+/* ---- grids ---- */
+
+static enum rc_status
+grids(double *out, struct rc_err *err)
+{
+    enum rc_status status = RC_FAIL;
+    struct rc_grid *g = rc_grid_new(&shape, "height", "m", err), *like = NULL, *part = NULL;
+
+    if (g == NULL || (part = rc_grid_new_part(&shape, 1, "height", "m", err)) == NULL ||
+        rc_grid_set(g, "note", "a", err) != RC_OK ||
+        rc_grid_set_number(g, "estar", 1e9, err) != RC_OK ||
+        rc_grid_history(g, "a step", err) != RC_OK || rc_grid_history(g, "another", err) != RC_OK ||
+        rc_text_set(&g->unit, "um", err) != RC_OK ||
+        (like = rc_grid_like(g, "pressure", "Pa", err)) == NULL)
+        goto done;
+    rc_grid_number(like, "estar", &out[0]);
+    out[1] = (double)like->keys + (double)rc_grid_nodes(part);
+    out[2] = (double)strlen(rc_grid_get(like, "history"));
+    status = RC_OK;
+done:
+    rc_grid_free(g);
+    rc_grid_free(like);
+    rc_grid_free(part);
+    return status;
+}
+
+/* ---- surfaces ---- */
+
+static enum rc_status
+selfaffine(double *out, struct rc_err *err)
+{
+    static const struct rc_selfaffine what = {
+        .hurst = 0.8, .rms_slope = 0.1, .seed = 3, .anisotropy = 2, .skewness = 1};
+
+    return rc_synth_selfaffine(&shape, &what, out, err);
+}
+
+static enum rc_status
+form(const struct rc_form *what, const double *h, double *out, struct rc_err *err)
+{
+    memcpy(out, h, sizeof rough);
+    return or_as_before(rc_detrend_form(&shape, what, out, &out[N], err), out, h);
+}
+
+static enum rc_status
+polynomial(double *out, struct rc_err *err)
+{
+    memcpy(out, rough, sizeof rough);
+    return rc_detrend_poly(&shape, 3, out, err);
+}
+
+static enum rc_status
+robust_sphere(double *out, struct rc_err *err)
+{
+    static const struct rc_form what = {.kind = RC_SPHERE, .robust = true, .threads = 1};
+    double h[N];
+
+    rc_synth_sphere(&shape, 1e-3, h);
+    for (size_t k = 0; k < N; k++)
+        h[k] += 0.01 * rough[k];
+    return form(&what, h, out, err);
+}
+
+static enum rc_status
+cylinder(double *out, struct rc_err *err)
+{
+    static const struct rc_form what = {.kind = RC_CYLINDER, .threads = 1};
+    double h[N];
+
+    rc_synth_paraboloid(&shape, (struct rc_place){0, 0}, 1e-3, INFINITY, 30, h);
+    for (size_t k = 0; k < N; k++)
+        h[k] += 0.01 * rough[k];
+    return form(&what, h, out, err);
+}
+
+static enum rc_status
+filtered(double *out, struct rc_err *err)
+{
+    static const struct rc_filter what = {
+        .cutoff = 5e-6, .high = true, .robust = true, .threads = 1};
+
+    memcpy(out, holed, sizeof holed);
+    return or_as_before(rc_filter(&shape, &what, out, err), out, holed);
+}
+
+static enum rc_status
+outliers(double *out, struct rc_err *err)
+{
+    size_t count = 0;
+
+    memcpy(out, holed, sizeof holed);
+    if (or_as_before(rc_outliers(&shape, 2, false, 1, out, &count, err), out, holed) != RC_OK)
+        return RC_FAIL;
+    out[N] = (double)count;
+    return RC_OK;
+}
+
+static enum rc_status
+tapered(double *out, struct rc_err *err)
+{
+    memcpy(out, rough, sizeof rough);
+    return or_as_before(rc_taper(&shape, 3e-6, out, err), out, rough);
+}
+
+static enum rc_status
+holes(double *out, struct rc_err *err)
+{
+    size_t filled = 0;
+
+    memcpy(out, holed, sizeof holed);
+    if (rc_hole_width(&shape, out, &out[N], err) != RC_OK ||
+        rc_inpaint(&shape, out, &filled, err) != RC_OK)
+        return RC_FAIL;
+    out[N + 1] = (double)filled;
+    return RC_OK;
+}
+
+static enum rc_status
+resampled(double *out, struct rc_err *err)
+{
+    struct rc_shape to;
+
+    if (rc_resample_shape(&shape, 0.8e-6, 2.1e-6, &to, err) != RC_OK)
+        return RC_FAIL;
+    return rc_resample(&shape, holed, false, &to, out, err);
+}
+
+static enum rc_status
+patches(double *out, struct rc_err *err)
+{
+    static const struct rc_patch_options o = {.each = true, .threads = 1};
+    struct rc_patches found;
+    enum rc_status status = rc_patches_find(&shape, pressure, &o, &found, err);
+
+    if (status == RC_OK)
+        for (size_t k = 0; k < found.count && k < N; k++)
+            out[k] = found.patch[k].perimeter;
+    rc_patches_free(&found);
+    return status;
+}
+
+static enum rc_status
+areal(double *out, struct rc_err *err)
+{
+    static const struct rc_surface_options o = {.threads = 1};
+    struct rc_areal a;
+    enum rc_status status = rc_areal(&shape, holed, &o, &a, err);
+
+    if (status == RC_OK)
+        memcpy(out, &a, sizeof a);
+    return status;
+}
+
+static enum rc_status
+spectrum(double *out, struct rc_err *err)
+{
+    struct rc_psd_options o = {.map = out, .threads = 1};
+    struct rc_psd *psd = rc_psd_new(&shape, rough, &o, err);
+
+    if (psd == NULL)
+        return RC_FAIL;
+    memcpy(out + N, psd->c, psd->rings * sizeof *psd->c);
+    rc_psd_free(psd);
+    return RC_OK;
+}
+
+/* ---- convolutions ---- */
+
+static enum rc_status
+convolved(const struct rc_conv_options *o, double *out, struct rc_err *err)
+{
+    struct rc_conv *conv = rc_conv_new(&shape, 1e9, o, err);
+
+    if (conv == NULL)
+        return RC_FAIL;
+    rc_conv_apply(conv, pressure, out);
+    out[N] = rc_conv_error(conv);
+    rc_conv_free(conv);
+    return RC_OK;
+}
+
+#define CONVOLUTION(name, ...)                                                                     \
+    static enum rc_status name(double *out, struct rc_err *err)                                    \
+    {                                                                                              \
+        static const struct rc_conv_options o = {.threads = 1, __VA_ARGS__};                       \
+        return convolved(&o, out, err);                                                            \
+    }
+CONVOLUTION(free_fft, .engine = "fft")
+CONVOLUTION(single_fft, .engine = "fft", .tol = 1e-3)
+CONVOLUTION(periodic_fft, .engine = "fft", .boundary = RC_PERIODIC)
+CONVOLUTION(mlms, .engine = "mlms", .tol = 1e-4)
+CONVOLUTION(direct, .engine = "direct")
+CONVOLUTION(coated, .coating = &coating)
+CONVOLUTION(coated_periodic, .coating = &coating, .boundary = RC_PERIODIC)
+
+/* ---- contact ---- */
+
+static enum rc_status
+finish_load(struct rc_solver *solver, struct rc_err *err)
+{
+    enum rc_status status;
+
+    while ((status = rc_solver_step(solver)) == RC_MORE)
+        continue;
+    return status == RC_OK ? RC_OK
+                           : rc_err_set(err, "the solution stops short: status %d", (int)status);
+}
+
+static enum rc_status
+solved(const struct rc_problem *problem, double *out, struct rc_err *err)
+{
+    struct rc_solver *solver = rc_solver_new(&shape, rough, problem, err);
+    struct rc_contact contact;
+    enum rc_status status = RC_FAIL;
+    double stiffness;
+
+    if (solver == NULL || finish_load(solver, err) != RC_OK)
+        goto done;
+    rc_solver_result(solver, out + N, out + 2 * N, &contact);
+    if (rc_solver_plastic(solver, out + 3 * N, err) != RC_OK ||
+        rc_solver_stiffness(solver, &stiffness, err) != RC_OK ||
+        rc_solver_set_load(solver, 1.5 * contact.load, 0, err) != RC_OK ||
+        rc_solver_warm_start(solver, contact.load, out, err) != RC_OK ||
+        finish_load(solver, err) != RC_OK)
+        goto done;
+    memcpy(out, rc_solver_pressure(solver), sizeof pressure);
+    out[4 * N - 1] = stiffness;
+    status = RC_OK;
+done:
+    rc_solver_free(solver);
+    return status;
+}
+
+#define CONTACT(name, ...)                                                                         \
+    static enum rc_status name(double *out, struct rc_err *err)                                    \
+    {                                                                                              \
+        static const struct rc_problem problem = {                                                 \
+            .estar = 1e9, .threads = 1, .tol = 1e-6, __VA_ARGS__};                                 \
+        return solved(&problem, out, err);                                                         \
+    }
+CONTACT(free_contact, .load = 1e-3)
+CONTACT(hard_contact, .load = 1e-3, .hardness = 2e7, .boundary = RC_PERIODIC)
+CONTACT(paper_method, .load = 1e-3, .method = "pk99", .engine = "mlms")
+CONTACT(to_an_approach, .approach = 1e-7, .discretization = true)
+CONTACT(coated_contact, .load = 1e-3, .coating = &coating)
+
+/* ---- stresses ---- */
+
+static enum rc_status
+stressed(const struct rc_stress_options *o, double *out, struct rc_err *err)
+{
+    double *const slice[RC_STRESSES] = {
+        [RC_SXX] = out, [RC_SXZ] = out + N, [RC_MISES] = out + 2 * N, [RC_S1] = out + 3 * N};
+    struct rc_stress *stress = rc_stress_new(&shape, pressure, o, err);
+    enum rc_status status = RC_FAIL;
+
+    if (stress != NULL && (status = rc_stress_slice(stress, 1.5e-6, slice, err)) == RC_OK)
+        status = rc_stress_slice(stress, 3e-6, slice, err);
+    rc_stress_free(stress);
+    return status;
+}
+
+#define STRESS(name, ...)                                                                          \
+    static enum rc_status name(double *out, struct rc_err *err)                                    \
+    {                                                                                              \
+        static const struct rc_stress_options o = {.nu = 0.3,                                      \
+                                                   .wanted = 1 << RC_SXX | 1 << RC_SXZ |           \
+                                                             1 << RC_MISES | 1 << RC_S1,           \
+                                                   .threads = 1,                                   \
+                                                   __VA_ARGS__};                                   \
+        return stressed(&o, out, err);                                                             \
+    }
+STRESS(free_stress, .mu = 0.1)
+STRESS(periodic_stress, .mu = 0.1, .boundary = RC_PERIODIC)
+STRESS(direct_stress, .engine = "direct")
+STRESS(mlms_stress, .engine = "mlms", .tol = 1e-3)
+STRESS(section_stress, .section = 'y')
+STRESS(coated_stress, .coating = &coating)
+
+static enum rc_status
+depths(double *out, struct rc_err *err)
+{
+    double *z = NULL;
+    size_t n = 0;
+    enum rc_status status = rc_stress_depths(&shape, pressure, RC_FREE, &coating, &z, &n, err);
+
+    if (status == RC_OK)
+        memcpy(out, z, (n < OUT ? n : OUT) * sizeof *out);
+    free(z);
+    z = NULL;
+    if (status == RC_OK) /* without ranks the same */
+        status = rc_stress_depths_on(NULL, &shape, pressure, RC_FREE, NULL, &z, &n, err);
+    free(z);
+    return status;
+}
+
+/* ---- what answers without failing ---- */
+
+/* Figures of a plan: 0 or an empty text where there is no memory for it. */
+static enum rc_status
+plans(double *out, struct rc_err *err)
+{
+    static const struct rc_filter filter = {.cutoff = 5e-6, .threads = 1};
+    static const struct rc_conv_options conv = {.threads = 1};
+    static const struct rc_problem problem = {.estar = 1e9, .load = 1e-3, .threads = 1};
+    static const struct rc_stress_options stress = {.nu = 0.3, .wanted = 1, .threads = 1};
+    static const struct rc_surface_options surface = {.threads = 1};
+    struct rc_expected expected;
+    const char *reason;
+    size_t bytes[10];
+
+    bytes[0] = rc_filter_memory(&shape, &filter);
+    bytes[1] = rc_outliers_memory(&shape, 1);
+    bytes[2] = rc_inpaint_memory(9);
+    bytes[3] = rc_areal_memory(&shape, &surface);
+    bytes[4] = rc_psd_memory(&shape);
+    bytes[5] = rc_conv_memory(&shape, &conv);
+    bytes[6] = rc_solver_memory(&shape, &problem);
+    bytes[7] = rc_stress_memory(&shape, &stress);
+    bytes[8] = rc_patches_memory(&shape, pressure);
+    bytes[9] = rc_solver_stiffness_memory(&shape);
+    for (size_t k = 0; k < 10; k++) {
+        out[k] = (double)bytes[k];
+        if (bytes[k] == 0)
+            return rc_err_set(err, "no plan %zu", k);
+    }
+    if (rc_solver_expect(&shape, &problem, &expected, err) != RC_OK)
+        return RC_FAIL;
+    out[10] = (double)expected.memory;
+    out[11] = rc_conv_seconds(&shape, &conv);
+    out[12] = (double)strlen(rc_conv_choice(&shape, &conv, &reason));
+    out[13] = (double)strlen(rc_solver_choice(&shape, &problem, &reason));
+    return RC_OK;
+}
+
+/* These allocate nothing, which is claimed of them below. */
+static enum rc_status
+without(double *out, struct rc_err *err)
+{
+    static const struct rc_place place = {1e-6, 2e-6};
+    struct rc_shape to = {NX / 2, NY / 2, 2.2e-6, 2e-6}, turned = rc_rotate_shape(&shape, 1), sum;
+    double s6[RC_COMPONENTS] = {1, 2, 3, 4, 5, 6}, mises = NAN, *derived[RC_STRESSES] = {NULL};
+    const double *six[RC_COMPONENTS];
+    struct rc_statistics statistics;
+    struct rc_seam seam;
+    char text[RC_NUMBER_SIZE];
+    size_t product;
+
+    (void)rc_version(), (void)rc_threads_available();
+    (void)rc_kernel_info(0), (void)rc_engine_info(0), (void)rc_method_info(0);
+    rc_synth_sphere(&shape, 1e-3, out);
+    rc_synth_paraboloid(&shape, place, 1e-3, 2e-3, 10, out);
+    rc_synth_cone(&shape, place, 0.1, out);
+    rc_synth_punch(&shape, place, 3e-6, 0, 1e-6, out);
+    rc_synth_wave(&shape, 1e-7, 5e-6, 6e-6, out);
+    rc_resample_means(&shape, rough, &to, out);
+    (void)rc_resample_covers(&shape, &to);
+    to = (struct rc_shape){4, 5, shape.dx, shape.dy};
+    memcpy(out, rough, sizeof rough);
+    if (rc_crop(&shape, rough, 2, 3, &to, out + N, err) != RC_OK ||
+        rc_add_shape(&shape, &shape, &sum, err) != RC_OK ||
+        rc_add(&shape, rough, &shape, rough, out + N, err) != RC_OK ||
+        rc_subtract(&shape, rough, &shape, pressure, out + N, err) != RC_OK ||
+        rc_shape_check(&turned, err) != RC_OK || rc_size_mul(NX, NY, &product, err) != RC_OK)
+        return RC_FAIL;
+    rc_mirror(&shape, 'x', out);
+    rc_rotate(&shape, rough, 1, out + N);
+    rc_measure(&shape, rough, &statistics);
+    rc_measure_seam(&shape, rough, &seam);
+    rc_measure_seam_on(NULL, &shape, rough, &seam);
+    for (size_t c = 0; c < RC_COMPONENTS; c++)
+        six[c] = &s6[c];
+    derived[RC_MISES] = &mises;
+    rc_stress_derive(1 << RC_MISES, 1, six, derived);
+    out[2 * N] = rc_sum(rough, N) + rc_measure_contact_slope(&shape, rough, pressure) + mises +
+                 rc_measure_contact_slope_on(NULL, &shape, rough, pressure);
+    out[2 * N + 1] = (double)(rc_largest(N, rough) + rc_coating_material(&coating, 3e-6));
+    out[2 * N + 2] = rc_number_read(rc_number_text(text, 1.5), false, &out[0]) != NULL;
+    return rc_key_valid("note") && rc_err_set(NULL, "%s", "x") == RC_FAIL ? RC_OK : RC_FAIL;
+}
+
+/* Of a plan or a solution that there is, these only tell: rc_conv_engine( rc_conv_reason(
+ * rc_solver_progress( rc_solver_iterations( rc_solver_error( rc_solver_convolutions( rc_solver_load(
+ * rc_solver_engine( rc_solver_engine_reason( rc_solver_method( rc_stress_values( rc_stress_engine(
+ * rc_stress_counted( rc_grid_shape( rc_grid_case( */
+
+static const struct {
+    const char *name;
+    use *use;
+    bool without; /* it allocates nothing */
+} uses[] = {
+    {.name = "grids and their keys", .use = grids},
+    {.name = "self-affine roughness", .use = selfaffine},
+    {.name = "a polynomial", .use = polynomial},
+    {.name = "a robust sphere", .use = robust_sphere},
+    {.name = "a cylinder", .use = cylinder},
+    {.name = "a robust filter", .use = filtered},
+    {.name = "outliers", .use = outliers},
+    {.name = "a taper", .use = tapered},
+    {.name = "holes", .use = holes},
+    {.name = "resampling", .use = resampled},
+    {.name = "patches", .use = patches},
+    {.name = "areal parameters", .use = areal},
+    {.name = "a spectrum", .use = spectrum},
+    {.name = "convolution, fft", .use = free_fft},
+    {.name = "convolution, single precision", .use = single_fft},
+    {.name = "convolution, periodic", .use = periodic_fft},
+    {.name = "convolution, mlms", .use = mlms},
+    {.name = "convolution, direct", .use = direct},
+    {.name = "convolution, coated", .use = coated},
+    {.name = "convolution, coated and periodic", .use = coated_periodic},
+    {.name = "contact", .use = free_contact},
+    {.name = "contact, periodic with a hardness", .use = hard_contact},
+    {.name = "contact, pk99 by mlms", .use = paper_method},
+    {.name = "contact, to an approach", .use = to_an_approach},
+    {.name = "contact, coated", .use = coated_contact},
+    {.name = "stress", .use = free_stress},
+    {.name = "stress, periodic", .use = periodic_stress},
+    {.name = "stress, direct", .use = direct_stress},
+    {.name = "stress, mlms", .use = mlms_stress},
+    {.name = "stress, a section", .use = section_stress},
+    {.name = "stress, coated", .use = coated_stress},
+    {.name = "depths", .use = depths},
+    {.name = "what a plan takes", .use = plans},
+    {.name = "what allocates nothing", .use = without, .without = true},
+};
+
+/* Equal, but for the order of sums: without memory to sort in the C library sorts in another way. */
+static bool
+same_numbers(const double *a, const double *b)
+{
+    double most = 0;
+
+    for (size_t k = 0; k < OUT; k++)
+        most = fmax(most, fabs(a[k]));
+    for (size_t k = 0; k < OUT; k++)
+        if (!(fabs(a[k] - b[k]) <= of_sum * fabs(a[k]) + 1e-13 * most) &&
+            !(isnan(a[k]) && isnan(b[k])) && a[k] != b[k])
+            return false;
+    return true;
+}
+
+/* GSL loses what it had begun with when it finds no more: the head of a matrix without its block, the
+ * working space of its tridiagonal solver (2.7). */
+static const size_t lost_by_gsl = 3;
+
+static size_t tried, refused;
+
+static void
+try_one(size_t k, size_t n, bool stay, const double *right)
+{
+    static double out[OUT];
+    struct rc_err err = {""};
+    enum rc_status status;
+
+    memset(out, 0, sizeof out);
+    fault_arm(n, stay);
+    status = uses[k].use(out, &err);
+    fault_disarm();
+    tried++;
+    refused += status != RC_OK;
+    if (status == RC_OK && !same_numbers(right, out))
+        fail_msg("%s, allocation %zu%s: another answer", uses[k].name, n, stay ? " and on" : "");
+    if (status != RC_OK && err.text[0] == '\0')
+        fail_msg("%s, allocation %zu: no reason", uses[k].name, n);
+    if (fault_held() > (fault_in_library() ? lost_by_gsl : 0))
+        fail_msg("%s, allocation %zu%s: %zu blocks are held (%s)", uses[k].name, n,
+                 stay ? " and on" : "", fault_held(), err.text);
+}
+
+static void
+every_allocation_fails(void **state)
+{
+    size_t all = 0;
+    static double right[OUT], warm[OUT];
+
+    (void)state;
+    for (size_t k = 0; k < sizeof uses / sizeof *uses; k++) {
+        struct rc_err err = {""};
+        size_t last;
+
+        memset(right, 0, sizeof right);
+        uses[k].use(warm, &err); /* what FFTW and GSL keep, they keep from now on */
+        fault_arm(0, false);
+        if (uses[k].use(right, &err) != RC_OK)
+            fail_msg("%s: %s", uses[k].name, err.text);
+        last = fault_disarm();
+        assert_int_equal(fault_held(), 0);
+        if ((last == 0) != uses[k].without)
+            fail_msg("%s: %zu allocations", uses[k].name, last);
+        for (size_t n = 1; n <= last; n++) {
+            try_one(k, n, false, right);
+            try_one(k, n, true, right);
+        }
+        all += last;
+    }
+    printf("%zu uses, %zu allocations; %zu made to fail, %zu refusals\n",
+           sizeof uses / sizeof *uses, all, tried, refused);
+    assert_true(refused > 0);
+}
+
+/* What a process holds, and may still take, is told without taking any. */
+static void
+memory_is_told_without_memory(void **state)
+{
+    size_t held, peak;
+    struct memory_room room;
+
+    (void)state;
+    fault_arm(1, true);
+    held = memory_held();
+    peak = memory_peak();
+    room = memory_room("");
+    assert_int_equal(fault_disarm(), 0);
+    assert_true(held > 0 && peak >= held);
+    assert_true(room.bytes > 0 && isfinite(room.bytes));
+}
+
+/* ---- that all are tried ---- */
+
+static char *
+text_of(const char *file)
+{
+    const char *source = getenv("RC_SOURCE");
+    char path[4096], *text;
+    long n;
+    FILE *f;
+
+    assert_non_null(source);
+    snprintf(path, sizeof path, "%s/%s", source, file);
+    assert_non_null(f = fopen(path, "rb"));
+    fseek(f, 0, SEEK_END);
+    n = ftell(f);
+    rewind(f);
+    assert_non_null(text = calloc(1, (size_t)n + 1));
+    assert_int_equal(fread(text, 1, (size_t)n, f), n);
+    fclose(f);
+    return text;
+}
+
+static size_t
+functions_of(const char *header, const char *here)
+{
+    char *text = text_of(header), name[128];
+    size_t n = 0;
+
+    for (char *at = text; (at = strstr(at, "\nRC_API ")) != NULL;) {
+        char *open = strpbrk(at + 1, "(;"), *start;
+
+        at = open;
+        if (*open == ';') /* data */
+            continue;
+        for (start = open; isalnum((unsigned char)start[-1]) || start[-1] == '_'; start--)
+            continue;
+        snprintf(name, sizeof name, "%.*s", (int)(open + 1 - start), start);
+        if (strstr(here, name) == NULL)
+            fail_msg("%s) of %s is tried nowhere", name, header);
+        n++;
+    }
+    free(text);
+    return n;
+}
+
+static void
+every_function_is_tried(void **state)
+{
+    char *here = text_of("tests/faults/law_memory.c");
+    size_t n = functions_of("libcontact/contact.h", here) + functions_of("libcontact/grid.h", here);
+
+    (void)state;
+    printf("%zu public functions\n", n);
+    assert_true(n > 80);
+    free(here);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(memory_is_told_without_memory),
+        cmocka_unit_test(every_function_is_tried),
+        cmocka_unit_test(every_allocation_fails),
+    };
+    struct rc_selfaffine what = {.hurst = 0.8, .rms_slope = 0.1, .seed = 7};
+
+    if (rc_synth_selfaffine(&shape, &what, rough, NULL) != RC_OK)
+        return 1;
+    for (size_t k = 0; k < N; k++) {
+        holed[k] = k % 37 == 5 || (k > 100 && k < 104) ? NAN : rough[k];
+        pressure[k] = fmax(0, rough[k]) * 1e14;
+    }
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

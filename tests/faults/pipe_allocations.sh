@@ -1,0 +1,59 @@
+# Every allocation of every tool failing in turn, n = 1, 2, ... to the last, alone and with all that come
+# after it: the work is done all the same, or exit status 1 with a message, the old file untouched and
+# nothing else left. failing_malloc.c says which allocations those are.
+#
+# RC_STRIDE in the environment tries one allocation of so many, where it is not 1 of every other command.
+. "$RC_SOURCE/tests/pipe.sh"
+. "$RC_SOURCE/tests/faults/commands.sh"
+
+stride=${RC_STRIDE:-1}
+make_inputs
+export ASAN_OPTIONS="${ASAN_OPTIONS-}:verify_asan_link_order=0"
+
+# run N STAY COMMAND: its exit status, with that allocation failing (0: none).
+run() {
+    [ -z "$out" ] || echo old >"$out"
+    # shellcheck disable=SC2086
+    env LD_PRELOAD="$RC_FAILING_MALLOC" RC_FAULT_AT="$1" ${2:+RC_FAULT_STAY=1} RC_FAULT_COUNT="$PWD/count" $3 >run.out 2>run.err
+}
+
+tried=0
+bad=0
+sweep() { # COARSER COMMAND
+    local step=$(($1 * stride)) command=$2 out n stay last wrong=0 before after
+    out=$(written "$command")
+    run 0 "" "$command" || {
+        echo "NOT OK: $command: fails without a fault: $(head -c 300 run.err)"
+        bad=$((bad + 1))
+        return
+    }
+    last=$(cat count)
+    rm -f clean
+    [ -z "$out" ] || cp "$out" clean
+    cp run.out clean.out
+    before=$(others)
+    for stay in "" 1; do
+        for ((n = 1; n <= last; n += step)); do
+            run "$n" "$stay" "$command"
+            judge $? "$out" "    allocation $n of $last${stay:+ and all after it}" "$command" || wrong=$((wrong + 1))
+            tried=$((tried + 1))
+            after=$(others)
+            [ "$before" = "$after" ] || {
+                echo "    allocation $n of $last: left: $after"
+                wrong=$((wrong + 1))
+                before=$after
+            }
+        done
+    done
+    [ $wrong = 0 ] && [ "$last" -gt 5 ] && echo "ok: $last allocations: $command" && return
+    echo "NOT OK: $wrong of $last allocations: $command"
+    bad=$((bad + 1))
+}
+
+turn=0
+while read -r coarser command; do
+    [ "$stride" = 1 ] || [ $((++turn % 2)) = 1 ] || continue
+    sweep "$coarser" "$command" </dev/null
+done <<<"$commands"
+echo "$tried allocations failed, one in $stride; $bad commands wrong"
+[ $tried -gt 0 ] && [ $bad = 0 ]

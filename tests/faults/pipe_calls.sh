@@ -1,0 +1,126 @@
+# Every call to the system that concerns a file failing in turn, n = 1, 2, ... to the last, in every tool: a
+# full disk, a broken one, an interruption, no descriptors left. The work is done all the same, or exit
+# status 1 with a message, the old file untouched and nothing else left. Where reads and writes do half of
+# what they were asked, the work is done. failing_calls.c says which calls those are.
+#
+# A file that -o names is on the disk (fsync) before it takes its place; where the disk refuses, the old one stays;
+# where a file system knows nothing of that, the work is done.
+#
+# And signals that come at each of these calls: SIGTERM and SIGINT leave nothing, the old file untouched or the
+# new one whole; after SIGKILL no file of a final name is anything else.
+#
+# RC_STRIDE in the environment tries one call of so many, where it is not 1 by one command in four.
+. "$RC_SOURCE/tests/pipe.sh"
+. "$RC_SOURCE/tests/faults/commands.sh"
+
+stride=${RC_STRIDE:-1}
+make_inputs
+"$RC_FAILING_CALLS" -f none true
+[ $? = 77 ] && echo "the calls of a command cannot be watched here" && exit 77
+
+# run FAULT N COMMAND: its exit status.
+run() {
+    [ -z "$out" ] || echo old >"$out"
+    # shellcheck disable=SC2086
+    timeout -s KILL 60 "$RC_FAILING_CALLS" -f "$1" -n "$2" -c count $3 >run.out 2>run.err </dev/null
+}
+
+# whole FILE: it is the new one; of a solution that a signal has stopped also what was reached, which says so,
+# or of a list of loads those that were done.
+whole() {
+    same_work "$1" clean && return
+    case $command in
+    rc-solve*) ;;
+    rc-cost*) # or of its table the first rows
+        [ "$(tail -c 1 "$1" | od -An -c | tr -d ' ')" = '\n' ] && [ -z "$(comm -23 <(costs_of "$1" | sort) <(costs_of clean | sort))" ]
+        return
+        ;;
+    *) return 1 ;;
+    esac
+    rc-info --quiet "$1" >/dev/null 2>&1
+    case $? in
+    0) [ "$(grep -ac '^RCG1$' "$1")" -lt "$(grep -ac '^RCG1$' clean)" ] ;;
+    3) grep -aq '^converged=no$' "$1" ;;
+    *) false ;;
+    esac
+}
+
+# judge_signal FAULT STATUS WHERE
+judge_signal() {
+    local signal
+    signal=$(kill -l "${1^^}")
+    [ "$2" = $((128 + signal)) ] || [ "$2" = 0 ] || {
+        echo "$3: exit status $2: $(head -c 300 run.err)"
+        return 1
+    }
+    [ "$1" = kill ] && rm -f map.??????
+    whole_beside || {
+        echo "$3: map or checkpoint is not whole"
+        return 1
+    }
+    [ -z "$out" ] || [ "$(tr -d '\0' <"$out")" = old ] || whole "$out" || {
+        echo "$3: the file is neither the old nor the new one"
+        return 1
+    }
+}
+
+judge_fault() { # FAULT STATUS WHERE
+    case $1 in
+    term | int) judge_signal "$@" ;;
+    kill)
+        judge_signal "$@" && rm -f out.?????? plot.png.?????? out.png.?????? out.pdf.?????? # what was being made stays
+        ;;
+    short | nosync)
+        [ "$2" = 0 ] || {
+            echo "$3: exit status $2: $(head -c 300 run.err)"
+            return 1
+        }
+        judge "$2" "$out" "$3" "$command"
+        ;;
+    *) judge "$2" "$out" "$3" "$command" ;;
+    esac
+}
+
+tried=0
+bad=0
+sweep() { # FAULT COMMAND
+    local fault=$1 command=$2 out n last wrong=0 before after
+    out=$(written "$command")
+    rm -f clean
+    run "$fault" 0 "$command" || return
+    last=$(cat count)
+    [ "$fault$last" != fsync0 ] || [ -z "$out" ] || {
+        echo "NOT OK: it is put in its place before the disk has it: $command"
+        bad=$((bad + 1))
+    }
+    [ -z "$out" ] || cp "$out" clean
+    cp run.out clean.out
+    before=$(others)
+    for ((n = 1; n <= last; n += stride)); do
+        run "$fault" "$n" "$command"
+        judge_fault "$fault" $? "    $fault at call $n of $last" || wrong=$((wrong + 1))
+        tried=$((tried + 1))
+        after=$(others)
+        [ "$before" = "$after" ] || {
+            echo "    $fault at call $n of $last: left: $(comm -13 <(echo "$before") <(echo "$after"))"
+            wrong=$((wrong + 1))
+            before=$after
+        }
+    done
+    [ $wrong = 0 ] && return
+    echo "NOT OK: $fault, $wrong of $last calls: $command"
+    bad=$((bad + 1))
+}
+
+turn=0
+for fault in enospc eio fsync nosync eintr short emfile term int kill; do
+    turn=$((turn + 1))
+    while read -r _ command; do
+        # coarsely: one command in four, others with each fault
+        [ "$stride" = 1 ] || [ $((++turn % 4)) = 0 ] || continue
+        sweep "$fault" "$command"
+    done <<<"$commands"
+    echo "$fault: $tried so far"
+done
+echo "$tried calls failed, one in $stride; $bad times wrong"
+[ $tried -gt 0 ] && [ $bad = 0 ]

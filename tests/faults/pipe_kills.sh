@@ -1,0 +1,135 @@
+# rc-solve killed at random moments, with --checkpoint and --resume each time: in the end the same pressure, and
+# no file of a final name that is not whole. And what stands beside -o - maps, pictures, checkpoints - under
+# signals and on a full disk.
+#
+# RC_KILLS in the environment is the number of kills (3), RC_SEED what their moments come from.
+. "$RC_SOURCE/tests/pipe.sh"
+
+kills=${RC_KILLS:-3}
+RANDOM=${RC_SEED:-7}
+export RC_THREADS=1
+rc-synth selfaffine --nx 320 --ny 250 --dx 1um --hurst 0.8 --rms-slope 0.1 --short-cut 8um --rolloff 40um --seed 3 -o rough.rcg
+tolerance=1e-9
+solve="rc-solve --periodic --estar 1GPa --load 0.2N:0.4N:2 --method pk99 --tol $tolerance --output pressure"
+began=$(date +%s%N)
+claim "the solution that nobody disturbs" $solve -o right.rcg rough.rcg
+milliseconds=$((($(date +%s%N) - began) / 1000000))
+
+# distance A B: relative L1 distance of the values of their frames, the largest of all cases.
+distance() {
+    perl -e '
+        sub frames {
+            local $/; open my $f, "<:raw", $_[0] or die; my $s = <$f>; my @frames;
+            while ($s =~ /\G(RCG1\n.*?\n\n)/gcs) {
+                my ($head, $at) = ($1, pos $s);
+                my ($nx) = $head =~ /^nx=(\d+)/m; my ($ny) = $head =~ /^ny=(\d+)/m;
+                push @frames, [unpack "d<*", substr $s, $at, 8 * $nx * $ny];
+                pos($s) = $at + 8 * $nx * $ny; $s =~ /\Gcrc32 \w+\n/gc;
+            }
+            return @frames;
+        }
+        my @a = frames($ARGV[0]); my @b = frames($ARGV[1]); die if @a != @b || !@a; my $worst = 0;
+        for my $f (0 .. $#a) {
+            my ($off, $all) = (0, 0);
+            for (0 .. $#{$a[$f]}) { $off += abs $a[$f][$_] - $b[$f][$_]; $all += abs $b[$f][$_] }
+            $worst = $off / $all if $off / $all > $worst;
+        }
+        print $worst' "$1" "$2"
+}
+
+# Every file but the checkpoint and what was being made is whole: a stream that reads to its end.
+whole_files() {
+    local f
+    for f in out.rcg; do [ ! -e $f ] || rc-info --quiet $f >/dev/null || return 1; done
+    rm -f out.rcg.??????
+}
+
+killed=0
+finished=0
+starts=0
+wrong=0
+rm -f out.rcg kept.rcg
+while [ $killed -lt "$kills" ] && [ $starts -lt $((20 * kills)) ]; do
+    starts=$((starts + 1))
+    $solve --quiet --checkpoint kept.rcg --resume --interval 0.01 -o out.rcg rough.rcg 2>kill.err &
+    pid=$!
+    sleep "$(awk -v ms="$milliseconds" -v r=$RANDOM 'BEGIN { print ms / 1000 * r / 32768 * 0.7 }')"
+    if kill -KILL $pid 2>/dev/null; then
+        wait $pid 2>/dev/null
+        if [ $? = 137 ]; then killed=$((killed + 1)); fi
+    else
+        wait $pid || wrong=$((wrong + 1))
+    fi
+    whole_files || wrong=$((wrong + 1))
+    if [ -e out.rcg ]; then # it was done: another one from the beginning
+        finished=$((finished + 1))
+        awk -v d="$(distance out.rcg right.rcg)" -v t=$tolerance 'BEGIN { exit !(d != "" && d <= 2 * t) }' ||
+            wrong=$((wrong + 1))
+        rm -f out.rcg kept.rcg
+    fi
+done
+claim "$killed kills in $starts runs, $finished of which came to their end: nothing wrong" \
+    bash -c "[ $killed = $kills ] && [ $wrong = 0 ]"
+claim "and at last it goes on to its end" $solve --quiet --checkpoint kept.rcg --resume -o out.rcg rough.rcg
+between 0 "$(distance out.rcg right.rcg)" "$(awk -v t=$tolerance 'BEGIN { print 2 * t }')" "to the same pressure"
+
+# two: a run that would add to the checkpoint of one that is under way.
+two() {
+    local n=0 pid status
+    rm -f two.rcg
+    $solve --quiet --tol 1e-13 --checkpoint two.rcg --interval 0.01 -o one.rcg rough.rcg &
+    pid=$!
+    until [ -s two.rcg ] || [ $((n += 1)) -gt 500 ]; do sleep 0.005; done
+    kill -STOP $pid
+    $solve --quiet --checkpoint two.rcg --resume -o other.rcg rough.rcg 2>two.err
+    status=$?
+    kill -KILL $pid
+    wait $pid 2>/dev/null
+    [ $status = 1 ] && grep -q 'two.rcg: another run is adding to it' two.err && [ ! -e other.rcg ] &&
+        $solve --quiet --checkpoint two.rcg --resume -o other.rcg rough.rcg
+}
+claim "two runs do not add to one checkpoint; after the first has been killed the other may" two
+
+# ---- beside -o ----
+
+rc-synth selfaffine --nx 700 --ny 700 --dx 1um --hurst 0.8 --rms-slope 0.1 --seed 3 -o large.rcg
+# maps SIGNAL: rc-info --psd-map, stopped while the map is being made.
+maps() {
+    local n=0
+    rm -f map.rcg*
+    rc-info --psd --psd-map map.rcg large.rcg large.rcg large.rcg >/dev/null &
+    until ls map.rcg.?????? >/dev/null 2>&1 || [ $((n += 1)) -gt 500 ]; do sleep 0.005; done
+    kill -"$1" $!
+    wait $! 2>/dev/null
+    [ $? -gt 128 ] && [ -z "$(ls map.rcg* 2>/dev/null)" ]
+}
+for signal in TERM HUP; do # in a background job of a shell SIGINT is ignored
+    claim "rc-info --psd-map: $signal leaves nothing of the map" maps $signal
+done
+# costs: rc-cost with its trials in other processes, stopped at random moments.
+costs() {
+    local k wrong=0
+    rc-synth wave --nx 16 --dx 1um --amplitude 10nm --wavelength 8um -o wave.rcg
+    for ((k = 0; k < 3 + kills / 2; k++)); do
+        rm -f plot.png cost.txt
+        rc-cost --quiet --periodic --load 1mN --estar 1GPa --plot plot.png -o cost.txt wave.rcg &
+        sleep "$(awk -v r=$RANDOM 'BEGIN { print 0.6 * r / 32768 }')"
+        kill -TERM $! 2>/dev/null
+        wait $!
+        case $? in 0 | 143) ;; *) wrong=$((wrong + 1)) ;; esac
+        [ -z "$(ls plot.png.* cost.txt.* 2>/dev/null)" ] || wrong=$((wrong + 1))
+        [ ! -e plot.png ] || [ "$(tail -c 8 plot.png | cut -c1-4 | head -n 1)" = IEND ] || wrong=$((wrong + 1))
+    done
+    return $wrong
+}
+claim "rc-cost: stopped at random moments it leaves nothing half-written" costs
+claim "a map takes the place of the one before" bash -c '
+    echo old >map.rcg && rc-info --psd --psd-map map.rcg rough.rcg && rc-info map.rcg'
+refuses 2 'rc-solve: --checkpoint -: .*name a file' "a checkpoint is no pipe" \
+    "rc-solve --estar 1GPa --load 0.1N --checkpoint - -o x.rcg rough.rcg"
+refuses 2 'rc-cost: --plot -: a picture is' "a plot has to say what it is" \
+    "rc-cost --estar 1GPa --load 0.1N --plot - rough.rcg"
+refuses 2 'rc-info: --psd-map -: ' "a map of waves is no pipe" "rc-info --psd --psd-map - rough.rcg"
+claim "no file is called -" test ! -e -
+
+finish

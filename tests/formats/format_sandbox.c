@@ -1,0 +1,670 @@
+/* Whatever a reader does in the sandbox, the program gets a result or a reason, in bounded time and
+ * memory. */
+#define _DEFAULT_SOURCE /* syscall, MAP_ANONYMOUS */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <sys/time.h>
+#include <sys/uio.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "formats/sandbox/calls.h"
+#include "formats/sandbox/result.h"
+#include "formats/sandbox/sandbox.h"
+
+static int inherited; /* a file that the parent has open */
+static pid_t parent;  /* the process that makes the child */
+
+static const struct rc_file file = {.name = "made", .data = (const unsigned char *)"x", .size = 1};
+static struct rc_grid *
+good(const struct rc_file *f, const struct rc_wish *wish, size_t index, struct rc_notes *notes,
+     struct rc_err *err)
+{
+    struct rc_shape shape = {.nx = 300, .ny = 200, .dx = 1.1e-6, .dy = 0.7e-6};
+    struct rc_grid *g = rc_grid_new(&shape, "height", "m", err);
+
+    assert_ptr_equal(f, &file);
+    (void)wish;
+    for (size_t k = 0; k < 60000; k++)
+        g->v[k] = k % 7 == 0 ? NAN : 1e-9 * (double)(k + index);
+    rc_grid_set(g, "file.date", "2024\n\xc2\xb5", err);
+    rc_note(notes, "worth saying");
+    return g;
+}
+
+static struct rc_grid *
+refusing(const struct rc_file *f, const struct rc_wish *wish, size_t index, struct rc_notes *notes,
+         struct rc_err *err)
+{
+    (void)f, (void)wish, (void)index, (void)notes;
+    rc_err_set(err, "what is wrong: 7");
+    return NULL;
+}
+
+static struct rc_grid *
+crashing(const struct rc_file *f, const struct rc_wish *wish, size_t index, struct rc_notes *notes,
+         struct rc_err *err)
+{
+    (void)f, (void)wish, (void)index, (void)notes, (void)err;
+    abort();
+}
+
+/* cmocka catches this one: its handler must not run in the child. */
+static struct rc_grid *
+segfaulting(const struct rc_file *f, const struct rc_wish *wish, size_t index,
+            struct rc_notes *notes, struct rc_err *err)
+{
+    (void)f, (void)wish, (void)index, (void)notes;
+    raise(SIGSEGV);
+    rc_err_set(err, "alive");
+    return NULL;
+}
+
+static struct rc_grid *
+endless(const struct rc_file *f, const struct rc_wish *wish, size_t index, struct rc_notes *notes,
+        struct rc_err *err)
+{
+    volatile size_t k = 0;
+
+    (void)f, (void)wish, (void)index, (void)notes, (void)err;
+    for (;;)
+        k++;
+    return NULL;
+}
+
+static struct rc_grid *
+waiting(const struct rc_file *f, const struct rc_wish *wish, size_t index, struct rc_notes *notes,
+        struct rc_err *err)
+{
+    (void)f, (void)wish, (void)index, (void)notes, (void)err;
+    for (;;)
+        pause();
+    return NULL;
+}
+
+static struct rc_grid *
+greedy(const struct rc_file *f, const struct rc_wish *wish, size_t index, struct rc_notes *notes,
+       struct rc_err *err)
+{
+    size_t got = 0;
+
+    (void)f, (void)wish, (void)index, (void)notes;
+    for (void *p; (p = malloc(1 << 20)) != NULL; got++)
+        memset(p, 1, 1 << 20);
+    /* it keeps what it took, and is ended: NOLINTNEXTLINE(clang-analyzer-unix.Malloc) */
+    rc_err_set(err, "memory ended after %zu MiB", got);
+    return NULL;
+}
+
+static struct rc_grid *
+nosy(const struct rc_file *f, const struct rc_wish *wish, size_t index, struct rc_notes *notes,
+     struct rc_err *err)
+{
+    int fd = open("/etc/passwd", O_RDONLY);
+
+    (void)f, (void)wish, (void)index, (void)notes;
+    rc_err_set(err, fd < 0 ? "closed" : "open");
+    return NULL;
+}
+
+/* ---- ways out ---- */
+
+/* Each gives a value below 0, with errno, where it is shut. What it would change stands in its folder. */
+static int
+way_open(void)
+{
+    return open("made-by-child", O_WRONLY | O_CREAT, 0600);
+}
+
+static int
+way_openat(void)
+{
+    return (int)syscall(SYS_openat, AT_FDCWD, "/etc/passwd", O_RDONLY);
+}
+
+static int
+way_unlink(void)
+{
+    return unlink("victim");
+}
+
+static int
+way_rename(void)
+{
+    return rename("victim", "moved");
+}
+
+static int
+way_link(void)
+{
+    return symlink("victim", "link");
+}
+
+static int
+way_mkdir(void)
+{
+    return mkdir("made-by-child", 0700);
+}
+
+static int
+way_chmod(void)
+{
+    return chmod("victim", 0777);
+}
+
+static int
+way_truncate(void)
+{
+    return truncate("victim", 0);
+}
+
+static int
+way_inherited_write(void)
+{
+    return (int)write(inherited, "bad", 3);
+}
+
+static int
+way_inherited_map(void)
+{
+    void *p = mmap(NULL, 6, PROT_READ | PROT_WRITE, MAP_SHARED, inherited, 0);
+
+    if (p == MAP_FAILED)
+        return -1;
+    memcpy(p, "bad", 3);
+    return 0;
+}
+
+static int
+way_inherited_truncate(void)
+{
+    return ftruncate(inherited, 0);
+}
+
+static int
+way_standard_output(void)
+{
+    return (int)write(STDOUT_FILENO, "", 0);
+}
+
+static int
+way_standard_error(void)
+{
+    return (int)write(STDERR_FILENO, "", 0);
+}
+
+static int
+way_standard_input(void)
+{
+    char byte;
+
+    return (int)read(STDIN_FILENO, &byte, 0);
+}
+
+static int
+way_socket(void)
+{
+    return socket(AF_INET, SOCK_STREAM, 0);
+}
+
+static int
+way_local_socket(void)
+{
+    return socket(AF_UNIX, SOCK_STREAM, 0);
+}
+
+static int
+way_exec(void)
+{
+    char *const arguments[] = {"true", NULL};
+
+    return execv("/bin/true", arguments);
+}
+
+static int
+way_fork(void)
+{
+    pid_t child = fork();
+
+    if (child == 0)
+        _exit(0);
+    return child;
+}
+
+static int
+way_signal(void)
+{
+    return kill(parent, 0);
+}
+
+static int
+way_thread_signal(void)
+{
+    return (int)syscall(SYS_tgkill, parent, parent, 0);
+}
+
+static int
+way_trace(void)
+{
+    return (int)syscall(SYS_ptrace, 16 /* PTRACE_ATTACH */, parent, 0, 0);
+}
+
+static int
+way_memory(void)
+{
+    static char byte = 'x';
+    struct iovec here = {&byte, 1}, there = {&byte, 1};
+
+    return (int)syscall(SYS_process_vm_writev, parent, &here, 1, &there, 1, 0);
+}
+
+static int
+way_code(void)
+{
+    return mmap(NULL, 4096, PROT_READ | PROT_EXEC, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) == MAP_FAILED
+               ? -1
+               : 0;
+}
+
+static int
+way_made_code(void)
+{
+    void *p = mmap(NULL, 4096, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+
+    return p == MAP_FAILED ? 0 : mprotect(p, 4096, PROT_READ | PROT_EXEC);
+}
+
+static int
+way_limits(void)
+{
+    const struct rlimit all = {RLIM_INFINITY, RLIM_INFINITY};
+
+    return setrlimit(RLIMIT_AS, &all);
+}
+
+static int
+way_timer(void)
+{
+    const struct itimerval never = {{0, 0}, {0, 0}};
+
+    return setitimer(ITIMER_PROF, &never, NULL);
+}
+
+static int
+way_user(void)
+{
+    return setuid(0);
+}
+
+static int
+way_folder(void)
+{
+    return chdir("/");
+}
+
+static int
+way_kernel_ring(void)
+{
+    return (int)syscall(425 /* io_uring_setup */, 1, NULL);
+}
+
+static int
+way_memory_file(void)
+{
+    return (int)syscall(SYS_memfd_create, "x", 0);
+}
+
+static int
+way_filter(void)
+{
+    return prctl(PR_SET_SECCOMP, 0, NULL, 0, 0);
+}
+
+static int
+way_environment(void)
+{
+    struct stat st;
+
+    return stat("/etc/passwd", &st);
+}
+
+static const struct {
+    const char *name;
+    int (*go)(void);
+} ways[] = {
+    {"making a file", way_open},
+    {"reading a file", way_openat},
+    {"removing a file", way_unlink},
+    {"renaming a file", way_rename},
+    {"a link", way_link},
+    {"making a folder", way_mkdir},
+    {"rights of a file", way_chmod},
+    {"cutting a file off", way_truncate},
+    {"writing to a file that was open", way_inherited_write},
+    {"mapping a file that was open", way_inherited_map},
+    {"cutting off a file that was open", way_inherited_truncate},
+    {"standard output", way_standard_output},
+    {"standard error", way_standard_error},
+    {"standard input", way_standard_input},
+    {"the network", way_socket},
+    {"a socket of this machine", way_local_socket},
+    {"another program", way_exec},
+    {"another process", way_fork},
+    {"a signal to the parent", way_signal},
+    {"a signal to a thread of it", way_thread_signal},
+    {"tracing the parent", way_trace},
+    {"memory of the parent", way_memory},
+    {"code", way_code},
+    {"code of its own making", way_made_code},
+    {"its limits", way_limits},
+    {"its timer", way_timer},
+    {"another user", way_user},
+    {"another folder", way_folder},
+    {"calls by a ring", way_kernel_ring},
+    {"a file in memory", way_memory_file},
+    {"the filter itself", way_filter},
+    {"what files there are", way_environment},
+};
+
+/* Tries them all; refused with those that were open. */
+static struct rc_grid *
+escaping(const struct rc_file *f, const struct rc_wish *wish, size_t index, struct rc_notes *notes,
+         struct rc_err *err)
+{
+    char open_ways[400] = "";
+
+    (void)f, (void)wish, (void)index, (void)notes;
+    for (size_t k = 0; k < sizeof ways / sizeof *ways; k++) {
+        errno = 0;
+        if (ways[k].go() >= 0 || errno != EPERM) {
+            strncat(open_ways, ways[k].name, sizeof open_ways - strlen(open_ways) - 3);
+            strcat(open_ways, "; ");
+        }
+    }
+    rc_err_set(err, "open: %s", open_ways);
+    return NULL;
+}
+
+static void
+there_is_no_way_out(void **state)
+{
+    char folder[] = "/tmp/rc-sandbox-XXXXXX", text[16] = "", before[4096];
+    struct rc_notes notes = {0};
+    struct rc_err err = {""};
+    struct stat st;
+    FILE *f;
+
+    (void)state;
+    if (!rc_calls_can_be_filtered()) {
+        print_message("This system filters no calls: the sandbox has its limits only.\n");
+        skip();
+    }
+    assert_non_null(getcwd(before, sizeof before));
+    assert_non_null(mkdtemp(folder));
+    assert_int_equal(chdir(folder), 0);
+    assert_non_null(f = fopen("victim", "w+"));
+    assert_true(fputs("whole\n", f) >= 0 && fflush(f) == 0 && chmod("victim", 0600) == 0);
+    inherited = fileno(f);
+    parent = getpid();
+    assert_null(rc_sandbox_read(escaping, &file, &rc_no_wish, 0, &notes, &err));
+    assert_string_equal(err.text, "open: ");
+    rewind(f);
+    assert_non_null(fgets(text, sizeof text, f));
+    assert_string_equal(text, "whole\n");
+    assert_int_equal(fclose(f), 0);
+    assert_true(stat("victim", &st) == 0 && (st.st_mode & 0777) == 0600);
+    assert_true(access("made-by-child", F_OK) != 0 && access("link", F_OK) != 0);
+    printf("%zu ways out, each shut\n", sizeof ways / sizeof *ways);
+    assert_int_equal(unlink("victim"), 0);
+    assert_int_equal(chdir(before), 0);
+    assert_int_equal(rmdir(folder), 0);
+}
+
+static void
+check_good(const struct rc_grid *g)
+{
+    assert_non_null(g);
+    assert_true(g->nx == 300 && g->ny == 200 && g->dx == 1.1e-6 && g->dy == 0.7e-6);
+    for (size_t k = 0; k < 60000; k++)
+        assert_true(k % 7 == 0 ? g->v[k] != g->v[k] : g->v[k] == 1e-9 * (double)(k + 3));
+    assert_string_equal(rc_grid_get(g, "file.date"), "2024\n\xc2\xb5");
+}
+
+static void
+a_grid_comes_back_whole(void **state)
+{
+    struct rc_notes notes = {0};
+    struct rc_err err = {""};
+    struct rc_grid *g = rc_sandbox_read(good, &file, &rc_no_wish, 3, &notes, &err);
+
+    (void)state;
+    if (g == NULL)
+        fail_msg("%s", err.text);
+    check_good(g);
+    assert_int_equal(notes.n, 1);
+    assert_string_equal(notes.text[0], "worth saying");
+    rc_grid_free(g);
+}
+
+/* The bytes by which a child sends the grid of good(), values included; the caller frees them. */
+static char *
+sent_result(size_t *n)
+{
+    struct rc_notes notes = {0};
+    struct rc_err err = {""};
+    struct rc_grid *g = good(&file, &rc_no_wish, 3, &notes, &err);
+    struct rc_pipes pipes = {.child = -1};
+    char *bytes = NULL;
+    int end[2];
+
+    assert_int_equal(socketpair(AF_UNIX, SOCK_STREAM, 0, end), 0);
+    assert_int_equal(write(end[1], "\2", 1),
+                     1); /* the reply: the values are wanted through the pipe */
+    pipes.reply = end[0];
+    assert_non_null(pipes.result = open_memstream(&bytes, n));
+    assert_true(rc_result_send_grid(&pipes, g, &notes, &err));
+    assert_int_equal(fclose(pipes.result), 0);
+    close(end[0]);
+    close(end[1]);
+    rc_grid_free(g);
+    return bytes;
+}
+
+/* Receives it from no child, so that there is no memory to copy from: through the pipe. */
+static bool
+receive(char *bytes, size_t n, struct rc_grid **g, struct rc_notes *notes)
+{
+    struct rc_pipes pipes = {.child = -1, .result = fmemopen(bytes, n, "rb")};
+    struct rc_err said;
+    int end[2];
+    bool whole;
+
+    assert_non_null(pipes.result);
+    assert_int_equal(socketpair(AF_UNIX, SOCK_STREAM, 0, end), 0);
+    pipes.reply = end[0];
+    whole = rc_result_receive_grid(&pipes, &file, g, notes, &said);
+    fclose(pipes.result);
+    close(end[0]);
+    close(end[1]);
+    return whole;
+}
+
+static void
+values_come_through_the_pipe_too(void **state)
+{
+    struct rc_notes notes = {0};
+    struct rc_grid *g = NULL;
+    size_t n;
+    char *bytes = sent_result(&n);
+
+    (void)state;
+    assert_true(receive(bytes, n, &g, &notes));
+    check_good(g);
+    assert_string_equal(notes.text[0], "worth saying");
+    rc_grid_free(g);
+    for (size_t cut = 1; cut < n; cut += cut < 6000 ? 1 : 9973) {
+        assert_false(receive(bytes, cut, &g, &notes));
+        g = NULL;
+    }
+    free(bytes);
+}
+
+/* A child that a file has got hold of may say anything. */
+static void
+results_are_not_trusted(void **state)
+{
+    static const unsigned char nasty[] = {0, 1, 2, 0x7f, 0x80, 0xff};
+    uint64_t seed = 0x9e3779b97f4a7c15;
+    size_t n, taken = 0;
+    char *bytes = sent_result(&n), *bad = malloc(n);
+
+    (void)state;
+    assert_non_null(bad);
+    for (size_t t = 0; t < 3000; t++) {
+        struct rc_notes notes = {0};
+        struct rc_grid *g = NULL;
+
+        memcpy(bad, bytes, n);
+        for (size_t k = 0; k <= t % 3; k++) {
+            seed ^= seed << 13;
+            seed ^= seed >> 7;
+            seed ^= seed << 17;
+            bad[(seed >> 16) % 6000] = (char)nasty[seed % sizeof nasty];
+        }
+        if (receive(bad, n, &g, &notes)) {
+            assert_true(notes.n <= sizeof notes.text / sizeof *notes.text);
+            assert_true(g == NULL || (g->dx > 0 && g->dy > 0 && g->nx * g->ny <= 60000));
+            taken++;
+        }
+        rc_grid_free(g);
+    }
+    printf("3000 results changed at random, %zu of them whole\n", taken);
+    free(bad);
+    free(bytes);
+}
+
+static void
+expect(rc_sandboxed_read *read, const char *why)
+{
+    struct rc_notes notes = {0};
+    struct rc_err err = {""};
+
+    assert_null(rc_sandbox_read(read, &file, &rc_no_wish, 0, &notes, &err));
+    if (strstr(err.text, why) == NULL)
+        fail_msg("refused for '%s', not for '%s'", err.text, why);
+}
+
+static double
+now(void)
+{
+    struct timespec ts;
+
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &ts);
+    return (double)ts.tv_sec + 1e-9 * (double)ts.tv_nsec;
+}
+
+static void
+trouble_stays_in_the_child(void **state)
+{
+    double before = now();
+
+    (void)state;
+    expect(refusing, "what is wrong: 7");
+    expect(crashing, "makes its library fail (Aborted)");
+    expect(segfaulting, "makes its library fail (Segmentation fault)");
+    expect(endless, "busy for more than 0.8 s");
+    expect(waiting, "busy for more than 0.8 s");
+    expect(nosy, "closed");
+    assert_true(now() - before < 0.5); /* the time was not ours */
+}
+
+static void
+memory_is_bounded(void **state)
+{
+    struct rc_notes notes = {0};
+    struct rc_err err = {""};
+    const char *said;
+
+    (void)state;
+    assert_null(rc_sandbox_read(greedy, &file, &rc_no_wish, 0, &notes, &err));
+    printf("%s\n", err.text);
+    if ((said = strstr(err.text, "ended after ")) != NULL)
+        assert_in_range(strtoul(said + 12, NULL, 10), 32, 64);
+    else /* the address sanitizer may not come back from it */
+        assert_non_null(strstr(err.text, "its library"));
+}
+
+static size_t
+three(const struct rc_file *f, const struct rc_wish *wish, struct rc_channel *channel, size_t most,
+      struct rc_err *err)
+{
+    (void)f, (void)wish, (void)err;
+    for (size_t k = 0; k < 3 && k < most; k++)
+        channel[k] = (struct rc_channel){.name = "c", .unit = "m", .nx = k + 1, .ny = 1};
+    return 3;
+}
+
+static size_t
+none(const struct rc_file *f, const struct rc_wish *wish, struct rc_channel *channel, size_t most,
+     struct rc_err *err)
+{
+    (void)f, (void)wish, (void)channel, (void)most;
+    rc_err_set(err, "no channel");
+    return 0;
+}
+
+static size_t
+crashing_list(const struct rc_file *f, const struct rc_wish *wish, struct rc_channel *channel,
+              size_t most, struct rc_err *err)
+{
+    (void)f, (void)wish, (void)channel, (void)most, (void)err;
+    abort();
+}
+
+static void
+lists_come_back(void **state)
+{
+    struct rc_channel channel[2];
+    struct rc_err err = {""};
+
+    (void)state;
+    assert_int_equal(rc_sandbox_list(three, &file, &rc_no_wish, channel, 2, &err), 3);
+    assert_int_equal(channel[1].nx, 2);
+    assert_int_equal(rc_sandbox_list(none, &file, &rc_no_wish, channel, 2, &err), 0);
+    assert_string_equal(err.text, "no channel");
+    assert_int_equal(rc_sandbox_list(crashing_list, &file, &rc_no_wish, channel, 2, &err), 0);
+    assert_non_null(strstr(err.text, "makes its library fail"));
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_grid_comes_back_whole),
+        cmocka_unit_test(values_come_through_the_pipe_too),
+        cmocka_unit_test(results_are_not_trusted),
+        cmocka_unit_test(trouble_stays_in_the_child),
+        cmocka_unit_test(memory_is_bounded),
+        cmocka_unit_test(lists_come_back),
+        cmocka_unit_test(there_is_no_way_out),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,149 @@
+/* TIFF files made in memory; cmocka.h must come before. */
+#ifndef MADE_TIFF_H
+#define MADE_TIFF_H
+
+#include "made.h"
+
+struct tag {
+    uint16_t tag, type; /* 2 text, 3 u16, 4 u32, 7 bytes, 8 i16, 12 f64 */
+    uint32_t count;
+    const char *text; /* of types 2 and 7 */
+    double number;    /* of the others */
+};
+
+enum {
+    TAGS_MOST = 40
+};
+
+/* One directory with its data before it; gives its place. The list ends with tag 0. */
+__attribute__((unused)) static size_t
+tiff_directory(struct bytes *b, const struct tag *tag)
+{
+    static const size_t width[] = {[1] = 1, [2] = 1, [3] = 2, [4] = 4, [7] = 1, [8] = 2, [12] = 8};
+    uint32_t place[TAGS_MOST] = {0};
+    size_t n = 0, at;
+
+    while (tag[n].tag != 0) {
+        const struct tag *t = &tag[n];
+        place[n++] = (uint32_t)b->n;
+        if (t->text != NULL)
+            add(b, t->text, t->count);
+        else if (t->type == 12)
+            add_f64(b, t->number);
+        if (b->n % 2 != 0)
+            add(b, "", 1);
+    }
+    at = b->n;
+    add_number(b, n, 2);
+    for (size_t k = 0; k < n; k++) {
+        const struct tag *t = &tag[k];
+        size_t size = width[t->type] * t->count;
+
+        add_number(b, t->tag, 2);
+        add_number(b, t->type, 2);
+        add_number(b, t->count, 4);
+        if (size > 4) {
+            add_number(b, place[k], 4);
+        } else if (t->text != NULL) {
+            add(b, t->text, t->count);
+            add(b, "\0\0\0", 4 - t->count);
+        } else {
+            add_number(b, (uint64_t)(int64_t)t->number, width[t->type]);
+            add(b, "\0\0\0", 4 - width[t->type]);
+        }
+    }
+    add_number(b, 0, 4); /* the next one: set by tiff_page */
+    return at;
+}
+
+__attribute__((unused)) static void
+tiff_start(struct bytes *b, bool big)
+{
+    *b = (struct bytes){.big = big};
+    add(b, big ? "MM" : "II", 2);
+    add_number(b, 42, 2);
+    add_number(b, 0, 4);
+}
+
+__attribute__((unused)) static void
+set_word(struct bytes *b, size_t at, uint32_t value)
+{
+    struct bytes word = {.big = b->big};
+
+    add_number(&word, value, 4);
+    memcpy(b->data + at, word.data, 4);
+    drop(&word);
+}
+
+/* A page of nx x ny pixels in one strip, with further tags, which must be above 339; `last` is the
+ * place of the word that is to lead here. Gives the place of the next such word. */
+__attribute__((unused)) static size_t
+tiff_any_page(struct bytes *b, size_t last, size_t nx, size_t ny, unsigned bits, unsigned samples,
+              const char *description, const void *pixels, size_t n, const struct tag *more,
+              unsigned compression)
+{
+    struct tag tag[TAGS_MOST];
+    size_t k = 0, at;
+    uint32_t strip = (uint32_t)b->n;
+
+    add(b, pixels, n);
+    if (b->n % 2 != 0)
+        add(b, "", 1);
+    tag[k++] = (struct tag){256, 4, 1, NULL, (double)nx};
+    tag[k++] = (struct tag){257, 4, 1, NULL, (double)ny};
+    tag[k++] = (struct tag){258, 3, 1, NULL, bits};
+    tag[k++] = (struct tag){259, 3, 1, NULL, compression};
+    tag[k++] = (struct tag){262, 3, 1, NULL, samples == 3 ? 2 : 1};
+    if (description != NULL)
+        tag[k++] = (struct tag){270, 2, (uint32_t)strlen(description) + 1, description, 0};
+    tag[k++] = (struct tag){273, 4, 1, NULL, strip};
+    tag[k++] = (struct tag){277, 3, 1, NULL, samples};
+    tag[k++] = (struct tag){278, 4, 1, NULL, (double)ny};
+    tag[k++] = (struct tag){279, 4, 1, NULL, (double)n};
+    for (; more != NULL && more->tag != 0; more++)
+        tag[k++] = *more;
+    tag[k] = (struct tag){0};
+    assert_true(k < TAGS_MOST);
+    at = tiff_directory(b, tag);
+    set_word(b, last, (uint32_t)at);
+    return b->n - 4;
+}
+
+__attribute__((unused)) static size_t
+tiff_page(struct bytes *b, size_t last, size_t nx, size_t ny, unsigned bits, unsigned samples,
+          const char *description, const void *pixels, size_t n, const struct tag *more)
+{
+    return tiff_any_page(b, last, nx, ny, bits, samples, description, pixels, n, more, 1);
+}
+
+/* Of pixels that zlib has packed. */
+__attribute__((unused)) static size_t
+tiff_packed_page(struct bytes *b, size_t last, size_t nx, size_t ny, unsigned bits,
+                 unsigned samples, const char *description, const void *pixels, size_t n,
+                 const struct tag *more)
+{
+    return tiff_any_page(b, last, nx, ny, bits, samples, description, pixels, n, more, 8);
+}
+
+__attribute__((unused)) static struct tag
+text_tag(unsigned tag, const char *text)
+{
+    return (struct tag){(uint16_t)tag, 2, (uint32_t)strlen(text) + 1, text, 0};
+}
+
+__attribute__((unused)) static struct tag
+number_tag(unsigned tag, unsigned type, double number)
+{
+    return (struct tag){(uint16_t)tag, (uint16_t)type, 1, NULL, number};
+}
+
+__attribute__((unused)) static void
+pixels_i32(struct bytes *b, const int *v, size_t n)
+{
+    for (size_t k = 0; k < n; k++)
+        add_number(b, (uint64_t)(int64_t)v[k], 4);
+}
+
+__attribute__((unused)) static const int raw[6] = {1, -2, 3, -4, 5, 1000000};
+
+#endif

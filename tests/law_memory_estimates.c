@@ -1,0 +1,191 @@
+/* What the library says that it takes is within a tenth of what it then takes at most, each in a process of
+ * its own: solver, stiffness, stresses and sums, on maps large enough that code and plans do not count. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "libcontact/contact.h"
+#include "tools/machine/memory.h"
+
+static const struct rc_shape shape = {701, 500, 1e-6, 1.1e-6};
+static const double tenth = 0.1;
+
+struct work {
+    const char *name;
+    enum rc_boundary boundary;
+    const char *engine;
+    size_t code; /* bytes of code and plans, which the library does not count */
+    /* Does it on these heights and pressures, gives what it was said to take; 0: it failed. */
+    size_t (*run)(const struct work *work, const double *h, const double *p);
+};
+
+static size_t
+solve(const struct work *w, const double *h, const double *p)
+{
+    struct rc_problem problem = {.boundary = w->boundary,
+                                 .engine = w->engine,
+                                 .estar = 3e9,
+                                 .load = 1e7 * 701 * 500 * 1.1e-12,
+                                 .tol = 1e-2};
+    size_t bytes = rc_solver_memory(&shape, &problem);
+    struct rc_solver *s = rc_solver_new(&shape, h, &problem, NULL);
+    struct rc_contact contact;
+
+    (void)p;
+    if (s == NULL)
+        return 0;
+    while (rc_solver_step(s) == RC_MORE)
+        continue;
+    rc_solver_result(s, NULL, NULL, &contact);
+    rc_solver_free(s);
+    return bytes;
+}
+
+static size_t
+sum(const struct work *w, const double *h, const double *p)
+{
+    const struct rc_conv_options options = {.boundary = w->boundary, .engine = w->engine};
+    size_t bytes = rc_conv_memory(&shape, &options) + shape.nx * shape.ny * sizeof(double);
+    struct rc_conv *conv = rc_conv_new(&shape, 3e9, &options, NULL);
+    double *u = malloc(shape.nx * shape.ny * sizeof *u);
+
+    (void)h;
+    if (conv == NULL || u == NULL)
+        return 0;
+    rc_conv_apply(conv, p, u);
+    rc_conv_free(conv);
+    free(u);
+    return bytes;
+}
+
+static size_t
+stress(const struct work *w, const double *h, const double *p)
+{
+    const double depth = 5e-6;
+    const struct rc_stress_options options = {.boundary = w->boundary,
+                                              .nu = 0.3,
+                                              .wanted = 1u << RC_MISES,
+                                              .engine = w->engine,
+                                              .depth = &depth,
+                                              .depths = 1};
+    size_t bytes = rc_stress_memory(&shape, &options) + shape.nx * shape.ny * sizeof(double);
+    struct rc_stress *s = rc_stress_new(&shape, p, &options, NULL);
+    double *to[RC_STRESSES] = {NULL};
+
+    (void)h;
+    to[RC_MISES] = malloc(shape.nx * shape.ny * sizeof(double));
+    if (s == NULL || to[RC_MISES] == NULL || rc_stress_slice(s, depth, to, NULL) != RC_OK)
+        return 0;
+    rc_stress_free(s);
+    free(to[RC_MISES]);
+    return bytes;
+}
+
+static size_t
+patches(const struct work *w, const double *h, const double *p)
+{
+    const struct rc_patch_options options = {.boundary = w->boundary, .each = true};
+    size_t bytes = rc_patches_memory(&shape, p);
+    struct rc_patches found;
+
+    (void)h;
+    if (rc_patches_find(&shape, p, &options, &found, NULL) != RC_OK)
+        return 0;
+    rc_patches_free(&found);
+    return bytes;
+}
+
+static size_t
+psd(const struct work *w, const double *h, const double *p)
+{
+    const struct rc_psd_options options = {.boundary = w->boundary};
+    size_t bytes = rc_psd_memory(&shape);
+    struct rc_psd *found = rc_psd_new(&shape, h, &options, NULL);
+
+    (void)p;
+    if (found == NULL)
+        return 0;
+    rc_psd_free(found);
+    return bytes;
+}
+
+/* In a child: 0 when what it took is what was said, as a status. */
+static int
+measured(const struct work *w)
+{
+    size_t n = shape.nx * shape.ny, before, said, took;
+    double *h = malloc(n * sizeof *h), *p = malloc(n * sizeof *p);
+
+    memory_keep_maps_apart();
+    if (h == NULL || p == NULL)
+        return 2;
+    for (size_t k = 0; k < n; k++) { /* waves a few nodes long, and pressure in strips of a fifth */
+        size_t i = k % shape.nx, j = k / shape.nx;
+        h[k] = 1e-7 *
+               (sin(0.31 * (double)i) + cos(0.23 * (double)j) + 0.1 * (double)(k * 7919 % 97) / 97);
+        p[k] = k * 7919 % 15 < 3 || i % 15 < 3 ? 1e6 : 0;
+    }
+    before = memory_held();
+    if ((said = w->run(w, h, p)) == 0)
+        return 3;
+    took = memory_peak() - before;
+    if ((double)said <= (1 + tenth) * (double)took &&
+        (double)said >= (1 - tenth) * (double)took - (double)w->code)
+        return 0;
+    fprintf(stderr, "%s: %.1f MiB said, %.1f MiB taken\n", w->name, (double)said / (1 << 20),
+            (double)took / (1 << 20));
+    return 1;
+}
+
+static const size_t transforms = 5 << 19; /* of one precision */
+
+static void
+holds(void **state)
+{
+    const struct work works[] = {
+        {"solver", RC_FREE, NULL, 2 * transforms, solve},
+        {"solver, periodic", RC_PERIODIC, NULL, 2 * transforms, solve},
+        {"solver, mlms", RC_FREE, "mlms", 2 * transforms, solve},
+        {"sums", RC_FREE, "fft64", transforms, sum},
+        {"sums, periodic", RC_PERIODIC, "fft64", transforms, sum},
+        {"sums, mlms", RC_FREE, "mlms", transforms, sum},
+        {"stress", RC_FREE, NULL, transforms, stress},
+        {"stress, periodic", RC_PERIODIC, NULL, transforms, stress},
+        {"patches", RC_FREE, NULL, 1 << 18, patches},
+        {"spectrum", RC_PERIODIC, NULL, transforms, psd},
+    };
+    int missed = 0;
+
+    (void)state;
+    for (size_t k = 0; k < sizeof works / sizeof *works; k++) {
+        int status = 0;
+        pid_t child = fork();
+
+        if (child == 0)
+            _exit(measured(&works[k]));
+        assert_true(waitpid(child, &status, 0) == child);
+        if (status != 0)
+            fprintf(stderr, "%s: status %d\n", works[k].name, status);
+        missed += status != 0;
+    }
+#ifndef __SANITIZE_ADDRESS__ /* it takes memory of its own */
+    assert_int_equal(missed, 0);
+#endif
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(holds)};
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

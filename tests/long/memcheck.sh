@@ -1,0 +1,58 @@
+#!/usr/bin/env bash
+# valgrind's memcheck over the tests that are short enough for it (ctest's own times tell), and over the tools:
+#
+#     tests/long/memcheck.sh BUILD [SECONDS]
+#
+# BUILD is a built tree whose tests have been run; those that took at most SECONDS there (else 0.3) are run again. An
+# invalid access, a jump on what was never set or a block that is lost is a finding. The sanitizers run all tests
+# (tests/run.sh); valgrind sees what FFTW, GSL, libpng and the others do with our memory too.
+set -uo pipefail
+[ $# -ge 1 ] && [ -r "$1/Testing/Temporary/CTestCostData.txt" ] || {
+    echo "memcheck.sh: which build, with its tests run before? memcheck.sh BUILD [SECONDS]" >&2
+    exit 2
+}
+command -v valgrind >/dev/null || {
+    echo "memcheck.sh: valgrind is not here: apt-get install valgrind" >&2
+    exit 1
+}
+build=$(cd "$1" && pwd) most=${2-0.3}
+here=$(cd "$(dirname "$0")" && pwd)
+source=$(cd "$here/../.." && pwd)
+surfaces=$source/sample_surfaces
+. "$here/pipelines.sh"
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+export RC_SOURCE=$source RC_CORPUS=$source/../shared RC_BIN=$build/tools RC_THREADS=2
+memcheck="valgrind --quiet --error-exitcode=99 --leak-check=full --errors-for-leak-kinds=definite --suppressions=$here/memcheck.txt"
+ran=0 failed=0
+
+while read -r test _ seconds; do
+    case $test in format_export*|format_hdf5|format_datx) continue ;; esac # the sandbox bounds memory, of which valgrind takes more
+    [ -x "$build/tests/$test" ] && awk "BEGIN { exit !($seconds <= $most) }" || continue
+    ran=$((ran + 1))
+    (cd "$work" && $memcheck "$build/tests/$test" >"$work/out" 2>"$work/err") || {
+        failed=$((failed + 1))
+        echo "NOT OK: $test"
+        grep -m 12 '^==' "$work/err"
+        grep -F 'FAILED' "$work/out"
+    }
+done < <(awk "/^---/ { exit } 1" "$build/Testing/Temporary/CTestCostData.txt")
+echo "$ran tests under memcheck, $failed failed"
+
+# The tools: each pipeline on a map of a few thousand nodes.
+table() {
+    command sed -n '/^[a-z]*\.\(rcg\|json\) /p' "$here/pipelines.sh" | sed 's/--nx 256 --ny 224/--nx 64 --ny 48/; s/--crop 10,20,60,50/--crop 5,8,40,30/; s/--approach 1um/--approach 0.5um/'
+}
+mkdir -p "$work/tools"
+for tool in "$build"/tools/rc-*; do
+    [ -f "$tool" ] && [ -x "$tool" ] || continue
+    printf '#!/bin/sh\nexec %s %s "$@"\n' "$memcheck" "$tool" >"$work/tools/${tool##*/}"
+    chmod +x "$work/tools/${tool##*/}"
+done
+if PATH="$work/tools:$PATH" run_pipelines "$work/out.d" "$work/out.d" 2>"$work/err"; then
+    echo "$(table | wc -l) pipelines under memcheck, no finding"
+else
+    failed=$((failed + 1))
+    tail -n 20 "$work/err"
+fi
+[ "$ran" -gt 0 ] && [ "$failed" = 0 ]

@@ -1,0 +1,171 @@
+#!/usr/bin/env bash
+# The tests on processors of other kinds:
+#
+#     tests/long/other_machines.sh [--keep FOLDER] ARCH...
+#
+# ARCH is what Debian calls it: s390x (the highest byte first), arm64, i386 (32 bits). For each, a root of its
+# libraries is made by mmdebstrap, with packages from MIRROR where the environment names one; everything is
+# built by Debian's cross compiler with warnings as errors; the tests run, foreign ones under qemu's user
+# emulation; and the results of the pipelines of pipelines.sh are those of this machine, each of which reads what the
+# other has written. FOLDER keeps root, build and logs for the next time. No root is needed where mmdebstrap needs
+# none (user namespaces).
+#
+# What is left out, and why, is the table below, and is said. What takes longer than 600 s (RC_LIMIT: another number of
+# seconds) is named and counts as a failure; RC_TESTS_OF, a regular expression, chooses tests.
+set -uo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+source=$(cd "$here/../.." && pwd)
+surfaces=$source/sample_surfaces
+. "$here/pipelines.sh"
+. "$here/../python.sh"
+. "$source/cmake/packages.sh"
+suite=${SUITE:-bookworm}
+limit=${RC_LIMIT:-600}
+
+# What is left out: `all`, or only under emulation; a regular expression of whole names; why.
+left_out() {
+    cat <<'END'
+all       pipe_installed    pkg-config and find_package would find the libraries of this machine
+all       law_release       of the sources, which are the same
+emulated  law_folders       of the sources and their symbols, which are the same
+emulated  pipe_library      starts a program that it links itself, which needs the emulator by its name
+emulated  pipe_calls        watches the calls by ptrace, which the emulator has not
+emulated  truth_memory_room bounds of address space, which the emulator does not set
+emulated  pipe_(cost|kills|sizes) bounds of processor time and of memory, which are the emulator's
+emulated  format_hdf5       its file of 128 MiB ends by the bound of processor time, before that of memory
+emulated  format_hostile    more than 600 s on two cores that were shared
+emulated  hard_layers       more than 600 s on two cores that were shared
+END
+}
+
+fail() {
+    echo "other_machines.sh: $*" >&2
+    exit "${status:-1}"
+}
+keep=
+if [ "${1-}" = --keep ]; then
+    keep=${2-}
+    shift 2 || status=2 fail "--keep needs a folder"
+fi
+[ $# -gt 0 ] || status=2 fail "which machines? one or more of s390x, arm64, i386"
+if [ -n "$keep" ]; then
+    mkdir -p "$keep" && work=$(cd "$keep" && pwd) || exit 1
+else
+    work=$(mktemp -d) || exit 1
+    trap 'rm -rf --one-file-system "$work"' EXIT
+fi
+
+# The name of its tools, the folder of its libraries, its emulator, compiler flags; the tests that are left out.
+describe() {
+    emulator='' flags=''
+    case $1 in
+    s390x) triplet=s390x-linux-gnu libraries=$triplet emulator=qemu-s390x-static ;;
+    arm64) triplet=aarch64-linux-gnu libraries=$triplet emulator=qemu-aarch64-static ;;
+    # SSE2, because the 80 bits of the x87 round twice
+    i386) triplet=i686-linux-gnu libraries=i386-linux-gnu flags='-msse2 -mfpmath=sse' ;;
+    *) status=2 fail "$1: one of s390x, arm64, i386" ;;
+    esac
+    without=$(left_out | awk -v emulated="$emulator" '$1 == "all" || emulated != "" { print $2 }' | paste -sd '|')
+}
+
+# A folder of the packages of another machine, unpacked and never run: what links point to is made relative to it.
+make_root() {
+    local arch=$1 root=$2 link packages
+    [ -e "$root/made" ] && return
+    packages=$(printf '%s\n' $build_packages libcmocka-dev libgomp1 | grep -E '^lib.*|zlib' | paste -sd ,)
+    mmdebstrap --variant=extract --arch="$arch" --include="$packages" "$suite" "$root" ${MIRROR:+"$MIRROR"} \
+        >"$work/$arch.root.log" 2>&1 || {
+        tail -n 5 "$work/$arch.root.log" >&2
+        fail "no libraries for $arch: MIRROR=URL names another mirror"
+    }
+    find "$root" -type l -lname '/*' | while read -r link; do
+        ln -sfn "$(realpath -sm --relative-to="$(dirname "$link")" "$root$(readlink "$link")")" "$link"
+    done
+    # what its packages' scripts would have made
+    ln -sf hdf5-serial.pc "$root/usr/lib/$libraries/pkgconfig/hdf5.pc"
+    touch "$root/made"
+}
+
+# With the loader and the libraries of its root in the programs themselves where no emulator can be told of them.
+make_build() {
+    local root=$1 build=$2 log=$3 runner="$emulator;-L;$root" # what CMake starts the programs by
+    linker=
+    [ -n "$emulator" ] ||
+        runner=env linker="-Wl,--disable-new-dtags,-rpath,$root/usr/lib/$libraries:$root/lib/$libraries,--dynamic-linker,$root/lib/ld-linux.so.2"
+    # The tools of a build before this one are put back: it would link over the scripts.
+    [ ! -d "$build/elf" ] || { cp -p "$build"/elf/rc-* "$build/tools/" && rm -r "$build/elf"; }
+    PKG_CONFIG_LIBDIR=$root/usr/lib/$libraries/pkgconfig:$root/usr/share/pkgconfig PKG_CONFIG_SYSROOT_DIR=$root \
+        cmake -S "$source" -B "$build" -DRC_WERROR=ON -DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR="${triplet%%-*}" \
+        -DCMAKE_C_COMPILER="$triplet-gcc" -DCMAKE_C_FLAGS="$flags" -DCMAKE_EXE_LINKER_FLAGS="$linker" \
+        -DCMAKE_SYSROOT="$root" -DCMAKE_LIBRARY_ARCHITECTURE="$libraries" -DCMAKE_FIND_ROOT_PATH="$root" \
+        -DCMAKE_FIND_ROOT_PATH_MODE_PROGRAM=NEVER -DCMAKE_FIND_ROOT_PATH_MODE_LIBRARY=ONLY \
+        -DCMAKE_FIND_ROOT_PATH_MODE_INCLUDE=ONLY -DCMAKE_CROSSCOMPILING_EMULATOR="$runner" \
+        >"$log" 2>&1 &&
+        cmake --build "$build" --parallel "$(nproc)" >>"$log" 2>&1
+}
+
+# The tests start the tools by their names: these become scripts that start the emulator.
+wrap_tools() {
+    local root=$1 build=$2
+    [ -n "$emulator" ] || return 0
+    mkdir -p "$build/elf" && mv "$build"/tools/rc-* "$build/elf/" &&
+        emulated "$build/tools" "$build/elf" "$emulator" -L "$root"
+}
+
+run_tests() {
+    local arch=$1 root=$2 build=$3 status
+    # Emulation is some thirty times slower: what has not ended by then is named, not waited for.
+    find "$build/tests" -name CTestTestfile.cmake -exec sed -i -E "s/TIMEOUT \"[36]00\"/TIMEOUT \"$limit\"/" {} +
+    # What a test compiles and starts is for this machine, where no emulator stands between.
+    if [ -z "$emulator" ]; then
+        printf '#!/bin/sh\nexec %s "$@" %s\n' "$triplet-gcc --sysroot=$root $flags" "$linker" >"$work/$arch.cc"
+        chmod +x "$work/$arch.cc"
+    fi
+    env ${linker:+CC="$work/$arch.cc"} ctest --test-dir "$build" --parallel "$(nproc)" -R "${RC_TESTS_OF:-.}" \
+        -E "^($without)\$" --no-tests=error --timeout "$limit" --output-on-failure >"$work/$arch.tests.log" 2>&1
+    status=$?
+    left_out | sed -nE "s/^all +([^ ]+) +/left out: \1: /p${emulator:+; s/^emulated +([^ ]+) +/left out: \1: /p}"
+    grep -E 'tests passed|^\s*[0-9]+ - .*\((Failed|Timeout|SEGFAULT|Not Run|Subprocess)' "$work/$arch.tests.log"
+    return $status
+}
+
+machine() {
+    local arch=$1 root=$work/$1.root build=$work/$1.build out=$work/$1.out began=$SECONDS
+    describe "$arch"
+    command -v "$triplet-gcc" >/dev/null || fail "$triplet-gcc is not here: apt-get install crossbuild-essential-$arch"
+    [ -z "$emulator" ] || command -v "$emulator" >/dev/null ||
+        fail "$emulator is not here: apt-get install qemu-user-static"
+    echo "== $arch"
+    make_root "$arch" "$root"
+    make_build "$root" "$build" "$work/$arch.build.log" || {
+        grep -E 'error:|warning:|Error' "$work/$arch.build.log" | head
+        fail "no build for $arch: see $work/$arch.build.log"
+    }
+    wrap_tools "$root" "$build" || exit 1
+    echo "built, no warning ($((SECONDS - began)) s)"
+    PATH="$build/tools:$PATH" RC_THREADS=2 run_pipelines "$out" "$work/here.out" 2>"$work/$arch.pipelines.log" || {
+        tail -n 3 "$work/$arch.pipelines.log"
+        failed=1
+    }
+    echo "its tools on streams of this machine, read here and beside this machine's:"
+    compare "$out" "$work/here.out" || failed=1
+    for stream in "$out"/*.rcg; do
+        "$work/here/tools/rc-info" --json "$stream" >/dev/null || failed=1
+    done
+    run_tests "$arch" "$root" "$build" || failed=1
+    echo "($((SECONDS - began)) s)"
+}
+
+for need in mmdebstrap cmake; do
+    command -v $need >/dev/null || fail "$need is not here: apt-get install $need"
+done
+python=$(cd "$work" && python_with numpy) || exit 1
+failed=0
+cmake -S "$source" -B "$work/here" -DRC_TESTS=OFF >"$work/here.log" 2>&1 &&
+    cmake --build "$work/here" --parallel "$(nproc)" >>"$work/here.log" 2>&1 || fail "no build: see $work/here.log"
+PATH="$work/here/tools:$PATH" RC_THREADS=2 run_pipelines "$work/here.out" "$work/here.out" 2>/dev/null || exit 1
+for arch; do
+    machine "$arch"
+done
+[ "$failed" = 0 ] && echo "Every machine gives what this one gives."
+exit "$failed"

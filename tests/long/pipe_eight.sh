@@ -1,0 +1,40 @@
+# Pipelines of solve and stress that run eight at a time on whatever cores there are all finish, each with
+# what it gives when it runs alone.
+. "$RC_SOURCE/tests/pipe.sh"
+
+rounds=25
+for k in $(seq 8); do
+    rc-synth selfaffine --nx $((100 + 13 * k)) --ny $((150 - 7 * k)) --dx 1um --hurst 0.8 --rms-slope 0.1 \
+        --short-cut 8um --seed "$k" -o "rough$k.rcg"
+done
+
+# pipeline K NAME: stresses of surface K into NAME, by two threads.
+pipeline() {
+    rc-solve --threads 2 --load 0.$1N --estar 1GPa --output pressure "rough$1.rcg" |
+        rc-stress --threads 2 --nu 0.3 --depths 1um,4um --components mises,szz -o "$2"
+}
+export -f pipeline
+
+for k in $(seq 8); do
+    claim "pipeline $k alone" pipeline "$k" "alone$k.rcg"
+done
+
+# eight: all at once; fails when one of them does.
+eight() {
+    local k pids="" status=0
+    for k in $(seq 8); do
+        pipeline "$k" "$1-$k.rcg" &
+        pids="$pids $!"
+    done
+    for k in $pids; do wait "$k" || status=1; done
+    for k in $(seq 8); do cmp "alone$k.rcg" "$1-$k.rcg" || status=1; done
+    return $status
+}
+export -f eight
+
+for round in $(seq $rounds); do
+    claim "eight at a time, round $round of $rounds: each as alone, to the last bit" eight "round$round"
+done
+claim "and nothing else is left" bash -c '[ $(ls | grep -c "rcg$") = $((8 + 8 + 8 * '$rounds')) ] && ! ls *.rcg.* 2>/dev/null'
+
+finish

@@ -1,0 +1,17 @@
+# Sourced by the tests that run Python, after pipe.sh.
+
+# python_with MODULE...: the first Python that has them: that of RC_PYTHON, of PATH, or of the system, whose
+# packages another one on PATH does not see. Where none has, why not goes to standard error.
+python_with() {
+    local modules python tried=(python3 /usr/bin/python3)
+    [ -z "${RC_PYTHON-}" ] || tried=("$RC_PYTHON")
+    modules=$(printf 'import %s; ' "$@")
+    for python in "${tried[@]}"; do
+        if "$python" -c "$modules" 2>python.err; then
+            echo "$python"
+            return
+        fi
+    done
+    echo "$python without $*: $(tail -n 1 python.err)" >&2
+    return 1
+}

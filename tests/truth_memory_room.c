@@ -1,0 +1,224 @@
+/* What is left of the memory is the least of what the machine has, what each group that the process is
+ * in may still take, and its own limits: read from files laid out as the kernel's. */
+#define _DEFAULT_SOURCE /* MAP_ANONYMOUS */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "tools/machine/machine.h"
+
+static const double mib = 1 << 20;
+
+/* A root of files of our own. */
+static char root[] = "/tmp/memory-room-XXXXXX";
+
+static void
+put(const char *name, const char *text)
+{
+    char path[512];
+    FILE *file;
+
+    for (const char *s = strchr(name + 1, '/'); s != NULL; s = strchr(s + 1, '/')) {
+        snprintf(path, sizeof path, "%s%.*s", root, (int)(s - name), name);
+        mkdir(path, 0777);
+    }
+    snprintf(path, sizeof path, "%s%s", root, name);
+    assert_non_null(file = fopen(path, "w"));
+    fputs(text, file);
+    fclose(file);
+}
+
+static int
+begin(void **state)
+{
+    (void)state;
+    strcpy(root + strlen(root) - 6, "XXXXXX");
+    return mkdtemp(root) == NULL;
+}
+
+static int
+end(void **state)
+{
+    char command[64];
+
+    (void)state;
+    snprintf(command, sizeof command, "rm -r %s", root);
+    return system(command);
+}
+
+static void
+the_machine(const char *available, const char *swap)
+{
+    char text[256];
+
+    snprintf(text, sizeof text,
+             "MemTotal:       24684040 kB\nMemFree:          10 kB\nMemAvailable:   %s kB\n"
+             "SwapTotal:             99999999 kB\nSwapFree:              %s kB\n",
+             available, swap);
+    put("/proc/meminfo", text);
+}
+
+static void
+test_machine(void **state)
+{
+    struct memory_room room;
+
+    (void)state;
+    room = memory_room(root);
+    assert_true(isinf(room.bytes)); /* no file says anything */
+    the_machine("2048", "1024");
+    room = memory_room(root);
+    assert_true(room.bytes == 3 * mib);
+    assert_string_equal(room.why, "the machine has");
+}
+
+static const char mounts2[] =
+    "22 1 8:1 / / rw - ext4 /dev/root rw\n"
+    "30 22 0:26 / /sys/fs/cgroup rw,nosuid shared:4 - cgroup2 cgroup2 rw,nsdelegate\n";
+
+/* Own group bounded high, the one around it lower: the nearest to its bound counts, and pages of
+ * files that can be dropped are no use. */
+static void
+test_version_2(void **state)
+{
+    struct memory_room room;
+
+    (void)state;
+    the_machine("99999999", "0");
+    put("/proc/self/mountinfo", mounts2);
+    put("/proc/self/cgroup", "0::/user.slice/job\n");
+    put("/sys/fs/cgroup/user.slice/job/memory.max", "max\n");
+    put("/sys/fs/cgroup/user.slice/job/memory.high", "67108864\n");
+    put("/sys/fs/cgroup/user.slice/job/memory.current", "33554432\n");
+    put("/sys/fs/cgroup/user.slice/job/memory.stat", "anon 1\nfile 99\ninactive_file 1048576\n");
+    room = memory_room(root);
+    assert_true(room.bytes == 33 * mib);
+    assert_non_null(strstr(room.why, "cgroup"));
+    put("/sys/fs/cgroup/user.slice/memory.max", "104857600\n");
+    put("/sys/fs/cgroup/user.slice/memory.high", "max\n");
+    put("/sys/fs/cgroup/user.slice/memory.current", "94371840\n");
+    put("/sys/fs/cgroup/user.slice/memory.stat", "inactive_file 0\n");
+    assert_true(memory_room(root).bytes == 10 * mib);
+    put("/sys/fs/cgroup/user.slice/memory.current", "104857600\n");
+    assert_true(memory_room(root).bytes == 0);
+    put("/sys/fs/cgroup/user.slice/memory.current", "204857600\n"); /* above a bound set later */
+    assert_true(memory_room(root).bytes == 0);
+    put("/sys/fs/cgroup/user.slice/memory.max", "max\n");
+    assert_true(memory_room(root).bytes == 33 * mib);
+}
+
+/* The controller's own tree, beside an empty one of version 2; a soft limit bounds nothing. */
+static void
+test_version_1(void **state)
+{
+    (void)state;
+    the_machine("99999999", "0");
+    put("/proc/self/mountinfo",
+        "33 31 0:30 / /sys/fs/cgroup/cpu rw - cgroup cgroup rw,cpu\n"
+        "35 31 0:32 / /sys/fs/cgroup/memory rw - cgroup cgroup rw,memory\n"
+        "41 31 0:38 / /sys/fs/cgroup/unified rw,relatime - cgroup2 cgroup2 rw\n");
+    put("/proc/self/cgroup", "9:name=systemd:/\n4:memory:/a/b\n1:cpu:/\n0::/\n");
+    put("/sys/fs/cgroup/memory/memory.limit_in_bytes", "9223372036854771712\n");
+    put("/sys/fs/cgroup/memory/memory.usage_in_bytes", "1\n");
+    put("/sys/fs/cgroup/memory/a/memory.limit_in_bytes", "52428800\n");
+    put("/sys/fs/cgroup/memory/a/memory.usage_in_bytes", "41943040\n");
+    put("/sys/fs/cgroup/memory/a/memory.stat",
+        "cache 5\ninactive_file 7\ntotal_inactive_file 2097152\n");
+    put("/sys/fs/cgroup/memory/a/b/memory.limit_in_bytes", "9223372036854771712\n");
+    put("/sys/fs/cgroup/memory/a/b/memory.soft_limit_in_bytes", "5\n");
+    put("/sys/fs/cgroup/memory/a/b/memory.usage_in_bytes", "41943040\n");
+    assert_true(memory_room(root).bytes == 12 * mib);
+}
+
+/* In a container the tree is mounted from the container's group down, whatever the path says. */
+static void
+test_container(void **state)
+{
+    (void)state;
+    the_machine("99999999", "0");
+    put("/proc/self/mountinfo", "30 22 0:26 /docker/4f1c /sys/fs/cgroup ro - cgroup2 cgroup rw\n");
+    put("/proc/self/cgroup", "0::/docker/4f1c/inner\n");
+    put("/sys/fs/cgroup/memory.max", "20971520\n");
+    put("/sys/fs/cgroup/memory.current", "10485760\n");
+    assert_true(memory_room(root).bytes == 10 * mib);
+    put("/sys/fs/cgroup/inner/memory.max", "20971520\n");
+    put("/sys/fs/cgroup/inner/memory.current", "12582912\n");
+    assert_true(memory_room(root).bytes == 8 * mib);
+    put("/proc/self/cgroup", "0::/\n"); /* in a name space of its own */
+    assert_true(memory_room(root).bytes == 10 * mib);
+}
+
+/* Bounded by itself; a child, so that the test is not. */
+static void
+test_limits(void **state)
+{
+    int status = 0;
+    pid_t child;
+
+    (void)state;
+    if ((child = fork()) == 0) {
+        struct memory_room room;
+        struct rlimit r = {(rlim_t)1 << 40, (rlim_t)1 << 40};
+
+        setrlimit(RLIMIT_AS, &r);
+        room = memory_room(root);
+        _exit(strstr(room.why, "ulimit -v") != NULL && room.bytes < (double)r.rlim_cur &&
+                      room.bytes > 0
+                  ? 0
+                  : 1);
+    }
+    assert_true(waitpid(child, &status, 0) == child);
+    assert_true(WIFEXITED(status));
+#ifndef __SANITIZE_ADDRESS__ /* it has reserved more address space than that */
+    assert_int_equal(WEXITSTATUS(status), 0);
+#endif
+}
+
+/* What is held rises by what is touched, not by what is asked for, and the most stays what it was. */
+static void
+test_held(void **state)
+{
+    const size_t n = (size_t)64 << 20;
+    size_t before = memory_held(), peak;
+    char *p = mmap(NULL, n, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+
+    (void)state;
+    assert_true(p != MAP_FAILED);
+    assert_true(before > 0);
+    assert_true((double)memory_held() < (double)before + 4 * mib);
+    memset(p, 1, n);
+    assert_true((double)memory_held() > (double)before + 60 * mib);
+    assert_true((double)memory_held() < (double)before + 68 * mib);
+    peak = memory_peak();
+    assert_true(peak + (1 << 20) >= memory_held());
+    munmap(p, n);
+    assert_true((double)memory_held() < (double)before + 4 * mib);
+    assert_true(memory_peak() + (1 << 20) >= peak); /* each thread tells the kernel now and then */
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(test_machine, begin, end),
+        cmocka_unit_test_setup_teardown(test_version_2, begin, end),
+        cmocka_unit_test_setup_teardown(test_version_1, begin, end),
+        cmocka_unit_test_setup_teardown(test_container, begin, end),
+        cmocka_unit_test_setup_teardown(test_limits, begin, end),
+        cmocka_unit_test(test_held),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,128 @@
+/*
+ * What a tool demands of the memory before it begins to work.
+ */
+#include <math.h>
+#include <stdint.h>
+
+#include "libcontact/contact.h"
+#include "tools/machine/machine.h"
+#include "tool.h"
+
+enum {
+    LATER = 5 << 16, /* code and libraries that are not yet in memory, stacks of threads */
+    UNSEEN =
+        16 << 20, /* taken without a look at the machine, which takes longer than a small map */
+    FEW_BYTES = 1 << 20, /* that need no look by themselves */
+};
+
+static const char smaller[] =
+    "cut a part out with rc-pick --crop, or take fewer nodes with rc-pick --resample";
+
+/* In the largest unit of which there is at least one. */
+static const char *
+size_text(char text[32], double bytes)
+{
+    if (bytes < 1 << 10)
+        snprintf(text, 32, "%.0f bytes", bytes);
+    else if (bytes < 1 << 20)
+        snprintf(text, 32, "%.0f KiB", bytes / (1 << 10));
+    else
+        snprintf(text, 32, "%.0f MiB", bytes / (1 << 20));
+    return text;
+}
+
+size_t
+tool_memory_with(size_t bytes)
+{
+    size_t held = memory_held(), peak = memory_peak();
+    size_t with = bytes < SIZE_MAX - held - LATER ? held + bytes + LATER : SIZE_MAX;
+
+    return with > peak ? with : peak;
+}
+
+size_t
+tool_code(const struct tool *t, size_t bytes)
+{
+    return bytes > t->code_memory ? bytes - t->code_memory : 0;
+}
+
+void
+tool_code_there(struct tool *t, size_t bytes)
+{
+    t->code_memory = bytes > t->code_memory ? bytes : t->code_memory;
+}
+
+size_t
+tool_memory_left(const struct tool *t)
+{
+    double left = memory_room("").bytes, held = (double)memory_held() + LATER;
+
+    if (t->memory != 0)
+        left = fmin(left, fmax((double)t->memory - held, 1));
+    return unit_size(left);
+}
+
+const char *
+tool_leaner_engine(const struct tool *t, bool periodic,
+                   size_t (*bytes)(const void *ctx, const char *engine), const void *ctx)
+{
+    static char remedy[64];
+    const struct rc_engine_info *e;
+    size_t left = tool_memory_left(t);
+
+    for (size_t k = 0; (e = rc_engine_info(k)) != NULL; k++)
+        if (e->order == 1 && (e->periodic || !periodic) && bytes(ctx, e->name) <= left) {
+            snprintf(remedy, sizeof remedy, "--kernel %s needs less", e->name);
+            return remedy;
+        }
+    return NULL;
+}
+
+enum rc_status
+tool_ask_memory(struct tool *t, const struct rc_shape *shape, size_t bytes, const char *remedy,
+                struct rc_err *err)
+{
+    size_t with;
+    char need[32], allowed[32], what[64];
+    struct memory_room room;
+
+    if (bytes >= FEW_BYTES) /* what earlier maps left is not held any more */
+        memory_give_back();
+    with = tool_memory_with(bytes);
+    if (remedy == NULL)
+        remedy = smaller;
+    if (shape == NULL)
+        snprintf(what, sizeof what, "the curves");
+    else
+        snprintf(what, sizeof what, "%zu x %zu nodes", shape->nx, shape->ny);
+    if (t->memory != 0 && with > t->memory)
+        return rc_err_set(err, "%s need about %s, --memory allows %s: %s", what,
+                          size_text(need, (double)with), size_text(allowed, (double)t->memory),
+                          remedy);
+    t->expected_memory = with > t->expected_memory ? with : t->expected_memory;
+    t->unseen_memory += bytes;
+    if (t->unseen_memory < UNSEEN && bytes < FEW_BYTES)
+        return RC_OK;
+    t->unseen_memory = 0;
+    room = memory_room("");
+    if ((double)bytes <= room.bytes)
+        return RC_OK;
+    return rc_err_set(err, "%s need about %s more, %s %s: %s", what, size_text(need, (double)bytes),
+                      room.why, size_text(allowed, room.bytes), remedy);
+}
+
+void
+tool_demand_memory_or(struct tool *t, const struct rc_grid *g, size_t bytes, const char *remedy)
+{
+    struct rc_shape shape = rc_grid_shape(g);
+    struct rc_err err;
+
+    if (tool_ask_memory(t, &shape, bytes, remedy, &err) != RC_OK)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+}
+
+void
+tool_demand_memory(struct tool *t, const struct rc_grid *g, size_t bytes)
+{
+    tool_demand_memory_or(t, g, bytes, NULL);
+}

@@ -1,0 +1,549 @@
+#include "ranks.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/time.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "formats/core/core.h"
+
+#ifdef RC_MPI
+#include "libcontact/contact_mpi.h"
+
+/* What a process has of a file. */
+struct part {
+    uint64_t bytes;
+    uint32_t crc, unused;
+};
+
+struct ranks {
+    struct rc_ranks *library;
+    MPI_Comm comm; /* for what the tool itself has to say */
+    MPI_Comm last; /* for the last words alone: where one dies the others may be anywhere */
+    int count, own;
+    struct part *parts;        /* scratch: of each process             */
+    struct itimerval patience; /* that a launcher has; 0: not known   */
+};
+
+/* ---- start and end ---- */
+
+/* Every launcher leaves one of these to those whom it starts. */
+static bool
+launched(void)
+{
+    static const char *const marks[] = {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK",
+                                        "PMI_SIZE"};
+
+    for (size_t k = 0; k < sizeof marks / sizeof *marks; k++)
+        if (getenv(marks[k]) != NULL)
+            return true;
+    return false;
+}
+
+/* Open MPI's mpirun, which tells whom it starts what it was told itself, kills a second after it has sent
+ * SIGTERM. Others, as srun, leave half a minute and more. */
+static struct itimerval
+patience(void)
+{
+    const char *told = getenv("OMPI_MCA_odls_base_sigkill_timeout");
+    double seconds = getenv("OMPI_COMM_WORLD_SIZE") == NULL ? 0 : told == NULL ? 1 : atof(told);
+    double least = 0.7 * fmin(fmax(seconds, 0), 1e6);
+
+    return (struct itimerval){
+        .it_value = {(time_t)least, (suseconds_t)(1e6 * (least - floor(least)))}};
+}
+
+void
+ranks_hurry(const struct tool *t)
+{
+    if (t->ranks != NULL)
+        setitimer(ITIMER_REAL, &t->ranks->patience, NULL);
+}
+
+static void
+finalize(void)
+{
+    int done;
+
+    MPI_Finalized(&done);
+    if (!done)
+        MPI_Finalize();
+}
+
+void
+ranks_start(struct tool *t)
+{
+    static struct ranks r;
+    struct rc_err err;
+    int given;
+
+    if (!launched())
+        return;
+    if (MPI_Init_thread(NULL, NULL, MPI_THREAD_FUNNELED, &given) != MPI_SUCCESS)
+        tool_die(t, EXIT_IMPOSSIBLE, "MPI cannot be started");
+    MPI_Comm_dup(MPI_COMM_WORLD, &r.comm);
+    MPI_Comm_dup(MPI_COMM_WORLD, &r.last);
+    MPI_Comm_size(r.comm, &r.count);
+    MPI_Comm_rank(r.comm, &r.own);
+    if (r.count == 1) { /* alone after all, with pipes and all that */
+        MPI_Comm_free(&r.comm);
+        MPI_Comm_free(&r.last);
+        MPI_Finalize();
+        return;
+    }
+    r.patience = patience();
+    t->ranks = &r;
+    atexit(finalize); /* also after --help */
+    if (r.own > 0 && freopen("/dev/null", "w", stdout) == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "/dev/null: %s", strerror(errno));
+    if ((r.parts = malloc((size_t)r.count * sizeof *r.parts)) == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %d processes", r.count);
+    if ((r.library = rc_ranks_new(r.comm, &err)) == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
+}
+
+void
+ranks_end(struct tool *t)
+{
+    if (t->ranks == NULL)
+        return;
+    setitimer(ITIMER_REAL, &(struct itimerval){.it_value = {0}}, NULL);
+    rc_ranks_free(t->ranks->library);
+    free(t->ranks->parts);
+    MPI_Comm_free(&t->ranks->comm);
+    MPI_Comm_free(&t->ranks->last);
+    finalize();
+    t->ranks = NULL;
+}
+
+_Noreturn void
+ranks_die(struct tool *t, int status, const char *text,
+          void (*say)(struct tool *tool, int status, const char *text))
+{
+    const struct timespec while_ = {0, 1000000};
+    MPI_Request all_here;
+    int worst = status, done = 0;
+    double began = tool_now();
+
+    MPI_Iallreduce(&status, &worst, 1, MPI_INT, MPI_MAX, t->ranks->last, &all_here);
+    while (!done && tool_now() - began < 2) {
+        MPI_Test(&all_here, &done, MPI_STATUS_IGNORE);
+        if (!done)
+            nanosleep(&while_, NULL);
+    }
+    if (!done || t->ranks->own == 0)
+        say(t, done ? worst : status, text);
+    if (!done)
+        MPI_Abort(MPI_COMM_WORLD, status);
+    MPI_Barrier(t->ranks->last); /* the launcher kills the others as soon as the first one ends */
+    exit(worst);
+}
+
+/* ---- what is whose ---- */
+
+const struct rc_ranks *
+ranks_of(const struct tool *t)
+{
+    return t->ranks == NULL ? NULL : t->ranks->library;
+}
+
+size_t
+ranks_count(const struct tool *t)
+{
+    return t->ranks == NULL ? 1 : (size_t)t->ranks->count;
+}
+
+bool
+ranks_speak(const struct tool *t)
+{
+    return t->ranks == NULL || t->ranks->own == 0;
+}
+
+void
+ranks_rows(const struct tool *t, const struct rc_shape *shape, size_t *first, size_t *n)
+{
+    *first = 0;
+    *n = shape->ny;
+    if (t->ranks != NULL)
+        rc_ranks_rows(t->ranks->library, shape, first, n);
+}
+
+/* ---- what all know ---- */
+
+double
+ranks_sum(const struct tool *t, double v)
+{
+    if (t->ranks != NULL)
+        MPI_Allreduce(MPI_IN_PLACE, &v, 1, MPI_DOUBLE, MPI_SUM, t->ranks->comm);
+    return v;
+}
+
+double
+ranks_most(const struct tool *t, double v)
+{
+    if (t->ranks != NULL)
+        MPI_Allreduce(MPI_IN_PLACE, &v, 1, MPI_DOUBLE, MPI_MAX, t->ranks->comm);
+    return v;
+}
+
+size_t
+ranks_where_most(const struct tool *t, double v)
+{
+    struct {
+        double v;
+        int rank;
+    } own = {v, 0};
+
+    if (t->ranks == NULL)
+        return 0;
+    own.rank = t->ranks->own;
+    MPI_Allreduce(MPI_IN_PLACE, &own, 1, MPI_DOUBLE_INT, MPI_MAXLOC, t->ranks->comm);
+    return (size_t)own.rank;
+}
+
+enum rc_status
+ranks_agree(const struct tool *t, enum rc_status status, struct rc_err *err)
+{
+    int first;
+
+    if (t->ranks == NULL)
+        return status;
+    first = status == RC_OK ? t->ranks->count : t->ranks->own;
+    MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, t->ranks->comm);
+    if (first == t->ranks->count)
+        return RC_OK;
+    MPI_Bcast(err, sizeof *err, MPI_BYTE, first, t->ranks->comm);
+    return RC_FAIL;
+}
+
+void
+ranks_share(const struct tool *t, size_t root, void *v, size_t bytes)
+{
+    if (t->ranks != NULL)
+        MPI_Bcast(v, (int)bytes, MPI_BYTE, (int)root, t->ranks->comm);
+}
+
+void
+ranks_wait(const struct tool *t)
+{
+    if (t->ranks != NULL)
+        MPI_Barrier(t->ranks->comm);
+}
+
+void
+ranks_sent(const struct tool *t, struct rc_sent *sent)
+{
+    *sent = (struct rc_sent){0};
+    if (t->ranks != NULL)
+        rc_ranks_sent(t->ranks->library, sent);
+}
+
+uint32_t
+ranks_crc(const struct tool *t, uint32_t crc, size_t bytes)
+{
+    const struct part own = {bytes, crc, 0}, *all;
+    uint32_t sum = 0;
+
+    if (t->ranks == NULL)
+        return crc;
+    all = t->ranks->parts;
+    MPI_Allgather(&own, sizeof own, MPI_BYTE, t->ranks->parts, sizeof own, MPI_BYTE,
+                  t->ranks->comm);
+    for (int r = 0; r < t->ranks->count; r++)
+        sum = rc_crc32_join(sum, all[r].crc, all[r].bytes);
+    return sum;
+}
+
+/* ---- files ---- */
+
+struct file {
+    struct rc_share share;
+    struct tool *tool;
+    MPI_File file;
+};
+
+static void
+share_rows(void *at, const struct rc_shape *shape, size_t *first, size_t *n)
+{
+    ranks_rows(((const struct file *)at)->tool, shape, first, n);
+}
+
+static enum rc_status
+share_agree(void *at, enum rc_status status, struct rc_err *err)
+{
+    return ranks_agree(((const struct file *)at)->tool, status, err);
+}
+
+static uint32_t
+share_crc(void *at, uint32_t crc, size_t bytes)
+{
+    return ranks_crc(((const struct file *)at)->tool, crc, bytes);
+}
+
+enum {
+    PIECE = 1 << 26 /* bytes that are read or written at a time: MPI counts in ints */
+};
+
+/* All have done it, or none says that it has. */
+static enum rc_status
+agree(const struct file *f, int result, size_t missing, const char *what, struct rc_err *err)
+{
+    char text[MPI_MAX_ERROR_STRING] = "";
+    int length, worst = result != MPI_SUCCESS ? 2 : missing > 0 ? 1 : 0;
+    const int own = worst;
+
+    MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_INT, MPI_MAX, f->tool->ranks->comm);
+    if (worst == 0)
+        return RC_OK;
+    if (own == 2)
+        MPI_Error_string(result, text, &length);
+    if (worst == 1)
+        return rc_err_set(err, "%s stops short", what);
+    return rc_err_set(err, "%s failed%s%s%s", what, own == 2 ? " (" : "", text,
+                      own == 2 ? ")" : "");
+}
+
+static enum rc_status
+share_read(void *at, uint64_t place, void *to, size_t bytes, struct rc_err *err)
+{
+    struct file *f = at;
+    int result = MPI_SUCCESS, got = 0;
+    size_t done = 0;
+
+    while (done < bytes && result == MPI_SUCCESS) {
+        int n = bytes - done < PIECE ? (int)(bytes - done) : PIECE;
+        MPI_Status status;
+        result = MPI_File_read_at(f->file, (MPI_Offset)(place + done), (char *)to + done, n,
+                                  MPI_BYTE, &status);
+        MPI_Get_count(&status, MPI_BYTE, &got);
+        if (result == MPI_SUCCESS && got <= 0)
+            break;
+        done += (size_t)got;
+    }
+    return agree(f, result, bytes - done, "reading", err);
+}
+
+static enum rc_status
+share_write(void *at, uint64_t place, const void *from, size_t bytes, struct rc_err *err)
+{
+    struct file *f = at;
+    int result = MPI_SUCCESS, put = 0;
+    size_t done = 0;
+
+    while (done < bytes && result == MPI_SUCCESS) {
+        int n = bytes - done < PIECE ? (int)(bytes - done) : PIECE;
+        MPI_Status status;
+        result = MPI_File_write_at(f->file, (MPI_Offset)(place + done), (const char *)from + done,
+                                   n, MPI_BYTE, &status);
+        MPI_Get_count(&status, MPI_BYTE, &put);
+        if (result == MPI_SUCCESS && put <= 0)
+            break;
+        done += (size_t)put;
+    }
+    return agree(f, result, bytes - done, "writing", err);
+}
+
+static const struct rc_share *
+open_file(struct tool *t, const char *name, int mode)
+{
+    struct file *f = calloc(1, sizeof *f);
+    char text[MPI_MAX_ERROR_STRING];
+    int result, length;
+
+    if (f == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
+    *f = (struct file){.share = {.ctx = f,
+                                 .first = t->ranks->own == 0,
+                                 .rows = share_rows,
+                                 .crc = share_crc,
+                                 .agree = share_agree,
+                                 .read = share_read,
+                                 .write = share_write},
+                       .tool = t};
+    result = MPI_File_open(t->ranks->comm, name, mode, MPI_INFO_NULL, &f->file);
+    if (result != MPI_SUCCESS) {
+        MPI_Error_string(result, text, &length);
+        tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", name, text);
+    }
+    return &f->share;
+}
+
+const struct rc_share *
+ranks_read(struct tool *t, const char *name)
+{
+    return t->ranks == NULL ? NULL : open_file(t, name, MPI_MODE_RDONLY);
+}
+
+const struct rc_share *
+ranks_write(struct tool *t, const char *name)
+{
+    return t->ranks == NULL ? NULL : open_file(t, name, MPI_MODE_WRONLY);
+}
+
+enum rc_status
+ranks_settle(const struct rc_share *share, struct rc_err *err)
+{
+    struct file *f;
+
+    if (share == NULL)
+        return RC_OK;
+    f = share->ctx;
+    return agree(f, MPI_File_sync(f->file), 0, "writing", err);
+}
+
+void
+ranks_close(struct tool *t, const struct rc_share *share)
+{
+    struct file *f;
+
+    if (share == NULL)
+        return;
+    f = share->ctx;
+    if (MPI_File_close(&f->file) != MPI_SUCCESS)
+        tool_die(t, EXIT_IMPOSSIBLE, "a file cannot be closed");
+    free(f);
+}
+
+#else /* alone, always */
+
+void
+ranks_start(struct tool *t)
+{
+    t->ranks = NULL;
+}
+
+void
+ranks_end(struct tool *t)
+{
+    (void)t;
+}
+
+const struct rc_ranks *
+ranks_of(const struct tool *t)
+{
+    (void)t;
+    return NULL;
+}
+
+size_t
+ranks_count(const struct tool *t)
+{
+    (void)t;
+    return 1;
+}
+
+bool
+ranks_speak(const struct tool *t)
+{
+    (void)t;
+    return true;
+}
+
+void
+ranks_rows(const struct tool *t, const struct rc_shape *shape, size_t *first, size_t *n)
+{
+    (void)t;
+    *first = 0;
+    *n = shape->ny;
+}
+
+double
+ranks_sum(const struct tool *t, double v)
+{
+    (void)t;
+    return v;
+}
+
+double
+ranks_most(const struct tool *t, double v)
+{
+    (void)t;
+    return v;
+}
+
+size_t
+ranks_where_most(const struct tool *t, double v)
+{
+    (void)t;
+    (void)v;
+    return 0;
+}
+
+enum rc_status
+ranks_agree(const struct tool *t, enum rc_status status, struct rc_err *err)
+{
+    (void)t, (void)err;
+    return status;
+}
+
+void
+ranks_share(const struct tool *t, size_t root, void *v, size_t bytes)
+{
+    (void)t, (void)root, (void)v, (void)bytes;
+}
+
+void
+ranks_wait(const struct tool *t)
+{
+    (void)t;
+}
+
+void
+ranks_hurry(const struct tool *t)
+{
+    (void)t;
+}
+
+void
+ranks_sent(const struct tool *t, struct rc_sent *sent)
+{
+    (void)t;
+    *sent = (struct rc_sent){0};
+}
+
+uint32_t
+ranks_crc(const struct tool *t, uint32_t crc, size_t bytes)
+{
+    (void)t, (void)bytes;
+    return crc;
+}
+
+const struct rc_share *
+ranks_read(struct tool *t, const char *name)
+{
+    (void)t, (void)name;
+    return NULL;
+}
+
+const struct rc_share *
+ranks_write(struct tool *t, const char *name)
+{
+    (void)t, (void)name;
+    return NULL;
+}
+
+enum rc_status
+ranks_settle(const struct rc_share *share, struct rc_err *err)
+{
+    (void)share, (void)err;
+    return RC_OK;
+}
+
+void
+ranks_close(struct tool *t, const struct rc_share *share)
+{
+    (void)t, (void)share;
+}
+
+_Noreturn void
+ranks_die(struct tool *t, int status, const char *text,
+          void (*say)(struct tool *tool, int status, const char *text))
+{
+    say(t, status, text);
+    exit(status);
+}
+#endif

@@ -1,0 +1,150 @@
+#include "whole_file.h"
+
+#include <errno.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum {
+    SLOTS = 4
+};
+
+/* Names of what is half-written; empty: none. A signal handler reads them. */
+static char half[SLOTS][WHOLE_PATH];
+
+void
+whole_files_remove(void)
+{
+    for (int k = 0; k < SLOTS; k++) {
+        if (half[k][0] != '\0')
+            unlink(half[k]);
+        half[k][0] = '\0';
+    }
+}
+
+static void
+resolve(struct whole_file *w, const char *name)
+{
+    char *real = realpath(name, NULL);
+
+    snprintf(w->destination, sizeof w->destination, "%s", real == NULL ? name : real);
+    free(real);
+}
+
+/* Makes the file and notes its name, with no signal in between. */
+static int
+make(struct whole_file *w)
+{
+    sigset_t all, before;
+    int slot = 0, fd;
+
+    while (slot < SLOTS && half[slot][0] != '\0')
+        slot++;
+    if (slot == SLOTS) {
+        errno = EMFILE;
+        return -1;
+    }
+    sigfillset(&all);
+    sigprocmask(SIG_BLOCK, &all, &before);
+    snprintf(half[slot], WHOLE_PATH, "%.*s.XXXXXX", WHOLE_PATH - 8, w->destination);
+    if ((fd = mkstemp(half[slot])) < 0)
+        half[slot][0] = '\0';
+    sigprocmask(SIG_SETMASK, &before, NULL);
+    w->slot = slot;
+    return fd;
+}
+
+FILE *
+whole_file_open(struct whole_file *w, const char *name)
+{
+    struct stat st;
+    mode_t mask = umask(0);
+    FILE *file;
+    int fd, why;
+
+    umask(mask);
+    *w = (struct whole_file){.slot = -1};
+    if (stat(name, &st) == 0 && !S_ISREG(st.st_mode))
+        return fopen(name, "wb");
+    resolve(w, name);
+    if (strlen(name) >= WHOLE_PATH - 8 || strlen(w->destination) >= WHOLE_PATH - 8) {
+        errno = ENAMETOOLONG;
+        return NULL;
+    }
+    if ((fd = make(w)) < 0)
+        return NULL;
+    if (fchmod(fd, 0666 & ~mask) == 0 && (file = fdopen(fd, "wb")) != NULL)
+        return file;
+    why = errno;
+    close(fd);
+    unlink(half[w->slot]);
+    half[w->slot][0] = '\0';
+    errno = why;
+    return NULL;
+}
+
+bool
+whole_file_is_half(const struct whole_file *w)
+{
+    return w->destination[0] != '\0' && w->slot >= 0 && half[w->slot][0] != '\0';
+}
+
+const char *
+whole_file_name(const struct whole_file *w)
+{
+    return half[w->slot];
+}
+
+void
+whole_file_share(struct whole_file *w, const char *name)
+{
+    *w = (struct whole_file){.slot = 0};
+    snprintf(w->destination, sizeof w->destination, "%s", name);
+    snprintf(half[0], WHOLE_PATH, "%s", name);
+}
+
+bool
+file_settle(FILE *file)
+{
+    int result;
+
+    if (fflush(file) != 0)
+        return false;
+    do
+        result = fsync(fileno(file));
+    while (result != 0 && errno == EINTR);
+    return result == 0 || errno == EINVAL || errno == EROFS || errno == ENOSYS || errno == ENOTSUP;
+}
+
+/* Without file_settle the new name may reach the disk before what is in the file: a power failure then
+ * leaves an empty one in the place of the old. */
+static bool
+close_written(FILE *file, bool settle)
+{
+    bool fine;
+    int why = EIO; /* of a write that failed long ago */
+
+    if ((fine = !ferror(file)) && !(fine = settle ? file_settle(file) : fflush(file) == 0))
+        why = errno;
+    if (fclose(file) != 0 && fine)
+        return false;
+    errno = why;
+    return fine;
+}
+
+bool
+whole_file_put(struct whole_file *w, FILE *file)
+{
+    bool half_written = whole_file_is_half(w);
+
+    if (file != NULL && !close_written(file, half_written))
+        return false;
+    if (!half_written)
+        return true;
+    if (rename(half[w->slot], w->destination) != 0)
+        return false;
+    half[w->slot][0] = '\0';
+    return true;
+}

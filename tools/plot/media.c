@@ -1,0 +1,142 @@
+/*
+ * The media of a section: a line wherever two of them meet, and beside the plot the number of each,
+ * which the legend explains.
+ */
+#include <math.h>
+#include <stdio.h>
+
+#include "page.h"
+
+static const struct rgb light = {0xff, 0xff, 0xff};
+
+/* Lines nearer to each other than this would be one band, in units of the design. */
+static const double apart = 4;
+
+size_t
+media_seen(const struct figure *f, size_t *first)
+{
+    size_t n = 0;
+
+    *first = 0;
+    for (size_t k = 0; k < f->media; k++) {
+        double top = k == 0 ? 0 : f->medium[k - 1].bottom;
+
+        if (f->medium[k].bottom <= f->top)
+            *first = k + 1;
+        else if (top < f->bottom)
+            n++;
+    }
+    return n;
+}
+
+static struct canvas_font
+number_font(const struct page *p)
+{
+    struct canvas_font font = p->small;
+
+    font.bold = true;
+    return font;
+}
+
+static double
+number_height(const struct page *p)
+{
+    return 1.1 * p->small.size;
+}
+
+double
+media_gutter(const struct page *p)
+{
+    struct canvas_font font = number_font(p);
+    size_t first, n = media_seen(p->f, &first);
+    double widest = 0;
+    char text[32];
+
+    if (n == 0 || n > MEDIA_TOLD || (double)n * number_height(p) > (double)p->plot_h)
+        return 0;
+    for (size_t k = first; k < first + n; k++) {
+        snprintf(text, sizeof text, "%zu", k + 1);
+        widest = fmax(widest, canvas_text_width(p->c, &font, text));
+    }
+    return 24 * p->u + widest;
+}
+
+/* Where a depth lies on the page, within the plot. */
+static double
+place(const struct page *p, double depth)
+{
+    const struct figure *f = p->f;
+    double t = (depth - f->top) / (f->bottom - f->top);
+
+    return (double)p->plot_y + fmin(fmax(t, 0), 1) * (double)p->plot_h;
+}
+
+/* Dark with a light rim, to be seen on every colour. */
+static void
+draw_line(struct page *p, double y)
+{
+    for (int layer = 0; layer < 2; layer++) {
+        canvas_move(p->c, (double)p->plot_x, y);
+        canvas_draw_to(p->c, (double)(p->plot_x + p->plot_w), y);
+        canvas_stroke(p->c, (layer == 0 ? 3 : 1.2) * p->u, layer == 0 ? light : page_ink);
+    }
+}
+
+/* The lowest first, the face of what all the others lie on, then from the top what is not too near
+ * to one that is there. */
+static void
+draw_lines(struct page *p, size_t first, size_t n)
+{
+    double lowest = place(p, p->f->medium[first + n - 2].bottom), last = -INFINITY;
+
+    draw_line(p, lowest);
+    for (size_t k = first; k + 2 < first + n; k++) {
+        double y = place(p, p->f->medium[k].bottom);
+
+        if (fmin(y - last, lowest - y) < apart * p->u)
+            continue;
+        draw_line(p, y);
+        last = y;
+    }
+}
+
+/* Each at the middle of its medium; where that is too thin they move apart, and keep within the
+ * plot. */
+static void
+draw_numbers(struct page *p, size_t first, size_t n)
+{
+    double at[MEDIA_TOLD], middle[MEDIA_TOLD], high = number_height(p), u = p->u;
+    double x = (double)(p->plot_x + p->plot_w), bottom = (double)(p->plot_y + p->plot_h);
+    struct canvas_font font = number_font(p);
+    char text[32];
+
+    for (size_t k = 0; k < n; k++) {
+        double top = first + k == 0 ? 0 : p->f->medium[first + k - 1].bottom;
+
+        middle[k] = 0.5 * (place(p, top) + place(p, p->f->medium[first + k].bottom));
+        at[k] = fmax(middle[k], k == 0 ? (double)p->plot_y + 0.5 * high : at[k - 1] + high);
+    }
+    for (size_t k = n; k-- > 0;)
+        at[k] = fmin(at[k], k + 1 == n ? bottom - 0.5 * high : at[k + 1] - high);
+    for (size_t k = 0; k < n; k++) {
+        canvas_move(p->c, x + 2 * u, middle[k]);
+        canvas_draw_to(p->c, x + 6 * u, middle[k]);
+        canvas_draw_to(p->c, x + 14 * u, at[k]);
+        canvas_stroke(p->c, 1.4 * u, page_ink);
+        snprintf(text, sizeof text, "%zu", first + k + 1);
+        canvas_text(p->c, &font, x + 18 * u, at[k] + 0.36 * font.size, 0, text);
+    }
+}
+
+void
+media_draw(struct page *p)
+{
+    size_t first, n = media_seen(p->f, &first);
+
+    canvas_clip(p->c, (double)p->plot_x, (double)p->plot_y, (double)p->plot_w, (double)p->plot_h);
+    if (n > 1)
+        draw_lines(p, first, n);
+    canvas_clip(p->c, 0, 0, 0, 0);
+    if (p->gutter > 0)
+        draw_numbers(p, first, n);
+}

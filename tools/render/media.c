@@ -1,0 +1,81 @@
+/*
+ * What a section is made of, from the key `layers`: for its lines, its legend and its values.
+ */
+#include "render.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+void
+media_read(struct tool *t, const struct rc_grid *g, struct coating *c)
+{
+    struct rc_err err;
+
+    if (coating_read(g, c, &err) != RC_OK)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+}
+
+static void
+write_text(struct medium *m, const struct rc_layer *of)
+{
+    char thick[TICKS_TEXT], modulus[TICKS_TEXT], what[TICKS_TEXT + 16] = "substrate";
+
+    if (isfinite(of->thickness))
+        snprintf(what, sizeof what, "layer of %s", scale_value(thick, of->thickness, "m"));
+    if (isinf(of->e))
+        snprintf(m->text, sizeof m->text, "%.40s, rigid", what);
+    else
+        snprintf(m->text, sizeof m->text, "%.40s, E %.24s, \xce\xbd %.4g", what,
+                 scale_value(modulus, of->e, "Pa"), of->nu);
+}
+
+void
+media_set(struct tool *t, const struct coating *c, struct figure *f)
+{
+    double bottom = 0;
+
+    f->medium = NULL;
+    f->media = c->layer == NULL ? 0 : c->coating.layers + 1;
+    if (f->media > 0 && (f->medium = calloc(f->media, sizeof *f->medium)) == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %zu layers", f->media);
+    for (size_t k = 0; k < f->media; k++) {
+        f->medium[k].bottom = bottom += c->layer[k].thickness;
+        write_text(&f->medium[k], &c->layer[k]);
+    }
+}
+
+const char *
+media_name(char text[MEDIA_NAME], const struct rc_grid *g)
+{
+    struct coating c;
+    struct rc_err err;
+    double number;
+    bool last;
+
+    if (!rc_grid_number(g, "material", &number) || !(number >= 1) ||
+        coating_read(g, &c, &err) != RC_OK)
+        return NULL;
+    last = c.layer != NULL && number == (double)c.coating.layers + 1;
+    coating_free(&c);
+    if (last)
+        return "substrate";
+    snprintf(text, MEDIA_NAME, "layer %.0f", number);
+    return text;
+}
+
+double *
+media_bottoms(const struct rc_grid *g, size_t *n)
+{
+    struct coating c;
+    struct rc_err err;
+    double *bottom = NULL;
+
+    *n = 0;
+    if (coating_read(g, &c, &err) != RC_OK || c.layer == NULL)
+        return NULL;
+    if ((bottom = malloc(c.coating.layers * sizeof *bottom)) != NULL)
+        for (*n = 0; *n < c.coating.layers; ++*n)
+            bottom[*n] = c.layer[*n].thickness + (*n == 0 ? 0 : bottom[*n - 1]);
+    coating_free(&c);
+    return bottom;
+}

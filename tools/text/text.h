@@ -1,0 +1,14 @@
+/*
+ * The face of this folder: numbers, units and names as people type and read them, and JSON. Nothing
+ * here knows a tool.
+ */
+#ifndef RC_TOOL_TEXT_H
+#define RC_TOOL_TEXT_H
+
+#include "json.h"
+#include "name_list.h"
+#include "names.h"
+#include "shown.h"
+#include "units.h"
+
+#endif

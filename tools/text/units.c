@@ -1,0 +1,360 @@
+#include "units.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "formats/core/core.h"
+
+/* clang-format off */
+static const struct word_unit { /* units that do not go by prefixes */
+    const char *text;
+    double size;
+} size_units[] = {
+    {"", 1},
+    {"B", 1},
+    {"k", 1024.0},
+    {"K", 1024.0},
+    {"KiB", 1024.0},
+    {"kB", 1e3},
+    {"M", 1048576.0},
+    {"MiB", 1048576.0},
+    {"MB", 1e6},
+    {"G", 1073741824.0},
+    {"GiB", 1073741824.0},
+    {"GB", 1e9},
+    {"T", 1099511627776.0},
+    {"TiB", 1099511627776.0},
+    {"TB", 1e12},
+    {NULL, 0},
+}, time_units[] = {
+    {"min", 60},
+    {"h", 3600},
+    {NULL, 0},
+};
+/* clang-format on */
+
+const char *
+unit_name(enum unit unit)
+{
+    static const char *const names[] = {"", "m", "N", "Pa", "s", "bytes"};
+
+    return names[unit];
+}
+
+const char *
+unit_usual(enum unit unit)
+{
+    static const char *const usual[] = {"",        "nm um mm m", "mN N kN", "kPa MPa GPa",
+                                        "s min h", "M G"};
+
+    return usual[unit];
+}
+
+static bool
+same(const char *word, const char *text, size_t n)
+{
+    return strlen(word) == n && memcmp(word, text, n) == 0;
+}
+
+/* Scales *value, read from digits[0..length), by ten to the power: by way of the decimal text, so
+ * that 1.29um is the double nearest to 1.29e-06. */
+static bool
+shift(const char *digits, size_t length, int power, double *value)
+{
+    char text[64];
+    size_t mantissa = strcspn(digits, "eE");
+    int own = 0;
+
+    if (mantissa > length)
+        mantissa = length;
+    else if (mantissa < length)
+        own = (int)strtol(digits + mantissa + 1, NULL, 10);
+    if (mantissa > 40 || own < -400 || own > 400) {
+        *value *= pow(10, power);
+        return true;
+    }
+    snprintf(text, sizeof text, "%.*se%d", (int)mantissa, digits, own + power);
+    return rc_number_read(text, false, value) != NULL;
+}
+
+/* The power of ten of a unit with its prefix, text[0..n); false when it is another unit. */
+static bool
+unit_power(const char *text, size_t n, enum unit unit, int *power)
+{
+    const char *base = unit_name(unit);
+    size_t tail = strlen(base);
+
+    return n >= tail && memcmp(text + n - tail, base, tail) == 0 &&
+           rc_prefix_power(text, n - tail, power);
+}
+
+/* Applies the unit written as suffix[0..n) after the number digits[0..length); false when there is
+ * no such unit. */
+static bool
+apply_unit(const char *digits, size_t length, const char *suffix, size_t n, enum unit unit,
+           double *value)
+{
+    int power;
+
+    if (unit == UNIT_BYTES || unit == UNIT_S)
+        for (const struct word_unit *w = unit == UNIT_S ? time_units : size_units; w->text != NULL;
+             w++)
+            if (same(w->text, suffix, n)) {
+                *value *= w->size;
+                return true;
+            }
+    if (unit == UNIT_BYTES)
+        return false;
+    if (n == 0)
+        return true;
+    if (unit == UNIT_NONE)
+        return false;
+    return unit_power(suffix, n, unit, &power) && shift(digits, length, power, value);
+}
+
+/* The same of a force over a length, "mN/m" or "N/mm". */
+static bool
+apply_force_per_length(const char *digits, size_t length, const char *suffix, size_t n,
+                       double *value)
+{
+    const char *slash = memchr(suffix, '/', n);
+    int above, below;
+
+    return slash != NULL && unit_power(suffix, (size_t)(slash - suffix), UNIT_N, &above) &&
+           unit_power(slash + 1, (size_t)(suffix + n - slash - 1), UNIT_M, &below) &&
+           shift(digits, length, above - below, value);
+}
+
+/* "f p n u m c k M G T": those that can be typed on every keyboard. */
+static const char *
+prefix_list(char *list, size_t size)
+{
+    size_t n = 0;
+
+    list[0] = '\0';
+    for (const struct rc_prefix *p = rc_prefixes; p->text != NULL && n < size; p++)
+        if (p->text[0] != '\0' && (unsigned char)p->text[0] < 0x80)
+            n += (size_t)snprintf(list + n, size - n, "%s%s", n == 0 ? "" : " ", p->text);
+    return list;
+}
+
+/* What is seen of a number. `per_metre`: before, whether N/m will do for N; after, whether it
+ * stands there. */
+struct seen {
+    bool with_unit, per_metre;
+};
+
+/* What to expect instead of the unit suffix[0..n). */
+static enum rc_status
+unknown_unit(const char *suffix, size_t n, enum unit unit, bool per_metre, struct rc_err *err)
+{
+    char list[64];
+
+    if (unit == UNIT_BYTES)
+        return rc_err_set(err,
+                          "unknown unit '%.*s': a size in bytes is expected, as in 512M or 4GiB",
+                          (int)n, suffix);
+    return rc_err_set(err,
+                      "unknown unit '%.*s': %s%s is expected, with or without one of the prefixes "
+                      "%s%s",
+                      (int)n, suffix, unit_name(unit), per_metre ? " or N/m" : "",
+                      prefix_list(list, sizeof list), unit == UNIT_S ? ", or min or h" : "");
+}
+
+/* The number in text[0..n). */
+static enum rc_status
+read_one(const char *text, size_t n, enum unit unit, double *value, struct seen *seen,
+         struct rc_err *err)
+{
+    bool per_metre = seen->per_metre;
+    const char *end, *stop = text + n;
+    size_t length, rest;
+
+    while (n > 0 && *text == ' ') {
+        text++;
+        n--;
+    }
+    end = n == 0 ? NULL : rc_number_read(text, false, value);
+    if (end == NULL || end > stop)
+        return rc_err_set(err, "'%.*s' is not a number", (int)n, text);
+    length = (size_t)(end - text);
+    while (end < stop && *end == ' ')
+        end++;
+    rest = (size_t)(stop - end);
+    seen->with_unit = rest > 0;
+    seen->per_metre = per_metre && apply_force_per_length(text, length, end, rest, value);
+    if (!seen->per_metre && !apply_unit(text, length, end, rest, unit, value)) {
+        if (unit == UNIT_NONE)
+            return rc_err_set(err, "'%.*s' after %.*s: a plain number without a unit is expected",
+                              (int)rest, end, (int)length, text);
+        return unknown_unit(end, rest, unit, per_metre, err);
+    }
+    if (!isfinite(*value))
+        return rc_err_set(err, "'%.*s' is too large", (int)n, text);
+    return RC_OK;
+}
+
+enum rc_status
+unit_number(const char *text, enum unit unit, double *value, struct rc_err *err)
+{
+    struct seen seen = {0};
+
+    return read_one(text, strlen(text), unit, value, &seen, err);
+}
+
+/* ---- lists ---- */
+
+/* How a list is read, and what was seen in it. */
+struct list_state {
+    enum unit unit;
+    bool forces;                   /* N/m will do for N                      */
+    bool with, without;            /* a unit; none, on a number that is not 0 */
+    bool per_metre, not_per_metre; /* with a unit                            */
+};
+
+static enum rc_status
+read_piece(const char *text, size_t n, struct list_state *state, double *value, struct rc_err *err)
+{
+    struct seen seen = {.per_metre = state->forces};
+
+    if (read_one(text, n, state->unit, value, &seen, err) != RC_OK)
+        return RC_FAIL;
+    if (seen.with_unit) {
+        state->with = true;
+        state->per_metre |= seen.per_metre;
+        state->not_per_metre |= !seen.per_metre;
+    } else if (*value != 0) {
+        state->without = true;
+    }
+    if (state->with && state->without)
+        return rc_err_set(err, "numbers with and without a unit in one list: give each its unit, "
+                               "or none; the decimal mark is a point");
+    if (state->per_metre && state->not_per_metre)
+        return rc_err_set(err, "N and N/m in one list: give all in one of them");
+    return RC_OK;
+}
+
+/* Steps between decimal numbers are meant to be decimal: 6e-06, not 5.999999999999999e-06. */
+static double
+decimal(double x)
+{
+    char text[32];
+
+    snprintf(text, sizeof text, "%.14g", x);
+    return strtod(text, NULL);
+}
+
+/* Value k of n from a to b, by steps or by ratio. */
+static double
+between(double a, double b, bool by_ratio, size_t k, double n)
+{
+    double part = (double)k / (n - 1);
+
+    if (k == 0)
+        return a;
+    if ((double)k + 1 == n)
+        return b;
+    return decimal(by_ratio ? a * pow(b / a, part) : a + (b - a) * part);
+}
+
+/* a:b:n or a:b:log:n with the first colons at `first` and `second`. */
+static enum rc_status
+read_range(const char *text, const char *first, const char *second, struct list_state *state,
+           struct numbers *list, struct rc_err *err)
+{
+    bool by_ratio = strncmp(second + 1, "log:", 4) == 0;
+    const char *count = second + (by_ratio ? 5 : 1);
+    double a, b, n;
+
+    if (read_piece(text, (size_t)(first - text), state, &a, err) != RC_OK ||
+        read_piece(first + 1, (size_t)(second - first - 1), state, &b, err) != RC_OK ||
+        unit_number(count, UNIT_NONE, &n, err) != RC_OK)
+        return RC_FAIL;
+    if (n != floor(n) || n < 2 || n > 1e6)
+        return rc_err_set(err, "'%s' in %s must be a whole number of values, at least 2", count,
+                          by_ratio ? "a:b:log:n" : "a:b:n");
+    if (by_ratio && !(a > 0 && b > 0))
+        return rc_err_set(err, "from %g to %g: a range by ratio needs both ends above 0", a, b);
+    list->n = (size_t)n;
+    list->v = malloc(list->n * sizeof *list->v);
+    list->no_memory = list->v == NULL;
+    if (list->no_memory)
+        return rc_err_set(err, "out of memory for %zu numbers", list->n);
+    for (size_t k = 0; k < list->n; k++)
+        list->v[k] = between(a, b, by_ratio, k, n);
+    return RC_OK;
+}
+
+static enum rc_status
+read_list(const char *text, struct list_state *state, struct numbers *list, struct rc_err *err)
+{
+    const char *colon = strchr(text, ':');
+    size_t n = 1;
+
+    if (colon != NULL) {
+        const char *second = strchr(colon + 1, ':');
+        if (second == NULL || strcmp(second, ":log") == 0)
+            return rc_err_set(err,
+                              "'%s': a range is a:b:n, n values from a to b, or a:b:log:n, the "
+                              "same by ratio",
+                              text);
+        return read_range(text, colon, second, state, list, err);
+    }
+    for (const char *s = text; *s != '\0'; s++)
+        n += *s == ',';
+    list->v = malloc(n * sizeof *list->v);
+    list->no_memory = list->v == NULL;
+    if (list->no_memory)
+        return rc_err_set(err, "out of memory for %zu numbers", n);
+    for (; list->n < n; list->n++) {
+        size_t length = strcspn(text, ",");
+        if (read_piece(text, length, state, &list->v[list->n], err) != RC_OK)
+            return RC_FAIL;
+        text += length + 1;
+    }
+    return RC_OK;
+}
+
+static enum rc_status
+read_numbers(const char *text, struct list_state state, struct numbers *list, struct rc_err *err)
+{
+    *list = (struct numbers){0};
+    if (read_list(text, &state, list, err) == RC_OK) {
+        list->per_metre = state.per_metre;
+        return RC_OK;
+    }
+    free(list->v);
+    *list = (struct numbers){.no_memory = list->no_memory};
+    return RC_FAIL;
+}
+
+enum rc_status
+unit_numbers(const char *text, enum unit unit, struct numbers *list, struct rc_err *err)
+{
+    return read_numbers(text, (struct list_state){.unit = unit}, list, err);
+}
+
+enum rc_status
+unit_forces(const char *text, struct numbers *list, struct rc_err *err)
+{
+    return read_numbers(text, (struct list_state){.unit = UNIT_N, .forces = true}, list, err);
+}
+
+bool
+unit_decimal_comma(const char *text)
+{
+    const char *digits = "0123456789", *s = text + (*text == '-' || *text == '+');
+    size_t whole = strspn(s, digits), part;
+    double a, b;
+
+    if (whole == 0 || s[whole] != ',')
+        return false;
+    part = strspn(s + whole + 1, digits);
+    if (part == 0 || s[whole + 1 + part] != '\0')
+        return false;
+    a = strtod(s, NULL);
+    b = strtod(s + whole + 1, NULL);
+    return a > 0 && b > 0 && a < 10 * b && b < 10 * a;
+}

@@ -1,0 +1,51 @@
+/* Numbers as people write them on a command line: "240N", "6GPa", "1.1um", "0:50um:45". */
+#ifndef RC_UNITS_H
+#define RC_UNITS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "libcontact/grid.h"
+
+enum unit {
+    UNIT_NONE,  /* a plain number           */
+    UNIT_M,     /* metres                   */
+    UNIT_N,     /* newtons                  */
+    UNIT_PA,    /* pascals                  */
+    UNIT_S,     /* seconds; also min and h  */
+    UNIT_BYTES, /* bytes: 512M, 4G, 2GiB    */
+};
+
+struct numbers {
+    double *v;
+    size_t n;
+    bool per_metre; /* forces over a length, N/m instead of N                  */
+    bool no_memory; /* it failed for that, and not for what stands on the line */
+};
+
+const char *unit_name(enum unit unit);
+/* What is usual on a command line, separated by blanks. */
+const char *unit_usual(enum unit unit);
+
+/* One number, with or without its unit, to SI. RC_FAIL says what was expected. */
+enum rc_status unit_number(const char *text, enum unit unit, double *value, struct rc_err *err);
+
+/* A whole number as a size; SIZE_MAX: more than the machine can count. */
+static inline size_t
+unit_size(double number)
+{
+    return number < (double)SIZE_MAX ? (size_t)number : SIZE_MAX;
+}
+
+/* `a,b,c`, `a:b:n` (n values, both ends included) or `a:b:log:n` (the same, by ratio). Numbers with
+ * and without a unit in one list are an error, except 0. The caller frees list->v. */
+enum rc_status unit_numbers(const char *text, enum unit unit, struct numbers *list,
+                            struct rc_err *err);
+/* The same of forces, which may all be given over a length, in N/m. */
+enum rc_status unit_forces(const char *text, struct numbers *list, struct rc_err *err);
+/* Whether a list looks as if it were one number with a decimal comma: two whole numbers without a
+ * unit, of which none is ten times the other. */
+bool unit_decimal_comma(const char *text);
+
+#endif
