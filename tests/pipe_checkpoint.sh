@@ -70,6 +70,17 @@ refuses 1 'no pressure can be read from it \(.notes of a user. stands where a fr
     "$solve --load 0.1N --checkpoint notes.txt --resume -o x.rcg rough.rcg"
 claim "which stays as it is" grep -qx "notes of a user" notes.txt
 refuses 2 '--resume and --interval need --checkpoint' "--resume alone" "$solve --load 0.1N --resume -o x.rcg rough.rcg"
+# killed inside the first frame: nothing is lost by beginning anew
+head -c 5000 kept.rcg >first.rcg
+claim "one cut off in its first frame is begun anew" \
+    warns 'first.rcg: the run was killed while it wrote its first frame: it begins anew' \
+    $solve --load 0.1N --checkpoint first.rcg --resume -o begun.rcg rough.rcg
+claim "to a checkpoint like any other" bash -c "rc-info --quiet first.rcg >/dev/null &&
+    $solve --load 0.1N --checkpoint first.rcg --resume --report first.json -o again.rcg rough.rcg"
+claim "from which the next one goes on" test "$(field iterations first.json)" -le 1
+(head -c 5000 kept.rcg && tail -c +5001 kept.rcg | tr '\0-\377' '\1-\377\0') >spoilt.rcg
+refuses 1 'no pressure can be read from it' "one that is spoilt, not cut off, stays" \
+    "$solve --load 0.1N --checkpoint spoilt.rcg --resume -o x.rcg rough.rcg"
 if [ -w /dev/full ]; then
     refuses 1 '--checkpoint /dev/full: there is one already' "nor over a device" \
         "$solve --load 0.1N --checkpoint /dev/full -o x.rcg rough.rcg"

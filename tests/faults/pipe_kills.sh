@@ -80,7 +80,7 @@ two() {
     $solve --quiet --tol 1e-13 --checkpoint two.rcg --interval 0.01 -o one.rcg rough.rcg &
     pid=$!
     until [ -s two.rcg ] || [ $((n += 1)) -gt 500 ]; do sleep 0.005; done
-    kill -STOP $pid
+    kill -STOP $pid # perhaps inside its first frame
     $solve --quiet --checkpoint two.rcg --resume -o other.rcg rough.rcg 2>two.err
     status=$?
     kill -KILL $pid

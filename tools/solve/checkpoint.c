@@ -50,6 +50,34 @@ note(struct checkpoint *c, size_t number, off_t at)
     c->saved[c->count++] = (struct saved){number, at};
 }
 
+/* Whether the file is the beginning of one frame of a checkpoint, and no more: the run was killed while it
+ * wrote its first. */
+static bool
+first_cut_off(const struct checkpoint *c)
+{
+    char line[256];
+    uintmax_t nx = 0, ny = 0;
+    bool ours = false;
+    const off_t crc_line = (off_t)strlen("crc32 01234567\n");
+    off_t values, size;
+
+    if (fseeko(c->file, 0, SEEK_SET) != 0 || fgets(line, sizeof line, c->file) == NULL ||
+        strcmp(line, "RCG1\n") != 0)
+        return false;
+    while (fgets(line, sizeof line, c->file) != NULL && strcmp(line, "\n") != 0) {
+        (void)sscanf(line, "nx=%ju", &nx);
+        (void)sscanf(line, "ny=%ju", &ny);
+        if (strncmp(line, "checkpoint.case=", 16) == 0)
+            ours = true;
+    }
+    values = ftello(c->file);
+    if (values < 0 || fseeko(c->file, 0, SEEK_END) != 0 || (size = ftello(c->file)) < values)
+        return false;
+    return ours && nx > 0 &&
+           (size - values < crc_line ||
+            ny > (uintmax_t)(size - values - crc_line) / sizeof(double) / nx);
+}
+
 /* Finds the frames. What was being written when the run was cut off is cut off here too. */
 static void
 look_through(struct checkpoint *c)
@@ -61,6 +89,7 @@ look_through(struct checkpoint *c)
     struct rc_grid *g;
     off_t end = 0;
     double number;
+    bool anew;
 
     if (reader == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
@@ -77,19 +106,26 @@ look_through(struct checkpoint *c)
     rc_reader_free(reader);
     ranks_close(t, share);
     clearerr(c->file);
-    if (c->count == 0 && (fseeko(c->file, 0, SEEK_END) != 0 || ftello(c->file) > 0))
+    anew = c->count == 0 && first_cut_off(c);
+    if (c->count == 0 && !anew && (fseeko(c->file, 0, SEEK_END) != 0 || ftello(c->file) > 0))
         tool_die(t, EXIT_IMPOSSIBLE,
                  "--checkpoint %s: no pressure can be read from it (%s): remove it to begin anew",
                  c->name, err.text);
-    if (c->count == 0)
+    if (c->count == 0 && !anew)
         return;
+    ranks_wait(t);         /* all have looked */
     if (!ranks_speak(t)) { /* the first one cuts it off */
         ranks_wait(t);
         return;
     }
-    end -= (off_t)strlen(end_line);
+    if (anew)
+        tool_warn(
+            t, "--checkpoint %s: the run was killed while it wrote its first frame: it begins anew",
+            c->name);
+    else
+        end -= (off_t)strlen(end_line);
     if (ftruncate(fileno(c->file), end) != 0 || fseeko(c->file, end, SEEK_SET) != 0 ||
-        fputs(end_line, c->file) == EOF || fflush(c->file) != 0)
+        (!anew && fputs(end_line, c->file) == EOF) || fflush(c->file) != 0)
         tool_die(t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", c->name, strerror(errno));
     ranks_wait(t);
 }
