@@ -376,8 +376,8 @@ struct rc_areal {
 RC_API enum rc_status rc_areal(const struct rc_shape *shape, const double *h,
                                const struct rc_surface_options *options, struct rc_areal *areal,
                                struct rc_err *err);
-/* Bytes that it takes beside h. */
-RC_API size_t rc_areal_memory(const struct rc_shape *shape,
+/* Bytes that it takes beside h, of which so many are missing. */
+RC_API size_t rc_areal_memory(const struct rc_shape *shape, size_t missing,
                               const struct rc_surface_options *options);
 
 struct rc_psd_options {

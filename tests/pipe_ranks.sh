@@ -195,7 +195,7 @@ patient() {
     rc-info --quiet killed.rcg >/dev/null
     [ $? = 3 ] && [ -z "$(ls killed.rcg.* 2>/dev/null)" ]
 }
-export OMPI_MCA_odls_base_sigkill_timeout=60
+export OMPI_MCA_odls_base_sigkill_timeout=5
 claim "where there is time, what was reached is written" patient
 unset OMPI_MCA_odls_base_sigkill_timeout
 

@@ -356,7 +356,7 @@ plans(double *out, struct rc_err *err)
     bytes[0] = rc_filter_memory(&shape, &filter);
     bytes[1] = rc_outliers_memory(&shape, 1);
     bytes[2] = rc_inpaint_memory(9);
-    bytes[3] = rc_areal_memory(&shape, &surface);
+    bytes[3] = rc_areal_memory(&shape, 0, &surface);
     bytes[4] = rc_psd_memory(&shape);
     bytes[5] = rc_conv_memory(&shape, &conv);
     bytes[6] = rc_solver_memory(&shape, &problem);

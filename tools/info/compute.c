@@ -70,9 +70,13 @@ find_areal(struct tool *t, const struct rc_grid *g, struct info_figures *f)
 {
     const struct rc_surface_options options = {.boundary = boundary_of(g), .threads = t->threads};
     const struct rc_shape shape = rc_grid_shape(g);
+    size_t missing = 0;
     struct rc_err err;
 
-    tool_demand_memory(t, g, rc_areal_memory(&shape, &options) + tool_code(t, TOOL_TRANSFORMS));
+    for (size_t k = 0; k < rc_grid_nodes(g); k++)
+        missing += isfinite(g->v[k]) ? 0 : 1;
+    tool_demand_memory(t, g,
+                       rc_areal_memory(&shape, missing, &options) + tool_code(t, TOOL_TRANSFORMS));
     tool_code_there(t, TOOL_TRANSFORMS);
     f->areal = room(t, 1, sizeof *f->areal);
     if (rc_areal(&shape, g->v, &options, f->areal, &err) != RC_OK)
