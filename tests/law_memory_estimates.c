@@ -59,9 +59,10 @@ sum(const struct work *w, const double *h, const double *p)
     double *u = malloc(shape.nx * shape.ny * sizeof *u);
 
     (void)h;
-    if (conv == NULL || u == NULL)
-        return 0;
-    rc_conv_apply(conv, p, u);
+    if (conv != NULL && u != NULL)
+        rc_conv_apply(conv, p, u);
+    else
+        bytes = 0;
     rc_conv_free(conv);
     free(u);
     return bytes;
@@ -84,7 +85,7 @@ stress(const struct work *w, const double *h, const double *p)
     (void)h;
     to[RC_MISES] = malloc(shape.nx * shape.ny * sizeof(double));
     if (s == NULL || to[RC_MISES] == NULL || rc_stress_slice(s, depth, to, NULL) != RC_OK)
-        return 0;
+        bytes = 0;
     rc_stress_free(s);
     free(to[RC_MISES]);
     return bytes;

@@ -205,7 +205,7 @@ near "$(sed -n 's/.*(\([0-9.]*\) % of the map.*/\1/p' wave.txt)" 30 "$(awk 'BEGI
 # ---- stresses ----
 
 rc-synth sphere --nx 50 --ny 46 --dx 8um --radius 7.5mm -o small.rcg
-rc-cost --load 40N --estar 114GPa --nu 0.3 --depths 30um --method pcg --kernel fft64 --quiet -o stress.txt small.rcg
+rc-cost --load 40N --estar 114GPa --nu 0.3 --depths 30um --method pcg --kernel fft64 --limit 10min --quiet -o stress.txt small.rcg
 stress_again() {
     rc-solve --load 40N --estar 114GPa --tol 1e-12 --kernel fft64 --output pressure --quiet -o p.rcg small.rcg
     for component in sxx syy szz sxy sxz syz mises; do

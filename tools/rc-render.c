@@ -1,4 +1,5 @@
 /* rc-render: maps of a grid stream, or curves of a report, as a picture: PNG, SVG or PDF. */
+#include <assert.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -165,6 +166,7 @@ write_picture(struct tool *t, const struct rc_grid *g, const struct figure *f, s
     size_t texts = sizeof text / sizeof *text;
     struct rc_err err;
 
+    assert(c != NULL || g != NULL);
     if (made == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
     snprintf(made, size, "%s%s%s", history == NULL ? "" : history, history == NULL ? "" : " | ",
@@ -376,7 +378,7 @@ static void
 render_sheet(struct tool *t, struct args *a, const struct frames *frames)
 {
     static struct panel panel[FRAMES];
-    struct window window[FRAMES];
+    struct window window[FRAMES] = {{0}};
     struct rc_grid *even[FRAMES];
     struct subtitle subtitle = {.n = 0};
     struct survey all;

@@ -1,5 +1,6 @@
 #include "even.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -63,6 +64,7 @@ median_spacing(const double *x, size_t points, double *median, struct rc_err *er
     size_t n = points - 1;
     double *d = calloc(points, sizeof *d);
 
+    assert(points >= 2);
     if (d == NULL)
         return rc_err_set(err, "out of memory for %zu spacings", n);
     for (size_t k = 0; k < n; k++)

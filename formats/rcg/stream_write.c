@@ -217,7 +217,7 @@ rc_writer_put(struct rc_writer *w, const struct rc_grid *g, struct rc_err *err)
         status = rc_err_set(err, "out of memory for a header (%zu bytes)", sizeof *t);
     if (w->share != NULL)
         status = w->share->agree(w->share->ctx, status, err);
-    if (status != RC_OK)
+    if (t == NULL || status != RC_OK)
         goto done;
     status = RC_FAIL;
     t->n = 0;

@@ -200,10 +200,8 @@ static void
 derive(const struct rc_stress *stress, const double *const six_of[RC_COMPONENTS],
        double *const s[RC_STRESSES])
 {
-    const struct rc_shape *shape = &stress->task.shape;
-
-#pragma omp parallel for num_threads(rc_useful_threads(shape, stress->task.options.threads))       \
-    schedule(static)
+#pragma omp parallel for schedule(static)                                                          \
+    num_threads(rc_useful_threads(&stress->task.shape, stress->task.options.threads))
     for (size_t first = 0; first < stress->values; first += PIECE) {
         size_t n = stress->values - first < PIECE ? stress->values - first : PIECE;
         const double *from[RC_COMPONENTS];

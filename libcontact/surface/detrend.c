@@ -137,7 +137,6 @@ fit_allocate(struct fit *f, const struct rc_box *box, bool robust, struct rc_err
 
     f->px = chebyshev(f->nx_orders, s->nx, box->left, box->right);
     f->py = chebyshev(f->ny_orders, s->ny, box->top, box->bottom);
-    /* NOLINTNEXTLINE(clang-analyzer-optin.portability.UnixAPI): a form has one term at least */
     f->c = calloc(2 * f->terms, sizeof *f->c);
     f->rows = rc_alloc(ROWS, row_sums(f) * sizeof *f->rows);
     f->of_weights = rc_alloc(row_sums(f), f->ny_orders * sizeof *f->of_weights);

@@ -4,6 +4,7 @@
  */
 #include "cost.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -47,6 +48,7 @@ cost_stress_trials(const struct cost_case *c, size_t *n)
 
     for (size_t e = 0; rc_engine_info(e) != NULL; e++)
         most += tolerances(e, &tol);
+    assert(most > 0);
     s = calloc(most, sizeof *s);
     *n = 0;
     for (size_t e = 0; s != NULL && (info = rc_engine_info(e)) != NULL; e++) {

@@ -219,7 +219,7 @@ put_image(struct svg *s, struct item *i, struct rc_err *err)
     size_t n = 0;
     FILE *memory = open_memstream(&png, &n);
     size_t larger = i->nx > i->ny ? i->nx : i->ny;
-    struct enlarged e = {i, larger < SHARP ? SHARP / larger : 1};
+    struct enlarged e = {i, larger > 0 && larger < SHARP ? SHARP / larger : 1};
     enum rc_status status;
 
     if (memory == NULL)

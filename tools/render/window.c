@@ -142,7 +142,7 @@ read_pair(struct tool *t, const char *window, const char *text, double pair[2])
 }
 
 static void
-cut_lengths(struct tool *t, const char *text, struct rc_grid *g, struct rc_grid *pressure,
+cut_lengths(struct tool *t, const char *window, struct rc_grid *g, struct rc_grid *pressure,
             struct window *w)
 {
     bool section = rc_grid_get(g, "section") != NULL;
@@ -151,22 +151,22 @@ cut_lengths(struct tool *t, const char *text, struct rc_grid *g, struct rc_grid 
     double x[2], y[2] = {-INFINITY, INFINITY};
     struct box b = {.y1 = g->ny};
 
-    snprintf(first, sizeof first, "%s", text);
+    snprintf(first, sizeof first, "%s", window);
     if ((second = strchr(first, ',')) != NULL)
         *second++ = '\0';
     if (section && second != NULL)
         tool_die(t, EXIT_USAGE,
                  "--window %s: of a section it is X0:X1 only: choose depths with --depth-range",
-                 text);
-    read_pair(t, text, first, x);
+                 window);
+    read_pair(t, window, first, x);
     if (second != NULL)
-        read_pair(t, text, second, y);
+        read_pair(t, window, second, y);
     if (!nodes_between(x[0], x[1], g->nx, g->dx, &b.x0, &b.x1) ||
         (second != NULL && !nodes_between(y[0], y[1], g->ny, g->dy, &b.y0, &b.y1)))
         tool_die_at(t, g, EXIT_IMPOSSIBLE,
                     "no node lies in the window %s: the map ends %s to the right of its middle and "
                     "%s below it",
-                    text, scale_value(at, 0.5 * (double)g->nx * g->dx, "m"),
+                    window, scale_value(at, 0.5 * (double)g->nx * g->dx, "m"),
                     scale_value(end, 0.5 * (double)g->ny * g->dy, "m"));
     cut(g, pressure, w, &b);
 }
