@@ -212,12 +212,16 @@ export ASAN_OPTIONS="${ASAN_OPTIONS-}:verify_asan_link_order=0"
 short_command="rc-solve --periodic --estar 1GPa --hardness 60MPa --load 1mN:2mN:2 --discretization --quiet --checkpoint short-kept --resume -o short.rcg small.rcg"
 memory() {
     local n last status wrong=0
-    rm -f short-kept
+    rm -f short-kept count
     short_of 0 || {
         echo "without a fault: exit status $?: $(head -c 600 short.err)" >&2
         return 1
     }
     last=$(cat count)
+    [ "${last:-0}" -gt 0 ] || {
+        echo "no allocation was counted: is $RC_FAILING_MALLOC there?" >&2
+        return 1
+    }
     for ((n = 1; n <= last; n += ${RC_STRIDE:-$((last / 12 + 1))})); do
         rm -f short-kept
         short_of "$n"
