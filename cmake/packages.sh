@@ -17,7 +17,8 @@ This is neither Debian nor Ubuntu: please see that these are installed, with the
   libxml2, libzip, zlib, libdeflate, libhdf5, libtiff, libmd, Pango with cairo, and a sans serif font that
   fontconfig finds, such as DejaVu Sans
   for the tests also: cmocka, mandoc, zip, unzip, perl, poppler, rsvg-convert, clang-format 14,
-  Python with numpy and matplotlib, zsh and fish; where Octave or Julia is, the readers in their languages are tried too
+  Python with numpy and matplotlib, zsh, fish, and Open MPI for tests/run.sh; where Octave or Julia is,
+  the readers in their languages are tried too
 EOT
         return 0
     fi

@@ -123,7 +123,7 @@ run_in() {
 }
 
 # Those of contact.7, a tutorial, are run by pipe_tutorial.
-for page in "$pages"/*.[15]; do
+for page in "$pages"/*.[15] "$pages/contact-mpi.7"; do
     name=$(basename "$page")
     blocks "$page" EXAMPLES "$scratch/$name.blocks"
     prepare "$scratch/$name.run"

@@ -85,7 +85,7 @@ estimated "rc-cost, with the processes that it starts" "rc-cost --verbose --kern
 
 near "$(field memory_estimate free.json)" "$(field peak_memory free.json)" 0.1 "the estimate stands in the report"
 rc-solve --dry-run $load odd.rcg >plan.txt 2>/dev/null
-near "$(sed -n 's/.*, \([0-9]*\) MiB, .*/\1/p' plan.txt)e6" "$(field peak_memory free.json)" 0.15 "and in the plan, in MiB"
+near "$(awk -v mib="$(sed -n 's/.*, \([0-9]*\) MiB, .*/\1/p' plan.txt)" 'BEGIN { print mib * 1048576 }')" "$(field peak_memory free.json)" 0.15 "and in the plan, in MiB"
 
 # A process of a gibibyte that starts the tool: of what getrusage says the tool inherits that.
 cat >large.pl <<'P'

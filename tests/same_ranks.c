@@ -26,7 +26,7 @@ part_of(struct rc_shape s)
     return (struct part){first * s.nx, n * s.nx};
 }
 
-/* 1 when all ranks find the same, to the last bit; how far off the worst is is said. */
+/* On all ranks, to the last bit; of what differs, how far off the worst of it is is said. */
 static void
 assert_same(size_t n, const double *a, const double *b, const char *what)
 {

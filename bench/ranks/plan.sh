@@ -17,6 +17,6 @@ awk -v kind="${1:?strong or weak}" -v C="${C:-1.1e-8}" -v n0="${N0:-4096}" -v B=
         compute = E * C * n * n / M * log(n) / log(n0)
         network = M == 1 ? 0 : E * (16 * n * n / M * (1 - 1 / M) / B + 2 * (M - 1) * L + sums * L * log(M) / log(2))
         if (M == 1) ideal = compute
-        print M, compute, network, compute + network, kind == "weak" ? ideal : ideal / M, 105 * n * n / M
+        print M, compute, network, compute + network, kind == "weak" ? ideal : ideal / M, 83 * n * n / M
     }
 }'

@@ -90,7 +90,7 @@ static enum rc_status
 polynomial(double *out, struct rc_err *err)
 {
     memcpy(out, rough, sizeof rough);
-    return rc_detrend_poly(&shape, 3, out, err);
+    return or_as_before(rc_detrend_poly(&shape, 3, out, err), out, rough);
 }
 
 static enum rc_status

@@ -87,7 +87,11 @@ sweep() { # FAULT COMMAND
     local fault=$1 command=$2 out n last wrong=0 before after
     out=$(written "$command")
     rm -f clean
-    run "$fault" 0 "$command" || return
+    run "$fault" 0 "$command" || {
+        echo "NOT OK: $command: fails without a fault: $(head -c 300 run.err)"
+        bad=$((bad + 1))
+        return
+    }
     last=$(cat count)
     [ "$fault$last" != fsync0 ] || [ -z "$out" ] || {
         echo "NOT OK: it is put in its place before the disk has it: $command"

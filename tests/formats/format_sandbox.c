@@ -388,7 +388,7 @@ static struct rc_grid *
 escaping(const struct rc_file *f, const struct rc_wish *wish, size_t index, struct rc_notes *notes,
          struct rc_err *err)
 {
-    char open_ways[400] = "";
+    char open_ways[1024] = ""; /* of all their names */
 
     (void)f, (void)wish, (void)index, (void)notes;
     for (size_t k = 0; k < sizeof ways / sizeof *ways; k++) {

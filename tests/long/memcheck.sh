@@ -41,7 +41,7 @@ echo "$ran tests under memcheck, $failed failed"
 
 # The tools: each pipeline on a map of a few thousand nodes.
 table() {
-    command sed -n '/^[a-z]*\.\(rcg\|json\) /p' "$here/pipelines.sh" | sed 's/--nx 256 --ny 224/--nx 64 --ny 48/; s/--crop 10,20,60,50/--crop 5,8,40,30/; s/--approach 1um/--approach 0.5um/'
+    command sed -n '/^[a-z0-9]*\.\(rcg\|json\) /p' "$here/pipelines.sh" | sed 's/--nx 256 --ny 224/--nx 64 --ny 48/; s/--crop 10,20,60,50/--crop 5,8,40,30/; s/--approach 1um/--approach 0.5um/'
 }
 mkdir -p "$work/tools"
 for tool in "$build"/tools/rc-*; do

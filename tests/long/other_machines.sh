@@ -29,7 +29,7 @@ all       pipe_installed    pkg-config and find_package would find the libraries
 all       law_release       of the sources, which are the same
 emulated  law_folders       of the sources and their symbols, which are the same
 emulated  pipe_library      starts a program that it links itself, which needs the emulator by its name
-emulated  pipe_calls        watches the calls by ptrace, which the emulator has not
+emulated  pipe_calls        watches the calls by seccomp's notifications, which the emulator has not
 emulated  truth_memory_room bounds of address space, which the emulator does not set
 emulated  pipe_(cost|kills|sizes) bounds of processor time and of memory, which are the emulator's
 emulated  format_hdf5       its file of 128 MiB ends by the bound of processor time, before that of memory
