@@ -94,4 +94,14 @@ claim "of all frames one map at a time takes memory, and of the pressure none" b
     rc-solve --quiet --periodic --load 1N --estar 100GPa --tol 0.1 --report one.json --output pressure large.rcg -o one.rcg'
 claim "that is 8 MiB here" [ "$(($(field peak_memory all.json) - $(field peak_memory one.json)))" -lt $((12 << 20)) ]
 
+ldd "$(command -v rc-solve)" >linked.txt
+if ! grep -q libmpi linked.txt; then
+    export OMPI_COMM_WORLD_SIZE=2
+    several="rc-solve --quiet --load 10N --estar 114GPa ball.rcg"
+    claim "a build without MPI says that two of it are two runs" \
+        warns 'started 2 times by a launcher: this build knows no MPI' env OMPI_COMM_WORLD_RANK=0 $several
+    claim "  once" bash -c "OMPI_COMM_WORLD_RANK=1 $several 2>second.err >/dev/null && [ ! -s second.err ]"
+    unset OMPI_COMM_WORLD_SIZE
+fi
+
 finish

@@ -223,6 +223,8 @@ figure(const char *said, const char *name)
     return at == NULL ? NAN : strtod(at + strlen(name), NULL);
 }
 
+static bool too_small; /* this machine, for one of the tests */
+
 static void
 no_index_has_32_bits(void **state)
 {
@@ -236,6 +238,7 @@ no_index_has_32_bits(void **state)
     if (gib_available() < 18) {
         print_message("%.1f GiB are free, of 18 that 2^31 + 9 nodes take: not tried.\n",
                       gib_available());
+        too_small = true;
         skip();
     }
     run(&r, write_profile, n, "rc-info", "--json");
@@ -266,5 +269,7 @@ main(void)
         cmocka_unit_test(no_index_has_32_bits),
     };
 
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    int failed = cmocka_run_group_tests(tests, NULL, NULL);
+
+    return failed == 0 && too_small ? 77 : failed; /* ctest's word for a test that was skipped */
 }

@@ -55,4 +55,8 @@ else
     failed=$((failed + 1))
     tail -n 20 "$work/err"
 fi
-[ "$ran" -gt 0 ] && [ "$failed" = 0 ]
+if [ "$ran" -lt 10 ]; then
+    echo "memcheck.sh: too few tests: run ctest in $build while nothing else runs, or give more seconds" >&2
+    exit 1
+fi
+[ "$failed" = 0 ]

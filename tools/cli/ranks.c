@@ -410,10 +410,22 @@ ranks_close(struct tool *t, const struct rc_share *share)
 
 #else /* alone, always */
 
+/* Several that write one file are no analysis shared, as who types mpirun may expect; scripts that start one
+ * for each case do well. */
 void
 ranks_start(struct tool *t)
 {
+    const char *count = getenv("OMPI_COMM_WORLD_SIZE"), *own = getenv("OMPI_COMM_WORLD_RANK");
+
     t->ranks = NULL;
+    if (count == NULL)
+        count = getenv("PMI_SIZE"), own = getenv("PMI_RANK");
+    if (count != NULL && atoi(count) > 1 && (own == NULL || atoi(own) == 0))
+        tool_warn(
+            t,
+            "started %s times by a launcher: this build knows no MPI, so each does all the work by "
+            "itself: see contact-mpi(7)",
+            count);
 }
 
 void
