@@ -314,13 +314,19 @@ rc_half_space_new(const struct rc_shape *shape, const struct rc_operator_options
 {
     struct rc_conv_options options = conv_options(o);
     size_t n; /* nodes held here */
+    enum rc_status status = RC_OK;
     struct rc_stack *stack = NULL;
     struct rc_conv *conv;
     struct half_space *s;
 
-    if (rc_shape_check(shape, err) != RC_OK ||
-        (o->coating != NULL && (stack = rc_stack_new(o->coating, err)) == NULL))
+    if (rc_shape_check(shape, err) != RC_OK)
         return NULL;
+    if (o->coating != NULL && (stack = rc_stack_new(o->coating, err)) == NULL)
+        status = RC_FAIL;
+    if (rc_ranks_agree(o->ranks, status, err) != RC_OK) {
+        rc_stack_free(stack);
+        return NULL;
+    }
     if ((conv = rc_conv_new_on(stack, shape, o->estar, &options, err)) == NULL) {
         rc_stack_free(stack);
         return NULL;
