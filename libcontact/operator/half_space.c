@@ -375,7 +375,7 @@ rc_half_space_memory(const struct rc_shape *shape, const struct rc_operator_opti
     const struct rc_engine *engine;
     size_t conv = rc_conv_memory(shape, &options), own;
     bool precise, bounded = o->coating != NULL && o->boundary == RC_FREE;
-    size_t ranks = rc_ranks_count(o->ranks);
+    size_t ranks = rc_ranks_count(o->ranks), rows;
 
     if (conv == 0)
         return 0;
@@ -385,8 +385,9 @@ rc_half_space_memory(const struct rc_shape *shape, const struct rc_operator_opti
     if (engine->fft == NULL) /* else rows are transformed in the memory of conv */
         own += rc_fft_memory(shape, o->boundary, RC_SINGLE, ranks) -
                rc_spectrum_memory(shape, o->boundary, RC_SINGLE, ranks);
+    rows = ranks > 1 ? rc_rows_most(shape, ranks) : shape->ny;
     if (!engine->info.mixed || precise)
-        own += 2 * shape->nx * shape->ny * sizeof(double);
+        own += 2 * shape->nx * rows * sizeof(double);
     return own + conv;
 }
 
