@@ -1,5 +1,5 @@
 /*
- * What a convolution costs the processes that share a map, stage by stage: mpirun -n P bench-ranks M [free].
+ * What a convolution costs the processes that share a map: mpirun -n P bench-ranks M [free].
  * Least of five of the whole and, in the one that took least, of its exchanges; then the memory that the
  * process that holds most has held.
  */
