@@ -676,7 +676,7 @@ RC_API size_t rc_stress_memory(const struct rc_shape *shape,
  * to three contact radii (free) or to where the waves have died to 1 % (periodic). Successive
  * depths are a quarter of the RMS wave's 1/q apart. In a coated body, coating not NULL, they are at most
  * a quarter of the layer apart, and each interface has two, itself and one a millionth deeper; none is in
- * a rigid half-space. RC_FAIL when memory is short. */
+ * a rigid half-space. RC_FAIL, and NULL for the depths, when memory is short. */
 RC_API enum rc_status rc_stress_depths(const struct rc_shape *shape, const double *p,
                                        enum rc_boundary boundary, const struct rc_coating *coating,
                                        double **depths, size_t *n, struct rc_err *err);

@@ -228,6 +228,23 @@ test_percolating(void **state)
     free(p);
 }
 
+/* A map without columns or rows is refused, not looked at for ever. */
+static void
+test_no_map(void **state)
+{
+    const struct rc_shape none[] = {{0, 5, 1e-6, 1e-6}, {5, 0, 1e-6, 1e-6}};
+    const struct rc_patch_options options = {.boundary = RC_FREE};
+    const double p = 1;
+    struct rc_patches found;
+    struct rc_err err;
+
+    (void)state;
+    for (size_t k = 0; k < sizeof none / sizeof *none; k++) {
+        assert_int_equal(rc_patches_find(&none[k], &p, &options, &found, &err), RC_FAIL);
+        rc_patches_free(&found);
+    }
+}
+
 int
 main(void)
 {
@@ -235,6 +252,7 @@ main(void)
         cmocka_unit_test(test_flood_fill),
         cmocka_unit_test(test_edges),
         cmocka_unit_test(test_percolating),
+        cmocka_unit_test(test_no_map),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -278,6 +278,27 @@ saturation(void **state)
     }
 }
 
+/* In double precision rows of two maps are kept, those held here only. */
+static void
+memory(void **state)
+{
+    struct rc_shape s = {512, 512, 1e-6, 1e-6};
+    struct rc_problem problem = {.estar = 1e11, .load = 1, .threads = 1};
+    unsigned long most = (unsigned long)part_of(s).n;
+    size_t more[2];
+
+    (void)state;
+    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_UNSIGNED_LONG, MPI_MAX, MPI_COMM_WORLD);
+    for (int q = 0; q < 2; q++) {
+        problem.ranks = q == 0 ? NULL : ranks;
+        problem.engine = "fft64";
+        more[q] = rc_solver_memory(&s, &problem);
+        problem.engine = "fft";
+        more[q] -= rc_solver_memory(&s, &problem);
+    }
+    assert_true(more[0] - more[1] >= 2 * (s.nx * s.ny - most) * sizeof(double));
+}
+
 /* ---- stresses ---- */
 
 static void
@@ -343,7 +364,8 @@ main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(displacements), cmocka_unit_test(refusals),   cmocka_unit_test(contacts),
-        cmocka_unit_test(approaches),    cmocka_unit_test(saturation), cmocka_unit_test(stresses),
+        cmocka_unit_test(approaches),    cmocka_unit_test(saturation), cmocka_unit_test(memory),
+        cmocka_unit_test(stresses),
     };
     struct rc_err err;
     int failed;

@@ -8,7 +8,14 @@
 # C n0^2: seconds of one equivalent at n0 x n0 on one machine, all of the iteration's other work in it. Set by the
 # environment: C (1.1e-8 s a node), N0 (4096), BANDWIDTH (12.5e9 bytes/s a machine), LATENCY (2e-6 s), SUMS (25
 # an equivalent), EQUIVALENTS (20 a contact).
-awk -v kind="${1:?strong or weak}" -v C="${C:-1.1e-8}" -v n0="${N0:-4096}" -v B="${BANDWIDTH:-12.5e9}" \
+case ${1-} in
+strong | weak) ;;
+*)
+    echo "usage: plan.sh strong|weak" >&2
+    exit 2
+    ;;
+esac
+awk -v kind="$1" -v C="${C:-1.1e-8}" -v n0="${N0:-4096}" -v B="${BANDWIDTH:-12.5e9}" \
     -v L="${LATENCY:-2e-6}" -v sums="${SUMS:-25}" -v E="${EQUIVALENTS:-20}" 'BEGIN {
     OFS = "\t"
     print "machines", "compute/s", "network/s", "total/s", "ideal/s", "memory/B"

@@ -1,5 +1,5 @@
 /*
- * What a convolution costs the processes that share a map, stage by stage: mpirun -n P bench-ranks M [free].
+ * What a convolution costs the processes that share a map: mpirun -n P bench-ranks M [free].
  * Least of five of the whole and, in the one that took least, of its exchanges; then the memory that the
  * process that holds most has held.
  */
@@ -56,13 +56,25 @@ main(int argc, char **argv)
     MPI_Init(&argc, &argv);
     MPI_Comm_rank(MPI_COMM_WORLD, &own);
     MPI_Comm_size(MPI_COMM_WORLD, &count);
+    if (m == 0 || argc > 3 || (argc > 2 && strcmp(argv[2], "free") != 0)) {
+        fprintf(stderr, "usage: mpirun -n P bench-ranks M [free]\n");
+        MPI_Abort(MPI_COMM_WORLD, 2);
+    }
     ranks = rc_ranks_new(MPI_COMM_WORLD, &err);
-    o.boundary = argc > 2 && strcmp(argv[2], "free") == 0 ? RC_FREE : RC_PERIODIC;
+    if (ranks == NULL) {
+        fprintf(stderr, "bench-ranks: %s\n", err.text);
+        MPI_Abort(MPI_COMM_WORLD, 1);
+    }
+    o.boundary = argc > 2 ? RC_FREE : RC_PERIODIC;
     o.ranks = ranks;
     shape.nx = shape.ny = m;
     rc_ranks_rows(ranks, &shape, &first, &n);
     p = rc_alloc(n * m, sizeof *p);
     u = rc_alloc(n * m, sizeof *u);
+    if (p == NULL || u == NULL) {
+        fprintf(stderr, "bench-ranks: out of memory for %zu x %zu nodes\n", m, n);
+        MPI_Abort(MPI_COMM_WORLD, 1);
+    }
     for (size_t k = 0; k < n * m; k++)
         p[k] = u[k] = 1 + (double)(k % 7);
     for (int single = 0; single < 2; single++) {

@@ -175,8 +175,10 @@ rc_conv_new_on(const struct rc_stack *stack, const struct rc_shape *shape, doubl
     if (rc_shape_check(shape, err) != RC_OK)
         return NULL;
     conv = calloc(1, sizeof *conv);
-    if (conv == NULL) {
+    if (conv == NULL)
         rc_err_set(err, "out of memory for a plan");
+    if (rc_ranks_agree(sum.ranks, conv == NULL ? RC_FAIL : RC_OK, err) != RC_OK) {
+        free(conv);
         return NULL;
     }
     if ((conv->engine = find(&sum, options, &conv->precise, &conv->reason, err)) == NULL ||
@@ -192,10 +194,15 @@ rc_conv_new(const struct rc_shape *shape, double estar, const struct rc_conv_opt
             struct rc_err *err)
 {
     struct rc_stack *stack = NULL;
+    enum rc_status status = RC_OK;
     struct rc_conv *conv;
 
     if (options->coating != NULL && (stack = rc_stack_new(options->coating, err)) == NULL)
+        status = RC_FAIL;
+    if (rc_ranks_agree(options->ranks, status, err) != RC_OK) {
+        rc_stack_free(stack);
         return NULL;
+    }
     conv = rc_conv_new_on(stack, shape, estar, options, err);
     if (conv == NULL)
         rc_stack_free(stack);

@@ -46,8 +46,10 @@ plan_new(const struct rc_sum *sum, struct rc_err *err)
 {
     struct plan *plan = calloc(1, sizeof *plan);
 
-    if (plan == NULL) {
+    if (plan == NULL)
         rc_err_set(err, "out of memory for a plan");
+    if (rc_ranks_agree(sum->ranks, plan == NULL ? RC_FAIL : RC_OK, err) != RC_OK) {
+        free(plan);
         return NULL;
     }
     plan->fft = rc_fft_new_on(sum->ranks, NULL, &sum->shape, sum->boundary, precision(sum),

@@ -50,7 +50,7 @@ struct rc_spectrum {
     unsigned parity;
     size_t columns; /* those from here on are zero */
     double total;   /* at wave number 0            */
-    void *values;   /* cx columns of cy numbers, as fft.h has them, divided by px py */
+    void *values;   /* the columns held here, of cy numbers, as fft.h has them, over px py */
     double over;    /* 0; or over these numbers, which are another's                 */
 };
 
@@ -142,10 +142,9 @@ rc_fft_scratch(const struct rc_shape *shape, enum rc_boundary boundary, enum rc_
                size_t threads)
 {
     struct rc_layout l = layout_of(shape, boundary, precision);
-    size_t number = 2 * (precision == RC_SINGLE ? sizeof(float) : sizeof(double));
-    size_t column = l.py * number, lines = 128 / number;
+    size_t number = 2 * real_size(precision), column = l.py * number;
     /* fft_body.h: columns taken together and one more, a row and its transform, a spectrum's column */
-    size_t each = (lines + 1) * column + 2 * l.stride * number + column / 4;
+    size_t each = (line_of(precision) + 1) * column + 2 * l.stride * number + column / 4;
 
     each += COLUMNS * l.cy * sizeof(double) + 4 * (l.px + l.py) * sizeof(double); /* and dct.c */
     return (size_t)rc_useful_threads(shape, threads) * each + 3 * l.m * number;

@@ -42,7 +42,7 @@ struct plan {
     COMPLEX *waves;   /* of each row, the columns that are here: ny rows of `wide`          */
     COMPLEX *pieces;  /* of the rows that are here, for other ranks; NULL: all is here      */
     COMPLEX *own;     /* what of it is to be freed; NULL: it was lent                      */
-    COMPLEX *source;  /* cx columns in pieces, transformed: a loaded map; or NULL           */
+    COMPLEX *source;  /* those columns in pieces, transformed: a loaded map; or NULL        */
     COMPLEX *twiddle; /* w^n, w^2n, w^3n for each n < m (radix 4)                           */
     COMPLEX *scratch; /* for each thread: LINE columns, one more, a row, and a spectrum's column */
     size_t column;    /* complex numbers of one column in scratch: radix pieces and gaps    */

@@ -314,13 +314,19 @@ rc_half_space_new(const struct rc_shape *shape, const struct rc_operator_options
 {
     struct rc_conv_options options = conv_options(o);
     size_t n; /* nodes held here */
+    enum rc_status status = RC_OK;
     struct rc_stack *stack = NULL;
     struct rc_conv *conv;
     struct half_space *s;
 
-    if (rc_shape_check(shape, err) != RC_OK ||
-        (o->coating != NULL && (stack = rc_stack_new(o->coating, err)) == NULL))
+    if (rc_shape_check(shape, err) != RC_OK)
         return NULL;
+    if (o->coating != NULL && (stack = rc_stack_new(o->coating, err)) == NULL)
+        status = RC_FAIL;
+    if (rc_ranks_agree(o->ranks, status, err) != RC_OK) {
+        rc_stack_free(stack);
+        return NULL;
+    }
     if ((conv = rc_conv_new_on(stack, shape, o->estar, &options, err)) == NULL) {
         rc_stack_free(stack);
         return NULL;
@@ -369,7 +375,7 @@ rc_half_space_memory(const struct rc_shape *shape, const struct rc_operator_opti
     const struct rc_engine *engine;
     size_t conv = rc_conv_memory(shape, &options), own;
     bool precise, bounded = o->coating != NULL && o->boundary == RC_FREE;
-    size_t ranks = rc_ranks_count(o->ranks);
+    size_t ranks = rc_ranks_count(o->ranks), rows;
 
     if (conv == 0)
         return 0;
@@ -379,8 +385,9 @@ rc_half_space_memory(const struct rc_shape *shape, const struct rc_operator_opti
     if (engine->fft == NULL) /* else rows are transformed in the memory of conv */
         own += rc_fft_memory(shape, o->boundary, RC_SINGLE, ranks) -
                rc_spectrum_memory(shape, o->boundary, RC_SINGLE, ranks);
+    rows = ranks > 1 ? rc_rows_most(shape, ranks) : shape->ny;
     if (!engine->info.mixed || precise)
-        own += 2 * shape->nx * shape->ny * sizeof(double);
+        own += 2 * shape->nx * rows * sizeof(double);
     return own + conv;
 }
 

@@ -13,7 +13,8 @@ rc_rows_block(size_t nx)
 {
     size_t rows = 1;
 
-    while (2 * rows * nx <= RC_BLOCK_NODES)
+    /* of a line without nodes too: shapes are refused elsewhere */
+    while (nx > 0 && rows <= RC_BLOCK_NODES / nx / 2)
         rows *= 2;
     return rows;
 }

@@ -196,7 +196,11 @@ pressure_under(const struct rc_solver *s, const struct rc_solver *c, double **ro
     else
         fine = false;
     dealt_free(&d);
-    return fine ? *room : NULL;
+    if (!fine) {
+        free(*room);
+        *room = NULL;
+    }
+    return *room;
 }
 
 /* ---- down ---- */

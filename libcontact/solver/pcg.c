@@ -49,9 +49,10 @@ static const double enough = 0.75;
  * springs, each of the stiffness of its own cell. */
 static const double apart = 100;
 /* The largest clipped step, relative to the load and over the constant of the extension, that the next
- * direction is conjugate to. On one material, eigenvalues near 1, longer ones save nothing, and errors that
- * are no more those of the smallest ones are told less well: the estimate was up to 1.9 times the
- * error, and 0.99. On a coat a hundred times as stiff as what it lies on none kept costs twice the steps. */
+ * direction is conjugate to. On one material, where the eigenvalues are near 1, to keep longer ones saves no
+ * step, and what is left of the error is then not that of the smallest eigenvalues any more: estimates were
+ * between 0.99 and 1.9 times it. On a coat a hundred times as stiff as what it lies on, to keep none takes
+ * twice the steps. */
 static const double conjugate = 5e-3;
 
 struct pcg {

@@ -346,6 +346,8 @@ rc_stress_depths_on(const struct rc_ranks *ranks, const struct rc_shape *shape, 
                                            : collect(shape, p, b, err);
     if (status != RC_OK) {
         free(b);
+        free(*depths);
+        *depths = NULL;
         return RC_FAIL;
     }
     radius = contact_radius(ranks, shape, p);

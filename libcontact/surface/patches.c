@@ -522,7 +522,8 @@ rc_patches_free(struct rc_patches *patches)
     *patches = (struct rc_patches){0};
 }
 
-/* Runs of contact in a rough one: one in so many nodes of the map; in a fifth of it, of three nodes. */
+/* A rough contact has about one run in so many nodes of the map, as where a fifth of it touches in runs of
+ * three nodes. */
 enum {
     NODES_A_RUN = 16
 };

@@ -330,6 +330,8 @@ depths(double *out, struct rc_err *err)
 
     if (status == RC_OK)
         memcpy(out, z, (n < OUT ? n : OUT) * sizeof *out);
+    else
+        assert_null(z);
     free(z);
     z = NULL;
     if (status == RC_OK) /* without ranks the same */
