@@ -117,6 +117,10 @@ refuses 1 "needs the whole map in one process" "an engine that is not shared" \
     "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N --kernel mlms -o no.rcg rough.rcg"
 refuses 1 "a section is computed by one process" "a section" \
     "$MPIRUN -n 2 rc-stress --nu 0.3 --depths 0,1um --section y=0 -o no.rcg wave-pressed.rcg"
+rc-synth selfaffine --nx 700 --ny 700 --dx 1um --hurst 0.8 --rms-slope 0.1 --seed 3 |
+    rc-pick --set channel=pressure --set unit=Pa -o rough-pressed.rcg
+refuses 1 "a section is computed by one process" "  of a large map: not for its memory" \
+    "$MPIRUN -n 2 rc-stress --nu 0.3 --depths 0,1um --section y=0 -o no.rcg rough-pressed.rcg"
 refuses 2 'give one of --load' "a wrong command line" "$MPIRUN -n 2 rc-solve --estar 1GPa -o no.rcg rough.rcg"
 claim "  is said once" test "$(grep -c 'give one of' refuses.err)" = 1
 refuses 1 'checksum' "a damaged stream" "
