@@ -64,6 +64,8 @@ near "$(field bytes_exchanged sent.json)" $((3 * 16 * 128 * 256 / 2)) 1e-15 "byt
 near "$(field ranks sent.json)" 2 1e-15 "ranks"
 claim "a report on standard output is written once" says '^1$' bash -c \
     "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N --quiet --report - rough.rcg | grep -c contact_nodes"
+claim "so is what --verbose tells at the end" says '^1$' bash -c \
+    "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N --verbose -o told.rcg rough.rcg 2>&1 | grep -c 'memory: .* expected'"
 
 
 # What a contact exchanges and holds, as contact-mpi(7) has it: 32 bytes a wave for each equivalent, and up to 5 %
