@@ -136,6 +136,10 @@ perl -0777 -ne '/^(.*?\n\n)(.*)crc32/s; $v = $2; substr($v, 8 * (200 * 150 + 7),
 refuses 1 '1 of 37400 values are NaN or infinite, the first in column 7 of row 150' "NaN in another's rows" \
     "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N -o no.rcg nan.rcg"
 claim "  is said once" test "$(grep -c 'are NaN' refuses.err)" = 1
+rc-solve --periodic --estar 1e60Pa --mean-pressure 1e58Pa --tol 1e-3 --output pressure --quiet wave.rcg -o huge.rcg
+refuses 1 '65024 of 65024 values of mises came out larger than single precision can hold' "values too large, in the rows of both" \
+    "$MPIRUN -n 2 rc-stress --nu 0.3 --depths 0 --components mises --type f32 -o no.rcg huge.rcg"
+claim "  are said once" test "$(grep -c 'came out' refuses.err)" = 1
 refuses 3 'stopped short' "short of the accuracy: written, with its exit status" \
     "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N --tol 1e-30 -o stopped.rcg rough.rcg"
 claim "  and whole" bash -c 'rc-info stopped.rcg >/dev/null; test $? = 3'
