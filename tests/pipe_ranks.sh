@@ -184,6 +184,18 @@ killed_writing() {
     nothing_half killed
 }
 claim "nor does one that is killed when they write" killed_writing
+# Another run would add to the checkpoint of one that is under way, and has a frame in it.
+adding() {
+    local n=0 status
+    begin $lasting --load 3N --checkpoint adding.rcg --interval 0.01 || return
+    until [ "$(stat -c %s adding.rcg 2>/dev/null || echo 0)" -gt 6000000 ] || [ $((n += 1)) -gt 3000 ]; do sleep 0.01; done
+    $solve --load 3N --checkpoint adding.rcg --resume -o no.rcg long.rcg 2>adding.err
+    status=$?
+    kill -KILL "$victim"
+    wait "$launcher"
+    [ $status = 1 ] && grep -q 'adding.rcg: another run is adding to it' adding.err && [ ! -e no.rcg ]
+}
+claim "two runs do not add to one checkpoint" adding
 # signalled SIGNAL SECONDS: mpirun, which ends those whom it has started, and kills them a second later.
 signalled() {
     begin $lasting --load 3N || return

@@ -7,6 +7,7 @@
  * at most half of the time spent on a case is lost. Of several frames of a case the last counts.
  * Disk full is no reason to lose the solution: it is said once, and the run goes on.
  */
+#define _GNU_SOURCE /* F_OFD_SETLK */
 #include "solve.h"
 
 #include <errno.h>
@@ -152,16 +153,23 @@ open_file(struct checkpoint *c, const char *mode)
 }
 
 /* Two runs that add to one file would spoil it. The lock ends with the process, also when it is killed; a
- * file system without locks does without. */
+ * file system without locks does without. It is of the open file where there are such locks: one of the process
+ * ends when the process closes the file anywhere, as MPI-IO does after each frame. And it is of a byte behind all
+ * data: MPI-IO locks what it writes itself. */
 static void
 lock(struct checkpoint *c)
 {
-    struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+#ifdef F_OFD_SETLK
+    const int set = F_OFD_SETLK;
+#else
+    const int set = F_SETLK;
+#endif
+    struct flock behind = {
+        .l_type = F_WRLCK, .l_whence = SEEK_SET, .l_start = (off_t)1 << 62, .l_len = 1};
     bool taken = false;
 
     if (ranks_speak(&c->run->t)) /* of several processes that write it together the first */
-        taken =
-            fcntl(fileno(c->file), F_SETLK, &whole) != 0 && (errno == EACCES || errno == EAGAIN);
+        taken = fcntl(fileno(c->file), set, &behind) != 0 && (errno == EACCES || errno == EAGAIN);
     ranks_share(&c->run->t, 0, &taken, sizeof taken);
     if (taken)
         tool_die(&c->run->t, EXIT_IMPOSSIBLE,
