@@ -58,18 +58,20 @@ first_cut_off(const struct checkpoint *c)
 {
     char line[256];
     uintmax_t nx = 0, ny = 0;
-    bool ours = false;
+    bool ours = false, begins = true; /* a line may come in several pieces: this is its first */
     const off_t crc_line = (off_t)strlen("crc32 01234567\n");
     off_t values, size;
 
     if (fseeko(c->file, 0, SEEK_SET) != 0 || fgets(line, sizeof line, c->file) == NULL ||
         strcmp(line, "RCG1\n") != 0)
         return false;
-    while (fgets(line, sizeof line, c->file) != NULL && strcmp(line, "\n") != 0) {
-        (void)sscanf(line, "nx=%ju", &nx);
-        (void)sscanf(line, "ny=%ju", &ny);
-        if (strncmp(line, "checkpoint.case=", 16) == 0)
-            ours = true;
+    while (fgets(line, sizeof line, c->file) != NULL && !(begins && strcmp(line, "\n") == 0)) {
+        if (begins) {
+            (void)sscanf(line, "nx=%ju", &nx);
+            (void)sscanf(line, "ny=%ju", &ny);
+            ours = ours || strncmp(line, "checkpoint.case=", 16) == 0;
+        }
+        begins = strchr(line, '\n') != NULL;
     }
     values = ftello(c->file);
     if (values < 0 || fseeko(c->file, 0, SEEK_END) != 0 || (size = ftello(c->file)) < values)
