@@ -117,10 +117,12 @@ refuses 2 'give -o FILE' "a pipe for output" "$MPIRUN -n 2 rc-solve --estar 1GPa
 refuses 2 'name one instead of a pipe' "a pipe for input" "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N -o no.rcg"
 refuses 1 "needs the whole map in one process" "an engine that is not shared" \
     "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N --kernel mlms -o no.rcg rough.rcg"
-refuses 1 "a section is computed by one process" "a section" \
-    "$MPIRUN -n 2 rc-stress --nu 0.3 --depths 0,1um --section y=0 -o no.rcg wave-pressed.rcg"
 rc-synth selfaffine --nx 700 --ny 700 --dx 1um --hurst 0.8 --rms-slope 0.1 --seed 3 |
     rc-pick --set channel=pressure --set unit=Pa -o rough-pressed.rcg
+refuses 1 "cut a part out" "nor is it advised where memory is short" \
+    "$MPIRUN -n 2 rc-deflect --kernel fft64 --estar 1GPa --memory 25M -o no.rcg rough-pressed.rcg"
+refuses 1 "a section is computed by one process" "a section" \
+    "$MPIRUN -n 2 rc-stress --nu 0.3 --depths 0,1um --section y=0 -o no.rcg wave-pressed.rcg"
 refuses 1 "a section is computed by one process" "  of a large map: not for its memory" \
     "$MPIRUN -n 2 rc-stress --nu 0.3 --depths 0,1um --section y=0 -o no.rcg rough-pressed.rcg"
 refuses 2 'give one of --load' "a wrong command line" "$MPIRUN -n 2 rc-solve --estar 1GPa -o no.rcg rough.rcg"
