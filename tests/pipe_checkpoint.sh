@@ -78,6 +78,13 @@ claim "one cut off in its first frame is begun anew" \
 claim "to a checkpoint like any other" bash -c "rc-info --quiet first.rcg >/dev/null &&
     $solve --load 0.1N --checkpoint first.rcg --resume --report first.json -o again.rcg rough.rcg"
 claim "from which the next one goes on" test "$(field iterations first.json)" -le 1
+# a line as long as what is read of it at a time, whose line feed alone is no end of the header
+rc-pick --set "note=$(printf '%0250d' 0)" rough.rcg -o noted.rcg
+$solve --load 0.1N --checkpoint noted-kept.rcg --quiet -o x.rcg noted.rcg && rm x.rcg
+head -c 5000 noted-kept.rcg >noted-first.rcg
+claim "so is one with a long line in its header" \
+    warns 'noted-first.rcg: the run was killed while it wrote its first frame: it begins anew' \
+    $solve --load 0.1N --checkpoint noted-first.rcg --resume -o noted-begun.rcg noted.rcg
 (head -c 5000 kept.rcg && tail -c +5001 kept.rcg | tr '\0-\377' '\1-\377\0') >spoilt.rcg
 refuses 1 'no pressure can be read from it' "one that is spoilt, not cut off, stays" \
     "$solve --load 0.1N --checkpoint spoilt.rcg --resume -o x.rcg rough.rcg"

@@ -63,6 +63,8 @@ near "$(field bytes_exchanged sent.json)" $((3 * 16 * 128 * 256 / 2)) 1e-15 "byt
 near "$(field ranks sent.json)" 2 1e-15 "ranks"
 claim "a report on standard output is written once" says '^1$' bash -c \
     "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N --quiet --report - rough.rcg | grep -c contact_nodes"
+claim "so is what --verbose tells at the end" says '^1$' bash -c \
+    "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N --verbose -o told.rcg rough.rcg 2>&1 | grep -c 'memory: .* expected'"
 
 # What a contact exchanges and holds, as contact-mpi(7) has it: 32 bytes a wave for each equivalent, and up to 5 %
 # for spectra; 83 bytes a node, and 40 MiB at most.
@@ -113,8 +115,14 @@ refuses 2 'give -o FILE' "a pipe for output" "$MPIRUN -n 2 rc-solve --estar 1GPa
 refuses 2 'name one instead of a pipe' "a pipe for input" "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N -o no.rcg"
 refuses 1 "needs the whole map in one process" "an engine that is not shared" \
     "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N --kernel mlms -o no.rcg rough.rcg"
+rc-synth selfaffine --nx 700 --ny 700 --dx 1um --hurst 0.8 --rms-slope 0.1 --seed 3 |
+    rc-pick --set channel=pressure --set unit=Pa -o rough-pressed.rcg
+refuses 1 "cut a part out" "nor is it advised where memory is short" \
+    "$MPIRUN -n 2 rc-deflect --kernel fft64 --estar 1GPa --memory 25M -o no.rcg rough-pressed.rcg"
 refuses 1 "a section is computed by one process" "a section" \
     "$MPIRUN -n 2 rc-stress --nu 0.3 --depths 0,1um --section y=0 -o no.rcg wave-pressed.rcg"
+refuses 1 "a section is computed by one process" "  of a large map: not for its memory" \
+    "$MPIRUN -n 2 rc-stress --nu 0.3 --depths 0,1um --section y=0 -o no.rcg rough-pressed.rcg"
 refuses 2 'give one of --load' "a wrong command line" "$MPIRUN -n 2 rc-solve --estar 1GPa -o no.rcg rough.rcg"
 claim "  is said once" test "$(grep -c 'give one of' refuses.err)" = 1
 refuses 1 'checksum' "a damaged stream" "
@@ -128,6 +136,10 @@ perl -0777 -ne '/^(.*?\n\n)(.*)crc32/s; $v = $2; substr($v, 8 * (200 * 150 + 7),
 refuses 1 '1 of 37400 values are NaN or infinite, the first in column 7 of row 150' "NaN in another's rows" \
     "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N -o no.rcg nan.rcg"
 claim "  is said once" test "$(grep -c 'are NaN' refuses.err)" = 1
+rc-solve --periodic --estar 1e60Pa --mean-pressure 1e58Pa --tol 1e-3 --output pressure --quiet wave.rcg -o huge.rcg
+refuses 1 '65024 of 65024 values of mises came out larger than single precision can hold' "values too large, in the rows of both" \
+    "$MPIRUN -n 2 rc-stress --nu 0.3 --depths 0 --components mises --type f32 -o no.rcg huge.rcg"
+claim "  are said once" test "$(grep -c 'came out' refuses.err)" = 1
 refuses 3 'stopped short' "short of the accuracy: written, with its exit status" \
     "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N --tol 1e-30 -o stopped.rcg rough.rcg"
 claim "  and whole" bash -c 'rc-info stopped.rcg >/dev/null; test $? = 3'
@@ -172,6 +184,18 @@ killed_writing() {
     nothing_half killed
 }
 claim "nor does one that is killed when they write" killed_writing
+# Another run would add to the checkpoint of one that is under way, and has a frame in it.
+adding() {
+    local n=0 status
+    begin $lasting --load 3N --checkpoint adding.rcg --interval 0.01 || return
+    until [ "$(stat -c %s adding.rcg 2>/dev/null || echo 0)" -gt 6000000 ] || [ $((n += 1)) -gt 3000 ]; do sleep 0.01; done
+    $solve --load 3N --checkpoint adding.rcg --resume -o no.rcg long.rcg 2>adding.err
+    status=$?
+    kill -KILL "$victim"
+    wait "$launcher"
+    [ $status = 1 ] && grep -q 'adding.rcg: another run is adding to it' adding.err && [ ! -e no.rcg ]
+}
+claim "two runs do not add to one checkpoint" adding
 # signalled SIGNAL SECONDS: mpirun, which ends those whom it has started, and kills them a second later.
 signalled() {
     begin $lasting --load 3N || return

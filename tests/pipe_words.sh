@@ -28,6 +28,9 @@ for tool in "rc-info" "rc-pick --channel pressure" "rc-detrend --plane" "rc-solv
     for file in size line middle failed; do harmless "$tool $file" "$tool $file.rcg | cat"; done
     [ "$tool" = rc-info ] || [ "${tool%% *}" = rc-detrend ] || harmless "$tool channel" "$tool channel.rcg | cat"
 done
+printf 'x' >"bad$escape.x3p"
+harmless "rc-import" "rc-import bad*.x3p | cat"
+harmless "rc-import --list, which goes on" "rc-import --list --quiet bad*.x3p"
 harmless "the source" "rc-solve --estar 1GPa --load 1N source.rcg -o x.rcg"
 claim "the source is shown without them too" bash -c 'rc-info source.rcg | LC_ALL=C tr -d "\n" | LC_ALL=C tr -dc "\000-\037\177" | wc -c | grep -qx 0'
 

@@ -248,8 +248,7 @@ range_of(struct tool *t, const struct source *s, const struct rc_wish *wish, siz
     range[0] = INFINITY;
     range[1] = -INFINITY;
     if ((g = s->format->read(&s->file, &lax, index, NULL, &err)) == NULL) {
-        tool_warn(t, "%s: channel %zu: %s", t->source, index + 1, err.text);
-        tool_fails_with(t, EXIT_IMPOSSIBLE);
+        tool_fail(t, "%s: channel %zu: %s", t->source, index + 1, err.text);
         return false;
     }
     for (size_t k = 0; k < g->nx * g->ny; k++) {
@@ -296,8 +295,7 @@ list_file(struct tool *t, const char *name, const struct rc_wish *wish)
         print_list(t, &s, wish);
     } else {
         fflush(t->out); /* so that what a terminal shows stays in the order of the files */
-        fprintf(stderr, "%s: %s: %s\n", info.name, t->source, err.text);
-        tool_fails_with(t, EXIT_IMPOSSIBLE);
+        tool_fail(t, "%s: %s", t->source, err.text);
     }
     source_close(&s);
 }

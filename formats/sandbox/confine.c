@@ -65,11 +65,15 @@ rc_confine(const struct rc_file *file)
     static const int signals[] = {SIGPROF, SIGALRM, SIGINT,  SIGTERM, SIGHUP, SIGPIPE,
                                   SIGSEGV, SIGBUS,  SIGABRT, SIGFPE,  SIGILL, SIGSYS};
     size_t space = space_now();
+    sigset_t none;
 
+    sigemptyset(&none);
+    sigprocmask(SIG_SETMASK, &none, NULL);
     for (size_t k = 0; k < sizeof signals / sizeof *signals; k++)
         signal(signals[k], SIG_DFL);
     set_timer(ITIMER_PROF, rc_confine_seconds(file));
     set_timer(ITIMER_REAL, clock_factor * rc_confine_seconds(file));
+    limit(RLIMIT_CPU, (rlim_t)rc_confine_seconds(file) + 2); /* for one that blocks the signals */
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_FSIZE, 0);
     limit(RLIMIT_NOFILE, 0); /* a file cannot name others to be read */

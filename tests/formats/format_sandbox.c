@@ -90,6 +90,17 @@ endless(const struct rc_file *f, const struct rc_wish *wish, size_t index, struc
 }
 
 static struct rc_grid *
+stubborn(const struct rc_file *f, const struct rc_wish *wish, size_t index, struct rc_notes *notes,
+         struct rc_err *err)
+{
+    sigset_t all;
+
+    sigfillset(&all);
+    sigprocmask(SIG_BLOCK, &all, NULL);
+    return endless(f, wish, index, notes, err);
+}
+
+static struct rc_grid *
 waiting(const struct rc_file *f, const struct rc_wish *wish, size_t index, struct rc_notes *notes,
         struct rc_err *err)
 {
@@ -591,6 +602,7 @@ trouble_stays_in_the_child(void **state)
     expect(segfaulting, "makes its library fail (Segmentation fault)");
     expect(endless, "busy for more than 0.8 s");
     expect(waiting, "busy for more than 0.8 s");
+    expect(stubborn, "makes its library fail (Killed)");
     expect(nosy, "closed");
     assert_true(now() - before < 0.5); /* the time was not ours */
 }

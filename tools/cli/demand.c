@@ -69,9 +69,10 @@ tool_leaner_engine(const struct tool *t, bool periodic,
     static char remedy[64];
     const struct rc_engine_info *e;
     size_t left = tool_memory_left(t);
+    bool transforms = periodic || t->ranks != NULL; /* several processes share no other sums */
 
     for (size_t k = 0; (e = rc_engine_info(k)) != NULL; k++)
-        if (e->order == 1 && (e->periodic || !periodic) && bytes(ctx, e->name) <= left) {
+        if (e->order == 1 && (e->periodic || !transforms) && bytes(ctx, e->name) <= left) {
             snprintf(remedy, sizeof remedy, "--kernel %s needs less", e->name);
             return remedy;
         }

@@ -112,19 +112,20 @@ cannot_read(struct tool *t, const struct rc_err *err)
 }
 
 struct not_finite
-not_finite(const struct rc_grid *g)
+not_finite(const struct tool *t, const struct rc_grid *g)
 {
     const double most = g->type == RC_F32 ? (double)FLT_MAX : DBL_MAX;
     struct not_finite n = {0, 0};
     double outside = 0;
 
-    for (size_t k = 0; k < rc_grid_nodes(g);
-         k++) /* in vector registers: nearly always there is none */
+    for (size_t k = 0; k < rc_grid_nodes(g); k++) /* in vector registers: mostly there is none */
         outside += fabs(g->v[k]) <= most ? 0 : 1;
     for (size_t k = 0; outside > 0 && k < rc_grid_nodes(g); k++) {
         n.missing += isnan(g->v[k]) ? 1 : 0;
         n.infinite += fabs(g->v[k]) > most ? 1 : 0;
     }
+    n.missing = (size_t)ranks_sum(t, (double)n.missing);
+    n.infinite = (size_t)ranks_sum(t, (double)n.infinite);
     return n;
 }
 
@@ -135,7 +136,7 @@ note_not_finite(struct tool *t, const struct rc_grid *g)
 
     if (t->missing && t->infinite)
         return;
-    n = not_finite(g);
+    n = not_finite(t, g);
     t->missing |= n.missing > 0;
     t->infinite |= n.infinite > 0;
 }

@@ -48,6 +48,19 @@ tool_warn(struct tool *t, const char *format, ...)
 }
 
 void
+tool_fail(struct tool *t, const char *format, ...)
+{
+    char text[1024];
+    va_list ap;
+
+    va_start(ap, format);
+    vsnprintf(text, sizeof text, format, ap);
+    va_end(ap);
+    say(t, text);
+    tool_fails_with(t, EXIT_IMPOSSIBLE);
+}
+
+void
 tool_note(struct tool *t, const char *format, ...)
 {
     char text[1024];

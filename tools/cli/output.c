@@ -168,7 +168,7 @@ demand_no_new(struct tool *t, const struct rc_grid *g)
 
     if (t->missing && t->infinite)
         return;
-    n = not_finite(g);
+    n = not_finite(t, g);
     if (n.infinite > 0 && !t->infinite)
         tool_die_at(t, g, EXIT_IMPOSSIBLE,
                     "%zu of %zu values of %s came out larger than %s can hold: are the units of "

@@ -22,10 +22,11 @@ bool completions_print(const struct tool *tool, const char *shell);
 /* Reads the command line into tool->args and the options of every tool. */
 void options_read(struct tool *tool, int argc, char **argv);
 
-/* How many values are NaN, and how many infinite, or would be in the frame's type. */
+/* How many values are NaN, and how many infinite, or would be in the frame's type; of the whole map, which
+ * processes that share it ask for together. */
 struct not_finite {
     size_t missing, infinite;
-} not_finite(const struct rc_grid *grid);
+} not_finite(const struct tool *tool, const struct rc_grid *grid);
 
 /* SIGINT, SIGTERM and SIGHUP remove what is half-written and end the tool. */
 void output_handle_signals(void);

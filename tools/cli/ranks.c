@@ -314,13 +314,13 @@ share_read(void *at, uint64_t place, void *to, size_t bytes, struct rc_err *err)
     int result = MPI_SUCCESS, got = 0;
     size_t done = 0;
 
-    while (done < bytes && result == MPI_SUCCESS) {
+    while (done < bytes) {
         int n = bytes - done < PIECE ? (int)(bytes - done) : PIECE;
         MPI_Status status;
         result = MPI_File_read_at(f->file, (MPI_Offset)(place + done), (char *)to + done, n,
                                   MPI_BYTE, &status);
-        MPI_Get_count(&status, MPI_BYTE, &got);
-        if (result == MPI_SUCCESS && got <= 0)
+        if (result != MPI_SUCCESS || MPI_Get_count(&status, MPI_BYTE, &got) != MPI_SUCCESS ||
+            got <= 0)
             break;
         done += (size_t)got;
     }
@@ -334,13 +334,13 @@ share_write(void *at, uint64_t place, const void *from, size_t bytes, struct rc_
     int result = MPI_SUCCESS, put = 0;
     size_t done = 0;
 
-    while (done < bytes && result == MPI_SUCCESS) {
+    while (done < bytes) {
         int n = bytes - done < PIECE ? (int)(bytes - done) : PIECE;
         MPI_Status status;
         result = MPI_File_write_at(f->file, (MPI_Offset)(place + done), (const char *)from + done,
                                    n, MPI_BYTE, &status);
-        MPI_Get_count(&status, MPI_BYTE, &put);
-        if (result == MPI_SUCCESS && put <= 0)
+        if (result != MPI_SUCCESS || MPI_Get_count(&status, MPI_BYTE, &put) != MPI_SUCCESS ||
+            put <= 0)
             break;
         done += (size_t)put;
     }

@@ -23,7 +23,7 @@ size_t ranks_count(const struct tool *tool);
 bool ranks_speak(const struct tool *tool);
 /* Rows of a map that are held here. */
 void ranks_rows(const struct tool *tool, const struct rc_shape *shape, size_t *first, size_t *n);
-/* Sums and largest values over all processes; of counts; and the CRC-32 of all parts one after another. */
+/* Sums and largest values over all processes, and the CRC-32 of all parts one after another. */
 double ranks_sum(const struct tool *tool, double v);
 double ranks_most(const struct tool *tool, double v);
 uint32_t ranks_crc(const struct tool *tool, uint32_t crc, size_t bytes);

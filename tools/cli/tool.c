@@ -87,11 +87,11 @@ tool_finish(struct tool *t)
 {
     tool_progress_end(t);
     output_end(t);
-    ranks_end(t);
-    output_end_by_signal();
-    if (t->expected_memory > 0)
+    if (t->expected_memory > 0) /* by the first of several processes */
         tool_note(t, "memory: %.1f MiB expected, %.1f MiB taken", mebibytes(t->expected_memory),
                   mebibytes(memory_peak() + t->beside_memory));
+    ranks_end(t);
+    output_end_by_signal();
     return t->exit_status;
 }
 

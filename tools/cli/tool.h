@@ -197,6 +197,8 @@ _Noreturn void tool_die(struct tool *tool, int status, const char *format, ...)
 /* The same, naming source, case and channel of the frame that is to blame. */
 _Noreturn void tool_die_at(struct tool *tool, const struct rc_grid *grid, int status,
                            const char *format, ...) __attribute__((format(printf, 4, 5)));
+/* Says what could not be done and goes on, to the next file: with --quiet too; exit status 1 at the end. */
+void tool_fail(struct tool *tool, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void tool_warn(struct tool *tool, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* Only with --verbose. */
 void tool_note(struct tool *tool, const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -56,18 +56,6 @@ canvas_free(struct canvas *c)
     free(c);
 }
 
-size_t
-canvas_width(const struct canvas *c)
-{
-    return c->w;
-}
-
-size_t
-canvas_height(const struct canvas *c)
-{
-    return c->h;
-}
-
 /* Takes over what the item owns, also when it fails. */
 static void
 append(struct canvas *c, struct item item)

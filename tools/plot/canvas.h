@@ -76,8 +76,6 @@ void canvas_pixel(struct canvas *canvas, size_t x, size_t y, struct rgb colour);
 enum rc_status canvas_check(const struct canvas *canvas, struct rc_err *err);
 /* Row y as width times red, green, blue. RC_FAIL as canvas_check. */
 enum rc_status canvas_row(struct canvas *canvas, size_t y, unsigned char *rgb, struct rc_err *err);
-size_t canvas_width(const struct canvas *canvas);
-size_t canvas_height(const struct canvas *canvas);
 
 /* ---- files ---- */
 

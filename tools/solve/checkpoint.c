@@ -7,6 +7,7 @@
  * at most half of the time spent on a case is lost. Of several frames of a case the last counts.
  * Disk full is no reason to lose the solution: it is said once, and the run goes on.
  */
+#define _GNU_SOURCE /* F_OFD_SETLK */
 #include "solve.h"
 
 #include <errno.h>
@@ -57,18 +58,20 @@ first_cut_off(const struct checkpoint *c)
 {
     char line[256];
     uintmax_t nx = 0, ny = 0;
-    bool ours = false;
+    bool ours = false, begins = true; /* a line may come in several pieces: this is its first */
     const off_t crc_line = (off_t)strlen("crc32 01234567\n");
     off_t values, size;
 
     if (fseeko(c->file, 0, SEEK_SET) != 0 || fgets(line, sizeof line, c->file) == NULL ||
         strcmp(line, "RCG1\n") != 0)
         return false;
-    while (fgets(line, sizeof line, c->file) != NULL && strcmp(line, "\n") != 0) {
-        (void)sscanf(line, "nx=%ju", &nx);
-        (void)sscanf(line, "ny=%ju", &ny);
-        if (strncmp(line, "checkpoint.case=", 16) == 0)
-            ours = true;
+    while (fgets(line, sizeof line, c->file) != NULL && !(begins && strcmp(line, "\n") == 0)) {
+        if (begins) {
+            (void)sscanf(line, "nx=%ju", &nx);
+            (void)sscanf(line, "ny=%ju", &ny);
+            ours = ours || strncmp(line, "checkpoint.case=", 16) == 0;
+        }
+        begins = strchr(line, '\n') != NULL;
     }
     values = ftello(c->file);
     if (values < 0 || fseeko(c->file, 0, SEEK_END) != 0 || (size = ftello(c->file)) < values)
@@ -152,16 +155,23 @@ open_file(struct checkpoint *c, const char *mode)
 }
 
 /* Two runs that add to one file would spoil it. The lock ends with the process, also when it is killed; a
- * file system without locks does without. */
+ * file system without locks does without. It is of the open file where there are such locks: one of the process
+ * ends when the process closes the file anywhere, as MPI-IO does after each frame. And it is of a byte behind all
+ * data: MPI-IO locks what it writes itself. */
 static void
 lock(struct checkpoint *c)
 {
-    struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+#ifdef F_OFD_SETLK
+    const int set = F_OFD_SETLK;
+#else
+    const int set = F_SETLK;
+#endif
+    struct flock behind = {
+        .l_type = F_WRLCK, .l_whence = SEEK_SET, .l_start = (off_t)1 << 62, .l_len = 1};
     bool taken = false;
 
     if (ranks_speak(&c->run->t)) /* of several processes that write it together the first */
-        taken =
-            fcntl(fileno(c->file), F_SETLK, &whole) != 0 && (errno == EACCES || errno == EAGAIN);
+        taken = fcntl(fileno(c->file), set, &behind) != 0 && (errno == EACCES || errno == EAGAIN);
     ranks_share(&c->run->t, 0, &taken, sizeof taken);
     if (taken)
         tool_die(&c->run->t, EXIT_IMPOSSIBLE,
