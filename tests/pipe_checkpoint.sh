@@ -73,7 +73,7 @@ refuses 2 '--resume and --interval need --checkpoint' "--resume alone" "$solve -
 # killed inside the first frame: nothing is lost by beginning anew
 head -c 5000 kept.rcg >first.rcg
 claim "one cut off in its first frame is begun anew" \
-    warns 'first.rcg: the run was killed while it wrote its first frame: it begins anew' \
+    warns 'first.rcg: the run stopped while it wrote the first frame: it begins anew' \
     $solve --load 0.1N --checkpoint first.rcg --resume -o begun.rcg rough.rcg
 claim "to a checkpoint like any other" bash -c "rc-info --quiet first.rcg >/dev/null &&
     $solve --load 0.1N --checkpoint first.rcg --resume --report first.json -o again.rcg rough.rcg"
@@ -83,11 +83,17 @@ rc-pick --set "note=$(printf '%0250d' 0)" rough.rcg -o noted.rcg
 $solve --load 0.1N --checkpoint noted-kept.rcg --quiet -o x.rcg noted.rcg && rm x.rcg
 head -c 5000 noted-kept.rcg >noted-first.rcg
 claim "so is one with a long line in its header" \
-    warns 'noted-first.rcg: the run was killed while it wrote its first frame: it begins anew' \
+    warns 'noted-first.rcg: the run stopped while it wrote the first frame: it begins anew' \
     $solve --load 0.1N --checkpoint noted-first.rcg --resume -o noted-begun.rcg noted.rcg
-(head -c 5000 kept.rcg && tail -c +5001 kept.rcg | tr '\0-\377' '\1-\377\0') >spoilt.rcg
-refuses 1 'no pressure can be read from it' "one that is spoilt, not cut off, stays" \
+(head -c 5000 kept.rcg && printf X && tail -c +5002 kept.rcg) >spoilt.rcg
+cp spoilt.rcg as-it-was.rcg
+refuses 1 'frame 1 of it is damaged .*checksum.*there are others behind it' "one that is spoilt, not cut off, is refused" \
     "$solve --load 0.1N --checkpoint spoilt.rcg --resume -o x.rcg rough.rcg"
+claim "and left as it is" cmp spoilt.rcg as-it-was.rcg
+(head -c 700000 kept.rcg && printf X && tail -c +700002 kept.rcg) >tail.rcg # as a power failure may leave the last of three
+claim "what is spoilt in the last frame only is computed again" bash -c "
+    $solve --load 0.1N:0.5N:3 --checkpoint tail.rcg --resume --report tail.json -o tail-out.rcg rough.rcg &&
+    [ \$(grep -c '\"iterations\": 1,' tail.json) = 2 ] && says '^3$' bash -c \"rc-info tail.rcg | grep -c 'frame . (pressure)'\""
 if [ -w /dev/full ]; then
     refuses 1 '--checkpoint /dev/full: there is one already' "nor over a device" \
         "$solve --load 0.1N --checkpoint /dev/full -o x.rcg rough.rcg"

@@ -51,34 +51,40 @@ note(struct checkpoint *c, size_t number, off_t at)
     c->saved[c->count++] = (struct saved){number, at};
 }
 
-/* Whether the file is the beginning of one frame of a checkpoint, and no more: the run was killed while it
- * wrote its first. */
+/* Whether the first frame, whole or not, is one of a checkpoint. */
 static bool
-first_cut_off(const struct checkpoint *c)
+is_checkpoint(const struct checkpoint *c)
 {
+    bool begins = true; /* a line may come in several pieces: this is its first */
     char line[256];
-    uintmax_t nx = 0, ny = 0;
-    bool ours = false, begins = true; /* a line may come in several pieces: this is its first */
-    const off_t crc_line = (off_t)strlen("crc32 01234567\n");
-    off_t values, size;
 
     if (fseeko(c->file, 0, SEEK_SET) != 0 || fgets(line, sizeof line, c->file) == NULL ||
         strcmp(line, "RCG1\n") != 0)
         return false;
     while (fgets(line, sizeof line, c->file) != NULL && !(begins && strcmp(line, "\n") == 0)) {
-        if (begins) {
-            (void)sscanf(line, "nx=%ju", &nx);
-            (void)sscanf(line, "ny=%ju", &ny);
-            ours = ours || strncmp(line, "checkpoint.case=", 16) == 0;
-        }
+        if (begins && strncmp(line, "checkpoint.case=", 16) == 0)
+            return true;
         begins = strchr(line, '\n') != NULL;
     }
-    values = ftello(c->file);
-    if (values < 0 || fseeko(c->file, 0, SEEK_END) != 0 || (size = ftello(c->file)) < values)
+    return false;
+}
+
+/* Whether no end of a frame stands behind this place but at the end of the file: what is there was being
+ * written when the run was killed or the machine stopped. */
+static bool
+is_last(const struct checkpoint *c, off_t at)
+{
+    size_t same = 0;
+    int byte;
+
+    if (fseeko(c->file, at, SEEK_SET) != 0)
         return false;
-    return ours && nx > 0 &&
-           (size - values < crc_line ||
-            ny > (uintmax_t)(size - values - crc_line) / sizeof(double) / nx);
+    while ((byte = getc(c->file)) != EOF) {
+        same = byte == end_line[same] ? same + 1 : byte == end_line[0] ? 1 : 0;
+        if (end_line[same] == '\0')
+            return getc(c->file) == EOF;
+    }
+    return true;
 }
 
 /* Finds the frames. What was being written when the run was cut off is cut off here too. */
@@ -90,14 +96,14 @@ look_through(struct checkpoint *c)
     struct rc_reader *reader = rc_reader_new(c->file, 0, t->memory, &err);
     const struct rc_share *share = ranks_read(t, c->name);
     struct rc_grid *g;
+    enum rc_status status;
     off_t end = 0;
     double number;
-    bool anew;
 
     if (reader == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
     rc_reader_share(reader, share);
-    while (rc_reader_next(reader, &g, &err) == RC_MORE) {
+    while ((status = rc_reader_next(reader, &g, &err)) == RC_MORE) {
         if (!rc_grid_number(g, "checkpoint.case", &number))
             tool_die(t, EXIT_IMPOSSIBLE,
                      "--checkpoint %s: a grid stream, but no checkpoint: name another file",
@@ -109,26 +115,31 @@ look_through(struct checkpoint *c)
     rc_reader_free(reader);
     ranks_close(t, share);
     clearerr(c->file);
-    anew = c->count == 0 && first_cut_off(c);
-    if (c->count == 0 && !anew && (fseeko(c->file, 0, SEEK_END) != 0 || ftello(c->file) > 0))
+    if (fseeko(c->file, 0, SEEK_END) == 0 && ftello(c->file) == 0)
+        return;
+    if (status != RC_OK && c->count == 0 && !is_checkpoint(c))
         tool_die(t, EXIT_IMPOSSIBLE,
                  "--checkpoint %s: no pressure can be read from it (%s): remove it to begin anew",
                  c->name, err.text);
-    if (c->count == 0 && !anew)
-        return;
+    if (status != RC_OK && !is_last(c, end))
+        tool_die(
+            t, EXIT_IMPOSSIBLE,
+            "--checkpoint %s: frame %zu of it is damaged (%s), and there are others behind it: "
+            "remove it to begin anew",
+            c->name, c->count + 1, err.text);
     ranks_wait(t);         /* all have looked */
     if (!ranks_speak(t)) { /* the first one cuts it off */
         ranks_wait(t);
         return;
     }
-    if (anew)
-        tool_warn(
-            t, "--checkpoint %s: the run was killed while it wrote its first frame: it begins anew",
-            c->name);
+    if (c->count == 0)
+        tool_warn(t,
+                  "--checkpoint %s: the run stopped while it wrote the first frame: it begins anew",
+                  c->name);
     else
         end -= (off_t)strlen(end_line);
     if (ftruncate(fileno(c->file), end) != 0 || fseeko(c->file, end, SEEK_SET) != 0 ||
-        (!anew && fputs(end_line, c->file) == EOF) || fflush(c->file) != 0)
+        (c->count > 0 && fputs(end_line, c->file) == EOF) || fflush(c->file) != 0)
         tool_die(t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", c->name, strerror(errno));
     ranks_wait(t);
 }
