@@ -7,9 +7,10 @@
  * in what all do together. NULL for the ranks, and a build without MPI, is one process that owns all: every
  * function is then empty, and nothing is copied.
  *
- * Results do not depend on P, bit for bit: rows and columns are transformed by themselves by the same plans,
- * blocks add up in the same order whoever owns them, and their sums are added with what the additions round
- * away, so that the rounding of the total does not show where the ranks begin (but for ties: 1 in 1e15).
+ * Results do not depend on P, bit for bit (where one process, too, takes the transforms, and for stresses no
+ * coarser grids): rows and columns are transformed by themselves by the same plans, blocks add up in the same
+ * order whoever owns them, and their sums are added with what the additions round away, so that the rounding
+ * of the total does not show where the ranks begin (but for ties: 1 in 1e15).
  *
  * What is not local to rows, and how it is done:
  *

@@ -14,6 +14,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libcontact/memory.h"
+
 struct state {
     double *t;    /* conjugate direction, zero off the elastic nodes */
     double *r;    /* K t                                             */
@@ -51,8 +53,8 @@ state_new(const struct rc_solver *solver, struct rc_err *err)
 
     if (s != NULL) {
         s->t = calloc(solver->posed.n, sizeof *s->t);
-        s->r = malloc(solver->posed.n * sizeof *s->r);
-        s->old = malloc(solver->posed.n * sizeof *s->old);
+        s->r = rc_alloc(solver->posed.n, sizeof *s->r);
+        s->old = rc_alloc(solver->posed.n, sizeof *s->old);
     }
     if (s == NULL || s->t == NULL || s->r == NULL || s->old == NULL) {
         rc_err_set(err, "out of memory for the iteration of %zu nodes", solver->posed.n);
