@@ -72,6 +72,7 @@ describe() {
 make_root() {
     local arch=$1 root=$2 link packages
     [ -e "$root/made" ] && return
+    rm -rf --one-file-system "$root" # what an earlier attempt has left
     packages=$(printf '%s\n' $build_packages libcmocka-dev libgomp1 | grep -E '^lib.*|zlib' | paste -sd ,)
     mmdebstrap --variant=extract --arch="$arch" --include="$packages" "$suite" "$root" ${MIRROR:+"$MIRROR"} \
         >"$work/$arch.root.log" 2>&1 || {
