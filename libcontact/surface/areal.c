@@ -282,9 +282,9 @@ rc_areal(const struct rc_shape *shape, const double *h, const struct rc_surface_
     }
     measure_heights(&r, piece, pieces, a);
     measure_slopes(&r, row, a);
-    if (rc_material_ratio(&r, a, err) != RC_OK)
-        goto done;
     status = r.maximum > r.minimum ? rc_texture(&r, a, err) : RC_OK;
+    if (status == RC_OK)
+        status = rc_material_ratio(&r, a, err);
 done:
     free(row);
     free(piece);
