@@ -69,10 +69,10 @@ is_checkpoint(const struct checkpoint *c)
     return false;
 }
 
-/* Whether no end of a frame stands behind this place but at the end of the file: what is there was being
- * written when the run was killed or the machine stopped. */
+/* Whether no frame ends behind this place: what is there was being written when the run was killed or the machine
+ * stopped. A frame that ends and cannot be read is something else, and memory may only be short. */
 static bool
-is_last(const struct checkpoint *c, off_t at)
+is_cut_off(const struct checkpoint *c, off_t at)
 {
     size_t same = 0;
     int byte;
@@ -82,7 +82,7 @@ is_last(const struct checkpoint *c, off_t at)
     while ((byte = getc(c->file)) != EOF) {
         same = byte == end_line[same] ? same + 1 : byte == end_line[0] ? 1 : 0;
         if (end_line[same] == '\0')
-            return getc(c->file) == EOF;
+            return false;
     }
     return true;
 }
@@ -121,11 +121,10 @@ look_through(struct checkpoint *c)
         tool_die(t, EXIT_IMPOSSIBLE,
                  "--checkpoint %s: no pressure can be read from it (%s): remove it to begin anew",
                  c->name, err.text);
-    if (status != RC_OK && !is_last(c, end))
+    if (status != RC_OK && !is_cut_off(c, end))
         tool_die(
             t, EXIT_IMPOSSIBLE,
-            "--checkpoint %s: frame %zu of it is damaged (%s), and there are others behind it: "
-            "remove it to begin anew",
+            "--checkpoint %s: frame %zu of it cannot be read (%s): remove the file to begin anew",
             c->name, c->count + 1, err.text);
     ranks_wait(t);         /* all have looked */
     if (!ranks_speak(t)) { /* the first one cuts it off */
