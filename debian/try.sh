@@ -118,8 +118,8 @@ start=$SECONDS
 in_root "$work/clean" "$get install ./libcontact0_*.deb ./rough-contact_*.deb >/dev/null 2>&1"
 echo "rough-contact and what it needs: $(($(downloaded "$work/clean") - before)) MB fetched, $((SECONDS - start)) s"
 in_root "$work/clean" "$get purge rough-contact libcontact0 >/dev/null && $get autoremove --purge >/dev/null
-    # this stays; what only the packages need goes with them
-    $get install man-db >/dev/null 2>&1"
+    # these stay, for man -k, and as autoremove keeps what has priority \"important\"; what only the packages need goes with them
+    $get install man-db adduser netbase >/dev/null 2>&1"
 everything "$work/clean" >"$work/before"
 in_root "$work/clean" "$get install ./*.deb >/dev/null"
 in_root "$work/clean" "dpkg -l | awk '/contact|rcg/ { print \$2, \$3 }'"

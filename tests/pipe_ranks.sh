@@ -196,14 +196,16 @@ adding() {
     [ $status = 1 ] && grep -q 'adding.rcg: another run is adding to it' adding.err && [ ! -e no.rcg ]
 }
 claim "two runs do not add to one checkpoint" adding
-# signalled SIGNAL SECONDS: mpirun, which ends those whom it has started, and kills them a second later.
+# signalled SIGNAL SECONDS: mpirun, which ends those whom it has started, and kills them some time later.
 signalled() {
     begin $lasting --load 3N || return
     sleep "$2"
     kill -"$1" "$launcher"
     wait "$launcher" && return 1
+    cat killed.err >&2
     nothing_half signalled && grep -aq '^rc-solve: .*\(interrupted\|ended by a signal\)' killed.err
 }
+export OMPI_MCA_odls_base_sigkill_timeout=2 # by itself 1 s, which may be too little for words where much else runs
 for signal in TERM INT; do
     for seconds in 3 4.2; do
         claim "mpirun is ended after $seconds s by $signal: a message, nothing half-written" signalled $signal $seconds
