@@ -4,8 +4,9 @@
 #     sample_surfaces/draw.sh [FOLDER]
 #
 # The commands are taken from man/contact.7 and run in FOLDER, or in one that is removed when they are done; the pictures
-# that the page shows go to sample_surfaces. The tools on PATH are used, or those of build/. cost.png, which shows what
-# this machine took, is drawn by the first command of contact-theory(7), "What accuracy costs".
+# that the page shows go to sample_surfaces. The tools on PATH are used, or those of build/. cost.png and
+# coated-cost.png, which show what this machine took, are drawn by the first and the last command of contact-theory(7), "What
+# accuracy costs".
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 RC_SOURCE=$here/..
