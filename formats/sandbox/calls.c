@@ -24,7 +24,8 @@
 #define ARCHITECTURE AUDIT_ARCH_PPC64LE
 #endif
 
-/* Not s390x: there mmap has one argument, a place in memory that holds the others, which a filter does not see. */
+/* Not s390x: there mmap has one argument, a place in memory that holds the others, and no filter sees
+ * that. */
 
 #ifdef ARCHITECTURE
 

@@ -69,8 +69,8 @@ is_checkpoint(const struct checkpoint *c)
     return false;
 }
 
-/* Whether no frame ends behind this place: what is there was being written when the run was killed or the machine
- * stopped. A frame that ends and cannot be read is something else, and memory may only be short. */
+/* Whether no frame ends behind this place: what is there was being written when the run was killed or
+ * the machine stopped. A frame that ends and cannot be read is something else: memory may only be short. */
 static bool
 is_cut_off(const struct checkpoint *c, off_t at)
 {
@@ -165,9 +165,9 @@ open_file(struct checkpoint *c, const char *mode)
 }
 
 /* Two runs that add to one file would spoil it. The lock ends with the process, also when it is killed; a
- * file system without locks does without. It is of the open file where there are such locks: one of the process
- * ends when the process closes the file anywhere, as MPI-IO does after each frame. And it is of a byte behind all
- * data: MPI-IO locks what it writes itself. */
+ * file system without locks does without. It belongs to the open file where there are such locks: one that
+ * belongs to the process ends when the process closes the file anywhere, as MPI-IO does after each frame.
+ * And it is on a byte behind all data: MPI-IO locks what it writes itself. */
 static void
 lock(struct checkpoint *c)
 {
