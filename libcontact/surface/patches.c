@@ -390,17 +390,20 @@ merge_parts(struct all *all)
 
 /* ---- figures ---- */
 
+/* Of equal ones that whose first run comes first. */
 static int
 larger_first(const void *a, const void *b)
 {
-    const struct rc_patch *x = a, *y = b;
+    const struct part *x = a, *y = b;
 
-    return (x->nodes < y->nodes) - (x->nodes > y->nodes);
+    return x->nodes != y->nodes ? (x->nodes < y->nodes) - (x->nodes > y->nodes) : by_place(a, b);
 }
 
+/* Sorted before there is a list, since qsort may take as much memory again as what it sorts. */
 static enum rc_status
-list_patches(const struct rc_shape *s, const struct all *all, struct rc_patches *patches)
+list_patches(const struct rc_shape *s, struct all *all, struct rc_patches *patches)
 {
+    qsort(all->part, all->parts, sizeof *all->part, larger_first);
     if ((patches->patch = rc_alloc(all->parts + 1, sizeof *patches->patch)) == NULL)
         return RC_FAIL;
     for (size_t k = 0; k < all->parts; k++) {
@@ -410,7 +413,6 @@ list_patches(const struct rc_shape *s, const struct all *all, struct rc_patches 
                                               .perimeter = (double)part->ends * s->dy +
                                                            (double)part->sides * s->dx};
     }
-    qsort(patches->patch, all->parts, sizeof *patches->patch, larger_first);
     return RC_OK;
 }
 
