@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "exact.h"
+#include "tests/exact.h"
 #include "libcontact/contact.h"
 
 struct solved {

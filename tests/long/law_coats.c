@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "contact_case.h"
+#include "tests/contact_case.h"
 
 enum {
     M = 512,

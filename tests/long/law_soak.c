@@ -10,7 +10,7 @@
 #include <pthread.h>
 #include <unistd.h>
 
-#include "contact_case.h"
+#include "tests/contact_case.h"
 
 enum {
     SOLVES = 1000,

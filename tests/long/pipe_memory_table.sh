@@ -48,7 +48,7 @@ for size in "$@"; do
         row "rc-import of that" "rc-import --verbose s.$format"
     done
     for format in park netcdf; do
-        perl "$RC_SOURCE/tests/made_maps.pl" $format ${size%x*} ${size#*x} >s.$format
+        perl "$RC_SOURCE/tests/tools/made_maps.pl" $format ${size%x*} ${size#*x} >s.$format
         row "rc-import of $format" "rc-import --verbose s.$format"
     done
     row "rc-render" "rc-render --verbose s.rcg -o map.png"

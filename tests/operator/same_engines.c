@@ -1,0 +1,276 @@
+/* Every engine gives, for every kernel, size and spacing, what the double sum gives; on periodic
+ * maps, where it does them, what the sum over all waves gives. The kernels and engines are those of
+ * the lists, whatever these hold. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+
+#include "tests/contact_case.h"
+#include "libcontact/operator/operator.h"
+
+static const struct rc_engine *const engines[] = {
+#define RC_ENGINE(name) &rc_engine_##name,
+#include RC_ENGINES_LIST
+#undef RC_ENGINE
+};
+
+static const struct rc_kernel *const kernels[] = {
+#define RC_KERNEL(name) &rc_kernel_##name,
+#include RC_KERNELS_LIST
+#undef RC_KERNEL
+};
+
+enum {
+    ENGINES = sizeof engines / sizeof *engines,
+    KERNELS = sizeof kernels / sizeof *kernels
+};
+
+/* ---- the judges: no line of theirs is an engine's ---- */
+
+/* The quarter of the kernel that its parity makes whole: nx ny values. */
+static double *
+quarter(const struct rc_sum *s)
+{
+    const struct rc_lattice nodes = {s->shape.dx, s->shape.dy, 1, 1};
+    double *k = malloc(s->shape.nx * s->shape.ny * sizeof *k);
+
+    s->kernel->rows(&s->medium, s->component, &nodes, s->shape.nx, 0, s->shape.ny, k);
+    return k;
+}
+
+/* u = K p as it is written, and the largest sum of |K| |p|, which errors are judged against. */
+static double
+double_sum(const struct rc_sum *s, const double *p, double *u)
+{
+    size_t nx = s->shape.nx, n = nx * s->shape.ny;
+    unsigned parity = s->kernel->parity[s->component];
+    double *k = quarter(s), most = 0;
+
+    for (size_t t = 0; t < n; t++) {
+        long double sum = 0, all = 0;
+        for (size_t from = 0; from < n; from++) {
+            long di = (long)(t % nx) - (long)(from % nx), dj = (long)(t / nx) - (long)(from / nx);
+            double term = k[(size_t)labs(dj) * nx + (size_t)labs(di)] * p[from];
+            sum += (parity & RC_ODD_X && di < 0) != (parity & RC_ODD_Y && dj < 0) ? -term : term;
+            all += fabs(term);
+        }
+        u[t] = (double)sum;
+        most = fmax(most, (double)all);
+    }
+    free(k);
+    return most;
+}
+
+/* The same on a periodic map, from the kernel's symbol, for p of mean 0 and odd sizes: K' is
+ * (-i)^d symbol with d odd directions, and the sum over q of it and p' e^(iqr) is real. */
+static double
+wave_sum(const struct rc_sum *s, const double *p, double *u)
+{
+    struct rc_shape m = s->shape;
+    long nx = (long)m.nx, ny = (long)m.ny;
+    unsigned parity = s->kernel->parity[s->component];
+    size_t n = m.nx * m.ny;
+    double most = 0;
+
+    for (size_t t = 0; t < n; t++) {
+        long double sum = 0, all = 0;
+        for (long b = -ny / 2; b <= ny / 2; b++)
+            for (long a = -nx / 2; a <= nx / 2; a++) {
+                double qx = 2 * exact_pi * (double)a / (m.dx * (double)nx);
+                double qy = 2 * exact_pi * (double)b / (m.dy * (double)ny);
+                double k = a == 0 && b == 0
+                               ? 0
+                               : s->kernel->symbol(&s->medium, s->component, qx, qy) / (double)n;
+                for (size_t from = 0; from < n; from++) {
+                    double angle = qx * (node_x(m, t) - node_x(m, from)) +
+                                   qy * (node_y(m, t) - node_y(m, from));
+                    sum += k * p[from] *
+                           (parity == 0                     ? cos(angle)
+                            : parity == RC_ODD_X + RC_ODD_Y ? -cos(angle)
+                                                            : sin(angle));
+                }
+                all += fabs(k);
+            }
+        u[t] = (double)sum;
+        most = fmax(most, (double)all);
+    }
+    return most;
+}
+
+/* ---- the comparison ---- */
+
+/* How far an engine may be from the judge, over the sum of |K| |p|: what is asked for, else
+ * rounding, of two sums where it interpolates. */
+static double
+allowed(const struct rc_engine *engine, double tol, bool precise)
+{
+    return tol > 0 && !precise ? tol : engine == &rc_engine_mlms ? 2 * of_sum : of_sum;
+}
+
+/* Largest difference of u from what `engine` makes of p. */
+static double
+off(const struct rc_sum *sum, const struct rc_engine *engine, const double *p, const double *u)
+{
+    size_t n = sum->shape.nx * sum->shape.ny;
+    double *v = malloc(n * sizeof *v), worst = 0;
+    struct rc_err err;
+    void *plan = engine->new (sum, &err);
+
+    assert_non_null(plan);
+    assert_true(sum->tol == 0 || engine->error(plan) <= sum->tol);
+    engine->apply(plan, p, v);
+    for (size_t k = 0; k < n; k++)
+        worst = larger(worst, fabs(u[k] - v[k]));
+    engine->free(plan);
+    free(v);
+    return worst;
+}
+
+/* Three layers, of the thickness of a few cells. */
+static struct rc_stack *
+new_stack(double spacing)
+{
+    struct rc_layer layer[] = {
+        {1.3 * spacing, 9e9, 0.3}, {0.4 * spacing, 1e9, 0.45}, {5 * spacing, 7e9, 0.2}};
+    struct rc_coating coating = {3, layer, 2e9, 0.28, 1e-11};
+    struct rc_err err;
+    struct rc_stack *stack = rc_stack_new(&coating, &err);
+
+    assert_non_null(stack);
+    return stack;
+}
+
+/* Failures of all engines on one map. */
+static size_t
+compare(struct rc_shape shape, enum rc_boundary boundary, const struct rc_kernel *kernel,
+        size_t component, size_t threads)
+{
+    static const double tols[] = {0, 1e-3, 1e-3};
+    static const bool precise[] = {false, false, true};
+    struct rc_sum sum = {.shape = shape,
+                         .boundary = boundary,
+                         .kernel = kernel,
+                         .component = component,
+                         .medium = {.estar = 2.385e9,
+                                    .nu = 0.28,
+                                    .depth = 0.7 * shape.dx,
+                                    .length = 1,
+                                    .modulus = 1},
+                         .threads = threads};
+    struct rc_stack *stack = new_stack(shape.dx);
+    size_t n = shape.nx * shape.ny, failed = 0;
+    double *p = malloc(n * sizeof *p), *u = malloc(n * sizeof *u), mean = 0, size;
+    uint64_t seed = 1999;
+
+    sum.medium.stack = stack;
+    for (size_t k = 0; k < n; k++)
+        mean += (p[k] = random_number(&seed)) / (double)n;
+    for (size_t k = 0; k < n && boundary == RC_PERIODIC; k++)
+        p[k] -= mean;
+    size = boundary == RC_PERIODIC ? wave_sum(&sum, p, u) : double_sum(&sum, p, u);
+    /* tables made in different blocks differ by rounding: for stresses 1e-16 of the pressure */
+    if (kernel == &rc_kernel_stress)
+        size += 0.01 * sqrt((double)n);
+    for (size_t e = 0; e < ENGINES; e++)
+        for (size_t k = 0; k < 3; k++) {
+            double by, within = allowed(engines[e], tols[k], precise[k]);
+            if ((boundary == RC_PERIODIC && !engines[e]->info.periodic) ||
+                (precise[k] && engines[e]->precise.name == NULL))
+                continue;
+            sum.tol = tols[k];
+            sum.precise = precise[k];
+            by = off(&sum, engines[e], p, u) / size;
+            if (!(by <= within)) {
+                print_error("%s %zu x %zu, %s %zu by %s, tol %g%s: off by %g, not %g\n",
+                            boundary == RC_FREE ? "free" : "periodic", shape.nx, shape.ny,
+                            kernel->info.name, component, engines[e]->info.name, tols[k],
+                            precise[k] ? ", precise" : "", by, within);
+                failed++;
+            }
+        }
+    rc_stack_free(stack);
+    free(p);
+    free(u);
+    return failed;
+}
+
+static void
+every_size_and_component(void **state)
+{
+    static const struct rc_shape shapes[] = {
+        {33, 47, 1.1e-6, 1e-6}, {1, 17, 1, 1},  {17, 1, 1, 1},     {1, 1, 3, 2},     {2, 3, 1, 1},
+        {3, 211, 1, 5},         {64, 64, 1, 1}, {97, 31, 1, 0.01}, {50, 20, 1, 100},
+    };
+    size_t failed = 0;
+
+    (void)state;
+    for (size_t s = 0; s < sizeof shapes / sizeof *shapes; s++)
+        for (size_t k = 0; k < KERNELS; k++)
+            for (size_t c = 0; c < kernels[k]->info.components; c++)
+                failed += compare(shapes[s], RC_FREE, kernels[k], c, 1 + s % 3);
+    assert_int_equal(failed, 0);
+}
+
+static void
+every_wave(void **state)
+{
+    static const struct rc_shape shapes[] = {
+        {7, 5, 1, 1.3}, {13, 1, 1e-6, 1e-6}, {1, 11, 1, 2}, {9, 15, 1.7e-6, 1e-6}};
+    size_t failed = 0, done = 0;
+
+    (void)state;
+    for (size_t s = 0; s < sizeof shapes / sizeof *shapes; s++)
+        for (size_t k = 0; k < KERNELS; k++)
+            for (size_t c = 0; kernels[k]->symbol != NULL && c < kernels[k]->info.components; c++) {
+                failed += compare(shapes[s], RC_PERIODIC, kernels[k], c, 2);
+                done++;
+            }
+    assert_int_equal(failed, 0);
+    assert_true(done > 0);
+}
+
+/* Loading once and asking for fields gives what one-by-one application gives. */
+static void
+one_transform_serves_all_kernels(void **state)
+{
+    struct rc_shape shape = {37, 22, 1, 1.3};
+    struct rc_medium medium = {.nu = 0.3, .depth = 1.1};
+    size_t n = shape.nx * shape.ny;
+    double *p = calloc(n, sizeof *p), *u = malloc(n * sizeof *u), *v = malloc(n * sizeof *v);
+    struct rc_err err;
+    struct rc_fft *fft = rc_fft_new(&shape, RC_FREE, RC_DOUBLE, 2, &err);
+    struct rc_spectrum *k = rc_spectrum_new(fft, &err);
+
+    (void)state;
+    p[5 * 37 + 9] = 3;
+    p[20 * 37 + 30] = -1;
+    assert_int_equal(rc_fft_load(fft, p, &err), RC_OK);
+    for (size_t c = 0; c < rc_kernel_stress.info.components; c++) {
+        assert_int_equal(rc_spectrum_set(k, fft, &rc_kernel_stress, c, &medium, &err), RC_OK);
+        rc_fft_field(fft, k, u);
+        rc_fft_apply(fft, k, p, v);
+        for (size_t i = 0; i < n; i++)
+            assert_true(fabs(u[i] - v[i]) <= rounding);
+    }
+    rc_spectrum_free(k);
+    rc_fft_free(fft);
+    free(p);
+    free(u);
+    free(v);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_size_and_component),
+        cmocka_unit_test(every_wave),
+        cmocka_unit_test(one_transform_serves_all_kernels),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

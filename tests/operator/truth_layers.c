@@ -1,0 +1,256 @@
+/* What a coated body does to its surface: the response to waves and the coefficients of cells, beside
+ * known answers that were found another way; from films to coats of a thousand maps. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "tests/contact_case.h"
+#include "libcontact/operator/operator.h"
+
+/* Known figures have twelve digits, coefficients eleven. */
+static const double twelve_digits = 1e-11, eleven_digits = 1e-10;
+/* What a coat of a thousand maps differs from one material: its thickness over the map. */
+static const double of_thick_coat = 1e-3;
+
+static struct rc_stack *
+stack_of(const struct rc_layer *layer, size_t n, double e, double nu)
+{
+    struct rc_coating coating = {.layers = n, .layer = layer, .e = e, .nu = nu};
+    struct rc_err err;
+    struct rc_stack *s = rc_stack_new(&coating, &err);
+
+    assert_non_null(s);
+    return s;
+}
+
+/* Airy's stress functions solved with 50 digits, substrate E = 1, nu = 0.3. */
+static void
+response(void **state)
+{
+    static const double q[] = {0.1, 0.5, 1, 2, 5};
+    static const struct {
+        struct rc_layer layer[3];
+        size_t n;
+        double g[5];
+    } body[] = {
+        {{{1, 10, 0.3}},
+         1,
+         {0.837728821569, 0.628869614955, 0.335134848371, 0.135386669642, 0.0913861664268}},
+        {{{1, 0.1, 0.3}},
+         1,
+         {1.25587208116, 2.6409382943, 4.38543373399, 7.21865266332, 9.07580743052}},
+        {{{0.25, 4, 0.2}, {0.5, 0.2, 0.45}, {1, 10, 0.3}},
+         3,
+         {0.855414012131, 0.730621324924, 0.694806936189, 1.17717611955, 0.782928607402}},
+    };
+
+    (void)state;
+    for (size_t b = 0; b < sizeof body / sizeof *body; b++) {
+        struct rc_stack *s = stack_of(body[b].layer, body[b].n, 1, 0.3);
+        for (size_t k = 0; k < 5; k++)
+            assert_true(fabs(rc_stack_response(s, q[k]) / body[b].g[k] - 1) < twelve_digits);
+        rc_stack_free(s);
+    }
+}
+
+/* Long waves feel the substrate, short ones the top, and the ends are where they are said to be, for
+ * ratios of 1e-6 to 1e6; one material is 1/E* for all. */
+static void
+ends(void **state)
+{
+    (void)state;
+    for (double ratio = 1e-6; ratio < 2e6; ratio *= 10) {
+        struct rc_layer layer[] = {{1e-6, 70e9 * ratio, 0.2}, {3e-6, 5e9, 0.45}};
+        struct rc_stack *s = stack_of(layer, 2, 70e9, 0.3);
+        double top = (1 - 0.04) / layer[0].e, bottom = (1 - 0.09) / 70e9;
+
+        assert_true(fabs(rc_stack_response(s, 1e12) / top - 1) < rounding);
+        assert_true(fabs(rc_stack_response(s, 1e-16) / bottom - 1) < rounding);
+        for (double q = 1e-4; q < 1e16; q *= 3)
+            assert_true(rc_stack_response(s, q) > 0 && isfinite(rc_stack_response(s, q)));
+        rc_stack_free(s);
+    }
+    for (double q = 1e-3; q < 1e12; q *= 7) {
+        struct rc_layer layer[] = {{1e-6, 70e9, 0.3}, {3e-7, 70e9, 0.3}};
+        struct rc_stack *s = stack_of(layer, 2, 70e9, 0.3);
+        assert_true(fabs(rc_stack_response(s, q) * 70e9 / 0.91 - 1) < rounding);
+        rc_stack_free(s);
+    }
+}
+
+/* The table that symbols are taken from beside the recursion, over 16 decades of wave numbers and coats a
+ * thousand times as stiff and as soft as what they lie on. */
+static void
+table(void **state)
+{
+    (void)state;
+    for (double ratio = 1e-3; ratio < 2e3; ratio *= 1e3) {
+        struct rc_layer layer[] = {{1e-6, 70e9 * ratio, 0.2}, {3e-8, 5e9, 0.45}, {2e-5, 7e9, 0.1}};
+        struct rc_stack *s = stack_of(layer, 3, 70e9, 0.3);
+        for (double q = 1e-4; q < 1e12; q *= 1.0137) {
+            double q2 = q * q, g;
+            rc_stack_responses(s, 1, &q2, &g);
+            assert_true(fabs(g / rc_stack_response(s, q) - 1) < twelve_digits);
+        }
+        rc_stack_free(s);
+    }
+}
+
+/* Displacements at nodes (0,0), (1,0), (0,1), (2,1), (10,7), (100,30) of a cell dx = 1 under unit
+ * pressure; by brute force in the wave number. */
+static void
+coefficients(void **state)
+{
+    static const int node[6][2] = {{0, 0}, {1, 0}, {0, 1}, {2, 1}, {10, 7}, {100, 30}};
+    static const struct {
+        struct rc_layer layer[3];
+        size_t n;
+        double dy, k[6];
+    } body[] = {
+        {{{4, 10, 0.3}},
+         1,
+         1,
+         {0.15550423313, 0.082779154634, 0.082779154634, 0.063301132576, 0.024646849782,
+          0.0027323995579}},
+        {{{0.5, 10, 0.3}},
+         1,
+         1,
+         {0.48283767228, 0.28232310038, 0.28232310038, 0.13282291319, 0.02335220944,
+          0.0027725942062}},
+        {{{4, 0.1, 0.3}},
+         1,
+         1,
+         {9.3338554316, 2.1522330862, 2.1522330862, 0.53536640743, 0.022833410533,
+          0.0027754925653}},
+        {{{16, 0.1, 0.3}},
+         1,
+         1,
+         {9.991522505, 2.7867239455, 2.7867239455, 1.0880419743, 0.062636015074, 0.0027834781983}},
+        {{{2, 4, 0.2}, {4, 0.2, 0.45}, {8, 10, 0.3}},
+         3,
+         2,
+         {0.77082225827, 0.51551981654, 0.38959852156, 0.2936321338, 0.029492617818,
+          0.0048401183122}},
+    };
+
+    (void)state;
+    for (size_t b = 0; b < sizeof body / sizeof *body; b++) {
+        struct rc_stack *s = stack_of(body[b].layer, body[b].n, 1, 0.3);
+        struct rc_medium medium = {.stack = s, .length = 1, .modulus = 1};
+        struct rc_lattice at = {1, body[b].dy, 1, 1};
+        double row[101];
+
+        for (size_t k = 0; k < 6; k++) {
+            size_t j = (size_t)node[k][1];
+            rc_kernel_layered.rows(&medium, 0, &at, 101, j, j + 1, row);
+            assert_true(fabs(row[node[k][0]] / body[b].k[k] - 1) < eleven_digits);
+        }
+        rc_stack_free(s);
+    }
+}
+
+/* Layers of the substrate's own material are no layers. */
+static void
+one_material(void **state)
+{
+    struct rc_layer layer[] = {{0.7, 1, 0.3}, {0.05, 1, 0.3}};
+    struct rc_stack *s = stack_of(layer, 2, 1, 0.3);
+    struct rc_medium medium = {.stack = s, .length = 1, .modulus = 1}, bare = {.estar = 1 / 0.91};
+    struct rc_lattice at = {1, 1.3, 1, 1};
+    double a[40 * 60], b[40 * 60];
+
+    (void)state;
+    rc_kernel_layered.rows(&medium, 0, &at, 60, 0, 40, a);
+    rc_kernel_boussinesq.rows(&bare, 0, &at, 60, 0, 40, b);
+    for (size_t k = 0; k < 40 * 60; k++)
+        assert_true(fabs(a[k] / b[k] - 1) < summed);
+    rc_stack_free(s);
+}
+
+/* From nearly nothing to nearly everything: a coat of a thousandth of a node, one of a thousand maps, in
+ * ratios of 1e-4 to 1e4, ends certified, and the thick one is as one material. */
+static void
+thin_and_thick(void **state)
+{
+    enum {
+        N = 48
+    };
+    struct rc_shape shape = {N, N, 1e-6, 1e-6};
+    struct rc_selfaffine what = {.hurst = 0.8, .rms_slope = 0.1, .short_cut = 5e-6, .seed = 5};
+    double h[N * N];
+    struct rc_err err;
+
+    (void)state;
+    assert_int_equal(rc_synth_selfaffine(&shape, &what, h, &err), RC_OK);
+    for (int boundary = RC_FREE; boundary <= RC_PERIODIC; boundary++)
+        for (double ratio = 1e-4; ratio < 2e4; ratio *= 100) {
+            const double thickness[] = {1e-9, 1e3 * N * 1e-6};
+            for (int k = 0; k < 2; k++) {
+                struct rc_layer layer = {thickness[k], ratio * 1e9, 0.3};
+                struct rc_coating coating = {1, &layer, 1e9, 0.3, 0};
+                double e = (k == 0 ? 1e9 : ratio * 1e9) / 0.91;
+                struct rc_problem on = {.boundary = (enum rc_boundary)boundary,
+                                        .coating = &coating,
+                                        .load = 0.02 * e * N * N * 1e-12,
+                                        .tol = 1e-5},
+                                  bare = on;
+                struct solved a, b;
+                double off = 0;
+
+                bare.coating = NULL;
+                bare.estar = e;
+                a = solve(shape, h, on);
+                b = solve(shape, h, bare);
+                assert_int_equal(a.status, RC_OK);
+                for (size_t i = 0; i < N * N; i++)
+                    off += fabs(a.p[i] - b.p[i]);
+                /* a soft coat of a thousandth of a node still gives as much as nodes do, and a stiff one
+                 * holds the surface along itself: only the thick one is one material */
+                if (k == 1)
+                    assert_true(off * 1e-12 / on.load < of_thick_coat);
+                solved_free(&a);
+                solved_free(&b);
+            }
+        }
+}
+
+static void
+refusals(void **state)
+{
+    struct rc_layer layer = {1e-6, 1e9, 0.3};
+    struct rc_coating good = {1, &layer, 1e9, 0.3, 0}, bad;
+    struct rc_err err;
+
+    (void)state;
+#define REFUSED(change)                                                                            \
+    bad = good;                                                                                    \
+    layer = (struct rc_layer){1e-6, 1e9, 0.3};                                                     \
+    change;                                                                                        \
+    assert_null(rc_stack_new(&bad, &err))
+    REFUSED(bad.layers = 0);
+    REFUSED(layer.thickness = 0);
+    REFUSED(layer.thickness = INFINITY);
+    REFUSED(layer.thickness = NAN);
+    REFUSED(layer.e = -1);
+    REFUSED(layer.e = INFINITY);
+    REFUSED(layer.nu = 0.51);
+    REFUSED(layer.nu = -1);
+    REFUSED(bad.e = 0);
+    REFUSED(bad.nu = NAN);
+    REFUSED(bad.compliance = -1);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(response),     cmocka_unit_test(ends),
+        cmocka_unit_test(table),        cmocka_unit_test(coefficients),
+        cmocka_unit_test(one_material), cmocka_unit_test(thin_and_thick),
+        cmocka_unit_test(refusals),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,837 @@
+/* A picture's pixels are the values of the map in the colours promised, and its chunks say how it
+ * was made: decoded by libpng, judged by colour tables from the literature. */
+#include <math.h>
+#include <png.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "formats/rcg/rcg.h"
+#include "libcontact/grid.h"
+#include "tools/plot/canvas.h"
+#include "tools/plot/colormap.h"
+#include "tools/plot/raster.h"
+#include "tools/plot/ticks.h"
+#include "tests/exact.h"
+
+static char folder[] = "/tmp/format_png.XXXXXX";
+
+/* ---- streams in, pictures out ---- */
+
+struct png {
+    png_image head;
+    unsigned char *rgb;
+};
+
+static struct rc_grid *
+grid_of(const char *channel, const char *unit, size_t nx, size_t ny, const double *v)
+{
+    struct rc_shape shape = {nx, ny, 1.1e-6, 1.3e-6};
+    struct rc_grid *g = rc_grid_new(&shape, channel, unit, NULL);
+
+    assert_non_null(g);
+    memcpy(g->v, v, nx * ny * sizeof *v);
+    return g;
+}
+
+static void
+put_stream(struct rc_grid *g)
+{
+    char name[128];
+    FILE *file;
+    struct rc_writer *w;
+
+    snprintf(name, sizeof name, "%s/in.rcg", folder);
+    file = fopen(name, "wb");
+    assert_non_null(file);
+    w = rc_writer_new(file, NULL);
+    assert_int_equal(rc_writer_put(w, g, NULL), RC_OK);
+    assert_int_equal(rc_writer_end(w, NULL), RC_OK);
+    rc_writer_free(w);
+    fclose(file);
+    rc_grid_free(g);
+}
+
+static struct png
+read_png(void)
+{
+    struct png p = {.head = {.version = PNG_IMAGE_VERSION}};
+    char text[128];
+
+    snprintf(text, sizeof text, "%s/out.png", folder);
+    assert_true(png_image_begin_read_from_file(&p.head, text));
+    assert_int_equal(p.head.format & (PNG_FORMAT_FLAG_ALPHA | PNG_FORMAT_FLAG_LINEAR), 0);
+    p.head.format = PNG_FORMAT_RGB;
+    p.rgb = malloc(PNG_IMAGE_SIZE(p.head));
+    assert_non_null(p.rgb);
+    assert_true(png_image_finish_read(&p.head, NULL, p.rgb, 0, NULL));
+    return p;
+}
+
+/* Runs rc-render on the stream that was put and reads its picture. */
+static struct png
+render(const char *options)
+{
+    const char *bin = getenv("RC_BIN");
+    char text[1024];
+
+    assert_non_null(bin);
+    snprintf(text, sizeof text, "'%s/rc-render' %s -o %s/out.png %s/in.rcg", bin, options, folder,
+             folder);
+    assert_int_equal(system(text), 0);
+    return read_png();
+}
+
+static const unsigned char *
+pixel(const struct png *p, size_t x, size_t y)
+{
+    return p->rgb + 3 * (y * p->head.width + x);
+}
+
+static void
+is_colour(const unsigned char *rgb, unsigned colour, int within)
+{
+    for (int k = 0; k < 3; k++) {
+        int wanted = (int)(colour >> (16 - 8 * k) & 0xff);
+
+        if (abs(rgb[k] - wanted) > within)
+            fail_msg("colour %02x%02x%02x is not %06x", rgb[0], rgb[1], rgb[2], colour);
+    }
+}
+
+/* ---- raw pictures ---- */
+
+static void
+raw_is_one_pixel_a_node(void **state)
+{
+    /* a grey level a micron */
+    static const double v[] = {0, 51e-6, 102e-6, 153e-6, 204e-6, 255e-6};
+    struct png p;
+
+    (void)state;
+    put_stream(grid_of("height", "m", 3, 2, v));
+    p = render("--raw --colormap grey");
+    assert_int_equal(p.head.width, 3);
+    assert_int_equal(p.head.height, 2);
+    for (size_t k = 0; k < 6; k++)
+        is_colour(pixel(&p, k % 3, k / 3), 0x333333 * (unsigned)k, 1);
+    free(p.rgb);
+}
+
+/* As others draw it: where the file says that the map is, each node has the colour of its value, its
+ * whole cell but for the very edge. */
+static void
+an_svg_has_the_nodes_at_their_places(void **state)
+{
+    static const double v[] = {0, 51e-6, 102e-6, 153e-6, 204e-6, 255e-6};
+    const char *bin = getenv("RC_BIN");
+    char text[1024], line[512];
+    double x = 0, y = 0, w = 0, h = 0;
+    struct png p;
+    FILE *file;
+
+    (void)state;
+    assert_non_null(bin);
+    put_stream(grid_of("height", "m", 3, 2, v));
+    snprintf(text, sizeof text,
+             "cd %s && '%s/rc-render' --colormap grey --width 600 -o out.svg in.rcg && "
+             "rsvg-convert -o out.png out.svg",
+             folder, bin);
+    assert_int_equal(system(text), 0);
+    snprintf(text, sizeof text, "%s/out.svg", folder);
+    file = fopen(text, "r");
+    assert_non_null(file);
+    while (w == 0 && fgets(line, sizeof line, file) != NULL)
+        if (sscanf(line, "<image x=\"%lf\" y=\"%lf\" width=\"%lf\" height=\"%lf\"", &x, &y, &w,
+                   &h) != 4)
+            w = 0;
+    fclose(file);
+    assert_true(w > 200 && h > 100);
+    p = read_png();
+    assert_int_equal(p.head.width, 600);
+    for (size_t k = 0; k < 6; k++)
+        for (int place = 0; place < 9; place++) {
+            size_t column = k % 3, row = k / 3;
+            int right = place % 3 - 1, below = place / 3 - 1;
+            double across = (double)column + 0.5 + 0.48 * right;
+            double down = (double)row + 0.5 + 0.48 * below;
+
+            is_colour(pixel(&p, (size_t)(x + across / 3 * w), (size_t)(y + down / 2 * h)),
+                      0x333333 * (unsigned)k, 1);
+        }
+    free(p.rgb);
+}
+
+static void
+range_is_kept_and_passed_with_the_end_colours(void **state)
+{
+    static const double v[] = {-5e9, 1e9, 2e9, 3e9, INFINITY, -INFINITY};
+    static const unsigned grey[] = {0, 0, 0x808080, 0xffffff, 0xffffff, 0};
+    struct png p;
+
+    (void)state;
+    put_stream(grid_of("some.stress", "Pa", 6, 1, v));
+    for (int form = 0; form < 3; form++) {
+        static const char *const forms[] = {"1GPa:3GPa", "1e9,3e9", "1000MPa:3e3MPa"};
+        char options[128];
+
+        snprintf(options, sizeof options, "--raw --colormap grey --range %s", forms[form]);
+        p = render(options);
+        for (size_t k = 0; k < 6; k++)
+            is_colour(pixel(&p, k, 0), grey[k], 1);
+        free(p.rgb);
+    }
+}
+
+/* 1000 values 0 to 999 um in an order of their own: node k holds 7 k modulo 1000 (7 and 1000 have
+ * no common factor). */
+static void
+put_thousand(double first)
+{
+    static double v[1000];
+
+    for (int k = 0; k < 1000; k++)
+        v[k] = (7 * k % 1000) * 1e-6;
+    if (first != 0)
+        v[0] = first;
+    put_stream(grid_of("height", "m", 40, 25, v));
+}
+
+/* Whether node k is as grey as its place between lo and hi says. */
+static void
+is_between(const struct png *p, size_t k, double value, double lo, double hi)
+{
+    double t = fmin(fmax((value - lo) / (hi - lo), 0), 1);
+
+    is_colour(pixel(p, k % p->head.width, k / p->head.width),
+              0x010101 * (unsigned)floor(255 * t + 0.5), 1);
+}
+
+static void
+percentiles_are_ranks(void **state)
+{
+    struct png p;
+
+    (void)state;
+    put_thousand(0);
+    p = render("--raw --colormap grey --range 10%:90%");
+    for (size_t k = 0; k < 1000; k++) /* place 0.1 * 999 among 0, 1, 2, ... is 99.9 */
+        is_between(&p, k, (double)(7 * k % 1000), 99.9, 899.1);
+    free(p.rgb);
+    p = render("--raw --colormap grey --clip");
+    for (size_t k = 0; k < 1000; k++)
+        is_between(&p, k, (double)(7 * k % 1000), 4.995, 994.005);
+    free(p.rgb);
+    p = render("--raw --colormap grey --range symmetric");
+    for (size_t k = 0; k < 1000; k++)
+        is_between(&p, k, (double)(7 * k % 1000), -999, 999);
+    free(p.rgb);
+}
+
+/* One value far from those about it does not take the colours of the others; many do. */
+static void
+an_outlier_is_left_beyond_the_colours(void **state)
+{
+    struct png p;
+    double v[900];
+
+    (void)state;
+    put_thousand(5e-3); /* 999 of 1 to 999 um, and one of 5000 */
+    p = render("--raw --colormap grey");
+    for (size_t k = 1; k < 1000; k++) /* ranks count from the least, which is 1 */
+        is_between(&p, k, (double)(7 * k % 1000), 1 + 4.995, 1 + 994.005);
+    is_colour(pixel(&p, 0, 0), 0xffffff, 0);
+    free(p.rgb);
+    p = render("--raw --colormap grey --range 0%:100%");
+    for (size_t k = 1; k < 1000; k++)
+        is_between(&p, k, (double)(7 * k % 1000), 1, 5000);
+    free(p.rgb);
+    for (int k = 0; k < 900; k++) /* a peak that its neighbours lead up to is none */
+        v[k] = exp(-0.05 * (pow(k % 30 - 12.0, 2) + pow(floor(k / 30.0) - 9, 2)));
+    put_stream(grid_of("height", "m", 30, 30, v));
+    p = render("--raw --colormap grey");
+    for (size_t k = 0; k < 900; k++)
+        is_between(&p, k, v[k], 0, 1);
+    free(p.rgb);
+}
+
+static void
+logarithms_give_equal_steps_to_equal_ratios(void **state)
+{
+    static const double v[] = {1e6, 1e7, 1e8, 1e9, 0, 3e7};
+    static const double t[] = {0, 1.0 / 3, 2.0 / 3, 1, 0, 0.492374};
+    struct png p;
+
+    (void)state;
+    put_stream(grid_of("some.stress", "Pa", 6, 1, v));
+    p = render("--raw --colormap grey --log");
+    for (size_t k = 0; k < 6; k++)
+        is_between(&p, k, t[k], 0, 1);
+    free(p.rgb);
+    p = render("--raw --colormap grey --log --range 1e5:1e9");
+    for (size_t k = 0; k < 4; k++)
+        is_between(&p, k, 1 + (double)k, 0, 4);
+    free(p.rgb);
+}
+
+/* magma's ends, as published, for what is on one side of 0: there they lie. */
+static void
+one_signed_stresses_end_at_zero(void **state)
+{
+    static const double below[] = {-4e9, -1e9, 0, 1e3}, above[] = {4e9, 1e9, 0, -1e3};
+    struct png p;
+
+    (void)state;
+    put_stream(grid_of("szz", "Pa", 4, 1, below));
+    p = render("--raw");
+    is_colour(pixel(&p, 0, 0), 0x000004, 1);
+    is_colour(pixel(&p, 2, 0), 0xfcfdbf, 1);
+    is_colour(pixel(&p, 3, 0), 0xfcfdbf, 1);
+    free(p.rgb);
+    put_stream(grid_of("szz", "Pa", 4, 1, above));
+    p = render("--raw");
+    is_colour(pixel(&p, 0, 0), 0xfcfdbf, 1);
+    is_colour(pixel(&p, 2, 0), 0x000004, 1);
+    is_colour(pixel(&p, 3, 0), 0x000004, 1);
+    free(p.rgb);
+}
+
+/* Ends and middle as published (van der Walt and Smith 2015). */
+static void
+channels_get_their_colours(void **state)
+{
+    static const double v[] = {1e-6, 2e-6, 3e-6};
+    static const double p0[] = {1e3, 0.5e9, 1e9};
+    static const double s[] = {-1e9, 0, 0.5e9};
+    struct png p;
+
+    (void)state;
+    put_stream(grid_of("height", "m", 3, 1, v));
+    p = render("--raw");
+    is_colour(pixel(&p, 0, 0), 0x440154, 2);
+    is_colour(pixel(&p, 1, 0), 0x21918c, 2);
+    is_colour(pixel(&p, 2, 0), 0xfde725, 2);
+    free(p.rgb);
+    put_stream(grid_of("mises", "Pa", 3, 1, p0));
+    p = render("--raw");
+    is_colour(pixel(&p, 0, 0), 0x000004, 2);
+    is_colour(pixel(&p, 1, 0), 0xb73779, 2);
+    is_colour(pixel(&p, 2, 0), 0xfcfdbf, 2);
+    free(p.rgb);
+    put_stream(grid_of("szz", "Pa", 3, 1, s)); /* zero in the middle, whatever the extremes are */
+    p = render("--raw");
+    assert_true(pixel(&p, 0, 0)[2] > 100 && pixel(&p, 0, 0)[0] < 60);  /* blue: compression */
+    assert_true(abs(pixel(&p, 1, 0)[0] - pixel(&p, 1, 0)[2]) <= 1);    /* neither           */
+    assert_true(pixel(&p, 2, 0)[0] > 200 && pixel(&p, 2, 0)[2] < 200); /* reddish: tension  */
+    free(p.rgb);
+}
+
+static bool
+on_the_scale(const char *map, const unsigned char *rgb)
+{
+    for (int k = 0; k <= 1000; k++) {
+        struct rgb c = colormap_at(colormap_find(map), k / 1000.0);
+
+        if (abs(c.r - rgb[0]) + abs(c.g - rgb[1]) + abs(c.b - rgb[2]) < 24)
+            return true;
+    }
+    return false;
+}
+
+static void
+missing_and_no_contact_are_no_values(void **state)
+{
+    static const char *const maps[] = {"viridis", "magma", "bluered", "grey"};
+    static const double v[] = {0, 1, NAN, 5e8, 1e9, -0.0};
+
+    (void)state;
+    for (size_t m = 0; m < sizeof maps / sizeof *maps; m++) {
+        char options[64];
+        struct png p;
+
+        put_stream(grid_of("pressure", "Pa", 6, 1, v));
+        snprintf(options, sizeof options, "--raw --colormap %s", maps[m]);
+        p = render(options);
+        assert_memory_equal(pixel(&p, 0, 0), pixel(&p, 5, 0), 3);
+        assert_memory_not_equal(pixel(&p, 0, 0), pixel(&p, 2, 0), 3);
+        assert_memory_not_equal(pixel(&p, 0, 0), pixel(&p, 1, 0), 3);
+        assert_false(on_the_scale(maps[m], pixel(&p, 0, 0)));
+        assert_false(on_the_scale(maps[m], pixel(&p, 2, 0)));
+        assert_true(on_the_scale(maps[m], pixel(&p, 1, 0)));
+        free(p.rgb);
+    }
+}
+
+/* ---- colours ---- */
+
+/* What rounding to 8 bits does to L* at most, where colours are dark. */
+static const double eight_bits = 0.35;
+
+/* CIE 1976 lightness of an sRGB colour (IEC 61966-2-1). */
+static double
+lightness(struct rgb c)
+{
+    const double share[3] = {0.2126, 0.7152, 0.0722};
+    const unsigned char byte[3] = {c.r, c.g, c.b};
+    double y = 0;
+
+    for (int k = 0; k < 3; k++) {
+        double s = byte[k] / 255.0;
+        y += share[k] * (s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4));
+    }
+    return y > 216.0 / 24389 ? 116 * cbrt(y) - 16 : y * 24389 / 27;
+}
+
+static void
+lightness_rises_and_evenly(void **state)
+{
+    static const char *const maps[] = {"viridis", "magma", "grey"};
+
+    (void)state;
+    for (size_t m = 0; m < 3; m++) {
+        const struct colormap *map = colormap_find(maps[m]);
+        double low = lightness(colormap_at(map, 0)), high = lightness(colormap_at(map, 1));
+        double last = low;
+
+        assert_true(high - low > 70);
+        for (int k = 1; k <= 256; k++) {
+            double l = lightness(colormap_at(map, k / 256.0));
+
+            assert_true(l > last - eight_bits);
+            assert_true(fabs(l - low - (high - low) * k / 256) < 6);
+            last = l;
+        }
+    }
+}
+
+/* ---- as other eyes see the colours ---- */
+
+static const struct {
+    const char *name;
+    double of[3][3]; /* on linear red, green, blue */
+} eyes[] = {
+    {"all cones", {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
+    /* Machado, Oliveira and Fernandes 2009, severity 1 */
+    {"protanopia",
+     {{0.152286, 1.052583, -0.204868},
+      {0.114503, 0.786281, 0.099216},
+      {-0.003882, -0.048116, 1.051998}}},
+    {"deuteranopia",
+     {{0.367322, 0.860646, -0.227968},
+      {0.280085, 0.672501, 0.047413},
+      {-0.011820, 0.042940, 0.968881}}},
+    {"tritanopia",
+     {{1.255528, -0.076749, -0.178779},
+      {-0.078411, 0.930809, 0.147602},
+      {0.004733, 0.691367, 0.303900}}},
+};
+
+static double
+cube_root(double t)
+{
+    return t > 216.0 / 24389 ? cbrt(t) : (t * 24389 / 27 + 16) / 116;
+}
+
+/* CIELAB of a colour seen by those eyes (IEC 61966-2-1, D65). */
+static void
+seen(struct rgb c, size_t by, double lab[3])
+{
+    static const double xyz[3][3] = {
+        {0.4124, 0.3576, 0.1805}, {0.2126, 0.7152, 0.0722}, {0.0193, 0.1192, 0.9505}};
+    static const double white[3] = {0.9505, 1, 1.089};
+    const unsigned char byte[3] = {c.r, c.g, c.b};
+    double linear[3], other[3] = {0}, f[3];
+
+    for (int k = 0; k < 3; k++) {
+        double s = byte[k] / 255.0;
+        linear[k] = s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4);
+    }
+    for (int k = 0; k < 3; k++) {
+        for (int l = 0; l < 3; l++)
+            other[k] += eyes[by].of[k][l] * linear[l];
+        other[k] = fmin(fmax(other[k], 0), 1);
+    }
+    for (int k = 0; k < 3; k++) {
+        double sum = 0;
+        for (int l = 0; l < 3; l++)
+            sum += xyz[k][l] * other[l];
+        f[k] = cube_root(sum / white[k]);
+    }
+    lab[0] = 116 * f[1] - 16;
+    lab[1] = 500 * (f[0] - f[1]);
+    lab[2] = 200 * (f[1] - f[2]);
+}
+
+static double
+difference(const struct colormap *map, double s, double t, size_t by)
+{
+    double a[3], b[3];
+
+    seen(colormap_at(map, s), by, a);
+    seen(colormap_at(map, t), by, b);
+    return sqrt(pow(a[0] - b[0], 2) + pow(a[1] - b[1], 2) + pow(a[2] - b[2], 2));
+}
+
+/* Lightness goes one way along a map, or along each half of one about 0, and what is a tenth of the
+ * range apart looks different: 5 is twice what is just noticed. */
+static void
+other_eyes_tell_values_apart(void **state)
+{
+    const char *name;
+
+    (void)state;
+    for (size_t m = 0; (name = colormap_name(m)) != NULL; m++)
+        for (size_t by = 0; by < sizeof eyes / sizeof *eyes; by++) {
+            const struct colormap *map = colormap_find(name);
+            double last[3], lab[3];
+
+            seen(colormap_at(map, 0), by, last);
+            for (int k = 1; k <= 64; k++) {
+                bool rises = !map->diverging || k <= 32;
+
+                seen(colormap_at(map, k / 64.0), by, lab);
+                if (rises ? lab[0] <= last[0] : lab[0] >= last[0])
+                    fail_msg("%s, %s: lightness turns at %d of 64", name, eyes[by].name, k);
+                memcpy(last, lab, sizeof last);
+            }
+            for (int k = 0; k <= 54; k++)
+                if (!(map->diverging && k < 30 && k + 6 > 30) &&
+                    difference(map, k / 60.0, (k + 6) / 60.0, by) < 5)
+                    fail_msg("%s, %s: too alike from %d of 60", name, eyes[by].name, k);
+            for (int k = 8; map->diverging && k <= 30; k++)
+                if (difference(map, (30 - k) / 60.0, (30 + k) / 60.0, by) < 10)
+                    fail_msg("%s, %s: both signs alike at %d of 30", name, eyes[by].name, k);
+        }
+}
+
+static void
+bluered_is_as_light_on_both_sides(void **state)
+{
+    const struct colormap *map = colormap_find("bluered");
+    double last = lightness(colormap_at(map, 0.5));
+
+    (void)state;
+    assert_true(map->diverging && last > 90);
+    for (int k = 1; k <= 128; k++) {
+        double cold = lightness(colormap_at(map, 0.5 - k / 256.0));
+        double warm = lightness(colormap_at(map, 0.5 + k / 256.0));
+
+        assert_true(fabs(cold - warm) < 1);
+        assert_true(cold < last + eight_bits);
+        last = cold;
+    }
+    assert_true(last < 40);
+}
+
+/* ---- reduction ---- */
+
+static void
+cells_are_means_of_what_they_cover(void **state)
+{
+    static const double v[] = {1, 3, 0, 2, NAN, 8, 5, 7, 0, 0, 6, NAN};
+    struct rc_grid *g = grid_of("pressure", "Pa", 6, 2, v);
+    struct raster *r = raster_new(g, true, 3, 1, NULL);
+
+    (void)state;
+    assert_non_null(r);
+    /* columns 0-1: 1 3 5 7; columns 2-3: 0 2 0 0; columns 4-5: NaN 8 6 NaN */
+    assert_true(fabs(r->v[0] - 4) <= 4 * rounding && r->none[0] == 0 && r->missing[0] == 0);
+    assert_true(fabs(r->v[1] - 2) <= 2 * rounding && r->none[1] == 0.75F);
+    assert_true(fabs(r->v[2] - 7) <= 7 * rounding && r->missing[2] == 0.5F);
+    raster_free(r);
+    r = raster_new(g, true, 6 * 5, 2 * 3, NULL); /* enlarged: every node a block of its own */
+    assert_non_null(r);
+    for (size_t j = 0; j < r->h; j++)
+        for (size_t i = 0; i < r->w; i++) {
+            double wanted = v[j / 3 * 6 + i / 5], got = r->v[j * r->w + i];
+
+            assert_true(isnan(got) == (isnan(wanted) || wanted == 0));
+            assert_true(isnan(got) || fabs(got - wanted) <= rounding * wanted);
+        }
+    raster_free(r);
+    rc_grid_free(g);
+}
+
+static void
+contours_of_a_plane_are_straight(void **state)
+{
+    double v[7 * 5];
+    struct lines l = {0};
+    struct rc_grid *g;
+    struct raster *r;
+    double length = 0;
+
+    (void)state;
+    for (size_t k = 0; k < 35; k++)
+        v[k] = 2.0 * (double)(k % 7) + 1;
+    g = grid_of("height", "m", 7, 5, v);
+    r = raster_new(g, false, 7, 5, NULL);
+    assert_int_equal(raster_contour(r, 4.5, &l, NULL), RC_OK); /* at column 1.75, middle 2.25 */
+    for (size_t k = 0; k < l.n; k++) {
+        assert_true(fabs(l.at[k][0] - 2.25) <= 2.25 * rounding);
+        assert_true(fabs(l.at[k][2] - 2.25) <= 2.25 * rounding);
+        length += fabs(l.at[k][3] - l.at[k][1]);
+    }
+    assert_true(fabs(length - 4) <= 4 * rounding);
+    free(l.at);
+    raster_free(r);
+    rc_grid_free(g);
+}
+
+/* ---- words ---- */
+
+static void
+numbers_read_as_people_write_them(void **state)
+{
+    static const struct {
+        double value;
+        const char *unit, *text;
+    } cases[] = {
+        {5.83e9, "Pa", "5.83 GPa"},
+        {1e-6, "m", "1 µm"},
+        {-4.239e-7, "m", "−423.9 nm"},
+        {240, "N", "240 N"},
+        {0, "Pa", "0"},
+        {999.96, "m", "1 km"},
+        {0.31, "1", "0.31"},
+        {2e-5, "rad", "20·10⁻⁶ rad"},
+        {3.5e-24, "m4", "3.5·10⁻²⁴ m⁴"},
+        {12, "W/m2*K", "12 W/m²·K"},
+        {12, "m-1", "12 m⁻¹"},
+        {12, "um", "12 µm"},
+        {12, "H2O", "12 H2O"},
+    };
+    static const char *const labels[] = {"−0.2", "0.0", "0.2", "0.4", "0.6"};
+    char text[TICKS_TEXT];
+    struct ticks t;
+
+    (void)state;
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
+        assert_string_equal(scale_value(text, cases[k].value, cases[k].unit), cases[k].text);
+    ticks_choose(&t, -0.3, 0.7, 5);
+    assert_int_equal(t.last - t.first, 4);
+    for (long long k = t.first; k <= t.last; k++)
+        assert_string_equal(ticks_text(text, &t, k), labels[k - t.first]);
+}
+
+/* ---- text ---- */
+
+enum {
+    SIDE = 200 /* pixels of a canvas to write on */
+};
+
+static const struct canvas_font font = {.size = 40};
+
+/* Where there is ink: rows and columns from the first to behind the last; sum: how much. */
+struct ink {
+    size_t left, right, top, bottom;
+    unsigned long sum;
+};
+
+static struct ink
+ink_on(struct canvas *c)
+{
+    struct ink ink = {SIDE, 0, SIDE, 0, 0};
+    unsigned char rgb[3 * SIDE];
+
+    for (size_t y = 0; y < SIDE; y++) {
+        assert_int_equal(canvas_row(c, y, rgb, NULL), RC_OK);
+        for (size_t x = 0; x < SIDE; x++) {
+            if (rgb[3 * x] == 255)
+                continue;
+            ink.left = x < ink.left ? x : ink.left;
+            ink.right = x + 1 > ink.right ? x + 1 : ink.right;
+            ink.top = y < ink.top ? y : ink.top;
+            ink.bottom = y + 1;
+            ink.sum += (unsigned long)(255 - rgb[3 * x]) * (1 + x + SIDE * y);
+        }
+    }
+    return ink;
+}
+
+/* Draws the text in the middle, upwards or to the right, and tells its width. */
+static struct ink
+ink_of(const char *text, bool upwards, double *width)
+{
+    struct canvas *c = canvas_new(SIDE, SIDE, NULL);
+    struct ink ink;
+
+    assert_non_null(c);
+    *width = canvas_text_width(c, &font, text);
+    if (upwards)
+        canvas_text_upwards(c, &font, 100, 100, text);
+    else
+        canvas_text(c, &font, 100, 100, 0.5, text);
+    ink = ink_on(c);
+    canvas_free(c);
+    return ink;
+}
+
+static void
+text_lies_where_it_is_measured(void **state)
+{
+    struct ink flat, upright;
+    double w, w2;
+
+    (void)state;
+    flat = ink_of("HoH", false, &w);
+    assert_true(w > 2 * font.size && w < 3 * font.size);
+    assert_true(fabs((double)flat.left - (100 - w / 2)) < 6);
+    assert_true(fabs((double)flat.right - (100 + w / 2)) < 6);
+    assert_true(flat.bottom >= 100 && flat.bottom <= 102); /* stands on the base line */
+    assert_true((double)flat.top > 100 - font.size && (double)flat.top < 100 - 0.6 * font.size);
+    upright = ink_of("HoH", true, &w2);
+    assert_true(w == w2);
+    assert_true(fabs((double)upright.top - (double)flat.left) <= 1);
+    assert_true(fabs((double)upright.bottom - (double)flat.right) <= 1);
+    assert_true(upright.right >= 100 && upright.right <= 102);
+}
+
+static void
+raised_digits_are_smaller_and_higher(void **state)
+{
+    static const char *const raised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+    double w, plain, wide;
+
+    (void)state;
+    (void)ink_of("m", false, &plain);
+    for (int digit = 0; digit < 10; digit++) {
+        char text[2] = {(char)('0' + digit), '\0'}, power[16], line[16];
+        struct ink own = ink_of(text, false, &wide), high = ink_of(raised[digit], false, &w);
+        double ratio = (double)(high.bottom - high.top) / (double)(own.bottom - own.top);
+
+        assert_true(ratio > 0.6 && ratio < 0.8);
+        assert_true(fabs(w / wide - 0.7) < 0.02);
+        assert_true((double)high.bottom < 100 - 0.25 * font.size && high.top < own.top);
+        snprintf(power, sizeof power, "m%s", raised[digit]);
+        snprintf(line, sizeof line, "m%s", text);
+        (void)ink_of(power, false, &w);
+        (void)ink_of(line, false, &wide);
+        assert_true(w > plain && w < wide);
+    }
+}
+
+static void
+what_no_font_has_is_a_question_mark_and_told(void **state)
+{
+    const char *private = "\xf4\x8f\xbf\xbd"; /* U+10FFFD: the last of the private characters */
+    struct canvas *c = canvas_new(SIDE, SIDE, NULL), *d = canvas_new(SIDE, SIDE, NULL);
+    char text[64], told[64];
+
+    (void)state;
+    assert_true(c != NULL && d != NULL);
+    canvas_text(c, &font, 100, 60, 0.5, "Ωж²");
+    assert_string_equal(canvas_unknown(c), "");
+    snprintf(text, sizeof text, "a%sb%s", private, private);
+    canvas_text(c, &font, 100, 120, 0.5, text);
+    snprintf(told, sizeof told, "%s", canvas_unknown(c));
+    assert_string_equal(told, private);
+    canvas_text(d, &font, 100, 60, 0.5, "Ωж²");
+    canvas_text(d, &font, 100, 120, 0.5, "a?b?");
+    assert_int_equal(ink_on(c).sum, ink_on(d).sum);
+    canvas_text(d, &font, 100, 180, 0.5, "\xff\xfe"); /* no text, and no end of the program */
+    assert_int_equal(canvas_check(d, NULL), RC_OK);
+    canvas_free(c);
+    canvas_free(d);
+}
+
+/* ---- chunks ---- */
+
+static void
+chunks_say_how_it_was_made(void **state)
+{
+    static const double v[] = {1e-6, 2e-6, 3e-6, 4e-6};
+    struct rc_grid *g = grid_of("height", "m", 2, 2, v);
+    char name[128];
+    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, NULL);
+    png_infop info = png_create_info_struct(png);
+    png_textp text;
+    FILE *file;
+    int intent, n, found = 0;
+
+    (void)state;
+    assert_int_equal(rc_grid_set(g, "source", "Prüfling 7.x3p", NULL), RC_OK);
+    assert_int_equal(rc_grid_history(g, "rc-import 9.9 --format x3p", NULL), RC_OK);
+    put_stream(g);
+    free(render("--range 0:8um --title 'Prüfling µ'").rgb);
+    snprintf(name, sizeof name, "%s/out.png", folder);
+    file = fopen(name, "rb");
+    assert_non_null(file);
+    png_init_io(png, file);
+    png_read_info(png, info);
+    assert_int_equal(png_get_bit_depth(png, info), 8);
+    assert_int_equal(png_get_color_type(png, info), PNG_COLOR_TYPE_RGB);
+    assert_true(png_get_sRGB(png, info, &intent));
+    assert_false(png_get_valid(png, info, PNG_INFO_tIME));
+    n = png_get_text(png, info, &text, NULL);
+    for (int k = 0; k < n; k++) {
+        if (strcmp(text[k].key, "Title") == 0)
+            found += strcmp(text[k].text, "Prüfling µ") == 0;
+        if (strcmp(text[k].key, "Source") == 0)
+            found += strcmp(text[k].text, "Prüfling 7.x3p") == 0;
+        if (strcmp(text[k].key, "Software") == 0)
+            found += strncmp(text[k].text, "rc-render ", 10) == 0;
+        if (strcmp(text[k].key, "Description") == 0)
+            found += strncmp(text[k].text, "rc-import 9.9 --format x3p | rc-render ", 38) == 0 &&
+                     strstr(text[k].text, "--range 0:8e-06") != NULL;
+    }
+    assert_int_equal(found, 4);
+    png_destroy_read_struct(&png, &info, NULL);
+    fclose(file);
+}
+
+static int
+make_folder(void **state)
+{
+    (void)state;
+    return mkdtemp(folder) == NULL;
+}
+
+static int
+clear_folder(void **state)
+{
+    static const char *const names[] = {"in.rcg", "out.png", "out.svg"};
+    char name[128];
+
+    (void)state;
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        snprintf(name, sizeof name, "%s/%s", folder, names[k]);
+        unlink(name);
+    }
+    return rmdir(folder);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(raw_is_one_pixel_a_node),
+        cmocka_unit_test(an_svg_has_the_nodes_at_their_places),
+        cmocka_unit_test(range_is_kept_and_passed_with_the_end_colours),
+        cmocka_unit_test(percentiles_are_ranks),
+        cmocka_unit_test(an_outlier_is_left_beyond_the_colours),
+        cmocka_unit_test(logarithms_give_equal_steps_to_equal_ratios),
+        cmocka_unit_test(one_signed_stresses_end_at_zero),
+        cmocka_unit_test(channels_get_their_colours),
+        cmocka_unit_test(missing_and_no_contact_are_no_values),
+        cmocka_unit_test(lightness_rises_and_evenly),
+        cmocka_unit_test(bluered_is_as_light_on_both_sides),
+        cmocka_unit_test(other_eyes_tell_values_apart),
+        cmocka_unit_test(cells_are_means_of_what_they_cover),
+        cmocka_unit_test(contours_of_a_plane_are_straight),
+        cmocka_unit_test(numbers_read_as_people_write_them),
+        cmocka_unit_test(text_lies_where_it_is_measured),
+        cmocka_unit_test(raised_digits_are_smaller_and_higher),
+        cmocka_unit_test(what_no_font_has_is_a_question_mark_and_told),
+        cmocka_unit_test(chunks_say_how_it_was_made),
+    };
+
+    return cmocka_run_group_tests(tests, make_folder, clear_folder);
+}

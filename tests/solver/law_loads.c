@@ -1,0 +1,358 @@
+/* Loads one after another, approaches, stiffness, yield and what the grid leaves out: each
+ * against the solution made for itself, Hertz, or its own definition. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "tests/contact_case.h"
+
+static const struct rc_shape shape = {64, 57, 1.65e-6, 1.95e-6};
+static const double estar = 3.7e9;
+
+/* A rough ball, or a periodic rough surface. */
+static double *
+heights(enum rc_boundary boundary)
+{
+    size_t n = shape.nx * shape.ny;
+    double *h = malloc(n * sizeof *h), *ball = malloc(n * sizeof *ball);
+    struct rc_selfaffine rough = {.hurst = 0.7,
+                                  .rms_slope = boundary == RC_FREE ? 0.005 : 0.1,
+                                  .short_cut = 12e-6,
+                                  .long_cut = 40e-6,
+                                  .seed = 11};
+    struct rc_err err;
+
+    assert_int_equal(rc_synth_selfaffine(&shape, &rough, h, &err), RC_OK);
+    rc_synth_sphere(&shape, 2.385e-3, ball);
+    for (size_t k = 0; k < n && boundary == RC_FREE; k++)
+        h[k] += ball[k];
+    free(ball);
+    return h;
+}
+
+static struct rc_problem
+problem_on(enum rc_boundary boundary)
+{
+    return (struct rc_problem){.boundary = boundary,
+                               .estar = estar,
+                               .load = boundary == RC_FREE ? 0.05 : 0.8,
+                               .tol = 1e-7,
+                               .method = contact_method};
+}
+
+/* A part of the contact yields. */
+static double
+soft(enum rc_boundary boundary)
+{
+    return boundary == RC_FREE ? 20e6 : 200e6;
+}
+
+static struct rc_contact
+finish(struct rc_solver *s)
+{
+    struct rc_contact c;
+
+    while (rc_solver_step(s) == RC_MORE)
+        ;
+    rc_solver_result(s, NULL, NULL, &c);
+    assert_true(c.converged);
+    return c;
+}
+
+static struct rc_solver *
+start(const double *h, struct rc_problem problem)
+{
+    struct rc_err err;
+    struct rc_solver *s = rc_solver_new(&shape, h, &problem, &err);
+
+    assert_non_null(s);
+    return s;
+}
+
+static double
+apart(const double *a, const double *b)
+{
+    double d = 0, size = 0;
+
+    for (size_t k = 0; k < shape.nx * shape.ny; k++) {
+        d += fabs(a[k] - b[k]);
+        size += b[k];
+    }
+    return d / size;
+}
+
+/* A load after others is the first loading to it: up, down, far up, with and without yield. */
+static void
+loads_are_independent(void **state)
+{
+    static const double factors[] = {1.5, 0.2, 2.5};
+
+    (void)state;
+    for (int boundary = RC_FREE; boundary <= RC_PERIODIC; boundary++)
+        for (int plastic = 0; plastic < 2; plastic++) {
+            double *h = heights((enum rc_boundary)boundary);
+            struct rc_problem problem = problem_on((enum rc_boundary)boundary);
+            struct rc_solver *s;
+            struct rc_err err;
+
+            problem.hardness = plastic ? soft((enum rc_boundary)boundary) : INFINITY;
+            s = start(h, problem);
+            (void)finish(s);
+            for (size_t k = 0; k < sizeof factors / sizeof *factors; k++) {
+                struct rc_problem alone = problem;
+                struct rc_solver *t;
+                alone.load *= factors[k];
+                assert_int_equal(rc_solver_set_load(s, alone.load, 0, &err), RC_OK);
+                (void)finish(s);
+                t = start(h, alone);
+                (void)finish(t);
+                assert_true(apart(rc_solver_pressure(s), rc_solver_pressure(t)) <
+                            2 * problem.tol); /* each to that */
+                rc_solver_free(t);
+            }
+            rc_solver_free(s);
+            free(h);
+        }
+}
+
+/* The load that an approach asks for is the one that makes it: both solved to their tolerance, and
+ * the approach between them to a tenth of it, with a load that grows as less than its square. */
+static void
+approach_is_inverted(void **state)
+{
+    (void)state;
+    for (int boundary = RC_FREE; boundary <= RC_PERIODIC; boundary++) {
+        double *h = heights((enum rc_boundary)boundary);
+        struct rc_problem problem = problem_on((enum rc_boundary)boundary);
+        struct rc_solver *s = start(h, problem);
+        struct rc_contact first = finish(s), second;
+        struct rc_err err;
+
+        assert_int_equal(rc_solver_set_load(s, 3 * problem.load, 0, &err), RC_OK);
+        (void)finish(s);
+        assert_int_equal(rc_solver_set_load(s, 0, first.approach, &err), RC_OK);
+        second = finish(s);
+        assert_true(fabs(second.load / first.load - 1) < 4 * problem.tol);
+        rc_solver_free(s);
+        problem.approach = first.approach;
+        problem.load = 0;
+        s = start(h, problem);
+        second = finish(s);
+        assert_true(fabs(second.load / first.load - 1) < 4 * problem.tol);
+        rc_solver_free(s);
+        free(h);
+    }
+}
+
+/* A periodic surface comes no nearer than complete contact; a load beyond what the hardness
+ * carries. The refusals hold what was asked for. */
+static void
+impossible_is_refused(void **state)
+{
+    double *h = heights(RC_PERIODIC);
+    struct rc_problem problem = problem_on(RC_PERIODIC);
+    struct rc_solver *s;
+    struct rc_err err;
+
+    (void)state;
+    problem.approach = 1;
+    assert_null(rc_solver_new(&shape, h, &problem, &err));
+    assert_non_null(strstr(err.text, "approach 1 m: contact is complete at "));
+    problem.approach = 0;
+    problem.hardness = 1e9;
+    s = start(h, problem);
+    (void)finish(s);
+    assert_int_equal(rc_solver_set_load(s, 1e9, 0, &err), RC_FAIL);
+    assert_non_null(strstr(err.text, "load 1e+09 N is above hardness times area"));
+    assert_non_null(strstr(err.text, "every node yields"));
+    rc_solver_free(s);
+    free(h);
+}
+
+/* Hertz: d load / d approach = 2 E* a. Rough: the difference quotient over a small step. */
+static void
+stiffness_is_the_slope(void **state)
+{
+    (void)state;
+    for (int boundary = RC_FREE; boundary <= RC_PERIODIC; boundary++) {
+        double *h = heights((enum rc_boundary)boundary), k, d = 1e-3;
+        struct rc_problem problem = problem_on((enum rc_boundary)boundary);
+        struct rc_solver *s = start(h, problem);
+        struct rc_contact a = finish(s), b;
+        struct rc_err err;
+
+        assert_int_equal(rc_solver_stiffness(s, &k, &err), RC_OK);
+        assert_int_equal(rc_solver_set_load(s, (1 + d) * problem.load, 0, &err), RC_OK);
+        b = finish(s);
+        /* the slope over the step differs from that at its beginning by about half its relative
+         * length */
+        assert_true(fabs((b.load - a.load) / (b.approach - a.approach) / k - 1) < 2 * d);
+        rc_solver_free(s);
+        rc_synth_sphere(&shape, 2.385e-3, h);
+        if (boundary == RC_FREE) {
+            double radius = cbrt(0.75 * problem.load * 2.385e-3 / estar);
+            s = start(h, problem);
+            (void)finish(s);
+            assert_int_equal(rc_solver_stiffness(s, &k, &err), RC_OK);
+            /* the radius, of 16 nodes, is right to a part of one */
+            assert_true(fabs(k / (2 * estar * radius) - 1) < coarse_grid);
+            rc_solver_free(s);
+        }
+        free(h);
+    }
+}
+
+/* What has yielded is elastic under the same load, with the same pressure; more load, and it
+ * yields. */
+static void
+yielded_shape_holds(void **state)
+{
+    static const double flattened = 1e-9; /* m: less would be no yield to speak of */
+
+    (void)state;
+    for (int boundary = RC_FREE; boundary <= RC_PERIODIC; boundary++) {
+        double *h = heights((enum rc_boundary)boundary);
+        double *flat = malloc(shape.nx * shape.ny * sizeof *flat), most = 0, top = 0;
+        struct rc_problem problem = problem_on((enum rc_boundary)boundary);
+        struct rc_solver *s, *t;
+        struct rc_contact first, second;
+        struct rc_err err;
+
+        problem.hardness = soft((enum rc_boundary)boundary);
+        s = start(h, problem);
+        first = finish(s);
+        assert_true(first.plastic_nodes > 10);
+        for (size_t k = 0; k < shape.nx * shape.ny; k++)
+            top = larger(top, fabs(h[k]));
+        assert_int_equal(rc_solver_plastic(s, flat, &err), RC_OK);
+        for (size_t k = 0; k < shape.nx * shape.ny; k++) {
+            /* a datum was taken off and put on again */
+            assert_true(flat[k] <= h[k] + of_sum * top);
+            most = larger(most, h[k] - flat[k]);
+        }
+        assert_true(most > flattened);
+        t = start(flat, problem);
+        second = finish(t);
+        /* both to the tolerance, and the shape as well as the first */
+        assert_true(apart(rc_solver_pressure(t), rc_solver_pressure(s)) < 4 * problem.tol);
+        /* of a thousand nodes one may change sides */
+        assert_true(fabs((double)second.contact_nodes / (double)first.contact_nodes - 1) < 1e-3);
+        memcpy(h, flat, shape.nx * shape.ny * sizeof *h);
+        assert_int_equal(rc_solver_plastic(t, flat, &err), RC_OK);
+        for (size_t k = 0; k < shape.nx * shape.ny; k++)
+            assert_true(h[k] - flat[k] < 10 * problem.tol * most);
+        assert_int_equal(rc_solver_set_load(t, 1.5 * problem.load, 0, &err), RC_OK);
+        (void)finish(t);
+        assert_int_equal(rc_solver_plastic(t, flat, &err), RC_OK);
+        for (size_t k = 0; k < shape.nx * shape.ny; k++)
+            most = k == 0 ? h[k] - flat[k] : larger(most, h[k] - flat[k]);
+        assert_true(most > flattened);
+        rc_solver_free(s);
+        rc_solver_free(t);
+        free(h);
+        free(flat);
+    }
+}
+
+/* Estimated errors of the grid against Hertz. */
+static void
+discretization_is_bounded(void **state)
+{
+    double *h, radius, peak, near;
+    struct rc_problem problem = problem_on(RC_FREE);
+    struct rc_contact c;
+    struct rc_solver *s;
+
+    (void)state;
+    if (strcmp(contact_method, "pcg") != 0)
+        skip(); /* it comes with the nested start */
+    h = malloc(shape.nx * shape.ny * sizeof *h);
+    problem.discretization = true;
+    rc_synth_sphere(&shape, 2.385e-3, h);
+    s = start(h, problem);
+    c = finish(s);
+    radius = cbrt(0.75 * problem.load * 2.385e-3 / estar);
+    peak = 1.5 * problem.load / (acos(-1) * radius * radius);
+    near = radius * radius / 2.385e-3;
+    assert_true(fabs(c.max_pressure / peak - 1) <= c.discretization.max_pressure);
+    assert_true(fabs(c.approach / near - 1) <= c.discretization.approach);
+    assert_true(fabs(c.contact_area / (acos(-1) * radius * radius) - 1) <=
+                c.discretization.contact_area);
+    /* and of use: some times what they bound */
+    assert_true(c.discretization.max_pressure < 2 * coarse_grid &&
+                c.discretization.approach < 2 * coarse_grid &&
+                c.discretization.contact_area < 20 * coarse_grid);
+    rc_solver_free(s);
+    free(h);
+}
+
+/* Effects cost what they are: equivalents of a convolution, and nothing where they are left out. */
+static void
+only_what_is_called_for(void **state)
+{
+    double *h = heights(RC_FREE), plain, with, k;
+    struct rc_problem problem = problem_on(RC_FREE);
+    struct rc_contact c;
+    struct rc_err err;
+    struct rc_solver *s = start(h, problem);
+
+    (void)state;
+    c = finish(s);
+    plain = rc_solver_convolutions(s);
+    print_message("%s: elastic                 %6.1f\n", contact_method, plain);
+    /* the paper's scheme overshoots on its way */
+    problem.hardness = (strcmp(contact_method, "pcg") == 0 ? 1.001 : 10) * c.max_pressure;
+    rc_solver_free(s);
+    s = start(h, problem);
+    (void)finish(s);
+    with = rc_solver_convolutions(s);
+    print_message("%s: hardness, not reached   %6.1f\n", contact_method, with);
+    assert_true(with == plain);
+    /* asked for again, figures and frames cost nothing */
+    {
+        double *u = malloc(shape.nx * shape.ny * sizeof *u);
+        rc_solver_result(s, u, NULL, &c);
+        assert_int_equal(rc_solver_plastic(s, u, &err), RC_OK);
+        assert_true(rc_solver_convolutions(s) == with);
+        free(u);
+    }
+    assert_int_equal(rc_solver_stiffness(s, &k, &err), RC_OK);
+    print_message("%s: stiffness               %6.1f more\n", contact_method,
+                  rc_solver_convolutions(s) - with);
+    assert_true(rc_solver_convolutions(s) > with && rc_solver_convolutions(s) <= with + 20);
+    rc_solver_free(s);
+    problem.hardness = 0.5 * c.max_pressure;
+    s = start(h, problem);
+    c = finish(s);
+    assert_true(c.plastic_nodes > 0);
+    print_message("%s: hardness, reached       %6.1f\n", contact_method, rc_solver_convolutions(s));
+    rc_solver_free(s);
+    if (strcmp(contact_method, "pcg") == 0) {
+        problem.hardness = INFINITY;
+        problem.discretization = true;
+        s = start(h, problem);
+        (void)finish(s);
+        print_message("%s: discretization          %6.1f\n", contact_method,
+                      rc_solver_convolutions(s));
+        assert_true(rc_solver_convolutions(s) < plain + 10); /* the coarser grids, better solved */
+        rc_solver_free(s);
+    }
+    free(h);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(loads_are_independent),   cmocka_unit_test(approach_is_inverted),
+        cmocka_unit_test(impossible_is_refused),   cmocka_unit_test(stiffness_is_the_slope),
+        cmocka_unit_test(yielded_shape_holds),     cmocka_unit_test(discretization_is_bounded),
+        cmocka_unit_test(only_what_is_called_for),
+    };
+    int failed = 0;
+
+    RUN_FOR_EACH_METHOD(tests, failed);
+    return failed;
+}

@@ -1,0 +1,86 @@
+/* The work of the method pcg does not grow with the grid: convolutions to 1e-4 on surfaces with
+ * ever more, and ever shorter, waves. That of the paper's method goes as the number of nodes a
+ * side. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "tests/contact_case.h"
+
+struct row {
+    enum rc_boundary boundary;
+    double mean;     /* pressure over E*; the RMS slope is 0.1 */
+    double hardness; /* over the mean pressure; 0: none        */
+    double most;     /* convolutions                           */
+};
+
+static const struct row rows[] = {
+    {RC_PERIODIC, 4e-4, 0, 25}, {RC_PERIODIC, 0.018, 0, 25}, {RC_PERIODIC, 0.028, 0, 25},
+    {RC_PERIODIC, 0.05, 0, 25}, {RC_PERIODIC, 0.12, 0, 25},  {RC_PERIODIC, 0.01, 3, 25},
+};
+
+static double
+work(const struct row *row, size_t m, const char *method)
+{
+    struct rc_shape s = {m, m, 1e-6, 1e-6};
+    double *h = calloc(m * m, sizeof *h), mean = 1e9 * row->mean, convolutions;
+    struct rc_selfaffine what = {.hurst = 0.8,
+                                 .rms_slope = 0.1,
+                                 .rolloff = (double)m * s.dx / 8,
+                                 .short_cut = 8 * s.dx,
+                                 .seed = 5};
+    struct rc_problem problem = {.boundary = row->boundary,
+                                 .estar = 1e9,
+                                 .method = method,
+                                 .tol = 1e-4,
+                                 .load = mean * s.dx * s.dy * (double)(m * m),
+                                 .hardness = row->hardness > 0 ? row->hardness * mean : INFINITY};
+    struct solved found;
+    struct rc_err err;
+
+    assert_int_equal(rc_synth_selfaffine(&s, &what, h, &err), RC_OK);
+    found = solve(s, h, problem);
+    assert_int_equal(found.status, RC_OK);
+    convolutions = found.c.convolutions;
+    solved_free(&found);
+    free(h);
+    return convolutions;
+}
+
+static void
+does_not_grow(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        double small = work(&rows[k], 128, "pcg"), large = work(&rows[k], 512, "pcg");
+        print_message("mean %.4f, hardness %.0f: %.1f convolutions at 128, %.1f at 512\n",
+                      rows[k].mean, rows[k].hardness, small, large);
+        /* sixteen times the nodes: by the paper's method it would be four times */
+        assert_true(large <= 1.3 * small);
+        assert_true(large <= rows[k].most);
+    }
+}
+
+/* Otherwise the surfaces would be too easy to show anything. */
+static void
+grows_by_the_paper(void **state)
+{
+    double small, large;
+
+    (void)state;
+    small = work(&rows[2], 64, "pk99");
+    large = work(&rows[2], 256, "pk99");
+    print_message("pk99: %.0f convolutions at 64, %.0f at 256\n", small, large);
+    assert_true(large > 2 * small);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(does_not_grow),
+                                       cmocka_unit_test(grows_by_the_paper)};
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

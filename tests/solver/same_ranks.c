@@ -1,0 +1,379 @@
+/* Processes that share a map find what one process finds, bit for bit: displacements, contact, stresses. Each
+ * rank also solves the whole by itself. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "tests/contact_case.h"
+#include "libcontact/contact_mpi.h"
+
+static struct rc_ranks *ranks;
+
+/* Rows held here of a map. */
+struct part {
+    size_t first, n; /* nodes */
+};
+
+static struct part
+part_of(struct rc_shape s)
+{
+    size_t first, n;
+
+    rc_ranks_rows(ranks, &s, &first, &n);
+    return (struct part){first * s.nx, n * s.nx};
+}
+
+/* On all ranks, to the last bit; of what differs, how far off the worst of it is is said. */
+static void
+assert_same(size_t n, const double *a, const double *b, const char *what)
+{
+    double worst[2] = {0, 0};
+    int own, count;
+
+    for (size_t k = 0; k < n; k++) {
+        worst[0] = fmax(worst[0], fabs(a[k] - b[k]));
+        worst[1] = fmax(worst[1], fabs(b[k]));
+        if (!(a[k] == b[k]) && !(isnan(a[k]) && isnan(b[k])))
+            worst[0] = fmax(worst[0], 1e-300);
+    }
+    MPI_Allreduce(MPI_IN_PLACE, worst, 2, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    MPI_Comm_rank(MPI_COMM_WORLD, &own);
+    MPI_Comm_size(MPI_COMM_WORLD, &count);
+    if (own == 0 && worst[0] != 0)
+        printf("# %s, %d ranks: off by %.3g of %.3g\n", what, count, worst[0], worst[1]);
+    assert_true(worst[0] == 0);
+}
+
+/* A rough map: waves of any length, of random phase. */
+static double *
+rough(struct rc_shape s, uint64_t seed)
+{
+    double *h = malloc(s.nx * s.ny * sizeof *h);
+    struct {
+        double a, x, y, phase;
+    } wave[40];
+
+    for (int w = 0; w < 40; w++) {
+        wave[w].x = floor(16 * random_number(&seed)) * 6.283185307179586 / (double)s.nx;
+        wave[w].y = floor(16 * random_number(&seed)) * 6.283185307179586 / (double)s.ny;
+        wave[w].phase = 6.3 * random_number(&seed);
+        wave[w].a = 1e-7 / (1 + 20 * hypot(wave[w].x, wave[w].y));
+    }
+    for (size_t k = 0; k < s.nx * s.ny; k++) {
+        double x = (double)(k % s.nx), y = (double)(k / s.nx);
+        h[k] = 1e-9 * random_number(&seed);
+        for (int w = 0; w < 40; w++)
+            h[k] += wave[w].a * sin(wave[w].x * x + wave[w].y * y + wave[w].phase);
+    }
+    return h;
+}
+
+static const struct rc_shape shapes[] = {
+    {1000, 37, 1e-6, 1.1e-6}, {37, 1000, 1.3e-6, 1e-6}, {513, 511, 1e-6, 1e-6},
+    {256, 256, 1e-6, 1e-6},   {5, 16, 1e-6, 1e-6},      {300, 1, 1e-6, 1e-6},
+    {5000, 40, 1e-6, 2e-6},
+};
+enum {
+    SHAPES = sizeof shapes / sizeof *shapes
+};
+
+/* ---- displacements ---- */
+
+static void
+displacements(void **state)
+{
+    (void)state;
+    for (size_t q = 0; q < 2 * SHAPES; q++) {
+        struct rc_shape s = shapes[q / 2];
+        struct rc_conv_options o = {
+            .boundary = q % 2 ? RC_PERIODIC : RC_FREE, .engine = "fft64", .threads = 1 + q / 2 % 2};
+        struct part part = part_of(s);
+        double *p = rough(s, q), *u = calloc(s.nx * s.ny, sizeof *u);
+        double *own = calloc(part.n + 1, sizeof *own);
+        struct rc_coating coating = {
+            .layers = 1,
+            .layer = (const struct rc_layer[]){{.thickness = 3e-6, .e = 4e11, .nu = 0.2}},
+            .e = 1e11,
+            .nu = 0.3};
+        struct rc_conv *alone, *shared;
+        struct rc_err err;
+
+        if (q % 3 == 2)
+            o.coating = &coating;
+        alone = rc_conv_new(&s, 1e11, &o, &err);
+        o.ranks = ranks;
+        shared = rc_conv_new(&s, 1e11, &o, &err);
+        assert_non_null(alone);
+        assert_non_null(shared);
+        rc_conv_apply(alone, p, u);
+        rc_conv_apply(shared, p + part.first, own);
+        assert_same(part.n, own, u + part.first, "displacement");
+        rc_conv_free(alone);
+        rc_conv_free(shared);
+        free(p);
+        free(u);
+        free(own);
+    }
+}
+
+static void
+refusals(void **state)
+{
+    struct rc_shape s = {64, 64, 1e-6, 1e-6};
+    struct rc_conv_options o = {.engine = "mlms", .ranks = ranks};
+    struct rc_err err;
+    int count;
+
+    (void)state;
+    MPI_Comm_size(MPI_COMM_WORLD, &count);
+    if (count == 1)
+        skip();
+    assert_null(rc_conv_new(&s, 1e11, &o, &err));
+    assert_non_null(strstr(err.text, "in one process"));
+}
+
+/* ---- contact ---- */
+
+struct outcome {
+    struct rc_contact c;
+    double *p, *gap, *u, stiffness;
+    struct rc_patches patches;
+};
+
+/* Several loads one after another, the last one's outcome. */
+static struct outcome
+contact(struct rc_shape s, size_t n, const double *h, struct rc_problem problem, size_t loads)
+{
+    struct rc_patch_options look = {
+        .boundary = problem.boundary, .each = true, .threads = 1, .ranks = problem.ranks};
+    struct outcome o = {.p = calloc(n + 1, sizeof(double)),
+                        .gap = calloc(n + 1, sizeof(double)),
+                        .u = calloc(n + 1, sizeof(double))};
+    struct rc_solver *solver;
+    struct rc_err err;
+
+    solver = rc_solver_new(&s, h, &problem, &err);
+    if (solver == NULL)
+        print_error("%s\n", err.text);
+    assert_non_null(solver);
+    for (size_t k = 0; k < loads; k++) {
+        if (k > 0)
+            assert_int_equal(rc_solver_set_load(solver, problem.load * (double)(1 + k),
+                                                problem.approach * (double)(1 + k), &err),
+                             RC_OK);
+        while (rc_solver_step(solver) == RC_MORE)
+            ;
+        rc_solver_result(solver, o.u, o.gap, &o.c);
+    }
+    assert_int_equal(rc_solver_stiffness(solver, &o.stiffness, &err), RC_OK);
+    memcpy(o.p, rc_solver_pressure(solver), n * sizeof *o.p);
+    assert_int_equal(rc_patches_find(&s, o.p, &look, &o.patches, &err), RC_OK);
+    rc_solver_free(solver);
+    return o;
+}
+
+static void
+outcome_free(struct outcome *o)
+{
+    free(o->p);
+    free(o->gap);
+    free(o->u);
+    rc_patches_free(&o->patches);
+}
+
+static void
+assert_same_patches(const struct rc_patches *a, const struct rc_patches *b)
+{
+    assert_int_equal(a->count, b->count);
+    assert_int_equal(a->contact_nodes, b->contact_nodes);
+    assert_true(a->perimeter == b->perimeter);
+    assert_true(a->contact_area_corrected == b->contact_area_corrected);
+    for (size_t k = 0; k < a->count; k++)
+        assert_int_equal(a->patch[k].nodes, b->patch[k].nodes);
+}
+
+static void
+compare(struct rc_shape s, struct rc_problem problem, size_t loads, const char *what)
+{
+    struct part part = part_of(s);
+    double *h = rough(s, 3);
+    struct outcome alone = contact(s, s.nx * s.ny, h, problem, loads), shared;
+
+    problem.ranks = ranks;
+    shared = contact(s, part.n, h + part.first, problem, loads);
+    assert_same(part.n, shared.p, alone.p + part.first, what);
+    assert_same(part.n, shared.gap, alone.gap + part.first, what);
+    assert_same(part.n, shared.u, alone.u + part.first, what);
+    assert_same(1, &shared.stiffness, &alone.stiffness, "stiffness");
+    assert_same(1, &shared.c.mean_gap, &alone.c.mean_gap, "mean gap");
+    assert_same(1, &shared.c.kkt_residual, &alone.c.kkt_residual, "residual");
+    assert_same(1, &shared.c.edge_load_fraction, &alone.c.edge_load_fraction, "edge load");
+    assert_same(1, &shared.c.discretization.contact_area, &alone.c.discretization.contact_area,
+                "area left out");
+    assert_same(1, &shared.c.approach, &alone.c.approach, "approach");
+    assert_int_equal(shared.c.iterations, alone.c.iterations);
+    assert_int_equal(shared.c.yielded_nodes, alone.c.yielded_nodes);
+    assert_same_patches(&shared.patches, &alone.patches);
+    outcome_free(&alone);
+    outcome_free(&shared);
+    free(h);
+}
+
+static void
+contacts(void **state)
+{
+    (void)state;
+    for (size_t q = 0; q < 2 * SHAPES; q++) {
+        struct rc_shape s = shapes[q / 2];
+        double area = (double)(s.nx * s.ny) * s.dx * s.dy;
+        struct rc_problem problem = {.boundary = q % 2 ? RC_PERIODIC : RC_FREE,
+                                     .estar = 1e11,
+                                     .load = 3e8 * area,
+                                     .engine = "fft",
+                                     .tol = 1e-6,
+                                     .threads = 1 + q / 2 % 2};
+        compare(s, problem, 1, "elastic");
+        problem.hardness = 1e9;
+        problem.discretization = true;
+        compare(s, problem, 2, "hardness, two loads");
+    }
+}
+
+static void
+approaches(void **state)
+{
+    struct rc_shape s = {200, 190, 1e-6, 1e-6};
+    struct rc_problem problem = {
+        .estar = 1e11, .approach = 2e-8, .engine = "fft", .tol = 1e-6, .threads = 1};
+
+    (void)state;
+    compare(s, problem, 2, "approach");
+    problem.boundary = RC_PERIODIC;
+    compare(s, problem, 2, "approach, periodic");
+}
+
+/* Near saturation nodes join by their gap, and some methods need the safeguard. */
+static void
+saturation(void **state)
+{
+    struct rc_shape s = {96, 130, 1e-6, 1e-6};
+    double area = (double)(s.nx * s.ny) * s.dx * s.dy;
+
+    (void)state;
+    for (int q = 0; q < 4; q++) {
+        struct rc_problem problem = {.boundary = q % 2 ? RC_PERIODIC : RC_FREE,
+                                     .estar = 1e11,
+                                     .hardness = 1e9,
+                                     .load = (q < 2 ? 0.999 : 1.0) * 1e9 * area,
+                                     .engine = "fft",
+                                     .tol = 1e-5,
+                                     .threads = 1};
+        compare(s, problem, 1, "saturation");
+        problem.method = "pk99";
+        problem.max_iterations = 60;
+        compare(s, problem, 1, "saturation, pk99");
+    }
+}
+
+/* In double precision rows of two maps are kept, those held here only. */
+static void
+memory(void **state)
+{
+    struct rc_shape s = {512, 512, 1e-6, 1e-6};
+    struct rc_problem problem = {.estar = 1e11, .load = 1, .threads = 1};
+    unsigned long most = (unsigned long)part_of(s).n;
+    size_t more[2];
+
+    (void)state;
+    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_UNSIGNED_LONG, MPI_MAX, MPI_COMM_WORLD);
+    for (int q = 0; q < 2; q++) {
+        problem.ranks = q == 0 ? NULL : ranks;
+        problem.engine = "fft64";
+        more[q] = rc_solver_memory(&s, &problem);
+        problem.engine = "fft";
+        more[q] -= rc_solver_memory(&s, &problem);
+    }
+    assert_true(more[0] - more[1] >= 2 * (s.nx * s.ny - most) * sizeof(double));
+}
+
+/* ---- stresses ---- */
+
+static void
+stresses(void **state)
+{
+    (void)state;
+    for (size_t q = 0; q < 8; q++) {
+        struct rc_shape s = shapes[q / 2];
+        struct part part = part_of(s);
+        struct rc_coating coating = {
+            .layers = 1,
+            .layer = (const struct rc_layer[]){{.thickness = 3e-6, .e = 4e11, .nu = 0.2}},
+            .e = 1e11,
+            .nu = 0.3};
+        struct rc_stress_options o = {.boundary = q % 2 ? RC_PERIODIC : RC_FREE,
+                                      .nu = 0.3,
+                                      .mu = q % 4 < 2 ? 0.2 : 0,
+                                      .wanted = 1u << RC_MISES | 1u << RC_SXY,
+                                      .threads = 1 + q / 2 % 2};
+        double *p = rough(s, q), *s1[RC_STRESSES] = {NULL}, *s2[RC_STRESSES] = {NULL};
+        struct rc_stress *alone, *shared;
+        double *d1, *d2;
+        size_t n1, n2;
+        struct rc_err err;
+
+        if (q == 4 || q == 5)
+            o.coating = &coating;
+        s1[RC_MISES] = calloc(s.nx * s.ny, sizeof(double));
+        s1[RC_SXY] = calloc(s.nx * s.ny, sizeof(double));
+        s2[RC_MISES] = calloc(part.n + 1, sizeof(double));
+        s2[RC_SXY] = calloc(part.n + 1, sizeof(double));
+        alone = rc_stress_new(&s, p, &o, &err);
+        assert_int_equal(rc_stress_depths(&s, p, o.boundary, NULL, &d1, &n1, &err), RC_OK);
+        o.ranks = ranks;
+        shared = rc_stress_new(&s, p + part.first, &o, &err);
+        assert_non_null(alone);
+        assert_non_null(shared);
+        assert_int_equal(
+            rc_stress_depths_on(ranks, &s, p + part.first, o.boundary, NULL, &d2, &n2, &err),
+            RC_OK);
+        assert_int_equal(n1, n2);
+        assert_same(n1, d2, d1, "depths");
+        for (int z = 0; z < 3; z++) {
+            assert_int_equal(rc_stress_slice(alone, 2e-6 * z, s1, &err), RC_OK);
+            assert_int_equal(rc_stress_slice(shared, 2e-6 * z, s2, &err), RC_OK);
+            assert_same(part.n, s2[RC_MISES], s1[RC_MISES] + part.first, "mises");
+            assert_same(part.n, s2[RC_SXY], s1[RC_SXY] + part.first, "sxy");
+        }
+        rc_stress_free(alone);
+        rc_stress_free(shared);
+        free(d1);
+        free(d2);
+        for (int c = 0; c < RC_STRESSES; c++) {
+            free(s1[c]);
+            free(s2[c]);
+        }
+        free(p);
+    }
+}
+
+int
+main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(displacements), cmocka_unit_test(refusals),   cmocka_unit_test(contacts),
+        cmocka_unit_test(approaches),    cmocka_unit_test(saturation), cmocka_unit_test(memory),
+        cmocka_unit_test(stresses),
+    };
+    struct rc_err err;
+    int failed;
+
+    MPI_Init(&argc, &argv);
+    ranks = rc_ranks_new(MPI_COMM_WORLD, &err);
+    failed = ranks == NULL ? 1 : cmocka_run_group_tests(tests, NULL, NULL);
+    rc_ranks_free(ranks);
+    MPI_Finalize();
+    return failed;
+}

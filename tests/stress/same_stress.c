@@ -1,0 +1,481 @@
+/* Two ways to the same stress agree, and each computes only what the scene calls for: sections and
+ * slices, engines, threads, one at a time and all together; a table of counts. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "tests/contact_case.h"
+
+enum {
+    SIX = (1 << RC_COMPONENTS) - 1,
+    ALL = (1 << RC_STRESSES) - 1
+};
+
+struct scene {
+    struct rc_shape shape;
+    double *p, largest;
+};
+
+/* Pressure on an off-centre patch with gaps in it; on a line of nodes the patch lies on the line. */
+static struct scene
+scene_new(size_t nx, size_t ny, double dx, double dy)
+{
+    struct scene s = {.shape = {nx, ny, dx, dy}, .p = malloc(nx * ny * sizeof(double))};
+    uint64_t seed = 1927;
+
+    for (size_t k = 0; k < nx * ny; k++) {
+        double x = (double)(k % nx) / (double)nx - 0.45, y = (double)(k / nx) / (double)ny - 0.55;
+        double r = 2.2 * hypot(nx > 1 ? x : 0, ny > 1 ? y : 0), u = random_number(&seed);
+        s.p[k] = r < 1 && u > -0.2 ? 1e9 * (0.6 + 0.5 * u) * sqrt(1 - r * r) : 0;
+        s.largest = fmax(s.largest, s.p[k]);
+    }
+    return s;
+}
+
+static void
+compute(const struct scene *s, struct rc_stress_options o, double z, double *out[RC_STRESSES],
+        struct rc_stress_counts *counts)
+{
+    struct rc_err err = {""};
+    struct rc_stress *stress = rc_stress_new(&s->shape, s->p, &o, &err);
+
+    if (stress == NULL)
+        print_error("%s\n", err.text);
+    assert_non_null(stress);
+    for (int c = 0; c < RC_STRESSES; c++) {
+        out[c] = NULL;
+        if (o.wanted >> c & 1)
+            out[c] = malloc(rc_stress_values(stress) * sizeof(double));
+    }
+    assert_int_equal(rc_stress_slice(stress, z, out, &err), RC_OK);
+    if (counts != NULL)
+        *counts = *rc_stress_counted(stress);
+    rc_stress_free(stress);
+}
+
+static void
+release(double *out[RC_STRESSES])
+{
+    for (int c = 0; c < RC_STRESSES; c++)
+        free(out[c]);
+}
+
+static double
+apart(size_t n, double *const a[RC_STRESSES], double *const b[RC_STRESSES])
+{
+    double worst = 0;
+
+    for (int c = 0; c < RC_STRESSES; c++)
+        for (size_t k = 0; a[c] != NULL && b[c] != NULL && k < n; k++)
+            worst = fmax(worst, fabs(a[c][k] - b[c][k]));
+    return worst;
+}
+
+/* ---- engines ---- */
+
+static void
+engines_agree(void **state)
+{
+    static const struct {
+        size_t nx, ny;
+        double dx, dy, mu;
+    } maps[] = {{33, 47, 1.1e-6, 1e-6, 0}, {40, 25, 1e-6, 2.3e-6, 0.37},
+                {1, 17, 1, 1, 0.2},        {17, 1, 1, 1, 0},
+                {1, 1, 1, 1, 0.1},         {61, 7, 1, 0.1, -0.4}};
+
+    (void)state;
+    for (size_t m = 0; m < sizeof maps / sizeof *maps; m++)
+        for (double z = 0; z < 9; z = 3 * z + 0.4) {
+            struct scene s = scene_new(maps[m].nx, maps[m].ny, maps[m].dx, maps[m].dy);
+            struct rc_stress_options o = {
+                .nu = 0.28, .mu = maps[m].mu, .wanted = ALL, .threads = 2};
+            size_t n = s.shape.nx * s.shape.ny;
+            double *a[RC_STRESSES], *b[RC_STRESSES];
+            compute(&s, o, z * s.shape.dx, a, NULL);
+            o.engine = "direct";
+            compute(&s, o, z * s.shape.dx, b, NULL);
+            assert_true(apart(n, a, b) <= rounding * fmax(s.largest, 1));
+            release(b);
+            o.engine = "mlms";
+            o.wanted = SIX;
+            for (double tol = 1e-2; tol > 1e-7; tol /= 100) {
+                o.tol = tol;
+                compute(&s, o, z * s.shape.dx, b, NULL);
+                if (apart(n, a, b) > tol * s.largest)
+                    print_error("map %zu, depth %g, tol %g: off by %g\n", m, z, tol,
+                                apart(n, a, b) / s.largest);
+                assert_true(apart(n, a, b) <= tol * s.largest);
+                release(b);
+            }
+            release(a);
+            free(s.p);
+        }
+}
+
+/* fft and the words that ask it for double precision, or leave the choice, are one engine here: no
+ * bit differs, on periodic maps neither, and each is told by its own name. */
+static void
+transforms_by_any_name(void **state)
+{
+    static const char *const asked[] = {NULL, "auto", "fft", "fft64"};
+    static const char *const told[] = {"fft", "fft", "fft", "fft64"};
+    struct scene s = scene_new(40, 30, 1e-6, 1.2e-6);
+    double *a[RC_STRESSES], *b[RC_STRESSES];
+
+    (void)state;
+    for (int boundary = 0; boundary < 2; boundary++)
+        for (size_t k = 0; k < 4; k++) {
+            struct rc_stress_options o = {
+                .boundary = (enum rc_boundary)boundary, .nu = 0.3, .mu = 0.2, .wanted = ALL};
+            struct rc_err err;
+            struct rc_stress *stress;
+            compute(&s, o, 2e-6, a, NULL);
+            o.engine = asked[k];
+            compute(&s, o, 2e-6, b, NULL);
+            assert_true(apart(40 * 30, a, b) == 0);
+            stress = rc_stress_new(&s.shape, s.p, &o, &err);
+            assert_string_equal(rc_stress_engine(stress), told[k]);
+            rc_stress_free(stress);
+            release(a);
+            release(b);
+        }
+    free(s.p);
+}
+
+static void
+engines_refused(void **state)
+{
+    struct scene s = scene_new(8, 8, 1e-6, 1e-6);
+    struct rc_stress_options o = {.nu = 0.3, .wanted = SIX, .engine = "fftw"};
+    struct rc_err err;
+
+    (void)state;
+    assert_null(rc_stress_new(&s.shape, s.p, &o, &err));
+    assert_string_equal(err.text, "there is no engine 'fftw'");
+    o.engine = "mlms";
+    o.section = 'y';
+    assert_null(rc_stress_new(&s.shape, s.p, &o, &err));
+    assert_string_equal(err.text,
+                        "a section is summed by fft, not by mlms: leave the kernel to auto");
+    free(s.p);
+}
+
+/* ---- tolerances ---- */
+
+/* With a tolerance slices are summed in single precision where it allows that, the deep ones of free
+ * maps on coarser grids, and err by no more than it, for pressures of the worst signs too. Where it
+ * does not, or where the engine's name asks for double precision, no bit differs. */
+static void
+within_tolerance(void **state)
+{
+    static const struct {
+        size_t nx, ny;
+        double dx, dy;
+    } maps[] = {{150, 131, 1e-6, 1e-6}, {200, 64, 1e-6, 3e-6}, {300, 1, 1e-6, 1e-6}};
+    size_t coarse = 0;
+
+    (void)state;
+    for (size_t m = 0; m < 6; m++)
+        for (int signs = 0; signs < 2; signs++)
+            for (double tol = 1e-1; tol > 1e-8; tol /= 40) {
+                struct scene s =
+                    scene_new(maps[m / 2].nx, maps[m / 2].ny, maps[m / 2].dx, maps[m / 2].dy);
+                size_t n = s.shape.nx * s.shape.ny;
+                double worst = 0;
+                uint64_t seed = 77;
+                for (size_t k = 0; signs && k < n; k++)
+                    s.p[k] = random_number(&seed) > 0 ? s.largest : -s.largest;
+                for (double z = 2e-6; z < 3e-4; z *= 2.1) {
+                    struct rc_stress_options o = {.boundary = (enum rc_boundary)(m % 2),
+                                                  .nu = 0.3,
+                                                  .mu = 0.25,
+                                                  .wanted = SIX,
+                                                  .threads = 2};
+                    double *a[RC_STRESSES], *b[RC_STRESSES];
+                    struct rc_stress_counts counts;
+                    compute(&s, o, z, a, NULL);
+                    o.tol = tol;
+                    compute(&s, o, z, b, &counts);
+                    worst = fmax(worst, apart(n, a, b) / s.largest);
+                    if (counts.coarse_depths == 0)
+                        assert_true((apart(n, a, b) > 0) == (tol > 1e-5));
+                    coarse += counts.coarse_depths;
+                    release(b);
+                    o.engine = "fft64";
+                    compute(&s, o, z, b, &counts);
+                    if (counts.coarse_depths == 0)
+                        assert_true(apart(n, a, b) == 0);
+                    release(a);
+                    release(b);
+                }
+                if (m < 2 || worst > tol)
+                    print_message("%s map, %s pressure, tolerance %.0e: error %.1e\n",
+                                  m % 2 ? "periodic" : "free", signs ? "random" : "contact", tol,
+                                  worst);
+                assert_true(worst <= tol);
+                free(s.p);
+            }
+    assert_true(coarse > 60);
+}
+
+/* ---- sections ---- */
+
+/* A section through nodes is a row or a column of the slice. */
+static void
+sections_are_lines_of_slices(void **state)
+{
+    static const struct {
+        size_t nx, ny;
+    } maps[] = {{37, 29}, {36, 30}, {1, 12}, {12, 1}, {1, 1}};
+
+    (void)state;
+    for (int boundary = 0; boundary < 2; boundary++)
+        for (size_t m = 0; m < 5; m++)
+            for (int across = 0; across < 2; across++) {
+                struct scene s = scene_new(maps[m].nx, maps[m].ny, 1.1e-6, 0.9e-6);
+                struct rc_stress_options o = {.boundary = (enum rc_boundary)boundary,
+                                              .nu = 0.3,
+                                              .mu = 0.25,
+                                              .wanted = ALL,
+                                              .threads = 2};
+                size_t nx = s.shape.nx, ny = s.shape.ny, along = across ? ny : nx;
+                double *map[RC_STRESSES], *line[RC_STRESSES];
+                /* the last depths are those that some and almost all waves do not reach */
+                for (double z = 0; z < 1e-4; z += z < 4e-6 ? 1.3e-6 : 3 * z) {
+                    o.section = 0;
+                    compute(&s, o, z, map, NULL);
+                    o.section = across ? 'x' : 'y';
+                    for (size_t at = 0; at < (across ? nx : ny); at += 3) {
+                        o.at = across ? ((double)at - (double)(nx - 1) / 2) * s.shape.dx
+                                      : ((double)at - (double)(ny - 1) / 2) * s.shape.dy;
+                        compute(&s, o, z, line, NULL);
+                        for (int c = 0; c < RC_STRESSES; c++)
+                            for (size_t k = 0; k < along; k++) {
+                                double v = map[c][across ? k * nx + at : at * nx + k];
+                                assert_true(fabs(line[c][k] - v) <= rounding * s.largest);
+                            }
+                        release(line);
+                    }
+                    release(map);
+                }
+                free(s.p);
+            }
+}
+
+/* Between the rows: the plane y = 0 of an even map is the row in the middle of the same pressure on
+ * rows of half the distance. */
+static void
+sections_between_rows(void **state)
+{
+    struct scene s = scene_new(24, 16, 1e-6, 1.2e-6), fine = scene_new(24, 32, 1e-6, 0.6e-6);
+    struct rc_stress_options o = {
+        .nu = 0.3, .mu = 0.25, .wanted = SIX, .section = 'y', .threads = 2};
+
+    (void)state;
+    for (size_t k = 0; k < 24 * 32; k++)
+        fine.p[k] = s.p[k / 48 * 24 + k % 24];
+    for (double z = 0; z < 5e-6; z += 0.7e-6)
+        for (double at = -1.2e-6; at < 8e-6; at += 1.2e-6) {
+            double *a[RC_STRESSES], *b[RC_STRESSES];
+            o.at = at;
+            compute(&s, o, z, a, NULL);
+            compute(&fine, o, z, b, NULL);
+            /* at the surface logarithms are cut off at a part of the cell: sxx, syy, sxy differ */
+            for (int c = 0; c < RC_COMPONENTS; c++)
+                for (size_t k = 0; k < 24; k++)
+                    if (z > 0 || c == RC_SZZ || c == RC_SXZ || c == RC_SYZ)
+                        assert_true(fabs(a[c][k] - b[c][k]) <= rounding * s.largest);
+                    else
+                        assert_true(isfinite(a[c][k]));
+            release(a);
+            release(b);
+        }
+    free(s.p);
+    free(fine.p);
+}
+
+/* ---- threads, together and alone ---- */
+
+static void
+threads_change_no_bit(void **state)
+{
+    struct scene s = scene_new(150, 140, 1e-6, 1e-6);
+
+    (void)state;
+    for (int boundary = 0; boundary < 2; boundary++)
+        for (int section = 0; section < 2; section++) {
+            double *a[RC_STRESSES], *b[RC_STRESSES];
+            struct rc_stress_options o = {.boundary = (enum rc_boundary)boundary,
+                                          .nu = 0.3,
+                                          .mu = 0.25,
+                                          .wanted = ALL,
+                                          .section = section ? 'x' : 0,
+                                          .threads = 1};
+            compute(&s, o, 2e-6, a, NULL);
+            for (o.threads = 2; o.threads < 5; o.threads++) {
+                compute(&s, o, 2e-6, b, NULL);
+                for (int c = 0; c < RC_STRESSES; c++)
+                    assert_memory_equal(a[c], b[c], (section ? 140 : 150 * 140) * sizeof(double));
+                release(b);
+            }
+            release(a);
+        }
+    free(s.p);
+}
+
+static void
+alone_as_in_company(void **state)
+{
+    struct scene s = scene_new(45, 38, 1e-6, 1.1e-6);
+    double *all[RC_STRESSES], *one[RC_STRESSES];
+    struct rc_stress_options o = {.nu = 0.3, .mu = 0.25, .wanted = ALL, .threads = 2};
+
+    (void)state;
+    compute(&s, o, 1e-6, all, NULL);
+    for (int c = 0; c < RC_STRESSES; c++) {
+        o.wanted = 1u << c;
+        compute(&s, o, 1e-6, one, NULL);
+        assert_true(apart(45 * 38, all, one) <= rounding * s.largest);
+        release(one);
+    }
+    release(all);
+    free(s.p);
+}
+
+/* The largest value is the first that no other one exceeds, wherever in a map it is. */
+static void
+largest_as_one_by_one(void **state)
+{
+    static double v[20000];
+    uint64_t seed = 1882;
+
+    (void)state;
+    for (size_t n = 1; n <= sizeof v / sizeof *v; n = n * 5 / 2 + 1) {
+        size_t first = 0;
+        for (size_t k = 0; k < n; k++)
+            v[k] = floor(1000 * random_number(&seed)); /* so many are equal */
+        for (size_t k = 1; k < n; k++)
+            first = fabs(v[k]) > fabs(v[first]) ? k : first;
+        assert_int_equal(rc_largest(n, v), first);
+        v[n / 3] = -7e9;
+        v[n - 1] = 7e9;
+        assert_int_equal(rc_largest(n, v), n / 3);
+    }
+}
+
+/* ---- only what the scene calls for ---- */
+
+enum {
+    NX = 50,
+    NY = 40,
+    QUARTER = (100 / 2 + 1) * (80 / 2 + 1), /* of the map padded to 100 x 80 */
+    WAVES = (NX / 2 + 1) * (NY / 2 + 1)
+};
+
+static void
+nothing_is_done_unasked(void **state)
+{
+    /* clang-format off */
+    static const struct {
+        const char *what;
+        enum rc_boundary boundary;
+        double mu;
+        unsigned wanted;
+        char section;
+        const char *engine;
+        struct rc_stress_counts counts;
+    } row[] = {
+        {"six", RC_FREE, 0, SIX, 0, NULL,
+         {.depths = 1, .source_transforms = 1, .normal_kernels = 6, .coefficients = 6 * QUARTER,
+          .kernel_transforms = 6, .field_transforms = 6}},
+        {"six with friction", RC_FREE, 0.2, SIX, 0, NULL,
+         {.depths = 1, .source_transforms = 1, .normal_kernels = 6, .shear_kernels = 5,
+          .coefficients = 11 * QUARTER, .kernel_transforms = 11, .field_transforms = 6}},
+        {"one", RC_FREE, 0, 1 << RC_SZZ, 0, NULL,
+         {.depths = 1, .source_transforms = 1, .normal_kernels = 1, .coefficients = QUARTER,
+          .kernel_transforms = 1, .field_transforms = 1}},
+        {"one with friction", RC_FREE, 0.2, 1 << RC_SXX, 0, NULL,
+         {.depths = 1, .source_transforms = 1, .normal_kernels = 1, .shear_kernels = 1,
+          .coefficients = 2 * QUARTER, .kernel_transforms = 2, .field_transforms = 1}},
+        {"mises alone", RC_FREE, 0, 1 << RC_MISES, 0, NULL,
+         {.depths = 1, .source_transforms = 1, .normal_kernels = 6, .coefficients = 6 * QUARTER,
+          .kernel_transforms = 6, .field_transforms = 6}},
+        {"periodic", RC_PERIODIC, 0, SIX, 0, NULL,
+         {.depths = 1, .source_transforms = 1, .normal_kernels = 6, .coefficients = 6 * WAVES,
+          .field_transforms = 6}},
+        {"periodic with friction", RC_PERIODIC, 0.2, SIX, 0, NULL,
+         {.depths = 1, .source_transforms = 1, .normal_kernels = 6, .shear_kernels = 5,
+          .coefficients = 11 * WAVES, .field_transforms = 6}},
+        /* 40 lines, 20 pairs of them: a quarter of the coefficients of a slice, and no map */
+        {"section", RC_FREE, 0, SIX, 'y', NULL,
+         {.depths = 1, .normal_kernels = 6, .coefficients = 6 * 51 * 20,
+          .line_transforms = 40 + 6 * 20 + 6}},
+        {"section with friction", RC_FREE, 0.2, SIX, 'y', NULL,
+         {.depths = 1, .normal_kernels = 6, .shear_kernels = 5, .coefficients = 11 * 51 * 20,
+          .line_transforms = 40 + 11 * 20 + 6}},
+        {"section, one", RC_FREE, 0, 1 << RC_SZZ, 'x', NULL,
+         {.depths = 1, .normal_kernels = 1, .coefficients = 41 * 25,
+          .line_transforms = 50 + 25 + 1}},
+        {"periodic section", RC_PERIODIC, 0, SIX, 'y', NULL,
+         {.depths = 1, .source_transforms = 1, .normal_kernels = 6,
+          .coefficients = 6 * (NX / 2 + 1) * NY, .line_transforms = 6}},
+        /* at a depth of 20 um, to 1 %: 4 um apart, 13 + 7 by 10 + 7 nodes, padded to 40 x 36 */
+        {"six on a coarser grid", RC_FREE, 0, SIX, 0, "auto",
+         {.depths = 1, .source_transforms = 2, .normal_kernels = 6, .coefficients = 6 * 21 * 19,
+          .kernel_transforms = 6, .field_transforms = 6, .coarse_depths = 1}},
+        {"six by mlms", RC_FREE, 0, SIX, 0, "mlms",
+         {.depths = 1, .normal_kernels = 6, .engine_sums = 6}},
+        {"six by mlms with friction", RC_FREE, 0.2, SIX, 0, "mlms",
+         {.depths = 1, .normal_kernels = 6, .shear_kernels = 5, .engine_sums = 11}},
+    };
+    /* clang-format on */
+    struct scene s = scene_new(NX, NY, 1e-6, 1e-6);
+
+    (void)state;
+    for (size_t k = 0; k < NX * NY; k++)
+        s.p[k] += 1e8; /* no line without pressure */
+    for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
+        struct rc_stress_options o = {.boundary = row[k].boundary,
+                                      .nu = 0.3,
+                                      .mu = row[k].mu,
+                                      .wanted = row[k].wanted,
+                                      .section = row[k].section,
+                                      .engine = row[k].engine,
+                                      .threads = 2};
+        const size_t *got, *expected = (const size_t *)(const void *)&row[k].counts;
+        struct rc_stress_counts counts;
+        double *out[RC_STRESSES];
+        o.tol = row[k].engine == NULL ? 0 : 1e-2;
+        compute(&s, o, row[k].counts.coarse_depths > 0 ? 20e-6 : 1e-6, out, &counts);
+        release(out);
+        got = (const size_t *)(const void *)&counts;
+        for (size_t i = 0; i < sizeof counts / sizeof *got; i++) {
+            if (got[i] != expected[i])
+                print_error("%s: count %zu is %zu, expected %zu\n", row[k].what, i, got[i],
+                            expected[i]);
+            assert_int_equal(got[i], expected[i]);
+        }
+    }
+    free(s.p);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(engines_agree),
+        cmocka_unit_test(transforms_by_any_name),
+        cmocka_unit_test(engines_refused),
+        cmocka_unit_test(within_tolerance),
+        cmocka_unit_test(sections_are_lines_of_slices),
+        cmocka_unit_test(sections_between_rows),
+        cmocka_unit_test(threads_change_no_bit),
+        cmocka_unit_test(alone_as_in_company),
+        cmocka_unit_test(largest_as_one_by_one),
+        cmocka_unit_test(nothing_is_done_unasked),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

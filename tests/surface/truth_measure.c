@@ -1,0 +1,191 @@
+/* Sums, moments and slopes of maps are what closed forms and long double sums say, whatever the
+ * datum and whatever is missing. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "tests/exact.h"
+#include "libcontact/contact.h"
+
+enum {
+    NX = 33,
+    NY = 47
+};
+static const struct rc_shape shape = {.nx = NX, .ny = NY, .dx = 1.1e-6, .dy = 1e-6};
+
+static void
+assert_near(double got, double expected, double tolerance)
+{
+    if (!(fabs(got - expected) <= tolerance * fabs(expected)))
+        fail_msg("%.17g instead of %.17g", got, expected);
+}
+
+static void
+test_sum_of_what_cancels(void **state)
+{
+    const double v[] = {1, 1e100, 1, -1e100};
+
+    (void)state;
+    assert_true(rc_sum(v, 4) == 2);
+    assert_true(rc_sum(v, 0) == 0);
+}
+
+static void
+test_sum_does_not_wear_out(void **state)
+{
+    enum {
+        N = 3000000
+    };
+    double *v = malloc(N * sizeof *v);
+
+    (void)state;
+    for (size_t k = 0; k < N; k++)
+        v[k] = 0.1;
+    /* the nearest double to 0.1 times N, rounded once */
+    assert_near(rc_sum(v, N), (double)((long double)0.1 * N), DBL_EPSILON);
+    free(v);
+}
+
+static void
+test_sum_keeps_infinity(void **state)
+{
+    const double v[] = {1, INFINITY, 3};
+
+    (void)state;
+    assert_true(rc_sum(v, 3) == INFINITY);
+}
+
+/* The plane a i + b j: mean a (nx-1)/2 + b (ny-1)/2, variance a^2 (nx^2-1)/12 + b^2 (ny^2-1)/12. */
+static void
+check_plane(double a, double b, double datum)
+{
+    double *h = malloc(sizeof(double[NX * NY]));
+    struct rc_statistics s;
+
+    for (size_t j = 0; j < NY; j++)
+        for (size_t i = 0; i < NX; i++)
+            h[j * NX + i] = datum + a * (double)i + b * (double)j;
+    rc_measure(&shape, h, &s);
+    assert_near(s.mean, datum + 0.5 * (a * (NX - 1) + b * (NY - 1)), rounding);
+    assert_near(s.rms, sqrt((a * a * (NX * NX - 1.0) + b * b * (NY * NY - 1.0)) / 12), rounding);
+    assert_near(s.rms_slope, hypot(a / shape.dx, b / shape.dy), rounding);
+    assert_near(s.sum, NX * NY * (datum + 0.5 * (a * (NX - 1) + b * (NY - 1))), rounding);
+    assert_true(s.minimum == fmin(h[0], h[(NY - 1) * NX]));
+    assert_true(s.maximum == fmax(h[NX * NY - 1], h[NX - 1]));
+    assert_int_equal(s.missing, 0);
+    assert_int_equal(s.infinite, 0);
+    free(h);
+}
+
+static void
+test_plane(void **state)
+{
+    (void)state;
+    check_plane(3, 2, 0.25);
+    check_plane(3, -2, -7);
+}
+
+/* Small whole numbers are exact on top of 1e6: no digit of the roughness may go. */
+static void
+test_far_datum(void **state)
+{
+    (void)state;
+    check_plane(0x1p-20, 0x3p-21, 1e6);
+}
+
+/* What is there, measured again with long double and no cleverness. */
+static void
+test_holes(void **state)
+{
+    double *h = malloc(sizeof(double[NX * NY]));
+    long double sum = 0, squares = 0, slopes = 0;
+    size_t n = 0, pairs = 0, missing = 0, infinite = 0;
+    struct rc_statistics s;
+
+    (void)state;
+    srand(4711);
+    for (size_t k = 0; k < NX * NY; k++) {
+        h[k] = 1e-6 * rand() / RAND_MAX;
+        if (rand() % 10 == 0)
+            h[k] = NAN;
+        else if (rand() % 40 == 0)
+            h[k] = rand() % 2 == 0 ? INFINITY : -INFINITY;
+        missing += isnan(h[k]) ? 1 : 0;
+        infinite += isinf(h[k]) ? 1 : 0;
+        n += isfinite(h[k]) ? 1 : 0;
+        sum += isfinite(h[k]) ? (long double)h[k] : 0;
+    }
+    for (size_t k = 0; k < NX * NY; k++)
+        if (isfinite(h[k]))
+            squares += (h[k] - sum / n) * (h[k] - sum / n);
+    for (size_t j = 0; j + 1 < NY; j++)
+        for (size_t i = 0; i + 1 < NX; i++) {
+            double *at = h + j * NX + i;
+            if (!isfinite(at[0]) || !isfinite(at[1]) || !isfinite(at[NX]))
+                continue;
+            slopes += powl((at[1] - at[0]) / (long double)shape.dx, 2) +
+                      powl((at[NX] - at[0]) / (long double)shape.dy, 2);
+            pairs++;
+        }
+    assert_true(missing > 100 && infinite > 10 && pairs > 500);
+    rc_measure(&shape, h, &s);
+    assert_int_equal(s.missing, missing);
+    assert_int_equal(s.infinite, infinite);
+    assert_near(s.sum, (double)sum, rounding);
+    assert_near(s.mean, (double)(sum / n), rounding);
+    assert_near(s.rms, (double)sqrtl(squares / n), rounding);
+    assert_near(s.rms_slope, (double)sqrtl(slopes / pairs), rounding);
+    free(h);
+}
+
+static void
+test_profiles_and_points(void **state)
+{
+    const double v[] = {0, 3, 1, 5};
+    const struct rc_shape row = {4, 1, 0.5, 7}, column = {1, 4, 7, 0.5}, point = {1, 1, 1, 1};
+    struct rc_statistics s;
+
+    (void)state;
+    rc_measure(&row, v, &s);
+    assert_near(s.rms_slope, sqrt((36.0 + 16 + 64) / 3), rounding);
+    assert_near(s.rms, sqrt((5.0625 + 0.5625 + 1.5625 + 7.5625) / 4), rounding);
+    rc_measure(&column, v, &s);
+    assert_near(s.rms_slope, sqrt((36.0 + 16 + 64) / 3), rounding);
+    rc_measure(&point, v + 1, &s);
+    assert_true(s.mean == 3 && s.rms == 0 && isnan(s.rms_slope));
+    assert_true(s.minimum == 3 && s.maximum == 3 && s.sum == 3);
+}
+
+static void
+test_nothing_there(void **state)
+{
+    const double v[] = {NAN, NAN, INFINITY, NAN};
+    const struct rc_shape two = {2, 2, 1, 1};
+    struct rc_statistics s;
+
+    (void)state;
+    rc_measure(&two, v, &s);
+    assert_int_equal(s.missing, 3);
+    assert_int_equal(s.infinite, 1);
+    assert_true(isnan(s.mean) && isnan(s.rms) && isnan(s.rms_slope) && isnan(s.minimum) &&
+                isnan(s.maximum) && s.sum == 0);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_sum_of_what_cancels), cmocka_unit_test(test_sum_does_not_wear_out),
+        cmocka_unit_test(test_sum_keeps_infinity),  cmocka_unit_test(test_plane),
+        cmocka_unit_test(test_far_datum),           cmocka_unit_test(test_holes),
+        cmocka_unit_test(test_profiles_and_points), cmocka_unit_test(test_nothing_there),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

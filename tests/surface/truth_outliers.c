@@ -1,0 +1,258 @@
+/* rc_outliers takes out the points that sorting all neighbourhoods finds, with points missing, at
+ * the edges and around them; rc_taper multiplies what is above the mean by a raised cosine. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "tests/exact.h"
+#include "libcontact/contact.h"
+
+static double
+chance(void)
+{
+    return 2.0 * rand() / RAND_MAX - 1;
+}
+
+static double *
+new_map(size_t n)
+{
+    double *h = malloc(n * sizeof *h);
+
+    assert_non_null(h);
+    return h;
+}
+
+static int
+by_size(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+
+    return x < y ? -1 : x > y;
+}
+
+/* Of what is there; v is sorted. */
+static double
+median(double *v, size_t n)
+{
+    size_t count = 0;
+
+    for (size_t k = 0; k < n; k++)
+        if (!isnan(v[k]))
+            v[count++] = v[k];
+    qsort(v, count, sizeof *v, by_size);
+    return count == 0 ? NAN : (v[(count - 1) / 2] + v[count / 2]) / 2;
+}
+
+static double
+difference(const struct rc_shape *s, bool periodic, const double *h, long i, long j)
+{
+    long nx = (long)s->nx, ny = (long)s->ny;
+    double around[24];
+    size_t n = 0;
+
+    for (long b = j - 2; b <= j + 2; b++)
+        for (long a = i - 2; a <= i + 2; a++) {
+            bool inside = a >= 0 && a < nx && b >= 0 && b < ny;
+            if (a == i && b == j)
+                continue;
+            if (inside || periodic)
+                around[n++] = h[(b + 4 * ny) % ny * nx + (a + 4 * nx) % nx];
+        }
+    return h[j * nx + i] - median(around, n);
+}
+
+/* Makes the outliers of h missing, by sorting; how many they are. */
+static size_t
+by_sorting(const struct rc_shape *s, double times, bool periodic, double *h)
+{
+    size_t n = s->nx * s->ny, count = 0;
+    double *d = new_map(n), *v = new_map(n), middle, limit;
+
+    for (size_t k = 0; k < n; k++)
+        v[k] = d[k] = difference(s, periodic, h, (long)(k % s->nx), (long)(k / s->nx));
+    middle = median(v, n);
+    for (size_t k = 0; k < n; k++)
+        v[k] = fabs(d[k] - middle);
+    limit = times * 1.4826 * median(v, n);
+    for (size_t k = 0; k < n; k++)
+        if (fabs(d[k]) > limit) {
+            h[k] = NAN;
+            count++;
+        }
+    free(d);
+    free(v);
+    return count;
+}
+
+static void
+check_outliers(const struct rc_shape *s, double times, bool periodic, int missing, double step)
+{
+    size_t n = s->nx * s->ny, count, expected;
+    double *h = new_map(n), *sorted = new_map(n);
+    struct rc_err err;
+
+    for (size_t k = 0; k < n; k++) {
+        h[k] = 1e-3 + 1e-6 * chance() + (rand() % 20 == 0 ? 9e-6 * chance() : 0);
+        h[k] = step > 0 ? step * round(h[k] / step) : h[k];
+        if (rand() % 100 < missing)
+            h[k] = NAN;
+    }
+    memcpy(sorted, h, n * sizeof *h);
+    expected = by_sorting(s, times, periodic, sorted);
+    assert_int_equal(rc_outliers(s, times, periodic, 2, h, &count, &err), RC_OK);
+    if (count != expected)
+        fail_msg("%zu x %zu, %d %% missing: %zu outliers, not %zu", s->nx, s->ny, missing, count,
+                 expected);
+    for (size_t k = 0; k < n; k++)
+        assert_true(isnan(sorted[k]) ? isnan(h[k]) : h[k] == sorted[k]);
+    free(h);
+    free(sorted);
+}
+
+static void
+test_as_by_sorting(void **state)
+{
+    const struct rc_shape shapes[] = {{61, 47, 1e-6, 1e-6},
+                                      {8, 5, 1e-6, 1e-6},
+                                      {3, 4, 1e-6, 1e-6},
+                                      {97, 1, 1e-6, 1e-6},
+                                      {1, 97, 1e-6, 1e-6}};
+
+    (void)state;
+    srand(51);
+    for (size_t k = 0; k < sizeof shapes / sizeof *shapes; k++)
+        for (int missing = 0; missing <= 90; missing += 30)
+            for (int periodic = 0; periodic < 2; periodic++) {
+                check_outliers(&shapes[k], 3, periodic, missing, 0);
+                check_outliers(&shapes[k], 1, periodic, missing, 0);
+                check_outliers(&shapes[k], 2, periodic, missing, 0.25e-6); /* many alike */
+            }
+}
+
+/* Gaussian noise has 0.27 % of its points beyond three standard deviations, spikes are all
+ * found. */
+static void
+test_share_of_noise(void **state)
+{
+    const struct rc_shape s = {400, 500, 1e-6, 1e-6};
+    size_t n = s.nx * s.ny, count;
+    double *h = new_map(n);
+    struct rc_err err;
+
+    (void)state;
+    srand(52);
+    for (size_t k = 0; k < n; k++) {
+        double u = (rand() + 1.0) / (RAND_MAX + 2.0), v = (rand() + 1.0) / (RAND_MAX + 2.0);
+        h[k] = 1e-7 * sqrt(-2 * log(u)) * cos(2 * exact_pi * v);
+    }
+    assert_int_equal(rc_outliers(&s, 3, false, 0, h, &count, &err), RC_OK);
+    /* counts scatter by their root; the median of 24 others adds its own scatter to both */
+    assert_true(fabs((double)count - 0.0027 * (double)n) < 4 * sqrt(0.0027 * (double)n));
+    for (size_t k = 0; k < n; k++)
+        h[k] = 1e-5 * cos((double)(k % s.nx) / 40) + 1e-7 * chance() + (k % 97 == 3 ? 1e-5 : 0);
+    assert_int_equal(rc_outliers(&s, 20, false, 0, h, &count, &err), RC_OK);
+    for (size_t k = 0; k < n; k++)
+        assert_true(isnan(h[k]) == (k % 97 == 3));
+    free(h);
+}
+
+static void
+test_taper(void **state)
+{
+    const struct rc_shape s = {40, 33, 1.1e-6, 1e-6};
+    const double width = 7.3e-6;
+    double *h = new_map(40 * 33), *before = new_map(40 * 33), mean = 0, n = 0;
+    struct rc_err err;
+
+    (void)state;
+    srand(53);
+    for (size_t k = 0; k < 40 * 33; k++) {
+        before[k] = h[k] = rand() % 5 == 0 ? NAN : 1e-3 + 1e-6 * chance();
+        if (!isnan(h[k])) {
+            mean += h[k] - 1e-3;
+            n++;
+        }
+    }
+    mean = 1e-3 + mean / n;
+    assert_int_equal(rc_taper(&s, width, h, &err), RC_OK);
+    for (size_t k = 0; k < 40 * 33; k++) {
+        double x = ((double)(k % 40) + 0.5) * s.dx, y = ((double)(k / 40) + 0.5) * s.dy, w = 1;
+        x = fmin(x, 40 * s.dx - x);
+        y = fmin(y, 33 * s.dy - y);
+        w *= x < width ? (1 - cos(exact_pi * x / width)) / 2 : 1;
+        w *= y < width ? (1 - cos(exact_pi * y / width)) / 2 : 1;
+        if (isnan(before[k]))
+            assert_true(isnan(h[k]));
+        else if (x >= width && y >= width)
+            assert_true(h[k] == before[k]);
+        else
+            assert_true(fabs(h[k] - mean - w * (before[k] - mean)) <= 2 * 0x1p-53 * 1e-3);
+    }
+    free(h);
+    free(before);
+}
+
+/* A profile has two ends only. */
+static void
+test_taper_of_a_profile(void **state)
+{
+    const struct rc_shape s = {10, 1, 1e-6, 1e-6};
+    double h[10] = {1, 1, 1, 1, 1, -1, -1, -1, -1, -1};
+    struct rc_err err;
+
+    (void)state;
+    assert_int_equal(rc_taper(&s, 2e-6, h, &err), RC_OK);
+    assert_true(fabs(h[0] - (1 - sqrt(0.5)) / 2) < rounding);
+    assert_true(fabs(h[9] + (1 - cos(exact_pi / 4)) / 2) < rounding);
+    assert_true(fabs(h[1] - (1 + sqrt(0.5)) / 2) < rounding);
+    assert_true(h[2] == 1 && h[7] == -1);
+}
+
+static void
+refused(enum rc_status status, const struct rc_err *err, const char *reason)
+{
+    assert_int_equal(status, RC_FAIL);
+    if (strstr(err->text, reason) == NULL)
+        fail_msg("'%s' does not say '%s'", err->text, reason);
+}
+
+static void
+test_refusals(void **state)
+{
+    const struct rc_shape s = {10, 6, 1e-6, 2e-6};
+    double h[60] = {0};
+    struct rc_err err;
+    size_t count;
+
+    (void)state;
+    refused(rc_taper(&s, 5.1e-6, h, &err), &err, "wider than half the map, 5e-06 m");
+    refused(rc_taper(&s, 1.9e-6, h, &err), &err, "narrower than a node, 2e-06 m");
+    refused(rc_taper(&s, NAN, h, &err), &err, "narrower than a node");
+    refused(rc_outliers(&s, 0, false, 1, h, &count, &err), &err, "must be above 0");
+    h[7] = INFINITY;
+    refused(rc_taper(&s, 3e-6, h, &err), &err, "1 infinite heights");
+    refused(rc_outliers(&s, 3, false, 1, h, &count, &err), &err, "1 infinite heights");
+    for (size_t k = 0; k < 60; k++)
+        h[k] = NAN;
+    refused(rc_taper(&s, 3e-6, h, &err), &err, "all 60 heights are missing");
+    assert_int_equal(rc_outliers(&s, 3, false, 1, h, &count, &err), RC_OK);
+    assert_int_equal(count, 0);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_as_by_sorting), cmocka_unit_test(test_share_of_noise),
+        cmocka_unit_test(test_taper),         cmocka_unit_test(test_taper_of_a_profile),
+        cmocka_unit_test(test_refusals),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

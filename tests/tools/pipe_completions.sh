@@ -1,0 +1,196 @@
+# What bash, zsh and fish complete is what --help and the manual say: every option of every tool and every
+# word that an option takes; and units behind a number, files, and the channels of the file on the line.
+. "$(dirname "$0")/../pipe.sh"
+. "$RC_SOURCE/tests/manual.sh"
+completions=$RC_BIN/completions
+mkdir empty streams
+
+tools=
+for source in "$RC_SOURCE"/tools/rc-*.c; do
+    tools="$tools $(basename "$source" .c)"
+done
+
+# ---- what each shell completes ----
+
+# in_bash TOOL WORD...: what bash offers for the last word of this line, which may be empty.
+in_bash() {
+    bash -c '. "$0"; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); "_${1//-/_}"
+        [ ${#COMPREPLY[@]} = 0 ] || printf "%s\n" "${COMPREPLY[@]}"' "$completions/bash/$1" "$@"
+}
+# options_in_SHELL TOOL, words_in_SHELL TOOL: "--option", "--option word".
+options_in_bash() { in_bash "$1" - | sort; }
+words_in_bash() {
+    options_in_bash "$1" | while read -r option; do
+        (cd empty && in_bash "$1" "$option" '') >after.txt
+        # where an option takes none, an operand may follow
+        (cd empty && in_bash "$1" '') | cmp -s - after.txt || sed "s/^/$option /" after.txt
+    done
+}
+
+# zsh and fish, by what their files say.
+options_in_zsh() { sed -n "s/^    '\*\(--*[A-Za-z0-9-]*\)[+=]*\[.*/\1/p" "$completions/zsh/_$1" | sort; }
+words_in_zsh() {
+    sed -n "s/^    '\*\(--*[A-Za-z0-9-]*\)[+=]*\[.*\]:[^:]*:\(.*\)'\$/\1 \2/p" "$completions/zsh/_$1" |
+        sed -n -e 's/ (\(.*\))$/ \1/p' -e 's/ _sequence compadd - / /p' -e 's/  _[a-z_]* "\(.*\)".*/ \1/p' |
+        one_a_line
+}
+options_in_fish() {
+    sed -n "s/^complete -c $1 -\([sl] [^ ]*\( -l [^ ]*\)*\).*/\1/p" "$completions/fish/$1.fish" |
+        awk '{ for (i = 1; i < NF; i += 2) print ($i ~ /s$/ ? "-" : "--") $(i + 1) }' | sort
+}
+words_in_fish() {
+    awk -v tool="$1" '$3 == tool && ($4 == "-l" || $4 == "-s") {
+        name = ($4 == "-s" ? "-" : "--") $5; alias = $6 == "-l" ? "--" $7 : ""
+        if (!match($0, / -a \047[^\047]*\047/)) next
+        text = substr($0, RSTART + 5, RLENGTH - 6)
+        gsub(/\(__fish_append ,|\(__[a-z_]*_number[^)]*\)|\(__[a-z_]*_channels\)|\)/, "", text)
+        print name, text; if (alias != "") print alias, text }' "$completions/fish/$1.fish" | one_a_line
+}
+one_a_line() { awk '{ for (i = 2; i <= NF; i++) print $1, $i }'; }
+
+# ---- beside --help and the manual ----
+
+same_options() {
+    help_options "$1" >help.txt && "options_in_$2" "$1" >there.txt && diff help.txt there.txt >&2
+}
+
+# Those of --format stand in a table of the tool's own.
+format_words() {
+    if says "^--formats\$" help_options "$1"; then
+        "$1" --formats | awk 'NR > 1 || !/^(name|format)/ { print "--format", $1 }'
+    fi
+}
+# The words of --help are completed, and what is completed is in the manual.
+same_words() {
+    "words_in_$2" "$1" | sort -u >there.txt
+    help_words "$1" | comm -23 - there.txt >missing.txt
+    { page_words "$pages/$1.1" && format_words "$1"; } | sort -u >known.txt
+    # another name of an option takes the same words
+    "$1" --help | sed -n 's/^  \(--[A-Za-z0-9-]*\), \(--[A-Za-z0-9-]*\).*/\2 \1/p' >alias.txt
+    awk 'FILENAME == "alias.txt" { of[$1] = $2; next } { print ($1 in of ? of[$1] : $1), $2 }' alias.txt there.txt |
+        sort -u | comm -23 - known.txt >>missing.txt
+    cat missing.txt >&2
+    [ ! -s missing.txt ]
+}
+
+for tool in $tools; do
+    for shell in bash zsh fish; do
+        claim "$tool, $shell: the options of --help and no other" same_options "$tool" "$shell"
+        claim "$tool, $shell: the words of --help, and none that the manual lacks" same_words "$tool" "$shell"
+    done
+done
+words_in_bash rc-solve | sort >words.txt
+for shell in zsh fish; do
+    words_in_$shell rc-solve | sort >"words.$shell"
+    claim "rc-solve: $shell has the words of bash" cmp words.txt words.$shell
+done
+for word in '--E2 rigid' '--engine mlms' '--kernel mlms' '--method pcg' '--output gap' '--type f32'; do
+    claim "  $word is one" grep -qxe "$word" words.txt
+done
+rc-import --formats >formats.txt
+claim "rc-import: --format has every format" test \
+    "$(words_in_bash rc-import | grep -c '^--format ')" -ge "$(($(grep -c . formats.txt) - 2))"
+
+# ---- at work ----
+
+cd streams || exit 1
+rc-synth sphere --nx 9 --dx 1um --radius 1mm -o 'one ball.rcg'
+rc-solve --quiet --load 1 --estar 1GPa -o two.rcg 'one ball.rcg'
+cd ..
+
+# at_work SHELL: offers "LINE" WORD... is claimed of it; complete_SHELL prints what it offers.
+offers() {
+    local line=$1 words=$2
+    (cd streams && "complete_$shell" "$line") | sort | tr '\n' ' ' >offered.txt
+    cat offered.txt >&2
+    [ "$(cat offered.txt)" = "$words" ]
+}
+at_work() {
+    shell=$1
+    claim "$shell: words" offers 'rc-solve --method p' 'pcg pk99 '
+    claim "$shell:   of the other name" offers 'rc-solve --engine m' 'mlms '
+    claim "$shell:   behind a comma" offers 'rc-solve --output gap,pr' 'gap,pressure '
+    claim "$shell: a word that stands for a number" offers 'rc-solve --E2 r' 'rigid '
+    claim "$shell: units behind a number" offers 'rc-solve --load 1.5' '1.5N 1.5kN 1.5mN '
+    claim "$shell:   and nothing in its place" offers 'rc-solve --tol ' ''
+    claim "$shell: shapes" offers 'rc-synth se' 'selfaffine '
+    claim "$shell: options" offers 'rc-solve --mean' '--mean-pressure '
+    claim "$shell: files, where they are options" offers 'rc-synth --like tw' 'two.rcg '
+    claim "$shell:   and operands" offers 'rc-solve tw' 'two.rcg '
+    claim "$shell: channels of the stream that is named" offers 'rc-pick two.rcg --channel ' 'displacement gap height pressure '
+}
+
+complete_bash() { # shellcheck disable=SC2086
+    case $1 in
+    *' ') in_bash $1 '' ;;
+    *) in_bash $1 ;;
+    esac
+}
+at_work bash
+claim "bash:   behind an equals sign" test "$(in_bash rc-solve --method = pk)" = pk99
+claim "bash:   at it" test "$(in_bash rc-solve --method = | wc -l)" = 3
+claim "bash: units behind a colon" test "$(in_bash rc-stress --depths 0 : 20 | head -n 1)" = 20nm
+claim "bash:   not at it" test -z "$(in_bash rc-stress --depths 0 : | grep -v auto)"
+claim "bash: files with blanks" test "$(cd streams && in_bash rc-info one)" = 'one ball.rcg'
+
+if command -v fish >/dev/null; then
+    complete_fish() {
+        fish --no-config -c 'source $argv[1]; complete -C $argv[2]' "$completions/fish/${1%% *}.fish" "$1" | cut -f 1
+    }
+    at_work fish
+else
+    echo "not tried: fish at work, which is not here"
+fi
+
+if command -v zsh >/dev/null; then
+    # A shell on a terminal of its own, which notes what it is about to offer.
+    mkdir zsh
+    cat >zsh/.zshrc <<'END'
+PROMPT= RPS1=
+fpath=($FOLDER $fpath)
+autoload -Uz compinit
+compinit -u -D
+bindkey '^I' complete-word
+noted() { print -r -- "end of what is offered" >>$OFFERED }
+comppostfuncs=(noted)
+compadd() {
+    local -a found
+    if [[ "${@[1,(i)(-|--)]}" != *-[OAD]\ * ]]; then
+        builtin compadd -A found "$@"
+        (( $#found )) && print -rl -- $IPREFIX$^found >>$OFFERED
+    fi
+    builtin compadd "$@"
+}
+print -r -- "ready" >>$OFFERED
+END
+    cat >typed.zsh <<'END'
+zmodload zsh/zpty zsh/zselect
+export FOLDER=$1 OFFERED=$3/offered ZDOTDIR=$3/zsh
+rm -f $OFFERED
+zpty -b z zsh -i
+wait_for() {
+    repeat 200; do
+        grep -qs $1 $OFFERED && return
+        zpty -r -t z shown
+        zselect -t 5
+    done
+    print -r -- "no $1 in 10 s" >&2
+    exit 1
+}
+wait_for ready
+zselect -t 20
+zpty -w -n z "$2"$'\t'
+wait_for end
+grep -v -e '^ready$' -e '^end of' $OFFERED
+END
+    complete_zsh() { zsh -f "$scratch/typed.zsh" "$completions/zsh" "$1" "$scratch"; }
+    at_work zsh
+    for tool in $tools; do
+        claim "zsh: the file of $tool is one of zsh" zsh -n "$completions/zsh/_$tool"
+    done
+else
+    echo "not tried: zsh at work, which is not here"
+fi
+
+refuses 2 'unknown option --completions' "another shell is none" 'rc-solve --completions csh'
+finish

@@ -1,0 +1,152 @@
+# rc-info --areal, --psd and --patches: the figures of waves, random surfaces and contacts, as JSON and
+# as text, and what is refused.
+. "$(dirname "$0")/../pipe.sh"
+
+# ask FILE 'perl expression of $_': of the first line of JSON.
+ask() {
+    perl -MJSON::PP -MList::Util=sum,max -e '
+        open my $f, "<", $ARGV[0] or die; $_ = decode_json(scalar <$f>);
+        my $v = eval $ARGV[1]; die $@ if $@; print ref $v ? JSON::PP->new->canonical->encode($v) : $v // "null", "\n"' "$@"
+}
+near_to() { # FILE EXPRESSION EXPECTED TOLERANCE SENTENCE
+    near "$(ask "$1" "$2")" "$3" "$4" "$5"
+}
+
+# ---- areal ----
+
+rc-synth wave --amplitude 0.6um --wavelength 32um,40um --nx 160 --dx 1um -o wave.rcg
+claim "areal parameters as JSON" bash -c 'rc-info --json --areal wave.rcg >wave.json'
+claim "the object has these keys and no others" test "$(ask wave.json 'join " ", sort keys %{$_->{areal}}')" = \
+    "sa sal sdq sdr sk sku smr1 smr2 sp spk sq ssk std str sv svk sxp sz vmc vmp vvc vvv"
+near_to wave.json '$_->{areal}{sq}' 3e-7 "$summed" "Sq of a wave in both directions, half the amplitude"
+near_to wave.json '$_->{areal}{sku}' 2.25 "$summed" "its Sku"
+near_to wave.json '$_->{areal}{sa}' 2.4317084e-7 "$coarse_grid" "its Sa, 4/pi^2 of the amplitude"
+near_to wave.json '$_->{areal}{sdq}' 0.0754306 "$coarse_grid" "its Sdq, pi A hypot(1/32, 1/40)"
+near_to wave.json '$_->{areal}{sal}' 6.974359e-6 "$coarse_grid" "its Sal, where cos falls to 0.2 along the shorter wave"
+near_to wave.json '$_->{areal}{sz} - $_->{areal}{sp} - $_->{areal}{sv} + 1' 1 "$summed" "Sz is Sp and Sv"
+claim "statistics stand beside them" says '"rms_slope": 0.07' cat wave.json
+rc-synth wave --amplitude 1um --wavelength 20um --nx 80 --dx 1um -o ridges.rcg
+rc-info --json --areal ridges.rcg >ridges.json
+claim "the correlation of ridges never falls along them" test "$(ask ridges.json '$_->{areal}{str}')" = null
+near_to ridges.json '$_->{areal}{std} + 1' 1 "$summed" "waves along x: 0 degrees"
+printf '5 5\n5 5\n' | rc-import --dx 1um --z-unit nm - | rc-info --json --areal >flat.json
+claim "a flat has no skewness, kurtosis, correlation, direction" test \
+    "$(ask flat.json 'join " ", grep { !defined $main::j->{areal}{$_} } sort keys %{($main::j = $_)->{areal}}')" = "sal sku ssk std str"
+
+claim "text of a map" bash -c 'rc-info --areal wave.rcg >wave.out'
+for line in '^  Sq +300 nm$' '^  Sku +2\.25$' '^  Sdq +0\.075[0-9]+$' '^  Sdr +0\.2[0-9]+ %$' '^  Std +[0-9.]+ deg$' \
+    '^  Smr2 +[89][0-9.]+ %$' '^  Sxp +[0-9.]+ nm$'; do
+    claim "  has the line $line" grep -qE "$line" wave.out
+done
+claim "  says what is not defined" says '^  Str +not defined$' rc-info --areal ridges.rcg
+rc-synth wave --amplitude 1um --wavelength 20um --nx 200 --ny 1 --dx 1um -o profile.rcg
+claim "text of a profile, by the names of ISO 21920-2" bash -c 'rc-info --areal profile.rcg >profile.out'
+for line in '^  Rq +707\.107 nm$' '^  Ra +6[0-9.]+ nm$' '^  Rku +1\.5$' '^  Rt +1\.97538 um$' '^  Rdq +0\.2[0-9]+$'; do
+    claim "  has the line $line" grep -qE "$line" profile.out
+done
+claim "  has no name of a map, and no direction" lacks '^  S|deg$' profile.out
+
+# ---- holes ----
+
+printf '1 2 NaN\n3 4 8\n' | rc-import --dx 1.1um --dy 1um --z-unit nm - -o holes.rcg
+rc-info --json --areal holes.rcg >holes.json
+near_to holes.json '$_->{areal}{sq}' 2.4166091947189146e-9 "$rounding" "Sq over what was measured: sqrt(29.2 / 5) nm"
+# steps along x: 1, 1, 4 nm over 1.1 um; along y: 2, 2 nm over 1 um
+near_to holes.json '$_->{areal}{sdq}' 2.9931050e-3 "$six_digits" "Sdq: the mean square of each direction by itself"
+refuses 1 'holes|txt|standard input.*missing.*rc-detrend --fill' "a spectrum of holes, naming what fills them" "rc-info --psd holes.rcg"
+
+claim "where nothing was measured nothing is defined" test "$(printf 'NaN NaN\nNaN NaN\n' |
+    rc-import --dx 1um --z-unit nm - | rc-info --areal | grep -c 'not defined')" = 22
+
+# ---- spectra ----
+
+rc-synth selfaffine --nx 256 --dx 0.5um --hurst 0.7 --rms-height 30nm --rolloff 40um --seed 2 -o rough.rcg
+rc-pick --set periodic=no rough.rcg -o free.rcg
+for map in rough free; do
+    claim "spectrum of a map ($map)" bash -c "rc-info --json --psd $map.rcg >$map.json"
+    near_to $map.json 'my $p = $_->{psd}; sum(map { $p->{modes}[$_] * $p->{c}[$_] } 0 .. $#{$p->{q}}) / (128e-6) ** 2' \
+        "$(ask $map.json '$_->{rms} ** 2')" 1e-9 "  waves times c over the area are Sq^2"
+    near_to $map.json '$_->{psd}{hurst}' 0.7 0.0714 "  the Hurst exponent, to 0.05"
+done
+claim "  window none where it is periodic, else hann" test "$(ask rough.json '$_->{psd}{window}') $(ask free.json '$_->{psd}{window}')" = "none hann"
+near_to rough.json 'sum(@{$_->{psd}{modes}})' 65535 "$same" "  all waves but the mean are in a ring"
+near_to rough.json '$_->{psd}{fit}[1]' 40e-6 0.3 "  the range that is found ends at the roll-off"
+near_to rough.json '$_->{psd}{fit}[0]' 1e-6 0.05 "  and begins at two nodes"
+rc-info --json --psd --fit 2um,30um rough.rcg >told.json
+claim "  a range that is told is the range" test "$(ask told.json '$_->{psd}{fit}')" = '[2e-06,3e-05]'
+near_to told.json '$_->{psd}{hurst}' 0.7 0.0714 "  and its exponent"
+claim "  --fit alone asks for it" says '^  Hurst +0\.[67][0-9]+ \+- 0\.0[0-9]+ \(wavelengths from 2 um to 30 um\)$' rc-info --fit 2um,30um rough.rcg
+claim "text of a spectrum" says '^  psd +wavelength +q, rad/m +c, m4 +waves$' rc-info --psd rough.rcg
+claim "  of a profile" says 'c, m3' rc-info --psd profile.rcg
+claim "  where there is no power law" says '^  Hurst +not defined' rc-info --psd profile.rcg
+
+claim "the spectrum as a map" bash -c 'rc-info --psd --psd-map map.rcg rough.rcg >/dev/null && rc-info --json map.rcg >map.json'
+claim "  a frame psd in m4, which says whether a window was laid" test "$(ask map.json 'join " ", @$_{qw(channel unit nx)}, $_->{keys}{window}')" = "psd m4 256 none"
+near_to map.json '$_->{dx}' 49087.385212340519 "$rounding" "  dx is 2 pi / 128 um"
+near_to map.json '$_->{sum} / (128e-6) ** 2' 9e-16 1e-9 "  its sum over the area is Sq^2"
+claim "  history says so, without the file" says '\| rc-info [0-9.]+ --psd-map"' cat map.json
+rc-synth wave --amplitude 1nm --wavelength 16um --nx 64 --ny 48 --dx 1um | rc-info --psd-map ridge.rcg - >/dev/null
+# A^2 Lx Ly / 4 at 4 waves to the left and to the right of node (32, 24)
+rc-export --format csv --channel psd ridge.rcg | grep -v '^#' | sed -n 25p | tr ',' '\n' >row.txt
+near "$(sed -n 29p row.txt)" 7.68e-28 "$summed" "  the wave stands right of node (nx/2, ny/2)"
+near "$(sed -n 37p row.txt)" 7.68e-28 "$summed" "  and left of it"
+
+# ---- patches ----
+
+rc-synth sphere --radius 7.5mm --nx 128 --dx 8um | rc-solve --load 240N --estar 113.93GPa --quiet -o ball.rcg
+claim "patches of a contact" bash -c 'rc-info --json --patches ball.rcg >ball.json'
+claim "  one disc" test "$(ask ball.json '$_->{patches}{count}')" = 1
+claim "  the object has these keys" test "$(ask ball.json 'join " ", sort keys %{$_->{patches}}')" = \
+    "areas contact_area contact_area_corrected contact_nodes count largest_area perimeter perimeters pressure_histogram"
+# pi a^2, a = (3 F R / 4 E*)^(1/3); and of a disc's steps the perimeter is 8 a
+near_to ball.json '$_->{patches}{contact_area}' 1.6305158e-7 0.02 "  its area is Hertz's but for nodes at the edge"
+near_to ball.json '$_->{patches}{contact_area_corrected}' 1.6305158e-7 5e-3 "  corrected it is nearer"
+near_to ball.json '$_->{patches}{perimeter}' 1.8225547e-3 0.05 "  the perimeter in steps is 8 radii"
+near_to ball.json '$_->{patches}{contact_nodes} * 64e-12' "$(ask ball.json '$_->{patches}{contact_area}')" "$rounding" "  nodes and area are the same"
+near_to ball.json 'sum @{$_->{patches}{pressure_histogram}{counts}}' "$(ask ball.json '$_->{patches}{contact_nodes}')" "$same" "  the histogram counts the nodes in contact"
+near_to ball.json '$_->{patches}{pressure_histogram}{edges}[-1]' "$(ask ball.json '$_->{maximum}')" "$rounding" "  up to the largest pressure"
+# under Hertz half of the contact carries more than sqrt(1/2) of the peak
+near_to ball.json 'sum(@{$_->{patches}{pressure_histogram}{counts}}[0..34]) / $_->{patches}{contact_nodes}' 0.51 0.05 \
+    "  49 % of it carry more than 0.7 of the largest"
+claim "  other channels have none" test "$(rc-info --json --patches ball.rcg | grep -c patches)" = 1
+claim "text of patches" bash -c 'rc-info --patches ball.rcg >ball.out'
+for line in '^  patches +1$' '^  contact area +0\.16[0-9]+ mm2 \([0-9]+ nodes\)$' '^  corrected area +0\.16[0-9]+ mm2$' \
+    '^  perimeter +1\.[0-9]+ mm$' '^  largest patch +0\.16[0-9]+ mm2 \([0-9]+ nodes\)$'; do
+    claim "  has the line $line" grep -qE "$line" ball.out
+done
+printf '0 1 0\n1 0 1\n0 1 0\n' | rc-import --dx 1um --z-unit m - | rc-pick --set boundary=periodic |
+    sed 's/^channel=height/channel=pressure/; s/^unit=m/unit=Pa/' | reseal >diamond.rcg
+rc-pick --set boundary=free diamond.rcg -o apart.rcg
+claim "four nodes around one: joined across the edges when periodic" says '^  patches +2$' rc-info --patches diamond.rcg
+claim "  and four patches when free" says '^  patches +4$' rc-info --patches apart.rcg
+claim "no contact is no patch" bash -c 'rc-pick --set a=b apart.rcg |
+    rc-info --json --patches >one.json && printf "0 0\n0 0\n" | rc-import --dx 1um --z-unit m - |
+    sed "s/^channel=height/channel=pressure/" | reseal | rc-info --json --patches >none.json'
+claim "  with empty lists" test "$(ask none.json 'my $p = $_->{patches}; [@$p{qw(count largest_area areas pressure_histogram)}]')" = \
+    '[0,0,[],{"counts":[],"edges":[]}]'
+
+# ---- refusals ----
+
+refuses 1 '\-\-areal is of heights, and no frame is a height; there is: psd' "heights that are not there" "rc-info --areal map.rcg"
+refuses 1 '\-\-patches is of pressures, .*there is: height' "pressures that are not there" "rc-info --patches rough.rcg"
+refuses 2 '\-\-fit takes two wavelengths, the shortest first' "a range of one end" "rc-info --fit 2um rough.rcg"
+refuses 2 '\-\-fit takes two wavelengths, the shortest first' "a range that is turned round" "rc-info --fit 3um,2um rough.rcg"
+refuses 1 'no two rings of waves from 0.001 m to 0.002 m' "a range without waves" "rc-info --fit 1mm,2mm rough.rcg"
+refuses 1 '\-\-psd-map nowhere/x.rcg: No such file' "a folder that is not there" "rc-info --psd-map nowhere/x.rcg rough.rcg"
+refuses 2 '\-\-psd-map -: standard output is for the figures' "a map among the figures" "rc-info --psd-map - rough.rcg"
+refuses 1 'need about .* MiB, --memory allows 1' "more memory than allowed" "rc-info --areal --memory 1M rough.rcg"
+claim "what fails leaves no map behind" bash -c '
+    cat rough.rcg holes.rcg >both.rcg; ! rc-info --psd-map left.rcg both.rcg >/dev/null 2>&1 &&
+    [ -z "$(ls | grep "^left")" ]'
+
+
+# ---- the manual ----
+
+# The example that rc-info(1) explains, line by line.
+claim "the manual's worked example is what comes out" bash -c '
+    rc-import "$RC_SOURCE/sample_surfaces/rough-steel.x3p" | rc-detrend --fill --poly 2 |
+        rc-info --areal --psd --fit 10um,90um >example.out
+    sed -n "/^among others:/,/^.Ed/p" "$RC_SOURCE/man/rc-info.1" | grep "^  " >example.txt
+    [ "$(wc -l <example.txt)" -ge 10 ] && ! grep -vxFf example.out example.txt >&2'
+
+finish

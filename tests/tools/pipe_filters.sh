@@ -1,0 +1,122 @@
+# rc-detrend takes off spheres and cylinders and tells their radius, filters, drops outliers and tapers,
+# in the order given, and says what it did.
+. "$(dirname "$0")/../pipe.sh"
+
+# figure NAME FILE: of the first frame.
+figure() {
+    rc-info --json "$2" | sed -n "1s/.*\"$1\": \"\{0,1\}\([^\",]*\).*/\1/p"
+}
+
+# map NX NY 'expression in x, y (um) and k' FILE: heights in um on a grid of 1.1 um by 1 um.
+map() {
+    awk -v nx="$1" -v ny="$2" "BEGIN { for (j = 0; j < ny; j++) { s = \"\"
+        for (i = 0; i < nx; i++) { x = (i - (nx - 1) / 2) * 1.1; y = j - (ny - 1) / 2; k = j * nx + i
+            s = s sprintf(\" %.17g\", $3) }
+        print s } }" | rc-import --quiet --dx 1.1um --dy 1um --z-unit um - -o "$4"
+}
+
+# ---- forms ----
+
+# a ball of 2.385 mm whose apex is off the map, one of 150 um as a hollow, a tilted rod of 80 um
+map 33 47 'sqrt(2385^2 - (x - 900)^2 - (y + 400)^2) - 2100' ball.rcg
+map 33 47 '-sqrt(150^2 - (x - 9)^2 - (y + 4)^2)' hollow.rcg
+map 33 47 '0.1 * (0.8 * y - 0.6 * x) + sqrt(80^2 - (0.8 * x + 0.6 * y)^2 * 1.01) ' rod.rcg
+for form in ball hollow; do
+    claim "--sphere takes the $form off" rc-detrend --sphere $form.rcg -o left.rcg
+    between 0 "$(figure rms left.rcg)" "$(awk -v h="$(figure rms $form.rcg)" 'BEGIN { print 1e-7 * h }')" "  nothing is left"
+    radius=$(figure form.radius left.rcg)
+    if [ $form = ball ]; then
+        near "$radius" 2.385e-3 1e-7 "  its radius, positive"
+    else
+        near "$radius" -150e-6 1e-7 "  its radius, negative"
+    fi
+done
+# across a rod that rises by s the section at z = const is an ellipse: with r^2 (1 + s^2) in place of
+# r^2 it is a circle of the radius 80 um / sqrt(1.01)
+claim "--cylinder takes a tilted rod off" rc-detrend --cylinder rod.rcg -o left.rcg
+between 0 "$(figure rms left.rcg)" 1e-12 "  nothing is left"
+near "$(figure form.radius left.rcg)" "$(awk 'BEGIN { print 80e-6 / sqrt(1.01) }')" 1e-6 "  its radius"
+claim "--verbose tells the radius" warns 'frame 1 \(height\): a hollow of radius 150 um' \
+    rc-detrend --sphere --verbose hollow.rcg -o left.rcg
+claim "a profile has a radius too" bash -c "
+    awk 'BEGIN { for (i = 0; i < 50; i++) printf \" %.17g\", sqrt(200^2 - (i - 20)^2) }' |
+        rc-import --dx 1um --z-unit um - | rc-detrend --sphere -o line.rcg"
+near "$(figure form.radius line.rcg)" 200e-6 1e-7 "  that of the circle"
+
+# every seventh point is 5 um too high
+map 33 47 'sqrt(2385^2 - (x - 900)^2 - (y + 400)^2) - 2100 + (k % 7 == 3 ? 5 : 0)' spikes.rcg
+claim "spikes bend a sphere" rc-detrend --sphere spikes.rcg -o bent.rcg
+between 1e-6 "$(awk -v r="$(figure form.radius bent.rcg)" 'BEGIN { d = r - 2.385e-3; print d < 0 ? -d : d }')" 1 "  its radius is wrong"
+claim "  and with --robust they do not, wherever that stands" bash -c '
+    rc-detrend --robust --sphere spikes.rcg -o a.rcg && rc-detrend --sphere --robust spikes.rcg -o b.rcg &&
+    cmp a.rcg b.rcg'
+near "$(figure form.radius a.rcg)" 2.385e-3 1e-6 "  its radius is right"
+near "$(figure maximum a.rcg)" 5e-6 1e-6 "  and a spike is what it was"
+
+# ---- filters ----
+
+# root PART: the root mean square of so much of a wave of 1 um.
+root() {
+    awk "BEGIN { printf \"%.12g\", 1e-6 / sqrt(2) * ($1) }"
+}
+
+wave='rc-synth wave --amplitude 1um --nx 256 --ny 9 --dx 1um'
+claim "of a wave of the length L half gets through" bash -c "
+    $wave --wavelength 32um -o wave.rcg && rc-detrend --lowpass 32um wave.rcg -o low.rcg &&
+    rc-detrend --highpass 32um wave.rcg -o high.rcg"
+near "$(figure rms low.rcg)" "$(root 0.5)" 1e-6 "  low"
+near "$(figure rms high.rcg)" "$(root 0.5)" 1e-6 "  high"
+# exp(-ln 2 (50/32)^2)
+claim "of a shorter one less" rc-detrend --lowpass 50um wave.rcg -o low.rcg
+near "$(figure rms low.rcg)" "$(root "exp(-log(2) * (50 / 32) ^ 2)")" 2e-6 "  by the formula"
+claim "a filtered surface is as periodic as it was" says '"periodic": "yes"' rc-info --json low.rcg
+claim "a band is two steps" bash -c 'rc-detrend --lowpass 8um --highpass 100um wave.rcg -o band.rcg'
+near "$(figure rms band.rcg)" \
+    "$(root "exp(-log(2) / 16) * (1 - exp(-log(2) * (100 / 32) ^ 2))")" 2e-6 "  one after the other"
+map 40 30 'k % 11 == 5 ? "NaN" : sin(k) + x' holes.rcg
+claim "what is missing stays missing" rc-detrend --lowpass 9um holes.rcg -o low.rcg
+near "$(figure missing low.rcg)" "$(figure missing holes.rcg)" "$same" "  as many points"
+claim "threads change no bit" bash -c '
+    rc-synth selfaffine --hurst 0.8 --rms-height 1um --nx 200 --dx 1um -o rough.rcg
+    for step in "--lowpass 9um" "--highpass 70um --robust" "--outliers 3" "--poly 5 --robust"; do
+        rc-detrend --quiet --threads 1 $step rough.rcg -o one.rcg &&
+        rc-detrend --quiet --threads 3 $step rough.rcg | cmp - one.rcg || exit 1
+    done'
+
+# ---- outliers, taper ----
+
+map 40 30 'sin(x / 9) + 0.01 * sin(k * k) + (k % 100 == 50 ? 3 : 0)' spikes.rcg
+claim "outliers become missing" rc-detrend --outliers 10 spikes.rcg -o clean.rcg
+near "$(figure missing clean.rcg)" 12 "$same" "  the twelve that there are"
+near "$(figure outliers clean.rcg)" 12 "$same" "  the key counts them"
+claim "  and is added to" bash -c 'rc-detrend --outliers 2.5 clean.rcg -o more.rcg'
+near "$(figure outliers more.rcg)" "$(figure missing more.rcg)" "$same" "  all that were taken out"
+claim "in the order given" bash -c '
+    rc-detrend --outliers 10 --fill spikes.rcg -o a.rcg && rc-detrend --fill --outliers 10 spikes.rcg -o b.rcg &&
+    says "\"missing\": 0," rc-info --json a.rcg && says "\"missing\": 12," rc-info --json b.rcg'
+claim "many outliers are warned of" warns '[0-9.]+ % of the points \([0-9]+ of 1200\) are outliers at T = 0.5' \
+    rc-detrend --outliers 0.5 spikes.rcg -o c.rcg
+claim "a taper makes a surface periodic" bash -c '
+    rc-detrend --plane --taper 5um spikes.rcg -o a.rcg && says "\"periodic\": \"yes\"" rc-info --json a.rcg'
+claim "history names all steps in SI" \
+    says 'rc-detrend [0-9.]* --outliers 3.5 --sphere --lowpass 9e-06 --fill --taper 5e-06 --robust"' bash -c '
+    rc-detrend --robust --outliers 3.5 --sphere --lowpass 9um --fill --taper 5um spikes.rcg | rc-info --json'
+claim "a periodic surface loses that with a sphere" warns 'periodic=no from here' \
+    rc-detrend --sphere rough.rcg -o a.rcg
+claim "  and has it again with a taper" says '"periodic": "yes"' bash -c 'rc-detrend --taper 9um a.rcg | rc-info --json'
+
+# ---- refusals ----
+
+refuses 1 'a cut-off of 1e-06 m is below two nodes, 2.2e-06 m' "a cut-off below two nodes" "rc-detrend --lowpass 1um ball.rcg"
+refuses 1 'a cut-off of 0.001 m is longer than the map, 4.7e-05 m' "one longer than the map" "rc-detrend --highpass 1mm ball.rcg"
+refuses 2 '--lowpass 0 m: it must be above 0' "none at all" "rc-detrend --lowpass 0 ball.rcg"
+refuses 1 'a taper of 3e-05 m is wider than half the map, 1.815e-05 m' "a taper over half the map" "rc-detrend --taper 30um ball.rcg"
+refuses 2 '--outliers -1: it must be above 0' "no deviations" "rc-detrend --outliers -1 ball.rcg"
+printf '1 NaN\n2 3\n' | rc-import --quiet --dx 1um --z-unit nm - -o few.rcg
+refuses 1 'a sphere has 4 unknowns, and only 3 points are there: subtract a plane' "a sphere through three points" "rc-detrend --sphere few.rcg"
+map 9 9 '2 * x - y' plane.rcg
+refuses 1 'do not determine a cylinder: .* no curvature' "a cylinder in a plane" "rc-detrend --cylinder plane.rcg"
+refuses 2 '--robust bears on forms and filters' "--robust with nothing to fit" "rc-detrend --robust --fill few.rcg"
+refuses 1 '33 x 47 nodes need about .*, --memory allows' "more memory than is allowed" "rc-detrend --memory 20k --lowpass 9um ball.rcg"
+
+finish

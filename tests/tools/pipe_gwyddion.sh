@@ -1,0 +1,52 @@
+# What rc-export writes opens in Gwyddion with the same numbers.
+#
+# Gwyddion brings the whole of GTK 2 along, so it is not among the packages that the tests install:
+#     apt-get install gwyddion libgwyddion20-dev libgtk2.0-dev libgtkglext1-dev xvfb
+. "$(dirname "$0")/../pipe.sh"
+
+if ! pkg-config --exists gwyddion 2>/dev/null || ! command -v xvfb-run >/dev/null; then
+    echo "skipped: Gwyddion, its headers or xvfb are not installed; $0 says how"
+    exit 77
+fi
+# shellcheck disable=SC2046
+cc -w -O1 "$RC_SOURCE/tests/tools/gwyddion.c" -o gwyddion $(pkg-config --cflags --libs gwyddion) -lm || exit 1
+
+rc-synth selfaffine --nx 61 --ny 37 --dx 1.1um --dy 0.7um --hurst 0.8 --rms-height 0.4um --seed 5 \
+    -o whole.rcg
+# some points missing, in text, because nothing else makes them
+rc-export --format csv whole.rcg | awk -F, -v OFS=, '/^#/ { print; next }
+    { for (i = 1; i <= NF; i++) if ((NR * 31 + i * 17) % 11 == 0) $i = "NaN"; print }' >holes.csv
+rc-import holes.csv -o holes.rcg
+
+# opens STREAM FORMAT PART [OPTION...]: heights within PART of the largest.
+opens() {
+    local stream=$1 format=$2 part=$3
+    shift 3
+    rm -f file.*
+    rc-export --format "$format" "$@" "$stream.rcg" -o "file.${format%%-binary}" &&
+        rc-export --format npy "$stream.rcg" -o file.npy &&
+        xvfb-run -a ./gwyddion "file.${format%%-binary}" file.npy 1.1e-6 0.7e-6 "$part" | tee said
+}
+
+check() {
+    claim "$1: $2 ${5-} opens" opens "$@"
+    sed 's/^/    /' said
+}
+
+for stream in whole holes; do
+    check $stream x3p 0 --type f64
+    check $stream x3p 6e-8 --type f32
+    check $stream x3p 3e-10 --type i32
+    check $stream x3p 2e-5 --type i16
+    check $stream sdf 0 --missing NaN
+    check $stream sdf-binary 0 --type f64
+    check $stream sdf-binary 3e-10 --type i32
+    check $stream sdf-binary 2e-5 --type i16
+    check $stream gsf 6e-8
+    check $stream gwy 0
+    check $stream xyz 0
+done
+# Gwyddion does not mind the flag for missing points of this format
+check whole sur 1e-9 --type i32
+check whole sur 4e-5 --type i16
+finish

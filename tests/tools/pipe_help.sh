@@ -1,0 +1,141 @@
+# The manual says what the tools do: every option of --help and no other, clean mdoc, no reference
+# into the void, and examples that run as they are printed.
+. "$(dirname "$0")/../pipe.sh"
+. "$RC_SOURCE/tests/manual.sh"
+
+tools=
+for source in "$RC_SOURCE"/tools/rc-*.c; do
+    tools="$tools $(basename "$source" .c)"
+done
+
+# ---- options ----
+
+same_options() {
+    help_options "$1" >help.txt && page_options "$pages/$1.1" >page.txt &&
+        diff help.txt page.txt >&2
+}
+
+same_words() {
+    help_words "$1" >help.txt && page_words "$pages/$1.1" >page.txt && comm -23 help.txt page.txt >missing.txt
+    cat missing.txt >&2
+    [ ! -s missing.txt ]
+}
+
+takes_words() {
+    help_words "$1" >help.txt && cut -d ' ' -f 1 help.txt | uniq | tr '\n' ' ' >taking.txt && cat taking.txt >&2 &&
+        [ "$(cat taking.txt)" = "$2" ]
+}
+
+for tool in $tools; do
+    claim "$tool: the manual has the options of --help and no other" same_options "$tool"
+    claim "$tool: the manual has the words that its options take" same_words "$tool"
+done
+claim "rc-solve: the options that take words are found in --help" takes_words rc-solve '--kernel --method --output --type '
+
+# ---- two names ----
+
+rc-synth sphere --nx 33 --dx 5um --radius 7.5mm -o ball.rcg
+rc-solve --load 2N --estar 114GPa --quiet -o pressed.rcg ball.rcg
+# same_by ENGINES COMMAND...: it does the same with --engine as with --kernel, and another thing by default.
+same_by() {
+    local engines=$1
+    shift
+    "$@" --kernel "$engines" >kernel.out && "$@" --engine "$engines" >engine.out && "$@" >default.out &&
+        cmp kernel.out engine.out && ! cmp -s kernel.out default.out
+}
+claim "rc-solve: --engine is --kernel" same_by mlms rc-solve --load 2N --estar 114GPa --quiet ball.rcg
+claim "rc-stress: --engine is --kernel" same_by mlms rc-stress --tol 1e-2 --nu 0.3 --depths 5um pressed.rcg
+claim "rc-deflect: --engine is --kernel" same_by mlms rc-deflect --tol 1e-2 pressed.rcg
+claim "rc-cost: --engine is --kernel" same_by fft,direct rc-cost --load 2N --estar 114GPa --dry-run ball.rcg
+refuses 2 'must be one of auto\|fft\|fft64\|mlms\|direct' "an engine that is none, naming those there are" \
+    "rc-solve --load 2N --estar 114GPa --engine fast ball.rcg"
+
+# ---- pages ----
+
+has_sections() {
+    local page=$1
+    shift
+    for section in "$@"; do
+        grep -q "^\.Sh $section$" "$page" || {
+            echo "$page: no section $section" >&2
+            return 1
+        }
+    done
+}
+
+references_exist() {
+    awk '/^\.Xr (rc-|rcg|contact|libcontact)/ { print $2 "." $3 }' "$1" | sort -u |
+        while read -r page; do
+            [ -f "$pages/$page" ] || {
+                echo "$1: refers to $page, which does not exist" >&2
+                exit 1
+            }
+        done
+}
+
+for page in "$pages"/*.[1-9]; do
+    name=$(basename "$page")
+    case $name in
+    *.7) claim "$name: NAME, SEE ALSO" has_sections "$page" NAME "SEE ALSO" ;;
+    *) claim "$name: NAME, SYNOPSIS, EXAMPLES" has_sections "$page" NAME SYNOPSIS EXAMPLES ;;
+    esac
+    claim "$name: its references lead to pages" references_exist "$page"
+    if command -v mandoc >/dev/null; then
+        claim "$name: mandoc finds no fault" bash -c "mandoc -Tlint -Wwarning '$page' >&2"
+    fi
+done
+# The overview says of each tool what it does, and where to read on.
+overview() {
+    for tool in $tools; do
+        for line in ".It Xr $tool 1" ".Xr $tool 1 ,"; do
+            grep -qxF "$line" "$pages/contact.7" || {
+                echo "contact.7: no line '$line'" >&2
+                return 1
+            }
+        done
+    done
+}
+claim "contact.7: it names each tool" overview
+if ! command -v mandoc >/dev/null; then
+    echo "NOT OK: not checked: mandoc is missing"
+    claims=$((claims + 1))
+    failures=$((failures + 1))
+fi
+
+# ---- examples ----
+
+# The files that examples name, in a folder of their own.
+prepare() {
+    mkdir "$1" && cd "$1" || return
+    rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-height 20nm --rolloff 30um \
+        --short-cut 5um --seed 3 -o surface.rcg
+    rc-solve --quiet --radius 2mm --load 1N --estar 114GPa --hardness 6GPa surface.rcg -o result.rcg
+    cp surface.rcg flat.rcg
+    cp "$RC_SOURCE/sample_surfaces/rough-steel.x3p" surface.x3p
+    cp "$RC_SOURCE/sample_surfaces/rough-sphere.x3p" .
+    cp surface.x3p bench.x3p
+    printf '0 1 0\n1 3 1\n0 1 0\n' >heights.txt
+    cd ..
+}
+
+run_in() {
+    (cd "$1" && bash -e -u -o pipefail "$2" </dev/null)
+}
+
+# Those of contact.7, a tutorial, are run by pipe_tutorial.
+for page in "$pages"/*.[15] "$pages/contact-mpi.7"; do
+    name=$(basename "$page")
+    blocks "$page" EXAMPLES "$scratch/$name.blocks"
+    prepare "$scratch/$name.run"
+    for block in "$scratch/$name.blocks"/*; do
+        grep -q '^main(' "$block" && continue
+        claim "$name: example $(basename "$block") runs" run_in "$name.run" "$block"
+    done
+done
+for tool in $tools; do
+    "$tool" --help | sed -n '/^Examples:/,/^$/s/^  //p' >"$scratch/$tool.help"
+    prepare "$scratch/$tool.help.run"
+    claim "$tool: the examples of --help run" run_in "$tool.help.run" "$scratch/$tool.help"
+done
+
+finish

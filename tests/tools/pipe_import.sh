@@ -1,0 +1,171 @@
+# rc-import turns real files into height streams, and what it refuses leaves no half of one.
+. "$(dirname "$0")/../pipe.sh"
+
+# header NAME FILE: a line of the first frame's header.
+header() {
+    head -c 4096 "$2" | grep -a "^$1=" | head -n 1 | sed "s/^$1=//"
+}
+
+# first_value FILE: the first value of the stream's first frame, of type f64.
+first_value() {
+    local start
+    start=$(sed -n '/^$/q; p' "$1" | wc -c)
+    tail -c +$((start + 2)) "$1" | head -c 8 | od -An -t fD | tr -d ' '
+}
+
+printf '# Channel: Topo\n# Width: 6 um\n# Height: 5 um\n# Value units: nm\n1 2 3\n4 5 NaN\n' >map.txt
+printf '1 2 3\n4 5 6\n7 8 9\n' >bare.txt
+
+# ---- streams ----
+
+claim "a text matrix becomes a stream" rc-import map.txt -o map.rcg
+near "$(header dx map.rcg)" 2e-6 "$converted" "dx is the width over the columns"
+near "$(header dy map.rcg)" 2.5e-6 "$converted" "dy is the height over the rows"
+near "$(first_value map.rcg)" 1e-9 "$converted" "heights are in metres"
+claim "the frame is called height" test "$(header channel map.rcg) $(header unit map.rcg)" = "height m"
+claim "the source is the base name" test "$(header source map.rcg)" = map.txt
+claim "one file makes no case number" test -z "$(header case map.rcg)"
+claim "history names tool and version" grep -aq '^history=rc-import [0-9.]*$' map.rcg
+claim "a pipe does as well as a file" says '^nx=3$' bash -c 'cat map.txt | rc-import -'
+claim "--type f32 is obeyed" says '^type=f32$' rc-import --type f32 map.txt
+rc-import map.txt ./map.txt map.txt >three.rcg
+claim "several files are several cases" \
+    test "$(grep -a '^case=' three.rcg | tr '\n' ' ')" = "case=1 case=2 case=3 "
+claim "and one stream" test "$(tail -n 1 three.rcg)" = "RCGEND 3"
+
+# ---- what the user adds ----
+
+rc-import --dx 1.1um --z-unit nm bare.txt >bare.rcg
+near "$(header dx bare.rcg)" 1.1e-6 "$converted" "--dx gives the spacing"
+near "$(header dy bare.rcg)" 1.1e-6 "$converted" "dy defaults to dx"
+near "$(first_value bare.rcg)" 1e-9 "$converted" "--z-unit gives the unit"
+claim "history holds what was given, in SI" \
+    grep -aq '^history=rc-import [0-9.]* --dx 1.1e-06 --z-unit 1e-09$' bare.rcg
+rc-import --dx 4um map.txt >wider.rcg 2>wider.err
+near "$(header dx wider.rcg)" 4e-6 "$converted" "--dx wins over the file"
+claim "which is said" grep -q 'in x is 4e-06 m as given; the file says 2e-06 m' wider.err
+claim "and kept in history" grep -aq '^history=.* --dx 4e-06$' wider.rcg
+claim "--quiet says nothing" bash -c '
+    rc-import --quiet --dx 4um map.txt 2>quiet.err | cmp - wider.rcg && [ ! -s quiet.err ]'
+printf '1|2\nlost|4,5\n' >odd.txt
+rc-import --format ascii --dx 1um --z-unit 1e-6 --separator '|' --decimal , --missing lost odd.txt >odd.rcg
+near "$(header nx odd.rcg)" 2 "$same" "--separator, --decimal and --missing read an odd file"
+
+# ---- text ----
+
+printf '\223NUMPY' >cut.npy
+refuses 1 "the file is of version 0: 1 to 3 are read" "a format is known by its content" 'rc-import - <cut.npy'
+formats=$(sed -n 's/^RC_FORMAT(\(.*\))$/\1/p' "$RC_SOURCE/formats/formats.list")
+claim "formats.list has rows" test -n "$formats"
+claim "--formats has a line for each reader, in order" \
+    test "$(rc-import --formats | cut -d ' ' -f 1)" = "$formats"
+# "reads X3P, SDF, ... (N names) and M more" in the README: N + M of them
+row=$(sed -n 's/^| `rc-import` .*(\(.*\) and \([0-9]*\) more).*/\1; \2/p' "$RC_SOURCE/README.md")
+claim "the README counts them right" \
+    test "$(($(tr -cd , <<<"$row" | wc -c) + 1 + ${row##*; }))" -eq "$(wc -w <<<"$formats")"
+for format in $(rc-import --formats | cut -d ' ' -f 1); do
+    section=$(awk -v s=".Ss $format" '$0 == s {on = 1; next} /^\.S[sh]/ {on = 0} on' \
+        "$RC_SOURCE/man/rc-import.1")
+    claim "the manual has a section on $format, which says what is ignored" grep -qi ignored <<<"$section"
+done
+claim "--formats prints the formats" says '^x3p ' rc-import --formats
+claim "--list prints the channels" \
+    says '^[*] +1 +3 +2 +2e-06 +2.5e-06 +m +1e-09 +5e-09 +Topo$' rc-import --list map.txt
+claim "--list shows what the file does not say" \
+    says '^[*] +1 +3 +3 +- +- +- +1 +9 +height$' rc-import --list bare.txt
+claim "--channel takes a number" says '^nx=3$' rc-import --channel 1 map.txt
+claim "--channel takes a name" says '^nx=3$' rc-import --channel Topo map.txt
+if command -v script >/dev/null; then
+    claim "--list writes even to a terminal" says Topo script -qec "rc-import --list map.txt" /dev/null
+    # what a terminal is told comes out of script's standard output, as a stream would
+    claim "a stream does not" bash -c '
+        script -qec "rc-import map.txt" /dev/null </dev/null >terminal.txt
+        [ $? = 1 ] && grep -q "standard output is a terminal" terminal.txt && lacks RCG1 terminal.txt'
+fi
+
+# ---- refusals ----
+
+refuses 2 "name the files to import, or -" "no file is a wrong command line" 'rc-import'
+refuses 2 "--format xyzzy: no such format" "an unknown format is a wrong command line" 'rc-import --format xyzzy map.txt'
+refuses 2 "--decimal x: it must be [.] or ," "so is a decimal mark that is none" 'rc-import --decimal x map.txt'
+refuses 2 "--decimal and --separator are both ','" "and one that also separates" 'rc-import --decimal , --separator comma map.txt'
+refuses 2 "--separator '1': .*one character that is no part of a number" "and a separator of digits" 'rc-import --separator 1 map.txt'
+refuses 2 "--z-unit V: a unit of length" "and a unit that is no length" 'rc-import --z-unit V map.txt'
+refuses 2 "--dx 0 m: it must be above 0" "and a spacing of zero" 'rc-import --dx 0 map.txt'
+refuses 1 "bare.txt: the file does not give the spacing in x: --dx LENGTH" "an absent spacing names the option" 'rc-import --z-unit nm bare.txt'
+refuses 1 "bare.txt: the file does not give the unit of its heights: --z-unit" "an absent unit names the option" 'rc-import --dx 1um bare.txt'
+refuses 1 "no channel 'Phase'; there are 1 'Topo'" "an absent channel names those present" \
+    'rc-import --channel Phase map.txt'
+refuses 1 "nowhere.txt: No such file" "a file that is not there" 'rc-import nowhere.txt'
+refuses 1 "reading failed \(Is a directory\)" "a folder" 'rc-import .'
+refuses 1 "the file is empty" "an empty file" 'rc-import /dev/null'
+refuses 1 "line 2: 1 values, where the first row \(line 1\) has 2" "a row that is too short" \
+    'printf "1 2\n3\n" | rc-import --dx 1um --z-unit um -'
+refuses 1 "map.txt: reading it needs more memory than the .* of --memory" "a file that --memory has no room for" 'rc-import --memory 10 map.txt'
+refuses 1 "writing failed \(No space left on device\)" "a full disk" 'rc-import map.txt >/dev/full'
+refuses 1 "bare.txt: the file does not give the spacing" "the second of two files" 'rc-import map.txt bare.txt >half.rcg'
+claim "then the stream says that it failed" says '^RCGFAIL .*bare.txt' tail -n 1 half.rcg
+refuses 1 "bare.txt: the file does not give the spacing" "with -o" 'rc-import map.txt bare.txt -o half2.rcg'
+claim "nothing is left behind" bash -c '! ls half2.rcg* 2>/dev/null'
+
+# ---- real files ----
+
+corpus="${RC_CORPUS:-}/corpus"
+if [ -d "$corpus" ]; then
+    # file, format, nx, ny, dx, dy and the probe at the first point, as the manifest has them
+    # with the unit of x and z in the file: the others are read by tests/formats/format_corpus.c
+    awk -F '\t' '$2 ~ /^(x3p|ascii-matrix|sdf-ascii|digitalsurf-sur|wyko-opd|metropro-dat|alicona-al3d|sensofar-plu|nanoscope|nanosurf-nid|gsf|igor-ibw|mi-picoview|wsxm-stp|wsxm-top|bcrf|frt)$/ &&
+        $11 == "m" && $13 == "m" && $1 !~ / / { print $1, $7, $8, $9, $10, $19 }' \
+        "$RC_CORPUS/manifest.tsv" >rows.txt
+    manifest=1e-12 # digits that the manifest gives
+    heights=0
+    while read -r file nx ny dx dy probes; do
+        rc-import "$corpus/$file" >real.rcg 2>real.err
+        claim "$file is read" test "$(tail -n 1 real.rcg)" = "RCGEND 1"
+        claim "$file has its size" \
+            test "$(header nx real.rcg) $(header ny real.rcg)" = "$nx $ny"
+        near "$(header dx real.rcg)" "$dx" "$manifest" "$file: dx"
+        near "$(header dy real.rcg)" "$dy" "$manifest" "$file: dy"
+        case $probes in
+        0,0,*)
+            value=${probes#0,0,}
+            near "$(first_value real.rcg)" "${value%%;*}" "$manifest" "$file: first height"
+            heights=$((heights + 1))
+            ;;
+        esac
+    done <rows.txt
+    claim "the manifest had files of these formats" test "$(wc -l <rows.txt)" -ge 30
+    claim "and heights of them" test $heights -ge 20
+    claim "csafe-logo's wrong checksum is only a warning" \
+        warns 51f0b43f25b587b72aa51b954c2134eb rc-import "$corpus/x3p/x3ptools__csafe-logo.x3p"
+    bad=$corpus/bad
+    refuses 1 "sample2.x3p: FeatureType PCL is a cloud of points" "a cloud of points" "rc-import '$bad/x3p__ISO5436-sample2.x3p'"
+    refuses 1 "sample3.x3p: axis CY is of type 'A': only incremental axes" "an absolute axis" "rc-import '$bad/x3p__ISO5436-sample3.x3p'"
+    refuses 1 "nonsense_txt_file.txt: not recognised: it is none of the formats" "prose" "rc-import '$bad/SurfaceTopography__nonsense_txt_file.txt'"
+    refuses 1 "9 numbers in one column" "one column" "rc-import '$bad/SurfaceTopography__single_column.txt'"
+    refuses 1 "a ZIP archive, but no X3P: it holds no main.xml" "a ZIP archive of another kind" \
+        "rc-import '$bad/SurfaceTopography__mitutoyo_mock.xlsx'"
+    claim "a list of points is told from a matrix" says ': xyz$' rc-import --list --dx 1um --z-unit um \
+        "$corpus/xyz/SurfaceTopography__xyz-1.txt"
+    claim "and so is a profile" says ': profile$' rc-import --list --dx 1um --z-unit um \
+        "$corpus/profile-text/SurfaceTopography__xy-4.txt"
+    di=$corpus/nanoscope/SurfaceTopography__di-4.di
+    claim "--list has a line for every channel" \
+        test "$(rc-import --list "$di" | grep -Ec '^[* ] +[123] +512 +512 ')" = 3
+    claim "with its range" says 'm +-2.08214509398651.*e-07 +2.72935345420074.*e-07 Height Sensor$' \
+        rc-import --list "$di"
+    claim "another channel keeps its name and unit" bash -c "
+        rc-import --channel Phase '$di' -o phase.rcg &&
+        says 'channel=Phase nx=512 ny=512 .* unit=deg ' bash -c \"sed '/^\$/q' phase.rcg | tr '\\n' ' '\""
+    claim "by number too" says '^file.channel=Amplitude Error' rc-import --channel 2 "$di"
+    refuses 1 "no channel 'Topography'; there are 1 'Height Sensor' in m, 2 'Amplitude Error' in m" \
+        "an absent channel names all" "rc-import --channel Topography '$di'"
+    refuses 1 "its steps are 1 and 10 of a unit not given" "steps without a unit are named" \
+        "rc-import '$corpus/surfer-grd/fatiando__simple_surfer.grd'"
+    refuses 1 "the positions are not evenly apart: the furthest off is point 61" "an uneven profile" \
+        "rc-import --z-unit um '$corpus/profile-text/SurfaceTopography__xy-1.txt'"
+else
+    echo "not tried: RC_CORPUS names no folder of real files"
+fi
+
+finish

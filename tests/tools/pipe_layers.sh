@@ -1,0 +1,47 @@
+# rc-solve --layer: the body travels in the stream, rc-deflect and rc-stress take it from there, and
+# nonsense is refused.
+. "$(dirname "$0")/../pipe.sh"
+
+rc-synth sphere --nx 97 --ny 95 --dx 24um --radius 100mm -o ball.rcg
+solve() { rc-solve --E1 100GPa --nu1 0.3 --E2 rigid --load 350N "$@"; }
+export -f solve
+claim "a hard layer" bash -c 'solve --layer 1mm,1000GPa,0.3 --report hard.json ball.rcg -o hard.rcg 2>err && [ ! -s err ]'
+claim "  stands in the stream" says 'layers=0.001,1000000000000,0.3;inf,100000000000,0.3$' rc-info hard.rcg
+claim "  in the history, in SI" says 'rc-solve .*--layer 0.001,1000000000000,0.3' rc-info hard.rcg
+claim "  and in the report" says '"layers": "on: 1 on a substrate"' cat hard.json
+solve --report bare.json ball.rcg -o bare.rcg
+claim "none: left out" says '"layers": "left out: one material"' cat bare.json
+claim "  and no key" bash -c 'rc-info bare.rcg >bare.txt && lacks layers= bare.txt'
+claim "a hard layer leaves a smaller contact" awk -v a="$(field contact_area hard.json)" -v b="$(field contact_area bare.json)" \
+    'BEGIN { exit !(a < 0.5 * b) }'
+
+# layers of the substrate's own material are no layers
+solve --tol 1e-9 --layer 30um,100GPa,0.3 --layer 0.2mm,100GPa,0.3 --report same.json --output pressure ball.rcg -o same.rcg
+solve --tol 1e-9 --report bare.json --output pressure ball.rcg -o bare.rcg
+near "$(field max_pressure same.json)" "$(field max_pressure bare.json)" 1e-8 "two layers of the substrate's material are none: pressure"
+near "$(field approach same.json)" "$(field approach bare.json)" 1e-9 "  approach"
+
+largest() { rc-info --json "$@" 2>/dev/null | grep "\"channel\": \"displacement\"" | sed 's/.*"maximum": \([^,]*\),.*/\1/'; }
+near "$(rc-deflect hard.rcg | largest)" "$(largest hard.rcg)" "$rounding" "rc-deflect finds the displacement again"
+for kernel in direct mlms; do
+    near "$(rc-deflect --kernel $kernel --tol 1e-6 hard.rcg | largest)" "$(largest hard.rcg)" 1e-5 "  by $kernel"
+done
+refuses 1 'solved on layers, which say how stiff they are: leave out --estar' "  and no modulus beside" "rc-deflect --estar 1GPa hard.rcg"
+claim "rc-stress knows the layers" says 'material' bash -c 'rc-stress --depths 0.5mm,2mm --components mises hard.rcg | rc-info'
+
+refuses 2 'layers lie on a substrate: give its --E1' "with --estar" "rc-solve --load 1N --estar 1GPa --layer 1um,1GPa,0.3 ball.rcg"
+for layer in 1um 1um,1GPa 1um,1GPa,0.3,4 0,1GPa,0.3 1um,-1GPa,0.3 1um,1GPa,0.6 1um,1GPa,-1 inf,1GPa,0.3 1N,1GPa,0.3 ,, ''; do
+    refuses 2 "^rc-solve: --layer $layer" "--layer '$layer'" "solve --layer '$layer' ball.rcg"
+done
+claim "--dry-run names them" says 'layers +on: 2 on a substrate' solve --layer 1um,1GPa,0.3 --layer 2um,1GPa,0.3 --dry-run ball.rcg
+claim "rc-cost too solves coated bodies" says '^pcg' rc-cost --E1 100GPa --nu1 0.3 --E2 rigid --load 350N --layer 1mm,1000GPa,0.3 \
+    --method pcg --kernel fft ball.rcg
+claim "  and their stresses" says '^fft +1e-04' rc-cost --E1 100GPa --nu1 0.3 --E2 rigid --load 350N --layer 1mm,1000GPa,0.3 \
+    --method pcg --kernel fft --limit 100s --depths 0,0.5mm,2mm ball.rcg
+claim "  and says so, in the table and under the title" bash -c 'rc-cost --E1 100GPa --nu1 0.3 --E2 rigid --load 350N --layer 1mm,1000GPa,0.3 \
+    --layer 2mm,90GPa,0.3 --method pcg --kernel fft --plot cost.svg -o cost.txt ball.rcg &&
+    says "free, load 350 N, 2 layers, " cat cost.txt && says "free · 2 layers · load" cat cost.svg'
+refuses 2 'each layer has its own' "  without another Poisson's ratio" \
+    "rc-cost --E1 100GPa --nu1 0.3 --E2 rigid --load 350N --layer 1mm,1000GPa,0.3 --depths 0 --nu 0.2 ball.rcg"
+
+finish

@@ -1,0 +1,48 @@
+# The program that libcontact(3) prints compiles against the library as it stands there, and finds
+# what Hertz found; the shared library offers the names that its headers declare and no other.
+. "$(dirname "$0")/../pipe.sh"
+. "$RC_SOURCE/tests/manual.sh"
+. "$RC_SOURCE/tests/symbols.sh"
+
+library=$(dirname "$RC_BIN")/libcontact
+flags="-fopenmp $(sanitizers "$library/libcontact.a")"
+
+claim "the page holds a program" program "$pages/libcontact.3" hertz.c
+claim "  in 30 lines at most" [ "$(wc -l <hertz.c)" -le 30 ]
+# shellcheck disable=SC2086
+claim "it compiles against the static library" ${CC:-cc} -std=c17 -Wall -Wextra -pedantic \
+    -I "$RC_SOURCE" -o hertz hertz.c "$library/libcontact.a" $flags \
+    -lfftw3_threads -lfftw3f_threads -lfftw3 -lfftw3f -lgsl -lgslcblas -lm
+claim "it runs" bash -c './hertz >hertz.txt'
+# a = 227.934 um, p0 = 2.20563 GPa, approach = 6.92720 um (Johnson 1985, section 4.2)
+near "$(awk '/^approach/ { print $5 }' hertz.txt)" 6.92720e-6 "$six_digits" "approach of Hertz"
+near "$(awk '/^pressure/ { print $5 }' hertz.txt)" 2.20563e9 "$six_digits" "peak pressure of Hertz"
+near "$(awk '/^radius/ { print $5 }' hertz.txt)" 227.934e-6 "$six_digits" "radius of Hertz"
+# 129 nodes are three radii
+on_grid() { awk -v order="$1" 'BEGIN { print order / (129 / 3) ^ 2 }'; }
+near "$(awk '/^approach/ { print $2 }' hertz.txt)" 6.92720e-6 "$(on_grid "$grid_approach")" "approach"
+near "$(awk '/^pressure/ { print $2 }' hertz.txt)" 2.20563e9 "$(on_grid "$grid_peak")" "pressure in the middle"
+# The area is off by order / n, the radius by half of that.
+near "$(awk '/^radius/ { print $2 }' hertz.txt)" 227.934e-6 "$(awk -v order="$grid_area" 'BEGIN { print order / (129 / 3) / 2 }')" "radius"
+# shellcheck disable=SC2086
+claim "it compiles against the shared library" ${CC:-cc} -std=c17 -I "$RC_SOURCE" -o shared \
+    hertz.c -L "$library" -lcontact $flags -lm
+claim "it finds the same there" bash -c "
+    LD_LIBRARY_PATH='$library' ./shared >shared.txt && cmp hertz.txt shared.txt"
+
+# Names that begin with a line are the compiler's: marks of sanitizers.
+offered() {
+    declared "$RC_SOURCE/libcontact/contact.h" "$RC_SOURCE/libcontact/grid.h" >declared.txt &&
+        nm -D --defined-only "$library/libcontact.so" | awk '$3 !~ /^_/ { print $3 }' | sort >offered.txt &&
+        diff declared.txt offered.txt >&2
+}
+if command -v nm >/dev/null; then
+    claim "the shared library offers what its headers declare, and nothing else" offered
+    packaged() { sed -n 's/^ \(.*\)@Base .*/\1/p' "$RC_SOURCE/debian/libcontact0.symbols" | sort | diff - offered.txt >&2; }
+    claim "  its Debian package says the same" packaged
+    claim "  functions and an object" bash -c 'grep -qx rc_solver_new offered.txt && grep -qx rc_component_names offered.txt'
+else
+    echo "not tried: what the shared library offers, because nm is not here"
+fi
+
+finish

@@ -1,0 +1,267 @@
+# Under mpirun rc-solve, rc-deflect and rc-stress write what one process writes, byte for byte; they say what they
+# send to each other; where one fails all end, with one message, and nothing half-written is left.
+# RC_RANKS: how many processes besides one, "2" unless it is set.
+. "$(dirname "$0")/../pipe.sh"
+export RC_THREADS=1
+ranks=${RC_RANKS:-2}
+
+rc-synth selfaffine --nx 200 --ny 187 --dx 1um --hurst 0.8 --rms-slope 0.1 --short-cut 8um --seed 3 -o rough.rcg
+rc-pick --set source=rough.x3p rough.rcg | rc-pick --resample 0.7um -o fine.rcg
+cat rough.rcg fine.rcg >two.rcg
+# A sphere of single values, on a map with more columns than rows.
+rc-synth sphere --nx 300 --ny 33 --dx 5um --radius 7.5mm --type f32 -o sphere.rcg
+
+# same NAME "shell command without -o": with 1 process and with each number of them.
+same() {
+    local name=$1 command=$2 n
+    bash -c "$command -o alone.rcg" || return
+    for n in $ranks; do
+        $MPIRUN -n "$n" bash -c "$command -o shared.rcg" || return
+        cmp alone.rcg shared.rcg || return
+    done
+}
+claim "a list of loads, hardness, periodic" same loads \
+    "rc-solve --periodic --estar 1GPa --hardness 60MPa --load 0.1N:0.5N:3 --quiet rough.rcg"
+claim "two cases of a free map, an approach, a sphere added" same approach \
+    "rc-solve --estar 1GPa --approach 1um --radius 1mm --tol 1e-5 --quiet two.rcg"
+claim "a loading history, bodies taken apart, the plastic shape" same history \
+    "rc-solve --periodic --estar 1GPa --hardness 40MPa --load 0.3N,0.1N,0,0.4N --history --output pressure,plastic,gap --quiet rough.rcg"
+claim "layers, single values in and out, the scheme of the paper" same layers \
+    "rc-solve --E1 2GPa --nu1 0.3 --layer 20um,8GPa,0.2 --E2 rigid --load 0.2N --method pk99 --tol 1e-4 --type f32 --quiet sphere.rcg"
+rc-solve --estar 114GPa --load 20N --quiet sphere.rcg -o pressed.rcg
+# Lines longer than what is fetched of others' at a time: the figures are the same too.
+rc-synth selfaffine --nx 2100 --ny 48 --dx 1um --hurst 0.8 --rms-slope 0.1 --short-cut 8um --seed 3 -o lines.rcg
+figures() {
+    local n
+    for n in 1 2; do
+        $MPIRUN -n $n rc-solve --periodic --estar 1GPa --load 0.05N --tol 1e-4 --discretization --report "$n.json" -o "$n.rcg" lines.rcg \
+            2>"$n.err" || return
+    done
+    cmp 1.rcg 2.rcg && cmp 1.err 2.err || return
+    for n in contact_area max_pressure contact_area_corrected mean_gap approach pressure_error_estimate; do
+        [ "$(grep -o "\"$n\": [^,}]*" 1.json)" = "$(grep -o "\"$n\": [^,}]*" 2.json)" ] || return
+    done
+}
+claim "long lines: the figures of one process" figures
+claim "displacements" same deflect "rc-deflect --kernel fft pressed.rcg"
+claim "stresses at depths given, with friction" same stress \
+    "rc-stress --nu 0.3 --mu 0.2 --depths 0,10um,50um --components mises,s1 pressed.rcg"
+claim "stresses at depths that are chosen" same depths "rc-stress --nu 0.3 --depths auto --components szz --quiet pressed.rcg"
+
+# ---- reports ----
+
+run() { $MPIRUN -n 2 "$@"; }
+rc-synth wave --nx 254 --ny 256 --dx 1um --wavelength 127um --amplitude 1um | rc-pick --set channel=height -o wave.rcg
+rc-solve --periodic --estar 1GPa --mean-pressure 20MPa --quiet wave.rcg -o wave-pressed.rcg
+claim "what passes between processes" run rc-stress --nu 0.3 --depths 0,1um --components szz \
+    --report sent.json -o sent.rcg wave-pressed.rcg
+# contact-mpi(7): 16 bytes a wave, 128 waves a row, 256 rows, half of them for the other; the pressure's columns once,
+# and back for each of two depths: three exchanges, of 2 messages each
+near "$(field exchanges sent.json)" 3 1e-15 "exchanges"
+near "$(field messages sent.json)" 6 1e-15 "messages"
+near "$(field bytes_exchanged sent.json)" $((3 * 16 * 128 * 256 / 2)) 1e-15 "bytes"
+near "$(field ranks sent.json)" 2 1e-15 "ranks"
+claim "a report on standard output is written once" says '^1$' bash -c \
+    "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N --quiet --report - rough.rcg | grep -c contact_nodes"
+claim "so is what --verbose tells at the end" says '^1$' bash -c \
+    "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N --verbose -o told.rcg rough.rcg 2>&1 | grep -c 'memory: .* expected'"
+
+# What a contact exchanges and holds, as contact-mpi(7) has it: 32 bytes a wave for each equivalent, and up to 5 %
+# for spectra; 83 bytes a node, and 40 MiB at most.
+if [ "$ranks" != 2 ]; then
+    rc-synth selfaffine --nx 1024 --ny 1024 --dx 1um --hurst 0.8 --rms-slope 0.1 --short-cut 8um --seed 3 -o large.rcg
+    for n in $ranks; do
+        claim "1024 x 1024 nodes on $n" $MPIRUN -n "$n" rc-solve --periodic --estar 1GPa --mean-pressure 20MPa --tol 1e-4 \
+            --quiet --report large.json -o large-out.rcg large.rcg
+        waves=$(awk -v n="$n" -v c="$(field convolutions large.json)" 'BEGIN { print 32 * c * 1024 * 513 * (1 - 1 / n) }')
+        between "$waves" "$(field bytes_exchanged large.json)" "$(awk -v w="$waves" 'BEGIN { print 1.07 * w }')" "  bytes"
+        each=$(awk -v n="$n" 'BEGIN { print 83 * 1024 * 1024 / n }')
+        between "$each" "$(field peak_memory large.json)" "$(awk -v e="$each" 'BEGIN { print e + 40 * 1048576 }')" "  memory of a rank"
+    done
+fi
+
+# ---- checkpoints ----
+
+solve="rc-solve --periodic --estar 1GPa --output pressure --quiet"
+claim "a checkpoint of two" run $solve --load 0.1N:0.5N:3 --checkpoint kept.rcg -o whole.rcg rough.rcg
+claim "  is that of one" bash -c "$solve --load 0.1N:0.5N:3 --checkpoint alone-kept.rcg -o alone.rcg rough.rcg && cmp kept.rcg alone-kept.rcg"
+for n in 1 3; do
+    claim "  resumed by $n it is the same, one step a case" bash -c "
+        cp kept.rcg again-kept.rcg &&
+        $MPIRUN -n $n $solve --load 0.1N:0.5N:3 --checkpoint again-kept.rcg --resume --report again.json -o again.rcg rough.rcg &&
+        cmp whole.rcg again.rcg && [ \$(grep -c '\"iterations\": 1,' again.json) = 3 ]"
+done
+claim "one that was torn is mended by two as by one" bash -c "
+    head -c 500000 kept.rcg >torn.rcg && cp torn.rcg alone-torn.rcg &&
+    $MPIRUN -n 2 $solve --load 0.1N:0.5N:3 --checkpoint torn.rcg --resume -o torn-out.rcg rough.rcg &&
+    $solve --load 0.1N:0.5N:3 --checkpoint alone-torn.rcg --resume -o alone-out.rcg rough.rcg &&
+    cmp alone-out.rcg torn-out.rcg && cmp torn.rcg alone-torn.rcg"
+
+rc-pick --crop 0,0,40,37 rough.rcg -o small.rcg 2>/dev/null
+anew() {
+    local n
+    for n in 1 2 3 4 5 6 7 8; do
+        rm -f new-kept.rcg
+        # the second one slower, so that it looks when the first has made the file
+        $MPIRUN -n 1 $solve --load 1mN --checkpoint new-kept.rcg --resume -o new.rcg small.rcg : \
+            -n 1 nice -n 19 $solve --load 1mN --checkpoint new-kept.rcg --resume -o new.rcg small.rcg || return
+    done
+}
+claim "--resume where there is none yet begins one, whoever comes first" anew
+
+# ---- refusals ----
+
+refuses 2 'give -o FILE' "a pipe for output" "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N rough.rcg | cat"
+refuses 2 'name one instead of a pipe' "a pipe for input" "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N -o no.rcg"
+refuses 1 "needs the whole map in one process" "an engine that is not shared" \
+    "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N --kernel mlms -o no.rcg rough.rcg"
+rc-synth selfaffine --nx 700 --ny 700 --dx 1um --hurst 0.8 --rms-slope 0.1 --seed 3 |
+    rc-pick --set channel=pressure --set unit=Pa -o rough-pressed.rcg
+refuses 1 "cut a part out" "nor is it advised where memory is short" \
+    "$MPIRUN -n 2 rc-deflect --kernel fft64 --estar 1GPa --memory 25M -o no.rcg rough-pressed.rcg"
+refuses 1 "a section is computed by one process" "a section" \
+    "$MPIRUN -n 2 rc-stress --nu 0.3 --depths 0,1um --section y=0 -o no.rcg wave-pressed.rcg"
+refuses 1 "a section is computed by one process" "  of a large map: not for its memory" \
+    "$MPIRUN -n 2 rc-stress --nu 0.3 --depths 0,1um --section y=0 -o no.rcg rough-pressed.rcg"
+refuses 2 'give one of --load' "a wrong command line" "$MPIRUN -n 2 rc-solve --estar 1GPa -o no.rcg rough.rcg"
+claim "  is said once" test "$(grep -c 'give one of' refuses.err)" = 1
+refuses 1 'checksum' "a damaged stream" "
+    { head -c 200000 rough.rcg; printf X; tail -c +200002 rough.rcg; } >damaged.rcg
+    $MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N -o no.rcg damaged.rcg"
+refuses 1 'the stream stops|reading stops short' "one that is cut off" "
+    head -c 200000 rough.rcg >short.rcg; $MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N -o no.rcg short.rcg"
+# A NaN in the rows of the second process: column 7 of row 150.
+perl -0777 -ne '/^(.*?\n\n)(.*)crc32/s; $v = $2; substr($v, 8 * (200 * 150 + 7), 8) = "\0\0\0\0\0\0\xf8\x7f";
+    print "$1${v}crc32 00000000\nRCGEND 1\n"' rough.rcg | reseal >nan.rcg
+refuses 1 '1 of 37400 values are NaN or infinite, the first in column 7 of row 150' "NaN in another's rows" \
+    "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N -o no.rcg nan.rcg"
+claim "  is said once" test "$(grep -c 'are NaN' refuses.err)" = 1
+rc-solve --periodic --estar 1e60Pa --mean-pressure 1e58Pa --tol 1e-3 --output pressure --quiet wave.rcg -o huge.rcg
+refuses 1 '65024 of 65024 values of mises came out larger than single precision can hold' "values too large, in the rows of both" \
+    "$MPIRUN -n 2 rc-stress --nu 0.3 --depths 0 --components mises --type f32 -o no.rcg huge.rcg"
+claim "  are said once" test "$(grep -c 'came out' refuses.err)" = 1
+refuses 3 'stopped short' "short of the accuracy: written, with its exit status" \
+    "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N --tol 1e-30 -o stopped.rcg rough.rcg"
+claim "  and whole" bash -c 'rc-info stopped.rcg >/dev/null; test $? = 3'
+claim "nothing of what failed is left" bash -c '! ls no.rcg* 2>/dev/null'
+
+# What ends processes from outside: the file that was there stays, and no part of another is left.
+rc-synth selfaffine --nx 800 --ny 800 --dx 1um --hurst 0.8 --rms-slope 0.1 --short-cut 8um --seed 3 -o long.rcg
+lasting="rc-solve --periodic --estar 1GPa --method pk99 --tol 1e-14 -o killed.rcg long.rcg"
+# begin COMMAND...: starts two processes in the background: $launcher, and $victim the second of them.
+begin() {
+    echo old >killed.rcg
+    $MPIRUN -n 2 "$@" >/dev/null 2>killed.err &
+    launcher=$!
+    for _ in $(seq 500); do
+        victim=$(pgrep -P "$launcher" -x rc-solve | tail -n 1)
+        [ -n "$victim" ] && return
+        sleep 0.02
+    done
+    return 1
+}
+# Whether nothing is half-written: of what a signal has stopped the file may be the new one, which says so.
+nothing_half() {
+    [ -z "$(ls killed.rcg.* 2>/dev/null)" ] || return
+    [ "$(head -c 100 killed.rcg | tr -d '\0')" = old ] && return
+    rc-info --quiet killed.rcg >/dev/null
+    [ $? = 3 ] && [ "$1" != killed ]
+}
+killed() {
+    begin $lasting --load 3N || return
+    sleep 0.5
+    kill -KILL "$victim"
+    wait "$launcher" && return 1
+    nothing_half killed
+}
+claim "a process that is killed leaves nothing" killed
+killed_writing() {
+    local n=0
+    begin $lasting --tol 1e-2 --load 0.1N:4N:400 || return
+    until ls killed.rcg.?????? >/dev/null 2>&1 || [ $((n += 1)) -gt 3000 ]; do sleep 0.01; done
+    kill -KILL "$victim"
+    wait "$launcher" && return 1
+    nothing_half killed
+}
+claim "nor does one that is killed when they write" killed_writing
+# Another run would add to the checkpoint of one that is under way, and has a frame in it.
+adding() {
+    local n=0 status
+    begin $lasting --load 3N --checkpoint adding.rcg --interval 0.01 || return
+    until [ "$(stat -c %s adding.rcg 2>/dev/null || echo 0)" -gt 6000000 ] || [ $((n += 1)) -gt 3000 ]; do sleep 0.01; done
+    $solve --load 3N --checkpoint adding.rcg --resume -o no.rcg long.rcg 2>adding.err
+    status=$?
+    kill -KILL "$victim"
+    wait "$launcher"
+    [ $status = 1 ] && grep -q 'adding.rcg: another run is adding to it' adding.err && [ ! -e no.rcg ]
+}
+claim "two runs do not add to one checkpoint" adding
+# signalled SIGNAL SECONDS: mpirun, which ends those whom it has started, and kills them some time later.
+signalled() {
+    begin $lasting --load 3N || return
+    sleep "$2"
+    kill -"$1" "$launcher"
+    wait "$launcher" && return 1
+    cat killed.err >&2
+    nothing_half signalled && grep -aq '^rc-solve: .*\(interrupted\|ended by a signal\)' killed.err
+}
+export OMPI_MCA_odls_base_sigkill_timeout=2 # by itself 1 s, which may be too little for words where much else runs
+for signal in TERM INT; do
+    for seconds in 3 4.2; do
+        claim "mpirun is ended after $seconds s by $signal: a message, nothing half-written" signalled $signal $seconds
+    done
+done
+patient() {
+    begin $lasting --load 3N || return
+    sleep 6
+    kill -TERM $(pgrep -P "$launcher" -x rc-solve) # as a launcher does that leaves them time
+    wait "$launcher" && return 1
+    rc-info --quiet killed.rcg >/dev/null
+    [ $? = 3 ] && [ -z "$(ls killed.rcg.* 2>/dev/null)" ]
+}
+export OMPI_MCA_odls_base_sigkill_timeout=5
+claim "where there is time, what was reached is written" patient
+unset OMPI_MCA_odls_base_sigkill_timeout
+
+# No memory in the second process, for one allocation after the other: the work is done all the same, or all end with
+# exit status 1 and a message, and nothing else is left.
+# short_of N: exit status
+short_of() {
+    echo old >short.rcg
+    timeout -s KILL 60 $MPIRUN -n 1 $short_command : -n 1 env LD_PRELOAD="$RC_FAILING_MALLOC" RC_FAULT_AT="$1" RC_FAULT_COUNT="$PWD/count" \
+        $short_command >short.out 2>short.err
+}
+export ASAN_OPTIONS="${ASAN_OPTIONS-}:verify_asan_link_order=0"
+short_command="rc-solve --periodic --estar 1GPa --hardness 60MPa --load 1mN:2mN:2 --discretization --quiet --checkpoint short-kept --resume -o short.rcg small.rcg"
+memory() {
+    local n last status wrong=0
+    rm -f short-kept count
+    short_of 0 || {
+        echo "without a fault: exit status $?: $(head -c 600 short.err)" >&2
+        return 1
+    }
+    last=$(cat count)
+    [ "${last:-0}" -gt 0 ] || {
+        echo "no allocation was counted: is $RC_FAILING_MALLOC there?" >&2
+        return 1
+    }
+    for ((n = 1; n <= last; n += ${RC_STRIDE:-$((last / 12 + 1))})); do
+        rm -f short-kept
+        short_of "$n"
+        status=$?
+        case $status in
+        0) rc-info --quiet short.rcg >/dev/null || { echo "allocation $n: not whole" >&2; wrong=1; } ;; # nor converged=no
+        1)
+            [ "$(cat short.rcg)" = old ] || { echo "allocation $n: the old file is not as it was" >&2; wrong=1; }
+            grep -aq '^rc-solve: ' short.err || { echo "allocation $n: no message: $(head -c 300 short.err)" >&2; wrong=1; }
+            ;;
+        *) echo "allocation $n of $last: exit status $status: $(head -c 300 short.err)" >&2; wrong=1 ;;
+        esac
+        [ -z "$(ls short.rcg.* 2>/dev/null)" ] || { echo "allocation $n: half of a file is left" >&2; wrong=1; rm -f short.rcg.*; }
+    done
+    echo "$last allocations" >&2
+    return $wrong
+}
+[ -z "${RC_FAILING_MALLOC-}" ] || claim "allocations of one process fail" memory
+
+finish

@@ -1,0 +1,48 @@
+# The sample surfaces are what their script makes, and the demo runs on them.
+. "$(dirname "$0")/../pipe.sh"
+
+# Every sample has a row here, and what make.sh makes is nothing else.
+samples="rough-steel.x3p rough-sphere.x3p turned-brass.txt"
+claim "make.sh makes the samples again, bit for bit" bash -c '
+    mkdir again && bash "$RC_SOURCE/sample_surfaces/make.sh" again &&
+    [ "$(ls again | wc -l)" = '"$(wc -w <<<"$samples")"' ] &&
+    for sample in '"$samples"'; do cmp "again/$sample" "$RC_SOURCE/sample_surfaces/$sample" || exit 1; done'
+# 0.55 of pi a^2, a^3 = 3 F R / 4 E*; the pressure reaches the hardness exactly, and nowhere more
+claim "the rough sphere of the paper: contact area 0.55 of that of Hertz, cut at 6 GPa" bash -c '
+    rc-import "$RC_SOURCE/sample_surfaces/rough-sphere.x3p" |
+        rc-solve --radius 7.5mm --load 240N --estar 113.93GPa --hardness 6GPa --output pressure \
+            --report sphere.json -o sphere.rcg'
+hertz=$(awk 'BEGIN { print 3.14159265 * (0.75 * 240 * 7.5e-3 / 113.93e9) ^ (2 / 3) }')
+between 0.545 "$(awk -v a="$(field contact_area sphere.json)" -v b="$hertz" 'BEGIN { print a / b }')" 0.555 \
+    "  that is, 0.55 to two digits"
+near "$(field max_pressure sphere.json)" 6e9 "$same" "  the largest pressure is the hardness"
+between 1e-9 "$(field plastic_area sphere.json)" 6e-9 "  on a part of it"
+
+for sample in $samples; do
+    claim "$sample goes from file to picture in one line" bash -c "
+        rc-import '$RC_SOURCE/sample_surfaces/$sample' | rc-detrend --fill --poly 2 |
+            rc-solve --mean-pressure 30MPa --estar 114GPa --hardness 6GPa --quiet |
+            rc-stress --nu 0.3 --depths 0,2um,5um --components mises |
+            rc-render --channel mises -o $sample.png && says PNG head -c 4 $sample.png"
+done
+claim "the demo runs" bash -c '
+    mkdir demo && cd demo && bash "$RC_SOURCE/sample_surfaces/demo.sh" >said.txt &&
+    says PNG head -c 4 rc-demo/height.png && says PNG head -c 4 rc-demo/pressure.png &&
+    says PNG head -c 4 rc-demo/mises.png'
+near "$(sed -n 's/^  load = //p' demo/said.txt)" 60 "$summed" "  and says what it found"
+near "$(sed -n 's/^  max_pressure = //p' demo/said.txt)" 6e9 "$same" "  with the hardness that it gave"
+claim "  on any other file too" bash -c '
+    cd demo && says "max_pressure = [0-9]" bash "$RC_SOURCE/sample_surfaces/demo.sh" ../again/turned-brass.txt'
+
+if [ -d "$RC_CORPUS/corpus" ]; then
+    real=$RC_CORPUS/corpus/x3p/bulletxtrctr__Hamby252_Barrel1_Bullet1_Land1.x3p
+    claim "a real X3P goes from file to picture in one line" bash -c "
+        rc-import '$real' | rc-detrend --poly 2 --fill |
+            rc-solve --mean-pressure 30MPa --estar 114GPa --hardness 6GPa --quiet |
+            rc-stress --nu 0.3 --depths 0,5um --components mises |
+            rc-render --channel mises -o real.png && says PNG head -c 4 real.png"
+else
+    echo "not run: no corpus of real files beside the project"
+fi
+
+finish

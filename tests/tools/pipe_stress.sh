@@ -1,0 +1,173 @@
+# rc-stress as a command: what it writes, what its report says, what it refuses.
+. "$(dirname "$0")/../pipe.sh"
+
+rc-synth sphere --nx 65 --ny 49 --dx 10um --dy 11um --radius 7.5mm |
+    rc-solve --quiet --load 240N --E1 208GPa --nu1 0.3 --E2 208GPa --nu2 0.3 \
+        --output pressure -o ball.rcg
+rc-synth wave --nx 40 --ny 30 --dx 1um --amplitude 50nm --wavelength 20um |
+    rc-solve --quiet --periodic --mean-pressure 100MPa --estar 100GPa --output pressure -o wave.rcg
+p0=2205240000 # Hertz
+
+frames() { rc-info "$1" | grep -c 'frame [0-9]* ('; }
+number() { grep -o "\"$1\": {[^[]*" "$3" | grep -o "\"$2\": [^,]*" | head -n 1 | cut -d' ' -f2; }
+count() { grep -o '"counts": {[^}]*' "$2" | grep -o "\"$1\": [0-9]*" | cut -d' ' -f2; }
+
+# ---- slices ----
+
+claim "slices work" bash -c 'rc-stress --depths 0,100um --report r.json ball.rcg -o s.rcg'
+claim "seven frames a depth" test "$(frames s.rcg)" = 14
+claim "a frame knows its depth and how many there are" \
+    bash -c 'says depth=0.0001$ rc-info s.rcg && says frames=14$ rc-info s.rcg'
+# 5e-3: 23 nodes in the radius, solved to 65 x 49 nodes^-0.75 = 2.4e-3
+near "$(number szz value r.json)" "-$p0" 5e-3 "szz at the surface is the pressure"
+near "$(number szz depth r.json)" 0 "$same" "  at depth 0"
+near "$(number mises value r.json)" "$(awk "BEGIN { print 0.6187 * $p0 }")" "$coarse_grid" \
+    "Mises at 100 um is what Hertz has there"
+
+claim "--depths auto" bash -c \
+    'rc-stress --depths auto --components mises,tresca,s1,s2,s3 --report a.json ball.rcg -o a.rcg'
+near "$(number mises value a.json)" "$(awk "BEGIN { print 0.620041 * $p0 }")" "$coarse_grid" \
+    "  finds the largest Mises stress"
+near "$(number tresca value a.json)" "$(awk "BEGIN { print 0.620041 * $p0 }")" "$coarse_grid" \
+    "  and Tresca's, the same on the axis"
+# the depths are some 0.1 of that apart, and the maximum is flat
+near "$(number mises depth a.json)" "$(awk 'BEGIN { print 0.480864 * 228e-6 }')" 0.15 "  at its depth"
+claim "  and history says auto" says '--depths auto' rc-info a.rcg
+claim "  with depths that rise, first 0" bash -c '
+    grep -o "\"depths\": \[0, [^]]*" a.json | tr "," "\n" | sed "1d" >depths.txt &&
+    [ "$(wc -l <depths.txt)" -ge 10 ] && sort -g -c -u depths.txt'
+
+rc-stress --depths 100um --mu 0.25 --components mises --report f.json ball.rcg -o f.rcg
+near "$(number mises value f.json)" "$(awk "BEGIN { print 0.64759 * $p0 }")" "$coarse_grid" \
+    "friction raises the largest Mises stress as in Hamilton's solution"
+# a node is 0.16 of the way that it moves
+near "$(number mises x f.json)" "$(awk 'BEGIN { print 0.270 * 228e-6 }')" 0.2 \
+    "  and moves it ahead"
+claim "  the frame says so" says 'mu=0.25$' rc-info f.rcg
+
+# ---- counts ----
+
+claim "without friction no tangential kernel is evaluated" test "$(count shear_kernels r.json)" = 0
+claim "with it five a depth are" test "$(count shear_kernels f.json)" = 5
+rc-stress --depths 0:50um:9 --components szz --report c.json ball.rcg -o c.rcg
+claim "--components szz evaluates one kernel a depth" test "$(count normal_kernels c.json)" = 9
+claim "and says what it left out" grep -q '"sxx": "left out: not in --components"' c.json
+claim "the pressure is transformed once" test "$(count source_transforms c.json)" = 1
+
+# ---- memory ----
+
+rc-synth sphere --nx 200 --ny 200 --dx 4um --radius 7.5mm |
+    rc-solve --quiet --load 240N --E1 208GPa --nu1 0.3 --E2 208GPa --nu2 0.3 \
+        --output pressure -o large.rcg
+# with sanitizers, what is freed stays for a while: not for long
+export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}quarantine_size_mb=1"
+rc-stress --depths 0:20um:2 --report few.json large.rcg >/dev/null
+rc-stress --depths 0:20um:40 --report many.json large.rcg >/dev/null
+# a slice of one component is 2.4 % of it: twenty times the depths may not add two
+near "$(field peak_memory many.json)" "$(field peak_memory few.json)" 0.05 \
+    "memory does not grow with the number of depths"
+
+# ---- sections ----
+
+claim "a section" bash -c \
+    'rc-stress --section y=0 --depths 0:200um:21 --components szz,mises --report y.json \
+        ball.rcg -o y.rcg'
+claim "  is one frame a component" test "$(frames y.rcg)" = 2
+claim "  of as many rows as depths" says '65 x 21 nodes' rc-info y.rcg
+claim "  that says where it is" bash -c \
+    'rc-info y.rcg >y.txt && grep -q " section=y$" y.txt && grep -q " at=0$" y.txt && grep -q " depths=0,1e-05" y.txt'
+claim "  and can be drawn" bash -c 'rc-render -o y.png y.rcg && test -s y.png'
+claim "  without a map's transforms" test "$(count field_transforms y.json)" = 0
+near "$(number mises value y.json)" "$(awk "BEGIN { print 0.620041 * $p0 }")" "$coarse_grid" \
+    "  and the largest Mises stress of the contact is in it"
+rc-stress --section x=20um --depths 100um --components szz --report x.json ball.rcg -o x.rcg
+rc-stress --depths 100um --components szz --report xx.json ball.rcg -o xx.rcg
+claim "a section across x has the rows of the map as columns" says '49 x 1 nodes' rc-info x.rcg
+claim "history has its place in SI" says '--section x=2e-05' rc-info x.rcg
+# x = 2 nodes from the middle column: of the map, the value in the same place
+column() { # FILE: the values of one f64 frame of 65 x 49 in column 34
+    perl -0777 -ne 's/^.*?\n\n//s; my @v = unpack "d<*"; print "$_\n" for map { sprintf "%.9g", $v[65 * $_ + 34] } 0 .. 48' "$1"
+}
+row() { # FILE: the values of one f64 frame of 49 x 1
+    perl -0777 -ne 's/^.*?\n\n//s; my @v = unpack "d<*"; print "$_\n" for map { sprintf "%.9g", $_ } @v[0 .. 48]' "$1"
+}
+column xx.rcg >column.txt
+row x.rcg >row.txt
+claim "and the values of the map there" diff column.txt row.txt
+claim "  49 of them" test "$(wc -l <row.txt)" = 49
+
+# ---- a rough ball: the paper's Fig. 6 ----
+
+# 121 x 103 nodes of its section 4.2, real contact about 0.55 of Hertz's, where Mises is 1.37 GPa at most
+ball="--radius 1.88mm --load 15.06N --E1 210GPa --nu1 0.28 --E2 210GPa --nu2 0.28 --hardness 6GPa"
+rc-synth selfaffine --nx 121 --ny 103 --dx 1.1um --dy 1.29um --hurst 0.8 --rms-height 130nm \
+    --rolloff 30um --short-cut 5um --seed 7 -o roughness.rcg
+rc-solve --quiet $ball --output pressure --report rough.json roughness.rcg -o rough.rcg
+rc-synth sphere --nx 121 --ny 103 --dx 1.1um --dy 1.29um --radius 1000000 -o flat.rcg
+rc-solve --quiet $ball --output pressure flat.rcg -o smooth.rcg
+# one surface of many: another seed, another area
+near "$(field contact_area rough.json)" "$(awk 'BEGIN { print 0.55 * 3.14159 * 57.1e-6 ^ 2 }')" 0.05 \
+    "the rough contact is that of the paper's Fig. 5"
+for surface in rough smooth; do
+    rc-stress --depths 0:80um:41 --components mises --report $surface.json $surface.rcg -o m.rcg
+done
+between 0 "$(number mises depth rough.json)" 4e-6 "Mises is largest at or near the surface"
+between 2.06e9 "$(number mises value rough.json)" 6e9 "  half as large again as Hertz's, and below the hardness"
+by_depth() { grep -o '"by_depth": \[[^]]*' "$2" | sed 's/.*\[//' | tr ',' '\n' | sed -n "$1p"; }
+# what the roughness does to the load's distribution over the contact has not quite died away at 1.4 radii
+near "$(by_depth 41 rough.json)" "$(by_depth 41 smooth.json)" 0.06 \
+    "deep below the field is that of the smooth ball"
+for axis in x y; do
+    claim "its plane $axis = 0 is drawn" bash -c \
+        "rc-stress --depths 0:80um:81 --section $axis=0 --components mises rough.rcg |
+         rc-render -o fig6$axis.png && says PNG head -c 4 fig6$axis.png"
+done
+
+# ---- boundaries ----
+
+claim "a periodic pressure has periodic stresses" bash -c \
+    'rc-stress --nu 0.3 --depths 0,5um,40um --report p.json wave.rcg -o p.rcg &&
+     says boundary=periodic rc-info p.rcg'
+near "$(rc-info --json p.rcg | grep '"szz"' | tail -n 1 | grep -o '"mean": [^,]*' | cut -d' ' -f2)" \
+    -1e8 "$summed" "  that carry the load at every depth"
+claim "  at depths of its own" bash -c 'rc-stress --nu 0.3 --depths auto wave.rcg -o p.rcg'
+refuses 1 'its boundary is free: --periodic contradicts it' "--periodic against the stream" \
+    "rc-stress --periodic --depths 0 ball.rcg"
+refuses 1 'its boundary is periodic, where only fft sums: leave out --kernel mlms' "mlms on a periodic map" \
+    "rc-stress --kernel mlms --nu 0.3 --depths 0 wave.rcg"
+
+# ---- engines ----
+
+rc-stress --kernel mlms --tol 1e-4 --depths 100um --mu 0.25 --report m.json ball.rcg -o m.rcg
+# asked for 1e-4 of the largest pressure in each component, seven times that in Mises' stress at most
+near "$(number mises value m.json)" "$(number mises value f.json)" 1e-3 "--kernel mlms agrees"
+claim "  with eleven sums" test "$(count engine_sums m.json)" = 11
+
+# ---- dry run ----
+
+claim "--dry-run says what would be done" bash -c \
+    'rc-stress --dry-run --depths auto --components szz ball.rcg >dry.txt &&
+     grep -q "friction *left out: mu = 0" dry.txt && grep -q "mises *left out" dry.txt &&
+     grep -q "memory" dry.txt && grep -q "time *about" dry.txt'
+
+# ---- refusals ----
+
+refuses 2 '--section z=0: it must be x=PLACE or y=PLACE' "a section of nothing" \
+    "rc-stress --section z=0 --depths 0 ball.rcg"
+refuses 2 "--section y=5N: unknown unit 'N': m is expected" "a section in newtons" "rc-stress --section y=5N --depths 0 ball.rcg"
+refuses 1 'section y = 0.001 m: the map ends at 0.0002695 m' "a section beyond the map" \
+    "rc-stress --section y=1mm --depths 0 ball.rcg"
+refuses 2 '--depths: those of a section must rise' "depths of a section that go up and down" \
+    "rc-stress --section y=0 --depths 0,5um,2um ball.rcg"
+refuses 2 '--section is summed by fft: leave out --kernel mlms' "a section by mlms" \
+    "rc-stress --section y=0 --kernel mlms --depths 0 ball.rcg"
+refuses 2 "'foo' is none of sxx" "a component that is none" "rc-stress --depths 0 --components sxx,foo ball.rcg"
+refuses 2 'give the depths with --depths' "no depths" "rc-stress ball.rcg"
+refuses 2 '--depths -1e-06 m: it must be at least 0' "a depth above the surface" "rc-stress --depths -1um ball.rcg"
+refuses 2 '--nu 0.6: it must be above -1 and at most 0.5' "a Poisson's ratio of 0.6" "rc-stress --nu 0.6 --depths 0 ball.rcg"
+refuses 2 '--mu 11: it must be at least -10 and at most 10' "a friction of 11" "rc-stress --mu 11 --depths 0 ball.rcg"
+refuses 1 '65 x 49 nodes need about .*, --memory allows' "more memory than is allowed" "rc-stress --memory 100k --depths 0 ball.rcg"
+refuses 1 '--report nowhere/r.json: No such file' "a report that cannot be written, before the work" \
+    "rc-stress --report nowhere/r.json --depths 0 ball.rcg"
+
+finish

@@ -1,0 +1,251 @@
+# The tutorial of contact(7) runs as it is printed: its commands print what the page says, what its sentences quote is
+# among that or is computed here, and its pictures are those that it draws.
+. "$(dirname "$0")/../pipe.sh"
+. "$RC_SOURCE/tests/manual.sh"
+page=$pages/contact.7
+samples=$RC_SOURCE/sample_surfaces
+
+# agrees PAGE OUTPUT: the words are the same and the numbers to 3 in 1000 or to a step of their last digit; "..." is anything.
+# So well a contact is known at the tolerance of rc-solve, whatever way led to it; how many nodes, steps and seconds it
+# was is no figure for the page.
+cat >agrees.pl <<'END'
+use List::Util 'min';
+local $/;
+my $digits = qr/[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?/;
+sub words { open my $f, '<', $_[0] or die "$_[0]: $!\n"; my $text = <$f>; return split ' ', $text }
+sub step { # of the last digit; a count has none
+    my ($decimals, $power) = $_[0] =~ /(?:\.(\d+))?(?:[eE]([-+]?\d+))?$/;
+    return defined $decimals || defined $power ? 10 ** (($power // 0) - length($decimals // '')) : 0;
+}
+sub same {
+    my ($x, $y) = @_;
+    return 1 if $x eq $y;
+    my @x = split /($digits)/, $x;
+    my @y = split /($digits)/, $y;
+    return 0 if @x != @y || @x < 2;
+    for my $k (0 .. $#x) {
+        next if $x[$k] eq $y[$k];
+        return 0 if $k % 2 == 0;
+        my $far = abs($x[$k] - $y[$k]);
+        return 0 if $far > 3e-3 * abs($x[$k]) && $far > 1.001 * step($x[$k]);
+    }
+    return 1;
+}
+my @said = words($ARGV[0]);
+my @done = words($ARGV[1]);
+my ($i, $j) = (0, 0);
+my ($far_i, $far_j) = (-1, 0);
+my ($back_i, $back_j) = (-1, -1);
+while ($j < @done || $i < @said) {
+    if ($i < @said && $said[$i] eq '...') { ($back_i, $back_j) = (++$i, $j); next }
+    if ($i < @said && $j < @done && same($said[$i], $done[$j])) { $i++; $j++; next }
+    last if $i == @said && $back_i == @said;
+    ($far_i, $far_j) = ($i, $j) if $i > $far_i;
+    if ($back_i < 0 || $back_j >= @done) {
+        print STDERR "it prints '@done[$far_j .. min($far_j + 12, $#done)]', not '@said[$far_i .. min($far_i + 12, $#said)]'\n";
+        exit 1;
+    }
+    ($i, $j) = ($back_i, ++$back_j);
+}
+END
+agrees() { perl agrees.pl "$1" "$2"; }
+
+
+# ---- the judges ----
+
+printf 'x 12.5 mm2 (3 of 7), ... at 4e-06 um; ...\n' >said.txt
+printf 'x 12.51 mm2 (3 of 7), here and there at 4.001e-06 um; 0.2 s\n' >done.txt
+claim "what is printed agrees, but for what is left out" agrees said.txt done.txt
+differs() { # PATTERN "sentence" SUBSTITUTION
+    sed "$3" done.txt >other.txt
+    refuses 1 "$1" "$2" "perl agrees.pl said.txt other.txt"
+}
+differs "prints '12.7 mm2" "  another number does not" 's/12.51/12.7/'
+differs "prints '\(4 of" "  nor another count" 's/(3/(4/'
+differs "not 'at 4e-06" "  nor another word after what is left out" 's/at 4/of 4/'
+differs "not 'at 4e-06" "  nor what ends too early" 's/ at.*//'
+
+# strangers NUMBERS SENTENCES: numbers of the sentences that are none of these, rounded, in another power of thousand or
+# in per cent; section by section, each after a line "@@ name".
+cat >strangers.pl <<'END'
+my $number = qr/(?<![\w.])\d+(?:\.\d+)?(?:[eE][-+]?\d+)?/;
+sub sections { # the numbers by the name of the section
+    my %all;
+    open my $f, '<', $_[0] or die "$_[0]: $!\n";
+    my $name = '';
+    while (<$f>) { if (/^@@ (.*)/) { $name = $1 } else { push @{$all{$name}}, /$number/g } }
+    return %all;
+}
+my %known = sections($ARGV[0]);
+my %quoted = sections($ARGV[1]);
+my @scales = (1, 100, map { (1000 ** $_, 1000 ** -$_) } 1 .. 4);
+for my $section (sort keys %quoted) {
+    for my $x (@{$quoted{$section}}) {
+        my ($decimals, $power) = $x =~ /(?:\.(\d+))?(?:[eE]([-+]?\d+))?$/;
+        my $half = 0.5001 * 10 ** (($power // 0) - length($decimals // ''));
+        print "$x\n" unless grep { my $k = $_; grep { abs($k * $_ - $x) <= $half } @scales } @{$known{$section}};
+    }
+}
+END
+strangers() { perl strangers.pl "$1" "$2"; }
+printf '@@ a\n12.51 um and 3e-6\n@@ b\n77\n' >known.txt
+printf '@@ a\nfrom 12.5 um to 3 um, 1251 per cent, but not 12.6, nor 0.25, nor 77\n@@ b\n77, not 3\n' >quoted.txt
+claim "a sentence quotes what was printed in its section, rounded, or it is seen" \
+    test "$(strangers known.txt quoted.txt | tr '\n' ' ')" = "12.6 0.25 77 3 "
+
+# ---- the page runs ----
+
+blocks "$page" '' "$scratch/blocks"
+mkdir run
+cp "$samples"/*.x3p run
+for block in $(cd blocks && ls | grep -v prints | sort -n); do
+    # what --verbose says of memory is the machine's own
+    claim "display $block runs: $(head -n 1 "blocks/$block")" bash -c \
+        "cd run && bash -e -u -o pipefail ../blocks/$block </dev/null >../$block.out 2>&1 || { cat ../$block.out >&2; exit 1; }"
+    sed -i '/: memory: .* MiB expected, .* MiB taken$/d' "$block.out"
+    if [ -e "blocks/$block.prints" ]; then
+        claim "  and prints what is shown" agrees "blocks/$block.prints" "$block.out"
+    else
+        claim "  and prints nothing" test ! -s "$block.out"
+    fi
+done
+claim "there were displays to run" test "$(ls blocks | grep -vc prints)" -gt 15
+claim "  and to compare" test "$(ls blocks | grep -c prints)" -gt 10
+
+# ---- its sentences ----
+
+# The sections with commands, displays apart from sentences: no macros, no years, no equations of books.
+parted() {
+    awk -v displays="$1" '
+        /^\.Sh / { on = /A MEASURED SURFACE/ ? 1 : /FROM A SCAN|SEE ALSO/ ? 0 : on; if (on) print "@@ " $0 }
+        /^\.Bd/ { inside = 1 }
+        /^\.Ed/ { inside = 0 }
+        on && inside == displays && !/^\./' "$page" |
+        sed 's/\\-/-/g; s/ *([12][0-9][0-9][0-9])//g; s/ *(Johnson 1985[^)]*)//g'
+}
+parted 0 >sentences.txt
+parted 1 >known.txt
+
+# derived "sentence" PATTERN VALUE TOLERANCE: the number of the sentence, (N) in the pattern, is this; none that was printed.
+derived() {
+    local pattern=${2/(N)/'([0-9.]*[0-9](?:e-[0-9]+)?)'}
+    near "$(perl -0777 -ne "print \$1 if /$pattern/" sentences.txt)" "$3" "$4" "$1"
+    perl -0777 -i -pe "s/$pattern//" sentences.txt
+}
+compute() { awk "BEGIN { pi = atan2(0, -1); print $1 }"; }
+column() { awk -F '\t' -v name="$1" -v row="$3" 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == name) at = k } NR == row + 1 { print $at }' "$2"; }
+cd run
+rc-solve --radius 7.5mm --load 240N --estar 113.93GPa --hardness 6GPa --quiet --report rough.json -o /dev/null sphere.rcg
+rc-solve --load 240N --estar 113.93GPa --quiet --report smooth.json -o /dev/null smooth.rcg
+rc-solve --radius 3.75mm --load 60N --estar 114GPa --hardness 6GPa --quiet --report steel.json -o /dev/null flat.rcg
+rc-stress --nu 0.3 --section y=0 --depths 80um:140um:121 --components mises --quiet --report below.json -o /dev/null smooth.rcg
+mv rough.json smooth.json steel.json below.json sweep.tsv ..
+cd ..
+rough=$(field contact_area rough.json)
+smooth=$(field contact_area smooth.json)
+radius=$(compute "(0.75 * 240 * 7.5e-3 / 113.93e9) ^ (1 / 3)")
+derived "the default tolerance" 'which is (N) at' "$(compute "$(field nx steel.json) ^ -0.75 * $(field ny steel.json) ^ -0.75")" 0.01
+derived "the diameter of the ball" 'ball of (N) mm diameter' "$(compute '2 * 3.75')" 0
+derived "the rough sphere touches on so much of Hertz's contact" 'same share, (N),' "$(compute "$rough / (pi * $radius ^ 2)")" 0.01
+derived "the grid of the paper" 'grid of (N) x' "$(rc-info --json run/sphere.rcg | grep -o '"nx": [0-9]*' | grep -o '[0-9]*$')" 0
+derived "  its rows" ' (N) nodes\.' "$(rc-info --json run/sphere.rcg | grep -o '"ny": [0-9]*' | grep -o '[0-9]*$')" 0
+derived "Hertz: radius" 'radius a = (N) um' "$(compute "1e6 * $radius")" 5e-5
+derived "Hertz: area" 'the area (N) mm\^2' "$(compute "1e6 * pi * $radius ^ 2")" 5e-5
+derived "Hertz: pressure" 'the pressure (N) GPa in the middle' "$(compute "1.5e-9 * 240 / (pi * $radius ^ 2)")" 5e-5
+derived "Hertz: approach" 'the approach (N) um' "$(compute "1e6 * $radius ^ 2 / 7.5e-3")" 5e-5
+derived "the area that roughness takes" 'takes (N) %' "$(compute "100 * (1 - $rough / $smooth)")" 0.01
+derived "how much closer the bodies come" 'bodies (N) um closer' \
+    "$(compute "1e6 * ($(field approach rough.json) - $(field approach smooth.json))")" 0.01
+derived "Hertz: how deep the stress is largest, in radii" 'lies at (N) a' "$(compute "$(field depth below.json) / $radius")" 0.01
+derived "  in micrometres" ', (N) um deep\.' "$(compute "1e6 * $(field depth below.json)")" 0.01
+derived "  where that of the tips has died away" 'the first (N) um' "$(grep -o '"by_depth": [^]]*' run/section.json | tr -d ' ' |
+    tr '[,' '\n\n' | awk 'NR > 1 && NR < 50 && (least == 0 || $1 < least) { least = $1; at = 2 * (NR - 2) } END { print at }')" 0
+first=$(column contact_area/m2 sweep.tsv 1)
+last=$(column contact_area/m2 sweep.tsv 7)
+derived "the power of the load" 'with the power (N) of' "$(compute "log($last / $first) / log(24)")" 0.006
+derived "the share of Hertz's area at 10 N" "contact is (N) of" "$(compute "$first / (pi * $radius ^ 2 * (10 / 240) ^ (2 / 3))")" 0.015
+derived "  at 240 N" 'at 240 N (N):' "$(compute "$last / (pi * $radius ^ 2)")" 0.01
+derived "Persson's constant" 'sqrt\(8.pi\) = (N),' "$(compute 'sqrt(8 / pi)')" 0.003
+derived "that of Bush, Gibson and Thomas" 'sqrt\(2 pi\) = (N);' "$(compute 'sqrt(2 * pi)')" 0.003
+derived "what the film takes of the contact" 'the contact (N) % smaller' "$(compute '100 * (1 - 0.00142692 / 0.00153624)')" 0.02
+derived "how wide the film's contact is" 'some (N) um across' \
+    "$(compute "2e6 * (0.75 * 2 * 1e-3 * 2 * (1 - 0.3 ^ 2) / 208e9) ^ (1 / 3)")" 0.1
+derived "the slope that rc-solve warns of" 'slope of about (N) where' "$(mandoc -Tutf8 "$pages/rc-solve.1" | col -b |
+    tr -s '\n ' ' ' | grep -o 'RMS slope where the bodies touch is above [0-9.]*' | grep -o '[0-9.]*$')" 0
+claim "sentences quote no other figures than what is printed" test -z "$(strangers known.txt sentences.txt | tee strangers.txt)"
+cat strangers.txt
+
+# The work that contact-theory(7) quotes of the same contact: steps may be one more or less elsewhere.
+rc-solve --radius 7.5mm --load 240N --estar 113.93GPa --hardness 6GPa --tol 1e-4 --quiet --report work.json -o /dev/null run/sphere.rcg
+quoted=$(sed -n 's/^it is \([0-9]*\) convolutions in \([0-9]*\) steps.*/\1 \2/p' "$pages/contact-theory.7")
+near "$(field convolutions work.json)" "${quoted% *}" 0.25 "contact-theory(7): the convolutions of the rough sphere"
+near "$(field iterations work.json)" "${quoted#* }" 0.25 "  and its steps"
+
+# ---- real files ----
+
+# row STEPS [RESAMPLED]: what the steps make of the surface scan.rcg, in the columns of the page's table.
+row() {
+    { if [ -n "$1" ]; then rc-detrend --quiet $1 scan.rcg; else cat scan.rcg; fi; } |
+        { if [ -n "${2-}" ]; then rc-pick $2; else cat; fi; } >fit.rcg
+    rc-solve --mean-pressure 200MPa --estar 100GPa --tol 1e-4 --quiet --report fit.json -o /dev/null fit.rcg
+    rc-info --areal --json fit.rcg >fit.info
+    awk -v sq="$(field sq fit.info)" -v sdq="$(field sdq fit.info)" -v fraction="$(field contact_fraction fit.json)" \
+        -v patches="$(grep -o '"patches": {"count": [0-9]*' fit.json | grep -o '[0-9]*$')" -v most="$(field max_pressure fit.json)" \
+        'BEGIN { printf "%.1f %.3f %.2f %d %.2f\n", sq * 1e9, sdq, fraction * 100, patches, most / 100e9 }'
+}
+if [ -d "$RC_CORPUS/corpus" ]; then
+    rc-import --quiet "$RC_CORPUS/corpus/nanoscope/SurfaceTopography__di-4.di" -o scan.rcg
+    fit="--poly 2 --outliers 5 --fill"
+    awk '/^step  / { on = 1 } /^\.Ed/ { on = 0 } on' "$page" >table.txt
+    while read -r line; do
+        steps=$(sed -E 's/ +([0-9.]+ *){5}$//' <<<"$line")
+        case $steps in
+        step* | after*) continue ;;
+        "as it came") row '' ;;
+        --resample*) row "$fit" "$steps" ;;
+        --plane | --poly\ 2*) row "$steps" ;;
+        *) row "$fit $steps" ;;
+        esac >row.txt
+        echo "${line#"$steps"}" >shown.txt
+        claim "the table of steps: $steps" agrees shown.txt row.txt
+    done <table.txt
+    claim "  has rows" test "$(wc -l <table.txt)" -gt 10
+
+    # The first section does for a measured file what it does for the sample, but for the figures.
+    mkdir real
+    cp "$RC_CORPUS/corpus/x3p/bulletxtrctr__Hamby252_Barrel1_Bullet1_Land1.x3p" real/rough-steel.x3p
+    for block in 2 3 4 5 6 7 8; do
+        claim "display $block runs on a file of an instrument" bash -c \
+            "cd real && bash -e -u -o pipefail ../blocks/$block </dev/null >../real.out 2>&1 || { cat ../real.out >&2; exit 1; }"
+    done
+else
+    echo "not run: the table of steps and the first section on a measured file, for no corpus of real files is beside the project"
+fi
+
+# ---- the README's pipeline ----
+
+sed -n '/^## The pipeline/,/^| tool/s/^    //p' "$RC_SOURCE/README.md" | grep -v '^|' >pipeline
+claim "the README's pipeline runs" bash -c 'cd run && rm -f mises.png && bash -e -u -o pipefail ../pipeline && says PNG head -c 4 mises.png'
+claim "  and is that of the tutorial" bash -c \
+    'for words in "$@"; do sed "s/ *#.*//" pipeline | tr -s "\\\\ \n" " " | grep -qF -- "$words" || { echo "$words" >&2; exit 1; }; done' - \
+    "rc-detrend --poly 2 --outliers 5 --fill" "rc-solve --radius 3.75mm --load 60N --estar 114GPa --hardness 6GPa" "rc-stress --nu 0.28"
+between 0.51 "$(compute "$(field contact_area steel.json) / (pi * (0.75 * 60 * 3.75e-3 / 114e9) ^ (2 / 3))")" 0.55 \
+    "its contact is little more than half of Hertz's"
+
+# ---- its pictures ----
+
+# drawn FILE: how a picture was made, whatever version of the tools did.
+drawn() {
+    perl -0777 -ne 'while (/\G(?:\x89PNG\r\n\x1a\n)?(....)(....)/gs) { my ($n, $type) = (unpack("N", $1), $2);
+        my $data = substr $_, pos, $n; pos = pos() + $n + 4;
+        if ($type eq "tEXt" && $data =~ s/^Description\0//) { $data =~ s/\b(rc-[a-z]+) [0-9.]+/$1/g; print "$data\n" } }' "$1"
+}
+for picture in $(pictures "$page"); do
+    claim "$picture is drawn" test -s "run/$picture"
+    claim "  and the one among the samples is this" diff <(drawn "run/$picture") <(drawn "$samples/$picture")
+    claim "  which says how it was made" test -n "$(drawn "$samples/$picture")"
+done
+claim "there are pictures" test "$(pictures "$page" | wc -l)" -ge 5
+claim "  of less than 500 kB together" test "$(cd "$samples" && cat $(pictures "$page") | wc -c)" -lt 500000
+
+finish
