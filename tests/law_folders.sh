@@ -41,9 +41,11 @@ tools/cli           | tools/text/text.h tools/machine/machine.h | tools/text too
 tools/cli           | %public formats/rcg/rcg.h                | %physics formats/rcg
 tools/cli           | formats/core/core.h                      | formats/core
 tools/cli           | libcontact/contact_mpi.h                 |
+tools/canvas        | libcontact/grid.h formats/core/core.h    | libcontact formats/core
 tools/plot          | libcontact/grid.h formats/core/core.h    | libcontact formats/core
-tools/cost          | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli tools/plot
-tools/solve         | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli tools/plot
+tools/plot          | tools/canvas/canvas.h                    | tools/canvas
+tools/cost          | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli %plot
+tools/solve         | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli %plot
 tools/solve         | formats/core/core.h                      | formats/core formats/rcg
 tools/import        | libcontact/grid.h tools/cli/cli.h        | libcontact %cli
 tools/import        | formats/core/core.h formats/format.h     | formats formats/core
@@ -52,8 +54,8 @@ tools/pick          | %public tools/cli/cli.h                  | %physics %cli
 tools/synth         | %public tools/cli/cli.h                  | %physics %cli
 tools/info          | %public tools/cli/cli.h                  | %physics %cli formats/rcg
 tools/render        | libcontact/grid.h tools/cli/cli.h        | libcontact %cli
-tools/render        | tools/plot/plot.h                        | tools/plot
-tools               | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli tools/plot
+tools/render        | tools/plot/plot.h                        | %plot
+tools               | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli %plot
 tools               | tools/cost/cost.h tools/solve/solve.h    | tools/cost tools/solve
 tools               | tools/stress/stress.h tools/render/render.h | tools/stress tools/render
 tools               | tools/info/info.h                        | tools/info
@@ -67,7 +69,8 @@ public='libcontact/contact.h libcontact/grid.h'
 physics='libcontact libcontact/tables.c libcontact/layers libcontact/operator libcontact/solver libcontact/stress'
 physics="$physics libcontact/surface"
 cli='tools/cli tools/text tools/machine'
-sed -i "s!%base!$base!; s!%public!$public!; s!%physics!$physics!; s!%cli!$cli!; s!%ranks!libcontact/ranks/ranks.h!" arrows.txt
+plot='tools/plot tools/canvas'
+sed -i "s!%base!$base!; s!%public!$public!; s!%physics!$physics!; s!%cli!$cli!; s!%plot!$plot!; s!%ranks!libcontact/ranks/ranks.h!" arrows.txt
 
 # ---- what there is ----
 

@@ -15,8 +15,7 @@
 
 #include "formats/rcg/rcg.h"
 #include "libcontact/grid.h"
-#include "tools/plot/canvas.h"
-#include "tools/plot/colormap.h"
+#include "tools/canvas/canvas.h"
 #include "tools/plot/raster.h"
 #include "tools/plot/ticks.h"
 #include "tests/exact.h"

@@ -7,8 +7,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "canvas.h"
-#include "colormap.h"
+#include "tools/canvas/canvas.h"
 
 struct chart_point {
     double x, y; /* > 0; y below the lower end of the axis is drawn on it  */

@@ -10,8 +10,7 @@
 #include <stddef.h>
 
 #include "libcontact/grid.h"
-#include "canvas.h"
-#include "colormap.h"
+#include "tools/canvas/canvas.h"
 
 enum {
     FIGURE_ASPECT = 12, /* longest side of a plot over its shortest                      */

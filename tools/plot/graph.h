@@ -9,8 +9,7 @@
 #include <stddef.h>
 
 #include "libcontact/grid.h"
-#include "canvas.h"
-#include "colormap.h"
+#include "tools/canvas/canvas.h"
 
 enum graph_kind {
     GRAPH_MARKS, /* points joined by a line, each with a marker where they are few */

@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "canvas.h"
+#include "tools/canvas/canvas.h"
 #include "figure.h"
 #include "ticks.h"
 

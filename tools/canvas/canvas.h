@@ -1,6 +1,6 @@
 /*
- * A page to draw figures on, in pixels from the upper left corner: what is drawn is kept as shapes
- * and words, and becomes pixels, a PDF or an SVG when it is written. Text is UTF-8 in the sans
+ * The face of this folder: a page to draw figures on, in pixels from the upper left corner. What is drawn is
+ * kept as shapes and words, and becomes pixels, a PDF or an SVG when it is written. Text is UTF-8 in the sans
  * serif of the system or the font asked for, and in other fonts for the characters that it lacks.
  */
 #ifndef RC_CANVAS_H
