@@ -30,7 +30,25 @@ check_near(double a, double b, double most, const char *file, int line)
     _fail(file, line);
 }
 
+/* Where the tests of a program draw, from set-up to tear-down of their group. */
 static char folder[] = "/tmp/rc_pictures.XXXXXX";
+
+static inline int
+make_folder(void **state)
+{
+    (void)state;
+    return mkdtemp(folder) == NULL;
+}
+
+static inline int
+remove_folder(void **state)
+{
+    char remove[64];
+
+    (void)state;
+    snprintf(remove, sizeof remove, "rm -rf %s", folder);
+    return system(remove);
+}
 
 struct picture {
     png_image head;

@@ -328,12 +328,6 @@ main(void)
         cmocka_unit_test(histogram_of_few), cmocka_unit_test(hertz_by_hand),
         cmocka_unit_test(persson_adds_up),  cmocka_unit_test(what_laws_need),
     };
-    char remove[64];
-    int failed;
 
-    if (mkdtemp(folder) == NULL)
-        return 1;
-    failed = cmocka_run_group_tests(tests, NULL, NULL);
-    snprintf(remove, sizeof remove, "rm -rf %s", folder);
-    return system(remove) == 0 ? failed : 1;
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -282,12 +282,6 @@ main(void)
         cmocka_unit_test(heights_are_exaggerated), cmocka_unit_test(peak_is_drawn),
         cmocka_unit_test(upper_left_is_bright),    cmocka_unit_test(svg_is_the_same),
     };
-    char remove[64];
-    int failed;
 
-    if (mkdtemp(folder) == NULL)
-        return 1;
-    failed = cmocka_run_group_tests(tests, NULL, NULL);
-    snprintf(remove, sizeof remove, "rm -rf %s", folder);
-    return system(remove) == 0 ? failed : 1;
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

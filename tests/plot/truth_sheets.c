@@ -8,12 +8,14 @@ static const double value[] = {1, 2, 3}; /* GPa; 0 is black, 4 GPa white */
 static const unsigned shade[] = {0x404040, 0x808080, 0xbfbfbf};
 
 /* Stresses at three depths, each the same everywhere, of 20 by 10 nodes. */
-static void
-put_depths(void)
+static int
+make_depths(void **state)
 {
     struct rc_shape shape = {20, 10, 1e-6, 1e-6};
     struct rc_grid *grid[3];
 
+    if (make_folder(state) != 0)
+        return 1;
     for (size_t k = 0; k < 3; k++) {
         grid[k] = rc_grid_new(&shape, "mises", "Pa", NULL);
         assert_non_null(grid[k]);
@@ -22,6 +24,7 @@ put_depths(void)
             grid[k]->v[i] = value[k] * 1e9;
     }
     put_stream("d.rcg", grid, 3);
+    return 0;
 }
 
 struct box {
@@ -179,13 +182,6 @@ main(void)
         cmocka_unit_test(colours_of_all),   cmocka_unit_test(percentiles_of_all),
         cmocka_unit_test(logarithm_of_all), cmocka_unit_test(window_of_all),
     };
-    char remove[64];
-    int failed;
 
-    if (mkdtemp(folder) == NULL)
-        return 1;
-    put_depths();
-    failed = cmocka_run_group_tests(tests, NULL, NULL);
-    snprintf(remove, sizeof remove, "rm -rf %s", folder);
-    return system(remove) == 0 ? failed : 1;
+    return cmocka_run_group_tests(tests, make_depths, remove_folder);
 }

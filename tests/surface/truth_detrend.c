@@ -1,11 +1,5 @@
 /* What rc_detrend_poly leaves is orthogonal to every polynomial of its degree over the points that
  * are there, and is nothing where the surface was such a polynomial. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_multifit.h>
 #include <math.h>
@@ -13,7 +7,7 @@
 #include <string.h>
 
 #include "tests/exact.h"
-#include "libcontact/contact.h"
+#include "maps.h"
 
 enum {
     NX = 33,
@@ -27,12 +21,6 @@ static double
 along(size_t i, size_t n)
 {
     return n == 1 ? 0 : 2 * (double)i / (double)(n - 1) - 1;
-}
-
-static double
-chance(void)
-{
-    return 2.0 * rand() / RAND_MAX - 1;
 }
 
 /* A polynomial of total degree `degree` with random coefficients, in plain powers. */

@@ -1,19 +1,13 @@
 /* rc_filter is the Gaussian regression filter of order 0: its weighting function and what it lets
  * through are the formulas of ISO 16610-61, and with missing points, at edges and reweighted it is
  * what the sums written out give. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "tests/exact.h"
-#include "libcontact/contact.h"
+#include "maps.h"
 
 enum {
     NX = 47,
@@ -21,21 +15,6 @@ enum {
     N = NX * NY
 };
 static const struct rc_shape shape = {.nx = NX, .ny = NY, .dx = 1.1e-6, .dy = 1e-6};
-
-static double
-chance(void)
-{
-    return 2.0 * rand() / RAND_MAX - 1;
-}
-
-static double *
-new_map(const struct rc_shape *s)
-{
-    double *h = malloc(s->nx * s->ny * sizeof *h);
-
-    assert_non_null(h);
-    return h;
-}
 
 /* Random heights of about a micrometre, one in four missing. */
 static double *

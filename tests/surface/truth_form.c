@@ -1,37 +1,16 @@
 /* What rc_detrend_form takes off is the form that was put there: polynomials, spheres and cylinders
  * of every sign, place and tilt, with points missing, with noise, and with spikes. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "tests/exact.h"
-#include "libcontact/contact.h"
+#include "maps.h"
 
 static const struct rc_shape shape = {.nx = 61, .ny = 47, .dx = 1.1e-6, .dy = 1e-6};
 
 /* Of the form's height: what may be left of it. */
 static const double left_of_form = 1e-7;
-
-static double
-chance(void)
-{
-    return 2.0 * rand() / RAND_MAX - 1;
-}
-
-static double *
-new_map(const struct rc_shape *s)
-{
-    double *h = malloc(s->nx * s->ny * sizeof *h);
-
-    assert_non_null(h);
-    return h;
-}
 
 static double
 place(size_t i, size_t n, double d)

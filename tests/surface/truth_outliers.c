@@ -1,32 +1,11 @@
 /* rc_outliers takes out the points that sorting all neighbourhoods finds, with points missing, at
  * the edges and around them; rc_taper multiplies what is above the mean by a raised cosine. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "tests/exact.h"
-#include "libcontact/contact.h"
-
-static double
-chance(void)
-{
-    return 2.0 * rand() / RAND_MAX - 1;
-}
-
-static double *
-new_map(size_t n)
-{
-    double *h = malloc(n * sizeof *h);
-
-    assert_non_null(h);
-    return h;
-}
+#include "maps.h"
 
 static int
 by_size(const void *a, const void *b)
@@ -72,7 +51,7 @@ static size_t
 by_sorting(const struct rc_shape *s, double times, bool periodic, double *h)
 {
     size_t n = s->nx * s->ny, count = 0;
-    double *d = new_map(n), *v = new_map(n), middle, limit;
+    double *d = new_map(s), *v = new_map(s), middle, limit;
 
     for (size_t k = 0; k < n; k++)
         v[k] = d[k] = difference(s, periodic, h, (long)(k % s->nx), (long)(k / s->nx));
@@ -94,7 +73,7 @@ static void
 check_outliers(const struct rc_shape *s, double times, bool periodic, int missing, double step)
 {
     size_t n = s->nx * s->ny, count, expected;
-    double *h = new_map(n), *sorted = new_map(n);
+    double *h = new_map(s), *sorted = new_map(s);
     struct rc_err err;
 
     for (size_t k = 0; k < n; k++) {
@@ -142,7 +121,7 @@ test_share_of_noise(void **state)
 {
     const struct rc_shape s = {400, 500, 1e-6, 1e-6};
     size_t n = s.nx * s.ny, count;
-    double *h = new_map(n);
+    double *h = new_map(&s);
     struct rc_err err;
 
     (void)state;
@@ -167,7 +146,7 @@ test_taper(void **state)
 {
     const struct rc_shape s = {40, 33, 1.1e-6, 1e-6};
     const double width = 7.3e-6;
-    double *h = new_map(40 * 33), *before = new_map(40 * 33), mean = 0, n = 0;
+    double *h = new_map(&s), *before = new_map(&s), mean = 0, n = 0;
     struct rc_err err;
 
     (void)state;

@@ -1,31 +1,16 @@
 /* On finer grids cubic polynomials stay what they are inside, parabolas up to the edge, and periodic
  * maps what they are when repeated; on coarser ones each cell gets the mean of what was measured in
  * it, and nothing where that is less than half. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
 #include <stdlib.h>
 #include <string.h>
 
 #include "tests/exact.h"
-#include "libcontact/contact.h"
+#include "maps.h"
 
 static double
 place(size_t i, size_t n, double d)
 {
     return ((double)i - 0.5 * (double)(n - 1)) * d;
-}
-
-static double *
-new_map(const struct rc_shape *s)
-{
-    double *v = malloc(s->nx * s->ny * sizeof *v);
-
-    assert_non_null(v);
-    return v;
 }
 
 static double *

@@ -1,0 +1,32 @@
+/* Maps that the tests of surfaces are made of. */
+#ifndef MAPS_H
+#define MAPS_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "libcontact/contact.h"
+
+/* Between -1 and 1. */
+static inline double
+chance(void)
+{
+    return 2.0 * rand() / RAND_MAX - 1;
+}
+
+/* Of that shape, its heights not set; the caller frees it. */
+static inline double *
+new_map(const struct rc_shape *s)
+{
+    double *h = malloc(s->nx * s->ny * sizeof *h);
+
+    assert_non_null(h);
+    return h;
+}
+
+#endif
