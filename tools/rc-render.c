@@ -421,11 +421,16 @@ render_sheet(struct tool *t, struct args *a, const struct frames *frames)
 
 /* ---- curves ---- */
 
+/* What the curves were drawn from is not held any more. */
 static void
-settle_style(struct tool *t, struct args *a)
+demand_page(struct tool *t, const struct canvas *c)
 {
-    a->style.title = a->title;
-    a->style.vector = canvas_format(ending_of(t->out_name)) != CANVAS_PNG;
+    enum canvas_format format = canvas_format(ending_of(t->out_name));
+    struct rc_err err;
+
+    if (tool_ask_memory(t, NULL, canvas_memory(c, format) + look_code(t), "take a smaller --width",
+                        &err) != RC_OK)
+        tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
 }
 
 static void
@@ -435,12 +440,13 @@ render_curves(struct tool *t, struct args *a)
     struct figure words;
     struct canvas *c;
 
-    settle_style(t, a);
+    a->style.title = a->title;
     c = curves_draw(t, a->curve, &a->style, &drawn);
     words = (struct figure){.title = drawn.title,
                             .stamp = drawn.stamp,
                             .subtitle = *drawn.source == '\0' ? NULL : drawn.source};
     warn_of_text(t, a, c);
+    demand_page(t, c);
     write_picture(t, NULL, &words, c);
     canvas_free(c);
 }
@@ -468,9 +474,10 @@ render_lines(struct tool *t, struct args *a, const struct frames *f)
     struct drawn drawn = {.stamp = NULL};
     struct canvas *c;
 
-    settle_style(t, a);
+    a->style.title = a->title;
     c = draw_lines(t, a, f, &drawn);
     warn_of_text(t, a, c);
+    demand_page(t, c);
     write_picture(t, f->grid[0], &(struct figure){.title = drawn.title, .stamp = drawn.stamp}, c);
     canvas_free(c);
 }

@@ -59,6 +59,9 @@ for size in "$@"; do
         row "rc-render --sheet, $format" "rc-render --sheet auto --verbose s.rcg s.rcg s.rcg s.rcg -o sheet.$format"
     done
     row "rc-render, PDF" "rc-render --width 1600 --verbose s.rcg -o map.pdf"
+    for format in png pdf svg; do
+        row "rc-render --contour, $format" "rc-render --contour --verbose p.rcg -o contact.$format"
+    done
     case $size in 256x256 | 517x389 | 1024x1024) ;; *) continue ;; esac
     for kernel in fft64 mlms; do
         row "rc-solve --kernel $kernel" "rc-solve --kernel $kernel --verbose $load s.rcg"

@@ -67,7 +67,11 @@ perl "$RC_SOURCE/tests/tools/made_maps.pl" park 1024 701 >larger.park
 estimated "rc-import of two, the larger process counts" "rc-import --verbose larger.park made.park"
 estimated "rc-render --raw" "rc-render --raw --verbose odd.rcg -o raw.png"
 estimated "rc-render" "rc-render --verbose odd.rcg -o map.png"
-estimated "rc-render --contour, a rough contact" "rc-render --contour --verbose free.rcg -o contact.png"
+for format in png pdf; do
+    estimated "rc-render --contour, a rough contact as $format" "rc-render --channel pressure --contour --verbose free.rcg -o contact.$format"
+done
+estimated "rc-render of a wide page" "rc-render --channel pressure --width 3000 --verbose free.rcg -o contact.png"
+estimated "rc-render --contour, heights" "rc-render --contour --width 3000 --verbose odd.rcg -o contact.png"
 estimated "rc-render --view, PDF" "rc-render --view 30,40 --verbose odd.rcg -o relief.pdf"
 rc-stress --quiet --nu 0.3 --components mises --depths 1um,5um,10um,20um free.rcg -o depths.rcg
 for format in png pdf svg; do
@@ -78,7 +82,9 @@ estimated "rc-render --material-ratio" "rc-render --material-ratio --verbose odd
 estimated "rc-render --cut" "rc-render --cut y=0 --verbose odd.rcg -o cut.png"
 awk 'BEGIN { print "x/m\ty/m"; for (k = 0; k < 100000; k++) printf "%de-6\t%.6f\n", k, sin(k / 3000) }' >long.tsv
 estimated "rc-render --curve, of a report" "rc-render --curve load:contact_fraction --verbose free.json -o curve.png"
-estimated "rc-render --curve, a long table as PDF" "rc-render --curve x:y --verbose long.tsv -o curve.pdf"
+for format in png pdf svg; do
+    estimated "rc-render --curve, a long table as $format" "rc-render --curve x:y --verbose long.tsv -o curve.$format"
+done
 estimated "rc-cost, with the processes that it starts" "rc-cost --verbose --kernel fft --method pcg --limit 2s $load small.rcg"
 
 # ---- what the report and the plan say ----

@@ -30,26 +30,40 @@ show_text(struct canvas *c, cairo_t *cairo, const struct item *i)
     cairo_restore(cairo);
 }
 
+/* Lines are stroked so many points at a time: what cairo keeps of a stroke that is drawn as pixels grows with its
+ * points, and its time faster. Their ends and corners are round, so that the seams do not show; dashes are
+ * stroked at once, because each stroke begins with one. */
+enum {
+    STROKE = 100
+};
+
 static void
 show_lines(cairo_t *cairo, const struct item *i)
 {
-    for (size_t k = 0; k < i->points; k++)
-        if (i->point[k].begins)
-            cairo_move_to(cairo, i->point[k].x, i->point[k].y);
-        else
-            cairo_line_to(cairo, i->point[k].x, i->point[k].y);
+    size_t most = i->kind == ITEM_POLYGON || i->dash > 0 ? i->points : STROKE;
+
     set_colour(cairo, i->colour);
-    if (i->kind == ITEM_POLYGON) {
-        cairo_close_path(cairo);
-        cairo_fill(cairo);
-        return;
-    }
     cairo_set_line_width(cairo, i->width);
     cairo_set_line_cap(cairo, i->dash > 0 ? CAIRO_LINE_CAP_BUTT : CAIRO_LINE_CAP_ROUND);
     cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
     if (i->dash > 0)
         cairo_set_dash(cairo, &i->dash, 1, 0);
-    cairo_stroke(cairo);
+    for (size_t k = 0; k < i->points; k++) {
+        if (k > 0 && k % most == 0) {
+            cairo_stroke(cairo);
+            cairo_move_to(cairo, i->point[k - 1].x, i->point[k - 1].y);
+        }
+        if (i->point[k].begins)
+            cairo_move_to(cairo, i->point[k].x, i->point[k].y);
+        else
+            cairo_line_to(cairo, i->point[k].x, i->point[k].y);
+    }
+    if (i->kind == ITEM_POLYGON) {
+        cairo_close_path(cairo);
+        cairo_fill(cairo);
+    } else {
+        cairo_stroke(cairo);
+    }
     cairo_set_dash(cairo, NULL, 0, 0);
 }
 

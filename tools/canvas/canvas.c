@@ -352,6 +352,12 @@ canvas_format(const char *name)
                                       : CANVAS_PNG;
 }
 
+size_t
+canvas_memory(const struct canvas *c, enum canvas_format format)
+{
+    return format == CANVAS_PNG ? 4 * c->w * c->h : 0;
+}
+
 static enum rc_status
 next_row(void *ctx, size_t y, unsigned char *rgb, struct rc_err *err)
 {

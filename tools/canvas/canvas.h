@@ -92,6 +92,8 @@ enum canvas_format canvas_format(const char *name);
  * `pixels` the size of an SVG is in the pixels of a screen, one for each of the page. */
 void canvas_set_dpi(struct canvas *canvas, double dpi, bool pixels);
 
+/* Bytes that writing it will take: of a PNG the pixels of the page. */
+size_t canvas_memory(const struct canvas *canvas, enum canvas_format format);
 /* Writes the page on `file`, which stays the caller's. No time is written: the same page is the
  * same bytes. `text` goes into the chunks of a PNG; of the others Title, Description and Software
  * have a place. RC_FAIL as canvas_check, or when the device refuses. */

@@ -565,48 +565,89 @@ draw(struct page *p, struct rc_err *err)
     return canvas_check(p->c, err);
 }
 
-/* Nodes beside which the contact ends, on their right or below. */
+/* Pieces of the line at a level, about: between neighbours that are as far apart as the pixels of the raster. */
 static size_t
-count_edges(const struct rc_grid *g)
+count_crossings(const struct rc_grid *g, size_t w, size_t h, double level)
 {
-    size_t n = 0;
+    size_t across = g->nx > w ? g->nx / w : 1, down = g->ny > h ? g->ny / h : 1, n = 0;
 
-    for (size_t j = 0; j < g->ny; j++)
-        for (size_t i = 0; i < g->nx; i++) {
-            size_t k = j * g->nx + i;
-            n += i + 1 < g->nx && (g->v[k] > 0) != (g->v[k + 1] > 0);
-            n += j + 1 < g->ny && (g->v[k] > 0) != (g->v[k + g->nx] > 0);
+    for (size_t j = 0; j + down < g->ny; j += down)
+        for (size_t i = 0; i + across < g->nx; i += across) {
+            const double *v = g->v + j * g->nx + i;
+            n += (*v > level) != (v[across] > level);
+            n += (*v > level) != (v[down * g->nx] > level);
         }
     return n;
+}
+
+/* Of the lines that draw_contours makes: all, and those of the level that has most. */
+static size_t
+count_lines(const struct page *p, size_t *most)
+{
+    const struct figure *f = p->f;
+    const struct axis *a = &p->values;
+    double border[2] = {0, f->hard};
+    size_t all = 0, n;
+
+    *most = 0;
+    for (long long k = a->ticks.first; k <= a->ticks.last; k++) {
+        if (f->zero_is_none && k == 0)
+            continue;
+        n = count_crossings(p->g, p->plot_w, p->plot_h, ticks_at(&a->ticks, k) * a->scale.size);
+        all += n;
+        *most = n > *most ? n : *most;
+    }
+    for (size_t k = 0; f->pressure != NULL && k < (f->hard > 0 ? 2 : 1); k++) {
+        n = raster_border_lines(f->pressure, border[k]);
+        all += n;
+        *most = n > *most ? n : *most;
+    }
+    return all;
 }
 
 enum {
     PAINTED = 4 /* bytes of a pixel of an image, as cairo takes it */
 };
 
+/* First the map is reduced to means and coloured, then once more reduced for the contours. */
 struct page_bytes
 page_map_bytes(const struct page *p)
 {
     enum {
-        RASTER = 14, /* bytes of a pixel: its mean, its colour twice    */
-        SHADE = 12,  /* of a node, reduced to no finer than pixels        */
-        COLOUR = 3,  /* of a pixel                                      */
-        /* seen of rough contacts: pieces of lines at all levels, as path and item, with their pointers */
-        EDGE = sizeof(void *) > 4 ? 650 : 500
+        MEAN = 8,      /* bytes of a pixel                                                        */
+        COLOUR = 3,    /* of a pixel: drawn, and kept                                             */
+        PART = 4,      /* not in contact, or missing: only in memory where there is any           */
+        PARTS = 1024,  /* pixels of these that come into memory at once                           */
+        SHADE = 12,    /* of a node, reduced to no finer than pixels                              */
+        PIECE = 32,    /* of a line of a contour, while its level is drawn                        */
+        RECORDED = 24, /* as cairo keeps it for a PDF                                             */
+        STROKED = 48   /* and of what is kept of it                                               */
     };
     const struct figure *f = p->f;
-    size_t plot = p->plot_w * p->plot_h, nodes = p->g->nx * p->g->ny, raster = plot, edges;
+    size_t plot = p->plot_w * p->plot_h, nodes = p->g->nx * p->g->ny, raster = plot, parts;
+    size_t lines, most, then;
     struct page_bytes bytes;
 
     if (f->vector && f->missing == 0)
         raster = (p->g->nx < IMAGE_MOST ? p->g->nx : IMAGE_MOST) *
                  (p->g->ny < IMAGE_MOST ? p->g->ny : IMAGE_MOST);
-    edges = f->contour && f->pressure != NULL ? EDGE * count_edges(f->pressure) : 0;
-    bytes.drawn = RASTER * raster + edges;
+    parts = (f->zero_is_none ? raster : 0) +
+            (f->missing < raster / PARTS ? PARTS * f->missing : raster);
+    bytes.drawn = (MEAN + 2 * COLOUR) * raster + PART * parts;
+    bytes.kept = COLOUR * raster;
+    bytes.painted = PAINTED * raster;
+    bytes.packed = f->paper ? COLOUR * raster : 0;
     if (f->hillshade)
         bytes.drawn += SHADE * (nodes < plot ? nodes : plot);
-    bytes.kept = COLOUR * raster + edges;
-    bytes.painted = PAINTED * raster;
+    if (!f->contour)
+        return bytes;
+    lines = count_lines(p, &most);
+    raster = nodes < plot ? nodes : plot;
+    parts = parts < 2 * raster ? parts : 2 * raster;
+    bytes.kept += STROKED * lines;
+    bytes.painted += f->paper ? RECORDED * lines : 0;
+    then = bytes.kept + PIECE * most + MEAN * raster + PART * parts;
+    bytes.drawn = then > bytes.drawn ? then : bytes.drawn;
     return bytes;
 }
 
@@ -616,7 +657,7 @@ page_pixel_bytes(const struct page *p)
     return p->f->vector ? 0 : PAINTED * p->w * p->h;
 }
 
-/* First the map is reduced to means and coloured, then, of pixels, all is painted on the page. */
+/* First the map is reduced to means and coloured, then, but for an SVG, all is painted on the page. */
 static size_t
 memory_of(const struct page *p)
 {
@@ -626,7 +667,8 @@ memory_of(const struct page *p)
     if (p->curve)
         return page_pixel_bytes(p);
     map = page_map_bytes(p);
-    then = p->f->vector ? 0 : page_pixel_bytes(p) + map.kept + map.painted;
+    then = p->f->vector && !p->f->paper ? 0
+                                        : page_pixel_bytes(p) + map.kept + map.painted + map.packed;
     return map.drawn > then ? map.drawn : then;
 }
 

@@ -630,27 +630,21 @@ fail:
     return NULL;
 }
 
-/* Points are a path, then an item of it, then what the page is painted with. */
+/* Points are a path, then an item of it. */
 enum rc_status
 graph_memory(const struct graph *g, size_t *bytes, struct rc_err *err)
 {
     enum {
-        PIXEL = 4,  /* bytes of a pixel of the page              */
-        POINT = 24, /* of an item's point                        */
-        PATH = 194  /* more of the longest curve's, as pixels: seen of one with short steps */
+        POINT = 24 /* bytes of an item's point */
     };
     struct graph_page *p = graph_page_new(g, err);
-    size_t longest = 0, points = 0;
+    size_t points = 0;
 
     if (p == NULL)
         return RC_FAIL;
-    for (size_t s = 0; s < g->n; s++) {
+    for (size_t s = 0; s < g->n; s++)
         points += g->series[s].n;
-        longest = g->series[s].n > longest ? g->series[s].n : longest;
-    }
     *bytes = POINT * points;
-    if (!g->vector)
-        *bytes += PATH * longest + PIXEL * p->page.w * p->page.h;
     free(p);
     return RC_OK;
 }

@@ -44,7 +44,6 @@ struct graph {
     size_t width;     /* pixels; 0: GRAPH_WIDTH                                     */
     double dpi;       /* as of a figure                                             */
     const char *family;
-    bool vector; /* it will be a PDF or SVG */
 };
 
 enum {
@@ -52,7 +51,8 @@ enum {
     GRAPH_COLOURS = 7 /* series after so many have a colour again, with another marker */
 };
 
-/* Bytes that drawing it will take. RC_FAIL as graph_draw. */
+/* Bytes that drawing it will take, once lettering is in memory, which this call brings there; canvas_memory
+ * tells those of writing it. RC_FAIL as graph_draw. */
 enum rc_status graph_memory(const struct graph *graph, size_t *bytes, struct rc_err *err);
 /* NULL when memory is short or an axis has no point: a logarithmic one holds none at or below 0. */
 struct canvas *graph_draw(const struct graph *graph, struct rc_err *err);

@@ -103,9 +103,9 @@ void page_legend(struct page *page, double width);
 /* Draws the map in its frame, with the axes asked for. In figure.c, as what follows. */
 enum rc_status page_map(struct page *page, bool left, bool below, struct rc_err *err);
 /* Bytes that a map of the page takes while it is drawn, and that of it are kept, and more while the page is
- * painted. */
+ * painted; and more while a PDF takes it. */
 struct page_bytes {
-    size_t drawn, kept, painted;
+    size_t drawn, kept, painted, packed;
 };
 struct page_bytes page_map_bytes(const struct page *page);
 /* Of the page as pixels; of a PDF or SVG none. */

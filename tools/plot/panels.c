@@ -171,7 +171,7 @@ enum rc_status
 panels_memory(const struct panels *panels, size_t *bytes, struct rc_err *err)
 {
     struct sheet *s = sheet_new(panels, err);
-    size_t kept = 0, first = 0, painted = 0;
+    size_t kept = 0, first = 0, painted = 0, packed = 0;
     bool together = panels->figure->paper; /* cairo keeps all images of a PDF to its end */
 
     if (s == NULL)
@@ -186,10 +186,11 @@ panels_memory(const struct panels *panels, size_t *bytes, struct rc_err *err)
         map = page_map_bytes(&s->page);
         first = kept + map.drawn > first ? kept + map.drawn : first;
         kept += map.kept;
+        packed = map.packed > packed ? map.packed : packed;
         painted = together ? painted + map.painted : map.painted > painted ? map.painted : painted;
     }
     s->page.f = panels->figure;
-    kept += page_pixel_bytes(&s->page) + painted;
+    kept += page_pixel_bytes(&s->page) + painted + packed;
     *bytes = first > kept ? first : kept;
     free(s);
     return RC_OK;

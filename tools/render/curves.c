@@ -402,15 +402,13 @@ draw(struct curves *c, struct drawn *drawn)
         .width = c->style->width,
         .dpi = c->style->dpi,
         .family = c->style->family,
-        .vector = c->style->vector,
     };
     struct canvas *canvas;
     struct rc_err err;
     size_t bytes;
 
     if (graph_memory(&graph, &bytes, &err) != RC_OK ||
-        tool_ask_memory(c->tool, NULL, bytes + look_code(c->tool), "give fewer rows", &err) !=
-            RC_OK)
+        tool_ask_memory(c->tool, NULL, bytes, "give fewer rows", &err) != RC_OK)
         tool_die(c->tool, EXIT_IMPOSSIBLE, "%s", err.text);
     if ((canvas = graph_draw(&graph, &err)) == NULL)
         tool_die(c->tool, EXIT_IMPOSSIBLE, "%s", err.text);

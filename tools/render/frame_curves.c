@@ -105,10 +105,9 @@ set_draw(struct set *s, struct graph *graph, const char *title, struct drawn *dr
     graph->family = s->style->family;
     graph->x.log = curve_log(s->style, 'x');
     graph->y.log = curve_log(s->style, 'y');
-    graph->vector = s->style->vector;
     if (graph_memory(graph, &bytes, &err) != RC_OK)
         tool_die(s->tool, EXIT_IMPOSSIBLE, "%s", err.text);
-    tool_demand_memory(s->tool, s->grid[0], bytes + look_code(s->tool));
+    tool_demand_memory(s->tool, s->grid[0], bytes);
     if ((canvas = graph_draw(graph, &err)) == NULL)
         tool_die(s->tool, EXIT_IMPOSSIBLE, "%s", err.text);
     for (size_t k = 0; k <= s->n; k++) {

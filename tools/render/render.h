@@ -221,7 +221,6 @@ struct curve_style {
     size_t width; /* as of a figure */
     double dpi;
     const char *family;
-    bool vector; /* as of a figure */
 };
 
 /* Bytes of code of what paints or writes the page. */
