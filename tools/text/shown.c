@@ -37,6 +37,15 @@ shown_in_unit(char text[SHOWN_NUMBER], double value, const char *unit)
     return text;
 }
 
+void
+shown_words(FILE *out, const char *text, size_t n)
+{
+    size_t size;
+
+    for (size_t k = 0; k < n && text[k] != '\0'; k += size == 0 ? 1 : size)
+        putc((size = rc_control_size(text + k)) > 0 ? '?' : text[k], out);
+}
+
 const char *
 shown_area(char text[SHOWN_NUMBER], double area)
 {
