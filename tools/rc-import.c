@@ -319,7 +319,7 @@ check_memory(struct tool *t, const struct source *s, const struct rc_channel *ch
         rc_size_mul(nodes, (s->format->sandboxed ? 2 : 1) * sizeof(double), &bytes, err) != RC_OK)
         return RC_FAIL;
     if (s->format->sandboxed)
-        bytes += CHILD + (s->format->copies ? s->file.size : 0);
+        bytes = size_sum(bytes, size_sum(CHILD, s->format->copies ? s->file.size : 0));
     return tool_ask_memory(t, &shape, bytes, "the file itself takes memory too", err);
 }
 

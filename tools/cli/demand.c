@@ -35,7 +35,7 @@ size_t
 tool_memory_with(size_t bytes)
 {
     size_t held = memory_held(), peak = memory_peak();
-    size_t with = bytes < SIZE_MAX - held - LATER ? held + bytes + LATER : SIZE_MAX;
+    size_t with = size_sum(bytes, held + LATER);
 
     return with > peak ? with : peak;
 }
@@ -101,7 +101,7 @@ tool_ask_memory(struct tool *t, const struct rc_shape *shape, size_t bytes, cons
                           size_text(need, (double)with), size_text(allowed, (double)t->memory),
                           remedy);
     t->expected_memory = with > t->expected_memory ? with : t->expected_memory;
-    t->unseen_memory += bytes;
+    t->unseen_memory = size_sum(t->unseen_memory, bytes);
     if (t->unseen_memory < UNSEEN && bytes < FEW_BYTES)
         return RC_OK;
     t->unseen_memory = 0;
