@@ -268,7 +268,8 @@ print_list(struct tool *t, const struct source *s, const struct rc_wish *wish)
 
     if (pick_channel(s, wish, &pick, NULL) != RC_OK)
         pick.index = s->n;
-    fprintf(t->out, "%s: %s\n", t->source, s->format->name);
+    shown_words(t->out, t->source, strlen(t->source));
+    fprintf(t->out, ": %s\n", s->format->name);
     fprintf(t->out, "%9s %8s %8s %22s %22s %-6s %24s %24s %s\n", "channel", "nx", "ny", "dx/m",
             "dy/m", "unit", "least", "greatest", "name");
     for (size_t k = 0; k < s->n; k++) {
@@ -318,7 +319,7 @@ check_memory(struct tool *t, const struct source *s, const struct rc_channel *ch
         rc_size_mul(nodes, (s->format->sandboxed ? 2 : 1) * sizeof(double), &bytes, err) != RC_OK)
         return RC_FAIL;
     if (s->format->sandboxed)
-        bytes += CHILD + (s->format->copies ? s->file.size : 0);
+        bytes = size_sum(bytes, size_sum(CHILD, s->format->copies ? s->file.size : 0));
     return tool_ask_memory(t, &shape, bytes, "the file itself takes memory too", err);
 }
 

@@ -156,12 +156,11 @@ show_json(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s
 
 /* ---- text ---- */
 
-/* Text that came with the data, on one line, and nothing in it that a terminal would obey. */
+/* A line of text that came with the data. */
 static void
 put_text(FILE *out, const char *text, size_t n)
 {
-    for (; n > 0 && *text != '\0'; n--, text++)
-        putc((unsigned char)*text < 0x20 || *text == 0x7f ? '?' : *text, out);
+    shown_words(out, text, n);
     putc('\n', out);
 }
 

@@ -252,14 +252,14 @@ demand_memory(struct tool *t, const struct synth_shape *row, const struct rc_sha
     };
     bool skewed = !(isnan(args.skewness) && isnan(args.weibull));
     size_t halves = 2 * row->maps + (skewed ? 3 : 0), nodes, bytes;
+    size_t code = (row->maps > 1 ? (size_t)TOOL_TRANSFORMS : 0) + (skewed ? (size_t)GSL : 0);
     struct rc_err err;
 
     if (rc_shape_check(shape, &err) != RC_OK ||
         rc_size_mul(shape->nx, shape->ny, &nodes, &err) != RC_OK ||
         rc_size_mul(nodes, halves * sizeof(double) / 2, &bytes, &err) != RC_OK ||
-        tool_ask_memory(t, shape,
-                        bytes + (row->maps > 1 ? TOOL_TRANSFORMS : 0) + (skewed ? GSL : 0),
-                        "take fewer nodes: --nx, --ny", &err) != RC_OK)
+        tool_ask_memory(t, shape, size_sum(bytes, code), "take fewer nodes: --nx, --ny", &err) !=
+            RC_OK)
         tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
 }
 

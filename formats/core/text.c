@@ -85,16 +85,22 @@ rc_word_metres(const char *word)
     return rc_length_unit(word, strlen(word), &metres) ? metres : NAN;
 }
 
-/* Control characters, U+0080 to U+009F too, would act on the terminal that shows them. */
-static void
-blank_controls(char *text)
+size_t
+rc_control_size(const char *text)
 {
-    for (unsigned char *s = (unsigned char *)text; *s != '\0'; s++) {
-        if (*s < ' ' || *s == 0x7f)
-            *s = ' ';
-        if (s[0] == 0xc2 && s[1] >= 0x80 && s[1] < 0xa0)
-            s[0] = s[1] = ' ';
-    }
+    const unsigned char *s = (const unsigned char *)text;
+
+    if (s[0] == 0xc2 && s[1] >= 0x80 && s[1] < 0xa0)
+        return 2;
+    return (s[0] < ' ' && s[0] != '\0') || s[0] == 0x7f;
+}
+
+char *
+rc_text_harmless(char *text, char mark)
+{
+    for (char *s = text; *s != '\0'; s++)
+        memset(s, mark, rc_control_size(s));
+    return text;
 }
 
 /* Latin-1 to UTF-8: the code points of Latin-1 are the first 256 of Unicode. */
@@ -127,8 +133,7 @@ rc_text_clean(char *to, size_t size, const char *text, size_t n)
     to[kept] = '\0';
     if (!rc_utf8_valid(to))
         widen(to, size, text, n);
-    blank_controls(to);
-    return to;
+    return rc_text_harmless(to, ' ');
 }
 
 const char *

@@ -24,6 +24,12 @@ bool rc_length_unit(const char *text, size_t n, double *metres);
 /* The same of a word up to its NUL; NAN when it is no unit of length. */
 double rc_word_metres(const char *word);
 
+/* Bytes of the control character that text begins with: 1, or 2 of U+0080 to U+009F in UTF-8, which act
+ * on a terminal as well; 0: it begins with another. */
+size_t rc_control_size(const char *text);
+/* Puts `mark` in the place of each byte of a control character. Gives `text`. */
+char *rc_text_harmless(char *text, char mark);
+
 /* Copies text[0..n) as UTF-8, cut to what fits: bytes that are not UTF-8 are taken as Latin-1,
  * control characters become spaces, white space at both ends goes. Gives `to`. */
 char *rc_text_clean(char *to, size_t size, const char *text, size_t n);

@@ -1,4 +1,4 @@
-# libcontact(3) has what contact.h and grid.h declare, as they declare it: every function with its
+# libcontact(3) has what contact.h, contact_mpi.h and grid.h declare, as they declare it: every function with its
 # arguments, every struct with its fields, every constant with its value; and says something of each.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/manual.sh"
@@ -43,7 +43,10 @@ for (split /;/) {
     elsif (/\bextern\b[^(]*\brc_\w+/) { print "object ", plain($_), "\n" }
 }
 END
-declarations() { ${CC:-cc} -E -P -std=c17 -I "$RC_SOURCE" "$1" | perl declarations.pl | sort -u; }
+mkdir mpi # of MPI one type: the page is the same of a build without it
+echo 'typedef struct mpi_comm *MPI_Comm;' >mpi/mpi.h
+headers() { ${CC:-cc} -E -P -std=c17 -I "$RC_SOURCE" -I mpi "$1"; }
+declarations() { headers "$1" | perl declarations.pl | sort -u; }
 
 # page_code: the page as a header: its displays before EXAMPLES, then a declaration of each .Ft with .Fn,
 # or .Vt.
@@ -57,7 +60,7 @@ page_code() {
         print "$word[0] $word[2](", join(", ", @word[3 .. $#word]), ");\n"' "$page"
 }
 
-declarations "$RC_SOURCE/libcontact/contact.h" >headers.txt
+declarations "$RC_SOURCE/libcontact/contact_mpi.h" >headers.txt
 page_code >page.h
 declarations page.h >page.txt
 
@@ -70,7 +73,8 @@ claim "objects" same_of object page.txt
 claim "structs, with their fields" same_of struct page.txt
 claim "constants, with their values" same_of constant page.txt
 seen() {
-    declared "$RC_SOURCE/libcontact/contact.h" "$RC_SOURCE/libcontact/grid.h" >declared.txt &&
+    headers "$RC_SOURCE/libcontact/contact_mpi.h" >all.h && declared all.h >declared.txt &&
+        grep -qx rc_ranks_sent declared.txt && grep -qx rc_solver_new declared.txt && grep -qx rc_grid_new declared.txt &&
         sed -nE 's/^(function|object) [^(]*\b(rc_\w+).*/\2/p' headers.txt | sort | diff declared.txt - >&2
 }
 claim "  none of the headers' is overlooked" seen
@@ -79,6 +83,7 @@ lacking() {
 }
 claim "  a field that is missing is found" lacking 's/double mu;//' struct
 claim "  an argument" lacking 's/double depth, //' function
+claim "  one of contact_mpi.h" lacking '/rc_ranks_rows(/d' function
 claim "  a value" lacking 's/RC_SHORT = 2/RC_SHORT = 3/' constant
 claim "  one that there is no more" lacking 's/double mu;/double mu, m;/' struct
 

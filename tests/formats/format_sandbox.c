@@ -645,7 +645,8 @@ three(const struct rc_file *f, const struct rc_wish *wish, struct rc_channel *ch
 {
     (void)f, (void)wish, (void)err;
     for (size_t k = 0; k < 3 && k < most; k++)
-        channel[k] = (struct rc_channel){.name = "c", .unit = "m", .nx = k + 1, .ny = 1};
+        channel[k] =
+            (struct rc_channel){.name = "c\033", .unit = "\302\233m", .nx = k + 1, .ny = 1};
     return 3;
 }
 
@@ -675,6 +676,8 @@ lists_come_back(void **state)
     (void)state;
     assert_int_equal(rc_sandbox_list(three, &file, &rc_no_wish, channel, 2, &err), 3);
     assert_int_equal(channel[1].nx, 2);
+    assert_string_equal(channel[1].name, "c "); /* nothing that a terminal would obey */
+    assert_string_equal(channel[1].unit, "  m");
     assert_int_equal(rc_sandbox_list(none, &file, &rc_no_wish, channel, 2, &err), 0);
     assert_string_equal(err.text, "no channel");
     assert_int_equal(rc_sandbox_list(crashing_list, &file, &rc_no_wish, channel, 2, &err), 0);

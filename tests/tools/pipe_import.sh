@@ -101,7 +101,7 @@ refuses 1 "reading failed \(Is a directory\)" "a folder" 'rc-import .'
 refuses 1 "the file is empty" "an empty file" 'rc-import /dev/null'
 refuses 1 "line 2: 1 values, where the first row \(line 1\) has 2" "a row that is too short" \
     'printf "1 2\n3\n" | rc-import --dx 1um --z-unit um -'
-refuses 1 "map.txt: reading it needs more memory than the .* of --memory" "a file that --memory has no room for" 'rc-import --memory 10 map.txt'
+refuses 1 "map.txt: reading it needs more memory than the 10 bytes of --memory" "a file that --memory has no room for" 'rc-import --memory 10 map.txt'
 refuses 1 "writing failed \(No space left on device\)" "a full disk" 'rc-import map.txt >/dev/full'
 refuses 1 "bare.txt: the file does not give the spacing" "the second of two files" 'rc-import map.txt bare.txt >half.rcg'
 claim "then the stream says that it failed" says '^RCGFAIL .*bare.txt' tail -n 1 half.rcg

@@ -217,6 +217,12 @@ refuses 1 'No space left' "a full disk" "rc-synth sphere --radius 1mm $grid >/de
 refuses 1 '1000000000 x 1000000000 (nodes need about [0-9]+ MiB more, .* [0-9]+ MiB: take fewer|is more than this machine can address)' \
     "more nodes than any machine holds" \
     "rc-synth sphere --radius 1mm --nx 1000000000 --dx 1um"
+refuses 1 'nodes need about [0-9]+ MiB, --memory allows 1 MiB: ' "a byte less than 1 MiB is no 1024 KiB" \
+    "rc-synth sphere --radius 1mm --memory 1048575 $grid"
+# bytes of the heights and half maps that all but fill a size; with the code they are more than one
+refuses 1 '999999489 x 658812625 nodes need about [0-9]+ MiB more, .* [0-9]+ MiB: take fewer|is more than this machine can address' \
+    "bytes that are nearly more than can be counted" \
+    "rc-synth selfaffine --skewness 1 --hurst 0.8 --rms-height 1nm --nx 999999489 --ny 658812625 --dx 1nm"
 refuses 2 '--radius -1 m: it must be above 0' "a bad option leaves no file" "rc-synth sphere $grid --radius -1 -o out.rcg"
 claim "indeed" test ! -e out.rcg
 

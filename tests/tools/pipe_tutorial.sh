@@ -180,6 +180,28 @@ rc-solve --radius 7.5mm --load 240N --estar 113.93GPa --hardness 6GPa --tol 1e-4
 quoted=$(sed -n 's/^it is \([0-9]*\) convolutions in \([0-9]*\) steps.*/\1 \2/p' "$pages/contact-theory.7")
 near "$(field convolutions work.json)" "${quoted% *}" 0.25 "contact-theory(7): the convolutions of the rough sphere"
 near "$(field iterations work.json)" "${quoted#* }" 0.25 "  and its steps"
+rc-solve --radius 7.5mm --load 240N --estar 113.93GPa --hardness 6GPa --tol 1e-4 --method pk99 --quiet --report work.json \
+    -o /dev/null run/sphere.rcg
+quoted=$(sed -n 's/^takes \([0-9]*\) in \([0-9]*\)\.$/\1 \2/p' "$pages/contact-theory.7")
+near "$(field convolutions work.json)" "${quoted% *}" 0.25 "  those of pk99"
+near "$(field iterations work.json)" "${quoted#* }" 0.25 "  and its steps"
+# The same contact on steel, with a film and without, as contact-theory(7) and rc-cost(1) quote it.
+rc-import --quiet "$samples/rough-sphere.x3p" -o steel.rcg
+of_steel() { # of_steel TOL [OPTION]...: the convolutions
+    rc-solve --radius 7.5mm --load 240N --E1 208GPa --nu1 0.3 --E2 208GPa --nu2 0.3 --tol "$@" --quiet --report work.json \
+        -o /dev/null steel.rcg && field convolutions work.json
+}
+film="--layer 20um,400GPa,0.2"
+while read -r name film_4 steel_4 film_10 steel_10; do
+    near "$(of_steel 1e-4 $film)" "$film_4" 0.25 "$name: the convolutions of a film to 1e-4"
+    near "$(of_steel 1e-4)" "$steel_4" 0.25 "  those of steel"
+    near "$(of_steel 1e-10 $film)" "$film_10" 0.25 "  of the film to 1e-10"
+    near "$(of_steel 1e-10)" "$steel_10" 0.25 "  of steel"
+done <<END
+contact-theory(7) $(tr '\n' ' ' <"$pages/contact-theory.7" |
+    sed -nE 's/.* takes ([0-9.]+) convolutions to 1e.-4, ([0-9.]+) without the film, and ([0-9.]+) to 1e.-10 with it and without\..*/\1 \2 \3 \3/p')
+rc-cost(1) $(sed -nE 's/^For 1e-4 it takes ([0-9.]+) convolutions, ([0-9.]+) without the film; .* 1e-10 ([0-9.]+) either way\.$/\1 \2 \3 \3/p' "$pages/rc-cost.1")
+END
 
 # ---- real files ----
 

@@ -96,6 +96,33 @@ claim "  whose best is written and marked" grep -aq '^converged=no' short.rcg
 refuses 3 'short.rcg, .*\(converged=no\): what follows from it does too' "  and what follows from it says so" \
     "rc-stress --nu 0.3 --depths 0 short.rcg | cat >/dev/null"
 
+# ---- through links ----
+
+mkdir -p there/in empty
+ln -s there/old.rcg old_link
+ln -s ../there/in/made.rcg empty/second
+ln -s empty/second new_link
+ln -s nowhere/made.rcg lost_link
+ln -s circle_b circle_a
+ln -s circle_a circle_b
+cp good.rcg there/old.rcg
+written() { # written LINK TARGET: the link is one still, and the target is what was written
+    rc-synth wave --wavelength 16um --amplitude 1um --nx 16 --dx 1um -o "$1" && [ -L "$1" ] && [ ! -L "$2" ] &&
+        rc-info --quiet "$2" >/dev/null && ! cmp -s "$2" good.rcg && [ -z "$(find . -name '*.rcg.??????')" ]
+}
+claim "a link to a file stays one, and the file is written" written old_link there/old.rcg
+claim "a link to a link to what is not there yet stays one, and that is made" written new_link there/in/made.rcg
+claim "  the one between too" test -L empty/second
+rm there/in/made.rcg
+claim "  --psd-map does so too" bash -c 'rc-info --psd --psd-map new_link good.rcg >/dev/null && [ -L new_link ] && [ -s there/in/made.rcg ]'
+refuses 1 'No such file or directory' "a link into a folder that is not there" "rc-synth sphere --nx 16 --dx 1um --radius 1mm -o lost_link"
+claim "  stays as it was" test -L lost_link
+refuses 1 'Too many levels of symbolic links' "links in a circle" "rc-synth sphere --nx 16 --dx 1um --radius 1mm -o circle_a"
+claim "  stay as they were" test -L circle_a -a -L circle_b
+claim "/dev/stdout is a link as well, to a pipe" \
+    says max_pressure bash -c 'rc-solve --load 1mN --estar 100GPa --quiet --report /dev/stdout -o x.rcg good.rcg | cat'
+claim "  and may be -o" says RCGEND bash -c 'rc-synth sphere --nx 16 --dx 1um --radius 1mm -o /dev/stdout | tail -c 20'
+
 # NaN heights
 printf '1 2 3 4\n2 NaN 3 1\n1 3 2 4\n' >hole.txt
 refuses 1 '1 of 12 values are NaN or infinite, the first in column 1 of row 1: fill them with rc-detrend --fill' "missing heights without --fill" \

@@ -1,19 +1,25 @@
-# Words of a file in messages do not act on a terminal: no control character comes through, of whatever tool.
+# Words and names of a file do not act on a terminal: no control character comes through, of whatever tool, in
+# what it says and in the text that it shows.
 . "$(dirname "$0")/../pipe.sh"
 
-# harmless "sentence" 'shell command': what it says holds something, and no control character but line feeds.
-harmless() {
-    claims=$((claims + 1))
-    bash -c "$2" >words.out 2>words.err </dev/null
-    if [ -s words.err ] && [ "$(LC_ALL=C tr -d '\n' <words.err | LC_ALL=C tr -dc '\000-\037\177' | wc -c)" = 0 ] &&
-        ! LC_ALL=C grep -q "$(printf '\302[\200-\237]')" words.err; then
-        echo "ok: $1: $(head -n 1 words.err | cut -c1-100)"
-    else
-        echo "NOT OK: $1"
-        cat -v words.err
-        failures=$((failures + 1))
-    fi
+# plain_words FILE: it holds something, and no control character but line feeds.
+plain_words() {
+    [ -s "$1" ] && [ "$(LC_ALL=C tr -d '\n' <"$1" | LC_ALL=C tr -dc '\000-\037\177' | wc -c)" = 0 ] &&
+        ! LC_ALL=C grep -q "$(printf '\302[\200-\237]')" "$1" && return
+    cat -v "$1" >&2
+    return 1
 }
+# harmless "sentence" 'shell command': what it says is; shown ...: its standard output is, and it succeeds.
+harmless() {
+    bash -c "$2" >words.out 2>words.err </dev/null
+    claim "$1: $(head -n 1 words.err | cut -c1-100 | cat -v)" plain_words words.err
+}
+shown() {
+    claim "$1" bash -c "{ $2; } >shown.out </dev/null"
+    claim "  and what it shows is plain" plain_words shown.out
+}
+claim "an escape is no plain word" eval '! { printf "a\033" >bad.out && plain_words bad.out; }'
+claim "nor is one of two bytes" eval '! { printf "a\302\233" >bad.out && plain_words bad.out; }'
 
 rc-synth sphere --nx 5 --dx 1um --radius 1mm -o plain.rcg
 escape=$(printf '\033]0;title\007\033[31m\302\233')
@@ -32,6 +38,22 @@ printf 'x' >"bad$escape.x3p"
 harmless "rc-import" "rc-import bad*.x3p | cat"
 harmless "rc-import --list, which goes on" "rc-import --list --quiet bad*.x3p"
 harmless "the source" "rc-solve --estar 1GPa --load 1N source.rcg -o x.rcg"
-claim "the source is shown without them too" bash -c 'rc-info source.rcg | LC_ALL=C tr -d "\n" | LC_ALL=C tr -dc "\000-\037\177" | wc -c | grep -qx 0'
+
+# ---- what is shown ----
+
+printf '# Channel: To%spo\n# Width: 6 um\n# Height: 5 um\n# Value units: nm\n1 2 3\n4 5 6\n' "$escape" >"map$escape.txt"
+shown "rc-import --list" "rc-import --list map*.txt"
+claim "    the name of the file and that of the channel stand there" grep -q 'map.*title.*txt: ascii' shown.out
+claim "    in its line" grep -qE '^[*] +1 +3 +2 .*To.*title.*po$' shown.out
+contact="--estar 1GPa --load 1mN"
+shown "rc-info" "rc-info source.rcg"
+shown "rc-info --json" "rc-info --json source.rcg"
+claim "    which is what the file has" perl -MJSON::PP -0777 -e '
+    my ($wanted, $json) = map { open my $f, "<", $_; <$f> } @ARGV;
+    my $got = decode_json($json)->{keys}{source}; utf8::encode($got);
+    exit($wanted ne $got)' <(printf 'x%s\ny' "$escape") shown.out
+shown "rc-solve --dry-run" "rc-solve $contact --dry-run source.rcg"
+shown "a report's table" "rc-solve $contact --report words.tsv source.rcg -o x.rcg && tr '\t' ' ' <words.tsv"
+shown "rc-cost" "rc-cost $contact --quiet --limit 5 source.rcg"
 
 finish

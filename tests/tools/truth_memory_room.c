@@ -158,6 +158,30 @@ test_container(void **state)
     assert_true(memory_room(root).bytes == 8 * mib);
     put("/proc/self/cgroup", "0::/\n"); /* in a name space of its own */
     assert_true(memory_room(root).bytes == 10 * mib);
+    put("/proc/self/cgroup", "0::/docker/4f1c\n");
+    assert_true(memory_room(root).bytes == 10 * mib);
+}
+
+/* A group whose name only begins as that of the part that is mounted lies outside: what can be seen
+ * are the bounds of that part. */
+static void
+test_names_that_begin_alike(void **state)
+{
+    (void)state;
+    the_machine("99999999", "0");
+    put("/proc/self/mountinfo", "30 22 0:26 /a /sys/fs/cgroup ro - cgroup2 cgroup rw\n");
+    put("/sys/fs/cgroup/memory.max", "20971520\n");
+    put("/sys/fs/cgroup/memory.current", "10485760\n");
+    put("/sys/fs/cgroup/b/memory.max", "20971520\n");
+    put("/sys/fs/cgroup/b/memory.current", "12582912\n");
+    put("/sys/fs/cgroupb/memory.max", "20971520\n");
+    put("/sys/fs/cgroupb/memory.current", "20971520\n");
+    put("/proc/self/cgroup", "0::/ab\n");
+    assert_true(memory_room(root).bytes == 10 * mib);
+    put("/proc/self/cgroup", "0::/ab/c\n");
+    assert_true(memory_room(root).bytes == 10 * mib);
+    put("/proc/self/cgroup", "0::/a/b\n");
+    assert_true(memory_room(root).bytes == 8 * mib);
 }
 
 /* Bounded by itself; a child, so that the test is not. */
@@ -216,6 +240,7 @@ main(void)
         cmocka_unit_test_setup_teardown(test_version_2, begin, end),
         cmocka_unit_test_setup_teardown(test_version_1, begin, end),
         cmocka_unit_test_setup_teardown(test_container, begin, end),
+        cmocka_unit_test_setup_teardown(test_names_that_begin_alike, begin, end),
         cmocka_unit_test_setup_teardown(test_limits, begin, end),
         cmocka_unit_test(test_held),
     };

@@ -326,6 +326,42 @@ test_comma_locale(void **state)
     setlocale(LC_ALL, "C");
 }
 
+/* What rounds to a thousand of a unit, or 1024, is one of the next. */
+static void
+test_shown(void **state)
+{
+    static const struct {
+        double value;
+        const char *unit, *shown;
+    } numbers[] = {
+        {999.999e-6, "m", "999.999 um"},
+        {999.9999e-6, "m", "1 mm"},
+        {-999.9999e-9, "m", "-1 um"},
+        {999.9999e6, "Pa", "1 GPa"},
+        {1e-6, "m", "1 um"},
+        {999.9999, "m", "1000 m"}, /* nobody says km */
+        {999.9999, "deg", "1000 deg"},
+        {0, "N", "0 N"},
+        {INFINITY, "Pa", "inf Pa"},
+    };
+    static const struct {
+        double value;
+        const char *shown;
+    } sizes[] = {
+        {0, "0 bytes"},     {1023, "1023 bytes"},        {1024, "1 KiB"},
+        {1536, "2 KiB"},    {1023.4 * 1024, "1023 KiB"}, {1023.5 * 1024, "1 MiB"},
+        {1048575, "1 MiB"}, {1048576, "1 MiB"},          {1.5e9, "1431 MiB"},
+    };
+    char text[SHOWN_NUMBER];
+
+    (void)state;
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
+        assert_string_equal(shown_in_unit(text, numbers[k].value, numbers[k].unit),
+                            numbers[k].shown);
+    for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++)
+        assert_string_equal(shown_bytes(text, sizes[k].value), sizes[k].shown);
+}
+
 int
 main(void)
 {
@@ -335,6 +371,7 @@ main(void)
         cmocka_unit_test(test_range_ends),   cmocka_unit_test(test_bad_lists),
         cmocka_unit_test(test_comma_locale), cmocka_unit_test(test_ratios),
         cmocka_unit_test(test_forces),       cmocka_unit_test(test_decimal_commas),
+        cmocka_unit_test(test_shown),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -18,24 +18,11 @@ enum {
 static const char smaller[] =
     "cut a part out with rc-pick --crop, or take fewer nodes with rc-pick --resample";
 
-/* In the largest unit of which there is at least one. */
-static const char *
-size_text(char text[32], double bytes)
-{
-    if (bytes < 1 << 10)
-        snprintf(text, 32, "%.0f bytes", bytes);
-    else if (bytes < 1 << 20)
-        snprintf(text, 32, "%.0f KiB", bytes / (1 << 10));
-    else
-        snprintf(text, 32, "%.0f MiB", bytes / (1 << 20));
-    return text;
-}
-
 size_t
 tool_memory_with(size_t bytes)
 {
     size_t held = memory_held(), peak = memory_peak();
-    size_t with = bytes < SIZE_MAX - held - LATER ? held + bytes + LATER : SIZE_MAX;
+    size_t with = size_sum(bytes, held + LATER);
 
     return with > peak ? with : peak;
 }
@@ -84,7 +71,7 @@ tool_ask_memory(struct tool *t, const struct rc_shape *shape, size_t bytes, cons
                 struct rc_err *err)
 {
     size_t with;
-    char need[32], allowed[32], what[64];
+    char need[SHOWN_NUMBER], allowed[SHOWN_NUMBER], what[64];
     struct memory_room room;
 
     if (bytes >= FEW_BYTES) /* what earlier maps left is not held any more */
@@ -98,18 +85,19 @@ tool_ask_memory(struct tool *t, const struct rc_shape *shape, size_t bytes, cons
         snprintf(what, sizeof what, "%zu x %zu nodes", shape->nx, shape->ny);
     if (t->memory != 0 && with > t->memory)
         return rc_err_set(err, "%s need about %s, --memory allows %s: %s", what,
-                          size_text(need, (double)with), size_text(allowed, (double)t->memory),
+                          shown_bytes(need, (double)with), shown_bytes(allowed, (double)t->memory),
                           remedy);
     t->expected_memory = with > t->expected_memory ? with : t->expected_memory;
-    t->unseen_memory += bytes;
+    t->unseen_memory = size_sum(t->unseen_memory, bytes);
     if (t->unseen_memory < UNSEEN && bytes < FEW_BYTES)
         return RC_OK;
     t->unseen_memory = 0;
     room = memory_room("");
     if ((double)bytes <= room.bytes)
         return RC_OK;
-    return rc_err_set(err, "%s need about %s more, %s %s: %s", what, size_text(need, (double)bytes),
-                      room.why, size_text(allowed, room.bytes), remedy);
+    return rc_err_set(err, "%s need about %s more, %s %s: %s", what,
+                      shown_bytes(need, (double)bytes), room.why, shown_bytes(allowed, room.bytes),
+                      remedy);
 }
 
 void

@@ -7,30 +7,18 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "formats/core/core.h"
 #include "parts.h"
 #include "ranks.h"
 
-/* Names, keys and words of a file stand in messages, and must not act on a terminal: control characters,
- * also those of two bytes in UTF-8, become question marks. */
-static void
-make_harmless(char *text)
-{
-    for (unsigned char *s = (unsigned char *)text; *s != '\0'; s++) {
-        if (*s < 0x20 || *s == 0x7f)
-            *s = '?';
-        if (s[0] == 0xc2 && s[1] >= 0x80 && s[1] < 0xa0)
-            s[0] = s[1] = '?';
-    }
-}
-
+/* Names, keys and words of a file stand in messages, and must not act on a terminal. */
 static void
 say(struct tool *t, char *text)
 {
     if (!ranks_speak(t)) /* the first of several says the same */
         return;
     tool_progress_end(t);
-    make_harmless(text);
-    fprintf(stderr, "%s: %s\n", t->info->name, text);
+    fprintf(stderr, "%s: %s\n", t->info->name, rc_text_harmless(text, '?'));
 }
 
 void
@@ -116,7 +104,7 @@ last_words(struct tool *t, int status, const char *text)
 static _Noreturn void
 die(struct tool *t, int status, char *text)
 {
-    make_harmless(text);
+    rc_text_harmless(text, '?');
     if (t->ranks != NULL)
         ranks_die(t, status, text, last_words);
     last_words(t, status, text);
@@ -156,7 +144,7 @@ tool_where(const struct tool *t, const struct rc_grid *g, char *text, size_t siz
     else
         snprintf(text, size, "%s, case %zu, frame %zu (%s)", source, rc_grid_case(g), t->frame,
                  g->channel);
-    return text;
+    return rc_text_harmless(text, '?');
 }
 
 void

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "formats/core/core.h"
 #include "ranks.h"
 
 /* ---- the file ---- */
@@ -82,9 +83,8 @@ put_word(struct report *r, const char *name, const char *unit, const char *word)
 {
     char *text = strdup(word);
 
-    for (char *s = text; s != NULL && *s != '\0'; s++)
-        if ((unsigned char)*s < 0x20 || *s == 0x7f)
-            *s = ' ';
+    if (text != NULL)
+        rc_text_harmless(text, ' ');
     put_cell(r, name, unit, text);
 }
 

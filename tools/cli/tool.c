@@ -100,8 +100,8 @@ tool_finish(struct tool *t)
 void
 tool_demand_writable(struct tool *t, const char *option, const char *name)
 {
-    char folder[4096];
-    const char *slash, *where = name;
+    char place[WHOLE_PATH], *slash;
+    const char *where = name;
     struct stat st;
 
     if (name == NULL)
@@ -109,10 +109,11 @@ tool_demand_writable(struct tool *t, const char *option, const char *name)
     if (stat(name, &st) == 0 && S_ISDIR(st.st_mode))
         tool_die(t, EXIT_IMPOSSIBLE, "%s %s: this is a folder", option, name);
     if (access(name, F_OK) != 0) { /* to be made: its folder has to let us */
-        slash = strrchr(name, '/');
-        snprintf(folder, sizeof folder, "%.*s", slash == NULL ? 1 : (int)(slash - name) + 1,
-                 slash == NULL ? "." : name);
-        where = folder;
+        if (!whole_file_place(name, place))
+            tool_die(t, EXIT_IMPOSSIBLE, "%s %s: %s", option, name, strerror(errno));
+        if ((slash = strrchr(place, '/')) != NULL)
+            slash[1] = '\0';
+        where = slash == NULL ? "." : place;
     }
     if (access(where, W_OK) != 0)
         tool_die(t, EXIT_IMPOSSIBLE, "%s %s: %s", option, name, strerror(errno));

@@ -277,6 +277,13 @@ group_mount(const char *root, const struct version *v, char *part, char *mount)
     return found;
 }
 
+/* Whether the path is that of the group, given by its first n bytes, or of one inside. */
+static bool
+is_inside(const char *path, const char *group, size_t n)
+{
+    return strncmp(path, group, n) == 0 && (path[n] == '/' || path[n] == '\0');
+}
+
 /* From the process's own group to the outermost that can be seen. In a container only the inner part
  * of the tree is mounted: what lies outside is not in the path. */
 static void
@@ -290,9 +297,9 @@ look_at_groups(const char *root, const struct version *v, struct memory_room *ro
     n = strcmp(part, "/") == 0 ? 0 : strlen(part);
     top = strlen(mount);
     snprintf(folder, sizeof folder, "%s%s", mount,
-             strncmp(path, part, n) == 0 ? path + n
-             : strcmp(path, "/") == 0    ? ""
-                                         : path);
+             is_inside(path, part, n) ? path + n
+             : strcmp(path, "/") == 0 ? ""
+                                      : path);
     for (;;) {
         look_at_group(root, folder, v, room);
         if (strlen(folder) <= top || strrchr(folder, '/') < folder + top)

@@ -24,13 +24,63 @@ whole_files_remove(void)
     }
 }
 
-static void
-resolve(struct whole_file *w, const char *name)
+/* Copies text; false, with errno, where there is no room for it and the letters of a half-written name. */
+static bool
+keep(char place[WHOLE_PATH], const char *text)
 {
-    char *real = realpath(name, NULL);
+    if (strlen(text) >= WHOLE_PATH - 8) {
+        errno = ENAMETOOLONG;
+        return false;
+    }
+    strcpy(place, text);
+    return true;
+}
 
-    snprintf(w->destination, sizeof w->destination, "%s", real == NULL ? name : real);
-    free(real);
+/* Puts what the link names in its place; false: it is none, or what it names is too long. */
+static bool
+follow(char place[WHOLE_PATH])
+{
+    char target[WHOLE_PATH], whole[2 * WHOLE_PATH];
+    const char *slash = strrchr(place, '/');
+    ssize_t n = readlink(place, target, sizeof target - 1);
+
+    if (n < 0)
+        return false;
+    target[n] = '\0';
+    snprintf(whole, sizeof whole, "%.*s%s",
+             slash == NULL || target[0] == '/' ? 0 : (int)(slash - place) + 1, place, target);
+    return keep(place, whole);
+}
+
+bool
+whole_file_place(const char *name, char place[WHOLE_PATH])
+{
+    char *real;
+    bool fits;
+
+    if (!keep(place, name))
+        return false;
+    do { /* a link to what is not there yet: links in a circle are ELOOP */
+        if ((real = realpath(place, NULL)) != NULL) {
+            fits = keep(place, real);
+            free(real);
+            return fits;
+        }
+        if (errno == ELOOP || errno == ENOMEM)
+            return false;
+        errno = 0;
+    } while (follow(place));
+    return errno != ENAMETOOLONG;
+}
+
+static int
+free_slot(void)
+{
+    int slot = 0;
+
+    while (slot < SLOTS && half[slot][0] != '\0')
+        slot++;
+    return slot < SLOTS ? slot : -1;
 }
 
 /* Makes the file and notes its name, with no signal in between. */
@@ -38,11 +88,9 @@ static int
 make(struct whole_file *w)
 {
     sigset_t all, before;
-    int slot = 0, fd;
+    int slot = free_slot(), fd;
 
-    while (slot < SLOTS && half[slot][0] != '\0')
-        slot++;
-    if (slot == SLOTS) {
+    if (slot < 0) {
         errno = EMFILE;
         return -1;
     }
@@ -68,11 +116,8 @@ whole_file_open(struct whole_file *w, const char *name)
     *w = (struct whole_file){.slot = -1};
     if (stat(name, &st) == 0 && !S_ISREG(st.st_mode))
         return fopen(name, "wb");
-    resolve(w, name);
-    if (strlen(name) >= WHOLE_PATH - 8 || strlen(w->destination) >= WHOLE_PATH - 8) {
-        errno = ENAMETOOLONG;
+    if (!whole_file_place(name, w->destination))
         return NULL;
-    }
     if ((fd = make(w)) < 0)
         return NULL;
     if (fchmod(fd, 0666 & ~mask) == 0 && (file = fdopen(fd, "wb")) != NULL)
@@ -94,15 +139,17 @@ whole_file_is_half(const struct whole_file *w)
 const char *
 whole_file_name(const struct whole_file *w)
 {
-    return half[w->slot];
+    return w->slot >= 0 ? half[w->slot] : w->destination;
 }
 
 void
 whole_file_share(struct whole_file *w, const char *name)
 {
-    *w = (struct whole_file){.slot = 0};
+    if (w->slot < 0)
+        w->slot = free_slot();
     snprintf(w->destination, sizeof w->destination, "%s", name);
-    snprintf(half[0], WHOLE_PATH, "%s", name);
+    if (w->slot >= 0)
+        snprintf(half[w->slot], WHOLE_PATH, "%s", name);
 }
 
 bool

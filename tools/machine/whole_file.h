@@ -15,6 +15,9 @@ struct whole_file {
     char destination[WHOLE_PATH];
 };
 
+/* Where the file of that name is, or is to be made: through symbolic links, also where what they name is not
+ * there yet. false with errno. */
+bool whole_file_place(const char *name, char place[WHOLE_PATH]);
 /* To be written; a device or a FIFO directly. Through symbolic links, so that a link stays one. NULL with
  * errno. At most four are half-written at a time. */
 FILE *whole_file_open(struct whole_file *w, const char *name);

@@ -2,17 +2,19 @@
 
 #include <math.h>
 
-#include "libcontact/grid.h"
+#include "formats/core/core.h"
 
 static void
 quoted(FILE *file, const char *s)
 {
+    size_t size;
+
     putc('"', file);
     for (; *s != '\0'; s++) {
         if (*s == '"' || *s == '\\')
             fprintf(file, "\\%c", *s);
-        else if ((unsigned char)*s < 0x20)
-            fprintf(file, "\\u%04x", (unsigned)(unsigned char)*s);
+        else if ((size = rc_control_size(s)) > 0) /* the code point is the last byte */
+            fprintf(file, "\\u%04x", (unsigned)(unsigned char)*(s += size - 1));
         else
             putc(*s, file);
     }

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "formats/core/core.h"
@@ -14,15 +15,21 @@ enum {
 const char *
 shown_number(char text[SHOWN_NUMBER], double value, int digits, const char *unit)
 {
-    bool known = strcmp(unit, "m") == 0 || strcmp(unit, "Pa") == 0 || strcmp(unit, "N") == 0;
+    bool known = (strcmp(unit, "m") == 0 || strcmp(unit, "Pa") == 0 || strcmp(unit, "N") == 0) &&
+                 isfinite(value);
     int most = strcmp(unit, "m") == 0 ? 0 : 12, power = 0; /* nobody says Mm */
 
-    if (known && value != 0 && isfinite(value)) {
+    if (known && value != 0) {
         power = 3 * (int)floor(log10(fabs(value)) / 3);
         power = power > most ? most : rc_prefix_of(power) == NULL ? 0 : power;
     }
-    snprintf(text, SHOWN_NUMBER, "%.*g%s%s", digits, value / pow(10, power),
-             *unit == '\0' ? "" : " ", rc_prefix_of(power));
+    snprintf(text, SHOWN_NUMBER, "%.*g", digits, value / pow(10, power));
+    if (known && fabs(atof(text)) >= 1000 && power + 3 <= most) { /* by its rounding */
+        power += 3;
+        snprintf(text, SHOWN_NUMBER, "%.*g", digits, value / pow(10, power));
+    }
+    snprintf(text + strlen(text), SHOWN_NUMBER - strlen(text), "%s%s", *unit == '\0' ? "" : " ",
+             rc_prefix_of(power));
     return text;
 }
 
@@ -34,6 +41,29 @@ shown_in_unit(char text[SHOWN_NUMBER], double value, const char *unit)
     shown_number(text, value, DIGITS, unit);
     n = strlen(text);
     snprintf(text + n, SHOWN_NUMBER - n, "%s", unit);
+    return text;
+}
+
+void
+shown_words(FILE *out, const char *text, size_t n)
+{
+    size_t size;
+
+    for (size_t k = 0; k < n && text[k] != '\0'; k += size == 0 ? 1 : size)
+        putc((size = rc_control_size(text + k)) > 0 ? '?' : text[k], out);
+}
+
+const char *
+shown_bytes(char text[SHOWN_NUMBER], double bytes)
+{
+    static const char *const name[] = {"bytes", "KiB", "MiB"};
+    size_t k = 0;
+
+    while (k + 1 < sizeof name / sizeof *name && round(bytes) >= 1024) { /* as it is printed */
+        bytes /= 1024;
+        k++;
+    }
+    snprintf(text, SHOWN_NUMBER, "%.0f %s", round(bytes), name[k]);
     return text;
 }
 

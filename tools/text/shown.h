@@ -1,6 +1,8 @@
-/* Numbers for people to read. */
+/* Numbers and words for people to read. */
 #ifndef RC_SHOWN_NUMBERS_H
 #define RC_SHOWN_NUMBERS_H
+
+#include <stdio.h>
 
 enum {
     SHOWN_NUMBER = 48
@@ -11,6 +13,10 @@ enum {
 const char *shown_number(char text[SHOWN_NUMBER], double value, int digits, const char *unit);
 /* "1.29 um": six digits and the unit. */
 const char *shown_in_unit(char text[SHOWN_NUMBER], double value, const char *unit);
+/* Words that came with a file, up to n bytes: none that a terminal would obey. */
+void shown_words(FILE *out, const char *text, size_t n);
+/* "37 MiB", whole ones of the largest unit up to that of which there is one. */
+const char *shown_bytes(char text[SHOWN_NUMBER], double bytes);
 /* "0.163 mm2", of square metres. */
 const char *shown_area(char text[SHOWN_NUMBER], double area);
 

@@ -38,6 +38,13 @@ unit_size(double number)
     return number < (double)SIZE_MAX ? (size_t)number : SIZE_MAX;
 }
 
+/* The sum of two; SIZE_MAX: more than that. */
+static inline size_t
+size_sum(size_t a, size_t b)
+{
+    return b < SIZE_MAX - a ? a + b : SIZE_MAX;
+}
+
 /* `a,b,c`, `a:b:n` (n values, both ends included) or `a:b:log:n` (the same, by ratio). Numbers with
  * and without a unit in one list are an error, except 0. The caller frees list->v. */
 enum rc_status unit_numbers(const char *text, enum unit unit, struct numbers *list,
