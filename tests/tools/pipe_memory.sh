@@ -85,7 +85,7 @@ estimated "rc-render --curve, of a report" "rc-render --curve load:contact_fract
 for format in png pdf svg; do
     estimated "rc-render --curve, a long table as $format" "rc-render --curve x:y --verbose long.tsv -o curve.$format"
 done
-estimated "rc-cost, with the processes that it starts" "rc-cost --verbose --kernel fft --method pcg --limit 2s $load small.rcg"
+estimated "rc-cost, with the processes that it starts" "rc-cost --verbose --kernel fft --method pcg --limit 10s $load small.rcg"
 
 # ---- what the report and the plan say ----
 
