@@ -587,8 +587,8 @@ RC_API size_t rc_solver_memory(const struct rc_shape *shape, const struct rc_pro
 RC_API size_t rc_solver_stiffness_memory(const struct rc_shape *shape);
 
 /* What such a solver will take, by what others took: convolutions (in equivalents, as they are
- * counted) and seconds, both NAN where nobody knows, and bytes. RC_FAIL when there is no such engine
- * or method. */
+ * counted) and seconds, both NAN where nobody knows, and bytes. RC_FAIL when there would be none, though memory
+ * were there: no such engine or method, none for the boundary or the ranks, no solution under the load. */
 struct rc_expected {
     double convolutions, seconds;
     size_t memory;
@@ -657,6 +657,9 @@ struct rc_stress_counts {
  * the boundary or the section, or memory is short. */
 RC_API struct rc_stress *rc_stress_new(const struct rc_shape *shape, const double *p,
                                        const struct rc_stress_options *options, struct rc_err *err);
+/* RC_FAIL, and *err says why, when rc_stress_new would refuse these, though memory were there. */
+RC_API enum rc_status rc_stress_check(const struct rc_shape *shape,
+                                      const struct rc_stress_options *options, struct rc_err *err);
 /* Values of a component at one depth: nx ny, or of the section y = at nx, of x = at ny. */
 RC_API size_t rc_stress_values(const struct rc_stress *stress);
 /* What is wanted at the depth z >= 0 (m), Pa, tension positive: s[c] for each c of `wanted`; the

@@ -123,6 +123,13 @@ refuses 1 "a section is computed by one process" "a section" \
     "$MPIRUN -n 2 rc-stress --nu 0.3 --depths 0,1um --section y=0 -o no.rcg wave-pressed.rcg"
 refuses 1 "a section is computed by one process" "  of a large map: not for its memory" \
     "$MPIRUN -n 2 rc-stress --nu 0.3 --depths 0,1um --section y=0 -o no.rcg rough-pressed.rcg"
+refuses 1 "a section is computed by one process" "  in a plan" \
+    "$MPIRUN -n 2 rc-stress --nu 0.3 --depths 0,1um --section y=0 --dry-run wave-pressed.rcg"
+refuses 1 "needs the whole map in one process" "  an engine that is not shared, in a plan" \
+    "$MPIRUN -n 2 rc-stress --nu 0.3 --depths 0,1um --kernel mlms --dry-run pressed.rcg"
+claim "a plan for two tells how long it takes" says 'time +about [0-9.e-]+ s' \
+    $MPIRUN -n 2 rc-stress --nu 0.3 --depths 0,1um --tol 1e-3 --dry-run pressed.rcg
+claim "  and what they do not do" grep -q 'coarse_grids *left out: several processes share the map' says.out
 refuses 2 'give one of --load' "a wrong command line" "$MPIRUN -n 2 rc-solve --estar 1GPa -o no.rcg rough.rcg"
 claim "  is said once" test "$(grep -c 'give one of' refuses.err)" = 1
 refuses 1 'checksum' "a damaged stream" "

@@ -51,6 +51,8 @@ check(const struct rc_shape *s, const struct rc_problem *problem, struct rc_err 
         return rc_err_set(err, "hardness %g Pa: it must be positive", problem->hardness);
     if (!(problem->tol >= 0))
         return rc_err_set(err, "tolerance %g: it must be positive", problem->tol);
+    if (problem->approach > 0 && isinf(problem->approach))
+        return rc_err_set(err, "approach %g m: it must be finite", problem->approach);
     return RC_OK;
 }
 
@@ -269,11 +271,14 @@ rc_solver_expect(const struct rc_shape *shape, const struct rc_problem *problem,
     struct rc_operator_options options = operator_options(shape, problem);
     const struct rc_method *method = choose(problem->method, err);
     double nodes = (double)(shape->nx * shape->ny), some;
+    double hardness = problem->hardness == 0 ? INFINITY : problem->hardness;
 
-    if (method == NULL)
+    if (method == NULL || check(shape, problem, err) != RC_OK ||
+        rc_half_space_check(shape, &options, err) != RC_OK)
         return RC_FAIL;
-    if (rc_half_space_memory(shape, &options) == 0)
-        return rc_err_set(err, "there is no engine '%s'", problem->engine);
+    if (!(problem->approach > 0) &&
+        rc_load_check(problem->load, hardness, shape->dx * shape->dy * nodes, err) != RC_OK)
+        return RC_FAIL;
     some = method->convolutions == NULL
                ? NAN
                : method->convolutions(nodes, -log10(tolerance(shape, problem)));

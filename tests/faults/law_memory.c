@@ -384,6 +384,7 @@ static enum rc_status
 without(double *out, struct rc_err *err)
 {
     static const struct rc_place place = {1e-6, 2e-6};
+    static const struct rc_stress_options stress = {.nu = 0.3, .wanted = 1, .threads = 1};
     struct rc_shape to = {NX / 2, NY / 2, 2.2e-6, 2e-6}, turned = rc_rotate_shape(&shape, 1), sum;
     double s6[RC_COMPONENTS] = {1, 2, 3, 4, 5, 6}, mises = NAN, *derived[RC_STRESSES] = {NULL};
     const double *six[RC_COMPONENTS];
@@ -418,6 +419,8 @@ without(double *out, struct rc_err *err)
         six[c] = &s6[c];
     derived[RC_MISES] = &mises;
     rc_stress_derive(1 << RC_MISES, 1, six, derived);
+    if (rc_stress_check(&shape, &stress, err) != RC_OK)
+        return RC_FAIL;
     out[2 * N] = rc_sum(rough, N) + rc_measure_contact_slope(&shape, rough, pressure) + mises +
                  rc_measure_contact_slope_on(NULL, &shape, rough, pressure);
     out[2 * N + 1] = (double)(rc_largest(N, rough) + rc_coating_material(&coating, 3e-6));
