@@ -147,6 +147,12 @@ rc-solve --periodic --estar 1e60Pa --mean-pressure 1e58Pa --tol 1e-3 --output pr
 refuses 1 '65024 of 65024 values of mises came out larger than single precision can hold' "values too large, in the rows of both" \
     "$MPIRUN -n 2 rc-stress --nu 0.3 --depths 0 --components mises --type f32 -o no.rcg huge.rcg"
 claim "  are said once" test "$(grep -c 'came out' refuses.err)" = 1
+# Who says it is told by the launcher: the first one where all have agreed, else the one that had waited for others.
+refuses 1 '^\[[^]]*,0\]<stderr>: ?rc-solve: small.rcg, frame 1: .* --memory allows 1 MiB' \
+    "a part for which the second process has no memory ends both at once" \
+    "$MPIRUN --tag-output -n 1 rc-solve --estar 1GPa --load 1mN -o no.rcg small.rcg : \
+        -n 1 rc-solve --memory 1M --estar 1GPa --load 1mN -o no.rcg small.rcg"
+claim "  which is said once" test "$(grep -c 'memory allows' refuses.err)" = 1
 refuses 3 'stopped short' "short of the accuracy: written, with its exit status" \
     "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N --tol 1e-30 -o stopped.rcg rough.rcg"
 claim "  and whole" bash -c 'rc-info stopped.rcg >/dev/null; test $? = 3'
@@ -235,7 +241,7 @@ unset OMPI_MCA_odls_base_sigkill_timeout
 # short_of N: exit status
 short_of() {
     echo old >short.rcg
-    timeout -s KILL 60 $MPIRUN -n 1 $short_command : -n 1 env LD_PRELOAD="$RC_FAILING_MALLOC" RC_FAULT_AT="$1" RC_FAULT_COUNT="$PWD/count" \
+    timeout -s KILL 60 $MPIRUN --tag-output -n 1 $short_command : -n 1 env LD_PRELOAD="$RC_FAILING_MALLOC" RC_FAULT_AT="$1" RC_FAULT_COUNT="$PWD/count" \
         $short_command >short.out 2>short.err
 }
 export ASAN_OPTIONS="${ASAN_OPTIONS-}:verify_asan_link_order=0"
@@ -260,7 +266,9 @@ memory() {
         0) rc-info --quiet short.rcg >/dev/null || { echo "allocation $n: not whole" >&2; wrong=1; } ;; # nor converged=no
         1)
             [ "$(cat short.rcg)" = old ] || { echo "allocation $n: the old file is not as it was" >&2; wrong=1; }
-            grep -aq '^rc-solve: ' short.err || { echo "allocation $n: no message: $(head -c 300 short.err)" >&2; wrong=1; }
+            grep -aq '<stderr>: \?rc-solve: ' short.err || { echo "allocation $n: no message: $(head -c 300 short.err)" >&2; wrong=1; }
+            ! grep -aq ',1\]<stderr>: \?rc-solve: .*, frame 1: out of memory' short.err ||
+                { echo "allocation $n: the first process waited: $(head -c 300 short.err)" >&2; wrong=1; }
             ;;
         *) echo "allocation $n of $last: exit status $status: $(head -c 300 short.err)" >&2; wrong=1 ;;
         esac
