@@ -80,6 +80,30 @@ if [ "$ranks" != 2 ]; then
     done
 fi
 
+# estimated "sentence" command...: what the fullest rank is expected to take is within a tenth of what it takes.
+estimated() {
+    local sentence=$1
+    shift
+    run "$@" --quiet --report estimate.json -o estimate.rcg
+    near "$(field memory_estimate estimate.json)" "$(field peak_memory estimate.json)" 0.1 "$sentence"
+}
+rough="selfaffine --dx 1um --hurst 0.8 --rms-slope 0.1 --rolloff 100um --short-cut 6um"
+if ! nm -D "$(command -v rc-solve)" 2>/dev/null | grep -q __asan; then # which takes memory of its own
+    rc-synth $rough --nx 1200 --ny 1100 -o even.rcg
+    rc-synth $rough --nx 30000 --ny 48 -o wide.rcg # 16 rows of the first rank, 32 of the second
+    press="rc-solve --estar 3GPa --mean-pressure 20MPa --tol 1e-2 --output pressure"
+    estimated "memory of two: rc-solve --stiffness" $press --stiffness even.rcg
+    estimated "  periodic, gaps and heights" $press --periodic --output pressure,gap,height --stiffness even.rcg
+    mv estimate.rcg even-pressed.rcg
+    estimated "  rc-stress" rc-stress --nu 0.3 --depths 1um,5um --components mises even-pressed.rcg
+    estimated "  rc-solve, where one has twice the rows of the other" $press --periodic wide.rcg
+    mv estimate.rcg wide-pressed.rcg
+    estimated "  rc-stress, the same" rc-stress --nu 0.3 --depths 1um,5um --components mises wide-pressed.rcg
+    run rc-deflect --verbose --estar 3GPa -o estimate.rcg wide-pressed.rcg 2>&1 | grep memory: >memory.txt
+    read -r _ _ expected _ _ taken _ <memory.txt
+    near "${expected:-none}" "${taken:-none}" 0.1 "  rc-deflect"
+fi
+
 # ---- checkpoints ----
 
 solve="rc-solve --periodic --estar 1GPa --output pressure --quiet"

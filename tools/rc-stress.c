@@ -403,10 +403,10 @@ do_depth(struct run *run, struct rc_stress *stress, size_t k)
 static void
 plan_case(struct run *run, const struct rc_grid *p)
 {
+    double memory = ranks_most(&run->t, (double)tool_memory_with(memory_for(run, p)));
     struct rc_err err;
 
-    if (stress_report_plan(&run->t, p, &run->options, &run->depths,
-                           tool_memory_with(memory_for(run, p)), &err) != RC_OK)
+    if (stress_report_plan(&run->t, p, &run->options, &run->depths, (size_t)memory, &err) != RC_OK)
         tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
 }
 

@@ -182,11 +182,13 @@ size_t
 rc_stress_memory(const struct rc_shape *shape, const struct rc_stress_options *o)
 {
     struct rc_stress_task task = task_of(shape, NULL, NULL, o, NULL);
-    size_t own = 0;
+    size_t own = 0, ranks = rc_ranks_count(o->ranks), values = values_of(shape, o);
 
+    if (ranks > 1) /* a section is refused */
+        values = shape->nx * rc_rows_most(shape, ranks);
     for (int c = 0; c < RC_COMPONENTS; c++)
         own += (task.components & ~o->wanted) >> c & 1;
-    return sizeof(struct rc_stress) + own * values_of(shape, o) * sizeof(double) +
+    return sizeof(struct rc_stress) + own * values * sizeof(double) +
            evaluator_of(&task)->memory(&task);
 }
 

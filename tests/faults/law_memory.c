@@ -351,6 +351,7 @@ plans(double *out, struct rc_err *err)
     static const struct rc_problem problem = {.estar = 1e9, .load = 1e-3, .threads = 1};
     static const struct rc_stress_options stress = {.nu = 0.3, .wanted = 1, .threads = 1};
     static const struct rc_surface_options surface = {.threads = 1};
+    static const struct rc_patch_options patches = {.threads = 1};
     struct rc_expected expected;
     const char *reason;
     size_t bytes[10];
@@ -363,8 +364,8 @@ plans(double *out, struct rc_err *err)
     bytes[5] = rc_conv_memory(&shape, &conv);
     bytes[6] = rc_solver_memory(&shape, &problem);
     bytes[7] = rc_stress_memory(&shape, &stress);
-    bytes[8] = rc_patches_memory(&shape, pressure);
-    bytes[9] = rc_solver_stiffness_memory(&shape);
+    bytes[8] = rc_patches_memory(&shape, pressure, &patches);
+    bytes[9] = rc_solver_stiffness_memory(&shape, &problem);
     for (size_t k = 0; k < 10; k++) {
         out[k] = (double)bytes[k];
         if (bytes[k] == 0)

@@ -281,7 +281,8 @@ stress_report_write(struct stress_report *r, struct report *out, const struct rc
     report_end(out);
     report_count(out, "peak_memory", (size_t)ranks_most(out->tool, (double)tool_peak_memory()),
                  "B");
-    report_count(out, "memory_estimate", out->tool->expected_memory, "B");
+    report_count(out, "memory_estimate",
+                 (size_t)ranks_most(out->tool, (double)out->tool->expected_memory), "B");
     report_ranks(out, out->tool);
     report_finish_row(out);
 }
