@@ -27,7 +27,8 @@
  *   distances             along columns: the last row of the set above and the first below, by a scan over
  *                         the ranks (distance.c); along rows: local
  *   nested start          rows of the coarser grid are moved to who owns them there; grids of few nodes a
- *                         rank are solved by every rank for itself, which costs no message (nested.c)
+ *                         rank are solved by every rank for itself, which costs no message but
+ *                         whether all have the memory (nested.c)
  *   patches of contact    labelled row by row, joined across the seams between ranks (surface/patches.c)
  *   failures              no rank goes on alone: makers agree on their status before any of them returns
  */

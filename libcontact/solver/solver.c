@@ -163,10 +163,11 @@ make_room(struct rc_solver *s, struct rc_err *err)
     return rc_ranks_agree(s->posed.rows.ranks, status, err);
 }
 
-/* Takes the operator; NULL: there is none, and *err says why. */
+/* Takes the operator; NULL: there is none, and *err says why. `all`: who does the same. */
 static struct rc_solver *
-solver_new(const struct rc_shape *shape, const double *h, const struct rc_problem *problem,
-           const struct rc_method *method, struct rc_operator *op, struct rc_err *err)
+solver_new(const struct rc_ranks *all, const struct rc_shape *shape, const double *h,
+           const struct rc_problem *problem, const struct rc_method *method, struct rc_operator *op,
+           struct rc_err *err)
 {
     struct rc_solver *s = calloc(1, sizeof *s);
 
@@ -183,6 +184,7 @@ solver_new(const struct rc_shape *shape, const double *h, const struct rc_proble
     if (pose(&s->posed, shape, h, problem, err) != RC_OK || make_room(s, err) != RC_OK)
         goto fail;
     s->posed.rough = !op->exact;
+    s->posed.all = all;
     if (rc_load_first(s, problem, err) != RC_OK ||
         (s->preconditioner = rc_preconditioner_new(op, err)) == NULL)
         goto fail;
@@ -203,14 +205,15 @@ rc_solver_new(const struct rc_shape *shape, const double *h, const struct rc_pro
 
     if (method == NULL || check(shape, problem, err) != RC_OK)
         return NULL;
-    return solver_new(shape, h, problem, method, rc_half_space_new(shape, &options, err), err);
+    return solver_new(problem->ranks, shape, h, problem, method,
+                      rc_half_space_new(shape, &options, err), err);
 }
 
 struct rc_solver *
 rc_solver_coarse(const struct rc_solver *fine, const struct rc_shape *shape, const double *h,
                  const struct rc_problem *problem, struct rc_err *err)
 {
-    return solver_new(shape, h, problem, fine->method,
+    return solver_new(fine->posed.all, shape, h, problem, fine->method,
                       rc_operator_coarse(fine->op, problem->ranks, shape, err), err);
 }
 
@@ -326,7 +329,7 @@ rc_solver_step(struct rc_solver *s)
     enum rc_status status;
 
     s->stage = RC_STAGE_STEPPED;
-    if (s->nested != NULL) {
+    if (s->nested.ahead) {
         rc_nested_step(s);
         return RC_MORE;
     }
