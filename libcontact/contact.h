@@ -340,8 +340,10 @@ RC_API enum rc_status rc_patches_find(const struct rc_shape *shape, const double
                                       const struct rc_patch_options *options,
                                       struct rc_patches *patches, struct rc_err *err);
 RC_API void rc_patches_free(struct rc_patches *patches);
-/* Bytes that it takes, beside p, which may be NULL: about what a rough contact takes. */
-RC_API size_t rc_patches_memory(const struct rc_shape *shape, const double *p);
+/* Bytes that it takes, beside p, which may be NULL: about what a rough contact takes. Where ranks share the map
+ * p is not looked at: of the rank that takes most, the patches of the whole map among them, which each has. */
+RC_API size_t rc_patches_memory(const struct rc_shape *shape, const double *p,
+                                const struct rc_patch_options *options);
 
 /* ---- what a surface is like: areal.c, material_ratio.c, texture.c, spectrum.c ---- */
 
@@ -581,14 +583,16 @@ RC_API void rc_solver_free(struct rc_solver *solver);
 RC_API const char *rc_solver_choice(const struct rc_shape *shape, const struct rc_problem *problem,
                                     const char **reason);
 /* Bytes that a solver of this size takes, its copies of the heights and of the pressure included. As of the
- * other estimates here: beside the caller's arrays, code, and FFTW's plans, 2 to 3 MiB a precision. */
+ * other estimates here: beside the caller's arrays, code, and FFTW's plans, 2 to 3 MiB a precision; and where
+ * ranks share the map, of the rank that takes most, beside what MPI takes. */
 RC_API size_t rc_solver_memory(const struct rc_shape *shape, const struct rc_problem *problem);
 /* Bytes that rc_solver_stiffness takes beside it, for as long as it runs. */
-RC_API size_t rc_solver_stiffness_memory(const struct rc_shape *shape);
+RC_API size_t rc_solver_stiffness_memory(const struct rc_shape *shape,
+                                         const struct rc_problem *problem);
 
 /* What such a solver will take, by what others took: convolutions (in equivalents, as they are
- * counted) and seconds, both NAN where nobody knows, and bytes. RC_FAIL when there is no such engine
- * or method. */
+ * counted) and seconds, both NAN where nobody knows, and bytes. RC_FAIL when there would be none, though memory
+ * were there: no such engine or method, none for the boundary or the ranks, no solution under the load. */
 struct rc_expected {
     double convolutions, seconds;
     size_t memory;
@@ -657,6 +661,9 @@ struct rc_stress_counts {
  * the boundary or the section, or memory is short. */
 RC_API struct rc_stress *rc_stress_new(const struct rc_shape *shape, const double *p,
                                        const struct rc_stress_options *options, struct rc_err *err);
+/* RC_FAIL, and *err says why, when rc_stress_new would refuse these, though memory were there. */
+RC_API enum rc_status rc_stress_check(const struct rc_shape *shape,
+                                      const struct rc_stress_options *options, struct rc_err *err);
 /* Values of a component at one depth: nx ny, or of the section y = at nx, of x = at ny. */
 RC_API size_t rc_stress_values(const struct rc_stress *stress);
 /* What is wanted at the depth z >= 0 (m), Pa, tension positive: s[c] for each c of `wanted`; the
@@ -667,7 +674,7 @@ RC_API enum rc_status rc_stress_slice(struct rc_stress *stress, double depth,
 RC_API const char *rc_stress_engine(const struct rc_stress *stress);
 RC_API const struct rc_stress_counts *rc_stress_counted(const struct rc_stress *stress);
 RC_API void rc_stress_free(struct rc_stress *stress);
-/* Bytes that such a plan takes, beside p and the slices. */
+/* Bytes that such a plan takes, beside p and the slices; where ranks share the map, of the rank that takes most. */
 RC_API size_t rc_stress_memory(const struct rc_shape *shape,
                                const struct rc_stress_options *options);
 

@@ -95,7 +95,7 @@ static size_t
 patches(const struct work *w, const double *h, const double *p)
 {
     const struct rc_patch_options options = {.boundary = w->boundary, .each = true};
-    size_t bytes = rc_patches_memory(&shape, p);
+    size_t bytes = rc_patches_memory(&shape, p, &options);
     struct rc_patches found;
 
     (void)h;

@@ -46,7 +46,7 @@ build ci
 
 # What is different under mpirun: the tools and the test that use it, on two processes.
 cmake --preset mpi >/dev/null
-cmake --build --preset mpi --parallel "$(cores)" --target rc-solve rc-deflect rc-stress rc-synth rc-pick rc-info same_ranks failing_malloc
+cmake --build --preset mpi --parallel "$(cores)" --target rc-solve rc-deflect rc-stress rc-synth rc-pick rc-info same_ranks law_counts_ranks law_memory_ranks failing_malloc
 phase "mpi, build"
 ctest --test-dir build-mpi -R _ranks --output-on-failure --no-tests=error
 phase "mpi, tests"

@@ -189,6 +189,8 @@ set_material(struct run *run, const struct rc_grid *p)
 static void
 set_options(struct run *run, const struct rc_grid *p)
 {
+    struct rc_shape shape = rc_grid_shape(p);
+    struct rc_err err;
     char list[128];
 
     run->options.boundary = boundary(run, p);
@@ -203,6 +205,8 @@ set_options(struct run *run, const struct rc_grid *p)
         tool_die_at(&run->t, p, EXIT_IMPOSSIBLE,
                     "its boundary is periodic, where only %s sums: leave out --kernel %s",
                     words_periodic_engines(list, sizeof list), args.kernel);
+    if (rc_stress_check(&shape, &run->options, &err) != RC_OK) /* before depths are looked for */
+        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
 }
 
 /* A rigid substrate has a face, but no stresses inside. */
@@ -397,6 +401,16 @@ do_depth(struct run *run, struct rc_stress *stress, size_t k)
 }
 
 static void
+plan_case(struct run *run, const struct rc_grid *p)
+{
+    double memory = ranks_most(&run->t, (double)tool_memory_with(memory_for(run, p)));
+    struct rc_err err;
+
+    if (stress_report_plan(&run->t, p, &run->options, &run->depths, (size_t)memory, &err) != RC_OK)
+        tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
+}
+
+static void
 do_case(struct run *run, const struct rc_grid *p)
 {
     struct rc_shape shape = rc_grid_shape(p);
@@ -445,8 +459,7 @@ main(int argc, char **argv)
         set_options(&run, p);
         set_depths(&run, p);
         if (args.dry_run)
-            stress_report_plan(run.t.out, p, &run.options, &run.depths,
-                               tool_memory_with(memory_for(&run, p)));
+            plan_case(&run, p);
         else
             do_case(&run, p);
         if (run.depths.v != args.depths.v)

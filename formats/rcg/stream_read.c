@@ -420,6 +420,13 @@ read_crc(struct rc_reader *r, struct rc_err *err)
     return RC_OK;
 }
 
+/* Of several processes one may have no memory for its rows: the others do not wait for these. */
+static enum rc_status
+agree(const struct rc_reader *r, enum rc_status status, struct rc_err *err)
+{
+    return r->share == NULL ? status : r->share->agree(r->share->ctx, status, err);
+}
+
 static enum rc_status
 read_frame(struct rc_reader *r, struct rc_grid **grid, struct rc_err *err)
 {
@@ -428,11 +435,11 @@ read_frame(struct rc_reader *r, struct rc_grid **grid, struct rc_err *err)
     enum rc_status status = RC_FAIL;
 
     r->crc = rc_crc32_add(0, "RCG1\n", 5);
-    if (head == NULL) {
+    if (head == NULL)
         rc_err_set(err, "out of memory for a header (%zu bytes)", sizeof *head);
-        goto done;
-    }
-    if (read_head(r, head, err) != RC_OK || (g = grid_of_head(r, head, err)) == NULL)
+    else if (read_head(r, head, err) == RC_OK)
+        g = grid_of_head(r, head, err);
+    if (agree(r, g == NULL ? RC_FAIL : RC_OK, err) != RC_OK)
         goto done;
     if (read_values(r, g, err) != RC_OK || read_crc(r, err) != RC_OK)
         goto done;

@@ -87,6 +87,25 @@ rc_engine_of_transforms(void)
     return engines[k];
 }
 
+enum rc_status
+rc_engine_serves(const struct rc_engine *engine, const char *name, enum rc_boundary boundary,
+                 const struct rc_ranks *ranks, struct rc_err *err)
+{
+    const char *other = rc_engine_of_transforms()->info.name;
+
+    if (rc_ranks_count(ranks) > 1 && !engine->transforms)
+        return rc_err_set(err,
+                          "the engine '%s' needs the whole map in one process: on several leave "
+                          "the choice to auto, or take '%s'",
+                          name, other);
+    if (boundary == RC_PERIODIC && !engine->info.periodic)
+        return rc_err_set(err,
+                          "the sums of the engine '%s' have no end on a periodic boundary: leave "
+                          "the choice to auto, or take '%s'",
+                          name, other);
+    return RC_OK;
+}
+
 /* The choice among the engines, with its reason. */
 static const struct rc_engine *
 choose(const struct rc_sum *sum, const struct rc_conv_options *o, const char **reason)
@@ -134,17 +153,13 @@ find(struct rc_sum *sum, const struct rc_conv_options *o, bool *precise, const c
         return choose(sum, o, reason);
     *reason = "asked for";
     engine = rc_engine_named(o->engine, precise);
-    if (engine == NULL)
+    if (engine == NULL) {
         rc_err_set(err, "there is no engine '%s'", o->engine);
-    sum->precise |= *precise;
-    if (engine != NULL && sum->ranks != NULL && !engine->transforms) {
-        rc_err_set(
-            err,
-            "the engine '%s' needs the whole map in one process: on several leave the choice "
-            "to auto, or take '%s'",
-            o->engine, rc_engine_of_transforms()->info.name);
         return NULL;
     }
+    sum->precise |= *precise;
+    if (rc_engine_serves(engine, o->engine, sum->boundary, sum->ranks, err) != RC_OK)
+        return NULL;
     return engine;
 }
 
@@ -256,6 +271,17 @@ rc_conv_free(struct rc_conv *conv)
         conv->engine->free(conv->plan);
     rc_stack_free(conv->own);
     free(conv);
+}
+
+enum rc_status
+rc_conv_check(const struct rc_shape *shape, const struct rc_conv_options *options,
+              struct rc_err *err)
+{
+    struct rc_sum sum = sum_of(shape, 1, NULL, options);
+    const char *reason;
+    bool precise;
+
+    return find(&sum, options, &precise, &reason, err) == NULL ? RC_FAIL : RC_OK;
 }
 
 size_t

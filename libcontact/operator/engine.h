@@ -60,6 +60,16 @@ const struct rc_engine *rc_engine_named(const char *name, bool *precise);
 /* The first engine that sums by Fourier transforms of maps. */
 const struct rc_engine *rc_engine_of_transforms(void);
 
+/* RC_FAIL, and *err says why, when an engine, asked for by that name, sums no maps of this boundary, or none that
+ * these ranks share. */
+enum rc_status rc_engine_serves(const struct rc_engine *engine, const char *name,
+                                enum rc_boundary boundary, const struct rc_ranks *ranks,
+                                struct rc_err *err);
+
+/* RC_FAIL, and *err says why, when rc_conv_new would find no engine. */
+enum rc_status rc_conv_check(const struct rc_shape *shape, const struct rc_conv_options *options,
+                             struct rc_err *err);
+
 /* rc_conv_new on this stack, which outlives it and stands instead of the modulus; NULL: none. */
 struct rc_conv *rc_conv_new_on(const struct rc_stack *stack, const struct rc_shape *shape,
                                double estar, const struct rc_conv_options *options,

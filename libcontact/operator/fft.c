@@ -208,27 +208,29 @@ rc_fft_new_in(struct rc_fft *lender, const struct rc_shape *s, enum rc_boundary 
     return rc_fft_new_on(NULL, lender, s, boundary, precision, threads, err);
 }
 
-/* Who has which rows and columns; false: memory is short. */
-static bool
-share(struct rc_fft *f, const struct rc_ranks *ranks, enum rc_precision precision)
+/* Who has which rows and columns. */
+static enum rc_status
+share(struct rc_fft *f, const struct rc_ranks *ranks, enum rc_precision precision,
+      struct rc_err *err)
 {
     struct rc_layout *l = &f->layout;
     struct rc_rows rows = rc_rows_of(ranks, &f->shape);
     size_t count = rc_ranks_count(ranks), line = line_of(precision), lines = l->stride / line;
 
     if (count == 1)
-        return true;
-    if (!rc_turn_new(&f->turn, ranks, l->ny, rc_rows_unit(f->shape.nx), lines, LINE_BYTES) ||
-        !rc_turn_new(&f->quarter, ranks, l->cy, ROWS, lines, line * sizeof(double)))
-        return false;
+        return RC_OK;
+    if (rc_turn_new(&f->turn, ranks, l->ny, rc_rows_unit(f->shape.nx), lines, LINE_BYTES, err) !=
+            RC_OK ||
+        rc_turn_new(&f->quarter, ranks, l->cy, ROWS, lines, line * sizeof(double), err) != RC_OK)
+        return RC_FAIL;
     share_layout(l, precision, count, rc_ranks_own(ranks), &f->turn);
     l->rows = rows.n;
-    return true;
+    return RC_OK;
 }
 
 static struct rc_fft *
 fft_new(const struct rc_ranks *ranks, struct rc_fft *lender, const struct rc_shape *s,
-        enum rc_boundary boundary, enum rc_precision precision, size_t threads)
+        enum rc_boundary boundary, enum rc_precision precision, size_t threads, struct rc_err *err)
 {
     struct rc_fft *f = calloc(1, sizeof *f);
     struct rc_shape own = {s->nx, rc_rows_of(ranks, s).n, s->dx, s->dy};
@@ -236,7 +238,7 @@ fft_new(const struct rc_ranks *ranks, struct rc_fft *lender, const struct rc_sha
     size_t team;
 
     if (f == NULL)
-        return NULL;
+        goto short_of_memory;
     f->shape = *s;
     f->boundary = boundary;
     f->layout = layout_of(s, boundary, precision);
@@ -244,7 +246,7 @@ fft_new(const struct rc_ranks *ranks, struct rc_fft *lender, const struct rc_sha
         rc_useful_threads(&own, threads); /* those of all that works on these rows */
     team = (size_t)f->layout.threads;
     f->ops = precision == RC_SINGLE ? &rc_fft_single : &rc_fft_double;
-    if (!share(f, ranks, precision))
+    if (share(f, ranks, precision, err) != RC_OK)
         goto fail;
     if (lender != NULL)
         lent = lender->ops->workspace(lender->plan,
@@ -254,6 +256,8 @@ fft_new(const struct rc_ranks *ranks, struct rc_fft *lender, const struct rc_sha
     if (f->plan != NULL && f->columns != NULL && half_new(&f->along_x, f->layout.px, team) &&
         half_new(&f->along_y, f->layout.py, team))
         return f;
+short_of_memory:
+    rc_err_set(err, "out of memory for transforms of %zu x %zu nodes", s->nx, s->ny);
 fail:
     rc_fft_free(f);
     return NULL;
@@ -273,9 +277,7 @@ rc_fft_new_on(const struct rc_ranks *ranks, struct rc_fft *lender, const struct 
                    s->ny);
         return NULL;
     }
-    f = fft_new(ranks, lender, s, boundary, precision, threads);
-    if (f == NULL)
-        rc_err_set(err, "out of memory for transforms of %zu x %zu nodes", s->nx, s->ny);
+    f = fft_new(ranks, lender, s, boundary, precision, threads, err);
     if (rc_ranks_agree(ranks, f == NULL ? RC_FAIL : RC_OK, err) == RC_OK)
         return f;
     rc_fft_free(f);

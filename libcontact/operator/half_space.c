@@ -391,6 +391,15 @@ rc_half_space_memory(const struct rc_shape *shape, const struct rc_operator_opti
     return own + conv;
 }
 
+enum rc_status
+rc_half_space_check(const struct rc_shape *shape, const struct rc_operator_options *o,
+                    struct rc_err *err)
+{
+    struct rc_conv_options options = conv_options(o);
+
+    return rc_conv_check(shape, &options, err);
+}
+
 const char *
 rc_half_space_engine(const struct rc_shape *shape, const struct rc_operator_options *o,
                      const char **reason)

@@ -73,6 +73,9 @@ struct rc_operator_options {
 struct rc_operator *rc_half_space_new(const struct rc_shape *shape,
                                       const struct rc_operator_options *options,
                                       struct rc_err *err);
+/* RC_FAIL, and *err says why, when there is no such engine, or none for the boundary or the ranks. */
+enum rc_status rc_half_space_check(const struct rc_shape *shape,
+                                   const struct rc_operator_options *options, struct rc_err *err);
 /* Bytes that it takes; 0 when there is no such engine. */
 size_t rc_half_space_memory(const struct rc_shape *shape,
                             const struct rc_operator_options *options);

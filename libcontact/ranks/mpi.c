@@ -1,6 +1,7 @@
 /*
  * What passes between ranks, by MPI. Only the thread that made the ranks calls these.
  */
+#include <assert.h>
 #include <limits.h>
 #include <mpi.h>
 #include <stdlib.h>
@@ -182,12 +183,17 @@ rc_ranks_largest(const struct rc_ranks *r, size_t n, double *v)
 
 /* ---- maps ---- */
 
-/* A type of so many bytes, so that counts of them fit an int. */
+enum {
+    PIECE = 1 << 30 /* bytes of a row that are sent at a time: MPI counts in ints */
+};
+
+/* A type of so many bytes, so that counts of them fit an int: at most half a line of 2^28 numbers. */
 static MPI_Datatype
 type_of(size_t bytes)
 {
     MPI_Datatype type;
 
+    assert(bytes <= INT_MAX);
     MPI_Type_contiguous((int)bytes, MPI_BYTE, &type);
     MPI_Type_commit(&type);
     return type;
@@ -225,30 +231,64 @@ rc_ranks_turn(const struct rc_turn *t, bool back, const void *from, void *to)
     r->traffic->seconds += MPI_Wtime() - began;
 }
 
+/* Things first .. end - 1. */
+struct range {
+    size_t first, end;
+};
+
+static struct range
+common(struct range a, struct range b)
+{
+    struct range c = {a.first > b.first ? a.first : b.first, a.end < b.end ? a.end : b.end};
+
+    return c.first < c.end ? c : (struct range){0, 0};
+}
+
+/* What rank q has of them, or, where `of` is NULL, all of them. */
+static struct range
+range_of(const size_t *of, size_t all, size_t q)
+{
+    return of == NULL ? (struct range){0, all} : (struct range){of[q], of[q + 1]};
+}
+
+/* Those that lie in `part`, which an int can count. */
+static void
+move_part(const struct rc_ranks *r, struct range part, size_t bytes, const size_t *from,
+          const size_t *to, const void *v, void *w)
+{
+    int *out = r->number, *out_at = out + r->count, *in = out_at + r->count, *in_at = in + r->count;
+    const size_t all = from[r->count];
+    struct range held = range_of(from, all, r->own), wanted = range_of(to, all, r->own);
+    struct range out_part = common(held, part), in_part = common(wanted, part);
+    MPI_Datatype type = type_of(bytes);
+
+    for (size_t q = 0; q < r->count; q++) {
+        struct range goes = common(out_part, range_of(to, all, q));
+        struct range comes = common(in_part, range_of(from, all, q));
+        out[q] = (int)(goes.end - goes.first);
+        out_at[q] = out[q] > 0 ? (int)(goes.first - out_part.first) : 0;
+        in[q] = (int)(comes.end - comes.first);
+        in_at[q] = in[q] > 0 ? (int)(comes.first - in_part.first) : 0;
+        if (q != r->own)
+            r->traffic->other += (double)out[q] * (double)bytes;
+    }
+    if (out_part.end > 0)
+        v = (const char *)v + (out_part.first - held.first) * bytes;
+    if (in_part.end > 0)
+        w = (char *)w + (in_part.first - wanted.first) * bytes;
+    MPI_Alltoallv(v, out, out_at, type, w, in, in_at, type, r->comm);
+    MPI_Type_free(&type);
+}
+
 void
 rc_ranks_move(const struct rc_ranks *r, size_t bytes, const size_t *from, const size_t *to,
               const void *v, void *w)
 {
-    int *out = r->number, *out_at = out + r->count, *in = out_at + r->count, *in_at = in + r->count;
-    size_t me = r->own;
-    MPI_Datatype type = type_of(bytes);
+    size_t all = from[r->count];
 
-    for (size_t q = 0; q < r->count; q++) {
-        size_t low = to == NULL ? 0 : to[q], high = to == NULL ? from[r->count] : to[q + 1];
-        size_t a = from[me] > low ? from[me] : low, b = from[me + 1] < high ? from[me + 1] : high;
-        out[q] = b > a ? (int)(b - a) : 0;
-        out_at[q] = b > a ? (int)(a - from[me]) : 0;
-        if (q != me)
-            r->traffic->other += (double)out[q] * (double)bytes;
-        low = to == NULL ? 0 : to[me];
-        high = to == NULL ? from[r->count] : to[me + 1];
-        a = from[q] > low ? from[q] : low;
-        b = from[q + 1] < high ? from[q + 1] : high;
-        in[q] = b > a ? (int)(b - a) : 0;
-        in_at[q] = b > a ? (int)(a - low) : 0;
-    }
-    MPI_Alltoallv(v, out, out_at, type, w, in, in_at, type, r->comm);
-    MPI_Type_free(&type);
+    for (size_t at = 0; at < all; at += INT_MAX)
+        move_part(r, (struct range){at, all - at < INT_MAX ? all : at + INT_MAX}, bytes, from, to,
+                  v, w);
 }
 
 /* The next rank that has rows, that way, or this one when there is no other. */
@@ -270,6 +310,7 @@ rc_ranks_beside(const struct rc_rows *rows, bool round, size_t bytes, const void
     const struct rc_ranks *r = rows->ranks;
     int own = rows->n > 0, above, below;
     MPI_Request request[4];
+    size_t n;
 
     has[0] = own && (round || rows->first > 0);
     has[1] = own && (round || rows->first + rows->n < rows->ny);
@@ -279,10 +320,13 @@ rc_ranks_beside(const struct rc_rows *rows, bool round, size_t bytes, const void
     above = neighbour(r, r->number, -1);
     below = neighbour(r, r->number, 1);
     /* also between the ends of a map that does not go round: nobody looks at it */
-    MPI_Irecv(before, (int)bytes, MPI_BYTE, above, 1, r->comm, &request[0]);
-    MPI_Irecv(after, (int)bytes, MPI_BYTE, below, 2, r->comm, &request[1]);
-    MPI_Isend(last, (int)bytes, MPI_BYTE, below, 1, r->comm, &request[2]);
-    MPI_Isend(first, (int)bytes, MPI_BYTE, above, 2, r->comm, &request[3]);
-    MPI_Waitall(4, request, MPI_STATUSES_IGNORE);
+    for (size_t at = 0; at < bytes; at += n) {
+        n = bytes - at < PIECE ? bytes - at : PIECE;
+        MPI_Irecv((char *)before + at, (int)n, MPI_BYTE, above, 1, r->comm, &request[0]);
+        MPI_Irecv((char *)after + at, (int)n, MPI_BYTE, below, 2, r->comm, &request[1]);
+        MPI_Isend((const char *)last + at, (int)n, MPI_BYTE, below, 1, r->comm, &request[2]);
+        MPI_Isend((const char *)first + at, (int)n, MPI_BYTE, above, 2, r->comm, &request[3]);
+        MPI_Waitall(4, request, MPI_STATUSES_IGNORE);
+    }
     r->traffic->other += 2 * (double)bytes;
 }

@@ -3,6 +3,7 @@
  */
 #include "ranks.h"
 
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -59,22 +60,51 @@ rc_rows_of(const struct rc_ranks *ranks, const struct rc_shape *whole)
 
 /* ---- a map turned round ---- */
 
-bool
+/* The most that a rank has of what is dealt out. */
+static size_t
+most_dealt(const size_t *first, size_t count)
+{
+    size_t most = 0;
+
+    for (size_t r = 0; r < count; r++)
+        most = first[r + 1] - first[r] > most ? first[r + 1] - first[r] : most;
+    return most;
+}
+
+/* MPI counts units, and their places in what a rank holds, in ints: of the fullest rank, whichever that is,
+ * so that all find the same. */
+static enum rc_status
+check_counts(const struct rc_turn *t, struct rc_err *err)
+{
+    size_t rows = t->row[t->count], columns = t->column[t->count];
+    size_t high = most_dealt(t->row, t->count), wide = most_dealt(t->column, t->count);
+    double most = fmax((double)high * (double)columns, (double)wide * (double)rows);
+    double unit = (double)t->unit / (1 << 30);
+
+    if (most <= INT_MAX)
+        return RC_OK;
+    return rc_err_set(err,
+                      "%zu processes are too few for %zu rows: one of them would exchange %.3g GiB "
+                      "at a time, where MPI can count %.3g GiB: start more",
+                      t->count, rows, most * unit, INT_MAX * unit);
+}
+
+enum rc_status
 rc_turn_new(struct rc_turn *t, const struct rc_ranks *ranks, size_t rows, size_t row_unit,
-            size_t columns, size_t unit)
+            size_t columns, size_t unit, struct rc_err *err)
 {
     size_t count = rc_ranks_count(ranks);
 
     *t = (struct rc_turn){.ranks = ranks, .count = count, .own = rc_ranks_own(ranks), .unit = unit};
     t->row = malloc(2 * (count + 1) * sizeof *t->row);
     if (t->row == NULL)
-        return false;
+        return rc_err_set(err, "out of memory for what %zu processes share", count);
     t->column = t->row + count + 1;
     for (size_t r = 0; r <= count; r++) {
         t->row[r] = rc_rows_dealt(rows, row_unit, count, r);
         t->column[r] = rc_rows_dealt(columns, 1, count, r);
     }
-    return true;
+    return check_counts(t, err);
 }
 
 void

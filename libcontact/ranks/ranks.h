@@ -27,7 +27,8 @@
  *   distances             along columns: the last row of the set above and the first below, by a scan over
  *                         the ranks (distance.c); along rows: local
  *   nested start          rows of the coarser grid are moved to who owns them there; grids of few nodes a
- *                         rank are solved by every rank for itself, which costs no message (nested.c)
+ *                         rank are solved by every rank for itself, which costs no message but
+ *                         whether all have the memory (nested.c)
  *   patches of contact    labelled row by row, joined across the seams between ranks (surface/patches.c)
  *   failures              no rank goes on alone: makers agree on their status before any of them returns
  */
@@ -72,9 +73,10 @@ struct rc_turn {
     size_t count, own, unit;
     size_t *row, *column; /* count + 1 each */
 };
-/* false: memory is short. rows and columns are dealt out in units of row_unit and 1. */
-bool rc_turn_new(struct rc_turn *turn, const struct rc_ranks *ranks, size_t rows, size_t row_unit,
-                 size_t columns, size_t unit);
+/* Rows and columns are dealt out in units of row_unit and 1. RC_FAIL when memory is short, here alone; or,
+ * for all, when a rank would hold more than an exchange can count. rc_turn_free in either case. */
+enum rc_status rc_turn_new(struct rc_turn *turn, const struct rc_ranks *ranks, size_t rows,
+                           size_t row_unit, size_t columns, size_t unit, struct rc_err *err);
 void rc_turn_free(struct rc_turn *turn);
 /* Row j of those held here, to its pieces and from them. */
 void rc_turn_put(const struct rc_turn *turn, size_t j, const void *row, void *pieces);

@@ -22,9 +22,9 @@ set_units(struct rc_load *load, size_t n, double unit)
 }
 
 enum rc_status
-rc_load_set(struct rc_solver *s, double load, struct rc_err *err)
+rc_load_check(double load, double hardness, double area, struct rc_err *err)
 {
-    double n = (double)s->posed.nodes, area = s->posed.cell * n, most = s->posed.hardness * area;
+    double most = hardness * area;
 
     if (!(load > 0) || isinf(load))
         return rc_err_set(err, "load %g N: it must be positive and finite", load);
@@ -33,7 +33,17 @@ rc_load_set(struct rc_solver *s, double load, struct rc_err *err)
                           "load %.9g N is above hardness times area, %.9g Pa x %.9g m2 = "
                           "%.9g N, where every node yields: no solution exists; lower the "
                           "load or raise the hardness",
-                          load, s->posed.hardness, area, most);
+                          load, hardness, area, most);
+    return RC_OK;
+}
+
+enum rc_status
+rc_load_set(struct rc_solver *s, double load, struct rc_err *err)
+{
+    double n = (double)s->posed.nodes;
+
+    if (rc_load_check(load, s->posed.hardness, s->posed.cell * n, err) != RC_OK)
+        return RC_FAIL;
     s->load.load = load;
     s->load.sum = load / s->posed.cell;
     if (s->load.sum >= s->posed.hardness * n * (1 - 8 * DBL_EPSILON))
@@ -74,8 +84,6 @@ rc_load_first(struct rc_solver *s, const struct rc_problem *problem, struct rc_e
     s->load = (struct rc_load){.tol = s->posed.tol};
     if (!(problem->approach > 0))
         return rc_load_set(s, problem->load, err);
-    if (isinf(problem->approach))
-        return rc_err_set(err, "approach %g m: it must be finite", problem->approach);
     for (size_t k = 0; k < s->posed.n; k++)
         cut += s->posed.h[k] >= -problem->approach;
     cut = rc_ranks_sum(s->posed.rows.ranks, cut);

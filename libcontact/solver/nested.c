@@ -17,44 +17,31 @@ enum {
 /* A nearer start saves no step, but where nodes are at the hardness. */
 static const double coarse_tol = 8e-2, coarse_tol_yielding = 3e-2;
 
-struct rc_nested {
-    struct rc_solver *coarse; /* NULL: not yet begun                                   */
-    bool sought;              /* the load is sought there too: the one found counts here */
-};
-
 void
 rc_nested_new(struct rc_solver *s)
 {
-    if (!s->method->nested || s->posed.whole.nx < COARSEST || s->posed.whole.ny < COARSEST)
-        return;
-    s->nested = calloc(1, sizeof *s->nested);
-    if (rc_ranks_agree(s->posed.rows.ranks, s->nested == NULL ? RC_FAIL : RC_OK, NULL) != RC_OK) {
-        free(s->nested);
-        s->nested = NULL;
-    }
+    s->nested = (struct rc_nested){.ahead = s->method->nested && s->posed.whole.nx >= COARSEST &&
+                                            s->posed.whole.ny >= COARSEST};
 }
 
 void
 rc_nested_free(struct rc_solver *s)
 {
-    if (s->nested == NULL)
-        return;
-    rc_solver_free(s->nested->coarse);
-    free(s->nested);
-    s->nested = NULL;
+    rc_solver_free(s->nested.coarse);
+    s->nested = (struct rc_nested){.ahead = false};
 }
 
 bool
 rc_nested_untouched(const struct rc_solver *s)
 {
-    return s->nested != NULL && s->nested->coarse == NULL;
+    return s->nested.ahead && s->nested.coarse == NULL;
 }
 
 const struct rc_solver *
 rc_nested_at_work(const struct rc_solver *s)
 {
-    while (s->nested != NULL && s->nested->coarse != NULL)
-        s = s->nested->coarse;
+    while (s->nested.coarse != NULL)
+        s = s->nested.coarse;
     return s;
 }
 
@@ -63,9 +50,9 @@ rc_nested_convolutions(const struct rc_solver *s)
 {
     const struct rc_solver *c;
 
-    if (s->nested == NULL || s->nested->coarse == NULL)
+    if (s->nested.coarse == NULL)
         return 0;
-    c = s->nested->coarse;
+    c = s->nested.coarse;
     return (c->it.convolutions + rc_nested_convolutions(c)) * (double)c->posed.nodes /
            (double)s->posed.nodes;
 }
@@ -160,7 +147,7 @@ coarse_heights(const struct rc_solver *s, const struct rc_shape *shape, const st
         own = rc_alloc(rows->n * shape->nx, sizeof *own);
         fine = deal(&s->posed, rows, &d) && fine && own != NULL;
     }
-    if (rc_ranks_agree(ranks, fine ? RC_OK : RC_FAIL, NULL) != RC_OK) {
+    if (rc_ranks_agree(s->posed.all, fine ? RC_OK : RC_FAIL, NULL) != RC_OK) {
         free(h);
         free(own);
         dealt_free(&d);
@@ -239,7 +226,7 @@ coarse_new(const struct rc_solver *s, bool *sought)
         problem.approach = s->load.target - lower;
     c = rc_solver_coarse(s, &shape, h, &problem, NULL);
     free(h);
-    if (rc_ranks_agree(s->posed.rows.ranks, c == NULL ? RC_FAIL : RC_OK, NULL) == RC_OK)
+    if (rc_ranks_agree(s->posed.all, c == NULL ? RC_FAIL : RC_OK, NULL) == RC_OK)
         return c;
     rc_solver_free(c);
     return NULL;
@@ -286,11 +273,11 @@ compare(struct rc_solver *s, struct rc_solver *c)
 void
 rc_nested_end(struct rc_solver *s)
 {
-    struct rc_solver *c = s->nested == NULL ? NULL : s->nested->coarse;
+    struct rc_solver *c = s->nested.coarse;
 
     if (c != NULL) {
         rc_nested_end(c);
-        if (!s->nested->sought || rc_load_set(s, c->load.load, NULL) == RC_OK)
+        if (!s->nested.sought || rc_load_set(s, c->load.load, NULL) == RC_OK)
             repeat(s, c);
         if (s->posed.discretization && c->it.iterations > 0)
             compare(s, c);
@@ -304,13 +291,13 @@ rc_nested_step(struct rc_solver *s)
 {
     struct rc_solver *c;
 
-    if (s->nested->coarse == NULL) {
-        s->nested->coarse = coarse_new(s, &s->nested->sought);
-        if (s->nested->coarse == NULL)
+    if (s->nested.coarse == NULL) {
+        s->nested.coarse = coarse_new(s, &s->nested.sought);
+        if (s->nested.coarse == NULL)
             rc_nested_free(s);
         return;
     }
-    c = s->nested->coarse;
+    c = s->nested.coarse;
     if (c->load.target == 0 && c->set.saturated > 0)
         c->load.tol = fmin(c->load.tol, fmax(coarse_tol_yielding, s->load.tol));
     if (rc_solver_step(c) != RC_MORE)

@@ -169,7 +169,7 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
 {
     struct figures f = {.s = s, .displacement = displacement, .gap = gap};
     double total[RC_SUMS], n = (double)s->posed.nodes, scale;
-    bool early = s->nested != NULL, stopped;
+    bool early = s->nested.ahead, stopped;
 
     rc_nested_end(s); /* the best is what was reached there */
     *c = (struct rc_contact){.iterations = s->it.iterations};

@@ -51,6 +51,8 @@ check(const struct rc_shape *s, const struct rc_problem *problem, struct rc_err 
         return rc_err_set(err, "hardness %g Pa: it must be positive", problem->hardness);
     if (!(problem->tol >= 0))
         return rc_err_set(err, "tolerance %g: it must be positive", problem->tol);
+    if (problem->approach > 0 && isinf(problem->approach))
+        return rc_err_set(err, "approach %g m: it must be finite", problem->approach);
     return RC_OK;
 }
 
@@ -161,10 +163,11 @@ make_room(struct rc_solver *s, struct rc_err *err)
     return rc_ranks_agree(s->posed.rows.ranks, status, err);
 }
 
-/* Takes the operator; NULL: there is none, and *err says why. */
+/* Takes the operator; NULL: there is none, and *err says why. `all`: who does the same. */
 static struct rc_solver *
-solver_new(const struct rc_shape *shape, const double *h, const struct rc_problem *problem,
-           const struct rc_method *method, struct rc_operator *op, struct rc_err *err)
+solver_new(const struct rc_ranks *all, const struct rc_shape *shape, const double *h,
+           const struct rc_problem *problem, const struct rc_method *method, struct rc_operator *op,
+           struct rc_err *err)
 {
     struct rc_solver *s = calloc(1, sizeof *s);
 
@@ -181,6 +184,7 @@ solver_new(const struct rc_shape *shape, const double *h, const struct rc_proble
     if (pose(&s->posed, shape, h, problem, err) != RC_OK || make_room(s, err) != RC_OK)
         goto fail;
     s->posed.rough = !op->exact;
+    s->posed.all = all;
     if (rc_load_first(s, problem, err) != RC_OK ||
         (s->preconditioner = rc_preconditioner_new(op, err)) == NULL)
         goto fail;
@@ -201,14 +205,15 @@ rc_solver_new(const struct rc_shape *shape, const double *h, const struct rc_pro
 
     if (method == NULL || check(shape, problem, err) != RC_OK)
         return NULL;
-    return solver_new(shape, h, problem, method, rc_half_space_new(shape, &options, err), err);
+    return solver_new(problem->ranks, shape, h, problem, method,
+                      rc_half_space_new(shape, &options, err), err);
 }
 
 struct rc_solver *
 rc_solver_coarse(const struct rc_solver *fine, const struct rc_shape *shape, const double *h,
                  const struct rc_problem *problem, struct rc_err *err)
 {
-    return solver_new(shape, h, problem, fine->method,
+    return solver_new(fine->posed.all, shape, h, problem, fine->method,
                       rc_operator_coarse(fine->op, problem->ranks, shape, err), err);
 }
 
@@ -269,11 +274,14 @@ rc_solver_expect(const struct rc_shape *shape, const struct rc_problem *problem,
     struct rc_operator_options options = operator_options(shape, problem);
     const struct rc_method *method = choose(problem->method, err);
     double nodes = (double)(shape->nx * shape->ny), some;
+    double hardness = problem->hardness == 0 ? INFINITY : problem->hardness;
 
-    if (method == NULL)
+    if (method == NULL || check(shape, problem, err) != RC_OK ||
+        rc_half_space_check(shape, &options, err) != RC_OK)
         return RC_FAIL;
-    if (rc_half_space_memory(shape, &options) == 0)
-        return rc_err_set(err, "there is no engine '%s'", problem->engine);
+    if (!(problem->approach > 0) &&
+        rc_load_check(problem->load, hardness, shape->dx * shape->dy * nodes, err) != RC_OK)
+        return RC_FAIL;
     some = method->convolutions == NULL
                ? NAN
                : method->convolutions(nodes, -log10(tolerance(shape, problem)));
@@ -321,7 +329,7 @@ rc_solver_step(struct rc_solver *s)
     enum rc_status status;
 
     s->stage = RC_STAGE_STEPPED;
-    if (s->nested != NULL) {
+    if (s->nested.ahead) {
         rc_nested_step(s);
         return RC_MORE;
     }

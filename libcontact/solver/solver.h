@@ -58,6 +58,9 @@ struct rc_posed {
     struct rc_shape whole,
         shape;           /* of the map, and of what is held here of it: maps are these rows */
     struct rc_rows rows; /* which of its rows that is                     */
+    const struct rc_ranks
+        *all; /* who does the same, each with its rows or, of a small coarse grid, with all of
+                                   them: where one cannot, none does */
     enum rc_boundary boundary;
     size_t n, nodes;       /* nodes held here, and of the whole map            */
     double cell;           /* dx dy                                                    */
@@ -117,6 +120,13 @@ struct rc_load {
     double power; /* d log load / d log shift                                           */
 };
 
+/* The start from coarser grids. */
+struct rc_nested {
+    bool ahead;               /* there is one, and it is not done                            */
+    struct rc_solver *coarse; /* NULL: not yet begun                                         */
+    bool sought; /* the load is sought there too: the one found counts here                  */
+};
+
 struct rc_solver {
     struct rc_posed posed;
     struct rc_iterate it;
@@ -125,8 +135,8 @@ struct rc_solver {
     struct rc_operator *op;
     struct rc_preconditioner *preconditioner;
     const struct rc_method *method;
-    void *state;                     /* the method's                                              */
-    struct rc_nested *nested;        /* the start from coarser grids, until it is done; or NULL   */
+    void *state; /* the method's                                              */
+    struct rc_nested nested;
     struct rc_discretization coarse; /* figures of the coarser grid; NAN: none             */
     float *z;                        /* n numbers: corrections, times per_pressure                */
     double *partial;                 /* sums of blocks and rows: reduce.c                         */
@@ -242,6 +252,8 @@ struct rc_solver *rc_solver_coarse(const struct rc_solver *fine, const struct rc
 
 /* ---- load_search.c ---- */
 
+/* RC_FAIL when there is no solution under this load: more than the hardness carries on the area of the map. */
+enum rc_status rc_load_check(double load, double hardness, double area, struct rc_err *err);
 /* Sets the load and what follows from it; RC_FAIL when there is no solution. */
 enum rc_status rc_load_set(struct rc_solver *solver, double load, struct rc_err *err);
 /* The first load: the one given, or where one is sought a guess. */
@@ -255,12 +267,12 @@ enum rc_status rc_load_search(struct rc_solver *solver);
 
 /* ---- nested.c ---- */
 
-/* Sets solver->nested where the grid is worth a start from a coarser one, and memory allows it.
+/* Sets solver->nested where the grid is worth a start from a coarser one.
  * Nothing is iterated yet. */
 void rc_nested_new(struct rc_solver *solver);
 void rc_nested_free(struct rc_solver *solver);
 /* One iteration on the coarser grids; after the last one the pressure found there is the start
- * here, and solver->nested is NULL. */
+ * here, and solver->nested is not ahead. */
 void rc_nested_step(struct rc_solver *solver);
 /* Ends it where it stands: the pressure reached there is the start here. */
 void rc_nested_end(struct rc_solver *solver);

@@ -121,11 +121,13 @@ solve(struct system *c)
 }
 
 size_t
-rc_solver_stiffness_memory(const struct rc_shape *shape)
+rc_solver_stiffness_memory(const struct rc_shape *shape, const struct rc_problem *problem)
 {
     const struct system *c = NULL;
+    size_t ranks = rc_ranks_count(problem->ranks);
+    size_t rows = ranks > 1 ? rc_rows_most(shape, ranks) : shape->ny;
 
-    return shape->nx * shape->ny * (sizeof *c->t + sizeof *c->d + sizeof *c->q);
+    return shape->nx * rows * (sizeof *c->t + sizeof *c->d + sizeof *c->q);
 }
 
 enum rc_status

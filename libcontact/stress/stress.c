@@ -44,8 +44,8 @@ engine_of(const char *name, bool *precise)
     return automatic(name) ? rc_engine_of_transforms() : rc_engine_named(name, precise);
 }
 
-static enum rc_status
-check(const struct rc_shape *shape, const struct rc_stress_options *o, struct rc_err *err)
+enum rc_status
+rc_stress_check(const struct rc_shape *shape, const struct rc_stress_options *o, struct rc_err *err)
 {
     bool precise;
     const struct rc_engine *engine = engine_of(o->engine, &precise);
@@ -70,12 +70,8 @@ check(const struct rc_shape *shape, const struct rc_stress_options *o, struct rc
         return rc_err_set(
             err, "a section is computed by one process, which holds the whole map: take maps "
                  "at these depths, or one process");
-    if (rc_ranks_count(o->ranks) > 1 && !engine->transforms)
-        return rc_err_set(
-            err,
-            "the engine '%s' needs the whole map in one process: on several leave the "
-            "choice to auto, or take '%s'",
-            o->engine, rc_engine_of_transforms()->info.name);
+    if (rc_engine_serves(engine, o->engine, o->boundary, o->ranks, err) != RC_OK)
+        return RC_FAIL;
     if (o->section != 0 && !engine->transforms)
         return rc_err_set(err, "a section is summed by %s, not by %s: leave the kernel to auto",
                           rc_engine_of_transforms()->info.name, o->engine);
@@ -140,7 +136,7 @@ rc_stress_new(const struct rc_shape *shape, const double *p,
     enum rc_status status = RC_OK;
     struct rc_stress *stress;
 
-    if (check(shape, options, err) != RC_OK)
+    if (rc_stress_check(shape, options, err) != RC_OK)
         return NULL;
     if ((stress = calloc(1, sizeof *stress)) == NULL)
         status = rc_err_set(err, "out of memory for a plan");
@@ -186,11 +182,13 @@ size_t
 rc_stress_memory(const struct rc_shape *shape, const struct rc_stress_options *o)
 {
     struct rc_stress_task task = task_of(shape, NULL, NULL, o, NULL);
-    size_t own = 0;
+    size_t own = 0, ranks = rc_ranks_count(o->ranks), values = values_of(shape, o);
 
+    if (ranks > 1) /* a section is refused */
+        values = shape->nx * rc_rows_most(shape, ranks);
     for (int c = 0; c < RC_COMPONENTS; c++)
         own += (task.components & ~o->wanted) >> c & 1;
-    return sizeof(struct rc_stress) + own * values_of(shape, o) * sizeof(double) +
+    return sizeof(struct rc_stress) + own * values * sizeof(double) +
            evaluator_of(&task)->memory(&task);
 }
 

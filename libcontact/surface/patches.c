@@ -525,20 +525,34 @@ rc_patches_free(struct rc_patches *patches)
 }
 
 /* A rough contact has about one run in so many nodes of the map, as where a fifth of it touches in runs of
- * three nodes. */
+ * three nodes; and one patch in so many, of a surface that is smooth over four of them. */
 enum {
-    NODES_A_RUN = 16
+    NODES_A_RUN = 16,
+    NODES_A_PATCH = 256
 };
 
-size_t
-rc_patches_memory(const struct rc_shape *s, const double *p)
+/* Of a rank, beside its rows: two of others, and twice two of places in rows; the parts of all, beside its own or
+ * sorted, which takes as much again. */
+static size_t
+shared_memory(const struct rc_shape *s, size_t runs)
 {
-    size_t runs = s->nx * s->ny / NODES_A_RUN;
+    size_t parts = s->nx * s->ny / NODES_A_PATCH, more = parts > runs ? parts - runs : 0;
 
-    if (p != NULL) {
+    return 2 * s->nx * sizeof(double) + 4 * (s->nx / 2 + 1) * sizeof(size_t) +
+           (parts + more) * sizeof(struct part);
+}
+
+size_t
+rc_patches_memory(const struct rc_shape *s, const double *p, const struct rc_patch_options *o)
+{
+    size_t ranks = rc_ranks_count(o->ranks), rows = ranks > 1 ? rc_rows_most(s, ranks) : s->ny;
+    size_t runs = s->nx * rows / NODES_A_RUN;
+
+    if (p != NULL && ranks == 1) {
         runs = 0;
         for (size_t j = 0; j < s->ny; j++)
             runs += count_row(p + j * s->nx, s->nx);
     }
-    return (s->ny + 1) * sizeof(size_t) + runs * (sizeof(struct run) + sizeof(struct part));
+    return (rows + 1) * sizeof(size_t) + runs * (sizeof(struct run) + sizeof(struct part)) +
+           (ranks > 1 ? shared_memory(s, runs) : 0);
 }

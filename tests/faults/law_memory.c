@@ -351,6 +351,7 @@ plans(double *out, struct rc_err *err)
     static const struct rc_problem problem = {.estar = 1e9, .load = 1e-3, .threads = 1};
     static const struct rc_stress_options stress = {.nu = 0.3, .wanted = 1, .threads = 1};
     static const struct rc_surface_options surface = {.threads = 1};
+    static const struct rc_patch_options patches = {.threads = 1};
     struct rc_expected expected;
     const char *reason;
     size_t bytes[10];
@@ -363,8 +364,8 @@ plans(double *out, struct rc_err *err)
     bytes[5] = rc_conv_memory(&shape, &conv);
     bytes[6] = rc_solver_memory(&shape, &problem);
     bytes[7] = rc_stress_memory(&shape, &stress);
-    bytes[8] = rc_patches_memory(&shape, pressure);
-    bytes[9] = rc_solver_stiffness_memory(&shape);
+    bytes[8] = rc_patches_memory(&shape, pressure, &patches);
+    bytes[9] = rc_solver_stiffness_memory(&shape, &problem);
     for (size_t k = 0; k < 10; k++) {
         out[k] = (double)bytes[k];
         if (bytes[k] == 0)
@@ -384,6 +385,7 @@ static enum rc_status
 without(double *out, struct rc_err *err)
 {
     static const struct rc_place place = {1e-6, 2e-6};
+    static const struct rc_stress_options stress = {.nu = 0.3, .wanted = 1, .threads = 1};
     struct rc_shape to = {NX / 2, NY / 2, 2.2e-6, 2e-6}, turned = rc_rotate_shape(&shape, 1), sum;
     double s6[RC_COMPONENTS] = {1, 2, 3, 4, 5, 6}, mises = NAN, *derived[RC_STRESSES] = {NULL};
     const double *six[RC_COMPONENTS];
@@ -418,6 +420,8 @@ without(double *out, struct rc_err *err)
         six[c] = &s6[c];
     derived[RC_MISES] = &mises;
     rc_stress_derive(1 << RC_MISES, 1, six, derived);
+    if (rc_stress_check(&shape, &stress, err) != RC_OK)
+        return RC_FAIL;
     out[2 * N] = rc_sum(rough, N) + rc_measure_contact_slope(&shape, rough, pressure) + mises +
                  rc_measure_contact_slope_on(NULL, &shape, rough, pressure);
     out[2 * N + 1] = (double)(rc_largest(N, rough) + rc_coating_material(&coating, 3e-6));

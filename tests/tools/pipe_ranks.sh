@@ -80,6 +80,30 @@ if [ "$ranks" != 2 ]; then
     done
 fi
 
+# estimated "sentence" command...: what the fullest rank is expected to take is within a tenth of what it takes.
+estimated() {
+    local sentence=$1
+    shift
+    run "$@" --quiet --report estimate.json -o estimate.rcg
+    near "$(field memory_estimate estimate.json)" "$(field peak_memory estimate.json)" 0.1 "$sentence"
+}
+rough="selfaffine --dx 1um --hurst 0.8 --rms-slope 0.1 --rolloff 100um --short-cut 6um"
+if ! nm -D "$(command -v rc-solve)" 2>/dev/null | grep -q __asan; then # which takes memory of its own
+    rc-synth $rough --nx 1200 --ny 1100 -o even.rcg
+    rc-synth $rough --nx 30000 --ny 48 -o wide.rcg # 16 rows of the first rank, 32 of the second
+    press="rc-solve --estar 3GPa --mean-pressure 20MPa --tol 1e-2 --output pressure"
+    estimated "memory of two: rc-solve --stiffness" $press --stiffness even.rcg
+    estimated "  periodic, gaps and heights" $press --periodic --output pressure,gap,height --stiffness even.rcg
+    mv estimate.rcg even-pressed.rcg
+    estimated "  rc-stress" rc-stress --nu 0.3 --depths 1um,5um --components mises even-pressed.rcg
+    estimated "  rc-solve, where one has twice the rows of the other" $press --periodic wide.rcg
+    mv estimate.rcg wide-pressed.rcg
+    estimated "  rc-stress, the same" rc-stress --nu 0.3 --depths 1um,5um --components mises wide-pressed.rcg
+    run rc-deflect --verbose --estar 3GPa -o estimate.rcg wide-pressed.rcg 2>&1 | grep memory: >memory.txt
+    read -r _ _ expected _ _ taken _ <memory.txt
+    near "${expected:-none}" "${taken:-none}" 0.1 "  rc-deflect"
+fi
+
 # ---- checkpoints ----
 
 solve="rc-solve --periodic --estar 1GPa --output pressure --quiet"
@@ -123,6 +147,13 @@ refuses 1 "a section is computed by one process" "a section" \
     "$MPIRUN -n 2 rc-stress --nu 0.3 --depths 0,1um --section y=0 -o no.rcg wave-pressed.rcg"
 refuses 1 "a section is computed by one process" "  of a large map: not for its memory" \
     "$MPIRUN -n 2 rc-stress --nu 0.3 --depths 0,1um --section y=0 -o no.rcg rough-pressed.rcg"
+refuses 1 "a section is computed by one process" "  in a plan" \
+    "$MPIRUN -n 2 rc-stress --nu 0.3 --depths 0,1um --section y=0 --dry-run wave-pressed.rcg"
+refuses 1 "needs the whole map in one process" "  an engine that is not shared, in a plan" \
+    "$MPIRUN -n 2 rc-stress --nu 0.3 --depths 0,1um --kernel mlms --dry-run pressed.rcg"
+claim "a plan for two tells how long it takes" says 'time +about [0-9.e-]+ s' \
+    $MPIRUN -n 2 rc-stress --nu 0.3 --depths 0,1um --tol 1e-3 --dry-run pressed.rcg
+claim "  and what they do not do" grep -q 'coarse_grids *left out: several processes share the map' says.out
 refuses 2 'give one of --load' "a wrong command line" "$MPIRUN -n 2 rc-solve --estar 1GPa -o no.rcg rough.rcg"
 claim "  is said once" test "$(grep -c 'give one of' refuses.err)" = 1
 refuses 1 'checksum' "a damaged stream" "
@@ -140,6 +171,12 @@ rc-solve --periodic --estar 1e60Pa --mean-pressure 1e58Pa --tol 1e-3 --output pr
 refuses 1 '65024 of 65024 values of mises came out larger than single precision can hold' "values too large, in the rows of both" \
     "$MPIRUN -n 2 rc-stress --nu 0.3 --depths 0 --components mises --type f32 -o no.rcg huge.rcg"
 claim "  are said once" test "$(grep -c 'came out' refuses.err)" = 1
+# Who says it is told by the launcher: the first one where all have agreed, else the one that had waited for others.
+refuses 1 '^\[[^]]*,0\]<stderr>: ?rc-solve: small.rcg, frame 1: .* --memory allows 1 MiB' \
+    "a part for which the second process has no memory ends both at once" \
+    "$MPIRUN --tag-output -n 1 rc-solve --estar 1GPa --load 1mN -o no.rcg small.rcg : \
+        -n 1 rc-solve --memory 1M --estar 1GPa --load 1mN -o no.rcg small.rcg"
+claim "  which is said once" test "$(grep -c 'memory allows' refuses.err)" = 1
 refuses 3 'stopped short' "short of the accuracy: written, with its exit status" \
     "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N --tol 1e-30 -o stopped.rcg rough.rcg"
 claim "  and whole" bash -c 'rc-info stopped.rcg >/dev/null; test $? = 3'
@@ -228,7 +265,7 @@ unset OMPI_MCA_odls_base_sigkill_timeout
 # short_of N: exit status
 short_of() {
     echo old >short.rcg
-    timeout -s KILL 60 $MPIRUN -n 1 $short_command : -n 1 env LD_PRELOAD="$RC_FAILING_MALLOC" RC_FAULT_AT="$1" RC_FAULT_COUNT="$PWD/count" \
+    timeout -s KILL 60 $MPIRUN --tag-output -n 1 $short_command : -n 1 env LD_PRELOAD="$RC_FAILING_MALLOC" RC_FAULT_AT="$1" RC_FAULT_COUNT="$PWD/count" \
         $short_command >short.out 2>short.err
 }
 export ASAN_OPTIONS="${ASAN_OPTIONS-}:verify_asan_link_order=0"
@@ -253,7 +290,9 @@ memory() {
         0) rc-info --quiet short.rcg >/dev/null || { echo "allocation $n: not whole" >&2; wrong=1; } ;; # nor converged=no
         1)
             [ "$(cat short.rcg)" = old ] || { echo "allocation $n: the old file is not as it was" >&2; wrong=1; }
-            grep -aq '^rc-solve: ' short.err || { echo "allocation $n: no message: $(head -c 300 short.err)" >&2; wrong=1; }
+            grep -aq '<stderr>: \?rc-solve: ' short.err || { echo "allocation $n: no message: $(head -c 300 short.err)" >&2; wrong=1; }
+            ! grep -aq ',1\]<stderr>: \?rc-solve: .*, frame 1: out of memory' short.err ||
+                { echo "allocation $n: the first process waited: $(head -c 300 short.err)" >&2; wrong=1; }
             ;;
         *) echo "allocation $n of $last: exit status $status: $(head -c 300 short.err)" >&2; wrong=1 ;;
         esac

@@ -57,6 +57,13 @@ claim "and the stream says the same" says "approach=$(field approach near.json)\
 claim "--dry-run says what would be done, in words, and writes nothing" bash -c '
     rc-solve --dry-run --load 10N --estar 114GPa -o dry.rcg ball.rcg >plan.txt &&
     grep -q "left out: no --hardness" plan.txt && grep -Eq "about [0-9.]+ convolutions" plan.txt && [ ! -e dry.rcg ]'
+for dry in "" --dry-run; do
+    refuses 1 "sums of the engine 'mlms' have no end on a periodic boundary: leave the choice to auto, or take 'fft'" \
+        "an engine that sums no periodic map${dry:+, in a plan}" \
+        "rc-solve $dry --periodic --kernel mlms --load 10N --estar 114GPa -o dry.rcg ball.rcg"
+    refuses 1 'load 1000 N is above hardness times area' "a load beyond the hardness${dry:+, in a plan}" \
+        "rc-solve $dry --hardness 1MPa --load 1kN --estar 114GPa -o dry.rcg ball.rcg"
+done
 claim "--discretization fills its place in the report, otherwise null" bash -c '
     rc-solve --load 10N --estar 114GPa --discretization --report d.json --output pressure ball.rcg -o d.rcg &&
     grep -q "\"discretization_error_estimate\": {\"contact_area\": 0" d.json &&

@@ -77,19 +77,23 @@ tool_fails_with(struct tool *t, int status)
 }
 
 static double
-mebibytes(size_t bytes)
+mebibytes(double bytes)
 {
-    return (double)bytes / (1 << 20);
+    return bytes / (1 << 20);
 }
 
 int
 tool_finish(struct tool *t)
 {
+    double expected, taken;
+
     tool_progress_end(t);
     output_end(t);
-    if (t->expected_memory > 0) /* by the first of several processes */
-        tool_note(t, "memory: %.1f MiB expected, %.1f MiB taken", mebibytes(t->expected_memory),
-                  mebibytes(memory_peak() + t->beside_memory));
+    expected = ranks_most(t, (double)t->expected_memory);
+    taken = ranks_most(t, (double)(memory_peak() + t->beside_memory));
+    if (expected > 0)
+        tool_note(t, "memory: %.1f MiB expected, %.1f MiB taken", mebibytes(expected),
+                  mebibytes(taken));
     ranks_end(t);
     output_end_by_signal();
     return t->exit_status;

@@ -167,7 +167,7 @@ find_patches(struct tool *t, const struct rc_grid *g, struct info_figures *f)
     struct rc_err err;
 
     tool_demand_finite(t, g, "solve the contact again");
-    tool_demand_memory(t, g, rc_patches_memory(&shape, g->v));
+    tool_demand_memory(t, g, rc_patches_memory(&shape, g->v, &options));
     f->patches = room(t, 1, sizeof *f->patches);
     if (rc_patches_find(&shape, g->v, &options, f->patches, &err) != RC_OK)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);

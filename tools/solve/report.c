@@ -232,7 +232,8 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
     report_number(r, "total", solve_now() - run->began, "s");
     report_end(r);
     report_count(r, "peak_memory", (size_t)ranks_most(&run->t, (double)tool_peak_memory()), "B");
-    report_count(r, "memory_estimate", run->t.expected_memory, "B");
+    report_count(r, "memory_estimate", (size_t)ranks_most(&run->t, (double)run->t.expected_memory),
+                 "B");
     report_ranks(r, &run->t);
     report_finish_row(r);
 }
@@ -263,11 +264,13 @@ solve_memory(const struct run *run, const struct rc_grid *g, const struct rc_pro
     bool results = solve_wanted(run->args, SOLVE_GAP) ||
                    solve_wanted(run->args, SOLVE_DISPLACEMENT) ||
                    solve_wanted(run->args, SOLVE_PLASTIC);
-    size_t left = holes(nodes), stiffness = run->stiffness ? rc_solver_stiffness_memory(&shape) : 0;
+    size_t left = holes(nodes),
+           stiffness = run->stiffness ? rc_solver_stiffness_memory(&shape, problem) : 0;
+    const struct rc_patch_options patches = {.ranks = problem->ranks};
 
     if (nodes * sizeof(float) < MEMORY_APART) /* what the stiffness takes lies in the holes */
         stiffness -= stiffness < left ? stiffness : left;
-    bytes += left + stiffness + rc_patches_memory(&shape, NULL);
+    bytes += left + stiffness + rc_patches_memory(&shape, NULL, &patches);
     return bytes + (keeps_heights && results ? nodes * sizeof *g->v : 0) +
            tool_code(&run->t, SOLVE_CODE);
 }
@@ -283,12 +286,13 @@ solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *pr
     const char *engine = rc_solver_choice(&shape, problem, &scene.engine), *name, *state;
     struct rc_expected e;
     struct rc_err err;
-    double each;
+    double each, memory;
     char where[256];
 
     if (rc_solver_expect(&shape, problem, &e, &err) != RC_OK)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     each = e.convolutions + (run->stiffness ? STIFFNESS : 0);
+    memory = ranks_most(&run->t, (double)tool_memory_with(solve_memory(run, g, problem)));
     tool_where(&run->t, g, where, sizeof where);
     fprintf(run->t.out, "%s: %zu x %zu nodes, %zu %s, engine %s\n", where, g->nx, g->ny,
             run->steps->n, run->steps->n == 1 ? "load" : "loads", engine);
@@ -296,6 +300,6 @@ solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *pr
         fprintf(run->t.out, "  %-15s %s\n", name, state);
     fprintf(run->t.out, "  about %.0f convolutions%s, %zu MiB, %.2g s with %zu threads\n", each,
             run->steps->n > 1 ? " for the first load, fewer for the next" : "",
-            (tool_memory_with(solve_memory(run, g, problem)) >> 20) + 1,
-            e.seconds * each / e.convolutions * (double)run->steps->n, run->t.threads);
+            ((size_t)memory >> 20) + 1, e.seconds * each / e.convolutions * (double)run->steps->n,
+            run->t.threads);
 }

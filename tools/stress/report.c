@@ -167,6 +167,8 @@ coarse_effect(const struct rc_stress_options *o)
         return "left out: the map is periodic";
     if (o->coating != NULL)
         return "left out: the body is coated";
+    if (o->ranks != NULL)
+        return "left out: several processes share the map";
     return strcmp(engine_of(o), words_engine(0)) == 0
                ? "on where depth allows"
                : "left out: the engine has its own tolerance";
@@ -279,7 +281,8 @@ stress_report_write(struct stress_report *r, struct report *out, const struct rc
     report_end(out);
     report_count(out, "peak_memory", (size_t)ranks_most(out->tool, (double)tool_peak_memory()),
                  "B");
-    report_count(out, "memory_estimate", out->tool->expected_memory, "B");
+    report_count(out, "memory_estimate",
+                 (size_t)ranks_most(out->tool, (double)out->tool->expected_memory), "B");
     report_ranks(out, out->tool);
     report_finish_row(out);
 }
@@ -291,9 +294,9 @@ enum {
 };
 
 /* Seconds that all depths would take, from one of them on a part of the map. */
-static double
-expected_seconds(const struct rc_grid *p, const struct rc_stress_options *options,
-                 const struct numbers *depths)
+static enum rc_status
+expect(const struct tool *t, const struct rc_grid *p, const struct rc_stress_options *options,
+       const struct numbers *depths, double *expected, struct rc_err *err)
 {
     struct rc_shape part = {p->nx < TRIAL ? p->nx : TRIAL, p->ny < TRIAL ? p->ny : TRIAL, p->dx,
                             p->dy};
@@ -302,25 +305,28 @@ expected_seconds(const struct rc_grid *p, const struct rc_stress_options *option
     double *v = malloc((1 + RC_STRESSES) * n * sizeof *v), *s[RC_STRESSES];
     struct rc_stress_options o = *options;
     struct rc_stress *stress = NULL;
-    struct rc_err err;
+    enum rc_status status = RC_OK;
 
+    if (v == NULL)
+        status = rc_err_set(err, "out of memory for the trial of a plan");
+    status = ranks_agree(t, status, err);
     o.at = 0;
-    for (size_t k = 0; v != NULL && k < n; k++)
+    for (size_t k = 0; status == RC_OK && k < n; k++)
         v[k] = 1;
-    for (int c = 0; v != NULL && c < RC_STRESSES; c++)
+    for (int c = 0; status == RC_OK && c < RC_STRESSES; c++)
         s[c] = v + (size_t)(c + 1) * n;
-    if (v != NULL)
-        stress = rc_stress_new(&part, v, &o, &err);
-    for (int k = 0; stress != NULL && k < 3; k++) {
+    if (status == RC_OK && (stress = rc_stress_new(&part, v, &o, err)) == NULL)
+        status = RC_FAIL;
+    for (int k = 0; status == RC_OK && k < 3; k++) {
         start = tool_now();
-        if (rc_stress_slice(stress, depths->v[depths->n / 2], s, &err) != RC_OK)
-            break;
+        status = rc_stress_slice(stress, depths->v[depths->n / 2], s, err);
         seconds = fmin(seconds, tool_now() - start);
     }
     rc_stress_free(stress);
     free(v);
-    return seconds * (double)depths->n * nodes * log2(4 * nodes) /
-           ((double)n * log2(4 * (double)n));
+    *expected =
+        seconds * (double)depths->n * nodes * log2(4 * nodes) / ((double)n * log2(4 * (double)n));
+    return status;
 }
 
 /* The materials of a coated body, and how many of the depths are in each. */
@@ -342,10 +348,15 @@ say_materials(FILE *out, const struct rc_stress_options *o, const struct numbers
     }
 }
 
-void
-stress_report_plan(FILE *out, const struct rc_grid *p, const struct rc_stress_options *o,
-                   const struct numbers *depths, size_t memory)
+enum rc_status
+stress_report_plan(const struct tool *t, const struct rc_grid *p, const struct rc_stress_options *o,
+                   const struct numbers *depths, size_t memory, struct rc_err *err)
 {
+    FILE *out = t->out;
+    double seconds;
+
+    if (expect(t, p, o, depths, &seconds, err) != RC_OK)
+        return RC_FAIL;
     fprintf(out, "case %zu: %zu x %zu nodes, %s boundary\n", rc_grid_case(p), p->nx, p->ny,
             o->boundary == RC_PERIODIC ? "periodic" : "free");
     fprintf(out, "  %-14s%zu, %g to %g m\n", "depths", depths->n, depths->v[0],
@@ -357,5 +368,6 @@ stress_report_plan(FILE *out, const struct rc_grid *p, const struct rc_stress_op
     for (int c = 0; c < RC_STRESSES; c++)
         fprintf(out, "  %-14s%s\n", rc_component_names[c], component_effect(o, c));
     fprintf(out, "  %-14sabout %zu MiB\n", "memory", (memory >> 20) + 1);
-    fprintf(out, "  %-14sabout %.2g s\n", "time", expected_seconds(p, o, depths));
+    fprintf(out, "  %-14sabout %.2g s\n", "time", seconds);
+    return RC_OK;
 }

@@ -42,8 +42,10 @@ void stress_report_write(struct stress_report *report, struct report *out,
                          const struct rc_stress *stress);
 void stress_report_free(struct stress_report *report);
 
-/* What would be done, in words, in so many bytes; a part of the map is tried for the time. */
-void stress_report_plan(FILE *out, const struct rc_grid *p, const struct rc_stress_options *options,
-                        const struct numbers *depths, size_t memory);
+/* What would be done, in words, in so many bytes; a part of the map is tried for the time. RC_FAIL when that
+ * fails, as the whole then would. */
+enum rc_status stress_report_plan(const struct tool *tool, const struct rc_grid *p,
+                                  const struct rc_stress_options *options,
+                                  const struct numbers *depths, size_t memory, struct rc_err *err);
 
 #endif
