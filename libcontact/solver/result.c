@@ -103,22 +103,17 @@ yielded(const struct rc_solver *s, struct figures *f)
     return (size_t)total[0];
 }
 
-enum {
-    PIECE =
-        1024 /* columns of which rows that others hold are fetched at a time: so there is always room */
-};
-
 /* Nodes of the contact with a neighbour that is none. */
 static size_t
 edge_nodes(const struct rc_solver *s)
 {
     const struct rc_rows *rows = &s->posed.rows;
     size_t nx = s->posed.shape.nx, ny = s->posed.shape.ny, count = 0;
-    double before[PIECE], after[PIECE];
+    double before[RC_PIECE], after[RC_PIECE];
     bool has[2] = {false, false};
 
-    for (size_t first = 0; first < nx; first += PIECE) {
-        size_t last = nx - first < PIECE ? nx : first + PIECE;
+    for (size_t first = 0; first < nx; first += RC_PIECE) {
+        size_t last = nx - first < RC_PIECE ? nx : first + RC_PIECE;
         if (rows->ranks != NULL)
             rc_ranks_beside(rows, false, (last - first) * sizeof *before, s->it.p + first,
                             s->it.p + (ny > 0 ? (ny - 1) * nx : 0) + first, before, after, has);
