@@ -48,7 +48,7 @@ struct rc_rows {
 enum {
     RC_BLOCK_NODES = 4096, /* that add up by themselves                            */
     RC_TILE_ROWS = 16,     /* that are never split                                 */
-    RC_PIECE = 1024        /* columns of rows beside, fetched at a time into arrays */
+    RC_ROW_PIECE = 1024    /* columns of rows beside, fetched at a time into arrays */
 };
 /* Rows of a map of such lines that make a block; 1 also where a line is more than one. */
 size_t rc_rows_block(size_t nx);

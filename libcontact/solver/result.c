@@ -109,11 +109,11 @@ edge_nodes(const struct rc_solver *s)
 {
     const struct rc_rows *rows = &s->posed.rows;
     size_t nx = s->posed.shape.nx, ny = s->posed.shape.ny, count = 0;
-    double before[RC_PIECE], after[RC_PIECE];
+    double before[RC_ROW_PIECE], after[RC_ROW_PIECE];
     bool has[2] = {false, false};
 
-    for (size_t first = 0; first < nx; first += RC_PIECE) {
-        size_t last = nx - first < RC_PIECE ? nx : first + RC_PIECE;
+    for (size_t first = 0; first < nx; first += RC_ROW_PIECE) {
+        size_t last = nx - first < RC_ROW_PIECE ? nx : first + RC_ROW_PIECE;
         if (rows->ranks != NULL)
             rc_ranks_beside(rows, false, (last - first) * sizeof *before, s->it.p + first,
                             s->it.p + (ny > 0 ? (ny - 1) * nx : 0) + first, before, after, has);

@@ -221,10 +221,10 @@ rc_measure_contact_slope(const struct rc_shape *shape, const double *h, const do
 static size_t
 piece_of(size_t nx, size_t first)
 {
-    return nx - first < RC_PIECE ? nx - first : RC_PIECE;
+    return nx - first < RC_ROW_PIECE ? nx - first : RC_ROW_PIECE;
 }
 
-/* The rows before and after those held here, n of their columns: RC_PIECE numbers each. */
+/* The rows before and after those held here, n of their columns: RC_ROW_PIECE numbers each. */
 static void
 fetch_beside(const struct rc_rows *rows, bool round, const struct rc_shape *shape, const double *v,
              size_t first, size_t n, double *beside, bool has[2])
@@ -234,7 +234,7 @@ fetch_beside(const struct rc_rows *rows, bool round, const struct rc_shape *shap
     if (rows->n == 0)
         first = 0;
     rc_ranks_beside(rows, round, n * sizeof *v, v + first, v + last + first, beside,
-                    beside + RC_PIECE, has);
+                    beside + RC_ROW_PIECE, has);
 }
 
 /* Adds the squared slopes of n nodes that touch, and how many these are; `right` the columns to the next. */
@@ -264,16 +264,16 @@ rc_measure_contact_slope_on(const struct rc_ranks *ranks, const struct rc_shape 
     size_t nx = shape->nx, right = nx > 1 ? 1 : 0;
     const double per[2] = {1 / shape->dx, 1 / shape->dy};
     struct rc_total sums[2] = {{0}};
-    double beside[2 * RC_PIECE] = {0}, total[2], most = 0;
+    double beside[2 * RC_ROW_PIECE] = {0}, total[2], most = 0;
     bool has[2] = {false, false};
 
-    for (size_t first = 0; first < nx; first += RC_PIECE) {
+    for (size_t first = 0; first < nx; first += RC_ROW_PIECE) {
         size_t n = piece_of(nx, first), steps = first + n < nx ? n : n - right;
         if (rows.ranks != NULL)
             fetch_beside(&rows, false, shape, h, first, n, beside, has);
         for (size_t j = 0; j < rows.n; j++) {
             const double *row = h + j * nx + first;
-            const double *below = j + 1 < rows.n ? row + nx : has[1] ? beside + RC_PIECE : row;
+            const double *below = j + 1 < rows.n ? row + nx : has[1] ? beside + RC_ROW_PIECE : row;
             if (below == row && shape->ny > 1)
                 break;
             take_contact(sums, row, below, p + j * nx + first, steps, right, per);
@@ -287,7 +287,7 @@ rc_measure_contact_slope_on(const struct rc_ranks *ranks, const struct rc_shape 
 static void
 add_steps(struct rc_total *squares, const double *a, const double *b, size_t n)
 {
-    for (size_t first = 0; first < n; first += RC_PIECE) {
+    for (size_t first = 0; first < n; first += RC_ROW_PIECE) {
         size_t last = first + piece_of(n, first);
         double sum = 0;
 #pragma omp simd reduction(+ : sum)
@@ -318,7 +318,7 @@ rc_measure_seam_on(const struct rc_ranks *ranks, const struct rc_shape *shape, c
     const struct rc_rows rows = rc_rows_of(ranks, shape);
     size_t nx = shape->nx, ny = shape->ny;
     struct rc_total squares[STEPS] = {{0}};
-    double beside[2 * RC_PIECE] = {0}, sum[STEPS], most = 0;
+    double beside[2 * RC_ROW_PIECE] = {0}, sum[STEPS], most = 0;
     bool has[2];
 
     for (size_t j = 0; j < rows.n; j++) {
@@ -329,7 +329,7 @@ rc_measure_seam_on(const struct rc_ranks *ranks, const struct rc_shape *shape, c
             add_steps(&squares[INSIDE_Y], row - nx, row, nx);
     }
     /* from the row before those held here */
-    for (size_t first = 0; first < nx; first += RC_PIECE) {
+    for (size_t first = 0; first < nx; first += RC_ROW_PIECE) {
         size_t n = piece_of(nx, first);
         const double *before = v + (rows.n > 0 ? (rows.n - 1) * nx + first : 0);
         if (rows.ranks != NULL) {

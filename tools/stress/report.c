@@ -310,18 +310,21 @@ expect(const struct tool *t, const struct rc_grid *p, const struct rc_stress_opt
     if (v == NULL)
         status = rc_err_set(err, "out of memory for the trial of a plan");
     status = ranks_agree(t, status, err);
+    if (status != RC_OK || v == NULL)
+        goto done;
     o.at = 0;
-    for (size_t k = 0; status == RC_OK && k < n; k++)
+    for (size_t k = 0; k < n; k++)
         v[k] = 1;
-    for (int c = 0; status == RC_OK && c < RC_STRESSES; c++)
+    for (int c = 0; c < RC_STRESSES; c++)
         s[c] = v + (size_t)(c + 1) * n;
-    if (status == RC_OK && (stress = rc_stress_new(&part, v, &o, err)) == NULL)
+    if ((stress = rc_stress_new(&part, v, &o, err)) == NULL)
         status = RC_FAIL;
     for (int k = 0; status == RC_OK && k < 3; k++) {
         start = tool_now();
         status = rc_stress_slice(stress, depths->v[depths->n / 2], s, err);
         seconds = fmin(seconds, tool_now() - start);
     }
+done:
     rc_stress_free(stress);
     free(v);
     *expected =
