@@ -439,7 +439,7 @@ read_frame(struct rc_reader *r, struct rc_grid **grid, struct rc_err *err)
         rc_err_set(err, "out of memory for a header (%zu bytes)", sizeof *head);
     else if (read_head(r, head, err) == RC_OK)
         g = grid_of_head(r, head, err);
-    if (agree(r, g == NULL ? RC_FAIL : RC_OK, err) != RC_OK)
+    if (agree(r, g == NULL ? RC_FAIL : RC_OK, err) != RC_OK || g == NULL)
         goto done;
     if (read_values(r, g, err) != RC_OK || read_crc(r, err) != RC_OK)
         goto done;
