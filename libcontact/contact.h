@@ -340,8 +340,9 @@ RC_API enum rc_status rc_patches_find(const struct rc_shape *shape, const double
                                       const struct rc_patch_options *options,
                                       struct rc_patches *patches, struct rc_err *err);
 RC_API void rc_patches_free(struct rc_patches *patches);
-/* Bytes that it takes, beside p, which may be NULL: about what a rough contact takes. Where ranks share the map
- * p is not looked at: of the rank that takes most, the patches of the whole map among them, which each has. */
+/* Bytes that it takes, beside p, which may be NULL: about what a rough contact takes. Where ranks
+ * share the map p is not looked at: of the rank that takes most, the patches of the whole map among
+ * them, which each has. */
 RC_API size_t rc_patches_memory(const struct rc_shape *shape, const double *p,
                                 const struct rc_patch_options *options);
 
@@ -591,8 +592,9 @@ RC_API size_t rc_solver_stiffness_memory(const struct rc_shape *shape,
                                          const struct rc_problem *problem);
 
 /* What such a solver will take, by what others took: convolutions (in equivalents, as they are
- * counted) and seconds, both NAN where nobody knows, and bytes. RC_FAIL when there would be none, though memory
- * were there: no such engine or method, none for the boundary or the ranks, no solution under the load. */
+ * counted) and seconds, both NAN where nobody knows, and bytes. RC_FAIL when there would be none,
+ * though memory were there: no such engine or method, none for the boundary or the ranks, no solution
+ * under the load. */
 struct rc_expected {
     double convolutions, seconds;
     size_t memory;
@@ -674,7 +676,8 @@ RC_API enum rc_status rc_stress_slice(struct rc_stress *stress, double depth,
 RC_API const char *rc_stress_engine(const struct rc_stress *stress);
 RC_API const struct rc_stress_counts *rc_stress_counted(const struct rc_stress *stress);
 RC_API void rc_stress_free(struct rc_stress *stress);
-/* Bytes that such a plan takes, beside p and the slices; where ranks share the map, of the rank that takes most. */
+/* Bytes that such a plan takes, beside p and the slices; where ranks share the map, of the rank that
+ * takes most. */
 RC_API size_t rc_stress_memory(const struct rc_shape *shape,
                                const struct rc_stress_options *options);
 

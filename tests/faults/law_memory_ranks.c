@@ -1,8 +1,9 @@
-/* Whichever allocation fails in libcontact on one of the processes that share a map, alone or with all after it: all
- * of them give the same answer, the right one or one failure with its reason, none waits for another, and nothing
- * is held.
+/* Whichever allocation fails in libcontact on one of the processes that share a map, alone or with all
+ * after it: all of them give the same answer, the right one or one failure with its reason, none waits
+ * for another, and nothing is held.
  *
- * RC_STRIDE in the environment tries one allocation of so many, 1 each; without it few enough for the default set. */
+ * RC_STRIDE in the environment tries one allocation of so many, 1 each; without it few enough for the
+ * default set. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

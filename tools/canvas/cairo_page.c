@@ -30,9 +30,9 @@ show_text(struct canvas *c, cairo_t *cairo, const struct item *i)
     cairo_restore(cairo);
 }
 
-/* Lines are stroked so many points at a time: what cairo keeps of a stroke that is drawn as pixels grows with its
- * points, and its time faster. Their ends and corners are round, so that the seams do not show; dashes are
- * stroked at once, because each stroke begins with one. */
+/* Lines are stroked so many points at a time: what cairo keeps of a stroke that is drawn as pixels
+ * grows with its points, and its time faster. Their ends and corners are round, so that the seams do
+ * not show; dashes are stroked at once, because each stroke begins with one. */
 enum {
     STROKE = 100
 };

@@ -565,7 +565,8 @@ draw(struct page *p, struct rc_err *err)
     return canvas_check(p->c, err);
 }
 
-/* Pieces of the line at a level, about: between neighbours that are as far apart as the pixels of the raster. */
+/* Pieces of the line at a level, about: between neighbours that are as far apart as the pixels of the
+ * raster. */
 static size_t
 count_crossings(const struct rc_grid *g, size_t w, size_t h, double level)
 {
