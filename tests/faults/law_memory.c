@@ -17,6 +17,7 @@
 #include "tools/machine/machine.h"
 #include "libcontact/contact.h"
 #include "tests/exact.h"
+#include "uses.h"
 
 enum {
     NX = 16,
@@ -29,9 +30,6 @@ static const struct rc_shape shape = {NX, NY, 1.1e-6, 1e-6};
 static const struct rc_layer layer = {2e-6, 2e9, 0.3};
 static const struct rc_coating coating = {.layers = 1, .layer = &layer, .e = 1e9, .nu = 0.3};
 static double rough[N], holed[N], pressure[N];
-
-/* A use of some functions: writes what they give to the front of out, zeros before. */
-typedef enum rc_status use(double *out, struct rc_err *err);
 
 /* A map that was to be changed in place is what it was where that has failed. */
 static enum rc_status
@@ -223,12 +221,6 @@ convolved(const struct rc_conv_options *o, double *out, struct rc_err *err)
     return RC_OK;
 }
 
-#define CONVOLUTION(name, ...)                                                                     \
-    static enum rc_status name(double *out, struct rc_err *err)                                    \
-    {                                                                                              \
-        static const struct rc_conv_options o = {.threads = 1, __VA_ARGS__};                       \
-        return convolved(&o, out, err);                                                            \
-    }
 CONVOLUTION(free_fft, .engine = "fft")
 CONVOLUTION(single_fft, .engine = "fft", .tol = 1e-3)
 CONVOLUTION(periodic_fft, .engine = "fft", .boundary = RC_PERIODIC)
@@ -240,48 +232,17 @@ CONVOLUTION(coated_periodic, .coating = &coating, .boundary = RC_PERIODIC)
 /* ---- contact ---- */
 
 static enum rc_status
-finish_load(struct rc_solver *solver, struct rc_err *err)
-{
-    enum rc_status status;
-
-    while ((status = rc_solver_step(solver)) == RC_MORE)
-        continue;
-    return status == RC_OK ? RC_OK
-                           : rc_err_set(err, "the solution stops short: status %d", (int)status);
-}
-
-static enum rc_status
 solved(const struct rc_problem *problem, double *out, struct rc_err *err)
 {
-    struct rc_solver *solver = rc_solver_new(&shape, rough, problem, err);
-    struct rc_contact contact;
-    enum rc_status status = RC_FAIL;
+    double *const field[4] = {out, out + N, out + 2 * N, out + 3 * N};
     double stiffness;
 
-    if (solver == NULL || finish_load(solver, err) != RC_OK)
-        goto done;
-    rc_solver_result(solver, out + N, out + 2 * N, &contact);
-    if (rc_solver_plastic(solver, out + 3 * N, err) != RC_OK ||
-        rc_solver_stiffness(solver, &stiffness, err) != RC_OK ||
-        rc_solver_set_load(solver, 1.5 * contact.load, 0, err) != RC_OK ||
-        rc_solver_warm_start(solver, contact.load, out, err) != RC_OK ||
-        finish_load(solver, err) != RC_OK)
-        goto done;
-    memcpy(out, rc_solver_pressure(solver), sizeof pressure);
+    if (solve_twice(&shape, rough, problem, N, field, &stiffness, err) != RC_OK)
+        return RC_FAIL;
     out[4 * N - 1] = stiffness;
-    status = RC_OK;
-done:
-    rc_solver_free(solver);
-    return status;
+    return RC_OK;
 }
 
-#define CONTACT(name, ...)                                                                         \
-    static enum rc_status name(double *out, struct rc_err *err)                                    \
-    {                                                                                              \
-        static const struct rc_problem problem = {                                                 \
-            .estar = 1e9, .threads = 1, .tol = 1e-6, __VA_ARGS__};                                 \
-        return solved(&problem, out, err);                                                         \
-    }
 CONTACT(free_contact, .load = 1e-3)
 CONTACT(hard_contact, .load = 1e-3, .hardness = 2e7, .boundary = RC_PERIODIC)
 CONTACT(paper_method, .load = 1e-3, .method = "pk99", .engine = "mlms")
@@ -293,27 +254,11 @@ CONTACT(coated_contact, .load = 1e-3, .coating = &coating)
 static enum rc_status
 stressed(const struct rc_stress_options *o, double *out, struct rc_err *err)
 {
-    double *const slice[RC_STRESSES] = {
-        [RC_SXX] = out, [RC_SXZ] = out + N, [RC_MISES] = out + 2 * N, [RC_S1] = out + 3 * N};
-    struct rc_stress *stress = rc_stress_new(&shape, pressure, o, err);
-    enum rc_status status = RC_FAIL;
+    double *const field[4] = {out, out + N, out + 2 * N, out + 3 * N};
 
-    if (stress != NULL && (status = rc_stress_slice(stress, 1.5e-6, slice, err)) == RC_OK)
-        status = rc_stress_slice(stress, 3e-6, slice, err);
-    rc_stress_free(stress);
-    return status;
+    return two_slices(&shape, pressure, o, field, err);
 }
 
-#define STRESS(name, ...)                                                                          \
-    static enum rc_status name(double *out, struct rc_err *err)                                    \
-    {                                                                                              \
-        static const struct rc_stress_options o = {.nu = 0.3,                                      \
-                                                   .wanted = 1 << RC_SXX | 1 << RC_SXZ |           \
-                                                             1 << RC_MISES | 1 << RC_S1,           \
-                                                   .threads = 1,                                   \
-                                                   __VA_ARGS__};                                   \
-        return stressed(&o, out, err);                                                             \
-    }
 STRESS(free_stress, .mu = 0.1)
 STRESS(periodic_stress, .mu = 0.1, .boundary = RC_PERIODIC)
 STRESS(direct_stress, .engine = "direct")
@@ -588,8 +533,9 @@ text_of(const char *file)
     return text;
 }
 
+/* How many there are in a header; each must stand in one of the sources. */
 static size_t
-functions_of(const char *header, const char *here)
+functions_of(const char *header, const char *const source[2])
 {
     char *text = text_of(header), name[128];
     size_t n = 0;
@@ -603,7 +549,7 @@ functions_of(const char *header, const char *here)
         for (start = open; isalnum((unsigned char)start[-1]) || start[-1] == '_'; start--)
             continue;
         snprintf(name, sizeof name, "%.*s", (int)(open + 1 - start), start);
-        if (strstr(here, name) == NULL)
+        if (strstr(source[0], name) == NULL && strstr(source[1], name) == NULL)
             fail_msg("%s) of %s is tried nowhere", name, header);
         n++;
     }
@@ -614,13 +560,16 @@ functions_of(const char *header, const char *here)
 static void
 every_function_is_tried(void **state)
 {
-    char *here = text_of("tests/faults/law_memory.c");
-    size_t n = functions_of("libcontact/contact.h", here) + functions_of("libcontact/grid.h", here);
+    char *here = text_of("tests/faults/law_memory.c"), *shared = text_of("tests/faults/uses.h");
+    const char *const source[2] = {here, shared};
+    size_t n =
+        functions_of("libcontact/contact.h", source) + functions_of("libcontact/grid.h", source);
 
     (void)state;
     printf("%zu public functions\n", n);
     assert_true(n > 80);
     free(here);
+    free(shared);
 }
 
 int

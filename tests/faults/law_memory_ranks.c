@@ -20,6 +20,7 @@
 #include "failing_malloc.h"
 #include "libcontact/contact_mpi.h"
 #include "tests/exact.h"
+#include "uses.h"
 
 enum {
     NX = 96, /* of two, one has 32 rows and the other 64 */
@@ -43,12 +44,10 @@ static size_t first, here; /* nodes */
 /* What a use gives: fields of the nodes held here, zeros before. */
 static double given[FIELDS][N];
 
-typedef enum rc_status use(struct rc_err *err);
-
 /* ---- uses ---- */
 
 static enum rc_status
-several(struct rc_err *err)
+several(double *out, struct rc_err *err)
 {
     struct rc_ranks *more = rc_ranks_new(MPI_COMM_WORLD, err);
     struct rc_sent sent;
@@ -58,13 +57,13 @@ several(struct rc_err *err)
         return RC_FAIL;
     rc_ranks_rows(more, &shape, &row, &n);
     rc_ranks_sent(more, &sent);
-    given[0][0] = (double)(row + n);
+    out[0] = (double)(row + n);
     rc_ranks_free(more);
     return RC_OK;
 }
 
 static enum rc_status
-convolved(const struct rc_conv_options *of, struct rc_err *err)
+convolved(const struct rc_conv_options *of, double *out, struct rc_err *err)
 {
     struct rc_conv_options o = *of;
     struct rc_conv *conv;
@@ -72,17 +71,11 @@ convolved(const struct rc_conv_options *of, struct rc_err *err)
     o.ranks = ranks;
     if ((conv = rc_conv_new(&shape, 1e9, &o, err)) == NULL)
         return RC_FAIL;
-    rc_conv_apply(conv, pressure + first, given[0]);
+    rc_conv_apply(conv, pressure + first, out);
     rc_conv_free(conv);
     return RC_OK;
 }
 
-#define CONVOLUTION(name, ...)                                                                     \
-    static enum rc_status name(struct rc_err *err)                                                 \
-    {                                                                                              \
-        static const struct rc_conv_options o = {.threads = 1, __VA_ARGS__};                       \
-        return convolved(&o, err);                                                                 \
-    }
 CONVOLUTION(free_conv, .engine = "fft64")
 CONVOLUTION(single_conv, .tol = 1e-3)
 CONVOLUTION(periodic_conv, .boundary = RC_PERIODIC)
@@ -90,50 +83,16 @@ CONVOLUTION(coated_conv, .coating = &coating)
 CONVOLUTION(coated_periodic_conv, .coating = &coating, .boundary = RC_PERIODIC)
 
 static enum rc_status
-finish_load(struct rc_solver *solver, struct rc_err *err)
+solved(const struct rc_problem *of, double *out, struct rc_err *err)
 {
-    enum rc_status status;
-
-    while ((status = rc_solver_step(solver)) == RC_MORE)
-        continue;
-    return status == RC_OK ? RC_OK
-                           : rc_err_set(err, "the solution stops short: status %d", (int)status);
-}
-
-static enum rc_status
-solved(const struct rc_problem *of, struct rc_err *err)
-{
+    double *const field[FIELDS] = {out, out + N, out + 2 * N, out + 3 * N};
     struct rc_problem problem = *of;
-    struct rc_solver *solver;
-    struct rc_contact contact;
-    enum rc_status status = RC_FAIL;
     double stiffness;
 
     problem.ranks = ranks;
-    solver = rc_solver_new(&shape, rough + first, &problem, err);
-    if (solver == NULL || finish_load(solver, err) != RC_OK)
-        goto done;
-    rc_solver_result(solver, given[1], given[2], &contact);
-    if (rc_solver_plastic(solver, given[3], err) != RC_OK ||
-        rc_solver_stiffness(solver, &stiffness, err) != RC_OK ||
-        rc_solver_set_load(solver, 1.1 * contact.load, 0, err) != RC_OK ||
-        rc_solver_warm_start(solver, contact.load, rc_solver_pressure(solver), err) != RC_OK ||
-        finish_load(solver, err) != RC_OK)
-        goto done;
-    memcpy(given[0], rc_solver_pressure(solver), here * sizeof(double));
-    status = RC_OK;
-done:
-    rc_solver_free(solver);
-    return status;
+    return solve_twice(&shape, rough + first, &problem, here, field, &stiffness, err);
 }
 
-#define CONTACT(name, ...)                                                                         \
-    static enum rc_status name(struct rc_err *err)                                                 \
-    {                                                                                              \
-        static const struct rc_problem problem = {                                                 \
-            .estar = 1e9, .threads = 1, .tol = 1e-5, __VA_ARGS__};                                 \
-        return solved(&problem, err);                                                              \
-    }
 CONTACT(free_contact, .load = 0.02)
 CONTACT(hard_contact, .load = 0.02, .hardness = 5e7, .boundary = RC_PERIODIC)
 CONTACT(paper_method, .load = 0.02, .method = "pk99")
@@ -142,7 +101,7 @@ CONTACT(coated_contact, .load = 0.02, .coating = &coating)
 
 /* As far as the first step on the grid itself, which depends on how it began. */
 static enum rc_status
-large_start(struct rc_err *err)
+large_start(double *out, struct rc_err *err)
 {
     const struct rc_problem problem = {
         .estar = 1e9, .load = 0.2, .threads = 1, .tol = 1e-2, .ranks = ranks};
@@ -150,6 +109,7 @@ large_start(struct rc_err *err)
     struct rc_solver *solver;
     size_t row, n;
 
+    (void)out;
     rc_ranks_rows(ranks, &large, &row, &n);
     solver = rc_solver_new(&large, large_rough + row * large.nx, &problem, err);
     if (solver == NULL)
@@ -161,39 +121,22 @@ large_start(struct rc_err *err)
 }
 
 static enum rc_status
-stressed(const struct rc_stress_options *of, struct rc_err *err)
+stressed(const struct rc_stress_options *of, double *out, struct rc_err *err)
 {
-    double *const slice[RC_STRESSES] = {
-        [RC_SXX] = given[0], [RC_SXZ] = given[1], [RC_MISES] = given[2], [RC_S1] = given[3]};
+    double *const field[FIELDS] = {out, out + N, out + 2 * N, out + 3 * N};
     struct rc_stress_options o = *of;
-    struct rc_stress *stress;
-    enum rc_status status = RC_FAIL;
 
     o.ranks = ranks;
-    stress = rc_stress_new(&shape, pressure + first, &o, err);
-    if (stress != NULL && (status = rc_stress_slice(stress, 1.5e-6, slice, err)) == RC_OK)
-        status = rc_stress_slice(stress, 3e-6, slice, err);
-    rc_stress_free(stress);
-    return status;
+    return two_slices(&shape, pressure + first, &o, field, err);
 }
 
-#define STRESS(name, ...)                                                                          \
-    static enum rc_status name(struct rc_err *err)                                                 \
-    {                                                                                              \
-        static const struct rc_stress_options o = {.nu = 0.3,                                      \
-                                                   .wanted = 1 << RC_SXX | 1 << RC_SXZ |           \
-                                                             1 << RC_MISES | 1 << RC_S1,           \
-                                                   .threads = 1,                                   \
-                                                   __VA_ARGS__};                                   \
-        return stressed(&o, err);                                                                  \
-    }
 STRESS(free_stress, .mu = 0.1)
 STRESS(periodic_stress, .mu = 0.1, .boundary = RC_PERIODIC)
 STRESS(single_stress, .tol = 1e-3)
 STRESS(coated_stress, .coating = &coating)
 
 static enum rc_status
-depths(struct rc_err *err)
+depths(double *out, struct rc_err *err)
 {
     double *z = NULL;
     size_t n = 0;
@@ -201,7 +144,7 @@ depths(struct rc_err *err)
         rc_stress_depths_on(ranks, &shape, pressure + first, RC_FREE, &coating, &z, &n, err);
 
     if (status == RC_OK)
-        memcpy(given[0], z, n * sizeof *z);
+        memcpy(out, z, n * sizeof *z);
     else
         assert_null(z);
     free(z);
@@ -209,7 +152,7 @@ depths(struct rc_err *err)
 }
 
 static enum rc_status
-patches(struct rc_err *err)
+patches(double *out, struct rc_err *err)
 {
     const struct rc_patch_options o = {
         .boundary = RC_PERIODIC, .each = true, .threads = 1, .ranks = ranks};
@@ -217,21 +160,21 @@ patches(struct rc_err *err)
     enum rc_status status = rc_patches_find(&shape, pressure + first, &o, &found, err);
 
     for (size_t k = 0; k < found.count && status == RC_OK; k++)
-        given[0][k] = found.patch[k].perimeter;
-    given[1][0] = found.perimeter;
+        out[k] = found.patch[k].perimeter;
+    out[N] = found.perimeter;
     rc_patches_free(&found);
     return status;
 }
 
 static enum rc_status
-measured(struct rc_err *err)
+measured(double *out, struct rc_err *err)
 {
     struct rc_seam seam;
 
     (void)err;
-    given[0][0] = rc_measure_contact_slope_on(ranks, &shape, rough + first, pressure + first);
+    out[0] = rc_measure_contact_slope_on(ranks, &shape, rough + first, pressure + first);
     rc_measure_seam_on(ranks, &shape, rough + first, &seam);
-    given[0][1] = seam.across[0] + seam.across[1];
+    out[1] = seam.across[0] + seam.across[1];
     return RC_OK;
 }
 
@@ -334,7 +277,7 @@ try_one(size_t k, int victim, size_t n, bool stay)
     memset(given, 0, sizeof given);
     alarm(PATIENCE);
     fault_arm(own == victim ? n : 0, stay);
-    status = uses[k].use(&err);
+    status = uses[k].use(&given[0][0], &err);
     fault_disarm();
     found = wrong(k, status, &err);
     any = found != NULL;
@@ -366,10 +309,10 @@ every_allocation_fails(void **state)
         struct rc_err err = {""};
         size_t last[8], mine;
 
-        uses[k].use(&err); /* what FFTW and GSL keep, they keep from now on */
+        uses[k].use(&given[0][0], &err); /* what FFTW and GSL keep, they keep from now on */
         memset(given, 0, sizeof given);
         fault_arm(0, false);
-        if (uses[k].use(&err) != RC_OK)
+        if (uses[k].use(&given[0][0], &err) != RC_OK)
             fail_msg("%s: %s", uses[k].name, err.text);
         mine = fault_disarm();
         memcpy(right, given, sizeof right);

@@ -1,0 +1,80 @@
+/* Uses of libcontact whose allocations are made to fail, by one process (law_memory.c) and by several
+ * that share a map (law_memory_ranks.c). */
+#ifndef USES_H
+#define USES_H
+
+#include <string.h>
+
+#include "libcontact/contact.h"
+
+/* A use of some functions: writes what they give to the front of out, zeros before. */
+typedef enum rc_status use(double *out, struct rc_err *err);
+
+/* A use of convolved, solved or stressed, which each test has for its own maps, with these options. */
+#define USE_WITH(function, options, name, ...)                                                     \
+    static enum rc_status name(double *out, struct rc_err *err)                                    \
+    {                                                                                              \
+        static const struct options o = {.threads = 1, __VA_ARGS__};                               \
+        return function(&o, out, err);                                                             \
+    }
+#define CONVOLUTION(name, ...) USE_WITH(convolved, rc_conv_options, name, __VA_ARGS__)
+#define CONTACT(name, ...)                                                                         \
+    USE_WITH(solved, rc_problem, name, .estar = 1e9, .tol = 1e-5, __VA_ARGS__)
+#define STRESS(name, ...)                                                                          \
+    USE_WITH(stressed, rc_stress_options, name, .nu = 0.3,                                         \
+             .wanted = 1 << RC_SXX | 1 << RC_SXZ | 1 << RC_MISES | 1 << RC_S1, __VA_ARGS__)
+
+static enum rc_status
+finish_load(struct rc_solver *solver, struct rc_err *err)
+{
+    enum rc_status status;
+
+    while ((status = rc_solver_step(solver)) == RC_MORE)
+        continue;
+    return status == RC_OK ? RC_OK
+                           : rc_err_set(err, "the solution stops short: status %d", (int)status);
+}
+
+/* Solves a contact and, from there, one of a load a tenth higher. The fields, of n nodes each: the pressure
+ * of the second; gap, displacement and what has yielded of the first. */
+static enum rc_status
+solve_twice(const struct rc_shape *shape, const double *heights, const struct rc_problem *problem,
+            size_t n, double *const field[4], double *stiffness, struct rc_err *err)
+{
+    struct rc_solver *solver = rc_solver_new(shape, heights, problem, err);
+    struct rc_contact contact;
+    enum rc_status status = RC_FAIL;
+
+    if (solver == NULL || finish_load(solver, err) != RC_OK)
+        goto done;
+    rc_solver_result(solver, field[1], field[2], &contact);
+    if (rc_solver_plastic(solver, field[3], err) != RC_OK ||
+        rc_solver_stiffness(solver, stiffness, err) != RC_OK ||
+        rc_solver_set_load(solver, 1.1 * contact.load, 0, err) != RC_OK ||
+        rc_solver_warm_start(solver, contact.load, rc_solver_pressure(solver), err) != RC_OK ||
+        finish_load(solver, err) != RC_OK)
+        goto done;
+    memcpy(field[0], rc_solver_pressure(solver), n * sizeof *field[0]);
+    status = RC_OK;
+done:
+    rc_solver_free(solver);
+    return status;
+}
+
+/* Four stresses at two depths, of which the second remain. */
+static enum rc_status
+two_slices(const struct rc_shape *shape, const double *pressure,
+           const struct rc_stress_options *options, double *const field[4], struct rc_err *err)
+{
+    double *const slice[RC_STRESSES] = {
+        [RC_SXX] = field[0], [RC_SXZ] = field[1], [RC_MISES] = field[2], [RC_S1] = field[3]};
+    struct rc_stress *stress = rc_stress_new(shape, pressure, options, err);
+    enum rc_status status = RC_FAIL;
+
+    if (stress != NULL && (status = rc_stress_slice(stress, 1.5e-6, slice, err)) == RC_OK)
+        status = rc_stress_slice(stress, 3e-6, slice, err);
+    rc_stress_free(stress);
+    return status;
+}
+
+#endif
