@@ -40,7 +40,7 @@ tools/machine       | -                                        | -
 tools/cli           | tools/text/text.h tools/machine/machine.h | tools/text tools/machine
 tools/cli           | %public formats/rcg/rcg.h                | %physics formats/rcg
 tools/cli           | formats/core/core.h                      | formats/core
-tools/cli           | libcontact/contact_mpi.h                 |
+tools/cli           | libcontact/contact_mpi.h                 | libcontact/ranks
 tools/canvas        | libcontact/grid.h formats/core/core.h    | libcontact formats/core
 tools/plot          | libcontact/grid.h formats/core/core.h    | libcontact formats/core
 tools/plot          | tools/canvas/canvas.h                    | tools/canvas
@@ -125,6 +125,9 @@ call_faults() {
 # not declare it.
 private_faults() {
     declared "$RC_SOURCE/libcontact/contact.h" >public.txt
+    if grep -q '^U .* MPI_' "$1"; then
+        CC=mpicc declared "$RC_SOURCE/libcontact/contact_mpi.h" >>public.txt
+    fi
     awk '
         FILENAME == "public.txt" { public[$1] = 1; next }
         $1 == "D" { if ($2 ~ /^libcontact\//) where[$3] = 1; next }
