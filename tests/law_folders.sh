@@ -125,7 +125,7 @@ call_faults() {
 # not declare it.
 private_faults() {
     declared "$RC_SOURCE/libcontact/contact.h" >public.txt
-    if grep -q '^U .* MPI_' "$1"; then
+    if with_mpi; then
         CC=mpicc declared "$RC_SOURCE/libcontact/contact_mpi.h" >>public.txt
     fi
     awk '

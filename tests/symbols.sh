@@ -1,4 +1,4 @@
-# Sourced by the tests that look at names which the linker sees, after pipe.sh.
+# Sourced by the tests that look at the build and at names which the linker sees, after pipe.sh.
 
 # declared HEADER...: functions and objects rc_... that the headers declare, one a line.
 declared() {
@@ -38,4 +38,9 @@ sanitizers() {
     if grep -q __asan_init nm.txt; then
         echo "-fsanitize=address,undefined"
     fi
+}
+
+# with_mpi: whether this build knows MPI.
+with_mpi() {
+    grep -qs '^RC_MPI:BOOL=ON' "$(dirname "$RC_BIN")/CMakeCache.txt"
 }

@@ -8,6 +8,8 @@
 build=$(dirname "$RC_BIN")
 prefix="$scratch/my prefix"
 sanitizers=$(sanitizers "$build/libcontact/libcontact.a")
+shared_parts=$sanitizers
+with_mpi && shared_parts="$sanitizers mpi"
 unset PKG_CONFIG_PATH PKG_CONFIG_LIBDIR PKG_CONFIG_SYSROOT_DIR CMAKE_PREFIX_PATH DESTDIR LD_LIBRARY_PATH MANPATH
 
 # Folders that no prefix moves are the machine's: there a test does not install.
@@ -72,11 +74,11 @@ finds_hertz() {
 }
 
 # compiled PC PROGRAM OPTION...: by what pkg-config tells of the library whose file this is, in words for
-# a shell. A sanitizer's runtime is shared, so that what uses it is never wholly static.
+# a shell. A sanitizer's runtime is shared, and MPI often has no other library: what uses them is not wholly static.
 compiled() {
     local words program=$2 kind=${3-}
     words=$(PKG_CONFIG_PATH=$(dirname "$1") pkg-config --cflags --libs "${@:3}" libcontact) || return
-    case $kind$sanitizers in
+    case $kind$shared_parts in
     --static) words="-static $words" ;;
     --static*) words=${words/ -lcontact/ -l:libcontact.a} ;;
     esac
@@ -121,6 +123,34 @@ claim "  it runs" finds_hertz bare/with_contact
 refuses 1 'requested version "1\.0"' "another major version is refused" \
     "sed 's/libcontact 0.1 /libcontact 1.0 /' outside/CMakeLists.txt >newer.txt && mkdir newer && cp newer.txt newer/CMakeLists.txt &&
         cmake -S newer -B newer/build -DCMAKE_C_COMPILER='${CC:-cc}' -DCMAKE_PREFIX_PATH='$prefix'"
+
+# ---- on a communicator ----
+
+if with_mpi; then
+    cat >shared.c <<'END'
+#include <libcontact/contact_mpi.h>
+int
+main(int argc, char **argv)
+{
+    struct rc_shape shape = {48, 100, 1e-6, 1e-6};
+    struct rc_err err;
+    struct rc_ranks *ranks;
+    size_t first, n;
+
+    MPI_Init(&argc, &argv);
+    ranks = rc_ranks_new(MPI_COMM_SELF, &err);
+    rc_ranks_rows(ranks, &shape, &first, &n);
+    rc_ranks_free(ranks);
+    MPI_Finalize();
+    return first != 0 || n != 100;
+}
+END
+    for kind in '' --static; do
+        claim "by mpicc${kind:+, $kind}" bash -c "PKG_CONFIG_PATH='$(dirname "$pc")' pkg-config --cflags --libs $kind libcontact >words.txt &&
+            sed -i '${kind:+s/ -lcontact/ -l:libcontact.a/}' words.txt && eval mpicc -std=c17 $sanitizers -o on_ranks shared.c \"\$(cat words.txt)\""
+        claim "  it runs" env LD_LIBRARY_PATH="$libdir" OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 ./on_ranks
+    done
+fi
 
 # ---- other layouts ----
 

@@ -1,6 +1,7 @@
 # rc-solve minds what lies around the solution: a signal while it waits for its input, and the keys
 # of an earlier solution.
 . "$(dirname "$0")/../pipe.sh"
+. "$RC_SOURCE/tests/symbols.sh"
 
 rc-synth sphere --nx 33 --ny 29 --dx 20um --radius 7.5mm -o ball.rcg
 
@@ -101,7 +102,7 @@ claim "of all frames one map at a time takes memory, and of the pressure none" b
     rc-solve --quiet --periodic --load 1N --estar 100GPa --tol 0.1 --report one.json --output pressure large.rcg -o one.rcg'
 claim "that is 8 MiB here" [ "$(($(field peak_memory all.json) - $(field peak_memory one.json)))" -lt $((12 << 20)) ]
 
-if ! grep -aq 'libmpi\.' "$(command -v rc-solve)"; then # it is linked with none
+if ! with_mpi; then
     export OMPI_COMM_WORLD_SIZE=2
     several="rc-solve --quiet --load 10N --estar 114GPa ball.rcg"
     claim "a build without MPI says that two of it are two runs" \
