@@ -33,6 +33,7 @@ emulated  pipe_library      starts a program that it links itself, which needs t
 emulated  pipe_calls        watches the calls by seccomp's notifications, which the emulator has not
 emulated  truth_memory_room bounds of address space, which the emulator does not set
 emulated  pipe_(cost|kills|memory|sizes) bounds of processor time and of memory, which are the emulator's
+emulated  pipe_help         an example of rc-cost(1) bounds its time
 emulated  law_memory_estimates bounds of memory, of which the emulator has its own
 emulated  format_hdf5       its file of 128 MiB ends by the bound of processor time, before that of memory
 emulated  format_hostile    more than 600 s on two cores that were shared
