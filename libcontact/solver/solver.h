@@ -252,7 +252,7 @@ struct rc_solver *rc_solver_coarse(const struct rc_solver *fine, const struct rc
 
 /* ---- load_search.c ---- */
 
-/* RC_FAIL when there is no solution under this load: more than the hardness carries on the area of the map. */
+/* RC_FAIL when there is no solution under this load: more than the hardness carries on the map. */
 enum rc_status rc_load_check(double load, double hardness, double area, struct rc_err *err);
 /* Sets the load and what follows from it; RC_FAIL when there is no solution. */
 enum rc_status rc_load_set(struct rc_solver *solver, double load, struct rc_err *err);

@@ -18,14 +18,13 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* Columns from .. to-1 of a row. */
+/* Columns from .. to-1 of a row. Its parent is a run of the same patch, none with a greater index; itself, if
+ * it is the patch's first. */
 struct run {
     size_t from, to;
-    size_t
-        parent;  /* a run of the same patch, none with a greater index; itself: the patch's first */
-    size_t ends; /* edges between contact and none at its ends: of length dy                      */
-    size_t
-        sides; /* and along it: of length dx                                                    */
+    size_t parent;
+    size_t ends;  /* edges between contact and none at its ends: of length dy */
+    size_t sides; /* and along it: of length dx                               */
 };
 
 /* The rows that are looked at. */
@@ -531,8 +530,8 @@ enum {
     NODES_A_PATCH = 256
 };
 
-/* Of a rank, beside its rows: two of others, and twice two of places in rows; the parts of all, beside its own or
- * sorted, which takes as much again. */
+/* Of a rank, beside its rows: two of others, and twice two of places in rows; the parts of all, beside its own
+ * or sorted, which takes as much again. */
 static size_t
 shared_memory(const struct rc_shape *s, size_t runs)
 {

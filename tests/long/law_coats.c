@@ -20,7 +20,7 @@ struct row {
     double contact, mean;    /* fraction; the pressure over E_s that makes it         */
     size_t most;             /* iterations on the finest grid to a true error of 1e-4 */
 };
-/* What a prototype took at most; of E_1/E_s = 0.1, t/dx = 4, 2 % contact it took 4, one less than it takes here. */
+/* What a prototype took at most; of E_1/E_s = 0.1, t/dx = 4, 2 % contact it took 4, one less than here. */
 /* clang-format off */
 static const struct row rows[] = {
     {0.01, 1, 0.02, 8.077e-05, 3}, {0.01, 4, 0.02, 2.589e-05, 5},

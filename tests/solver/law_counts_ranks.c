@@ -1,5 +1,5 @@
-/* MPI counts in ints: what one rank cannot count is refused, on all ranks alike, and what can be sent in pieces is.
- * No map is made for it: messages are noted, not sent. */
+/* MPI counts in ints: what one rank cannot count is refused, on all ranks alike, and what can be sent in pieces
+ * is. No map is made for it: messages are noted, not sent. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
