@@ -15,7 +15,7 @@ mises_error(struct rc_shape shape, struct hertz exact, const double *p, const ch
 {
     double *s[RC_STRESSES] = {NULL}, *truth, z = mises_depth(exact, paper_nu, friction), error;
     size_t n = shape.nx * shape.ny;
-    struct rc_stress_options o = {.nu = paper_nu,
+    struct rc_stress_options o = {.body.nu = paper_nu,
                                   .mu = friction,
                                   .wanted = 1u << RC_MISES,
                                   .engine = engine,
@@ -60,7 +60,7 @@ measured(size_t m, bool as_they_did)
     struct hertz exact = hertz(paper_load, paper_radius, paper_estar);
     double step = 2.1 * exact.a / (double)m, *h = map_new(m * m);
     struct rc_shape shape = {m, m, step, step};
-    struct rc_problem problem = {.estar = paper_estar,
+    struct rc_problem problem = {.pair.estar = paper_estar,
                                  .load = paper_load,
                                  .tol = 0.01 * pow((double)m, -1.5),
                                  .threads = threads};

@@ -47,7 +47,7 @@ in_middle(size_t m, double step, const double *rough, enum rc_boundary boundary,
 {
     struct rc_shape shape = {m, m, step, step};
     struct rc_problem problem = {.boundary = boundary,
-                                 .estar = paper_estar,
+                                 .pair.estar = paper_estar,
                                  .load = paper_load,
                                  .engine = engine,
                                  .tol = tol,

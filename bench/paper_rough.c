@@ -26,7 +26,7 @@ rough_sphere(struct rc_shape shape, struct rc_problem *problem)
     for (size_t k = 0; k < shape.nx * shape.ny; k++)
         h[k] += rough[(top + k / shape.nx) * whole.nx + left + k % shape.nx];
     free(rough);
-    *problem = (struct rc_problem){.estar = paper_estar,
+    *problem = (struct rc_problem){.pair.estar = paper_estar,
                                    .hardness = paper_hardness,
                                    .threads = threads,
                                    .load = paper_load * area /
@@ -209,7 +209,7 @@ stresses(void)
         "\nstresses: %d x %d, %d depths, six components and Mises, %zu threads (theirs: 4.3 h)\n",
         PAPER_NX, PAPER_NY, DEPTHS, threads);
     for (int run = 0; run < 3; run++) {
-        struct rc_stress_options o = {.nu = paper_nu,
+        struct rc_stress_options o = {.body.nu = paper_nu,
                                       .wanted = (2u << RC_MISES) - 1,
                                       .threads = threads,
                                       .mu = run == 1 ? 0.15 : 0,

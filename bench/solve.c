@@ -67,7 +67,7 @@ make(const struct surface *what, struct rc_shape shape, double *h)
                                       .rolloff = side / 8,
                                       .seed = 5};
     struct rc_problem problem = {
-        .boundary = what->boundary, .estar = estar, .tol = 1e-4, .threads = threads};
+        .boundary = what->boundary, .pair.estar = estar, .tol = 1e-4, .threads = threads};
     struct rc_err err;
 
     must_be(rc_synth_selfaffine(&shape, &roughness, h, &err), &err);
@@ -202,7 +202,7 @@ make_periodic(const struct roughness *what, double pressure, struct rc_shape sha
 
     must_be(rc_synth_selfaffine(&shape, &roughness, h, &err), &err);
     return (struct rc_problem){.boundary = RC_PERIODIC,
-                               .estar = estar,
+                               .pair.estar = estar,
                                .load = pressure * estar * slope * side * side,
                                .tol = wanted,
                                .threads = threads};
@@ -316,7 +316,8 @@ whole(void)
                 struct rc_conv_options options = {
                     .boundary = RC_PERIODIC, .engine = "fft64", .threads = threads};
                 struct rc_err err;
-                struct rc_conv *conv = must(rc_conv_new(&shape, 1e9, &options, &err));
+                struct rc_conv *conv =
+                    must(rc_conv_new(&shape, &(struct rc_pair){.estar = 1e9}, &options, &err));
                 struct conv_work convolution = {conv, h, u};
                 struct work work[] = {{solve_run, &one}, {conv_run, &convolution}};
 

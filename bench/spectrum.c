@@ -41,8 +41,10 @@ choose(const struct row *row, struct rc_shape s, unsigned char *w)
     double *h = must(malloc(n * sizeof *h)), side = (double)s.nx;
     struct rc_selfaffine what = {
         .hurst = 0.8, .rms_slope = slope, .short_cut = 8, .rolloff = side / 8, .seed = 5};
-    struct rc_problem problem = {
-        .boundary = row->boundary, .estar = 1, .tol = 1e-5, .load = row->mean * slope * (double)n};
+    struct rc_problem problem = {.boundary = row->boundary,
+                                 .pair.estar = 1,
+                                 .tol = 1e-5,
+                                 .load = row->mean * slope * (double)n};
     struct rc_solver *solver;
     struct rc_err err;
 
@@ -185,7 +187,8 @@ spectrum(const struct row *row, size_t m)
     size_t n = m * m;
     unsigned char *w = must(malloc(n));
     struct operators o = {.n = n, .w = w, .count = choose(row, s, w)};
-    struct rc_operator_options options = {.boundary = row->boundary, .estar = 1};
+    struct rc_operator_options options = {.boundary = row->boundary,
+                                          .pair = &(struct rc_pair){.estar = 1}};
     struct rc_operator *op;
     double least[2], most[2];
     struct rc_err err;

@@ -179,7 +179,7 @@ slice_row(const struct rc_shape *shape, const double *p, const char *name,
           struct write_work *bytes)
 {
     const struct rc_stress_options o = {
-        .boundary = boundary, .nu = 0.3, .wanted = (2u << RC_MISES) - 1, .threads = threads};
+        .boundary = boundary, .body.nu = 0.3, .wanted = (2u << RC_MISES) - 1, .threads = threads};
     size_t n = shape->nx * shape->ny;
     struct rc_err err;
     struct rc_fft *fft = must(rc_fft_new(shape, boundary, RC_DOUBLE, threads, &err));
@@ -318,7 +318,8 @@ convolution_seconds(const struct rc_shape *shape, const double *p, double *u)
 {
     struct rc_conv_options o = {.boundary = RC_FREE, .engine = "fft", .threads = threads};
     struct rc_err err;
-    struct conv_work conv = {must(rc_conv_new(shape, 1, &o, &err)), p, u};
+    struct conv_work conv = {must(rc_conv_new(shape, &(struct rc_pair){.estar = 1}, &o, &err)), p,
+                             u};
     double least;
 
     take_turns(1, &(struct work){conv_run, &conv}, 5, 0.3, &least);
@@ -355,7 +356,7 @@ sizes(void)
         for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
             struct rc_stress_options o = row[k].o;
             double t;
-            o.nu = 0.3;
+            o.body.nu = 0.3;
             o.threads = threads;
             t = slice_seconds(&shape, p, &o, row[k].depth * shape.dx, &maps, m > 1024 ? 3 : 6);
             printf("    %-28s %8.2f ms  %5.2f\n", row[k].what, 1e3 * t, t / conv);
@@ -377,7 +378,7 @@ mlms(void)
         struct rc_shape shape;
         double *p = disc(m, &shape);
         struct maps a = maps_new(m * m), b = maps_new(m * m);
-        struct rc_stress_options o = {.nu = 0.3, .wanted = 1u << RC_SZZ, .threads = threads};
+        struct rc_stress_options o = {.body.nu = 0.3, .wanted = 1u << RC_SZZ, .threads = threads};
         printf("  %4zu^2: fft %.1f ms", m, 1e3 * slice_seconds(&shape, p, &o, 5 * shape.dx, &a, 3));
         o.engine = "mlms";
         for (double tol = 1e-3; tol > 1e-8; tol /= 100) {
@@ -407,7 +408,7 @@ layers(void)
     static const struct rc_layer one[] = {{0.03, 4e11, 0.2}}, three[] = {{0.01, 4e11, 0.2},
                                                                          {0.01, 2e10, 0.45},
                                                                          {0.01, 9e10, 0.3}};
-    static const struct rc_coating coats[] = {{1, one, 2e11, 0.3, 0}, {3, three, 2e11, 0.3, 0}};
+    static const struct rc_body coats[] = {{1, one, 2e11, 0.3, 0}, {3, three, 2e11, 0.3, 0}};
     struct rc_shape shape;
     double *p = disc(M, &shape);
     struct maps m = maps_new(M * M);
@@ -417,7 +418,7 @@ layers(void)
            M);
     for (int k = 0; k < 8; k++) {
         struct rc_stress_options o = {.boundary = k & 4 ? RC_PERIODIC : RC_FREE,
-                                      .nu = 0.3,
+                                      .body.nu = 0.3,
                                       .mu = k & 2 ? 0.3 : 0,
                                       .wanted = (2u << RC_MISES) - 1,
                                       .section = k & 1 ? 'y' : 0,
@@ -425,7 +426,7 @@ layers(void)
         printf("%-9s%-9s%-9s%.4f", k & 4 ? "periodic" : "free", k & 2 ? "friction" : "",
                k & 1 ? "section" : "slice", slice_seconds(&shape, p, &o, 0.015, &m, 5));
         for (int body = 0; body < 2; body++) {
-            o.coating = &coats[body];
+            o.body = coats[body];
             printf("  %.4f %.4f", slice_seconds(&shape, p, &o, 0.015, &m, 5),
                    slice_seconds(&shape, p, &o, 0.05, &m, 5));
         }

@@ -11,7 +11,7 @@
  *
  * In a struct of options 0, or NULL, is the default of every field, so that
  *
- *     struct rc_problem problem = {.estar = 114e9, .load = 240};
+ *     struct rc_problem problem = {.pair.estar = 114e9, .load = 240};
  *
  * is whole, and stays so when fields are added. Figures that are not known are NAN. Arrays stay the
  * caller's; what has to outlive a call is copied, except where a comment says that the caller keeps it.
@@ -417,22 +417,32 @@ RC_API void rc_psd_free(struct rc_psd *psd); /* NULL is allowed */
 /* Bytes that making it takes beside h and map. */
 RC_API size_t rc_psd_memory(const struct rc_shape *shape);
 
-/* ---- convolution: conv.c ---- */
+/* ---- bodies ---- */
 
-/* Body 1 when it is coated: bonded isotropic layers, the top first, on a half-space. */
+/* A layer of isotropic material, bonded to what is below it. */
 struct rc_layer {
     double thickness; /* m, > 0                                                                */
     double e, nu;     /* Young's modulus, Pa, > 0; Poisson's ratio, above -1 and at most 0.5   */
 };
-struct rc_coating {
-    size_t layers; /* at least 1                                                              */
-    const struct rc_layer *layer;
-    double e, nu;      /* of the half-space below; e INFINITY: rigid                          */
-    double compliance; /* (1 - nu2^2)/E2 of the other body, a half-space, 1/Pa; 0: rigid      */
+/* An elastic half-space, bare or under layers. */
+struct rc_body {
+    double e, nu;  /* of the half-space; e INFINITY: rigid                                      */
+    size_t layers; /* 0: bare                                                                   */
+    const struct rc_layer *layer; /* the top one first                                          */
 };
-/* Material at a depth (m), 0 the top layer, `layers` the half-space below: an interface belongs to the one
+/* Material at a depth (m), 0 the top one, `layers` the half-space: an interface belongs to the material
  * above it. */
-RC_API size_t rc_coating_material(const struct rc_coating *coating, double depth);
+RC_API size_t rc_body_material(const struct rc_body *body, double depth);
+
+/* The bodies that touch: both, or two bare ones of which only the composite modulus is known. */
+struct rc_pair {
+    struct rc_body one; /* the one that is analysed                                             */
+    struct rc_body two; /* e 0: rigid                                                           */
+    double estar; /* Pa, 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, where `one` and `two` are left
+                           out; 0: it follows from them                                         */
+};
+
+/* ---- convolution: conv.c ---- */
 
 struct rc_conv_options {
     enum rc_boundary boundary;
@@ -443,13 +453,13 @@ struct rc_conv_options {
     size_t memory;  /* bytes that "auto" may take; 0: any                                    */
     double loaded;  /* fraction of nodes that carry pressure, as "auto" may expect; 0: unknown */
     size_t threads; /* 0: all                                                                */
-    const struct rc_coating *coating; /* instead of the modulus; NULL: one material             */
     const struct rc_ranks *ranks; /* processes that share the map; NULL: none                   */
 };
 
-/* u = K p: displacement in metres of the composite modulus estar (Pa) under pressure p (Pa). With
- * RC_PERIODIC the mean of u is 0: the mean pressure moves a periodic half-space without limit. */
-RC_API struct rc_conv *rc_conv_new(const struct rc_shape *shape, double estar,
+/* u = K p: displacement of both bodies together (m) under the pressure p (Pa). With RC_PERIODIC the mean
+ * of u is 0: the mean pressure moves a periodic half-space without limit. NULL when a number of the bodies
+ * makes no sense, there is no such engine, none for the boundary or the ranks, or memory is short. */
+RC_API struct rc_conv *rc_conv_new(const struct rc_shape *shape, const struct rc_pair *pair,
                                    const struct rc_conv_options *options, struct rc_err *err);
 /* p and u do not overlap. */
 RC_API void rc_conv_apply(struct rc_conv *conv, const double *p, double *u);
@@ -473,7 +483,7 @@ RC_API double rc_conv_seconds(const struct rc_shape *shape, const struct rc_conv
 
 struct rc_problem {
     enum rc_boundary boundary;
-    double estar;        /* composite modulus, Pa, > 0                                            */
+    struct rc_pair pair; /* the bodies; layers are copied                                        */
     double load;         /* total normal force, N, > 0; with an approach a guess, or 0            */
     double approach;     /* m, > 0: the load is sought that brings the bodies so far together from
                            first touch; 0: the load is given                                     */
@@ -486,8 +496,6 @@ struct rc_problem {
     size_t max_iterations; /* 0: 100 + 10 sqrt(nx ny)                                            */
     size_t threads;      /* 0: all                                                                */
     bool discretization; /* estimate what the grid leaves out: a coarser one is solved as well   */
-    const struct rc_coating
-        *coating;                 /* instead of estar; NULL: one material                      */
     const struct rc_ranks *ranks; /* processes that share the map; NULL: none                   */
 };
 
@@ -625,7 +633,7 @@ RC_API extern const char *const rc_component_names[RC_STRESSES];
 
 struct rc_stress_options {
     enum rc_boundary boundary;
-    double nu;          /* Poisson's ratio, above -1 and at most 0.5; of no use with a coating    */
+    struct rc_body body; /* under the pressure; of a bare one e is of no use. Layers are copied   */
     double mu;          /* the surface also carries the traction mu p along +x                    */
     unsigned wanted;    /* bits of enum rc_component                                              */
     char section;       /* 'x' or 'y': only the plane x = at, or y = at; 0: maps                  */
@@ -633,7 +641,6 @@ struct rc_stress_options {
     const char *engine; /* a row of engines.list, or NULL or "auto"                               */
     double tol;         /* asked error of a component over the largest pressure; 0: rounding      */
     size_t threads;     /* 0: all                                                                 */
-    const struct rc_coating *coating; /* body 1 is coated; NULL: one material               */
     const struct rc_ranks *ranks; /* processes that share the map; NULL: none                   */
     /* What only rc_stress_memory uses: */
     const double *depth; /* m: those that will be asked for,                                      */
@@ -658,7 +665,7 @@ struct rc_stress_counts {
 /* Stresses under the pressure p (Pa; kept by the caller, who does not change it) on a half-space.
  * Free: the pressure is constant in each cell. Periodic: it is band-limited, and its mean gives
  * szz = -p, sxz = -mu p and sxx = syy = -(1 + 2 nu) p / 2 at every depth, what a patch that grows
- * without end gives; in a coated body it is that of the half-space below, whose strains along the
+ * without end gives; in a layered body it is that of the half-space below, whose strains along the
  * surface the layers share. NULL when an option is out of bounds, there is no such engine or none for
  * the boundary or the section, or memory is short. */
 RC_API struct rc_stress *rc_stress_new(const struct rc_shape *shape, const double *p,
@@ -684,19 +691,14 @@ RC_API size_t rc_stress_memory(const struct rc_shape *shape,
 /* Depths from 0 down at which to look at the stresses under this pressure, *n of them in an array
  * that the caller frees: close together where its short waves are felt, farther apart below, down
  * to three contact radii (free) or to where the waves have died to 1 % (periodic). Successive
- * depths are a quarter of the RMS wave's 1/q apart. In a coated body, coating not NULL, they are at most
- * a quarter of the layer apart, and each interface has two, itself and one a millionth deeper; none is in
- * a rigid half-space. RC_FAIL, and NULL for the depths, when memory is short. */
+ * depths are a quarter of the RMS wave's 1/q apart. In a layer they are at most a quarter of it apart, and
+ * each interface has two, itself and one a millionth deeper; none is in a rigid half-space. ranks: they
+ * share the map, of which p holds the rows held here; NULL: none. RC_FAIL, and NULL for the depths, when
+ * memory is short. */
 RC_API enum rc_status rc_stress_depths(const struct rc_shape *shape, const double *p,
-                                       enum rc_boundary boundary, const struct rc_coating *coating,
-                                       double **depths, size_t *n, struct rc_err *err);
-
-/* The same of a map that ranks share, of which p holds the rows held here. */
-RC_API enum rc_status rc_stress_depths_on(const struct rc_ranks *ranks,
-                                          const struct rc_shape *shape, const double *p,
-                                          enum rc_boundary boundary,
-                                          const struct rc_coating *coating, double **depths,
-                                          size_t *n, struct rc_err *err);
+                                       enum rc_boundary boundary, const struct rc_body *body,
+                                       const struct rc_ranks *ranks, double **depths, size_t *n,
+                                       struct rc_err *err);
 
 /* Place of the value of largest size; the first of equals. n > 0. */
 RC_API size_t rc_largest(size_t n, const double *v);

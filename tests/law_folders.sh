@@ -19,7 +19,7 @@ libcontact/transform | %base                                   | libcontact
 libcontact/layers   | %base                                    | libcontact
 libcontact/operator | %base %ranks                             | libcontact libcontact/ranks
 libcontact/operator | libcontact/transform/transform.h libcontact/layers/layers.h | libcontact/transform libcontact/layers
-libcontact/solver   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator
+libcontact/solver   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator libcontact/layers
 libcontact/stress   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator
 libcontact/stress   |                                          | libcontact/transform libcontact/layers
 libcontact/surface  | %base %ranks                             | libcontact libcontact/ranks
@@ -53,7 +53,7 @@ tools/stress        | %public tools/cli/cli.h                  | %physics %cli
 tools/pick          | %public tools/cli/cli.h                  | %physics %cli
 tools/synth         | %public tools/cli/cli.h                  | %physics %cli
 tools/info          | %public tools/cli/cli.h                  | %physics %cli formats/rcg
-tools/render        | libcontact/grid.h tools/cli/cli.h        | libcontact %cli
+tools/render        | libcontact/grid.h tools/cli/cli.h        | libcontact libcontact/layers %cli
 tools/render        | tools/plot/plot.h                        | %plot
 tools               | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli %plot
 tools               | tools/cost/cost.h tools/solve/solve.h    | tools/cost tools/solve

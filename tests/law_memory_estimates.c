@@ -41,7 +41,7 @@ solve(const struct work *w, const double *h, const double *p)
 {
     struct rc_problem problem = {.boundary = w->boundary,
                                  .engine = w->engine,
-                                 .estar = 3e9,
+                                 .pair.estar = 3e9,
                                  .load = 1e7 * (double)(w->shape->nx * w->shape->ny) *
                                          w->shape->dx * w->shape->dy,
                                  .tol = 1e-2};
@@ -64,7 +64,7 @@ sum(const struct work *w, const double *h, const double *p)
 {
     const struct rc_conv_options options = {.boundary = w->boundary, .engine = w->engine};
     size_t bytes = rc_conv_memory(w->shape, &options) + nodes_of(w) * sizeof(double);
-    struct rc_conv *conv = rc_conv_new(w->shape, 3e9, &options, NULL);
+    struct rc_conv *conv = rc_conv_new(w->shape, &(struct rc_pair){.estar = 3e9}, &options, NULL);
     double *u = malloc(nodes_of(w) * sizeof *u);
 
     (void)h;
@@ -82,7 +82,7 @@ stress(const struct work *w, const double *h, const double *p)
 {
     const double depth = 5e-6;
     const struct rc_stress_options options = {.boundary = w->boundary,
-                                              .nu = 0.3,
+                                              .body.nu = 0.3,
                                               .wanted = 1u << RC_MISES,
                                               .engine = w->engine,
                                               .depth = &depth,

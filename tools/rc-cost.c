@@ -97,7 +97,7 @@ check_arguments(struct run *run)
         tool_die(t, EXIT_USAGE,
                  "--budget asks for the best in a time, --error for the quickest of an accuracy: "
                  "give one");
-    if (args.physics.coating.layers > 0 && tool_given(t, "nu"))
+    if (args.physics.pair.one.layers > 0 && tool_given(t, "nu"))
         tool_die(t, EXIT_USAGE, "--nu: each layer has its own Poisson's ratio: leave it out");
     if (isnan(args.nu))
         args.nu = args.physics.nu1;

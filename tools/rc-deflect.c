@@ -57,37 +57,21 @@ boundary(struct tool *t, const struct rc_grid *p)
     return periodic ? RC_PERIODIC : RC_FREE;
 }
 
-static double
-modulus(struct tool *t, const struct rc_grid *p)
+/* The bodies that the pressure was solved for; of bare ones --estar says what they are, if it is given. */
+static struct rc_pair
+pair_of(struct tool *t, const struct rc_grid *p, struct layers *layers)
 {
-    double estar;
-
-    if (!isnan(args.estar))
-        return args.estar;
-    if (!rc_grid_number(p, "estar", &estar) || !(estar > 0))
-        tool_die_at(t, p, EXIT_USAGE, "E* is not in the stream: give it with --estar");
-    return estar;
-}
-
-/* The body of a pressure that was solved on layers; its E* is that of the substrate and the other body,
- * which so has what is left of it. */
-static const struct rc_coating *
-coating_of(struct tool *t, const struct rc_grid *p, double estar, struct coating *c)
-{
-    struct rc_coating *body = &c->coating;
+    struct rc_pair pair = {.estar = args.estar};
     struct rc_err err;
 
-    if (coating_read(p, c, &err) != RC_OK)
+    if (layers_read(p, layers, &err) != RC_OK)
         tool_die_at(t, p, EXIT_IMPOSSIBLE, "%s", err.text);
-    if (c->text == NULL)
-        return NULL;
-    if (!isnan(args.estar))
+    if (layers->text != NULL && !isnan(args.estar))
         tool_die_at(t, p, EXIT_IMPOSSIBLE,
                     "it was solved on layers, which say how stiff they are: leave out --estar");
-    body->compliance = 1 / estar - (isinf(body->e) ? 0 : (1 - body->nu * body->nu) / body->e);
-    if (body->compliance < 1e-12 / estar) /* rounding */
-        body->compliance = 0;
-    return body;
+    if (isnan(args.estar) && bodies_read(p, layers, &pair, &err) != RC_OK)
+        tool_die_at(t, p, layers->text == NULL ? EXIT_USAGE : EXIT_IMPOSSIBLE, "%s", err.text);
+    return pair;
 }
 
 static double
@@ -156,30 +140,30 @@ do_case(struct tool *t, const struct rc_grid *p)
                                       .loaded = loaded_fraction(t, p),
                                       .threads = t->threads,
                                       .ranks = ranks_of(t)};
-    double estar = modulus(t, p);
-    struct coating coating;
+    struct layers layers;
+    struct rc_pair pair = pair_of(t, p, &layers);
     struct rc_conv *conv;
     struct rc_grid *u;
     struct rc_err err;
 
-    options.coating = coating_of(t, p, estar, &coating);
     tool_demand_finite(t, p, "a pressure map has none; make it again");
     demand_memory(t, p, &options);
-    conv = rc_conv_new(&shape, estar, &options, &err);
+    conv = rc_conv_new(&shape, &pair, &options, &err);
     if (conv == NULL)
         tool_die_at(t, p, EXIT_IMPOSSIBLE, "%s", err.text);
     tool_code_there(t, code_for(rc_conv_engine(conv), &options));
     tool_note(t, "summed by %s, because %s; error at most %.1e of the sum of |K| |p|",
               rc_conv_engine(conv), rc_conv_reason(conv), rc_conv_error(conv));
     u = rc_grid_like(p, "displacement", "m", &err);
-    if (u == NULL || rc_grid_set_number(u, "estar", estar, &err) != RC_OK ||
+    if (u == NULL ||
+        (pair.estar > 0 && rc_grid_set_number(u, "estar", pair.estar, &err) != RC_OK) ||
         rc_grid_set(u, "boundary", options.boundary == RC_PERIODIC ? "periodic" : "free", &err) !=
             RC_OK ||
         rc_grid_history(u, tool_history(t), &err) != RC_OK)
         tool_die_at(t, p, EXIT_IMPOSSIBLE, "%s", err.text);
     rc_conv_apply(conv, p->v, u->v);
     rc_conv_free(conv);
-    coating_free(&coating);
+    layers_free(&layers);
     tool_write(t, u);
     rc_grid_free(u);
 }

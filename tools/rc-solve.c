@@ -137,14 +137,11 @@ set_keys(struct run *run, struct rc_grid *g, const struct rc_contact *c)
 
     if (rc_grid_set(g, "boundary", args.physics.periodic ? "periodic" : "free", &err) != RC_OK ||
         rc_grid_set(g, "converged", c->converged ? "yes" : "no", &err) != RC_OK ||
-        coating_set(g, args.physics.coating.layers > 0 ? &args.physics.coating : NULL, &err) !=
-            RC_OK ||
+        bodies_set(g, &args.physics.pair, &err) != RC_OK ||
         rc_grid_history(g, tool_history(&run->t), &err) != RC_OK)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     if (run->steps->n > 1)
         set_number(run, g, "case", (double)run->number);
-    set_number(run, g, "estar", args.physics.estar);
-    set_number(run, g, "nu", args.physics.nu1);
     /* the load asked for and the one reached are the same but for rounding */
     set_number(run, g, "load",
                args.physics.load.n > 0 ? problem_of(run, g, run->step).load : c->load);

@@ -63,7 +63,7 @@ static const struct tool_info info = {
 struct run {
     struct tool t;
     struct rc_stress_options options; /* of the case */
-    struct coating layers;            /* of the case */
+    struct layers layers;             /* of the case */
     struct numbers depths;            /* of the case */
     struct rc_grid *frame[RC_STRESSES];
     struct stress_report report;
@@ -176,14 +176,15 @@ set_material(struct run *run, const struct rc_grid *p)
 {
     struct rc_err err;
 
-    if (coating_read(p, &run->layers, &err) != RC_OK)
+    if (layers_read(p, &run->layers, &err) != RC_OK)
         tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
     if (run->layers.text != NULL && !isnan(args.nu))
         tool_die_at(&run->t, p, EXIT_IMPOSSIBLE,
                     "its body is coated and each material has its own Poisson's ratio: --nu "
                     "contradicts its layers, leave it out");
-    run->options.coating = run->layers.text != NULL ? &run->layers.coating : NULL;
-    run->options.nu = run->layers.text != NULL ? NAN : poisson(run, p);
+    run->options.body = run->layers.body;
+    if (run->layers.text == NULL)
+        run->options.body.nu = poisson(run, p);
 }
 
 static void
@@ -213,10 +214,10 @@ set_options(struct run *run, const struct rc_grid *p)
 static void
 refuse_rigid(struct run *run, const struct rc_grid *p)
 {
-    const struct rc_stress_options *o = &run->options;
+    const struct rc_body *body = &run->options.body;
 
-    for (size_t k = 0; o->coating != NULL && isinf(o->coating->e) && k < run->depths.n; k++)
-        if (stress_material(o, run->depths.v[k]) == o->coating->layers)
+    for (size_t k = 0; isinf(body->e) && k < run->depths.n; k++)
+        if (rc_body_material(body, run->depths.v[k]) == body->layers)
             tool_die_at(&run->t, p, EXIT_IMPOSSIBLE,
                         "depth %g m is inside its rigid substrate, where stresses are unknown: "
                         "give depths down to its face",
@@ -231,8 +232,8 @@ set_depths(struct run *run, const struct rc_grid *p)
 
     run->depths = args.depths;
     if (args.depths.n == 0 &&
-        rc_stress_depths_on(run->options.ranks, &shape, p->v, run->options.boundary,
-                            run->options.coating, &run->depths.v, &run->depths.n, &err) != RC_OK)
+        rc_stress_depths(&shape, p->v, run->options.boundary, &run->options.body,
+                         run->options.ranks, &run->depths.v, &run->depths.n, &err) != RC_OK)
         tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
     refuse_rigid(run, p);
     if (args.depths.n == 0)
@@ -287,8 +288,8 @@ set_keys(struct run *run, const struct rc_grid *p, struct rc_grid *g)
     struct rc_err err;
 
     if (rc_grid_set(g, "nu", NULL, &err) != RC_OK ||
-        (run->options.coating == NULL &&
-         rc_grid_set_number(g, "nu", run->options.nu, &err) != RC_OK) ||
+        (run->layers.text == NULL &&
+         rc_grid_set_number(g, "nu", run->options.body.nu, &err) != RC_OK) ||
         rc_grid_set(g, "boundary", run->options.boundary == RC_PERIODIC ? "periodic" : "free",
                     &err) != RC_OK ||
         rc_grid_set(g, "mu", NULL, &err) != RC_OK ||
@@ -367,13 +368,13 @@ memory_for(const struct run *run, const struct rc_grid *p)
 static enum rc_status
 set_place(const struct run *run, struct rc_grid *g, double depth, struct rc_err *err)
 {
-    const struct rc_stress_options *o = &run->options;
+    const struct rc_body *body = &run->options.body;
 
     if (rc_grid_set_number(g, "depth", depth, err) != RC_OK)
         return RC_FAIL;
-    if (o->coating == NULL)
+    if (body->layers == 0)
         return RC_OK;
-    return rc_grid_set_number(g, "material", (double)stress_material(o, depth) + 1, err);
+    return rc_grid_set_number(g, "material", (double)rc_body_material(body, depth) + 1, err);
 }
 
 static void
@@ -464,7 +465,7 @@ main(int argc, char **argv)
             do_case(&run, p);
         if (run.depths.v != args.depths.v)
             free(run.depths.v);
-        coating_free(&run.layers);
+        layers_free(&run.layers);
         rc_grid_free(p);
     }
     report_close(&run.out);

@@ -80,7 +80,7 @@ main(int argc, char **argv)
     for (int single = 0; single < 2; single++) {
         struct rc_conv *conv;
         o.tol = single ? 1e-5 : 0;
-        conv = rc_conv_new(&shape, 1e11, &o, &err);
+        conv = rc_conv_new(&shape, &(struct rc_pair){.estar = 1e11}, &o, &err);
         if (conv == NULL) {
             fprintf(stderr, "bench-ranks: %s\n", err.text);
             MPI_Abort(MPI_COMM_WORLD, 1);

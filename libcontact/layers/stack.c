@@ -164,12 +164,12 @@ rc_stack_medium(const struct rc_stack *s, double depth)
 }
 
 size_t
-rc_coating_material(const struct rc_coating *c, double depth)
+rc_body_material(const struct rc_body *b, double depth)
 {
     double bottom = 0;
     size_t k = 0;
 
-    while (k < c->layers && !within(depth, bottom += c->layer[k].thickness))
+    while (k < b->layers && !within(depth, bottom += b->layer[k].thickness))
         k++;
     return k;
 }
@@ -396,7 +396,7 @@ tables(struct rc_stack *s)
     return s->far_table == NULL || s->response_table == NULL ? RC_FAIL : RC_OK;
 }
 
-/* ---- made of a coating ---- */
+/* ---- bodies ---- */
 
 static enum rc_status
 check_material(const char *what, double e, double nu, bool rigid, struct rc_err *err)
@@ -410,25 +410,62 @@ check_material(const char *what, double e, double nu, bool rigid, struct rc_err 
     return RC_OK;
 }
 
-static enum rc_status
-check(const struct rc_coating *c, struct rc_err *err)
+enum rc_status
+rc_body_check(const struct rc_body *b, struct rc_err *err)
 {
     char what[64];
 
-    if (c->layers == 0)
-        return rc_err_set(err, "a coating without a layer");
-    for (size_t k = 0; k < c->layers; k++) {
+    for (size_t k = 0; k < b->layers; k++) {
         snprintf(what, sizeof what, "layer %zu", k + 1);
-        if (!(c->layer[k].thickness > 0) || isinf(c->layer[k].thickness))
+        if (!(b->layer[k].thickness > 0) || isinf(b->layer[k].thickness))
             return rc_err_set(err, "%s is %g m thick: it must be positive and finite", what,
-                              c->layer[k].thickness);
-        if (check_material(what, c->layer[k].e, c->layer[k].nu, false, err) != RC_OK)
+                              b->layer[k].thickness);
+        if (check_material(what, b->layer[k].e, b->layer[k].nu, false, err) != RC_OK)
             return RC_FAIL;
     }
-    if (!(c->compliance >= 0) || isinf(c->compliance))
-        return rc_err_set(err, "the other body's (1 - nu^2)/E is %g 1/Pa: it must not be negative",
-                          c->compliance);
-    return check_material("the substrate", c->e, c->nu, true, err);
+    return check_material(b->layers > 0 ? "the substrate" : "the body", b->e, b->nu, true, err);
+}
+
+/* Nothing is told of it: it is rigid, or it is left out beside E*. */
+static bool
+unsaid(const struct rc_body *b)
+{
+    return b->e == 0 && b->layers == 0;
+}
+
+enum rc_status
+rc_pair_check(const struct rc_pair *p, struct rc_err *err)
+{
+    if (p->estar != 0 || unsaid(&p->one)) {
+        if (!unsaid(&p->one) || !unsaid(&p->two))
+            return rc_err_set(err, "E* = %g Pa and the bodies are given: give one or the other",
+                              p->estar);
+        if (!(p->estar > 0) || isinf(p->estar))
+            return rc_err_set(err, "E* = %g Pa: it must be positive and finite", p->estar);
+        return RC_OK;
+    }
+    if (p->two.layers > 0)
+        return rc_err_set(err, "body 2 has %zu layers: only body 1 may", p->two.layers);
+    if (rc_body_check(&p->one, err) != RC_OK ||
+        (!unsaid(&p->two) && rc_body_check(&p->two, err) != RC_OK))
+        return RC_FAIL;
+    if (p->one.layers == 0 && isinf(rc_pair_estar(p)))
+        return rc_err_set(err, "both bodies are rigid: one must give way");
+    return RC_OK;
+}
+
+/* (1 - nu^2)/E, 1/Pa. */
+static double
+half_space_compliance(const struct rc_body *b)
+{
+    return unsaid(b) || isinf(b->e) ? 0 : (1 - b->nu * b->nu) / b->e;
+}
+
+double
+rc_pair_estar(const struct rc_pair *p)
+{
+    return p->estar > 0 ? p->estar
+                        : 1 / (half_space_compliance(&p->one) + half_space_compliance(&p->two));
 }
 
 /* 1/E* of one material. */
@@ -439,23 +476,20 @@ compliance_of(const struct rc_material *m)
 }
 
 struct rc_stack *
-rc_stack_new(const struct rc_coating *c, struct rc_err *err)
+rc_stack_new(const struct rc_body *c, double compliance, struct rc_err *err)
 {
-    struct rc_stack *s;
+    struct rc_stack *s = calloc(1, sizeof *s);
 
-    if (check(c, err) != RC_OK)
-        return NULL;
-    s = calloc(1, sizeof *s);
     if (s == NULL || (s->material = calloc(c->layers + 1, sizeof *s->material)) == NULL)
         goto short_of_memory;
     s->layers = c->layers;
-    s->compliance = c->compliance;
+    s->compliance = compliance;
     for (size_t k = 0; k < c->layers; k++)
         s->material[k] = (struct rc_material){
             c->layer[k].thickness, c->layer[k].e / (2 * (1 + c->layer[k].nu)), c->layer[k].nu};
     s->material[c->layers] = (struct rc_material){INFINITY, c->e / (2 * (1 + c->nu)), c->nu};
-    s->top = compliance_of(&s->material[0]) + c->compliance;
-    s->bottom = compliance_of(&s->material[c->layers]) + c->compliance;
+    s->top = compliance_of(&s->material[0]) + s->compliance;
+    s->bottom = compliance_of(&s->material[c->layers]) + s->compliance;
     if ((s->far = far(s)) == NULL || tables(s) != RC_OK)
         goto short_of_memory;
     return s;
@@ -463,6 +497,15 @@ short_of_memory:
     rc_err_set(err, "out of memory for a stack of %zu layers", c->layers);
     rc_stack_free(s);
     return NULL;
+}
+
+enum rc_status
+rc_stack_of(const struct rc_pair *p, struct rc_stack **stack, struct rc_err *err)
+{
+    *stack = NULL;
+    if (p->one.layers > 0)
+        *stack = rc_stack_new(&p->one, half_space_compliance(&p->two), err);
+    return p->one.layers > 0 && *stack == NULL ? RC_FAIL : RC_OK;
 }
 
 void

@@ -22,8 +22,16 @@ struct rc_stack {
     struct rc_octaves *far_table, *response_table; /* D of r^2, m^2; g of q^2, 1/m^2           */
 };
 
-/* NULL when a number makes no sense or memory is short; err says why. */
-struct rc_stack *rc_stack_new(const struct rc_coating *coating, struct rc_err *err);
+/* RC_FAIL, and err says which, when a number of a body, or of a pair, makes no sense. */
+enum rc_status rc_body_check(const struct rc_body *body, struct rc_err *err);
+enum rc_status rc_pair_check(const struct rc_pair *pair, struct rc_err *err);
+/* Composite modulus of the half-spaces, below layers if there are any, Pa. */
+double rc_pair_estar(const struct rc_pair *pair);
+
+/* Of a layered body, and (1 - nu^2)/E of the other, 1/Pa. NULL when memory is short. */
+struct rc_stack *rc_stack_new(const struct rc_body *body, double compliance, struct rc_err *err);
+/* The same of a pair: NULL and RC_OK when both are bare. */
+enum rc_status rc_stack_of(const struct rc_pair *pair, struct rc_stack **stack, struct rc_err *err);
 void rc_stack_free(struct rc_stack *stack); /* NULL is allowed */
 
 /* g(q), 1/Pa: a wave of pressure of wave number q (rad/m) displaces the surface by 2 g/q of its height.

@@ -30,7 +30,7 @@ struct rc_conv {
     bool precise; /* by its name */
     const char *reason;
     void *plan;
-    struct rc_stack *own; /* of options->coating; NULL: none */
+    struct rc_stack *own; /* of a layered body; NULL: none */
 };
 
 static struct rc_sum
@@ -181,7 +181,7 @@ rc_conv_choice(const struct rc_shape *shape, const struct rc_conv_options *optio
 }
 
 struct rc_conv *
-rc_conv_new_on(const struct rc_stack *stack, const struct rc_shape *shape, double estar,
+rc_conv_new_on(const struct rc_stack *stack, double estar, const struct rc_shape *shape,
                const struct rc_conv_options *options, struct rc_err *err)
 {
     struct rc_sum sum = sum_of(shape, estar, stack, options);
@@ -205,20 +205,21 @@ rc_conv_new_on(const struct rc_stack *stack, const struct rc_shape *shape, doubl
 }
 
 struct rc_conv *
-rc_conv_new(const struct rc_shape *shape, double estar, const struct rc_conv_options *options,
-            struct rc_err *err)
+rc_conv_new(const struct rc_shape *shape, const struct rc_pair *pair,
+            const struct rc_conv_options *options, struct rc_err *err)
 {
-    struct rc_stack *stack = NULL;
-    enum rc_status status = RC_OK;
+    struct rc_stack *stack;
+    enum rc_status status;
     struct rc_conv *conv;
 
-    if (options->coating != NULL && (stack = rc_stack_new(options->coating, err)) == NULL)
-        status = RC_FAIL;
+    if (rc_pair_check(pair, err) != RC_OK)
+        return NULL;
+    status = rc_stack_of(pair, &stack, err);
     if (rc_ranks_agree(options->ranks, status, err) != RC_OK) {
         rc_stack_free(stack);
         return NULL;
     }
-    conv = rc_conv_new_on(stack, shape, estar, options, err);
+    conv = rc_conv_new_on(stack, rc_pair_estar(pair), shape, options, err);
     if (conv == NULL)
         rc_stack_free(stack);
     else

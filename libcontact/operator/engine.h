@@ -71,8 +71,8 @@ enum rc_status rc_conv_check(const struct rc_shape *shape, const struct rc_conv_
                              struct rc_err *err);
 
 /* rc_conv_new on this stack, which outlives it and stands instead of the modulus; NULL: none. */
-struct rc_conv *rc_conv_new_on(const struct rc_stack *stack, const struct rc_shape *shape,
-                               double estar, const struct rc_conv_options *options,
+struct rc_conv *rc_conv_new_on(const struct rc_stack *stack, double estar,
+                               const struct rc_shape *shape, const struct rc_conv_options *options,
                                struct rc_err *err);
 
 /* The transforms by which it sums; NULL: it sums in another way. */

@@ -262,7 +262,8 @@ set_spectra(struct half_space *s, const struct rc_shape *unit, double length, st
 /* Takes conv, K p in double precision, or NULL, and, unless it is shared, the stack. */
 static struct half_space *
 half_space_new(const struct rc_shape *shape, const struct rc_operator_options *o,
-               struct rc_stack *stack, bool shared, struct rc_conv *conv, struct rc_err *err)
+               struct rc_stack *stack, double estar, bool shared, struct rc_conv *conv,
+               struct rc_err *err)
 {
     const struct rc_shape unit = unit_of(shape);
     double length = sqrt(shape->dx) * sqrt(shape->dy);
@@ -280,7 +281,7 @@ half_space_new(const struct rc_shape *shape, const struct rc_operator_options *o
     s->conv = conv;
     s->stack = stack;
     s->shared = shared;
-    s->estar = stack == NULL ? o->estar : 1 / rc_stack_response(stack, pi / length);
+    s->estar = stack == NULL ? estar : 1 / rc_stack_response(stack, pi / length);
     s->op = (struct rc_operator){.type = &half_space,
                                  .whole = *shape,
                                  .rows = rc_rows_of(o->ranks, shape),
@@ -314,24 +315,24 @@ rc_half_space_new(const struct rc_shape *shape, const struct rc_operator_options
 {
     struct rc_conv_options options = conv_options(o);
     size_t n; /* nodes held here */
-    enum rc_status status = RC_OK;
-    struct rc_stack *stack = NULL;
+    enum rc_status status;
+    double estar = rc_pair_estar(o->pair);
+    struct rc_stack *stack;
     struct rc_conv *conv;
     struct half_space *s;
 
     if (rc_shape_check(shape, err) != RC_OK)
         return NULL;
-    if (o->coating != NULL && (stack = rc_stack_new(o->coating, err)) == NULL)
-        status = RC_FAIL;
+    status = rc_stack_of(o->pair, &stack, err);
     if (rc_ranks_agree(o->ranks, status, err) != RC_OK) {
         rc_stack_free(stack);
         return NULL;
     }
-    if ((conv = rc_conv_new_on(stack, shape, o->estar, &options, err)) == NULL) {
+    if ((conv = rc_conv_new_on(stack, estar, shape, &options, err)) == NULL) {
         rc_stack_free(stack);
         return NULL;
     }
-    if ((s = half_space_new(shape, o, stack, false, conv, err)) == NULL)
+    if ((s = half_space_new(shape, o, stack, estar, false, conv, err)) == NULL)
         return NULL;
     s->op.exact = true;
     s->op.error = rc_conv_error(s->conv);
@@ -361,8 +362,8 @@ coarse(const struct rc_operator *op, const struct rc_ranks *ranks, const struct 
 {
     const struct half_space *fine = (const struct half_space *)op;
     struct rc_operator_options o = {
-        .boundary = op->boundary, .estar = fine->estar, .threads = op->threads, .ranks = ranks};
-    struct half_space *s = half_space_new(shape, &o, fine->stack, true, NULL, err);
+        .boundary = op->boundary, .threads = op->threads, .ranks = ranks};
+    struct half_space *s = half_space_new(shape, &o, fine->stack, fine->estar, true, NULL, err);
 
     return s == NULL ? NULL : &s->op;
 }
@@ -374,7 +375,7 @@ rc_half_space_memory(const struct rc_shape *shape, const struct rc_operator_opti
     const char *reason;
     const struct rc_engine *engine;
     size_t conv = rc_conv_memory(shape, &options), own;
-    bool precise, bounded = o->coating != NULL && o->boundary == RC_FREE;
+    bool precise, bounded = o->pair->one.layers > 0 && o->boundary == RC_FREE;
     size_t ranks = rc_ranks_count(o->ranks), rows;
 
     if (conv == 0)

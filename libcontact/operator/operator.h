@@ -60,12 +60,11 @@ struct rc_operator {
 
 struct rc_operator_options {
     enum rc_boundary boundary;
-    double estar;       /* composite modulus, Pa                                               */
+    const struct rc_pair *pair; /* the bodies: the caller's                                    */
     const char *engine; /* NULL: auto                                                          */
     double tol;         /* error of K p that the engine may make, as in rc_conv_options         */
     size_t threads;     /* 0: all                                                              */
-    const struct rc_coating *coating; /* instead of the modulus; NULL: one material             */
-    const struct rc_ranks *ranks;     /* that share the map                                     */
+    const struct rc_ranks *ranks; /* that share the map                                     */
 };
 
 /* half_space.c: an elastic half-space. NULL when there is no such engine, or none for the boundary,

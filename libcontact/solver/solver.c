@@ -45,8 +45,8 @@ check(const struct rc_shape *s, const struct rc_problem *problem, struct rc_err 
 {
     if (rc_shape_check(s, err) != RC_OK)
         return RC_FAIL;
-    if (problem->coating == NULL && (!(problem->estar > 0) || isinf(problem->estar)))
-        return rc_err_set(err, "E* = %g Pa: it must be positive and finite", problem->estar);
+    if (rc_pair_check(&problem->pair, err) != RC_OK)
+        return RC_FAIL;
     if (!(problem->hardness >= 0))
         return rc_err_set(err, "hardness %g Pa: it must be positive", problem->hardness);
     if (!(problem->tol >= 0))
@@ -69,11 +69,10 @@ static struct rc_operator_options
 operator_options(const struct rc_shape *shape, const struct rc_problem *problem)
 {
     return (struct rc_operator_options){.boundary = problem->boundary,
-                                        .estar = problem->estar,
+                                        .pair = &problem->pair,
                                         .engine = problem->engine,
                                         .tol = 0.02 * tolerance(shape, problem),
                                         .threads = problem->threads,
-                                        .coating = problem->coating,
                                         .ranks = problem->ranks};
 }
 

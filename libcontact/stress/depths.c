@@ -12,7 +12,7 @@
  * three radii of the Hertzian contact that is as spread out; on a periodic map it is where the
  * waves have died away.
  *
- * In a coated body the stresses change over the thickness of a layer too, and jump at its sides.
+ * In a layered body the stresses change over the thickness of a layer too, and jump at its sides.
  */
 #include "libcontact/contact.h"
 
@@ -257,10 +257,10 @@ rounded(double z, int digits)
 /* ---- down through layers ---- */
 
 struct descent {
-    const struct rc_coating *coating; /* NULL: one material         */
-    size_t layer;                     /* where z is                 */
-    double bottom;                    /* m, of that layer           */
-    double z;                         /* m                          */
+    const struct rc_body *body;
+    size_t layer;  /* where z is                 */
+    double bottom; /* m, of that layer           */
+    double z;      /* m                          */
     double *depths;
     size_t n;
 };
@@ -274,14 +274,14 @@ add(struct descent *d, double z)
 static bool
 in_layer(const struct descent *d)
 {
-    return d->coating != NULL && d->layer < d->coating->layers;
+    return d->layer < d->body->layers;
 }
 
 /* Both sides of the interface below; false where nothing follows. */
 static bool
 cross(struct descent *d)
 {
-    const struct rc_coating *c = d->coating;
+    const struct rc_body *c = d->body;
     double side = d->bottom, past;
 
     add(d, side);
@@ -305,7 +305,7 @@ go_down(struct descent *d, double step)
     double z;
 
     if (in_layer(d)) {
-        double thickness = d->coating->layer[d->layer].thickness;
+        double thickness = d->body->layer[d->layer].thickness;
         step = fmin(step, layer_part * thickness);
         if (d->z + step > d->bottom - layer_part / 4 * thickness)
             return cross(d);
@@ -318,18 +318,11 @@ go_down(struct descent *d, double step)
 
 enum rc_status
 rc_stress_depths(const struct rc_shape *shape, const double *p, enum rc_boundary boundary,
-                 const struct rc_coating *coating, double **depths, size_t *n, struct rc_err *err)
-{
-    return rc_stress_depths_on(NULL, shape, p, boundary, coating, depths, n, err);
-}
-
-enum rc_status
-rc_stress_depths_on(const struct rc_ranks *ranks, const struct rc_shape *shape, const double *p,
-                    enum rc_boundary boundary, const struct rc_coating *coating, double **depths,
-                    size_t *n, struct rc_err *err)
+                 const struct rc_body *body, const struct rc_ranks *ranks, double **depths,
+                 size_t *n, struct rc_err *err)
 {
     enum rc_status status = RC_OK;
-    struct descent d = {.coating = coating};
+    struct descent d = {.body = body};
     struct bins *b;
     double radius, all, left;
 
@@ -353,7 +346,7 @@ rc_stress_depths_on(const struct rc_ranks *ranks, const struct rc_shape *shape, 
     }
     radius = contact_radius(ranks, shape, p);
     d.depths = *depths;
-    d.bottom = in_layer(&d) ? coating->layer[0].thickness : INFINITY;
+    d.bottom = in_layer(&d) ? body->layer[0].thickness : INFINITY;
     add(&d, 0);
     wave_number(b, 0, &all);
     while (d.n + 2 <= MOST && all > 0) {

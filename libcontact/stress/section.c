@@ -253,7 +253,7 @@ static void
 sum_pair(struct plan *plan, double depth, const struct pair *pair, double complex *sum)
 {
     const struct rc_stress_task *t = &plan->task;
-    const struct rc_cell cell = {t->shape.dx, t->shape.dy, depth, t->options.nu, plan->inside};
+    const struct rc_cell cell = {t->shape.dx, t->shape.dy, depth, t->options.body.nu, plan->inside};
     bool coated = t->coated;
     double *along = plan->scratch + (size_t)omp_get_thread_num() * plan->scratch_size;
     double *across = along + plan->waves, *line[RC_STRESS_KERNELS];
@@ -331,7 +331,8 @@ wave_symbols(const struct plan *plan, size_t a, double depth, double *scratch,
     size_t m = plan->m;
     double *along = scratch, *across = along + m, *x = across + m, *y = x + m, *q = y + m;
     double *decay = q + m, *numbers = decay + (1 + RC_STRESS_KERNELS) * m;
-    const struct rc_waves waves = {m, x, y, q, decay, depth, t->options.nu, plan->inside, numbers};
+    const struct rc_waves waves = {m,      x, y, q, decay, depth, t->options.body.nu, plan->inside,
+                                   numbers};
 
     for (size_t b = 0; b < m; b++) {
         along[b] = rc_fourier_q(a, plan->n, plan->d_along);

@@ -22,7 +22,7 @@ sum_of(const struct rc_stress_task *t, int kernel, double depth, const struct rc
                            .boundary = t->options.boundary,
                            .kernel = &rc_kernel_stress,
                            .component = (size_t)kernel,
-                           .medium = {.nu = t->options.nu, .depth = depth, .inside = inside},
+                           .medium = {.nu = t->options.body.nu, .depth = depth, .inside = inside},
                            .tol = t->options.tol / (2 + 8 * fabs(t->options.mu)),
                            .precise = t->precise,
                            .threads = t->options.threads};

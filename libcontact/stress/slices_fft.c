@@ -165,7 +165,7 @@ static void
 tabulate(struct grid *g)
 {
     const struct rc_stress_task *t = g->task;
-    const struct rc_cell cell = {t->shape.dx, t->shape.dy, g->depth, t->options.nu, g->inside};
+    const struct rc_cell cell = {t->shape.dx, t->shape.dy, g->depth, t->options.body.nu, g->inside};
 
 #pragma omp parallel for num_threads(g->threads) schedule(dynamic, 4)
     for (size_t j = 0; j < g->rows; j++) {
@@ -234,8 +234,8 @@ symbol(const void *of, size_t i, double qx, size_t n, const double *qy, double *
     for (size_t j = 0; j < n; j += PIECE) {
         size_t m = n - j < PIECE ? n - j : PIECE;
         const double *kept = g->decay + ((i - g->first_column) * g->cy + j) * g->numbers;
-        const struct rc_waves waves = {m,         x,   y, q, kept, g->depth, g->task->options.nu,
-                                       g->inside, kept};
+        const struct rc_waves waves = {
+            m, x, y, q, kept, g->depth, g->task->options.body.nu, g->inside, kept};
         rc_stress_directions(m, all, qy + j, x, y, q);
         rc_stress_symbol(c->kernel, &waves, &g->shape, out + j);
     }

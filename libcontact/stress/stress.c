@@ -54,8 +54,11 @@ rc_stress_check(const struct rc_shape *shape, const struct rc_stress_options *o,
 
     if (rc_shape_check(shape, err) != RC_OK)
         return RC_FAIL;
-    if (o->coating == NULL && !(o->nu > -1 && o->nu <= 0.5))
-        return rc_err_set(err, "Poisson's ratio %g: it must be above -1 and at most 0.5", o->nu);
+    if (o->body.layers == 0 && !(o->body.nu > -1 && o->body.nu <= 0.5))
+        return rc_err_set(err, "Poisson's ratio %g: it must be above -1 and at most 0.5",
+                          o->body.nu);
+    if (o->body.layers > 0 && rc_body_check(&o->body, err) != RC_OK)
+        return RC_FAIL;
     if (!isfinite(o->mu))
         return rc_err_set(err, "friction coefficient %g: it must be finite", o->mu);
     if (o->wanted == 0 || o->wanted >> RC_STRESSES != 0)
@@ -89,12 +92,12 @@ task_of(const struct rc_shape *shape, const double *p, const struct rc_stack *st
         .options = *o,
         .p = p,
         .stack = stack,
-        .coated = o->coating != NULL,
+        .coated = o->body.layers > 0,
         .components = components,
-        .kernels = rc_stress_distinct(components, o->mu != 0, o->coating != NULL),
+        .kernels = rc_stress_distinct(components, o->mu != 0, o->body.layers > 0),
         .counts = counts};
 
-    task.options.coating = NULL; /* the caller's, who may give it up */
+    task.options.body.layer = NULL; /* the caller's, who may give them up */
     if (rc_ranks_count(o->ranks) == 1)
         task.options.ranks = NULL;
     task.engine = engine_of(o->engine, &task.precise);
@@ -140,8 +143,8 @@ rc_stress_new(const struct rc_shape *shape, const double *p,
         return NULL;
     if ((stress = calloc(1, sizeof *stress)) == NULL)
         status = rc_err_set(err, "out of memory for a plan");
-    else if (options->coating != NULL &&
-             (stress->stack = rc_stack_new(options->coating, err)) == NULL)
+    else if (options->body.layers > 0 &&
+             (stress->stack = rc_stack_new(&options->body, 0, err)) == NULL)
         status = RC_FAIL;
     if (rc_ranks_agree(options->ranks, status, err) != RC_OK) {
         rc_stress_free(stress);

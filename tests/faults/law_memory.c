@@ -28,7 +28,7 @@ enum {
 
 static const struct rc_shape shape = {NX, NY, 1.1e-6, 1e-6};
 static const struct rc_layer layer = {2e-6, 2e9, 0.3};
-static const struct rc_coating coating = {.layers = 1, .layer = &layer, .e = 1e9, .nu = 0.3};
+static const struct rc_pair layered = {.one = {1e9, 0.3, 1, &layer}};
 static double rough[N], holed[N], pressure[N];
 
 /* A map that was to be changed in place is what it was where that has failed. */
@@ -209,9 +209,10 @@ spectrum(double *out, struct rc_err *err)
 /* ---- convolutions ---- */
 
 static enum rc_status
-convolved(const struct rc_conv_options *o, double *out, struct rc_err *err)
+convolved(const struct rc_pair *pair, const struct rc_conv_options *o, double *out,
+          struct rc_err *err)
 {
-    struct rc_conv *conv = rc_conv_new(&shape, 1e9, o, err);
+    struct rc_conv *conv = rc_conv_new(&shape, pair, o, err);
 
     if (conv == NULL)
         return RC_FAIL;
@@ -221,13 +222,13 @@ convolved(const struct rc_conv_options *o, double *out, struct rc_err *err)
     return RC_OK;
 }
 
-CONVOLUTION(free_fft, .engine = "fft")
-CONVOLUTION(single_fft, .engine = "fft", .tol = 1e-3)
-CONVOLUTION(periodic_fft, .engine = "fft", .boundary = RC_PERIODIC)
-CONVOLUTION(mlms, .engine = "mlms", .tol = 1e-4)
-CONVOLUTION(direct, .engine = "direct")
-CONVOLUTION(coated, .coating = &coating)
-CONVOLUTION(coated_periodic, .coating = &coating, .boundary = RC_PERIODIC)
+CONVOLUTION(free_fft, bare, .engine = "fft")
+CONVOLUTION(single_fft, bare, .engine = "fft", .tol = 1e-3)
+CONVOLUTION(periodic_fft, bare, .engine = "fft", .boundary = RC_PERIODIC)
+CONVOLUTION(mlms, bare, .engine = "mlms", .tol = 1e-4)
+CONVOLUTION(direct, bare, .engine = "direct")
+CONVOLUTION(coated, layered, .tol = 0)
+CONVOLUTION(coated_periodic, layered, .boundary = RC_PERIODIC)
 
 /* ---- contact ---- */
 
@@ -243,11 +244,11 @@ solved(const struct rc_problem *problem, double *out, struct rc_err *err)
     return RC_OK;
 }
 
-CONTACT(free_contact, .load = 1e-3)
-CONTACT(hard_contact, .load = 1e-3, .hardness = 2e7, .boundary = RC_PERIODIC)
-CONTACT(paper_method, .load = 1e-3, .method = "pk99", .engine = "mlms")
-CONTACT(to_an_approach, .approach = 1e-7, .discretization = true)
-CONTACT(coated_contact, .load = 1e-3, .coating = &coating)
+CONTACT(free_contact, bare, .load = 1e-3)
+CONTACT(hard_contact, bare, .load = 1e-3, .hardness = 2e7, .boundary = RC_PERIODIC)
+CONTACT(paper_method, bare, .load = 1e-3, .method = "pk99", .engine = "mlms")
+CONTACT(to_an_approach, bare, .approach = 1e-7, .discretization = true)
+CONTACT(coated_contact, layered, .load = 1e-3)
 
 /* ---- stresses ---- */
 
@@ -259,19 +260,20 @@ stressed(const struct rc_stress_options *o, double *out, struct rc_err *err)
     return two_slices(&shape, pressure, o, field, err);
 }
 
-STRESS(free_stress, .mu = 0.1)
-STRESS(periodic_stress, .mu = 0.1, .boundary = RC_PERIODIC)
-STRESS(direct_stress, .engine = "direct")
-STRESS(mlms_stress, .engine = "mlms", .tol = 1e-3)
-STRESS(section_stress, .section = 'y')
-STRESS(coated_stress, .coating = &coating)
+STRESS(free_stress, bare, .mu = 0.1)
+STRESS(periodic_stress, bare, .mu = 0.1, .boundary = RC_PERIODIC)
+STRESS(direct_stress, bare, .engine = "direct")
+STRESS(mlms_stress, bare, .engine = "mlms", .tol = 1e-3)
+STRESS(section_stress, bare, .section = 'y')
+STRESS(coated_stress, layered, .mu = 0)
 
 static enum rc_status
 depths(double *out, struct rc_err *err)
 {
     double *z = NULL;
     size_t n = 0;
-    enum rc_status status = rc_stress_depths(&shape, pressure, RC_FREE, &coating, &z, &n, err);
+    enum rc_status status =
+        rc_stress_depths(&shape, pressure, RC_FREE, &layered.one, NULL, &z, &n, err);
 
     if (status == RC_OK)
         memcpy(out, z, (n < OUT ? n : OUT) * sizeof *out);
@@ -280,7 +282,7 @@ depths(double *out, struct rc_err *err)
     free(z);
     z = NULL;
     if (status == RC_OK) /* without ranks the same */
-        status = rc_stress_depths_on(NULL, &shape, pressure, RC_FREE, NULL, &z, &n, err);
+        status = rc_stress_depths(&shape, pressure, RC_FREE, &bare.one, NULL, &z, &n, err);
     free(z);
     return status;
 }
@@ -293,8 +295,8 @@ plans(double *out, struct rc_err *err)
 {
     static const struct rc_filter filter = {.cutoff = 5e-6, .threads = 1};
     static const struct rc_conv_options conv = {.threads = 1};
-    static const struct rc_problem problem = {.estar = 1e9, .load = 1e-3, .threads = 1};
-    static const struct rc_stress_options stress = {.nu = 0.3, .wanted = 1, .threads = 1};
+    static const struct rc_problem problem = {.pair.estar = 1e9, .load = 1e-3, .threads = 1};
+    static const struct rc_stress_options stress = {.body.nu = 0.3, .wanted = 1, .threads = 1};
     static const struct rc_surface_options surface = {.threads = 1};
     static const struct rc_patch_options patches = {.threads = 1};
     struct rc_expected expected;
@@ -330,7 +332,7 @@ static enum rc_status
 without(double *out, struct rc_err *err)
 {
     static const struct rc_place place = {1e-6, 2e-6};
-    static const struct rc_stress_options stress = {.nu = 0.3, .wanted = 1, .threads = 1};
+    static const struct rc_stress_options stress = {.body.nu = 0.3, .wanted = 1, .threads = 1};
     struct rc_shape to = {NX / 2, NY / 2, 2.2e-6, 2e-6}, turned = rc_rotate_shape(&shape, 1), sum;
     double s6[RC_COMPONENTS] = {1, 2, 3, 4, 5, 6}, mises = NAN, *derived[RC_STRESSES] = {NULL};
     const double *six[RC_COMPONENTS];
@@ -369,7 +371,7 @@ without(double *out, struct rc_err *err)
         return RC_FAIL;
     out[2 * N] = rc_sum(rough, N) + rc_measure_contact_slope(&shape, rough, pressure) + mises +
                  rc_measure_contact_slope_on(NULL, &shape, rough, pressure);
-    out[2 * N + 1] = (double)(rc_largest(N, rough) + rc_coating_material(&coating, 3e-6));
+    out[2 * N + 1] = (double)(rc_largest(N, rough) + rc_body_material(&layered.one, 3e-6));
     out[2 * N + 2] = rc_number_read(rc_number_text(text, 1.5), false, &out[0]) != NULL;
     return rc_key_valid("note") && rc_err_set(NULL, "%s", "x") == RC_FAIL ? RC_OK : RC_FAIL;
 }

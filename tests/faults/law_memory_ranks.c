@@ -33,7 +33,7 @@ enum {
 
 static const struct rc_shape shape = {NX, NY, 1.1e-6, 1e-6};
 static const struct rc_layer layer = {4e-6, 2e9, 0.3};
-static const struct rc_coating coating = {.layers = 1, .layer = &layer, .e = 1e9, .nu = 0.3};
+static const struct rc_pair layered = {.one = {1e9, 0.3, 1, &layer}};
 /* Of two, whose coarser grid is shared too. */
 static const struct rc_shape large = {384, 352, 1.1e-6, 1e-6};
 static double rough[N], pressure[N], large_rough[384 * 352];
@@ -63,24 +63,25 @@ several(double *out, struct rc_err *err)
 }
 
 static enum rc_status
-convolved(const struct rc_conv_options *of, double *out, struct rc_err *err)
+convolved(const struct rc_pair *pair, const struct rc_conv_options *of, double *out,
+          struct rc_err *err)
 {
     struct rc_conv_options o = *of;
     struct rc_conv *conv;
 
     o.ranks = ranks;
-    if ((conv = rc_conv_new(&shape, 1e9, &o, err)) == NULL)
+    if ((conv = rc_conv_new(&shape, pair, &o, err)) == NULL)
         return RC_FAIL;
     rc_conv_apply(conv, pressure + first, out);
     rc_conv_free(conv);
     return RC_OK;
 }
 
-CONVOLUTION(free_conv, .engine = "fft64")
-CONVOLUTION(single_conv, .tol = 1e-3)
-CONVOLUTION(periodic_conv, .boundary = RC_PERIODIC)
-CONVOLUTION(coated_conv, .coating = &coating)
-CONVOLUTION(coated_periodic_conv, .coating = &coating, .boundary = RC_PERIODIC)
+CONVOLUTION(free_conv, bare, .engine = "fft64")
+CONVOLUTION(single_conv, bare, .tol = 1e-3)
+CONVOLUTION(periodic_conv, bare, .boundary = RC_PERIODIC)
+CONVOLUTION(coated_conv, layered, .tol = 0)
+CONVOLUTION(coated_periodic_conv, layered, .boundary = RC_PERIODIC)
 
 static enum rc_status
 solved(const struct rc_problem *of, double *out, struct rc_err *err)
@@ -93,18 +94,18 @@ solved(const struct rc_problem *of, double *out, struct rc_err *err)
     return solve_twice(&shape, rough + first, &problem, here, field, &stiffness, err);
 }
 
-CONTACT(free_contact, .load = 0.02)
-CONTACT(hard_contact, .load = 0.02, .hardness = 5e7, .boundary = RC_PERIODIC)
-CONTACT(paper_method, .load = 0.02, .method = "pk99")
-CONTACT(to_an_approach, .approach = 3e-7, .discretization = true)
-CONTACT(coated_contact, .load = 0.02, .coating = &coating)
+CONTACT(free_contact, bare, .load = 0.02)
+CONTACT(hard_contact, bare, .load = 0.02, .hardness = 5e7, .boundary = RC_PERIODIC)
+CONTACT(paper_method, bare, .load = 0.02, .method = "pk99")
+CONTACT(to_an_approach, bare, .approach = 3e-7, .discretization = true)
+CONTACT(coated_contact, layered, .load = 0.02)
 
 /* As far as the first step on the grid itself, which depends on how it began. */
 static enum rc_status
 large_start(double *out, struct rc_err *err)
 {
     const struct rc_problem problem = {
-        .estar = 1e9, .load = 0.2, .threads = 1, .tol = 1e-2, .ranks = ranks};
+        .pair.estar = 1e9, .load = 0.2, .threads = 1, .tol = 1e-2, .ranks = ranks};
     struct rc_progress at = {.iterations = 0};
     struct rc_solver *solver;
     size_t row, n;
@@ -130,10 +131,10 @@ stressed(const struct rc_stress_options *of, double *out, struct rc_err *err)
     return two_slices(&shape, pressure + first, &o, field, err);
 }
 
-STRESS(free_stress, .mu = 0.1)
-STRESS(periodic_stress, .mu = 0.1, .boundary = RC_PERIODIC)
-STRESS(single_stress, .tol = 1e-3)
-STRESS(coated_stress, .coating = &coating)
+STRESS(free_stress, bare, .mu = 0.1)
+STRESS(periodic_stress, bare, .mu = 0.1, .boundary = RC_PERIODIC)
+STRESS(single_stress, bare, .tol = 1e-3)
+STRESS(coated_stress, layered, .mu = 0)
 
 static enum rc_status
 depths(double *out, struct rc_err *err)
@@ -141,7 +142,7 @@ depths(double *out, struct rc_err *err)
     double *z = NULL;
     size_t n = 0;
     enum rc_status status =
-        rc_stress_depths_on(ranks, &shape, pressure + first, RC_FREE, &coating, &z, &n, err);
+        rc_stress_depths(&shape, pressure + first, RC_FREE, &layered.one, ranks, &z, &n, err);
 
     if (status == RC_OK)
         memcpy(out, z, n * sizeof *z);

@@ -10,19 +10,33 @@
 /* A use of some functions: writes what they give to the front of out, zeros before. */
 typedef enum rc_status use(double *out, struct rc_err *err);
 
-/* A use of convolved, solved or stressed, which each test has for its own maps, with these options. */
-#define USE_WITH(function, options, name, ...)                                                     \
+/* Uses of convolved, solved or stressed, which each test has for its own maps, with these options: of two
+ * bodies, bare or layered, or of the first of them. */
+#define CONVOLUTION(name, bodies, ...)                                                             \
     static enum rc_status name(double *out, struct rc_err *err)                                    \
     {                                                                                              \
-        static const struct options o = {.threads = 1, __VA_ARGS__};                               \
-        return function(&o, out, err);                                                             \
+        static const struct rc_conv_options o = {.threads = 1, __VA_ARGS__};                       \
+        return convolved(&bodies, &o, out, err);                                                   \
     }
-#define CONVOLUTION(name, ...) USE_WITH(convolved, rc_conv_options, name, __VA_ARGS__)
-#define CONTACT(name, ...)                                                                         \
-    USE_WITH(solved, rc_problem, name, .estar = 1e9, .tol = 1e-5, __VA_ARGS__)
-#define STRESS(name, ...)                                                                          \
-    USE_WITH(stressed, rc_stress_options, name, .nu = 0.3,                                         \
-             .wanted = 1 << RC_SXX | 1 << RC_SXZ | 1 << RC_MISES | 1 << RC_S1, __VA_ARGS__)
+#define CONTACT(name, bodies, ...)                                                                 \
+    static enum rc_status name(double *out, struct rc_err *err)                                    \
+    {                                                                                              \
+        struct rc_problem o = {.threads = 1, .tol = 1e-5, __VA_ARGS__};                            \
+        o.pair = bodies;                                                                           \
+        return solved(&o, out, err);                                                               \
+    }
+#define STRESS(name, bodies, ...)                                                                  \
+    static enum rc_status name(double *out, struct rc_err *err)                                    \
+    {                                                                                              \
+        struct rc_stress_options o = {.threads = 1,                                                \
+                                      .wanted =                                                    \
+                                          1 << RC_SXX | 1 << RC_SXZ | 1 << RC_MISES | 1 << RC_S1,  \
+                                      __VA_ARGS__};                                                \
+        o.body = bodies.one;                                                                       \
+        return stressed(&o, out, err);                                                             \
+    }
+
+static const struct rc_pair bare = {.one = {.e = 0.91e9, .nu = 0.3}}; /* E* 1 GPa */
 
 static enum rc_status
 finish_load(struct rc_solver *solver, struct rc_err *err)

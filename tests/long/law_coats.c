@@ -94,9 +94,9 @@ found_in_time(void **state)
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
         const struct row *row = &rows[k];
         struct rc_layer layer = {row->thickness * 1e-6, row->ratio * 1e9, 0.3};
-        struct rc_coating coating = {1, &layer, 1e9, 0.3, 0};
+        struct rc_body coating = {1e9, 0.3, 1, &layer};
         struct rc_problem problem = {.boundary = RC_PERIODIC,
-                                     .coating = &coating,
+                                     .pair.one = coating,
                                      .load = row->mean * 1e9 * N * 1e-12,
                                      .tol = 1e-9};
         struct solved exact = solve(shape, h, problem);

@@ -52,20 +52,21 @@ static void
 make(size_t k, struct rc_shape *shape, struct rc_problem *problem, double *h)
 {
     static const struct rc_layer layer = {3e-6, 4e9, 0.3};
-    static const struct rc_coating coating = {.layers = 1, .layer = &layer, .e = 1e9, .nu = 0.4};
+    static const struct rc_body coating = {.layers = 1, .layer = &layer, .e = 1e9, .nu = 0.4};
     static const char *const engines[] = {NULL, "fft", "mlms"};
     struct rc_selfaffine what = {.hurst = 0.8, .rms_slope = 0.1, .short_cut = 8e-6, .seed = 1 + k};
 
     *shape = (struct rc_shape){17 + k * 31 % (SIDE - 16), 17 + k * 47 % (SIDE - 16), 1.1e-6, 1e-6};
-    *problem = (struct rc_problem){.estar = 1e9,
+    *problem = (struct rc_problem){.pair.estar = 1e9,
                                    .boundary = k % 2 == 0 ? RC_FREE : RC_PERIODIC,
                                    .hardness = k % 3 == 0 ? 5e7 : 0,
                                    .method = k % 5 == 4 ? "pk99" : NULL,
                                    .engine = k % 2 == 0 ? engines[k % 3] : NULL,
-                                   .coating = k % 7 == 6 && k % 2 == 1 ? &coating : NULL,
                                    .discretization = k % 11 == 0,
                                    .tol = 1e-4,
                                    .threads = 1};
+    if (k % 7 == 6 && k % 2 == 1)
+        problem->pair = (struct rc_pair){.one = coating};
     problem->load = 2e6 * (double)(shape->nx * shape->ny) * shape->dx * shape->dy;
     if (rc_synth_selfaffine(shape, &what, h, NULL) != RC_OK)
         abort();

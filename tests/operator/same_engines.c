@@ -136,9 +136,9 @@ new_stack(double spacing)
 {
     struct rc_layer layer[] = {
         {1.3 * spacing, 9e9, 0.3}, {0.4 * spacing, 1e9, 0.45}, {5 * spacing, 7e9, 0.2}};
-    struct rc_coating coating = {3, layer, 2e9, 0.28, 1e-11};
+    struct rc_body coating = {2e9, 0.28, 3, layer};
     struct rc_err err;
-    struct rc_stack *stack = rc_stack_new(&coating, &err);
+    struct rc_stack *stack = rc_stack_new(&coating, 1e-11, &err);
 
     assert_non_null(stack);
     return stack;

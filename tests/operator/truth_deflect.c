@@ -15,7 +15,7 @@ static struct rc_conv *
 conv(struct rc_shape shape, struct rc_conv_options options)
 {
     struct rc_err err;
-    struct rc_conv *c = rc_conv_new(&shape, estar, &options, &err);
+    struct rc_conv *c = rc_conv_new(&shape, &(struct rc_pair){.estar = estar}, &options, &err);
 
     if (c == NULL)
         print_error("%s\n", err.text);
@@ -111,14 +111,14 @@ what_an_engine_cannot_do_is_said(void **state)
     struct rc_conv_options options = {.boundary = RC_PERIODIC, .engine = "direct"};
 
     (void)state;
-    assert_null(rc_conv_new(&shape, estar, &options, &err));
+    assert_null(rc_conv_new(&shape, &(struct rc_pair){.estar = estar}, &options, &err));
     assert_non_null(strstr(err.text, "on a periodic boundary"));
     options = (struct rc_conv_options){.engine = "guess"};
-    assert_null(rc_conv_new(&shape, estar, &options, &err));
+    assert_null(rc_conv_new(&shape, &(struct rc_pair){.estar = estar}, &options, &err));
     assert_non_null(strstr(err.text, "there is no engine 'guess'"));
     shape.dx = -1;
     options = (struct rc_conv_options){.engine = "fft"};
-    assert_null(rc_conv_new(&shape, estar, &options, &err));
+    assert_null(rc_conv_new(&shape, &(struct rc_pair){.estar = estar}, &options, &err));
     assert_non_null(strstr(err.text, "dx=-1 dy=1 m: both must be positive"));
 }
 

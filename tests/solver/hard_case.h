@@ -48,19 +48,16 @@ hard_heights(const struct hard_case *c)
     return h;
 }
 
-/* What the bodies of all cases are coated with; NULL: nothing. */
-static const struct rc_coating *hard_coating = NULL;
+/* What the bodies of all cases are, if that has layers; else E* is that of the case. */
+static struct rc_pair hard_pair = {.estar = 0};
 
 static inline struct rc_stack *
 hard_stack(void)
 {
     struct rc_err err;
-    struct rc_stack *stack = NULL;
+    struct rc_stack *stack;
 
-    if (hard_coating != NULL) {
-        stack = rc_stack_new(hard_coating, &err);
-        assert_non_null(stack);
-    }
+    assert_int_equal(rc_stack_of(&hard_pair, &stack, &err), RC_OK);
     return stack;
 }
 
@@ -81,7 +78,7 @@ hard_problem(const struct hard_case *c, enum rc_boundary boundary)
     rc_stack_free(stack);
     return (struct rc_problem){
         .boundary = boundary,
-        .estar = estar,
+        .pair = hard_pair.one.layers > 0 ? hard_pair : (struct rc_pair){.estar = estar},
         .load = mean * c->shape.dx * c->shape.dy * (double)(c->shape.nx * c->shape.ny),
         .hardness = c->hardness > 0 ? c->hardness * mean : INFINITY,
         /* where most nodes yield, the few others carry little: their gaps need more */
@@ -89,7 +86,6 @@ hard_problem(const struct hard_case *c, enum rc_boundary boundary)
                : c->hardness > 0 ? 0.3 * hard_tol
                                  : hard_tol,
         .method = "pcg",
-        .coating = hard_coating,
     };
 }
 
@@ -106,9 +102,8 @@ hard_displace(const struct hard_case *c, const struct rc_problem *problem, const
     struct rc_err err;
 
     if (problem->boundary == RC_FREE) {
-        struct rc_conv_options options = {.engine = n <= 5000 ? "direct" : "fft",
-                                          .coating = hard_coating};
-        struct rc_conv *conv = rc_conv_new(&s, problem->estar, &options, &err);
+        struct rc_conv_options options = {.engine = n <= 5000 ? "direct" : "fft"};
+        struct rc_conv *conv = rc_conv_new(&s, &problem->pair, &options, &err);
         assert_non_null(conv);
         rc_conv_apply(conv, p, u);
         rc_conv_free(conv);

@@ -31,7 +31,7 @@ static void
 one_node_carries_all(void **state)
 {
     struct rc_shape shape = {33, 47, 1.1e-6, 1e-6};
-    struct rc_problem problem = {.estar = estar, .load = 1e-9, .tol = 1e-8};
+    struct rc_problem problem = {.pair.estar = estar, .load = 1e-9, .tol = 1e-8};
     double h[33 * 47] = {0};
     struct solved s;
 
@@ -54,7 +54,7 @@ every_node_yields(void **state)
     struct rc_shape shape = {20, 13, 1e-6, 1.3e-6};
     size_t n = shape.nx * shape.ny;
     double *h = calloc(n, sizeof *h), hardness = 3.1e9, area = shape.dx * shape.dy * (double)n;
-    struct rc_problem problem = {.estar = estar, .hardness = hardness, .tol = 1e-8};
+    struct rc_problem problem = {.pair.estar = estar, .hardness = hardness, .tol = 1e-8};
     uint64_t seed = 7;
     struct solved s;
 
@@ -125,7 +125,7 @@ ugly_surfaces(void **state)
         for (double mean = 1e5; mean < 1e10; mean *= 100)
             for (int k = 0; k < 6; k++) {
                 struct rc_problem problem = {.boundary = k < 3 ? RC_FREE : RC_PERIODIC,
-                                             .estar = estar,
+                                             .pair.estar = estar,
                                              .load = mean * area,
                                              .hardness = hardnesses[k % 3] * mean,
                                              .tol = 1e-8,
@@ -152,7 +152,7 @@ scales(void **state)
     for (int a = 0; a < 3; a++)
         for (int b = 0; b < 2; b++) {
             uint64_t seed = 11;
-            struct rc_problem problem = {.estar = moduli[b], .tol = 1e-8};
+            struct rc_problem problem = {.pair.estar = moduli[b], .tol = 1e-8};
             struct solved s;
             for (size_t k = 0; k < n; k++)
                 h[k] = 1e-7 * heights[a] * random_number(&seed);
@@ -183,7 +183,7 @@ strips_and_needles(void **state)
         double *h = malloc(n * sizeof *h);
         double area = shapes[k].dx * shapes[k].dy * (double)n;
         struct rc_problem problem = {
-            .estar = estar, .load = 3e9 * area, .tol = 1e-8, .max_iterations = 3000};
+            .pair.estar = estar, .load = 3e9 * area, .tol = 1e-8, .max_iterations = 3000};
         for (size_t i = 0; i < n; i++)
             h[i] = 1e-7 * random_number(&seed);
         check(shapes[k], h, problem, "elastic strip");
@@ -200,7 +200,7 @@ an_accuracy_out_of_reach(void **state)
     struct rc_shape shape = {32, 32, 1e-6, 1e-6};
     double h[32 * 32];
     uint64_t seed = 2;
-    struct rc_problem problem = {.estar = estar, .load = 0.1, .tol = 1e-18};
+    struct rc_problem problem = {.pair.estar = estar, .load = 0.1, .tol = 1e-18};
     struct solved s;
 
     (void)state;
@@ -223,10 +223,10 @@ static const struct {
     double value;
     const char *words, *rule;
 } numbers[] = {
-    {FIELD(estar), 0, "E* = 0 Pa", "positive"},
-    {FIELD(estar), -1, "E* = -1 Pa", "positive"},
-    {FIELD(estar), NAN, "E* = nan Pa", "positive"},
-    {FIELD(estar), INFINITY, "E* = inf Pa", "finite"},
+    {FIELD(pair.estar), 0, "E* = 0 Pa", "positive"},
+    {FIELD(pair.estar), -1, "E* = -1 Pa", "positive"},
+    {FIELD(pair.estar), NAN, "E* = nan Pa", "positive"},
+    {FIELD(pair.estar), INFINITY, "E* = inf Pa", "finite"},
     {FIELD(load), 0, "load 0 N", "positive"},
     {FIELD(load), -1, "load -1 N", "positive"},
     {FIELD(load), NAN, "load nan N", "positive"},
@@ -288,7 +288,7 @@ static void
 impossible_requests(void **state)
 {
     const struct rc_shape shape = {4, 4, 1e-6, 1e-6};
-    const struct rc_problem good = {.estar = estar, .load = 1e-6, .method = contact_method};
+    const struct rc_problem good = {.pair.estar = estar, .load = 1e-6, .method = contact_method};
     double h[16] = {0};
     struct rc_problem bad;
     struct rc_err err;

@@ -25,7 +25,7 @@ sweep(unsigned boundaries, double hardness)
     for (size_t t = 0; t < sizeof thickness / sizeof *thickness; t++)
         for (size_t r = 0; r < sizeof ratio / sizeof *ratio; r++) {
             struct rc_layer layer = {thickness[t], 1e11 * ratio[r], 0.3};
-            struct rc_coating coating = {1, &layer, 1e11, 0.3, 0};
+            struct rc_body coating = {1e11, 0.3, 1, &layer};
             char name[64];
             struct hard_case c = {.name = name,
                                   .shape = {NX, NY, 1e-6, 1.2e-6},
@@ -34,7 +34,7 @@ sweep(unsigned boundaries, double hardness)
                                   .unit = 1e-7,
                                   .mean = 1e-2,
                                   .hardness = hardness};
-            hard_coating = &coating;
+            hard_pair.one = coating;
             snprintf(name, sizeof name, "t/dx %g, E1/Es %g", thickness[t] / 1e-6, ratio[r]);
             failed += hard_failures(&c);
         }
@@ -62,8 +62,9 @@ stacks(void **state)
     struct rc_layer net[] = {
         {1e-6, 1e7, 0.5}, {1e-9, 1e15, 0.2}, {3e-6, 1e7, 0.499}, {1e-6, 1e13, 0}};
     struct rc_layer graded[40];
-    struct rc_coating body[] = {
-        {4, net, 1e11, 0.3, 0}, {40, graded, 1e9, 0.3, 1e-12}, {2, net, INFINITY, 0.3, 0}};
+    struct rc_pair body[] = {{.one = {1e11, 0.3, 4, net}},
+                             {.one = {1e9, 0.3, 40, graded}, .two = {.e = 1e12}},
+                             {.one = {INFINITY, 0.3, 2, net}}};
     size_t failed = 0;
 
     (void)state;
@@ -80,7 +81,7 @@ stacks(void **state)
                                   .unit = 1e-7,
                                   .mean = 1e-2,
                                   .hardness = yields ? 2 : 0};
-            hard_coating = &body[b];
+            hard_pair = body[b];
             failed += hard_failures(&c);
         }
     assert_int_equal(failed, 0);

@@ -76,7 +76,7 @@ two_methods_agree(void **state)
         double *h = calloc(n, sizeof *h), mean = 1e9 * pow(10, -3 * uniform(&seed));
         double bound = mean * (1 + pow(10, 2 * uniform(&seed) - 1.5));
         struct rc_problem problem = {.boundary = uniform(&seed) < 0.5 ? RC_FREE : RC_PERIODIC,
-                                     .estar = 1e11,
+                                     .pair.estar = 1e11,
                                      .load = mean * (double)n * shape.dx * shape.dy,
                                      .hardness = uniform(&seed) < 0.3 ? 0 : bound,
                                      .tol = 1e-8,

@@ -143,8 +143,8 @@ static double
 westergaard(const struct hard_case *c, const struct rc_problem *problem, const double *h,
             const struct solved *s)
 {
-    double n = (double)c->shape.nx, length = c->shape.dx * n, mean = c->mean * problem->estar;
-    double full = wave_full(c->unit, length, problem->estar), above = 0, off;
+    double n = (double)c->shape.nx, length = c->shape.dx * n, mean = c->mean * problem->pair.estar;
+    double full = wave_full(c->unit, length, problem->pair.estar), above = 0, off;
     double fraction = wave_fraction(mean, full);
 
     (void)h;
@@ -182,13 +182,14 @@ multiplier(const struct hard_case *c, const struct rc_problem *problem, const do
 {
     size_t n = c->shape.nx * c->shape.ny;
     double a = 1 / (c->shape.dx * (double)c->shape.nx), b = 1 / (c->shape.dy * (double)c->shape.ny);
-    double factor = exact_pi * problem->estar * (c->height == crossed ? hypot(a, b) : a), worst = 0;
+    double factor = exact_pi * problem->pair.estar * (c->height == crossed ? hypot(a, b) : a),
+           worst = 0;
 
     if (s->c.contact_nodes != n)
         return INFINITY;
     for (size_t k = 0; k < n; k++)
-        worst = larger(worst, fabs(s->p[k] - (c->mean * problem->estar + factor * h[k])));
-    return worst / (hard_error * c->mean * problem->estar);
+        worst = larger(worst, fabs(s->p[k] - (c->mean * problem->pair.estar + factor * h[k])));
+    return worst / (hard_error * c->mean * problem->pair.estar);
 }
 
 /* Johnson, Greenwood and Higginson 1985; fractions from an independent computation at 512 x 512,

@@ -124,7 +124,7 @@ one_node(const struct hard_case *c, const struct rc_problem *problem, const doub
     if (problem->boundary == RC_FREE)
         off = larger(off, relative(s->c.approach,
                                    p * love_displacement(0, 0, c->shape.dx / 2, c->shape.dy / 2,
-                                                         problem->estar),
+                                                         problem->pair.estar),
                                    summed));
     return off;
 }
@@ -134,7 +134,7 @@ static double
 hertz_answer(const struct hard_case *c, const struct rc_problem *problem, const double *h,
              const struct solved *s)
 {
-    struct hertz exact = hertz(problem->load, c->a, problem->estar);
+    struct hertz exact = hertz(problem->load, c->a, problem->pair.estar);
     double nodes = exact.a / c->shape.dx;
 
     (void)h;
@@ -148,10 +148,10 @@ static double
 cone_answer(const struct hard_case *c, const struct rc_problem *problem, const double *h,
             const struct solved *s)
 {
-    double a = cone_radius(problem->load, c->a, problem->estar), nodes = a / c->shape.dx;
+    double a = cone_radius(problem->load, c->a, problem->pair.estar), nodes = a / c->shape.dx;
 
     (void)h;
-    return larger(relative(s->c.approach, cone_approach(problem->load, c->a, problem->estar),
+    return larger(relative(s->c.approach, cone_approach(problem->load, c->a, problem->pair.estar),
                            grid_cone / nodes),
                   relative(s->c.contact_area, exact_pi * a * a, grid_area / nodes));
 }
@@ -162,7 +162,7 @@ disc_answer(const struct hard_case *c, const struct rc_problem *problem, const d
             const struct solved *s)
 {
     (void)h;
-    return relative(s->c.approach, punch_approach(problem->load, c->a, problem->estar),
+    return relative(s->c.approach, punch_approach(problem->load, c->a, problem->pair.estar),
                     0.5 * c->shape.dx / c->a);
 }
 
@@ -175,9 +175,10 @@ square_answer(const struct hard_case *c, const struct rc_problem *problem, const
     double side = 2 * (c->height == flat ? (double)c->shape.nx / 2 : c->a) * c->shape.dx;
 
     (void)h;
-    return relative(s->c.approach,
-                    punch_approach(problem->load, exact_pi / 2 * 0.36679 * side, problem->estar),
-                    0.5 * c->shape.dx / side);
+    return relative(
+        s->c.approach,
+        punch_approach(problem->load, exact_pi / 2 * 0.36679 * side, problem->pair.estar),
+        0.5 * c->shape.dx / side);
 }
 
 /* Rigid flat strips of width 2 w, one in each period L, at a mean pressure m: p = m cos(pi x /
@@ -189,7 +190,7 @@ strips_answer(const struct hard_case *c, const struct rc_problem *problem, const
 {
     bool one = c->height == strip;
     double part = one ? 2 * c->a / (double)c->shape.nx : 0.5;
-    double mean = c->mean * problem->estar, truth = mean / sin(exact_pi * part / 2);
+    double mean = c->mean * problem->pair.estar, truth = mean / sin(exact_pi * part / 2);
     size_t middle = one ? c->shape.nx / 2 : (size_t)c->a / 2,
            nodes = (size_t)(one ? 2 * c->a : c->a);
 
@@ -211,7 +212,7 @@ even_answer(const struct hard_case *c, const struct rc_problem *problem, const d
     if (problem->boundary == RC_FREE)
         return square_answer(c, problem, h, s);
     for (size_t k = 0; k < c->shape.nx * c->shape.ny; k++)
-        off = larger(off, relative(s->p[k], c->mean * problem->estar, summed));
+        off = larger(off, relative(s->p[k], c->mean * problem->pair.estar, summed));
     return off;
 }
 

@@ -74,7 +74,8 @@ the_papers_rough_sphere(void **state)
 {
     struct rc_shape shape = {483, 412, 1.1e-6, 1.29e-6};
     double *h = paper_surface(shape, 7.5e-3), load = 240, hardness = 6e9;
-    struct rc_problem problem = {.estar = estar, .load = load, .hardness = hardness, .threads = 2};
+    struct rc_problem problem = {
+        .pair.estar = estar, .load = load, .hardness = hardness, .threads = 2};
     struct solved s = solve(shape, h, problem);
 
     (void)state;
@@ -100,8 +101,11 @@ the_estimate_does_not_flatter(void **state)
 
     (void)state;
     for (size_t k = 0; k < 3; k++) {
-        struct rc_problem problem = {
-            .estar = estar, .load = load, .hardness = hardnesses[k], .tol = 1e-10, .threads = 2};
+        struct rc_problem problem = {.pair.estar = estar,
+                                     .load = load,
+                                     .hardness = hardnesses[k],
+                                     .tol = 1e-10,
+                                     .threads = 2};
         struct solved exact = solve(shape, h, problem);
 
         assert_int_equal(exact.status, RC_OK);
@@ -137,14 +141,15 @@ mirror_and_scale(void **state)
     struct rc_shape shape = {61, 52, 1.1e-6, 1.29e-6};
     size_t n = shape.nx * shape.ny;
     double *h = paper_surface(shape, 7.5e-3 / 8), *mirrored = malloc(n * sizeof *mirrored);
-    struct rc_problem problem = {.estar = estar, .load = 240.0 / 64, .hardness = 5e9, .tol = 1e-9};
+    struct rc_problem problem = {
+        .pair.estar = estar, .load = 240.0 / 64, .hardness = 5e9, .tol = 1e-9};
     struct solved a = solve(shape, h, problem), b;
 
     (void)state;
     for (size_t k = 0; k < n; k++)
         mirrored[k] = h[n - 1 - k];
     problem.load *= 2;
-    problem.estar *= 2;
+    problem.pair.estar *= 2;
     problem.hardness *= 2;
     b = solve(shape, mirrored, problem);
     for (size_t k = 0; k < n; k++)
@@ -166,7 +171,7 @@ engines_agree(void **state)
     struct rc_shape shape = {121, 103, 1.1e-6, 1.29e-6};
     double *h = paper_surface(shape, 7.5e-3 / 4);
     struct rc_problem problem = {
-        .estar = estar, .load = 240.0 / 16, .hardness = 6e9, .tol = 1e-5, .threads = 2};
+        .pair.estar = estar, .load = 240.0 / 16, .hardness = 6e9, .tol = 1e-5, .threads = 2};
     struct solved fft, mlms;
 
     (void)state;
@@ -192,7 +197,7 @@ monotone(void **state)
 
     (void)state;
     for (double load = 0.01; load < 20; load *= 3) {
-        struct rc_problem problem = {.estar = estar, .load = load, .tol = 1e-6};
+        struct rc_problem problem = {.pair.estar = estar, .load = load, .tol = 1e-6};
         struct solved s = solve(shape, h, problem);
         assert_int_equal(s.status, RC_OK);
         assert_true(s.c.contact_area >= area && s.c.approach > approach);
@@ -203,7 +208,7 @@ monotone(void **state)
     area = approach = 0;
     for (double hardness = 50e9; hardness > 1.3e9; hardness /= 2) {
         struct rc_problem problem = {
-            .estar = estar, .load = 240.0 / 64, .hardness = hardness, .tol = 1e-6};
+            .pair.estar = estar, .load = 240.0 / 64, .hardness = hardness, .tol = 1e-6};
         struct solved s = solve(shape, h, problem);
         assert_int_equal(s.status, RC_OK);
         assert_true(s.c.contact_area >= area && s.c.approach >= approach * (1 - 2 * problem.tol));

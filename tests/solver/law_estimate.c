@@ -145,7 +145,7 @@ never_below_never_far_above(void **state)
         struct rc_shape s = {m, m, 1e-6, 1e-6};
         double *h = heights(row, s), mean = 1e9 * row->mean, bound;
         struct rc_problem problem = {.boundary = row->boundary,
-                                     .estar = 1e9,
+                                     .pair.estar = 1e9,
                                      .method = "pcg",
                                      .load = mean * s.dx * s.dy * (double)n,
                                      .tol = 1e-12,

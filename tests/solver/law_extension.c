@@ -34,7 +34,7 @@ choose(struct rc_shape s, enum rc_boundary boundary, enum set_name name, unsigne
         struct rc_selfaffine what = {
             .hurst = 0.8, .rms_slope = 0.1, .short_cut = 6 * fmax(s.dx, s.dy), .seed = 4};
         struct rc_problem problem = {.boundary = boundary,
-                                     .estar = 1e9,
+                                     .pair.estar = 1e9,
                                      .load = 1.5e7 * s.dx * s.dy * (double)n,
                                      .tol = 1e-7};
         struct solved a;
@@ -106,7 +106,8 @@ symmetric_and_positive(void **state)
         unsigned char *w = malloc(n);
         float *v = malloc(4 * n * sizeof *v), *a = v, *b = v + n, *za = v + 2 * n, *zb = v + 3 * n;
         struct rc_err err;
-        struct rc_operator_options options = {.boundary = boundary, .estar = 1};
+        struct rc_operator_options options = {.boundary = boundary,
+                                              .pair = &(struct rc_pair){.estar = 1}};
         struct rc_operator *op = rc_half_space_new(&s, &options, &err);
         struct rc_preconditioner *e;
         uint64_t seed = 2;
@@ -159,7 +160,7 @@ restricted(struct rc_shape s, enum rc_boundary boundary, const size_t *at, size_
     struct rc_shape scaled = {s.nx, s.ny, s.dx / unit, s.dy / unit};
     struct rc_conv_options options = {.boundary = boundary, .engine = "fft"};
     struct rc_err err;
-    struct rc_conv *conv = rc_conv_new(&scaled, 1, &options, &err);
+    struct rc_conv *conv = rc_conv_new(&scaled, &(struct rc_pair){.estar = 1}, &options, &err);
     gsl_matrix *k = gsl_matrix_alloc(count, count);
 
     assert_non_null(conv);
@@ -184,7 +185,8 @@ corrections(struct rc_shape s, enum rc_boundary boundary, const unsigned char *w
     size_t n = s.nx * s.ny;
     float *r = calloc(n, sizeof *r), *z = malloc(n * sizeof *z);
     struct rc_err err;
-    struct rc_operator_options options = {.boundary = boundary, .estar = 1};
+    struct rc_operator_options options = {.boundary = boundary,
+                                          .pair = &(struct rc_pair){.estar = 1}};
     struct rc_operator *op = rc_half_space_new(&s, &options, &err);
     struct rc_preconditioner *e = op == NULL ? NULL : rc_preconditioner_new(op, &err);
     gsl_matrix *b = gsl_matrix_alloc(count, count);

@@ -43,10 +43,10 @@ estimates(void **state)
             for (size_t t = 0; t < 2; t++)
                 for (int yields = 0; yields < 2; yields++) {
                     struct rc_layer layer = {thickness[t], ratio[r] * e, 0.3};
-                    struct rc_coating coating = {1, &layer, e, 0.3, 1e-12};
+                    struct rc_body coating = {e, 0.3, 1, &layer};
                     double hard = 0.03 * fmin(ratio[r], 1) * e;
                     struct rc_problem problem = {.boundary = (enum rc_boundary)b,
-                                                 .coating = &coating,
+                                                 .pair = {.one = coating, .two = {.e = 1e12}},
                                                  .load = 0.2 * hard * N * 1.1e-12,
                                                  .hardness = yields ? hard : 0,
                                                  .tol = 1e-4};
@@ -79,8 +79,8 @@ static void
 mirrored_and_cut(void **state)
 {
     struct rc_layer one = {5e-6, 4 * e, 0.25}, two[] = {{2e-6, 4 * e, 0.25}, {3e-6, 4 * e, 0.25}};
-    struct rc_coating whole = {1, &one, e, 0.3, 0}, cut = {2, two, e, 0.3, 0};
-    struct rc_problem problem = {.coating = &whole, .load = 1e-2, .tol = 1e-9};
+    struct rc_body whole = {e, 0.3, 1, &one}, cut = {e, 0.3, 2, two};
+    struct rc_problem problem = {.pair.one = whole, .load = 1e-2, .tol = 1e-9};
     double h[N], mirrored[N];
     struct solved a, b, c;
 
@@ -90,7 +90,7 @@ mirrored_and_cut(void **state)
         mirrored[k] = h[k / NX * NX + NX - 1 - k % NX];
     a = solve(shape, h, problem);
     b = solve(shape, mirrored, problem);
-    problem.coating = &cut;
+    problem.pair.one = cut;
     c = solve(shape, h, problem);
     for (size_t k = 0; k < N; k++) {
         assert_true(fabs(a.p[k] - b.p[k / NX * NX + NX - 1 - k % NX]) < 1e-7 * a.c.max_pressure);

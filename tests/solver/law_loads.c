@@ -36,7 +36,7 @@ static struct rc_problem
 problem_on(enum rc_boundary boundary)
 {
     return (struct rc_problem){.boundary = boundary,
-                               .estar = estar,
+                               .pair.estar = estar,
                                .load = boundary == RC_FREE ? 0.05 : 0.8,
                                .tol = 1e-7,
                                .method = contact_method};

@@ -50,7 +50,7 @@ set_up(const struct row *row)
     struct rc_shape shape = {row->nx, row->ny, 1e-6, 1e-6};
     size_t n = row->nx * row->ny;
     double *h = calloc(n, sizeof *h), load = 1e9 * (double)n * 1e-12, sum = 0, moved = 0;
-    struct rc_problem problem = {.estar = 1e11,
+    struct rc_problem problem = {.pair.estar = 1e11,
                                  .load = load,
                                  .tol = 1e-6,
                                  .hardness = isinf(row->hardness) ? 0 : row->hardness * 1e9};

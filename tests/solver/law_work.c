@@ -32,7 +32,7 @@ work(const struct row *row, size_t m, const char *method)
                                  .short_cut = 8 * s.dx,
                                  .seed = 5};
     struct rc_problem problem = {.boundary = row->boundary,
-                                 .estar = 1e9,
+                                 .pair.estar = 1e9,
                                  .method = method,
                                  .tol = 1e-4,
                                  .load = mean * s.dx * s.dy * (double)(m * m),

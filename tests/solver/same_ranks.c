@@ -93,19 +93,20 @@ displacements(void **state)
         struct part part = part_of(s);
         double *p = rough(s, q), *u = calloc(s.nx * s.ny, sizeof *u);
         double *own = calloc(part.n + 1, sizeof *own);
-        struct rc_coating coating = {
+        struct rc_body coating = {
             .layers = 1,
             .layer = (const struct rc_layer[]){{.thickness = 3e-6, .e = 4e11, .nu = 0.2}},
             .e = 1e11,
             .nu = 0.3};
+        struct rc_pair pair = {.estar = 1e11};
         struct rc_conv *alone, *shared;
         struct rc_err err;
 
         if (q % 3 == 2)
-            o.coating = &coating;
-        alone = rc_conv_new(&s, 1e11, &o, &err);
+            pair = (struct rc_pair){.one = coating};
+        alone = rc_conv_new(&s, &pair, &o, &err);
         o.ranks = ranks;
-        shared = rc_conv_new(&s, 1e11, &o, &err);
+        shared = rc_conv_new(&s, &pair, &o, &err);
         assert_non_null(alone);
         assert_non_null(shared);
         rc_conv_apply(alone, p, u);
@@ -131,7 +132,7 @@ refusals(void **state)
     MPI_Comm_size(MPI_COMM_WORLD, &count);
     if (count == 1)
         skip();
-    assert_null(rc_conv_new(&s, 1e11, &o, &err));
+    assert_null(rc_conv_new(&s, &pair, &o, &err));
     assert_non_null(strstr(err.text, "in one process"));
 }
 
@@ -230,7 +231,7 @@ contacts(void **state)
         struct rc_shape s = shapes[q / 2];
         double area = (double)(s.nx * s.ny) * s.dx * s.dy;
         struct rc_problem problem = {.boundary = q % 2 ? RC_PERIODIC : RC_FREE,
-                                     .estar = 1e11,
+                                     .pair.estar = 1e11,
                                      .load = 3e8 * area,
                                      .engine = "fft",
                                      .tol = 1e-6,
@@ -247,7 +248,7 @@ approaches(void **state)
 {
     struct rc_shape s = {200, 190, 1e-6, 1e-6};
     struct rc_problem problem = {
-        .estar = 1e11, .approach = 2e-8, .engine = "fft", .tol = 1e-6, .threads = 1};
+        .pair.estar = 1e11, .approach = 2e-8, .engine = "fft", .tol = 1e-6, .threads = 1};
 
     (void)state;
     compare(s, problem, 2, "approach");
@@ -265,7 +266,7 @@ saturation(void **state)
     (void)state;
     for (int q = 0; q < 4; q++) {
         struct rc_problem problem = {.boundary = q % 2 ? RC_PERIODIC : RC_FREE,
-                                     .estar = 1e11,
+                                     .pair.estar = 1e11,
                                      .hardness = 1e9,
                                      .load = (q < 2 ? 0.999 : 1.0) * 1e9 * area,
                                      .engine = "fft",
@@ -283,7 +284,7 @@ static void
 memory(void **state)
 {
     struct rc_shape s = {512, 512, 1e-6, 1e-6};
-    struct rc_problem problem = {.estar = 1e11, .load = 1, .threads = 1};
+    struct rc_problem problem = {.pair.estar = 1e11, .load = 1, .threads = 1};
     unsigned long most = (unsigned long)part_of(s).n;
     size_t more[2];
 
@@ -308,13 +309,13 @@ stresses(void **state)
     for (size_t q = 0; q < 8; q++) {
         struct rc_shape s = shapes[q / 2];
         struct part part = part_of(s);
-        struct rc_coating coating = {
+        struct rc_body coating = {
             .layers = 1,
             .layer = (const struct rc_layer[]){{.thickness = 3e-6, .e = 4e11, .nu = 0.2}},
             .e = 1e11,
             .nu = 0.3};
         struct rc_stress_options o = {.boundary = q % 2 ? RC_PERIODIC : RC_FREE,
-                                      .nu = 0.3,
+                                      .body.nu = 0.3,
                                       .mu = q % 4 < 2 ? 0.2 : 0,
                                       .wanted = 1u << RC_MISES | 1u << RC_SXY,
                                       .threads = 1 + q / 2 % 2};
@@ -325,19 +326,19 @@ stresses(void **state)
         struct rc_err err;
 
         if (q == 4 || q == 5)
-            o.coating = &coating;
+            o.body = coating;
         s1[RC_MISES] = calloc(s.nx * s.ny, sizeof(double));
         s1[RC_SXY] = calloc(s.nx * s.ny, sizeof(double));
         s2[RC_MISES] = calloc(part.n + 1, sizeof(double));
         s2[RC_SXY] = calloc(part.n + 1, sizeof(double));
         alone = rc_stress_new(&s, p, &o, &err);
-        assert_int_equal(rc_stress_depths(&s, p, o.boundary, NULL, &d1, &n1, &err), RC_OK);
+        assert_int_equal(rc_stress_depths(&s, p, o.boundary, &o.body, NULL, &d1, &n1, &err), RC_OK);
         o.ranks = ranks;
         shared = rc_stress_new(&s, p + part.first, &o, &err);
         assert_non_null(alone);
         assert_non_null(shared);
         assert_int_equal(
-            rc_stress_depths_on(ranks, &s, p + part.first, o.boundary, NULL, &d2, &n2, &err),
+            rc_stress_depths(&s, p + part.first, o.boundary, &o.body, ranks, &d2, &n2, &err),
             RC_OK);
         assert_int_equal(n1, n2);
         assert_same(n1, d2, d1, "depths");

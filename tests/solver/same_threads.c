@@ -49,7 +49,7 @@ convolve(size_t k, double *out)
 
     o.boundary = k % 3 == 0 ? RC_PERIODIC : RC_FREE;
     some_pressure(&s, p);
-    if ((conv = rc_conv_new(&s, 1e9, &o, NULL)) != NULL)
+    if ((conv = rc_conv_new(&s, &(struct rc_pair){.estar = 1e9}, &o, NULL)) != NULL)
         rc_conv_apply(conv, p, out);
     rc_conv_free(conv);
 }
@@ -58,7 +58,7 @@ static void
 stress(size_t k, double *out)
 {
     struct rc_shape s = some_shape(k);
-    struct rc_stress_options o = {.nu = 0.3, .wanted = 1 << RC_SXZ, .threads = 1};
+    struct rc_stress_options o = {.body.nu = 0.3, .wanted = 1 << RC_SXZ, .threads = 1};
     double *slice[RC_STRESSES] = {[RC_SXZ] = out}, p[N];
     struct rc_stress *plan;
 

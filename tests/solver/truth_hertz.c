@@ -22,7 +22,7 @@ static struct solved
 sphere(size_t m)
 {
     struct rc_shape shape = grid(m);
-    struct rc_problem problem = {.estar = estar, .load = load, .tol = 1e-7, .threads = 2};
+    struct rc_problem problem = {.pair.estar = estar, .load = load, .tol = 1e-7, .threads = 2};
     double *h = malloc(m * m * sizeof *h);
     struct solved s;
 
@@ -102,7 +102,8 @@ stress_under_the_contact(void **state)
     struct rc_shape shape = grid(M);
     struct solved solved = sphere(M);
     struct rc_err err;
-    struct rc_stress_options options = {.nu = nu, .wanted = (2u << RC_MISES) - 1, .threads = 2};
+    struct rc_stress_options options = {
+        .body.nu = nu, .wanted = (2u << RC_MISES) - 1, .threads = 2};
     struct rc_stress *stress = rc_stress_new(&shape, solved.p, &options, &err);
     double *s[RC_STRESSES] = {NULL}, *mises, largest = 0, place = 0;
     double step = exact.a / (DEPTHS - 1);
@@ -155,7 +156,7 @@ units_and_datum(void **state)
         double L = unit[k];
         struct rc_shape shape = {M, M, side * L / M, side * L / M};
         struct rc_problem problem = {
-            .estar = estar / (L * L), .load = load, .tol = 1e-9, .threads = 1};
+            .pair.estar = estar / (L * L), .load = load, .tol = 1e-9, .threads = 1};
         double h[M * M];
         struct solved s;
 

@@ -28,11 +28,11 @@ struct off {
 
 /* How far the solution is from the answer, on m by m nodes that reach 1.2 times as far as the contact. */
 static struct off
-paraboloid(const struct rc_coating *c, const struct answer *known, double modulus, size_t m)
+paraboloid(const struct rc_pair *c, const struct answer *known, double modulus, size_t m)
 {
     struct rc_shape shape = {m, m, 2.4 * a / (double)m, 2.4 * a / (double)m};
     double *h = malloc(m * m * sizeof *h);
-    struct rc_problem problem = {.coating = c,
+    struct rc_problem problem = {.pair = *c,
                                  .load = known->load * 4 * modulus * a * a * a / (3 * R),
                                  .tol = 1e-6,
                                  .threads = 2};
@@ -105,7 +105,7 @@ paraboloid_on_one(size_t k, size_t m)
 {
     struct rc_layer layer = {a / paraboloids[k].a_over_t, paraboloids[k].ratio * e,
                              paraboloids[k].nu};
-    struct rc_coating coating = {1, &layer, e, 0.3, 0};
+    struct rc_pair coating = {.one = {e, 0.3, 1, &layer}};
 
     return paraboloid(&coating, &paraboloids[k].known, estar, m);
 }
@@ -133,9 +133,9 @@ three_layers_and_elastic_ball(void **state)
 {
     struct rc_layer three[] = {{a / 2, 4 * e, 0.2}, {a, 0.2 * e, 0.45}, {2 * a, 10 * e, 0.3}};
     struct rc_layer one = {a, 10 * e, 0.3};
-    struct rc_coating stack = {3, three, e, 0.3, 0};
+    struct rc_pair stack = {.one = {e, 0.3, 3, three}};
     /* the ball: E 3, nu 0.25 of the substrate's */
-    struct rc_coating ball = {1, &one, e, 0.3, (1 - 0.25 * 0.25) / (3 * e)};
+    struct rc_pair ball = {.one = {e, 0.3, 1, &one}, .two = {3 * e, 0.25}};
     /* given as P R/(E_s a^3), approach R/a^2, p(0) R/(E_s a) */
     struct answer on_stack = {1.2029459505, 1.1917565732, 0.7489221098};
     struct answer with_ball = {2.8610919406 * 3 / 4, 1.4281666803, 1.3411936279 * exact_pi / 2};
@@ -208,11 +208,11 @@ disc_new(size_t m)
 
 /* The load over 2 `over` a times the approach. */
 static double
-punch(const struct rc_coating *c, double over, size_t m)
+punch(const struct rc_pair *c, double over, size_t m)
 {
     struct disc d = disc_new(m);
     double load = 0.01 * over * 2 * a * a;
-    struct rc_problem problem = {.coating = c, .load = load, .tol = 1e-7, .threads = 2};
+    struct rc_problem problem = {.pair = *c, .load = load, .tol = 1e-7, .threads = 2};
     struct solved s = solve(d.shape, d.h, problem);
 
     assert_int_equal(s.status, RC_OK);
@@ -226,15 +226,15 @@ punch(const struct rc_coating *c, double over, size_t m)
 /* The same of a punch that is glued on: under it the displacement is 1 m, whatever the sign of the
  * pressure. By plain conjugate gradients. */
 static double
-glued_punch(const struct rc_coating *c, double over, size_t m)
+glued_punch(const struct rc_pair *c, double over, size_t m)
 {
     struct disc d = disc_new(m);
     size_t n = m * m;
     double *p = calloc(n, sizeof *p), *r = calloc(n, sizeof *r), *t = calloc(n, sizeof *t),
            *u = malloc(n * sizeof *u), rr = (double)d.under, load;
-    struct rc_conv_options options = {.coating = c, .threads = 2, .precise = true};
+    struct rc_conv_options options = {.threads = 2, .precise = true};
     struct rc_err err;
-    struct rc_conv *conv = rc_conv_new(&d.shape, 0, &options, &err);
+    struct rc_conv *conv = rc_conv_new(&d.shape, c, &options, &err);
 
     assert_non_null(conv);
     for (size_t k = 0; k < n; k++)
@@ -294,8 +294,8 @@ punches(void **state)
     (void)state;
     for (size_t k = 0; k < sizeof ratio / sizeof *ratio; k++) {
         struct rc_layer layer = {a, ratio[k] * e, 0.3};
-        struct rc_coating coating = {1, &layer, e, 0.3, 0};
-        double (*press)(const struct rc_coating *, double, size_t) =
+        struct rc_pair coating = {.one = {e, 0.3, 1, &layer}};
+        double (*press)(const struct rc_pair *, double, size_t) =
             ratio[k] < 10 ? punch : glued_punch;
         double coarse = press(&coating, estar, 101), fine = press(&coating, estar, 201);
         print_message("E1/Es %g: off by ", ratio[k]);
@@ -321,7 +321,7 @@ punches_on_rigid_base(void **state)
     for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
         double nu = known[k].nu, over = e / (1 - nu * nu); /* 2 G/(1 - nu) */
         struct rc_layer layer = {a / known[k].a_over_t, e, nu};
-        struct rc_coating coating = {1, &layer, INFINITY, 0.3, 0};
+        struct rc_pair coating = {.one = {INFINITY, 0.3, 1, &layer}};
         double coarse = punch(&coating, over, 101), fine = punch(&coating, over, 201);
         print_message("nu %g, a/t %g: off by ", nu, known[k].a_over_t);
         check_punch(coarse / known[k].kappa - 1, fine / known[k].kappa - 1, sum);
@@ -351,7 +351,7 @@ thin_on_rigid(void **state)
         double springs = exact_pi * 2 * g * (1 - nu) / (1 - 2 * nu) * pow(a, 4) / (4 * R * t);
         double squeezed = exact_pi * g * pow(a, 6) / (32 * R * pow(t, 3));
         struct rc_layer layer = {t, e, nu};
-        struct rc_coating coating = {1, &layer, INFINITY, 0.3, 0};
+        struct rc_pair coating = {.one = {INFINITY, 0.3, 1, &layer}};
         struct answer answer = {.middle = 1};
         struct off coarse, fine;
         answer.load = known[k].load * (nu < 0.5 ? springs : squeezed);
@@ -373,11 +373,11 @@ beside_one(const struct solved *bare, struct rc_problem problem, const double *h
            struct rc_shape shape, double thickness, double ratio)
 {
     struct rc_layer layer = {thickness, ratio * e, 0.3};
-    struct rc_coating coating = {1, &layer, e, 0.3, 0};
+    struct rc_pair coating = {.one = {e, 0.3, 1, &layer}};
     struct solved s;
     struct off off;
 
-    problem.coating = &coating;
+    problem.pair = coating;
     s = solve(shape, h, problem);
     assert_int_equal(s.status, RC_OK);
     off.middle = distance(shape.nx * shape.ny, s.p, bare->p);
@@ -406,8 +406,10 @@ thick_and_thin(void **state)
     for (int thick = 0; thick < 2; thick++)
         for (int k = 0; k < 2; k++) {
             double one = thick ? ratio[k] * estar : estar, t = thick ? 100 * a : 1e-4 * a;
-            struct rc_problem problem = {
-                .estar = one, .load = 4 * one * a * a * a / (3 * R), .tol = 1e-10, .threads = 2};
+            struct rc_problem problem = {.pair.estar = one,
+                                         .load = 4 * one * a * a * a / (3 * R),
+                                         .tol = 1e-10,
+                                         .threads = 2};
             struct solved bare = solve(shape, h, problem);
             struct off first = beside_one(&bare, problem, h, shape, t, ratio[k]);
             struct off next =
@@ -456,9 +458,9 @@ waves_pressed_flat(void **state)
                 double wave = 2 * exact_pi / body[b].q[k], amplitude = 1e-6 * wave;
                 double stiff = body[b].q[k] / (2 * body[b].g[k]);
                 struct rc_shape shape = {N, N, wave / N, wave / N};
-                struct rc_coating coating = {body[b].n, body[b].layer, 1, body[b].nu, 0};
+                struct rc_pair coating = {.one = {1, body[b].nu, body[b].n, body[b].layer}};
                 struct rc_problem problem = {.boundary = RC_PERIODIC,
-                                             .coating = &coating,
+                                             .pair = coating,
                                              .load = 2 * stiff * amplitude * wave * wave,
                                              .tol = 1e-12};
                 struct solved s;

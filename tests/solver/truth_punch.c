@@ -17,7 +17,7 @@ cone(void **state)
     };
     double slope = 0.013, load = 2.91, a = cone_radius(load, slope, estar), nodes = M / 2.5;
     struct rc_shape shape = {M, M, 2.5 * a / M, 2.5 * a / M};
-    struct rc_problem problem = {.estar = estar, .load = load, .tol = 1e-6};
+    struct rc_problem problem = {.pair.estar = estar, .load = load, .tol = 1e-6};
     double *h = malloc(M * M * sizeof *h);
     struct solved s;
 
@@ -45,7 +45,8 @@ plastic_cone(void **state)
     double slope = 0.2, load = 2.91, hardness = estar * slope / 60;
     double a = sqrt(load / (exact_pi * hardness));
     struct rc_shape shape = {M, M, 2.8 * a / M, 2.8 * a / M};
-    struct rc_problem problem = {.estar = estar, .load = load, .hardness = hardness, .tol = 1e-6};
+    struct rc_problem problem = {
+        .pair.estar = estar, .load = load, .hardness = hardness, .tol = 1e-6};
     double *h = malloc(M * M * sizeof *h);
     struct solved s;
 
@@ -69,7 +70,7 @@ punch_error(size_t m)
 {
     double load = 11.7, a = 1e-4;
     struct rc_shape shape = {m, m, 2.2 * a / (double)m, 2.2 * a / (double)m};
-    struct rc_problem problem = {.estar = estar, .load = load, .tol = 1e-7};
+    struct rc_problem problem = {.pair.estar = estar, .load = load, .tol = 1e-7};
     double *h = malloc(m * m * sizeof *h), error;
     struct solved s;
 
@@ -108,7 +109,7 @@ two_peaks(void **state)
     struct hertz one = hertz(load / 2, radius, estar);
     struct rc_shape shape = {NX, NY, one.a / 30, one.a / 30};
     double distance = 400 * shape.dx;
-    struct rc_problem problem = {.estar = estar, .load = load, .tol = 1e-6};
+    struct rc_problem problem = {.pair.estar = estar, .load = load, .tol = 1e-6};
     double *h = malloc(NX * NY * sizeof *h), left = 0, truth;
     struct solved s;
 

@@ -15,8 +15,11 @@ wave(struct rc_shape shape, double amplitude, double lx, double ly, double mean,
 {
     size_t n = shape.nx * shape.ny;
     double *h = malloc(n * sizeof *h);
-    struct rc_problem problem = {
-        .boundary = RC_PERIODIC, .estar = estar, .tol = tol, .max_iterations = 5000, .threads = 2};
+    struct rc_problem problem = {.boundary = RC_PERIODIC,
+                                 .pair.estar = estar,
+                                 .tol = tol,
+                                 .max_iterations = 5000,
+                                 .threads = 2};
     struct solved s;
 
     problem.load = mean * shape.dx * shape.dy * (double)n;
@@ -114,7 +117,7 @@ periods_and_shifts(void **state)
     double *h = malloc(48 * 36 * sizeof *h), *hh = malloc(96 * 36 * sizeof *hh);
     struct rc_selfaffine what = {.hurst = 0.7, .rms_height = 1e-7, .short_cut = 6e-6, .seed = 9};
     struct rc_problem problem = {.boundary = RC_PERIODIC,
-                                 .estar = estar,
+                                 .pair.estar = estar,
                                  .hardness = 3e7,
                                  .tol = 1e-10,
                                  .max_iterations = 5000};

@@ -11,7 +11,7 @@
 
 static const struct rc_layer three[] = {
     {2.3e-6, 4e11, 0.2}, {1.1e-6, 2e10, 0.45}, {4e-6, 9e10, 0.3}};
-static const struct rc_coating coating = {3, three, 2e11, 0.28, 0};
+static const struct rc_body coating = {2e11, 0.28, 3, three};
 
 enum {
     MEDIA = 4
@@ -23,7 +23,7 @@ static struct rc_stack *
 stack(void)
 {
     struct rc_err err;
-    struct rc_stack *s = rc_stack_new(&coating, &err);
+    struct rc_stack *s = rc_stack_new(&coating, 0, &err);
 
     assert_non_null(s);
     return s;
@@ -160,9 +160,9 @@ extreme_stacks(void **state)
     (void)state;
     for (int a = 0; a < 27; a++) {
         const struct rc_layer layer[] = {{t[a % 3], e[a / 3 % 3], 0.5}, {1, e[a / 9], -0.999}};
-        const struct rc_coating c = {2, layer, 1, 0.3, 0};
+        const struct rc_body c = {1, 0.3, 2, layer};
         struct rc_err err;
-        struct rc_stack *s = rc_stack_new(&c, &err);
+        struct rc_stack *s = rc_stack_new(&c, 0, &err);
         double f[RC_UNDER_BOTH];
         assert_non_null(s);
         for (size_t k = 0; k < 3; k++)
@@ -189,7 +189,7 @@ slice(struct rc_shape shape, enum rc_boundary boundary, const double *p, double 
     size_t n = shape.nx * shape.ny;
     double *to[RC_STRESSES] = {NULL};
     struct rc_stress_options o = {
-        .boundary = boundary, .mu = mu, .wanted = six, .coating = &coating, .threads = 2};
+        .boundary = boundary, .mu = mu, .wanted = six, .body = coating, .threads = 2};
     struct rc_err err;
     struct rc_stress *stress = rc_stress_new(&shape, p, &o, &err);
 
@@ -421,12 +421,12 @@ static void
 chosen_depths(void **state)
 {
     const struct rc_shape shape = {48, 40, 0.7e-6, 0.8e-6};
-    const struct rc_coating rigid = {3, three, INFINITY, 0.3, 0};
+    const struct rc_body rigid = {INFINITY, 0.3, 3, three};
     size_t n = shape.nx * shape.ny, count, in[MEDIA] = {0};
     double *p = malloc(n * sizeof *p), *m = malloc(n * sizeof *m), *z, bottom = 0, found = 0,
            most = 0;
     double *s[RC_STRESSES] = {[RC_MISES] = m};
-    struct rc_stress_options o = {.wanted = 1u << RC_MISES, .coating = &coating, .threads = 2};
+    struct rc_stress_options o = {.wanted = 1u << RC_MISES, .body = coating, .threads = 2};
     struct rc_err err;
     struct rc_stress *stress;
 
@@ -434,11 +434,11 @@ chosen_depths(void **state)
     for (size_t k = 0; k < n; k++)
         p[k] = node_r(shape, k) < 9e-6 ? 1e9 * sqrt(1 - pow(node_r(shape, k) / 9e-6, 2)) : 0;
     stress = rc_stress_new(&shape, p, &o, &err);
-    assert_int_equal(rc_stress_depths(&shape, p, RC_FREE, &coating, &z, &count, &err), RC_OK);
+    assert_int_equal(rc_stress_depths(&shape, p, RC_FREE, &coating, NULL, &z, &count, &err), RC_OK);
     assert_true(z[0] == 0 && z[count - 1] > 2.5 * 9e-6);
     for (size_t k = 0; k < count; k++) {
         assert_true(k == 0 || z[k] > z[k - 1]);
-        in[rc_coating_material(&coating, z[k])]++;
+        in[rc_body_material(&coating, z[k])]++;
         assert_int_equal(rc_stress_slice(stress, z[k], s, &err), RC_OK);
         found = larger(found, m[rc_largest(n, m)]);
     }
@@ -459,7 +459,7 @@ chosen_depths(void **state)
     assert_true(found >= 0.98 * most);
     assert_true(count < 80);
     free(z);
-    assert_int_equal(rc_stress_depths(&shape, p, RC_FREE, &rigid, &z, &count, &err), RC_OK);
+    assert_int_equal(rc_stress_depths(&shape, p, RC_FREE, &rigid, NULL, &z, &count, &err), RC_OK);
     assert_true(fabs(z[count - 1] / bottom - 1) <= rounding);
     free(z);
     rc_stress_free(stress);
@@ -471,11 +471,11 @@ chosen_depths(void **state)
 static void
 refused(void **state)
 {
-    const struct rc_layer layer = {1e-6, 1e9, 0.4};
-    struct rc_coating rigid = {1, &layer, INFINITY, 0.3, 0};
+    const struct rc_layer layer = {1e-6, 1e9, 0.4}, nothing = {0, 1e9, 0.4};
+    struct rc_body rigid = {INFINITY, 0.3, 1, &layer};
     const struct rc_shape shape = {4, 4, 1e-6, 1e-6};
     double p[16] = {1}, v[16] = {NAN}, *s[RC_STRESSES] = {[RC_SZZ] = v};
-    struct rc_stress_options o = {.wanted = 1 << RC_SZZ, .coating = &rigid, .threads = 1};
+    struct rc_stress_options o = {.wanted = 1 << RC_SZZ, .body = rigid, .threads = 1};
     struct rc_err err;
 
     (void)state;
@@ -490,9 +490,9 @@ refused(void **state)
         assert_non_null(strstr(err.text, "rigid"));
         rc_stress_free(stress);
     }
-    rigid.layers = 0;
+    o.body.layer = &nothing;
     assert_null(rc_stress_new(&shape, p, &o, &err));
-    assert_string_equal(err.text, "a coating without a layer");
+    assert_string_equal(err.text, "layer 1 is 0 m thick: it must be positive and finite");
 }
 
 int

@@ -20,7 +20,7 @@ static struct rc_stress_options
 options(enum rc_boundary boundary, double nu, double mu)
 {
     return (struct rc_stress_options){
-        .boundary = boundary, .nu = nu, .mu = mu, .wanted = SIX, .threads = 2};
+        .boundary = boundary, .body.nu = nu, .mu = mu, .wanted = SIX, .threads = 2};
 }
 
 struct field {
@@ -419,8 +419,8 @@ refused(void **state)
     assert_non_null(p);
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
         bad[k] = fine;
-    bad[0].nu = 0.51;
-    bad[1].nu = -1;
+    bad[0].body.nu = 0.51;
+    bad[1].body.nu = -1;
     bad[2].mu = INFINITY;
     bad[3].wanted = 0;
     bad[4].wanted = 1u << RC_STRESSES;

@@ -22,11 +22,11 @@ static const struct rc_layer stiff[] = {{3e-6, 2e12, 0.25}}, thin[] = {{0.05e-6,
                                  {1.3e-6, 4e11, 0.2}, {0.7e-6, 2e10, 0.45}, {4e-6, 9e10, 0.3}};
 static const struct {
     const char *what;
-    struct rc_coating coating;
-} bodies[] = {{"stiff", {1, stiff, 2e10, 0.3, 0}},
-              {"thin", {1, thin, 2e11, 0.3, 0}},
-              {"soft", {1, soft, 2e11, 0.3, 0}},
-              {"three", {3, three, 2e11, 0.28, 0}}};
+    struct rc_body coating;
+} bodies[] = {{"stiff", {2e10, 0.3, 1, stiff}},
+              {"thin", {2e11, 0.3, 1, thin}},
+              {"soft", {2e11, 0.3, 1, soft}},
+              {"three", {2e11, 0.28, 3, three}}};
 enum {
     BODIES = sizeof bodies / sizeof *bodies
 };
@@ -106,7 +106,7 @@ engines_agree(void **state)
     for (int i = 0; i < BODIES; i++)
         for (int d = 0; d < DEPTHS; d++) {
             struct rc_stress_options o = {
-                .mu = 0.35, .wanted = SIX, .coating = &bodies[i].coating, .threads = 2};
+                .mu = 0.35, .wanted = SIX, .body = bodies[i].coating, .threads = 2};
             compute(p, o, depths[d], a, NULL);
             o.engine = "direct";
             compute(p, o, depths[d], b, NULL);
@@ -140,7 +140,7 @@ sections_are_lines(void **state)
                 struct rc_stress_options o = {.boundary = (enum rc_boundary)boundary,
                                               .mu = 0.35,
                                               .wanted = SIX,
-                                              .coating = &bodies[i].coating,
+                                              .body = bodies[i].coating,
                                               .threads = 2};
                 double off = 0, scale;
                 compute(p, o, depths[d], a, NULL);
@@ -182,7 +182,7 @@ sections_across(void **state)
                                       .wanted = 1 << RC_SXX,
                                       .section = 'y',
                                       .at = 0.3e-6,
-                                      .coating = &bodies[3].coating,
+                                      .body = bodies[3].coating,
                                       .threads = 2};
         struct rc_err err;
         struct rc_stress *one = rc_stress_new(&square, p, &o, &err), *other;
@@ -214,7 +214,7 @@ threads_agree(void **state)
                                           .mu = 0.2,
                                           .wanted = SIX,
                                           .section = section ? 'y' : 0,
-                                          .coating = &bodies[3].coating,
+                                          .body = bodies[3].coating,
                                           .threads = 1};
             size_t n = compute(p, o, 1.7e-6, a, NULL);
             o.threads = 3;
@@ -236,11 +236,11 @@ only_what_is_asked(void **state)
     (void)state;
     for (int coated = 0; coated < 2; coated++)
         for (int friction = 0; friction < 2; friction++) {
-            struct rc_stress_options o = {.nu = 0.3,
+            struct rc_stress_options o = {.body = coated ? bodies[0].coating
+                                                         : (struct rc_body){.nu = 0.3},
                                           .mu = friction ? 0.3 : 0,
                                           .wanted = SIX,
                                           .tol = 5e-2,
-                                          .coating = coated ? &bodies[0].coating : NULL,
                                           .threads = 1};
             struct rc_stress_counts c;
             compute(p, o, 30e-6, s, &c);

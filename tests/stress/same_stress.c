@@ -90,7 +90,7 @@ engines_agree(void **state)
         for (double z = 0; z < 9; z = 3 * z + 0.4) {
             struct scene s = scene_new(maps[m].nx, maps[m].ny, maps[m].dx, maps[m].dy);
             struct rc_stress_options o = {
-                .nu = 0.28, .mu = maps[m].mu, .wanted = ALL, .threads = 2};
+                .body.nu = 0.28, .mu = maps[m].mu, .wanted = ALL, .threads = 2};
             size_t n = s.shape.nx * s.shape.ny;
             double *a[RC_STRESSES], *b[RC_STRESSES];
             compute(&s, o, z * s.shape.dx, a, NULL);
@@ -128,7 +128,7 @@ transforms_by_any_name(void **state)
     for (int boundary = 0; boundary < 2; boundary++)
         for (size_t k = 0; k < 4; k++) {
             struct rc_stress_options o = {
-                .boundary = (enum rc_boundary)boundary, .nu = 0.3, .mu = 0.2, .wanted = ALL};
+                .boundary = (enum rc_boundary)boundary, .body.nu = 0.3, .mu = 0.2, .wanted = ALL};
             struct rc_err err;
             struct rc_stress *stress;
             compute(&s, o, 2e-6, a, NULL);
@@ -148,7 +148,7 @@ static void
 engines_refused(void **state)
 {
     struct scene s = scene_new(8, 8, 1e-6, 1e-6);
-    struct rc_stress_options o = {.nu = 0.3, .wanted = SIX, .engine = "fftw"};
+    struct rc_stress_options o = {.body.nu = 0.3, .wanted = SIX, .engine = "fftw"};
     struct rc_err err;
 
     (void)state;
@@ -189,7 +189,7 @@ within_tolerance(void **state)
                     s.p[k] = random_number(&seed) > 0 ? s.largest : -s.largest;
                 for (double z = 2e-6; z < 3e-4; z *= 2.1) {
                     struct rc_stress_options o = {.boundary = (enum rc_boundary)(m % 2),
-                                                  .nu = 0.3,
+                                                  .body.nu = 0.3,
                                                   .mu = 0.25,
                                                   .wanted = SIX,
                                                   .threads = 2};
@@ -236,7 +236,7 @@ sections_are_lines_of_slices(void **state)
             for (int across = 0; across < 2; across++) {
                 struct scene s = scene_new(maps[m].nx, maps[m].ny, 1.1e-6, 0.9e-6);
                 struct rc_stress_options o = {.boundary = (enum rc_boundary)boundary,
-                                              .nu = 0.3,
+                                              .body.nu = 0.3,
                                               .mu = 0.25,
                                               .wanted = ALL,
                                               .threads = 2};
@@ -271,7 +271,7 @@ sections_between_rows(void **state)
 {
     struct scene s = scene_new(24, 16, 1e-6, 1.2e-6), fine = scene_new(24, 32, 1e-6, 0.6e-6);
     struct rc_stress_options o = {
-        .nu = 0.3, .mu = 0.25, .wanted = SIX, .section = 'y', .threads = 2};
+        .body.nu = 0.3, .mu = 0.25, .wanted = SIX, .section = 'y', .threads = 2};
 
     (void)state;
     for (size_t k = 0; k < 24 * 32; k++)
@@ -308,7 +308,7 @@ threads_change_no_bit(void **state)
         for (int section = 0; section < 2; section++) {
             double *a[RC_STRESSES], *b[RC_STRESSES];
             struct rc_stress_options o = {.boundary = (enum rc_boundary)boundary,
-                                          .nu = 0.3,
+                                          .body.nu = 0.3,
                                           .mu = 0.25,
                                           .wanted = ALL,
                                           .section = section ? 'x' : 0,
@@ -330,7 +330,7 @@ alone_as_in_company(void **state)
 {
     struct scene s = scene_new(45, 38, 1e-6, 1.1e-6);
     double *all[RC_STRESSES], *one[RC_STRESSES];
-    struct rc_stress_options o = {.nu = 0.3, .mu = 0.25, .wanted = ALL, .threads = 2};
+    struct rc_stress_options o = {.body.nu = 0.3, .mu = 0.25, .wanted = ALL, .threads = 2};
 
     (void)state;
     compute(&s, o, 1e-6, all, NULL);
@@ -438,7 +438,7 @@ nothing_is_done_unasked(void **state)
         s.p[k] += 1e8; /* no line without pressure */
     for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
         struct rc_stress_options o = {.boundary = row[k].boundary,
-                                      .nu = 0.3,
+                                      .body.nu = 0.3,
                                       .mu = row[k].mu,
                                       .wanted = row[k].wanted,
                                       .section = row[k].section,

@@ -77,9 +77,9 @@ static struct cap
 cap_new(double e, double p0)
 {
     struct rc_layer layer = {1, e, 0.3};
-    struct rc_coating coating = {1, &layer, 1, 0.3, 0};
+    struct rc_body coating = {1, 0.3, 1, &layer};
     struct rc_err err;
-    struct cap c = {.stack = rc_stack_new(&coating, &err), .p0 = p0};
+    struct cap c = {.stack = rc_stack_new(&coating, 0, &err), .p0 = p0};
     gsl_integration_glfixed_table *g = gsl_integration_glfixed_table_alloc(NODES);
     gsl_matrix *m = gsl_matrix_alloc(NODES, NODES);
     gsl_permutation *p = gsl_permutation_alloc(NODES);
@@ -213,7 +213,7 @@ static const struct rc_shape shape = {NX, NY, 1.1e-6, 0.9e-6};
 static const double one_nu = 0.31, mu = 0.35;
 static const struct rc_layer one_material[] = {
     {2.1e-6, 7e10, 0.31}, {0.4e-6, 7e10, 0.31}, {5e-6, 7e10, 0.31}};
-static const struct rc_coating of_one = {3, one_material, 7e10, 0.31, 0};
+static const struct rc_body of_one = {7e10, 0.31, 3, one_material};
 
 static double *
 random_pressure(void)
@@ -251,8 +251,7 @@ one_material_free(void **state)
     for (size_t d = 0; d < sizeof depths / sizeof *depths; d++) {
         double off = 0;
         slice_of(p,
-                 (struct rc_stress_options){
-                     .nu = NAN, .mu = mu, .wanted = SIX, .coating = &of_one, .threads = 2},
+                 (struct rc_stress_options){.mu = mu, .wanted = SIX, .body = of_one, .threads = 2},
                  depths[d], s);
         for (size_t k = 5; k < N; k += 97)
             for (int c = 0; c < RC_COMPONENTS; c++) {
@@ -285,10 +284,10 @@ one_material_periodic(void **state)
     (void)state;
     for (size_t d = 0; d < sizeof depths / sizeof *depths; d++) {
         struct rc_stress_options o = {
-            .boundary = RC_PERIODIC, .nu = one_nu, .mu = mu, .wanted = SIX, .threads = 2};
+            .boundary = RC_PERIODIC, .body.nu = one_nu, .mu = mu, .wanted = SIX, .threads = 2};
         double off = 0;
         slice_of(p, o, depths[d], bare);
-        o.coating = &of_one;
+        o.body = of_one;
         slice_of(p, o, depths[d], s);
         for (size_t k = 0; k < 6 * N; k++)
             off = larger(off, fabs(s[k] - bare[k]) / 1e9);
@@ -308,7 +307,7 @@ static void
 uniform_pressure(void **state)
 {
     const struct rc_layer layer = {1e-6, 2e11, 0.21};
-    const struct rc_coating coating = {1, &layer, 7e10, 0.33, 0};
+    const struct rc_body coating = {7e10, 0.33, 1, &layer};
     const double pressure = 3e8, es = 7e10, nus = 0.33, e = 2e11, nu = 0.21;
     double p[16], v[6 * 16], *s[RC_STRESSES] = {NULL};
 
@@ -320,7 +319,7 @@ uniform_pressure(void **state)
     for (int profile = 0; profile < 2; profile++) {
         const struct rc_shape map = {profile ? 16 : 4, profile ? 1 : 4, 1e-6, 1e-6};
         const struct rc_stress_options o = {
-            .boundary = RC_PERIODIC, .mu = mu, .wanted = SIX, .coating = &coating, .threads = 1};
+            .boundary = RC_PERIODIC, .mu = mu, .wanted = SIX, .body = coating, .threads = 1};
         struct rc_err err;
         struct rc_stress *stress = rc_stress_new(&map, p, &o, &err);
         /* strain along x of the substrate: sxx = -p in plane strain, -(1 + 2 nu) p/2 else */
@@ -438,19 +437,19 @@ coefficients(void **state)
     static const struct rc_layer stiff[] = {{0.12, 100, 0.2}}, soft[] = {{3, 0.02, 0.5}},
                                  three[] = {{1, 4, 0.2}, {0.6, 0.2, 0.45}, {2, 10, 0.3}};
     static const struct {
-        struct rc_coating coating;
+        struct rc_body coating;
         double z[4];
         double x[4], y[4];
     } cases[] = {
-        {{1, stiff, 1, 0.3, 0}, {0.03, 0.12, 0.13, 0.5}, {0, 1, 0, 1}, {0, 0, 1.3, 1.3}},
-        {{1, soft, 1, 0.3, 0}, {0.4, 2, 3.1, 9}, {0, 1, 0, 9}, {0, 0, 1.3, 5.2}},
-        {{3, three, 1, 0.3, 0}, {0.7, 1, 1.4, 1.8}, {0, 2, 5, 12}, {0, 1.3, 2.6, 7.8}},
+        {{1, 0.3, 1, stiff}, {0.03, 0.12, 0.13, 0.5}, {0, 1, 0, 1}, {0, 0, 1.3, 1.3}},
+        {{1, 0.3, 1, soft}, {0.4, 2, 3.1, 9}, {0, 1, 0, 9}, {0, 0, 1.3, 5.2}},
+        {{1, 0.3, 3, three}, {0.7, 1, 1.4, 1.8}, {0, 2, 5, 12}, {0, 1.3, 2.6, 7.8}},
     };
 
     (void)state;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         struct rc_err err;
-        struct rc_stack *s = rc_stack_new(&cases[k].coating, &err);
+        struct rc_stack *s = rc_stack_new(&cases[k].coating, 0, &err);
         for (int d = 0; d < 4; d++) {
             double z = cases[k].z[d], off = 0, largest = 1;
             struct rc_stress_task task = {.coated = true, .stack = s, .options = {.mu = 1}};
@@ -498,10 +497,10 @@ lines_are_places(void **state)
         LENGTH = 300
     };
     static const struct rc_layer three[] = {{1, 4, 0.2}, {0.6, 0.2, 0.45}, {2, 10, 0.3}};
-    static const struct rc_coating body = {3, three, 1, 0.3, 0};
+    static const struct rc_body body = {1, 0.3, 3, three};
     static const double depths_of[] = {0, 0.5, 1, 1.3, 5, 100}, lines[] = {0, 1.3, 26, 130};
     struct rc_err err;
-    struct rc_stack *s = rc_stack_new(&body, &err);
+    struct rc_stack *s = rc_stack_new(&body, 0, &err);
     double line[12][LENGTH], places[12][LENGTH], x[LENGTH], y[LENGTH], *a[12], *b[12];
     double off = 0;
 
@@ -545,14 +544,14 @@ axis_of_a_solution(void **state)
     };
     const struct rc_shape map = {M, M, 0.04, 0.04};
     const struct rc_layer layer = {1, 10, 0.3};
-    const struct rc_coating coating = {1, &layer, 1, 0.3, 0};
+    const struct rc_body coating = {1, 0.3, 1, &layer};
     const double estar = 1 / (1 - 0.3 * 0.3), factor = 5.9423756139,
                  p0 = 5.4728630450 * 2 / exact_pi;
     /* the radius 1000 makes slopes small; a = 1 */
     struct rc_problem problem = {
-        .load = factor * 4 * estar / 3 / 1000, .tol = 1e-6, .coating = &coating, .threads = 2};
+        .load = factor * 4 * estar / 3 / 1000, .tol = 1e-6, .pair.one = coating, .threads = 2};
     double h[M * M], one[6 * M * M], *to[RC_STRESSES] = {NULL};
-    struct rc_stress_options o = {.mu = 0, .wanted = SIX, .coating = &coating, .threads = 2};
+    struct rc_stress_options o = {.mu = 0, .wanted = SIX, .body = coating, .threads = 2};
     struct rc_stress *stress;
     struct rc_err err;
     struct solved s;

@@ -266,7 +266,7 @@ rectangle_at_every_depth(void **state)
     const double pressure = 2.385e9, mu = 0.37, nu = 0.29;
     double a = 21 * shape.dx / 2, b = 14 * shape.dy / 2, worst[RC_COMPONENTS] = {0};
     struct rc_stress_options options = {
-        .nu = nu, .mu = mu, .wanted = (1u << RC_COMPONENTS) - 1, .threads = 2};
+        .body.nu = nu, .mu = mu, .wanted = (1u << RC_COMPONENTS) - 1, .threads = 2};
     double *p = calloc(NX * NY, sizeof *p), *s[RC_STRESSES] = {NULL};
     struct rc_stress *stress;
     struct rc_err err;
@@ -381,9 +381,9 @@ paper_figure_1(void **state)
         double d = 2.1 * h.a / (double)m, above = 0, below = 0, error;
         struct rc_shape shape = {m, m, d, d};
         struct rc_problem problem = {
-            .estar = estar, .load = load, .tol = 0.1 * pow((double)m, -1.5), .threads = 2};
+            .pair.estar = estar, .load = load, .tol = 0.1 * pow((double)m, -1.5), .threads = 2};
         struct rc_stress_options options = {
-            .nu = nu, .mu = mu, .wanted = 1u << RC_MISES, .threads = 2};
+            .body.nu = nu, .mu = mu, .wanted = 1u << RC_MISES, .threads = 2};
         double *height = malloc(m * m * sizeof *height), *s[RC_STRESSES] = {NULL};
         struct rc_stress *stress;
         struct solved solved;
@@ -448,8 +448,8 @@ chosen_depths(void **state)
     s[RC_MISES] = malloc(M * M * sizeof(double));
     assert_int_equal(rc_synth_selfaffine(&shape, &roughness, rough, &err), RC_OK);
     for (int k = 0; k < 2; k++) {
-        struct rc_stress_options options = {.nu = 0.3, .wanted = 1u << RC_MISES, .threads = 2};
-        struct rc_problem problem = {.estar = estar, .load = load, .tol = 1e-5, .threads = 2};
+        struct rc_stress_options options = {.body.nu = 0.3, .wanted = 1u << RC_MISES, .threads = 2};
+        struct rc_problem problem = {.pair.estar = estar, .load = load, .tol = 1e-5, .threads = 2};
         double *height = malloc(M * M * sizeof *height), *depths;
         double found = 0, exact = 0.620041 * h.p0;
         struct rc_stress *stress;
@@ -459,8 +459,9 @@ chosen_depths(void **state)
         for (size_t i = 0; k == 1 && i < M * M; i++)
             height[i] += rough[i];
         solved = solve(shape, height, problem);
-        assert_int_equal(rc_stress_depths(&shape, solved.p, RC_FREE, NULL, &depths, &n, &err),
-                         RC_OK);
+        assert_int_equal(
+            rc_stress_depths(&shape, solved.p, RC_FREE, &options.body, NULL, &depths, &n, &err),
+            RC_OK);
         stress = rc_stress_new(&shape, solved.p, &options, &err);
         assert_true(depths[0] == 0 && depths[n - 1] > 2.9 * h.a && depths[n - 1] < 4 * h.a);
         near_surface[k] = 0;

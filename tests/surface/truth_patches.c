@@ -21,7 +21,8 @@ areas(size_t n, double x, double y, double *plain, double *corrected)
     struct hertz exact = hertz(load, radius, estar);
     const double d = 2.6 * exact.a / (double)n, area = exact_pi * exact.a * exact.a;
     const struct rc_shape s = {n, n, d, d};
-    const struct rc_problem problem = {.estar = estar, .load = load, .tol = 1e-6, .threads = 1};
+    const struct rc_problem problem = {
+        .pair.estar = estar, .load = load, .tol = 1e-6, .threads = 1};
     double *h = malloc(n * n * sizeof *h);
     struct rc_patches found;
     struct rc_solver *solver;

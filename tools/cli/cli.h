@@ -5,7 +5,7 @@
 #ifndef RC_CLI_H
 #define RC_CLI_H
 
-#include "coating.h"
+#include "bodies.h"
 #include "ending.h"
 #include "tools/text/text.h"
 #include "tools/machine/machine.h"

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "coating.h"
+#include "bodies.h"
 #include "tools/text/text.h"
 #include "ranks.h"
 
@@ -89,8 +89,14 @@ check_elasticity(struct tool *t, struct physics *a)
         tool_die(t, EXIT_USAGE,
                  "give the elasticity, either as --estar or as --E1 --nu1 --E2 "
                  "--nu2, all four (--E2 rigid needs no --nu2)");
-    if (bodies > 0)
-        a->estar = 1 / (plane_compliance(a->e1, a->nu1) + plane_compliance(a->e2, a->nu2));
+    if (bodies == 0) {
+        a->pair.estar = a->surface_estar = a->estar;
+        return;
+    }
+    a->pair.one = (struct rc_body){.e = a->e1, .nu = a->nu1};
+    if (!rigid)
+        a->pair.two = (struct rc_body){.e = a->e2, .nu = a->nu2};
+    a->surface_estar = 1 / (plane_compliance(a->e1, a->nu1) + plane_compliance(a->e2, a->nu2));
 }
 
 /* The layers lie on body 1. History has them in SI. */
@@ -101,7 +107,6 @@ check_layers(struct tool *t, struct physics *a)
     struct rc_err err;
     char h[RC_NUMBER_SIZE], e[RC_NUMBER_SIZE], nu[RC_NUMBER_SIZE], *si;
 
-    a->surface_estar = a->estar;
     if (n == 0)
         return;
     if (tool_given(t, "estar"))
@@ -112,7 +117,7 @@ check_layers(struct tool *t, struct physics *a)
         tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
     for (size_t k = 0; k < n; k++) {
         struct rc_layer *m = &a->layers[k];
-        if (coating_layer(a->layer.step[k].text, m, &err) != RC_OK)
+        if (layer_read(a->layer.step[k].text, m, &err) != RC_OK)
             tool_die(t, EXIT_USAGE, "--layer %s: %s", a->layer.step[k].text, err.text);
         if ((si = malloc(3 * RC_NUMBER_SIZE)) == NULL)
             tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
@@ -120,13 +125,10 @@ check_layers(struct tool *t, struct physics *a)
                  rc_number_text(e, m->e), rc_number_text(nu, m->nu));
         a->layer.step[k].text = si;
     }
-    a->coating = (struct rc_coating){.layers = n,
-                                     .layer = a->layers,
-                                     .e = a->e1,
-                                     .nu = a->nu1,
-                                     .compliance = plane_compliance(a->e2, a->nu2)};
+    a->pair.one.layers = n;
+    a->pair.one.layer = a->layers;
     a->surface_estar =
-        1 / (plane_compliance(a->layers[0].e, a->layers[0].nu) + a->coating.compliance);
+        1 / (plane_compliance(a->layers[0].e, a->layers[0].nu) + plane_compliance(a->e2, a->nu2));
 }
 
 void
@@ -273,12 +275,11 @@ physics_problem(const struct physics *a, const struct rc_grid *g, size_t step)
 
     return (struct rc_problem){
         .boundary = a->periodic ? RC_PERIODIC : RC_FREE,
-        .estar = a->estar,
+        .pair = a->pair,
         .load = a->load.n > 0            ? number
                 : a->mean_pressure.n > 0 ? number * area
                                          : 0,
         .approach = a->approach.n > 0 ? number : 0,
         .hardness = a->hardness,
-        .coating = a->coating.layers > 0 ? &a->coating : NULL,
     };
 }

@@ -13,10 +13,10 @@ struct physics {
     double estar, e1, nu1, e2, nu2;               /* the first, or the others         */
     double hardness, radius;
     bool periodic;
-    struct steps layer;        /* as they stand on the line, top first                            */
-    struct rc_layer *layers;   /* as numbers                                                      */
-    struct rc_coating coating; /* of them on body 1; no layers: one material                     */
-    double surface_estar; /* of the topmost material and body 2                               */
+    struct steps layer;      /* as they stand on the line, top first                              */
+    struct rc_layer *layers; /* as numbers                                                        */
+    struct rc_pair pair;     /* what all these say                                                */
+    double surface_estar;    /* of the topmost material and body 2                               */
     bool history; /* a load acts on the shape that those before it have left, and may be 0 */
 };
 
@@ -30,7 +30,7 @@ extern const struct opt physics_options[];
         .radius = NAN                                                                              \
     }
 
-/* Ends the tool where too little or too much was given; then only E* counts, in physics->estar. */
+/* Ends the tool where too little or too much was given; else makes the pair. */
 void physics_check(struct tool *tool, struct physics *physics);
 /* The loads, mean pressures or approaches. */
 const struct numbers *physics_steps(const struct physics *physics);

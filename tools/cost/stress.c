@@ -92,7 +92,7 @@ work_depths(void *ctx)
     double *z = NULL;
 
     if (rc_stress_depths(&j->c->shape, j->c->pressure, j->c->problem.boundary,
-                         j->c->problem.coating, &z, &j->depths, &j->err) != RC_OK)
+                         &j->c->problem.pair.one, NULL, &z, &j->depths, &j->err) != RC_OK)
         return;
     j->depths = j->depths < DEPTHS ? j->depths : DEPTHS;
     memcpy(j->z, z, j->depths * sizeof *z);
@@ -123,14 +123,17 @@ cost_stress_depths(struct cost_case *c)
 static struct rc_stress_options
 options_of(const struct cost_case *c, const char *kernel, double tol)
 {
+    struct rc_body body = c->problem.pair.one;
+
+    if (body.layers == 0)
+        body.nu = c->nu; /* E* does not say it */
     return (struct rc_stress_options){.boundary = c->problem.boundary,
-                                      .nu = c->nu,
+                                      .body = body,
                                       .mu = c->mu,
                                       .wanted = WANTED,
                                       .engine = kernel,
                                       .tol = tol,
-                                      .threads = c->tool->threads,
-                                      .coating = c->problem.coating};
+                                      .threads = c->tool->threads};
 }
 
 /* Over all depths and components: the largest error, the sum of squares; the largest Mises' stress,

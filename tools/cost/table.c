@@ -17,7 +17,7 @@ put_load(const struct cost_case *c, FILE *out)
 const char *
 cost_body(const struct cost_case *c, const char *between, char text[COST_BODY])
 {
-    size_t n = c->problem.coating == NULL ? 0 : c->problem.coating->layers;
+    size_t n = c->problem.pair.one.layers;
 
     text[0] = '\0';
     if (n > 0)

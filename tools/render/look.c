@@ -121,17 +121,17 @@ struct rc_grid *
 look_section(struct tool *t, const struct args *a, const struct rc_grid *g, struct figure *f)
 {
     double *depth = section_depths(t, g);
-    struct coating coating;
+    struct layers layers;
     struct rc_grid *even;
 
-    media_read(t, g, &coating);
-    media_set(t, &coating, f);
+    media_read(t, g, &layers);
+    media_set(t, &layers, f);
     section_range(t, a->depths, g, depth, &f->top, &f->bottom);
     f->across = strcmp(rc_grid_get(g, "section"), "x") == 0 ? "y" : "x";
     f->down = "depth";
     f->section = true;
-    even = section_even(t, g, depth, &coating, f->top, f->bottom);
-    coating_free(&coating);
+    even = section_even(t, g, depth, &layers, f->top, f->bottom);
+    layers_free(&layers);
     free(depth);
     return even;
 }

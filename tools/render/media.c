@@ -7,11 +7,11 @@
 #include <stdlib.h>
 
 void
-media_read(struct tool *t, const struct rc_grid *g, struct coating *c)
+media_read(struct tool *t, const struct rc_grid *g, struct layers *c)
 {
     struct rc_err err;
 
-    if (coating_read(g, c, &err) != RC_OK)
+    if (layers_read(g, c, &err) != RC_OK)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
 }
 
@@ -30,12 +30,12 @@ write_text(struct medium *m, const struct rc_layer *of)
 }
 
 void
-media_set(struct tool *t, const struct coating *c, struct figure *f)
+media_set(struct tool *t, const struct layers *c, struct figure *f)
 {
     double bottom = 0;
 
     f->medium = NULL;
-    f->media = c->layer == NULL ? 0 : c->coating.layers + 1;
+    f->media = c->layer == NULL ? 0 : c->body.layers + 1;
     if (f->media > 0 && (f->medium = calloc(f->media, sizeof *f->medium)) == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %zu layers", f->media);
     for (size_t k = 0; k < f->media; k++) {
@@ -47,16 +47,16 @@ media_set(struct tool *t, const struct coating *c, struct figure *f)
 const char *
 media_name(char text[MEDIA_NAME], const struct rc_grid *g)
 {
-    struct coating c;
+    struct layers c;
     struct rc_err err;
     double number;
     bool last;
 
     if (!rc_grid_number(g, "material", &number) || !(number >= 1) ||
-        coating_read(g, &c, &err) != RC_OK)
+        layers_read(g, &c, &err) != RC_OK)
         return NULL;
-    last = c.layer != NULL && number == (double)c.coating.layers + 1;
-    coating_free(&c);
+    last = c.layer != NULL && number == (double)c.body.layers + 1;
+    layers_free(&c);
     if (last)
         return "substrate";
     snprintf(text, MEDIA_NAME, "layer %.0f", number);
@@ -66,16 +66,16 @@ media_name(char text[MEDIA_NAME], const struct rc_grid *g)
 double *
 media_bottoms(const struct rc_grid *g, size_t *n)
 {
-    struct coating c;
+    struct layers c;
     struct rc_err err;
     double *bottom = NULL;
 
     *n = 0;
-    if (coating_read(g, &c, &err) != RC_OK || c.layer == NULL)
+    if (layers_read(g, &c, &err) != RC_OK || c.layer == NULL)
         return NULL;
-    if ((bottom = malloc(c.coating.layers * sizeof *bottom)) != NULL)
-        for (*n = 0; *n < c.coating.layers; ++*n)
+    if ((bottom = malloc(c.body.layers * sizeof *bottom)) != NULL)
+        for (*n = 0; *n < c.body.layers; ++*n)
             bottom[*n] = c.layer[*n].thickness + (*n == 0 ? 0 : bottom[*n - 1]);
-    coating_free(&c);
+    layers_free(&c);
     return bottom;
 }

@@ -75,7 +75,7 @@ void section_range(struct tool *tool, const char *text, const struct rc_grid *gr
  * never leaves the values beside it, and straight between columns. Between rows in two media it
  * keeps the value of the row in the same one. */
 struct rc_grid *section_even(struct tool *tool, const struct rc_grid *grid, const double *depth,
-                             const struct coating *coating, double top, double bottom);
+                             const struct layers *layers, double top, double bottom);
 
 /* ---- media.c: what a coated body is made of ---- */
 
@@ -84,9 +84,9 @@ enum {
 };
 
 /* From the key `layers`; ends the tool where that makes no sense. */
-void media_read(struct tool *tool, const struct rc_grid *grid, struct coating *coating);
+void media_read(struct tool *tool, const struct rc_grid *grid, struct layers *layers);
 /* The media of a section's figure, of which the caller frees `medium`. */
-void media_set(struct tool *tool, const struct coating *coating, struct figure *figure);
+void media_set(struct tool *tool, const struct layers *layers, struct figure *figure);
 /* "layer 2" or "substrate": where a slice of stresses lies; NULL: its keys do not say. */
 const char *media_name(char text[MEDIA_NAME], const struct rc_grid *grid);
 /* Depths of the interfaces, metres, which the caller frees; NULL: there is none. */

@@ -97,7 +97,7 @@ across(const struct rc_grid *g, size_t row, size_t i, size_t times)
 /* The rows of a section: their depths, and the medium that each is in. */
 struct rows {
     const double *depth;
-    const struct coating *coating;
+    const struct layers *layers;
     size_t *medium;
     double *v; /* of one column */
     size_t n;
@@ -111,7 +111,7 @@ value_at(const struct rows *r, size_t j, double at)
     size_t first = j, end = j + 1, in;
 
     if (r->medium[j] != r->medium[j + 1]) {
-        in = coating_material(r->coating, at);
+        in = rc_body_material(&r->layers->body, at);
         if (in != r->medium[j] && in != r->medium[j + 1]) /* a medium without a row */
             return at - r->depth[j] < r->depth[j + 1] - at ? r->v[j] : r->v[j + 1];
         return in == r->medium[j] ? r->v[j] : r->v[j + 1];
@@ -143,11 +143,11 @@ fill_column(const struct rc_grid *g, const struct rows *r, struct rc_grid *even,
 
 struct rc_grid *
 section_even(struct tool *t, const struct rc_grid *g, const double *depth,
-             const struct coating *coating, double top, double bottom)
+             const struct layers *layers, double top, double bottom)
 {
     size_t times = g->nx < COLUMNS ? (size_t)fmax(1, round((double)COLUMNS / (double)g->nx)) : 1;
     struct rc_shape shape = {times * g->nx, ROWS, g->dx / (double)times, (bottom - top) / ROWS};
-    struct rows r = {depth, coating, malloc(g->ny * sizeof *r.medium), malloc(g->ny * sizeof *r.v),
+    struct rows r = {depth, layers, malloc(g->ny * sizeof *r.medium), malloc(g->ny * sizeof *r.v),
                      g->ny};
     struct rc_grid *even;
     struct rc_err err;
@@ -156,7 +156,7 @@ section_even(struct tool *t, const struct rc_grid *g, const double *depth,
         r.v == NULL)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", even == NULL ? err.text : "out of memory");
     for (size_t j = 0; j < g->ny; j++)
-        r.medium[j] = coating_material(coating, depth[j]);
+        r.medium[j] = rc_body_material(&layers->body, depth[j]);
     for (size_t i = 0; i < even->nx; i++)
         fill_column(g, &r, even, i, top);
     free(r.medium);

@@ -40,7 +40,7 @@ static const char *
 layers_state(const struct scene *s)
 {
     static char text[64];
-    size_t n = s->run->args->physics.coating.layers;
+    size_t n = s->run->args->physics.pair.one.layers;
 
     if (n == 0)
         return "left out: one material";

@@ -4,18 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-size_t
-stress_materials(const struct rc_stress_options *o)
-{
-    return o->coating == NULL ? 1 : o->coating->layers + 1;
-}
-
-size_t
-stress_material(const struct rc_stress_options *o, double depth)
-{
-    return o->coating == NULL ? 0 : rc_coating_material(o->coating, depth);
-}
-
 /* ---- gathering ---- */
 
 enum rc_status
@@ -29,10 +17,10 @@ stress_report_begin(struct stress_report *r, const struct rc_grid *p,
             continue;
         r->peak[c].value = NAN;
         r->peak[c].by_depth = malloc(depths->n * sizeof(double));
-        r->peak[c].by_material = malloc(stress_materials(options) * sizeof(double));
+        r->peak[c].by_material = malloc((options->body.layers + 1) * sizeof(double));
         if (r->peak[c].by_depth == NULL || r->peak[c].by_material == NULL)
             return rc_err_set(err, "out of memory for a report of %zu depths", depths->n);
-        for (size_t m = 0; m < stress_materials(options); m++)
+        for (size_t m = 0; m <= options->body.layers; m++)
             r->peak[c].by_material[m] = NAN;
     }
     return RC_OK;
@@ -83,7 +71,7 @@ void
 stress_report_depth(struct stress_report *r, const struct tool *t, size_t k, size_t n,
                     double *const *s)
 {
-    size_t material = stress_material(r->options, r->depths->v[k]);
+    size_t material = rc_body_material(&r->options->body, r->depths->v[k]);
 
     r->slices += tool_now() - r->depth_began;
     for (int c = 0; c < RC_STRESSES; c++) {
@@ -134,7 +122,7 @@ friction_effect(const struct rc_stress_options *o)
 static const char *
 coating_effect(const struct rc_stress_options *o)
 {
-    return o->coating != NULL ? "on" : "left out: the stream has no layers, one material";
+    return o->body.layers > 0 ? "on" : "left out: the stream has no layers, one material";
 }
 
 static const char *
@@ -165,7 +153,7 @@ coarse_effect(const struct rc_stress_options *o)
         return "left out: a section is a line already";
     if (o->boundary == RC_PERIODIC)
         return "left out: the map is periodic";
-    if (o->coating != NULL)
+    if (o->body.layers > 0)
         return "left out: the body is coated";
     if (o->ranks != NULL)
         return "left out: several processes share the map";
@@ -206,7 +194,7 @@ write_peaks(const struct stress_report *r, struct report *out)
             report_number(out, NULL, peak->by_depth[k], "Pa");
         report_end(out);
         report_array(out, "by_material");
-        for (size_t m = 0; m < stress_materials(r->options); m++)
+        for (size_t m = 0; m <= r->options->body.layers; m++)
             report_number(out, NULL, peak->by_material[m], "Pa");
         report_end(out);
         report_end(out);
@@ -248,7 +236,7 @@ stress_report_write(struct stress_report *r, struct report *out, const struct rc
     report_text(out, "boundary", o->boundary == RC_PERIODIC ? "periodic" : "free");
     report_text(out, "kernel", rc_stress_engine(stress));
     report_count(out, "threads", o->threads, NULL);
-    report_number(out, "nu", o->coating == NULL ? o->nu : NAN, NULL);
+    report_number(out, "nu", o->body.layers == 0 ? o->body.nu : NAN, NULL);
     report_text(out, "layers", rc_grid_get(r->p, "layers"));
     report_number(out, "mu", o->mu, NULL);
     report_text(out, "section", o->section == 0 ? NULL : section);
@@ -260,7 +248,7 @@ stress_report_write(struct stress_report *r, struct report *out, const struct rc
     report_end(out);
     report_array(out, "materials");
     for (size_t k = 0; k < r->depths->n; k++)
-        report_count(out, NULL, stress_material(o, r->depths->v[k]) + 1, NULL);
+        report_count(out, NULL, rc_body_material(&o->body, r->depths->v[k]) + 1, NULL);
     report_end(out);
     write_peaks(r, out);
     if (converged == NULL)
@@ -336,15 +324,15 @@ done:
 static void
 say_materials(FILE *out, const struct rc_stress_options *o, const struct numbers *depths)
 {
-    const struct rc_coating *c = o->coating;
+    const struct rc_body *c = &o->body;
     double top = 0;
 
-    for (size_t m = 0; c != NULL && m <= c->layers; m++) {
+    for (size_t m = 0; c->layers > 0 && m <= c->layers; m++) {
         double e = m < c->layers ? c->layer[m].e : c->e;
         double nu = m < c->layers ? c->layer[m].nu : c->nu;
         size_t in = 0;
         for (size_t k = 0; k < depths->n; k++)
-            in += stress_material(o, depths->v[k]) == m;
+            in += rc_body_material(c, depths->v[k]) == m;
         fprintf(out, "  material %-5zufrom %g m, E %g Pa, nu %g: %zu of the depths\n", m + 1, top,
                 e, nu, in);
         top += m < c->layers ? c->layer[m].thickness : 0;

@@ -9,10 +9,6 @@
 #include "libcontact/contact.h"
 #include "tools/cli/cli.h"
 
-/* How many materials a body has, and that of a depth, 0 on top. */
-size_t stress_materials(const struct rc_stress_options *options);
-size_t stress_material(const struct rc_stress_options *options, double depth);
-
 /* The value of largest size of a channel, its sign kept, and where it is. */
 struct stress_peak {
     double value, x, y, depth;

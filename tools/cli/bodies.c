@@ -1,0 +1,203 @@
+#include "bodies.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "formats/core/core.h"
+#include "tools/text/text.h"
+
+enum {
+    MOST = 1000 /* materials: enough for one that changes gradually */
+};
+
+/* "t,E,nu" at *text, which goes to what follows it. */
+static bool
+read_material(const char **text, struct rc_layer *m)
+{
+    double *to[] = {&m->thickness, &m->e, &m->nu};
+    const char *s = *text;
+
+    for (int k = 0; k < 3; k++) {
+        if ((k > 0 && *s++ != ',') || (s = rc_number_read(s, true, to[k])) == NULL)
+            return false;
+    }
+    *text = s;
+    return true;
+}
+
+static bool
+sensible(const struct rc_layer *m, bool last)
+{
+    bool rigid = last && isinf(m->e);
+
+    return m->thickness > 0 && !isinf(m->thickness) == !last && m->e > 0 &&
+           (rigid || !isinf(m->e)) && m->nu > -1 && m->nu <= 0.5;
+}
+
+enum rc_status
+layers_read(const struct rc_grid *p, struct layers *l, struct rc_err *err)
+{
+    const char *text = rc_grid_get(p, "layers"), *s = text;
+    size_t most = 1;
+
+    *l = (struct layers){.text = text};
+    if (text == NULL)
+        return RC_OK;
+    for (; *s != '\0'; s++)
+        most += *s == ';';
+    if (most < 2)
+        goto wrong;
+    if (most > MOST)
+        return rc_err_set(err, "its layers are of %zu materials: at most %d are taken", most, MOST);
+    if ((l->layer = calloc(most, sizeof *l->layer)) == NULL)
+        return rc_err_set(err, "out of memory for %zu layers", most - 1);
+    s = text;
+    for (size_t k = 0; k < most; k++)
+        if ((k > 0 && *s++ != ';') || !read_material(&s, &l->layer[k]))
+            goto wrong;
+    if (*s != '\0')
+        goto wrong;
+    for (size_t k = 0; k < most; k++)
+        if (!sensible(&l->layer[k], k + 1 == most)) {
+            layers_free(l);
+            return rc_err_set(
+                err,
+                "material %zu of its layers '%.200s' cannot be: thickness and Young's "
+                "modulus must be above 0, Poisson's ratio above -1 and at most 0.5, "
+                "and the substrate alone has t = inf and may be rigid, E = inf",
+                k + 1, text);
+        }
+    l->body = (struct rc_body){.e = l->layer[most - 1].e,
+                               .nu = l->layer[most - 1].nu,
+                               .layers = most - 1,
+                               .layer = l->layer};
+    return RC_OK;
+wrong:
+    layers_free(l);
+    return rc_err_set(
+        err,
+        "its layers are '%.200s': they must be t,E,nu of each material in SI, the top "
+        "first, joined by ;, the substrate last with t = inf",
+        text);
+}
+
+void
+layers_free(struct layers *l)
+{
+    free(l->layer);
+    *l = (struct layers){0};
+}
+
+/* ---- on a command line ---- */
+
+enum rc_status
+layer_read(const char *text, struct rc_layer *m, struct rc_err *err)
+{
+    static const enum unit units[] = {UNIT_M, UNIT_PA, UNIT_NONE};
+    double *to[] = {&m->thickness, &m->e, &m->nu};
+    char word[64];
+
+    for (int k = 0; k < 3; k++) {
+        size_t n = strcspn(text, ",");
+        if (n == 0 || n >= sizeof word || (text[n] == ',') == (k == 2))
+            return rc_err_set(err, "a layer is THICKNESS,E,NU, as in 2um,300GPa,0.25");
+        memcpy(word, text, n);
+        word[n] = '\0';
+        if (unit_number(word, units[k], to[k], err) != RC_OK)
+            return RC_FAIL;
+        text += n + 1;
+    }
+    if (!sensible(m, false))
+        return rc_err_set(err,
+                          "thickness and Young's modulus must be above 0, Poisson's ratio above "
+                          "-1 and at most 0.5");
+    return RC_OK;
+}
+
+/* ---- the pair ---- */
+
+static double
+compliance(double e, double nu)
+{
+    return e == 0 || isinf(e) ? 0 : (1 - nu * nu) / e;
+}
+
+static double
+estar_of(const struct rc_pair *p)
+{
+    return p->estar > 0 ? p->estar
+                        : 1 / (compliance(p->one.e, p->one.nu) + compliance(p->two.e, p->two.nu));
+}
+
+enum rc_status
+bodies_read(const struct rc_grid *g, const struct layers *l, struct rc_pair *p, struct rc_err *err)
+{
+    double estar = NAN, of_these;
+
+    *p = (struct rc_pair){.one = l->body};
+    if (rc_grid_get(g, "estar") != NULL && (!rc_grid_number(g, "estar", &estar) || !(estar > 0)))
+        return rc_err_set(err, "its estar '%.40s' is no modulus", rc_grid_get(g, "estar"));
+    if (l->text == NULL) {
+        p->estar = estar;
+        return isnan(estar) ? rc_err_set(err, "E* is not in the stream: give it with --estar")
+                            : RC_OK;
+    }
+    if (rc_grid_get(g, "e2") != NULL &&
+        (!rc_grid_number(g, "e2", &p->two.e) || !rc_grid_number(g, "nu2", &p->two.nu)))
+        return rc_err_set(err, "its e2 '%.40s' and nu2 '%.40s' are no material",
+                          rc_grid_get(g, "e2"),
+                          rc_grid_get(g, "nu2") == NULL ? "" : rc_grid_get(g, "nu2"));
+    of_these = estar_of(p);
+    if (!isnan(estar) && !(fabs(of_these / estar - 1) < 1e-9))
+        return rc_err_set(
+            err,
+            "its substrate and body 2 (%s) have E* = %.9g Pa, but its estar is %.9g Pa: "
+            "the stream does not say what body 2 is; solve it again",
+            p->two.e == 0 ? "rigid, for there is no e2" : "e2, nu2", of_these, estar);
+    return RC_OK;
+}
+
+static enum rc_status
+set_number(struct rc_grid *g, const char *name, double value, struct rc_err *err)
+{
+    return value > -INFINITY && value < INFINITY ? rc_grid_set_number(g, name, value, err)
+                                                 : rc_grid_set(g, name, NULL, err);
+}
+
+/* The key `layers` of a layered body. */
+static enum rc_status
+set_layers(struct rc_grid *g, const struct rc_body *b, struct rc_err *err)
+{
+    size_t most = (b->layers + 1) * (3 * RC_NUMBER_SIZE + 4), n = 0;
+    char *text, t[RC_NUMBER_SIZE], e[RC_NUMBER_SIZE], nu[RC_NUMBER_SIZE];
+    enum rc_status status;
+
+    if (b->layers == 0)
+        return rc_grid_set(g, "layers", NULL, err);
+    if ((text = malloc(most)) == NULL)
+        return rc_err_set(err, "out of memory for %zu layers", b->layers);
+    for (size_t k = 0; k < b->layers; k++)
+        n += (size_t)snprintf(text + n, most - n, "%s,%s,%s;",
+                              rc_number_text(t, b->layer[k].thickness),
+                              rc_number_text(e, b->layer[k].e), rc_number_text(nu, b->layer[k].nu));
+    snprintf(text + n, most - n, "inf,%s,%s", rc_number_text(e, b->e), rc_number_text(nu, b->nu));
+    status = rc_grid_set(g, "layers", text, err);
+    free(text);
+    return status;
+}
+
+enum rc_status
+bodies_set(struct rc_grid *g, const struct rc_pair *p, struct rc_err *err)
+{
+    bool known = p->estar == 0, elastic = known && p->two.e > 0 && !isinf(p->two.e);
+
+    if (set_number(g, "estar", estar_of(p), err) != RC_OK ||
+        set_number(g, "e1", known ? p->one.e : NAN, err) != RC_OK ||
+        set_number(g, "nu", known ? p->one.nu : NAN, err) != RC_OK ||
+        set_number(g, "e2", elastic ? p->two.e : NAN, err) != RC_OK ||
+        set_number(g, "nu2", elastic ? p->two.nu : NAN, err) != RC_OK)
+        return RC_FAIL;
+    return set_layers(g, &p->one, err);
+}
