@@ -27,6 +27,18 @@ for kernel in direct mlms; do
     near "$(rc-deflect --kernel $kernel --tol 1e-6 hard.rcg | largest)" "$(largest hard.rcg)" 1e-5 "  by $kernel"
 done
 refuses 1 'solved on layers, which say how stiff they are: leave out --estar' "  and no modulus beside" "rc-deflect --estar 1GPa hard.rcg"
+
+# body 2 stands in the stream: nobody has to subtract it from E*
+rc-solve --E1 100GPa --nu1 0.3 --E2 70GPa --nu2 0.33 --load 350N --layer 1mm,1000GPa,0.3 ball.rcg -o both.rcg
+claim "an elastic body 2 stands in the stream" bash -c 'rc-info both.rcg >both.txt &&
+    says "e1=100000000000$" cat both.txt && says "nu=0.3$" cat both.txt &&
+    says "e2=70000000000$" cat both.txt && says "nu2=0.33$" cat both.txt'
+near "$(rc-deflect both.rcg | largest)" "$(largest both.rcg)" "$rounding" "  and rc-deflect presses it too"
+claim "a rigid one does not" bash -c 'rc-info hard.rcg >hard.txt && says "e1=100000000000$" cat hard.txt && lacks "e2=" hard.txt'
+claim "nor do bodies of which only E* is known" bash -c 'rc-solve --estar 1GPa --load 1N ball.rcg | rc-info >estar.txt &&
+    says "estar=1000000000$" cat estar.txt && lacks "e1=" estar.txt && lacks "nu=" estar.txt'
+rc-pick --set estar=80e9 hard.rcg -o old.rcg
+refuses 1 'does not say what body 2 is; solve it again' "an E* that bodies 1 and 2 do not have is refused" "rc-deflect old.rcg"
 claim "rc-stress knows the layers" says 'material' bash -c 'rc-stress --depths 0.5mm,2mm --components mises hard.rcg | rc-info'
 
 refuses 2 'layers lie on a substrate: give its --E1' "with --estar" "rc-solve --load 1N --estar 1GPa --layer 1um,1GPa,0.3 ball.rcg"
