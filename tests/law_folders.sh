@@ -13,15 +13,15 @@
 cat >arrows.txt <<'END'
 libcontact          | -                                        | -
 libcontact/tables.c | libcontact/operator/operator.h           | libcontact/operator
-libcontact/tables.c |                                          | libcontact/stress=rc_kernel_
+libcontact/tables.c |                                          | libcontact/stress=rc_kernel_ libcontact/body=rc_kernel_
 libcontact/ranks    | libcontact/common.h libcontact/contact_mpi.h | libcontact
 libcontact/transform | %base                                   | libcontact
-libcontact/layers   | %base                                    | libcontact
+libcontact/body     | %base                                    | libcontact
 libcontact/operator | %base %ranks                             | libcontact libcontact/ranks
-libcontact/operator | libcontact/transform/transform.h libcontact/layers/layers.h | libcontact/transform libcontact/layers
-libcontact/solver   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator libcontact/layers
+libcontact/operator | libcontact/transform/transform.h libcontact/body/body.h | libcontact/transform libcontact/body
+libcontact/solver   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator libcontact/body
 libcontact/stress   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator
-libcontact/stress   |                                          | libcontact/transform libcontact/layers
+libcontact/stress   |                                          | libcontact/transform libcontact/body
 libcontact/surface  | %base %ranks                             | libcontact libcontact/ranks
 libcontact/surface  | libcontact/transform/transform.h         | libcontact/transform
 formats/core        | libcontact/grid.h                        | libcontact
@@ -53,7 +53,7 @@ tools/stress        | %public tools/cli/cli.h                  | %physics %cli
 tools/pick          | %public tools/cli/cli.h                  | %physics %cli
 tools/synth         | %public tools/cli/cli.h                  | %physics %cli
 tools/info          | %public tools/cli/cli.h                  | %physics %cli formats/rcg
-tools/render        | libcontact/grid.h tools/cli/cli.h        | libcontact libcontact/layers %cli
+tools/render        | libcontact/grid.h tools/cli/cli.h        | libcontact libcontact/body %cli
 tools/render        | tools/plot/plot.h                        | %plot
 tools               | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli %plot
 tools               | tools/cost/cost.h tools/solve/solve.h    | tools/cost tools/solve
@@ -66,7 +66,7 @@ tools               | formats/format.h formats/export.h        | formats
 END
 base='libcontact/contact.h libcontact/grid.h libcontact/common.h libcontact/memory.h'
 public='libcontact/contact.h libcontact/grid.h'
-physics='libcontact libcontact/tables.c libcontact/layers libcontact/operator libcontact/solver libcontact/stress'
+physics='libcontact libcontact/tables.c libcontact/body libcontact/operator libcontact/solver libcontact/stress'
 physics="$physics libcontact/surface"
 cli='tools/cli tools/text tools/machine'
 plot='tools/plot tools/canvas'
@@ -141,7 +141,7 @@ private_faults() {
 names() {
     local words
     words=$(cd "$1" &&
-        sed -n 's/.*\.name = "\([a-z0-9_]*\)".*/\1/p' libcontact/operator/{engine,kernel}_*.c |
+        sed -n 's/.*\.name = "\([a-z0-9_]*\)".*/\1/p' libcontact/operator/engine_*.c libcontact/body/*.c |
         paste -s -d '|')
     (cd "$1" && find libcontact/solver libcontact/stress libcontact/surface tools -name '*.[ch]') |
         sort |
@@ -195,13 +195,14 @@ fi
 
 # ---- a tree where each rule is broken: every fault is seen ----
 
-mkdir -p bad/libcontact/{operator,solver,stress,surface,other} bad/formats/core bad/tools
-cp "$RC_SOURCE"/libcontact/operator/{engine,kernel}_*.c bad/libcontact/operator
+mkdir -p bad/libcontact/{body,operator,solver,stress,surface,other} bad/formats/core bad/tools
+cp "$RC_SOURCE"/libcontact/operator/engine_*.c bad/libcontact/operator
+cp "$RC_SOURCE"/libcontact/body/*.c bad/libcontact/body
 printf '#include "libcontact/solver/solver.h"\n#include "nowhere.h"\n' >bad/libcontact/operator/engine_up.c
 printf '#include "libcontact/operator/operator.h"\n#include "libcontact/operator/fft.h"\n' >bad/libcontact/solver/deep.c
 printf '#include "libcontact/grid.h"\n' >bad/libcontact/other/new.c
 printf '  #  include "libcontact/contact.h"\n' >bad/formats/core/core.c
-include_faults bad | grep -v '/\(engine\|kernel\)_[^u]' >seen.txt
+include_faults bad | grep -v '/body/\|/engine_[^u]' >seen.txt
 claim "includes: upwards, of no file, past the offered header, without a row, out of the formats" diff - seen.txt <<'END'
 include formats/core/core.c libcontact/contact.h
 include libcontact/operator/engine_up.c libcontact/solver/solver.h

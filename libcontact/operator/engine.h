@@ -4,8 +4,7 @@
 #ifndef RC_ENGINE_H
 #define RC_ENGINE_H
 
-#include "kernel.h"
-#include "libcontact/layers/layers.h"
+#include "libcontact/body/body.h"
 
 struct rc_fft;
 

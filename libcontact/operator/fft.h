@@ -7,7 +7,7 @@
 #ifndef RC_FFT_H
 #define RC_FFT_H
 
-#include "kernel.h"
+#include "libcontact/body/body.h"
 #include "libcontact/ranks/ranks.h"
 
 enum rc_precision {

@@ -11,8 +11,7 @@
 
 #include "engine.h"
 #include "fft.h"
-#include "kernel.h"
-#include "libcontact/layers/layers.h"
+#include "libcontact/body/body.h"
 #include "libcontact/transform/transform.h"
 
 struct rc_operator;

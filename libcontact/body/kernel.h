@@ -41,7 +41,7 @@ struct rc_kernel {
 
 /* The list may be a longer one that includes this one: so others add kernels of their own. */
 #ifndef RC_KERNELS_LIST
-#define RC_KERNELS_LIST "libcontact/operator/kernels.list"
+#define RC_KERNELS_LIST "libcontact/body/kernels.list"
 #endif
 #define RC_KERNEL(name) extern const struct rc_kernel rc_kernel_##name;
 #include RC_KERNELS_LIST

@@ -7,11 +7,10 @@
  * cell that is too near for any rule is halved. Farther than forty cells means are taken from the values
  * at the nodes, which neighbours share.
  */
-#include "kernel.h"
+#include "body.h"
 
 #include <math.h>
 
-#include "libcontact/layers/layers.h"
 
 enum {
     BLOCK = 128, /* distances looked up together                     */

@@ -9,7 +9,7 @@
  * cells is below rounding. Far away Taylor's series of 1/r about the centre of the cell to sixth
  * order, whose next term at forty cells is below rounding.
  */
-#include "kernel.h"
+#include "body.h"
 
 #include <math.h>
 
