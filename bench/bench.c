@@ -206,8 +206,14 @@ uniform(uint64_t *seed)
 struct rc_sum
 point_sum(struct rc_shape shape)
 {
-    return (struct rc_sum){
-        .shape = shape, .kernel = &rc_kernel_boussinesq, .medium = {.estar = 1 / pi}};
+    static struct rc_solids bodies;
+    static const struct rc_surface surface = {&bodies, 1, 1};
+    const struct rc_pair pair = {.estar = 1 / pi};
+    struct rc_err err;
+
+    if (bodies.n == 0)
+        must_be(rc_solids_new(&bodies, &pair, NULL, &err), &err);
+    return (struct rc_sum){.shape = shape, .kernel = rc_surface_kernel(&surface)};
 }
 
 void

@@ -183,7 +183,6 @@ static void
 spectrum(const struct row *row, size_t m)
 {
     struct rc_shape s = {m, m, 1, 1};
-    struct rc_medium medium = {.estar = 1};
     size_t n = m * m;
     unsigned char *w = must(malloc(n));
     struct operators o = {.n = n, .w = w, .count = choose(row, s, w)};
@@ -195,7 +194,7 @@ spectrum(const struct row *row, size_t m)
 
     o.fft = must(rc_fft_new(&s, row->boundary, RC_DOUBLE, 0, &err));
     o.kernel = must(rc_spectrum_new(o.fft, &err));
-    must_be(rc_spectrum_set(o.kernel, o.fft, &rc_kernel_boussinesq, 0, &medium, &err), &err);
+    must_be(rc_spectrum_set(o.kernel, o.fft, &rc_kernel_of_one, &err), &err);
     o.inverse = must(rc_spectrum_new_reciprocal(o.fft, o.kernel, &err));
     o.single = must(malloc(2 * n * sizeof *o.single));
     extremes(&o, &least[0], &most[0]);

@@ -263,21 +263,28 @@ parts(void)
     double *x, *out[RC_STRESS_KERNELS] = {NULL};
     struct rc_dct *dct;
     struct field_work field;
+    const struct rc_body body = {.nu = 0.3};
+    struct rc_solid *solid = must(rc_body_uniform.new(&body, &err));
+    struct rc_inside *inside =
+        must(solid->type->inside->new (solid, 5 * shape.dx, true, RC_FREE, &err));
 
     rc_fft_quarter(fft, &cx, &cy);
     x = must(calloc(cx, sizeof *x));
     printf("parts, %d x %d nodes, one thread for coefficients and lines:\n", M, M);
     for (int s = 0; s < 3; s++) {
-        unsigned kernels = rc_stress_distinct(set[s].components, set[s].shear, false);
-        const struct rc_cell cell = {shape.dx, shape.dy, 5 * shape.dx, 0.3, NULL};
+        unsigned kernels =
+            rc_stress_distinct(rc_body_uniform.inside, set[s].components, set[s].shear);
+        const struct rc_cell cell = {shape.dx, shape.dy};
         for (int c = 0; c < RC_STRESS_KERNELS; c++)
             if (kernels >> c & 1 && out[c] == NULL)
                 out[c] = must(malloc(cx * sizeof(double)));
         t = now();
         for (size_t j = 0; j < cy; j++)
-            rc_stress_line(&cell, kernels, shape.dx, cx, (double)j * shape.dy, out);
+            inside->type->line(inside, &cell, kernels, shape.dx, cx, (double)j * shape.dy, out);
         printf("  %zu x %zu coefficients, %s: %.1f ms\n", cx, cy, set[s].what, 1e3 * (now() - t));
     }
+    rc_inside_free(inside);
+    rc_solid_free(solid);
     dct = must(rc_dct_new(cx, 1, &err));
     t = now();
     for (size_t j = 0; j < cy; j++)

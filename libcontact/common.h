@@ -9,12 +9,17 @@
 
 #include "contact.h"
 
-/* Inner loops are compiled for wider registers too, and the loader takes what the processor has. */
+#define RC_PI 3.14159265358979323846
+
+/* Inner loops are compiled for wider registers too, and the loader takes what the processor has; some gain
+ * from the widest. */
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) &&                             \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define RC_CLONES __attribute__((target_clones("arch=x86-64-v3", "default")))
+#define RC_WIDE_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #else
 #define RC_CLONES
+#define RC_WIDE_CLONES
 #endif
 
 /* Threads that pay on a grid: waking one costs about what a few thousand nodes do. threads 0: as

@@ -51,10 +51,6 @@ RC_API size_t rc_threads_available(void);
 
 /* Rows of the tables, k = 0, 1, ...; NULL past the last. The words of an option are made from
  * them. */
-struct rc_kernel_info { /* what a unit load does */
-    const char *name, *summary;
-    size_t components;
-};
 struct rc_engine_info { /* how sums are done */
     const char *name, *summary;
     bool periodic; /* on periodic boundaries too                                               */
@@ -66,7 +62,6 @@ struct rc_method_info { /* how the contact is iterated; the first is the one tha
     const char *name, *summary;
     bool mixed; /* iterates in single precision where the engine allows it                     */
 };
-RC_API const struct rc_kernel_info *rc_kernel_info(size_t k);
 RC_API const struct rc_engine_info *rc_engine_info(size_t k);
 RC_API const struct rc_method_info *rc_method_info(size_t k);
 

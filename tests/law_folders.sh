@@ -1,6 +1,6 @@
 # The folders point one way. A file includes, of other folders, only the header that a folder below
-# its own offers; it calls nothing that is defined above; and the solver, the stresses, the surfaces
-# and the tools know no engine and no kernel by name.
+# its own offers; it calls nothing that is defined above; the solver, the stresses, the surfaces
+# and the tools know no engine by name, and nobody outside libcontact/body a row of its list.
 . "$(dirname "$0")/pipe.sh"
 . "$RC_SOURCE/tests/symbols.sh"
 
@@ -12,11 +12,9 @@
 # %physics the folders where that is defined.
 cat >arrows.txt <<'END'
 libcontact          | -                                        | -
-libcontact/tables.c | libcontact/operator/operator.h           | libcontact/operator
-libcontact/tables.c |                                          | libcontact/stress=rc_kernel_ libcontact/body=rc_kernel_
 libcontact/ranks    | libcontact/common.h libcontact/contact_mpi.h | libcontact
 libcontact/transform | %base                                   | libcontact
-libcontact/body     | %base                                    | libcontact
+libcontact/body     | %base %ranks                             | libcontact libcontact/ranks
 libcontact/operator | %base %ranks                             | libcontact libcontact/ranks
 libcontact/operator | libcontact/transform/transform.h libcontact/body/body.h | libcontact/transform libcontact/body
 libcontact/solver   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator libcontact/body
@@ -66,7 +64,7 @@ tools               | formats/format.h formats/export.h        | formats
 END
 base='libcontact/contact.h libcontact/grid.h libcontact/common.h libcontact/memory.h'
 public='libcontact/contact.h libcontact/grid.h'
-physics='libcontact libcontact/tables.c libcontact/body libcontact/operator libcontact/solver libcontact/stress'
+physics='libcontact libcontact/body libcontact/operator libcontact/solver libcontact/stress'
 physics="$physics libcontact/surface"
 cli='tools/cli tools/text tools/machine'
 plot='tools/plot tools/canvas'
@@ -135,23 +133,21 @@ private_faults() {
         public.txt "$1" | sort -u
 }
 
-# names TREE: how often files name an engine or a kernel in code, as a word in quotes or by its row.
-# Not counted: the kernel of the stresses in their own folder, and the word "stress", which is more
-# than the name of a kernel.
+# names TREE: how often files name an engine or a body in code, by its row, or an engine as a word in quotes.
 names() {
-    local words
-    words=$(cd "$1" &&
-        sed -n 's/.*\.name = "\([a-z0-9_]*\)".*/\1/p' libcontact/operator/engine_*.c libcontact/body/*.c |
+    local words bodies
+    words=$(cd "$1" && sed -n 's/.*\.name = "\([a-z0-9_]*\)".*/\1/p' libcontact/operator/engine_*.c |
         paste -s -d '|')
-    (cd "$1" && find libcontact/solver libcontact/stress libcontact/surface tools -name '*.[ch]') |
+    bodies=$(sed -n 's/^RC_BODY(\(.*\))/\1/p' "$1/libcontact/body/bodies.list" | paste -s -d '|')
+    (cd "$1" && find libcontact/operator libcontact/solver libcontact/stress libcontact/surface tools -name '*.[ch]') |
+        grep -v '^libcontact/operator/\(engine_.*\|conv\|mlms.*\|direct\)\.[ch]$' |
         sort |
         while read -r file; do
             perl -0777 -ne '
-                BEGIN { ($words, $name) = splice @ARGV, 0, 2 }
+                BEGIN { ($words, $bodies, $name) = splice @ARGV, 0, 3 }
                 s#/\*.*?\*/##gs;
-                s/\brc_kernel_stress\b//g if $name =~ m{^libcontact/stress/};
-                my $n = () = /"(?:$words)"|\brc_(?:engine|kernel)_(?:$words|stress)\b/g;
-                print "name $name $n\n" if $n > 0' "$words" "$file" "$1/$file"
+                my $n = () = /"(?:$words)"|\brc_engine_(?:$words)\b|\brc_body_(?:$bodies)\b/g;
+                print "name $name $n\n" if $n > 0' "$words" "$bodies" "$file" "$1/$file"
         done
 }
 
@@ -180,7 +176,7 @@ drawn() {
 }
 claim "the picture in CONTRIBUTING.md has every folder and its header" drawn
 names "$RC_SOURCE" >name.txt
-claim "no engine and no kernel is named outside the folder of the operators" none name.txt
+claim "no engine is named outside the folder of the operators, and no body outside its own" none name.txt
 
 if command -v nm >/dev/null; then
     symbols "$(dirname "$RC_BIN")" >symbols.txt
@@ -197,7 +193,7 @@ fi
 
 mkdir -p bad/libcontact/{body,operator,solver,stress,surface,other} bad/formats/core bad/tools
 cp "$RC_SOURCE"/libcontact/operator/engine_*.c bad/libcontact/operator
-cp "$RC_SOURCE"/libcontact/body/*.c bad/libcontact/body
+cp "$RC_SOURCE"/libcontact/body/*.{c,list} bad/libcontact/body
 printf '#include "libcontact/solver/solver.h"\n#include "nowhere.h"\n' >bad/libcontact/operator/engine_up.c
 printf '#include "libcontact/operator/operator.h"\n#include "libcontact/operator/fft.h"\n' >bad/libcontact/solver/deep.c
 printf '#include "libcontact/grid.h"\n' >bad/libcontact/other/new.c
@@ -210,11 +206,11 @@ include libcontact/operator/engine_up.c nowhere.h
 include libcontact/other/new.c (a folder without a row)
 include libcontact/solver/deep.c libcontact/operator/fft.h
 END
-printf '/* "mlms" */ a = "fft64"; b = &rc_engine_direct; c = "stress"; d = "ffts";\n' >bad/tools/rc-x.c
-printf 'e = &rc_kernel_stress; f = rc_kernel_boussinesq.rows;\n' | tee bad/libcontact/stress/s.c >bad/libcontact/solver/s.c
+printf '/* "mlms" */ a = "fft64"; b = &rc_engine_direct; c = "uniform"; d = "ffts";\n' >bad/tools/rc-x.c
+printf 'e = &rc_body_layered; f = rc_body_type(b)->name;\n' | tee bad/libcontact/stress/s.c >bad/libcontact/operator/s.c
 names bad >seen.txt
 claim "names: in quotes and as rows, not in comments" diff - seen.txt <<'END'
-name libcontact/solver/s.c 2
+name libcontact/operator/s.c 1
 name libcontact/stress/s.c 1
 name tools/rc-x.c 2
 END
@@ -224,12 +220,9 @@ D libcontact/operator/conv.c rc_conv_apply
 D libcontact/operator/conv.c rc_hidden
 D libcontact/solver/solver.c rc_solver_new
 D libcontact/stress/stress.c rc_stress_new
-D libcontact/stress/kernel_stress.c rc_kernel_stress
 U libcontact/operator/conv.c rc_common
 U libcontact/operator/conv.c rc_solver_new
 U libcontact/solver/solver.c rc_conv_apply
-U libcontact/tables.c rc_kernel_stress
-U libcontact/tables.c rc_stress_new
 U tools/rc-solve.c rc_hidden
 U tools/rc-solve.c rc_solver_new
 U formats/core/text.c rc_conv_apply
@@ -238,7 +231,6 @@ END
 claim "calls: upwards, of more than a row, of physics by a format, of what is private" diff - seen.txt <<'END'
 call formats/core libcontact/operator rc_conv_apply
 call libcontact/operator libcontact/solver rc_solver_new
-call libcontact/tables.c libcontact/stress rc_stress_new
 private tools rc_hidden
 END
 refuses 1 '^private tools rc_hidden' "a fault is told" "$(declare -f none); none seen.txt"

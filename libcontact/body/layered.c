@@ -1,16 +1,19 @@
 /*
- * Normal displacement of the surface of a coated body under unit pressure on a cell dx x dy: that of a
- * half-space of the top material in closed form, and the integral over the cell of what the rest of the
+ * Bonded layers on a half-space. The normal displacement of the surface under unit pressure on a cell dx x dy
+ * is that of a half-space of the top material in closed form, and the integral over the cell of what the rest of the
  * stack changes, D(r), which is smooth on twice the thickness s/2 of the top layer.
  *
  * Integrated is by Gauss's rule, with the fewer points the larger sqrt(r^2 + s^2) is against the sides; a
  * cell that is too near for any rule is halved. Farther than forty cells means are taken from the values
  * at the nodes, which neighbours share.
  */
-#include "body.h"
 
 #include <math.h>
+#include <stdlib.h>
 
+#include "layered.h"
+#include "quadrature.h"
+#include "uniform.h"
 
 enum {
     BLOCK = 128, /* distances looked up together                     */
@@ -156,41 +159,108 @@ add_block(const struct part *d, const struct rc_lattice *at, size_t n, size_t fi
 
 /* ---- the row ---- */
 
-static void
-rows(const struct rc_medium *medium, size_t component, const struct rc_lattice *at, size_t n,
-     size_t first, size_t last, double *out)
+struct layered {
+    struct rc_solid solid;
+    struct rc_stack *stack;
+};
+
+const struct rc_stack *
+rc_layered_stack(const struct rc_solid *s)
 {
-    const struct rc_stack *s = medium->stack;
-    const struct rc_medium top = {.estar = 1 / (s->top * medium->modulus)};
+    return ((const struct layered *)s)->stack;
+}
+
+static bool
+takes(const struct rc_body *b)
+{
+    return b->layers > 0;
+}
+
+static enum rc_status
+check(const struct rc_body *b, enum rc_use use, struct rc_err *err)
+{
+    (void)use;
+    return rc_stack_check(b, err);
+}
+
+static void
+solid_free(struct rc_solid *s)
+{
+    rc_stack_free(((struct layered *)s)->stack);
+    free(s);
+}
+
+static struct rc_solid *
+solid_new(const struct rc_body *b, struct rc_err *err)
+{
+    struct layered *l = malloc(sizeof *l);
+
+    if (l == NULL) {
+        rc_err_set(err, "out of memory for a body");
+        return NULL;
+    }
+    *l = (struct layered){{&rc_body_layered}, rc_stack_new(b, err)};
+    if (l->stack == NULL) {
+        free(l);
+        return NULL;
+    }
+    return &l->solid;
+}
+
+static double
+modulus(const struct rc_solid *s, double q)
+{
+    return 1 / rc_stack_response(rc_layered_stack(s), q);
+}
+
+static double
+modulus_of(const struct rc_solid *s, double q2)
+{
+    double g;
+
+    rc_stack_responses(rc_layered_stack(s), 1, &q2, &g);
+    return 1 / g;
+}
+
+/* The response is smooth in ln q. */
+static double
+softest(const struct rc_solid *solid)
+{
+    const struct rc_stack *s = rc_layered_stack(solid);
+    double most = rc_stack_response(s, 0);
+
+    for (size_t k = 0; k < s->layers; k++)
+        for (int j = -20; j <= 20; j++)
+            most = fmax(most, rc_stack_response(s, exp(0.5 * j) / s->material[k].thickness));
+    return 1 / most;
+}
+
+static void
+add_rows(const struct rc_solid *solid, double length, double modulus, const struct rc_lattice *at,
+         size_t n, size_t first, size_t last, double *out)
+{
+    const struct rc_stack *s = rc_layered_stack(solid);
     const struct part d = {.stack = s,
-                           .unit = medium->length * medium->length,
-                           .scale = 2 * s->material[0].thickness / medium->length,
-                           .factor = medium->modulus * medium->length};
+                           .unit = length * length,
+                           .scale = 2 * s->material[0].thickness / length,
+                           .factor = modulus * length};
     size_t most = TALL - 2 * RC_MEAN_REACH;
 
-    rc_kernel_boussinesq.rows(&top, component, at, n, first, last, out);
+    rc_uniform_add_rows(1 / (s->top * modulus), at, n, first, last, out);
     for (; first < last; first += most, out += most * n)
         add_block(&d, at, n, first, last - first < most ? last : first + most, out);
 }
 
-/* A wave is displaced by 2 g/q of its height. */
-static double
-symbol(const struct rc_medium *medium, size_t component, double qx, double qy)
-{
-    double q = sqrt(qx * qx + qy * qy), q2 = pow(q / medium->length, 2), g;
-
-    (void)component;
-    rc_stack_responses(medium->stack, 1, &q2, &g);
-    return 2 * g * medium->modulus / q;
-}
-
-static const unsigned parity[] = {0};
-
-const struct rc_kernel rc_kernel_layered = {
-    .info = {.name = "layered",
-             .summary = "normal displacement of the surface of a coated body, m/Pa",
-             .components = 1},
-    .parity = parity,
-    .rows = rows,
-    .symbol = symbol,
+const struct rc_body_type rc_body_layered = {
+    .name = "layered",
+    .summary = "bonded layers on a half-space",
+    .takes = takes,
+    .check = check,
+    .new = solid_new,
+    .free = solid_free,
+    .modulus = modulus,
+    .modulus_of = modulus_of,
+    .softest = softest,
+    .add_rows = add_rows,
+    .inside = &rc_layered_inside,
 };

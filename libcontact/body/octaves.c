@@ -10,8 +10,6 @@
 
 #include "libcontact/memory.h"
 
-static const double pi = 3.14159265358979323846;
-
 enum {
     PIECE_BITS = 5, /* 32 pieces an octave */
     TERMS = 6
@@ -84,7 +82,7 @@ rc_octaves_new(double first, double last, rc_octaves_of *f, const void *ctx)
         return NULL;
     }
     for (int k = 0; k < TERMS; k++)
-        t[k] = cos(pi * (k + 0.5) / TERMS) / 2;
+        t[k] = cos(RC_PI * (k + 0.5) / TERMS) / 2;
     for (size_t n = 0; n < o->n; n++) {
         double from = begin_of(o->first + n), to = begin_of(o->first + n + 1);
         for (int k = 0; k < TERMS; k++)

@@ -16,8 +16,6 @@
 
 #include "libcontact/memory.h"
 
-static const double pi = 3.14159265358979323846;
-
 enum {
     SAMPLES = 2048, /* of ln q                           */
     FINER = 8,      /* steps of ln r in one of ln q      */
@@ -80,7 +78,7 @@ transform(const struct rc_radial_source *source, size_t i, const double *g, doub
     h[SAMPLES] = h[SAMPLES + 1] = 0; /* the wave of two samples */
     for (size_t k = 0; k < SAMPLES / 2; k++) {
         /* r begins at 1/q_last: ln(q_0 r) = - range there */
-        double w = 2 * pi * (double)k / (SAMPLES * step),
+        double w = 2 * RC_PI * (double)k / (SAMPLES * step),
                angle = turn(source->order[i], w) + w * range;
         double c = cos(angle), s = sin(angle), re = out[2 * k], im = out[2 * k + 1];
         size_t minus = all - k;

@@ -18,8 +18,6 @@
 #include "octaves.h"
 #include "radial.h"
 
-static const double pi = 3.14159265358979323846;
-
 /* Constants of a medium. */
 struct medium {
     double alpha, beta, gamma;
@@ -128,7 +126,7 @@ rc_stack_response(const struct rc_stack *s, double q)
 {
     struct minors y = surface(s, q);
 
-    return y.b / (2 * y.e * s->material[0].modulus) + s->compliance;
+    return y.b / (2 * y.e * s->material[0].modulus);
 }
 
 double
@@ -145,31 +143,13 @@ rc_stack_responses(const struct rc_stack *s, size_t n, const double *q2, double 
 
 /* ---- inside ---- */
 
-/* Sums of thicknesses are rounded, and a depth that is meant to be one must not be below it. */
-static bool
-within(double depth, double bottom)
-{
-    return depth <= bottom * (1 + 1e-13);
-}
-
 size_t
 rc_stack_medium(const struct rc_stack *s, double depth)
 {
     double bottom = 0;
     size_t k = 0;
 
-    while (k < s->layers && !within(depth, bottom += s->material[k].thickness))
-        k++;
-    return k;
-}
-
-size_t
-rc_body_material(const struct rc_body *b, double depth)
-{
-    double bottom = 0;
-    size_t k = 0;
-
-    while (k < b->layers && !within(depth, bottom += b->layer[k].thickness))
+    while (k < s->layers && !rc_within(depth, bottom += s->material[k].thickness))
         k++;
     return k;
 }
@@ -334,10 +314,10 @@ static const double thick = 25;
 static void
 difference(const void *ctx, double q, double *g)
 {
-    *g = rc_stack_excess(ctx, q) / (pi * q);
+    *g = rc_stack_excess(ctx, q) / (RC_PI * q);
 }
 
-/* D(r) = 1/pi integral of (g - g(infinity)) J_0(q r) dq. It falls as exp(-2 q t), t the thickness of the
+/* D(r) = 1/RC_PI integral of (g - g(infinity)) J_0(q r) dq. It falls as exp(-2 q t), t the thickness of the
  * top layer. */
 static struct rc_radial *
 far(const struct rc_stack *s)
@@ -348,7 +328,7 @@ far(const struct rc_stack *s)
                                       .scale = 2 * s->material[0].thickness,
                                       .unit = s->material[0].thickness,
                                       .last = thick,
-                                      .tail = (s->bottom - s->top) / pi,
+                                      .tail = (s->bottom - s->top) / RC_PI,
                                       .wave = difference,
                                       .ctx = s};
 
@@ -396,7 +376,7 @@ tables(struct rc_stack *s)
     return s->far_table == NULL || s->response_table == NULL ? RC_FAIL : RC_OK;
 }
 
-/* ---- bodies ---- */
+/* ---- made of a body ---- */
 
 static enum rc_status
 check_material(const char *what, double e, double nu, bool rigid, struct rc_err *err)
@@ -411,7 +391,7 @@ check_material(const char *what, double e, double nu, bool rigid, struct rc_err 
 }
 
 enum rc_status
-rc_body_check(const struct rc_body *b, struct rc_err *err)
+rc_stack_check(const struct rc_body *b, struct rc_err *err)
 {
     char what[64];
 
@@ -423,49 +403,7 @@ rc_body_check(const struct rc_body *b, struct rc_err *err)
         if (check_material(what, b->layer[k].e, b->layer[k].nu, false, err) != RC_OK)
             return RC_FAIL;
     }
-    return check_material(b->layers > 0 ? "the substrate" : "the body", b->e, b->nu, true, err);
-}
-
-/* Nothing is told of it: it is rigid, or it is left out beside E*. */
-static bool
-unsaid(const struct rc_body *b)
-{
-    return b->e == 0 && b->layers == 0;
-}
-
-enum rc_status
-rc_pair_check(const struct rc_pair *p, struct rc_err *err)
-{
-    if (p->estar != 0 || unsaid(&p->one)) {
-        if (!unsaid(&p->one) || !unsaid(&p->two))
-            return rc_err_set(err, "E* = %g Pa and the bodies are given: give one or the other",
-                              p->estar);
-        if (!(p->estar > 0) || isinf(p->estar))
-            return rc_err_set(err, "E* = %g Pa: it must be positive and finite", p->estar);
-        return RC_OK;
-    }
-    if (p->two.layers > 0)
-        return rc_err_set(err, "body 2 has %zu layers: only body 1 may", p->two.layers);
-    if (rc_body_check(&p->one, err) != RC_OK ||
-        (!unsaid(&p->two) && rc_body_check(&p->two, err) != RC_OK))
-        return RC_FAIL;
-    if (p->one.layers == 0 && isinf(rc_pair_estar(p)))
-        return rc_err_set(err, "both bodies are rigid: one must give way");
-    return RC_OK;
-}
-
-/* (1 - nu^2)/E, 1/Pa. */
-static double
-half_space_compliance(const struct rc_body *b)
-{
-    return unsaid(b) || isinf(b->e) ? 0 : (1 - b->nu * b->nu) / b->e;
-}
-
-double
-rc_pair_estar(const struct rc_pair *p)
-{
-    return p->estar > 0 ? p->estar
-                        : 1 / (half_space_compliance(&p->one) + half_space_compliance(&p->two));
+    return check_material("the substrate", b->e, b->nu, true, err);
 }
 
 /* 1/E* of one material. */
@@ -476,20 +414,19 @@ compliance_of(const struct rc_material *m)
 }
 
 struct rc_stack *
-rc_stack_new(const struct rc_body *c, double compliance, struct rc_err *err)
+rc_stack_new(const struct rc_body *c, struct rc_err *err)
 {
     struct rc_stack *s = calloc(1, sizeof *s);
 
     if (s == NULL || (s->material = calloc(c->layers + 1, sizeof *s->material)) == NULL)
         goto short_of_memory;
     s->layers = c->layers;
-    s->compliance = compliance;
     for (size_t k = 0; k < c->layers; k++)
         s->material[k] = (struct rc_material){
             c->layer[k].thickness, c->layer[k].e / (2 * (1 + c->layer[k].nu)), c->layer[k].nu};
     s->material[c->layers] = (struct rc_material){INFINITY, c->e / (2 * (1 + c->nu)), c->nu};
-    s->top = compliance_of(&s->material[0]) + s->compliance;
-    s->bottom = compliance_of(&s->material[c->layers]) + s->compliance;
+    s->top = compliance_of(&s->material[0]);
+    s->bottom = compliance_of(&s->material[c->layers]);
     if ((s->far = far(s)) == NULL || tables(s) != RC_OK)
         goto short_of_memory;
     return s;
@@ -497,15 +434,6 @@ short_of_memory:
     rc_err_set(err, "out of memory for a stack of %zu layers", c->layers);
     rc_stack_free(s);
     return NULL;
-}
-
-enum rc_status
-rc_stack_of(const struct rc_pair *p, struct rc_stack **stack, struct rc_err *err)
-{
-    *stack = NULL;
-    if (p->one.layers > 0)
-        *stack = rc_stack_new(&p->one, half_space_compliance(&p->two), err);
-    return p->one.layers > 0 && *stack == NULL ? RC_FAIL : RC_OK;
 }
 
 void

@@ -5,7 +5,7 @@
 #ifndef RC_STACK_H
 #define RC_STACK_H
 
-#include "libcontact/common.h"
+#include "body.h"
 
 struct rc_material {
     double thickness; /* m; INFINITY: the substrate                                             */
@@ -16,22 +16,15 @@ struct rc_material {
 struct rc_stack {
     size_t layers;
     struct rc_material *material; /* layers + 1, the top first, the substrate last               */
-    double compliance;            /* of the other body, (1 - nu2^2)/E2, 1/Pa; 0: rigid           */
     double top, bottom;    /* g(infinity), g(0): 1/E* of the top material, of the substrate */
     struct rc_radial *far; /* D(r), 1/(Pa m): what stands between it and the top material alone */
     struct rc_octaves *far_table, *response_table; /* D of r^2, m^2; g of q^2, 1/m^2           */
 };
 
-/* RC_FAIL, and err says which, when a number of a body, or of a pair, makes no sense. */
-enum rc_status rc_body_check(const struct rc_body *body, struct rc_err *err);
-enum rc_status rc_pair_check(const struct rc_pair *pair, struct rc_err *err);
-/* Composite modulus of the half-spaces, below layers if there are any, Pa. */
-double rc_pair_estar(const struct rc_pair *pair);
-
-/* Of a layered body, and (1 - nu^2)/E of the other, 1/Pa. NULL when memory is short. */
-struct rc_stack *rc_stack_new(const struct rc_body *body, double compliance, struct rc_err *err);
-/* The same of a pair: NULL and RC_OK when both are bare. */
-enum rc_status rc_stack_of(const struct rc_pair *pair, struct rc_stack **stack, struct rc_err *err);
+/* RC_FAIL, and err says which, when a number of a layered body makes no sense. */
+enum rc_status rc_stack_check(const struct rc_body *body, struct rc_err *err);
+/* NULL when memory is short. */
+struct rc_stack *rc_stack_new(const struct rc_body *body, struct rc_err *err);
 void rc_stack_free(struct rc_stack *stack); /* NULL is allowed */
 
 /* g(q), 1/Pa: a wave of pressure of wave number q (rad/m) displaces the surface by 2 g/q of its height.

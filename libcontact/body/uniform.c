@@ -1,5 +1,5 @@
 /*
- * Normal displacement of the surface of a half-space under unit pressure on a cell dx x dy:
+ * A half-space of one material. The normal displacement of its surface under unit pressure on a cell dx x dy:
  *
  *     K(x, y) = 1/(pi E*) integral over the cell of 1/|r - r'|       (Johnson 1985, eq. 3.25)
  *
@@ -9,11 +9,13 @@
  * cells is below rounding. Far away Taylor's series of 1/r about the centre of the cell to sixth
  * order, whose next term at forty cells is below rounding.
  */
-#include "body.h"
+#include "uniform.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
-static const double pi = 3.14159265358979323846;
+#include "quadrature.h"
 
 /* Antiderivative of 1/r in x and y (Love 1929). */
 static double
@@ -32,16 +34,6 @@ near(double x, double y, double a, double b)
            (corner(x + a, y - b) - corner(x - a, y - b));
 }
 
-/* Abscissas and weights of Gauss's six-point rule on (-1, 1) (Abramowitz and Stegun 1964, 25.4). */
-static const double gauss_x[6] = {-0.932469514203152028, -0.661209386466264514,
-                                  -0.238619186083196909, 0.238619186083196909,
-                                  0.661209386466264514,  0.932469514203152028};
-/* clang-format off */
-static const double gauss_w[6] = {0.171324492379170345, 0.360761573048138608,
-                                  0.467913934572691047, 0.467913934572691047,
-                                  0.360761573048138608, 0.171324492379170345};
-/* clang-format on */
-
 static double
 middle(double x, double y, double a, double b)
 {
@@ -49,13 +41,14 @@ middle(double x, double y, double a, double b)
 
     for (int k = 0; k < 6; k++)
         for (int l = 0; l < 6; l++) {
-            double u = x - a * gauss_x[k], v = y - b * gauss_x[l];
-            sum += gauss_w[k] * gauss_w[l] / sqrt(u * u + v * v);
+            struct rc_gauss along = rc_gauss_point(6, k), across = rc_gauss_point(6, l);
+            double u = x - a * along.x, v = y - b * across.x;
+            sum += along.w * across.w / sqrt(u * u + v * v);
         }
     return a * b * sum;
 }
 
-/* out[i] for first <= i < n at x = i dx. The derivatives of 1/r of order 2j in x and 2k in y, times
+/* Adds to out[i] for first <= i < n, at x = i dx. The derivatives of 1/r of order 2j in x and 2k in y, times
  * r^(2j+2k+1), are polynomials in X = (x/r)^2 and Y = (y/r)^2; the integral of the series takes
  * a^(2j) b^(2k) / (2j+1)! (2k+1)!. */
 RC_CLONES static void
@@ -75,20 +68,19 @@ far(double scale, double dx, double y, double a, double b, size_t first, size_t 
                            5040 +
                        A * B * (A * x4y2 + B * x2y4) / 720;
 
-        out[i] = scale * 4 * a * b * sqrt(s) * (1 + second / 6 + fourth + sixth);
+        out[i] += scale * 4 * a * b * sqrt(s) * (1 + second / 6 + fourth + sixth);
     }
 }
 
-static void
-rows(const struct rc_medium *medium, size_t component, const struct rc_lattice *at, size_t n,
-     size_t first, size_t last, double *out)
+void
+rc_uniform_add_rows(double estar, const struct rc_lattice *at, size_t n, size_t first, size_t last,
+                    double *out)
 {
     double a = at->dx / 2, b = at->dy / 2, largest = fmax(at->dx, at->dy);
     double dx = (double)at->sx * at->dx, dy = (double)at->sy * at->dy;
-    double scale = 1 / (pi * medium->estar);
+    double scale = 1 / (RC_PI * estar);
     double near_r = 5 * largest, far_r = 40 * largest;
 
-    (void)component;
     for (size_t j = first; j < last; j++, out += n) {
         double y = (double)j * dy;
         double w = far_r > y ? sqrt(far_r * far_r - y * y) / dx : 0;
@@ -96,29 +88,132 @@ rows(const struct rc_medium *medium, size_t component, const struct rc_lattice *
 
         for (size_t i = 0; i < inner; i++) {
             double x = (double)i * dx;
-            out[i] =
+            out[i] +=
                 scale * (x * x + y * y < near_r * near_r ? near(x, y, a, b) : middle(x, y, a, b));
         }
         far(scale, dx, y, a, b, inner, n, out);
     }
 }
 
-/* Westergaard 1939: a wave of pressure of wave number q makes a wave of displacement 2 / (E* q) as
- * high. */
-static double
-symbol(const struct rc_medium *medium, size_t component, double qx, double qy)
+/* ---- of E* = 1 ---- */
+
+static void
+rows_of_one(const void *of, const struct rc_lattice *at, size_t n, size_t first, size_t last,
+            double *out)
 {
-    (void)component;
-    return 2 / (medium->estar * hypot(qx, qy));
+    (void)of;
+    memset(out, 0, (last - first) * n * sizeof *out);
+    rc_uniform_add_rows(1, at, n, first, last, out);
 }
 
-static const unsigned parity[] = {0};
+static double
+symbol_of_one(const void *of, double qx, double qy)
+{
+    (void)of;
+    return 2 / hypot(qx, qy);
+}
 
-const struct rc_kernel rc_kernel_boussinesq = {
-    .info = {.name = "boussinesq",
-             .summary = "normal displacement of the surface, m/Pa",
-             .components = 1},
-    .parity = parity,
-    .rows = rows,
-    .symbol = symbol,
+const struct rc_kernel rc_kernel_of_one = {.rows = rows_of_one, .symbol = symbol_of_one};
+
+/* ---- the row ---- */
+
+struct uniform {
+    struct rc_solid solid;
+    double estar, nu;
+};
+
+static bool
+takes(const struct rc_body *b)
+{
+    return b->layers == 0;
+}
+
+static enum rc_status
+check(const struct rc_body *b, enum rc_use use, struct rc_err *err)
+{
+    if (use == RC_SURFACE && !(b->e > 0))
+        return rc_err_set(err, "Young's modulus of a body is %g Pa: it must be positive", b->e);
+    if (!(b->nu > -1 && b->nu <= 0.5))
+        return rc_err_set(err, "Poisson's ratio %g: it must be above -1 and at most 0.5", b->nu);
+    return RC_OK;
+}
+
+static struct rc_solid *
+make(double estar, double nu, struct rc_err *err)
+{
+    struct uniform *u = malloc(sizeof *u);
+
+    if (u == NULL) {
+        rc_err_set(err, "out of memory for a body");
+        return NULL;
+    }
+    *u = (struct uniform){{&rc_body_uniform}, estar, nu};
+    return &u->solid;
+}
+
+struct rc_solid *
+rc_uniform_new(double estar, struct rc_err *err)
+{
+    return make(estar, NAN, err);
+}
+
+double
+rc_uniform_nu(const struct rc_solid *s)
+{
+    return ((const struct uniform *)s)->nu;
+}
+
+static double
+compliance(const struct rc_body *b)
+{
+    return isinf(b->e) ? 0 : (1 - b->nu * b->nu) / b->e;
+}
+
+static struct rc_solid *
+solid_new(const struct rc_body *b, struct rc_err *err)
+{
+    return make(1 / compliance(b), b->nu, err);
+}
+
+static void
+solid_free(struct rc_solid *s)
+{
+    free(s);
+}
+
+static double
+estar_of(const struct rc_solid *s)
+{
+    return ((const struct uniform *)s)->estar;
+}
+
+static double
+modulus(const struct rc_solid *s, double q)
+{
+    (void)q;
+    return estar_of(s);
+}
+
+static void
+add_rows(const struct rc_solid *s, double length, double modulus, const struct rc_lattice *at,
+         size_t n, size_t first, size_t last, double *out)
+{
+    (void)length; /* a half-space has none of its own */
+    rc_uniform_add_rows(estar_of(s) / modulus, at, n, first, last, out);
+}
+
+const struct rc_body_type rc_body_uniform = {
+    .name = "uniform",
+    .summary = "a half-space of one material",
+    .takes = takes,
+    .check = check,
+    .new = solid_new,
+    .free = solid_free,
+    .compliance = compliance,
+    .positive = true,
+    .modulus = modulus,
+    .modulus_of = modulus,
+    .softest = estar_of,
+    .add_rows = add_rows,
+    .inside = &rc_uniform_inside,
 };

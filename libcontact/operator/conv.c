@@ -30,17 +30,19 @@ struct rc_conv {
     bool precise; /* by its name */
     const char *reason;
     void *plan;
-    struct rc_stack *own; /* of a layered body; NULL: none */
+    struct rc_solids own;      /* the bodies, where they are not the caller's */
+    struct rc_surface surface; /* of these, in m and Pa                       */
 };
 
+/* Without a surface it is only to be planned: what a plan takes hardly depends on the bodies. */
 static struct rc_sum
-sum_of(const struct rc_shape *shape, double estar, const struct rc_stack *stack,
+sum_of(const struct rc_shape *shape, const struct rc_surface *surface,
        const struct rc_conv_options *o)
 {
     return (struct rc_sum){.shape = *shape,
                            .boundary = o->boundary,
-                           .kernel = stack == NULL ? &rc_kernel_boussinesq : &rc_kernel_layered,
-                           .medium = {.estar = estar, .stack = stack, .length = 1, .modulus = 1},
+                           .kernel =
+                               surface == NULL ? rc_kernel_of_one : rc_surface_kernel(surface),
                            .tol = o->tol,
                            .precise = o->precise,
                            .order = o->order,
@@ -173,31 +175,34 @@ const char *
 rc_conv_choice(const struct rc_shape *shape, const struct rc_conv_options *options,
                const char **reason)
 {
-    struct rc_sum sum = sum_of(shape, 1, NULL, options);
+    struct rc_sum sum = sum_of(shape, NULL, options);
     bool precise;
     const struct rc_engine *engine = find(&sum, options, &precise, reason, NULL);
 
     return engine == NULL ? "" : name_of(engine, precise);
 }
 
-struct rc_conv *
-rc_conv_new_on(const struct rc_stack *stack, double estar, const struct rc_shape *shape,
-               const struct rc_conv_options *options, struct rc_err *err)
+/* Takes the bodies, where they are its own. */
+static struct rc_conv *
+conv_new(const struct rc_solids *bodies, bool own, const struct rc_shape *shape,
+         const struct rc_conv_options *options, struct rc_err *err)
 {
-    struct rc_sum sum = sum_of(shape, estar, stack, options);
-    struct rc_conv *conv = NULL;
+    struct rc_conv *conv = calloc(1, sizeof *conv);
+    struct rc_sum sum;
 
-    if (rc_shape_check(shape, err) != RC_OK)
-        return NULL;
-    conv = calloc(1, sizeof *conv);
     if (conv == NULL)
         rc_err_set(err, "out of memory for a plan");
-    if (rc_ranks_agree(sum.ranks, conv == NULL ? RC_FAIL : RC_OK, err) != RC_OK) {
+    if (rc_ranks_agree(options->ranks, conv == NULL ? RC_FAIL : RC_OK, err) != RC_OK) {
         free(conv);
         return NULL;
     }
+    if (own)
+        conv->own = *bodies;
+    conv->surface = (struct rc_surface){own ? &conv->own : bodies, 1, 1};
+    sum = sum_of(shape, &conv->surface, options);
     if ((conv->engine = find(&sum, options, &conv->precise, &conv->reason, err)) == NULL ||
         (conv->plan = conv->engine->new (&sum, err)) == NULL) {
+        conv->own.n = 0; /* the caller's again */
         rc_conv_free(conv);
         return NULL;
     }
@@ -205,25 +210,25 @@ rc_conv_new_on(const struct rc_stack *stack, double estar, const struct rc_shape
 }
 
 struct rc_conv *
+rc_conv_new_of(const struct rc_solids *bodies, const struct rc_shape *shape,
+               const struct rc_conv_options *options, struct rc_err *err)
+{
+    return conv_new(bodies, false, shape, options, err);
+}
+
+struct rc_conv *
 rc_conv_new(const struct rc_shape *shape, const struct rc_pair *pair,
             const struct rc_conv_options *options, struct rc_err *err)
 {
-    struct rc_stack *stack;
-    enum rc_status status;
-    struct rc_conv *conv;
+    struct rc_solids bodies;
+    struct rc_conv *conv = NULL;
 
-    if (rc_pair_check(pair, err) != RC_OK)
+    if (rc_shape_check(shape, err) != RC_OK || rc_pair_check(pair, err) != RC_OK)
         return NULL;
-    status = rc_stack_of(pair, &stack, err);
-    if (rc_ranks_agree(options->ranks, status, err) != RC_OK) {
-        rc_stack_free(stack);
-        return NULL;
-    }
-    conv = rc_conv_new_on(stack, rc_pair_estar(pair), shape, options, err);
+    if (rc_solids_new(&bodies, pair, options->ranks, err) == RC_OK)
+        conv = conv_new(&bodies, true, shape, options, err);
     if (conv == NULL)
-        rc_stack_free(stack);
-    else
-        conv->own = stack;
+        rc_solids_free(&bodies);
     return conv;
 }
 
@@ -270,7 +275,7 @@ rc_conv_free(struct rc_conv *conv)
         return;
     if (conv->plan != NULL)
         conv->engine->free(conv->plan);
-    rc_stack_free(conv->own);
+    rc_solids_free(&conv->own);
     free(conv);
 }
 
@@ -278,7 +283,7 @@ enum rc_status
 rc_conv_check(const struct rc_shape *shape, const struct rc_conv_options *options,
               struct rc_err *err)
 {
-    struct rc_sum sum = sum_of(shape, 1, NULL, options);
+    struct rc_sum sum = sum_of(shape, NULL, options);
     const char *reason;
     bool precise;
 
@@ -288,7 +293,7 @@ rc_conv_check(const struct rc_shape *shape, const struct rc_conv_options *option
 size_t
 rc_conv_memory(const struct rc_shape *shape, const struct rc_conv_options *options)
 {
-    struct rc_sum sum = sum_of(shape, 1, NULL, options);
+    struct rc_sum sum = sum_of(shape, NULL, options);
     const char *reason;
     bool precise;
     const struct rc_engine *engine = find(&sum, options, &precise, &reason, NULL);
@@ -299,7 +304,7 @@ rc_conv_memory(const struct rc_shape *shape, const struct rc_conv_options *optio
 double
 rc_conv_seconds(const struct rc_shape *shape, const struct rc_conv_options *options)
 {
-    struct rc_sum sum = sum_of(shape, 1, NULL, options);
+    struct rc_sum sum = sum_of(shape, NULL, options);
     const char *reason;
     bool precise;
     const struct rc_engine *engine = find(&sum, options, &precise, &reason, NULL);

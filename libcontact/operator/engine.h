@@ -8,13 +8,11 @@
 
 struct rc_fft;
 
-/* What is to be summed: one component of one kernel on one grid. */
+/* What is to be summed: a kernel on a grid. */
 struct rc_sum {
     struct rc_shape shape;
     enum rc_boundary boundary;
-    const struct rc_kernel *kernel;
-    size_t component;
-    struct rc_medium medium;
+    struct rc_kernel kernel;
     double tol;     /* asked error relative to the sum of |K| |p|; 0: as good as rounding        */
     bool precise;   /* in double precision throughout, even where tol would allow less           */
     size_t threads; /* 0: all                                                        */
@@ -69,10 +67,9 @@ enum rc_status rc_engine_serves(const struct rc_engine *engine, const char *name
 enum rc_status rc_conv_check(const struct rc_shape *shape, const struct rc_conv_options *options,
                              struct rc_err *err);
 
-/* rc_conv_new on this stack, which outlives it and stands instead of the modulus; NULL: none. */
-struct rc_conv *rc_conv_new_on(const struct rc_stack *stack, double estar,
-                               const struct rc_shape *shape, const struct rc_conv_options *options,
-                               struct rc_err *err);
+/* rc_conv_new of these bodies, which outlive it. */
+struct rc_conv *rc_conv_new_of(const struct rc_solids *bodies, const struct rc_shape *shape,
+                               const struct rc_conv_options *options, struct rc_err *err);
 
 /* The transforms by which it sums; NULL: it sums in another way. */
 struct rc_fft *rc_conv_fft(struct rc_conv *conv);

@@ -63,7 +63,7 @@ rc_direct_new(const struct rc_sum *sum, const struct rc_lattice *at, size_t nx, 
               int threads, struct rc_err *err)
 {
     struct rc_direct *d = calloc(1, sizeof *d);
-    unsigned parity = sum->kernel->parity[sum->component];
+    unsigned parity = sum->kernel.parity;
 
     if (d == NULL || width(nx) > SIZE_MAX / sizeof(double) / ny ||
         (d->k = calloc(width(nx) * ny, sizeof(double))) == NULL ||
@@ -82,7 +82,7 @@ rc_direct_new(const struct rc_sum *sum, const struct rc_lattice *at, size_t nx, 
 #pragma omp parallel for num_threads(threads) schedule(dynamic)
     for (size_t j = 0; j < ny; j++) {
         double *row = d->k + j * d->width + nx - 1;
-        sum->kernel->rows(&sum->medium, sum->component, at, nx, j, j + 1, row);
+        sum->kernel.rows(sum->kernel.of, at, nx, j, j + 1, row);
         for (size_t i = 1; i < nx; i++)
             *(row - i) = parity & RC_ODD_X ? -row[i] : row[i];
     }

@@ -172,7 +172,7 @@ plan_new(const struct rc_sum *sum, struct rc_err *err)
     struct rc_mlms *m = calloc(1, sizeof *m);
     struct rc_lattice lattice;
     const struct rc_mlms_axis *last;
-    unsigned parity = sum->kernel->parity[sum->component];
+    unsigned parity = sum->kernel.parity;
 
     if (m == NULL) {
         rc_err_set(err, "out of memory for a plan");

@@ -476,12 +476,10 @@ rc_spectrum_set_quarter(struct rc_spectrum *k, const struct rc_fft *f, unsigned 
 
 enum rc_status
 rc_spectrum_set_by(struct rc_spectrum *k, const struct rc_fft *f, const struct rc_kernel *kernel,
-                   size_t component, const struct rc_medium *medium, rc_column *each, void *ctx,
-                   struct rc_err *err)
+                   rc_column *each, void *ctx, struct rc_err *err)
 {
     const struct rc_lattice nodes = {f->shape.dx, f->shape.dy, 1, 1};
     size_t cx = f->layout.cx, from, rows;
-    unsigned parity = kernel->parity[component];
     double *own = NULL, *values = NULL;
     enum rc_status status = RC_OK;
 
@@ -499,20 +497,13 @@ rc_spectrum_set_by(struct rc_spectrum *k, const struct rc_fft *f, const struct r
     for (size_t first = from; first < from + rows; first += ROWS) {
         size_t last = first + ROWS < from + rows ? first + ROWS : from + rows;
 
-        kernel->rows(medium, component, &nodes, cx, first, last, values + (first - from) * cx);
+        kernel->rows(kernel->of, &nodes, cx, first, last, values + (first - from) * cx);
         for (size_t j = first; j < last; j++)
-            rc_fft_quarter_row(f, parity, values + (j - from) * cx);
+            rc_fft_quarter_row(f, kernel->parity, values + (j - from) * cx);
     }
-    status = turn_quarter(k, f, parity, values, each, ctx, err);
+    status = turn_quarter(k, f, kernel->parity, values, each, ctx, err);
     free(own);
     return status;
-}
-
-static enum rc_status
-transform_quarter(const struct rc_fft *f, struct rc_spectrum *k, const struct rc_kernel *kernel,
-                  size_t component, const struct rc_medium *medium, struct rc_err *err)
-{
-    return rc_spectrum_set_by(k, f, kernel, component, medium, NULL, NULL, err);
 }
 
 void
@@ -580,50 +571,34 @@ rc_spectrum_sample(struct rc_spectrum *k, const struct rc_fft *f, unsigned parit
     share_total(k, f);
 }
 
-/* One component of a kernel in a medium. */
-struct component {
-    const struct rc_kernel *kernel;
-    size_t index;
-    const struct rc_medium *medium;
-};
-
 static bool
 symbol_of(const void *of, size_t i, double qx, size_t n, const double *qy, double *out)
 {
-    const struct component *c = of;
+    const struct rc_kernel *kernel = of;
 
     (void)i;
     for (size_t j = 0; j < n; j++)
-        out[j] = qx == 0 && qy[j] == 0 ? 0 : c->kernel->symbol(c->medium, c->index, qx, qy[j]);
+        out[j] = qx == 0 && qy[j] == 0 ? 0 : kernel->symbol(kernel->of, qx, qy[j]);
     return true;
-}
-
-static enum rc_status
-sample_symbol(const struct rc_fft *f, struct rc_spectrum *k, const struct rc_kernel *kernel,
-              size_t component, const struct rc_medium *medium, struct rc_err *err)
-{
-    const struct component of = {kernel, component, medium};
-
-    if (kernel->symbol == NULL)
-        return rc_err_set(err, "the kernel '%s' has no periodic form", kernel->info.name);
-    rc_spectrum_sample(k, f, kernel->parity[component], symbol_of, &of);
-    return RC_OK;
 }
 
 enum rc_status
 rc_spectrum_set_values(struct rc_spectrum *k, const struct rc_fft *f,
-                       const struct rc_kernel *kernel, size_t component,
-                       const struct rc_medium *medium, struct rc_err *err)
+                       const struct rc_kernel *kernel, struct rc_err *err)
 {
-    return transform_quarter(f, k, kernel, component, medium, err);
+    return rc_spectrum_set_by(k, f, kernel, NULL, NULL, err);
 }
 
 enum rc_status
 rc_spectrum_set(struct rc_spectrum *k, const struct rc_fft *f, const struct rc_kernel *kernel,
-                size_t component, const struct rc_medium *medium, struct rc_err *err)
+                struct rc_err *err)
 {
-    return (f->boundary == RC_FREE ? transform_quarter : sample_symbol)(f, k, kernel, component,
-                                                                        medium, err);
+    if (f->boundary == RC_FREE)
+        return rc_spectrum_set_values(k, f, kernel, err);
+    if (kernel->symbol == NULL)
+        return rc_err_set(err, "this kernel has no periodic form");
+    rc_spectrum_sample(k, f, kernel->parity, symbol_of, kernel);
+    return RC_OK;
 }
 
 /* ---- from another spectrum ---- */

@@ -46,17 +46,15 @@ struct rc_spectrum *rc_spectrum_new(const struct rc_fft *fft, struct rc_err *err
 void rc_spectrum_free(struct rc_spectrum *spectrum);
 /* Its value at wave number 0: of a kernel given by values, their sum over a period. */
 double rc_spectrum_total(const struct rc_spectrum *spectrum);
-/* Makes it the spectrum of a kernel's component: on the free boundary the transform of its values,
+/* Makes it the spectrum of a kernel: on the free boundary the transform of its values,
  * on the periodic one its symbol. RC_FAIL when memory is short or the kernel has no symbol. */
 enum rc_status rc_spectrum_set(struct rc_spectrum *spectrum, const struct rc_fft *fft,
-                               const struct rc_kernel *kernel, size_t component,
-                               const struct rc_medium *medium, struct rc_err *err);
+                               const struct rc_kernel *kernel, struct rc_err *err);
 /* The same of a free map; `each` sees, by several threads at once, the n wave numbers along y of column i
  * along x, and may change them before they are kept. Columns are those held here: rc_fft_columns. */
 typedef void rc_column(void *ctx, size_t i, size_t n, double *column);
 enum rc_status rc_spectrum_set_by(struct rc_spectrum *spectrum, const struct rc_fft *fft,
-                                  const struct rc_kernel *kernel, size_t component,
-                                  const struct rc_medium *medium, rc_column *each, void *ctx,
+                                  const struct rc_kernel *kernel, rc_column *each, void *ctx,
                                   struct rc_err *err);
 /* Wave numbers of a column and along it: of the padded map, rad/m. */
 double rc_fft_qx(const struct rc_fft *fft, size_t i);
@@ -74,8 +72,7 @@ struct rc_spectrum *rc_spectrum_new_reciprocal(const struct rc_fft *fft,
 /* The transform of the kernel's values on either boundary; on the periodic one each offset
  * counts once, by its shortest way around the map. */
 enum rc_status rc_spectrum_set_values(struct rc_spectrum *spectrum, const struct rc_fft *fft,
-                                      const struct rc_kernel *kernel, size_t component,
-                                      const struct rc_medium *medium, struct rc_err *err);
+                                      const struct rc_kernel *kernel, struct rc_err *err);
 
 /* The same by hand, for a kernel of this parity. On the free boundary: from a quarter of the
  * kernel's period, its values at the offsets i < *nx, j < *ny. Each row of *nx values is

@@ -12,15 +12,14 @@
 
 #include "libcontact/memory.h"
 
-static const double pi = 3.14159265358979323846;
-
 struct half_space {
     struct rc_operator op;
-    double estar;           /* of one material, or what it would have to be in the roughness      */
-    struct rc_stack *stack; /* of the coating; NULL: one material                                 */
-    bool shared;            /* the stack is that of a finer grid                                  */
-    struct rc_conv *conv;   /* K p in double precision, or NULL                        */
-    struct rc_fft *fft;     /* in single precision, on the grid in units of sqrt(dx dy) */
+    struct rc_solids own;           /* the bodies, but for a coarse grid                   */
+    const struct rc_solids *bodies; /* these, or those of the finer grid                   */
+    bool positive;                  /* their kernel's spectrum is, on any map              */
+    double estar;                   /* of both, as the roughness feels it                  */
+    struct rc_conv *conv;           /* K p in double precision, or NULL                    */
+    struct rc_fft *fft;             /* in single precision, on the grid in units of sqrt(dx dy) */
     struct rc_spectrum *kernel, *inverse;
     double *p, *u; /* maps and, for each thread, a row: for engines without   */
     float *row;    /* single precision; else NULL                             */
@@ -40,80 +39,57 @@ conv_options(const struct rc_operator_options *o)
 
 /* ---- figures ---- */
 
-/* g(q) in 1/Pa: of one material 1/E* for every wave. */
-static double
-response(const struct half_space *s, double q)
-{
-    return s->stack == NULL ? 1 / s->estar : rc_stack_response(s->stack, q);
-}
-
-/* The largest of g over all waves, near enough: it is smooth in ln q. */
-static double
-largest_response(const struct half_space *s)
-{
-    double most = response(s, 0);
-
-    for (size_t k = 0; s->stack != NULL && k < s->stack->layers; k++)
-        for (int j = -20; j <= 20; j++)
-            most = fmax(most, response(s, exp(0.5 * j) / s->stack->material[k].thickness));
-    return most;
-}
-
 /* On the free boundary the largest row sum of K: what a uniform pressure does in the middle of a
  * rectangle a x b, 2 (a asinh(b/a) + b asinh(a/b)) / (pi E*) (Love 1929; Johnson 1985, eq.
  * 3.25). On a periodic map the eigenvalues are known, and the longest wave has the largest, 2 /
- * (E* q), q = 2 pi / L. A coated body is nowhere more compliant than one of its largest g. */
+ * (E* q), q = 2 pi / L. Bodies are nowhere more compliant than their least E*(q). */
 static double
 norm(const struct half_space *s)
 {
     const struct rc_shape *shape = &s->op.whole;
     double a = shape->dx * (double)shape->nx, b = shape->dy * (double)shape->ny;
-    double most = largest_response(s);
+    double most = 1 / rc_solids_softest(s->bodies);
 
     if (s->op.boundary == RC_PERIODIC)
-        return most * fmax(a, b) / pi;
-    return most * 2 * (a * asinh(b / a) + b * asinh(a / b)) / pi;
-}
-
-static const struct rc_kernel *
-kernel_of(const struct half_space *s)
-{
-    return s->stack == NULL ? &rc_kernel_boussinesq : &rc_kernel_layered;
+        return most * fmax(a, b) / RC_PI;
+    return most * 2 * (a * asinh(b / a) + b * asinh(a / b)) / RC_PI;
 }
 
 static double
 diagonal(const struct half_space *s)
 {
-    struct rc_medium medium = {.estar = s->estar, .stack = s->stack, .length = 1, .modulus = 1};
+    const struct rc_surface surface = {s->bodies, 1, 1};
+    const struct rc_kernel kernel = rc_surface_kernel(&surface);
     struct rc_lattice cell = {s->op.whole.dx, s->op.whole.dy, 1, 1};
     double self;
 
-    kernel_of(s)->rows(&medium, 0, &cell, 1, 0, 1, &self);
+    kernel.rows(kernel.of, &cell, 1, 0, 1, &self);
     return self;
 }
 
-/* The mean of |q| / 2, over g E*, times cos(i qx dx) cos(j qy dy) over the wave numbers of the grid,
- * |qx| <= pi/dx and |qy| <= pi/dy, lengths in units of sqrt(dx dy). Without cosines and coating it is
- * half the mean distance of a rectangle's points from its middle; else a sum over the middles of cells. */
+/* The mean of |q| / 2, times E*(q) over that of the roughness, times cos(i qx dx) cos(j qy dy) over the wave
+ * numbers of the grid, |qx| <= pi/dx and |qy| <= pi/dy, lengths in units of sqrt(dx dy): a sum over the
+ * middles of cells. Without cosines |q| itself has a closed form, half the mean distance of a rectangle's
+ * points from its middle, and the sum is of the rest. */
 static void
 set_inverse_near(struct half_space *s, const struct rc_shape *unit, double length)
 {
     enum {
         CELLS = 64
     };
-    double a = pi / unit->dx, b = pi / unit->dy, d = hypot(a, b), sum[2][2] = {{0}};
+    double a = RC_PI / unit->dx, b = RC_PI / unit->dy, d = hypot(a, b), sum[2][2] = {{0}};
 
     for (int l = 0; l < CELLS; l++)
         for (int k = 0; k < CELLS; k++) {
             double x = (k + 0.5) / CELLS, y = (l + 0.5) / CELLS, q = hypot(a * x, b * y);
-            double w = q / (2 * s->estar * response(s, q / length)) / (CELLS * CELLS);
-            sum[0][0] += w;
-            sum[0][1] += w * cos(pi * x);
-            sum[1][0] += w * cos(pi * y);
-            sum[1][1] += w * cos(pi * x) * cos(pi * y);
+            double stiff = rc_solids_modulus(s->bodies, q / length) / s->estar;
+            double w = q / 2 / (CELLS * CELLS);
+            sum[0][0] += w * (stiff - 1);
+            sum[0][1] += w * stiff * cos(RC_PI * x);
+            sum[1][0] += w * stiff * cos(RC_PI * y);
+            sum[1][1] += w * stiff * cos(RC_PI * x) * cos(RC_PI * y);
         }
-    if (s->stack == NULL)
-        sum[0][0] = (2 * d + a * a / b * asinh(b / a) + b * b / a * asinh(a / b)) / 12;
+    sum[0][0] += (2 * d + a * a / b * asinh(b / a) + b * b / a * asinh(a / b)) / 12;
     for (int j = 0; j < 3; j++)
         for (int i = 0; i < 3; i++)
             s->op.inverse_near[j][i] = sum[j != 1][i != 1];
@@ -131,7 +107,7 @@ set_neighbours(struct rc_operator *op, const struct rc_shape *unit)
         }
 }
 
-/* How fast the preconditioner's extension fades: 0.5 on one material; the slower, the softer the body is to
+/* How fast the preconditioner's extension fades: 0.5 on one material; the slower, the softer the bodies are to
  * the longest waves against the shortest. Found by trial on coats from 0.01 to 100 times as stiff as
  * what they lie on. */
 static double
@@ -140,9 +116,10 @@ extension(const struct half_space *s, double length)
     const struct rc_shape *shape = &s->op.whole;
     double side = fmin(shape->dx * (double)shape->nx, shape->dy * (double)shape->ny);
 
-    if (s->stack == NULL)
-        return 0.5;
-    return fmin(fmax(0.5 * sqrt(response(s, pi / length) / response(s, 2 * pi / side)), 0.02), 4);
+    double shortest = rc_solids_modulus(s->bodies, RC_PI / length);
+
+    return fmin(fmax(0.5 * sqrt(rc_solids_modulus(s->bodies, 2 * RC_PI / side) / shortest), 0.02),
+                4);
 }
 
 static struct rc_shape
@@ -166,8 +143,7 @@ half_space_free(struct rc_operator *op)
     rc_conv_free(s->conv);
     rc_spectrum_free(s->kernel);
     rc_spectrum_free(s->inverse);
-    if (!s->shared)
-        rc_stack_free(s->stack);
+    rc_solids_free(&s->own);
     free(s->p);
     free(s->u);
     free(s->row);
@@ -176,9 +152,9 @@ half_space_free(struct rc_operator *op)
 
 /* ---- the inverse ---- */
 
-/* A stack's padded kernel may have a spectrum that is negative somewhere, on stiff coats that bend over
- * lengths near that of the map. Its inverse is kept within these bounds of that of a half-space, wave by
- * wave with the stiffness of the stack. */
+/* A padded kernel may have a spectrum that is negative somewhere, on stiff coats that bend over lengths near
+ * that of the map. Its inverse is kept within these bounds of that of a uniform half-space, wave by wave with
+ * the stiffness of the bodies. */
 static const double least = 0.7, most = 1.5;
 
 struct bounded {
@@ -204,23 +180,20 @@ invert_column(void *ctx, size_t i, size_t n, double *column)
     double qx = rc_fft_qx(b->s->fft, i);
 
     for (size_t j = 0; j < n; j++) {
-        double q = fmax(hypot(qx, rc_fft_qy(b->s->fft, j)), b->longest) / b->length, q2 = q * q, g,
-               near;
-        rc_stack_responses(b->s->stack, 1, &q2, &g);
-        near = column[j] * b->s->estar * g;
+        double q = fmax(hypot(qx, rc_fft_qy(b->s->fft, j)), b->longest) / b->length;
+        double near = column[j] * b->s->estar / rc_solids_modulus_of(b->s->bodies, q * q);
         column[j] = 1 / fmin(fmax(b->kernel[(i - b->first) * n + j], least * near), most * near);
     }
 }
 
 static enum rc_status
-set_bounded(struct half_space *s, const struct rc_shape *unit, const struct rc_medium *medium,
+set_bounded(struct half_space *s, const struct rc_shape *unit, const struct rc_kernel *kernel,
             double length, struct rc_err *err)
 {
-    struct rc_medium bare = {.estar = 1};
     struct bounded b = {
         .s = s,
         .length = length,
-        .longest = pi / (2 * fmax(unit->dx * (double)unit->nx, unit->dy * (double)unit->ny))};
+        .longest = RC_PI / (2 * fmax(unit->dx * (double)unit->nx, unit->dy * (double)unit->ny))};
     size_t columns;
     enum rc_status status;
 
@@ -228,15 +201,14 @@ set_bounded(struct half_space *s, const struct rc_shape *unit, const struct rc_m
     rc_fft_columns(s->fft, &b.first, &columns);
     status = (b.kernel = rc_alloc(columns * b.n, sizeof *b.kernel)) == NULL ? RC_FAIL : RC_OK;
     if (status != RC_OK)
-        rc_err_set(err, "out of memory for the inverse of a coated body");
+        rc_err_set(err, "out of memory for the inverse of a layered body");
     if (rc_ranks_agree(s->op.rows.ranks, status, err) != RC_OK) {
         free(b.kernel);
         return RC_FAIL;
     }
-    status = rc_spectrum_set_by(s->kernel, s->fft, kernel_of(s), 0, medium, keep_column, &b, err);
+    status = rc_spectrum_set_by(s->kernel, s->fft, kernel, keep_column, &b, err);
     if (status == RC_OK && (s->inverse = rc_spectrum_new(s->fft, err)) != NULL)
-        status = rc_spectrum_set_by(s->inverse, s->fft, &rc_kernel_boussinesq, 0, &bare,
-                                    invert_column, &b, err);
+        status = rc_spectrum_set_by(s->inverse, s->fft, &rc_kernel_of_one, invert_column, &b, err);
     else
         status = RC_FAIL;
     free(b.kernel);
@@ -246,42 +218,41 @@ set_bounded(struct half_space *s, const struct rc_shape *unit, const struct rc_m
 static enum rc_status
 set_spectra(struct half_space *s, const struct rc_shape *unit, double length, struct rc_err *err)
 {
-    struct rc_medium medium = {
-        .estar = 1, .stack = s->stack, .length = length, .modulus = s->estar};
+    const struct rc_surface surface = {s->bodies, length, s->estar};
+    const struct rc_kernel kernel = rc_surface_kernel(&surface);
 
     if ((s->kernel = rc_spectrum_new(s->fft, err)) == NULL)
         return RC_FAIL;
-    if (s->stack != NULL && s->op.boundary == RC_FREE)
-        return set_bounded(s, unit, &medium, length, err);
-    if (rc_spectrum_set(s->kernel, s->fft, kernel_of(s), 0, &medium, err) != RC_OK)
+    if (!s->positive && s->op.boundary == RC_FREE)
+        return set_bounded(s, unit, &kernel, length, err);
+    if (rc_spectrum_set(s->kernel, s->fft, &kernel, err) != RC_OK)
         return RC_FAIL;
     s->inverse = rc_spectrum_new_reciprocal(s->fft, s->kernel, err);
     return s->inverse == NULL ? RC_FAIL : RC_OK;
 }
 
-/* Takes conv, K p in double precision, or NULL, and, unless it is shared, the stack. */
 static struct half_space *
-half_space_new(const struct rc_shape *shape, const struct rc_operator_options *o,
-               struct rc_stack *stack, double estar, bool shared, struct rc_conv *conv,
-               struct rc_err *err)
+half_space_new(const struct rc_ranks *ranks, struct rc_err *err)
 {
-    const struct rc_shape unit = unit_of(shape);
-    double length = sqrt(shape->dx) * sqrt(shape->dy);
     struct half_space *s = calloc(1, sizeof *s);
 
     if (s == NULL)
         rc_err_set(err, "out of memory for a plan");
-    if (rc_ranks_agree(o->ranks, s == NULL ? RC_FAIL : RC_OK, err) != RC_OK) {
-        rc_conv_free(conv);
-        if (!shared)
-            rc_stack_free(stack);
-        free(s);
-        return NULL;
-    }
-    s->conv = conv;
-    s->stack = stack;
-    s->shared = shared;
-    s->estar = stack == NULL ? estar : 1 / rc_stack_response(stack, pi / length);
+    if (rc_ranks_agree(ranks, s == NULL ? RC_FAIL : RC_OK, err) == RC_OK)
+        return s;
+    free(s);
+    return NULL;
+}
+
+/* All but the bodies and K p in double precision, which are there. */
+static enum rc_status
+plan(struct half_space *s, const struct rc_shape *shape, const struct rc_operator_options *o,
+     struct rc_err *err)
+{
+    const struct rc_shape unit = unit_of(shape);
+    double length = sqrt(shape->dx) * sqrt(shape->dy);
+
+    s->estar = rc_solids_modulus(s->bodies, RC_PI / length);
     s->op = (struct rc_operator){.type = &half_space,
                                  .whole = *shape,
                                  .rows = rc_rows_of(o->ranks, shape),
@@ -298,15 +269,29 @@ half_space_new(const struct rc_shape *shape, const struct rc_operator_options *o
     s->op.extension = extension(s, length);
     set_inverse_near(s, &unit, length);
     set_neighbours(&s->op, &unit);
-    s->fft = rc_fft_new_on(o->ranks, conv == NULL ? NULL : rc_conv_fft(conv), &unit, o->boundary,
-                           RC_SINGLE, o->threads, err);
-    if (s->fft == NULL || set_spectra(s, &unit, length, err) != RC_OK) {
-        half_space_free(&s->op);
-        return NULL;
-    }
+    s->fft = rc_fft_new_on(o->ranks, s->conv == NULL ? NULL : rc_conv_fft(s->conv), &unit,
+                           o->boundary, RC_SINGLE, o->threads, err);
+    if (s->fft == NULL || set_spectra(s, &unit, length, err) != RC_OK)
+        return RC_FAIL;
     s->op.kernel = s->kernel;
     s->op.inverse = s->inverse;
-    return s;
+    return RC_OK;
+}
+
+/* Room to gather rows of an engine that is not to be mixed with single precision. */
+static enum rc_status
+make_room(struct half_space *s, const struct rc_operator_options *o, struct rc_err *err)
+{
+    size_t n = s->op.shape.nx * s->op.rows.n;
+    enum rc_status status = RC_OK;
+
+    s->row_threads = rc_useful_threads(&s->op.shape, o->threads);
+    s->p = rc_alloc(n, sizeof *s->p);
+    s->u = rc_alloc(n, sizeof *s->u);
+    s->row = rc_alloc((size_t)s->row_threads * s->op.shape.nx, sizeof *s->row);
+    if (s->p == NULL || s->u == NULL || s->row == NULL)
+        status = rc_err_set(err, "out of memory for the displacements of %zu nodes", n);
+    return rc_ranks_agree(o->ranks, status, err);
 }
 
 struct rc_operator *
@@ -314,26 +299,16 @@ rc_half_space_new(const struct rc_shape *shape, const struct rc_operator_options
                   struct rc_err *err)
 {
     struct rc_conv_options options = conv_options(o);
-    size_t n; /* nodes held here */
-    enum rc_status status;
-    double estar = rc_pair_estar(o->pair);
-    struct rc_stack *stack;
-    struct rc_conv *conv;
     struct half_space *s;
 
-    if (rc_shape_check(shape, err) != RC_OK)
+    if (rc_shape_check(shape, err) != RC_OK || (s = half_space_new(o->ranks, err)) == NULL)
         return NULL;
-    status = rc_stack_of(o->pair, &stack, err);
-    if (rc_ranks_agree(o->ranks, status, err) != RC_OK) {
-        rc_stack_free(stack);
-        return NULL;
-    }
-    if ((conv = rc_conv_new_on(stack, estar, shape, &options, err)) == NULL) {
-        rc_stack_free(stack);
-        return NULL;
-    }
-    if ((s = half_space_new(shape, o, stack, estar, false, conv, err)) == NULL)
-        return NULL;
+    s->bodies = &s->own;
+    s->positive = rc_pair_positive(o->pair);
+    if (rc_solids_new(&s->own, o->pair, o->ranks, err) != RC_OK ||
+        (s->conv = rc_conv_new_of(s->bodies, shape, &options, err)) == NULL ||
+        plan(s, shape, o, err) != RC_OK)
+        goto fail;
     s->op.exact = true;
     s->op.error = rc_conv_error(s->conv);
     s->op.engine = rc_conv_engine(s->conv);
@@ -341,19 +316,12 @@ rc_half_space_new(const struct rc_shape *shape, const struct rc_operator_options
     if (rc_conv_mixed(s->conv))
         return &s->op;
     s->op.row_cost = 1;
-    n = shape->nx * s->op.rows.n;
-    s->row_threads = rc_useful_threads(&s->op.shape, o->threads);
-    s->p = rc_alloc(n, sizeof *s->p);
-    s->u = rc_alloc(n, sizeof *s->u);
-    s->row = rc_alloc((size_t)s->row_threads * shape->nx, sizeof *s->row);
-    if (s->p == NULL || s->u == NULL || s->row == NULL)
-        rc_err_set(err, "out of memory for the displacements of %zu nodes", n);
-    if (rc_ranks_agree(o->ranks, s->p == NULL || s->u == NULL || s->row == NULL ? RC_FAIL : RC_OK,
-                       err) != RC_OK) {
-        half_space_free(&s->op);
-        return NULL;
-    }
+    if (make_room(s, o, err) != RC_OK)
+        goto fail;
     return &s->op;
+fail:
+    half_space_free(&s->op);
+    return NULL;
 }
 
 static struct rc_operator *
@@ -363,9 +331,16 @@ coarse(const struct rc_operator *op, const struct rc_ranks *ranks, const struct 
     const struct half_space *fine = (const struct half_space *)op;
     struct rc_operator_options o = {
         .boundary = op->boundary, .threads = op->threads, .ranks = ranks};
-    struct half_space *s = half_space_new(shape, &o, fine->stack, fine->estar, true, NULL, err);
+    struct half_space *s = half_space_new(ranks, err);
 
-    return s == NULL ? NULL : &s->op;
+    if (s == NULL)
+        return NULL;
+    s->bodies = fine->bodies;
+    s->positive = fine->positive;
+    if (plan(s, shape, &o, err) == RC_OK)
+        return &s->op;
+    half_space_free(&s->op);
+    return NULL;
 }
 
 size_t
@@ -375,7 +350,7 @@ rc_half_space_memory(const struct rc_shape *shape, const struct rc_operator_opti
     const char *reason;
     const struct rc_engine *engine;
     size_t conv = rc_conv_memory(shape, &options), own;
-    bool precise, bounded = o->pair->one.layers > 0 && o->boundary == RC_FREE;
+    bool precise, bounded = !rc_pair_positive(o->pair) && o->boundary == RC_FREE;
     size_t ranks = rc_ranks_count(o->ranks), rows;
 
     if (conv == 0)
@@ -473,10 +448,9 @@ static struct rc_spectrum *
 spectrum(struct rc_operator *op, const struct rc_kernel *values, struct rc_err *err)
 {
     const struct half_space *s = (const struct half_space *)op;
-    struct rc_medium none = {0};
     struct rc_spectrum *k = rc_spectrum_new(s->fft, err);
 
-    if (k != NULL && rc_spectrum_set_values(k, s->fft, values, 0, &none, err) != RC_OK) {
+    if (k != NULL && rc_spectrum_set_values(k, s->fft, values, err) != RC_OK) {
         rc_spectrum_free(k);
         return NULL;
     }

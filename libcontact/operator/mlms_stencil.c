@@ -91,7 +91,7 @@ errors(const struct rc_mlms *m, const struct rc_sum *sum, const struct rc_mlms_a
     if (!table_new(&k, reach[RC_X] + more[RC_X], reach[RC_Y] + more[RC_Y]) ||
         !table_new(&kx, reach[RC_X], k.ny))
         goto done;
-    sum->kernel->rows(&sum->medium, sum->component, &nodes, k.nx, 0, k.ny, k.v);
+    sum->kernel.rows(sum->kernel.of, &nodes, k.nx, 0, k.ny, k.v);
     *about = 0;
     for (size_t l = 0; l <= axis[RC_Y].reach; l++)
         for (size_t i = l == 0; i <= axis[RC_X].reach; i++)
@@ -133,11 +133,11 @@ local_kernel(const struct rc_sum *sum, const struct rc_mlms_axis axis[2])
 
     half.sx = half.sx > 1 ? half.sx / 2 : 1;
     half.sy = half.sy > 1 ? half.sy / 2 : 1;
-    sum->kernel->rows(&sum->medium, sum->component, &half, n, 0, 1, k);
+    sum->kernel.rows(sum->kernel.of, &half, n, 0, 1, k);
     own = fabs(k[0]);
     between = n > 1 ? fabs(k[1]) : 0;
     if (sum->shape.ny > 1) {
-        sum->kernel->rows(&sum->medium, sum->component, &half, n, 1, 2, k);
+        sum->kernel.rows(sum->kernel.of, &half, n, 1, 2, k);
         between = fmax(between, fmax(fabs(k[0]), n > 1 ? fabs(k[1]) : 0));
     }
     return cells > 1 ? fmax(own / cells, 1.76 * between) : fmax(own, between);
@@ -183,7 +183,7 @@ void
 rc_mlms_left_out(const struct rc_sum *sum, const struct rc_mlms_design *d, double *one, double *all)
 {
     struct rc_mlms m = {.d = *d};
-    unsigned parity = sum->kernel->parity[sum->component];
+    unsigned parity = sum->kernel.parity;
 
     *one = *all = 0;
     m.sign[RC_X] = parity & RC_ODD_X ? -1 : 1;

@@ -11,7 +11,6 @@
 
 #include "engine.h"
 #include "fft.h"
-#include "libcontact/body/body.h"
 #include "libcontact/transform/transform.h"
 
 struct rc_operator;

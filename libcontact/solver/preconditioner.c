@@ -25,14 +25,13 @@ struct rc_preconditioner {
 
 /* |x|^(-5/2); a node has no weight in itself, because no node is both on W and off it. */
 static void
-spread_rows(const struct rc_medium *medium, size_t component, const struct rc_lattice *at, size_t n,
-            size_t first, size_t last, double *out)
+spread_rows(const void *of, const struct rc_lattice *at, size_t n, size_t first, size_t last,
+            double *out)
 {
     double dx = (double)at->sx * at->dx, dy = (double)at->sy * at->dy;
     double unit = 1 / (at->dx * at->dy); /* of squared lengths */
 
-    (void)medium;
-    (void)component;
+    (void)of;
     for (size_t j = first; j < last; j++, out += n)
         for (size_t i = 0; i < n; i++) {
             double x = (double)i * dx, y = (double)j * dy;
@@ -41,15 +40,7 @@ spread_rows(const struct rc_medium *medium, size_t component, const struct rc_la
         }
 }
 
-static const unsigned even[] = {0};
-
-static const struct rc_kernel spread = {
-    .info = {.name = "spread",
-             .summary = "weights of the extension off the working set",
-             .components = 1},
-    .parity = even,
-    .rows = spread_rows,
-};
+static const struct rc_kernel spread = {.rows = spread_rows};
 
 struct rc_preconditioner *
 rc_preconditioner_new(struct rc_operator *op, struct rc_err *err)

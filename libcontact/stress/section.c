@@ -45,7 +45,7 @@ struct plan {
     double *scratch; /* for each thread: a line of each kernel, and where or of what waves   */
     size_t scratch_size;
     double complex *sum;      /* `waves` for each part and component */
-    struct rc_inside *inside; /* at the depth of a coated body */
+    struct rc_inside *inside; /* at the depth */
 };
 
 static bool
@@ -91,7 +91,7 @@ sizes(const struct rc_stress_task *t)
     plan.threads = rc_useful_threads(s, t->options.threads);
     plan.scratch_size = t->options.boundary == RC_FREE
                             ? (2 + RC_STRESS_KERNELS) * plan.waves
-                            : (6 + RC_STRESS_KERNELS + RC_UNDER_BOTH) * plan.m + plan.n;
+                            : (5 + RC_STRESS_KERNELS + RC_WAVE_NUMBERS) * plan.m + plan.n;
     return plan;
 }
 
@@ -100,9 +100,9 @@ memory(const struct rc_stress_task *t)
 {
     struct plan plan = sizes(t);
     size_t transposed = t->shape.nx * t->shape.ny * sizeof(double), lines = plan.m;
-    size_t rest = plan.m * sizeof(struct pair) +
-                  (size_t)plan.threads * plan.scratch_size * sizeof(double) +
-                  PARTS * RC_COMPONENTS * plan.waves * sizeof(double complex) + rc_inside_memory(t);
+    size_t rest =
+        plan.m * sizeof(struct pair) + (size_t)plan.threads * plan.scratch_size * sizeof(double) +
+        PARTS * RC_COMPONENTS * plan.waves * sizeof(double complex) + rc_stress_inside_memory(t);
 
     /* of a free map the lines that carry nothing are left untouched */
     if (t->options.boundary == RC_FREE && t->options.loaded > 0 && t->options.loaded < lines)
@@ -250,11 +250,10 @@ add_product(const struct plan *plan, int kernel, double weight, const double *k,
 }
 
 static void
-sum_pair(struct plan *plan, double depth, const struct pair *pair, double complex *sum)
+sum_pair(struct plan *plan, const struct pair *pair, double complex *sum)
 {
     const struct rc_stress_task *t = &plan->task;
-    const struct rc_cell cell = {t->shape.dx, t->shape.dy, depth, t->options.body.nu, plan->inside};
-    bool coated = t->coated;
+    const struct rc_cell cell = {t->shape.dx, t->shape.dy};
     double *along = plan->scratch + (size_t)omp_get_thread_num() * plan->scratch_size;
     double *across = along + plan->waves, *line[RC_STRESS_KERNELS];
 
@@ -265,16 +264,17 @@ sum_pair(struct plan *plan, double depth, const struct pair *pair, double comple
             along[i] = (double)i * plan->d_along;
             across[i] = pair->offset;
         }
-        rc_stress_coefficients(&cell, t->kernels, plan->waves, across, along, line);
+        t->type->coefficients(plan->inside, &cell, t->kernels, plan->waves, across, along, line);
     } else {
-        rc_stress_line(&cell, t->kernels, plan->d_along, plan->waves, pair->offset, line);
+        t->type->line(plan->inside, &cell, t->kernels, plan->d_along, plan->waves, pair->offset,
+                      line);
     }
     for (int k = 0; k < RC_STRESS_KERNELS; k++)
         if (t->kernels >> k & 1)
             rc_dct_run(plan->dct, odd_along(plan, k), line[k]);
     for (int c = 0; c < RC_COMPONENTS; c++) {
-        int normal = rc_stress_kernel(RC_NORMAL, c, coated),
-            shear = rc_stress_kernel(RC_SHEAR, c, coated);
+        int normal = rc_stress_kernel(t->type, RC_NORMAL, c),
+            shear = rc_stress_kernel(t->type, RC_SHEAR, c);
         if (!(t->components >> c & 1))
             continue;
         add_product(plan, normal, 1, line[normal], pair, sum + (size_t)c * plan->waves);
@@ -285,7 +285,7 @@ sum_pair(struct plan *plan, double depth, const struct pair *pair, double comple
 }
 
 static void
-sum_free(struct plan *plan, double depth)
+sum_free(struct plan *plan)
 {
     size_t one = RC_COMPONENTS * plan->waves;
 
@@ -293,7 +293,7 @@ sum_free(struct plan *plan, double depth)
 #pragma omp parallel for num_threads(plan->threads) schedule(dynamic)
     for (size_t part = 0; part < PARTS; part++)
         for (size_t g = part; g < plan->pairs; g += PARTS)
-            sum_pair(plan, depth, &plan->pair[g], plan->sum + part * one);
+            sum_pair(plan, &plan->pair[g], plan->sum + part * one);
     for (size_t part = 1; part < PARTS; part++)
         for (size_t q = 0; q < one; q++)
             plan->sum[q] += plan->sum[part * one + q];
@@ -306,48 +306,40 @@ sum_free(struct plan *plan, double depth)
 
 /* ---- periodic: waves ---- */
 
-/* Of a coated body: waves m - b across are as long as waves b. */
+/* Waves m - b across are as long as waves b; the first may have q = 0. */
 static void
 set_numbers(const struct plan *plan, const double *q, double *numbers)
 {
-    size_t n = rc_inside_numbers(plan->inside), m = plan->m;
+    const struct rc_stress_task *t = &plan->task;
+    size_t n = t->type->numbers(t->options.mu != 0), m = plan->m, first = q[0] > 0 ? 0u : 1u;
 
-    for (size_t b = 0; b < m; b++) {
-        if (2 * b > m)
-            memcpy(numbers + b * n, numbers + (m - b) * n, n * sizeof *numbers);
-        else if (q[b] > 0)
-            rc_inside_wave(plan->inside, q[b], numbers + b * n);
-        else
-            memset(numbers + b * n, 0, n * sizeof *numbers);
-    }
+    memset(numbers, 0, first * n * sizeof *numbers);
+    t->type->waves(plan->inside, m / 2 + 1 - first, q + first, numbers + first * n);
+    for (size_t b = m / 2 + 1; b < m; b++)
+        memcpy(numbers + b * n, numbers + (m - b) * n, n * sizeof *numbers);
 }
 
 /* Symbols of all kernels at the waves across that belong to wave a along, `symbol` m each. */
 static void
-wave_symbols(const struct plan *plan, size_t a, double depth, double *scratch,
-             double *symbol[RC_STRESS_KERNELS])
+wave_symbols(const struct plan *plan, size_t a, double *scratch, double *symbol[RC_STRESS_KERNELS])
 {
     const struct rc_stress_task *t = &plan->task;
     size_t m = plan->m;
     double *along = scratch, *across = along + m, *x = across + m, *y = x + m, *q = y + m;
-    double *decay = q + m, *numbers = decay + (1 + RC_STRESS_KERNELS) * m;
-    const struct rc_waves waves = {m,      x, y, q, decay, depth, t->options.body.nu, plan->inside,
-                                   numbers};
+    double *first = q + m, *numbers = first + (size_t)RC_STRESS_KERNELS * m;
+    const struct rc_waves waves = {m, x, y, q, numbers};
 
     for (size_t b = 0; b < m; b++) {
         along[b] = rc_fourier_q(a, plan->n, plan->d_along);
         across[b] = rc_fourier_q(b, m, plan->d_across);
     }
-    rc_stress_directions(m, plan->transposed ? across : along, plan->transposed ? along : across, x,
-                         y, q);
-    for (size_t b = 0; b < m; b++)
-        decay[b] = exp(-q[b] * depth);
-    if (plan->inside != NULL)
-        set_numbers(plan, q, numbers);
+    rc_wave_directions(m, plan->transposed ? across : along, plan->transposed ? along : across, x,
+                       y, q);
+    set_numbers(plan, q, numbers);
     for (int k = 0; k < RC_STRESS_KERNELS; k++) {
-        symbol[k] = decay + (size_t)(k + 1) * m;
+        symbol[k] = first + (size_t)k * m;
         if (t->kernels >> k & 1)
-            rc_stress_symbol(k, &waves, &t->shape, symbol[k]);
+            rc_inside_symbol(plan->inside, k, &waves, &t->shape, symbol[k]);
     }
 }
 
@@ -358,11 +350,10 @@ response(const struct plan *plan, int component, double *const symbol[RC_STRESS_
 {
     static const double complex powers[] = {1, -I, -1}; /* of -i */
     const struct rc_stress_task *t = &plan->task;
-    bool coated = t->coated;
     double complex sum = 0;
 
     for (int load = RC_NORMAL; load <= (t->options.mu != 0 ? RC_SHEAR : RC_NORMAL); load++) {
-        int k = rc_stress_kernel(load, component, coated);
+        int k = rc_stress_kernel(t->type, load, component);
         unsigned parity = rc_stress_parity[k];
         double weight = load == RC_NORMAL ? 1 : t->options.mu;
         if ((parity & RC_ODD_X && last_x) || (parity & RC_ODD_Y && last_y))
@@ -374,7 +365,7 @@ response(const struct plan *plan, int component, double *const symbol[RC_STRESS_
 }
 
 static void
-sum_waves(struct plan *plan, double depth)
+sum_waves(struct plan *plan)
 {
     const struct rc_stress_task *t = &plan->task;
     double from_first = t->options.at + (double)(plan->m - 1) / 2 * plan->d_across;
@@ -384,7 +375,7 @@ sum_waves(struct plan *plan, double depth)
         double *scratch = plan->scratch + (size_t)omp_get_thread_num() * plan->scratch_size;
         double *symbol[RC_STRESS_KERNELS];
         double complex sum[RC_COMPONENTS] = {0};
-        wave_symbols(plan, a, depth, scratch, symbol);
+        wave_symbols(plan, a, scratch, symbol);
         for (size_t b = 0; b < plan->m; b++) {
             double q = rc_fourier_q(b, plan->m, plan->d_across);
             bool last_along = 2 * a == plan->n, last_across = 2 * b == plan->m;
@@ -413,12 +404,12 @@ slice(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err
     bool periodic = plan->task.options.boundary == RC_PERIODIC;
     double scale = 1 / ((double)plan->length * (periodic ? (double)plan->m : 1));
 
-    if (plan->task.coated && (plan->inside = rc_inside_new(&plan->task, depth, err)) == NULL)
+    if ((plan->inside = rc_stress_inside(&plan->task, depth, err)) == NULL)
         return RC_FAIL;
     if (periodic)
-        sum_waves(plan, depth);
+        sum_waves(plan);
     else
-        sum_free(plan, depth);
+        sum_free(plan);
     for (int c = 0; c < RC_COMPONENTS; c++) {
         if (!(plan->task.components >> c & 1))
             continue;

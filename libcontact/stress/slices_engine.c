@@ -16,13 +16,11 @@ struct plan {
 /* An engine's tolerance is relative to the sum of |K| |p|. That of |K| grows with the logarithm of
  * the map, to some 2 under pressure and 8 under shear, and errors of the two add. */
 static struct rc_sum
-sum_of(const struct rc_stress_task *t, int kernel, double depth, const struct rc_inside *inside)
+sum_of(const struct rc_stress_task *t, const struct rc_stress_field *field)
 {
     return (struct rc_sum){.shape = t->shape,
                            .boundary = t->options.boundary,
-                           .kernel = &rc_kernel_stress,
-                           .component = (size_t)kernel,
-                           .medium = {.nu = t->options.body.nu, .depth = depth, .inside = inside},
+                           .kernel = rc_stress_field_kernel(field),
                            .tol = t->options.tol / (2 + 8 * fabs(t->options.mu)),
                            .precise = t->precise,
                            .threads = t->options.threads};
@@ -54,15 +52,26 @@ plan_new(const struct rc_stress_task *task, struct rc_err *err)
     return plan;
 }
 
+/* What a plan takes hardly depends on the body: that of a bare one, a node below the surface. 0 when there is
+ * no memory even for that. */
 static size_t
 memory(const struct rc_stress_task *task)
 {
-    struct rc_sum sum = sum_of(task, RC_SXX, task->shape.dx, NULL);
+    const struct rc_body bare = {.nu = 0.3};
+    struct rc_solid *solid = rc_body_type(&bare)->new (&bare, NULL);
+    struct rc_stress_field field = {.kernel = RC_SXX};
+    struct rc_sum sum = sum_of(task, &field);
+    size_t bytes = 0;
 
-    if (task->engine == NULL)
-        return 0;
-    return task->engine->memory(&sum) + task->shape.nx * task->shape.ny * sizeof(double) +
-           rc_inside_memory(task);
+    if (solid != NULL && task->engine != NULL)
+        field.inside =
+            solid->type->inside->new (solid, task->shape.dx, false, task->options.boundary, NULL);
+    if (field.inside != NULL)
+        bytes = task->engine->memory(&sum) + task->shape.nx * task->shape.ny * sizeof(double) +
+                rc_stress_inside_memory(task);
+    rc_inside_free((struct rc_inside *)field.inside);
+    rc_solid_free(solid);
+    return bytes;
 }
 
 static void
@@ -78,17 +87,17 @@ slice(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err
     struct plan *plan = at;
     const struct rc_stress_task *t = &plan->task;
     size_t n = t->shape.nx * t->shape.ny;
-    bool coated = t->coated;
-    struct rc_inside *inside = NULL;
+    struct rc_inside *inside = rc_stress_inside(t, depth, err);
     enum rc_status status = RC_OK;
 
-    if (coated && (inside = rc_inside_new(t, depth, err)) == NULL)
+    if (inside == NULL)
         return RC_FAIL;
     for (int c = 0; c < RC_COMPONENTS; c++)
         if (t->components >> c & 1)
             memset(s[c], 0, n * sizeof *s[c]);
     for (int k = 0; k < RC_STRESS_KERNELS && status == RC_OK; k++) {
-        struct rc_sum sum = sum_of(t, k, depth, inside);
+        const struct rc_stress_field field = {inside, k};
+        struct rc_sum sum = sum_of(t, &field);
         void *one;
         if (!(t->kernels >> k & 1))
             continue;
@@ -103,9 +112,9 @@ slice(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err
         for (int c = 0; c < RC_COMPONENTS; c++) {
             if (!(t->components >> c & 1))
                 continue;
-            if (rc_stress_kernel(RC_NORMAL, c, coated) == k)
+            if (rc_stress_kernel(t->type, RC_NORMAL, c) == k)
                 add(n, 1, plan->u, s[c]);
-            if (t->options.mu != 0 && rc_stress_kernel(RC_SHEAR, c, coated) == k)
+            if (t->options.mu != 0 && rc_stress_kernel(t->type, RC_SHEAR, c) == k)
                 add(n, t->options.mu, plan->u, s[c]);
         }
     }

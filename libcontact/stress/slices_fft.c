@@ -28,9 +28,9 @@ struct grid {
     size_t first_row, rows;                 /* of these rows, those that are made here         */
     size_t first_column, columns;           /* and of the columns                              */
     double *quarter[RC_STRESS_KERNELS];     /* free: these rows of cx values, transformed in x */
-    double *decay;                          /* periodic: of each wave, columns of cy: what      */
-    size_t numbers;                         /* is left of it; of a coated body so many numbers  */
-    struct rc_inside *inside;               /* at the depth of a coated body                    */
+    double *known;                          /* periodic: of each wave, columns of cy, so many   */
+    size_t numbers;                         /* numbers: what is left of it at the depth         */
+    struct rc_inside *inside;               /* at the depth                                     */
     double depth;                           /* of all the others, m                             */
     struct rc_spectrum *spectrum[RC_LOADS]; /* the last ones made: of each load one          */
     int kernel[RC_LOADS];                   /* of which kernel each is; -1: of none            */
@@ -72,7 +72,7 @@ grid_free(struct grid *g)
         return;
     for (int k = 0; k < RC_STRESS_KERNELS; k++)
         free(g->quarter[k]);
-    free(g->decay);
+    free(g->known);
     rc_inside_free(g->inside);
     for (int load = 0; load < RC_LOADS; load++)
         rc_spectrum_free(g->spectrum[load]);
@@ -84,7 +84,7 @@ grid_free(struct grid *g)
 static size_t
 numbers_of(const struct rc_stress_task *t)
 {
-    return !t->coated ? 1 : t->options.mu != 0 ? RC_UNDER_BOTH : RC_UNDER_PRESSURE;
+    return t->type->numbers(t->options.mu != 0);
 }
 
 /* Room for what is tabulated at a depth. */
@@ -104,7 +104,7 @@ make_tables(struct grid *g, struct rc_err *err)
             status =
                 rc_err_set(err, "out of memory for a kernel of %zu x %zu values", g->cx, g->cy);
     if (task->options.boundary == RC_PERIODIC &&
-        (g->decay = rc_alloc(g->columns * g->cy * g->numbers, sizeof *g->decay)) == NULL)
+        (g->known = rc_alloc(g->columns * g->cy * g->numbers, sizeof *g->known)) == NULL)
         status = rc_err_set(err, "out of memory for %zu x %zu waves", g->cx, g->cy);
     return rc_ranks_agree(task->options.ranks, status, err);
 }
@@ -155,7 +155,7 @@ grid_memory(const struct rc_stress_task *task, const struct rc_shape *shape)
            rc_fft_scratch(shape, boundary, precision, task->options.threads) +
            ((size_t)(task->options.mu != 0) + 4) * spectrum +
            quarters * rc_spectrum_memory(shape, boundary, RC_DOUBLE, ranks) +
-           rc_inside_memory(task);
+           rc_stress_inside_memory(task);
 }
 
 /* ---- kernels ---- */
@@ -165,14 +165,14 @@ static void
 tabulate(struct grid *g)
 {
     const struct rc_stress_task *t = g->task;
-    const struct rc_cell cell = {t->shape.dx, t->shape.dy, g->depth, t->options.body.nu, g->inside};
+    const struct rc_cell cell = {t->shape.dx, t->shape.dy};
 
 #pragma omp parallel for num_threads(g->threads) schedule(dynamic, 4)
     for (size_t j = 0; j < g->rows; j++) {
         double *row[RC_STRESS_KERNELS], y = (double)(g->first_row + j) * g->shape.dy;
         for (int k = 0; k < RC_STRESS_KERNELS; k++)
             row[k] = g->quarter[k] == NULL ? NULL : g->quarter[k] + j * g->cx;
-        rc_stress_line(&cell, t->kernels, g->shape.dx, g->cx, y, row);
+        t->type->line(g->inside, &cell, t->kernels, g->shape.dx, g->cx, y, row);
         for (int k = 0; k < RC_STRESS_KERNELS; k++)
             if (row[k] != NULL)
                 rc_fft_quarter_row(g->fft, rc_stress_parity[k], row[k]);
@@ -188,25 +188,31 @@ tabulate(struct grid *g)
  * that depth is less than the rounding of the transforms, (3 + q z) exp(-q z) = 7e-20 each. */
 static const double deepest = 48;
 
-/* What is left of all waves at the depth of a periodic grid. */
+/* What is known of all waves at the depth of a periodic grid; 0 of those that are left out. */
 static void
-set_decay(struct grid *g)
+set_known(struct grid *g)
 {
+    enum {
+        PIECE = 256
+    };
     const struct rc_shape *s = &g->shape;
 
 #pragma omp parallel for num_threads(g->threads) schedule(dynamic, 4)
     for (size_t i = 0; i < g->columns; i++) {
-        double qx = rc_fourier_q(g->first_column + i, s->nx, s->dx);
-        double *column = g->decay + i * g->cy * g->numbers;
-        for (size_t j = 0; j < g->cy; j++) {
-            double qy = rc_fourier_q(j, s->ny, s->dy), q = sqrt(qx * qx + qy * qy);
-            double qz = q * g->depth;
-            if (g->inside == NULL)
-                column[j] = qz < deepest ? exp(-qz) : 0;
-            else if (q > 0 && qz < deepest)
-                rc_inside_wave(g->inside, q, column + j * g->numbers);
-            else
-                memset(column + j * g->numbers, 0, g->numbers * sizeof *column);
+        double qx = rc_fourier_q(g->first_column + i, s->nx, s->dx), q[PIECE];
+        double *column = g->known + i * g->cy * g->numbers;
+        size_t n;
+        memset(column, 0, g->cy * g->numbers * sizeof *column);
+        for (size_t j = qx > 0 ? 0u : 1u; j < g->cy; j += n) { /* q grows along a column */
+            for (n = 0; n < PIECE && j + n < g->cy; n++) {
+                double qy = rc_fourier_q(j + n, s->ny, s->dy);
+                q[n] = sqrt(qx * qx + qy * qy);
+                if (q[n] * g->depth >= deepest)
+                    break;
+            }
+            g->task->type->waves(g->inside, n, q, column + j * g->numbers);
+            if (n < PIECE)
+                break;
         }
     }
 }
@@ -233,11 +239,10 @@ symbol(const void *of, size_t i, double qx, size_t n, const double *qy, double *
         all[k] = qx;
     for (size_t j = 0; j < n; j += PIECE) {
         size_t m = n - j < PIECE ? n - j : PIECE;
-        const double *kept = g->decay + ((i - g->first_column) * g->cy + j) * g->numbers;
-        const struct rc_waves waves = {
-            m, x, y, q, kept, g->depth, g->task->options.body.nu, g->inside, kept};
-        rc_stress_directions(m, all, qy + j, x, y, q);
-        rc_stress_symbol(c->kernel, &waves, &g->shape, out + j);
+        const double *kept = g->known + ((i - g->first_column) * g->cy + j) * g->numbers;
+        const struct rc_waves waves = {m, x, y, q, kept};
+        rc_wave_directions(m, all, qy + j, x, y, q);
+        rc_inside_symbol(g->inside, c->kernel, &waves, &g->shape, out + j);
     }
     return true;
 }
@@ -286,11 +291,8 @@ static enum rc_status
 go_to_depth(struct grid *g, double depth, struct rc_err *err)
 {
     rc_inside_free(g->inside);
-    g->inside = NULL;
-    if (g->task->coated)
-        g->inside = rc_inside_new(g->task, depth, err);
-    if (rc_ranks_agree(g->task->options.ranks,
-                       g->task->coated && g->inside == NULL ? RC_FAIL : RC_OK, err) != RC_OK)
+    g->inside = rc_stress_inside(g->task, depth, err);
+    if (rc_ranks_agree(g->task->options.ranks, g->inside == NULL ? RC_FAIL : RC_OK, err) != RC_OK)
         return RC_FAIL;
     g->depth = depth;
     for (int load = 0; load < RC_LOADS; load++)
@@ -298,20 +300,20 @@ go_to_depth(struct grid *g, double depth, struct rc_err *err)
     if (g->task->options.boundary == RC_FREE)
         tabulate(g);
     else
-        set_decay(g);
+        set_known(g);
     return RC_OK;
 }
 
 static enum rc_status
 component_field(struct grid *g, int c, double *s, struct rc_err *err)
 {
-    bool coated = g->task->coated;
+    const struct rc_inside_type *type = g->task->type;
     const struct rc_spectrum *normal, *shear = NULL;
     double mu = g->task->options.mu;
 
-    normal = spectrum_of(g, rc_stress_kernel(RC_NORMAL, c, coated), NULL, err);
+    normal = spectrum_of(g, rc_stress_kernel(type, RC_NORMAL, c), NULL, err);
     if (normal != NULL && mu != 0)
-        shear = spectrum_of(g, rc_stress_kernel(RC_SHEAR, c, coated), normal, err);
+        shear = spectrum_of(g, rc_stress_kernel(type, RC_SHEAR, c), normal, err);
     if (normal == NULL || (mu != 0 && shear == NULL))
         return RC_FAIL;
     if (mu == 0)
@@ -325,14 +327,14 @@ component_field(struct grid *g, int c, double *s, struct rc_err *err)
 /* ---- coarser grids ---- */
 
 /* Whether a coarser grid does at this depth, and its steps. Errors of the two loads add; those of
- * the shear's kernels are the smaller. The spacing that a depth allows is known of one material. */
+ * the shear's kernels are the smaller. */
 static bool
 may_be_coarse(const struct rc_stress_task *t, double depth, size_t *sx, size_t *sy)
 {
     double tol = t->options.tol / (1 + fabs(t->options.mu));
 
     /* which rows a coarser node is made of, other ranks hold */
-    return t->options.boundary == RC_FREE && !t->coated && t->options.ranks == NULL &&
+    return t->options.boundary == RC_FREE && t->type->coarsens && t->options.ranks == NULL &&
            rc_coarse_steps(&t->shape, rc_coarse_spacing(depth, tol), sx, sy);
 }
 

@@ -13,7 +13,7 @@ struct rc_stress {
     struct rc_stress_task task;
     const struct rc_stress_evaluator *evaluator;
     void *plan;
-    struct rc_stack *stack; /* of a coated body */
+    struct rc_solid *solid;
     size_t values;
     double *own[RC_COMPONENTS]; /* components that are needed but not wanted */
     struct rc_stress_counts counts;
@@ -49,16 +49,16 @@ rc_stress_check(const struct rc_shape *shape, const struct rc_stress_options *o,
 {
     bool precise;
     const struct rc_engine *engine = engine_of(o->engine, &precise);
+    const struct rc_body_type *type = rc_body_type(&o->body);
     double half =
         o->section == 'x' ? (double)shape->nx * shape->dx / 2 : (double)shape->ny * shape->dy / 2;
 
     if (rc_shape_check(shape, err) != RC_OK)
         return RC_FAIL;
-    if (o->body.layers == 0 && !(o->body.nu > -1 && o->body.nu <= 0.5))
-        return rc_err_set(err, "Poisson's ratio %g: it must be above -1 and at most 0.5",
-                          o->body.nu);
-    if (o->body.layers > 0 && rc_body_check(&o->body, err) != RC_OK)
+    if (type->check(&o->body, RC_INSIDE, err) != RC_OK)
         return RC_FAIL;
+    if (type->inside == NULL)
+        return rc_err_set(err, "stresses inside a body that is %s are not known", type->name);
     if (!isfinite(o->mu))
         return rc_err_set(err, "friction coefficient %g: it must be finite", o->mu);
     if (o->wanted == 0 || o->wanted >> RC_STRESSES != 0)
@@ -82,21 +82,20 @@ rc_stress_check(const struct rc_shape *shape, const struct rc_stress_options *o,
 }
 
 static struct rc_stress_task
-task_of(const struct rc_shape *shape, const double *p, const struct rc_stack *stack,
+task_of(const struct rc_shape *shape, const double *p, const struct rc_solid *solid,
         const struct rc_stress_options *o, struct rc_stress_counts *counts)
 {
     bool derived = o->wanted >> RC_COMPONENTS != 0;
     unsigned components = derived ? six : o->wanted & six;
-    struct rc_stress_task task = {
-        .shape = *shape,
-        .options = *o,
-        .p = p,
-        .stack = stack,
-        .coated = o->body.layers > 0,
-        .components = components,
-        .kernels = rc_stress_distinct(components, o->mu != 0, o->body.layers > 0),
-        .counts = counts};
+    struct rc_stress_task task = {.shape = *shape,
+                                  .options = *o,
+                                  .p = p,
+                                  .type = rc_body_type(&o->body)->inside,
+                                  .solid = solid,
+                                  .components = components,
+                                  .counts = counts};
 
+    task.kernels = rc_stress_distinct(task.type, components, o->mu != 0);
     task.options.body.layer = NULL; /* the caller's, who may give them up */
     if (rc_ranks_count(o->ranks) == 1)
         task.options.ranks = NULL;
@@ -124,10 +123,22 @@ values_of(const struct rc_shape *shape, const struct rc_stress_options *o)
 void
 rc_stress_count(const struct rc_stress_task *t, int kernel, size_t coefficients)
 {
-    bool normal = rc_stress_distinct(t->components, false, t->coated) >> kernel & 1;
+    bool normal = rc_stress_distinct(t->type, t->components, false) >> kernel & 1;
 
     *(normal ? &t->counts->normal_kernels : &t->counts->shear_kernels) += 1;
     t->counts->coefficients += coefficients;
+}
+
+struct rc_inside *
+rc_stress_inside(const struct rc_stress_task *t, double depth, struct rc_err *err)
+{
+    return t->type->new (t->solid, depth, t->options.mu != 0, t->options.boundary, err);
+}
+
+size_t
+rc_stress_inside_memory(const struct rc_stress_task *t)
+{
+    return t->type->memory(t->options.mu != 0, t->options.boundary);
 }
 
 /* ---- plan ---- */
@@ -143,14 +154,13 @@ rc_stress_new(const struct rc_shape *shape, const double *p,
         return NULL;
     if ((stress = calloc(1, sizeof *stress)) == NULL)
         status = rc_err_set(err, "out of memory for a plan");
-    else if (options->body.layers > 0 &&
-             (stress->stack = rc_stack_new(&options->body, 0, err)) == NULL)
+    else if ((stress->solid = rc_body_type(&options->body)->new (&options->body, err)) == NULL)
         status = RC_FAIL;
     if (rc_ranks_agree(options->ranks, status, err) != RC_OK) {
         rc_stress_free(stress);
         return NULL;
     }
-    stress->task = task_of(shape, p, stress->stack, options, &stress->counts);
+    stress->task = task_of(shape, p, stress->solid, options, &stress->counts);
     stress->evaluator = evaluator_of(&stress->task);
     stress->values = values_of(shape, options);
     for (int c = 0; c < RC_COMPONENTS; c++)
@@ -177,7 +187,7 @@ rc_stress_free(struct rc_stress *stress)
         stress->evaluator->free(stress->plan);
     for (int c = 0; c < RC_COMPONENTS; c++)
         free(stress->own[c]);
-    rc_stack_free(stress->stack);
+    rc_solid_free(stress->solid);
     free(stress);
 }
 

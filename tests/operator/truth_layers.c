@@ -7,7 +7,8 @@
 #include <cmocka.h>
 
 #include "tests/contact_case.h"
-#include "libcontact/operator/operator.h"
+#include "libcontact/body/stack.h"
+#include "tests/body_case.h"
 
 /* Known figures have twelve digits, coefficients eleven. */
 static const double twelve_digits = 1e-11, eleven_digits = 1e-10;
@@ -19,7 +20,7 @@ stack_of(const struct rc_layer *layer, size_t n, double e, double nu)
 {
     struct rc_body coating = {.layers = n, .layer = layer, .e = e, .nu = nu};
     struct rc_err err;
-    struct rc_stack *s = rc_stack_new(&coating, 0, &err);
+    struct rc_stack *s = rc_stack_new(&coating, &err);
 
     assert_non_null(s);
     return s;
@@ -137,17 +138,17 @@ coefficients(void **state)
 
     (void)state;
     for (size_t b = 0; b < sizeof body / sizeof *body; b++) {
-        struct rc_stack *s = stack_of(body[b].layer, body[b].n, 1, 0.3);
-        struct rc_medium medium = {.stack = s, .length = 1, .modulus = 1};
         struct rc_lattice at = {1, body[b].dy, 1, 1};
+        struct body_case c;
         double row[101];
 
+        surface_case(&c, (struct rc_pair){.one = {1, 0.3, body[b].n, body[b].layer}});
         for (size_t k = 0; k < 6; k++) {
             size_t j = (size_t)node[k][1];
-            rc_kernel_layered.rows(&medium, 0, &at, 101, j, j + 1, row);
+            c.kernel.rows(c.kernel.of, &at, 101, j, j + 1, row);
             assert_true(fabs(row[node[k][0]] / body[b].k[k] - 1) < eleven_digits);
         }
-        rc_stack_free(s);
+        body_case_free(&c);
     }
 }
 
@@ -156,17 +157,19 @@ static void
 one_material(void **state)
 {
     struct rc_layer layer[] = {{0.7, 1, 0.3}, {0.05, 1, 0.3}};
-    struct rc_stack *s = stack_of(layer, 2, 1, 0.3);
-    struct rc_medium medium = {.stack = s, .length = 1, .modulus = 1}, bare = {.estar = 1 / 0.91};
+    struct body_case of_one, bare;
     struct rc_lattice at = {1, 1.3, 1, 1};
     double a[40 * 60], b[40 * 60];
 
     (void)state;
-    rc_kernel_layered.rows(&medium, 0, &at, 60, 0, 40, a);
-    rc_kernel_boussinesq.rows(&bare, 0, &at, 60, 0, 40, b);
+    surface_case(&of_one, (struct rc_pair){.one = {1, 0.3, 2, layer}});
+    surface_case(&bare, (struct rc_pair){.estar = 1 / 0.91});
+    of_one.kernel.rows(of_one.kernel.of, &at, 60, 0, 40, a);
+    bare.kernel.rows(bare.kernel.of, &at, 60, 0, 40, b);
     for (size_t k = 0; k < 40 * 60; k++)
         assert_true(fabs(a[k] / b[k] - 1) < summed);
-    rc_stack_free(s);
+    body_case_free(&of_one);
+    body_case_free(&bare);
 }
 
 /* From nearly nothing to nearly everything: a coat of a thousandth of a node, one of a thousand maps, in
@@ -227,7 +230,7 @@ refusals(void **state)
     bad = good;                                                                                    \
     layer = (struct rc_layer){1e-6, 1e9, 0.3};                                                     \
     change;                                                                                        \
-    assert_int_equal(rc_body_check(&bad, &err), RC_FAIL)
+    assert_int_equal(rc_body_type(&bad)->check(&bad, RC_SURFACE, &err), RC_FAIL)
     REFUSED(layer.thickness = 0);
     REFUSED(layer.thickness = INFINITY);
     REFUSED(layer.thickness = NAN);

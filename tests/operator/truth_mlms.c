@@ -9,8 +9,12 @@
 
 #include "tests/exact.h"
 #include "libcontact/operator/mlms.h"
+#include "tests/body_case.h"
 
 /* One sum by one engine, judged by another. */
+/* K = 1/r of a point: E* = 1/pi. */
+static struct body_case point;
+
 struct trial {
     struct rc_sum sum;
     size_t n;
@@ -37,7 +41,7 @@ trial_new(struct rc_sum sum, const struct rc_engine *judge)
     t.u = calloc(t.n, sizeof *t.u);
     t.v = calloc(t.n, sizeof *t.v);
     t.k = calloc(t.n, sizeof *t.k);
-    sum.kernel->rows(&sum.medium, sum.component, &nodes, sum.shape.nx, 0, sum.shape.ny, t.k);
+    sum.kernel.rows(sum.kernel.of, &nodes, sum.shape.nx, 0, sum.shape.ny, t.k);
     for (size_t i = 0; i < t.n; i++)
         t.k0 = fmax(t.k0, fabs(t.k[i]));
     return t;
@@ -72,7 +76,7 @@ magnitude(struct trial *t)
             largest = fmax(largest, absolute[j * nx + i]);
         }
     sum = fmax(sum, t->k0 * largest);
-    if (t->sum.kernel == &rc_kernel_boussinesq) {
+    if (t->sum.kernel.of == &point.surface) {
         t->judge->apply(t->truth, absolute, field);
         for (size_t i = 0; i < t->n; i++)
             sum = fmax(sum, field[i]);
@@ -164,10 +168,7 @@ usual_pressures(struct trial *t)
 static struct rc_sum
 displacement(size_t nx, size_t ny, double dx, double dy)
 {
-    return (struct rc_sum){.shape = {nx, ny, dx, dy},
-                           .kernel = &rc_kernel_boussinesq,
-                           .medium = {.estar = 1 / exact_pi},
-                           .threads = 2};
+    return (struct rc_sum){.shape = {nx, ny, dx, dy}, .kernel = point.kernel, .threads = 2};
 }
 
 /* (20) and (18) of the paper; m_c is rounded up. */
@@ -370,21 +371,22 @@ any_stress(void **state)
 
     (void)state;
     for (size_t d = 0; d < sizeof depths / sizeof *depths; d++)
-        for (size_t c = 0; c < rc_kernel_stress.info.components; c++) {
+        for (int c = 0; c < RC_STRESS_KERNELS; c++) {
+            struct body_case stress;
             struct rc_sum sum = displacement(170, 143, 1, 1.2);
             struct trial t;
             double usual;
-            sum.kernel = &rc_kernel_stress;
-            sum.component = c;
-            sum.medium = (struct rc_medium){.nu = 0.3, .depth = depths[d]};
+            stress_case(&stress, (struct rc_body){.nu = 0.3}, depths[d], RC_FREE, c);
+            sum.kernel = stress.kernel;
             sum.tol = 1e-5;
             t = trial_new(sum, &rc_engine_fft);
             usual = usual_pressures(&t);
             if (t.error > sum.tol || usual > t.error)
-                print_error("component %zu at %g: estimate %g, error %g\n", c, depths[d], t.error,
+                print_error("component %d at %g: estimate %g, error %g\n", c, depths[d], t.error,
                             usual);
             assert_true(t.error <= sum.tol && usual <= t.error);
             trial_free(&t);
+            body_case_free(&stress);
         }
 }
 
@@ -538,5 +540,10 @@ main(void)
         cmocka_unit_test(refused),
     };
 
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    int failed;
+
+    surface_case(&point, (struct rc_pair){.estar = 1 / exact_pi});
+    failed = cmocka_run_group_tests(tests, NULL, NULL);
+    body_case_free(&point);
+    return failed;
 }

@@ -51,31 +51,33 @@ hard_heights(const struct hard_case *c)
 /* What the bodies of all cases are, if that has layers; else E* is that of the case. */
 static struct rc_pair hard_pair = {.estar = 0};
 
-static inline struct rc_stack *
-hard_stack(void)
+static inline void
+hard_bodies(struct rc_solids *bodies)
 {
     struct rc_err err;
-    struct rc_stack *stack;
 
-    assert_int_equal(rc_stack_of(&hard_pair, &stack, &err), RC_OK);
-    return stack;
+    *bodies = (struct rc_solids){.n = 0};
+    if (hard_pair.one.layers > 0)
+        assert_int_equal(rc_solids_new(bodies, &hard_pair, NULL, &err), RC_OK);
 }
 
 /* E* as a wave of wave number q feels it. */
 static inline double
-hard_modulus(const struct hard_case *c, const struct rc_stack *stack, double q)
+hard_modulus(const struct hard_case *c, const struct rc_solids *bodies, double q)
 {
-    return stack != NULL ? 1 / rc_stack_response(stack, q) : c->estar > 0 ? c->estar : 114e9;
+    return bodies->n > 0 ? rc_solids_modulus(bodies, q) : c->estar > 0 ? c->estar : 114e9;
 }
 
 static inline struct rc_problem
 hard_problem(const struct hard_case *c, enum rc_boundary boundary)
 {
-    struct rc_stack *stack = hard_stack();
-    double estar = hard_modulus(c, stack, 2 * exact_pi / (8 * c->shape.dx));
-    double mean = c->mean * estar;
+    struct rc_solids bodies;
+    double estar, mean;
 
-    rc_stack_free(stack);
+    hard_bodies(&bodies);
+    estar = hard_modulus(c, &bodies, 2 * exact_pi / (8 * c->shape.dx));
+    mean = c->mean * estar;
+    rc_solids_free(&bodies);
     return (struct rc_problem){
         .boundary = boundary,
         .pair = hard_pair.one.layers > 0 ? hard_pair : (struct rc_pair){.estar = estar},
@@ -98,7 +100,7 @@ hard_displace(const struct hard_case *c, const struct rc_problem *problem, const
     struct rc_shape s = c->shape;
     size_t columns = rc_fourier_columns(&s), n = s.nx * s.ny;
     double complex *f;
-    struct rc_stack *stack;
+    struct rc_solids bodies;
     struct rc_err err;
 
     if (problem->boundary == RC_FREE) {
@@ -111,17 +113,17 @@ hard_displace(const struct hard_case *c, const struct rc_problem *problem, const
     }
     f = malloc(rc_fourier_size(&s) * sizeof *f);
     assert_non_null(f);
-    stack = hard_stack();
+    hard_bodies(&bodies);
     assert_int_equal(rc_fourier_forward(&s, p, f, &err), RC_OK);
     for (size_t j = 0; j < s.ny; j++)
         for (size_t i = 0; i < columns; i++) {
             double qx = 2 * exact_pi * (double)i / (s.dx * (double)s.nx);
             double qy = 2 * exact_pi * (double)rc_fourier_number(j, s.ny) / (s.dy * (double)s.ny);
             double q = hypot(qx, qy);
-            f[j * columns + i] *= q > 0 ? 2 / (hard_modulus(c, stack, q) * q * (double)n) : 0;
+            f[j * columns + i] *= q > 0 ? 2 / (hard_modulus(c, &bodies, q) * q * (double)n) : 0;
         }
     assert_int_equal(rc_fourier_backward(&s, f, u, &err), RC_OK);
-    rc_stack_free(stack);
+    rc_solids_free(&bodies);
     free(f);
 }
 
@@ -132,10 +134,12 @@ hard_depth(const struct hard_case *c, const struct rc_problem *problem)
 {
     double a = c->shape.dx * (double)c->shape.nx, b = c->shape.dy * (double)c->shape.ny;
     double mean = problem->load / (a * b);
-    struct rc_stack *stack = hard_stack();
-    double estar = hard_modulus(c, stack, 2 * exact_pi / fmax(a, b));
+    struct rc_solids bodies;
+    double estar;
 
-    rc_stack_free(stack);
+    hard_bodies(&bodies);
+    estar = hard_modulus(c, &bodies, 2 * exact_pi / fmax(a, b));
+    rc_solids_free(&bodies);
     return problem->boundary == RC_FREE ? mean * love_displacement(0, 0, a / 2, b / 2, estar)
                                         : mean * fmax(a, b) / (exact_pi * estar);
 }

@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include "tests/contact_case.h"
+#include "libcontact/body/stack.h"
 #include "libcontact/operator/operator.h"
 
 static const struct rc_layer three[] = {
@@ -23,7 +24,7 @@ static struct rc_stack *
 stack(void)
 {
     struct rc_err err;
-    struct rc_stack *s = rc_stack_new(&coating, 0, &err);
+    struct rc_stack *s = rc_stack_new(&coating, &err);
 
     assert_non_null(s);
     return s;
@@ -162,7 +163,7 @@ extreme_stacks(void **state)
         const struct rc_layer layer[] = {{t[a % 3], e[a / 3 % 3], 0.5}, {1, e[a / 9], -0.999}};
         const struct rc_body c = {1, 0.3, 2, layer};
         struct rc_err err;
-        struct rc_stack *s = rc_stack_new(&c, 0, &err);
+        struct rc_stack *s = rc_stack_new(&c, &err);
         double f[RC_UNDER_BOTH];
         assert_non_null(s);
         for (size_t k = 0; k < 3; k++)

@@ -9,7 +9,9 @@
 #include <gsl/gsl_linalg.h>
 
 #include "tests/contact_case.h"
+#include "libcontact/body/stack.h"
 #include "libcontact/stress/stress.h"
+#include "tests/body_case.h"
 
 /* ---- a paraboloid on one layer, on the axis ---- */
 
@@ -79,7 +81,7 @@ cap_new(double e, double p0)
     struct rc_layer layer = {1, e, 0.3};
     struct rc_body coating = {1, 0.3, 1, &layer};
     struct rc_err err;
-    struct cap c = {.stack = rc_stack_new(&coating, 0, &err), .p0 = p0};
+    struct cap c = {.stack = rc_stack_new(&coating, &err), .p0 = p0};
     gsl_integration_glfixed_table *g = gsl_integration_glfixed_table_alloc(NODES);
     gsl_matrix *m = gsl_matrix_alloc(NODES, NODES);
     gsl_permutation *p = gsl_permutation_alloc(NODES);
@@ -449,13 +451,12 @@ coefficients(void **state)
     (void)state;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         struct rc_err err;
-        struct rc_stack *s = rc_stack_new(&cases[k].coating, 0, &err);
+        struct rc_stack *s = rc_stack_new(&cases[k].coating, &err);
         for (int d = 0; d < 4; d++) {
             double z = cases[k].z[d], off = 0, largest = 1;
-            struct rc_stress_task task = {.coated = true, .stack = s, .options = {.mu = 1}};
-            struct rc_inside *inside = rc_inside_new(&task, z, &err);
-            const struct rc_cell cell = {1, 1.3, z, NAN, inside};
-            assert_non_null(inside);
+            const struct rc_cell cell = {1, 1.3};
+            struct body_case at;
+            stress_case(&at, cases[k].coating, z, RC_FREE, 0);
             for (int i = 0; i < 4; i++) {
                 size_t medium = rc_stack_medium(s, z);
                 double x = cases[k].x[i], y = cases[k].y[i], value[12] = {NAN}, sum[12], *to[12];
@@ -475,7 +476,7 @@ coefficients(void **state)
                         sum[c] +=
                             rectangle_stress(c >= 6, c % 6, s->material[0].nu, x, y, z, 0.5, 0.65);
                 }
-                rc_stress_coefficients(&cell, (1u << 12) - 1, 1, &x, &y, to);
+                at.inside->type->coefficients(at.inside, &cell, (1u << 12) - 1, 1, &x, &y, to);
                 for (int c = 0; c < 12; c++) {
                     off = larger(off, fabs(value[c] - sum[c]));
                     largest = larger(largest, fabs(sum[c]));
@@ -483,7 +484,7 @@ coefficients(void **state)
             }
             print_message("body %zu, depth %g: off by %.1e of %.2g\n", k, z, off, largest);
             assert_true(off <= summed * largest);
-            rc_inside_free(inside);
+            body_case_free(&at);
         }
         rc_stack_free(s);
     }
@@ -499,8 +500,6 @@ lines_are_places(void **state)
     static const struct rc_layer three[] = {{1, 4, 0.2}, {0.6, 0.2, 0.45}, {2, 10, 0.3}};
     static const struct rc_body body = {1, 0.3, 3, three};
     static const double depths_of[] = {0, 0.5, 1, 1.3, 5, 100}, lines[] = {0, 1.3, 26, 130};
-    struct rc_err err;
-    struct rc_stack *s = rc_stack_new(&body, 0, &err);
     double line[12][LENGTH], places[12][LENGTH], x[LENGTH], y[LENGTH], *a[12], *b[12];
     double off = 0;
 
@@ -510,26 +509,24 @@ lines_are_places(void **state)
         b[k] = places[k];
     }
     for (int d = 0; d < 6; d++) {
-        struct rc_stress_task task = {.coated = true, .stack = s, .options = {.mu = 1}};
-        struct rc_inside *inside = rc_inside_new(&task, depths_of[d], &err);
-        const struct rc_cell cell = {1, 1.3, depths_of[d], NAN, inside};
-        assert_non_null(inside);
+        const struct rc_cell cell = {1, 1.3};
+        struct body_case at;
+        stress_case(&at, body, depths_of[d], RC_FREE, 0);
         for (int l = 0; l < 4; l++) {
             for (int i = 0; i < LENGTH; i++) {
                 x[i] = i;
                 y[i] = lines[l];
             }
-            rc_stress_line(&cell, (1u << 12) - 1, 1, LENGTH, lines[l], a);
-            rc_stress_coefficients(&cell, (1u << 12) - 1, LENGTH, x, y, b);
+            at.inside->type->line(at.inside, &cell, (1u << 12) - 1, 1, LENGTH, lines[l], a);
+            at.inside->type->coefficients(at.inside, &cell, (1u << 12) - 1, LENGTH, x, y, b);
             for (int k = 0; k < 12; k++)
                 for (int i = 0; i < LENGTH; i++)
                     off = larger(off, fabs(line[k][i] - places[k][i]));
         }
-        rc_inside_free(inside);
+        body_case_free(&at);
     }
     print_message("lines are off by %.1e\n", off);
     assert_true(off <= rounding);
-    rc_stack_free(s);
 }
 
 /* ---- a solved contact ---- */

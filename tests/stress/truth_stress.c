@@ -9,6 +9,7 @@
 #include <gsl/gsl_integration.h>
 
 #include "tests/contact_case.h"
+#include "libcontact/body/forms.h"
 #include "libcontact/stress/stress.h"
 
 static gsl_integration_workspace *inner_space, *outer_space;
@@ -57,11 +58,12 @@ quadrature(struct where w)
 static double
 coefficient(int kernel, double nu, double x, double y, double z, double dx, double dy)
 {
-    const struct rc_cell cell = {dx, dy, z, nu, NULL};
+    const struct rc_closed at = {z, nu};
+    const struct rc_cell cell = {dx, dy};
     double value = NAN, *out[RC_STRESS_KERNELS] = {NULL};
 
     out[kernel] = &value;
-    rc_stress_coefficients(&cell, 1u << kernel, 1, &x, &y, out);
+    rc_closed_coefficients(&at, &cell, 1u << kernel, 1, &x, &y, out);
     return value;
 }
 
@@ -174,10 +176,8 @@ coefficients_have_no_steps(void **state)
 static void
 lines_are_places(void **state)
 {
-    static const struct rc_cell cells[] = {{1, 1, 0, 0.3, NULL},
-                                           {1.1, 0.9, 7, 0.3, NULL},
-                                           {0.5, 2, 90, 0.1, NULL},
-                                           {2, 0.5, 0.3, 0.5, NULL}};
+    static const struct rc_cell cells[] = {{1, 1}, {1.1, 0.9}, {0.5, 2}, {2, 0.5}};
+    static const struct rc_closed places[] = {{0, 0.3}, {7, 0.3}, {90, 0.1}, {0.3, 0.5}};
     enum {
         N = 700
     };
@@ -189,13 +189,14 @@ lines_are_places(void **state)
     for (size_t c = 0; c < 8; c++)
         for (double y = 0; y < 500; y = 2.3 * y + 1) {
             const struct rc_cell *cell = &cells[c % 4];
+            const struct rc_closed *at = &places[c % 4];
             double step = c < 4 ? cell->dx : 4 * cell->dx;
-            rc_stress_line(cell, (1u << RC_STRESS_KERNELS) - 1, step, N, y, out);
+            rc_closed_line(at, cell, (1u << RC_STRESS_KERNELS) - 1, step, N, y, out);
             for (int k = 0; k < RC_STRESS_KERNELS; k++)
                 for (size_t i = 0; i < N; i++) {
                     double x = (double)i * step;
-                    double one = coefficient(k, cell->nu, x, y, cell->depth, cell->dx, cell->dy);
-                    double scale = scale_at(x, y, cell->depth, cell->dx, cell->dy);
+                    double one = coefficient(k, at->nu, x, y, at->depth, cell->dx, cell->dy);
+                    double scale = scale_at(x, y, at->depth, cell->dx, cell->dy);
                     assert_true(fabs(line[k][i] - one) <= 3e-13 * scale);
                 }
         }

@@ -51,7 +51,7 @@ static void
 add(const struct plan *plan, double sign, const double *p, double *u)
 {
     size_t nx = plan->sum.shape.nx;
-    double mirror = plan->sum.kernel->parity[plan->sum.component] & RC_ODD_X ? -sign : sign;
+    double mirror = plan->sum.kernel.parity & RC_ODD_X ? -sign : sign;
 
     for (size_t i = 0; i < nx; i++)
         for (size_t a = 0; a < nx; a++)
@@ -64,12 +64,12 @@ apply(void *at, const double *p, double *u)
     struct plan *plan = at;
     const struct rc_sum *s = &plan->sum;
     const struct rc_lattice nodes = {s->shape.dx, s->shape.dy, 1, 1};
-    double mirror = s->kernel->parity[s->component] & RC_ODD_Y ? -1 : 1;
+    double mirror = s->kernel.parity & RC_ODD_Y ? -1 : 1;
     size_t nx = s->shape.nx, ny = s->shape.ny;
 
     memset(u, 0, nx * ny * sizeof *u);
     for (size_t d = 0; d < ny; d++) {
-        s->kernel->rows(&s->medium, s->component, &nodes, nx, d, d + 1, plan->row);
+        s->kernel.rows(s->kernel.of, &nodes, nx, d, d + 1, plan->row);
         for (size_t j = 0; j + d < ny; j++) {
             add(plan, 1, p + j * nx, u + (j + d) * nx);
             if (d > 0)

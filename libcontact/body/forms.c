@@ -34,9 +34,9 @@
  * distance, `floor`.
  *
  * The periodic half-space under a wave of pressure or shear: q^2 = qx^2 + qy^2, each times
- * exp(-q z). Under a uniform load the limit q -> 0 depends on the direction of q: see `mean`.
+ * exp(-q z). Under a uniform load the limit q -> 0 depends on the direction of q.
  */
-#include "stress.h"
+#include "forms.h"
 
 #include <math.h>
 
@@ -187,11 +187,12 @@ t_yz_corner(const struct rc_corner *k)
 /* ---- of a wave ---- */
 
 #define SYMBOL(name, value)                                                                        \
-    RC_WIDE_CLONES static void name##_symbol(const struct rc_waves *s, double *restrict out)       \
+    RC_WIDE_CLONES static void name##_symbol(const struct rc_waves *s, double z, double nu,        \
+                                             double *restrict out)                                 \
     {                                                                                              \
         const double *restrict xs = s->x, *restrict ys = s->y;                                     \
-        const double *restrict qs = s->q, *restrict decays = s->decay;                             \
-        double z = s->z, nu = s->nu, c = 1 - 2 * nu;                                               \
+        const double *restrict qs = s->q, *restrict decays = s->numbers;                           \
+        double c = 1 - 2 * nu;                                                                     \
                                                                                                    \
         for (size_t i = 0; i < s->n; i++) {                                                        \
             double x = xs[i], y = ys[i], q = qs[i];                                                \
@@ -225,135 +226,33 @@ directions(size_t n, const double *restrict qx, const double *restrict qy, doubl
 }
 
 void
-rc_stress_directions(size_t n, const double *qx, const double *qy, double *x, double *y, double *q)
+rc_wave_directions(size_t n, const double *qx, const double *qy, double *x, double *y, double *q)
 {
     directions(n, qx, qy, x, y, q);
 }
 
 /* ---- the components ---- */
 
-/* Load, component, its forms above, its parity, and the component of the normal load that has the
- * same values. */
+/* Load, component, its forms above, its parity; szz of the shear is sxz of the pressure. */
 #define KERNELS                                                                                    \
-    KERNEL(NORMAL, SXX, n_xx, 0, -1)                                                               \
-    KERNEL(NORMAL, SYY, n_yy, 0, -1)                                                               \
-    KERNEL(NORMAL, SZZ, n_zz, 0, -1)                                                               \
-    KERNEL(NORMAL, SXY, n_xy, RC_ODD_X | RC_ODD_Y, -1)                                             \
-    KERNEL(NORMAL, SXZ, n_xz, RC_ODD_X, -1)                                                        \
-    KERNEL(NORMAL, SYZ, n_yz, RC_ODD_Y, -1)                                                        \
-    KERNEL(SHEAR, SXX, t_xx, RC_ODD_X, -1)                                                         \
-    KERNEL(SHEAR, SYY, t_yy, RC_ODD_X, -1)                                                         \
-    KERNEL(SHEAR, SZZ, n_xz, RC_ODD_X, RC_SXZ)                                                     \
-    KERNEL(SHEAR, SXY, t_xy, RC_ODD_Y, -1)                                                         \
-    KERNEL(SHEAR, SXZ, t_xz, 0, -1)                                                                \
-    KERNEL(SHEAR, SYZ, t_yz, RC_ODD_X | RC_ODD_Y, -1)
+    KERNEL(NORMAL, SXX, n_xx, 0)                                                                   \
+    KERNEL(NORMAL, SYY, n_yy, 0)                                                                   \
+    KERNEL(NORMAL, SZZ, n_zz, 0)                                                                   \
+    KERNEL(NORMAL, SXY, n_xy, RC_ODD_X | RC_ODD_Y)                                                 \
+    KERNEL(NORMAL, SXZ, n_xz, RC_ODD_X)                                                            \
+    KERNEL(NORMAL, SYZ, n_yz, RC_ODD_Y)                                                            \
+    KERNEL(SHEAR, SXX, t_xx, RC_ODD_X)                                                             \
+    KERNEL(SHEAR, SYY, t_yy, RC_ODD_X)                                                             \
+    KERNEL(SHEAR, SZZ, n_xz, RC_ODD_X)                                                             \
+    KERNEL(SHEAR, SXY, t_xy, RC_ODD_Y)                                                             \
+    KERNEL(SHEAR, SXZ, t_xz, 0)                                                                    \
+    KERNEL(SHEAR, SYZ, t_yz, RC_ODD_X | RC_ODD_Y)
 
-#define KERNEL(load, component, name, parity, same)                                                \
-    [RC_##load * RC_COMPONENTS + RC_##                                                             \
-        component] = {same, name##_point, name##_corner, name##_symbol},
+#define KERNEL(load, component, name, parity)                                                      \
+    [RC_##load * RC_COMPONENTS + RC_##component] = {name##_point, name##_corner, name##_symbol},
 const struct rc_stress_forms rc_stress_forms[RC_STRESS_KERNELS] = {KERNELS};
 #undef KERNEL
 
-#define KERNEL(load, component, name, parity, same)                                                \
-    [RC_##load * RC_COMPONENTS + RC_##component] = parity,
+#define KERNEL(load, component, name, parity) [RC_##load * RC_COMPONENTS + RC_##component] = parity,
 const unsigned rc_stress_parity[RC_STRESS_KERNELS] = {KERNELS};
 #undef KERNEL
-
-int
-rc_stress_kernel(int load, int component, bool coated)
-{
-    int k = load * RC_COMPONENTS + component, same = rc_stress_forms[k].same;
-
-    return same < 0 || coated ? k : same;
-}
-
-unsigned
-rc_stress_distinct(unsigned components, bool shear, bool coated)
-{
-    unsigned kernels = 0;
-
-    for (int c = 0; c < RC_COMPONENTS; c++) {
-        if (!(components >> c & 1))
-            continue;
-        kernels |= 1u << rc_stress_kernel(RC_NORMAL, c, coated);
-        if (shear)
-            kernels |= 1u << rc_stress_kernel(RC_SHEAR, c, coated);
-    }
-    return kernels;
-}
-
-/* ---- on the periodic map ---- */
-
-/* The mean over the directions of q, which is also what stands under the middle of a patch that
- * grows without end: sxx = syy = -(1 + 2 nu)/2, and the sum of the normal stresses is -2 (1 + nu)
- * as it is for every wave. On a profile q has one direction, and the strain along it is plane. */
-static double
-mean(int kernel, double nu, const struct rc_shape *shape)
-{
-    static const double xs[] = {1, 0}, ys[] = {0, 1}, ones[] = {1, 1};
-    const struct rc_waves waves = {.n = 2, .x = xs, .y = ys, .q = ones, .decay = ones, .nu = nu};
-    double of[2];
-
-    if (rc_stress_parity[kernel] != 0)
-        return 0;
-    rc_stress_forms[kernel].symbol(&waves, of);
-    if ((shape->nx == 1) == (shape->ny == 1))
-        return (of[0] + of[1]) / 2;
-    return shape->nx == 1 ? of[1] : of[0];
-}
-
-void
-rc_stress_symbol(int kernel, const struct rc_waves *waves, const struct rc_shape *shape,
-                 double *out)
-{
-    if (waves->inside != NULL)
-        rc_inside_symbol(waves->inside, kernel, waves->n, waves->x, waves->y, waves->numbers, out);
-    else
-        rc_stress_forms[kernel].symbol(waves, out);
-    if (waves->q[0] == 0)
-        out[0] = waves->inside != NULL ? rc_inside_mean(waves->inside, kernel, shape)
-                                       : mean(kernel, waves->nu, shape);
-}
-
-/* ---- the row ---- */
-
-static void
-rows(const struct rc_medium *m, size_t component, const struct rc_lattice *at, size_t n,
-     size_t first, size_t last, double *out)
-{
-    const struct rc_cell cell = {at->dx, at->dy, m->depth, m->nu, m->inside};
-    double *to[RC_STRESS_KERNELS] = {NULL};
-
-    for (size_t j = first; j < last; j++) {
-        to[component] = out + (j - first) * n;
-        rc_stress_line(&cell, 1u << component, (double)at->sx * at->dx, n,
-                       (double)(j * at->sy) * at->dy, to);
-    }
-}
-
-static double
-symbol(const struct rc_medium *m, size_t component, double qx, double qy)
-{
-    double x, y, q, decay, out, numbers[RC_UNDER_BOTH];
-    const struct rc_waves wave = {
-        .n = 1, .x = &x, .y = &y, .q = &q, .decay = &decay, .z = m->depth, .nu = m->nu};
-
-    rc_stress_directions(1, &qx, &qy, &x, &y, &q);
-    if (m->inside != NULL) {
-        rc_inside_wave(m->inside, q, numbers);
-        rc_inside_symbol(m->inside, (int)component, 1, &x, &y, numbers, &out);
-        return out;
-    }
-    decay = exp(-q * m->depth);
-    rc_stress_forms[component].symbol(&wave, &out);
-    return out;
-}
-
-const struct rc_kernel rc_kernel_stress = {
-    .info = {.name = "stress",
-             .summary = "the six stress components at a depth under pressure, then shear, Pa/Pa",
-             .components = RC_STRESS_KERNELS},
-    .parity = rc_stress_parity,
-    .rows = rows,
-    .symbol = symbol,
-};

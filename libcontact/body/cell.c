@@ -1,6 +1,6 @@
 /*
  * Stresses inside a half-space under unit load on a cell of its surface, from the closed forms of
- * kernel_stress.c.
+ * forms.c.
  *
  * No single form keeps its digits everywhere. On and next to the cell Love's differences over its
  * four corners hold, down to z = 0; their error is absolute, some 1e-16 of the load, so farther
@@ -9,12 +9,12 @@
  * on a line of nodes, neighbours share their points: means over cells are taken from the values at
  * the nodes.
  */
-#include "stress.h"
+#include "forms.h"
 
 #include <math.h>
 #include <string.h>
 
-static const double pi = 3.14159265358979323846;
+#include "quadrature.h"
 
 enum {
     BLOCK = 256,        /* points evaluated together: their arrays stay in the first cache     */
@@ -42,16 +42,17 @@ shift(size_t n, const double *restrict from, double by, double *restrict to)
 }
 
 static void
-by_points(const struct rc_cell *c, unsigned kernels, int nx, int ny, size_t n, const double *x,
-          const double *y, double *const out[RC_STRESS_KERNELS], size_t at)
+by_points(const struct rc_closed *at, const struct rc_cell *c, unsigned kernels, int nx, int ny,
+          size_t n, const double *x, const double *y, double *const out[RC_STRESS_KERNELS],
+          size_t from)
 {
     double a = c->dx / 2, b = c->dy / 2;
     _Alignas(64) double u[STRIDE], v[STRIDE], r[STRIDE], w[STRIDE];
-    struct rc_points p = {.n = n, .x = u, .y = v, .r = r, .w = w, .z = c->depth, .nu = c->nu};
+    struct rc_points p = {.n = n, .x = u, .y = v, .r = r, .w = w, .z = at->depth, .nu = at->nu};
 
     for (int k = 0; k < RC_STRESS_KERNELS; k++)
         if (kernels >> k & 1)
-            memset(out[k] + at, 0, n * sizeof(double));
+            memset(out[k] + from, 0, n * sizeof(double));
     for (int l = 0; l < ny; l++) {
         struct rc_gauss gy = rc_gauss_point(ny, l);
         shift(n, y, -b * gy.x, v);
@@ -61,7 +62,7 @@ by_points(const struct rc_cell *c, unsigned kernels, int nx, int ny, size_t n, c
             distances(n, u, v, p.z, r, w);
             for (int k = 0; k < RC_STRESS_KERNELS; k++)
                 if (kernels >> k & 1)
-                    rc_stress_forms[k].point(&p, a * b * gx.w * gy.w / (2 * pi), out[k] + at);
+                    rc_stress_forms[k].point(&p, a * b * gx.w * gy.w / (2 * RC_PI), out[k] + from);
         }
     }
 }
@@ -81,14 +82,14 @@ take_means(size_t n, const double *restrict f, double *restrict out)
 
 /* Stresses at x = (first + i) dx, i < n: Gauss's rule across the line, and along it the means. */
 static void
-by_means(const struct rc_cell *c, unsigned kernels, double y, size_t first, size_t n,
-         double *const out[RC_STRESS_KERNELS])
+by_means(const struct rc_closed *at, const struct rc_cell *c, unsigned kernels, double y,
+         size_t first, size_t n, double *const out[RC_STRESS_KERNELS])
 {
     double b = c->dy / 2, low = 0, high = INFINITY, x0 = (double)first * c->dx;
-    int ny = rc_gauss_points(sqrt(x0 * x0 + y * y + c->depth * c->depth), b, &low, &high);
+    int ny = rc_gauss_points(sqrt(x0 * x0 + y * y + at->depth * at->depth), b, &low, &high);
     _Alignas(64) double u[STRIDE], v[STRIDE], r[STRIDE], w[STRIDE], sum[RC_STRESS_KERNELS][STRIDE];
     struct rc_points p = {
-        .n = n + 2 * RC_MEAN_REACH, .x = u, .y = v, .r = r, .w = w, .z = c->depth, .nu = c->nu};
+        .n = n + 2 * RC_MEAN_REACH, .x = u, .y = v, .r = r, .w = w, .z = at->depth, .nu = at->nu};
 
     for (size_t i = 0; i < p.n; i++)
         u[i] = ((double)(first + i) - RC_MEAN_REACH) * c->dx;
@@ -102,7 +103,7 @@ by_means(const struct rc_cell *c, unsigned kernels, double y, size_t first, size
         distances(p.n, u, v, p.z, r, w);
         for (int k = 0; k < RC_STRESS_KERNELS; k++)
             if (kernels >> k & 1)
-                rc_stress_forms[k].point(&p, c->dx * b * g.w / (2 * pi), sum[k]);
+                rc_stress_forms[k].point(&p, c->dx * b * g.w / (2 * RC_PI), sum[k]);
     }
     for (int k = 0; k < RC_STRESS_KERNELS; k++)
         if (kernels >> k & 1)
@@ -119,7 +120,7 @@ snap(double x, double side)
 }
 
 static double
-by_corners(const struct rc_cell *c, int kernel, double x, double y)
+by_corners(const struct rc_closed *at, const struct rc_cell *c, int kernel, double x, double y)
 {
     double sum = 0;
 
@@ -127,22 +128,23 @@ by_corners(const struct rc_cell *c, int kernel, double x, double y)
         for (int t = -1; t <= 1; t += 2) {
             struct rc_corner k = {.x = snap(x + s * c->dx / 2, c->dx),
                                   .y = snap(y + t * c->dy / 2, c->dy),
-                                  .z = c->depth,
-                                  .nu = c->nu,
+                                  .z = at->depth,
+                                  .nu = at->nu,
                                   .floor = 1e-3 * fmin(c->dx, c->dy)};
             k.r = sqrt(k.x * k.x + k.y * k.y + k.z * k.z);
             sum += s * t * rc_stress_forms[kernel].corner(&k);
         }
-    return sum / (2 * pi);
+    return sum / (2 * RC_PI);
 }
 
-/* ---- of one material ---- */
+/* ---- by whichever keeps its digits ---- */
 
-static void
-closed_coefficients(const struct rc_cell *c, unsigned kernels, size_t n, const double *x,
-                    const double *y, double *const out[RC_STRESS_KERNELS])
+void
+rc_closed_coefficients(const struct rc_closed *at, const struct rc_cell *c, unsigned kernels,
+                       size_t n, const double *x, const double *y,
+                       double *const out[RC_STRESS_KERNELS])
 {
-    double z2 = c->depth * c->depth;
+    double z2 = at->depth * at->depth;
 
     for (size_t i = 0, last; i < n; i = last) {
         double r2 = x[i] * x[i] + y[i] * y[i] + z2, low = 0, high = INFINITY;
@@ -155,20 +157,20 @@ closed_coefficients(const struct rc_cell *c, unsigned kernels, size_t n, const d
                 break;
         }
         if (along_x > 0 && along_y > 0) {
-            by_points(c, kernels, along_x, along_y, last - i, x + i, y + i, out, i);
+            by_points(at, c, kernels, along_x, along_y, last - i, x + i, y + i, out, i);
             continue;
         }
         for (int k = 0; k < RC_STRESS_KERNELS; k++)
             for (size_t j = i; kernels >> k & 1 && j < last; j++)
-                out[k][j] = by_corners(c, k, x[j], y[j]);
+                out[k][j] = by_corners(at, c, k, x[j], y[j]);
     }
 }
 
-static void
-closed_line(const struct rc_cell *c, unsigned kernels, double step, size_t n, double y,
-            double *const out[RC_STRESS_KERNELS])
+void
+rc_closed_line(const struct rc_closed *at, const struct rc_cell *c, unsigned kernels, double step,
+               size_t n, double y, double *const out[RC_STRESS_KERNELS])
 {
-    double beyond = far * far * fmax(c->dx * c->dx, c->dy * c->dy) - y * y - c->depth * c->depth;
+    double beyond = far * far * fmax(c->dx * c->dx, c->dy * c->dy) - y * y - at->depth * at->depth;
     double inner = beyond > 0 ? ceil(sqrt(beyond) / c->dx) : 0;
     size_t near = step != c->dx || inner >= (double)n ? n : (size_t)inner;
     size_t most = BLOCK - 2 * RC_MEAN_REACH;
@@ -182,49 +184,8 @@ closed_line(const struct rc_cell *c, unsigned kernels, double step, size_t n, do
         }
         for (int k = 0; k < RC_STRESS_KERNELS; k++)
             to[k] = kernels >> k & 1 ? out[k] + start : NULL;
-        closed_coefficients(c, kernels, count, x, ys, to);
+        rc_closed_coefficients(at, c, kernels, count, x, ys, to);
     }
     for (size_t start = near; start < n; start += most)
-        by_means(c, kernels, y, start, n - start < most ? n - start : most, out);
-}
-
-/* ---- of a coated body too ---- */
-
-/* The cell on one material, of a coated body on that of its top layer where that has a part in it; else
- * false, and all values are 0. */
-static bool
-closed(const struct rc_cell *c, unsigned kernels, size_t n, double *const out[RC_STRESS_KERNELS],
-       struct rc_cell *bare)
-{
-    *bare = *c;
-    if (c->inside == NULL || rc_inside_closed(c->inside, &bare->nu))
-        return true;
-    for (int k = 0; k < RC_STRESS_KERNELS; k++)
-        if (kernels >> k & 1)
-            memset(out[k], 0, n * sizeof(double));
-    return false;
-}
-
-void
-rc_stress_coefficients(const struct rc_cell *c, unsigned kernels, size_t n, const double *x,
-                       const double *y, double *const out[RC_STRESS_KERNELS])
-{
-    struct rc_cell bare;
-
-    if (closed(c, kernels, n, out, &bare))
-        closed_coefficients(&bare, kernels, n, x, y, out);
-    if (c->inside != NULL)
-        rc_inside_add(c, kernels, n, x, y, out);
-}
-
-void
-rc_stress_line(const struct rc_cell *c, unsigned kernels, double step, size_t n, double y,
-               double *const out[RC_STRESS_KERNELS])
-{
-    struct rc_cell bare;
-
-    if (closed(c, kernels, n, out, &bare))
-        closed_line(&bare, kernels, step, n, y, out);
-    if (c->inside != NULL)
-        rc_inside_add_line(c, kernels, step, n, y, out);
+        by_means(at, c, kernels, y, start, n - start < most ? n - start : most, out);
 }

@@ -1,5 +1,5 @@
 /*
- * Stresses at one depth of a coated body: under a wave, from the stack itself; and under a unit load on a
+ * Stresses at one depth of a layered body: under a wave, from the stack itself; and under a unit load on a
  * cell, the integral over it of functions of the distance,
  *
  *     H_m[G](r) = 1/2 pi integral of G J_m(q r) q dq,     x = r cos(phi), y = r sin(phi):
@@ -19,13 +19,14 @@
  * and falls as exp(-q z). The functions are smooth on s, which stands for the depth in the rules of
  * integration; a cell that is too near for any is halved.
  */
-#include "stress.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const double pi = 3.14159265358979323846;
+#include "forms.h"
+#include "layered.h"
+#include "quadrature.h"
+#include "radial.h"
 
 enum {
     BLOCK = 64,       /* points looked up together            */
@@ -35,27 +36,35 @@ enum {
 };
 static const double far = 80; /* cells: from there on means on a line of nodes */
 
-struct rc_inside {
+struct inside {
+    struct rc_inside in;
     const struct rc_stack *stack;
     size_t medium;
-    double depth;
+    double depth;             /* in the top layer no more than its thickness */
     bool shear;               /* the tangential load too                     */
     double scale;             /* s, m                                        */
     struct rc_radial *radial; /* of the functions above; NULL: of waves only */
 };
 
+_Static_assert((int)RC_UNDER_BOTH <= (int)RC_WAVE_NUMBERS,
+               "of a wave more is known than there is room for");
+
 /* ---- of a wave ---- */
 
-size_t
-rc_inside_numbers(const struct rc_inside *in)
+static size_t
+numbers(bool shear)
 {
-    return in->shear ? RC_UNDER_BOTH : RC_UNDER_PRESSURE;
+    return shear ? RC_UNDER_BOTH : RC_UNDER_PRESSURE;
 }
 
-void
-rc_inside_wave(const struct rc_inside *in, double q, double *out)
+static void
+waves(const struct rc_inside *inside, size_t n, const double *q, double *out)
 {
-    rc_stack_inside(in->stack, in->medium, in->depth, q, rc_inside_numbers(in), out);
+    const struct inside *in = (const struct inside *)inside;
+    size_t m = numbers(in->shear);
+
+    for (size_t k = 0; k < n; k++)
+        rc_stack_inside(in->stack, in->medium, in->depth, q[k], m, out + k * m);
 }
 
 /* Of the wave with the direction (x, y), over (-i)^(number of odd directions). */
@@ -92,21 +101,21 @@ wave_stress(int kernel, double x, double y, const double *f)
     }
 }
 
-void
-rc_inside_symbol(const struct rc_inside *in, int kernel, size_t n, const double *x, const double *y,
-                 const double *numbers, double *out)
+static void
+symbol(const struct rc_inside *in, int kernel, const struct rc_waves *w, double *out)
 {
-    size_t step = rc_inside_numbers(in);
+    size_t step = numbers(((const struct inside *)in)->shear);
 
-    for (size_t k = 0; k < n; k++)
-        out[k] = wave_stress(kernel, x[k], y[k], numbers + k * step);
+    for (size_t k = 0; k < w->n; k++)
+        out[k] = wave_stress(kernel, w->x[k], w->y[k], w->numbers + k * step);
 }
 
 /* Under a patch that grows without end the strains along the surface are those of the substrate; on a
  * profile those along y are 0. */
-double
-rc_inside_mean(const struct rc_inside *in, int kernel, const struct rc_shape *shape)
+static double
+mean(const struct rc_inside *inside, int kernel, const struct rc_shape *shape)
 {
+    const struct inside *in = (const struct inside *)inside;
     const struct rc_material *m = &in->stack->material[in->medium];
     const struct rc_material *s = &in->stack->material[in->stack->layers];
     /* E (1 + nu_s)(1 - 2 nu_s)/E_s */
@@ -150,11 +159,11 @@ static const int order[FUNCTIONS] = {0, 1, 0, 2, 1, 0, 2, 1, 1, 1, 3};
 static void
 functions(const void *ctx, double q, double *g)
 {
-    const struct rc_inside *in = ctx;
+    const struct inside *in = ctx;
     double f[RC_UNDER_BOTH], bare[RC_UNDER_BOTH];
-    size_t n = rc_inside_numbers(in), m = in->shear ? FUNCTIONS : PRESSURE;
+    size_t n = numbers(in->shear), m = in->shear ? FUNCTIONS : PRESSURE;
 
-    rc_inside_wave(in, q, f);
+    waves(&in->in, 1, &q, f);
     if (in->medium == 0) {
         half_space(in->stack->material[0].nu, q * in->depth, bare);
         for (size_t k = 0; k < n; k++)
@@ -174,7 +183,7 @@ functions(const void *ctx, double q, double *g)
         g[10] = (f[RC_T_L] - f[RC_T_N] - 2 * f[RC_T_V]) / 4;
     }
     for (size_t k = 0; k < m; k++)
-        g[k] /= 2 * pi;
+        g[k] /= 2 * RC_PI;
 }
 
 /* Where a point is seen from the load, and its functions there. */
@@ -193,7 +202,7 @@ place_of(double x, double y, double r, const double *h)
 
 /* Adds weight times the stresses of all kernels of the loads. */
 static void
-add_stresses(const struct rc_inside *in, const struct place *p, double weight, double *sum)
+add_stresses(const struct inside *in, const struct place *p, double weight, double *sum)
 {
     const double *h = p->h;
 
@@ -223,7 +232,7 @@ struct block {
 };
 
 static void
-flush(const struct rc_inside *in, struct block *b, double *sum)
+flush(const struct inside *in, struct block *b, double *sum)
 {
     double h[BLOCK * FUNCTIONS];
     size_t m = in->shear ? FUNCTIONS : PRESSURE;
@@ -238,7 +247,7 @@ flush(const struct rc_inside *in, struct block *b, double *sum)
 
 /* Adds to sum[] the integrals over the rectangle of half sides a, b whose middle is (x, y) away. */
 static void
-integrate(const struct rc_inside *in, double x, double y, double a, double b, struct block *block,
+integrate(const struct inside *in, double x, double y, double a, double b, struct block *block,
           double *sum)
 {
     double distance = sqrt(x * x + y * y + in->scale * in->scale), low = 0, high = INFINITY;
@@ -267,16 +276,16 @@ integrate(const struct rc_inside *in, double x, double y, double a, double b, st
         }
 }
 
-void
-rc_inside_add(const struct rc_cell *c, unsigned kernels, size_t n, const double *x, const double *y,
-              double *const out[RC_STRESS_KERNELS])
+static void
+add_coefficients(const struct inside *in, const struct rc_cell *c, unsigned kernels, size_t n,
+                 const double *x, const double *y, double *const out[RC_STRESS_KERNELS])
 {
     for (size_t i = 0; i < n; i++) {
         double sum[RC_STRESS_KERNELS] = {0};
         struct block block;
         block.n = 0;
-        integrate(c->inside, x[i], y[i], c->dx / 2, c->dy / 2, &block, sum);
-        flush(c->inside, &block, sum);
+        integrate(in, x[i], y[i], c->dx / 2, c->dy / 2, &block, sum);
+        flush(in, &block, sum);
         for (int k = 0; k < RC_STRESS_KERNELS; k++)
             if (kernels >> k & 1)
                 out[k][i] += sum[k];
@@ -295,9 +304,9 @@ struct line {
 };
 
 static void
-fill_line(const struct rc_cell *c, double y, size_t first, size_t n, struct line *line)
+fill_line(const struct inside *in, const struct rc_cell *c, double y, size_t first, size_t n,
+          struct line *line)
 {
-    const struct rc_inside *in = c->inside;
     double b = c->dy / 2, low = 0, high = INFINITY, x0 = (double)first * c->dx;
     int ny = rc_gauss_points(sqrt(x0 * x0 + y * y + in->scale * in->scale), b, &low, &high);
     size_t m = in->shear ? FUNCTIONS : PRESSURE;
@@ -321,12 +330,12 @@ fill_line(const struct rc_cell *c, double y, size_t first, size_t n, struct line
 }
 
 static void
-add_means(const struct rc_cell *c, unsigned kernels, double y, size_t first, size_t n,
-          double *const out[RC_STRESS_KERNELS])
+add_means(const struct inside *in, const struct rc_cell *c, unsigned kernels, double y,
+          size_t first, size_t n, double *const out[RC_STRESS_KERNELS])
 {
     struct line line;
 
-    fill_line(c, y, first, n + 2 * RC_MEAN_REACH, &line);
+    fill_line(in, c, y, first, n + 2 * RC_MEAN_REACH, &line);
     for (int k = 0; k < RC_STRESS_KERNELS; k++)
         for (size_t i = 0; kernels >> k & 1 && i < n; i++) {
             double(*v)[RC_STRESS_KERNELS] = line.value + i + RC_MEAN_REACH, sum = 0;
@@ -336,11 +345,11 @@ add_means(const struct rc_cell *c, unsigned kernels, double y, size_t first, siz
         }
 }
 
-void
-rc_inside_add_line(const struct rc_cell *c, unsigned kernels, double step, size_t n, double y,
-                   double *const out[RC_STRESS_KERNELS])
+static void
+add_line(const struct inside *in, const struct rc_cell *c, unsigned kernels, double step, size_t n,
+         double y, double *const out[RC_STRESS_KERNELS])
 {
-    double s = c->inside->scale;
+    double s = in->scale;
     double beyond = far * far * fmax(c->dx * c->dx, c->dy * c->dy) - y * y - s * s;
     double inner = beyond > 0 ? ceil(sqrt(beyond) / c->dx) : 0;
     size_t near = step != c->dx || inner >= (double)n ? n : (size_t)inner;
@@ -349,37 +358,72 @@ rc_inside_add_line(const struct rc_cell *c, unsigned kernels, double step, size_
         double x = (double)i * step, *to[RC_STRESS_KERNELS] = {NULL};
         for (int k = 0; k < RC_STRESS_KERNELS; k++)
             to[k] = kernels >> k & 1 ? out[k] + i : NULL;
-        rc_inside_add(c, kernels, 1, &x, &y, to);
+        add_coefficients(in, c, kernels, 1, &x, &y, to);
     }
     for (size_t start = near; start < n; start += LINE)
-        add_means(c, kernels, y, start, n - start < LINE ? n - start : LINE, out);
+        add_means(in, c, kernels, y, start, n - start < LINE ? n - start : LINE, out);
 }
 
 /* ---- made ---- */
 
-bool
-rc_inside_closed(const struct rc_inside *in, double *nu)
+/* What is closed-form: of the top layer's material, at this depth in it; below it nothing is, and all values
+ * are 0. */
+static bool
+closed(const struct inside *in, unsigned kernels, size_t n, struct rc_closed *at,
+       double *const out[RC_STRESS_KERNELS])
 {
-    *nu = in->stack->material[in->medium].nu;
+    *at = (struct rc_closed){in->in.depth, in->stack->material[in->medium].nu};
+    for (int k = 0; k < RC_STRESS_KERNELS && in->medium > 0; k++)
+        if (kernels >> k & 1)
+            memset(out[k], 0, n * sizeof(double));
     return in->medium == 0;
 }
 
-size_t
-rc_inside_memory(const struct rc_stress_task *task)
+static void
+coefficients(const struct rc_inside *inside, const struct rc_cell *c, unsigned kernels, size_t n,
+             const double *x, const double *y, double *const out[RC_STRESS_KERNELS])
 {
-    size_t n = task->options.mu != 0 ? FUNCTIONS : PRESSURE;
+    const struct inside *in = (const struct inside *)inside;
+    struct rc_closed at;
 
-    if (!task->coated)
-        return 0;
-    return sizeof(struct rc_inside) + (task->options.boundary == RC_FREE ? rc_radial_memory(n) : 0);
+    if (closed(in, kernels, n, &at, out))
+        rc_closed_coefficients(&at, c, kernels, n, x, y, out);
+    add_coefficients(in, c, kernels, n, x, y, out);
 }
 
-struct rc_inside *
-rc_inside_new(const struct rc_stress_task *task, double depth, struct rc_err *err)
+static void
+line(const struct rc_inside *inside, const struct rc_cell *c, unsigned kernels, double step,
+     size_t n, double y, double *const out[RC_STRESS_KERNELS])
 {
-    const struct rc_stack *s = task->stack;
+    const struct inside *in = (const struct inside *)inside;
+    struct rc_closed at;
+
+    if (closed(in, kernels, n, &at, out))
+        rc_closed_line(&at, c, kernels, step, n, y, out);
+    add_line(in, c, kernels, step, n, y, out);
+}
+
+static size_t
+memory(bool shear, enum rc_boundary boundary)
+{
+    return sizeof(struct inside) +
+           (boundary == RC_FREE ? rc_radial_memory(shear ? FUNCTIONS : PRESSURE) : 0);
+}
+
+static void
+inside_free(struct rc_inside *inside)
+{
+    rc_radial_free(((struct inside *)inside)->radial);
+    free(inside);
+}
+
+static struct rc_inside *
+inside_new(const struct rc_solid *solid, double depth, bool shear, enum rc_boundary boundary,
+           struct rc_err *err)
+{
+    const struct rc_stack *s = rc_layered_stack(solid);
     size_t medium = rc_stack_medium(s, depth);
-    struct rc_inside *in;
+    struct inside *in;
 
     if (isinf(s->material[medium].modulus)) {
         rc_err_set(err, "depth %g m: the body is rigid from %g m on, where stresses are unknown",
@@ -388,12 +432,13 @@ rc_inside_new(const struct rc_stress_task *task, double depth, struct rc_err *er
     }
     if ((in = calloc(1, sizeof *in)) == NULL)
         goto short_of_memory;
+    in->in = (struct rc_inside){&rc_layered_inside, depth};
     in->stack = s;
     in->medium = medium;
     in->depth = medium == 0 ? fmin(depth, s->material[0].thickness) : depth;
-    in->shear = task->options.mu != 0;
+    in->shear = shear;
     in->scale = medium == 0 ? 2 * s->material[0].thickness - in->depth : depth;
-    if (task->options.boundary == RC_FREE) {
+    if (boundary == RC_FREE) {
         struct rc_radial_source source = {.n = in->shear ? FUNCTIONS : PRESSURE,
                                           .order = order,
                                           .scale = in->scale,
@@ -404,18 +449,21 @@ rc_inside_new(const struct rc_stress_task *task, double depth, struct rc_err *er
         if ((in->radial = rc_radial_new(&source)) == NULL)
             goto short_of_memory;
     }
-    return in;
+    return &in->in;
 short_of_memory:
-    rc_err_set(err, "out of memory for the depth %g m of a coated body", depth);
-    rc_inside_free(in);
+    rc_err_set(err, "out of memory for the depth %g m of a layered body", depth);
+    free(in);
     return NULL;
 }
 
-void
-rc_inside_free(struct rc_inside *in)
-{
-    if (in == NULL)
-        return;
-    rc_radial_free(in->radial);
-    free(in);
-}
+const struct rc_inside_type rc_layered_inside = {
+    .numbers = numbers,
+    .memory = memory,
+    .new = inside_new,
+    .free = inside_free,
+    .waves = waves,
+    .symbol = symbol,
+    .mean = mean,
+    .coefficients = coefficients,
+    .line = line,
+};

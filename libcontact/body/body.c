@@ -1,0 +1,261 @@
+/*
+ * Which row of bodies.list a body is, and what two bodies do together.
+ */
+#include "body.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "uniform.h"
+
+static const struct rc_body_type *const types[] = {
+#define RC_BODY(name) &rc_body_##name,
+#include RC_BODIES_LIST
+#undef RC_BODY
+};
+
+enum {
+    TYPES = sizeof types / sizeof *types
+};
+
+const struct rc_body_type *
+rc_body_type(const struct rc_body *body)
+{
+    size_t k = 0;
+
+    while (k + 1 < TYPES && !types[k]->takes(body))
+        k++;
+    return types[k];
+}
+
+size_t
+rc_body_material(const struct rc_body *b, double depth)
+{
+    double bottom = 0;
+    size_t k = 0;
+
+    while (k < b->layers && !rc_within(depth, bottom += b->layer[k].thickness))
+        k++;
+    return k;
+}
+
+/* ---- a pair, checked ---- */
+
+/* Nothing is told of it: it is rigid, or E* stands for it. */
+static bool
+unsaid(const struct rc_body *b)
+{
+    return b->e == 0 && b->layers == 0;
+}
+
+/* Of a body for which no wave counts, 0. */
+static bool
+gives_way(const struct rc_body *b)
+{
+    const struct rc_body_type *type = rc_body_type(b);
+
+    return !unsaid(b) && (type->compliance == NULL || type->compliance(b) > 0);
+}
+
+enum rc_status
+rc_pair_check(const struct rc_pair *p, struct rc_err *err)
+{
+    if (p->estar != 0 || unsaid(&p->one)) {
+        if (!unsaid(&p->one) || !unsaid(&p->two))
+            return rc_err_set(err, "E* = %g Pa and the bodies are given: give one or the other",
+                              p->estar);
+        if (!(p->estar > 0) || isinf(p->estar))
+            return rc_err_set(err, "E* = %g Pa: it must be positive and finite", p->estar);
+        return RC_OK;
+    }
+    if (rc_body_type(&p->one)->check(&p->one, RC_SURFACE, err) != RC_OK ||
+        (!unsaid(&p->two) && rc_body_type(&p->two)->check(&p->two, RC_SURFACE, err) != RC_OK))
+        return RC_FAIL;
+    if (!gives_way(&p->one) && !gives_way(&p->two))
+        return rc_err_set(err, "both bodies are rigid: one must give way");
+    return RC_OK;
+}
+
+bool
+rc_pair_positive(const struct rc_pair *p)
+{
+    return p->estar > 0 || (rc_body_type(&p->one)->positive && rc_body_type(&p->two)->positive);
+}
+
+/* ---- made ready ---- */
+
+/* The uniform ones as one, of `compliance`; the others by themselves. */
+static enum rc_status
+make(struct rc_solids *s, const struct rc_pair *p, struct rc_err *err)
+{
+    const struct rc_body *bodies[] = {&p->one, &p->two};
+    double compliance = 0;
+
+    for (int k = 0; k < 2; k++) {
+        const struct rc_body_type *type = rc_body_type(bodies[k]);
+        if (!gives_way(bodies[k]))
+            continue;
+        if (type->compliance != NULL)
+            compliance += type->compliance(bodies[k]);
+        else if ((s->solid[s->n++] = type->new (bodies[k], err)) == NULL)
+            return RC_FAIL;
+    }
+    if (p->estar > 0 || compliance > 0)
+        s->solid[s->n++] = rc_uniform_new(p->estar > 0 ? p->estar : 1 / compliance, err);
+    return s->n == 0 || s->solid[s->n - 1] == NULL ? RC_FAIL : RC_OK;
+}
+
+enum rc_status
+rc_solids_new(struct rc_solids *s, const struct rc_pair *pair, const struct rc_ranks *ranks,
+              struct rc_err *err)
+{
+    *s = (struct rc_solids){.n = 0};
+    return rc_ranks_agree(ranks, make(s, pair, err), err);
+}
+
+void
+rc_solids_free(struct rc_solids *s)
+{
+    for (size_t k = 0; k < s->n; k++)
+        rc_solid_free(s->solid[k]);
+    s->n = 0;
+}
+
+/* 1/E* of both add up; of one it is not turned over twice. */
+static double
+together(size_t n, const double estar[2])
+{
+    return n == 1 ? estar[0] : 1 / (1 / estar[0] + 1 / estar[1]);
+}
+
+double
+rc_solids_modulus(const struct rc_solids *s, double q)
+{
+    double estar[2];
+
+    for (size_t k = 0; k < s->n; k++)
+        estar[k] = s->solid[k]->type->modulus(s->solid[k], q);
+    return together(s->n, estar);
+}
+
+double
+rc_solids_modulus_of(const struct rc_solids *s, double q2)
+{
+    double estar[2];
+
+    for (size_t k = 0; k < s->n; k++)
+        estar[k] = s->solid[k]->type->modulus_of(s->solid[k], q2);
+    return together(s->n, estar);
+}
+
+double
+rc_solids_softest(const struct rc_solids *s)
+{
+    double estar[2];
+
+    for (size_t k = 0; k < s->n; k++)
+        estar[k] = s->solid[k]->type->softest(s->solid[k]);
+    return together(s->n, estar);
+}
+
+/* ---- the kernel of displacement ---- */
+
+static void
+rows(const void *of, const struct rc_lattice *at, size_t n, size_t first, size_t last, double *out)
+{
+    const struct rc_surface *u = of;
+
+    memset(out, 0, (last - first) * n * sizeof *out);
+    for (size_t k = 0; k < u->solids->n; k++) {
+        const struct rc_solid *s = u->solids->solid[k];
+        s->type->add_rows(s, u->length, u->modulus, at, n, first, last, out);
+    }
+}
+
+/* Westergaard 1939: a wave of pressure of wave number q makes a wave of displacement 2 / (E* q) as
+ * high. */
+static double
+symbol(const void *of, double qx, double qy)
+{
+    const struct rc_surface *u = of;
+    double q = hypot(qx, qy), q2 = q / u->length * (q / u->length);
+
+    return 2 / (rc_solids_modulus_of(u->solids, q2) / u->modulus * q);
+}
+
+struct rc_kernel
+rc_surface_kernel(const struct rc_surface *u)
+{
+    return (struct rc_kernel){.of = u, .rows = rows, .symbol = symbol};
+}
+
+/* ---- stresses inside ---- */
+
+void
+rc_inside_symbol(const struct rc_inside *in, int kernel, const struct rc_waves *waves,
+                 const struct rc_shape *shape, double *out)
+{
+    in->type->symbol(in, kernel, waves, out);
+    if (waves->q[0] == 0)
+        out[0] = in->type->mean(in, kernel, shape);
+}
+
+int
+rc_stress_kernel(const struct rc_inside_type *type, int load, int component)
+{
+    bool same = type->shares && load == RC_SHEAR && component == RC_SZZ;
+
+    return same ? RC_SXZ : load * RC_COMPONENTS + component;
+}
+
+unsigned
+rc_stress_distinct(const struct rc_inside_type *type, unsigned components, bool shear)
+{
+    unsigned kernels = 0;
+
+    for (int c = 0; c < RC_COMPONENTS; c++) {
+        if (!(components >> c & 1))
+            continue;
+        kernels |= 1u << rc_stress_kernel(type, RC_NORMAL, c);
+        if (shear)
+            kernels |= 1u << rc_stress_kernel(type, RC_SHEAR, c);
+    }
+    return kernels;
+}
+
+static void
+stress_rows(const void *of, const struct rc_lattice *at, size_t n, size_t first, size_t last,
+            double *out)
+{
+    const struct rc_stress_field *f = of;
+    const struct rc_cell cell = {at->dx, at->dy};
+    double *to[RC_STRESS_KERNELS] = {NULL};
+
+    for (size_t j = first; j < last; j++) {
+        to[f->kernel] = out + (j - first) * n;
+        f->inside->type->line(f->inside, &cell, 1u << f->kernel, (double)at->sx * at->dx, n,
+                              (double)(j * at->sy) * at->dy, to);
+    }
+}
+
+static double
+stress_symbol(const void *of, double qx, double qy)
+{
+    const struct rc_stress_field *f = of;
+    double x, y, q, out, numbers[RC_WAVE_NUMBERS];
+    const struct rc_waves wave = {1, &x, &y, &q, numbers};
+
+    rc_wave_directions(1, &qx, &qy, &x, &y, &q);
+    f->inside->type->waves(f->inside, 1, &q, numbers);
+    f->inside->type->symbol(f->inside, f->kernel, &wave, &out);
+    return out;
+}
+
+struct rc_kernel
+rc_stress_field_kernel(const struct rc_stress_field *f)
+{
+    return (struct rc_kernel){.of = f,
+                              .parity = rc_stress_parity[f->kernel],
+                              .rows = stress_rows,
+                              .symbol = stress_symbol};
+}

@@ -1,0 +1,13 @@
+/*
+ * What the files of the layered body share. Internal: never installed.
+ */
+#ifndef RC_LAYERED_H
+#define RC_LAYERED_H
+
+#include "body.h"
+#include "stack.h"
+
+const struct rc_stack *rc_layered_stack(const struct rc_solid *solid);
+extern const struct rc_inside_type rc_layered_inside; /* layered_stress.c */
+
+#endif
