@@ -1,5 +1,6 @@
 #include "file.h"
 
+#include <errno.h>
 #include <string.h>
 
 bool
@@ -60,4 +61,18 @@ struct rc_bytes
 rc_file_bytes(const struct rc_file *file, bool big)
 {
     return (struct rc_bytes){.data = file->data, .size = file->size, .big = big};
+}
+
+enum rc_status
+rc_put(FILE *out, const void *bytes, size_t n, struct rc_err *err)
+{
+    if (n == 0 || fwrite(bytes, 1, n, out) == n)
+        return RC_OK;
+    return rc_put_failed(err);
+}
+
+enum rc_status
+rc_put_failed(struct rc_err *err)
+{
+    return rc_err_set(err, "writing failed (%s)", strerror(errno));
 }

@@ -1,6 +1,8 @@
-/* What a file is, by its name and its first bytes, and places in it. */
+/* What a file is, by its name and its first bytes, places in it, and bytes on their way into one. */
 #ifndef RC_FILE_H
 #define RC_FILE_H
+
+#include <stdio.h>
 
 #include "bytes.h"
 #include "header.h"
@@ -20,5 +22,10 @@ struct rc_piece rc_file_piece(const struct rc_file *file);
 struct rc_piece rc_file_text(const struct rc_file *file, size_t at, size_t n);
 /* A cursor at the first byte. */
 struct rc_bytes rc_file_bytes(const struct rc_file *file, bool big);
+
+/* Writes the bytes; RC_FAIL with the system's reason. */
+enum rc_status rc_put(FILE *out, const void *bytes, size_t n, struct rc_err *err);
+/* Gives that reason after another call that writes has failed. */
+enum rc_status rc_put_failed(struct rc_err *err);
 
 #endif

@@ -1,6 +1,5 @@
 #include "rcg.h"
 
-#include <errno.h>
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
@@ -44,12 +43,6 @@ void
 rc_writer_free(struct rc_writer *w)
 {
     free(w);
-}
-
-static enum rc_status
-refused(struct rc_err *err)
-{
-    return rc_err_set(err, "writing failed (%s)", strerror(errno));
 }
 
 /* The header under construction: text[n] is the next free byte; `full` once it did not fit. */
@@ -251,7 +244,7 @@ rc_writer_put(struct rc_writer *w, const struct rc_grid *g, struct rc_err *err)
     crc = (g->type == RC_F32 ? write_f32 : write_f64)(w->file, g->v, g->nx * g->ny, crc);
     fprintf(w->file, "crc32 %08" PRIx32 "\n", crc);
     if (ferror(w->file)) {
-        refused(err);
+        rc_put_failed(err);
         goto done;
     }
     w->frames++;
@@ -271,7 +264,7 @@ rc_writer_end(struct rc_writer *w, struct rc_err *err)
         return write_text(w, line, strlen(line), err);
     }
     fprintf(w->file, "RCGEND %zu\n", w->frames);
-    return fflush(w->file) != 0 || ferror(w->file) ? refused(err) : RC_OK;
+    return fflush(w->file) != 0 || ferror(w->file) ? rc_put_failed(err) : RC_OK;
 }
 
 void

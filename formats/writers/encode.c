@@ -1,6 +1,5 @@
 #include "encode.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -145,20 +144,6 @@ rc_buffer_write(const struct rc_buffer *b, FILE *out, struct rc_err *err)
     if (b->failed)
         return rc_err_set(err, "out of memory");
     return rc_put(out, b->bytes, b->n, err);
-}
-
-enum rc_status
-rc_put_failed(struct rc_err *err)
-{
-    return rc_err_set(err, "writing failed (%s)", strerror(errno));
-}
-
-enum rc_status
-rc_put(FILE *out, const void *bytes, size_t n, struct rc_err *err)
-{
-    if (n == 0 || fwrite(bytes, 1, n, out) == n)
-        return RC_OK;
-    return rc_put_failed(err);
 }
 
 /* ---- values ---- */

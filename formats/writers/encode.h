@@ -57,8 +57,5 @@ enum rc_status rc_encode(const struct rc_code *code, const double *v, size_t n, 
 /* The same into a file. */
 enum rc_status rc_encode_file(const struct rc_code *code, const double *v, size_t n, FILE *out,
                               struct rc_err *err);
-/* RC_FAIL with the system's reason. */
-enum rc_status rc_put(FILE *out, const void *bytes, size_t n, struct rc_err *err);
-enum rc_status rc_put_failed(struct rc_err *err); /* that reason alone, after another call */
 
 #endif
