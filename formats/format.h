@@ -49,13 +49,6 @@ const struct rc_format *rc_format_named(const char *name);
 /* The one that is surest of the file, or NULL with the reason. */
 const struct rc_format *rc_format_find(const struct rc_file *file, struct rc_err *err);
 
-/* Whether a file was packed with gzip. */
-bool rc_file_packed(const struct rc_file *file);
-/* Its *size bytes unpacked, up to `most`, which the caller frees; NULL where they are more, cut
- * short or damaged, before any memory is taken for them. */
-unsigned char *rc_file_unpack(const struct rc_file *file, size_t most, size_t *size,
-                              struct rc_err *err);
-
 /* What the name of a channel says of it. */
 enum rc_named {
     RC_NAMED_TOPOGRAPHY,

@@ -25,10 +25,13 @@ libcontact/surface  | libcontact/transform/transform.h         | libcontact/tran
 formats/core        | libcontact/grid.h                        | libcontact
 formats/rcg         | libcontact/grid.h formats/core/core.h    | libcontact formats/core
 formats/sandbox     | libcontact/grid.h formats/core/core.h    | libcontact formats/core
+formats/containers  | libcontact/grid.h formats/core/core.h    | libcontact formats/core
 formats/readers     | libcontact/grid.h formats/core/core.h    | libcontact formats/core
+formats/readers     | formats/containers/containers.h          | formats/containers
 formats/readers     | formats/sandbox/sandbox.h                | formats/sandbox
 formats/readers     | formats/format.h                         | formats
 formats/writers     | libcontact/grid.h formats/core/core.h    | libcontact formats/core
+formats/writers     | formats/containers/containers.h          | formats/containers
 formats/writers     | formats/export.h                         | formats
 formats             | libcontact/grid.h formats/core/core.h    | libcontact formats/core
 formats             |                                          | formats/readers=rc_format_
@@ -61,6 +64,7 @@ tools               | tools/import/import.h                    | tools/import
 tools               | tools/pick/pick.h tools/synth/synth.h    | tools/pick tools/synth
 tools               | formats/core/core.h formats/rcg/rcg.h    | formats/core formats/rcg
 tools               | formats/format.h formats/export.h        | formats
+tools               | formats/containers/containers.h          | formats/containers
 END
 base='libcontact/contact.h libcontact/grid.h libcontact/common.h libcontact/memory.h'
 public='libcontact/contact.h libcontact/grid.h'

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "formats/containers/containers.h"
 #include "tools/import/import.h"
 
 static struct args {

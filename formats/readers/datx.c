@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "hdf.h"
+#include "formats/containers/containers.h"
 #include "formats/format.h"
 #include "formats/sandbox/sandbox.h"
 

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "hdf.h"
+#include "formats/containers/containers.h"
 #include "formats/format.h"
 #include "formats/sandbox/sandbox.h"
 

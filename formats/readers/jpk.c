@@ -9,8 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "tiff.h"
-#include "zip_read.h"
+#include "formats/containers/containers.h"
 #include "formats/format.h"
 #include "formats/sandbox/sandbox.h"
 

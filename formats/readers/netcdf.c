@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cdf.h"
+#include "formats/containers/containers.h"
 #include "formats/format.h"
 
 static uint64_t

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "tiff.h"
+#include "formats/containers/containers.h"
 #include "formats/format.h"
 #include "formats/sandbox/sandbox.h"
 

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "zip_read.h"
+#include "formats/containers/containers.h"
 #include "formats/format.h"
 
 enum {

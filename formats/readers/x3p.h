@@ -2,7 +2,7 @@
 #ifndef RC_X3P_H
 #define RC_X3P_H
 
-#include "zip_read.h"
+#include "formats/containers/containers.h"
 #include "formats/core/core.h"
 #include "formats/format.h"
 

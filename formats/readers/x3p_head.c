@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "x3p.h"
-#include "xml.h"
 
 #define MAIN_MOST ((uint64_t)1 << 28) /* bytes of main.xml: some millions of heights in it */
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "encode.h"
-#include "zip_write.h"
+#include "formats/containers/containers.h"
 #include "formats/core/core.h"
 #include "formats/export.h"
 

@@ -10,6 +10,7 @@
 #include <cmocka.h>
 #include <zlib.h>
 
+#include "formats/containers/containers.h"
 #include "made.h"
 
 enum {

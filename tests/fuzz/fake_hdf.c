@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "formats/readers/hdf.h"
-#include "formats/core/text.h"
+#include "formats/containers/containers.h"
+#include "formats/core/core.h"
 
 struct rc_hdf {
     const struct rc_file *file;

@@ -11,6 +11,7 @@
 
 #include "formats/sandbox/sandbox.h"
 #include "formats/format.h"
+#include "formats/containers/containers.h"
 #include "formats/core/core.h"
 #include "meter.h"
 

@@ -12,7 +12,6 @@
 
 #include "xml.h"
 #include "formats/core/core.h"
-#include "formats/format.h"
 #include "libcontact/grid.h"
 
 struct rc_zip_read;

@@ -5,7 +5,7 @@
 #include <zip.h>
 #include <zlib.h>
 
-#include "encode.h"
+#include "formats/core/core.h"
 
 enum {
     CHUNK = 1 << 16,

@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-#include "formats/format.h"
+#include "formats/core/core.h"
 #include "libcontact/grid.h"
 
 struct rc_hdf;

@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "formats/format.h"
+#include "formats/core/core.h"
 #include "libcontact/grid.h"
 
 enum {

@@ -1,4 +1,4 @@
-/* ZIP archives that are written; beside readers/zip_read.c the only place that knows libzip. */
+/* ZIP archives that are written; beside zip_read.c the only place that knows libzip. */
 #ifndef RC_ZIP_WRITE_H
 #define RC_ZIP_WRITE_H
 

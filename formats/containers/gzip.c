@@ -4,7 +4,7 @@
  * Packed data can promise any number of bytes in a few, so that they are unpacked twice: once to
  * count and to check them, piece by piece, and then into memory of just their size.
  */
-#include "format.h"
+#include "gzip.h"
 
 #include <stdint.h>
 #include <stdlib.h>

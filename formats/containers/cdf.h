@@ -1,9 +1,8 @@
-/* The header of a NetCDF classic file: what its variables are and where; see netcdf.c. */
+/* The header of a NetCDF classic file: what its variables are and where; see readers/netcdf.c. */
 #ifndef RC_CDF_H
 #define RC_CDF_H
 
 #include "formats/core/core.h"
-#include "formats/format.h"
 
 enum {
     RC_CDF_CHAR = 2, /* type of text */
