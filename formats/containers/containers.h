@@ -6,6 +6,7 @@
 #define RC_CONTAINERS_H
 
 #include "cdf.h"
+#include "checksum.h"
 #include "gzip.h"
 #include "hdf.h"
 #include "tiff.h"

@@ -10,6 +10,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "checksum.h"
 #include "xml.h"
 #include "formats/core/core.h"
 #include "libcontact/grid.h"

@@ -1,11 +1,10 @@
 /*
- * The face of this folder: bytes, text, numbers in tables, maps of raw numbers, checksums.
+ * The face of this folder: bytes, text, numbers in tables, maps of raw numbers, the checksum of a stream.
  */
 #ifndef RC_CORE_H
 #define RC_CORE_H
 
 #include "bytes.h"
-#include "checksum.h"
 #include "crc32.h"
 #include "even.h"
 #include "file.h"

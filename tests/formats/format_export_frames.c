@@ -8,6 +8,7 @@
 #include <cmocka.h>
 #include <zip.h>
 
+#include "formats/containers/containers.h"
 #include "decoders.h"
 
 /* ---- what a file says beside its numbers ---- */

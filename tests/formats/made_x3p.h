@@ -2,7 +2,7 @@
 #ifndef MADE_X3P_H
 #define MADE_X3P_H
 
-#include "formats/core/checksum.h"
+#include "formats/containers/containers.h"
 #include "made_zip.h"
 
 extern const struct rc_format rc_format_x3p;

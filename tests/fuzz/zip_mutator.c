@@ -7,7 +7,7 @@
 #include <string.h>
 #include <zip.h>
 
-#include "formats/core/checksum.h"
+#include "formats/containers/containers.h"
 
 enum {
     MEMBERS_MOST = 16,
