@@ -1,7 +1,7 @@
 /*
  * Instrument and exchange formats: bytes -> struct rc_grid. A format is one file,
- * formats/readers/NAME.c, that ends in its struct rc_format rc_format_NAME, and one line in
- * formats.list.
+ * formats/readers/NAME.c (or NAME/NAME.c, with more files beside it), that ends in its struct
+ * rc_format rc_format_NAME, and one line in formats.list.
  *
  * What every reader does:
  *   1. looks at the magic again, because the user may force a format;

@@ -30,11 +30,15 @@ formats/readers     | libcontact/grid.h formats/core/core.h    | libcontact form
 formats/readers     | formats/containers/containers.h          | formats/containers
 formats/readers     | formats/sandbox/sandbox.h                | formats/sandbox
 formats/readers     | formats/format.h                         | formats
+formats/readers/x3p | libcontact/grid.h formats/core/core.h    | libcontact formats/core
+formats/readers/x3p | formats/containers/containers.h          | formats/containers
+formats/readers/x3p | formats/format.h                         | formats
 formats/writers     | libcontact/grid.h formats/core/core.h    | libcontact formats/core
 formats/writers     | formats/containers/containers.h          | formats/containers
 formats/writers     | formats/export.h                         | formats
 formats             | libcontact/grid.h formats/core/core.h    | libcontact formats/core
 formats             |                                          | formats/readers=rc_format_
+formats             |                                          | formats/readers/x3p=rc_format_
 formats             |                                          | formats/writers=rc_export_
 tools/text          | libcontact/grid.h formats/core/core.h    | libcontact formats/core
 tools/machine       | -                                        | -

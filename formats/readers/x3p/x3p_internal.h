@@ -1,6 +1,6 @@
 /* X3P: what its readers share; see x3p.c. */
-#ifndef RC_X3P_H
-#define RC_X3P_H
+#ifndef RC_X3P_INTERNAL_H
+#define RC_X3P_INTERNAL_H
 
 #include "formats/containers/containers.h"
 #include "formats/core/core.h"

@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "x3p.h"
+#include "x3p_internal.h"
 #include "formats/format.h"
 
 /* ---- the archive ---- */

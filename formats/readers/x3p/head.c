@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "x3p.h"
+#include "x3p_internal.h"
 
 #define MAIN_MOST ((uint64_t)1 << 28) /* bytes of main.xml: some millions of heights in it */
 

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "x3p.h"
+#include "x3p_internal.h"
 
 enum {
     MD5_FILE_MOST = 4096, /* bytes of md5checksum.hex                             */
