@@ -10,7 +10,6 @@
 #include "file.h"
 #include "header.h"
 #include "heights.h"
-#include "limit.h"
 #include "maps.h"
 #include "number_table.h"
 #include "prefix.h"

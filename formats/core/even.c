@@ -6,8 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "limit.h"
-
 /* The place of the last decimal that any position has: 0.01 when they are 0.5, 0.75, 1. */
 static double
 last_place(const double *x, size_t points)

@@ -9,6 +9,7 @@
 #ifndef RC_EVEN_H
 #define RC_EVEN_H
 
+#include "file.h"
 #include "wish.h"
 
 enum {

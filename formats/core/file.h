@@ -1,4 +1,5 @@
-/* What a file is, by its name and its first bytes, places in it, and bytes on their way into one. */
+/* A file that was read whole: what it is, by its name and its first bytes, places in it, and how much
+ * memory it may take; and bytes on their way into one. */
 #ifndef RC_FILE_H
 #define RC_FILE_H
 
@@ -6,7 +7,12 @@
 
 #include "bytes.h"
 #include "header.h"
-#include "wish.h"
+
+struct rc_file {
+    const char *name; /* base name, for suffix and messages */
+    const unsigned char *data;
+    size_t size;
+};
 
 /* Whether the name of the file ends in one of the suffixes ".a .b", in either case. */
 bool rc_file_named(const struct rc_file *file, const char *suffixes);
@@ -22,6 +28,12 @@ struct rc_piece rc_file_piece(const struct rc_file *file);
 struct rc_piece rc_file_text(const struct rc_file *file, size_t at, size_t n);
 /* A cursor at the first byte. */
 struct rc_bytes rc_file_bytes(const struct rc_file *file, bool big);
+
+/* Bytes beyond its own that reading a file of that size may take, whatever its header promises: 16 times
+ * its size and 64 MiB. Packed data can promise any number of values in a few bytes. */
+size_t rc_memory_limit(size_t file_size);
+/* RC_FAIL when the values of a map are more than that. */
+enum rc_status rc_map_fits(const struct rc_file *file, size_t nx, size_t ny, struct rc_err *err);
 
 /* Writes the bytes; RC_FAIL with the system's reason. */
 enum rc_status rc_put(FILE *out, const void *bytes, size_t n, struct rc_err *err);

@@ -3,7 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "limit.h"
 #include "maps.h"
 #include "text.h"
 

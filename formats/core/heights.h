@@ -2,6 +2,7 @@
 #ifndef RC_HEIGHTS_H
 #define RC_HEIGHTS_H
 
+#include "file.h"
 #include "wish.h"
 
 struct rc_heights {
@@ -15,7 +16,7 @@ struct rc_heights {
 /* A grid for them, its values still to come, and in *metres what a number is worth: both by the
  * wish or else by the file. What is no length keeps its name, and *metres is that in its SI unit.
  * RC_FAIL (NULL) when neither says, or when the map is larger than a file of this size can hold
- * (limit.h). */
+ * (rc_map_fits). */
 struct rc_grid *rc_heights_new(const struct rc_heights *heights, const struct rc_file *file,
                                const struct rc_wish *wish, double *metres, struct rc_notes *notes,
                                struct rc_err *err);

@@ -4,8 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "file.h"
-#include "limit.h"
 #include "prefix.h"
 
 struct rc_map *

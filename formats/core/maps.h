@@ -9,6 +9,7 @@
 #define RC_MAPS_H
 
 #include "bytes.h"
+#include "file.h"
 #include "header.h"
 #include "wish.h"
 

@@ -1,5 +1,5 @@
-/* A file, what the user says beside it, and what is said of it: spacings and units that the file
- * lacks or that the user overrules. */
+/* What the user says beside a file, and what is said of it: spacings and units that the file lacks or
+ * that the user overrules. */
 #ifndef RC_WISH_H
 #define RC_WISH_H
 
@@ -7,13 +7,6 @@
 #include <stddef.h>
 
 #include "libcontact/grid.h"
-
-/* A file that has been read whole. */
-struct rc_file {
-    const char *name; /* base name, for suffix and messages */
-    const unsigned char *data;
-    size_t size;
-};
 
 /* What the user says beside the file. */
 struct rc_wish {
