@@ -12,8 +12,7 @@
 #include "heights.h"
 #include "maps.h"
 #include "number_table.h"
-#include "prefix.h"
 #include "text.h"
-#include "utf8.h"
+#include "units.h"
 
 #endif

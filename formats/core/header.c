@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "units.h"
+
 enum {
     NUMBER_MOST = 64
 };

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "prefix.h"
+#include "units.h"
 
 struct rc_map *
 rc_maps_add(struct rc_maps *maps, const char *name, size_t n)

@@ -1,9 +1,6 @@
 #include "text.h"
 
-#include <math.h>
 #include <string.h>
-
-#include "utf8.h"
 
 bool
 rc_lines_next(struct rc_lines *l, const char **line, size_t *n)
@@ -40,49 +37,68 @@ rc_trim(const char **text, size_t *n)
     }
 }
 
-bool
-rc_length_unit(const char *text, size_t n, double *metres)
+/* Bytes that follow the lead byte, with the code point's first bits in *code; -1: no lead byte. */
+static int
+lead(unsigned char byte, unsigned *code)
 {
-    static const struct {
-        const char *name;
-        double metres;
-    } units[] = {
-        {"m", 1},
-        {"nm", 1e-9},
-        {"um", 1e-6},
-        {"\xc2\xb5m", 1e-6}, /* U+00B5, micro sign            */
-        {"\xce\xbcm", 1e-6}, /* U+03BC, Greek mu              */
-        {"\xb5m", 1e-6},     /* the micro sign in Latin-1     */
-        {"~m", 1e-6},        /* NanoScope's way round it      */
-        {"Micrometer", 1e-6},
-        {"Nanometer", 1e-9},
-        {"Millimeter", 1e-3},
-        {"micron", 1e-6},
-        {"microns", 1e-6},
-        {"mm", 1e-3},
-        {"cm", 1e-2},
-        {"km", 1e3},
-        {"pm", 1e-12},
-        {"fm", 1e-15},
-        {"\xc3\x85", 1e-10},     /* U+00C5, A with ring    */
-        {"\xe2\x84\xab", 1e-10}, /* U+212B, Angstrom sign  */
-        {"\xc5", 1e-10},         /* Latin-1                */
-    };
-
-    for (size_t k = 0; k < sizeof units / sizeof *units; k++)
-        if (strlen(units[k].name) == n && memcmp(units[k].name, text, n) == 0) {
-            *metres = units[k].metres;
-            return true;
-        }
-    return false;
+    if (byte < 0x80) {
+        *code = byte;
+        return 0;
+    }
+    if (byte >= 0xc2 && byte <= 0xdf) {
+        *code = byte & 0x1fU;
+        return 1;
+    }
+    if (byte >= 0xe0 && byte <= 0xef) {
+        *code = byte & 0x0fU;
+        return 2;
+    }
+    if (byte >= 0xf0 && byte <= 0xf4) {
+        *code = byte & 0x07U;
+        return 3;
+    }
+    return -1;
 }
 
-double
-rc_word_metres(const char *word)
+bool
+rc_utf8_valid(const char *text)
 {
-    double metres;
+    static const unsigned least[] = {0, 0x80, 0x800, 0x10000};
+    const unsigned char *s = (const unsigned char *)text;
 
-    return rc_length_unit(word, strlen(word), &metres) ? metres : NAN;
+    while (*s != 0) {
+        unsigned code;
+        int more = lead(*s++, &code);
+
+        if (more < 0)
+            return false;
+        for (int k = 0; k < more; k++, s++) {
+            if ((*s & 0xc0U) != 0x80)
+                return false;
+            code = code << 6 | (*s & 0x3fU);
+        }
+        if (code < least[more] || code > 0x10ffff || (code >= 0xd800 && code <= 0xdfff))
+            return false;
+    }
+    return true;
+}
+
+size_t
+rc_utf8_put(char *to, unsigned code)
+{
+    if (code < 0x80) {
+        to[0] = (char)code;
+        return 1;
+    }
+    if (code < 0x800) {
+        to[0] = (char)(0xc0 | code >> 6);
+        to[1] = (char)(0x80 | (code & 0x3f));
+        return 2;
+    }
+    to[0] = (char)(0xe0 | code >> 12);
+    to[1] = (char)(0x80 | (code >> 6 & 0x3f));
+    to[2] = (char)(0x80 | (code & 0x3f));
+    return 3;
 }
 
 size_t

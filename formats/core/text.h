@@ -1,4 +1,4 @@
-/* Text as foreign files hold it: lines, units of length, and what may be kept or shown of it. */
+/* Text as foreign files hold it: lines, UTF-8, and what may be kept or shown of it. */
 #ifndef RC_TEXT_H
 #define RC_TEXT_H
 
@@ -18,11 +18,10 @@ bool rc_lines_next(struct rc_lines *lines, const char **line, size_t *n);
 /* Drops white space at both ends. */
 void rc_trim(const char **text, size_t *n);
 
-/* Metres per unit of "nm", "um", "µm" (UTF-8 or Latin-1, either code point), "Å", ...; false when
- * it is no unit of length. */
-bool rc_length_unit(const char *text, size_t n, double *metres);
-/* The same of a word up to its NUL; NAN when it is no unit of length. */
-double rc_word_metres(const char *word);
+/* Whether text is UTF-8 as RFC 3629 has it: no overlong forms, no surrogates, up to U+10FFFF. */
+bool rc_utf8_valid(const char *text);
+/* Puts the bytes of a code point below U+10000, 1 to 3 without a NUL; gives their number. */
+size_t rc_utf8_put(char *to, unsigned code);
 
 /* Bytes of the control character that text begins with: 1, or 2 of U+0080 to U+009F in UTF-8, which act
  * on a terminal as well; 0: it begins with another. */

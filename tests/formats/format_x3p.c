@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "formats/core/utf8.h"
+#include "formats/core/core.h"
 #include "made.h"
 #include "made_locale.h"
 #include "made_x3p.h"

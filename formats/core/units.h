@@ -1,6 +1,6 @@
-/* SI prefixes: the powers of ten that stand before a unit, and how they are written. */
-#ifndef RC_PREFIX_H
-#define RC_PREFIX_H
+/* SI prefixes, the powers of ten that stand before a unit, and the units of length. */
+#ifndef RC_CORE_UNITS_H
+#define RC_CORE_UNITS_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -21,5 +21,11 @@ bool rc_prefix_power(const char *text, size_t n, int *power);
 const char *rc_prefix_of(int power);
 /* Ten to the power of a prefix, rounded correctly: the double 1e-06 for -6. */
 double rc_prefix_factor(int power);
+
+/* Metres per unit of "nm", "um", "µm" (UTF-8 or Latin-1, either code point), "Å", ...; false when
+ * it is no unit of length. */
+bool rc_length_unit(const char *text, size_t n, double *metres);
+/* The same of a word up to its NUL; NAN when it is no unit of length. */
+double rc_word_metres(const char *word);
 
 #endif
