@@ -29,7 +29,7 @@ listed() { tar tzf "$1" | grep -v '/$' | sort; }
 claim "  file by file" diff <(listed "first/$tarball") <(listed "second/$tarball")
 claim "  with all that the build and the tests look for" bash -c '
     cd "$0" && ls CMakeLists.txt CMakePresets.json LICENSE README.md CHANGELOG.md CITATION.cff .clang-format python/rcg.py \
-        sample_surfaces/*.x3p tests/*.sh tests/first_use/*.sh debian/control' "libcontact-$version"
+        sample_surfaces/*.x3p tests/*.sh tests/tools/*.sh debian/control' "libcontact-$version"
 claim "  it configures alone" cmake -S "libcontact-$version" -B alone -DRC_TESTS=ON -DCMAKE_C_COMPILER="${CC:-cc}"
 # but for those under mpirun, which only a build with MPI has
 tests_in() { sed -n 's/^add_test(\[*=*\[*\([a-z_0-9]*\).*/\1/p' "$1/tests/CTestTestfile.cmake" | grep -v _ranks | sort; }
