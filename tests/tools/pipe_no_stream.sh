@@ -1,6 +1,9 @@
-# A tool that is given something else than a grid stream says what it looks like and the command that makes a stream
-# of it; a pipe whose first program wrote nothing is told from that.
+# A tool that is given something else than a grid stream says what it looks like and the command that makes a
+# stream of it; a pipe whose first program wrote nothing is told from that. rc-import, given a stream, says what
+# to do instead, and that works.
 . "$(dirname "$0")/../pipe.sh"
+
+# ---- something else, where a stream is read ----
 
 press='rc-solve --load 1 --estar 114GPa --quiet -o never.rcg'
 sample="$RC_SOURCE/sample_surfaces/rough-steel.x3p"
@@ -46,5 +49,17 @@ refuses 1 'stops inside a header' "a stream cut in its header is one" "head -c 2
 refuses 1 "frame 2: 'rubbish' stands where a frame" "something behind a frame" \
     "{ sed '/^RCGEND/d' ball.rcg; echo rubbish; } | rc-info"
 claim "nothing was written" test ! -e never.rcg
+
+# ---- a stream, where something else is read ----
+
+rc-synth sphere --nx 5 --dx 1um --radius 1mm -o ball.rcg
+refuses 1 "ball.rcg: it is a grid stream already and needs no import: give it to the next tool, as in 'rc-info ball.rcg'" \
+    "a stream in a file" 'rc-import ball.rcg'
+command=$(rc-import ball.rcg 2>&1 | sed "s/.* as in '\(.*\)'/\1/")
+claim "the command that it names runs" says height bash -c "$command"
+refuses 1 "standard input: it is a grid stream already.*as in '... [|] rc-info'" "a stream in a pipe" \
+    'rc-synth sphere --nx 5 --dx 1um --radius 1mm | rc-import -'
+refuses 1 "it is a grid stream already" "with --list" 'rc-import --list ball.rcg'
+refuses 1 "it is a grid stream already" "whatever its name" 'cp ball.rcg ball.txt; rc-import ball.txt'
 
 finish

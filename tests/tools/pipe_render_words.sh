@@ -1,6 +1,9 @@
-# Words on a figure: long titles break between words, units are printed as people write them, and what no
-# font has is told in every kind of picture.
+# Words on a figure: long titles break between words, units are printed as people write them, and what no font
+# has is told in every kind of picture. A figure of a solution that stopped short says so itself, beside the
+# data and not over them.
 . "$(dirname "$0")/../pipe.sh"
+
+# ---- titles, units, letters without a glyph ----
 
 rc-synth sphere --nx 9 --dx 1um --radius 1mm -o map.rcg
 long='The contact of a rough sphere with a half-space under a load that grows from step to step until it yields'
@@ -26,5 +29,54 @@ for ending in svg pdf; do
         rc-render --title "No $private here" -o "no.$ending" map.rcg
 done
 claim "  and is a question mark" says '>No \? here</text>' cat no.svg
+
+# ---- a solution that stopped short ----
+
+rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-height 10nm --seed 2 |
+    rc-solve --quiet --load 100mN --estar 100GPa --tol 1e-18 --output pressure -o short.rcg
+sed 's/^converged=no/converged=yes/' short.rcg | reseal >whole.rcg
+
+# draw OPTION... NAME: a picture of NAME.rcg, with the exit status that its solution asks for.
+draw() {
+    local name=${!#}
+    rc-render --quiet "${@:1:$#-1}" -o "$name.png" "$name.rcg" || [ "$name $?" = "short 3" ]
+}
+# Unpacks both pictures into @short and @whole, rows of bytes, for what follows.
+rows='sub rows {
+    open my $f, "<:raw", $_[0] or die; local $/; my $b = <$f>; my ($w, $h) = unpack "NN", substr $b, 16;
+    my ($z, $at, @rows) = ("", 8);
+    while ($at < length $b) { my ($n, $what) = unpack "Na4", substr $b, $at, 8;
+        $z .= substr $b, $at + 8, $n if $what eq "IDAT"; $at += 12 + $n }
+    my $raw = Compress::Zlib::uncompress($z); my @last = (0) x (3 * $w);
+    for my $y (0 .. $h - 1) {
+        my ($kind, @x) = unpack "C*", substr $raw, $y * (3 * $w + 1), 3 * $w + 1;
+        for my $i (0 .. $#x) {
+            my ($a, $up, $c) = ($i > 2 ? $x[$i - 3] : 0, $last[$i], $i > 2 ? $last[$i - 3] : 0);
+            my $p = $a + $up - $c; my ($pa, $pb, $pc) = map { abs($p - $_) } $a, $up, $c;
+            $x[$i] = ($x[$i] + (0, $a, $up, int(($a + $up) / 2),
+                $pa <= $pb && $pa <= $pc ? $a : $pb <= $pc ? $up : $c)[$kind]) & 255 }
+        @last = @x; push @rows, pack "C*", @x }
+    return @rows }
+sub red { my $n = 0; for my $row (@_) { $n++ while $row =~ /\G(?:...)*?\xb0\x1e\x1e/gs } return $n }
+@short = rows("short.png"); @whole = rows("whole.png");'
+pixels() {
+    perl -MCompress::Zlib -e "$rows exit !($1)"
+}
+
+claim "figures of both" eval 'draw --width 400 short && draw --width 400 whole'
+claim "the stamp has its ink" pixels 'red(@short) > 100'
+claim "  which no other figure has" pixels 'red(@whole) == 0'
+# the plot begins at row 80, and without a stamp before row 60
+claim "  and none of it is on the plot" pixels 'red(@short[80 .. $#short]) == 0'
+claim "the data are as in the other figure, pixel for pixel" pixels \
+    'index(join("", @short), join("", @whole[60 .. 300])) > 0 && @short > @whole'
+claim "the picture's words say it" bash -c 'tr "\0" = <short.png | says "tEXtWarning=not converged" cat'
+claim "  and not of the other" lacks tEXtWarning whole.png
+claim "raw pictures hold nodes only" eval 'draw --raw short && draw --raw whole'
+claim "  the same" pixels 'join("", @short) eq join("", @whole)'
+claim "  but for the words" bash -c 'tr "\0" = <short.png | says "tEXtWarning=not converged" cat'
+rc-stress --quiet --nu 0.3 --depths 1um --components mises short.rcg -o stress.rcg
+mv stress.rcg short.rcg
+claim "stresses of it bear the stamp too" eval 'draw --width 400 short && pixels "red(@short) > 100"'
 
 finish

@@ -1,6 +1,114 @@
-# --report - is standard output: the lines of the report and nothing else; the stream is written where -o
-# leads it, and never is a file called `-`.
+# --report FILE.tsv is a table with the names and units of the columns in its first line, a row for each case,
+# and in its cells the scalars of the JSON lines that --report FILE writes of the same run. --report - is
+# standard output: these lines and nothing else; the stream is written where -o leads it, and never is a file
+# called `-`.
 . "$(dirname "$0")/../pipe.sh"
+
+# ---- --report FILE.tsv ----
+
+# same_cells TABLE LINES [NAME...]: the columns are the scalars of the JSON lines, in the order of the first one,
+# and every cell is what its line says, letter by letter; null, and what only other lines have, is NaN. Of the
+# columns named, which change from run to run, it says that they are filled in.
+same_cells() {
+    perl -MJSON::PP -e '
+        my ($table, $lines, @changing) = @ARGV;
+        open my $t, "<", $table or die; open my $l, "<", $lines or die;
+        sub row { my $line = <$t> // die "a row is missing\n"; chomp $line; split /\t/, $line, -1 }
+        my ($rows, %scalar, @head) = 0;
+        for my $name (row()) { push @head, $name =~ s!/.*!!r }
+        while (my $line = <$l>) {
+            my ($object, @cell) = (decode_json($line), row());
+            my $last = 0;
+            @cell == @head or die "@{[scalar @cell]} cells under @{[scalar @head]} names\n";
+            for my $k (0 .. $#head) {
+                my ($name, $cell) = ($head[$k], $cell[$k]);
+                my @said = $cell eq "NaN" ? "null" : ($cell, "\"$cell\"");
+                if (!exists $object->{$name}) {
+                    $cell eq "NaN" or die "$name: $cell, not in the line\n";
+                } elsif (grep { $_ eq $name } @changing) {
+                    $cell ne "" or die "$name: nothing\n";
+                } else {
+                    grep { $line =~ /"\Q$name\E": \Q$_\E[,\}]/ } @said or die "$name: $cell, not in $line";
+                }
+                next if $rows > 0 || !exists $object->{$name};
+                my $here = index $line, "\"$name\": ";
+                $last < $here or die "$name: out of order\n";
+                $last = $here;
+            }
+            for my $name (keys %$object) {
+                my $inside = ref $object->{$name} && !JSON::PP::is_bool($object->{$name});
+                next if $name eq "discretization_error_estimate"; # null or an object
+                $inside == grep({ $_ eq $name } @head) and die "$name: a column, or none\n";
+            }
+            $rows++;
+        }
+        defined <$t> and die "rows that no line has\n";
+        $rows > 0 or die "no rows\n";' "$@"
+}
+
+# cells NAME TABLE: the cells under that name, one a line.
+cells() {
+    awk -F '\t' -v name="$1" 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == name) c = k; next } { print $c }' "$2"
+}
+
+rc-synth selfaffine --nx 47 --ny 33 --dx 1.1um --dy 1.29um --hurst 0.8 --rms-slope 0.1 --seed 5 -o rough.rcg
+
+# ---- rc-solve ----
+
+press="rc-solve --quiet --estar 114GPa --radius 2.385mm --hardness 6GPa --threads 1 --output pressure"
+claim "rc-solve writes a table of a list of loads" $press --load 0.1:0.5:5 --report loads.tsv -o pressed.rcg rough.rcg
+claim "rc-solve writes the same run as lines" $press --load 0.1:0.5:5 --report loads.json -o again.rcg rough.rcg
+claim "a row for each load, and the names" test "$(wc -l <loads.tsv)" = 6
+claim "rc-solve: the cells are the scalars of the lines" same_cells loads.tsv loads.json peak_memory memory_estimate
+k=0
+for load in $(cells load/N loads.tsv); do
+    k=$((k + 1))
+    near "$load" "0.$k" "$summed" "row $k is load $k"
+done
+for column in load/N mean_pressure/Pa max_pressure/Pa contact_area/m2 approach/m stiffness/N/m dx/m peak_memory/B; do
+    claim "  the unit of $column" bash -c "head -n 1 loads.tsv | tr '\t' '\n' | grep -qx '$column'"
+done
+claim "  a plain number has none" bash -c "head -n 1 loads.tsv | tr '\t' '\n' | grep -qx contact_nodes"
+claim "the ending may be in capitals" $press --load 0.5 --report one.TSV -o one.rcg rough.rcg
+claim "  one load is one row" test "$(wc -l <one.TSV)" = 2
+claim "  what is unknown is NaN" test "$(cells stiffness/N/m one.TSV)" = NaN
+claim "an estimate that is an object is no column" bash -c "
+    $press --load 0.3,0.5 --discretization --report coarse.tsv -o /dev/null rough.rcg && lacks discretization coarse.tsv"
+claim "any other ending is JSON" bash -c "$press --load 0.5 --report tsv -o /dev/null rough.rcg && grep -q '^{' tsv"
+
+# A name that would break lines and cells.
+rc-synth sphere --nx 9 --dx 5um --radius 7.5mm -o ball.rcg
+sed $'s/^nx=/source=a\tb\\\\nc "d"\\\nnx=/' ball.rcg | reseal >named.rcg
+claim "a source with a tab and a line feed" \
+    rc-solve --load 1 --estar 114GPa --quiet --report named.tsv -o /dev/null named.rcg
+claim "  is one cell" test "$(cells source named.tsv)" = 'a b c "d"'
+claim "  in a table of two lines" test "$(wc -l <named.tsv)" = 2
+
+# ---- rc-stress ----
+
+strain="rc-stress --nu 0.3 --depths 1um,5um --components szz,mises --threads 1 --quiet"
+claim "rc-stress writes a table" $strain --report stress.tsv -o /dev/null pressed.rcg
+claim "rc-stress writes lines" $strain --report stress.json -o /dev/null pressed.rcg
+claim "rc-stress: the cells are the scalars of the lines" same_cells stress.tsv stress.json peak_memory memory_estimate
+claim "  a row for each case" test "$(wc -l <stress.tsv)" = 6
+
+# ---- rc-cost ----
+
+try="rc-cost --load 0.5 --estar 114GPa --kernel fft --method pcg --nu 0.3 --depths 1um --threads 1 --quiet"
+claim "rc-cost writes a table" bash -c "$try --report cost.tsv ball.rcg"
+claim "rc-cost writes lines" bash -c "$try --report cost.json ball.rcg"
+claim "rc-cost: the cells are the scalars of the lines" \
+    same_cells cost.tsv cost.json expected_seconds seconds runs memory front
+
+# ---- where it cannot be written ----
+
+refuses 1 'report full: this is a folder' "a folder, before the work" \
+    "mkdir full && $press --load 0.5 --report full -o never.rcg rough.rcg"
+refuses 1 'report /dev/full: writing failed' "a full disk" \
+    "$press --load 0.5 --report /dev/full -o never.rcg rough.rcg"
+claim "  nothing else is left behind" test ! -e never.rcg
+
+# ---- --report - ----
 
 rc-synth sphere --nx 33 --dx 5um --radius 7.5mm -o ball.rcg
 press="rc-solve --load 1N,2N --estar 114GPa --quiet ball.rcg"

@@ -1,5 +1,9 @@
-# rc-solve --verbose tells the main figures of each case in words; they are those of the report.
+# The figures that rc-solve gives of a case: --verbose tells the main ones in words, as the report has them;
+# what yields under this load and what is at the hardness are told apart; the mean gap is that between the
+# bodies.
 . "$(dirname "$0")/../pipe.sh"
+
+# ---- --verbose ----
 
 rc-synth selfaffine --nx 96 --ny 80 --dx 1um --hurst 0.8 --rms-slope 0.1 --rolloff 40um --short-cut 6um --seed 5 -o s.rcg
 rc-solve --verbose --periodic --estar 3GPa --hardness 200MPa --load 20mN,40mN --output pressure --report r.json s.rcg -o p.rcg 2>err
@@ -23,5 +27,29 @@ near "$(field contact_area_corrected case.json)" "$(field contact_area_corrected
 near "$(grep -o '"largest_areas": \[[^],]*' case.json | sed 's/.*\[//')" "$(field largest_area second.json)" "$rounding" "  and the same largest patch"
 claim "without it, not a word" bash -c '
     rc-solve --periodic --estar 3GPa --hardness 200MPa --load 40mN --output pressure s.rcg -o p.rcg 2>err && ! grep -q force err'
+
+# ---- what yields and what is at the hardness; the mean gap ----
+
+rc-synth selfaffine --nx 120 --ny 110 --dx 1um --hurst 0.8 --rms-slope 0.1 --rolloff 40um --short-cut 4um --seed 7 -o s.rcg
+press() { rc-solve --quiet --periodic --load 50mN --estar 3GPa --hardness 100MPa --output gap,pressure,plastic --report "$1" "${@:2}"; }
+export -f press
+press first.json s.rcg -o first.rcg
+between 1e-12 "$(field yielded_area first.json)" "$(field plastic_area first.json)" "some of what is at the hardness yields"
+# the mean of max(gap, 0), from the gaps themselves
+mean=$(rc-export --channel gap --format csv first.rcg | tr ',;\t' '\n\n\n' |
+    awk '/^ *-?[0-9]/ { n++; if ($1 > 0) sum += $1 } END { printf "%.17g\n", sum / n }')
+near "$(field mean_gap first.json)" "$mean" "$summed" "mean_gap is the mean of max(gap, 0)"
+
+# pressed again: the plastic shape, under the name of a height
+rc-export --channel plastic --format npy first.rcg -o shape.npy
+rc-import shape.npy --dx 1um --z-unit m -o bare.rcg
+claim "the shape says how far off it may be" says 'height\.error=[0-9.e-]+$' rc-info first.rcg
+error=$(rc-info first.rcg | sed -n 's/.*height\.error=//p' | tail -n 1)
+sed "s/^unit=m\$/unit=m\nheight.error=$error/" bare.rcg | reseal >again.rcg
+press second.json again.rcg -o second.rcg
+near "$(field max_pressure second.json)" 1e8 "$same" "pressed again it is at the hardness"
+between 1e-12 "$(field plastic_area second.json)" 1e-8 "  in places"
+near "$(field yielded_area second.json)" 0 0 "  and yields nowhere"
+near "$(field contact_area second.json)" "$(field contact_area first.json)" 0.01 "  on the same contact"
 
 finish

@@ -1,0 +1,136 @@
+# rc-solve does not pass in silence what makes a solution doubtful, and says of which case and load it speaks.
+. "$(dirname "$0")/../pipe.sh"
+
+# ---- a pressure beyond linear elasticity; one above E* names the unit that was probably forgotten ----
+
+rc-synth selfaffine --nx 96 --ny 80 --dx 1um --hurst 0.8 --rms-slope 0.1 --rolloff 40um --short-cut 6um --seed 5 -o s.rcg
+
+solve() { # ESTAR LOAD [OPTION...]
+    local estar=$1 load=$2
+    shift 2
+    rc-solve --periodic --estar "$estar" --load "$load" --output pressure "$@" s.rcg -o p.rcg
+}
+export -f solve
+# The peak of a case, and the load at which the warning has to begin, by bisection of nothing but the report.
+solve 3GPa 1mN --quiet --report soft.json
+between 0 "$(field max_pressure soft.json)" 3e8 "a light load stays below a tenth of E*"
+claim "and says nothing of it" bash -c 'solve 3GPa 1mN 2>err; ! grep -q "E\*" err'
+solve 3GPa 1 --quiet --report hard.json
+between 3e8 "$(field max_pressure hard.json)" 3e9 "a heavy one is above"
+claim "which is said, with its share of E*" \
+    warns 'case 1, load 1 N: the largest pressure, [0-9.]+ [MG]Pa, is 0\.[0-9]+ of E\*' solve 3GPa 1
+claim "E* without its unit: is named" warns 'above E\*, which is 3 Pa: was its unit forgotten' solve 3 1mN
+claim "the load without its unit: its mean over the map" \
+    warns 'above E\* = 3 GPa; on a map of 96 um by 80 um the mean is 65[0-9.]+ GPa: was the unit of the load' solve 3GPa 500
+rc-synth selfaffine --nx 96 --ny 80 --dx 1um --hurst 0.8 --rms-slope 40 --rolloff 40um --short-cut 6um --seed 5 -o s.rcg
+claim "heights in a wrong unit: their slope" \
+    warns 'above E\* = 3 GPa, and the RMS slope in contact is [0-9.]+: are heights and spacings' solve 3GPa 20mN
+claim "--quiet: nothing" bash -c 'solve 3GPa 1 --quiet 2>err && [ ! -s err ]'
+
+# ---- a contact of a few nodes, or of patches of a few nodes ----
+
+rc-synth sphere --nx 65 --dx 5um --radius 10mm -o ball.rcg
+press() { rc-solve --estar 100GPa --output pressure --report r.json "$@" -o p.rcg; }
+export -f press
+
+# a^3 = 3 F R / (4 E*): 1 N: a = 42.2 um, some 223 nodes; 0.01 N: 9.1 um, some 10
+claim "a resolved contact: not a word" bash -c 'press --load 1N ball.rcg 2>err && [ ! -s err ]'
+between 200 "$(field contact_nodes r.json)" 250 "  of its some 223 nodes"
+near "$(field nodes_per_patch r.json)" "$(field contact_nodes r.json)" "$same" "  in one patch"
+claim "ten nodes" warns 'case 1, load 10 mN: [0-9]+ nodes in contact, in 1 patch: the grid does not resolve it: .*--discretization' \
+    press --load 10mN ball.rcg
+
+# one node in 64 stands out by 1 um
+awk 'BEGIN { for (j = 0; j < 128; j++) for (i = 0; i < 128; i++)
+    printf "%d%s", i % 8 == 0 && j % 8 == 0, i < 127 ? " " : "\n" }' >comb.txt
+rc-import --dx 1um --z-unit um comb.txt -o comb.rcg
+claim "many nodes in patches of one" \
+    warns '256 nodes in contact, in 256 patches: the grid does not resolve it' press --periodic --load 1mN comb.rcg
+near "$(field nodes_per_patch r.json)" 1 "$same" "  1 node each"
+
+# ---- a map whose edges do not meet, solved as a period ----
+
+rc-synth selfaffine --nx 128 --ny 96 --dx 1um --hurst 0.8 --rms-height 100nm --rolloff 40um --short-cut 8um --seed 5 -o period.rcg
+press() { rc-solve --periodic --load 1N --estar 100GPa --output pressure "$@" -o p.rcg; }
+export -f press
+claim "a period: not a word" bash -c 'press period.rcg 2>err && [ ! -s err ]'
+
+# A ramp of 1 um over the map, along x or y: the seam is 127/128 um beside a step of 1/128 um.
+ramp() { # AXIS
+    rc-export --format xyz period.rcg | LC_ALL=C awk -v axis="$1" '
+        $1 ~ /^[-+0-9]/ { print $1, $2, $3 + (axis == "x" ? $1 / 128e-6 : $2 / 96e-6) * 1e-6 }' >ramp.xyz
+    rc-import --format xyz --z-unit m --dx 1um ramp.xyz -o "ramp-$1.rcg"
+}
+ramp x
+ramp y
+claim "a tilt along x: the last column and the first" \
+    warns 'the edges do not meet: from the last column to the first the heights jump by .*rc-detrend --plane' press ramp-x.rcg
+claim "  and not the rows" bash -c 'lacks "last row" warns.err'
+claim "a tilt along y: the last row" warns 'from the last row to the first' press ramp-y.rcg
+claim "  a plane mends it" bash -c 'rc-detrend --plane ramp-x.rcg | press 2>err; ! grep -q "do not meet" err'
+claim "a free solve has no seam" bash -c 'rc-solve --load 10mN --estar 100GPa --output pressure ramp-x.rcg -o p.rcg 2>err; ! grep -q "do not meet" err'
+
+claim "so does a taper" bash -c 'rc-detrend --quiet --taper 12um ramp-x.rcg | press 2>err; ! grep -q "do not meet" err'
+
+# ---- the case and the load that a warning is about ----
+
+rc-synth sphere --nx 33 --dx 10um --radius 10mm -o ball.rcg
+press() { rc-solve --estar 100GPa --output pressure "$@" ball.rcg -o p.rcg; }
+export -f press
+claim "the third of four loads reaches the edge: case 3" \
+    warns 'ball.rcg, case 3, load 100 N: [0-9.]+ % of the load is on the outer 2 %' press --load 1N,5N,100N
+claim "  and the others do not" bash -c '! grep -E "case [12], .*outer" warns.err'
+claim "a mean pressure, an approach" bash -c '
+    warns "case 1, mean pressure 1 GPa: .*outer" press --mean-pressure 1GPa &&
+    warns "case 1, approach 10 um: .*outer" press --approach 10um'
+claim "a list that does not rise" warns 'load: the list does not rise: each is a first loading of its own' press --load 5N,3N,4N
+claim "  and one that does" bash -c 'press --load 3N,4N,5N 2>err; ! grep -q rise err'
+refuses 2 '--load 0: it must be above 0: 0 takes the bodies apart, in a --history' "no load is no first loading" \
+    'rc-solve --estar 1GPa --load 0,3N ball.rcg'
+
+# ---- a sphere that is added twice; slopes, judged where the bodies touch ----
+
+rc-synth selfaffine --nx 65 --dx 2um --hurst 0.8 --rms-height 5nm --rolloff 40um --short-cut 10um --seed 5 -o s.rcg
+claim "the stream names the sphere" bash -c '
+    rc-solve --quiet --radius 2mm --load 1N --estar 100GPa s.rcg -o once.rcg && says "form=sphere 0.002$" rc-info once.rcg'
+refuses 1 'hold a shape that was added to them already \(form=sphere 0.002\): leave out --radius' "and refuses a second" \
+    'rc-solve --quiet --radius 2mm --load 1N --estar 100GPa once.rcg >/dev/null'
+claim "pressed again without --radius it is the same" bash -c '
+    rc-solve --quiet --load 1N --estar 100GPa --report again.json --output pressure once.rcg -o again.rcg &&
+    rc-solve --quiet --radius 2mm --load 1N --estar 100GPa --report first.json --output pressure s.rcg -o first.rcg'
+near "$(field max_pressure again.json)" "$(field max_pressure first.json)" "$summed" "  to rounding"
+
+# A ball of 100 um on a map of 130 um: slopes of 0.65 at its flank, of a/R in contact: 1 N: a = 9.1 um
+rc-synth sphere --nx 131 --dx 1um --radius 100um -o ball.rcg
+press() { rc-solve --estar 100GPa --output pressure --load "$1" ball.rcg -o p.rcg; }
+export -f press
+claim "a steep flank that nothing touches is no fault" bash -c 'press 1N 2>err; ! grep -q slope err'
+# 1000 N: a = 90.9 um; the RMS over the disc of r/R is a/(R sqrt 2)
+rc-synth sphere --nx 131 --dx 2um --radius 100um -o ball.rcg
+claim "one that is touched is" warns 'RMS slope 0\.[56][0-9]* where the bodies touch' press 1000N
+
+# ---- a solution that was stopped short, or interrupted; last, because of job control ----
+
+rc-synth selfaffine --nx 256 --dx 1um --hurst 0.8 --rms-height 100nm --rolloff 60um --short-cut 4um --seed 5 -o s.rcg
+claim "a tolerance that cannot be reached: said, with exit status 3" bash -c '
+    rc-solve --periodic --load 1N --estar 100GPa --tol 1e-17 s.rcg -o short.rcg 2>err; [ $? = 3 ] &&
+    grep -q "case 1, load 1 N: stopped short after [0-9]* iterations: its estimated error is [0-9.e-]*: raise --tol" err'
+
+rc-synth selfaffine --nx 2048 --dx 1um --hurst 0.8 --rms-height 1um --short-cut 2um --seed 5 -o large.rcg
+interrupted() {
+    local status
+    rc-solve --periodic --load 40N --estar 100GPa --tol 1e-12 --method pk99 --output pressure large.rcg -o cut.rcg 2>err &
+    local tool=$!
+    sleep 1.5
+    kill -INT "$tool"
+    wait "$tool"
+    status=$?
+    cat err >&2
+    [ "$status" = 130 ] && grep -q 'interrupted after [0-9]* iterations: what is written is the best so far, not a solution' err
+}
+# bash lets a command in the background ignore SIGINT unless it has job control
+set -m
+claim "an interrupted one: said" interrupted
+claim "  and in the stream" bash -c 'rc-info cut.rcg 2>/dev/null >cut.txt; grep converged=no cut.txt'
+
+finish
