@@ -198,7 +198,7 @@ spectrum(const struct row *row, size_t m)
     o.inverse = must(rc_spectrum_new_reciprocal(o.fft, o.kernel, &err));
     o.single = must(malloc(2 * n * sizeof *o.single));
     extremes(&o, &least[0], &most[0]);
-    op = must(rc_half_space_new(&s, &options, &err));
+    op = must(rc_operator_new(&s, &options, &err));
     o.extension = must(rc_preconditioner_new(op, &err));
     rc_preconditioner_set(o.extension, w, true);
     extremes(&o, &least[1], &most[1]);

@@ -3,7 +3,7 @@
  * never installed.
  *
  * The solver is handed an operator K and asks it for K p, for its inverse as multiplication of wave
- * numbers, and for a few figures; it never learns which kernel, which engine and which transforms
+ * numbers, and for a few figures; it never learns which bodies, which engine and which transforms
  * are behind, nor where the rows are that others hold: maps and rows are those held here.
  */
 #ifndef RC_OPERATOR_H
@@ -13,26 +13,10 @@
 #include "fft.h"
 #include "libcontact/transform/transform.h"
 
-struct rc_operator;
-
-/* What an operator does; half_space.c ends in one of these. */
-struct rc_operator_type {
-    void (*apply)(struct rc_operator *op, const double *p, double *u);
-    void (*apply_rows)(struct rc_operator *op, rc_row *in, rc_row *out, void *ctx);
-    void (*chain)(struct rc_operator *op, size_t n, const struct rc_spectrum *const *factors,
-                  rc_row *const *rows, void *ctx);
-    struct rc_spectrum *(*spectrum)(struct rc_operator *op, const struct rc_kernel *values,
-                                    struct rc_err *err);
-    struct rc_operator *(*coarse)(const struct rc_operator *op, const struct rc_ranks *ranks,
-                                  const struct rc_shape *shape, struct rc_err *err);
-    void (*free)(struct rc_operator *op);
-};
-
 /* Constant once it is made. Row by row pressures and displacements are in single precision and in
  * units of its own: u = unit K' p with K' of about 1, so that no decade of metres or pascals is
  * lost. Lengths beside them are in units of sqrt(dx dy). */
 struct rc_operator {
-    const struct rc_operator_type *type;
     struct rc_shape whole, shape; /* of the map, and of what is held here of it                */
     struct rc_rows rows;          /* which of its rows that is                                 */
     enum rc_boundary boundary;
@@ -65,69 +49,36 @@ struct rc_operator_options {
     const struct rc_ranks *ranks; /* that share the map                                     */
 };
 
-/* half_space.c: an elastic half-space. NULL when there is no such engine, or none for the boundary,
- * or memory is short. */
-struct rc_operator *rc_half_space_new(const struct rc_shape *shape,
-                                      const struct rc_operator_options *options,
-                                      struct rc_err *err);
+/* NULL when there is no such engine, or none for the boundary, or memory is short. */
+struct rc_operator *rc_operator_new(const struct rc_shape *shape,
+                                    const struct rc_operator_options *options, struct rc_err *err);
+/* The same bodies on another grid, which these ranks share, without K p in double precision. */
+struct rc_operator *rc_operator_coarse(const struct rc_operator *op, const struct rc_ranks *ranks,
+                                       const struct rc_shape *shape, struct rc_err *err);
+void rc_operator_free(struct rc_operator *op); /* NULL is allowed */
 /* RC_FAIL, and *err says why, when there is no such engine, or none for the boundary or the ranks. */
-enum rc_status rc_half_space_check(const struct rc_shape *shape,
-                                   const struct rc_operator_options *options, struct rc_err *err);
+enum rc_status rc_operator_check(const struct rc_shape *shape,
+                                 const struct rc_operator_options *options, struct rc_err *err);
 /* Bytes that it takes; 0 when there is no such engine. */
-size_t rc_half_space_memory(const struct rc_shape *shape,
-                            const struct rc_operator_options *options);
+size_t rc_operator_memory(const struct rc_shape *shape, const struct rc_operator_options *options);
 /* The engine that it would take, and why; "" when there is none of that name. */
-const char *rc_half_space_engine(const struct rc_shape *shape,
-                                 const struct rc_operator_options *options, const char **reason);
+const char *rc_operator_engine(const struct rc_shape *shape,
+                               const struct rc_operator_options *options, const char **reason);
 /* Seconds that one K p takes in a solve, as rc_conv_seconds has them. */
-double rc_half_space_seconds(const struct rc_shape *shape,
-                             const struct rc_operator_options *options);
-
-/* The same body on another grid, which these ranks share, without K p in double precision. */
-static inline struct rc_operator *
-rc_operator_coarse(const struct rc_operator *op, const struct rc_ranks *ranks,
-                   const struct rc_shape *shape, struct rc_err *err)
-{
-    return op->type->coarse(op, ranks, shape, err);
-}
+double rc_operator_seconds(const struct rc_shape *shape, const struct rc_operator_options *options);
 
 /* u = K p, in m and Pa, in double precision; only where op->exact. */
-static inline void
-rc_operator_apply(struct rc_operator *op, const double *p, double *u)
-{
-    op->type->apply(op, p, u);
-}
-
+void rc_operator_apply(struct rc_operator *op, const double *p, double *u);
 /* u = K' p row by row: `in` writes the rows of p (floats), `out` takes those of u. Costs
  * op->row_cost. */
-static inline void
-rc_operator_apply_rows(struct rc_operator *op, rc_row *in, rc_row *out, void *ctx)
-{
-    op->type->apply_rows(op, in, out, ctx);
-}
-
+void rc_operator_apply_rows(struct rc_operator *op, rc_row *in, rc_row *out, void *ctx);
 /* The factor of an even function of the offset, given by its values at the nodes. NULL when
  * memory is short; the caller frees it with rc_spectrum_free. */
-static inline struct rc_spectrum *
-rc_operator_spectrum(struct rc_operator *op, const struct rc_kernel *values, struct rc_err *err)
-{
-    return op->type->spectrum(op, values, err);
-}
-
+struct rc_spectrum *rc_operator_spectrum(struct rc_operator *op, const struct rc_kernel *values,
+                                         struct rc_err *err);
 /* Several convolutions, one after the other, with rows[k] between factor k - 1 and k: as
  * rc_fft_chain. Each factor costs op->factor_cost. */
-static inline void
-rc_operator_chain(struct rc_operator *op, size_t n, const struct rc_spectrum *const *factors,
-                  rc_row *const *rows, void *ctx)
-{
-    op->type->chain(op, n, factors, rows, ctx);
-}
-
-static inline void
-rc_operator_free(struct rc_operator *op) /* NULL is allowed */
-{
-    if (op != NULL)
-        op->type->free(op);
-}
+void rc_operator_chain(struct rc_operator *op, size_t n, const struct rc_spectrum *const *factors,
+                       rc_row *const *rows, void *ctx);
 
 #endif

@@ -205,7 +205,7 @@ rc_solver_new(const struct rc_shape *shape, const double *h, const struct rc_pro
     if (method == NULL || check(shape, problem, err) != RC_OK)
         return NULL;
     return solver_new(problem->ranks, shape, h, problem, method,
-                      rc_half_space_new(shape, &options, err), err);
+                      rc_operator_new(shape, &options, err), err);
 }
 
 struct rc_solver *
@@ -242,7 +242,7 @@ rc_solver_choice(const struct rc_shape *shape, const struct rc_problem *problem,
 {
     struct rc_operator_options options = operator_options(shape, problem);
 
-    return rc_half_space_engine(shape, &options, reason);
+    return rc_operator_engine(shape, &options, reason);
 }
 
 size_t
@@ -262,7 +262,7 @@ rc_solver_memory(const struct rc_shape *shape, const struct rc_problem *problem)
      * grids of a nested start are gone before most of this is touched. */
     return n * (3 * sizeof(double) + 2 * sizeof(float) + 1) +
            (method != NULL && method->memory != NULL ? method->memory(&held) : 0) +
-           rc_half_space_memory(shape, &options) +
+           rc_operator_memory(shape, &options) +
            rc_preconditioner_memory(shape, problem->boundary, ranks);
 }
 
@@ -276,7 +276,7 @@ rc_solver_expect(const struct rc_shape *shape, const struct rc_problem *problem,
     double hardness = problem->hardness == 0 ? INFINITY : problem->hardness;
 
     if (method == NULL || check(shape, problem, err) != RC_OK ||
-        rc_half_space_check(shape, &options, err) != RC_OK)
+        rc_operator_check(shape, &options, err) != RC_OK)
         return RC_FAIL;
     if (!(problem->approach > 0) &&
         rc_load_check(problem->load, hardness, shape->dx * shape->dy * nodes, err) != RC_OK)
@@ -289,7 +289,7 @@ rc_solver_expect(const struct rc_shape *shape, const struct rc_problem *problem,
     if (problem->discretization)
         some += 5;
     *expected = (struct rc_expected){.convolutions = some,
-                                     .seconds = some * rc_half_space_seconds(shape, &options),
+                                     .seconds = some * rc_operator_seconds(shape, &options),
                                      .memory = rc_solver_memory(shape, problem)};
     return RC_OK;
 }

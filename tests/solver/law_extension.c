@@ -108,7 +108,7 @@ symmetric_and_positive(void **state)
         struct rc_err err;
         struct rc_operator_options options = {.boundary = boundary,
                                               .pair = &(struct rc_pair){.estar = 1}};
-        struct rc_operator *op = rc_half_space_new(&s, &options, &err);
+        struct rc_operator *op = rc_operator_new(&s, &options, &err);
         struct rc_preconditioner *e;
         uint64_t seed = 2;
         assert_non_null(op);
@@ -187,7 +187,7 @@ corrections(struct rc_shape s, enum rc_boundary boundary, const unsigned char *w
     struct rc_err err;
     struct rc_operator_options options = {.boundary = boundary,
                                           .pair = &(struct rc_pair){.estar = 1}};
-    struct rc_operator *op = rc_half_space_new(&s, &options, &err);
+    struct rc_operator *op = rc_operator_new(&s, &options, &err);
     struct rc_preconditioner *e = op == NULL ? NULL : rc_preconditioner_new(op, &err);
     gsl_matrix *b = gsl_matrix_alloc(count, count);
 

@@ -1,5 +1,5 @@
 /*
- * The operator of an elastic half-space, bare or coated: K p by an engine in double precision, and row
+ * The operator of two bodies: K p by an engine in double precision, and row
  * by row in single precision by transforms, which serve the preconditioner too. Where the engine is not
  * to be mixed with single precision, rows are gathered and summed by it.
  */
@@ -12,7 +12,7 @@
 
 #include "libcontact/memory.h"
 
-struct half_space {
+struct own {
     struct rc_operator op;
     struct rc_solids own;           /* the bodies, but for a coarse grid                   */
     const struct rc_solids *bodies; /* these, or those of the finer grid                   */
@@ -44,7 +44,7 @@ conv_options(const struct rc_operator_options *o)
  * 3.25). On a periodic map the eigenvalues are known, and the longest wave has the largest, 2 /
  * (E* q), q = 2 pi / L. Bodies are nowhere more compliant than their least E*(q). */
 static double
-norm(const struct half_space *s)
+norm(const struct own *s)
 {
     const struct rc_shape *shape = &s->op.whole;
     double a = shape->dx * (double)shape->nx, b = shape->dy * (double)shape->ny;
@@ -56,7 +56,7 @@ norm(const struct half_space *s)
 }
 
 static double
-diagonal(const struct half_space *s)
+diagonal(const struct own *s)
 {
     const struct rc_surface surface = {s->bodies, 1, 1};
     const struct rc_kernel kernel = rc_surface_kernel(&surface);
@@ -72,7 +72,7 @@ diagonal(const struct half_space *s)
  * middles of cells. Without cosines |q| itself has a closed form, half the mean distance of a rectangle's
  * points from its middle, and the sum is of the rest. */
 static void
-set_inverse_near(struct half_space *s, const struct rc_shape *unit, double length)
+set_inverse_near(struct own *s, const struct rc_shape *unit, double length)
 {
     enum {
         CELLS = 64
@@ -111,7 +111,7 @@ set_neighbours(struct rc_operator *op, const struct rc_shape *unit)
  * the longest waves against the shortest. Found by trial on coats from 0.01 to 100 times as stiff as
  * what they lie on. */
 static double
-extension(const struct half_space *s, double length)
+extension(const struct own *s, double length)
 {
     const struct rc_shape *shape = &s->op.whole;
     double side = fmin(shape->dx * (double)shape->nx, shape->dy * (double)shape->ny);
@@ -132,13 +132,13 @@ unit_of(const struct rc_shape *s)
 
 /* ---- plan ---- */
 
-static const struct rc_operator_type half_space;
-
-static void
-half_space_free(struct rc_operator *op)
+void
+rc_operator_free(struct rc_operator *op)
 {
-    struct half_space *s = (struct half_space *)op;
+    struct own *s = (struct own *)op;
 
+    if (s == NULL)
+        return;
     rc_fft_free(s->fft); /* works in memory of conv */
     rc_conv_free(s->conv);
     rc_spectrum_free(s->kernel);
@@ -158,7 +158,7 @@ half_space_free(struct rc_operator *op)
 static const double least = 0.7, most = 1.5;
 
 struct bounded {
-    const struct half_space *s;
+    const struct own *s;
     size_t first, n; /* first: of the columns held here              */
     double length, longest;
     double *kernel; /* spectrum of the kernel, column by column */
@@ -187,7 +187,7 @@ invert_column(void *ctx, size_t i, size_t n, double *column)
 }
 
 static enum rc_status
-set_bounded(struct half_space *s, const struct rc_shape *unit, const struct rc_kernel *kernel,
+set_bounded(struct own *s, const struct rc_shape *unit, const struct rc_kernel *kernel,
             double length, struct rc_err *err)
 {
     struct bounded b = {
@@ -216,7 +216,7 @@ set_bounded(struct half_space *s, const struct rc_shape *unit, const struct rc_k
 }
 
 static enum rc_status
-set_spectra(struct half_space *s, const struct rc_shape *unit, double length, struct rc_err *err)
+set_spectra(struct own *s, const struct rc_shape *unit, double length, struct rc_err *err)
 {
     const struct rc_surface surface = {s->bodies, length, s->estar};
     const struct rc_kernel kernel = rc_surface_kernel(&surface);
@@ -231,10 +231,10 @@ set_spectra(struct half_space *s, const struct rc_shape *unit, double length, st
     return s->inverse == NULL ? RC_FAIL : RC_OK;
 }
 
-static struct half_space *
-half_space_new(const struct rc_ranks *ranks, struct rc_err *err)
+static struct own *
+own_new(const struct rc_ranks *ranks, struct rc_err *err)
 {
-    struct half_space *s = calloc(1, sizeof *s);
+    struct own *s = calloc(1, sizeof *s);
 
     if (s == NULL)
         rc_err_set(err, "out of memory for a plan");
@@ -246,15 +246,14 @@ half_space_new(const struct rc_ranks *ranks, struct rc_err *err)
 
 /* All but the bodies and K p in double precision, which are there. */
 static enum rc_status
-plan(struct half_space *s, const struct rc_shape *shape, const struct rc_operator_options *o,
+plan(struct own *s, const struct rc_shape *shape, const struct rc_operator_options *o,
      struct rc_err *err)
 {
     const struct rc_shape unit = unit_of(shape);
     double length = sqrt(shape->dx) * sqrt(shape->dy);
 
     s->estar = rc_solids_modulus(s->bodies, RC_PI / length);
-    s->op = (struct rc_operator){.type = &half_space,
-                                 .whole = *shape,
+    s->op = (struct rc_operator){.whole = *shape,
                                  .rows = rc_rows_of(o->ranks, shape),
                                  .boundary = o->boundary,
                                  .threads = o->threads,
@@ -280,7 +279,7 @@ plan(struct half_space *s, const struct rc_shape *shape, const struct rc_operato
 
 /* Room to gather rows of an engine that is not to be mixed with single precision. */
 static enum rc_status
-make_room(struct half_space *s, const struct rc_operator_options *o, struct rc_err *err)
+make_room(struct own *s, const struct rc_operator_options *o, struct rc_err *err)
 {
     size_t n = s->op.shape.nx * s->op.rows.n;
     enum rc_status status = RC_OK;
@@ -295,13 +294,13 @@ make_room(struct half_space *s, const struct rc_operator_options *o, struct rc_e
 }
 
 struct rc_operator *
-rc_half_space_new(const struct rc_shape *shape, const struct rc_operator_options *o,
-                  struct rc_err *err)
+rc_operator_new(const struct rc_shape *shape, const struct rc_operator_options *o,
+                struct rc_err *err)
 {
     struct rc_conv_options options = conv_options(o);
-    struct half_space *s;
+    struct own *s;
 
-    if (rc_shape_check(shape, err) != RC_OK || (s = half_space_new(o->ranks, err)) == NULL)
+    if (rc_shape_check(shape, err) != RC_OK || (s = own_new(o->ranks, err)) == NULL)
         return NULL;
     s->bodies = &s->own;
     s->positive = rc_pair_positive(o->pair);
@@ -320,18 +319,18 @@ rc_half_space_new(const struct rc_shape *shape, const struct rc_operator_options
         goto fail;
     return &s->op;
 fail:
-    half_space_free(&s->op);
+    rc_operator_free(&s->op);
     return NULL;
 }
 
-static struct rc_operator *
-coarse(const struct rc_operator *op, const struct rc_ranks *ranks, const struct rc_shape *shape,
-       struct rc_err *err)
+struct rc_operator *
+rc_operator_coarse(const struct rc_operator *op, const struct rc_ranks *ranks,
+                   const struct rc_shape *shape, struct rc_err *err)
 {
-    const struct half_space *fine = (const struct half_space *)op;
+    const struct own *fine = (const struct own *)op;
     struct rc_operator_options o = {
         .boundary = op->boundary, .threads = op->threads, .ranks = ranks};
-    struct half_space *s = half_space_new(ranks, err);
+    struct own *s = own_new(ranks, err);
 
     if (s == NULL)
         return NULL;
@@ -339,12 +338,12 @@ coarse(const struct rc_operator *op, const struct rc_ranks *ranks, const struct 
     s->positive = fine->positive;
     if (plan(s, shape, &o, err) == RC_OK)
         return &s->op;
-    half_space_free(&s->op);
+    rc_operator_free(&s->op);
     return NULL;
 }
 
 size_t
-rc_half_space_memory(const struct rc_shape *shape, const struct rc_operator_options *o)
+rc_operator_memory(const struct rc_shape *shape, const struct rc_operator_options *o)
 {
     struct rc_conv_options options = conv_options(o);
     const char *reason;
@@ -368,8 +367,8 @@ rc_half_space_memory(const struct rc_shape *shape, const struct rc_operator_opti
 }
 
 enum rc_status
-rc_half_space_check(const struct rc_shape *shape, const struct rc_operator_options *o,
-                    struct rc_err *err)
+rc_operator_check(const struct rc_shape *shape, const struct rc_operator_options *o,
+                  struct rc_err *err)
 {
     struct rc_conv_options options = conv_options(o);
 
@@ -377,8 +376,8 @@ rc_half_space_check(const struct rc_shape *shape, const struct rc_operator_optio
 }
 
 const char *
-rc_half_space_engine(const struct rc_shape *shape, const struct rc_operator_options *o,
-                     const char **reason)
+rc_operator_engine(const struct rc_shape *shape, const struct rc_operator_options *o,
+                   const char **reason)
 {
     struct rc_conv_options options = conv_options(o);
 
@@ -386,7 +385,7 @@ rc_half_space_engine(const struct rc_shape *shape, const struct rc_operator_opti
 }
 
 double
-rc_half_space_seconds(const struct rc_shape *shape, const struct rc_operator_options *o)
+rc_operator_seconds(const struct rc_shape *shape, const struct rc_operator_options *o)
 {
     struct rc_conv_options options = conv_options(o);
 
@@ -395,15 +394,15 @@ rc_half_space_seconds(const struct rc_shape *shape, const struct rc_operator_opt
 
 /* ---- use ---- */
 
-static void
-apply(struct rc_operator *op, const double *p, double *u)
+void
+rc_operator_apply(struct rc_operator *op, const double *p, double *u)
 {
-    rc_conv_apply(((struct half_space *)op)->conv, p, u);
+    rc_conv_apply(((struct own *)op)->conv, p, u);
 }
 
 /* Rows are gathered into a map, summed, and handed out again. */
 static void
-apply_by_map(struct half_space *s, rc_row *in, rc_row *out, void *ctx)
+apply_by_map(struct own *s, rc_row *in, rc_row *out, void *ctx)
 {
     size_t nx = s->op.shape.nx, ny = s->op.shape.ny;
 
@@ -424,10 +423,10 @@ apply_by_map(struct half_space *s, rc_row *in, rc_row *out, void *ctx)
     }
 }
 
-static void
-apply_rows(struct rc_operator *op, rc_row *in, rc_row *out, void *ctx)
+void
+rc_operator_apply_rows(struct rc_operator *op, rc_row *in, rc_row *out, void *ctx)
 {
-    struct half_space *s = (struct half_space *)op;
+    struct own *s = (struct own *)op;
     const struct rc_spectrum *factors[] = {s->kernel};
     rc_row *rows[] = {in, out};
 
@@ -437,17 +436,17 @@ apply_rows(struct rc_operator *op, rc_row *in, rc_row *out, void *ctx)
         rc_fft_chain(s->fft, 1, factors, rows, ctx);
 }
 
-static void
-chain(struct rc_operator *op, size_t n, const struct rc_spectrum *const *factors,
-      rc_row *const *rows, void *ctx)
+void
+rc_operator_chain(struct rc_operator *op, size_t n, const struct rc_spectrum *const *factors,
+                  rc_row *const *rows, void *ctx)
 {
-    rc_fft_chain(((struct half_space *)op)->fft, n, factors, rows, ctx);
+    rc_fft_chain(((struct own *)op)->fft, n, factors, rows, ctx);
 }
 
-static struct rc_spectrum *
-spectrum(struct rc_operator *op, const struct rc_kernel *values, struct rc_err *err)
+struct rc_spectrum *
+rc_operator_spectrum(struct rc_operator *op, const struct rc_kernel *values, struct rc_err *err)
 {
-    const struct half_space *s = (const struct half_space *)op;
+    const struct own *s = (const struct own *)op;
     struct rc_spectrum *k = rc_spectrum_new(s->fft, err);
 
     if (k != NULL && rc_spectrum_set_values(k, s->fft, values, err) != RC_OK) {
@@ -456,12 +455,3 @@ spectrum(struct rc_operator *op, const struct rc_kernel *values, struct rc_err *
     }
     return k;
 }
-
-static const struct rc_operator_type half_space = {
-    .apply = apply,
-    .apply_rows = apply_rows,
-    .chain = chain,
-    .spectrum = spectrum,
-    .coarse = coarse,
-    .free = half_space_free,
-};
