@@ -14,7 +14,7 @@
 
 #include <time.h>
 
-#include "libcontact/operator/mlms.h"
+#include "libcontact/operator/real_space/mlms.h"
 
 /* A sum both ways. */
 struct pair {

@@ -17,6 +17,8 @@ libcontact/transform | %base                                   | libcontact
 libcontact/body     | %base %ranks                             | libcontact libcontact/ranks
 libcontact/operator | %base %ranks                             | libcontact libcontact/ranks
 libcontact/operator | libcontact/transform/transform.h libcontact/body/body.h | libcontact/transform libcontact/body
+libcontact/operator |                                          | libcontact/operator/real_space=rc_engine_
+libcontact/operator/real_space | %base libcontact/operator/engine.h | libcontact libcontact/ranks libcontact/operator
 libcontact/solver   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator libcontact/body
 libcontact/stress   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator
 libcontact/stress   |                                          | libcontact/transform libcontact/body
@@ -144,11 +146,11 @@ private_faults() {
 # names TREE: how often files name an engine or a body in code, by its row, or an engine as a word in quotes.
 names() {
     local words bodies
-    words=$(cd "$1" && sed -n 's/.*\.name = "\([a-z0-9_]*\)".*/\1/p' libcontact/operator/engine_*.c |
+    words=$(cd "$1" && sed -n 's/.*\.name = "\([a-z0-9_]*\)".*/\1/p' libcontact/operator/engine_*.c libcontact/operator/real_space/engine_*.c |
         paste -s -d '|')
     bodies=$(sed -n 's/^RC_BODY(\(.*\))/\1/p' "$1/libcontact/body/bodies.list" | paste -s -d '|')
     (cd "$1" && find libcontact/operator libcontact/solver libcontact/stress libcontact/surface tools -name '*.[ch]') |
-        grep -v '^libcontact/operator/\(engine_.*\|conv\|mlms.*\|direct\)\.[ch]$' |
+        grep -v '^libcontact/operator/\(engine_fft\|conv\|real_space/.*\)\.[ch]$' |
         sort |
         while read -r file; do
             perl -0777 -ne '
@@ -199,8 +201,9 @@ fi
 
 # ---- a tree where each rule is broken: every fault is seen ----
 
-mkdir -p bad/libcontact/{body,operator,solver,stress,surface,other} bad/formats/core bad/tools
+mkdir -p bad/libcontact/{body,operator/real_space,solver,stress,surface,other} bad/formats/core bad/tools
 cp "$RC_SOURCE"/libcontact/operator/engine_*.c bad/libcontact/operator
+cp "$RC_SOURCE"/libcontact/operator/real_space/engine_*.c bad/libcontact/operator/real_space
 cp "$RC_SOURCE"/libcontact/body/*.{c,list} bad/libcontact/body
 printf '#include "libcontact/solver/solver.h"\n#include "nowhere.h"\n' >bad/libcontact/operator/engine_up.c
 printf '#include "libcontact/operator/operator.h"\n#include "libcontact/operator/fft.h"\n' >bad/libcontact/solver/deep.c

@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "tests/exact.h"
-#include "libcontact/operator/mlms.h"
+#include "libcontact/operator/real_space/mlms.h"
 #include "tests/body_case.h"
 
 /* One sum by one engine, judged by another. */

@@ -5,7 +5,7 @@
 #ifndef RC_DIRECT_H
 #define RC_DIRECT_H
 
-#include "engine.h"
+#include "libcontact/operator/engine.h"
 
 struct rc_direct;
 
