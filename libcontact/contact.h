@@ -637,10 +637,6 @@ struct rc_stress_options {
     double tol;         /* asked error of a component over the largest pressure; 0: rounding      */
     size_t threads;     /* 0: all                                                                 */
     const struct rc_ranks *ranks; /* processes that share the map; NULL: none                   */
-    /* What only rc_stress_memory uses: */
-    const double *depth; /* m: those that will be asked for,                                      */
-    size_t depths;       /* so many; 0: it counts with any                                        */
-    size_t loaded;       /* lines along a section that carry pressure; 0: it counts with all      */
 };
 
 /* What has been computed, to see that nothing was that nobody asked for. */
@@ -679,9 +675,11 @@ RC_API const char *rc_stress_engine(const struct rc_stress *stress);
 RC_API const struct rc_stress_counts *rc_stress_counted(const struct rc_stress *stress);
 RC_API void rc_stress_free(struct rc_stress *stress);
 /* Bytes that such a plan takes, beside p and the slices; where ranks share the map, of the rank that
- * takes most. */
+ * takes most. With the depths that will be asked for (m, so many; 0: any), and for a section the lines along it
+ * that carry pressure (0: all). */
 RC_API size_t rc_stress_memory(const struct rc_shape *shape,
-                               const struct rc_stress_options *options);
+                               const struct rc_stress_options *options, const double *depth,
+                               size_t depths, size_t loaded);
 
 /* Depths from 0 down at which to look at the stresses under this pressure, *n of them in an array
  * that the caller frees: close together where its short waves are felt, farther apart below, down

@@ -81,13 +81,10 @@ static size_t
 stress(const struct work *w, const double *h, const double *p)
 {
     const double depth = 5e-6;
-    const struct rc_stress_options options = {.boundary = w->boundary,
-                                              .body.nu = 0.3,
-                                              .wanted = 1u << RC_MISES,
-                                              .engine = w->engine,
-                                              .depth = &depth,
-                                              .depths = 1};
-    size_t bytes = rc_stress_memory(w->shape, &options) + nodes_of(w) * sizeof(double);
+    const struct rc_stress_options options = {
+        .boundary = w->boundary, .body.nu = 0.3, .wanted = 1u << RC_MISES, .engine = w->engine};
+    size_t bytes =
+        rc_stress_memory(w->shape, &options, &depth, 1, 0) + nodes_of(w) * sizeof(double);
     struct rc_stress *s = rc_stress_new(w->shape, p, &options, NULL);
     double *to[RC_STRESSES] = {NULL};
 

@@ -350,18 +350,17 @@ static size_t
 memory_for(const struct run *run, const struct rc_grid *p)
 {
     struct rc_shape shape = rc_grid_shape(p), frame = frame_shape(run, p);
-    struct rc_stress_options options = run->options;
-    size_t rows = options.section != 0 ? frame.ny : p->ny - p->elsewhere;
+    const struct rc_stress_options *o = &run->options;
+    size_t rows = o->section != 0 ? frame.ny : p->ny - p->elsewhere;
     size_t frames = channels() * frame.nx * rows * sizeof(double);
-    size_t map = rc_grid_nodes(p) * sizeof *p->v;
+    size_t map = rc_grid_nodes(p) * sizeof *p->v, loaded = 0;
 
-    if (options.section != 0) { /* a copy of the map goes before the frames come */
+    if (o->section != 0) { /* a copy of the map goes before the frames come */
         frames -= frames < map ? frames : map;
-        options.loaded = loaded_lines(run, p);
+        loaded = loaded_lines(run, p);
     }
-    options.depth = run->depths.v;
-    options.depths = run->depths.n;
-    return rc_stress_memory(&shape, &options) + frames + tool_code(&run->t, code_for(run));
+    return rc_stress_memory(&shape, o, run->depths.v, run->depths.n, loaded) + frames +
+           tool_code(&run->t, code_for(run));
 }
 
 /* Where a slice is: its depth and, of a coated body, its material. */

@@ -105,8 +105,8 @@ memory(const struct rc_stress_task *t)
         PARTS * RC_COMPONENTS * plan.waves * sizeof(double complex) + rc_stress_inside_memory(t);
 
     /* of a free map the lines that carry nothing are left untouched */
-    if (t->options.boundary == RC_FREE && t->options.loaded > 0 && t->options.loaded < lines)
-        lines = t->options.loaded;
+    if (t->options.boundary == RC_FREE && t->loaded > 0 && t->loaded < lines)
+        lines = t->loaded;
     /* the transposed map goes before the rest comes */
     return sizeof plan + lines * plan.waves * sizeof(double complex) +
            (transposed > rest ? transposed : rest);

@@ -414,14 +414,13 @@ coarse_memory(const struct rc_stress_task *task, size_t sx, size_t sy)
 static size_t
 memory(const struct rc_stress_task *task)
 {
-    const struct rc_stress_options *o = &task->options;
     size_t coarse = 0, bytes, sx, sy;
 
     /* of coarser grids there is one at a time; at an unknown depth it may be the largest */
-    if (o->depths == 0 && may_be_coarse(task, INFINITY, &sx, &sy))
+    if (task->depths == 0 && may_be_coarse(task, INFINITY, &sx, &sy))
         coarse = coarse_memory(task, sx > 1 ? 2 : 1, sy > 1 ? 2 : 1);
-    for (size_t k = 0; k < o->depths; k++)
-        if (may_be_coarse(task, o->depth[k], &sx, &sy)) {
+    for (size_t k = 0; k < task->depths; k++)
+        if (may_be_coarse(task, task->depth[k], &sx, &sy)) {
             bytes = coarse_memory(task, sx, sy);
             coarse = bytes > coarse ? bytes : coarse;
         }

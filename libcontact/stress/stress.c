@@ -192,11 +192,15 @@ rc_stress_free(struct rc_stress *stress)
 }
 
 size_t
-rc_stress_memory(const struct rc_shape *shape, const struct rc_stress_options *o)
+rc_stress_memory(const struct rc_shape *shape, const struct rc_stress_options *o,
+                 const double *depth, size_t depths, size_t loaded)
 {
     struct rc_stress_task task = task_of(shape, NULL, NULL, o, NULL);
     size_t own = 0, ranks = rc_ranks_count(o->ranks), values = values_of(shape, o);
 
+    task.depth = depth;
+    task.depths = depths;
+    task.loaded = loaded;
     if (ranks > 1) /* a section is refused */
         values = shape->nx * rc_rows_most(shape, ranks);
     for (int c = 0; c < RC_COMPONENTS; c++)

@@ -22,6 +22,9 @@ struct rc_stress_task {
     const struct rc_engine *engine; /* asked for or taken; NULL: there is none of that name */
     bool precise;                   /* in double precision throughout, as its name asks     */
     struct rc_stress_counts *counts;
+    /* In an estimate: what rc_stress_memory was told. */
+    const double *depth;
+    size_t depths, loaded;
 };
 /* Counts a kernel that is evaluated: shear is what would not be without the traction. */
 void rc_stress_count(const struct rc_stress_task *task, int kernel, size_t coefficients);

@@ -310,7 +310,7 @@ plans(double *out, struct rc_err *err)
     bytes[4] = rc_psd_memory(&shape);
     bytes[5] = rc_conv_memory(&shape, &conv);
     bytes[6] = rc_solver_memory(&shape, &problem);
-    bytes[7] = rc_stress_memory(&shape, &stress);
+    bytes[7] = rc_stress_memory(&shape, &stress, NULL, 0, 0);
     bytes[8] = rc_patches_memory(&shape, pressure, &patches);
     bytes[9] = rc_solver_stiffness_memory(&shape, &problem);
     for (size_t k = 0; k < 10; k++) {

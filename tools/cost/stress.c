@@ -235,7 +235,7 @@ cost_stress_run(struct cost_case *c, struct cost_stress *s, double allowed)
 
     if (j == NULL)
         tool_die_at(c->tool, c->heights, EXIT_IMPOSSIBLE, "out of memory");
-    s->memory = rc_stress_memory(&c->shape, &o);
+    s->memory = rc_stress_memory(&c->shape, &o, c->depths.v, c->depths.n, 0);
     do {
         memset(j, 0, sizeof *j);
         j->c = c;
