@@ -18,11 +18,11 @@
 #include <gsl/gsl_vector.h>
 #include <math.h>
 #include <omp.h>
-#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "form.h"
+#include "handler.h"
 #include "libcontact/memory.h"
 #include "robust.h"
 
@@ -553,28 +553,21 @@ fit_form(struct fit *f, struct rc_err *err)
     return reweight(f, size, err);
 }
 
-/* GSL has one error handler for all threads, and its default ends the process: it is off while a
- * fit is made, by one thread at a time. */
-static pthread_mutex_t handler_lock = PTHREAD_MUTEX_INITIALIZER;
-
 static enum rc_status
 detrend_polynomial(const struct rc_shape *shape, const struct rc_form *form, double *h,
                    struct rc_err *err)
 {
-    gsl_error_handler_t *handler;
     enum rc_status status;
     struct fit f;
 
-    pthread_mutex_lock(&handler_lock);
-    handler = gsl_set_error_handler_off();
+    rc_handler_begin();
     status = fit_new(&f, shape, form, h, err);
     if (status == RC_OK)
         status = fit_form(&f, err);
     if (status == RC_OK)
         subtract(&f, h);
     fit_free(&f);
-    gsl_set_error_handler(handler);
-    pthread_mutex_unlock(&handler_lock);
+    rc_handler_end();
     return status;
 }
 

@@ -11,11 +11,11 @@
 
 #include <complex.h>
 #include <gsl/gsl_cdf.h>
-#include <gsl/gsl_errno.h>
 #include <gsl/gsl_spline.h>
 #include <math.h>
 #include <stdlib.h>
 
+#include "handler.h"
 #include "libcontact/transform/transform.h"
 
 enum {
@@ -246,13 +246,13 @@ rc_heights_shape(const struct rc_shape *shape, const struct rc_selfaffine *what,
                  double *h, double *misfit, struct rc_err *err)
 {
     size_t n = shape->nx * shape->ny, waves = rc_fourier_size(shape);
-    gsl_error_handler_t *handler = gsl_set_error_handler_off();
     struct quantiles q = {0};
     struct classes c = {.n = n < CLASSES ? n : CLASSES};
     double *amplitude = malloc(waves * sizeof *amplitude);
     double complex *s = malloc(waves * sizeof *s);
     enum rc_status status = RC_FAIL;
 
+    rc_handler_begin();
     c.count = malloc(c.n * sizeof *c.count);
     c.first = malloc(c.n * sizeof *c.first);
     c.last = malloc(c.n * sizeof *c.last);
@@ -269,6 +269,6 @@ done:
     free(c.count);
     free(s);
     free(amplitude);
-    gsl_set_error_handler(handler);
+    rc_handler_end();
     return status;
 }

@@ -1,0 +1,32 @@
+/*
+ * GSL has one error handler for all threads, and its default ends the process: it is off while at
+ * least one thread works with GSL. If each thread gave back the handler that it had found, the last
+ * could leave it off for good, and another could switch it on under a thread that still works.
+ */
+#include "handler.h"
+
+#include <gsl/gsl_errno.h>
+#include <pthread.h>
+#include <stddef.h>
+
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+static size_t users;                 /* threads between begin and end */
+static gsl_error_handler_t *callers; /* the handler that they found   */
+
+void
+rc_handler_begin(void)
+{
+    pthread_mutex_lock(&lock);
+    if (users++ == 0)
+        callers = gsl_set_error_handler_off();
+    pthread_mutex_unlock(&lock);
+}
+
+void
+rc_handler_end(void)
+{
+    pthread_mutex_lock(&lock);
+    if (--users == 0)
+        gsl_set_error_handler(callers);
+    pthread_mutex_unlock(&lock);
+}
