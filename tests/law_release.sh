@@ -30,11 +30,21 @@ claim "  file by file" diff <(listed "first/$tarball") <(listed "second/$tarball
 claim "  with all that the build and the tests look for" bash -c '
     cd "$0" && ls CMakeLists.txt CMakePresets.json LICENSE README.md CHANGELOG.md CITATION.cff .clang-format python/rcg.py \
         sample_surfaces/*.x3p tests/*.sh tests/tools/*.sh debian/control' "libcontact-$version"
-claim "  it configures alone" cmake -S "libcontact-$version" -B alone -DRC_TESTS=ON -DCMAKE_C_COMPILER="${CC:-cc}"
+claim "  it configures alone" cmake -S "libcontact-$version" -B alone -DCMAKE_C_COMPILER="${CC:-cc}"
 # but for those under mpirun, which only a build with MPI has
 tests_in() { sed -n 's/^add_test(\[*=*\[*\([a-z_0-9]*\).*/\1/p' "$1/tests/CTestTestfile.cmake" | grep -v _ranks | sort; }
 claim "  with every test" diff <(tests_in "$(dirname "$RC_BIN")") <(tests_in alone)
 claim "  of which there are many" test "$(tests_in alone | wc -l)" -gt 50
+# The files of pkg-config, without that of cmocka.
+mkdir modules
+pkg-config --variable pc_path pkg-config | tr : '\n' | while read -r folder; do
+    find "$folder" -name '*.pc' ! -name cmocka.pc -exec ln -sf -t modules {} + 2>find.err
+done
+without_cmocka() { PKG_CONFIG_PATH='' PKG_CONFIG_LIBDIR=modules cmake -S "libcontact-$version" -B untested -DCMAKE_C_COMPILER="${CC:-cc}" "$@"; }
+claim "  without cmocka it configures, and says that it has no tests" says '^-- Without the tests: ' without_cmocka
+claim "  nor has it any" test ! -e untested/tests
+export -f without_cmocka
+refuses 1 "cmocka" "  where tests are asked for, it does not" "version=$version; without_cmocka -DRC_TESTS=ON >&2"
 
 # ---- web pages ----
 
