@@ -150,9 +150,6 @@ struct rc_form {
  * call. */
 RC_API enum rc_status rc_detrend_form(const struct rc_shape *shape, const struct rc_form *form,
                                       double *h, double *radius, struct rc_err *err);
-/* The same for the plain polynomial of this degree. */
-RC_API enum rc_status rc_detrend_poly(const struct rc_shape *shape, size_t degree, double *h,
-                                      struct rc_err *err);
 
 /* The Gaussian regression filter of order 0 over the points that are there: ISO 16610-61, of
  * profiles 16610-21. A missing point stays missing and has no weight, nor has what lies beyond the

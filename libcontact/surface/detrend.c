@@ -581,9 +581,3 @@ rc_detrend_form(const struct rc_shape *shape, const struct rc_form *form, double
         return detrend_polynomial(shape, form, h, err);
     return rc_detrend_round(shape, form, h, radius, err);
 }
-
-enum rc_status
-rc_detrend_poly(const struct rc_shape *shape, size_t degree, double *h, struct rc_err *err)
-{
-    return rc_detrend_form(shape, &(struct rc_form){.degree = degree}, h, NULL, err);
-}

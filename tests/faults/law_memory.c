@@ -87,8 +87,10 @@ form(const struct rc_form *what, const double *h, double *out, struct rc_err *er
 static enum rc_status
 polynomial(double *out, struct rc_err *err)
 {
+    static const struct rc_form what = {.degree = 3};
+
     memcpy(out, rough, sizeof rough);
-    return or_as_before(rc_detrend_poly(&shape, 3, out, err), out, rough);
+    return or_as_before(rc_detrend_form(&shape, &what, out, NULL, err), out, rough);
 }
 
 static enum rc_status

@@ -1,5 +1,5 @@
-/* What rc_detrend_poly leaves is orthogonal to every polynomial of its degree over the points that
- * are there, and is nothing where the surface was such a polynomial. */
+/* What is left without the polynomial of least squares is orthogonal to every polynomial of its
+ * degree over the points that are there, and is nothing where the surface was such a polynomial. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_multifit.h>
 #include <math.h>
@@ -45,6 +45,12 @@ cut_holes(double *h, size_t n)
             h[k] = NAN;
 }
 
+static enum rc_status
+detrend(const struct rc_shape *s, size_t degree, double *h, struct rc_err *err)
+{
+    return rc_detrend_form(s, &(struct rc_form){.degree = degree}, h, NULL, err);
+}
+
 static double
 highest(const double *h, size_t n)
 {
@@ -61,7 +67,7 @@ check_removed(const struct rc_shape *s, size_t degree, double *h, double toleran
     double before = highest(h, s->nx * s->ny), after;
     struct rc_err err;
 
-    if (rc_detrend_poly(s, degree, h, &err) != RC_OK)
+    if (detrend(s, degree, h, &err) != RC_OK)
         fail_msg("degree %zu: %s", degree, err.text);
     after = highest(h, s->nx * s->ny);
     if (!(after <= tolerance * before))
@@ -112,7 +118,7 @@ test_residual_is_orthogonal(void **state)
     for (size_t k = 0; k < N; k++)
         h[k] = 1e-6 * chance() + 3e-6;
     cut_holes(h, N);
-    assert_int_equal(rc_detrend_poly(&shape, degree, h, &err), RC_OK);
+    assert_int_equal(detrend(&shape, degree, h, &err), RC_OK);
     for (size_t b = 0; b <= degree; b++)
         for (size_t a = 0; a + b <= degree; a++) {
             long double sum = 0;
@@ -158,7 +164,7 @@ test_against_dense_fit(void **state)
         gsl_vector_set(y, row++, h[k]);
     }
     gsl_multifit_linear(x, y, c, covariance, &chisq, work);
-    assert_int_equal(rc_detrend_poly(&shape, 1, h, &err), RC_OK);
+    assert_int_equal(detrend(&shape, 1, h, &err), RC_OK);
     for (size_t k = 0; k < N; k++) {
         double expected = copy[k] - gsl_vector_get(c, 0) -
                           gsl_vector_get(c, 1) * (double)(k % NX) * shape.dx -
@@ -217,7 +223,7 @@ check_refused(struct rc_shape s, size_t degree, double *h, const char *reason)
     struct rc_err err;
 
     memcpy(before, h, bytes);
-    assert_int_equal(rc_detrend_poly(&s, degree, h, &err), RC_FAIL);
+    assert_int_equal(detrend(&s, degree, h, &err), RC_FAIL);
     if (strstr(err.text, reason) == NULL)
         fail_msg("'%s' does not say '%s'", err.text, reason);
     assert_memory_equal(h, before, bytes);
