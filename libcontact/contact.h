@@ -280,24 +280,19 @@ RC_API void rc_measure(const struct rc_shape *shape, const double *v, struct rc_
 RC_API double rc_sum(const double *v, size_t n);
 
 /* RMS of the gradient's magnitude of the heights h (m) over the nodes where p > 0, by differences to
- * the next node along each side of the map; NAN when there is none. */
-RC_API double rc_measure_contact_slope(const struct rc_shape *shape, const double *h,
-                                       const double *p);
-/* The same of a map that ranks share, of which h and p hold the rows held here. */
-RC_API double rc_measure_contact_slope_on(const struct rc_ranks *ranks,
-                                          const struct rc_shape *shape, const double *h,
-                                          const double *p);
+ * the next node along each side of the map; NAN when there is none. Where ranks share the map h and p
+ * are the rows held here; ranks NULL: none. */
+RC_API double rc_measure_contact_slope(const struct rc_ranks *ranks, const struct rc_shape *shape,
+                                       const double *h, const double *p);
 
 /* RMS of the steps between neighbours along x, [0], and along y, [1]: inside the map, and from its
  * last line to its first, where the periods of a periodic map meet. NAN along a side of one node. In
- * the unit of v, which holds no NaN. */
+ * the unit of v, which holds no NaN. Where ranks share the map v is the rows held here; ranks NULL: none. */
 struct rc_seam {
     double inside[2], across[2];
 };
-RC_API void rc_measure_seam(const struct rc_shape *shape, const double *v, struct rc_seam *seam);
-/* The same of a map that ranks share, of which v holds the rows held here. */
-RC_API void rc_measure_seam_on(const struct rc_ranks *ranks, const struct rc_shape *shape,
-                               const double *v, struct rc_seam *seam);
+RC_API void rc_measure_seam(const struct rc_ranks *ranks, const struct rc_shape *shape,
+                            const double *v, struct rc_seam *seam);
 
 /* ---- contact patches: patches.c ---- */
 

@@ -254,7 +254,7 @@ look_at_contact(struct run *run, const struct rc_grid *g, const double *p, struc
 
     if (rc_patches_find(&shape, p, &options, &s->patches, &err) != RC_OK)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    s->slope = rc_measure_contact_slope_on(ranks_of(&run->t), &shape, g->v, p);
+    s->slope = rc_measure_contact_slope(ranks_of(&run->t), &shape, g->v, p);
 }
 
 static void

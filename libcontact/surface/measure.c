@@ -212,12 +212,6 @@ rc_measure(const struct rc_shape *shape, const double *v, struct rc_statistics *
 
 /* ---- where the bodies touch, and where periods meet ---- */
 
-double
-rc_measure_contact_slope(const struct rc_shape *shape, const double *h, const double *p)
-{
-    return rc_measure_contact_slope_on(NULL, shape, h, p);
-}
-
 static size_t
 piece_of(size_t nx, size_t first)
 {
@@ -257,8 +251,8 @@ take_contact(struct rc_total sums[2], const double *row, const double *below, co
 }
 
 double
-rc_measure_contact_slope_on(const struct rc_ranks *ranks, const struct rc_shape *shape,
-                            const double *h, const double *p)
+rc_measure_contact_slope(const struct rc_ranks *ranks, const struct rc_shape *shape,
+                         const double *h, const double *p)
 {
     const struct rc_rows rows = rc_rows_of(ranks, shape);
     size_t nx = shape->nx, right = nx > 1 ? 1 : 0;
@@ -297,12 +291,6 @@ add_steps(struct rc_total *squares, const double *a, const double *b, size_t n)
     }
 }
 
-void
-rc_measure_seam(const struct rc_shape *shape, const double *v, struct rc_seam *seam)
-{
-    rc_measure_seam_on(NULL, shape, v, seam);
-}
-
 enum { /* squared steps */
     INSIDE_X,
     INSIDE_Y,
@@ -312,8 +300,8 @@ enum { /* squared steps */
 };
 
 void
-rc_measure_seam_on(const struct rc_ranks *ranks, const struct rc_shape *shape, const double *v,
-                   struct rc_seam *seam)
+rc_measure_seam(const struct rc_ranks *ranks, const struct rc_shape *shape, const double *v,
+                struct rc_seam *seam)
 {
     const struct rc_rows rows = rc_rows_of(ranks, shape);
     size_t nx = shape->nx, ny = shape->ny;

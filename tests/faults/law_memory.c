@@ -363,16 +363,14 @@ without(double *out, struct rc_err *err)
     rc_mirror(&shape, 'x', out);
     rc_rotate(&shape, rough, 1, out + N);
     rc_measure(&shape, rough, &statistics);
-    rc_measure_seam(&shape, rough, &seam);
-    rc_measure_seam_on(NULL, &shape, rough, &seam);
+    rc_measure_seam(NULL, &shape, rough, &seam);
     for (size_t c = 0; c < RC_COMPONENTS; c++)
         six[c] = &s6[c];
     derived[RC_MISES] = &mises;
     rc_stress_derive(1 << RC_MISES, 1, six, derived);
     if (rc_stress_check(&shape, &stress, err) != RC_OK)
         return RC_FAIL;
-    out[2 * N] = rc_sum(rough, N) + rc_measure_contact_slope(&shape, rough, pressure) + mises +
-                 rc_measure_contact_slope_on(NULL, &shape, rough, pressure);
+    out[2 * N] = rc_sum(rough, N) + rc_measure_contact_slope(NULL, &shape, rough, pressure) + mises;
     out[2 * N + 1] = (double)(rc_largest(N, rough) + rc_body_material(&layered.one, 3e-6));
     out[2 * N + 2] = rc_number_read(rc_number_text(text, 1.5), false, &out[0]) != NULL;
     return rc_key_valid("note") && rc_err_set(NULL, "%s", "x") == RC_FAIL ? RC_OK : RC_FAIL;

@@ -173,8 +173,8 @@ measured(double *out, struct rc_err *err)
     struct rc_seam seam;
 
     (void)err;
-    out[0] = rc_measure_contact_slope_on(ranks, &shape, rough + first, pressure + first);
-    rc_measure_seam_on(ranks, &shape, rough + first, &seam);
+    out[0] = rc_measure_contact_slope(ranks, &shape, rough + first, pressure + first);
+    rc_measure_seam(ranks, &shape, rough + first, &seam);
     out[1] = seam.across[0] + seam.across[1];
     return RC_OK;
 }

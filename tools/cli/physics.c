@@ -197,7 +197,7 @@ warn_of_seam(struct tool *t, const struct rc_grid *g)
     struct rc_seam seam;
     char where[256], jump[SHOWN_NUMBER];
 
-    rc_measure_seam_on(ranks_of(t), &shape, g->v, &seam);
+    rc_measure_seam(ranks_of(t), &shape, g->v, &seam);
     for (int side = 0; side < 2; side++)
         if (seam.across[side] > 3 * seam.inside[side])
             tool_warn(
