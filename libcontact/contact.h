@@ -680,9 +680,9 @@ RC_API size_t rc_stress_memory(const struct rc_shape *shape,
  * each interface has two, itself and one a millionth deeper; none is in a rigid half-space. ranks: they
  * share the map, of which p holds the rows held here; NULL: none. RC_FAIL, and NULL for the depths, when
  * memory is short. */
-RC_API enum rc_status rc_stress_depths(const struct rc_shape *shape, const double *p,
-                                       enum rc_boundary boundary, const struct rc_body *body,
-                                       const struct rc_ranks *ranks, double **depths, size_t *n,
+RC_API enum rc_status rc_stress_depths(const struct rc_ranks *ranks, const struct rc_shape *shape,
+                                       const double *p, enum rc_boundary boundary,
+                                       const struct rc_body *body, double **depths, size_t *n,
                                        struct rc_err *err);
 
 /* Place of the value of largest size; the first of equals. n > 0. */

@@ -232,8 +232,8 @@ set_depths(struct run *run, const struct rc_grid *p)
 
     run->depths = args.depths;
     if (args.depths.n == 0 &&
-        rc_stress_depths(&shape, p->v, run->options.boundary, &run->options.body,
-                         run->options.ranks, &run->depths.v, &run->depths.n, &err) != RC_OK)
+        rc_stress_depths(run->options.ranks, &shape, p->v, run->options.boundary,
+                         &run->options.body, &run->depths.v, &run->depths.n, &err) != RC_OK)
         tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
     refuse_rigid(run, p);
     if (args.depths.n == 0)

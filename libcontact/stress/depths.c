@@ -317,9 +317,9 @@ go_down(struct descent *d, double step)
 }
 
 enum rc_status
-rc_stress_depths(const struct rc_shape *shape, const double *p, enum rc_boundary boundary,
-                 const struct rc_body *body, const struct rc_ranks *ranks, double **depths,
-                 size_t *n, struct rc_err *err)
+rc_stress_depths(const struct rc_ranks *ranks, const struct rc_shape *shape, const double *p,
+                 enum rc_boundary boundary, const struct rc_body *body, double **depths, size_t *n,
+                 struct rc_err *err)
 {
     enum rc_status status = RC_OK;
     struct descent d = {.body = body};

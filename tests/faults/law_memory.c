@@ -275,7 +275,7 @@ depths(double *out, struct rc_err *err)
     double *z = NULL;
     size_t n = 0;
     enum rc_status status =
-        rc_stress_depths(&shape, pressure, RC_FREE, &layered.one, NULL, &z, &n, err);
+        rc_stress_depths(NULL, &shape, pressure, RC_FREE, &layered.one, &z, &n, err);
 
     if (status == RC_OK)
         memcpy(out, z, (n < OUT ? n : OUT) * sizeof *out);
@@ -284,7 +284,7 @@ depths(double *out, struct rc_err *err)
     free(z);
     z = NULL;
     if (status == RC_OK) /* without ranks the same */
-        status = rc_stress_depths(&shape, pressure, RC_FREE, &bare.one, NULL, &z, &n, err);
+        status = rc_stress_depths(NULL, &shape, pressure, RC_FREE, &bare.one, &z, &n, err);
     free(z);
     return status;
 }

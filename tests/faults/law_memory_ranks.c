@@ -142,7 +142,7 @@ depths(double *out, struct rc_err *err)
     double *z = NULL;
     size_t n = 0;
     enum rc_status status =
-        rc_stress_depths(&shape, pressure + first, RC_FREE, &layered.one, ranks, &z, &n, err);
+        rc_stress_depths(ranks, &shape, pressure + first, RC_FREE, &layered.one, &z, &n, err);
 
     if (status == RC_OK)
         memcpy(out, z, n * sizeof *z);

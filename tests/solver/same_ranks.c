@@ -332,13 +332,13 @@ stresses(void **state)
         s2[RC_MISES] = calloc(part.n + 1, sizeof(double));
         s2[RC_SXY] = calloc(part.n + 1, sizeof(double));
         alone = rc_stress_new(&s, p, &o, &err);
-        assert_int_equal(rc_stress_depths(&s, p, o.boundary, &o.body, NULL, &d1, &n1, &err), RC_OK);
+        assert_int_equal(rc_stress_depths(NULL, &s, p, o.boundary, &o.body, &d1, &n1, &err), RC_OK);
         o.ranks = ranks;
         shared = rc_stress_new(&s, p + part.first, &o, &err);
         assert_non_null(alone);
         assert_non_null(shared);
         assert_int_equal(
-            rc_stress_depths(&s, p + part.first, o.boundary, &o.body, ranks, &d2, &n2, &err),
+            rc_stress_depths(ranks, &s, p + part.first, o.boundary, &o.body, &d2, &n2, &err),
             RC_OK);
         assert_int_equal(n1, n2);
         assert_same(n1, d2, d1, "depths");

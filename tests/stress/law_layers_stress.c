@@ -435,7 +435,7 @@ chosen_depths(void **state)
     for (size_t k = 0; k < n; k++)
         p[k] = node_r(shape, k) < 9e-6 ? 1e9 * sqrt(1 - pow(node_r(shape, k) / 9e-6, 2)) : 0;
     stress = rc_stress_new(&shape, p, &o, &err);
-    assert_int_equal(rc_stress_depths(&shape, p, RC_FREE, &coating, NULL, &z, &count, &err), RC_OK);
+    assert_int_equal(rc_stress_depths(NULL, &shape, p, RC_FREE, &coating, &z, &count, &err), RC_OK);
     assert_true(z[0] == 0 && z[count - 1] > 2.5 * 9e-6);
     for (size_t k = 0; k < count; k++) {
         assert_true(k == 0 || z[k] > z[k - 1]);
@@ -460,7 +460,7 @@ chosen_depths(void **state)
     assert_true(found >= 0.98 * most);
     assert_true(count < 80);
     free(z);
-    assert_int_equal(rc_stress_depths(&shape, p, RC_FREE, &rigid, NULL, &z, &count, &err), RC_OK);
+    assert_int_equal(rc_stress_depths(NULL, &shape, p, RC_FREE, &rigid, &z, &count, &err), RC_OK);
     assert_true(fabs(z[count - 1] / bottom - 1) <= rounding);
     free(z);
     rc_stress_free(stress);

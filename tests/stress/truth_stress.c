@@ -461,7 +461,7 @@ chosen_depths(void **state)
             height[i] += rough[i];
         solved = solve(shape, height, problem);
         assert_int_equal(
-            rc_stress_depths(&shape, solved.p, RC_FREE, &options.body, NULL, &depths, &n, &err),
+            rc_stress_depths(NULL, &shape, solved.p, RC_FREE, &options.body, &depths, &n, &err),
             RC_OK);
         stress = rc_stress_new(&shape, solved.p, &options, &err);
         assert_true(depths[0] == 0 && depths[n - 1] > 2.9 * h.a && depths[n - 1] < 4 * h.a);

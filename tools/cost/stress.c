@@ -91,8 +91,8 @@ work_depths(void *ctx)
     struct job *j = ctx;
     double *z = NULL;
 
-    if (rc_stress_depths(&j->c->shape, j->c->pressure, j->c->problem.boundary,
-                         &j->c->problem.pair.one, NULL, &z, &j->depths, &j->err) != RC_OK)
+    if (rc_stress_depths(NULL, &j->c->shape, j->c->pressure, j->c->problem.boundary,
+                         &j->c->problem.pair.one, &z, &j->depths, &j->err) != RC_OK)
         return;
     j->depths = j->depths < DEPTHS ? j->depths : DEPTHS;
     memcpy(j->z, z, j->depths * sizeof *z);
