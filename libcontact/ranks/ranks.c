@@ -195,15 +195,16 @@ rc_ranks_sum(const struct rc_ranks *ranks, size_t n)
     return (size_t)rc_ranks_total(ranks, (struct rc_total){.sum = (double)n});
 }
 
-size_t
-rc_ranks_sum_before(const struct rc_ranks *ranks, size_t n)
+double
+rc_ranks_sum_before(const struct rc_ranks *ranks, double v)
 {
-    size_t count = rc_ranks_count(ranks), own = rc_ranks_own(ranks), sum = 0, *all;
+    size_t count = rc_ranks_count(ranks), own = rc_ranks_own(ranks);
+    double sum = 0, *all;
 
     if (count == 1)
         return 0;
     all = rc_ranks_room(ranks);
-    rc_ranks_gather(ranks, sizeof n, &n, all);
+    rc_ranks_gather(ranks, sizeof v, &v, all);
     for (size_t r = 0; r < own; r++)
         sum += all[r];
     return sum;

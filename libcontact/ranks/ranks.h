@@ -207,7 +207,7 @@ double rc_ranks_total(const struct rc_ranks *ranks, struct rc_total total);
 double rc_ranks_most(const struct rc_ranks *ranks, double v);
 size_t rc_ranks_sum(const struct rc_ranks *ranks, size_t n);
 /* The sum over the ranks before this one. */
-size_t rc_ranks_sum_before(const struct rc_ranks *ranks, size_t n);
+double rc_ranks_sum_before(const struct rc_ranks *ranks, double v);
 /* Several totals and the largest of one more value at once. */
 void rc_ranks_totals(const struct rc_ranks *ranks, size_t n, const struct rc_total *totals,
                      double *sums, double *most);

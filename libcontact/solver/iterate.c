@@ -27,11 +27,12 @@ rc_iterate_free(struct rc_solver *s)
 void
 rc_iterate_level(struct rc_solver *s)
 {
-    double start = fmin(s->load.sum / (double)s->posed.nodes, s->posed.hardness);
+    const struct rc_box box = rc_box(s, 0);
+    double mean = s->load.sum / (double)s->posed.nodes;
 
 #pragma omp parallel for num_threads(s->posed.threads) schedule(static)
     for (size_t k = 0; k < s->posed.n; k++)
-        s->it.p[k] = start;
+        s->it.p[k] = rc_clip(box, k, mean);
 }
 
 void
@@ -95,7 +96,7 @@ pressure_in(void *at, size_t j, void *to)
 
     for (size_t i = 0; i < n; i++) {
         row[i] = (float)(p[i] * s->load.per_pressure);
-        any |= p[i] > 0;
+        any |= p[i] != 0;
     }
     return any;
 }
@@ -145,14 +146,14 @@ rc_iterate_moved(struct rc_solver *s, double gap, double elastic)
         s->it.shift = gap / elastic;
 }
 
-RC_CLONES static void
-elastic_sums(size_t n, const double *p, const double *v, double hardness, double *sums)
+RC_INLINE void
+sums_between(struct rc_box box, size_t n, const double *p, const double *v, double *sums)
 {
     double sum = 0, count = 0;
 
 #pragma omp simd reduction(+ : sum, count)
     for (size_t k = 0; k < n; k++) {
-        bool elastic = (p[k] > 0) & (p[k] < hardness);
+        bool elastic = (p[k] > rc_low(box, k)) & (p[k] < rc_high(box, k));
         sum += elastic ? v[k] : 0;
         count += elastic ? 1 : 0;
     }
@@ -160,25 +161,35 @@ elastic_sums(size_t n, const double *p, const double *v, double hardness, double
     sums[1] = count;
 }
 
+RC_CLONES static void
+elastic_sums(struct rc_box box, size_t n, const double *p, const double *v, double *sums)
+{
+    if (box.highs == NULL)
+        sums_between(rc_box_of_numbers(box), n, p, v, sums);
+    else
+        sums_between(box, n, p, v, sums);
+}
+
 static void
 elastic_block(void *at, size_t first, size_t n, double *sums)
 {
     struct rc_solver *s = at;
 
-    elastic_sums(n, s->it.p + first, s->it.v + first, s->posed.hardness, sums);
+    elastic_sums(rc_box(s, first), n, s->it.p + first, s->it.v + first, sums);
 }
 
 /* No node is elastic. */
 static double
 middle(const struct rc_solver *s)
 {
+    const struct rc_box box = rc_box(s, 0);
     double low = -INFINITY, high = INFINITY;
 
     for (size_t k = 0; k < s->posed.n; k++)
-        if (s->it.p[k] > 0)
-            low = fmax(low, s->it.v[k]);
-        else
+        if (rc_at_low(box, k, s->it.p[k]))
             high = fmin(high, s->it.v[k]);
+        else
+            low = fmax(low, s->it.v[k]);
     low = rc_ranks_most(s->posed.rows.ranks, low);
     high = -rc_ranks_most(s->posed.rows.ranks, -high);
     return isinf(low) ? high : isinf(high) ? low : (low + high) / 2;

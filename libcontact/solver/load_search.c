@@ -22,32 +22,25 @@ set_units(struct rc_load *load, size_t n, double unit)
 }
 
 enum rc_status
-rc_load_check(double load, double hardness, double area, struct rc_err *err)
+rc_load_check(double load, const struct rc_bounds *bounds, double area, struct rc_err *err)
 {
-    double most = hardness * area;
-
     if (!(load > 0) || isinf(load))
         return rc_err_set(err, "load %g N: it must be positive and finite", load);
-    if (load > most * (1 + 4 * DBL_EPSILON))
-        return rc_err_set(err,
-                          "load %.9g N is above hardness times area, %.9g Pa x %.9g m2 = "
-                          "%.9g N, where every node yields: no solution exists; lower the "
-                          "load or raise the hardness",
-                          load, hardness, area, most);
-    return RC_OK;
+    return rc_bounds_carry(bounds, load, area, err);
 }
 
 enum rc_status
 rc_load_set(struct rc_solver *s, double load, struct rc_err *err)
 {
+    const struct rc_bounds *bounds = &s->posed.bounds;
     double n = (double)s->posed.nodes;
 
-    if (rc_load_check(load, s->posed.hardness, s->posed.cell * n, err) != RC_OK)
+    if (rc_load_check(load, bounds, s->posed.cell * n, err) != RC_OK)
         return RC_FAIL;
     s->load.load = load;
     s->load.sum = load / s->posed.cell;
-    if (s->load.sum >= s->posed.hardness * n * (1 - 8 * DBL_EPSILON))
-        s->load.sum = s->posed.hardness * n; /* every node yields, whatever the rounding */
+    if (s->load.sum >= bounds->full * (1 - 8 * DBL_EPSILON))
+        s->load.sum = bounds->full; /* every node yields, whatever the rounding */
     set_units(&s->load, s->posed.nodes, s->op->unit);
     return RC_OK;
 }
@@ -78,7 +71,7 @@ enum rc_status
 rc_load_first(struct rc_solver *s, const struct rc_problem *problem, struct rc_err *err)
 {
     double guess = problem->load, n = (double)s->posed.nodes, total[RC_SUMS];
-    double most = s->posed.hardness * s->posed.cell * n / 2;
+    double most = s->posed.bounds.full * s->posed.cell / 2;
     size_t cut = 0;
 
     s->load = (struct rc_load){.tol = s->posed.tol};
@@ -90,7 +83,7 @@ rc_load_first(struct rc_solver *s, const struct rc_problem *problem, struct rc_e
     if (!(guess > 0))
         guess = s->posed.cell / s->op->unit * problem->approach * sqrt((double)cut);
     begin_search(s, problem->approach);
-    if (s->op->mean_free && isinf(s->posed.hardness)) {
+    if (s->op->mean_free && !rc_bounded(&s->posed.bounds)) {
         double full;
         rc_reduce_blocks(s, height_block, s, total);
         full = -total[0] / n;
@@ -136,7 +129,7 @@ enum rc_status
 rc_load_search(struct rc_solver *s)
 {
     struct rc_load *q = &s->load;
-    double most = s->posed.hardness * s->posed.cell * (double)s->posed.nodes, shift, next, off;
+    double most = s->posed.bounds.full * s->posed.cell, shift, next, off;
 
     rc_iterate_shift(s);
     shift = s->it.elastic > 0 ? s->it.shift : INFINITY; /* saturated: too much */

@@ -14,7 +14,7 @@ enum {
     COARSEST = 24,    /* nodes a side from which a coarser grid is worth solving first */
     FEW_NODES = 16384 /* a rank, below which each solves the whole grid for itself */
 };
-/* A nearer start saves no step, but where nodes are at the hardness. */
+/* A nearer start saves no step, but where nodes are at their upper bounds. */
 static const double coarse_tol = 8e-2, coarse_tol_yielding = 3e-2;
 
 void
@@ -210,7 +210,6 @@ coarse_new(const struct rc_solver *s, bool *sought)
     struct rc_shape shape = {(fine->nx + 1) / 2, (fine->ny + 1) / 2, 2 * fine->dx, 2 * fine->dy};
     struct rc_problem problem = {.boundary = s->posed.boundary,
                                  .load = s->load.load,
-                                 .hardness = s->posed.hardness,
                                  .tol = tolerance(s, &shape),
                                  .threads = (size_t)s->posed.threads,
                                  .ranks = ranks_for(s, &shape)};
@@ -220,6 +219,7 @@ coarse_new(const struct rc_solver *s, bool *sought)
 
     if (h == NULL)
         return NULL;
+    rc_bounds_pose(&s->posed.bounds, &problem);
     lower = -largest(rows.ranks, h, rows.n * shape.nx); /* that of the fine heights is 0 */
     *sought = s->load.target > 2 * lower;
     if (*sought)
@@ -238,6 +238,7 @@ static void
 repeat(struct rc_solver *s, const struct rc_solver *c)
 {
     size_t nx = s->posed.shape.nx, ny = s->posed.shape.ny, wide = c->posed.shape.nx;
+    const struct rc_box box = rc_box(s, 0);
     double *room;
     const double *from = pressure_under(s, c, &room);
 
@@ -246,7 +247,7 @@ repeat(struct rc_solver *s, const struct rc_solver *c)
 #pragma omp parallel for num_threads(s->posed.threads) schedule(static)
     for (size_t j = 0; j < ny; j++)
         for (size_t i = 0; i < nx; i++)
-            s->it.p[j * nx + i] = from[j / 2 * wide + i / 2];
+            s->it.p[j * nx + i] = rc_clip(box, j * nx + i, from[j / 2 * wide + i / 2]);
     free(room);
     if (fabs(rc_iterate_carried(s) - s->load.sum) <= 1e-14 * s->load.sum)
         return;
@@ -263,7 +264,7 @@ compare(struct rc_solver *s, struct rc_solver *c)
     size_t contact = 0;
 
     for (size_t k = 0; k < c->posed.n; k++)
-        contact += c->it.p[k] > 0;
+        contact += !rc_at_low(rc_box(c, 0), k, c->it.p[k]);
     s->coarse.contact_area = (double)rc_ranks_sum(c->posed.rows.ranks, contact) * c->posed.cell;
     s->coarse.max_pressure = largest(c->posed.rows.ranks, c->it.p, c->posed.n);
     rc_iterate_shift(c);

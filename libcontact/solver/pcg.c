@@ -259,8 +259,10 @@ start_from_springs(struct rc_solver *solver)
     for (size_t k = 0; k < solver->posed.n; k++) /* the highest is 0 */
         least = fmin(least, solver->posed.h[k]);
     least = -rc_ranks_most(solver->posed.rows.ranks, -least);
-    stiffness = fmin(1 / solver->op->unit,
-                     longest * fmin(solver->posed.hardness, solver->load.sum) / -least);
+    stiffness =
+        fmin(1 / solver->op->unit,
+             longest * fmin(rc_reach(&solver->posed.bounds, solver->load.sum), solver->load.sum) /
+                 -least);
     for (size_t k = 0; k < solver->posed.n; k++)
         solver->it.p[k] = stiffness * solver->posed.h[k];
     rc_projection_of(solver, solver->it.p);
@@ -294,20 +296,28 @@ find_direction(struct rc_solver *solver, struct pcg *s, double *mean)
 
 /* ---- a step along it, clipped, with one convolution of what was left ---- */
 
-/* After a move: the largest part of the way to a bound that any node has gone. */
-RC_CLONES static double
-farthest(size_t n, const double *restrict p, const float *restrict delta, double hardness,
-         double scale)
+RC_INLINE double
+farthest_in(struct rc_box box, size_t n, const double *restrict p, const float *restrict delta,
+            double scale)
 {
     double most = 0;
 
 #pragma omp simd reduction(max : most)
     for (size_t k = 0; k < n; k++) {
         double e = (double)delta[k] * scale, was = p[k] - e;
-        double part = e < 0 ? -e / was : e > 0 ? e / (hardness - was) : 0;
+        double below = was - rc_low(box, k), above = rc_high(box, k) - was;
+        double part = e < 0 ? -e / below : e > 0 ? e / above : 0;
         most = part > most ? part : most;
     }
     return most;
+}
+
+/* After a move: the largest part of the way to a bound that any node has gone. */
+RC_CLONES static double
+farthest(struct rc_box box, size_t n, const double *p, const float *delta, double scale)
+{
+    return box.highs == NULL ? farthest_in(rc_box_of_numbers(box), n, p, delta, scale)
+                             : farthest_in(box, n, p, delta, scale);
 }
 
 static void
@@ -316,7 +326,7 @@ farthest_block(void *at, size_t first, size_t n, double *sums)
     const struct pass *c = at;
     const struct rc_solver *s = c->solver;
 
-    sums[RC_MOST] = farthest(n, s->it.p + first, c->s->delta + first, s->posed.hardness,
+    sums[RC_MOST] = farthest(rc_box(s, first), n, s->it.p + first, c->s->delta + first,
                              1 / s->load.per_pressure);
 }
 
@@ -352,17 +362,17 @@ enum {
     CARRIED    /* of p                          */
 };
 
-RC_CLONES static void
-along(size_t n, const double *restrict p, const double *restrict v, double hardness, double shift,
-      const float *restrict delta, const float *restrict row, float *restrict q,
-      double *restrict sums)
+RC_INLINE void
+along_in(struct rc_box box, size_t n, const double *restrict p, const double *restrict v,
+         double shift, const float *restrict delta, const float *restrict row, float *restrict q,
+         double *restrict sums)
 {
     double slope = 0, curvature = 0, square = 0, gap = 0, pull = 0, elastic = 0, carried = 0;
 
 #pragma omp simd reduction(+ : slope, curvature, square, gap, pull, elastic, carried)
     for (size_t i = 0; i < n; i++) {
         double d = (double)delta[i], u = (double)row[i];
-        double in = p[i] <= 0 ? 0 : p[i] < hardness ? 1 : 0;
+        double in = p[i] <= rc_low(box, i) ? 0 : p[i] < rc_high(box, i) ? 1 : 0;
         q[i] = row[i];
         slope += d * (v[i] - shift);
         curvature += d * u;
@@ -379,6 +389,16 @@ along(size_t n, const double *restrict p, const double *restrict v, double hardn
     sums[PULL] += pull;
     sums[ELASTIC] += elastic;
     sums[CARRIED] += carried;
+}
+
+RC_CLONES static void
+along(struct rc_box box, size_t n, const double *p, const double *v, double shift,
+      const float *delta, const float *row, float *q, double *sums)
+{
+    if (box.highs == NULL)
+        along_in(rc_box_of_numbers(box), n, p, v, shift, delta, row, q, sums);
+    else
+        along_in(box, n, p, v, shift, delta, row, q, sums);
 }
 
 /* Where no node is in the set none has moved or is pressed. */
@@ -409,8 +429,8 @@ step_out(void *at, size_t j, void *from)
         bool in;
         n = rc_working_set_stretch(s, k, nx - i, &in);
         if (in)
-            along(n, s->it.p + k, s->it.v + k, s->posed.hardness, s->it.shift, c->s->delta + k,
-                  row + i, c->s->q + k, sums);
+            along(rc_box(s, k), n, s->it.p + k, s->it.v + k, s->it.shift, c->s->delta + k, row + i,
+                  c->s->q + k, sums);
         else
             sums[SQUARE] += beside(n, row + i, c->s->q + k);
     }
@@ -439,7 +459,8 @@ static void
 back_block(void *at, size_t first, size_t n, double *sums)
 {
     const struct pass *c = at;
-    double hardness = c->solver->posed.hardness, *p = c->solver->it.p;
+    const struct rc_box box = rc_box(c->solver, 0);
+    double *p = c->solver->it.p;
     const float *delta = c->s->delta;
 
     (void)sums;
@@ -448,7 +469,9 @@ back_block(void *at, size_t first, size_t n, double *sums)
         double rounding = 1e-6 * fabs(e);
         if (e == 0)
             continue;
-        p[k] = y <= rounding ? 0 : y >= hardness - rounding ? hardness : y;
+        p[k] = rc_at_low(box, k, y - rounding)    ? rc_low(box, k)
+               : rc_at_high(box, k, y + rounding) ? rc_high(box, k)
+                                                  : y;
     }
 }
 

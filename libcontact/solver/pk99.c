@@ -156,16 +156,17 @@ move_block(void *at, size_t first, size_t n, double *sums)
 {
     const struct pass *c = at;
     struct rc_solver *solver = c->solver;
+    const struct rc_box box = rc_box(solver, 0);
     double tau = c->number;
 
     for (size_t k = first; k < first + n; k++) {
         double p = solver->it.p[k], g = gap(solver, k);
 
         c->s->old[k] = p;
-        if (p > 0 && p < solver->posed.hardness && solver->it.elastic > 1)
-            p = fmin(fmax(p - tau * c->s->t[k], 0), solver->posed.hardness);
-        if ((p == 0 && g < 0) || (p == solver->posed.hardness && g > 0)) {
-            p = fmin(fmax(p - tau * g, 0), solver->posed.hardness);
+        if (rc_inside(box, k, p) && solver->it.elastic > 1)
+            p = rc_clip(box, k, p - tau * c->s->t[k]);
+        if ((rc_at_low(box, k, p) && g < 0) || (rc_at_high(box, k, p) && g > 0)) {
+            p = rc_clip(box, k, p - tau * g);
             sums[0]++;
         }
         solver->it.p[k] = p;

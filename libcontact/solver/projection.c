@@ -56,12 +56,12 @@ static void
 load_block(void *at, size_t first, size_t n, double *sums)
 {
     const struct map *m = at;
-    double hardness = m->s->posed.hardness;
+    const struct rc_box box = rc_box(m->s, 0);
 
     for (size_t k = first; k < first + n; k++) {
         double v = m->y[k] + m->shift;
-        sums[LOAD] += fmin(fmax(v, 0), hardness);
-        sums[ELASTIC] += v > 0 && v < hardness;
+        sums[LOAD] += rc_clip(box, k, v);
+        sums[ELASTIC] += rc_inside(box, k, v);
     }
 }
 
@@ -80,8 +80,8 @@ void
 rc_projection_of(const struct rc_solver *s, double *y)
 {
     struct map map = {.s = s, .y = y};
-    double least = INFINITY, most = -INFINITY, low, high, mu, hardness = s->posed.hardness;
-    double sum = s->load.sum;
+    const struct rc_bounds *bounds = &s->posed.bounds;
+    double least = INFINITY, most = -INFINITY, low, high, mu, sum = s->load.sum;
 
     for (size_t k = 0; k < s->posed.n; k++) {
         least = fmin(least, y[k]);
@@ -89,17 +89,17 @@ rc_projection_of(const struct rc_solver *s, double *y)
     }
     most = rc_ranks_most(s->posed.rows.ranks, most);
     least = -rc_ranks_most(s->posed.rows.ranks, -least);
-    low = -most; /* nothing above 0 */
-    high = isinf(hardness) ? sum / (double)s->posed.nodes - least : hardness - least;
+    low = bounds->box.low - most; /* nothing above its lower bound */
+    high = bounds->box.low + rc_reach(bounds, rc_above(bounds, sum)) - least;
     mu = rc_newton(excess_of_map, &map, low, high, fmin(fmax(0, low), high), 4 * DBL_EPSILON * sum);
     for (size_t k = 0; k < s->posed.n; k++)
-        y[k] = fmin(fmax(y[k] + mu, 0), hardness);
+        y[k] = rc_clip(bounds->box, k, y[k] + mu);
 }
 
 /* ---- of a step ---- */
 
 /* What the passes over all nodes share: on W p becomes y = p + alpha (d - mean), then
- * clip(y + shift, 0, H). */
+ * clip(y + shift, 0, H). Loads are those above the lower bounds. */
 struct step {
     struct rc_move *m;
     double shift, wanted;
@@ -107,7 +107,7 @@ struct step {
 
 enum {    /* sums of the first pass, */
     HELD, /* by nodes off W          */
-    WORKING,
+    ROOM,
     /* of the others */
     CARRIED = 0,
     COUNT,
@@ -127,13 +127,14 @@ aim_block(void *at, size_t first, size_t n, double *sums)
 {
     const struct step *c = at;
     const struct rc_solver *s = c->m->solver;
+    const struct rc_box box = rc_box(s, 0);
 
     for (size_t k = first; k < first + n; k++) {
         if (!s->set.w[k]) {
-            sums[HELD] += s->it.p[k];
+            sums[HELD] += s->it.p[k] - rc_low(box, k);
             continue;
         }
-        sums[WORKING]++;
+        sums[ROOM] += rc_room(box, k);
         s->it.p[k] += way(c->m, k);
         sums[RC_MOST] = fmax(sums[RC_MOST], fabs(s->it.p[k]));
     }
@@ -144,14 +145,14 @@ carried_block(void *at, size_t first, size_t n, double *sums)
 {
     const struct step *c = at;
     const struct rc_solver *s = c->m->solver;
-    double hardness = s->posed.hardness;
+    const struct rc_box box = rc_box(s, 0);
 
     for (size_t k = first; k < first + n; k++) {
         double y = s->it.p[k] + c->shift;
         if (!s->set.w[k])
             continue;
-        sums[CARRIED] += y > 0 ? y < hardness ? y : hardness : 0;
-        sums[COUNT] += y > 0 && y < hardness;
+        sums[CARRIED] += rc_clip(box, k, y) - rc_low(box, k);
+        sums[COUNT] += rc_inside(box, k, y);
     }
 }
 
@@ -171,13 +172,14 @@ settle_block(void *at, size_t first, size_t n, double *sums)
 {
     const struct step *c = at;
     const struct rc_solver *s = c->m->solver;
+    const struct rc_box box = rc_box(s, 0);
 
     for (size_t k = first; k < first + n; k++) {
         double y = s->it.p[k], to, change;
         c->m->delta[k] = 0;
         if (!s->set.w[k])
             continue;
-        to = fmin(fmax(y + c->shift, 0), s->posed.hardness);
+        to = rc_clip(box, k, y + c->shift);
         change = to - (y - way(c->m, k));
         s->it.p[k] = to;
         c->m->delta[k] = (float)(change * s->load.per_pressure);
@@ -189,16 +191,17 @@ void
 rc_move_shift(struct rc_move *m)
 {
     struct rc_solver *s = m->solver;
+    const struct rc_bounds *bounds = &s->posed.bounds;
     struct step c = {.m = m};
-    double total[RC_SUMS], high;
+    double total[RC_SUMS], all = rc_above(bounds, s->load.sum), high;
 
     rc_reduce_blocks(s, aim_block, &c, total);
-    c.wanted = s->load.sum - total[HELD];
-    if (!(c.wanted > 0 && c.wanted <= s->posed.hardness * total[WORKING])) {
+    c.wanted = all - total[HELD];
+    if (!(c.wanted > 0 && c.wanted <= rc_rooms(bounds, total[ROOM]))) {
         rc_working_set_all(s);
-        c.wanted = s->load.sum;
+        c.wanted = all;
     }
-    high = (isinf(s->posed.hardness) ? s->load.sum : s->posed.hardness) + total[RC_MOST];
+    high = rc_reach(bounds, all) + fabs(bounds->box.low) + total[RC_MOST];
     c.shift = rc_newton(excess_of_step, &c, -high, high, 0, 4 * DBL_EPSILON * s->load.sum);
     rc_reduce_blocks(s, settle_block, &c, total);
     m->size = total[SIZE];
@@ -207,25 +210,36 @@ rc_move_shift(struct rc_move *m)
 
 /* ---- by scaling ---- */
 
+/* Of what nodes carry above their lower bounds. */
 struct scale {
     struct rc_solver *s;
     double f;
     bool cap; /* nodes that the factor brings to the bound go there; else all are multiplied */
     const double *g;
-    double least, most; /* gaps between which nodes are counted */
+    double least, most; /* gaps between which rooms are added up */
 };
 
-/* Of the elastic nodes; sums[1]: how many would reach the bound with the factor f. */
+static inline double
+scaled(const struct scale *c, struct rc_box box, size_t k)
+{
+    double low = rc_low(box, k);
+
+    return low + c->f * (c->s->it.p[k] - low);
+}
+
+/* Of the elastic nodes; sums[1]: the rooms of those that would reach the bound with the factor f. */
 static void
 elastic_block(void *at, size_t first, size_t n, double *sums)
 {
     const struct scale *c = at;
+    const struct rc_box box = rc_box(c->s, 0);
     struct rc_total sum = {0};
 
     for (size_t k = first; k < first + n; k++)
         if (rc_elastic(c->s, k)) {
-            rc_total_add(&sum, c->s->it.p[k]);
-            sums[1] += c->f > 1 && c->f * c->s->it.p[k] >= c->s->posed.hardness;
+            rc_total_add(&sum, c->s->it.p[k] - rc_low(box, k));
+            if (c->f > 1 && rc_at_high(box, k, scaled(c, box, k)))
+                sums[1] += rc_room(box, k);
         }
     sums[0] = rc_total_value(&sum);
 }
@@ -234,12 +248,14 @@ static void
 multiply_block(void *at, size_t first, size_t n, double *sums)
 {
     const struct scale *c = at;
-    double *p = c->s->it.p, hardness = c->s->posed.hardness;
+    const struct rc_box box = rc_box(c->s, 0);
 
     (void)sums;
-    for (size_t k = first; k < first + n; k++)
-        if (rc_elastic(c->s, k) && (!c->cap || c->f * p[k] >= hardness))
-            p[k] = c->cap ? hardness : c->f * p[k];
+    for (size_t k = first; k < first + n; k++) {
+        double to = scaled(c, box, k);
+        if (rc_elastic(c->s, k) && (!c->cap || rc_at_high(box, k, to)))
+            c->s->it.p[k] = c->cap ? rc_high(box, k) : to;
+    }
 }
 
 /* Factor f with sum over the elastic nodes of min(f p, H) = target. A node that reaches the bound
@@ -260,28 +276,37 @@ scale_elastic(struct rc_solver *s, double target)
         capped = total[1];
         c.cap = capped > 0;
         rc_reduce_blocks(s, multiply_block, &c, total);
-        target -= capped * s->posed.hardness;
+        target -= rc_rooms(&s->posed.bounds, capped);
     } while (capped > 0);
 }
 
-/* Nodes without pressure whose gap is at least `least` and at most `most`. */
-static void
-count_block(void *at, size_t first, size_t n, double *sums)
+/* Whether a node without pressure has a gap from `least` to `most`. */
+static bool
+may_join(const struct scale *c, struct rc_box box, size_t k, double least, double most)
 {
-    const struct scale *c = at;
-
-    for (size_t k = first; k < first + n; k++)
-        sums[0] += c->s->it.p[k] <= 0 && c->g[k] >= c->least && c->g[k] <= c->most;
+    return rc_at_low(box, k, c->s->it.p[k]) && c->g[k] >= least && c->g[k] <= most;
 }
 
+static void
+room_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct scale *c = at;
+    const struct rc_box box = rc_box(c->s, 0);
+
+    for (size_t k = first; k < first + n; k++)
+        if (may_join(c, box, k, c->least, c->most))
+            sums[0] += rc_room(box, k);
+}
+
+/* The rooms of those nodes. */
 static double
-count_gaps(struct scale *c, double least, double most)
+room_of_gaps(struct scale *c, double least, double most)
 {
     double total[RC_SUMS];
 
     c->least = least;
     c->most = most;
-    rc_reduce_blocks(c->s, count_block, c, total);
+    rc_reduce_blocks(c->s, room_block, c, total);
     return total[0];
 }
 
@@ -305,7 +330,7 @@ of_rank(int64_t rank)
     return v;
 }
 
-/* The gap of the last node that joins when `wanted` do: bisection over all doubles. */
+/* The gap of the last node that joins when room for `wanted` is needed: bisection over all doubles. */
 static double
 last_gap(struct scale *c, double wanted)
 {
@@ -313,7 +338,7 @@ last_gap(struct scale *c, double wanted)
 
     while (low < high) {
         int64_t middle = low + (int64_t)(((uint64_t)high - (uint64_t)low) / 2);
-        if (count_gaps(c, -INFINITY, of_rank(middle)) >= wanted)
+        if (room_of_gaps(c, -INFINITY, of_rank(middle)) >= wanted)
             high = middle;
         else
             low = middle + 1;
@@ -321,17 +346,19 @@ last_gap(struct scale *c, double wanted)
     return of_rank(low);
 }
 
-/* Nodes without pressure of just this gap in rows that are held before those here. */
+/* The rooms of nodes without pressure of just this gap in rows that are held before those here. */
 static double
 equal_before(const struct scale *c, double gap)
 {
-    size_t here = 0;
+    const struct rc_box box = rc_box(c->s, 0);
+    double here = 0;
 
     if (c->s->posed.rows.ranks == NULL)
         return 0;
     for (size_t k = 0; k < c->s->posed.n; k++)
-        here += c->s->it.p[k] <= 0 && c->g[k] == gap;
-    return (double)rc_ranks_sum_before(c->s->posed.rows.ranks, here);
+        if (may_join(c, box, k, gap, gap))
+            here += rc_room(box, k);
+    return rc_ranks_sum_before(c->s->posed.rows.ranks, here);
 }
 
 /* All loaded nodes, if any, are at the bound and `rest` is still missing: nodes join by their gap, those of
@@ -339,26 +366,24 @@ equal_before(const struct scale *c, double gap)
 static void
 add_nodes(struct rc_solver *s, double rest, const double *g)
 {
-    double hardness = s->posed.hardness, wanted = 1, part = rest, last, before, equal;
+    const struct rc_bounds *bounds = &s->posed.bounds;
+    const struct rc_box box = rc_box(s, 0);
+    double wanted = rc_bounded(bounds) ? rest / bounds->unit - 4 * DBL_EPSILON : 1, last, taken;
     struct scale c = {.s = s, .g = g};
 
-    if (!isinf(hardness)) {
-        wanted = ceil(rest / hardness - 4 * DBL_EPSILON);
-        part = rest - (wanted - 1) * hardness;
-    }
     if (!(wanted > 0))
         return;
-    wanted = fmin(wanted, count_gaps(&c, -INFINITY, INFINITY));
-    last = last_gap(&c, wanted);
-    before = count_gaps(&c, -INFINITY, last) - count_gaps(&c, last, last);
-    equal = wanted - before - equal_before(&c, last); /* of this gap, those here that join */
+    last = last_gap(&c, fmin(wanted, room_of_gaps(&c, -INFINITY, INFINITY)));
+    taken = room_of_gaps(&c, -INFINITY, of_rank(rank_of(last) - 1)) + equal_before(&c, last);
     for (size_t k = 0; k < s->posed.n; k++) {
-        if (s->it.p[k] > 0 || g[k] > last)
+        if (!rc_at_low(box, k, s->it.p[k]) || g[k] > last)
             continue;
-        if (g[k] < last)
-            s->it.p[k] = hardness;
-        else if (equal-- > 0)
-            s->it.p[k] = equal == 0 ? fmin(part, hardness) : hardness;
+        if (g[k] < last) {
+            s->it.p[k] = rc_high(box, k);
+        } else if (taken < wanted) { /* of this gap not all need join */
+            s->it.p[k] = rc_clip(box, k, rc_low(box, k) + rest - rc_rooms(bounds, taken));
+            taken += rc_room(box, k);
+        }
     }
 }
 
@@ -377,7 +402,7 @@ times_block(void *at, size_t first, size_t n, double *sums)
 
     (void)sums;
     for (size_t k = first; k < first + n; k++)
-        c->s->it.p[k] *= c->f;
+        c->s->it.p[k] = scaled(c, rc_box(c->s, 0), k);
 }
 
 /* The nodes at the bound carry too much by themselves. */
@@ -388,11 +413,11 @@ scale_all(struct rc_solver *s)
     double total[RC_SUMS];
 
     rc_reduce_blocks(s, pressure_block, &c, total);
-    c.f = s->load.sum / total[0];
+    c.f = rc_above(&s->posed.bounds, s->load.sum) / rc_above(&s->posed.bounds, total[0]);
     rc_reduce_blocks(s, times_block, &c, total);
 }
 
-enum { /* nodes */
+enum { /* rooms of nodes */
     IN_BETWEEN,
     FULL
 };
@@ -401,34 +426,38 @@ static void
 stand_block(void *at, size_t first, size_t n, double *sums)
 {
     const struct scale *c = at;
+    const struct rc_box box = rc_box(c->s, 0);
 
     for (size_t k = first; k < first + n; k++) {
-        sums[IN_BETWEEN] += rc_elastic(c->s, k);
-        sums[FULL] += c->s->it.p[k] >= c->s->posed.hardness;
+        double p = c->s->it.p[k];
+        sums[IN_BETWEEN] += rc_inside(box, k, p) ? rc_room(box, k) : 0;
+        sums[FULL] += rc_at_high(box, k, p) ? rc_room(box, k) : 0;
     }
 }
 
 void
 rc_projection_balance(struct rc_solver *s, const double *g)
 {
+    const struct rc_bounds *bounds = &s->posed.bounds;
+    const struct rc_box box = rc_box(s, 0);
     struct scale c = {.s = s};
-    double total[RC_SUMS], hardness = s->posed.hardness, sum = s->load.sum, elastic, full, target;
+    double total[RC_SUMS], sum = rc_above(bounds, s->load.sum), elastic, full, target;
 
     rc_reduce_blocks(s, stand_block, &c, total);
-    elastic = total[IN_BETWEEN];
-    full = total[FULL];
-    target = full == 0 ? sum : sum - hardness * full;
+    elastic = rc_rooms(bounds, total[IN_BETWEEN]);
+    full = rc_rooms(bounds, total[FULL]);
+    target = sum - full;
     if (elastic == 0 && fabs(target) <= 4 * DBL_EPSILON * sum)
         return; /* every loaded node at the bound, and that is the load */
-    if (elastic > 0 && target > 0 && target <= hardness * elastic) {
+    if (elastic > 0 && target > 0 && target <= elastic) {
         scale_elastic(s, target);
         return;
     }
-    if (elastic + full == 0 || target > hardness * elastic) {
+    if (elastic + full == 0 || target > elastic) {
         for (size_t k = 0; k < s->posed.n; k++)
-            if (s->it.p[k] > 0)
-                s->it.p[k] = hardness;
-        add_nodes(s, elastic + full == 0 ? sum : sum - hardness * (elastic + full), g);
+            if (!rc_at_low(box, k, s->it.p[k]))
+                s->it.p[k] = rc_high(box, k);
+        add_nodes(s, sum - (elastic + full), g);
         return;
     }
     scale_all(s);

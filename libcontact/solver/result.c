@@ -48,11 +48,12 @@ static void
 count_block(void *at, size_t first, size_t n, double *sums)
 {
     const struct rc_solver *s = ((struct figures *)at)->s;
+    const struct rc_box box = rc_box(s, 0);
 
     for (size_t k = first; k < first + n; k++) {
         double p = s->it.p[k];
-        sums[CONTACT] += p > 0;
-        sums[PLASTIC] += p >= s->posed.hardness;
+        sums[CONTACT] += !rc_at_low(box, k, p);
+        sums[PLASTIC] += rc_at_high(box, k, p);
         sums[PRESSURE] += p;
         sums[HEIGHT] += s->posed.h[k];
         sums[V] += s->it.v[k];
@@ -66,6 +67,7 @@ spread_block(void *at, size_t first, size_t n, double *sums)
 {
     const struct figures *f = at;
     const struct rc_solver *s = f->s;
+    const struct rc_box box = rc_box(s, 0);
 
     for (size_t k = first; k < first + n; k++) {
         double g = s->it.v[k] - s->it.shift, u = s->it.v[k] + s->posed.h[k], p = s->it.p[k], worst;
@@ -74,7 +76,7 @@ spread_block(void *at, size_t first, size_t n, double *sums)
         sums[SPREAD_H] += h * h;
         sums[SPREAD_U] += around * around;
         sums[OPEN] += g > 0 ? g : 0;
-        worst = p <= 0 ? fmax(-g, 0) : p >= s->posed.hardness ? fmax(g, 0) : fabs(g);
+        worst = rc_at_low(box, k, p) ? fmax(-g, 0) : rc_at_high(box, k, p) ? fmax(g, 0) : fabs(g);
         sums[RC_MOST] = worst > sums[RC_MOST] ? worst : sums[RC_MOST];
         if (f->displacement != NULL)
             f->displacement[k] = u;
@@ -83,7 +85,7 @@ spread_block(void *at, size_t first, size_t n, double *sums)
     }
 }
 
-/* Nodes at the hardness whose gap is negative by more than `worst`. */
+/* Nodes at their upper bounds whose gap is negative by more than `worst`. */
 static void
 yield_block(void *at, size_t first, size_t n, double *sums)
 {
@@ -91,7 +93,7 @@ yield_block(void *at, size_t first, size_t n, double *sums)
     const struct rc_solver *s = f->s;
 
     for (size_t k = first; k < first + n; k++)
-        sums[0] += s->it.p[k] >= s->posed.hardness && s->it.v[k] - s->it.shift < -f->worst;
+        sums[0] += rc_at_high(rc_box(s, 0), k, s->it.p[k]) && s->it.v[k] - s->it.shift < -f->worst;
 }
 
 static size_t
@@ -109,6 +111,7 @@ edge_nodes(const struct rc_solver *s)
 {
     const struct rc_rows *rows = &s->posed.rows;
     size_t nx = s->posed.shape.nx, ny = s->posed.shape.ny, count = 0;
+    const double low = s->posed.bounds.box.low;
     double before[RC_ROW_PIECE], after[RC_ROW_PIECE];
     bool has[2] = {false, false};
 
@@ -122,8 +125,9 @@ edge_nodes(const struct rc_solver *s)
             const double *above = j > 0 ? p + first - nx : has[0] ? before : p + first;
             const double *below = j + 1 < ny ? p + first + nx : has[1] ? after : p + first;
             for (size_t i = first; i < last; i++)
-                count += p[i] > 0 && ((i > 0 && p[i - 1] <= 0) || (i + 1 < nx && p[i + 1] <= 0) ||
-                                      above[i - first] <= 0 || below[i - first] <= 0);
+                count +=
+                    p[i] > low && ((i > 0 && p[i - 1] <= low) || (i + 1 < nx && p[i + 1] <= low) ||
+                                   above[i - first] <= low || below[i - first] <= low);
         }
     }
     return rc_ranks_sum(rows->ranks, count);
@@ -154,7 +158,9 @@ rc_solver_plastic(const struct rc_solver *s, double *h, struct rc_err *err)
 #pragma omp parallel for num_threads(s->posed.threads) schedule(static)
     for (size_t k = 0; k < s->posed.n; k++) {
         double g = s->it.v[k] - s->it.shift;
-        h[k] = s->posed.h[k] + s->posed.top + (s->it.p[k] >= s->posed.hardness && g < 0 ? g : 0);
+        h[k] = s->posed.h[k] + s->posed.top;
+        if (rc_at_high(rc_box(s, 0), k, s->it.p[k]) && g < 0)
+            h[k] += g;
     }
     return RC_OK;
 }

@@ -42,13 +42,14 @@ rc_safeguard_raised(struct rc_safeguard *safeguard, const struct rc_solver *solv
 static double
 longest(const struct rc_solver *solver, const double *t)
 {
+    const struct rc_box box = rc_box(solver, 0);
     double most = INFINITY;
 
     for (size_t k = 0; k < solver->posed.n; k++) {
         if (t[k] < 0)
-            most = fmin(most, -solver->it.p[k] / t[k]);
+            most = fmin(most, (rc_low(box, k) - solver->it.p[k]) / t[k]);
         else if (t[k] > 0)
-            most = fmin(most, (solver->posed.hardness - solver->it.p[k]) / t[k]);
+            most = fmin(most, (rc_high(box, k) - solver->it.p[k]) / t[k]);
     }
     return -rc_ranks_most(solver->posed.rows.ranks, -most);
 }
@@ -105,10 +106,11 @@ move_block(void *at, size_t first, size_t n, double *sums)
 {
     const struct way *w = at;
     struct rc_solver *s = w->solver;
+    const struct rc_box box = rc_box(s, 0);
 
     (void)sums;
     for (size_t k = first; k < first + n; k++)
-        s->it.p[k] = fmin(fmax(s->it.p[k] + w->length * w->t[k], 0), s->posed.hardness);
+        s->it.p[k] = rc_clip(box, k, s->it.p[k] + w->length * w->t[k]);
 }
 
 void

@@ -119,7 +119,7 @@ pose(struct rc_posed *posed, const struct rc_shape *shape, const double *h,
                                .nodes = nodes,
                                .cell = shape->dx * shape->dy,
                                .h = rc_alloc(n, sizeof *posed->h),
-                               .hardness = problem->hardness == 0 ? INFINITY : problem->hardness,
+                               .bounds = rc_bounds_of(problem, nodes),
                                .tol = tolerance(shape, problem),
                                .max_iterations = problem->max_iterations > 0
                                                      ? problem->max_iterations
@@ -272,14 +272,14 @@ rc_solver_expect(const struct rc_shape *shape, const struct rc_problem *problem,
 {
     struct rc_operator_options options = operator_options(shape, problem);
     const struct rc_method *method = choose(problem->method, err);
+    struct rc_bounds bounds = rc_bounds_of(problem, shape->nx * shape->ny);
     double nodes = (double)(shape->nx * shape->ny), some;
-    double hardness = problem->hardness == 0 ? INFINITY : problem->hardness;
 
     if (method == NULL || check(shape, problem, err) != RC_OK ||
         rc_operator_check(shape, &options, err) != RC_OK)
         return RC_FAIL;
     if (!(problem->approach > 0) &&
-        rc_load_check(problem->load, hardness, shape->dx * shape->dy * nodes, err) != RC_OK)
+        rc_load_check(problem->load, &bounds, shape->dx * shape->dy * nodes, err) != RC_OK)
         return RC_FAIL;
     some = method->convolutions == NULL
                ? NAN
@@ -383,7 +383,7 @@ rc_solver_warm_start(struct rc_solver *s, double load, const double *p, struct r
         return RC_FAIL;
     rc_nested_free(s);
     for (size_t k = 0; k < s->posed.n; k++) {
-        s->it.p[k] = fmin(fmax(p[k], 0), s->posed.hardness);
+        s->it.p[k] = rc_clip(rc_box(s, 0), k, p[k]);
         s->it.v[k] = -s->posed.h[k]; /* should nodes have to join, the highest first */
     }
     rc_projection_restore(s, rc_iterate_carried(s));

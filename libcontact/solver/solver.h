@@ -4,7 +4,7 @@
  *
  * The problem: p with 0 <= p <= H and sum p dx dy = load that minimises 1/2 p'Kp - h'p. With the
  * gap g = Kp - h - c, c its mean over the elastic nodes (0 < p < H), the solution has g = 0 there,
- * g >= 0 where p = 0 and g <= 0 where p = H.
+ * g >= 0 where p = 0 and g <= 0 where p = H. What 0 and H are only bounds.h knows.
  *
  * struct rc_solver has four parts, each written by one file: the problem (solver.c), the iterate
  * (iterate.c; methods move its pressure, and say so), the working set (working_set.c) and the load
@@ -15,6 +15,7 @@
 
 #include <math.h>
 
+#include "bounds.h"
 #include "libcontact/operator/operator.h"
 #include "preconditioner.h"
 
@@ -62,11 +63,11 @@ struct rc_posed {
         *all; /* who does the same, each with its rows or, of a small coarse grid, with all of
                                    them: where one cannot, none does */
     enum rc_boundary boundary;
-    size_t n, nodes;       /* nodes held here, and of the whole map            */
-    double cell;           /* dx dy                                                    */
-    double *h;             /* heights less their maximum: the datum costs digits       */
-    double top;            /* that maximum                                             */
-    double hardness;       /* INFINITY: none                                           */
+    size_t n, nodes; /* nodes held here, and of the whole map            */
+    double cell;     /* dx dy                                                    */
+    double *h;       /* heights less their maximum: the datum costs digits       */
+    double top;      /* that maximum                                             */
+    struct rc_bounds bounds;
     double height_error;   /* m: what the heights may be off                           */
     double tol;            /* asked relative L1 error of the pressure                  */
     size_t max_iterations; /* of one load                                              */
@@ -81,7 +82,7 @@ struct rc_iterate {
     double *v;         /* K p - h: the gap but for a constant                                */
     bool known, fresh; /* v belongs to p; and comes from a convolution in double precision   */
     double shift;      /* c: the gap is v - c                                                */
-    size_t elastic;    /* nodes with 0 < p < H                                               */
+    size_t elastic;    /* nodes between their bounds                                         */
     size_t iterations;
     double convolutions; /* equivalents of one in double precision                             */
     double error;        /* estimated relative L1 error at the last check; NAN: none           */
@@ -98,7 +99,7 @@ struct rc_working_set {
     unsigned char *beside_w;
     float *beside_r;
     size_t size;
-    size_t saturated; /* nodes off it at the hardness                                          */
+    double saturated; /* sum of rc_room over the nodes off it at their upper bounds            */
     double left_out;  /* what the nodes left out of it would carry, times per_pressure          */
     /* Nodes that changed sides since the preconditioner was told w, and since it measured
      * distances; INFINITY: w is another set altogether. */
@@ -147,11 +148,16 @@ struct rc_solver {
     } stage;
 };
 
-/* Where a node stands in the box. */
+static inline struct rc_box
+rc_box(const struct rc_solver *s, size_t first)
+{
+    return rc_box_at(&s->posed.bounds, first);
+}
+
 static inline bool
 rc_elastic(const struct rc_solver *s, size_t k)
 {
-    return s->it.p[k] > 0 && s->it.p[k] < s->posed.hardness;
+    return rc_inside(rc_box(s, 0), k, s->it.p[k]);
 }
 
 /* ---- reduce.c: what runs over all nodes ---- */
@@ -200,7 +206,7 @@ void rc_iterate_reset(struct rc_solver *solver);
 /* So many more convolutions, in equivalents. */
 void rc_iterate_count(struct rc_solver *solver, double convolutions);
 /* The shift: mean of v over the elastic nodes, or, when there are none, the middle between the
- * largest v under p = H and the smallest under p = 0. Sets `elastic` and `shift`. */
+ * largest v at an upper bound and the smallest at a lower one. Sets `elastic` and `shift`. */
 void rc_iterate_shift(struct rc_solver *solver);
 /* Sum of p. */
 double rc_iterate_carried(const struct rc_solver *solver);
@@ -220,7 +226,7 @@ void rc_working_set_free(struct rc_solver *solver);
 /* The working set and the residual on it, from v and the shift; `sift`: without the nodes that
  * would only be pushed back to their bound. */
 void rc_working_set_find(struct rc_solver *solver, bool sift);
-/* The same after v has gone `factor` times q further; off the set p is 0 or at the hardness. */
+/* The same after v has gone `factor` times q further; off the set p is at a bound. */
 void rc_working_set_follow(struct rc_solver *solver, const float *q, double factor);
 /* All nodes, with what `r` holds. */
 void rc_working_set_all(struct rc_solver *solver);
@@ -234,8 +240,8 @@ double rc_working_set_error(struct rc_solver *solver, double share);
 /* The same, correction and all. */
 double rc_working_set_estimate(struct rc_solver *solver);
 
-/* How many of the n nodes from `first` on belong together: *in, some are on the set, or may be at the
- * hardness; not, their pressures are all 0. */
+/* How many of the n nodes from `first` on belong together: *in, some are on the set, or may carry
+ * something off it; not, their pressures are all 0. */
 size_t rc_working_set_stretch(const struct rc_solver *solver, size_t first, size_t n, bool *in);
 
 /* The next set is another one altogether. */
@@ -252,8 +258,9 @@ struct rc_solver *rc_solver_coarse(const struct rc_solver *fine, const struct rc
 
 /* ---- load_search.c ---- */
 
-/* RC_FAIL when there is no solution under this load: more than the hardness carries on the map. */
-enum rc_status rc_load_check(double load, double hardness, double area, struct rc_err *err);
+/* RC_FAIL when there is no solution under this load: more than the bounds carry on the map. */
+enum rc_status rc_load_check(double load, const struct rc_bounds *bounds, double area,
+                             struct rc_err *err);
 /* Sets the load and what follows from it; RC_FAIL when there is no solution. */
 enum rc_status rc_load_set(struct rc_solver *solver, double load, struct rc_err *err);
 /* The first load: the one given, or where one is sought a guess. */
@@ -285,13 +292,13 @@ double rc_nested_convolutions(const struct rc_solver *solver);
 
 /* ---- projection.c ---- */
 
-/* The pressure gets the load by scaling its elastic nodes, as far as the box lets them; what they cannot
- * carry goes to the nodes of smallest g, what is too much is taken from all. */
+/* The pressure gets the load by scaling what its elastic nodes carry above their lower bounds, as far as the
+ * box lets them; what they cannot carry goes to the nodes of smallest g, what is too much is taken from all. */
 void rc_projection_balance(struct rc_solver *solver, const double *g);
 /* The same where the load is off by more than rounding; nodes join by v. */
 void rc_projection_restore(struct rc_solver *solver, double carried);
 
-/* The nearest point of {0 <= y <= H, sum y = S} to this map: one shift for all nodes, clipped. */
+/* The nearest point of the box with the load to this map: one shift for all nodes, clipped. */
 void rc_projection_of(const struct rc_solver *solver, double *y);
 
 /* What is carried too much at one shift, and how that grows with it; it is monotone. */

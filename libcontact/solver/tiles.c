@@ -6,7 +6,7 @@
  * multiplies a wave by 2/(E* q). The clipped step is then too long for the energy, the more the
  * larger the map. Here each tile of 16 x 16 nodes keeps what it carries by a shift of its own, and
  * no wave longer than a tile is left. Only what a tile cannot keep, because it would have to pull or
- * to carry more than the hardness, is shared by all elastic nodes.
+ * to carry more than its upper bounds, is shared by all elastic nodes.
  *
  * Before the shift the neighbours of a node that is stopped are told: the step counts on the pull
  * that it would have had. In the quadratic form of the inverse, A, the nearest point of the box is p
@@ -31,17 +31,10 @@ enum {
 };
 /* Of a Jacobi sweep: with 1, neighbours that are stopped together would be pushed too far. */
 static const float damping = 0.8F;
-/* A node that the shift leaves alone: at p = 0, and at the hardness. */
+/* A node that the shift leaves alone: at its lower bound, and at its upper one. */
 static const float stays_low = -FLT_MAX, stays_high = FLT_MAX;
 /* What tiles could not keep, relative to the tolerance, that a single one may take. */
 static const double little = 1e-2;
-
-static inline double
-clip(double y, double hardness)
-{
-    y = y > 0 ? y : 0;
-    return y < hardness ? y : hardness;
-}
 
 /* ---- one tile ---- */
 
@@ -52,21 +45,25 @@ struct place {
     const float *d;
     double *p;
     float *delta;
+    struct rc_box box;
 };
 
-/* A tile by itself. What the step would make of it is in single precision and in units of rows: it
- * is only to tell the shift, and what that leaves is put right at the end. */
+/* A tile by itself. What the step would make of it is in single precision, in units of rows, and counts
+ * from the lower bound: it is only to tell the shift, and what that leaves is put right at the end. */
 struct copy {
     double p[NODES];
     float d[NODES], on[NODES]; /* 1 on the set, else 0                                        */
     float y[NODES];            /* where nodes of the set would come to lie; off it: stays_low */
     float push[NODES];         /* what neighbours that are stopped have put into it           */
-    double sum;                /* what its nodes are to carry together                        */
+    double sum;                /* what its nodes are to carry together, counted like y        */
     bool out;                  /* a node would leave the box                                  */
     bool held_in;              /* a node at its bound would leave the box, and is not moved   */
+    /* of a map of bounds only: the upper ones, and how far y may go */
+    double high[NODES];
+    float most[NODES];
 };
 
-static inline void
+RC_INLINE void
 take(const struct place *t, struct copy *c)
 {
     if (t->nx < TILE || t->ny < TILE)
@@ -81,39 +78,61 @@ take(const struct place *t, struct copy *c)
     }
 }
 
-/* Where a node comes to lie by itself: at its bound, where it would leave the box from there. */
-static inline double
-aimed(double p, double v, double hardness)
+/* The bounds of its nodes, from those of its rows of the map. */
+RC_INLINE struct rc_box
+take_bounds(const struct place *t, struct rc_box box, double scale, struct copy *c)
 {
-    double low = v < 0 ? p : v, high = v > hardness ? p : v;
-
-    return p <= 0 ? low : p >= hardness ? high : v;
+    for (size_t j = 0; j < t->ny; j++)
+        memcpy(c->high + j * TILE, box.highs + j * t->stride, t->nx * sizeof *c->high);
+    for (size_t k = 0; k < NODES; k++)
+        c->most[k] = (float)((c->high[k] - box.low) * scale);
+    box.highs = c->high;
+    return box;
 }
 
-static inline void
-aim(double alpha, double mean, double hardness, double scale, struct copy *c)
+/* How far y may go. */
+RC_INLINE float
+most_of(struct rc_box box, float most, const float *mosts, size_t k)
 {
-    double sum = 0, least = 0, most = 0, held = 0;
+    return box.highs != NULL ? mosts[k] : most;
+}
 
-#pragma omp simd reduction(+ : sum, held) reduction(min : least) reduction(max : most)
+/* Where a node comes to lie by itself: at its bound, where it would leave the box from there. */
+RC_INLINE double
+aimed(struct rc_box box, size_t k, double p, double v)
+{
+    double low = rc_low(box, k), high = rc_high(box, k);
+    double from_low = v < low ? p : v, from_high = v > high ? p : v;
+
+    return p <= low ? from_low : p >= high ? from_high : v;
+}
+
+RC_INLINE void
+aim(struct rc_box box, double alpha, double mean, double scale, struct copy *c)
+{
+    double sum = 0, most = 0, held = 0;
+
+#pragma omp simd reduction(+ : sum, held) reduction(max : most)
     for (size_t k = 0; k < NODES; k++) {
         double e = (double)c->d[k], step = e != 0 ? alpha * (e - mean) : 0, all = c->p[k] + step;
-        double on = (double)c->on[k], v = aimed(c->p[k], all, hardness), in = on * v;
-        c->y[k] = on > 0 ? (float)(v * scale) : stays_low;
-        sum += on * all;
+        double on = (double)c->on[k], v = aimed(box, k, c->p[k], all);
+        double below = rc_low(box, k) - v, above = v - rc_high(box, k);
+        double out = below > above ? below : above;
+        c->y[k] = on > 0 ? (float)(-below * scale) : stays_low;
+        sum += on * (all - rc_low(box, k));
         held += on * fabs(v - all);
-        least = in < least ? in : least;
-        most = in > most ? in : most;
+        out = on > 0 ? out : 0;
+        most = out > most ? out : most;
     }
     c->sum = sum * scale;
-    c->out = least < 0 || most > hardness;
+    c->out = most > 0;
     c->held_in = held > 0;
 }
 
 /* One sweep for the multipliers; the nodes that are stopped come to rest at their bounds. `near`:
  * the coefficients of A. */
-static inline void
-push_back(double (*near)[3], float hardness, struct copy *c)
+RC_INLINE void
+push_back(struct rc_box box, double (*near)[3], float most, struct copy *c)
 {
     float mu[EDGE * EDGE] = {0};
     const float step = damping / (float)near[1][1], x = (float)near[1][0], y = (float)near[0][1],
@@ -122,7 +141,8 @@ push_back(double (*near)[3], float hardness, struct copy *c)
     for (size_t j = 0; j < TILE; j++)
 #pragma omp simd
         for (size_t i = 0; i < TILE; i++) {
-            float v = c->y[j * TILE + i], over = v < 0 ? v : v > hardness ? v - hardness : 0;
+            float v = c->y[j * TILE + i], end = most_of(box, most, c->most, j * TILE + i);
+            float over = v < 0 ? v : v > end ? v - end : 0;
             mu[(j + 1) * EDGE + i + 1] = v > stays_low ? -step * over : 0;
         }
     for (size_t j = 0; j < TILE; j++)
@@ -141,8 +161,8 @@ push_back(double (*near)[3], float hardness, struct copy *c)
 
 /* The shift with which the nodes carry `sum`: Newton's method, for what they carry grows with it in
  * straight pieces; inside a bracket, because two bounds make it neither convex nor concave. */
-static inline float
-shift_of(const float *y, float hardness, float sum)
+RC_INLINE float
+shift_of(struct rc_box box, const float *y, float most, const float *mosts, float sum)
 {
     float shift = 0, low = -INFINITY, high = INFINITY;
 
@@ -151,10 +171,10 @@ shift_of(const float *y, float hardness, float sum)
 
 #pragma omp simd reduction(+ : load, slope)
         for (size_t k = 0; k < NODES; k++) {
-            float v = y[k] + shift;
-            slope += ((v > 0) & (v < hardness)) ? 1.0F : 0.0F;
+            float v = y[k] + shift, end = most_of(box, most, mosts, k);
+            slope += ((v > 0) & (v < end)) ? 1.0F : 0.0F;
             v = v > 0 ? v : 0;
-            load += v < hardness ? v : hardness;
+            load += v < end ? v : end;
         }
         load -= sum;
         if (fabsf(load) <= FLT_EPSILON * sum || slope == 0)
@@ -180,8 +200,8 @@ enum { /* sums of the pass */
 };
 
 /* p becomes y + push + shift in the box, in double precision, and y the way there. */
-static inline void
-settle(double alpha, double mean, double hardness, double shift, double scale, struct copy *c,
+RC_INLINE void
+settle(struct rc_box box, double alpha, double mean, double shift, double scale, struct copy *c,
        struct rc_tile *tile, double *sums)
 {
     const double back = 1 / scale;
@@ -190,14 +210,15 @@ settle(double alpha, double mean, double hardness, double shift, double scale, s
 #pragma omp simd reduction(+ : size, carried, count) reduction(min : room)
     for (size_t k = 0; k < NODES; k++) {
         double e = (double)c->d[k], step = e != 0 ? alpha * (e - mean) : 0, p = c->p[k];
-        double v = aimed(p, p + step, hardness) + ((double)c->push[k] + shift) * back;
-        double on = (double)c->on[k], left, change;
-        v = v > 0 ? v : 0;
-        v = v < hardness ? v : hardness;
+        double v = aimed(box, k, p, p + step) + ((double)c->push[k] + shift) * back;
+        double on = (double)c->on[k], below, above, left, change;
+        v = rc_clip(box, k, v);
         v = on > 0 ? v : p;
         change = v - p;
-        carried += on * v;
-        left = hardness - v < v ? hardness - v : v;
+        below = v - rc_low(box, k);
+        above = rc_high(box, k) - v;
+        carried += on * below;
+        left = above < below ? above : below;
         left = on > 0 ? left : 0;
         count += left > 0 ? 1 : 0;
         left = left > 0 ? left : INFINITY;
@@ -211,7 +232,7 @@ settle(double alpha, double mean, double hardness, double shift, double scale, s
     sums[CARRIED] += carried;
 }
 
-static inline void
+RC_INLINE void
 put(const struct place *t, const struct copy *c)
 {
     for (size_t j = 0; j < t->ny; j++) {
@@ -220,29 +241,40 @@ put(const struct place *t, const struct copy *c)
     }
 }
 
+RC_INLINE void
+move_copy(struct rc_box box, struct copy *c, const struct place *t, const struct rc_move *m,
+          double scale, struct rc_tile *tile, double *sums)
+{
+    const float most = (float)((box.high - box.low) * scale);
+    float shift = 0;
+
+    aim(box, m->alpha, m->mean, scale, c);
+    if (c->out && c->sum > 0)
+        push_back(box, m->solver->op->inverse_near, most, c);
+    else
+        memset(c->push, 0, sizeof c->push);
+    if (c->sum <= 0) /* it cannot keep that */
+        for (size_t k = 0; k < NODES; k++)
+            c->push[k] = stays_low;
+    else if (c->out || c->held_in)
+        shift = shift_of(box, c->y, most, c->most, (float)c->sum);
+    settle(box, m->alpha, m->mean, (double)shift, scale, c, tile, sums);
+    put(t, c);
+    sums[OUT] += c->out || c->sum <= 0;
+}
+
 /* A tile with nodes of the working set. */
 RC_CLONES static void
-move_tile(const struct place *t, const struct rc_move *m, double scale, double hardness,
+move_tile(struct rc_box box, const struct place *t, const struct rc_move *m, double scale,
           struct rc_tile *tile, double *sums)
 {
     struct copy c;
-    const float most = (float)(hardness * scale);
-    float shift = 0;
 
     take(t, &c);
-    aim(m->alpha, m->mean, hardness, scale, &c);
-    if (c.out && c.sum > 0)
-        push_back(m->solver->op->inverse_near, most, &c);
+    if (box.highs == NULL)
+        move_copy(rc_box_of_numbers(box), &c, t, m, scale, tile, sums);
     else
-        memset(c.push, 0, sizeof c.push);
-    if (c.sum <= 0) /* it cannot keep that */
-        for (size_t k = 0; k < NODES; k++)
-            c.push[k] = stays_low;
-    else if (c.out || c.held_in)
-        shift = shift_of(c.y, most, (float)c.sum);
-    settle(m->alpha, m->mean, hardness, (double)shift, scale, &c, tile, sums);
-    put(t, &c);
-    sums[OUT] += c.out || c.sum <= 0;
+        move_copy(take_bounds(t, box, scale, &c), &c, t, m, scale, tile, sums);
 }
 
 /* ---- all of them ---- */
@@ -278,7 +310,8 @@ place_of(const struct tiles *a, size_t bx, size_t by)
                           .w = s->set.w + k,
                           .d = a->m->d + k,
                           .p = s->it.p + k,
-                          .delta = a->m->delta + k};
+                          .delta = a->m->delta + k,
+                          .box = rc_box(s, k)};
 }
 
 static void
@@ -292,7 +325,7 @@ move_band(struct tiles *a, size_t by)
         struct rc_tile *tile = a->tiles + by * a->nx + bx;
 
         if (any_of(&t)) {
-            move_tile(&t, a->m, s->load.per_pressure, s->posed.hardness, tile, sums);
+            move_tile(t.box, &t, a->m, s->load.per_pressure, tile, sums);
             continue;
         }
         *tile = (struct rc_tile){.room = INFINITY};
@@ -304,9 +337,9 @@ move_band(struct tiles *a, size_t by)
 /* ---- what they could not keep ---- */
 
 static inline bool
-elastic(const struct place *t, size_t k, double hardness)
+elastic(const struct place *t, size_t k)
 {
-    return t->w[k] != 0 && t->p[k] > 0 && t->p[k] < hardness;
+    return t->w[k] != 0 && rc_inside(t->box, k, t->p[k]);
 }
 
 static void
@@ -314,12 +347,11 @@ shift_tile(const struct tiles *a, size_t q, double shift)
 {
     const struct rc_solver *s = a->m->solver;
     struct place t = place_of(a, q % a->nx, q / a->nx);
-    double hardness = s->posed.hardness;
 
     for (size_t j = 0; j < t.ny; j++)
         for (size_t k = j * t.stride; k < j * t.stride + t.nx; k++)
-            if (elastic(&t, k, hardness)) {
-                double v = clip(t.p[k] + shift, hardness), change = v - t.p[k];
+            if (elastic(&t, k)) {
+                double v = rc_clip(t.box, k, t.p[k] + shift), change = v - t.p[k];
                 t.p[k] = v;
                 t.delta[k] += (float)(change * s->load.per_pressure);
             }
@@ -331,7 +363,7 @@ excess_of(void *ctx, double shift)
 {
     struct tiles *a = ctx;
     const struct rc_solver *s = a->m->solver;
-    double total[RC_SUMS], hardness = s->posed.hardness;
+    double total[RC_SUMS];
 
     rc_reduce_rows_begin(s);
 #pragma omp parallel for num_threads(s->posed.threads) schedule(dynamic)
@@ -347,10 +379,10 @@ excess_of(void *ctx, double shift)
             t = place_of(a, q % a->nx, by);
             for (size_t j = 0; j < t.ny; j++)
                 for (size_t k = j * t.stride; k < j * t.stride + t.nx; k++)
-                    if (elastic(&t, k, hardness)) {
+                    if (elastic(&t, k)) {
                         double v = t.p[k] + shift;
-                        sums[0] += clip(v, hardness) - t.p[k];
-                        sums[1] += v > 0 && v < hardness;
+                        sums[0] += rc_clip(t.box, k, v) - t.p[k];
+                        sums[1] += rc_inside(t.box, k, v);
                     }
         }
     }
@@ -364,8 +396,8 @@ static size_t
 roomiest(const struct tiles *a, double *room)
 {
     const struct rc_ranks *ranks = a->m->solver->posed.rows.ranks;
-    size_t best = a->nx * a->ny, none = best, before;
-    double own;
+    size_t best = a->nx * a->ny, none = best;
+    double own, before;
 
     *room = 0;
     for (size_t q = 0; q < a->nx * a->ny; q++) {
@@ -388,12 +420,13 @@ static bool
 share(struct tiles *a, double rest)
 {
     const struct rc_solver *s = a->m->solver;
-    double sum = s->load.sum, hardness = s->posed.hardness, count = 0, end, shift;
+    const struct rc_bounds *bounds = &s->posed.bounds;
+    double sum = s->load.sum, count = 0, end, shift;
 
     for (size_t q = 0; q < a->nx * a->ny; q++)
         count += (double)a->tiles[q].count;
     count = (double)rc_ranks_sum(s->posed.rows.ranks, (size_t)count);
-    end = rest < 0 ? -sum : isinf(hardness) ? rest : hardness;
+    end = rest < 0 ? -rc_above(bounds, sum) : rc_reach(bounds, rest);
     a->shift = rest;
     if (count == 0 || (excess_of(a, end).load > 0) != (rest > 0))
         return false;
@@ -431,9 +464,8 @@ rc_move_tiles(struct rc_move *m)
     rc_reduce_rows_end(s, total);
     m->size = total[SIZE];
     m->clipped = total[OUT] > 0;
-    rest = sum - total[CARRIED];
-    if (s->set.saturated > 0)
-        rest -= s->posed.hardness * (double)s->set.saturated;
+    rest = rc_above(&s->posed.bounds, sum) - total[CARRIED] -
+           rc_rooms(&s->posed.bounds, s->set.saturated);
     if (fabs(rest) <= 4 * DBL_EPSILON * sum)
         return true;
     q = roomiest(&a, &room);

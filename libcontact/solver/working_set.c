@@ -2,7 +2,7 @@
  * The working set, the residual on it, and the correction that follows from it.
  *
  * On it are the elastic nodes, and nodes at a bound that want to leave it. A node that penetrates
- * the other body (p = 0 and g < 0; the like at the hardness) need not want to: next to an edge of
+ * the other body (p = 0 and g < 0; the like at the upper bound) need not want to: next to an edge of
  * contact that is about to be pressed less, it overlaps a little, and once its neighbours are in
  * touch it would have to pull. Were it to join, the preconditioner would count on that pull, which
  * the bound then takes away, and the step would be too long: at 2048 x 2048 and 50 % contact that
@@ -155,12 +155,13 @@ next(const unsigned char *w, size_t k, size_t end)
     return k;
 }
 
-/* Leaves in z whether a node that wants to is to join: it is at p = 0 with r > 0, or at the
- * hardness with r < 0. */
+/* Leaves in z whether a node that wants to is to join: it is at its lower bound with r > 0, or at the
+ * upper one with r < 0. */
 static void
 decide(const struct sift *c)
 {
     struct rc_solver *s = c->s;
+    const struct rc_box box = rc_box(s, 0);
     size_t nx = s->posed.shape.nx;
 
 #pragma omp parallel for num_threads(s->posed.threads) schedule(static)
@@ -169,7 +170,7 @@ decide(const struct sift *c)
         for (size_t k = next(s->set.w, j * nx, (j + 1) * nx); k < (j + 1) * nx;
              k = next(s->set.w, k + 1, (j + 1) * nx)) {
             float f = pull(c, &t, k - j * nx);
-            s->z[k] = (s->it.p[k] > 0 ? -f : f) < 0 ? 0 : 1;
+            s->z[k] = (rc_at_low(box, k, s->it.p[k]) ? f : -f) < 0 ? 0 : 1;
         }
     }
 }
@@ -186,6 +187,7 @@ static void
 settle_block(void *at, size_t first, size_t n, double *sums)
 {
     struct rc_solver *s = at;
+    const struct rc_box box = rc_box(s, 0);
 
     for (size_t k = next(s->set.w, first, first + n); k < first + n;
          k = next(s->set.w, k + 1, first + n)) {
@@ -195,7 +197,7 @@ settle_block(void *at, size_t first, size_t n, double *sums)
             continue;
         sums[RESIDUAL] += (double)s->set.r[k];
         sums[OUT]++;
-        sums[SATURATED] += s->it.p[k] > 0;
+        sums[SATURATED] += rc_at_low(box, k, s->it.p[k]) ? 0 : rc_room(box, k);
         sums[SIZE] += fabs((double)s->set.r[k]);
         sums[CHANGED] += was ? 1 : -1; /* they were counted as if they had joined */
         s->set.r[k] = 0;
@@ -219,7 +221,7 @@ sift_out(struct rc_solver *s, double *residual, double *count, double *changed)
     *residual -= total[RESIDUAL];
     *count -= total[OUT];
     *changed += total[CHANGED];
-    s->set.saturated += (size_t)total[SATURATED];
+    s->set.saturated += total[SATURATED];
     s->set.left_out = s->op->inverse_near[1][1] * total[SIZE];
 }
 
@@ -253,10 +255,14 @@ rc_working_set_stretch(const struct rc_solver *s, size_t first, size_t n, bool *
 {
     size_t k = n < STRETCH ? n : STRETCH;
 
-    *in = !isinf(s->posed.hardness) || any_of(k, s->set.w + first);
+    if (!rc_bare(&s->posed.bounds)) {
+        *in = true;
+        return n;
+    }
+    *in = any_of(k, s->set.w + first);
     while (k < n) {
         size_t some = n - k < STRETCH ? n - k : STRETCH;
-        if ((!isinf(s->posed.hardness) || any_of(some, s->set.w + first + k)) != *in)
+        if (any_of(some, s->set.w + first + k) != *in)
             break;
         k += some;
     }
@@ -270,8 +276,8 @@ follow(size_t n, const float *restrict q, double factor, double *restrict v)
         v[k] += factor * (double)q[k];
 }
 
-RC_CLONES static void
-residual_of(size_t n, const double *restrict p, const double *restrict v, double hardness,
+RC_INLINE void
+residual_in(struct rc_box box, size_t n, const double *restrict p, const double *restrict v,
             double shift, double scale, unsigned char wants, unsigned char *restrict w,
             float *restrict r, double *restrict sums)
 {
@@ -281,13 +287,14 @@ residual_of(size_t n, const double *restrict p, const double *restrict v, double
 
 #pragma omp simd reduction(+ : sum, count, saturated)
     for (size_t k = 0; k < n; k++) {
-        double g = v[k] - shift, low = g < 0 ? 2 : 0, high = g > 0 ? 2 : 0;
-        double is = p[k] <= 0 ? low : p[k] >= hardness ? high : 1, to = is > 0 ? -g * scale : 0;
+        double g = v[k] - shift, low = g < 0 ? 2 : 0, high = g > 0 ? 2 : 0, most = rc_high(box, k);
+        double is = p[k] <= rc_low(box, k) ? low : p[k] >= most ? high : 1;
+        double to = is > 0 ? -g * scale : 0, stays = 1 - high / 2;
         r[k] = (float)to;
         side[k] = (float)is;
         sum += to;
         count += is > 0 ? 1 : 0;
-        saturated += p[k] >= hardness ? 1 - high / 2 : 0;
+        saturated += p[k] >= most ? stays * rc_room(box, k) : 0;
     }
 #pragma omp simd reduction(+ : changed)
     for (size_t k = 0; k < n; k++) {
@@ -300,6 +307,16 @@ residual_of(size_t n, const double *restrict p, const double *restrict v, double
     sums[OUT] += count;
     sums[CHANGED] += changed;
     sums[SATURATED] += saturated;
+}
+
+RC_CLONES static void
+residual_of(struct rc_box box, size_t n, const double *p, const double *v, double shift,
+            double scale, unsigned char wants, unsigned char *w, float *r, double *sums)
+{
+    if (box.highs == NULL)
+        residual_in(rc_box_of_numbers(box), n, p, v, shift, scale, wants, w, r, sums);
+    else
+        residual_in(box, n, p, v, shift, scale, wants, w, r, sums);
 }
 
 /* Whether one of them wants to join. */
@@ -320,7 +337,7 @@ residual_block(void *at, size_t first, size_t n, double *sums)
 {
     const struct residual *c = at;
     struct rc_solver *s = c->s;
-    double hardness = s->posed.hardness, shift = s->it.shift;
+    double shift = s->it.shift;
 
     for (size_t k = first, some; k < first + n; k += some) {
         bool in = true;
@@ -330,7 +347,7 @@ residual_block(void *at, size_t first, size_t n, double *sums)
             follow(some, c->q + k, c->factor, s->it.v + k);
         }
         if (in || some_want(some, s->it.v + k, shift))
-            residual_of(some, s->it.p + k, s->it.v + k, hardness, shift, 1 / s->load.length,
+            residual_of(rc_box(s, k), some, s->it.p + k, s->it.v + k, shift, 1 / s->load.length,
                         c->wants, s->set.w + k, s->set.r + k, sums);
     }
 }
@@ -343,7 +360,7 @@ find(struct residual *c)
 
     rc_reduce_blocks(s, residual_block, c, total);
     s->set.left_out = 0;
-    s->set.saturated = (size_t)total[SATURATED];
+    s->set.saturated = total[SATURATED];
     if (c->wants == WANTS)
         sift_out(s, &total[RESIDUAL], &total[OUT], &total[CHANGED]);
     s->set.size = (size_t)total[OUT];
@@ -452,20 +469,30 @@ centre(size_t n, const unsigned char *restrict w, const float *restrict weight, 
     sums[ALL] = size;
 }
 
-/* What of p + z lies outside the box. */
-RC_CLONES static void
-beyond(size_t n, const double *restrict p, const float *restrict z, double hardness, double scale,
-       double *sums)
+RC_INLINE void
+beyond_in(struct rc_box box, size_t n, const double *restrict p, const float *restrict z,
+          double scale, double *sums)
 {
     double sum = 0;
 
 #pragma omp simd reduction(+ : sum)
     for (size_t k = 0; k < n; k++) {
         double y = p[k] * scale + (double)z[k];
-        y = y < 0 ? -y : y > hardness ? y - hardness : 0;
+        double low = rc_low(box, k) * scale, high = rc_high(box, k) * scale;
+        y = y < low ? low - y : y > high ? y - high : 0;
         sum += y;
     }
     sums[BEYOND] = sum;
+}
+
+/* What of p + z lies outside the box. */
+RC_CLONES static void
+beyond(struct rc_box box, size_t n, const double *p, const float *z, double scale, double *sums)
+{
+    if (box.highs == NULL)
+        beyond_in(rc_box_of_numbers(box), n, p, z, scale, sums);
+    else
+        beyond_in(box, n, p, z, scale, sums);
 }
 
 static void
@@ -478,7 +505,7 @@ size_block(void *at, size_t first, size_t n, double *sums)
     centre(n, s->set.w + first, rc_preconditioner_load(s->preconditioner) + first, (float)c->share,
            s->z + first, sums);
     if (c->cut)
-        beyond(n, s->it.p + first, s->z + first, s->posed.hardness * scale, scale, sums);
+        beyond(rc_box(s, first), n, s->it.p + first, s->z + first, scale, sums);
 }
 
 /* The error of a node ends at the bounds of its pressure: what of its correction lies outside the

@@ -468,7 +468,9 @@ find_parts(const struct rc_rows *rows, const struct field *f, bool wraps, int th
         return RC_FAIL;
     }
     join_all(f, wraps, rows->ranks == NULL, threads, r);
-    before = rows->ranks == NULL ? 0 : rc_ranks_sum_before(rows->ranks, r->first[f->rows]);
+    before = rows->ranks == NULL
+                 ? 0
+                 : (size_t)rc_ranks_sum_before(rows->ranks, (double)r->first[f->rows]);
     n = make_parts(f, r, before, part);
     status = gather_all(rows, wraps, f, r, part, n, before, all);
     if (status == RC_OK && rows->ranks != NULL) {

@@ -101,12 +101,13 @@ static void
 lawful(const struct set_up *s, const struct rc_move *m)
 {
     const struct rc_solver *solver = s->solver;
+    const struct rc_box box = rc_box(solver, 0);
     const double *p = solver->it.p, load = solver->load.sum;
     double size = 0;
 
     for (size_t k = 0; k < solver->posed.n; k++) {
         double change = p[k] - s->before[k], told = (double)s->delta[k] / solver->load.per_pressure;
-        assert_true(p[k] >= 0 && p[k] <= solver->posed.hardness);
+        assert_true(p[k] >= rc_low(box, k) && p[k] <= rc_high(box, k));
         assert_true(fabs(change - told) <= 1e-6 * fabs(change) + 1e-13 * load);
         assert_true(solver->set.w[k] != 0 || change == 0);
         size += fabs(change);
@@ -183,9 +184,9 @@ by_one_shift(void **state)
             double shift = p - s.before[k] - (e != 0 ? m.alpha * (e - m.mean) : 0);
             if (solver->set.w[k] == 0)
                 continue;
-            if (p < solver->posed.hardness)
+            if (!rc_at_high(rc_box(solver, 0), k, p))
                 high = fmin(high, shift);
-            if (p > 0)
+            if (!rc_at_low(rc_box(solver, 0), k, p))
                 low = fmax(low, shift);
         }
         assert_true(low <= high + tiny);
