@@ -163,13 +163,13 @@ enum {
 
 RC_CLONES static void
 products(size_t n, const unsigned char *restrict w, const float *restrict z,
-         const float *restrict weight, const float *restrict q, double *restrict sums)
+         const float *restrict node, const float *restrict q, double *restrict sums)
 {
     double sum = 0, product = 0, load = 0, other = 0;
     float m[PIECE];
 
     for (size_t i = 0; i < n; i++)
-        m[i] = w[i] ? rc_load_of(weight[i]) : 0;
+        m[i] = w[i] ? rc_load_share(node[i]) : 0;
 #pragma omp simd reduction(+ : sum, load)
     for (size_t i = 0; i < n; i++) {
         sum += (double)z[i];
@@ -194,13 +194,13 @@ corrected(void *at, size_t j, void *row)
     const struct pass *c = at;
     const struct rc_solver *s = c->solver;
     size_t nx = s->posed.shape.nx;
-    const float *weight = rc_preconditioner_load(s->preconditioner);
+    const float *node = rc_preconditioner_nodes(s->preconditioner);
     double *sums = rc_reduce_row(s, j);
 
     (void)row;
     for (size_t i = 0; i < nx; i += PIECE) {
         size_t k = j * nx + i;
-        products(nx - i < PIECE ? nx - i : PIECE, s->set.w + k, s->z + k, weight + k,
+        products(nx - i < PIECE ? nx - i : PIECE, s->set.w + k, s->z + k, node + k,
                  c->s->curvature > 0 ? c->s->q + k : NULL, sums);
     }
     return true;

@@ -12,7 +12,7 @@ struct rc_preconditioner {
     struct rc_shape unit;       /* the grid in units of sqrt(dx dy)                              */
     struct rc_spectrum *spread; /* G                                                         */
     float fade;                 /* c, for d_i^(-1/2)                                             */
-    float *weight;              /* off W: 1 / (sum_j G_ij + c d_i^(-1/2)); on W: - load           */
+    float *node;                /* rc_extension_weight: 1 / (sum_j G_ij + c d_i^(-1/2))           */
     float whole;                /* sum_j G_ij, were all nodes on W                                */
     uint16_t *closeness;        /* d_i^(-1/2), times CLOSE                                       */
     const unsigned char *w;
@@ -58,10 +58,10 @@ rc_preconditioner_new(struct rc_operator *op, struct rc_err *err)
     e->unit.dy /= unit;
     e->fade = (float)op->extension;
     e->own = rc_distance_scratch(&e->unit) + op->shape.nx;
-    e->weight = rc_alloc(n, sizeof *e->weight);
+    e->node = rc_alloc(n, sizeof *e->node);
     e->closeness = rc_alloc(n, sizeof *e->closeness);
     e->scratch = rc_alloc((size_t)e->threads * e->own, sizeof *e->scratch);
-    if (e->weight == NULL || e->closeness == NULL || e->scratch == NULL)
+    if (e->node == NULL || e->closeness == NULL || e->scratch == NULL)
         goto short_of_memory;
     if (op->rows.ranks != NULL && (e->lines = rc_alloc(3 * op->shape.nx, sizeof *e->lines)) == NULL)
         goto short_of_memory;
@@ -89,7 +89,7 @@ rc_preconditioner_free(struct rc_preconditioner *e)
     if (e == NULL)
         return;
     rc_spectrum_free(e->spread);
-    free(e->weight);
+    free(e->node);
     free(e->closeness);
     free(e->scratch);
     free(e->lines);
@@ -145,37 +145,36 @@ closeness_of(size_t n, const float *restrict d2, uint16_t *restrict closeness)
  * times at the longest of 2048 x 2048, 39 % contact, and the steps would grow with the map. */
 static const float surrounded = 3;
 
-/* On W the weight tells how a pressure that comes with a shift of all of W is spread: M 1, which is
- * large where much of a node's surroundings is not W. It goes as what is missing of the sum. */
-static const float least_load = 1e-3F;
-
+/* How a pressure that comes with a shift of all of W is spread on W, M 1, is large where much of a node's
+ * surroundings is not W. It goes as what is missing of the sum. */
 RC_CLONES static void
 weigh(size_t n, float fade, float whole, const unsigned char *w, const float *sums,
-      const uint16_t *restrict closeness, float *restrict weight)
+      const uint16_t *restrict closeness, float *restrict node)
 {
     for (size_t i = 0; i < n; i++) {
         float sum = sums[i] > 0 ? sums[i] : 0, close = (float)closeness[i] * (1.0F / CLOSE);
         float part = sum / (surrounded * close);
         float part4 = part * part * part * part, missing = 1 - sum / whole;
-        float load = missing > least_load ? missing : least_load;
-        weight[i] = w[i] ? -load : 1 / (sum + fade * close / (1 + part4));
+        float share = missing > RC_LEAST_SHARE ? missing : RC_LEAST_SHARE;
+        float weight = 1 / (sum + fade * close / (1 + part4));
+        node[i] = w[i] ? rc_node_on(share) : rc_node_off(weight);
     }
 }
 
-/* The sums arrive; where distances are to be found, the weights hold the steps along the columns. */
+/* The sums arrive; where distances are to be found, `node` holds the steps along the columns. */
 static bool
 weights_out(void *at, size_t j, void *row)
 {
     struct rc_preconditioner *e = at;
     size_t n = e->unit.nx;
     float *scratch = e->scratch + (size_t)omp_get_thread_num() * e->own;
-    float *d2 = scratch + rc_distance_scratch(&e->unit), *weight = e->weight + j * n;
+    float *d2 = scratch + rc_distance_scratch(&e->unit), *node = e->node + j * n;
 
     if (e->measure) {
-        rc_distance_row(&e->unit, e->op->boundary, scratch, weight, d2);
+        rc_distance_row(&e->unit, e->op->boundary, scratch, node, d2);
         closeness_of(n, d2, e->closeness + j * n);
     }
-    weigh(n, e->fade, e->whole, e->w + j * n, row, e->closeness + j * n, weight);
+    weigh(n, e->fade, e->whole, e->w + j * n, row, e->closeness + j * n, node);
     return true;
 }
 
@@ -189,14 +188,14 @@ rc_preconditioner_set(struct rc_preconditioner *e, const unsigned char *w, bool 
     e->measure = measure;
     if (measure)
         rc_distance_columns(&e->unit, &e->op->rows, e->op->boundary, w, e->threads, e->lines,
-                            e->weight);
+                            e->node);
     rc_operator_chain(e->op, 1, factors, rows, e);
 }
 
 const float *
-rc_preconditioner_load(const struct rc_preconditioner *e)
+rc_preconditioner_nodes(const struct rc_preconditioner *e)
 {
-    return e->weight;
+    return e->node;
 }
 
 /* ---- E' A E ---- */
@@ -231,11 +230,11 @@ residual_in(void *at, size_t j, void *row)
 }
 
 RC_CLONES static void
-extend(size_t n, const unsigned char *w, const float *r, float offset, const float *weight,
+extend(size_t n, const unsigned char *w, const float *r, float offset, const float *node,
        float *restrict row)
 {
     for (size_t i = 0; i < n; i++)
-        row[i] = w[i] ? r[i] - offset : weight[i] > 0 ? weight[i] * row[i] : 0;
+        row[i] = w[i] ? r[i] - offset : rc_extension_weight(node[i]) * row[i];
 }
 
 static bool
@@ -244,16 +243,16 @@ extended(void *at, size_t j, void *row)
     struct correction *c = at;
     size_t n = c->e->unit.nx;
 
-    extend(n, c->e->w + j * n, c->r + j * n, c->offset, c->e->weight + j * n, row);
+    extend(n, c->e->w + j * n, c->r + j * n, c->offset, c->e->node + j * n, row);
     return true;
 }
 
 RC_CLONES static void
-part(size_t n, const unsigned char *w, const float *weight, float *restrict row, float *restrict z)
+part(size_t n, const unsigned char *w, const float *node, float *restrict row, float *restrict z)
 {
     for (size_t i = 0; i < n; i++) {
         z[i] = w[i] ? row[i] : 0;
-        row[i] = w[i] || weight[i] < 0 ? 0 : weight[i] * row[i];
+        row[i] = w[i] ? 0 : rc_extension_weight(node[i]) * row[i];
     }
 }
 
@@ -263,7 +262,7 @@ parted(void *at, size_t j, void *row)
     struct correction *c = at;
     size_t n = c->e->unit.nx;
 
-    part(n, c->e->w + j * n, c->e->weight + j * n, row, c->z + j * n);
+    part(n, c->e->w + j * n, c->e->node + j * n, row, c->z + j * n);
     return true;
 }
 

@@ -36,14 +36,34 @@ void rc_preconditioner_set(struct rc_preconditioner *e, const unsigned char *w, 
 void rc_preconditioner_apply(struct rc_preconditioner *e, const float *r, float offset, float *z,
                              rc_row *done, void *ctx);
 
-/* The shift of all of W belongs to no residual: what of z comes with it is taken out. It is spread as
- * M 1, M = E' A E; rc_load_of(these) is about that, up to a factor, for each node on W. */
-const float *rc_preconditioner_load(const struct rc_preconditioner *e);
+/* What is known of a node: on W its share of the load that a shift of all of W brings, off W the
+ * weight with which the residual is carried on to it. Both are above 0, and no node has both: for memory's
+ * sake one number holds either, the share below 0. */
+#define RC_LEAST_SHARE 1e-3F
 static inline float
-rc_load_of(float weight)
+rc_node_on(float share)
 {
-    return weight < 0 ? -weight : 1e-3F; /* a node that has joined since */
+    return -share;
 }
+static inline float
+rc_node_off(float weight)
+{
+    return weight;
+}
+static inline float
+rc_load_share(float node)
+{
+    return node < 0 ? -node : RC_LEAST_SHARE; /* a node that has joined since */
+}
+static inline float
+rc_extension_weight(float node)
+{
+    return node > 0 ? node : 0; /* a node that has left since */
+}
+
+/* The shift of all of W belongs to no residual: what of z comes with it is taken out. It is spread as
+ * M 1, M = E' A E; rc_load_share of these is about that, up to a factor, for each node on W. */
+const float *rc_preconditioner_nodes(const struct rc_preconditioner *e);
 
 /* distance.c: how far every node is from the nearest one with w != 0, exactly but for rounding, in
  * two passes. First the number of steps along its column, for all nodes of these rows (rows->ranks

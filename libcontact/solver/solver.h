@@ -234,7 +234,7 @@ void rc_working_set_all(struct rc_solver *solver);
 size_t rc_working_set_elastic(struct rc_solver *solver);
 /* z = E' A E r; `done` as in rc_preconditioner_apply. The mean of z is still in it. */
 void rc_working_set_correct(struct rc_solver *solver, rc_row *done, void *ctx);
-/* Takes the shift out of z, `share` times how it is spread (rc_preconditioner_load); the estimate of
+/* Takes the shift out of z, `share` times how it is spread (rc_preconditioner_nodes); the estimate of
  * the error, the relative L1 norm of what is left. */
 double rc_working_set_error(struct rc_solver *solver, double share);
 /* The same, correction and all. */

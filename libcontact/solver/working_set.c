@@ -454,14 +454,14 @@ enum { /* sums of the estimate */
 
 /* z becomes what remains without the shift. */
 RC_CLONES static void
-centre(size_t n, const unsigned char *restrict w, const float *restrict weight, float share,
+centre(size_t n, const unsigned char *restrict w, const float *restrict node, float share,
        float *restrict z, double *sums)
 {
     double size = 0;
 
 #pragma omp simd reduction(+ : size)
     for (size_t k = 0; k < n; k++) {
-        float e = z[k] - share * rc_load_of(weight[k]);
+        float e = z[k] - share * rc_load_share(node[k]);
         e = w[k] ? e : 0;
         z[k] = e;
         size += (double)fabsf(e);
@@ -502,7 +502,7 @@ size_block(void *at, size_t first, size_t n, double *sums)
     const struct rc_solver *s = c->s;
     double scale = s->load.per_pressure;
 
-    centre(n, s->set.w + first, rc_preconditioner_load(s->preconditioner) + first, (float)c->share,
+    centre(n, s->set.w + first, rc_preconditioner_nodes(s->preconditioner) + first, (float)c->share,
            s->z + first, sums);
     if (c->cut)
         beyond(rc_box(s, first), n, s->it.p + first, s->z + first, scale, sums);
@@ -537,11 +537,11 @@ static void
 share_block(void *at, size_t first, size_t n, double *sums)
 {
     const struct rc_solver *s = at;
-    const float *weight = rc_preconditioner_load(s->preconditioner);
+    const float *node = rc_preconditioner_nodes(s->preconditioner);
 
     for (size_t k = first; k < first + n; k++) {
         sums[Z] += (double)s->z[k];
-        sums[LOAD] += s->set.w[k] ? (double)rc_load_of(weight[k]) : 0;
+        sums[LOAD] += s->set.w[k] ? (double)rc_load_share(node[k]) : 0;
     }
 }
 
