@@ -475,7 +475,7 @@ struct rc_problem {
     double approach;     /* m, > 0: the load is sought that brings the bodies so far together from
                            first touch; 0: the load is given                                     */
     double hardness;     /* upper bound of the pressure, Pa; 0 or INFINITY: none                  */
-    double height_error; /* m: what the heights may be off, as the gap_error of the solution that
+    double height_error; /* m: what the heights may be off, as the shape_error of the solution that
                            left their shape; bears on what counts as yielded only                */
     double tol;          /* asked relative L1 error of the pressure; 0: (nx ny)^(-3/4)            */
     const char *engine;  /* NULL: auto                                                            */
@@ -507,6 +507,7 @@ struct rc_contact {
     /* m: the worst violation of gap >= 0 where p = 0, gap = 0 where elastic, gap <= 0 at the
      * hardness, from a fresh convolution */
     double gap_error;
+    double shape_error; /* m: what the heights that are left (rc_solver_plastic) may be off    */
     /* the same over max(std h, std u); for one height everywhere over what the mean pressure could
      * displace */
     double kkt_residual;
@@ -531,6 +532,11 @@ RC_API enum rc_status rc_solver_step(struct rc_solver *solver);
  * rc_solver_new; the solver is then of no further use. */
 RC_API enum rc_status rc_solver_set_load(struct rc_solver *solver, double load, double approach,
                                          struct rc_err *err);
+/* Other heights (nx ny m, copied), of any range, under the load or the approach that is set: the same plan
+ * and the same memory, nothing is evaluated anew; the last pressure is where it starts. Counts begin anew.
+ * RC_FAIL when one is not a finite number, which leaves all as it was, and as in rc_solver_set_load. */
+RC_API enum rc_status rc_solver_set_heights(struct rc_solver *solver, const double *h,
+                                            struct rc_err *err);
 /* Starts from this pressure (nx ny Pa; what leaves the box or the load is put right), as it was
  * left by an earlier solver of the same problem, instead of from coarser grids; load (N) is that
  * of this pressure, which matters where an approach is sought. RC_FAIL after the first step of a
@@ -561,10 +567,22 @@ RC_API const double *rc_solver_pressure(const struct rc_solver *solver);
 RC_API void rc_solver_result(struct rc_solver *solver, double *displacement, double *gap,
                              struct rc_contact *contact);
 /* The height map (nx*ny m) that is left when the bodies are taken apart: where the hardness was
- * reached, what stood into the other body is gone; known to within gap_error. Pressed again to the same
+ * reached, what stood into the other body is gone; known to within shape_error. Pressed again to the same
  * load it carries the same pressure, and nothing more yields. After rc_solver_result. */
 RC_API enum rc_status rc_solver_plastic(const struct rc_solver *solver, double *h,
                                         struct rc_err *err);
+/* A loading history, where each load acts on the shape that those before it have left, is a list of loads
+ * set, stepped to the end and looked at, with this after each: h (nx ny m; in: the heights that were
+ * pressed) and the heights of the solver become the shape that is left, known to within
+ * contact->shape_error, which `contact` from rc_solver_result holds. Where no node has yielded h stays, and so
+ * does the solver. RC_FAIL as in rc_solver_plastic and rc_solver_set_heights. */
+RC_API enum rc_status rc_solver_keep_shape(struct rc_solver *solver,
+                                           const struct rc_contact *contact, double *h,
+                                           struct rc_err *err);
+/* No load: bodies of these heights (nx ny m) where they would first touch. The gap (nx ny m, or NULL; not
+ * h itself) and its mean; no pressure, no displacement. `ranks`: processes that share the map; NULL: none. */
+RC_API void rc_contact_apart(const struct rc_ranks *ranks, const struct rc_shape *shape,
+                             const double *h, double *gap, struct rc_contact *contact);
 /* d load / d approach, N/m, at the solution, after rc_solver_result: what the elastic nodes
  * carry more when the bodies come closer, no node changing sides. NAN when none is elastic, and
  * where a periodic surface is in complete contact. Takes 10 to 20 convolutions; RC_FAIL when

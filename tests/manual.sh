@@ -20,12 +20,12 @@ blocks() {
         }' "$1"
 }
 
-# program PAGE NAME: the C program that stands in a page, as NAME.
+# program PAGE NAME [WORD]: the first C program that stands in a page, or the first with this word, as NAME.
 program() {
     local block
     blocks "$1" EXAMPLES "$2.blocks"
     for block in "$2.blocks"/*; do
-        if grep -q '^main(' "$block"; then
+        if grep -q '^main(' "$block" && grep -q "${3-}" "$block"; then
             cp "$block" "$2"
             return
         fi

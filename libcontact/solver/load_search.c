@@ -65,12 +65,31 @@ height_block(void *at, size_t first, size_t n, double *sums)
     sums[0] = rc_sum(s->posed.h + first, n);
 }
 
+/* RC_FAIL where the bodies come no nearer than complete contact, and that is farther apart. */
+static enum rc_status
+check_approach(struct rc_solver *s, double approach, struct rc_err *err)
+{
+    double total[RC_SUMS], full;
+
+    if (!s->op->mean_free || rc_bounded(&s->posed.bounds))
+        return RC_OK;
+    rc_reduce_blocks(s, height_block, s, total);
+    full = -total[0] / (double)s->posed.nodes;
+    if (approach >= full)
+        return rc_err_set(err,
+                          "approach %.9g m: contact is complete at %.9g m, and from there "
+                          "the load of a periodic surface grows at the same approach; "
+                          "give the load",
+                          approach, full);
+    return RC_OK;
+}
+
 /* Where the load is sought, the one given is a guess; without one, that of a flat punch as large as
  * the part of the surface that the approach would cut off. */
 enum rc_status
 rc_load_first(struct rc_solver *s, const struct rc_problem *problem, struct rc_err *err)
 {
-    double guess = problem->load, n = (double)s->posed.nodes, total[RC_SUMS];
+    double guess = problem->load;
     double most = s->posed.bounds.full * s->posed.cell / 2;
     size_t cut = 0;
 
@@ -83,17 +102,8 @@ rc_load_first(struct rc_solver *s, const struct rc_problem *problem, struct rc_e
     if (!(guess > 0))
         guess = s->posed.cell / s->op->unit * problem->approach * sqrt((double)cut);
     begin_search(s, problem->approach);
-    if (s->op->mean_free && !rc_bounded(&s->posed.bounds)) {
-        double full;
-        rc_reduce_blocks(s, height_block, s, total);
-        full = -total[0] / n;
-        if (problem->approach >= full)
-            return rc_err_set(err,
-                              "approach %.9g m: contact is complete at %.9g m, and from there "
-                              "the load of a periodic surface grows at the same approach; "
-                              "give the load",
-                              problem->approach, full);
-    }
+    if (check_approach(s, problem->approach, err) != RC_OK)
+        return RC_FAIL;
     return rc_load_set(s, guess < most ? guess : most, err);
 }
 
@@ -103,6 +113,8 @@ rc_load_next(struct rc_solver *s, double load, double approach, struct rc_err *e
     s->load.tol = s->posed.tol;
     s->load.target = 0;
     if (approach > 0) {
+        if (check_approach(s, approach, err) != RC_OK)
+            return RC_FAIL;
         begin_search(s, approach);
         load = s->load.load; /* to begin with */
     }

@@ -201,9 +201,12 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
     c->kkt_residual = total[RC_MOST] == 0 ? 0 : total[RC_MOST] / scale;
     c->mean_gap = total[OPEN] / n;
     c->gap_error = total[RC_MOST];
+    c->shape_error = s->posed.height_error;
     f.worst = 4 * (c->gap_error + s->posed.height_error) + 1e-12 * scale;
     if (c->hardness_active)
         c->yielded_nodes = yielded(s, &f);
+    if (c->yielded_nodes > 0)
+        c->shape_error = fmax(c->shape_error, c->gap_error);
     c->yielded_area = s->posed.cell * (double)c->yielded_nodes;
     /* Stopped on a coarser grid: an estimate here would take longer than the iteration did. */
     if (!early && (stopped || s->it.checked != s->it.iterations || isnan(s->it.error))) {

@@ -101,6 +101,24 @@ first_not_finite(const double *h, size_t n)
     return k;
 }
 
+/* The heights, less the largest of all ranks' own; `status`: what has been found here before. */
+static enum rc_status
+take_heights(struct rc_posed *posed, const double *h, enum rc_status status, struct rc_err *err)
+{
+    double top = top_of(h, posed->n, posed->threads);
+
+    if (status == RC_OK && isnan(top))
+        status = rc_err_set(err, "height %zu is not a finite number",
+                            posed->rows.first * posed->shape.nx + first_not_finite(h, posed->n));
+    if (rc_ranks_agree(posed->rows.ranks, status, err) != RC_OK)
+        return RC_FAIL;
+    posed->top = rc_ranks_most(posed->rows.ranks, top);
+#pragma omp parallel for num_threads(posed->threads) schedule(static)
+    for (size_t k = 0; k < posed->n; k++)
+        posed->h[k] = h[k] - posed->top;
+    return RC_OK;
+}
+
 static enum rc_status
 pose(struct rc_posed *posed, const struct rc_shape *shape, const double *h,
      const struct rc_problem *problem, struct rc_err *err)
@@ -109,7 +127,6 @@ pose(struct rc_posed *posed, const struct rc_shape *shape, const double *h,
     const struct rc_shape own = rc_rows_shape(&rows, shape);
     size_t n = own.nx * own.ny, nodes = shape->nx * shape->ny;
     enum rc_status status = RC_OK;
-    double top;
 
     *posed = (struct rc_posed){.whole = *shape,
                                .shape = own,
@@ -130,18 +147,7 @@ pose(struct rc_posed *posed, const struct rc_shape *shape, const double *h,
     if (posed->h == NULL)
         status =
             rc_err_set(err, "out of memory for a contact of %zu x %zu nodes", shape->nx, shape->ny);
-    top = top_of(h, n, posed->threads);
-    if (status == RC_OK && isnan(top))
-        status = rc_err_set(err, "height %zu is not a finite number",
-                            rows.first * own.nx + first_not_finite(h, n));
-    if (rc_ranks_agree(rows.ranks, status, err) != RC_OK)
-        return RC_FAIL;
-    top = rc_ranks_most(rows.ranks, top);
-#pragma omp parallel for num_threads(posed->threads) schedule(static)
-    for (size_t k = 0; k < n; k++)
-        posed->h[k] = h[k] - top;
-    posed->top = top;
-    return RC_OK;
+    return take_heights(posed, h, status, err);
 }
 
 /* Maps of the solver's own, and the method's state: no rank goes on alone. */
@@ -345,7 +351,19 @@ rc_solver_restart(struct rc_solver *s)
     rc_working_set_forget(s);
 }
 
-/* ---- other loads and starts ---- */
+/* ---- other loads, heights and starts ---- */
+
+/* Counts begin anew, and so do figures of a coarser grid, which were those of another load or shape. */
+static void
+begin_anew(struct rc_solver *s)
+{
+    rc_iterate_reset(s);
+    rc_solver_restart(s);
+    s->coarse = (struct rc_discretization){NAN, NAN, NAN};
+    if (s->posed.discretization)
+        rc_nested_new(s);
+    s->stage = RC_STAGE_NEW;
+}
 
 enum rc_status
 rc_solver_set_load(struct rc_solver *s, double load, double approach, struct rc_err *err)
@@ -360,9 +378,22 @@ rc_solver_set_load(struct rc_solver *s, double load, double approach, struct rc_
         rc_iterate_level(s);
     else
         rc_projection_balance(s, s->it.v);
-    rc_iterate_reset(s);
-    rc_solver_restart(s);
-    s->stage = RC_STAGE_NEW;
+    begin_anew(s);
+    return RC_OK;
+}
+
+enum rc_status
+rc_solver_set_heights(struct rc_solver *s, const double *h, struct rc_err *err)
+{
+    bool untouched = rc_nested_untouched(s);
+
+    if (take_heights(&s->posed, h, RC_OK, err) != RC_OK)
+        return RC_FAIL;
+    if (!untouched)
+        rc_nested_end(s);
+    if (rc_load_next(s, s->load.load, s->load.target, err) != RC_OK)
+        return RC_FAIL;
+    begin_anew(s);
     return RC_OK;
 }
 

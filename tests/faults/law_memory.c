@@ -302,9 +302,13 @@ plans(double *out, struct rc_err *err)
     static const struct rc_surface_options surface = {.threads = 1};
     static const struct rc_patch_options patches = {.threads = 1};
     struct rc_expected expected;
+    struct rc_contact apart;
     const char *reason;
     size_t bytes[10];
 
+    rc_contact_apart(NULL, &shape, rough, NULL, &apart);
+    if (!(apart.mean_gap > 0))
+        return rc_err_set(err, "no gap");
     bytes[0] = rc_filter_memory(&shape, &filter);
     bytes[1] = rc_outliers_memory(&shape, 1);
     bytes[2] = rc_inpaint_memory(9);
@@ -574,10 +578,43 @@ every_function_is_tried(void **state)
     free(shared);
 }
 
+/* Other heights, and the shape that a load leaves, take nothing: nothing is planned, and no kernel evaluated,
+ * for which there would be no room. */
+static void
+other_heights_take_nothing(void **state)
+{
+    static const struct rc_problem problem = {
+        .pair.estar = 1e9, .load = 1e-3, .tol = 1e-5, .threads = 1, .hardness = 2e7};
+    double h[N], gap[N];
+    struct rc_solver *solver;
+    struct rc_contact c;
+    struct rc_err err;
+
+    (void)state;
+    for (size_t k = 0; k < N; k++)
+        h[k] = 0.5 * rough[N - 1 - k];
+    fault_arm(0, false);
+    solver = rc_solver_new(&shape, rough, &problem, &err);
+    assert_true(fault_disarm() > 10);
+    assert_int_equal(finish_load(solver, &err), RC_OK);
+    fault_arm(0, false);
+    assert_int_equal(rc_solver_set_heights(solver, h, &err), RC_OK);
+    assert_int_equal(finish_load(solver, &err), RC_OK);
+    rc_solver_result(solver, NULL, gap, &c);
+    assert_true(c.yielded_nodes > 0);
+    assert_int_equal(rc_solver_keep_shape(solver, &c, h, &err), RC_OK);
+    rc_contact_apart(NULL, &shape, h, gap, &c);
+    assert_int_equal(rc_solver_set_load(solver, 1.2e-3, 0, &err), RC_OK);
+    assert_int_equal(finish_load(solver, &err), RC_OK);
+    assert_int_equal(fault_disarm(), 0);
+    rc_solver_free(solver);
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(other_heights_take_nothing),
         cmocka_unit_test(memory_is_told_without_memory),
         cmocka_unit_test(every_function_is_tried),
         cmocka_unit_test(every_allocation_fails),

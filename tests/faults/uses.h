@@ -49,7 +49,7 @@ finish_load(struct rc_solver *solver, struct rc_err *err)
                            : rc_err_set(err, "the solution stops short: status %d", (int)status);
 }
 
-/* Solves a contact and, from there, one of a load a tenth higher. The fields, of n nodes each: the pressure
+/* Solves a contact and, from there, one of a load a tenth higher, whose shape is kept. The fields, of n nodes each: the pressure
  * of the second; gap, displacement and what has yielded of the first. */
 static enum rc_status
 solve_twice(const struct rc_shape *shape, const double *heights, const struct rc_problem *problem,
@@ -69,7 +69,12 @@ solve_twice(const struct rc_shape *shape, const double *heights, const struct rc
         finish_load(solver, err) != RC_OK)
         goto done;
     memcpy(field[0], rc_solver_pressure(solver), n * sizeof *field[0]);
-    status = RC_OK;
+    rc_solver_result(solver, NULL, NULL, &contact);
+    if (rc_solver_set_heights(solver, field[3], err) == RC_OK &&
+        finish_load(solver, err) == RC_OK) {
+        rc_solver_result(solver, NULL, NULL, &contact);
+        status = rc_solver_keep_shape(solver, &contact, field[3], err);
+    }
 done:
     rc_solver_free(solver);
     return status;

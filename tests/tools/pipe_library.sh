@@ -31,6 +31,17 @@ claim "it compiles against the shared library" ${CC:-cc} -std=c17 -I "$RC_SOURCE
 claim "it finds the same there" bash -c "
     LD_LIBRARY_PATH='$library' ./shared >shared.txt && cmp hertz.txt shared.txt"
 
+claim "the page holds a loading history" program "$pages/libcontact.3" history.c rc_solver_keep_shape
+claim "  its loop is of a dozen lines" [ "$(sed -n '/^    for/,/^    }/p' history.c | wc -l)" -le 13 ]
+# shellcheck disable=SC2086
+claim "  it compiles" ${CC:-cc} -std=c17 -Wall -Wextra -pedantic -I "$RC_SOURCE" -o history \
+    history.c "$library/libcontact.a" $flags -lfftw3_threads -lfftw3f_threads -lfftw3 -lfftw3f -lgsl -lgslcblas -lm
+claim "  it runs" bash -c './history >history.txt'
+claim "  the first load yields" grep -Eq '^240 N: [1-9][0-9]* nodes in contact, [1-9][0-9]* yield$' history.txt
+claim "  no load touches nothing" grep -qx '0 N: 0 nodes in contact, 0 yield' history.txt
+claim "  the same load again yields no more" grep -Eq '^240 N: [1-9][0-9]* nodes in contact, 0 yield$' history.txt
+claim "  a higher one does" grep -Eq '^300 N: [1-9][0-9]* nodes in contact, [1-9][0-9]* yield$' history.txt
+
 # Names that begin with a line are the compiler's: marks of sanitizers.
 offered() {
     local headers=("$RC_SOURCE"/libcontact/{contact,grid}.h) CC=${CC-}
