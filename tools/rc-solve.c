@@ -208,12 +208,12 @@ put(struct run *run, const struct results *r, enum solve_frame f, const double *
     tool_write(&run->t, &frame);
 }
 
-/* What yields leaves its mark, known to within the error of the solution it was found by. */
+/* What yields leaves its mark. */
 static void
 put_plastic(struct run *run, const struct results *r, const double *h, const struct rc_contact *c)
 {
     if (c->yielded_nodes > 0)
-        set_number(run, r->as, HEIGHT_ERROR, fmax(run->height_error, c->gap_error));
+        set_number(run, r->as, HEIGHT_ERROR, c->shape_error);
     put(run, r, SOLVE_PLASTIC, h);
 }
 
@@ -284,34 +284,24 @@ do_load(struct run *run, const struct rc_grid *g, struct rc_solver *solver, stru
     results_free(&r);
 }
 
-/* No load: the bodies are apart by as much as the heights differ from the highest, where they would
- * touch first. */
+/* No load: the bodies are apart. */
 static void
 take_apart(struct run *run, const struct rc_grid *g)
 {
     size_t nodes = rc_grid_nodes(g);
+    const struct rc_shape shape = rc_grid_shape(g);
     struct solution s = {.slope = NAN, .stiffness = NAN};
-    double highest = -INFINITY, mean;
     struct results r;
 
     run->iterate = run->result = 0;
-    for (size_t k = 0; k < nodes; k++)
-        highest = fmax(highest, g->v[k]);
-    highest = ranks_most(&run->t, highest);
-    mean = ranks_sum(&run->t, rc_sum(g->v, nodes)) / (double)(g->nx * g->ny);
-    s.contact = (struct rc_contact){.edge_load_fraction = NAN,
-                                    .approach = NAN,
-                                    .mean_gap = highest - mean,
-                                    .discretization = {NAN, NAN, NAN},
-                                    .converged = true};
+    rc_contact_apart(ranks_of(&run->t), &shape, g->v, NULL, &s.contact);
     solve_judge(run, g, &s);
     solve_report(run, g, NULL, &s);
     results_new(run, g, &r);
     set_keys(run, r.as, &s.contact);
     memset(r.buffer, 0, nodes * sizeof *r.buffer);
     put(run, &r, SOLVE_PRESSURE, r.buffer);
-    for (size_t k = 0; k < nodes; k++)
-        r.buffer[k] = highest - g->v[k];
+    rc_contact_apart(ranks_of(&run->t), &shape, g->v, r.buffer, &s.contact);
     put(run, &r, SOLVE_GAP, r.buffer);
     memset(r.buffer, 0, nodes * sizeof *r.buffer);
     put(run, &r, SOLVE_DISPLACEMENT, r.buffer);
@@ -366,21 +356,18 @@ new_solver(struct run *run, const struct rc_grid *g)
     return solver;
 }
 
-/* The heights get the shape that the load has left; true where that is another one. */
-static bool
-keep_shape(struct run *run, struct rc_grid *g, const struct rc_solver *solver,
-           const struct rc_contact *c)
+/* In a history the heights get the shape that the load has left. */
+static void
+keep_shape(struct run *run, struct rc_grid *g, struct rc_solver *solver, const struct rc_contact *c)
 {
     struct rc_err err;
 
     if (!args.physics.history || c->yielded_nodes == 0)
-        return false;
-    if (rc_solver_plastic(solver, g->v, &err) != RC_OK)
+        return;
+    if (rc_solver_keep_shape(solver, c, g->v, &err) != RC_OK)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     g->type = RC_F64;
-    run->height_error = fmax(run->height_error, c->gap_error);
-    set_number(run, g, HEIGHT_ERROR, run->height_error);
-    return true;
+    set_number(run, g, HEIGHT_ERROR, c->shape_error);
 }
 
 /* The loads of a list, each from the solution of the last; in a history, on the shape that it has
@@ -410,10 +397,7 @@ do_loads(struct run *run, struct rc_grid *g)
         else if (rc_solver_set_load(solver, problem.load, problem.approach, &err) != RC_OK)
             tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
         do_load(run, g, solver, &s);
-        if (keep_shape(run, g, solver, &s.contact)) {
-            rc_solver_free(solver);
-            solver = NULL;
-        }
+        keep_shape(run, g, solver, &s.contact);
     }
     rc_solver_free(solver);
 }

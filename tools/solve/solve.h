@@ -50,7 +50,7 @@ struct run {
     size_t step, number;         /* which of them, from 0; the case that it is    */
     bool stiffness;
     bool resumed;        /* this case, from a checkpoint                      */
-    double height_error; /* m: of the shape that the loads before have left */
+    double height_error; /* m: of the heights that came in */
     struct report report;
     struct checkpoint *checkpoint; /* NULL: none */
     size_t nodes;                  /* of the map */
