@@ -26,9 +26,10 @@ rc_bounds_pose(const struct rc_bounds *b, struct rc_problem *problem)
 }
 
 enum rc_status
-rc_bounds_carry(const struct rc_bounds *b, double load, double area, struct rc_err *err)
+rc_bounds_carry(const struct rc_bounds *b, double load, double cell, size_t nodes,
+                struct rc_err *err)
 {
-    double most = b->box.high * area;
+    double area = cell * (double)nodes, most = b->box.high * area;
 
     if (load > most * (1 + 4 * DBL_EPSILON))
         return rc_err_set(err,

@@ -136,8 +136,8 @@ rc_bare(const struct rc_bounds *b)
 struct rc_bounds rc_bounds_of(const struct rc_problem *problem, size_t nodes);
 /* And the problem that has these. */
 void rc_bounds_pose(const struct rc_bounds *b, struct rc_problem *problem);
-/* RC_FAIL when they cannot carry this load (N) on a map of this area (m2). */
-enum rc_status rc_bounds_carry(const struct rc_bounds *b, double load, double area,
+/* RC_FAIL when they cannot carry this load (N) on so many cells (m2). */
+enum rc_status rc_bounds_carry(const struct rc_bounds *b, double load, double cell, size_t nodes,
                                struct rc_err *err);
 
 #endif

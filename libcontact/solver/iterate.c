@@ -33,6 +33,8 @@ rc_iterate_level(struct rc_solver *s)
 #pragma omp parallel for num_threads(s->posed.threads) schedule(static)
     for (size_t k = 0; k < s->posed.n; k++)
         s->it.p[k] = rc_clip(box, k, mean);
+    if (box.highs != NULL) /* what is above their bounds, others carry */
+        rc_projection_of(s, s->it.p);
 }
 
 void

@@ -22,20 +22,20 @@ set_units(struct rc_load *load, size_t n, double unit)
 }
 
 enum rc_status
-rc_load_check(double load, const struct rc_bounds *bounds, double area, struct rc_err *err)
+rc_load_check(double load, const struct rc_bounds *bounds, double cell, size_t nodes,
+              struct rc_err *err)
 {
     if (!(load > 0) || isinf(load))
         return rc_err_set(err, "load %g N: it must be positive and finite", load);
-    return rc_bounds_carry(bounds, load, area, err);
+    return rc_bounds_carry(bounds, load, cell, nodes, err);
 }
 
 enum rc_status
 rc_load_set(struct rc_solver *s, double load, struct rc_err *err)
 {
     const struct rc_bounds *bounds = &s->posed.bounds;
-    double n = (double)s->posed.nodes;
 
-    if (rc_load_check(load, bounds, s->posed.cell * n, err) != RC_OK)
+    if (rc_load_check(load, bounds, s->posed.cell, s->posed.nodes, err) != RC_OK)
         return RC_FAIL;
     s->load.load = load;
     s->load.sum = load / s->posed.cell;

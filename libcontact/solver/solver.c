@@ -285,7 +285,8 @@ rc_solver_expect(const struct rc_shape *shape, const struct rc_problem *problem,
         rc_operator_check(shape, &options, err) != RC_OK)
         return RC_FAIL;
     if (!(problem->approach > 0) &&
-        rc_load_check(problem->load, &bounds, shape->dx * shape->dy * nodes, err) != RC_OK)
+        rc_load_check(problem->load, &bounds, shape->dx * shape->dy, shape->nx * shape->ny, err) !=
+            RC_OK)
         return RC_FAIL;
     some = method->convolutions == NULL
                ? NAN

@@ -259,7 +259,7 @@ struct rc_solver *rc_solver_coarse(const struct rc_solver *fine, const struct rc
 /* ---- load_search.c ---- */
 
 /* RC_FAIL when there is no solution under this load: more than the bounds carry on the map. */
-enum rc_status rc_load_check(double load, const struct rc_bounds *bounds, double area,
+enum rc_status rc_load_check(double load, const struct rc_bounds *bounds, double cell, size_t nodes,
                              struct rc_err *err);
 /* Sets the load and what follows from it; RC_FAIL when there is no solution. */
 enum rc_status rc_load_set(struct rc_solver *solver, double load, struct rc_err *err);
