@@ -475,6 +475,8 @@ struct rc_problem {
     double approach;     /* m, > 0: the load is sought that brings the bodies so far together from
                            first touch; 0: the load is given                                     */
     double hardness;     /* upper bound of the pressure, Pa; 0 or INFINITY: none                  */
+    const double *hardness_map; /* instead of it, Pa, nx ny, copied: NAN or INFINITY where there is
+                                  none; NULL: hardness is that of all nodes                      */
     double height_error; /* m: what the heights may be off, as the shape_error of the solution that
                            left their shape; bears on what counts as yielded only                */
     double tol;          /* asked relative L1 error of the pressure; 0: (nx ny)^(-3/4)            */
@@ -520,8 +522,8 @@ struct rc_contact {
     bool hardness_active;                    /* some node is at the hardness                     */
 };
 
-/* `h` (not NaN, not infinite) is copied. RC_FAIL-like NULL when load > hardness * area: the message
- * holds both numbers. */
+/* `h` (not NaN, not infinite) is copied. RC_FAIL-like NULL when load > hardness * area, or more than the sum
+ * of the hardness map times the cell: the message holds both numbers. */
 RC_API struct rc_solver *rc_solver_new(const struct rc_shape *shape, const double *h,
                                        const struct rc_problem *problem, struct rc_err *err);
 /* One iteration, on coarser grids at first: RC_MORE, RC_OK when the estimated error is below

@@ -37,11 +37,12 @@ nodes_of(const struct work *w)
 }
 
 static size_t
-solve(const struct work *w, const double *h, const double *p)
+solve_with(const struct work *w, const double *h, const double *hardness)
 {
     struct rc_problem problem = {.boundary = w->boundary,
                                  .engine = w->engine,
                                  .pair.estar = 3e9,
+                                 .hardness_map = hardness,
                                  .load = 1e7 * (double)(w->shape->nx * w->shape->ny) *
                                          w->shape->dx * w->shape->dy,
                                  .tol = 1e-2};
@@ -49,13 +50,35 @@ solve(const struct work *w, const double *h, const double *p)
     struct rc_solver *s = rc_solver_new(w->shape, h, &problem, NULL);
     struct rc_contact contact;
 
-    (void)p;
     if (s == NULL)
         return 0;
     while (rc_solver_step(s) == RC_MORE)
         continue;
     rc_solver_result(s, NULL, NULL, &contact);
     rc_solver_free(s);
+    return bytes;
+}
+
+static size_t
+solve(const struct work *w, const double *h, const double *p)
+{
+    (void)p;
+    return solve_with(w, h, NULL);
+}
+
+/* The map of hardness is kept beside the caller's. */
+static size_t
+solve_mapped(const struct work *w, const double *h, const double *p)
+{
+    double *hardness = malloc(nodes_of(w) * sizeof *hardness);
+    size_t bytes = 0;
+
+    (void)p;
+    for (size_t k = 0; k < nodes_of(w) && hardness != NULL; k++)
+        hardness[k] = k % 1000 < 500 ? 1e8 : NAN;
+    if (hardness != NULL)
+        bytes = solve_with(w, h, hardness) + nodes_of(w) * sizeof *hardness;
+    free(hardness);
     return bytes;
 }
 
@@ -162,6 +185,7 @@ holds(void **state)
         {"solver", &map, RC_FREE, NULL, 2 * transforms, solve},
         {"solver, periodic", &map, RC_PERIODIC, NULL, 2 * transforms, solve},
         {"solver, mlms", &map, RC_FREE, "mlms", 2 * transforms, solve},
+        {"solver, a map of hardness", &map, RC_FREE, NULL, 2 * transforms, solve_mapped},
         {"sums", &map, RC_FREE, "fft64", transforms, sum},
         {"sums, periodic", &map, RC_PERIODIC, "fft64", transforms, sum},
         {"sums, mlms", &map, RC_FREE, "mlms", transforms, sum},

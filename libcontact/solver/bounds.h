@@ -27,6 +27,7 @@ struct rc_bounds {
     bool open;         /* some node has no upper bound                                       */
     double floor;      /* what all nodes of the map at their lower bounds add up to, Pa      */
     double full;       /* and at their upper ones                                            */
+    double *own;       /* the map that is asked, once it is kept                             */
 };
 
 /* ---- of a node ---- */
@@ -132,10 +133,16 @@ rc_bare(const struct rc_bounds *b)
     return !rc_bounded(b) && b->box.low == 0;
 }
 
-/* Those of the problem, on a map of so many nodes. */
-struct rc_bounds rc_bounds_of(const struct rc_problem *problem, size_t nodes);
-/* And the problem that has these. */
-void rc_bounds_pose(const struct rc_bounds *b, struct rc_problem *problem);
+/* Those of the problem on this map: sums and figures at first; nodes can be asked once they are kept. All ranks
+ * call it, and get the same. RC_FAIL for a map that holds what is no bound, and for a number beside it. A map of
+ * one number is that number. */
+enum rc_status rc_bounds_of(struct rc_bounds *b, const struct rc_problem *problem,
+                            const struct rc_shape *whole, struct rc_err *err);
+/* Copies what belongs to the n nodes held here. RC_FAIL when memory is short, here alone. */
+enum rc_status rc_bounds_keep(struct rc_bounds *b, size_t n);
+void rc_bounds_free(struct rc_bounds *b);
+/* The problem that has these; `highs`: the map of another grid, where there is one. */
+void rc_bounds_pose(const struct rc_bounds *b, const double *highs, struct rc_problem *problem);
 /* RC_FAIL when they cannot carry this load (N) on so many cells (m2). */
 enum rc_status rc_bounds_carry(const struct rc_bounds *b, double load, double cell, size_t nodes,
                                struct rc_err *err);

@@ -68,13 +68,13 @@ rows_under(const struct rc_rows *fine)
 
 /* Means of the (up to) four nodes under each coarse node, of these rows. */
 static void
-coarsen(const struct rc_posed *fine, size_t coarse_nx, double *h)
+coarsen(const struct rc_posed *fine, const double *v, size_t coarse_nx, double *h)
 {
     size_t nx = fine->shape.nx, ny = fine->shape.ny;
 
 #pragma omp parallel for num_threads(fine->threads) schedule(static)
     for (size_t j = 0; j < rows_under(&fine->rows); j++) {
-        const double *a = fine->h + 2 * j * nx, *b = 2 * j + 1 < ny ? a + nx : a;
+        const double *a = v + 2 * j * nx, *b = 2 * j + 1 < ny ? a + nx : a;
         double *to = h + j * coarse_nx;
         for (size_t i = 0; i < nx / 2; i++)
             to[i] = (a[2 * i] + a[2 * i + 1] + b[2 * i] + b[2 * i + 1]) / 4;
@@ -133,10 +133,11 @@ ranks_for(const struct rc_solver *s, const struct rc_shape *coarse)
     return coarse->nx * coarse->ny < FEW_NODES * rc_ranks_count(ranks) ? NULL : ranks;
 }
 
-/* The heights that belong to a coarse grid, of the rows that are solved here; NULL when memory is short,
+/* What belongs to a coarse grid of this map, of the rows that are solved here; NULL when memory is short,
  * here or on another rank. */
 static double *
-coarse_heights(const struct rc_solver *s, const struct rc_shape *shape, const struct rc_rows *rows)
+coarse_map(const struct rc_solver *s, const double *map, const struct rc_shape *shape,
+           const struct rc_rows *rows)
 {
     const struct rc_ranks *ranks = s->posed.rows.ranks;
     double *h = rc_alloc(rows_under(&s->posed.rows) * shape->nx, sizeof *h), *own = NULL;
@@ -153,7 +154,7 @@ coarse_heights(const struct rc_solver *s, const struct rc_shape *shape, const st
         dealt_free(&d);
         return NULL;
     }
-    coarsen(&s->posed, shape->nx, h);
+    coarsen(&s->posed, map, shape->nx, h);
     if (ranks == NULL)
         return h;
     rc_ranks_move(ranks, shape->nx * sizeof *h, d.under, rows->ranks == NULL ? NULL : d.own, h,
@@ -214,18 +215,25 @@ coarse_new(const struct rc_solver *s, bool *sought)
                                  .threads = (size_t)s->posed.threads,
                                  .ranks = ranks_for(s, &shape)};
     struct rc_rows rows = rc_rows_of(problem.ranks, &shape);
-    double *h = coarse_heights(s, &shape, &rows), lower;
+    const double *fine_highs = s->posed.bounds.box.highs;
+    double *h = coarse_map(s, s->posed.h, &shape, &rows), *highs = NULL, lower;
     struct rc_solver *c;
 
-    if (h == NULL)
+    /* the mean of what four nodes can carry; without bound where one of them is */
+    if (h != NULL && fine_highs != NULL)
+        highs = coarse_map(s, fine_highs, &shape, &rows);
+    if (h == NULL || (fine_highs != NULL && highs == NULL)) {
+        free(h);
         return NULL;
-    rc_bounds_pose(&s->posed.bounds, &problem);
+    }
+    rc_bounds_pose(&s->posed.bounds, highs, &problem);
     lower = -largest(rows.ranks, h, rows.n * shape.nx); /* that of the fine heights is 0 */
     *sought = s->load.target > 2 * lower;
     if (*sought)
         problem.approach = s->load.target - lower;
     c = rc_solver_coarse(s, &shape, h, &problem, NULL);
     free(h);
+    free(highs);
     if (rc_ranks_agree(s->posed.all, c == NULL ? RC_FAIL : RC_OK, NULL) == RC_OK)
         return c;
     rc_solver_free(c);

@@ -136,7 +136,6 @@ pose(struct rc_posed *posed, const struct rc_shape *shape, const double *h,
                                .nodes = nodes,
                                .cell = shape->dx * shape->dy,
                                .h = rc_alloc(n, sizeof *posed->h),
-                               .bounds = rc_bounds_of(problem, nodes),
                                .tol = tolerance(shape, problem),
                                .max_iterations = problem->max_iterations > 0
                                                      ? problem->max_iterations
@@ -144,7 +143,9 @@ pose(struct rc_posed *posed, const struct rc_shape *shape, const double *h,
                                .threads = rc_useful_threads(&own, problem->threads),
                                .height_error = problem->height_error,
                                .discretization = problem->discretization};
-    if (posed->h == NULL)
+    if (rc_bounds_of(&posed->bounds, problem, shape, err) != RC_OK)
+        return RC_FAIL;
+    if (posed->h == NULL || rc_bounds_keep(&posed->bounds, n) != RC_OK)
         status =
             rc_err_set(err, "out of memory for a contact of %zu x %zu nodes", shape->nx, shape->ny);
     return take_heights(posed, h, status, err);
@@ -235,6 +236,7 @@ rc_solver_free(struct rc_solver *s)
     rc_iterate_free(s);
     rc_working_set_free(s);
     free(s->posed.h);
+    rc_bounds_free(&s->posed.bounds);
     free(s->z);
     free(s->partial);
     free(s);
@@ -267,6 +269,7 @@ rc_solver_memory(const struct rc_shape *shape, const struct rc_problem *problem)
     /* Heights, pressures and gaps, corrections and residuals of half the width, a mask. The coarser
      * grids of a nested start are gone before most of this is touched. */
     return n * (3 * sizeof(double) + 2 * sizeof(float) + 1) +
+           (problem->hardness_map != NULL ? n * sizeof(double) : 0) +
            (method != NULL && method->memory != NULL ? method->memory(&held) : 0) +
            rc_operator_memory(shape, &options) +
            rc_preconditioner_memory(shape, problem->boundary, ranks);
@@ -278,15 +281,15 @@ rc_solver_expect(const struct rc_shape *shape, const struct rc_problem *problem,
 {
     struct rc_operator_options options = operator_options(shape, problem);
     const struct rc_method *method = choose(problem->method, err);
-    struct rc_bounds bounds = rc_bounds_of(problem, shape->nx * shape->ny);
+    struct rc_bounds bounds;
     double nodes = (double)(shape->nx * shape->ny), some;
 
     if (method == NULL || check(shape, problem, err) != RC_OK ||
-        rc_operator_check(shape, &options, err) != RC_OK)
+        rc_operator_check(shape, &options, err) != RC_OK ||
+        rc_bounds_of(&bounds, problem, shape, err) != RC_OK)
         return RC_FAIL;
-    if (!(problem->approach > 0) &&
-        rc_load_check(problem->load, &bounds, shape->dx * shape->dy, shape->nx * shape->ny, err) !=
-            RC_OK)
+    if (!(problem->approach > 0) && rc_load_check(problem->load, &bounds, shape->dx * shape->dy,
+                                                  shape->nx * shape->ny, err) != RC_OK)
         return RC_FAIL;
     some = method->convolutions == NULL
                ? NAN

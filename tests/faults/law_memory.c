@@ -29,7 +29,7 @@ enum {
 static const struct rc_shape shape = {NX, NY, 1.1e-6, 1e-6};
 static const struct rc_layer layer = {2e-6, 2e9, 0.3};
 static const struct rc_pair layered = {.one = {1e9, 0.3, 1, &layer}};
-static double rough[N], holed[N], pressure[N];
+static double rough[N], holed[N], pressure[N], hardness[N];
 
 /* A map that was to be changed in place is what it was where that has failed. */
 static enum rc_status
@@ -248,6 +248,7 @@ solved(const struct rc_problem *problem, double *out, struct rc_err *err)
 
 CONTACT(free_contact, bare, .load = 1e-3)
 CONTACT(hard_contact, bare, .load = 1e-3, .hardness = 2e7, .boundary = RC_PERIODIC)
+CONTACT(two_phases, bare, .load = 1e-3, .hardness_map = hardness)
 CONTACT(paper_method, bare, .load = 1e-3, .method = "pk99", .engine = "mlms")
 CONTACT(to_an_approach, bare, .approach = 1e-7, .discretization = true)
 CONTACT(coated_contact, layered, .load = 1e-3)
@@ -412,6 +413,7 @@ static const struct {
     {.name = "convolution, coated and periodic", .use = coated_periodic},
     {.name = "contact", .use = free_contact},
     {.name = "contact, periodic with a hardness", .use = hard_contact},
+    {.name = "contact, a map of hardness", .use = two_phases},
     {.name = "contact, pk99 by mlms", .use = paper_method},
     {.name = "contact, to an approach", .use = to_an_approach},
     {.name = "contact, coated", .use = coated_contact},
@@ -610,10 +612,43 @@ other_heights_take_nothing(void **state)
     rc_solver_free(solver);
 }
 
+/* A map of hardness is one array of the solver's, and none where all nodes have the same or none at all. */
+static void
+hardness_takes_an_array(void **state)
+{
+    static double equal[N], none[N];
+    static const double *const maps[] = {NULL, equal, none, hardness};
+    size_t takes[4];
+
+    (void)state;
+    for (size_t k = 0; k < N; k++) {
+        equal[k] = 2e7;
+        none[k] = NAN;
+    }
+    for (size_t m = 0; m < 4; m++) {
+        struct rc_problem problem = {
+            .pair.estar = 1e9, .load = 1e-3, .tol = 1e-5, .threads = 1, .hardness_map = maps[m]};
+        struct rc_solver *solver;
+        struct rc_err err;
+
+        fault_arm(0, false);
+        solver = rc_solver_new(&shape, rough, &problem, &err);
+        takes[m] = fault_disarm();
+        assert_non_null(solver);
+        fault_arm(0, false);
+        assert_int_equal(finish_load(solver, &err), RC_OK);
+        if (m > 0) /* once what all share has been planned */
+            assert_int_equal(fault_disarm(), 0);
+        rc_solver_free(solver);
+    }
+    assert_true(takes[0] >= takes[1] && takes[1] == takes[2] && takes[3] == takes[2] + 1);
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hardness_takes_an_array),
         cmocka_unit_test(other_heights_take_nothing),
         cmocka_unit_test(memory_is_told_without_memory),
         cmocka_unit_test(every_function_is_tried),
@@ -626,6 +661,7 @@ main(void)
     for (size_t k = 0; k < N; k++) {
         holed[k] = k % 37 == 5 || (k > 100 && k < 104) ? NAN : rough[k];
         pressure[k] = fmax(0, rough[k]) * 1e14;
+        hardness[k] = k % 7 == 3 ? NAN : k % 10 < 5 ? 2e7 : 6e7;
     }
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

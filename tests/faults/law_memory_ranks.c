@@ -36,7 +36,7 @@ static const struct rc_layer layer = {4e-6, 2e9, 0.3};
 static const struct rc_pair layered = {.one = {1e9, 0.3, 1, &layer}};
 /* Of two, whose coarser grid is shared too. */
 static const struct rc_shape large = {384, 352, 1.1e-6, 1e-6};
-static double rough[N], pressure[N], large_rough[384 * 352];
+static double rough[N], pressure[N], hardness[N], large_rough[384 * 352];
 static struct rc_ranks *ranks;
 static int own, processes;
 static size_t first, here; /* nodes */
@@ -91,11 +91,14 @@ solved(const struct rc_problem *of, double *out, struct rc_err *err)
     double stiffness;
 
     problem.ranks = ranks;
+    if (problem.hardness_map != NULL)
+        problem.hardness_map += first;
     return solve_twice(&shape, rough + first, &problem, here, field, &stiffness, err);
 }
 
 CONTACT(free_contact, bare, .load = 0.02)
 CONTACT(hard_contact, bare, .load = 0.02, .hardness = 5e7, .boundary = RC_PERIODIC)
+CONTACT(two_phases, bare, .load = 0.02, .hardness_map = hardness)
 CONTACT(paper_method, bare, .load = 0.02, .method = "pk99")
 CONTACT(to_an_approach, bare, .approach = 3e-7, .discretization = true)
 CONTACT(coated_contact, layered, .load = 0.02)
@@ -195,6 +198,7 @@ static const struct {
     /* coarser grids, from which it starts, are gone without */
     {.name = "contact", .use = free_contact, .tol = 1e-3},
     {.name = "contact, periodic with a hardness", .use = hard_contact, .tol = 1e-3},
+    {.name = "contact, a map of hardness", .use = two_phases, .tol = 1e-3},
     {.name = "contact, pk99", .use = paper_method, .tol = 1e-3},
     {.name = "contact, to an approach", .use = to_an_approach, .tol = 1e-3},
     {.name = "contact, coated", .use = coated_contact, .tol = 1e-3},
@@ -351,7 +355,7 @@ main(int argc, char **argv)
         rc_synth_selfaffine(&shape, &what, rough, NULL) == RC_OK &&
         rc_synth_selfaffine(&large, &what, large_rough, NULL) == RC_OK) {
         for (size_t k = 0; k < N; k++)
-            pressure[k] = fmax(0, rough[k]) * 1e14;
+            pressure[k] = fmax(0, rough[k]) * 1e14, hardness[k] = k % 10 < 5 ? 5e7 : NAN;
         rc_ranks_rows(ranks, &shape, &first, &here);
         first *= NX;
         here *= NX;

@@ -201,9 +201,12 @@ compare(struct rc_shape s, struct rc_problem problem, size_t loads, const char *
 {
     struct part part = part_of(s);
     double *h = rough(s, 3);
+    const double *hardness = problem.hardness_map;
     struct outcome alone = contact(s, s.nx * s.ny, h, problem, loads), shared;
 
     problem.ranks = ranks;
+    if (hardness != NULL)
+        problem.hardness_map = hardness + part.first;
     shared = contact(s, part.n, h + part.first, problem, loads);
     assert_same(part.n, shared.p, alone.p + part.first, what);
     assert_same(part.n, shared.gap, alone.gap + part.first, what);
@@ -240,6 +243,38 @@ contacts(void **state)
         problem.hardness = 1e9;
         problem.discretization = true;
         compare(s, problem, 2, "hardness, two loads");
+    }
+}
+
+/* Of some nodes, and up to what all carry, where nodes join by their gap. */
+static void
+hardness_maps(void **state)
+{
+    (void)state;
+    for (size_t q = 0; q < 2 * SHAPES; q++) {
+        struct rc_shape s = shapes[q / 2];
+        size_t n = s.nx * s.ny;
+        double *map = calloc(n, sizeof *map), sum = 0;
+        struct rc_problem problem = {.boundary = q % 2 ? RC_PERIODIC : RC_FREE,
+                                     .pair.estar = 1e11,
+                                     .hardness_map = map,
+                                     .engine = "fft",
+                                     .tol = 1e-6,
+                                     .threads = 1 + q / 2 % 2};
+
+        for (size_t k = 0; k < n; k++) {
+            map[k] = k % 5 < 2 ? 5e8 : 1e9 * (double)(1 + k % 3);
+            sum += map[k];
+        }
+        problem.load = 0.3 * sum * s.dx * s.dy;
+        problem.discretization = true;
+        compare(s, problem, 2, "a map of hardness, two loads");
+        problem.load = 0.999 * sum * s.dx * s.dy;
+        compare(s, problem, 1, "a map of hardness, nearly all");
+        map[n - 1] = NAN;
+        problem.load = 0.5 * sum * s.dx * s.dy;
+        compare(s, problem, 1, "a map of hardness, one node without");
+        free(map);
     }
 }
 
@@ -365,8 +400,8 @@ main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(displacements), cmocka_unit_test(refusals),   cmocka_unit_test(contacts),
-        cmocka_unit_test(approaches),    cmocka_unit_test(saturation), cmocka_unit_test(memory),
-        cmocka_unit_test(stresses),
+        cmocka_unit_test(hardness_maps), cmocka_unit_test(approaches), cmocka_unit_test(saturation),
+        cmocka_unit_test(memory),        cmocka_unit_test(stresses),
     };
     struct rc_err err;
     int failed;
