@@ -158,6 +158,15 @@ solver_run(struct rc_solver *solver)
         continue;
 }
 
+struct rc_progress
+solver_progress(const struct rc_solver *solver)
+{
+    struct rc_progress at;
+
+    rc_solver_progress(solver, &at);
+    return at;
+}
+
 double
 error_l1(size_t n, const double *a, const double *b)
 {

@@ -59,6 +59,7 @@ const struct rc_engine *engine_named(const char *name);
 struct rc_solver *solver_new(struct rc_shape shape, const double *h, struct rc_problem problem);
 /* Steps to the end. */
 void solver_run(struct rc_solver *solver);
+struct rc_progress solver_progress(const struct rc_solver *solver);
 
 /* Relative errors of a against b: sums of magnitudes, sums of squares. */
 double error_l1(size_t n, const double *a, const double *b);

@@ -76,7 +76,7 @@ measured(size_t m, bool as_they_did)
         solver = solver_new(shape, h, problem);
         solver_run(solver);
     }
-    e.iterations = rc_solver_iterations(solver);
+    e.iterations = solver_progress(solver).iterations;
     e.pressure = pressure_error(shape, exact, rc_solver_pressure(solver));
     e.mises = mises_error(shape, exact, rc_solver_pressure(solver), as_they_did ? "mlms" : "fft");
     rc_solver_result(solver, NULL, NULL, &c);

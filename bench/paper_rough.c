@@ -72,10 +72,10 @@ spent(int way, struct rc_shape shape, const double *h, struct rc_problem problem
         } else {
             solver = solver_new(shape, h, problem);
             solver_run(solver);
-            c.done = rc_solver_error(solver) <= problem.tol;
+            c.done = solver_progress(solver).error <= problem.tol;
         }
         c.seconds = fmin(c.seconds, now() - t);
-        c.iterations = rc_solver_iterations(solver);
+        c.iterations = solver_progress(solver).iterations;
         c.convolutions = rc_solver_convolutions(solver);
         c.error = error_l1(shape.nx * shape.ny, rc_solver_pressure(solver), truth);
         rc_solver_free(solver);

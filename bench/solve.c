@@ -128,7 +128,7 @@ table(size_t m)
         while (rc_solver_step(s) == RC_MORE) {
             if (error_l1(n, rc_solver_pressure(s), p) <= wanted) {
                 reached = rc_solver_convolutions(s);
-                its = rc_solver_iterations(s);
+                its = solver_progress(s).iterations;
                 break;
             }
         }
@@ -141,8 +141,8 @@ table(size_t m)
         c.convolutions = rc_solver_convolutions(s);
         printf("%-12s %8.4f %8.4f %6.1f | %6zu %6.1f | %6zu %6.1f %8.3f %8.1e %8.1e\n",
                surfaces[k].name, exact.contact_fraction, (double)exact.plastic_nodes / (double)n,
-               exact.convolutions, its, reached, rc_solver_iterations(s), c.convolutions, seconds,
-               rc_solver_error(s), error_l1(n, rc_solver_pressure(s), p));
+               exact.convolutions, its, reached, solver_progress(s).iterations, c.convolutions,
+               seconds, solver_progress(s).error, error_l1(n, rc_solver_pressure(s), p));
         fflush(stdout);
         rc_solver_free(s);
         free(p);
@@ -164,6 +164,7 @@ estimate(size_t m)
         struct rc_problem problem = make(&surfaces[k], shape, h);
         struct rc_contact exact;
         double *p = truth(shape, h, problem, 1e-9, &exact), before, *old = map_new(n);
+        struct rc_progress at;
         struct rc_solver *s;
         enum rc_status status;
 
@@ -175,8 +176,9 @@ estimate(size_t m)
             memcpy(old, rc_solver_pressure(s), n * sizeof *old);
             status = rc_solver_step(s);
             before = error_l1(n, old, p);
-            if (before > 1e-8 && !isnan(rc_solver_error(s)))
-                printf(" %.2f@%.0e", rc_solver_error(s) / before, before);
+            at = solver_progress(s);
+            if (before > 1e-8 && !at.coarser && !isnan(at.error))
+                printf(" %.2f@%.0e", at.error / before, before);
         } while (status == RC_MORE);
         printf("\n");
         rc_solver_free(s);
@@ -224,7 +226,7 @@ work_to(const double *p, struct rc_shape shape, const double *h, struct rc_probl
             reached = rc_solver_convolutions(s);
             break;
         }
-    *its = rc_solver_iterations(s);
+    *its = solver_progress(s).iterations;
     rc_solver_free(s);
     return reached;
 }
@@ -254,8 +256,9 @@ growth(void)
                 seconds = now() - seconds;
                 printf("%4g %8g %6zu %7.1f%% | %4zu %6.1f | %4zu %6.1f %8.3f %8.1e %8.1e\n",
                        roughnesses[r].cut, roughnesses[r].rolloff, m, 100 * exact.contact_fraction,
-                       its, reached, rc_solver_iterations(s), rc_solver_convolutions(s), seconds,
-                       rc_solver_error(s), error_l1(m * m, rc_solver_pressure(s), p));
+                       its, reached, solver_progress(s).iterations, rc_solver_convolutions(s),
+                       seconds, solver_progress(s).error,
+                       error_l1(m * m, rc_solver_pressure(s), p));
                 fflush(stdout);
                 rc_solver_free(s);
                 free(p);

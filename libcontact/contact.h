@@ -550,14 +550,11 @@ RC_API enum rc_status rc_solver_warm_start(struct rc_solver *solver, double load
  * asked for. */
 struct rc_progress {
     struct rc_shape grid;
+    bool coarser; /* than the map's own: what it finds there is where the map's own begins */
     size_t iterations;
     double error, tol;
 };
 RC_API void rc_solver_progress(const struct rc_solver *solver, struct rc_progress *progress);
-/* Iterations on this grid so far and the last estimate of the error (NAN before the first), for
- * progress. */
-RC_API size_t rc_solver_iterations(const struct rc_solver *solver);
-RC_API double rc_solver_error(const struct rc_solver *solver);
 /* Convolutions so far, in equivalents of one double-precision convolution on this grid; coarser
  * grids and single precision count their share. */
 RC_API double rc_solver_convolutions(const struct rc_solver *solver);

@@ -103,6 +103,7 @@ problem_of(struct run *run, const struct rc_grid *g, size_t step)
 static void
 solve(struct run *run, const struct rc_grid *g, struct rc_solver *solver)
 {
+    struct rc_progress at;
     double start;
 
     run->resumed = checkpoint_case(run->checkpoint, g, solver);
@@ -113,7 +114,8 @@ solve(struct run *run, const struct rc_grid *g, struct rc_solver *solver)
     }
     tool_progress_end(&run->t);
     run->iterate = solve_now() - start;
-    if (!run->resumed || rc_solver_iterations(solver) > 1) /* else it is there already */
+    rc_solver_progress(solver, &at);
+    if (!run->resumed || at.iterations > 1) /* else it is there already */
         checkpoint_save(run->checkpoint, g, solver);
 }
 

@@ -434,6 +434,7 @@ rc_solver_progress(const struct rc_solver *s, struct rc_progress *progress)
     const struct rc_solver *at = rc_nested_at_work(s);
 
     *progress = (struct rc_progress){.grid = at->posed.whole,
+                                     .coarser = at != s,
                                      .iterations = at->it.iterations,
                                      .error = at->it.error,
                                      .tol = at->load.tol};
@@ -443,18 +444,6 @@ double
 rc_solver_load(const struct rc_solver *s)
 {
     return s->load.load;
-}
-
-size_t
-rc_solver_iterations(const struct rc_solver *s)
-{
-    return s->it.iterations;
-}
-
-double
-rc_solver_error(const struct rc_solver *s)
-{
-    return s->it.error;
 }
 
 double

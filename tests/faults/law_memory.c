@@ -382,8 +382,8 @@ without(double *out, struct rc_err *err)
 }
 
 /* Of a plan or a solution that there is, these only tell: rc_conv_engine( rc_conv_reason(
- * rc_solver_progress( rc_solver_iterations( rc_solver_error( rc_solver_convolutions( rc_solver_load(
- * rc_solver_engine( rc_solver_engine_reason( rc_solver_method( rc_stress_values( rc_stress_engine(
+ * rc_solver_progress( rc_solver_convolutions( rc_solver_load( rc_solver_engine(
+ * rc_solver_engine_reason( rc_solver_method( rc_stress_values( rc_stress_engine(
  * rc_stress_counted( rc_grid_shape( rc_grid_case( */
 
 static const struct {

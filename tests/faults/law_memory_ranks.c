@@ -109,7 +109,7 @@ large_start(double *out, struct rc_err *err)
 {
     const struct rc_problem problem = {
         .pair.estar = 1e9, .load = 0.2, .threads = 1, .tol = 1e-2, .ranks = ranks};
-    struct rc_progress at = {.iterations = 0};
+    struct rc_progress at = {.coarser = true};
     struct rc_solver *solver;
     size_t row, n;
 
@@ -118,7 +118,7 @@ large_start(double *out, struct rc_err *err)
     solver = rc_solver_new(&large, large_rough + row * large.nx, &problem, err);
     if (solver == NULL)
         return RC_FAIL;
-    while ((at.grid.nx != large.nx || at.iterations == 0) && rc_solver_step(solver) == RC_MORE)
+    while ((at.coarser || at.iterations == 0) && rc_solver_step(solver) == RC_MORE)
         rc_solver_progress(solver, &at);
     rc_solver_free(solver);
     return RC_OK;

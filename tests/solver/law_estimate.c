@@ -109,18 +109,19 @@ steps(struct rc_shape s, const double *h, struct rc_problem problem, const doubl
     assert_non_null(old);
     assert_non_null(solver);
     do {
-        double error, estimate, ratio;
+        double error, ratio;
+        struct rc_progress at;
         memcpy(old, rc_solver_pressure(solver), n * sizeof *old);
         status = rc_solver_step(solver);
         error = distance(n, old, exact);
-        estimate = rc_solver_error(solver);
-        ratio = estimate / error;
+        rc_solver_progress(solver, &at);
+        ratio = at.error / error;
         assert_true(error >= 0);
-        if (isnan(estimate) || error < problem.tol)
+        if (at.coarser || isnan(at.error) || error < problem.tol)
             continue;
         r->judged++;
         r->least = fmin(r->least, ratio); /* a number: neither estimate nor error is NaN, or 0 */
-        if (estimate < estimate_small)
+        if (at.error < estimate_small)
             r->most = fmax(r->most, ratio);
         else
             r->early = fmax(r->early, ratio);

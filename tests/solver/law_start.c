@@ -40,7 +40,18 @@ grid_nodes(const struct rc_solver *s)
     struct rc_progress p;
 
     rc_solver_progress(s, &p);
+    assert_true(p.coarser == (p.grid.nx * p.grid.ny < shape.nx * shape.ny));
     return p.grid.nx * p.grid.ny;
+}
+
+/* On the map's own grid. */
+static size_t
+iterations(const struct rc_solver *s)
+{
+    struct rc_progress p;
+
+    rc_solver_progress(s, &p);
+    return p.coarser ? 0 : p.iterations;
 }
 
 static void
@@ -50,7 +61,7 @@ new_iterates_nothing(void **state)
     struct rc_solver *s = solver(h, &posed);
 
     (void)state;
-    assert_int_equal(rc_solver_iterations(s), 0);
+    assert_int_equal(iterations(s), 0);
     assert_true(rc_solver_convolutions(s) == 0);
     rc_solver_free(s);
     free(h);
@@ -72,7 +83,7 @@ coarse_grids_pass_in_steps(void **state)
         assert_true(rc_solver_convolutions(s) >= last);
         last = rc_solver_convolutions(s);
         steps++;
-    } while (status == RC_MORE && rc_solver_iterations(s) == 0);
+    } while (status == RC_MORE && iterations(s) == 0);
     assert_int_equal(coarsest, 19 * 13);
     assert_true(steps > 6);
     assert_true(last > 0);
@@ -120,7 +131,7 @@ a_given_start_does_without(void **state)
         continue;
     assert_int_equal(rc_solver_warm_start(b, posed.load, rc_solver_pressure(a), &err), RC_OK);
     assert_int_equal(rc_solver_step(b), RC_OK);
-    assert_int_equal(rc_solver_iterations(b), 1);
+    assert_int_equal(iterations(b), 1);
     /* K p by rows, a correction with its weights, and both again in double precision */
     assert_true(rc_solver_convolutions(b) <= 0.5 + 2 + 1 + 2);
     rc_solver_free(a);

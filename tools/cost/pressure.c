@@ -14,8 +14,7 @@ struct job {
     const double *h; /* of the map */
     struct rc_shape map;
     struct rc_problem problem;
-    size_t iterations; /* for progress */
-    double estimate;
+    struct rc_progress at;
     bool done;
     double seconds, convolutions;
     size_t memory;
@@ -50,10 +49,8 @@ work(void *ctx)
         rc_resample_means(&j->map, j->h, shape, h);
     if ((solver = rc_solver_new(shape, coarse ? h : j->h, &j->problem, &j->err)) == NULL)
         return;
-    while (rc_solver_step(solver) == RC_MORE) {
-        j->iterations = rc_solver_iterations(solver);
-        j->estimate = rc_solver_error(solver);
-    }
+    while (rc_solver_step(solver) == RC_MORE)
+        rc_solver_progress(solver, &j->at);
     j->seconds = tool_now() - start;
     j->convolutions = rc_solver_convolutions(solver);
     j->memory = tool_peak_memory() - before;
@@ -76,11 +73,12 @@ watch(void *ctx)
     const struct job *j = ctx;
     char name[128];
 
-    if (isnan(j->estimate) || j->iterations == 0)
-        tool_progress(j->tool, "%s, iteration %zu", cost_name(name, j->trial), j->iterations);
+    if (isnan(j->at.error) || j->at.coarser)
+        tool_progress(j->tool, "%s, iteration %zu", cost_name(name, j->trial),
+                      j->at.coarser ? 0 : j->at.iterations);
     else
         tool_progress(j->tool, "%s, iteration %zu, error %.1e", cost_name(name, j->trial),
-                      j->iterations, j->estimate);
+                      j->at.iterations, j->at.error);
 }
 
 static double
@@ -164,7 +162,7 @@ cost_trial_run(struct cost_case *c, struct cost_trial *trial, double allowed, do
     j->h = c->heights->v;
     j->map = c->shape;
     j->problem = problem_of(c, trial);
-    j->estimate = NAN;
+    j->at.error = NAN;
     end = cost_run(work, j, allowed, watch);
     tool_progress_end(c->tool);
     if (end == COST_ENDED && j->done) {

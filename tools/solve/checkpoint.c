@@ -414,7 +414,10 @@ checkpoint_save(struct checkpoint *c, const struct rc_grid *g, const struct rc_s
 void
 checkpoint_pass(struct checkpoint *c, const struct rc_grid *g, const struct rc_solver *solver)
 {
-    if (c == NULL || rc_solver_iterations(solver) == 0)
+    struct rc_progress at;
+
+    rc_solver_progress(solver, &at);
+    if (c == NULL || at.coarser || at.iterations == 0)
         return; /* on the coarser grids there is nothing to keep */
     if (ranks_most(&c->run->t, solve_now() - c->began) < c->next)
         return;
