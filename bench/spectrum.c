@@ -192,7 +192,7 @@ spectrum(const struct row *row, size_t m)
     double least[2], most[2];
     struct rc_err err;
 
-    o.fft = must(rc_fft_new(&s, row->boundary, RC_DOUBLE, 0, &err));
+    o.fft = must(rc_fft_new(NULL, NULL, &s, row->boundary, RC_DOUBLE, 0, &err));
     o.kernel = must(rc_spectrum_new(o.fft, &err));
     must_be(rc_spectrum_set(o.kernel, o.fft, &rc_kernel_of_one, &err), &err);
     o.inverse = must(rc_spectrum_new_reciprocal(o.fft, o.kernel, &err));

@@ -182,7 +182,7 @@ slice_row(const struct rc_shape *shape, const double *p, const char *name,
         .boundary = boundary, .body.nu = 0.3, .wanted = (2u << RC_MISES) - 1, .threads = threads};
     size_t n = shape->nx * shape->ny;
     struct rc_err err;
-    struct rc_fft *fft = must(rc_fft_new(shape, boundary, RC_DOUBLE, threads, &err));
+    struct rc_fft *fft = must(rc_fft_new(NULL, NULL, shape, boundary, RC_DOUBLE, threads, &err));
     struct rc_spectrum *k = must(rc_spectrum_new(fft, &err));
     struct maps maps = maps_new(n);
     struct slice_work slice = {must(rc_stress_new(shape, p, &o, &err)), depth, maps.s};
@@ -258,7 +258,7 @@ parts(void)
     struct rc_shape shape;
     double *p = disc(M, &shape), *u = must(malloc(M * M * sizeof *u)), t, best;
     struct rc_err err;
-    struct rc_fft *fft = must(rc_fft_new(&shape, RC_FREE, RC_DOUBLE, threads, &err));
+    struct rc_fft *fft = must(rc_fft_new(NULL, NULL, &shape, RC_FREE, RC_DOUBLE, threads, &err));
     struct rc_spectrum *k = must(rc_spectrum_new(fft, &err));
     size_t cx, cy;
     double *x, *out[RC_STRESS_KERNELS] = {NULL};

@@ -52,8 +52,8 @@ plan_new(const struct rc_sum *sum, struct rc_err *err)
         free(plan);
         return NULL;
     }
-    plan->fft = rc_fft_new_on(sum->ranks, NULL, &sum->shape, sum->boundary, precision(sum),
-                              sum->threads, err);
+    plan->fft =
+        rc_fft_new(sum->ranks, NULL, &sum->shape, sum->boundary, precision(sum), sum->threads, err);
     if (plan->fft == NULL || (plan->kernel = rc_spectrum_new(plan->fft, err)) == NULL ||
         rc_spectrum_set(plan->kernel, plan->fft, &sum->kernel, err) != RC_OK) {
         plan_free(plan);

@@ -194,20 +194,6 @@ half_run(const struct half *h, bool odd, double *v)
 
 /* ---- plan ---- */
 
-struct rc_fft *
-rc_fft_new(const struct rc_shape *s, enum rc_boundary boundary, enum rc_precision precision,
-           size_t threads, struct rc_err *err)
-{
-    return rc_fft_new_on(NULL, NULL, s, boundary, precision, threads, err);
-}
-
-struct rc_fft *
-rc_fft_new_in(struct rc_fft *lender, const struct rc_shape *s, enum rc_boundary boundary,
-              enum rc_precision precision, size_t threads, struct rc_err *err)
-{
-    return rc_fft_new_on(NULL, lender, s, boundary, precision, threads, err);
-}
-
 /* Who has which rows and columns. */
 static enum rc_status
 share(struct rc_fft *f, const struct rc_ranks *ranks, enum rc_precision precision,
@@ -264,9 +250,9 @@ fail:
 }
 
 struct rc_fft *
-rc_fft_new_on(const struct rc_ranks *ranks, struct rc_fft *lender, const struct rc_shape *s,
-              enum rc_boundary boundary, enum rc_precision precision, size_t threads,
-              struct rc_err *err)
+rc_fft_new(const struct rc_ranks *ranks, struct rc_fft *lender, const struct rc_shape *s,
+           enum rc_boundary boundary, enum rc_precision precision, size_t threads,
+           struct rc_err *err)
 {
     struct rc_fft *f;
 

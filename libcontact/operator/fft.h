@@ -18,18 +18,13 @@ enum rc_precision {
 struct rc_fft;
 struct rc_spectrum; /* of one kernel: a quarter of it, real */
 
-struct rc_fft *rc_fft_new(const struct rc_shape *shape, enum rc_boundary boundary,
+/* `shape` is that of the whole map. Where ranks share it (NULL: none) maps and rows are those held here,
+ * row 0 the first of these, and spectra have the columns that are multiplied here. The plan transforms in
+ * the memory in which `lender`, another plan, does: never both at a time, and the lender outlives it; NULL,
+ * or too small: the plan takes its own. */
+struct rc_fft *rc_fft_new(const struct rc_ranks *ranks, struct rc_fft *lender,
+                          const struct rc_shape *shape, enum rc_boundary boundary,
                           enum rc_precision precision, size_t threads, struct rc_err *err);
-/* The same with the memory in which another plan transforms: never both at a time. `lender` outlives
- * it; NULL, or too small: the plan takes its own. */
-struct rc_fft *rc_fft_new_in(struct rc_fft *lender, const struct rc_shape *shape,
-                             enum rc_boundary boundary, enum rc_precision precision, size_t threads,
-                             struct rc_err *err);
-/* The same of a map that ranks share: `shape` is that of all of it. Maps and rows are those held here,
- * row 0 the first of these, and spectra have the columns that are multiplied here. */
-struct rc_fft *rc_fft_new_on(const struct rc_ranks *ranks, struct rc_fft *lender,
-                             const struct rc_shape *shape, enum rc_boundary boundary,
-                             enum rc_precision precision, size_t threads, struct rc_err *err);
 void rc_fft_free(struct rc_fft *fft);
 /* Bytes of a plan with one spectrum, and of each further spectrum; of one of `ranks` that share it, the one
  * that takes most. */

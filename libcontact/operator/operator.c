@@ -268,8 +268,8 @@ plan(struct own *s, const struct rc_shape *shape, const struct rc_operator_optio
     s->op.extension = extension(s, length);
     set_inverse_near(s, &unit, length);
     set_neighbours(&s->op, &unit);
-    s->fft = rc_fft_new_on(o->ranks, s->conv == NULL ? NULL : rc_conv_fft(s->conv), &unit,
-                           o->boundary, RC_SINGLE, o->threads, err);
+    s->fft = rc_fft_new(o->ranks, s->conv == NULL ? NULL : rc_conv_fft(s->conv), &unit, o->boundary,
+                        RC_SINGLE, o->threads, err);
     if (s->fft == NULL || set_spectra(s, &unit, length, err) != RC_OK)
         return RC_FAIL;
     s->op.kernel = s->kernel;

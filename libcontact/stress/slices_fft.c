@@ -122,8 +122,8 @@ grid_new(const struct rc_stress_task *task, const struct rc_shape *shape, const 
         goto fail;
     g->task = task;
     g->shape = *shape;
-    g->fft = rc_fft_new_on(ranks, NULL, shape, task->options.boundary, precision_of(task),
-                           task->options.threads, err);
+    g->fft = rc_fft_new(ranks, NULL, shape, task->options.boundary, precision_of(task),
+                        task->options.threads, err);
     if (g->fft == NULL)
         goto fail;
     g->threads = rc_fft_threads(g->fft);

@@ -273,7 +273,7 @@ one_transform_serves_all_kernels(void **state)
     size_t n = shape.nx * shape.ny;
     double *p = calloc(n, sizeof *p), *u = malloc(n * sizeof *u), *v = malloc(n * sizeof *v);
     struct rc_err err;
-    struct rc_fft *fft = rc_fft_new(&shape, RC_FREE, RC_DOUBLE, 2, &err);
+    struct rc_fft *fft = rc_fft_new(NULL, NULL, &shape, RC_FREE, RC_DOUBLE, 2, &err);
     struct rc_spectrum *k = rc_spectrum_new(fft, &err);
 
     (void)state;
