@@ -11,50 +11,14 @@ static struct args {
     bool robust;
 } args;
 
+/* What an option does to each map, at its place in the line. */
+struct work {
+    enum rc_status (*run)(struct tool *t, struct rc_grid *g, double value, struct rc_err *err);
+    bool fits; /* --robust bears on it */
+};
+
 static const double filled_much = 0.05;   /* part of the points beyond which filling is warned of */
 static const double outliers_much = 0.05; /* and beyond which outliers are */
-
-/* clang-format off */
-static const struct opt opts[] = {
-    {.name = "plane", .type = OPT_STEP, .at = offsetof(struct args, steps), .result = true,
-     .help = "subtract the least-squares plane"},
-    {.name = "poly", .type = OPT_STEP, .at = offsetof(struct args, steps), .max = RC_DEGREE_MAX,
-     .result = true, .arg = "N", .help = "subtract the polynomial of degree N (0: the mean)"},
-    {.name = "sphere", .type = OPT_STEP, .at = offsetof(struct args, steps), .result = true,
-     .help = "subtract the sphere that fits, and tell its radius"},
-    {.name = "cylinder", .type = OPT_STEP, .at = offsetof(struct args, steps), .result = true,
-     .help = "subtract the cylinder that fits, of any direction and tilt"},
-    {.name = "lowpass", .type = OPT_STEP, .unit = UNIT_M, .at = offsetof(struct args, steps),
-     .max = INFINITY, .above = true, .result = true, .arg = "L",
-     .help = "keep waves longer than L (Gaussian filter, half of L itself)"},
-    {.name = "highpass", .type = OPT_STEP, .unit = UNIT_M, .at = offsetof(struct args, steps),
-     .max = INFINITY, .above = true, .result = true, .arg = "L",
-     .help = "keep waves shorter than L: the input less its low-pass"},
-    {.name = "outliers", .type = OPT_STEP, .at = offsetof(struct args, steps), .real = true,
-     .max = INFINITY, .above = true, .result = true, .arg = "T",
-     .help = "drop points T deviations off the median around"},
-    {.name = "fill", .type = OPT_STEP, .at = offsetof(struct args, steps), .result = true,
-     .help = "fill missing points smoothly from around them"},
-    {.name = "taper", .type = OPT_STEP, .unit = UNIT_M, .at = offsetof(struct args, steps),
-     .max = INFINITY, .above = true, .result = true, .arg = "W",
-     .help = "lead the outer W to the mean, so that the map repeats"},
-    {.name = "robust", .type = OPT_FLAG, .at = offsetof(struct args, robust), .result = true,
-     .help = "forms and filters that single points far off do not bend"},
-    {.name = NULL},
-};
-/* clang-format on */
-
-static const struct tool_info info = {
-    .name = "rc-detrend",
-    .summary = "Level height maps, remove their form, filter, drop outliers, fill missing points",
-    .operands = "[FILE...]",
-    .examples =
-        "  rc-import bench.x3p | rc-detrend --plane --fill > flat.rcg\n"
-        "  rc-import bench.x3p | rc-detrend --robust --plane --outliers 5 --fill > clean.rcg\n",
-    .opts = opts,
-    .reads = READS_STREAM,
-    .writes = WRITES_STREAM,
-};
 
 static bool
 is_periodic(const struct rc_grid *g)
@@ -239,51 +203,21 @@ fill(struct tool *t, struct rc_grid *g, double value, struct rc_err *err)
     return add_to_key(g, "filled", filled, err);
 }
 
-/* What is done at a step, by the name of its option. */
-static const struct work {
-    const char *name;
-    enum rc_status (*run)(struct tool *t, struct rc_grid *g, double value, struct rc_err *err);
-} works[] = {
-    {"plane", plane},       {"poly", poly},       {"sphere", sphere},
-    {"cylinder", cylinder}, {"lowpass", lowpass}, {"highpass", highpass},
-    {"outliers", outliers}, {"fill", fill},       {"taper", taper},
-};
-
-static enum rc_status
-run_step(struct tool *t, struct rc_grid *g, const struct step *step, struct rc_err *err)
-{
-    size_t k = 0;
-
-    while (strcmp(works[k].name, step->opt->name) != 0)
-        k++;
-    return works[k].run(t, g, step->value, err);
-}
-
 static void
 detrend(struct tool *t, struct rc_grid *g)
 {
     struct rc_err err;
     enum rc_status status = RC_OK;
 
-    for (size_t k = 0; k < args.steps.n && status == RC_OK; k++)
-        status = run_step(t, g, &args.steps.step[k], &err);
+    for (size_t k = 0; k < args.steps.n && status == RC_OK; k++) {
+        const struct step *step = &args.steps.step[k];
+        const struct work *work = step->opt->of;
+        status = work->run(t, g, step->value, &err);
+    }
     if (status == RC_OK)
         status = rc_grid_history(g, tool_history(t), &err);
     if (status != RC_OK)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-}
-
-/* Steps on which --robust bears. */
-static bool
-is_fitted(const struct step *step)
-{
-    static const char *const names[] = {"plane",    "poly",    "sphere",
-                                        "cylinder", "lowpass", "highpass"};
-
-    for (size_t k = 0; k < sizeof names / sizeof *names; k++)
-        if (strcmp(step->opt->name, names[k]) == 0)
-            return true;
-    return false;
 }
 
 static void
@@ -294,8 +228,10 @@ check_steps(struct tool *t)
     if (args.steps.n == 0)
         tool_die(t, EXIT_USAGE,
                  "nothing to do: give --plane, --poly N or --fill, or another step of --help");
-    for (size_t k = 0; k < args.steps.n; k++)
-        fitted = fitted || is_fitted(&args.steps.step[k]);
+    for (size_t k = 0; k < args.steps.n; k++) {
+        const struct work *work = args.steps.step[k].opt->of;
+        fitted = fitted || work->fits;
+    }
     if (args.robust && !fitted)
         tool_die(t, EXIT_USAGE, "--robust bears on forms and filters: give one of them");
 }
@@ -316,6 +252,59 @@ refuse_infinite(struct tool *t, const struct rc_grid *g)
                     "%zu: a point without a measurement is NaN",
                     count, first % g->nx, first / g->nx);
 }
+
+/* ---- options ---- */
+
+/* clang-format off */
+static const struct opt opts[] = {
+    {.name = "plane", .type = OPT_STEP, .at = offsetof(struct args, steps), .result = true,
+     .of = &(const struct work){.run = plane, .fits = true},
+     .help = "subtract the least-squares plane"},
+    {.name = "poly", .type = OPT_STEP, .at = offsetof(struct args, steps), .max = RC_DEGREE_MAX,
+     .result = true, .arg = "N", .of = &(const struct work){.run = poly, .fits = true},
+     .help = "subtract the polynomial of degree N (0: the mean)"},
+    {.name = "sphere", .type = OPT_STEP, .at = offsetof(struct args, steps), .result = true,
+     .of = &(const struct work){.run = sphere, .fits = true},
+     .help = "subtract the sphere that fits, and tell its radius"},
+    {.name = "cylinder", .type = OPT_STEP, .at = offsetof(struct args, steps), .result = true,
+     .of = &(const struct work){.run = cylinder, .fits = true},
+     .help = "subtract the cylinder that fits, of any direction and tilt"},
+    {.name = "lowpass", .type = OPT_STEP, .unit = UNIT_M, .at = offsetof(struct args, steps),
+     .max = INFINITY, .above = true, .result = true, .arg = "L",
+     .of = &(const struct work){.run = lowpass, .fits = true},
+     .help = "keep waves longer than L (Gaussian filter, half of L itself)"},
+    {.name = "highpass", .type = OPT_STEP, .unit = UNIT_M, .at = offsetof(struct args, steps),
+     .max = INFINITY, .above = true, .result = true, .arg = "L",
+     .of = &(const struct work){.run = highpass, .fits = true},
+     .help = "keep waves shorter than L: the input less its low-pass"},
+    {.name = "outliers", .type = OPT_STEP, .at = offsetof(struct args, steps), .real = true,
+     .max = INFINITY, .above = true, .result = true, .arg = "T",
+     .of = &(const struct work){.run = outliers},
+     .help = "drop points T deviations off the median around"},
+    {.name = "fill", .type = OPT_STEP, .at = offsetof(struct args, steps), .result = true,
+     .of = &(const struct work){.run = fill},
+     .help = "fill missing points smoothly from around them"},
+    {.name = "taper", .type = OPT_STEP, .unit = UNIT_M, .at = offsetof(struct args, steps),
+     .max = INFINITY, .above = true, .result = true, .arg = "W",
+     .of = &(const struct work){.run = taper},
+     .help = "lead the outer W to the mean, so that the map repeats"},
+    {.name = "robust", .type = OPT_FLAG, .at = offsetof(struct args, robust), .result = true,
+     .help = "forms and filters that single points far off do not bend"},
+    {.name = NULL},
+};
+/* clang-format on */
+
+static const struct tool_info info = {
+    .name = "rc-detrend",
+    .summary = "Level height maps, remove their form, filter, drop outliers, fill missing points",
+    .operands = "[FILE...]",
+    .examples =
+        "  rc-import bench.x3p | rc-detrend --plane --fill > flat.rcg\n"
+        "  rc-import bench.x3p | rc-detrend --robust --plane --outliers 5 --fill > clean.rcg\n",
+    .opts = opts,
+    .reads = READS_STREAM,
+    .writes = WRITES_STREAM,
+};
 
 int
 main(int argc, char **argv)

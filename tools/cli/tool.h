@@ -69,6 +69,7 @@ struct opt {
     bool per_metre;   /* OPT_NUMBERS of forces that may be in N/m             */
     const char *arg;  /* how help names the argument: "FORCE"; NULL: takes none             */
     const char *help; /* one line; %s in it stands for the words                            */
+    const void *of;   /* what else the tool keeps of it                                     */
     /* A row without a name: the rows of this table, whose .at are relative to that of the row. */
     const struct opt *group;
 };
