@@ -2,8 +2,6 @@
 
 #include <time.h>
 
-static const double pi = 3.14159265358979323846;
-
 int
 parts_run(size_t count, const struct part *parts, int names, char **name)
 {
@@ -217,7 +215,7 @@ point_sum(struct rc_shape shape)
 {
     static struct rc_solids bodies;
     static const struct rc_surface surface = {&bodies, 1, 1};
-    const struct rc_pair pair = {.estar = 1 / pi};
+    const struct rc_pair pair = {.estar = 1 / RC_PI};
     struct rc_err err;
 
     if (bodies.n == 0)

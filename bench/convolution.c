@@ -18,8 +18,6 @@
 
 #include "libcontact/memory.h"
 
-static const double pi = 3.14159265358979323846;
-
 static size_t threads;
 
 static struct rc_sum
@@ -204,11 +202,11 @@ load_map(enum load what, size_t m, double *p)
 
     for (size_t k = 0; k < m * m; k++) {
         double x = (double)(k % m) - (double)m / 2, y = (double)(k / m) - (double)m / 2;
-        p[k] = what == ALL || (what == DISC && pi * (x * x + y * y) < area) ? uniform(&seed) : 0;
+        p[k] = what == ALL || (what == DISC && RC_PI * (x * x + y * y) < area) ? uniform(&seed) : 0;
     }
     for (int spot = 0; what == SPOTS && spot < 300; spot++) {
         double cx = uniform(&seed) * (double)m, cy = uniform(&seed) * (double)m;
-        double r = sqrt(area / 300 / pi);
+        double r = sqrt(area / 300 / RC_PI);
         for (double y = fmax(0, cy - r); y < fmin(cy + r, (double)m - 1); y++)
             for (double x = fmax(0, cx - r); x < fmin(cx + r, (double)m - 1); x++)
                 if (hypot(x - cx, y - cy) < r)

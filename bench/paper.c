@@ -85,10 +85,10 @@ hemisphere_displacement(size_t m, double *u)
     double d = 2 / (double)(m - 1);
 
     for (size_t k = 0; k < m * m; k++) {
-        double x = -1 + d * (double)(k % m), y = -1 + d * (double)(k / m),
-               pi = 3.14159265358979323846;
+        double x = -1 + d * (double)(k % m), y = -1 + d * (double)(k / m);
         double r2 = x * x + y * y, r = sqrt(r2);
-        u[k] = r2 <= 1 ? pi * pi / 4 * (2 - r2) : pi / 2 * ((2 - r2) * asin(1 / r) + sqrt(r2 - 1));
+        u[k] = r2 <= 1 ? RC_PI * RC_PI / 4 * (2 - r2)
+                       : RC_PI / 2 * ((2 - r2) * asin(1 / r) + sqrt(r2 - 1));
     }
 }
 

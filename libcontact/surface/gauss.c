@@ -68,11 +68,10 @@ struct gauss {
 static void
 fill_gaussian(double *w, size_t taps, double first, double step, double width)
 {
-    const double pi = 3.14159265358979323846;
 
     for (size_t t = 0; t < taps; t++) {
         double u = (first + (double)t * step) / width;
-        w[t] = exp(-pi * u * u);
+        w[t] = exp(-RC_PI * u * u);
     }
 }
 
@@ -219,7 +218,7 @@ larger(size_t a, size_t b)
 static bool
 plan(struct gauss *g, double cutoff)
 {
-    double width = sqrt(log(2) / 3.14159265358979323846) * cutoff;
+    double width = sqrt(log(2) / RC_PI) * cutoff;
     size_t lanes_x = smaller(g->shape->ny, LANES), lanes_y, in, out;
 
     if (!way_new(&g->x, g->shape->nx, width / g->shape->dx) ||

@@ -16,8 +16,6 @@
 #include "libcontact/memory.h"
 #include "libcontact/ranks/ranks.h"
 
-static const double pi = 3.14159265358979323846;
-
 /* Columns from .. to-1 of a row. Its parent is a run of the same patch, none with a greater index; itself, if
  * it is the patch's first. */
 struct run {
@@ -430,7 +428,7 @@ add_up(const struct rc_shape *s, const struct all *all, struct rc_patches *patch
     patches->contact_area = (double)patches->contact_nodes * cell;
     patches->perimeter = (double)ends * s->dy + (double)sides * s->dx;
     patches->contact_area_corrected =
-        patches->contact_area - (pi - 1 + log(2)) / 24 * cell * (double)(ends + sides);
+        patches->contact_area - (RC_PI - 1 + log(2)) / 24 * cell * (double)(ends + sides);
 }
 
 /* The rows held here, and those beside, which come to `room`, two rows. */

@@ -17,8 +17,6 @@
 #include "libcontact/memory.h"
 #include "libcontact/transform/transform.h"
 
-static const double pi = 3.14159265358979323846;
-
 enum {
     PARTS = 64,     /* of the spectrum, at the most, summed by themselves */
     PER_DECADE = 24 /* bins of the fit                                     */
@@ -41,7 +39,7 @@ static const double resolved = 0.98;
 double
 rc_hann(size_t i, size_t n)
 {
-    double s = sin(pi * ((double)i + 0.5) / (double)n);
+    double s = sin(RC_PI * ((double)i + 0.5) / (double)n);
 
     return n == 1 ? 1 : s * s;
 }
@@ -158,7 +156,7 @@ struct rings {
 static double
 nyquist(const struct rc_shape *s)
 {
-    return pi / (s->nx == 1 ? s->dy : s->ny == 1 ? s->dx : fmax(s->dx, s->dy));
+    return RC_PI / (s->nx == 1 ? s->dy : s->ny == 1 ? s->dx : fmax(s->dx, s->dy));
 }
 
 static struct rings
@@ -380,8 +378,8 @@ fit_hurst(const struct rings *r, const struct rc_psd_options *options, struct rc
         find_range(r, bin, bins, &from, &to);
     if (to > from + 1) {
         fit(r, bin, from, to, psd);
-        psd->shortest = told ? options->shortest : 2 * pi / bin[to - 1].high;
-        psd->longest = told ? options->longest : 2 * pi / bin[from].low;
+        psd->shortest = told ? options->shortest : 2 * RC_PI / bin[to - 1].high;
+        psd->longest = told ? options->longest : 2 * RC_PI / bin[from].low;
     }
     free(bin);
     if (told && bins < 2 && psd->c[0] > 0)
@@ -454,8 +452,8 @@ make(const struct rc_shape *s, const double *h, const struct rc_psd_options *opt
     r.low = psd->windowed ? leaked * r.width : 0;
     r.high = resolved * nyquist(s);
     if (options->shortest > 0) {
-        r.low = (1 - slack) * 2 * pi / options->longest;
-        r.high = (1 + slack) * 2 * pi / options->shortest;
+        r.low = (1 - slack) * 2 * RC_PI / options->longest;
+        r.high = (1 + slack) * 2 * RC_PI / options->shortest;
     }
     if (options->shortest > 0 && psd->windowed && r.high - r.low > 6 * spread * r.width) {
         r.low += spread * r.width;

@@ -5,9 +5,9 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "libcontact/common.h"
 #include "libcontact/transform/transform.h"
 
-static const double pi = 3.14159265358979323846;
 /* Waves at a cut-off and nodes on a rim are included, however decimal numbers were rounded. */
 static const double slack = 1e-9;
 
@@ -23,8 +23,8 @@ direction_of(double degrees, double *c, double *s)
 {
     double quarter = remainder(degrees, 360) / 90;
 
-    *c = quarter == -1 || quarter == 1 ? 0 : cos(quarter * pi / 2);
-    *s = quarter == 0 || quarter == -2 || quarter == 2 ? 0 : sin(quarter * pi / 2);
+    *c = quarter == -1 || quarter == 1 ? 0 : cos(quarter * RC_PI / 2);
+    *s = quarter == 0 || quarter == -2 || quarter == 2 ? 0 : sin(quarter * RC_PI / 2);
 }
 
 void
@@ -87,9 +87,10 @@ rc_synth_wave(const struct rc_shape *shape, double amplitude, double wavelength_
               double wavelength_y, double *h)
 {
     for (size_t j = 0; j < shape->ny; j++) {
-        double a = amplitude * cos(2 * pi * place(j, shape->ny, shape->dy) / wavelength_y);
+        double a = amplitude * cos(2 * RC_PI * place(j, shape->ny, shape->dy) / wavelength_y);
         for (size_t i = 0; i < shape->nx; i++)
-            h[j * shape->nx + i] = a * cos(2 * pi * place(i, shape->nx, shape->dx) / wavelength_x);
+            h[j * shape->nx + i] =
+                a * cos(2 * RC_PI * place(i, shape->nx, shape->dx) / wavelength_x);
     }
 }
 
@@ -231,7 +232,7 @@ draw(uint64_t seed, long kx, long ky, double periods)
     z = scramble(z + step * (uint64_t)kx);
     z = scramble(z + step * (uint64_t)ky);
     u = ((double)(z >> 11) + 1) * 0x1p-53; /* (0, 1] */
-    angle = 2 * pi * ((double)(scramble(z + step) >> 11) * 0x1p-53 + periods);
+    angle = 2 * RC_PI * ((double)(scramble(z + step) >> 11) * 0x1p-53 + periods);
     return sqrt(-log(u)) * (cos(angle) + I * sin(angle));
 }
 

@@ -13,7 +13,7 @@ weights(size_t n, double d, double width)
 
     for (size_t i = 0; i < n && w != NULL; i++) {
         double from = ((double)(i < n - 1 - i ? i : n - 1 - i) + 0.5) * d;
-        w[i] = n == 1 || from >= width ? 1 : 0.5 - 0.5 * cos(acos(-1) * from / width);
+        w[i] = n == 1 || from >= width ? 1 : 0.5 - 0.5 * cos(RC_PI * from / width);
     }
     return w;
 }

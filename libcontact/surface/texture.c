@@ -16,7 +16,7 @@
 #include "libcontact/memory.h"
 #include "libcontact/transform/transform.h"
 
-static const double pi = 3.14159265358979323846, fallen = 0.2, rounded = 1e-9;
+static const double fallen = 0.2, rounded = 1e-9;
 /* What a wave may take of the angular spectrum, to either side, radians. */
 static const double widest = 0.05;
 
@@ -204,7 +204,7 @@ measure_lengths(const struct rc_relief *r, const struct rc_offsets *at, const do
 #pragma omp parallel for num_threads(r->threads) schedule(dynamic, 16)                             \
     reduction(min : nearest) reduction(max : farthest) reduction(&& : all)
     for (size_t k = 0; k < rays; k++) {
-        double fall = falls_at(c, at, &r->shape, pi * (double)k / (double)rays);
+        double fall = falls_at(c, at, &r->shape, RC_PI * (double)k / (double)rays);
         all = all && !isnan(fall);
         nearest = fall < nearest ? fall : nearest;
         farthest = fall > farthest ? fall : farthest;
@@ -240,7 +240,7 @@ triangle_below(double u)
 static void
 add_power(double *bin, double angle, double half_width, double power)
 {
-    double middle = angle * ANGLES / pi, half = half_width * ANGLES / pi, below = 0;
+    double middle = angle * ANGLES / RC_PI, half = half_width * ANGLES / RC_PI, below = 0;
 
     for (long b = (long)floor(middle - half); (double)b < middle + half; b++) {
         double up_to = triangle_below(((double)b + 1 - middle) / half);
@@ -303,7 +303,7 @@ strongest(const double bin[ANGLES])
         best = around > most ? b : best;
         most = around > most ? around : most;
     }
-    return ((double)best + 0.5) * pi / ANGLES;
+    return ((double)best + 0.5) * RC_PI / ANGLES;
 }
 
 static void
@@ -312,7 +312,7 @@ measure_direction(const struct rc_relief *r, const double *power, double (*sums)
 {
     const struct rc_shape *s = &r->shape;
     double cell = sqrt(rc_fourier_q(1, s->nx, s->dx) * rc_fourier_q(1, s->ny, s->dy));
-    double wedge = WEDGE * pi / ANGLES, angle;
+    double wedge = WEDGE * RC_PI / ANGLES, angle;
 
     sum_parts(r, power, NAN, 0, sums);
     angle = strongest(sums[0]);
@@ -322,9 +322,9 @@ measure_direction(const struct rc_relief *r, const double *power, double (*sums)
         if (!(sums[0][3] > 0))
             break;
         angle = 0.5 * atan2(sums[0][1], sums[0][0]);
-        wedge = fmax(WEDGE * pi / ANGLES, fmin(2 * cell * sums[0][3] / sums[0][2], pi / 4));
+        wedge = fmax(WEDGE * RC_PI / ANGLES, fmin(2 * cell * sums[0][3] / sums[0][2], RC_PI / 4));
     }
-    angle = fmod(angle * 180 / pi + 180, 180);
+    angle = fmod(angle * 180 / RC_PI + 180, 180);
     a->std = 180 - angle < 1e-9 ? 0 : angle; /* rounded just below a half turn */
 }
 

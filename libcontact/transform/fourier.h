@@ -11,7 +11,7 @@
 #include <complex.h>
 #include <stddef.h>
 
-#include "libcontact/grid.h"
+#include "libcontact/common.h"
 
 /* Complex numbers in one row of the spectrum, and in all of it. */
 size_t rc_fourier_columns(const struct rc_shape *shape);
@@ -26,9 +26,7 @@ rc_fourier_number(size_t k, size_t n)
 static inline double
 rc_fourier_q(size_t k, size_t n, double d)
 {
-    const double two_pi = 6.28318530717958647692;
-
-    return two_pi * (double)rc_fourier_number(k, n) / ((double)n * d);
+    return 2 * RC_PI * (double)rc_fourier_number(k, n) / ((double)n * d);
 }
 
 /* Length for n nodes and as much padding: the smallest multiple of `step` from 2n up without prime

@@ -151,7 +151,7 @@ static void
 test_cylinders(void **state)
 {
     const double radii[] = {2.385e-3, -2.385e-3, 60e-6, -60e-6, 0.1};
-    const double directions[] = {0, 0.3, 0.5 * 3.14159265358979, 2.2, -0.8};
+    const double directions[] = {0, 0.3, 0.5 * exact_pi, 2.2, -0.8};
     const double rises[] = {0, 0.02, -0.4, 1};
     double *h = new_map(&shape);
 

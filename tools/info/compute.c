@@ -87,7 +87,6 @@ find_areal(struct tool *t, const struct rc_grid *g, struct info_figures *f)
 static struct rc_grid *
 map_frame(struct tool *t, const struct rc_grid *g, enum rc_boundary boundary)
 {
-    const double two_pi = 6.28318530717958647692;
     bool row = g->ny == 1, column = g->nx == 1;
     char step[64];
     struct rc_err err;
@@ -95,8 +94,8 @@ map_frame(struct tool *t, const struct rc_grid *g, enum rc_boundary boundary)
 
     if (map == NULL)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    map->dx = two_pi / ((double)g->nx * g->dx);
-    map->dy = two_pi / ((double)g->ny * g->dy);
+    map->dx = INFO_2PI / ((double)g->nx * g->dx);
+    map->dy = INFO_2PI / ((double)g->ny * g->dy);
     if (row)
         map->dy = map->dx;
     if (column)

@@ -7,6 +7,8 @@
 #include "libcontact/contact.h"
 #include "tools/cli/cli.h"
 
+#define INFO_2PI 6.28318530717958647692
+
 struct info_wanted {
     bool areal, psd, patches;
     struct numbers fit;  /* shortest and longest wavelength, m; n = 0: to be found */

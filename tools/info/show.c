@@ -103,7 +103,7 @@ psd_lines(const struct rc_psd *psd, const char *unit, FILE *out)
         if (k + 1 < psd->rings && log(psd->q[k]) < next - 1e-9)
             continue;
         next = fmax(next + step, log(psd->q[k]) + step / 2);
-        shown_number(length, 6.28318530717958647692 / psd->q[k], 4, "m");
+        shown_number(length, INFO_2PI / psd->q[k], 4, "m");
         strcat(length, "m");
         fprintf(out, "  %-10s %-12s %-12.4g %-12.4g %zu\n", "", length, psd->q[k], psd->c[k],
                 psd->modes[k]);

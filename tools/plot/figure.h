@@ -12,6 +12,8 @@
 #include "libcontact/grid.h"
 #include "tools/canvas/canvas.h"
 
+#define FIGURE_PI 3.14159265358979323846
+
 enum {
     FIGURE_ASPECT = 12, /* longest side of a plot over its shortest                      */
     FIGURE_NARROW = 320,

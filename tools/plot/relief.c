@@ -9,8 +9,6 @@
 #include "raster.h"
 #include "ticks.h"
 
-#define PI 3.14159265358979323846
-
 /* The box: X to the right and Y up the picture of the map, Z out of it, all over the map's longer
  * side; the middle of the floor is the origin. */
 struct vec {
@@ -64,7 +62,7 @@ relief_exaggeration(const struct figure *f)
 static void
 set_view(struct scene *s)
 {
-    double az = s->view->azimuth * PI / 180, el = s->view->elevation * PI / 180;
+    double az = s->view->azimuth * FIGURE_PI / 180, el = s->view->elevation * FIGURE_PI / 180;
     double side = longer_side(s->f);
 
     s->lx = (s->f->right - s->f->left) / side;

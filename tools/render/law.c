@@ -16,8 +16,6 @@
 #include <math.h>
 #include <string.h>
 
-#define PI 3.14159265358979323846
-
 /* ---- Hertz ---- */
 
 struct power {
@@ -37,9 +35,9 @@ hertz_powers(const struct law_given *g, struct power power[HERTZ])
     power[0] = (struct power){"load", 1, 1};
     power[1] = (struct power){"mean_pressure", 1 / g->area, 1};
     power[2] = (struct power){"approach", a * a / g->radius, 2.0 / 3};
-    power[3] = (struct power){"contact_area", PI * a * a, 2.0 / 3};
-    power[4] = (struct power){"contact_fraction", PI * a * a / g->area, 2.0 / 3};
-    power[5] = (struct power){"max_pressure", 1.5 / (PI * a * a), 1.0 / 3};
+    power[3] = (struct power){"contact_area", FIGURE_PI * a * a, 2.0 / 3};
+    power[4] = (struct power){"contact_fraction", FIGURE_PI * a * a / g->area, 2.0 / 3};
+    power[5] = (struct power){"max_pressure", 1.5 / (FIGURE_PI * a * a), 1.0 / 3};
     power[6] = (struct power){"stiffness", 2 * g->estar * a, 1.0 / 3};
 }
 
@@ -88,7 +86,7 @@ law_pressure_density(const struct law_given *g, double mean, double p)
 {
     double s = deviation(g), a = (p - mean) / s, b = (p + mean) / s;
 
-    return (exp(-0.5 * a * a) - exp(-0.5 * b * b)) / (s * sqrt(2 * PI));
+    return (exp(-0.5 * a * a) - exp(-0.5 * b * b)) / (s * sqrt(2 * FIGURE_PI));
 }
 
 /* ---- the table ---- */
