@@ -4,8 +4,12 @@
 #define DECODERS_H
 
 #include <hdf5.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
-#include "made_export.h"
+#include "made.h"
 
 struct map {
     size_t nx, ny;
@@ -81,7 +85,7 @@ after(const char *text, const char *key)
 }
 
 __attribute__((unused)) static struct map
-decode_sdf(const struct made *made)
+decode_sdf(const struct written *made)
 {
     const char *at = strstr(made->bytes, "\n*\n") + 3;
     struct map m = {.nx = (size_t)after(made->bytes, "NumPoints   = "),
@@ -103,7 +107,7 @@ decode_sdf(const struct made *made)
 }
 
 __attribute__((unused)) static struct map
-decode_sdf_binary(const struct made *made)
+decode_sdf_binary(const struct written *made)
 {
     const char *h = made->bytes;
     struct map m = {
@@ -126,7 +130,7 @@ decode_sdf_binary(const struct made *made)
 }
 
 __attribute__((unused)) static struct map
-decode_gsf(const struct made *made)
+decode_gsf(const struct written *made)
 {
     size_t head = strlen(made->bytes), pad = 4 - head % 4;
     struct map m = {.nx = (size_t)after(made->bytes, "\nXRes = "),
@@ -157,7 +161,7 @@ gwy_item(const char *at, const char *end, const char *name, int type)
 }
 
 __attribute__((unused)) static struct map
-decode_gwy(const struct made *made)
+decode_gwy(const struct written *made)
 {
     const char *end = made->bytes + made->n, *field, *data, *mask = NULL;
     struct map m;
@@ -188,7 +192,7 @@ decode_gwy(const struct made *made)
 }
 
 __attribute__((unused)) static struct map
-decode_npy(const struct made *made)
+decode_npy(const struct written *made)
 {
     size_t head = 10 + count(made->bytes + 8, 2), width;
     const char *shape = strstr(made->bytes + 10, "'shape': (");
@@ -209,7 +213,7 @@ decode_npy(const struct made *made)
 }
 
 __attribute__((unused)) static struct map
-decode_csv(const struct made *made)
+decode_csv(const struct written *made)
 {
     struct map m = {.nx = 1};
     const char *at = made->bytes;
@@ -236,7 +240,7 @@ decode_csv(const struct made *made)
 }
 
 __attribute__((unused)) static struct map
-decode_xyz(const struct made *made)
+decode_xyz(const struct written *made)
 {
     struct map m = {.dx = NAN, .dy = NAN};
     size_t lines = 0;
@@ -267,7 +271,7 @@ decode_xyz(const struct made *made)
 }
 
 __attribute__((unused)) static struct map
-decode_sur(const struct made *made)
+decode_sur(const struct written *made)
 {
     const char *h = made->bytes;
     struct map m = {.nx = count(h + 108, 4),
@@ -298,7 +302,7 @@ decode_sur(const struct made *made)
 
 /* Where the appended data of the array `name` begin, after their length. */
 static const char *
-appended(const struct made *made, const char *name, size_t *bytes)
+appended(const struct written *made, const char *name, size_t *bytes)
 {
     char key[64];
     const char *at, *data = strstr(made->bytes, "<AppendedData encoding=\"raw\">");
@@ -312,7 +316,7 @@ appended(const struct made *made, const char *name, size_t *bytes)
 }
 
 __attribute__((unused)) static struct map
-decode_vtk(const struct made *made, const char *name, const char *type)
+decode_vtk(const struct written *made, const char *name, const char *type)
 {
     const char *extent = strstr(made->bytes, "WholeExtent=\"0 ") + 15, *data;
     static const char last[] = "\n  </AppendedData>\n</VTKFile>\n";
@@ -336,7 +340,7 @@ decode_vtk(const struct made *made, const char *name, const char *type)
 }
 
 __attribute__((unused)) static struct map
-decode_vti(const struct made *made)
+decode_vti(const struct written *made)
 {
     struct map m = decode_vtk(made, "height", "type=\"ImageData\"");
     const char *spacing = strstr(made->bytes, "Spacing=\"") + 9;
@@ -349,7 +353,7 @@ decode_vti(const struct made *made)
 }
 
 __attribute__((unused)) static struct map
-decode_vtr(const struct made *made)
+decode_vtr(const struct written *made)
 {
     struct map m = decode_vtk(made, "height", "type=\"RectilinearGrid\"");
     size_t bytes;
@@ -375,7 +379,7 @@ hdf5_number(hid_t set, const char *name)
 }
 
 __attribute__((unused)) static struct map
-decode_hdf5(const struct made *made)
+decode_hdf5(const struct written *made)
 {
     hid_t access = H5Pcreate(H5P_FILE_ACCESS), file, set, space;
     hsize_t size[2];

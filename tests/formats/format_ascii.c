@@ -12,8 +12,7 @@
 #include <cmocka.h>
 
 #include "formats/format.h"
-#include "made_checks.h"
-#include "refused.h"
+#include "made.h"
 
 extern const struct rc_format rc_format_ascii;
 
@@ -45,7 +44,7 @@ read_bytes(const char *text, size_t n, const struct rc_wish *wish, struct rc_not
 }
 
 static struct rc_grid *
-read_well(const char *text, const struct rc_wish *wish)
+read_text(const char *text, const struct rc_wish *wish)
 {
     struct rc_notes notes;
     struct rc_err err;
@@ -57,7 +56,7 @@ read_well(const char *text, const struct rc_wish *wish)
 }
 
 static void
-refuse(const char *text, const struct rc_wish *wish, const char *why)
+refuse_text(const char *text, const struct rc_wish *wish, const char *why)
 {
     struct rc_notes notes;
     struct rc_err err;
@@ -140,7 +139,7 @@ headers(void **state)
                  cases[k].text);
         for (size_t i = 0; i < 6; i++)
             height[i] = counts[i] * cases[k].z;
-        g = read_well(text, &rc_no_wish);
+        g = read_text(text, &rc_no_wish);
         check(text, g, 3, 2, height);
         if (!is_near(g->dx, cases[k].dx) || !is_near(g->dy, cases[k].dy))
             fail_msg("'%s': dx is %.17g, dy is %.17g", text, g->dx, g->dy);
@@ -180,7 +179,7 @@ headers_that_are_refused(void **state)
 
     (void)state;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
-        refuse(cases[k].text, &rc_no_wish, cases[k].why);
+        refuse_text(cases[k].text, &rc_no_wish, cases[k].why);
 }
 
 /* ---- columns ---- */
@@ -209,7 +208,7 @@ separators_and_decimal_marks(void **state)
 
     (void)state;
     for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
-        struct rc_grid *g = read_well(texts[k], &plain_wish);
+        struct rc_grid *g = read_text(texts[k], &plain_wish);
         check(texts[k], g, 3, 2, truth);
         assert_true(g->dx == 1.1e-6 && g->dy == 1.29e-6);
         rc_grid_free(g);
@@ -236,7 +235,7 @@ wishes_for_text(void **state)
         wish.separator = cases[k].separator;
         wish.missing = cases[k].missing;
         wish.decimal = cases[k].decimal;
-        g = read_well(cases[k].text, &wish);
+        g = read_text(cases[k].text, &wish);
         check(cases[k].text, g, 2, 2, truth);
         rc_grid_free(g);
     }
@@ -255,7 +254,7 @@ missing_values(void **state)
 
     (void)state;
     for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
-        struct rc_grid *g = read_well(texts[k], &plain_wish);
+        struct rc_grid *g = read_text(texts[k], &plain_wish);
         check(texts[k], g, 3, 2, truth);
         rc_grid_free(g);
     }
@@ -291,7 +290,7 @@ columns_that_are_refused(void **state)
 
     (void)state;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
-        refuse(cases[k].text, &plain_wish, cases[k].why);
+        refuse_text(cases[k].text, &plain_wish, cases[k].why);
 }
 
 /* In the words of C libraries, and where the unit makes them so. */
@@ -319,7 +318,7 @@ infinite_heights_are_missing(void **state)
                                            "first at column 1, row 1 (from 0)");
         rc_grid_free(g);
     }
-    refuse("inf inf\nnan -inf\n", &wish, "every value that is there is infinite (3 of 2 x 2)");
+    refuse_text("inf inf\nnan -inf\n", &wish, "every value that is there is infinite (3 of 2 x 2)");
 }
 
 static void
@@ -336,13 +335,13 @@ lists_of_points_are_no_matrices(void **state)
 
     (void)state;
     for (size_t k = 0; k < 3; k++) {
-        refuse(lists[k], &plain_wish, "a list of points (x, y, z)");
+        refuse_text(lists[k], &plain_wish, "a list of points (x, y, z)");
         snprintf(text, sizeof text, "%s%s", header, lists[k]);
-        rc_grid_free(read_well(text, &rc_no_wish));
+        rc_grid_free(read_text(text, &rc_no_wish));
     }
-    refuse("0 5\n1 4\n3 2\n", &plain_wish, "a profile (x, z)");
-    rc_grid_free(read_well("0 5\n1 4\n1 2\n", &plain_wish));
-    rc_grid_free(read_well(matrix, &plain_wish));
+    refuse_text("0 5\n1 4\n3 2\n", &plain_wish, "a profile (x, z)");
+    rc_grid_free(read_text("0 5\n1 4\n1 2\n", &plain_wish));
+    rc_grid_free(read_text(matrix, &plain_wish));
 }
 
 /* ---- numbers ---- */
@@ -353,17 +352,17 @@ numbers_are_those_of_the_c_library(void **state)
 {
     static const char *const ways[] = {"%.17g", "%.16e", "%.3e", "%.9g", "%.0f", "%.25f", "%.30e"};
     enum {
-        ROWS = 3000,
+        LINES = 3000,
         TEXT_MOST = 400
     };
     size_t n = sizeof ways / sizeof *ways;
-    char *text = malloc(ROWS * n * TEXT_MOST), *to = text;
-    double *truth = malloc(ROWS * n * sizeof *truth);
+    char *text = malloc(LINES * n * TEXT_MOST), *to = text;
+    double *truth = malloc(LINES * n * sizeof *truth);
     uint64_t seed = 20250117;
     struct rc_grid *g;
 
     (void)state;
-    for (size_t k = 0; k < ROWS * n; k++) {
+    for (size_t k = 0; k < LINES * n; k++) {
         double value;
         char one[TEXT_MOST];
         seed = seed * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
@@ -373,9 +372,9 @@ numbers_are_those_of_the_c_library(void **state)
         truth[k] = strtod(one, NULL);
         to += sprintf(to, "%s%c", one, (k + 1) % n == 0 ? '\n' : ' ');
     }
-    g = read_well(text, &plain_wish);
+    g = read_text(text, &plain_wish);
     assert_int_equal(g->nx, n);
-    for (size_t k = 0; k < ROWS * n; k++)
+    for (size_t k = 0; k < LINES * n; k++)
         if (g->v[k] != truth[k])
             fail_msg("number %zu is %.17g, not %.17g", k, g->v[k], truth[k]);
     rc_grid_free(g);
@@ -435,7 +434,7 @@ many_empty_rows_need_no_memory(void **state)
     for (size_t k = 0; k < n; k++) /* one row of many columns, then many of one */
         memcpy(text + 2 * k, k < n / 2 ? "1 " : "\n1", 2);
     text[2 * n] = '\0';
-    refuse(text, &plain_wish, "some row is too short");
+    refuse_text(text, &plain_wish, "some row is too short");
     free(text);
 }
 

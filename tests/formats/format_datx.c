@@ -3,13 +3,13 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
+#include <math.h>
 #include <stdint.h>
 
 #include <cmocka.h>
 #include <hdf5.h>
 
 #include "made.h"
-#include "made_hdf.h"
 
 extern const struct rc_format rc_format_datx;
 
@@ -117,7 +117,7 @@ datx_is_read(void **state)
 
             assert_ptr_equal(rc_format_find(&file, NULL), &rc_format_datx);
             for (size_t i = 0; i < 6; i++)
-                v[i] = counts[i] == 100 ? NAN : counts[i] * units[k].metres;
+                v[i] = hdf_counts[i] == 100 ? NAN : hdf_counts[i] * units[k].metres;
             g = read_well(&rc_format_datx, &b, 0);
             check_map(g, 3, 2, 1.5e-6, 0.75e-6, v);
             rc_grid_free(g);

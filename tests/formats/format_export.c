@@ -3,14 +3,16 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
+#include <locale.h>
+#include <math.h>
 #include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
 #include "decoders.h"
 #include "formats/format.h"
-#include "made_checks.h"
-#include "made_locale.h"
 
 /* How far a number may be off: `step` of the range, `part` of the largest; how far a spacing may
  * be, and from how many nodes along an axis on the file tells it. */
@@ -20,7 +22,7 @@ static const struct {
     int type; /* enum rc_raw, -1: none */
     double step, part, spacing;
     size_t from;
-    struct map (*decode)(const struct made *made);
+    struct map (*decode)(const struct written *made);
     const char *reader;
 } formats[] = {
     {"x3p", RC_RAW_I16, 0.501 / 65534, last_digit, 0, 1, NULL, "x3p"},
@@ -82,7 +84,7 @@ compare(size_t f, const char *by, const struct rc_grid *g, const struct map *m)
 
 /* Our own reader, asked for what the format does not say. */
 static void
-compare_reader(size_t f, const struct rc_grid *g, const struct made *made)
+compare_reader(size_t f, const struct rc_grid *g, const struct written *made)
 {
     const struct rc_format *reader = rc_format_named(formats[f].reader);
     struct rc_wish wish = rc_no_wish;
@@ -125,8 +127,8 @@ there_and_back(size_t nx, size_t ny, double missing)
 
     for (size_t f = 0; f < sizeof formats / sizeof *formats; f++) {
         struct rc_export_wish wish =
-            formats[f].type < 0 ? plain : typed((enum rc_raw)formats[f].type);
-        struct made made = export(formats[f].name, &g, 1, &wish);
+            formats[f].type < 0 ? plain_export : typed((enum rc_raw)formats[f].type);
+        struct written made = export(formats[f].name, &g, 1, &wish);
 
         if (formats[f].decode != NULL) {
             struct map m = formats[f].decode(&made);
@@ -179,8 +181,8 @@ equal_heights(void **state)
             g->v[k] = sign * 2.5e-6;
         for (size_t f = 0; f < sizeof formats / sizeof *formats; f++) {
             struct rc_export_wish wish =
-                formats[f].type < 0 ? plain : typed((enum rc_raw)formats[f].type);
-            struct made made = export(formats[f].name, &g, 1, &wish);
+                formats[f].type < 0 ? plain_export : typed((enum rc_raw)formats[f].type);
+            struct written made = export(formats[f].name, &g, 1, &wish);
             struct map m;
 
             if (formats[f].decode != NULL) {
@@ -204,7 +206,8 @@ same_frames_same_bytes(void **state)
 
     (void)state;
     for (const struct rc_export *const *e = rc_exports; *e != NULL; e++) {
-        struct made a = export((*e)->name, &g, 1, &plain), b = export((*e)->name, &g, 1, &plain);
+        struct written a = export((*e)->name, &g, 1, &plain_export),
+                       b = export((*e)->name, &g, 1, &plain_export);
         assert_int_equal(a.n, b.n);
         assert_memory_equal(a.bytes, b.bytes, a.n);
         free(a.bytes);
@@ -221,13 +224,13 @@ comma_locale(void **state)
 
     (void)state;
     for (const struct rc_export *const *e = rc_exports; *e != NULL; e++) {
-        struct made a, b;
+        struct written a, b;
 
         setlocale(LC_NUMERIC, "C");
-        a = export((*e)->name, &g, 1, &plain);
+        a = export((*e)->name, &g, 1, &plain_export);
         if (!set_comma_locale())
             skip();
-        b = export((*e)->name, &g, 1, &plain);
+        b = export((*e)->name, &g, 1, &plain_export);
         assert_int_equal(a.n, b.n);
         assert_memory_equal(a.bytes, b.bytes, a.n);
         free(a.bytes);

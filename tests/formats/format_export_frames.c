@@ -3,7 +3,11 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
+#include <math.h>
 #include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 #include <zip.h>
@@ -14,7 +18,7 @@
 /* ---- what a file says beside its numbers ---- */
 
 static zip_t *
-unzip(const struct made *made)
+unzip(const struct written *made)
 {
     zip_source_t *from = zip_source_buffer_create(made->bytes, made->n, 0, NULL);
     zip_t *zip = zip_open_from_source(from, ZIP_RDONLY, NULL);
@@ -43,7 +47,7 @@ x3p_parts(void **state)
 {
     struct rc_grid *g = random_grid(5, 2, 0);
     char xml[8192], bytes[200], element[100], md5[RC_MD5_TEXT];
-    struct made made;
+    struct written made;
     zip_t *zip;
 
     (void)state;
@@ -51,7 +55,7 @@ x3p_parts(void **state)
     rc_grid_set(g, "file.date", "2024-02-29T12:30:00Z", NULL);
     rc_grid_set(g, "file.creator", "A. <B> & \"C\"", NULL);
     rc_grid_set(g, "history", "rc-import 0.1.0", NULL);
-    made = export("x3p", &g, 1, &plain);
+    made = export("x3p", &g, 1, &plain_export);
     zip = unzip(&made);
     member(zip, "main.xml", xml, sizeof xml);
     assert_non_null(strstr(xml, "<Date>2024-02-29T12:30:00Z</Date>"));
@@ -74,7 +78,7 @@ x3p_parts(void **state)
     zip_discard(zip);
     free(made.bytes);
     g->v[1] = g->v[9] = 1e-6;
-    made = export("x3p", &g, 1, &plain);
+    made = export("x3p", &g, 1, &plain_export);
     zip = unzip(&made);
     member(zip, "main.xml", xml, sizeof xml);
     assert_null(strstr(xml, "ValidPoints"));
@@ -93,13 +97,13 @@ x3p_compresses_what_shrinks(void **state)
     (void)state;
     for (size_t k = 0; k < 2; k++) {
         struct rc_grid *g = random_grid(300, 200, 0);
-        struct made made;
+        struct written made;
         zip_stat_t st;
         zip_t *zip;
 
         for (size_t i = 0; k == 1 && i < 60000; i++)
             g->v[i] = 1e-6 * (double)(i % 300);
-        made = export("x3p", &g, 1, &plain);
+        made = export("x3p", &g, 1, &plain_export);
         zip = unzip(&made);
         assert_int_equal(zip_stat(zip, "bindata/data.bin", 0, &st), 0);
         assert_int_equal(st.size, 480000);
@@ -137,7 +141,7 @@ drop_stack(struct rc_grid *frame[STACK])
 }
 
 static void
-check_stack(const struct made *made)
+check_stack(const struct written *made)
 {
     static const char *const name[] = {"mises", "szz"};
 
@@ -157,39 +161,39 @@ depths_make_a_stack(void **state)
 {
     static const double even[] = {1e-6, 2.5e-6, 4e-6}, uneven[] = {0, 1e-6, 4e-6};
     struct rc_grid *frame[STACK], *swapped[STACK];
-    struct made made;
+    struct written made;
     const char *z;
     size_t bytes;
 
     (void)state;
     make_stack(frame, even);
-    made = export("vti", frame, STACK, &plain);
+    made = export("vti", frame, STACK, &plain_export);
     assert_non_null(strstr(made.bytes, "WholeExtent=\"0 2 0 1 0 2\" Origin=\"-1e-06 -1e-06 1e-06\" "
                                        "Spacing=\"1e-06 2e-06 1.5e-06\""));
     check_stack(&made);
     free(made.bytes);
     for (size_t k = 0; k < STACK; k++)
         swapped[k] = frame[STACK - 1 - k]; /* the deepest first */
-    made = export("vti", swapped, STACK, &plain);
+    made = export("vti", swapped, STACK, &plain_export);
     check_stack(&made);
     free(made.bytes);
     drop_stack(frame);
     make_stack(frame, uneven);
-    refuse("vti", frame, STACK, &plain, "uneven steps");
-    made = export("vtr", frame, STACK, &plain);
+    refuse_export("vti", frame, STACK, &plain_export, "uneven steps");
+    made = export("vtr", frame, STACK, &plain_export);
     check_stack(&made);
     z = appended(&made, "z", &bytes);
     assert_int_equal(bytes, 24);
     for (size_t k = 0; k < 3; k++)
         assert_true(f64(z + 8 * k) == uneven[k]);
     free(made.bytes);
-    refuse("vti", frame, STACK - 1, &plain, "mises has 3 depths and szz has 2");
+    refuse_export("vti", frame, STACK - 1, &plain_export, "mises has 3 depths and szz has 2");
     rc_grid_set(frame[5], "depth", NULL, NULL);
-    refuse("vtr", frame, STACK, &plain, "some have none");
+    refuse_export("vtr", frame, STACK, &plain_export, "some have none");
     rc_grid_set_number(frame[5], "depth", 5e-6, NULL);
-    refuse("vtr", frame, STACK, &plain, "different depths");
+    refuse_export("vtr", frame, STACK, &plain_export, "different depths");
     rc_grid_set_number(frame[4], "depth", 1e-6, NULL);
-    refuse("vtr", frame, STACK, &plain, "two frames of channel mises at one depth");
+    refuse_export("vtr", frame, STACK, &plain_export, "two frames of channel mises at one depth");
     drop_stack(frame);
 }
 
@@ -201,39 +205,42 @@ depths_make_an_array(void **state)
     static const char head[] = "\x93NUMPY\x01\x00\x76\x00"
                                "{'descr': '<f8', 'fortran_order': False, 'shape': (3, 2, 3), }";
     struct rc_grid *frame[STACK], *deepest[3];
-    struct made made;
+    struct written made;
 
     (void)state;
     make_stack(frame, even);
     for (size_t k = 0; k < 3; k++)
         deepest[k] = frame[4 - 2 * k];
-    made = export("npy", deepest, 3, &plain);
+    made = export("npy", deepest, 3, &plain_export);
     assert_int_equal(made.n, 128 + 8 * 18);
     assert_memory_equal(made.bytes, head, sizeof head - 1);
     for (size_t k = 0; k < 18; k++)
         assert_true(f64(made.bytes + 128 + 8 * k) == 10.0 * (double)(k / 6) + (double)(k % 6));
     free(made.bytes);
-    made = export("npy", deepest, 1, &plain); /* one depth is a map */
+    made = export("npy", deepest, 1, &plain_export); /* one depth is a map */
     assert_non_null(strstr(made.bytes + 10, "'shape': (2, 3), }"));
     assert_true(made.n == 128 + 8 * 6 && f64(made.bytes + 128 + 8) == 21);
     free(made.bytes);
-    refuse("npy", frame, STACK, &plain, "one map or the depths of one channel and case");
+    refuse_export("npy", frame, STACK, &plain_export,
+                  "one map or the depths of one channel and case");
     rc_grid_set(frame[2], "case", "2", NULL);
-    refuse("npy", deepest, 3, &plain, "one map or the depths of one channel and case");
+    refuse_export("npy", deepest, 3, &plain_export,
+                  "one map or the depths of one channel and case");
     drop_stack(frame);
     make_stack(frame, uneven);
     for (size_t k = 0; k < 3; k++)
         deepest[k] = frame[2 * k];
-    refuse("npy", deepest, 3, &plain, "uneven steps, which npy cannot say: write vtr or hdf5");
+    refuse_export("npy", deepest, 3, &plain_export,
+                  "uneven steps, which npy cannot say: write vtr or hdf5");
     rc_grid_set_number(frame[2], "depth", 0, NULL);
-    refuse("npy", deepest, 3, &plain, "two frames of channel mises at one depth");
+    refuse_export("npy", deepest, 3, &plain_export, "two frames of channel mises at one depth");
     drop_stack(frame);
 }
 
 /* ---- HDF5: the file as its library reads it ---- */
 
 static hid_t
-open_hdf5(const struct made *made)
+open_hdf5(const struct written *made)
 {
     hid_t access = H5Pcreate(H5P_FILE_ACCESS), file;
 
@@ -306,13 +313,13 @@ hdf5_stacks_know_their_depths(void **state)
     static const char *const name[] = {"mises", "szz"};
     struct rc_grid *frame[STACK];
     char scale[2][64];
-    struct made made, again;
+    struct written made, again;
     hsize_t size[3];
     hid_t file, set;
 
     (void)state;
     make_stack(frame, uneven);
-    made = export("hdf5", frame, STACK, &plain);
+    made = export("hdf5", frame, STACK, &plain_export);
     file = open_hdf5(&made);
     for (size_t a = 0; a < 2; a++) {
         double *v;
@@ -332,12 +339,12 @@ hdf5_stacks_know_their_depths(void **state)
     assert_string_equal(scale[0], "/depth");
     assert_string_equal(scale[1], "/depth"); /* one for both */
     H5Fclose(file);
-    again = export("hdf5", frame, STACK, &plain);
+    again = export("hdf5", frame, STACK, &plain_export);
     assert_int_equal(made.n, again.n);
     assert_memory_equal(made.bytes, again.bytes, made.n);
     free(again.bytes);
     free(made.bytes);
-    made = export("hdf5", frame, 1, &plain); /* one depth is a map that knows it */
+    made = export("hdf5", frame, 1, &plain_export); /* one depth is a map that knows it */
     file = open_hdf5(&made);
     set = H5Dopen2(file, "mises_z0", H5P_DEFAULT);
     free(hdf5_values(set, 2, size));
@@ -354,7 +361,7 @@ hdf5_scales_have_names_of_their_own(void **state)
     static const double uneven[] = {0, 1e-6, 4e-6}, other[] = {0, 1e-6, 5e-6};
     struct rc_grid *frame[STACK];
     char scale[64];
-    struct made made;
+    struct written made;
     hsize_t size[3];
     hid_t file, set;
 
@@ -363,7 +370,7 @@ hdf5_scales_have_names_of_their_own(void **state)
     rc_grid_set_number(frame[5], "depth", other[2], NULL);
     for (size_t k = 1; k < STACK; k += 2)
         rc_text_set(&frame[k]->channel, "depth", NULL);
-    made = export("hdf5", frame, STACK, &plain);
+    made = export("hdf5", frame, STACK, &plain_export);
     file = open_hdf5(&made);
     set = H5Dopen2(file, "depth", H5P_DEFAULT);
     free(hdf5_values(set, 3, size));
@@ -405,19 +412,19 @@ uneven_depths_are_not_made_even(void **state)
     (void)state;
     for (const struct rc_export *const *e = rc_exports; *e != NULL; e++) {
         bool tells = false;
-        struct made made = export((*e)->name, &even, 1, &plain);
+        struct written made = export((*e)->name, &even, 1, &plain_export);
 
         free(made.bytes);
         for (size_t k = 0; k < sizeof tell / sizeof *tell; k++)
             tells = tells || strcmp((*e)->name, tell[k]) == 0;
-        refuse((*e)->name, &few, 1, &plain, "3 rows without as many depths");
-        refuse((*e)->name, &back, 1, &plain, "must rise from row to row");
+        refuse_export((*e)->name, &few, 1, &plain_export, "3 rows without as many depths");
+        refuse_export((*e)->name, &back, 1, &plain_export, "must rise from row to row");
         if (!tells) {
-            refuse((*e)->name, &uneven, 1, &plain,
-                   "cannot say: write vtr, or resample them with --even");
+            refuse_export((*e)->name, &uneven, 1, &plain_export,
+                          "cannot say: write vtr, or resample them with --even");
             continue;
         }
-        made = export((*e)->name, &uneven, 1, &plain);
+        made = export((*e)->name, &uneven, 1, &plain_export);
         free(made.bytes);
     }
     rc_grid_free(even);
@@ -431,7 +438,7 @@ those_that_can_tell_where_rows_are(void **state)
 {
     static const double depth[] = {0, 1e-6, 4e-6};
     struct rc_grid *g = make_section("0,1e-06,4e-06");
-    struct made made = export("xyz", &g, 1, &plain);
+    struct written made = export("xyz", &g, 1, &plain_export);
     char scale[64];
     hsize_t size[2];
     hid_t file, set;
@@ -441,7 +448,7 @@ those_that_can_tell_where_rows_are(void **state)
     assert_string_equal(made.bytes, "-5e-07 0 0\n5e-07 0 1\n-5e-07 1e-06 2\n5e-07 1e-06 3\n"
                                     "-5e-07 4e-06 4\n5e-07 4e-06 5\n");
     free(made.bytes);
-    made = export("hdf5", &g, 1, &plain);
+    made = export("hdf5", &g, 1, &plain_export);
     file = open_hdf5(&made);
     set = H5Dopen2(file, "height", H5P_DEFAULT);
     v = hdf5_values(set, 2, size);
@@ -459,7 +466,7 @@ a_section_stands_upright(void **state)
 {
     struct rc_shape shape = {.nx = 3, .ny = 2, .dx = 1e-6, .dy = 4e-6};
     struct rc_grid *g = rc_grid_new(&shape, "mises", "Pa", NULL);
-    struct made made;
+    struct written made;
     size_t bytes;
     const char *at;
 
@@ -468,14 +475,14 @@ a_section_stands_upright(void **state)
         g->v[k] = (double)k;
     rc_grid_set(g, "section", "y", NULL);
     rc_grid_set_number(g, "at", 7e-6, NULL);
-    refuse("vtr", &g, 1, &plain, "without as many depths");
+    refuse_export("vtr", &g, 1, &plain_export, "without as many depths");
     rc_grid_set(g, "depths", "0,4e-06", NULL);
-    made = export("vti", &g, 1, &plain);
+    made = export("vti", &g, 1, &plain_export);
     assert_non_null(strstr(made.bytes, "WholeExtent=\"0 2 0 0 0 1\" Origin=\"-1e-06 7e-06 0\" "
                                        "Spacing=\"1e-06 1e-06 4e-06\""));
     free(made.bytes);
     rc_grid_set(g, "section", "x", NULL);
-    made = export("vtr", &g, 1, &plain);
+    made = export("vtr", &g, 1, &plain_export);
     assert_non_null(strstr(made.bytes, "WholeExtent=\"0 0 0 2 0 1\""));
     at = appended(&made, "x", &bytes);
     assert_true(bytes == 8 && f64(at) == 7e-6);
@@ -489,25 +496,25 @@ static void
 frames_have_names_of_their_own(void **state)
 {
     struct rc_grid *frame[3];
-    struct made made;
+    struct written made;
 
     (void)state;
     for (size_t k = 0; k < 3; k++)
         frame[k] = random_grid(4, 3, 0);
     rc_grid_set(frame[1], "case", "2", NULL);
     rc_grid_set(frame[2], "case", "2", NULL);
-    made = export("vti", frame, 3, &plain);
+    made = export("vti", frame, 3, &plain_export);
     assert_non_null(strstr(made.bytes, "Name=\"height_case1\""));
     assert_non_null(strstr(made.bytes, "Name=\"height_case2\""));
     assert_non_null(strstr(made.bytes, "Name=\"height_case2_2\""));
     free(made.bytes);
-    made = export("gwy", frame, 3, &plain);
+    made = export("gwy", frame, 3, &plain_export);
     assert_string_equal(gwy_item(made.bytes, made.bytes + made.n, "/2/data/title", 's'),
                         "height_case2_2");
     free(made.bytes);
     frame[0]->dx *= 2;
-    refuse("vti", frame, 3, &plain, "another grid");
-    made = export("hdf5", frame, 3, &plain); /* each has a grid of its own there */
+    refuse_export("vti", frame, 3, &plain_export, "another grid");
+    made = export("hdf5", frame, 3, &plain_export); /* each has a grid of its own there */
     free(made.bytes);
     for (size_t k = 0; k < 3; k++)
         rc_grid_free(frame[k]);
@@ -524,15 +531,15 @@ what_cannot_be_said(void **state)
 
     (void)state;
     g->v[6] = 1e300;
-    refuse("npy", &g, 1, &narrow, "too large for the type f32");
-    refuse("gsf", &g, 1, &plain, "too large for the type f32");
-    refuse("sur", &g, 1, &plain, "beyond the floats");
+    refuse_export("npy", &g, 1, &narrow, "too large for the type f32");
+    refuse_export("gsf", &g, 1, &plain_export, "too large for the type f32");
+    refuse_export("sur", &g, 1, &plain_export, "beyond the floats");
     g->v[6] = -INFINITY;
     for (size_t k = 0; k < sizeof finite / sizeof *finite; k++)
-        refuse(finite[k], &g, 1, &plain, "column 2, row 1 (from 0) is infinite");
+        refuse_export(finite[k], &g, 1, &plain_export, "column 2, row 1 (from 0) is infinite");
     rc_grid_free(g);
     g = random_grid(65536, 1, 0);
-    refuse("sdf-binary", &g, 1, &plain, "at most 65535");
+    refuse_export("sdf-binary", &g, 1, &plain_export, "at most 65535");
     rc_grid_free(g);
 }
 
@@ -547,7 +554,7 @@ full_device(void **state)
     setvbuf(f, NULL, _IONBF, 0);
     for (const struct rc_export *const *e = rc_exports; *e != NULL; e++) {
         struct rc_err err = {""};
-        if ((*e)->write(f, &g, 1, &plain, &err) == RC_OK ||
+        if ((*e)->write(f, &g, 1, &plain_export, &err) == RC_OK ||
             strstr(err.text, "writing failed") == NULL)
             fail_msg("%s: a full device is not told (%s)", (*e)->name, err.text);
     }

@@ -2,12 +2,15 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
 #include "formats/format.h"
-#include "made_checks.h"
-#include "made_files.h"
+#include "made.h"
 
 static size_t
 first_height(const struct rc_format *format, const struct rc_file *file, const struct rc_wish *wish)
@@ -52,19 +55,19 @@ static void
 variants(void **state)
 {
     (void)state;
-    for (size_t k = 0; k < MADE_FILES; k++) {
+    for (size_t k = 0; k < made_files_n; k++) {
         const struct made_file *f = &made_files[k];
         struct rc_wish wish = wish_for(f->flags);
         const struct rc_format *format;
         struct rc_notes notes = {0};
-        struct made m = {0};
+        struct bytes m = {0};
         struct rc_err err = {""};
         struct rc_file file;
         struct rc_grid *g;
 
         f->make(&m, f->variant);
         for (int named = 0; named < 2; named++) { /* the content is enough */
-            file = (struct rc_file){named ? f->name : "noname", m.b, m.n};
+            file = (struct rc_file){named ? f->name : "noname", m.data, m.n};
             format = rc_format_find(&file, &err);
             if (format == NULL || strcmp(format->name, f->format) != 0)
                 fail_msg("%s is taken for %s", f->title, format == NULL ? err.text : format->name);
@@ -75,14 +78,14 @@ variants(void **state)
         check(f, g);
         printf("%-24s %-10s %4zu bytes, as it should be\n", f->title, f->format, m.n);
         rc_grid_free(g);
-        free(m.b);
+        drop(&m);
     }
 }
 
 static struct rc_grid *
-read_made(const char *format, const struct made *m, size_t channel, struct rc_err *err)
+read_made(const char *format, const struct bytes *m, size_t channel, struct rc_err *err)
 {
-    struct rc_file file = {"made", m->b, m->n};
+    struct rc_file file = {"made", m->data, m->n};
     struct rc_wish wish = rc_no_wish;
 
     return rc_format_named(format)->read(&file, &wish, channel, NULL, err);
@@ -94,7 +97,7 @@ other_channels(void **state)
 {
     static const struct {
         const char *format;
-        void (*make)(struct made *m, int variant);
+        void (*make)(struct bytes *m, int variant);
         int variant;
         size_t channel;
         const char *name, *unit;
@@ -107,7 +110,7 @@ other_channels(void **state)
 
     (void)state;
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
-        struct made m = {0};
+        struct bytes m = {0};
         struct rc_err err = {""};
         struct rc_grid *g;
 
@@ -120,7 +123,7 @@ other_channels(void **state)
         rc_grid_free(g);
         assert_null(read_made(rows[k].format, &m, 7, &err));
         assert_non_null(strstr(err.text, "no channel 8"));
-        free(m.b);
+        drop(&m);
     }
 }
 
@@ -130,7 +133,7 @@ keys(void **state)
 {
     static const struct {
         const char *format;
-        void (*make)(struct made *m, int variant);
+        void (*make)(struct bytes *m, int variant);
         int variant;
         size_t channel;
         const char *key, *value;
@@ -155,7 +158,7 @@ keys(void **state)
 
     (void)state;
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
-        struct made m = {0};
+        struct bytes m = {0};
         struct rc_err err = {""};
         const char *value;
         struct rc_grid *g;
@@ -167,7 +170,7 @@ keys(void **state)
         if (value == NULL || strcmp(value, rows[k].value) != 0)
             fail_msg("%s: %s is '%s'", rows[k].format, rows[k].key, value == NULL ? "" : value);
         rc_grid_free(g);
-        free(m.b);
+        drop(&m);
     }
 }
 
@@ -210,20 +213,20 @@ static const struct {
 
 /* In UTF-16 of either order, behind its mark. */
 static void
-widen(struct made *m, const char *from, bool big)
+widen(struct bytes *m, const char *from, bool big)
 {
-    put(m, big ? "\xfe\xff" : "\xff\xfe", 2);
+    add(m, big ? "\xfe\xff" : "\xff\xfe", 2);
     m->big = big;
     for (const unsigned char *s = (const unsigned char *)from; *s != '\0'; s++) {
         unsigned c = *s;
         if (c == 0xc2) /* the only two bytes above are those of U+00B5 */
             c = *++s;
-        number(m, RC_RAW_U16, c);
+        add_raw(m, RC_RAW_U16, c);
     }
 }
 
 static void
-check_profile(size_t row, const struct made *m)
+check_profile(size_t row, const struct bytes *m)
 {
     struct rc_err err = {""};
     struct rc_grid *g = read_made("profile", m, 0, &err);
@@ -248,21 +251,21 @@ check_profile(size_t row, const struct made *m)
 
 /* Cut anywhere, in a block of memory of its own length. */
 static void
-cut_profile(size_t row, const struct made *m)
+cut_profile(size_t row, const struct bytes *m)
 {
     for (size_t n = 0; n < m->n; n++) {
-        struct made part = {0};
+        struct bytes part = {0};
         struct rc_err err = {""};
         struct rc_grid *g;
 
-        part.b = malloc(n == 0 ? 1 : n);
-        memcpy(part.b, m->b, n);
+        part.data = malloc(n == 0 ? 1 : n);
+        memcpy(part.data, m->data, n);
         part.n = n;
         g = read_made("profile", &part, 0, &err);
         if (g == NULL ? err.text[0] == '\0' : !(g->dx > 0) || g->ny != 1 || g->nx > profiles[row].n)
             fail_msg("'%s' cut to %zu bytes", profiles[row].text, n);
         rc_grid_free(g);
-        free(part.b);
+        drop(&part);
     }
 }
 
@@ -272,16 +275,16 @@ text_profiles(void **state)
     (void)state;
     for (size_t k = 0; k < sizeof profiles / sizeof *profiles; k++)
         for (int wide = 0; wide < 3; wide++) {
-            struct made m = {0};
+            struct bytes m = {0};
 
             if (wide == 0)
-                text(&m, profiles[k].text);
+                add_text(&m, profiles[k].text);
             else
                 widen(&m, profiles[k].text, wide == 2);
             check_profile(k, &m);
             if (profiles[k].why == NULL)
                 cut_profile(k, &m);
-            free(m.b);
+            drop(&m);
         }
 }
 
@@ -330,17 +333,17 @@ points(void **state)
     (void)state;
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
         struct rc_wish wish = {.dx = 1, .dy = 1, .z_unit = 1};
-        struct made m = {0};
+        struct bytes m = {0};
         struct rc_err err = {""};
         struct rc_file file;
         struct rc_grid *g;
 
-        text(&m, rows[k].text);
-        file = (struct rc_file){"made.xyz", m.b, m.n};
+        add_text(&m, rows[k].text);
+        file = (struct rc_file){"made.xyz", m.data, m.n};
         g = rc_format_named("xyz")->read(&file, &wish, 0, NULL, &err);
         if (g != NULL || strstr(err.text, rows[k].why) == NULL)
             fail_msg("'%s': %s", rows[k].text, g == NULL ? err.text : "read");
-        free(m.b);
+        drop(&m);
     }
 }
 

@@ -14,7 +14,7 @@
 #include "made.h"
 
 enum {
-    PLAIN = 300000
+    UNPACKED = 300000
 };
 
 /* Appends a member that holds data[0..n) `times` over, with a name and a comment in its header. */
@@ -46,10 +46,10 @@ add_member(struct bytes *b, const void *data, size_t n, size_t times)
 static unsigned char *
 some_bytes(void)
 {
-    unsigned char *data = malloc(PLAIN);
+    unsigned char *data = malloc(UNPACKED);
     uint32_t state = 7;
 
-    for (size_t k = 0; k < PLAIN; k++) {
+    for (size_t k = 0; k < UNPACKED; k++) {
         state = state * 1664525 + 1013904223;
         data[k] = (unsigned char)('0' + (state >> 24) % 10);
     }
@@ -86,7 +86,7 @@ expect_refusal(const struct bytes *b, size_t most, const char *why)
 static void
 members_are_joined(void **state)
 {
-    static const size_t cuts[] = {0, 1, 65535, 65536, 65537, PLAIN};
+    static const size_t cuts[] = {0, 1, 65535, 65536, 65537, UNPACKED};
     unsigned char *data = some_bytes();
 
     (void)state;
@@ -95,13 +95,13 @@ members_are_joined(void **state)
 
         add_member(&b, data, cuts[k], 1);
         expect(&b, data, cuts[k]);
-        add_member(&b, data + cuts[k], PLAIN - cuts[k], 1);
-        expect(&b, data, PLAIN);
+        add_member(&b, data + cuts[k], UNPACKED - cuts[k], 1);
+        expect(&b, data, UNPACKED);
         add(&b, "\0\0\0", 3);
-        expect(&b, data, PLAIN);
-        expect_refusal(&b, PLAIN - 1, "unpack to more than 0 MiB");
+        expect(&b, data, UNPACKED);
+        expect_refusal(&b, UNPACKED - 1, "unpack to more than 0 MiB");
         add(&b, "x", 1);
-        expect_refusal(&b, PLAIN, "stand 4 bytes that are none");
+        expect_refusal(&b, UNPACKED, "stand 4 bytes that are none");
         drop(&b);
     }
     free(data);
@@ -125,7 +125,7 @@ every_truncation(void **state)
         if (n == first)
             expect(&cut, data, 1000);
         else
-            expect_refusal(&cut, PLAIN,
+            expect_refusal(&cut, UNPACKED,
                            n == first + 1 ? "stand 1 bytes that are none" : "cut short");
     }
     drop(&b);
@@ -147,7 +147,7 @@ every_byte_damaged(void **state)
         size_t size;
 
         b.data[k] ^= 0x55;
-        got = rc_file_unpack(&file, PLAIN, &size, NULL);
+        got = rc_file_unpack(&file, UNPACKED, &size, NULL);
         if (got != NULL) { /* in the time, the name or the system of the header */
             assert_in_range(k, 4, 19);
             assert_int_equal(size, 1000);

@@ -2,13 +2,16 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
+#include <math.h>
 #include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 #include <hdf5.h>
 
 #include "made.h"
-#include "made_hdf.h"
 
 extern const struct rc_format rc_format_hdf5;
 

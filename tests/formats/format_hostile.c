@@ -2,12 +2,15 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
 #include "formats/format.h"
-#include "made_checks.h"
-#include "made_files.h"
+#include "made.h"
 
 enum {
     CHANNELS = 3, /* that are read of a file            */
@@ -93,25 +96,25 @@ cut_anywhere(void **state)
     size_t cuts = 0;
 
     (void)state;
-    for (size_t k = 0; k < MADE_FILES; k++) {
+    for (size_t k = 0; k < made_files_n; k++) {
         const struct made_file *f = &made_files[k];
         size_t wanted = last_channel(f) && (f->make != make_ibw || f->variant == 2);
         struct rc_grid *whole, *g;
-        struct made m = {0};
+        struct bytes m = {0};
         struct rc_err err;
 
         f->make(&m, f->variant);
-        whole = read_all(f, m.b, m.n, wanted, &err);
+        whole = read_all(f, m.data, m.n, wanted, &err);
         if (whole == NULL)
             fail_msg("%s: %s", f->title, err.text);
         for (size_t n = 0; n < m.n; n++, cuts++) {
-            g = read_all(f, m.b, n, wanted, &err);
+            g = read_all(f, m.data, n, wanted, &err);
             if (g != NULL && (f->flags & IS_TEXT) == 0 && !same_values(g, whole))
                 fail_msg("%s cut to %zu of %zu bytes is read as another map", f->title, n, m.n);
             rc_grid_free(g);
         }
         rc_grid_free(whole);
-        free(m.b);
+        drop(&m);
     }
     printf("%zu cuts\n", cuts);
 }
@@ -144,9 +147,9 @@ lies_anywhere(void **state)
     size_t told = 0, believed = 0;
 
     (void)state;
-    for (size_t k = 0; k < MADE_FILES; k++) {
+    for (size_t k = 0; k < made_files_n; k++) {
         const struct made_file *f = &made_files[k];
-        struct made m = {0};
+        struct bytes m = {0};
         struct rc_err err;
 
         f->make(&m, f->variant);
@@ -157,15 +160,15 @@ lies_anywhere(void **state)
 
                 if (at + lies[l].n > m.n)
                     continue;
-                memcpy(kept, m.b + at, lies[l].n);
-                memcpy(m.b + at, lies[l].bytes, lies[l].n);
-                g = read_all(f, m.b, m.n, 0, &err);
+                memcpy(kept, m.data + at, lies[l].n);
+                memcpy(m.data + at, lies[l].bytes, lies[l].n);
+                g = read_all(f, m.data, m.n, 0, &err);
                 believed += g != NULL;
                 told++;
                 rc_grid_free(g);
-                memcpy(m.b + at, kept, lies[l].n);
+                memcpy(m.data + at, kept, lies[l].n);
             }
-        free(m.b);
+        drop(&m);
     }
     printf("%zu lies, of which %zu still make a map\n", told, believed);
 }
@@ -175,8 +178,8 @@ static void
 every_reader_on_every_file(void **state)
 {
     (void)state;
-    for (size_t k = 0; k < MADE_FILES; k++) {
-        struct made m = {0};
+    for (size_t k = 0; k < made_files_n; k++) {
+        struct bytes m = {0};
 
         made_files[k].make(&m, made_files[k].variant);
         for (const struct rc_format *const *f = rc_formats; *f != NULL; f++) {
@@ -185,9 +188,9 @@ every_reader_on_every_file(void **state)
 
             forced.format = (*f)->name;
             forced.flags = NO_SPACING | NO_UNIT;
-            rc_grid_free(read_all(&forced, m.b, m.n, 0, &err));
+            rc_grid_free(read_all(&forced, m.data, m.n, 0, &err));
         }
-        free(m.b);
+        drop(&m);
     }
 }
 

@@ -2,17 +2,19 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 #include <cmocka.h>
 
 #include "formats/format.h"
-#include "made_files.h"
-#include "refused.h"
+#include "made.h"
 
 /* A field of a made file with another value, and what is said of it. */
 static const struct {
     const char *format;
-    void (*make)(struct made *m, int variant);
+    void (*make)(struct bytes *m, int variant);
     int variant;
     bool big;
     size_t at;
@@ -84,7 +86,7 @@ static const struct {
 /* Headers of text with one line changed. */
 static const struct {
     const char *format;
-    void (*make)(struct made *m, int variant);
+    void (*make)(struct bytes *m, int variant);
     int variant;
     const char *from, *to; /* of the same length */
     const char *why;
@@ -126,9 +128,9 @@ static const struct {
 };
 
 static void
-refused(const char *format, const struct made *m, int flags, const char *what, const char *why)
+refused(const char *format, const struct bytes *m, int flags, const char *what, const char *why)
 {
-    struct rc_file file = {"made", m->b, m->n};
+    struct rc_file file = {"made", m->data, m->n};
     struct rc_wish wish = wish_for(flags);
     struct rc_err err = {""};
     struct rc_grid *g = rc_format_named(format)->read(&file, &wish, 0, NULL, &err);
@@ -142,15 +144,15 @@ fields_that_lie(void **state)
 {
     (void)state;
     for (size_t k = 0; k < sizeof fields / sizeof *fields; k++) {
-        struct made m = {0};
+        struct bytes m = {0};
         char what[80];
 
         fields[k].make(&m, fields[k].variant);
         m.big = fields[k].big;
-        number_at(&m, fields[k].at, fields[k].raw, fields[k].value);
+        set_raw(&m, fields[k].at, fields[k].raw, fields[k].value);
         snprintf(what, sizeof what, "%g at %zu", fields[k].value, fields[k].at);
         refused(fields[k].format, &m, 0, what, fields[k].why);
-        free(m.b);
+        drop(&m);
     }
 }
 
@@ -160,17 +162,17 @@ lines_that_lie(void **state)
     (void)state;
     for (size_t k = 0; k < sizeof lines / sizeof *lines; k++) {
         size_t n = strlen(lines[k].to), changed = 0;
-        struct made m = {0};
+        struct bytes m = {0};
 
         lines[k].make(&m, lines[k].variant);
         for (size_t at = 0; at + n <= m.n; at++)
-            if (memcmp(m.b + at, lines[k].from, n) == 0) {
-                memcpy(m.b + at, lines[k].to, n);
+            if (memcmp(m.data + at, lines[k].from, n) == 0) {
+                memcpy(m.data + at, lines[k].to, n);
                 changed++;
             }
         assert_true(changed > 0);
         refused(lines[k].format, &m, lines[k].flags, lines[k].to, lines[k].why);
-        free(m.b);
+        drop(&m);
     }
 }
 

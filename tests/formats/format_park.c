@@ -3,11 +3,13 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
+#include <math.h>
 #include <stdint.h>
+#include <string.h>
 
 #include <cmocka.h>
 
-#include "made_tiff.h"
+#include "made.h"
 
 extern const struct rc_format rc_format_park;
 
@@ -74,9 +76,9 @@ park_file(const struct park *p, bool big, size_t less)
 
     for (size_t k = 0; k < 6; k++)
         if (p->version == 2 && p->type == 2)
-            add_f32(&data, raw[k]);
+            add_f32(&data, raw_counts[k]);
         else
-            add_number(&data, (uint64_t)(int64_t)(raw[k] % 100000),
+            add_number(&data, (uint64_t)(int64_t)(raw_counts[k] % 100000),
                        p->version == 2 && p->type == 1 ? 4 : 2);
     tags[2].text = (const char *)data.data;
     tags[2].count = (uint32_t)(data.n - less);
@@ -106,7 +108,7 @@ park_is_read(void **state)
             file = file_of(&b, "made");
             assert_ptr_equal(rc_format_find(&file, NULL), &rc_format_park);
             for (size_t k = 0; k < 6; k++) { /* the lowest row comes first */
-                int value = raw[(k + 3) % 6];
+                int value = raw_counts[(k + 3) % 6];
                 v[k] = -12.5 * (0.5 * (p.type == 2 ? value : value % 100000) + 0.25) * 1e-9;
             }
             g = read_well(&rc_format_park, &b, 0);
@@ -130,7 +132,7 @@ park_defaults(void **state)
     p.scale = 0;
     b = park_file(&p, false, 0);
     for (size_t k = 0; k < 6; k++)
-        v[k] = -12.5 * (raw[(k + 3) % 6] + 0.25) * 1e-6;
+        v[k] = -12.5 * (raw_counts[(k + 3) % 6] + 0.25) * 1e-6;
     g = read_well(&rc_format_park, &b, 0);
     check_map(g, 3, 2, 2e-6, 2.5e-6, v);
     rc_grid_free(g);

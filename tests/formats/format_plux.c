@@ -3,12 +3,15 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
+#include <math.h>
 #include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
 #include "made.h"
-#include "made_zip.h"
 
 extern const struct rc_format rc_format_plux, rc_format_x3p;
 

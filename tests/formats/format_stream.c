@@ -15,7 +15,7 @@
 
 #include "formats/core/core.h"
 #include "formats/rcg/rcg.h"
-#include "refused.h"
+#include "made.h"
 
 /* With the address sanitizer, memory that cannot be had is still NULL. */
 const char *__asan_default_options(void);
@@ -27,15 +27,15 @@ __asan_default_options(void)
 
 /* ---- making streams ---- */
 
-struct bytes {
+struct stream {
     char *data;
     size_t size;
 };
 
-static struct bytes
+static struct stream
 write_frames(struct rc_grid *const *g, size_t n)
 {
-    struct bytes b = {0};
+    struct stream b = {0};
     FILE *file = open_memstream(&b.data, &b.size);
     struct rc_writer *w = rc_writer_new(file, NULL);
     struct rc_err err;
@@ -50,10 +50,10 @@ write_frames(struct rc_grid *const *g, size_t n)
 }
 
 /* A stream of one frame made by hand: a header after its RCG1 line, and n zero bytes. */
-static struct bytes
+static struct stream
 by_hand(const char *header, size_t n)
 {
-    struct bytes b = {0};
+    struct stream b = {0};
     FILE *file = open_memstream(&b.data, &b.size);
     unsigned long crc;
 
@@ -69,7 +69,7 @@ by_hand(const char *header, size_t n)
 
 /* The same with one line of a good 2 x 1 header replaced: `line` takes the place of the line with
  * its key (NULL: that one is left out), or is added. */
-static struct bytes
+static struct stream
 with_line(const char *key, const char *line)
 {
     static const char *const good[] = {"channel=height", "nx=2",   "ny=1",    "dx=1.1e-06",
@@ -120,7 +120,7 @@ read_all(const char *data, size_t size, size_t *frames, struct rc_grid **last, s
 }
 
 static struct rc_grid *
-read_one(struct bytes b)
+read_one(struct stream b)
 {
     struct rc_grid *g = NULL;
     struct rc_err err;
@@ -134,7 +134,7 @@ read_one(struct bytes b)
 }
 
 static void
-check_refused(struct bytes b, size_t whole_frames, const char *reason)
+check_refused(struct stream b, size_t whole_frames, const char *reason)
 {
     struct rc_err err;
     size_t frames;
@@ -230,7 +230,7 @@ test_layout(void **state)
     const struct rc_shape shape = {2, 1, 1.1e-6, 1.29e-6};
     struct rc_grid *g = rc_grid_new(&shape, "height", "m", NULL);
     size_t n = strlen(header);
-    struct bytes b;
+    struct stream b;
     char tail[64];
 
     (void)state;
@@ -251,7 +251,7 @@ test_layout(void **state)
 static void
 test_no_frames(void **state)
 {
-    struct bytes b = write_frames(NULL, 0);
+    struct stream b = write_frames(NULL, 0);
     struct rc_err err;
     size_t frames;
 
@@ -267,7 +267,7 @@ static void
 test_every_truncation(void **state)
 {
     struct rc_grid *g[] = {ugly_grid(), ugly_grid()};
-    struct bytes b;
+    struct stream b;
     struct rc_err err;
     size_t frames;
 
@@ -290,7 +290,7 @@ static void
 test_every_flipped_bit(void **state)
 {
     struct rc_grid *g = ugly_grid();
-    struct bytes b = write_frames(&g, 1);
+    struct stream b = write_frames(&g, 1);
     struct rc_err err;
     size_t frames;
 
@@ -309,7 +309,7 @@ static void
 test_wrong_checksum_and_count(void **state)
 {
     struct rc_grid *g = ugly_grid();
-    struct bytes b = write_frames(&g, 1);
+    struct stream b = write_frames(&g, 1);
 
     (void)state;
     memcpy(b.data + b.size - strlen("RCGEND 1\n"), "RCGEND 2\n", strlen("RCGEND 2\n"));
@@ -333,11 +333,11 @@ test_lying_sizes(void **state)
 
 /* ---- messages of the one who wrote it ---- */
 
-static struct bytes
+static struct stream
 failed_stream(const char *message)
 {
     struct rc_grid *g = ugly_grid();
-    struct bytes b = {0};
+    struct stream b = {0};
     FILE *file = open_memstream(&b.data, &b.size);
     struct rc_writer *w = rc_writer_new(file, NULL);
 
@@ -364,10 +364,10 @@ test_failure_is_repeated(void **state)
 }
 
 /* The bytes that rc_stream_fail writes where nothing was written before. */
-static struct bytes
+static struct stream
 failure(const char *message, int status)
 {
-    struct bytes b = {0};
+    struct stream b = {0};
     FILE *file = open_memstream(&b.data, &b.size);
 
     rc_stream_fail(file, message, status);
@@ -378,7 +378,7 @@ failure(const char *message, int status)
 static void
 check_failure(const char *message, int status, const char *expected)
 {
-    struct bytes b = failure(message, status);
+    struct stream b = failure(message, status);
     FILE *file = fmemopen(b.data, b.size, "rb");
     struct rc_reader *r;
     struct rc_grid *g;
@@ -542,7 +542,7 @@ test_utf8(void **state)
 static void
 test_nul(void **state)
 {
-    struct bytes b = with_line("note", "note=abc");
+    struct stream b = with_line("note", "note=abc");
 
     (void)state;
     *strstr(b.data, "abc") = '\0';
@@ -550,13 +550,13 @@ test_nul(void **state)
 }
 
 /* A header of exactly `total` bytes, the line RCG1 and the empty one included. */
-static struct bytes
+static struct stream
 long_header(size_t total)
 {
     static const char start[] = "channel=h\nnx=1\nny=1\ndx=1\ndy=1\nunit=m\ntype=f64\nnote=";
     size_t n = total - strlen("RCG1\n") - strlen("\n");
     char *header = malloc(n + 1);
-    struct bytes b;
+    struct stream b;
 
     memset(header, 'x', n);
     memcpy(header, start, strlen(start));
@@ -572,7 +572,7 @@ test_longest_header(void **state)
 {
     struct rc_grid *g = read_one(long_header(RC_HEADER_MAX));
     size_t most = strlen(rc_grid_get(g, "note"));
-    struct bytes b = write_frames(&g, 1); /* the writer's limit is the same one */
+    struct stream b = write_frames(&g, 1); /* the writer's limit is the same one */
     char *longer = calloc(most + 2, 1);
     struct rc_writer *w;
     struct rc_err err;
@@ -639,11 +639,11 @@ test_no_stream_at_all(void **state)
 
 /* ---- several streams ---- */
 
-static struct bytes
+static struct stream
 two_cases(void)
 {
     struct rc_grid *g[] = {ugly_grid(), ugly_grid()};
-    struct bytes b;
+    struct stream b;
 
     rc_grid_set(g[1], "case", "2", NULL);
     b = write_frames(g, 2);
@@ -655,7 +655,7 @@ two_cases(void)
 static void
 test_cases_number_on(void **state)
 {
-    struct bytes b = two_cases();
+    struct stream b = two_cases();
     char *three = malloc(3 * b.size);
     FILE *file;
     struct rc_reader *r;
@@ -684,7 +684,7 @@ test_cases_number_on(void **state)
 static void
 test_second_stream_cut(void **state)
 {
-    struct bytes b = two_cases(), both = {malloc(2 * b.size), 2 * b.size - 9};
+    struct stream b = two_cases(), both = {malloc(2 * b.size), 2 * b.size - 9};
 
     (void)state;
     memcpy(both.data, b.data, b.size);
@@ -698,7 +698,7 @@ test_second_stream_cut(void **state)
 static void
 test_memory(void **state)
 {
-    struct bytes b = two_cases();
+    struct stream b = two_cases();
     struct rc_grid *g;
     struct rc_err err;
 

@@ -3,13 +3,17 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
+#include <math.h>
 #include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
 #include <zlib.h>
 
-#include "made_tiff.h"
+#include "made.h"
 
 extern const struct rc_format rc_format_jpk, rc_format_park, rc_format_lext;
 
@@ -54,7 +58,7 @@ jpk_pages(bool big, bool reflected, const char *scaling, double multiply, bool s
     struct bytes b, pixels = {.big = big};
     size_t last = 4;
 
-    pixels_i32(&pixels, raw, 6);
+    pixels_i32(&pixels, raw_counts, 6);
     tiff_start(&b, big);
     last = tiff_page(&b, last, 2, 1, 8, 1, NULL, "\1\2", 2, scan);
     last = tiff_page(&b, last, 3, 2, 32, 1, NULL, pixels.data, pixels.n, heights);
@@ -89,7 +93,7 @@ jpk_is_read(void **state)
             assert_string_equal(channel[1].name, "error");
             assert_string_equal(channel[1].unit, "V");
             for (size_t k = 0; k < 6; k++)
-                v[k] = raw[reflected ? k : (k + 3) % 6] * -2e-10 + 5e-7;
+                v[k] = raw_counts[reflected ? k : (k + 3) % 6] * -2e-10 + 5e-7;
             g = read_well(&rc_format_jpk, &b, 0);
             check_map(g, 3, 2, 1.1e-6, 1.1e-6, v);
             assert_string_equal(rc_grid_get(g, "file.date"), "2017-01-16 16:00");
@@ -113,12 +117,12 @@ jpk_volts_stay_volts_or_get_a_unit(void **state)
     assert_string_not_equal(g->channel, "height");
     assert_string_equal(g->channel, rc_grid_get(g, "file.channel"));
     for (size_t k = 0; k < 6; k++)
-        assert_true(g->v[k] == raw[(k + 3) % 6]);
+        assert_true(g->v[k] == raw_counts[(k + 3) % 6]);
     rc_grid_free(g);
     g = try_read(&rc_format_jpk, &b, &wish, 1, &err);
     assert_non_null(g);
     for (size_t k = 0; k < 6; k++)
-        v[k] = raw[(k + 3) % 6] * 2e-9; /* this page is not reflected */
+        v[k] = raw_counts[(k + 3) % 6] * 2e-9; /* this page is not reflected */
     check_map(g, 3, 2, 1.1e-6, 1.1e-6, v);
     rc_grid_free(g);
     assert_null(try_read(&rc_format_jpk, &b, &rc_no_wish, 2, &err));
@@ -268,7 +272,7 @@ many_large_tags(void **state)
 
     (void)state;
     tiff_start(&b, false);
-    set_word(&b, 4, 8);
+    set_raw(&b, 4, RC_RAW_U32, 8);
     add_number(&b, ENTRIES, 2);
     for (unsigned k = 0; k < ENTRIES; k++) {
         add_number(&b, 40000 + k, 2);
@@ -313,7 +317,7 @@ endless_directories(void **state)
 
     (void)state;
     memcpy(&first, b.data + 4, 4);
-    set_word(&b, b.n - 4, first); /* of the last page */
+    set_raw(&b, b.n - 4, RC_RAW_U32, first); /* of the last page */
     refuse(&rc_format_lext, &b, "no end to the pages");
     drop(&b);
 }

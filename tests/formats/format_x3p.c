@@ -2,14 +2,16 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
+#include <math.h>
 #include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
-#include "formats/core/core.h"
+#include "formats/containers/containers.h"
 #include "made.h"
-#include "made_locale.h"
-#include "made_x3p.h"
 
 /* Six numbers in each type, as bytes spelt out and as text: with increment 1/4 and offset -2 every
  * height is exact. */
@@ -109,7 +111,7 @@ increment_and_offset_default(void **state)
         alter(&xml, "<Increment>0.25</Increment><Offset>-2</Offset>", absent[k]);
         file = pack(xml, plain_bytes, sizeof plain_bytes);
         g = read_file(&file, &notes);
-        check_heights(g, plain);
+        check_heights(g, plain_heights);
         rc_grid_free(g);
         drop_file(&file);
         free(xml);

@@ -3,12 +3,13 @@
 #include <stddef.h>
 #include <setjmp.h>
 #include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
 #include "made.h"
-#include "made_locale.h"
-#include "made_x3p.h"
 
 static void
 wrong_headers(void **state)
@@ -209,7 +210,7 @@ survives(const unsigned char *data, size_t n)
     if (!read && err.text[0] == '\0')
         fail_msg("refused without a reason");
     for (size_t k = 0; read && k < 6; k++)
-        assert_true(g->nx == 3 && g->ny == 2 && g->v[k] == 0.25 * plain[k] - 2);
+        assert_true(g->nx == 3 && g->ny == 2 && g->v[k] == 0.25 * plain_heights[k] - 2);
     rc_grid_free(g);
     free(copy);
     return read;

@@ -1,20 +1,21 @@
-/* Files made in memory for the tests of readers: bytes that grow, and what all readers must
- * survive. Included once by each test; cmocka.h must come before. */
+/*
+ * Files made in memory for the tests of formats, byte by byte and not by a writer of ours, and what
+ * every reader has to do with them. Made once, as the library `made`, of made_*.c.
+ */
 #ifndef MADE_H
 #define MADE_H
 
-#include <math.h>
+#include <hdf5.h>
+#include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "formats/sandbox/sandbox.h"
+#include "formats/core/core.h"
+#include "formats/export.h"
 #include "formats/format.h"
-#include "made_checks.h"
-#include "refused.h"
+#include "tests/exact.h"
 
-/* ---- bytes ---- */
+/* ---- made_bytes.c: bytes that grow ---- */
 
 struct bytes {
     unsigned char *data;
@@ -22,195 +23,203 @@ struct bytes {
     bool big; /* most significant byte first */
 };
 
-static void
-add(struct bytes *b, const void *from, size_t n)
-{
-    b->data = realloc(b->data, b->n + n + 1);
-    assert_non_null(b->data);
-    if (n > 0)
-        memcpy(b->data + b->n, from, n);
-    b->n += n;
-}
+void add(struct bytes *b, const void *from, size_t n);
+void add_text(struct bytes *b, const char *s);
+void add_zeros(struct bytes *b, size_t n);
+void add_number(struct bytes *b, uint64_t value, size_t n);
+void add_f64(struct bytes *b, double value);
+void add_f32(struct bytes *b, double value);
+/* The number in that type and the byte order of b, behind the others or in the place of some. */
+void add_raw(struct bytes *b, enum rc_raw raw, double value);
+void set_raw(struct bytes *b, size_t at, enum rc_raw raw, double value);
+void set_text(struct bytes *b, size_t at, const char *s);
+/* Puts the length of what follows `at` there, the length of four bytes. */
+void close_object(struct bytes *b, size_t at);
+void drop(struct bytes *b);
+struct rc_file file_of(const struct bytes *b, const char *name);
 
-__attribute__((unused)) static void
-add_number(struct bytes *b, uint64_t value, size_t n)
-{
-    unsigned char to[8];
+/*
+ * The numbers of the maps in made_files are
+ *
+ *      10  20  30      and -20, -60 instead where the type has a sign;
+ *      40  50  60      50 is missing where the format can say so
+ */
+enum {
+    NX = 3,
+    NY = 2,
+    MISSING_AT = 4
+};
+double value_of(size_t k, bool has_sign);
 
-    for (size_t k = 0; k < n; k++)
-        to[b->big ? n - 1 - k : k] = (unsigned char)(value >> 8 * k);
-    add(b, to, n);
-}
+enum order {
+    ROWS = 0,
+    COLUMNS = 1,
+    BOTTOM = 2,
+    RIGHT = 4
+};
+/* The six numbers; `missing` stands for the missing one (pass 50 for none). */
+void add_map(struct bytes *b, enum rc_raw raw, int order, double missing, size_t padding);
 
-__attribute__((unused)) static void
-add_f64(struct bytes *b, double value)
-{
-    uint64_t word;
+/* ---- made_files.c: a file of every flat format and variant ---- */
 
-    memcpy(&word, &value, 8);
-    add_number(b, word, 8);
-}
+enum {
+    NO_SPACING = 1, /* the file lacks the spacing: 1.1e-6 and 1.29e-6 are wished */
+    NO_UNIT = 2,    /* the file lacks the unit: nanometres are wished            */
+    HAS_MISSING = 4,
+    PLAIN = 8,   /* the type has no sign */
+    SQUARE = 16, /* dy = dx = 1.1e-6     */
+    IS_TEXT = 32 /* cut at its end it may still be a file */
+};
 
-__attribute__((unused)) static void
-add_f32(struct bytes *b, double value)
-{
-    float narrow = (float)value;
-    uint32_t word;
+typedef void made_maker(struct bytes *b, int variant);
 
-    memcpy(&word, &narrow, 4);
-    add_number(b, word, 4);
-}
+/* Heights are number * scale + zero metres. */
+struct made_file {
+    const char *title, *format, *name;
+    made_maker *make;
+    int variant, flags;
+    double scale, zero;
+};
+extern const struct made_file made_files[];
+extern const size_t made_files_n;
 
-__attribute__((unused)) static void
-drop(struct bytes *b)
-{
-    free(b->data);
-    *b = (struct bytes){0};
-}
+/* What the user says beside such a file. */
+struct rc_wish wish_for(int flags);
 
-__attribute__((unused)) static struct rc_file
-file_of(const struct bytes *b, const char *name)
-{
-    return (struct rc_file){.name = name, .data = b->data, .size = b->n};
-}
+/* made_profilers.c */
+made_maker make_sdf_text, make_sdf_binary, make_sur, make_opd, make_metropro, make_al3d, make_plu;
+/* made_probes.c */
+made_maker make_nanoscope, make_nid, make_gwy, make_gsf, make_ibw, make_mi, make_wsxm;
+/* made_others.c */
+made_maker make_bcr, make_frt, make_tmd, make_grd, make_esri, make_npy, make_opdx, make_vk4,
+    make_vk6, make_xyz;
 
-/* ---- what every reader does ---- */
+/* ---- made_checks.c: what every reader does ---- */
 
-__attribute__((unused)) static struct rc_grid *
-try_read(const struct rc_format *format, const struct bytes *b, const struct rc_wish *wish,
-         size_t index, struct rc_err *err)
-{
-    struct rc_file file = file_of(b, "made");
-    struct rc_notes notes = {0};
+/* Steps of accuracy that files bring with them, relative. */
+static const double last_digit = 4e-16;    /* a rounding or two of a double */
+static const double float_rounding = 6e-8; /* one rounding to a float: 2^-24 */
 
-    err->text[0] = '\0';
-    return format->read(&file, wish, index, &notes, err);
-}
-
-/* Keeps a file in the folder FOLDER/FORMAT when RC_SEEDS=FOLDER is in the environment: to fuzz
- * from. */
-static void
-keep_seed(const struct rc_format *format, const struct bytes *b)
-{
-    static unsigned number;
-    char path[512];
-    FILE *f;
-
-    if (getenv("RC_SEEDS") == NULL)
-        return;
-    snprintf(path, sizeof path, "%s/%s/test-%u", getenv("RC_SEEDS"), format->name, number++);
-    if ((f = fopen(path, "wb")) == NULL)
-        return;
-    fwrite(b->data, 1, b->n, f);
-    fclose(f);
-}
-
-__attribute__((unused)) static struct rc_grid *
-read_well(const struct rc_format *format, const struct bytes *b, size_t index)
-{
-    struct rc_err err;
-    struct rc_grid *g = try_read(format, b, &rc_no_wish, index, &err);
-
-    if (g == NULL)
-        fail_msg("%s refused: %s", format->name, err.text);
-    keep_seed(format, b);
-    return g;
-}
-
-__attribute__((unused)) static void
-refuse(const struct rc_format *format, const struct bytes *b, const char *why)
-{
-    struct rc_err err;
-    struct rc_grid *g = try_read(format, b, &rc_no_wish, 0, &err);
-
-    if (g != NULL)
-        fail_msg("%s: read, and should be refused for: %s", format->name, why);
-    if (!gives_reason(err.text, why))
-        fail_msg("%s: refused for '%s', not for '%s'", format->name, err.text, why);
-    keep_seed(format, b);
-}
-
+/* Whether a refusal gives the reason that it should. Where addresses have 32 bits, a size that lies may
+ * be refused earlier, as more than there can be. */
+bool gives_reason(const char *text, const char *why);
+/* Positive, finite spacings, no infinite value, and no more values than a file of that size may
+ * have. */
+void check_sound(const char *what, const struct rc_grid *g, size_t file_size);
 /* The values, spacings and the rest of what a map must be. */
-__attribute__((unused)) static void
-check_map(const struct rc_grid *g, size_t nx, size_t ny, double dx, double dy, const double *v)
-{
-    assert_int_equal(g->nx, nx);
-    assert_int_equal(g->ny, ny);
-    if (fabs(g->dx - dx) > last_digit * dx || fabs(g->dy - dy) > last_digit * dy)
-        fail_msg("spacings %.17g and %.17g, not %.17g and %.17g", g->dx, g->dy, dx, dy);
-    assert_string_equal(g->channel, "height");
-    assert_string_equal(g->unit, "m");
-    for (size_t k = 0; k < nx * ny; k++)
-        if (isnan(v[k]) ? !isnan(g->v[k]) : !(fabs(g->v[k] - v[k]) <= last_digit * fabs(v[k])))
-            fail_msg("value %zu is %.17g, not %.17g", k, g->v[k], v[k]);
-}
+void check_map(const struct rc_grid *g, size_t nx, size_t ny, double dx, double dy,
+               const double *v);
 
+struct rc_grid *try_read(const struct rc_format *format, const struct bytes *b,
+                         const struct rc_wish *wish, size_t index, struct rc_err *err);
+struct rc_grid *read_well(const struct rc_format *format, const struct bytes *b, size_t index);
+void refuse(const struct rc_format *format, const struct bytes *b, const char *why);
 /* A file cut anywhere is refused with a reason, but for cuts in its last bytes that are no data. */
-__attribute__((unused)) static void
-refuse_cuts(const struct rc_format *format, const struct bytes *b, size_t least, size_t step)
-{
-    for (size_t n = 0; n < least; n += step) {
-        struct bytes cut = {.data = malloc(n == 0 ? 1 : n), .n = n};
-        struct rc_err err;
-        struct rc_grid *g;
-
-        memcpy(cut.data, b->data, n); /* of its own size, for the sanitizer */
-        g = try_read(format, &cut, &rc_no_wish, 0, &err);
-        if (g != NULL || err.text[0] == '\0')
-            fail_msg("%s: cut after %zu of %zu bytes: %s", format->name, n, b->n,
-                     g != NULL ? "read" : "refused without a reason");
-        drop(&cut);
-    }
-}
-
+void refuse_cuts(const struct rc_format *format, const struct bytes *b, size_t least, size_t step);
 /* Bytes changed at random: some files are read as sound maps, the others refused with a reason.
  * RC_FUZZ in the environment multiplies how often; RC_FUZZ_BYPASS reads without the sandbox, so
  * that the sanitizers see what happens there. */
-__attribute__((unused)) static void
-survive_changes(const struct rc_format *format, const struct bytes *b, size_t times)
-{
-    static uint64_t seed = 0x9e3779b97f4a7c15;
-    static const unsigned char nasty[] = {0, 1, 0x7f, 0x80, 0xff};
-    struct bytes bad = {.data = malloc(b->n), .n = b->n};
-    struct rc_channel channel[8];
-    const char *more = getenv("RC_FUZZ");
-    bool unsandboxed = getenv("RC_UNSANDBOXED") != NULL; /* cmake/unsandboxed.c */
-    size_t read = 0;
+void survive_changes(const struct rc_format *format, const struct bytes *b, size_t times);
 
-    assert_non_null(bad.data);
-    if (more != NULL)
-        times *= strtoul(more, NULL, 10);
-    rc_sandbox_bypass(unsandboxed || getenv("RC_FUZZ_BYPASS") != NULL);
-    for (size_t t = 0; t < times; t++) {
-        struct rc_file file = file_of(&bad, "made");
-        struct rc_err err = {""};
-        struct rc_grid *g;
-        size_t n;
+/* ---- made_zip.c ---- */
 
-        memcpy(bad.data, b->data, b->n);
-        for (size_t k = 0; k <= t % 4; k++) {
-            seed ^= seed << 13;
-            seed ^= seed >> 7;
-            seed ^= seed << 17;
-            bad.data[(seed >> 16) % b->n] =
-                seed & 1 ? nasty[(seed >> 1) % sizeof nasty] : (unsigned char)(seed >> 8);
-        }
-        format->score(&file);
-        n = format->list(&file, &rc_no_wish, channel, 8, &err);
-        assert_true(n > 0 || err.text[0] != '\0');
-        g = try_read(format, &bad, &rc_no_wish, 0, &err);
-        if (g == NULL && err.text[0] == '\0')
-            fail_msg("%s: refused without a reason", format->name);
-        if (g != NULL)
-            check_sound(format->name, g, bad.n);
-        read += g != NULL;
-        rc_grid_free(g);
-    }
-    printf("%s: %zu files changed at random, %zu of them read, the others refused\n", format->name,
-           times, read);
-    rc_sandbox_bypass(unsandboxed);
-    assert_true(read > 0 && read < times);
-    drop(&bad);
-}
+struct member {
+    const char *name;
+    const void *bytes;
+    size_t n;
+};
+struct bytes archive(const struct member *member, size_t members);
+/* text with the first `from` replaced by `to`; the caller frees it. */
+char *with(const char *text, const char *from, const char *to);
+/* The same in place of a text that was made before. */
+void alter(char **text, const char *from, const char *to);
+
+/* ---- made_x3p.c ---- */
+
+extern const struct rc_format rc_format_x3p;
+
+/* main.xml with @TYPE@ and @DATA@ to be replaced, and such data, with @MORE@. */
+extern const char main_xml[], binary_link[];
+extern const double plain_heights[6];
+/* The same as they lie in a file, the lowest byte first on every machine. */
+extern const unsigned char plain_bytes[48];
+
+struct rc_file archive_file(const struct member *member, size_t members);
+void drop_file(struct rc_file *file);
+/* An archive of main.xml with its checksum, and data.bin when there are bytes. */
+struct rc_file pack(const char *xml, const void *bytes, size_t n);
+struct rc_file pack_doubles(const char *xml, const double *v, size_t n);
+char *binary_xml(const char *type, const char *more);
+struct rc_file plain_file(void);
+
+struct rc_grid *read_with(const struct rc_file *file, const struct rc_wish *wish,
+                          struct rc_notes *notes, struct rc_err *err);
+struct rc_grid *read_file(const struct rc_file *file, struct rc_notes *notes);
+void refuse_file(const struct rc_file *file, const char *why);
+void refuse_xml(const char *xml, const char *why);
+bool noted(const struct rc_notes *notes, const char *words);
+
+/* ---- made_tiff.c ---- */
+
+struct tag {
+    uint16_t tag, type; /* 2 text, 3 u16, 4 u32, 7 bytes, 8 i16, 12 f64 */
+    uint32_t count;
+    const char *text; /* of types 2 and 7 */
+    double number;    /* of the others */
+};
+extern const int raw_counts[6];
+
+struct tag text_tag(unsigned tag, const char *text);
+struct tag number_tag(unsigned tag, unsigned type, double number);
+void tiff_start(struct bytes *b, bool big);
+/* One directory with its data before it; gives its place. The list ends with tag 0. */
+size_t tiff_directory(struct bytes *b, const struct tag *tag);
+/* A page of nx x ny pixels in one strip, with further tags, which must be above 339; `last` is the
+ * place of the word that is to lead here. Gives the place of the next such word. */
+size_t tiff_page(struct bytes *b, size_t last, size_t nx, size_t ny, unsigned bits,
+                 unsigned samples, const char *description, const void *pixels, size_t n,
+                 const struct tag *more);
+/* Of pixels that zlib has packed. */
+size_t tiff_packed_page(struct bytes *b, size_t last, size_t nx, size_t ny, unsigned bits,
+                        unsigned samples, const char *description, const void *pixels, size_t n,
+                        const struct tag *more);
+void pixels_i32(struct bytes *b, const int *v, size_t n);
+
+/* ---- made_hdf.c ---- */
+
+extern const double hdf_counts[6];
+
+hid_t hdf_start(void);
+struct bytes hdf_end(hid_t file);
+void hdf_number(hid_t set, const char *name, double value);
+void hdf_text(hid_t set, const char *name, const char *text, bool variable);
+/* A dataset of the six counts; with `chunk` packed in pieces. */
+hid_t hdf_set(hid_t in, const char *name, hid_t type, int rank, const hsize_t *size,
+              const hsize_t *chunk);
+struct bytes hdf_plain(void);
+
+/* ---- made_export.c: frames to be written, and files of them ---- */
+
+struct written {
+    char *bytes;
+    size_t n;
+};
+extern const struct rc_export_wish plain_export;
+
+/* Heights about 3.3 um, a share of them missing. */
+struct rc_grid *random_grid(size_t nx, size_t ny, double missing);
+struct rc_export_wish typed(enum rc_raw raw);
+struct written export(const char *name, struct rc_grid *const *frame, size_t frames,
+                      const struct rc_export_wish *wish);
+void refuse_export(const char *name, struct rc_grid *const *frame, size_t frames,
+                   const struct rc_export_wish *wish, const char *why);
+
+/* ---- made_locale.c: a locale with a decimal comma ---- */
+
+/* Makes the locale by localedef(1), so that none needs to be installed, and sets it for numbers.
+ * False where the system has no such program. */
+bool set_comma_locale(void);
+/* The first of the tests that run under it. */
+void the_locale_has_a_comma(void **state);
 
 #endif

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <sys/stat.h>
 
-#include "tests/formats/made_files.h"
+#include "tests/formats/made.h"
 
 int
 main(int argc, char **argv)
@@ -12,8 +12,8 @@ main(int argc, char **argv)
 
     if (argc != 2)
         return 2;
-    for (size_t k = 0; k < MADE_FILES; k++) {
-        struct made m = {0};
+    for (size_t k = 0; k < made_files_n; k++) {
+        struct bytes m = {0};
         FILE *f;
 
         snprintf(path, sizeof path, "%s/%s", argv[1], made_files[k].format);
@@ -21,11 +21,11 @@ main(int argc, char **argv)
         snprintf(path, sizeof path, "%s/%s/made-%zu-%s", argv[1], made_files[k].format, k,
                  made_files[k].name);
         made_files[k].make(&m, made_files[k].variant);
-        if ((f = fopen(path, "wb")) == NULL || fwrite(m.b, 1, m.n, f) != m.n || fclose(f) != 0) {
+        if ((f = fopen(path, "wb")) == NULL || fwrite(m.data, 1, m.n, f) != m.n || fclose(f) != 0) {
             perror(path);
             return 1;
         }
-        free(m.b);
+        drop(&m);
     }
     return 0;
 }

@@ -1,12 +1,17 @@
 /* A locale with a decimal comma, for the tests that numbers in files have a point in every one. */
-#ifndef MADE_LOCALE_H
-#define MADE_LOCALE_H
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+
+#include <cmocka.h>
 
 #include <locale.h>
-#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "made.h"
 
 static char locale_folder[] = "/tmp/made_locale.XXXXXX";
 
@@ -20,9 +25,7 @@ remove_locale(void)
         perror(locale_folder);
 }
 
-/* Makes the locale by localedef(1), so that none needs to be installed, and sets it for numbers.
- * False where the system has no such program. */
-static bool
+bool
 set_comma_locale(void)
 {
     char command[400];
@@ -44,8 +47,7 @@ set_comma_locale(void)
     return setlocale(LC_NUMERIC, "comma") != NULL;
 }
 
-/* The first of the tests that run under it. */
-static void
+void
 the_locale_has_a_comma(void **state)
 {
     char text[8];
@@ -56,5 +58,3 @@ the_locale_has_a_comma(void **state)
     snprintf(text, sizeof text, "%.1f", 1.5);
     assert_string_equal(text, "1,5");
 }
-
-#endif

@@ -2,30 +2,9 @@
  * Small files of every flat format, byte by byte as its specification has them and not by a writer
  * of ours: 3 columns, 2 rows, and every variant that the readers know.
  */
-#ifndef MADE_FILES_H
-#define MADE_FILES_H
+#include "made.h"
 
-#include "formats/format.h"
-#include "made_others.h"
-#include "made_probes.h"
-#include "made_profilers.h"
-
-enum {
-    NO_SPACING = 1, /* the file lacks the spacing: 1.1e-6 and 1.29e-6 are wished */
-    NO_UNIT = 2,    /* the file lacks the unit: nanometres are wished            */
-    HAS_MISSING = 4,
-    PLAIN = 8,   /* the type has no sign */
-    SQUARE = 16, /* dy = dx = 1.1e-6     */
-    IS_TEXT = 32 /* cut at its end it may still be a file */
-};
-
-/* Every made file: heights are number * scale + zero metres. */
-static const struct made_file {
-    const char *title, *format, *name;
-    void (*make)(struct made *m, int variant);
-    int variant, flags;
-    double scale, zero;
-} made_files[] = {
+const struct made_file made_files[] = {
     {"SDF text", "sdf", "a.sdf", make_sdf_text, 0, HAS_MISSING | IS_TEXT, 1e-9, 0},
     {"SDF text, BCR", "sdf", "a.sdf", make_sdf_text, 1, HAS_MISSING | IS_TEXT, 1e-9, 0},
     {"SDF u8", "sdf", "a.sdf", make_sdf_binary, 0, PLAIN, 1e-9, 0},
@@ -111,12 +90,9 @@ static const struct made_file {
      1e-9, 0},
 };
 
-enum {
-    MADE_FILES = sizeof made_files / sizeof *made_files
-};
+const size_t made_files_n = sizeof made_files / sizeof *made_files;
 
-/* What the user says beside such a file. */
-__attribute__((unused)) static struct rc_wish
+struct rc_wish
 wish_for(int flags)
 {
     struct rc_wish wish = rc_no_wish;
@@ -129,5 +105,3 @@ wish_for(int flags)
         wish.z_unit = 1e-9;
     return wish;
 }
-
-#endif

@@ -1,13 +1,19 @@
 /* X3P files made in memory, with parts to be replaced. */
-#ifndef MADE_X3P_H
-#define MADE_X3P_H
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "formats/containers/containers.h"
-#include "made_zip.h"
+#include "made.h"
 
-extern const struct rc_format rc_format_x3p;
-
-static struct rc_file
+struct rc_file
 archive_file(const struct member *member, size_t members)
 {
     struct bytes b = archive(member, members);
@@ -15,16 +21,16 @@ archive_file(const struct member *member, size_t members)
     return file_of(&b, "made.x3p");
 }
 
-static void
+void
 drop_file(struct rc_file *file)
 {
     free((void *)(uintptr_t)file->data);
 }
 
-static const char binary_link[] = "<DataLink><PointDataLink>bindata/data.bin</PointDataLink>"
-                                  "@MORE@</DataLink>";
+const char binary_link[] = "<DataLink><PointDataLink>bindata/data.bin</PointDataLink>"
+                           "@MORE@</DataLink>";
 
-static const char main_xml[] =
+const char main_xml[] =
     "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
     "<p:ISO5436_2 xmlns:p=\"http://www.opengps.eu/2008/ISO5436_2\">\n"
     "<Record1><Revision>ISO5436 - 2000</Revision><FeatureType>SUR</FeatureType><Axes>\n"
@@ -44,8 +50,7 @@ static const char main_xml[] =
     "<Record4><ChecksumFile>md5checksum.hex</ChecksumFile></Record4>\n"
     "</p:ISO5436_2>\n";
 
-/* An archive of main.xml with its checksum, and data.bin when there are bytes. */
-static struct rc_file
+struct rc_file
 pack(const char *xml, const void *bytes, size_t n)
 {
     char line[64], md5[RC_MD5_TEXT];
@@ -59,7 +64,7 @@ pack(const char *xml, const void *bytes, size_t n)
     return archive_file(member, bytes == NULL ? 2 : 3);
 }
 
-static char *
+char *
 binary_xml(const char *type, const char *more)
 {
     char *xml = with(main_xml, "@DATA@", binary_link);
@@ -69,13 +74,12 @@ binary_xml(const char *type, const char *more)
     return xml;
 }
 
-static const double plain[6] = {1, 2, 3, 4, 5, 6};
-/* The same as they lie in a file, the lowest byte first on every machine. */
-static const unsigned char plain_bytes[48] = {
-    0, 0, 0, 0, 0, 0, 0xf0, 0x3f, 0, 0, 0, 0, 0, 0, 0x00, 0x40, 0, 0, 0, 0, 0, 0, 0x08, 0x40,
-    0, 0, 0, 0, 0, 0, 0x10, 0x40, 0, 0, 0, 0, 0, 0, 0x14, 0x40, 0, 0, 0, 0, 0, 0, 0x18, 0x40};
+const double plain_heights[6] = {1, 2, 3, 4, 5, 6};
+const unsigned char plain_bytes[48] = {0, 0, 0, 0, 0, 0, 0xf0, 0x3f, 0, 0, 0, 0, 0, 0, 0x00, 0x40,
+                                       0, 0, 0, 0, 0, 0, 0x08, 0x40, 0, 0, 0, 0, 0, 0, 0x10, 0x40,
+                                       0, 0, 0, 0, 0, 0, 0x14, 0x40, 0, 0, 0, 0, 0, 0, 0x18, 0x40};
 
-__attribute__((unused)) static struct rc_file
+struct rc_file
 pack_doubles(const char *xml, const double *v, size_t n)
 {
     struct bytes b = {0};
@@ -88,7 +92,7 @@ pack_doubles(const char *xml, const double *v, size_t n)
     return file;
 }
 
-__attribute__((unused)) static struct rc_file
+struct rc_file
 plain_file(void)
 {
     char *xml = binary_xml("D", "");
@@ -98,7 +102,7 @@ plain_file(void)
     return file;
 }
 
-static struct rc_grid *
+struct rc_grid *
 read_with(const struct rc_file *file, const struct rc_wish *wish, struct rc_notes *notes,
           struct rc_err *err)
 {
@@ -107,7 +111,7 @@ read_with(const struct rc_file *file, const struct rc_wish *wish, struct rc_note
     return rc_format_x3p.read(file, wish, 0, notes, err);
 }
 
-__attribute__((unused)) static struct rc_grid *
+struct rc_grid *
 read_file(const struct rc_file *file, struct rc_notes *notes)
 {
     struct rc_err err;
@@ -118,7 +122,7 @@ read_file(const struct rc_file *file, struct rc_notes *notes)
     return g;
 }
 
-__attribute__((unused)) static void
+void
 refuse_file(const struct rc_file *file, const char *why)
 {
     struct rc_notes notes;
@@ -131,7 +135,7 @@ refuse_file(const struct rc_file *file, const char *why)
         fail_msg("refused for '%s', not for '%s'", err.text, why);
 }
 
-__attribute__((unused)) static void
+void
 refuse_xml(const char *xml, const char *why)
 {
     struct rc_file file = pack(xml, plain_bytes, sizeof plain_bytes);
@@ -140,7 +144,7 @@ refuse_xml(const char *xml, const char *why)
     drop_file(&file);
 }
 
-__attribute__((unused)) static bool
+bool
 noted(const struct rc_notes *notes, const char *words)
 {
     for (size_t k = 0; k < notes->n; k++)
@@ -148,5 +152,3 @@ noted(const struct rc_notes *notes, const char *words)
             return true;
     return false;
 }
-
-#endif

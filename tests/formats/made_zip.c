@@ -1,18 +1,19 @@
-/* ZIP archives made in memory, for the tests of readers of what is in them; after made.h. */
-#ifndef MADE_ZIP_H
-#define MADE_ZIP_H
+/* ZIP archives made in memory, for the readers of what is in them. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
 
+#include <cmocka.h>
 #include <zip.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "made.h"
 
-struct member {
-    const char *name;
-    const void *bytes;
-    size_t n;
-};
-
-static struct bytes
+struct bytes
 archive(const struct member *member, size_t members)
 {
     zip_source_t *source = zip_source_buffer_create(NULL, 0, 0, NULL);
@@ -37,8 +38,7 @@ archive(const struct member *member, size_t members)
     return b;
 }
 
-/* text with the first `from` replaced by `to`; the caller frees it. */
-static char *
+char *
 with(const char *text, const char *from, const char *to)
 {
     const char *at = strstr(text, from);
@@ -53,8 +53,7 @@ with(const char *text, const char *from, const char *to)
     return made;
 }
 
-/* The same in place of a text that was made before. */
-__attribute__((unused)) static void
+void
 alter(char **text, const char *from, const char *to)
 {
     char *made = with(*text, from, to);
@@ -62,5 +61,3 @@ alter(char **text, const char *from, const char *to)
     free(*text);
     *text = made;
 }
-
-#endif

@@ -1,14 +1,19 @@
-/* HDF5 files made in memory; after made.h. */
-#ifndef MADE_HDF_H
-#define MADE_HDF_H
+/* HDF5 files made in memory. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
 
-#include <hdf5.h>
+#include <cmocka.h>
+
+#include <stdlib.h>
+#include <string.h>
 
 #include "made.h"
 
-static const double counts[6] = {1, 2, 3, 100, 5, 6};
+const double hdf_counts[6] = {1, 2, 3, 100, 5, 6};
 
-static hid_t
+hid_t
 hdf_start(void)
 {
     hid_t access = H5Pcreate(H5P_FILE_ACCESS), file;
@@ -21,7 +26,7 @@ hdf_start(void)
     return file;
 }
 
-static struct bytes
+struct bytes
 hdf_end(hid_t file)
 {
     struct bytes b = {0};
@@ -34,7 +39,7 @@ hdf_end(hid_t file)
     return b;
 }
 
-static void
+void
 hdf_number(hid_t set, const char *name, double value)
 {
     const hsize_t one = 1;
@@ -46,7 +51,7 @@ hdf_number(hid_t set, const char *name, double value)
     H5Sclose(space);
 }
 
-static void
+void
 hdf_text(hid_t set, const char *name, const char *text, bool variable)
 {
     const hsize_t one = 1;
@@ -61,8 +66,7 @@ hdf_text(hid_t set, const char *name, const char *text, bool variable)
     H5Sclose(space);
 }
 
-/* A dataset of the six counts; with `chunk` packed in pieces. */
-static hid_t
+hid_t
 hdf_set(hid_t in, const char *name, hid_t type, int rank, const hsize_t *size, const hsize_t *chunk)
 {
     hid_t space = H5Screate_simple(rank, size, NULL), options = H5Pcreate(H5P_DATASET_CREATE), set;
@@ -74,13 +78,13 @@ hdf_set(hid_t in, const char *name, hid_t type, int rank, const hsize_t *size, c
     }
     set = H5Dcreate2(in, name, type, space, H5P_DEFAULT, options, H5P_DEFAULT);
     assert_true(set >= 0);
-    assert_true(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, counts) >= 0);
+    assert_true(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, hdf_counts) >= 0);
     H5Pclose(options);
     H5Sclose(space);
     return set;
 }
 
-__attribute__((unused)) static struct bytes
+struct bytes
 hdf_plain(void)
 {
     const hsize_t size[] = {2, 3};
@@ -92,5 +96,3 @@ hdf_plain(void)
     H5Dclose(set);
     return hdf_end(file);
 }
-
-#endif

@@ -1,13 +1,17 @@
-/* Frames to be written, and files of them in memory; cmocka.h must come before. */
-#ifndef MADE_EXPORT_H
-#define MADE_EXPORT_H
+/* Frames to be written, and files of them in memory. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+
+#include <cmocka.h>
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "formats/export.h"
+#include "made.h"
 
 static uint64_t seed = 0x2545f4914f6cdd1d;
 
@@ -20,8 +24,7 @@ uniform(void)
     return (double)(seed >> 11) / 9007199254740992.0;
 }
 
-/* Heights about 3.3 um, a share of them missing. */
-__attribute__((unused)) static struct rc_grid *
+struct rc_grid *
 random_grid(size_t nx, size_t ny, double missing)
 {
     struct rc_shape shape = {.nx = nx, .ny = ny, .dx = 1.1e-6, .dy = 1.29e-6};
@@ -33,26 +36,21 @@ random_grid(size_t nx, size_t ny, double missing)
     return g;
 }
 
-static const struct rc_export_wish plain = {.time = 1700000000, .creator = "test"};
+const struct rc_export_wish plain_export = {.time = 1700000000, .creator = "test"};
 
-__attribute__((unused)) static struct rc_export_wish
+struct rc_export_wish
 typed(enum rc_raw raw)
 {
-    struct rc_export_wish wish = plain;
+    struct rc_export_wish wish = plain_export;
 
     wish.typed = true;
     wish.raw = raw;
     return wish;
 }
 
-struct made {
-    char *bytes;
-    size_t n;
-};
-
 static enum rc_status
 try_export(const char *name, struct rc_grid *const *frame, size_t frames,
-           const struct rc_export_wish *wish, struct made *made, struct rc_err *err)
+           const struct rc_export_wish *wish, struct written *made, struct rc_err *err)
 {
     const struct rc_export *format = rc_export_named(name);
     enum rc_status status;
@@ -67,10 +65,10 @@ try_export(const char *name, struct rc_grid *const *frame, size_t frames,
     return status;
 }
 
-static struct made export(const char *name, struct rc_grid *const *frame, size_t frames,
-                          const struct rc_export_wish *wish)
+struct written export(const char *name, struct rc_grid *const *frame, size_t frames,
+                      const struct rc_export_wish *wish)
 {
-    struct made made;
+    struct written made;
     struct rc_err err;
 
     if (try_export(name, frame, frames, wish, &made, &err) != RC_OK)
@@ -78,11 +76,11 @@ static struct made export(const char *name, struct rc_grid *const *frame, size_t
     return made;
 }
 
-__attribute__((unused)) static void
-refuse(const char *name, struct rc_grid *const *frame, size_t frames,
-       const struct rc_export_wish *wish, const char *why)
+void
+refuse_export(const char *name, struct rc_grid *const *frame, size_t frames,
+              const struct rc_export_wish *wish, const char *why)
 {
-    struct made made;
+    struct written made;
     struct rc_err err;
 
     if (try_export(name, frame, frames, wish, &made, &err) == RC_OK)
@@ -91,5 +89,3 @@ refuse(const char *name, struct rc_grid *const *frame, size_t frames,
         fail_msg("%s: refused for '%s', not for '%s'", name, err.text, why);
     free(made.bytes);
 }
-
-#endif

@@ -1,22 +1,20 @@
-/* TIFF files made in memory; cmocka.h must come before. */
-#ifndef MADE_TIFF_H
-#define MADE_TIFF_H
+/* TIFF files made in memory. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <string.h>
 
 #include "made.h"
-
-struct tag {
-    uint16_t tag, type; /* 2 text, 3 u16, 4 u32, 7 bytes, 8 i16, 12 f64 */
-    uint32_t count;
-    const char *text; /* of types 2 and 7 */
-    double number;    /* of the others */
-};
 
 enum {
     TAGS_MOST = 40
 };
 
-/* One directory with its data before it; gives its place. The list ends with tag 0. */
-__attribute__((unused)) static size_t
+size_t
 tiff_directory(struct bytes *b, const struct tag *tag)
 {
     static const size_t width[] = {[1] = 1, [2] = 1, [3] = 2, [4] = 4, [7] = 1, [8] = 2, [12] = 8};
@@ -56,7 +54,7 @@ tiff_directory(struct bytes *b, const struct tag *tag)
     return at;
 }
 
-__attribute__((unused)) static void
+void
 tiff_start(struct bytes *b, bool big)
 {
     *b = (struct bytes){.big = big};
@@ -65,19 +63,9 @@ tiff_start(struct bytes *b, bool big)
     add_number(b, 0, 4);
 }
 
-__attribute__((unused)) static void
-set_word(struct bytes *b, size_t at, uint32_t value)
-{
-    struct bytes word = {.big = b->big};
-
-    add_number(&word, value, 4);
-    memcpy(b->data + at, word.data, 4);
-    drop(&word);
-}
-
 /* A page of nx x ny pixels in one strip, with further tags, which must be above 339; `last` is the
  * place of the word that is to lead here. Gives the place of the next such word. */
-__attribute__((unused)) static size_t
+static size_t
 tiff_any_page(struct bytes *b, size_t last, size_t nx, size_t ny, unsigned bits, unsigned samples,
               const char *description, const void *pixels, size_t n, const struct tag *more,
               unsigned compression)
@@ -105,19 +93,18 @@ tiff_any_page(struct bytes *b, size_t last, size_t nx, size_t ny, unsigned bits,
     tag[k] = (struct tag){0};
     assert_true(k < TAGS_MOST);
     at = tiff_directory(b, tag);
-    set_word(b, last, (uint32_t)at);
+    set_raw(b, last, RC_RAW_U32, (double)at);
     return b->n - 4;
 }
 
-__attribute__((unused)) static size_t
+size_t
 tiff_page(struct bytes *b, size_t last, size_t nx, size_t ny, unsigned bits, unsigned samples,
           const char *description, const void *pixels, size_t n, const struct tag *more)
 {
     return tiff_any_page(b, last, nx, ny, bits, samples, description, pixels, n, more, 1);
 }
 
-/* Of pixels that zlib has packed. */
-__attribute__((unused)) static size_t
+size_t
 tiff_packed_page(struct bytes *b, size_t last, size_t nx, size_t ny, unsigned bits,
                  unsigned samples, const char *description, const void *pixels, size_t n,
                  const struct tag *more)
@@ -125,25 +112,23 @@ tiff_packed_page(struct bytes *b, size_t last, size_t nx, size_t ny, unsigned bi
     return tiff_any_page(b, last, nx, ny, bits, samples, description, pixels, n, more, 8);
 }
 
-__attribute__((unused)) static struct tag
+struct tag
 text_tag(unsigned tag, const char *text)
 {
     return (struct tag){(uint16_t)tag, 2, (uint32_t)strlen(text) + 1, text, 0};
 }
 
-__attribute__((unused)) static struct tag
+struct tag
 number_tag(unsigned tag, unsigned type, double number)
 {
     return (struct tag){(uint16_t)tag, (uint16_t)type, 1, NULL, number};
 }
 
-__attribute__((unused)) static void
+void
 pixels_i32(struct bytes *b, const int *v, size_t n)
 {
     for (size_t k = 0; k < n; k++)
         add_number(b, (uint64_t)(int64_t)v[k], 4);
 }
 
-__attribute__((unused)) static const int raw[6] = {1, -2, 3, -4, 5, 1000000};
-
-#endif
+const int raw_counts[6] = {1, -2, 3, -4, 5, 1000000};

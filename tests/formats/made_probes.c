@@ -1,0 +1,238 @@
+/* Files of scanning probes and of the programs that show them, made by hand. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "made.h"
+
+/* 0: 16 bits; 1: 32 bits that the header calls 2 bytes, mV; 2: no sensitivity but nm, one size */
+void
+make_nanoscope(struct bytes *m, int variant)
+{
+    char line[200];
+
+    add_text(m, variant == 1 ? "\\*File list\r\n\\Version: 0x09300201\r\n"
+                             : "\\*File list\r\n\\Version: 0x05310001\r\n");
+    add_text(m, "\\Data length: 1024\r\n\\Date: 02:03:59 PM "
+                "Wed May 06 2015\r\n"
+                "\\*Scanner list\r\n\\@Sens. Zscan: V 12.5 nm/V\r\n"
+                "\\*Ciao scan list\r\n\\Scan size: 3300 nm\r\n"
+                "\\*Ciao image list\r\n\\Data offset: 1024\r\n");
+    snprintf(line, sizeof line, "\\Data length: %d\r\n", variant == 1 ? 24 : 12);
+    add_text(m, line);
+    add_text(m, "\\Bytes/pixel: 2\r\n\\Samps/line: 3\r\n\\Number of lines: 2\r\n");
+    if (variant != 2)
+        add_text(m, "\\Scan Size: 3.3 2.58 ~m\r\n");
+    add_text(m, "\\@2:Image Data: S [Height] \"Height Sensor\"\r\n");
+    add_text(m, variant == 0   ? "\\@2:Z scale: V [Sens. Zscan] (0.01 V/LSB) 65.536 V\r\n"
+                : variant == 1 ? "\\@2:Z scale: V [Sens. Zscan] (1 mV/LSB) 65536.0 mV\r\n"
+                               : "\\@2:Z scale: V (0.01 nm/LSB) 655.36 nm\r\n");
+    add_text(m, "\\*File list end\r\n\x1a");
+    add_zeros(m, 1024 - m->n);
+    add_map(m, variant == 1 ? RC_RAW_I32 : RC_RAW_I16, BOTTOM, 50, 0);
+}
+
+/* 0: 16 bits; 1: 32; 2: unsigned; 3: most significant byte first. A curve and another map before.
+ */
+void
+make_nid(struct bytes *m, int variant)
+{
+    char line[400];
+
+    add_text(m, "[DataSet]\r\nVersion=2\r\nGroupCount=2\r\nGr0-Count=2\r\nGr1-Count=1\r\nGr1-Ch0="
+                "DataSet-1:0\r\n"
+                "Gr0-Ch1=DataSet-0:1\r\nGr0-Ch0=DataSet-0:0\r\n\r\n[DataSet-Info]\r\n"
+                "Date=24-01-2008\r\n\r\n");
+    for (int set = 0; set < 3; set++) {
+        snprintf(line, sizeof line,
+                 "[DataSet-%d:%d]\r\nPoints=%d\r\nLines=%d\r\nFrame=%s\r\nDim0Unit=%s\r\n"
+                 "Dim0Range=3.3e-06\r\nDim1Unit=m\r\nDim1Range=2.58e-06\r\nDim2Name=Topo\r\n"
+                 "Dim2Unit=%s\r\nDim2Range=%s\r\nDim2Min=%s\r\nSaveMode=Binary\r\n",
+                 set / 2, set % 2, set == 0 ? 7 : NX, set == 0 ? 1 : NY,
+                 set == 0   ? "Spectrum"
+                 : set == 1 ? "Scan forward"
+                            : "Scan backward",
+                 set == 0 ? "Hz" : "m", set == 1 ? "V" : "nm",
+                 variant == 1 ? "4294967.296" : "65.536",
+                 variant == 1 ? "-2147483.648" : "-32.768");
+        add_text(m, line);
+        snprintf(line, sizeof line, "SaveBits=%d\r\nSaveSign=%s\r\nSaveOrder=%s\r\n\r\n",
+                 variant == 1 ? 32 : 16, variant == 2 ? "Unsigned" : "Signed",
+                 variant == 3 ? "Motorola" : "Intel");
+        add_text(m, line);
+    }
+    add_text(m, "#!");
+    m->big = variant == 3;
+    add_zeros(m, (variant == 1 ? 4 : 2) * (7 + 6));
+    add_map(m, variant == 1 ? RC_RAW_I32 : variant == 2 ? RC_RAW_U16 : RC_RAW_I16, BOTTOM, 50, 0);
+}
+
+static size_t
+open_object(struct bytes *m, const char *name, const char *type)
+{
+    if (name != NULL) {
+        add(m, name, strlen(name) + 1);
+        add_text(m, "o");
+    }
+    add(m, type, strlen(type) + 1);
+    add_zeros(m, 4);
+    return m->n - 4;
+}
+
+static void
+gwy_item(struct bytes *m, const char *name, char type, double value)
+{
+    add(m, name, strlen(name) + 1);
+    add(m, &type, 1);
+    add_raw(m, type == 'd' ? RC_RAW_F64 : type == 'b' ? RC_RAW_U8 : RC_RAW_I32, value);
+}
+
+static void
+gwy_text(struct bytes *m, const char *name, const char *value)
+{
+    add(m, name, strlen(name) + 1);
+    add_text(m, "s");
+    add(m, value, strlen(value) + 1);
+}
+
+static void
+gwy_field(struct bytes *m, const char *name, const char *unit, bool is_mask)
+{
+    size_t field = open_object(m, name, "GwyDataField"), inner;
+
+    gwy_item(m, "xres", 'i', NX);
+    gwy_item(m, "yres", 'i', NY);
+    gwy_item(m, "xreal", 'd', 3.3e-6);
+    gwy_item(m, "yreal", 'd', 2.58e-6);
+    inner = open_object(m, "si_unit_xy", "GwySIUnit");
+    gwy_text(m, "unitstr", "m");
+    close_object(m, inner);
+    inner = open_object(m, "si_unit_z", "GwySIUnit");
+    gwy_text(m, "unitstr", unit);
+    close_object(m, inner);
+    add(m, "data\0D", 6);
+    add_raw(m, RC_RAW_U32, NX * NY);
+    if (!is_mask)
+        add_map(m, RC_RAW_F64, ROWS, 50, 0);
+    for (size_t k = 0; is_mask && k < NX * NY; k++)
+        add_raw(m, RC_RAW_F64, k == MISSING_AT);
+    close_object(m, field);
+}
+
+/* A mask and a title before their field, another channel and items of every kind between. */
+void
+make_gwy(struct bytes *m, int variant)
+{
+    size_t top;
+
+    (void)variant;
+    add_text(m, "GWYP");
+    top = open_object(m, NULL, "GwyContainer");
+    gwy_field(m, "/3/mask", "", true);
+    gwy_text(m, "/3/data/title", "The heights");
+    gwy_item(m, "/3/data/visible", 'b', 1);
+    add(m, "some\0I", 6);
+    add_raw(m, RC_RAW_U32, 2);
+    add_zeros(m, 8);
+    add(m, "words\0S", 7);
+    add_raw(m, RC_RAW_U32, 2);
+    add(m, "a\0b", 4);
+    gwy_field(m, "/12/data", "V", false);
+    gwy_field(m, "/3/data", "nm", false);
+    close_object(m, top);
+}
+
+/* Titles of which each leaves another number of NUL before the data */
+void
+make_gsf(struct bytes *m, int variant)
+{
+    static const char *const titles[] = {"T", "Ti", "Tit", "Titl"};
+
+    add_text(m, "Gwyddion Simple Field 1.0\nXRes = 3\nYRes = 2\nXReal = 3.3e-6\nYReal = 2.58e-6\n"
+                "XYUnits = m\nZUnits = nm\nTitle = ");
+    add_text(m, titles[variant]);
+    add_text(m, "\n");
+    add_zeros(m, 4 - m->n % 4);
+    add_map(m, RC_RAW_F32, ROWS, NAN, 0);
+}
+
+static int
+igor_sum(const struct bytes *m)
+{
+    struct rc_bytes b = {.data = m->data, .size = 384, .big = m->big};
+    unsigned sum = 0;
+
+    for (size_t k = 0; k < 192; k++)
+        sum += rc_bytes_u16(&b);
+    sum &= 0xffff;
+    return sum < 0x8000 ? (int)sum : (int)sum - 0x10000;
+}
+
+/* 0: f32, 1: f64 most significant byte first, 2: i16 with labels, second channel of two */
+void
+make_ibw(struct bytes *m, int variant)
+{
+    static const int types[] = {2, 4, 0x10};
+    static const enum rc_raw raws[] = {RC_RAW_F32, RC_RAW_F64, RC_RAW_I16};
+
+    m->big = variant == 1;
+    add_zeros(m, 384);
+    set_raw(m, 0, RC_RAW_I16, 5);
+    set_raw(m, 12, RC_RAW_I32, 4);                             /* note */
+    set_raw(m, 12 + 4 * 8, RC_RAW_I32, variant == 2 ? 96 : 0); /* labels of dimension 2 */
+    set_raw(m, 80, RC_RAW_I16, types[variant]);
+    set_text(m, 92, "wave0");
+    set_raw(m, 132, RC_RAW_I32, NX);
+    set_raw(m, 136, RC_RAW_I32, NY);
+    set_raw(m, 140, RC_RAW_I32, variant == 2 ? 2 : 0);
+    set_raw(m, 148, RC_RAW_F64, 1.1);
+    set_raw(m, 156, RC_RAW_F64, 1.29);
+    set_text(m, 212, "nm");
+    set_text(m, 216, "um");
+    set_text(m, 220, "um");
+    set_raw(m, 4, RC_RAW_I32, 320 + (double)(NX * NY * rc_raw_width(raws[variant])));
+    set_raw(m, 76, RC_RAW_I32, NX * NY * (variant == 2 ? 2 : 1));
+    set_raw(m, 2, RC_RAW_I16, -igor_sum(m)); /* so that all 16-bit numbers sum up to 0 */
+    if (variant == 2)
+        add_zeros(m, 12);
+    add_map(m, raws[variant], BOTTOM, variant == 2 ? 50 : NAN, 0);
+    add_text(m, "note");
+    if (variant == 2) {
+        size_t at = m->n;
+        add_zeros(m, 96);
+        set_text(m, at + 32, "PhaseTrace");
+        set_text(m, at + 64, "HeightTrace");
+    }
+}
+
+void
+make_mi(struct bytes *m, int variant)
+{
+    add_text(m, "fileType      Image\nversion       PicoView\nxSensitivity  1\n"
+                "xNonlinearity21.23\nxPixels       3\nyPixels       2\nxLength       3.3e-006\n"
+                "yLength       2.58e-006\nbufferLabel   Friction\nbufferRange   1\n"
+                "bufferUnit    V\nbufferLabel   Topography\nbufferRange   0.032768\n"
+                "bufferUnit    um\n");
+    add_text(m, variant == 0 ? "data          BINARY\n" : "data          BINARY_32\n");
+    add_zeros(m, variant == 0 ? 12 : 24);
+    add_map(m, variant == 0 ? RC_RAW_I16 : RC_RAW_I32, BOTTOM, 50, 0);
+}
+
+void
+make_wsxm(struct bytes *m, int variant)
+{
+    static const char *const types[] = {"short", "float", "double"};
+    static const enum rc_raw raws[] = {RC_RAW_I16, RC_RAW_F32, RC_RAW_F64};
+    char line[100];
+
+    add_text(m, "WSxM file copyright Nanotec Electronica\r\nSxM Image file\r\n"
+                "Image header size:   512\r\n\r\n[Control]\r\n\r\n    X Amplitude: 3.3 \xb5m\r\n"
+                "    Y Amplitude: 2580 nm\r\n\r\n[General Info]\r\n\r\n"
+                "    Acquisition channel: Topo\r\n");
+    snprintf(line, sizeof line, "    Image Data Type: %s\r\n", types[variant]);
+    add_text(m, line);
+    add_text(m, "    Number of columns: 3\r\n    Number of rows: 2\r\n    Z Amplitude: 11 nm\r\n"
+                "\r\n[Header end]\r\n");
+    add_zeros(m, 512 - m->n);
+    add_map(m, raws[variant], BOTTOM | RIGHT, 50, 0);
+}
