@@ -126,7 +126,7 @@ rc_export_write(const struct rc_export *format, FILE *out, struct rc_grid *const
 
 /* ---- words ---- */
 
-/* The name of one frame alone; `cases` and `depths` say what has to be told apart. */
+/* The name of one frame; `cases` and `depths`: whether the name has to tell cases and depths apart. */
 static void
 plain_label(char label[RC_LABEL], const struct rc_grid *g, bool cases, bool depths)
 {

@@ -45,17 +45,17 @@ struct rc_export {
     bool stack;           /* or the depths of one channel and case                            */
     bool uneven;          /* says where each row of a section is: its depths may be uneven    */
     bool heights;         /* says metres by its definition: holds heights only                */
-    unsigned types;       /* that it can hold, of the bits above; 0: text                     */
-    unsigned copies;      /* of all values that it has in memory, as they lie in the file     */
-    size_t library;       /* bytes of code that comes into memory with it                     */
+    unsigned types;       /* types that it can hold, of the bits above; 0: text */
+    unsigned copies; /* copies of all values that it holds in memory, as they lie in the file */
+    size_t library;  /* bytes of library code that it loads */
     /* Writes frame[0..frames), frames > 0. RC_FAIL for what the format cannot hold, or when the
      * device refuses. */
     enum rc_status (*write)(FILE *out, struct rc_grid *const *frame, size_t frames,
                             const struct rc_export_wish *wish, struct rc_err *err);
 };
 
-/* Writes the frames, what no writer but some can hold refused: a section whose rows have uneven
- * depths. */
+/* Writes the frames. A section whose rows have uneven depths is refused unless the format is
+ * `uneven`. */
 enum rc_status rc_export_write(const struct rc_export *format, FILE *out,
                                struct rc_grid *const *frame, size_t frames,
                                const struct rc_export_wish *wish, struct rc_err *err);
@@ -72,8 +72,8 @@ const struct rc_export *rc_export_suffixed(const char *file);
 enum rc_raw rc_export_raw(const struct rc_grid *grid, const struct rc_export_wish *wish,
                           unsigned types);
 
-/* Depths of the rows of a section, ny numbers into at, as its key `depths` has them: separated by
- * commas or spaces. RC_FAIL where there are not as many, or they do not rise from row to row. */
+/* Reads the depths of a section's rows from its key `depths`, ny numbers separated by commas or
+ * spaces, into at. RC_FAIL when their number is not ny or they do not rise from row to row. */
 enum rc_status rc_export_depths(const struct rc_grid *grid, double *at, struct rc_err *err);
 /* Whether n places have even steps, but for rounding, and the step; 0 for a single one. */
 bool rc_export_even(const double *at, size_t n, double *step);
@@ -81,12 +81,12 @@ bool rc_export_even(const double *at, size_t n, double *step);
 enum {
     RC_LABEL = 160
 };
-/* A name for frame k that no other of the frames has: "pressure"; "pressure_case2" when there are
- * several cases; "mises_z2e-05" when depths differ and `depths`. Gives `label`. */
+/* Gives frame k a name that no other frame has: "pressure"; "pressure_case2" when there are several
+ * cases; "mises_z2e-05" when `depths` is set and the depths differ. Returns `label`. */
 const char *rc_export_label(char label[RC_LABEL], struct rc_grid *const *frame, size_t frames,
                             size_t k, bool depths);
 
-/* The date of the measurement, as the frame's file said it, else of the wish:
+/* The date of the measurement from the frame's file, else the time of the wish:
  * "2026-11-21T09:30:00Z" (ISO 8601). */
 enum {
     RC_DATE = 32

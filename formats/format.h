@@ -36,9 +36,10 @@ struct rc_format {
      * "height" when its unit is metres. */
     struct rc_grid *(*read)(const struct rc_file *file, const struct rc_wish *wish, size_t index,
                             struct rc_notes *notes, struct rc_err *err);
-    bool
-        sandboxed; /* both in a process of its own, which has the values too until they are read, */
-    bool copies;   /* and its library a copy of the file                                          */
+    /* `list` and `read` run in a process of their own, which holds the values too until they have been
+     * handed over. */
+    bool sandboxed;
+    bool copies; /* the library of that process holds a copy of the file */
 };
 
 /* Those of formats.list in its order, ended by NULL. */
@@ -56,13 +57,14 @@ enum rc_named {
     RC_NAMED_OTHERWISE, /* something else: a deflection, an error signal, ... */
 };
 
-/* The channel that a user means who names none. */
+/* The channel that is meant when the user names none. */
 struct rc_topography {
-    size_t index;        /* of the channel; the number of channels: none has the unit   */
+    size_t index;        /* of the channel; where none has the unit, the number of channels */
     enum rc_named named; /* by its name                                                 */
-    size_t alike;        /* channels with the unit of which the names say the same      */
+    size_t alike;        /* channels with the unit whose names are as good */
 };
-/* Of channel[0..n), those with this unit (NULL: with any): by names, see topography.c. */
+/* Chooses among the channels of channel[0..n) that have this unit (NULL: any), by their names; see
+ * topography.c. */
 struct rc_topography rc_format_topography(const struct rc_channel *channel, size_t n,
                                           const char *unit);
 

@@ -25,7 +25,7 @@ enum {
     WORD_MOST = 24
 };
 
-/* What the words of a name say of its channel, in lower case. */
+/* Words of a channel's name, in lower case, and what each tells of the channel. */
 static const struct {
     const char *word;
     unsigned says;

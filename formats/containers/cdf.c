@@ -99,7 +99,7 @@ list_of(struct rc_cdf *f, uint32_t tag, const char *what, uint64_t most, uint64_
         return rc_err_set(err, "the list of %s begins with %u, not %u", what, (unsigned)got,
                           (unsigned)tag);
     if (*n > most)
-        return rc_err_set(err, "a list of %llu %s: more than the %llu that can be meant",
+        return rc_err_set(err, "a list of %llu %s: more than the %llu that are read",
                           (unsigned long long)*n, what, (unsigned long long)most);
     return RC_OK;
 }
@@ -193,7 +193,7 @@ read_variable(struct rc_cdf *f, struct rc_cdf_variable *v, struct rc_err *err)
     v->size = count(f);
     v->at = f->version == 1 ? rc_bytes_u32(&f->b) : rc_bytes_u64(&f->b);
     if (f->b.past || v->type == 0 || v->type >= RC_CDF_TYPES)
-        return rc_err_set(err, "variable '%s' is cut off, or of type %u, which there is not",
+        return rc_err_set(err, "variable '%s' is cut off, or of the unknown type %u",
                           rc_piece_shown(quote, v->name), v->type);
     return RC_OK;
 }

@@ -1,6 +1,6 @@
 /*
- * The face of this folder: what files are packed in or laid out by, whatever format they are of. Each
- * library for such a thing is known to one or two files here.
+ * The face of this folder: layouts that files of several formats share, such as ZIP and HDF5. Each
+ * library for one of them is used by one or two files here.
  */
 #ifndef RC_CONTAINERS_H
 #define RC_CONTAINERS_H

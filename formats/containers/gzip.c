@@ -13,7 +13,7 @@
 
 enum {
     PIECE = 1 << 16,      /* bytes that are unpacked at once when they are only counted */
-    GZIP = 16 + MAX_WBITS /* how zlib is told that a gzip header comes                  */
+    GZIP = 16 + MAX_WBITS /* tells zlib to expect a header of gzip */
 };
 
 bool
@@ -46,7 +46,7 @@ refuse(const z_stream *z, int status, size_t n, struct rc_err *err)
                       z->msg == NULL ? "zlib" : z->msg);
 }
 
-/* Whether what follows a member is another one; zeros that fill a block up are none. */
+/* Whether another member follows; zeros that fill up a block may. */
 static enum rc_status
 look_on(const struct rc_file *file, const z_stream *z, bool *more, struct rc_err *err)
 {
@@ -56,12 +56,13 @@ look_on(const struct rc_file *file, const z_stream *z, bool *more, struct rc_err
     *more = rc_file_packed(&rest);
     for (size_t k = 0; k < rest.size && !*more; k++)
         if (rest.data[k] != 0)
-            return rc_err_set(err, "behind its gzip data stand %zu bytes that are none", rest.size);
+            return rc_err_set(err, "behind its gzip data stand %zu bytes that are no gzip data",
+                              rest.size);
     return RC_OK;
 }
 
-/* Unpacks all members into `to`, of *size bytes and one, or, where it is NULL, counts into *size
- * how many they are, up to `most`. */
+/* Unpacks all members into `to`, which has room for *size + 1 bytes. Where it is NULL, sets *size
+ * to the number of unpacked bytes, up to `most`. */
 static enum rc_status
 unpack(const struct rc_file *file, size_t most, unsigned char *to, size_t *size, struct rc_err *err)
 {

@@ -134,7 +134,8 @@ shape_of(hid_t set, struct rc_hdf_set *to)
             if (good)
                 last[wide++] = size[k];
         }
-    /* where a size is more than memory has, it stays so: sizes of the file have 64 bits everywhere */
+    /* a size that no memory has room for stays too large: sizes in the file have 64 bits on every
+     * machine */
     to->rows = last[0] < SIZE_MAX ? (size_t)last[0] : SIZE_MAX;
     to->columns = last[1] < SIZE_MAX ? (size_t)last[1] : SIZE_MAX;
     H5Tclose(type);
@@ -161,7 +162,7 @@ struct search {
     size_t n, most;
 };
 
-/* HDF5 1.12 tells of an object in another structure, by a function of another name. */
+/* HDF5 1.12 describes objects in another structure, given by a function of another name. */
 #if H5_VERSION_GE(1, 12, 0)
 #define visit_objects H5Ovisit3
 #define object_info H5O_info2_t

@@ -19,7 +19,7 @@ open_attribute(struct rc_hdf *h, const char *path, const char *name)
     return H5Aopen_by_name(h->file, path, name, H5P_DEFAULT, H5P_DEFAULT);
 }
 
-/* How many values an attribute has; 0 for more than can be meant. */
+/* How many values an attribute has; 0 for more than any file should have. */
 static size_t
 values_in(hid_t attribute)
 {

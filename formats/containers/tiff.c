@@ -15,7 +15,7 @@ struct rc_tiff {
     TIFF *tiff;
     const unsigned char *data;
     size_t size;
-    toff_t at; /* wherever libtiff has been told to go, beyond the end too */
+    toff_t at; /* the place that libtiff went to; it may lie beyond the end */
 };
 
 /* ---- a file in memory, as libtiff sees it ---- */

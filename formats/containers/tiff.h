@@ -22,8 +22,8 @@ struct rc_tiff;
 struct rc_tiff *rc_tiff_new(const struct rc_file *file, struct rc_err *err);
 void rc_tiff_free(struct rc_tiff *tiff); /* NULL is allowed */
 
-/* How many pages there are; RC_FAIL when one is damaged or leads nowhere. Stands on the first one
- * after it. */
+/* The number of pages; RC_FAIL when one is damaged or leads nowhere. Afterwards the first page is
+ * the current one. */
 enum rc_status rc_tiff_pages(struct rc_tiff *tiff, size_t *pages, struct rc_err *err);
 /* Goes to a page, from 0; false when there is none. */
 bool rc_tiff_page(struct rc_tiff *tiff, size_t page);
@@ -49,8 +49,8 @@ enum rc_status rc_tiff_values(struct rc_tiff *tiff, const struct rc_tiff_shape *
 
 /* Whether it begins as a TIFF does. */
 bool rc_tiff_is(const struct rc_file *file);
-/* Whether a directory entry for the tag, of this type, stands somewhere in the file: a quick look
- * for scores. */
+/* Whether the file holds, anywhere, the bytes of a directory entry for the tag, of this type: a
+ * quick look for scores. */
 bool rc_tiff_hints(const struct rc_file *file, uint16_t tag, uint16_t type);
 
 #endif

@@ -86,7 +86,7 @@ on_end(void *arg, const xmlChar *name, const xmlChar *prefix, const xmlChar *uri
     x->path[x->path_length] = '\0';
 }
 
-/* Called at the name of a document type, before anything in it is read. */
+/* Called at the name of a document type, before its contents are read. */
 static void
 on_document_type(void *arg, const xmlChar *name, const xmlChar *external, const xmlChar *system)
 {
@@ -105,7 +105,7 @@ on_document_type(void *arg, const xmlChar *name, const xmlChar *external, const 
 static void
 on_complaint(void *arg, xmlErrorPtr complaint)
 {
-    (void)arg, (void)complaint; /* the last one is asked for where it is told on */
+    (void)arg, (void)complaint; /* feed asks for the last one */
 }
 
 struct rc_xml *
@@ -151,7 +151,7 @@ feed(struct rc_xml *x, const unsigned char *bytes, size_t n, int last, struct rc
     if (why == NULL || why->message == NULL)
         return rc_err_set(err, "%s is no XML", x->name);
     rc_text_clean(said, sizeof said, why->message, strlen(why->message));
-    return rc_err_set(err, "%s is no whole XML: line %d: %s", x->name, why->line, said);
+    return rc_err_set(err, "%s is not well-formed XML: line %d: %s", x->name, why->line, said);
 }
 
 enum rc_status

@@ -194,7 +194,7 @@ rc_zip_read_member(struct rc_zip_read *a, size_t member, uint64_t most, rc_zip_t
     if (size > most) {
         rc_err_set(err,
                    "member '%s' of the archive holds %" PRIu64 " bytes, more than the %" PRIu64
-                   " that can be meant",
+                   " that are read",
                    shown, size, most);
         goto done;
     }

@@ -35,7 +35,7 @@ enum rc_status rc_zip_read_size(struct rc_zip_read *archive, size_t member, uint
 enum {
     RC_ZIP_CHUNK = 1 << 18
 };
-/* Takes the next bytes of a member: RC_ZIP_CHUNK of them but for the last time. */
+/* Takes the next bytes of a member: RC_ZIP_CHUNK of them, at the end fewer. */
 typedef enum rc_status rc_zip_take(void *arg, const unsigned char *bytes, size_t n,
                                    struct rc_err *err);
 /* Unpacks a member of at most `most` bytes into `take`, checks its CRC, and gives the MD5 checksum

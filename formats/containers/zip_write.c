@@ -18,8 +18,8 @@ struct rc_zip_write {
     zip_source_t *made; /* where the archive grows */
     zip_t *zip;         /* NULL once it is closed  */
     time_t time;
-    /* Freed at the end: where memory is short libzip frees what it was given, or does not, and no one
-     * can tell which. */
+    /* Freed at the end: where memory is short, libzip may or may not have freed what it was given,
+     * and does not say so. */
     void *given[MEMBERS];
     size_t members;
 };

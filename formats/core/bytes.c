@@ -116,7 +116,7 @@ value_at(const unsigned char *s, enum rc_raw raw, bool big)
     }
 }
 
-/* A loop for each type and order, so that none of them asks at every number. */
+/* A loop for each type and byte order, so that neither is tested at every number. */
 #define VALUES(raw, big)                                                                           \
     for (size_t k = 0; k < n; k++)                                                                 \
     v[k] = value_at(s + k * rc_raw_width(raw), raw, big)

@@ -41,7 +41,7 @@ size_t rc_raw_width(enum rc_raw raw);
 /* The next n numbers, unscaled; zeros past the end. */
 void rc_bytes_values(struct rc_bytes *bytes, enum rc_raw raw, double *v, size_t n);
 
-/* The number that lies at a place, where the cursor then stands behind it. */
+/* The number at a place; the cursor then stands behind it. */
 double rc_bytes_at(struct rc_bytes *bytes, size_t at, enum rc_raw raw);
 
 /* The refusal that every binary format needs: `what` should take `promised` bytes and has `present`

@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* The checksum of what `crc` is the checksum of (0: of nothing) with n more bytes behind it. */
+/* Continues a checksum: `crc` is that of the bytes before (0: of none), n more bytes follow. */
 uint32_t rc_crc32_add(uint32_t crc, const void *bytes, size_t n);
 /* The checksum of two parts one after another, the second of n bytes. */
 uint32_t rc_crc32_join(uint32_t first, uint32_t second, uint64_t n);

@@ -19,8 +19,8 @@ last_place(const double *x, size_t points)
     return place;
 }
 
-/* Positions may be rounded in the file, or off by a twentieth of a step: a stylus drifts that
- * much, and heights between two points so near say nothing else. */
+/* Positions count as even when they are off by their rounding in the file, or by a twentieth of a
+ * step: a stylus drifts that much, and so small a shift hardly changes the heights. */
 static enum rc_status
 judge_steps(const double *x, size_t points, struct rc_err *err)
 {
@@ -42,7 +42,7 @@ judge_steps(const double *x, size_t points, struct rc_err *err)
         return RC_OK;
     return rc_err_set(err,
                       "the positions are not evenly apart: the furthest off is point %zu, at %s "
-                      "where even steps of %s lead to %s, %.2g steps away; up to %.2g is let pass: "
+                      "where even steps of %s lead to %s, %.2g steps away; up to %.2g is accepted: "
                       "--even resamples the profile to even steps",
                       worst + 1, rc_number_text(a, x[worst]), rc_number_text(c, step),
                       rc_number_text(b, x[0] + step * (double)worst), off / step, most / step);

@@ -1,10 +1,10 @@
 /*
- * Profiles whose points are not evenly apart: told, and resampled where the user wishes it.
+ * Profiles whose points are unevenly spaced: refused, or resampled where the user wishes it.
  *
- * Between neighbouring points a profile is taken for straight. Across a gap of more than
- * RC_EVEN_GAP steps (or median spacings, where the step is finer) it is not known, and neither
- * next to a missing point. The step of its own is the median of the spacings, so that a gap or a
- * cluster of points does not change it, fitted so that whole steps fill the length.
+ * Between neighbouring points a profile is taken to be straight. It is unknown across a gap of more
+ * than RC_EVEN_GAP steps (or median spacings, where the step is finer) and next to a missing point.
+ * The profile's own step is the median of the spacings, so that a gap or a cluster of points does
+ * not change it; it is fitted so that whole steps fill the length.
  */
 #ifndef RC_EVEN_H
 #define RC_EVEN_H
@@ -22,14 +22,14 @@ struct rc_even {
     double widest;      /* gap that is bridged; 0: the points are the nodes   */
 };
 
-/* Lays nodes along points at x[0] < x[1] < ..., `metres` each (NAN: not known): by the wish, or the
- * points themselves where they are even, give or take a twentieth of a step or the last decimal
- * that is there. RC_FAIL where they are not and no wish says what then, and for a step that does
- * not fit. */
+/* Lays nodes along points at x[0] < x[1] < ..., `metres` each (NAN: not known): with the step that
+ * the user wishes, or at the points themselves where these are even, give or take a twentieth of a
+ * step or the last decimal in the file. RC_FAIL for uneven points when there is no wish, and for a
+ * step that does not fit. */
 enum rc_status rc_even_new(const double *x, size_t points, double metres,
                            const struct rc_file *file, const struct rc_wish *wish,
                            struct rc_even *even, struct rc_err *err);
-/* The heights at the nodes of those at the points. */
+/* Interpolates the heights z at the points to the nodes. */
 void rc_even_heights(const struct rc_even *even, const double *x, const double *z, size_t points,
                      double *v);
 

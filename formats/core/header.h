@@ -12,13 +12,13 @@ struct rc_piece {
     size_t n;
 };
 
-/* Whether it is that word, or begins with it, in either case of ASCII letters. */
+/* Whether the piece is that word, or begins with it, in either case of ASCII letters. */
 bool rc_piece_is(struct rc_piece piece, const char *word);
 bool rc_piece_begins(struct rc_piece piece, const char *word);
-/* Where the word begins in it, or NULL; case counts. */
+/* Where the word begins in the piece, or NULL; case counts. */
 const char *rc_piece_find(struct rc_piece piece, const char *word);
 struct rc_piece rc_piece_trim(struct rc_piece piece);
-/* Its lines, before the first one. */
+/* A cursor over its lines, before the first one. */
 struct rc_lines rc_piece_lines(struct rc_piece piece);
 /* Parts at the first of the characters `marks`, both trimmed; false when there is none. */
 bool rc_piece_part(struct rc_piece piece, const char *marks, struct rc_piece *before,
@@ -26,10 +26,10 @@ bool rc_piece_part(struct rc_piece piece, const char *marks, struct rc_piece *be
 /* The number that it begins with and the trimmed rest (which may be NULL); false when there is
  * none. Decimal commas are read as points. */
 bool rc_piece_number(struct rc_piece piece, double *value, struct rc_piece *rest);
-/* Whether it is a word for infinity, as C libraries print one: inf, -Infinity, 1.#INF. */
+/* Whether the piece is a word for infinity, as C libraries print one: inf, -Infinity, 1.#INF. */
 bool rc_piece_infinite(struct rc_piece piece, double *value);
 
-/* Metres in the unit of length that it is; NAN for another word. */
+/* Metres in one unit of the length that the piece names; NAN for another word. */
 double rc_piece_metres(struct rc_piece piece);
 /* For quoting in a message; as rc_text_shown. */
 const char *rc_piece_shown(char to[RC_SHOWN], struct rc_piece piece);
@@ -49,16 +49,17 @@ struct rc_field {
     enum rc_field_kind kind;
     size_t at;
 };
-/* Puts the value where the field of that key says, and does nothing when there is none. RC_FAIL for
- * a value that is not what it must be. */
+/* Puts the value into the member of the struct that the field of that key names; does nothing for
+ * other keys. RC_FAIL for a value of the wrong kind. */
 enum rc_status rc_field_take(const struct rc_field *field, size_t n, struct rc_piece key,
                              struct rc_piece value, void *into, struct rc_err *err);
-/* All lines that part at `marks`, up to the end or a line that is `last` (which may be NULL). */
+/* Takes all lines that hold one of the `marks`, up to the end or the line `last` (which may be
+ * NULL). */
 enum rc_status rc_fields_read(const struct rc_field *field, size_t n, struct rc_lines *lines,
                               const char *marks, const char *last, void *into, struct rc_err *err);
 
-/* Numbers parted by white space, line ends among it: n of them from *text on, NAN for the words
- * NaN, NA, BAD, -- and ---. RC_FAIL when a word is no number or there are too few of them. */
+/* Reads n numbers from *text on, separated by white space or line ends; NAN for the words NaN, NA,
+ * BAD, -- and ---. RC_FAIL when a word is no number or there are too few numbers. */
 enum rc_status rc_flow_read(struct rc_piece *text, double *v, size_t n, struct rc_err *err);
 
 #endif

@@ -1,5 +1,5 @@
 /*
- * What most readers come down to: a file described as maps of raw numbers at some place in it.
+ * Most readers do no more than describe a file as maps of raw numbers at some place in it.
  *
  * A format fills struct rc_maps from its header. Listing, checking the sizes against the bytes that
  * are there, decoding, turning, scaling and marking what is missing is then the same for all, and
@@ -34,11 +34,12 @@ struct rc_map {
     double missing_from,
         missing_to; /* raw numbers in [from, to] are missing; NAN: none is         */
     /* Instead of raw, at and padding: puts nx*ny raw numbers into v, NAN where missing, in the
-     * order that by_columns and so on say. Whoever sets it bounds nx*ny by the file's size. */
+     * order that by_columns and so on say. The reader that sets it has to check nx*ny against the
+     * file's size. */
     enum rc_status (*fill)(const struct rc_file *file, const struct rc_wish *wish,
                            const struct rc_map *map, double *v, struct rc_err *err);
     size_t more;   /* for fill                                                           */
-    char hint[96]; /* the spacing in a unit that the file does not give, for the refusal */
+    char hint[96]; /* the spacing where the file gives it without a unit; for the refusal */
 };
 
 struct rc_maps {

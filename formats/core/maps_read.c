@@ -129,7 +129,7 @@ decode(const struct rc_map *map, const struct rc_file *file, double *v, struct r
     return RC_OK;
 }
 
-/* What fill has put in the file's order, in the order of a grid. */
+/* Calls map->fill, and brings its values from the file's order into that of a grid. */
 static enum rc_status
 fill(const struct rc_map *map, const struct rc_file *file, const struct rc_wish *wish, double *v,
      struct rc_err *err)

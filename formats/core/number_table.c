@@ -16,7 +16,7 @@ ends_line(char c)
     return c == '\n' || c == '\r';
 }
 
-/* White space that does not separate here. */
+/* White space other than the separator. */
 static bool
 is_blank(const struct rc_number_table *t, char c)
 {
@@ -86,7 +86,7 @@ gather_power(const struct rc_number_table *t, const char *s, struct number *n)
     return digit;
 }
 
-/* The long way: any number of digits, rounded as it should be. */
+/* The slow way: any number of digits, correctly rounded. */
 static bool
 read_slowly(const char *start, const char *end, const char *mark_at, double *value)
 {
@@ -213,8 +213,9 @@ bad_field(const struct rc_number_table *t, size_t line, const char *s, char deci
                       line, quote);
 }
 
-/* One row from s, which is not at an empty line. Values beyond `most` are counted, not stored.
- * Gives its end, before the end of the line, or NULL and *bad, the field that is to blame. */
+/* Reads one row from s, which is not at an empty line. Values beyond `most` are counted, not
+ * stored. Returns the end of the row, before its line end; or NULL, with *bad at the field that is
+ * wrong. */
 static const char *
 read_row(const struct rc_number_table *t, const char *s, size_t most, double *v, size_t *count,
          char *decimal, const char **bad)
@@ -335,7 +336,8 @@ find_separator(struct rc_number_table *t, const char *s, size_t line, struct rc_
     return RC_OK;
 }
 
-/* RC_FAIL where "1,5" may be two columns of whole numbers or one of fractions: the user knows. */
+/* RC_FAIL where "1,5" may be two columns of whole numbers or one of fractions: only the user knows
+ * which. */
 static enum rc_status
 refuse_ambiguous_comma(const struct rc_number_table *t, const struct rc_wish *wish,
                        struct rc_err *err)

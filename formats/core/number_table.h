@@ -23,14 +23,15 @@ struct rc_number_table {
     size_t columns, rows;
 };
 
-/* Finds out what the wish leaves open, and counts. RC_FAIL when there is no row, when the first one
- * holds something else than numbers, or where separator and decimal mark cannot be told apart. */
+/* Finds out what the wish leaves open, and counts columns and rows. RC_FAIL when there is no row,
+ * when the first one holds anything but numbers, or where separator and decimal mark cannot be told
+ * apart. */
 enum rc_status rc_number_table_open(struct rc_number_table *table, const struct rc_lines *lines,
                                     const struct rc_wish *wish, struct rc_err *err);
 /* columns * rows; RC_FAIL when the text is too short for so many values. */
 enum rc_status rc_number_table_size(const struct rc_number_table *table, size_t *n,
                                     struct rc_err *err);
-/* All values, row by row, NaN where missing. RC_FAIL names the line that is not as it must be. */
+/* All values, row by row, NaN where missing. RC_FAIL names the line that does not fit. */
 enum rc_status rc_number_table_read(struct rc_number_table *table, double *v, struct rc_err *err);
 
 #endif

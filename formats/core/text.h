@@ -23,8 +23,8 @@ bool rc_utf8_valid(const char *text);
 /* Puts the bytes of a code point below U+10000, 1 to 3 without a NUL; gives their number. */
 size_t rc_utf8_put(char *to, unsigned code);
 
-/* Bytes of the control character that text begins with: 1, or 2 of U+0080 to U+009F in UTF-8, which act
- * on a terminal as well; 0: it begins with another. */
+/* The number of bytes of the control character that text begins with, 0 when it begins with
+ * another: 1, or 2 for U+0080 to U+009F in UTF-8, which act on a terminal as well. */
 size_t rc_control_size(const char *text);
 /* Puts `mark` in the place of each byte of a control character. Gives `text`. */
 char *rc_text_harmless(char *text, char mark);
@@ -36,7 +36,7 @@ char *rc_text_clean(char *to, size_t size, const char *text, size_t n);
 enum {
     RC_SHOWN = 48
 };
-/* The same for quoting in a message: short. */
+/* The same, cut short for quoting in a message. */
 const char *rc_text_shown(char to[RC_SHOWN], const char *text, size_t n);
 const char *rc_word_shown(char to[RC_SHOWN], const char *word); /* up to its NUL */
 

@@ -1,5 +1,5 @@
-/* What the user says beside a file, and what is said of it: spacings and units that the file lacks or
- * that the user overrules. */
+/* What the user says beside a file, such as spacings and units that the file lacks or gives wrong, and
+ * what is noted for the user. */
 #ifndef RC_WISH_H
 #define RC_WISH_H
 
@@ -28,26 +28,26 @@ struct rc_channel {
     double dx, dy; /* m; NAN when the file does not say                                        */
 };
 
-/* Things worth saying that are no errors. */
+/* Remarks on a file, which are no errors. */
 struct rc_notes {
     char text[8][200];
     size_t n;
-    size_t held; /* bytes that the process which read the file held of its own; 0: this one did */
+    size_t held; /* private memory of the process that read the file; 0: this process read it */
 };
 void rc_note(struct rc_notes *notes, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Sets shape->dx and dy: as wished (dy as dx when only dx was), else as the file says; NAN is a
- * file that does not say. RC_FAIL when neither says, or for a spacing that is not positive and
- * finite. Notes where a wish overrules the file. */
+/* Sets shape->dx and dy: as wished (dy as dx when only dx was), else as the file says (NAN: it does
+ * not say). RC_FAIL when neither says, or for a spacing that is not positive and finite. Notes
+ * where a wish overrules the file. */
 enum rc_status rc_spacing(const struct rc_wish *wish, double dx, double dy, struct rc_shape *shape,
                           struct rc_notes *notes, struct rc_err *err);
-/* Sets *metres, what one unit of the file's heights is worth: as wished, else as the file says.
+/* Sets *metres, the metres in one unit of the file's heights: as wished, else as the file says.
  * RC_FAIL when neither does; `unit` is then the file's own word for it, "" for none. */
 enum rc_status rc_height_unit(const struct rc_wish *wish, double by_file, const char *unit,
                               double *metres, struct rc_notes *notes, struct rc_err *err);
 
-/* Adds to the refusal of a file that does not say its spacing that it does not say the unit of its
- * heights either, so that both are asked for at once. */
+/* For a file that is refused because it lacks its spacing: where it lacks the unit of its heights
+ * too, says so in the refusal, so that the user is asked for both at once. */
 void rc_lacks_unit(const struct rc_wish *wish, double by_file, struct rc_err *err);
 
 #endif

@@ -18,19 +18,20 @@ enum {
     RC_HEADER_MAX = 65536 /* bytes of one frame's header, first to last line feed */
 };
 
-/* Several processes that read or write one file, each the rows of every map that it holds. All call the same
- * functions with the same headers; those that fail do so for all. */
+/* Several processes that read or write one file, each the rows that it holds of every map. All of them
+ * call the same functions with the same headers; where one fails, all fail. */
 struct rc_share {
     void *ctx;
-    bool first; /* this one writes what stands between the values */
+    bool first; /* this process writes what stands between the values */
     void (*rows)(void *ctx, const struct rc_shape *shape, size_t *first, size_t *n);
-    /* Bytes of this process at a place of the file; 0 of them is a part too. */
+    /* Reads or writes the bytes of this process at a place of the file. All processes call it, also
+     * with 0 bytes. */
     enum rc_status (*read)(void *ctx, uint64_t at, void *to, size_t bytes, struct rc_err *err);
     enum rc_status (*write)(void *ctx, uint64_t at, const void *from, size_t bytes,
                             struct rc_err *err);
-    /* CRC-32 of the parts of all, one after another. */
+    /* CRC-32 of the parts of all processes, one after another. */
     uint32_t (*crc)(void *ctx, uint32_t own, size_t bytes);
-    /* RC_OK where all can go on; else RC_FAIL for all, with the sentence of one who cannot. */
+    /* RC_OK when every process can go on; else RC_FAIL in all, with the message of one that cannot. */
     enum rc_status (*agree)(void *ctx, enum rc_status status, struct rc_err *err);
 };
 
@@ -41,8 +42,8 @@ struct rc_reader;
  * refused; 0 sets no limit. NULL when memory is short. */
 struct rc_reader *rc_reader_new(FILE *file, size_t first_case, size_t memory, struct rc_err *err);
 
-/* From now on values are read by several, `share` being this one's part in it and outliving the
- * reader; `file` is the same file, which every process has opened. */
+/* From now on several processes read the values. `share` is the part of this one and has to outlive
+ * the reader; `file` is the same file, which every process has opened. */
 void rc_reader_share(struct rc_reader *reader, const struct rc_share *share);
 
 /* Whether a frame of this shape, whose values take `bytes`, may be read; RC_FAIL, and *err says why. */
@@ -69,7 +70,7 @@ void rc_reader_free(struct rc_reader *reader);
 struct rc_writer;
 
 struct rc_writer *rc_writer_new(FILE *file, struct rc_err *err);
-/* One whose file is written by several, from this place on. */
+/* A writer whose file several processes write, from this place on. */
 struct rc_writer *rc_writer_new_shared(const struct rc_share *share, uint64_t at,
                                        struct rc_err *err);
 /* Writes one frame, in grid->type. RC_FAIL when the header grows too long or the device refuses. */
@@ -79,8 +80,9 @@ enum rc_status rc_writer_put(struct rc_writer *writer, const struct rc_grid *gri
 enum rc_status rc_writer_end(struct rc_writer *writer, struct rc_err *err);
 void rc_writer_free(struct rc_writer *writer);
 
-/* Ends a stream, or one that has not begun, with RCGFAIL, the message and the exit status to come,
- * 1 or 2: whoever reads it fails too. Says nothing when even that cannot be written. */
+/* Ends a stream, whether begun or not, with RCGFAIL, the message and the exit status that this
+ * program will have, 1 or 2: whoever reads the stream fails too. Gives no sign when even that
+ * cannot be written. */
 void rc_stream_fail(FILE *file, const char *message, int exit_status);
 
 #endif

@@ -11,7 +11,7 @@ enum {
     RC_CHUNK = 8192,  /* values converted at a time where they are not read as they are  */
     RC_PIECE = 16384, /* values read or written at a time where they are: while they are
                          summed, they lie in the cache                                   */
-    RC_FAIL_MAX = 399 /* bytes of a message in RCGFAIL: what a reader repeats            */
+    RC_FAIL_MAX = 399 /* bytes of a message in RCGFAIL, as a reader repeats it */
 };
 
 /* Before the exit status in RCGFAIL, where it is not 1; ")" follows it. */

@@ -77,7 +77,7 @@ rc_reader_last_case(const struct rc_reader *r)
     return r->last_case;
 }
 
-/* What to say where bytes were promised and none came. */
+/* The refusal of a stream that ends where more bytes were promised. */
 static enum rc_status
 cut_off(struct rc_reader *r, const char *where, struct rc_err *err)
 {
@@ -277,7 +277,7 @@ set_keys(struct rc_grid *g, const struct head *head, struct rc_err *err)
     return RC_OK;
 }
 
-/* Numbers the frame's case on from those of the streams before this one. */
+/* Numbers the frame's case on from the cases of the streams before this one. */
 static enum rc_status
 number_case(struct rc_reader *r, struct rc_grid *g, struct rc_err *err)
 {
@@ -359,7 +359,7 @@ read_f32(struct rc_reader *r, double *v, size_t n, struct rc_err *err)
     return RC_OK;
 }
 
-/* The rows that this process holds, each of them in a file that all read. */
+/* Reads the rows that this process holds from a file that all processes read. */
 static enum rc_status
 read_part(struct rc_reader *r, struct rc_grid *g, struct rc_err *err)
 {
@@ -367,13 +367,15 @@ read_part(struct rc_reader *r, struct rc_grid *g, struct rc_err *err)
     size_t width = g->type == RC_F32 ? sizeof(float) : sizeof(double), nodes = rc_grid_nodes(g);
     const struct rc_shape shape = rc_grid_shape(g);
     const off_t at = ftello(r->file);
-    /* single values come to the second half of the room for double ones */
+    /* values in single precision are read into the second half of the room for double ones */
     char *to = (char *)g->v + nodes * (sizeof *g->v - width);
     size_t first, rows;
     uint32_t crc;
 
     if (at < 0)
-        return rc_err_set(err, "several processes read a file, this is none (%s)", strerror(errno));
+        return rc_err_set(err,
+                          "several processes can read a file only, which this input is not (%s)",
+                          strerror(errno));
     share->rows(share->ctx, &shape, &first, &rows);
     if (share->read(share->ctx, (uint64_t)at + first * g->nx * width, to, nodes * width, err) !=
         RC_OK)
@@ -420,7 +422,7 @@ read_crc(struct rc_reader *r, struct rc_err *err)
     return RC_OK;
 }
 
-/* Of several processes one may have no memory for its rows: the others do not wait for these. */
+/* One of several processes may lack the memory for its rows: then the others must not wait for it. */
 static enum rc_status
 agree(const struct rc_reader *r, enum rc_status status, struct rc_err *err)
 {
@@ -504,7 +506,7 @@ begins(const char *word, const char *text)
     return strncmp(word, text, strlen(text)) == 0;
 }
 
-/* Looks at the first line, n as read_line gives it, whether it is one of a stream. */
+/* Whether the first line, whose length n read_line gave, is that of a stream. */
 static void
 look_at_first(struct rc_reader *r, const char *line, long n)
 {

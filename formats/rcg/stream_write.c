@@ -8,8 +8,8 @@
 #include "formats/core/core.h"
 
 struct rc_writer {
-    FILE *file;                   /* NULL: several write                    */
-    const struct rc_share *share; /* then; and where the next byte comes to */
+    FILE *file;                   /* NULL: several processes write */
+    const struct rc_share *share; /* then; and the place of the next byte */
     uint64_t at;
     size_t frames;
 };
@@ -133,7 +133,7 @@ write_f32(FILE *file, const double *v, size_t n, uint32_t crc)
 
 /* ---- a file that several write ---- */
 
-/* What stands between values, the same for all: the first of them writes it. */
+/* Writes what stands between values, the same in all processes: the first of them does it. */
 static enum rc_status
 write_text(struct rc_writer *w, const char *text, size_t n, struct rc_err *err)
 {
@@ -145,7 +145,7 @@ write_text(struct rc_writer *w, const char *text, size_t n, struct rc_err *err)
     return RC_OK;
 }
 
-/* The values of this process as they stand in the file. Memory: NULL where they are that already. */
+/* Makes *own the values of this process as they stand in the file, NULL where g->v is that already. */
 static enum rc_status
 as_stored(const struct rc_grid *g, void **own, struct rc_err *err)
 {

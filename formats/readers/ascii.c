@@ -65,9 +65,9 @@ spacing(const struct rc_ascii_head *h, const struct rc_number_table *table, doub
         *dy = *dx;
 }
 
-/* Whether a raster is run through: column `slow` keeps still while `fast` goes on in one direction,
- * then makes a step, always in one direction too. Four points of one row are a raster, fewer could
- * be anything. */
+/* Whether two columns run through a raster: column `slow` stays the same while `fast` goes on in
+ * one direction, then makes a step, always in one direction too. Four points of one row are a
+ * raster, fewer could be anything. */
 static bool
 is_raster(const double *v, size_t rows, size_t slow, size_t fast)
 {
@@ -168,7 +168,7 @@ ascii_score(const struct rc_file *file)
         return 0;
     if (ascii_open(file, &rc_no_wish, &h, &table, NULL) == RC_OK)
         return h.known ? 90 : 40;
-    /* A little for what begins as numbers do, so that a refusal says what is wrong with them. */
+    /* A low score for what begins like numbers, so that the refusal says what is wrong with them. */
     c = file->data[0];
     return h.known ? 30 : (c >= '0' && c <= '9') || c == '-' || c == ' ' ? 5 : 0;
 }

@@ -74,7 +74,7 @@ struct surface {
     struct rc_hdf *hdf;
     struct rc_hdf_set set;
     double dx, dy, metres; /* NAN when not told */
-    double none;           /* from here on missing; NAN: not told */
+    double none;           /* values from here on are missing; NAN: not given */
     char unit[32];
 };
 

@@ -162,7 +162,7 @@ read_field(const struct rc_file *file, const struct item *from, struct field *f,
     *f = (struct field){.xy = {"", 0}, .z = {"", 0}};
     b.at = from->at;
     if ((end = enter(&b, from->at + from->n, "GwyDataField")) == 0)
-        return rc_err_set(err, "an item that should be a GwyDataField is none");
+        return rc_err_set(err, "an item that should be a GwyDataField is not one");
     while (next_item(&b, end, &item, &damaged, err)) {
         for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
             if (rc_piece_is(item.name, numbers[k].name) && item.type == numbers[k].type) {

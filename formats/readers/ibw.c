@@ -38,8 +38,8 @@ static const struct {
 };
 /* clang-format on */
 
-/* Atomic force microscopes of one maker keep all channels in one wave whose unit is that of the
- * first; these labels tell of another one. */
+/* Microscopes of one maker keep all channels in one wave, which has the unit of the first channel;
+ * these labels show that a channel has another. */
 /* clang-format off */
 static const struct {
     const char *begins, *unit;

@@ -2,9 +2,9 @@
  * JPK image scans (.jpk, .jpk-qi-image): a TIFF whose first page is a thumbnail with the data of
  * the scan in private tags, and whose other pages are one channel each.
  *
- * A channel has several slots, ways to understand its numbers, each given from the raw number on:
- * the one that the file names as default counts. The first line of a scan is the lowest, unless the
- * page says that the grid is reflected.
+ * A channel has several slots, each a scale for the raw numbers: the one that the file names as
+ * default is used. The first line of a scan is the lowest, unless the page says that the grid is
+ * reflected.
  */
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /*
  * Zygo MetroPro: a header of big-endian fields, an intensity image that is passed over, and the
- * phase as 32-bit numbers, row 0 first. A height is phase * S * O * wavelength / R, where R is how
- * fine the phase was kept.
+ * phase as 32-bit numbers, row 0 first. A height is phase * S * O * wavelength / R, where R is the
+ * resolution of the phase.
  */
 #include <math.h>
 #include <string.h>

@@ -50,7 +50,8 @@ static const struct rc_keep keys[] = {
     {"\\Operator", "file.operator"},
 };
 
-/* What a key begins with ("\@2:Z scale: V ..." has a colon in it). */
+/* Parts a line into key and value, but not at the colon of a key that begins as "\@2:Z scale: V
+ * ..." does. */
 static bool
 part_line(struct rc_piece line, struct rc_piece *key, struct rc_piece *value)
 {

@@ -3,8 +3,8 @@
  * variables, and the values of each variable from its offset on. A variable along the record
  * dimension is spread over the records, which hold a row of each such variable.
  *
- * The library for it also fetches from the network and reads HDF5; what is needed here is this
- * header. A map is a variable of two dimensions. Rows run along the second to last dimension, but
+ * NetCDF's library would also fetch files from the network and read HDF5; only the header is needed
+ * here. A map is a variable of two dimensions. Rows run along the second to last dimension, but
  * for (x, y), which is turned. Spacings are those of the variables that bear the dimensions' names.
  */
 #include <math.h>
@@ -71,7 +71,7 @@ check_bytes(const struct rc_cdf *f, const struct rc_cdf_variable *v, struct rc_e
     return RC_OK;
 }
 
-/* The step of a coordinate in metres, NAN where it is not told. */
+/* The step of a coordinate in metres, NAN where the file does not give it. */
 static enum rc_status
 step_of(const struct rc_cdf *f, size_t dimension, double *step, bool *periodic, struct rc_err *err)
 {
@@ -107,7 +107,7 @@ step_of(const struct rc_cdf *f, size_t dimension, double *step, bool *periodic, 
 
 struct map {
     const struct rc_cdf_variable *v;
-    bool turned; /* (x, y): rows run along the first dimension's other */
+    bool turned; /* the dimensions are (x, y), not (y, x) */
     bool periodic;
     struct rc_heights heights;
     char unit[RC_SHOWN];

@@ -118,7 +118,8 @@ judge_direction(struct profile *p, struct rc_err *err)
     for (size_t k = 0; k < rows; k++) {
         double d = k == 0 ? 1 : (x[k * columns] - x[(k - 1) * columns]) * (p->falls ? -1 : 1);
         if (!isfinite(x[k * columns]) || !(d > 0))
-            return rc_err_set(err, "the positions do not run on at row %zu of the table", k + 1);
+            return rc_err_set(
+                err, "the positions do not go on in one direction at row %zu of the table", k + 1);
     }
     return RC_OK;
 }
@@ -157,8 +158,9 @@ height_of(const struct profile *p, size_t row)
     return p->valid < p->table.numbers.columns && v[p->valid] == 0 ? NAN : v[p->z];
 }
 
-/* Lays even nodes along the profile and, unless v is NULL, puts the heights there into v. Falling
- * positions are turned round: the last point is the first node, at the same place as before. */
+/* Lays even nodes along the profile and, unless v is NULL, puts the heights there into v. A profile
+ * whose positions fall is turned round: its last point becomes the first node, at the same place as
+ * before. */
 static enum rc_status
 lay_nodes(const struct profile *p, const struct rc_file *file, const struct rc_wish *wish,
           struct rc_even *even, double *v, struct rc_err *err)
@@ -237,7 +239,7 @@ profile_score(const struct rc_file *file)
     if (!rc_file_is_text(file) && !rc_file_is_utf16(file))
         return 0;
     score = profile_open(&p, file, &rc_no_wish, NULL) == RC_OK ? 60 : 3;
-    /* 3: so that a table says what is wrong with it; one column could be anything */
+    /* 3: a table is refused with what is wrong with it; one column could be anything */
     if (p.table.v == NULL || p.table.numbers.columns < 2)
         score = 0;
     rc_titled_table_close(&p.table);

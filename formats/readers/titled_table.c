@@ -7,7 +7,7 @@ enum {
     HEADER_MOST = 1000 /* lines before a table */
 };
 
-/* UTF-8 from UTF-16; what is no character becomes '?'. */
+/* UTF-8 from UTF-16; what is no valid character becomes '?'. */
 static char *
 narrow(const struct rc_file *file, size_t *n)
 {
@@ -27,7 +27,7 @@ narrow(const struct rc_file *file, size_t *n)
     return text;
 }
 
-/* Whether the line has so many numbers or more and nothing else. */
+/* Whether the line holds at least so many numbers and nothing else. */
 static bool
 is_row(struct rc_piece line, size_t columns)
 {

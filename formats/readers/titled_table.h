@@ -21,7 +21,8 @@ struct rc_titled_table {
  * The caller closes it in either case. */
 enum rc_status rc_titled_table_open(struct rc_titled_table *table, const struct rc_file *file,
                                     size_t columns, const struct rc_wish *wish, struct rc_err *err);
-/* Then its values. RC_FAIL names the row that is not as the first one. */
+/* Then reads its values. RC_FAIL names the first row that differs from the first one in its
+ * columns. */
 enum rc_status rc_titled_table_read(struct rc_titled_table *table, struct rc_err *err);
 void rc_titled_table_close(struct rc_titled_table *table);
 

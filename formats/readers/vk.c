@@ -56,9 +56,9 @@ unpack_member(struct rc_zip_read *archive, size_t member, const struct rc_file *
     return rc_zip_read_bytes(archive, member, size, n, NULL, err);
 }
 
-/* The n bytes of the VK4 file that the archive holds, which the caller frees; NULL with the reason.
- * The archive counts its offsets from the start of the file or from its own, PK 3 4, which may
- * stand in the picture too. */
+/* The n bytes of the VK4 file in the archive, which the caller frees; NULL with the reason. The
+ * offsets in the archive count from the start of the file or from that of the archive, PK 3 4,
+ * which the picture may hold by chance too. */
 static unsigned char *
 unpack(const struct rc_file *file, size_t *n, struct rc_err *err)
 {

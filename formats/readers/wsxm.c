@@ -1,5 +1,5 @@
 /*
- * WSxM (Nanotec): a text header of so many bytes, then the numbers, little-endian, from the bottom
+ * WSxM (Nanotec): a text header that states its size, then the numbers, little-endian, from the bottom
  * right corner backwards. What the numbers mean is said by Z Amplitude only, the height from the
  * lowest to the highest of them: a value is number * amplitude / (highest - lowest).
  *

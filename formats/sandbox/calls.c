@@ -24,13 +24,13 @@
 #define ARCHITECTURE AUDIT_ARCH_PPC64LE
 #endif
 
-/* Not s390x: there mmap has one argument, a place in memory that holds the others, and no filter sees
- * that. */
+/* Not s390x: there mmap has one argument, a place in memory that holds the others, and no filter
+ * can look there. */
 
 #ifdef ARCHITECTURE
 
-/* Allowed whatever their arguments are: they act on this process alone and give away nothing. The calls that
- * block and catch signals are not among them: SIGALRM would no longer end it. */
+/* Allowed whatever their arguments are: they act on this process alone and give nothing away. The calls
+ * that block and catch signals are not allowed: with them a child could outlive SIGALRM. */
 static const unsigned harmless[] = {
     __NR_exit_group,
     __NR_exit,
@@ -107,8 +107,8 @@ place(unsigned argument)
     return offsetof(struct seccomp_data, args) + 8 * argument + lower;
 }
 
-/* Of the call with this number: allowed where all conditions hold, else refused. Other calls go on behind
- * it, with their number still loaded. */
+/* Filters the call with this number: it is allowed where all conditions hold, else refused. Other calls
+ * pass on to the instructions behind, with their number still loaded. */
 static void
 allow_if(struct program *p, unsigned call, const struct condition *c, unsigned conditions)
 {
@@ -153,7 +153,7 @@ write_program(struct program *p, int out, int in)
 bool
 rc_calls_can_be_filtered(void)
 {
-    /* a filter that is nowhere: EFAULT where there are filters, EINVAL where there are none */
+    /* a filter at no address: EFAULT where the system has filters, EINVAL where it has none */
     return prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, NULL, 0, 0) != 0 && errno == EFAULT;
 }
 

@@ -31,8 +31,8 @@ rc_child_memory_copy(pid_t child, uint64_t from, void *to, size_t n)
 #endif
 }
 
-/* The number of kB after `key` at the beginning of a line of /proc/CHILD/NAME; 0: none. Read without memory
- * from the heap, which the next child inherits. */
+/* The number of kB after `key` at the beginning of a line of /proc/CHILD/NAME; 0: no such line. Takes no
+ * memory from the heap, because the next child would inherit it. */
 static size_t
 kilobytes(pid_t child, const char *name, const char *key)
 {

@@ -11,8 +11,9 @@
  * the system does not allow it or the child has no such memory. */
 bool rc_child_memory_copy(pid_t child, uint64_t from, void *to, size_t n);
 
-/* Bytes that a child holds and shares with no other process, and what it gave back since it held most;
- * 0 where the system does not say. Code is not counted, which is a file's. */
+/* Private memory of a child at its largest, in bytes: what the child holds and shares with no other
+ * process, and what it has given back since. 0 where the system does not say. Code is not counted,
+ * because it is memory of a file. */
 size_t rc_child_memory_held(pid_t child);
 
 #endif

@@ -10,7 +10,7 @@
 #include "formats/core/core.h"
 
 static const double seconds_least = 0.8, bytes_a_second = 1e7;
-/* By the clock it may take so many times longer: a child that only waits uses no processor time. */
+/* The bound by the clock is so many times larger: a child that only waits uses no processor time. */
 static const double clock_factor = 10;
 
 double
@@ -61,7 +61,7 @@ set_timer(int which, double seconds)
 void
 rc_confine(const struct rc_file *file)
 {
-    /* the parent may catch these, to tidy up or to go on; its child is to die of them */
+    /* the parent may catch these, to tidy up or to go on; the child has to die of them */
     static const int signals[] = {SIGPROF, SIGALRM, SIGINT,  SIGTERM, SIGHUP, SIGPIPE,
                                   SIGSEGV, SIGBUS,  SIGABRT, SIGFPE,  SIGILL, SIGSYS};
     size_t space = space_now();
@@ -73,10 +73,10 @@ rc_confine(const struct rc_file *file)
         signal(signals[k], SIG_DFL);
     set_timer(ITIMER_PROF, rc_confine_seconds(file));
     set_timer(ITIMER_REAL, clock_factor * rc_confine_seconds(file));
-    limit(RLIMIT_CPU, (rlim_t)rc_confine_seconds(file) + 2); /* for one that blocks the signals */
+    limit(RLIMIT_CPU, (rlim_t)rc_confine_seconds(file) + 2); /* where the signals are blocked */
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_FSIZE, 0);
-    limit(RLIMIT_NOFILE, 0); /* a file cannot name others to be read */
+    limit(RLIMIT_NOFILE, 0); /* so that a file cannot have others read by their names */
     if (space > 0)
         limit(RLIMIT_AS, (rlim_t)(space + rc_memory_limit(file->size)));
 }

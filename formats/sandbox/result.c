@@ -60,7 +60,7 @@ rc_result_receive_list(struct rc_pipes *p, struct rc_channel *channel, size_t *n
     for (size_t k = 0; k < shown; k++) {
         channel[k].name[sizeof channel->name - 1] = '\0';
         channel[k].unit[sizeof channel->unit - 1] = '\0';
-        rc_text_harmless(channel[k].name, ' '); /* the child may say what a file made it say */
+        rc_text_harmless(channel[k].name, ' '); /* the names may come from the file */
         rc_text_harmless(channel[k].unit, ' ');
     }
     return true;

@@ -16,7 +16,7 @@ struct rc_pipes {
     int reply;   /* a socket: writing to a child that has died must not end the parent by SIGPIPE */
 };
 
-/* Each gives whether all of it went through. A list is n channels, of which the first `most` are
+/* All return whether everything went through. A list is n channels, of which the first `most` are
  * sent; when n is 0, `said` is the reason. */
 bool rc_result_send_list(struct rc_pipes *pipes, const struct rc_channel *channel, size_t n,
                          size_t most, const struct rc_err *said);

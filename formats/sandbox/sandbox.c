@@ -80,7 +80,7 @@ leave(struct rc_pipes *p, bool sent)
     _exit(fflush(p->result) == 0 && sent ? 0 : 1);
 }
 
-/* Waits for the end of the child; when its result was not whole, *err is how it ended. */
+/* Waits for the end of the child; where its result is not whole, *err says how the child ended. */
 static void
 finish(struct rc_pipes *p, const struct rc_file *file, bool whole, struct rc_err *err)
 {

@@ -1,9 +1,9 @@
 /*
- * A process of its own for libraries that were not made for hostile files (libhdf5, libtiff): what
- * a file makes them do, they do in a child with bounded memory and time that can open no other file
- * and, where the system filters calls, do nothing but compute. It hands its result back through a
- * pipe; when it dies, its file is refused and nothing else is harmed. confine.h and calls.h have the
- * bounds. Call from one thread.
+ * A process of its own for libraries that were not made for hostile files (libhdf5, libtiff). They
+ * run in a child with bounded memory and time, which can open no other file and, where the system
+ * filters calls, can do nothing but compute. The child hands its result back through a pipe; when it
+ * dies, the file is refused and nothing else is harmed. confine.h and calls.h have the bounds. Call
+ * from one thread.
  */
 #ifndef RC_SANDBOX_H
 #define RC_SANDBOX_H

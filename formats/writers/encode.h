@@ -20,7 +20,7 @@ struct rc_buffer {
 void rc_buffer_add(struct rc_buffer *buffer, const void *bytes, size_t n);
 void rc_buffer_print(struct rc_buffer *buffer, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
-/* Text with the characters of XML's markup spelt out. */
+/* Text with the special characters of XML escaped. */
 void rc_buffer_escaped(struct rc_buffer *buffer, const char *text);
 void rc_buffer_u16(struct rc_buffer *buffer, uint16_t value);
 void rc_buffer_u32(struct rc_buffer *buffer, uint32_t value);

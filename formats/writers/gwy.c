@@ -11,7 +11,7 @@
 #include "encode.h"
 #include "formats/export.h"
 
-/* Where bytes go; without a file they are only counted, because an object tells its size first. */
+/* Where bytes go; without a file they are only counted, because an object begins with its size. */
 struct sink {
     FILE *out;
     uint64_t n;
@@ -79,7 +79,7 @@ item_text(struct sink *s, const char *name, const char *value)
 
 typedef void body(struct sink *s, const void *what);
 
-/* Name, size, body: the body runs twice, first to be measured. */
+/* Writes name, size and body; the body runs twice, first to be measured. */
 static void
 object(struct sink *s, const char *name, body *write, const void *what)
 {

@@ -48,7 +48,7 @@ put_text(hid_t set, const char *name, const char *value)
     return good;
 }
 
-/* Of the depths of a stack each has a depth of its own, which the scale tells. */
+/* Leaves out the key `depth` in a stack, whose scale holds the depths of all its frames. */
 static bool
 put_attributes(hid_t set, const struct rc_grid *g, bool stack)
 {
@@ -89,8 +89,8 @@ struct output {
     size_t scales;
 };
 
-/* Where the slices of a stack or the rows of a section are, which the caller frees; NULL where neither
- * is known or memory is short. */
+/* The places of a stack's slices or a section's rows, which the caller frees; NULL where they are
+ * not known or memory is short. */
 static double *
 depths_of(const struct rc_stack *s, size_t *n)
 {
@@ -128,8 +128,8 @@ put_scale(struct output *o, struct scale *scale)
     return good;
 }
 
-/* Makes the depths the scale of the first axis: one that was written before, where it is the same.
- * Takes `at` over. */
+/* Makes the depths the scale of the first axis; a scale of the same depths that was written before
+ * is used again. Takes over `at`. */
 static bool
 attach_depths(struct output *o, hid_t set, double *at, size_t n)
 {

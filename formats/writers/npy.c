@@ -13,7 +13,7 @@ enum {
     ALIGN = 64
 };
 
-/* Even depths, as far as an array can go: it does not say where they are. */
+/* Refuses uneven depths: an array does not say where its slices are. */
 static enum rc_status
 check_stack(const struct rc_stack *s, size_t stacks, struct rc_err *err)
 {

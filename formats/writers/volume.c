@@ -106,14 +106,15 @@ place_nodes(struct rc_volume *v, const struct rc_grid *g, struct rc_err *err)
 {
     const char *section = rc_grid_get(g, "section");
     bool cut = section != NULL, along_y = cut && strcmp(section, "x") == 0;
-    int first = along_y ? 1 : 0, other = along_y ? 0 : 1; /* the axis along rows, the other one */
+    int first = along_y ? 1 : 0, other = along_y ? 0 : 1; /* the axis along rows; the other one */
     double at = 0;
 
     v->n[first] = g->nx;
     v->n[other] = cut ? 1 : g->ny;
     v->n[2] = cut ? g->ny : v->layers;
     if (cut && v->layers > 1)
-        return rc_err_set(err, "sections at several depths: a section holds all of its own");
+        return rc_err_set(err, "a section holds all depths itself: sections at several depths do "
+                               "not fit into one file");
     for (int axis = 0; axis < 3; axis++)
         if ((v->at[axis] = calloc(v->n[axis], sizeof(double))) == NULL)
             return rc_err_set(err, "out of memory for the nodes of %zu x %zu x %zu", v->n[0],

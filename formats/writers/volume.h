@@ -38,7 +38,7 @@ uint64_t rc_vtk_bytes(size_t n, enum rc_raw raw);
 /* The attributes and the keys of the arrays as a header: `<PointData>...`, from byte `offset` of
  * the appended data on. */
 void rc_vtk_arrays(struct rc_buffer *b, const struct rc_volume *volume, uint64_t offset);
-/* History as field data, for the frames' first. */
+/* The history of the first frame, as field data. */
 void rc_vtk_history(struct rc_buffer *b, const struct rc_grid *grid);
 /* One array of the appended data: its length in bytes and its values. */
 enum rc_status rc_vtk_put(FILE *out, const double *v, size_t n, enum rc_raw raw,

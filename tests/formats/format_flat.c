@@ -199,7 +199,7 @@ static const struct {
     {"x [um] z [um]\n5 1\n4 2\n2 3\n1 4\n0 5\n", 0, 0, 0, 0,
      "point 3, at 2 where even steps of 1.25 lead to 2.5"},
     {"x [s] z [um]\n0 1\n1 2\n2 3\n", 0, 0, 0, 0, "'s', which is no length"},
-    {"x [um] z [um]\n0 1\n2 2\n1 3\n", 0, 0, 0, 0, "do not run on at row 3"},
+    {"x [um] z [um]\n0 1\n2 2\n1 3\n", 0, 0, 0, 0, "do not go on in one direction at row 3"},
     {"0 1\n1 2\n2 3\n", 0, 0, 0, 0, "its steps are 1"},
     {"0 1\n1 2\n2 3\n", 0, 0, 0, 0, "nor the unit of its heights: --z-unit UNIT"},
     {"x [um] z\n0 1\n1 2\n2 3\n", 0, 0, 0, 0, "--z-unit"},

@@ -123,7 +123,7 @@ static const struct {
     {"npy", make_npy, 0, "(2, 3)", "(1,2,3", "no shape", 0},
     {"npy", make_npy, 0, "<f8", "<c8", "<c8", 0},
     {"gwy", make_gwy, 0, "GwyContainer", "GwyContained", "GwyContainer", 0},
-    {"gwy", make_gwy, 0, "GwyDataField", "GwyDataFeeld", "is none", 0},
+    {"gwy", make_gwy, 0, "GwyDataField", "GwyDataFeeld", "is not one", 0},
     {"vk", make_vk6, 0, "Vk4File", "Vk4Fool", "no archive with a member", 0},
 };
 

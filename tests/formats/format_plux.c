@@ -91,7 +91,7 @@ plux_is_refused(void **state)
         {"LAYER_0.raw", "../../etc/passwd", "no member"},
         {"<?xml version=\"1.0\"?>",
          "<!DOCTYPE x [<!ENTITY a \"aaaa\"><!ENTITY b \"&a;&a;&a;&a;\">]>", "document type"},
-        {"</xml>", "", "no whole XML"},
+        {"</xml>", "", "not well-formed XML"},
     };
     struct bytes b;
 

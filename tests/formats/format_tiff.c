@@ -232,7 +232,7 @@ lext_is_refused(void **state)
          "<TiffTagDescData>&b;</TiffTagDescData>",
          NULL, "HEIGHT", "document type"},
         {lext_xml, "<!DOCTYPE l><ExifTagDescData/>", "HEIGHT", "document type"},
-        {lext_xml, "<ExifTagDescData>", "HEIGHT", "no whole XML"},
+        {lext_xml, "<ExifTagDescData>", "HEIGHT", "not well-formed XML"},
         {"<TiffTagDescData><HeightInfo><HeightDataPerPixelX>0</HeightDataPerPixelX>"
          "<HeightDataPerPixelY>1</HeightDataPerPixelY><HeightDataPerPixelZ>1</HeightDataPerPixelZ>"
          "</HeightInfo></TiffTagDescData>",

@@ -445,10 +445,10 @@ positions_that_are_refused(void **state)
     } wrong[] = {
         {"<Datum>0;1</Datum><Datum>2;1</Datum><Datum>1;1</Datum><Datum>3;1</Datum><Datum>4;1</"
          "Datum>",
-         "the positions do not run on at point 3"},
+         "the positions do not go on in one direction at point 3"},
         {"<Datum>0;1</Datum><Datum>0;1</Datum><Datum>1;1</Datum><Datum>3;1</Datum><Datum>4;1</"
          "Datum>",
-         "the positions do not run on at point 2"},
+         "the positions do not go on in one direction at point 2"},
         {"<Datum>0;1</Datum><Datum/>", "Datum 2 is '': x;z are expected"},
         {"<Datum>0;1;2</Datum>", "Datum 1 is '0;1;2': x;z are expected"},
         {"<Datum>5</Datum>", "Datum 1 is '5': x;z are expected"},
@@ -517,7 +517,7 @@ root_without_its_part(void **state)
 
     (void)state;
     alter(&xml, "<p:ISO5436_2 ", "<p:ISO5436 ");
-    refuse_xml(xml, "no whole XML");
+    refuse_xml(xml, "not well-formed XML");
     alter(&xml, "</p:ISO5436_2>", "</p:ISO5436>");
     file = pack(xml, plain_bytes, sizeof plain_bytes);
     g = read_file(&file, &notes);

@@ -46,8 +46,8 @@ wrong_headers(void **state)
         {">D</DataType><Increment>0.25", ">X</DataType><Increment>0.25", "DataType of CZ is 'X'"},
         {"bindata/data.bin", "bindata/other.bin", "no member 'bindata/other.bin'"},
         {"bindata/data.bin", "", "main.xml lists 0"},
-        {"</p:ISO5436_2>", "", "no whole XML"},
-        {"<Record2>", "<Record2>&bomb;", "no whole XML"},
+        {"</p:ISO5436_2>", "", "not well-formed XML"},
+        {"<Record2>", "<Record2>&bomb;", "not well-formed XML"},
         {"?>\n", "?>\n<!DOCTYPE a [<!ENTITY b \"x\">]>\n", "document type declaration"},
         {"?>\n", "?>\n<!DOCTYPE a SYSTEM \"file:///etc/passwd\">\n", "document type declaration"},
     };

@@ -157,7 +157,7 @@ refuses 1 "--even 0.001 m is longer than the profile, " "a step that is longer t
 refuses 1 "values need [0-9]+ MiB, more than the|6.75695e.09 nodes are too many" "a step that would need all memory" 'rc-import --even=1e-14 uneven.txt'
 refuses 1 "nodes are too many" "or more" 'rc-import --even=1e-30 uneven.txt'
 printf 'x [um] z [nm]\n0 1\n1 2\n1 3\n2 4\n' >stuck.txt
-refuses 1 "do not run on at row 3" "positions that stand still" 'rc-import --even stuck.txt'
+refuses 1 "do not go on in one direction at row 3" "positions that stand still" 'rc-import --even stuck.txt'
 
 # ---- real files ----
 

@@ -241,7 +241,7 @@ judge_axis(const char *name, const char *type, struct rc_err *err)
                       name, type == NULL ? "" : rc_word_shown(quote, type));
 }
 
-/* What kind of data it is, before anything else is asked of it. */
+/* The kind of data, judged before all else. */
 static enum rc_status
 judge_feature(struct rc_x3p *x, struct rc_err *err)
 {

@@ -52,7 +52,7 @@ md5_in(const char *text, char md5[RC_MD5_TEXT])
     return true;
 }
 
-/* The checksum that main.xml gives against that of the bytes. */
+/* Compares the checksum in main.xml with that of the bytes. */
 static enum rc_status
 compare_md5(const char *what, const char *given, const char *md5, struct rc_notes *notes,
             struct rc_err *err)
@@ -233,7 +233,7 @@ rc_x3p_profile(struct rc_x3p *x, struct rc_notes *notes, struct rc_err *err)
         xz[2 * k + 1] = z[from] * x->increment + x->offset;
         p[k] = xz[2 * from] * x->x_increment + x->x_offset;
         if (!isfinite(p[k]) || (k > 0 && !(p[k] > p[k - 1]))) {
-            rc_err_set(err, "the positions do not run on at point %zu", from + 1);
+            rc_err_set(err, "the positions do not go on in one direction at point %zu", from + 1);
             goto failed;
         }
     }

@@ -205,7 +205,7 @@ x3p_read(const struct rc_file *file, const struct rc_wish *wish, size_t index,
     if (x.old_root)
         rc_note(notes,
                 "the root of its main.xml is ISO5436, where the standard has ISO5436_2: it is "
-                "read as that");
+                "read as if it were that");
     if (x.turned)
         rc_note(notes, "the file turns its axes by a rotation matrix: it is not applied");
     if (x.absolute) {

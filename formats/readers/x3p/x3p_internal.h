@@ -51,15 +51,15 @@ struct rc_x3p {
     double dx, dy;    /* m, NAN when not given                                        */
     double increment, offset;
     bool absolute;     /* a profile whose points have positions of their own               */
-    enum rc_raw raw_x; /* of these: each point is x, y where that is absolute too, and z   */
+    enum rc_raw raw_x; /* of the positions: a point is x, y where that is absolute too, and z */
     size_t before_z;   /* bytes of a point that come before z                              */
     double x_increment, x_offset;
     bool wants_list;         /* the heights in main.xml are to be kept                       */
-    double *list;            /* as far as they were in main.xml; positions and heights by turns  */
+    double *list;            /* heights that were in main.xml; positions and heights by turns */
     size_t listed, capacity; /* data, and numbers that the list can hold              */
 };
 
-/* Reads main.xml, and what it says is then judged: RC_FAIL for what is no map on a regular grid. */
+/* Reads main.xml and judges it: RC_FAIL for what is no map on a regular grid. */
 enum rc_status rc_x3p_head(struct rc_x3p *x, struct rc_err *err);
 /* The key of the grid that keeps a field from RC_X3P_FIRST_KEY on. */
 const char *rc_x3p_key(size_t field);
@@ -68,8 +68,8 @@ const char *rc_x3p_key(size_t field);
 void rc_x3p_check_main(struct rc_x3p *x, struct rc_notes *notes);
 /* Finds the member of the heights and checks its size before anything is allocated for it. */
 enum rc_status rc_x3p_find_points(struct rc_x3p *x, size_t *member, struct rc_err *err);
-/* Positions x->n, rising, in metres, and heights of a profile that is `absolute`, one behind the
- * other, which the caller frees; NULL with the reason. Of a list they must be wanted. */
+/* Reads the x->n positions of a profile that is `absolute`, rising and in metres, and behind them
+ * its heights; the caller frees them. NULL with the reason. A list must have been wanted. */
 double *rc_x3p_profile(struct rc_x3p *x, struct rc_notes *notes, struct rc_err *err);
 /* Puts the heights into the grid, in metres; missing ones are NAN. */
 enum rc_status rc_x3p_values(struct rc_x3p *x, size_t member, double metres, struct rc_grid *grid,
