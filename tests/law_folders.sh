@@ -6,10 +6,11 @@
 
 # ---- what is allowed ----
 
-# A folder or a file of it | the headers that it may include beside those of its own folder | the
-# folders whose functions and data it may use. X=rc_y_: of X only what is called rc_y_..., the rows
-# of a list. %base is what all folders of libcontact share, %public what others see of libcontact,
-# %physics the folders where that is defined.
+# A folder or a file of it
+# the headers that it may include beside those of its own folder
+# the folders whose functions and data it may use. X=rc_y_: of X only the names that begin with rc_y_, the rows
+# of a list. %base: shared by all folders of libcontact; %public: seen by other folders of the project;
+# %physics: the folders that define those.
 cat >arrows.txt <<'END'
 libcontact          | -                                        | -
 libcontact/ranks    | libcontact/common.h libcontact/contact_mpi.h | libcontact
@@ -88,7 +89,7 @@ includes() {
         sed -n 's/^ *# *include *"\(.*\)".*/& \1/; T; F; s/.* //p' {} +) | paste -d ' ' - -
 }
 
-# include_faults TREE: what the table does not allow.
+# include_faults TREE: the includes that the table does not allow.
 include_faults() {
     includes "$1" | awk -v tree="$1" '
         function exists(file) { return system("test -f \"" tree "/" file "\"") == 0 }
@@ -112,7 +113,7 @@ symbols() {
     done | sort -u
 }
 
-# call_faults SYMBOLS: the same of what is called.
+# call_faults SYMBOLS: the calls that the table does not allow.
 call_faults() {
     awk '
         FILENAME == "arrows.txt" { split($0, part, "|"); gsub(/ /, "", part[1])
@@ -161,7 +162,7 @@ names() {
         done
 }
 
-# none FAULTS: there are none; otherwise it shows them.
+# none FAULTS: there are no faults; otherwise they are shown.
 none() {
     ! grep . "$1" >&2
 }

@@ -1,4 +1,5 @@
-# Sourced by the tests of the manual, after pipe.sh: what stands in a page is taken out of it, and what --help says.
+# Sourced by the tests of the manual, after pipe.sh: takes out of a page what a test runs or compares, and asks
+# --help for its words.
 pages=$RC_SOURCE/man
 
 # blocks PAGE SECTION FOLDER: the literal displays of a section, or of all with '', as files 1, 2, ... in FOLDER. After the
@@ -67,7 +68,7 @@ help_words() {
         }' | sort -u
 }
 
-# The words that the manual says of the same options, with all others that it marks in their paragraphs.
+# The words that the manual gives for the same options, and all others that it marks in their paragraphs.
 page_words() {
     awk '
         /^\.It/ || /^\.E[ld]/ || /^\.S[hs]/ { name = "" }

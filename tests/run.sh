@@ -44,7 +44,7 @@ if [ "${CI-}" = true ]; then
 fi
 build ci
 
-# What is different with MPI: the tools and the tests that use it, on two processes, and what is installed.
+# The difference that MPI makes: the tools and the tests that use it, on two processes, and the installed files.
 cmake --preset mpi >/dev/null
 cmake --build --preset mpi --parallel "$(cores)"
 phase "mpi, build"

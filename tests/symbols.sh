@@ -18,8 +18,8 @@ declared() {
         }' | sort -u
 }
 
-# objects BUILD FOLDER...: the object files of these folders of a build, and the sources that they
-# are made from, as "object source"; not those whose source is gone.
+# objects BUILD FOLDER...: the object files of these folders of a build with their sources, as "object source";
+# not of sources that are gone.
 objects() {
     local build=$1 object source
     shift

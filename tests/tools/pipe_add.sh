@@ -18,7 +18,7 @@ $rough --nx 66 --ny 47 --seed 4 -o b.rcg
 
 # ---- the sum ----
 
-# A surface less itself is a flat, what is added to a flat is mirrored, a flat less that is the replica.
+# A surface less itself is flat; a surface added to a flat one is mirrored; a flat one less that is the replica.
 rc-add --subtract a.rcg a.rcg -o flat.rcg
 rc-add flat.rcg a.rcg -o mirrored.rcg
 rc-add --subtract flat.rcg mirrored.rcg -o replica.rcg

@@ -1,4 +1,4 @@
-# rc-solve --checkpoint and --resume: what is cut off goes on, to the answer it would have had.
+# rc-solve --checkpoint and --resume: a run that is cut off goes on, to the answer that it would have had.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth selfaffine --nx 200 --ny 150 --dx 1um --hurst 0.8 --rms-slope 0.1 --short-cut 8um --rolloff 40um \
@@ -78,7 +78,7 @@ claim "one cut off in its first frame is begun anew" \
 claim "to a checkpoint like any other" bash -c "rc-info --quiet first.rcg >/dev/null &&
     $solve --load 0.1N --checkpoint first.rcg --resume --report first.json -o again.rcg rough.rcg"
 claim "from which the next one goes on" test "$(field iterations first.json)" -le 1
-# a line as long as what is read of it at a time, whose line feed alone is no end of the header
+# a line as long as one piece that is read, so that its line feed alone is no end of the header
 rc-pick --set "note=$(printf '%0250d' 0)" rough.rcg -o noted.rcg
 $solve --load 0.1N --checkpoint noted-kept.rcg --quiet -o x.rcg noted.rcg && rm x.rcg
 head -c 5000 noted-kept.rcg >noted-first.rcg

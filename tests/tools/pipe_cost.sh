@@ -56,8 +56,8 @@ claim "its estimates are not below them, nor above 1.5 times them" bash -c "
 claim "the coarser grids have 1/8, 1/4 and 1/2 of the nodes a side, rounded" bash -c '
     awk "\$1 == \"pcg\" && \$5 != \"66x62\" { print \$5 }" cost.txt | uniq | tr "\n" " " | grep -qx "8x8 17x16 33x31 "'
 
-# What is marked, and nothing else, is beaten by none in time and error. Below the error of the
-# reference all errors are the same.
+# No method is better in both time and error than a marked one, and all others are beaten. Below the error of
+# the reference all errors count as equal.
 front_again() {
     perl -MJSON::PP -e '
         my ($floor, @trial);

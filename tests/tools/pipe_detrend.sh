@@ -1,5 +1,5 @@
-# rc-detrend does its steps in the order given, on the height of every case, passes on what is no
-# height, and says what it did.
+# rc-detrend does its steps in the order given, on the height of every case; it passes on all other frames and
+# says what it did.
 . "$(dirname "$0")/../pipe.sh"
 
 # figure NAME FILE: of the first frame.
@@ -47,7 +47,7 @@ nothing "$(figure rms profile.rcg)" 1e-5 "  with as many points as coefficients 
 
 # ---- their order ----
 
-# one column far off: levelled by what is there, or by what was put there
+# one column far off: levelled by the points that are there, or by those that were filled in
 printf '0 0 9 NaN NaN\n0 0 9 NaN NaN\n0 0 9 NaN NaN\n' | rc-import --dx 1um --z-unit nm - -o step.rcg
 claim "the order of the steps counts" bash -c '
     rc-detrend --plane --fill step.rcg -o a.rcg && rc-detrend --fill --plane step.rcg -o b.rcg &&

@@ -1,4 +1,4 @@
-# Filling more than a twentieth of a surface is told, with the width of the widest hole.
+# rc-detrend warns when it fills more than a twentieth of a surface, and gives the width of the widest hole.
 . "$(dirname "$0")/../pipe.sh"
 
 # map NX NY 'awk condition of i and j': missing where it holds.

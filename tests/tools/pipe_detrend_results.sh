@@ -1,4 +1,4 @@
-# A height that stands beside what was computed from it is not changed, whichever comes first.
+# A height is not changed where results that were computed from it stand beside it, before it or behind it.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth selfaffine --nx 32 --dx 1um --hurst 0.8 --rms-height 10nm --seed 2 -o surface.rcg

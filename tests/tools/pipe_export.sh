@@ -1,4 +1,4 @@
-# rc-export writes what was asked for, whole or not at all, and says what a format cannot hold.
+# rc-export writes the frames that were asked for, whole or not at all, and says what a format cannot hold.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth wave --wavelength 16um --amplitude 1um --nx 32 --ny 24 --dx 1um --dy 1.5um -o one.rcg
@@ -35,7 +35,7 @@ claim "a stream comes from a pipe" bash -c 'rc-export --format npy <one.rcg | cm
 if command -v script >/dev/null; then
     claim "text may go to a terminal" \
         says Channel script -qec "rc-export --format csv one.rcg" /dev/null
-    # what a terminal is told comes out of script's standard output, as what is written there would
+    # a message for the terminal comes out of script's standard output, as the written numbers would
     claim "binary never does" bash -c '
         script -qec "rc-export --format npy one.rcg" /dev/null </dev/null >terminal.txt
         [ $? = 1 ] && grep -q "standard output is a terminal" terminal.txt && lacks NUMPY terminal.txt'

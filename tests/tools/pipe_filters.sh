@@ -1,5 +1,5 @@
-# rc-detrend takes off spheres and cylinders and tells their radius, filters, drops outliers and tapers,
-# in the order given, and says what it did.
+# rc-detrend removes spheres and cylinders and gives their radius, filters, drops outliers and tapers, in the
+# order given, and says what it did.
 . "$(dirname "$0")/../pipe.sh"
 
 # figure NAME FILE: of the first frame.

@@ -1,5 +1,6 @@
-# rc-pick cuts, resamples, mirrors and turns maps, every frame of a case alike, in the order of the line;
-# keys that tell of the whole map go where they are no longer true, and what makes no sense is refused.
+# rc-pick cuts, resamples, mirrors and turns maps, every frame of a case alike, in the order of the command
+# line. It drops keys that describe the whole map once they are no longer true, and refuses options that make no
+# sense.
 . "$(dirname "$0")/../pipe.sh"
 
 # values FILE: all values of a stream of f64 frames, as they lie.
@@ -45,7 +46,7 @@ claim "turned, a periodic surface is periodic" says '^periodic=yes' cat four.rcg
 claim "history has the steps in their order" says 'rc-pick [0-9.]* --rotate 90 --mirror x --crop 1,2,30,20 --resample 2e-06m,2e-06m --resample 20x10$' bash -c '
     rc-pick --quiet --rotate 90 --mirror x --crop 1,2,30,20 --resample 2um --resample 20x10 rough.rcg | grep -a ^history'
 
-# A turned surface presses as it did, and what is found is turned.
+# A turned surface gives the same contact, turned.
 rc-solve --quiet --tol 1e-9 --load 0.1N --estar 100GPa --output pressure,height rough.rcg -o solved.rcg
 rc-pick --rotate 90 rough.rcg | rc-solve --quiet --tol 1e-9 --load 0.1N --estar 100GPa --output pressure -o turned.rcg
 claim "the solution of a turned surface is the turned solution" bash -c '

@@ -36,7 +36,8 @@ claim "rc-solve: the options that take words are found in --help" takes_words rc
 
 rc-synth sphere --nx 33 --dx 5um --radius 7.5mm -o ball.rcg
 rc-solve --load 2N --estar 114GPa --quiet -o pressed.rcg ball.rcg
-# same_by ENGINES COMMAND...: it does the same with --engine as with --kernel, and another thing by default.
+# same_by ENGINES COMMAND...: the command gives the same result with --engine as with --kernel, and by default
+# another.
 same_by() {
     local engines=$1
     shift

@@ -1,4 +1,4 @@
-# rc-import turns real files into height streams, and what it refuses leaves no half of one.
+# rc-import turns real files into height streams, and leaves no half of one where it refuses a file.
 . "$(dirname "$0")/../pipe.sh"
 
 # header NAME FILE: a line of the first frame's header.
@@ -77,7 +77,7 @@ claim "--channel takes a number" says '^nx=3$' rc-import --channel 1 map.txt
 claim "--channel takes a name" says '^nx=3$' rc-import --channel Topo map.txt
 if command -v script >/dev/null; then
     claim "--list writes even to a terminal" says Topo script -qec "rc-import --list map.txt" /dev/null
-    # what a terminal is told comes out of script's standard output, as a stream would
+    # a message for the terminal comes out of script's standard output, as a stream would
     claim "a stream does not" bash -c '
         script -qec "rc-import map.txt" /dev/null </dev/null >terminal.txt
         [ $? = 1 ] && grep -q "standard output is a terminal" terminal.txt && lacks RCG1 terminal.txt'

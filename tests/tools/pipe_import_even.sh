@@ -13,8 +13,8 @@ heights() {
     tail -c +$((start + 2)) "$1" | head -c $((8 * n)) | od -An -v -w8 -t fD | tr -d ' '
 }
 
-# the same, found by looking through all pairs of neighbours: resampled STEP GAP FILE, both in the
-# unit of the file, heights in nm
+# resampled STEP GAP FILE: the same, found by looking through all pairs of neighbours; STEP and GAP in the unit
+# of the file, heights in nm
 resampled() {
     awk -v step="$1" -v gap="$2" 'BEGIN { n = 0 } NR > 1 { x[n] = $1; z[n++] = $2 }
         END {

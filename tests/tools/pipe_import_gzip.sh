@@ -1,4 +1,4 @@
-# What was packed with gzip is unpacked in flight, whatever its format, and a bomb takes no memory.
+# A file packed with gzip is unpacked in flight, whatever its format, and a bomb takes no memory.
 . "$(dirname "$0")/../pipe.sh"
 
 printf '# Channel: Topo\n# Width: 6 um\n# Height: 5 um\n# Value units: nm\n1 2 3\n4 5 NaN\n' >map.txt

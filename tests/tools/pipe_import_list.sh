@@ -1,4 +1,5 @@
-# rc-import --list of many files says of each what it is or why not, and fails in the end where one was bad.
+# rc-import --list names for each of many files its format, or the reason why it has none, and fails in the end
+# where a file was bad.
 . "$(dirname "$0")/../pipe.sh"
 
 printf '# Channel: Topo\n# Width: 6 um\n# Height: 5 um\n# Value units: nm\n1 2 3\n4 5 6\n' >a.txt

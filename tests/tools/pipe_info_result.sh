@@ -1,5 +1,5 @@
-# rc-info says of a solution what people ask first: load, contact, largest pressure, approach, what yields,
-# and whether it converged; what is not known it leaves out.
+# rc-info gives the figures of a solution that people ask for first: load, contact, largest pressure, approach,
+# the area that yields, and whether it converged; it leaves out figures that are not known.
 . "$(dirname "$0")/../pipe.sh"
 
 # pressure "KEY=VALUE..." <text: a frame of it, in Pa on cells of 1 um by 2 um.

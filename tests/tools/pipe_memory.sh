@@ -1,12 +1,11 @@
-# What a tool says that it will take is within a tenth of what it then takes at most; more than --memory
-# allows, or than the machine lets it have, is refused before the work; and the peak that a report tells
-# is the tool's own.
+# A tool expects its memory within a tenth of its peak; a run that needs more than --memory allows, or than the
+# machine grants, is refused before the work; and the peak in a report is the tool's own.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/symbols.sh"
 
 skip_with_address_sanitizer "it takes memory of its own"
 
-# estimated "sentence" 'shell command': its last tool, told --verbose, expected what it took.
+# estimated "sentence" 'shell command': its last tool, with --verbose, takes the memory that it expected.
 estimated() {
     local expected taken
     bash -c "$2" 2>&1 >/dev/null | grep 'memory: ' | tail -n 1 >memory.txt

@@ -2,7 +2,7 @@
 # whatever legal numbers go in. A tool that cannot hold what comes out says so and fails.
 . "$(dirname "$0")/../pipe.sh"
 
-# Exits with 1 where a stream or a text holds what is no finite number, and says what.
+# Exits with 1 where a stream or a text holds a number that is not finite, and names it.
 cat >finite.pl <<'P'
 my $bad = 0;
 local $/;
@@ -26,8 +26,8 @@ for my $name (@ARGV) {
 exit($bad > 0);
 P
 
-# tried 'shell command': it ends by itself, with an exit status that is a tool's own, and what it wrote
-# to out.rcg, report.json and standard output is finite; where it failed it says why.
+# tried 'shell command': it ends by itself, with an exit status of the tool's own. All numbers in out.rcg,
+# report.json and standard output are finite; where it failed, it says why.
 ran=0
 done_well=0
 tried() {

@@ -1,5 +1,6 @@
-# An option that is misspelt is answered with the one that was meant, one that is cut too short with those it could be;
-# British and American spelling are both right; and a value out of bounds is never taken for one that was not given.
+# A misspelt option is answered with the option that was meant, one that is cut too short with the options that
+# it could be; British and American spelling are both right; and a value out of bounds is never taken for one
+# that was not given.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth sphere --nx 200 --dx 1um --radius 1mm -o ball.rcg

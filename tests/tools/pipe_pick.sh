@@ -14,7 +14,7 @@ frames() {
         print join(" ", $case, $channel, defined $depth ? $depth : ()), "\n"'
 }
 export -f frames
-# values FILE: all values of a stream, as they lie: what is between the headers and the checksums.
+# values FILE: all values of a stream as they lie, between the headers and the checksums.
 values() {
     perl -0777 -ne 'while (/\GRCG1\n(.*?)\n\n/gcs) { my %k = map { split /=/, $_, 2 } split /\n/, $1;
         my $n = $k{nx} * $k{ny} * ($k{type} eq "f64" ? 8 : 4); /\G(.{$n})crc32 \w{8}\n/gcs or die; print $1 }' "$1"

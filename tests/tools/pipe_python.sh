@@ -1,5 +1,5 @@
-# rcg.py reads and writes streams as the tools do, bit for bit, refuses what they refuse, and runs them:
-# what comes out is what a shell would have got, and a failure has the tool's words and exit status.
+# rcg.py reads and writes streams as the tools do, bit for bit, refuses the streams that they refuse, and runs
+# the tools: the output is that of a shell, and a failure has the tool's words and exit status.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/manual.sh"
 . "$RC_SOURCE/tests/python.sh"

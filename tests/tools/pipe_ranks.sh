@@ -29,7 +29,7 @@ claim "a loading history, bodies taken apart, the plastic shape" same history \
 claim "layers, single values in and out, the scheme of the paper" same layers \
     "rc-solve --E1 2GPa --nu1 0.3 --layer 20um,8GPa,0.2 --E2 rigid --load 0.2N --method pk99 --tol 1e-4 --type f32 --quiet sphere.rcg"
 rc-solve --estar 114GPa --load 20N --quiet sphere.rcg -o pressed.rcg
-# Lines longer than what is fetched of others' at a time: the figures are the same too.
+# Lines longer than the piece that is fetched from other ranks at a time: the figures are the same too.
 rc-synth selfaffine --nx 2100 --ny 48 --dx 1um --hurst 0.8 --rms-slope 0.1 --short-cut 8um --seed 3 -o lines.rcg
 figures() {
     local n
@@ -80,7 +80,7 @@ if [ "$ranks" != 2 ]; then
     done
 fi
 
-# estimated "sentence" command...: what the fullest rank is expected to take is within a tenth of what it takes.
+# estimated "sentence" command...: the expected memory of the fullest rank is within a tenth of its peak.
 estimated() {
     local sentence=$1
     shift
@@ -171,7 +171,8 @@ rc-solve --periodic --estar 1e60Pa --mean-pressure 1e58Pa --tol 1e-3 --output pr
 refuses 1 '65024 of 65024 values of mises came out larger than single precision can hold' "values too large, in the rows of both" \
     "$MPIRUN -n 2 rc-stress --nu 0.3 --depths 0 --components mises --type f32 -o no.rcg huge.rcg"
 claim "  are said once" test "$(grep -c 'came out' refuses.err)" = 1
-# Who says it is told by the launcher: the first one where all have agreed, else the one that had waited for others.
+# The launcher tells which process gave the message: the first one where all have agreed, else the one that had
+# waited for others.
 refuses 1 '^\[[^]]*,0\]<stderr>: ?rc-solve: small.rcg, frame 1: .* --memory allows 1 MiB' \
     "a part for which the second process has no memory ends both at once" \
     "$MPIRUN --tag-output -n 1 rc-solve --estar 1GPa --load 1mN -o no.rcg small.rcg : \
@@ -233,7 +234,7 @@ adding() {
     [ $status = 1 ] && grep -q 'adding.rcg: another run is adding to it' adding.err && [ ! -e no.rcg ]
 }
 claim "two runs do not add to one checkpoint" adding
-# signalled SIGNAL SECONDS: mpirun, which ends those whom it has started, and kills them some time later.
+# signalled SIGNAL SECONDS: sends the signal to mpirun, which ends its processes and kills them some time later.
 signalled() {
     begin $lasting --load 3N || return
     sleep "$2"

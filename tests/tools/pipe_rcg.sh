@@ -1,5 +1,5 @@
-# The filter that rcg(5) prints compiles as it stands there and is a good neighbour in a pipe: what
-# it writes is read, what is damaged it refuses.
+# The filter that rcg(5) prints compiles as it stands there and is a good neighbour in a pipe: its output is
+# read by the tools, and it refuses a damaged stream.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/manual.sh"
 
@@ -8,7 +8,7 @@ claim "it compiles" ${CC:-cc} -std=c99 -O2 -Wall -Wextra -o rcg-scale rcg-scale.
 PATH="$scratch:$PATH"
 
 figure() { rc-info --json "$2" | head -n 1 | grep -o "\"$1\": [^,]*" | cut -d' ' -f2; }
-# What is left of a stream without what the filter changes at a factor of 1.
+# A stream without the parts that the filter changes at a factor of 1.
 bare() { LC_ALL=C sed -e '/^history=/d' -e 's/crc32 [0-9a-f]\{8\}$//' "$1"; }
 
 rc-synth selfaffine --nx 33 --ny 47 --dx 1.1um --dy 1.29um --hurst 0.7 --rms-height 0.4um \

@@ -30,7 +30,7 @@ agrees() {
 }
 fails_on() { ! "${@:2}" "$1"; }
 
-# try NAME READER...: it is right, and finds what is cut off.
+# try NAME READER...: the reader gives the right values, and notices a stream that is cut off.
 try() {
     claim "$1: every frame of a stream, f64" agrees "$same" f64.rcg "${@:2}"
     claim "$1:   f32" agrees "$six_digits" f32.rcg "${@:2}"

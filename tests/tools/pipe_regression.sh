@@ -14,8 +14,9 @@ keeps() {
         print STDERR "$field: $got, not $want\n"; exit(1);' "$@"
 }
 
-# The relative error of the pressure is 1e-8 in the mean; a single one, and what stands below it, may be off by
-# a hundred times that. Areas are whole nodes: of 10,000 in contact one may change sides, of 1000 at the hardness too.
+# The pressure has a relative error of 1e-8 in the mean; a single value, and the figures made of single values,
+# may be off by a hundred times that. Areas are whole nodes: of 10,000 in contact one may change sides, of 1000
+# at the hardness too.
 beside=1e-6
 of_contact=1e-4
 of_plastic=1e-3

@@ -19,7 +19,7 @@ stream() {
         print "RCGEND $frames\n";' -- "$@"
 }
 
-# size WIDTH HEIGHT FILE: what the header of the PNG says. - for a side that does not matter.
+# size WIDTH HEIGHT FILE: the size in the header of the PNG; - for a side that does not matter.
 size() {
     perl -e 'my ($w, $h, $file) = @ARGV; open my $f, "<:raw", $file or die; read $f, my $b, 24;
         die "no PNG" if substr($b, 0, 8) ne "\x89PNG\r\n\x1a\n";

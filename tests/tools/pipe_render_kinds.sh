@@ -44,7 +44,7 @@ png() {
         printf "%d %.2f\n", unpack("N", substr $b, 16), 0.0254 * unpack("N", substr $b, $at + 4)' "$1"
 }
 
-# kind, what stands under an axis across, and the options
+# kind, the words under an axis across, and the options
 while read -r kind across options; do
     draw="rc-render --quiet --title Gutenberg --width 120mm $options"
     for ending in png svg pdf; do

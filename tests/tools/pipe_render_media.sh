@@ -56,7 +56,7 @@ claim "numbers stand at the middles of their media, beside the plot" eval "
         { want = y + h * (\$4 == 1 ? 2 : \$4 == 2 ? 7 : 25) / 40 + 0.36 * \$3; d = \$2 - want
           bad += \$4 != NR || d * d > 1 || \$1 < x + w || \$1 > 1190 } END { exit !(NR == 3 && bad == 0) }'"
 
-# thin ones: the numbers move apart, no two touch, and none leaves the plot
+# thin layers: their numbers move apart, no two touch, and none leaves the plot
 made 0,0.05,0.1,0.15,0.5,20,40 '5e-08,4e11,0.2;5e-08,3e11,0.2;5e-08,2e11,0.2;inf,inf,0.3' '1e6' >thin.rcg
 rc-render --width 1200 -o thin.svg thin.rcg
 read -r x y w h <<<"$(plot thin.svg)"
@@ -71,7 +71,7 @@ claim "  of lines that would be one the lowest is drawn" eval "
         { d = \$1 - y - h * 0.15 / 40; bad += d * d > 0.01 } END { exit !(NR == 1 && bad == 0) }'"
 claim "a rigid substrate is called that" grep -qF '>4: substrate, rigid<' thin.svg
 
-# what the window of depths leaves out is not told
+# media that the window of depths leaves out are not named
 rc-render --width 1200 --depth-range 5um:30um -o part.svg coat.rcg
 claim "only media that are seen are told" bash -c '
     lacks ">1: layer" part.svg && grep -q ">2: layer" part.svg && grep -q ">3: substrate" part.svg'

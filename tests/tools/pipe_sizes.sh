@@ -1,8 +1,8 @@
-# Maps of one node, one row, one column go through every tool or are refused with their reason; and a map of
-# 46,400 x 46,400, more nodes than 32 bits count, is told by its right size where there is no room for it.
+# Maps of one node, one row or one column go through every tool or are refused with the reason; and where a map
+# of 46,400 x 46,400, more nodes than 32 bits count, does not fit, the refusal gives its right size.
 . "$(dirname "$0")/../pipe.sh"
 
-# answers "sentence" command...: exit status 0, or 1 where the map is too small for what is asked.
+# answers "sentence" command...: exit status 0, or 1 where the map is too small for the task.
 too_small='a single node has no spectrum|unknowns, and only|coefficients, and only|longer than the map|narrower than a node|do not determine'
 answers() {
     local sentence=$1 status

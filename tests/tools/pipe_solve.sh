@@ -1,5 +1,4 @@
-# rc-solve minds what lies around the solution: a signal while it waits for its input, and the keys
-# of an earlier solution.
+# rc-solve obeys a signal while it waits for its input, and drops the keys of an earlier solution.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/symbols.sh"
 

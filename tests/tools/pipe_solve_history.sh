@@ -1,5 +1,5 @@
-# --history: each load acts on the shape that those before have left; unloading, and loading again up to
-# the largest load so far, is elastic; and it is what the same sequence done by hand gives.
+# --history: each load acts on the shape that the loads before have left; unloading, and loading again up to the
+# largest load so far, is elastic; and the result is that of the same sequence done by hand.
 . "$(dirname "$0")/../pipe.sh"
 
 rc-synth selfaffine --nx 128 --ny 120 --dx 1um --hurst 0.8 --rms-slope 0.1 --rolloff 40um --short-cut 4um --seed 7 -o s.rcg

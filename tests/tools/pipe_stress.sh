@@ -59,7 +59,7 @@ claim "the pressure is transformed once" test "$(count source_transforms c.json)
 rc-synth sphere --nx 200 --ny 200 --dx 4um --radius 7.5mm |
     rc-solve --quiet --load 240N --E1 208GPa --nu1 0.3 --E2 208GPa --nu2 0.3 \
         --output pressure -o large.rcg
-# with sanitizers, what is freed stays for a while: not for long
+# with sanitizers, freed memory stays for a while, which is made short here
 export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}quarantine_size_mb=1"
 rc-stress --depths 0:20um:2 --report few.json large.rcg >/dev/null
 rc-stress --depths 0:20um:40 --report many.json large.rcg >/dev/null
@@ -114,7 +114,8 @@ done
 between 0 "$(number mises depth rough.json)" 4e-6 "Mises is largest at or near the surface"
 between 2.06e9 "$(number mises value rough.json)" 6e9 "  half as large again as Hertz's, and below the hardness"
 by_depth() { grep -o '"by_depth": \[[^]]*' "$2" | sed 's/.*\[//' | tr ',' '\n' | sed -n "$1p"; }
-# what the roughness does to the load's distribution over the contact has not quite died away at 1.4 radii
+# the effect of the roughness on the distribution of the load over the contact has not quite died away at 1.4
+# radii
 near "$(by_depth 41 rough.json)" "$(by_depth 41 smooth.json)" 0.06 \
     "deep below the field is that of the smooth ball"
 for axis in x y; do

@@ -177,7 +177,7 @@ refuses 2 '--skewness 3.5: it must be at least -3 and at most 3' "more skewness 
     "rc-synth selfaffine --hurst 0.8 --rms-height 1um --skewness 3.5 $grid"
 refuses 1 'anisotropy 2: a profile has one direction only' "a profile with a lay" \
     "rc-synth selfaffine --hurst 0.8 --rms-height 1um --anisotropy 2 --ny 1 $grid"
-# how much the tool itself takes, sanitizers and all, is in what it expects
+# the expectation includes the memory of the tool itself, sanitizers and all
 large="rc-synth selfaffine --hurst 0.8 --rms-height 1um --nx 1000 --dx 1um"
 enough=$($large --verbose 2>&1 >/dev/null | sed -n 's/.*memory: \([0-9]*\).* expected.*/\1/p')
 enough=$((enough + 4))

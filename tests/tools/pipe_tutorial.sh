@@ -1,13 +1,13 @@
-# The tutorial of contact(7) runs as it is printed: its commands print what the page says, what its sentences quote is
-# among that or is computed here, and its pictures are those that it draws.
+# The tutorial of contact(7) runs as it is printed: its commands print the text on the page, the figures in its
+# sentences are among that text or are computed here, and its pictures are drawn by its commands.
 . "$(dirname "$0")/../pipe.sh"
 . "$RC_SOURCE/tests/manual.sh"
 page=$pages/contact.7
 samples=$RC_SOURCE/sample_surfaces
 
-# agrees PAGE OUTPUT: the words are the same and the numbers to 3 in 1000 or to a step of their last digit; "..." is anything.
-# So well a contact is known at the tolerance of rc-solve, whatever way led to it; how many nodes, steps and seconds it
-# was is no figure for the page.
+# agrees PAGE OUTPUT: the words are the same and the numbers to 3 in 1000 or to a step of their last digit;
+# "..." is anything. At the tolerance of rc-solve a contact is known so well, whatever way led to it; the page
+# gives no numbers of nodes, steps and seconds.
 cat >agrees.pl <<'END'
 use List::Util 'min';
 local $/;
@@ -126,7 +126,8 @@ parted() {
 parted 0 >sentences.txt
 parted 1 >known.txt
 
-# derived "sentence" PATTERN VALUE TOLERANCE: the number of the sentence, (N) in the pattern, is this; none that was printed.
+# derived "sentence" PATTERN VALUE TOLERANCE: the number of the sentence, (N) in the pattern, is VALUE; for
+# numbers that no command printed.
 derived() {
     local pattern=${2/(N)/'([0-9.]*[0-9](?:e-[0-9]+)?)'}
     near "$(perl -0777 -ne "print \$1 if /$pattern/" sentences.txt)" "$3" "$4" "$1"
@@ -205,7 +206,7 @@ END
 
 # ---- real files ----
 
-# row STEPS [RESAMPLED]: what the steps make of the surface scan.rcg, in the columns of the page's table.
+# row STEPS [RESAMPLED]: the surface scan.rcg after these steps, in the columns of the page's table.
 row() {
     { if [ -n "$1" ]; then rc-detrend --quiet $1 scan.rcg; else cat scan.rcg; fi; } |
         { if [ -n "${2-}" ]; then rc-pick $2; else cat; fi; } >fit.rcg
@@ -256,7 +257,7 @@ between 0.51 "$(compute "$(field contact_area steel.json) / (pi * (0.75 * 60 * 3
 
 # ---- its pictures ----
 
-# drawn FILE: how a picture was made, whatever version of the tools did.
+# drawn FILE: the command that made a picture, without the version of the tools.
 drawn() {
     perl -0777 -ne 'while (/\G(?:\x89PNG\r\n\x1a\n)?(....)(....)/gs) { my ($n, $type) = (unpack("N", $1), $2);
         my $data = substr $_, pos, $n; pos = pos() + $n + 4;

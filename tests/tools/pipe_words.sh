@@ -1,5 +1,5 @@
-# Words and names of a file do not act on a terminal: no control character comes through, of whatever tool, in
-# what it says and in the text that it shows.
+# Words and names of a file do not act on a terminal: no tool lets a control character through, neither in its
+# messages nor in the text that it shows.
 . "$(dirname "$0")/../pipe.sh"
 
 # plain_words FILE: it holds something, and no control character but line feeds.
@@ -9,7 +9,8 @@ plain_words() {
     cat -v "$1" >&2
     return 1
 }
-# harmless "sentence" 'shell command': what it says is; shown ...: its standard output is, and it succeeds.
+# harmless "sentence" 'shell command': its messages are harmless; shown ...: its standard output is, and it
+# succeeds.
 harmless() {
     bash -c "$2" >words.out 2>words.err </dev/null
     claim "$1: $(head -n 1 words.err | cut -c1-100 | cat -v)" plain_words words.err
