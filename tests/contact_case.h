@@ -48,7 +48,7 @@ static const double estimate_elastic = 1.5, estimate_plastic = 1.6, estimate_ear
 #ifdef CONTACT_RANKS /* the same tests under mpirun: the processes share every map that can be shared */
 #include "contact_ranks.h"
 #else
-struct contact_part { /* of the map, what is held here: everything */
+struct contact_part { /* the part of the map held here: all of it */
     const double *h;
     double *p, *gap, *u;
 };

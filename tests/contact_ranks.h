@@ -1,5 +1,5 @@
-/* Contact tests under mpirun: every process runs the whole test, but for what is solved, which they
- * share. What they find is gathered, and each judges all of it. */
+/* Contact tests under mpirun: every process runs the whole test, but the processes share the
+ * contacts that are solved. The results are gathered, and each process judges all of them. */
 #ifndef CONTACT_RANKS_H
 #define CONTACT_RANKS_H
 

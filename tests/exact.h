@@ -10,7 +10,7 @@ static const double exact_pi = 3.14159265358979323846;
 
 /* The ladder of tolerances, all relative: a test names the rung it stands on, or says where its
  * bound comes from. The scripts know these names too (pipe.sh). */
-static const double same = 0;            /* the same number, or a decimal that reads back as it */
+static const double same = 0;            /* the same number, or a decimal that is read back as it */
 static const double converted = 1e-15;   /* read from text, and its unit applied                */
 static const double of_sum = 1e-14;      /* rounding of a sum, over that of absolute values     */
 static const double rounding = 1e-13;    /* a few operations in double precision                */
@@ -28,7 +28,7 @@ static const double grid_area = 1;
 /* And of a rigid cone: its apex is blunt by a cell, approach over n. */
 static const double grid_cone = 0.2;
 
-/* The larger of two numbers, and NaN where one of them is none: fmax would take the other. */
+/* The larger of two numbers, and NaN where one of them is NaN: fmax would return the other. */
 static inline double
 larger(double a, double b)
 {

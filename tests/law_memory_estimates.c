@@ -1,5 +1,5 @@
-/* What the library says that it takes is within a tenth of what it then takes at most, each in a process of
- * its own: solver, stiffness, stresses and sums, on maps large enough that code and plans do not count. */
+/* The library's estimates of memory are within a tenth of the peak, each in a process of its own:
+ * solver, stiffness, stresses and sums, on maps large enough that code and plans do not count. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -26,7 +26,7 @@ struct work {
     enum rc_boundary boundary;
     const char *engine;
     size_t code; /* bytes of code and plans, which the library does not count */
-    /* Does it on these heights and pressures, gives what it was said to take; 0: it failed. */
+    /* Does the work on these heights and pressures, returns the estimate for it; 0: it failed. */
     size_t (*run)(const struct work *work, const double *h, const double *p);
 };
 
@@ -148,7 +148,7 @@ psd(const struct work *w, const double *h, const double *p)
     return bytes;
 }
 
-/* In a child: 0 when what it took is what was said, as a status. */
+/* In a child: as an exit status, 0 when the memory it took agrees with the estimate. */
 static int
 measured(const struct work *w)
 {

@@ -36,7 +36,7 @@ void *reallocarray(void *old, size_t n, size_t size);
 enum whose {
     NOBODYS, /* does not count                             */
     COUNTED,
-    PASSED_ON /* as whoever called the library counts       */
+    PASSED_ON /* as the caller of the library counts */
 };
 
 enum {
@@ -113,7 +113,7 @@ is_counted(const void *caller)
     if (whose != PASSED_ON)
         return whose == COUNTED;
     depth = backtrace(frame, DEPTH);
-    for (int k = 0; k < depth; k++) /* up to the C library, and on to whoever called it */
+    for (int k = 0; k < depth; k++) /* up to the C library, and on to its caller */
         if (frame[k] == caller) {
             for (; k < depth; k++)
                 if ((whose = whose_code(frame[k])) != PASSED_ON)
@@ -138,7 +138,7 @@ hold(void *at)
     fault.held++;
 }
 
-/* Removed, with what stands behind it moved up as linear probing needs it. */
+/* Removes an entry, and moves the entries behind it up as linear probing needs it. */
 static void
 let_go(const void *at)
 {

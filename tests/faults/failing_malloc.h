@@ -12,7 +12,7 @@ void fault_arm(size_t n, bool stay);
 size_t fault_disarm(void);
 /* Blocks that were allocated since fault_arm and are still held. */
 size_t fault_held(void);
-/* Whether the one that failed first was made by a library and not by the program itself. */
+/* Whether the first allocation that failed was made by a library and not by the program itself. */
 bool fault_in_library(void);
 
 #endif

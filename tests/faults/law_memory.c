@@ -31,7 +31,7 @@ static const struct rc_layer layer = {2e-6, 2e9, 0.3};
 static const struct rc_pair layered = {.one = {1e9, 0.3, 1, &layer}};
 static double rough[N], holed[N], pressure[N], hardness[N];
 
-/* A map that was to be changed in place is what it was where that has failed. */
+/* A map that is changed in place is unchanged after a failure. */
 static enum rc_status
 or_as_before(enum rc_status status, const double *map, const double *before)
 {
@@ -334,7 +334,7 @@ plans(double *out, struct rc_err *err)
     return RC_OK;
 }
 
-/* These allocate nothing, which is claimed of them below. */
+/* These functions allocate nothing, which is claimed below. */
 static enum rc_status
 without(double *out, struct rc_err *err)
 {
@@ -502,7 +502,7 @@ every_allocation_fails(void **state)
     assert_true(refused > 0);
 }
 
-/* What a process holds, and may still take, is told without taking any. */
+/* A process can measure what it holds, and what it may still take, without allocating. */
 static void
 memory_is_told_without_memory(void **state)
 {

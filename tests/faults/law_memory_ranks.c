@@ -214,7 +214,7 @@ static const struct {
 
 /* ---- one failure ---- */
 
-/* A process that waits for ever is told of, and ends all. */
+/* A process that waits for ever is reported, and ends all. */
 static char waiting[256];
 
 static void

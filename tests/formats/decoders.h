@@ -1,5 +1,5 @@
-/* Decoders of what is written, from the descriptions of the formats; they share no code with the
- * writers. */
+/* Decoders of exported files, written from the descriptions of the formats; they share no code with
+ * the writers. */
 #ifndef DECODERS_H
 #define DECODERS_H
 

@@ -1,5 +1,5 @@
-/* Text matrices mean the same however they are written, and what is no matrix is refused with the
- * number of the line. */
+/* Text matrices are read alike however they are written, and other text is refused with the number
+ * of the line. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>

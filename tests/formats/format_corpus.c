@@ -60,8 +60,8 @@ static const struct {
 /* Rows whose probes were taken from under the mask that the same row counts as missing. */
 static const char probes_under_mask[] = "generated/frt-2.gwy";
 
-/* The row whose truth was worked out in single precision, sums among it: our heights are rounded
- * to that, and are then the same numbers. */
+/* The row whose true values were computed in single precision, sums too: our heights are rounded to
+ * it and are then the same numbers. */
 static const char single[] = "truemap-tmd/SurfaceTopography__tmd-1.tmd";
 
 /* Files of bad.tsv, all refused, and what for. */
@@ -100,7 +100,7 @@ enum {
     EXCEPTIONS = sizeof refused / sizeof *refused + 2 /* probes_under_mask and single */
 };
 
-/* Formats whose files have steps of which they do not say the unit. */
+/* Formats whose files give steps without a unit. */
 static const char *const unitless[] = {"esri", "grd", "xyz"};
 
 static const char *folder;
@@ -270,7 +270,7 @@ check_grid(char *column[COLUMNS], struct rc_grid *g)
                g->ny, s.missing, probes);
 }
 
-/* The channel that a user gets who names none. */
+/* The channel that is read when the user names none. */
 static size_t
 topography_of(const struct rc_format *format, const struct rc_file *file,
               const struct rc_wish *wish)
@@ -306,8 +306,8 @@ check_steps(char *column[COLUMNS], const struct rc_format *format, const struct 
     steps_checked++;
 }
 
-/* The channel that the manifest means: "Height#6" is the one named Height; the topography
- * where none has that name. */
+/* The channel of the manifest: "Height#6" is the one named Height, or the topography where none has
+ * that name. */
 static size_t
 channel_of(const struct rc_format *format, const struct rc_file *file, const struct rc_wish *wish,
            const char *name)
@@ -442,8 +442,8 @@ rows_of_the_manifest(void **state)
         fail_msg("%zu faults", faults);
 }
 
-/* Reads what the row of bad.tsv names: repository, commit, path, and further columns. Gives its
- * place in bad[], or BAD. */
+/* Reads a row of bad.tsv: repository, commit, path, and further columns. Returns its place in
+ * bad[], or BAD. */
 static size_t
 check_bad(char *line)
 {

@@ -1,5 +1,5 @@
-/* DATX files, made here, are read with the table that leads to their heights and without; what
- * is no DATX, damaged, or in a unit that is none is refused. */
+/* DATX files, made here, are read with the table that leads to their heights and without it; other
+ * HDF5 files, damaged ones and heights in an unknown unit are refused. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>

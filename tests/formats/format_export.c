@@ -82,7 +82,7 @@ compare(size_t f, const char *by, const struct rc_grid *g, const struct map *m)
                  formats[f].type, g->nx, g->ny, worst, within);
 }
 
-/* Our own reader, asked for what the format does not say. */
+/* Our own reader, with the wishes for all that the format does not give. */
 static void
 compare_reader(size_t f, const struct rc_grid *g, const struct written *made)
 {
@@ -110,8 +110,8 @@ compare_reader(size_t f, const struct rc_grid *g, const struct written *made)
     rc_grid_free(back);
 }
 
-/* A text matrix of one column could be a profile, three points could be a list, and a raster of one
- * line is none: the readers of text leave these to their user. */
+/* The readers of text leave some cases to their user: a matrix of one column could be a profile,
+ * three points could be a list, and one line is no raster. */
 static bool
 reader_takes(size_t f, const struct rc_grid *g)
 {

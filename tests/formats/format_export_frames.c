@@ -1,5 +1,5 @@
-/* What a written file says beside its numbers: parts and sums, several frames, and what it cannot
- * say. */
+/* Written files hold more than numbers: parts and checksums, several frames; and refuse frames that
+ * the format cannot hold. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>

@@ -55,7 +55,7 @@ hdf5_is_read(void **state)
         }
 }
 
-/* A small file cannot send the reader to another one: what it named would come out as heights. */
+/* A small file cannot make the reader open another one, whose contents would come out as heights. */
 static void
 hdf5_stays_in_its_file(void **state)
 {

@@ -11,7 +11,7 @@
 #include "formats/format.h"
 #include "made.h"
 
-/* A field of a made file with another value, and what is said of it. */
+/* A field of a made file that is given another value, and the refusal that follows. */
 static const struct {
     const char *format;
     void (*make)(struct bytes *m, int variant);

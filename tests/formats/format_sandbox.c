@@ -405,7 +405,7 @@ static const struct {
     {"what files there are", way_environment},
 };
 
-/* Tries them all; refused with those that were open. */
+/* Tries all ways out, and refuses the file with the names of those that were open. */
 static struct rc_grid *
 escaping(const struct rc_file *f, const struct rc_wish *wish, size_t index, struct rc_notes *notes,
          struct rc_err *err)

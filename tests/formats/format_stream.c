@@ -1,5 +1,5 @@
-/* A grid stream reads back bit by bit, and whatever is wrong with one is refused with its reason:
- * never a crash, never a frame that was not written. */
+/* A grid stream is read back bit by bit, and a damaged one is refused with the reason: never a
+ * crash, never a frame that was not written. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -195,7 +195,7 @@ test_round_trip_f64(void **state)
     rc_grid_free(back);
 }
 
-/* More values than are converted at a time; what a float holds comes back as it was. */
+/* More values than are converted at a time; values that a float holds come back unchanged. */
 static void
 test_round_trip_f32(void **state)
 {
@@ -398,8 +398,8 @@ check_failure(const char *message, int status, const char *expected)
     free(b.data);
 }
 
-/* A stream that fails before it begins: what is read is the message and the exit status written,
- * whole characters of it where it is too long. */
+/* A stream that fails before it begins: its reader gets the message and the exit status, and of a
+ * message that is too long whole characters. */
 static void
 test_failure_and_its_status(void **state)
 {

@@ -189,8 +189,8 @@ lying_sizes(void **state)
     free(xml);
 }
 
-/* Every way to use the file, in a block of memory of exactly its size: it is refused with a reason
- * or read as what it was, and nothing beside the block is touched. Whether it was read. */
+/* Reads the file in every way, in a block of memory of exactly its size: it is refused with a
+ * reason or read as it was, and nothing beside the block is touched. Returns whether it was read. */
 static bool
 survives(const unsigned char *data, size_t n)
 {
@@ -247,7 +247,7 @@ every_byte_damaged(void **state)
     drop_file(&file);
 }
 
-/* Damage that has its checksums put right: the archive is whole, what it says is not. */
+/* Damage with checksums that fit: the archive is whole, its contents are not. */
 static void
 every_byte_of_the_header_damaged(void **state)
 {

@@ -106,7 +106,8 @@ bool gives_reason(const char *text, const char *why);
 /* Positive, finite spacings, no infinite value, and no more values than a file of that size may
  * have. */
 void check_sound(const char *what, const struct rc_grid *g, size_t file_size);
-/* The values, spacings and the rest of what a map must be. */
+/* Fails the test unless the map has this size, these spacings and values, and is a height in
+ * metres. */
 void check_map(const struct rc_grid *g, size_t nx, size_t ny, double dx, double dy,
                const double *v);
 
@@ -175,7 +176,7 @@ void tiff_start(struct bytes *b, bool big);
 /* One directory with its data before it; gives its place. The list ends with tag 0. */
 size_t tiff_directory(struct bytes *b, const struct tag *tag);
 /* A page of nx x ny pixels in one strip, with further tags, which must be above 339; `last` is the
- * place of the word that is to lead here. Gives the place of the next such word. */
+ * place of the word that is to point to the page. Returns the place of the next such word. */
 size_t tiff_page(struct bytes *b, size_t last, size_t nx, size_t ny, unsigned bits,
                  unsigned samples, const char *description, const void *pixels, size_t n,
                  const struct tag *more);

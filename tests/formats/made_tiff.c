@@ -63,8 +63,7 @@ tiff_start(struct bytes *b, bool big)
     add_number(b, 0, 4);
 }
 
-/* A page of nx x ny pixels in one strip, with further tags, which must be above 339; `last` is the
- * place of the word that is to lead here. Gives the place of the next such word. */
+/* A page as tiff_page makes it, packed as `compression` says (tag 259). */
 static size_t
 tiff_any_page(struct bytes *b, size_t last, size_t nx, size_t ny, unsigned bits, unsigned samples,
               const char *description, const void *pixels, size_t n, const struct tag *more,

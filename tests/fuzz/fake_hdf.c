@@ -1,5 +1,5 @@
-/* In place of hdf.c: whatever libhdf5 could return for a hostile file, within what hdf.h promises.
- * The bytes of the file are what is returned, one call after another; past its end they are 0. */
+/* In place of hdf.c: results that libhdf5 could return for a hostile file, within the promises of
+ * hdf.h. The bytes of the file decide them, one call after another; past its end they are 0. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -63,7 +63,7 @@ check_words(const char *words)
 static void
 try_file(const uint8_t *data, size_t size)
 {
-    /* half of the files are read with what the user adds, a quarter resampled */
+    /* half of the files are read with wishes of a user, a quarter resampled */
     bool wishes = size > 0 && (data[size - 1] & 1) != 0;
     struct rc_wish wish = {.dx = wishes ? 1e-6 : NAN,
                            .dy = NAN,
@@ -104,8 +104,8 @@ try_file(const uint8_t *data, size_t size)
     }
 }
 
-/* The file as it is, or what it unpacks to: RC_GZIP in the environment puts the header of a member
- * before it, so that mutation need not keep that right. */
+/* The file as it is, or unpacked: with RC_GZIP in the environment the header of a gzip member is
+ * put before it, so that mutation need not keep that right. */
 static void
 try_packed(const uint8_t *data, size_t size)
 {

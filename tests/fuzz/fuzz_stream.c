@@ -17,7 +17,7 @@
 enum {
     FRAMES_MOST = 64,
     MEMORY = 1 << 22, /* --memory of the reader */
-    BESIDE = 1 << 20  /* what it holds beside a frame, and a quarter of it for keys */
+    BESIDE = 1 << 20  /* bytes that it holds beside a frame, a quarter of them for keys */
 };
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
@@ -61,8 +61,8 @@ same(const struct rc_grid *a, const struct rc_grid *b)
     return equal;
 }
 
-/* Written and read, a frame is what it was. A header may grow past its limit by its numbers, which are
- * written in full: that is refused. */
+/* A frame that is written and read is unchanged. A header may grow past its limit, because its
+ * numbers are written in full: that is refused. */
 static void
 round_trip(const struct rc_grid *g)
 {
@@ -148,7 +148,8 @@ number_of(const uint8_t *head, size_t n, const char *name)
     return 0;
 }
 
-/* Puts the checksum right of the frame at data[0..size); gives where it ends, 0: it has no such line. */
+/* Corrects the checksum of the frame at data[0..size); returns the end of the frame, or 0 when it
+ * has no such line. */
 static size_t
 seal(uint8_t *data, size_t size)
 {

@@ -31,7 +31,7 @@ on_free(const volatile void *at)
 {
     size_t n = at == NULL ? 0 : __sanitizer_get_allocated_size(at);
 
-    meter.held -= n < meter.held ? n : meter.held; /* what is older than the start may be freed */
+    meter.held -= n < meter.held ? n : meter.held; /* blocks from before the start may be freed */
 }
 
 void

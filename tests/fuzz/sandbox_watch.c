@@ -35,7 +35,7 @@ enum {
     COUNTERS_MOST = 1 << 20
 };
 
-/* What libFuzzer counts: a byte for every edge of what was built with it. */
+/* The counters of libFuzzer: a byte for every edge of the code built with it. */
 extern uint8_t counters_start[] __asm__("__start___sancov_cntrs");
 extern uint8_t counters_end[] __asm__("__stop___sancov_cntrs");
 
@@ -118,7 +118,7 @@ in_child(void)
 
     is_child = true;
     if (nothing >= 0)
-        dup2(nothing, 2); /* reports of what is meant to die here */
+        dup2(nothing, 2); /* reports of deaths that are expected */
     __sanitizer_set_death_callback(on_report);
 }
 
@@ -156,7 +156,7 @@ LLVMFuzzerInitialize(int *argc, char ***argv)
     shared = mmap(NULL, sizeof *shared, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (shared == MAP_FAILED || pthread_atfork(NULL, in_parent, in_child) != 0)
         abort();
-    backtrace(frame, 2); /* loads what it needs now, while files can be opened */
+    backtrace(frame, 2); /* loads its libraries now, while files can be opened */
     atexit(summary);
     H5open(); /* once, and not in every child */
     return 0;
@@ -185,8 +185,7 @@ belongs(void *pc)
     __sanitizer_symbolize_pc(pc, "%f", name, sizeof name);
     if (strncmp(name, "__", 2) == 0 || strstr(name, "::") != NULL)
         return -1;
-    if (dlsym(RTLD_NEXT, name) !=
-        NULL) /* what the sanitizer has in place of malloc, memmove, ... */
+    if (dlsym(RTLD_NEXT, name) != NULL) /* the sanitizer's own malloc, memmove, ... */
         return -1;
     for (size_t k = 0; k < sizeof own / sizeof *own; k++)
         if (strcmp(name, own[k]) == 0)

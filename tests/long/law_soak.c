@@ -42,7 +42,7 @@ static double
 mib_held(void)
 {
 #ifdef __GLIBC__
-    malloc_trim(0); /* what is free but not given back is no leak */
+    malloc_trim(0); /* free memory that was not given back is no leak */
 #endif
     return (double)pages_held() * (double)sysconf(_SC_PAGESIZE) / (1 << 20);
 }

@@ -23,7 +23,7 @@
 enum {
     FEW = 1000,
     MANY = 100000,
-    OUTPUT = 1 << 16 /* bytes that are kept of what a tool says */
+    OUTPUT = 1 << 16 /* bytes that are kept of a tool's output */
 };
 
 /* MiB that a tool may take more for a hundred times as many frames. */
@@ -83,7 +83,7 @@ start_tool(const char *command, int from, int to)
     _exit(127);
 }
 
-/* The first bytes of what it says are kept, all are counted. */
+/* Keeps the first bytes of a tool's output, and counts all of them. */
 static void
 run(struct ran *r, producer *produce, size_t n, const char *tool, const char *arguments)
 {

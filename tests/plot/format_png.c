@@ -280,7 +280,7 @@ logarithms_give_equal_steps_to_equal_ratios(void **state)
     free(p.rgb);
 }
 
-/* magma's ends, as published, for what is on one side of 0: there they lie. */
+/* magma's ends, as published, which values on one side of 0 get */
 static void
 one_signed_stresses_end_at_zero(void **state)
 {
@@ -478,8 +478,8 @@ difference(const struct colormap *map, double s, double t, size_t by)
     return sqrt(pow(a[0] - b[0], 2) + pow(a[1] - b[1], 2) + pow(a[2] - b[2], 2));
 }
 
-/* Lightness goes one way along a map, or along each half of one about 0, and what is a tenth of the
- * range apart looks different: 5 is twice what is just noticed. */
+/* Lightness rises or falls all along a map of colours, or along each half of one about 0, and
+ * colours a tenth of the range apart look different: 5 is twice what is just noticed. */
 static void
 other_eyes_tell_values_apart(void **state)
 {

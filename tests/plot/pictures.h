@@ -1,4 +1,4 @@
-/* Pictures of rc-render as a test looks at them: pixels, and what lies where in a graph. */
+/* Reads pictures of rc-render for the tests: pixels, and the places of parts of a graph. */
 #ifndef RC_TEST_PICTURES_H
 #define RC_TEST_PICTURES_H
 
@@ -191,7 +191,7 @@ find_marks(const struct picture *p, int across, size_t line, size_t from, size_t
     return n;
 }
 
-/* The middle of what has the colour inside the frame; gives the number of pixels. */
+/* The middle of the pixels of that colour inside the frame; returns their number. */
 static inline size_t
 find_colour(const struct picture *p, const struct frame *f, unsigned colour, double *x, double *y)
 {

@@ -1,5 +1,5 @@
-/* In a relief what lies behind something higher is hidden, the map turns as the viewer walks around
- * it, and heights are drawn as many times higher as the figure says. In a hillshade the slopes that
+/* In a relief higher parts hide the parts behind them, the map turns as the viewer walks around it,
+ * and heights are drawn as many times higher as the figure says. In a hillshade the slopes that
  * face the upper left are bright. */
 #include "pictures.h"
 

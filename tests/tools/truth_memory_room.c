@@ -1,5 +1,5 @@
-/* What is left of the memory is the least of what the machine has, what each group that the process is
- * in may still take, and its own limits: read from files laid out as the kernel's. */
+/* The memory that is left is the least of what the machine has, what each group of the process may
+ * still take, and its own limits: read from files laid out as the kernel's. */
 #define _DEFAULT_SOURCE /* MAP_ANONYMOUS */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -162,8 +162,8 @@ test_container(void **state)
     assert_true(memory_room(root).bytes == 10 * mib);
 }
 
-/* A group whose name only begins as that of the part that is mounted lies outside: what can be seen
- * are the bounds of that part. */
+/* A group whose name only begins like that of the mounted part lies outside it: then only the
+ * bounds of that part can be seen. */
 static void
 test_names_that_begin_alike(void **state)
 {
@@ -184,7 +184,7 @@ test_names_that_begin_alike(void **state)
     assert_true(memory_room(root).bytes == 8 * mib);
 }
 
-/* Bounded by itself; a child, so that the test is not. */
+/* Bounded by itself, in a child, so that the test itself is not. */
 static void
 test_limits(void **state)
 {
@@ -210,7 +210,7 @@ test_limits(void **state)
 #endif
 }
 
-/* What is held rises by what is touched, not by what is asked for, and the most stays what it was. */
+/* Touched memory is held, memory that was only asked for is not, and the peak stays. */
 static void
 test_held(void **state)
 {

@@ -1,5 +1,5 @@
-/* A number on a command line is the SI value that its text says, to the last bit, and a text that
- * says none is refused. */
+/* A number on a command line becomes the SI value of its text, to the last bit, and other text is
+ * refused. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
