@@ -1,6 +1,6 @@
-/* Every engine gives, for every kernel, size and spacing, what the double sum gives; on periodic
- * maps, where it does them, what the sum over all waves gives. The bodies, whose kernels they are, and the
- * engines are those of the lists, whatever these hold. */
+/* Every engine agrees with the double sum for every kernel, size and spacing; on periodic maps,
+ * where it does them, with the sum over all waves. The bodies, whose kernels they are, and the engines are
+ * those of the lists, whichever these hold. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -144,8 +144,8 @@ wave_sum(const struct rc_sum *s, const double *p, double *u)
 
 /* ---- the comparison ---- */
 
-/* How far an engine may be from the judge, over the sum of |K| |p|: what is asked for, else
- * rounding, of two sums where it interpolates. */
+/* The allowed distance of an engine from the judge, over the sum of |K| |p|: the error that is
+ * asked for, else rounding, of two sums where it interpolates. */
 static double
 allowed(const struct rc_engine *engine, double tol, bool precise)
 {

@@ -53,7 +53,7 @@ loves_rectangle(void **state)
             }
             print_message("%s, tol %g: %.1e, own bound %.1e\n", rc_conv_engine(c), tols[t], worst,
                           rc_conv_error(c));
-            /* what is asked for is relative to the largest sum: seen are 1e-6 for 1e-4 */
+            /* the error asked for is relative to the largest sum: 1e-6 is seen for 1e-4 */
             assert_true(worst <= (tols[t] == 0 ? of_sum : tols[t] / 10));
             assert_true(worst <= 30 * rc_conv_error(c)); /* a bound on the sum, not on each u */
             rc_conv_free(c);

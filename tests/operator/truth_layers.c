@@ -81,8 +81,8 @@ ends(void **state)
     }
 }
 
-/* The table that symbols are taken from beside the recursion, over 16 decades of wave numbers and coats a
- * thousand times as stiff and as soft as what they lie on. */
+/* The table of symbols against the recursion, over 16 decades of wave numbers and coats a thousand
+ * times as stiff and as soft as the material below. */
 static void
 table(void **state)
 {

@@ -25,13 +25,14 @@ struct hard_case {
     double mean;     /* mean pressure over E*                         */
     double hardness; /* over the mean pressure; 0: none               */
     double estar;    /* Pa; 0: 114 GPa                                */
-    /* How far the answer is from the known one, over what it may be; NULL: none is known. */
+    /* The distance of the answer from the known one, over the allowed distance; NULL: none is
+     * known. */
     double (*truth)(const struct hard_case *c, const struct rc_problem *problem, const double *h,
                     const struct solved *s);
     double tol; /* asked for; 0: hard_tol                        */
 };
 
-/* Bounds of every case, and what is asked for: where the roughness is small beside the
+/* The bounds of every case, and the accuracy asked for: where the roughness is small beside the
  * displacement, a pressure to 1e-8 is not yet a gap to 1e-9 of it. */
 static const double hard_error = 1e-8, hard_kkt = 1e-9, hard_tol = 1e-12;
 
@@ -194,7 +195,7 @@ hard_violation(const struct hard_case *c, const struct rc_problem *problem, cons
         worst = larger(worst, p[k] <= 0 ? -g : p[k] >= problem->hardness ? g : fabs(g));
     }
     scale = sqrt(larger(spread_u, spread_h) / (double)n);
-    if (spread_h == 0) /* all heights are one: beside what the mean pressure displaces */
+    if (spread_h == 0) /* all heights are one: relative to the displacement by the mean pressure */
         scale = hard_depth(c, problem);
     free(u);
     return worst == 0 ? 0 : worst / scale;

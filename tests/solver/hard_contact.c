@@ -214,7 +214,7 @@ an_accuracy_out_of_reach(void **state)
     solved_free(&s);
 }
 
-/* What is wrong with one field of an else possible problem, and what the refusal says of it. */
+/* A fault in one field of an otherwise possible problem, and the refusal that names it. */
 #define FIELD(name) #name, offsetof(struct rc_problem, name)
 /* clang-format off */
 static const struct {

@@ -1,5 +1,6 @@
-/* Contact of coated bodies is solved to 1e-8 from coats of a thousandth of a node to those of a thousand
- * maps, a ten-thousandth to ten thousand times as stiff as what is below, elastic and hard. */
+/* Contact of coated bodies is solved to 1e-8, from coats of a thousandth of a node to those of a
+ * thousand maps, a ten-thousandth to ten thousand times as stiff as the material below, elastic and
+ * hard. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

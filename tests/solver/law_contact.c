@@ -90,8 +90,8 @@ the_papers_rough_sphere(void **state)
     free(h);
 }
 
-/* Against the same problem solved to 1e-10; its own error is granted a thousandth of what is
- * judged. */
+/* Compared with the same problem solved to 1e-10, whose own error may be a thousandth of the
+ * difference. */
 static void
 the_estimate_does_not_flatter(void **state)
 {

@@ -1,5 +1,5 @@
-/* MPI counts in ints: what one rank cannot count is refused, on all ranks alike, and what can be sent in pieces
- * is. No map is made for it: messages are noted, not sent. */
+/* MPI counts in ints: a size that one rank cannot count is refused, on all ranks alike, and one
+ * that can be sent in pieces is sent. No map is made for it: messages are noted, not sent. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -100,7 +100,7 @@ fullest_rank_decides(void **state)
     assert_null(strstr(err.text, "memory"));
 }
 
-/* Rows are dealt out in units: a rank without any finds what the one with all finds. */
+/* Rows are dealt out in units: a rank without any gets the same result as the one with all. */
 static void
 rows_count_too(void **state)
 {

@@ -26,8 +26,8 @@ make_surface(double *h)
     assert_int_equal(rc_synth_selfaffine(&shape, &what, h, &err), RC_OK);
 }
 
-/* What the estimate may be over the error: 1.42 is the most here where the coat is at most twice as stiff
- * as what it lies on, 2.12 at 10 times; it is never below. */
+/* The bound of the estimate over the error: 1.42 is the most here where the coat is at most twice
+ * as stiff as the material below, 2.12 at 10 times; it is never below 1. */
 static const double over_soft = 1.6, over_stiff = 2.4;
 
 static void

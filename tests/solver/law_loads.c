@@ -146,8 +146,8 @@ approach_is_inverted(void **state)
     }
 }
 
-/* A periodic surface comes no nearer than complete contact; a load beyond what the hardness
- * carries. The refusals hold what was asked for. */
+/* A periodic surface comes no nearer than complete contact; a load can be more than the hardness
+ * carries. The refusals name the value that was asked for. */
 static void
 impossible_is_refused(void **state)
 {
@@ -204,7 +204,7 @@ stiffness_is_the_slope(void **state)
     }
 }
 
-/* What has yielded is elastic under the same load, with the same pressure; more load, and it
+/* The yielded shape is elastic under the same load, with the same pressure; under more load it
  * yields. */
 static void
 yielded_shape_holds(void **state)

@@ -1,5 +1,5 @@
-/* A solver is made without iterating; its first steps pass on coarser grids, where it can be stopped;
- * a given start does without them; what comes in the wrong order is refused. */
+/* A solver is made without iterating; its first steps run on coarser grids, where it can be
+ * stopped; with a given start it leaves them out; calls in the wrong order are refused. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -92,7 +92,8 @@ coarse_grids_pass_in_steps(void **state)
     free(h);
 }
 
-/* Wherever it is stopped, what is there keeps the load and the box, and is not called converged. */
+/* Wherever a solver is stopped, its pressures keep the load and the bounds, and it is not called
+ * converged. */
 static void
 a_result_at_any_step(void **state)
 {

@@ -1,6 +1,6 @@
-/* Moves of the working set, whatever the direction: the load stays, pressures stay in the box, nodes
- * off the set stay where they are, and what is told of the move is what has happened. Tile by tile,
- * each tile keeps what the step would have given it, where it can. */
+/* Moves of the working set, in any direction: the load stays, pressures stay within the bounds,
+ * nodes off the set stay where they are, and the report of the move is true. Tile by tile, each
+ * tile keeps the load that the step would have given it, where it can. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

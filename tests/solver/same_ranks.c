@@ -1,5 +1,5 @@
-/* Processes that share a map find what one process finds, bit for bit: displacements, contact, stresses. Each
- * rank also solves the whole by itself. */
+/* Processes that share a map get the same results as one process, bit for bit: displacements,
+ * contact, stresses. Each rank also solves the whole by itself. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,5 @@
 /* Threads that use the library at the same time, in a program that plans transforms with FFTW for
- * itself, get what one thread gets. */
+ * itself, get the same results as one thread. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -19,7 +19,7 @@ enum {
     N = 48 * 48  /* values that a piece of work may give  */
 };
 
-/* Piece k of the work of one kind: writes what it gives to the front of out. */
+/* Piece k of the work of one kind: writes its results to the front of out. */
 typedef void work(size_t k, double *out);
 
 static struct rc_shape
@@ -179,7 +179,8 @@ beside_another_user_of_fftw(void **state)
     beside_each_other(kinds, 6);
 }
 
-/* Of FFTW, but in none of its headers: what is called before and after each use of its planner. */
+/* Functions of FFTW that none of its headers declares: they are called before and after each use of
+ * its planner. */
 extern void fftw_set_planner_hooks(void (*before)(void), void (*after)(void));
 extern void fftwf_set_planner_hooks(void (*before)(void), void (*after)(void));
 

@@ -340,8 +340,8 @@ maps_in_equilibrium(void **state)
     free(s);
 }
 
-/* The sum of szz over a plane is the load, but for what is beyond the map, which falls as the third power
- * of its size: on a map twice as large an eighth of it is left. */
+/* The sum of szz over a plane is the load, less the part beyond the map, which falls as the third
+ * power of its size: a map twice as large leaves out an eighth of it. */
 static void
 every_depth_carries_the_load(void **state)
 {

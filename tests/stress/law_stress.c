@@ -228,7 +228,7 @@ the_window_catches_the_load(void **state)
 
 /* ---- the surface ---- */
 
-/* Both boundaries: at depth 0 the tractions are those that were put there. */
+/* Both boundaries: at depth 0 the tractions are the given ones. */
 static void
 tractions_at_the_surface(void **state)
 {
@@ -402,7 +402,7 @@ far_walls_do_not_matter(void **state)
     assert_true(off[1] < off[0] / 3.5 && off[2] < off[1] / 3.5 && off[2] < 2e-4);
 }
 
-/* What makes no sense is refused, with what it is. */
+/* Stresses that make no sense are refused, and the refusal names the value. */
 static void
 refused(void **state)
 {

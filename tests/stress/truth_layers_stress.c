@@ -353,9 +353,9 @@ uniform_pressure(void **state)
 
 /* ---- coefficients of a cell ---- */
 
-/* Integral over all waves of what a unit load on the cell dx x dy is made of: polar, by panels in q, by
- * even steps of the angle, which converge like nothing else. In the top layer without what one material
- * does. */
+/* The integral over all waves of the response to a unit load on the cell dx x dy: polar, by panels
+ * in q, by even steps of the angle, which converge very fast. In the top layer without the part of
+ * one material. */
 struct wave_sum {
     const struct rc_stack *stack;
     size_t medium;

@@ -1,4 +1,4 @@
-/* Stresses are what is known on paper: coefficients are integrals of point loads, a loaded
+/* Stresses agree with those known on paper: coefficients are integrals of point loads, a loaded
  * rectangle is Love's at every depth, a sliding sphere is Hamilton's. */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -233,7 +233,8 @@ coefficients_at_the_surface(void **state)
         assert_true(fabs(coefficient(RC_SXX, nu, 0, 0, 0, 1.7, 1.7) + (1 + 2 * nu) / 2) < rounding);
 }
 
-/* Love's and the shear's closed forms, which the rest leans on, against the same quadrature. */
+/* The closed forms of Love and of the shear, on which the other tests rely, against the same
+ * quadrature. */
 static void
 rectangle_is_the_integral(void **state)
 {

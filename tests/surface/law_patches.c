@@ -1,5 +1,5 @@
-/* Patches are what a plain flood fill finds: count, areas and perimeters of each, on free maps and
- * across the edges of periodic ones, whatever the number of threads; and quickly. */
+/* Patches are those of a plain flood fill: count, areas and perimeters of each, on free maps and
+ * across the edges of periodic ones, for any number of threads; and they are found quickly. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

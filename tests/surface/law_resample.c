@@ -1,6 +1,6 @@
-/* Means over the cells of another grid keep the integral, and what is linear where the sizes
- * divide; the way back is the transpose of the way there: for sizes that divide, that do not, to
- * coarser grids and to finer ones. */
+/* Means over the cells of another grid keep the integral; where the sizes divide, they also keep a
+ * plane. The way back is the transpose of the way there: for sizes that divide and that do not, to
+ * coarser and to finer grids. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,5 @@
-/* What is left without the polynomial of least squares is orthogonal to every polynomial of its
- * degree over the points that are there, and is nothing where the surface was such a polynomial. */
+/* The rest after the polynomial of least squares is orthogonal to every polynomial of its degree over the
+ * points that are there, and is 0 where the surface was such a polynomial. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_multifit.h>
 #include <math.h>

@@ -1,6 +1,6 @@
-/* rc_filter is the Gaussian regression filter of order 0: its weighting function and what it lets
- * through are the formulas of ISO 16610-61, and with missing points, at edges and reweighted it is
- * what the sums written out give. */
+/* rc_filter is the Gaussian regression filter of order 0: its weighting function and its
+ * transmission are the formulas of ISO 16610-61; with missing points, at edges and reweighted it
+ * agrees with sums written out. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -208,7 +208,7 @@ test_transmission(void **state)
         }
 }
 
-/* A millimetre under micrometre heights costs what a millimetre's last digit is, and no more; and a
+/* A millimetre added to micrometre heights costs the last digit of a millimetre, and no more; and a
  * flat stays flat. */
 static void
 test_datum(void **state)

@@ -110,9 +110,9 @@ below(size_t k, double x)
     return gsl_cdf_gamma_Q(fmax(mean - rms * x, 0), 4 / (s * s), 1);
 }
 
-/* What the heights of a finite map leave out of the tails: of the fourth power some per cent where
- * they are long; of mean and RMS, which are put right, some thousandths: a height may be so far
- * from the one that has as much below it in the distribution itself. */
+/* The part of the tails that the heights of a finite map leave out: some per cent of the fourth
+ * power where they are long; some thousandths of mean and RMS, which are put right. A height may be
+ * so far from the one that has as much below it in the distribution itself. */
 static void
 check_heights(const struct rc_shape *s, size_t k)
 {

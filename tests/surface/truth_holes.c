@@ -1,4 +1,4 @@
-/* The width of the widest hole is what looking at every pair of nodes gives, and what a ruler does. */
+/* The width of the widest hole agrees with a search through every pair of nodes, and with a ruler. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

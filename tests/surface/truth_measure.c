@@ -1,5 +1,5 @@
-/* Sums, moments and slopes of maps are what closed forms and long double sums say, whatever the
- * datum and whatever is missing. */
+/* Sums, moments and slopes of maps agree with closed forms and sums in long double, whatever the
+ * datum and the missing points. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

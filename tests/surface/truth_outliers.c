@@ -1,5 +1,5 @@
-/* rc_outliers takes out the points that sorting all neighbourhoods finds, with points missing, at
- * the edges and around them; rc_taper multiplies what is above the mean by a raised cosine. */
+/* rc_outliers takes out the same points as sorting all neighbourhoods does, with missing points, at
+ * the edges and around them; rc_taper multiplies the heights above the mean by a raised cosine. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -217,8 +217,8 @@ worst(const struct made *made, double hurst, enum rc_boundary boundary, bool tol
          * formula is off its power law */
         assert_true(fabs(psd->hurst - hurst) <= 3 * psd->hurst_error);
         assert_true(psd->hurst_error < exponent);
-        /* the range that is found lies in the one that was made, give or take where it is not seen
-         * yet that it ends, and holds half of it */
+        /* the range that is found lies in the true one, give or take the waves that show where it
+         * ends, and holds half of it */
         assert_true(psd->shortest >= 0.9 * shortest && psd->longest <= 2 * longest);
         assert_true(psd->longest / psd->shortest >= sqrt(longest / shortest));
         rc_psd_free(psd);

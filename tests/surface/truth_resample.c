@@ -1,6 +1,6 @@
-/* On finer grids cubic polynomials stay what they are inside, parabolas up to the edge, and periodic
- * maps what they are when repeated; on coarser ones each cell gets the mean of what was measured in
- * it, and nothing where that is less than half. */
+/* On finer grids cubic polynomials stay the same inside, parabolas up to the edge, and periodic
+ * maps when repeated; on coarser grids each cell gets the mean of the points measured in it, and is
+ * missing where they are less than half. */
 #include <stdlib.h>
 #include <string.h>
 
