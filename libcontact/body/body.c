@@ -41,7 +41,7 @@ rc_body_material(const struct rc_body *b, double depth)
 
 /* ---- a pair, checked ---- */
 
-/* Nothing is told of it: it is rigid, or E* stands for it. */
+/* The caller left it out: it is rigid, or E* stands for it. */
 static bool
 unsaid(const struct rc_body *b)
 {
@@ -121,7 +121,7 @@ rc_solids_free(struct rc_solids *s)
     s->n = 0;
 }
 
-/* 1/E* of both add up; of one it is not turned over twice. */
+/* 1/E* of both add up; a single E* keeps its last bit. */
 static double
 together(size_t n, const double estar[2])
 {

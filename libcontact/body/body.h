@@ -1,6 +1,7 @@
 /*
- * What a body does under load, however it is made: the face of this folder. Operators and stresses ask a body,
- * or the pair of both, and never learn which row of bodies.list answers. Internal: never installed.
+ * What a body does under load, however it is made: the face of this folder. Operators and stresses
+ * ask a body, or the pair of both, and never learn which row of bodies.list answers. Internal:
+ * never installed.
  */
 #ifndef RC_BODY_H
 #define RC_BODY_H
@@ -33,7 +34,7 @@ struct rc_waves {
 void rc_wave_directions(size_t n, const double *qx, const double *qy, double *x, double *y,
                         double *q);
 
-/* A depth of a body. What finds the stresses there keeps its own behind this. */
+/* A depth of a body. The row that made it keeps its own data behind this. */
 struct rc_inside {
     const struct rc_inside_type *type;
     double depth; /* m */
@@ -44,7 +45,8 @@ struct rc_solid;
 struct rc_inside_type {
     bool shares;   /* szz of the shear is sxz of the pressure                                */
     bool coarsens; /* at a depth no wave is felt that is much shorter: a coarser grid does   */
-    /* Numbers that are kept of a wave, and bytes of a depth; of the shear too, or not. */
+    /* How many numbers describe a wave at a depth, and the bytes of a depth; with the shear or
+     * without. */
     size_t (*numbers)(bool shear);
     size_t (*memory)(bool shear, enum rc_boundary boundary);
     /* NULL when memory is short or the body is rigid there. */
@@ -53,14 +55,15 @@ struct rc_inside_type {
     void (*free)(struct rc_inside *inside);
     /* The numbers of n waves of wave numbers q > 0, rad/m. */
     void (*waves)(const struct rc_inside *inside, size_t n, const double *q, double *numbers);
-    /* The transform of a kernel at each wave, over (-i)^(number of odd directions); of q = 0 anything. */
+    /* The transform of a kernel at each wave, over (-i)^(number of odd directions); at q = 0 its
+     * value does not matter. */
     void (*symbol)(const struct rc_inside *inside, int kernel, const struct rc_waves *waves,
                    double *out);
     /* Its mean on the periodic map, the same at any depth. */
     double (*mean)(const struct rc_inside *inside, int kernel, const struct rc_shape *shape);
-    /* Stresses at (x[i], y[i]), i < n, of unit load on the cell about the origin, of every kernel whose bit is
-     * set, to out[kernel][i]; and the same at (i step, y), faster where the step is that from cell to cell,
-     * dx. On the free boundary. */
+    /* Stresses at (x[i], y[i]), i < n, of unit load on the cell about the origin, of every kernel
+     * whose bit is set, to out[kernel][i]; and the same at (i step, y), faster where the step is
+     * that from cell to cell, dx. On the free boundary. */
     void (*coefficients)(const struct rc_inside *inside, const struct rc_cell *cell,
                          unsigned kernels, size_t n, const double *x, const double *y,
                          double *const out[RC_STRESS_KERNELS]);
@@ -76,12 +79,12 @@ rc_inside_free(struct rc_inside *inside) /* NULL is allowed */
 /* The symbol, with the mean where q = 0. */
 void rc_inside_symbol(const struct rc_inside *inside, int kernel, const struct rc_waves *waves,
                       const struct rc_shape *shape, double *out);
-/* The kernel of a load and component, or the one that has the same values; bits of those that these components
- * (bits) need, of the shear too or not. */
+/* The kernel of a load and component, or an equal one that stands for it; and the kernels (bits)
+ * that these components (bits) need, with the shear or without. */
 int rc_stress_kernel(const struct rc_inside_type *type, int load, int component);
 unsigned rc_stress_distinct(const struct rc_inside_type *type, unsigned components, bool shear);
 
-/* One kernel at one depth, as engines ask for it. `field` outlives what is made of it. */
+/* One kernel at one depth, as engines ask for it. `field` outlives every plan that uses the kernel. */
 struct rc_stress_field {
     const struct rc_inside *inside;
     int kernel;
@@ -96,13 +99,14 @@ enum rc_use {
     RC_INSIDE
 };
 
-/* A body made ready. The row that made it keeps its own behind this. */
+/* A body made ready. The row that made it keeps its own data behind this. */
 struct rc_solid {
     const struct rc_body_type *type;
 };
 
-/* A row of bodies.list. Displacements are those of a half-space of a composite modulus E*(q) for each wave,
- * of this body on a rigid one: a pressure of wave number q displaces the surface by 2/(E* q) of its height. */
+/* A row of bodies.list. Displacements are those of a half-space of a composite modulus E*(q) for
+ * each wave, of this body on a rigid one: a pressure of wave number q displaces the surface by
+ * 2/(E* q) of its height. */
 struct rc_body_type {
     const char *name, *summary;
     /* Whether a body that names no type is of this one. */
@@ -115,10 +119,11 @@ struct rc_body_type {
 
     /* ---- its surface ---- */
 
-    /* (1 - nu^2)/E, 1/Pa, where E* is the same for all waves: two such bodies are as one. NULL: it is not. */
+    /* (1 - nu^2)/E, 1/Pa, where E* is the same for all waves: two such bodies are as one. NULL: it
+     * is not. */
     double (*compliance)(const struct rc_body *body);
-    /* The spectrum of its padded kernel is positive, whatever the map; else it may not be, and its inverse is
-     * kept within bounds of that of a uniform body. */
+    /* The spectrum of its padded kernel is positive, whatever the map; else it may not be, and its
+     * inverse is kept within bounds of that of a uniform body. */
     bool positive;
     /* E*(q), Pa, q in rad/m; of the square of q it may come from a table, to 1e-12. */
     double (*modulus)(const struct rc_solid *solid, double q);
@@ -143,8 +148,8 @@ struct rc_body_type {
 #include RC_BODIES_LIST
 #undef RC_BODY
 
-/* Whether a depth is above an interface or at it: sums of thicknesses are rounded, and a depth that is meant
- * to be one must not be below it. */
+/* Whether a depth is above an interface or at it: sums of thicknesses are rounded, and a depth that
+ * is meant to be one must not be below it. */
 static inline bool
 rc_within(double depth, double bottom)
 {
@@ -168,13 +173,14 @@ enum rc_status rc_pair_check(const struct rc_pair *pair, struct rc_err *err);
 /* Whether the spectrum of their padded kernel is positive, whatever the map. */
 bool rc_pair_positive(const struct rc_pair *pair);
 
-/* Both bodies made ready: one solid, where both are uniform, or one each that is not rigid. */
+/* Both bodies made ready: a single solid where both are uniform, else one for each body that is not
+ * rigid. */
 struct rc_solids {
     size_t n;
     struct rc_solid *solid[2];
 };
-/* Makes those of a pair that has been checked; RC_FAIL on all ranks when memory is short on one. Free them in
- * either case. */
+/* Makes those of a pair that has been checked; RC_FAIL on all ranks when memory is short on one.
+ * Free them in either case. */
 enum rc_status rc_solids_new(struct rc_solids *solids, const struct rc_pair *pair,
                              const struct rc_ranks *ranks, struct rc_err *err);
 void rc_solids_free(struct rc_solids *solids);
@@ -184,8 +190,8 @@ double rc_solids_modulus(const struct rc_solids *solids, double q);
 double rc_solids_modulus_of(const struct rc_solids *solids, double q2);
 double rc_solids_softest(const struct rc_solids *solids);
 
-/* The displacement of both surfaces together under unit pressure on a cell, in units of 1/modulus (Pa) and of
- * length (m): 1 and 1 are m/Pa. */
+/* The displacement of both surfaces together under unit pressure on a cell, in units of 1/modulus
+ * (Pa) and of length (m): 1 and 1 are m/Pa. */
 struct rc_surface {
     const struct rc_solids *solids;
     double length, modulus;

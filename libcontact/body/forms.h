@@ -25,8 +25,8 @@ struct rc_stress_forms {
     void (*point)(const struct rc_points *points, double weight, double *out);
     /* Antiderivative in X and Y of 2 pi times that stress. */
     double (*corner)(const struct rc_corner *corner);
-    /* Transform over (-i)^(number of odd directions), of each wave; q > 0. Their numbers are what exp(-q z)
-     * leaves of them at the depth z. */
+    /* Transform over (-i)^(number of odd directions), of each wave; q > 0. The number of a wave is
+     * its decay exp(-q z) at the depth z. */
     void (*symbol)(const struct rc_waves *waves, double z, double nu, double *out);
 };
 extern const struct rc_stress_forms rc_stress_forms[RC_STRESS_KERNELS];

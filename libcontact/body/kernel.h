@@ -19,7 +19,8 @@ enum {
 };
 
 struct rc_kernel {
-    const void *of;  /* what the functions are given; it outlives what is made of the kernel */
+    const void
+        *of; /* first argument of the functions; it outlives every plan that uses the kernel */
     unsigned parity; /* RC_ODD_X, RC_ODD_Y                                                   */
     /* Field at (i sx dx, j sy dy), i < n, first <= j < last, of unit pressure on the cell dx x dy
      * about the origin: out[(j - first) * n + i]. */

@@ -1,11 +1,12 @@
 /*
- * Bonded layers on a half-space. The normal displacement of the surface under unit pressure on a cell dx x dy
- * is that of a half-space of the top material in closed form, and the integral over the cell of what the rest of the
- * stack changes, D(r), which is smooth on twice the thickness s/2 of the top layer.
+ * Bonded layers on a half-space. The normal displacement of the surface under unit pressure on a
+ * cell dx x dy is that of a half-space of the top material in closed form, and the integral over
+ * the cell of what the rest of the stack changes, D(r), which is smooth on twice the thickness s/2
+ * of the top layer.
  *
- * Integrated is by Gauss's rule, with the fewer points the larger sqrt(r^2 + s^2) is against the sides; a
- * cell that is too near for any rule is halved. Farther than forty cells means are taken from the values
- * at the nodes, which neighbours share.
+ * Integrated is by Gauss's rule, with the fewer points the larger sqrt(r^2 + s^2) is against the
+ * sides; a cell that is too near for any rule is halved. Farther than forty cells means are taken
+ * from the values at the nodes, which neighbours share.
  */
 
 #include <math.h>

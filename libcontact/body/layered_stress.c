@@ -298,7 +298,7 @@ enum {
     LINE = 96 /* nodes together */
 };
 
-/* What stands at the nodes of a line: Gauss's rule across it. */
+/* Values at the nodes of a line, integrated across it by Gauss's rule. */
 struct line {
     double value[LINE + 2 * RC_MEAN_REACH][RC_STRESS_KERNELS];
 };
@@ -366,8 +366,8 @@ add_line(const struct inside *in, const struct rc_cell *c, unsigned kernels, dou
 
 /* ---- made ---- */
 
-/* What is closed-form: of the top layer's material, at this depth in it; below it nothing is, and all values
- * are 0. */
+/* The part in closed form: in the top layer that of a half-space of its material; deeper there is
+ * none, and all values are set to 0. */
 static bool
 closed(const struct inside *in, unsigned kernels, size_t n, struct rc_closed *at,
        double *const out[RC_STRESS_KERNELS])

@@ -18,14 +18,14 @@ enum {
 /* Point k of n, from the lowest; n = 3..9 or 12. */
 struct rc_gauss rc_gauss_point(int n, int k);
 
-/* Points in a direction at this distance from the middle of a cell, of which only `half_side` in that
- * direction counts, that leave less than 1e-13 of load times (cell / distance)^2 / 2 pi of any kernel
- * of a half-space; 0: nearer than three half sides no rule does. Distances from *low up to *high, which
- * are narrowed, have the same. */
+/* Points of Gauss's rule in one direction, for a cell of this half side in that direction whose
+ * middle is at this distance: enough for an error below 1e-13 of load times (cell / distance)^2 / 2
+ * pi, for any kernel of a half-space; 0: no rule is good enough nearer than three half sides. The
+ * range from *low up to *high is narrowed to the distances that need the same number. */
 int rc_gauss_points(double distance, double half_side, double *low, double *high);
 
-/* The mean of a smooth function over a cell from its values f at the nodes: mean[0] f_0 + mean[1] (f_-1 +
- * f_1) + ...; beyond so many cells what is left out is below 1e-13 of a load's field. */
+/* The mean of a smooth function over a cell from its values f at the nodes: mean[0] f_0 + mean[1]
+ * (f_-1 + f_1) + ...; farther than so many cells its error is below 1e-13 of a load's field. */
 enum {
     RC_MEAN_REACH = 3
 };

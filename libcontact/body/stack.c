@@ -86,8 +86,8 @@ third_and_fourth(double x, double th, double *p3, double *p4)
     *p4 = th * s4 / 16;
 }
 
-/* From the bottom of a layer to its top, x = q t. *grown is what e becomes of 1 before it is made 1
- * again, times exp(-2x). */
+/* From the bottom of a layer to its top, x = q t. *grown is the factor by which e has grown, times
+ * exp(-2x); e itself is divided by it and stays 1. */
 static struct minors
 through(struct minors y, const struct medium *m, double x, double *grown)
 {
@@ -168,7 +168,7 @@ rc_stack_top(const struct rc_stack *s, size_t medium)
 struct traction {
     double x, z, across;
 };
-/* What stands below a plane: minors with e = 1, and across the wave the one number that is left. */
+/* The state below a plane: minors with e = 1, and the one number of the shear across the wave. */
 struct below {
     struct minors y;
     double across;

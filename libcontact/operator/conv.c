@@ -34,7 +34,8 @@ struct rc_conv {
     struct rc_surface surface; /* of these, in m and Pa                       */
 };
 
-/* Without a surface it is only to be planned: what a plan takes hardly depends on the bodies. */
+/* Without a surface the sum serves estimates only: the memory of a plan hardly depends on the
+ * bodies. */
 static struct rc_sum
 sum_of(const struct rc_shape *shape, const struct rc_surface *surface,
        const struct rc_conv_options *o)

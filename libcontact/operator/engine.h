@@ -57,8 +57,8 @@ const struct rc_engine *rc_engine_named(const char *name, bool *precise);
 /* The first engine that sums by Fourier transforms of maps. */
 const struct rc_engine *rc_engine_of_transforms(void);
 
-/* RC_FAIL, and *err says why, when an engine, asked for by that name, sums no maps of this boundary, or none that
- * these ranks share. */
+/* RC_FAIL, and *err says why, when an engine, asked for by that name, sums no maps of this
+ * boundary, or none that these ranks share. */
 enum rc_status rc_engine_serves(const struct rc_engine *engine, const char *name,
                                 enum rc_boundary boundary, const struct rc_ranks *ranks,
                                 struct rc_err *err);

@@ -18,16 +18,16 @@ enum rc_precision {
 struct rc_fft;
 struct rc_spectrum; /* of one kernel: a quarter of it, real */
 
-/* `shape` is that of the whole map. Where ranks share it (NULL: none) maps and rows are those held here,
- * row 0 the first of these, and spectra have the columns that are multiplied here. The plan transforms in
- * the memory in which `lender`, another plan, does: never both at a time, and the lender outlives it; NULL,
- * or too small: the plan takes its own. */
+/* `shape` is that of the whole map. Where ranks share the map (NULL: none), maps and rows are those
+ * held here, row 0 is the first of them, and spectra have the columns that are multiplied here. The
+ * plan works in the memory of `lender`, another plan, which outlives it: the two never run at the
+ * same time. NULL, or a lender with too little memory: the plan takes its own. */
 struct rc_fft *rc_fft_new(const struct rc_ranks *ranks, struct rc_fft *lender,
                           const struct rc_shape *shape, enum rc_boundary boundary,
                           enum rc_precision precision, size_t threads, struct rc_err *err);
 void rc_fft_free(struct rc_fft *fft);
-/* Bytes of a plan with one spectrum, and of each further spectrum; of one of `ranks` that share it, the one
- * that takes most. */
+/* Bytes of a plan with one spectrum, and of each further spectrum; where ranks share the map, on
+ * the rank that takes most. */
 size_t rc_fft_memory(const struct rc_shape *shape, enum rc_boundary boundary,
                      enum rc_precision precision, size_t ranks);
 size_t rc_spectrum_memory(const struct rc_shape *shape, enum rc_boundary boundary,
@@ -39,7 +39,7 @@ size_t rc_fft_scratch(const struct rc_shape *shape, enum rc_boundary boundary,
 /* NULL when memory is short. */
 struct rc_spectrum *rc_spectrum_new(const struct rc_fft *fft, struct rc_err *err);
 void rc_spectrum_free(struct rc_spectrum *spectrum);
-/* Its value at wave number 0: of a kernel given by values, their sum over a period. */
+/* Its value at wave number 0; for a kernel given by values that is their sum over a period. */
 double rc_spectrum_total(const struct rc_spectrum *spectrum);
 /* Makes it the spectrum of a kernel: on the free boundary the transform of its values,
  * on the periodic one its symbol. RC_FAIL when memory is short or the kernel has no symbol. */
@@ -137,7 +137,8 @@ struct rc_layout {
     const struct rc_turn *turn; /* rows to columns in units of `line`; NULL: all is here */
 };
 
-/* Complex numbers of rows under way: columns of all rows, and with ranks rows to send and receive. */
+/* Complex numbers of the rows in work: columns of all rows, and with ranks the rows to send and
+ * receive. */
 static inline size_t
 rc_layout_rows(const struct rc_layout *l)
 {

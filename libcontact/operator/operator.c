@@ -67,10 +67,10 @@ diagonal(const struct own *s)
     return self;
 }
 
-/* The mean of |q| / 2, times E*(q) over that of the roughness, times cos(i qx dx) cos(j qy dy) over the wave
- * numbers of the grid, |qx| <= pi/dx and |qy| <= pi/dy, lengths in units of sqrt(dx dy): a sum over the
- * middles of cells. Without cosines |q| itself has a closed form, half the mean distance of a rectangle's
- * points from its middle, and the sum is of the rest. */
+/* The mean of |q| / 2, times E*(q) over that of the roughness, times cos(i qx dx) cos(j qy dy) over
+ * the wave numbers of the grid, |qx| <= pi/dx and |qy| <= pi/dy, lengths in units of sqrt(dx dy): a
+ * sum over the middles of cells. Without cosines |q| itself has a closed form, half the mean
+ * distance of a rectangle's points from its middle, and the sum is of the rest. */
 static void
 set_inverse_near(struct own *s, const struct rc_shape *unit, double length)
 {
@@ -107,9 +107,9 @@ set_neighbours(struct rc_operator *op, const struct rc_shape *unit)
         }
 }
 
-/* How fast the preconditioner's extension fades: 0.5 on one material; the slower, the softer the bodies are to
- * the longest waves against the shortest. Found by trial on coats from 0.01 to 100 times as stiff as
- * what they lie on. */
+/* How fast the preconditioner's extension fades: 0.5 on one material; the slower, the softer the
+ * bodies are to the longest waves against the shortest. Found by trial on coats from 0.01 to 100
+ * times as stiff as what they lie on. */
 static double
 extension(const struct own *s, double length)
 {
@@ -152,9 +152,9 @@ rc_operator_free(struct rc_operator *op)
 
 /* ---- the inverse ---- */
 
-/* A padded kernel may have a spectrum that is negative somewhere, on stiff coats that bend over lengths near
- * that of the map. Its inverse is kept within these bounds of that of a uniform half-space, wave by wave with
- * the stiffness of the bodies. */
+/* A padded kernel may have a spectrum that is negative somewhere, on stiff coats that bend over
+ * lengths near that of the map. Its inverse is kept within these bounds of that of a uniform
+ * half-space, wave by wave with the stiffness of the bodies. */
 static const double least = 0.7, most = 1.5;
 
 struct bounded {

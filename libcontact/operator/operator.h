@@ -17,16 +17,16 @@
  * units of its own: u = unit K' p with K' of about 1, so that no decade of metres or pascals is
  * lost. Lengths beside them are in units of sqrt(dx dy). */
 struct rc_operator {
-    struct rc_shape whole, shape; /* of the map, and of what is held here of it                */
-    struct rc_rows rows;          /* which of its rows that is                                 */
+    struct rc_shape whole, shape; /* of the whole map, and of the part of it held here */
+    struct rc_rows rows;          /* the rows of that part */
     enum rc_boundary boundary;
     size_t threads;
     double unit;     /* m/Pa                                                                   */
     double norm;     /* m/Pa: a bound of the largest eigenvalue                                */
     double diagonal; /* m/Pa: displacement of a node under unit pressure on its own cell       */
-    /* Of the inverse, in the units of rows: what holds a node and its eight neighbours when it is
-     * moved by 1 and all others stay where they are; and how strongly smooth motions tie it to these
-     * eight, up to a factor. */
+    /* Of the inverse, in the units of rows: the pressures on a node and its eight neighbours that
+     * move this node by 1 and leave all others where they are; and the strength, up to a factor, by
+     * which smooth motions tie it to each of the eight. */
     double inverse_near[3][3];
     double neighbour[3][3];
     double extension;   /* the constant c of the preconditioner's extension                    */

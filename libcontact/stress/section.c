@@ -42,7 +42,7 @@ struct plan {
     double complex *source; /* m lines of `waves`; of the waves across, when periodic */
     struct pair *pair;
     size_t pairs;
-    double *scratch; /* for each thread: a line of each kernel, and where or of what waves   */
+    double *scratch; /* for each thread: a line of each kernel, and its places or waves */
     size_t scratch_size;
     double complex *sum;      /* `waves` for each part and component */
     struct rc_inside *inside; /* at the depth */
@@ -112,7 +112,7 @@ memory(const struct rc_stress_task *t)
            (transposed > rest ? transposed : rest);
 }
 
-/* The map with what is along the plane along its rows. NULL when memory is short. */
+/* A copy of the map whose rows run along the plane. NULL when memory is short. */
 static double *
 transpose(const struct plan *plan)
 {
@@ -127,7 +127,7 @@ transpose(const struct plan *plan)
 
 /* ---- free: pairs of lines ---- */
 
-/* The line as far on the other side of the plane as line j is on this one, or m. */
+/* The line at the same distance on the other side of the plane, or m when there is none. */
 static size_t
 opposite(const struct plan *plan, size_t j)
 {

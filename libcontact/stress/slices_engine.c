@@ -52,8 +52,8 @@ plan_new(const struct rc_stress_task *task, struct rc_err *err)
     return plan;
 }
 
-/* What a plan takes hardly depends on the body: that of a bare one, a node below the surface. 0 when there is
- * no memory even for that. */
+/* The memory of a plan hardly depends on the body: it is asked for a bare one, at the depth of a
+ * node. 0 when memory is short even for that. */
 static size_t
 memory(const struct rc_stress_task *task)
 {

@@ -184,11 +184,11 @@ tabulate(struct grid *g)
 
 /* ---- waves ---- */
 
-/* q z from which on a wave is left out: what all of them together, in step with each other, are at
- * that depth is less than the rounding of the transforms, (3 + q z) exp(-q z) = 7e-20 each. */
+/* q z from which on a wave is left out. At that depth each is down to (3 + q z) exp(-q z) = 7e-20;
+ * even all of them in step with each other are then less than the rounding of the transforms. */
 static const double deepest = 48;
 
-/* What is known of all waves at the depth of a periodic grid; 0 of those that are left out. */
+/* The numbers of all waves at the depth of a periodic grid; 0 for the waves that are left out. */
 static void
 set_known(struct grid *g)
 {

@@ -26,10 +26,11 @@ struct rc_stress_task {
     const double *depth;
     size_t depths, loaded;
 };
-/* Counts a kernel that is evaluated: shear is what would not be without the traction. */
+/* Counts the evaluation of a kernel: as one of the shear where only the traction needs it. */
 void rc_stress_count(const struct rc_stress_task *task, int kernel, size_t coefficients);
 
-/* A depth of the body, to be freed by rc_inside_free: NULL when memory is short or the body is rigid there. */
+/* A depth of the body, to be freed by rc_inside_free: NULL when memory is short or the body is
+ * rigid there. */
 struct rc_inside *rc_stress_inside(const struct rc_stress_task *task, double depth,
                                    struct rc_err *err);
 /* Bytes of it. */
