@@ -125,6 +125,7 @@ refusals(void **state)
 {
     struct rc_shape s = {64, 64, 1e-6, 1e-6};
     struct rc_conv_options o = {.engine = "mlms", .ranks = ranks};
+    const struct rc_pair pair = {.estar = 1e11};
     struct rc_err err;
     int count;
 
