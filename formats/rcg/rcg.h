@@ -54,6 +54,9 @@ void rc_reader_ask(struct rc_reader *reader, rc_reader_allow *allow, void *ctx);
 /* RC_MORE and the next frame, which the caller frees; RC_OK and NULL after the last end line; or
  * RC_FAIL: damaged, cut off, or ended by RCGFAIL, whose message is repeated. */
 enum rc_status rc_reader_next(struct rc_reader *reader, struct rc_grid **grid, struct rc_err *err);
+/* The same in two steps: the next frame by its head, and, before the head of another, its values. */
+enum rc_status rc_reader_head(struct rc_reader *reader, struct rc_grid **grid, struct rc_err *err);
+enum rc_status rc_reader_values(struct rc_reader *reader, struct rc_grid *grid, struct rc_err *err);
 
 /* After RC_FAIL: the message of the RCGFAIL that ended the stream, and the exit status of the
  * program that wrote it, 1 or 2; NULL when something else was wrong. Valid as long as the reader. */

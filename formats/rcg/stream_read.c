@@ -429,6 +429,7 @@ agree(const struct rc_reader *r, enum rc_status status, struct rc_err *err)
     return r->share == NULL ? status : r->share->agree(r->share->ctx, status, err);
 }
 
+/* A grid whose values are still to be read. */
 static enum rc_status
 read_frame(struct rc_reader *r, struct rc_grid **grid, struct rc_err *err)
 {
@@ -441,19 +442,24 @@ read_frame(struct rc_reader *r, struct rc_grid **grid, struct rc_err *err)
         rc_err_set(err, "out of memory for a header (%zu bytes)", sizeof *head);
     else if (read_head(r, head, err) == RC_OK)
         g = grid_of_head(r, head, err);
-    if (agree(r, g == NULL ? RC_FAIL : RC_OK, err) != RC_OK || g == NULL)
-        goto done;
-    if (read_values(r, g, err) != RC_OK || read_crc(r, err) != RC_OK)
-        goto done;
-    *grid = g;
-    g = NULL;
-    r->frames++;
-    r->ended = false;
-    status = RC_MORE;
-done:
+    if (agree(r, g == NULL ? RC_FAIL : RC_OK, err) == RC_OK && g != NULL) {
+        *grid = g;
+        g = NULL;
+        status = RC_MORE;
+    }
     rc_grid_free(g);
     free(head);
     return status;
+}
+
+enum rc_status
+rc_reader_values(struct rc_reader *r, struct rc_grid *g, struct rc_err *err)
+{
+    if (read_values(r, g, err) != RC_OK || read_crc(r, err) != RC_OK)
+        return RC_FAIL;
+    r->frames++;
+    r->ended = false;
+    return RC_OK;
 }
 
 static enum rc_status
@@ -530,7 +536,7 @@ rc_reader_foreign(const struct rc_reader *r, const char **head)
 }
 
 enum rc_status
-rc_reader_next(struct rc_reader *r, struct rc_grid **grid, struct rc_err *err)
+rc_reader_head(struct rc_reader *r, struct rc_grid **grid, struct rc_err *err)
 {
     char line[1024];
 
@@ -563,4 +569,16 @@ rc_reader_next(struct rc_reader *r, struct rc_grid **grid, struct rc_err *err)
         if (read_end(r, line + 7, err) != RC_OK)
             return RC_FAIL;
     }
+}
+
+enum rc_status
+rc_reader_next(struct rc_reader *r, struct rc_grid **grid, struct rc_err *err)
+{
+    enum rc_status status = rc_reader_head(r, grid, err);
+
+    if (status != RC_MORE || rc_reader_values(r, *grid, err) == RC_OK)
+        return status;
+    rc_grid_free(*grid);
+    *grid = NULL;
+    return RC_FAIL;
 }

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "foreign.h"
+#include "libcontact/contact.h"
 #include "parts.h"
 #include "tools/machine/machine.h"
 #include "ranks.h"
@@ -141,32 +142,53 @@ note_not_finite(struct tool *t, const struct rc_grid *g)
     t->infinite |= n.infinite > 0;
 }
 
+/* The next frame of the input that is open, its values not yet read: ahead. False at its end, where the
+ * input is closed. */
+static bool
+look_ahead(struct tool *t)
+{
+    struct rc_err err;
+
+    if (t->ahead != NULL || t->reader == NULL)
+        return t->ahead != NULL;
+    switch (rc_reader_head(t->reader, &t->ahead, &err)) {
+    case RC_MORE:
+        return true;
+    case RC_OK:
+        close_input(t);
+        return false;
+    default:
+        cannot_read(t, &err);
+    }
+}
+
+/* The frame ahead with its values. */
+static struct rc_grid *
+take_ahead(struct tool *t)
+{
+    struct rc_grid *g = t->ahead;
+    struct rc_err err;
+
+    t->ahead = NULL;
+    if (rc_reader_values(t->reader, g, &err) != RC_OK)
+        cannot_read(t, &err);
+    t->frame++;
+    check_convergence(t, g);
+    note_not_finite(t, g);
+    return g;
+}
+
 struct rc_grid *
 tool_read(struct tool *t)
 {
-    struct rc_grid *g;
-    struct rc_err err;
     size_t inputs = t->operands == 0 ? 1 : t->operands;
 
-    for (;;) {
-        if (t->reader == NULL) {
-            if (t->next_operand == inputs)
-                return NULL;
-            open_next(t);
-        }
-        switch (rc_reader_next(t->reader, &g, &err)) {
-        case RC_MORE:
-            t->frame++;
-            check_convergence(t, g);
-            note_not_finite(t, g);
-            return g;
-        case RC_OK:
-            close_input(t);
-            break;
-        default:
-            cannot_read(t, &err);
-        }
+    while (!look_ahead(t)) {
+        if (t->next_operand == inputs)
+            return NULL;
+        open_next(t);
     }
+    return take_ahead(t);
 }
 
 static void
@@ -186,13 +208,71 @@ begin_case(struct tool *t, size_t number)
     t->current.names[0] = '\0';
 }
 
+/* Notes that the case has this frame. */
+static void
+note_frame(struct tool *t, const struct rc_grid *g)
+{
+    size_t used = strlen(t->current.names);
+
+    snprintf(t->current.names + used, sizeof t->current.names - used, "%s%s", used == 0 ? "" : " ",
+             g->channel);
+}
+
+/* The frame as *kept, which is the only one of its channel in the case. */
+static void
+keep_frame(struct tool *t, struct rc_grid *g, struct rc_grid **kept)
+{
+    if (*kept != NULL)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                    "a second %s frame in one case: maps that do not belong together need case "
+                    "numbers of their own",
+                    g->channel);
+    *kept = g;
+}
+
+struct rc_grid *
+tool_channel_beside(struct tool *t, const char *channel, const char *beside, struct rc_grid **other)
+{
+    struct rc_grid *g, *kept = NULL;
+
+    *other = NULL;
+    if ((g = tool_read(t)) == NULL && t->current.number == 0)
+        tool_die(t, EXIT_IMPOSSIBLE, "%s: the stream holds no frame", t->source);
+    if (g == NULL)
+        return NULL;
+    begin_case(t, rc_grid_case(g));
+    for (;;) {
+        note_frame(t, g);
+        if (strcmp(g->channel, channel) == 0)
+            keep_frame(t, g, &kept);
+        else if (strcmp(g->channel, beside) == 0)
+            keep_frame(t, g, other);
+        else
+            rc_grid_free(g);
+        if (!look_ahead(t) || rc_grid_case(t->ahead) != t->current.number)
+            break;
+        g = take_ahead(t);
+    }
+    t->current.found = kept != NULL;
+    end_case(t, channel);
+    if (*other != NULL && ((*other)->nx != kept->nx || (*other)->ny != kept->ny ||
+                           fabs((*other)->dx / kept->dx - 1) > RC_SAME_SPACING ||
+                           fabs((*other)->dy / kept->dy - 1) > RC_SAME_SPACING))
+        tool_die_at(t, *other, EXIT_IMPOSSIBLE,
+                    "%zu x %zu nodes %g x %g m apart, but %s has %zu x %zu nodes %g x %g m apart: "
+                    "bring them to one grid with rc-pick --resample",
+                    (*other)->nx, (*other)->ny, (*other)->dx, (*other)->dy, channel, kept->nx,
+                    kept->ny, kept->dx, kept->dy);
+    return kept;
+}
+
 struct rc_grid *
 tool_channel(struct tool *t, const char *channel, bool pass)
 {
     struct rc_grid *g;
 
     while ((g = tool_read(t)) != NULL) {
-        size_t number = rc_grid_case(g), used;
+        size_t number = rc_grid_case(g);
 
         if (number != t->current.number) {
             end_case(t, channel);
@@ -200,9 +280,7 @@ tool_channel(struct tool *t, const char *channel, bool pass)
         }
         if (pass)
             results_demand_none(t, g);
-        used = strlen(t->current.names);
-        snprintf(t->current.names + used, sizeof t->current.names - used, "%s%s",
-                 used == 0 ? "" : " ", g->channel);
+        note_frame(t, g);
         if (strcmp(g->channel, channel) == 0) {
             if (t->current.found++ > 0)
                 tool_die_at(t, g, EXIT_IMPOSSIBLE,

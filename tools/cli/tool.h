@@ -143,6 +143,7 @@ struct tool {
     struct rc_writer *writer;
     bool missing, infinite;  /* NaN, infinity has come in, or is rightly made: it may go out */
     size_t last_case, frame; /* frame: place in the current source, from 1                 */
+    struct rc_grid *ahead;   /* the next frame, its values not yet read; NULL: nobody looked */
     struct {                 /* the case that tool_channel is in; number 0: none yet       */
         size_t number, found;
         const char *source; /* where it began                                             */
@@ -182,6 +183,11 @@ struct rc_grid *tool_read(struct tool *tool);
  * (`pass`) or dropped. A case that has none of it, or several, ends the tool; with `pass` so does one
  * that holds results beside a height, see results.h. NULL at the end. */
 struct rc_grid *tool_channel(struct tool *tool, const char *channel, bool pass);
+/* The frame of this channel in the next case, and beside it that of another channel, wherever it stands in
+ * the case; *other is NULL where there is none. Other frames are left out. The head of the frame after the
+ * case is read too, but not its values. */
+struct rc_grid *tool_channel_beside(struct tool *tool, const char *channel, const char *beside,
+                                    struct rc_grid **other);
 /* First of the rows of a map that this process holds: 0 when it holds all. */
 size_t tool_first_row(const struct tool *tool, const struct rc_grid *grid);
 /* Writes a frame, in --type when that was given; not where a report stands for the stream. */
