@@ -209,7 +209,7 @@ tell_results(struct run *run, struct cost_case *c)
 /* ---- the run ---- */
 
 static void
-open_case(struct run *run, struct rc_grid *g, struct cost_case *c)
+open_case(struct run *run, struct rc_grid *g, const struct rc_grid *hardness, struct cost_case *c)
 {
     *c = (struct cost_case){.tool = &run->t,
                             .heights = g,
@@ -223,6 +223,8 @@ open_case(struct run *run, struct rc_grid *g, struct cost_case *c)
                             .depths = args.depths,
                             .nu = args.nu,
                             .mu = args.mu};
+    if (hardness != NULL)
+        c->problem.hardness_map = hardness->v;
     c->reference.settings = cost_reference();
     c->reference.shape = c->shape;
     c->trial = cost_trials(args.kernels, args.methods, &c->trials);
@@ -284,7 +286,7 @@ solve_reference(struct run *run, struct cost_case *c)
 }
 
 static void
-do_case(struct run *run, struct rc_grid *g)
+do_case(struct run *run, struct rc_grid *g, const struct rc_grid *hardness)
 {
     struct cost_case c;
 
@@ -292,7 +294,7 @@ do_case(struct run *run, struct rc_grid *g)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s is for one case: give one height map",
                     args.plot != NULL ? "a picture" : "a command");
     physics_heights(&run->t, &args.physics, g);
-    open_case(run, g, &c);
+    open_case(run, g, hardness, &c);
     plan(run, &c);
     if (!args.dry_run) {
         solve_reference(run, &c);
@@ -306,14 +308,17 @@ int
 main(int argc, char **argv)
 {
     static struct run run;
-    struct rc_grid *g;
+    struct rc_grid *g, *hardness;
 
     tool_start(&run.t, &info, argc, argv, &args);
     check_arguments(&run);
     tool_catch_signals();
-    while (tool_interrupted() == 0 && (g = tool_channel(&run.t, "height", false)) != NULL) {
-        do_case(&run, g);
+    while (tool_interrupted() == 0 &&
+           (g = tool_channel_beside(&run.t, "height", "hardness", &hardness)) != NULL) {
+        physics_hardness(&run.t, hardness);
+        do_case(&run, g, hardness);
         rc_grid_free(g);
+        rc_grid_free(hardness);
     }
     report_close(&run.report);
     free(args.depths.v);

@@ -75,9 +75,6 @@ check_arguments(struct run *run)
     if ((args.resume || tool_given(&run->t, "interval")) && args.checkpoint == NULL)
         tool_die(&run->t, EXIT_USAGE, "--resume and --interval need --checkpoint FILE");
     physics_check(&run->t, &args.physics);
-    if (args.physics.history && isinf(args.physics.hardness))
-        tool_warn(&run->t,
-                  "--history without --hardness: nothing yields, so no load leaves a trace");
     run->args = &args;
     run->steps = physics_steps(&args.physics);
     run->stiffness = args.stiffness || run->steps->n > 1;
@@ -97,6 +94,7 @@ problem_of(struct run *run, const struct rc_grid *g, size_t step)
     problem.ranks = ranks_of(&run->t);
     problem.discretization = args.discretization;
     problem.height_error = run->height_error;
+    problem.hardness_map = run->hardness != NULL ? run->hardness->v : NULL;
     return problem;
 }
 
@@ -404,14 +402,28 @@ do_loads(struct run *run, struct rc_grid *g)
     rc_solver_free(solver);
 }
 
+/* The hardness of a case is a number or a map. */
 static void
-do_case(struct run *run, struct rc_grid *g)
+check_hardness(struct run *run, const struct rc_grid *hardness)
 {
+    physics_hardness(&run->t, hardness);
+    run->hardness = hardness;
+    if (args.physics.history && hardness == NULL && isinf(args.physics.hardness))
+        tool_warn(
+            &run->t,
+            "--history without --hardness or a map of it: nothing yields, so no load leaves a "
+            "trace");
+}
+
+static void
+do_case(struct run *run, struct rc_grid *g, const struct rc_grid *hardness)
+{
+    check_hardness(run, hardness);
     physics_heights(&run->t, &args.physics, g);
     if (!rc_grid_number(g, HEIGHT_ERROR, &run->height_error))
         run->height_error = 0;
     run->nodes = g->nx * g->ny;
-    checkpoint_surface(run->checkpoint, g);
+    checkpoint_surface(run->checkpoint, g, hardness);
     if (args.dry_run) {
         struct rc_problem problem = problem_of(run, g, 0);
         solve_plan(run, g, &problem);
@@ -424,7 +436,7 @@ int
 main(int argc, char **argv)
 {
     static struct run run;
-    struct rc_grid *g;
+    struct rc_grid *g, *hardness;
 
     tool_start(&run.t, &info, argc, argv, &args);
     check_arguments(&run);
@@ -432,9 +444,11 @@ main(int argc, char **argv)
     if (!args.dry_run)
         run.checkpoint = checkpoint_open(&run, args.checkpoint, args.resume, args.interval);
     tool_catch_signals();
-    while (tool_interrupted() == 0 && (g = tool_channel(&run.t, "height", false)) != NULL) {
-        do_case(&run, g);
+    while (tool_interrupted() == 0 &&
+           (g = tool_channel_beside(&run.t, "height", "hardness", &hardness)) != NULL) {
+        do_case(&run, g, hardness);
         rc_grid_free(g);
+        rc_grid_free(hardness);
     }
     checkpoint_close(run.checkpoint);
     report_close(&run.report);

@@ -267,6 +267,20 @@ physics_heights(struct tool *t, const struct physics *a, struct rc_grid *g)
     warn(t, a, g);
 }
 
+void
+physics_hardness(struct tool *t, const struct rc_grid *hardness)
+{
+    if (hardness == NULL)
+        return;
+    if (tool_given(t, "hardness"))
+        tool_die_at(
+            t, hardness, EXIT_IMPOSSIBLE,
+            "the case holds a map of hardness, and --hardness gives a number: leave one out");
+    if (strcmp(hardness->unit, "Pa") != 0)
+        tool_die_at(t, hardness, EXIT_IMPOSSIBLE, "its unit is '%s': a hardness is in pascals",
+                    hardness->unit);
+}
+
 struct rc_problem
 physics_problem(const struct physics *a, const struct rc_grid *g, size_t step)
 {

@@ -38,6 +38,8 @@ const struct numbers *physics_steps(const struct physics *physics);
 /* Ends the tool where a frame does not hold heights that can be pressed; else adds the sphere, which
  * the key `form` then names, and warns of what the boundary does not suit. */
 void physics_heights(struct tool *tool, const struct physics *physics, struct rc_grid *heights);
+/* Ends the tool where a map of hardness beside the heights, or NULL, is none, or --hardness is given too. */
+void physics_hardness(struct tool *tool, const struct rc_grid *hardness);
 /* The contact at one of the steps; how it is to be solved is left open. */
 struct rc_problem physics_problem(const struct physics *physics, const struct rc_grid *heights,
                                   size_t step);

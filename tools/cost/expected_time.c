@@ -19,6 +19,8 @@ expected(const struct cost_case *c, const struct cost_trial *t)
     problem.engine = t->settings.kernel;
     problem.tol = t->settings.tol;
     problem.threads = c->tool->threads;
+    if (t->settings.coarse > 1)
+        problem.hardness_map = NULL; /* it is of another grid */
     if (rc_solver_expect(&t->shape, &problem, &e, NULL) != RC_OK)
         e = (struct rc_expected){NAN, NAN, 0};
     return e;

@@ -31,23 +31,38 @@ new_map(const struct rc_shape *shape)
     return malloc(shape->nx * shape->ny * sizeof(double));
 }
 
+/* Heights and hardness of the trial's grid. Means lower the tips; single nodes would alias what the grid cannot
+ * hold. A node has the mean hardness of those under it, and none where most of them have none. */
+static const double *
+coarse_maps(struct job *j, const struct rc_shape *shape)
+{
+    double *h = new_map(shape), *hardness = j->problem.hardness_map != NULL ? new_map(shape) : NULL;
+
+    if (h == NULL || (j->problem.hardness_map != NULL && hardness == NULL)) {
+        rc_err_set(&j->err, "out of memory");
+        return NULL;
+    }
+    rc_resample_means(&j->map, j->h, shape, h);
+    if (hardness != NULL)
+        rc_resample_means(&j->map, j->problem.hardness_map, shape, hardness);
+    j->problem.hardness_map = hardness;
+    return h;
+}
+
 static void
 work(void *ctx)
 {
     struct job *j = ctx;
     const struct rc_shape *shape = &j->trial->shape;
     bool coarse = j->trial->settings.coarse > 1;
-    double start = tool_now(), *h = NULL;
+    double start = tool_now();
+    const double *h = coarse ? coarse_maps(j, shape) : j->h;
     size_t before = tool_peak_memory();
     struct rc_solver *solver;
 
-    if (coarse && (h = new_map(shape)) == NULL) {
-        rc_err_set(&j->err, "out of memory");
+    if (h == NULL)
         return;
-    }
-    if (coarse) /* means lower the tips; single nodes would alias what the grid cannot hold */
-        rc_resample_means(&j->map, j->h, shape, h);
-    if ((solver = rc_solver_new(shape, coarse ? h : j->h, &j->problem, &j->err)) == NULL)
+    if ((solver = rc_solver_new(shape, h, &j->problem, &j->err)) == NULL)
         return;
     while (rc_solver_step(solver) == RC_MORE)
         rc_solver_progress(solver, &j->at);

@@ -35,6 +35,7 @@ struct checkpoint {
     struct saved *saved;
     size_t count;
     char surface[16];         /* CRC-32 of the heights, the sphere included */
+    char hardness[16];        /* CRC-32 of a map of it; empty: there is none */
     double began, wait, next; /* seconds: of this case, between frames, of the next one */
 };
 
@@ -236,16 +237,23 @@ checkpoint_close(struct checkpoint *c)
 
 /* ---- a surface, a case ---- */
 
-void
-checkpoint_surface(struct checkpoint *c, const struct rc_grid *g)
+static void
+sum_up(struct checkpoint *c, const struct rc_grid *g, char text[16])
 {
-    size_t bytes;
+    size_t bytes = rc_grid_nodes(g) * sizeof *g->v;
 
+    snprintf(text, 16, "%08" PRIx32, ranks_crc(&c->run->t, rc_crc32_add(0, g->v, bytes), bytes));
+}
+
+void
+checkpoint_surface(struct checkpoint *c, const struct rc_grid *g, const struct rc_grid *hardness)
+{
     if (c == NULL)
         return;
-    bytes = rc_grid_nodes(g) * sizeof *g->v;
-    snprintf(c->surface, sizeof c->surface, "%08" PRIx32,
-             ranks_crc(&c->run->t, rc_crc32_add(0, g->v, bytes), bytes));
+    sum_up(c, g, c->surface);
+    c->hardness[0] = '\0';
+    if (hardness != NULL)
+        sum_up(c, hardness, c->hardness);
 }
 
 /* What a frame has to agree in with the case that goes on from it. */
@@ -270,7 +278,10 @@ marks_of(const struct checkpoint *c, struct mark mark[MARKS])
     mark[2].name = "estar";
     rc_number_text(mark[2].value, args->estar);
     mark[3].name = "checkpoint.hardness";
-    rc_number_text(mark[3].value, args->hardness);
+    if (c->hardness[0] != '\0')
+        snprintf(mark[3].value, sizeof mark[3].value, "map %s", c->hardness);
+    else
+        rc_number_text(mark[3].value, args->hardness);
     mark[4].name = args->load.per_metre        ? "checkpoint.load-per-metre"
                    : args->load.n > 0          ? "checkpoint.load"
                    : args->mean_pressure.n > 0 ? "checkpoint.mean-pressure"

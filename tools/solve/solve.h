@@ -49,8 +49,9 @@ struct run {
     const struct numbers *steps; /* the list of loads or approaches               */
     size_t step, number;         /* which of them, from 0; the case that it is    */
     bool stiffness;
-    bool resumed;        /* this case, from a checkpoint                      */
-    double height_error; /* m: of the heights that came in */
+    bool resumed;                   /* this case, from a checkpoint                      */
+    double height_error;            /* m: of the heights that came in */
+    const struct rc_grid *hardness; /* a map of it, in the case; NULL: a number or none */
     struct report report;
     struct checkpoint *checkpoint; /* NULL: none */
     size_t nodes;                  /* of the map */
@@ -101,8 +102,9 @@ void solve_progress(struct run *run, const struct rc_solver *solver);
  * used. */
 struct checkpoint *checkpoint_open(struct run *run, const char *name, bool resume, double interval);
 void checkpoint_close(struct checkpoint *checkpoint);
-/* These are the heights of the cases that come. */
-void checkpoint_surface(struct checkpoint *checkpoint, const struct rc_grid *g);
+/* These are the heights of the cases that come, and the map of hardness; NULL: there is none. */
+void checkpoint_surface(struct checkpoint *checkpoint, const struct rc_grid *g,
+                        const struct rc_grid *hardness);
 /* A case begins. True when a pressure had been kept for it: the solver starts from that. */
 bool checkpoint_case(struct checkpoint *checkpoint, const struct rc_grid *g,
                      struct rc_solver *solver);

@@ -1,0 +1,88 @@
+# rc-solve on a case that holds a map of hardness beside its heights: two phases, spots without a bound.
+. "$(dirname "$0")/../pipe.sh"
+
+rc-synth selfaffine --nx 96 --ny 80 --dx 1um --hurst 0.8 --rms-height 0.2um --seed 4 -o h.rcg
+# map FILE EXPRESSION: a frame `hardness` on the grid of h.rcg, GPa at column i of row j
+map() {
+    perl -e '
+        my ($expr) = @ARGV; my $v = "";
+        for my $j (0 .. 79) { for my $i (0 .. 95) { $v .= pack("d<", 1e9 * eval $expr) } }
+        my $head = "RCG1\nchannel=hardness\nnx=96\nny=80\ndx=1e-06\ndy=1e-06\nunit=Pa\ntype=f64\n\n";
+        binmode STDOUT; print $head . $v; ' "$2" >frame.bin
+    perl -MCompress::Zlib -e 'undef $/; my $b = <>; binmode STDOUT;
+        print $b . sprintf("crc32 %08x\n", crc32($b)) . "RCGEND 1\n"' frame.bin >"$1"
+}
+# beside A B: the frames of both as one case
+beside() { perl -0777 -ne 's/RCGEND 1\n\z//; print; END { print "RCGEND 2\n" }' "$1" "$2"; }
+solve() { rc-solve --quiet --periodic --mean-pressure 1GPa --estar 100GPa "$@"; }
+export -f solve
+
+map even.rcg 3
+map phases.rcg '$i % 32 < 16 ? 2 : 5'
+map spots.rcg '($i - 48) ** 2 + ($j - 40) ** 2 < 300 ? 2 : "nan"'
+claim "the map is a stream of its own" says 'hardness' rc-info phases.rcg
+for order in 'h.rcg even.rcg' 'even.rcg h.rcg'; do
+    # shellcheck disable=SC2086
+    beside $order >case.rcg
+    solve --report map.json --output pressure case.rcg -o map.rcg
+    solve --report one.json --hardness 3GPa --output pressure h.rcg -o one.rcg
+    for key in max_pressure contact_area plastic_area yielded_area approach; do
+        claim "one hardness everywhere ($order) is --hardness: $key" \
+            test "$(field $key map.json)" = "$(field $key one.json)"
+    done
+done
+claim "a number stands in the keys of the result" says 'hardness=3000000000$' rc-info one.rcg
+claim "  a map does not" bash -c 'rc-info map.rcg >map.txt && lacks "hardness=" map.txt'
+
+beside h.rcg phases.rcg >case.rcg
+solve --report two.json --output pressure,gap,plastic case.rcg -o two.rcg
+claim "two phases: what the report says of them" bash -c 'grep -q "\"hardness_min\": 2000000000, \"hardness_max\": 5000000000" two.json'
+claim "  the effect is on" says '"hardness": "on"' cat two.json
+near "$(field max_pressure two.json)" 5e9 1e-12 "  the largest pressure is the larger hardness"
+soft() { rc-pick --channel pressure --crop 0,0,16,80 two.rcg | rc-info --json | grep -o '"maximum": [^,]*' | cut -d' ' -f2; }
+near "$(soft)" 2e9 1e-12 "  and in the soft phase the smaller one"
+solve --hardness 2GPa --report soft.json h.rcg -o /dev/null
+solve --hardness 5GPa --report hard.json h.rcg -o /dev/null
+claim "  the contact is between those of either phase alone" awk -v a="$(field contact_area soft.json)" \
+    -v b="$(field contact_area two.json)" -v c="$(field contact_area hard.json)" 'BEGIN { exit !(a > b && b > c) }'
+beside h.rcg spots.rcg >spots-case.rcg
+claim "where it is missing nothing yields" bash -c 'solve --report spots.json spots-case.rcg -o /dev/null && grep -q "\"converged\": true" spots.json'
+claim "  and the largest pressure is beyond the bound" awk -v p="$(field max_pressure spots.json)" 'BEGIN { exit !(p > 2e9) }'
+
+# ---- histories, checkpoints ----
+
+claim "a history keeps the shape under a map" bash -c '
+    rc-solve --quiet --periodic --mean-pressure 0.5GPa,1GPa,0,1GPa --history --estar 100GPa --report history.tsv --output pressure case.rcg -o /dev/null &&
+    awk -F"\t" "NR == 1 { for (k = 1; k <= NF; k++) c[\$k] = k; next } { y[NR] = \$c[\"yielded_area/m2\"] } END { exit !(y[2] > 0 && y[3] > 0 && y[5] == 0) }" history.tsv'
+solve --checkpoint state --output pressure case.rcg -o first.rcg
+claim "a run goes on from its checkpoint" bash -c 'solve --checkpoint state --resume --output pressure case.rcg -o again.rcg && cmp first.rcg again.rcg'
+beside h.rcg even.rcg >other.rcg
+refuses 1 'checkpoint.hardness' "  but not under another map" "solve --checkpoint state --resume other.rcg -o /dev/null"
+refuses 1 'checkpoint.hardness' "  nor without one" "solve --checkpoint state --resume h.rcg -o /dev/null"
+
+# ---- refusals ----
+
+refuses 1 'holds a map of hardness, and --hardness gives a number: leave one out' "both are refused" "solve --hardness 1GPa case.rcg"
+map weak.rcg '$i < 48 ? 0.5 : 1'
+beside h.rcg weak.rcg >weak-case.rcg
+refuses 1 'load .* N is above' "a load that the map cannot carry" "solve weak-case.rcg"
+map zero.rcg '$i == 7 && $j == 3 ? 0 : 1'
+beside h.rcg zero.rcg >zero-case.rcg
+refuses 1 'hardness' "a hardness of 0" "solve zero-case.rcg"
+rc-pick --crop 0,0,48,80 phases.rcg >half.rcg
+beside h.rcg half.rcg >half-case.rcg
+refuses 1 'bring them to one grid' "another grid" "solve half-case.rcg"
+refuses 1 'no frame with the channel height, only hardness' "no heights" "solve phases.rcg"
+claim "--dry-run knows the map" says 'hardness +on where' bash -c 'solve --dry-run case.rcg'
+
+claim "rc-cost takes it too, on coarser grids as well" says '^pcg' rc-cost --periodic --mean-pressure 1GPa --estar 100GPa \
+    --method pcg --kernel fft case.rcg
+refuses 1 'leave one out' "  and refuses both" "rc-cost --periodic --mean-pressure 1GPa --estar 100GPa --hardness 1GPa case.rcg"
+
+# ---- other tools take it as any other frame ----
+
+claim "rc-pick" says 'channel=hardness|hardness' bash -c 'rc-pick --channel hardness case.rcg | rc-info'
+claim "rc-render" bash -c 'rc-render --channel hardness -o hardness.png case.rcg && [ -s hardness.png ]'
+claim "rc-export" bash -c 'rc-export --format npy --channel hardness -o hardness.npy case.rcg && [ -s hardness.npy ]'
+
+finish
