@@ -55,7 +55,7 @@ moments_of(const double *v, size_t n, double mean)
     return (struct moments){first, size, second, third, fourth};
 }
 
-/* Room for one piece's sums each; the largest that a piece makes. */
+/* The sums of one piece of the map, in any of the passes: a union has the size of the largest. */
 union piece {
     struct extent extent;
     struct moments moments;
@@ -81,7 +81,7 @@ measure_extent(struct rc_relief *r, union piece *piece, size_t pieces)
     }
     r->there = (size_t)rc_total_value(&there);
     r->mean = rc_total_value(&sum) / (double)r->there;
-    /* rounding may leave it outside, and off a flat's own height */
+    /* rounding may leave the mean outside the extremes, of a flat off its height */
     r->mean = fmin(fmax(r->mean, r->minimum), r->maximum);
 }
 
@@ -242,7 +242,7 @@ measure_slopes(const struct rc_relief *r, struct slopes *row, struct rc_areal *a
         rc_total_add(&sum[4], row[j].excess);
         rc_total_add(&sum[5], row[j].triangles);
     }
-    /* without a pair along a side that has several nodes 0/0, and NAN, it is */
+    /* 0/0, which is NAN, along a side of several nodes without a pair */
     x = r->shape.nx > 1 ? rc_total_value(&sum[0]) / rc_total_value(&sum[1]) : 0;
     y = r->shape.ny > 1 ? rc_total_value(&sum[2]) / rc_total_value(&sum[3]) : 0;
     if (r->shape.nx * r->shape.ny > 1)

@@ -8,7 +8,7 @@
 
 #include "libcontact/common.h"
 
-/* A map, and what its parts need to know of it. */
+/* A map, and figures of it that all parts need. */
 struct rc_relief {
     struct rc_shape shape;
     const double *h;

@@ -4,10 +4,11 @@
  *
  * The product of two Chebyshev polynomials is the mean of two others, of the sum and the difference
  * of their degrees. So the normal equations of all terms are made of the sums of the weights times
- * single products, up to twice the degree, and those are sums along rows first. The equations
- * square the condition of the problem; its residual, of which the solution is corrected once more,
- * does not. Where that is not enough, a QR factorisation takes the points' equations block by block
- * (GSL's tall-skinny QR), and its condition number shows when they do not determine the polynomial.
+ * single products, up to twice the degree, and those are sums along rows first. The normal
+ * equations square the condition number of the problem; the residual of their solution is free of
+ * that, and corrects the solution. Where that is not enough, a QR factorisation takes the points'
+ * equations block by block (GSL's tall-skinny QR), and its condition number shows when they do not
+ * determine the polynomial.
  */
 #include "libcontact/common.h"
 
@@ -32,8 +33,8 @@ enum {
     CORRECTIONS = 4 /* of a solution of the normal equations */
 };
 
-/* Reciprocal condition numbers: of the normal equations, below which they are left to the QR
- * factorisation; and of that, below which the points do not determine the polynomial. */
+/* Reciprocal condition numbers. Below the first, of the normal equations, the QR factorisation is
+ * taken; below the second, of that, the points do not determine the polynomial. */
 static const double too_squared = 1e-10;
 static const double deficient = 1e-12;
 
@@ -41,7 +42,7 @@ struct fit {
     const struct rc_shape *shape;
     const double *h;
     double mean;                       /* subtracted first: a large datum would cost digits   */
-    size_t nx_terms, ny_terms, degree; /* polynomials along x, along y; their sum's bound */
+    size_t nx_terms, ny_terms, degree; /* polynomials along x, along y; bound of degrees */
     size_t terms;
     size_t nx_orders, ny_orders; /* of the products of two of them */
     int threads;
@@ -49,7 +50,7 @@ struct fit {
     double *px, *py;         /* Chebyshev polynomials: px[a * nx + i], py[b * ny + j] */
     double *c;               /* coefficients; in a row, of b + a for all a, then the next b */
     double *step;            /* their correction */
-    double *residual, reach; /* robust: h - mean - polynomial, weights are made of; else NULL */
+    double *residual, reach; /* robust: h - mean - polynomial, for weights; else NULL */
     double *rows;            /* of ROWS rows: nx_orders sums of w px, nx_terms sums of w e px */
     double *of_weights;      /* sums over the map of w T_k(x) T_l(y): at l nx_orders + k */
     double *of_residuals;    /* and of w e T_k(x) T_l(y): at l nx_terms + k */
@@ -286,7 +287,7 @@ add_row(const struct fit *f, size_t j, const double *row, size_t n, size_t order
 }
 
 /* Sums over the map; those of the weights only where asked for. Where nothing is missing and all
- * weigh alike they are the same in every row. */
+ * weights are alike, the sums of the weights are the same in every row. */
 static void
 sum_map(const struct fit *f, bool weights)
 {
@@ -350,7 +351,7 @@ set_right(struct fit *f)
             gsl_vector_set(f->right, row, f->of_residuals[b * f->nx_terms + a]);
 }
 
-/* Whether the equations are good enough; then they are factored. */
+/* Factors the normal equations; false when their condition is too bad. */
 static bool
 factor_normal(struct fit *f)
 {
@@ -364,7 +365,7 @@ factor_normal(struct fit *f)
     return good;
 }
 
-/* Adds the step to the coefficients; its largest number. */
+/* Adds the step to the coefficients; gives its largest number. */
 static double
 take_step(struct fit *f)
 {
@@ -410,7 +411,7 @@ put_equation(const struct fit *f, struct blocks *q, size_t k, size_t i, size_t j
 }
 
 /* Hands the first n equations of the block to GSL, which wants at least as many as there are terms:
- * those that are missing are 0 = 0. */
+ * the block is filled up with 0 = 0. */
 static int
 factor_block(struct fit *f, struct blocks *q, size_t n)
 {
@@ -508,7 +509,8 @@ solve(struct fit *f, struct rc_err *err)
     return RC_OK;
 }
 
-/* Each time the polynomial is corrected by that of the residuals. */
+/* Weights of the residuals, and a polynomial of these residuals that corrects the last one, in
+ * turn. */
 static enum rc_status
 reweight(struct fit *f, double size, struct rc_err *err)
 {

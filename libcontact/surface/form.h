@@ -6,8 +6,8 @@
 
 #include "libcontact/contact.h"
 
-/* Nodes i of left <= i <= right and rows j of top <= j <= bottom hold all the points that are
- * there, how many they are, and how many of them are infinite. */
+/* The smallest box that holds all points that are there, columns left to right and rows top to
+ * bottom; how many points are there, and how many of them are infinite. */
 struct rc_box {
     size_t left, right, top, bottom, count, infinite;
 };

@@ -33,7 +33,7 @@ enum {
 static const double reach = 3.6;
 /* Coarse nodes to the width of the Gaussian. */
 static const double coarse_per_width = 7;
-/* Relative: a length counts as two nodes however it was rounded. */
+/* Relative: a length that rounding has left just below two nodes counts as two. */
 static const double slack = 1e-9;
 
 /* Sums along a line: out[k] = sum over t < taps of w[(k % phases) taps + t] in[k step / phases +
@@ -44,7 +44,8 @@ struct sums {
     double *w;
 };
 
-/* The way along one direction: to the coarse nodes and back; without `up` the first is all. */
+/* The sums along one direction: down to the coarse nodes and up again; where `two` is false, `down`
+ * does all. */
 struct way {
     size_t n, m; /* nodes of the line, and after the first sums */
     bool two;
@@ -58,7 +59,7 @@ struct gauss {
     int threads;
     struct way x, y;
     double *mid;       /* for each row of the map x.m numerators, then as many denominators */
-    size_t stride;     /* from the ones to the others, and to the next row */
+    size_t stride;     /* from numerators to denominators, and on to the next row */
     double *lines;     /* for each thread: in and out of the sums */
     size_t per_thread; /* doubles of it */
 };
@@ -272,8 +273,8 @@ wrap(const struct way *way, size_t wide, double *line)
     }
 }
 
-/* Numerators and denominators of the nodes begin ... end-1 of a row of the map, every `wide`-th
- * number; the denominators lie half as far behind. */
+/* Numerators of the nodes begin ... end-1 of a row of the map, every `wide`-th number of `line`;
+ * each denominator stands wide/2 numbers behind its numerator. */
 static void
 take_row(const struct weighted *of, size_t row, size_t begin, size_t end, size_t wide, double *line)
 {
@@ -367,7 +368,7 @@ sum_rows(const struct gauss *g, const struct weighted *of)
     }
 }
 
-/* Along y all the way, in `mid`. */
+/* All sums along y, within `mid`. */
 static void
 sum_columns(const struct gauss *g)
 {
@@ -393,8 +394,8 @@ sum_columns(const struct gauss *g)
     }
 }
 
-/* What becomes of the nodes begin ... end-1 of a row: the input less the quotient, or the quotient
- * and the mean. Where no weight is within reach, they stay what they are. */
+/* Writes the nodes begin ... end-1 of a row: the quotient plus the mean or, of the high-pass, the
+ * input less both. A node with no weight within reach stays as it is. */
 static void
 put_row(const struct weighted *of, bool low, size_t row, size_t begin, size_t end, size_t wide,
         const double *line, double *to)

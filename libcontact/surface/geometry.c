@@ -94,8 +94,8 @@ rc_add_shape(const struct rc_shape *a, const struct rc_shape *b, struct rc_shape
     return RC_OK;
 }
 
-/* Each map is cut as it stands, before it is mirrored: so it is all the same which of the two is
- * called a, but for the side from which the sum is seen. */
+/* Each map is cut before it is mirrored: exchanging a and b then only changes the side from which
+ * the sum is seen. */
 static enum rc_status
 combine(const struct rc_shape *a, const double *ha, const struct rc_shape *b, const double *hb,
         bool subtract, double *out, struct rc_err *err)

@@ -45,7 +45,8 @@ rc_heights_check(const struct rc_selfaffine *what, struct rc_err *err)
 
 /* ---- the distribution ---- */
 
-/* Heights by the normal score z: what has as much below it as z has in the normal distribution. */
+/* Heights as a function of the normal score z: the height with the same part of all heights below
+ * it that the normal distribution has below z. */
 struct quantiles {
     gsl_spline *spline;
     gsl_interp_accel *near;
@@ -74,7 +75,7 @@ quantiles_free(struct quantiles *q)
         gsl_interp_accel_free(q->near);
 }
 
-/* For n heights: the lowest has half a height's share below it. */
+/* For n heights, of which the lowest has the part 1/(2 n) below it. */
 static enum rc_status
 quantiles_new(const struct rc_selfaffine *what, size_t n, struct quantiles *q, struct rc_err *err)
 {
@@ -94,7 +95,7 @@ quantiles_new(const struct rc_selfaffine *what, size_t n, struct quantiles *q, s
     return RC_OK;
 }
 
-/* What has so much of the whole below it. */
+/* The height that has this part of all heights below it. */
 static double
 quantiles_at(const struct quantiles *q, double below)
 {
@@ -125,7 +126,7 @@ standardise(double *h, size_t n)
         h[k] = (h[k] - st.mean) / st.rms;
 }
 
-/* Classes of heights: first[c] and last[c] are what the lowest and the highest of one become. */
+/* Classes of heights: the lowest height of class c becomes first[c], the highest last[c]. */
 struct classes {
     double low, per_height; /* class of h: (h - low) * per_height */
     size_t n;
@@ -144,7 +145,7 @@ class_of(const struct classes *c, double h, double *part)
 }
 
 /* Each height becomes the quantile of its rank. Ranks are exact where a class holds one height, and
- * in the others as if these were spread evenly. */
+ * in other classes heights are taken as evenly spread. */
 static void
 set_heights(const struct quantiles *q, struct classes *c, double *h, size_t n)
 {
@@ -174,15 +175,15 @@ set_heights(const struct quantiles *q, struct classes *c, double *h, size_t n)
 
 /* ---- waves ---- */
 
-/* Waves of the column are one half of two that are each other's conjugate, but for the first and,
- * of an even number, the last. */
+/* A wave of this column also counts for its conjugate, which is not kept; waves of the first column
+ * and, of an even number of nodes, of the last are all kept. */
 static double
 counted(const struct rc_shape *shape, size_t column)
 {
     return column == 0 || 2 * column == shape->nx ? 1 : 2;
 }
 
-/* RMS of what the amplitudes are off over that of the amplitudes. */
+/* RMS error of the amplitudes over the RMS of those wanted. */
 static double
 misfit_of(const struct rc_shape *shape, const double complex *s, const double *amplitude)
 {
@@ -214,7 +215,7 @@ set_amplitudes(double complex *s, const double *amplitude, size_t n)
     }
 }
 
-/* In turn, from heights that are as wanted to heights that are as wanted. */
+/* Puts heights and amplitudes right in turn; heights come first and last. */
 static enum rc_status
 alternate(const struct rc_shape *shape, const struct quantiles *q, struct classes *c, size_t steps,
           double *amplitude, double complex *s, double *h, double *misfit, struct rc_err *err)

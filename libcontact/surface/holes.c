@@ -81,7 +81,7 @@ largest_in_row(struct widths *w, const double *h, size_t j)
     double largest = 0;
     size_t m, k = 0;
 
-    m = envelope(w, above); /* not empty: something was measured, in whatever row */
+    m = envelope(w, above); /* not empty: some row has a measured value */
     for (size_t i = 0; i < w->shape.nx; i++) {
         double d;
 

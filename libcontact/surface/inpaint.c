@@ -108,9 +108,9 @@ set_up(struct equations *e, const struct rc_shape *shape, const double *h, doubl
 }
 
 /* Pivots that keep the row sums of A. But for rounding they are positive: each is at least the
- * weights of the missing neighbours on the right and below, and at the last unknown, which has
- * neither, what the measured values contribute is left. Where rounding leaves next to nothing, the
- * diagonal of A stands in for it. */
+ * weights of the missing neighbours on the right and below; the last unknown, which has neither,
+ * keeps the weights of its measured neighbours. Where rounding leaves next to nothing, the diagonal
+ * of A stands in for it. */
 static void
 factor(struct equations *e)
 {

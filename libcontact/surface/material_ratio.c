@@ -102,7 +102,8 @@ height_at(const double *z, size_t n, double ratio)
     return z[k] + (place - below) * (z[k + 1] - z[k]);
 }
 
-/* Mean of what stands above a height, and the part of the surface that does. */
+/* Material above a height, per area of the surface; *ratio: the part of the surface that is that
+ * high. */
 static double
 material_above(const double *z, size_t n, double height, double *ratio)
 {
@@ -115,7 +116,7 @@ material_above(const double *z, size_t n, double height, double *ratio)
     return rc_total_value(&sum) / (double)n;
 }
 
-/* And of what is void below it. */
+/* Void below a height likewise. */
 static double
 void_below(const double *z, size_t n, double height, double *ratio)
 {

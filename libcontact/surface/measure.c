@@ -1,6 +1,6 @@
 /* Figures of a map. Sums are compensated and moments taken about the mean, so that neither the
  * number of nodes nor a datum far away eats digits. Values are taken several at a time, each into
- * sums of its own, and without a branch: the rest of what is computed here waits for memory. */
+ * sums of its own, and without a branch: then only memory bounds the speed. */
 #include "libcontact/common.h"
 #include "libcontact/ranks/ranks.h"
 
@@ -134,7 +134,8 @@ rms_about(const double *v, size_t n, double mean, double nodes)
     return square <= 0 ? 0 : sqrt(square); /* NaN, of squares beyond all numbers, stays so */
 }
 
-/* ---- slope: over the nodes whose next neighbours along each side that the map has are there ---- */
+/* ---- slope: over nodes whose next neighbour is there, along each side of more than one node
+ * ---- */
 
 struct slope {
     double there[LANES];
@@ -277,7 +278,7 @@ rc_measure_contact_slope(const struct rc_ranks *ranks, const struct rc_shape *sh
     return sqrt(total[0] / total[1]);
 }
 
-/* Adds the squared steps from a[i] to b[i], piece by piece, as they are where others hold a row. */
+/* Adds the squared steps from a[i] to b[i], in the pieces in which a row of another rank comes. */
 static void
 add_steps(struct rc_total *squares, const double *a, const double *b, size_t n)
 {

@@ -32,8 +32,8 @@ order(double *restrict a, double *restrict b)
     }
 }
 
-/* The two in the middle of 24. Of 14 of them the smallest and the largest are neither: they are
- * forgotten, another one comes in, and so on until none is left to come. */
+/* The two in the middle of 24. Among 14 of them neither the smallest nor the largest can be one of
+ * the two: both are dropped, another value comes in, and so on until all have come in. */
 static inline void
 middle_two(double v[OTHERS][LANES], double *restrict low, double *restrict high)
 {
@@ -57,9 +57,9 @@ middle_two(double v[OTHERS][LANES], double *restrict low, double *restrict high)
 }
 
 /* Differences of LANES points of a row from the medians of their neighbours; `row` holds the SIDE
- * rows around it, shifted so that the square begins with each. Missing neighbours are in turn above
- * and below all others, which leaves the middle where it is: that of an odd number of them is then
- * the lower one of the two. */
+ * rows around it, shifted so that the square begins with each. Missing neighbours count as above
+ * and below all others in turn, which keeps the middle in its place; where an odd number is
+ * missing, the median is the lower one of the two in the middle. */
 RC_CLONES static void
 differ(const double *const row[SIDE], double *d)
 {

@@ -3,9 +3,9 @@
  * into runs of contact; runs of neighbouring rows that overlap belong to one patch, which is found
  * by union-find. Bands of rows are joined side by side, then band to band.
  *
- * Where ranks share the map each looks at its rows and at the one before and after these, of which only the
- * joins count. A run of the row before is one of the last row of the rank that holds that: by these pairs the
- * patches of all ranks are joined.
+ * Where ranks share the map, each rank looks at its own rows and at the rows just before and after
+ * them, from which it only takes the joins. Each run of the row before is also a run of the last
+ * row of another rank: these pairs join the patches of all ranks.
  */
 #include "libcontact/contact.h"
 
@@ -179,8 +179,8 @@ struct part {
     size_t nodes, ends, sides;
 };
 
-/* What each run of the rows held here has goes to the first of its patch; of each patch that then has nodes a
- * part, in their order. */
+/* Adds nodes and edges of the runs held here to the first run of their patch, and makes a part of
+ * each patch that has nodes, in the order of the first runs. */
 static size_t
 make_parts(const struct field *f, struct runs *r, size_t before, struct part *part)
 {
@@ -201,7 +201,7 @@ make_parts(const struct field *f, struct runs *r, size_t before, struct part *pa
     return n;
 }
 
-/* Two runs that are one, seen by two ranks: the patches that they are part of there. */
+/* One run that two ranks see: the places of its patch on either. */
 struct pair {
     size_t a, b;
 };
@@ -213,8 +213,8 @@ struct all {
     size_t parts, pairs;
 };
 
-/* Things of so many bytes of each rank, one after another, in memory that the caller frees; *n
- * becomes how many there are of all. NULL when memory is short. */
+/* The lists of all ranks one after another, of *n entries of so many bytes here, in memory that the
+ * caller frees; *n becomes the number of all entries. NULL when memory is short. */
 static void *
 gather_lists(const struct rc_ranks *ranks, size_t bytes, const void *own, size_t *n)
 {
@@ -238,7 +238,7 @@ gather_lists(const struct rc_ranks *ranks, size_t bytes, const void *own, size_t
     return all;
 }
 
-/* Where the patches of a row's runs are, counted over all ranks. */
+/* The place of the patch of each run of a row, counted over all ranks. */
 static void
 patches_of_row(struct runs *r, size_t j, size_t before, size_t *at)
 {
@@ -246,7 +246,8 @@ patches_of_row(struct runs *r, size_t j, size_t before, size_t *at)
         *at++ = before + find(r->run, k);
 }
 
-/* The pairs that this rank knows: of its row before, and of the last row of who holds that. */
+/* The pairs that this rank knows: runs of the row before its own, as it sees them and as the rank
+ * that holds the row does. */
 static enum rc_status
 make_pairs(const struct rc_rows *rows, bool wraps, const struct field *f, struct runs *r,
            size_t before, struct pair **pairs, size_t *n)
@@ -273,7 +274,7 @@ make_pairs(const struct rc_rows *rows, bool wraps, const struct field *f, struct
     return RC_OK;
 }
 
-/* Parts and pairs of all ranks; a part's place then is that of its patch's first run anywhere. */
+/* Parts and pairs of all ranks. */
 static enum rc_status
 gather_all(const struct rc_rows *rows, bool wraps, const struct field *f, struct runs *r,
            struct part *own, size_t parts, size_t before, struct all *all)
@@ -299,7 +300,8 @@ gather_all(const struct rc_rows *rows, bool wraps, const struct field *f, struct
 
 /* ---- joining what ranks have ---- */
 
-/* Places in increasing order, and the place of each in the list of its patch's first. */
+/* Places in increasing order; parent[k]: where in this list the first place of the patch of place k
+ * stands, or one nearer to it. */
 struct places {
     size_t n, *at, *parent;
 };
@@ -387,7 +389,7 @@ merge_parts(struct all *all)
 
 /* ---- figures ---- */
 
-/* Of equal ones that whose first run comes first. */
+/* The larger patch first; of two that are equal the one whose first run comes first. */
 static int
 larger_first(const void *a, const void *b)
 {
@@ -396,7 +398,7 @@ larger_first(const void *a, const void *b)
     return x->nodes != y->nodes ? (x->nodes < y->nodes) - (x->nodes > y->nodes) : by_place(a, b);
 }
 
-/* Sorted before there is a list, since qsort may take as much memory again as what it sorts. */
+/* Sorts before there is a list: qsort may take as much memory again as the parts that it sorts. */
 static enum rc_status
 list_patches(const struct rc_shape *s, struct all *all, struct rc_patches *patches)
 {
@@ -431,7 +433,7 @@ add_up(const struct rc_shape *s, const struct all *all, struct rc_patches *patch
         patches->contact_area - (RC_PI - 1 + log(2)) / 24 * cell * (double)(ends + sides);
 }
 
-/* The rows held here, and those beside, which come to `room`, two rows. */
+/* The rows held here and the two beside them, which are fetched into `room`. */
 static struct field
 field_of(const struct rc_rows *rows, size_t nx, bool wraps, const double *p, double *room)
 {
@@ -523,15 +525,15 @@ rc_patches_free(struct rc_patches *patches)
     *patches = (struct rc_patches){0};
 }
 
-/* A rough contact has about one run in so many nodes of the map, as where a fifth of it touches in runs of
- * three nodes; and one patch in so many, of a surface that is smooth over four of them. */
+/* Nodes of the map for each run of a rough contact, as where a fifth of the map touches in runs of
+ * three nodes; and for each patch, of a surface that is smooth over four nodes. */
 enum {
     NODES_A_RUN = 16,
     NODES_A_PATCH = 256
 };
 
-/* Of a rank, beside its rows: two of others, and twice two of places in rows; the parts of all, beside its own
- * or sorted, which takes as much again. */
+/* What a rank needs beside its rows: two rows of others, and places of runs in four rows; the parts
+ * of all ranks, beside its own parts or, which takes as much again, while they are sorted. */
 static size_t
 shared_memory(const struct rc_shape *s, size_t runs)
 {

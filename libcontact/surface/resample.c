@@ -37,7 +37,7 @@ axis_of(size_t from, double from_d, size_t to, double to_d)
     return a;
 }
 
-/* Where new cell k begins; with halves, where its node stands. Whole numbers come out whole. */
+/* Where new cell k begins, of k + 1/2 where its node stands. Whole numbers come out whole. */
 static double
 edge(const struct axis *a, double k)
 {
@@ -119,7 +119,7 @@ enum {
     ENDS = 3 /* nodes at an end that say how the map goes on there */
 };
 
-/* What nodes give to a value between them. */
+/* The nodes that give a value between them, and their weights. */
 struct stencil {
     size_t at[POINTS];
     double weight[POINTS];
@@ -160,7 +160,8 @@ extend(double beyond, double weight, size_t nodes, double *end[ENDS])
     }
 }
 
-/* The stencil of new node k. Not periodic, it takes the six nodes next to it that there are. */
+/* The stencil of new node k: the six nodes around it or, at an end of a map that is not periodic,
+ * the last six. */
 static struct stencil
 stencil_at(const struct axis *a, size_t k, bool periodic)
 {
@@ -250,7 +251,7 @@ beside_hole(const struct between_nodes *b, size_t i, size_t j, const struct sten
     return isnan(value) ? own : value;
 }
 
-/* A row of the old grid's columns at the place of a new row. */
+/* Values at the columns of the old grid, at the place of a new row. */
 static void
 row_at(const double *v, size_t nx, const struct stencil *s, double *row)
 {

@@ -1,7 +1,8 @@
 /*
  * The median of a map, found by counting: numbers are ordered as their bits are, so a histogram of
- * the highest bits tells in which bin the middle one lies, and one of the next bits of those in
- * that bin is the second step. When a small part of all is left in the bin, it is sorted.
+ * the highest bits tells in which bin the median lies; the second step is a histogram of the next
+ * bits over the numbers in that bin. When only a small part of all numbers is left in the bin, they
+ * are sorted.
  */
 #include "robust.h"
 
@@ -104,8 +105,8 @@ sort_bin(const struct values *of, uint64_t prefix, int shift, size_t count)
     return keys;
 }
 
-/* The key in the middle of *count, of an even number of them the lower one; *upper is then the
- * other one, as far as it is found on the way, else `unknown`. */
+/* The key in the middle of *count, of an even number of them the lower one; *upper then becomes the
+ * other one where that is found on the way, else `unknown`. */
 static uint64_t
 middle_key(const struct values *of, size_t *count, uint64_t *upper)
 {

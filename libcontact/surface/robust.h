@@ -19,8 +19,9 @@ double rc_median(const double *v, size_t n, double about, bool magnitude, int th
  * standard deviations where the residuals are Gaussian. */
 static const double rc_biweight_reach = 4.4478;
 
-/* Reweighting stops when the reach changes by less than this part, after RC_REWEIGHT_MAX times, or
- * when the reach is that part of the heights at which only rounding is left. */
+/* Reweighting stops when the relative change of the reach is below the first, when the reach over
+ * the heights is below the second, so that only rounding is left, or after RC_REWEIGHT_MAX
+ * times. */
 static const double rc_reweight_tol = 1e-3;
 static const double rc_reweight_floor = 1e-13;
 enum {
@@ -37,8 +38,8 @@ rc_biweight(double r, double reach)
     return left > 0 ? left * left : 0;
 }
 
-/* Whether reweighting has come to its end: with `before`, the reach of the time before, and the
- * size of the heights. */
+/* Whether reweighting has come to its end; `before` is the reach of the round before, `size` that
+ * of the heights. */
 static inline bool
 rc_reweighted(double reach, double before, double size)
 {

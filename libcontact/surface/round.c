@@ -44,16 +44,17 @@ enum {
     PARAMETERS
 };
 
-/* A part of its size by which the last step may move the surface on average; the steps get smaller
- * by their squares where it fits, by a factor where noise is left. */
+/* The last step may move the surface by this part of its size on average. Where the form fits the
+ * heights steps shrink quadratically, where noise is left by a factor. */
 static const double settled = 1e-9;
-/* Sag over the height of the points: below, it is rounding. */
+/* Sag over the height of the points, below which it is rounding. */
 static const double no_curvature = 1e-11;
 /* Pivot of the normal equations, with a diagonal of 1, below which they determine nothing. */
 static const double no_pivot = 1e-13;
 
-/* The surface at n places x of a row y: e, which holds heights, becomes what they are above it, NaN
- * where it has no height, and d its derivatives by the parameters, n numbers each. */
+/* The surface at n places x of a row y. e holds heights and becomes their distances above the
+ * surface, NaN where the surface has no height; d becomes the derivatives by the parameters, n
+ * numbers each. */
 typedef void surface_row(const double *p, size_t n, const double *x, double y, double *e,
                          double *d);
 
@@ -65,7 +66,7 @@ struct round {
     double mean, size; /* of the heights, m; size: root of their mean square about the mean */
     double scale;      /* m; lengths are in units of it                                     */
     double middle_x, middle_y; /* nodes                                                         */
-    double *residual, reach;   /* robust: what is left of each height, weights are made of      */
+    double *residual, reach;   /* robust: what is left of each height, for weights              */
     double *x, *sums;
     int threads;
     size_t unknowns, unknown[UNKNOWNS]; /* which parameters they are                            */
@@ -174,7 +175,7 @@ sphere_equation(const double *p, size_t n, const double *x, double y, double *e,
     }
 }
 
-/* In the plane across the axis, whose direction and slopes are there. */
+/* In the plane across the axis, whose direction and slopes are already known. */
 static void
 cylinder_equation(const double *p, size_t n, const double *x, double y, double *e, double *d)
 {
@@ -238,7 +239,7 @@ weigh(size_t n, const double *restrict h, const double *restrict r, double reach
         w[i] *= rc_biweight(r[i], reach);
 }
 
-/* Adds the sums of n nodes; what has weight and no surface is counted. */
+/* Adds the sums of n nodes; points with weight but no surface are counted. */
 RC_CLONES static void
 add_sums(size_t n, size_t unknowns, const size_t *column, double *restrict e, double *restrict w,
          const double *restrict d, double *restrict sums)
@@ -314,8 +315,8 @@ sum_surface(const struct round *f, const double *p, struct normal *normal)
     sum_all(f, f->surface, p, f->unknowns, f->unknown, normal);
 }
 
-/* What is left of each height in row j, in units of the scale; `beside` where the surface has
- * none. */
+/* What is left of each height in row j, in units of the scale; `beside` where the surface has no
+ * height. */
 static void
 residual_row(const struct round *f, const double *p, size_t j, double beside, double *to)
 {
@@ -401,7 +402,7 @@ undetermined(const struct round *f, struct rc_err *err)
                       f->reach > 0 ? "are left with weight" : "are there", f->name);
 }
 
-/* From p on towards the least squares with the weights as they are, all the way or so many
+/* Iterates p towards the least squares with the present weights, to the end or for so many
  * steps. */
 static enum rc_status
 descend(const struct round *f, double *p, size_t steps, struct rc_err *err)
@@ -446,7 +447,7 @@ descend(const struct round *f, double *p, size_t steps, struct rc_err *err)
 
 /* ---- where it starts ---- */
 
-/* Less curved until all points that count have a height on it. */
+/* Makes the surface less curved until it has a height at all points that count. */
 static enum rc_status
 flatten(const struct round *f, double *p, struct rc_err *err)
 {
@@ -513,7 +514,7 @@ start_cylinder(const struct round *f, double *p, struct rc_err *err)
     return RC_OK;
 }
 
-/* What is left of a quadratic polynomial, whose coefficients are c. */
+/* What is left of the heights without the quadratic polynomial of the coefficients c. */
 static void
 find_quadratic_residuals(const struct round *f, const double c[UNKNOWNS])
 {
@@ -530,8 +531,8 @@ find_quadratic_residuals(const struct round *f, const double c[UNKNOWNS])
     }
 }
 
-/* Weights that leave out what is far from a quadratic polynomial, itself found so. They need not be
- * settled: it is only the start. */
+/* Weights that leave out points far from a quadratic polynomial, which is itself found with such
+ * weights. They need not have settled: they only serve the start. */
 static enum rc_status
 start_weights(struct round *f, struct rc_err *err)
 {

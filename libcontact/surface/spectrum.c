@@ -4,11 +4,12 @@
  * A window is laid over a map that is not periodic, about the mean that it sees, so that no wave
  * leaks from the mean; what it takes from the mean square is given back as a factor.
  *
- * The Hurst exponent is fitted to log c over log q, by least squares over 24 bins a decade. A bin of n
- * waves is known to about 1/sqrt(n/2) (their squares are distributed exponentially, and opposite
- * waves are the same), and the mean of a logarithm lies psi(n/2) - ln(n/2) too low; no real surface
- * follows a power law closer than a few per cent, which bounds the weight of the many short waves.
- * Without a range, the one is taken that balances what the line leaves against the bins left out.
+ * The Hurst exponent is fitted to log c over log q, by least squares over 24 bins a decade. A bin
+ * of n waves is known to about 1/sqrt(n/2) (their squares are distributed exponentially, and
+ * opposite waves are the same), and the mean of a logarithm lies psi(n/2) - ln(n/2) too low; no
+ * real surface follows a power law closer than a few per cent, which bounds the weight of the many
+ * short waves. Where no range is given, the range is taken that balances the misfit of the line
+ * against the number of bins left out.
  */
 #include "areal.h"
 
@@ -22,18 +23,20 @@ enum {
     PER_DECADE = 24 /* bins of the fit                                     */
 };
 
-/* What a power law may be off, relative; the price of a bin left out, that of being off by twice what
- * is expected; wavelengths that show a power law, at least; what it may leave over what is expected;
- * and exponents of surfaces, give or take. */
+/* Relative error of a power law; the price of a bin left out, that of a misfit of twice the
+ * expected one; the least ratio of the wavelengths at the ends of a power law; its largest misfit
+ * over the expected one; and the Hurst exponents that surfaces can have, with an allowance. */
 static const double model_error = 0.05, price = 4, span = 3, fits = 3;
 static const double lowest = -0.05, highest = 1.1;
-/* A wave at the end of a range belongs to it; of the largest density, what rounding leaves. */
+/* Relative, so that waves at the ends of a range belong to it; and the part of the largest density
+ * below which there is only rounding. */
 static const double slack = 1e-9, rounded = 1e-27;
-/* Waves that count for one under Hann's window, along each side: (35/128) / (3/8)^2. It spreads a
- * wave to its neighbours: the lowest rings hold what leaks from the mean, and a range that is told is
- * entered so many rings from either end, because waves beyond it may be of another kind. */
+/* Hann's window spreads a wave to its neighbours. Waves that count for one under it, along each
+ * side: (35/128) / (3/8)^2; lowest rings, which hold what leaks from the mean; and rings by which a
+ * range that is given is narrowed at either end, because waves beyond it may follow another law. */
 static const double hann_neighbours = 35.0 / 18, leaked = 2.5, spread = 1.5;
-/* Of the shortest wave that all directions hold: waves of just two nodes are seen in part. */
+/* The fit ends at this part of the wave number of the shortest wave that all directions hold: of
+ * waves of just two nodes only a part is seen. */
 static const double resolved = 0.98;
 
 double
@@ -91,7 +94,7 @@ sum_windowed(const struct windowed *w, bool squared, double mean, double sum[2])
     sum[1] = rc_total_value(&b);
 }
 
-/* Of Hann's window over n nodes, sides of one and two nodes apart: 3/8. */
+/* The mean square of Hann's window: 3/8 for each side, but for those of one and two nodes. */
 static double
 mean_square(const struct windowed *w)
 {
@@ -104,8 +107,8 @@ mean_square(const struct windowed *w)
     return product;
 }
 
-/* Lays the window, if there is one, and gives the factor that makes |FFT|^2 a density, and what of it
- * is due to what the window has taken. */
+/* Lays the window, if there is one, and gives the factor that makes |FFT|^2 a density; *taken: the
+ * part of it that makes up for the window. */
 static enum rc_status
 lay_window(struct windowed *w, double *factor, double *taken, struct rc_err *err)
 {
@@ -137,7 +140,7 @@ lay_window(struct windowed *w, double *factor, double *taken, struct rc_err *err
 
 /* ---- rings ---- */
 
-/* Of one ring: all waves, and those of the fit. */
+/* Sums over one ring: over all waves, and over those of the fit. */
 struct ring {
     double n, q, c;
     double fit_n, fit_q, fit_c; /* fit_c: of c q^`steep` */
@@ -168,7 +171,8 @@ rings_of(const struct rc_shape *s)
                           s->ny > 1 ? rc_fourier_q(s->ny / 2, s->ny, s->dy) : 0);
     struct rings r = {.shape = *s, .steep = s->nx > 1 && s->ny > 1 ? 3 : 2};
 
-    /* on a strip whose sides differ by much most rings of the lowest wave's width would be empty */
+    /* of a strip whose sides differ much, most rings as wide as the lowest wave number would be
+     * empty */
     r.width = fmax(fmin(fabs(qx), fabs(qy)), corner / (2 * (double)(s->nx + s->ny)));
     r.n = (size_t)floor(corner / r.width + 0.5) + 1;
     return r;
@@ -198,7 +202,7 @@ add_column(const struct rings *r, const double *power, size_t k, double factor, 
     }
 }
 
-/* Parts into which a spectrum of so many columns is cut: their rings together are a fraction of it. */
+/* Parts into which the spectrum is cut: so few that their rings together are a fraction of it. */
 static size_t
 parts_of(const struct rings *r)
 {
@@ -306,7 +310,7 @@ line_add(struct line *l, const struct bin *b)
     l->yy += w * b->y * b->y;
 }
 
-/* Slope, and what is left over in squares of what is expected. */
+/* Slope; *left: the sum of squared misfits, each over its expected square. */
 static double
 line_slope(const struct line *l, double *left)
 {

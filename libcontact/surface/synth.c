@@ -202,7 +202,7 @@ spectrum_of(const struct rc_shape *shape, const struct rc_selfaffine *what)
     return s;
 }
 
-/* Of waves with the same power: that of the one across the lay. */
+/* Wave number, across the lay, of the wave that has the same power. */
 static double
 wave_number(const struct spectrum *what, double qx, double qy)
 {

@@ -6,8 +6,8 @@
  * offset whose correlation has fallen to 0.2, Str that over the farthest one up to which it has not:
  * both along rays from 0, a node at a time.
  *
- * The direction is the strongest of the angular spectrum: each wave's power, over the angles that its
- * neighbours are apart.
+ * The direction is the strongest of the angular spectrum: the power of each wave, spread over the
+ * angles up to its neighbours.
  */
 #include "areal.h"
 
@@ -17,7 +17,7 @@
 #include "libcontact/transform/transform.h"
 
 static const double fallen = 0.2, rounded = 1e-9;
-/* What a wave may take of the angular spectrum, to either side, radians. */
+/* The widest angle that the power of a wave is spread over, to either side, radians. */
 static const double widest = 0.05;
 
 enum {
@@ -33,7 +33,7 @@ enum {
 struct windowed {
     const struct rc_relief *relief;
     double *wx;  /* the window along x          */
-    double mean; /* as it is seen by the window */
+    double mean; /* weighted by the window */
 };
 
 static void
@@ -143,8 +143,9 @@ correlation_of(const double *c, const struct rc_offsets *at, double x, double y)
     return c[(size_t)y * (2 * at->mx + 1) + (size_t)(x + (double)at->mx)];
 }
 
-/* At (x, y) nodes, of which one is whole: a cubic through four along the other direction, where a
- * straight line would make a kink of the smooth top; a line where the cubic's ends are not there. */
+/* At (x, y) nodes, of which one is whole: by a cubic through four values along the other direction,
+ * because a straight line would make a kink of the smooth top; by a line where the outer two of the
+ * four are not there. */
 static double
 correlation_at(const double *c, const struct rc_offsets *at, double x, double y)
 {
@@ -217,8 +218,8 @@ measure_lengths(const struct rc_relief *r, const struct rc_offsets *at, const do
 
 /* ---- direction ---- */
 
-/* One wave of the half plane that is kept: how often it stands for itself and its opposite, and its
- * wave number, y up the picture. */
+/* Wave number of a wave of the half plane that is kept, y up the picture. Gives 2 where the wave
+ * also stands for its opposite, else 1. */
 static inline double
 wave_of(const struct rc_shape *s, size_t k, size_t j, double *qx, double *qy)
 {
@@ -291,7 +292,8 @@ sum_parts(const struct rc_relief *r, const double *power, double toward, double 
             sums[0][b] += sums[part][b];
 }
 
-/* The strongest bin, with what lies about it: one wave is seen under several. */
+/* The middle of the strongest bin, taken together with the bins about it: one wave is seen in
+ * several. */
 static double
 strongest(const double bin[ANGLES])
 {
@@ -328,7 +330,7 @@ measure_direction(const struct rc_relief *r, const double *power, double (*sums)
     a->std = 180 - angle < 1e-9 ? 0 : angle; /* rounded just below a half turn */
 }
 
-/* Lays the window, and finds the mean that it sees. */
+/* Makes the window, and the mean weighted by it. */
 static void
 lay_window(struct windowed *w)
 {
