@@ -319,7 +319,7 @@ rc_ranks_beside(const struct rc_rows *rows, bool round, size_t bytes, const void
         return;
     above = neighbour(r, r->number, -1);
     below = neighbour(r, r->number, 1);
-    /* also between the ends of a map that does not go round: nobody looks at it */
+    /* also between the ends of a map that does not repeat, where nobody reads it */
     for (size_t at = 0; at < bytes; at += n) {
         n = bytes - at < PIECE ? bytes - at : PIECE;
         MPI_Irecv((char *)before + at, (int)n, MPI_BYTE, above, 1, r->comm, &request[0]);

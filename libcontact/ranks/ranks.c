@@ -14,7 +14,7 @@ rc_rows_block(size_t nx)
 {
     size_t rows = 1;
 
-    /* of a line without nodes too: shapes are refused elsewhere */
+    /* nx may be 0: such shapes are refused elsewhere */
     while (nx > 0 && rows <= RC_BLOCK_NODES / nx / 2)
         rows *= 2;
     return rows;
@@ -71,8 +71,8 @@ most_dealt(const size_t *first, size_t count)
     return most;
 }
 
-/* MPI counts units, and their places in what a rank holds, in ints: of the fullest rank, whichever that is,
- * so that all find the same. */
+/* MPI counts units, and their places within a rank, in ints. Every rank checks those of the fullest one,
+ * so that all come to the same result. */
 static enum rc_status
 check_counts(const struct rc_turn *t, struct rc_err *err)
 {

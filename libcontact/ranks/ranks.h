@@ -3,14 +3,14 @@
  * MPI. Internal: never installed (what users need of it is contact_mpi.h).
  *
  * Rank r of P owns whole rows, in units that neither a tile of the projection (16 rows) nor a block of the
- * sums (solver/reduce.c) straddles; maps of few units leave ranks without rows, which then only take part
- * in what all do together. NULL for the ranks, and a build without MPI, is one process that owns all: every
- * function is then empty, and nothing is copied.
+ * sums (solver/reduce.c) straddles; of a map of few units some ranks hold no rows, and only take part in the
+ * calls that all make together. With NULL for the ranks, and in a build without MPI, one process owns all
+ * rows: every function is then empty, and nothing is copied.
  *
- * Results do not depend on P, bit for bit (where one process, too, takes the transforms, and for stresses no
- * coarser grids): rows and columns are transformed by themselves by the same plans, blocks add up in the same
- * order whoever owns them, and their sums are added with what the additions round away, so that the rounding
- * of the total does not show where the ranks begin (but for ties: 1 in 1e15).
+ * Results are the same for every P, bit for bit, where one process takes transforms too and, for stresses, no
+ * coarser grids: each row and each column is transformed by itself with the same plan, blocks add up in the
+ * same order whichever rank owns them, and their sums are compensated, so that the rounding of the total does
+ * not depend on where ranks begin (but for ties: 1 in 1e15).
  *
  * What is not local to rows, and how it is done:
  *
@@ -18,7 +18,7 @@
  *                         by the columns of the spectrum that are kept there only, one exchange back
  *                         (fft_body.h)
  *   spectra of kernels    the same with the rows of a quarter (fft.c)
- *   sums, largest values  solver/reduce.c: every rank gets the sums of all, and adds them in order
+ *   sums, largest values  every rank gets the sums of all ranks, and adds them in order (solver/reduce.c)
  *   projection: the load  Newton's method on such sums; nodes that join by their gap: the gap of the last
  *                         one by bisection on counts (projection.c)
  *   tiles                 never straddle; the roomiest one of all is found by comparing (tiles.c)
@@ -26,9 +26,9 @@
  *   edge of the contact   the same (result.c)
  *   distances             along columns: the last row of the set above and the first below, by a scan over
  *                         the ranks (distance.c); along rows: local
- *   nested start          rows of the coarser grid are moved to who owns them there; grids of few nodes a
- *                         rank are solved by every rank for itself, which costs no message but
- *                         whether all have the memory (nested.c)
+ *   nested start          rows of the coarser grid are moved to the ranks that own them there; small grids
+ *                         are solved by every rank for itself, after one message on whether all
+ *                         have the memory (nested.c)
  *   patches of contact    labelled row by row, joined across the seams between ranks (surface/patches.c)
  *   failures              no rank goes on alone: makers agree on their status before any of them returns
  */
@@ -50,12 +50,12 @@ enum {
     RC_TILE_ROWS = 16,     /* that are never split                                 */
     RC_ROW_PIECE = 1024    /* columns of rows beside, fetched at a time into arrays */
 };
-/* Rows of a map of such lines that make a block; 1 also where a line is more than one. */
+/* Rows of nx nodes that make a block; 1 also where a row has more nodes than a block. */
 size_t rc_rows_block(size_t nx);
 /* Rows that belong to one rank together; most rows that one of `count` ranks holds. */
 size_t rc_rows_unit(size_t nx);
 size_t rc_rows_most(const struct rc_shape *whole, size_t count);
-/* Those that are held here of a map. */
+/* The rows of a map that are held here. */
 struct rc_rows rc_rows_of(const struct rc_ranks *ranks, const struct rc_shape *whole);
 /* n things in units of `unit` dealt out to `count` ranks: the first one of rank r; r = count: n. */
 size_t rc_rows_dealt(size_t n, size_t unit, size_t count, size_t r);
@@ -74,12 +74,13 @@ struct rc_turn {
     size_t count, own, unit;
     size_t *row, *column; /* count + 1 each */
 };
-/* Rows and columns are dealt out in units of row_unit and 1. RC_FAIL when memory is short, here alone; or,
- * for all, when a rank would hold more than an exchange can count. rc_turn_free in either case. */
+/* Rows and columns are dealt out in units of row_unit and 1. RC_FAIL on this rank alone when its memory is
+ * short, on all ranks when one of them would hold more than an exchange can count. rc_turn_free in either
+ * case. */
 enum rc_status rc_turn_new(struct rc_turn *turn, const struct rc_ranks *ranks, size_t rows,
                            size_t row_unit, size_t columns, size_t unit, struct rc_err *err);
 void rc_turn_free(struct rc_turn *turn);
-/* Row j of those held here, to its pieces and from them. */
+/* Copies row j of those held here to its pieces, or from them. */
 void rc_turn_put(const struct rc_turn *turn, size_t j, const void *row, void *pieces);
 void rc_turn_get(const struct rc_turn *turn, size_t j, const void *pieces, void *row);
 
@@ -105,7 +106,8 @@ size_t rc_ranks_own(const struct rc_ranks *ranks);
 void rc_ranks_gather(const struct rc_ranks *ranks, size_t bytes, const void *own, void *all);
 /* All get what rank `root` has. */
 void rc_ranks_share(const struct rc_ranks *ranks, size_t root, size_t bytes, void *v);
-/* RC_OK when it is that on all ranks; else RC_FAIL on all, and the sentence of the first that failed. */
+/* RC_OK when `status` is RC_OK on all ranks; else RC_FAIL on all, with the sentence of the first rank that
+ * failed. */
 enum rc_status rc_ranks_agree(const struct rc_ranks *ranks, enum rc_status status,
                               struct rc_err *err);
 /* v[k] becomes the largest of those of the ranks before, or, `back`, after this one; `none` where there is
@@ -115,8 +117,8 @@ void rc_ranks_before(const struct rc_ranks *ranks, bool back, size_t n, double n
 void rc_ranks_largest(const struct rc_ranks *ranks, size_t n, double *v);
 /* Pieces to columns, or, `back`, columns to pieces. */
 void rc_ranks_turn(const struct rc_turn *turn, bool back, const void *from, void *to);
-/* Rows of `bytes`, from[r] .. from[r + 1] - 1 held by rank r, go to those who are to hold them; to NULL:
- * to all. */
+/* Rows of `bytes`, from[r] .. from[r + 1] - 1 held by rank r, go to the ranks that hold them by `to`;
+ * NULL: to all. */
 void rc_ranks_move(const struct rc_ranks *ranks, size_t bytes, const size_t *from, const size_t *to,
                    const void *v, void *w);
 /* The row before the first one held here and the one after the last; false where there is none: at the ends
@@ -202,7 +204,7 @@ rc_ranks_beside(const struct rc_rows *rows, bool round, size_t bytes, const void
 }
 #endif
 
-/* The sum over all ranks, that does not depend on how many there are; the largest; of counts. */
+/* The sum over all ranks, the same for any number of them; the largest value; the sum of counts. */
 double rc_ranks_total(const struct rc_ranks *ranks, struct rc_total total);
 double rc_ranks_most(const struct rc_ranks *ranks, double v);
 size_t rc_ranks_sum(const struct rc_ranks *ranks, size_t n);

@@ -1,6 +1,6 @@
 /*
- * FFTW's planner is the one part of it that two threads may not enter at once, of a program with
- * other users of FFTW too. Internal: never installed.
+ * The lock of FFTW's planner, in which only one thread may be at a time, in a program with other
+ * users of FFTW too. Internal: never installed.
  */
 #ifndef RC_PLANNER_H
 #define RC_PLANNER_H

@@ -1,7 +1,8 @@
 /*
  * Rows are transformed as they come and kept as complex numbers; columns are then taken a few at a
- * time, two cache lines of each row, and never go back whole: of a spectrum its squares are written,
- * of an autocorrelation the rows of y >= 0, which fit where the rows of the map stood.
+ * time, two cache lines of each row. Columns are never written back whole: of a spectrum only the
+ * squares are written, of an autocorrelation only the rows of y >= 0, which fit in the place of the
+ * rows of the map.
  */
 #include "power.h"
 
@@ -141,7 +142,7 @@ transform_columns(const struct work *w, size_t first, double *power)
         if (power != NULL)
             memcpy(power + (first + k) * w->shape.ny, of, w->shape.ny * sizeof *of);
         else
-            /* into the column before, which has been taken out already, or is the spare one */
+            /* into the column before, which is no longer needed, or into the spare one */
             fftw_execute_dft_r2c(w->back, of, column - w->lane);
     }
     for (size_t j = 0; power == NULL && j <= w->at.my && j < w->shape.ny; j++)

@@ -16,10 +16,10 @@ typedef void rc_map_row(const void *map, size_t j, double *row);
 enum rc_status rc_power(const struct rc_shape *shape, rc_map_row *row, const void *map,
                         size_t threads, double *power, struct rc_err *err);
 
-/* Sums of the products of nodes that are so far apart, for 0 <= y <= my and -mx <= x <= mx nodes,
- * my + 1 rows of 2 mx + 1 sums: those of opposite offsets are the same. The map is set in zeros to
- * px x py nodes and repeats, px = nx, py = ny, or goes on with zeros as far as these offsets reach,
- * px >= nx + mx, py >= ny + my; mx <= px/2, my <= py/2, my < ny. Fails likewise. */
+/* Sums of the products of nodes that are (x, y) nodes apart, for 0 <= y <= my and -mx <= x <=
+ * mx, my + 1 rows of 2 mx + 1 sums: opposite offsets have the same sums. The map repeats, px =
+ * nx, py = ny, or is padded with zeros to px x py nodes, as far as these offsets reach: px >= nx
+ * + mx, py >= ny + my. mx <= px/2, my <= py/2, my < ny. Fails likewise. */
 struct rc_offsets {
     size_t px, py, mx, my;
 };
