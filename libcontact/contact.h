@@ -34,7 +34,7 @@ struct rc_solver; /* one contact problem being iterated                    */
 struct rc_stress; /* one pressure map whose stress slices are asked for    */
 struct rc_ranks;  /* processes that share a map: contact_mpi.h; NULL: none */
 
-/* What processes that share maps have sent to each other, all together. */
+/* The messages of all processes that share maps, added up. */
 struct rc_sent {
     size_t exchanges;       /* of whole maps: rows to columns, or back           */
     double messages, bytes; /* of these                                          */
@@ -117,10 +117,10 @@ struct rc_selfaffine {
 #define RC_WEIBULL_MAX 100.0
 /* Gaussian Fourier amplitudes with random phases, one draw for each wave vector; waves of exactly
  * two nodes are left out. The mean is 0. The gradient is that of the waves, not of differences
- * between nodes. Heights of another distribution have it by their ranks, and their waves nearly the
- * amplitudes that they would have had without (Perez-Rafols and Almqvist 2019). RC_FAIL when a value
- * is out of its bounds, no wave of the map lies between the cut-offs, or memory is short. GSL's error
- * handler, which belongs to the process, is off meanwhile. */
+ * between nodes. Another distribution is given to the heights by rank; the waves then have nearly
+ * the amplitudes of Gaussian heights (Perez-Rafols and Almqvist 2019). RC_FAIL when a value is out
+ * of its bounds, no wave of the map lies between the cut-offs, or memory is short. GSL's error
+ * handler, which belongs to the process, is off during the call. */
 RC_API enum rc_status rc_synth_selfaffine(const struct rc_shape *shape,
                                           const struct rc_selfaffine *what, double *h,
                                           struct rc_err *err);
@@ -142,9 +142,9 @@ struct rc_form {
                       of |r|, anew until c stays (Beaton and Tukey 1974; ISO 16610-31)           */
     size_t threads; /* 0: all                                                                     */
 };
-/* Subtracts the form that fits the points that are there (not NaN) best by least squares in z. The
- * radius of a sphere or a cylinder, m, is positive for a bump and negative for a hollow; NAN of a
- * polynomial; radius may be NULL. RC_FAIL when there are fewer points than unknowns, their places
+/* Subtracts the form that fits best, by least squares in z, the points that are there (not NaN).
+ * The radius of a sphere or a cylinder, m, is positive for a bump and negative for a hollow; NAN of
+ * a polynomial; radius may be NULL. RC_FAIL when there are fewer points than unknowns, their places
  * do not determine the form, no sphere or cylinder is above them all, one is infinite, or memory is
  * short; h is then as it was. GSL's error handler, which belongs to the process, is off during the
  * call. */
@@ -152,8 +152,8 @@ RC_API enum rc_status rc_detrend_form(const struct rc_shape *shape, const struct
                                       double *h, double *radius, struct rc_err *err);
 
 /* The Gaussian regression filter of order 0 over the points that are there: ISO 16610-61, of
- * profiles 16610-21. A missing point stays missing and has no weight, nor has what lies beyond the
- * map unless that is periodic. */
+ * profiles 16610-21. A missing point stays missing and has no weight; beyond a map that is not
+ * periodic nothing has any. */
 struct rc_filter {
     double cutoff;  /* wavelength of which half gets through, m                                  */
     bool high;      /* the input less its low-pass, instead of that                              */
@@ -180,11 +180,11 @@ RC_API enum rc_status rc_outliers(const struct rc_shape *shape, double times, bo
 /* Bytes that it takes beside h. */
 RC_API size_t rc_outliers_memory(const struct rc_shape *shape, size_t threads);
 
-/* Leads the outer `width` (m) of the map to the mean of all heights: what is above it is multiplied
- * by (1 - cos(pi s / width)) / 2, s being the distance of a node's middle from the edge, for either
- * direction. The map can then be repeated without a step. RC_FAIL when the width is below a node or
- * above half of the map, no height is there, one is infinite, or memory is short; h is then as it
- * was. */
+/* Leads the outer `width` (m) of the map to the mean of all heights: the difference from the mean
+ * is multiplied by (1 - cos(pi s / width)) / 2 for either direction, s being the distance of the
+ * node from the edge. The map can then be repeated without a step. RC_FAIL when the width is below
+ * a node or above half of the map, no height is there, one is infinite, or memory is short; h is
+ * then as it was. */
 RC_API enum rc_status rc_taper(const struct rc_shape *shape, double width, double *h,
                                struct rc_err *err);
 
@@ -211,16 +211,16 @@ RC_API enum rc_status rc_hole_width(const struct rc_shape *shape, const double *
 
 /* Means of v, which is constant in the cells of `from`, over the cells of `to`, a grid of any other
  * number of nodes on the same area: their spacings are not looked at. The integral stays what it
- * is. Heights go to a coarser grid so, and pressures back. Where v is missing (NaN) the rest of a
- * cell decides, where less than half of it is there the mean is missing too. v and out do not
- * overlap. */
+ * is. Heights are taken to a coarser grid this way, and pressures back. Where v is missing (NaN)
+ * the mean is that of the rest of the cell; where less than half of the cell is left, it is missing
+ * too. v and out do not overlap. */
 RC_API void rc_resample_means(const struct rc_shape *from, const double *v,
                               const struct rc_shape *to, double *out);
 
 /* The grid of spacings dx, dy (m) that rc_resample fills: as many whole cells as fit in the map,
- * middle on middle. Where a spacing stays the same, so do that axis' nodes and spacing; a single
- * row stays one, of the new width. RC_FAIL when a spacing is not positive or wider than the map, or
- * the nodes are more than can be counted. */
+ * middle on middle. An axis whose spacing stays the same keeps its nodes; a single row stays one,
+ * of the new width. RC_FAIL when a spacing is not positive or wider than the map, or the nodes are
+ * more than can be counted. */
 RC_API enum rc_status rc_resample_shape(const struct rc_shape *from, double dx, double dy,
                                         struct rc_shape *to, struct rc_err *err);
 /* Whether the cells of `to` cover the map `from` wholly, within RC_SAME_SPACING: a periodic map
@@ -320,16 +320,16 @@ struct rc_patch {
 struct rc_patches {
     size_t count, contact_nodes;
     double contact_area, contact_area_corrected, perimeter; /* m^2, m^2, m                        */
-    struct rc_patch *patch; /* `count` of them, the largest first; NULL where nobody asked      */
+    struct rc_patch *patch; /* `count` of them, the largest first; NULL when not asked for      */
 };
 /* RC_FAIL when memory is short. rc_patches_free in either case. */
 RC_API enum rc_status rc_patches_find(const struct rc_shape *shape, const double *p,
                                       const struct rc_patch_options *options,
                                       struct rc_patches *patches, struct rc_err *err);
 RC_API void rc_patches_free(struct rc_patches *patches);
-/* Bytes that it takes, beside p, which may be NULL: about what a rough contact takes. Where ranks
- * share the map p is not looked at: of the rank that takes most, the patches of the whole map among
- * them, which each has. */
+/* Bytes that it takes beside p. For p NULL, and wherever ranks share the map, about as many as a
+ * rough contact takes; among ranks those of the rank that takes most, with the patches of the whole
+ * map, which every rank has. */
 RC_API size_t rc_patches_memory(const struct rc_shape *shape, const double *p,
                                 const struct rc_patch_options *options);
 
@@ -382,16 +382,17 @@ struct rc_psd_options {
 /* Power spectral density |FFT|^2 dx dy/(nx ny), averaged over rings of wave numbers as wide as the
  * lowest one (Persson et al. 2005, J. Phys. Condens. Matter 17, R1; Jacobs, Junge and Pastewka 2017,
  * Surf. Topogr. 5, 013001: C^iso, and of a profile C^1D); the mean is no wave. Its sum over all
- * waves, over the area of the map, is Sq^2. Under a window w it is |FFT(w h)|^2 dx dy/(nx ny)/mean(w^2)
- * times window_factor, which makes that sum what it is: 1 but for what lies near the edges. The window
- * is that of Hann along each side, about the mean that it sees itself. */
+ * waves, over the area of the map, is Sq^2. Under a window w it is |FFT(w h)|^2 dx dy/(nx
+ * ny)/mean(w^2) times window_factor, which keeps that sum: 1 where the heights near the edges are
+ * like the others. The window is that of Hann along each side, and heights are counted from their
+ * mean weighted with it. */
 struct rc_psd {
     size_t rings;
     double *q;     /* rad/m: mean over the waves of a ring                                        */
     double *c;     /* m^4; of a profile m^3                                                       */
     size_t *modes; /* waves, opposite ones both, in a ring: at least one                          */
     bool windowed;
-    double window_factor;     /* what the window had taken, given back; 1 without one            */
+    double window_factor;     /* makes up for the power that the window takes; 1 without one     */
     double hurst;             /* of c ~ q^(-2-2H), of a profile q^(-1-2H); NAN: no power law     */
     double hurst_error;       /* its standard error                                              */
     double shortest, longest; /* m: the waves that it was fitted to; NAN: none                   */
