@@ -9,10 +9,9 @@
 #include "tool.h"
 
 enum {
-    LATER = 5 << 16, /* code and libraries that are not yet in memory, stacks of threads */
-    UNSEEN =
-        16 << 20, /* taken without a look at the machine, which takes longer than a small map */
-    FEW_BYTES = 1 << 20, /* that need no look by themselves */
+    LATER = 5 << 16,     /* code and libraries that are not yet in memory, stacks of threads */
+    UNSEEN = 16 << 20,   /* taken without asking the system, which takes longer than a small map */
+    FEW_BYTES = 1 << 20, /* for which the system is not asked */
 };
 
 static const char smaller[] =

@@ -7,8 +7,8 @@
 /* "png", "svg" or "pdf", whatever the case of the name's own ending: what kind of picture it is. A
  * name with none of them, as devices, FIFOs and folders have it, and NULL are "png". */
 const char *ending_of(const char *name);
-/* Ends the tool, the command line being wrong, when the picture that an option names (NULL: none)
- * has none of these endings. Devices, FIFOs and folders have the names that they have. */
+/* Ends the tool, because the command line is wrong, when the picture that an option names (NULL:
+ * none) has none of these endings; devices, FIFOs and folders may have any name. */
 void ending_demand_picture(struct tool *tool, const char *option, const char *name);
 
 #endif

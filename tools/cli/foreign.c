@@ -4,7 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* How files begin that people have at hand; `readable`: rc-import may know what to do. */
+/* Beginnings of files that a tool may get in place of a stream; `readable`: rc-import may read
+ * them. */
 static const struct kind {
     const char *magic, *what;
     bool readable;

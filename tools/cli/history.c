@@ -61,7 +61,7 @@ add_value(struct line *line, const struct opt *o, const void *at)
     if (o->type == OPT_NUMBER) {
         double value = *(const double *)at;
         if (o->optional && isnan(value))
-            return; /* it stands without its number */
+            return; /* the option stands without its number */
         add(line, " ", o->word != NULL && isinf(value) ? o->word : rc_number_text(text, value));
     } else if (o->type == OPT_COUNT) {
         snprintf(text, sizeof text, "%zu", *(const size_t *)at);

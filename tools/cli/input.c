@@ -87,7 +87,7 @@ check_convergence(struct tool *t, const struct rc_grid *g)
     tool_fails_with(t, EXIT_SHORT);
 }
 
-/* What a program before this one in the pipe has said need not be said again. */
+/* An error that a program before this one in the pipe has reported is not reported again. */
 static _Noreturn void
 cannot_read(struct tool *t, const struct rc_err *err)
 {

@@ -11,11 +11,11 @@
 #include "parts.h"
 #include "ranks.h"
 
-/* Names, keys and words of a file stand in messages, and must not act on a terminal. */
+/* Messages hold names, keys and words of files, which must not act on a terminal. */
 static void
 say(struct tool *t, char *text)
 {
-    if (!ranks_speak(t)) /* the first of several says the same */
+    if (!ranks_speak(t)) /* the first of several processes says it */
         return;
     tool_progress_end(t);
     fprintf(stderr, "%s: %s\n", t->info->name, rc_text_harmless(text, '?'));

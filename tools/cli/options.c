@@ -387,7 +387,8 @@ getopt_table(const struct tool *t)
 
 /* ---- what is wrong with an option ---- */
 
-/* An option of which only the beginning was typed, as getopt allows, and which could be several. */
+/* Ends the tool when the beginning of a name, which getopt takes for the option, fits several
+ * options. */
 static void
 check_ambiguous(struct tool *t, const struct option *table, const char *typed)
 {
@@ -512,8 +513,8 @@ asks_for_text(const struct tool *t, int what, const char *text)
            (o->type == OPT_REPORT && strcmp(text, "-") == 0);
 }
 
-/* Looks through the whole line for where the output leads: whatever is then found to be wrong on
- * it, the reader of a pipe is told too. */
+/* Looks through the whole line for the output first: the reader of a pipe is then told of every
+ * error on the line. */
 static void
 look_for_output(struct tool *t, int argc, char **argv, const struct option *table)
 {

@@ -21,7 +21,7 @@ static struct whole_file output = {.slot = -1};
 
 static volatile sig_atomic_t interrupted;
 static const struct tool *together; /* of several processes that share the maps; NULL: alone */
-static char no_time[256];           /* what it says when it is in a hurry */
+static char no_time[256];           /* the message when a launcher is about to kill */
 static const int signals_handled[] = {SIGINT, SIGTERM, SIGHUP};
 
 static void
@@ -32,8 +32,8 @@ end_by(int number)
     raise(number);
 }
 
-/* Of several processes: the launcher kills before what was reached could be written. The exit status
- * is one of those of a tool, as the launcher hands on that of whichever process ends first. */
+/* Of several processes: the launcher will kill them before the result so far can be written. It
+ * hands on the exit status of the process that ends first, so this is one of a tool's own. */
 static void
 end_in_time(int number)
 {
@@ -85,8 +85,8 @@ output_handle_signals(void)
 
 /* ---- the file or the stream ---- */
 
-/* Several processes write into one file: there has to be one. It is made when there is something to write, so
- * that nothing is left where one of them is killed on the way. */
+/* Ends the tool when several processes have no file that they can share. The file is made when
+ * there is something to write, so that none is left behind by a process that is killed before. */
 static void
 demand_shared_file(struct tool *t)
 {
@@ -118,7 +118,7 @@ open_shared(struct tool *t)
     }
     ranks_share(t, 0, name, sizeof name);
     if (!ranks_speak(t))
-        whole_file_share(&output, name); /* whoever is the last to live removes it */
+        whole_file_share(&output, name); /* the process that lives longest removes it */
     t->out_share = ranks_write(t, name);
     if ((t->writer = rc_writer_new_shared(t->out_share, 0, &err)) == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
@@ -160,7 +160,7 @@ output_open(struct tool *t)
         tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
 }
 
-/* Numbers near the ends of what a double can be lose themselves on the way; better none than those. */
+/* Values near the limits of a double can overflow in the work: no output is better than such. */
 static void
 demand_no_new(struct tool *t, const struct rc_grid *g)
 {
@@ -233,8 +233,8 @@ output_end_by_signal(void)
         end_by(interrupted);
 }
 
-/* Where RCGFAIL is to stand; NULL: nowhere. A reader in a pipe waits for a stream also where none
- * has begun; a file that has none yet gets none. */
+/* Where RCGFAIL is written; NULL: nowhere. A reader in a pipe waits for a stream even when none has
+ * begun; a file without a stream gets none. */
 static FILE *
 stream_to_fail(const struct tool *t)
 {

@@ -22,8 +22,8 @@ bool completions_print(const struct tool *tool, const char *shell);
 /* Reads the command line into tool->args and the options of every tool. */
 void options_read(struct tool *tool, int argc, char **argv);
 
-/* How many values are NaN, and how many infinite, or would be in the frame's type; of the whole map, which
- * processes that share it ask for together. */
+/* How many values are NaN, and how many are infinite or would be in the frame's type. They are
+ * counted over the whole map: processes that share it call together. */
 struct not_finite {
     size_t missing, infinite;
 } not_finite(const struct tool *tool, const struct rc_grid *grid);
@@ -35,8 +35,8 @@ void output_open(struct tool *tool);
 void output_end(struct tool *tool);
 /* Where a signal has come, ends by it. */
 void output_end_by_signal(void);
-/* The tool cannot go on: says so in a stream that has begun, in a pipe also before it has, and
- * removes what is half-written. */
+/* The tool cannot go on: says so in a stream that has begun and, in a pipe, even before one has,
+ * and removes half-written files. */
 void output_abandon(struct tool *tool, const char *why, int exit_status);
 /* Ends the tool as the one before it in the pipe, which has said why: with its message and its exit
  * status. */

@@ -23,7 +23,7 @@ struct part {
 struct ranks {
     struct rc_ranks *library;
     MPI_Comm comm; /* for what the tool itself has to say */
-    MPI_Comm last; /* for the last words alone: where one dies the others may be anywhere */
+    MPI_Comm last; /* for last messages alone: others may then be in any call */
     int count, own;
     struct part *parts;        /* scratch: of each process             */
     struct itimerval patience; /* that a launcher has; 0: not known   */
@@ -31,7 +31,7 @@ struct ranks {
 
 /* ---- start and end ---- */
 
-/* Every launcher leaves one of these to those whom it starts. */
+/* Every launcher sets one of these variables for the processes that it starts. */
 static bool
 launched(void)
 {
@@ -44,8 +44,9 @@ launched(void)
     return false;
 }
 
-/* Open MPI's mpirun, which tells whom it starts what it was told itself, kills a second after it has sent
- * SIGTERM. Others, as srun, leave half a minute and more. */
+/* How long to wait before the launcher kills. Open MPI's mpirun does so a second after it has sent SIGTERM,
+ * or after the time in its option, which it hands on to the processes. Other launchers, such as srun, wait
+ * half a minute and more. */
 static struct itimerval
 patience(void)
 {
@@ -89,7 +90,7 @@ ranks_start(struct tool *t)
     MPI_Comm_dup(MPI_COMM_WORLD, &r.last);
     MPI_Comm_size(r.comm, &r.count);
     MPI_Comm_rank(r.comm, &r.own);
-    if (r.count == 1) { /* alone after all, with pipes and all that */
+    if (r.count == 1) { /* one process alone works as without MPI, pipes included */
         MPI_Comm_free(&r.comm);
         MPI_Comm_free(&r.last);
         MPI_Finalize();
@@ -288,7 +289,7 @@ enum {
     PIECE = 1 << 26 /* bytes that are read or written at a time: MPI counts in ints */
 };
 
-/* All have done it, or none says that it has. */
+/* Success on all processes or, where one of them failed, failure on all. */
 static enum rc_status
 agree(const struct file *f, int result, size_t missing, const char *what, struct rc_err *err)
 {
@@ -408,10 +409,10 @@ ranks_close(struct tool *t, const struct rc_share *share)
     free(f);
 }
 
-#else /* alone, always */
+#else /* without MPI a process is always alone */
 
-/* Several that write one file are no analysis shared, as who types mpirun may expect; scripts that start one
- * for each case do well. */
+/* Warns a user of mpirun, who expects that the processes share the work. It goes on: a script may rightly
+ * start a process for each case. */
 void
 ranks_start(struct tool *t)
 {

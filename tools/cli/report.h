@@ -2,8 +2,8 @@
  * What --report writes: a row for each case, as it is done, with figures in SI units. A row is a
  * JSON object on a line of its own; in a file that is called .tsv it is a line of a table, with
  * tabs between the cells and the names of the columns in the first line. A table holds scalars
- * only: objects and arrays are left out of it. What is unknown is null, in a table NaN, which
- * keeps its place also for readers that split lines at blanks.
+ * only: objects and arrays are left out of it. Unknown values are null, in a table NaN, so that
+ * readers which split lines at blanks find all columns.
  */
 #ifndef RC_REPORT_H
 #define RC_REPORT_H
@@ -50,7 +50,7 @@ void report_text(struct report *report, const char *name, const char *value); /*
 void report_bool(struct report *report, const char *name, bool value);
 /* A column of the table that this row has nothing for; not in JSON. */
 void report_column(struct report *report, const char *name, const char *unit);
-/* What comes up to report_end is inside; numbers of an array have the name NULL. */
+/* Fields up to report_end are inside; numbers of an array have the name NULL. */
 void report_object(struct report *report, const char *name);
 void report_array(struct report *report, const char *name);
 void report_end(struct report *report);

@@ -8,9 +8,9 @@
  * rc-stress write. */
 bool results_channel(const char *channel);
 
-/* For a tool that changes heights, of every frame that it passes on: a height that was changed does
- * not belong to the results beside it any more. Ends the tool, naming them, where a case holds both,
- * in whatever order they come. */
+/* A tool that changes heights calls this for every frame that it passes on: results in the same
+ * case were computed from the old heights. Where a case holds both, in either order, it ends the
+ * tool and names the results. */
 void results_demand_none(struct tool *tool, const struct rc_grid *grid);
 
 #endif

@@ -112,7 +112,7 @@ tool_demand_writable(struct tool *t, const char *option, const char *name)
         return;
     if (stat(name, &st) == 0 && S_ISDIR(st.st_mode))
         tool_die(t, EXIT_IMPOSSIBLE, "%s %s: this is a folder", option, name);
-    if (access(name, F_OK) != 0) { /* to be made: its folder has to let us */
+    if (access(name, F_OK) != 0) { /* not there yet: its folder has to allow writing */
         if (!whole_file_place(name, place))
             tool_die(t, EXIT_IMPOSSIBLE, "%s %s: %s", option, name, strerror(errno));
         if ((slash = strrchr(place, '/')) != NULL)

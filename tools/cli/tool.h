@@ -111,8 +111,8 @@ struct tool_info {
     const struct opt *opts; /* ended by a row without a name and group                     */
     enum tool_reads reads;
     enum tool_writes writes;
-    /* NULL, or what to do with an input that is no grid stream and begins so; it gives NULL where
-     * there is nothing else to say than in every tool. */
+    /* NULL, or gives advice on an input that is no grid stream and begins with `head`; where it
+     * gives NULL, the advice is that of every tool. */
     const char *(*foreign)(const char *head);
     /* NULL, or called between the options and the output: may change tool->writes. */
     void (*settle)(struct tool *tool);
@@ -141,7 +141,7 @@ struct tool {
     FILE *in, *out;
     struct rc_reader *reader;
     struct rc_writer *writer;
-    bool missing, infinite;  /* NaN, infinity has come in, or is rightly made: it may go out */
+    bool missing, infinite;  /* NaN, infinity came in or is made on purpose: it may go out */
     size_t last_case, frame; /* frame: place in the current source, from 1                 */
     struct rc_grid *ahead;   /* the next frame, its values not yet read; NULL: nobody looked */
     struct {                 /* the case that tool_channel is in; number 0: none yet       */
@@ -190,15 +190,16 @@ struct rc_grid *tool_channel_beside(struct tool *tool, const char *channel, cons
                                     struct rc_grid **other);
 /* First of the rows of a map that this process holds: 0 when it holds all. */
 size_t tool_first_row(const struct tool *tool, const struct rc_grid *grid);
-/* Writes a frame, in --type when that was given; not where a report stands for the stream. */
+/* Writes a frame, in --type when that was given; not when only the report goes to standard
+ * output. */
 void tool_write(struct tool *tool, struct rc_grid *grid);
 /* Ends the stream, closes, puts the file in place; the exit status of main. */
 int tool_finish(struct tool *tool);
 /* Exit with status at the end, unless something worse comes. */
 void tool_fails_with(struct tool *tool, int status);
 
-/* "rc-solve: message" on standard error, RCGFAIL into a stream that has begun and into a pipe that
- * waits for one, nothing half-written left behind. */
+/* Prints "rc-solve: message" on standard error, writes RCGFAIL into a stream that has begun and
+ * into a pipe that waits for one, and removes half-written files. */
 _Noreturn void tool_die(struct tool *tool, int status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 /* The same, naming source, case and channel of the frame that is to blame. */
@@ -234,23 +235,23 @@ void tool_demand_writable(struct tool *tool, const char *option, const char *nam
 enum {
     TOOL_TRANSFORMS = 9 << 18 /* bytes of code and plans of Fourier transforms in one precision */
 };
-/* What is still to come of code and plans of so many bytes, which stay in memory once work has brought
- * them: less for the next frame, or the next step of a history, than for the first. */
+/* The part of so many bytes of code and plans that is not in memory yet. They stay once work has
+ * brought them there, so later frames, and later steps of a history, take less than the first. */
 size_t tool_code(const struct tool *tool, size_t bytes);
-/* That work has begun: they are there. */
+/* So many bytes of code and plans are in memory from here on. */
 void tool_code_there(struct tool *tool, size_t bytes);
 /* Before work on a map that will take `bytes` beside what the tool holds by now: ends the tool when
  * both together are more than --memory allows, or `bytes` more than the machine has. */
 void tool_demand_memory(struct tool *tool, const struct rc_grid *grid, size_t bytes);
-/* The same, with what the user could do about it instead of taking a smaller map; NULL: nothing. */
+/* The same, with a remedy for the message beside that of a smaller map; NULL: none. */
 void tool_demand_memory_or(struct tool *tool, const struct rc_grid *grid, size_t bytes,
                            const char *remedy);
 /* The same before the map is there, or of curves (shape NULL); RC_FAIL when it is too much, and *err says
  * so. */
 enum rc_status tool_ask_memory(struct tool *tool, const struct rc_shape *shape, size_t bytes,
                                const char *remedy, struct rc_err *err);
-/* A remedy for tool_demand_memory_or: the first engine that is not slow, asked for as `bytes` of it says,
- * fits; NULL: none does. Valid until the next call. */
+/* A remedy for tool_demand_memory_or: the first engine that is not slow and whose `bytes` fit;
+ * NULL: there is none. Valid until the next call. */
 const char *tool_leaner_engine(const struct tool *tool, bool periodic,
                                size_t (*bytes)(const void *ctx, const char *engine),
                                const void *ctx);

@@ -101,8 +101,7 @@ wanted_frame(struct wanted *w, struct tool *t, const struct rc_grid *g)
 {
     struct seen *s = w->seen;
 
-    if (w->n > 0 &&
-        anything_goes(w)) /* nothing will have to be named: the first tells that there is one */
+    if (w->n > 0 && anything_goes(w)) /* no message will name a frame: the first is enough */
         return true;
     if (w->n == w->capacity) {
         w->capacity = w->capacity == 0 ? 64 : 2 * w->capacity;
@@ -182,7 +181,7 @@ no_depth(const struct wanted *w, struct tool *t, double depth)
              name_list_end(&l), l.n == 0 ? "" : " m");
 }
 
-/* Each name by a frame, and in the end by one that is wanted. */
+/* Ends the tool where no frame has a name of the list, with `wanted` no frame that is wanted. */
 static void
 demand_channels(const struct wanted *w, struct tool *t, bool wanted)
 {

@@ -10,7 +10,7 @@
 struct wanted {          /* starts as {0}: every frame                                          */
     const char *channel; /* names separated by commas; NULL: any                                */
     struct numbers depth, number; /* of depths (m) and cases; n = 0: any                        */
-    struct seen *seen;            /* where something is asked for every frame, without its values */
+    struct seen *seen; /* when something is asked for: all frames so far, without values */
     size_t n, capacity;
 };
 

@@ -16,8 +16,8 @@ const char *words_method(size_t k);
 const char *words_method_or_auto(size_t k);
 const char *words_component(size_t k); /* of a stress, as in enum rc_component */
 
-/* Engines for stresses, which are in double precision anyway: without those that differ only in
- * that. */
+/* Engines for stresses: as these are in double precision anyway, without engines that differ only
+ * in that. */
 const char *words_stress_engine_or_auto(size_t k);
 
 /* The engines that sum periodic maps, separated by blanks, but for those that differ only in

@@ -19,7 +19,7 @@ enum {
     LINE_SIZE = 2 * PATH_SIZE
 };
 
-/* ---- files of the kernel, read without the heap: what is told of memory must not need any ---- */
+/* ---- files of the kernel, read without the heap: a report on memory must not take any ---- */
 
 struct text {
     int fd;
@@ -203,7 +203,7 @@ bounds_of(const struct version *v)
     return v->named ? 1 : 2;
 }
 
-/* One group: what its bounds leave of what it uses, less the pages of files that are dropped first. */
+/* One group: its bound less its use; the use leaves out pages of files, which are dropped first. */
 static void
 look_at_group(const char *root, const char *folder, const struct version *v,
               struct memory_room *room)

@@ -10,15 +10,15 @@
 /* Bytes in memory now; 0 where the system does not say. */
 size_t memory_held(void);
 
-/* The most that this process has held. Not what getrusage calls so: that is handed on from the
- * process that started it. */
+/* The most that this process has held. The figure of getrusage is another: it is handed on from the
+ * process that started this one. */
 size_t memory_peak(void);
 
 enum {
     MEMORY_APART = 1 << 17 /* bytes from which a map is kept apart */
 };
-/* Gives what a map took back to the system once it is freed: else maps of one size leave holes that
- * those of the next do not fit in. */
+/* Makes the memory of a map go back to the system when it is freed: else maps of one size leave
+ * holes in which those of the next do not fit. */
 void memory_keep_maps_apart(void);
 /* Gives back what is free, holes between smaller ones too. */
 void memory_give_back(void);

@@ -36,7 +36,8 @@ keep(char place[WHOLE_PATH], const char *text)
     return true;
 }
 
-/* Puts what the link names in its place; false: it is none, or what it names is too long. */
+/* Replaces the name of a link by the name that it holds; false: it is no link, or that name is too
+ * long. */
 static bool
 follow(char place[WHOLE_PATH])
 {
