@@ -31,13 +31,13 @@ static const struct tool_info info = {
 };
 
 enum {
-    HISTORY = 4096 /* bytes of B's history that are told in that of the sum */
+    HISTORY = 4096 /* bytes of B's history that go into that of the sum */
 };
 
 /* ---- the two streams ---- */
 
-/* B is read by a second set of a tool's readers, which reports by the first one's name and breaks
- * off its output. */
+/* B is read by a second struct tool, which reports under the name of the first, and whose failure
+ * ends the output of the first. */
 struct second {
     struct tool t;
     struct rc_grid *g; /* of the case that A is in */
@@ -108,8 +108,8 @@ demand_heights(struct tool *t, const struct rc_grid *g)
                     count, first % g->nx, first / g->nx);
 }
 
-/* Finer nodes are averaged rather than coarse ones interpolated, where one of the maps is the finer
- * one. */
+/* Where one map is finer than the other, the advice is to average its nodes, rather than to
+ * interpolate coarse ones. */
 static _Noreturn void
 refuse_spacings(struct tool *t, const struct rc_grid *a, const struct rc_grid *b)
 {

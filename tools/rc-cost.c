@@ -246,7 +246,7 @@ close_case(struct cost_case *c)
         free(c->depths.v);
 }
 
-/* Of the largest trial, which runs in a process of its own beside the maps of this one: the
+/* Memory of the largest trial, which runs in a process of its own, and of the maps of this one: the
  * reference, the pressure that comes back, and that of a trial. */
 static size_t
 memory_for(const struct cost_case *c)

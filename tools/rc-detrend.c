@@ -162,7 +162,7 @@ count_missing(const struct rc_grid *g)
     return n;
 }
 
-/* A surface that was mostly made up is to be known for one. */
+/* Warns when a good part of the surface is made up. */
 static enum rc_status
 warn_of_holes(struct tool *t, const struct rc_grid *g, size_t missing, struct rc_err *err)
 {

@@ -226,7 +226,7 @@ interpolate(const struct rc_grid *from, const double *at, struct rc_grid *to, do
         part = (z - at[k]) / (at[k + 1] - at[k]);
         a = from->v + k * nx;
         b = a + nx;
-        for (size_t i = 0; i < nx; i++) /* a row that is met is that row, whatever is beside it */
+        for (size_t i = 0; i < nx; i++) /* a row that is met stays as it is, even beside NaN */
             to->v[j * nx + i] = part <= 0   ? a[i]
                                 : part >= 1 ? b[i]
                                             : (1 - part) * a[i] + part * b[i];

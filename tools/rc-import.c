@@ -232,7 +232,7 @@ number_or_dash(char text[RC_NUMBER_SIZE], double value)
 }
 
 /* Least and greatest value of a channel, in its unit or, where the file gives none, as it stands
- * there; false when it cannot be read, which is said. */
+ * there; false, after a message, when it cannot be read. */
 static bool
 range_of(struct tool *t, const struct source *s, const struct rc_wish *wish, size_t index,
          double range[2])
@@ -286,7 +286,7 @@ print_list(struct tool *t, const struct source *s, const struct rc_wish *wish)
     }
 }
 
-/* A file that cannot be listed does not keep the next ones from being. */
+/* After a file that cannot be listed the next ones still are. */
 static void
 list_file(struct tool *t, const char *name, const struct rc_wish *wish)
 {
@@ -305,10 +305,11 @@ list_file(struct tool *t, const char *name, const struct rc_wish *wish)
 /* ---- heights ---- */
 
 enum {
-    CHILD = 1 << 19 /* bytes that a process takes which reads a file, beside its map */
+    CHILD = 1 << 19 /* bytes that a process that reads a file takes beside the map */
 };
 
-/* The file is there already. What a process of its own reads is there twice, while it is handed over. */
+/* The file is in memory already. A map that a process of its own reads is there twice while it is
+ * handed over. */
 static enum rc_status
 check_memory(struct tool *t, const struct source *s, const struct rc_channel *channel,
              struct rc_err *err)
@@ -340,7 +341,7 @@ even_out(struct tool *t, const struct source *s, const struct rc_wish *wish, str
                   "%s: %zu of %zu nodes are missing: the points next to them are, or are more than "
                   "%d steps apart",
                   t->source, missing, g->nx, RC_EVEN_GAP);
-    /* history holds the step; with --dx that is it */
+    /* history holds the step, unless --dx does */
     args.even = wish->even_step > 0 ? wish->even_step : g->ny == 1 && isnan(wish->dx) ? g->dx : NAN;
     return RC_OK;
 }

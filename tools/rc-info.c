@@ -64,7 +64,7 @@ is_pressure(const struct rc_grid *g)
     return strcmp(g->channel, "pressure") == 0 && strcmp(g->unit, "Pa") == 0;
 }
 
-/* Load and contact are those of the values, so that they hold whoever made them. */
+/* Load and contact are computed from the values, so they hold whichever program wrote these. */
 static void
 result_of(const struct rc_grid *g, const struct rc_statistics *s, struct result *r)
 {

@@ -51,7 +51,8 @@ static const struct tool_info info = {
 
 /* ---- --set KEY=VALUE ---- */
 
-/* Lines of the header that hold what a grid is, and those that hold the stream together. */
+/* Lines of the header that --set refuses: those that describe the grid, and those that order the
+ * stream. */
 static const struct {
     const char *key, *why;
 } kept[] = {
@@ -75,7 +76,8 @@ is_field(const char *key)
     return is_spacing(key) || strcmp(key, "channel") == 0 || strcmp(key, "unit") == 0;
 }
 
-/* The step's text in two, for good; lengths in SI, as history has them. */
+/* Splits the text of the step into key and value, which last; lengths become SI, as history has
+ * them. */
 static void
 settle_set(struct tool *t, struct step *step)
 {
@@ -170,7 +172,7 @@ settle(struct tool *t)
 
 /* ---- frame by frame ---- */
 
-/* Two channels of a case under one name could not be told apart any more. */
+/* Ends the tool when a channel's new name would be given twice in a case. */
 static void
 demand_one_channel(struct tool *t, const struct rc_grid *g)
 {

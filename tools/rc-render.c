@@ -89,7 +89,7 @@ static const struct opt opts[] = {
 };
 /* clang-format on */
 
-/* Before a file is made of that name. */
+/* Checks the ending of -o before a file of that name is made. */
 static void
 settle(struct tool *t)
 {
@@ -148,8 +148,8 @@ next_row(void *ctx, size_t y, unsigned char *rgb, struct rc_err *err)
     return RC_OK;
 }
 
-/* The picture, without a canvas a pixel for each node, says how it was made. Without a grid the
- * source is the figure's subtitle. */
+/* Writes the picture, without a canvas as a pixel for each node, and into it how it was made.
+ * Without a grid the source is the figure's subtitle. */
 static void
 write_picture(struct tool *t, const struct rc_grid *g, const struct figure *f, struct canvas *c)
 {
@@ -180,7 +180,7 @@ write_picture(struct tool *t, const struct rc_grid *g, const struct figure *f, s
     free(made);
 }
 
-/* Fontconfig always finds something. */
+/* Fontconfig always finds some font: whether it is the one wanted shows by its name. */
 static void
 warn_of_family(struct tool *t, const char *wanted, const char *found)
 {
@@ -207,7 +207,7 @@ warn_of_text(struct tool *t, const struct args *a, struct canvas *c)
         warn_of_family(t, a->style.family, canvas_set_family(c, a->style.family));
 }
 
-/* A cross where the size is largest, where that is drawn. */
+/* A cross at the value of the largest size, when its node is drawn. */
 static void
 mark_largest(struct tool *t, const struct rc_grid *g, const struct survey *s, struct figure *f,
              struct words *w)
@@ -421,7 +421,8 @@ render_sheet(struct tool *t, struct args *a, const struct frames *frames)
 
 /* ---- curves ---- */
 
-/* What the curves were drawn from is not held any more. */
+/* Demands memory for the page; the tables or frames that the curves were drawn from are freed by
+ * now. */
 static void
 demand_page(struct tool *t, const struct canvas *c)
 {

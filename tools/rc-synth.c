@@ -174,7 +174,7 @@ frame_of_file(struct tool *t, const char *channel)
     return g;
 }
 
-/* Where the highest of the nodes that were measured stands, as if --place had said it. */
+/* Takes the place of the highest measured node, as if --place had given it. */
 static void
 place_highest(struct tool *t, const struct rc_grid *g)
 {

@@ -65,8 +65,9 @@ put_command(struct tool *t, const struct cost_trial *m, FILE *out)
     fputc('\n', out);
 }
 
-/* By the triangle inequality the error is at most that from the reference and the reference's own; of a
- * coarser grid it is that of its pressures, which are means over its cells. */
+/* By the triangle inequality the error is at most the distance from the reference plus the error of
+ * the reference. On a coarser grid it is the error of the pressures there, which are means over its
+ * cells. */
 void
 cost_command(const struct cost_case *c, FILE *out)
 {

@@ -55,7 +55,7 @@ struct cost_trial *cost_trials(size_t kernels, size_t methods, size_t *n);
  * and a load has the same mean: where the number of nodes cannot be divided its cells are a little
  * wider or narrower. A side of one node keeps it. */
 struct rc_shape cost_coarse_shape(const struct rc_shape *map, unsigned factor);
-/* Place, among all pairs of a method and an engine that are tried, of that of the settings. */
+/* Place of the settings' method and engine among all pairs of these that are tried. */
 size_t cost_series(const struct cost_settings *settings);
 /* Settings of the reference: double precision throughout, to 1e-12. */
 struct cost_settings cost_reference(void);

@@ -53,7 +53,7 @@ reference_of(const struct cost_case *c)
     return c->reference.state == COST_DONE ? &c->reference : NULL;
 }
 
-/* How many times the expected convolutions a method took. */
+/* Convolutions that a method took over the expected number. */
 static double
 more_convolutions(const struct cost_case *c, const struct cost_settings *s)
 {
@@ -64,8 +64,8 @@ more_convolutions(const struct cost_case *c, const struct cost_settings *s)
     return near == NULL ? 1 : near->convolutions / expected(c, near).convolutions;
 }
 
-/* How many times the expected seconds a convolution by an engine took; of the same method if
- * possible, because the work beside the convolutions is in it. */
+/* Seconds of a convolution by an engine over the expected ones; by trials of the same method if
+ * possible, because the seconds include the work beside the convolutions. */
 static double
 slower(const struct cost_case *c, const struct cost_settings *s)
 {

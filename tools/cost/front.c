@@ -17,7 +17,7 @@ beaten(struct point a, struct point by)
            (by.seconds < a.seconds || by.error < a.error);
 }
 
-/* Below what the reference can tell all errors are the same. */
+/* Errors below that of the reference count as equal. */
 static struct point
 point_of(const struct cost_case *c, const struct cost_trial *t)
 {
@@ -26,7 +26,7 @@ point_of(const struct cost_case *c, const struct cost_trial *t)
     return (struct point){t->seconds, fmax(t->error, c->reference.contact.pressure_error)};
 }
 
-/* Of the reference no error is known: it is rounding. */
+/* The error of the reference is not known: it is taken as rounding. */
 static struct point
 point_of_stress(const struct cost_stress *s)
 {

@@ -31,7 +31,7 @@ struct drawing {
     char subtitle[400], floor_text[100];
 };
 
-/* Another point of the series of that name, whose colour is the one at `place`; NULL: they are too
+/* Another point of the series of that name, whose colour is the one at `place`; NULL: there are too
  * many to be drawn. */
 static struct chart_point *
 new_point(struct drawing *d, const char *name, size_t place)

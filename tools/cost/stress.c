@@ -201,7 +201,7 @@ work(void *ctx)
         rc_err_set(&j->err, "out of memory");
         return;
     }
-    memset(maps, 0, 2 * n * (RC_MISES + 1) * sizeof *maps); /* fresh pages are nobody's cost */
+    memset(maps, 0, 2 * n * (RC_MISES + 1) * sizeof *maps); /* page faults come before the times */
     for (size_t k = 0; k <= RC_MISES; k++) {
         s[k] = maps + k * n;
         truth[k] = maps + (RC_MISES + 1 + k) * n;

@@ -33,8 +33,8 @@ range_of(size_t method, size_t engine)
     return (struct range){engine == 0 ? 8 : 4, 2};
 }
 
-/* Coarser grids, by the nodes of the map along a side for one of theirs, and the last tolerance
- * 1e-to: below that their discretization error hides what a tolerance changes. */
+/* Coarser grids: how many times fewer nodes along a side, and the last tolerance 1e-to. Below that
+ * their discretization error hides what a tolerance changes. */
 static const struct {
     unsigned coarse;
     int to;

@@ -117,7 +117,7 @@ find_psd(struct info_wanted *w, struct tool *t, const struct rc_grid *g, struct 
     struct rc_err err;
 
     tool_demand_finite(t, g, "fill them first, with rc-detrend --fill");
-    /* a map of it is drawn when the transform, which took as much, has given its memory back */
+    /* its map is drawn when the transform, which takes as much memory, is done */
     tool_demand_memory(t, g, rc_psd_memory(&shape) + tool_code(t, TOOL_TRANSFORMS));
     tool_code_there(t, TOOL_TRANSFORMS);
     if (w->fit.n == 2) {

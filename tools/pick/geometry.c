@@ -181,7 +181,7 @@ remove_keys(struct rc_grid *g, const char *const *name, struct rc_err *err)
     return status;
 }
 
-/* Counts of points are not those of other points. */
+/* Keys that count points do not hold for the new points. */
 static enum rc_status
 forget_counts(struct rc_grid *g, struct rc_err *err)
 {
@@ -262,7 +262,7 @@ new_shape(const struct rc_shape *from, const struct request *r, struct rc_shape 
     return rc_shape_check(to, err);
 }
 
-/* The load is what it was where means cover the map. */
+/* Where means over cells cover the whole map, the load stays. */
 static enum rc_status
 resample(struct tool *t, struct rc_grid *g, const struct request *r, struct rc_err *err)
 {

@@ -6,8 +6,8 @@
 
 /* Whether a step is one of them. */
 bool pick_geometry(const struct step *step);
-/* Ends the tool when its words are none; lengths in them are in metres from here on, as history has
- * them. */
+/* Ends the tool when the step's argument makes no sense; lengths in it are in metres from here on,
+ * as history has them. */
 void pick_geometry_settle(struct tool *tool, struct step *step);
 /* Does it to a frame, and to the keys that tell of the whole map. Ends the tool where it cannot be
  * done to this frame. */
