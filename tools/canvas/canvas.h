@@ -50,7 +50,7 @@ const char *canvas_unknown(const struct canvas *canvas);
 const char *canvas_warning(const struct canvas *canvas, char *text, size_t size);
 
 void canvas_fill(struct canvas *canvas, double x, double y, double w, double h, struct rgb colour);
-/* A line inside the rectangle would hide pixels of a map: it runs around it. */
+/* A line around the rectangle: inside it, the line would hide pixels of a map. */
 void canvas_frame(struct canvas *canvas, double x, double y, double w, double h, double width,
                   struct rgb colour);
 /* Fills the triangle. */

@@ -170,8 +170,8 @@ add_raise(PangoAttrList *list, guint from, guint to, const struct canvas_font *f
     pango_attr_list_insert(list, rise);
 }
 
-/* Puts the text into the layout. Raised digits become digits that are set higher, of one design and
- * whatever raised ones the font has; what no font has becomes a question mark. */
+/* Puts the text into the layout. Raised digits become plain digits set higher: raised digits of
+ * fonts differ in design. A character that no font has becomes a question mark. */
 static void
 put_text(struct lettering *l, const struct canvas_font *f, const char *text)
 {

@@ -16,7 +16,7 @@ enum {
 struct picture {
     png_structp png;
     png_infop info;
-    char why[256]; /* what libpng had to say before it gave up */
+    char why[256]; /* the last message of libpng */
 };
 
 static _Noreturn void
@@ -46,7 +46,7 @@ write_bytes(png_structp png, png_bytep bytes, size_t n)
 static void
 flush_bytes(png_structp png)
 {
-    (void)png; /* whoever owns the file flushes it */
+    (void)png; /* the owner of the file flushes it */
 }
 
 static bool

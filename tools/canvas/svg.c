@@ -242,7 +242,7 @@ put_image(struct svg *s, struct item *i, struct rc_err *err)
     return status;
 }
 
-/* Pixels that do not fill their rectangle: of the image shows what was set, row by row. */
+/* An image of which only some pixels were set: a clip path shows these, row by row. */
 static enum rc_status
 put_dots(struct svg *s, struct item *i, struct rc_err *err)
 {

@@ -565,8 +565,8 @@ draw(struct page *p, struct rc_err *err)
     return canvas_check(p->c, err);
 }
 
-/* Pieces of the line at a level, about: between neighbours that are as far apart as the pixels of the
- * raster. */
+/* About how many pieces the line at a level has: neighbours are compared that are as far apart as
+ * the pixels of the raster. */
 static size_t
 count_crossings(const struct rc_grid *g, size_t w, size_t h, double level)
 {
@@ -581,7 +581,7 @@ count_crossings(const struct rc_grid *g, size_t w, size_t h, double level)
     return n;
 }
 
-/* Of the lines that draw_contours makes: all, and those of the level that has most. */
+/* Pieces of all lines that draw_contours makes; *most: those of the level that has most. */
 static size_t
 count_lines(const struct page *p, size_t *most)
 {

@@ -44,7 +44,7 @@ struct figure {
     const char *circle;             /* dashes about the origin, and this in the legend; NULL */
     double radius;                  /* metres                                                */
     const struct rc_grid *pressure; /* on the same grid: `contour` has its contact; NULL   */
-    double hard;   /* of these some reach it, and have a line about them; 0: none */
+    double hard;   /* some of these reach it, and have a line about them; 0: none */
     bool keep_max; /* a reduced map keeps the largest value of each pixel   */
     const struct colormap *map;
     double lo, hi;      /* values at the ends of the colour bar, lo < hi         */

@@ -463,7 +463,7 @@ draw_rules(struct graph_page *p)
                         1.2 * p->u, rule);
 }
 
-/* Where an axis of depths leaves a medium, for one. */
+/* Dashed lines across the plot, such as those where depths pass from one medium to the next. */
 static void
 draw_uprights(struct graph_page *p)
 {

@@ -82,8 +82,8 @@ draw_line(struct page *p, double y)
     }
 }
 
-/* The lowest first, the face of what all the others lie on, then from the top what is not too near
- * to one that is there. */
+/* The lowest line first, the surface of the substrate, then from the top those that are not too
+ * near to a line already drawn. */
 static void
 draw_lines(struct page *p, size_t first, size_t n)
 {

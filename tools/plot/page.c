@@ -274,7 +274,7 @@ set_plot(struct page *p, double width)
     page_fonts(p);
 }
 
-/* What the axes and the bar take to the left and to the right of the plot. */
+/* The room that the axes and the bar take to the left and to the right of the plot. */
 static void
 measure_sides(struct page *p)
 {
@@ -305,7 +305,7 @@ page_swatch(const struct page *p, size_t k)
     return p->note[k].swatch == SWATCH_NOTHING ? 0 : 38 * p->u;
 }
 
-/* What is too long for the width goes on in a note of its own. */
+/* A text too long for the width goes on in a note of its own. */
 static void
 add_note(struct page *p, double width, enum swatch swatch, const char *text)
 {

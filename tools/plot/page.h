@@ -75,7 +75,7 @@ double page_swatch(const struct page *page, size_t k);
 /* From the plot's right edge to a bar beside it, and from its lower edge to a bar below. */
 double page_bar_right(const struct page *page);
 double page_bar_below(const struct page *page);
-/* What marks and label take below an axis. */
+/* The height that marks and label take below an axis. */
 double page_marks(const struct page *page);
 /* Sets width, unit, fonts and dpi as the figure asks for, of a page that is `design` pixels wide
  * where nothing is asked for. */
@@ -100,15 +100,15 @@ void page_heading(struct page *page);
 void page_measure(struct page *page);
 /* Settles what the legend says, and its height. */
 void page_legend(struct page *page, double width);
-/* Draws the map in its frame, with the axes asked for. In figure.c, as what follows. */
+/* Draws the map in its frame, with the axes asked for. In figure.c, like the functions below. */
 enum rc_status page_map(struct page *page, bool left, bool below, struct rc_err *err);
-/* Bytes that a map of the page takes while it is drawn, and that of it are kept, and more while the page is
- * painted; and more while a PDF takes it. */
+/* Bytes of a map of the page: while it is drawn; kept afterwards; more while the page is painted; more while
+ * it goes into a PDF. */
 struct page_bytes {
     size_t drawn, kept, painted, packed;
 };
 struct page_bytes page_map_bytes(const struct page *page);
-/* Of the page as pixels; of a PDF or SVG none. */
+/* Bytes of the page as pixels; 0 for a PDF or SVG. */
 size_t page_pixel_bytes(const struct page *page);
 /* Draws the colour bar beside the plot, and the legend at the foot of the page. */
 void page_bar(struct page *page);
@@ -119,7 +119,7 @@ double page_place(const struct axis *axis, double value);
 
 /* The media that the figure shows a part of: the first, and how many. */
 size_t media_seen(const struct figure *figure, size_t *first);
-/* What their numbers take right of a plot; 0 without any. */
+/* The width of their numbers right of a plot; 0 without any. */
 double media_gutter(const struct page *page);
 /* Lines where they meet, and right of the plot their numbers, if it has a gutter. */
 void media_draw(struct page *page);

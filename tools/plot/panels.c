@@ -47,7 +47,7 @@ panels_columns(size_t n, double aspect)
     return best;
 }
 
-/* What stands around the panels depends on the marks, and those on the size of a panel. */
+/* The room around the panels depends on the marks, and these depend on the size of a panel. */
 static enum rc_status
 lay_out(struct sheet *s, struct rc_err *err)
 {

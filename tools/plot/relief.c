@@ -518,7 +518,7 @@ set_sides(const struct scene *s, struct side side[3])
     set_out(s, &side[1], (struct vec){fx, 0, 0});
 }
 
-/* What marks and labels of the floor's edges take below the box. */
+/* The height that marks and labels of the floor's edges take below the box. */
 static double
 below_box(const struct scene *s)
 {
@@ -604,7 +604,8 @@ draw(struct scene *s, struct rc_err *err)
     return canvas_check(p->c, err);
 }
 
-/* Of a scene that is laid out: the mesh, and the pixels behind it before and on the page. */
+/* Bytes of a scene that is laid out: its mesh, and its pixels, first by themselves and then on the
+ * page. */
 static size_t
 memory_of(const struct scene *s)
 {

@@ -20,8 +20,7 @@ enum {
     RELIEF_WIDTH = 1200 /* pixels where the figure asks for none */
 };
 
-/* How many times values that are lengths too are drawn higher than across: 1, 2 or 5 times a power
- * of ten. */
+/* Where values are lengths, the scale upwards over that across: 1, 2 or 5 times a power of ten. */
 double relief_exaggeration(const struct figure *figure);
 /* As figure_memory, of a relief. */
 enum rc_status relief_memory(const struct figure *figure, const struct view *view,

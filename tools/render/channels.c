@@ -29,7 +29,7 @@ static const struct channel channels[] = {
 };
 /* clang-format on */
 
-/* How much of their size values may lie on the other side of 0 and count as being on one. */
+/* A channel counts as one-sided when values beyond 0 are at most this part of the largest size. */
 #define ONE_SIDED 1e-3
 
 struct channel

@@ -271,7 +271,7 @@ add_curves(struct curves *c, const struct table *table)
 
 /* ---- laws ---- */
 
-/* What the command line does not give, as all tables have it; NAN where they do not. */
+/* A value that the command line does not give, if all tables have the same one; else NAN. */
 static double
 given_in_tables(struct curves *c, enum helper which, double option)
 {

@@ -106,8 +106,8 @@ enter_bin(const struct frames_of *f, double *lo, double *hi, double step, size_t
     *hi = high;
 }
 
-/* The value of n, from lo to hi, that k others are below: they are counted in bins, then those of
- * one bin in finer ones, without another map in memory. */
+/* Value number k, from 0, of n values from lo to hi in order. It is found without another map in
+ * memory: values are counted in bins, then those of one bin in finer bins. */
 static double
 ranked(const struct frames_of *f, double lo, double hi, size_t n, size_t k)
 {
@@ -156,7 +156,7 @@ percentile(const struct frames_of *f, double percent)
 
 /* ---- outliers ---- */
 
-/* The middle one of the values about a node. */
+/* The median of the values about a node. */
 static double
 around(const struct rc_grid *g, size_t node)
 {
@@ -171,8 +171,8 @@ around(const struct rc_grid *g, size_t node)
     return near[n / 2];
 }
 
-/* Of one map: whether one value takes more than half of the range: it stands alone, far from those
- * about it, which no solution does that its grid resolves. */
+/* Whether one value of a map takes more than half of the range, and stands alone, far from the
+ * values about it: in a solution that its grid resolves none does. */
 static bool
 has_outlier(const struct rc_grid *g, const struct survey *s)
 {
@@ -259,8 +259,8 @@ range_text(const struct range *r)
 
 /* ---- the ends ---- */
 
-/* What is as small beside 0 is rounding: a hundredth of an atom, or a thousand millionth of the
- * values. */
+/* Values this close to 0 are rounding: a hundredth of an atom, or a thousand millionth of the
+ * largest. */
 static double
 rounding(const struct rc_grid *g, double size)
 {

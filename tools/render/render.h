@@ -30,8 +30,8 @@ struct choice {
 /* Keeps the frame when it is better than the one kept, or frees it. Of several depths the one with
  * the largest |value| is better, of several cases the first. */
 void choice_offer(struct choice *choice, struct tool *tool, struct rc_grid *grid);
-/* After the last frame: fails, naming what there is, when none matched, and says what was left out
- * where somebody might have meant that. */
+/* After the last frame: fails, naming what there is, when none matched, and says which frames were
+ * left out that the user might have meant. */
 void choice_settle(struct choice *choice, struct tool *tool);
 void choice_free(struct choice *choice);
 /* Place of a channel among those that are preferred; the others share the one past them. */
@@ -71,9 +71,9 @@ double *section_depths(struct tool *tool, const struct rc_grid *grid);
 /* Which depths are drawn: all, or those of `text`, Z0:Z1. */
 void section_range(struct tool *tool, const char *text, const struct rc_grid *grid,
                    const double *depth, double *top, double *bottom);
-/* The section from top to bottom on even rows, between its own ones a curve without corners that
- * never leaves the values beside it, and straight between columns. Between rows in two media it
- * keeps the value of the row in the same one. */
+/* The section from top to bottom on even rows, between its own ones by a smooth curve that never
+ * leaves the values beside it, and linearly between columns. Between rows in two media a point has
+ * the value of the row in its own medium. */
 struct rc_grid *section_even(struct tool *tool, const struct rc_grid *grid, const double *depth,
                              const struct layers *layers, double top, double bottom);
 
@@ -114,10 +114,9 @@ void range_read(struct tool *tool, const char *text, const struct rc_grid *grid,
                 struct range *range);
 /* "LO:HI" in SI, valid until the next call. */
 const char *range_text(const struct range *range);
-/* The ends of the colours of n frames, of which all values count as those of one, or of the upright
- * axis of a curve, as far as nobody chose them. A percentile is the value that so many per cent of
- * the finite ones are below, straight between two of them; of a pressure only those in contact
- * count. */
+/* The ends of the colours of n frames, whose values are taken together, or of the upright axis of a
+ * curve; an end that was given stays. A percentile is the value that so many per cent of the finite
+ * values are below, linear between two values; of a pressure only values in contact count. */
 void range_choose(struct rc_grid *const *grid, size_t n, const struct survey *survey,
                   const struct colormap *map, const struct channel *what, bool curve,
                   struct range *range);
@@ -326,7 +325,7 @@ struct look {
 };
 
 bool look_is_profile(const struct rc_grid *grid);
-/* What nobody may overlook; NULL: nothing. */
+/* A warning that must not be overlooked; NULL: none. */
 const char *look_stamp(const struct rc_grid *grid);
 /* What a figure of n frames is like, but for its subtitle, what touches, and where they lie. */
 void look_figure(struct tool *tool, struct args *args, struct rc_grid *const *grid, size_t n,

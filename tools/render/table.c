@@ -211,7 +211,7 @@ read_heading(struct reading *r, const char *start[CELLS], const size_t length[CE
     }
 }
 
-/* Of the columns wanted, a value a line: their numbers grow twofold. */
+/* Demands memory for the columns wanted, a value a line; their arrays grow twofold. */
 static void
 ask_for_rows(struct reading *r)
 {
@@ -296,7 +296,7 @@ read_string(struct reading *r, const char **start, size_t *n)
     *n = (size_t)(r->at++ - *start);
 }
 
-/* A column is what has its name, or what ends in it after a point. */
+/* Whether the path of a value is the name of a column, or ends in a point and that name. */
 static bool
 is_named(const char *path, const char *name)
 {

@@ -49,7 +49,7 @@ make_wave(const struct synth_args *a, const struct rc_shape *shape, double *h, b
 
 /* ---- indenters ---- */
 
-/* The library's word for what was not given is 0. */
+/* In the library 0 stands for a value that was not given. */
 static double
 or_default(double value)
 {

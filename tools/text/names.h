@@ -15,10 +15,10 @@ const char *name_respelt(const char *name, char text[NAME_SIZE]);
 /* Whether a[0..n) and b[0..m) are the same name in any spelling. */
 bool name_same(const char *a, size_t n, const char *b, size_t m);
 
-/* How far a typed name is from one that there is: how many letters were left out, added, changed,
- * or exchanged with their neighbour, small and capital ones being the same. A name of which what
- * was typed is a whole part, as "pressure" of "mean-pressure", is a little further than one with so
- * many mistakes as are still taken for any. NAME_FAR: it is another name. */
+/* How far a typed name is from a name: the number of letters left out, added, changed, or exchanged
+ * with their neighbour, without regard to case. If the typed name is a whole part of the name, as
+ * "pressure" is of "mean-pressure", this is a little more than for the most mistakes that are
+ * allowed. NAME_FAR: it is another name. */
 size_t name_distance(const char *typed, const char *name);
 #define NAME_FAR ((size_t)-1)
 

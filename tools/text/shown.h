@@ -15,7 +15,7 @@ const char *shown_number(char text[SHOWN_NUMBER], double value, int digits, cons
 const char *shown_in_unit(char text[SHOWN_NUMBER], double value, const char *unit);
 /* Words that came with a file, up to n bytes: none that a terminal would obey. */
 void shown_words(FILE *out, const char *text, size_t n);
-/* "37 MiB", whole ones of the largest unit up to that of which there is one. */
+/* "37 MiB": a whole number of the largest unit of which there is at least one. */
 const char *shown_bytes(char text[SHOWN_NUMBER], double bytes);
 /* "0.163 mm2", of square metres. */
 const char *shown_area(char text[SHOWN_NUMBER], double area);

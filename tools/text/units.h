@@ -21,7 +21,7 @@ struct numbers {
     double *v;
     size_t n;
     bool per_metre; /* forces over a length, N/m instead of N                  */
-    bool no_memory; /* it failed for that, and not for what stands on the line */
+    bool no_memory; /* it failed for want of memory, not because of the text */
 };
 
 const char *unit_name(enum unit unit);
