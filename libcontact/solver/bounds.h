@@ -56,9 +56,15 @@ rc_low(struct rc_box box, size_t k)
 }
 
 static inline double
+rc_bound(const double *map, double number, size_t k)
+{
+    return map != NULL ? map[k] : number;
+}
+
+static inline double
 rc_high(struct rc_box box, size_t k)
 {
-    return box.highs != NULL ? box.highs[k] : box.high;
+    return rc_bound(box.highs, box.high, k);
 }
 
 /* How far its bounds are apart, in units: 1 where all nodes have the same, so that sums are counts. */

@@ -76,6 +76,19 @@ excess_of_map(void *ctx, double shift)
     return (struct rc_excess){.load = total[LOAD] - m->s->load.sum, .slope = total[ELASTIC]};
 }
 
+/* All nodes at their upper bounds is the one pressure that carries what these add up to. */
+static bool
+fill(const struct rc_solver *s, double *y)
+{
+    const struct rc_box box = rc_box(s, 0);
+
+    if (s->load.sum < s->posed.bounds.full)
+        return false;
+    for (size_t k = 0; k < s->posed.n; k++)
+        y[k] = rc_high(box, k);
+    return true;
+}
+
 void
 rc_projection_of(const struct rc_solver *s, double *y)
 {
@@ -83,6 +96,8 @@ rc_projection_of(const struct rc_solver *s, double *y)
     const struct rc_bounds *bounds = &s->posed.bounds;
     double least = INFINITY, most = -INFINITY, low, high, mu, sum = s->load.sum;
 
+    if (fill(s, y))
+        return;
     for (size_t k = 0; k < s->posed.n; k++) {
         least = fmin(least, y[k]);
         most = fmax(most, y[k]);
@@ -443,6 +458,8 @@ rc_projection_balance(struct rc_solver *s, const double *g)
     struct scale c = {.s = s};
     double total[RC_SUMS], sum = rc_above(bounds, s->load.sum), elastic, full, target;
 
+    if (fill(s, s->it.p))
+        return;
     rc_reduce_blocks(s, stand_block, &c, total);
     elastic = rc_rooms(bounds, total[IN_BETWEEN]);
     full = rc_rooms(bounds, total[FULL]);

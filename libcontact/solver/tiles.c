@@ -99,9 +99,8 @@ most_of(struct rc_box box, float most, const float *mosts, size_t k)
 
 /* Where a node comes to lie by itself: at its bound, where it would leave the box from there. */
 RC_INLINE double
-aimed(struct rc_box box, size_t k, double p, double v)
+aimed(double low, double high, double p, double v)
 {
-    double low = rc_low(box, k), high = rc_high(box, k);
     double from_low = v < low ? p : v, from_high = v > high ? p : v;
 
     return p <= low ? from_low : p >= high ? from_high : v;
@@ -110,18 +109,20 @@ aimed(struct rc_box box, size_t k, double p, double v)
 RC_INLINE void
 aim(struct rc_box box, double alpha, double mean, double scale, struct copy *c)
 {
+    const double low = box.low, number = box.high, *map = box.highs;
     double sum = 0, most = 0, held = 0;
 
 #pragma omp simd reduction(+ : sum, held) reduction(max : most)
     for (size_t k = 0; k < NODES; k++) {
         double e = (double)c->d[k], step = e != 0 ? alpha * (e - mean) : 0, all = c->p[k] + step;
-        double on = (double)c->on[k], v = aimed(box, k, c->p[k], all);
-        double below = rc_low(box, k) - v, above = v - rc_high(box, k);
+        double high = rc_bound(map, number, k);
+        double on = (double)c->on[k], v = aimed(low, high, c->p[k], all);
+        double below = low - v, above = v - high;
         double out = below > above ? below : above;
         c->y[k] = on > 0 ? (float)(-below * scale) : stays_low;
-        sum += on * (all - rc_low(box, k));
+        sum += on * (all - low);
         held += on * fabs(v - all);
-        out = on > 0 ? out : 0;
+        out *= on;
         most = out > most ? out : most;
     }
     c->sum = sum * scale;
@@ -204,22 +205,25 @@ RC_INLINE void
 settle(struct rc_box box, double alpha, double mean, double shift, double scale, struct copy *c,
        struct rc_tile *tile, double *sums)
 {
-    const double back = 1 / scale;
+    const double back = 1 / scale, low = box.low, number = box.high, *map = box.highs;
     double size = 0, carried = 0, room = INFINITY, count = 0;
 
 #pragma omp simd reduction(+ : size, carried, count) reduction(min : room)
     for (size_t k = 0; k < NODES; k++) {
         double e = (double)c->d[k], step = e != 0 ? alpha * (e - mean) : 0, p = c->p[k];
-        double v = aimed(box, k, p, p + step) + ((double)c->push[k] + shift) * back;
+        double high = rc_bound(map, number, k);
+        double v = aimed(low, high, p, p + step) + ((double)c->push[k] + shift) * back;
         double on = (double)c->on[k], below, above, left, change;
-        v = rc_clip(box, k, v);
+        v = v > low ? v : low;
+        v = v < high ? v : high;
         v = on > 0 ? v : p;
         change = v - p;
-        below = v - rc_low(box, k);
-        above = rc_high(box, k) - v;
+        below = v - low;
+        above = high - v;
         carried += on * below;
+        /* multiplied, not chosen: gcc 12 loses sums of lanes where a chain of choices becomes branches */
         left = above < below ? above : below;
-        left = on > 0 ? left : 0;
+        left *= on;
         count += left > 0 ? 1 : 0;
         left = left > 0 ? left : INFINITY;
         room = left < room ? left : room;

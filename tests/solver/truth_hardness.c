@@ -330,6 +330,41 @@ one_number_is_that_number(void **state)
     free(map);
 }
 
+/* A map of nearly one number takes the steps of that number, and gives its pressure. */
+static void
+as_quick_as_a_number(void **state)
+{
+    static const struct rc_shape shapes[] = {{256, 256, 1e-6, 1e-6}, {500, 37, 1e-6, 1.3e-6}};
+
+    (void)state;
+    for (int way = 0; way < 4; way++) {
+        struct rc_shape shape = shapes[way / 2];
+        size_t n = shape.nx * shape.ny;
+        double *h = malloc(n * sizeof *h), *map = malloc(n * sizeof *map);
+        struct rc_problem number = {.boundary = way % 2 ? RC_PERIODIC : RC_FREE,
+                                    .load = 6e8 * (double)n * shape.dx * shape.dy,
+                                    .hardness = 1.5e9,
+                                    .tol = 1e-6},
+                          mapped = number;
+        struct answer a, b;
+
+        make_rough(&shape, 3, h);
+        for (size_t k = 0; k < n; k++)
+            map[k] = 1.5e9 * (1 + 1e-12 * (double)(k % 2));
+        mapped.hardness = 0;
+        mapped.hardness_map = map;
+        a = press(&shape, h, number);
+        b = press(&shape, h, mapped);
+        assert_true(apart(n, b.p, a.p) < 2 * number.tol);
+        assert_true(b.c.iterations <= a.c.iterations + 1); /* a bound more or less may be met */
+        assert_true(a.c.plastic_nodes > 1000);
+        answer_free(&a);
+        answer_free(&b);
+        free(h);
+        free(map);
+    }
+}
+
 /* A bound that no node reaches is none, whatever its values. */
 static void
 far_away_is_elastic(void **state)
@@ -596,6 +631,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(as_a_quadratic_program),
         cmocka_unit_test(one_number_is_that_number),
+        cmocka_unit_test(as_quick_as_a_number),
         cmocka_unit_test(far_away_is_elastic),
         cmocka_unit_test(ties_and_saturation),
         cmocka_unit_test(one_node_without),
