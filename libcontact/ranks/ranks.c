@@ -98,7 +98,7 @@ rc_turn_new(struct rc_turn *t, const struct rc_ranks *ranks, size_t rows, size_t
     *t = (struct rc_turn){.ranks = ranks, .count = count, .own = rc_ranks_own(ranks), .unit = unit};
     t->row = malloc(2 * (count + 1) * sizeof *t->row);
     if (t->row == NULL)
-        return rc_err_set(err, "out of memory for what %zu processes share", count);
+        return rc_err_set(err, "out of memory for exchanges between %zu processes", count);
     t->column = t->row + count + 1;
     for (size_t r = 0; r <= count; r++) {
         t->row[r] = rc_rows_dealt(rows, row_unit, count, r);

@@ -345,8 +345,9 @@ static enum rc_status
 check_inside(const struct axis *a, struct rc_err *err)
 {
     if (!a->whole && (double)a->to * a->step > (double)a->from)
-        return rc_err_set(err, "%zu cells of %g of the old ones go beyond the %zu there are", a->to,
-                          a->step, a->from);
+        return rc_err_set(
+            err, "%zu cells, each as wide as %g old ones, go beyond the map of %zu old cells",
+            a->to, a->step, a->from);
     return RC_OK;
 }
 

@@ -101,7 +101,7 @@ beyond_the_map_is_refused(void **state)
 
     (void)state;
     assert_int_equal(rc_resample(&map, v, false, &to, out, &err), RC_FAIL);
-    assert_non_null(strstr(err.text, "go beyond the 10 there are"));
+    assert_non_null(strstr(err.text, "go beyond the map of 10 old cells"));
 }
 
 static void

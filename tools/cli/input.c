@@ -80,8 +80,8 @@ check_convergence(struct tool *t, const struct rc_grid *g)
         return;
     if (!t->warned_short)
         tool_warn(t,
-                  "%s: this solution stopped short of its accuracy (converged=no): what follows "
-                  "from it does too",
+                  "%s: this solution stopped short of its accuracy (converged=no): results from "
+                  "it are no more accurate",
                   tool_where(t, g, where, sizeof where));
     t->warned_short = true;
     tool_fails_with(t, EXIT_SHORT);

@@ -98,7 +98,7 @@ demand_shared_file(struct tool *t)
             "several processes write a file, each its part of it: give -o FILE instead of a pipe");
     if (stat(t->out_name, &st) == 0 && !S_ISREG(st.st_mode))
         tool_die(t, EXIT_IMPOSSIBLE,
-                 "-o %s: several processes write a file, each its part of it: this is none",
+                 "-o %s: several processes write a file, each its part of it: give a regular file",
                  t->out_name);
     tool_demand_writable(t, "-o", t->out_name);
 }

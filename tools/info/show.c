@@ -120,7 +120,7 @@ psd_text(const struct info_figures *f, FILE *out)
     psd_lines(psd, profile ? "c, m3" : "c, m4", out);
     fprintf(out, "  %-10s %s", "window", psd->windowed ? "hann" : "none");
     if (psd->windowed)
-        fprintf(out, ", times %.4g for what it took", psd->window_factor);
+        fprintf(out, ", times %.4g to make up for it", psd->window_factor);
     fputs("\n", out);
     if (isnan(psd->hurst))
         fprintf(out, "  %-10s not defined: no wavelengths follow a power law\n", "Hurst");

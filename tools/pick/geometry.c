@@ -213,13 +213,15 @@ nodes_between(double from, double length, size_t n, double d, size_t *first, siz
     double side = (double)n * d, last = from + length;
 
     if (last > side * (1 + 1e-9))
-        return rc_err_set(err, "%g m and %g m more are beyond the map, which is %g m there", from,
-                          length, side);
+        return rc_err_set(
+            err,
+            "a part that begins at %g m and is %g m long is beyond the map, which is %g m there",
+            from, length, side);
     *first = (size_t)floor(from / d + 0.5);
     *count = (size_t)fmin(floor(last / d + 0.5), (double)n);
     if (*count <= *first)
-        return rc_err_set(err, "no node lies in %g m from %g m on: they are %g m apart", length,
-                          from, d);
+        return rc_err_set(err, "no node lies in the %g m from %g m on: nodes are %g m apart",
+                          length, from, d);
     *count -= *first;
     return RC_OK;
 }

@@ -284,10 +284,11 @@ given_in_tables(struct curves *c, enum helper which, double option)
             if (isnan(v))
                 continue;
             if (!isnan(value) && fabs(v - value) > 1e-6 * fabs(value))
-                tool_die(c->tool, EXIT_IMPOSSIBLE,
-                         "%s: %s is not the same in all rows: a law is for one: draw them in "
-                         "pictures of their own",
-                         c->table[f].source, helper_name[which]);
+                tool_die(
+                    c->tool, EXIT_IMPOSSIBLE,
+                    "%s: %s is not the same in all rows, and a law is for one value: draw them in "
+                    "pictures of their own",
+                    c->table[f].source, helper_name[which]);
             value = v;
         }
     return isnan(option) ? value : option;
@@ -305,10 +306,11 @@ area_in_tables(struct curves *c)
                        helper(c, t, DY)[k];
 
             if (!isnan(area) && fabs(a - area) > 1e-6 * area)
-                tool_die(c->tool, EXIT_IMPOSSIBLE,
-                         "%s: the maps differ in size: a law is for one: draw them in pictures of "
-                         "their own",
-                         t->source);
+                tool_die(
+                    c->tool, EXIT_IMPOSSIBLE,
+                    "%s: the maps differ in size, and a law is for one size: draw them in pictures "
+                    "of their own",
+                    t->source);
             area = isnan(a) ? area : a;
         }
     return area;
