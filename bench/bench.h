@@ -30,14 +30,14 @@ size_t sizes_read(const char *text, size_t most, size_t *sizes);
 /* Seconds of a clock that never goes back. */
 double now(void);
 /* Least seconds of each of several pieces of work. They take turns, `runs` times each, until
- * `seconds` have gone: what disturbs one disturbs the others. */
+ * `seconds` have gone, so that a disturbance falls on all of them. */
 struct work {
     void (*run)(void *what);
     void *what;
 };
 void take_turns(size_t count, const struct work *work, int runs, double seconds, double *least);
-/* Whether what began at `start` and ran so often runs again for its least time: twice, and for
- * half a second, unless that takes long. */
+/* Whether work that began at `start` and has run so often runs again, for its least time: at least
+ * twice and for half a second, unless that takes long. */
 bool once_more(double start, int runs);
 
 /* One application of a plan: work for the above. */
@@ -69,7 +69,7 @@ double exponent(size_t count, const double *x, const double *y);
 /* Numbers of a fixed sequence in [0, 1). */
 double uniform(uint64_t *seed);
 
-/* Displacements in units where a point load's is 1/r. */
+/* Displacements in units in which a point load displaces by 1/r. */
 struct rc_sum point_sum(struct rc_shape shape);
 /* p = sqrt(1 - x^2 - y^2), nodes from -1 to 1 in either direction. */
 void hemisphere(size_t nx, size_t ny, double *p);

@@ -103,7 +103,7 @@ enum {
     GRIDS = 7
 };
 
-/* What a way took on the grids it came through. */
+/* Costs of a way on the grids that it solved. */
 struct series {
     size_t count;
     double seconds[GRIDS], steps[GRIDS];

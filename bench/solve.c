@@ -123,7 +123,7 @@ table(size_t m)
         size_t its = 0;
 
         problem.method = method;
-        problem.tol = 1e-12; /* steps without an end: how far is it? */
+        problem.tol = 1e-12; /* never reached: errors are measured on the way */
         s = solver_new(shape, h, problem);
         while (rc_solver_step(s) == RC_MORE) {
             if (error_l1(n, rc_solver_pressure(s), p) <= wanted) {
@@ -218,7 +218,7 @@ work_to(const double *p, struct rc_shape shape, const double *h, struct rc_probl
     struct rc_solver *s;
     double reached = NAN;
 
-    problem.tol = 1e-12; /* steps without an end: how far is it? */
+    problem.tol = 1e-12; /* never reached: errors are measured on the way */
     problem.method = method;
     s = solver_new(shape, h, problem);
     while (rc_solver_step(s) == RC_MORE)

@@ -123,7 +123,7 @@ enum {
     FRAMES = RC_COMPONENTS + 1
 };
 
-/* The frames of a slice to a program that reads and forgets them. */
+/* Frames of a slice are written to a program that reads and drops them. */
 struct write_work {
     FILE *pipe;
     struct rc_writer *writer; /* NULL: their bytes, no stream */

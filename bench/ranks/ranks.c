@@ -1,7 +1,7 @@
 /*
  * What a convolution costs the processes that share a map: mpirun -n P bench-ranks M [free].
- * Least of five of the whole and, in the one that took least, of its exchanges; then the memory that the
- * process that holds most has held.
+ * Prints the least time of five, the time of exchanges in that one, and the peak memory of the
+ * process that takes most.
  */
 #include <math.h>
 #include <stdio.h>
