@@ -1,5 +1,5 @@
-/* Included before each test that clang-tidy looks at: cmocka's assertions do not come back where they do not
- * hold, which their declarations do not say. */
+/* Included before each test that clang-tidy looks at: cmocka's assertions do not return when
+ * they fail, and their declarations do not say so. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -6,17 +6,17 @@ if(counts)
     file(REMOVE ${counts})
 endif()
 cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
-# Left out: programs of others, which are linked without counters; and what bounds or fails memory, of which the counters take
-# some themselves.
+# Left out: tests that link programs without counters, and tests that bound memory or make it fail, because the counters
+# take memory too.
 execute_process(COMMAND ${CMAKE_CTEST_COMMAND} --test-dir ${BUILD} --parallel ${cores} --output-on-failure
                 -E "^pipe_(installed|library|memory|allocations)$" RESULT_VARIABLE failed)
-# And once more what runs in the sandbox, in the process itself (unsandboxed.c). Their claims on the sandbox fail there; they
-# have been judged above.
+# Tests of sandboxed readers once more, without a sandbox (unsandboxed.c). Their claims on the sandbox fail in this run;
+# the run above is the one that counts for these.
 set(ENV{RC_UNSANDBOXED} 1)
 execute_process(COMMAND ${CMAKE_CTEST_COMMAND} --test-dir ${BUILD} --parallel ${cores} -R "^format_(hdf5|datx|tiff|park)$"
                 OUTPUT_QUIET)
 set(uncounted --exclude ${SOURCE}/formats/sandbox/confine.c --exclude ${SOURCE}/formats/sandbox/calls.c) # unreached.txt
-# What tests/toys runs of libcontact, compiled once more with a row more in each table, counts too.
+# Lines that tests/toys runs in its own copy of libcontact count too.
 execute_process(COMMAND ${GCOVR} --root ${SOURCE} --filter ${SOURCE}/libcontact/ --filter ${SOURCE}/formats/ ${uncounted}
     --gcov-ignore-parse-errors --sort-percentage --txt ${BUILD}/coverage.txt ${BUILD} COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND tail -n 4 ${BUILD}/coverage.txt)

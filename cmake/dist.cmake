@@ -1,5 +1,5 @@
 # cmake -D SOURCE=... -D OUT=... -D NAME=libcontact-1.2.3 -P dist.cmake: OUT/NAME.tar.gz, the tree as it stands:
-# what git has of it, or where there is no git all but what a build leaves.
+# the files that git tracks or, without git, all files but those that a build leaves.
 get_filename_component(OUT "${OUT}" ABSOLUTE)
 get_filename_component(SOURCE "${SOURCE}" ABSOLUTE)
 find_program(GIT git)

@@ -13,8 +13,8 @@ if(commands MATCHES "-DRC_MPI=1") # lint of the preset mpi sees what the others 
     set(mpi -DRC_MPI=1)
 endif()
 
-# Each source once, though the library is compiled twice and once more with the toys; without what only gcc understands,
-# and with its omp.h, as clang's may not be there.
+# Each source once, although the library is compiled twice and once more with the toys. Options that only gcc
+# understands are left out, and gcc's omp.h is used, because clang's may not be there.
 set(once "")
 set(files "")
 string(JSON last LENGTH "${commands}")

@@ -1,6 +1,8 @@
-/* Part of every program of a build with RC_COVERAGE: where RC_UNSANDBOXED is in the environment,
- * what else a sandbox reads is read in the process itself. A child of the sandbox may write no file,
- * and so not which lines it has run. */
+/*
+ * Part of every program of a build with RC_COVERAGE. With RC_UNSANDBOXED in the environment the process itself reads
+ * what a sandbox reads otherwise: a child of the sandbox may write no file, and so cannot record the lines that it
+ * has run.
+ */
 #include <signal.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -9,7 +11,7 @@
 
 void __gcov_dump(void);
 
-/* Damaged files bring libhdf5 to end so, at the latest when it clears up: the counters are kept. */
+/* Damaged files make libhdf5 crash, at the latest when it clears up: the counters are written before that ends. */
 static void
 crashed(int number)
 {
