@@ -234,7 +234,6 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
     report_number(r, "dx", g->dx, "m");
     report_number(r, "dy", g->dy, "m");
     report_text(r, "boundary", run->args->physics.periodic ? "periodic" : "free");
-    report_hardness(r, run);
     report_text(r, "kernel", solver == NULL ? NULL : rc_solver_engine(solver));
     report_text(r, "method", solver == NULL ? NULL : rc_solver_method(solver));
     report_count(r, "threads", run->t.threads, NULL);
@@ -253,6 +252,7 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
     report_count(r, "memory_estimate", (size_t)ranks_most(&run->t, (double)run->t.expected_memory),
                  "B");
     report_ranks(r, &run->t);
+    report_hardness(r, run); /* columns of a table keep their places */
     report_finish_row(r);
 }
 
