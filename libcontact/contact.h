@@ -286,8 +286,9 @@ RC_API double rc_measure_contact_slope(const struct rc_ranks *ranks, const struc
                                        const double *h, const double *p);
 
 /* RMS of the steps between neighbours along x, [0], and along y, [1]: inside the map, and from its
- * last line to its first, where the periods of a periodic map meet. NAN along a side of one node. In
- * the unit of v, which holds no NaN. Where ranks share the map v is the rows held here; ranks NULL: none. */
+ * last line to its first, where the periods of a periodic map meet. NAN along a side of one node.
+ * In the unit of v, which holds no NaN. Where ranks share the map v is the rows held here; ranks
+ * NULL: none. */
 struct rc_seam {
     double inside[2], across[2];
 };
@@ -523,8 +524,8 @@ struct rc_contact {
     bool hardness_active;                    /* some node is at the hardness                     */
 };
 
-/* `h` (not NaN, not infinite) is copied. RC_FAIL-like NULL when load > hardness * area, or more than the sum
- * of the hardness map times the cell: the message holds both numbers. */
+/* `h` (not NaN, not infinite) is copied. RC_FAIL-like NULL when load > hardness * area, or more
+ * than the sum of the hardness map times the cell: the message holds both numbers. */
 RC_API struct rc_solver *rc_solver_new(const struct rc_shape *shape, const double *h,
                                        const struct rc_problem *problem, struct rc_err *err);
 /* One iteration, on coarser grids at first: RC_MORE, RC_OK when the estimated error is below
@@ -571,16 +572,17 @@ RC_API void rc_solver_result(struct rc_solver *solver, double *displacement, dou
  * load it carries the same pressure, and nothing more yields. After rc_solver_result. */
 RC_API enum rc_status rc_solver_plastic(const struct rc_solver *solver, double *h,
                                         struct rc_err *err);
-/* A loading history, where each load acts on the shape that those before it have left, is a list of loads
- * set, stepped to the end and looked at, with this after each: h (nx ny m; in: the heights that were
- * pressed) and the heights of the solver become the shape that is left, known to within
- * contact->shape_error, which `contact` from rc_solver_result holds. Where no node has yielded h stays, and so
- * does the solver. RC_FAIL as in rc_solver_plastic and rc_solver_set_heights. */
+/* A loading history, where each load acts on the shape that those before it have left, is a list of
+ * loads set, stepped to the end and looked at, with this after each: h (nx ny m; in: the heights
+ * that were pressed) and the heights of the solver become the shape that is left, known to within
+ * contact->shape_error, which `contact` from rc_solver_result holds. Where no node has yielded h
+ * stays, and so does the solver. RC_FAIL as in rc_solver_plastic and rc_solver_set_heights. */
 RC_API enum rc_status rc_solver_keep_shape(struct rc_solver *solver,
                                            const struct rc_contact *contact, double *h,
                                            struct rc_err *err);
-/* No load: bodies of these heights (nx ny m) where they would first touch. The gap (nx ny m, or NULL; not
- * h itself) and its mean; no pressure, no displacement. `ranks`: processes that share the map; NULL: none. */
+/* No load: bodies of these heights (nx ny m) where they would first touch. The gap (nx ny m, or
+ * NULL; not h itself) and its mean; no pressure, no displacement. `ranks`: processes that share the
+ * map; NULL: none. */
 RC_API void rc_contact_apart(const struct rc_ranks *ranks, const struct rc_shape *shape,
                              const double *h, double *gap, struct rc_contact *contact);
 /* d load / d approach, N/m, at the solution, after rc_solver_result: what the elastic nodes
@@ -596,9 +598,9 @@ RC_API void rc_solver_free(struct rc_solver *solver);
 /* Name of the engine that such a solver would take, and why; "" when there is none of that name. */
 RC_API const char *rc_solver_choice(const struct rc_shape *shape, const struct rc_problem *problem,
                                     const char **reason);
-/* Bytes that a solver of this size takes, its copies of the heights and of the pressure included. As of the
- * other estimates here: beside the caller's arrays, code, and FFTW's plans, 2 to 3 MiB a precision; and where
- * ranks share the map, of the rank that takes most, beside what MPI takes. */
+/* Bytes that a solver of this size takes, its copies of the heights and of the pressure included.
+ * As of the other estimates here: beside the caller's arrays, code, and FFTW's plans, 2 to 3 MiB a
+ * precision; and where ranks share the map, of the rank that takes most, beside what MPI takes. */
 RC_API size_t rc_solver_memory(const struct rc_shape *shape, const struct rc_problem *problem);
 /* Bytes that rc_solver_stiffness takes beside it, for as long as it runs. */
 RC_API size_t rc_solver_stiffness_memory(const struct rc_shape *shape,
@@ -684,9 +686,9 @@ RC_API enum rc_status rc_stress_slice(struct rc_stress *stress, double depth,
 RC_API const char *rc_stress_engine(const struct rc_stress *stress);
 RC_API const struct rc_stress_counts *rc_stress_counted(const struct rc_stress *stress);
 RC_API void rc_stress_free(struct rc_stress *stress);
-/* Bytes that such a plan takes, beside p and the slices; where ranks share the map, of the rank that
- * takes most. With the depths that will be asked for (m, so many; 0: any), and for a section the lines along it
- * that carry pressure (0: all). */
+/* Bytes that such a plan takes, beside p and the slices; where ranks share the map, of the rank
+ * that takes most. With the depths that will be asked for (m, so many; 0: any), and for a section
+ * the lines along it that carry pressure (0: all). */
 RC_API size_t rc_stress_memory(const struct rc_shape *shape,
                                const struct rc_stress_options *options, const double *depth,
                                size_t depths, size_t loaded);

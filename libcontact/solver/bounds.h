@@ -1,11 +1,12 @@
 /*
- * The bounds of the pressure: nothing else in this folder knows what they are. The lower one is 0, for
- * bodies do not pull; the upper one is the hardness, a number or a map, or none.
+ * The bounds of the pressure: nothing else in this folder knows what they are. The lower one is 0,
+ * for bodies do not pull; the upper one is the hardness, a number or a map, or none.
  *
- * Loops over nodes ask a box, the bounds of the nodes from some node on. Where a loop is hot, its body is
- * an RC_INLINE function, which an RC_CLONES function calls twice: with rc_box_of_numbers, so that the
- * compiler knows that there is no map and the loop is that of two numbers, and with the box as it is. A
- * lower bound that is a map goes the way of `highs`: here, and in the tile that tiles.c takes out of the map.
+ * Loops over nodes ask a box, the bounds of the nodes from some node on. Where a loop is hot, its
+ * body is an RC_INLINE function, which an RC_CLONES function calls twice: with rc_box_of_numbers,
+ * so that the compiler knows that there is no map and the loop is that of two numbers, and with the
+ * box as it is. A lower bound that is a map goes the way of `highs`: here, and in the tile that
+ * tiles.c takes out of the map.
  */
 #ifndef RC_BOUNDS_H
 #define RC_BOUNDS_H
@@ -139,9 +140,9 @@ rc_bare(const struct rc_bounds *b)
     return !rc_bounded(b) && b->box.low == 0;
 }
 
-/* Those of the problem on this map: sums and figures at first; nodes can be asked once they are kept. All ranks
- * call it, and get the same. RC_FAIL for a map that holds what is no bound, and for a number beside it. A map of
- * one number is that number. */
+/* Those of the problem on this map: sums and figures at first; nodes can be asked once they are
+ * kept. All ranks call it, and get the same. RC_FAIL for a map that holds what is no bound, and for
+ * a number beside it. A map of one number is that number. */
 enum rc_status rc_bounds_of(struct rc_bounds *b, const struct rc_problem *problem,
                             const struct rc_shape *whole, struct rc_err *err);
 /* Copies what belongs to the n nodes held here. RC_FAIL when memory is short, here alone. */

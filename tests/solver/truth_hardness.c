@@ -1,6 +1,6 @@
-/* A map of hardness: the pressure is that of a dense quadratic program with a bound of its own for each node,
- * and obeys the laws of contact where it is hard: two phases, equal heights, saturation, bounds that are
- * missing. */
+/* A map of hardness: the pressure is that of a dense quadratic program with a bound of its own for
+ * each node, and obeys the laws of contact where it is hard: two phases, equal heights, saturation,
+ * bounds that are missing. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -76,7 +76,8 @@ apart(size_t n, const double *a, const double *b)
     return d / size;
 }
 
-/* The load of such a part of what the map can carry; where that is without bound of the mean of its numbers. */
+/* The load of such a part of what the map can carry; where that is without bound of the mean of its
+ * numbers. */
 static double
 load_of(const struct rc_shape *shape, const double *map, double part)
 {
@@ -120,8 +121,9 @@ enum {
 };
 static double K[N][N], factor[N][N];
 
-/* The displacement at so many nodes away from a unit pressure on one cell: Love's rectangle, or the sum of the
- * waves that the grid holds, and the mean of one cell, which only changes the shift and makes K definite. */
+/* The displacement at so many nodes away from a unit pressure on one cell: Love's rectangle, or the
+ * sum of the waves that the grid holds, and the mean of one cell, which only changes the shift and
+ * makes K definite. */
 static double
 influence(const struct rc_shape *s, enum rc_boundary boundary, size_t i, size_t j)
 {
@@ -157,7 +159,8 @@ fill(const struct rc_shape *s, enum rc_boundary boundary)
         }
 }
 
-/* Cholesky's factor of the part of K that belongs to these nodes; x: two right-hand sides, and solutions. */
+/* Cholesky's factor of the part of K that belongs to these nodes; x: two right-hand sides, and
+ * solutions. */
 static void
 solve_part(size_t n, const size_t *node, double (*x)[2])
 {
