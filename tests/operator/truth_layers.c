@@ -172,6 +172,36 @@ one_material(void **state)
     body_case_free(&bare);
 }
 
+/* Bodies face to face displace each other's sums: two alike give way twice as much as one on a rigid body, and
+ * a layered one with a bare one as the sum of both alone. */
+static void
+both_bodies(void **state)
+{
+    const struct rc_layer layer[] = {{2, 4, 0.2}, {4, 0.2, 0.45}};
+    const struct rc_body layered = {1, 0.3, 2, layer}, plain = {.e = 3, .nu = 0.25};
+    const struct rc_pair pairs[] = {{.one = layered},
+                                    {.one = layered, .two = layered},
+                                    {.one = plain},
+                                    {.one = layered, .two = plain}};
+    const struct rc_lattice at = {1, 1.3, 1, 1};
+    double k[4][30 * 20], symbol[4];
+
+    (void)state;
+    for (int p = 0; p < 4; p++) {
+        struct body_case c;
+        surface_case(&c, pairs[p]);
+        c.kernel.rows(c.kernel.of, &at, 30, 0, 20, k[p]);
+        symbol[p] = c.kernel.symbol(c.kernel.of, 0.7, 0.4);
+        body_case_free(&c);
+    }
+    for (size_t n = 0; n < 30 * 20; n++) {
+        assert_true(fabs(k[1][n] / (2 * k[0][n]) - 1) < rounding);
+        assert_true(fabs(k[3][n] / (k[0][n] + k[2][n]) - 1) < rounding);
+    }
+    assert_true(fabs(symbol[1] / (2 * symbol[0]) - 1) < rounding);
+    assert_true(fabs(symbol[3] / (symbol[0] + symbol[2]) - 1) < rounding);
+}
+
 /* From nearly nothing to nearly everything: a coat of a thousandth of a node, one of a thousand maps, in
  * ratios of 1e-4 to 1e4, ends certified, and the thick one is as one material. */
 static void
@@ -246,10 +276,10 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(response),     cmocka_unit_test(ends),
-        cmocka_unit_test(table),        cmocka_unit_test(coefficients),
-        cmocka_unit_test(one_material), cmocka_unit_test(thin_and_thick),
-        cmocka_unit_test(refusals),
+        cmocka_unit_test(response),       cmocka_unit_test(both_bodies),
+        cmocka_unit_test(ends),           cmocka_unit_test(table),
+        cmocka_unit_test(coefficients),   cmocka_unit_test(one_material),
+        cmocka_unit_test(thin_and_thick), cmocka_unit_test(refusals),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
