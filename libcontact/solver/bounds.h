@@ -88,7 +88,7 @@ rc_at_high(struct rc_box box, size_t k, double p)
 }
 
 static inline bool
-rc_inside(struct rc_box box, size_t k, double p)
+rc_between(struct rc_box box, size_t k, double p)
 {
     return p > rc_low(box, k) && p < rc_high(box, k);
 }

@@ -163,7 +163,7 @@ move_block(void *at, size_t first, size_t n, double *sums)
         double p = solver->it.p[k], g = gap(solver, k);
 
         c->s->old[k] = p;
-        if (rc_inside(box, k, p) && solver->it.elastic > 1)
+        if (rc_between(box, k, p) && solver->it.elastic > 1)
             p = rc_clip(box, k, p - tau * c->s->t[k]);
         if ((rc_at_low(box, k, p) && g < 0) || (rc_at_high(box, k, p) && g > 0)) {
             p = rc_clip(box, k, p - tau * g);

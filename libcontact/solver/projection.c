@@ -61,7 +61,7 @@ load_block(void *at, size_t first, size_t n, double *sums)
     for (size_t k = first; k < first + n; k++) {
         double v = m->y[k] + m->shift;
         sums[LOAD] += rc_clip(box, k, v);
-        sums[ELASTIC] += rc_inside(box, k, v);
+        sums[ELASTIC] += rc_between(box, k, v);
     }
 }
 
@@ -167,7 +167,7 @@ carried_block(void *at, size_t first, size_t n, double *sums)
         if (!s->set.w[k])
             continue;
         sums[CARRIED] += rc_clip(box, k, y) - rc_low(box, k);
-        sums[COUNT] += rc_inside(box, k, y);
+        sums[COUNT] += rc_between(box, k, y);
     }
 }
 
@@ -445,7 +445,7 @@ stand_block(void *at, size_t first, size_t n, double *sums)
 
     for (size_t k = first; k < first + n; k++) {
         double p = c->s->it.p[k];
-        sums[IN_BETWEEN] += rc_inside(box, k, p) ? rc_room(box, k) : 0;
+        sums[IN_BETWEEN] += rc_between(box, k, p) ? rc_room(box, k) : 0;
         sums[FULL] += rc_at_high(box, k, p) ? rc_room(box, k) : 0;
     }
 }

@@ -157,7 +157,7 @@ rc_box(const struct rc_solver *s, size_t first)
 static inline bool
 rc_elastic(const struct rc_solver *s, size_t k)
 {
-    return rc_inside(rc_box(s, 0), k, s->it.p[k]);
+    return rc_between(rc_box(s, 0), k, s->it.p[k]);
 }
 
 /* ---- reduce.c: what runs over all nodes ---- */

@@ -343,7 +343,7 @@ move_band(struct tiles *a, size_t by)
 static inline bool
 elastic(const struct place *t, size_t k)
 {
-    return t->w[k] != 0 && rc_inside(t->box, k, t->p[k]);
+    return t->w[k] != 0 && rc_between(t->box, k, t->p[k]);
 }
 
 static void
@@ -386,7 +386,7 @@ excess_of(void *ctx, double shift)
                     if (elastic(&t, k)) {
                         double v = t.p[k] + shift;
                         sums[0] += rc_clip(t.box, k, v) - t.p[k];
-                        sums[1] += rc_inside(t.box, k, v);
+                        sums[1] += rc_between(t.box, k, v);
                     }
         }
     }
