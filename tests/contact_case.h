@@ -102,6 +102,19 @@ solve(struct rc_shape shape, const double *h, struct rc_problem problem)
     return s;
 }
 
+/* Steps to the end, which is within the tolerance. */
+static inline struct rc_contact
+finish(struct rc_solver *solver)
+{
+    struct rc_contact c;
+
+    while (rc_solver_step(solver) == RC_MORE)
+        ;
+    rc_solver_result(solver, NULL, NULL, &c);
+    assert_true(c.converged);
+    return c;
+}
+
 /* Relative L1 distance of a from b. */
 static inline double
 distance(size_t n, const double *a, const double *b)

@@ -36,30 +36,6 @@ problem_of(int boundary, bool plastic)
                                .method = contact_method};
 }
 
-static struct rc_contact
-finish(struct rc_solver *s)
-{
-    struct rc_contact c;
-
-    while (rc_solver_step(s) == RC_MORE)
-        ;
-    rc_solver_result(s, NULL, NULL, &c);
-    assert_true(c.converged);
-    return c;
-}
-
-static double
-apart(const double *a, const double *b)
-{
-    double d = 0, size = 0;
-
-    for (size_t k = 0; k < N; k++) {
-        d += fabs(a[k] - b[k]);
-        size += fabs(b[k]);
-    }
-    return d / size;
-}
-
 /* Of another shape, a thousand times as high or low, and far from 0; before the first step, in the middle,
  * and after the last. */
 static void
@@ -98,7 +74,7 @@ as_a_new_solver(void **state)
                 t = rc_solver_new(&shape, h, &given, NULL);
                 assert_non_null(t);
                 d = finish(t);
-                assert_true(apart(rc_solver_pressure(s), rc_solver_pressure(t)) <
+                assert_true(distance(N, rc_solver_pressure(s), rc_solver_pressure(t)) <
                             2 * problem.tol); /* each to that */
                 assert_true(isnan(c.approach) == isnan(d.approach));
                 assert_true(isnan(c.approach) ||
@@ -151,7 +127,7 @@ refused(void **state)
     assert_int_equal(rc_solver_set_heights(s, h, &err), RC_FAIL);
     assert_non_null(strstr(err.text, "height 77 is not a finite number"));
     (void)finish(s); /* it is as it was */
-    assert_true(apart(rc_solver_pressure(s), p) < 2 * problem.tol);
+    assert_true(distance(N, rc_solver_pressure(s), p) < 2 * problem.tol);
     assert_int_equal(rc_solver_set_load(s, 0, 1e-3, &err), RC_FAIL);
     assert_non_null(strstr(err.text, "approach 0.001 m: contact is complete at "));
     rc_solver_free(s);
@@ -199,7 +175,8 @@ history(void **state)
             problem.height_error = height_error;
             t = rc_solver_new(&shape, g, &problem, NULL);
             d = finish(t);
-            assert_true(apart(rc_solver_pressure(s), rc_solver_pressure(t)) < 8 * problem.tol);
+            assert_true(distance(N, rc_solver_pressure(s), rc_solver_pressure(t)) <
+                        8 * problem.tol);
             assert_int_equal(c.yielded_nodes > 0, d.yielded_nodes > 0);
             if (d.yielded_nodes > 0) {
                 assert_int_equal(rc_solver_plastic(t, g, NULL), RC_OK);
@@ -207,7 +184,7 @@ history(void **state)
                 yielded++;
             }
             assert_true(d.shape_error == height_error);
-            assert_true(apart(h, g) < 8 * problem.tol);
+            assert_true(distance(N, h, g) < 8 * problem.tol);
             rc_solver_free(t);
         }
         assert_int_equal(yielded, 3); /* 0.3, 0.8 and 1.4, each once */

@@ -49,18 +49,6 @@ soft(enum rc_boundary boundary)
     return boundary == RC_FREE ? 20e6 : 200e6;
 }
 
-static struct rc_contact
-finish(struct rc_solver *s)
-{
-    struct rc_contact c;
-
-    while (rc_solver_step(s) == RC_MORE)
-        ;
-    rc_solver_result(s, NULL, NULL, &c);
-    assert_true(c.converged);
-    return c;
-}
-
 static struct rc_solver *
 start(const double *h, struct rc_problem problem)
 {
@@ -69,18 +57,6 @@ start(const double *h, struct rc_problem problem)
 
     assert_non_null(s);
     return s;
-}
-
-static double
-apart(const double *a, const double *b)
-{
-    double d = 0, size = 0;
-
-    for (size_t k = 0; k < shape.nx * shape.ny; k++) {
-        d += fabs(a[k] - b[k]);
-        size += b[k];
-    }
-    return d / size;
 }
 
 /* A load after others is the first loading to it: up, down, far up, with and without yield. */
@@ -108,8 +84,8 @@ loads_are_independent(void **state)
                 (void)finish(s);
                 t = start(h, alone);
                 (void)finish(t);
-                assert_true(apart(rc_solver_pressure(s), rc_solver_pressure(t)) <
-                            2 * problem.tol); /* each to that */
+                assert_true(distance(shape.nx * shape.ny, rc_solver_pressure(s),
+                                     rc_solver_pressure(t)) < 2 * problem.tol); /* each to that */
                 rc_solver_free(t);
             }
             rc_solver_free(s);
@@ -236,7 +212,8 @@ yielded_shape_holds(void **state)
         t = start(flat, problem);
         second = finish(t);
         /* both to the tolerance, and the shape as well as the first */
-        assert_true(apart(rc_solver_pressure(t), rc_solver_pressure(s)) < 4 * problem.tol);
+        assert_true(distance(shape.nx * shape.ny, rc_solver_pressure(t), rc_solver_pressure(s)) <
+                    4 * problem.tol);
         /* of a thousand nodes one may change sides */
         assert_true(fabs((double)second.contact_nodes / (double)first.contact_nodes - 1) < 1e-3);
         memcpy(h, flat, shape.nx * shape.ny * sizeof *h);

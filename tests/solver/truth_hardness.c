@@ -18,8 +18,7 @@ static uint64_t seed;
 static double
 uniform(void)
 {
-    seed = seed * 6364136223846793005u + 1442695040888963407u;
-    return (double)(seed >> 11) / 9007199254740992.0;
+    return random_number(&seed) + 0.5;
 }
 
 static void
@@ -31,49 +30,16 @@ make_rough(const struct rc_shape *shape, uint64_t which, double *h)
     assert_int_equal(rc_synth_selfaffine(shape, &rough, h, NULL), RC_OK);
 }
 
-struct answer {
-    struct rc_contact c;
-    double *p, *gap;
-};
-
-static struct answer
+static struct solved
 press(const struct rc_shape *shape, const double *h, struct rc_problem problem)
 {
-    size_t n = shape->nx * shape->ny;
-    struct answer a = {.p = malloc(n * sizeof *a.p), .gap = malloc(n * sizeof *a.gap)};
-    struct rc_err err = {.text = ""};
-    struct rc_solver *s;
+    struct solved s;
 
     problem.pair.estar = estar;
-    problem.method = contact_method;
-    s = rc_solver_new(shape, h, &problem, &err);
-    assert_string_equal(err.text, "");
-    assert_non_null(s);
-    while (rc_solver_step(s) == RC_MORE)
-        ;
-    rc_solver_result(s, NULL, a.gap, &a.c);
-    memcpy(a.p, rc_solver_pressure(s), n * sizeof *a.p);
-    rc_solver_free(s);
-    return a;
-}
-
-static void
-answer_free(struct answer *a)
-{
-    free(a->p);
-    free(a->gap);
-}
-
-static double
-apart(size_t n, const double *a, const double *b)
-{
-    double d = 0, size = 0;
-
-    for (size_t k = 0; k < n; k++) {
-        d += fabs(a[k] - b[k]);
-        size += fabs(b[k]);
-    }
-    return d / size;
+    s = solve(*shape, h, problem);
+    if (s.status == RC_FAIL)
+        fail_msg("%s", s.err.text);
+    return s;
 }
 
 /* The load of such a part of what the map can carry; where that is without bound of the mean of its
@@ -93,7 +59,7 @@ load_of(const struct rc_shape *shape, const double *map, double part)
 
 /* 0 <= p <= H, the load, and gaps that fit; nodes at their hardness are counted. */
 static size_t
-lawful(const struct rc_shape *shape, const double *map, double load, const struct answer *a)
+lawful(const struct rc_shape *shape, const double *map, double load, const struct solved *a)
 {
     size_t n = shape->nx * shape->ny, full = 0;
     double sum = 0;
@@ -273,7 +239,7 @@ as_a_quadratic_program(void **state)
         for (size_t r = 0; r < 10; r++) {
             struct rc_problem problem = {
                 .boundary = (enum rc_boundary)boundary, .hardness_map = map, .tol = 1e-12};
-            struct answer a;
+            struct solved a;
 
             seed = 17 * r + (size_t)boundary;
             make_rough(&shape, r + 1, h);
@@ -288,9 +254,9 @@ as_a_quadratic_program(void **state)
             dense(h, most, problem.load / (shape.dx * shape.dy), p);
             a = press(&shape, h, problem);
             plastic += a.c.plastic_nodes;
-            worst = larger(worst, apart(N, a.p, p));
-            assert_true(apart(N, a.p, p) < 1e-9);
-            answer_free(&a);
+            worst = larger(worst, distance(N, a.p, p));
+            assert_true(distance(N, a.p, p) < 1e-9);
+            solved_free(&a);
         }
     }
     print_message("20 maps, %zu nodes at their hardness, %zu without: L1 %.1e\n", plastic, missing,
@@ -315,7 +281,7 @@ one_number_is_that_number(void **state)
                                         .load = 5e8 * (double)n * 1e-12,
                                         .hardness = none ? 0 : 1.5e9},
                               mapped = number;
-            struct answer a, b;
+            struct solved a, b;
             for (size_t k = 0; k < n; k++)
                 map[k] = none ? NAN : 1.5e9;
             mapped.hardness = 0;
@@ -326,8 +292,8 @@ one_number_is_that_number(void **state)
             assert_memory_equal(a.gap, b.gap, n * sizeof *a.gap);
             assert_int_equal(a.c.plastic_nodes > 0, !none);
             assert_true(a.c.convolutions == b.c.convolutions);
-            answer_free(&a);
-            answer_free(&b);
+            solved_free(&a);
+            solved_free(&b);
         }
     free(h);
     free(map);
@@ -349,7 +315,7 @@ as_quick_as_a_number(void **state)
                                     .hardness = 1.5e9,
                                     .tol = 1e-6},
                           mapped = number;
-        struct answer a, b;
+        struct solved a, b;
 
         make_rough(&shape, 3, h);
         for (size_t k = 0; k < n; k++)
@@ -358,11 +324,11 @@ as_quick_as_a_number(void **state)
         mapped.hardness_map = map;
         a = press(&shape, h, number);
         b = press(&shape, h, mapped);
-        assert_true(apart(n, b.p, a.p) < 2 * number.tol);
+        assert_true(distance(n, b.p, a.p) < 2 * number.tol);
         assert_true(b.c.iterations <= a.c.iterations + 1); /* a bound more or less may be met */
         assert_true(a.c.plastic_nodes > 1000);
-        answer_free(&a);
-        answer_free(&b);
+        solved_free(&a);
+        solved_free(&b);
         free(h);
         free(map);
     }
@@ -376,7 +342,7 @@ far_away_is_elastic(void **state)
     size_t n = shape.nx * shape.ny;
     double *h = malloc(n * sizeof *h), *map = malloc(n * sizeof *map);
     struct rc_problem elastic = {.load = 2e8 * (double)n * 1e-12, .tol = 1e-9}, mapped = elastic;
-    struct answer a, b;
+    struct solved a, b;
 
     (void)state;
     make_rough(&shape, 3, h);
@@ -385,10 +351,10 @@ far_away_is_elastic(void **state)
         map[k] = (10 + (double)(k % 7)) * a.c.max_pressure;
     mapped.hardness_map = map;
     b = press(&shape, h, mapped);
-    assert_true(apart(n, b.p, a.p) < 2 * elastic.tol);
+    assert_true(distance(n, b.p, a.p) < 2 * elastic.tol);
     assert_false(b.c.hardness_active);
-    answer_free(&a);
-    answer_free(&b);
+    solved_free(&a);
+    solved_free(&b);
     free(h);
     free(map);
 }
@@ -409,7 +375,7 @@ ties_and_saturation(void **state)
         for (size_t r = 0; r < sizeof parts / sizeof *parts; r++) {
             struct rc_problem problem = {
                 .boundary = way & 1 ? RC_PERIODIC : RC_FREE, .hardness_map = map, .tol = 1e-7};
-            struct answer a;
+            struct solved a;
             size_t full;
             double load;
 
@@ -424,7 +390,7 @@ ties_and_saturation(void **state)
             a = press(&shape, h, problem);
             full = lawful(&shape, map, load, &a);
             assert_true(parts[r] < 1 || full == n);
-            answer_free(&a);
+            solved_free(&a);
         }
     free(h);
     free(map);
@@ -442,7 +408,7 @@ one_node_without(void **state)
     for (int boundary = RC_FREE; boundary <= RC_PERIODIC; boundary++) {
         struct rc_problem problem = {
             .boundary = (enum rc_boundary)boundary, .hardness_map = map, .tol = 1e-7};
-        struct answer a;
+        struct solved a;
         for (size_t k = 0; k < n; k++) {
             h[k] = k == which ? -1e-6 : 1e-9 * (double)(k % 5);
             map[k] = k == which ? NAN : 1e6 * (double)(1 + k % 2);
@@ -455,7 +421,7 @@ one_node_without(void **state)
             rest -= k == which ? 0 : map[k];
         assert_int_equal(a.c.plastic_nodes, n - 1);
         assert_true(fabs(a.p[which] / rest - 1) < summed);
-        answer_free(&a);
+        solved_free(&a);
     }
     free(h);
     free(map);
@@ -476,7 +442,7 @@ two_phases(void **state)
         struct rc_problem problem = {
             .boundary = (enum rc_boundary)boundary, .hardness_map = map, .tol = 1e-5};
         double load, soft = 0, hard = 0;
-        struct answer a;
+        struct solved a;
 
         make_rough(&shape, 7, h);
         for (size_t k = 0; k < n; k++) {
@@ -494,7 +460,7 @@ two_phases(void **state)
                       "%.3g convolutions\n",
                       n, soft / (double)n, hard / (double)n, a.c.convolutions);
         assert_true(soft > 100 && hard > 10);
-        answer_free(&a);
+        solved_free(&a);
     }
     free(h);
     free(map);
@@ -523,7 +489,7 @@ mirrored(void **state)
                                      .hardness_map = map,
                                      .load = load_of(&shape, map, 0.4),
                                      .tol = 1e-9};
-        struct answer a = press(&shape, h, problem), b;
+        struct solved a = press(&shape, h, problem), b;
         problem.hardness_map = other;
         b = press(&shape, g, problem);
         for (size_t k = 0; k < n / 2; k++) {
@@ -531,10 +497,10 @@ mirrored(void **state)
             b.p[k] = b.p[n - 1 - k];
             b.p[n - 1 - k] = p;
         }
-        assert_true(apart(n, b.p, a.p) < 2 * problem.tol);
+        assert_true(distance(n, b.p, a.p) < 2 * problem.tol);
         assert_true(a.c.plastic_nodes > 100);
-        answer_free(&a);
-        answer_free(&b);
+        solved_free(&a);
+        solved_free(&b);
     }
     free(h);
     free(g);
@@ -581,13 +547,13 @@ other_ways(void **state)
     while (rc_solver_step(s) == RC_MORE)
         ;
     rc_solver_result(s, NULL, NULL, &again);
-    assert_true(apart(n, rc_solver_pressure(s), kept) < 2 * problem.tol);
+    assert_true(distance(n, rc_solver_pressure(s), kept) < 2 * problem.tol);
     assert_int_equal(rc_solver_keep_shape(s, &again, h, NULL), RC_OK);
     while (rc_solver_step(s) == RC_MORE)
         ;
     rc_solver_result(s, NULL, NULL, &again);
     assert_int_equal(again.yielded_nodes, 0);
-    assert_true(apart(n, rc_solver_pressure(s), kept) < 8 * problem.tol);
+    assert_true(distance(n, rc_solver_pressure(s), kept) < 8 * problem.tol);
     rc_solver_free(s);
     free(h);
     free(map);
