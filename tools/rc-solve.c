@@ -404,21 +404,30 @@ do_loads(struct run *run, struct rc_grid *g)
 
 /* The hardness of a case is a number or a map. */
 static void
-check_hardness(struct run *run, const struct rc_grid *hardness)
+take_hardness(struct run *run, const struct rc_grid *hardness)
 {
+    const double *v = hardness != NULL ? hardness->v : &args.physics.hardness;
+    double low = INFINITY, high = -INFINITY;
+
     physics_hardness(&run->t, hardness);
+    for (size_t k = 0; k < (hardness != NULL ? rc_grid_nodes(hardness) : 1); k++)
+        if (isfinite(v[k])) {
+            low = fmin(low, v[k]);
+            high = fmax(high, v[k]);
+        }
     run->hardness = hardness;
-    if (args.physics.history && hardness == NULL && isinf(args.physics.hardness))
-        tool_warn(
-            &run->t,
-            "--history without --hardness or a map of it: nothing yields, so no load leaves a "
-            "trace");
+    run->hardness_min = -ranks_most(&run->t, -low);
+    run->hardness_max = ranks_most(&run->t, high);
+    if (args.physics.history && isinf(run->hardness_min))
+        tool_warn(&run->t,
+                  "--history without --hardness or a number in a map of it: nothing yields, so no "
+                  "load leaves a trace");
 }
 
 static void
 do_case(struct run *run, struct rc_grid *g, const struct rc_grid *hardness)
 {
-    check_hardness(run, hardness);
+    take_hardness(run, hardness);
     physics_heights(&run->t, &args.physics, g);
     if (!rc_grid_number(g, HEIGHT_ERROR, &run->height_error))
         run->height_error = 0;

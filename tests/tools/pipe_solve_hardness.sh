@@ -49,7 +49,21 @@ beside h.rcg spots.rcg >spots-case.rcg
 claim "where it is missing nothing yields" bash -c 'solve --report spots.json spots-case.rcg -o /dev/null && grep -q "\"converged\": true" spots.json'
 claim "  and the largest pressure is beyond the bound" awk -v p="$(field max_pressure spots.json)" 'BEGIN { exit !(p > 2e9) }'
 
+map none.rcg '"nan"'
+beside h.rcg none.rcg >none-case.rcg
+solve --report none.json --output pressure none-case.rcg -o none.rcg
+solve --report elastic.json --output pressure h.rcg -o elastic.rcg
+claim "a map without a number is no bound" test "$(field max_pressure none.json)" = "$(field max_pressure elastic.json)"
+claim "  and the report says so" says '"hardness": "left out: the map of it holds no number"' cat none.json
+claim "  as it does of no map" says '"hardness": "left out: no --hardness, and no map' cat elastic.json
+
 # ---- histories, checkpoints ----
+
+claim "a history under a map without a number is warned of" says 'nothing yields' bash -c '
+    rc-solve --periodic --mean-pressure 0.5GPa --history --estar 100GPa --output pressure none-case.rcg -o /dev/null 2>&1'
+claim "  under one with numbers it is not" bash -c '
+    rc-solve --verbose --periodic --mean-pressure 0.5GPa --history --estar 100GPa --output pressure spots-case.rcg -o /dev/null 2>warn.txt &&
+    lacks "nothing yields" warn.txt'
 
 claim "a history keeps the shape under a map" bash -c '
     rc-solve --quiet --periodic --mean-pressure 0.5GPa,1GPa,0,1GPa --history --estar 100GPa --report history.tsv --output pressure case.rcg -o /dev/null &&

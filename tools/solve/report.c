@@ -51,8 +51,9 @@ layers_state(const struct scene *s)
 static const char *
 hardness_state(const struct scene *s)
 {
-    if (s->run->hardness == NULL && isinf(s->run->args->physics.hardness))
-        return "left out: no --hardness, and no map of it in the case";
+    if (isinf(s->run->hardness_min))
+        return s->run->hardness != NULL ? "left out: the map of it holds no number"
+                                        : "left out: no --hardness, and no map of it in the case";
     if (s->hardness_active == NULL)
         return "on where the elastic pressure would exceed it; costs nothing elsewhere";
     return *s->hardness_active ? "on" : "left out: the largest elastic pressure is below it";
@@ -197,23 +198,6 @@ report_figures(struct report *r, const struct solution *s)
     report_patches(r, &s->patches);
 }
 
-/* What the bounds are: one number, or of a map the least and the largest of those that it holds. */
-static void
-report_hardness(struct report *r, struct run *run)
-{
-    double low = INFINITY, high = -INFINITY, number = run->args->physics.hardness;
-
-    for (size_t k = 0; run->hardness != NULL && k < rc_grid_nodes(run->hardness); k++)
-        if (isfinite(run->hardness->v[k])) {
-            low = fmin(low, run->hardness->v[k]);
-            high = fmax(high, run->hardness->v[k]);
-        }
-    if (run->hardness == NULL && isfinite(number))
-        low = high = number;
-    report_number(r, "hardness_min", -ranks_most(&run->t, -low), "Pa");
-    report_number(r, "hardness_max", ranks_most(&run->t, high), "Pa");
-}
-
 void
 solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *solver,
              const struct solution *s)
@@ -252,7 +236,8 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
     report_count(r, "memory_estimate", (size_t)ranks_most(&run->t, (double)run->t.expected_memory),
                  "B");
     report_ranks(r, &run->t);
-    report_hardness(r, run); /* columns of a table keep their places */
+    report_number(r, "hardness_min", run->hardness_min, "Pa"); /* columns keep their places */
+    report_number(r, "hardness_max", run->hardness_max, "Pa");
     report_finish_row(r);
 }
 

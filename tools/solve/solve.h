@@ -49,9 +49,10 @@ struct run {
     const struct numbers *steps; /* the list of loads or approaches               */
     size_t step, number;         /* which of them, from 0; the case that it is    */
     bool stiffness;
-    bool resumed;                   /* this case, from a checkpoint                      */
-    double height_error;            /* m: of the heights that came in */
-    const struct rc_grid *hardness; /* a map of it, in the case; NULL: a number or none */
+    bool resumed;                      /* this case, from a checkpoint                      */
+    double height_error;               /* m: of the heights that came in */
+    const struct rc_grid *hardness;    /* a map of it, in the case; NULL: a number or none */
+    double hardness_min, hardness_max; /* Pa, of the numbers; no number: INFINITY, -INFINITY */
     struct report report;
     struct checkpoint *checkpoint; /* NULL: none */
     size_t nodes;                  /* of the map */
