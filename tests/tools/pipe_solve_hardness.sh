@@ -97,6 +97,7 @@ refuses 1 'leave one out' "  and refuses both" "rc-cost --periodic --mean-pressu
 
 claim "rc-pick" says 'channel=hardness|hardness' bash -c 'rc-pick --channel hardness case.rcg | rc-info'
 claim "rc-render" bash -c 'rc-render --channel hardness -o hardness.png case.rcg && [ -s hardness.png ]'
+claim "  which knows its name" bash -c 'rc-render --channel hardness -o hardness.svg case.rcg && grep -q "Hardness" hardness.svg'
 claim "rc-export" bash -c 'rc-export --format npy --channel hardness -o hardness.npy case.rcg && [ -s hardness.npy ]'
 
 finish

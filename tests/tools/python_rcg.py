@@ -158,6 +158,7 @@ def arrays():
     keys = [f.keys[name] for name in ('dx', 'dy', 'case', 'load', 'area', 'periodic', 'nodes')]
     assert keys == ['1e-06', '0.30000000000000004', '2', '60', '1e-12', 'yes', '7'], keys
     assert rcg.frame('mises', a, 1e-6).unit == 'Pa'
+    assert rcg.frame('hardness', a, 1e-6).unit == 'Pa'
     assert rcg.frame('dirt', a, 1, unit='kg').unit == 'kg'
     f.values, f.channel = f.values[:, :2].astype('f4'), 'gap'  # the header follows
     f = rcg.loads(rcg.dumps(f))[0]

@@ -12,6 +12,7 @@
 static const struct channel channels[] = {
     {"mises", "von Mises stress", "magma", .from_zero = true},
     {"pressure", "Contact pressure", "magma", .from_zero = true},
+    {"hardness", "Hardness", "viridis", .from_zero = true},
     {"height", "Height", "viridis", .from_zero = false},
     {"gap", "Gap", "viridis", .from_zero = true},
     {"displacement", "Normal displacement", "viridis", .from_zero = false},
