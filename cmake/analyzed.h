@@ -1,6 +1,7 @@
-/* Included before each file that clang-tidy looks at, except those that define these two functions, because it
- * sees one file at a time. rc_err_set gives nothing but RC_FAIL, and rc_ranks_agree gives RC_OK only where this
- * rank has RC_OK: with that, clang-tidy does not follow impossible paths after a failure. */
+/* Included before each file that clang-tidy looks at, except those that define these two functions,
+ * because it sees one file at a time. rc_err_set gives nothing but RC_FAIL, and rc_ranks_agree gives
+ * RC_OK only where this rank has RC_OK: with that, clang-tidy does not follow impossible paths after
+ * a failure. */
 #include "libcontact/grid.h"
 #include "libcontact/ranks/ranks.h"
 

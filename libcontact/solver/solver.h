@@ -292,8 +292,9 @@ double rc_nested_convolutions(const struct rc_solver *solver);
 
 /* ---- projection.c ---- */
 
-/* The pressure gets the load by scaling what its elastic nodes carry above their lower bounds, as far as the
- * box lets them; what they cannot carry goes to the nodes of smallest g, what is too much is taken from all. */
+/* The pressure gets the load by scaling what its elastic nodes carry above their lower bounds, as
+ * far as the box lets them; what they cannot carry goes to the nodes of smallest g, what is too
+ * much is taken from all. */
 void rc_projection_balance(struct rc_solver *solver, const double *g);
 /* The same where the load is off by more than rounding; nodes join by v. */
 void rc_projection_restore(struct rc_solver *solver, double carried);

@@ -49,8 +49,9 @@ finish_load(struct rc_solver *solver, struct rc_err *err)
                            : rc_err_set(err, "the solution stops short: status %d", (int)status);
 }
 
-/* Solves a contact and, from its solution, one under a load a tenth higher, whose shape is kept. The fields, of n
- * nodes each: the pressure of the second; gap, displacement and yielded shape of the first. */
+/* Solves a contact and, from its solution, one under a load a tenth higher, whose shape is kept. The
+ * fields, of n nodes each: the pressure of the second; gap, displacement and yielded shape of the
+ * first. */
 static enum rc_status
 solve_twice(const struct rc_shape *shape, const double *heights, const struct rc_problem *problem,
             size_t n, double *const field[4], double *stiffness, struct rc_err *err)

@@ -30,8 +30,8 @@ enum {
     TYPES = sizeof types / sizeof *types
 };
 
-/* Bodies of which each row of the list takes one: bare, under three layers of the thickness of a few cells, and
- * a layer on a rigid base. */
+/* Bodies of which each row of the list takes one: bare, under three layers of the thickness of a few
+ * cells, and a layer on a rigid base. */
 enum {
     BARE,
     LAYERED,

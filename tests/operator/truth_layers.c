@@ -172,8 +172,8 @@ one_material(void **state)
     body_case_free(&bare);
 }
 
-/* Bodies face to face displace each other's sums: two alike give way twice as much as one on a rigid body, and
- * a layered one with a bare one as the sum of both alone. */
+/* Bodies face to face give way by the sum of what each gives way alone: two alike twice as much as
+ * one on a rigid body, a layered one with a bare one as much as both. */
 static void
 both_bodies(void **state)
 {

@@ -4,7 +4,8 @@
  *
  *     K(x, y) = 1/(pi E* L) integral over the cell of exp(-r / L),
  *
- * taken at the middle of the cell. One layer on a rigid half-space is such a body, L its thickness, E* its own.
+ * taken at the middle of the cell. One layer on a rigid half-space is such a body, L its thickness,
+ * E* its own.
  */
 #include "libcontact/body/body.h"
 

@@ -1,7 +1,8 @@
 /*
- * The bodies of a contact as a stream has them: the keys `e1 nu e2 nu2` (e2 is absent when body 2 is rigid,
- * and, as e1 is, when only the composite modulus `estar` is known), and of a layered body 1 `layers`, "t,E,nu"
- * of each material in SI, the top first, joined by ";", the substrate last with t = inf.
+ * The bodies of a contact as a stream has them: the keys `e1 nu e2 nu2` and, of a layered body 1,
+ * `layers`, "t,E,nu" of each material in SI, the top first, joined by ";", the substrate last with
+ * t = inf. e2 and nu2 are absent when body 2 is rigid; all four are when only the composite modulus
+ * `estar` is known.
  */
 #ifndef RC_TOOL_BODIES_H
 #define RC_TOOL_BODIES_H

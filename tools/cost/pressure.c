@@ -31,8 +31,9 @@ new_map(const struct rc_shape *shape)
     return malloc(shape->nx * shape->ny * sizeof(double));
 }
 
-/* Heights and hardness of the trial's grid. Means lower the tips; single nodes would alias what the grid cannot
- * hold. A node has the mean hardness of those under it, and none where most of them have none. */
+/* Heights and hardness of the trial's grid. Means lower the tips; single nodes would alias what the
+ * grid cannot hold. A node has the mean hardness of those under it, and none where most of them have
+ * none. */
 static const double *
 coarse_maps(struct job *j, const struct rc_shape *shape)
 {
