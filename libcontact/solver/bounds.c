@@ -25,12 +25,12 @@ of_numbers(double high, size_t nodes)
                               .full = high * (double)nodes};
 }
 
-/* What there is to know of a map. */
+/* Figures of a map of upper bounds. */
 struct survey {
-    double least, most;  /* of the numbers                                            */
-    double sum;          /* of all, INFINITY where there is no bound                  */
-    size_t numbers, bad; /* how many are, and how many can be no bound: 0 and less    */
-    size_t first_bad;    /* its place in the whole map                                */
+    double least, most;  /* of the nodes that have a bound                            */
+    double sum;          /* of all nodes; INFINITY where a node has no bound          */
+    size_t numbers, bad; /* nodes that have a bound, and nodes with one of 0 or less  */
+    size_t first_bad;    /* index in the whole map                                    */
 };
 
 static struct survey

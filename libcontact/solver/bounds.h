@@ -1,12 +1,12 @@
 /*
- * The bounds of the pressure: nothing else in this folder knows what they are. The lower one is 0,
- * for bodies do not pull; the upper one is the hardness, a number or a map, or none.
+ * The bounds of the pressure. No other file of this folder knows their values. The lower bound is
+ * 0, because the bodies do not pull; the upper bound is the hardness: a number, a map, or none.
  *
  * Loops over nodes ask a box, the bounds of the nodes from some node on. Where a loop is hot, its
  * body is an RC_INLINE function, which an RC_CLONES function calls twice: with rc_box_of_numbers,
- * so that the compiler knows that there is no map and the loop is that of two numbers, and with the
- * box as it is. A lower bound that is a map goes the way of `highs`: here, and in the tile that
- * tiles.c takes out of the map.
+ * so that the compiler sees two numbers and no map, and with the box as it is. To make the lower
+ * bound a map as well, do with it what is done with `highs`: here, and in tiles.c, which copies a
+ * tile of it.
  */
 #ifndef RC_BOUNDS_H
 #define RC_BOUNDS_H
@@ -18,7 +18,7 @@
 struct rc_box {
     double low, high;    /* Pa                                                                 */
     const double *highs; /* Pa, node by node, instead of high; NULL: high is that of all nodes */
-    double per_unit;     /* rooms times this are those of rc_room                              */
+    double per_unit;     /* 1 / (unit of the bounds): rc_room counts in units                  */
 };
 
 struct rc_bounds {
@@ -26,9 +26,9 @@ struct rc_bounds {
     double unit;       /* Pa: rooms between the bounds are counted in it                     */
     double highest;    /* Pa: the largest upper bound that is a number, or the lower one     */
     bool open;         /* some node has no upper bound                                       */
-    double floor;      /* what all nodes of the map at their lower bounds add up to, Pa      */
-    double full;       /* and at their upper ones                                            */
-    double *own;       /* the map that is asked, once it is kept                             */
+    double floor;      /* Pa: the sum of the lower bounds of all nodes of the map            */
+    double full;       /* Pa: the sum of the upper bounds                                    */
+    double *own;       /* copy of the map of upper bounds; NULL before rc_bounds_keep        */
 };
 
 /* ---- of a node ---- */
@@ -68,7 +68,8 @@ rc_high(struct rc_box box, size_t k)
     return rc_bound(box.highs, box.high, k);
 }
 
-/* How far its bounds are apart, in units: 1 where all nodes have the same, so that sums are counts. */
+/* The distance between the bounds of a node, in units. Without a map it is 1: a sum of rooms is then a
+ * number of nodes. */
 static inline double
 rc_room(struct rc_box box, size_t k)
 {
@@ -111,15 +112,15 @@ rc_rooms(const struct rc_bounds *b, double sum)
     return sum > 0 ? sum * b->unit : 0; /* none of no bound is none */
 }
 
-/* Of a sum over the map what is above the lower bounds. */
+/* The part of a sum over the map that is above the lower bounds. */
 static inline double
 rc_above(const struct rc_bounds *b, double sum)
 {
     return sum - b->floor;
 }
 
-/* A shift that brings every node from anywhere in the box to its upper bound, or by `amount`, where there
- * is a node without one. */
+/* A shift that is large enough to bring any node of the box to its upper bound; where a node has none,
+ * at least `amount`. */
 static inline double
 rc_reach(const struct rc_bounds *b, double amount)
 {
@@ -133,22 +134,23 @@ rc_bounded(const struct rc_bounds *b)
     return b->highest > b->box.low;
 }
 
-/* A node that is not on the working set, nor wants to be, carries nothing. */
+/* Nodes off the working set carry nothing: there is no upper bound, and the lower one is 0. */
 static inline bool
 rc_bare(const struct rc_bounds *b)
 {
     return !rc_bounded(b) && b->box.low == 0;
 }
 
-/* Those of the problem on this map: sums and figures at first; nodes can be asked once they are
- * kept. All ranks call it, and get the same. RC_FAIL for a map that holds what is no bound, and for
- * a number beside it. A map of one number is that number. */
+/* The bounds of this problem, with their sums; rc_bounds_keep then copies the map, and nodes can be
+ * asked. All ranks call it, and all get the same sums. RC_FAIL for a map with values that are no
+ * bounds, and for a map and a number together. A map of one value counts as that number. */
 enum rc_status rc_bounds_of(struct rc_bounds *b, const struct rc_problem *problem,
                             const struct rc_shape *whole, struct rc_err *err);
-/* Copies what belongs to the n nodes held here. RC_FAIL when memory is short, here alone. */
+/* Copies the bounds of the n nodes held here. RC_FAIL when memory is short; other ranks do not learn
+ * of it. */
 enum rc_status rc_bounds_keep(struct rc_bounds *b, size_t n);
 void rc_bounds_free(struct rc_bounds *b);
-/* The problem that has these; `highs`: the map of another grid, where there is one. */
+/* Poses a problem with these bounds; `highs`: the map on that problem's grid, NULL without a map. */
 void rc_bounds_pose(const struct rc_bounds *b, const double *highs, struct rc_problem *problem);
 /* RC_FAIL when they cannot carry this load (N) on so many cells (m2). */
 enum rc_status rc_bounds_carry(const struct rc_bounds *b, double load, double cell, size_t nodes,

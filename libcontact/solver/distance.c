@@ -48,7 +48,7 @@ struct columns {
                                     the first after them, of each column; NULL: all rows are here */
 };
 
-/* Steps to a row of the set that another rank holds: the map's rows are counted on into its next image. */
+/* Steps from row `here` to the nearest row of the set that another rank holds. */
 static float
 from_outside(const double *row, size_t i, double here)
 {
@@ -57,8 +57,8 @@ from_outside(const double *row, size_t i, double here)
     return d < far_away ? (float)d : far_away;
 }
 
-/* Steps down the columns from the last node of the set above each row, and, on a periodic map, from the
- * other end. */
+/* Counts for each node the steps from the last node of the set above it; on a periodic map the column
+ * above continues at its other end. */
 static void
 count_down(const struct columns *c, bool wrap, double before, float *run)
 {
@@ -96,9 +96,9 @@ count_up(const struct columns *c, bool wrap, double after, float *run)
         }
 }
 
-/* The last row of the set of each column before the rows held here, as others hold it; `back`: the first
- * after them, as the last of rows that are counted from the end of the map. On a periodic map that may be one
- * of the image before: less by ny. -INFINITY: none. */
+/* For each column, the last row of the set before the rows held here, from the ranks that hold those
+ * rows. `back`: the first row after them, by counting rows from the end of the map. On a periodic map
+ * the row may lie in the image before, and is then less by ny. -INFINITY: there is none. */
 static void
 find_outside(const struct rc_shape *s, const struct rc_rows *rows, bool wrap, bool back,
              const unsigned char *w, double *row, double *all)

@@ -1,6 +1,6 @@
 /*
- * A loading history: each load acts on the shape that those before it have left, and between loads the
- * bodies may be taken apart.
+ * A loading history: each load acts on the shape that the earlier loads have left, and between two
+ * loads the bodies may be taken apart.
  */
 #include "solver.h"
 

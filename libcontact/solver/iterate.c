@@ -1,5 +1,5 @@
 /*
- * The iterate: the pressure, the gap that belongs to it, and what has been found of its error.
+ * The iterate: the pressure, its gap, and the estimate of its error.
  */
 #include "solver.h"
 
@@ -33,7 +33,7 @@ rc_iterate_level(struct rc_solver *s)
 #pragma omp parallel for num_threads(s->posed.threads) schedule(static)
     for (size_t k = 0; k < s->posed.n; k++)
         s->it.p[k] = rc_clip(box, k, mean);
-    if (box.highs != NULL) /* what is above their bounds, others carry */
+    if (box.highs != NULL) /* other nodes carry what was clipped */
         rc_projection_of(s, s->it.p);
 }
 
@@ -242,8 +242,8 @@ rc_iterate_checked(struct rc_solver *s, double error, size_t again)
     s->it.next_check = s->it.iterations + again;
 }
 
-/* Its error is a bound, relative to all of |K| |p|, and what the pressure makes of it was seen
- * to be 0.2 to 0.6 of that (multi-level sums, smooth and rough spheres). */
+/* The operator's error is a bound relative to |K| |p|. The error of the pressure that follows from it
+ * was 0.2 to 0.6 of that bound (multi-level sums, smooth and rough spheres). */
 double
 rc_iterate_operator_error(const struct rc_solver *s)
 {

@@ -1,8 +1,8 @@
 /*
- * The load: the one that is given, or the one that an approach needs. The shift grows with the
- * load, nearly as a power of it (2/3 for a sphere, 1 for a punch): secants in logarithms, inside a
- * bracket. Each load starts from the solution of the last, and the first are solved only as well as
- * the next guess can use.
+ * The load: it is given, or it is sought for a given approach. The shift grows nearly as a power of
+ * the load (2/3 for a sphere, 1 for a punch), so the search takes secants in logarithms, inside a
+ * bracket. Each load starts from the solution of the last one, and the first loads are solved only
+ * as accurately as the next guess needs.
  */
 #include "solver.h"
 
@@ -65,7 +65,7 @@ height_block(void *at, size_t first, size_t n, double *sums)
     sums[0] = rc_sum(s->posed.h + first, n);
 }
 
-/* RC_FAIL where the bodies come no nearer than complete contact, and that is farther apart. */
+/* RC_FAIL where complete contact is reached before this approach: the bodies come no nearer. */
 static enum rc_status
 check_approach(struct rc_solver *s, double approach, struct rc_err *err)
 {
@@ -84,8 +84,8 @@ check_approach(struct rc_solver *s, double approach, struct rc_err *err)
     return RC_OK;
 }
 
-/* Where the load is sought, the one given is a guess; without one, that of a flat punch as large as
- * the part of the surface that the approach would cut off. */
+/* Where the load is sought, the given load is a guess; without it, the guess is the load of a flat
+ * punch that is as large as the part of the surface above the approach. */
 enum rc_status
 rc_load_first(struct rc_solver *s, const struct rc_problem *problem, struct rc_err *err)
 {

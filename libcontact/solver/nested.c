@@ -1,7 +1,8 @@
 /*
- * A start from coarser grids: the pressure of the same contact on every second node, solved roughly
- * (and there by the same start), is repeated on this grid. Each call of rc_nested_step does one
- * iteration somewhere below, or plans one grid, so that the caller sees them pass.
+ * A start from coarser grids. The same contact is solved roughly on a grid of half the nodes a side,
+ * which has a start from a coarser grid itself, and each coarse pressure is repeated on the nodes of
+ * this grid. A call of rc_nested_step does one iteration on one of the coarser grids, or plans one of
+ * them, so that the caller sees every iteration.
  */
 #include "solver.h"
 
@@ -12,9 +13,9 @@
 
 enum {
     COARSEST = 24,    /* nodes a side from which a coarser grid is worth solving first */
-    FEW_NODES = 16384 /* a rank, below which each solves the whole grid for itself */
+    FEW_NODES = 16384 /* a rank; with fewer, each rank solves the whole grid for itself */
 };
-/* A nearer start saves no step, but where nodes are at their upper bounds. */
+/* A more accurate start saves no step, unless nodes are at their upper bounds. */
 static const double coarse_tol = 8e-2, coarse_tol_yielding = 3e-2;
 
 void
@@ -59,7 +60,8 @@ rc_nested_convolutions(const struct rc_solver *s)
 
 /* ---- rows ---- */
 
-/* Rows of the coarser grid that lie under those held here: no two rows of one are held by two ranks. */
+/* Rows of the coarser grid that lie under the rows held here. The two rows over one coarse row are
+ * always held by the same rank. */
 static size_t
 rows_under(const struct rc_rows *fine)
 {
@@ -95,8 +97,8 @@ largest(const struct rc_ranks *ranks, const double *v, size_t n)
 
 /* ---- between ranks ---- */
 
-/* Who holds which rows of the coarser grid: those under the fine rows that each has, and those that
- * each is to solve; the latter NULL: all solve all of them. */
+/* The first coarse row of each rank: `under` of the coarse rows that lie under its fine rows, `own` of
+ * the coarse rows that it solves. */
 struct dealt {
     size_t *under, *own;
 };
@@ -123,8 +125,8 @@ dealt_free(struct dealt *d)
     free(d->own);
 }
 
-/* Rows of few nodes a rank are solved by every rank for itself: to wait for each other's sums takes
- * longer. */
+/* NULL for a small grid, which every rank solves for itself: waiting for sums of other ranks would
+ * take longer. */
 static const struct rc_ranks *
 ranks_for(const struct rc_solver *s, const struct rc_shape *coarse)
 {
@@ -133,8 +135,8 @@ ranks_for(const struct rc_solver *s, const struct rc_shape *coarse)
     return coarse->nx * coarse->ny < FEW_NODES * rc_ranks_count(ranks) ? NULL : ranks;
 }
 
-/* What belongs to a coarse grid of this map, of the rows that are solved here; NULL when memory is short,
- * here or on another rank. */
+/* This map on the coarser grid, the rows that this rank solves. NULL when memory is short on any
+ * rank. */
 static double *
 coarse_map(const struct rc_solver *s, const double *map, const struct rc_shape *shape,
            const struct rc_rows *rows)
@@ -164,8 +166,8 @@ coarse_map(const struct rc_solver *s, const double *map, const struct rc_shape *
     return own;
 }
 
-/* The coarse pressure of the rows under those held here: moved to `room`, where other ranks have solved for
- * it. NULL when memory is short, here or on another rank. */
+/* The coarse pressure under the rows held here. Where several ranks share the coarse grid, it is moved
+ * to `room`. NULL when memory is short on any rank. */
 static const double *
 pressure_under(const struct rc_solver *s, const struct rc_solver *c, double **room)
 {
@@ -193,8 +195,8 @@ pressure_under(const struct rc_solver *s, const struct rc_solver *c, double **ro
 
 /* ---- down ---- */
 
-/* What the grid leaves out is seen where the coarser one is solved to below it, which goes with the
- * spacing. */
+/* To show the error of the grid, the coarse solution itself has to be more accurate than that error,
+ * which is proportional to the spacing. */
 static double
 tolerance(const struct rc_solver *s, const struct rc_shape *coarse)
 {
@@ -219,7 +221,7 @@ coarse_new(const struct rc_solver *s, bool *sought)
     double *h = coarse_map(s, s->posed.h, &shape, &rows), *highs = NULL, lower;
     struct rc_solver *c;
 
-    /* the mean of what four nodes can carry; without bound where one of them is */
+    /* a coarse node carries the mean of its four nodes; without bound where one of them has none */
     if (h != NULL && fine_highs != NULL)
         highs = coarse_map(s, fine_highs, &shape, &rows);
     if (h == NULL || (fine_highs != NULL && highs == NULL)) {
@@ -259,13 +261,14 @@ repeat(struct rc_solver *s, const struct rc_solver *c)
     free(room);
     if (fabs(rc_iterate_carried(s) - s->load.sum) <= 1e-14 * s->load.sum)
         return;
-    /* an odd line too much; should nodes have to join, the highest first */
+    /* an odd line is counted twice; should nodes have to join, the highest join first */
     for (size_t k = 0; k < s->posed.n; k++)
         s->it.v[k] = -s->posed.h[k];
     rc_projection_balance(s, s->it.v);
 }
 
-/* Figures of the coarse solution. An approach that was asked for is right on both grids. */
+/* Figures of the coarse solution. Where the approach was given, both grids have it, and there is
+ * nothing to compare. */
 static void
 compare(struct rc_solver *s, struct rc_solver *c)
 {

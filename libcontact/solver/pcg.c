@@ -3,19 +3,19 @@
  *
  * Working set W: the elastic nodes and those at a bound that want to leave it, but for those that
  * would only be pushed back (working_set.c). Residual r = -g on W with zero mean, z = E' A E r with
- * zero mean, direction z + beta delta conjugate to the last step delta unless much of that was clipped;
- * restarted when beta is negative. The step finds its way back into {0 <= p <= H, sum p = S} tile by
- * tile (tiles.c), or, where that leads nowhere, by one shift of the nodes of W (projection.c). Scaling
- * instead, as in (31b) of Polonsky and Keer, fails near saturation; shifting all nodes drags every
- * separated one into contact.
+ * zero mean, direction z + beta delta conjugate to the last step delta unless much of that was
+ * clipped; restarted when beta is negative. The step finds its way back into {0 <= p <= H, sum p =
+ * S} tile by tile (tiles.c), or, where that leads nowhere, by one shift of the nodes of W
+ * (projection.c). Scaling instead, as in (31b) of Polonsky and Keer, fails near saturation;
+ * shifting all nodes drags every separated one into contact.
  *
  * Its length is foretold from the steps before, so that the one convolution K delta of the step as
  * it was clipped serves all: the new gap, the change of the energy, which is a quadratic along
- * delta and known exactly, and the conjugacy of the next direction. A clipped step that is too long
- * for the energy is made anew, shorter; an unclipped one goes to its lowest point. So no step
- * raises the energy. Where delta leads nowhere, and every SPACER steps, a projected-gradient step
- * is made instead. By the spacer-step theorem (Luenberger and Ye, Linear and Nonlinear Programming)
- * the whole then converges to the one minimum.
+ * delta and known exactly, and the conjugacy of the next direction. A clipped step that goes far
+ * beyond the lowest energy is repeated with a smaller length; an unclipped one goes to the lowest
+ * energy. So no step raises the energy. Every SPACER steps, and where no length of delta lowers the
+ * energy, a projected-gradient step is made instead. By the spacer-step theorem (Luenberger and Ye,
+ * Linear and Nonlinear Programming) the whole then converges to the one minimum.
  *
  * ||z||_1 / ||p||_1 estimates the error of the pressure and costs nothing here: z is at hand.
  *
@@ -33,26 +33,26 @@
 
 enum {
     SPACER = 30,   /* steps after which one is a projected-gradient step                    */
-    PATIENCE = 40, /* steps without a better estimate, at least one of them a spacer, after
-                      which only rounding is left                                           */
+    PATIENCE = 40, /* steps without a better estimate, after which only rounding is left;
+                      at least one of them is a spacer                                      */
     TRIES = 4      /* to shorten a step                                                     */
 };
 /* The longest step, relative to the load: beyond it the pressure of the nodes that stay would be lost
  * in rounding. Only heights that are far larger than the displacement ask for longer ones. */
 static const double longest = 1e6;
-/* How near the lowest point may be for a clipped step to be taken whole: nodes then come to rest at
- * their bounds. With the lowest point at a part s of the way, the whole of it still gains
- * (2 s - 1)/s^2 of what could be gained. */
+/* A clipped step is taken whole, so that its nodes come to rest at their bounds, where the lowest
+ * energy lies at least this part of the way along it. With that part s, the whole step still gains
+ * (2 s - 1)/s^2 of the largest possible gain. */
 static const double enough = 0.75;
-/* An estimate above this at the start means that heights are so much larger than the displacement that
- * each node touches, or yields, nearly independently of the others: a better start is then that of
- * springs, each of the stiffness of its own cell. */
+/* An estimate above this at the start means that the heights are much larger than the displacements:
+ * each node touches, or yields, nearly independently of the others. A better start is then a bed of
+ * springs, each with the stiffness of its own cell. */
 static const double apart = 100;
-/* The largest clipped step, relative to the load and over the constant of the extension, that the next
- * direction is conjugate to. On one material, where the eigenvalues are near 1, to keep longer ones saves no
- * step, and what is left of the error is then not that of the smallest eigenvalues any more: estimates were
- * between 0.99 and 1.9 times it. On a coat a hundred times as stiff as what it lies on, to keep none takes
- * twice the steps. */
+/* The largest clipped step, relative to the load and over the constant of the extension, that the
+ * next direction is conjugate to. On one material, where the eigenvalues are near 1, a larger limit
+ * saves no step, and the estimate, which is most accurate for errors along the smallest
+ * eigenvalues, gets worse: 0.99 to 1.9 times the error. On a coat a hundred times as stiff as its
+ * substrate, no conjugacy after clipped steps costs twice the steps. */
 static const double conjugate = 5e-3;
 
 struct pcg {
@@ -60,11 +60,11 @@ struct pcg {
     struct rc_tile *tiles; /* scratch of a move                                            */
     double curvature;      /* delta'q; 0: the next direction is not conjugate to anything       */
     double alpha;          /* length foretold for the next step                                 */
-    double drift;          /* what single precision may have done to p, relative                */
+    double drift;          /* relative error of p from single precision, an upper estimate      */
     double estimate;       /* the last one; NAN: none yet                                       */
-    double rate;           /* of the last two: how much smaller it has become                   */
-    double best;           /* the least                                                         */
-    size_t best_at;        /* its iteration                                                     */
+    double rate;           /* the last estimate over the one before, at most 1                  */
+    double best;           /* the least estimate                                                */
+    size_t best_at;        /* and its iteration                                                 */
 };
 
 /* What the passes over all nodes share. */
@@ -128,7 +128,7 @@ state_new(const struct rc_solver *solver, struct rc_err *err)
 
 /* ---- v, the working set, the residual ---- */
 
-/* The first v; single precision will do for a while. */
+/* The first v, in single precision, which is accurate enough at first. */
 static void
 begin(struct rc_solver *solver, struct pcg *s)
 {
@@ -137,8 +137,7 @@ begin(struct rc_solver *solver, struct pcg *s)
     rc_working_set_find(solver, true);
 }
 
-/* v in double precision, and the whole working set: an estimate made from these may end the
- * iteration. */
+/* v in double precision and the whole working set: an estimate from these may end the iteration. */
 static void
 renew(struct rc_solver *solver, struct pcg *s)
 {
@@ -244,7 +243,7 @@ precondition(struct rc_solver *solver, struct pcg *s, double *mean)
     return estimate;
 }
 
-/* What rounding has made of the load is put right. */
+/* Corrects the load for rounding. */
 static void
 restore(struct rc_solver *solver)
 {
@@ -269,8 +268,8 @@ start_from_springs(struct rc_solver *solver)
     restore(solver);
 }
 
-/* The direction, its mean, and the estimate. One that is below the tolerance has to come from v in
- * double precision; where the last ones let us expect that, v is renewed before the first try. */
+/* The direction, its mean, and the estimate. An estimate below the tolerance is only believed if v was
+ * computed in double precision; where the last estimates foretell one, v is renewed at once. */
 static void
 find_direction(struct rc_solver *solver, struct pcg *s, double *mean)
 {
@@ -401,7 +400,7 @@ along(struct rc_box box, size_t n, const double *p, const double *v, double shif
         along_in(box, n, p, v, shift, delta, row, q, sums);
 }
 
-/* Where no node is in the set none has moved or is pressed. */
+/* The same for a stretch without nodes of the set: no node there has moved, or carries anything. */
 RC_CLONES static double
 beside(size_t n, const float *restrict row, float *restrict q)
 {
@@ -444,7 +443,7 @@ follow(size_t n, const float *restrict q, double factor, double *restrict v)
         v[k] += factor * (double)q[k];
 }
 
-/* v goes along with p: a is how much of the step. */
+/* v follows p; a is the part of the step that p took. */
 static void
 follow_block(void *at, size_t first, size_t n, double *sums)
 {
@@ -454,7 +453,8 @@ follow_block(void *at, size_t first, size_t n, double *sums)
     follow(n, c->s->q + first, c->a * c->solver->load.length, c->solver->it.v + first);
 }
 
-/* Takes p back by b of the step; what rounding leaves of a node that came from a bound is nothing. */
+/* Takes p back by a part b of the step. A node that came from a bound returns to it exactly, whatever
+ * the rounding. */
 static void
 back_block(void *at, size_t first, size_t n, double *sums)
 {
@@ -475,11 +475,11 @@ back_block(void *at, size_t first, size_t n, double *sums)
     }
 }
 
-/* What a trial step found. */
+/* A trial step. */
 struct trial {
     double size; /* relative L1 norm                                            */
-    double fits; /* how much of it fits into the box: 1 or, not clipped, more   */
-    double best; /* how much of it leads to the lowest energy; 0: nowhere       */
+    double fits; /* the factor to which it may be lengthened within the box     */
+    double best; /* the part of it that leads to the lowest energy; 0: none     */
     bool clipped;
     double total[RC_SUMS];
 };
@@ -495,7 +495,8 @@ undo(struct rc_solver *solver, struct pcg *s, double size)
     s->drift += solver->op->row_error * size; /* delta was rounded */
 }
 
-/* p goes along the direction in z, of that mean, back into the box; delta, q and what they say. */
+/* Moves p along the direction in z, whose mean is given, and back into the box; sets delta and q, and
+ * what *t says of them. */
 static void
 attempt(struct rc_solver *solver, struct pcg *s, double alpha, double mean, bool tiles,
         struct trial *t)
@@ -530,14 +531,14 @@ attempt(struct rc_solver *solver, struct pcg *s, double alpha, double mean, bool
     t->best = t->total[CURVATURE] > 0 && best > 0 ? best : 0;
 }
 
-/* The best of several trials, the later ones shorter; *alpha: the length of the last. */
+/* Tries steps, each shorter than the last, until one is good enough; *alpha becomes its length. */
 static void
 make_best(struct rc_solver *solver, struct pcg *s, double *alpha, double mean, bool tiles,
           struct trial *t)
 {
     attempt(solver, s, *alpha, mean, tiles, t);
-    /* too far: a part of a clipped step would leave nodes just off their bounds, one after another;
-     * a shorter step, clipped anew, brings them to rest */
+    /* Too far. A part of a clipped step would leave its clipped nodes just off their bounds; a shorter
+     * step that is clipped anew puts them on. */
     for (int tries = 0; tries < TRIES && t->clipped && t->best < enough; tries++) {
         undo(solver, s, t->size);
         *alpha *= fmax(t->best, 0.2);
@@ -570,9 +571,9 @@ follow_step(struct rc_solver *solver, struct pcg *s, const struct trial *t, doub
     rc_working_set_find(solver, true);
 }
 
-/* From p along the direction in z, of that mean, back into the box, to where the energy is low,
- * or lower; v, the working set and the residual follow. The relative change of p; 0 when that
- * leads nowhere: p is then where it was. */
+/* One step of p along the direction in z, whose mean is given, and back into the box, such that the
+ * energy falls; v, the working set and the residual follow. Returns the relative change of p; 0 when
+ * no length lowers the energy, and p is as before. */
 static double
 advance(struct rc_solver *solver, struct pcg *s, double alpha, double mean, bool tiles)
 {
@@ -595,7 +596,7 @@ advance(struct rc_solver *solver, struct pcg *s, double alpha, double mean, bool
     return t.size * part;
 }
 
-/* ---- the step that is sure ---- */
+/* ---- the step that always descends ---- */
 
 static void
 gradient_block(void *at, size_t first, size_t n, double *sums)
@@ -610,8 +611,8 @@ gradient_block(void *at, size_t first, size_t n, double *sums)
     }
 }
 
-/* Descends at any `length`, for the way to a projection always does: 1 / |K|, or that of a
- * single node. */
+/* A projected-gradient step. The way to a projection descends for any `length`; 1 / |K| and the
+ * compliance of a single node are used. */
 static double
 gradient_step(struct rc_solver *solver, struct pcg *s, double length)
 {
@@ -650,8 +651,8 @@ step(struct rc_solver *solver, void *at)
     } else if (solver->it.iterations > s->best_at + PATIENCE) {
         return found; /* rounding: it stands still */
     }
-    /* A direction cut at the bounds need not descend. Where that happens again and again, what is
-     * wrong is at single nodes at the edges of contact, where a step of 1 / |K| does nothing. */
+    /* A clipped direction need not descend. Where that happens again and again, the error is that of
+     * single nodes at edges of the contact, which a step of 1 / |K| hardly moves. */
     alpha = s->estimate * s->alpha > longest ? longest / s->estimate : s->alpha;
     still = solver->it.iterations > s->best_at + 3;
     if (solver->it.iterations % SPACER == SPACER - 1)
@@ -663,7 +664,7 @@ step(struct rc_solver *solver, void *at)
     return found;
 }
 
-/* As bench-solve found them at 512^2 to 2048^2, 1 to 99 % contact: the grid does not matter. */
+/* From bench-solve, 512^2 to 2048^2, 1 to 99 % contact: the size of the grid does not matter. */
 static double
 convolutions(double nodes, double digits)
 {

@@ -73,7 +73,7 @@ gap(const struct rc_solver *solver, size_t k)
     return solver->it.v[k] - solver->it.shift;
 }
 
-/* What the passes below share: the solver, its state here, and numbers found by an earlier one. */
+/* Context of the passes below; `number`: a result of the pass before. */
 struct pass {
     struct rc_solver *solver;
     struct state *s;
@@ -226,7 +226,7 @@ forget(void *at)
     s->safeguard.energy = INFINITY;
 }
 
-/* It has to find the contact first, and is quick then. */
+/* Most iterations find the contact; once it is found, each digit costs few. */
 static double
 convolutions(double nodes, double digits)
 {

@@ -123,8 +123,8 @@ mask_in(void *at, size_t j, void *row)
     return any != 0;
 }
 
-/* Of the 2 at d = 1/4; a thousand nodes away it is still told to a part in a thousand, and what it
- * serves is a choice of weights. */
+/* Scale of the stored d^(-1/2), whose largest value is 2, at d = 1/4. A thousand nodes away it is
+ * still right to a part in a thousand; it only chooses weights. */
 enum {
     CLOSE = 32767
 };
@@ -138,15 +138,16 @@ closeness_of(size_t n, const float *restrict d2, uint16_t *restrict closeness)
     }
 }
 
-/* How much of the extension fades away. The sum over W of |x_ij|^(-5/2) d_i^(1/2), 4.8 beside a straight
- * edge, tells how much of the surroundings of a node is W. Near small patches what they hold falls
- * off to the mean, 0. Where W is all around it does not, on a periodic map a constant even costs nothing:
- * there a fade of a tenth would hold waves of length l too stiffly by a part that grows with l, 2.4
- * times at the longest of 2048 x 2048, 39 % contact, and the steps would grow with the map. */
+/* The fade f of the extension is for nodes that W does not surround. S, the sum over W of
+ * |x_ij|^(-5/2) d_i^(1/2), tells how far W does: it is 4.8 beside a straight edge. Near small patches
+ * the extension has to fall off to the mean, 0. Where W is all around it must not: on a periodic map a
+ * constant has no energy at all, and a fade of a tenth would make waves of length l too stiff by a
+ * factor that grows with l, 2.4 for the longest of 2048 x 2048 at 39 % contact, so that the number of
+ * steps would grow with the map. */
 static const float surrounded = 3;
 
-/* How a pressure that comes with a shift of all of W is spread on W, M 1, is large where much of a node's
- * surroundings is not W. It goes as what is missing of the sum. */
+/* The pressure M 1 of a shift of all of W is large at nodes whose surroundings are not W: it is nearly
+ * proportional to the part of the sum of G that is missing there. */
 RC_CLONES static void
 weigh(size_t n, float fade, float whole, const unsigned char *w, const float *sums,
       const uint16_t *restrict closeness, float *restrict node)

@@ -26,9 +26,9 @@ size_t rc_preconditioner_memory(const struct rc_shape *shape, enum rc_boundary b
                                 size_t ranks);
 /* The working set: entries 1 of w (0 elsewhere), at least one; w is referred to until the next
  * set. With `measure` the distances d_i are found too, else those of the last set are kept: they
- * change little when it does. Costs one factor of a chain, and with them up to three times
- * its time. Entries of w may change afterwards: the map stays symmetric, but E loses
- * quality as they do. */
+ * change little when the set does. Costs one factor of a chain; with `measure` up to three times
+ * that. Entries of w may change afterwards: the map r -> z stays symmetric, but E gets less
+ * accurate. */
 void rc_preconditioner_set(struct rc_preconditioner *e, const unsigned char *w, bool measure);
 /* z = E' A E (r - offset) on the working set, zero elsewhere, in the units of the operator's rows.
  * `done` (NULL: none) is called with each row of the result, complete in z, as soon as it is there.
@@ -36,9 +36,9 @@ void rc_preconditioner_set(struct rc_preconditioner *e, const unsigned char *w, 
 void rc_preconditioner_apply(struct rc_preconditioner *e, const float *r, float offset, float *z,
                              rc_row *done, void *ctx);
 
-/* What is known of a node: on W its share of the load that a shift of all of W brings, off W the
- * weight with which the residual is carried on to it. Both are above 0, and no node has both: for memory's
- * sake one number holds either, the share below 0. */
+/* A number for each node: on W its share of the load of a shift of all of W, off W the weight of
+ * the extension there. Both are positive and no node has both, so one number holds either: minus
+ * the share, or the weight. */
 #define RC_LEAST_SHARE 1e-3F
 static inline float
 rc_node_on(float share)
@@ -61,8 +61,8 @@ rc_extension_weight(float node)
     return node > 0 ? node : 0; /* a node that has left since */
 }
 
-/* The shift of all of W belongs to no residual: what of z comes with it is taken out. It is spread as
- * M 1, M = E' A E; rc_load_share of these is about that, up to a factor, for each node on W. */
+/* A shift of all of W belongs to no residual, and its pressure M 1, M = E' A E, has to be taken out of
+ * z. rc_load_share of these numbers is about M 1, up to a factor, for each node on W. */
 const float *rc_preconditioner_nodes(const struct rc_preconditioner *e);
 
 /* distance.c: how far every node is from the nearest one with w != 0, exactly but for rounding, in

@@ -76,7 +76,7 @@ excess_of_map(void *ctx, double shift)
     return (struct rc_excess){.load = total[LOAD] - m->s->load.sum, .slope = total[ELASTIC]};
 }
 
-/* All nodes at their upper bounds is the one pressure that carries what these add up to. */
+/* Where the load is the sum of the upper bounds, all nodes are at their upper bounds. */
 static bool
 fill(const struct rc_solver *s, double *y)
 {
@@ -113,8 +113,8 @@ rc_projection_of(const struct rc_solver *s, double *y)
 
 /* ---- of a step ---- */
 
-/* What the passes over all nodes share: on W p becomes y = p + alpha (d - mean), then
- * clip(y + shift, 0, H). Loads are those above the lower bounds. */
+/* Context of the passes over all nodes: on W p becomes y = p + alpha (d - mean), and then
+ * clip(y + shift, 0, H). Loads count from the lower bounds. */
 struct step {
     struct rc_move *m;
     double shift, wanted;
@@ -123,7 +123,7 @@ struct step {
 enum {    /* sums of the first pass, */
     HELD, /* by nodes off W          */
     ROOM,
-    /* of the others */
+    /* and of the others */
     CARRIED = 0,
     COUNT,
     SIZE = 0
@@ -225,11 +225,11 @@ rc_move_shift(struct rc_move *m)
 
 /* ---- by scaling ---- */
 
-/* Of what nodes carry above their lower bounds. */
+/* Scales what nodes carry above their lower bounds. */
 struct scale {
     struct rc_solver *s;
     double f;
-    bool cap; /* nodes that the factor brings to the bound go there; else all are multiplied */
+    bool cap; /* only nodes that would reach their bound move, to it; else all are multiplied */
     const double *g;
     double least, most; /* gaps between which rooms are added up */
 };
@@ -361,7 +361,7 @@ last_gap(struct scale *c, double wanted)
     return of_rank(low);
 }
 
-/* The rooms of nodes without pressure of just this gap in rows that are held before those here. */
+/* The rooms of nodes without pressure and with just this gap, in the rows before those held here. */
 static double
 equal_before(const struct scale *c, double gap)
 {
@@ -376,8 +376,9 @@ equal_before(const struct scale *c, double gap)
     return rc_ranks_sum_before(c->s->posed.rows.ranks, here);
 }
 
-/* All loaded nodes, if any, are at the bound and `rest` is still missing: nodes join by their gap, those of
- * equal gap by their place. All but the last come to the bound. */
+/* All loaded nodes, if any, are at their upper bounds and `rest` is still missing. Nodes without
+ * pressure join in the order of their gap, those of equal gap in the order of the map. All but the
+ * last one to join come to their upper bounds. */
 static void
 add_nodes(struct rc_solver *s, double rest, const double *g)
 {

@@ -1,7 +1,7 @@
 /*
- * Sums over all nodes that do not depend on the number of threads, nor of ranks: each block or row adds up by
- * itself, and their sums are added in order, with what the additions round away. A block is some rows, or a
- * part of one, that one rank holds.
+ * Sums over all nodes that depend neither on the number of threads nor on that of ranks: each block or
+ * row is summed by itself, and these sums are added in order, with compensation for rounding. A block
+ * is some rows, or a part of one row, that one rank holds.
  */
 #include "solver.h"
 

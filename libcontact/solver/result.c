@@ -1,5 +1,5 @@
 /*
- * What a solution means: figures, gap, displacement, and the shape that yield leaves.
+ * Results of a solution: figures, gap, displacement, and the shape that yielding leaves.
  */
 #include "solver.h"
 
@@ -29,7 +29,7 @@ struct figures {
     const struct rc_solver *s;
     double *displacement, *gap;
     double mean_h, mean_u;
-    double worst; /* m: what the gap is off where it should be 0, or at least 0 */
+    double worst; /* m: by how much the gap may be wrong, from its worst violation */
 };
 
 enum { /* sums of the first pass, */
@@ -133,9 +133,9 @@ edge_nodes(const struct rc_solver *s)
     return rc_ranks_sum(rows->ranks, count);
 }
 
-/* What a grid of half the nodes a side gave beside what this one gives. Peak pressure and approach
- * converge at least with the first power of the spacing, so the difference bounds what is left; the
- * area's error is erratic, and bounded by half a cell along its edge. */
+/* The error of the grid, from a comparison with half the nodes a side. Peak pressure and approach
+ * converge at least with the first power of the spacing, so their error is at most the difference of
+ * the two grids; the error of the area is erratic, and at most half a cell along the edge. */
 static struct rc_discretization
 left_out(const struct rc_solver *s, const struct rc_contact *c)
 {
@@ -172,7 +172,7 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
     double total[RC_SUMS], n = (double)s->posed.nodes, scale;
     bool early = s->nested.ahead, stopped;
 
-    rc_nested_end(s); /* the best is what was reached there */
+    rc_nested_end(s); /* a start that was interrupted: its pressure is the best there is */
     *c = (struct rc_contact){.iterations = s->it.iterations};
     stopped = !s->it.known || (!s->it.fresh && !early);
     if (stopped && early)

@@ -1,7 +1,7 @@
 /*
- * What keeps a method from cycling. The energy 1/2 p'Kp - h'p costs nothing to follow and must
- * fall. A step that raised it is taken back, and a projected-gradient step is made in its place,
- * which lowers it by at least |K|/2 times the square of its own length: no cycle can close.
+ * The safeguard that keeps a method from cycling. The energy 1/2 p'Kp - h'p costs nothing to follow,
+ * and must fall. A step that raised it is taken back and replaced by a projected-gradient step, which
+ * lowers the energy by at least |K|/2 times the square of the step's length: no cycle can close.
  */
 #include "solver.h"
 

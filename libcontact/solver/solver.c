@@ -1,5 +1,5 @@
 /*
- * The front: how a solver is made, stepped, judged, and told of other loads and starts.
+ * The front: it makes a solver, steps it, judges its result, and sets other loads, heights and starts.
  */
 #include "solver.h"
 
@@ -63,8 +63,8 @@ tolerance(const struct rc_shape *shape, const struct rc_problem *problem)
     return problem->tol == 0 ? pow((double)(shape->nx * shape->ny), -0.75) : problem->tol;
 }
 
-/* The engine's accuracy follows from that of the pressure, which it must not spoil: at a tenth,
- * as in the paper, its own error, which no residual shows, was up to a third of what was left. */
+/* No residual shows the engine's own error, so it has to be small beside the tolerance of the
+ * pressure: at a tenth of it, as in the paper, the engine made up to a third of the final error. */
 static struct rc_operator_options
 operator_options(const struct rc_shape *shape, const struct rc_problem *problem)
 {
@@ -76,7 +76,7 @@ operator_options(const struct rc_shape *shape, const struct rc_problem *problem)
                                         .ranks = problem->ranks};
 }
 
-/* The largest height, -INFINITY of none; NAN where one is not a finite number. */
+/* The largest height; -INFINITY without nodes, NAN where a height is not a finite number. */
 static double
 top_of(const double *h, size_t n, int threads)
 {
@@ -101,7 +101,8 @@ first_not_finite(const double *h, size_t n)
     return k;
 }
 
-/* The heights, less the largest of all ranks' own; `status`: what has been found here before. */
+/* Takes the heights less the largest of all ranks. `status`: RC_FAIL if this rank has failed before,
+ * which all ranks then learn. */
 static enum rc_status
 take_heights(struct rc_posed *posed, const double *h, enum rc_status status, struct rc_err *err)
 {
@@ -151,7 +152,7 @@ pose(struct rc_posed *posed, const struct rc_shape *shape, const double *h,
     return take_heights(posed, h, status, err);
 }
 
-/* Maps of the solver's own, and the method's state: no rank goes on alone. */
+/* Allocates the solver's maps and the method's state: on all ranks, or it fails on all. */
 static enum rc_status
 make_room(struct rc_solver *s, struct rc_err *err)
 {
@@ -169,7 +170,8 @@ make_room(struct rc_solver *s, struct rc_err *err)
     return rc_ranks_agree(s->posed.rows.ranks, status, err);
 }
 
-/* Takes the operator; NULL: there is none, and *err says why. `all`: who does the same. */
+/* Takes over the operator; NULL when it could not be made, and *err says why. `all`: the ranks that
+ * make this call. */
 static struct rc_solver *
 solver_new(const struct rc_ranks *all, const struct rc_shape *shape, const double *h,
            const struct rc_problem *problem, const struct rc_method *method, struct rc_operator *op,
@@ -242,7 +244,7 @@ rc_solver_free(struct rc_solver *s)
     free(s);
 }
 
-/* ---- what one would be ---- */
+/* ---- what a solver would take ---- */
 
 const char *
 rc_solver_choice(const struct rc_shape *shape, const struct rc_problem *problem,
@@ -323,7 +325,8 @@ step(struct rc_solver *s)
         return last || found.change == 0 ? RC_SHORT : RC_MORE;
     }
     last |= found.change <= DBL_EPSILON;
-    /* Four convolutions to judge, two to go on: not before the steps are small, nor every time. */
+    /* Judging costs four convolutions, a step two: so a solution is judged once its steps are small,
+     * and not after every step. */
     if (!last && (it->iterations < it->next_check || found.change > s->load.tol))
         return RC_MORE;
     rc_iterate_checked(s, rc_iterate_judge(s), 5 + it->iterations / 10);
@@ -357,7 +360,7 @@ rc_solver_restart(struct rc_solver *s)
 
 /* ---- other loads, heights and starts ---- */
 
-/* Counts begin anew, and so do figures of a coarser grid, which were those of another load or shape. */
+/* Resets the counts, and the figures of a coarser grid, which belong to the last load and heights. */
 static void
 begin_anew(struct rc_solver *s)
 {
@@ -419,7 +422,7 @@ rc_solver_warm_start(struct rc_solver *s, double load, const double *p, struct r
     rc_nested_free(s);
     for (size_t k = 0; k < s->posed.n; k++) {
         s->it.p[k] = rc_clip(rc_box(s, 0), k, p[k]);
-        s->it.v[k] = -s->posed.h[k]; /* should nodes have to join, the highest first */
+        s->it.v[k] = -s->posed.h[k]; /* should nodes have to join, the highest join first */
     }
     rc_projection_restore(s, rc_iterate_carried(s));
     rc_solver_restart(s);

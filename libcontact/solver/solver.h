@@ -1,6 +1,6 @@
 /*
- * What the solver's front and its methods share. A method is a row of methods.list: it improves the
- * pressure step by step; the front (solver.c) judges, counts and reports.
+ * Shared by the solver's front and its methods. A method is a row of methods.list: it improves the
+ * pressure step by step. The front (solver.c) judges, counts and reports.
  *
  * The problem: p with 0 <= p <= H and sum p dx dy = load that minimises 1/2 p'Kp - h'p. With the
  * gap g = Kp - h - c, c its mean over the elastic nodes (0 < p < H), the solution has g = 0 there,
@@ -21,30 +21,29 @@
 
 /* ---- methods ---- */
 
-/* What a step found. */
+/* Findings of a step. */
 struct rc_found {
-    double change;   /* relative L1 change of p; 0: it stands still                              */
-    double estimate; /* of the relative L1 error of p, from a fresh K p, by a method that has it at
-                        hand; NAN: it has not                                                    */
+    double change;   /* relative L1 change of p; 0: p stands still                              */
+    double estimate; /* of its relative L1 error, from a fresh K p; NAN: the method has none    */
 };
 
 struct rc_method {
     struct rc_method_info info;
     bool nested; /* starts from the solution on coarser grids */
-    /* Convolutions (in equivalents) that it takes, as others were seen to take: nodes of the grid,
-     * and digits that the tolerance asks for. NULL: nobody knows. */
+    /* Convolutions (in equivalents) to expect, from measurements, for a grid of so many nodes and a
+     * tolerance of so many digits. NULL: not measured. */
     double (*convolutions)(double nodes, double digits);
-    /* Bytes of its state; NULL: nobody knows. */
+    /* Bytes of its state; NULL: unknown. */
     size_t (*memory)(const struct rc_shape *shape);
-    /* State beside the solver's own; NULL and *err when memory is short. */
+    /* The method's own state; NULL and *err when memory is short. */
     void *(*new)(const struct rc_solver *solver, struct rc_err *err);
     struct rc_found (*step)(struct rc_solver *solver, void *state);
-    /* Another load: what was learnt about the last one is forgotten. NULL: nothing is learnt. */
+    /* Another load: the method drops what it keeps from step to step. NULL: it keeps nothing. */
     void (*forget)(void *state);
     void (*free)(void *state);
 };
 
-/* The list may be a longer one that includes this one: so others add methods of their own. */
+/* A build may name a list of its own, which includes this one and adds methods. */
 #ifndef RC_METHODS_LIST
 #define RC_METHODS_LIST "libcontact/solver/methods.list"
 #endif
@@ -54,40 +53,40 @@ struct rc_method {
 
 /* ---- the state ---- */
 
-/* The problem as it was posed: constant after rc_solver_new. */
+/* The problem as it was posed: constant after rc_solver_new, but for the heights. */
 struct rc_posed {
-    struct rc_shape whole,
-        shape;           /* of the map, and of what is held here of it: maps are these rows */
-    struct rc_rows rows; /* which of its rows that is                     */
-    const struct rc_ranks
-        *all; /* who does the same, each with its rows or, of a small coarse grid, with all of
-                                   them: where one cannot, none does */
+    struct rc_shape whole; /* of the map                                               */
+    struct rc_shape shape; /* of the rows held here: all maps below hold these rows    */
+    struct rc_rows rows;   /* which rows of the map these are                          */
+    /* The ranks that take part, each with its rows, or, on a small coarse grid, with all of them: if
+     * one fails, all do. */
+    const struct rc_ranks *all;
     enum rc_boundary boundary;
     size_t n, nodes; /* nodes held here, and of the whole map            */
     double cell;     /* dx dy                                                    */
-    double *h;       /* heights less their maximum: the datum costs digits       */
+    double *h;       /* heights less their maximum: a distant datum would cost digits */
     double top;      /* that maximum                                             */
     struct rc_bounds bounds;
-    double height_error;   /* m: what the heights may be off                           */
+    double height_error;   /* m: error of the heights                                  */
     double tol;            /* asked relative L1 error of the pressure                  */
     size_t max_iterations; /* of one load                                              */
     int threads;
-    bool rough;          /* a coarse grid of another's start: its operator is not exact, and its
-                              estimate is taken as it is                               */
+    bool rough;          /* this grid is part of a nested start: its operator is not exact, and its
+                              estimate is believed without a check in double precision */
     bool discretization; /* the coarser grid is solved well enough to compare with   */
 };
 
 struct rc_iterate {
     double *p;         /* in the box, with the load                                          */
     double *v;         /* K p - h: the gap but for a constant                                */
-    bool known, fresh; /* v belongs to p; and comes from a convolution in double precision   */
+    bool known, fresh; /* v belongs to p; v comes from a convolution in double precision     */
     double shift;      /* c: the gap is v - c                                                */
     size_t elastic;    /* nodes between their bounds                                         */
     size_t iterations;
     double convolutions; /* equivalents of one in double precision                             */
     double error;        /* estimated relative L1 error at the last check; NAN: none           */
     size_t checked;      /* iteration of that check                                            */
-    size_t next_check;   /* iteration at which it is estimated again                           */
+    size_t next_check;   /* iteration of the next check                                        */
 };
 
 /* The elastic nodes, and those at a bound that want to leave it. */
@@ -95,26 +94,27 @@ struct rc_working_set {
     unsigned char *w; /* 1 on it, else 0                                                       */
     float *r;         /* residual -g on it, over `length` of the load; elsewhere nothing        */
     float offset;     /* its mean there                                                        */
-    /* w and r of the rows before and after those held here, while nodes are sifted; NULL: without ranks */
+    /* w and r of the rows before and after those held here, while nodes are sifted; NULL: without
+     * ranks */
     unsigned char *beside_w;
     float *beside_r;
     size_t size;
-    double saturated; /* sum of rc_room over the nodes off it at their upper bounds            */
-    double left_out;  /* what the nodes left out of it would carry, times per_pressure          */
-    /* Nodes that changed sides since the preconditioner was told w, and since it measured
-     * distances; INFINITY: w is another set altogether. */
+    double saturated; /* sum of rc_room over the nodes off the set at their upper bounds       */
+    double left_out;  /* pressure that the nodes sifted out would carry, times per_pressure     */
+    /* Nodes that joined or left since the preconditioner was told w, and since it measured
+     * distances; INFINITY: w is a new set altogether. */
     double changed, moved;
 };
 
 /* The load that is set, and the search for the one that an approach needs. */
 struct rc_load {
     double load; /* N                                                                          */
-    double sum;  /* load / cell: what the nodal pressures add up to                            */
-    /* Single precision has 38 decades, gaps in metres and moduli in pascals can need more: there
-     * pressures are of the order of 1, and a power of 2 keeps them exact. */
+    double sum;  /* load / cell: the sum of the nodal pressures                                */
+    /* Single precision has 38 decades, and gaps in metres with moduli in pascals can need more. So
+     * pressures are scaled to the order of 1, by a power of 2, which rounds nothing. */
     double per_pressure; /* single precision holds p times this ...                            */
     double length;       /* ... and displacements over this (m)                                */
-    double tol;          /* asked of this load: looser while it is sought                      */
+    double tol;          /* tolerance for this load: looser during the search                  */
     double target;       /* the shift wanted, m; 0: the load is given                          */
     double low, high;    /* loads with a smaller and a larger shift; 0, INFINITY: none yet     */
     double last_load, last_shift; /* of the last solution; 0: none                             */
@@ -125,7 +125,7 @@ struct rc_load {
 struct rc_nested {
     bool ahead;               /* there is one, and it is not done                            */
     struct rc_solver *coarse; /* NULL: not yet begun                                         */
-    bool sought; /* the load is sought there too: the one found counts here                  */
+    bool sought; /* the coarse grid seeks the load too, and this grid begins with its result */
 };
 
 struct rc_solver {
@@ -141,7 +141,7 @@ struct rc_solver {
     struct rc_discretization coarse; /* figures of the coarser grid; NAN: none             */
     float *z;                        /* n numbers: corrections, times per_pressure                */
     double *partial;                 /* sums of blocks and rows: reduce.c                         */
-    enum rc_stage { /* what has been done, so that no call comes too early        */
+    enum rc_stage { /* so that a call that comes too early is refused              */
         RC_STAGE_NEW,
         RC_STAGE_STEPPED,
         RC_STAGE_JUDGED /* rc_solver_result describes this pressure */
@@ -160,21 +160,22 @@ rc_elastic(const struct rc_solver *s, size_t k)
     return rc_between(rc_box(s, 0), k, s->it.p[k]);
 }
 
-/* ---- reduce.c: what runs over all nodes ---- */
+/* ---- reduce.c: sums over all nodes ---- */
 
 enum {
     RC_SUMS = 8,
     RC_MOST = RC_SUMS - 1 /* of this the largest is taken, of the others the sum */
 };
-/* Does something with nodes first .. first + n - 1, at most RC_BLOCK_NODES, and adds to sums, which begin at
- * 0. Blocks are taken by several threads, and by the ranks that hold them; the totals are those of the whole
- * map, on all ranks, whoever took which. All ranks call these. */
+/* A pass over nodes first .. first + n - 1, at most RC_BLOCK_NODES, which adds to sums that begin
+ * at 0. Several threads, and the ranks that hold them, take the blocks; all ranks get the totals of
+ * the whole map, and these do not depend on who took which block. All ranks call these. */
 typedef void rc_block(void *ctx, size_t first, size_t n, double *sums);
 void rc_reduce_blocks(const struct rc_solver *solver, rc_block *block, void *ctx,
                       double total[RC_SUMS]);
 /* Rows of RC_SUMS numbers that these need. */
 size_t rc_reduce_partials(const struct rc_shape *shape);
-/* The same where rows come out of a convolution: each adds to rc_reduce_row, between these two. */
+/* The same for rows that come out of a convolution: between these two calls each row adds to
+ * rc_reduce_row. */
 void rc_reduce_rows_begin(const struct rc_solver *solver);
 void rc_reduce_rows_end(const struct rc_solver *solver, double total[RC_SUMS]);
 static inline double *
@@ -187,34 +188,35 @@ rc_reduce_row(const struct rc_solver *s, size_t j)
 
 enum rc_status rc_iterate_new(struct rc_solver *solver);
 void rc_iterate_free(struct rc_solver *solver);
-/* p becomes the mean pressure everywhere. */
+/* p becomes the mean pressure everywhere, within the bounds. */
 void rc_iterate_level(struct rc_solver *solver);
-/* p or the load has been changed from outside: nothing is known of it. */
+/* p or the load has been changed from outside: v and the estimate are unknown. */
 void rc_iterate_forget(struct rc_solver *solver);
 /* v = K p - h in double precision. */
 void rc_iterate_displace(struct rc_solver *solver);
-/* The same in single precision, where that costs less; the RMS of K p in the units of the operator's
- * rows, which its error is relative to, or 0 where it was done in double precision. */
+/* The same in single precision, where that costs less. Returns the RMS of K p in the units of the
+ * operator's rows, to which the rounding error is relative; 0 where it took double precision. */
 double rc_iterate_displace_rows(struct rc_solver *solver);
-/* The method has moved p, and v with it. Where it also summed v over the elastic nodes, that
- * gives the shift; elastic 0: it has not, or there are none. */
+/* The method has moved p, and v with it. `gap`: the sum of v over so many elastic nodes, which gives
+ * the shift; elastic 0: not summed, or no node is elastic. */
 void rc_iterate_moved(struct rc_solver *solver, double gap, double elastic);
-/* It has moved p alone. */
+/* The method has moved p, and not v. */
 void rc_iterate_unknown(struct rc_solver *solver);
-/* Counts begin anew. */
+/* Sets the counts of iterations and convolutions to 0. */
 void rc_iterate_reset(struct rc_solver *solver);
-/* So many more convolutions, in equivalents. */
+/* Counts more convolutions, in equivalents. */
 void rc_iterate_count(struct rc_solver *solver, double convolutions);
 /* The shift: mean of v over the elastic nodes, or, when there are none, the middle between the
  * largest v at an upper bound and the smallest at a lower one. Sets `elastic` and `shift`. */
 void rc_iterate_shift(struct rc_solver *solver);
 /* Sum of p. */
 double rc_iterate_carried(const struct rc_solver *solver);
-/* The load is a constraint that every method keeps; should one lose it, the result is none. */
+/* Whether p carries the load. Every method keeps it; without it a result does not count as
+ * converged. */
 bool rc_iterate_keeps_load(const struct rc_solver *solver);
-/* What the operator's own error may make of the pressure, relative. */
+/* The relative error of the pressure that follows from the operator's own error. */
 double rc_iterate_operator_error(const struct rc_solver *solver);
-/* The error of p was estimated; it is again after so many iterations. */
+/* Notes an estimate of the error of p; the next check comes after `again` iterations. */
 void rc_iterate_checked(struct rc_solver *solver, double error, size_t again);
 /* Estimates the error of p from a fresh K p, with the whole working set. */
 double rc_iterate_judge(struct rc_solver *solver);
@@ -223,35 +225,35 @@ double rc_iterate_judge(struct rc_solver *solver);
 
 enum rc_status rc_working_set_new(struct rc_solver *solver);
 void rc_working_set_free(struct rc_solver *solver);
-/* The working set and the residual on it, from v and the shift; `sift`: without the nodes that
- * would only be pushed back to their bound. */
+/* Finds the working set and the residual on it, from v and the shift; `sift`: without nodes that would
+ * only be pushed back to their bound. */
 void rc_working_set_find(struct rc_solver *solver, bool sift);
-/* The same after v has gone `factor` times q further; off the set p is at a bound. */
+/* The same after v += factor q; off the set p is at a bound. */
 void rc_working_set_follow(struct rc_solver *solver, const float *q, double factor);
-/* All nodes, with what `r` holds. */
+/* The set becomes all nodes; r stays. */
 void rc_working_set_all(struct rc_solver *solver);
-/* The elastic nodes, r = 1 on them; how many. */
+/* The set becomes the elastic nodes, with r = 1 on them; returns their number. */
 size_t rc_working_set_elastic(struct rc_solver *solver);
 /* z = E' A E r; `done` as in rc_preconditioner_apply. The mean of z is still in it. */
 void rc_working_set_correct(struct rc_solver *solver, rc_row *done, void *ctx);
-/* Takes the shift out of z, `share` times how it is spread (rc_preconditioner_nodes); the estimate of
- * the error, the relative L1 norm of what is left. */
+/* Takes the pressure of a shift, `share` times rc_load_share of each node, out of z, and returns the
+ * estimate of the error: the relative L1 norm of the rest of z. */
 double rc_working_set_error(struct rc_solver *solver, double share);
-/* The same, correction and all. */
+/* The correction z and its estimate in one. */
 double rc_working_set_estimate(struct rc_solver *solver);
 
-/* How many of the n nodes from `first` on belong together: *in, some are on the set, or may carry
- * something off it; not, their pressures are all 0. */
+/* How many of the n nodes from `first` on can be treated alike. *in: some may carry something; else
+ * all of them are off the set and their pressures are 0. */
 size_t rc_working_set_stretch(const struct rc_solver *solver, size_t first, size_t n, bool *in);
 
-/* The next set is another one altogether. */
+/* The next set has nothing to do with this one: the preconditioner will be told all of it. */
 void rc_working_set_forget(struct rc_solver *solver);
 
 /* ---- solver.c ---- */
 
-/* p has been changed from outside, or the load: what was learnt is forgotten. */
+/* p or the load has been changed from outside: drops all that was derived from them. */
 void rc_solver_restart(struct rc_solver *solver);
-/* The same contact on another grid, roughly: by the same method, from the same body. */
+/* A solver of the same contact on a coarser grid, with an operator that is not exact: for a start. */
 struct rc_solver *rc_solver_coarse(const struct rc_solver *fine, const struct rc_shape *shape,
                                    const double *h, const struct rc_problem *problem,
                                    struct rc_err *err);
@@ -266,10 +268,10 @@ enum rc_status rc_load_set(struct rc_solver *solver, double load, struct rc_err 
 /* The first load: the one given, or where one is sought a guess. */
 enum rc_status rc_load_first(struct rc_solver *solver, const struct rc_problem *problem,
                              struct rc_err *err);
-/* Another one: given, or, with an approach > 0, sought from the one that is set. */
+/* Another load: the one given, or, with an approach > 0, one that is sought from the present one. */
 enum rc_status rc_load_next(struct rc_solver *solver, double load, double approach,
                             struct rc_err *err);
-/* After a solution: RC_OK when its shift is the one wanted, else the next load is set. */
+/* After a solution: RC_OK when its shift is the wanted one, else it sets the next load. */
 enum rc_status rc_load_search(struct rc_solver *solver);
 
 /* ---- nested.c ---- */
@@ -278,12 +280,12 @@ enum rc_status rc_load_search(struct rc_solver *solver);
  * Nothing is iterated yet. */
 void rc_nested_new(struct rc_solver *solver);
 void rc_nested_free(struct rc_solver *solver);
-/* One iteration on the coarser grids; after the last one the pressure found there is the start
- * here, and solver->nested is not ahead. */
+/* One iteration on the coarser grids. After the last one their pressure is the start on this grid, and
+ * solver->nested.ahead is false. */
 void rc_nested_step(struct rc_solver *solver);
-/* Ends it where it stands: the pressure reached there is the start here. */
+/* Ends the nested start where it is: its present pressure is the start on this grid. */
 void rc_nested_end(struct rc_solver *solver);
-/* Whether nothing of it has been done. */
+/* Whether the nested start is ahead and has not begun. */
 bool rc_nested_untouched(const struct rc_solver *solver);
 /* The solver of the grid that is being iterated: this one, or one below. */
 const struct rc_solver *rc_nested_at_work(const struct rc_solver *solver);
@@ -292,9 +294,9 @@ double rc_nested_convolutions(const struct rc_solver *solver);
 
 /* ---- projection.c ---- */
 
-/* The pressure gets the load by scaling what its elastic nodes carry above their lower bounds, as
- * far as the box lets them; what they cannot carry goes to the nodes of smallest g, what is too
- * much is taken from all. */
+/* Makes p carry the load: scales what the elastic nodes carry above their lower bounds, within the
+ * box. What they cannot carry goes to the nodes of smallest g; where nodes at their upper bounds alone
+ * carry too much, all nodes are scaled. */
 void rc_projection_balance(struct rc_solver *solver, const double *g);
 /* The same where the load is off by more than rounding; nodes join by v. */
 void rc_projection_restore(struct rc_solver *solver, double carried);
@@ -302,17 +304,17 @@ void rc_projection_restore(struct rc_solver *solver, double carried);
 /* The nearest point of the box with the load to this map: one shift for all nodes, clipped. */
 void rc_projection_of(const struct rc_solver *solver, double *y);
 
-/* What is carried too much at one shift, and how that grows with it; it is monotone. */
+/* The load at one shift less the wanted load, and its slope; it grows with the shift. */
 struct rc_excess {
     double load, slope;
 };
 typedef struct rc_excess rc_excess_at(void *ctx, double shift);
-/* The shift between low and high where nothing is too much, by Newton's method from `start`. `least`:
- * a load that is nothing. */
+/* The shift between low and high where the excess is 0, by Newton's method from `start`; an excess up
+ * to `least` counts as 0. */
 double rc_newton(rc_excess_at *at, void *ctx, double low, double high, double start, double least);
 
-/* A step of the nodes of the working set, p + alpha (d - mean), and the way back into the box. What it
- * comes to is written to p and, times per_pressure, to delta, which is 0 off the set. */
+/* A step of the nodes of the working set, p + alpha (d - mean), and the way back into the box. The
+ * result is in p; the change of p, times per_pressure, is in delta, which is 0 off the set. */
 struct rc_move {
     struct rc_solver *solver;
     const float *d; /* direction, times per_pressure; where it is 0 its mean does not count   */
@@ -329,15 +331,15 @@ void rc_move_shift(struct rc_move *move);
 
 /* ---- tiles.c ---- */
 
-/* What is known of a tile after a move. */
+/* A tile after a move. */
 struct rc_tile {
-    double room;  /* by so much all its elastic nodes may be shifted */
-    size_t count; /* of these                                        */
+    double room;  /* the shift that all its elastic nodes can take   */
+    size_t count; /* its elastic nodes                               */
 };
 size_t rc_tiles(const struct rc_shape *shape);
 /* By a shift for each tile of the map. A node at its bound that would leave the box stays there, and
- * is not called clipped. False when the load cannot be kept that way: what has been moved is in
- * delta. */
+ * does not count as clipped. False when the load cannot be kept that way; delta then tells what has
+ * been moved. */
 bool rc_move_tiles(struct rc_move *move);
 
 /* ---- safeguard.c ---- */
@@ -345,7 +347,7 @@ bool rc_move_tiles(struct rc_move *move);
 struct rc_safeguard {
     double energy; /* of the last p that was kept; begins with INFINITY */
 };
-/* Whether the energy of the pressure has risen above that of the last one kept; else this one is. */
+/* Whether the energy has risen above that of the last p that was kept; if not, this p is kept. */
 bool rc_safeguard_raised(struct rc_safeguard *safeguard, const struct rc_solver *solver);
 /* The pressure goes back to `old`, and from there towards the projection of p - g / |K|, to the
  * lowest point on that way. t, r: scratch of n. Costs two convolutions. */

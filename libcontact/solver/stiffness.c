@@ -1,8 +1,9 @@
 /*
- * How much more load a closer approach needs, the elastic nodes staying what they are: with t the
- * pressure that displaces all of them by one unit, K_WW t = 1, the stiffness is the sum of t.
- * Conjugate gradients with the preconditioner of the contact itself; the sum is stationary at the
- * solution, so its error is the square of theirs, and single precision is enough.
+ * The stiffness: the load that one unit of approach adds while the set of elastic nodes stays the
+ * same. With t the pressure that displaces all of them by one unit, K_WW t = 1, it is the sum of t.
+ * The equation is solved by conjugate gradients with the preconditioner of the contact. The sum is
+ * stationary at the solution, so its relative error is the square of that of t, and single
+ * precision is enough.
  */
 #include "solver.h"
 

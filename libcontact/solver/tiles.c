@@ -1,19 +1,19 @@
 /*
  * A step and the way back into {0 <= p <= H, sum p = S}, tile by tile.
  *
- * A node that is stopped by its bound leaves a surplus. One shift of all nodes takes it back, but
- * surpluses are not spread evenly: what is left of them has waves as long as the map, and K
- * multiplies a wave by 2/(E* q). The clipped step is then too long for the energy, the more the
- * larger the map. Here each tile of 16 x 16 nodes keeps what it carries by a shift of its own, and
- * no wave longer than a tile is left. Only what a tile cannot keep, because it would have to pull or
- * to carry more than its upper bounds, is shared by all elastic nodes.
+ * A node that its bound stops leaves a surplus of load. One shift of all nodes takes the surplus
+ * back, but it is not spread evenly: a remainder with waves as long as the map stays, and K
+ * multiplies a wave by 2/(E* q). The clipped step is then too long for the energy, and the more so
+ * the larger the map. Here each tile of 16 x 16 nodes keeps its own load by a shift of its own, so
+ * that no wave longer than a tile remains. All elastic nodes share only the load that a tile cannot
+ * keep, because its nodes would have to pull or to exceed their upper bounds.
  *
- * Before the shift the neighbours of a node that is stopped are told: the step counts on the pull
- * that it would have had. In the quadratic form of the inverse, A, the nearest point of the box is p
- * + d + A mu with multipliers mu on the stopped nodes; one Jacobi sweep with the coefficients of A
- * between a node and its eight neighbours gives most of it. Errors after 1, 2, 3, 4 steps at 2048 x
- * 2048, 39 % contact, rough down to 2 nodes: 0.060, 4.2e-3, 3.1e-4, 7.3e-5 without, 0.047, 2.0e-3,
- * 1.7e-4, 3.6e-5 with it.
+ * The step was computed as if the stopped nodes had moved freely, so before the shift their
+ * neighbours are corrected. In the quadratic form of the inverse, A, the nearest point of the box
+ * is p + d + A mu with multipliers mu on the stopped nodes; one Jacobi sweep with the coefficients
+ * of A between a node and its eight neighbours gives most of it. Errors after 1, 2, 3, 4 steps at
+ * 2048 x 2048, 39 % contact, rough down to 2 nodes: 0.060, 4.2e-3, 3.1e-4, 7.3e-5 without, 0.047,
+ * 2.0e-3, 1.7e-4, 3.6e-5 with it.
  *
  * All of this is done in one pass, in cache.
  */
@@ -29,11 +29,11 @@ enum {
     EDGE = TILE + 2, /* with one node around */
     ROUNDS = 60      /* of Newton's method in a tile: 3 or 4 do */
 };
-/* Of a Jacobi sweep: with 1, neighbours that are stopped together would be pushed too far. */
+/* Damping of the Jacobi sweep: with 1, neighbours that are both stopped would be pushed too far. */
 static const float damping = 0.8F;
 /* A node that the shift leaves alone: at its lower bound, and at its upper one. */
 static const float stays_low = -FLT_MAX, stays_high = FLT_MAX;
-/* What tiles could not keep, relative to the tolerance, that a single one may take. */
+/* A remainder up to this, relative to the tolerance, is put into a single tile. */
 static const double little = 1e-2;
 
 /* ---- one tile ---- */
@@ -48,17 +48,18 @@ struct place {
     struct rc_box box;
 };
 
-/* A tile by itself. What the step would make of it is in single precision, in units of rows, and counts
- * from the lower bound: it is only to tell the shift, and what that leaves is put right at the end. */
+/* A copy of a tile. The pressures after the step, y, are in single precision, in the units of the
+ * rows, and count from the lower bound: only the shift follows from them, and the rest is corrected
+ * at the end. */
 struct copy {
     double p[NODES];
     float d[NODES], on[NODES]; /* 1 on the set, else 0                                        */
-    float y[NODES];            /* where nodes of the set would come to lie; off it: stays_low */
-    float push[NODES];         /* what neighbours that are stopped have put into it           */
-    double sum;                /* what its nodes are to carry together, counted like y        */
+    float y[NODES];            /* pressures of the set after the step; off the set: stays_low */
+    float push[NODES];         /* the correction from stopped neighbours                      */
+    double sum;                /* the load of the tile after the step, counted like y         */
     bool out;                  /* a node would leave the box                                  */
     bool held_in;              /* a node at its bound would leave the box, and is not moved   */
-    /* of a map of bounds only: the upper ones, and how far y may go */
+    /* with a map of bounds only: the upper bounds, and the largest y */
     double high[NODES];
     float most[NODES];
 };
@@ -78,7 +79,7 @@ take(const struct place *t, struct copy *c)
     }
 }
 
-/* The bounds of its nodes, from those of its rows of the map. */
+/* The bounds of its nodes, out of the map. */
 RC_INLINE struct rc_box
 take_bounds(const struct place *t, struct rc_box box, double scale, struct copy *c)
 {
@@ -90,14 +91,14 @@ take_bounds(const struct place *t, struct rc_box box, double scale, struct copy 
     return box;
 }
 
-/* How far y may go. */
+/* The largest y of a node. */
 RC_INLINE float
 most_of(struct rc_box box, float most, const float *mosts, size_t k)
 {
     return box.highs != NULL ? mosts[k] : most;
 }
 
-/* Where a node comes to lie by itself: at its bound, where it would leave the box from there. */
+/* The pressure after the step before any shift: a node at its bound that would leave the box stays. */
 RC_INLINE double
 aimed(double low, double high, double p, double v)
 {
@@ -130,8 +131,8 @@ aim(struct rc_box box, double alpha, double mean, double scale, struct copy *c)
     c->held_in = held > 0;
 }
 
-/* One sweep for the multipliers; the nodes that are stopped come to rest at their bounds. `near`:
- * the coefficients of A. */
+/* One sweep for the multipliers; the stopped nodes go to their bounds. `near`: the coefficients of
+ * A. */
 RC_INLINE void
 push_back(struct rc_box box, double (*near)[3], float most, struct copy *c)
 {
@@ -160,8 +161,8 @@ push_back(struct rc_box box, double (*near)[3], float most, struct copy *c)
         }
 }
 
-/* The shift with which the nodes carry `sum`: Newton's method, for what they carry grows with it in
- * straight pieces; inside a bracket, because two bounds make it neither convex nor concave. */
+/* The shift with which the nodes carry `sum`. Their load is piecewise linear in the shift, which suits
+ * Newton's method; with two bounds it is neither convex nor concave, which calls for a bracket. */
 RC_INLINE float
 shift_of(struct rc_box box, const float *y, float most, const float *mosts, float sum)
 {
@@ -200,7 +201,7 @@ enum { /* sums of the pass */
     OUT
 };
 
-/* p becomes y + push + shift in the box, in double precision, and y the way there. */
+/* p becomes y + push + shift in the box, in double precision; y becomes the change of p. */
 RC_INLINE void
 settle(struct rc_box box, double alpha, double mean, double shift, double scale, struct copy *c,
        struct rc_tile *tile, double *sums)
@@ -221,7 +222,8 @@ settle(struct rc_box box, double alpha, double mean, double shift, double scale,
         below = v - low;
         above = high - v;
         carried += on * below;
-        /* multiplied, not chosen: gcc 12 loses sums of lanes where a chain of choices becomes branches */
+        /* multiplied, not chosen: gcc 12 loses sums of lanes where a chain of choices becomes
+         * branches */
         left = above < below ? above : below;
         left *= on;
         count += left > 0 ? 1 : 0;
@@ -257,7 +259,7 @@ move_copy(struct rc_box box, struct copy *c, const struct place *t, const struct
         push_back(box, m->solver->op->inverse_near, most, c);
     else
         memset(c->push, 0, sizeof c->push);
-    if (c->sum <= 0) /* it cannot keep that */
+    if (c->sum <= 0) /* the tile cannot keep its load: it would have to pull */
         for (size_t k = 0; k < NODES; k++)
             c->push[k] = stays_low;
     else if (c->out || c->held_in)
@@ -287,7 +289,7 @@ struct tiles {
     struct rc_move *m;
     size_t nx, ny; /* of tiles */
     struct rc_tile *tiles;
-    double shift; /* of what they could not keep */
+    double shift; /* the load that they could not keep */
 };
 
 static bool
@@ -338,7 +340,7 @@ move_band(struct tiles *a, size_t by)
     }
 }
 
-/* ---- what they could not keep ---- */
+/* ---- the load that tiles could not keep ---- */
 
 static inline bool
 elastic(const struct place *t, size_t k)
@@ -361,7 +363,7 @@ shift_tile(const struct tiles *a, size_t q, double shift)
             }
 }
 
-/* How much more they carry with that shift, and how that grows. */
+/* The load that this shift adds, less the wanted one, and its slope. */
 static struct rc_excess
 excess_of(void *ctx, double shift)
 {
@@ -394,8 +396,8 @@ excess_of(void *ctx, double shift)
     return (struct rc_excess){.load = total[0] - a->shift, .slope = total[1]};
 }
 
-/* The tile here whose elastic nodes have most room, which *room is; the number of tiles when there is
- * none, or another rank holds one with as much before or more. */
+/* The tile with the most room for load, and that *room, among those of all ranks. The number of tiles
+ * when there is none, or when it belongs to another rank. */
 static size_t
 roomiest(const struct tiles *a, double *room)
 {
@@ -419,7 +421,7 @@ roomiest(const struct tiles *a, double *room)
     return best;
 }
 
-/* All elastic nodes share the rest. False: they cannot. */
+/* All elastic nodes share the rest; false when they cannot carry it. */
 static bool
 share(struct tiles *a, double rest)
 {

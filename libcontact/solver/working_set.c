@@ -1,19 +1,19 @@
 /*
  * The working set, the residual on it, and the correction that follows from it.
  *
- * On it are the elastic nodes, and nodes at a bound that want to leave it. A node that penetrates
- * the other body (p = 0 and g < 0; the like at the upper bound) need not want to: next to an edge of
- * contact that is about to be pressed less, it overlaps a little, and once its neighbours are in
- * touch it would have to pull. Were it to join, the preconditioner would count on that pull, which
- * the bound then takes away, and the step would be too long: at 2048 x 2048 and 50 % contact that
- * doubled the number of steps.
+ * The elastic nodes are on the set, and so are nodes at a bound that would leave it. Not every node
+ * that penetrates the other body (p = 0 and g < 0, or the like at the upper bound) would: beside an
+ * edge of contact whose pressure is about to fall, a node overlaps a little, and as soon as its
+ * neighbours fit it would have to pull. With such nodes on the set the preconditioner counts on
+ * that pull, the bound takes it away, and the step is too long: at 2048 x 2048 and 50 % contact
+ * that doubled the number of steps.
  *
- * What the set would load it with is z = A r, A the inverse of the operator, r the residual
- * extended smoothly: (A r)_i ~ sum_j a_ij (r_i - r_j), on a half-space with a_ij = |x_i -
- * x_j|^(-3). The sum falls off so fast that its sign can be told from the eight neighbours. A node
- * joins unless that sign is the wrong one; one without neighbours in the set always does, and so do
- * all as the residual of their neighbours goes to 0. The estimate that is believed at last is made
- * with all of them.
+ * The pressure that a node would get is z = A r, with A the inverse of the operator and r the
+ * residual, extended smoothly: (A r)_i ~ sum_j a_ij (r_i - r_j), with a_ij = |x_i - x_j|^(-3) on a
+ * half-space. The sum falls off so fast that its sign can be told from the eight neighbours. A node
+ * joins unless that sign is the wrong one. A node without neighbours in the set always joins, and
+ * so do all nodes once the residual of their neighbours is near 0. The estimate that ends the
+ * iteration is made with all of them.
  */
 #include "solver.h"
 
@@ -23,9 +23,9 @@
 
 #include "libcontact/memory.h"
 
-enum {        /* bits of w, while this is undecided */
-    WAS = 1,  /* it was in the set before      */
-    WANTS = 2 /* at a bound, and wants to leave it */
+enum {        /* bits of w, while this is undecided          */
+    WAS = 1,  /* it was in the set before                    */
+    WANTS = 2 /* it is at a bound, and its gap has the wrong sign */
 };
 
 void
@@ -155,8 +155,8 @@ next(const unsigned char *w, size_t k, size_t end)
     return k;
 }
 
-/* Leaves in z whether a node that wants to is to join: it is at its lower bound with r > 0, or at the
- * upper one with r < 0. */
+/* Sets z to 1 at the nodes marked WANTS that are to join, else to 0. Such a node is at its lower bound
+ * with r > 0, or at its upper one with r < 0. */
 static void
 decide(const struct sift *c)
 {
@@ -199,13 +199,13 @@ settle_block(void *at, size_t first, size_t n, double *sums)
         sums[OUT]++;
         sums[SATURATED] += rc_at_low(box, k, s->it.p[k]) ? 0 : rc_room(box, k);
         sums[SIZE] += fabs((double)s->set.r[k]);
-        sums[CHANGED] += was ? 1 : -1; /* they were counted as if they had joined */
+        sums[CHANGED] += was ? 1 : -1; /* the pass before counted it as a node that joins */
         s->set.r[k] = 0;
     }
 }
 
-/* Takes those that would only be pushed back out of the set; the sums of the residual, of the
- * nodes and of those that changed sides follow. Uses z. */
+/* Takes nodes that would only be pushed back out of the set, and corrects the sum of the residual, the
+ * number of nodes and that of changes. Uses z. */
 static void
 sift_out(struct rc_solver *s, double *residual, double *count, double *changed)
 {
@@ -227,11 +227,11 @@ sift_out(struct rc_solver *s, double *residual, double *count, double *changed)
 
 /* ---- the set and its residual ---- */
 
-/* What the pass over all nodes needs; sums in the order of the first of the above. */
+/* Context of the pass over all nodes; its sums are the first of the above. */
 struct residual {
     struct rc_solver *s;
-    unsigned char wants; /* what is noted of a node at a bound that wants to leave it        */
-    const float *q;      /* v goes `factor` times that further; NULL: it stays               */
+    unsigned char wants; /* the mark of a node at a bound with a gap of the wrong sign       */
+    const float *q;      /* v += factor q; NULL: v stays                                     */
     double factor;
 };
 
@@ -418,10 +418,10 @@ rc_working_set_elastic(struct rc_solver *s)
 
 /* ---- the correction, and the error that it tells ---- */
 
-/* Parts of the working set that may change sides before the preconditioner is told, and before it
+/* The part of the working set that may change before the preconditioner is told, and before it
  * measures its distances again. */
 static const double little = 1e-3, much = 1.0;
-/* Relative size of a correction below which only single nodes of the set are wrong. */
+/* Relative size of a correction below which at most single nodes of the set are wrong. */
 static const double nearly = 2e-3;
 
 void
@@ -452,7 +452,7 @@ enum { /* sums of the estimate */
     BEYOND
 };
 
-/* z becomes what remains without the shift. */
+/* Takes the pressure of the shift out of z. */
 RC_CLONES static void
 centre(size_t n, const unsigned char *restrict w, const float *restrict node, float share,
        float *restrict z, double *sums)
@@ -485,7 +485,7 @@ beyond_in(struct rc_box box, size_t n, const double *restrict p, const float *re
     sums[BEYOND] = sum;
 }
 
-/* What of p + z lies outside the box. */
+/* The part of p + z that lies outside the box. */
 RC_CLONES static void
 beyond(struct rc_box box, size_t n, const double *p, const float *z, double scale, double *sums)
 {
@@ -508,11 +508,11 @@ size_block(void *at, size_t first, size_t n, double *sums)
         beyond(rc_box(s, first), n, s->it.p + first, s->z + first, scale, sums);
 }
 
-/* The error of a node ends at the bounds of its pressure: what of its correction lies outside the
- * box is none. (What its neighbours were to carry instead is none either, but to take that off as
- * well, once more as much, was too much where one node made a tenth of the correction.) While the
- * set is far from the right one, nodes yet to join make up for that: without it the estimate of
- * errors of 5e-3 and more would be down to 0.9 of them. */
+/* The error of a node ends at the bounds of its pressure, so the part of its correction outside the
+ * box is no error. (Neither is the part that its neighbours would carry instead, but subtracting
+ * that too, as much again, was too much where one node made a tenth of the correction.) While the
+ * set is far from the right one nothing is subtracted, to make up for nodes that have yet to join:
+ * otherwise estimates of errors of 5e-3 and more would be as low as 0.9 of them. */
 double
 rc_working_set_error(struct rc_solver *s, double share)
 {
