@@ -137,6 +137,18 @@ next_load(const struct rc_load *q, double load, double shift)
     return shift < q->target ? load * 2 : load / 2;
 }
 
+/* The next solution is more accurate. The bracket, which came from less accurate ones, may not hold the
+ * load that is sought: it is dropped. */
+static void
+tighten(struct rc_load *q, double tol)
+{
+    if (!(tol < q->tol))
+        return;
+    q->tol = tol;
+    q->low = 0;
+    q->high = INFINITY;
+}
+
 enum rc_status
 rc_load_search(struct rc_solver *s)
 {
@@ -164,10 +176,10 @@ rc_load_search(struct rc_solver *s)
     if (off <= 0.1 * s->posed.tol || next == q->load || q->high <= q->low * (1 + 1e-15)) {
         if (q->tol <= s->posed.tol)
             return RC_OK;
-        q->tol = s->posed.tol; /* the right load, but not yet well solved */
+        tighten(q, s->posed.tol); /* the right load, but not yet well solved */
         return RC_MORE;
     }
-    q->tol = fmax(s->posed.tol, fmin(loose, 0.1 * off));
+    tighten(q, fmax(s->posed.tol, 0.1 * off));
     if (rc_load_set(s, next, NULL) != RC_OK)
         return RC_SHORT;
     rc_projection_balance(s, s->it.v);
