@@ -117,6 +117,14 @@ rc_bounds_pose(const struct rc_bounds *b, const double *highs, struct rc_problem
     problem->hardness_map = highs;
 }
 
+void
+rc_bounds_keep_load(struct rc_bounds *b, double sum)
+{
+    double apart = b->box.highs != NULL ? b->unit : b->highest - b->box.low;
+
+    b->box.rest = rc_bounded(b) ? fmax(ldexp(apart, -42), 1e-14 * rc_above(b, sum)) : 0;
+}
+
 /* ---- what they can carry ---- */
 
 enum rc_status

@@ -11,6 +11,9 @@
 #ifndef RC_BOUNDS_H
 #define RC_BOUNDS_H
 
+#include <float.h>
+#include <math.h>
+
 #include "libcontact/common.h"
 
 #define RC_INLINE static inline __attribute__((always_inline))
@@ -18,6 +21,7 @@
 struct rc_box {
     double low, high;    /* Pa                                                                 */
     const double *highs; /* Pa, node by node, instead of high; NULL: high is that of all nodes */
+    double rest;         /* Pa: so near to a bound a pressure is at it, but for rounding       */
     double per_unit;     /* 1 / (unit of the bounds): rc_room counts in units                  */
 };
 
@@ -46,7 +50,7 @@ rc_box_at(const struct rc_bounds *b, size_t first)
 static inline struct rc_box
 rc_box_of_numbers(struct rc_box box)
 {
-    return (struct rc_box){.low = box.low, .high = box.high};
+    return (struct rc_box){.low = box.low, .high = box.high, .rest = box.rest};
 }
 
 static inline double
@@ -103,6 +107,27 @@ rc_clip(struct rc_box box, size_t k, double p)
     return p < high ? p : high;
 }
 
+/* The same for a pressure that stays: within the rounding of a bound it is at it. Otherwise, where a
+ * load is a whole number of nodes times the hardness, nodes would end a few units of the last digit
+ * below the hardness, and count as elastic. */
+static inline double
+rc_settled(struct rc_box box, size_t k, double p)
+{
+    double low = rc_low(box, k), high = rc_high(box, k);
+
+    p = p > low + box.rest ? p : low;
+    return p < high - box.rest ? p : high;
+}
+
+/* The box for numbers as large as `most`, whose rounding may be more than `rest`. */
+static inline struct rc_box
+rc_box_rounded(struct rc_box box, double most)
+{
+    if (box.rest > 0)
+        box.rest = fmax(box.rest, 4 * DBL_EPSILON * most);
+    return box;
+}
+
 /* ---- of the map ---- */
 
 /* A sum of rc_room, in Pa. */
@@ -152,6 +177,9 @@ enum rc_status rc_bounds_keep(struct rc_bounds *b, size_t n);
 void rc_bounds_free(struct rc_bounds *b);
 /* Poses a problem with these bounds; `highs`: the map on that problem's grid, NULL without a map. */
 void rc_bounds_pose(const struct rc_bounds *b, const double *highs, struct rc_problem *problem);
+/* Nodal pressures of this sum are kept to 1e-14 of it: so near to its bound a node is at it. Without an
+ * upper bound a node comes to the lower one exactly. */
+void rc_bounds_keep_load(struct rc_bounds *b, double sum);
 /* RC_FAIL when they cannot carry this load (N) on so many cells (m2). */
 enum rc_status rc_bounds_carry(const struct rc_bounds *b, double load, double cell, size_t nodes,
                                struct rc_err *err);

@@ -41,6 +41,7 @@ rc_load_set(struct rc_solver *s, double load, struct rc_err *err)
     s->load.sum = load / s->posed.cell;
     if (s->load.sum >= bounds->full * (1 - 8 * DBL_EPSILON))
         s->load.sum = bounds->full; /* every node yields, whatever the rounding */
+    rc_bounds_keep_load(&s->posed.bounds, s->load.sum);
     set_units(&s->load, s->posed.nodes, s->op->unit);
     return RC_OK;
 }

@@ -95,6 +95,7 @@ rc_projection_of(const struct rc_solver *s, double *y)
     struct map map = {.s = s, .y = y};
     const struct rc_bounds *bounds = &s->posed.bounds;
     double least = INFINITY, most = -INFINITY, low, high, mu, sum = s->load.sum;
+    struct rc_box box;
 
     if (fill(s, y))
         return;
@@ -107,8 +108,9 @@ rc_projection_of(const struct rc_solver *s, double *y)
     low = bounds->box.low - most; /* nothing above its lower bound */
     high = bounds->box.low + rc_reach(bounds, rc_above(bounds, sum)) - least;
     mu = rc_newton(excess_of_map, &map, low, high, fmin(fmax(0, low), high), 4 * DBL_EPSILON * sum);
+    box = rc_box_rounded(bounds->box, fmax(most, -least));
     for (size_t k = 0; k < s->posed.n; k++)
-        y[k] = rc_clip(bounds->box, k, y[k] + mu);
+        y[k] = rc_settled(box, k, y[k] + mu);
 }
 
 /* ---- of a step ---- */
@@ -117,6 +119,7 @@ rc_projection_of(const struct rc_solver *s, double *y)
  * clip(y + shift, 0, H). Loads count from the lower bounds. */
 struct step {
     struct rc_move *m;
+    struct rc_box box;
     double shift, wanted;
 };
 
@@ -187,14 +190,13 @@ settle_block(void *at, size_t first, size_t n, double *sums)
 {
     const struct step *c = at;
     const struct rc_solver *s = c->m->solver;
-    const struct rc_box box = rc_box(s, 0);
 
     for (size_t k = first; k < first + n; k++) {
         double y = s->it.p[k], to, change;
         c->m->delta[k] = 0;
         if (!s->set.w[k])
             continue;
-        to = rc_clip(box, k, y + c->shift);
+        to = rc_settled(c->box, k, y + c->shift);
         change = to - (y - way(c->m, k));
         s->it.p[k] = to;
         c->m->delta[k] = (float)(change * s->load.per_pressure);
@@ -216,6 +218,7 @@ rc_move_shift(struct rc_move *m)
         rc_working_set_all(s);
         c.wanted = all;
     }
+    c.box = rc_box_rounded(bounds->box, total[RC_MOST]);
     high = rc_reach(bounds, all) + fabs(bounds->box.low) + total[RC_MOST];
     c.shift = rc_newton(excess_of_step, &c, -high, high, 0, 4 * DBL_EPSILON * s->load.sum);
     rc_reduce_blocks(s, settle_block, &c, total);
@@ -269,7 +272,7 @@ multiply_block(void *at, size_t first, size_t n, double *sums)
     for (size_t k = first; k < first + n; k++) {
         double to = scaled(c, box, k);
         if (rc_elastic(c->s, k) && (!c->cap || rc_at_high(box, k, to)))
-            c->s->it.p[k] = c->cap ? rc_high(box, k) : to;
+            c->s->it.p[k] = c->cap ? rc_high(box, k) : rc_settled(box, k, to);
     }
 }
 
@@ -397,7 +400,7 @@ add_nodes(struct rc_solver *s, double rest, const double *g)
         if (g[k] < last) {
             s->it.p[k] = rc_high(box, k);
         } else if (taken < wanted) { /* of this gap not all need join */
-            s->it.p[k] = rc_clip(box, k, rc_low(box, k) + rest - rc_rooms(bounds, taken));
+            s->it.p[k] = rc_settled(box, k, rc_low(box, k) + rest - rc_rooms(bounds, taken));
             taken += rc_room(box, k);
         }
     }
@@ -465,9 +468,11 @@ rc_projection_balance(struct rc_solver *s, const double *g)
     elastic = rc_rooms(bounds, total[IN_BETWEEN]);
     full = rc_rooms(bounds, total[FULL]);
     target = sum - full;
-    if (elastic == 0 && fabs(target) <= 4 * DBL_EPSILON * sum)
-        return; /* every loaded node at the bound, and that is the load */
-    if (elastic > 0 && target > 0 && target <= elastic) {
+    if (fabs(target) <= 1e-14 * sum)
+        target = 0; /* the nodes at the bound carry the load, and the others nothing */
+    if (elastic == 0 && target == 0)
+        return;
+    if (elastic > 0 && target >= 0 && target <= elastic) {
         scale_elastic(s, target);
         return;
     }

@@ -110,7 +110,7 @@ move_block(void *at, size_t first, size_t n, double *sums)
 
     (void)sums;
     for (size_t k = first; k < first + n; k++)
-        s->it.p[k] = rc_clip(box, k, s->it.p[k] + w->length * w->t[k]);
+        s->it.p[k] = rc_settled(box, k, s->it.p[k] + w->length * w->t[k]);
 }
 
 void

@@ -421,7 +421,7 @@ rc_solver_warm_start(struct rc_solver *s, double load, const double *p, struct r
         return RC_FAIL;
     rc_nested_free(s);
     for (size_t k = 0; k < s->posed.n; k++) {
-        s->it.p[k] = rc_clip(rc_box(s, 0), k, p[k]);
+        s->it.p[k] = rc_settled(rc_box(s, 0), k, p[k]);
         s->it.v[k] = -s->posed.h[k]; /* should nodes have to join, the highest join first */
     }
     rc_projection_restore(s, rc_iterate_carried(s));

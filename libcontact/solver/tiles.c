@@ -207,6 +207,7 @@ settle(struct rc_box box, double alpha, double mean, double shift, double scale,
        struct rc_tile *tile, double *sums)
 {
     const double back = 1 / scale, low = box.low, number = box.high, *map = box.highs;
+    const double rest = box.rest;
     double size = 0, carried = 0, room = INFINITY, count = 0;
 
 #pragma omp simd reduction(+ : size, carried, count) reduction(min : room)
@@ -215,8 +216,8 @@ settle(struct rc_box box, double alpha, double mean, double shift, double scale,
         double high = rc_bound(map, number, k);
         double v = aimed(low, high, p, p + step) + ((double)c->push[k] + shift) * back;
         double on = (double)c->on[k], below, above, left, change;
-        v = v > low ? v : low;
-        v = v < high ? v : high;
+        v = v > low + rest ? v : low;
+        v = v < high - rest ? v : high;
         v = on > 0 ? v : p;
         change = v - p;
         below = v - low;
@@ -357,7 +358,7 @@ shift_tile(const struct tiles *a, size_t q, double shift)
     for (size_t j = 0; j < t.ny; j++)
         for (size_t k = j * t.stride; k < j * t.stride + t.nx; k++)
             if (elastic(&t, k)) {
-                double v = rc_clip(t.box, k, t.p[k] + shift), change = v - t.p[k];
+                double v = rc_settled(t.box, k, t.p[k] + shift), change = v - t.p[k];
                 t.p[k] = v;
                 t.delta[k] += (float)(change * s->load.per_pressure);
             }

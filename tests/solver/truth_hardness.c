@@ -7,7 +7,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#include "tests/contact_case.h"
+#include "dense.h"
 
 static const double estar = 1e11;
 
@@ -85,161 +85,24 @@ enum {
     SIDE = 24,
     N = SIDE * SIDE
 };
-static double K[N][N], factor[N][N];
-
-/* The displacement at so many nodes away from a unit pressure on one cell: Love's rectangle, or the
- * sum of the waves that the grid holds, and the mean of one cell, which only changes the shift and
- * makes K definite. */
-static double
-influence(const struct rc_shape *s, enum rc_boundary boundary, size_t i, size_t j)
-{
-    double u = s->dx / estar;
-
-    if (boundary == RC_FREE)
-        return love_displacement((double)i * s->dx, (double)j * s->dy, s->dx / 2, s->dy / 2, estar);
-    for (size_t a = 0; a < SIDE; a++)
-        for (size_t b = 0; b < SIDE; b++) {
-            double ka = a > SIDE / 2 ? (double)a - SIDE : (double)a;
-            double kb = b > SIDE / 2 ? (double)b - SIDE : (double)b;
-            double q = 2 * exact_pi * hypot(ka / (SIDE * s->dx), kb / (SIDE * s->dy));
-            double phase = 2 * exact_pi * ((double)(a * i % SIDE) + (double)(b * j % SIDE)) / SIDE;
-            if (a + b > 0)
-                u += 2 / (estar * q) * cos(phase) / N;
-        }
-    return u;
-}
-
-static void
-fill(const struct rc_shape *s, enum rc_boundary boundary)
-{
-    static double at[SIDE][SIDE];
-
-    for (size_t j = 0; j < SIDE; j++)
-        for (size_t i = 0; i < SIDE; i++)
-            at[j][i] = influence(s, boundary, i, j);
-    for (size_t k = 0; k < N; k++)
-        for (size_t l = 0; l < N; l++) {
-            size_t i = k % SIDE > l % SIDE ? k % SIDE - l % SIDE : l % SIDE - k % SIDE;
-            size_t j = k / SIDE > l / SIDE ? k / SIDE - l / SIDE : l / SIDE - k / SIDE;
-            K[k][l] = at[j][i];
-        }
-}
-
-/* Cholesky's factor of the part of K that belongs to these nodes; x: two right-hand sides, and
- * solutions. */
-static void
-solve_part(size_t n, const size_t *node, double (*x)[2])
-{
-    for (size_t k = 0; k < n; k++)
-        for (size_t l = 0; l <= k; l++) {
-            double sum = K[node[k]][node[l]];
-            for (size_t m = 0; m < l; m++)
-                sum -= factor[k][m] * factor[l][m];
-            assert_true(k != l || sum > 0);
-            factor[k][l] = k == l ? sqrt(sum) : sum / factor[l][l];
-        }
-    for (size_t k = 0; k < n; k++)
-        for (int c = 0; c < 2; c++) {
-            for (size_t m = 0; m < k; m++)
-                x[k][c] -= factor[k][m] * x[m][c];
-            x[k][c] /= factor[k][k];
-        }
-    for (size_t k = n; k-- > 0;)
-        for (int c = 0; c < 2; c++) {
-            for (size_t m = k + 1; m < n; m++)
-                x[k][c] -= factor[m][k] * x[m][c];
-            x[k][c] /= factor[k][k];
-        }
-}
-
-enum side {
-    LOW,
-    ELASTIC,
-    HIGH
-};
-
-/* With the nodes given that are at a bound: (K p)_E = h_E + c, sum p = S. */
-static double
-equilibrium(const double *h, const double *most, double sum, const enum side *side, double *p)
-{
-    static double x[N][2];
-    static size_t node[N];
-    double above = sum, below = 0, shift;
-    size_t n = 0;
-
-    for (size_t k = 0; k < N; k++) {
-        p[k] = side[k] == HIGH ? most[k] : 0;
-        above -= p[k];
-        if (side[k] == ELASTIC)
-            node[n++] = k;
-    }
-    assert_true(n > 0);
-    for (size_t e = 0; e < n; e++) {
-        x[e][0] = h[node[e]];
-        x[e][1] = 1;
-        for (size_t k = 0; k < N; k++)
-            x[e][0] -= K[node[e]][k] * p[k];
-    }
-    solve_part(n, node, x);
-    for (size_t e = 0; e < n; e++) {
-        above -= x[e][0];
-        below += x[e][1];
-    }
-    shift = above / below;
-    for (size_t e = 0; e < n; e++)
-        p[node[e]] = x[e][0] + shift * x[e][1];
-    return shift;
-}
-
-/* Active sets until all signs are right, which only the solution has. */
-static void
-dense(const double *h, const double *most, double sum, double *p)
-{
-    static enum side side[N];
-    bool all = true;
-
-    for (size_t k = 0; k < N; k++)
-        side[k] = ELASTIC;
-    for (int round = 0; round < 200; round++) {
-        double shift = equilibrium(h, most, sum, side, p), tiny = 1e-13 * sum / N;
-        size_t wrong = 0;
-
-        for (size_t k = 0; k < N; k++) {
-            enum side was = side[k];
-            double gap = -h[k] - shift;
-            for (size_t l = 0; l < N; l++)
-                gap += K[k][l] * p[l];
-            if (was == ELASTIC)
-                side[k] = p[k] < -tiny ? LOW : p[k] > most[k] + tiny ? HIGH : ELASTIC;
-            else if (was == LOW ? gap < 0 : gap > 0)
-                side[k] = ELASTIC;
-            wrong += side[k] != was;
-            /* where all change together they can go round: then one at a time */
-            if (side[k] != was && !all)
-                break;
-        }
-        if (wrong == 0)
-            return;
-        all = round < 60;
-    }
-    fail_msg("the active sets go round");
-}
 
 static void
 as_a_quadratic_program(void **state)
 {
     static double h[N], map[N], most[N], p[N];
+    static struct dense d;
     struct rc_shape shape = {SIDE, SIDE, 1e-6, 1.2e-6};
     size_t plastic = 0, missing = 0;
     double worst = 0;
 
     (void)state;
     for (int boundary = RC_FREE; boundary <= RC_PERIODIC; boundary++) {
-        fill(&shape, (enum rc_boundary)boundary);
+        dense_fill(&d, &shape, (enum rc_boundary)boundary, estar);
         for (size_t r = 0; r < 10; r++) {
             struct rc_problem problem = {
                 .boundary = (enum rc_boundary)boundary, .hardness_map = map, .tol = 1e-12};
             struct solved a;
+            double shift;
 
             seed = 17 * r + (size_t)boundary;
             make_rough(&shape, r + 1, h);
@@ -251,7 +114,10 @@ as_a_quadratic_program(void **state)
                 missing += isinf(most[k]) ? 1 : 0;
             }
             problem.load = load_of(&shape, map, 0.05 + 0.08 * (double)r);
-            dense(h, most, problem.load / (shape.dx * shape.dy), p);
+            d.value[0] = problem.load / (shape.dx * shape.dy);
+            for (size_t k = 0; k < N; k++)
+                p[k] = isinf(most[k]) ? 1 : most[k] / 2; /* all elastic */
+            dense_solve(&d, h, most, p, &shift);
             a = press(&shape, h, problem);
             plastic += a.c.plastic_nodes;
             worst = larger(worst, distance(N, a.p, p));
