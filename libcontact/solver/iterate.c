@@ -49,6 +49,7 @@ void
 rc_iterate_reset(struct rc_solver *s)
 {
     s->it.iterations = 0;
+    s->it.rested = false;
     s->it.convolutions = 0;
 }
 
@@ -230,6 +231,38 @@ bool
 rc_iterate_keeps_load(const struct rc_solver *s)
 {
     return fabs(rc_iterate_carried(s) - s->load.sum) <= 1e-10 * s->load.sum;
+}
+
+/* ---- nodes near their upper bounds ---- */
+
+static void
+rest_block(void *at, size_t first, size_t n, double *sums)
+{
+    struct rc_solver *s = at;
+    const struct rc_box box = rc_box(s, 0);
+    /* the tolerance is that of the whole map: these nodes may have most of the error */
+    const double near = fmin(10 * s->posed.tol, 1e-2);
+
+    for (size_t k = first; k < first + n; k++) {
+        double most = rc_high(box, k), p = s->it.p[k];
+        if (p < most && p >= most * (1 - near)) {
+            s->it.p[k] = most;
+            sums[0]++;
+        }
+    }
+}
+
+bool
+rc_iterate_rest(struct rc_solver *s)
+{
+    double total[RC_SUMS];
+
+    if (!rc_bounded(&s->posed.bounds))
+        return false;
+    rc_reduce_blocks(s, rest_block, s, total);
+    if (total[0] > 0)
+        rc_projection_restore(s, rc_iterate_carried(s));
+    return total[0] > 0;
 }
 
 /* ---- the error ---- */

@@ -308,6 +308,21 @@ rc_solver_expect(const struct rc_shape *shape, const struct rc_problem *problem,
 
 /* ---- step ---- */
 
+/* Where a shape that has yielded is pressed again, nodes are at their upper bounds with a gap of 0, and
+ * the iteration leaves them below by as much as the tolerance allows: they come to rest there, and the
+ * pressure is judged once more. */
+static enum rc_status
+finished(struct rc_solver *s)
+{
+    if (s->posed.height_error == 0 || s->it.rested || s->load.tol > s->posed.tol ||
+        !rc_iterate_rest(s))
+        return RC_OK;
+    s->it.rested = true;
+    rc_solver_restart(s);
+    rc_iterate_checked(s, rc_iterate_judge(s), 1);
+    return s->it.error <= s->load.tol ? RC_OK : RC_MORE;
+}
+
 /* One iteration at the load that is set. */
 static enum rc_status
 step(struct rc_solver *s)
@@ -321,7 +336,7 @@ step(struct rc_solver *s)
     if (!isnan(found.estimate)) {
         rc_iterate_checked(s, found.estimate, 1);
         if (it->error <= s->load.tol && (s->posed.rough || rc_iterate_keeps_load(s)))
-            return RC_OK;
+            return finished(s);
         return last || found.change == 0 ? RC_SHORT : RC_MORE;
     }
     last |= found.change <= DBL_EPSILON;
@@ -331,7 +346,7 @@ step(struct rc_solver *s)
         return RC_MORE;
     rc_iterate_checked(s, rc_iterate_judge(s), 5 + it->iterations / 10);
     if (it->error <= s->load.tol && rc_iterate_keeps_load(s))
-        return RC_OK;
+        return finished(s);
     return last ? RC_SHORT : RC_MORE;
 }
 

@@ -80,6 +80,7 @@ struct rc_iterate {
     double *p;         /* in the box, with the load                                          */
     double *v;         /* K p - h: the gap but for a constant                                */
     bool known, fresh; /* v belongs to p; v comes from a convolution in double precision     */
+    bool rested;       /* nodes near their upper bounds have been put there */
     double shift;      /* c: the gap is v - c                                                */
     size_t elastic;    /* nodes between their bounds                                         */
     size_t iterations;
@@ -209,6 +210,9 @@ void rc_iterate_count(struct rc_solver *solver, double convolutions);
 /* The shift: mean of v over the elastic nodes, or, when there are none, the middle between the
  * largest v at an upper bound and the smallest at a lower one. Sets `elastic` and `shift`. */
 void rc_iterate_shift(struct rc_solver *solver);
+/* Puts nodes whose pressure is within ten tolerances of their upper bound there; the other elastic nodes
+ * give the load for it. False when there are none. */
+bool rc_iterate_rest(struct rc_solver *solver);
 /* Sum of p. */
 double rc_iterate_carried(const struct rc_solver *solver);
 /* Whether p carries the load. Every method keeps it; without it a result does not count as

@@ -192,6 +192,38 @@ history(void **state)
     }
 }
 
+/* Pressed again to the same load, after less or at once, a shape that has yielded is at the hardness in the
+ * same places: the same nodes are counted, but for one where the tolerance is 1e-4. */
+static void
+reload_reaches_the_same_nodes(void **state)
+{
+    static const double loads[] = {0.8, 0.3, 0.8, 0.8, 0.1, 0.8};
+    static double h[N];
+
+    (void)state;
+    for (int boundary = RC_FREE; boundary <= RC_PERIODIC; boundary++)
+        for (int t = 0; t < 3; t++) {
+            struct rc_problem problem = problem_of(boundary, true);
+            struct rc_solver *s;
+            size_t full = 0;
+
+            problem.tol = (double[]){1e-4, 1e-7, 1e-9}[t];
+            s = rc_solver_new(&shape, first, &problem, NULL);
+            memcpy(h, first, sizeof h);
+            for (size_t k = 0; k < sizeof loads / sizeof *loads; k++) {
+                struct rc_contact c;
+                assert_int_equal(rc_solver_set_load(s, loads[k], 0, NULL), RC_OK);
+                c = finish(s);
+                full = k == 0 ? c.plastic_nodes : full;
+                assert_true(full > 50 && (c.yielded_nodes > 0) == (k == 0));
+                if (loads[k] == loads[0])
+                    assert_true(fabs((double)c.plastic_nodes - (double)full) <= (t == 0));
+                assert_int_equal(rc_solver_keep_shape(s, &c, h, NULL), RC_OK);
+            }
+            rc_solver_free(s);
+        }
+}
+
 int
 main(void)
 {
@@ -200,6 +232,7 @@ main(void)
         cmocka_unit_test(grid_error_is_its_own),
         cmocka_unit_test(refused),
         cmocka_unit_test(history),
+        cmocka_unit_test(reload_reaches_the_same_nodes),
     };
     int failed = 0;
 
