@@ -107,9 +107,11 @@ set_neighbours(struct rc_operator *op, const struct rc_shape *unit)
         }
 }
 
-/* How fast the preconditioner's extension fades: 0.5 on one material; the slower, the softer the
+/* How fast the preconditioner's extension fades on one material; on layers the slower, the softer the
  * bodies are to the longest waves against the shortest. Found by trial on coats from 0.01 to 100
  * times as stiff as what they lie on. */
+static const double one_material = 0.5;
+
 static double
 extension(const struct own *s, double length)
 {
@@ -118,8 +120,9 @@ extension(const struct own *s, double length)
 
     double shortest = rc_solids_modulus(s->bodies, RC_PI / length);
 
-    return fmin(fmax(0.5 * sqrt(rc_solids_modulus(s->bodies, 2 * RC_PI / side) / shortest), 0.02),
-                4);
+    return fmin(
+        fmax(one_material * sqrt(rc_solids_modulus(s->bodies, 2 * RC_PI / side) / shortest), 0.02),
+        4);
 }
 
 static struct rc_shape
@@ -153,15 +156,20 @@ rc_operator_free(struct rc_operator *op)
 /* ---- the inverse ---- */
 
 /* A padded kernel may have a spectrum that is negative somewhere, on stiff coats that bend over
- * lengths near that of the map. Its inverse is kept within these bounds of that of a uniform
- * half-space, wave by wave with the stiffness of the bodies. */
+ * lengths near that of the map. Its inverse is then kept within these bounds of that of a uniform
+ * half-space, wave by wave with the stiffness of the bodies. On soft coats a spectrum that is positive
+ * is kept as it is, but for the longest waves: where they are thin and nearly incompressible it is down
+ * to 0.005 of that half-space at the shortest waves, and with these bounds the estimate of the error
+ * was down to half of the error. */
 static const double least = 0.7, most = 1.5;
+static const double long_waves = 6; /* over half the smallest wave number of the padded map */
 
 struct bounded {
     const struct own *s;
     size_t first, n; /* first: of the columns held here              */
     double length, longest;
     double *kernel; /* spectrum of the kernel, column by column */
+    bool positive;  /* it is, and is kept, but for the longest waves */
 };
 
 static void
@@ -172,17 +180,36 @@ keep_column(void *ctx, size_t i, size_t n, double *column)
     memcpy(b->kernel + (i - b->first) * n, column, n * sizeof *column);
 }
 
+static double
+wave(const struct bounded *b, size_t i, size_t j)
+{
+    return hypot(rc_fft_qx(b->s->fft, i), rc_fft_qy(b->s->fft, j));
+}
+
+static bool
+all_positive(const struct bounded *b, size_t columns)
+{
+    double low = INFINITY;
+
+    for (size_t i = 0; i < columns; i++)
+        for (size_t j = 0; j < b->n; j++)
+            if (wave(b, b->first + i, j) > long_waves * b->longest)
+                low = fmin(low, b->kernel[i * b->n + j]);
+    return -rc_ranks_most(b->s->op.rows.ranks, -low) > 0;
+}
+
 /* The column of the spectrum of a half-space of E* = 1 becomes that of the inverse. */
 static void
 invert_column(void *ctx, size_t i, size_t n, double *column)
 {
     const struct bounded *b = ctx;
-    double qx = rc_fft_qx(b->s->fft, i);
 
     for (size_t j = 0; j < n; j++) {
-        double q = fmax(hypot(qx, rc_fft_qy(b->s->fft, j)), b->longest) / b->length;
+        bool kept = b->positive && wave(b, i, j) > long_waves * b->longest;
+        double q = fmax(wave(b, i, j), b->longest) / b->length;
         double near = column[j] * b->s->estar / rc_solids_modulus_of(b->s->bodies, q * q);
-        column[j] = 1 / fmin(fmax(b->kernel[(i - b->first) * n + j], least * near), most * near);
+        double kernel = b->kernel[(i - b->first) * n + j];
+        column[j] = 1 / (kept ? kernel : fmin(fmax(kernel, least * near), most * near));
     }
 }
 
@@ -207,6 +234,8 @@ set_bounded(struct own *s, const struct rc_shape *unit, const struct rc_kernel *
         return RC_FAIL;
     }
     status = rc_spectrum_set_by(s->kernel, s->fft, kernel, keep_column, &b, err);
+    if (status == RC_OK)
+        b.positive = all_positive(&b, columns) && s->op.extension >= one_material;
     if (status == RC_OK && (s->inverse = rc_spectrum_new(s->fft, err)) != NULL)
         status = rc_spectrum_set_by(s->inverse, s->fft, &rc_kernel_of_one, invert_column, &b, err);
     else
@@ -261,6 +290,7 @@ plan(struct own *s, const struct rc_shape *shape, const struct rc_operator_optio
                                  .row_error = 2e-7, /* 1e-5 for |u| of 50, at 1024 x 1024 */
                                  .row_cost = 0.5,
                                  .factor_cost = 0.5,
+                                 .edges = !s->positive && o->boundary == RC_FREE,
                                  .mean_free = o->boundary == RC_PERIODIC};
     s->op.shape = rc_rows_shape(&s->op.rows, shape);
     s->op.norm = norm(s);

@@ -29,10 +29,11 @@ struct rc_operator {
      * which smooth motions tie it to each of the eight. */
     double inverse_near[3][3];
     double neighbour[3][3];
-    double extension;   /* the constant c of the preconditioner's extension                    */
-    double error;       /* of K p, relative to the sum of |K| |p|                              */
-    double row_error;   /* the same, row by row                                                */
-    double row_cost;    /* of K p row by row, in equivalents of K p in double precision        */
+    double extension; /* the constant c of the preconditioner's extension                    */
+    bool edges;       /* how a shift loads the edges of a set follows from no rule: layers, free */
+    double error;     /* of K p, relative to the sum of |K| |p|                              */
+    double row_error; /* the same, row by row                                                */
+    double row_cost;  /* of K p row by row, in equivalents of K p in double precision        */
     double factor_cost; /* of each factor of a chain                                           */
     bool exact;         /* K p can be had in double precision                                  */
     bool mean_free;     /* the mean of u is 0 whatever the pressure: it has no stiffness       */

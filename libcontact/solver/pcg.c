@@ -145,6 +145,7 @@ renew(struct rc_solver *solver, struct pcg *s)
     s->drift = 0;
     rc_iterate_shift(solver);
     rc_working_set_find(solver, false);
+    rc_working_set_spread(solver);
 }
 
 /* ---- the direction, and with it the estimate of the error ---- */

@@ -193,6 +193,23 @@ rc_preconditioner_set(struct rc_preconditioner *e, const unsigned char *w, bool 
     rc_operator_chain(e->op, 1, factors, rows, e);
 }
 
+void
+rc_preconditioner_spread(struct rc_preconditioner *e, float *z)
+{
+    size_t n = e->op->shape.nx * e->op->shape.ny;
+    float most = 0;
+
+    for (size_t k = 0; k < n; k++)
+        z[k] = 1;
+    rc_preconditioner_apply(e, z, 0, z, NULL, NULL);
+    for (size_t k = 0; k < n; k++)
+        most = z[k] > most ? z[k] : most;
+    most = (float)rc_ranks_most(e->op->rows.ranks, (double)most);
+    for (size_t k = 0; k < n && most > 0; k++)
+        if (e->w[k])
+            e->node[k] = rc_node_on(fmaxf(z[k] / most, RC_LEAST_SHARE));
+}
+
 const float *
 rc_preconditioner_nodes(const struct rc_preconditioner *e)
 {

@@ -64,6 +64,9 @@ rc_extension_weight(float node)
 /* A shift of all of W belongs to no residual, and its pressure M 1, M = E' A E, has to be taken out of
  * z. rc_load_share of these numbers is about M 1, up to a factor, for each node on W. */
 const float *rc_preconditioner_nodes(const struct rc_preconditioner *e);
+/* Sets rc_load_share to M 1 itself, up to a factor, until the next set; z: scratch of a number for each
+ * node. Costs three factors of a chain. */
+void rc_preconditioner_spread(struct rc_preconditioner *e, float *z);
 
 /* distance.c: how far every node is from the nearest one with w != 0, exactly but for rounding, in
  * two passes. First the number of steps along its column, for all nodes of these rows (rows->ranks

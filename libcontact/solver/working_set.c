@@ -424,19 +424,37 @@ static const double little = 1e-3, much = 1.0;
 /* Relative size of a correction below which at most single nodes of the set are wrong. */
 static const double nearly = 2e-3;
 
-void
-rc_working_set_correct(struct rc_solver *s, rc_row *done, void *ctx)
+static void
+tell(struct rc_solver *s)
 {
     struct rc_working_set *set = &s->set;
     bool measure = set->moved > much * (double)set->size;
 
-    if (measure || set->changed > little * (double)set->size) {
-        rc_preconditioner_set(s->preconditioner, set->w, measure);
-        rc_iterate_count(s, s->op->factor_cost);
-        set->changed = 0;
-        if (measure)
-            set->moved = 0;
-    }
+    if (!measure && set->changed <= little * (double)set->size)
+        return;
+    rc_preconditioner_set(s->preconditioner, set->w, measure);
+    rc_iterate_count(s, s->op->factor_cost);
+    set->changed = 0;
+    if (measure)
+        set->moved = 0;
+}
+
+void
+rc_working_set_spread(struct rc_solver *s)
+{
+    if (!s->op->edges || s->set.size < 2)
+        return;
+    tell(s);
+    rc_preconditioner_spread(s->preconditioner, s->z);
+    rc_iterate_count(s, 3 * s->op->factor_cost);
+}
+
+void
+rc_working_set_correct(struct rc_solver *s, rc_row *done, void *ctx)
+{
+    struct rc_working_set *set = &s->set;
+
+    tell(s);
     rc_preconditioner_apply(s->preconditioner, set->r, set->offset, s->z, done, ctx);
     rc_iterate_count(s, 3 * s->op->factor_cost);
 }
@@ -554,6 +572,7 @@ rc_working_set_estimate(struct rc_solver *s)
         return 0; /* nothing to exchange, nobody wants to move */
     if (s->it.elastic == 0)
         return INFINITY; /* some do, but no gap says how far */
+    rc_working_set_spread(s);
     rc_working_set_correct(s, NULL, NULL);
     rc_reduce_blocks(s, share_block, s, total);
     return rc_working_set_error(s, total[Z] / total[LOAD]);

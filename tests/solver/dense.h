@@ -45,24 +45,33 @@ dense_influence(const struct rc_shape *s, enum rc_boundary boundary, double esta
     return u;
 }
 
-/* The map's matrix, and the constraint of this sum of all pressures. */
+/* The matrix of this influence of the cell in the corner, and the constraint of a sum of all
+ * pressures. */
+static inline void
+dense_of(struct dense *d, const struct rc_shape *s, const double *at)
+{
+    d->n = s->nx * s->ny;
+    d->sums = 1;
+    assert_true(d->n <= DENSE_NODES);
+    for (size_t k = 0; k < d->n; k++) {
+        d->sum[0][k] = 1;
+        for (size_t l = 0; l < d->n; l++) {
+            size_t i = k % s->nx, j = k / s->nx, x = l % s->nx, y = l / s->nx;
+            d->K[k][l] = at[(j > y ? j - y : y - j) * s->nx + (i > x ? i - x : x - i)];
+        }
+    }
+}
+
+/* That of a half-space. */
 static inline void
 dense_fill(struct dense *d, const struct rc_shape *s, enum rc_boundary boundary, double estar)
 {
     static double at[DENSE_NODES];
 
-    d->n = s->nx * s->ny;
-    d->sums = 1;
-    assert_true(d->n <= DENSE_NODES);
-    for (size_t k = 0; k < d->n; k++) {
+    assert_true(s->nx * s->ny <= DENSE_NODES);
+    for (size_t k = 0; k < s->nx * s->ny; k++)
         at[k] = dense_influence(s, boundary, estar, k % s->nx, k / s->nx);
-        d->sum[0][k] = 1;
-    }
-    for (size_t k = 0; k < d->n; k++)
-        for (size_t l = 0; l < d->n; l++) {
-            size_t i = k % s->nx, j = k / s->nx, x = l % s->nx, y = l / s->nx;
-            d->K[k][l] = at[(j > y ? j - y : y - j) * s->nx + (i > x ? i - x : x - i)];
-        }
+    dense_of(d, s, at);
 }
 
 /* K p at a node. */
