@@ -421,8 +421,6 @@ rc_working_set_elastic(struct rc_solver *s)
 /* The part of the working set that may change before the preconditioner is told, and before it
  * measures its distances again. */
 static const double little = 1e-3, much = 1.0;
-/* Relative size of a correction below which at most single nodes of the set are wrong. */
-static const double nearly = 2e-3;
 
 static void
 tell(struct rc_solver *s)
@@ -462,12 +460,6 @@ rc_working_set_correct(struct rc_solver *s, rc_row *done, void *ctx)
 struct size {
     struct rc_solver *s;
     double share; /* of M 1 in z                                   */
-    bool cut;     /* without what lies beyond the bounds           */
-};
-
-enum { /* sums of the estimate */
-    ALL,
-    BEYOND
 };
 
 /* Takes the pressure of the shift out of z. */
@@ -484,33 +476,7 @@ centre(size_t n, const unsigned char *restrict w, const float *restrict node, fl
         z[k] = e;
         size += (double)fabsf(e);
     }
-    sums[ALL] = size;
-}
-
-RC_INLINE void
-beyond_in(struct rc_box box, size_t n, const double *restrict p, const float *restrict z,
-          double scale, double *sums)
-{
-    double sum = 0;
-
-#pragma omp simd reduction(+ : sum)
-    for (size_t k = 0; k < n; k++) {
-        double y = p[k] * scale + (double)z[k];
-        double low = rc_low(box, k) * scale, high = rc_high(box, k) * scale;
-        y = y < low ? low - y : y > high ? y - high : 0;
-        sum += y;
-    }
-    sums[BEYOND] = sum;
-}
-
-/* The part of p + z that lies outside the box. */
-RC_CLONES static void
-beyond(struct rc_box box, size_t n, const double *p, const float *z, double scale, double *sums)
-{
-    if (box.highs == NULL)
-        beyond_in(rc_box_of_numbers(box), n, p, z, scale, sums);
-    else
-        beyond_in(box, n, p, z, scale, sums);
+    sums[0] = size;
 }
 
 static void
@@ -518,32 +484,21 @@ size_block(void *at, size_t first, size_t n, double *sums)
 {
     const struct size *c = at;
     const struct rc_solver *s = c->s;
-    double scale = s->load.per_pressure;
 
     centre(n, s->set.w + first, rc_preconditioner_nodes(s->preconditioner) + first, (float)c->share,
            s->z + first, sums);
-    if (c->cut)
-        beyond(rc_box(s, first), n, s->it.p + first, s->z + first, scale, sums);
 }
 
-/* The error of a node ends at the bounds of its pressure, so the part of its correction outside the
- * box is no error. (Neither is the part that its neighbours would carry instead, but subtracting
- * that too, as much again, was too much where one node made a tenth of the correction.) While the
- * set is far from the right one nothing is subtracted, to make up for nodes that have yet to join:
- * otherwise estimates of errors of 5e-3 and more would be as low as 0.9 of them. */
 double
 rc_working_set_error(struct rc_solver *s, double share)
 {
-    struct size c = {.s = s, .share = share, .cut = s->set.left_out == 0};
-    double total[RC_SUMS], unit = s->load.per_pressure * s->load.sum, size;
+    struct size c = {.s = s, .share = share};
+    double total[RC_SUMS], unit = s->load.per_pressure * s->load.sum;
 
     rc_reduce_blocks(s, size_block, &c, total);
     if (s->it.elastic == 0 && s->set.size > 0)
         return INFINITY; /* some want to move, but no gap says how far */
-    size = total[ALL] + s->set.left_out;
-    if (size < nearly * unit)
-        size -= total[BEYOND];
-    return size / unit + rc_iterate_operator_error(s);
+    return (total[0] + s->set.left_out) / unit + rc_iterate_operator_error(s);
 }
 
 enum { /* sums of the shift */
