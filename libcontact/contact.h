@@ -705,8 +705,8 @@ RC_API enum rc_status rc_stress_depths(const struct rc_ranks *ranks, const struc
                                        const struct rc_body *body, double **depths, size_t *n,
                                        struct rc_err *err);
 
-/* Place of the value of largest size; the first of equals. n > 0. */
-RC_API size_t rc_largest(size_t n, const double *v);
+/* Places of the least and of the largest of n values, the first of equals; NaN is neither. n > 0. */
+RC_API void rc_extremes(size_t n, const double *v, size_t *least, size_t *largest);
 
 /* The derived stresses of n points from their six components: out[c] for each c from RC_MISES on
  * whose bit is set. */

@@ -38,7 +38,7 @@ static const struct opt opts[] = {
      .result = true, .arg = "ERROR",
      .help = "error allowed in a component, over the largest pressure (default: rounding)"},
     {.name = "report", .type = OPT_REPORT, AT(report), .arg = "FILE",
-     .help = "write one JSON object a case, or a row of FILE.tsv: largest values, counts, cost"},
+     .help = "write one JSON object a case, or a row of FILE.tsv: extreme values, counts, cost"},
     {.name = "dry-run", .type = OPT_FLAG, AT(dry_run), .text = true,
      .help = "say what would be computed and what not, memory and time, and do no more"},
     {.name = NULL},
@@ -224,6 +224,27 @@ refuse_rigid(struct run *run, const struct rc_grid *p)
                         run->depths.v[k]);
 }
 
+/* A plain number is in metres: one that was meant in micrometres lies far below all contacts. */
+static void
+warn_of_depths(struct run *run, const struct rc_grid *p)
+{
+    enum {
+        FAR = 10 /* widths of the map: there at most 0.5 % of the mean pressure on it is left */
+    };
+    double width = fmax((double)p->nx * p->dx, (double)p->ny * p->dy), deepest = 0;
+    char depth[RC_NUMBER_SIZE], where[256];
+
+    for (size_t k = 0; k < args.depths.n; k++)
+        deepest = fmax(deepest, args.depths.v[k]);
+    if (deepest > FAR * width)
+        tool_warn(&run->t,
+                  "%s: --depths: %s m is %.2g times the width of the map, %g m, where nothing of "
+                  "the contact is felt but its whole load: a number without a unit is in metres, "
+                  "write %sum for micrometres",
+                  tool_where(&run->t, p, where, sizeof where), rc_number_text(depth, deepest),
+                  deepest / width, width, depth);
+}
+
 static void
 set_depths(struct run *run, const struct rc_grid *p)
 {
@@ -231,6 +252,7 @@ set_depths(struct run *run, const struct rc_grid *p)
     struct rc_err err;
 
     run->depths = args.depths;
+    warn_of_depths(run, p);
     if (args.depths.n == 0 &&
         rc_stress_depths(run->options.ranks, &shape, p->v, run->options.boundary,
                          &run->options.body, &run->depths.v, &run->depths.n, &err) != RC_OK)

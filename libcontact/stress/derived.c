@@ -18,41 +18,59 @@ mises(size_t n, const double *const s[RC_COMPONENTS], double *restrict out)
     }
 }
 
-RC_WIDE_CLONES static double
-largest_size(size_t n, const double *v)
+/* The least and the largest of n values; NaN is neither. */
+RC_WIDE_CLONES static void
+extremes(size_t n, const double *v, double *least, double *largest)
 {
-    double largest[8] = {0};
+    double low[8], high[8];
 
+    for (size_t i = 0; i < 8; i++)
+        low[i] = INFINITY, high[i] = -INFINITY;
     for (size_t k = 0; k + 8 <= n; k += 8)
-        for (size_t i = 0; i < 8; i++)
-            largest[i] = fabs(v[k + i]) > largest[i] ? fabs(v[k + i]) : largest[i];
-    for (size_t k = n / 8 * 8; k < n; k++)
-        largest[0] = fmax(largest[0], fabs(v[k]));
-    for (size_t i = 1; i < 8; i++)
-        largest[0] = fmax(largest[0], largest[i]);
-    return largest[0];
+        for (size_t i = 0; i < 8; i++) {
+            low[i] = v[k + i] < low[i] ? v[k + i] : low[i];
+            high[i] = v[k + i] > high[i] ? v[k + i] : high[i];
+        }
+    for (size_t k = n / 8 * 8; k < n; k++) {
+        low[0] = fmin(low[0], v[k]);
+        high[0] = fmax(high[0], v[k]);
+    }
+    for (size_t i = 1; i < 8; i++) {
+        low[0] = fmin(low[0], low[i]);
+        high[0] = fmax(high[0], high[i]);
+    }
+    *least = low[0];
+    *largest = high[0];
 }
 
-size_t
-rc_largest(size_t n, const double *v)
+static size_t
+first_of(size_t n, const double *v, size_t from, double value)
+{
+    for (size_t k = from; k < n; k++)
+        if (v[k] == value)
+            return k;
+    return 0;
+}
+
+void
+rc_extremes(size_t n, const double *v, size_t *least, size_t *largest)
 {
     enum {
         PIECE = 4096 /* values looked through together: they stay in the first cache */
     };
-    double largest = -1;
-    size_t from = 0;
+    double low = INFINITY, high = -INFINITY;
+    size_t of_low = 0, of_high = 0;
 
     for (size_t k = 0; k < n; k += PIECE) {
-        double size = largest_size(n - k < PIECE ? n - k : PIECE, v + k);
-        if (size > largest) {
-            largest = size;
-            from = k;
-        }
+        double a, b;
+        extremes(n - k < PIECE ? n - k : PIECE, v + k, &a, &b);
+        of_low = a < low ? k : of_low;
+        of_high = b > high ? k : of_high;
+        low = fmin(low, a);
+        high = fmax(high, b);
     }
-    for (size_t k = from; k < n; k++)
-        if (fabs(v[k]) == largest)
-            return k;
-    return 0;
+    *least = first_of(n, v, of_low, low);
+    *largest = first_of(n, v, of_high, high);
 }
 
 /* ---- principal stresses ---- */

@@ -346,7 +346,7 @@ without(double *out, struct rc_err *err)
     struct rc_statistics statistics;
     struct rc_seam seam;
     char text[RC_NUMBER_SIZE];
-    size_t product;
+    size_t product, least, largest;
 
     (void)rc_version(), (void)rc_threads_available();
     (void)rc_engine_info(0), (void)rc_method_info(0);
@@ -376,7 +376,8 @@ without(double *out, struct rc_err *err)
     if (rc_stress_check(&shape, &stress, err) != RC_OK)
         return RC_FAIL;
     out[2 * N] = rc_sum(rough, N) + rc_measure_contact_slope(NULL, &shape, rough, pressure) + mises;
-    out[2 * N + 1] = (double)(rc_largest(N, rough) + rc_body_material(&layered.one, 3e-6));
+    rc_extremes(N, rough, &least, &largest);
+    out[2 * N + 1] = (double)(least + largest + rc_body_material(&layered.one, 3e-6));
     out[2 * N + 2] = rc_number_read(rc_number_text(text, 1.5), false, &out[0]) != NULL;
     return rc_key_valid("note") && rc_err_set(NULL, "%s", "x") == RC_FAIL ? RC_OK : RC_FAIL;
 }

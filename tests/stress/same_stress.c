@@ -344,24 +344,33 @@ alone_as_in_company(void **state)
     free(s.p);
 }
 
-/* The largest value is the first that no other one exceeds, wherever in a map it is. */
+/* The least and the largest value are the first that no other one is below or above, wherever in a map
+ * they are; what is no number is neither. */
 static void
-largest_as_one_by_one(void **state)
+extremes_as_one_by_one(void **state)
 {
     static double v[20000];
     uint64_t seed = 1882;
 
     (void)state;
     for (size_t n = 1; n <= sizeof v / sizeof *v; n = n * 5 / 2 + 1) {
-        size_t first = 0;
+        size_t first[2] = {0, 0}, least, largest;
         for (size_t k = 0; k < n; k++)
-            v[k] = floor(1000 * random_number(&seed)); /* so many are equal */
-        for (size_t k = 1; k < n; k++)
-            first = fabs(v[k]) > fabs(v[first]) ? k : first;
-        assert_int_equal(rc_largest(n, v), first);
+            v[k] =
+                floor(1000 * random_number(&seed)) + (n % 2 ? -2000 : 1000); /* so many are equal */
+        for (size_t k = 1; k < n; k++) {
+            first[0] = v[k] < v[first[0]] ? k : first[0];
+            first[1] = v[k] > v[first[1]] ? k : first[1];
+        }
+        rc_extremes(n, v, &least, &largest);
+        assert_int_equal(least, first[0]);
+        assert_int_equal(largest, first[1]);
         v[n / 3] = -7e9;
         v[n - 1] = 7e9;
-        assert_int_equal(rc_largest(n, v), n / 3);
+        v[n / 2] = n > 3 ? NAN : v[n / 2];
+        rc_extremes(n, v, &least, &largest);
+        assert_int_equal(least, n == 1 ? 0 : n / 3);
+        assert_int_equal(largest, n - 1);
     }
 }
 
@@ -473,7 +482,7 @@ main(void)
         cmocka_unit_test(sections_between_rows),
         cmocka_unit_test(threads_change_no_bit),
         cmocka_unit_test(alone_as_in_company),
-        cmocka_unit_test(largest_as_one_by_one),
+        cmocka_unit_test(extremes_as_one_by_one),
         cmocka_unit_test(nothing_is_done_unasked),
     };
 

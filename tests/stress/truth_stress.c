@@ -419,10 +419,12 @@ paper_figure_1(void **state)
 static double
 largest_mises(struct rc_stress *stress, double depth, double *s[RC_STRESSES])
 {
+    size_t least, largest;
     struct rc_err err;
 
     assert_int_equal(rc_stress_slice(stress, depth, s, &err), RC_OK);
-    return s[RC_MISES][rc_largest(rc_stress_values(stress), s[RC_MISES])];
+    rc_extremes(rc_stress_values(stress), s[RC_MISES], &least, &largest);
+    return s[RC_MISES][largest];
 }
 
 /* Depths chosen from the pressure find the largest Mises stress of Hertz's contact (0.620041 p0)

@@ -10,6 +10,7 @@ p0=2205240000 # Hertz
 
 frames() { rc-info "$1" | grep -c 'frame [0-9]* ('; }
 number() { grep -o "\"$1\": {[^[]*" "$3" | grep -o "\"$2\": [^,]*" | head -n 1 | cut -d' ' -f2; }
+least() { grep -o '"least": {.*' "$3" >least.json && number "$1" "$2" least.json; }
 count() { grep -o '"counts": {[^}]*' "$2" | grep -o "\"$1\": [0-9]*" | cut -d' ' -f2; }
 
 # ---- slices ----
@@ -19,8 +20,8 @@ claim "seven frames a depth" test "$(frames s.rcg)" = 14
 claim "a frame knows its depth and how many there are" \
     bash -c 'says depth=0.0001$ rc-info s.rcg && says frames=14$ rc-info s.rcg'
 # 5e-3: 23 nodes in the radius, solved to 65 x 49 nodes^-0.75 = 2.4e-3
-near "$(number szz value r.json)" "-$p0" 5e-3 "szz at the surface is the pressure"
-near "$(number szz depth r.json)" 0 "$same" "  at depth 0"
+near "$(least szz value r.json)" "-$p0" 5e-3 "szz at the surface is the pressure"
+near "$(least szz depth r.json)" 0 "$same" "  at depth 0"
 near "$(number mises value r.json)" "$(awk "BEGIN { print 0.6187 * $p0 }")" "$coarse_grid" \
     "Mises at 100 um is what Hertz has there"
 

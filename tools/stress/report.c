@@ -6,23 +6,31 @@
 
 /* ---- gathering ---- */
 
+static const char *const ends[] = {[STRESS_LARGEST] = "largest", [STRESS_LEAST] = "least"};
+
+static bool
+begin_extreme(struct stress_extreme *x, size_t depths, size_t materials)
+{
+    const struct stress_place none = {NAN, NAN, NAN, NAN};
+
+    x->all = none;
+    x->by_depth = malloc(depths * sizeof *x->by_depth);
+    x->by_material = malloc(materials * sizeof *x->by_material);
+    for (size_t m = 0; m < materials && x->by_material != NULL; m++)
+        x->by_material[m] = none;
+    return x->by_depth != NULL && x->by_material != NULL;
+}
+
 enum rc_status
 stress_report_begin(struct stress_report *r, const struct rc_grid *p,
                     const struct rc_stress_options *options, const struct numbers *depths,
-                    bool peaks, struct rc_err *err)
+                    bool extremes, struct rc_err *err)
 {
     *r = (struct stress_report){.p = p, .options = options, .depths = depths, .began = tool_now()};
-    for (int c = 0; c < RC_STRESSES; c++) {
-        if (!peaks || !(options->wanted >> c & 1))
-            continue;
-        r->peak[c].value = NAN;
-        r->peak[c].by_depth = malloc(depths->n * sizeof(double));
-        r->peak[c].by_material = malloc((options->body.layers + 1) * sizeof(double));
-        if (r->peak[c].by_depth == NULL || r->peak[c].by_material == NULL)
-            return rc_err_set(err, "out of memory for a report of %zu depths", depths->n);
-        for (size_t m = 0; m <= options->body.layers; m++)
-            r->peak[c].by_material[m] = NAN;
-    }
+    for (int c = 0; c < RC_STRESSES && extremes; c++)
+        for (int e = 0; e < STRESS_ENDS && options->wanted >> c & 1; e++)
+            if (!begin_extreme(&r->extreme[e][c], depths->n, options->body.layers + 1))
+                return rc_err_set(err, "out of memory for a report of %zu depths", depths->n);
     return RC_OK;
 }
 
@@ -38,55 +46,53 @@ stress_report_start(struct stress_report *r)
     r->depth_began = tool_now();
 }
 
-/* Where value k of a slice or of a line is. */
-static void
-place(const struct stress_report *r, size_t k, struct stress_peak *peak)
+/* Value k of a slice or of a line, and where it is. */
+static struct stress_place
+place(const struct stress_report *r, size_t k, double depth, double value)
 {
     const struct rc_grid *p = r->p;
     char section = r->options->section;
     size_t i = section == 'x' ? 0 : section == 'y' ? k : k % p->nx;
     size_t j = section == 'x' ? k : section == 'y' ? 0 : k / p->nx;
+    double x = ((double)i - (double)(p->nx - 1) / 2) * p->dx;
+    double y = ((double)j - (double)(p->ny - 1) / 2) * p->dy;
 
-    peak->x = section == 'x' ? r->options->at : ((double)i - (double)(p->nx - 1) / 2) * p->dx;
-    peak->y = section == 'y' ? r->options->at : ((double)j - (double)(p->ny - 1) / 2) * p->dy;
+    return (struct stress_place){value, section == 'x' ? r->options->at : x,
+                                 section == 'y' ? r->options->at : y, depth};
 }
 
-/* The value of largest size of all n, or of those that several processes hold, and where it is. */
-static struct stress_peak
-peak_of(const struct stress_report *r, const struct tool *t, size_t n, const double *s)
+static void
+keep(struct stress_place *kept, const struct stress_place *here, double sign)
 {
-    struct stress_peak peak = {.value = 0};
-    size_t at = n > 0 ? rc_largest(n, s) : 0;
-
-    if (n > 0) {
-        peak.value = s[at];
-        place(r, tool_first_row(t, r->p) * r->p->nx + at, &peak);
-    }
-    if (t->ranks != NULL)
-        ranks_share(t, ranks_where_most(t, n > 0 ? fabs(peak.value) : -1), &peak, sizeof peak);
-    return peak;
+    if (!(sign * here->value <= sign * kept->value))
+        *kept = *here;
 }
 
 void
 stress_report_depth(struct stress_report *r, const struct tool *t, size_t k, size_t n,
                     double *const *s)
 {
-    size_t material = rc_body_material(&r->options->body, r->depths->v[k]);
+    const double depth = r->depths->v[k];
+    size_t material = rc_body_material(&r->options->body, depth);
 
     r->slices += tool_now() - r->depth_began;
     for (int c = 0; c < RC_STRESSES; c++) {
-        struct stress_peak *peak = &r->peak[c], here;
-        if (peak->by_depth == NULL)
+        size_t at[STRESS_ENDS], first;
+        if (r->extreme[0][c].by_depth == NULL)
             continue;
-        here = peak_of(r, t, n, s[c]);
-        peak->by_depth[k] = here.value;
-        if (!(fabs(here.value) <= fabs(peak->by_material[material])))
-            peak->by_material[material] = here.value;
-        if (!(fabs(here.value) <= fabs(peak->value))) {
-            peak->value = here.value;
-            peak->depth = r->depths->v[k];
-            peak->x = here.x;
-            peak->y = here.y;
+        first = tool_first_row(t, r->p) * r->p->nx;
+        if (n > 0)
+            rc_extremes(n, s[c], &at[STRESS_LEAST], &at[STRESS_LARGEST]);
+        for (int e = 0; e < STRESS_ENDS; e++) {
+            const double sign = e == STRESS_LARGEST ? 1 : -1;
+            struct stress_extreme *x = &r->extreme[e][c];
+            struct stress_place here = {.value = -sign * INFINITY}; /* where no row is held */
+            if (n > 0)
+                here = place(r, first + at[e], depth, s[c][at[e]]);
+            ranks_share(t, ranks_where_most(t, sign * here.value), &here, sizeof here);
+            x->by_depth[k] = here.value;
+            keep(&x->by_material[material], &here, sign);
+            keep(&x->all, &here, sign);
         }
     }
 }
@@ -94,10 +100,11 @@ stress_report_depth(struct stress_report *r, const struct tool *t, size_t k, siz
 void
 stress_report_free(struct stress_report *r)
 {
-    for (int c = 0; c < RC_STRESSES; c++) {
-        free(r->peak[c].by_depth);
-        free(r->peak[c].by_material);
-    }
+    for (int e = 0; e < STRESS_ENDS; e++)
+        for (int c = 0; c < RC_STRESSES; c++) {
+            free(r->extreme[e][c].by_depth);
+            free(r->extreme[e][c].by_material);
+        }
 }
 
 /* ---- effects ---- */
@@ -177,25 +184,46 @@ enum {
 /* ---- the report ---- */
 
 static void
-write_peaks(const struct stress_report *r, struct report *out)
+write_place(struct report *out, const struct stress_place *at)
 {
-    report_object(out, "largest");
+    const double place[] = {at->x, at->y, at->depth};
+
+    if (isnan(at->value)) {
+        report_no_object(out, NULL);
+        return;
+    }
+    report_array(out, NULL);
+    for (size_t k = 0; k < sizeof place / sizeof *place; k++)
+        report_number(out, NULL, place[k], "m");
+    report_end(out);
+}
+
+static void
+write_extremes(const struct stress_report *r, struct report *out, enum stress_end end)
+{
+    const size_t materials = r->options->body.layers + 1;
+
+    report_object(out, ends[end]);
     for (int c = 0; c < RC_STRESSES; c++) {
-        const struct stress_peak *peak = &r->peak[c];
-        if (peak->by_depth == NULL)
+        const struct stress_extreme *x = &r->extreme[end][c];
+        if (x->by_depth == NULL)
             continue;
         report_object(out, rc_component_names[c]);
-        report_number(out, "value", peak->value, "Pa");
-        report_number(out, "x", peak->x, "m");
-        report_number(out, "y", peak->y, "m");
-        report_number(out, "depth", peak->depth, "m");
+        report_number(out, "value", x->all.value, "Pa");
+        report_number(out, "x", x->all.x, "m");
+        report_number(out, "y", x->all.y, "m");
+        report_number(out, "depth", x->all.depth, "m");
         report_array(out, "by_depth");
         for (size_t k = 0; k < r->depths->n; k++)
-            report_number(out, NULL, peak->by_depth[k], "Pa");
+            report_number(out, NULL, x->by_depth[k], "Pa");
         report_end(out);
         report_array(out, "by_material");
-        for (size_t m = 0; m <= r->options->body.layers; m++)
-            report_number(out, NULL, peak->by_material[m], "Pa");
+        for (size_t m = 0; m < materials; m++)
+            report_number(out, NULL, x->by_material[m].value, "Pa");
+        report_end(out);
+        report_array(out, "place_by_material");
+        for (size_t m = 0; m < materials; m++)
+            write_place(out, &x->by_material[m]);
         report_end(out);
         report_end(out);
     }
@@ -250,7 +278,8 @@ stress_report_write(struct stress_report *r, struct report *out, const struct rc
     for (size_t k = 0; k < r->depths->n; k++)
         report_count(out, NULL, rc_body_material(&o->body, r->depths->v[k]) + 1, NULL);
     report_end(out);
-    write_peaks(r, out);
+    for (int e = 0; e < STRESS_ENDS; e++)
+        write_extremes(r, out, (enum stress_end)e);
     if (converged == NULL)
         report_text(out, "converged", NULL);
     else

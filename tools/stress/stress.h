@@ -9,25 +9,35 @@
 #include "libcontact/contact.h"
 #include "tools/cli/cli.h"
 
-/* The value of largest size of a channel, its sign kept, and where it is. */
-struct stress_peak {
-    double value, x, y, depth;
-    double *by_depth;    /* at each depth; NULL: nobody asks       */
-    double *by_material; /* NAN: no depth is in it                 */
+struct stress_place {
+    double value, x, y, depth; /* Pa, m; NAN: none */
+};
+
+/* The largest value of a channel, or its least, and where it is. */
+struct stress_extreme {
+    struct stress_place all;
+    struct stress_place *by_material; /* value NAN: no depth is in it      */
+    double *by_depth;                 /* at each depth; NULL: nobody asks  */
+};
+
+enum stress_end {
+    STRESS_LARGEST,
+    STRESS_LEAST,
+    STRESS_ENDS
 };
 
 struct stress_report {
     const struct rc_grid *p;
     const struct rc_stress_options *options;
     const struct numbers *depths;
-    struct stress_peak peak[RC_STRESSES];
+    struct stress_extreme extreme[STRESS_ENDS][RC_STRESSES];
     double began, depth_began, setup, slices; /* seconds */
 };
 
-/* All three are kept by the caller. `peaks`: the largest values are wanted. */
+/* All three are kept by the caller. `extremes`: the largest and least values are wanted. */
 enum rc_status stress_report_begin(struct stress_report *report, const struct rc_grid *p,
                                    const struct rc_stress_options *options,
-                                   const struct numbers *depths, bool peaks, struct rc_err *err);
+                                   const struct numbers *depths, bool extremes, struct rc_err *err);
 /* The plan stands; a depth begins; depth k of n values a channel is there. */
 void stress_report_ready(struct stress_report *report);
 void stress_report_start(struct stress_report *report);
