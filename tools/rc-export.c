@@ -312,11 +312,7 @@ read_frames(struct tool *t, size_t *frames)
     struct rc_err err;
 
     *frames = 0;
-    while ((g = tool_read(t)) != NULL) {
-        if (!wanted_frame(&args.wanted, t, g)) {
-            rc_grid_free(g);
-            continue;
-        }
+    while ((g = wanted_read(&args.wanted, t)) != NULL) {
         check_frame(t, *frames == 0 ? NULL : frame[0], g);
         if (args.even)
             g = even_rows(t, g);
@@ -327,7 +323,6 @@ read_frames(struct tool *t, size_t *frames)
         frame = more;
         frame[(*frames)++] = g;
     }
-    wanted_end(&args.wanted, t);
     return frame;
 }
 

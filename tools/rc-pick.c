@@ -224,13 +224,10 @@ main(int argc, char **argv)
     struct tool t;
 
     tool_start(&t, &info, argc, argv, &args);
-    while ((g = tool_read(&t)) != NULL) {
-        if (wanted_frame(&args.wanted, &t, g)) {
-            change(&t, g);
-            tool_write(&t, g);
-        }
+    while ((g = wanted_read(&args.wanted, &t)) != NULL) {
+        change(&t, g);
+        tool_write(&t, g);
         rc_grid_free(g);
     }
-    wanted_end(&args.wanted, &t);
     return tool_finish(&t);
 }

@@ -19,7 +19,7 @@ static const struct opt opts[] = {
      .help = "what to draw (default: mises, pressure, height, else the first)"},
     {.name = "depth", .type = OPT_NUMBERS, .unit = UNIT_M, .at = offsetof(struct args, depth),
      .min = 0, .max = INFINITY, .result = true, .arg = "LIST",
-     .help = "of a stress (default: where its size is largest)"},
+     .help = "of a stress, or the nearest within half a step (default: where its size is largest)"},
     {.name = "section", .type = OPT_CHOICE, .at = offsetof(struct args, wish.section),
      .result = true, .arg = "x|y", .help = "a section across this axis instead of a map"},
     {.name = "case", .type = OPT_NUMBERS, .at = offsetof(struct args, number), .min = 1,

@@ -39,7 +39,10 @@ refuses 1 'a second frame of channel szz, and npy holds one map or the depths of
 refuses 1 'a second frame, and npy holds' "and of one channel" 'rc-export --case 1 stress.rcg -o no.npy'
 refuses 1 'a second frame of channel szz, and gsf holds one map: choose' "a format of one map takes one depth" \
     'rc-export --channel szz --case 1 stress.rcg -o no.gsf'
-refuses 1 'no frame at depth 7e-06 m: there are 0, 5e-06, 1e-05 m' "a depth that is not there" 'rc-export --depth 5um,7um stress.rcg -o no.vti'
+claim "the nearest depth is taken and told" bash -c '
+    warns "no frame is at 7e-06 m: the nearest depth, 5e-06 m, is taken" \
+        rc-export --channel szz --case 2 --depth 7um stress.rcg -o near.npy && cmp near.npy one.npy'
+refuses 1 'no frame at depth 1.3e-05 m: there are 0, 5e-06, 1e-05 m' "a depth that is not there" 'rc-export --depth 5um,13um stress.rcg -o no.vti'
 refuses 1 'no case 3: there are cases 1, 2' "nor a case" 'rc-export --case 3 stress.rcg -o no.vti'
 refuses 1 'no frame with the channel mises, only pressure$' "nor a channel" 'rc-export --channel mises result.rcg -o no.vti'
 refuses 2 '--depth -1e-06 m: it must be at least 0' "a depth above the surface" 'rc-export --depth -1um stress.rcg -o no.vti'

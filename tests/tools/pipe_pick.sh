@@ -35,6 +35,21 @@ claim "the cases of several files are counted on" bash -c '
     [ "$(rc-pick --case 1,3 surface.rcg result.rcg | frames | cut -d " " -f 1 | uniq | tr "\n" ,)" = "1,3," ]'
 claim "depths, met within a thousandth" bash -c '
     [ "$(rc-pick --depth 0,10.009um --case 1 --channel szz stress.rcg | frames | tr "\n" ,)" = "1 szz 0,1 szz 1e-05," ]'
+# nearest ASKED EXPECTED: of mises in case 1 of stress.rcg, at 0, 5 and 10 um
+nearest() { [ "$(rc-pick --depth "$1" --case 1 --channel mises stress.rcg 2>told.txt | frames | tr "\n" ,)" = "$2" ]; }
+export -f nearest
+claim "  the nearest where none is there" bash -c 'nearest 7um "1 mises 5e-06," && nearest 8um "1 mises 1e-05,"'
+claim "  which is told" grep -qx 'rc-pick: --depth: no frame is at 8e-06 m: the nearest depth, 1e-05 m, is taken' told.txt
+claim "  and half a step beyond the last" nearest 12.49um "1 mises 1e-05,"
+claim "  of two the one that is nearer, once" nearest 4um,5um,6um "1 mises 5e-06,"
+claim "  not told where it is what was asked for" bash -c 'nearest 0,10um "1 mises 0,1 mises 1e-05," && [ ! -s told.txt ]'
+claim "  all channels of it, in the order of the stream, whichever order the depths have" bash -c '
+    rc-stress --nu 0.3 --depths 10um,0,5um --components mises,szz result.rcg |
+        rc-pick --depth 9um,1um - 2>/dev/null | frames | tr "\n" , |
+        grep -qx "1 szz 1e-05,1 mises 1e-05,1 szz 0,1 mises 0,2 szz 1e-05,2 mises 1e-05,2 szz 0,2 mises 0,"'
+claim "  with their own values" bash -c '
+    rc-pick --depth 7um --channel mises stress.rcg 2>/dev/null | values - >a &&
+    rc-stress --nu 0.3 --depths 5um --components mises result.rcg | values - >b && [ -s a ] && cmp a b'
 claim "a range of depths" bash -c '[ "$(rc-pick --depth 0:10um:3 stress.rcg | frames | wc -l)" = 12 ]'
 claim "without a choice every frame" bash -c '
     rc-pick --set load= result.rcg -o all.rcg && values all.rcg >a && values result.rcg >b && cmp a b'
@@ -96,7 +111,10 @@ refuses 1 'no frame with the channel mises, only pressure, gap, height, plastic'
     'rc-pick --channel pressure,mises -o out.rcg result.rcg'
 claim "  and nothing is left behind" test ! -e out.rcg
 refuses 1 'no case 3: there are cases 1, 2' "nor is a case" 'rc-pick --case 1,3 result.rcg | cat'
-refuses 1 'no frame at depth 6e-06 m: there are 0, 5e-06, 1e-05 m' "nor a depth" 'rc-pick --channel mises --depth 6um stress.rcg | cat'
+refuses 1 'no frame at depth 1.251e-05 m: there are 0, 5e-06, 1e-05 m' "nor a depth more than half a step beyond the last" \
+    'rc-pick --channel mises --depth 12.51um stress.rcg | cat'
+refuses 1 'no frame at depth 5.1e-06 m: there are 5e-06 m' "nor one beside the only one" \
+    'rc-pick --channel mises --depth 5um stress.rcg | rc-pick --depth 5.1um | cat'
 refuses 1 'no frame has a depth' "nor any" 'rc-pick --depth 6um result.rcg | cat'
 rc-pick --case 1 --channel mises stress.rcg >one.rcg
 rc-pick --case 2 --channel szz stress.rcg >two.rcg

@@ -27,6 +27,12 @@ size() {
         die "it is @is" if ($w ne "-" && $w != $is[0]) || ($h ne "-" && $h != $is[1])' "$@"
 }
 
+# pixels: the PNG without what it says of how it was made.
+pixels() {
+    perl -0777 -ne 'print unpack("H*", $1) while /IDAT(.*?)....IEND/gs'
+}
+export -f pixels
+
 # describes PATTERN FILE: the uncompressed chunks of the picture hold the text.
 describes() {
     LC_ALL=C grep -aqF -- "$1" "$2"
@@ -59,7 +65,16 @@ claim "--verbose says which channel was chosen" \
     warns 'drawing pressure' rc-render --verbose --raw three.rcg
 claim "of several depths the one with the largest value is drawn" \
     warns 'drawing 12.35 µm' rc-render --verbose --raw depths.rcg
-claim "--depth is met to a thousandth" rc-render --depth 12.35um -o d.png depths.rcg
+claim "--depth is met to a thousandth" bash -c 'rc-render --depth 12.35um -o d.png depths.rcg 2>told && [ ! -s told ]'
+for asked in 12um 26um; do
+    claim "  the nearest to $asked is drawn, and told" bash -c "
+        warns 'no frame is at .*: the nearest depth, 1.23456e-05 m, is taken' \
+            rc-render --raw --depth $asked -o near.png depths.rcg &&
+        [ \"\$(rc-render --raw --depth $asked depths.rcg 2>near.err | pixels)\" = \"\$(rc-render --raw --depth 12.3456um depths.rcg | pixels)\" ]"
+done
+stream szz Pa 8 9 "depth=0 case=1" '$i' szz Pa 8 9 "depth=1e-06 case=1" '-$i' \
+    szz Pa 8 9 "depth=0 case=2" '$j' szz Pa 8 9 "depth=1e-05 case=2" '-$j' >two.rcg
+claim "  of the first case that has one" warns 'the nearest depth, 1e-05 m, is taken' rc-render --raw --depth 9um -o near.png two.rcg
 claim "a figure is as wide as it is asked for" rc-render --width 777 -o w.png height.rcg
 claim "777 pixels" size 777 - w.png
 
@@ -134,9 +149,9 @@ refuses 1 'none of its 25 values is a finite number: there is nothing to draw' "
 refuses 1 'no channel mises: there are height, pressure, gap' "an absent channel" \
     "$draw --channel mises three.rcg"
 refuses 1 'case 7 holds no frame: there are cases 1, 2' "an absent case" "$draw --case 7 cases.rcg"
-refuses 1 'there are 0, 1.23456e-05, 4e-05 m' "an absent depth" "$draw --depth 13um depths.rcg"
+refuses 1 'there are 0, 1.23456e-05, 4e-05 m' "an absent depth" "$draw --depth 54um depths.rcg"
 stream szz Pa 8 9 "depth=0" 1 mises Pa 8 9 "depth=0" 1 szz Pa 8 9 "depth=1e-05" 1 mises Pa 8 9 "depth=1e-05" 1 >turns.rcg
-refuses 1 'there are 0, 1e-05 m' "an absent depth of the second channel" "$draw --channel mises --depth 13um turns.rcg"
+refuses 1 'there are 0, 1e-05 m' "an absent depth of the second channel" "$draw --channel mises --depth 16um turns.rcg"
 refuses 1 'no frame at depth 1.3e-05 m: no frame has a depth' "a depth where there is none" "$draw --depth 13um height.rcg"
 refuses 1 'no section across x' "an absent section" "$draw --section x section.rcg"
 refuses 1 'the stream holds no frame' "a stream without frames" "printf 'RCGEND 0\n' | $draw"

@@ -10,6 +10,33 @@ struct seen {
     char *channel;
     double depth; /* NAN: none */
     size_t number;
+    bool taken;
+};
+
+/* Where the input stands, for messages. */
+struct place {
+    const char *source;
+    size_t frame;
+};
+
+/* A frame that waits: whether it is wanted, no frame to come can change where it is sure. */
+struct held {
+    struct rc_grid *grid;
+    double depth;
+    bool kept, sure;
+    size_t seen; /* its place in wanted->seen */
+    struct place place;
+};
+
+struct wanted_depths {
+    size_t number; /* of the case; 0: none yet                                           */
+    double *depth; /* of its frames that only their depth can keep from being wanted     */
+    size_t n, room;
+    bool *met; /* in any case, for each depth that is asked for                            */
+    struct held *held;
+    size_t waiting, space;
+    struct place place;
+    bool ended;
 };
 
 /* ---- whether a frame meets a list ---- */
@@ -46,21 +73,6 @@ right_channel(const struct wanted *w, const struct seen *s)
 }
 
 static bool
-is_depth(const struct seen *s, double depth)
-{
-    return fabs(s->depth - depth) <= 1e-3 * depth;
-}
-
-static bool
-right_depth(const struct wanted *w, const struct seen *s)
-{
-    for (size_t k = 0; k < w->depth.n; k++)
-        if (is_depth(s, w->depth.v[k]))
-            return true;
-    return w->depth.n == 0;
-}
-
-static bool
 right_case(const struct wanted *w, const struct seen *s)
 {
     for (size_t k = 0; k < w->number.n; k++)
@@ -69,10 +81,52 @@ right_case(const struct wanted *w, const struct seen *s)
     return w->number.n == 0;
 }
 
-static bool
-is_wanted(const struct wanted *w, const struct seen *s)
+/* ---- depths ---- */
+
+static double
+off(double depth, double asked)
 {
-    return right_channel(w, s) && right_depth(w, s) && right_case(w, s);
+    double d = fabs(depth - asked);
+
+    return d <= 1e-9 * asked ? 0 : d; /* the last digits of 10um and of 1e-05 differ */
+}
+
+static double
+nearest_of(const double *depth, size_t n, double asked)
+{
+    double nearest = NAN;
+
+    for (size_t k = 0; k < n; k++)
+        if (isnan(nearest) || off(depth[k], asked) < off(nearest, asked))
+            nearest = depth[k];
+    return nearest;
+}
+
+double
+wanted_depth(const double *depth, size_t n, double asked)
+{
+    double nearest = nearest_of(depth, n, asked), between = INFINITY, beyond = INFINITY;
+
+    for (size_t k = 0; k < n; k++) { /* how far the next ones are: towards `asked`, and away */
+        double step = fabs(depth[k] - nearest);
+        if (step > 0 && (depth[k] > nearest) == (asked > nearest))
+            between = fmin(between, step);
+        else if (step > 0)
+            beyond = fmin(beyond, step);
+    }
+    if (off(nearest, asked) <= 1e-3 * asked || isfinite(between))
+        return nearest;
+    return isfinite(beyond) && fabs(asked - nearest) <= 0.5 * (1 + 1e-9) * beyond ? nearest : NAN;
+}
+
+void
+wanted_tell(struct tool *t, double asked, double taken)
+{
+    char a[RC_NUMBER_SIZE], b[RC_NUMBER_SIZE];
+
+    if (off(taken, asked) > 1e-3 * asked)
+        tool_warn(t, "--depth: no frame is at %s m: the nearest depth, %s m, is taken",
+                  rc_number_text(a, asked), rc_number_text(b, taken));
 }
 
 /* ---- frame by frame ---- */
@@ -96,27 +150,153 @@ wanted_check(const struct wanted *w, struct tool *t)
             tool_die(t, EXIT_USAGE, "--case %g: it must be a whole number", w->number.v[k]);
 }
 
-bool
-wanted_frame(struct wanted *w, struct tool *t, const struct rc_grid *g)
+/* Room for one more in an array of n. */
+static void *
+grown(struct tool *t, void *v, size_t n, size_t *room, size_t size)
 {
-    struct seen *s = w->seen;
+    if (n < *room)
+        return v;
+    *room = *room == 0 ? 64 : 2 * *room;
+    if ((v = realloc(v, *room * size)) == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "out of memory for a list of %zu frames", *room);
+    return v;
+}
 
-    if (w->n > 0 && anything_goes(w)) /* no message will name a frame: the first is enough */
-        return true;
-    if (w->n == w->capacity) {
-        w->capacity = w->capacity == 0 ? 64 : 2 * w->capacity;
-        if ((s = realloc(w->seen, w->capacity * sizeof *s)) == NULL)
-            tool_die(t, EXIT_IMPOSSIBLE, "out of memory for a list of %zu frames", w->capacity);
-        w->seen = s;
-    }
-    s += w->n;
+static struct seen *
+see(struct wanted *w, struct tool *t, const struct rc_grid *g)
+{
+    struct seen *s;
+
+    w->seen = grown(t, w->seen, w->n, &w->capacity, sizeof *w->seen);
+    s = &w->seen[w->n++];
     *s = (struct seen){.channel = strdup(g->channel), .number = rc_grid_case(g)};
     if (s->channel == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "out of memory for a list of frames");
     if (!rc_grid_number(g, "depth", &s->depth))
         s->depth = NAN;
-    w->n++;
-    return is_wanted(w, s);
+    return s;
+}
+
+static bool
+only_depth(const struct wanted *w, const struct seen *s)
+{
+    return right_channel(w, s) && right_case(w, s);
+}
+
+/* ---- frames that wait for others of their case ---- */
+
+static void
+begin_depths(struct wanted *w, struct tool *t)
+{
+    struct wanted_depths *d = w->depths = calloc(1, sizeof *d);
+
+    if (d == NULL || (d->met = calloc(w->depth.n, sizeof *d->met)) == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %zu depths", w->depth.n);
+}
+
+/* Of the frames that wait those at the depth that is nearest so far to depth k of the list are kept; they
+ * are sure where it is that very depth, or at the `end` of the case. */
+static void
+keep_nearest(struct wanted *w, struct tool *t, size_t k, bool end)
+{
+    struct wanted_depths *d = w->depths;
+    const double asked = w->depth.v[k];
+    double nearest = end ? wanted_depth(d->depth, d->n, asked) : nearest_of(d->depth, d->n, asked);
+
+    for (size_t i = 0; i < d->waiting; i++)
+        if (!d->held[i].sure && d->held[i].depth == nearest) {
+            d->held[i].kept = true;
+            d->held[i].sure = end || off(nearest, asked) == 0;
+        }
+    if (end && !isnan(nearest)) {
+        if (!d->met[k])
+            wanted_tell(t, asked, nearest);
+        d->met[k] = true;
+    }
+}
+
+/* Lets go of the frames that wait in vain. */
+static void
+sort_out(struct wanted *w, struct tool *t, bool end)
+{
+    struct wanted_depths *d = w->depths;
+    size_t n = 0;
+
+    for (size_t i = 0; i < d->waiting; i++)
+        d->held[i].kept = d->held[i].sure;
+    for (size_t k = 0; k < w->depth.n; k++)
+        keep_nearest(w, t, k, end);
+    for (size_t i = 0; i < d->waiting; i++)
+        if (d->held[i].kept)
+            d->held[n++] = d->held[i];
+        else
+            rc_grid_free(d->held[i].grid);
+    d->waiting = n;
+}
+
+static void
+hold(struct wanted *w, struct tool *t, struct rc_grid *g)
+{
+    struct wanted_depths *d = w->depths;
+    const struct seen *s = see(w, t, g);
+    size_t k = 0;
+
+    if (isnan(s->depth) || !only_depth(w, s)) {
+        rc_grid_free(g);
+        return;
+    }
+    while (k < d->n && d->depth[k] != s->depth)
+        k++;
+    if (k == d->n) {
+        d->depth = grown(t, d->depth, d->n, &d->room, sizeof *d->depth);
+        d->depth[d->n++] = s->depth;
+    }
+    d->held = grown(t, d->held, d->waiting, &d->space, sizeof *d->held);
+    d->held[d->waiting++] =
+        (struct held){.grid = g, .depth = s->depth, .seen = w->n - 1, .place = d->place};
+    sort_out(w, t, false);
+}
+
+static void
+set_place(struct tool *t, const struct place *place)
+{
+    t->source = place->source;
+    t->frame = place->frame;
+}
+
+static struct rc_grid *
+first_held(struct wanted *w, struct tool *t)
+{
+    struct wanted_depths *d = w->depths;
+    const struct held first = d->held[0];
+
+    memmove(d->held, d->held + 1, --d->waiting * sizeof *d->held);
+    w->seen[first.seen].taken = true;
+    set_place(t, &first.place);
+    return first.grid;
+}
+
+static struct rc_grid *
+read_by_depth(struct wanted *w, struct tool *t)
+{
+    struct wanted_depths *d = w->depths;
+
+    while (!d->ended && !(d->waiting > 0 && d->held[0].sure)) {
+        struct rc_grid *g;
+        if (d->number != 0)
+            set_place(t, &d->place);
+        g = tool_read(t);
+        d->place = (struct place){t->source, t->frame};
+        if (g == NULL || rc_grid_case(g) != d->number) {
+            sort_out(w, t, true);
+            d->n = 0;
+            d->number = g == NULL ? 0 : rc_grid_case(g);
+        }
+        d->ended = g == NULL;
+        if (g != NULL)
+            hold(w, t, g);
+    }
+    return d->waiting > 0 ? first_held(w, t) : NULL;
 }
 
 /* ---- what was not met ---- */
@@ -155,13 +335,6 @@ no_case(const struct wanted *w, struct tool *t, double number)
              name_list_end(&l));
 }
 
-/* Whether only its depth can keep the frame from being wanted. */
-static bool
-is_deep(const struct wanted *w, const struct seen *s)
-{
-    return !isnan(s->depth) && right_channel(w, s) && right_case(w, s);
-}
-
 static _Noreturn void
 no_depth(const struct wanted *w, struct tool *t, double depth)
 {
@@ -169,9 +342,9 @@ no_depth(const struct wanted *w, struct tool *t, double depth)
     struct name_list l = {.n = 0};
 
     for (size_t k = 0, i; k < w->n; k++) {
-        if (!is_deep(w, &w->seen[k]))
+        if (isnan(w->seen[k].depth) || !only_depth(w, &w->seen[k]))
             continue;
-        for (i = 0; !is_deep(w, &w->seen[i]) || w->seen[i].depth != w->seen[k].depth;)
+        for (i = 0; !only_depth(w, &w->seen[i]) || w->seen[i].depth != w->seen[k].depth;)
             i++;
         if (i == k)
             name_list_add(&l, rc_number_text(text, w->seen[k].depth));
@@ -190,7 +363,7 @@ demand_channels(const struct wanted *w, struct tool *t, bool wanted)
 
     for (size_t k = 0; (name = name_at(w->channel, k, &n)) != NULL; k++) {
         for (i = 0; i < w->n; i++)
-            if (is_name(&w->seen[i], name, n) && (!wanted || is_wanted(w, &w->seen[i])))
+            if (is_name(&w->seen[i], name, n) && (!wanted || w->seen[i].taken))
                 break;
         if (i == w->n && wanted)
             tool_die(t, EXIT_IMPOSSIBLE,
@@ -218,19 +391,14 @@ demand_cases(const struct wanted *w, struct tool *t)
 static void
 demand_depths(const struct wanted *w, struct tool *t)
 {
-    size_t i;
-
-    for (size_t k = 0; k < w->depth.n; k++) {
-        for (i = 0; i < w->n; i++)
-            if (is_deep(w, &w->seen[i]) && is_depth(&w->seen[i], w->depth.v[k]))
-                break;
-        if (i == w->n)
+    for (size_t k = 0; k < w->depth.n; k++)
+        if (!w->depths->met[k])
             no_depth(w, t, w->depth.v[k]);
-    }
 }
 
-void
-wanted_end(struct wanted *w, struct tool *t)
+/* After the last frame. */
+static void
+settle(struct wanted *w, struct tool *t)
 {
     if (w->n == 0)
         tool_die(t, EXIT_IMPOSSIBLE, "%s: the stream holds no frame", t->source);
@@ -241,6 +409,44 @@ wanted_end(struct wanted *w, struct tool *t)
     for (size_t k = 0; k < w->n; k++)
         free(w->seen[k].channel);
     free(w->seen);
+    if (w->depths != NULL) {
+        free(w->depths->depth);
+        free(w->depths->met);
+        free(w->depths->held);
+    }
+    free(w->depths);
     free(w->depth.v);
     free(w->number.v);
+}
+
+/* ---- both ---- */
+
+/* Whether the frame is wanted, when depths are not asked for. */
+static bool
+is_wanted(struct wanted *w, struct tool *t, const struct rc_grid *g)
+{
+    struct seen *s;
+
+    if (w->n > 0 && anything_goes(w)) /* no message will name a frame: the first is enough */
+        return true;
+    s = see(w, t, g);
+    return s->taken = only_depth(w, s);
+}
+
+struct rc_grid *
+wanted_read(struct wanted *w, struct tool *t)
+{
+    struct rc_grid *g;
+
+    if (w->depth.n > 0 && w->depths == NULL)
+        begin_depths(w, t);
+    if (w->depths != NULL) {
+        g = read_by_depth(w, t);
+    } else {
+        while ((g = tool_read(t)) != NULL && !is_wanted(w, t, g))
+            rc_grid_free(g);
+    }
+    if (g == NULL)
+        settle(w, t);
+    return g;
 }

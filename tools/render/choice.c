@@ -77,7 +77,7 @@ right_section(const struct wish *w, const struct seen *s)
 static bool
 right_depth(const struct wish *w, const struct seen *s)
 {
-    return isnan(w->depth) || fabs(s->depth - w->depth) <= 1e-3 * w->depth;
+    return isnan(w->depth) || !isnan(s->depth);
 }
 
 /* ---- the best ---- */
@@ -127,6 +127,28 @@ let_go(struct choice *c, struct rc_grid *g)
     c->pressure = g;
 }
 
+/* The case of the frame that is kept has ended: whether its depth is near enough is known now. */
+static void
+end_case(struct choice *c, struct tool *t)
+{
+    double *depth, own;
+    size_t n = 0;
+
+    if (c->grid == NULL || !rc_grid_number(c->grid, "depth", &own) || isnan(c->wish->depth))
+        return;
+    if ((depth = malloc(c->n * sizeof *depth)) == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %zu depths", c->n);
+    for (size_t k = 0; k < c->n; k++)
+        if (strcmp(c->seen[k].channel, c->grid->channel) == 0 &&
+            c->seen[k].number == rc_grid_case(c->grid) && !isnan(c->seen[k].depth))
+            depth[n++] = c->seen[k].depth;
+    if (isnan(wanted_depth(depth, n, c->wish->depth))) {
+        rc_grid_free(c->grid);
+        c->grid = NULL;
+    }
+    free(depth);
+}
+
 void
 choice_offer(struct choice *c, struct tool *t, struct rc_grid *g)
 {
@@ -134,6 +156,8 @@ choice_offer(struct choice *c, struct tool *t, struct rc_grid *g)
     const struct seen *s;
     double size;
 
+    if (c->n > 0 && c->seen[c->n - 1].number != rc_grid_case(g))
+        end_case(c, t);
     remember(c, t, g);
     s = &c->seen[c->n - 1];
     size = isnan(s->depth) ? 0 : largest(g);
@@ -250,10 +274,13 @@ choice_settle(struct choice *c, struct tool *t)
     size_t number, cases = 0, depths = 0, same = 0, last = 0;
     bool others = false;
     char where[TICKS_TEXT];
-    double depth;
+    double depth, drawn = NAN;
 
+    end_case(c, t);
     if (c->grid == NULL)
         fail(c, t);
+    if (!isnan(c->wish->depth) && rc_grid_number(c->grid, "depth", &drawn))
+        wanted_tell(t, c->wish->depth, drawn);
     if (c->pressure != NULL && !is_beside(c->pressure, c->grid)) {
         rc_grid_free(c->pressure);
         c->pressure = NULL;
@@ -264,7 +291,7 @@ choice_settle(struct choice *c, struct tool *t)
         bool channel = strcmp(s->channel, c->grid->channel) == 0;
 
         others = others || !channel;
-        if (!channel || !right_section(c->wish, s) || !right_depth(c->wish, s))
+        if (!channel || !right_section(c->wish, s) || (!isnan(drawn) && s->depth != drawn))
             continue;
         cases += s->number != last;
         last = s->number;

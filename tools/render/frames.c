@@ -36,8 +36,8 @@ frames_read(struct frames *f, struct tool *t)
 
     f->wanted.channel = f->wish.channel;
     wanted_check(&f->wanted, t);
-    while ((g = tool_read(t)) != NULL) {
-        if (!wanted_frame(&f->wanted, t, g) || !right_section(f, g) || !prefer(f, g)) {
+    while ((g = wanted_read(&f->wanted, t)) != NULL) {
+        if (!right_section(f, g) || !prefer(f, g)) {
             rc_grid_free(g);
         } else if (f->n == FRAMES) {
             f->left++;
@@ -46,7 +46,6 @@ frames_read(struct frames *f, struct tool *t)
             f->grid[f->n++] = g;
         }
     }
-    wanted_end(&f->wanted, t);
     if (f->n == 0)
         tool_die(t, EXIT_IMPOSSIBLE, "%s: there is no frame%s%s to draw", t->source,
                  f->wish.section == NULL ? "" : " of a section across ",

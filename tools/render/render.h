@@ -12,7 +12,7 @@
 struct wish {
     const char *channel; /* NULL: mises, pressure, height, else the first there is    */
     const char *section; /* "x" or "y": a section across that axis; NULL: whatever    */
-    double depth;        /* metres, met within a thousandth; NAN: whatever            */
+    double depth;        /* metres: the nearest within half a step; NAN: whatever     */
     size_t number;       /* of the case; 0: the first                                 */
     bool contact;        /* the pressure of its case is kept too                      */
 };
