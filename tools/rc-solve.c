@@ -34,6 +34,8 @@ static const struct opt opts[] = {
      .help = "frames to write, of %s (default: all but plastic)"},
     {.name = "stiffness", .type = OPT_FLAG, AT(stiffness),
      .help = "find how the load grows with the approach (default: with a list)"},
+    {.name = "conductivity", .type = OPT_TEXT, AT(conductivity), .arg = "K1,K2",
+     .help = "find how well the contact conducts: of both bodies, as 45W/mK,16W/mK or 58MS/m,7MS/m"},
     {.name = "discretization", .type = OPT_FLAG, AT(discretization),
      .help = "estimate what the grid leaves out, from a coarser one solved as well"},
     {.name = "report", .type = OPT_REPORT, AT(report), .arg = "FILE",
@@ -70,6 +72,22 @@ static const struct tool_info info = {
 /* ---- the command line ---- */
 
 static void
+read_conductivity(struct run *run)
+{
+    struct rc_err err;
+
+    if (args.conductivity == NULL)
+        return;
+    if (unit_conductivities(args.conductivity, run->k, &run->conductance_unit, &err) != RC_OK)
+        tool_die(&run->t, EXIT_USAGE, "--conductivity %s: %s", args.conductivity, err.text);
+    run->conductance = args.physics.pair.one.layers == 0;
+    if (!run->conductance)
+        tool_warn(&run->t,
+                  "--conductivity: how a contact of coated bodies conducts does not follow "
+                  "from how it yields: the conductance is left out");
+}
+
+static void
 check_arguments(struct run *run)
 {
     if ((args.resume || tool_given(&run->t, "interval")) && args.checkpoint == NULL)
@@ -78,6 +96,7 @@ check_arguments(struct run *run)
     run->args = &args;
     run->steps = physics_steps(&args.physics);
     run->stiffness = args.stiffness || run->steps->n > 1;
+    read_conductivity(run);
 }
 
 /* ---- one case ---- */
@@ -257,22 +276,42 @@ look_at_contact(struct run *run, const struct rc_grid *g, const double *p, struc
     s->slope = rc_measure_contact_slope(ranks_of(&run->t), &shape, g->v, p);
 }
 
+/* Where no node is at the hardness the conductance has found the stiffness too. */
+static void
+find_stiffness(struct run *run, const struct rc_grid *g, struct rc_solver *solver,
+               struct solution *s)
+{
+    struct rc_err err;
+
+    if (run->conductance &&
+        rc_solver_conductance(solver, run->k[0], run->k[1], &s->conductance, &err) != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (!run->stiffness)
+        return;
+    if (run->conductance && s->contact.plastic_nodes == 0)
+        s->stiffness = s->conductance.stiffness;
+    else if (rc_solver_stiffness(solver, &s->stiffness, &err) != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+}
+
+/* Nothing is known yet. */
+static const struct solution unsolved = {
+    .slope = NAN, .stiffness = NAN, .conductance = {NAN, NAN, NAN}};
+
 static void
 do_load(struct run *run, const struct rc_grid *g, struct rc_solver *solver, struct solution *s)
 {
     struct results r;
-    struct rc_err err;
     double start;
 
-    *s = (struct solution){.slope = NAN, .stiffness = NAN};
+    *s = unsolved;
     solve(run, g, solver);
     start = solve_now();
     if (tool_interrupted() == 0) /* else there may be nothing on this grid yet */
         look_at_contact(run, g, rc_solver_pressure(solver), s);
     results_new(run, g, &r);
     find_result(run, &r, solver, &s->contact);
-    if (run->stiffness && rc_solver_stiffness(solver, &s->stiffness, &err) != RC_OK)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    find_stiffness(run, g, solver, s);
     s->contact.convolutions = rc_solver_convolutions(solver);
     run->result = solve_now() - start;
     solve_judge(run, g, s);
@@ -290,11 +329,13 @@ take_apart(struct run *run, const struct rc_grid *g)
 {
     size_t nodes = rc_grid_nodes(g);
     const struct rc_shape shape = rc_grid_shape(g);
-    struct solution s = {.slope = NAN, .stiffness = NAN};
+    struct solution s = unsolved;
     struct results r;
 
     run->iterate = run->result = 0;
     rc_contact_apart(ranks_of(&run->t), &shape, g->v, NULL, &s.contact);
+    if (run->conductance)
+        s.conductance = (struct rc_conductance){NAN, 0, 0};
     solve_judge(run, g, &s);
     solve_report(run, g, NULL, &s);
     results_new(run, g, &r);

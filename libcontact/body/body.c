@@ -82,6 +82,22 @@ rc_pair_positive(const struct rc_pair *p)
     return p->estar > 0 || (rc_body_type(&p->one)->positive && rc_body_type(&p->two)->positive);
 }
 
+double
+rc_pair_modulus(const struct rc_pair *p)
+{
+    const struct rc_body *bodies[] = {&p->one, &p->two};
+    double compliance = 0;
+
+    if (p->estar > 0)
+        return p->estar;
+    for (int k = 0; k < 2; k++)
+        if (gives_way(bodies[k]))
+            compliance += rc_body_type(bodies[k])->compliance == NULL
+                              ? NAN
+                              : rc_body_type(bodies[k])->compliance(bodies[k]);
+    return 1 / compliance;
+}
+
 /* ---- made ready ---- */
 
 /* The uniform ones as one, of `compliance`; the others by themselves. */

@@ -339,6 +339,7 @@ rc_operator_new(const struct rc_shape *shape, const struct rc_operator_options *
         plan(s, shape, o, err) != RC_OK)
         goto fail;
     s->op.exact = true;
+    s->op.estar = rc_pair_modulus(o->pair);
     s->op.error = rc_conv_error(s->conv);
     s->op.engine = rc_conv_engine(s->conv);
     s->op.reason = rc_conv_reason(s->conv);

@@ -22,6 +22,7 @@ struct rc_operator {
     enum rc_boundary boundary;
     size_t threads;
     double unit;     /* m/Pa                                                                   */
+    double estar;    /* Pa, where it is the same for all waves; NAN: it is not                 */
     double norm;     /* m/Pa: a bound of the largest eigenvalue                                */
     double diagonal; /* m/Pa: displacement of a node under unit pressure on its own cell       */
     /* Of the inverse, in the units of rows: the pressures on a node and its eight neighbours that

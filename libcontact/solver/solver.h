@@ -236,10 +236,11 @@ void rc_working_set_find(struct rc_solver *solver, bool sift);
 void rc_working_set_follow(struct rc_solver *solver, const float *q, double factor);
 /* The set becomes all nodes; r stays. */
 void rc_working_set_all(struct rc_solver *solver);
-/* The set becomes the elastic nodes, with r = 1 on them; returns their number. */
-size_t rc_working_set_elastic(struct rc_solver *solver);
 /* Where the operator asks for it, how a shift of the set is spread on it is found exactly. Uses z. */
 void rc_working_set_spread(struct rc_solver *solver);
+/* The set becomes the elastic nodes, `touching` all that carry pressure, with r = 1 on them; returns
+ * their number. */
+size_t rc_working_set_fix(struct rc_solver *solver, bool touching);
 /* z = E' A E r; `done` as in rc_preconditioner_apply. The mean of z is still in it. */
 void rc_working_set_correct(struct rc_solver *solver, rc_row *done, void *ctx);
 /* Takes the pressure of a shift, `share` times rc_load_share of each node, out of z, and returns the

@@ -392,24 +392,32 @@ rc_working_set_all(struct rc_solver *s)
     rc_working_set_forget(s);
 }
 
+struct fixed {
+    struct rc_solver *s;
+    bool touching;
+};
+
 static void
-elastic_block(void *at, size_t first, size_t n, double *sums)
+fix_block(void *at, size_t first, size_t n, double *sums)
 {
-    struct rc_solver *s = at;
+    const struct fixed *c = at;
+    struct rc_solver *s = c->s;
+    const struct rc_box box = rc_box(s, 0);
 
     for (size_t k = first; k < first + n; k++) {
-        s->set.w[k] = rc_elastic(s, k);
+        s->set.w[k] = c->touching ? !rc_at_low(box, k, s->it.p[k]) : rc_elastic(s, k);
         s->set.r[k] = s->set.w[k];
         sums[0] += s->set.w[k];
     }
 }
 
 size_t
-rc_working_set_elastic(struct rc_solver *s)
+rc_working_set_fix(struct rc_solver *s, bool touching)
 {
+    struct fixed c = {s, touching};
     double total[RC_SUMS];
 
-    rc_reduce_blocks(s, elastic_block, s, total);
+    rc_reduce_blocks(s, fix_block, &c, total);
     rc_working_set_forget(s);
     s->set.size = (size_t)total[0];
     s->set.offset = 0;

@@ -45,6 +45,7 @@ commands=$(
 1 rc-solve --quiet --kernel mlms --estar 1GPa --approach 0.1um --report /dev/null h.rcg -o out
 1 rc-solve --quiet --method pk99 --kernel direct --estar 1GPa --load 1mN --discretization h.rcg -o out
 1 rc-solve --quiet --E1 1GPa --nu1 0.3 --E2 rigid --layer 2um,2GPa,0.3 --load 1mN h.rcg -o out
+1 rc-solve --quiet --estar 1GPa --load 1mN --conductivity 45W/mK,16W/mK --report /dev/null h.rcg -o out
 1 rc-solve --quiet --estar 1GPa --load 1mN --dry-run h.rcg
 5 rc-stress --nu 0.3 --depths auto c.rcg -o out
 2 rc-stress --nu 0.3 --mu 0.1 --depths 1um,2um --components mises,s1 --report /dev/null c.rcg -o out

@@ -305,7 +305,7 @@ plans(double *out, struct rc_err *err)
     struct rc_expected expected;
     struct rc_contact apart;
     const char *reason;
-    size_t bytes[10];
+    size_t bytes[11];
 
     rc_contact_apart(NULL, &shape, rough, NULL, &apart);
     if (!(apart.mean_gap > 0))
@@ -320,17 +320,18 @@ plans(double *out, struct rc_err *err)
     bytes[7] = rc_stress_memory(&shape, &stress, NULL, 0, 0);
     bytes[8] = rc_patches_memory(&shape, pressure, &patches);
     bytes[9] = rc_solver_stiffness_memory(&shape, &problem);
-    for (size_t k = 0; k < 10; k++) {
+    bytes[10] = rc_solver_conductance_memory(&shape, &problem);
+    for (size_t k = 0; k < 11; k++) {
         out[k] = (double)bytes[k];
         if (bytes[k] == 0)
             return rc_err_set(err, "no plan %zu", k);
     }
     if (rc_solver_expect(&shape, &problem, &expected, err) != RC_OK)
         return RC_FAIL;
-    out[10] = (double)expected.memory;
-    out[11] = rc_conv_seconds(&shape, &conv);
-    out[12] = (double)strlen(rc_conv_choice(&shape, &conv, &reason));
-    out[13] = (double)strlen(rc_solver_choice(&shape, &problem, &reason));
+    out[11] = (double)expected.memory;
+    out[12] = rc_conv_seconds(&shape, &conv);
+    out[13] = (double)strlen(rc_conv_choice(&shape, &conv, &reason));
+    out[14] = (double)strlen(rc_solver_choice(&shape, &problem, &reason));
     return RC_OK;
 }
 

@@ -3,6 +3,7 @@
 #ifndef USES_H
 #define USES_H
 
+#include <math.h>
 #include <string.h>
 
 #include "libcontact/contact.h"
@@ -57,6 +58,7 @@ solve_twice(const struct rc_shape *shape, const double *heights, const struct rc
             size_t n, double *const field[4], double *stiffness, struct rc_err *err)
 {
     struct rc_solver *solver = rc_solver_new(shape, heights, problem, err);
+    struct rc_conductance conducts;
     struct rc_contact contact;
     enum rc_status status = RC_FAIL;
 
@@ -65,10 +67,12 @@ solve_twice(const struct rc_shape *shape, const double *heights, const struct rc
     rc_solver_result(solver, field[1], field[2], &contact);
     if (rc_solver_plastic(solver, field[3], err) != RC_OK ||
         rc_solver_stiffness(solver, stiffness, err) != RC_OK ||
+        rc_solver_conductance(solver, 45, 16, &conducts, err) != RC_OK ||
         rc_solver_set_load(solver, 1.1 * contact.load, 0, err) != RC_OK ||
         rc_solver_warm_start(solver, contact.load, rc_solver_pressure(solver), err) != RC_OK ||
         finish_load(solver, err) != RC_OK)
         goto done;
+    *stiffness += isnan(conducts.value) ? 0 : conducts.value; /* of coated bodies there is none */
     memcpy(field[0], rc_solver_pressure(solver), n * sizeof *field[0]);
     rc_solver_result(solver, NULL, NULL, &contact);
     if (rc_solver_set_heights(solver, field[3], err) == RC_OK &&

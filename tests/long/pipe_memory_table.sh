@@ -75,6 +75,7 @@ for size in "$@"; do
     row "rc-solve, a list" "rc-solve --verbose --estar 3GPa --mean-pressure 50MPa,100MPa s.rcg"
     row "rc-solve --discretization" "rc-solve --discretization --verbose $load s.rcg"
     row "rc-solve --stiffness" "rc-solve --stiffness --verbose $load s.rcg"
+    row "rc-solve --conductivity" "rc-solve --conductivity 45,16 --verbose $load s.rcg"
     row "rc-stress, single" "rc-stress --tol 1e-3 --verbose --nu 0.3 --depths 1um,5um,50um p.rcg"
 done
 size=256x256

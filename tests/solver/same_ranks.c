@@ -142,6 +142,7 @@ refusals(void **state)
 struct outcome {
     struct rc_contact c;
     double *p, *gap, *u, stiffness;
+    struct rc_conductance conductance;
     struct rc_patches patches;
 };
 
@@ -171,6 +172,7 @@ contact(struct rc_shape s, size_t n, const double *h, struct rc_problem problem,
         rc_solver_result(solver, o.u, o.gap, &o.c);
     }
     assert_int_equal(rc_solver_stiffness(solver, &o.stiffness, &err), RC_OK);
+    assert_int_equal(rc_solver_conductance(solver, 45, 16, &o.conductance, &err), RC_OK);
     memcpy(o.p, rc_solver_pressure(solver), n * sizeof *o.p);
     assert_int_equal(rc_patches_find(&s, o.p, &look, &o.patches, &err), RC_OK);
     rc_solver_free(solver);
@@ -213,6 +215,8 @@ compare(struct rc_shape s, struct rc_problem problem, size_t loads, const char *
     assert_same(part.n, shared.gap, alone.gap + part.first, what);
     assert_same(part.n, shared.u, alone.u + part.first, what);
     assert_same(1, &shared.stiffness, &alone.stiffness, "stiffness");
+    assert_same(1, &shared.conductance.value, &alone.conductance.value, "conductance");
+    assert_same(1, &shared.conductance.lower, &alone.conductance.lower, "its bound");
     assert_same(1, &shared.c.mean_gap, &alone.c.mean_gap, "mean gap");
     assert_same(1, &shared.c.kkt_residual, &alone.c.kkt_residual, "residual");
     assert_same(1, &shared.c.edge_load_fraction, &alone.c.edge_load_fraction, "edge load");

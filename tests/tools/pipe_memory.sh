@@ -35,6 +35,8 @@ estimated "rc-solve --kernel fft64" "rc-solve --kernel fft64 --verbose $load sma
 estimated "rc-solve --kernel mlms" "rc-solve --kernel mlms --verbose $load small.rcg"
 estimated "rc-solve, a coating" "rc-solve --verbose $coat small.rcg"
 estimated "rc-solve --stiffness --hardness" "rc-solve --verbose --stiffness --hardness 300MPa $load odd.rcg"
+estimated "rc-solve --conductivity" "rc-solve --verbose --conductivity 45,16 $load odd.rcg"
+estimated "rc-solve --conductivity, periodic" "rc-solve --verbose --periodic --conductivity 45,16 --output pressure $load odd.rcg"
 estimated "rc-solve --history" "rc-solve --verbose --estar 3GPa --hardness 300MPa --history --mean-pressure 50MPa,100MPa small.rcg"
 estimated "rc-solve, a second map" "rc-solve --verbose $load small.rcg small.rcg"
 estimated "rc-solve --method pk99" "rc-solve --verbose --method pk99 --tol 1e-2 $load odd.rcg"

@@ -362,6 +362,69 @@ test_shown(void **state)
         assert_string_equal(shown_bytes(text, sizes[k].value), sizes[k].shown);
 }
 
+static void
+test_conductivities(void **state)
+{
+    static const struct {
+        const char *text;
+        double k1, k2;
+        const char *conductance;
+    } good[] = {
+        {"45W/mK,16.3W/mK", 45, 16.3, "W/K"},
+        {"45W/(m K),16.3 W/m/K", 45, 16.3, "W/K"},
+        {"0.2mW/mK,1.1kW/(m*K)", 0.2e-3, 1.1e3, "W/K"},
+        {"4.01W/cmK,4.01W/(cm K)", 401, 401, "W/K"},
+        {"58MS/m,7.1MS/m", 58e6, 7.1e6, "S"},
+        {"0.29S/um,2.9kS/cm", 0.29e6, 2.9e5, "S"},
+        {"45,1.6e1", 45, 16, NULL},
+    };
+    static const char *const bad[] = {
+        "",
+        "45",
+        "45,",
+        ",45",
+        "45,16,3",
+        "45W/mK",
+        "45,0",
+        "-45,16",
+        "45W/mK,16",
+        "45W/mK,16S/m",
+        "45W/m,16W/m",
+        "45W,16W",
+        "45x,16",
+        "45W/mKK,1W/mK",
+        "45S/mK,1S/mK",
+        "45W/K,16W/K",
+        "45MW/m2K,1W/mK",
+        "1e999,1",
+        "inf,1",
+        "nan,1",
+        "45S/,1S/m",
+        "45/m,1S/m",
+    };
+
+    (void)state;
+    for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
+        double k[2] = {NAN, NAN};
+        const char *conductance;
+        struct rc_err err;
+        assert_int_equal(unit_conductivities(good[i].text, k, &conductance, &err), RC_OK);
+        assert_true(k[0] == good[i].k1 && k[1] == good[i].k2);
+        if (good[i].conductance == NULL)
+            assert_null(conductance);
+        else
+            assert_string_equal(conductance, good[i].conductance);
+    }
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        double k[2];
+        const char *conductance;
+        struct rc_err err = {""};
+        if (unit_conductivities(bad[i], k, &conductance, &err) == RC_OK)
+            fail_msg("'%s' was taken", bad[i]);
+        assert_true(err.text[0] != '\0');
+    }
+}
+
 int
 main(void)
 {
@@ -371,7 +434,7 @@ main(void)
         cmocka_unit_test(test_range_ends),   cmocka_unit_test(test_bad_lists),
         cmocka_unit_test(test_comma_locale), cmocka_unit_test(test_ratios),
         cmocka_unit_test(test_forces),       cmocka_unit_test(test_decimal_commas),
-        cmocka_unit_test(test_shown),
+        cmocka_unit_test(test_shown),        cmocka_unit_test(test_conductivities),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

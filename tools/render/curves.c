@@ -34,6 +34,7 @@ static const struct quantity {
     {"approach", "Approach", "m"},
     {"mean_gap", "Mean gap", "m"},
     {"stiffness", "Stiffness", "N/m"},
+    {"conductance", "Conductance", "1"}, /* W/K or S, as the table says */
     {"iterations", "Iterations", "1"},
     {"convolutions", "Convolutions", "1"},
     {"kkt_residual", "Residual", "1"},

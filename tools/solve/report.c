@@ -92,6 +92,14 @@ stiffness_state(const struct scene *s)
 }
 
 static const char *
+conductivity_state(const struct scene *s)
+{
+    if (s->run->args->conductivity == NULL)
+        return "left out: no --conductivity";
+    return s->run->conductance ? "on" : "left out: layers, for which no analogy holds";
+}
+
+static const char *
 discretization_state(const struct scene *s)
 {
     if (!s->run->args->discretization)
@@ -103,15 +111,11 @@ static const struct effect {
     const char *name;
     const char *(*state)(const struct scene *scene);
 } effects[] = {
-    {"kernel", kernel_state},
-    {"layers", layers_state},
-    {"hardness", hardness_state},
-    {"sphere", sphere_state},
-    {"padding", padding_state},
-    {"approach", approach_state},
-    {"history", history_state},
-    {"stiffness", stiffness_state},
-    {"discretization", discretization_state},
+    {"kernel", kernel_state},           {"layers", layers_state},
+    {"hardness", hardness_state},       {"sphere", sphere_state},
+    {"padding", padding_state},         {"approach", approach_state},
+    {"history", history_state},         {"stiffness", stiffness_state},
+    {"conductivity", conductivity_state}, {"discretization", discretization_state},
 };
 
 enum {
@@ -238,6 +242,8 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
     report_ranks(r, &run->t);
     report_number(r, "hardness_min", run->hardness_min, "Pa"); /* columns keep their places */
     report_number(r, "hardness_max", run->hardness_max, "Pa");
+    report_number(r, "conductance", s->conductance.value, run->conductance_unit);
+    report_number(r, "conductance_lower", s->conductance.lower, run->conductance_unit);
     report_finish_row(r);
 }
 
@@ -268,7 +274,9 @@ solve_memory(const struct run *run, const struct rc_grid *g, const struct rc_pro
                    solve_wanted(run->args, SOLVE_DISPLACEMENT) ||
                    solve_wanted(run->args, SOLVE_PLASTIC);
     size_t left = holes(nodes),
-           stiffness = run->stiffness ? rc_solver_stiffness_memory(&shape, problem) : 0;
+           stiffness = run->conductance ? rc_solver_conductance_memory(&shape, problem)
+                       : run->stiffness ? rc_solver_stiffness_memory(&shape, problem)
+                                        : 0;
     const struct rc_patch_options patches = {.ranks = problem->ranks};
 
     if (nodes * sizeof(float) < MEMORY_APART) /* what the stiffness takes lies in the holes */
@@ -294,7 +302,8 @@ solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *pr
 
     if (rc_solver_expect(&shape, problem, &e, &err) != RC_OK)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    each = e.convolutions + (run->stiffness ? STIFFNESS : 0);
+    each = e.convolutions + (run->conductance ? STIFFNESS + 1 : 0) +
+           (run->stiffness && !(run->conductance && isinf(run->hardness_min)) ? STIFFNESS : 0);
     memory = ranks_most(&run->t, (double)tool_memory_with(solve_memory(run, g, problem)));
     tool_where(&run->t, g, where, sizeof where);
     fprintf(run->t.out, "%s: %zu x %zu nodes, %zu %s, engine %s\n", where, g->nx, g->ny,

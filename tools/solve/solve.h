@@ -31,8 +31,9 @@ struct solve_args {
     struct physics physics;
     double tol;
     const char *kernel, *method, *report;
-    const char *checkpoint; /* a file, or NULL                                         */
-    double interval;        /* seconds to the first frame in it                        */
+    const char *conductivity; /* of both bodies, or NULL                                  */
+    const char *checkpoint;   /* a file, or NULL                                         */
+    double interval;          /* seconds to the first frame in it                        */
     bool stiffness, discretization, dry_run, resume;
     size_t output; /* bits of enum solve_frame */
 };
@@ -46,9 +47,11 @@ struct progress {
 struct run {
     struct tool t;
     const struct solve_args *args;
-    const struct numbers *steps; /* the list of loads or approaches               */
-    size_t step, number;         /* which of them, from 0; the case that it is    */
-    bool stiffness;
+    const struct numbers *steps;       /* the list of loads or approaches               */
+    size_t step, number;               /* which of them, from 0; the case that it is    */
+    bool stiffness, conductance;       /* whether they are found                            */
+    double k[2];                       /* conductivities of the bodies, SI                  */
+    const char *conductance_unit;      /* W/K or S; NULL: the conductivities have no unit   */
     bool resumed;                      /* this case, from a checkpoint                      */
     double height_error;               /* m: of the heights that came in */
     const struct rc_grid *hardness;    /* a map of it, in the case; NULL: a number or none */
@@ -75,9 +78,10 @@ solve_now(void)
 /* What is known of a solution. */
 struct solution {
     struct rc_contact contact;
-    struct rc_patches patches; /* of the contact; the list of them only for a report */
-    double slope;              /* RMS, where the bodies touch; NAN: not looked at         */
-    double stiffness;          /* N/m; NAN: unknown                                       */
+    struct rc_patches patches;         /* of the contact; the list of them only for a report */
+    double slope;                      /* RMS, where the bodies touch; NAN: not looked at         */
+    double stiffness;                  /* N/m; NAN: unknown                                       */
+    struct rc_conductance conductance; /* NAN: unknown */
 };
 
 /* "steel.x3p, case 2, load 3 N": which solution is meant, for messages. */

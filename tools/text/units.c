@@ -81,13 +81,18 @@ shift(const char *digits, size_t length, int power, double *value)
 
 /* The power of ten of a unit with its prefix, text[0..n); false when it is another unit. */
 static bool
-unit_power(const char *text, size_t n, enum unit unit, int *power)
+power_of(const char *text, size_t n, const char *base, int *power)
 {
-    const char *base = unit_name(unit);
     size_t tail = strlen(base);
 
     return n >= tail && memcmp(text + n - tail, base, tail) == 0 &&
            rc_prefix_power(text, n - tail, power);
+}
+
+static bool
+unit_power(const char *text, size_t n, enum unit unit, int *power)
+{
+    return power_of(text, n, unit_name(unit), power);
 }
 
 /* Applies the unit written as suffix[0..n) after the number digits[0..length); false when there is
@@ -357,4 +362,79 @@ unit_decimal_comma(const char *text)
     a = strtod(s, NULL);
     b = strtod(s + whole + 1, NULL);
     return a > 0 && b > 0 && a < 10 * b && b < 10 * a;
+}
+
+/* ---- conductivities ---- */
+
+/* Conductivities by what they conduct: "45W/mK", "45 W/(m K)" and "45W/m/K" are one. */
+static const struct conductivity {
+    const char *above, *below; /* the slash: "W", "K" beside the metre */
+    const char *conductance;
+} conductivities[] = {
+    {"W", "K", "W/K"},
+    {"S", "", "S"},
+};
+
+/* suffix[0..n) after the number digits[0..length); NULL: no such unit. */
+static const struct conductivity *
+apply_conductivity(const char *digits, size_t length, const char *suffix, size_t n, double *value)
+{
+    const char *slash = memchr(suffix, '/', n);
+    char below[32];
+    size_t used = 0;
+    int up, down;
+
+    if (slash == NULL)
+        return NULL;
+    for (const char *s = slash + 1; s < suffix + n; s++)
+        if (strchr(" ()*./", *s) == NULL && used + 1 < sizeof below)
+            below[used++] = *s;
+    for (size_t k = 0; k < sizeof conductivities / sizeof *conductivities; k++) {
+        const struct conductivity *c = &conductivities[k];
+        size_t tail = strlen(c->below);
+        if (used > tail && memcmp(below + used - tail, c->below, tail) == 0 &&
+            power_of(suffix, (size_t)(slash - suffix), c->above, &up) &&
+            unit_power(below, used - tail, UNIT_M, &down) &&
+            shift(digits, length, up - down, value))
+            return c;
+    }
+    return NULL;
+}
+
+static enum rc_status
+read_conductivity(const char *text, size_t n, double *value, const char **conductance,
+                  struct rc_err *err)
+{
+    const char *stop = text + n, *end = n == 0 ? NULL : rc_number_read(text, false, value), *suffix;
+    const struct conductivity *kind = NULL;
+
+    if (end == NULL || end > stop)
+        return rc_err_set(err, "'%.*s' is not a number", (int)n, text);
+    for (suffix = end; suffix < stop && *suffix == ' ';)
+        suffix++;
+    if (suffix < stop && (kind = apply_conductivity(text, (size_t)(end - text), suffix,
+                                                    (size_t)(stop - suffix), value)) == NULL)
+        return rc_err_set(err,
+                          "unknown unit '%.*s': W/mK or S/m is expected, with prefixes or without",
+                          (int)(stop - suffix), suffix);
+    if (!(*value > 0) || !isfinite(*value))
+        return rc_err_set(err, "%.*s: it must be above 0 and finite", (int)n, text);
+    *conductance = kind == NULL ? NULL : kind->conductance;
+    return RC_OK;
+}
+
+enum rc_status
+unit_conductivities(const char *text, double k[2], const char **conductance, struct rc_err *err)
+{
+    const char *comma = strchr(text, ','), *of[2];
+
+    if (comma == NULL || strchr(comma + 1, ',') != NULL)
+        return rc_err_set(err, "it must be K1,K2, one for each body, as in 45W/mK,16W/mK");
+    if (read_conductivity(text, (size_t)(comma - text), &k[0], &of[0], err) != RC_OK ||
+        read_conductivity(comma + 1, strlen(comma + 1), &k[1], &of[1], err) != RC_OK)
+        return RC_FAIL;
+    if (of[0] != of[1])
+        return rc_err_set(err, "give both in W/mK or both in S/m, or both without a unit");
+    *conductance = of[0];
+    return RC_OK;
 }
