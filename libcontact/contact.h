@@ -591,19 +591,20 @@ RC_API void rc_contact_apart(const struct rc_ranks *ranks, const struct rc_shape
  * memory is short. */
 RC_API enum rc_status rc_solver_stiffness(struct rc_solver *solver, double *stiffness,
                                           struct rc_err *err);
-/* How well the contact conducts heat, or current, from one body to the other, by Barber's analogy (Proc. R.
- * Soc. A 459 (2003) 53): for conductivities k1, k2 of the bodies 2 S/(E* (1/k1 + 1/k2)), S the stiffness
- * were all nodes in contact, those at their hardness too, to come closer together. It is the flow over the
- * difference between potentials far away, on a periodic map between those that the two surfaces have on
- * average. Nothing flows where there is no contact, and there is no film in it. */
+/* How well the contact conducts heat, or current, from one body to the other, by Barber's analogy
+ * (Proc. R. Soc. A 459 (2003) 53): for conductivities k1, k2 of the bodies 2 S/(E* (1/k1 + 1/k2)),
+ * S the stiffness were all nodes in contact, those at their hardness too, to come closer together.
+ * It is the flow over the difference between potentials far away, on a periodic map between those
+ * that the two surfaces have on average. Nothing flows where there is no contact, and there is no
+ * film in it. */
 struct rc_conductance {
     double stiffness; /* N/m: that S; of rc_solver_stiffness where no node is at its hardness    */
     double value;     /* W/K with k1, k2 in W/(m K); S with S/m                                  */
     double lower; /* no more than that of these nodes; by how much less says how well it is known */
 };
-/* At the solution, after rc_solver_result. NAN for coated bodies, for which there is no such analogy, and
- * where a periodic surface is in complete contact. Takes 10 to 20 convolutions; RC_FAIL when a conductivity
- * is not positive and finite, and when memory is short. */
+/* At the solution, after rc_solver_result. NAN for coated bodies, for which there is no such
+ * analogy, and where a periodic surface is in complete contact. Takes 10 to 20 convolutions;
+ * RC_FAIL when a conductivity is not positive and finite, and when memory is short. */
 RC_API enum rc_status rc_solver_conductance(struct rc_solver *solver, double k1, double k2,
                                             struct rc_conductance *conductance, struct rc_err *err);
 RC_API const char *rc_solver_engine(const struct rc_solver *solver);
@@ -722,7 +723,7 @@ RC_API enum rc_status rc_stress_depths(const struct rc_ranks *ranks, const struc
                                        const struct rc_body *body, double **depths, size_t *n,
                                        struct rc_err *err);
 
-/* Places of the least and of the largest of n values, the first of equals; NaN is neither. n > 0. */
+/* Places of the least and the largest of n values, n > 0; the first of equals, and never a NaN. */
 RC_API void rc_extremes(size_t n, const double *v, size_t *least, size_t *largest);
 
 /* The derived stresses of n points from their six components: out[c] for each c from RC_MISES on

@@ -35,7 +35,7 @@ static const struct opt opts[] = {
     {.name = "stiffness", .type = OPT_FLAG, AT(stiffness),
      .help = "find how the load grows with the approach (default: with a list)"},
     {.name = "conductivity", .type = OPT_TEXT, AT(conductivity), .arg = "K1,K2",
-     .help = "find how well the contact conducts: of both bodies, as 45W/mK,16W/mK or 58MS/m,7MS/m"},
+     .help = "find how well the contact conducts, from both bodies: 45W/mK,16W/mK, 58MS/m,7MS/m"},
     {.name = "discretization", .type = OPT_FLAG, AT(discretization),
      .help = "estimate what the grid leaves out, from a coarser one solved as well"},
     {.name = "report", .type = OPT_REPORT, AT(report), .arg = "FILE",

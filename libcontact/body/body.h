@@ -172,7 +172,8 @@ rc_solid_free(struct rc_solid *solid) /* NULL is allowed */
 enum rc_status rc_pair_check(const struct rc_pair *pair, struct rc_err *err);
 /* Whether the spectrum of their padded kernel is positive, whatever the map. */
 bool rc_pair_positive(const struct rc_pair *pair);
-/* E* of both, Pa, where it is the same for all waves; NAN: it is not. Of a pair that has been checked. */
+/* E* of both, Pa, where it is the same for all waves; NAN: it is not. Of a pair that has been
+ * checked. */
 double rc_pair_modulus(const struct rc_pair *pair);
 
 /* Both bodies made ready: a single solid where both are uniform, else one for each body that is not

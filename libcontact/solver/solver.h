@@ -238,8 +238,8 @@ void rc_working_set_follow(struct rc_solver *solver, const float *q, double fact
 void rc_working_set_all(struct rc_solver *solver);
 /* Where the operator asks for it, how a shift of the set is spread on it is found exactly. Uses z. */
 void rc_working_set_spread(struct rc_solver *solver);
-/* The set becomes the elastic nodes, `touching` all that carry pressure, with r = 1 on them; returns
- * their number. */
+/* The set becomes the elastic nodes, `touching` all that carry pressure, with r = 1 on them;
+ * returns their number. */
 size_t rc_working_set_fix(struct rc_solver *solver, bool touching);
 /* z = E' A E r; `done` as in rc_preconditioner_apply. The mean of z is still in it. */
 void rc_working_set_correct(struct rc_solver *solver, rc_row *done, void *ctx);

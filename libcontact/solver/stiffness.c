@@ -1,15 +1,15 @@
 /*
- * The stiffness: the load that one unit of approach adds while a set of nodes moves together, no node
- * changing sides. With t the pressure that displaces all of them by one unit, K_WW t = 1, it is the sum of t.
- * The equation is solved by conjugate gradients with the preconditioner of the contact. The sum is
- * stationary at the solution, so its relative error is the square of that of t, and single
- * precision is enough.
+ * The stiffness: the load that one unit of approach adds while a set of nodes moves together, no
+ * node changing sides. With t the pressure that displaces all of them by one unit, K_WW t = 1, it
+ * is the sum of t. The equation is solved by conjugate gradients with the preconditioner of the
+ * contact. The sum is stationary at the solution, so its relative error is the square of that of t,
+ * and single precision is enough.
  *
- * For d load / d approach the set is that of the elastic nodes: one at its hardness carries no more. For the
- * conductance it is that of all nodes in contact: the potential at the surface of a conductor is that of the
- * current as the displacement is that of the pressure (Barber 2003), and it is one number wherever the
- * bodies touch. Any t then gives a bound, (sum t)^2 / t'K t <= S, by Schwarz's inequality in the scalar
- * product of K.
+ * For d load / d approach the set is that of the elastic nodes: one at its hardness carries no
+ * more. For the conductance it is that of all nodes in contact: the potential at the surface of a
+ * conductor is that of the current as the displacement is that of the pressure (Barber 2003), and
+ * it is one number wherever the bodies touch. Any t then gives a bound, (sum t)^2 / t'K t <= S, by
+ * Schwarz's inequality in the scalar product of K.
  */
 #include "solver.h"
 
@@ -175,8 +175,8 @@ system_new(struct system *c, struct rc_solver *s, struct rc_err *err)
     return RC_OK;
 }
 
-/* The stiffness of the elastic nodes, or of all in contact, N/m; NAN where there are none, and where they
- * are all of a periodic map, whose mean nothing moves. */
+/* The stiffness of the elastic nodes, or of all in contact, N/m; NAN where there are none, and
+ * where they are all of a periodic map, whose mean nothing moves. */
 static double
 stiffness_of(struct system *c, bool touching)
 {

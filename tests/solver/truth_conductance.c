@@ -1,5 +1,5 @@
-/* The conductance of a contact: a circle, several circles, a circle in a periodic cell and Hertz's have closed
- * forms; and for any contact, yielding or not, a dense system of equations has it. */
+/* The conductance of a contact: a circle, several circles, a circle in a periodic cell and Hertz's
+ * have closed forms; and for any contact, yielding or not, a dense system of equations has it. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -108,8 +108,8 @@ dense_stiffness(struct rc_shape shape, enum rc_boundary boundary, const double *
     return sum * shape.dx * shape.dy;
 }
 
-/* Rough contacts of some 40 nodes, elastic and with a part at its hardness, free and periodic. What the
- * conjugate gradients stop at is 1e-8 of the sum, and single precision adds to it. */
+/* Rough contacts of 10 to 23 nodes, elastic and with a part at its hardness, free and periodic.
+ * What the conjugate gradients stop at is 1e-8 of the sum, and single precision adds to it. */
 static void
 any_contact(void **state)
 {
@@ -190,12 +190,13 @@ radius_of(const struct found *f, const struct circles *c)
     return sqrt((double)f->c.contact_nodes / ((double)c->n * exact_pi));
 }
 
-/* What a circle of square cells is smaller by than the circle of their area, in spacings: the pressure is
- * constant in a cell, and its edge is infinite. Dense systems of 45 to 716 cells have 0.09 to 0.13. */
+/* What a circle of square cells is smaller by than the circle of their area, in spacings: the
+ * pressure is constant in a cell, and its edge is infinite. Dense systems of 45 to 716 cells have
+ * 0.09 to 0.13. */
 static const double edge = 0.117, edge_scatter = 0.02;
 
-/* One circle: 4 a/(1/k1 + 1/k2), with a less that edge. Returns the radius that its cells have, by a dense
- * system, in spacings. */
+/* One circle: 4 a/(1/k1 + 1/k2), with a less that edge. Returns the radius that its cells have, by
+ * a dense system, in spacings. */
 static double
 circle(double radius)
 {
@@ -223,7 +224,8 @@ one_circle(void **state)
 }
 
 /* 1/S of equal circles that share one potential: of its own each has 1/(2 a), of another one at s
- * 1/(pi s), if that is a point (Greenwood 1966), or else asin(a/s)/(pi a), its potential on the middle. */
+ * 1/(pi s), if that is a point (Greenwood 1966), or else asin(a/s)/(pi a), its potential on the
+ * middle. */
 static double
 circles_resist(const struct circles *c, double a, double spacing, bool points)
 {
@@ -311,11 +313,12 @@ several_circles(void **state)
     }
 }
 
-/* A circle in each square cell of side L: to the mean plane 1/S = 1/(2 a) - M/(pi L) + N a^2/(3 pi L^3). M is
- * the lattice sum of 1/r less what it is of a uniform charge, -4 zeta(1/2) beta(1/2), and N that of 1/r^3,
- * 4 zeta(3/2) beta(3/2): the potential of the others is (-M/L + N r^2/(4 L^3))/pi, and r^2 is 2 a^2/3 in the
- * mean over a circle's charge, on either side. What is left out goes as (a/L)^5. The waves that the nodes
- * can show have an edge of their own, some hundredth of a spacing off. */
+/* A circle in each square cell of side L: to the mean plane 1/S = 1/(2 a) - M/(pi L) + N a^2/(3 pi
+ * L^3). M is the lattice sum of 1/r less what it is of a uniform charge, -4 zeta(1/2) beta(1/2),
+ * and N that of 1/r^3, 4 zeta(3/2) beta(3/2): the potential of the others is (-M/L + N r^2/(4
+ * L^3))/pi, and r^2 is 2 a^2/3 in the mean over a circle's charge, on either side. What is left out
+ * goes as (a/L)^5. The waves that the nodes can show have an edge of their own, some hundredth of a
+ * spacing off. */
 static void
 periodic_cell(void **state)
 {
@@ -339,8 +342,9 @@ periodic_cell(void **state)
     }
 }
 
-/* Hertz: a sphere conducts as the circle of his radius, wherever its middle lies among the nodes, and no
- * correction of the edge of the area is wanted: that the area comes out too large makes up for the edge. */
+/* Hertz: a sphere conducts as the circle of his radius, wherever its middle lies among the nodes,
+ * and no correction of the edge of the area is wanted: that the area comes out too large makes up
+ * for the edge. */
 static void
 sphere(void **state)
 {

@@ -344,8 +344,8 @@ alone_as_in_company(void **state)
     free(s.p);
 }
 
-/* The least and the largest value are the first that no other one is below or above, wherever in a map
- * they are; what is no number is neither. */
+/* The least and the largest value are the first that no other one is below or above, wherever in a
+ * map they are; what is no number is neither. */
 static void
 extremes_as_one_by_one(void **state)
 {

@@ -19,7 +19,7 @@ struct place {
     size_t frame;
 };
 
-/* A frame that waits: whether it is wanted, no frame to come can change where it is sure. */
+/* A frame that waits. Sure: it is wanted, whatever frames are to come. */
 struct held {
     struct rc_grid *grid;
     double depth;
@@ -194,8 +194,8 @@ begin_depths(struct wanted *w, struct tool *t)
         tool_die(t, EXIT_IMPOSSIBLE, "out of memory for %zu depths", w->depth.n);
 }
 
-/* Of the frames that wait those at the depth that is nearest so far to depth k of the list are kept; they
- * are sure where it is that very depth, or at the `end` of the case. */
+/* Keeps the waiting frames at the depth that is so far the nearest to depth k of the list. They are
+ * sure where it is that very depth, or at the `end` of the case. */
 static void
 keep_nearest(struct wanted *w, struct tool *t, size_t k, bool end)
 {

@@ -23,7 +23,7 @@ struct wanted {          /* starts as {0}: every frame                          
      .help = "only the frames of these channels, separated by commas"},                            \
     {.name = "depth", .type = OPT_NUMBERS, .unit = UNIT_M, .at = offsetof(args, member.depth),     \
      .min = 0, .max = INFINITY, .result = in_history, .arg = "LIST",                               \
-     .help = "only the frames at these depths, or at the nearest within half a step"},                          \
+     .help = "only the frames at these depths, or the nearest within half a step"},                \
     {.name = "case", .type = OPT_NUMBERS, .at = offsetof(args, member.number), .min = 1,           \
      .max = 9e15, .whole = true, .result = in_history, .arg = "LIST",                              \
      .help = "only the frames of these cases"}
@@ -31,15 +31,16 @@ struct wanted {          /* starts as {0}: every frame                          
 
 /* Before the first frame: ends the tool for an empty name and a case that is no whole number. */
 void wanted_check(const struct wanted *wanted, struct tool *tool);
-/* The next frame that is one of them; the caller frees it. NULL after the last one, where the lists are freed.
- * Frames at a depth that a later one may turn out to be nearer to wait here for the end of their case. */
+/* The next frame that is one of them; the caller frees it. NULL after the last one, where the lists
+ * are freed. Frames at a depth that a later one may turn out to be nearer to wait here for the end
+ * of their case. */
 struct rc_grid *wanted_read(struct wanted *wanted, struct tool *tool);
 
-/* Which of n depths is meant by `asked`: the nearest, within half the step to the next one, or within a
- * thousandth; NAN: none. */
+/* Which of n depths is meant by `asked`: the nearest, within half the step to the next one, or
+ * within a thousandth; NAN: none. */
 double wanted_depth(const double *depth, size_t n, double asked);
-/* Warns that frames at another depth than the one asked for are taken, where they differ by more than a
- * thousandth. */
+/* Warns that frames at another depth than the one asked for are taken, where they differ by more
+ * than a thousandth. */
 void wanted_tell(struct tool *tool, double asked, double taken);
 
 #endif

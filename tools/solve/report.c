@@ -111,11 +111,16 @@ static const struct effect {
     const char *name;
     const char *(*state)(const struct scene *scene);
 } effects[] = {
-    {"kernel", kernel_state},           {"layers", layers_state},
-    {"hardness", hardness_state},       {"sphere", sphere_state},
-    {"padding", padding_state},         {"approach", approach_state},
-    {"history", history_state},         {"stiffness", stiffness_state},
-    {"conductivity", conductivity_state}, {"discretization", discretization_state},
+    {"kernel", kernel_state},
+    {"layers", layers_state},
+    {"hardness", hardness_state},
+    {"sphere", sphere_state},
+    {"padding", padding_state},
+    {"approach", approach_state},
+    {"history", history_state},
+    {"stiffness", stiffness_state},
+    {"conductivity", conductivity_state},
+    {"discretization", discretization_state},
 };
 
 enum {

@@ -54,8 +54,8 @@ enum rc_status unit_forces(const char *text, struct numbers *list, struct rc_err
 /* Whether a list looks as if it were one number with a decimal comma: two whole numbers without a
  * unit, of which none is ten times the other. */
 bool unit_decimal_comma(const char *text);
-/* "K1,K2" to W/(m K) or S/m, both above 0. *conductance: the unit of what conducts so, "W/K" or "S";
- * NULL: neither has a unit. */
+/* "K1,K2" to W/(m K) or S/m, both above 0. *conductance: the unit of what conducts so, "W/K" or
+ * "S"; NULL: neither has a unit. */
 enum rc_status unit_conductivities(const char *text, double k[2], const char **conductance,
                                    struct rc_err *err);
 
