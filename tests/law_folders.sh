@@ -23,6 +23,7 @@ libcontact/operator/real_space | %base libcontact/operator/engine.h | libcontact
 libcontact/solver   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator libcontact/body
 libcontact/stress   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator
 libcontact/stress   |                                          | libcontact/transform libcontact/body
+libcontact/volume   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator
 libcontact/surface  | %base %ranks                             | libcontact libcontact/ranks
 libcontact/surface  | libcontact/transform/transform.h         | libcontact/transform
 formats/core        | libcontact/grid.h                        | libcontact

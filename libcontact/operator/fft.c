@@ -658,3 +658,29 @@ rc_fft_field_pair(struct rc_fft *f, const struct rc_spectrum *k, double weight,
 
     f->ops->field(f->plan, columns, k->values, k->parity, also->values, also->parity, weight, u);
 }
+
+/* ---- waves by themselves ---- */
+
+size_t
+rc_fft_length(const struct rc_fft *f)
+{
+    return f->layout.py;
+}
+
+size_t
+rc_fft_wave(const struct rc_fft *f, size_t t)
+{
+    return f->layout.radix * (t % f->layout.m) + t / f->layout.m;
+}
+
+void
+rc_fft_forward(struct rc_fft *f, rc_row *row, void *ctx, void *waves, rc_wave_column *column)
+{
+    f->ops->forward(f->plan, row, ctx, waves, column);
+}
+
+void
+rc_fft_back(struct rc_fft *f, const void *waves, rc_wave_column *column, rc_row *row, void *ctx)
+{
+    f->ops->back(f->plan, waves, column, row, ctx);
+}

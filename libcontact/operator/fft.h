@@ -110,6 +110,19 @@ void rc_fft_field(struct rc_fft *fft, const struct rc_spectrum *kernel, double *
 void rc_fft_field_pair(struct rc_fft *fft, const struct rc_spectrum *k, double weight,
                        const struct rc_spectrum *l, double *u);
 
+/* Maps to their waves and back by themselves, for sums over several maps at once. A column i of those
+ * held here has rc_fft_length numbers t, in the plan's precision: first their real parts, then their
+ * imaginary parts; t stands for wave number rc_fft_wave(fft, t) along y. Column i lies at
+ * waves + 2 i rc_fft_length. `column`, called by several threads, takes or makes one column instead, where
+ * `waves` is NULL. Forward divides by the nodes of the (padded) map, back does not. */
+typedef void rc_wave_column(void *ctx, size_t i, void *column);
+size_t rc_fft_length(const struct rc_fft *fft);
+size_t rc_fft_wave(const struct rc_fft *fft, size_t t);
+void rc_fft_forward(struct rc_fft *fft, rc_row *row, void *ctx, void *waves,
+                    rc_wave_column *column);
+void rc_fft_back(struct rc_fft *fft, const void *waves, rc_wave_column *column, rc_row *row,
+                 void *ctx);
+
 /* ---- between fft.c and fft_body.h ---- */
 
 /* Columns have length py = radix * m and are transformed as `radix` interleaved transforms of
@@ -177,6 +190,9 @@ struct rc_fft_ops {
      * on both are zero. */
     void (*field)(void *plan, size_t columns, const void *spectrum, unsigned parity,
                   const void *also, unsigned also_parity, double weight, double *u);
+    /* rc_fft_forward and rc_fft_back. */
+    void (*forward)(void *plan, rc_row *row, void *ctx, void *waves, rc_wave_column *column);
+    void (*back)(void *plan, const void *waves, rc_wave_column *column, rc_row *row, void *ctx);
 };
 extern const struct rc_fft_ops rc_fft_double, rc_fft_single;
 

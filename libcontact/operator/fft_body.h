@@ -581,6 +581,86 @@ field(void *at, size_t columns, const void *spectrum, unsigned parity, const voi
     transform_some(f, columns, &map, row_out, true, false);
 }
 
+/* n complex numbers, times `factor`, to real and imaginary parts, and back. */
+RC_CLONES static void
+part(const COMPLEX *restrict z, size_t n, REAL factor, REAL *restrict re, REAL *restrict im)
+{
+    const REAL *v = (const REAL *)z;
+
+    for (size_t k = 0; k < n; k++) {
+        re[k] = factor * v[2 * k];
+        im[k] = factor * v[2 * k + 1];
+    }
+}
+
+RC_CLONES static void
+join(const REAL *restrict re, const REAL *restrict im, size_t n, COMPLEX *restrict z)
+{
+    REAL *v = (REAL *)z;
+
+    for (size_t k = 0; k < n; k++) {
+        v[2 * k] = re[k];
+        v[2 * k + 1] = im[k];
+    }
+}
+
+static void
+forward(void *at, rc_row *row, void *ctx, void *waves, rc_wave_column *column)
+{
+    struct plan *f = at;
+    const struct rc_layout *l = &f->l;
+    const REAL factor = (REAL)(1 / ((double)l->px * (double)l->py));
+
+    transform_rows(f, ctx, row, false, true);
+    turn(f, false);
+#pragma omp parallel for num_threads(l->threads) schedule(static)
+    for (size_t c = 0; c < l->columns; c += LINE) {
+        size_t n = l->columns - c < LINE ? l->columns - c : LINE;
+        COMPLEX *y = scratch_of(f), *z = y + LINE * f->column;
+
+        gather(f, c, y);
+        for (size_t b = 0; b < n; b++) {
+            COMPLEX *one = y + b * f->column;
+            REAL *to = waves == NULL ? (REAL *)one : (REAL *)waves + 2 * (c + b) * l->py;
+            for (size_t r = 0; r < l->radix; r++)
+                FFTW(execute_dft)(f->column_forward, one + r * piece(f), z + r * piece(f));
+            for (size_t r = 0; r < l->radix; r++)
+                part(z + r * piece(f), l->m, factor, to + r * l->m, to + l->py + r * l->m);
+            if (waves == NULL)
+                column(ctx, c + b, to);
+        }
+    }
+}
+
+static void
+back(void *at, const void *waves, rc_wave_column *column, rc_row *row, void *ctx)
+{
+    struct plan *f = at;
+    const struct rc_layout *l = &f->l;
+
+#pragma omp parallel for num_threads(l->threads) schedule(static)
+    for (size_t c = 0; c < l->columns; c += LINE) {
+        size_t n = l->columns - c < LINE ? l->columns - c : LINE;
+        COMPLEX *y = scratch_of(f), *z = y + LINE * f->column;
+
+        for (size_t b = 0; b < n; b++) {
+            COMPLEX *one = y + b * f->column;
+            const REAL *from = (const REAL *)one;
+            if (waves == NULL)
+                column(ctx, c + b, one);
+            else
+                from = (const REAL *)waves + 2 * (c + b) * l->py;
+            for (size_t r = 0; r < l->radix; r++)
+                join(from + r * l->m, from + l->py + r * l->m, l->m, z + r * piece(f));
+            for (size_t r = 0; r < l->radix; r++)
+                FFTW(execute_dft)(f->column_back, z + r * piece(f), one + r * piece(f));
+        }
+        scatter(f, c, y);
+    }
+    turn(f, true);
+    transform_rows(f, ctx, row, true, false);
+}
+
 static void
 store(const struct rc_layout *l, size_t c, double factor, double mirror, const double *s,
       void *spectrum)
@@ -611,4 +691,6 @@ const struct rc_fft_ops OPS = {
     .chain = chain,
     .load = load,
     .field = field,
+    .forward = forward,
+    .back = back,
 };

@@ -1,0 +1,514 @@
+/*
+ * The sweeps over a stack of slabs: what is kept, what is transformed when. One map at a time is
+ * transformed, into waves that are kept for each slab; the depths between groups of RC_SWEEP_SLABS slabs
+ * keep the waves that pass, and the depths within a group are computed again on the way down.
+ *
+ * Kept of a node, in numbers: 5 a slab, which the stresses of the slab take over, 3 a group, and 1 for the
+ * map under transform.
+ */
+#include "volume.h"
+
+#include <omp.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "libcontact/memory.h"
+#include "sweep.h"
+
+struct rc_slabs {
+    struct rc_shape shape, here; /* of the whole map; of the rows held here */
+    size_t slabs, groups;
+    double *thickness;
+    double modulus, nu; /* 2 mu */
+    bool whole;
+    const struct rc_ranks *ranks;
+    struct rc_fft *fft;
+    const struct rc_sweep_ops *ops;
+    size_t length, first, columns; /* waves of a column; columns held here                    */
+    size_t map;                    /* numbers of a map, as waves or as rows                   */
+    double *qy, *alive;            /* of the waves of a column                                */
+    void *strain;                  /* 5 maps a slab: strain, then stress                      */
+    void *zz;                      /* whole: a map for each slab of a group                   */
+    void *waves;                   /* 3 maps a group: those on top of it                      */
+    bool *strained;                /* slabs of the last strain                                */
+    bool *passes;                  /* groups: whether there are waves on top                  */
+    double *rows;                  /* single: RC_COMPONENTS rows for each thread              */
+    double mean;                   /* of the pressure, Pa                                     */
+};
+
+/* ---- plan ---- */
+
+static size_t
+groups_of(size_t slabs)
+{
+    return (slabs + RC_SWEEP_SLABS - 1) / RC_SWEEP_SLABS;
+}
+
+static size_t
+real_size(enum rc_precision precision)
+{
+    return precision == RC_SINGLE ? rc_sweep_single.real_size : rc_sweep_double.real_size;
+}
+
+static enum rc_status
+check(const struct rc_shape *shape, const struct rc_slabs_options *o, struct rc_err *err)
+{
+    if (rc_shape_check(shape, err) != RC_OK)
+        return RC_FAIL;
+    if (o->slabs == 0)
+        return rc_err_set(err, "no slabs: a volume has at least one");
+    if (!(o->shear > 0) || isinf(o->shear))
+        return rc_err_set(err, "shear modulus %g Pa: it must be positive and finite", o->shear);
+    if (!(o->nu > -1 && o->nu <= 0.5))
+        return rc_err_set(err, "Poisson's ratio %g: it must be above -1 and at most 0.5", o->nu);
+    for (size_t k = 0; k < o->slabs; k++)
+        if (!(o->thickness[k] > 0) || isinf(o->thickness[k]))
+            return rc_err_set(err, "slab %zu is %g m thick: it must be positive and finite", k + 1,
+                              o->thickness[k]);
+    return RC_OK;
+}
+
+/* Numbers of a map of waves, of as many columns, or of as many rows: the larger. */
+static size_t
+map_size(const struct rc_shape *shape, size_t length, size_t columns, size_t rows)
+{
+    size_t waves = 2 * length * columns, nodes = shape->nx * rows;
+
+    waves = waves > nodes ? waves : nodes;
+    return (waves + 15) / 16 * 16; /* whole cache lines */
+}
+
+static void
+set_waves(struct rc_slabs *v)
+{
+    size_t ny = v->shape.ny;
+
+    v->length = rc_fft_length(v->fft);
+    rc_fft_columns(v->fft, &v->first, &v->columns);
+    v->map = map_size(&v->shape, v->length, v->columns, v->here.ny);
+    for (size_t t = 0; t < v->length && v->qy != NULL && v->alive != NULL; t++) {
+        size_t j = rc_fft_wave(v->fft, t);
+        v->qy[t] = rc_fft_qy(v->fft, j);
+        v->alive[t] = 2 * j != ny;
+    }
+}
+
+static enum rc_status
+allocate(struct rc_slabs *v, const struct rc_slabs_options *o, struct rc_err *err)
+{
+    size_t size = real_size(o->precision), rows = 0;
+
+    v->thickness = malloc(v->slabs * sizeof *v->thickness);
+    v->strained = calloc(v->slabs, sizeof *v->strained);
+    v->passes = calloc(v->groups, sizeof *v->passes);
+    v->qy = rc_alloc(rc_fft_length(v->fft), sizeof *v->qy);
+    v->alive = rc_alloc(rc_fft_length(v->fft), sizeof *v->alive);
+    set_waves(v);
+    v->strain = rc_alloc(RC_SWEEP_STRAINS * v->slabs, v->map * size);
+    v->waves = rc_alloc(RC_SWEEP_WAVES * v->groups, v->map * size);
+    if (o->whole)
+        v->zz = rc_alloc(RC_SWEEP_SLABS, v->map * size);
+    if (o->precision == RC_SINGLE) {
+        rows = (size_t)rc_fft_threads(v->fft) * RC_COMPONENTS;
+        v->rows = rc_alloc(rows * v->shape.nx, sizeof *v->rows);
+    }
+    if (v->thickness == NULL || v->strained == NULL || v->passes == NULL || v->qy == NULL ||
+        v->alive == NULL || v->strain == NULL || v->waves == NULL || (o->whole && v->zz == NULL) ||
+        (rows > 0 && v->rows == NULL))
+        return rc_err_set(err, "out of memory for %zu slabs of %zu x %zu nodes: take fewer slabs",
+                          v->slabs, v->shape.nx, v->shape.ny);
+    memcpy(v->thickness, o->thickness, v->slabs * sizeof *v->thickness);
+    return RC_OK;
+}
+
+struct rc_slabs *
+rc_slabs_new(const struct rc_shape *shape, const struct rc_slabs_options *o, struct rc_err *err)
+{
+    struct rc_rows rows;
+    struct rc_slabs *v;
+
+    if (check(shape, o, err) != RC_OK)
+        return NULL;
+    v = calloc(1, sizeof *v);
+    if (v == NULL)
+        rc_err_set(err, "out of memory for a plan");
+    if (rc_ranks_agree(o->ranks, v == NULL ? RC_FAIL : RC_OK, err) != RC_OK)
+        goto fail;
+    rows = rc_rows_of(o->ranks, shape);
+    *v = (struct rc_slabs){.shape = *shape,
+                           .here = rc_rows_shape(&rows, shape),
+                           .slabs = o->slabs,
+                           .groups = groups_of(o->slabs),
+                           .modulus = 2 * o->shear,
+                           .nu = o->nu,
+                           .whole = o->whole,
+                           .ranks = o->ranks,
+                           .ops = o->precision == RC_SINGLE ? &rc_sweep_single : &rc_sweep_double};
+    v->fft = rc_fft_new(o->ranks, NULL, shape, RC_PERIODIC, o->precision, o->threads, err);
+    if (v->fft == NULL)
+        goto fail;
+    if (rc_ranks_agree(o->ranks, allocate(v, o, err), err) == RC_OK)
+        return v;
+fail:
+    rc_slabs_free(v);
+    return NULL;
+}
+
+void
+rc_slabs_free(struct rc_slabs *v)
+{
+    if (v == NULL)
+        return;
+    rc_fft_free(v->fft);
+    free(v->thickness);
+    free(v->qy);
+    free(v->alive);
+    free(v->strain);
+    free(v->zz);
+    free(v->waves);
+    free(v->strained);
+    free(v->passes);
+    free(v->rows);
+    free(v);
+}
+
+size_t
+rc_slabs_memory(const struct rc_shape *shape, const struct rc_slabs_options *o)
+{
+    size_t ranks = rc_ranks_count(o->ranks), size = real_size(o->precision);
+    size_t spectrum = rc_spectrum_memory(shape, RC_PERIODIC, o->precision, ranks);
+    size_t columns = spectrum / size / (shape->ny / 2 + 1), threads;
+    size_t rows = ranks > 1 ? rc_rows_most(shape, ranks) : shape->ny;
+    size_t maps = RC_SWEEP_STRAINS * o->slabs + RC_SWEEP_WAVES * groups_of(o->slabs) +
+                  (o->whole ? RC_SWEEP_SLABS : 0);
+    struct rc_shape here = {shape->nx, rows, shape->dx, shape->dy};
+
+    threads = (size_t)rc_useful_threads(&here, o->threads);
+    return sizeof(struct rc_slabs) + maps * map_size(shape, shape->ny, columns, rows) * size +
+           rc_fft_memory(shape, RC_PERIODIC, o->precision, ranks) - spectrum +
+           rc_fft_scratch(shape, RC_PERIODIC, o->precision, o->threads) +
+           (o->slabs * sizeof(double) + 2 * shape->ny * sizeof(double)) +
+           (o->precision == RC_SINGLE ? threads * RC_COMPONENTS * shape->nx * sizeof(double) : 0);
+}
+
+/* ---- where things lie ---- */
+
+static void *
+map_of(const struct rc_slabs *v, void *maps, size_t which)
+{
+    return (char *)maps + which * v->map * v->ops->real_size;
+}
+
+static void *
+strain_of(const struct rc_slabs *v, size_t slab, size_t component)
+{
+    return map_of(v, v->strain, slab * RC_SWEEP_STRAINS + component);
+}
+
+/* A column of waves that is `arrays` arrays deep. */
+static void *
+column_of(const struct rc_slabs *v, void *waves, size_t arrays, size_t i)
+{
+    return waves == NULL ? NULL : (char *)waves + i * arrays * 2 * v->length * v->ops->real_size;
+}
+
+/* Waves on top of a group in column i; NULL below the last one. */
+static void *
+waves_of(const struct rc_slabs *v, size_t group, size_t i)
+{
+    if (group == v->groups)
+        return NULL;
+    return column_of(v, map_of(v, v->waves, group * RC_SWEEP_WAVES), RC_SWEEP_WAVES, i);
+}
+
+/* Column i of those held here. */
+static struct rc_sweep_column
+sweep_column(const struct rc_slabs *v, size_t i)
+{
+    bool dead = 2 * (v->first + i) == v->shape.nx;
+
+    return (struct rc_sweep_column){.length = v->length,
+                                    .qx = rc_fft_qx(v->fft, v->first + i),
+                                    .qy = v->qy,
+                                    .alive = v->alive,
+                                    .dead = dead,
+                                    .nu = v->nu};
+}
+
+/* The slabs of a group in column i; returns how many. */
+static size_t
+slabs_of(const struct rc_slabs *v, size_t group, size_t i, const bool *wanted,
+         struct rc_sweep_slab slab[RC_SWEEP_SLABS])
+{
+    size_t first = group * RC_SWEEP_SLABS, n = v->slabs - first;
+
+    n = n < RC_SWEEP_SLABS ? n : RC_SWEEP_SLABS;
+    for (size_t k = 0; k < n; k++) {
+        slab[k] = (struct rc_sweep_slab){.thickness = v->thickness[first + k],
+                                         .strained = v->strained[first + k],
+                                         .wanted = wanted == NULL || wanted[first + k]};
+        for (size_t c = 0; c < RC_SWEEP_STRAINS; c++)
+            slab[k].strain[c] = column_of(v, strain_of(v, first + k, c), 1, i);
+        if (v->zz != NULL)
+            slab[k].zz = column_of(v, map_of(v, v->zz, k), 1, i);
+    }
+    return n;
+}
+
+/* ---- rows ---- */
+
+/* What is on its way, and of which slab. */
+struct pass {
+    struct rc_slabs *volume;
+    const struct rc_slab_strain *strain;
+    const struct rc_slab_stress *stress;
+    size_t slab, component; /* component: of kept_components */
+    const double *p;
+    double *u;
+};
+
+static const enum rc_component kept_components[RC_SWEEP_STRAINS + 1] = {RC_SXX, RC_SYY, RC_SXY,
+                                                                        RC_SXZ, RC_SYZ, RC_SZZ};
+
+static bool
+single(const struct rc_slabs *v)
+{
+    return v->rows != NULL;
+}
+
+/* Room of this thread for a row of a component. */
+static double *
+row_of(const struct rc_slabs *v, enum rc_component c)
+{
+    return v->rows + ((size_t)omp_get_thread_num() * RC_COMPONENTS + c) * v->shape.nx;
+}
+
+RC_CLONES static void
+to_single(const double *restrict from, size_t n, float *restrict to)
+{
+    for (size_t i = 0; i < n; i++)
+        to[i] = (float)from[i];
+}
+
+RC_CLONES static void
+to_double(const float *restrict from, size_t n, double *restrict to)
+{
+    for (size_t i = 0; i < n; i++)
+        to[i] = from[i];
+}
+
+static bool
+strain_row(void *ctx, size_t j, void *row)
+{
+    const struct pass *p = ctx;
+    const struct rc_slabs *v = p->volume;
+    enum rc_component c = kept_components[p->component];
+    double *to = single(v) ? row_of(v, c) : row;
+
+    if (!p->strain->row(p->strain->ctx, p->slab, c, j, to))
+        return false;
+    if (single(v))
+        to_single(to, v->shape.nx, row);
+    return true;
+}
+
+static bool
+pressure_row(void *ctx, size_t j, void *row)
+{
+    const struct pass *p = ctx;
+    size_t nx = p->volume->shape.nx;
+    const double *from = p->p + j * nx;
+
+    if (!rc_any(from, nx))
+        return false;
+    if (single(p->volume))
+        to_single(from, nx, row);
+    else
+        memcpy(row, from, nx * sizeof *from);
+    return true;
+}
+
+static bool
+displacement_row(void *ctx, size_t j, void *row)
+{
+    const struct pass *p = ctx;
+    size_t nx = p->volume->shape.nx;
+
+    if (single(p->volume))
+        to_double(row, nx, p->u + j * nx);
+    else
+        memcpy(p->u + j * nx, row, nx * sizeof *p->u);
+    return true;
+}
+
+/* Where the stresses of a slab are kept, as waves and then as rows. */
+static void *
+stress_of(const struct rc_slabs *v, size_t slab, size_t component)
+{
+    return component < RC_SWEEP_STRAINS ? strain_of(v, slab, component)
+                                        : map_of(v, v->zz, slab % RC_SWEEP_SLABS);
+}
+
+static bool
+keep_row(void *ctx, size_t j, void *row)
+{
+    const struct pass *p = ctx;
+    const struct rc_slabs *v = p->volume;
+    size_t bytes = v->shape.nx * v->ops->real_size;
+
+    memcpy((char *)stress_of(v, p->slab, p->component) + j * bytes, row, bytes);
+    return true;
+}
+
+/* The row of the last component goes on with those that are kept. */
+static bool
+stress_row(void *ctx, size_t j, void *row)
+{
+    const struct pass *p = ctx;
+    const struct rc_slabs *v = p->volume;
+    size_t nx = v->shape.nx, bytes = nx * v->ops->real_size;
+    double *s[RC_COMPONENTS] = {NULL};
+
+    for (size_t k = 0; k <= p->component; k++) {
+        enum rc_component c = kept_components[k];
+        void *at = k == p->component ? row : (char *)stress_of(v, p->slab, k) + j * bytes;
+        s[c] = single(v) ? row_of(v, c) : at;
+        if (single(v))
+            to_double(at, nx, s[c]);
+    }
+    p->stress->row(p->stress->ctx, p->slab, j, s);
+    return true;
+}
+
+/* ---- up ---- */
+
+static void
+sweep_up(struct rc_slabs *v, size_t group)
+{
+    bool below = group + 1 < v->groups && v->passes[group + 1];
+
+#pragma omp parallel for num_threads(rc_fft_threads(v->fft)) schedule(static)
+    for (size_t i = 0; i < v->columns; i++) {
+        struct rc_sweep_column column = sweep_column(v, i);
+        struct rc_sweep_slab slab[RC_SWEEP_SLABS];
+        size_t n = slabs_of(v, group, i, NULL, slab);
+        v->ops->up(&column, n, slab, below ? waves_of(v, group + 1, i) : NULL,
+                   waves_of(v, group, i));
+    }
+}
+
+static void
+surface_column(void *ctx, size_t i, void *to)
+{
+    const struct pass *p = ctx;
+    struct rc_sweep_column column = sweep_column(p->volume, i);
+
+    p->volume->ops->surface(&column, waves_of(p->volume, 0, i), to);
+}
+
+void
+rc_slabs_up(struct rc_slabs *v, const struct rc_slab_strain *strain, double *u)
+{
+    struct pass pass = {.volume = v, .strain = strain, .u = u};
+    bool any = false;
+
+    for (size_t group = v->groups; group-- > 0;) {
+        size_t end =
+            (group + 1) * RC_SWEEP_SLABS < v->slabs ? (group + 1) * RC_SWEEP_SLABS : v->slabs;
+        for (size_t k = group * RC_SWEEP_SLABS; k < end; k++) {
+            v->strained[k] = strain->strained == NULL || strain->strained[k];
+            any = any || v->strained[k];
+            pass.slab = k;
+            for (size_t c = 0; c < RC_SWEEP_STRAINS && v->strained[k]; c++) {
+                pass.component = c;
+                rc_fft_forward(v->fft, strain_row, &pass, strain_of(v, k, c), NULL);
+            }
+        }
+        v->passes[group] = any;
+        if (any)
+            sweep_up(v, group);
+    }
+    if (u == NULL)
+        return;
+    if (any)
+        rc_fft_back(v->fft, NULL, surface_column, displacement_row, &pass);
+    else
+        memset(u, 0, v->here.nx * v->here.ny * sizeof *u);
+}
+
+/* ---- down ---- */
+
+static void
+reflect_column(void *ctx, size_t i, void *p)
+{
+    struct rc_slabs *v = ((const struct pass *)ctx)->volume;
+    struct rc_sweep_column column = sweep_column(v, i);
+
+    if (v->first + i == 0 && p != NULL)
+        v->mean = single(v) ? *(const float *)p : *(const double *)p;
+    v->ops->reflect(&column, v->passes[0], p, 1 / v->modulus, waves_of(v, 0, i));
+}
+
+/* What a mean pressure makes in every slab. */
+static void
+add_mean(const struct rc_slabs *v, struct rc_sweep_slab *slab)
+{
+    double along = -2 * v->nu * v->mean;
+
+    slab->szz = slab->sxx = slab->syy = -v->mean;
+    if ((v->shape.nx == 1) == (v->shape.ny == 1))
+        slab->sxx = slab->syy = (along - v->mean) / 2;
+    else if (v->shape.nx == 1)
+        slab->sxx = along;
+    else
+        slab->syy = along;
+}
+
+static void
+sweep_down(struct rc_slabs *v, size_t group, const bool *wanted)
+{
+    bool below = group + 1 < v->groups && v->passes[group + 1];
+
+#pragma omp parallel for num_threads(rc_fft_threads(v->fft)) schedule(static)
+    for (size_t i = 0; i < v->columns; i++) {
+        struct rc_sweep_column column = sweep_column(v, i);
+        struct rc_sweep_slab slab[RC_SWEEP_SLABS];
+        size_t n = slabs_of(v, group, i, wanted, slab);
+        for (size_t k = 0; k < n && v->first + i == 0; k++)
+            add_mean(v, &slab[k]);
+        v->ops->down(&column, n, slab, v->modulus, waves_of(v, group, i), below,
+                     waves_of(v, group + 1, i));
+    }
+}
+
+void
+rc_slabs_down(struct rc_slabs *v, const double *p, const struct rc_slab_stress *stress)
+{
+    struct pass pass = {.volume = v, .stress = stress, .p = p};
+    size_t end = 0, last = v->whole ? RC_SWEEP_STRAINS : RC_SWEEP_STRAINS - 1;
+
+    for (size_t k = 0; k < v->slabs; k++)
+        if (stress->wanted == NULL || stress->wanted[k])
+            end = k + 1;
+    v->mean = 0;
+    if (p != NULL) {
+        rc_fft_forward(v->fft, pressure_row, &pass, NULL, reflect_column);
+    } else {
+#pragma omp parallel for num_threads(rc_fft_threads(v->fft)) schedule(static)
+        for (size_t i = 0; i < v->columns; i++)
+            reflect_column(&pass, i, NULL);
+    }
+    for (size_t k = 0; k < end; k++) {
+        if (k % RC_SWEEP_SLABS == 0)
+            sweep_down(v, k / RC_SWEEP_SLABS, stress->wanted);
+        if (stress->wanted != NULL && !stress->wanted[k])
+            continue;
+        pass.slab = k;
+        for (size_t c = 0; c <= last; c++) {
+            pass.component = c;
+            rc_fft_back(v->fft, stress_of(v, k, c), NULL, c < last ? keep_row : stress_row, &pass);
+        }
+    }
+    memset(v->strained, 0, v->slabs * sizeof *v->strained);
+    memset(v->passes, 0, v->groups * sizeof *v->passes);
+}
