@@ -8,10 +8,9 @@
  *     u_r = S' e              displacement of the surface that e makes, into the body, m
  *     sigma = S p - G e       stress, tension positive, Pa
  *
- * of a linear half-space with shear modulus mu and Poisson's ratio nu. S' is the transpose of S: the sum
- * of p u_r over nodes, times dx dy, is minus that of sigma(p) : e dx dy h over all voxels, in the signs of
- * this house (pressure positive in compression, u into the body). G is symmetric in the same sums, and on
- * deviators 0 <= G <= 2 mu.
+ * of a linear half-space with shear modulus mu and Poisson's ratio nu. S' is the transpose of S: for a p
+ * without a mean the sum of p u_r over the nodes is that of e : S p times h over the voxels. G is symmetric in
+ * the same sums, and on deviators 0 <= G + S K_cc^-1 S' <= 2 mu, whichever nodes c are in contact.
  *
  * A sheet of strain sends three plane waves of each wave vector down and three up, which decay as
  * exp(-q D), two of them as Mindlin's nuclei of strain do (Mura, Micromechanics of defects in solids,
@@ -19,9 +18,9 @@
  * are integrals of sheets. So one sweep up collects what reaches the surface, the surface reflects it and
  * adds its own pressure, and one sweep down makes the stresses: sweep_body.h has the formulae.
  *
- *     rc_slabs_up(v, &strain, u_r);          needs e, gives u_r
+ *     rc_slabs_up(v, &strain, u_r);           needs e, gives u_r
  *     ...                                     the caller finds p, from u_r
- *     rc_slabs_down(v, p, &stress);          needs p, gives sigma slab by slab
+ *     rc_slabs_down(v, p, &stress);           needs p, gives sigma slab by slab
  *
  * Mean: the waves of wave number 0 know no depth. A mean pressure makes szz = -p and, as in rc_stress, sxx
  * = syy = -(1 + 2 nu) p/2, on a profile -p across and -2 nu p along it; the mean of e makes the stress

@@ -339,10 +339,147 @@ equals_elements(void **state)
     }
 }
 
+/* ---- pressure ---- */
+
+/* Stresses of pressure are rc_stress's at the points of a quadrature, mean included: on odd and prime maps, on
+ * profiles either way, on an even map without waves of two nodes (which act on no slab here). */
+static void
+equals_point_stresses(void **state)
+{
+    static const struct rc_shape shapes_[] = {{13, 11, 1.1e-6, 0.7e-6}, {16, 12, 0.5e-6, 0.9e-6},
+                                              {31, 1, 0.3e-6, 2e-6},    {1, 29, 2e-6, 0.3e-6},
+                                              {1, 1, 1e-6, 1e-6},       {2, 9, 1e-6, 0.4e-6}};
+    static const double h[] = {0.2e-6, 0.5e-6, 0.4e-6, 1e-6, 1.5e-6};
+    enum {
+        SLABS = sizeof h / sizeof *h,
+        MANY = 24
+    };
+    double x[MANY], w[MANY];
+
+    (void)state;
+    gauss(MANY, x, w);
+    for (size_t k = 0; k < sizeof shapes_ / sizeof *shapes_; k++) {
+        struct rc_shape shape = shapes_[k];
+        size_t n = shape.nx * shape.ny;
+        const double nu = 0.27;
+        struct rc_slabs *v = volume_new(
+            shape, (struct rc_slabs_options){
+                       .slabs = SLABS, .thickness = h, .shear = 7e10, .nu = nu, .whole = true});
+        struct voxels s = voxels_new(shape, SLABS), t = voxels_new(shape, SLABS);
+        double *p = calloc(n, sizeof *p), *raw = calloc(n, sizeof *raw), z = 0;
+        double *one[RC_STRESSES] = {NULL};
+        struct rc_stress_options o = {
+            .boundary = RC_PERIODIC, .body.nu = nu, .wanted = (1u << RC_COMPONENTS) - 1};
+        struct rc_stress *stress;
+        uint64_t seed = 31 + k;
+
+        for (size_t i = 0; i < n; i++)
+            raw[i] = 1e8 * (1.3 + random_number(&seed));
+        for (size_t i = 0; i < n; i++) { /* 1-2-1 where a side is even */
+            size_t c = i % shape.nx, r = i / shape.nx;
+            for (size_t a = 0; a < 3; a++)
+                for (size_t b = 0; b < 3; b++) {
+                    double by = shape.nx % 2 == 0 ? (a == 1 ? 0.5 : 0.25) : a == 1;
+                    by *= shape.ny % 2 == 0 ? (b == 1 ? 0.5 : 0.25) : b == 1;
+                    p[i] += by * raw[(r + b + shape.ny - 1) % shape.ny * shape.nx +
+                                     (c + a + shape.nx - 1) % shape.nx];
+                }
+        }
+        for (int c = 0; c < RC_COMPONENTS; c++)
+            one[c] = calloc(n, sizeof *one[c]);
+        stress = rc_stress_new(&shape, p, &o, NULL);
+        assert_non_null(stress);
+        for (size_t m = 0; m < SLABS; m++) {
+            for (int g = 0; g < MANY; g++) {
+                assert_int_equal(rc_stress_slice(stress, z + x[g] * h[m], one, NULL), RC_OK);
+                for (int c = 0; c < RC_COMPONENTS; c++)
+                    for (size_t i = 0; i < n; i++)
+                        voxels_map(&t, m, (enum rc_component)c)[i] += w[g] * one[c][i];
+            }
+            z += h[m];
+        }
+        volume_apply(v, NULL, NULL, p, NULL, &s);
+        assert_true(voxels_apart(&s, &t) < summed);
+        rc_stress_free(stress);
+        rc_slabs_free(v);
+        for (int c = 0; c < RC_COMPONENTS; c++)
+            free(one[c]);
+        free(s.v);
+        free(t.v);
+        free(p);
+        free(raw);
+    }
+}
+
+/* ---- a sphere ---- */
+
+/* Mean over the middle of a slab of square maps. */
+static double
+mean_inside(const struct voxels *s, size_t slab, size_t r, enum rc_component c)
+{
+    double sum = 0, n = 0, half = (double)(s->nx / 2);
+
+    for (size_t i = 0; i < s->n; i++)
+        if (hypot((double)(i % s->nx) - half, (double)(i / s->nx) - half) <= (double)r) {
+            sum += voxels_map(s, slab, c)[i];
+            n++;
+        }
+    return sum / n;
+}
+
+/* Deviator stress in the middle of a sphere with a uniform deviator strain e, deep below the surface, is
+ * -2 mu (1 - b) e, b = 2 (4 - 5 nu)/(15 (1 - nu)) (Eshelby 1957): of cubes, 10 in the radius, to 1 %. */
+static void
+equals_sphere(void **state)
+{
+    enum {
+        N = 128,
+        R = 10,
+        SLABS = 2 * R + 2,
+        MIDDLE = R + 1
+    };
+    const struct rc_shape shape = {N, N, 1e-6, 1e-6};
+    const double nu = 0.3, shear = 8e10, b = 2 * (4 - 5 * nu) / (15 * (1 - nu)), size = 1e-3;
+    double h[SLABS];
+    struct voxels e = voxels_new(shape, SLABS), s = voxels_new(shape, SLABS);
+    struct rc_slabs *v;
+
+    (void)state;
+    for (size_t k = 0; k < SLABS; k++)
+        h[k] = k > 0 ? 1e-6 : 80e-6;
+    v = volume_new(
+        shape, (struct rc_slabs_options){.slabs = SLABS, .thickness = h, .shear = shear, .nu = nu});
+    for (int c = 0; c < STRAINS; c++) {
+        double stress, other = 0;
+        memset(e.v, 0, e.n * SLABS * RC_COMPONENTS * sizeof *e.v);
+        for (size_t k = 0; k < SLABS; k++)
+            for (size_t i = 0; i < e.n; i++) {
+                double dx = (double)(i % N) - N / 2, dy = (double)(i / N) - N / 2;
+                double dz = (double)k - MIDDLE;
+                if (k > 0 && dx * dx + dy * dy + dz * dz < R * R)
+                    voxels_map(&e, k, strains[c])[i] = size;
+            }
+        volume_apply(v, &e, NULL, NULL, NULL, &s);
+        stress = mean_inside(&s, MIDDLE, R / 2, strains[c]);
+        for (int d = 2; d < STRAINS; d++)
+            if (d != c)
+                other = fmax(other, fabs(mean_inside(&s, MIDDLE, R / 2, strains[d])));
+        print_message("sphere, %s: %.4f of 2 mu e; %.4f on paper\n", rc_component_names[strains[c]],
+                      -stress / (2 * shear * size), 1 - b);
+        assert_true(fabs(-stress / (2 * shear * size) / (1 - b) - 1) < 0.01);
+        assert_true(other < 0.005 * 2 * shear * size);
+    }
+    rc_slabs_free(v);
+    free(e.v);
+    free(s.v);
+}
+
 int
 main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(equals_elements)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(equals_elements),
+                                       cmocka_unit_test(equals_point_stresses),
+                                       cmocka_unit_test(equals_sphere)};
 
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

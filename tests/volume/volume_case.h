@@ -60,6 +60,10 @@ voxels_stress(void *ctx, size_t slab, size_t j, double *const s[RC_COMPONENTS])
         for (size_t i = 0; i < x->nx; i++) /* it is ours now */
             s[c][i] = NAN;
     }
+    if (s[RC_SZZ] == NULL) /* of a deviator */
+        for (size_t i = j * x->nx; i < (j + 1) * x->nx; i++)
+            voxels_map(x, slab, RC_SZZ)[i] =
+                -voxels_map(x, slab, RC_SXX)[i] - voxels_map(x, slab, RC_SYY)[i];
 }
 
 /* The sum of a : b over all voxels, shears counted twice, times the thicknesses. */
