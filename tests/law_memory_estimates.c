@@ -1,5 +1,5 @@
 /* The library's estimates of memory are within a tenth of the peak, each in a process of its own:
- * solver, stiffness, stresses and sums, on maps large enough that code and plans do not count. */
+ * solver, stiffness, stresses, sums and slabs, on maps large enough that code and plans do not count. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,7 +13,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "libcontact/contact.h"
+#include "libcontact/volume/volume.h"
 #include "tools/machine/memory.h"
 
 /* The second for what takes few bytes a node. */
@@ -148,6 +148,57 @@ psd(const struct work *w, const double *h, const double *p)
     return bytes;
 }
 
+static bool
+slab_strain(void *ctx, size_t slab, enum rc_component c, size_t j, double *row)
+{
+    const double *const *h = ctx;
+
+    (void)slab, (void)c;
+    memcpy(row, *h + j * map.nx, map.nx * sizeof *row);
+    return true;
+}
+
+static void
+slab_stress(void *ctx, size_t slab, size_t j, double *const s[RC_COMPONENTS])
+{
+    (void)ctx, (void)slab, (void)j, (void)s;
+}
+
+/* Slabs of strain, up and down: at most 64 bytes a node and slab, or 32. */
+static size_t
+slabs_in(const struct work *w, enum rc_precision precision, const double *h, const double *p)
+{
+    static const double thickness[] = {1e-6, 1e-6, 2e-6, 2e-6, 4e-6, 4e-6, 8e-6, 8e-6, 8e-6};
+    const struct rc_slabs_options options = {
+        .slabs = 9, .thickness = thickness, .shear = 1e9, .nu = 0.3, .precision = precision};
+    size_t bytes = rc_slabs_memory(w->shape, &options);
+    const double *heights = h;
+    const struct rc_slab_strain strain = {NULL, slab_strain, &heights};
+    const struct rc_slab_stress stress = {NULL, slab_stress, NULL};
+    struct rc_slabs *slabs = rc_slabs_new(w->shape, &options, NULL);
+
+    if (slabs == NULL || bytes > (precision == RC_SINGLE ? 32u : 64u) * 9 * nodes_of(w)) {
+        rc_slabs_free(slabs);
+        return 0;
+    }
+    rc_slabs_up(slabs, &strain, NULL);
+    rc_slabs_down(slabs, p, &stress);
+    rc_slabs_free(slabs);
+    return bytes;
+}
+
+static size_t
+slabs_double(const struct work *w, const double *h, const double *p)
+{
+    return slabs_in(w, RC_DOUBLE, h, p);
+}
+
+static size_t
+slabs_single(const struct work *w, const double *h, const double *p)
+{
+    return slabs_in(w, RC_SINGLE, h, p);
+}
+
 /* In a child: as an exit status, 0 when the memory it took agrees with the estimate. */
 static int
 measured(const struct work *w)
@@ -193,6 +244,8 @@ holds(void **state)
         {"stress, periodic", &map, RC_PERIODIC, NULL, transforms, stress},
         {"patches", &large, RC_FREE, NULL, 0, patches},
         {"spectrum", &map, RC_PERIODIC, NULL, transforms, psd},
+        {"slabs", &map, RC_PERIODIC, NULL, transforms, slabs_double},
+        {"slabs, single precision", &map, RC_PERIODIC, NULL, transforms, slabs_single},
     };
     int missed = 0;
 

@@ -17,6 +17,7 @@
 #include "tools/machine/machine.h"
 #include "libcontact/contact.h"
 #include "tests/exact.h"
+#include "libcontact/volume/volume.h"
 #include "uses.h"
 
 enum {
@@ -290,6 +291,62 @@ depths(double *out, struct rc_err *err)
     return status;
 }
 
+/* ---- slabs ---- */
+
+static bool
+some_strain(void *ctx, size_t slab, enum rc_component c, size_t j, double *row)
+{
+    (void)ctx, (void)slab, (void)c;
+    for (size_t i = 0; i < NX; i++)
+        row[i] = 1e-12 * pressure[j * NX + i];
+    return true;
+}
+
+static void
+some_stress(void *ctx, size_t slab, size_t j, double *const s[RC_COMPONENTS])
+{
+    double *out = ctx;
+
+    if (slab < 3)
+        memcpy(out + (slab + 1) * N + j * NX, s[RC_SXZ], NX * sizeof *out);
+}
+
+/* In these digits, with or without all six stresses. */
+static enum rc_status
+strained(enum rc_precision precision, bool whole, double *out, struct rc_err *err)
+{
+    static const double thickness[] = {1e-6, 2e-6, 3e-6, 4e-6, 5e-6};
+    const struct rc_slabs_options o = {.slabs = 5,
+                                       .thickness = thickness,
+                                       .shear = 1e9,
+                                       .nu = 0.3,
+                                       .whole = whole,
+                                       .precision = precision,
+                                       .threads = 1};
+    const struct rc_slab_strain strain = {NULL, some_strain, NULL};
+    const struct rc_slab_stress stress = {NULL, some_stress, out};
+    struct rc_slabs *slabs = rc_slabs_new(&shape, &o, err);
+
+    if (slabs == NULL)
+        return RC_FAIL;
+    rc_slabs_up(slabs, &strain, out);
+    rc_slabs_down(slabs, pressure, &stress);
+    rc_slabs_free(slabs);
+    return RC_OK;
+}
+
+static enum rc_status
+slabs_double(double *out, struct rc_err *err)
+{
+    return strained(RC_DOUBLE, true, out, err);
+}
+
+static enum rc_status
+slabs_single(double *out, struct rc_err *err)
+{
+    return strained(RC_SINGLE, false, out, err);
+}
+
 /* ---- what answers without failing ---- */
 
 /* Figures of a plan: 0 or an empty text where there is no memory for it. */
@@ -426,6 +483,8 @@ static const struct {
     {.name = "stress, a section", .use = section_stress},
     {.name = "stress, coated", .use = coated_stress},
     {.name = "depths", .use = depths},
+    {.name = "slabs", .use = slabs_double},
+    {.name = "slabs, single precision", .use = slabs_single},
     {.name = "what a plan takes", .use = plans},
     {.name = "what allocates nothing", .use = without, .without = true},
 };
