@@ -266,11 +266,19 @@ demand_memory(struct tool *t, const struct synth_shape *row, const struct rc_sha
 static void
 add_keys(struct tool *t, const struct synth_shape *row, struct rc_grid *g, bool periodic)
 {
-    char step[1024];
+    char step[1024], source[64];
+    bool seeded = false;
     struct rc_err err;
 
+    for (const char *const *name = row->takes; *name != NULL; name++)
+        seeded |= strcmp(*name, "seed") == 0;
+    if (seeded)
+        snprintf(source, sizeof source, "%s-seed-%zu", row->name, args.seed);
+    else
+        snprintf(source, sizeof source, "%s", row->name);
     snprintf(step, sizeof step, "%s %s", tool_history(t), row->name);
-    if ((periodic && rc_grid_set(g, "periodic", "yes", &err) != RC_OK) ||
+    if (rc_grid_set(g, "source", source, &err) != RC_OK ||
+        (periodic && rc_grid_set(g, "periodic", "yes", &err) != RC_OK) ||
         rc_grid_history(g, step, &err) != RC_OK)
         tool_die(t, EXIT_IMPOSSIBLE, "%s", err.text);
 }

@@ -92,8 +92,8 @@ near "$(field dx info.json)" 1.1e-6 "$same" "and those of A"
 claim "keys of A, with the name and the history of both" bash -c '
     rc-pick --set colour=red --set source=first.x3p a.rcg -o red.rcg &&
     rc-pick --set colour=blue --set taste=salt b.rcg | rc-add red.rcg - -o sum.rcg && grep -aq colour=red sum.rcg && lacks ^taste= sum.rcg'
-claim "  in this form" says '^history=rc-synth .* \| rc-pick .* \| rc-add [0-9.]* first.x3p - \(-: rc-synth [^|]*--seed 4 selfaffine; rc-pick [^|]*\)$' cat sum.rcg
-claim "--subtract is in the history" says 'rc-add [0-9.]* --subtract a.rcg a.rcg' cat flat.rcg
+claim "  in this form" says '^history=rc-synth .* \| rc-pick .* \| rc-add [0-9.]* first.x3p selfaffine-seed-4 \(selfaffine-seed-4: rc-synth [^|]*--seed 4 selfaffine; rc-pick [^|]*\)$' cat sum.rcg
+claim "--subtract is in the history" says 'rc-add [0-9.]* --subtract selfaffine-seed-3 selfaffine-seed-3' cat flat.rcg
 claim "a long history is cut" bash -c '
     rc-pick --set history.x=1 b.rcg -o long.rcg &&
     for k in 1 2 3; do rc-pick --set "long=$(printf "%02000d" "$k")" long.rcg -o next.rcg && mv next.rcg long.rcg; done &&
@@ -127,7 +127,7 @@ claim "f32 when both are" bash -c 'rc-add single.rcg single.rcg | rc-info --json
 # ---- refusals ----
 
 $rough --nx 30 --dx 2um --dy 2um -o coarse.rcg
-refuses 1 'a.rcg, case 1, frame 1 \(height\): spacings of 1.1e-06 x 1e-06 m, and in coarse.rcg of 2e-06 x 2e-06 m: bring them together by rc-pick --resample 2e-06,2e-06 a.rcg' \
+refuses 1 'selfaffine-seed-3, case 1, frame 1 \(height\): spacings of 1.1e-06 x 1e-06 m, and in coarse.rcg of 2e-06 x 2e-06 m: bring them together by rc-pick --resample 2e-06,2e-06 a.rcg' \
     "other spacings, naming the finer one" "rc-add a.rcg coarse.rcg"
 refuses 1 'rc-pick --resample 2e-06,2e-06 a.rcg' "  which may be B" "rc-add coarse.rcg a.rcg"
 refuses 1 'and in standard input of .* --resample 2e-06,2e-06 -' "  or standard input" "rc-add coarse.rcg - <a.rcg"
@@ -140,7 +140,7 @@ refuses 1 'computed from it \(pressure, gap, displacement\)' "a case with result
 refuses 1 'no frame with the channel height, only pressure' "no height in B" "rc-pick --channel pressure solved.rcg | rc-add a.rcg -"
 refuses 1 "frame 1 \(height\): its unit is 'V'" "a height that is none" "rc-pick --set unit=V b.rcg | rc-add a.rcg -"
 perl -0777 -pe 's/(RCG1\n.*?\n\n).{8}/$1 . pack("d<", 9**9**9)/se' a.rcg | reseal >infinite.rcg
-refuses 1 'infinite.rcg, case 1, frame 1 \(height\): 1 heights are infinite, the first in column 0 of row 0' "an infinite height" \
+refuses 1 'selfaffine-seed-3, case 1, frame 1 \(height\): 1 heights are infinite, the first in column 0 of row 0' "an infinite height" \
     "rc-add a.rcg infinite.rcg"
 refuses 2 '- and -: standard input is one surface' "standard input twice" "rc-add - -"
 refuses 2 '1 files named: give two, A and B' "one surface" "rc-add a.rcg"
@@ -150,7 +150,7 @@ claim "and nothing is left" test ! -e out2.rcg
 refuses 1 '66 x 47 nodes need about' "more memory than is allowed" "rc-add --memory 30k a.rcg b.rcg"
 refuses 1 'No space left' "a full disk" "rc-add a.rcg b.rcg >/dev/full"
 rc-pick --set converged=no b.rcg -o short.rcg
-refuses 3 'short.rcg.* stopped short of its accuracy' "what stopped short in B is told" "rc-add a.rcg short.rcg -o sum.rcg"
+refuses 3 'selfaffine-seed-4.* stopped short of its accuracy' "what stopped short in B is told" "rc-add a.rcg short.rcg -o sum.rcg"
 claim "  and written" says RCGEND cat sum.rcg
 
 finish

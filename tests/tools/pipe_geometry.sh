@@ -150,7 +150,7 @@ refuses 1 '\-\-resample 999999999999x999999999999: ' "more nodes than there can 
 refuses 1 '4 x 3 nodes need about [0-9]+ MiB, --memory allows 10 KiB' "more memory than is allowed" "rc-pick --memory 10k --resample 1000x1000 map.rcg"
 refuses 2 '--mirror z: it must be x, left to right, or y, top to bottom' "a third axis" "rc-pick --mirror z map.rcg"
 refuses 2 '--rotate 45: it must be 90, 180 or 270 degrees' "half a quarter" "rc-pick --rotate 45 map.rcg"
-refuses 1 'stress.rcg, case 1, frame 1 \(sxz\): --mirror: stresses would change sign or places: do it to the pressure' "mirrored stresses" \
+refuses 1 'selfaffine-seed-1, case 1, frame 1 \(sxz\): --mirror: stresses would change sign or places: do it to the pressure' "mirrored stresses" \
     "rc-pick --mirror x stress.rcg"
 refuses 1 '\(sxz\): --rotate: stresses would change sign or places' "turned stresses" "rc-pick --channel sxz --rotate 90 stress.rcg"
 rc-stress --nu 0.3 --section y=0 --depths 0:10um:5 --components mises solved.rcg -o section.rcg

@@ -22,16 +22,16 @@ same_cells() {
             @cell == @head or die "@{[scalar @cell]} cells under @{[scalar @head]} names\n";
             for my $k (0 .. $#head) {
                 my ($name, $cell) = ($head[$k], $cell[$k]);
+                my $here = index $line, "\"$name\": ";
                 my @said = $cell eq "NaN" ? "null" : ($cell, "\"$cell\"");
                 if (!exists $object->{$name}) {
                     $cell eq "NaN" or die "$name: $cell, not in the line\n";
                 } elsif (grep { $_ eq $name } @changing) {
                     $cell ne "" or die "$name: nothing\n";
                 } else {
-                    grep { $line =~ /"\Q$name\E": \Q$_\E[,\}]/ } @said or die "$name: $cell, not in $line";
+                    grep { $line =~ /"\Q$name\E": \Q$_\E[,\}]/ and $here = $-[0] } @said or die "$name: $cell, not in $line";
                 }
                 next if $rows > 0 || !exists $object->{$name};
-                my $here = index $line, "\"$name\": ";
                 $last < $here or die "$name: out of order\n";
                 $last = $here;
             }
@@ -78,7 +78,7 @@ claim "any other ending is JSON" bash -c "$press --load 0.5 --report tsv -o /dev
 
 # A name that would break lines and cells.
 rc-synth sphere --nx 9 --dx 5um --radius 7.5mm -o ball.rcg
-sed $'s/^nx=/source=a\tb\\\\nc "d"\\\nnx=/' ball.rcg | reseal >named.rcg
+sed $'/^source=/d; s/^nx=/source=a\tb\\\\nc "d"\\\nnx=/' ball.rcg | reseal >named.rcg
 claim "a source with a tab and a line feed" \
     rc-solve --load 1 --estar 114GPa --quiet --report named.tsv -o /dev/null named.rcg
 claim "  is one cell" test "$(cells source named.tsv)" = 'a b c "d"'

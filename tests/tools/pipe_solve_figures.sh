@@ -1,13 +1,13 @@
 # The figures that rc-solve gives of a case: --verbose tells the main ones in words, as the report has them;
 # what yields under this load and what is at the hardness are told apart; the mean gap is that between the
-# bodies.
+# bodies; what was asked stands beside what came out.
 . "$(dirname "$0")/../pipe.sh"
 
 # ---- --verbose ----
 
 rc-synth selfaffine --nx 96 --ny 80 --dx 1um --hurst 0.8 --rms-slope 0.1 --rolloff 40um --short-cut 6um --seed 5 -o s.rcg
 rc-solve --verbose --periodic --estar 3GPa --hardness 200MPa --load 20mN,40mN --output pressure --report r.json s.rcg -o p.rcg 2>err
-claim "a line a case" test "$(grep -c '^rc-solve: s.rcg, case [12], load' err)" = 2
+claim "a line a case" test "$(grep -c '^rc-solve: selfaffine-seed-5, case [12], load' err)" = 2
 for case in 1 2; do
     grep "case $case, load" err >line.txt
     sed -n ${case}p r.json >case.json
@@ -51,5 +51,20 @@ near "$(field max_pressure second.json)" 1e8 "$same" "pressed again it is at the
 between 1e-12 "$(field plastic_area second.json)" 1e-8 "  in places"
 near "$(field yielded_area second.json)" 0 0 "  and yields nowhere"
 near "$(field contact_area second.json)" "$(field contact_area first.json)" 0.01 "  on the same contact"
+
+# ---- what was asked ----
+
+for seed in 1 2 3; do rc-synth selfaffine --nx 40 --ny 32 --dx 1um --hurst 0.8 --rms-slope 0.1 --seed $seed; done |
+    rc-solve --quiet --mean-pressure 1.1MPa,0.3GPa --E1 71.7GPa --nu1 0.33 --E2 210GPa --nu2 0.28 --hardness 1.9GPa --tol 3e-4 --report t.tsv -o /dev/null
+column() { awk -F '\t' -v name="$1" 'NR == 1 { for (i = 1; i <= NF; i++) { split($i, word, "/"); if (word[1] == name) c = i } next } { print $c }' t.tsv; }
+claim "a mean pressure that was asked for is the same number in every case" test "$(column asked_mean_pressure | sort -u | tr '\n' ' ')" = "1100000 300000000 "
+claim "  where that of the result may differ in its last digits" test "$(column mean_pressure | sort -u | wc -l)" -ge 2
+claim "  and no load was asked for" test "$(column asked_load | sort -u)" = NaN
+near "$(column estar | head -n 1)" "$(awk 'BEGIN { printf "%.17g", 1 / ((1 - 0.33 ^ 2) / 71.7e9 + (1 - 0.28 ^ 2) / 210e9) }')" "$rounding" "E* follows from the bodies"
+claim "the bodies, the hardness and the tolerance stand as given" test "$(for c in e1 nu1 e2 nu2 hardness tol; do column $c | sort -u; done | tr '\n' ' ')" = \
+    "71700000000 0.33 210000000000 0.28 1900000000 0.0003 "
+claim "the source is the shape and its seed" test "$(column source | sort -u | tr '\n' ' ')" = "selfaffine-seed-1 selfaffine-seed-2 selfaffine-seed-3 "
+rc-synth sphere --nx 24 --dx 10um --radius 5mm | rc-solve --quiet --load 1N --E1 200GPa --nu1 0.3 --E2 rigid --layer 2um,400GPa,0.2 --layer 1um,100GPa,0.3 --report layered.json -o /dev/null
+claim "layers are told, and of what they lie under no E*" says '"estar": null, "e1": 200000000000, "nu1": 0.3, "e2": null, "nu2": null, "hardness": null, "radius": null, "layers": "2e-06,400000000000,0.2; 1e-06,100000000000,0.3"' cat layered.json
 
 finish

@@ -78,7 +78,7 @@ rc-synth sphere --nx 33 --dx 10um --radius 10mm -o ball.rcg
 press() { rc-solve --estar 100GPa --output pressure "$@" ball.rcg -o p.rcg; }
 export -f press
 claim "the third of four loads reaches the edge: case 3" \
-    warns 'ball.rcg, case 3, load 100 N: [0-9.]+ % of the load is on the outer 2 %' press --load 1N,5N,100N
+    warns 'sphere, case 3, load 100 N: [0-9.]+ % of the load is on the outer 2 %' press --load 1N,5N,100N
 claim "  and the others do not" bash -c '! grep -E "case [12], .*outer" warns.err'
 claim "a mean pressure, an approach" bash -c '
     warns "case 1, mean pressure 1 GPa: .*outer" press --mean-pressure 1GPa &&

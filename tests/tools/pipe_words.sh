@@ -25,7 +25,7 @@ claim "nor is one of two bytes" eval '! { printf "a\302\233" >bad.out && plain_w
 rc-synth sphere --nx 5 --dx 1um --radius 1mm -o plain.rcg
 escape=$(printf '\033]0;title\007\033[31m\302\233')
 sed -e "s/^channel=.*/channel=he$escape/" plain.rcg | reseal >channel.rcg
-sed -e "s/^unit=.*/unit=m\nsource=x$escape\\\\ny/" plain.rcg | reseal >source.rcg
+sed -e "/^source=/d" -e "s/^unit=.*/unit=m\nsource=x$escape\\\\ny/" plain.rcg | reseal >source.rcg
 sed -e "s/^nx=.*/nx=$escape/" plain.rcg >size.rcg
 sed -e "s/^nx=.*/n$escape/" plain.rcg >line.rcg
 { sed -e /^RCGEND/d plain.rcg && echo "middle $escape"; } >middle.rcg

@@ -2,6 +2,7 @@
 #include "solve.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* clang-format off */
@@ -207,6 +208,52 @@ report_figures(struct report *r, const struct solution *s)
     report_patches(r, &s->patches);
 }
 
+/* "1e-06,1e+11,0.3; ...": the layers in SI, top first; NULL: none. */
+static char *
+layers_text(const struct physics *a)
+{
+    size_t size = 1;
+    char *text;
+
+    for (size_t k = 0; k < a->layer.n; k++)
+        size += strlen(a->layer.step[k].text) + 2;
+    if (a->layer.n == 0 || (text = malloc(size)) == NULL)
+        return NULL;
+    *text = '\0';
+    for (size_t k = 0; k < a->layer.n; k++) {
+        strcat(text, k > 0 ? "; " : "");
+        strcat(text, a->layer.step[k].text);
+    }
+    return text;
+}
+
+/* Rows of equal settings have equal figures here, to the last digit: those of the command line. */
+static void
+report_asked(struct report *r, const struct run *run, const struct rc_solver *solver)
+{
+    const struct physics *a = &run->args->physics;
+    const double step = run->steps->v[run->step];
+    const struct rc_body *one = &a->pair.one;
+    char *layers = layers_text(a);
+    struct rc_progress at = {.tol = NAN};
+
+    if (solver != NULL)
+        rc_solver_progress(solver, &at);
+    report_number(r, "estar", one->layers > 0 ? NAN : a->surface_estar, "Pa");
+    report_number(r, "e1", a->e1, "Pa");
+    report_number(r, "nu1", a->nu1, NULL);
+    report_number(r, "e2", isinf(a->e2) ? NAN : a->e2, "Pa");
+    report_number(r, "nu2", isinf(a->e2) ? NAN : a->nu2, NULL);
+    report_number(r, "hardness", isinf(a->hardness) ? NAN : a->hardness, "Pa");
+    report_number(r, "radius", a->radius, "m");
+    report_text(r, "layers", layers);
+    report_number(r, "tol", at.tol, NULL);
+    report_number(r, "asked_load", a->load.n > 0 ? step : NAN, "N");
+    report_number(r, "asked_mean_pressure", a->mean_pressure.n > 0 ? step : NAN, "Pa");
+    report_number(r, "asked_approach", a->approach.n > 0 ? step : NAN, "m");
+    free(layers);
+}
+
 void
 solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *solver,
              const struct solution *s)
@@ -249,6 +296,7 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
     report_number(r, "hardness_max", run->hardness_max, "Pa");
     report_number(r, "conductance", s->conductance.value, run->conductance_unit);
     report_number(r, "conductance_lower", s->conductance.lower, run->conductance_unit);
+    report_asked(r, run, solver);
     report_finish_row(r);
 }
 
