@@ -372,8 +372,10 @@ RC_API size_t rc_areal_memory(const struct rc_shape *shape, size_t missing,
                               const struct rc_surface_options *options);
 
 struct rc_psd_options {
-    enum rc_boundary boundary; /* free: a Hann window is laid over the map                        */
-    double shortest, longest;  /* m: waves that the Hurst exponent is fitted to; both 0: those where
+    enum rc_boundary boundary;
+    const char *window;       /* by a name of rc_window_name; NULL: none where the map is periodic,
+                                 else hann                                                         */
+    double shortest, longest; /* m: waves that the Hurst exponent is fitted to; both 0: those where
                                   the spectrum follows a power law                                */
     double *map;    /* NULL, or room for nx ny values: the spectrum itself, m^4, wave number 0 at
                        node (nx/2, ny/2), 2 pi/(nx dx) rad/m from column to column                */
@@ -384,16 +386,17 @@ struct rc_psd_options {
  * lowest one (Persson et al. 2005, J. Phys. Condens. Matter 17, R1; Jacobs, Junge and Pastewka 2017,
  * Surf. Topogr. 5, 013001: C^iso, and of a profile C^1D); the mean is no wave. Its sum over all
  * waves, over the area of the map, is Sq^2. Under a window w it is |FFT(w h)|^2 dx dy/(nx
- * ny)/mean(w^2) times window_factor, which keeps that sum: 1 where the heights near the edges are
- * like the others. The window is that of Hann along each side, and heights are counted from their
- * mean weighted with it. */
+ * ny)/mean(w^2), as Gwyddion and SurfaceTopography have it, and its sum is what the window sees: Sq^2
+ * on average over surfaces that are alike everywhere. The window is laid along each side, and heights
+ * are counted from their mean weighted with it. */
 struct rc_psd {
     size_t rings;
     double *q;     /* rad/m: mean over the waves of a ring                                        */
     double *c;     /* m^4; of a profile m^3                                                       */
     size_t *modes; /* waves, opposite ones both, in a ring: at least one                          */
-    bool windowed;
-    double window_factor;     /* makes up for the power that the window takes; 1 without one     */
+    const char *window;       /* its name                                                        */
+    double sum;               /* m^2: of c over all waves, over the area of the map              */
+    double mean_square;       /* m^2: Sq^2, of the heights themselves                            */
     double hurst;             /* of c ~ q^(-2-2H), of a profile q^(-1-2H); NAN: no power law     */
     double hurst_error;       /* its standard error                                              */
     double shortest, longest; /* m: the waves that it was fitted to; NAN: none                   */
@@ -402,6 +405,8 @@ struct rc_psd {
  * long for a Fourier transform, or memory is short. */
 RC_API struct rc_psd *rc_psd_new(const struct rc_shape *shape, const double *h,
                                  const struct rc_psd_options *options, struct rc_err *err);
+/* Name of window k = 0, 1, ...: none, hann, hamming, blackman; NULL past the last. */
+RC_API const char *rc_window_name(size_t k);
 RC_API void rc_psd_free(struct rc_psd *psd); /* NULL is allowed */
 /* Bytes that making it takes beside h and map. */
 RC_API size_t rc_psd_memory(const struct rc_shape *shape);

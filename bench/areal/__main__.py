@@ -74,7 +74,7 @@ def by_gwyddion(m, library):
 
 
 def spectrum(m):
-    """Wave numbers, our spectrum, the same without the window's factor, SurfaceTopography's."""
+    """Wave numbers, our spectrum, SurfaceTopography's."""
     from SurfaceTopography import Topography
     ny, nx = m.h.shape
     t = Topography(m.h.T - m.h.mean(), (nx * m.dx, ny * m.dy), unit="m")
@@ -85,7 +85,7 @@ def spectrum(m):
     at = np.geomspace(q[5], 0.8 * np.pi / max(m.dx, m.dy), 6)
     theirs = np.exp(np.interp(np.log(at), np.log(theirs_q[good]), np.log(theirs_c[good])))
     ours = np.exp(np.interp(np.log(at), np.log(q), np.log(c)))
-    return at, ours, ours / psd["window_factor"], theirs
+    return at, ours, theirs
 
 
 def cell(value):
@@ -106,7 +106,7 @@ def show(m, others):
         print(f"| {name} | {cell(value)} | " + " | ".join(cell(c.get(name)) for c in columns.values()) + " |")
     print()
     if "SurfaceTopography" in columns and np.isfinite(m.h).all():
-        print("| q, rad/m | c, m4 | over window_factor | SurfaceTopography |\n| --- | --- | --- | --- |")
+        print("| q, rad/m | c, m4 | SurfaceTopography |\n| --- | --- | --- |")
         for row in zip(*spectrum(m)):
             print("| " + " | ".join(f"{v:.4g}" for v in row) + " |")
         print()

@@ -2,7 +2,9 @@
  * Power spectral densities, and the Hurst exponent.
  *
  * A window is laid over a map that is not periodic, about the mean that it sees, so that no wave
- * leaks from the mean; what it takes from the mean square is given back as a factor.
+ * leaks from the mean. The density is divided by the mean square of the window and by nothing else:
+ * so it is right on average for a surface that is alike everywhere. A factor that made the sum
+ * Sq^2 would scale all waves by what the long ones, or a form that was left, do near the edges.
  *
  * The Hurst exponent is fitted to log c over log q, by least squares over 24 bins a decade. A bin
  * of n waves is known to about 1/sqrt(n/2) (their squares are distributed exponentially, and
@@ -14,6 +16,7 @@
 #include "areal.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "libcontact/memory.h"
 #include "libcontact/transform/transform.h"
@@ -31,10 +34,6 @@ static const double lowest = -0.05, highest = 1.1;
 /* Relative, so that waves at the ends of a range belong to it; and the part of the largest density
  * below which there is only rounding. */
 static const double slack = 1e-9, rounded = 1e-27;
-/* Hann's window spreads a wave to its neighbours. Waves that count for one under it, along each
- * side: (35/128) / (3/8)^2; lowest rings, which hold what leaks from the mean; and rings by which a
- * range that is given is narrowed at either end, because waves beyond it may follow another law. */
-static const double hann_neighbours = 35.0 / 18, leaked = 2.5, spread = 1.5;
 /* The fit ends at this part of the wave number of the shortest wave that all directions hold: of
  * waves of just two nodes only a part is seen. */
 static const double resolved = 0.98;
@@ -49,72 +48,131 @@ rc_hann(size_t i, size_t n)
 
 /* ---- windows ---- */
 
+/* a[0] - a[1] cos(x) + a[2] cos(2 x), x from 0 to 2 pi along a side: with so many waves it spreads a
+ * wave of the surface to that number of neighbours (Harris 1978, Proc. IEEE 66, 51). */
+struct window {
+    const char *name;
+    size_t waves;
+    double a[3];
+};
+
+static const struct window windows[] = {
+    {"none", 0, {1, 0, 0}},
+    {"hann", 1, {0.5, 0.5, 0}},
+    {"hamming", 1, {0.54, 0.46, 0}},
+    {"blackman", 2, {0.42, 0.5, 0.08}},
+};
+
+enum {
+    WINDOWS = sizeof windows / sizeof *windows
+};
+
+const char *
+rc_window_name(size_t k)
+{
+    return k < WINDOWS ? windows[k].name : NULL;
+}
+
+/* NULL: no window is called so. */
+static const struct window *
+window_of(const struct rc_psd_options *o)
+{
+    const char *name = o->window != NULL ? o->window : o->boundary == RC_FREE ? "hann" : "none";
+
+    for (size_t k = 0; k < WINDOWS; k++)
+        if (strcmp(windows[k].name, name) == 0)
+            return &windows[k];
+    return NULL;
+}
+
+static double
+weight(const struct window *w, size_t i, size_t n)
+{
+    double x = 2 * RC_PI * ((double)i + 0.5) / (double)n;
+
+    return n == 1 || w->waves == 0 ? 1 : w->a[0] - w->a[1] * cos(x) + w->a[2] * cos(2 * x);
+}
+
+/* Of the weights of a side: the mean square, and how many waves count for one, because neighbours
+ * are alike: the mean fourth power over the square of that, 35/18 of Hann's. */
+static void
+side_figures(const struct window *w, size_t n, double *square, double *alike)
+{
+    struct rc_total two = {0}, four = {0};
+
+    for (size_t i = 0; i < n; i++) {
+        double f = weight(w, i, n);
+        rc_total_add(&two, f * f);
+        rc_total_add(&four, f * f * f * f);
+    }
+    *square = rc_total_value(&two) / (double)n;
+    *alike = rc_total_value(&four) / (double)n / (*square * *square);
+}
+
+/* Lowest rings, which hold what leaks from the mean. */
+static double
+leaked(const struct window *w)
+{
+    return w->waves > 0 ? (double)w->waves + 1.5 : 0;
+}
+
+/* Rings by which a range that is given is narrowed at either end, because waves beyond it may follow
+ * another law. */
+static double
+spread(const struct window *w)
+{
+    return w->waves > 0 ? (double)w->waves + 0.5 : 0;
+}
+
 struct windowed {
     const struct rc_shape *shape;
     const double *h;
-    double *wx;  /* NULL: no window */
-    double mean; /* taken off before */
+    const struct window *window;
+    double *wx;   /* its weights along x */
+    double mean;  /* taken off before */
+    double alike; /* waves that count for one */
 };
-
-static double
-weight(const struct windowed *w, size_t j)
-{
-    return w->wx == NULL ? 1 : rc_hann(j, w->shape->ny);
-}
 
 static void
 windowed_row(const void *of, size_t j, double *row)
 {
     const struct windowed *w = of;
-    const double *h = w->h + j * w->shape->nx, wy = weight(w, j);
+    const double *h = w->h + j * w->shape->nx, wy = weight(w->window, j, w->shape->ny);
 
     for (size_t i = 0; i < w->shape->nx; i++)
-        row[i] = (w->wx == NULL ? 1 : w->wx[i] * wy) * (h[i] - w->mean);
+        row[i] = w->wx[i] * wy * (h[i] - w->mean);
 }
 
-/* Sums over the map of weight and weight times height about `mean`, or, `squared`, of the squares
- * of height, and of weighted height. */
+/* The mean height as the window sees it, and the mean square of the heights about their own mean. */
 static void
-sum_windowed(const struct windowed *w, bool squared, double mean, double sum[2])
+find_means(struct windowed *w, double mean, double *square)
 {
-    struct rc_total a = {0}, b = {0};
+    struct rc_total weights = {0}, weighted = {0}, squares = {0};
 
     for (size_t j = 0; j < w->shape->ny; j++) {
-        const double *h = w->h + j * w->shape->nx, wy = weight(w, j);
-        double row_a = 0, row_b = 0;
+        const double *h = w->h + j * w->shape->nx, wy = weight(w->window, j, w->shape->ny);
+        double row[3] = {0};
         for (size_t i = 0; i < w->shape->nx; i++) {
-            double f = w->wx == NULL ? 1 : w->wx[i] * wy, d = f * (h[i] - w->mean);
-            row_a += squared ? (h[i] - mean) * (h[i] - mean) : f;
-            row_b += squared ? d * d : f * (h[i] - mean);
+            double f = w->wx[i] * wy, d = h[i] - mean;
+            row[0] += f;
+            row[1] += f * d;
+            row[2] += d * d;
         }
-        rc_total_add(&a, row_a);
-        rc_total_add(&b, row_b);
+        rc_total_add(&weights, row[0]);
+        rc_total_add(&weighted, row[1]);
+        rc_total_add(&squares, row[2]);
     }
-    sum[0] = rc_total_value(&a);
-    sum[1] = rc_total_value(&b);
+    w->mean = mean + rc_total_value(&weighted) / rc_total_value(&weights);
+    *square = rc_total_value(&squares) / ((double)w->shape->nx * (double)w->shape->ny);
 }
 
-/* The mean square of Hann's window: 3/8 for each side, but for those of one and two nodes. */
-static double
-mean_square(const struct windowed *w)
-{
-    double product = 1;
-
-    for (int side = 0; side < 2; side++) {
-        size_t n = side == 0 ? w->shape->nx : w->shape->ny;
-        product *= n == 1 ? 1 : n == 2 ? 0.25 : 0.375;
-    }
-    return product;
-}
-
-/* Lays the window, if there is one, and gives the factor that makes |FFT|^2 a density; *taken: the
- * part of it that makes up for the window. */
+/* Lays the window and gives the factor that makes |FFT|^2 a density, and Sq^2. */
 static enum rc_status
-lay_window(struct windowed *w, double *factor, double *taken, struct rc_err *err)
+lay_window(struct windowed *w, double *factor, double *square, struct rc_err *err)
 {
     const struct rc_shape *s = w->shape;
     double nodes = (double)s->nx * (double)s->ny, mean = rc_sum(w->h, s->nx * s->ny) / nodes;
-    double sum[2];
+    double square_x, square_y, alike_x, alike_y;
 
     if (!isfinite(mean)) {
         size_t bad = 0;
@@ -126,15 +184,14 @@ lay_window(struct windowed *w, double *factor, double *taken, struct rc_err *err
                                      "needs all",
                                      bad, s->nx * s->ny);
     }
-    for (size_t i = 0; w->wx != NULL && i < s->nx; i++)
-        w->wx[i] = rc_hann(i, s->nx);
-    sum_windowed(w, false, mean, sum);
-    w->mean = mean + sum[1] / sum[0];
-    sum_windowed(w, true, mean, sum);
-    *factor = (s->nx > 1 ? s->dx / (double)s->nx : 1) * (s->ny > 1 ? s->dy / (double)s->ny : 1);
-    if (w->wx != NULL && sum[1] > 0)
-        *factor *= sum[0] / sum[1];
-    *taken = w->wx != NULL && sum[1] > 0 ? sum[0] * mean_square(w) / sum[1] : 1;
+    for (size_t i = 0; i < s->nx; i++)
+        w->wx[i] = weight(w->window, i, s->nx);
+    find_means(w, mean, square);
+    side_figures(w->window, s->nx, &square_x, &alike_x);
+    side_figures(w->window, s->ny, &square_y, &alike_y);
+    w->alike = alike_x * alike_y;
+    *factor = (s->nx > 1 ? s->dx / (double)s->nx : 1) * (s->ny > 1 ? s->dy / (double)s->ny : 1) /
+              (square_x * square_y);
     return RC_OK;
 }
 
@@ -257,15 +314,13 @@ log_variance(double n)
 }
 
 static size_t
-make_bins(const struct rings *r, bool windowed, struct bin *bin)
+make_bins(const struct rings *r, double alike, struct bin *bin)
 {
-    double share = 2, most = 0; /* share: waves that make one independent square */
+    double share = 2 * alike, most = 0; /* share: waves that make one independent square */
     size_t bins = 0, b = 0;
 
     for (size_t k = 0; k < r->n; k++)
         most = r->ring[k].n > 0 ? fmax(most, r->ring[k].c / r->ring[k].n) : most;
-    if (windowed)
-        share *= r->steep == 3 ? hann_neighbours * hann_neighbours : hann_neighbours;
     while (b < r->n) {
         double n = 0, q = 0, c = 0, end = INFINITY, low = 0, high = 0;
         for (; b < r->n && (double)b * r->width < end; b++) {
@@ -368,8 +423,8 @@ find_range(const struct rings *r, const struct bin *bin, size_t bins, size_t *fr
 }
 
 static enum rc_status
-fit_hurst(const struct rings *r, const struct rc_psd_options *options, struct rc_psd *psd,
-          struct rc_err *err)
+fit_hurst(const struct rings *r, const struct rc_psd_options *options, double alike,
+          struct rc_psd *psd, struct rc_err *err)
 {
     bool told = options->shortest > 0;
     struct bin *bin = malloc(r->n * sizeof *bin);
@@ -377,7 +432,7 @@ fit_hurst(const struct rings *r, const struct rc_psd_options *options, struct rc
 
     if (bin == NULL)
         return rc_err_set(err, "out of memory for %zu rings of wave numbers", r->n);
-    to = bins = make_bins(r, psd->windowed, bin);
+    to = bins = make_bins(r, alike, bin);
     if (!told)
         find_range(r, bin, bins, &from, &to);
     if (to > from + 1) {
@@ -397,6 +452,9 @@ fit_hurst(const struct rings *r, const struct rc_psd_options *options, struct rc
 static enum rc_status
 list_rings(const struct rings *r, struct rc_psd *psd, struct rc_err *err)
 {
+    const struct rc_shape *s = &r->shape;
+    struct rc_total sum = {0};
+
     psd->q = malloc(r->n * sizeof *psd->q);
     psd->c = malloc(r->n * sizeof *psd->c);
     psd->modes = malloc(r->n * sizeof *psd->modes);
@@ -406,10 +464,13 @@ list_rings(const struct rings *r, struct rc_psd *psd, struct rc_err *err)
         const struct ring *ring = &r->ring[b];
         if (ring->n == 0)
             continue;
+        rc_total_add(&sum, ring->c);
         psd->q[psd->rings] = ring->q / ring->n;
         psd->c[psd->rings] = ring->c / ring->n;
         psd->modes[psd->rings++] = (size_t)ring->n;
     }
+    psd->sum = rc_total_value(&sum) / (s->nx > 1 ? (double)s->nx * s->dx : 1) /
+               (s->ny > 1 ? (double)s->ny * s->dy : 1);
     return RC_OK;
 }
 
@@ -435,6 +496,9 @@ check(const struct rc_shape *s, const struct rc_psd_options *o, struct rc_err *e
         return RC_FAIL;
     if (s->nx * s->ny == 1)
         return rc_err_set(err, "a single node has no spectrum");
+    if (window_of(o) == NULL)
+        return rc_err_set(err, "no window is called %s: there are none, hann, hamming, blackman",
+                          o->window);
     if ((o->shortest != 0 || o->longest != 0) &&
         !(o->shortest > 0 && o->longest > o->shortest && isfinite(o->longest)))
         return rc_err_set(err,
@@ -448,26 +512,28 @@ static enum rc_status
 make(const struct rc_shape *s, const double *h, const struct rc_psd_options *options, double *power,
      double *wx, struct rc_psd *psd, struct rc_err *err)
 {
-    struct windowed w = {.shape = s, .h = h, .wx = psd->windowed ? wx : NULL};
+    const struct window *window = window_of(options);
+    struct windowed w = {.shape = s, .h = h, .window = window, .wx = wx};
     struct rings r = rings_of(s);
     enum rc_status status = RC_FAIL;
     double factor = 0;
 
-    r.low = psd->windowed ? leaked * r.width : 0;
+    psd->window = window->name;
+    r.low = leaked(window) * r.width;
     r.high = resolved * nyquist(s);
     if (options->shortest > 0) {
         r.low = (1 - slack) * 2 * RC_PI / options->longest;
         r.high = (1 + slack) * 2 * RC_PI / options->shortest;
     }
-    if (options->shortest > 0 && psd->windowed && r.high - r.low > 6 * spread * r.width) {
-        r.low += spread * r.width;
-        r.high -= spread * r.width;
+    if (options->shortest > 0 && r.high - r.low > 6 * spread(window) * r.width) {
+        r.low += spread(window) * r.width;
+        r.high -= spread(window) * r.width;
     }
-    if (lay_window(&w, &factor, &psd->window_factor, err) == RC_OK &&
+    if (lay_window(&w, &factor, &psd->mean_square, err) == RC_OK &&
         rc_power(s, windowed_row, &w, options->threads, power, err) == RC_OK &&
         fill_rings(&r, power, factor, rc_useful_threads(s, options->threads), err) == RC_OK &&
         list_rings(&r, psd, err) == RC_OK)
-        status = fit_hurst(&r, options, psd, err);
+        status = fit_hurst(&r, options, w.alike, psd, err);
     if (status == RC_OK && options->map != NULL)
         draw_map(s, power, factor, options->map);
     free(r.ring);
@@ -491,7 +557,6 @@ rc_psd_new(const struct rc_shape *shape, const double *h, const struct rc_psd_op
         rc_err_set(err, "out of memory for the spectrum of %zu x %zu nodes", shape->nx, shape->ny);
         goto done;
     }
-    psd->windowed = options->boundary == RC_FREE;
     psd->hurst = psd->hurst_error = psd->shortest = psd->longest = NAN;
     status = make(shape, h, options, power, wx, psd, err);
 done:

@@ -407,7 +407,7 @@ without(double *out, struct rc_err *err)
     size_t product, least, largest;
 
     (void)rc_version(), (void)rc_threads_available();
-    (void)rc_engine_info(0), (void)rc_method_info(0);
+    (void)rc_engine_info(0), (void)rc_method_info(0), (void)rc_window_name(0);
     rc_synth_sphere(&shape, 1e-3, out);
     rc_synth_paraboloid(&shape, place, 1e-3, 2e-3, 10, out);
     rc_synth_cone(&shape, place, 0.1, out);

@@ -34,7 +34,7 @@ info_check(struct info_wanted *w, struct tool *t)
 {
     if (w->fit.n != 0 && (w->fit.n != 2 || !(w->fit.v[0] > 0 && w->fit.v[1] > w->fit.v[0])))
         tool_die(t, EXIT_USAGE, "--fit takes two wavelengths, the shortest first: --fit 2um,50um");
-    w->psd = w->psd || w->fit.n != 0 || w->psd_map != NULL;
+    w->psd = w->psd || w->fit.n != 0 || w->window != NULL || w->psd_map != NULL;
     if (w->psd_map != NULL)
         w->file = info_file_new(t, "--psd-map", w->psd_map);
 }
@@ -85,7 +85,7 @@ find_areal(struct tool *t, const struct rc_grid *g, struct info_figures *f)
 
 /* The spectrum as a frame: spacings are those of wave numbers. */
 static struct rc_grid *
-map_frame(struct tool *t, const struct rc_grid *g, enum rc_boundary boundary)
+map_frame(struct info_wanted *w, struct tool *t, const struct rc_grid *g)
 {
     bool row = g->ny == 1, column = g->nx == 1;
     char step[64];
@@ -100,9 +100,9 @@ map_frame(struct tool *t, const struct rc_grid *g, enum rc_boundary boundary)
         map->dy = map->dx;
     if (column)
         map->dx = map->dy;
-    snprintf(step, sizeof step, "rc-info %s --psd-map", rc_version());
+    snprintf(step, sizeof step, "rc-info %s --psd-map%s%s", rc_version(),
+             w->window != NULL ? " --window " : "", w->window != NULL ? w->window : "");
     if (rc_grid_set(map, "periodic", NULL, &err) != RC_OK ||
-        rc_grid_set(map, "window", boundary == RC_PERIODIC ? "none" : "hann", &err) != RC_OK ||
         rc_grid_history(map, step, &err) != RC_OK)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     return map;
@@ -111,7 +111,8 @@ map_frame(struct tool *t, const struct rc_grid *g, enum rc_boundary boundary)
 static void
 find_psd(struct info_wanted *w, struct tool *t, const struct rc_grid *g, struct info_figures *f)
 {
-    struct rc_psd_options options = {.boundary = boundary_of(g), .threads = t->threads};
+    struct rc_psd_options options = {
+        .boundary = boundary_of(g), .window = w->window, .threads = t->threads};
     const struct rc_shape shape = rc_grid_shape(g);
     struct rc_grid *map = NULL;
     struct rc_err err;
@@ -125,13 +126,16 @@ find_psd(struct info_wanted *w, struct tool *t, const struct rc_grid *g, struct 
         options.longest = w->fit.v[1];
     }
     if (w->file != NULL) {
-        map = map_frame(t, g, options.boundary);
+        map = map_frame(w, t, g);
         options.map = map->v;
     }
     if ((f->psd = rc_psd_new(&shape, g->v, &options, &err)) == NULL)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    if (map != NULL)
+    if (map != NULL) {
+        if (rc_grid_set(map, "window", f->psd->window, &err) != RC_OK)
+            tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
         info_file_put(w->file, map);
+    }
     rc_grid_free(map);
 }
 

@@ -12,6 +12,7 @@
 struct info_wanted {
     bool areal, psd, patches;
     struct numbers fit;  /* shortest and longest wavelength, m; n = 0: to be found */
+    const char *window;  /* of the spectrum; NULL: by the boundary                 */
     const char *psd_map; /* a file, or NULL                                        */
     /* set by the functions below */
     struct info_file *file;

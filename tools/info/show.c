@@ -118,10 +118,8 @@ psd_text(const struct info_figures *f, FILE *out)
     char shortest[SHOWN_NUMBER], longest[SHOWN_NUMBER];
 
     psd_lines(psd, profile ? "c, m3" : "c, m4", out);
-    fprintf(out, "  %-10s %s", "window", psd->windowed ? "hann" : "none");
-    if (psd->windowed)
-        fprintf(out, ", times %.4g to make up for it", psd->window_factor);
-    fputs("\n", out);
+    fprintf(out, "  %-10s %s\n", "window", psd->window);
+    fprintf(out, "  %-10s %.4g m2 (Sq^2 is %.4g m2)\n", "sum", psd->sum, psd->mean_square);
     if (isnan(psd->hurst))
         fprintf(out, "  %-10s not defined: no wavelengths follow a power law\n", "Hurst");
     else
@@ -146,8 +144,9 @@ psd_json(const struct rc_psd *psd, struct json *j)
     for (size_t k = 0; k < psd->rings; k++)
         json_count(j, NULL, psd->modes[k]);
     json_end(j, ']');
-    json_text(j, "window", psd->windowed ? "hann" : "none");
-    json_number(j, "window_factor", psd->window_factor);
+    json_text(j, "window", psd->window);
+    json_number(j, "sum", psd->sum);
+    json_number(j, "mean_square", psd->mean_square);
     json_number(j, "hurst", psd->hurst);
     json_number(j, "hurst_error", psd->hurst_error);
     json_array(j, "fit");
