@@ -261,6 +261,35 @@ put_out(struct run *run, const struct rc_grid *g, struct results *r, struct rc_s
 
 /* ---- loads ---- */
 
+static double
+highest(const struct run *run, const struct rc_grid *g)
+{
+    double top = -INFINITY;
+
+    for (size_t k = 0; k < rc_grid_nodes(g); k++)
+        top = fmax(top, g->v[k]);
+    return ranks_most(&run->t, top);
+}
+
+/* In a history the heights get the shape that the load has left. */
+static void
+keep_shape(struct run *run, struct rc_grid *g, struct rc_solver *solver, struct solution *s)
+{
+    struct rc_err err;
+
+    if (!args.physics.history)
+        return;
+    s->indentation = s->contact.approach + run->first_top - run->top;
+    if (s->contact.yielded_nodes > 0) {
+        if (rc_solver_keep_shape(solver, &s->contact, g->v, &err) != RC_OK)
+            tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+        g->type = RC_F64;
+        set_number(run, g, HEIGHT_ERROR, s->contact.shape_error);
+        run->top = highest(run, g);
+    }
+    s->residual_indentation = run->first_top - run->top;
+}
+
 static void
 look_at_contact(struct run *run, const struct rc_grid *g, const double *p, struct solution *s)
 {
@@ -294,17 +323,13 @@ find_stiffness(struct run *run, const struct rc_grid *g, struct rc_solver *solve
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
 }
 
-/* Nothing is known yet. */
-static const struct solution unsolved = {
-    .slope = NAN, .stiffness = NAN, .conductance = {NAN, NAN, NAN}};
-
 static void
-do_load(struct run *run, const struct rc_grid *g, struct rc_solver *solver, struct solution *s)
+do_load(struct run *run, struct rc_grid *g, struct rc_solver *solver)
 {
+    struct solution solution = SOLUTION_NONE, *s = &solution;
     struct results r;
     double start;
 
-    *s = unsolved;
     solve(run, g, solver);
     start = solve_now();
     if (tool_interrupted() == 0) /* else there may be nothing on this grid yet */
@@ -313,14 +338,16 @@ do_load(struct run *run, const struct rc_grid *g, struct rc_solver *solver, stru
     find_result(run, &r, solver, &s->contact);
     find_stiffness(run, g, solver, s);
     s->contact.convolutions = rc_solver_convolutions(solver);
-    run->result = solve_now() - start;
+    run->done = solve_now();
+    run->result = run->done - start;
     solve_judge(run, g, s);
     if (!s->contact.converged)
         tool_fails_with(&run->t, EXIT_SHORT);
-    solve_report(run, g, solver, s);
     put_out(run, g, &r, solver, &s->contact);
-    rc_patches_free(&s->patches);
     results_free(&r);
+    keep_shape(run, g, solver, s);
+    solve_report(run, g, solver, s);
+    rc_patches_free(&s->patches);
 }
 
 /* No load: the bodies are apart. */
@@ -329,13 +356,15 @@ take_apart(struct run *run, const struct rc_grid *g)
 {
     size_t nodes = rc_grid_nodes(g);
     const struct rc_shape shape = rc_grid_shape(g);
-    struct solution s = unsolved;
+    struct solution s = SOLUTION_NONE;
     struct results r;
 
     run->iterate = run->result = 0;
     rc_contact_apart(ranks_of(&run->t), &shape, g->v, NULL, &s.contact);
     if (run->conductance)
         s.conductance = (struct rc_conductance){NAN, 0, 0};
+    run->done = solve_now();
+    s.indentation = s.residual_indentation = run->first_top - run->top;
     solve_judge(run, g, &s);
     solve_report(run, g, NULL, &s);
     results_new(run, g, &r);
@@ -397,29 +426,16 @@ new_solver(struct run *run, const struct rc_grid *g)
     return solver;
 }
 
-/* In a history the heights get the shape that the load has left. */
-static void
-keep_shape(struct run *run, struct rc_grid *g, struct rc_solver *solver, const struct rc_contact *c)
-{
-    struct rc_err err;
-
-    if (!args.physics.history || c->yielded_nodes == 0)
-        return;
-    if (rc_solver_keep_shape(solver, c, g->v, &err) != RC_OK)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    g->type = RC_F64;
-    set_number(run, g, HEIGHT_ERROR, c->shape_error);
-}
-
 /* The loads of a list, each from the solution of the last; in a history, on the shape that it has
  * left. */
 static void
 do_loads(struct run *run, struct rc_grid *g)
 {
     struct rc_solver *solver = NULL;
-    struct solution s;
     struct rc_err err;
 
+    if (args.physics.history)
+        run->first_top = run->top = highest(run, g);
     run->number = run->steps->n == 1 ? rc_grid_case(g) - 1 : run->number;
     for (run->step = 0; run->step < run->steps->n; run->step++) {
         struct rc_problem problem = problem_of(run, g, run->step);
@@ -437,8 +453,7 @@ do_loads(struct run *run, struct rc_grid *g)
             solver = new_solver(run, g);
         else if (rc_solver_set_load(solver, problem.load, problem.approach, &err) != RC_OK)
             tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-        do_load(run, g, solver, &s);
-        keep_shape(run, g, solver, &s.contact);
+        do_load(run, g, solver);
     }
     rc_solver_free(solver);
 }

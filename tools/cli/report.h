@@ -16,7 +16,7 @@
 #include "tool.h"
 
 enum {
-    REPORT_COLUMNS = 64, /* of a table                               */
+    REPORT_COLUMNS = 96, /* of a table                               */
     REPORT_DEPTH = 4     /* of objects and arrays inside one another */
 };
 

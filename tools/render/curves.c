@@ -32,6 +32,8 @@ static const struct quantity {
     {"yielded_area", "Area that gave way", "m2"},
     {"edge_load_fraction", "Share of the load at the edge", "1"},
     {"approach", "Approach", "m"},
+    {"indentation", "Approach from the first touch of all", "m"},
+    {"residual_indentation", "Residual indentation", "m"},
     {"mean_gap", "Mean gap", "m"},
     {"stiffness", "Stiffness", "N/m"},
     {"conductance", "Conductance", "1"}, /* W/K or S, as the table says */
@@ -56,10 +58,12 @@ enum helper {
     RADIUS,
     CONVERGED,
     CASE,
+    INDENTATION,
     HELPERS
 };
-static const char *const helper_name[HELPERS] = {"nx",    "ny",     "dx",        "dy",
-                                                 "estar", "radius", "converged", "case"};
+static const char *const helper_name[HELPERS] = {
+    "nx", "ny", "dx", "dy", "estar", "radius", "converged", "case", "indentation"};
+static const char approach[] = "approach";
 
 struct curves {
     struct tool *tool;
@@ -71,6 +75,7 @@ struct curves {
     size_t tables;
     struct law_given given;
     bool short_of; /* a row is not converged */
+    bool history;  /* approaches are counted from the first touch of the first shape */
     struct graph_series series[SERIES];
     char name[SERIES][NAME];
     size_t n;
@@ -98,8 +103,12 @@ quantity_of(const char *name)
 }
 
 static const char *
-title_of(const char *name)
+title_of(const struct curves *c, size_t k)
 {
+    const char *name = c->column[k];
+
+    if (c->history && strcmp(name, approach) == 0)
+        name = helper_name[INDENTATION];
     return quantity_of(name) == NULL ? name : quantity_of(name)->title;
 }
 
@@ -187,6 +196,23 @@ helper(const struct curves *c, const struct table *table, enum helper which)
     return table->column[c->columns + which].v;
 }
 
+/* In a history each approach is counted from a shape of its own: over these, work would seem to be
+ * gained. */
+static void
+count_from_one_shape(struct curves *c, struct table *table)
+{
+    const double *from_first = helper(c, table, INDENTATION);
+    bool history = false;
+
+    for (size_t k = 0; k < table->rows; k++)
+        history = history || isfinite(from_first[k]);
+    for (size_t k = 0; k < c->columns && history; k++)
+        if (strcmp(c->column[k], approach) == 0) {
+            memcpy(table->column[k].v, from_first, table->rows * sizeof *from_first);
+            c->history = true;
+        }
+}
+
 /* All files and all columns over one axis have one unit. */
 static void
 check_units(struct curves *c)
@@ -255,7 +281,7 @@ add_curves(struct curves *c, const struct table *table)
             if (c->tables > 1)
                 add_word(name, base_name(table->source));
             if (c->columns > 2)
-                add_word(name, title_of(c->column[k]));
+                add_word(name, title_of(c, k));
             snprintf(text, sizeof text, "%s %.0f", isnan(number) ? "curve" : "case",
                      isnan(number) ? (double)p + 1 : number);
             if (table->pieces > 1)
@@ -380,13 +406,13 @@ describe(struct curves *c)
     for (size_t k = 1; k < c->columns; k++) {
         size_t n = strlen(c->axis);
 
-        add_word(c->axis, title_of(c->column[k]));
+        add_word(c->axis, title_of(c, k));
         if (k > 1 && quantity_of(c->column[k]) != NULL)
             c->axis[n + 2] = (char)tolower((unsigned char)c->axis[n + 2]);
     }
     snprintf(c->title, NAME, "%.150s against ", c->axis);
     x += strlen(x);
-    snprintf(x, NAME - (size_t)(x - c->title), "%.90s", title_of(c->column[0]));
+    snprintf(x, NAME - (size_t)(x - c->title), "%.90s", title_of(c, 0));
     if (quantity_of(c->column[0]) != NULL)
         *x = (char)tolower((unsigned char)*x);
 }
@@ -398,7 +424,7 @@ draw(struct curves *c, struct drawn *drawn)
         .title = drawn->title,
         .subtitle = drawn->source,
         .stamp = drawn->stamp,
-        .x = {title_of(c->column[0]), unit_of(c->table, 0), curve_log(c->style, 'x'), NAN, NAN},
+        .x = {title_of(c, 0), unit_of(c->table, 0), curve_log(c->style, 'x'), NAN, NAN},
         .y = {c->axis, unit_of(c->table, 1), curve_log(c->style, 'y'), NAN, NAN},
         .series = c->series,
         .n = c->n,
@@ -443,6 +469,8 @@ curves_draw(struct tool *t, const char *columns, const struct curve_style *style
     c->style = style;
     split_names(c, columns);
     read_tables(c);
+    for (size_t f = 0; f < c->tables; f++)
+        count_from_one_shape(c, &c->table[f]);
     check_units(c);
     check_convergence(c);
     for (size_t f = 0; f < c->tables; f++)

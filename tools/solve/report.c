@@ -286,7 +286,7 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
     report_number(r, "setup", run->setup, "s");
     report_number(r, "iterate", run->iterate, "s");
     report_number(r, "result", run->result, "s");
-    report_number(r, "total", solve_now() - run->began, "s");
+    report_number(r, "total", run->done - run->began, "s");
     report_end(r);
     report_count(r, "peak_memory", (size_t)ranks_most(&run->t, (double)tool_peak_memory()), "B");
     report_count(r, "memory_estimate", (size_t)ranks_most(&run->t, (double)run->t.expected_memory),
@@ -297,6 +297,8 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
     report_number(r, "conductance", s->conductance.value, run->conductance_unit);
     report_number(r, "conductance_lower", s->conductance.lower, run->conductance_unit);
     report_asked(r, run, solver);
+    report_number(r, "indentation", s->indentation, "m");
+    report_number(r, "residual_indentation", s->residual_indentation, "m");
     report_finish_row(r);
 }
 

@@ -47,20 +47,21 @@ struct progress {
 struct run {
     struct tool t;
     const struct solve_args *args;
-    const struct numbers *steps;       /* the list of loads or approaches               */
-    size_t step, number;               /* which of them, from 0; the case that it is    */
-    bool stiffness, conductance;       /* whether they are found                            */
-    double k[2];                       /* conductivities of the bodies, SI                  */
-    const char *conductance_unit;      /* W/K or S; NULL: the conductivities have no unit   */
-    bool resumed;                      /* this case, from a checkpoint                      */
-    double height_error;               /* m: of the heights that came in */
+    const struct numbers *steps;  /* the list of loads or approaches               */
+    size_t step, number;          /* which of them, from 0; the case that it is    */
+    bool stiffness, conductance;  /* whether they are found                            */
+    double k[2];                  /* conductivities of the bodies, SI                  */
+    const char *conductance_unit; /* W/K or S; NULL: the conductivities have no unit   */
+    bool resumed;                 /* this case, from a checkpoint                      */
+    double height_error;          /* m: of the heights that came in */
+    double first_top, top; /* m: the highest node of the first shape, and of that of this load    */
     const struct rc_grid *hardness;    /* a map of it, in the case; NULL: a number or none */
     double hardness_min, hardness_max; /* Pa, of the numbers; no number: INFINITY, -INFINITY */
     struct report report;
     struct checkpoint *checkpoint; /* NULL: none */
     size_t nodes;                  /* of the map */
     struct progress progress;
-    double began, setup, iterate, result; /* seconds */
+    double began, setup, iterate, result, done; /* seconds */
 };
 
 static inline bool
@@ -82,7 +83,15 @@ struct solution {
     double slope;                      /* RMS, where the bodies touch; NAN: not looked at         */
     double stiffness;                  /* N/m; NAN: unknown                                       */
     struct rc_conductance conductance; /* NAN: unknown */
+    /* m, in a history, from the first touch of the first shape; NAN: unknown. Of this solution, and
+     * of the first touch of the shape that it leaves. */
+    double indentation, residual_indentation;
 };
+#define SOLUTION_NONE                                                                              \
+    {                                                                                              \
+        .slope = NAN, .stiffness = NAN, .conductance = {NAN, NAN, NAN}, .indentation = NAN,        \
+        .residual_indentation = NAN                                                                \
+    }
 
 /* "steel.x3p, case 2, load 3 N": which solution is meant, for messages. */
 const char *solve_where(const struct run *run, const struct rc_grid *g, char *text, size_t size);

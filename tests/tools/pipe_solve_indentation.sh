@@ -1,0 +1,61 @@
+# In a --history approaches counted from the first touch of the first shape make one curve of load: no loop of it
+# gains work, elastic reloading runs back along the unloading, unloading ends at the residual indentation, and the
+# first load is Hertz's. This is the approach that curves of rc-render take.
+. "$(dirname "$0")/../pipe.sh"
+
+rc-synth sphere --radius 1mm --nx 112 --ny 104 --dx 0.5um --dy 0.55um -o ball.rcg
+loads=20mN,0.2N,0.6N,1N,0.8N,0.6N,0.4N,0.2N,0.1N,20mN,1mN,0,1mN,20mN,0.1N,0.2N,0.4N,0.6N,0.8N,1N,1.4N,0.7N,0.1N,1mN,0
+rc-solve --quiet --history --estar 114GPa --hardness 1GPa --tol 1e-6 --load $loads --output pressure,gap,displacement,height,plastic \
+    --report ball.tsv ball.rcg -o result.rcg
+
+# cell COLUMN ROW
+cell() {
+    awk -F'\t' -v name="$1" -v row="$2" 'NR == 1 { for (c = 1; c <= NF; c++) if ($c == name) k = c } NR == row + 1 { print $k }' ball.tsv
+}
+# work FROM TO: done on the contact from the first of these rows to the last.
+work() {
+    awk -F'\t' -v from="$1" -v to="$2" 'NR == 1 { for (c = 1; c <= NF; c++) { if ($c == "load/N") f = c; if ($c == "indentation/m") d = c } }
+        NR > from + 1 && NR <= to + 1 { w += (F + $f) / 2 * ($d - D) } { F = $f; D = $d } END { printf "%.9g", w }' ball.tsv
+}
+
+hertz=$(awk 'BEGIN { printf "%.9g", (9 * 0.02 ^ 2 / (16 * 114e9 ^ 2 * 1e-3)) ^ (1 / 3) }')
+near "$(cell indentation/m 1)" "$hertz" 0.01 "the first load is elastic: Hertz's approach"
+near "$(cell residual_indentation/m 1)" 0 0 "  and leaves nothing"
+claim "1 N leaves an indentation" awk -v r="$(cell residual_indentation/m 4)" 'BEGIN { exit !(r > 1e-8) }'
+near "$(cell residual_indentation/m 12)" "$(cell residual_indentation/m 4)" 1e-9 "  which unloading and loading to less leave as it is"
+for pair in 5:19 6:18 7:17 8:16 9:15 10:14 11:13 4:20; do
+    near "$(cell indentation/m ${pair#*:})" "$(cell indentation/m ${pair%:*})" 1e-5 "reloaded: the way back, load $(cell load/N ${pair%:*})"
+done
+near "$(cell indentation/m 12)" "$(cell residual_indentation/m 12)" 0 "apart: where they touch again"
+between 0 "$(awk -v a="$(cell indentation/m 11)" -v b="$(cell residual_indentation/m 11)" -v h="$hertz" 'BEGIN { print (a - b) / (h * 0.05 ^ (2 / 3)) }')" 1 \
+    "1 mN is further by less than on the round ball: the flattened one is stiffer"
+scale=$(awk -v f="$(cell load/N 4)" -v d="$(cell indentation/m 4)" 'BEGIN { print f * d }')
+between 0.01 "$(awk -v w="$(work 1 12)" -v s="$scale" 'BEGIN { print w / s }')" 0.5 "loading beyond yield and unloading take work"
+between 0.01 "$(awk -v w="$(work 12 25)" -v s="$scale" 'BEGIN { print w / s }')" 0.5 "  and so does the next loop"
+between -1e-4 "$(awk -v w="$(work 4 20)" -v s="$scale" 'BEGIN { print w / s }')" 1e-4 "an elastic loop takes none and gains none"
+
+# The displacement, the height and the gap say the same, in each case: c is the mean of what is left.
+rc-info --json result.rcg >maps.json 2>/dev/null
+mean() { grep "\"channel\": \"$1\"" maps.json | sed -n "$2p" | grep -o "\"$3\": [^,}]*" | head -n 1 | sed 's/.*: //'; }
+for k in 2 4 8 15 21 23; do
+    near "$(cell indentation/m $k)" "$(awk -v u="$(mean displacement $k mean)" -v h="$(mean height $k mean)" -v g="$(mean gap $k mean)" -v t="$(mean height 1 maximum)" \
+        'BEGIN { printf "%.12g", u - h - g + t }')" 1e-6 "case $k: displacement - height - gap, over the first shape's top"
+    near "$(cell residual_indentation/m $k)" "$(awk -v p="$(mean plastic $k maximum)" -v t="$(mean height 1 maximum)" 'BEGIN { printf "%.12g", t - p }')" \
+        1e-6 "  by how much the top of what is left is lower"
+done
+
+rc-solve --quiet --estar 114GPa --hardness 1GPa --load 1N --report one.json --output pressure ball.rcg -o one.rcg
+claim "without --history there is none" test "$(field indentation one.json) $(field residual_indentation one.json)" = "null null"
+
+# ---- curves ----
+
+rc-render --curve approach:load --title T -o approach.svg ball.tsv
+rc-render --curve indentation:load --title T -o indentation.svg ball.tsv
+strip() { sed 's/approach:load//; s/indentation:load//' "$1"; }
+claim "curves over the approach of a history are over this one" cmp <(strip approach.svg) <(strip indentation.svg)
+claim "  and the axis says so" grep -q 'Approach from the first touch of all' approach.svg
+rc-solve --quiet --estar 114GPa --load 20mN,0.2N --report first.tsv --output pressure ball.rcg -o one.rcg
+rc-render --curve approach:load --title T -o first.svg first.tsv
+claim "of first loadings the approach is what it was" lacks 'Approach from' first.svg
+
+finish
