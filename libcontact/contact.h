@@ -607,7 +607,7 @@ struct rc_conductance {
     double value;     /* W/K with k1, k2 in W/(m K); S with S/m                                  */
     double lower; /* no more than that of these nodes; by how much less says how well it is known */
 };
-/* At the solution, after rc_solver_result. NAN for coated bodies, for which there is no such
+/* At the solution, after rc_solver_result. NAN for bodies with layers, for which there is no such
  * analogy, and where a periodic surface is in complete contact. Takes 10 to 20 convolutions;
  * RC_FAIL when a conductivity is not positive and finite, and when memory is short. */
 RC_API enum rc_status rc_solver_conductance(struct rc_solver *solver, double k1, double k2,

@@ -5,7 +5,7 @@
  * contact. The sum is stationary at the solution, so its relative error is the square of that of t,
  * and single precision is enough.
  *
- * For d load / d approach the set is that of the elastic nodes: one at its hardness carries no
+ * For d load / d approach the set is that of the elastic nodes: one at its upper bound carries no
  * more. For the conductance it is that of all nodes in contact: the potential at the surface of a
  * conductor is that of the current as the displacement is that of the pressure (Barber 2003), and
  * it is one number wherever the bodies touch. Any t then gives a bound, (sum t)^2 / t'K t <= S, by
