@@ -27,7 +27,7 @@ make_surface(double *h)
 }
 
 /* The bound of the estimate over the error: 1.42 is the most here where the coat is at most twice
- * as stiff as the material below, 2.12 at 10 times; it is never below 1. */
+ * as stiff as the material below, 2.5 at 10 times; it is never below 1. */
 static const double over_soft = 1.6, over_stiff = 3;
 
 static void
