@@ -187,6 +187,10 @@ RC_API size_t rc_outliers_memory(const struct rc_shape *shape, size_t threads);
  * then as it was. */
 RC_API enum rc_status rc_taper(const struct rc_shape *shape, double width, double *h,
                                struct rc_err *err);
+/* Columns and rows on each side that a taper of this width (m) changes: nodes that are nearer to
+ * the edge. */
+RC_API void rc_taper_frame(const struct rc_shape *shape, double width, size_t *columns,
+                           size_t *rows);
 
 /* Gives every missing value (NaN) the solution of Laplace's equation with the measured ones around
  * it as boundary values and no slope across the edge of the map; *filled counts them. RC_FAIL when
@@ -245,6 +249,10 @@ RC_API enum rc_status rc_crop(const struct rc_shape *from, const double *v, size
 RC_API void rc_mirror(const struct rc_shape *shape, char axis, double *v);
 /* Quarter turns counterclockwise, row 0 at the top: the shape that comes out (an odd number of them
  * makes rows of columns), and the values. v and out do not overlap. */
+/* The map in the upper left quarter and its images about the right and the lower edge: a period
+ * without a step, on which no slope is added. A side of one node stays as it is. */
+RC_API struct rc_shape rc_reflect_shape(const struct rc_shape *from);
+RC_API void rc_reflect(const struct rc_shape *from, const double *v, double *out);
 RC_API struct rc_shape rc_rotate_shape(const struct rc_shape *from, size_t quarters);
 RC_API void rc_rotate(const struct rc_shape *from, const double *v, size_t quarters, double *out);
 

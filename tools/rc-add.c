@@ -149,7 +149,8 @@ set_periodic(struct tool *t, struct rc_grid *a, const struct rc_grid *b, bool cu
         t, "%s: this surface is periodic, what comes out is not, because %s: periodic=no from here",
         tool_where(t, a, where, sizeof where),
         cut ? "the maps are cut to their overlap" : "the other one is not");
-    return rc_grid_set(a, "periodic", "no", err);
+    return rc_grid_set(a, "taper", NULL, err) == RC_OK ? rc_grid_set(a, "periodic", "no", err)
+                                                       : RC_FAIL;
 }
 
 /* A shape that was added to either is in the sum; the same one in both is not in the difference. */

@@ -2,6 +2,8 @@
 
 #include <math.h>
 #include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "libcontact/contact.h"
@@ -141,13 +143,75 @@ outliers(struct tool *t, struct rc_grid *g, double times, struct rc_err *err)
     return add_to_key(g, "outliers", count, err);
 }
 
+/* A frame at the mean height carries load in a large contact. */
 static enum rc_status
 taper(struct tool *t, struct rc_grid *g, double width, struct rc_err *err)
 {
     struct rc_shape shape = rc_grid_shape(g);
+    char where[256], before[SHOWN_NUMBER], after[SHOWN_NUMBER];
+    struct rc_statistics was, is;
+    size_t columns, rows;
+    double inside, widest;
 
-    (void)t;
+    rc_measure(&shape, g->v, &was);
     if (rc_taper(&shape, width, g->v, err) != RC_OK)
+        return RC_FAIL;
+    rc_measure(&shape, g->v, &is);
+    rc_taper_frame(&shape, width, &columns, &rows);
+    inside =
+        (double)(g->nx - 2 * columns) / (double)g->nx * (double)(g->ny - 2 * rows) / (double)g->ny;
+    tool_warn(t,
+              "%s: the taper covers %.3g %% of the map, and Sq goes from %s to %s: near the edges "
+              "the surface is smoother, and at a large load that frame carries like a flat: "
+              "--mirror makes a period without one",
+              tool_where(t, g, where, sizeof where), 100 * (1 - inside),
+              shown_in_unit(before, was.rms, "m"), shown_in_unit(after, is.rms, "m"));
+    if (rc_grid_number(g, "taper", &widest) && widest > width)
+        width = widest;
+    if (rc_grid_set_number(g, "taper", width, err) != RC_OK)
+        return RC_FAIL;
+    return rc_grid_set(g, "periodic", "yes", err);
+}
+
+/* Points that were counted are there so many times. */
+static enum rc_status
+multiply_key(struct rc_grid *g, const char *key, double times, struct rc_err *err)
+{
+    double count;
+
+    return rc_grid_number(g, key, &count) ? rc_grid_set_number(g, key, times * count, err) : RC_OK;
+}
+
+static enum rc_status
+mirror(struct tool *t, struct rc_grid *g, double value, struct rc_err *err)
+{
+    struct rc_shape from = rc_grid_shape(g), to = rc_reflect_shape(&from);
+    double times = (double)(to.nx / from.nx) * (double)(to.ny / from.ny);
+    size_t nodes, bytes;
+    double *v;
+
+    (void)value;
+    if (rc_grid_get(g, "section") != NULL || rc_grid_get(g, "dunit") != NULL)
+        return rc_err_set(err, "--mirror: the frame is no map of places: leave it out, with "
+                               "rc-pick --channel");
+    if (is_periodic(g))
+        return rc_err_set(err, "--mirror: the map repeats as it is (periodic=yes): take the step "
+                               "out");
+    if (from.nx * from.ny == 1)
+        return rc_err_set(err, "--mirror: a single node is no map");
+    if (rc_shape_check(&to, err) != RC_OK || rc_size_mul(to.nx, to.ny, &nodes, err) != RC_OK ||
+        rc_size_mul(nodes, sizeof *v, &bytes, err) != RC_OK)
+        return RC_FAIL;
+    tool_demand_memory(t, g, bytes);
+    if ((v = malloc(bytes)) == NULL)
+        return rc_err_set(err, "out of memory for %zu x %zu nodes", to.nx, to.ny);
+    rc_reflect(&from, g->v, v);
+    free(g->v);
+    g->v = v;
+    g->nx = to.nx;
+    g->ny = to.ny;
+    if (multiply_key(g, "filled", times, err) != RC_OK ||
+        multiply_key(g, "outliers", times, err) != RC_OK)
         return RC_FAIL;
     return rc_grid_set(g, "periodic", "yes", err);
 }
@@ -220,6 +284,22 @@ detrend(struct tool *t, struct rc_grid *g)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
 }
 
+/* What stands beside the heights, such as a map of hardness, is mirrored with them. */
+static void
+passing(struct tool *t, struct rc_grid *g)
+{
+    char step[64];
+    struct rc_err err;
+
+    snprintf(step, sizeof step, "%s %s --mirror", t->info->name, rc_version());
+    for (size_t k = 0; k < args.steps.n; k++) {
+        const struct work *work = args.steps.step[k].opt->of;
+        if (work->run == mirror &&
+            (mirror(t, g, 0, &err) != RC_OK || rc_grid_history(g, step, &err) != RC_OK))
+            tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    }
+}
+
 static void
 check_steps(struct tool *t)
 {
@@ -288,6 +368,9 @@ static const struct opt opts[] = {
      .max = INFINITY, .above = true, .result = true, .arg = "W",
      .of = &(const struct work){.run = taper},
      .help = "lead the outer W to the mean, so that the map repeats"},
+    {.name = "mirror", .type = OPT_STEP, .at = offsetof(struct args, steps), .result = true,
+     .of = &(const struct work){.run = mirror},
+     .help = "add the mirror images about two edges, so that the map repeats"},
     {.name = "robust", .type = OPT_FLAG, .at = offsetof(struct args, robust), .result = true,
      .help = "forms and filters that single points far off do not bend"},
     {.name = NULL},
@@ -302,6 +385,7 @@ static const struct tool_info info = {
         "  rc-import bench.x3p | rc-detrend --plane --fill > flat.rcg\n"
         "  rc-import bench.x3p | rc-detrend --robust --plane --outliers 5 --fill > clean.rcg\n",
     .opts = opts,
+    .passing = passing,
     .reads = READS_STREAM,
     .writes = WRITES_STREAM,
 };

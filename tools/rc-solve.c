@@ -290,6 +290,29 @@ keep_shape(struct run *run, struct rc_grid *g, struct rc_solver *solver, struct 
     s->residual_indentation = run->first_top - run->top;
 }
 
+/* Of a tapered map (key `taper`), the contact inside; p is NULL for bodies that are apart. */
+static void
+look_inside(struct run *run, const struct rc_grid *g, const double *p, struct solution *s)
+{
+    const struct rc_shape shape = rc_grid_shape(g);
+    size_t columns, rows, first = tool_first_row(&run->t, g);
+    double width, touching = 0, inside;
+
+    s->inside_area = s->inside_fraction = NAN;
+    if (!rc_grid_number(g, "taper", &width))
+        return;
+    rc_taper_frame(&shape, width, &columns, &rows);
+    for (size_t k = 0; p != NULL && k < rc_grid_nodes(g); k++) {
+        size_t i = k % g->nx, j = first + k / g->nx;
+        if (i >= columns && i + columns < g->nx && j >= rows && j + rows < g->ny && p[k] > 0)
+            touching++;
+    }
+    touching = ranks_sum(&run->t, touching);
+    inside = (double)(g->nx - 2 * columns) * (double)(g->ny - 2 * rows);
+    s->inside_area = touching * g->dx * g->dy;
+    s->inside_fraction = inside > 0 ? touching / inside : NAN;
+}
+
 static void
 look_at_contact(struct run *run, const struct rc_grid *g, const double *p, struct solution *s)
 {
@@ -303,6 +326,7 @@ look_at_contact(struct run *run, const struct rc_grid *g, const double *p, struc
     if (rc_patches_find(&shape, p, &options, &s->patches, &err) != RC_OK)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     s->slope = rc_measure_contact_slope(ranks_of(&run->t), &shape, g->v, p);
+    look_inside(run, g, p, s);
 }
 
 /* Where no node is at the hardness the conductance has found the stiffness too. */
@@ -365,6 +389,7 @@ take_apart(struct run *run, const struct rc_grid *g)
         s.conductance = (struct rc_conductance){NAN, 0, 0};
     run->done = solve_now();
     s.indentation = s.residual_indentation = run->first_top - run->top;
+    look_inside(run, g, NULL, &s);
     solve_judge(run, g, &s);
     solve_report(run, g, NULL, &s);
     results_new(run, g, &r);

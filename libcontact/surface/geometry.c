@@ -49,6 +49,30 @@ rc_mirror(const struct rc_shape *shape, char axis, double *v)
 }
 
 struct rc_shape
+rc_reflect_shape(const struct rc_shape *from)
+{
+    struct rc_shape to = *from;
+
+    to.nx *= from->nx > 1 ? 2 : 1;
+    to.ny *= from->ny > 1 ? 2 : 1;
+    return to;
+}
+
+/* A node at the edge stands beside its own image: the reflection about the edge of the cells, not
+ * about the outermost nodes, so that the period is twice the map and each height counts alike. */
+void
+rc_reflect(const struct rc_shape *from, const double *v, double *out)
+{
+    struct rc_shape to = rc_reflect_shape(from);
+
+    for (size_t j = 0; j < to.ny; j++) {
+        const double *row = v + (j < from->ny ? j : to.ny - 1 - j) * from->nx;
+        for (size_t i = 0; i < to.nx; i++)
+            out[j * to.nx + i] = row[i < from->nx ? i : to.nx - 1 - i];
+    }
+}
+
+struct rc_shape
 rc_rotate_shape(const struct rc_shape *from, size_t quarters)
 {
     if (quarters % 2 == 0)

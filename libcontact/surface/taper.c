@@ -4,6 +4,13 @@
 #include <math.h>
 #include <stdlib.h>
 
+/* Of the middle of node i from the nearer edge of its side. */
+static double
+from_edge(size_t i, size_t n, double d)
+{
+    return ((double)(i < n - 1 - i ? i : n - 1 - i) + 0.5) * d;
+}
+
 /* Weight of each node of a side: a raised cosine of its middle's distance from the edge, up to the
  * width; 1 on a side of one node. NULL when memory is short. */
 static double *
@@ -12,7 +19,7 @@ weights(size_t n, double d, double width)
     double *w = calloc(n, sizeof *w);
 
     for (size_t i = 0; i < n && w != NULL; i++) {
-        double from = ((double)(i < n - 1 - i ? i : n - 1 - i) + 0.5) * d;
+        double from = from_edge(i, n, d);
         w[i] = n == 1 || from >= width ? 1 : 0.5 - 0.5 * cos(RC_PI * from / width);
     }
     return w;
@@ -41,6 +48,23 @@ check(const struct rc_shape *shape, double width, const struct rc_statistics *s,
     if (s->missing == shape->nx * shape->ny)
         return rc_err_set(err, "all %zu heights are missing: nothing to taper", s->missing);
     return RC_OK;
+}
+
+static size_t
+changed(size_t n, double d, double width)
+{
+    size_t k = 0;
+
+    while (k < n / 2 && from_edge(k, n, d) < width)
+        k++;
+    return k;
+}
+
+void
+rc_taper_frame(const struct rc_shape *shape, double width, size_t *columns, size_t *rows)
+{
+    *columns = changed(shape->nx, shape->dx, width);
+    *rows = changed(shape->ny, shape->dy, width);
 }
 
 enum rc_status

@@ -425,6 +425,9 @@ without(double *out, struct rc_err *err)
         return RC_FAIL;
     rc_mirror(&shape, 'x', out);
     rc_rotate(&shape, rough, 1, out + N);
+    rc_taper_frame(&shape, 3e-6, &product, &product);
+    to = rc_reflect_shape(&(struct rc_shape){NX / 2, NY / 2, shape.dx, shape.dy});
+    rc_reflect(&(struct rc_shape){NX / 2, NY / 2, shape.dx, shape.dy}, rough, out);
     rc_measure(&shape, rough, &statistics);
     rc_measure_seam(NULL, &shape, rough, &seam);
     for (size_t c = 0; c < RC_COMPONENTS; c++)

@@ -244,6 +244,60 @@ other_spacings_are_refused(void **state)
     free(v);
 }
 
+/* Reflected, a map is even about its edges and repeats: what is under it is again a cosine of the whole
+ * period where it was one with its crests at the edges, and heights and slopes are as they were. */
+static void
+reflections_repeat(void **state)
+{
+    const struct rc_shape shapes[] = {{NX, NY, 1.1e-6, 1e-6},
+                                      {4, 3, 1e-6, 1e-6},
+                                      {9, 1, 1e-6, 1e-6},
+                                      {1, 8, 1e-6, 2e-6},
+                                      {1, 1, 1e-6, 1e-6}};
+    const double pi = 3.14159265358979323846;
+
+    (void)state;
+    for (size_t k = 0; k < sizeof shapes / sizeof *shapes; k++) {
+        const struct rc_shape *s = &shapes[k];
+        struct rc_shape to = rc_reflect_shape(s);
+        double *v = malloc(s->nx * s->ny * sizeof *v), *out = malloc(to.nx * to.ny * sizeof *out);
+        struct rc_statistics was, is;
+        struct rc_seam seam;
+
+        assert_int_equal(to.nx, s->nx == 1 ? 1 : 2 * s->nx);
+        assert_int_equal(to.ny, s->ny == 1 ? 1 : 2 * s->ny);
+        assert_true(to.dx == s->dx && to.dy == s->dy);
+        for (size_t n = 0; n < s->nx * s->ny; n++)
+            v[n] = cos(3 * pi * ((double)(n % s->nx) + 0.5) / (double)s->nx) *
+                   cos(2 * pi * ((double)(n / s->nx) + 0.5) / (double)s->ny);
+        rc_reflect(s, v, out);
+        for (size_t n = 0; n < to.nx * to.ny; n++) {
+            size_t i = n % to.nx, j = n / to.nx;
+            double wave = cos(3 * pi * ((double)i + 0.5) / (double)s->nx) *
+                          cos(2 * pi * ((double)j + 0.5) / (double)s->ny);
+            assert_true(fabs(out[n] - wave) < 1e-13);
+            if (i < s->nx && j < s->ny)
+                assert_true(out[n] == v[j * s->nx + i]);
+            if (to.nx > 1)
+                assert_true(out[n] == out[j * to.nx + to.nx - 1 - i]);
+            if (to.ny > 1)
+                assert_true(out[n] == out[(to.ny - 1 - j) * to.nx + i]);
+        }
+        rc_measure_seam(NULL, &to, out, &seam);
+        assert_true(!(seam.across[0] > 0) && !(seam.across[1] > 0));
+        for (size_t n = 0; n < s->nx * s->ny; n++)
+            v[n] = n % 17 == 3 ? NAN : (double)(n * n % 10007);
+        rc_reflect(s, v, out);
+        rc_measure(s, v, &was);
+        rc_measure(&to, out, &is);
+        assert_int_equal(is.missing, was.missing * (to.nx / s->nx) * (to.ny / s->ny));
+        assert_true(fabs(is.mean - was.mean) <= 1e-12 * fabs(was.mean));
+        assert_true(fabs(is.rms - was.rms) <= 1e-12 * was.rms);
+        free(v);
+        free(out);
+    }
+}
+
 int
 main(void)
 {
@@ -255,6 +309,7 @@ main(void)
         cmocka_unit_test(sums_on_the_overlap),
         cmocka_unit_test(a_surface_closes_on_its_replica),
         cmocka_unit_test(other_spacings_are_refused),
+        cmocka_unit_test(reflections_repeat),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

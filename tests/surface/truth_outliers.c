@@ -147,6 +147,7 @@ test_taper(void **state)
     const struct rc_shape s = {40, 33, 1.1e-6, 1e-6};
     const double width = 7.3e-6;
     double *h = new_map(&s), *before = new_map(&s), mean = 0, n = 0;
+    size_t columns, rows;
     struct rc_err err;
 
     (void)state;
@@ -160,6 +161,11 @@ test_taper(void **state)
     }
     mean = 1e-3 + mean / n;
     assert_int_equal(rc_taper(&s, width, h, &err), RC_OK);
+    rc_taper_frame(&s, width, &columns, &rows);
+    assert_int_equal(columns, 7); /* 6.5 * 1.1 um is below 7.3 um, 7.5 * 1.1 um is not */
+    assert_int_equal(rows, 7);    /* 6.5 um is, 7.5 um is not */
+    rc_taper_frame(&(struct rc_shape){40, 1, 1.1e-6, 1.1e-6}, 1, &columns, &rows);
+    assert_true(columns == 20 && rows == 0); /* no more than half, and none of a profile's row */
     for (size_t k = 0; k < 40 * 33; k++) {
         double x = ((double)(k % 40) + 0.5) * s.dx, y = ((double)(k / 40) + 0.5) * s.dy, w = 1;
         x = fmin(x, 40 * s.dx - x);

@@ -98,6 +98,43 @@ claim "many outliers are warned of" warns '[0-9.]+ % of the points \([0-9]+ of 1
     rc-detrend --outliers 0.5 spikes.rcg -o c.rcg
 claim "a taper makes a surface periodic" bash -c '
     rc-detrend --plane --taper 5um spikes.rcg -o a.rcg && says "\"periodic\": \"yes\"" rc-info --json a.rcg'
+# of 40 x 30 nodes 1.1 um x 1 um, 5 columns (4.5 * 1.1 um is below 5 um) and 5 rows on each side: 600 of 1200
+rc-detrend --plane spikes.rcg -o level.rcg
+claim "  says what it covers, and names what covers nothing" \
+    warns 'the taper covers 50 % of the map, and Sq goes from .*--mirror makes a period' rc-detrend --taper 5um level.rcg -o a.rcg
+claim "  Sq before and after is that of the maps" bash -c '
+    [ "$(sed -n "s/.*Sq goes from \(.*\) to \(.*\): near.*/\1, \2/p" warns.err)" = \
+        "$(for f in level a; do rc-info --areal $f.rcg | sed -n "s/^  Sq  *//p"; done | paste -sd, | sed "s/,/, /")" ]'
+near "$(figure taper a.rcg)" 5e-6 "$rounding" "  the key taper has its width"
+claim "  the widest of several" bash -c 'rc-detrend --quiet --taper 3um a.rcg | rc-info | grep -q "taper=5e-06"'
+claim "  a part is not tapered" bash -c 'rc-pick --quiet --crop 0,0,20,20 a.rcg | rc-info >b.out && ! grep -q "taper=" b.out'
+
+# beside A B: the frames of both as one case
+beside() { perl -0777 -ne 's/RCGEND 1\n\z//; print; END { print "RCGEND 2\n" }' "$1" "$2"; }
+export -f beside
+claim "a mirror makes a surface periodic" bash -c '
+    rc-detrend --plane --mirror spikes.rcg -o m.rcg && says "\"periodic\": \"yes\"" rc-info --json m.rcg'
+claim "  of twice the columns and rows" says '"nx": 80, "ny": 60, "dx": 1.1e-06, "dy": 1e-06,' rc-info --json m.rcg
+claim "  Sq is that of the map" test "$(rc-info --areal m.rcg | grep "^  Sq ")" = "$(rc-info --areal level.rcg | grep "^  Sq ")"
+claim "  without a word" bash -c 'rc-detrend --mirror level.rcg -o m.rcg 2>err && [ ! -s err ]'
+claim "  the map is the upper left quarter" bash -c '
+    for f in m level; do rc-pick --quiet --crop 0,0,40,30 $f.rcg | rc-export --format csv | grep -v "^#" >$f.csv; done; cmp m.csv level.csv'
+claim "  points that were filled count four times" test \
+    "$(rc-detrend --outliers 10 --fill --mirror spikes.rcg -o b.rcg; figure filled b.rcg) $(figure outliers b.rcg)" = "48 48"
+claim "  a profile has two ends" says '"nx": 80, "ny": 1,' bash -c 'rc-pick --crop 0,0,40,1 level.rcg | rc-detrend --mirror | rc-info --json'
+claim "  a map of hardness beside it is mirrored too, and says no more" bash -c '
+    rc-pick --set channel=hardness --set unit=Pa level.rcg -o hard.rcg
+    beside level.rcg hard.rcg >both.rcg
+    rc-detrend --plane --mirror both.rcg -o b.rcg && rc-info --json b.rcg >b.json && grep -c "\"nx\": 80, \"ny\": 60" b.json | grep -qx 2 &&
+    grep "\"hardness\"" b.json | grep -q "rc-detrend [0-9.]* --mirror\"" && rc-pick --channel hardness b.rcg | rc-export --format csv | grep -v "^#" >b.csv &&
+    rc-export --format csv m.rcg | grep -v "^#" >m.csv && cmp b.csv m.csv'
+refuses 1 'case 1.*--mirror: the map repeats as it is .periodic=yes.' "a mirror of what repeats" "rc-detrend --mirror m.rcg"
+refuses 1 '--mirror: the map repeats as it is' "two mirrors" "rc-detrend --mirror --mirror level.rcg"
+rc-pick --crop 0,0,1,1 level.rcg -o node.rcg
+refuses 1 '--mirror: a single node is no map' "a mirror of one node" "rc-detrend --mirror node.rcg"
+rc-pick --set channel=psd level.rcg | rc-pick --set dunit=rad/m - -o wave.rcg
+beside level.rcg wave.rcg >waved.rcg
+refuses 1 '--mirror: the frame is no map of places: leave it out' "a mirror of a spectrum" "rc-detrend --mirror waved.rcg"
 claim "history names all steps in SI" \
     says 'rc-detrend [0-9.]* --outliers 3.5 --sphere --lowpass 9e-06 --fill --taper 5e-06 --robust"' bash -c '
     rc-detrend --robust --outliers 3.5 --sphere --lowpass 9um --fill --taper 5um spikes.rcg | rc-info --json'

@@ -66,5 +66,38 @@ claim "the bodies, the hardness and the tolerance stand as given" test "$(for c 
 claim "the source is the shape and its seed" test "$(column source | sort -u | tr '\n' ' ')" = "selfaffine-seed-1 selfaffine-seed-2 selfaffine-seed-3 "
 rc-synth sphere --nx 24 --dx 10um --radius 5mm | rc-solve --quiet --load 1N --E1 200GPa --nu1 0.3 --E2 rigid --layer 2um,400GPa,0.2 --layer 1um,100GPa,0.3 --report layered.json -o /dev/null
 claim "layers are told, and of what they lie under no E*" says '"estar": null, "e1": 200000000000, "nu1": 0.3, "e2": null, "nu2": null, "hardness": null, "radius": null, "layers": "2e-06,400000000000,0.2; 1e-06,100000000000,0.3"' cat layered.json
+# ---- contact inside of a taper ----
+
+rc-synth selfaffine --nx 96 --ny 80 --dx 1um --hurst 0.8 --rms-slope 0.1 --rolloff 40um --short-cut 6um --seed 5 |
+    rc-pick --set periodic=no | rc-detrend --quiet --taper 9.2um -o tapered.rcg
+# nodes whose middles are nearer than 9.2 um to an edge: 9 columns and 9 rows on each side, 78 x 62 are left
+for load in 20mN 600mN; do
+    rc-solve --quiet --periodic --estar 3GPa --load $load --output pressure --report r.json tapered.rcg -o p.rcg
+    inside=$(rc-pick --quiet --crop 9,9,78,62 p.rcg | rc-info --json | sed -n 's/.*"contact_nodes": \([0-9]*\).*/\1/p')
+    near "$(field contact_area_inside r.json)" "${inside}e-12" "$rounding" "contact inside a taper, $load: the nodes there"
+    near "$(field contact_fraction_inside r.json)" "$(awk -v n="$inside" 'BEGIN { printf "%.17g", n / (78 * 62) }')" "$rounding" "  their share"
+done
+claim "  the frame touches more than the rest at a large load" test "$(awk -v a="$(field contact_fraction r.json)" \
+    -v b="$(field contact_fraction_inside r.json)" 'BEGIN { print (a > b) }')" = 1
+claim "  null without a taper" grep -q '"contact_area_inside": null, "contact_fraction_inside": null' case.json
+rc-solve --quiet --periodic --estar 3GPa --load 1kN --output pressure --report r.json tapered.rcg -o p.rcg
+near "$(field contact_fraction_inside r.json)" 1 "$rounding" "  all of it when pressed flat"
+claim "  columns of a table, at its end" bash -c '
+    rc-solve --quiet --periodic --estar 3GPa --load 20mN,0 --history --output pressure --report r.tsv tapered.rcg -o p.rcg &&
+    head -1 r.tsv | grep -qP "\tcontact_area_inside/m2\tcontact_fraction_inside$" && [ "$(tail -1 r.tsv | cut -f "$(head -1 r.tsv | tr "\t" "\n" | grep -n contact_area_inside | cut -d: -f1)")" = 0 ]'
+
+# ---- a period made by mirror images ----
+
+# Half a wave, from crest to trough, is the whole wave again, whose contact under a mean pressure is Westergaard's
+# (Johnson 1985, 13.7): 2/pi asin(sqrt(p/p*)) of the period, p* = pi E* A/lambda = 3.14 MPa.
+rc-synth wave --nx 512 --ny 4 --dx 1um --wavelength 512um --amplitude 0.512um -o whole.rcg
+rc-export --format csv whole.rcg | grep -v '^#' | cut -d, -f1-256 | tr ',' ' ' | rc-import --quiet --dx 1um --z-unit m - -o first.rcg
+rc-export --format csv whole.rcg | grep -v '^#' | cut -d, -f257-512 | tr ',' ' ' | rc-import --quiet --dx 1um --z-unit m - -o second.rcg
+for half in first second; do
+    rc-detrend --mirror $half.rcg | rc-solve --quiet --periodic --estar 1GPa --mean-pressure 785398.16339744830 --tol 1e-6 --output pressure --report r.json -o p.rcg
+    near "$(field contact_fraction r.json)" 0.33333333 0.012 "the $half half of a wave mirrored: a third is in contact at a quarter of p*"
+    # p_max = 2 sqrt(p p*)
+    near "$(field max_pressure r.json)" 3.1415926535897932e6 1e-3 "  the largest pressure is Westergaard's"
+done
 
 finish

@@ -289,6 +289,8 @@ tool_channel(struct tool *t, const char *channel, bool pass)
                             channel);
             return g;
         }
+        if (pass && t->info->passing != NULL)
+            t->info->passing(t, g);
         if (pass)
             tool_write(t, g);
         rc_grid_free(g);

@@ -204,9 +204,12 @@ warn_of_seam(struct tool *t, const struct rc_grid *g)
                 t,
                 "%s: the edges do not meet: from the last %s to the first the heights jump by "
                 "%s (RMS), %.3g times the steps inside: rc-detrend --plane takes a tilt off, "
-                "--taper leads the edges together; or solve it without --periodic",
+                "--mirror makes a period of the map and its mirror images, of %s the area; or "
+                "solve it "
+                "without --periodic",
                 tool_where(t, g, where, sizeof where), line[side],
-                shown_in_unit(jump, seam.across[side], "m"), seam.across[side] / seam.inside[side]);
+                shown_in_unit(jump, seam.across[side], "m"), seam.across[side] / seam.inside[side],
+                g->nx > 1 && g->ny > 1 ? "4 times" : "twice");
 }
 
 /* A force on a profile acts on the one row that there is, which is as wide as its nodes are apart. */

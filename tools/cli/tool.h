@@ -116,6 +116,8 @@ struct tool_info {
     const char *(*foreign)(const char *head);
     /* NULL, or called between the options and the output: may change tool->writes. */
     void (*settle)(struct tool *tool);
+    /* NULL, or what the tool does to a frame that tool_channel passes on. */
+    void (*passing)(struct tool *tool, struct rc_grid *grid);
     bool shares; /* under mpirun its processes share the maps */
 };
 
@@ -179,8 +181,8 @@ const char *tool_history(const struct tool *tool);
 
 /* The next frame of all inputs, cases numbered on; NULL at their end. The caller frees it. */
 struct rc_grid *tool_read(struct tool *tool);
-/* The next frame of this channel, one in each case; the case's other frames are written as they are
- * (`pass`) or dropped. A case that has none of it, or several, ends the tool; with `pass` so does one
+/* The next frame of this channel, one in each case; the case's other frames are written as they are,
+ * but for what info->passing does, (`pass`) or dropped. A case that has none of it, or several, ends the tool; with `pass` so does one
  * that holds results beside a height, see results.h. NULL at the end. */
 struct rc_grid *tool_channel(struct tool *tool, const char *channel, bool pass);
 /* The frame of this channel in the next case, and beside it that of another channel, wherever it stands in

@@ -246,7 +246,7 @@ crop(struct tool *t, struct rc_grid *g, const struct request *r, struct rc_err *
     g->ny = to.ny;
     if (forget_period(t, g, err) != RC_OK || forget_counts(g, err) != RC_OK)
         return RC_FAIL;
-    return remove_keys(g, (const char *const[]){"load", NULL}, err);
+    return remove_keys(g, (const char *const[]){"load", "taper", NULL}, err);
 }
 
 static enum rc_status

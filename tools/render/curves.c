@@ -28,6 +28,8 @@ static const struct quantity {
     {"contact_area", "Contact area", "m2"},
     {"contact_area_corrected", "Contact area, corrected", "m2"},
     {"contact_fraction", "Contact fraction", "1"},
+    {"contact_area_inside", "Contact area inside the taper", "m2"},
+    {"contact_fraction_inside", "Contact fraction inside the taper", "1"},
     {"plastic_area", "Area at the hardness", "m2"},
     {"yielded_area", "Area that gave way", "m2"},
     {"edge_load_fraction", "Share of the load at the edge", "1"},

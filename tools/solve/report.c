@@ -299,6 +299,8 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
     report_asked(r, run, solver);
     report_number(r, "indentation", s->indentation, "m");
     report_number(r, "residual_indentation", s->residual_indentation, "m");
+    report_number(r, "contact_area_inside", s->inside_area, "m2");
+    report_number(r, "contact_fraction_inside", s->inside_fraction, NULL);
     report_finish_row(r);
 }
 

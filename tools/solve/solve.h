@@ -86,11 +86,14 @@ struct solution {
     /* m, in a history, from the first touch of the first shape; NAN: unknown. Of this solution, and
      * of the first touch of the shape that it leaves. */
     double indentation, residual_indentation;
+    /* of a tapered map: contact inside of the taper, m^2, and its share of what lies inside; NAN: not
+     * tapered, or nothing does */
+    double inside_area, inside_fraction;
 };
 #define SOLUTION_NONE                                                                              \
     {                                                                                              \
         .slope = NAN, .stiffness = NAN, .conductance = {NAN, NAN, NAN}, .indentation = NAN,        \
-        .residual_indentation = NAN                                                                \
+        .residual_indentation = NAN, .inside_area = NAN, .inside_fraction = NAN                    \
     }
 
 /* "steel.x3p, case 2, load 3 N": which solution is meant, for messages. */
