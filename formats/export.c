@@ -118,9 +118,16 @@ enum rc_status
 rc_export_write(const struct rc_export *format, FILE *out, struct rc_grid *const *frame,
                 size_t frames, const struct rc_export_wish *wish, struct rc_err *err)
 {
-    for (size_t k = 0; k < frames; k++)
+    for (size_t k = 0; k < frames; k++) {
+        const char *dunit = rc_grid_dunit(frame[k]);
         if (check_section(format, frame[k], err) != RC_OK)
             return RC_FAIL;
+        if (format->lengths && strcmp(dunit, "m") != 0)
+            return rc_err_set(err,
+                              "%s says of its spacings that they are lengths, these are in %s: "
+                              "choose a format that names the unit (gsf, gwy, csv, hdf5)",
+                              format->name, dunit);
+    }
     return format->write(out, frame, frames, wish, err);
 }
 

@@ -44,6 +44,7 @@ struct rc_export {
     bool several;         /* takes several frames; else just one                              */
     bool stack;           /* or the depths of one channel and case                            */
     bool uneven;          /* says where each row of a section is: its depths may be uneven    */
+    bool lengths;         /* says of its spacings that they are lengths: refuses another dunit */
     bool heights;         /* says metres by its definition: holds heights only                */
     unsigned types;       /* types that it can hold, of the bits above; 0: text */
     unsigned copies; /* copies of all values that it holds in memory, as they lie in the file */

@@ -242,6 +242,23 @@ rc_grid_number(const struct rc_grid *g, const char *name, double *value)
     return end != NULL && *end == '\0' && isfinite(*value);
 }
 
+const char *
+rc_grid_dunit(const struct rc_grid *grid)
+{
+    const char *unit = rc_grid_get(grid, "dunit");
+
+    return unit == NULL ? "m" : unit;
+}
+
+void
+rc_grid_origin(const struct rc_grid *grid, double *i, double *j)
+{
+    bool waves = strcmp(rc_grid_dunit(grid), "rad/m") == 0;
+
+    *i = waves ? (double)(grid->nx / 2) : 0.5 * ((double)grid->nx - 1);
+    *j = waves ? (double)(grid->ny / 2) : 0.5 * ((double)grid->ny - 1);
+}
+
 size_t
 rc_grid_case(const struct rc_grid *g)
 {

@@ -66,7 +66,7 @@ struct rc_key {
 
 struct rc_grid {
     size_t nx, ny;      /* nodes, both > 0                                                     */
-    double dx, dy;      /* metres, both > 0 and finite                                         */
+    double dx, dy;      /* metres, but for rc_grid_dunit; both > 0 and finite                  */
     char *channel;      /* "height", "pressure", "szz", ...                                    */
     char *unit;         /* "m", "Pa", ...; SI                                                  */
     enum rc_type type;  /* how the values are stored in a stream; in memory always double      */
@@ -102,6 +102,11 @@ RC_API enum rc_status rc_grid_set_number(struct rc_grid *grid, const char *name,
                                          struct rc_err *err);
 /* Number in a key; false when the key is absent or is not wholly one finite number. */
 RC_API bool rc_grid_number(const struct rc_grid *grid, const char *name, double *value);
+/* The unit of dx and dy: the key `dunit`, "m" when it is absent. */
+RC_API const char *rc_grid_dunit(const struct rc_grid *grid);
+/* Column and row at which x and y are 0: the middle of the map, which may lie between two nodes, or of
+ * wave numbers (dunit=rad/m) the node (nx/2, ny/2). */
+RC_API void rc_grid_origin(const struct rc_grid *grid, double *i, double *j);
 /* The case the frame belongs to: the key `case`, 1 when absent, 0 when it is no whole number > 0. */
 RC_API size_t rc_grid_case(const struct rc_grid *grid);
 

@@ -51,7 +51,8 @@ class Error(Exception):
 class Frame:
     """One map: `values`, a 2-D array whose row 0 is the first, and `keys`, the lines of its header.
 
-    `channel`, `unit`, `dx` and `dy` (metres) are taken from the keys. When the frame is written,
+    `channel`, `unit`, `dx`, `dy` and `dunit`, the unit of these (m where there is no such key), are
+    taken from the keys. When the frame is written,
     `nx`, `ny` and `type` are those of the values: float32 is f32, everything else f64.
     """
 
@@ -61,8 +62,8 @@ class Frame:
 
     def __repr__(self):
         ny, nx = self.values.shape
-        return '<rcg.Frame %s: %d x %d nodes of %s x %s m, %s>' % (
-            self.channel, nx, ny, self.keys['dx'], self.keys['dy'], self.unit)
+        return '<rcg.Frame %s: %d x %d nodes of %s x %s %s, %s>' % (
+            self.channel, nx, ny, self.keys['dx'], self.keys['dy'], self.dunit, self.unit)
 
     @property
     def channel(self):
@@ -75,6 +76,10 @@ class Frame:
     @property
     def unit(self):
         return self.keys['unit']
+
+    @property
+    def dunit(self):
+        return self.keys.get('dunit', 'm')
 
     @property
     def dx(self):
@@ -117,7 +122,7 @@ def _array(values):
 
 
 def frame(channel, values, dx, dy=None, unit=None, **keys):
-    """A Frame of these values: spacings in metres (dy as dx), the unit that of the channel.
+    """A Frame of these values: spacings in metres or dunit= (dy as dx), the unit that of the channel.
 
     Further keys become lines of the header: frame('pressure', p, dx=1e-6, case=2, load=60.0).
     """

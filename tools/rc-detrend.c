@@ -191,7 +191,7 @@ mirror(struct tool *t, struct rc_grid *g, double value, struct rc_err *err)
     double *v;
 
     (void)value;
-    if (rc_grid_get(g, "section") != NULL || rc_grid_get(g, "dunit") != NULL)
+    if (rc_grid_get(g, "section") != NULL || strcmp(rc_grid_dunit(g), "m") != 0)
         return rc_err_set(err, "--mirror: the frame is no map of places: leave it out, with "
                                "rc-pick --channel");
     if (is_periodic(g))

@@ -47,9 +47,15 @@ static const struct tool_info info = {
 };
 
 static bool
+in_metres(const struct rc_grid *g)
+{
+    return strcmp(rc_grid_dunit(g), "m") == 0;
+}
+
+static bool
 is_height(const struct rc_grid *g)
 {
-    return strcmp(g->channel, "height") == 0;
+    return strcmp(g->channel, "height") == 0 && in_metres(g);
 }
 
 /* ---- results: what a pressure says ---- */
@@ -64,7 +70,7 @@ struct result {
 static bool
 is_pressure(const struct rc_grid *g)
 {
-    return strcmp(g->channel, "pressure") == 0 && strcmp(g->unit, "Pa") == 0;
+    return strcmp(g->channel, "pressure") == 0 && strcmp(g->unit, "Pa") == 0 && in_metres(g);
 }
 
 /* Load and contact are computed from the values, so they hold whichever program wrote these. */
@@ -135,6 +141,7 @@ show_json(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s
     json_count(&j, "ny", g->ny);
     json_number(&j, "dx", g->dx);
     json_number(&j, "dy", g->dy);
+    json_text(&j, "dunit", rc_grid_dunit(g));
     json_text(&j, "unit", g->unit);
     json_text(&j, "type", g->type == RC_F32 ? "f32" : "f64");
     json_number(&j, "minimum", s->minimum);
@@ -210,15 +217,29 @@ put_result(FILE *out, const struct rc_grid *g, const struct result *r)
                 strcmp(r->converged, "yes") == 0 ? "yes" : "no: it stopped short of its accuracy");
 }
 
+/* The unit came with the data. */
+static void
+put_length(FILE *out, const char *number, const char *unit)
+{
+    fputs(number, out);
+    shown_words(out, unit, strlen(unit));
+}
+
 static void
 put_grid(FILE *out, const struct rc_grid *g)
 {
     char a[SHOWN_NUMBER], b[SHOWN_NUMBER];
+    const char *unit = rc_grid_dunit(g);
 
-    fprintf(out, "  %-10s %zu x %zu nodes, dx %sm, dy %sm\n", "grid", g->nx, g->ny,
-            shown_number(a, g->dx, 6, "m"), shown_number(b, g->dy, 6, "m"));
-    fprintf(out, "  %-10s %sm x %sm\n", "size", shown_number(a, (double)g->nx * g->dx, 6, "m"),
-            shown_number(b, (double)g->ny * g->dy, 6, "m"));
+    fprintf(out, "  %-10s %zu x %zu nodes, dx ", "grid", g->nx, g->ny);
+    put_length(out, shown_number(a, g->dx, 6, unit), unit);
+    fputs(", dy ", out);
+    put_length(out, shown_number(b, g->dy, 6, unit), unit);
+    fprintf(out, "\n  %-10s ", "size");
+    put_length(out, shown_number(a, (double)g->nx * g->dx, 6, unit), unit);
+    fputs(" x ", out);
+    put_length(out, shown_number(b, (double)g->ny * g->dy, 6, unit), unit);
+    putc('\n', out);
     fprintf(out, "  %-10s %s\n", "type", g->type == RC_F32 ? "f32" : "f64");
 }
 

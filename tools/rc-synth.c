@@ -168,6 +168,9 @@ frame_of_file(struct tool *t, const char *channel)
     if (g == NULL)
         tool_die(t, EXIT_IMPOSSIBLE, "--like %s: no %sframe is in it", args.like,
                  channel == NULL ? "" : "height ");
+    if (strcmp(rc_grid_dunit(g), "m") != 0)
+        tool_die(t, EXIT_IMPOSSIBLE, "--like %s: its dx and dy are in %s (key dunit), not in m",
+                 args.like, rc_grid_dunit(g));
     rc_reader_free(reader);
     if (!standard)
         fclose(file);

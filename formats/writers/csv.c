@@ -30,9 +30,9 @@ csv_write(FILE *out, struct rc_grid *const *frame, size_t frames, const struct r
     char width[RC_NUMBER_SIZE], height[RC_NUMBER_SIZE], number[RC_NUMBER_SIZE];
 
     (void)frames;
-    fprintf(out, "# Channel: %s\n# Width: %s m\n# Height: %s m\n# Value units: %s\n", g->channel,
-            rc_number_text(width, (double)g->nx * g->dx),
-            rc_number_text(height, (double)g->ny * g->dy), g->unit);
+    fprintf(out, "# Channel: %s\n# Width: %s %s\n# Height: %s %s\n# Value units: %s\n", g->channel,
+            rc_number_text(width, (double)g->nx * g->dx), rc_grid_dunit(g),
+            rc_number_text(height, (double)g->ny * g->dy), rc_grid_dunit(g), g->unit);
     for (size_t j = 0; j < g->ny; j++)
         for (size_t i = 0; i < g->nx; i++) {
             double value = g->v[j * g->nx + i];

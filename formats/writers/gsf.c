@@ -1,5 +1,7 @@
 /* Gwyddion Simple Field: a header of `key = value`, one to four NUL bytes up to a multiple of four,
  * and the values as float, little-endian, top row first; NaN where nothing was measured. */
+#include <string.h>
+
 #include "encode.h"
 #include "formats/export.h"
 
@@ -12,14 +14,22 @@ gsf_write(FILE *out, struct rc_grid *const *frame, size_t frames, const struct r
     const struct rc_code code = {.raw = RC_RAW_F32};
     char width[RC_NUMBER_SIZE], height[RC_NUMBER_SIZE];
     struct rc_buffer b = {0};
+    double i, j;
     enum rc_status status = RC_FAIL;
 
     (void)frames, (void)wish;
     rc_buffer_print(&b,
                     "Gwyddion Simple Field 1.0\nXRes = %zu\nYRes = %zu\nXReal = %s\nYReal = %s\n"
-                    "XYUnits = m\nZUnits = %s\nTitle = %s\n",
+                    "XYUnits = %s\nZUnits = %s\nTitle = %s\n",
                     g->nx, g->ny, rc_number_text(width, (double)g->nx * g->dx),
-                    rc_number_text(height, (double)g->ny * g->dy), g->unit, g->channel);
+                    rc_number_text(height, (double)g->ny * g->dy), rc_grid_dunit(g), g->unit,
+                    g->channel);
+    if (strcmp(rc_grid_dunit(g), "m") != 0) { /* where wave number 0 is */
+        rc_grid_origin(g, &i, &j);
+        rc_buffer_print(&b, "XOffset = %s\nYOffset = %s\n",
+                        rc_number_text(width, -(i + 0.5) * g->dx),
+                        rc_number_text(height, -(j + 0.5) * g->dy));
+    }
     rc_buffer_add(&b, padding, 4 - b.n % 4);
     if (rc_buffer_write(&b, out, err) == RC_OK)
         status = rc_encode_file(&code, g->v, g->nx * g->ny, out, err);

@@ -114,11 +114,18 @@ unit_body(struct sink *s, const void *what)
 static void
 field_head(struct sink *s, const struct rc_grid *g, const char *unit)
 {
+    double i, j;
+
     item_count(s, "xres", g->nx);
     item_count(s, "yres", g->ny);
     item_double(s, "xreal", (double)g->nx * g->dx);
     item_double(s, "yreal", (double)g->ny * g->dy);
-    item_object(s, "si_unit_xy", "GwySIUnit", unit_body, "m");
+    if (strcmp(rc_grid_dunit(g), "m") != 0) { /* where wave number 0 is */
+        rc_grid_origin(g, &i, &j);
+        item_double(s, "xoff", -(i + 0.5) * g->dx);
+        item_double(s, "yoff", -(j + 0.5) * g->dy);
+    }
+    item_object(s, "si_unit_xy", "GwySIUnit", unit_body, rc_grid_dunit(g));
     item_object(s, "si_unit_z", "GwySIUnit", unit_body, unit);
     item(s, "data", 'D');
     put_word(s, (uint32_t)(g->nx * g->ny));

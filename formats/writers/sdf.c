@@ -66,5 +66,6 @@ const struct rc_export rc_export_sdf = {
     .summary = "ISO 25178-71 as text (aISO-1.0)",
     .text = true,
     .heights = true,
+    .lengths = true,
     .write = sdf_write,
 };

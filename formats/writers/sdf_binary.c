@@ -80,5 +80,6 @@ const struct rc_export rc_export_sdf_binary = {
     .summary = "ISO 25178-71 in binary (bISO-1.0)",
     .heights = true,
     .types = TYPES,
+    .lengths = true,
     .write = sdf_binary_write,
 };

@@ -158,5 +158,6 @@ const struct rc_export rc_export_sur = {
     .suffixes = ".sur",
     .summary = "Digital Surf (MountainsMap), not compressed",
     .types = TYPES,
+    .lengths = true,
     .write = sur_write,
 };

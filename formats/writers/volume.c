@@ -107,8 +107,9 @@ place_nodes(struct rc_volume *v, const struct rc_grid *g, struct rc_err *err)
     const char *section = rc_grid_get(g, "section");
     bool cut = section != NULL, along_y = cut && strcmp(section, "x") == 0;
     int first = along_y ? 1 : 0, other = along_y ? 0 : 1; /* the axis along rows; the other one */
-    double at = 0;
+    double at = 0, middle, row;
 
+    rc_grid_origin(g, &middle, &row);
     v->n[first] = g->nx;
     v->n[other] = cut ? 1 : g->ny;
     v->n[2] = cut ? g->ny : v->layers;
@@ -120,9 +121,9 @@ place_nodes(struct rc_volume *v, const struct rc_grid *g, struct rc_err *err)
             return rc_err_set(err, "out of memory for the nodes of %zu x %zu x %zu", v->n[0],
                               v->n[1], v->n[2]);
     for (size_t i = 0; i < g->nx; i++)
-        v->at[first][i] = ((double)i - 0.5 * ((double)g->nx - 1)) * g->dx;
+        v->at[first][i] = ((double)i - middle) * g->dx;
     for (size_t j = 0; j < g->ny && !cut; j++)
-        v->at[1][j] = ((double)j - 0.5 * ((double)g->ny - 1)) * g->dy;
+        v->at[1][j] = ((double)j - row) * g->dy;
     for (size_t k = 0; k < v->layers && !cut; k++)
         v->at[2][k] = rc_stack_depth(&v->array[0].stack, k);
     if (cut && rc_grid_number(g, "at", &at))

@@ -213,5 +213,6 @@ const struct rc_export rc_export_x3p = {
     .heights = true,
     .types = TYPES,
     .copies = 2,
+    .lengths = true,
     .write = x3p_write,
 };

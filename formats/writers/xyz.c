@@ -1,5 +1,5 @@
 /* Points as text: x, y and value of every node, x fastest, in SI, with the origin in the middle of
- * the map; NaN where nothing was measured, so that the raster stays whole. In a section the second
+ * the map, of a spectrum at wave number 0; NaN where nothing was measured, so that the raster stays whole. In a section the second
  * number is the depth. */
 #include <math.h>
 #include <stdlib.h>
@@ -7,12 +7,6 @@
 
 #include "encode.h"
 #include "formats/export.h"
-
-static double
-place(size_t k, size_t n, double step)
-{
-    return ((double)k - 0.5 * ((double)n - 1)) * step;
-}
 
 static enum rc_status
 xyz_write(FILE *out, struct rc_grid *const *frame, size_t frames, const struct rc_export_wish *wish,
@@ -23,15 +17,16 @@ xyz_write(FILE *out, struct rc_grid *const *frame, size_t frames, const struct r
     enum rc_status status = RC_FAIL;
     char x[RC_NUMBER_SIZE], y[RC_NUMBER_SIZE], z[RC_NUMBER_SIZE];
     const struct rc_grid *g = frame[0];
-    double *at = malloc(g->ny * sizeof *at);
+    double *at = malloc(g->ny * sizeof *at), middle, row;
 
     (void)frames;
     if (at == NULL) {
         rc_err_set(err, "out of memory for %zu rows", g->ny);
         goto done;
     }
+    rc_grid_origin(g, &middle, &row);
     for (size_t j = 0; j < g->ny; j++)
-        at[j] = place(j, g->ny, g->dy);
+        at[j] = ((double)j - row) * g->dy;
     if (section && rc_export_depths(g, at, err) != RC_OK)
         goto done;
     for (size_t j = 0; j < g->ny; j++) {
@@ -40,7 +35,7 @@ xyz_write(FILE *out, struct rc_grid *const *frame, size_t frames, const struct r
             double value = g->v[j * g->nx + i];
 
             rc_number_text(z, value);
-            if (fprintf(out, "%s %s %s\n", rc_number_text(x, place(i, g->nx, g->dx)), y,
+            if (fprintf(out, "%s %s %s\n", rc_number_text(x, ((double)i - middle) * g->dx), y,
                         isnan(value) ? missing : z) < 0) {
                 rc_put_failed(err);
                 goto done;

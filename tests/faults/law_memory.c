@@ -57,6 +57,7 @@ grids(double *out, struct rc_err *err)
         (like = rc_grid_like(g, "pressure", "Pa", err)) == NULL)
         goto done;
     rc_grid_number(like, "estar", &out[0]);
+    (void)rc_grid_dunit(like), rc_grid_origin(like, &out[1], &out[2]);
     out[1] = (double)like->keys + (double)rc_grid_nodes(part);
     out[2] = (double)strlen(rc_grid_get(like, "history"));
     status = RC_OK;

@@ -104,6 +104,44 @@ rc-export --format csv --channel psd ridge.rcg | grep -v '^#' | sed -n 25p | tr 
 near "$(sed -n 29p row.txt)" 7.68e-28 "$summed" "  the wave stands right of node (nx/2, ny/2)"
 near "$(sed -n 37p row.txt)" 7.68e-28 "$summed" "  and left of it"
 
+# ---- the unit of its spacings ----
+
+# Of 64 x 48 nodes at 1 um the steps are 2 pi/64 um = 98174.77 and 2 pi/48 um = 130899.69 rad/m, and the wave
+# is 4 steps to either side of wave number 0: at q = 2 pi/16 um = 392699.08 rad/m
+claim "a spectrum says that its spacings are in rad/m" test "$(rc-info --json ridge.rcg | perl -MJSON::PP -ne '$_ = decode_json($_); print "$_->{dunit} $_->{keys}{dunit}"')" = "rad/m rad/m"
+claim "  rc-info names it" says '^  grid +64 x 48 nodes, dx 98174.8 rad/m, dy 130900 rad/m$' rc-info ridge.rcg
+claim "  and the size" says '^  size +6\.28319e\+06 rad/m x 6\.28319e\+06 rad/m$' rc-info ridge.rcg
+claim "  heights are in m as ever" test "$(ask rough.json '$_->{dunit}')" = m
+rc-export --format xyz ridge.rcg | LC_ALL=C sort -g -k3 | tail -2 | LC_ALL=C sort -g >two.txt
+near "$(sed -n 1p two.txt | cut -d' ' -f1)" -392699.08169872413 "$rounding" "points: the wave stands at -q"
+near "$(sed -n 2p two.txt | cut -d' ' -f1)" 392699.08169872413 "$rounding" "  and at q"
+claim "  both in the row of qy = 0" test "$(cut -d' ' -f2 two.txt | tr '\n' ' ')" = "0 0 "
+claim "csv" says '^# Width: 6283185\.30717958[0-9]* rad/m$' rc-export --format csv ridge.rcg
+rc-export -o ridge.gsf ridge.rcg
+claim "gsf: the unit" says '^XYUnits = rad/m$' head -c 300 ridge.gsf
+# the left edge is half a cell left of column 0, which is 32 columns left of 0
+near "$(sed -n 's/^XOffset = //p' ridge.gsf)" -3190680.03880 1e-9 "  and where wave number 0 is"
+near "$(sed -n 's/^YOffset = //p' ridge.gsf)" -3207042.50050 1e-9 "  along y too"
+claim "  of heights in m, without an offset" bash -c 'rc-export --format gsf rough.rcg -o rough.gsf; head -c 200 rough.gsf | grep -a "^XYUnits = m$" && ! head -c 300 rough.gsf | grep -aq XOffset'
+claim "gwy" bash -c 'rc-export -o ridge.gwy ridge.rcg && grep -aq rad/m ridge.gwy && grep -aq xoff ridge.gwy'
+refuses 1 'sur says of its spacings that they are lengths, these are in rad/m' "a format of lengths only" "rc-export -o ridge.sur ridge.rcg"
+claim "vti: column 0 at -32 steps" bash -c 'rc-export -o ridge.vti ridge.rcg && head -c 400 ridge.vti | grep -a "Origin=\"-3141592\.65[0-9]* -3141592\.65"'
+rc-pick --set channel=height ridge.rcg -o false.rcg
+for tool in "rc-detrend --plane" "rc-solve --load 1N --estar 1GPa" "rc-info --areal" "rc-synth sphere --radius 1mm --like"; do
+    refuses 1 'its dx and dy are in rad/m .key dunit.' "wave numbers are no lengths: $tool" "$tool false.rcg"
+done
+claim "a map of it has words and its units" bash -c 'rc-render --log -o ridge.svg ridge.rcg && says ">Power spectral density<" cat ridge.svg &&
+    says ">qx \\(10" cat ridge.svg && says ">qy \\(10" cat ridge.svg && says "rad/m" cat ridge.svg && lacks "Mm" ridge.svg'
+claim "  a cut too" bash -c 'rc-render --cut y=0 -o cut.svg ridge.rcg && says "along qy = 0" cat cut.svg && lacks "km|Mm" cut.svg'
+claim "  through the node that is nearest: one step up" bash -c 'rc-render --cut x=1e5 -o cut.svg ridge.rcg && says "along qx = 98\\.17" cat cut.svg'
+refuses 2 'cut y=3um: .*a plain number without a unit is expected' "a cut at a length" "rc-render --cut y=3um -o cut.svg ridge.rcg"
+# from -4.5 to 4.5 steps there are nine columns, the waves in the outermost
+rc-render --raw --window=-441786:441786,-65000:65000 -o part.png ridge.rcg
+claim "  a window: nine nodes of one row" bash -c 'perl -e "undef \$/; open F, q(part.png); print join q( ), unpack(q(x16 N N), <F>)" | grep -qx "9 1"'
+claim "an odd number of nodes: wave number 0 in the middle" bash -c '
+    rc-synth wave --amplitude 1nm --wavelength 3um --nx 9 --ny 7 --dx 1um | rc-info --psd-map odd.rcg - >/dev/null
+    rc-export --format xyz odd.rcg | sed -n 32p | grep -q "^0 0 0$"'
+
 # ---- patches ----
 
 rc-synth sphere --radius 7.5mm --nx 128 --dx 8um | rc-solve --load 240N --estar 113.93GPa --quiet -o ball.rcg

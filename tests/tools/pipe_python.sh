@@ -30,6 +30,8 @@ claim "what was read is written as it was, bit for bit" check round_trip ball.rc
     stress.rcg none.rcg
 claim "  a text with a line feed and backslashes is read" check text_is escaped.rcg note 'two\backslashes\\and a
 line, µm, ='
+rc-synth wave --amplitude 1nm --wavelength 16um --nx 64 --dx 1um | rc-info --psd-map waves.rcg - >/dev/null
+claim "  the unit of the spacings" check waves waves.rcg
 claim "  a missing point is NaN" check missing hole.rcg 1 1
 rc-export --format npy -o ball.npy ball.rcg
 rc-export --format npy -o single.npy single.rcg

@@ -52,6 +52,15 @@ def text_is(name, key, text):
     assert rcg.read(name)[0].keys[key] == os.fsencode(text).decode('utf-8')
 
 
+def waves(name):
+    """A map of waves says that its spacings are in rad/m, one of places that they are in m."""
+    spectrum, = rcg.read(name)
+    assert spectrum.dunit == 'rad/m' and 'x 98174.77042468105 rad/m, m4>' in repr(spectrum)
+    made = rcg.frame('psd', spectrum.values, spectrum.dx, unit='m4', dunit='rad/m')
+    assert made.dunit == 'rad/m' and rcg.loads(rcg.dumps([made]))[0].dunit == 'rad/m'
+    assert rcg.frame('height', [[1.0, 2.0]], 1e-6).dunit == 'm'
+
+
 def missing(name, row, column):
     values = rcg.read(name)[0].values
     places = [list(place) for place in numpy.argwhere(numpy.isnan(values))]

@@ -230,6 +230,15 @@ keep_frame(struct tool *t, struct rc_grid *g, struct rc_grid **kept)
     *kept = g;
 }
 
+void
+tool_demand_lengths(struct tool *t, const struct rc_grid *g)
+{
+    if (strcmp(rc_grid_dunit(g), "m") != 0)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                    "its dx and dy are in %s (key dunit), and lengths in m are needed",
+                    rc_grid_dunit(g));
+}
+
 struct rc_grid *
 tool_channel_beside(struct tool *t, const char *channel, const char *beside, struct rc_grid **other)
 {
@@ -255,6 +264,7 @@ tool_channel_beside(struct tool *t, const char *channel, const char *beside, str
     }
     t->current.found = kept != NULL;
     end_case(t, channel);
+    tool_demand_lengths(t, kept);
     if (*other != NULL && ((*other)->nx != kept->nx || (*other)->ny != kept->ny ||
                            fabs((*other)->dx / kept->dx - 1) > RC_SAME_SPACING ||
                            fabs((*other)->dy / kept->dy - 1) > RC_SAME_SPACING))
@@ -287,6 +297,7 @@ tool_channel(struct tool *t, const char *channel, bool pass)
                             "a second %s frame in one case: maps that do not belong together need "
                             "case numbers of their own",
                             channel);
+            tool_demand_lengths(t, g);
             return g;
         }
         if (pass && t->info->passing != NULL)

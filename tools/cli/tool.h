@@ -190,6 +190,9 @@ struct rc_grid *tool_channel(struct tool *tool, const char *channel, bool pass);
  * case is read too, but not its values. */
 struct rc_grid *tool_channel_beside(struct tool *tool, const char *channel, const char *beside,
                                     struct rc_grid **other);
+/* Ends the tool where dx and dy of a frame are no lengths (key `dunit`); tool_channel and
+ * tool_channel_beside do so for what they give. */
+void tool_demand_lengths(struct tool *tool, const struct rc_grid *grid);
 /* First of the rows of a map that this process holds: 0 when it holds all. */
 size_t tool_first_row(const struct tool *tool, const struct rc_grid *grid);
 /* Writes a frame, in --type when that was given; not when only the report goes to standard

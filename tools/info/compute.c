@@ -103,6 +103,7 @@ map_frame(struct info_wanted *w, struct tool *t, const struct rc_grid *g)
     snprintf(step, sizeof step, "rc-info %s --psd-map%s%s", rc_version(),
              w->window != NULL ? " --window " : "", w->window != NULL ? w->window : "");
     if (rc_grid_set(map, "periodic", NULL, &err) != RC_OK ||
+        rc_grid_set(map, "dunit", "rad/m", &err) != RC_OK ||
         rc_grid_history(map, step, &err) != RC_OK)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     return map;
@@ -186,6 +187,8 @@ info_compute(struct info_wanted *w, struct tool *t, const struct rc_grid *g, str
     name_list_add(&w->present, g->channel);
     w->height = w->height || height;
     w->pressure = w->pressure || pressure;
+    if ((w->areal && height) || (w->psd && height) || (w->patches && pressure))
+        tool_demand_lengths(t, g);
     if (w->areal && height)
         find_areal(t, g, f);
     if (w->psd && height)

@@ -370,12 +370,13 @@ demand_map(struct tool *t, const struct rc_grid *g, const struct geometry *what)
             "--%s: a section is no map: its rows are depths: choose the frames that are maps "
             "by --channel",
             what->option);
-    if (strcmp(g->channel, "psd") == 0)
+    if (strcmp(g->channel, "psd") == 0 || strcmp(rc_grid_dunit(g), "rad/m") == 0)
         tool_die_at(
             t, g, EXIT_IMPOSSIBLE,
             "--%s: a spectrum has its zero in the middle: do it to the surface, and take the "
             "spectrum of that",
             what->option);
+    tool_demand_lengths(t, g);
     for (size_t k = 0; what->turns && k < RC_STRESSES; k++)
         if (strcmp(g->channel, rc_component_names[k]) == 0)
             tool_die_at(

@@ -34,7 +34,8 @@ struct figure {
     const char *quantity;      /* what the values are: "Gap"                            */
     const char *unit;          /* of the values, as in a stream                         */
     const char *across, *down; /* what the axes are: "x", "y", "depth"                  */
-    double left, right;        /* metres, the outer edges of the map: left < right      */
+    const char *dunit;         /* of the axes; NULL: m                                  */
+    double left, right;        /* the outer edges of the map in that unit: left < right */
     double top, bottom;        /* the same downwards: top < bottom                      */
     bool section;              /* y is depth: its axis has a unit of its own            */
     const char *largest;       /* a cross at (x, y), and this in the legend; NULL: none */

@@ -171,17 +171,18 @@ set_axes(struct page *p)
     const struct figure *f = p->f;
     double x = fmax(fabs(f->left), fabs(f->right)), y = fmax(fabs(f->top), fabs(f->bottom));
     double both = fmax(x, y);
+    const char *unit = f->dunit == NULL ? "m" : f->dunit;
 
     p->values.log = f->log;
 
     set_axis(&p->values, f->quantity, f->unit, f->lo, f->hi, fmax(fabs(f->lo), fabs(f->hi)));
     if (p->curve && p->g->nx == 1) {
-        set_axis(&p->across, f->down, "m", f->top, f->bottom, y);
+        set_axis(&p->across, f->down, unit, f->top, f->bottom, y);
         return;
     }
-    set_axis(&p->across, f->across, "m", f->left, f->right,
+    set_axis(&p->across, f->across, unit, f->left, f->right,
              f->section || x < 0.01 * both ? x : both);
-    set_axis(&p->down, f->down, "m", f->top, f->bottom, f->section || y < 0.01 * both ? y : both);
+    set_axis(&p->down, f->down, unit, f->top, f->bottom, f->section || y < 0.01 * both ? y : both);
 }
 
 double

@@ -59,6 +59,12 @@ relief_exaggeration(const struct figure *f)
     return (most >= 5 * power ? 5 : most >= 2 * power ? 2 : 1) * power;
 }
 
+bool
+relief_to_scale(const struct figure *f)
+{
+    return strcmp(f->unit, "m") == 0 && (f->dunit == NULL || strcmp(f->dunit, "m") == 0);
+}
+
 static void
 set_view(struct scene *s)
 {
@@ -67,8 +73,7 @@ set_view(struct scene *s)
 
     s->lx = (s->f->right - s->f->left) / side;
     s->ly = (s->f->bottom - s->f->top) / side;
-    s->lz = strcmp(s->f->unit, "m") == 0 ? relief_exaggeration(s->f) * (s->f->hi - s->f->lo) / side
-                                         : 0.35;
+    s->lz = relief_to_scale(s->f) ? relief_exaggeration(s->f) * (s->f->hi - s->f->lo) / side : 0.35;
     s->right = (struct vec){cos(az), sin(az), 0};
     s->toward = (struct vec){cos(el) * sin(az), -cos(el) * cos(az), sin(el)};
     s->up = (struct vec){-sin(el) * sin(az), sin(el) * cos(az), cos(el)};

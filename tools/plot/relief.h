@@ -21,6 +21,8 @@ enum {
 };
 
 /* Where values are lengths, the scale upwards over that across: 1, 2 or 5 times a power of ten. */
+/* Whether heights and places are both lengths: then z is drawn that many times too high. */
+bool relief_to_scale(const struct figure *figure);
 double relief_exaggeration(const struct figure *figure);
 /* As figure_memory, of a relief. */
 enum rc_status relief_memory(const struct figure *figure, const struct view *view,

@@ -17,6 +17,7 @@ static const struct channel channels[] = {
     {"gap", "Gap", "viridis", .from_zero = true},
     {"displacement", "Normal displacement", "viridis", .from_zero = false},
     {"plastic", "Height after unloading", "viridis", .from_zero = false},
+    {"psd", "Power spectral density", "magma", .from_zero = true},
     {"tresca", "Tresca stress", "magma", .from_zero = true},
     {"sxx", "Stress " SIGMA "xx", "bluered", .from_zero = false},
     {"syy", "Stress " SIGMA "yy", "bluered", .from_zero = false},

@@ -127,13 +127,15 @@ set_draw(struct set *s, struct graph *graph, const char *title, struct drawn *dr
 struct line {
     const char *name;
     size_t n;
-    double step, *at; /* at NULL: even steps, the origin in the middle */
+    double step, *at; /* at NULL: even steps          */
+    double origin;    /* node, or between two, of 0   */
+    const char *title, *unit;
 };
 
 static double
 line_at(const struct line *l, size_t k)
 {
-    return l->at != NULL ? l->at[k] : ((double)k - 0.5 * (double)(l->n - 1)) * l->step;
+    return l->at != NULL ? l->at[k] : ((double)k - l->origin) * l->step;
 }
 
 /* The two axes of a frame. In a section one of them is the depth, which need not be even. */
@@ -141,11 +143,25 @@ static void
 set_lines(struct tool *t, const struct rc_grid *g, struct line *across, struct line *down)
 {
     const char *section = rc_grid_get(g, "section"), *depths = rc_grid_get(g, "depths");
+    const char *unit = rc_grid_dunit(g);
+    bool waves = strcmp(unit, "rad/m") == 0;
     struct numbers list = {0};
+    double i, j;
     struct rc_err err;
 
-    *across = (struct line){section != NULL && section[0] == 'x' ? "y" : "x", g->nx, g->dx, NULL};
-    *down = (struct line){section != NULL ? "depth" : "y", g->ny, g->dy, NULL};
+    rc_grid_origin(g, &i, &j);
+    *across = (struct line){.name = section != NULL && section[0] == 'x' ? "y" : "x",
+                            .n = g->nx,
+                            .step = g->dx,
+                            .origin = i,
+                            .unit = unit};
+    *down = (struct line){.name = section != NULL ? "depth" : "y",
+                          .n = g->ny,
+                          .step = g->dy,
+                          .origin = j,
+                          .unit = unit};
+    across->title = waves ? "qx" : across->name;
+    down->title = waves ? "qy" : down->name;
     if (section == NULL)
         return;
     if (depths != NULL && (unit_numbers(depths, UNIT_M, &list, &err) != RC_OK || list.n != g->ny))
@@ -153,8 +169,8 @@ set_lines(struct tool *t, const struct rc_grid *g, struct line *across, struct l
     down->at = depths != NULL ? list.v : malloc(g->ny * sizeof *down->at);
     if (down->at == NULL)
         no_memory(t);
-    for (size_t j = 0; depths == NULL && j < g->ny; j++)
-        down->at[j] = (double)j * g->dy;
+    for (size_t k = 0; depths == NULL && k < g->ny; k++)
+        down->at[k] = (double)k * g->dy;
 }
 
 /* The node nearest to the place; of two that are as near the later one. */
@@ -166,9 +182,9 @@ nearest(struct tool *t, const struct rc_grid *g, const struct line *l, double pl
     double slack = 0.5 * l->step * (1 + 1e-9);
 
     if (place < line_at(l, 0) - slack || place > line_at(l, l->n - 1) + slack)
-        tool_die_at(t, g, EXIT_IMPOSSIBLE, "--cut: it has nodes from %s = %s to %s", l->name,
-                    scale_value(first, line_at(l, 0), "m"),
-                    scale_value(last, line_at(l, l->n - 1), "m"));
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "--cut: it has nodes from %s = %s to %s", l->title,
+                    scale_value(first, line_at(l, 0), l->unit),
+                    scale_value(last, line_at(l, l->n - 1), l->unit));
     for (size_t k = 1; k < l->n; k++)
         if (fabs(line_at(l, k) - place) <= fabs(line_at(l, best) - place) + 1e-9 * l->step)
             best = k;
@@ -177,8 +193,8 @@ nearest(struct tool *t, const struct rc_grid *g, const struct line *l, double pl
 
 /* NAME=PLACE: the axis that is crossed and where; ends the tool where it is neither. */
 static double
-read_cut(struct tool *t, const char *cut, const struct line *across, const struct line *down,
-         bool *along_x)
+read_cut(struct tool *t, const struct rc_grid *g, const char *cut, const struct line *across,
+         const struct line *down, bool *along_x)
 {
     const char *is = strchr(cut, '=');
     size_t n = is == NULL ? 0 : (size_t)(is - cut);
@@ -189,7 +205,7 @@ read_cut(struct tool *t, const char *cut, const struct line *across, const struc
     if (is == NULL || (!*along_x && (n != strlen(across->name) || strncmp(cut, across->name, n))))
         tool_die(t, EXIT_USAGE, "--cut %s: it must be %s=PLACE or %s=PLACE, as in %s=0", cut,
                  across->name, down->name, down->name);
-    if (unit_number(is + 1, UNIT_M, &place, &err) != RC_OK)
+    if (unit_number(is + 1, look_unit(g), &place, &err) != RC_OK)
         tool_die(t, EXIT_USAGE, "--cut %s: %s", cut, err.text);
     return place;
 }
@@ -233,7 +249,7 @@ cut_draw(struct tool *t, struct rc_grid *const *grid, size_t n, const char *cut,
         double place;
 
         set_lines(t, g, &across, &down);
-        place = read_cut(t, cut, &across, &down, &along_x);
+        place = read_cut(t, g, cut, &across, &down, &along_x);
         along = along_x ? &across : &down;
         over = along_x ? &down : &across;
         at = nearest(t, g, over, place);
@@ -242,15 +258,15 @@ cut_draw(struct tool *t, struct rc_grid *const *grid, size_t n, const char *cut,
             s.x[k][i] = line_at(along, i);
             s.y[k][i] = g->v[along_x ? at * g->nx + i : i * g->nx + at];
         }
-        snprintf(quantity, sizeof quantity, "%s", along->name);
-        snprintf(text, sizeof text, "%s = %s", over->name,
-                 scale_value(where, line_at(over, at), "m"));
+        snprintf(quantity, sizeof quantity, "%s", along->title);
+        snprintf(text, sizeof text, "%s = %s", over->title,
+                 scale_value(where, line_at(over, at), over->unit));
         free(down.at);
         if (k == 0)
             subtitle_add(&s.subtitle, "along ", text);
     }
     graph.x.quantity = quantity;
-    graph.x.unit = "m";
+    graph.x.unit = rc_grid_dunit(grid[0]);
     graph.y.quantity = s.channel.title;
     graph.y.unit = grid[0]->unit;
     if (strcmp(quantity, "depth") == 0 && subtitle_same(grid, n, "layers"))

@@ -13,6 +13,12 @@ look_is_profile(const struct rc_grid *g)
     return (g->nx == 1) != (g->ny == 1) && rc_grid_get(g, "section") == NULL;
 }
 
+enum unit
+look_unit(const struct rc_grid *g)
+{
+    return strcmp(rc_grid_dunit(g), "m") == 0 ? UNIT_M : UNIT_NONE;
+}
+
 const char *
 look_stamp(const struct rc_grid *g)
 {
@@ -79,6 +85,7 @@ look_figure(struct tool *t, struct args *a, struct rc_grid *const *grid, size_t 
         .stamp = look_stamp(g),
         .quantity = look->what.title,
         .unit = g->unit,
+        .dunit = rc_grid_dunit(g),
         .map = colormap_find(a->colormap == NULL ? look->what.colormap : a->colormap),
         .min = s->min,
         .max = s->max,
@@ -109,8 +116,10 @@ look_contact(struct figure *f, const struct rc_grid *pressure)
 void
 look_extent(const struct window *w, struct figure *f)
 {
-    f->across = "x";
-    f->down = "y";
+    bool waves = f->dunit != NULL && strcmp(f->dunit, "rad/m") == 0;
+
+    f->across = waves ? "qx" : "x";
+    f->down = waves ? "qy" : "y";
     f->left = w->left;
     f->right = w->right;
     f->top = w->top;

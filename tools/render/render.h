@@ -333,6 +333,9 @@ void look_figure(struct tool *tool, struct args *args, struct rc_grid *const *gr
 /* What touches, by the pressure on the same grid; NULL: that is not known. */
 void look_contact(struct figure *figure, const struct rc_grid *pressure);
 /* Where a map lies. */
+/* In which places of a frame are read: lengths, or plain numbers where its key dunit says another
+ * unit. */
+enum unit look_unit(const struct rc_grid *grid);
 void look_extent(const struct window *window, struct figure *figure);
 /* Where a section lies, between the depths that are asked for, and what it is made of; gives it on
  * even rows, which the caller frees, and the medium of the figure. */

@@ -29,7 +29,7 @@ view_say(const struct figure *f, struct subtitle *subtitle)
 {
     char text[TICKS_TEXT];
 
-    if (strcmp(f->unit, "m") == 0) {
+    if (relief_to_scale(f)) {
         snprintf(text, sizeof text, "%.15g", relief_exaggeration(f));
         subtitle_add(subtitle, "vertical exaggeration ", text);
     }

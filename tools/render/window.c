@@ -12,10 +12,13 @@
 static void
 place(const struct rc_grid *g, struct window *w)
 {
-    w->right = 0.5 * (double)g->nx * g->dx;
-    w->left = -w->right;
-    w->bottom = 0.5 * (double)g->ny * g->dy;
-    w->top = -w->bottom;
+    double i, j;
+
+    rc_grid_origin(g, &i, &j);
+    w->left = -(i + 0.5) * g->dx;
+    w->right = ((double)g->nx - i - 0.5) * g->dx;
+    w->top = -(j + 0.5) * g->dy;
+    w->bottom = ((double)g->ny - j - 0.5) * g->dy;
 }
 
 /* Nodes of a window: first and behind the last, along each axis. */
@@ -49,11 +52,12 @@ cut(struct rc_grid *g, struct rc_grid *pressure, struct window *w, const struct 
     w->top += (double)y0 * g->dy;
 }
 
-/* Nodes from first to behind last whose middles lie from lo to hi, of n about the origin. */
+/* Nodes from first to behind last whose middles lie from lo to hi, of n with the origin at `middle`. */
 static bool
-nodes_between(double lo, double hi, size_t n, double step, size_t *first, size_t *last)
+nodes_between(double lo, double hi, double middle, size_t n, double step, size_t *first,
+              size_t *last)
 {
-    double middle = 0.5 * ((double)n - 1), slack = 1e-6;
+    const double slack = 1e-6;
     double from = ceil(lo / step + middle - slack), to = floor(hi / step + middle + slack);
 
     from = fmax(from, 0);
@@ -114,7 +118,8 @@ contact_box(const struct rc_grid *g, struct box *b)
 /* ---- what was asked for ---- */
 
 static void
-read_pair(struct tool *t, const char *window, const char *text, double pair[2])
+read_pair(struct tool *t, const struct rc_grid *g, const char *window, const char *text,
+          double pair[2])
 {
     char list[128];
     char *colon;
@@ -129,7 +134,7 @@ read_pair(struct tool *t, const char *window, const char *text, double pair[2])
                  "--window %s: it must be X0:X1,Y0:Y1, two lengths with the lower first for each "
                  "axis, contact or all",
                  window);
-    if (unit_numbers(list, UNIT_M, &n, &err) != RC_OK)
+    if (unit_numbers(list, look_unit(g), &n, &err) != RC_OK)
         tool_die(t, EXIT_USAGE, "--window %s: %s", window, err.text);
     if (n.n != 2 || !(n.v[0] < n.v[1]))
         tool_die(t, EXIT_USAGE,
@@ -148,7 +153,8 @@ cut_lengths(struct tool *t, const char *window, struct rc_grid *g, struct rc_gri
     bool section = rc_grid_get(g, "section") != NULL;
     char first[256], at[TICKS_TEXT], end[TICKS_TEXT];
     char *second;
-    double x[2], y[2] = {-INFINITY, INFINITY};
+    double x[2], y[2] = {-INFINITY, INFINITY}, i, j;
+    const char *unit = rc_grid_dunit(g);
     struct box b = {.y1 = g->ny};
 
     snprintf(first, sizeof first, "%s", window);
@@ -158,16 +164,16 @@ cut_lengths(struct tool *t, const char *window, struct rc_grid *g, struct rc_gri
         tool_die(t, EXIT_USAGE,
                  "--window %s: of a section it is X0:X1 only: choose depths with --depth-range",
                  window);
-    read_pair(t, window, first, x);
+    read_pair(t, g, window, first, x);
     if (second != NULL)
-        read_pair(t, window, second, y);
-    if (!nodes_between(x[0], x[1], g->nx, g->dx, &b.x0, &b.x1) ||
-        (second != NULL && !nodes_between(y[0], y[1], g->ny, g->dy, &b.y0, &b.y1)))
+        read_pair(t, g, window, second, y);
+    rc_grid_origin(g, &i, &j);
+    if (!nodes_between(x[0], x[1], i, g->nx, g->dx, &b.x0, &b.x1) ||
+        (second != NULL && !nodes_between(y[0], y[1], j, g->ny, g->dy, &b.y0, &b.y1)))
         tool_die_at(t, g, EXIT_IMPOSSIBLE,
                     "no node lies in the window %s: the map ends %s to the right of its middle and "
                     "%s below it",
-                    window, scale_value(at, 0.5 * (double)g->nx * g->dx, "m"),
-                    scale_value(end, 0.5 * (double)g->ny * g->dy, "m"));
+                    window, scale_value(at, w->right, unit), scale_value(end, w->bottom, unit));
     cut(g, pressure, w, &b);
 }
 
