@@ -37,6 +37,7 @@ commands=$(
 1 rc-detrend --sphere --robust h.rcg -o out
 1 rc-detrend --cylinder h.rcg -o out
 1 rc-detrend --fill hole.rcg -o out
+1 rc-detrend --mirror hole.rcg -o out
 1 rc-detrend --robust --highpass 6um h.rcg -o out
 1 rc-pick --crop 2,2,12,12 --resample 0.7um,1.6um --mirror x --rotate 90 --set note=a h.rcg -o out
 1 rc-pick --channel pressure c.rcg

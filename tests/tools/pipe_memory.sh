@@ -54,6 +54,7 @@ estimated "rc-info --areal" "rc-info --areal --verbose odd.rcg"
 estimated "rc-info --psd-map" "rc-info --psd-map psd.rcg --verbose odd.rcg"
 estimated "rc-info --patches" "rc-info --patches --verbose free.rcg"
 estimated "rc-detrend" "rc-detrend --plane --outliers 4 --fill --lowpass 20um --verbose odd.rcg"
+estimated "rc-detrend --mirror" "rc-detrend --plane --mirror --verbose odd.rcg"
 estimated "rc-pick" "rc-pick --rotate 90 --resample 0.7um --verbose odd.rcg"
 estimated "rc-add" "rc-add --verbose odd.rcg odd.rcg"
 for format in x3p npy csv hdf5; do
