@@ -371,7 +371,8 @@ write_heights(struct tool *t, const struct source *s, const struct rc_wish *wish
         check_memory(t, s, &s->channel[pick.index], err) != RC_OK ||
         (g = s->format->read(&s->file, wish, pick.index, &notes, err)) == NULL)
         return RC_FAIL;
-    t->beside_memory = notes.held > t->beside_memory ? notes.held : t->beside_memory;
+    if (notes.held > 0)
+        tool_memory_beside(t, notes.held);
     if (pick.said[0] != '\0')
         tool_warn(t, "%s: %s", t->source, pick.said);
     for (size_t k = 0; k < notes.n; k++)

@@ -86,11 +86,13 @@ int
 tool_finish(struct tool *t)
 {
     double expected, taken;
+    size_t peak;
 
     tool_progress_end(t);
     output_end(t);
+    peak = memory_peak(); /* output may be made at the end */
     expected = ranks_most(t, (double)t->expected_memory);
-    taken = ranks_most(t, (double)(memory_peak() + t->beside_memory));
+    taken = ranks_most(t, (double)(peak > t->beside_memory ? peak : t->beside_memory));
     if (expected > 0)
         tool_note(t, "memory: %.1f MiB expected, %.1f MiB taken", mebibytes(expected),
                   mebibytes(taken));
@@ -132,6 +134,15 @@ tool_now(void)
 
     clock_gettime(CLOCK_MONOTONIC, &ts);
     return (double)ts.tv_sec + 1e-9 * (double)ts.tv_nsec;
+}
+
+/* Later work of this process, such as a picture of results, does not add to what that one held. */
+void
+tool_memory_beside(struct tool *t, size_t bytes)
+{
+    size_t both = memory_peak() + bytes;
+
+    t->beside_memory = both > t->beside_memory ? both : t->beside_memory;
 }
 
 size_t

@@ -128,7 +128,7 @@ struct tool {
     size_t threads; /* at least 1                                                          */
     size_t memory;  /* bytes; 0: no limit                                                  */
     size_t expected_memory; /* bytes: the most of the estimates made so far                */
-    size_t beside_memory;   /* bytes: the most that a process started by this one held of its own */
+    size_t beside_memory;   /* bytes: the most of tool_memory_beside                       */
     size_t unseen_memory;   /* bytes asked for since the machine was last looked at        */
     size_t code_memory;     /* bytes: the most of tool_code_there                          */
     bool quiet, verbose, progress;
@@ -267,6 +267,8 @@ size_t tool_memory_with(size_t bytes);
 
 /* Seconds on a clock that only goes forwards. */
 double tool_now(void);
+/* A process that this one started, and that has ended, held at most so many bytes of its own. */
+void tool_memory_beside(struct tool *tool, size_t bytes);
 /* Bytes that this process has held at most so far. */
 size_t tool_peak_memory(void);
 

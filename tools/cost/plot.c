@@ -174,6 +174,8 @@ cost_plot(const struct cost_case *c, const char *ending, size_t *bytes, struct r
     if (stresses)
         draw_stresses(c, &d[1]);
     canvas = draw(d, stresses ? 2 : 1, err);
+    if (canvas != NULL)
+        tool_demand_memory(c->tool, c->heights, canvas_memory(canvas, canvas_format(ending)));
     if (canvas != NULL && (file = open_memstream(&picture, bytes)) != NULL) {
         status = write_picture(canvas, canvas_format(ending), file, tool_history(c->tool), err);
         if (fclose(file) != 0)

@@ -130,8 +130,7 @@ keep(struct cost_trial *trial, const struct job *j, const struct rc_shape *map)
     trial->convolutions =
         j->convolutions * (double)(own->nx * own->ny) / (double)(map->nx * map->ny);
     trial->memory = j->memory > trial->memory ? j->memory : trial->memory;
-    if (trial->memory > j->tool->beside_memory)
-        j->tool->beside_memory = trial->memory;
+    tool_memory_beside(j->tool, j->memory);
     trial->contact = j->contact;
     trial->runs++;
     trial->state = COST_DONE;

@@ -67,6 +67,7 @@ struct job {
     size_t depth; /* for progress */
     bool done;
     double seconds, error, rms, mises;
+    size_t memory; /* bytes of its own */
     size_t coarse;
     struct rc_err err;
     size_t depths;
@@ -192,7 +193,7 @@ work(void *ctx)
     const struct cost_case *c = j->c;
     struct rc_stress_options o = options_of(c, j->trial->kernel, j->trial->tol),
                              e = options_of(c, words_engine(0), 0);
-    size_t n = c->shape.nx * c->shape.ny;
+    size_t n = c->shape.nx * c->shape.ny, before = tool_peak_memory();
     double *maps = malloc(2 * n * (RC_MISES + 1) * sizeof *maps), start;
     double *s[RC_STRESSES] = {NULL}, *truth[RC_STRESSES] = {NULL};
     struct rc_stress *stress, *exact;
@@ -212,6 +213,7 @@ work(void *ctx)
     j->seconds = tool_now() - start;
     if ((exact = rc_stress_new(&c->shape, c->pressure, &e, &j->err)) != NULL)
         j->done = slices(j, stress, exact, s, truth);
+    j->memory = tool_peak_memory() - before;
 }
 
 static void
@@ -225,6 +227,17 @@ stop(struct cost_stress *s, enum cost_end end, const struct job *j)
                                        : j->err.text);
 }
 
+/* Of a trial, of the exact slices beside it, and of the maps of both. */
+static size_t
+memory_for(const struct cost_case *c, const struct cost_stress *s)
+{
+    struct rc_stress_options exact = options_of(c, words_engine(0), 0);
+    size_t n = c->shape.nx * c->shape.ny;
+
+    return s->memory + rc_stress_memory(&c->shape, &exact, c->depths.v, c->depths.n, 0) +
+           2 * n * (RC_MISES + 1) * sizeof(double) + TOOL_TRANSFORMS;
+}
+
 bool
 cost_stress_run(struct cost_case *c, struct cost_stress *s, double allowed)
 {
@@ -236,11 +249,13 @@ cost_stress_run(struct cost_case *c, struct cost_stress *s, double allowed)
     if (j == NULL)
         tool_die_at(c->tool, c->heights, EXIT_IMPOSSIBLE, "out of memory");
     s->memory = rc_stress_memory(&c->shape, &o, c->depths.v, c->depths.n, 0);
+    tool_demand_memory(c->tool, c->heights, memory_for(c, s));
     do {
         memset(j, 0, sizeof *j);
         j->c = c;
         j->trial = s;
         end = cost_run(work, j, allowed - (tool_now() - start), watch);
+        tool_memory_beside(c->tool, j->memory);
         if (end != COST_ENDED || !j->done)
             break;
         if (s->runs++ == 0 || j->seconds < s->seconds)
