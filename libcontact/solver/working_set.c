@@ -497,6 +497,17 @@ size_block(void *at, size_t first, size_t n, double *sums)
            s->z + first, sums);
 }
 
+/* z has no less energy than the error, but its size may be smaller: where few waves carry the error some of
+ * them can cancel. On a map they are many. On a period of a profile they are few: of 2200 the size of z was
+ * below the error on 8 %, at 0.74 of it at worst. */
+static double
+caution(const struct rc_solver *s)
+{
+    bool line = s->posed.whole.nx == 1 || s->posed.whole.ny == 1;
+
+    return line && s->posed.boundary == RC_PERIODIC ? 1.4 : 1;
+}
+
 double
 rc_working_set_error(struct rc_solver *s, double share)
 {
@@ -506,7 +517,7 @@ rc_working_set_error(struct rc_solver *s, double share)
     rc_reduce_blocks(s, size_block, &c, total);
     if (s->it.elastic == 0 && s->set.size > 0)
         return INFINITY; /* some want to move, but no gap says how far */
-    return (total[0] + s->set.left_out) / unit + rc_iterate_operator_error(s);
+    return caution(s) * (total[0] + s->set.left_out) / unit + rc_iterate_operator_error(s);
 }
 
 enum { /* sums of the shift */
