@@ -28,7 +28,7 @@ static const struct opt opts[] = {
      .help = "how the contact is iterated (default auto)"},
     {.name = "tol", .type = OPT_NUMBER, AT(tol), .min = 0, .max = 1, .above = true,
      .result = true, .arg = "ERROR",
-     .help = "relative L1 error of the pressure (default N^(-3/4), N nodes)"},
+     .help = "relative L1 error of the pressure (default N^(-3/4), N nodes, at most 1e-3)"},
     {.name = "output", .type = OPT_WORDS, AT(output),
      .words = solve_frame_word, .arg = "LIST",
      .help = "frames to write, of %s (default: all but plastic)"},

@@ -1,6 +1,6 @@
 /*
- * A start from coarser grids. The same contact is solved roughly on a grid of half the nodes a side,
- * which has a start from a coarser grid itself, and each coarse pressure is repeated on the nodes of
+ * A start from coarser grids. The same contact is solved roughly on a grid of half the nodes a side (a
+ * profile stays one node wide), which has a start from a coarser grid itself, and each coarse pressure is repeated on the nodes of
  * this grid. A call of rc_nested_step does one iteration on one of the coarser grids, or plans one of
  * them, so that the caller sees every iteration.
  */
@@ -21,8 +21,10 @@ static const double coarse_tol = 8e-2, coarse_tol_yielding = 3e-2;
 void
 rc_nested_new(struct rc_solver *s)
 {
-    s->nested = (struct rc_nested){.ahead = s->method->nested && s->posed.whole.nx >= COARSEST &&
-                                            s->posed.whole.ny >= COARSEST};
+    size_t nx = s->posed.whole.nx, ny = s->posed.whole.ny;
+    bool along = nx >= COARSEST || nx == 1, across = ny >= COARSEST || ny == 1;
+
+    s->nested = (struct rc_nested){.ahead = s->method->nested && along && across && nx * ny > 1};
 }
 
 void
@@ -210,7 +212,9 @@ static struct rc_solver *
 coarse_new(const struct rc_solver *s, bool *sought)
 {
     const struct rc_shape *fine = &s->posed.whole;
-    struct rc_shape shape = {(fine->nx + 1) / 2, (fine->ny + 1) / 2, 2 * fine->dx, 2 * fine->dy};
+    struct rc_shape shape = {(fine->nx + 1) / 2, (fine->ny + 1) / 2,
+                             fine->nx > 1 ? 2 * fine->dx : fine->dx,
+                             fine->ny > 1 ? 2 * fine->dy : fine->dy};
     struct rc_problem problem = {.boundary = s->posed.boundary,
                                  .load = s->load.load,
                                  .tol = tolerance(s, &shape),

@@ -16,6 +16,20 @@ near "$(field max_pressure r.json)" 126.157e6 1e-3 "  and does the same"
 refuses 1 "in N/m is for profiles, this map has 33 rows: give the whole force, in N" "a map carries a force" \
     "rc-synth sphere --nx 33 --dx 1um --radius 1mm | rc-solve --load 1N/m --estar 1GPa | cat >/dev/null"
 
+# A wave in contact over 2 a: sin^2(pi a/l) = p/p*, p* = pi E* A/l, largest 2 p/sin(pi a/l) (Westergaard). Of 400
+# nodes, p = 10 MPa, E* = 100 GPa, A = 0.1 um, l = 400 um: p* = 78.53982 MPa, 2 a = 92.911 um, largest 56.04991 MPa.
+rc-synth wave --nx 400 --ny 1 --dx 1um --amplitude 100nm --wavelength 400um -o wave.rcg
+claim "93 nodes of a profile resolve its contact: not a word" bash -c '
+    rc-solve --periodic --estar 100GPa --mean-pressure 10MPa --discretization --output pressure --report w.json wave.rcg -o w.rcg 2>err && [ ! -s err ]'
+claim "  solved to 1e-3 though 400^(-3/4) is 1.1e-2" grep -q '"tol": 0.001' w.json
+grep -o '"discretization_error_estimate": {[^}]*}' w.json | sed 's/.*{//' >grid.json
+of_area=$(field contact_area grid.json) of_peak=$(field max_pressure grid.json)
+near "$(field contact_area w.json)" 92.911e-12 "$(awk -v e="$of_area" 'BEGIN { print 2 * e }')" "  its area off by less than twice the estimate for the grid"
+near "$(field max_pressure w.json)" 56.04991e6 "$of_peak" "  its largest pressure by less than that"
+between 1e-4 "$of_peak" 1e-3 "  which is of use"
+claim "10 nodes do not resolve it" warns 'the grid does not resolve it: .*--discretization' \
+    rc-solve --periodic --estar 100GPa --mean-pressure 100kPa --output pressure wave.rcg -o w.rcg
+
 rc-synth sphere --nx 33 --dx 10um --radius 10mm -o ball.rcg
 rc-solve --load 1N --E1 210GPa --nu1 0.3 --E2 rigid --output pressure --report rigid.json ball.rcg -o rigid.rcg
 # E* = 210 GPa/(1 - 0.09)

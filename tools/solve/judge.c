@@ -9,8 +9,9 @@ static const double edge_load = 0.01;   /* of the load, on the outer 2 % of the 
 static const double linear = 0.1;       /* of E*: the pressures of linear elasticity         */
 static const double small_slope = 0.3;  /* RMS: the slopes of contact theory                 */
 static const double no_modulus = 1e5;   /* Pa: softer than any E* of a solid                 */
-static const size_t fewest_nodes = 100; /* that resolve a contact                            */
-static const double fewest_each = 4;    /* that resolve a patch of it                        */
+/* Nodes that resolve a contact on a profile, and on a map, and a patch of either. */
+static const size_t fewest_nodes[] = {20, 100};
+static const double fewest_each = 4;
 
 const char *
 solve_where(const struct run *run, const struct rc_grid *g, char *text, size_t size)
@@ -90,11 +91,12 @@ warn_of_theory(struct run *run, const struct rc_grid *g, const char *where,
 /* ---- beyond the grid ---- */
 
 static void
-warn_of_grid(struct run *run, const char *where, const struct solution *s)
+warn_of_grid(struct run *run, const struct rc_grid *g, const char *where, const struct solution *s)
 {
+    bool map = g->nx > 1 && g->ny > 1;
     size_t nodes = s->contact.contact_nodes;
 
-    if (nodes >= fewest_nodes && (double)nodes >= fewest_each * (double)s->patches.count)
+    if (nodes >= fewest_nodes[map] && (double)nodes >= fewest_each * (double)s->patches.count)
         return;
     tool_warn(&run->t,
               "%s: %zu %s in contact, in %zu %s: the grid does not resolve it: area and "
@@ -166,7 +168,7 @@ solve_judge(struct run *run, const struct rc_grid *g, const struct solution *s)
             where, 100 * s->contact.edge_load_fraction);
     if (tool_interrupted() == 0 && s->contact.contact_nodes > 0) {
         warn_of_theory(run, g, where, s);
-        warn_of_grid(run, where, s);
+        warn_of_grid(run, g, where, s);
     }
     warn_of_end(run, where, &s->contact);
 }
