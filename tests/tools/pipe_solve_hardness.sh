@@ -93,6 +93,18 @@ claim "rc-cost takes it too, on coarser grids as well" says '^pcg' rc-cost --per
     --method pcg --kernel fft case.rcg
 refuses 1 'leave one out' "  and refuses both" "rc-cost --periodic --mean-pressure 1GPa --estar 100GPa --hardness 1GPa case.rcg"
 
+# ---- Vickers' number, and a hardness that cannot be ----
+
+press() { rc-solve --periodic --estar 100GPa --output pressure --report v.json "$@" h.rcg -o v.rcg; }
+export -f press
+claim "600HV says what it is as a pressure" \
+    warns '[-]-hardness 600HV is 6.34609 GPa: the mean pressure on the plane of the dent, HV times 9.80665 MPa over sin 68 deg' press --mean-pressure 1GPa --hardness 600HV
+near "$(field hardness_max v.json)" 6.3460876e9 1e-7 "  in the report"
+near "$(field max_pressure v.json)" 6.3460876e9 1e-7 "  and is the bound"
+refuses 2 "Brinell's number is .*: give a pressure, as in 6GPa, or Vickers' number, as in 600HV" "Brinell's is refused" "press --mean-pressure 1GPa --hardness 200HB"
+refuses 2 "Rockwell's number is a depth" "Rockwell's too" "press --mean-pressure 1GPa --hardness 60HRC"
+claim "300 GPa for 3 GPa" warns 'the hardness given, 300 GPa, is above that: is its unit right' press --mean-pressure 5GPa --hardness 300GPa
+
 # ---- other tools take it as any other frame ----
 
 claim "rc-pick" says 'channel=hardness|hardness' bash -c 'rc-pick --channel hardness case.rcg | rc-info'

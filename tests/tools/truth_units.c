@@ -28,6 +28,7 @@ test_numbers(void **state)
         {"1.5kN", UNIT_N, 1.5e3},
         {"37.3mN", UNIT_N, 37.3e-3},
         {"6GPa", UNIT_PA, 6e9},
+        {"6GPa", UNIT_HARD, 6e9},
         {"113.93GPa", UNIT_PA, 113.93e9},
         {"2.5TPa", UNIT_PA, 2.5e12},
         {"350MPa", UNIT_PA, 350e6},
@@ -91,6 +92,25 @@ test_micrometres(void **state)
         assert_int_equal(unit_number(text, UNIT_M, &value, NULL), RC_OK);
         assert_true(value == strtod(metres, NULL));
     }
+}
+
+/* 1 kgf/mm^2 on four faces, each 22 degrees from the plane: 1/cos(22 deg) = 1.078534743 (tables). */
+static void
+test_vickers(void **state)
+{
+    static const char *const texts[] = {"600HV", "600HV10", "600 HV0.3"};
+    double value;
+
+    (void)state;
+    for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
+        assert_int_equal(unit_number(texts[k], UNIT_HARD, &value, NULL), RC_OK);
+        assert_true(fabs(value / (600 * 9.80665e6 * 1.078534743) - 1) < 1e-9);
+        assert_true(unit_vickers(texts[k]));
+        assert_int_equal(unit_number(texts[k], UNIT_PA, &value, NULL), RC_FAIL);
+    }
+    assert_false(unit_vickers("6GPa"));
+    assert_int_equal(unit_number("600HVx", UNIT_HARD, &value, NULL), RC_FAIL);
+    assert_int_equal(unit_number("60HRC", UNIT_HARD, &value, NULL), RC_FAIL);
 }
 
 static void
@@ -430,6 +450,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_numbers),      cmocka_unit_test(test_micrometres),
+        cmocka_unit_test(test_vickers),
         cmocka_unit_test(test_refusals),     cmocka_unit_test(test_lists),
         cmocka_unit_test(test_range_ends),   cmocka_unit_test(test_bad_lists),
         cmocka_unit_test(test_comma_locale), cmocka_unit_test(test_ratios),

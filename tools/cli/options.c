@@ -193,6 +193,8 @@ number(struct tool *t, const struct opt *o, const char *text)
     if (unit_number(text, o->unit, &value, &err) != RC_OK)
         tool_die(t, EXIT_USAGE, "--%s %s: %s", o->name, text, err.text);
     check_bounds(t, o, value, false);
+    if (o->unit == UNIT_HARD && unit_vickers(text))
+        t->vickers = text;
     return value;
 }
 

@@ -35,8 +35,9 @@ const struct opt physics_options[] = {
      .result = true, .arg = "RATIO", .help = "Poisson's ratio of body 2"},
     {.name = "layer", .type = OPT_TEXTS, AT(layer), .result = true, .arg = "T,E,NU",
      .help = "a layer on body 1: thickness, Young's modulus, Poisson's ratio; again for more, top first"},
-    {.name = "hardness", .type = OPT_NUMBER, .unit = UNIT_PA, AT(hardness), ABOVE_0,
-     .result = true, .arg = "PRESSURE", .help = "upper bound of the pressure: above it, yield"},
+    {.name = "hardness", .type = OPT_NUMBER, .unit = UNIT_HARD, AT(hardness), ABOVE_0,
+     .result = true, .arg = "PRESSURE",
+     .help = "upper bound of the pressure: above it, yield; Vickers' number too, as 600HV"},
     {.name = "radius", .type = OPT_NUMBER, .unit = UNIT_M, AT(radius), ABOVE_0, .result = true,
      .arg = "LENGTH", .help = "add a sphere of this composite radius about the origin"},
     {.name = "periodic", .type = OPT_FLAG, AT(periodic), .result = true,
@@ -131,6 +132,18 @@ check_layers(struct tool *t, struct physics *a)
         1 / (plane_compliance(a->layers[0].e, a->layers[0].nu) + plane_compliance(a->e2, a->nu2));
 }
 
+static void
+say_vickers(struct tool *t, const struct physics *a)
+{
+    char value[SHOWN_NUMBER];
+
+    if (t->vickers != NULL)
+        tool_warn(t,
+                  "--hardness %s is %s: the mean pressure on the plane of the dent, HV times "
+                  "9.80665 MPa over sin 68 deg",
+                  t->vickers, shown_in_unit(value, a->hardness, "Pa"));
+}
+
 void
 physics_check(struct tool *t, struct physics *a)
 {
@@ -139,6 +152,7 @@ physics_check(struct tool *t, struct physics *a)
     check_steps(t, a);
     check_elasticity(t, a);
     check_layers(t, a);
+    say_vickers(t, a);
 }
 
 const struct numbers *

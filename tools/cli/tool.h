@@ -129,6 +129,7 @@ struct tool {
     size_t memory;  /* bytes; 0: no limit                                                  */
     size_t expected_memory; /* bytes: the most of the estimates made so far                */
     size_t beside_memory;   /* bytes: the most of tool_memory_beside                       */
+    const char *vickers;    /* a hardness that was given so, as it was written; or NULL    */
     size_t unseen_memory;   /* bytes asked for since the machine was last looked at        */
     size_t code_memory;     /* bytes: the most of tool_code_there                          */
     bool quiet, verbose, progress;

@@ -72,10 +72,16 @@ warn_of_theory(struct run *run, const struct rc_grid *g, const char *where,
                const struct solution *s)
 {
     double estar = run->args->physics.surface_estar, peak = s->contact.max_pressure;
-    char most[SHOWN_NUMBER];
+    char most[SHOWN_NUMBER], hardness[SHOWN_NUMBER];
 
     if (peak > estar)
         suspect_unit(run, g, where, s);
+    else if (peak > linear * estar && isfinite(run->hardness_max))
+        tool_warn(&run->t,
+                  "%s: the largest pressure, %s, is %.2g of E*: beyond %g a solid is not linear "
+                  "elastic, and the hardness given, %s, is above that: is its unit right?",
+                  where, shown_in_unit(most, peak, "Pa"), peak / estar, linear,
+                  shown_in_unit(hardness, run->hardness_max, "Pa"));
     else if (peak > linear * estar)
         tool_warn(&run->t,
                   "%s: the largest pressure, %s, is %.2g of E*: beyond %g a solid is not linear "

@@ -38,7 +38,7 @@ static const struct word_unit { /* units that do not go by prefixes */
 const char *
 unit_name(enum unit unit)
 {
-    static const char *const names[] = {"", "m", "N", "Pa", "s", "bytes"};
+    static const char *const names[] = {"", "m", "N", "Pa", "s", "bytes", "Pa"};
 
     return names[unit];
 }
@@ -47,7 +47,7 @@ const char *
 unit_usual(enum unit unit)
 {
     static const char *const usual[] = {"",        "nm um mm m", "mN N kN", "kPa MPa GPa",
-                                        "s min h", "M G"};
+                                        "s min h", "M G",     "HV MPa GPa"};
 
     return usual[unit];
 }
@@ -95,6 +95,21 @@ unit_power(const char *text, size_t n, enum unit unit, int *power)
     return power_of(text, n, unit_name(unit), power);
 }
 
+/* "HV", "HV10", "HV0.3": the force of the test, in kilograms, may follow. */
+static bool
+is_vickers(const char *text, size_t n)
+{
+    return n >= 2 && memcmp(text, "HV", 2) == 0 && strspn(text + 2, "0123456789.") >= n - 2;
+}
+
+bool
+unit_vickers(const char *text)
+{
+    const char *unit = strstr(text, "HV");
+
+    return unit != NULL && is_vickers(unit, strlen(unit));
+}
+
 /* Applies the unit written as suffix[0..n) after the number digits[0..length); false when there is
  * no such unit. */
 static bool
@@ -116,6 +131,10 @@ apply_unit(const char *digits, size_t length, const char *suffix, size_t n, enum
         return true;
     if (unit == UNIT_NONE)
         return false;
+    if (unit == UNIT_HARD && is_vickers(suffix, n)) {
+        *value *= 9.80665e6 / sin(68 * acos(-1) / 180);
+        return true;
+    }
     return unit_power(suffix, n, unit, &power) && shift(digits, length, power, value);
 }
 
@@ -151,12 +170,36 @@ struct seen {
     bool with_unit, per_metre;
 };
 
+/* Why another scale of hardness is no pressure; NULL: it is none of them. */
+static const char *
+other_scale(const char *suffix, size_t n)
+{
+    static const struct {
+        const char *begins, *why;
+    } scales[] = {
+        {"HB", "Brinell's number is the force over the curved dent of a ball, and changes with the ball "
+               "and the force"},
+        {"HR", "Rockwell's number is a depth, from which no pressure follows"},
+        {"HK", "Knoop's number is of a long dent that springs back across, and is no mean pressure"},
+        {"HL", "Leeb's number is a speed of rebound, from which no pressure follows"},
+    };
+
+    for (size_t k = 0; k < sizeof scales / sizeof *scales; k++)
+        if (n >= 2 && memcmp(suffix, scales[k].begins, 2) == 0)
+            return scales[k].why;
+    return NULL;
+}
+
 /* What to expect instead of the unit suffix[0..n). */
 static enum rc_status
 unknown_unit(const char *suffix, size_t n, enum unit unit, bool per_metre, struct rc_err *err)
 {
     char list[64];
+    const char *scale = unit == UNIT_HARD ? other_scale(suffix, n) : NULL;
 
+    if (scale != NULL)
+        return rc_err_set(err, "%s: give a pressure, as in 6GPa, or Vickers' number, as in 600HV",
+                          scale);
     if (unit == UNIT_BYTES)
         return rc_err_set(err,
                           "unknown unit '%.*s': a size in bytes is expected, as in 512M or 4GiB",
@@ -165,7 +208,10 @@ unknown_unit(const char *suffix, size_t n, enum unit unit, bool per_metre, struc
                       "unknown unit '%.*s': %s%s is expected, with or without one of the prefixes "
                       "%s%s",
                       (int)n, suffix, unit_name(unit), per_metre ? " or N/m" : "",
-                      prefix_list(list, sizeof list), unit == UNIT_S ? ", or min or h" : "");
+                      prefix_list(list, sizeof list),
+                      unit == UNIT_S      ? ", or min or h"
+                      : unit == UNIT_HARD ? ", or HV"
+                                          : "");
 }
 
 /* The number in text[0..n). */

@@ -15,6 +15,7 @@ enum unit {
     UNIT_PA,    /* pascals                  */
     UNIT_S,     /* seconds; also min and h  */
     UNIT_BYTES, /* bytes: 512M, 4G, 2GiB    */
+    UNIT_HARD,  /* pascals; also 600HV      */
 };
 
 struct numbers {
@@ -30,6 +31,11 @@ const char *unit_usual(enum unit unit);
 
 /* One number, with or without its unit, to SI. RC_FAIL says what was expected. */
 enum rc_status unit_number(const char *text, enum unit unit, double *value, struct rc_err *err);
+
+/* Whether a hardness is written after Vickers, 600HV or 600HV10: kilograms of force over square
+ * millimetres of the sloping faces of the dent. As a pressure it is the mean over the area of the dent in
+ * the plane, which is smaller by the sine of 68 degrees. */
+bool unit_vickers(const char *text);
 
 /* A whole number as a size; SIZE_MAX: more than the machine can count. */
 static inline size_t
