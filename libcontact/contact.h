@@ -494,7 +494,8 @@ struct rc_problem {
                                   none; NULL: hardness is that of all nodes                      */
     double height_error; /* m: what the heights may be off, as the shape_error of the solution that
                            left their shape; bears on what counts as yielded only                */
-    double tol;          /* asked relative L1 error of the pressure; 0: (nx ny)^(-3/4), at most 1e-3 */
+    double tol;          /* asked relative L1 error of the pressure; 0: (nx ny)^(-3/4), but never
+                           above 1e-3                                                            */
     const char *engine;  /* NULL: auto                                                            */
     const char *method;  /* NULL: auto                                                            */
     size_t max_iterations; /* 0: 100 + 10 sqrt(nx ny)                                            */

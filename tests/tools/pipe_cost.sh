@@ -121,6 +121,8 @@ claim "a name that a shell would take apart is quoted" bash -c '
     cp rough.rcg "a b.rcg" && says " .a b.rcg.$" rc-cost '"$contact"' --method pcg --error 1e-3 "a b.rcg"'
 claim "within a time it proposes the nearest, which is right to 1e-6 at least" bash -c "
     rc-cost $contact --method pcg --kernel fft --budget 20s rough.rcg >budget.txt && grep -Eq 'tol 1e-(0[6-9]|10)' budget.txt"
+claim "  and says by how much it is off, unasked" \
+    warns 's, off by [0-9.e-]+ % of the pressure' rc-cost $contact --method pcg --kernel fft --budget 20s rough.rcg
 refuses 1 'nothing measured is so quick: the best was pcg, .* s, error .*; raise --budget' "a budget that nothing meets, saying what was the quickest" \
     "rc-cost $contact --method pcg --budget 1us rough.rcg"
 refuses 1 'nothing measured is so near: the best was .*; raise --error' "an error below what was measured" "rc-cost $contact --method pcg --error 1e-15 rough.rcg"

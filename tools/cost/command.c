@@ -88,8 +88,9 @@ cost_command(const struct cost_case *c, FILE *out)
             nearest = m;
     }
     if (best != NULL) {
-        tool_note(c->tool, "%s: %.3g s, true error %.1e, estimate %.1e", cost_name(name, best),
-                  best->seconds, best->error, best->contact.pressure_error);
+        tool_warn(
+            c->tool, "%s: %.3g s, off by %.2g %% of the pressure (estimate on its own grid %.1e)",
+            cost_name(name, best), best->seconds, 100 * best->error, best->contact.pressure_error);
         put_command(c->tool, best, out);
     } else if (nearest != NULL) {
         tool_die(c->tool, EXIT_IMPOSSIBLE,
