@@ -1,7 +1,11 @@
 #define _DEFAULT_SOURCE /* madvise */
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/mman.h>
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 #include "memory.h"
 
@@ -29,3 +33,28 @@ rc_alloc(size_t n, size_t size)
 #endif
     return at;
 }
+
+#ifdef __SSE2__
+void
+rc_copy_past(void *to, const void *from, size_t bytes)
+{
+    size_t head = (LINE - (uintptr_t)to % LINE) % LINE, k;
+    char *b = to;
+    const char *a = from;
+
+    head = head < bytes ? head : bytes;
+    memcpy(b, a, head);
+    for (k = head; k + LINE <= bytes; k += LINE)
+        for (size_t i = k; i < k + LINE; i += sizeof(__m128i))
+            _mm_stream_si128((__m128i *)(void *)(b + i),
+                             _mm_loadu_si128((const __m128i *)(const void *)(a + i)));
+    memcpy(b + k, a + k, bytes - k);
+    _mm_sfence(); /* before what others are told */
+}
+#else
+void
+rc_copy_past(void *to, const void *from, size_t bytes)
+{
+    memcpy(to, from, bytes);
+}
+#endif

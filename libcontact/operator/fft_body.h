@@ -621,13 +621,15 @@ forward(void *at, rc_row *row, void *ctx, void *waves, rc_wave_column *column)
         gather(f, c, y);
         for (size_t b = 0; b < n; b++) {
             COMPLEX *one = y + b * f->column;
-            REAL *to = waves == NULL ? (REAL *)one : (REAL *)waves + 2 * (c + b) * l->py;
+            REAL *to = (REAL *)one;
             for (size_t r = 0; r < l->radix; r++)
                 FFTW(execute_dft)(f->column_forward, one + r * piece(f), z + r * piece(f));
             for (size_t r = 0; r < l->radix; r++)
                 part(z + r * piece(f), l->m, factor, to + r * l->m, to + l->py + r * l->m);
             if (waves == NULL)
                 column(ctx, c + b, to);
+            else
+                rc_copy_past((REAL *)waves + 2 * (c + b) * l->py, to, 2 * l->py * sizeof *to);
         }
     }
 }

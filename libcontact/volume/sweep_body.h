@@ -39,7 +39,7 @@
 #include "sweep.h"
 
 enum {
-    BLOCK = 32 /* waves taken through all slabs together: what they need stays in the first cache */
+    BLOCK = 64 /* waves that go through the slabs of a group together, in the first cache */
 };
 
 /* ---- coefficients ---- */
@@ -59,11 +59,14 @@ set_way(const struct rc_sweep_column *column, size_t first, size_t n, struct way
 {
     double qx = column->qx, on = column->dead ? 0 : 1;
 
+#pragma omp simd
     for (size_t k = 0; k < n; k++) {
-        double qy = column->qy[first + k], q = sqrt(qx * qx + qy * qy), over = q > 0 ? 1 / q : 0;
-        double c = q > 0 ? qx * over : 1, d = qy * over;
-        w->q[k] = (REAL)(q > 0 ? q : 1);
-        w->alive[k] = (REAL)(q > 0 ? on * column->alive[first + k] : 0);
+        double qy = column->qy[first + k], q2 = qx * qx + qy * qy;
+        double mean = q2 > 0 ? 0 : 1,
+               q = sqrt(q2 + mean); /* of wave number 0 any direction will do */
+        double over = 1 / q, c = (qx + mean) * over, d = qy * over;
+        w->q[k] = (REAL)q;
+        w->alive[k] = (REAL)(on * column->alive[first + k] * (1 - mean));
         w->c[k] = (REAL)c;
         w->d[k] = (REAL)d;
         w->cc[k] = (REAL)(c * c);

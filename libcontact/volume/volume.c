@@ -356,7 +356,7 @@ keep_row(void *ctx, size_t j, void *row)
     const struct rc_slabs *v = p->volume;
     size_t bytes = v->shape.nx * v->ops->real_size;
 
-    memcpy((char *)stress_of(v, p->slab, p->component) + j * bytes, row, bytes);
+    rc_copy_past((char *)stress_of(v, p->slab, p->component) + j * bytes, row, bytes);
     return true;
 }
 
