@@ -1,13 +1,13 @@
 /*
- * What the sweeps through slabs of plastic strain cost, in convolutions: a real transform of the map there
- * and back, its product with a kernel included, by the same transforms.
+ * What the sweeps through slabs of plastic strain cost, in convolutions: a real transform of the
+ * map there and back, its product with a kernel included, by the same transforms.
  *
  *     bench-volume [applications]       (default: all)
  *
  * applications  up and down through 12 slabs on 512 x 512 and 1024 x 1024 nodes, double and single
  *
- * Strain stands on every node, or on a tenth of the rows' nodes in the upper half of the slabs. Times are the
- * least of several runs. RC_THREADS sets the threads.
+ * Strain stands on every node, or on a tenth of the rows' nodes in the upper half of the slabs.
+ * Times are the least of several runs. RC_THREADS sets the threads.
  */
 #include "bench.h"
 

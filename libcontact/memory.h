@@ -12,8 +12,8 @@
  * one by one. */
 void *rc_alloc(size_t n, size_t size);
 
-/* memcpy for what is read again only after many megabytes of others: it goes past the caches, and the
- * lines it goes to are not fetched before they are overwritten. */
+/* memcpy for what is read again only after many megabytes of others: it goes past the caches, and
+ * the lines it goes to are not fetched before they are overwritten. */
 void rc_copy_past(void *to, const void *from, size_t bytes);
 
 #endif

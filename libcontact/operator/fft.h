@@ -110,11 +110,12 @@ void rc_fft_field(struct rc_fft *fft, const struct rc_spectrum *kernel, double *
 void rc_fft_field_pair(struct rc_fft *fft, const struct rc_spectrum *k, double weight,
                        const struct rc_spectrum *l, double *u);
 
-/* Maps to their waves and back by themselves, for sums over several maps at once. A column i of those
- * held here has rc_fft_length numbers t, in the plan's precision: first their real parts, then their
- * imaginary parts; t stands for wave number rc_fft_wave(fft, t) along y. Column i lies at
- * waves + 2 i rc_fft_length. `column`, called by several threads, takes or makes one column instead, where
- * `waves` is NULL. Forward divides by the nodes of the (padded) map, back does not. */
+/* Maps to their waves and back by themselves, for sums over several maps at once. A column of those
+ * held here has rc_fft_length numbers in the plan's precision: first their real parts, then their
+ * imaginary parts. Number t stands for wave number rc_fft_wave(fft, t) along y, and column i lies at
+ * 2 i rc_fft_length real numbers from `waves`. Where `waves` is NULL, `column`, called by several
+ * threads, takes or makes one column after the other. Forward divides by the nodes of the (padded)
+ * map, back does not. */
 typedef void rc_wave_column(void *ctx, size_t i, void *column);
 size_t rc_fft_length(const struct rc_fft *fft);
 size_t rc_fft_wave(const struct rc_fft *fft, size_t t);

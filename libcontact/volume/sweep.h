@@ -1,6 +1,6 @@
 /*
- * The arithmetic of the sweeps, column by column of the waves: between volume.c and sweep_body.h, which is
- * compiled once for each precision. Internal: never installed.
+ * The arithmetic of the sweeps, column by column of the waves: between volume.c and sweep_body.h,
+ * which is compiled once for each precision. Internal: never installed.
  */
 #ifndef RC_SWEEP_H
 #define RC_SWEEP_H
@@ -32,22 +32,22 @@ struct rc_sweep_slab {
     double szz, sxx, syy;           /* added to the first wave of the column: a mean */
 };
 
-/* Waves at a depth are three arrays of twice `length`, one after the other, in units of strain: q times the
- * amplitude. */
+/* Waves at a depth are three arrays of twice `length`, one after the other, in units of strain: q
+ * times the amplitude. */
 struct rc_sweep_ops {
     size_t real_size;
     /* Waves that go up: from those below n slabs (NULL: none) to those above them. */
     void (*up)(const struct rc_sweep_column *column, size_t n, const struct rc_sweep_slab *slab,
                const void *below, void *above);
-    /* At the surface: from waves up to waves down, and what p over 2 mu adds (NULL: nothing). `any`: whether there
-     * are waves up; otherwise they count as 0. */
+    /* At the surface: from waves up to waves down, and what p over 2 mu adds (NULL: nothing).
+     * `any`: whether there are waves up; otherwise they count as 0. */
     void (*reflect)(const struct rc_sweep_column *column, bool any, const void *p, double over_2mu,
                     void *waves);
     /* Displacement of the surface that waves up make, in units of a length: m. */
     void (*surface)(const struct rc_sweep_column *column, const void *waves, void *u);
-    /* Stresses over `modulus` = 2 mu of n slabs, in the place of their strains. `above`: waves down on top of
-     * them. `below`: waves up below them (if `any`), in whose place come the waves down below them; NULL: there are
-     * none, and none are asked for. */
+    /* Stresses over `modulus` = 2 mu of n slabs, in the place of their strains. `above`: waves down
+     * on top of them. `below`: waves up below them (if `any`), in whose place come the waves down
+     * below them; NULL: there are none, and none are asked for. */
     void (*down)(const struct rc_sweep_column *column, size_t n, const struct rc_sweep_slab *slab,
                  double modulus, const void *above, bool any, void *below);
 };

@@ -1,35 +1,39 @@
 /*
  * The sweeps in one precision: REAL and what goes with it is set by the file that includes this.
  *
- * q is a wave vector in the plane, c = qx/q, d = qy/q; axes s along q and t across. Of strain and stress
+ * q is a wave vector in the plane, c = qx/q, d = qy/q; axes s along q and t across. Of strain and
+ * stress
  *
- *     ss = c^2 xx + d^2 yy + 2cd xy       st = cd (yy - xx) + (c^2 - d^2) xy      sz = -i (c xz + d yz)
- *     tt = d^2 xx + c^2 yy - 2cd xy                                               tz = -i (c yz - d xz)
+ *     ss = c^2 xx + d^2 yy + 2cd xy    st = cd (yy - xx) + (c^2 - d^2) xy    sz = -i (c xz + d yz)
+ *     tt = d^2 xx + c^2 yy - 2cd xy                                          tz = -i (c yz - d xz)
  *
- * so that all coefficients below are real. Real parts of ss, tt, zz and st go with imaginary parts of xz
- * and yz: either half is computed by itself, and differs by a sign in these two.
+ * so that all coefficients below are real. Real parts of ss, tt, zz and st go with imaginary parts
+ * of xz and yz: either half is computed by itself, and differs by a sign in these two.
  *
  * Three waves go down from where they are known, three up; w are their amplitudes times q, D the
- * distance, x = q D. Their stress over 2 mu exp(-x), with f = 1 for waves that go down and -1 for up:
+ * distance, x = q D. Their stress over 2 mu exp(-x), with f = 1 for waves that go down and -1 for
+ * up:
  *
- *     ss = -w1 + (x - 2 nu) w2         zz = w1 - (2 (1 - nu) + x) w2       sz = f (-w1 + (1 - 2 nu + x) w2)
- *     tt = -2 nu w2                    st = -w3/2                          tz = -f w3/2
+ *     ss = -w1 + (x - 2 nu) w2    zz = w1 - (2 (1 - nu) + x) w2    sz = f (-w1 + (1 - 2 nu + x) w2)
+ *     tt = -2 nu w2               st = -w3/2                       tz = -f w3/2
  *
- * After the distance D they are exp(-x) (w1 - x w2, w2, w3). A sheet of strain e dz sends out, over q dz,
+ * After the distance D they are exp(-x) (w1 - x w2, w2, w3). A sheet of strain e dz sends out, over
+ * q dz,
  *
- *     down (S1/2 + sz, (S2 + D2)/2, tz - st)      S2 = (zz - ss)/(2 (1 - nu))       D2 = sz/(1 - nu)
- *     up   (S1/2 - sz, (S2 - D2)/2, -tz - st)     S1 = (3 - 4 nu) S2 - (1 - 2 nu) zz/(1 - nu)
+ *     down (S1/2 + sz, (S2 + D2)/2, tz - st)    S2 = (zz - ss)/(2 (1 - nu))    D2 = sz/(1 - nu)
+ *     up   (S1/2 - sz, (S2 - D2)/2, -tz - st)   S1 = (3 - 4 nu) S2 - (1 - 2 nu) zz/(1 - nu)
  *
- * and leaves in its own plane -2 mu (e_ab + nu/(1 - nu) (exx + eyy) delta_ab), a, b = x, y. At the surface
+ * and leaves in its own plane -2 mu (e_ab + nu/(1 - nu) (exx + eyy) delta_ab), a, b = x, y. At the
+ * surface
  *
  *     down1 = (3 - 4 nu) up1 - 4 (1 - nu)(1 - 2 nu) up2 + (1 - 2 nu) p/(2 mu)
  *     down2 = 2 up1 - (3 - 4 nu) up2 + p/(2 mu)          down3 = up3
  *     u = 4 (1 - nu) (up1 - 2 (1 - nu) up2)/q
  *
- * beside K p. Integrals over a slab, with x = q h, E = exp(-x) and F_n = sum over k of (-x)^k/(k + n)!, so
- * that E = 1 - x F1, F1 = 1 - x F2, F2 = 1/2 - x F3: what the slab sends out of 1 and of x is g0 = x F1, g1 =
- * x^2 (F1 - F2); of waves from outside its mean is m0 = F1, m1 = x (F1 - F2); of its own j0 = x F2, j1 = x^2
- * (F2 - 2 F3).
+ * beside K p. Integrals over a slab, with x = q h, E = exp(-x) and F_n = sum over k of (-x)^k/(k +
+ * n)!, so that E = 1 - x F1, F1 = 1 - x F2, F2 = 1/2 - x F3: what the slab sends out of 1 and of x
+ * is g0 = x F1, g1 = x^2 (F1 - F2); of waves from outside its mean is m0 = F1, m1 = x (F1 - F2); of
+ * its own j0 = x F2, j1 = x^2 (F2 - 2 F3).
  */
 #include <math.h>
 #include <stdint.h>
@@ -211,8 +215,8 @@ turn_strain(const struct way *w, const struct half *from, size_t n, struct strai
     }
 }
 
-/* Waves after a slab, those that it sends out by itself included; sign 1: down, -1: up. Numbers of no
- * account are set to 0: denormal ones would be slow. */
+/* Waves after a slab, those that it sends out by itself included; sign 1: down, -1: up. Numbers of
+ * no account are set to 0: denormal ones would be slow. */
 RC_WIDE_CLONES static void
 pass(const struct slab_of *s, const struct strain *e, REAL sign, REAL nu, size_t n,
      const struct waves *in, struct waves *out)

@@ -1,10 +1,10 @@
 /*
  * The sweeps over a stack of slabs: what is kept, what is transformed when. One map at a time is
- * transformed, into waves that are kept for each slab; the depths between groups of RC_SWEEP_SLABS slabs
- * keep the waves that pass, and the depths within a group are computed again on the way down.
+ * transformed, into waves that are kept for each slab; the depths between groups of RC_SWEEP_SLABS
+ * slabs keep the waves that pass, and the depths within a group are computed again on the way down.
  *
- * Kept of a node, in numbers: 5 a slab, which the stresses of the slab take over, 3 a group, and 1 for the
- * map under transform.
+ * Kept of a node, in numbers: 5 a slab, which the stresses of the slab take over, 3 a group, and 1
+ * for the map under transform.
  */
 #include "volume.h"
 

@@ -1,5 +1,6 @@
-/* What strain in slabs obeys: reciprocity, symmetry, bounds of the stiffness with and without contact,
- * equilibrium, a free surface, a load that every plane carries, and the memory that is foretold. */
+/* What strain in slabs obeys: reciprocity, symmetry, bounds of the stiffness with and without
+ * contact, equilibrium, a free surface, a load that every plane carries, and the memory that is
+ * foretold. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -105,8 +106,8 @@ along_unit(const struct voxels *s, size_t slab, size_t i, size_t m)
     return sum;
 }
 
-/* Eigenvalues of G, and of G + S K_cc^-1 S' for sets c of nodes in contact, lie between 0 and 2 mu: all voxels
- * of a small stack. c may be any set; K is that of the same body. */
+/* Eigenvalues of G, and of G + S K_cc^-1 S' for sets c of nodes in contact, lie between 0 and 2 mu:
+ * all voxels of a small stack. c may be any set; K is that of the same body. */
 static void
 is_bounded(void **state)
 {
@@ -215,8 +216,9 @@ slope(const double *m, size_t step, size_t n, size_t i, double d)
     return sum * 2 * exact_pi / ((double)n * d);
 }
 
-/* Mean stresses of equal slabs without strain, between slabs with it, in depth: d sxi/dx + d syi/dy + d szi/dz =
- * 0, by differences of tenth order; and the surface is free, or carries p: a slab of no thickness on top. */
+/* Mean stresses of equal slabs without strain, between slabs with it, in depth: d sxi/dx + d syi/dy
+ * + d szi/dz = 0, by differences of tenth order; and the surface is free, or carries p: a slab of
+ * no thickness on top. */
 static void
 in_equilibrium(void **state)
 {

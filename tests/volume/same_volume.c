@@ -1,5 +1,5 @@
-/* Two ways to the same slabs agree: threads, precisions, maps turned by a right angle, slabs split in two, a
- * sum of plane waves written down, and what is not wanted is left out without a trace. */
+/* Two ways to the same slabs agree: threads, precisions, maps turned by a right angle, slabs split
+ * in two, a sum of plane waves written down, and what is not wanted is left out without a trace. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -175,8 +175,8 @@ turned(void **state)
     }
 }
 
-/* A slab is its two halves with the same strain, and its stress their mean: from one group of slabs that are
- * swept together to several, and from thick to thin. */
+/* A slab is its two halves with the same strain, and its stress their mean: from one group of slabs
+ * that are swept together to several, and from thick to thin. */
 static void
 split(void **state)
 {
@@ -221,8 +221,8 @@ split(void **state)
     }
 }
 
-/* Slabs that are said to have no strain are not asked for it, and slabs that are not wanted are not handed out;
- * the others do not change by a bit. After `down` there is no strain. */
+/* Slabs that are said to have no strain are not asked for it, and slabs that are not wanted are not
+ * handed out; the others do not change by a bit. After `down` there is no strain. */
 struct picky {
     struct all *all;
     const bool *strained, *wanted;

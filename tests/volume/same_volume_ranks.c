@@ -1,4 +1,5 @@
-/* Processes that share a map get the same displacements and stresses of slabs as one process, bit for bit. */
+/* Processes that share a map get the same displacements and stresses of slabs as one process, bit
+ * for bit. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,5 @@
-/* Stresses and displacements of strain in slabs and of pressure are those of finite elements in depth, of
- * point stresses averaged by quadrature, and of Eshelby's sphere. */
+/* Stresses and displacements of strain in slabs and of pressure are those of finite elements in
+ * depth, of point stresses averaged by quadrature, and of Eshelby's sphere. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -18,8 +18,8 @@ enum {
     BAND = 3 * (DEGREE + 1)
 };
 
-/* Displacements u(z) exp(i (qx x + qy y)) of a half-space with eigenstrain in slabs, clamped where nothing of
- * them is left; nothing is rotated, nothing is a plane wave in depth. */
+/* Displacements u(z) exp(i (qx x + qy y)) of a half-space with eigenstrain in slabs, clamped where
+ * nothing of them is left; nothing is rotated, nothing is a plane wave in depth. */
 struct beam {
     double qx, qy, nu, shear;
     size_t elements, nodes;
@@ -258,8 +258,8 @@ random_complex(uint64_t *seed)
     return CMPLX(re, im);
 }
 
-/* Several waves of strain in slabs of very different thickness, some without strain, more than one group of
- * them, and of pressure. */
+/* Several waves of strain in slabs of very different thickness, some without strain, more than one
+ * group of them, and of pressure. */
 static void
 equals_elements(void **state)
 {
@@ -341,8 +341,9 @@ equals_elements(void **state)
 
 /* ---- pressure ---- */
 
-/* Stresses of pressure are rc_stress's at the points of a quadrature, mean included: on odd and prime maps, on
- * profiles either way, on an even map without waves of two nodes (which act on no slab here). */
+/* Stresses of pressure are rc_stress's at the points of a quadrature, mean included: on odd and
+ * prime maps, on profiles either way, on an even map without waves of two nodes (which act on no
+ * slab here). */
 static void
 equals_point_stresses(void **state)
 {
@@ -427,8 +428,9 @@ mean_inside(const struct voxels *s, size_t slab, size_t r, enum rc_component c)
     return sum / n;
 }
 
-/* Deviator stress in the middle of a sphere with a uniform deviator strain e, deep below the surface, is
- * -2 mu (1 - b) e, b = 2 (4 - 5 nu)/(15 (1 - nu)) (Eshelby 1957): of cubes, 10 in the radius, to 1 %. */
+/* Deviator stress in the middle of a sphere with a uniform deviator strain e, deep below the
+ * surface, is -2 mu (1 - b) e, b = 2 (4 - 5 nu)/(15 (1 - nu)) (Eshelby 1957): of cubes, 10 in the
+ * radius, to 1 %. */
 static void
 equals_sphere(void **state)
 {

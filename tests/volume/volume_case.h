@@ -1,4 +1,5 @@
-/* What the tests of the volume share: strains and stresses of all voxels, and a stack to put them in. */
+/* What the tests of the volume share: strains and stresses of all voxels, and a stack to put them
+ * in. */
 #ifndef VOLUME_CASE_H
 #define VOLUME_CASE_H
 
