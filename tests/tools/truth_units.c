@@ -449,13 +449,13 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_numbers),      cmocka_unit_test(test_micrometres),
-        cmocka_unit_test(test_vickers),
-        cmocka_unit_test(test_refusals),     cmocka_unit_test(test_lists),
-        cmocka_unit_test(test_range_ends),   cmocka_unit_test(test_bad_lists),
-        cmocka_unit_test(test_comma_locale), cmocka_unit_test(test_ratios),
-        cmocka_unit_test(test_forces),       cmocka_unit_test(test_decimal_commas),
-        cmocka_unit_test(test_shown),        cmocka_unit_test(test_conductivities),
+        cmocka_unit_test(test_numbers),        cmocka_unit_test(test_micrometres),
+        cmocka_unit_test(test_vickers),        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_lists),          cmocka_unit_test(test_range_ends),
+        cmocka_unit_test(test_bad_lists),      cmocka_unit_test(test_comma_locale),
+        cmocka_unit_test(test_ratios),         cmocka_unit_test(test_forces),
+        cmocka_unit_test(test_decimal_commas), cmocka_unit_test(test_shown),
+        cmocka_unit_test(test_conductivities),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
