@@ -5,10 +5,10 @@
 
 #include <math.h>
 
-static const double edge_load = 0.01;   /* of the load, on the outer 2 % of the map          */
-static const double linear = 0.1;       /* of E*: the pressures of linear elasticity         */
-static const double small_slope = 0.3;  /* RMS: the slopes of contact theory                 */
-static const double no_modulus = 1e5;   /* Pa: softer than any E* of a solid                 */
+static const double edge_load = 0.01;  /* of the load, on the outer 2 % of the map          */
+static const double linear = 0.1;      /* of E*: the pressures of linear elasticity         */
+static const double small_slope = 0.3; /* RMS: the slopes of contact theory                 */
+static const double no_modulus = 1e5;  /* Pa: softer than any E* of a solid                 */
 /* Nodes that resolve a contact on a profile, and on a map, and a patch of either. */
 static const size_t fewest_nodes[] = {20, 100};
 static const double fewest_each = 4;
