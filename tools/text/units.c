@@ -46,8 +46,8 @@ unit_name(enum unit unit)
 const char *
 unit_usual(enum unit unit)
 {
-    static const char *const usual[] = {"",        "nm um mm m", "mN N kN", "kPa MPa GPa",
-                                        "s min h", "M G",     "HV MPa GPa"};
+    static const char *const usual[] = {"",        "nm um mm m", "mN N kN",   "kPa MPa GPa",
+                                        "s min h", "M G",        "HV MPa GPa"};
 
     return usual[unit];
 }
@@ -177,10 +177,12 @@ other_scale(const char *suffix, size_t n)
     static const struct {
         const char *begins, *why;
     } scales[] = {
-        {"HB", "Brinell's number is the force over the curved dent of a ball, and changes with the ball "
-               "and the force"},
+        {"HB",
+         "Brinell's number is the force over the curved dent of a ball, and changes with the ball "
+         "and the force"},
         {"HR", "Rockwell's number is a depth, from which no pressure follows"},
-        {"HK", "Knoop's number is of a long dent that springs back across, and is no mean pressure"},
+        {"HK",
+         "Knoop's number is of a long dent that springs back across, and is no mean pressure"},
         {"HL", "Leeb's number is a speed of rebound, from which no pressure follows"},
     };
 
