@@ -76,7 +76,7 @@ warn_of_theory(struct run *run, const struct rc_grid *g, const char *where,
 
     if (peak > estar)
         suspect_unit(run, g, where, s);
-    else if (peak > linear * estar && isfinite(run->hardness_max))
+    else if (peak > linear * estar && isfinite(run->hardness_max) && run->hardness_max >= peak)
         tool_warn(&run->t,
                   "%s: the largest pressure, %s, is %.2g of E*: beyond %g a solid is not linear "
                   "elastic, and the hardness given, %s, is above that: is its unit right?",
