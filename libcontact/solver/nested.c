@@ -1,7 +1,7 @@
 /*
  * A start from coarser grids. The same contact is solved roughly on a grid of half the nodes a side (a
- * profile stays one node wide), which has a start from a coarser grid itself, and each coarse pressure is repeated on the nodes of
- * this grid. A call of rc_nested_step does one iteration on one of the coarser grids, or plans one of
+ * profile stays one node wide), which has a start from a coarser grid itself, and each coarse pressure
+ * is repeated on the nodes of this grid. A call of rc_nested_step does one iteration on one of the coarser grids, or plans one of
  * them, so that the caller sees every iteration.
  */
 #include "solver.h"
