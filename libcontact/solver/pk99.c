@@ -10,6 +10,7 @@
  */
 #include "solver.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -192,12 +193,24 @@ change_block(void *at, size_t first, size_t n, double *sums)
         sums[0] += fabs(c->solver->it.p[k] - c->s->old[k]);
 }
 
+/* After a move: the load, and (32), how far it went. */
+static double
+settle(struct rc_solver *solver, struct state *s)
+{
+    struct pass c = {.solver = solver, .s = s};
+    double total[RC_SUMS];
+
+    rc_projection_balance(solver, solver->it.v);
+    rc_iterate_unknown(solver);
+    rc_reduce_blocks(solver, change_block, &c, total);
+    return total[0] / solver->load.sum;
+}
+
 static struct rc_found
 step(struct rc_solver *solver, void *at)
 {
     struct state *s = at;
-    struct pass c = {.solver = solver, .s = s};
-    double total[RC_SUMS];
+    double change;
 
     if (!solver->it.fresh)
         rc_iterate_displace(solver);
@@ -210,10 +223,14 @@ step(struct rc_solver *solver, void *at)
         measure(solver, s);
         move(solver, s);
     }
-    rc_projection_balance(solver, solver->it.v);
-    rc_iterate_unknown(solver);
-    rc_reduce_blocks(solver, change_block, &c, total);
-    return (struct rc_found){.change = total[0] / solver->load.sum /* (32) */, .estimate = NAN};
+    change = settle(solver, s);
+    if (change <=
+        DBL_EPSILON) { /* no node can go where the paper would have it: the way down is open */
+        rc_safeguard_step(solver, s->old, s->t, s->r);
+        s->delta = 0;
+        change = settle(solver, s);
+    }
+    return (struct rc_found){.change = change, .estimate = NAN};
 }
 
 static void
