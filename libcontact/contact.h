@@ -494,10 +494,13 @@ struct rc_problem {
                                   none; NULL: hardness is that of all nodes                      */
     double height_error; /* m: what the heights may be off, as the shape_error of the solution that
                            left their shape; bears on what counts as yielded only                */
-    double tol;          /* asked relative L1 error of the pressure; 0: (nx ny)^(-3/4), but never
+    bool tilt_free;     /* the counter body turns until the pressures have no moment about the point
+                           where the load acts; not with RC_PERIODIC                              */
+    double force_at[2]; /* m: that point, x and y from the middle of the map                      */
+    double tol;         /* asked relative L1 error of the pressure; 0: (nx ny)^(-3/4), but never
                            above 1e-3                                                            */
-    const char *engine;  /* NULL: auto                                                            */
-    const char *method;  /* NULL: auto                                                            */
+    const char *engine; /* NULL: auto                                                            */
+    const char *method; /* NULL: auto                                                            */
     size_t max_iterations; /* 0: 100 + 10 sqrt(nx ny)                                            */
     size_t threads;      /* 0: all                                                                */
     bool discretization; /* estimate what the grid leaves out: a coarser one is solved as well   */
@@ -520,8 +523,11 @@ struct rc_contact {
     double contact_area, contact_fraction; /* m^2, -                                             */
     double plastic_area, yielded_area;     /* m^2                                                */
     double edge_load_fraction;             /* load on the outer 2 % of the map                   */
-    double approach;                       /* m; NAN when no node is elastic                     */
-    double mean_gap;                       /* m, of max(gap, 0) over the whole map               */
+    /* m, from first touch; NAN when no node is elastic. Where the counter body is free to tilt, of the
+     * point where the load acts, from where a rigid body would stand. */
+    double approach;
+    double tilt[2];  /* slope of the counter body's face along x and y     */
+    double mean_gap; /* m, of max(gap, 0) over the whole map               */
     /* m: the worst violation of gap >= 0 where p = 0, gap = 0 where elastic, gap <= 0 at the
      * hardness, from a fresh convolution */
     double gap_error;

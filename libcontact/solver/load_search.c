@@ -157,7 +157,7 @@ rc_load_search(struct rc_solver *s)
     double most = s->posed.bounds.full * s->posed.cell, shift, next, off;
 
     rc_iterate_shift(s);
-    shift = s->it.elastic > 0 ? s->it.shift : INFINITY; /* saturated: too much */
+    shift = s->it.elastic > 0 ? rc_tilt_approach(s) : INFINITY; /* saturated: too much */
     if (q->last_load > 0 && q->last_shift > 0 && shift > 0 && !isinf(shift) &&
         shift != q->last_shift) {
         double power = log(q->load / q->last_load) / log(shift / q->last_shift);

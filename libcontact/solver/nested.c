@@ -1,8 +1,8 @@
 /*
  * A start from coarser grids. The same contact is solved roughly on a grid of half the nodes a side (a
  * profile stays one node wide), which has a start from a coarser grid itself, and each coarse pressure
- * is repeated on the nodes of this grid. A call of rc_nested_step does one iteration on one of the coarser grids, or plans one of
- * them, so that the caller sees every iteration.
+ * is repeated on the nodes of this grid. A call of rc_nested_step does one iteration on one of the
+ * coarser grids, or plans one of them, so that the caller sees every iteration.
  */
 #include "solver.h"
 
@@ -234,7 +234,9 @@ coarse_new(const struct rc_solver *s, bool *sought)
     }
     rc_bounds_pose(&s->posed.bounds, highs, &problem);
     lower = -largest(rows.ranks, h, rows.n * shape.nx); /* that of the fine heights is 0 */
-    *sought = s->load.target > 2 * lower;
+    rc_tilt_pose(s, &problem);
+    *sought =
+        s->load.target > 2 * lower && !problem.tilt_free; /* lower by which tilt is not known */
     if (*sought)
         problem.approach = s->load.target - lower;
     c = rc_solver_coarse(s, &shape, h, &problem, NULL);
@@ -283,7 +285,7 @@ compare(struct rc_solver *s, struct rc_solver *c)
     s->coarse.contact_area = (double)rc_ranks_sum(c->posed.rows.ranks, contact) * c->posed.cell;
     s->coarse.max_pressure = largest(c->posed.rows.ranks, c->it.p, c->posed.n);
     rc_iterate_shift(c);
-    s->coarse.approach = c->it.elastic > 0 && s->load.target == 0 ? c->it.shift : NAN;
+    s->coarse.approach = c->it.elastic > 0 && s->load.target == 0 ? rc_tilt_approach(c) : NAN;
 }
 
 void
@@ -297,6 +299,7 @@ rc_nested_end(struct rc_solver *s)
             repeat(s, c);
         if (s->posed.discretization && c->it.iterations > 0)
             compare(s, c);
+        rc_tilt_from_coarse(s, c);
         rc_iterate_count(s, c->it.convolutions * (double)c->posed.nodes / (double)s->posed.nodes);
     }
     rc_nested_free(s);

@@ -158,7 +158,7 @@ rc_solver_plastic(const struct rc_solver *s, double *h, struct rc_err *err)
 #pragma omp parallel for num_threads(s->posed.threads) schedule(static)
     for (size_t k = 0; k < s->posed.n; k++) {
         double g = s->it.v[k] - s->it.shift;
-        h[k] = s->posed.h[k] + s->posed.top;
+        h[k] = s->posed.h[k] + rc_tilt_rise(s, k) + s->posed.top;
         if (rc_at_high(rc_box(s, 0), k, s->it.p[k]) && g < 0)
             h[k] += g;
     }
@@ -191,7 +191,9 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
     c->plastic_area = s->posed.cell * (double)c->plastic_nodes;
     c->hardness_active = c->plastic_nodes > 0;
     c->edge_load_fraction = edge_load(s);
-    c->approach = s->it.elastic > 0 ? s->it.shift : NAN; /* the highest of h is 0 */
+    c->approach = s->it.elastic > 0 ? rc_tilt_approach(s) : NAN; /* the highest of h is 0 */
+    for (size_t a = 0; a < 2; a++)
+        c->tilt[a] = rc_tilt_slope(s, a);
     f.mean_h = total[HEIGHT] / n;
     f.mean_u = (total[V] + total[HEIGHT]) / n;
     rc_reduce_blocks(s, spread_block, &f, total);
@@ -213,8 +215,8 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
         rc_working_set_find(s, false);
         rc_iterate_checked(s, rc_working_set_estimate(s), 1);
     }
-    c->pressure_error = s->it.error;
-    c->converged = s->it.error <= s->posed.tol && rc_iterate_keeps_load(s);
+    c->pressure_error = rc_tilt_error(s, s->it.error);
+    c->converged = c->pressure_error <= s->posed.tol && rc_iterate_keeps_load(s);
     c->convolutions = s->it.convolutions;
     c->discretization = left_out(s, c);
     s->stage = RC_STAGE_JUDGED;

@@ -197,7 +197,7 @@ solver_new(const struct rc_ranks *all, const struct rc_shape *shape, const doubl
         goto fail;
     s->posed.rough = !op->exact;
     s->posed.all = all;
-    if (rc_load_first(s, problem, err) != RC_OK ||
+    if (rc_load_first(s, problem, err) != RC_OK || rc_tilt_new(s, problem, err) != RC_OK ||
         (s->preconditioner = rc_preconditioner_new(op, err)) == NULL)
         goto fail;
     rc_iterate_level(s);
@@ -239,6 +239,7 @@ rc_solver_free(struct rc_solver *s)
         s->method->free(s->state);
     rc_preconditioner_free(s->preconditioner);
     rc_operator_free(s->op);
+    rc_tilt_free(s);
     rc_iterate_free(s);
     rc_working_set_free(s);
     free(s->posed.h);
@@ -276,6 +277,7 @@ rc_solver_memory(const struct rc_shape *shape, const struct rc_problem *problem)
      * grids of a nested start are gone before most of this is touched. */
     return n * (3 * sizeof(double) + 2 * sizeof(float) + 1) +
            (problem->hardness_map != NULL ? n * sizeof(double) : 0) +
+           (problem->tilt_free ? rc_solver_stiffness_memory(shape, problem) : 0) +
            (method != NULL && method->memory != NULL ? method->memory(&held) : 0) +
            rc_operator_memory(shape, &options) +
            rc_preconditioner_memory(shape, problem->boundary, ranks);
@@ -364,7 +366,11 @@ rc_solver_step(struct rc_solver *s)
         rc_nested_step(s);
         return RC_MORE;
     }
+    rc_tilt_begin(s);
     status = step(s);
+    if (status == RC_OK && s->tilt != NULL)
+        status = rc_tilt_search(s);
+    status = rc_tilt_end(s, status);
     return status == RC_OK && s->load.target > 0 ? rc_load_search(s) : status;
 }
 
@@ -404,6 +410,7 @@ rc_solver_set_load(struct rc_solver *s, double load, double approach, struct rc_
         rc_iterate_level(s);
     else
         rc_projection_balance(s, s->it.v);
+    rc_tilt_load(s);
     begin_anew(s);
     return RC_OK;
 }
@@ -415,6 +422,7 @@ rc_solver_set_heights(struct rc_solver *s, const double *h, struct rc_err *err)
 
     if (take_heights(&s->posed, h, RC_OK, err) != RC_OK)
         return RC_FAIL;
+    rc_tilt_heights(s);
     if (!untouched)
         rc_nested_end(s);
     if (rc_load_next(s, s->load.load, s->load.target, err) != RC_OK)
@@ -445,6 +453,7 @@ rc_solver_warm_start(struct rc_solver *s, double load, const double *p, struct r
     }
     rc_projection_restore(s, rc_iterate_carried(s));
     rc_solver_restart(s);
+    rc_tilt_from_pressure(s);
     return RC_OK;
 }
 
@@ -459,7 +468,7 @@ rc_solver_progress(const struct rc_solver *s, struct rc_progress *progress)
                                      .coarser = at != s,
                                      .iterations = at->it.iterations,
                                      .error = at->it.error,
-                                     .tol = at->load.tol};
+                                     .tol = rc_tilt_goal(at)};
 }
 
 double

@@ -139,6 +139,7 @@ struct rc_solver {
     const struct rc_method *method;
     void *state; /* the method's                                              */
     struct rc_nested nested;
+    struct rc_tilt *tilt;            /* NULL: the face keeps its direction                  */
     struct rc_discretization coarse; /* figures of the coarser grid; NAN: none             */
     float *z;                        /* n numbers: corrections, times per_pressure                */
     double *partial;                 /* sums of blocks and rows: reduce.c                         */
@@ -280,6 +281,47 @@ enum rc_status rc_load_next(struct rc_solver *solver, double load, double approa
                             struct rc_err *err);
 /* After a solution: RC_OK when its shift is the wanted one, else it sets the next load. */
 enum rc_status rc_load_search(struct rc_solver *solver);
+
+/* ---- stiffness.c ---- */
+
+/* X'K^-1 X on the elastic nodes, over the cell, with the columns of X 1 and the arms along x and y; false
+ * where none are elastic. Uses the working set and z. room: 3 n numbers. */
+bool rc_stiffness_turning(struct rc_solver *solver, float *room, double k[3][3]);
+
+/* ---- tilt.c: all but rc_arm allow a face that keeps its direction ---- */
+
+/* RC_FAIL where the problem asks for what cannot be, or memory is short. */
+enum rc_status rc_tilt_new(struct rc_solver *solver, const struct rc_problem *problem,
+                           struct rc_err *err);
+void rc_tilt_free(struct rc_solver *solver);
+/* The place of node k of those held here from the point of the force along an axis (0: x, 1: y), over the
+ * length of the map. */
+double rc_arm(const struct rc_solver *solver, size_t axis, size_t k);
+/* The heights are new ones, or those of the last tilt with a new load. */
+void rc_tilt_heights(struct rc_solver *solver);
+void rc_tilt_load(struct rc_solver *solver);
+/* What tilt has taken off the height of node k. */
+double rc_tilt_rise(const struct rc_solver *solver, size_t k);
+/* The iteration on this grid begins. */
+void rc_tilt_begin(struct rc_solver *solver);
+/* After a contact is solved: RC_OK when its moment is 0, else it tilts the face, or asks for a better
+ * solution of this contact. */
+enum rc_status rc_tilt_search(struct rc_solver *solver);
+/* Returns `status` of the search; when that ends, the tolerance is again that of the load. */
+enum rc_status rc_tilt_end(struct rc_solver *solver, enum rc_status status);
+/* The tolerance of the load, which that of a contact on the way is not. */
+double rc_tilt_goal(const struct rc_solver *solver);
+/* The error of p from that of the contact at this tilt and from its moment. */
+double rc_tilt_error(struct rc_solver *solver, double contact);
+/* The shift from where a rigid body would stand. */
+double rc_tilt_approach(const struct rc_solver *solver);
+/* Slope of the face along an axis. */
+double rc_tilt_slope(const struct rc_solver *solver, size_t axis);
+/* The problem of a coarser grid, and the tilt that it found. */
+void rc_tilt_pose(const struct rc_solver *solver, struct rc_problem *coarse);
+void rc_tilt_from_coarse(struct rc_solver *solver, const struct rc_solver *coarse);
+/* The tilt under which the elastic nodes of p have the least gaps. */
+void rc_tilt_from_pressure(struct rc_solver *solver);
 
 /* ---- nested.c ---- */
 

@@ -10,6 +10,9 @@
  * conductor is that of the current as the displacement is that of the pressure (Barber 2003), and
  * it is one number wherever the bodies touch. Any t then gives a bound, (sum t)^2 / t'K t <= S, by
  * Schwarz's inequality in the scalar product of K.
+ *
+ * Where the face is free to tilt the set may also be displaced by the arm of each node about the force,
+ * along x or y.
  */
 #include "solver.h"
 
@@ -28,6 +31,8 @@ struct system {
     struct rc_solver *s;
     float *t, *d, *q; /* solution, direction, K d on W */
     double a;
+    size_t by; /* W is displaced by 1 (0), or by its arms along x (1) or y (2) */
+    bool arms; /* the moments of t are asked for */
 };
 
 static bool
@@ -93,15 +98,20 @@ turn_block(void *at, size_t first, size_t n, double *sums)
         c->d[k] = c->s->z[k] + (float)(c->a * (double)c->d[k]);
         sums[0] += (double)c->t[k];
     }
+    for (size_t k = first; k < first + n && c->arms; k++)
+        if (c->t[k] != 0)
+            for (size_t a = 0; a < 2; a++)
+                sums[1 + a] += (double)c->t[k] * rc_arm(c->s, a, k);
 }
 
-static double
-solve(struct system *c)
+/* `sum`: of t, and of its moments where they are asked for. */
+static void
+solve(struct system *c, double sum[3])
 {
     struct rc_solver *s = c->s;
     const struct rc_spectrum *factors[] = {s->op->kernel};
     rc_row *rows[] = {direction_in, displaced};
-    double total[RC_SUMS], rz = 0, sum = 0;
+    double total[RC_SUMS], rz = 0;
 
     for (int step = 0; step < STEPS; step++) {
         double last = rz;
@@ -111,9 +121,10 @@ solve(struct system *c)
         rz = total[0];
         c->a = last > 0 ? rz / last : 0;
         rc_reduce_blocks(s, turn_block, c, total);
-        sum = total[0];
-        /* r'z bounds the square of the energy norm of the error from above; that of t is its sum */
-        if (!(rz > 0) || (step > 0 && rz <= enough * enough * sum))
+        for (size_t q = 0; q < 3; q++)
+            sum[q] = total[q];
+        /* r'z bounds the square of the energy norm of the error from above; that of t is t'K t */
+        if (!(rz > 0) || (step > 0 && rz <= enough * enough * sum[c->by]))
             break;
         rc_reduce_rows_begin(s);
         rc_operator_chain(s->op, 1, factors, rows, c);
@@ -124,7 +135,6 @@ solve(struct system *c)
         c->a = rz / total[0];
         rc_reduce_blocks(s, move_block, c, total);
     }
-    return sum;
 }
 
 static size_t
@@ -159,8 +169,6 @@ system_new(struct system *c, struct rc_solver *s, struct rc_err *err)
     enum rc_status status = RC_OK;
 
     *c = (struct system){.s = s};
-    if (s->stage != RC_STAGE_JUDGED)
-        return rc_err_set(err, "the stiffness is that of a result: ask for rc_solver_result first");
     c->t = rc_alloc(n, sizeof *c->t);
     c->d = rc_alloc(n, sizeof *c->d);
     c->q = rc_alloc(n, sizeof *c->q);
@@ -170,9 +178,47 @@ system_new(struct system *c, struct rc_solver *s, struct rc_err *err)
         system_free(c);
         return RC_FAIL;
     }
-    memset(c->t, 0, n * sizeof *c->t);
-    memset(c->d, 0, n * sizeof *c->d);
     return RC_OK;
+}
+
+static enum rc_status
+check_judged(const struct rc_solver *s, struct rc_err *err)
+{
+    if (s->stage != RC_STAGE_JUDGED)
+        return rc_err_set(err, "the stiffness is that of a result: ask for rc_solver_result first");
+    return RC_OK;
+}
+
+static void
+by_arms(void *at, size_t first, size_t n, double *sums)
+{
+    const struct system *c = at;
+
+    (void)sums;
+    for (size_t k = first; k < first + n; k++)
+        c->s->set.r[k] *= (float)rc_arm(c->s, c->by - 1, k);
+}
+
+/* The sums of t that displaces the elastic nodes, or all in contact, as c->by says; their number. */
+static size_t
+fix_and_solve(struct system *c, bool touching, double sum[3])
+{
+    struct rc_solver *s = c->s;
+    size_t moving = rc_working_set_fix(s, touching);
+    double total[RC_SUMS];
+
+    memset(c->t, 0, s->posed.n * sizeof *c->t);
+    memset(c->d, 0, s->posed.n * sizeof *c->d);
+    sum[0] = sum[1] = sum[2] = 0;
+    if (c->by > 0)
+        rc_reduce_blocks(s, by_arms, c, total);
+    if (moving > 0 && !(s->op->mean_free && moving == s->posed.nodes))
+        solve(c, sum);
+    else
+        moving = 0;
+    rc_working_set_forget(s);
+    rc_working_set_find(s, false); /* who goes on stepping finds the contact's own residual */
+    return moving;
 }
 
 /* The stiffness of the elastic nodes, or of all in contact, N/m; NAN where there are none, and
@@ -180,27 +226,61 @@ system_new(struct system *c, struct rc_solver *s, struct rc_err *err)
 static double
 stiffness_of(struct system *c, bool touching)
 {
-    struct rc_solver *s = c->s;
-    size_t moving = rc_working_set_fix(s, touching);
-    double found = NAN;
+    double sum[3];
 
-    if (moving > 0 && !(s->op->mean_free && moving == s->posed.nodes))
-        /* one unit of t displaces by one unit of the operator's rows */
-        found = solve(c) * s->posed.cell / s->op->unit;
-    rc_working_set_forget(s);
-    rc_working_set_find(s, false); /* who goes on stepping finds the contact's own residual */
-    return found;
+    if (fix_and_solve(c, touching, sum) == 0)
+        return NAN;
+    /* one unit of t displaces by one unit of the operator's rows */
+    return sum[0] * c->s->posed.cell / c->s->op->unit;
+}
+
+static bool
+turning(struct system *c, double k[3][3])
+{
+    c->arms = true;
+    for (c->by = 0; c->by < 3; c->by++) {
+        if (fix_and_solve(c, false, k[c->by]) == 0)
+            return false;
+        for (size_t q = 0; q < 3; q++)
+            k[c->by][q] /= c->s->op->unit;
+    }
+    return true;
+}
+
+bool
+rc_stiffness_turning(struct rc_solver *s, float *room, double k[3][3])
+{
+    size_t n = s->posed.n;
+    struct system c = {.s = s, .t = room, .d = room + n, .q = room + 2 * n};
+
+    return turning(&c, k);
+}
+
+/* The face follows: with k of shift and turns, 1 over the shift that a unit of load makes while no moment
+ * acts. A contact that does not resist a turn is not turned by its load either. */
+static double
+free_to_turn(double k[3][3])
+{
+    const double least = 1e-12 * k[0][0];
+    double x = k[1][1] + least, y = k[2][2] + least, xy = k[1][2];
+    double det = x * y - xy * xy, bx = k[0][1], by = k[0][2];
+
+    return k[0][0] - (bx * bx * y - 2 * bx * by * xy + by * by * x) / det;
 }
 
 enum rc_status
 rc_solver_stiffness(struct rc_solver *s, double *stiffness, struct rc_err *err)
 {
     struct system c;
+    double k[3][3];
 
     *stiffness = NAN;
-    if (system_new(&c, s, err) != RC_OK)
+    if (check_judged(s, err) != RC_OK || system_new(&c, s, err) != RC_OK)
         return RC_FAIL;
-    *stiffness = stiffness_of(&c, false);
+    if (s->tilt == NULL)
+        *stiffness = stiffness_of(&c, false);
+    else if (turning(&c, k))
+        *stiffness = free_to_turn(k) * s->posed.cell;
     system_free(&c);
     return RC_OK;
 }
@@ -279,7 +359,7 @@ rc_solver_conductance(struct rc_solver *s, double k1, double k2, struct rc_condu
     if (!(k1 > 0) || !(k2 > 0) || isinf(k1) || isinf(k2))
         return rc_err_set(err, "conductivities %g and %g: they must be positive and finite", k1,
                           k2);
-    if (system_new(&c, s, err) != RC_OK)
+    if (check_judged(s, err) != RC_OK || system_new(&c, s, err) != RC_OK)
         return RC_FAIL;
     if (!isnan(s->op->estar) && !isnan(stiffness = stiffness_of(&c, true))) {
         float *t = c.t;

@@ -254,6 +254,7 @@ CONTACT(two_phases, bare, .load = 1e-3, .hardness_map = hardness)
 CONTACT(paper_method, bare, .load = 1e-3, .method = "pk99", .engine = "mlms")
 CONTACT(to_an_approach, bare, .approach = 1e-7, .discretization = true)
 CONTACT(coated_contact, layered, .load = 1e-3)
+CONTACT(free_to_tilt, bare, .load = 1e-3, .tilt_free = true)
 
 /* ---- stresses ---- */
 
@@ -480,6 +481,7 @@ static const struct {
     {.name = "contact, pk99 by mlms", .use = paper_method},
     {.name = "contact, to an approach", .use = to_an_approach},
     {.name = "contact, coated", .use = coated_contact},
+    {.name = "contact, free to tilt", .use = free_to_tilt},
     {.name = "stress", .use = free_stress},
     {.name = "stress, periodic", .use = periodic_stress},
     {.name = "stress, direct", .use = direct_stress},

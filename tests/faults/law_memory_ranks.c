@@ -102,6 +102,7 @@ CONTACT(two_phases, bare, .load = 0.02, .hardness_map = hardness)
 CONTACT(paper_method, bare, .load = 0.02, .method = "pk99")
 CONTACT(to_an_approach, bare, .approach = 3e-7, .discretization = true)
 CONTACT(coated_contact, layered, .load = 0.02)
+CONTACT(free_to_tilt, bare, .load = 0.02, .tilt_free = true)
 
 /* As far as the first step on the grid itself, which depends on how it began. */
 static enum rc_status
@@ -202,6 +203,7 @@ static const struct {
     {.name = "contact, pk99", .use = paper_method, .tol = 1e-3},
     {.name = "contact, to an approach", .use = to_an_approach, .tol = 1e-3},
     {.name = "contact, coated", .use = coated_contact, .tol = 1e-3},
+    {.name = "contact, free to tilt", .use = free_to_tilt, .tol = 1e-3},
     {.name = "contact, coarser grids that are shared", .use = large_start, .tries = 6},
     {.name = "stress", .use = free_stress},
     {.name = "stress, periodic", .use = periodic_stress},

@@ -223,6 +223,7 @@ compare(struct rc_shape s, struct rc_problem problem, size_t loads, const char *
     assert_same(1, &shared.c.discretization.contact_area, &alone.c.discretization.contact_area,
                 "area left out");
     assert_same(1, &shared.c.approach, &alone.c.approach, "approach");
+    assert_same(2, shared.c.tilt, alone.c.tilt, "tilt");
     assert_int_equal(shared.c.iterations, alone.c.iterations);
     assert_int_equal(shared.c.yielded_nodes, alone.c.yielded_nodes);
     assert_same_patches(&shared.patches, &alone.patches);
@@ -319,6 +320,28 @@ saturation(void **state)
     }
 }
 
+/* The face turns by sums over all ranks, and the first touch is sought among them. */
+static void
+tilts(void **state)
+{
+    struct rc_shape s = {180, 210, 1e-6, 1e-6};
+    struct rc_problem problem = {.pair.estar = 1e11,
+                                 .load = 0.5,
+                                 .engine = "fft",
+                                 .tol = 1e-6,
+                                 .tilt_free = true,
+                                 .force_at = {12e-6, -9e-6},
+                                 .threads = 1};
+
+    (void)state;
+    compare(s, problem, 2, "tilt");
+    s.ny = 1500;
+    compare(s, problem, 1, "tilt of a long map");
+    s.nx = 5;
+    problem.force_at[0] = 0;
+    compare(s, problem, 1, "tilt of a strip");
+}
+
 /* In double precision rows of two maps are kept, those held here only. */
 static void
 memory(void **state)
@@ -405,8 +428,8 @@ main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(displacements), cmocka_unit_test(refusals),   cmocka_unit_test(contacts),
-        cmocka_unit_test(hardness_maps), cmocka_unit_test(approaches), cmocka_unit_test(saturation),
-        cmocka_unit_test(memory),        cmocka_unit_test(stresses),
+        cmocka_unit_test(hardness_maps), cmocka_unit_test(approaches), cmocka_unit_test(tilts),
+        cmocka_unit_test(saturation),    cmocka_unit_test(memory),     cmocka_unit_test(stresses),
     };
     struct rc_err err;
     int failed;

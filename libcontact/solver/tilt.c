@@ -1,0 +1,834 @@
+/*
+ * A counter body that is free to turn: the force acts at a point, about which the pressures have no
+ * moment. With x the place of a node from that point, the face of the counter body rises by a x, and
+ * the contact is that of the heights h - a x. The two slopes a are the multipliers of the two moments
+ * p'x = 0, beside the shift, that of the load. So G(a) = min over p of 1/2 p'Kp - p'(h - a x) is
+ * concave, its gradient is the moment, and where it is 0 is the solution.
+ *
+ * G is maximised by Newton's method: the contact is solved, its moment taken, and the face turned by
+ * H^-1 times the moment. While no node changes sides the moment falls by
+ *
+ *     H = x'K^-1 x - x'K^-1 1 1'K^-1 x / 1'K^-1 1
+ *
+ * on the elastic nodes (stiffness.c). A coarser grid hands up its slopes and its H; each turn corrects H
+ * by what the moment did, and one that did too little has it found anew. Where the whole turn is too
+ * much or too little, the length of the turn is sought between bounds. Contacts on the way are solved
+ * as accurately as the next turn needs.
+ *
+ * With t the step to the solution, the pressure changes by at most sqrt(S m'H^-1 m), S = 1'K^-1 1, in
+ * the sum of its sizes: exactly so if the nodes were springs side by side, by Schwarz's inequality.
+ *
+ * Without a coarser grid it begins with the facet on which a rigid body would stand, which is also where
+ * approaches count from. It is the plane above all heights that is lowest at the point of the force: a
+ * linear program of three unknowns, whose dual simplex method goes from one triangle around that point
+ * to the next.
+ *
+ * Arms are in units of the length of the map, so that slopes become rises in metres.
+ */
+#include "solver.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "libcontact/memory.h"
+
+enum {
+    PIVOTS = 200, /* a start needs no more, and what is then left above the facet is little */
+    TURNS = 200,
+    EVEN = 6, /* trials of a length after which the interval is halved */
+    /* trials, each of four times the last length, after which upper bounds are taken to carry no such load
+     * there: then the moment about some axis keeps its sign however far the face turns */
+    FAR = 12
+};
+static const double loose = 1e-2;  /* tolerance of the first contacts */
+static const double finest = 1e-3; /* of the tolerance: where the moment hangs on few nodes */
+static const double thin =
+    1e-7; /* of S: less of H is none, but for the rounding of single precision */
+
+struct rc_tilt {
+    double at[2]; /* m: the point of the force, from the middle of the map                        */
+    double
+        length; /* m: unit of arms                                                              */
+    bool
+        turns[2]; /* a profile turns about one axis only                                          */
+    double
+        rise[2];  /* m, over the length: of the face; posed.h = heights - rise arm                */
+    double touch; /* m: of the face above the point of the force, at first touch; NAN: not sought */
+    bool placed;  /* the rise comes from a contact                                                */
+    bool begun;   /* the search at this load                                                      */
+    double goal;  /* tolerance that it ends at                                                    */
+    size_t
+        turned; /* times                                                                        */
+    double
+        moment[2]; /* of p over its sum                                                          */
+    double error;  /* of the pressure, from that moment                                          */
+    bool known;    /* H and S                                                                    */
+    double h[2][2], s;
+    /* The turn: from where, which way, how far, and between which lengths the moment about its axis
+     * vanishes */
+    bool turning;
+    double base[2], way[2], at_base[2], error_at_base, far;
+    double low, high, moment_low, moment_high;
+    size_t trials;
+    float *room; /* for the search of H */
+};
+
+/* Of a node of the whole map. */
+static double
+arm_of(const struct rc_solver *s, size_t axis, size_t node)
+{
+    const struct rc_tilt *t = s->tilt;
+    const struct rc_shape *w = &s->posed.whole;
+    size_t i = axis == 0 ? node % w->nx : node / w->nx;
+    double n = (double)(axis == 0 ? w->nx : w->ny), step = axis == 0 ? w->dx : w->dy;
+
+    return (((double)i - (n - 1) / 2) * step - t->at[axis]) / t->length;
+}
+
+double
+rc_arm(const struct rc_solver *s, size_t axis, size_t k)
+{
+    return arm_of(s, axis, s->posed.rows.first * s->posed.whole.nx + k);
+}
+
+/* ---- new ---- */
+
+static enum rc_status
+check(const struct rc_shape *shape, const struct rc_problem *problem, struct rc_err *err)
+{
+    const double half[2] = {(double)(shape->nx - 1) / 2 * shape->dx,
+                            (double)(shape->ny - 1) / 2 * shape->dy};
+
+    if (problem->boundary == RC_PERIODIC)
+        return rc_err_set(err, "a periodic surface has no point that it could tilt about");
+    for (size_t a = 0; a < 2; a++)
+        if (!(fabs(problem->force_at[a]) < half[a]) && problem->force_at[a] != 0)
+            return rc_err_set(err,
+                              "the force acts at %.9g m, %.9g m from the middle: no contact could "
+                              "balance it, for the map ends %.9g m, %.9g m from there",
+                              problem->force_at[0], problem->force_at[1], half[0], half[1]);
+    return RC_OK;
+}
+
+enum rc_status
+rc_tilt_new(struct rc_solver *s, const struct rc_problem *problem, struct rc_err *err)
+{
+    const struct rc_shape *w = &s->posed.whole;
+    enum rc_status status = RC_OK;
+    struct rc_tilt *t;
+
+    if (!problem->tilt_free)
+        return RC_OK;
+    if (check(w, problem, err) != RC_OK)
+        return RC_FAIL;
+    s->tilt = t = calloc(1, sizeof *t);
+    if (t != NULL)
+        t->room = rc_alloc(s->posed.n, 3 * sizeof *t->room);
+    if (t == NULL || t->room == NULL)
+        status = rc_err_set(err, "out of memory for the tilt of %zu x %zu nodes", w->nx, w->ny);
+    if (rc_ranks_agree(s->posed.rows.ranks, status, err) != RC_OK)
+        return RC_FAIL;
+    t->at[0] = problem->force_at[0];
+    t->at[1] = problem->force_at[1];
+    t->turns[0] = w->nx > 1;
+    t->turns[1] = w->ny > 1;
+    t->length = fmax((double)w->nx * w->dx, (double)w->ny * w->dy);
+    t->touch = NAN;
+    return RC_OK;
+}
+
+void
+rc_tilt_free(struct rc_solver *s)
+{
+    if (s->tilt != NULL)
+        free(s->tilt->room);
+    free(s->tilt);
+    s->tilt = NULL;
+}
+
+/* ---- turning ---- */
+
+struct turn {
+    struct rc_solver *s;
+    const double *by;
+};
+
+static double
+risen(const struct rc_solver *s, const double by[2], size_t k)
+{
+    return by[0] * rc_arm(s, 0, k) + by[1] * rc_arm(s, 1, k);
+}
+
+static void
+turn_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct turn *c = at;
+
+    (void)sums;
+    for (size_t k = first; k < first + n; k++) {
+        double up = risen(c->s, c->by, k);
+        c->s->posed.h[k] -= up;
+        c->s->it.v[k] += up;
+    }
+}
+
+static void
+turn_by(struct rc_solver *s, const double by[2])
+{
+    struct turn c = {s, by};
+    double total[RC_SUMS];
+    bool known = s->it.known;
+
+    rc_reduce_blocks(s, turn_block, &c, total);
+    s->tilt->rise[0] += by[0];
+    s->tilt->rise[1] += by[1];
+    rc_solver_restart(s);
+    s->it.rested = false;
+    if (!known)
+        return;
+    s->it.known = true;
+    rc_iterate_shift(s);
+    rc_working_set_find(s, true);
+}
+
+double
+rc_tilt_rise(const struct rc_solver *s, size_t k)
+{
+    return s->tilt == NULL ? 0 : risen(s, s->tilt->rise, k);
+}
+
+void
+rc_tilt_heights(struct rc_solver *s)
+{
+    struct rc_tilt *t = s->tilt;
+    double rise[2];
+
+    if (t == NULL)
+        return;
+    for (size_t a = 0; a < 2; a++) {
+        rise[a] = t->rise[a];
+        t->rise[a] = 0;
+    }
+    turn_by(s, rise);
+    t->touch = NAN;
+    t->begun = false;
+}
+
+void
+rc_tilt_load(struct rc_solver *s)
+{
+    if (s->tilt != NULL)
+        s->tilt->begun = false;
+}
+
+/* ---- the facet ---- */
+
+/* Nodes on which a plane rests, with their shares of the force. */
+struct facet {
+    size_t n; /* of nodes, and of the unknowns: height at the point of the force, rises */
+    size_t node[3];
+    double h[3], share[3], plane[3];
+};
+
+/* a x = b by elimination with pivots; b becomes x. False: no solution. */
+static bool
+solve_few(size_t n, double (*a)[3], double *b)
+{
+    for (size_t c = 0; c < n; c++) {
+        size_t best = c;
+        for (size_t r = c + 1; r < n; r++)
+            best = fabs(a[r][c]) > fabs(a[best][c]) ? r : best;
+        if (a[best][c] == 0)
+            return false;
+        for (size_t q = 0; q < n; q++) {
+            double x = a[c][q];
+            a[c][q] = a[best][q];
+            a[best][q] = x;
+        }
+        double y = b[c];
+        b[c] = b[best];
+        b[best] = y;
+        for (size_t r = 0; r < n; r++) {
+            double f = r == c ? 0 : a[r][c] / a[c][c];
+            for (size_t q = 0; q < n && r != c; q++)
+                a[r][q] -= f * a[c][q];
+            b[r] -= f * b[c];
+        }
+    }
+    for (size_t c = 0; c < n; c++)
+        b[c] /= a[c][c];
+    return true;
+}
+
+/* 1 and the arms that turn, of a node of the whole map. */
+static void
+arms(const struct rc_solver *s, size_t node, double *row)
+{
+    size_t n = 0;
+
+    row[n++] = 1;
+    for (size_t a = 0; a < 2; a++)
+        if (s->tilt->turns[a])
+            row[n++] = arm_of(s, a, node);
+}
+
+static double
+height_of(const struct rc_solver *s, size_t node)
+{
+    size_t first = s->posed.rows.first * s->posed.whole.nx;
+    bool here = node >= first && node - first < s->posed.n;
+
+    return rc_ranks_most(s->posed.rows.ranks, here ? s->posed.h[node - first] : -INFINITY);
+}
+
+/* Shares of a unit force at this place in a facet: those that balance it. */
+static bool
+shares(const struct rc_solver *s, const struct facet *f, const double *place, double *share)
+{
+    double a[3][3], row[3];
+
+    for (size_t c = 0; c < f->n; c++) {
+        arms(s, f->node[c], row);
+        for (size_t r = 0; r < f->n; r++)
+            a[r][c] = row[r];
+    }
+    for (size_t r = 0; r < f->n; r++)
+        share[r] = place[r];
+    return solve_few(f->n, a, share);
+}
+
+static bool
+plane_of(const struct rc_solver *s, struct facet *f)
+{
+    double a[3][3];
+
+    for (size_t r = 0; r < f->n; r++) {
+        arms(s, f->node[r], a[r]);
+        f->plane[r] = f->h[r];
+    }
+    return solve_few(f->n, a, f->plane);
+}
+
+/* Corners of the map around the point of the force. */
+static void
+begin_facet(const struct rc_solver *s, struct facet *f)
+{
+    const struct rc_tilt *t = s->tilt;
+    const struct rc_shape *w = &s->posed.whole;
+    size_t x = w->nx - 1, y = (w->ny - 1) * w->nx;
+    double along = t->turns[0] ? t->at[0] / ((double)x * w->dx) : 0;
+    double across = t->turns[1] ? t->at[1] / ((double)(w->ny - 1) * w->dy) : 0;
+
+    *f = (struct facet){.n = 1};
+    if (t->turns[0] && t->turns[1]) {
+        *f = (struct facet){.n = 3, .node = {along + across <= 0 ? 0 : x + y, x, y}};
+    } else if (t->turns[0] || t->turns[1]) {
+        *f = (struct facet){.n = 2, .node = {0, x + y}};
+    }
+    for (size_t r = 0; r < f->n; r++)
+        f->h[r] = height_of(s, f->node[r]);
+}
+
+struct above {
+    const struct rc_solver *s;
+    double height, rise[2], most;
+};
+
+static double
+above_plane(const struct above *c, size_t k)
+{
+    return c->s->posed.h[k] - c->height - risen(c->s, c->rise, k);
+}
+
+static void
+above_block(void *at, size_t first, size_t n, double *sums)
+{
+    for (size_t k = first; k < first + n; k++)
+        sums[RC_MOST] = fmax(sums[RC_MOST], above_plane(at, k));
+}
+
+/* The first node that is so high, counted from the last. */
+static void
+which_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct above *c = at;
+    size_t before = c->s->posed.rows.first * c->s->posed.whole.nx;
+
+    for (size_t k = first; k < first + n; k++)
+        if (above_plane(c, k) >= c->most)
+            sums[RC_MOST] = fmax(sums[RC_MOST], (double)(c->s->posed.nodes - before - k));
+}
+
+static struct above
+above_facet(const struct rc_solver *s, const struct facet *f)
+{
+    struct above c = {.s = s, .height = f->plane[0]};
+    size_t n = 1;
+
+    for (size_t a = 0; a < 2; a++)
+        c.rise[a] = s->tilt->turns[a] ? f->plane[n++] : 0;
+    return c;
+}
+
+/* The node takes the place of the one that would first have to pull. */
+static bool
+exchange(const struct rc_solver *s, struct facet *f, size_t node)
+{
+    double share[3], place[3], most = INFINITY;
+    size_t leaves = f->n;
+
+    arms(s, node, place);
+    if (!shares(s, f, place, share))
+        return false;
+    for (size_t r = 0; r < f->n; r++)
+        if (share[r] > 1e-12 && f->share[r] / share[r] < most) {
+            most = f->share[r] / share[r];
+            leaves = r;
+        }
+    if (leaves == f->n)
+        return false;
+    f->node[leaves] = node;
+    f->h[leaves] = height_of(s, node);
+    return true;
+}
+
+static struct above
+stand(const struct rc_solver *s)
+{
+    static const double here[3] = {1, 0, 0};
+    struct above c = {.s = s};
+    struct facet f;
+    double total[RC_SUMS];
+
+    begin_facet(s, &f);
+    for (size_t pivot = 0; pivot < PIVOTS; pivot++) {
+        if (!shares(s, &f, here, f.share) || !plane_of(s, &f))
+            break;
+        c = above_facet(s, &f);
+        rc_reduce_blocks(s, above_block, &c, total);
+        if (total[RC_MOST] <= 1e-13 * (fabs(c.height) + fabs(c.rise[0]) + fabs(c.rise[1])))
+            break;
+        c.most = total[RC_MOST] * (1 - 1e-12);
+        rc_reduce_blocks(s, which_block, &c, total);
+        if (!exchange(s, &f, s->posed.nodes - (size_t)total[RC_MOST]))
+            break;
+    }
+    return c;
+}
+
+double
+rc_tilt_approach(const struct rc_solver *s)
+{
+    return s->it.shift + (s->tilt == NULL || isnan(s->tilt->touch) ? 0 : s->tilt->touch);
+}
+
+/* ---- the moment, and what it does ---- */
+
+static void
+moment_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct rc_solver *s = at;
+
+    for (size_t k = first; k < first + n; k++) {
+        double p = s->it.p[k];
+        if (p == 0)
+            continue;
+        sums[0] += p;
+        sums[1] += p * rc_arm(s, 0, k);
+        sums[2] += p * rc_arm(s, 1, k);
+    }
+}
+
+/* Eigenvalues of H over S, the smaller first, with the eigenvector of the smaller, and that of the other a
+ * quarter turn on. Without H it stands for itself that the contact is as wide as the map. */
+static void
+stiffnesses(const struct rc_tilt *t, double value[2], double vector[2][2])
+{
+    double a = 1, b = 0, d = 1, mean, half, size;
+
+    if (t->known) {
+        a = t->turns[0] ? t->h[0][0] / t->s : 1;
+        d = t->turns[1] ? t->h[1][1] / t->s : 1;
+        b = t->turns[0] && t->turns[1] ? t->h[0][1] / t->s : 0;
+    }
+    mean = (a + d) / 2;
+    half = hypot((a - d) / 2, b);
+    value[1] = mean + half;
+    value[0] = value[1] > 0 ? (a * d - b * b) / value[1] : 0;
+    if (a >= d) { /* the larger entry's row is the better one */
+        vector[1][0] = (a - d) / 2 + half;
+        vector[1][1] = b;
+    } else {
+        vector[1][0] = b;
+        vector[1][1] = (d - a) / 2 + half;
+    }
+    size = hypot(vector[1][0], vector[1][1]);
+    vector[1][0] = size > 0 ? vector[1][0] / size : 1;
+    vector[1][1] = size > 0 ? vector[1][1] / size : 0;
+    vector[0][0] = -vector[1][1];
+    vector[0][1] = vector[1][0];
+}
+
+static void
+measure(struct rc_solver *s)
+{
+    struct rc_tilt *t = s->tilt;
+    double total[RC_SUMS], value[2], vector[2][2], square = 0;
+
+    rc_reduce_blocks(s, moment_block, s, total);
+    for (size_t a = 0; a < 2; a++)
+        t->moment[a] = t->turns[a] ? total[1 + a] / total[0] : 0;
+    stiffnesses(t, value, vector);
+    for (size_t e = 0; e < 2; e++) {
+        double m = t->moment[0] * vector[e][0] + t->moment[1] * vector[e][1];
+        square += m * m / fmax(value[e], thin);
+    }
+    t->error = sqrt(square);
+}
+
+double
+rc_tilt_error(struct rc_solver *s, double contact)
+{
+    if (s->tilt == NULL)
+        return contact;
+    measure(s);
+    return 2 * (contact + s->tilt->error);
+}
+
+double
+rc_tilt_slope(const struct rc_solver *s, size_t axis)
+{
+    return s->tilt == NULL ? 0 : s->tilt->rise[axis] / s->tilt->length;
+}
+
+double
+rc_tilt_goal(const struct rc_solver *s)
+{
+    return s->tilt != NULL && s->tilt->begun ? s->tilt->goal : s->load.tol;
+}
+
+/* ---- the search ---- */
+
+/* A node that changes sides first when nothing resists the turn. */
+struct first_touch {
+    const struct rc_solver *s;
+    const double *way;
+    double centre; /* arm of the pressure along the way */
+};
+
+static void
+touch_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct first_touch *c = at;
+    const struct rc_solver *s = c->s;
+    const struct rc_box box = rc_box(s, 0);
+
+    for (size_t k = first; k < first + n; k++) {
+        double p = s->it.p[k], g = s->it.v[k] - s->it.shift;
+        double up = risen(s, c->way, k) - c->centre; /* of the gap */
+        bool closes = rc_at_low(box, k, p) && up < 0 && g > 0;
+        bool opens = rc_at_high(box, k, p) && up > 0 && g < 0;
+        if (closes || opens)
+            sums[RC_MOST] = fmax(sums[RC_MOST], -up / g);
+    }
+}
+
+/* How far to turn this way until something resists, and a little more. */
+static double
+until_touch(struct rc_solver *s, const double way[2], double centre)
+{
+    struct first_touch c = {s, way, centre};
+    double total[RC_SUMS], more = s->op->diagonal * s->load.sum / 4;
+
+    rc_iterate_shift(s);
+    rc_reduce_blocks(s, touch_block, &c, total);
+    return total[RC_MOST] > 0 ? 1 / total[RC_MOST] + more : more;
+}
+
+/* Newton's step, and where nothing resists the way to the first touch. */
+static void
+choose_way(struct rc_solver *s)
+{
+    struct rc_tilt *t = s->tilt;
+    double value[2], vector[2][2];
+
+    t->way[0] = t->way[1] = 0;
+    stiffnesses(t, value, vector);
+    for (size_t e = 0; e < 2; e++) {
+        double m = t->moment[0] * vector[e][0] + t->moment[1] * vector[e][1], by;
+        if (t->known && value[e] > thin) {
+            by = m * s->load.sum / (value[e] * t->s);
+        } else {
+            double way[2] = {copysign(vector[e][0], m * vector[e][0]),
+                             copysign(vector[e][1], m * vector[e][1])};
+            if (fabs(m) < 1e-13)
+                continue;
+            by = copysign(until_touch(s, way, fabs(m)), m);
+        }
+        for (size_t a = 0; a < 2; a++)
+            t->way[a] += t->turns[a] ? by * vector[e][a] : 0;
+    }
+}
+
+/* H and S of the elastic nodes; none where none are elastic. */
+static void
+find_stiffness(struct rc_solver *s)
+{
+    struct rc_tilt *t = s->tilt;
+    double k[3][3];
+
+    t->known = rc_stiffness_turning(s, t->room, k) && k[0][0] > 0;
+    if (!t->known)
+        return;
+    t->s = k[0][0];
+    for (size_t a = 0; a < 2; a++)
+        for (size_t b = 0; b < 2; b++)
+            t->h[a][b] = k[1 + a][1 + b] - k[0][1 + a] * k[0][1 + b] / k[0][0];
+}
+
+/* The turn has changed the moment from that at its base: H is made to say so (Broyden, Fletcher,
+ * Goldfarb, Shanno). */
+static void
+learn(struct rc_solver *s)
+{
+    struct rc_tilt *t = s->tilt;
+    double d[2], y[2], hd[2], dy = 0, dhd = 0;
+
+    for (size_t a = 0; a < 2; a++) {
+        d[a] = t->rise[a] - t->base[a];
+        y[a] = (t->at_base[a] - t->moment[a]) * s->load.sum;
+    }
+    for (size_t a = 0; a < 2; a++) {
+        hd[a] = t->h[a][0] * d[0] + t->h[a][1] * d[1];
+        dy += d[a] * y[a];
+        dhd += d[a] * hd[a];
+    }
+    if (!t->known || !(dy > 1e-2 * dhd) || !(dhd > 0))
+        return;
+    for (size_t a = 0; a < 2; a++)
+        for (size_t b = 0; b < 2; b++)
+            t->h[a][b] += y[a] * y[b] / dy - hd[a] * hd[b] / dhd;
+}
+
+static double
+about_way(const struct rc_tilt *t, const double moment[2])
+{
+    return moment[0] * t->way[0] + moment[1] * t->way[1];
+}
+
+/* Keeps the bracket, and chooses another length in it, or a larger one where there is no end yet. */
+static double
+next_length(struct rc_tilt *t)
+{
+    double m = about_way(t, t->moment), share;
+
+    if (m > 0) {
+        t->low = t->far;
+        t->moment_low = m;
+    } else {
+        t->high = t->far;
+        t->moment_high = m;
+    }
+    t->trials++;
+    if (isinf(t->high))
+        return 4 * t->far;
+    share = t->trials > EVEN ? 0.5 : t->moment_low / (t->moment_low - t->moment_high);
+    return t->low + fmin(fmax(share, 0.1), 0.9) * (t->high - t->low);
+}
+
+static void
+turn_to(struct rc_solver *s, double far)
+{
+    struct rc_tilt *t = s->tilt;
+    double by[2];
+
+    t->far = far;
+    for (size_t a = 0; a < 2; a++)
+        by[a] = t->base[a] + far * t->way[a] - t->rise[a];
+    turn_by(s, by);
+    t->turned++;
+}
+
+static void
+begin_turn(struct rc_solver *s)
+{
+    struct rc_tilt *t = s->tilt;
+
+    if (!t->known)
+        find_stiffness(s);
+    choose_way(s);
+    for (size_t a = 0; a < 2; a++) {
+        t->base[a] = t->rise[a];
+        t->at_base[a] = t->moment[a];
+    }
+    t->error_at_base = t->error;
+    t->low = 0;
+    t->moment_low = about_way(t, t->moment);
+    t->high = INFINITY;
+    t->trials = 0;
+    t->turning = true;
+}
+
+void
+rc_tilt_begin(struct rc_solver *s)
+{
+    struct rc_tilt *t = s->tilt;
+
+    if (t == NULL || t->begun)
+        return;
+    if (isnan(t->touch)) {
+        struct above c = stand(s);
+        t->touch = c.height;
+        if (!t->placed)
+            turn_by(s, c.rise);
+    }
+    t->placed = t->begun = true;
+    t->turning = false;
+    t->turned = 0;
+    t->goal = s->load.tol;
+    s->load.tol = fmax(loose, t->goal / 4);
+}
+
+enum rc_status
+rc_tilt_end(struct rc_solver *s, enum rc_status status)
+{
+    if (s->tilt != NULL && s->tilt->begun && status != RC_MORE) {
+        s->load.tol = s->tilt->goal;
+        s->tilt->begun = false;
+    }
+    return status;
+}
+
+enum rc_status
+rc_tilt_search(struct rc_solver *s)
+{
+    struct rc_tilt *t = s->tilt;
+    double least = t->goal / 4, was = t->error_at_base, sure;
+
+    measure(s);
+    /* what a contact may be off and still tell which way to turn */
+    sure = 0.3 * (t->error < 1 ? t->error : hypot(t->moment[0], t->moment[1]));
+    if (s->it.error > sure && s->load.tol > (t->error > least ? finest * least : least)) {
+        s->load.tol = fmax(t->error > least ? finest * least : least, fmin(sure, s->load.tol) / 3);
+        return RC_MORE;
+    }
+    if (t->error <= least && s->load.tol <= least)
+        return RC_OK;
+    if (t->turned >= TURNS)
+        return RC_SHORT;
+    if (t->turning) {
+        if (fabs(about_way(t, t->moment)) > 0.3 * about_way(t, t->at_base) &&
+            t->error > 0.5 * was) {
+            if (isinf(t->high) && t->trials >= FAR)
+                return RC_SHORT;
+            double far = next_length(t);
+            if (far > t->low * (1 + 1e-12)) {
+                /* short turns change the moment by less than a loose contact would show */
+                s->load.tol = fmax(finest * least, s->load.tol / 2);
+                turn_to(s, far);
+                return RC_MORE;
+            }
+        }
+        learn(s);
+        t->known = t->known && t->trials == 0 && t->error <= 0.3 * was;
+    }
+    begin_turn(s);
+    if (t->way[0] == 0 && t->way[1] == 0)
+        return RC_SHORT;
+    s->load.tol = fmin(loose, fmax(least, 0.1 * t->error));
+    turn_to(s, 1);
+    return RC_MORE;
+}
+
+/* ---- other starts ---- */
+
+void
+rc_tilt_from_coarse(struct rc_solver *s, const struct rc_solver *coarse)
+{
+    struct rc_tilt *t = s->tilt, *c = coarse->tilt;
+    double per = t == NULL ? 1 : t->length / c->length, by[2];
+
+    if (t == NULL || !c->placed)
+        return;
+    for (size_t a = 0; a < 2; a++)
+        by[a] = c->rise[a] * per;
+    turn_by(s, by);
+    t->placed = true;
+    t->known = c->known;
+    t->s = c->s * coarse->posed.cell / s->posed.cell;
+    for (size_t a = 0; a < 2; a++)
+        for (size_t b = 0; b < 2; b++)
+            t->h[a][b] = c->h[a][b] * coarse->posed.cell / s->posed.cell / (per * per);
+}
+
+/* Arms of the elastic nodes and their gaps, which are 0 on average. */
+static void
+arms_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct rc_solver *s = at;
+
+    for (size_t k = first; k < first + n; k++) {
+        double x, y;
+        if (!rc_elastic(s, k))
+            continue;
+        x = rc_arm(s, 0, k);
+        y = rc_arm(s, 1, k);
+        sums[0]++;
+        sums[1] += x;
+        sums[2] += y;
+        sums[3] += x * x;
+        sums[4] += x * y;
+        sums[5] += y * y;
+    }
+}
+
+static void
+gaps_block(void *at, size_t first, size_t n, double *sums)
+{
+    const struct rc_solver *s = at;
+
+    for (size_t k = first; k < first + n; k++) {
+        double g = rc_elastic(s, k) ? s->it.v[k] - s->it.shift : 0;
+        if (g == 0)
+            continue;
+        sums[0] += g * rc_arm(s, 0, k);
+        sums[1] += g * rc_arm(s, 1, k);
+    }
+}
+
+void
+rc_tilt_from_pressure(struct rc_solver *s)
+{
+    struct rc_tilt *t = s->tilt;
+    double sum[RC_SUMS], gap[RC_SUMS], a[3][3], by[3] = {0, 0, 0};
+
+    if (t == NULL)
+        return;
+    rc_iterate_displace(s);
+    rc_iterate_shift(s);
+    rc_reduce_blocks(s, arms_block, s, sum);
+    rc_reduce_blocks(s, gaps_block, s, gap);
+    a[0][0] = t->turns[0] ? sum[3] - sum[1] * sum[1] / sum[0] : 1;
+    a[1][1] = t->turns[1] ? sum[5] - sum[2] * sum[2] / sum[0] : 1;
+    a[0][1] = a[1][0] = t->turns[0] && t->turns[1] ? sum[4] - sum[1] * sum[2] / sum[0] : 0;
+    by[0] = t->turns[0] ? -gap[0] : 0;
+    by[1] = t->turns[1] ? -gap[1] : 0;
+    if (!(s->it.elastic > 0) ||
+        !(a[0][0] * a[1][1] - a[0][1] * a[0][1] > 1e-9 * a[0][0] * a[1][1]) || !solve_few(2, a, by))
+        return;
+    turn_by(s, by);
+    t->placed = true;
+}
+
+void
+rc_tilt_pose(const struct rc_solver *s, struct rc_problem *coarse)
+{
+    const struct rc_shape *w = &s->posed.whole;
+
+    coarse->tilt_free = s->tilt != NULL;
+    if (s->tilt == NULL)
+        return;
+    /* an odd line is one of two, of which the other lies beyond the map */
+    coarse->force_at[0] = s->tilt->at[0] - (w->nx > 1 && w->nx % 2 == 1 ? w->dx / 2 : 0);
+    coarse->force_at[1] = s->tilt->at[1] - (w->ny > 1 && w->ny % 2 == 1 ? w->dy / 2 : 0);
+}
