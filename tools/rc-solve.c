@@ -17,6 +17,14 @@ static struct solve_args args = {
 };
 
 #define AT(field) .at = offsetof(struct solve_args, field)
+static const char *
+tilt_word(size_t k)
+{
+    static const char *const words[] = {"fixed", "free", NULL};
+
+    return words[k];
+}
+
 /* clang-format off */
 static const struct opt opts[] = {
     {.group = physics_options, AT(physics)},
@@ -32,6 +40,11 @@ static const struct opt opts[] = {
     {.name = "output", .type = OPT_WORDS, AT(output),
      .words = solve_frame_word, .arg = "LIST",
      .help = "frames to write, of %s (default: all but plastic)"},
+    {.name = "tilt", .type = OPT_CHOICE, AT(tilt), .words = tilt_word, .result = true,
+     .help = "whether the counter body turns until no moment acts (default fixed)"},
+    {.name = "at", .type = OPT_NUMBERS, .unit = UNIT_M, AT(at), .min = -INFINITY, .max = INFINITY,
+     .result = true, .arg = "X,Y",
+     .help = "where the load acts on a body that is free to tilt (default: the middle)"},
     {.name = "stiffness", .type = OPT_FLAG, AT(stiffness),
      .help = "find how the load grows with the approach (default: with a list)"},
     {.name = "conductivity", .type = OPT_TEXT, AT(conductivity), .arg = "K1,K2",
@@ -87,6 +100,28 @@ read_conductivity(struct run *run)
                   "from how it yields: the conductance is left out");
 }
 
+/* A counter body that is free to tilt. */
+static void
+check_tilt(struct run *run)
+{
+    const struct physics *a = &args.physics;
+
+    run->tilt = args.tilt != NULL && strcmp(args.tilt, "free") == 0;
+    if (args.at.n > 0 && !run->tilt)
+        tool_die(&run->t, EXIT_USAGE,
+                 "--at needs --tilt free: else it is all the same where the load acts");
+    if (args.at.n > 0 && args.at.n != 2)
+        tool_die(&run->t, EXIT_USAGE,
+                 "--at: it must be X,Y, from the middle of the map, as in 0.1mm,0");
+    if (run->tilt && a->periodic)
+        tool_die(&run->t, EXIT_USAGE,
+                 "--tilt free: a periodic surface has no point that it could tilt about: leave out "
+                 "--periodic");
+    if (run->tilt && a->history)
+        tool_die(&run->t, EXIT_USAGE,
+                 "--tilt free: not with --history: the shapes that loads leave would tilt too");
+}
+
 static void
 check_arguments(struct run *run)
 {
@@ -97,6 +132,7 @@ check_arguments(struct run *run)
     run->steps = physics_steps(&args.physics);
     run->stiffness = args.stiffness || run->steps->n > 1;
     read_conductivity(run);
+    check_tilt(run);
 }
 
 /* ---- one case ---- */
@@ -112,6 +148,9 @@ problem_of(struct run *run, const struct rc_grid *g, size_t step)
     problem.threads = run->t.threads;
     problem.ranks = ranks_of(&run->t);
     problem.discretization = args.discretization;
+    problem.tilt_free = run->tilt;
+    for (size_t k = 0; k < args.at.n; k++)
+        problem.force_at[k] = args.at.v[k];
     problem.height_error = run->height_error;
     problem.hardness_map = run->hardness != NULL ? run->hardness->v : NULL;
     return problem;

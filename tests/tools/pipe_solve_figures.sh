@@ -84,7 +84,7 @@ rc-solve --quiet --periodic --estar 3GPa --load 1kN --output pressure --report r
 near "$(field contact_fraction_inside r.json)" 1 "$rounding" "  all of it when pressed flat"
 claim "  columns of a table, at its end" bash -c '
     rc-solve --quiet --periodic --estar 3GPa --load 20mN,0 --history --output pressure --report r.tsv tapered.rcg -o p.rcg &&
-    head -1 r.tsv | grep -qP "\tcontact_area_inside/m2\tcontact_fraction_inside$" && [ "$(tail -1 r.tsv | cut -f "$(head -1 r.tsv | tr "\t" "\n" | grep -n contact_area_inside | cut -d: -f1)")" = 0 ]'
+    head -1 r.tsv | grep -qP "\tcontact_area_inside/m2\tcontact_fraction_inside\t" && [ "$(tail -1 r.tsv | cut -f "$(head -1 r.tsv | tr "\t" "\n" | grep -n contact_area_inside | cut -d: -f1)")" = 0 ]'
 
 # ---- a period made by mirror images ----
 

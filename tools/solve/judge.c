@@ -127,6 +127,12 @@ warn_of_end(struct run *run, const char *where, const struct rc_contact *c)
                   "%s: interrupted after %zu iterations: what is written is the best so far, not a "
                   "solution: %s",
                   where, c->iterations, error);
+    else if (run->tilt && c->hardness_active)
+        tool_warn(
+            &run->t,
+            "%s: stopped short after %zu iterations: %s: where the load acts, what yields may not "
+            "be able to balance it: move --at nearer to the middle, or raise --hardness",
+            where, c->iterations, error);
     else
         tool_warn(&run->t, "%s: stopped short after %zu iterations: %s: raise --tol", where,
                   c->iterations, error);

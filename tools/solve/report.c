@@ -87,6 +87,12 @@ history_state(const struct scene *s)
 }
 
 static const char *
+tilt_state(const struct scene *s)
+{
+    return s->run->tilt ? "on" : "left out: no --tilt free";
+}
+
+static const char *
 stiffness_state(const struct scene *s)
 {
     return s->run->stiffness ? "on" : "left out: one load and no --stiffness";
@@ -119,6 +125,7 @@ static const struct effect {
     {"padding", padding_state},
     {"approach", approach_state},
     {"history", history_state},
+    {"tilt", tilt_state},
     {"stiffness", stiffness_state},
     {"conductivity", conductivity_state},
     {"discretization", discretization_state},
@@ -301,6 +308,8 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
     report_number(r, "residual_indentation", s->residual_indentation, "m");
     report_number(r, "contact_area_inside", s->inside_area, "m2");
     report_number(r, "contact_fraction_inside", s->inside_fraction, NULL);
+    report_number(r, "tilt_x", run->tilt ? atan(s->contact.tilt[0]) : NAN, "rad");
+    report_number(r, "tilt_y", run->tilt ? atan(s->contact.tilt[1]) : NAN, "rad");
     report_finish_row(r);
 }
 

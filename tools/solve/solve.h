@@ -32,6 +32,8 @@ struct solve_args {
     double tol;
     const char *kernel, *method, *report;
     const char *conductivity; /* of both bodies, or NULL                                  */
+    const char *tilt;         /* a word, or NULL                                          */
+    struct numbers at;        /* x and y; none: the middle                                */
     const char *checkpoint;   /* a file, or NULL                                         */
     double interval;          /* seconds to the first frame in it                        */
     bool stiffness, discretization, dry_run, resume;
@@ -50,6 +52,7 @@ struct run {
     const struct numbers *steps;  /* the list of loads or approaches               */
     size_t step, number;          /* which of them, from 0; the case that it is    */
     bool stiffness, conductance;  /* whether they are found                            */
+    bool tilt;                    /* the counter body is free to                       */
     double k[2];                  /* conductivities of the bodies, SI                  */
     const char *conductance_unit; /* W/K or S; NULL: the conductivities have no unit   */
     bool resumed;                 /* this case, from a checkpoint                      */
