@@ -656,6 +656,96 @@ RC_API enum rc_status rc_solver_expect(const struct rc_shape *shape,
                                        const struct rc_problem *problem,
                                        struct rc_expected *expected, struct rc_err *err);
 
+/* ---- plasticity in the volume: plastic/plastic.c ---- */
+
+/* Von Mises, hardening alike in all directions: a yield stress that grows with the equivalent plastic
+ * strain, along a line, or along a table of points, which the caller keeps. */
+struct rc_yield {
+    double stress; /* Pa, > 0: of material that has not yielded                                   */
+    double
+        modulus;   /* Pa, >= 0, by which it grows per equivalent plastic strain                   */
+    size_t points; /* 0: that line; else the table's                                              */
+    const double *strain_at, *stress_at; /* the first at 0, growing; Pa, never falling. Beyond the
+                                            last it goes on as between the last two              */
+};
+
+struct rc_plastic_problem {
+    struct rc_problem
+        contact; /* pair.one is the body that yields, with e and nu; periodic; its load
+                                  does not count, nor does an approach; no bound of the pressure   */
+    struct rc_yield yield;
+    size_t slabs; /* that may yield, from the surface down                              */
+    const double
+        *thickness;    /* m, of each; copied                                                 */
+    size_t increments; /* of each load; 0: 16                                                */
+    double
+        lag; /* a load is believed when the stress that lags behind is below this part of the yield
+                   stress (RMS); 0: 0.02                                                          */
+    bool precise; /* strains and stresses in double precision, in twice the memory               */
+};
+
+/* What a load has done; lengths in m. */
+struct rc_plastic_figures {
+    size_t increments, applications; /* of the volume's operator                                  */
+    size_t voxels;                   /* of a node and a slab, that have yielded                   */
+    double depth, volume;            /* bottom of the deepest of them; m^3                        */
+    double max_strain;               /* largest equivalent plastic strain                         */
+    double work;                     /* J, that all loads so far have put into plastic strain     */
+    double max_pressure_mean4; /* Pa: of means of 2 x 2 nodes, for without hardening the pressure
+                                        alternates from node to node                             */
+    double lag;                /* that was reached                                          */
+    /* estimated relative L1 errors of the pressure: of the increments, NAN for fewer than 4 of them, and of
+     * the iteration; and of both */
+    double increment_error, iteration_error, error;
+};
+
+struct rc_plastic;
+/* h: nx ny m, copied. NULL where the problem makes no sense, or memory is short. */
+RC_API struct rc_plastic *rc_plastic_new(const struct rc_shape *shape, const double *h,
+                                         const struct rc_plastic_problem *problem,
+                                         struct rc_err *err);
+/* The next load of a history, N; 0 takes the bodies apart. */
+RC_API enum rc_status rc_plastic_set_load(struct rc_plastic *plastic, double load,
+                                          struct rc_err *err);
+/* The next load acts on these heights, nx ny m, of bodies without strain: one of them has been moved. */
+RC_API void rc_plastic_set_heights(struct rc_plastic *plastic, const double *h);
+/* One application: a contact and two sweeps through the volume. RC_MORE until the load is reached, then RC_OK,
+ * or RC_SHORT where a contact or the iteration stopped short; RC_FAIL when memory is short. */
+RC_API enum rc_status rc_plastic_step(struct rc_plastic *plastic, struct rc_err *err);
+/* How far it is: the load of this increment, N, which increment, which application of it. */
+RC_API void rc_plastic_progress(const struct rc_plastic *plastic, double *load, size_t *increment,
+                                size_t *application);
+RC_API const struct rc_plastic_figures *rc_plastic_result(const struct rc_plastic *plastic);
+/* The contact of the heights less the residual displacement: for its pressure, gap and figures. Its
+ * displacement is the elastic part. Of no use where the load is 0. */
+RC_API struct rc_solver *rc_plastic_solver(struct rc_plastic *plastic);
+/* What plastic strain alone does to the surface, nx ny m, into the body. */
+RC_API const double *rc_plastic_residual(const struct rc_plastic *plastic);
+enum {
+    RC_PEEQ = 5, /* equivalent plastic strain, after exx eyy exy exz eyz; ezz = -exx - eyy */
+    RC_PLASTIC_STRAINS
+};
+/* Plastic strain of a slab, nx ny each; NULL: not wanted. */
+RC_API void rc_plastic_strain(const struct rc_plastic *plastic, size_t slab,
+                              double *const e[RC_PLASTIC_STRAINS]);
+RC_API void rc_plastic_free(struct rc_plastic *plastic); /* NULL is allowed */
+/* Bytes that one takes when this part of its voxels yields. */
+RC_API size_t rc_plastic_memory(const struct rc_shape *shape,
+                                const struct rc_plastic_problem *problem, double yielding);
+
+/* Slabs for a body that would yield under the elastic contact pressure p (nx ny Pa, periodic): half a node thick
+ * at the surface, each by a quarter thicker than the one above, down to below where Mises' stress falls
+ * under the yield stress. */
+struct rc_plastic_depths {
+    size_t slabs;         /* 0: nothing yields                                                    */
+    double *thickness;    /* m, of each, the caller's to free; NULL: none                         */
+    double most, deepest; /* Pa, the largest Mises stress, and its depth, m                       */
+};
+/* RC_FAIL as rc_stress_new, and when memory is short. */
+RC_API enum rc_status rc_plastic_depths(const struct rc_shape *shape, const double *p,
+                                        const struct rc_body *body, double yield, size_t threads,
+                                        struct rc_plastic_depths *depths, struct rc_err *err);
+
 /* ---- stress: stress.c ---- */
 
 enum rc_component {

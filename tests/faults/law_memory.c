@@ -258,6 +258,56 @@ CONTACT(free_to_tilt, bare, .load = 1e-3, .tilt_free = true)
 
 /* ---- stresses ---- */
 
+/* A load that yields inside, and none. */
+static enum rc_status
+yields(double *out, struct rc_err *err)
+{
+    struct rc_plastic_problem problem = {
+        .contact = {.boundary = RC_PERIODIC, .pair = bare, .tol = 1e-5, .threads = 1},
+        .increments = 4};
+    double *const strain[RC_PLASTIC_STRAINS] = {[RC_PEEQ] = out + N};
+    struct rc_problem elastic = problem.contact;
+    struct rc_plastic_depths depths = {0};
+    struct rc_plastic *plastic = NULL;
+    enum rc_status status = RC_FAIL;
+    struct rc_solver *solver;
+    double load;
+    size_t increment, application;
+
+    elastic.load = 1e-3;
+    problem.yield.stress = bare.one.e / 100;
+    solver = rc_solver_new(&shape, rough, &elastic, err);
+    if (solver == NULL || finish_load(solver, err) != RC_OK ||
+        rc_plastic_depths(&shape, rc_solver_pressure(solver), &bare.one, problem.yield.stress, 1,
+                          &depths, err) != RC_OK)
+        goto done;
+    problem.slabs = depths.slabs;
+    problem.thickness = depths.thickness;
+    plastic = rc_plastic_new(&shape, rough, &problem, err);
+    if (plastic == NULL)
+        goto done;
+    for (int q = 0; q < 2; q++) {
+        if ((status = rc_plastic_set_load(plastic, q == 0 ? 1e-3 : 0, err)) != RC_OK)
+            goto done;
+        while ((status = rc_plastic_step(plastic, err)) == RC_MORE)
+            rc_plastic_progress(plastic, &load, &increment, &application);
+        if (status != RC_OK)
+            goto done;
+        if (q == 0)
+            memcpy(out + 2 * N, rc_solver_pressure(rc_plastic_solver(plastic)), N * sizeof *out);
+        rc_plastic_set_heights(plastic, rough);
+    }
+    memcpy(out, rc_plastic_residual(plastic), N * sizeof *out);
+    rc_plastic_strain(plastic, 0, strain);
+    out[3 * N] = rc_plastic_result(plastic)->depth;
+    out[3 * N + 1] = (double)rc_plastic_memory(&shape, &problem, 0.1);
+done:
+    rc_plastic_free(plastic);
+    rc_solver_free(solver);
+    free(depths.thickness);
+    return status;
+}
+
 static enum rc_status
 stressed(const struct rc_stress_options *o, double *out, struct rc_err *err)
 {
@@ -482,6 +532,7 @@ static const struct {
     {.name = "contact, to an approach", .use = to_an_approach},
     {.name = "contact, coated", .use = coated_contact},
     {.name = "contact, free to tilt", .use = free_to_tilt},
+    {.name = "plasticity", .use = yields},
     {.name = "stress", .use = free_stress},
     {.name = "stress, periodic", .use = periodic_stress},
     {.name = "stress, direct", .use = direct_stress},

@@ -1,0 +1,85 @@
+/*
+ * Which slabs a body needs that may yield, from the stresses under the elastic pressure. Where it yields the
+ * pressure is spread, so that plastic strain does not reach as deep as the elastic stress says.
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "libcontact/memory.h"
+#include "plastic.h"
+
+enum {
+    MOST = 80 /* slabs: from half a node they reach beyond any map */
+};
+static const double growth = 1.25;
+
+/* The largest Mises stress at each of the middles. */
+static enum rc_status
+look(const struct rc_shape *shape, const double *p, const struct rc_body *body, size_t threads,
+     size_t n, const double *middle, double *mises, struct rc_err *err)
+{
+    const struct rc_stress_options options = {.boundary = RC_PERIODIC,
+                                              .body = *body,
+                                              .wanted = 1U << RC_MISES,
+                                              .tol = 1e-3,
+                                              .threads = threads};
+    double *map = rc_alloc(shape->nx * shape->ny, sizeof *map);
+    double *const to[RC_STRESSES] = {[RC_MISES] = map};
+    enum rc_status status = RC_OK;
+    struct rc_stress *stress;
+
+    if (map == NULL)
+        return rc_err_set(err, "out of memory for the stresses of %zu x %zu nodes", shape->nx,
+                          shape->ny);
+    stress = rc_stress_new(shape, p, &options, err);
+    if (stress == NULL)
+        status = RC_FAIL;
+    for (size_t k = 0; k < n && status == RC_OK; k++) {
+        size_t least, largest;
+        status = rc_stress_slice(stress, middle[k], to, err);
+        if (status == RC_OK) {
+            rc_extremes(shape->nx * shape->ny, map, &least, &largest);
+            mises[k] = map[largest];
+        }
+    }
+    rc_stress_free(stress);
+    free(map);
+    return status;
+}
+
+enum rc_status
+rc_plastic_depths(const struct rc_shape *shape, const double *p, const struct rc_body *body,
+                  double yield, size_t threads, struct rc_plastic_depths *d, struct rc_err *err)
+{
+    double thickness[MOST], middle[MOST], mises[MOST], z = 0;
+    double side = fmax((double)shape->nx * shape->dx, (double)shape->ny * shape->dy);
+    double step = shape->nx == 1   ? shape->dy
+                  : shape->ny == 1 ? shape->dx
+                                   : fmin(shape->dx, shape->dy);
+    size_t n = 0;
+
+    *d = (struct rc_plastic_depths){0};
+    for (double dz = step / 2; n < MOST && z < side / 2; dz *= growth) {
+        thickness[n] = dz;
+        middle[n++] = z + dz / 2;
+        z += dz;
+    }
+    if (look(shape, p, body, threads, n, middle, mises, err) != RC_OK)
+        return RC_FAIL;
+    for (size_t k = 0; k < n; k++) {
+        if (mises[k] > d->most) {
+            d->most = mises[k];
+            d->deepest = middle[k];
+        }
+        if (mises[k] > yield)
+            d->slabs = k + 1 < n ? k + 2 : k + 1;
+    }
+    if (d->slabs == 0)
+        return RC_OK;
+    d->thickness = malloc(d->slabs * sizeof *d->thickness);
+    if (d->thickness == NULL)
+        return rc_err_set(err, "out of memory for the depths");
+    for (size_t k = 0; k < d->slabs; k++)
+        d->thickness[k] = thickness[k];
+    return RC_OK;
+}

@@ -1,0 +1,747 @@
+/*
+ * A contact whose body yields inside: plastic strain e under the surface, in step with the pressure.
+ *
+ * A load is reached in increments. In each of them the increment x of e is a fixed point,
+ *
+ *     x = F(x):  p is the contact of the heights h - u_r(e + x), s the stress deviator under p and e + x,
+ *                F the return of the trial stress s + 2 mu x to the yield surface, x held as total strain,
+ *
+ * which lowers the energy of body and contact together whatever the load and the hardening are, and so
+ * converges without relaxation: it is a proximal gradient step of a convex problem, whose smooth part has
+ * no curvature above 2 mu. An application of F costs one sweep up, one contact, and one sweep down.
+ *
+ * The increments are not converged one by one. Each begins with the last one, is applied twice, and takes the
+ * mixture of both that Anderson's method with one step kept would take: what it lags behind is caught up
+ * by the next, which sees the true stress. The last is applied until it lags no more, for a load is
+ * believed where |F(x) - x| as a stress is small against the yield stress, not where it is small against
+ * x. In time the return is of second order (two steps back, BDF2): its base is
+ *
+ *     e_b = e + beta last,  beta = w^2/(1 + 2 w) = 1/3 for equal steps,
+ *
+ * with `last` the increment before; beta is 0 where the voxel does not flow from e, and just so large that
+ * it flows where it would not from e_b: else what unloads would flow on. The first increment of a load has
+ * beta 0 throughout (backward Euler), for the load has turned.
+ *
+ * Two estimates come with each load. Of the increments: what BDF2 adds to Euler's return in each of them is
+ * summed, and the contact is found once more with that added to e. Of the iteration: by how much its last
+ * step moved the pressure, over the least resistance that a step has met.
+ */
+#include "plastic.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "libcontact/memory.h"
+
+enum {
+    INCREMENTS = 16,
+    FEW = 4,    /* increments; with fewer nothing is said of their error */
+    EACH = 2,   /* applications of an increment */
+    LAST = 4,   /* of the last one, at least */
+    MOST = 200, /* and at most */
+    HALVINGS = 40
+};
+static const double settled = 0.02; /* the lag at which a load is believed */
+
+enum stage {
+    STAGE_NEW,   /* no load is asked for */
+    STAGE_TRIAL, /* increments */
+    STAGE_ORDER, /* the contact with what the order of the integration adds */
+    STAGE_STATE, /* the contact of the strain that has been accepted */
+    STAGE_DONE
+};
+
+struct rc_plastic {
+    struct rc_shape shape;
+    size_t n;
+    struct rc_yield law;
+    double shear, yield, lag; /* mu, yield stress of what is new, the lag that is asked for    */
+    double *h, *u, *form;     /* heights, what e does to the surface, and heights less that    */
+    double *thickness;
+    struct rc_solver *solver;
+    struct rc_slabs *slabs;
+    struct rc_voxels voxels;
+    double bearable; /* N: beyond it all depths yield under the mean pressure                */
+    double *other;   /* a pressure to compare with                                               */
+    bool alone;      /* no load: p is 0                                                          */
+    bool failed;     /* memory was short in a row                                                */
+    bool stopped;    /* a contact stopped short                                                  */
+    bool moved;      /* the heights are new                                                      */
+    double from, to, set; /* loads: of the last result, asked for, of this increment           */
+    size_t increments, increment, trial; /* of this load, which, and which application of it   */
+    double order, resistance;
+    double mix; /* Anderson's share of the trial before                                        */
+    enum stage stage;
+    struct rc_plastic_figures figures;
+};
+
+/* ---- rows ---- */
+
+static const int place_of[RC_COMPONENTS] = {
+    [RC_SXX] = 0, [RC_SYY] = 1, [RC_SZZ] = -1, [RC_SXY] = 2, [RC_SXZ] = 3, [RC_SYZ] = 4};
+
+/* e + x */
+static bool
+strain_row(void *ctx, size_t slab, enum rc_component c, size_t j, double *to)
+{
+    const struct rc_plastic *p = ctx;
+    const struct rc_voxel_row *row = rc_voxels_row(&p->voxels, slab, j);
+    int a = place_of[c];
+
+    if (row->n == 0)
+        return false;
+    memset(to, 0, p->shape.nx * sizeof *to);
+    for (size_t k = 0; k < row->n; k++)
+        to[row->v[k].i] = row->v[k].e[a] + row->v[k].x[a];
+    return true;
+}
+
+/* The return from e + beta last: growth of the equivalent strain, and the trial stress with its size. */
+static double
+return_from(const struct rc_plastic *p, const struct rc_voxel *v, const double *s, double beta,
+            double *trial, double *size)
+{
+    for (size_t a = 0; a < RC_DEVIATOR; a++)
+        trial[a] = s[a] + 2 * p->shear * (v->x[a] - beta * v->last[a]);
+    *size = rc_mises_of(trial);
+    return rc_yield_return(&p->law, 3 * p->shear, v->strain + beta * v->grown, *size);
+}
+
+static void
+flow_by(double growth, const double *trial, double size, double *flow)
+{
+    for (size_t a = 0; a < RC_DEVIATOR; a++)
+        flow[a] = growth > 0 ? 1.5 * growth * trial[a] / size : 0;
+}
+
+/* F of a voxel under the stress s. `adds`: note what the order of the integration adds. */
+static void
+flow(const struct rc_plastic *p, struct rc_voxel *v, const double *s, bool adds)
+{
+    double trial[RC_DEVIATOR], first[RC_DEVIATOR], size;
+    double low = 0, high = p->order, growth = return_from(p, v, s, 0, trial, &size);
+
+    flow_by(growth, trial, size, first);
+    memcpy(v->f, first, sizeof v->f);
+    v->beta = 0;
+    if (growth == 0 || p->order == 0)
+        return;
+    growth = return_from(p, v, s, high, trial, &size);
+    if (growth > 0)
+        low = high;
+    for (int halving = 0; halving < HALVINGS && low < high; halving++) {
+        double middle = (low + high) / 2;
+        growth = return_from(p, v, s, middle, trial, &size);
+        if (growth > 0)
+            low = middle;
+        else
+            high = middle;
+    }
+    v->beta = (float)low;
+    low = (double)v->beta;
+    growth = return_from(p, v, s, low, trial, &size);
+    flow_by(growth, trial, size, v->f);
+    for (size_t a = 0; a < RC_DEVIATOR; a++) {
+        v->f[a] += low * v->last[a];
+        v->missed[a] += adds ? v->f[a] - first[a] : 0;
+    }
+}
+
+static void
+sum_up(const struct rc_plastic *p, const struct rc_voxel *v, double thickness, double *sums)
+{
+    double r[RC_DEVIATOR], turned[RC_DEVIATOR], moved[RC_DEVIATOR], lag;
+
+    for (size_t a = 0; a < RC_DEVIATOR; a++) {
+        r[a] = v->f[a] - v->x[a];
+        turned[a] = r[a] - v->before[1][a];
+        moved[a] = v->x[a] - (v->before[0][a] - v->before[1][a]);
+    }
+    lag = 2 * p->shear * rc_mises_of(r) / p->yield;
+    if (rc_deviator_product(v->f, v->f) > 0 || rc_deviator_product(v->x, v->x) > 0) {
+        sums[RC_LAG] += lag * lag;
+        sums[RC_FLOWING]++;
+    }
+    sums[RC_NEW_OLD] += thickness * rc_deviator_product(r, turned);
+    sums[RC_CHANGE] += thickness * rc_deviator_product(turned, turned);
+    sums[RC_ADVANCE] += thickness * rc_deviator_product(moved, moved);
+    sums[RC_RESISTED] -= thickness * rc_deviator_product(moved, turned);
+}
+
+static inline void
+stress_at(double *const s[RC_COMPONENTS], size_t i, double *to)
+{
+    to[0] = s[RC_SXX][i];
+    to[1] = s[RC_SYY][i];
+    to[2] = s[RC_SXY][i];
+    to[3] = s[RC_SXZ][i];
+    to[4] = s[RC_SYZ][i];
+}
+
+/* Nodes of a row that yield for the first time; `place`: where to note them, or NULL. */
+static size_t
+yields_first(const struct rc_plastic *p, const struct rc_voxel_row *row, double *const s[],
+             uint32_t *place)
+{
+    double square = p->yield * p->yield / 1.5;
+    size_t count = 0, known = 0;
+
+    for (size_t i = 0; i < p->shape.nx; i++) {
+        double at[RC_DEVIATOR];
+        stress_at(s, i, at);
+        while (known < row->n && row->v[known].i < i)
+            known++;
+        if ((known < row->n && row->v[known].i == i) || !(rc_deviator_product(at, at) > square))
+            continue;
+        if (place != NULL)
+            place[count] = (uint32_t)i;
+        count++;
+    }
+    return count;
+}
+
+static enum rc_status
+take_in(const struct rc_plastic *p, struct rc_voxel_row *row, double *const s[])
+{
+    size_t count = yields_first(p, row, s, NULL);
+    enum rc_status status = RC_OK;
+    uint32_t *place;
+
+    if (count == 0)
+        return RC_OK;
+    place = malloc(count * sizeof *place);
+    if (place == NULL)
+        return RC_FAIL;
+    (void)yields_first(p, row, s, place);
+    status = rc_voxels_add(row, count, place);
+    free(place);
+    return status;
+}
+
+static void
+stress_row(void *ctx, size_t slab, size_t j, double *const s[RC_COMPONENTS])
+{
+    struct rc_plastic *p = ctx;
+    struct rc_voxel_row *row = rc_voxels_row(&p->voxels, slab, j);
+    bool adds = p->trial + 1 == (p->increment == p->increments ? LAST : EACH);
+
+    memset(row->sums, 0, sizeof row->sums);
+    if (take_in(p, row, s) != RC_OK) {
+#pragma omp atomic write
+        p->failed = true;
+        return;
+    }
+    for (size_t k = 0; k < row->n; k++) {
+        double at[RC_DEVIATOR];
+        stress_at(s, row->v[k].i, at);
+        flow(p, &row->v[k], at, adds);
+        sum_up(p, &row->v[k], p->thickness[slab], row->sums);
+    }
+}
+
+/* ---- all voxels ---- */
+
+typedef void each_voxel(struct rc_plastic *p, struct rc_voxel *v);
+
+static void
+for_each(struct rc_plastic *p, each_voxel *do_it)
+{
+#pragma omp parallel for schedule(static)
+    for (size_t r = 0; r < p->voxels.slabs * p->voxels.rows; r++)
+        for (size_t k = 0; k < p->voxels.row[r].n; k++)
+            do_it(p, &p->voxels.row[r].v[k]);
+}
+
+/* x becomes the mixture of f and that of the trial before. */
+static void
+mix(struct rc_plastic *p, struct rc_voxel *v)
+{
+    for (size_t a = 0; a < RC_DEVIATOR; a++) {
+        double x = v->f[a] - p->mix * (v->f[a] - v->before[0][a]);
+        v->before[1][a] = v->f[a] - v->x[a];
+        v->before[0][a] = v->f[a];
+        v->x[a] = x;
+    }
+}
+
+static void
+accept(struct rc_plastic *p, struct rc_voxel *v)
+{
+    double d[RC_DEVIATOR], grown;
+
+    (void)p;
+    for (size_t a = 0; a < RC_DEVIATOR; a++)
+        d[a] = v->x[a] - (double)v->beta * v->last[a];
+    grown = (double)v->beta * v->grown + 2 * rc_mises_of(d) / 3;
+    v->strain += grown;
+    v->grown = grown;
+    for (size_t a = 0; a < RC_DEVIATOR; a++) {
+        v->e[a] += v->x[a];
+        v->last[a] = v->x[a];
+        v->before[0][a] = v->before[1][a] = 0;
+    }
+}
+
+static void
+begin_load(struct rc_plastic *p, struct rc_voxel *v)
+{
+    (void)p;
+    memset(v->x, 0, sizeof v->x);
+    memset(v->last, 0, sizeof v->last);
+    memset(v->missed, 0, sizeof v->missed);
+    memset(v->before, 0, sizeof v->before);
+    v->grown = 0;
+}
+
+static void
+try_missed(struct rc_plastic *p, struct rc_voxel *v)
+{
+    (void)p;
+    memcpy(v->x, v->missed, sizeof v->x);
+}
+
+static void
+try_none(struct rc_plastic *p, struct rc_voxel *v)
+{
+    (void)p;
+    memset(v->x, 0, sizeof v->x);
+}
+
+/* ---- an application ---- */
+
+/* Which slabs hold voxels that have yielded; false: none. */
+static bool
+find_strained(struct rc_plastic *p)
+{
+    bool any = false;
+
+    for (size_t k = 0; k < p->voxels.slabs; k++) {
+        p->voxels.strained[k] = false;
+        for (size_t j = 0; j < p->voxels.rows && !p->voxels.strained[k]; j++)
+            p->voxels.strained[k] = rc_voxels_row(&p->voxels, k, j)->n > 0;
+        any |= p->voxels.strained[k];
+    }
+    return any;
+}
+
+/* p, the contact of e + x under the load that is set. */
+static enum rc_status
+press(struct rc_plastic *p, struct rc_err *err)
+{
+    const struct rc_slab_strain strain = {p->voxels.strained, strain_row, p};
+    enum rc_status status;
+
+    if (find_strained(p) || p->moved) {
+        rc_slabs_up(p->slabs, &strain, p->u);
+        for (size_t k = 0; k < p->n; k++)
+            p->form[k] = p->h[k] - p->u[k];
+        if (rc_solver_set_heights(p->solver, p->form, err) != RC_OK)
+            return RC_FAIL;
+        p->moved = false;
+    }
+    if (p->alone)
+        return RC_OK;
+    do
+        status = rc_solver_step(p->solver);
+    while (status == RC_MORE);
+    p->stopped |= status != RC_OK;
+    return RC_OK;
+}
+
+static const double *
+pressure(const struct rc_plastic *p)
+{
+    return p->alone ? NULL : rc_solver_pressure(p->solver);
+}
+
+/* Relative L1 distance of this pressure from the other. */
+static double
+moved(const struct rc_plastic *p)
+{
+    const double *is = pressure(p);
+    double sum = 0, all = 0;
+
+    for (size_t k = 0; k < p->n && is != NULL; k++) {
+        sum += fabs(is[k] - p->other[k]);
+        all += is[k];
+    }
+    return all > 0 ? sum / all : 0;
+}
+
+static void
+keep_pressure(struct rc_plastic *p)
+{
+    const double *is = pressure(p);
+
+    if (is != NULL)
+        memcpy(p->other, is, p->n * sizeof *is);
+    else
+        memset(p->other, 0, p->n * sizeof *p->other);
+}
+
+static void
+total(const struct rc_plastic *p, double sums[RC_VOXEL_SUMS])
+{
+    memset(sums, 0, RC_VOXEL_SUMS * sizeof *sums);
+    for (size_t r = 0; r < p->voxels.slabs * p->voxels.rows; r++)
+        for (size_t q = 0; q < RC_VOXEL_SUMS; q++)
+            sums[q] += p->voxels.row[r].sums[q];
+}
+
+/* F of e + x, and what it says of x. */
+static enum rc_status
+apply(struct rc_plastic *p, struct rc_err *err)
+{
+    const struct rc_slab_stress stress = {NULL, stress_row, p};
+    double sums[RC_VOXEL_SUMS];
+
+    if (press(p, err) != RC_OK)
+        return RC_FAIL;
+    rc_slabs_down(p->slabs, pressure(p), &stress);
+    p->figures.applications++;
+    if (p->failed)
+        return rc_err_set(err, "out of memory for the strain of %zu voxels",
+                          rc_voxels_count(&p->voxels));
+    total(p, sums);
+    p->figures.lag = sums[RC_FLOWING] > 0 ? sqrt(sums[RC_LAG] / sums[RC_FLOWING]) : 0;
+    p->mix = 0;
+    if (p->trial > 0 && sums[RC_CHANGE] > 0)
+        p->mix = sums[RC_NEW_OLD] / sums[RC_CHANGE];
+    if (p->trial > 0 && sums[RC_ADVANCE] > 0 && sums[RC_RESISTED] > 0)
+        p->resistance = fmin(p->resistance, sums[RC_RESISTED] / sums[RC_ADVANCE]);
+    return RC_OK;
+}
+
+/* ---- a load ---- */
+
+static enum rc_status
+begin_increment(struct rc_plastic *p, struct rc_err *err)
+{
+    double share = (double)p->increment / (double)p->increments;
+
+    p->set = p->increment == p->increments ? p->to : p->from + (p->to - p->from) * share;
+    p->order = p->increment > 1 ? 1.0 / 3 : 0;
+    p->trial = 0;
+    p->alone = !(p->set > 0);
+    return p->alone ? RC_OK : rc_solver_set_load(p->solver, p->set, 0, err);
+}
+
+static bool
+enough(const struct rc_plastic *p)
+{
+    if (rc_voxels_count(&p->voxels) == 0)
+        return true;
+    if (p->increment < p->increments)
+        return p->trial >= EACH;
+    return p->trial >= MOST || (p->trial >= LAST && p->figures.lag <= p->lag);
+}
+
+static enum rc_status
+advance(struct rc_plastic *p, struct rc_err *err)
+{
+    if (p->trial == 0 && begin_increment(p, err) != RC_OK)
+        return RC_FAIL;
+    if (apply(p, err) != RC_OK)
+        return RC_FAIL;
+    p->trial++;
+    for_each(p, mix);
+    if (!enough(p))
+        return RC_OK;
+    p->stopped |= p->trial >= MOST;
+    for_each(p, accept);
+    p->trial = 0;
+    if (p->increment++ < p->increments)
+        return RC_OK;
+    keep_pressure(p);
+    p->stage = STAGE_STATE;
+    return RC_OK;
+}
+
+static double
+largest_mean(const struct rc_plastic *p)
+{
+    const double *v = pressure(p);
+    size_t nx = p->shape.nx, ny = p->shape.ny;
+    double most = 0;
+
+    for (size_t j = 0; j < ny && v != NULL; j++)
+        for (size_t i = 0; i < nx; i++) {
+            size_t right = (i + 1) % nx, below = (j + 1) % ny;
+            most = fmax(most, (v[j * nx + i] + v[j * nx + right] + v[below * nx + i] +
+                               v[below * nx + right]) /
+                                  4);
+        }
+    return most;
+}
+
+static void
+find_figures(struct rc_plastic *p)
+{
+    struct rc_plastic_figures *f = &p->figures;
+    double cell = p->shape.dx * p->shape.dy, bottom = 0;
+
+    f->voxels = 0;
+    f->depth = f->volume = f->max_strain = f->work = 0;
+    for (size_t k = 0; k < p->voxels.slabs; k++) {
+        bottom += p->thickness[k];
+        for (size_t j = 0; j < p->voxels.rows; j++) {
+            const struct rc_voxel_row *row = rc_voxels_row(&p->voxels, k, j);
+            for (size_t i = 0; i < row->n; i++) {
+                double strain = row->v[i].strain, part = cell * p->thickness[k];
+                if (!(strain > 0))
+                    continue;
+                f->voxels++;
+                f->depth = bottom;
+                f->volume += part;
+                f->work += part * rc_yield_work(&p->law, strain);
+                f->max_strain = fmax(f->max_strain, strain);
+            }
+        }
+    }
+    f->max_pressure_mean4 = largest_mean(p);
+}
+
+/* The accepted state, and where its pressure stands against that of the last application. */
+static enum rc_status
+settle(struct rc_plastic *p, struct rc_err *err)
+{
+    for_each(p, try_none);
+    if (press(p, err) != RC_OK)
+        return RC_FAIL;
+    p->figures.iteration_error = isinf(p->resistance) ? 0 : 1.5 * moved(p) / fmin(p->resistance, 1);
+    keep_pressure(p);
+    p->stage = p->increments >= FEW && rc_voxels_count(&p->voxels) > 0 ? STAGE_ORDER : STAGE_DONE;
+    if (p->increments < FEW && rc_voxels_count(&p->voxels) > 0)
+        p->figures.increment_error = NAN;
+    return RC_OK;
+}
+
+static enum rc_status
+compare_order(struct rc_plastic *p, struct rc_err *err)
+{
+    for_each(p, try_missed);
+    if (press(p, err) != RC_OK)
+        return RC_FAIL;
+    p->figures.increment_error = 0.75 * pow(8 / (double)p->increments, 0.8) * moved(p);
+    for_each(p, try_none);
+    p->stage = STAGE_DONE;
+    return press(p, err);
+}
+
+/* ---- the face ---- */
+
+enum rc_status
+rc_plastic_set_load(struct rc_plastic *p, double load, struct rc_err *err)
+{
+    if (!(load >= 0) || isinf(load))
+        return rc_err_set(err, "load %g N: it must be finite and not negative", load);
+    if (load > p->bearable)
+        return rc_err_set(
+            err,
+            "load %.9g N: above %.9g N, 0.9 of where the mean pressure alone makes all "
+            "depths of a periodic body yield, there is no such contact",
+            load, p->bearable);
+    p->to = load;
+    p->increment = 1;
+    p->trial = 0;
+    p->resistance = INFINITY;
+    p->stopped = false;
+    p->figures = (struct rc_plastic_figures){.increments = p->increments};
+    p->stage = STAGE_TRIAL;
+    for_each(p, begin_load);
+    return RC_OK;
+}
+
+void
+rc_plastic_set_heights(struct rc_plastic *p, const double *h)
+{
+    memcpy(p->h, h, p->n * sizeof *h);
+    p->moved = true;
+}
+
+enum rc_status
+rc_plastic_step(struct rc_plastic *p, struct rc_err *err)
+{
+    enum rc_status status = RC_OK;
+
+    if (p->stage == STAGE_NEW)
+        return rc_err_set(err, "no load has been set");
+    if (p->stage == STAGE_TRIAL)
+        status = advance(p, err);
+    else if (p->stage == STAGE_STATE)
+        status = settle(p, err);
+    else if (p->stage == STAGE_ORDER)
+        status = compare_order(p, err);
+    if (status != RC_OK || p->stage != STAGE_DONE)
+        return status == RC_OK ? RC_MORE : status;
+    p->from = p->to;
+    p->figures.error = hypot(p->figures.increment_error, p->figures.iteration_error);
+    find_figures(p);
+    return p->stopped ? RC_SHORT : RC_OK;
+}
+
+void
+rc_plastic_progress(const struct rc_plastic *p, double *load, size_t *increment,
+                    size_t *application)
+{
+    *load = p->set;
+    *increment = p->increment;
+    *application = p->trial;
+}
+
+const struct rc_plastic_figures *
+rc_plastic_result(const struct rc_plastic *p)
+{
+    return &p->figures;
+}
+
+struct rc_solver *
+rc_plastic_solver(struct rc_plastic *p)
+{
+    return p->solver;
+}
+
+const double *
+rc_plastic_residual(const struct rc_plastic *p)
+{
+    return p->u;
+}
+
+void
+rc_plastic_strain(const struct rc_plastic *p, size_t slab, double *const e[RC_PLASTIC_STRAINS])
+{
+    for (size_t c = 0; c < RC_PLASTIC_STRAINS; c++)
+        if (e[c] != NULL)
+            memset(e[c], 0, p->n * sizeof *e[c]);
+    for (size_t j = 0; j < p->voxels.rows; j++) {
+        const struct rc_voxel_row *row = rc_voxels_row(&p->voxels, slab, j);
+        for (size_t k = 0; k < row->n; k++) {
+            size_t at = j * p->shape.nx + row->v[k].i;
+            for (size_t c = 0; c < RC_DEVIATOR; c++)
+                if (e[c] != NULL)
+                    e[c][at] = row->v[k].e[c];
+            if (e[RC_PEEQ] != NULL)
+                e[RC_PEEQ][at] = row->v[k].strain;
+        }
+    }
+}
+
+void
+rc_plastic_free(struct rc_plastic *p)
+{
+    if (p == NULL)
+        return;
+    rc_solver_free(p->solver);
+    rc_slabs_free(p->slabs);
+    rc_voxels_free(&p->voxels);
+    free(p->h);
+    free(p->u);
+    free(p->form);
+    free(p->other);
+    free(p->thickness);
+    free(p);
+}
+
+static enum rc_status
+check(const struct rc_plastic_problem *problem, struct rc_err *err)
+{
+    const struct rc_body *one = &problem->contact.pair.one;
+
+    if (rc_yield_check(&problem->yield, err) != RC_OK)
+        return RC_FAIL;
+    if (problem->contact.boundary != RC_PERIODIC)
+        return rc_err_set(err, "plasticity in the volume is known on periodic maps only");
+    if (problem->contact.ranks != NULL)
+        return rc_err_set(err, "plasticity in the volume is not shared among processes");
+    if (problem->contact.pair.estar > 0 || !(one->e > 0) || isinf(one->e))
+        return rc_err_set(err, "plasticity needs E and nu of the body that yields");
+    if (one->layers > 0)
+        return rc_err_set(err, "plasticity in the volume is not known under layers");
+    if (problem->contact.hardness > 0 || problem->contact.hardness_map != NULL)
+        return rc_err_set(err, "a bound of the pressure and plasticity in the volume: one of them");
+    if (!(one->nu < 0.5))
+        return rc_err_set(err, "Poisson's ratio %g: a body that yields inside must be compressible",
+                          one->nu);
+    return RC_OK;
+}
+
+static enum rc_status
+make_room(struct rc_plastic *p, const double *h, const struct rc_plastic_problem *problem,
+          struct rc_err *err)
+{
+    size_t slabs = problem->slabs;
+
+    p->h = rc_alloc(p->n, sizeof *p->h);
+    p->u = rc_alloc(p->n, sizeof *p->u);
+    p->form = rc_alloc(p->n, sizeof *p->form);
+    p->other = rc_alloc(p->n, sizeof *p->other);
+    p->thickness = malloc(slabs * sizeof *p->thickness);
+    if (p->h == NULL || p->u == NULL || p->form == NULL || p->other == NULL ||
+        p->thickness == NULL || rc_voxels_new(&p->voxels, slabs, p->shape.ny) != RC_OK)
+        return rc_err_set(err, "out of memory for the plasticity of %zu x %zu nodes", p->shape.nx,
+                          p->shape.ny);
+    memcpy(p->h, h, p->n * sizeof *h);
+    memset(p->u, 0, p->n * sizeof *p->u);
+    memcpy(p->thickness, problem->thickness, slabs * sizeof *p->thickness);
+    return RC_OK;
+}
+
+struct rc_plastic *
+rc_plastic_new(const struct rc_shape *shape, const double *h,
+               const struct rc_plastic_problem *problem, struct rc_err *err)
+{
+    const struct rc_body *one = &problem->contact.pair.one;
+    struct rc_problem contact = problem->contact;
+    struct rc_plastic *p;
+    struct rc_slabs_options options = {.slabs = problem->slabs,
+                                       .thickness = problem->thickness,
+                                       .shear = one->e / (2 * (1 + one->nu)),
+                                       .nu = one->nu,
+                                       .precision = problem->precise ? RC_DOUBLE : RC_SINGLE,
+                                       .threads = contact.threads};
+
+    if (check(problem, err) != RC_OK)
+        return NULL;
+    p = calloc(1, sizeof *p);
+    if (p == NULL) {
+        rc_err_set(err, "out of memory for the plasticity of %zu x %zu nodes", shape->nx,
+                   shape->ny);
+        return NULL;
+    }
+    *p = (struct rc_plastic){.shape = *shape,
+                             .n = shape->nx * shape->ny,
+                             .law = problem->yield,
+                             .shear = options.shear,
+                             .yield = rc_yield_stress(&problem->yield, 0),
+                             .lag = problem->lag > 0 ? problem->lag : settled,
+                             .increments =
+                                 problem->increments > 0 ? problem->increments : INCREMENTS};
+    /* the mean pressure makes a Mises stress of (1 - 2 nu)/2 of it at every depth; on a profile more */
+    p->bearable = 0.9 * 2 * p->yield / (1 - 2 * one->nu) * (double)p->n * shape->dx * shape->dy;
+    contact.approach = 0;
+    if (contact.load == 0)
+        contact.load = 1; /* none is solved before one is set */
+    if (make_room(p, h, problem, err) != RC_OK ||
+        (p->slabs = rc_slabs_new(shape, &options, err)) == NULL ||
+        (p->solver = rc_solver_new(shape, h, &contact, err)) == NULL) {
+        rc_plastic_free(p);
+        return NULL;
+    }
+    return p;
+}
+
+size_t
+rc_plastic_memory(const struct rc_shape *shape, const struct rc_plastic_problem *problem,
+                  double yielding)
+{
+    const struct rc_slabs_options options = {.slabs = problem->slabs,
+                                             .precision = problem->precise ? RC_DOUBLE : RC_SINGLE,
+                                             .threads = problem->contact.threads};
+    size_t n = shape->nx * shape->ny;
+    double voxels = (double)n * (double)problem->slabs * yielding;
+
+    return rc_solver_memory(shape, &problem->contact) + rc_slabs_memory(shape, &options) +
+           n * 4 * sizeof(double) + problem->slabs * shape->ny * sizeof(struct rc_voxel_row) +
+           (size_t)(voxels * sizeof(struct rc_voxel));
+}

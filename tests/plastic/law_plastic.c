@@ -1,0 +1,427 @@
+/* What is known of bodies that yield inside: where and when they begin to, how hard they are when all of the
+ * contact flows, what is left when they are taken apart, and when rolling shakes down. And that the estimate
+ * of the error is one. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "tests/volume/volume_case.h"
+
+static const double one_e = 1;
+
+static struct rc_plastic *
+plastic_new(struct rc_shape shape, const double *h, struct rc_plastic_problem problem)
+{
+    struct rc_plastic *plastic;
+    struct rc_err err;
+
+    problem.contact.boundary = RC_PERIODIC;
+    problem.contact.pair.one.e = one_e;
+    problem.contact.pair.two.e = INFINITY;
+    problem.contact.threads = 1;
+    plastic = rc_plastic_new(&shape, h, &problem, &err);
+    if (plastic == NULL)
+        print_error("%s\n", err.text);
+    assert_non_null(plastic);
+    return plastic;
+}
+
+static const struct rc_plastic_figures *
+press(struct rc_plastic *plastic, double load)
+{
+    enum rc_status status;
+    struct rc_err err;
+
+    assert_int_equal(rc_plastic_set_load(plastic, load, &err), RC_OK);
+    while ((status = rc_plastic_step(plastic, &err)) == RC_MORE)
+        ;
+    assert_int_equal(status, RC_OK);
+    return rc_plastic_result(plastic);
+}
+
+/* ---- onset ---- */
+
+/* Mises' stress over p0 on the axis under Hertz's circle, at depths over its radius (Johnson 1985, 3.45). */
+static double
+under_circle(double z, double nu)
+{
+    double radial = -((1 + nu) * (1 - z * atan(1 / z)) - 1 / (2 * (1 + z * z)));
+
+    return fabs(radial + 1 / (1 + z * z));
+}
+
+/* Under Hertz's strip (4.49), in plane strain. */
+static double
+under_strip(double z, double nu)
+{
+    double root = sqrt(1 + z * z), x = -((1 + 2 * z * z) / root - 2 * z), y = -1 / root;
+    double out = nu * (x + y);
+
+    return sqrt(((x - y) * (x - y) + (y - out) * (y - out) + (out - x) * (out - x)) / 2);
+}
+
+/* The largest, and where. */
+static double
+largest(double (*under)(double, double), double nu, double *at)
+{
+    double most = 0;
+
+    *at = 0;
+    for (double z = 1e-4; z < 3; z += 1e-4)
+        if (under(z, nu) > most) {
+            most = under(z, nu);
+            *at = z;
+        }
+    return most;
+}
+
+/* Presses a ball or a cylinder to a radius of contact of `a` nodes, with a yield stress that is this part
+ * of the p0 at which it would yield first: the number of voxels that yield, and their mean depth over a. */
+static size_t
+begins(bool ball, size_t n, double a, double nu, double part, double *depth)
+{
+    enum {
+        THIN = 24
+    };
+    struct rc_shape shape = {n, ball ? n : 1, 1, 1};
+    size_t nodes = shape.nx * shape.ny, count = 0;
+    double *h = malloc(nodes * sizeof *h), thickness[THIN], at, sum = 0, z = 0;
+    double *map = malloc(nodes * sizeof *map);
+    double *const to[RC_PLASTIC_STRAINS] = {[RC_PEEQ] = map};
+    const double radius = 40 * a, estar = one_e / (1 - nu * nu);
+    double p0 = ball ? 2 * a * estar / (exact_pi * radius) : a * estar / (2 * radius);
+    double load = ball ? 2 * exact_pi * a * a * p0 / 3 : exact_pi * a * p0 / 2;
+    double most = largest(ball ? under_circle : under_strip, nu, &at);
+    struct rc_plastic_problem problem = {.contact = {.pair.one.nu = nu, .tol = 1e-5},
+                                         .yield.stress = most * p0 / part,
+                                         .slabs = THIN,
+                                         .thickness = thickness,
+                                         .increments = 1};
+    struct rc_plastic *plastic;
+
+    for (size_t k = 0; k < THIN; k++)
+        thickness[k] = a / 16;
+    for (size_t k = 0; k < nodes; k++) {
+        double x = node_x(shape, k), y = node_y(shape, k);
+        h[k] = -(x * x + (ball ? y * y : 0)) / (2 * radius);
+    }
+    plastic = plastic_new(shape, h, problem);
+    (void)press(plastic, load);
+    for (size_t k = 0; k < THIN; k++) {
+        rc_plastic_strain(plastic, k, to);
+        for (size_t i = 0; i < nodes; i++)
+            if (map[i] > 0) {
+                count++;
+                sum += z + thickness[k] / 2;
+            }
+        z += thickness[k];
+    }
+    *depth = sum / (double)count / a;
+    rc_plastic_free(plastic);
+    free(h);
+    free(map);
+    return count;
+}
+
+static void
+onset(void **state)
+{
+    static const double nus[] = {0.2, 0.3, 0.4};
+    double depth, at;
+
+    (void)state;
+    for (size_t q = 0; q < 3; q++)
+        for (int ball = 0; ball < 2; ball++) {
+            /* of a cylinder with a low Poisson's ratio the surface yields almost as early */
+            size_t n = ball ? 192 : 1536;
+            double a = ball ? 12 : 24, nu = nus[q] + (ball ? 0 : 0.05);
+            double most = largest(ball ? under_circle : under_strip, nu, &at);
+            size_t none = begins(ball, n, a, nu, 0.99, &depth);
+            size_t some = begins(ball, n, a, nu, 1.01, &depth);
+            print_message(
+                "%s, nu %.2f: %zu voxels at 0.99 of p0 = %.4f Y, %zu at 1.01 of it, %.2f a "
+                "deep (%.2f)\n",
+                ball ? "ball" : "cylinder", nu, none, 1 / most, some, depth, at);
+            assert_int_equal(none, 0);
+            assert_true(some > 0 && fabs(depth - at) < 0.12);
+        }
+}
+
+/* ---- a ball without hardening ---- */
+
+static struct rc_plastic *
+ball(size_t n, double radius, struct rc_yield yield, double lag, double *thickness, size_t slabs)
+{
+    struct rc_shape shape = {n, n, 1, 1};
+    double *h = malloc(n * n * sizeof *h), dz = 0.5;
+    struct rc_plastic_problem problem = {.contact = {.pair.one.nu = 0.3, .tol = 1e-4},
+                                         .yield = yield,
+                                         .slabs = slabs,
+                                         .thickness = thickness,
+                                         .increments = 12,
+                                         .lag = lag};
+    struct rc_plastic *plastic;
+
+    for (size_t k = 0; k < slabs; k++, dz *= 1.12)
+        thickness[k] = dz;
+    for (size_t k = 0; k < n * n; k++)
+        h[k] = -pow(node_r(shape, k), 2) / (2 * radius);
+    plastic = plastic_new(shape, h, problem);
+    free(h);
+    return plastic;
+}
+
+static double
+mean_in_contact(struct rc_plastic *plastic, size_t nodes, size_t *count)
+{
+    const double *p = rc_solver_pressure(rc_plastic_solver(plastic));
+    double sum = 0;
+
+    *count = 0;
+    for (size_t k = 0; k < nodes; k++) {
+        sum += p[k];
+        *count += p[k] > 0;
+    }
+    return sum / (double)*count;
+}
+
+/* Mean pressure over Y against E* a/(Y R): finite elements of Kogut and Etsion (J. Appl. Mech. 69 (2002) 657),
+ * to 10 %. */
+static void
+ball_hardness(void **state)
+{
+    static const double size[] = {5.4, 7.2, 9.7, 19.3, 26, 36};
+    static const double known[] = {1.78, 2.01, 2.13, 2.45, 2.61, 2.78};
+    const size_t n = 64;
+    const double radius = 80, estar = 1 / (1 - 0.09);
+    double thickness[24];
+
+    (void)state;
+    for (size_t q = 0; q < 6; q++) {
+        double a = 8, yield = estar * a / (radius * size[q]), found, is, expected = known[q];
+        struct rc_plastic *plastic =
+            ball(n, radius, (struct rc_yield){.stress = yield}, 0, thickness, 24);
+        const struct rc_plastic_figures *f = press(plastic, exact_pi * a * a * known[q] * yield);
+        size_t count;
+        found = mean_in_contact(plastic, n * n, &count);
+        is = estar * sqrt((double)count / exact_pi) / (yield * radius);
+        for (size_t k = 0; k + 1 < 6; k++)
+            if (is >= size[k] && is < size[k + 1])
+                expected = known[k] + (known[k + 1] - known[k]) * log(is / size[k]) /
+                                          log(size[k + 1] / size[k]);
+        print_message(
+            "ball, E*a/(YR) %.1f: mean pressure %.2f Y (%.2f), largest mean of four %.2f Y, "
+            "%zu applications\n",
+            is, found / yield, expected, f->max_pressure_mean4 / yield, f->applications);
+        assert_true(fabs(found / yield / expected - 1) < 0.1);
+        rc_plastic_free(plastic);
+    }
+}
+
+/* ---- let go ---- */
+
+/* What is left has no force on any plane, is compression below the dent; pressed again, nothing more yields. */
+static void
+let_go(void **state)
+{
+    enum {
+        SLABS = 20,
+        SIDE = 64
+    };
+    const struct rc_shape shape = {SIDE, SIDE, 1, 1};
+    const double radius = 80, yield = 0.011, load = exact_pi * 64 * 2.1 * yield;
+    double thickness[SLABS], strain, z = 0, least = 0, at = 0, worst = 0, dent, again;
+    struct rc_plastic *plastic = ball(
+        SIDE, radius, (struct rc_yield){.stress = yield, .modulus = 0.05}, 1e-5, thickness, SLABS);
+    struct voxels e = voxels_new(shape, SLABS), s = voxels_new(shape, SLABS);
+    struct rc_slabs *v = volume_new(
+        shape,
+        (struct rc_slabs_options){
+            .slabs = SLABS, .thickness = thickness, .shear = 1 / 2.6, .nu = 0.3, .whole = true});
+    size_t middle = SIDE / 2 * SIDE + SIDE / 2;
+
+    (void)state;
+    strain = press(plastic, load)->max_strain;
+    dent = rc_plastic_residual(plastic)[middle];
+    assert_true(dent > 0 && rc_plastic_residual(plastic)[0] < dent);
+    (void)press(plastic, 0);
+    for (size_t k = 0; k < SLABS; k++) {
+        double *const to[RC_PLASTIC_STRAINS] = {
+            voxels_map(&e, k, RC_SXX), voxels_map(&e, k, RC_SYY), voxels_map(&e, k, RC_SXY),
+            voxels_map(&e, k, RC_SXZ), voxels_map(&e, k, RC_SYZ)};
+        rc_plastic_strain(plastic, k, to);
+    }
+    volume_apply(v, &e, NULL, NULL, NULL, &s);
+    for (size_t k = 0; k < SLABS; k++) {
+        double force = 0, x = voxels_map(&s, k, RC_SXX)[middle];
+        for (size_t i = 0; i < s.n; i++)
+            force += voxels_map(&s, k, RC_SZZ)[i];
+        worst = fmax(worst, fabs(force) / (double)s.n);
+        z += thickness[k];
+        if (x < least) {
+            least = x;
+            at = z - thickness[k] / 2;
+        }
+    }
+    print_message("let go: sxx %.2f Y at %.1f nodes below, mean szz of a plane %.1e Y\n",
+                  least / yield, at, worst / yield);
+    assert_true(worst < 1e-8 * yield);
+    assert_true(least < -0.3 * yield && at > 0.5 * 8 && at < 1.2 * 8);
+    for (int cycle = 0; cycle < 2; cycle++) {
+        again = press(plastic, load)->max_strain;
+        print_message("pressed again: strain %.6g, first %.6g\n", again, strain);
+        assert_true(fabs(again / strain - 1) < 1e-4);
+        (void)press(plastic, 0);
+    }
+    rc_slabs_free(v);
+    rc_plastic_free(plastic);
+    free(e.v);
+    free(s.v);
+}
+
+/* ---- rolling ---- */
+
+/* A cylinder rolls over a body without hardening, round and round a period: what the equivalent strain, where
+ * it is largest, gains in the last of some passes, over Y/E, and in the second. */
+static void
+roll(double p0_over_k, double gained[2])
+{
+    enum {
+        SIDE = 64,
+        SLABS = 20,
+        PASSES = 6,
+        STEPS = 32 /* of two nodes */
+    };
+    const struct rc_shape shape = {SIDE, 1, 1, 1};
+    const double a = 8, estar = 1 / (1 - 0.09), yield = 1e-3, k = yield / sqrt(3);
+    const double p0 = p0_over_k * k, radius = a * estar / (2 * p0), load = exact_pi * a * p0 / 2;
+    double thickness[SLABS], h[SIDE], map[SIDE], last = 0;
+    double *const to[RC_PLASTIC_STRAINS] = {[RC_PEEQ] = map};
+    struct rc_plastic_problem problem = {.contact = {.pair.one.nu = 0.3, .tol = 1e-5},
+                                         .yield.stress = yield,
+                                         .slabs = SLABS,
+                                         .thickness = thickness,
+                                         .increments = 1,
+                                         .precise = true};
+    struct rc_plastic *plastic = NULL;
+
+    for (size_t s = 0; s < SLABS; s++)
+        thickness[s] = a / 12;
+    for (int pass = 0; pass < PASSES; pass++) {
+        double most = 0;
+        for (int step = 0; step < STEPS; step++) {
+            for (size_t i = 0; i < SIDE; i++) {
+                double x = fmod((double)i - 2 * step + 3 * SIDE / 2.0, SIDE) - SIDE / 2.0;
+                h[i] = -x * x / (2 * radius);
+            }
+            if (plastic == NULL)
+                plastic = plastic_new(shape, h, problem);
+            else
+                rc_plastic_set_heights(plastic, h);
+            (void)press(plastic, load);
+        }
+        for (size_t s = 0; s < SLABS; s++) {
+            double mean = 0;
+            rc_plastic_strain(plastic, s, to);
+            for (size_t i = 0; i < SIDE; i++)
+                mean += map[i] / SIDE;
+            most = fmax(most, mean);
+        }
+        gained[1] = (most - last) / yield;
+        if (pass == 1)
+            gained[0] = gained[1];
+        last = most;
+    }
+    rc_plastic_free(plastic);
+}
+
+/* Johnson's limit of elastic shakedown is p0 = 4 k. */
+static void
+shakedown(void **state)
+{
+    double below[2], above[2];
+
+    (void)state;
+    roll(3.6, below);
+    roll(4.4, above);
+    print_message(
+        "rolling: a pass adds %.1e, then %.1e Y/E at p0 = 3.6 k; %.1e, then %.1e at 4.4 k\n",
+        below[0], below[1], above[0], above[1]);
+    assert_true(below[1] < 2e-3 && below[1] < 0.2 * below[0]);
+    assert_true(above[1] > 0.5 && above[1] > 0.8 * above[0]);
+}
+
+/* ---- the estimate ---- */
+
+static void
+estimate(void **state)
+{
+    const struct rc_shape shape = {40, 40, 1, 1};
+    double least = INFINITY, high = 0, worst = 0, thickness[11], *h = malloc(1600 * sizeof *h);
+    size_t most = 0;
+
+    (void)state;
+    for (size_t k = 0; k < 11; k++)
+        thickness[k] = 0.5 * pow(1.25, (double)k);
+    for (uint64_t q = 0; q < 20; q++) {
+        uint64_t seed = 100 + q;
+        struct rc_selfaffine rough = {.hurst = 0.5 + 0.4 * (random_number(&seed) + 0.5),
+                                      .rms_slope = 0.1 + 0.2 * (random_number(&seed) + 0.5),
+                                      .short_cut = 2 + 5 * (random_number(&seed) + 0.5),
+                                      .rolloff = 20,
+                                      .seed = 500 + q};
+        double yield = 0.025 + 0.03 * (random_number(&seed) + 0.5);
+        struct rc_plastic_problem problem = {
+            .contact = {.pair.one.nu = 0.3, .tol = 1e-4},
+            .yield = {.stress = yield,
+                      .modulus = q % 4 == 0 ? 0 : 0.02 * (random_number(&seed) + 0.5)},
+            .slabs = 11,
+            .thickness = thickness,
+            .increments = q % 2 == 0 ? 16 : 8};
+        double load = 1600 * yield * (0.3 + 0.6 * (random_number(&seed) + 0.5)), off;
+        const struct rc_plastic_figures *f;
+        struct rc_plastic *fine, *plastic;
+
+        assert_int_equal(rc_synth_selfaffine(&shape, &rough, h, NULL), RC_OK);
+        plastic = plastic_new(shape, h, problem);
+        f = press(plastic, load);
+        problem.increments = 192;
+        problem.contact.tol = 1e-5;
+        fine = plastic_new(shape, h, problem);
+        (void)press(fine, load);
+        off = distance(1600, rc_solver_pressure(rc_plastic_solver(plastic)),
+                       rc_solver_pressure(rc_plastic_solver(fine)));
+        print_message(
+            "%2zu: contact increments %zu, %zu applications, error %.2e, estimate %.2f of it "
+            "(increments %.2f, iteration %.2f)\n",
+            (size_t)q, f->increments, f->applications, off, f->error / off,
+            f->increment_error / off, f->iteration_error / off);
+        least = fmin(least, f->error / off);
+        high = fmax(high, f->error / off);
+        if (f->increments == 16) {
+            worst = fmax(worst, off);
+            most = f->applications > most ? f->applications : most;
+        }
+        rc_plastic_free(plastic);
+        rc_plastic_free(fine);
+    }
+    print_message(
+        "estimates %.2f to %.2f of the error; 16 increments to %.2e in %zu applications\n", least,
+        high, worst, most);
+    assert_true(least >= 1 && high <= 2.5);
+    assert_true(worst <= 1e-2 && most <= 40);
+    free(h);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(onset),     cmocka_unit_test(ball_hardness), cmocka_unit_test(let_go),
+        cmocka_unit_test(shakedown), cmocka_unit_test(estimate),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
