@@ -113,6 +113,11 @@ size_t solve_memory(const struct run *run, const struct rc_grid *g,
 /* What the scene calls for and what it doesn't, and what that costs, in words. */
 void solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *problem);
 
+/* ---- case.c ---- */
+
+/* Solves the loads of these heights, and writes and reports what is found. hardness: a map of it, or NULL. */
+void solve_case(struct run *run, struct rc_grid *g, const struct rc_grid *hardness);
+
 /* Tells where the solver stands. */
 void solve_progress(struct run *run, const struct rc_solver *solver);
 

@@ -1,0 +1,440 @@
+/* A case of rc-solve: its loads one after another, what is found of each, and the frames that are written. */
+#include "solve.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Key of a shape that yield has left: how far off it may be, m. */
+#define HEIGHT_ERROR "height.error"
+
+/* ---- one case ---- */
+
+static struct rc_problem
+problem_of(struct run *run, const struct rc_grid *g, size_t step)
+{
+    struct rc_problem problem = physics_problem(&run->args->physics, g, step);
+
+    problem.tol = run->args->tol;
+    problem.engine = run->args->kernel;
+    problem.method = run->args->method;
+    problem.threads = run->t.threads;
+    problem.ranks = ranks_of(&run->t);
+    problem.discretization = run->args->discretization;
+    problem.tilt_free = run->tilt;
+    for (size_t k = 0; k < run->args->at.n; k++)
+        problem.force_at[k] = run->args->at.v[k];
+    problem.height_error = run->height_error;
+    problem.hardness_map = run->hardness != NULL ? run->hardness->v : NULL;
+    return problem;
+}
+
+static void
+solve(struct run *run, const struct rc_grid *g, struct rc_solver *solver)
+{
+    struct rc_progress at;
+    double start;
+
+    run->resumed = checkpoint_case(run->checkpoint, g, solver);
+    start = solve_now();
+    while (tool_interrupted() == 0 && rc_solver_step(solver) == RC_MORE) {
+        solve_progress(run, solver);
+        checkpoint_pass(run->checkpoint, g, solver);
+    }
+    tool_progress_end(&run->t);
+    run->iterate = solve_now() - start;
+    rc_solver_progress(solver, &at);
+    if (!run->resumed || at.iterations > 1) /* else it is there already */
+        checkpoint_save(run->checkpoint, g, solver);
+}
+
+/* ---- results ---- */
+
+/* Sets a key, or, where the number is not known, takes away one that an earlier solution left. */
+static void
+set_number(struct run *run, struct rc_grid *g, const char *name, double value)
+{
+    struct rc_err err;
+
+    if ((isfinite(value) ? rc_grid_set_number(g, name, value, &err)
+                         : rc_grid_set(g, name, NULL, &err)) != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+}
+
+static void
+set_keys(struct run *run, struct rc_grid *g, const struct rc_contact *c)
+{
+    struct rc_err err;
+
+    if (rc_grid_set(g, "boundary", run->args->physics.periodic ? "periodic" : "free", &err) !=
+            RC_OK ||
+        rc_grid_set(g, "converged", c->converged ? "yes" : "no", &err) != RC_OK ||
+        bodies_set(g, &run->args->physics.pair, &err) != RC_OK ||
+        rc_grid_history(g, tool_history(&run->t), &err) != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (run->steps->n > 1)
+        set_number(run, g, "case", (double)run->number);
+    /* the load asked for and the one reached are the same but for rounding */
+    set_number(run, g, "load",
+               run->args->physics.load.n > 0 ? problem_of(run, g, run->step).load : c->load);
+    set_number(run, g, "hardness", run->args->physics.hardness);
+    set_number(run, g, "approach", c->approach);
+}
+
+/* Maps of results are made one after another, as they are written, in one buffer. */
+struct results {
+    struct rc_grid *as; /* shape and keys of the frames */
+    double *buffer;
+    double *displacement; /* where it is; NULL: not yet made     */
+    double *own;          /* memory for it beside the buffer, or NULL */
+};
+
+static void
+results_new(struct run *run, const struct rc_grid *g, struct results *r)
+{
+    struct rc_err err;
+
+    *r = (struct results){.as = rc_grid_like(g, g->channel, g->unit, &err)};
+    if (r->as == NULL)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    /* heights that nobody needs any more give their memory; pages of the new map that nobody touches
+     * take none */
+    r->buffer =
+        solve_wanted(run->args, SOLVE_HEIGHT) || run->args->physics.history ? r->as->v : g->v;
+}
+
+static void
+results_free(struct results *r)
+{
+    rc_grid_free(r->as);
+    free(r->own);
+}
+
+/* Figures, and the first map. To look at a solution twice costs next to nothing, but for one that
+ * was broken off, of which gap and displacement are made at once. */
+static void
+find_result(struct run *run, struct results *r, struct rc_solver *solver, struct rc_contact *c)
+{
+    size_t nodes = rc_grid_nodes(r->as);
+    bool gap = solve_wanted(run->args, SOLVE_GAP);
+
+    if (solve_wanted(run->args, SOLVE_DISPLACEMENT) && !gap) {
+        r->displacement = r->buffer;
+    } else if (solve_wanted(run->args, SOLVE_DISPLACEMENT) && tool_interrupted() != 0) {
+        r->displacement = r->own = malloc((nodes + 1) * sizeof *r->own);
+        if (r->own == NULL)
+            tool_die_at(&run->t, r->as, EXIT_IMPOSSIBLE, "out of memory for the displacement");
+    }
+    rc_solver_result(solver, r->displacement, gap ? r->buffer : NULL, c);
+}
+
+static void
+put(struct run *run, const struct results *r, enum solve_frame f, const double *v)
+{
+    struct rc_grid frame = *r->as; /* as the reader of the stream sees it */
+
+    if (!solve_wanted(run->args, (int)f))
+        return;
+    frame.channel = (char *)solve_frames[f].name; /* these and the values are only read */
+    frame.unit = (char *)solve_frames[f].unit;
+    frame.v = (double *)v;
+    tool_write(&run->t, &frame);
+}
+
+/* What yields leaves its mark. */
+static void
+put_plastic(struct run *run, const struct results *r, const double *h, const struct rc_contact *c)
+{
+    if (c->yielded_nodes > 0)
+        set_number(run, r->as, HEIGHT_ERROR, c->shape_error);
+    put(run, r, SOLVE_PLASTIC, h);
+}
+
+static void
+put_out(struct run *run, const struct rc_grid *g, struct results *r, struct rc_solver *solver,
+        const struct rc_contact *c)
+{
+    struct rc_contact again;
+    struct rc_err err;
+
+    set_keys(run, r->as, c);
+    put(run, r, SOLVE_PRESSURE, rc_solver_pressure(solver));
+    put(run, r, SOLVE_GAP, r->buffer);
+    if (r->displacement == NULL && solve_wanted(run->args, SOLVE_DISPLACEMENT)) {
+        r->displacement = r->buffer;
+        rc_solver_result(solver, r->displacement, NULL, &again);
+    }
+    put(run, r, SOLVE_DISPLACEMENT, r->displacement);
+    r->as->type = g->type;
+    put(run, r, SOLVE_HEIGHT, g->v);
+    r->as->type = RC_F64;
+    if (solve_wanted(run->args, SOLVE_PLASTIC) &&
+        rc_solver_plastic(solver, r->buffer, &err) != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    put_plastic(run, r, r->buffer, c);
+}
+
+/* ---- loads ---- */
+
+static double
+highest(const struct run *run, const struct rc_grid *g)
+{
+    double top = -INFINITY;
+
+    for (size_t k = 0; k < rc_grid_nodes(g); k++)
+        top = fmax(top, g->v[k]);
+    return ranks_most(&run->t, top);
+}
+
+/* In a history the heights get the shape that the load has left. */
+static void
+keep_shape(struct run *run, struct rc_grid *g, struct rc_solver *solver, struct solution *s)
+{
+    struct rc_err err;
+
+    if (!run->args->physics.history)
+        return;
+    s->indentation = s->contact.approach + run->first_top - run->top;
+    if (s->contact.yielded_nodes > 0) {
+        if (rc_solver_keep_shape(solver, &s->contact, g->v, &err) != RC_OK)
+            tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+        g->type = RC_F64;
+        set_number(run, g, HEIGHT_ERROR, s->contact.shape_error);
+        run->top = highest(run, g);
+    }
+    s->residual_indentation = run->first_top - run->top;
+}
+
+/* Of a tapered map (key `taper`), the contact inside; p is NULL for bodies that are apart. */
+static void
+look_inside(struct run *run, const struct rc_grid *g, const double *p, struct solution *s)
+{
+    const struct rc_shape shape = rc_grid_shape(g);
+    size_t columns, rows, first = tool_first_row(&run->t, g);
+    double width, touching = 0, inside;
+
+    s->inside_area = s->inside_fraction = NAN;
+    if (!rc_grid_number(g, "taper", &width))
+        return;
+    rc_taper_frame(&shape, width, &columns, &rows);
+    for (size_t k = 0; p != NULL && k < rc_grid_nodes(g); k++) {
+        size_t i = k % g->nx, j = first + k / g->nx;
+        if (i >= columns && i + columns < g->nx && j >= rows && j + rows < g->ny && p[k] > 0)
+            touching++;
+    }
+    touching = ranks_sum(&run->t, touching);
+    inside = (double)(g->nx - 2 * columns) * (double)(g->ny - 2 * rows);
+    s->inside_area = touching * g->dx * g->dy;
+    s->inside_fraction = inside > 0 ? touching / inside : NAN;
+}
+
+static void
+look_at_contact(struct run *run, const struct rc_grid *g, const double *p, struct solution *s)
+{
+    struct rc_shape shape = rc_grid_shape(g);
+    struct rc_patch_options options = {.boundary =
+                                           run->args->physics.periodic ? RC_PERIODIC : RC_FREE,
+                                       .each = report_wanted(&run->report),
+                                       .threads = run->t.threads,
+                                       .ranks = ranks_of(&run->t)};
+    struct rc_err err;
+
+    if (rc_patches_find(&shape, p, &options, &s->patches, &err) != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    s->slope = rc_measure_contact_slope(ranks_of(&run->t), &shape, g->v, p);
+    look_inside(run, g, p, s);
+}
+
+/* Where no node is at the hardness the conductance has found the stiffness too. */
+static void
+find_stiffness(struct run *run, const struct rc_grid *g, struct rc_solver *solver,
+               struct solution *s)
+{
+    struct rc_err err;
+
+    if (run->conductance &&
+        rc_solver_conductance(solver, run->k[0], run->k[1], &s->conductance, &err) != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (!run->stiffness)
+        return;
+    if (run->conductance && s->contact.plastic_nodes == 0)
+        s->stiffness = s->conductance.stiffness;
+    else if (rc_solver_stiffness(solver, &s->stiffness, &err) != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+}
+
+static void
+do_load(struct run *run, struct rc_grid *g, struct rc_solver *solver)
+{
+    struct solution solution = SOLUTION_NONE, *s = &solution;
+    struct results r;
+    double start;
+
+    solve(run, g, solver);
+    start = solve_now();
+    if (tool_interrupted() == 0) /* else there may be nothing on this grid yet */
+        look_at_contact(run, g, rc_solver_pressure(solver), s);
+    results_new(run, g, &r);
+    find_result(run, &r, solver, &s->contact);
+    find_stiffness(run, g, solver, s);
+    s->contact.convolutions = rc_solver_convolutions(solver);
+    run->done = solve_now();
+    run->result = run->done - start;
+    solve_judge(run, g, s);
+    if (!s->contact.converged)
+        tool_fails_with(&run->t, EXIT_SHORT);
+    put_out(run, g, &r, solver, &s->contact);
+    results_free(&r);
+    keep_shape(run, g, solver, s);
+    solve_report(run, g, solver, s);
+    rc_patches_free(&s->patches);
+}
+
+/* No load: the bodies are apart. */
+static void
+take_apart(struct run *run, const struct rc_grid *g)
+{
+    size_t nodes = rc_grid_nodes(g);
+    const struct rc_shape shape = rc_grid_shape(g);
+    struct solution s = SOLUTION_NONE;
+    struct results r;
+
+    run->iterate = run->result = 0;
+    rc_contact_apart(ranks_of(&run->t), &shape, g->v, NULL, &s.contact);
+    if (run->conductance)
+        s.conductance = (struct rc_conductance){NAN, 0, 0};
+    run->done = solve_now();
+    s.indentation = s.residual_indentation = run->first_top - run->top;
+    look_inside(run, g, NULL, &s);
+    solve_judge(run, g, &s);
+    solve_report(run, g, NULL, &s);
+    results_new(run, g, &r);
+    set_keys(run, r.as, &s.contact);
+    memset(r.buffer, 0, nodes * sizeof *r.buffer);
+    put(run, &r, SOLVE_PRESSURE, r.buffer);
+    rc_contact_apart(ranks_of(&run->t), &shape, g->v, r.buffer, &s.contact);
+    put(run, &r, SOLVE_GAP, r.buffer);
+    memset(r.buffer, 0, nodes * sizeof *r.buffer);
+    put(run, &r, SOLVE_DISPLACEMENT, r.buffer);
+    r.as->type = g->type;
+    put(run, &r, SOLVE_HEIGHT, g->v);
+    r.as->type = RC_F64;
+    put_plastic(run, &r, g->v, &s.contact);
+    results_free(&r);
+}
+
+struct demand {
+    const struct run *run;
+    const struct rc_grid *g;
+    const struct rc_problem *problem;
+};
+
+static size_t
+memory_by(const void *ctx, const char *engine)
+{
+    const struct demand *d = ctx;
+    struct rc_problem problem = *d->problem;
+
+    problem.engine = engine;
+    return solve_memory(d->run, d->g, &problem);
+}
+
+/* Where the map would fit with another engine, that is said. */
+static void
+demand_memory(struct run *run, const struct rc_grid *g, const struct rc_problem *problem)
+{
+    const struct demand d = {run, g, problem};
+
+    tool_demand_memory_or(
+        &run->t, g, solve_memory(run, g, problem),
+        tool_leaner_engine(&run->t, problem->boundary == RC_PERIODIC, memory_by, &d));
+}
+
+static struct rc_solver *
+new_solver(struct run *run, const struct rc_grid *g)
+{
+    struct rc_shape shape = rc_grid_shape(g);
+    struct rc_problem problem = problem_of(run, g, run->step);
+    struct rc_solver *solver;
+    struct rc_err err;
+
+    demand_memory(run, g, &problem);
+    solver = rc_solver_new(&shape, g->v, &problem, &err);
+    if (solver == NULL)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    tool_code_there(&run->t, SOLVE_CODE);
+    run->setup = solve_now() - run->began;
+    return solver;
+}
+
+/* The loads of a list, each from the solution of the last; in a history, on the shape that it has
+ * left. */
+static void
+do_loads(struct run *run, struct rc_grid *g)
+{
+    struct rc_solver *solver = NULL;
+    struct rc_err err;
+
+    if (run->args->physics.history)
+        run->first_top = run->top = highest(run, g);
+    run->number = run->steps->n == 1 ? rc_grid_case(g) - 1 : run->number;
+    for (run->step = 0; run->step < run->steps->n; run->step++) {
+        struct rc_problem problem = problem_of(run, g, run->step);
+
+        if (run->step > 0 && tool_interrupted() != 0)
+            break; /* of the first there is something to write */
+        run->began = solve_now();
+        run->setup = 0;
+        run->number++;
+        if (run->steps->v[run->step] == 0) {
+            take_apart(run, g);
+            continue;
+        }
+        if (solver == NULL)
+            solver = new_solver(run, g);
+        else if (rc_solver_set_load(solver, problem.load, problem.approach, &err) != RC_OK)
+            tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+        do_load(run, g, solver);
+    }
+    rc_solver_free(solver);
+}
+
+/* The hardness of a case is a number or a map. */
+static void
+take_hardness(struct run *run, const struct rc_grid *hardness)
+{
+    const double *v = hardness != NULL ? hardness->v : &run->args->physics.hardness;
+    double low = INFINITY, high = -INFINITY;
+
+    physics_hardness(&run->t, hardness);
+    for (size_t k = 0; k < (hardness != NULL ? rc_grid_nodes(hardness) : 1); k++)
+        if (isfinite(v[k])) {
+            low = fmin(low, v[k]);
+            high = fmax(high, v[k]);
+        }
+    run->hardness = hardness;
+    run->hardness_min = -ranks_most(&run->t, -low);
+    run->hardness_max = ranks_most(&run->t, high);
+    if (run->args->physics.history && isinf(run->hardness_min))
+        tool_warn(&run->t,
+                  "--history without --hardness or a number in a map of it: nothing yields, so no "
+                  "load leaves a trace");
+}
+
+void
+solve_case(struct run *run, struct rc_grid *g, const struct rc_grid *hardness)
+{
+    take_hardness(run, hardness);
+    physics_heights(&run->t, &run->args->physics, g);
+    if (!rc_grid_number(g, HEIGHT_ERROR, &run->height_error))
+        run->height_error = 0;
+    run->nodes = g->nx * g->ny;
+    checkpoint_surface(run->checkpoint, g, hardness);
+    if (run->args->dry_run) {
+        struct rc_problem problem = problem_of(run, g, 0);
+        solve_plan(run, g, &problem);
+    } else {
+        do_loads(run, g);
+    }
+}
