@@ -28,6 +28,12 @@ tilt_word(size_t k)
 /* clang-format off */
 static const struct opt opts[] = {
     {.group = physics_options, AT(physics)},
+    {.name = "yield", .type = OPT_TEXT, AT(yield), .result = true, .arg = "Y[,HM]|FILE.tsv",
+     .help = "body 1 yields inside, from this stress on, which hardens by HM per plastic strain"},
+    {.name = "increments", .type = OPT_TEXT, AT(increments), .result = true, .arg = "N|auto",
+     .help = "of each load of a body that yields (default auto: to an error of 1 %)"},
+    {.name = "slabs", .type = OPT_TEXT, AT(slabs), .result = true, .arg = "N|LIST|auto",
+     .help = "in which it may yield, or their thicknesses, from the surface (default auto)"},
     {.name = "history", .type = OPT_FLAG, AT(physics.history), .result = true,
      .help = "the loads follow each other, each on the shape left by yield; 0 takes the bodies apart"},
     {.name = "kernel", .alias = "engine", .type = OPT_CHOICE, AT(kernel),
@@ -124,12 +130,16 @@ check_arguments(struct run *run)
 {
     if ((args.resume || tool_given(&run->t, "interval")) && args.checkpoint == NULL)
         tool_die(&run->t, EXIT_USAGE, "--resume and --interval need --checkpoint FILE");
+    args.physics.history |= args.yield != NULL; /* what has yielded stays */
     physics_check(&run->t, &args.physics);
     run->args = &args;
     run->steps = physics_steps(&args.physics);
     run->stiffness = args.stiffness || run->steps->n > 1;
     read_conductivity(run);
     check_tilt(run);
+    yield_read(run);
+    if (run->yielding.wanted && !tool_given(&run->t, "output"))
+        args.output |= 1 << SOLVE_RESIDUAL;
 }
 
 /* ---- main ---- */

@@ -43,6 +43,7 @@ enum {
     HALVINGS = 40
 };
 static const double settled = 0.02; /* the lag at which a load is believed */
+static const double moves = 5e-3;   /* and the error of the pressure from the iteration */
 
 enum stage {
     STAGE_NEW,   /* no load is asked for */
@@ -427,6 +428,13 @@ begin_increment(struct rc_plastic *p, struct rc_err *err)
     return p->alone ? RC_OK : rc_solver_set_load(p->solver, p->set, 0, err);
 }
 
+/* Of the pressure, whose last move that is known goes from the other. */
+static double
+iteration_error(const struct rc_plastic *p)
+{
+    return isinf(p->resistance) ? 0 : 1.5 * moved(p) / fmin(p->resistance, 1);
+}
+
 static bool
 enough(const struct rc_plastic *p)
 {
@@ -434,26 +442,31 @@ enough(const struct rc_plastic *p)
         return true;
     if (p->increment < p->increments)
         return p->trial >= EACH;
-    return p->trial >= MOST || (p->trial >= LAST && p->figures.lag <= p->lag);
+    return p->trial >= MOST ||
+           (p->trial >= LAST && p->figures.lag <= p->lag && iteration_error(p) <= moves);
 }
 
 static enum rc_status
 advance(struct rc_plastic *p, struct rc_err *err)
 {
+    bool done;
+
     if (p->trial == 0 && begin_increment(p, err) != RC_OK)
         return RC_FAIL;
     if (apply(p, err) != RC_OK)
         return RC_FAIL;
     p->trial++;
     for_each(p, mix);
-    if (!enough(p))
+    done = enough(p);
+    if (p->increment == p->increments)
+        keep_pressure(p);
+    if (!done)
         return RC_OK;
     p->stopped |= p->trial >= MOST;
     for_each(p, accept);
     p->trial = 0;
     if (p->increment++ < p->increments)
         return RC_OK;
-    keep_pressure(p);
     p->stage = STAGE_STATE;
     return RC_OK;
 }
@@ -658,7 +671,8 @@ check(const struct rc_plastic_problem *problem, struct rc_err *err)
         return rc_err_set(err, "plasticity needs E and nu of the body that yields");
     if (one->layers > 0)
         return rc_err_set(err, "plasticity in the volume is not known under layers");
-    if (problem->contact.hardness > 0 || problem->contact.hardness_map != NULL)
+    if ((problem->contact.hardness > 0 && !isinf(problem->contact.hardness)) ||
+        problem->contact.hardness_map != NULL)
         return rc_err_set(err, "a bound of the pressure and plasticity in the volume: one of them");
     if (!(one->nu < 0.5))
         return rc_err_set(err, "Poisson's ratio %g: a body that yields inside must be compressible",

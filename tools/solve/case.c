@@ -151,12 +151,39 @@ put_plastic(struct run *run, const struct results *r, const double *h, const str
     put(run, r, SOLVE_PLASTIC, h);
 }
 
+/* Frames that are no results of the contact itself: the heights, and what is left of them, and inside. solver
+ * NULL: bodies that are apart. */
+static void
+put_rest(struct run *run, const struct rc_grid *g, struct results *r, struct rc_solver *solver,
+         const struct rc_contact *c)
+{
+    size_t nodes = rc_grid_nodes(r->as);
+    struct rc_err err;
+
+    r->as->type = g->type;
+    put(run, r, SOLVE_HEIGHT, g->v);
+    r->as->type = RC_F64;
+    if (run->yielding.plastic != NULL || solver == NULL) {
+        memcpy(r->buffer, g->v, nodes * sizeof *g->v);
+        yield_displace(run, nodes, -1, r->buffer);
+    } else if (solve_wanted(run->args, SOLVE_PLASTIC) &&
+               rc_solver_plastic(solver, r->buffer, &err) != RC_OK) {
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    }
+    put_plastic(run, r, r->buffer, c);
+    memset(r->buffer, 0, nodes * sizeof *r->buffer);
+    yield_displace(run, nodes, 1, r->buffer);
+    if (run->yielding.wanted)
+        put(run, r, SOLVE_RESIDUAL, r->buffer);
+    if (run->yielding.wanted && solve_wanted(run->args, SOLVE_STRAIN))
+        yield_put_strain(run, r->as, r->buffer);
+}
+
 static void
 put_out(struct run *run, const struct rc_grid *g, struct results *r, struct rc_solver *solver,
         const struct rc_contact *c)
 {
     struct rc_contact again;
-    struct rc_err err;
 
     set_keys(run, r->as, c);
     put(run, r, SOLVE_PRESSURE, rc_solver_pressure(solver));
@@ -165,14 +192,10 @@ put_out(struct run *run, const struct rc_grid *g, struct results *r, struct rc_s
         r->displacement = r->buffer;
         rc_solver_result(solver, r->displacement, NULL, &again);
     }
+    if (r->displacement != NULL)
+        yield_displace(run, rc_grid_nodes(r->as), 1, r->displacement);
     put(run, r, SOLVE_DISPLACEMENT, r->displacement);
-    r->as->type = g->type;
-    put(run, r, SOLVE_HEIGHT, g->v);
-    r->as->type = RC_F64;
-    if (solve_wanted(run->args, SOLVE_PLASTIC) &&
-        rc_solver_plastic(solver, r->buffer, &err) != RC_OK)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    put_plastic(run, r, r->buffer, c);
+    put_rest(run, g, r, solver, c);
 }
 
 /* ---- loads ---- */
@@ -187,6 +210,18 @@ highest(const struct run *run, const struct rc_grid *g)
     return ranks_most(&run->t, top);
 }
 
+/* The highest node when the bodies are taken apart from where body 1 has yielded inside. */
+static double
+highest_left(const struct run *run, const struct rc_grid *g)
+{
+    const double *u = rc_plastic_residual(run->yielding.plastic);
+    double top = -INFINITY;
+
+    for (size_t k = 0; k < rc_grid_nodes(g); k++)
+        top = fmax(top, g->v[k] - u[k]);
+    return top;
+}
+
 /* In a history the heights get the shape that the load has left. */
 static void
 keep_shape(struct run *run, struct rc_grid *g, struct rc_solver *solver, struct solution *s)
@@ -195,6 +230,8 @@ keep_shape(struct run *run, struct rc_grid *g, struct rc_solver *solver, struct 
 
     if (!run->args->physics.history)
         return;
+    if (run->yielding.plastic != NULL) /* that approach is counted from the shape that is left */
+        run->top = highest_left(run, g);
     s->indentation = s->contact.approach + run->first_top - run->top;
     if (s->contact.yielded_nodes > 0) {
         if (rc_solver_keep_shape(solver, &s->contact, g->v, &err) != RC_OK)
@@ -264,21 +301,21 @@ find_stiffness(struct run *run, const struct rc_grid *g, struct rc_solver *solve
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
 }
 
+/* What the solver has found of this load. */
 static void
-do_load(struct run *run, struct rc_grid *g, struct rc_solver *solver)
+end_load(struct run *run, struct rc_grid *g, struct rc_solver *solver)
 {
     struct solution solution = SOLUTION_NONE, *s = &solution;
     struct results r;
-    double start;
+    double start = solve_now();
 
-    solve(run, g, solver);
-    start = solve_now();
     if (tool_interrupted() == 0) /* else there may be nothing on this grid yet */
         look_at_contact(run, g, rc_solver_pressure(solver), s);
     results_new(run, g, &r);
     find_result(run, &r, solver, &s->contact);
     find_stiffness(run, g, solver, s);
     s->contact.convolutions = rc_solver_convolutions(solver);
+    yield_look(run, &s->contact);
     run->done = solve_now();
     run->result = run->done - start;
     solve_judge(run, g, s);
@@ -300,8 +337,19 @@ take_apart(struct run *run, const struct rc_grid *g)
     struct solution s = SOLUTION_NONE;
     struct results r;
 
-    run->iterate = run->result = 0;
-    rc_contact_apart(ranks_of(&run->t), &shape, g->v, NULL, &s.contact);
+    double *form = g->v, *own = NULL;
+
+    run->result = 0;
+    if (run->yielding.plastic != NULL) {
+        form = own = malloc(nodes * sizeof *own);
+        if (own == NULL)
+            tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "out of memory for the shape that is left");
+        memcpy(own, g->v, nodes * sizeof *own);
+        yield_displace(run, nodes, -1, own);
+        run->top = highest_left(run, g);
+    }
+    rc_contact_apart(ranks_of(&run->t), &shape, form, NULL, &s.contact);
+    yield_look(run, &s.contact);
     if (run->conductance)
         s.conductance = (struct rc_conductance){NAN, 0, 0};
     run->done = solve_now();
@@ -313,15 +361,14 @@ take_apart(struct run *run, const struct rc_grid *g)
     set_keys(run, r.as, &s.contact);
     memset(r.buffer, 0, nodes * sizeof *r.buffer);
     put(run, &r, SOLVE_PRESSURE, r.buffer);
-    rc_contact_apart(ranks_of(&run->t), &shape, g->v, r.buffer, &s.contact);
+    rc_contact_apart(ranks_of(&run->t), &shape, form, r.buffer, &s.contact);
     put(run, &r, SOLVE_GAP, r.buffer);
     memset(r.buffer, 0, nodes * sizeof *r.buffer);
+    yield_displace(run, nodes, 1, r.buffer);
     put(run, &r, SOLVE_DISPLACEMENT, r.buffer);
-    r.as->type = g->type;
-    put(run, &r, SOLVE_HEIGHT, g->v);
-    r.as->type = RC_F64;
-    put_plastic(run, &r, g->v, &s.contact);
+    put_rest(run, g, &r, NULL, &s.contact);
     results_free(&r);
+    free(own);
 }
 
 struct demand {
@@ -368,13 +415,31 @@ new_solver(struct run *run, const struct rc_grid *g)
     return solver;
 }
 
+/* Solves this load of elastic bodies with a solver that there is, or NULL, and begins with plasticity where
+ * it calls for that. The solver that has the solution. */
+static struct rc_solver *
+press(struct run *run, const struct rc_grid *g, struct rc_solver *solver,
+      const struct rc_problem *problem)
+{
+    struct rc_err err;
+
+    if (solver == NULL)
+        solver = new_solver(run, g);
+    else if (rc_solver_set_load(solver, problem->load, problem->approach, &err) != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    solve(run, g, solver);
+    if (!yield_begins(run, g, solver, *problem))
+        return solver;
+    rc_solver_free(solver);
+    return rc_plastic_solver(run->yielding.plastic);
+}
+
 /* The loads of a list, each from the solution of the last; in a history, on the shape that it has
  * left. */
 static void
 do_loads(struct run *run, struct rc_grid *g)
 {
     struct rc_solver *solver = NULL;
-    struct rc_err err;
 
     if (run->args->physics.history)
         run->first_top = run->top = highest(run, g);
@@ -385,19 +450,21 @@ do_loads(struct run *run, struct rc_grid *g)
         if (run->step > 0 && tool_interrupted() != 0)
             break; /* of the first there is something to write */
         run->began = solve_now();
-        run->setup = 0;
+        run->setup = run->iterate = 0;
         run->number++;
+        if (run->yielding.plastic != NULL)
+            yield_press(run, g, run->steps->v[run->step] > 0 ? problem.load : 0);
         if (run->steps->v[run->step] == 0) {
             take_apart(run, g);
             continue;
         }
-        if (solver == NULL)
-            solver = new_solver(run, g);
-        else if (rc_solver_set_load(solver, problem.load, problem.approach, &err) != RC_OK)
-            tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-        do_load(run, g, solver);
+        if (run->yielding.plastic == NULL)
+            solver = press(run, g, solver, &problem);
+        end_load(run, g, solver);
     }
-    rc_solver_free(solver);
+    if (run->yielding.plastic == NULL)
+        rc_solver_free(solver);
+    yield_free(run);
 }
 
 /* The hardness of a case is a number or a map. */
@@ -416,7 +483,7 @@ take_hardness(struct run *run, const struct rc_grid *hardness)
     run->hardness = hardness;
     run->hardness_min = -ranks_most(&run->t, -low);
     run->hardness_max = ranks_most(&run->t, high);
-    if (run->args->physics.history && isinf(run->hardness_min))
+    if (run->args->physics.history && isinf(run->hardness_min) && !run->yielding.wanted)
         tool_warn(&run->t,
                   "--history without --hardness or a number in a map of it: nothing yields, so no "
                   "load leaves a trace");

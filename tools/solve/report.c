@@ -12,6 +12,8 @@ const struct solve_frame_kind solve_frames[SOLVE_FRAMES] = {
     [SOLVE_DISPLACEMENT] = {"displacement", "m"},
     [SOLVE_HEIGHT] = {"height", "m"},
     [SOLVE_PLASTIC] = {"plastic", "m"},
+    [SOLVE_RESIDUAL] = {"residual", "m"},
+    [SOLVE_STRAIN] = {"strain", "1"},
 };
 /* clang-format on */
 
@@ -87,6 +89,12 @@ history_state(const struct scene *s)
 }
 
 static const char *
+yielding_state(const struct scene *s)
+{
+    return yield_state(s->run);
+}
+
+static const char *
 tilt_state(const struct scene *s)
 {
     return s->run->tilt ? "on" : "left out: no --tilt free";
@@ -125,6 +133,7 @@ static const struct effect {
     {"padding", padding_state},
     {"approach", approach_state},
     {"history", history_state},
+    {"yield", yielding_state},
     {"tilt", tilt_state},
     {"stiffness", stiffness_state},
     {"conductivity", conductivity_state},
@@ -310,6 +319,7 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
     report_number(r, "contact_fraction_inside", s->inside_fraction, NULL);
     report_number(r, "tilt_x", run->tilt ? atan(s->contact.tilt[0]) : NAN, "rad");
     report_number(r, "tilt_y", run->tilt ? atan(s->contact.tilt[1]) : NAN, "rad");
+    yield_report(r, run);
     report_finish_row(r);
 }
 

@@ -19,6 +19,8 @@ enum solve_frame { /* in the order of --output's words, and of writing */
     SOLVE_DISPLACEMENT,
     SOLVE_HEIGHT,
     SOLVE_PLASTIC,
+    SOLVE_RESIDUAL,
+    SOLVE_STRAIN, /* several frames of each slab */
     SOLVE_FRAMES
 };
 struct solve_frame_kind {
@@ -32,10 +34,11 @@ struct solve_args {
     double tol;
     const char *kernel, *method, *report;
     const char *conductivity; /* of both bodies, or NULL                                  */
-    const char *tilt;         /* a word, or NULL                                          */
-    struct numbers at;        /* x and y; none: the middle                                */
-    const char *checkpoint;   /* a file, or NULL                                         */
-    double interval;          /* seconds to the first frame in it                        */
+    const char *yield, *increments, *slabs; /* as on the line, or NULL                      */
+    const char *tilt;       /* a word, or NULL                                          */
+    struct numbers at;      /* x and y; none: the middle                                */
+    const char *checkpoint; /* a file, or NULL                                         */
+    double interval;        /* seconds to the first frame in it                        */
     bool stiffness, discretization, dry_run, resume;
     size_t output; /* bits of enum solve_frame */
 };
@@ -46,12 +49,28 @@ struct progress {
     double error, at; /* at: seconds */
 };
 
+/* --yield: body 1 yields inside. */
+struct yielding {
+    bool wanted;
+    struct rc_yield law;
+    double *table[2];         /* plastic strain, stress; NULL: none given                    */
+    size_t asked, increments; /* of a load: on the line, 0 for auto; in use                  */
+    size_t slab_count;        /* on the line, 0 for auto                                     */
+    struct numbers list;      /* or thicknesses                                              */
+    size_t slabs;             /* in use                                                      */
+    double *thickness;
+    struct rc_plastic *plastic; /* NULL: nothing has yielded                                   */
+    double most, deepest;  /* largest elastic Mises stress over the yield stress; m; 0: unknown */
+    enum rc_status status; /* of the load                                                 */
+};
+
 struct run {
     struct tool t;
     const struct solve_args *args;
-    const struct numbers *steps;  /* the list of loads or approaches               */
-    size_t step, number;          /* which of them, from 0; the case that it is    */
-    bool stiffness, conductance;  /* whether they are found                            */
+    const struct numbers *steps; /* the list of loads or approaches               */
+    size_t step, number;         /* which of them, from 0; the case that it is    */
+    bool stiffness, conductance; /* whether they are found                            */
+    struct yielding yielding;
     bool tilt;                    /* the counter body is free to                       */
     double k[2];                  /* conductivities of the bodies, SI                  */
     const char *conductance_unit; /* W/K or S; NULL: the conductivities have no unit   */
@@ -117,6 +136,29 @@ void solve_plan(struct run *run, const struct rc_grid *g, const struct rc_proble
 
 /* Solves the loads of these heights, and writes and reports what is found. hardness: a map of it, or NULL. */
 void solve_case(struct run *run, struct rc_grid *g, const struct rc_grid *hardness);
+
+/* ---- yield.c: all but yield_read do nothing without --yield ---- */
+
+/* Reads --yield, --increments, --slabs, or ends the tool. */
+void yield_read(struct run *run);
+void yield_free(struct run *run);
+/* After an elastic solution of this contact: false where body 1 does not yield under it; else it does from here
+ * on, and carries the load. */
+bool yield_begins(struct run *run, const struct rc_grid *g, struct rc_solver *solver,
+                  struct rc_problem contact);
+/* The next load, N, of a body that yields; 0: none. */
+void yield_press(struct run *run, const struct rc_grid *g, double load);
+/* Adds what is known of the error to the figures of the contact. */
+void yield_look(struct run *run, struct rc_contact *contact);
+/* v += factor times the residual displacement. */
+void yield_displace(const struct run *run, size_t n, double factor, double *v);
+/* The plastic strain slab by slab; `like`: the frames' shape and keys; buffer: room for a map. */
+void yield_put_strain(struct run *run, const struct rc_grid *like, double *buffer);
+void yield_judge(struct run *run, const char *where, const struct solution *solution);
+/* What the solution took, in words. */
+void yield_tell(const struct run *run, const struct rc_contact *contact, char *text, size_t size);
+const char *yield_state(const struct run *run);
+void yield_report(struct report *report, const struct run *run);
 
 /* Tells where the solver stands. */
 void solve_progress(struct run *run, const struct rc_solver *solver);

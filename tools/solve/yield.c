@@ -1,0 +1,519 @@
+/*
+ * --yield: body 1 yields inside. A load is solved as an elastic one first; where its stresses nowhere reach
+ * the yield stress that is the solution, and nothing of the volume has been touched. Else the body is
+ * pressed from 0 in increments, and from then on every load of the list follows the last.
+ */
+#include "solve.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    FIRST = 8,  /* increments of the first try, where their number is left open */
+    MOST = 512, /* and of the last */
+    TRIES = 3
+};
+static const double deserved = 1e-2;      /* error that the increments are chosen for            */
+static const double contact_share = 1e-2; /* of it, the tolerance of each contact                */
+static const double growth = 1.25;        /* of slabs with depth                                 */
+static const double expected_part = 0.3;  /* of the voxels that yield, for the memory            */
+static const double order = 0.8;          /* power of the error that the increments go by */
+static const double large_strain = 0.1;
+
+/* ---- the command line ---- */
+
+/* "strain stress" in lines; '#' begins a comment, and a line of words at the top is a heading. */
+static enum rc_status
+read_table(struct yielding *y, const char *name, struct rc_err *err)
+{
+    FILE *file = fopen(name, "r");
+    char line[512];
+    size_t n = 0, room = 0, number = 0;
+    enum rc_status status = RC_OK;
+
+    if (file == NULL)
+        return rc_err_set(err, "%s", strerror(errno));
+    while (status == RC_OK && fgets(line, sizeof line, file) != NULL) {
+        char strain[128], stress[128], rest[2];
+        double at[2];
+        int got;
+
+        number++;
+        line[strcspn(line, "#\r\n")] = '\0';
+        got = sscanf(line, " %127s %127s %1s", strain, stress, rest);
+        if (got <= 0)
+            continue;
+        if (got != 2) {
+            status =
+                rc_err_set(err, "line %zu: it must hold a plastic strain and a stress", number);
+            break;
+        }
+        if (unit_number(strain, UNIT_NONE, &at[0], err) != RC_OK ||
+            unit_number(stress, UNIT_PA, &at[1], err) != RC_OK) {
+            if (n == 0 && number == 1)
+                continue;
+            status =
+                rc_err_set(err, "line %zu: '%s %s': it must be a plastic strain and a stress in Pa",
+                           number, strain, stress);
+            break;
+        }
+        if (n == room) {
+            room = 2 * room + 64;
+            y->table[0] = realloc(y->table[0], room * sizeof(double));
+            y->table[1] = realloc(y->table[1], room * sizeof(double));
+            if (y->table[0] == NULL || y->table[1] == NULL) {
+                status = rc_err_set(err, "out of memory");
+                break;
+            }
+        }
+        y->table[0][n] = at[0];
+        y->table[1][n++] = at[1];
+    }
+    if (status == RC_OK && ferror(file))
+        status = rc_err_set(err, "%s", strerror(errno));
+    fclose(file);
+    if (status == RC_OK && n == 0)
+        status = rc_err_set(err, "it holds no strain and stress");
+    if (status == RC_OK)
+        y->law = (struct rc_yield){.points = n, .strain_at = y->table[0], .stress_at = y->table[1]};
+    return status;
+}
+
+static enum rc_status
+read_law(struct yielding *y, const char *text, struct rc_err *err)
+{
+    size_t n = strlen(text), first = strcspn(text, ",");
+    char stress[64];
+
+    if (n > 4 && strcmp(text + n - 4, ".tsv") == 0)
+        return read_table(y, text, err);
+    if (first >= sizeof stress)
+        return rc_err_set(err, "it must be Y, or Y,Hm, as in 1GPa,2GPa, or a table FILE.tsv");
+    memcpy(stress, text, first);
+    stress[first] = '\0';
+    if (unit_number(stress, UNIT_PA, &y->law.stress, err) != RC_OK)
+        return RC_FAIL;
+    if (text[first] == ',' && unit_number(text + first + 1, UNIT_PA, &y->law.modulus, err) != RC_OK)
+        return RC_FAIL;
+    if (!(y->law.stress > 0) || !(y->law.modulus >= 0))
+        return rc_err_set(err, "the yield stress must be above 0, and hardening not below it");
+    return RC_OK;
+}
+
+/* "auto", or a whole number in *count, 0: none; else a list of lengths where one is asked for. */
+static void
+read_count(struct run *run, const char *name, const char *text, size_t *count,
+           struct numbers *lengths)
+{
+    struct rc_err err;
+    char *end;
+    unsigned long n;
+
+    *count = 0;
+    if (text == NULL || strcmp(text, "auto") == 0)
+        return;
+    n = strtoul(text, &end, 10);
+    if (end != text && *end == '\0' && n > 0 && n <= MOST && text[0] != '-') {
+        *count = n;
+        return;
+    }
+    if (lengths == NULL || (end != text && *end == '\0'))
+        tool_die(&run->t, EXIT_USAGE, "--%s %s: it must be auto%s or a number from 1 to %d", name,
+                 text, lengths == NULL ? "" : ", a list of thicknesses", MOST);
+    if (unit_numbers(text, UNIT_M, lengths, &err) != RC_OK)
+        tool_die(&run->t, EXIT_USAGE, "--%s %s: %s", name, text, err.text);
+    for (size_t k = 0; k < lengths->n; k++)
+        if (!(lengths->v[k] > 0))
+            tool_die(&run->t, EXIT_USAGE, "--%s %s: a slab must have a thickness above 0", name,
+                     text);
+}
+
+static void
+refuse(struct run *run, bool given, const char *what, const char *why)
+{
+    if (given)
+        tool_die(&run->t, EXIT_USAGE, "--yield: not with %s: %s", what, why);
+}
+
+void
+yield_read(struct run *run)
+{
+    const struct solve_args *args = run->args;
+    const struct physics *a = &args->physics;
+    struct yielding *y = &run->yielding;
+    struct rc_err err;
+
+    y->wanted = args->yield != NULL;
+    if (!y->wanted && (args->increments != NULL || args->slabs != NULL))
+        tool_die(&run->t, EXIT_USAGE, "--increments and --slabs belong to --yield");
+    if (!y->wanted)
+        return;
+    if (read_law(y, args->yield, &err) != RC_OK)
+        tool_die(&run->t, EXIT_USAGE, "--yield %s: %s", args->yield, err.text);
+    read_count(run, "increments", args->increments, &y->asked, NULL);
+    read_count(run, "slabs", args->slabs, &y->slab_count, &y->list);
+    refuse(run, !a->periodic, "a free boundary",
+           "plasticity in the volume is known with --periodic only, as yet");
+    refuse(run, !isinf(a->hardness), "--hardness",
+           "a bound of the pressure is what it takes the place of");
+    refuse(run, a->layer.n > 0, "--layer", "the material is one");
+    refuse(
+        run, tool_given(&run->t, "estar"), "--estar",
+        "what yields inside needs its own modulus: give --E1 --nu1, and --E2 --nu2 or --E2 rigid");
+    refuse(run, a->nu1 == 0.5, "--nu1 0.5", "a body that yields inside must be compressible");
+    refuse(run, a->approach.n > 0, "--approach",
+           "a body that yields follows loads: give --load or --mean-pressure");
+    refuse(run, args->checkpoint != NULL, "--checkpoint", "the strain is not kept in it, as yet");
+    refuse(run, args->discretization, "--discretization",
+           "a grid half as fine yields elsewhere: solve it by itself");
+    refuse(run, run->tilt, "--tilt free", "the boundary is periodic");
+}
+
+void
+yield_free(struct run *run)
+{
+    struct yielding *y = &run->yielding;
+
+    rc_plastic_free(y->plastic);
+    free(y->thickness);
+    y->plastic = NULL;
+    y->thickness = NULL;
+    y->slabs = 0;
+}
+
+/* ---- slabs ---- */
+
+/* So many, down to the depth that was found, each thicker than the one above. */
+static void
+deal(struct yielding *y, size_t n)
+{
+    double depth = 0, dz;
+
+    for (size_t k = 0; k < y->slabs; k++)
+        depth += y->thickness[k];
+    dz = n > 1 ? depth * (growth - 1) / (pow(growth, (double)n) - 1) : depth;
+    free(y->thickness);
+    y->thickness = malloc(n * sizeof *y->thickness);
+    y->slabs = y->thickness == NULL ? 0 : n;
+    for (size_t k = 0; k < y->slabs; k++, dz *= growth)
+        y->thickness[k] = dz;
+}
+
+/* From the elastic pressure: false when nothing yields under it. */
+static bool
+find_slabs(struct run *run, const struct rc_grid *g, const double *p)
+{
+    struct yielding *y = &run->yielding;
+    const struct rc_shape shape = rc_grid_shape(g);
+    double stress = y->law.points > 0 ? y->law.stress_at[0] : y->law.stress;
+    struct rc_plastic_depths d;
+    struct rc_err err;
+
+    if (rc_plastic_depths(&shape, p, &run->args->physics.pair.one, stress, run->t.threads, &d,
+                          &err) != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    y->most = d.most / stress;
+    y->deepest = d.deepest;
+    free(y->thickness);
+    y->thickness = d.thickness;
+    y->slabs = d.slabs;
+    if (d.slabs == 0)
+        return false;
+    if (y->list.n > 0) {
+        free(y->thickness);
+        y->slabs = y->list.n;
+        y->thickness = malloc(y->slabs * sizeof *y->thickness);
+        if (y->thickness != NULL)
+            memcpy(y->thickness, y->list.v, y->slabs * sizeof *y->thickness);
+    } else if (y->slab_count > 0) {
+        deal(y, y->slab_count);
+    }
+    if (y->thickness == NULL)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "out of memory for the slabs");
+    return true;
+}
+
+/* ---- loads ---- */
+
+static struct rc_plastic_problem
+problem_of(const struct run *run, struct rc_problem contact)
+{
+    const struct yielding *y = &run->yielding;
+    double most = contact_share * deserved;
+
+    contact.tol = contact.tol > 0 ? fmin(contact.tol, most) : most;
+    return (struct rc_plastic_problem){.contact = contact,
+                                       .yield = y->law,
+                                       .slabs = y->slabs,
+                                       .thickness = y->thickness,
+                                       .increments = y->increments};
+}
+
+static double
+goal(const struct run *run)
+{
+    return fmax(deserved, run->args->tol);
+}
+
+static void
+make(struct run *run, const struct rc_grid *g, struct rc_problem contact)
+{
+    struct yielding *y = &run->yielding;
+    const struct rc_shape shape = rc_grid_shape(g);
+    struct rc_plastic_problem problem = problem_of(run, contact);
+    struct rc_err err;
+
+    rc_plastic_free(y->plastic);
+    y->plastic = NULL;
+    tool_demand_memory(&run->t, g, rc_plastic_memory(&shape, &problem, expected_part));
+    y->plastic = rc_plastic_new(&shape, g->v, &problem, &err);
+    if (y->plastic == NULL)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+}
+
+void
+yield_press(struct run *run, const struct rc_grid *g, double load)
+{
+    struct yielding *y = &run->yielding;
+    double start = solve_now(), at;
+    size_t increment, application;
+    struct rc_err err;
+
+    if (rc_plastic_set_load(y->plastic, load, &err) != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    y->status = RC_MORE;
+    while (tool_interrupted() == 0 && y->status == RC_MORE) {
+        y->status = rc_plastic_step(y->plastic, &err);
+        rc_plastic_progress(y->plastic, &at, &increment, &application);
+        tool_progress(&run->t,
+                      "case %zu, %zu x %zu, load %.3g N, increment %zu of %zu, application %zu",
+                      run->number, g->nx, g->ny, at, increment, y->increments, application);
+    }
+    tool_progress_end(&run->t);
+    if (y->status == RC_FAIL)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    run->iterate += solve_now() - start;
+}
+
+/* Solves the elastic contact at the largest load of the list, which goes deepest. */
+static void
+go_to_largest(struct run *run, const struct rc_grid *g, struct rc_solver *solver, double unit)
+{
+    double most = 0;
+    struct rc_err err;
+
+    for (size_t k = run->step; k < run->steps->n; k++)
+        most = fmax(most, run->steps->v[k]);
+    if (most <= run->steps->v[run->step])
+        return;
+    if (rc_solver_set_load(solver, most * unit, 0, &err) != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    while (tool_interrupted() == 0 && rc_solver_step(solver) == RC_MORE)
+        solve_progress(run, solver);
+}
+
+bool
+yield_begins(struct run *run, const struct rc_grid *g, struct rc_solver *solver,
+             struct rc_problem contact)
+{
+    struct yielding *y = &run->yielding;
+    double load = contact.load;
+    const struct rc_plastic_figures *f;
+
+    if (!y->wanted || tool_interrupted() != 0 || !find_slabs(run, g, rc_solver_pressure(solver)))
+        return false;
+    go_to_largest(run, g, solver, load / run->steps->v[run->step]);
+    (void)find_slabs(run, g, rc_solver_pressure(solver));
+    y->increments = y->asked > 0 ? y->asked : FIRST;
+    for (int try = 0; try < TRIES && tool_interrupted() == 0; try++) {
+        double more;
+        make(run, g, contact);
+        yield_press(run, g, load);
+        f = rc_plastic_result(y->plastic);
+        if (y->asked > 0 || !(f->error > goal(run)) || y->increments >= MOST)
+            break;
+        more = ceil((double)y->increments * pow(f->error / goal(run), order));
+        if (try + 1 < TRIES)
+            y->increments = more < MOST ? (size_t)more : MOST;
+    }
+    return true;
+}
+
+/* ---- what is found ---- */
+
+void
+yield_look(struct run *run, struct rc_contact *c)
+{
+    const struct yielding *y = &run->yielding;
+    const struct rc_plastic_figures *f;
+
+    if (y->plastic == NULL)
+        return;
+    f = rc_plastic_result(y->plastic);
+    c->convolutions = NAN; /* nearly all of the work is in the volume */
+    c->pressure_error += isnan(f->error) ? f->iteration_error : f->error;
+    c->converged = y->status == RC_OK && c->converged &&
+                   (y->asked > 0 || c->pressure_error <= goal(run) * (1 + contact_share));
+}
+
+void
+yield_displace(const struct run *run, size_t n, double factor, double *v)
+{
+    const double *u;
+
+    if (run->yielding.plastic == NULL)
+        return;
+    u = rc_plastic_residual(run->yielding.plastic);
+    for (size_t k = 0; k < n; k++)
+        v[k] += factor * u[k];
+}
+
+/* ---- strain ---- */
+
+static void
+put_slab(struct run *run, struct rc_grid *frame, size_t slab, double depth, double *buffer)
+{
+    static const char *const names[RC_PLASTIC_STRAINS] = {"exx", "eyy", "exy",
+                                                          "exz", "eyz", "peeq"};
+    const struct yielding *y = &run->yielding;
+    struct rc_err err;
+
+    if (rc_grid_set_number(frame, "depth", depth, &err) != RC_OK ||
+        rc_grid_set_number(frame, "thickness", y->thickness[slab], &err) != RC_OK)
+        tool_die_at(&run->t, frame, EXIT_IMPOSSIBLE, "%s", err.text);
+    for (size_t c = 0; c < RC_PLASTIC_STRAINS; c++) {
+        double *to[RC_PLASTIC_STRAINS] = {NULL};
+        struct rc_grid as = *frame; /* as the reader of the stream sees it */
+        to[c] = buffer;
+        rc_plastic_strain(y->plastic, slab, to);
+        as.channel = (char *)names[c]; /* these are only read */
+        as.unit = (char *)"1";
+        as.v = buffer;
+        tool_write(&run->t, &as);
+    }
+}
+
+void
+yield_put_strain(struct run *run, const struct rc_grid *like, double *buffer)
+{
+    const struct yielding *y = &run->yielding;
+    struct rc_grid *frame;
+    struct rc_err err;
+    double z = 0;
+
+    if (y->plastic == NULL)
+        return;
+    frame = rc_grid_like(like, like->channel, like->unit, &err);
+    if (frame == NULL)
+        tool_die_at(&run->t, like, EXIT_IMPOSSIBLE, "%s", err.text);
+    for (size_t k = 0; k < y->slabs; k++) {
+        put_slab(run, frame, k, z + y->thickness[k] / 2, buffer);
+        z += y->thickness[k];
+    }
+    rc_grid_free(frame);
+}
+
+static void
+warn_of_slabs(struct run *run, const char *where, const struct rc_plastic_figures *f)
+{
+    const struct yielding *y = &run->yielding;
+    double bottom = 0, above = 0;
+    size_t within = 0;
+
+    for (size_t k = 0; k < y->slabs; k++) {
+        above = bottom;
+        bottom += y->thickness[k];
+        within += above < f->depth;
+    }
+    if (f->depth > above)
+        tool_warn(&run->t,
+                  "%s: the lowest slab yields: the stack is too shallow: give more --slabs", where);
+    if (within > 0 && within < 4)
+        tool_warn(
+            &run->t,
+            "%s: %zu %s in the depth that yields: its stresses are coarse: take a finer grid, or "
+            "thinner --slabs",
+            where, within, within == 1 ? "slab lies" : "slabs lie");
+}
+
+void
+yield_judge(struct run *run, const char *where, const struct solution *s)
+{
+    enum {
+        SPOT = 113 /* nodes: 6 in the radius */
+    };
+    const struct rc_plastic_figures *f;
+
+    if (run->yielding.plastic == NULL)
+        return;
+    f = rc_plastic_result(run->yielding.plastic);
+    warn_of_slabs(run, where, f);
+    if (f->max_strain > large_strain)
+        tool_warn(&run->t,
+                  "%s: plastic strain up to %.2g: beyond 0.1 the theory of small strains is left",
+                  where, f->max_strain);
+    if (s->patches.count > 0 && s->contact.contact_nodes < SPOT * s->patches.count)
+        tool_warn(
+            &run->t,
+            "%s: %.0f nodes in a contact spot: with less than 6 in its radius what yields under "
+            "it is not resolved",
+            where, (double)s->contact.contact_nodes / (double)s->patches.count);
+}
+
+void
+yield_tell(const struct run *run, const struct rc_contact *c, char *text, size_t size)
+{
+    const struct rc_plastic_figures *f;
+
+    if (run->yielding.plastic == NULL) {
+        snprintf(text, size, "%zu iterations, %.3g convolutions", c->iterations, c->convolutions);
+        return;
+    }
+    f = rc_plastic_result(run->yielding.plastic);
+    snprintf(text, size, "%zu increments, %zu applications", f->increments, f->applications);
+}
+
+const char *
+yield_state(const struct run *run)
+{
+    static char text[128];
+    const struct yielding *y = &run->yielding;
+    char depth[SHOWN_NUMBER];
+
+    if (!y->wanted)
+        return "left out: no --yield";
+    if (y->plastic != NULL)
+        return "on";
+    if (y->most == 0)
+        return "on where the elastic stress exceeds it; costs nothing elsewhere";
+    snprintf(text, sizeof text,
+             "left out: the largest Mises stress is %.3g of the yield stress, %s deep", y->most,
+             shown_in_unit(depth, y->deepest, "m"));
+    return text;
+}
+
+void
+yield_report(struct report *r, const struct run *run)
+{
+    const struct yielding *y = &run->yielding;
+    const bool on = y->plastic != NULL;
+    const struct rc_plastic_figures none = {0}, *f = on ? rc_plastic_result(y->plastic) : &none;
+    double stress = y->law.points > 0 ? y->law.stress_at[0] : y->law.stress;
+
+    report_number(r, "yield", y->wanted ? stress : NAN, "Pa");
+    report_number(r, "hardening", y->wanted && y->law.points == 0 ? y->law.modulus : NAN, "Pa");
+    report_number(r, "increments", on ? (double)f->increments : NAN, NULL);
+    report_number(r, "applications", on ? (double)f->applications : NAN, NULL);
+    report_number(r, "slabs", on ? (double)y->slabs : NAN, NULL);
+    report_number(r, "plastic_depth", on ? f->depth : NAN, "m");
+    report_number(r, "plastic_volume", on ? f->volume : NAN, "m3");
+    report_number(r, "max_plastic_strain", on ? f->max_strain : NAN, NULL);
+    report_number(r, "plastic_work", on ? f->work : NAN, "J");
+    report_number(r, "max_pressure_mean4", on ? f->max_pressure_mean4 : NAN, "Pa");
+    report_number(r, "increment_error_estimate", on ? f->increment_error : NAN, NULL);
+    report_number(r, "max_mises_over_yield", y->wanted && !on ? y->most : NAN, NULL);
+    report_number(r, "max_mises_depth", y->wanted && !on ? y->deepest : NAN, "m");
+}
