@@ -25,8 +25,9 @@ HEADER_MAX = 65536
 REQUIRED = ('channel', 'nx', 'ny', 'dx', 'dy', 'unit', 'type')
 KEY = re.compile(r'[a-z][a-z0-9._-]*\Z')
 NUMBER = re.compile(r'[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?\Z')
-UNITS = dict.fromkeys(('height', 'gap', 'displacement', 'plastic'), 'm')
+UNITS = dict.fromkeys(('height', 'gap', 'displacement', 'plastic', 'residual'), 'm')
 UNITS.update(dict.fromkeys('pressure hardness sxx syy szz sxy sxz syz mises tresca s1 s2 s3'.split(), 'Pa'))
+UNITS.update(dict.fromkeys('exx eyy exy exz eyz peeq'.split(), '1'))
 TYPES = {'f64': numpy.dtype('<f8'), 'f32': numpy.dtype('<f4')}
 # Where a tool has its report lines when it has no --report.
 LINES_ON_OUTPUT = {'rc-info': '--json'}

@@ -77,7 +77,7 @@ tools               | formats/containers/containers.h          | formats/contain
 END
 base='libcontact/contact.h libcontact/grid.h libcontact/common.h libcontact/memory.h'
 public='libcontact/contact.h libcontact/grid.h'
-physics='libcontact libcontact/body libcontact/operator libcontact/solver libcontact/stress'
+physics='libcontact libcontact/body libcontact/operator libcontact/solver libcontact/stress libcontact/plastic'
 physics="$physics libcontact/surface"
 cli='tools/cli tools/text tools/machine'
 plot='tools/plot tools/canvas'

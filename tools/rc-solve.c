@@ -45,7 +45,7 @@ static const struct opt opts[] = {
      .help = "relative L1 error of the pressure (default N^(-3/4), N nodes, at most 1e-3)"},
     {.name = "output", .type = OPT_WORDS, AT(output),
      .words = solve_frame_word, .arg = "LIST",
-     .help = "frames to write, of %s (default: all but plastic)"},
+     .help = "frames to write, of %s (default: the first four, and residual with --yield)"},
     {.name = "tilt", .type = OPT_CHOICE, AT(tilt), .words = tilt_word, .result = true,
      .help = "whether the counter body turns until no moment acts (default fixed)"},
     {.name = "at", .type = OPT_NUMBERS, .unit = UNIT_M, AT(at), .min = -INFINITY, .max = INFINITY,

@@ -1,0 +1,98 @@
+# rc-solve --yield: where nothing yields the elastic solution, to the byte; loads that follow each other; frames, tables of
+# hardening; what is warned of and what is refused.
+. "$(dirname "$0")/../pipe.sh"
+
+rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-height 0.15um --rolloff 32um --short-cut 10um --seed 4 -o rough.rcg
+elastic="rc-solve --quiet --periodic --E1 210GPa --nu1 0.3 --E2 rigid"
+column() { # NAME ROW
+    awk -F '\t' -v n="$1" -v r="$2" 'NR == 1 { for (i = 1; i <= NF; i++) { split($i, h, "/"); if (h[1] == n) c = i } } NR == r + 1 { print $c }' "$3"
+}
+
+# ---- nothing yields ----
+
+$elastic --mean-pressure 20MPa --report elastic.json rough.rcg -o elastic.rcg
+$elastic --mean-pressure 20MPa --yield 100GPa --output pressure,gap,displacement,height --report none.json rough.rcg -o none.rcg
+values() { rc-pick --channel "$2" --case 1 "$1" | rc-export --format csv; }
+claim "far from yield the pressure is that of elastic bodies, to the byte" cmp <(values elastic.rcg pressure) <(values none.rcg pressure)
+claim "  the gap too" cmp <(values elastic.rcg gap) <(values none.rcg gap)
+claim "  the report says why" grep -q '"yield": "left out: the largest Mises stress is [0-9.]* of the yield stress' none.json
+near "$(field convolutions none.json)" "$(field convolutions elastic.json)" "$same" "  and it costs no convolution of the contact"
+claim "without --yield there is nothing of it" bash -c '
+    grep -q "\"yield\": \"left out: no --yield\"" elastic.json && grep -q "\"yield\": null, \"hardening\": null, \"increments\": null" elastic.json'
+# rc-stress sees the same stress
+near "$(awk -v m="$(field max_mises_over_yield none.json)" 'BEGIN { print m * 1e11 }')" "$(rc-pick --channel pressure elastic.rcg |
+    rc-stress --quiet --nu 0.3 --depths "$(field max_mises_depth none.json)" --components mises | rc-info |
+    awk '/maximum/ { u["Pa"] = 1; u["kPa"] = 1e3; u["MPa"] = 1e6; u["GPa"] = 1e9; print $2 * u[$3] }')" 2e-3 "  its largest Mises stress is that of rc-stress"
+
+# ---- a load, none, and the same again ----
+
+$elastic --mean-pressure 150MPa,0,150MPa --yield 2GPa,10GPa --output pressure,gap,displacement,height,plastic,residual,strain --report r.tsv rough.rcg -o y.rcg
+claim "three cases" test "$(wc -l <r.tsv)" = 4
+between 1e-6 "$(column max_plastic_strain 1 r.tsv)" 0.1 "it yields"
+near "$(column mean_pressure 1 r.tsv)" 150e6 1e-6 "  and carries the load"
+between 0 "$(column pressure_error_estimate 1 r.tsv)" 0.01 "  to 1 %"
+near "$(column max_plastic_strain 3 r.tsv)" "$(column max_plastic_strain 1 r.tsv)" 1e-2 "pressed again it yields no further"
+near "$(column contact_area 3 r.tsv)" "$(column contact_area 1 r.tsv)" 1e-2 "  and touches where it did"
+between 0 "$(column residual_indentation 2 r.tsv)" "$(column indentation 1 r.tsv)" "what remains is less than what was pressed in"
+near "$(column indentation 2 r.tsv)" "$(column residual_indentation 2 r.tsv)" "$same" "  and all there is when the bodies are apart"
+near "$(column residual_indentation 3 r.tsv)" "$(column residual_indentation 1 r.tsv)" 2e-2 "  the same after the second time"
+# yielding pressures are lower, contacts wider
+claim "the largest pressure is below the elastic one, the contact wider" bash -c "
+    $elastic --mean-pressure 150MPa --report e.json rough.rcg -o e.rcg
+    awk -v p=\"\$(grep -o '\"max_pressure\": [^,]*' e.json | sed 's/.* //')\" -v q=$(column max_pressure 1 r.tsv) 'BEGIN { exit !(q < p) }' &&
+    awk -v a=\"\$(grep -o '\"contact_area\": [^,]*' e.json | head -n 1 | sed 's/.* //')\" -v b=$(column contact_area 1 r.tsv) 'BEGIN { exit !(b > a) }'"
+claim "frames: six results, and six of each slab, in each case" bash -c "
+    test \"\$(rc-info --json y.rcg | grep -o '\"channel\": \"peeq\"' | wc -l)\" = $((3 * $(column slabs 1 r.tsv)))"
+paste -d , <(values y.rcg height | grep -v '^#' | head -n 64 | tr ',' '\n') <(values y.rcg residual | grep -v '^#' | head -n 64 | tr ',' '\n') \
+    <(values y.rcg plastic | grep -v '^#' | head -n 64 | tr ',' '\n') >three.txt
+claim "the shape that is left is the height less the residual displacement" awk -F , \
+    '{ d = $1 - $2 - $3; if (d < 0) d = -d; if (d > m) m = d; if ($2 > u) u = $2 } END { exit !(NR == 4096 && u > 0 && m < 1e-12 * u + 1e-20) }' three.txt
+
+# ---- a table of hardening ----
+
+printf 'strain\tstress\n0\t2GPa\n# as the line\n0.5\t7GPa\n' >line.tsv
+$elastic --mean-pressure 150MPa --yield line.tsv --increments 8 --report table.json --output pressure rough.rcg -o t.rcg
+$elastic --mean-pressure 150MPa --yield 2GPa,10GPa --increments 8 --report line.json --output pressure rough.rcg -o l.rcg
+near "$(field max_pressure table.json)" "$(field max_pressure line.json)" 1e-9 "a table of a straight line is that line"
+near "$(field increments table.json)" 8 0 "  in as many increments as were asked for"
+$elastic --mean-pressure 150MPa --yield 2GPa,10GPa --increments 8 --slabs 6 --report six.json --output pressure rough.rcg -o s.rcg
+near "$(field slabs six.json)" 6 0 "so many slabs"
+near "$(field contact_area six.json)" "$(field contact_area line.json)" 3e-2 "  make little difference"
+$elastic --mean-pressure 150MPa --yield 2GPa,10GPa --increments 8 --slabs 0.5um,0.5um,1um,2um,4um --report five.json --output pressure rough.rcg -o s.rcg
+near "$(field slabs five.json)" 5 0 "or these"
+
+# ---- warnings ----
+
+claim "too few slabs, strains that are large" bash -c '
+    warns "the lowest slab yields" rc-solve --periodic --E1 210GPa --nu1 0.3 --E2 rigid --mean-pressure 300MPa --yield 0.2GPa --increments 4 --slabs 0.5um,0.5um rough.rcg -o w.rcg &&
+    grep -q "plastic strain up to" warns.err && grep -q "slabs lie in the depth that yields" warns.err'
+claim "--dry-run says so" bash -c 'says "yield +on where" rc-solve --dry-run --periodic --E1 1GPa --nu1 0.3 --E2 rigid --load 1N --yield 1MPa rough.rcg'
+
+# ---- refusals ----
+
+base="rc-solve --E1 210GPa --nu1 0.3 --E2 rigid --mean-pressure 100MPa"
+refuses 2 'known with --periodic only' "a free boundary" "$base --yield 1GPa rough.rcg"
+refuses 2 'not with --hardness' "a hardness" "$base --periodic --yield 1GPa --hardness 3GPa rough.rcg"
+refuses 2 'not with --layer' "a coat" "$base --periodic --yield 1GPa --layer 1um,1GPa,0.3 rough.rcg"
+refuses 2 'not with --nu1 0.5' "an incompressible body" "rc-solve --E1 1GPa --nu1 0.5 --E2 rigid --load 1N --periodic --yield 1MPa rough.rcg"
+refuses 2 'needs its own modulus' "a composite modulus" "rc-solve --estar 1GPa --load 1N --periodic --yield 1MPa rough.rcg"
+refuses 2 'not with --checkpoint' "a checkpoint" "$base --periodic --yield 1GPa --checkpoint c.rcg rough.rcg"
+refuses 2 'not with --approach' "an approach" "rc-solve --E1 1GPa --nu1 0.3 --E2 rigid --approach 1um --periodic --yield 1MPa rough.rcg"
+refuses 2 'belong to --yield' "increments of nothing" "$base --periodic --increments 8 rough.rcg"
+refuses 2 'must be auto or a number' "increments of another kind" "$base --periodic --yield 1GPa --increments many rough.rcg"
+refuses 2 'the yield stress must be above 0' "no yield stress" "$base --periodic --yield 0 rough.rcg"
+refuses 2 'No such file' "no table" "$base --periodic --yield absent.tsv rough.rcg"
+printf '0 2GPa\n0.1 1GPa\n' >falls.tsv
+refuses 1 'must not fall' "a table that falls" "$base --periodic --yield falls.tsv rough.rcg"
+printf '0 2GPa 3\n' >three.tsv
+refuses 2 'line 1: it must hold' "a table of three columns" "$base --periodic --yield three.tsv rough.rcg"
+refuses 1 'all depths of a periodic body yield' "a mean pressure beyond all" \
+    "rc-solve --E1 210GPa --nu1 0.3 --E2 rigid --mean-pressure 5GPa --periodic --yield 1GPa rough.rcg"
+
+# ---- the example of the page ----
+
+sed -n '/^A rough surface of hard steel/,/^\.Ed/p' "$RC_SOURCE/man/rc-solve.1" |
+    sed '1,/^\.Bd/d; /^\.Ed/d; s/\\e/\\/; s/\\-/-/g' >example.sh
+claim "the example of rc-solve(1) runs" bash -c 'test "$(wc -l <example.sh)" = 5 && bash -e example.sh && says PNG head -c 4 dent.png'
+
+finish
