@@ -766,6 +766,14 @@ enum rc_component {
 /* "sxx", ... in that order. */
 RC_API extern const char *const rc_component_names[RC_STRESSES];
 
+/* Plastic strain in slabs from the surface down: of each five maps of nx ny values, exx eyy exy exz eyz, with
+ * ezz = -exx - eyy; NULL: 0. */
+struct rc_eigenstrain {
+    size_t slabs;
+    const double *thickness; /* m                                                                 */
+    const double *const *map;
+};
+
 struct rc_stress_options {
     enum rc_boundary boundary;
     struct rc_body body; /* under the pressure; of a bare one e is of no use. Layers are copied   */
@@ -777,6 +785,9 @@ struct rc_stress_options {
     double tol;         /* asked error of a component over the largest pressure; 0: rounding      */
     size_t threads;     /* 0: all                                                                 */
     const struct rc_ranks *ranks; /* processes that share the map; NULL: none                   */
+    /* NULL, or strain whose stress is added, at about ten transforms a slab for each depth; periodic, with the
+     * e of a bare body; in a section it is linear between the nodes. The caller keeps all of it. */
+    const struct rc_eigenstrain *strain;
 };
 
 /* What has been computed, to see that nothing was that nobody asked for. */

@@ -23,6 +23,7 @@ libcontact/operator/real_space | %base libcontact/operator/engine.h | libcontact
 libcontact/solver   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator libcontact/body
 libcontact/stress   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator
 libcontact/stress   |                                          | libcontact/transform libcontact/body
+libcontact/stress   | libcontact/volume/volume.h               | libcontact/volume
 libcontact/volume   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator
 libcontact/plastic  | %base libcontact/volume/volume.h         | libcontact libcontact/volume libcontact/solver libcontact/stress
 libcontact/surface  | %base %ranks                             | libcontact libcontact/ranks

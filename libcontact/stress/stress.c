@@ -14,6 +14,7 @@ struct rc_stress {
     const struct rc_stress_evaluator *evaluator;
     void *plan;
     struct rc_solid *solid;
+    struct rc_strained *strained; /* NULL: no plastic strain */
     size_t values;
     double *own[RC_COMPONENTS]; /* components that are needed but not wanted */
     struct rc_stress_counts counts;
@@ -73,7 +74,8 @@ rc_stress_check(const struct rc_shape *shape, const struct rc_stress_options *o,
         return rc_err_set(
             err, "a section is computed by one process, which holds the whole map: take maps "
                  "at these depths, or one process");
-    if (rc_engine_serves(engine, o->engine, o->boundary, o->ranks, err) != RC_OK)
+    if (rc_engine_serves(engine, o->engine, o->boundary, o->ranks, err) != RC_OK ||
+        rc_strained_check(o, err) != RC_OK)
         return RC_FAIL;
     if (o->section != 0 && !engine->transforms)
         return rc_err_set(err, "a section is summed by %s, not by %s: leave the kernel to auto",
@@ -171,7 +173,9 @@ rc_stress_new(const struct rc_shape *shape, const double *p,
         rc_stress_free(stress);
         return NULL;
     }
-    if ((stress->plan = stress->evaluator->new (&stress->task, err)) == NULL) {
+    if ((stress->plan = stress->evaluator->new (&stress->task, err)) == NULL ||
+        (options->strain != NULL &&
+         (stress->strained = rc_strained_new(&stress->task, err)) == NULL)) {
         rc_stress_free(stress);
         return NULL;
     }
@@ -185,6 +189,7 @@ rc_stress_free(struct rc_stress *stress)
         return;
     if (stress->plan != NULL)
         stress->evaluator->free(stress->plan);
+    rc_strained_free(stress->strained);
     for (int c = 0; c < RC_COMPONENTS; c++)
         free(stress->own[c]);
     rc_solid_free(stress->solid);
@@ -206,7 +211,7 @@ rc_stress_memory(const struct rc_shape *shape, const struct rc_stress_options *o
     for (int c = 0; c < RC_COMPONENTS; c++)
         own += (task.components & ~o->wanted) >> c & 1;
     return sizeof(struct rc_stress) + own * values * sizeof(double) +
-           evaluator_of(&task)->memory(&task);
+           evaluator_of(&task)->memory(&task) + (o->strain != NULL ? rc_strained_memory(&task) : 0);
 }
 
 /* ---- slices ---- */
@@ -242,6 +247,8 @@ rc_stress_slice(struct rc_stress *stress, double depth, double *const s[RC_STRES
             six_of[c] = stress->own[c] != NULL ? stress->own[c] : s[c];
     if (stress->evaluator->slice(stress->plan, depth, six_of, err) != RC_OK)
         return RC_FAIL;
+    if (stress->strained != NULL)
+        rc_strained_add(stress->strained, depth, six_of);
     stress->counts.depths++;
     if (stress->task.options.wanted >> RC_COMPONENTS != 0)
         derive(stress, (const double *const *)six_of, s);

@@ -36,6 +36,16 @@ struct rc_inside *rc_stress_inside(const struct rc_stress_task *task, double dep
 /* Bytes of it. */
 size_t rc_stress_inside_memory(const struct rc_stress_task *task);
 
+/* ---- strained.c: the stress of plastic strain, where there is any ---- */
+
+struct rc_strained;
+enum rc_status rc_strained_check(const struct rc_stress_options *options, struct rc_err *err);
+struct rc_strained *rc_strained_new(const struct rc_stress_task *task, struct rc_err *err);
+size_t rc_strained_memory(const struct rc_stress_task *task);
+void rc_strained_free(struct rc_strained *strained); /* NULL is allowed */
+/* Adds it to the components at this depth, a map or a line of each; NULL: not needed. */
+void rc_strained_add(struct rc_strained *strained, double depth, double *const to[RC_COMPONENTS]);
+
 /* ---- what evaluates stresses ---- */
 
 /* What evaluates stresses: slices_fft.c, slices_engine.c and section.c end in one. */

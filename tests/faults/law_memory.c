@@ -323,6 +323,22 @@ STRESS(mlms_stress, bare, .engine = "mlms", .tol = 1e-3)
 STRESS(section_stress, bare, .section = 'y')
 STRESS(coated_stress, layered, .mu = 0)
 
+/* Of a slab that has yielded. */
+static enum rc_status
+strained_stress(double *out, struct rc_err *err)
+{
+    const double thickness = 1e-6, *const map[5] = {[2] = rough};
+    const struct rc_eigenstrain strain = {.slabs = 1, .thickness = &thickness, .map = map};
+    const struct rc_stress_options o = {.boundary = RC_PERIODIC,
+                                        .body = bare.one,
+                                        .wanted = 1U << RC_SXX | 1U << RC_SXZ | 1U << RC_MISES |
+                                                  1U << RC_S1,
+                                        .threads = 1,
+                                        .strain = &strain};
+
+    return stressed(&o, out, err);
+}
+
 static enum rc_status
 depths(double *out, struct rc_err *err)
 {
@@ -539,6 +555,7 @@ static const struct {
     {.name = "stress, mlms", .use = mlms_stress},
     {.name = "stress, a section", .use = section_stress},
     {.name = "stress, coated", .use = coated_stress},
+    {.name = "stress, of plastic strain", .use = strained_stress},
     {.name = "depths", .use = depths},
     {.name = "slabs", .use = slabs_double},
     {.name = "slabs, single precision", .use = slabs_single},
