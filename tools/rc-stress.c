@@ -13,7 +13,7 @@ static struct args {
     double nu, mu, tol;
     size_t components; /* bits of enum rc_component */
     const char *section, *kernel, *report;
-    bool periodic, dry_run;
+    bool periodic, residual, dry_run;
 } args = {.nu = NAN, .tol = NAN, .kernel = "auto", .components = (2u << RC_MISES) - 1};
 
 #define AT(field) .at = offsetof(struct args, field)
@@ -30,6 +30,8 @@ static const struct opt opts[] = {
      .arg = "COEFFICIENT", .help = "the surface also carries mu times the pressure along +x"},
     {.name = "section", .type = OPT_TEXT, AT(section), .result = true, .arg = "AXIS=PLACE",
      .help = "only the vertical plane y=PLACE or x=PLACE: one frame, its rows are the depths"},
+    {.name = "residual", .type = OPT_FLAG, AT(residual), .result = true,
+     .help = "leave the pressure out: the stresses of plastic strain alone (rc-solve --yield)"},
     {.name = "periodic", .type = OPT_FLAG, AT(periodic), .result = true,
      .help = "the map repeats for ever (default: what the stream says, else free)"},
     {.name = "kernel", .alias = "engine", .type = OPT_CHOICE, AT(kernel),
@@ -64,6 +66,7 @@ struct run {
     struct tool t;
     struct rc_stress_options options; /* of the case */
     struct layers layers;             /* of the case */
+    struct stress_strain strain;      /* of the case */
     struct numbers depths;            /* of the case */
     struct rc_grid *frame[RC_STRESSES];
     struct stress_report report;
@@ -202,6 +205,17 @@ set_options(struct run *run, const struct rc_grid *p)
     run->options.tol = isnan(args.tol) ? 0 : args.tol;
     run->options.threads = run->t.threads;
     run->options.ranks = ranks_of(&run->t);
+    run->options.strain = NULL;
+    if (stress_strain_read(&run->t, p, &run->strain)) {
+        run->options.strain = &run->strain.strain;
+        if (!rc_grid_number(p, "e1", &run->options.body.e))
+            tool_die_at(&run->t, p, EXIT_IMPOSSIBLE,
+                        "its key e1, the modulus of the body that has yielded, is not there");
+    }
+    if (args.residual && run->options.strain == NULL)
+        tool_die_at(
+            &run->t, p, EXIT_IMPOSSIBLE,
+            "--residual: the case has no plastic strain: see rc-solve --yield and --output strain");
     if (run->options.boundary == RC_PERIODIC && on_free_maps_only())
         tool_die_at(&run->t, p, EXIT_IMPOSSIBLE,
                     "its boundary is periodic, where only %s sums: leave out --kernel %s",
@@ -253,9 +267,13 @@ set_depths(struct run *run, const struct rc_grid *p)
 
     run->depths = args.depths;
     warn_of_depths(run, p);
-    if (args.depths.n == 0 &&
-        rc_stress_depths(run->options.ranks, &shape, p->v, run->options.boundary,
-                         &run->options.body, &run->depths.v, &run->depths.n, &err) != RC_OK)
+    if (args.depths.n == 0 && run->options.strain != NULL) {
+        run->depths.v = stress_strain_depths(&run->strain, &run->depths.n);
+        if (run->depths.v == NULL)
+            tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "out of memory for the depths");
+    } else if (args.depths.n == 0 &&
+               rc_stress_depths(run->options.ranks, &shape, p->v, run->options.boundary,
+                                &run->options.body, &run->depths.v, &run->depths.n, &err) != RC_OK)
         tool_die_at(&run->t, p, EXIT_IMPOSSIBLE, "%s", err.text);
     refuse_rigid(run, p);
     if (args.depths.n == 0)
@@ -480,6 +498,8 @@ main(int argc, char **argv)
         tool_demand_finite(&run.t, p, "a pressure map has none; make it again");
         set_options(&run, p);
         set_depths(&run, p);
+        if (args.residual)
+            memset(p->v, 0, rc_grid_nodes(p) * sizeof *p->v);
         if (args.dry_run)
             plan_case(&run, p);
         else
@@ -487,6 +507,7 @@ main(int argc, char **argv)
         if (run.depths.v != args.depths.v)
             free(run.depths.v);
         layers_free(&run.layers);
+        stress_strain_free(&run.strain);
         rc_grid_free(p);
     }
     report_close(&run.out);

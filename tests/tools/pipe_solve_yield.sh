@@ -48,6 +48,29 @@ paste -d , <(values y.rcg height | grep -v '^#' | head -n 64 | tr ',' '\n') <(va
 claim "the shape that is left is the height less the residual displacement" awk -F , \
     '{ d = $1 - $2 - $3; if (d < 0) d = -d; if (d > m) m = d; if ($2 > u) u = $2 } END { exit !(NR == 4096 && u > 0 && m < 1e-12 * u + 1e-20) }' three.txt
 
+# ---- stresses ----
+
+# nowhere a tenth above the yield stress that the strain has hardened to: it is the mean over a slab that yields
+rc-pick --case 1 y.rcg | rc-stress --quiet --depths auto --components mises --report total.json -o total.rcg
+between 1.9e9 "$(grep -o '"mises": {"value": [^,]*' total.json | head -n 1 | sed 's/.* //')" \
+    "$(awk -v s="$(column max_plastic_strain 1 r.tsv)" 'BEGIN { print 1.1 * (2e9 + 1e10 * s) }')" "rc-stress: the stress stays at the yield stress"
+rc-pick --channel pressure --case 1 y.rcg >alone.rcg
+claim "  without its strain it is warned of" warns "yielded inside, and nothing of its strain" rc-stress --depths auto --components mises -o m.rcg alone.rcg
+between 2.3e9 "$(rc-stress --quiet --depths 0:5um:21 --components mises --report - alone.rcg -o m.rcg | grep -o '"mises": {"value": [^,]*' | head -n 1 | sed 's/.* //')" 1e10 \
+    "  and would be far above it"
+# what is left without a load is what --residual says beforehand
+rc-pick --case 2 y.rcg | rc-stress --quiet --depths 1um --components sxx -o left.rcg
+rc-pick --case 1 y.rcg | rc-stress --quiet --depths 1um --components sxx --residual -o residual.rcg
+between 1e8 "$(rc-info --json left.rcg | grep -o '"maximum": [^,}]*' | sed 's/.* //')" 2e9 "what is left of the stress"
+near "$(rc-info --json left.rcg | grep -o '"maximum": [^,}]*' | sed 's/.* //')" "$(rc-info --json residual.rcg | grep -o '"maximum": [^,}]*' | sed 's/.* //')" 3e-2 \
+    "  is that of the strain alone under the load"
+refuses 1 'the case has no plastic strain' "--residual of an elastic case" "rc-stress --residual --depths 1um --components sxx elastic.rcg"
+rc-pick --case 1 --channel pressure,exx,eyy y.rcg >part.rcg
+refuses 1 'exx eyy exy exz eyz in that order' "a part of the strain" "rc-stress --depths 1um --components sxx part.rcg"
+sed -n '/^What a dent in steel/,/^\.Ed/p' "$RC_SOURCE/man/rc-stress.1" |
+    sed '1,/^\.Bd/d; /^\.Ed/d; s/\\e/\\/; s/\\-/-/g' >section.sh
+claim "the example of rc-stress(1) runs" bash -c 'test "$(wc -l <section.sh)" = 6 && bash -e section.sh && says PNG head -c 4 residual.png'
+
 # ---- a table of hardening ----
 
 printf 'strain\tstress\n0\t2GPa\n# as the line\n0.5\t7GPa\n' >line.tsv

@@ -277,6 +277,18 @@ tool_channel_beside(struct tool *t, const char *channel, const char *beside, str
 }
 
 struct rc_grid *
+tool_more_of_case(struct tool *t)
+{
+    struct rc_grid *g;
+
+    if (!look_ahead(t) || rc_grid_case(t->ahead) != t->current.number)
+        return NULL;
+    g = take_ahead(t);
+    note_frame(t, g);
+    return g;
+}
+
+struct rc_grid *
 tool_channel(struct tool *t, const char *channel, bool pass)
 {
     struct rc_grid *g;

@@ -191,6 +191,8 @@ struct rc_grid *tool_channel(struct tool *tool, const char *channel, bool pass);
  * case is read too, but not its values. */
 struct rc_grid *tool_channel_beside(struct tool *tool, const char *channel, const char *beside,
                                     struct rc_grid **other);
+/* After tool_channel: the next frame of the same case, or NULL where there is none. The caller frees it. */
+struct rc_grid *tool_more_of_case(struct tool *tool);
 /* Ends the tool where dx and dy of a frame are no lengths (key `dunit`); tool_channel and
  * tool_channel_beside do so for what they give. */
 void tool_demand_lengths(struct tool *tool, const struct rc_grid *grid);

@@ -80,6 +80,8 @@ set_keys(struct run *run, struct rc_grid *g, const struct rc_contact *c)
                run->args->physics.load.n > 0 ? problem_of(run, g, run->step).load : c->load);
     set_number(run, g, "hardness", run->args->physics.hardness);
     set_number(run, g, "approach", c->approach);
+    /* who reads the stream finds the strain behind the pressure, or misses it */
+    set_number(run, g, "slabs", run->yielding.plastic != NULL ? (double)run->yielding.slabs : NAN);
 }
 
 /* Maps of results are made one after another, as they are written, in one buffer. */

@@ -1,5 +1,6 @@
 /*
- * The face of this folder: what rc-stress says about a case, in its --report and its --dry-run.
+ * The face of this folder: what rc-stress says about a case, in its --report and its --dry-run, and the
+ * plastic strain that it finds beside the pressure.
  */
 #ifndef RC_TOOL_STRESS_H
 #define RC_TOOL_STRESS_H
@@ -53,5 +54,22 @@ void stress_report_free(struct stress_report *report);
 enum rc_status stress_report_plan(const struct tool *tool, const struct rc_grid *p,
                                   const struct rc_stress_options *options,
                                   const struct numbers *depths, size_t memory, struct rc_err *err);
+
+/* ---- strain.c ---- */
+
+/* What a case holds of plastic strain. */
+struct stress_strain {
+    struct rc_eigenstrain strain;
+    struct rc_grid **frame; /* of its maps */
+    const double **map;
+    double *thickness;
+    size_t maps;
+};
+/* Reads what follows the pressure p in its case. False: the body has not yielded, or the strain is not in the
+ * stream, which is warned of. stress_strain_free in either case. */
+bool stress_strain_read(struct tool *tool, const struct rc_grid *p, struct stress_strain *strain);
+void stress_strain_free(struct stress_strain *strain);
+/* Depths to look at, *n of them, which the caller frees; NULL when memory is short. */
+double *stress_strain_depths(const struct stress_strain *strain, size_t *n);
 
 #endif

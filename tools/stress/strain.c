@@ -1,0 +1,121 @@
+/*
+ * The plastic strain that stands in a case behind its pressure, as rc-solve --yield writes it: of each slab, from the
+ * surface down, exx eyy exy exz eyz, and peeq, which has no stress of its own.
+ */
+#include "stress.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    PARTS = 5
+};
+static const char *const names[PARTS] = {"exx", "eyy", "exy", "exz", "eyz"};
+
+static void
+keep(struct tool *t, struct stress_strain *s, size_t slabs, struct rc_grid *g, size_t part)
+{
+    size_t k = s->maps++;
+    double thickness;
+
+    if (k % PARTS != part || k / PARTS >= slabs)
+        tool_die_at(
+            t, g, EXIT_IMPOSSIBLE,
+            "plastic strain comes slab by slab, exx eyy exy exz eyz in that order, %zu slabs: "
+            "take the stream as rc-solve has written it",
+            slabs);
+    if (!rc_grid_number(g, "thickness", &thickness) || !(thickness > 0) || isinf(thickness))
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "its key thickness is not a length above 0");
+    tool_demand_finite(t, g, "a map of plastic strain has none; make it again");
+    s->thickness[k / PARTS] = thickness;
+    s->frame[k] = g;
+    s->map[k] = g->v;
+}
+
+static bool
+same_grid(const struct rc_grid *a, const struct rc_grid *b)
+{
+    return a->nx == b->nx && a->ny == b->ny && a->dx == b->dx && a->dy == b->dy;
+}
+
+bool
+stress_strain_read(struct tool *t, const struct rc_grid *p, struct stress_strain *s)
+{
+    double number;
+    size_t slabs, part;
+    struct rc_grid *g;
+
+    *s = (struct stress_strain){0};
+    if (!rc_grid_number(p, "slabs", &number))
+        return false;
+    if (!(number >= 1) || number > 1e4 || number != floor(number))
+        tool_die_at(t, p, EXIT_IMPOSSIBLE, "its key slabs is %g: it must be a whole number",
+                    number);
+    slabs = (size_t)number;
+    s->thickness = calloc(slabs, sizeof *s->thickness);
+    s->frame = calloc(slabs * PARTS, sizeof *s->frame);
+    s->map = calloc(slabs * PARTS, sizeof *s->map);
+    if (s->thickness == NULL || s->frame == NULL || s->map == NULL)
+        tool_die_at(t, p, EXIT_IMPOSSIBLE, "out of memory for the strain of %zu slabs", slabs);
+    while ((g = tool_more_of_case(t)) != NULL) {
+        for (part = 0; part < PARTS && strcmp(g->channel, names[part]) != 0; part++)
+            ;
+        if (part == PARTS) {
+            rc_grid_free(g);
+            continue;
+        }
+        if (!same_grid(g, p))
+            tool_die_at(t, g, EXIT_IMPOSSIBLE, "it is not on the grid of the pressure");
+        keep(t, s, slabs, g, part);
+    }
+    if (s->maps != slabs * PARTS) {
+        char where[256];
+        tool_warn(
+            t,
+            "%s: the body has yielded inside, and %s of its strain in the stream: these are the "
+            "stresses of the pressure alone: see rc-solve --output strain",
+            tool_where(t, p, where, sizeof where), s->maps == 0 ? "nothing" : "only a part");
+        stress_strain_free(s);
+        return false;
+    }
+    s->strain = (struct rc_eigenstrain){
+        .slabs = slabs, .thickness = s->thickness, .map = (const double *const *)s->map};
+    return true;
+}
+
+void
+stress_strain_free(struct stress_strain *s)
+{
+    for (size_t k = 0; k < s->maps; k++)
+        rc_grid_free(s->frame[k]);
+    free(s->thickness);
+    free(s->frame);
+    free(s->map);
+    *s = (struct stress_strain){0};
+}
+
+/* The middles of the slabs, and a few depths below, each as much deeper as the slabs grow. */
+double *
+stress_strain_depths(const struct stress_strain *s, size_t *n)
+{
+    enum {
+        BELOW = 2
+    };
+    size_t slabs = s->strain.slabs;
+    double *depth = malloc((slabs + BELOW) * sizeof *depth), z = 0, step;
+
+    if (depth == NULL)
+        return NULL;
+    for (size_t k = 0; k < slabs; k++) {
+        depth[k] = z + s->thickness[k] / 2;
+        z += s->thickness[k];
+    }
+    step = s->thickness[slabs - 1];
+    for (size_t k = 0; k < BELOW; k++, step *= 1.25) {
+        depth[slabs + k] = z + step / 2;
+        z += step;
+    }
+    *n = slabs + BELOW;
+    return depth;
+}
