@@ -7,6 +7,7 @@
 #include <stdint.h>
 #include <cmocka.h>
 
+#include "tests/solver/dense.h"
 #include "tests/volume/volume_case.h"
 
 static const double one_e = 1;
@@ -187,37 +188,90 @@ mean_in_contact(struct rc_plastic *plastic, size_t nodes, size_t *count)
     return sum / (double)*count;
 }
 
-/* Mean pressure over Y against E* a/(Y R): finite elements of Kogut and Etsion (J. Appl. Mech. 69 (2002) 657),
- * to 10 %. */
+/* A value between points of a table, linear in the logarithm. */
+static double
+between(const double *x, const double *y, size_t n, double at)
+{
+    size_t k = 0;
+
+    while (k + 2 < n && at >= x[k + 1])
+        k++;
+    return y[k] + (y[k + 1] - y[k]) * log(at / x[k]) / log(x[k + 1] / x[k]);
+}
+
+/* Mean pressure over Y against E* a/(Y R): finite elements of Kogut and Etsion (J. Appl. Mech. 69 (2002) 657), to
+ * 10 %, and of Jackson and Green (J. Tribol. 127 (2005) 343), to 12 %. */
 static void
 ball_hardness(void **state)
 {
     static const double size[] = {5.4, 7.2, 9.7, 19.3, 26, 36};
-    static const double known[] = {1.78, 2.01, 2.13, 2.45, 2.61, 2.78};
+    static const double kogut[] = {1.78, 2.01, 2.13, 2.45, 2.61, 2.78};
+    static const double jackson[] = {1.81, 2.03, 2.25, 2.67, 2.79, 2.85};
     const size_t n = 64;
     const double radius = 80, estar = 1 / (1 - 0.09);
     double thickness[24];
 
     (void)state;
     for (size_t q = 0; q < 6; q++) {
-        double a = 8, yield = estar * a / (radius * size[q]), found, is, expected = known[q];
+        double a = 8, yield = estar * a / (radius * size[q]), found, is, one, other;
         struct rc_plastic *plastic =
             ball(n, radius, (struct rc_yield){.stress = yield}, 0, thickness, 24);
-        const struct rc_plastic_figures *f = press(plastic, exact_pi * a * a * known[q] * yield);
+        const struct rc_plastic_figures *f = press(plastic, exact_pi * a * a * kogut[q] * yield);
         size_t count;
-        found = mean_in_contact(plastic, n * n, &count);
+        found = mean_in_contact(plastic, n * n, &count) / yield;
         is = estar * sqrt((double)count / exact_pi) / (yield * radius);
-        for (size_t k = 0; k + 1 < 6; k++)
-            if (is >= size[k] && is < size[k + 1])
-                expected = known[k] + (known[k + 1] - known[k]) * log(is / size[k]) /
-                                          log(size[k + 1] / size[k]);
-        print_message(
-            "ball, E*a/(YR) %.1f: mean pressure %.2f Y (%.2f), largest mean of four %.2f Y, "
-            "%zu applications\n",
-            is, found / yield, expected, f->max_pressure_mean4 / yield, f->applications);
-        assert_true(fabs(found / yield / expected - 1) < 0.1);
+        one = between(size, kogut, 6, is);
+        other = between(size, jackson, 6, is);
+        print_message("ball, E*a/(YR) %.1f: mean pressure %.2f Y (%.2f, %.2f), %zu applications\n",
+                      is, found, one, other, f->applications);
+        assert_true(fabs(found / one - 1) < 0.1 && fabs(found / other - 1) < 0.12);
         rc_plastic_free(plastic);
     }
+}
+
+/* Where all of the contact flows it carries 2.8 to 3.2 Y on average; and the means of 2 x 2 nodes are smooth, an
+ * even polynomial of the radius but for 1 % (RMS, within 0.75 a), which the pressure itself is not. */
+static void
+fully_plastic(void **state)
+{
+    const size_t n = 64;
+    const struct rc_shape shape = {n, n, 1, 1};
+    const double radius = 80, a = 8.8, estar = 1 / (1 - 0.09), yield = estar * a / (radius * 150);
+    double thickness[24], mean, noise, fit[3][DENSE_SUMS] = {{0}}, b[3] = {0}, sum = 0;
+    struct rc_plastic *plastic =
+        ball(n, radius, (struct rc_yield){.stress = yield}, 0, thickness, 24);
+    const double *p;
+    size_t count, inside = 0;
+
+    (void)state;
+    (void)press(plastic, exact_pi * a * a * 3 * yield);
+    mean = mean_in_contact(plastic, n * n, &count) / yield;
+    p = rc_solver_pressure(rc_plastic_solver(plastic));
+    for (int pass = 0; pass < 2; pass++) { /* fitted, then what is left */
+        for (size_t k = 0; k < n * n; k++) {
+            double x = node_x(shape, k) + 0.5, y = node_y(shape, k) + 0.5;
+            double r = (x * x + y * y) / (a * a), row[3] = {1, r, r * r}, four;
+            if (r > 0.75 * 0.75)
+                continue;
+            four = (p[k] + p[k + 1] + p[k + n] + p[k + n + 1]) / 4;
+            for (int c = 0; c < 3 && pass == 0; c++) {
+                b[c] += row[c] * four;
+                for (int q = 0; q < 3; q++)
+                    fit[c][q] += row[c] * row[q];
+            }
+            if (pass == 1) {
+                sum += pow(four - b[0] - b[1] * r - b[2] * r * r, 2);
+                inside++;
+            }
+        }
+        if (pass == 0)
+            dense_few(3, fit, b);
+    }
+    noise = sqrt(sum / (double)inside) / (mean * yield);
+    print_message("fully plastic: mean %.2f Y, noise of means %.2g of it\n", mean, noise);
+    assert_true(noise < 0.01);
+    assert_true(mean > 2.8 && mean < 3.2);
+    rc_plastic_free(plastic);
 }
 
 /* ---- let go ---- */
@@ -419,8 +473,8 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(onset),     cmocka_unit_test(ball_hardness), cmocka_unit_test(let_go),
-        cmocka_unit_test(shakedown), cmocka_unit_test(estimate),
+        cmocka_unit_test(onset),  cmocka_unit_test(ball_hardness), cmocka_unit_test(fully_plastic),
+        cmocka_unit_test(let_go), cmocka_unit_test(shakedown),     cmocka_unit_test(estimate),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
