@@ -24,7 +24,7 @@ libcontact/solver   | %base libcontact/operator/operator.h     | libcontact libc
 libcontact/stress   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator
 libcontact/stress   |                                          | libcontact/transform libcontact/body
 libcontact/stress   | libcontact/volume/volume.h               | libcontact/volume
-libcontact/volume   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator
+libcontact/volume   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator libcontact/transform
 libcontact/plastic  | %base libcontact/volume/volume.h         | libcontact libcontact/volume libcontact/solver libcontact/stress
 libcontact/surface  | %base %ranks                             | libcontact libcontact/ranks
 libcontact/surface  | libcontact/transform/transform.h         | libcontact/transform

@@ -17,10 +17,11 @@
 
 struct rc_slabs {
     struct rc_shape shape, here; /* of the whole map; of the rows held here */
+    size_t px, py;               /* nodes that repeat: those of the map, or more */
     size_t slabs, groups;
     double *thickness;
     double modulus, nu; /* 2 mu */
-    bool whole;
+    bool whole, padded;
     const struct rc_ranks *ranks;
     struct rc_fft *fft;
     const struct rc_sweep_ops *ops;
@@ -50,11 +51,19 @@ real_size(enum rc_precision precision)
     return precision == RC_SINGLE ? rc_sweep_single.real_size : rc_sweep_double.real_size;
 }
 
+static enum rc_boundary
+boundary(const struct rc_slabs_options *o)
+{
+    return o->padded ? RC_FREE : RC_PERIODIC;
+}
+
 static enum rc_status
 check(const struct rc_shape *shape, const struct rc_slabs_options *o, struct rc_err *err)
 {
     if (rc_shape_check(shape, err) != RC_OK)
         return RC_FAIL;
+    if (o->padded && (shape->nx == 1 || shape->ny == 1))
+        return rc_err_set(err, "a profile that does not repeat has no volume of its own");
     if (o->slabs == 0)
         return rc_err_set(err, "no slabs: a volume has at least one");
     if (!(o->shear > 0) || isinf(o->shear))
@@ -81,15 +90,18 @@ map_size(const struct rc_shape *shape, size_t length, size_t columns, size_t row
 static void
 set_waves(struct rc_slabs *v)
 {
-    size_t ny = v->shape.ny;
+    size_t cx, cy;
 
+    rc_fft_waves(v->fft, &cx, &cy);
+    v->px = v->padded ? 2 * (cx - 1) : v->shape.nx; /* padded sides are even */
+    v->py = v->padded ? 2 * (cy - 1) : v->shape.ny;
     v->length = rc_fft_length(v->fft);
     rc_fft_columns(v->fft, &v->first, &v->columns);
     v->map = map_size(&v->shape, v->length, v->columns, v->here.ny);
     for (size_t t = 0; t < v->length && v->qy != NULL && v->alive != NULL; t++) {
         size_t j = rc_fft_wave(v->fft, t);
         v->qy[t] = rc_fft_qy(v->fft, j);
-        v->alive[t] = 2 * j != ny;
+        v->alive[t] = 2 * j != v->py;
     }
 }
 
@@ -142,9 +154,10 @@ rc_slabs_new(const struct rc_shape *shape, const struct rc_slabs_options *o, str
                            .modulus = 2 * o->shear,
                            .nu = o->nu,
                            .whole = o->whole,
+                           .padded = o->padded,
                            .ranks = o->ranks,
                            .ops = o->precision == RC_SINGLE ? &rc_sweep_single : &rc_sweep_double};
-    v->fft = rc_fft_new(o->ranks, NULL, shape, RC_PERIODIC, o->precision, o->threads, err);
+    v->fft = rc_fft_new(o->ranks, NULL, shape, boundary(o), o->precision, o->threads, err);
     if (v->fft == NULL)
         goto fail;
     if (rc_ranks_agree(o->ranks, allocate(v, o, err), err) == RC_OK)
@@ -183,18 +196,19 @@ size_t
 rc_slabs_memory(const struct rc_shape *shape, const struct rc_slabs_options *o)
 {
     size_t ranks = rc_ranks_count(o->ranks), size = real_size(o->precision);
-    size_t spectrum = rc_spectrum_memory(shape, RC_PERIODIC, o->precision, ranks);
-    size_t columns = spectrum / size / (shape->ny / 2 + 1), threads;
+    size_t spectrum = rc_spectrum_memory(shape, boundary(o), o->precision, ranks);
+    size_t py = o->padded ? rc_fourier_length(shape->ny, 4) : shape->ny;
+    size_t columns = spectrum / size / (py / 2 + 1), threads;
     size_t rows = ranks > 1 ? rc_rows_most(shape, ranks) : shape->ny;
     size_t maps = RC_SWEEP_STRAINS * o->slabs + RC_SWEEP_WAVES * groups_of(o->slabs) +
                   (o->whole ? RC_SWEEP_SLABS : 0);
     struct rc_shape here = {shape->nx, rows, shape->dx, shape->dy};
 
     threads = (size_t)rc_useful_threads(&here, o->threads);
-    return sizeof(struct rc_slabs) + maps * map_size(shape, shape->ny, columns, rows) * size +
-           rc_fft_memory(shape, RC_PERIODIC, o->precision, ranks) - spectrum +
-           rc_fft_scratch(shape, RC_PERIODIC, o->precision, o->threads) +
-           (o->slabs * sizeof(double) + 2 * shape->ny * sizeof(double)) +
+    return sizeof(struct rc_slabs) + maps * map_size(shape, py, columns, rows) * size +
+           rc_fft_memory(shape, boundary(o), o->precision, ranks) - spectrum +
+           rc_fft_scratch(shape, boundary(o), o->precision, o->threads) +
+           (o->slabs * sizeof(double) + 2 * py * sizeof(double)) +
            (o->precision == RC_SINGLE ? threads * RC_COMPONENTS * shape->nx * sizeof(double) : 0);
 }
 
@@ -232,7 +246,7 @@ waves_of(const struct rc_slabs *v, size_t group, size_t i)
 static struct rc_sweep_column
 sweep_column(const struct rc_slabs *v, size_t i)
 {
-    bool dead = 2 * (v->first + i) == v->shape.nx;
+    bool dead = 2 * (v->first + i) == v->px;
 
     return (struct rc_sweep_column){.length = v->length,
                                     .qx = rc_fft_qx(v->fft, v->first + i),

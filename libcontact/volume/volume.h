@@ -29,9 +29,8 @@
  * displacement. Waves of two nodes in a direction have no sign: strain has its local stress there
  * and acts on nothing else, and p does nothing.
  *
- * Where the map is not to repeat, the same sweeps on a map padded to twice its sides err by some
- * thousandths (transforms of RC_FREE are padded so), with K, S and S' from the closed forms of
- * body/forms.h.
+ * Where the map is not to repeat, the same sweeps on a map padded to twice its sides, or a little more, err by
+ * some thousandths of the stresses in a contact: its images are that far away.
  *
  * Every function may be called by ranks that share the map: maps and rows are those held here.
  */
@@ -44,6 +43,7 @@ struct rc_slabs_options {
     size_t slabs;                 /* from the surface down, at least one                    */
     const double *thickness;      /* m, of each; needed by rc_slabs_new alone               */
     double shear, nu;             /* mu, Pa; Poisson's ratio, above -1 and at most 0.5      */
+    bool padded;                  /* the map does not repeat                                */
     bool whole;                   /* all six stresses; otherwise deviators, without szz     */
     enum rc_precision precision;  /* inside: rows and maps are double on both sides         */
     size_t threads;               /* 0: all                                                 */

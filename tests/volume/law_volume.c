@@ -349,13 +349,65 @@ refuses(void **state)
         &(struct rc_slabs_options){.slabs = 2, .thickness = h, .shear = 8e10, .nu = 0.3}, NULL));
 }
 
+/* A map that does not repeat is one in the corner of a larger one that does, with nothing around it. */
+static void
+padded(void **state)
+{
+    enum {
+        PAD_SLABS = 3
+    };
+    const struct rc_shape small = {13, 11, 1.1, 0.9}, large = {28, 24, 1.1, 0.9};
+    const double thick[PAD_SLABS] = {0.5, 0.8, 0.6};
+    struct rc_slabs_options o = {
+        .slabs = PAD_SLABS, .thickness = thick, .shear = 3, .nu = 0.3, .whole = true};
+    struct voxels e = voxels_new(small, PAD_SLABS), wide = voxels_new(large, PAD_SLABS);
+    struct voxels s = voxels_new(small, PAD_SLABS), t = voxels_new(large, PAD_SLABS);
+    double p[13 * 11], q[28 * 24] = {0}, u[13 * 11], w[28 * 24], most = 0, size = 0;
+    struct rc_slabs *v = volume_new(large, o), *n;
+    uint64_t seed = 3;
+
+    (void)state;
+    o.padded = true;
+    n = volume_new(small, o);
+    voxels_random(&e, 0x7, &seed);
+    for (size_t j = 0; j < small.ny; j++)
+        for (size_t i = 0; i < small.nx; i++) {
+            p[j * small.nx + i] = 1e-3 * random_number(&seed);
+            q[j * large.nx + i] = p[j * small.nx + i];
+            for (size_t k = 0; k < PAD_SLABS; k++)
+                for (int c = 0; c < RC_COMPONENTS; c++)
+                    voxels_map(&wide, k, (enum rc_component)c)[j * large.nx + i] =
+                        voxels_map(&e, k, (enum rc_component)c)[j * small.nx + i];
+        }
+    volume_apply(v, &wide, NULL, q, w, &t);
+    volume_apply(n, &e, NULL, p, u, &s);
+    for (size_t j = 0; j < small.ny; j++)
+        for (size_t i = 0; i < small.nx; i++) {
+            size_t at = j * small.nx + i, there = j * large.nx + i;
+            assert_true(fabs(u[at] - w[there]) < 1e-14);
+            for (size_t k = 0; k < PAD_SLABS; k++)
+                for (int c = 0; c < RC_COMPONENTS; c++) {
+                    double is = voxels_map(&s, k, (enum rc_component)c)[at];
+                    most = fmax(most, fabs(is - voxels_map(&t, k, (enum rc_component)c)[there]));
+                    size = fmax(size, fabs(is));
+                }
+        }
+    assert_true(most < 1e-13 * size);
+    rc_slabs_free(v);
+    rc_slabs_free(n);
+    free(e.v);
+    free(wide.v);
+    free(s.v);
+    free(t.v);
+}
+
 int
 main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(is_reciprocal),
-                                       cmocka_unit_test(is_bounded),
-                                       cmocka_unit_test(in_equilibrium),
-                                       cmocka_unit_test(mean_is_local), cmocka_unit_test(refuses)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(padded),        cmocka_unit_test(is_reciprocal),
+        cmocka_unit_test(is_bounded),    cmocka_unit_test(in_equilibrium),
+        cmocka_unit_test(mean_is_local), cmocka_unit_test(refuses)};
 
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
