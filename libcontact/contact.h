@@ -670,9 +670,9 @@ struct rc_yield {
 };
 
 struct rc_plastic_problem {
-    struct rc_problem
-        contact; /* pair.one is the body that yields, with e and nu; periodic; its load
-                                  does not count, nor does an approach; no bound of the pressure   */
+    /* pair.one is the body that yields, with e and nu; its load does not count, nor does an approach; no
+     * bound of the pressure */
+    struct rc_problem contact;
     struct rc_yield yield;
     size_t slabs; /* that may yield, from the surface down                              */
     const double
@@ -697,6 +697,9 @@ struct rc_plastic_figures {
     /* estimated relative L1 errors of the pressure: of the increments, NAN for fewer than 4 of them, and of
      * the iteration; and of both */
     double increment_error, iteration_error, error;
+    /* the part of it that comes from the images of a map that does not repeat; the integral of the equivalent
+     * strain over the volume, m^3 */
+    double image_error, strained;
 };
 
 struct rc_plastic;
@@ -733,7 +736,7 @@ RC_API void rc_plastic_free(struct rc_plastic *plastic); /* NULL is allowed */
 RC_API size_t rc_plastic_memory(const struct rc_shape *shape,
                                 const struct rc_plastic_problem *problem, double yielding);
 
-/* Slabs for a body that would yield under the elastic contact pressure p (nx ny Pa, periodic): half a node thick
+/* Slabs for a body that would yield under the elastic contact pressure p (nx ny Pa): half a node thick
  * at the surface, each by a quarter thicker than the one above, down to below where Mises' stress falls
  * under the yield stress. */
 struct rc_plastic_depths {
@@ -742,9 +745,10 @@ struct rc_plastic_depths {
     double most, deepest; /* Pa, the largest Mises stress, and its depth, m                       */
 };
 /* RC_FAIL as rc_stress_new, and when memory is short. */
-RC_API enum rc_status rc_plastic_depths(const struct rc_shape *shape, const double *p,
-                                        const struct rc_body *body, double yield, size_t threads,
-                                        struct rc_plastic_depths *depths, struct rc_err *err);
+RC_API enum rc_status rc_plastic_depths(const struct rc_shape *shape, enum rc_boundary boundary,
+                                        const double *p, const struct rc_body *body, double yield,
+                                        size_t threads, struct rc_plastic_depths *depths,
+                                        struct rc_err *err);
 
 /* ---- stress: stress.c ---- */
 
@@ -785,7 +789,7 @@ struct rc_stress_options {
     double tol;         /* asked error of a component over the largest pressure; 0: rounding      */
     size_t threads;     /* 0: all                                                                 */
     const struct rc_ranks *ranks; /* processes that share the map; NULL: none                   */
-    /* NULL, or strain whose stress is added, at about ten transforms a slab for each depth; periodic, with the
+    /* NULL, or strain whose stress is added, at about ten transforms a slab for each depth; with the
      * e of a bare body; in a section it is linear between the nodes. The caller keeps all of it. */
     const struct rc_eigenstrain *strain;
 };

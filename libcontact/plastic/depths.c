@@ -15,10 +15,11 @@ static const double growth = 1.25;
 
 /* The largest Mises stress at each of the middles. */
 static enum rc_status
-look(const struct rc_shape *shape, const double *p, const struct rc_body *body, size_t threads,
-     size_t n, const double *middle, double *mises, struct rc_err *err)
+look(const struct rc_shape *shape, enum rc_boundary boundary, const double *p,
+     const struct rc_body *body, size_t threads, size_t n, const double *middle, double *mises,
+     struct rc_err *err)
 {
-    const struct rc_stress_options options = {.boundary = RC_PERIODIC,
+    const struct rc_stress_options options = {.boundary = boundary,
                                               .body = *body,
                                               .wanted = 1U << RC_MISES,
                                               .tol = 1e-3,
@@ -48,8 +49,9 @@ look(const struct rc_shape *shape, const double *p, const struct rc_body *body, 
 }
 
 enum rc_status
-rc_plastic_depths(const struct rc_shape *shape, const double *p, const struct rc_body *body,
-                  double yield, size_t threads, struct rc_plastic_depths *d, struct rc_err *err)
+rc_plastic_depths(const struct rc_shape *shape, enum rc_boundary boundary, const double *p,
+                  const struct rc_body *body, double yield, size_t threads,
+                  struct rc_plastic_depths *d, struct rc_err *err)
 {
     double thickness[MOST], middle[MOST], mises[MOST], z = 0;
     double side = fmax((double)shape->nx * shape->dx, (double)shape->ny * shape->dy);
@@ -64,7 +66,7 @@ rc_plastic_depths(const struct rc_shape *shape, const double *p, const struct rc
         middle[n++] = z + dz / 2;
         z += dz;
     }
-    if (look(shape, p, body, threads, n, middle, mises, err) != RC_OK)
+    if (look(shape, boundary, p, body, threads, n, middle, mises, err) != RC_OK)
         return RC_FAIL;
     for (size_t k = 0; k < n; k++) {
         if (mises[k] > d->most) {

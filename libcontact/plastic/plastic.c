@@ -22,6 +22,10 @@
  * it flows where it would not from e_b: else what unloads would flow on. The first increment of a load has
  * beta 0 throughout (backward Euler), for the load has turned.
  *
+ * Where the map does not repeat the contact is that of the half-space, exactly; the stresses, and what strain does to
+ * the surface, are those of a map that repeats after twice its sides, some thousandths of the yield stress beside
+ * those of the half-space.
+ *
  * Two estimates come with each load. Of the increments: what BDF2 adds to Euler's return in each of them is
  * summed, and the contact is found once more with that added to e. Of the iteration: by how much its last
  * step moved the pressure, over the least resistance that a step has met.
@@ -57,12 +61,14 @@ struct rc_plastic {
     struct rc_shape shape;
     size_t n;
     struct rc_yield law;
-    double shear, yield, lag; /* mu, yield stress of what is new, the lag that is asked for    */
-    double *h, *u, *form;     /* heights, what e does to the surface, and heights less that    */
+    double shear, nu, yield,
+        lag;              /* mu, yield stress of what is new, the lag that is asked for    */
+    double *h, *u, *form; /* heights, what e does to the surface, and heights less that    */
     double *thickness;
     struct rc_solver *solver;
     struct rc_slabs *slabs;
     struct rc_voxels voxels;
+    bool round;      /* the map repeats */
     double bearable; /* N: beyond it all depths yield under the mean pressure                */
     double *other;   /* a pressure to compare with                                               */
     bool alone;      /* no load: p is 0                                                          */
@@ -480,7 +486,8 @@ largest_mean(const struct rc_plastic *p)
 
     for (size_t j = 0; j < ny && v != NULL; j++)
         for (size_t i = 0; i < nx; i++) {
-            size_t right = (i + 1) % nx, below = (j + 1) % ny;
+            size_t right = i + 1 < nx ? i + 1 : p->round ? 0 : i;
+            size_t below = j + 1 < ny ? j + 1 : p->round ? 0 : j;
             most = fmax(most, (v[j * nx + i] + v[j * nx + right] + v[below * nx + i] +
                                v[below * nx + right]) /
                                   4);
@@ -495,7 +502,7 @@ find_figures(struct rc_plastic *p)
     double cell = p->shape.dx * p->shape.dy, bottom = 0;
 
     f->voxels = 0;
-    f->depth = f->volume = f->max_strain = f->work = 0;
+    f->depth = f->volume = f->max_strain = f->work = f->strained = 0;
     for (size_t k = 0; k < p->voxels.slabs; k++) {
         bottom += p->thickness[k];
         for (size_t j = 0; j < p->voxels.rows; j++) {
@@ -507,6 +514,7 @@ find_figures(struct rc_plastic *p)
                 f->voxels++;
                 f->depth = bottom;
                 f->volume += part;
+                f->strained += part * strain;
                 f->work += part * rc_yield_work(&p->law, strain);
                 f->max_strain = fmax(f->max_strain, strain);
             }
@@ -540,6 +548,26 @@ compare_order(struct rc_plastic *p, struct rc_err *err)
     for_each(p, try_none);
     p->stage = STAGE_DONE;
     return press(p, err);
+}
+
+/* Of the pressure, from the images of the yielded volume at twice the sides of a map that does not repeat: their
+ * stress, as the modulus times the strain that is spread over the cube of a side, beside the pressure. Measured on
+ * balls, whose contact takes 5 to 28 % of the map: 0.4 to 0.47 of this without the factor. */
+static double
+image_error(const struct rc_plastic *p)
+{
+    const double most = 0.6, *v = pressure(p);
+    double side = sqrt((double)p->n * p->shape.dx * p->shape.dy), sum = 0;
+    size_t touching = 0;
+
+    if (p->round || v == NULL)
+        return 0;
+    for (size_t k = 0; k < p->n; k++) {
+        sum += v[k];
+        touching += v[k] > 0;
+    }
+    return most * 2 * (1 + p->nu) * p->shear * p->figures.strained /
+           (side * side * side * sum / (double)touching);
 }
 
 /* ---- the face ---- */
@@ -589,8 +617,10 @@ rc_plastic_step(struct rc_plastic *p, struct rc_err *err)
     if (status != RC_OK || p->stage != STAGE_DONE)
         return status == RC_OK ? RC_MORE : status;
     p->from = p->to;
-    p->figures.error = hypot(p->figures.increment_error, p->figures.iteration_error);
     find_figures(p);
+    p->figures.image_error = image_error(p);
+    p->figures.error = hypot(hypot(p->figures.increment_error, p->figures.iteration_error),
+                             p->figures.image_error);
     return p->stopped ? RC_SHORT : RC_OK;
 }
 
@@ -663,8 +693,6 @@ check(const struct rc_plastic_problem *problem, struct rc_err *err)
 
     if (rc_yield_check(&problem->yield, err) != RC_OK)
         return RC_FAIL;
-    if (problem->contact.boundary != RC_PERIODIC)
-        return rc_err_set(err, "plasticity in the volume is known on periodic maps only");
     if (problem->contact.ranks != NULL)
         return rc_err_set(err, "plasticity in the volume is not shared among processes");
     if (problem->contact.pair.estar > 0 || !(one->e > 0) || isinf(one->e))
@@ -712,6 +740,7 @@ rc_plastic_new(const struct rc_shape *shape, const double *h,
                                        .thickness = problem->thickness,
                                        .shear = one->e / (2 * (1 + one->nu)),
                                        .nu = one->nu,
+                                       .padded = contact.boundary == RC_FREE,
                                        .precision = problem->precise ? RC_DOUBLE : RC_SINGLE,
                                        .threads = contact.threads};
 
@@ -727,12 +756,16 @@ rc_plastic_new(const struct rc_shape *shape, const double *h,
                              .n = shape->nx * shape->ny,
                              .law = problem->yield,
                              .shear = options.shear,
+                             .nu = one->nu,
                              .yield = rc_yield_stress(&problem->yield, 0),
                              .lag = problem->lag > 0 ? problem->lag : settled,
                              .increments =
                                  problem->increments > 0 ? problem->increments : INCREMENTS};
     /* the mean pressure makes a Mises stress of (1 - 2 nu)/2 of it at every depth; on a profile more */
-    p->bearable = 0.9 * 2 * p->yield / (1 - 2 * one->nu) * (double)p->n * shape->dx * shape->dy;
+    p->bearable = contact.boundary == RC_FREE ? INFINITY
+                                              : 0.9 * 2 * p->yield / (1 - 2 * one->nu) *
+                                                    (double)p->n * shape->dx * shape->dy;
+    p->round = contact.boundary == RC_PERIODIC;
     contact.approach = 0;
     if (contact.load == 0)
         contact.load = 1; /* none is solved before one is set */
@@ -750,6 +783,7 @@ rc_plastic_memory(const struct rc_shape *shape, const struct rc_plastic_problem 
                   double yielding)
 {
     const struct rc_slabs_options options = {.slabs = problem->slabs,
+                                             .padded = problem->contact.boundary == RC_FREE,
                                              .precision = problem->precise ? RC_DOUBLE : RC_SINGLE,
                                              .threads = problem->contact.threads};
     size_t n = shape->nx * shape->ny;

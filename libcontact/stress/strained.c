@@ -34,8 +34,6 @@ rc_strained_check(const struct rc_stress_options *o, struct rc_err *err)
 
     if (e == NULL)
         return RC_OK;
-    if (o->boundary != RC_PERIODIC)
-        return rc_err_set(err, "the stress of plastic strain is known on periodic maps only");
     if (o->body.layers > 0)
         return rc_err_set(err, "the stress of plastic strain is not known under layers");
     if (!(o->body.e > 0) || isinf(o->body.e))
@@ -52,6 +50,7 @@ slabs_options(const struct rc_stress_options *o, const double *thickness)
                                      .thickness = thickness,
                                      .shear = o->body.e / (2 * (1 + o->body.nu)),
                                      .nu = o->body.nu,
+                                     .padded = o->boundary == RC_FREE,
                                      .whole = true,
                                      .threads = o->threads,
                                      .ranks = o->ranks};

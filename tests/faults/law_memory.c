@@ -278,8 +278,8 @@ yields(double *out, struct rc_err *err)
     problem.yield.stress = bare.one.e / 100;
     solver = rc_solver_new(&shape, rough, &elastic, err);
     if (solver == NULL || finish_load(solver, err) != RC_OK ||
-        rc_plastic_depths(&shape, rc_solver_pressure(solver), &bare.one, problem.yield.stress, 1,
-                          &depths, err) != RC_OK)
+        rc_plastic_depths(&shape, RC_PERIODIC, rc_solver_pressure(solver), &bare.one,
+                          problem.yield.stress, 1, &depths, err) != RC_OK)
         goto done;
     problem.slabs = depths.slabs;
     problem.thickness = depths.thickness;

@@ -266,7 +266,7 @@ refused(void **state)
     bad[0].yield.stress = 0;
     bad[1].yield.modulus = -1;
     bad[2].yield = (struct rc_yield){.points = 2, .strain_at = falls, .stress_at = stress};
-    bad[3].contact.boundary = RC_FREE;
+    bad[3].slabs = 0;
     bad[4].contact.pair.one.nu = 0.5;
     bad[5].contact.hardness = 1;
     bad[6].contact.pair = (struct rc_pair){.estar = 1};

@@ -185,7 +185,7 @@ refused(void **state)
     for (int q = 0; q < 3; q++) {
         o = options_of(&s, true, 1);
         if (q == 0)
-            o.boundary = RC_FREE;
+            o.body.e = INFINITY;
         else if (q == 1)
             o.body.e = 0;
         else

@@ -155,8 +155,6 @@ yield_read(struct run *run)
         tool_die(&run->t, EXIT_USAGE, "--yield %s: %s", args->yield, err.text);
     read_count(run, "increments", args->increments, &y->asked, NULL);
     read_count(run, "slabs", args->slabs, &y->slab_count, &y->list);
-    refuse(run, !a->periodic, "a free boundary",
-           "plasticity in the volume is known with --periodic only, as yet");
     refuse(run, !isinf(a->hardness), "--hardness",
            "a bound of the pressure is what it takes the place of");
     refuse(run, a->layer.n > 0, "--layer", "the material is one");
@@ -169,7 +167,7 @@ yield_read(struct run *run)
     refuse(run, args->checkpoint != NULL, "--checkpoint", "the strain is not kept in it, as yet");
     refuse(run, args->discretization, "--discretization",
            "a grid half as fine yields elsewhere: solve it by itself");
-    refuse(run, run->tilt, "--tilt free", "the boundary is periodic");
+    refuse(run, run->tilt, "--tilt free", "a body that yields follows one direction");
 }
 
 void
@@ -212,8 +210,8 @@ find_slabs(struct run *run, const struct rc_grid *g, const double *p)
     struct rc_plastic_depths d;
     struct rc_err err;
 
-    if (rc_plastic_depths(&shape, p, &run->args->physics.pair.one, stress, run->t.threads, &d,
-                          &err) != RC_OK)
+    if (rc_plastic_depths(&shape, run->args->physics.periodic ? RC_PERIODIC : RC_FREE, p,
+                          &run->args->physics.pair.one, stress, run->t.threads, &d, &err) != RC_OK)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     y->most = d.most / stress;
     y->deepest = d.deepest;
