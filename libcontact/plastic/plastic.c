@@ -60,6 +60,7 @@ enum stage {
 struct rc_plastic {
     struct rc_shape shape;
     size_t n;
+    int threads;
     struct rc_yield law;
     double shear, nu, yield,
         lag;              /* mu, yield stress of what is new, the lag that is asked for    */
@@ -254,7 +255,7 @@ typedef void each_voxel(struct rc_plastic *p, struct rc_voxel *v);
 static void
 for_each(struct rc_plastic *p, each_voxel *do_it)
 {
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) num_threads(p->threads)
     for (size_t r = 0; r < p->voxels.slabs * p->voxels.rows; r++)
         for (size_t k = 0; k < p->voxels.row[r].n; k++)
             do_it(p, &p->voxels.row[r].v[k]);
@@ -754,6 +755,7 @@ rc_plastic_new(const struct rc_shape *shape, const double *h,
     }
     *p = (struct rc_plastic){.shape = *shape,
                              .n = shape->nx * shape->ny,
+                             .threads = rc_useful_threads(shape, contact.threads),
                              .law = problem->yield,
                              .shear = options.shear,
                              .nu = one->nu,
