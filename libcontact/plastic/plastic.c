@@ -402,7 +402,7 @@ static enum rc_status
 apply(struct rc_plastic *p, struct rc_err *err)
 {
     const struct rc_slab_stress stress = {NULL, stress_row, p};
-    double sums[RC_VOXEL_SUMS];
+    double sums[RC_VOXEL_SUMS], last;
 
     if (press(p, err) != RC_OK)
         return RC_FAIL;
@@ -412,9 +412,11 @@ apply(struct rc_plastic *p, struct rc_err *err)
         return rc_err_set(err, "out of memory for the strain of %zu voxels",
                           rc_voxels_count(&p->voxels));
     total(p, sums);
+    last = p->trial > 0 ? p->figures.lag : INFINITY;
     p->figures.lag = sums[RC_FLOWING] > 0 ? sqrt(sums[RC_LAG] / sums[RC_FLOWING]) : 0;
     p->mix = 0;
-    if (p->trial > 0 && sums[RC_CHANGE] > 0)
+    /* F itself never raises the energy, a mixture may: it is not taken where the last one did not help */
+    if (p->trial > 0 && sums[RC_CHANGE] > 0 && p->figures.lag < last)
         p->mix = sums[RC_NEW_OLD] / sums[RC_CHANGE];
     if (p->trial > 0 && sums[RC_ADVANCE] > 0 && sums[RC_RESISTED] > 0)
         p->resistance = fmin(p->resistance, sums[RC_RESISTED] / sums[RC_ADVANCE]);
