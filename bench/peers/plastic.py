@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
-"""One load of a rough surface on a body that yields inside: rc-solve --yield beside Tamaas' EPICSolver.
+"""One load of a rough surface on a body that yields inside: this library beside Tamaas' EPICSolver.
 
-    peers-venv/bin/python bench/peers/plastic.py --tools build/tools
+    cmake --build build --target bench-plastic
+    peers-venv/bin/python bench/peers/plastic.py --build build
 
-The same 64 x 64 heights, 12 layers of one node, one increment, one thread. Tamaas has linear elements between 13
-planes of nodes, rc-solve 12 slabs, so their solutions differ by what either makes of the depth. Evaluations: of the
-residual there, of the volume's operator here. Its fixed point of contact and plasticity goes round at the relaxations of 0.3 and
-more that were tried; 0.1 converges.
+The same 64 x 64 heights, 12 layers of one node, one increment, one thread. Tamaas has linear elements between 13 planes of nodes,
+the library 12 slabs, so each is measured against its own solution, iterated until the pressure moves by less than 1e-7 (Tamaas) or 1e-9.
+Evaluations: of the residual there, of the volume's operator here. Seconds are those of the processor. Tamaas is run at several
+tolerances of its inner solver and relaxations of its fixed point of contact and plasticity; at 0.3 it goes round, at 0.1 and 0.2 it converges.
 """
 import argparse
-import json
 import os
 import subprocess
 import tempfile
@@ -20,35 +20,32 @@ os.environ["OMP_NUM_THREADS"] = "1"
 import numpy as np  # noqa: E402
 
 N, LAYERS, YIELD, HARDENING, MEAN = 64, 12, 0.04, 0.01, 0.02
+ERRORS = 1e-2, 1e-3
+WAYS = (0.1, 1e-6), (0.2, 1e-6), (0.2, 1e-4)  # relaxation, tolerance of the strain
 
 
 def tool(args, name, *rest):
-    return subprocess.run([args.tools / name, *rest], check=True, stdout=subprocess.PIPE,
+    return subprocess.run([args.build / name, *rest], check=True, stdout=subprocess.PIPE,
                           env=dict(os.environ, RC_THREADS="1")).stdout
 
 
-def ours(args, folder):
-    began = time.perf_counter()
-    tool(args, "rc-solve", "--quiet", "--periodic", "--mean-pressure", str(MEAN), "--E1", "1", "--nu1", "0.3", "--E2", "rigid",
-         "--yield", f"{YIELD},{HARDENING}", "--increments", "1", "--slabs", ",".join(["1m"] * LAYERS),
-         "--output", "pressure", "--report", folder / "r.json", "-o", folder / "p.rcg", folder / "h.rcg")
-    seconds = time.perf_counter() - began
-    report = json.loads((folder / "r.json").read_text())
-    tool(args, "rc-export", "--format", "npy", "-o", folder / "p.npy", folder / "p.rcg")
-    return np.load(folder / "p.npy"), seconds, report["applications"]
-
-
-def tamaas(h, relaxation, cost, strain):
+def tamaas(h, relaxation, strain):
+    """Evaluations, seconds and pressure before each plastic solve, and at the end."""
     import tamaas as tm
     from tamaas.nonlinear_solvers import DFSANESolver
 
-    class Counting(DFSANESolver):
-        count = 0
+    passed, count, began = [], 0, time.process_time()
 
+    def note():
+        passed.append((count, time.process_time() - began, np.array(model.traction)[..., 2].copy()))
+
+    class Counting(DFSANESolver):
         def _scipy_solve(self, residual):
             def counted(x):
-                Counting.count += 1
+                nonlocal count
+                count += 1
                 return residual(x)
+            note()
             return super()._scipy_solve(counted)
 
     tm.set_log_level(tm.LogLevel.warning)
@@ -56,25 +53,36 @@ def tamaas(h, relaxation, cost, strain):
     model.E, model.nu = 1, 0.3
     plastic = Counting(tm.Residual(model, tm.materials.IsotropicHardening(model, YIELD, HARDENING)))
     plastic.tolerance = strain
-    began = time.perf_counter()
-    tm.EPICSolver(tm.PolonskyKeerRey(model, h, 1e-8), plastic, cost, relaxation).solve(MEAN)
-    return np.array(model.traction)[..., 2], time.perf_counter() - began, Counting.count
+    tm.EPICSolver(tm.PolonskyKeerRey(model, h.copy(), 1e-10), plastic, 1e-6, relaxation).solve(MEAN)
+    note()
+    return passed
+
+
+def first(passed, error):
+    return next((n, s) for n, s, e in passed if e <= error)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--tools", type=Path, default=Path("build/tools"))
+    parser.add_argument("--build", type=Path, default=Path("build"))
     args = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        tool(args, "rc-synth", "selfaffine", "--nx", str(N), "--dx", "1", "--hurst", "0.8", "--rms-slope", "0.25",
+        tool(args, "tools/rc-synth", "selfaffine", "--nx", str(N), "--dx", "1", "--hurst", "0.8", "--rms-slope", "0.25",
              "--rolloff", "16", "--short-cut", "6.4", "--seed", "2", "-o", folder / "h.rcg")
-        tool(args, "rc-export", "--format", "npy", "-o", folder / "h.npy", folder / "h.rcg")
-        p, seconds, count = ours(args, folder)
-        q, their_seconds, their_count = tamaas(np.load(folder / "h.npy").astype(float), 0.1, 1e-2, 1e-5)
-    print(f"rc-solve  {count:5d} evaluations  {seconds:8.3f} s  contact {np.mean(p > 0):.3f}")
-    print(f"Tamaas    {their_count:5d} evaluations  {their_seconds:8.3f} s  contact {np.mean(q > 0):.3f}")
-    print(f"their pressures are {np.abs(p - q).sum() / p.sum():.1e} apart (L1)")
+        tool(args, "tools/rc-export", "--format", "npy", "-o", folder / "h.npy", folder / "h.rcg")
+        h = np.load(folder / "h.npy").astype(float)
+    rows = [line.split() for line in tool(args, "bench/bench-plastic", "increment").decode().splitlines()[1:]]
+    ours = [(int(n), float(s), float(e)) for n, s, e in (row for row in rows if len(row) == 3)]
+    runs = [tamaas(h, *way) for way in WAYS]
+    limit = runs[1][-1][2]
+    print(f"{'':34s} {'error':>7s} {'evaluations':>12s} {'cpu, s':>8s}")
+    for error in ERRORS:
+        print(f"{'libcontact':34s} {error:7.0e} {first(ours, error)[0]:12d} {first(ours, error)[1]:8.3f}")
+        for (relaxation, strain), run in zip(WAYS, runs):
+            off = [(n, s, np.abs(p - limit).sum() / limit.sum()) for n, s, p in run]
+            print(f"{f'Tamaas, relaxation {relaxation}, strain {strain:.0e}':34s} {error:7.0e} {first(off, error)[0]:12d} "
+                  f"{first(off, error)[1]:8.3f}")
 
 
 if __name__ == "__main__":
