@@ -789,8 +789,8 @@ struct rc_stress_options {
     double tol;         /* asked error of a component over the largest pressure; 0: rounding      */
     size_t threads;     /* 0: all                                                                 */
     const struct rc_ranks *ranks; /* processes that share the map; NULL: none                   */
-    /* NULL, or strain whose stress is added, at about ten transforms a slab for each depth; with the
-     * e of a bare body; in a section it is linear between the nodes. The caller keeps all of it. */
+    /* NULL, or strain whose stress is added, at five transforms a slab and one a depth and component;
+     * with the e of a bare body; in a section it is linear between the nodes. The caller keeps all of it. */
     const struct rc_eigenstrain *strain;
 };
 
@@ -806,6 +806,8 @@ struct rc_stress_counts {
     size_t line_transforms;   /* one-dimensional, of kernels and sources of a section            */
     size_t engine_sums;       /* convolutions by another engine                                  */
     size_t coarse_depths;     /* of these depths computed on a coarser grid                      */
+    size_t strain_transforms; /* of maps of plastic strain to wave numbers                       */
+    size_t strain_field_transforms; /* and of its stresses from there to maps                    */
 };
 
 /* Stresses under the pressure p (Pa; kept by the caller, who does not change it) on a half-space.

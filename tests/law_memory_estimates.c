@@ -101,23 +101,49 @@ sum(const struct work *w, const double *h, const double *p)
 }
 
 static size_t
-stress(const struct work *w, const double *h, const double *p)
+stress_of(const struct work *w, const double *p, const struct rc_eigenstrain *strain)
 {
     const double depth = 5e-6;
-    const struct rc_stress_options options = {
-        .boundary = w->boundary, .body.nu = 0.3, .wanted = 1u << RC_MISES, .engine = w->engine};
+    const struct rc_stress_options options = {.boundary = w->boundary,
+                                              .body = {.e = 2e11, .nu = 0.3},
+                                              .wanted = 1u << RC_MISES,
+                                              .engine = w->engine,
+                                              .strain = strain};
     size_t bytes =
         rc_stress_memory(w->shape, &options, &depth, 1, 0) + nodes_of(w) * sizeof(double);
     struct rc_stress *s = rc_stress_new(w->shape, p, &options, NULL);
     double *to[RC_STRESSES] = {NULL};
 
-    (void)h;
     to[RC_MISES] = malloc(nodes_of(w) * sizeof(double));
     if (s == NULL || to[RC_MISES] == NULL || rc_stress_slice(s, depth, to, NULL) != RC_OK)
         bytes = 0;
     rc_stress_free(s);
     free(to[RC_MISES]);
     return bytes;
+}
+
+static size_t
+stress(const struct work *w, const double *h, const double *p)
+{
+    (void)h;
+    return stress_of(w, p, NULL);
+}
+
+/* Beside that of the pressure the stress of strain in a few slabs. */
+static size_t
+stress_strained(const struct work *w, const double *h, const double *p)
+{
+    enum {
+        SLABS = 5,
+        MAPS = 5
+    };
+    static const double thickness[SLABS] = {1e-6, 1e-6, 2e-6, 2e-6, 3e-6};
+    const double *maps[SLABS * MAPS];
+    const struct rc_eigenstrain strain = {SLABS, thickness, maps};
+
+    for (size_t k = 0; k < SLABS * MAPS; k++)
+        maps[k] = h;
+    return stress_of(w, p, &strain);
 }
 
 static size_t
@@ -242,6 +268,8 @@ holds(void **state)
         {"sums, mlms", &map, RC_FREE, "mlms", transforms, sum},
         {"stress", &map, RC_FREE, NULL, transforms, stress},
         {"stress, periodic", &map, RC_PERIODIC, NULL, transforms, stress},
+        {"stress, strained", &map, RC_FREE, NULL, 2 * transforms, stress_strained},
+        {"stress, strained, periodic", &map, RC_PERIODIC, NULL, 2 * transforms, stress_strained},
         {"patches", &large, RC_FREE, NULL, 0, patches},
         {"spectrum", &map, RC_PERIODIC, NULL, transforms, psd},
         {"slabs", &map, RC_PERIODIC, NULL, transforms, slabs_double},

@@ -179,6 +179,8 @@ rc_stress_new(const struct rc_shape *shape, const double *p,
         rc_stress_free(stress);
         return NULL;
     }
+    if (stress->strained != NULL)
+        rc_strained_count(stress->strained, &stress->counts);
     return stress;
 }
 
@@ -247,8 +249,10 @@ rc_stress_slice(struct rc_stress *stress, double depth, double *const s[RC_STRES
             six_of[c] = stress->own[c] != NULL ? stress->own[c] : s[c];
     if (stress->evaluator->slice(stress->plan, depth, six_of, err) != RC_OK)
         return RC_FAIL;
-    if (stress->strained != NULL)
+    if (stress->strained != NULL) {
         rc_strained_add(stress->strained, depth, six_of);
+        rc_strained_count(stress->strained, &stress->counts);
+    }
     stress->counts.depths++;
     if (stress->task.options.wanted >> RC_COMPONENTS != 0)
         derive(stress, (const double *const *)six_of, s);

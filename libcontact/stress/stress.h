@@ -45,6 +45,8 @@ size_t rc_strained_memory(const struct rc_stress_task *task);
 void rc_strained_free(struct rc_strained *strained); /* NULL is allowed */
 /* Adds it to the components at this depth, a map or a line of each; NULL: not needed. */
 void rc_strained_add(struct rc_strained *strained, double depth, double *const to[RC_COMPONENTS]);
+/* The transforms so far. */
+void rc_strained_count(const struct rc_strained *strained, struct rc_stress_counts *counts);
 
 /* ---- what evaluates stresses ---- */
 

@@ -32,13 +32,21 @@ struct rc_sweep_slab {
     double szz, sxx, syy;           /* added to the first wave of the column: a mean */
 };
 
+/* A slice: the slab that it lies in, or their number where it lies below all of them, and what is left above
+ * it and below it of that slab (above it: since the last slab), m. */
+struct rc_sweep_place {
+    size_t slab;
+    double above, thickness, below;
+};
+
 /* Waves at a depth are three arrays of twice `length`, one after the other, in units of strain: q
  * times the amplitude. */
 struct rc_sweep_ops {
     size_t real_size;
-    /* Waves that go up: from those below n slabs (NULL: none) to those above them. */
-    void (*up)(const struct rc_sweep_column *column, size_t n, const struct rc_sweep_slab *slab,
-               const void *below, void *above);
+    /* Waves through n slabs, those that go up (from below to above them) or down, where `down`. From NULL:
+     * there are none. */
+    void (*through)(const struct rc_sweep_column *column, size_t n,
+                    const struct rc_sweep_slab *slab, bool down, const void *from, void *to);
     /* At the surface: from waves up to waves down, and what p over 2 mu adds (NULL: nothing).
      * `any`: whether there are waves up; otherwise they count as 0. */
     void (*reflect)(const struct rc_sweep_column *column, bool any, const void *p, double over_2mu,
@@ -50,6 +58,11 @@ struct rc_sweep_ops {
      * below them; NULL: there are none, and none are asked for. */
     void (*down)(const struct rc_sweep_column *column, size_t n, const struct rc_sweep_slab *slab,
                  double modulus, const void *above, bool any, void *below);
+    /* All six stresses of a slice of n slabs to `to`, the five and szz; strains stay, and so do the waves:
+     * `above` down on top of the slabs, `below` up below them (NULL: none). */
+    void (*slice)(const struct rc_sweep_column *column, size_t n, const struct rc_sweep_slab *slab,
+                  double modulus, const struct rc_sweep_place *place, const void *above,
+                  const void *below, void *const to[RC_SWEEP_STRAINS + 1]);
 };
 extern const struct rc_sweep_ops rc_sweep_double, rc_sweep_single;
 

@@ -317,13 +317,32 @@ keep(const struct waves *w, size_t length, size_t first, size_t n, bool imaginar
     memcpy(v + 4 * length, w->w3, n * sizeof *v);
 }
 
+/* Both halves of m waves through a slab of this thickness; its strain is that of `slab`. */
 static void
-up(const struct rc_sweep_column *column, size_t n, const struct rc_sweep_slab *slab,
-   const void *below, void *above)
+cross(const struct rc_sweep_column *column, const struct way *way, size_t first, size_t m,
+      const struct rc_sweep_slab *slab, double thickness, bool down, struct waves w[2])
 {
-    struct way way;
     struct slab_of of;
     struct strain e;
+
+    set_slab(way, thickness, m, &of);
+    for (int i = 0; i < 2; i++) {
+        struct half half;
+        if (!slab->strained) {
+            carry(&of, m, &w[i], &w[i]);
+            continue;
+        }
+        half = half_of(slab, column->length, first, i);
+        turn_strain(way, &half, m, &e);
+        pass(&of, &e, down ? 1 : -1, (REAL)column->nu, m, &w[i], &w[i]);
+    }
+}
+
+static void
+through(const struct rc_sweep_column *column, size_t n, const struct rc_sweep_slab *slab, bool down,
+        const void *from, void *to)
+{
+    struct way way;
     struct waves w[2];
 
     for (size_t first = 0; first < column->length; first += BLOCK) {
@@ -331,21 +350,13 @@ up(const struct rc_sweep_column *column, size_t n, const struct rc_sweep_slab *s
 
         set_way(column, first, m, &way);
         for (int i = 0; i < 2; i++)
-            fetch(below, column->length, first, m, i, &w[i]);
-        for (size_t k = n; k-- > 0;) {
-            set_slab(&way, slab[k].thickness, m, &of);
-            for (int i = 0; i < 2; i++) {
-                struct half half = half_of(&slab[k], column->length, first, i);
-                if (!slab[k].strained) {
-                    carry(&of, m, &w[i], &w[i]);
-                    continue;
-                }
-                turn_strain(&way, &half, m, &e);
-                pass(&of, &e, -1, (REAL)column->nu, m, &w[i], &w[i]);
-            }
+            fetch(from, column->length, first, m, i, &w[i]);
+        for (size_t k = 0; k < n; k++) {
+            const struct rc_sweep_slab *next = &slab[down ? k : n - 1 - k];
+            cross(column, &way, first, m, next, next->thickness, down, w);
         }
         for (int i = 0; i < 2; i++)
-            keep(&w[i], column->length, first, m, i, above);
+            keep(&w[i], column->length, first, m, i, to);
     }
 }
 
@@ -410,6 +421,48 @@ down(const struct rc_sweep_column *column, size_t n, const struct rc_sweep_slab 
             add_mean(&slab[k]);
 }
 
+static void
+slice(const struct rc_sweep_column *column, size_t n, const struct rc_sweep_slab *slab,
+      double modulus, const struct rc_sweep_place *place, const void *above, const void *below,
+      void *const to[RC_SWEEP_STRAINS + 1])
+{
+    const struct rc_sweep_slab none = {.strained = false};
+    const struct rc_sweep_slab *own = place->slab < n ? &slab[place->slab] : &none;
+    struct rc_sweep_slab out = {.zz = to[RC_SWEEP_STRAINS]};
+    struct way way;
+    struct slab_of of;
+    struct strain e;
+    struct waves a[2], b[2];
+
+    memcpy(out.strain, to, sizeof out.strain);
+    for (size_t first = 0; first < column->length; first += BLOCK) {
+        size_t m = column->length - first < BLOCK ? column->length - first : BLOCK;
+
+        set_way(column, first, m, &way);
+        for (int i = 0; i < 2; i++) {
+            fetch(above, column->length, first, m, i, &a[i]);
+            fetch(below, column->length, first, m, i, &b[i]);
+        }
+        for (size_t k = 0; k < n && k < place->slab; k++)
+            cross(column, &way, first, m, &slab[k], slab[k].thickness, true, a);
+        cross(column, &way, first, m, own, place->above, true, a);
+        for (size_t k = n; k-- > place->slab + 1;)
+            cross(column, &way, first, m, &slab[k], slab[k].thickness, false, b);
+        cross(column, &way, first, m, own, place->below, false, b);
+        set_slab(&way, place->thickness, m, &of);
+        for (int i = 0; i < 2; i++) {
+            struct half half;
+            memset(&e, 0, sizeof e);
+            if (own->strained) {
+                half = half_of(own, column->length, first, i);
+                turn_strain(&way, &half, m, &e);
+            }
+            half = half_of(&out, column->length, first, i);
+            stress(&way, &of, &e, (REAL)column->nu, (REAL)modulus, m, &a[i], &b[i], &half);
+        }
+    }
+}
+
 /* ---- the surface ---- */
 
 static void
@@ -454,8 +507,9 @@ surface(const struct rc_sweep_column *column, const void *waves, void *u)
 
 const struct rc_sweep_ops OPS = {
     .real_size = sizeof(REAL),
-    .up = up,
+    .through = through,
     .reflect = reflect,
     .surface = surface,
     .down = down,
+    .slice = slice,
 };

@@ -4,10 +4,12 @@
  * slabs keep the waves that pass, and the depths within a group are computed again on the way down.
  *
  * Kept of a node, in numbers: 5 a slab, which the stresses of the slab take over, 3 a group, and 1
- * for the map under transform.
+ * for the map under transform. Where slices are asked for: another 3 a group, waves down where those
+ * were up, and 6 for the slice; what passes between the depths that are kept is computed for each.
  */
 #include "volume.h"
 
+#include <math.h>
 #include <omp.h>
 #include <stdlib.h>
 #include <string.h>
@@ -31,10 +33,13 @@ struct rc_slabs {
     void *strain;                  /* 5 maps a slab: strain, then stress                      */
     void *zz;                      /* whole: a map for each slab of a group                   */
     void *waves;                   /* 3 maps a group: those on top of it                      */
+    void *down;                    /* slices: 3 maps a group: those that go down there        */
+    void *slice;                   /* slices: 6 maps                                          */
     bool *strained;                /* slabs of the last strain                                */
     bool *passes;                  /* groups: whether there are waves on top                  */
     double *rows;                  /* single: RC_COMPONENTS rows for each thread              */
     double mean;                   /* of the pressure, Pa                                     */
+    struct rc_slabs_counts counts;
 };
 
 /* ---- plan ---- */
@@ -120,13 +125,17 @@ allocate(struct rc_slabs *v, const struct rc_slabs_options *o, struct rc_err *er
     v->waves = rc_alloc(RC_SWEEP_WAVES * v->groups, v->map * size);
     if (o->whole)
         v->zz = rc_alloc(RC_SWEEP_SLABS, v->map * size);
+    if (o->slices) {
+        v->down = rc_alloc(RC_SWEEP_WAVES * v->groups, v->map * size);
+        v->slice = rc_alloc(RC_SWEEP_STRAINS + 1, v->map * size);
+    }
     if (o->precision == RC_SINGLE) {
         rows = (size_t)rc_fft_threads(v->fft) * RC_COMPONENTS;
         v->rows = rc_alloc(rows * v->shape.nx, sizeof *v->rows);
     }
     if (v->thickness == NULL || v->strained == NULL || v->passes == NULL || v->qy == NULL ||
         v->alive == NULL || v->strain == NULL || v->waves == NULL || (o->whole && v->zz == NULL) ||
-        (rows > 0 && v->rows == NULL))
+        (o->slices && (v->down == NULL || v->slice == NULL)) || (rows > 0 && v->rows == NULL))
         return rc_err_set(err, "out of memory for %zu slabs of %zu x %zu nodes: take fewer slabs",
                           v->slabs, v->shape.nx, v->shape.ny);
     memcpy(v->thickness, o->thickness, v->slabs * sizeof *v->thickness);
@@ -179,6 +188,8 @@ rc_slabs_free(struct rc_slabs *v)
     free(v->strain);
     free(v->zz);
     free(v->waves);
+    free(v->down);
+    free(v->slice);
     free(v->strained);
     free(v->passes);
     free(v->rows);
@@ -201,7 +212,8 @@ rc_slabs_memory(const struct rc_shape *shape, const struct rc_slabs_options *o)
     size_t columns = spectrum / size / (py / 2 + 1), threads;
     size_t rows = ranks > 1 ? rc_rows_most(shape, ranks) : shape->ny;
     size_t maps = RC_SWEEP_STRAINS * o->slabs + RC_SWEEP_WAVES * groups_of(o->slabs) +
-                  (o->whole ? RC_SWEEP_SLABS : 0);
+                  (o->whole ? RC_SWEEP_SLABS : 0) +
+                  (o->slices ? RC_SWEEP_WAVES * groups_of(o->slabs) + RC_SWEEP_STRAINS + 1 : 0);
     struct rc_shape here = {shape->nx, rows, shape->dx, shape->dy};
 
     threads = (size_t)rc_useful_threads(&here, o->threads);
@@ -233,13 +245,19 @@ column_of(const struct rc_slabs *v, void *waves, size_t arrays, size_t i)
     return waves == NULL ? NULL : (char *)waves + i * arrays * 2 * v->length * v->ops->real_size;
 }
 
-/* Waves on top of a group in column i; NULL below the last one. */
+/* Waves on top of a group in column i, of v->waves or v->down; NULL below the last one. */
 static void *
-waves_of(const struct rc_slabs *v, size_t group, size_t i)
+waves_in(const struct rc_slabs *v, void *waves, size_t group, size_t i)
 {
     if (group == v->groups)
         return NULL;
-    return column_of(v, map_of(v, v->waves, group * RC_SWEEP_WAVES), RC_SWEEP_WAVES, i);
+    return column_of(v, map_of(v, waves, group * RC_SWEEP_WAVES), RC_SWEEP_WAVES, i);
+}
+
+static void *
+waves_of(const struct rc_slabs *v, size_t group, size_t i)
+{
+    return waves_in(v, v->waves, group, i);
 }
 
 /* Column i of those held here. */
@@ -283,6 +301,7 @@ struct pass {
     struct rc_slabs *volume;
     const struct rc_slab_strain *strain;
     const struct rc_slab_stress *stress;
+    const struct rc_slice_stress *slice;
     size_t slab, component; /* component: of kept_components */
     const double *p;
     double *u;
@@ -413,8 +432,8 @@ sweep_up(struct rc_slabs *v, size_t group)
         struct rc_sweep_column column = sweep_column(v, i);
         struct rc_sweep_slab slab[RC_SWEEP_SLABS];
         size_t n = slabs_of(v, group, i, NULL, slab);
-        v->ops->up(&column, n, slab, below ? waves_of(v, group + 1, i) : NULL,
-                   waves_of(v, group, i));
+        v->ops->through(&column, n, slab, false, below ? waves_of(v, group + 1, i) : NULL,
+                        waves_of(v, group, i));
     }
 }
 
@@ -443,6 +462,7 @@ rc_slabs_up(struct rc_slabs *v, const struct rc_slab_strain *strain, double *u)
             for (size_t c = 0; c < RC_SWEEP_STRAINS && v->strained[k]; c++) {
                 pass.component = c;
                 rc_fft_forward(v->fft, strain_row, &pass, strain_of(v, k, c), NULL);
+                v->counts.forward++;
             }
         }
         v->passes[group] = any;
@@ -451,9 +471,10 @@ rc_slabs_up(struct rc_slabs *v, const struct rc_slab_strain *strain, double *u)
     }
     if (u == NULL)
         return;
-    if (any)
+    if (any) {
         rc_fft_back(v->fft, NULL, surface_column, displacement_row, &pass);
-    else
+        v->counts.back++;
+    } else
         memset(u, 0, v->here.nx * v->here.ny * sizeof *u);
 }
 
@@ -514,6 +535,7 @@ rc_slabs_down(struct rc_slabs *v, const double *p, const struct rc_slab_stress *
     v->mean = 0;
     if (p != NULL) {
         rc_fft_forward(v->fft, pressure_row, &pass, NULL, reflect_column);
+        v->counts.forward++;
     } else {
 #pragma omp parallel for num_threads(rc_fft_threads(v->fft)) schedule(static)
         for (size_t i = 0; i < v->columns; i++)
@@ -528,8 +550,99 @@ rc_slabs_down(struct rc_slabs *v, const double *p, const struct rc_slab_stress *
         for (size_t c = 0; c <= last; c++) {
             pass.component = c;
             rc_fft_back(v->fft, stress_of(v, k, c), NULL, c < last ? keep_row : stress_row, &pass);
+            v->counts.back++;
         }
     }
     memset(v->strained, 0, v->slabs * sizeof *v->strained);
     memset(v->passes, 0, v->groups * sizeof *v->passes);
+}
+
+/* ---- slices ---- */
+
+void
+rc_slabs_through(struct rc_slabs *v)
+{
+#pragma omp parallel for num_threads(rc_fft_threads(v->fft)) schedule(static)
+    for (size_t i = 0; i < v->columns; i++) {
+        struct rc_sweep_column column = sweep_column(v, i);
+        struct rc_sweep_slab slab[RC_SWEEP_SLABS];
+        void *top = waves_in(v, v->down, 0, i);
+        memcpy(top, waves_of(v, 0, i), RC_SWEEP_WAVES * 2 * v->length * v->ops->real_size);
+        v->ops->reflect(&column, v->passes[0], NULL, 0, top);
+        for (size_t group = 0; group + 1 < v->groups; group++) {
+            size_t n = slabs_of(v, group, i, NULL, slab);
+            v->ops->through(&column, n, slab, true, waves_in(v, v->down, group, i),
+                            waves_in(v, v->down, group + 1, i));
+        }
+    }
+}
+
+/* Where a slice is, and in which group. */
+static struct rc_sweep_place
+place_of(const struct rc_slabs *v, double depth, double thickness, size_t *group)
+{
+    struct rc_sweep_place place = {.thickness = thickness};
+    double top = 0, left;
+    size_t k = 0;
+
+    while (k < v->slabs && depth >= top + v->thickness[k])
+        top += v->thickness[k++];
+    *group = k < v->slabs ? k / RC_SWEEP_SLABS : v->groups - 1;
+    place.slab = k - *group * RC_SWEEP_SLABS;
+    place.above = fmax(depth - top - thickness / 2, 0);
+    if (k == v->slabs)
+        return place;
+    place.thickness = fmin(thickness, v->thickness[k] / 2);
+    left = v->thickness[k] - place.thickness;
+    place.above = fmin(fmax(depth - top - place.thickness / 2, 0), left);
+    place.below = left - place.above;
+    return place;
+}
+
+static bool
+slice_row(void *ctx, size_t j, void *row)
+{
+    const struct pass *p = ctx;
+    enum rc_component c = kept_components[p->component];
+    double *to = single(p->volume) ? row_of(p->volume, c) : row;
+
+    if (single(p->volume))
+        to_double(row, p->volume->shape.nx, to);
+    p->slice->row(p->slice->ctx, c, j, to);
+    return true;
+}
+
+void
+rc_slabs_slice(struct rc_slabs *v, double depth, double thickness,
+               const struct rc_slice_stress *stress)
+{
+    size_t group;
+    struct rc_sweep_place place = place_of(v, depth, thickness, &group);
+    struct pass pass = {.volume = v, .slice = stress};
+    bool below = group + 1 < v->groups && v->passes[group + 1];
+
+#pragma omp parallel for num_threads(rc_fft_threads(v->fft)) schedule(static)
+    for (size_t i = 0; i < v->columns; i++) {
+        struct rc_sweep_column column = sweep_column(v, i);
+        struct rc_sweep_slab slab[RC_SWEEP_SLABS];
+        size_t n = slabs_of(v, group, i, NULL, slab);
+        void *to[RC_SWEEP_STRAINS + 1];
+        for (size_t c = 0; c <= RC_SWEEP_STRAINS; c++)
+            to[c] = column_of(v, map_of(v, v->slice, c), 1, i);
+        v->ops->slice(&column, n, slab, v->modulus, &place, waves_in(v, v->down, group, i),
+                      below ? waves_of(v, group + 1, i) : NULL, to);
+    }
+    for (size_t c = 0; c <= RC_SWEEP_STRAINS; c++) {
+        if (!(stress->components >> kept_components[c] & 1))
+            continue;
+        pass.component = c;
+        rc_fft_back(v->fft, map_of(v, v->slice, c), NULL, slice_row, &pass);
+        v->counts.back++;
+    }
+}
+
+const struct rc_slabs_counts *
+rc_slabs_counted(const struct rc_slabs *v)
+{
+    return &v->counts;
 }

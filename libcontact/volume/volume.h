@@ -45,6 +45,7 @@ struct rc_slabs_options {
     double shear, nu;             /* mu, Pa; Poisson's ratio, above -1 and at most 0.5      */
     bool padded;                  /* the map does not repeat                                */
     bool whole;                   /* all six stresses; otherwise deviators, without szz     */
+    bool slices;                  /* rc_slabs_slice will be asked                           */
     enum rc_precision precision;  /* inside: rows and maps are double on both sides         */
     size_t threads;               /* 0: all                                                 */
     const struct rc_ranks *ranks; /* that share the map; NULL: none                         */
@@ -72,6 +73,19 @@ struct rc_slab_stress {
     void *ctx;
 };
 
+/* The stress of a slice, handed out by several threads at once: row j of each of `components` (bits), all rows of one
+ * before those of the next. */
+struct rc_slice_stress {
+    unsigned components;
+    void (*row)(void *ctx, enum rc_component c, size_t j, const double *row);
+    void *ctx;
+};
+
+/* Transforms of maps, to waves and from them. */
+struct rc_slabs_counts {
+    size_t forward, back;
+};
+
 struct rc_slabs;
 
 /* All choosing and allocating. NULL for a number that makes no sense, or when memory is short. */
@@ -88,5 +102,15 @@ void rc_slabs_up(struct rc_slabs *slabs, const struct rc_slab_strain *strain, do
 /* S p - G e with the strain of the last rc_slabs_up, which is used up thereby: without another one
  * e is 0. p, Pa, may be NULL: none. */
 void rc_slabs_down(struct rc_slabs *slabs, const double *p, const struct rc_slab_stress *stress);
+
+/* Instead of rc_slabs_down: the last strain is kept for slices, as many as are asked for. */
+void rc_slabs_through(struct rc_slabs *slabs);
+/* - G e over a thin slab about a depth >= 0 (m), cut out of the one that it lies in, at no transforms but those of the
+ * components. It stays within that slab, takes at most half of it, and has its strain; below the last one it has none.
+ */
+void rc_slabs_slice(struct rc_slabs *slabs, double depth, double thickness,
+                    const struct rc_slice_stress *stress);
+
+const struct rc_slabs_counts *rc_slabs_counted(const struct rc_slabs *slabs);
 
 #endif

@@ -1,5 +1,6 @@
 /* The stress of plastic strain in slices: their mean over a slab is what the volume's sweeps, which know no slices,
- * have for that slab; it adds to that of the pressure; a section is a row of a map. */
+ * have for that slab; a slice is what they have for a thin slab of its own, for which the others are cut; it adds to
+ * that of the pressure; a section is a row of a map; and all depths cost one sweep. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,10 +13,11 @@ enum {
     NX = 18,
     NY = 15,
     NODES = NX * NY,
-    SLABS = 5
+    SLABS = 9
 };
 static const struct rc_shape shape = {NX, NY, 1.1e-6, 1e-6};
-static const double thickness[SLABS] = {0.5e-6, 0.7e-6, 0.4e-6, 1e-6, 1.3e-6};
+static const double thickness[SLABS] = {0.5e-6, 0.7e-6, 0.4e-6, 1e-6,  1.3e-6,
+                                        0.3e-6, 2e-6,   0.9e-6, 1.1e-6};
 static const double e = 2e11, nu = 0.28;
 
 struct strained {
@@ -31,10 +33,10 @@ make(struct strained *s)
     uint64_t seed = 11;
 
     s->e = voxels_new(shape, SLABS);
-    voxels_random(&s->e, 0x1b, &seed); /* one of them has none */
+    voxels_random(&s->e, 0x17b, &seed); /* two of them have none */
     for (size_t k = 0; k < SLABS; k++)
         for (size_t c = 0; c < STRAINS; c++)
-            s->map[k * STRAINS + c] = k == 2 ? NULL : voxels_map(&s->e, k, strains[c]);
+            s->map[k * STRAINS + c] = k == 2 || k == 7 ? NULL : voxels_map(&s->e, k, strains[c]);
     s->strain = (struct rc_eigenstrain){.slabs = SLABS, .thickness = thickness, .map = s->map};
     for (size_t k = 0; k < NODES; k++)
         s->p[k] = 1e9 * (random_number(&seed) + 0.5);
@@ -64,6 +66,8 @@ slice(const struct strained *s, const double *p, bool strain, double depth, doub
     assert_int_equal(rc_stress_slice(stress, depth, at, &err), RC_OK);
     rc_stress_free(stress);
 }
+
+/* ---- against the volume ---- */
 
 /* Gauss's rule of five points over each slab. */
 static void
@@ -106,6 +110,128 @@ slices_average_to_slabs(void **state)
     free(known.v);
 }
 
+/* Stresses at a depth as those of one piece of a stack: of slabs, one of which is cut in three, or with another two
+ * below. */
+static void
+piece(const struct strained *s, bool padded, double depth, struct voxels *to)
+{
+    const double t = 1e-2 * fmin(shape.dx, shape.dy);
+    double thick[SLABS + 2], top = 0;
+    size_t from[SLABS + 2], n = 0, which = SLABS;
+    struct rc_slabs_options o = {
+        .thickness = thick, .shear = e / (2 * (1 + nu)), .nu = nu, .padded = padded, .whole = true};
+    struct voxels pieces, all;
+    struct rc_slabs *v;
+
+    for (size_t k = 0; k < SLABS; k++, top += thickness[k - 1]) {
+        double own = fmin(t, thickness[k] / 2), above = depth - top - own / 2;
+        double parts[3] = {fmin(fmax(above, 0), thickness[k] - own), own};
+        parts[2] = thickness[k] - own - parts[0];
+        if (depth < top || depth >= top + thickness[k]) {
+            from[n] = k;
+            thick[n++] = thickness[k];
+            continue;
+        }
+        for (size_t q = 0; q < 3; q++) {
+            if (!(parts[q] > 0))
+                continue;
+            which = q == 1 ? n : which;
+            from[n] = k;
+            thick[n++] = parts[q];
+        }
+    }
+    for (size_t q = 0; depth >= top && q < 2; q++) {
+        which = n;
+        from[n] = SLABS;
+        thick[n++] = q == 0 ? depth - top - t / 2 : t;
+    }
+    o.slabs = n;
+    pieces = voxels_new(shape, n);
+    all = voxels_new(shape, n);
+    for (size_t k = 0; k < n; k++)
+        for (int c = 0; c < RC_COMPONENTS && from[k] < SLABS; c++)
+            memcpy(voxels_map(&pieces, k, (enum rc_component)c),
+                   voxels_map(&s->e, from[k], (enum rc_component)c), NODES * sizeof(double));
+    v = volume_new(shape, o);
+    volume_apply(v, &pieces, NULL, NULL, NULL, &all);
+    memcpy(to->v, voxels_map(&all, which, RC_SXX), RC_COMPONENTS * NODES * sizeof(double));
+    rc_slabs_free(v);
+    free(pieces.v);
+    free(all.v);
+}
+
+/* In no order, several times the same plan: faces between slabs, the first slab and the last, and below. */
+static void
+slices_are_pieces(void **state)
+{
+    static const double depths[] = {1.1e-6, 0,      8.6e-6,  0.25e-6, 0.5e-6, 4.05e-6, 3.9e-6,
+                                    1.6e-6, 9.1e-6, 4.21e-6, 7e-6,    20e-6,  2.2e-6};
+    static struct strained s;
+    double zero[NODES] = {0};
+
+    (void)state;
+    make(&s);
+    for (int padded = 0; padded < 2; padded++) {
+        struct rc_stress_options o = options_of(&s, true, (1U << RC_COMPONENTS) - 1);
+        struct voxels one = voxels_new(shape, 1), is = voxels_new(shape, 1);
+        double *to[RC_STRESSES], worst = 0;
+        struct rc_stress *stress;
+        struct rc_err err;
+        o.boundary = padded ? RC_FREE : RC_PERIODIC;
+        for (int c = 0; c < RC_COMPONENTS; c++)
+            to[c] = voxels_map(&one, 0, (enum rc_component)c);
+        stress = rc_stress_new(&shape, zero, &o, &err);
+        assert_non_null(stress);
+        for (size_t q = 0; q < sizeof depths / sizeof *depths; q++) {
+            assert_int_equal(rc_stress_slice(stress, depths[q], to, &err), RC_OK);
+            piece(&s, padded, depths[q], &is);
+            worst = fmax(worst, voxels_apart(&one, &is));
+        }
+        print_message("slices are pieces of a stack within %.1e, %s\n", worst,
+                      padded ? "free" : "periodic");
+        assert_true(worst < 1e-12);
+        rc_stress_free(stress);
+        free(one.v);
+        free(is.v);
+    }
+    free(s.e.v);
+}
+
+/* ---- what it costs ---- */
+
+static void
+costs_one_sweep(void **state)
+{
+    static struct strained s;
+    static double map[RC_STRESSES][NODES];
+    double *const to[RC_STRESSES] = {map[0], map[1], map[2], map[3], map[4], map[5], map[6]};
+    double zero[NODES] = {0};
+
+    (void)state;
+    make(&s);
+    for (int q = 0; q < 4;
+         q++) { /* one component, five, six for what is derived of them, no strain */
+        static const unsigned wanted[] = {1U << RC_SXZ, 0x2f, 1U << RC_MISES, 1U << RC_MISES};
+        static const size_t components[] = {1, 5, 6, 0};
+        struct rc_stress_options o = options_of(&s, q < 3, wanted[q]);
+        const struct rc_stress_counts *counts;
+        struct rc_stress *stress;
+        struct rc_err err;
+        stress = rc_stress_new(&shape, zero, &o, &err);
+        assert_non_null(stress);
+        counts = rc_stress_counted(stress);
+        for (size_t k = 0; k < 7; k++) {
+            assert_int_equal(counts->strain_transforms, q < 3 ? STRAINS * (SLABS - 2) : 0);
+            assert_int_equal(counts->strain_field_transforms, k * components[q]);
+            assert_int_equal(rc_stress_slice(stress, 1.3e-6 * (double)k, to, &err), RC_OK);
+        }
+        rc_stress_free(stress);
+    }
+    free(s.e.v);
+}
+
+/* ---- sums, sections ---- */
+
 static void
 adds_to_the_pressure(void **state)
 {
@@ -117,7 +243,7 @@ adds_to_the_pressure(void **state)
     (void)state;
     make(&s);
     for (int q = 0; q < 3; q++) { /* the surface, a slab, below all */
-        double depth = q == 0 ? 0 : q == 1 ? 1.3e-6 : 5e-6, most = 0;
+        double depth = q == 0 ? 0 : q == 1 ? 1.3e-6 : 11e-6, most = 0;
         slice(&s, s.p, true, depth, both);
         slice(&s, zero, true, depth, alone);
         slice(&s, s.p, false, depth, pressed);
@@ -201,6 +327,8 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(slices_average_to_slabs),
+        cmocka_unit_test(slices_are_pieces),
+        cmocka_unit_test(costs_one_sweep),
         cmocka_unit_test(adds_to_the_pressure),
         cmocka_unit_test(sections),
         cmocka_unit_test(refused),
