@@ -790,7 +790,8 @@ struct rc_stress_options {
     size_t threads;     /* 0: all                                                                 */
     const struct rc_ranks *ranks; /* processes that share the map; NULL: none                   */
     /* NULL, or strain whose stress is added, at five transforms a slab and one a depth and component;
-     * with the e of a bare body; in a section it is linear between the nodes. The caller keeps all of it. */
+     * with the e of a bare body; a face between slabs belongs to the one below; in a section it is linear
+     * between the nodes. The caller keeps all of it. */
     const struct rc_eigenstrain *strain;
 };
 

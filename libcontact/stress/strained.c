@@ -1,7 +1,6 @@
 /*
- * The stress of plastic strain in slabs, added to that of the pressure: one sweep up through the slabs and one down
- * for all depths. At a depth it is that of a thin slab cut out of the one around it, all of whose parts have the same
- * strain; below the stack that of a thin slab without.
+ * The stress of plastic strain in slabs, added to that of the pressure: one sweep up through the slabs and one down for
+ * all depths.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -12,7 +11,6 @@
 enum {
     PARTS = 5 /* maps of a slab */
 };
-static const double thin = 1e-2; /* of the spacing */
 
 struct rc_strained {
     const struct rc_stress_task *task;
@@ -179,7 +177,7 @@ rc_strained_add(struct rc_strained *p, double depth, double *const to[RC_COMPONE
     const struct rc_slice_stress stress = {p->task->components, stress_row, p};
 
     p->to = to;
-    rc_slabs_slice(p->slabs, depth, thin * fmin(p->shape.dx, p->shape.dy), &stress);
+    rc_slabs_slice(p->slabs, depth, &stress);
 }
 
 void

@@ -32,11 +32,11 @@ struct rc_sweep_slab {
     double szz, sxx, syy;           /* added to the first wave of the column: a mean */
 };
 
-/* A slice: the slab that it lies in, or their number where it lies below all of them, and what is left above
- * it and below it of that slab (above it: since the last slab), m. */
+/* A depth: the slab that it lies in, or their number where it lies below all of them, and what is above it (since
+ * the last slab) and below it of that slab, m. */
 struct rc_sweep_place {
     size_t slab;
-    double above, thickness, below;
+    double above, below;
 };
 
 /* Waves at a depth are three arrays of twice `length`, one after the other, in units of strain: q
@@ -58,7 +58,7 @@ struct rc_sweep_ops {
      * below them; NULL: there are none, and none are asked for. */
     void (*down)(const struct rc_sweep_column *column, size_t n, const struct rc_sweep_slab *slab,
                  double modulus, const void *above, bool any, void *below);
-    /* All six stresses of a slice of n slabs to `to`, the five and szz; strains stay, and so do the waves:
+    /* All six stresses at a depth of n slabs to `to`, the five and szz; strains stay, and so do the waves:
      * `above` down on top of the slabs, `below` up below them (NULL: none). */
     void (*slice)(const struct rc_sweep_column *column, size_t n, const struct rc_sweep_slab *slab,
                   double modulus, const struct rc_sweep_place *place, const void *above,

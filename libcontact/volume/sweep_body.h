@@ -449,7 +449,7 @@ slice(const struct rc_sweep_column *column, size_t n, const struct rc_sweep_slab
         for (size_t k = n; k-- > place->slab + 1;)
             cross(column, &way, first, m, &slab[k], slab[k].thickness, false, b);
         cross(column, &way, first, m, own, place->below, false, b);
-        set_slab(&way, place->thickness, m, &of);
+        set_slab(&way, 0, m, &of); /* all of whose means are values */
         for (int i = 0; i < 2; i++) {
             struct half half;
             memset(&e, 0, sizeof e);

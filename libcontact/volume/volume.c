@@ -577,26 +577,19 @@ rc_slabs_through(struct rc_slabs *v)
     }
 }
 
-/* Where a slice is, and in which group. */
+/* Where a depth is, and in which group. */
 static struct rc_sweep_place
-place_of(const struct rc_slabs *v, double depth, double thickness, size_t *group)
+place_of(const struct rc_slabs *v, double depth, size_t *group)
 {
-    struct rc_sweep_place place = {.thickness = thickness};
-    double top = 0, left;
+    double top = 0;
     size_t k = 0;
 
     while (k < v->slabs && depth >= top + v->thickness[k])
         top += v->thickness[k++];
     *group = k < v->slabs ? k / RC_SWEEP_SLABS : v->groups - 1;
-    place.slab = k - *group * RC_SWEEP_SLABS;
-    place.above = fmax(depth - top - thickness / 2, 0);
-    if (k == v->slabs)
-        return place;
-    place.thickness = fmin(thickness, v->thickness[k] / 2);
-    left = v->thickness[k] - place.thickness;
-    place.above = fmin(fmax(depth - top - place.thickness / 2, 0), left);
-    place.below = left - place.above;
-    return place;
+    return (struct rc_sweep_place){.slab = k - *group * RC_SWEEP_SLABS,
+                                   .above = depth - top,
+                                   .below = k < v->slabs ? top + v->thickness[k] - depth : 0};
 }
 
 static bool
@@ -613,11 +606,10 @@ slice_row(void *ctx, size_t j, void *row)
 }
 
 void
-rc_slabs_slice(struct rc_slabs *v, double depth, double thickness,
-               const struct rc_slice_stress *stress)
+rc_slabs_slice(struct rc_slabs *v, double depth, const struct rc_slice_stress *stress)
 {
     size_t group;
-    struct rc_sweep_place place = place_of(v, depth, thickness, &group);
+    struct rc_sweep_place place = place_of(v, depth, &group);
     struct pass pass = {.volume = v, .slice = stress};
     bool below = group + 1 < v->groups && v->passes[group + 1];
 

@@ -105,11 +105,9 @@ void rc_slabs_down(struct rc_slabs *slabs, const double *p, const struct rc_slab
 
 /* Instead of rc_slabs_down: the last strain is kept for slices, as many as are asked for. */
 void rc_slabs_through(struct rc_slabs *slabs);
-/* - G e over a thin slab about a depth >= 0 (m), cut out of the one that it lies in, at no transforms but those of the
- * components. It stays within that slab, takes at most half of it, and has its strain; below the last one it has none.
- */
-void rc_slabs_slice(struct rc_slabs *slabs, double depth, double thickness,
-                    const struct rc_slice_stress *stress);
+/* - G e at a depth >= 0 (m), at no transforms but those of the components. A face between slabs belongs to the one
+ * below it, that of the last to what is below all and has no strain. */
+void rc_slabs_slice(struct rc_slabs *slabs, double depth, const struct rc_slice_stress *stress);
 
 const struct rc_slabs_counts *rc_slabs_counted(const struct rc_slabs *slabs);
 
