@@ -731,6 +731,16 @@ enum {
 /* Plastic strain of a slab, nx ny each; NULL: not wanted. */
 RC_API void rc_plastic_strain(const struct rc_plastic *plastic, size_t slab,
                               double *const e[RC_PLASTIC_STRAINS]);
+/* Where it stands after any step, as so many numbers, all finite, which a file may keep: fewer between two
+ * increments than within one, and fewest when a load is reached. */
+RC_API size_t rc_plastic_state_size(const struct rc_plastic *plastic);
+RC_API void rc_plastic_state(const struct rc_plastic *plastic, double *state);
+/* Goes on from there, in one of the same problem and heights: the next step is the one that would have come, its
+ * contact within the tolerance. Of a load that had been reached that step only finds the contact again. RC_FAIL
+ * where the n numbers are no state of such a problem, which leaves all as it was, and when memory is short; it is
+ * then of no further use. */
+RC_API enum rc_status rc_plastic_restore(struct rc_plastic *plastic, const double *state, size_t n,
+                                         struct rc_err *err);
 RC_API void rc_plastic_free(struct rc_plastic *plastic); /* NULL is allowed */
 /* Bytes that one takes when this part of its voxels yields. */
 RC_API size_t rc_plastic_memory(const struct rc_shape *shape,

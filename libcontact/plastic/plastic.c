@@ -49,41 +49,6 @@ enum {
 static const double settled = 0.02; /* the lag at which a load is believed */
 static const double moves = 5e-3;   /* and the error of the pressure from the iteration */
 
-enum stage {
-    STAGE_NEW,   /* no load is asked for */
-    STAGE_TRIAL, /* increments */
-    STAGE_ORDER, /* the contact with what the order of the integration adds */
-    STAGE_STATE, /* the contact of the strain that has been accepted */
-    STAGE_DONE
-};
-
-struct rc_plastic {
-    struct rc_shape shape;
-    size_t n;
-    int threads;
-    struct rc_yield law;
-    double shear, nu, yield,
-        lag;              /* mu, yield stress of what is new, the lag that is asked for    */
-    double *h, *u, *form; /* heights, what e does to the surface, and heights less that    */
-    double *thickness;
-    struct rc_solver *solver;
-    struct rc_slabs *slabs;
-    struct rc_voxels voxels;
-    bool round;      /* the map repeats */
-    double bearable; /* N: beyond it all depths yield under the mean pressure                */
-    double *other;   /* a pressure to compare with                                               */
-    bool alone;      /* no load: p is 0                                                          */
-    bool failed;     /* memory was short in a row                                                */
-    bool stopped;    /* a contact stopped short                                                  */
-    bool moved;      /* the heights are new                                                      */
-    double from, to, set; /* loads: of the last result, asked for, of this increment           */
-    size_t increments, increment, trial; /* of this load, which, and which application of it   */
-    double order, resistance;
-    double mix; /* Anderson's share of the trial before                                        */
-    enum stage stage;
-    struct rc_plastic_figures figures;
-};
-
 /* ---- rows ---- */
 
 static const int place_of[RC_COMPONENTS] = {
@@ -350,6 +315,7 @@ press(struct rc_plastic *p, struct rc_err *err)
     }
     if (p->alone)
         return RC_OK;
+    p->pressed = true;
     do
         status = rc_solver_step(p->solver);
     while (status == RC_MORE);
@@ -377,8 +343,8 @@ moved(const struct rc_plastic *p)
     return all > 0 ? sum / all : 0;
 }
 
-static void
-keep_pressure(struct rc_plastic *p)
+void
+rc_plastic_keep_pressure(struct rc_plastic *p)
 {
     const double *is = pressure(p);
 
@@ -431,7 +397,7 @@ begin_increment(struct rc_plastic *p, struct rc_err *err)
     double share = (double)p->increment / (double)p->increments;
 
     p->set = p->increment == p->increments ? p->to : p->from + (p->to - p->from) * share;
-    p->order = p->increment > 1 ? 1.0 / 3 : 0;
+    p->order = p->increment > 1 ? RC_PLASTIC_BETA : 0;
     p->trial = 0;
     p->alone = !(p->set > 0);
     return p->alone ? RC_OK : rc_solver_set_load(p->solver, p->set, 0, err);
@@ -468,7 +434,7 @@ advance(struct rc_plastic *p, struct rc_err *err)
     for_each(p, mix);
     done = enough(p);
     if (p->increment == p->increments)
-        keep_pressure(p);
+        rc_plastic_keep_pressure(p);
     if (!done)
         return RC_OK;
     p->stopped |= p->trial >= MOST;
@@ -476,7 +442,7 @@ advance(struct rc_plastic *p, struct rc_err *err)
     p->trial = 0;
     if (p->increment++ < p->increments)
         return RC_OK;
-    p->stage = STAGE_STATE;
+    p->stage = RC_PLASTIC_STATE;
     return RC_OK;
 }
 
@@ -534,8 +500,9 @@ settle(struct rc_plastic *p, struct rc_err *err)
     if (press(p, err) != RC_OK)
         return RC_FAIL;
     p->figures.iteration_error = isinf(p->resistance) ? 0 : 1.5 * moved(p) / fmin(p->resistance, 1);
-    keep_pressure(p);
-    p->stage = p->increments >= FEW && rc_voxels_count(&p->voxels) > 0 ? STAGE_ORDER : STAGE_DONE;
+    rc_plastic_keep_pressure(p);
+    p->stage = p->increments >= FEW && rc_voxels_count(&p->voxels) > 0 ? RC_PLASTIC_ORDER
+                                                                       : RC_PLASTIC_DONE;
     if (p->increments < FEW && rc_voxels_count(&p->voxels) > 0)
         p->figures.increment_error = NAN;
     return RC_OK;
@@ -549,7 +516,7 @@ compare_order(struct rc_plastic *p, struct rc_err *err)
         return RC_FAIL;
     p->figures.increment_error = 0.75 * pow(8 / (double)p->increments, 0.8) * moved(p);
     for_each(p, try_none);
-    p->stage = STAGE_DONE;
+    p->stage = RC_PLASTIC_DONE;
     return press(p, err);
 }
 
@@ -592,7 +559,7 @@ rc_plastic_set_load(struct rc_plastic *p, double load, struct rc_err *err)
     p->resistance = INFINITY;
     p->stopped = false;
     p->figures = (struct rc_plastic_figures){.increments = p->increments};
-    p->stage = STAGE_TRIAL;
+    p->stage = RC_PLASTIC_TRIAL;
     for_each(p, begin_load);
     return RC_OK;
 }
@@ -609,15 +576,17 @@ rc_plastic_step(struct rc_plastic *p, struct rc_err *err)
 {
     enum rc_status status = RC_OK;
 
-    if (p->stage == STAGE_NEW)
+    if (p->stage == RC_PLASTIC_NEW)
         return rc_err_set(err, "no load has been set");
-    if (p->stage == STAGE_TRIAL)
+    if (p->stage == RC_PLASTIC_TRIAL)
         status = advance(p, err);
-    else if (p->stage == STAGE_STATE)
+    else if (p->stage == RC_PLASTIC_STATE)
         status = settle(p, err);
-    else if (p->stage == STAGE_ORDER)
+    else if (p->stage == RC_PLASTIC_ORDER)
         status = compare_order(p, err);
-    if (status != RC_OK || p->stage != STAGE_DONE)
+    else if (p->stage == RC_PLASTIC_AGAIN && (status = press(p, err)) == RC_OK)
+        p->stage = RC_PLASTIC_DONE;
+    if (status != RC_OK || p->stage != RC_PLASTIC_DONE)
         return status == RC_OK ? RC_MORE : status;
     p->from = p->to;
     find_figures(p);

@@ -13,10 +13,18 @@ rc_voxels_new(struct rc_voxels *v, size_t slabs, size_t rows)
 }
 
 void
+rc_voxels_clear(struct rc_voxels *v)
+{
+    for (size_t k = 0; k < v->slabs * v->rows && v->row != NULL; k++) {
+        free(v->row[k].v);
+        v->row[k] = (struct rc_voxel_row){0};
+    }
+}
+
+void
 rc_voxels_free(struct rc_voxels *v)
 {
-    for (size_t k = 0; k < v->slabs * v->rows && v->row != NULL; k++)
-        free(v->row[k].v);
+    rc_voxels_clear(v);
     free(v->row);
     free(v->strained);
     *v = (struct rc_voxels){0};

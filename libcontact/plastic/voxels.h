@@ -10,7 +10,7 @@
 /* One load increment goes from e to e + x. */
 struct rc_voxel {
     uint32_t i;               /* of its row                                                     */
-    float beta;               /* part of `last` in the base of the increment: integrate.c       */
+    float beta;               /* part of `last` in the base of the increment: plastic.c         */
     double e[RC_DEVIATOR];    /* plastic strain at the last accepted load                       */
     double last[RC_DEVIATOR]; /* its last accepted increment                                    */
     double x[RC_DEVIATOR];    /* the increment that is tried                                    */
@@ -49,6 +49,7 @@ rc_voxels_row(const struct rc_voxels *voxels, size_t slab, size_t j)
 {
     return voxels->row + slab * voxels->rows + j;
 }
+void rc_voxels_clear(struct rc_voxels *voxels);
 /* Adds voxels, all 0, at these places, which grow and are not there yet. RC_FAIL when memory is short. */
 enum rc_status rc_voxels_add(struct rc_voxel_row *row, size_t n, const uint32_t *place);
 size_t rc_voxels_count(const struct rc_voxels *voxels);

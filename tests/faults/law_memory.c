@@ -258,6 +258,22 @@ CONTACT(free_to_tilt, bare, .load = 1e-3, .tilt_free = true)
 
 /* ---- stresses ---- */
 
+/* Goes on from its own state, as another would. */
+static enum rc_status
+over_again(struct rc_plastic *plastic, struct rc_err *err)
+{
+    size_t n = rc_plastic_state_size(plastic);
+    double *state = malloc(n * sizeof *state);
+    enum rc_status status;
+
+    if (state == NULL)
+        return rc_err_set(err, "out of memory for a state of %zu numbers", n);
+    rc_plastic_state(plastic, state);
+    status = rc_plastic_restore(plastic, state, n, err);
+    free(state);
+    return status;
+}
+
 /* A load that yields inside, and none. */
 static enum rc_status
 yields(double *out, struct rc_err *err)
@@ -289,8 +305,13 @@ yields(double *out, struct rc_err *err)
     for (int q = 0; q < 2; q++) {
         if ((status = rc_plastic_set_load(plastic, q == 0 ? 1e-3 : 0, err)) != RC_OK)
             goto done;
-        while ((status = rc_plastic_step(plastic, err)) == RC_MORE)
+        while ((status = rc_plastic_step(plastic, err)) == RC_MORE) {
             rc_plastic_progress(plastic, &load, &increment, &application);
+            if (increment == 3 && over_again(plastic, err) != RC_OK) {
+                status = RC_FAIL;
+                break;
+            }
+        }
         if (status != RC_OK)
             goto done;
         if (q == 0)

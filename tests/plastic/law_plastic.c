@@ -530,14 +530,195 @@ estimate(void **state)
     free(h);
 }
 
+/* ---- a state that is kept ---- */
+
+enum {
+    KEPT = 24, /* nodes a side */
+    KEPT_SLABS = 6,
+    KEPT_LOADS = 3
+};
+
+/* All that is found of a history: pressure, residual displacement, equivalent strain. */
+struct found {
+    double p[KEPT * KEPT], u[KEPT * KEPT], strain[KEPT_SLABS][KEPT * KEPT];
+    struct rc_plastic_figures figures;
+};
+
+static void
+find_all(struct rc_plastic *plastic, struct found *to)
+{
+    memcpy(to->p, rc_solver_pressure(rc_plastic_solver(plastic)), sizeof to->p);
+    memcpy(to->u, rc_plastic_residual(plastic), sizeof to->u);
+    for (size_t k = 0; k < KEPT_SLABS; k++) {
+        double *const e[RC_PLASTIC_STRAINS] = {[RC_PEEQ] = to->strain[k]};
+        rc_plastic_strain(plastic, k, e);
+    }
+    to->figures = *rc_plastic_result(plastic);
+}
+
+static struct rc_plastic *
+kept_new(size_t slabs, size_t increments)
+{
+    static const double thickness[KEPT_SLABS + 1] = {0.5, 0.6, 0.8, 1, 1.2, 1.5, 1.9};
+    const struct rc_shape shape = {KEPT, KEPT, 1, 1};
+    const struct rc_selfaffine rough = {
+        .hurst = 0.8, .rms_slope = 0.2, .short_cut = 5, .rolloff = 12, .seed = 9};
+    const struct rc_plastic_problem problem = {
+        .contact = {.boundary = RC_PERIODIC, .pair.one.nu = 0.3, .tol = 1e-9},
+        .yield = {.stress = 0.04, .modulus = 0.02},
+        .slabs = slabs,
+        .thickness = thickness,
+        .increments = increments,
+        .precise = true};
+    double h[KEPT * KEPT];
+
+    assert_int_equal(rc_synth_selfaffine(&shape, &rough, h, NULL), RC_OK);
+    return plastic_new(shape, h, problem);
+}
+
+/* Goes through the loads from `first` on, whose first is under way where a state has been taken over. `steps`: where
+ * to stop, and how many have been made; NULL: at the end. */
+static void
+go_through(struct rc_plastic *plastic, size_t first, bool under_way, struct found *found,
+           size_t *steps)
+{
+    static const double loads[KEPT_LOADS] = {0.02 * KEPT * KEPT, 0, 0.025 * KEPT * KEPT};
+    enum rc_status status = RC_MORE;
+    size_t made = 0;
+    struct rc_err err;
+
+    for (size_t q = first; q < KEPT_LOADS; q++) {
+        if (q > first || !under_way)
+            assert_int_equal(rc_plastic_set_load(plastic, loads[q], &err), RC_OK);
+        do {
+            status = rc_plastic_step(plastic, &err);
+            if (++made == (steps == NULL ? SIZE_MAX : *steps)) {
+                *steps = q;
+                return;
+            }
+        } while (status == RC_MORE);
+        assert_int_equal(status, RC_OK);
+        find_all(plastic, &found[q]);
+    }
+    if (steps != NULL)
+        *steps = KEPT_LOADS;
+}
+
+/* From the state after each step of a history all that follows is found again, in as many applications. */
+static void
+goes_on(void **state)
+{
+    static struct found whole[KEPT_LOADS], again[KEPT_LOADS];
+    struct rc_plastic *plastic = kept_new(KEPT_SLABS, 5);
+    double pressure = 0, strain = 0;
+    size_t step, exact = 0, sizes[3] = {SIZE_MAX, 0, 0};
+    struct rc_err err;
+
+    (void)state;
+    go_through(plastic, 0, false, whole, NULL);
+    rc_plastic_free(plastic);
+    for (step = 1;; step++) {
+        struct rc_plastic *other = kept_new(KEPT_SLABS, 5);
+        size_t load = step, n;
+        double *kept;
+
+        plastic = kept_new(KEPT_SLABS, 5);
+        go_through(plastic, 0, false, again, &load);
+        if (load == KEPT_LOADS) {
+            rc_plastic_free(plastic);
+            rc_plastic_free(other);
+            break;
+        }
+        n = rc_plastic_state_size(plastic);
+        sizes[0] = n < sizes[0] ? n : sizes[0];
+        sizes[1] = n > sizes[1] ? n : sizes[1];
+        kept = malloc(n * sizeof *kept);
+        rc_plastic_state(plastic, kept);
+        rc_plastic_free(plastic);
+        /* into one that has been used for something else */
+        if (step % 2 == 0)
+            (void)press(other, 10);
+        assert_int_equal(rc_plastic_restore(other, kept, n, &err), RC_OK);
+        free(kept);
+        memset(again, 0, sizeof again);
+        go_through(other, load, true, again, NULL);
+        rc_plastic_free(other);
+        if (memcmp(whole[load].p, again[load].p, sizeof whole[load].p) == 0 &&
+            memcmp(whole[load].strain, again[load].strain, sizeof whole[load].strain) == 0 &&
+            memcmp(whole[load].u, again[load].u, sizeof whole[load].u) == 0)
+            exact++;
+        for (size_t q = load; q < KEPT_LOADS; q++) {
+            const struct rc_plastic_figures *f = &whole[q].figures, *g = &again[q].figures;
+            if (q != 1) /* that has no pressure */
+                pressure = fmax(pressure, distance(KEPT * KEPT, again[q].p, whole[q].p));
+            strain = fmax(
+                strain, distance(KEPT_SLABS * KEPT * KEPT, again[q].strain[0], whole[q].strain[0]));
+            assert_int_equal(f->applications, g->applications);
+            assert_int_equal(f->voxels, g->voxels);
+            assert_true(fabs(f->error - g->error) < 1e-6 && fabs(f->work / g->work - 1) < 1e-6);
+        }
+    }
+    print_message("%zu states of %zu to %zu numbers: pressure %.1e, strain %.1e off, %zu the same "
+                  "to the bit\n",
+                  step - 1, sizes[0], sizes[1], pressure, strain, exact);
+    assert_true(step > 30 && exact >= KEPT_LOADS && pressure < 1e-7 && strain < 1e-6);
+}
+
+/* Numbers that are no state of this problem are refused, and the body stays what it was. */
+static void
+refuses_states(void **state)
+{
+    struct rc_plastic *plastic = kept_new(KEPT_SLABS, 5), *more = kept_new(KEPT_SLABS + 1, 5),
+                      *finer = kept_new(KEPT_SLABS, 6);
+    static struct found before[KEPT_LOADS], after[KEPT_LOADS];
+    size_t steps = 7, n, refused = 0, tried = 0;
+    double *kept, *spoilt;
+    struct rc_err err;
+
+    (void)state;
+    go_through(plastic, 0, false, before, &steps);
+    n = rc_plastic_state_size(plastic);
+    kept = malloc(n * sizeof *kept);
+    spoilt = malloc(n * sizeof *spoilt);
+    rc_plastic_state(plastic, kept);
+    assert_int_equal(rc_plastic_restore(more, kept, n, &err), RC_FAIL);
+    assert_non_null(strstr(err.text, "24 x 24 nodes with 6 slabs and 5 increments"));
+    assert_int_equal(rc_plastic_restore(finer, kept, n, &err), RC_FAIL);
+    assert_int_equal(rc_plastic_restore(plastic, kept, n - 1, &err), RC_FAIL);
+    assert_int_equal(rc_plastic_restore(plastic, kept, 3, &err), RC_FAIL);
+    for (size_t k = 0; k < n; k += 7, tried++) {
+        memcpy(spoilt, kept, n * sizeof *kept);
+        spoilt[k] = k % 2 == 0 ? NAN : INFINITY;
+        refused += rc_plastic_restore(plastic, spoilt, n, &err) == RC_FAIL;
+    }
+    assert_int_equal(refused, tried);
+    memcpy(spoilt, kept, n * sizeof *kept);
+    spoilt[n - 33] = 1e12; /* the place of the last voxel */
+    assert_int_equal(rc_plastic_restore(plastic, spoilt, n, &err), RC_FAIL);
+    assert_non_null(strstr(err.text, "damaged at voxel"));
+    go_through(plastic, steps, true, before, NULL);
+    assert_int_equal(rc_plastic_restore(more, kept, n, &err), RC_FAIL);
+    rc_plastic_free(finer);
+    finer = kept_new(KEPT_SLABS, 5);
+    assert_int_equal(rc_plastic_restore(finer, kept, n, &err), RC_OK);
+    go_through(finer, steps, true, after, NULL);
+    assert_true(distance(KEPT * KEPT, after[2].p, before[2].p) < 1e-7);
+    free(kept);
+    free(spoilt);
+    rc_plastic_free(plastic);
+    rc_plastic_free(more);
+    rc_plastic_free(finer);
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(onset),         cmocka_unit_test(ball_hardness),
-        cmocka_unit_test(fully_plastic), cmocka_unit_test(let_go),
-        cmocka_unit_test(free_maps),     cmocka_unit_test(shakedown),
-        cmocka_unit_test(estimate),
+        cmocka_unit_test(onset),          cmocka_unit_test(ball_hardness),
+        cmocka_unit_test(fully_plastic),  cmocka_unit_test(let_go),
+        cmocka_unit_test(free_maps),      cmocka_unit_test(shakedown),
+        cmocka_unit_test(estimate),       cmocka_unit_test(goes_on),
+        cmocka_unit_test(refuses_states),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
