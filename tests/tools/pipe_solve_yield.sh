@@ -110,7 +110,6 @@ refuses 2 'not with --hardness' "a hardness" "$base --periodic --yield 1GPa --ha
 refuses 2 'not with --layer' "a coat" "$base --periodic --yield 1GPa --layer 1um,1GPa,0.3 rough.rcg"
 refuses 2 'not with --nu1 0.5' "an incompressible body" "rc-solve --E1 1GPa --nu1 0.5 --E2 rigid --load 1N --periodic --yield 1MPa rough.rcg"
 refuses 2 'needs its own modulus' "a composite modulus" "rc-solve --estar 1GPa --load 1N --periodic --yield 1MPa rough.rcg"
-refuses 2 'not with --checkpoint' "a checkpoint" "$base --periodic --yield 1GPa --checkpoint c.rcg rough.rcg"
 refuses 2 'not with --approach' "an approach" "rc-solve --E1 1GPa --nu1 0.3 --E2 rigid --approach 1um --periodic --yield 1MPa rough.rcg"
 refuses 2 'belong to --yield' "increments of nothing" "$base --periodic --increments 8 rough.rcg"
 refuses 2 'must be auto or a number' "increments of another kind" "$base --periodic --yield 1GPa --increments many rough.rcg"

@@ -425,6 +425,10 @@ press(struct run *run, const struct rc_grid *g, struct rc_solver *solver,
 {
     struct rc_err err;
 
+    if (yield_resumes(run, g, *problem)) {
+        rc_solver_free(solver);
+        return rc_plastic_solver(run->yielding.plastic);
+    }
     if (solver == NULL)
         solver = new_solver(run, g);
     else if (rc_solver_set_load(solver, problem->load, problem->approach, &err) != RC_OK)

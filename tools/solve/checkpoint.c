@@ -1,10 +1,13 @@
 /*
- * --checkpoint and --resume: a file of pressures, from which a run that was cut off goes on.
+ * --checkpoint and --resume: a file of pressures, and of states of a body that yields inside, from which a
+ * run that was cut off goes on.
  *
  * Frames are only ever added, each a grid stream of its own with its end line, so that the file is
  * whole but for what was being written when the machine stopped: a case when it is done, what is
  * reached of one when a signal ends the run, and on the way after 1, 2, 4, 8 ... intervals, so that
- * at most half of the time spent on a case is lost. Of several frames of a case the last counts.
+ * at most half of the time spent on a case is lost. Of several frames of a case the last counts; a
+ * state is one frame, so that it is there as a whole or not at all, and counts before a pressure, which is
+ * that of the elastic solution before it.
  * Disk full is no reason to lose the solution: it is said once, and the run goes on.
  */
 #define _GNU_SOURCE /* F_OFD_SETLK */
@@ -24,8 +27,9 @@
 static const char end_line[] = "RCGEND 1\n";
 
 struct saved {
-    size_t number; /* the case             */
-    off_t at;      /* where its frame begins */
+    size_t number; /* the case                                        */
+    off_t at;      /* where its frame begins                          */
+    bool state;    /* of a body that yields inside, else a pressure   */
 };
 
 struct checkpoint {
@@ -41,15 +45,17 @@ struct checkpoint {
 
 /* ---- what is there ---- */
 
+static const char of_state[] = "state"; /* its channel */
+
 static void
-note(struct checkpoint *c, size_t number, off_t at)
+note(struct checkpoint *c, size_t number, off_t at, bool state)
 {
     struct saved *more = realloc(c->saved, (c->count + 1) * sizeof *more);
 
     if (more == NULL)
         tool_die(&c->run->t, EXIT_IMPOSSIBLE, "out of memory for the cases of --checkpoint");
     c->saved = more;
-    c->saved[c->count++] = (struct saved){number, at};
+    c->saved[c->count++] = (struct saved){number, at, state};
 }
 
 /* Whether the first frame, whole or not, is one of a checkpoint. */
@@ -109,7 +115,7 @@ look_through(struct checkpoint *c)
             tool_die(t, EXIT_IMPOSSIBLE,
                      "--checkpoint %s: a grid stream, but no checkpoint: name another file",
                      c->name);
-        note(c, (size_t)number, end);
+        note(c, (size_t)number, end, strcmp(g->channel, of_state) == 0);
         end = ftello(c->file) + (off_t)strlen(end_line);
         rc_grid_free(g);
     }
@@ -256,42 +262,51 @@ checkpoint_surface(struct checkpoint *c, const struct rc_grid *g, const struct r
         sum_up(c, hardness, c->hardness);
 }
 
-/* What a frame has to agree in with the case that goes on from it. */
+/* What a frame has to agree in with the case that goes on from it; an empty value: neither has it. */
 struct mark {
     const char *name;
-    char value[RC_NUMBER_SIZE];
+    char value[2 * RC_NUMBER_SIZE];
 };
 
 enum {
-    MARKS = 6
+    MARKS = 12
 };
+
+static struct mark
+number_mark(const char *name, double value)
+{
+    struct mark m = {.name = name};
+
+    rc_number_text(m.value, value);
+    return m;
+}
 
 static void
 marks_of(const struct checkpoint *c, struct mark mark[MARKS])
 {
     const struct physics *args = &c->run->args->physics;
+    size_t n = 6;
 
     mark[0].name = "checkpoint.surface";
     snprintf(mark[0].value, sizeof mark[0].value, "%s", c->surface);
     mark[1].name = "boundary";
     snprintf(mark[1].value, sizeof mark[1].value, "%s", args->periodic ? "periodic" : "free");
-    mark[2].name = "estar";
-    rc_number_text(mark[2].value, args->estar);
-    mark[3].name = "checkpoint.hardness";
+    mark[2] = number_mark("estar", args->estar);
+    mark[3] = number_mark("checkpoint.hardness", args->hardness);
     if (c->hardness[0] != '\0')
         snprintf(mark[3].value, sizeof mark[3].value, "map %s", c->hardness);
-    else
-        rc_number_text(mark[3].value, args->hardness);
-    mark[4].name = args->load.per_metre        ? "checkpoint.load-per-metre"
-                   : args->load.n > 0          ? "checkpoint.load"
-                   : args->mean_pressure.n > 0 ? "checkpoint.mean-pressure"
-                                               : "checkpoint.approach";
-    rc_number_text(mark[4].value, c->run->steps->v[c->run->step]);
+    mark[4] = number_mark(args->load.per_metre        ? "checkpoint.load-per-metre"
+                          : args->load.n > 0          ? "checkpoint.load"
+                          : args->mean_pressure.n > 0 ? "checkpoint.mean-pressure"
+                                                      : "checkpoint.approach",
+                          c->run->steps->v[c->run->step]);
     mark[5].name = "checkpoint.history"; /* the loads before, which have left their shape */
     snprintf(mark[5].value, sizeof mark[5].value, "%08" PRIx32,
              !args->history
                  ? 0
                  : rc_crc32_add(0, c->run->steps->v, c->run->step * sizeof *c->run->steps->v));
+    for (int k = 0; k < YIELD_MARKS; k++, n++)
+        mark[n].name = yield_mark(c->run, k, mark[n].value, sizeof mark[n].value);
 }
 
 static void
@@ -299,39 +314,44 @@ compare(struct checkpoint *c, const struct rc_grid *g, const struct rc_grid *sav
 {
     struct mark mark[MARKS];
     struct tool *t = &c->run->t;
+    bool state = strcmp(saved->channel, of_state) == 0; /* whose length is its own */
 
-    if (saved->nx != g->nx || saved->ny != g->ny || saved->dx != g->dx || saved->dy != g->dy)
+    if ((!state && (saved->nx != g->nx || saved->ny != g->ny)) || saved->dx != g->dx ||
+        saved->dy != g->dy)
         tool_die_at(t, g, EXIT_IMPOSSIBLE,
                     "--checkpoint %s: it belongs to another grid, %zu x %zu nodes", c->name,
                     saved->nx, saved->ny);
     marks_of(c, mark);
     for (size_t k = 0; k < MARKS; k++) {
         const char *was = rc_grid_get(saved, mark[k].name);
-        if (was == NULL || strcmp(was, mark[k].value) != 0)
+        if (strcmp(was == NULL ? "" : was, mark[k].value) != 0)
             tool_die_at(t, g, EXIT_IMPOSSIBLE,
                         "--checkpoint %s: it belongs to another problem: %s was %s, is %s", c->name,
-                        mark[k].name, was == NULL ? "not given" : was, mark[k].value);
+                        mark[k].name, was == NULL ? "not given" : was,
+                        mark[k].value[0] == '\0' ? "not given" : mark[k].value);
     }
 }
 
-bool
-checkpoint_case(struct checkpoint *c, const struct rc_grid *g, struct rc_solver *solver)
+/* The last frame of this kind that the case has, as it must be; NULL: there is none. The clock of the case
+ * begins. */
+static struct rc_grid *
+last_frame(struct checkpoint *c, const struct rc_grid *g, bool state)
 {
     const struct rc_share *share;
     struct rc_reader *reader;
     struct rc_grid *saved = NULL;
     struct rc_err err;
-    double load;
     size_t k;
 
     if (c == NULL)
-        return false;
+        return NULL;
     c->began = solve_now();
     c->next = c->wait;
-    for (k = c->count; k > 0 && c->saved[k - 1].number != c->run->number; k--)
+    for (k = c->count;
+         k > 0 && (c->saved[k - 1].number != c->run->number || c->saved[k - 1].state != state); k--)
         ;
     if (k == 0)
-        return false;
+        return NULL;
     if (fseeko(c->file, c->saved[k - 1].at, SEEK_SET) != 0)
         tool_die(&c->run->t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", c->name, strerror(errno));
     reader = rc_reader_new(c->file, 0, 0, &err);
@@ -341,14 +361,32 @@ checkpoint_case(struct checkpoint *c, const struct rc_grid *g, struct rc_solver 
     if (reader == NULL || rc_reader_next(reader, &saved, &err) != RC_MORE)
         tool_die(&c->run->t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", c->name, err.text);
     compare(c, g, saved);
+    rc_reader_free(reader);
+    ranks_close(&c->run->t, share);
+    return saved;
+}
+
+bool
+checkpoint_case(struct checkpoint *c, const struct rc_grid *g, struct rc_solver *solver)
+{
+    struct rc_grid *saved = last_frame(c, g, false);
+    struct rc_err err;
+    double load;
+
+    if (saved == NULL)
+        return false;
     if (!rc_grid_number(saved, "load", &load) ||
         rc_solver_warm_start(solver, load, saved->v, &err) != RC_OK)
         tool_die_at(&c->run->t, g, EXIT_IMPOSSIBLE, "--checkpoint %s: it cannot be started from",
                     c->name);
-    rc_reader_free(reader);
     rc_grid_free(saved);
-    ranks_close(&c->run->t, share);
     return true;
+}
+
+struct rc_grid *
+checkpoint_state(struct checkpoint *c, const struct rc_grid *g)
+{
+    return last_frame(c, g, true);
 }
 
 /* ---- saving ---- */
@@ -387,27 +425,22 @@ find_end(struct checkpoint *c, off_t *at)
     return ranks_most(&c->run->t, fine ? 0 : 1) == 0;
 }
 
-void
-checkpoint_save(struct checkpoint *c, const struct rc_grid *g, const struct rc_solver *solver)
+/* Adds this frame, whose marks and case are set here. */
+static void
+add(struct checkpoint *c, const struct rc_grid *g, struct rc_grid *out, double load)
 {
     struct mark mark[MARKS];
-    struct rc_grid *out;
     struct rc_err err;
     off_t at = 0;
 
-    if (c == NULL || c->file == NULL)
-        return;
-    out = rc_grid_like(g, "pressure", "Pa", &err);
-    if (out == NULL)
-        tool_die_at(&c->run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    memcpy(out->v, rc_solver_pressure(solver), rc_grid_nodes(g) * sizeof *out->v);
     marks_of(c, mark);
     (void)rc_grid_set(out, "case", NULL, &err); /* each is a stream of its own */
     for (size_t k = 0; k < MARKS; k++)
-        if (rc_grid_set(out, mark[k].name, mark[k].value, &err) != RC_OK)
+        if (mark[k].value[0] != '\0' &&
+            rc_grid_set(out, mark[k].name, mark[k].value, &err) != RC_OK)
             tool_die_at(&c->run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     if (rc_grid_set_number(out, "checkpoint.case", (double)c->run->number, &err) != RC_OK ||
-        rc_grid_set_number(out, "load", rc_solver_load(solver), &err) != RC_OK ||
+        rc_grid_set_number(out, "load", load, &err) != RC_OK ||
         rc_grid_history(out, tool_history(&c->run->t), &err) != RC_OK)
         tool_die_at(&c->run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     if (!find_end(c, &at) || put(c, out, at, &err) != RC_OK) {
@@ -417,9 +450,51 @@ checkpoint_save(struct checkpoint *c, const struct rc_grid *g, const struct rc_s
         (void)fclose(c->file);
         c->file = NULL;
     } else {
-        note(c, c->run->number, at);
+        note(c, c->run->number, at, strcmp(out->channel, of_state) == 0);
     }
+}
+
+void
+checkpoint_save(struct checkpoint *c, const struct rc_grid *g, const struct rc_solver *solver)
+{
+    struct rc_grid *out;
+    struct rc_err err;
+
+    if (c == NULL || c->file == NULL)
+        return;
+    out = rc_grid_like(g, "pressure", "Pa", &err);
+    if (out == NULL)
+        tool_die_at(&c->run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    memcpy(out->v, rc_solver_pressure(solver), rc_grid_nodes(g) * sizeof *out->v);
+    add(c, g, out, rc_solver_load(solver));
     rc_grid_free(out);
+}
+
+void
+checkpoint_save_state(struct checkpoint *c, const struct rc_grid *g, size_t n,
+                      checkpoint_fill *fill, const void *ctx, double load)
+{
+    const struct rc_shape shape = {n, 1, g->dx, g->dy};
+    struct rc_grid *out;
+    struct rc_err err;
+
+    if (c == NULL || c->file == NULL)
+        return;
+    out = rc_grid_new(&shape, of_state, "1", &err);
+    if (out == NULL)
+        tool_die_at(&c->run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    fill(ctx, out->v);
+    add(c, g, out, load);
+    rc_grid_free(out);
+}
+
+bool
+checkpoint_due(struct checkpoint *c)
+{
+    if (c == NULL || ranks_most(&c->run->t, solve_now() - c->began) < c->next)
+        return false;
+    c->next *= 2;
+    return true;
 }
 
 void
@@ -430,8 +505,6 @@ checkpoint_pass(struct checkpoint *c, const struct rc_grid *g, const struct rc_s
     rc_solver_progress(solver, &at);
     if (c == NULL || at.coarser || at.iterations == 0)
         return; /* on the coarser grids there is nothing to keep */
-    if (ranks_most(&c->run->t, solve_now() - c->began) < c->next)
-        return;
-    checkpoint_save(c, g, solver);
-    c->next *= 2;
+    if (checkpoint_due(c))
+        checkpoint_save(c, g, solver);
 }

@@ -60,7 +60,8 @@ struct yielding {
     size_t slabs;             /* in use                                                      */
     double *thickness;
     struct rc_plastic *plastic; /* NULL: nothing has yielded                                   */
-    double most, deepest;  /* largest elastic Mises stress over the yield stress; m; 0: unknown */
+    double most, deepest; /* largest elastic Mises stress over the yield stress; m; 0: unknown */
+    size_t try; /* where their number is left open: which one, from 0                          */
     enum rc_status status; /* of the load                                                 */
 };
 
@@ -146,6 +147,13 @@ void yield_free(struct run *run);
  * on, and carries the load. */
 bool yield_begins(struct run *run, const struct rc_grid *g, struct rc_solver *solver,
                   struct rc_problem contact);
+/* Instead of an elastic solution: goes on from the state that the checkpoint has of this case. False: it has none. */
+bool yield_resumes(struct run *run, const struct rc_grid *g, struct rc_problem contact);
+/* What a checkpoint of such a body must agree in, k from 0 on: its name, and its value, empty without --yield. */
+enum {
+    YIELD_MARKS = 6
+};
+const char *yield_mark(const struct run *run, int k, char *value, size_t size);
 /* The next load, N, of a body that yields; 0: none. */
 void yield_press(struct run *run, const struct rc_grid *g, double load);
 /* Adds what is known of the error to the figures of the contact. */
@@ -175,6 +183,15 @@ void checkpoint_surface(struct checkpoint *checkpoint, const struct rc_grid *g,
 /* A case begins. True when a pressure had been kept for it: the solver starts from that. */
 bool checkpoint_case(struct checkpoint *checkpoint, const struct rc_grid *g,
                      struct rc_solver *solver);
+/* A case begins, or goes on, in a body that yields inside: its last state, as checkpoint_save_state was given it,
+ * which the caller frees; NULL: there is none. */
+struct rc_grid *checkpoint_state(struct checkpoint *checkpoint, const struct rc_grid *g);
+/* Keeps n numbers, which fill(ctx, ...) writes, under this load, N. */
+typedef void checkpoint_fill(const void *ctx, double *to);
+void checkpoint_save_state(struct checkpoint *checkpoint, const struct rc_grid *g, size_t n,
+                           checkpoint_fill *fill, const void *ctx, double load);
+/* Whether it is time to keep what is reached; then the next time is twice as far. */
+bool checkpoint_due(struct checkpoint *checkpoint);
 /* Keeps the pressure reached; `pass` does so only where it is time for it. */
 void checkpoint_save(struct checkpoint *checkpoint, const struct rc_grid *g,
                      const struct rc_solver *solver);

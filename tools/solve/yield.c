@@ -6,10 +6,13 @@
 #include "solve.h"
 
 #include <errno.h>
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "formats/core/core.h"
 
 enum {
     FIRST = 8,  /* increments of the first try, where their number is left open */
@@ -164,7 +167,6 @@ yield_read(struct run *run)
     refuse(run, a->nu1 == 0.5, "--nu1 0.5", "a body that yields inside must be compressible");
     refuse(run, a->approach.n > 0, "--approach",
            "a body that yields follows loads: give --load or --mean-pressure");
-    refuse(run, args->checkpoint != NULL, "--checkpoint", "the strain is not kept in it, as yet");
     refuse(run, args->discretization, "--discretization",
            "a grid half as fine yields elsewhere: solve it by itself");
     refuse(run, run->tilt, "--tilt free", "a body that yields follows one direction");
@@ -262,55 +264,221 @@ make(struct run *run, const struct rc_grid *g, struct rc_problem contact)
     struct yielding *y = &run->yielding;
     const struct rc_shape shape = rc_grid_shape(g);
     struct rc_plastic_problem problem = problem_of(run, contact);
+    size_t bytes = rc_plastic_memory(&shape, &problem, expected_part);
     struct rc_err err;
 
     rc_plastic_free(y->plastic);
     y->plastic = NULL;
-    tool_demand_memory(&run->t, g, rc_plastic_memory(&shape, &problem, expected_part));
+    if (run->checkpoint != NULL) /* a state takes no more than the voxels, and a pressure */
+        bytes += bytes - rc_plastic_memory(&shape, &problem, 0) + rc_grid_nodes(g) * sizeof *g->v;
+    tool_demand_memory(&run->t, g, bytes);
     y->plastic = rc_plastic_new(&shape, g->v, &problem, &err);
     if (y->plastic == NULL)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
 }
 
-void
-yield_press(struct run *run, const struct rc_grid *g, double load)
+/* ---- states in a checkpoint: increments, try, slabs, their thicknesses, then the library's numbers ---- */
+
+enum {
+    STATE_HEAD = 3
+};
+
+static void
+fill_state(const void *ctx, double *to)
+{
+    const struct yielding *y = ctx;
+
+    to[0] = (double)y->increments;
+    to[1] = (double)y->try;
+    to[2] = (double)y->slabs;
+    memcpy(to + STATE_HEAD, y->thickness, y->slabs * sizeof *to);
+    rc_plastic_state(y->plastic, to + STATE_HEAD + y->slabs);
+}
+
+static void
+save(struct run *run, const struct rc_grid *g, double load)
+{
+    const struct yielding *y = &run->yielding;
+
+    checkpoint_save_state(run->checkpoint, g,
+                          STATE_HEAD + y->slabs + rc_plastic_state_size(y->plastic), fill_state, y,
+                          load);
+}
+
+static void
+damaged(struct run *run, const struct rc_grid *g, const char *why)
+{
+    tool_die_at(&run->t, g, EXIT_IMPOSSIBLE,
+                "--checkpoint %s: case %zu cannot be gone on with (%s): remove the file to begin "
+                "anew",
+                run->args->checkpoint, run->number, why);
+}
+
+/* What the state says of increments and slabs. */
+static void
+read_head(struct run *run, const struct rc_grid *g, const struct rc_grid *state)
+{
+    struct yielding *y = &run->yielding;
+    const double *v = state->v;
+
+    if (state->nx < STATE_HEAD || !(v[0] >= 1 && v[0] <= MOST) || !(v[1] >= 0 && v[1] < TRIES) ||
+        !(v[2] >= 1 && v[2] < (double)(state->nx - STATE_HEAD)))
+        damaged(run, g, "its first numbers are none of a state");
+    y->increments = (size_t)v[0];
+    y->try = (size_t)v[1];
+    y->slabs = (size_t)v[2];
+    free(y->thickness);
+    y->thickness = malloc(y->slabs * sizeof *y->thickness);
+    if (y->thickness == NULL)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "out of memory for the slabs");
+    memcpy(y->thickness, v + STATE_HEAD, y->slabs * sizeof *y->thickness);
+}
+
+static void
+restore(struct run *run, const struct rc_grid *g, struct rc_grid *state)
+{
+    struct yielding *y = &run->yielding;
+    size_t head = STATE_HEAD + y->slabs;
+    const double *v = state->v;
+    struct rc_err err;
+
+    if (state->nx <= head || v[0] != (double)y->increments || v[2] != (double)y->slabs ||
+        memcmp(v + STATE_HEAD, y->thickness, y->slabs * sizeof *v) != 0)
+        damaged(run, g, "it has other increments or slabs than the load before it");
+    if (rc_plastic_restore(y->plastic, v + head, state->nx - head, &err) != RC_OK)
+        damaged(run, g, err.text);
+    rc_grid_free(state);
+}
+
+const char *
+yield_mark(const struct run *run, int k, char *value, size_t size)
+{
+    static const char *const names[YIELD_MARKS] = {"checkpoint.yield",      "checkpoint.e1",
+                                                   "checkpoint.nu1",        "checkpoint.slabs",
+                                                   "checkpoint.increments", "checkpoint.tol"};
+    const struct yielding *y = &run->yielding;
+    const struct physics *a = &run->args->physics;
+    const double number[YIELD_MARKS] = {y->law.stress,         a->pair.one.e,    a->pair.one.nu,
+                                        (double)y->slab_count, (double)y->asked, goal(run)};
+    char text[RC_NUMBER_SIZE], modulus[RC_NUMBER_SIZE];
+    const size_t bytes = y->law.points * sizeof(double);
+
+    value[0] = '\0';
+    if (!y->wanted)
+        return names[k];
+    if (k == 0 && y->law.points > 0)
+        snprintf(value, size, "table %08" PRIx32,
+                 rc_crc32_add(rc_crc32_add(0, y->table[0], bytes), y->table[1], bytes));
+    else if (k == 0)
+        snprintf(value, size, "%s,%s", rc_number_text(text, number[k]),
+                 rc_number_text(modulus, y->law.modulus));
+    else if (k == 3 && y->list.n > 0)
+        snprintf(value, size, "list %08" PRIx32,
+                 rc_crc32_add(0, y->list.v, y->list.n * sizeof *y->list.v));
+    else
+        snprintf(value, size, "%s",
+                 (k == 3 || k == 4) && number[k] == 0 ? "auto" : rc_number_text(text, number[k]));
+    return names[k];
+}
+
+/* ---- the loads themselves ---- */
+
+static void
+set_load(struct run *run, const struct rc_grid *g, double load)
+{
+    struct rc_err err;
+
+    if (rc_plastic_set_load(run->yielding.plastic, load, &err) != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+}
+
+/* To the end of the load that is set. `kept`: the checkpoint holds where it stands. */
+static void
+go(struct run *run, const struct rc_grid *g, double load, bool kept)
 {
     struct yielding *y = &run->yielding;
     double start = solve_now(), at;
-    size_t increment, application;
+    size_t increment, application, steps = 0;
     struct rc_err err;
 
-    if (rc_plastic_set_load(y->plastic, load, &err) != RC_OK)
-        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     y->status = RC_MORE;
     while (tool_interrupted() == 0 && y->status == RC_MORE) {
         y->status = rc_plastic_step(y->plastic, &err);
+        steps++;
         rc_plastic_progress(y->plastic, &at, &increment, &application);
         tool_progress(&run->t,
                       "case %zu, %zu x %zu, load %.3g N, increment %zu of %zu, application %zu",
                       run->number, g->nx, g->ny, at, increment, y->increments, application);
+        /* between increments less is to be kept; the last may take long */
+        if (y->status == RC_MORE && (application == 0 || increment >= y->increments) &&
+            checkpoint_due(run->checkpoint))
+            save(run, g, load);
     }
     tool_progress_end(&run->t);
     if (y->status == RC_FAIL)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (!kept || steps > 1) /* else it is there already */
+        save(run, g, load);
     run->iterate += solve_now() - start;
 }
 
-/* Solves the elastic contact at the largest load of the list, which goes deepest. */
-static void
-go_to_largest(struct run *run, const struct rc_grid *g, struct rc_solver *solver, double unit)
+void
+yield_press(struct run *run, const struct rc_grid *g, double load)
 {
-    double most = 0;
+    struct rc_grid *state = checkpoint_state(run->checkpoint, g);
+
+    run->resumed = state != NULL;
+    if (run->resumed)
+        restore(run, g, state);
+    else
+        set_load(run, g, load);
+    go(run, g, load, run->resumed);
+}
+
+/* Solves the elastic contact at the largest load of the list, which goes deepest. False: a signal has come, and
+ * the contact is that of the load before. */
+static bool
+go_to_largest(struct run *run, const struct rc_grid *g, struct rc_solver *solver, double load)
+{
+    double most = 0, unit = load / run->steps->v[run->step];
     struct rc_err err;
 
     for (size_t k = run->step; k < run->steps->n; k++)
         most = fmax(most, run->steps->v[k]);
     if (most <= run->steps->v[run->step])
-        return;
+        return true;
     if (rc_solver_set_load(solver, most * unit, 0, &err) != RC_OK)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     while (tool_interrupted() == 0 && rc_solver_step(solver) == RC_MORE)
         solve_progress(run, solver);
+    if (tool_interrupted() == 0)
+        return true;
+    if (rc_solver_set_load(solver, load, 0, &err) != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    return false;
+}
+
+/* The first load, with more increments where those that were taken are found to be too few. */
+static void
+go_on(struct run *run, const struct rc_grid *g, struct rc_problem contact, bool kept)
+{
+    struct yielding *y = &run->yielding;
+
+    for (;;) {
+        const struct rc_plastic_figures *f = rc_plastic_result(y->plastic);
+        double more;
+
+        go(run, g, contact.load, kept);
+        if (y->asked > 0 || tool_interrupted() != 0 || !(f->error > goal(run)) ||
+            y->increments >= MOST || y->try + 1 == TRIES)
+            return;
+        more = ceil((double)y->increments * pow(f->error / goal(run), order));
+        y->increments = more < MOST ? (size_t)more : MOST;
+        y->try++;
+        kept = false;
+        make(run, g, contact);
+        set_load(run, g, contact.load);
+    }
 }
 
 bool
@@ -318,25 +486,31 @@ yield_begins(struct run *run, const struct rc_grid *g, struct rc_solver *solver,
              struct rc_problem contact)
 {
     struct yielding *y = &run->yielding;
-    double load = contact.load;
-    const struct rc_plastic_figures *f;
 
-    if (!y->wanted || tool_interrupted() != 0 || !find_slabs(run, g, rc_solver_pressure(solver)))
+    if (!y->wanted || tool_interrupted() != 0 || !find_slabs(run, g, rc_solver_pressure(solver)) ||
+        !go_to_largest(run, g, solver, contact.load))
         return false;
-    go_to_largest(run, g, solver, load / run->steps->v[run->step]);
     (void)find_slabs(run, g, rc_solver_pressure(solver));
     y->increments = y->asked > 0 ? y->asked : FIRST;
-    for (int try = 0; try < TRIES && tool_interrupted() == 0; try++) {
-        double more;
-        make(run, g, contact);
-        yield_press(run, g, load);
-        f = rc_plastic_result(y->plastic);
-        if (y->asked > 0 || !(f->error > goal(run)) || y->increments >= MOST)
-            break;
-        more = ceil((double)y->increments * pow(f->error / goal(run), order));
-        if (try + 1 < TRIES)
-            y->increments = more < MOST ? (size_t)more : MOST;
-    }
+    y->try = 0;
+    make(run, g, contact);
+    set_load(run, g, contact.load);
+    go_on(run, g, contact, false);
+    return true;
+}
+
+bool
+yield_resumes(struct run *run, const struct rc_grid *g, struct rc_problem contact)
+{
+    struct rc_grid *state = run->yielding.wanted ? checkpoint_state(run->checkpoint, g) : NULL;
+
+    if (state == NULL)
+        return false;
+    run->resumed = true;
+    read_head(run, g, state);
+    make(run, g, contact);
+    restore(run, g, state);
+    go_on(run, g, contact, true);
     return true;
 }
 

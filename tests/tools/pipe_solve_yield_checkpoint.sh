@@ -1,0 +1,147 @@
+# rc-solve --yield with --checkpoint and --resume: wherever a history of a body that yields is cut off, it goes on to the
+# answer that it would have had.
+. "$(dirname "$0")/../pipe.sh"
+
+rc-synth selfaffine --nx 48 --dx 1um --hurst 0.8 --rms-height 0.15um --rolloff 24um --short-cut 10um --seed 4 -o rough.rcg
+solve="rc-solve --quiet --periodic --E1 210GPa --nu1 0.3 --E2 rigid --output pressure,residual,strain"
+# In every row but the cost: with the loads, what yields, and what is left.
+figures='mean_pressure|contact_area|max_pressure|indentation|residual_indentation|plastic_volume|max_plastic_strain|plastic_work|plastic_depth|increments|applications|slabs'
+# figures_of FILE.tsv: a line "name value" for each.
+figures_of() {
+    awk -F '\t' -v want="^($figures)(/|\$)" 'NR == 1 { for (i = 1; i <= NF; i++) { name[i] = $i; is[i] = $i ~ want } }
+        NR > 1 { for (i = 1; i <= NF; i++) if (is[i]) print name[i], $i }' "$1"
+}
+# apart A B: the largest relative difference of their figures.
+apart() {
+    paste <(figures_of "$1") <(figures_of "$2") | awk '
+        { n++; d = $2 - $4; s = $2; d = d < 0 ? -d : d; s = s < 0 ? -s : s; if ($1 != $3) exit 1; if (d > 0) d /= s; if (d > m) m = d }
+        END { if (n < 24) exit 1; printf "%.3g\n", m + 0 }'
+}
+# ends FILE: where its streams end.
+ends() {
+    perl -0777 -ne 'while (/RCGEND 1\n/g) { print pos, "\n" }' "$1"
+}
+
+# ---- a history ----
+
+history="--mean-pressure 150MPa,0,200MPa --yield 2GPa,10GPa"
+$solve $history --report plain.tsv -o plain.rcg rough.rcg
+$solve $history --checkpoint kept.rcg --interval 0 --report whole.tsv -o whole.rcg rough.rcg
+claim "a checkpoint changes nothing" cmp plain.rcg whole.rcg
+claim "it holds the elastic pressure, then states of each load" bash -c "
+    rc-info kept.rcg >info.txt && [ \"\$(grep -c '(pressure)' info.txt)\" -ge 1 ] && [ \"\$(grep -c '(state)' info.txt)\" -gt 20 ]"
+claim "resumed it is the same to the last bit" bash -c "
+    cp kept.rcg again.rcg && $solve $history --checkpoint again.rcg --resume --report again.tsv -o again-out.rcg rough.rcg &&
+    cmp whole.rcg again-out.rcg && cmp kept.rcg again.rcg"
+near "$(apart whole.tsv again.tsv)" 0 "$same" "  and so are its figures, the applications that it took included"
+
+# Killed anywhere: behind each frame, and a part of the next. The contacts are solved to 1e-4, and where they go on from
+# a pressure their first step has another length: so what follows agrees within that.
+cut_off() {
+    local end last=0 n=0
+    for end in $(ends kept.rcg); do
+        head -c $(((last + 2 * end) / 3)) kept.rcg >cut.rcg # a third of a frame is missing
+        last=$end
+        n=$((n + 1))
+        [ $((n % 4)) = 0 ] || continue
+        $solve $history --checkpoint cut.rcg --resume --report cut.tsv -o cut-out.rcg rough.rcg || return 1
+        apart whole.tsv cut.tsv || return 1
+    done >apart.txt
+    [ "$n" -gt 25 ] && sort -g apart.txt | tail -n 1 >worst.txt
+}
+claim "cut off in any frame it goes on" cut_off
+between 0 "$(cat worst.txt)" 1e-4 "  to the same figures, within the tolerance of the contacts"
+head -c "$(ends kept.rcg | tail -n 3 | head -n 1)" kept.rcg >late.rcg
+states() { rc-info "$1" | grep -c '(state)'; }
+before=$(states late.rcg)
+$solve $history --checkpoint late.rcg --resume --interval 0 -o late-out.rcg rough.rcg
+between 1 "$(($(states late.rcg) - before))" 4 "  and only what is missing is done again"
+
+# ---- increments that were too few: the second try is gone on with, and not the first ----
+
+harder="--mean-pressure 250MPa --yield 0.8GPa"
+$solve $harder --checkpoint try.rcg --interval 0 --report try.tsv -o try-out.rcg rough.rcg
+$solve $harder --checkpoint try.rcg --resume --report try2.tsv -o try2-out.rcg rough.rcg
+claim "with more increments than the first try has" test "$(figures_of try.tsv | awk '$1 == "increments" { print $2 }')" -gt 8
+claim "  resumed it is the same" cmp try-out.rcg try2-out.rcg
+head -c "$(ends try.rcg | tail -n 5 | head -n 1)" try.rcg >part.rcg
+$solve $harder --checkpoint part.rcg --resume --report part.tsv -o part-out.rcg rough.rcg
+near "$(figures_of part.tsv | awk '$1 == "increments" { print $2 }')" "$(figures_of try.tsv | awk '$1 == "increments" { print $2 }')" 0 \
+    "  and cut off in it it goes on with as many"
+near "$(figures_of part.tsv | awk '$1 ~ /^plastic_work/ { print $2 }')" "$(figures_of try.tsv | awk '$1 ~ /^plastic_work/ { print $2 }')" 1e-4 \
+    "  to the same work"
+
+# ---- a signal ----
+
+interrupted() {
+    local status
+    $solve $history --increments 100 --checkpoint signal.rcg --interval 0.01 --report signal.tsv -o signal-out.rcg rough.rcg &
+    until [ -s signal.rcg ] && grep -aq '^channel=state$' signal.rcg || ! kill -0 $!; do sleep 0.02; done
+    kill -TERM $!
+    wait $!
+    status=$?
+    [ $status = 143 ] && rc-info --quiet signal.rcg >/dev/null
+}
+claim "a signal leaves a state" interrupted
+claim "from which it goes on" bash -c "
+    $solve $history --increments 100 --checkpoint signal.rcg --resume --report on.tsv -o on.rcg rough.rcg &&
+    $solve $history --increments 100 --report straight.tsv -o straight.rcg rough.rcg"
+# a hundred contacts more, each to 1e-4 in the mean over the map: what stands at one node may be off by some times that
+between 0 "$(apart straight.tsv on.tsv)" 1e-3 "  to the same figures"
+
+# ---- another problem ----
+
+other() { # WHAT PATTERN OPTIONS: refused
+    cp kept.rcg other.rcg
+    refuses 1 "another problem: $2" "that of $1" "$3 --checkpoint other.rcg --resume -o x.rcg rough.rcg"
+}
+loads="--mean-pressure 150MPa,0,200MPa"
+other "another yield stress" 'checkpoint.yield was 2000000000,10000000000, is 3000000000,10000000000$' "$solve $loads --yield 3GPa,10GPa"
+other "another hardening" 'checkpoint.yield was .*, is table [0-9a-f]{8}$' "printf '0 2GPa\n1 12GPa\n' >t.tsv; $solve $loads --yield t.tsv"
+other "no yield" 'checkpoint.yield was .*, is not given$' "$solve $loads --history"
+other "other slabs" 'checkpoint.slabs was auto, is 6$' "$solve $history --slabs 6"
+other "a list of slabs" 'checkpoint.slabs was auto, is list [0-9a-f]{8}$' "$solve $history --slabs 1um,2um"
+other "other increments" 'checkpoint.increments was auto, is 9$' "$solve $history --increments 9"
+other "another tolerance" 'checkpoint.tol was 0.01, is 0.05$' "$solve $history --tol 0.05"
+other "another body of the same E*" 'checkpoint.nu1 was 0.3, is -0.3$' \
+    "rc-solve --quiet --periodic --E1 210GPa --nu1 -0.3 --E2 rigid $loads --yield 2GPa,10GPa"
+other "other loads before" 'checkpoint.mean-pressure was 200000000, is 180000000$' "$solve --mean-pressure 150MPa,0,180MPa --yield 2GPa,10GPa"
+$solve --mean-pressure 150MPa --checkpoint elastic.rcg -o x.rcg rough.rcg && rm x.rcg
+refuses 1 'checkpoint.yield was not given, is 2000000000,10000000000' "that of elastic bodies" \
+    "$solve --mean-pressure 150MPa --yield 2GPa,10GPa --checkpoint elastic.rcg --resume -o x.rcg rough.rcg"
+
+# ---- spoilt ----
+
+# lie PLACE VALUE: a number of the last state, or of the values before its end where PLACE is below 0, is another; the
+# checksum is right
+lie() {
+    perl -MCompress::Zlib -0777 -e '
+        my ($place, $value) = splice @ARGV, 0, 2;
+        my @s = <> =~ /(RCG1\n.*?RCGEND 1\n)/gs;
+        my ($head, $rest) = $s[-1] =~ /^(RCG1\n.*?\n\n)(.*)$/s;
+        my $body = substr($rest, 0, length($rest) - 24);
+        substr($body, ($place < 0 ? length($body) : 0) + 8 * $place, 8) = pack("d<", $value);
+        $s[-1] = $head . $body . sprintf("crc32 %08x\n", crc32($head . $body)) . "RCGEND 1\n";
+        print @s;' -- "$1" "$2" "$3" >lies.rcg
+}
+lie 2 2 kept.rcg
+refuses 1 'case 3 cannot be gone on with \(it has other increments or slabs' "a state of other slabs" \
+    "$solve $history --checkpoint lies.rcg --resume -o x.rcg rough.rcg"
+lie -1 nan kept.rcg # strain of the last voxel
+refuses 1 'case 3 cannot be gone on with \(the state is damaged: number [0-9]* of it is not finite' "one that is not finite" \
+    "$solve $history --checkpoint lies.rcg --resume -o x.rcg rough.rcg"
+lie -7 1e9 kept.rcg # its place
+refuses 1 'case 3 cannot be gone on with \(the state is damaged at voxel' "one whose strain is nowhere" \
+    "$solve $history --checkpoint lies.rcg --resume -o x.rcg rough.rcg"
+head -c "$(ends kept.rcg | head -n 10 | tail -n 1)" kept.rcg >begun.rcg # in the first load
+lie 2 1e300 begun.rcg
+refuses 1 'case 1 cannot be gone on with \(its first numbers' "one without slabs" \
+    "$solve $history --checkpoint lies.rcg --resume -o x.rcg rough.rcg"
+lie 2 2 begun.rcg
+refuses 1 'case 1 cannot be gone on with \(no state' "one with fewer" \
+    "$solve $history --checkpoint lies.rcg --resume -o x.rcg rough.rcg"
+(head -c 500000 kept.rcg && printf X && tail -c +500002 kept.rcg) >spoilt.rcg
+refuses 1 'frame [0-9]* of it cannot be read .*checksum' "a file with a damaged frame" "$solve $history --checkpoint spoilt.rcg --resume -o x.rcg rough.rcg"
+claim "no refused run left anything" bash -c '! ls x.rcg* 2>/dev/null'
+
+finish
