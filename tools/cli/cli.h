@@ -16,5 +16,6 @@
 #include "tool.h"
 #include "wanted.h"
 #include "words.h"
+#include "yields.h"
 
 #endif

@@ -52,8 +52,8 @@ struct progress {
 /* --yield: body 1 yields inside. */
 struct yielding {
     bool wanted;
+    struct yield_law read;
     struct rc_yield law;
-    double *table[2];         /* plastic strain, stress; NULL: none given                    */
     size_t asked, increments; /* of a load: on the line, 0 for auto; in use                  */
     size_t slab_count;        /* on the line, 0 for auto                                     */
     struct numbers list;      /* or thicknesses                                              */

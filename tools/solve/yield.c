@@ -21,90 +21,11 @@ enum {
 };
 static const double deserved = 1e-2;      /* error that the increments are chosen for            */
 static const double contact_share = 1e-2; /* of it, the tolerance of each contact                */
-static const double growth = 1.25;        /* of slabs with depth                                 */
 static const double expected_part = 0.3;  /* of the voxels that yield, for the memory            */
 static const double order = 0.8;          /* power of the error that the increments go by */
 static const double large_strain = 0.1;
 
 /* ---- the command line ---- */
-
-/* "strain stress" in lines; '#' begins a comment, and a line of words at the top is a heading. */
-static enum rc_status
-read_table(struct yielding *y, const char *name, struct rc_err *err)
-{
-    FILE *file = fopen(name, "r");
-    char line[512];
-    size_t n = 0, room = 0, number = 0;
-    enum rc_status status = RC_OK;
-
-    if (file == NULL)
-        return rc_err_set(err, "%s", strerror(errno));
-    while (status == RC_OK && fgets(line, sizeof line, file) != NULL) {
-        char strain[128], stress[128], rest[2];
-        double at[2];
-        int got;
-
-        number++;
-        line[strcspn(line, "#\r\n")] = '\0';
-        got = sscanf(line, " %127s %127s %1s", strain, stress, rest);
-        if (got <= 0)
-            continue;
-        if (got != 2) {
-            status =
-                rc_err_set(err, "line %zu: it must hold a plastic strain and a stress", number);
-            break;
-        }
-        if (unit_number(strain, UNIT_NONE, &at[0], err) != RC_OK ||
-            unit_number(stress, UNIT_PA, &at[1], err) != RC_OK) {
-            if (n == 0 && number == 1)
-                continue;
-            status =
-                rc_err_set(err, "line %zu: '%s %s': it must be a plastic strain and a stress in Pa",
-                           number, strain, stress);
-            break;
-        }
-        if (n == room) {
-            room = 2 * room + 64;
-            y->table[0] = realloc(y->table[0], room * sizeof(double));
-            y->table[1] = realloc(y->table[1], room * sizeof(double));
-            if (y->table[0] == NULL || y->table[1] == NULL) {
-                status = rc_err_set(err, "out of memory");
-                break;
-            }
-        }
-        y->table[0][n] = at[0];
-        y->table[1][n++] = at[1];
-    }
-    if (status == RC_OK && ferror(file))
-        status = rc_err_set(err, "%s", strerror(errno));
-    fclose(file);
-    if (status == RC_OK && n == 0)
-        status = rc_err_set(err, "it holds no strain and stress");
-    if (status == RC_OK)
-        y->law = (struct rc_yield){.points = n, .strain_at = y->table[0], .stress_at = y->table[1]};
-    return status;
-}
-
-static enum rc_status
-read_law(struct yielding *y, const char *text, struct rc_err *err)
-{
-    size_t n = strlen(text), first = strcspn(text, ",");
-    char stress[64];
-
-    if (n > 4 && strcmp(text + n - 4, ".tsv") == 0)
-        return read_table(y, text, err);
-    if (first >= sizeof stress)
-        return rc_err_set(err, "it must be Y, or Y,Hm, as in 1GPa,2GPa, or a table FILE.tsv");
-    memcpy(stress, text, first);
-    stress[first] = '\0';
-    if (unit_number(stress, UNIT_PA, &y->law.stress, err) != RC_OK)
-        return RC_FAIL;
-    if (text[first] == ',' && unit_number(text + first + 1, UNIT_PA, &y->law.modulus, err) != RC_OK)
-        return RC_FAIL;
-    if (!(y->law.stress > 0) || !(y->law.modulus >= 0))
-        return rc_err_set(err, "the yield stress must be above 0, and hardening not below it");
-    return RC_OK;
-}
 
 /* "auto", or a whole number in *count, 0: none; else a list of lengths where one is asked for. */
 static void
@@ -134,13 +55,6 @@ read_count(struct run *run, const char *name, const char *text, size_t *count,
                      text);
 }
 
-static void
-refuse(struct run *run, bool given, const char *what, const char *why)
-{
-    if (given)
-        tool_die(&run->t, EXIT_USAGE, "--yield: not with %s: %s", what, why);
-}
-
 void
 yield_read(struct run *run)
 {
@@ -154,22 +68,15 @@ yield_read(struct run *run)
         tool_die(&run->t, EXIT_USAGE, "--increments and --slabs belong to --yield");
     if (!y->wanted)
         return;
-    if (read_law(y, args->yield, &err) != RC_OK)
+    if (yield_law_read(&y->read, args->yield, &err) != RC_OK)
         tool_die(&run->t, EXIT_USAGE, "--yield %s: %s", args->yield, err.text);
+    y->law = y->read.law;
     read_count(run, "increments", args->increments, &y->asked, NULL);
     read_count(run, "slabs", args->slabs, &y->slab_count, &y->list);
-    refuse(run, !isinf(a->hardness), "--hardness",
-           "a bound of the pressure is what it takes the place of");
-    refuse(run, a->layer.n > 0, "--layer", "the material is one");
-    refuse(
-        run, tool_given(&run->t, "estar"), "--estar",
-        "what yields inside needs its own modulus: give --E1 --nu1, and --E2 --nu2 or --E2 rigid");
-    refuse(run, a->nu1 == 0.5, "--nu1 0.5", "a body that yields inside must be compressible");
-    refuse(run, a->approach.n > 0, "--approach",
-           "a body that yields follows loads: give --load or --mean-pressure");
-    refuse(run, args->discretization, "--discretization",
-           "a grid half as fine yields elsewhere: solve it by itself");
-    refuse(run, run->tilt, "--tilt free", "a body that yields follows one direction");
+    yield_law_check(&run->t, a);
+    yield_law_refuse(&run->t, args->discretization, "--discretization",
+                     "a grid half as fine yields elsewhere: solve it by itself");
+    yield_law_refuse(&run->t, run->tilt, "--tilt free", "a body that yields follows one direction");
 }
 
 void
@@ -186,29 +93,13 @@ yield_free(struct run *run)
 
 /* ---- slabs ---- */
 
-/* So many, down to the depth that was found, each thicker than the one above. */
-static void
-deal(struct yielding *y, size_t n)
-{
-    double depth = 0, dz;
-
-    for (size_t k = 0; k < y->slabs; k++)
-        depth += y->thickness[k];
-    dz = n > 1 ? depth * (growth - 1) / (pow(growth, (double)n) - 1) : depth;
-    free(y->thickness);
-    y->thickness = malloc(n * sizeof *y->thickness);
-    y->slabs = y->thickness == NULL ? 0 : n;
-    for (size_t k = 0; k < y->slabs; k++, dz *= growth)
-        y->thickness[k] = dz;
-}
-
 /* From the elastic pressure: false when nothing yields under it. */
 static bool
 find_slabs(struct run *run, const struct rc_grid *g, const double *p)
 {
     struct yielding *y = &run->yielding;
     const struct rc_shape shape = rc_grid_shape(g);
-    double stress = y->law.points > 0 ? y->law.stress_at[0] : y->law.stress;
+    double stress = yield_law_first(&y->law);
     struct rc_plastic_depths d;
     struct rc_err err;
 
@@ -229,7 +120,9 @@ find_slabs(struct run *run, const struct rc_grid *g, const double *p)
         if (y->thickness != NULL)
             memcpy(y->thickness, y->list.v, y->slabs * sizeof *y->thickness);
     } else if (y->slab_count > 0) {
-        deal(y, y->slab_count);
+        y->slabs = y->slab_count;
+        y->thickness = yield_stack(&d, y->slabs);
+        free(d.thickness);
     }
     if (y->thickness == NULL)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "out of memory for the slabs");
@@ -368,7 +261,7 @@ yield_mark(const struct run *run, int k, char *value, size_t size)
         return names[k];
     if (k == 0 && y->law.points > 0)
         snprintf(value, size, "table %08" PRIx32,
-                 rc_crc32_add(rc_crc32_add(0, y->table[0], bytes), y->table[1], bytes));
+                 rc_crc32_add(rc_crc32_add(0, y->read.table[0], bytes), y->read.table[1], bytes));
     else if (k == 0)
         snprintf(value, size, "%s,%s", rc_number_text(text, number[k]),
                  rc_number_text(modulus, y->law.modulus));
@@ -673,7 +566,7 @@ yield_report(struct report *r, const struct run *run)
     const struct yielding *y = &run->yielding;
     const bool on = y->plastic != NULL;
     const struct rc_plastic_figures none = {0}, *f = on ? rc_plastic_result(y->plastic) : &none;
-    double stress = y->law.points > 0 ? y->law.stress_at[0] : y->law.stress;
+    double stress = yield_law_first(&y->law);
 
     report_number(r, "yield", y->wanted ? stress : NAN, "Pa");
     report_number(r, "hardening", y->wanted && y->law.points == 0 ? y->law.modulus : NAN, "Pa");

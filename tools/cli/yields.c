@@ -1,0 +1,134 @@
+/*
+ * --yield: the law by which body 1 yields inside, what it does not go with, and the slabs that it is looked at in.
+ */
+#include "yields.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* "strain stress" in lines; '#' begins a comment, and a line of words at the top is a heading. */
+static enum rc_status
+read_table(struct yield_law *y, const char *name, struct rc_err *err)
+{
+    FILE *file = fopen(name, "r");
+    char line[512];
+    size_t n = 0, room = 0, number = 0;
+    enum rc_status status = RC_OK;
+
+    if (file == NULL)
+        return rc_err_set(err, "%s", strerror(errno));
+    while (status == RC_OK && fgets(line, sizeof line, file) != NULL) {
+        char strain[128], stress[128], rest[2];
+        double at[2];
+        int got;
+
+        number++;
+        line[strcspn(line, "#\r\n")] = '\0';
+        got = sscanf(line, " %127s %127s %1s", strain, stress, rest);
+        if (got <= 0)
+            continue;
+        if (got != 2) {
+            status =
+                rc_err_set(err, "line %zu: it must hold a plastic strain and a stress", number);
+            break;
+        }
+        if (unit_number(strain, UNIT_NONE, &at[0], err) != RC_OK ||
+            unit_number(stress, UNIT_PA, &at[1], err) != RC_OK) {
+            if (n == 0 && number == 1)
+                continue;
+            status =
+                rc_err_set(err, "line %zu: '%s %s': it must be a plastic strain and a stress in Pa",
+                           number, strain, stress);
+            break;
+        }
+        if (n == room) {
+            room = 2 * room + 64;
+            y->table[0] = realloc(y->table[0], room * sizeof(double));
+            y->table[1] = realloc(y->table[1], room * sizeof(double));
+            if (y->table[0] == NULL || y->table[1] == NULL) {
+                status = rc_err_set(err, "out of memory");
+                break;
+            }
+        }
+        y->table[0][n] = at[0];
+        y->table[1][n++] = at[1];
+    }
+    if (status == RC_OK && ferror(file))
+        status = rc_err_set(err, "%s", strerror(errno));
+    fclose(file);
+    if (status == RC_OK && n == 0)
+        status = rc_err_set(err, "it holds no strain and stress");
+    if (status == RC_OK)
+        y->law = (struct rc_yield){.points = n, .strain_at = y->table[0], .stress_at = y->table[1]};
+    return status;
+}
+
+enum rc_status
+yield_law_read(struct yield_law *y, const char *text, struct rc_err *err)
+{
+    size_t n = strlen(text), first = strcspn(text, ",");
+    char stress[64];
+
+    if (n > 4 && strcmp(text + n - 4, ".tsv") == 0)
+        return read_table(y, text, err);
+    if (first >= sizeof stress)
+        return rc_err_set(err, "it must be Y, or Y,Hm, as in 1GPa,2GPa, or a table FILE.tsv");
+    memcpy(stress, text, first);
+    stress[first] = '\0';
+    if (unit_number(stress, UNIT_PA, &y->law.stress, err) != RC_OK)
+        return RC_FAIL;
+    if (text[first] == ',' && unit_number(text + first + 1, UNIT_PA, &y->law.modulus, err) != RC_OK)
+        return RC_FAIL;
+    if (!(y->law.stress > 0) || !(y->law.modulus >= 0))
+        return rc_err_set(err, "the yield stress must be above 0, and hardening not below it");
+    return RC_OK;
+}
+
+void
+yield_law_refuse(struct tool *t, bool given, const char *what, const char *why)
+{
+    if (given)
+        tool_die(t, EXIT_USAGE, "--yield: not with %s: %s", what, why);
+}
+
+void
+yield_law_check(struct tool *t, const struct physics *a)
+{
+    yield_law_refuse(t, !isinf(a->hardness), "--hardness",
+                     "a bound of the pressure is what it takes the place of");
+    yield_law_refuse(t, a->layer.n > 0, "--layer", "the material is one");
+    yield_law_refuse(
+        t, tool_given(t, "estar"), "--estar",
+        "what yields inside needs its own modulus: give --E1 --nu1, and --E2 --nu2 or --E2 rigid");
+    yield_law_refuse(t, a->nu1 == 0.5, "--nu1 0.5",
+                     "a body that yields inside must be compressible");
+    yield_law_refuse(t, a->approach.n > 0, "--approach",
+                     "a body that yields follows loads: give --load or --mean-pressure");
+}
+
+double
+yield_law_first(const struct rc_yield *law)
+{
+    return law->points > 0 ? law->stress_at[0] : law->stress;
+}
+
+/* With the growth of the stack that was found, to the power of how many more there are, its slabs are divided, or
+ * put together, all alike. */
+double *
+yield_stack(const struct rc_plastic_depths *found, size_t n)
+{
+    double depth = 0, first, growth;
+    double *thickness = malloc(n * sizeof *thickness);
+
+    for (size_t k = 0; k < found->slabs; k++)
+        depth += found->thickness[k];
+    first = found->slabs > 1 ? found->thickness[1] / found->thickness[0] : 1;
+    growth = pow(first, (double)found->slabs / (double)n);
+    first = growth > 1 ? depth * (growth - 1) / (pow(growth, (double)n) - 1) : depth / (double)n;
+    for (size_t k = 0; k < n && thickness != NULL; k++, first *= growth)
+        thickness[k] = first;
+    return thickness;
+}

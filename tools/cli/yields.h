@@ -1,0 +1,28 @@
+/*
+ * A body that yields inside, as the tools that solve it are told.
+ */
+#ifndef RC_TOOL_YIELDS_H
+#define RC_TOOL_YIELDS_H
+
+#include "libcontact/contact.h"
+#include "physics.h"
+#include "tool.h"
+
+struct yield_law {
+    struct rc_yield law;
+    double *table[2]; /* plastic strain, stress; NULL: none given */
+};
+
+/* "Y", "Y,HM" or a table FILE.tsv. */
+enum rc_status yield_law_read(struct yield_law *law, const char *text, struct rc_err *err);
+/* Where it is given, ends the tool: it does not go with --yield. */
+void yield_law_refuse(struct tool *tool, bool given, const char *what, const char *why);
+/* The same for all of the physics that does not. */
+void yield_law_check(struct tool *tool, const struct physics *physics);
+/* Pa: the yield stress of what has not yielded. */
+double yield_law_first(const struct rc_yield *law);
+/* Thicknesses of n slabs to the depth of the stack that rc_plastic_depths has found, which the caller frees. NULL:
+ * memory is short. */
+double *yield_stack(const struct rc_plastic_depths *found, size_t n);
+
+#endif
