@@ -10,6 +10,7 @@
 
 static struct args {
     struct physics physics;
+    const char *yield;       /* as on the line, or NULL */
     size_t kernels, methods; /* bits */
     double limit, budget, error;
     struct numbers depths; /* none: auto, where it was given */
@@ -29,6 +30,8 @@ static struct args {
 /* clang-format off */
 static const struct opt opts[] = {
     {.group = physics_options, AT(physics)},
+    {.name = "yield", .type = OPT_TEXT, AT(yield), .result = true, .arg = "Y[,HM]|FILE.tsv",
+     .help = "body 1 yields inside, as for rc-solve: increments and slabs are what is tried"},
     {.name = "kernel", .alias = "engine", .type = OPT_WORDS, AT(kernels), .words = words_engine,
      .arg = "LIST", .help = "try only these, of %s (default: all)"},
     {.name = "method", .type = OPT_WORDS, AT(methods), .words = words_method, .arg = "LIST",
@@ -74,6 +77,7 @@ struct run {
     struct tool t;
     size_t cases;
     struct report report;
+    struct yield_law yield;
 };
 
 /* ---- the command line ---- */
@@ -82,6 +86,23 @@ static bool
 choosing(void)
 {
     return !isnan(args.budget) || !isnan(args.error);
+}
+
+static void
+read_yield(struct run *run)
+{
+    struct tool *t = &run->t;
+    struct rc_err err;
+
+    if (args.yield == NULL)
+        return;
+    if (yield_law_read(&run->yield, args.yield, &err) != RC_OK)
+        tool_die(t, EXIT_USAGE, "--yield %s: %s", args.yield, err.text);
+    yield_law_check(t, &args.physics);
+    yield_law_refuse(t, tool_given(t, "kernel") || tool_given(t, "method"), "--kernel and --method",
+                     "increments and slabs are what is tried, by the first of them");
+    yield_law_refuse(t, tool_given(t, "depths"), "--depths",
+                     "the stresses of what has yielded are rc-stress's to find, from its strain");
 }
 
 static void
@@ -105,6 +126,7 @@ check_arguments(struct run *run)
         tool_die(t, EXIT_USAGE, "--depths: stresses need Poisson's ratio: give --nu");
     if (!tool_given(t, "depths") && (tool_given(t, "nu") || tool_given(t, "mu")))
         tool_die(t, EXIT_USAGE, "--nu and --mu are for stresses: give --depths as well");
+    read_yield(run);
     ending_demand_picture(t, "--plot", args.plot);
     tool_demand_writable(t, "--plot", args.plot);
     report_open(&run->report, t, args.report);
@@ -153,12 +175,10 @@ plan(struct run *run, struct cost_case *c)
     fprintf(run->t.out, "%s\n", text);
     for (size_t k = 0; k < c->trials; k++) {
         struct cost_trial *m = &c->trial[k];
-        struct rc_problem problem = c->problem;
 
-        problem.engine = m->settings.kernel;
         if (m->state == COST_OPEN)
             fprintf(run->t.out, "  %-40s about %8.2g s, %zu MiB\n", cost_name(name, m), m->expected,
-                    (rc_solver_memory(&m->shape, &problem) >> 20) + 1);
+                    (cost_memory(c, m) >> 20) + 1);
         else
             fprintf(run->t.out, "  %-40s %s\n", cost_name(name, m), m->why);
     }
@@ -225,9 +245,11 @@ open_case(struct run *run, struct rc_grid *g, const struct rc_grid *hardness, st
                             .mu = args.mu};
     if (hardness != NULL)
         c->problem.hardness_map = hardness->v;
-    c->reference.settings = cost_reference();
+    c->yield = args.yield != NULL ? &run->yield.law : NULL;
+    c->reference.settings = cost_reference(c->yield != NULL);
     c->reference.shape = c->shape;
-    c->trial = cost_trials(args.kernels, args.methods, &c->trials);
+    c->trial = c->yield != NULL ? cost_yielding_trials(&c->trials)
+                                : cost_trials(args.kernels, args.methods, &c->trials);
     c->stress = tool_given(&run->t, "depths") ? cost_stress_trials(c, &c->stresses) : NULL;
     if (c->trial == NULL || (tool_given(&run->t, "depths") && c->stress == NULL))
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "out of memory");
@@ -255,14 +277,11 @@ memory_for(const struct cost_case *c)
 
     for (size_t k = 0; k <= c->trials; k++) {
         const struct cost_trial *trial = k < c->trials ? &c->trial[k] : &c->reference;
-        struct rc_problem problem = c->problem;
         size_t bytes;
 
         if (trial->state != COST_OPEN)
             continue;
-        problem.engine = trial->settings.kernel;
-        problem.method = trial->settings.method;
-        bytes = rc_solver_memory(&trial->shape, &problem) + 2 * (size_t)TOOL_TRANSFORMS;
+        bytes = cost_memory(c, trial) + 2 * (size_t)TOOL_TRANSFORMS;
         most = bytes > most ? bytes : most;
     }
     return most + 3 * map;

@@ -80,6 +80,21 @@ near "$(field max_pressure table.json)" "$(field max_pressure line.json)" 1e-9 "
 near "$(field increments table.json)" 8 0 "  in as many increments as were asked for"
 $elastic --mean-pressure 150MPa --yield 2GPa,10GPa --increments 8 --slabs 6 --report six.json --output pressure rough.rcg -o s.rcg
 near "$(field slabs six.json)" 6 0 "so many slabs"
+$elastic --mean-pressure 150MPa --yield 2GPa,10GPa --increments 2 --verbose --report two.json --output pressure rough.rcg -o s.rcg 2>two.err
+claim "of two increments no error is told" bash -c "grep -q '\"pressure_error_estimate\": null' two.json && grep -q 'converged in 2 increments' two.err"
+# all divided alike: the pressure of twice and four times as many comes nearer, by more than half
+for n in $(($(field slabs line.json) / 2)) $((2 * $(field slabs line.json))) $((4 * $(field slabs line.json))); do
+    $elastic --mean-pressure 150MPa --yield 2GPa,10GPa --increments 8 --slabs $n --output pressure rough.rcg -o slabs-$n.rcg
+done
+cp l.rcg slabs-$(field slabs line.json).rcg
+apart() { # of two pressures, relative
+    paste <(values "$1" pressure | grep -v '^#' | tr ',' '\n') <(values "$2" pressure | grep -v '^#' | tr ',' '\n') |
+        awk 'NF == 2 { d = $1 - $2; s += d < 0 ? -d : d; t += $2 } END { printf "%.6g\n", s / t }'
+}
+n=$(field slabs line.json)
+between 1e-4 "$(apart slabs-$((2 * n)).rcg slabs-$((4 * n)).rcg)" "$(awk -v d="$(apart slabs-$n.rcg slabs-$((2 * n)).rcg)" 'BEGIN { print 0.6 * d }')" \
+    "more slabs converge"
+between 0 "$(apart slabs-$n.rcg slabs-$((2 * n)).rcg)" "$(apart slabs-$((n / 2)).rcg slabs-$n.rcg)" "  from the coarsest on"
 near "$(field contact_area six.json)" "$(field contact_area line.json)" 3e-2 "  make little difference"
 $elastic --mean-pressure 150MPa --yield 2GPa,10GPa --increments 8 --slabs 0.5um,0.5um,1um,2um,4um --report five.json --output pressure rough.rcg -o s.rcg
 near "$(field slabs five.json)" 5 0 "or these"

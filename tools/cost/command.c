@@ -58,6 +58,8 @@ put_command(struct tool *t, const struct cost_trial *m, FILE *out)
     }
     fprintf(out, "rc-solve%s --method %s --kernel %s --tol %s", physics, m->settings.method,
             m->settings.kernel, rc_number_text(tol, m->settings.tol));
+    if (m->settings.increments > 0)
+        fprintf(out, " --increments %zu --slabs %zu", m->settings.increments, m->slabs);
     if (t->threads != rc_threads_available())
         fprintf(out, " --threads %zu", t->threads);
     if (!coarse)
@@ -72,7 +74,7 @@ void
 cost_command(const struct cost_case *c, FILE *out)
 {
     const struct cost_trial *best = NULL, *nearest = NULL;
-    char name[128];
+    char name[128], own[32] = "none"; /* of few increments */
 
     for (size_t k = 0; k < c->trials; k++) {
         const struct cost_trial *m = &c->trial[k];
@@ -88,9 +90,11 @@ cost_command(const struct cost_case *c, FILE *out)
             nearest = m;
     }
     if (best != NULL) {
-        tool_warn(
-            c->tool, "%s: %.3g s, off by %.2g %% of the pressure (estimate on its own grid %.1e)",
-            cost_name(name, best), best->seconds, 100 * best->error, best->contact.pressure_error);
+        if (!isnan(best->contact.pressure_error))
+            snprintf(own, sizeof own, "%.1e", best->contact.pressure_error);
+        tool_warn(c->tool,
+                  "%s: %.3g s, off by %.2g %% of the pressure (estimate on its own grid %s)",
+                  cost_name(name, best), best->seconds, 100 * best->error, own);
         put_command(c->tool, best, out);
     } else if (nearest != NULL) {
         tool_die(c->tool, EXIT_IMPOSSIBLE,

@@ -21,6 +21,9 @@ struct cost_settings {
     const char *arithmetic; /* of the displacements                                           */
     unsigned coarse;        /* nodes of the map, along a side, for one of the grid solved     */
     double tol;
+    size_t increments; /* of a body that yields inside; 0: elastic, or a hardness                 */
+    double stack;      /* its slabs, in times of those that rc-solve would take                   */
+    bool precise;      /* its strains in double precision                                         */
 };
 
 enum cost_state {
@@ -41,6 +44,7 @@ struct cost_trial {
     size_t runs;
     double convolutions; /* in equivalents of one on the map's own grid                       */
     size_t memory;       /* bytes beyond the map and the result                               */
+    size_t slabs, applications; /* of a body that yields inside: what was taken, and what it took */
     struct rc_contact contact;
     double error; /* relative L1, of the pressure on the map's own grid                       */
     double area_error, peak_error, approach_error; /* relative, signed; NAN: unknown          */
@@ -51,14 +55,20 @@ struct cost_trial {
 /* The trials, *n of them, which the caller frees. `kernels` and `methods`: bit k stands for row
  * k of libcontact's tables. NULL: memory is short. */
 struct cost_trial *cost_trials(size_t kernels, size_t methods, size_t *n);
+/* The same of a body that yields inside. */
+struct cost_trial *cost_yielding_trials(size_t *n);
 /* A grid of about 1/factor of the nodes a side on the same area, so that a period stays what it was
  * and a load has the same mean: where the number of nodes cannot be divided its cells are a little
  * wider or narrower. A side of one node keeps it. */
 struct rc_shape cost_coarse_shape(const struct rc_shape *map, unsigned factor);
-/* Place of the settings' method and engine among all pairs of these that are tried. */
+/* Place of the settings' method and engine among all pairs of these that are tried, or of their slabs; and what
+ * the series is called, and a point of it. */
 size_t cost_series(const struct cost_settings *settings);
-/* Settings of the reference: double precision throughout, to 1e-12. */
-struct cost_settings cost_reference(void);
+const char *cost_series_name(char text[64], const struct cost_trial *trial);
+const char *cost_point_name(char text[32], const struct cost_settings *settings);
+/* Settings of the reference: double precision throughout, to 1e-12; of a body that yields, more increments than
+ * any trial and the finest slabs. */
+struct cost_settings cost_reference(bool yields);
 
 /* A trial of the stresses. */
 struct cost_stress {
@@ -81,10 +91,11 @@ struct cost_case {
     struct tool *tool;
     const struct rc_grid *heights;
     struct rc_shape shape;
-    struct rc_problem problem; /* engine, method and tol are those of a trial                 */
-    double limit, began;       /* s: for all trials; when the first one started               */
-    double budget, error;      /* s, -: what a command is chosen for; NAN: the other, or none */
-    bool choosing, shown;      /* for one of them; all trials are shown nevertheless          */
+    struct rc_problem problem;    /* engine, method and tol are those of a trial                 */
+    const struct rc_yield *yield; /* of body 1; NULL: it is elastic, or has a hardness            */
+    double limit, began;          /* s: for all trials; when the first one started               */
+    double budget, error;         /* s, -: what a command is chosen for; NAN: the other, or none */
+    bool choosing, shown;         /* for one of them; all trials are shown nevertheless          */
     struct cost_trial reference;
     double *pressure; /* of the reference */
     struct cost_trial *trial;
@@ -123,6 +134,8 @@ enum cost_end cost_run(void (*work)(void *ctx), void *ctx, double allowed,
 
 /* ---- pressure.c ---- */
 
+/* Bytes that a trial takes beside the maps of the case. */
+size_t cost_memory(const struct cost_case *c, const struct cost_trial *trial);
 /* Runs a trial once more, keeps the least of its times, and tells how far its solution is from
  * the reference, where there is one; `pressure`, on the map's own grid, may be NULL. False when
  * the tool was interrupted. */

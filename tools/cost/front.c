@@ -46,6 +46,7 @@ cost_mark(struct cost_case *c)
             t->front = t->front && !beaten(point_of(c, t), point_of(c, &c->trial[l]));
         t->optimistic =
             t->state == COST_DONE && t->settings.coarse == 1 &&
+            t->settings.stack == c->reference.settings.stack &&
             t->error > 1.01 * t->contact.pressure_error + c->reference.contact.pressure_error;
     }
     for (size_t k = 0; k < c->stresses; k++) {

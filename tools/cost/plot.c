@@ -66,7 +66,7 @@ describe(const struct cost_case *c, struct drawing *d)
                                      : scale_value(text, c->problem.load, "N"),
              100 * c->reference.contact.contact_fraction, c->tool->threads);
     d->chart.subtitle = d->subtitle;
-    d->chart.across = "time (s)";
+    d->chart.across = c->yield != NULL ? "time (s); at the points: increments" : "time (s)";
 }
 
 static void
@@ -80,19 +80,16 @@ draw_pressures(const struct cost_case *c, struct drawing *d)
     for (size_t k = 0; k < c->trials; k++) {
         const struct cost_trial *m = &c->trial[k];
         struct chart_point *p;
-        char name[NAME];
+        char name[NAME], label[32];
 
-        snprintf(name, sizeof name, "%s, %s", m->settings.method, m->settings.kernel);
+        cost_series_name(name, m);
         if (m->state != COST_DONE || (p = new_point(d, name, cost_series(&m->settings))) == NULL)
             continue;
         *p = (struct chart_point){
             .x = m->seconds, .y = m->error, .hollow = m->settings.coarse > 1, .front = m->front};
-        if (m->settings.coarse > 1) {
-            snprintf(p->label, sizeof p->label, "1/%u", m->settings.coarse);
+        snprintf(p->label, sizeof p->label, "%s", cost_point_name(label, &m->settings));
+        if (m->settings.coarse > 1)
             d->chart.hollow = "on 1/2, 1/4, 1/8 of the nodes a side";
-        } else {
-            snprintf(p->label, sizeof p->label, "%.0e", m->settings.tol);
-        }
     }
 }
 

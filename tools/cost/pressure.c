@@ -18,6 +18,10 @@ struct job {
     bool done;
     double seconds, convolutions;
     size_t memory;
+    const struct rc_yield *yield; /* NULL: elastic, or a hardness */
+    struct rc_plastic_figures figures;
+    double at_load;
+    size_t slabs, increment, application;
     struct rc_contact contact;
     struct rc_err err;
     double p[]; /* on the map */
@@ -50,6 +54,56 @@ coarse_maps(struct job *j, const struct rc_shape *shape)
     return h;
 }
 
+/* Where body 1 yields inside, as rc-solve --yield does it: the elastic contact says how deep. The solver of the
+ * contact of what has yielded, or NULL. */
+static struct rc_solver *
+yield_inside(struct job *j, const double *h, struct rc_solver *elastic)
+{
+    const struct rc_shape *shape = &j->trial->shape;
+    struct rc_plastic_depths d = {0};
+    struct rc_plastic_problem problem = {.contact = j->problem,
+                                         .yield = *j->yield,
+                                         .increments = j->trial->settings.increments,
+                                         .precise = j->trial->settings.precise};
+    double *thickness, stress = yield_law_first(j->yield);
+    struct rc_plastic *plastic;
+    enum rc_status status;
+    struct rc_solver *of_it;
+
+    if (rc_plastic_depths(shape, j->problem.boundary, rc_solver_pressure(elastic),
+                          &j->problem.pair.one, stress, j->problem.threads, &d, &j->err) != RC_OK)
+        return NULL;
+    if (d.slabs == 0) {
+        rc_err_set(&j->err,
+                   "nothing yields: the largest Mises stress is %.3g of the yield stress: leave "
+                   "out --yield",
+                   d.most / stress);
+        return NULL;
+    }
+    problem.slabs = j->slabs = (size_t)ceil((double)d.slabs * j->trial->settings.stack);
+    problem.thickness = thickness = yield_stack(&d, problem.slabs);
+    free(d.thickness);
+    if (thickness == NULL) {
+        rc_err_set(&j->err, "out of memory for the slabs");
+        return NULL;
+    }
+    plastic = rc_plastic_new(shape, h, &problem, &j->err);
+    free(thickness);
+    if (plastic == NULL || rc_plastic_set_load(plastic, j->problem.load, &j->err) != RC_OK)
+        return NULL;
+    while ((status = rc_plastic_step(plastic, &j->err)) == RC_MORE)
+        rc_plastic_progress(plastic, &j->at_load, &j->increment, &j->application);
+    if (status == RC_FAIL)
+        return NULL;
+    j->figures = *rc_plastic_result(plastic);
+    of_it = rc_plastic_solver(plastic);
+    j->convolutions = NAN; /* nearly all of the work is in the volume */
+    rc_solver_result(of_it, NULL, NULL, &j->contact);
+    j->contact.pressure_error += j->figures.error;
+    j->contact.converged = j->contact.converged && status == RC_OK;
+    return of_it;
+}
+
 static void
 work(void *ctx)
 {
@@ -67,10 +121,14 @@ work(void *ctx)
         return;
     while (rc_solver_step(solver) == RC_MORE)
         rc_solver_progress(solver, &j->at);
+    if (j->yield != NULL && (solver = yield_inside(j, h, solver)) == NULL)
+        return;
     j->seconds = tool_now() - start;
-    j->convolutions = rc_solver_convolutions(solver);
     j->memory = tool_peak_memory() - before;
-    rc_solver_result(solver, NULL, NULL, &j->contact);
+    if (j->yield == NULL) {
+        j->convolutions = rc_solver_convolutions(solver);
+        rc_solver_result(solver, NULL, NULL, &j->contact);
+    }
     start = tool_now();
     if (coarse) {
         rc_resample_means(shape, rc_solver_pressure(solver), &j->map, j->p);
@@ -89,7 +147,9 @@ watch(void *ctx)
     const struct job *j = ctx;
     char name[128];
 
-    if (isnan(j->at.error) || j->at.coarser)
+    if (j->increment > 0)
+        tool_progress(j->tool, "%s, increment %zu", cost_name(name, j->trial), j->increment);
+    else if (isnan(j->at.error) || j->at.coarser)
         tool_progress(j->tool, "%s, iteration %zu", cost_name(name, j->trial),
                       j->at.coarser ? 0 : j->at.iterations);
     else
@@ -132,6 +192,8 @@ keep(struct cost_trial *trial, const struct job *j, const struct rc_shape *map)
     trial->memory = j->memory > trial->memory ? j->memory : trial->memory;
     tool_memory_beside(j->tool, j->memory);
     trial->contact = j->contact;
+    trial->slabs = j->slabs;
+    trial->applications = j->figures.applications;
     trial->runs++;
     trial->state = COST_DONE;
 }
@@ -163,6 +225,30 @@ problem_of(const struct cost_case *c, const struct cost_trial *trial)
     return problem;
 }
 
+/* Where slabs are not known yet, about as many as there are on most maps. */
+static size_t
+slabs_of(const struct cost_case *c, const struct cost_trial *trial)
+{
+    double each =
+        c->reference.slabs > 0 ? (double)c->reference.slabs / c->reference.settings.stack : 14;
+
+    return trial->slabs > 0 ? trial->slabs : (size_t)ceil(each * trial->settings.stack);
+}
+
+size_t
+cost_memory(const struct cost_case *c, const struct cost_trial *trial)
+{
+    const double part = 0.3; /* of the voxels that yield */
+    struct rc_problem problem = problem_of(c, trial);
+    struct rc_plastic_problem yielding = {.contact = problem, .precise = trial->settings.precise};
+    size_t bytes = rc_solver_memory(&trial->shape, &problem);
+
+    if (c->yield == NULL)
+        return bytes;
+    yielding.slabs = slabs_of(c, trial);
+    return bytes + rc_plastic_memory(&trial->shape, &yielding, part);
+}
+
 bool
 cost_trial_run(struct cost_case *c, struct cost_trial *trial, double allowed, double *pressure)
 {
@@ -177,6 +263,7 @@ cost_trial_run(struct cost_case *c, struct cost_trial *trial, double allowed, do
     j->h = c->heights->v;
     j->map = c->shape;
     j->problem = problem_of(c, trial);
+    j->yield = c->yield;
     j->at.error = NAN;
     end = cost_run(work, j, allowed, watch);
     tool_progress_end(c->tool);

@@ -44,6 +44,12 @@ report_trial(const struct cost_case *c, const struct cost_trial *m, const char *
     report_text(out, "arithmetic", m->settings.arithmetic);
     report_number(out, "tol", m->settings.tol, NULL);
     report_count(out, "coarse", m->settings.coarse, NULL);
+    if (c->yield != NULL) {
+        report_count(out, "increments", m->settings.increments, NULL);
+        report_number(out, "slabs", m->slabs > 0 ? (double)m->slabs : NAN, NULL);
+        report_number(out, "applications", m->applications > 0 ? (double)m->applications : NAN,
+                      NULL);
+    }
     report_count(out, "nx", m->shape.nx, NULL);
     report_count(out, "ny", m->shape.ny, NULL);
     report_count(out, "threads", c->tool->threads, NULL);

@@ -16,12 +16,8 @@ obstacle(const struct cost_case *c, const struct cost_trial *m)
 {
     static char text[200];
     char list[128];
-    struct rc_problem problem = c->problem;
     size_t least = m->shape.nx < m->shape.ny ? m->shape.nx : m->shape.ny;
 
-    problem.engine = m->settings.kernel;
-    problem.method = m->settings.method;
-    problem.tol = m->settings.tol;
     if (c->problem.boundary == RC_PERIODIC && !words_engine_named(m->settings.kernel)->periodic) {
         snprintf(text, sizeof text, "left out: on a periodic boundary only %s sums",
                  words_periodic_engines(list, sizeof list));
@@ -29,7 +25,7 @@ obstacle(const struct cost_case *c, const struct cost_trial *m)
     }
     if (m->settings.coarse > 1 && (least == 1 ? m->shape.nx * m->shape.ny : least) < SMALLEST)
         return "left out: the grid is too small to be coarsened so far";
-    if (c->tool->memory != 0 && rc_solver_memory(&m->shape, &problem) > c->tool->memory)
+    if (c->tool->memory != 0 && cost_memory(c, m) > c->tool->memory)
         return "left out: it needs more than --memory";
     return NULL;
 }
@@ -108,7 +104,8 @@ disturbed(const struct cost_case *c, const struct cost_trial *m)
         if (o->state == COST_DONE && strcmp(o->settings.method, m->settings.method) == 0 &&
             strcmp(o->settings.kernel, m->settings.kernel) == 0 &&
             o->settings.coarse <= m->settings.coarse && o->settings.tol <= m->settings.tol &&
-            m->seconds > 1.1 * o->seconds)
+            o->settings.increments >= m->settings.increments &&
+            o->settings.stack >= m->settings.stack && m->seconds > 1.1 * o->seconds)
             return true;
     }
     return false;

@@ -18,8 +18,12 @@ const char *
 cost_body(const struct cost_case *c, const char *between, char text[COST_BODY])
 {
     size_t n = c->problem.pair.one.layers;
+    char stress[SHOWN_NUMBER];
 
     text[0] = '\0';
+    if (c->yield != NULL)
+        snprintf(text, COST_BODY, "%syields at %s", between,
+                 shown_in_unit(stress, yield_law_first(c->yield), "Pa"));
     if (n > 0)
         snprintf(text, COST_BODY, "%s%zu layer%s", between, n, n == 1 ? "" : "s");
     return text;
@@ -47,6 +51,9 @@ put_head(const struct cost_case *c, FILE *out)
             r->contact.contact_area, 100 * r->contact.contact_fraction,
             100 * r->contact.plastic_area / r->contact.contact_area, r->contact.max_pressure,
             r->contact.approach);
+    if (c->yield != NULL)
+        fprintf(out, "# it yields: the reference has %zu increments and %zu slabs\n",
+                r->settings.increments, r->slabs);
     fprintf(out, "# error: sum |p - reference| / sum reference, on the map's own grid; area, peak, "
                  "approach: relative "
                  "to the reference; estimate: what the solver says of its own grid\n");
@@ -65,16 +72,20 @@ note(const struct cost_trial *m)
 static void
 put_trial(const struct cost_trial *m, FILE *out)
 {
-    char grid[64];
+    char grid[64], yields[64] = "";
+
+    if (m->settings.increments > 0)
+        snprintf(yields, sizeof yields, "%10zu %5zu %12zu ", m->settings.increments, m->slabs,
+                 m->applications);
 
     snprintf(grid, sizeof grid, "%zux%zu", m->shape.nx, m->shape.ny);
-    fprintf(
-        out,
-        "%-6s %-6s %-10s %6.0e %11s %9.4f %4zu %12.1f %11.1f %9.2e %9.2e %10.2e %10.2e %14.2e %s\n",
-        m->settings.method, m->settings.kernel, m->settings.arithmetic, m->settings.tol, grid,
-        m->seconds, m->runs, m->convolutions, (double)m->memory / 1048576,
-        m->contact.pressure_error, m->error, m->area_error, m->peak_error, m->approach_error,
-        note(m));
+    fprintf(out,
+            "%-6s %-6s %-10s %6.0e %11s %9.4f %4zu %12.1f %11.1f %9.2e %9.2e %10.2e %10.2e %14.2e "
+            "%s%s\n",
+            m->settings.method, m->settings.kernel, m->settings.arithmetic, m->settings.tol, grid,
+            m->seconds, m->runs, m->convolutions, (double)m->memory / 1048576,
+            m->contact.pressure_error, m->error, m->area_error, m->peak_error, m->approach_error,
+            yields, note(m));
 }
 
 static void
@@ -110,9 +121,10 @@ cost_table(const struct cost_case *c, FILE *out)
     char name[128];
 
     put_head(c, out);
-    fprintf(out, "%-6s %-6s %-10s %6s %11s %9s %4s %12s %11s %9s %9s %10s %10s %14s %s\n", "method",
-            "kernel", "arithmetic", "tol", "grid", "time[s]", "runs", "convolutions", "memory[MiB]",
-            "estimate", "error", "area_error", "peak_error", "approach_error", "note");
+    fprintf(out, "%-6s %-6s %-10s %6s %11s %9s %4s %12s %11s %9s %9s %10s %10s %14s %s%s\n",
+            "method", "kernel", "arithmetic", "tol", "grid", "time[s]", "runs", "convolutions",
+            "memory[MiB]", "estimate", "error", "area_error", "peak_error", "approach_error",
+            c->yield != NULL ? "increments slabs applications " : "", "note");
     for (size_t k = 0; k < c->trials; k++)
         if (c->trial[k].state == COST_DONE)
             put_trial(&c->trial[k], out);

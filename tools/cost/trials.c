@@ -1,7 +1,8 @@
 /*
  * Which trials there are, in the order in which the table shows them: every method with every
  * engine of libcontact's tables. The first of each, which "auto" takes, are tried in small steps of
- * the tolerance and on coarser grids, the others in larger steps, to compare with.
+ * the tolerance and on coarser grids, the others in larger steps, to compare with. Of a body that yields
+ * inside the first of both, with every stack of slabs in every number of increments.
  */
 #include "cost.h"
 
@@ -102,6 +103,41 @@ cost_trials(size_t kernels, size_t methods, size_t *n)
     return list.trial;
 }
 
+/* Half as many slabs, as many as rc-solve takes, twice as many. */
+static const double stacks[] = {0.5, 1, 2};
+static const size_t increments[] = {2, 4, 8, 16, 32};
+
+enum {
+    STACKS = sizeof stacks / sizeof *stacks,
+    INCREMENTS = sizeof increments / sizeof *increments,
+    REFERENCE = 128 /* increments */
+};
+static const double contact_tol = 1e-4; /* of each contact, as rc-solve has it */
+
+static struct cost_settings
+yielding(double stack, size_t n, double tol)
+{
+    return (struct cost_settings){.method = rc_method_info(0)->name,
+                                  .kernel = rc_engine_info(0)->name,
+                                  .arithmetic = "mixed",
+                                  .coarse = 1,
+                                  .tol = tol,
+                                  .increments = n,
+                                  .stack = stack};
+}
+
+struct cost_trial *
+cost_yielding_trials(size_t *n)
+{
+    struct cost_trial *trial = calloc(STACKS * INCREMENTS, sizeof *trial);
+
+    *n = STACKS * INCREMENTS;
+    for (size_t k = 0; k < *n && trial != NULL; k++)
+        trial[k].settings =
+            yielding(stacks[k / INCREMENTS], increments[k % INCREMENTS], contact_tol);
+    return trial;
+}
+
 struct rc_shape
 cost_coarse_shape(const struct rc_shape *map, unsigned factor)
 {
@@ -118,6 +154,11 @@ cost_series(const struct cost_settings *settings)
 {
     size_t place = 0;
 
+    if (settings->increments > 0) {
+        while (place + 1 < STACKS && stacks[place] != settings->stack)
+            place++;
+        return place;
+    }
     for (size_t m = 0; rc_method_info(m) != NULL; m++)
         for (size_t e = 0; rc_engine_info(e) != NULL; e++) {
             if (strcmp(rc_method_info(m)->name, settings->method) == 0 &&
@@ -128,10 +169,52 @@ cost_series(const struct cost_settings *settings)
     return place;
 }
 
+/* "12 slabs", before they are known "1 x the slabs". */
+static const char *
+slabs_of(char text[32], const struct cost_trial *c)
+{
+    if (c->slabs > 0)
+        snprintf(text, 32, "%zu slabs", c->slabs);
+    else
+        snprintf(text, 32, "%g x the slabs", c->settings.stack);
+    return text;
+}
+
+const char *
+cost_series_name(char text[64], const struct cost_trial *c)
+{
+    char slabs[32];
+
+    if (c->settings.increments > 0)
+        snprintf(text, 64, "%s", slabs_of(slabs, c));
+    else
+        snprintf(text, 64, "%s, %s", c->settings.method, c->settings.kernel);
+    return text;
+}
+
+const char *
+cost_point_name(char text[32], const struct cost_settings *s)
+{
+    if (s->increments > 0)
+        snprintf(text, 32, "%zu", s->increments);
+    else if (s->coarse > 1)
+        snprintf(text, 32, "1/%u", s->coarse);
+    else
+        snprintf(text, 32, "%.0e", s->tol);
+    return text;
+}
+
 struct cost_settings
-cost_reference(void)
+cost_reference(bool yields)
 {
     const struct rc_engine_info *engine = rc_engine_info(0), *info;
+
+    if (yields) {
+        struct cost_settings s = yielding(stacks[STACKS - 1], REFERENCE, contact_tol / 100);
+        s.precise = true;
+        s.arithmetic = "double";
+        return s;
+    }
 
     for (size_t e = 0; !engine->precise && (info = rc_engine_info(e)) != NULL; e++)
         engine = info->precise ? info : engine;
@@ -145,7 +228,13 @@ cost_reference(void)
 const char *
 cost_name(char text[128], const struct cost_trial *c)
 {
-    snprintf(text, 128, "%s, %s, tol %.0e, %zu x %zu", c->settings.method, c->settings.kernel,
-             c->settings.tol, c->shape.nx, c->shape.ny);
+    char slabs[32];
+
+    if (c->settings.increments > 0)
+        snprintf(text, 128, "%zu increments, %s, %zu x %zu", c->settings.increments,
+                 slabs_of(slabs, c), c->shape.nx, c->shape.ny);
+    else
+        snprintf(text, 128, "%s, %s, tol %.0e, %zu x %zu", c->settings.method, c->settings.kernel,
+                 c->settings.tol, c->shape.nx, c->shape.ny);
     return text;
 }

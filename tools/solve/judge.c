@@ -145,16 +145,18 @@ tell(struct run *run, const char *where, const struct solution *s)
 {
     const struct rc_contact *c = &s->contact;
     char load[SHOWN_NUMBER], area[SHOWN_NUMBER], peak[SHOWN_NUMBER], approach[SHOWN_NUMBER];
-    char gap[SHOWN_NUMBER], yielded[SHOWN_NUMBER + 32] = "", took[96];
+    char gap[SHOWN_NUMBER], yielded[SHOWN_NUMBER + 32] = "", took[96], error[32] = "";
 
     if (c->yielded_nodes > 0) {
         shown_area(area, c->yielded_area);
         snprintf(yielded, sizeof yielded, "%s of it yields, ", area);
     }
+    if (!isnan(c->pressure_error))
+        snprintf(error, sizeof error, " to %.2g", c->pressure_error);
     yield_tell(run, c, took, sizeof took);
     tool_note(&run->t,
               "%s: force %s, contact area %s (%.3g %% of the map, %zu nodes in %zu %s), %slargest "
-              "pressure %s, approach %s, mean gap %s; %s to %.2g in %s, "
+              "pressure %s, approach %s, mean gap %s; %s%s in %s, "
               "%.2g s",
               where, shown_in_unit(load, c->load, "N"), shown_area(area, c->contact_area),
               100 * c->contact_fraction, c->contact_nodes, s->patches.count,
@@ -162,7 +164,7 @@ tell(struct run *run, const char *where, const struct solution *s)
               shown_in_unit(peak, c->max_pressure, "Pa"),
               isnan(c->approach) ? "unknown" : shown_in_unit(approach, c->approach, "m"),
               shown_in_unit(gap, c->mean_gap, "m"), c->converged ? "converged" : "not converged",
-              c->pressure_error, took, solve_now() - run->began);
+              error, took, solve_now() - run->began);
 }
 
 void

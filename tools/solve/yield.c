@@ -419,7 +419,7 @@ yield_look(struct run *run, struct rc_contact *c)
         return;
     f = rc_plastic_result(y->plastic);
     c->convolutions = NAN; /* nearly all of the work is in the volume */
-    c->pressure_error += isnan(f->error) ? f->iteration_error : f->error;
+    c->pressure_error += f->error; /* not known of few increments */
     c->converged = y->status == RC_OK && c->converged &&
                    (y->asked > 0 || c->pressure_error <= goal(run) * (1 + contact_share));
 }
