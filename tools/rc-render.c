@@ -289,7 +289,10 @@ render(struct tool *t, struct args *a, struct rc_grid *g, struct rc_grid *beside
     struct subtitle subtitle = {.n = 0};
     struct look look;
     struct figure f;
+    struct means means = {false, 0, 0};
 
+    if (!a->raw)
+        means_take(t, g, &means);
     window_cut(t, a->window, a->raw, g, beside, &w);
     survey_map(g, &s);
     if (isnan(s.min))
@@ -297,7 +300,7 @@ render(struct tool *t, struct args *a, struct rc_grid *g, struct rc_grid *beside
                     "none of its %zu values is a finite number: there is "
                     "nothing to draw",
                     g->nx * g->ny);
-    subtitle_write(&subtitle, g, &s, w.part, largest);
+    subtitle_write(&subtitle, g, &s, &means, w.part, largest);
     look_figure(t, a, &g, 1, &s, &look, &f);
     look_extent(&w, &f);
     look_contact(&f, f.zero_is_none ? g : beside);
@@ -365,11 +368,11 @@ set_panels(struct tool *t, const struct args *a, const struct frames *frames,
 
 static void
 say_of_sheet(struct subtitle *subtitle, const struct args *a, const struct frames *frames,
-             const struct survey *all, double part)
+             const struct survey *all, const struct means *means, double part)
 {
     subtitle_common(subtitle, frames->grid, frames->n);
     subtitle_part(subtitle, part);
-    subtitle_range(subtitle, all, frames->grid[0]->unit);
+    subtitle_range(subtitle, all, means, frames->grid[0]->unit);
     if (a->hillshade)
         subtitle_add(subtitle, shaded, "");
 }
@@ -386,6 +389,7 @@ render_sheet(struct tool *t, struct args *a, const struct frames *frames)
     struct figure f;
     size_t columns, rows, bytes;
     struct panels panels;
+    struct means means = {false, 0, 0};
     struct canvas *c;
     struct rc_err err;
 
@@ -395,11 +399,13 @@ render_sheet(struct tool *t, struct args *a, const struct frames *frames)
                  "%zu frames match, --sheet %s holds %zu: choose with --case and --depth",
                  frames->n, a->sheet, columns * rows);
     for (size_t k = 0; k < frames->n; k++)
+        means_take(t, frames->grid[k], &means);
+    for (size_t k = 0; k < frames->n; k++)
         window_cut(t, a->window == NULL ? "all" : a->window, false, frames->grid[k], NULL,
                    &window[k]);
     sheet_survey(t, frames, &all);
     look_figure(t, a, frames->grid, frames->n, &all, &look, &f);
-    say_of_sheet(&subtitle, a, frames, &all, window[0].part);
+    say_of_sheet(&subtitle, a, frames, &all, &means, window[0].part);
     f.subtitle = subtitle.text;
     set_panels(t, a, frames, window, &f, panel, even);
     if (columns == 0)

@@ -115,6 +115,16 @@ yield_law_first(const struct rc_yield *law)
     return law->points > 0 ? law->stress_at[0] : law->stress;
 }
 
+double
+yield_law_hardening(const struct rc_yield *law)
+{
+    if (law->points == 0)
+        return law->modulus;
+    return law->points == 1
+               ? 0
+               : (law->stress_at[1] - law->stress_at[0]) / (law->strain_at[1] - law->strain_at[0]);
+}
+
 /* With the growth of the stack that was found, to the power of how many more there are, its slabs are divided, or
  * put together, all alike. */
 double *

@@ -64,6 +64,18 @@ struct window {
 void window_cut(struct tool *tool, const char *text, bool raw, struct rc_grid *grid,
                 struct rc_grid *pressure, struct window *window);
 
+/* ---- means.c: pressures on a body that yields inside ---- */
+
+struct means {
+    bool taken;
+    double four, one; /* Pa: the largest mean of 2 x 2 nodes, and the largest of a node */
+};
+
+/* Whether the map is one whose nodes alternate. */
+bool means_wanted(const struct rc_grid *grid);
+/* Such a map becomes that of means about its nodes; of several maps the largest. */
+void means_take(struct tool *tool, struct rc_grid *grid, struct means *means);
+
 /* ---- section.c ---- */
 
 /* The depths of the rows of a section, metres, which the caller frees. */
@@ -136,8 +148,11 @@ struct subtitle {
 
 /* Adds a piece to the subtitle; one that does not fit is left out whole. */
 void subtitle_add(struct subtitle *subtitle, const char *name, const char *value);
-/* The extremes. */
-void subtitle_range(struct subtitle *subtitle, const struct survey *survey, const char *unit);
+/* The largest value of means, and of single nodes. */
+void means_say(const struct means *means, struct subtitle *subtitle, const char *unit);
+/* The extremes; of means, of them and of single nodes. */
+void subtitle_range(struct subtitle *subtitle, const struct survey *survey,
+                    const struct means *means, const char *unit);
 /* What all frames of a picture have in common: source, case, load, depth. */
 void subtitle_common(struct subtitle *subtitle, struct rc_grid *const *grid, size_t n);
 /* Whether a key is the same in all frames. */
@@ -148,7 +163,8 @@ void frame_label(char *text, size_t size, struct rc_grid *const *grid, size_t n,
 void subtitle_part(struct subtitle *subtitle, double part);
 /* `largest`: of several depths this one was chosen because its size is largest. */
 void subtitle_write(struct subtitle *subtitle, const struct rc_grid *grid,
-                    const struct survey *survey, double part, bool largest);
+                    const struct survey *survey, const struct means *means, double part,
+                    bool largest);
 
 struct words { /* of the legend */
     char largest[256], circle[96];

@@ -52,12 +52,15 @@ extreme(char text[TICKS_TEXT], double value, const struct survey *s, const char 
 }
 
 void
-subtitle_range(struct subtitle *w, const struct survey *s, const char *unit)
+subtitle_range(struct subtitle *w, const struct survey *s, const struct means *m, const char *unit)
 {
     char text[TICKS_TEXT];
 
     subtitle_add(w, "min ", extreme(text, s->min, s, unit));
-    subtitle_add(w, "max ", extreme(text, s->max, s, unit));
+    if (m->taken)
+        means_say(m, w, unit);
+    else
+        subtitle_add(w, "max ", extreme(text, s->max, s, unit));
 }
 
 void
@@ -72,8 +75,8 @@ subtitle_part(struct subtitle *w, double part)
 }
 
 void
-subtitle_write(struct subtitle *w, const struct rc_grid *g, const struct survey *s, double part,
-               bool largest)
+subtitle_write(struct subtitle *w, const struct rc_grid *g, const struct survey *s,
+               const struct means *means, double part, bool largest)
 {
     const char *source = rc_grid_get(g, "source"), *number = rc_grid_get(g, "case");
     char text[TICKS_TEXT];
@@ -87,7 +90,7 @@ subtitle_write(struct subtitle *w, const struct rc_grid *g, const struct survey 
         subtitle_add(w, "load ", scale_value(text, load, "N"));
     say_where(w, g, largest);
     subtitle_part(w, part);
-    subtitle_range(w, s, g->unit);
+    subtitle_range(w, s, means, g->unit);
 }
 
 /* ---- several frames ---- */

@@ -65,6 +65,7 @@ set_number(struct run *run, struct rc_grid *g, const char *name, double value)
 static void
 set_keys(struct run *run, struct rc_grid *g, const struct rc_contact *c)
 {
+    const struct rc_yield *law = &run->yielding.law;
     struct rc_err err;
 
     if (rc_grid_set(g, "boundary", run->args->physics.periodic ? "periodic" : "free", &err) !=
@@ -82,6 +83,8 @@ set_keys(struct run *run, struct rc_grid *g, const struct rc_contact *c)
     set_number(run, g, "approach", c->approach);
     /* who reads the stream finds the strain behind the pressure, or misses it */
     set_number(run, g, "slabs", run->yielding.plastic != NULL ? (double)run->yielding.slabs : NAN);
+    set_number(run, g, "yield", run->yielding.plastic != NULL ? yield_law_first(law) : NAN);
+    set_number(run, g, "hardening", run->yielding.plastic != NULL ? yield_law_hardening(law) : NAN);
 }
 
 /* Maps of results are made one after another, as they are written, in one buffer. */

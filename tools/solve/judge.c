@@ -45,7 +45,7 @@ suspect_unit(struct run *run, const struct rc_grid *g, const char *where, const 
     char peak[SHOWN_NUMBER], modulus[SHOWN_NUMBER], mean[SHOWN_NUMBER], x[SHOWN_NUMBER],
         y[SHOWN_NUMBER];
 
-    shown_in_unit(peak, s->contact.max_pressure, "Pa");
+    shown_in_unit(peak, yield_peak(run, s->contact.max_pressure), "Pa");
     shown_in_unit(modulus, estar, "Pa");
     shown_in_unit(mean, s->contact.mean_pressure, "Pa");
     if (estar < no_modulus)
@@ -71,7 +71,8 @@ static void
 warn_of_theory(struct run *run, const struct rc_grid *g, const char *where,
                const struct solution *s)
 {
-    double estar = run->args->physics.surface_estar, peak = s->contact.max_pressure;
+    double estar = run->args->physics.surface_estar;
+    double peak = yield_peak(run, s->contact.max_pressure);
     char most[SHOWN_NUMBER], hardness[SHOWN_NUMBER];
 
     if (peak > estar)
@@ -85,8 +86,9 @@ warn_of_theory(struct run *run, const struct rc_grid *g, const char *where,
     else if (peak > linear * estar)
         tool_warn(&run->t,
                   "%s: the largest pressure, %s, is %.2g of E*: beyond %g a solid is not linear "
-                  "elastic: give its --hardness, or a smaller load",
-                  where, shown_in_unit(most, peak, "Pa"), peak / estar, linear);
+                  "elastic: give %sa smaller load",
+                  where, shown_in_unit(most, peak, "Pa"), peak / estar, linear,
+                  run->yielding.wanted ? "" : "its --hardness, or ");
     if (s->slope > small_slope)
         tool_warn(&run->t,
                   "%s: RMS slope %.2g where the bodies touch is beyond the theory of small slopes "
@@ -161,7 +163,7 @@ tell(struct run *run, const char *where, const struct solution *s)
               where, shown_in_unit(load, c->load, "N"), shown_area(area, c->contact_area),
               100 * c->contact_fraction, c->contact_nodes, s->patches.count,
               s->patches.count == 1 ? "patch" : "patches", yielded,
-              shown_in_unit(peak, c->max_pressure, "Pa"),
+              shown_in_unit(peak, yield_peak(run, c->max_pressure), "Pa"),
               isnan(c->approach) ? "unknown" : shown_in_unit(approach, c->approach, "m"),
               shown_in_unit(gap, c->mean_gap, "m"), c->converged ? "converged" : "not converged",
               error, took, solve_now() - run->began);

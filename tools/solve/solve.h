@@ -162,6 +162,8 @@ void yield_look(struct run *run, struct rc_contact *contact);
 void yield_displace(const struct run *run, size_t n, double factor, double *v);
 /* The plastic strain slab by slab; `like`: the frames' shape and keys; buffer: room for a map. */
 void yield_put_strain(struct run *run, const struct rc_grid *like, double *buffer);
+/* The largest pressure: of means of 2 x 2 nodes where single nodes alternate. */
+double yield_peak(const struct run *run, double max_pressure);
 void yield_judge(struct run *run, const char *where, const struct solution *solution);
 /* What the solution took, in words. */
 void yield_tell(const struct run *run, const struct rc_contact *contact, char *text, size_t size);

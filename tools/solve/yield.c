@@ -418,10 +418,22 @@ yield_look(struct run *run, struct rc_contact *c)
     if (y->plastic == NULL)
         return;
     f = rc_plastic_result(y->plastic);
-    c->convolutions = NAN; /* nearly all of the work is in the volume */
+    c->convolutions = NAN;         /* nearly all of the work is in the volume */
     c->pressure_error += f->error; /* not known of few increments */
     c->converged = y->status == RC_OK && c->converged &&
                    (y->asked > 0 || c->pressure_error <= goal(run) * (1 + contact_share));
+}
+
+double
+yield_peak(const struct run *run, double max_pressure)
+{
+    const double soft =
+        10; /* hardening below so many times the yield stress lets nodes alternate */
+    const struct yielding *y = &run->yielding;
+
+    if (y->plastic == NULL || yield_law_hardening(&y->law) >= soft * yield_law_first(&y->law))
+        return max_pressure;
+    return rc_plastic_result(y->plastic)->max_pressure_mean4;
 }
 
 void

@@ -1,0 +1,85 @@
+/*
+ * Means of the pressure on a body that yields inside. Without hardening it alternates from node to node by some
+ * percent, which the volume does not feel: waves of two nodes have no part in it. Means over 2 x 2 nodes have none
+ * of that. A node is drawn with the mean of the four of them that it belongs to, where it is in contact.
+ */
+#include "render.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Hardening below so many times the yield stress. */
+static const double soft = 10;
+
+bool
+means_wanted(const struct rc_grid *g)
+{
+    double yield, hardening;
+
+    return strcmp(g->channel, "pressure") == 0 && rc_grid_get(g, "section") == NULL &&
+           rc_grid_number(g, "yield", &yield) && rc_grid_number(g, "hardening", &hardening) &&
+           hardening < soft * yield;
+}
+
+/* The places beside k of n: round a map that repeats, else the last again. */
+static size_t
+before(size_t k, size_t n, bool round)
+{
+    return k > 0 ? k - 1 : round ? n - 1 : 0;
+}
+
+static size_t
+after(size_t k, size_t n, bool round)
+{
+    return k + 1 < n ? k + 1 : round ? 0 : k;
+}
+
+static double
+mean_of_four(const double *p, size_t nx, size_t i, size_t i1, size_t j, size_t j1)
+{
+    return (p[j * nx + i] + p[j * nx + i1] + p[j1 * nx + i] + p[j1 * nx + i1]) / 4;
+}
+
+void
+means_take(struct tool *t, struct rc_grid *g, struct means *m)
+{
+    const char *boundary = rc_grid_get(g, "boundary");
+    bool round = boundary != NULL && strcmp(boundary, "periodic") == 0;
+    size_t nx = g->nx, ny = g->ny;
+    double *p;
+
+    if (!means_wanted(g))
+        return;
+    p = malloc(nx * ny * sizeof *p);
+    if (p == NULL)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "out of memory for the means of %zu x %zu nodes", nx,
+                    ny);
+    memcpy(p, g->v, nx * ny * sizeof *p);
+    for (size_t j = 0; j < ny; j++)
+        for (size_t i = 0; i < nx; i++) {
+            size_t k = j * nx + i, left = before(i, nx, round), right = after(i, nx, round);
+            size_t above = before(j, ny, round), below = after(j, ny, round);
+            double next = mean_of_four(p, nx, i, right, j, below);
+
+            m->four = fmax(m->four, next);
+            m->one = fmax(m->one, p[k]);
+            if (p[k] > 0)
+                g->v[k] = (next + mean_of_four(p, nx, left, i, j, below) +
+                           mean_of_four(p, nx, i, right, above, j) +
+                           mean_of_four(p, nx, left, i, above, j)) /
+                          4;
+        }
+    m->taken = true;
+    free(p);
+}
+
+void
+means_say(const struct means *m, struct subtitle *w, const char *unit)
+{
+    char four[TICKS_TEXT], one[TICKS_TEXT], text[2 * TICKS_TEXT + 64];
+
+    snprintf(text, sizeof text, "%s in means of 2 \xc3\x97 2 nodes, %s at one node",
+             scale_value(four, m->four, unit), scale_value(one, m->one, unit));
+    subtitle_add(w, "max ", text);
+}
