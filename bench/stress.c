@@ -197,7 +197,7 @@ slice_row(const struct rc_shape *shape, const double *p, const char *name,
 
     rc_fft_quarter(fft, &kernel.cx, &kernel.cy);
     kernel.quarter = must(calloc(kernel.cx * kernel.cy, sizeof(double)));
-    must_be(rc_fft_load(fft, p, &err), &err);
+    must_be(rc_fft_load(fft, 0, p, &err), &err);
     if (boundary == RC_FREE)
         kernel_run(&kernel);
     take_turns(boundary == RC_FREE ? 5 : 4, work, 1, 4, least);
@@ -292,7 +292,7 @@ parts(void)
         rc_dct_run(dct, false, x);
     printf("  %zu lines of a kernel transformed: %.1f ms\n", cy, 1e3 * (now() - t));
     rc_dct_free(dct);
-    must_be(rc_fft_load(fft, p, &err), &err);
+    must_be(rc_fft_load(fft, 0, p, &err), &err);
     field = (struct field_work){fft, k, u};
     take_turns(1, &(struct work){field_run, &field}, 5, 0, &best);
     printf("  a field from the pressure's transform, %zu threads: %.1f ms\n", threads, 1e3 * best);

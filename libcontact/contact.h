@@ -791,26 +791,30 @@ struct rc_eigenstrain {
 struct rc_stress_options {
     enum rc_boundary boundary;
     struct rc_body body; /* under the pressure; of a bare one e is of no use. Layers are copied   */
-    double mu;          /* the surface also carries the traction mu p along +x                    */
+    double mu;          /* the surface also carries the traction mu p along +x; 0 beside a map    */
     unsigned wanted;    /* bits of enum rc_component                                              */
     char section;       /* 'x' or 'y': only the plane x = at, or y = at; 0: maps                  */
     double at;          /* m, from the middle of the map; within it                               */
     const char *engine; /* a row of engines.list, or NULL or "auto"                               */
-    double tol;         /* asked error of a component over the largest pressure; 0: rounding      */
+    double tol;         /* asked error of a component over the largest pressure, or traction of a
+                           map where that is larger; 0: rounding                                 */
     size_t threads;     /* 0: all                                                                 */
     const struct rc_ranks *ranks; /* processes that share the map; NULL: none                   */
     /* NULL, or strain whose stress is added, at five transforms a slab and one a depth and component;
      * with the e of a bare body; a face between slabs belongs to the one below; in a section it is linear
      * between the nodes. The caller keeps all of it. */
     const struct rc_eigenstrain *strain;
+    /* Tractions that the surface also carries, along +x and +y on this body, Pa, as large as p, and as p
+     * between the nodes; NULL: none. The caller keeps them as p. */
+    const double *traction[2];
 };
 
 /* What has been computed, to see that nothing was that nobody asked for. */
 struct rc_stress_counts {
     size_t depths;
-    size_t source_transforms; /* of the pressure                                                 */
+    size_t source_transforms; /* of the pressure, and of maps of traction                        */
     size_t normal_kernels;    /* kernels of a depth evaluated, of the pressure                   */
-    size_t shear_kernels;     /* and of the traction: none when mu = 0                           */
+    size_t shear_kernels;     /* and of the traction: none where there is none                   */
     size_t coefficients;      /* values of them                                                  */
     size_t kernel_transforms; /* two-dimensional, of a quarter                                   */
     size_t field_transforms;  /* two-dimensional, from wave numbers to a map                     */
@@ -823,7 +827,7 @@ struct rc_stress_counts {
 
 /* Stresses under the pressure p (Pa; kept by the caller, who does not change it) on a half-space.
  * Free: the pressure is constant in each cell. Periodic: it is band-limited, and its mean gives
- * szz = -p, sxz = -mu p and sxx = syy = -(1 + 2 nu) p / 2 at every depth, what a patch that grows
+ * szz = -p, sxz = -mu p (of maps of traction minus those) and sxx = syy = -(1 + 2 nu) p / 2 at every depth, what a patch that grows
  * without end gives; in a layered body it is that of the half-space below, whose strains along the
  * surface the layers share. NULL when an option is out of bounds, there is no such engine or none for
  * the boundary or the section, or memory is short. */
@@ -844,7 +848,7 @@ RC_API const struct rc_stress_counts *rc_stress_counted(const struct rc_stress *
 RC_API void rc_stress_free(struct rc_stress *stress);
 /* Bytes that such a plan takes, beside p and the slices; where ranks share the map, of the rank
  * that takes most. With the depths that will be asked for (m, so many; 0: any), and for a section
- * the lines along it that carry pressure (0: all). */
+ * the lines along it that carry pressure or traction (0: all). */
 RC_API size_t rc_stress_memory(const struct rc_shape *shape,
                                const struct rc_stress_options *options, const double *depth,
                                size_t depths, size_t loaded);

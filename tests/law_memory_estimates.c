@@ -101,14 +101,16 @@ sum(const struct work *w, const double *h, const double *p)
 }
 
 static size_t
-stress_of(const struct work *w, const double *p, const struct rc_eigenstrain *strain)
+stress_of(const struct work *w, const double *p, const struct rc_eigenstrain *strain,
+          const double *traction)
 {
     const double depth = 5e-6;
     const struct rc_stress_options options = {.boundary = w->boundary,
                                               .body = {.e = 2e11, .nu = 0.3},
                                               .wanted = 1u << RC_MISES,
                                               .engine = w->engine,
-                                              .strain = strain};
+                                              .strain = strain,
+                                              .traction = {traction, traction}};
     size_t bytes =
         rc_stress_memory(w->shape, &options, &depth, 1, 0) + nodes_of(w) * sizeof(double);
     struct rc_stress *s = rc_stress_new(w->shape, p, &options, NULL);
@@ -126,7 +128,14 @@ static size_t
 stress(const struct work *w, const double *h, const double *p)
 {
     (void)h;
-    return stress_of(w, p, NULL);
+    return stress_of(w, p, NULL, NULL);
+}
+
+static size_t
+stress_dragged(const struct work *w, const double *h, const double *p)
+{
+    (void)h;
+    return stress_of(w, p, NULL, p);
 }
 
 /* Beside that of the pressure the stress of strain in a few slabs. */
@@ -143,7 +152,7 @@ stress_strained(const struct work *w, const double *h, const double *p)
 
     for (size_t k = 0; k < SLABS * MAPS; k++)
         maps[k] = h;
-    return stress_of(w, p, &strain);
+    return stress_of(w, p, &strain, NULL);
 }
 
 static size_t
@@ -268,6 +277,8 @@ holds(void **state)
         {"sums, mlms", &map, RC_FREE, "mlms", transforms, sum},
         {"stress", &map, RC_FREE, NULL, transforms, stress},
         {"stress, periodic", &map, RC_PERIODIC, NULL, transforms, stress},
+        {"stress, tractions", &map, RC_FREE, NULL, transforms, stress_dragged},
+        {"stress, tractions, periodic", &map, RC_PERIODIC, NULL, transforms, stress_dragged},
         {"stress, strained", &map, RC_FREE, NULL, 2 * transforms, stress_strained},
         {"stress, strained, periodic", &map, RC_PERIODIC, NULL, 2 * transforms, stress_strained},
         {"patches", &large, RC_FREE, NULL, 0, patches},

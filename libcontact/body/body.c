@@ -207,35 +207,57 @@ rc_surface_kernel(const struct rc_surface *u)
 
 /* ---- stresses inside ---- */
 
+const enum rc_component rc_stress_exchanged[RC_COMPONENTS] = {RC_SYY, RC_SXX, RC_SZZ,
+                                                              RC_SXY, RC_SYZ, RC_SXZ};
+
+int
+rc_stress_unturned(int kernel)
+{
+    return rc_stress_turned(kernel) ? (int)RC_SHEAR * (int)RC_COMPONENTS +
+                                          (int)rc_stress_exchanged[kernel % RC_COMPONENTS]
+                                    : kernel;
+}
+
+static void
+symbols(const struct rc_inside *in, int kernel, const struct rc_waves *w, double *out)
+{
+    const struct rc_waves turned = {w->n, w->y, w->x, w->q, w->numbers};
+
+    in->type->symbol(in, rc_stress_unturned(kernel), rc_stress_turned(kernel) ? &turned : w, out);
+}
+
 void
 rc_inside_symbol(const struct rc_inside *in, int kernel, const struct rc_waves *waves,
                  const struct rc_shape *shape, double *out)
 {
-    in->type->symbol(in, kernel, waves, out);
+    const struct rc_shape turned = {shape->ny, shape->nx, shape->dy, shape->dx};
+
+    symbols(in, kernel, waves, out);
     if (waves->q[0] == 0)
-        out[0] = in->type->mean(in, kernel, shape);
+        out[0] = in->type->mean(in, rc_stress_unturned(kernel),
+                                rc_stress_turned(kernel) ? &turned : shape);
 }
 
+/* Sxz of a traction along y is syz of one along x: both change sides with x and y. */
 int
 rc_stress_kernel(const struct rc_inside_type *type, int load, int component)
 {
-    bool same = type->shares && load == RC_SHEAR && component == RC_SZZ;
-
-    return same ? RC_SXZ : load * RC_COMPONENTS + component;
+    if (type->shares && load != RC_NORMAL && component == RC_SZZ)
+        return load == RC_SHEAR ? RC_SXZ : RC_SYZ;
+    if (load == RC_TURNED && component == RC_SXZ)
+        return (int)RC_SHEAR * (int)RC_COMPONENTS + (int)RC_SYZ;
+    return load * RC_COMPONENTS + component;
 }
 
 unsigned
-rc_stress_distinct(const struct rc_inside_type *type, unsigned components, bool shear)
+rc_stress_distinct(const struct rc_inside_type *type, unsigned components, unsigned loads)
 {
     unsigned kernels = 0;
 
-    for (int c = 0; c < RC_COMPONENTS; c++) {
-        if (!(components >> c & 1))
-            continue;
-        kernels |= 1u << rc_stress_kernel(type, RC_NORMAL, c);
-        if (shear)
-            kernels |= 1u << rc_stress_kernel(type, RC_SHEAR, c);
-    }
+    for (int c = 0; c < RC_COMPONENTS; c++)
+        for (int load = 0; load < RC_LOADS; load++)
+            if (components >> c & 1 && loads >> load & 1)
+                kernels |= 1u << rc_stress_kernel(type, load, c);
     return kernels;
 }
 
@@ -263,7 +285,7 @@ stress_symbol(const void *of, double qx, double qy)
 
     rc_wave_directions(1, &qx, &qy, &x, &y, &q);
     f->inside->type->waves(f->inside, 1, &q, numbers);
-    f->inside->type->symbol(f->inside, f->kernel, &wave, &out);
+    symbols(f->inside, f->kernel, &wave, &out);
     return out;
 }
 

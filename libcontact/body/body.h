@@ -14,11 +14,22 @@
 enum {
     RC_NORMAL, /* a unit pressure                              */
     RC_SHEAR,  /* a unit traction along +x on the body         */
+    RC_TURNED, /* and along +y: that with x and y exchanged    */
     RC_LOADS,
     RC_STRESS_KERNELS = RC_LOADS * RC_COMPONENTS, /* load * RC_COMPONENTS + component */
     RC_WAVE_NUMBERS = 10                          /* kept of a wave at most           */
 };
 extern const unsigned rc_stress_parity[RC_STRESS_KERNELS];
+/* Whether a kernel is one of the traction along +y; and the one along +x that it is with x and y exchanged, or
+ * itself. */
+static inline bool
+rc_stress_turned(int kernel)
+{
+    return kernel >= (int)RC_TURNED * (int)RC_COMPONENTS;
+}
+int rc_stress_unturned(int kernel);
+/* The components with x and y exchanged. */
+extern const enum rc_component rc_stress_exchanged[RC_COMPONENTS];
 
 struct rc_cell {
     double dx, dy; /* m */
@@ -41,7 +52,8 @@ struct rc_inside {
 };
 struct rc_solid;
 
-/* How a row of bodies.list finds stresses. */
+/* How a row of bodies.list finds stresses. Symbols and means are asked for of the first two loads: rc_inside_symbol
+ * turns them. */
 struct rc_inside_type {
     bool shares;   /* szz of the shear is sxz of the pressure                                */
     bool coarsens; /* at a depth no wave is felt that is much shorter: a coarser grid does   */
@@ -80,9 +92,9 @@ rc_inside_free(struct rc_inside *inside) /* NULL is allowed */
 void rc_inside_symbol(const struct rc_inside *inside, int kernel, const struct rc_waves *waves,
                       const struct rc_shape *shape, double *out);
 /* The kernel of a load and component, or an equal one that stands for it; and the kernels (bits)
- * that these components (bits) need, with the shear or without. */
+ * that these components (bits) need, of these loads (bits). */
 int rc_stress_kernel(const struct rc_inside_type *type, int load, int component);
-unsigned rc_stress_distinct(const struct rc_inside_type *type, unsigned components, bool shear);
+unsigned rc_stress_distinct(const struct rc_inside_type *type, unsigned components, unsigned loads);
 
 /* One kernel at one depth, as engines ask for it. `field` outlives every plan that uses the kernel. */
 struct rc_stress_field {

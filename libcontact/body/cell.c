@@ -42,6 +42,15 @@ shift(size_t n, const double *restrict from, double by, double *restrict to)
 }
 
 static void
+add_points(int kernel, const struct rc_points *p, double weight, double *out)
+{
+    const struct rc_points turned = {p->n, p->y, p->x, p->r, p->w, p->z, p->nu};
+
+    rc_stress_forms[rc_stress_unturned(kernel)].point(rc_stress_turned(kernel) ? &turned : p,
+                                                      weight, out);
+}
+
+static void
 by_points(const struct rc_closed *at, const struct rc_cell *c, unsigned kernels, int nx, int ny,
           size_t n, const double *x, const double *y, double *const out[RC_STRESS_KERNELS],
           size_t from)
@@ -62,7 +71,7 @@ by_points(const struct rc_closed *at, const struct rc_cell *c, unsigned kernels,
             distances(n, u, v, p.z, r, w);
             for (int k = 0; k < RC_STRESS_KERNELS; k++)
                 if (kernels >> k & 1)
-                    rc_stress_forms[k].point(&p, a * b * gx.w * gy.w / (2 * RC_PI), out[k] + from);
+                    add_points(k, &p, a * b * gx.w * gy.w / (2 * RC_PI), out[k] + from);
         }
     }
 }
@@ -103,7 +112,7 @@ by_means(const struct rc_closed *at, const struct rc_cell *c, unsigned kernels, 
         distances(p.n, u, v, p.z, r, w);
         for (int k = 0; k < RC_STRESS_KERNELS; k++)
             if (kernels >> k & 1)
-                rc_stress_forms[k].point(&p, c->dx * b * g.w / (2 * RC_PI), sum[k]);
+                add_points(k, &p, c->dx * b * g.w / (2 * RC_PI), sum[k]);
     }
     for (int k = 0; k < RC_STRESS_KERNELS; k++)
         if (kernels >> k & 1)
@@ -122,17 +131,19 @@ snap(double x, double side)
 static double
 by_corners(const struct rc_closed *at, const struct rc_cell *c, int kernel, double x, double y)
 {
+    bool turned = rc_stress_turned(kernel);
     double sum = 0;
 
     for (int s = -1; s <= 1; s += 2)
         for (int t = -1; t <= 1; t += 2) {
-            struct rc_corner k = {.x = snap(x + s * c->dx / 2, c->dx),
-                                  .y = snap(y + t * c->dy / 2, c->dy),
+            double a = snap(x + s * c->dx / 2, c->dx), b = snap(y + t * c->dy / 2, c->dy);
+            struct rc_corner k = {.x = turned ? b : a,
+                                  .y = turned ? a : b,
                                   .z = at->depth,
                                   .nu = at->nu,
                                   .floor = 1e-3 * fmin(c->dx, c->dy)};
             k.r = sqrt(k.x * k.x + k.y * k.y + k.z * k.z);
-            sum += s * t * rc_stress_forms[kernel].corner(&k);
+            sum += s * t * rc_stress_forms[rc_stress_unturned(kernel)].corner(&k);
         }
     return sum / (2 * RC_PI);
 }

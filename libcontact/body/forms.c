@@ -233,7 +233,8 @@ rc_wave_directions(size_t n, const double *qx, const double *qy, double *x, doub
 
 /* ---- the components ---- */
 
-/* Load, component, its forms above, its parity; szz of the shear is sxz of the pressure. */
+/* Load, component, its forms above, its parity; szz of the shear is sxz of the pressure. The shear along y has no
+ * forms of its own. */
 #define KERNELS                                                                                    \
     KERNEL(NORMAL, SXX, n_xx, 0)                                                                   \
     KERNEL(NORMAL, SYY, n_yy, 0)                                                                   \
@@ -247,12 +248,19 @@ rc_wave_directions(size_t n, const double *qx, const double *qy, double *x, doub
     KERNEL(SHEAR, SXY, t_xy, RC_ODD_Y)                                                             \
     KERNEL(SHEAR, SXZ, t_xz, 0)                                                                    \
     KERNEL(SHEAR, SYZ, t_yz, RC_ODD_X | RC_ODD_Y)
+#define TURNED_KERNELS                                                                             \
+    KERNEL(TURNED, SXX, , RC_ODD_Y)                                                                \
+    KERNEL(TURNED, SYY, , RC_ODD_Y)                                                                \
+    KERNEL(TURNED, SZZ, , RC_ODD_Y)                                                                \
+    KERNEL(TURNED, SXY, , RC_ODD_X)                                                                \
+    KERNEL(TURNED, SXZ, , RC_ODD_X | RC_ODD_Y)                                                     \
+    KERNEL(TURNED, SYZ, , 0)
 
 #define KERNEL(load, component, name, parity)                                                      \
     [RC_##load * RC_COMPONENTS + RC_##component] = {name##_point, name##_corner, name##_symbol},
-const struct rc_stress_forms rc_stress_forms[RC_STRESS_KERNELS] = {KERNELS};
+const struct rc_stress_forms rc_stress_forms[RC_TURNED * RC_COMPONENTS] = {KERNELS};
 #undef KERNEL
 
 #define KERNEL(load, component, name, parity) [RC_##load * RC_COMPONENTS + RC_##component] = parity,
-const unsigned rc_stress_parity[RC_STRESS_KERNELS] = {KERNELS};
+const unsigned rc_stress_parity[RC_STRESS_KERNELS] = {KERNELS TURNED_KERNELS};
 #undef KERNEL

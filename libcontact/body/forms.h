@@ -29,7 +29,7 @@ struct rc_stress_forms {
      * its decay exp(-q z) at the depth z. */
     void (*symbol)(const struct rc_waves *waves, double z, double nu, double *out);
 };
-extern const struct rc_stress_forms rc_stress_forms[RC_STRESS_KERNELS];
+extern const struct rc_stress_forms rc_stress_forms[RC_TURNED * RC_COMPONENTS];
 
 /* cell.c: a depth of this material, as rc_inside_type has them. */
 struct rc_closed {

@@ -200,10 +200,29 @@ place_of(double x, double y, double r, const double *h)
     return (struct place){c, s, c2, s2, c * c2 - s * s2, s * c2 + c * s2, h};
 }
 
-/* Adds weight times the stresses of all kernels of the loads. */
+/* The stresses of the traction along x. */
 static void
-add_stresses(const struct inside *in, const struct place *p, double weight, double *sum)
+add_shear(const struct place *p, double weight, const enum rc_component to[RC_COMPONENTS],
+          double *sum)
 {
+    const double *h = p->h;
+
+    sum[to[RC_SXX]] += weight * (p->c3 * h[10] - p->c * h[7]);
+    sum[to[RC_SYY]] -= weight * (p->c3 * h[10] + p->c * h[8]);
+    sum[to[RC_SZZ]] -= weight * p->c * h[4];
+    sum[to[RC_SXY]] += weight * (p->s3 * h[10] - p->s * h[9]);
+    sum[to[RC_SXZ]] += weight * (h[5] - p->c2 * h[6]);
+    sum[to[RC_SYZ]] -= weight * p->s2 * h[6];
+}
+
+/* Adds weight times the stresses of all kernels of the loads; those along y where `turned`. */
+static void
+add_stresses(const struct inside *in, const struct place *p, double weight, bool turned,
+             double *sum)
+{
+    static const enum rc_component same[] = {RC_SXX, RC_SYY, RC_SZZ, RC_SXY, RC_SXZ, RC_SYZ};
+    /* x and y exchanged: pi/2 - phi */
+    const struct place other = {p->s, p->c, -p->c2, p->s2, -p->s3, -p->c3, p->h};
     const double *h = p->h;
 
     sum[RC_SXX] += weight * (h[2] - p->c2 * h[3]);
@@ -214,19 +233,16 @@ add_stresses(const struct inside *in, const struct place *p, double weight, doub
     sum[RC_SYZ] += weight * p->s * h[1];
     if (!in->shear)
         return;
-    sum += RC_COMPONENTS;
-    sum[RC_SXX] += weight * (p->c3 * h[10] - p->c * h[7]);
-    sum[RC_SYY] -= weight * (p->c3 * h[10] + p->c * h[8]);
-    sum[RC_SZZ] -= weight * p->c * h[4];
-    sum[RC_SXY] += weight * (p->s3 * h[10] - p->s * h[9]);
-    sum[RC_SXZ] += weight * (h[5] - p->c2 * h[6]);
-    sum[RC_SYZ] -= weight * p->s2 * h[6];
+    add_shear(p, weight, same, sum + RC_COMPONENTS);
+    if (turned)
+        add_shear(&other, weight, rc_stress_exchanged, sum + (size_t)RC_TURNED * RC_COMPONENTS);
 }
 
 /* ---- of a cell ---- */
 
 /* Points of one rule, to be looked up together. */
 struct block {
+    bool turned; /* the load along y too */
     size_t n;
     double x[BLOCK], y[BLOCK], r[BLOCK], weight[BLOCK];
 };
@@ -240,7 +256,7 @@ flush(const struct inside *in, struct block *b, double *sum)
     rc_radial_values(in->radial, b->n, b->r, h);
     for (size_t k = 0; k < b->n; k++) {
         struct place p = place_of(b->x[k], b->y[k], b->r[k], h + k * m);
-        add_stresses(in, &p, b->weight[k], sum);
+        add_stresses(in, &p, b->weight[k], b->turned, sum);
     }
     b->n = 0;
 }
@@ -283,6 +299,7 @@ add_coefficients(const struct inside *in, const struct rc_cell *c, unsigned kern
     for (size_t i = 0; i < n; i++) {
         double sum[RC_STRESS_KERNELS] = {0};
         struct block block;
+        block.turned = kernels >> RC_TURNED * RC_COMPONENTS != 0;
         block.n = 0;
         integrate(in, x[i], y[i], c->dx / 2, c->dy / 2, &block, sum);
         flush(in, &block, sum);
@@ -304,8 +321,8 @@ struct line {
 };
 
 static void
-fill_line(const struct inside *in, const struct rc_cell *c, double y, size_t first, size_t n,
-          struct line *line)
+fill_line(const struct inside *in, const struct rc_cell *c, bool turned, double y, size_t first,
+          size_t n, struct line *line)
 {
     double b = c->dy / 2, low = 0, high = INFINITY, x0 = (double)first * c->dx;
     int ny = rc_gauss_points(sqrt(x0 * x0 + y * y + in->scale * in->scale), b, &low, &high);
@@ -324,7 +341,7 @@ fill_line(const struct inside *in, const struct rc_cell *c, double y, size_t fir
         for (size_t i = 0; i < n; i++) {
             double u = ((double)(first + i) - RC_MEAN_REACH) * c->dx;
             struct place p = place_of(u, v, r[i], h + i * m);
-            add_stresses(in, &p, c->dx * b * g.w, line->value[i]);
+            add_stresses(in, &p, c->dx * b * g.w, turned, line->value[i]);
         }
     }
 }
@@ -335,7 +352,8 @@ add_means(const struct inside *in, const struct rc_cell *c, unsigned kernels, do
 {
     struct line line;
 
-    fill_line(in, c, y, first, n + 2 * RC_MEAN_REACH, &line);
+    fill_line(in, c, kernels >> RC_TURNED * RC_COMPONENTS != 0, y, first, n + 2 * RC_MEAN_REACH,
+              &line);
     for (int k = 0; k < RC_STRESS_KERNELS; k++)
         for (size_t i = 0; kernels >> k & 1 && i < n; i++) {
             double(*v)[RC_STRESS_KERNELS] = line.value + i + RC_MEAN_REACH, sum = 0;

@@ -636,9 +636,10 @@ rc_fft_chain(struct rc_fft *f, size_t n, const struct rc_spectrum *const *kernel
 }
 
 enum rc_status
-rc_fft_load(struct rc_fft *f, const double *p, struct rc_err *err)
+rc_fft_load(struct rc_fft *f, size_t source, const double *p, struct rc_err *err)
 {
-    if (!f->ops->load(f->plan, p))
+    assert(source < RC_SOURCES);
+    if (!f->ops->load(f->plan, source, p))
         return rc_err_set(err, "out of memory for the transform of %zu x %zu nodes", f->shape.nx,
                           f->shape.ny);
     return RC_OK;
@@ -647,16 +648,22 @@ rc_fft_load(struct rc_fft *f, const double *p, struct rc_err *err)
 void
 rc_fft_field(struct rc_fft *f, const struct rc_spectrum *k, double *u)
 {
-    f->ops->field(f->plan, k->columns, k->values, k->parity, NULL, 0, 0, u);
+    rc_fft_field_sum(f, 1, &(struct rc_fft_term){k, 0, 1}, u);
 }
 
 void
-rc_fft_field_pair(struct rc_fft *f, const struct rc_spectrum *k, double weight,
-                  const struct rc_spectrum *also, double *u)
+rc_fft_field_sum(struct rc_fft *f, size_t n, const struct rc_fft_term *terms, double *u)
 {
-    size_t columns = k->columns > also->columns ? k->columns : also->columns;
+    struct rc_part parts[RC_SOURCES];
+    size_t columns = 0;
 
-    f->ops->field(f->plan, columns, k->values, k->parity, also->values, also->parity, weight, u);
+    assert(n > 0 && n <= RC_SOURCES && terms[0].weight == 1);
+    for (size_t k = 0; k < n; k++) {
+        const struct rc_spectrum *s = terms[k].kernel;
+        parts[k] = (struct rc_part){s->values, s->parity, terms[k].source, terms[k].weight};
+        columns = s->columns > columns ? s->columns : columns;
+    }
+    f->ops->field(f->plan, columns, n, parts, u);
 }
 
 /* ---- waves by themselves ---- */

@@ -103,12 +103,20 @@ typedef bool rc_row(void *ctx, size_t j, void *row);
  * and no map between them. */
 void rc_fft_chain(struct rc_fft *fft, size_t n, const struct rc_spectrum *const *kernels,
                   rc_row *const *rows, void *ctx);
-/* Keeps the whole transform of p; then u = K p for as many kernels as are wanted. */
-enum rc_status rc_fft_load(struct rc_fft *fft, const double *p, struct rc_err *err);
+/* Keeps the whole transform of p, as one of RC_SOURCES; then u = K p for as many kernels as are wanted. */
+enum {
+    RC_SOURCES = 3
+};
+enum rc_status rc_fft_load(struct rc_fft *fft, size_t source, const double *p, struct rc_err *err);
+/* Of source 0. */
 void rc_fft_field(struct rc_fft *fft, const struct rc_spectrum *kernel, double *u);
-/* u = (K + weight L) p. */
-void rc_fft_field_pair(struct rc_fft *fft, const struct rc_spectrum *k, double weight,
-                       const struct rc_spectrum *l, double *u);
+/* u = the sum of weight K p over n > 0 terms; the first one's weight is 1. */
+struct rc_fft_term {
+    const struct rc_spectrum *kernel;
+    size_t source;
+    double weight;
+};
+void rc_fft_field_sum(struct rc_fft *fft, size_t n, const struct rc_fft_term *terms, double *u);
 
 /* Maps to their waves and back by themselves, for sums over several maps at once. A column of those
  * held here has rc_fft_length numbers in the plan's precision: first their real parts, then their
@@ -171,6 +179,14 @@ struct rc_link {
     struct rc_factor factor;
 };
 
+/* A term of a sum: a spectrum, stored as above, times a source. */
+struct rc_part {
+    const void *spectrum;
+    unsigned parity;
+    size_t source;
+    double weight;
+};
+
 struct rc_fft_ops {
     size_t real_size; /* bytes of a real number                                  */
     size_t line;      /* complex numbers that are transformed together as columns */
@@ -186,11 +202,9 @@ struct rc_fft_ops {
                   const double *s, void *spectrum);
     void (*apply)(void *plan, const struct rc_factor *factor, const double *p, double *u);
     void (*chain)(void *plan, size_t n, const struct rc_link *links, rc_row *last, void *ctx);
-    bool (*load)(void *plan, const double *p); /* false: out of memory */
-    /* Of one spectrum, or, when `also` is not NULL, of that one too, weighted; from column `columns`
-     * on both are zero. */
-    void (*field)(void *plan, size_t columns, const void *spectrum, unsigned parity,
-                  const void *also, unsigned also_parity, double weight, double *u);
+    bool (*load)(void *plan, size_t source, const double *p); /* false: out of memory */
+    /* A sum of terms; from column `columns` on all spectra are zero. */
+    void (*field)(void *plan, size_t columns, size_t n, const struct rc_part *parts, double *u);
     /* rc_fft_forward and rc_fft_back. */
     void (*forward)(void *plan, rc_row *row, void *ctx, void *waves, rc_wave_column *column);
     void (*back)(void *plan, const void *waves, rc_wave_column *column, rc_row *row, void *ctx);

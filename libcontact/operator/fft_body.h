@@ -39,10 +39,10 @@ struct map {
 struct plan {
     struct rc_layout l;
     FFTW(plan) row_forward, row_back, column_forward, column_back;
-    COMPLEX *waves;   /* of each row, the columns that are here: ny rows of `wide`          */
-    COMPLEX *pieces;  /* of the rows that are here, for other ranks; NULL: all is here      */
-    COMPLEX *own;     /* what of it is to be freed; NULL: it was lent                      */
-    COMPLEX *source;  /* those columns in pieces, transformed: a loaded map; or NULL        */
+    COMPLEX *waves;  /* of each row, the columns that are here: ny rows of `wide`          */
+    COMPLEX *pieces; /* of the rows that are here, for other ranks; NULL: all is here      */
+    COMPLEX *own;    /* what of it is to be freed; NULL: it was lent                      */
+    COMPLEX *source[RC_SOURCES]; /* those columns in pieces, transformed: a loaded map; or NULL */
     COMPLEX *twiddle; /* w^n, w^2n, w^3n for each n < m (radix 4)                           */
     COMPLEX *scratch; /* for each thread: LINE columns, one more, a row, and a spectrum's column */
     size_t column;    /* complex numbers of one column in scratch: radix pieces and gaps    */
@@ -69,9 +69,9 @@ piece(const struct plan *f)
 }
 
 static COMPLEX *
-source_of(const struct plan *f, size_t column, size_t r)
+source_of(const struct plan *f, size_t source, size_t column, size_t r)
 {
-    return f->source + column * f->column + r * piece(f);
+    return f->source[source] + column * f->column + r * piece(f);
 }
 
 static void
@@ -88,7 +88,8 @@ plan_free(void *at)
     FFTW(destroy_plan)(f->column_back);
     rc_planner_unlock();
     free(f->own);
-    free(f->source);
+    for (size_t k = 0; k < RC_SOURCES; k++)
+        free(f->source[k]);
     free(f->twiddle);
     free(f->scratch);
     free(f);
@@ -517,15 +518,15 @@ chain(void *at, size_t n, const struct rc_link *links, rc_row *last, void *ctx)
 }
 
 static bool
-load(void *at, const double *p)
+load(void *at, size_t source, const double *p)
 {
     struct plan *f = at;
     const struct rc_layout *l = &f->l;
     struct map map = {.p = p, .nx = l->nx};
 
-    if (f->source == NULL)
-        f->source = allocate(l->columns * f->column);
-    if (rc_ranks_sum(l->turn == NULL ? NULL : l->turn->ranks, f->source == NULL) > 0)
+    if (f->source[source] == NULL)
+        f->source[source] = allocate(l->columns * f->column);
+    if (rc_ranks_sum(l->turn == NULL ? NULL : l->turn->ranks, f->source[source] == NULL) > 0)
         return false;
     transform_rows(f, &map, row_in, false, true);
     turn(f, false);
@@ -538,18 +539,16 @@ load(void *at, const double *p)
         for (size_t b = 0; b < n; b++)
             for (size_t r = 0; r < l->radix; r++)
                 FFTW(execute_dft)
-        (f->column_forward, y + b * f->column + r * piece(f), source_of(f, c + b, r));
+        (f->column_forward, y + b * f->column + r * piece(f), source_of(f, source, c + b, r));
     }
     return true;
 }
 
 static void
-field(void *at, size_t columns, const void *spectrum, unsigned parity, const void *also,
-      unsigned also_parity, double weight, double *u)
+field(void *at, size_t columns, size_t n_parts, const struct rc_part *parts, double *u)
 {
     struct plan *f = at;
     const struct rc_layout *l = &f->l;
-    const REAL *s = spectrum, *t = also;
     struct map map = {.u = u, .nx = l->nx};
     size_t here; /* columns that are not zero */
 
@@ -566,12 +565,13 @@ field(void *at, size_t columns, const void *spectrum, unsigned parity, const voi
         for (size_t b = 0; b < n; b++)
             for (size_t r = 0; r < l->radix; r++) {
                 COMPLEX *one = y + b * f->column + r * piece(f);
-                memcpy(z, source_of(f, c + b, r), l->m * sizeof *z);
-                multiply(l, s + (c + b) * l->cy, parity, r, z);
-                if (t != NULL) {
-                    memcpy(one, source_of(f, c + b, r), l->m * sizeof *z);
-                    multiply(l, t + (c + b) * l->cy, also_parity, r, one);
-                    add(z, one, (REAL)weight, l->m);
+                for (size_t k = 0; k < n_parts; k++) {
+                    const REAL *s = (const REAL *)parts[k].spectrum + (c + b) * l->cy;
+                    COMPLEX *to = k == 0 ? z : one;
+                    memcpy(to, source_of(f, parts[k].source, c + b, r), l->m * sizeof *z);
+                    multiply(l, s, parts[k].parity, r, to);
+                    if (k > 0)
+                        add(z, one, (REAL)parts[k].weight, l->m);
                 }
                 FFTW(execute_dft)(f->column_back, z, one);
             }

@@ -24,9 +24,9 @@ enum {
  * for kernels that are even across the plane; for odd ones their difference, the line with the
  * plane on its positive side first. */
 struct pair {
-    double offset; /* m, >= 0 */
-    const double complex *even, *odd;
-    double sign; /* of odd */
+    double offset;    /* m, >= 0 */
+    size_t even, odd; /* lines of each source */
+    double sign;      /* of odd */
 };
 
 struct plan {
@@ -39,9 +39,10 @@ struct plan {
     int threads;
     struct rc_line *line;
     struct rc_dct *dct;     /* of a kernel along; NULL when periodic */
-    double complex *source; /* m lines of `waves`; of the waves across, when periodic */
+    double complex *source; /* of each map m lines of `waves`; of the waves across, when periodic */
     struct pair *pair;
     size_t pairs;
+    size_t kernels;  /* there is room for, from the first on */
     double *scratch; /* for each thread: a line of each kernel, and its places or waves */
     size_t scratch_size;
     double complex *sum;      /* `waves` for each part and component */
@@ -89,9 +90,10 @@ sizes(const struct rc_stress_task *t)
     plan.length = t->options.boundary == RC_FREE ? rc_fourier_length(plan.n, 2) : plan.n;
     plan.waves = plan.length / 2 + 1;
     plan.threads = rc_useful_threads(s, t->options.threads);
+    plan.kernels = (size_t)RC_COMPONENTS * (rc_stress_has(t, RC_TURNED) ? RC_LOADS : RC_TURNED);
     plan.scratch_size = t->options.boundary == RC_FREE
-                            ? (2 + RC_STRESS_KERNELS) * plan.waves
-                            : (5 + RC_STRESS_KERNELS + RC_WAVE_NUMBERS) * plan.m + plan.n;
+                            ? (2 + plan.kernels) * plan.waves
+                            : (5 + plan.kernels + RC_WAVE_NUMBERS) * plan.m + plan.n;
     return plan;
 }
 
@@ -108,21 +110,26 @@ memory(const struct rc_stress_task *t)
     if (t->options.boundary == RC_FREE && t->loaded > 0 && t->loaded < lines)
         lines = t->loaded;
     /* the transposed map goes before the rest comes */
-    return sizeof plan + lines * plan.waves * sizeof(double complex) +
+    return sizeof plan + t->sources * lines * plan.waves * sizeof(double complex) +
            (transposed > rest ? transposed : rest);
 }
 
-/* A copy of the map whose rows run along the plane. NULL when memory is short. */
-static double *
-transpose(const struct plan *plan)
+/* A map with its rows along the plane. */
+static void
+transpose(const struct plan *plan, const double *p, double *v)
 {
     size_t n = plan->n, m = plan->m;
-    double *v = malloc(n * m * sizeof *v);
 
-    for (size_t j = 0; v != NULL && j < m; j++)
+    for (size_t j = 0; j < m; j++)
         for (size_t i = 0; i < n; i++)
-            v[j * n + i] = plan->task.p[plan->transposed ? i * m + j : j * n + i];
-    return v;
+            v[j * n + i] = p[plan->transposed ? i * m + j : j * n + i];
+}
+
+/* Line j of a source. */
+static double complex *
+line_of(const struct plan *plan, size_t source, size_t j)
+{
+    return plan->source + (source * plan->m + j) * plan->waves;
 }
 
 /* ---- free: pairs of lines ---- */
@@ -145,49 +152,88 @@ add_pair(struct plan *plan, const bool *loaded, size_t j)
     double offset =
         plan->task.options.at - ((double)j - (double)(plan->m - 1) / 2) * plan->d_across;
     size_t other = opposite(plan, j);
-    double complex *a = plan->source + j * plan->waves, *b;
     struct pair *pair = &plan->pair[plan->pairs];
 
     if (!loaded[j] || (other != j && other < plan->m && loaded[other] && offset < 0))
         return;
-    *pair = (struct pair){fabs(offset), a, a, offset < 0 ? -1 : 1};
+    *pair = (struct pair){fabs(offset), j, j, offset < 0 ? -1 : 1};
     plan->pairs++;
     if (other == j || other == plan->m || !loaded[other])
         return;
-    b = plan->source + other * plan->waves;
-    for (size_t q = 0; q < plan->waves; q++) {
-        double complex x = a[q], y = b[q];
-        a[q] = x + y;
-        b[q] = x - y;
+    pair->odd = other;
+    for (size_t k = 0; k < plan->task.sources; k++) {
+        double complex *a = line_of(plan, k, j), *b = line_of(plan, k, other);
+        for (size_t q = 0; q < plan->waves; q++) {
+            double complex x = a[q], y = b[q];
+            a[q] = x + y;
+            b[q] = x - y;
+        }
     }
-    pair->odd = b;
+}
+
+/* The lines of a source whose turn it is, v; a line that is loaded by another is 0. */
+static void
+transform_lines(struct plan *plan, size_t source, const bool *loaded, const double *v)
+{
+    size_t n = plan->n, transforms = 0;
+
+#pragma omp parallel for num_threads(plan->threads) schedule(dynamic, 4) reduction(+ : transforms)
+    for (size_t j = 0; j < plan->m; j++) {
+        double *line = plan->scratch + (size_t)omp_get_thread_num() * plan->scratch_size;
+        double complex *to = line_of(plan, source, j);
+        if (!loaded[j])
+            continue;
+        if (!rc_any(v + j * n, n)) {
+            memset(to, 0, plan->waves * sizeof *to);
+            continue;
+        }
+        memset(line, 0, plan->length * sizeof *line);
+        memcpy(line, v + j * n, n * sizeof *line);
+        rc_line_forward(plan->line, line, to);
+        transforms++;
+    }
+    plan->task.counts->line_transforms += transforms;
+}
+
+static bool
+carries(const struct plan *plan, size_t j)
+{
+    const struct rc_stress_task *t = &plan->task;
+    size_t step = plan->transposed ? plan->m : 1, first = plan->transposed ? j : j * plan->n;
+
+    for (size_t k = 0; k < t->sources; k++)
+        for (size_t i = 0; i < plan->n; i++)
+            if (t->source[k][first + i * step] != 0)
+                return true;
+    return false;
 }
 
 static enum rc_status
-transform_lines(struct plan *plan, const double *p, struct rc_err *err)
+transform_sources(struct plan *plan, double *v, struct rc_err *err)
 {
-    size_t n = plan->n, m = plan->m;
-    bool *loaded = calloc(m, sizeof *loaded);
+    const struct rc_stress_task *t = &plan->task;
+    const struct rc_shape shape = {plan->n, plan->m, plan->d_along, plan->d_across};
+    bool periodic = t->options.boundary == RC_PERIODIC, *loaded = NULL;
+    enum rc_status status = RC_OK;
 
-    if (loaded == NULL || (plan->pair = malloc(m * sizeof *plan->pair)) == NULL) {
-        free(loaded);
-        return rc_err_set(err, "out of memory for %zu lines", m);
+    if (!periodic && ((loaded = calloc(plan->m, sizeof *loaded)) == NULL ||
+                      (plan->pair = malloc(plan->m * sizeof *plan->pair)) == NULL))
+        status = rc_err_set(err, "out of memory for %zu lines", plan->m);
+    for (size_t j = 0; status == RC_OK && !periodic && j < plan->m; j++)
+        loaded[j] = carries(plan, j);
+    for (size_t k = 0; status == RC_OK && k < t->sources; k++) {
+        transpose(plan, t->source[k], v);
+        if (periodic) {
+            status = rc_fourier_forward(&shape, v, line_of(plan, k, 0), err);
+            t->counts->source_transforms++;
+        } else {
+            transform_lines(plan, k, loaded, v);
+        }
     }
-#pragma omp parallel for num_threads(plan->threads) schedule(dynamic, 4)
-    for (size_t j = 0; j < m; j++) {
-        double *line = plan->scratch + (size_t)omp_get_thread_num() * plan->scratch_size;
-        if (!(loaded[j] = rc_any(p + j * n, n)))
-            continue;
-        memset(line, 0, plan->length * sizeof *line);
-        memcpy(line, p + j * n, n * sizeof *line);
-        rc_line_forward(plan->line, line, plan->source + j * plan->waves);
-    }
-    for (size_t j = 0; j < m; j++) {
-        plan->task.counts->line_transforms += loaded[j];
+    for (size_t j = 0; status == RC_OK && !periodic && j < plan->m; j++)
         add_pair(plan, loaded, j);
-    }
     free(loaded);
-    return RC_OK;
+    return status;
 }
 
 static void *
@@ -205,8 +251,8 @@ plan_new(const struct rc_stress_task *task, struct rc_err *err)
     }
     *plan = sizes(task);
     threads = (size_t)plan->threads;
-    p = transpose(plan);
-    plan->source = malloc(plan->m * plan->waves * sizeof *plan->source);
+    p = malloc(plan->n * plan->m * sizeof *p);
+    plan->source = malloc(task->sources * plan->m * plan->waves * sizeof *plan->source);
     plan->scratch = malloc(threads * plan->scratch_size * sizeof *plan->scratch);
     plan->sum = malloc(PARTS * RC_COMPONENTS * plan->waves * sizeof *plan->sum);
     if (p == NULL || plan->source == NULL || plan->scratch == NULL || plan->sum == NULL) {
@@ -216,13 +262,7 @@ plan_new(const struct rc_stress_task *task, struct rc_err *err)
     if ((plan->line = rc_line_new(plan->length, threads, err)) == NULL ||
         (!periodic && (plan->dct = rc_dct_new(plan->waves, threads, err)) == NULL))
         goto done;
-    if (periodic) {
-        const struct rc_shape shape = {plan->n, plan->m, plan->d_along, plan->d_across};
-        status = rc_fourier_forward(&shape, p, plan->source, err);
-        task->counts->source_transforms++;
-    } else {
-        status = transform_lines(plan, p, err);
-    }
+    status = transform_sources(plan, p, err);
 done:
     free(p);
     if (status == RC_OK)
@@ -231,13 +271,15 @@ done:
     return NULL;
 }
 
-/* sum += weight K p for one pair of lines; `k` is the kernel's transform along. */
+/* Adds what a load makes of one pair of lines; `k` is the kernel's transform along. */
 static void
-add_product(const struct plan *plan, int kernel, double weight, const double *k,
-            const struct pair *pair, double complex *sum)
+add_product(const struct plan *plan, int load, int kernel, const double *k, const struct pair *pair,
+            double complex *sum)
 {
     bool odd = odd_across(plan, kernel);
-    const double complex *p = odd ? pair->odd : pair->even;
+    const struct rc_stress_task *t = &plan->task;
+    const double complex *p = line_of(plan, t->load[load].source, odd ? pair->odd : pair->even);
+    double weight = t->load[load].weight;
 
     if (odd)
         weight *= pair->sign;
@@ -257,8 +299,8 @@ sum_pair(struct plan *plan, const struct pair *pair, double complex *sum)
     double *along = plan->scratch + (size_t)omp_get_thread_num() * plan->scratch_size;
     double *across = along + plan->waves, *line[RC_STRESS_KERNELS];
 
-    for (int k = 0; k < RC_STRESS_KERNELS; k++)
-        line[k] = across + (size_t)(k + 1) * plan->waves;
+    for (size_t k = 0; k < plan->kernels; k++)
+        line[k] = across + (k + 1) * plan->waves;
     if (plan->transposed) {
         for (size_t i = 0; i < plan->waves; i++) {
             along[i] = (double)i * plan->d_along;
@@ -272,16 +314,12 @@ sum_pair(struct plan *plan, const struct pair *pair, double complex *sum)
     for (int k = 0; k < RC_STRESS_KERNELS; k++)
         if (t->kernels >> k & 1)
             rc_dct_run(plan->dct, odd_along(plan, k), line[k]);
-    for (int c = 0; c < RC_COMPONENTS; c++) {
-        int normal = rc_stress_kernel(t->type, RC_NORMAL, c),
-            shear = rc_stress_kernel(t->type, RC_SHEAR, c);
-        if (!(t->components >> c & 1))
-            continue;
-        add_product(plan, normal, 1, line[normal], pair, sum + (size_t)c * plan->waves);
-        if (t->options.mu != 0)
-            add_product(plan, shear, t->options.mu, line[shear], pair,
-                        sum + (size_t)c * plan->waves);
-    }
+    for (int c = 0; c < RC_COMPONENTS; c++)
+        for (int load = 0; load < RC_LOADS; load++) {
+            int k = rc_stress_kernel(t->type, load, c);
+            if (t->components >> c & 1 && rc_stress_has(t, load))
+                add_product(plan, load, k, line[k], pair, sum + (size_t)c * plan->waves);
+        }
 }
 
 static void
@@ -311,7 +349,7 @@ static void
 set_numbers(const struct plan *plan, const double *q, double *numbers)
 {
     const struct rc_stress_task *t = &plan->task;
-    size_t n = t->type->numbers(t->options.mu != 0), m = plan->m, first = q[0] > 0 ? 0u : 1u;
+    size_t n = rc_stress_numbers(t), m = plan->m, first = q[0] > 0 ? 0u : 1u;
 
     memset(numbers, 0, first * n * sizeof *numbers);
     t->type->waves(plan->inside, m / 2 + 1 - first, q + first, numbers + first * n);
@@ -326,7 +364,7 @@ wave_symbols(const struct plan *plan, size_t a, double *scratch, double *symbol[
     const struct rc_stress_task *t = &plan->task;
     size_t m = plan->m;
     double *along = scratch, *across = along + m, *x = across + m, *y = x + m, *q = y + m;
-    double *first = q + m, *numbers = first + (size_t)RC_STRESS_KERNELS * m;
+    double *first = q + m, *numbers = first + plan->kernels * m;
     const struct rc_waves waves = {m, x, y, q, numbers};
 
     for (size_t b = 0; b < m; b++) {
@@ -336,26 +374,28 @@ wave_symbols(const struct plan *plan, size_t a, double *scratch, double *symbol[
     rc_wave_directions(m, plan->transposed ? across : along, plan->transposed ? along : across, x,
                        y, q);
     set_numbers(plan, q, numbers);
-    for (int k = 0; k < RC_STRESS_KERNELS; k++) {
-        symbol[k] = first + (size_t)k * m;
+    for (size_t k = 0; k < plan->kernels; k++) {
+        symbol[k] = first + k * m;
         if (t->kernels >> k & 1)
-            rc_inside_symbol(plan->inside, k, &waves, &t->shape, symbol[k]);
+            rc_inside_symbol(plan->inside, (int)k, &waves, &t->shape, symbol[k]);
     }
 }
 
-/* Transform of what wave b across makes of a component, the friction included. */
+/* Transform of what wave b across of a source makes of a component, over that wave. */
 static double complex
-response(const struct plan *plan, int component, double *const symbol[RC_STRESS_KERNELS], size_t b,
-         bool last_x, bool last_y)
+response(const struct plan *plan, size_t source, int component,
+         double *const symbol[RC_STRESS_KERNELS], size_t b, bool last_x, bool last_y)
 {
     static const double complex powers[] = {1, -I, -1}; /* of -i */
     const struct rc_stress_task *t = &plan->task;
     double complex sum = 0;
 
-    for (int load = RC_NORMAL; load <= (t->options.mu != 0 ? RC_SHEAR : RC_NORMAL); load++) {
+    for (int load = 0; load < RC_LOADS; load++) {
         int k = rc_stress_kernel(t->type, load, component);
         unsigned parity = rc_stress_parity[k];
-        double weight = load == RC_NORMAL ? 1 : t->options.mu;
+        double weight = t->load[load].weight;
+        if (!rc_stress_has(t, load) || t->load[load].source != source)
+            continue;
         if ((parity & RC_ODD_X && last_x) || (parity & RC_ODD_Y && last_y))
             continue;
         weight *= symbol[k][b];
@@ -379,13 +419,16 @@ sum_waves(struct plan *plan)
         for (size_t b = 0; b < plan->m; b++) {
             double q = rc_fourier_q(b, plan->m, plan->d_across);
             bool last_along = 2 * a == plan->n, last_across = 2 * b == plan->m;
-            double complex p = plan->source[b * plan->waves + a];
-            p *= last_across ? CMPLX(cos(q * from_first), 0) : cexp(I * q * from_first);
-            for (int c = 0; c < RC_COMPONENTS; c++)
-                if (t->components >> c & 1)
-                    sum[c] += p * response(plan, c, symbol, b,
-                                           plan->transposed ? last_across : last_along,
-                                           plan->transposed ? last_along : last_across);
+            double complex turn =
+                last_across ? CMPLX(cos(q * from_first), 0) : cexp(I * q * from_first);
+            for (size_t k = 0; k < t->sources; k++) {
+                double complex p = line_of(plan, k, b)[a] * turn;
+                for (int c = 0; c < RC_COMPONENTS; c++)
+                    if (t->components >> c & 1)
+                        sum[c] += p * response(plan, k, c, symbol, b,
+                                               plan->transposed ? last_across : last_along,
+                                               plan->transposed ? last_along : last_across);
+            }
         }
         for (int c = 0; c < RC_COMPONENTS; c++)
             plan->sum[(size_t)c * plan->waves + a] = sum[c];

@@ -1,5 +1,5 @@
 /*
- * Stress maps by a row of engines.list: one sum for each kernel and depth, in little memory beside
+ * Stress maps by a row of engines.list: one sum for each kernel, depth and map that the kernel is for, in little memory beside
  * the maps (Polonsky and Keer 1999, section 3.3).
  */
 #include "stress.h"
@@ -14,14 +14,14 @@ struct plan {
 };
 
 /* An engine's tolerance is relative to the sum of |K| |p|. That of |K| grows with the logarithm of
- * the map, to some 2 under pressure and 8 under shear, and errors of the two add. */
+ * the map, to some 2 under pressure and 8 under shear, and errors of all add. */
 static struct rc_sum
 sum_of(const struct rc_stress_task *t, const struct rc_stress_field *field)
 {
     return (struct rc_sum){.shape = t->shape,
                            .boundary = t->options.boundary,
                            .kernel = rc_stress_field_kernel(field),
-                           .tol = t->options.tol / (2 + 8 * fabs(t->options.mu)),
+                           .tol = t->options.tol / (2 + 8 * rc_stress_shear(t)),
                            .precise = t->precise,
                            .threads = t->options.threads};
 }
@@ -81,6 +81,40 @@ add(size_t n, double weight, const double *u, double *s)
         s[k] += weight * u[k];
 }
 
+/* The weight of a source in a component by a kernel; 0: it is not in it. */
+static double
+weight_of(const struct rc_stress_task *t, size_t source, int kernel, int component)
+{
+    double weight = 0;
+
+    for (int load = 0; load < RC_LOADS; load++)
+        if (rc_stress_has(t, load) && t->load[load].source == source &&
+            rc_stress_kernel(t->type, load, component) == kernel)
+            weight += t->load[load].weight;
+    return weight;
+}
+
+/* Adds what a source makes by a kernel, where there is anything. */
+static void
+add_source(struct plan *plan, void *one, size_t source, int kernel, double *const s[RC_COMPONENTS])
+{
+    const struct rc_stress_task *t = &plan->task;
+    size_t n = t->shape.nx * t->shape.ny;
+    bool summed = false;
+
+    for (int c = 0; c < RC_COMPONENTS; c++) {
+        double weight = t->components >> c & 1 ? weight_of(t, source, kernel, c) : 0;
+        if (weight == 0)
+            continue;
+        if (!summed) {
+            t->engine->apply(one, t->source[source], plan->u);
+            t->counts->engine_sums++;
+            summed = true;
+        }
+        add(n, weight, plan->u, s[c]);
+    }
+}
+
 static enum rc_status
 slice(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err)
 {
@@ -105,18 +139,10 @@ slice(void *at, double depth, double *const s[RC_COMPONENTS], struct rc_err *err
             status = RC_FAIL;
             break;
         }
-        t->engine->apply(one, t->p, plan->u);
+        for (size_t source = 0; source < t->sources; source++)
+            add_source(plan, one, source, k, s);
         t->engine->free(one);
-        t->counts->engine_sums++;
         rc_stress_count(t, k, 0);
-        for (int c = 0; c < RC_COMPONENTS; c++) {
-            if (!(t->components >> c & 1))
-                continue;
-            if (rc_stress_kernel(t->type, RC_NORMAL, c) == k)
-                add(n, 1, plan->u, s[c]);
-            if (t->options.mu != 0 && rc_stress_kernel(t->type, RC_SHEAR, c) == k)
-                add(n, t->options.mu, plan->u, s[c]);
-        }
     }
     rc_inside_free(inside);
     return status;

@@ -1,8 +1,8 @@
 /*
- * Stress maps by Fourier transforms. The pressure is transformed once; then, for each depth, the
+ * Stress maps by Fourier transforms. The pressure, and maps of traction, are transformed once; then, for each depth, the
  * kernels of all components are tabulated together on a quarter of the padded map, each gives its
- * spectrum by real even or odd transforms, and one transform back gives each component: the normal
- * load's kernel and mu times the shear's are added before it.
+ * spectrum by real even or odd transforms, and one transform back gives each component: the products with
+ * the kernels of all loads are added before it.
  *
  * Periodic: the kernels are known by their symbols, nothing is padded, and only the decay of the
  * waves is tabulated. Waves that do not reach the depth are left out.
@@ -32,7 +32,7 @@ struct grid {
     size_t numbers;                         /* numbers: what is left of it at the depth         */
     struct rc_inside *inside;               /* at the depth                                     */
     double depth;                           /* of all the others, m                             */
-    struct rc_spectrum *spectrum[RC_LOADS]; /* the last ones made: of each load one          */
+    struct rc_spectrum *spectrum[RC_LOADS]; /* the last ones made: as many as loads          */
     int kernel[RC_LOADS];                   /* of which kernel each is; -1: of none            */
 };
 
@@ -55,14 +55,14 @@ count(unsigned bits)
 }
 
 /* Tolerances below this are left to double precision: single makes an error of up to 1e-6 of the
- * largest pressure. Errors of the two loads add. */
+ * largest pressure. Errors of all loads add. */
 static const double single_floor = 1e-5;
 
 static enum rc_precision
 precision_of(const struct rc_stress_task *t)
 {
-    return t->options.tol / (1 + fabs(t->options.mu)) >= single_floor && !t->precise ? RC_SINGLE
-                                                                                     : RC_DOUBLE;
+    return t->options.tol / (1 + rc_stress_shear(t)) >= single_floor && !t->precise ? RC_SINGLE
+                                                                                    : RC_DOUBLE;
 }
 
 static void
@@ -80,13 +80,6 @@ grid_free(struct grid *g)
     free(g);
 }
 
-/* What is kept of each wave of a periodic map. */
-static size_t
-numbers_of(const struct rc_stress_task *t)
-{
-    return t->type->numbers(t->options.mu != 0);
-}
-
 /* Room for what is tabulated at a depth. */
 static enum rc_status
 make_tables(struct grid *g, struct rc_err *err)
@@ -97,7 +90,7 @@ make_tables(struct grid *g, struct rc_err *err)
     rc_fft_quarter(g->fft, &g->cx, &g->cy);
     rc_fft_quarter_rows(g->fft, &g->first_row, &g->rows);
     rc_fft_columns(g->fft, &g->first_column, &g->columns);
-    g->numbers = numbers_of(task);
+    g->numbers = rc_stress_numbers(task);
     for (int k = 0; k < RC_STRESS_KERNELS; k++)
         if (task->options.boundary == RC_FREE && task->kernels >> k & 1 &&
             (g->quarter[k] = rc_alloc(g->cx * g->rows, sizeof(double))) == NULL)
@@ -110,8 +103,7 @@ make_tables(struct grid *g, struct rc_err *err)
 }
 
 static struct grid *
-grid_new(const struct rc_stress_task *task, const struct rc_shape *shape, const double *p,
-         struct rc_err *err)
+grid_new(const struct rc_stress_task *task, const struct rc_shape *shape, struct rc_err *err)
 {
     struct grid *g = calloc(1, sizeof *g);
     const struct rc_ranks *ranks = task->options.ranks;
@@ -129,16 +121,20 @@ grid_new(const struct rc_stress_task *task, const struct rc_shape *shape, const 
     g->threads = rc_fft_threads(g->fft);
     if (make_tables(g, err) != RC_OK)
         goto fail;
-    for (int load = 0; load < (task->options.mu != 0 ? RC_LOADS : 1); load++)
-        if ((g->spectrum[load] = rc_spectrum_new(g->fft, err)) == NULL)
+    for (int k = 0; k < (int)count(task->loads); k++)
+        if ((g->spectrum[k] = rc_spectrum_new(g->fft, err)) == NULL)
             goto fail;
-    if (rc_fft_load(g->fft, p, err) != RC_OK)
-        goto fail;
-    task->counts->source_transforms++;
     return g;
 fail:
     grid_free(g);
     return NULL;
+}
+
+static enum rc_status
+load(struct grid *g, size_t source, const double *map, struct rc_err *err)
+{
+    g->task->counts->source_transforms++;
+    return rc_fft_load(g->fft, source, map, err);
 }
 
 static size_t
@@ -148,12 +144,12 @@ grid_memory(const struct rc_stress_task *task, const struct rc_shape *shape)
     enum rc_precision precision = precision_of(task);
     size_t ranks = rc_ranks_count(task->options.ranks);
     size_t spectrum = rc_spectrum_memory(shape, boundary, precision, ranks);
-    size_t quarters = boundary == RC_FREE ? count(task->kernels) : numbers_of(task);
+    size_t quarters = boundary == RC_FREE ? count(task->kernels) : rc_stress_numbers(task);
 
-    /* the transform of p is as large as four spectra, a quarter as large as one in double */
+    /* the transform of a map is as large as four spectra, a quarter as large as one in double */
     return sizeof(struct grid) + rc_fft_memory(shape, boundary, precision, ranks) +
            rc_fft_scratch(shape, boundary, precision, task->options.threads) +
-           ((size_t)(task->options.mu != 0) + 4) * spectrum +
+           (count(task->loads) - 1 + 4 * task->sources) * spectrum +
            quarters * rc_spectrum_memory(shape, boundary, RC_DOUBLE, ranks) +
            rc_stress_inside_memory(task);
 }
@@ -264,21 +260,38 @@ set_spectrum(struct grid *g, int kernel, struct rc_spectrum *s, struct rc_err *e
     return RC_OK;
 }
 
-/* The spectrum of a kernel: one that is there, or made in the place of one that is not `in_use`. NULL when
- * memory is short. */
-static const struct rc_spectrum *
-spectrum_of(struct grid *g, int kernel, const struct rc_spectrum *in_use, struct rc_err *err)
+/* Where the spectrum of a kernel is kept; -1: it is not. */
+static int
+place_of(const struct grid *g, int kernel)
 {
-    int k = g->spectrum[1] == NULL || g->spectrum[1] == in_use ? 0 : 1;
+    for (int k = 0; k < RC_LOADS; k++)
+        if (g->spectrum[k] != NULL && g->kernel[k] == kernel)
+            return k;
+    return -1;
+}
 
-    for (int load = 0; load < RC_LOADS; load++)
-        if (g->spectrum[load] != NULL && g->kernel[load] == kernel)
-            return g->spectrum[load];
-    g->kernel[k] = -1;
-    if (set_spectrum(g, kernel, g->spectrum[k], err) != RC_OK)
-        return NULL;
-    g->kernel[k] = kernel;
-    return g->spectrum[k];
+/* Spectra of n different kernels: those that are there, others in the places of those that are not wanted. */
+static enum rc_status
+make_spectra(struct grid *g, size_t n, const int *kernel, struct rc_err *err)
+{
+    bool wanted[RC_LOADS] = {false};
+
+    for (size_t k = 0; k < n; k++)
+        if (place_of(g, kernel[k]) >= 0)
+            wanted[place_of(g, kernel[k])] = true;
+    for (size_t k = 0; k < n; k++) {
+        int to = 0;
+        if (place_of(g, kernel[k]) >= 0)
+            continue;
+        while (wanted[to])
+            to++;
+        g->kernel[to] = -1;
+        if (set_spectrum(g, kernel[k], g->spectrum[to], err) != RC_OK)
+            return RC_FAIL;
+        g->kernel[to] = kernel[k];
+        wanted[to] = true;
+    }
+    return RC_OK;
 }
 
 /* ---- fields ---- */
@@ -307,31 +320,34 @@ go_to_depth(struct grid *g, double depth, struct rc_err *err)
 static enum rc_status
 component_field(struct grid *g, int c, double *s, struct rc_err *err)
 {
-    const struct rc_inside_type *type = g->task->type;
-    const struct rc_spectrum *normal, *shear = NULL;
-    double mu = g->task->options.mu;
+    const struct rc_stress_task *t = g->task;
+    struct rc_fft_term term[RC_LOADS];
+    int kernel[RC_LOADS];
+    size_t n = 0;
 
-    normal = spectrum_of(g, rc_stress_kernel(type, RC_NORMAL, c), NULL, err);
-    if (normal != NULL && mu != 0)
-        shear = spectrum_of(g, rc_stress_kernel(type, RC_SHEAR, c), normal, err);
-    if (normal == NULL || (mu != 0 && shear == NULL))
+    for (int load = 0; load < RC_LOADS; load++)
+        if (rc_stress_has(t, load)) {
+            kernel[n] = rc_stress_kernel(t->type, load, c);
+            term[n++] = (struct rc_fft_term){.source = t->load[load].source,
+                                             .weight = t->load[load].weight};
+        }
+    if (make_spectra(g, n, kernel, err) != RC_OK)
         return RC_FAIL;
-    if (mu == 0)
-        rc_fft_field(g->fft, normal, s);
-    else
-        rc_fft_field_pair(g->fft, normal, mu, shear, s);
-    g->task->counts->field_transforms++;
+    for (size_t k = 0; k < n; k++)
+        term[k].kernel = g->spectrum[place_of(g, kernel[k])];
+    rc_fft_field_sum(g->fft, n, term, s);
+    t->counts->field_transforms++;
     return RC_OK;
 }
 
 /* ---- coarser grids ---- */
 
-/* Whether a coarser grid does at this depth, and its steps. Errors of the two loads add; those of
+/* Whether a coarser grid does at this depth, and its steps. Errors of all loads add; those of
  * the shear's kernels are the smaller. */
 static bool
 may_be_coarse(const struct rc_stress_task *t, double depth, size_t *sx, size_t *sy)
 {
-    double tol = t->options.tol / (1 + fabs(t->options.mu));
+    double tol = t->options.tol / (1 + rc_stress_shear(t));
 
     /* which rows a coarser node is made of, other ranks hold */
     return t->options.boundary == RC_FREE && t->type->coarsens && t->options.ranks == NULL &&
@@ -365,8 +381,12 @@ coarse_new(struct plan *plan, size_t sx, size_t sy, struct rc_err *err)
     plan->between = rc_coarse_new(&t->shape, sx, sy, t->options.threads, err);
     if (plan->between == NULL)
         return RC_FAIL;
-    rc_coarse_reduce(plan->between, t->p, plan->field);
-    plan->coarse = grid_new(t, &shape, plan->field, err);
+    plan->coarse = grid_new(t, &shape, err);
+    for (size_t k = 0; plan->coarse != NULL && k < t->sources; k++) {
+        rc_coarse_reduce(plan->between, t->source[k], plan->field);
+        if (load(plan->coarse, k, plan->field, err) != RC_OK)
+            coarse_free(plan);
+    }
     return plan->coarse == NULL ? RC_FAIL : RC_OK;
 }
 
@@ -396,10 +416,12 @@ plan_new(const struct rc_stress_task *task, struct rc_err *err)
         return NULL;
     }
     plan->task = *task;
-    if ((plan->fine = grid_new(&plan->task, &task->shape, task->p, err)) == NULL) {
-        plan_free(plan);
-        return NULL;
-    }
+    plan->fine = grid_new(&plan->task, &task->shape, err);
+    for (size_t k = 0; k < task->sources; k++)
+        if (plan->fine == NULL || load(plan->fine, k, task->source[k], err) != RC_OK) {
+            plan_free(plan);
+            return NULL;
+        }
     return plan;
 }
 

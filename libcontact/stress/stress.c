@@ -62,6 +62,9 @@ rc_stress_check(const struct rc_shape *shape, const struct rc_stress_options *o,
         return rc_err_set(err, "stresses inside a body that is %s are not known", type->name);
     if (!isfinite(o->mu))
         return rc_err_set(err, "friction coefficient %g: it must be finite", o->mu);
+    if (o->mu != 0 && (o->traction[0] != NULL || o->traction[1] != NULL))
+        return rc_err_set(
+            err, "friction coefficient %g and a map of traction: give one or the other", o->mu);
     if (o->wanted == 0 || o->wanted >> RC_STRESSES != 0)
         return rc_err_set(err, "no stress is wanted, or one that does not exist");
     if (!(o->tol >= 0 && o->tol < 1))
@@ -83,6 +86,41 @@ rc_stress_check(const struct rc_shape *shape, const struct rc_stress_options *o,
     return RC_OK;
 }
 
+/* What the surface carries, and which maps that takes. */
+static void
+set_loads(struct rc_stress_task *t)
+{
+    static const int along[2] = {RC_SHEAR, RC_TURNED};
+
+    t->loads = 1U << RC_NORMAL;
+    t->source[t->sources++] = t->p;
+    t->load[RC_NORMAL].weight = 1;
+    if (t->options.mu != 0) {
+        t->loads |= 1U << RC_SHEAR;
+        t->load[RC_SHEAR].weight = t->options.mu;
+    }
+    for (size_t k = 0; k < 2; k++) {
+        if (t->options.traction[k] == NULL)
+            continue;
+        t->loads |= 1U << along[k];
+        t->load[along[k]].weight = 1;
+        t->load[along[k]].source = t->sources;
+        t->source[t->sources++] = t->options.traction[k];
+    }
+}
+
+static bool
+sheared(const struct rc_stress_task *t)
+{
+    return t->loads != 1U << RC_NORMAL;
+}
+
+double
+rc_stress_shear(const struct rc_stress_task *t)
+{
+    return fabs(t->options.mu) + (double)(t->sources - 1);
+}
+
 static struct rc_stress_task
 task_of(const struct rc_shape *shape, const double *p, const struct rc_solid *solid,
         const struct rc_stress_options *o, struct rc_stress_counts *counts)
@@ -97,7 +135,8 @@ task_of(const struct rc_shape *shape, const double *p, const struct rc_solid *so
                                   .components = components,
                                   .counts = counts};
 
-    task.kernels = rc_stress_distinct(task.type, components, o->mu != 0);
+    set_loads(&task);
+    task.kernels = rc_stress_distinct(task.type, components, task.loads);
     task.options.body.layer = NULL; /* the caller's, who may give them up */
     if (rc_ranks_count(o->ranks) == 1)
         task.options.ranks = NULL;
@@ -125,7 +164,7 @@ values_of(const struct rc_shape *shape, const struct rc_stress_options *o)
 void
 rc_stress_count(const struct rc_stress_task *t, int kernel, size_t coefficients)
 {
-    bool normal = rc_stress_distinct(t->type, t->components, false) >> kernel & 1;
+    bool normal = rc_stress_distinct(t->type, t->components, 1U << RC_NORMAL) >> kernel & 1;
 
     *(normal ? &t->counts->normal_kernels : &t->counts->shear_kernels) += 1;
     t->counts->coefficients += coefficients;
@@ -134,13 +173,19 @@ rc_stress_count(const struct rc_stress_task *t, int kernel, size_t coefficients)
 struct rc_inside *
 rc_stress_inside(const struct rc_stress_task *t, double depth, struct rc_err *err)
 {
-    return t->type->new (t->solid, depth, t->options.mu != 0, t->options.boundary, err);
+    return t->type->new (t->solid, depth, sheared(t), t->options.boundary, err);
+}
+
+size_t
+rc_stress_numbers(const struct rc_stress_task *t)
+{
+    return t->type->numbers(sheared(t));
 }
 
 size_t
 rc_stress_inside_memory(const struct rc_stress_task *t)
 {
-    return t->type->memory(t->options.mu != 0, t->options.boundary);
+    return t->type->memory(sheared(t), t->options.boundary);
 }
 
 /* ---- plan ---- */

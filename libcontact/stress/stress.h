@@ -15,6 +15,13 @@ struct rc_stress_task {
     struct rc_shape shape;
     struct rc_stress_options options;
     const double *p; /* stays the caller's                                             */
+    unsigned loads;  /* bits: what the surface carries                                 */
+    size_t sources;  /* maps of it: the pressure, maps of traction                     */
+    const double *source[RC_LOADS];
+    struct {
+        size_t source; /* what it is made of ... */
+        double weight; /* ... times this         */
+    } load[RC_LOADS];
     const struct rc_inside_type *type;
     const struct rc_solid *solid; /* NULL in an estimate */
     unsigned components; /* bits of the six: what is wanted and what that is derived from  */
@@ -26,9 +33,19 @@ struct rc_stress_task {
     const double *depth;
     size_t depths, loaded;
 };
+/* Whether there is a load; what the traction is at most of the pressure, or of itself where it is larger. */
+static inline bool
+rc_stress_has(const struct rc_stress_task *task, int load)
+{
+    return task->loads >> load & 1;
+}
+double rc_stress_shear(const struct rc_stress_task *task);
+
 /* Counts the evaluation of a kernel: as one of the shear where only the traction needs it. */
 void rc_stress_count(const struct rc_stress_task *task, int kernel, size_t coefficients);
 
+/* Numbers kept of a wave at a depth. */
+size_t rc_stress_numbers(const struct rc_stress_task *task);
 /* A depth of the body, to be freed by rc_inside_free: NULL when memory is short or the body is
  * rigid there. */
 struct rc_inside *rc_stress_inside(const struct rc_stress_task *task, double depth,

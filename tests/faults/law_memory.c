@@ -343,6 +343,8 @@ STRESS(direct_stress, bare, .engine = "direct")
 STRESS(mlms_stress, bare, .engine = "mlms", .tol = 1e-3)
 STRESS(section_stress, bare, .section = 'y')
 STRESS(coated_stress, layered, .mu = 0)
+STRESS(traction_stress, bare, .traction = {pressure, rough})
+STRESS(traction_section, bare, .traction = {NULL, pressure}, .section = 'x')
 
 /* Of a slab that has yielded. */
 static enum rc_status
@@ -576,6 +578,8 @@ static const struct {
     {.name = "stress, mlms", .use = mlms_stress},
     {.name = "stress, a section", .use = section_stress},
     {.name = "stress, coated", .use = coated_stress},
+    {.name = "stress, of tractions", .use = traction_stress},
+    {.name = "stress, of tractions, a section", .use = traction_section},
     {.name = "stress, of plastic strain", .use = strained_stress},
     {.name = "depths", .use = depths},
     {.name = "slabs", .use = slabs_double},

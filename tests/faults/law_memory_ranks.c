@@ -132,6 +132,9 @@ stressed(const struct rc_stress_options *of, double *out, struct rc_err *err)
     struct rc_stress_options o = *of;
 
     o.ranks = ranks;
+    for (size_t k = 0; k < 2; k++)
+        if (o.traction[k] != NULL)
+            o.traction[k] += first;
     return two_slices(&shape, pressure + first, &o, field, err);
 }
 
@@ -139,6 +142,7 @@ STRESS(free_stress, bare, .mu = 0.1)
 STRESS(periodic_stress, bare, .mu = 0.1, .boundary = RC_PERIODIC)
 STRESS(single_stress, bare, .tol = 1e-3)
 STRESS(coated_stress, layered, .mu = 0)
+STRESS(traction_stress, bare, .traction = {pressure, pressure})
 
 static enum rc_status
 depths(double *out, struct rc_err *err)
@@ -209,6 +213,7 @@ static const struct {
     {.name = "stress, periodic", .use = periodic_stress},
     {.name = "stress, single precision", .use = single_stress},
     {.name = "stress, coated", .use = coated_stress},
+    {.name = "stress, of tractions", .use = traction_stress},
     {.name = "depths", .use = depths},
     {.name = "patches", .use = patches},
     {.name = "slopes and seams", .use = measured, .without = true},

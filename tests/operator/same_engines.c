@@ -279,7 +279,7 @@ one_transform_serves_all_kernels(void **state)
     (void)state;
     p[5 * 37 + 9] = 3;
     p[20 * 37 + 30] = -1;
-    assert_int_equal(rc_fft_load(fft, p, &err), RC_OK);
+    assert_int_equal(rc_fft_load(fft, 0, p, &err), RC_OK);
     for (int kernel = 0; kernel < RC_STRESS_KERNELS; kernel++) {
         stress_case(&c, (struct rc_body){.nu = 0.3}, 1.1, RC_FREE, kernel);
         assert_int_equal(rc_spectrum_set(k, fft, &c.kernel, &err), RC_OK);
