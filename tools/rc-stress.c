@@ -67,6 +67,7 @@ struct run {
     struct rc_stress_options options; /* of the case */
     struct layers layers;             /* of the case */
     struct stress_strain strain;      /* of the case */
+    struct rc_grid *traction[2];      /* of the case: along x, along y; NULL: none */
     struct numbers depths;            /* of the case */
     struct rc_grid *frame[RC_STRESSES];
     struct stress_report report;
@@ -190,6 +191,26 @@ set_material(struct run *run, const struct rc_grid *p)
         run->options.body.nu = poisson(run, p);
 }
 
+/* Tractions take the place of a number for friction. */
+static void
+set_traction(struct run *run, const struct rc_grid *p)
+{
+    for (size_t k = 0; k < 2; k++) {
+        const struct rc_grid *g = run->traction[k];
+        run->options.traction[k] = NULL;
+        if (g == NULL || args.residual)
+            continue;
+        if (tool_given(&run->t, "mu"))
+            tool_die_at(&run->t, g, EXIT_IMPOSSIBLE,
+                        "the case has its own traction, and --mu %g contradicts it: leave it out, "
+                        "or take the pressure alone, rc-pick --channel pressure",
+                        args.mu);
+        tool_demand_grid_of(&run->t, g, p);
+        tool_demand_finite(&run->t, g, "a map of traction has none; make it again");
+        run->options.traction[k] = g->v;
+    }
+}
+
 static void
 set_options(struct run *run, const struct rc_grid *p)
 {
@@ -206,7 +227,8 @@ set_options(struct run *run, const struct rc_grid *p)
     run->options.threads = run->t.threads;
     run->options.ranks = ranks_of(&run->t);
     run->options.strain = NULL;
-    if (stress_strain_read(&run->t, p, &run->strain)) {
+    set_traction(run, p);
+    if (stress_strain_whole(&run->t, p, &run->strain)) {
         run->options.strain = &run->strain.strain;
         if (!rc_grid_number(p, "e1", &run->options.body.e))
             tool_die_at(&run->t, p, EXIT_IMPOSSIBLE,
@@ -363,7 +385,15 @@ new_frame(struct run *run, const struct rc_grid *p, int channel)
 
 /* ---- the work ---- */
 
-/* Lines along the section that carry pressure. */
+static bool
+loaded(const struct run *run, const struct rc_grid *p, size_t k)
+{
+    const double *const *t = run->options.traction;
+
+    return p->v[k] != 0 || (t[0] != NULL && t[0][k] != 0) || (t[1] != NULL && t[1][k] != 0);
+}
+
+/* Lines along the section that carry pressure or traction. */
 static size_t
 loaded_lines(const struct run *run, const struct rc_grid *p)
 {
@@ -374,7 +404,7 @@ loaded_lines(const struct run *run, const struct rc_grid *p)
     for (size_t k = 0; k < n; k++) {
         bool any = false;
         for (size_t i = 0; i < along && !any; i++)
-            any = p->v[across ? i * p->nx + k : k * p->nx + i] != 0;
+            any = loaded(run, p, across ? i * p->nx + k : k * p->nx + i);
         lines += any;
     }
     return lines;
@@ -393,13 +423,13 @@ memory_for(const struct run *run, const struct rc_grid *p)
     const struct rc_stress_options *o = &run->options;
     size_t rows = o->section != 0 ? frame.ny : p->ny - p->elsewhere;
     size_t frames = channels() * frame.nx * rows * sizeof(double);
-    size_t map = rc_grid_nodes(p) * sizeof *p->v, loaded = 0;
+    size_t map = rc_grid_nodes(p) * sizeof *p->v, lines = 0;
 
     if (o->section != 0) { /* a copy of the map goes before the frames come */
         frames -= frames < map ? frames : map;
-        loaded = loaded_lines(run, p);
+        lines = loaded_lines(run, p);
     }
-    return rc_stress_memory(&shape, o, run->depths.v, run->depths.n, loaded) + frames +
+    return rc_stress_memory(&shape, o, run->depths.v, run->depths.n, lines) + frames +
            tool_code(&run->t, code_for(run));
 }
 
@@ -486,6 +516,34 @@ do_case(struct run *run, const struct rc_grid *p)
 
 /* ---- start ---- */
 
+/* Keeps what may stand beside the pressure. */
+static bool
+take(void *ctx, struct tool *t, const struct rc_grid *p, struct rc_grid *g)
+{
+    static const char *const tractions[] = {"traction-x", "traction-y"};
+    struct run *run = ctx;
+
+    for (size_t k = 0; k < 2; k++)
+        if (strcmp(g->channel, tractions[k]) == 0) {
+            tool_keep_frame(t, g, &run->traction[k]);
+            return true;
+        }
+    return p != NULL && stress_strain_take(t, p, g, &run->strain);
+}
+
+static void
+forget_case(struct run *run)
+{
+    if (run->depths.v != args.depths.v)
+        free(run->depths.v);
+    layers_free(&run->layers);
+    stress_strain_free(&run->strain);
+    for (size_t k = 0; k < 2; k++) {
+        rc_grid_free(run->traction[k]);
+        run->traction[k] = NULL;
+    }
+}
+
 int
 main(int argc, char **argv)
 {
@@ -494,7 +552,7 @@ main(int argc, char **argv)
 
     tool_start(&run.t, &info, argc, argv, &args);
     check_arguments(&run);
-    while ((p = tool_channel(&run.t, "pressure", false)) != NULL) {
+    while ((p = tool_channel_with(&run.t, "pressure", take, &run)) != NULL) {
         tool_demand_finite(&run.t, p, "a pressure map has none; make it again");
         set_options(&run, p);
         set_depths(&run, p);
@@ -504,10 +562,7 @@ main(int argc, char **argv)
             plan_case(&run, p);
         else
             do_case(&run, p);
-        if (run.depths.v != args.depths.v)
-            free(run.depths.v);
-        layers_free(&run.layers);
-        stress_strain_free(&run.strain);
+        forget_case(&run);
         rc_grid_free(p);
     }
     report_close(&run.out);

@@ -46,6 +46,11 @@ claim "long lines: the figures of one process" figures
 claim "displacements" same deflect "rc-deflect --kernel fft pressed.rcg"
 claim "stresses at depths given, with friction" same stress \
     "rc-stress --nu 0.3 --mu 0.2 --depths 0,10um,50um --components mises,s1 pressed.rcg"
+pressure() { # as a frame of this channel, the end of the stream left out
+    rc-pick --channel pressure pressed.rcg | sed "s/^channel=pressure\$/channel=$1/" | reseal | perl -0777 -pe 's/RCGEND 1\n//'
+}
+{ pressure pressure && pressure traction-x && pressure traction-y && echo RCGEND 3; } >dragged.rcg
+claim "stresses under tractions" same tractions "rc-stress --nu 0.3 --depths 0,10um,50um --components mises,syz dragged.rcg"
 claim "stresses at depths that are chosen" same depths "rc-stress --nu 0.3 --depths auto --components szz --quiet pressed.rcg"
 
 # ---- reports ----

@@ -218,9 +218,8 @@ note_frame(struct tool *t, const struct rc_grid *g)
              g->channel);
 }
 
-/* The frame as *kept, which is the only one of its channel in the case. */
-static void
-keep_frame(struct tool *t, struct rc_grid *g, struct rc_grid **kept)
+void
+tool_keep_frame(struct tool *t, struct rc_grid *g, struct rc_grid **kept)
 {
     if (*kept != NULL)
         tool_die_at(t, g, EXIT_IMPOSSIBLE,
@@ -239,12 +238,22 @@ tool_demand_lengths(struct tool *t, const struct rc_grid *g)
                     rc_grid_dunit(g));
 }
 
+void
+tool_demand_grid_of(struct tool *t, const struct rc_grid *g, const struct rc_grid *of)
+{
+    if (g->nx != of->nx || g->ny != of->ny || fabs(g->dx / of->dx - 1) > RC_SAME_SPACING ||
+        fabs(g->dy / of->dy - 1) > RC_SAME_SPACING)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE,
+                    "%zu x %zu nodes %g x %g m apart, but %s has %zu x %zu nodes %g x %g m apart: "
+                    "bring them to one grid with rc-pick --resample",
+                    g->nx, g->ny, g->dx, g->dy, of->channel, of->nx, of->ny, of->dx, of->dy);
+}
+
 struct rc_grid *
-tool_channel_beside(struct tool *t, const char *channel, const char *beside, struct rc_grid **other)
+tool_channel_with(struct tool *t, const char *channel, tool_take *take, void *ctx)
 {
     struct rc_grid *g, *kept = NULL;
 
-    *other = NULL;
     if ((g = tool_read(t)) == NULL && t->current.number == 0)
         tool_die(t, EXIT_IMPOSSIBLE, "%s: the stream holds no frame", t->source);
     if (g == NULL)
@@ -253,10 +262,8 @@ tool_channel_beside(struct tool *t, const char *channel, const char *beside, str
     for (;;) {
         note_frame(t, g);
         if (strcmp(g->channel, channel) == 0)
-            keep_frame(t, g, &kept);
-        else if (strcmp(g->channel, beside) == 0)
-            keep_frame(t, g, other);
-        else
+            tool_keep_frame(t, g, &kept);
+        else if (!take(ctx, t, kept, g))
             rc_grid_free(g);
         if (!look_ahead(t) || rc_grid_case(t->ahead) != t->current.number)
             break;
@@ -265,27 +272,37 @@ tool_channel_beside(struct tool *t, const char *channel, const char *beside, str
     t->current.found = kept != NULL;
     end_case(t, channel);
     tool_demand_lengths(t, kept);
-    if (*other != NULL && ((*other)->nx != kept->nx || (*other)->ny != kept->ny ||
-                           fabs((*other)->dx / kept->dx - 1) > RC_SAME_SPACING ||
-                           fabs((*other)->dy / kept->dy - 1) > RC_SAME_SPACING))
-        tool_die_at(t, *other, EXIT_IMPOSSIBLE,
-                    "%zu x %zu nodes %g x %g m apart, but %s has %zu x %zu nodes %g x %g m apart: "
-                    "bring them to one grid with rc-pick --resample",
-                    (*other)->nx, (*other)->ny, (*other)->dx, (*other)->dy, channel, kept->nx,
-                    kept->ny, kept->dx, kept->dy);
     return kept;
 }
 
-struct rc_grid *
-tool_more_of_case(struct tool *t)
-{
-    struct rc_grid *g;
+struct beside {
+    const char *channel;
+    struct rc_grid **frame;
+};
 
-    if (!look_ahead(t) || rc_grid_case(t->ahead) != t->current.number)
-        return NULL;
-    g = take_ahead(t);
-    note_frame(t, g);
-    return g;
+static bool
+take_beside(void *ctx, struct tool *t, const struct rc_grid *kept, struct rc_grid *g)
+{
+    const struct beside *beside = ctx;
+
+    (void)kept;
+    if (strcmp(g->channel, beside->channel) != 0)
+        return false;
+    tool_keep_frame(t, g, beside->frame);
+    return true;
+}
+
+struct rc_grid *
+tool_channel_beside(struct tool *t, const char *channel, const char *beside, struct rc_grid **other)
+{
+    struct beside with = {beside, other};
+    struct rc_grid *kept;
+
+    *other = NULL;
+    kept = tool_channel_with(t, channel, take_beside, &with);
+    if (*other != NULL)
+        tool_demand_grid_of(t, *other, kept);
+    return kept;
 }
 
 struct rc_grid *

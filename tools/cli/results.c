@@ -10,7 +10,8 @@
 bool
 results_channel(const char *channel)
 {
-    static const char *const solved[] = {"pressure", "gap", "displacement", "plastic"};
+    static const char *const solved[] = {"pressure", "gap",        "displacement",
+                                         "plastic",  "traction-x", "traction-y"};
 
     for (size_t k = 0; k < sizeof solved / sizeof *solved; k++)
         if (strcmp(channel, solved[k]) == 0)

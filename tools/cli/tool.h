@@ -186,15 +186,21 @@ struct rc_grid *tool_read(struct tool *tool);
  * but for what info->passing does, (`pass`) or dropped. A case that has none of it, or several, ends the tool; with `pass` so does one
  * that holds results beside a height, see results.h. NULL at the end. */
 struct rc_grid *tool_channel(struct tool *tool, const char *channel, bool pass);
-/* The frame of this channel in the next case, and beside it that of another channel, wherever it stands in
- * the case; *other is NULL where there is none. Other frames are left out. The head of the frame after the
- * case is read too, but not its values. */
+/* The frame of this channel in the next case. Of its other frames, wherever they stand in the case, `take` keeps some
+ * and returns true; the others are left out. `kept` is the frame of the channel, NULL as long as it has not come. The
+ * head of the frame after the case is read too, but not its values. */
+typedef bool tool_take(void *ctx, struct tool *tool, const struct rc_grid *kept, struct rc_grid *g);
+struct rc_grid *tool_channel_with(struct tool *tool, const char *channel, tool_take *take,
+                                  void *ctx);
+/* The same, and beside it the frame of one other channel, which lies on its grid; *other is NULL where there is none. */
 struct rc_grid *tool_channel_beside(struct tool *tool, const char *channel, const char *beside,
                                     struct rc_grid **other);
-/* After tool_channel: the next frame of the same case, or NULL where there is none. The caller frees it. */
-struct rc_grid *tool_more_of_case(struct tool *tool);
-/* Ends the tool where dx and dy of a frame are no lengths (key `dunit`); tool_channel and
- * tool_channel_beside do so for what they give. */
+/* For `take`: the frame as *kept; ends the tool where the case has two of them. */
+void tool_keep_frame(struct tool *tool, struct rc_grid *g, struct rc_grid **kept);
+/* Ends the tool where a frame has not the grid of another. */
+void tool_demand_grid_of(struct tool *tool, const struct rc_grid *g, const struct rc_grid *of);
+/* Ends the tool where dx and dy of a frame are no lengths (key `dunit`); tool_channel and those with it
+ * do so for what they give. */
 void tool_demand_lengths(struct tool *tool, const struct rc_grid *grid);
 /* First of the rows of a map that this process holds: 0 when it holds all. */
 size_t tool_first_row(const struct tool *tool, const struct rc_grid *grid);

@@ -120,10 +120,17 @@ component_effect(const struct rc_stress_options *o, int c)
     return "left out: not in --components";
 }
 
+/* Whether maps of it stand beside the pressure. */
+static bool
+traction(const struct rc_stress_options *o)
+{
+    return o->traction[0] != NULL || o->traction[1] != NULL;
+}
+
 static const char *
 friction_effect(const struct rc_stress_options *o)
 {
-    return o->mu != 0 ? "on" : "left out: mu = 0";
+    return o->mu != 0 || traction(o) ? "on" : "left out: mu = 0";
 }
 
 static const char *
@@ -268,7 +275,7 @@ stress_report_write(struct stress_report *r, struct report *out, const struct rc
     report_count(out, "threads", o->threads, NULL);
     report_number(out, "nu", o->body.layers == 0 ? o->body.nu : NAN, NULL);
     report_text(out, "layers", rc_grid_get(r->p, "layers"));
-    report_number(out, "mu", o->mu, NULL);
+    report_number(out, "mu", traction(o) ? NAN : o->mu, NULL);
     report_text(out, "section", o->section == 0 ? NULL : section);
     report_number(out, "at", o->section == 0 ? NAN : o->at, "m");
     report_number(out, "tol", o->tol, NULL);

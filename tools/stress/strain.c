@@ -14,17 +14,17 @@ enum {
 static const char *const names[PARTS] = {"exx", "eyy", "exy", "exz", "eyz"};
 
 static void
-keep(struct tool *t, struct stress_strain *s, size_t slabs, struct rc_grid *g, size_t part)
+keep(struct tool *t, struct stress_strain *s, struct rc_grid *g, size_t part)
 {
     size_t k = s->maps++;
     double thickness;
 
-    if (k % PARTS != part || k / PARTS >= slabs)
+    if (k % PARTS != part || k / PARTS >= s->slabs)
         tool_die_at(
             t, g, EXIT_IMPOSSIBLE,
             "plastic strain comes slab by slab, exx eyy exy exz eyz in that order, %zu slabs: "
             "take the stream as rc-solve has written it",
-            slabs);
+            s->slabs);
     if (!rc_grid_number(g, "thickness", &thickness) || !(thickness > 0) || isinf(thickness))
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "its key thickness is not a length above 0");
     tool_demand_finite(t, g, "a map of plastic strain has none; make it again");
@@ -39,48 +39,61 @@ same_grid(const struct rc_grid *a, const struct rc_grid *b)
     return a->nx == b->nx && a->ny == b->ny && a->dx == b->dx && a->dy == b->dy;
 }
 
-bool
-stress_strain_read(struct tool *t, const struct rc_grid *p, struct stress_strain *s)
+/* Makes room as soon as the pressure says that there is strain. */
+static bool
+begin(struct tool *t, const struct rc_grid *p, struct stress_strain *s)
 {
     double number;
-    size_t slabs, part;
-    struct rc_grid *g;
 
-    *s = (struct stress_strain){0};
+    if (s->thickness != NULL)
+        return true;
     if (!rc_grid_number(p, "slabs", &number))
         return false;
     if (!(number >= 1) || number > 1e4 || number != floor(number))
         tool_die_at(t, p, EXIT_IMPOSSIBLE, "its key slabs is %g: it must be a whole number",
                     number);
-    slabs = (size_t)number;
-    s->thickness = calloc(slabs, sizeof *s->thickness);
-    s->frame = calloc(slabs * PARTS, sizeof *s->frame);
-    s->map = calloc(slabs * PARTS, sizeof *s->map);
+    s->slabs = (size_t)number;
+    s->thickness = calloc(s->slabs, sizeof *s->thickness);
+    s->frame = calloc(s->slabs * PARTS, sizeof *s->frame);
+    s->map = calloc(s->slabs * PARTS, sizeof *s->map);
     if (s->thickness == NULL || s->frame == NULL || s->map == NULL)
-        tool_die_at(t, p, EXIT_IMPOSSIBLE, "out of memory for the strain of %zu slabs", slabs);
-    while ((g = tool_more_of_case(t)) != NULL) {
-        for (part = 0; part < PARTS && strcmp(g->channel, names[part]) != 0; part++)
-            ;
-        if (part == PARTS) {
-            rc_grid_free(g);
-            continue;
-        }
-        if (!same_grid(g, p))
-            tool_die_at(t, g, EXIT_IMPOSSIBLE, "it is not on the grid of the pressure");
-        keep(t, s, slabs, g, part);
-    }
-    if (s->maps != slabs * PARTS) {
-        char where[256];
+        tool_die_at(t, p, EXIT_IMPOSSIBLE, "out of memory for the strain of %zu slabs", s->slabs);
+    return true;
+}
+
+bool
+stress_strain_take(struct tool *t, const struct rc_grid *p, struct rc_grid *g,
+                   struct stress_strain *s)
+{
+    size_t part = 0;
+
+    while (part < PARTS && strcmp(g->channel, names[part]) != 0)
+        part++;
+    if (part == PARTS || !begin(t, p, s))
+        return false;
+    if (!same_grid(g, p))
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "it is not on the grid of the pressure");
+    keep(t, s, g, part);
+    return true;
+}
+
+bool
+stress_strain_whole(struct tool *t, const struct rc_grid *p, struct stress_strain *s)
+{
+    char where[256];
+
+    if (!begin(t, p, s))
+        return false;
+    if (s->maps != s->slabs * PARTS) {
         tool_warn(
             t,
             "%s: the body has yielded inside, and %s of its strain in the stream: these are the "
             "stresses of the pressure alone: see rc-solve --output strain",
             tool_where(t, p, where, sizeof where), s->maps == 0 ? "nothing" : "only a part");
-        stress_strain_free(s);
         return false;
     }
     s->strain = (struct rc_eigenstrain){
-        .slabs = slabs, .thickness = s->thickness, .map = (const double *const *)s->map};
+        .slabs = s->slabs, .thickness = s->thickness, .map = (const double *const *)s->map};
     return true;
 }
 
