@@ -11,6 +11,11 @@ make_inputs() {
     rc-synth selfaffine --nx 16 --ny 18 --dx 1um --hurst 0.8 --rms-slope 0.1 --seed 3 -o h.rcg
     rc-solve --quiet --estar 1GPa --load 1mN h.rcg -o c.rcg
     rc-solve --quiet --E1 1GPa --nu1 0.3 --E2 rigid --layer 2um,2GPa,0.3 --load 1mN h.rcg -o l.rcg
+    local channel
+    for channel in traction-x pressure traction-y; do
+        rc-pick --channel pressure c.rcg | sed "s/^channel=pressure\$/channel=$channel/" | reseal | perl -0777 -pe 's/RCGEND 1\n//'
+    done >t.rcg
+    echo RCGEND 3 >>t.rcg
     local format
     for format in x3p sdf gsf npy csv xyz hdf5 gwy sur; do rc-export h.rcg -o "h.$format"; done
     gzip -kn h.gsf
@@ -52,6 +57,7 @@ commands=$(
 2 rc-stress --nu 0.3 --mu 0.1 --depths 1um,2um --components mises,s1 --report /dev/null c.rcg -o out
 3 rc-stress --nu 0.3 --section y=0 --depths 0:4um:4 c.rcg -o out
 5 rc-stress --depths auto l.rcg -o out
+3 rc-stress --nu 0.3 --depths 1um --components sxz t.rcg -o out
 1 rc-deflect --estar 1GPa c.rcg -o out
 1 rc-deflect --estar 1GPa --kernel mlms c.rcg -o out
 1 rc-info --areal --psd h.rcg -o out
