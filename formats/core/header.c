@@ -55,6 +55,18 @@ rc_piece_trim(struct rc_piece piece)
     return piece;
 }
 
+struct rc_piece
+rc_piece_bare(struct rc_piece piece)
+{
+    static const char *const pairs[] = {"\"\"", "[]", "()", "<>"};
+
+    piece = rc_piece_trim(piece);
+    for (size_t k = 0; k < sizeof pairs / sizeof *pairs && piece.n >= 2; k++)
+        if (piece.text[0] == pairs[k][0] && piece.text[piece.n - 1] == pairs[k][1])
+            piece = rc_piece_trim((struct rc_piece){piece.text + 1, piece.n - 2});
+    return piece;
+}
+
 struct rc_lines
 rc_piece_lines(struct rc_piece piece)
 {

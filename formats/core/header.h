@@ -18,6 +18,8 @@ bool rc_piece_begins(struct rc_piece piece, const char *word);
 /* Where the word begins in the piece, or NULL; case counts. */
 const char *rc_piece_find(struct rc_piece piece, const char *word);
 struct rc_piece rc_piece_trim(struct rc_piece piece);
+/* The piece without the quotes or brackets round it: nm of "[nm]". */
+struct rc_piece rc_piece_bare(struct rc_piece piece);
 /* A cursor over its lines, before the first one. */
 struct rc_lines rc_piece_lines(struct rc_piece piece);
 /* Parts at the first of the characters `marks`, both trimmed; false when there is none. */

@@ -181,6 +181,27 @@ read_field(const struct rc_number_table *t, const char *s, char *decimal, double
     return is_missing(t, s, (size_t)(end - s)) ? end : NULL;
 }
 
+/* The same of a field in quotes, of which nothing and blanks are a missing value. */
+static const char *
+read_quoted(const struct rc_number_table *t, const char *s, char *decimal, double *value)
+{
+    struct rc_number_table inside = *t;
+    struct rc_piece piece;
+    const char *shut = ++s;
+
+    while (shut < t->end && *shut != '"' && !ends_line(*shut))
+        shut++;
+    if (shut == t->end || *shut != '"' || !ends_field(t, shut + 1))
+        return NULL;
+    piece = rc_piece_trim((struct rc_piece){s, (size_t)(shut - s)});
+    *value = NAN;
+    if (piece.n == 0)
+        return shut + 1;
+    inside.end = piece.text + piece.n;
+    inside.separator = '\0'; /* a comma there separates no columns */
+    return read_field(&inside, piece.text, decimal, value) == inside.end ? shut + 1 : NULL;
+}
+
 static const char *
 separator_name(char c)
 {
@@ -236,7 +257,8 @@ read_row(const struct rc_number_table *t, const char *s, size_t most, double *v,
             value = NAN; /* nothing before it */
         } else {
             *bad = s;
-            if ((s = read_field(t, s, decimal, &value)) == NULL)
+            s = *s == '"' ? read_quoted(t, s, decimal, &value) : read_field(t, s, decimal, &value);
+            if (s == NULL)
                 return NULL;
             s = skip_blanks(t, s);
         }
@@ -283,26 +305,39 @@ line_end(const struct rc_number_table *t, const char *s)
     return s;
 }
 
+/* How often the character is there outside quotes. */
 static size_t
 count_of(const char *s, const char *end, char c)
 {
     size_t n = 0;
+    bool quoted = false;
 
-    for (; s < end; s++)
-        n += *s == c;
+    for (; s < end; s++) {
+        quoted = quoted != (*s == '"');
+        n += !quoted && *s == c;
+    }
     return n;
 }
 
-/* Commas with white space on a side. */
+/* Commas outside quotes with white space on a side. */
 static size_t
 loose_commas(const char *s, const char *end)
 {
     size_t n = 0;
+    bool quoted = false;
 
-    for (const char *c = s; c < end; c++)
-        if (*c == ',' && ((c > s && (c[-1] == ' ')) || c + 1 == end || c[1] == ' '))
+    for (const char *c = s; c < end; c++) {
+        quoted = quoted != (*c == '"');
+        if (!quoted && *c == ',' && ((c > s && (c[-1] == ' ')) || c + 1 == end || c[1] == ' '))
             n++;
+    }
     return n;
+}
+
+static bool
+has_quotes(const struct rc_number_table *t)
+{
+    return memchr(t->start, '"', (size_t)(line_end(t, t->start) - t->start)) != NULL;
 }
 
 /* The separator, from the first row. A comma is one when the row also has points, when white space
@@ -321,7 +356,7 @@ find_separator(struct rc_number_table *t, const char *s, size_t line, struct rc_
         t->separator = ';';
     else if (count_of(s, end, '\t') > 0)
         t->separator = '\t';
-    else if (commas == 0 || t->decimal == ',')
+    else if (commas == 0 || (t->decimal == ',' && !has_quotes(t)))
         t->separator = ' ';
     else if (count_of(s, end, '.') > 0 || loose == commas || count_of(s, end, ' ') == 0 ||
              t->decimal == '.')
@@ -342,8 +377,8 @@ static enum rc_status
 refuse_ambiguous_comma(const struct rc_number_table *t, const struct rc_wish *wish,
                        struct rc_err *err)
 {
-    if (t->columns != 2 || t->separator != ',' || wish->separator != NULL || wish->decimal != 0 ||
-        memchr(t->start, '.', (size_t)(t->end - t->start)) != NULL ||
+    if (t->columns != 2 || has_quotes(t) || t->separator != ',' || wish->separator != NULL ||
+        wish->decimal != 0 || memchr(t->start, '.', (size_t)(t->end - t->start)) != NULL ||
         memchr(t->start, ' ', (size_t)(t->end - t->start)) != NULL)
         return RC_OK;
     return rc_err_set(err,
@@ -377,9 +412,9 @@ rc_number_table_open(struct rc_number_table *t, const struct rc_lines *lines,
     t->first_line = line;
     if (t->separator == '\0' && find_separator(t, s, line, err) != RC_OK)
         return RC_FAIL;
-    if (t->separator == ',' && t->decimal == ',')
+    if (t->separator == ',' && t->decimal == ',' && !has_quotes(t))
         return rc_err_set(err, "the comma cannot be separator and decimal mark at once");
-    if (t->separator == ',')
+    if (t->separator == ',' && t->decimal == 0)
         t->decimal = '.';
     decimal = t->decimal;
     if ((s = read_row(t, s, 0, NULL, &t->columns, &decimal, &bad)) == NULL)

@@ -4,7 +4,7 @@
  *
  * Columns stand apart by one separator. When it is white space, runs of it count once; otherwise
  * nothing between two separators is a missing value, and a separator at the end of a row ends it.
- * Empty lines and lines that begin with '#' or '%' are skipped. Missing values are NaN, NA, N/A,
+ * A value may stand in quotes. Empty lines and lines that begin with '#' or '%' are skipped. Missing values are NaN, NA, N/A,
  * BAD, -- or --- in either case, and the word that the user gives.
  */
 #ifndef RC_NUMBER_TABLE_H

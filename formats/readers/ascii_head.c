@@ -12,10 +12,19 @@ enum kind {
     FACTOR,
     COLUMNS,
     ROWS,
-    WIDTH_NM,
-    HEIGHT_NM,
-    FACTOR_NM,
+    X_LENGTH,
+    Y_LENGTH,
+    X_UNIT,
+    Y_UNIT,
+    Z_UNIT,
+    X_STEP,
+    Y_STEP,
+    BIT_NM,
+    SCALE,
+    SCALED,
     SCAN_SIZE,
+    SEPARATOR,
+    ANY_LINE,
 };
 
 static const struct {
@@ -33,12 +42,34 @@ static const struct {
     {"w", COLUMNS},
     {"x-pixels", COLUMNS},
     {"y-pixels", ROWS},
-    {"x-length", WIDTH_NM},
-    {"y-length", HEIGHT_NM},
-    {"bit2nm", FACTOR_NM},
+    {"x-length", X_LENGTH},
+    {"y-length", Y_LENGTH},
+    {"x-unit", X_UNIT},
+    {"y-unit", Y_UNIT},
+    {"z-unit", Z_UNIT},
+    {"display", CHANNEL},
+    {"bit2nm", BIT_NM},
+    {"file format", ANY_LINE},
+    {"nx", COLUMNS},
+    {"ny", ROWS},
+    {"scale x", X_STEP},
+    {"scale y", Y_STEP},
+    {"unit x", X_UNIT},
+    {"unit y", Y_UNIT},
+    {"unit data", VALUE_UNIT},
+    {"scale data", SCALE},
+    {"datascaleneeded", SCALED},
     {"scan size", SCAN_SIZE},
     {"exported image units", VALUE_UNIT},
+    {"sep", SEPARATOR},
 };
+
+/* Whether profiles and lists of points have such lines too. */
+static bool
+is_anywhere(enum kind kind)
+{
+    return kind == X_UNIT || kind == Y_UNIT || kind == Z_UNIT || kind == SEPARATOR;
+}
 
 /* ---- values of a header ---- */
 
@@ -70,14 +101,16 @@ in_metres(double value, double unit)
     return unit < 1 ? value / round(1 / unit) : value * unit;
 }
 
-/* "10.00 µm" in metres, NAN when it is no such thing. */
+/* "10.00 µm" or "10.00 [µm]" in metres, NAN when it is no such thing. */
 static double
 length_of(struct rc_piece p)
 {
     double value, unit;
 
-    return leading_number(&p, &value) && rc_length_unit(p.text, p.n, &unit) ? in_metres(value, unit)
-                                                                            : NAN;
+    if (!leading_number(&p, &value))
+        return NAN;
+    unit = rc_piece_metres(rc_piece_bare(p));
+    return isnan(unit) ? NAN : in_metres(value, unit);
 }
 
 static double
@@ -117,6 +150,8 @@ take_scan_size(struct rc_ascii_head *h, struct rc_piece p)
 static void
 take_unit(struct rc_ascii_head *h, struct rc_piece p)
 {
+    p = rc_piece_bare(p);
+    h->z = NAN;
     rc_text_clean(h->unit, sizeof h->unit, p.text, p.n);
     if (rc_length_unit(p.text, p.n, &h->z))
         h->unit[0] = '\0';
@@ -136,6 +171,7 @@ take(struct rc_ascii_head *h, enum kind kind, struct rc_piece value)
         h->height = length_of(value);
         break;
     case VALUE_UNIT:
+    case Z_UNIT:
         take_unit(h, value);
         break;
     case PIXEL:
@@ -150,17 +186,46 @@ take(struct rc_ascii_head *h, enum kind kind, struct rc_piece value)
     case ROWS:
         h->ny = count_of(value);
         break;
-    case WIDTH_NM:
-        h->width = in_metres(number_of(value), 1e-9);
+    case X_LENGTH:
+        h->width = length_of(value);
+        h->as_given.x_length = number_of(value);
         break;
-    case HEIGHT_NM:
-        h->height = in_metres(number_of(value), 1e-9);
+    case Y_LENGTH:
+        h->height = length_of(value);
+        h->as_given.y_length = number_of(value);
         break;
-    case FACTOR_NM:
-        h->factor = in_metres(number_of(value), 1e-9);
+    case X_UNIT:
+        h->as_given.has_x_unit = true;
+        h->as_given.x_unit = rc_piece_metres(rc_piece_bare(value));
+        break;
+    case Y_UNIT:
+        h->as_given.has_y_unit = true;
+        h->as_given.y_unit = rc_piece_metres(rc_piece_bare(value));
+        break;
+    case X_STEP:
+        h->as_given.x_step = number_of(value);
+        break;
+    case Y_STEP:
+        h->as_given.y_step = number_of(value);
+        break;
+    case BIT_NM:
+        h->as_given.bit = number_of(value);
+        break;
+    case SCALE:
+        h->as_given.scale = number_of(value);
+        break;
+    case SCALED:
+        h->as_given.scaled = !rc_piece_is(value, "no");
         break;
     case SCAN_SIZE:
         take_scan_size(h, value);
+        break;
+    case SEPARATOR:
+        if (value.n == 1)
+            h->separator[0] = *value.text;
+        break;
+    case ANY_LINE:
+        h->any_line = true;
         break;
     }
 }
@@ -200,7 +265,7 @@ take_entry(struct rc_ascii_head *h, const char *s, size_t n, struct rc_piece *va
     for (size_t k = 0; k < sizeof keys / sizeof *keys; k++)
         if (rc_piece_is(key, keys[k].key)) {
             take(h, keys[k].kind, *value);
-            h->known = true;
+            h->known = h->known || !is_anywhere(keys[k].kind);
             return true;
         }
     return false;
@@ -246,6 +311,7 @@ take_line(struct rc_ascii_head *h, const char *s, size_t n)
             s++, n--;
         rc_trim(&s, &n);
         take_entry(h, s, n, &value);
+        h->any_line = false; /* that is for headers whose lines have no mark */
         remember(h, value);
         return true;
     }
@@ -255,6 +321,11 @@ take_line(struct rc_ascii_head *h, const char *s, size_t n)
     }
     if (*s == '\\') {
         take_entry(h, s + 1, n - 1, &value);
+        return true;
+    }
+    if (h->any_line && *s >= 'A') {
+        h->any_line = !rc_piece_begins((struct rc_piece){s, n}, "start of data");
+        take_entry(h, s, n, &value);
         return true;
     }
     if (*s >= 'A')
@@ -279,6 +350,30 @@ take_by_shape(struct rc_ascii_head *h)
     take_unit(h, c[3].value);
 }
 
+/* Numbers that have their unit on another line. SPIP's lengths without one are in nanometres, and
+ * its Bit2nm is for what has no unit; Nova's scale counts where the header says so. */
+static void
+join_units(struct rc_ascii_head *h)
+{
+    double x = h->as_given.has_x_unit ? h->as_given.x_unit : 1e-9;
+    double y = h->as_given.has_y_unit ? h->as_given.y_unit : x;
+
+    if (!isnan(h->as_given.x_length))
+        h->width = in_metres(h->as_given.x_length, x);
+    if (!isnan(h->as_given.y_length))
+        h->height = in_metres(h->as_given.y_length, y);
+    if (h->as_given.has_x_unit) {
+        h->step_x = in_metres(h->as_given.x_step, x);
+        h->step_y = in_metres(h->as_given.y_step, y);
+    }
+    if (isnan(h->z) && h->unit[0] == '\0' && !isnan(h->as_given.bit))
+        h->z = in_metres(h->as_given.bit, 1e-9);
+    if (h->as_given.scaled)
+        h->z *= h->as_given.scale;
+    if (isnan(h->z))
+        h->z = h->factor;
+}
+
 void
 rc_ascii_read_head(struct rc_ascii_head *h, struct rc_lines *lines)
 {
@@ -286,10 +381,21 @@ rc_ascii_read_head(struct rc_ascii_head *h, struct rc_lines *lines)
     const char *line;
     size_t n;
 
-    *h = (struct rc_ascii_head){.width = NAN, .height = NAN, .pixel = NAN, .z = NAN, .factor = NAN};
+    *h = (struct rc_ascii_head){.width = NAN,
+                                .height = NAN,
+                                .pixel = NAN,
+                                .step_x = NAN,
+                                .step_y = NAN,
+                                .z = NAN,
+                                .factor = NAN,
+                                .as_given = {.x_length = NAN,
+                                             .y_length = NAN,
+                                             .x_step = NAN,
+                                             .y_step = NAN,
+                                             .bit = NAN,
+                                             .scale = NAN}};
     while (rc_lines_next(&ahead, &line, &n) && take_line(h, line, n))
         *lines = ahead;
     take_by_shape(h);
-    if (isnan(h->z))
-        h->z = h->factor;
+    join_units(h);
 }

@@ -14,11 +14,21 @@ struct rc_ascii_head {
     bool known; /* at least one line was understood                                  */
     struct rc_piece channel;
     double width, height, pixel; /* m, NAN when not given                            */
+    double step_x, step_y;       /* m, likewise                                      */
     double z, factor;            /* m per number, by unit and by factor; NAN likewise */
     char unit[16];               /* of the numbers when it is no length              */
     size_t nx, ny;               /* 0 when not given                                 */
+    char separator[2];           /* that a line `sep=;` names, "" for none           */
     size_t comments;
     struct rc_ascii_comment comment[4];
+    bool any_line; /* up to `Start of Data` all lines belong to the header */
+    struct {
+        double x_length, y_length, x_step, y_step; /* numbers without a unit, NAN when not given */
+        double x_unit, y_unit;                     /* m; NAN: no length                          */
+        bool has_x_unit, has_y_unit;
+        double bit, scale; /* nm in a number; what numbers are times */
+        bool scaled;
+    } as_given;
 };
 
 /* Reads the lines that are understood, behind which `lines` then stands. */

@@ -1,7 +1,6 @@
 /*
  * Profiles as text: a column of positions, evenly apart, and one of heights, behind a header of
- * whatever kind. The line before the first row may have titles, in which units of length are looked
- * for; a column that counts the points is passed over, one titled "valid" marks missing points by
+ * whatever kind, whose units are found as titled_table.h says; a column that counts the points is passed over, one titled "valid" marks missing points by
  * 0. A single column is of heights.
  */
 #include <math.h>
@@ -23,33 +22,6 @@ column(const struct profile *p, size_t c)
     return p->table.v + c;
 }
 
-/* ---- titles ---- */
-
-/* The unit in a title: what stands in brackets, else a word that is a length. */
-static struct rc_piece
-unit_of(struct rc_piece title)
-{
-    static const char *const brackets[] = {"()", "[]"};
-
-    for (size_t k = 0; k < sizeof brackets / sizeof *brackets; k++) {
-        struct rc_piece before, inside, after;
-        char open[2] = {brackets[k][0], '\0'}, shut[2] = {brackets[k][1], '\0'};
-
-        if (rc_piece_part(title, open, &before, &after) &&
-            rc_piece_part(after, shut, &inside, &before))
-            return inside;
-    }
-    for (struct rc_piece rest = title, word; rest.n > 0;) {
-        if (!rc_piece_part(rest, " \t_/", &word, &rest)) {
-            word = rest;
-            rest.n = 0;
-        }
-        if (!isnan(rc_piece_metres(word)))
-            return word;
-    }
-    return (struct rc_piece){title.text, 0};
-}
-
 static struct rc_piece
 title_of(const struct profile *p, size_t c)
 {
@@ -69,7 +41,7 @@ counts(const struct profile *p, size_t c)
     for (size_t k = 0; k < rows; k++)
         if (v[k * columns] != v[0] + (double)k)
             return false;
-    return rows > 1 && (v[0] == 0 || v[0] == 1) && unit_of(title_of(p, c)).n == 0;
+    return rows > 1 && (v[0] == 0 || v[0] == 1) && rc_titled_table_unit(&p->table, c, 'x').n == 0;
 }
 
 static enum rc_status
@@ -141,7 +113,7 @@ profile_open(struct profile *p, const struct rc_file *file, const struct rc_wish
     p->falls = false;
     if (p->table.numbers.columns == 1)
         return RC_OK;
-    unit = unit_of(title_of(p, p->x));
+    unit = rc_titled_table_unit(&p->table, p->x, 'x');
     if (unit.n > 0 && isnan(rc_piece_metres(unit)))
         return rc_err_set(err, "the positions are in '%s', which is no length",
                           rc_piece_shown(quote, unit));
@@ -167,7 +139,7 @@ lay_nodes(const struct profile *p, const struct rc_file *file, const struct rc_w
 {
     size_t rows = p->table.numbers.rows, columns = p->table.numbers.columns;
     double *x = calloc(rows, 2 * sizeof *x), *z;
-    double metres = rc_piece_metres(unit_of(title_of(p, p->x)));
+    double metres = rc_piece_metres(rc_titled_table_unit(&p->table, p->x, 'x'));
     enum rc_status status;
 
     if (x == NULL)
@@ -221,9 +193,9 @@ profile_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_m
         map->nx = even.n;
         map->ny = 1;
         if (p.table.numbers.columns > 1)
-            rc_map_steps(map, even.step, even.step, unit_of(title_of(&p, p.x)));
+            rc_map_steps(map, even.step, even.step, rc_titled_table_unit(&p.table, p.x, 'x'));
         map->fill = fill_heights;
-        unit = unit_of(title_of(&p, p.z));
+        unit = rc_titled_table_unit(&p.table, p.z, 'z');
         rc_map_unit(map, unit.text, unit.n);
     }
     rc_titled_table_close(&p.table);

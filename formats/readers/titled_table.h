@@ -14,7 +14,8 @@ struct rc_titled_table {
     struct rc_number_table numbers;
     struct rc_piece title[RC_TITLES_MOST]; /* of the columns, from the line before the first row */
     size_t titles;
-    double *v; /* numbers.rows * numbers.columns values; NULL: not yet read */
+    struct rc_piece axis_unit[3]; /* as lines `x-unit = um` and so on above it have them */
+    double *v;                    /* numbers.rows * numbers.columns values; NULL: not yet read */
 };
 
 /* Finds the first table of at least so many columns: rows and titles. RC_FAIL when there is none.
@@ -24,6 +25,9 @@ enum rc_status rc_titled_table_open(struct rc_titled_table *table, const struct 
 /* Then reads its values. RC_FAIL names the first row that differs from the first one in its
  * columns. */
 enum rc_status rc_titled_table_read(struct rc_titled_table *table, struct rc_err *err);
+/* The unit of a column: what stands in brackets in its title, else a word there that is a length,
+ * else that of the axis 'x', 'y' or 'z' by a line of its own. Of no length where there is none. */
+struct rc_piece rc_titled_table_unit(const struct rc_titled_table *table, size_t column, char axis);
 void rc_titled_table_close(struct rc_titled_table *table);
 
 #endif

@@ -2,7 +2,7 @@
  * Lists of points: three columns x, y, z in any order of the points, which must lie on a raster,
  * or in one line. The least x and y come first; a point of the raster that the list leaves out is
  * missing. A line of any direction is a profile, from its end that is nearer to the first point.
- * The list holds no unit.
+ * Units are found as titled_table.h says.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -201,6 +201,30 @@ done:
     return status;
 }
 
+/* The spacing and the unit of the heights. Words above the columns are titles when there is one for
+ * each. */
+static void
+take_units(const struct cloud *c, double dx, double dy, struct rc_map *map)
+{
+    struct rc_titled_table t = c->table;
+    struct rc_piece x, y, z;
+
+    if (t.titles != 3)
+        t.titles = 0;
+    x = rc_titled_table_unit(&t, 0, 'x');
+    y = rc_titled_table_unit(&t, 1, 'y');
+    z = rc_titled_table_unit(&t, 2, 'z');
+    map->dx = dx * rc_piece_metres(x);
+    map->dy = dy * rc_piece_metres(y.n == 0 ? x : y);
+    if (c->along != NULL && map->dx != map->dy)
+        map->dx = map->dy = NAN; /* one direction in two units */
+    if (isnan(map->dx) || isnan(map->dy)) {
+        map->dx = map->dy = NAN;
+        rc_map_hint(map, dx, dy);
+    }
+    rc_map_unit(map, z.text, z.n);
+}
+
 static enum rc_status
 xyz_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
          struct rc_err *err)
@@ -217,12 +241,12 @@ xyz_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
         map->ny = 1;
         map->fill = fill_points;
         if (status == RC_OK)
-            rc_map_hint(map, even.step, even.step);
+            take_units(&c, even.step, even.step, map);
     } else if (status == RC_OK) {
         map->nx = c.x.n;
         map->ny = c.y.n;
         map->fill = fill_points;
-        rc_map_hint(map, c.x.step, c.y.n > 1 ? c.y.step : c.x.step);
+        take_units(&c, c.x.step, c.y.n > 1 ? c.y.step : c.x.step, map);
     }
     cloud_close(&c);
     return status;

@@ -206,6 +206,17 @@ static const struct {
     {"x [um] z [um]\n0 1\n1 2\n", 0, 0, 0, 0, "3 points at least"},
     {"0 1 2\n1 2 3\n2 3 4\n", 0, 0, 0, 0, "without titles"},
     {"x [um] z [um]\n0 1\n1 2 3\n2 3\n", 0, 0, 0, 0, "line 3"},
+    /* units on lines of their own, in quotes, after what spreadsheets write first */
+    {"# x-unit = um\n# z-unit = nm\n0 1\n0.5 2\n1.0 3\n", 3, 0.5e-6, 1e-9, 3e-9, NULL},
+    {"# z-unit: [nm]\n# x-unit: um\n0 1\n0.5 2\n1.0 3\n", 3, 0.5e-6, 1e-9, 3e-9, NULL},
+    {"X/mm Z/um\n0 1\n0.5 2\n1.0 3\n", 3, 0.5e-3, 1e-6, 3e-6, NULL},
+    {"X[um] Z[nm]\n0 1\n0.5 2\n1.0 3\n", 3, 0.5e-6, 1e-9, 3e-9, NULL},
+    {"x (um),z (nm)\n0 1\n0.5 2\n1.0 3\n", 3, 0.5e-6, 1e-9, 3e-9, NULL},
+    {"sep=;\nx [um];z [nm]\n0;1,0\n0,5;2,0\n1,0;3,0\n", 3, 0.5e-6, 1e-9, 3e-9, NULL},
+    {"sep=;\r\n\"x [um]\";\"z [nm]\"\r\n\"0\";\"1,0\"\r\n\"0,5\";\"2\"\r\n\"1\";\"3\"\r\n", 3,
+     0.5e-6, 1e-9, 3e-9, NULL},
+    {"\"X/mm\",\"Z/um\"\n\"0\",\"1\"\n\"0.5\",\"2\"\n\"1\",\"\"\n", 3, 0.5e-3, 1e-6, NAN, NULL},
+    {"# x-unit = s\n0 1\n1 2\n2 3\n", 0, 0, 0, 0, "'s', which is no length"},
     {"z [um]\n1\n2\n3\n", 0, 0, 0, 0, "--dx"},
     {"1\n2 2\n3\n", 0, 0, 0, 0, "line 3"},
     {"words and no more\n", 0, 0, 0, 0, "no table"},
@@ -347,12 +358,63 @@ points(void **state)
     }
 }
 
+/* What the titles of columns, or lines above them, say of the units. */
+static void
+units_of_points(void **state)
+{
+    static const struct {
+        const char *head;
+        double dx, dy, z; /* NAN: nothing */
+        char mark;
+    } rows[] = {
+        {"X/mm Y/mm Z/um", 2e-3, 3e-3, 1e-6, ' '},
+        {"X[um] Y[um] Z[nm]", 2e-6, 3e-6, 1e-9, ' '},
+        {"# x [um]\ty [nm]\tz [mm]", 2e-6, 3e-9, 1e-3, '\t'},
+        {"x (um),y (um),z (nm)", 2e-6, 3e-6, 1e-9, ' '},
+        {"sep=;\r\n\"X [um]\";\"Y [um]\";\"Z [nm]\"", 2e-6, 3e-6, 1e-9, ';'},
+        {"# x-unit = um\n# z-unit = nm", 2e-6, 3e-6, 1e-9, ' '},
+        {"x [um];y;z", 2e-6, 3e-6, NAN, ';'},
+        {"x [s];y [s];z [nm]", NAN, NAN, 1e-9, ';'},
+        {"a scan in mm", NAN, NAN, NAN, ' '}, /* no titles: there are four words */
+    };
+
+    (void)state;
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        char text[300], c = rows[k].mark;
+        struct rc_channel channel;
+        struct rc_file file;
+
+        snprintf(text, sizeof text, "%s\n0%c0%c1\n2%c0%c2\n0%c3%c3\n2%c3%c4\n", rows[k].head, c, c,
+                 c, c, c, c, c, c);
+        file = (struct rc_file){"made.txt", (const unsigned char *)text, strlen(text)};
+        assert_string_equal(rc_format_find(&file, NULL)->name, "xyz");
+        assert_int_equal(rc_format_named("xyz")->list(&file, &rc_no_wish, &channel, 1, NULL), 1);
+        if (isnan(rows[k].dx) ? !isnan(channel.dx) || !isnan(channel.dy)
+                              : !(fabs(channel.dx - rows[k].dx) <= last_digit * rows[k].dx) ||
+                                    !(fabs(channel.dy - rows[k].dy) <= last_digit * rows[k].dy))
+            fail_msg("'%s': %g, %g", text, channel.dx, channel.dy);
+        assert_string_equal(channel.unit, isnan(rows[k].z) ? "" : "m");
+        if (!isnan(rows[k].z) && !isnan(rows[k].dx)) {
+            struct rc_grid *g = rc_format_named("xyz")->read(&file, &rc_no_wish, 0, NULL, NULL);
+
+            assert_non_null(g);
+            assert_true(fabs(g->v[3] - 4 * rows[k].z) <= last_digit * 4 * rows[k].z);
+            rc_grid_free(g);
+        }
+    }
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(variants),      cmocka_unit_test(other_channels), cmocka_unit_test(keys),
-        cmocka_unit_test(text_profiles), cmocka_unit_test(one_column),     cmocka_unit_test(points),
+        cmocka_unit_test(variants),
+        cmocka_unit_test(other_channels),
+        cmocka_unit_test(keys),
+        cmocka_unit_test(text_profiles),
+        cmocka_unit_test(one_column),
+        cmocka_unit_test(points),
+        cmocka_unit_test(units_of_points),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
