@@ -125,6 +125,27 @@ headers(void **state)
         {"\\*File list\n\\Version: 0x05120130\n\\*Ciao image list\n\\Scan Size: 6 5 um\n"
          "\\*File list end\n\\Exported image units: nm\n@",
          2e-6, 2.5e-6, 1e-9, NULL},
+        /* lengths in nanometres whatever the unit of the heights */
+        {"# x-pixels = 3\n# y-pixels = 2\n# x-length = 600\n# y-length = 500\n# z-unit = um\n@",
+         2e-7, 2.5e-7, 1e-6, NULL},
+        {"# x-pixels = 3\n# y-pixels = 2\n# x-length = 6 um\n# y-length = 500 [nm]\n"
+         "# z-unit = [nm]\n# Bit2nm = 2\n@",
+         2e-6, 2.5e-7, 1e-9, NULL},
+        /* Daisy of attocube, whose units stand on lines of their own */
+        {"# Daisy frame view snapshot\n# 2009-07-14T10:12:34\n# x-pixels: 3\n# y-pixels: 2\n"
+         "# x-length: 6\n# y-length: 500\n# x-offset: 0\n# y-offset: 0\n# x-unit: um\n"
+         "# y-unit: nm\n# z-unit: nm\n# scanspeed: 2\n# display: Topography\n# Start of Data:\n@",
+         2e-6, 2.5e-7, 1e-9, "Topography"},
+        {"# x-unit: um\n# x-length: 6\n# y-length: 5\n# z-unit: pm\n@", 2e-6, 2.5e-6, 1e-12, NULL},
+        /* Nova of NT-MDT */
+        {"File Format = ASCII\nCreated by Nova\nNX = 3\nNY = 2\nScale X = 0.5\nScale Y = 0.25\n"
+         "Scale Data = 3\nBias X = 0\nUnit X = um\nUnit Y = um\nUnit Data = nm\n"
+         "DataScaleNeeded = No\nStart of Data :\n@",
+         5e-7, 2.5e-7, 1e-9, NULL},
+        {"File Format = ASCII\nScale X = 0.5\nScale Y = 0.5\nUnit X = um\nUnit Data = nm\n"
+         "Scale Data = 3\nDataScaleNeeded = Yes\nStart of Data :\n@",
+         5e-7, 5e-7, 3e-9, NULL},
+        {"# Width: 6 [um]\n# Height: 5 (um)\n# Value units: [nm]\n@", 2e-6, 2.5e-6, 1e-9, NULL},
         {"\"\\Scan Size: 600 nm\"\r\n\"\\Exported image units: nm\"\r\n@", 2e-7, 3e-7, 1e-9, NULL},
     };
 
@@ -166,6 +187,10 @@ headers_that_are_refused(void **state)
         {"# Width: -6 um\n# Height: 5 um\n# Value units: m\n1 2 3\n4 5 6\n", "positive and finite"},
         {"# Width: 6 um\n# Height: 0 um\n# Value units: m\n1 2 3\n4 5 6\n", "spacing in y is 0 m"},
         {"# Width: 6 deg\n# Height: 5 um\n# Value units: m\n1 2 3\n4 5 6\n", "--dx LENGTH"},
+        {"# x-unit: deg\n# x-length: 6\n# y-length: 5\n# z-unit: nm\n1 2 3\n4 5 6\n",
+         "--dx LENGTH"},
+        {"# x-length = 6\n# y-length = 5\n# z-unit = V\n# Bit2nm = 1\n1 2 3\n4 5 6\n",
+         "'V', which is no length"},
         {"h=3 w=3\npixel size=1 m\ndata unit=m\n1 2 3\n4 5 6\n", "promises 3 columns and 3 rows"},
         {"h=2 w=4\npixel size=1 m\ndata unit=m\n1 2 3\n4 5 6\n", "promises 4 columns and 2 rows"},
         {"h=2 w=4294967299\npixel size=1 m\ndata unit=m\n1 2 3\n4 5 6\n",
@@ -180,6 +205,81 @@ headers_that_are_refused(void **state)
     (void)state;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
         refuse_text(cases[k].text, &rc_no_wish, cases[k].why);
+}
+
+/* ---- several images ---- */
+
+#define BLOCK(name, width, height, unit)                                                           \
+    "# Channel: " name "\n# Width: " width "\n# Height: " height "\n# Value units: " unit "\n"
+
+/* Image `index` of the text, or NULL. */
+static struct rc_grid *
+read_image(const char *text, const struct rc_wish *wish, size_t index, struct rc_err *err)
+{
+    struct rc_file file = {"made.txt", (const unsigned char *)text, strlen(text)};
+    struct rc_notes notes = {0};
+
+    return rc_format_ascii.read(&file, wish, index, &notes, err);
+}
+
+static void
+images(void **state)
+{
+    static const char text[] =
+        BLOCK("Phase", "6 um", "5 um", "deg") "1 2 3\n# a note\n4 5 6\n\n" BLOCK(
+            "Height", "4 um", "9 um", "nm") "1 2\n3 4\n5 6\n"
+                                            "# Kanal: Zoom\n# Breite: 3,0 nm\n# H\xc3\xb6he: 1 nm\n"
+                                            "# Werteinheiten: m\n7 8 9\n";
+    static const double all[] = {1, 2, 3, 4, 5, 6}, nm[] = {1e-9, 2e-9, 3e-9, 4e-9, 5e-9, 6e-9},
+                        last[] = {7, 8, 9}, wished[] = {1e-3, 2e-3, 3e-3, 4e-3, 5e-3, 6e-3};
+    static const struct {
+        const char *name, *unit, *channel;
+        size_t nx, ny;
+        double dx, dy;
+        const double *v;
+    } rows[] = {
+        {"Phase", "deg", "Phase", 3, 2, 2e-6, 2.5e-6, all},
+        {"Height", "m", "height", 2, 3, 2e-6, 3e-6, nm},
+        {"Zoom", "m", "height", 3, 1, 1e-9, 1e-9, last},
+    };
+    struct rc_file file = {"made.txt", (const unsigned char *)text, strlen(text)};
+    struct rc_channel channel[4];
+    struct rc_wish wish = rc_no_wish;
+    struct rc_err err;
+    struct rc_grid *g;
+
+    (void)state;
+    assert_ptr_equal(rc_format_find(&file, NULL), &rc_format_ascii);
+    assert_int_equal(rc_format_ascii.list(&file, &rc_no_wish, channel, 4, NULL), 3);
+    assert_int_equal(rc_format_topography(channel, 3, "m").index, 1);
+    for (size_t k = 0; k < 3; k++) {
+        if ((g = read_image(text, &rc_no_wish, k, &err)) == NULL)
+            fail_msg("image %zu: %s", k, err.text);
+        check(rows[k].name, g, rows[k].nx, rows[k].ny, rows[k].v);
+        assert_true(is_near(g->dx, rows[k].dx) && is_near(g->dy, rows[k].dy));
+        assert_string_equal(g->channel, rows[k].channel);
+        assert_string_equal(g->unit, rows[k].unit);
+        assert_string_equal(rc_grid_get(g, "file.channel"), rows[k].name);
+        assert_string_equal(channel[k].name, rows[k].name);
+        assert_string_equal(channel[k].unit, rows[k].unit);
+        assert_true(channel[k].nx == g->nx && channel[k].ny == g->ny && channel[k].dx == g->dx);
+        rc_grid_free(g);
+    }
+    wish.z_unit = 1e-3; /* what is no length may be taken for heights */
+    if ((g = read_image(text, &wish, 0, &err)) == NULL)
+        fail_msg("%s", err.text);
+    check("Phase as heights", g, 3, 2, wished);
+    assert_string_equal(g->unit, "m");
+    rc_grid_free(g);
+    assert_null(read_image(text, &rc_no_wish, 3, &err));
+    assert_non_null(strstr(err.text, "no channel 4: the file has 3"));
+    /* a comment that is no header parts nothing */
+    g = read_image(BLOCK("a", "6 um", "5 um", "m") "1 2 3\n# Date: today\n4 5 6\n", &rc_no_wish, 0,
+                   &err);
+    check("a comment", g, 3, 2, all);
+    rc_grid_free(g);
+    /* nor are numbers of another width lost in another image */
+    assert_null(read_image(BLOCK("a", "6 um", "5 um", "m") "1 2 3\n4 5\n", &rc_no_wish, 0, &err));
 }
 
 /* ---- columns ---- */
@@ -203,6 +303,11 @@ separators_and_decimal_marks(void **state)
         "0;1,5;-2,25\n3;0,004;5000,0\n",
         "0 ; 1,5 ; -2,25\n3 ; 0,004 ; 5000\n",
         "0 1.5 -2.25\r3 4e-3 5000\r",
+        "\"0\",\"1.5\",\"-2.25\"\n\"3\",\"4e-3\",\"5000\"\n", /* in quotes */
+        "\"0\";\"1,5\";\"-2,25\"\n\"3\";\" 0,004 \";\"5000\";\n",
+        "\"0\" \"1,5\" -2,25\n3 \"4e-3\" \"5000\"\n",
+        "sep=;\n0;1.5;-2.25\n3;4E-3;5000",
+        "sep=|\r\n0|1.5|-2.25\r\n3|4E-3|5000\r\n",
         "\n# note\n0 1.5 -2.25\n\n% note\n3 4e-3 5000\n\n\n",
     };
 
@@ -225,7 +330,8 @@ wishes_for_text(void **state)
     } cases[] = {
         {"1.5|2\nnan|4\n", "|", NULL, 0},          {"1,5 2\nnan 4\n", NULL, NULL, ','},
         {"1,5 2\nnan 4\n", " ", NULL, ','},        {"1.5,2\n,4\n", ",", NULL, '.'},
-        {"1.5 2\n-9999.00 4\n", NULL, "-9999", 0}, {"1.5 2\nlost 4\n", NULL, "lost", 0},
+        {"1.5 2\n-9999.00 4\n", NULL, "-9999", 0}, {"\"1,5\",\"2\"\n\"\",\"4\"\n", NULL, NULL, ','},
+        {"1.5 2\nlost 4\n", NULL, "lost", 0},
     };
 
     (void)state;
@@ -393,6 +499,7 @@ every_truncation(void **state)
         "h=2 w=3\npixel size=1e-7 m\ndata unit=rad\nheight conversion factor (-> m)=1e-8\n"
         "1,5;;3\n---;5;6,25e-17",
         "\"\\Scan Size: 600 500 nm\"\r\n\\Exported image units: nm\r\n1.5, 2, 3\r\n4, 5, 6\r\n",
+        BLOCK("a", "6 um", "5 um", "V") "\"1\";\"\"\n" BLOCK("b", "6 um", "5 um", "m") "1 2\n",
     };
 
     (void)state;
@@ -460,6 +567,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(headers),
         cmocka_unit_test(headers_that_are_refused),
+        cmocka_unit_test(images),
         cmocka_unit_test(separators_and_decimal_marks),
         cmocka_unit_test(wishes_for_text),
         cmocka_unit_test(missing_values),

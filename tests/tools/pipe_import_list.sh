@@ -22,4 +22,15 @@ claim "what a terminal shows is in the order of the files" \
     test "$(grep -oE '^a.txt|b.txt|^c.txt' both.txt | tr '\n' ' ')" = "a.txt b.txt c.txt "
 refuses 1 'b.txt: not recognised' "without --list the first bad file ends it" 'rc-import a.txt b.txt c.txt'
 
+# ---- several images, and units on lines of their own ----
+
+printf '# Channel: %s\n# Width: 4 um\n# Height: 3 um\n# Value units: %s\n1 2 3 4\n5 6 7 8\n9 10 11 12\n' \
+    Phase deg Height nm >two.txt
+claim "of two images in one text the height is taken" says '^[*] +2 +4 +3 +1e-06 +1e-06 m ' rc-import --list two.txt
+claim "the other one is a channel too" says '^  +1 +4 +3 +1e-06 +1e-06 deg +1 +12 Phase$' rc-import --list two.txt
+claim "that --channel takes" says '^unit=deg$' rc-import --channel phase two.txt
+printf '# Daisy frame view snapshot\n# x-pixels: 4\n# y-pixels: 3\n# x-length: 8\n# y-length: 6\n# x-unit: um\n' >daisy.asc
+printf '# y-unit: um\n# z-unit: nm\n# Start of Data:\n1 2 3 4\n5 6 7 8\n9 10 11 12\n' >>daisy.asc
+claim "lengths are in the unit that another line names" says ' 4 +3 +2e-06 +2e-06 m ' rc-import --list daisy.asc
+
 finish
