@@ -172,7 +172,8 @@ read_variable(struct rc_cdf *f, struct rc_cdf_variable *v, struct rc_err *err)
     char quote[RC_SHOWN];
     uint64_t rank;
 
-    *v = (struct rc_cdf_variable){.unit = {"", 0}, .title = {"", 0}, .fill = NAN, .factor = 1};
+    *v = (struct rc_cdf_variable){
+        .unit = {"", 0}, .title = {"", 0}, .fill = NAN, .factor = 1, .lead = 1};
     v->name = bytes(f, count(f));
     rank = count(f);
     if (f->b.past || rank > RANK_MOST)
@@ -184,8 +185,12 @@ read_variable(struct rc_cdf *f, struct rc_cdf_variable *v, struct rc_err *err)
             return rc_err_set(err, "variable '%s' has dimension %llu of %zu",
                               rc_piece_shown(quote, v->name), (unsigned long long)id,
                               f->dimensions);
-        if (k < 2)
-            v->dimension[k] = (size_t)id;
+        if (k == 0)
+            v->first = (size_t)id;
+        if (k + 2 >= v->rank)
+            v->dimension[v->rank < 2 ? 0 : k + 2 - v->rank] = (size_t)id;
+        else if ((f->dimension[id].length == 0 ? f->records : f->dimension[id].length) != 1)
+            v->lead = 2; /* or more */
     }
     if (read_attributes(f, v, err) != RC_OK)
         return RC_FAIL;
@@ -201,7 +206,7 @@ read_variable(struct rc_cdf *f, struct rc_cdf_variable *v, struct rc_err *err)
 bool
 rc_cdf_has_records(const struct rc_cdf *f, const struct rc_cdf_variable *v)
 {
-    return v->rank > 0 && f->dimension[v->dimension[0]].length == 0;
+    return v->rank > 0 && f->dimension[v->first].length == 0;
 }
 
 static enum rc_status

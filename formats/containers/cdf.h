@@ -5,7 +5,8 @@
 #include "formats/core/core.h"
 
 enum {
-    RC_CDF_CHAR = 2, /* type of text */
+    RC_CDF_CHAR = 2,  /* type of text */
+    RC_CDF_FLOAT = 5, /* of 32 bits   */
     RC_CDF_TYPES = 12
 };
 
@@ -19,7 +20,9 @@ struct rc_cdf_dimension {
 
 struct rc_cdf_variable {
     struct rc_piece name, unit, title;
-    size_t rank, dimension[2]; /* the first two */
+    size_t rank, first,
+        dimension[2]; /* the first dimension, and the last two (of rank 1: the one) */
+    uint64_t lead;    /* values of the dimensions before those, 1 where there are none */
     unsigned type;
     uint64_t size, at;           /* size: bytes, of one record where it has records */
     double fill, factor, offset; /* NAN, 1, 0 when not given */

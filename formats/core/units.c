@@ -69,6 +69,9 @@ rc_length_unit(const char *text, size_t n, double *metres)
         {"\xc3\x85", 1e-10},     /* U+00C5, A with ring    */
         {"\xe2\x84\xab", 1e-10}, /* U+212B, Angstrom sign  */
         {"\xc5", 1e-10},         /* Latin-1                */
+        {"Ang", 1e-10},
+        {"AA", 1e-10},
+        {"Angstrom", 1e-10},
     };
 
     for (size_t k = 0; k < sizeof units / sizeof *units; k++)

@@ -4,8 +4,12 @@
  * dimension is spread over the records, which hold a row of each such variable.
  *
  * NetCDF's library would also fetch files from the network and read HDF5; only the header is needed
- * here. A map is a variable of two dimensions. Rows run along the second to last dimension, but
- * for (x, y), which is turned. Spacings are those of the variables that bear the dimensions' names.
+ * here. A map is a variable of two dimensions, others of length 1 before them. Rows run along the
+ * second to last dimension, but for (x, y), which is turned. Spacings are those of the variables that
+ * bear the dimensions' names; where some maps have these, variables without them are no maps.
+ *
+ * GXSM keeps the field of a scan as (time, value, dimy, dimx), to be multiplied by the scalar dz, and
+ * all its lengths in Angstroms, whatever unit it displays them in.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -22,13 +26,6 @@ length(const struct rc_cdf *f, size_t dimension)
     return n == 0 ? f->records : n;
 }
 
-static bool
-is_map(const struct rc_cdf *f, const struct rc_cdf_variable *v)
-{
-    return v->rank == 2 && v->type != RC_CDF_CHAR && length(f, v->dimension[0]) > 0 &&
-           length(f, v->dimension[1]) > 0;
-}
-
 static const struct rc_cdf_variable *
 named(const struct rc_cdf *f, struct rc_piece name)
 {
@@ -39,12 +36,59 @@ named(const struct rc_cdf *f, struct rc_piece name)
     return NULL;
 }
 
+/* Whether a variable of the dimension's name says where its points are. */
+static bool
+has_axis(const struct rc_cdf *f, size_t dimension)
+{
+    const struct rc_cdf_variable *v = named(f, f->dimension[dimension].name);
+
+    return v != NULL && v->rank == 1 && v->dimension[0] == dimension && v->type != RC_CDF_CHAR;
+}
+
+static bool
+could_be_map(const struct rc_cdf *f, const struct rc_cdf_variable *v)
+{
+    size_t least = v->rank == 2 ? 1 : 2; /* a row among more dimensions is no map */
+
+    return v->rank >= 2 && v->lead == 1 && v->type != RC_CDF_CHAR &&
+           length(f, v->dimension[0]) >= least && length(f, v->dimension[1]) >= least;
+}
+
+static bool
+has_axes(const struct rc_cdf *f, const struct rc_cdf_variable *v)
+{
+    return has_axis(f, v->dimension[0]) && has_axis(f, v->dimension[1]);
+}
+
+/* Whether something in the file has axes, one map or several layers: then what has none is no map. */
+static bool
+some_have_axes(const struct rc_cdf *f)
+{
+    for (size_t k = 0; k < f->variables; k++)
+        if (f->variable[k].rank >= 2 && has_axes(f, &f->variable[k]))
+            return true;
+    return false;
+}
+
+static bool
+is_map(const struct rc_cdf *f, const struct rc_cdf_variable *v, bool with_axes)
+{
+    return could_be_map(f, v) && (!with_axes || has_axes(f, v));
+}
+
+/* Whether each row, or value, is in a record of its own. */
+static bool
+in_records(const struct rc_cdf *f, const struct rc_cdf_variable *v)
+{
+    return rc_cdf_has_records(f, v) && v->rank <= 2;
+}
+
 /* Where value (i, j) of a map lies; its bytes were checked. */
 static const unsigned char *
 place(const struct rc_cdf *f, const struct rc_cdf_variable *v, uint64_t i, uint64_t j)
 {
-    uint64_t columns = v->rank == 2 ? length(f, v->dimension[1]) : 1;
-    uint64_t row = rc_cdf_has_records(f, v) ? f->record : columns * rc_cdf_width[v->type];
+    uint64_t columns = v->rank >= 2 ? length(f, v->dimension[1]) : 1;
+    uint64_t row = in_records(f, v) ? f->record : columns * rc_cdf_width[v->type];
 
     return f->b.data + v->at + i * row + j * rc_cdf_width[v->type];
 }
@@ -54,7 +98,7 @@ check_bytes(const struct rc_cdf *f, const struct rc_cdf_variable *v, struct rc_e
 {
     char quote[RC_SHOWN];
     uint64_t rows = length(f, v->dimension[0]);
-    uint64_t columns = v->rank == 2 ? length(f, v->dimension[1]) : 1;
+    uint64_t columns = v->rank >= 2 ? length(f, v->dimension[1]) : 1;
     uint64_t row, there = v->at > f->b.size ? 0 : f->b.size - v->at;
 
     rc_piece_shown(quote, v->name);
@@ -62,23 +106,46 @@ check_bytes(const struct rc_cdf *f, const struct rc_cdf_variable *v, struct rc_e
         return rc_err_set(err, "variable '%s' promises %llu values a row, the file is too short",
                           quote, (unsigned long long)columns);
     row = columns * rc_cdf_width[v->type];
-    if (rc_cdf_has_records(f, v) && f->record < row)
+    if (in_records(f, v) && f->record < row)
         return rc_err_set(err, "variable '%s' does not fit its records", quote);
-    row = rc_cdf_has_records(f, v) ? f->record : row;
+    row = in_records(f, v) ? f->record : row;
     if (rows - 1 > (there - columns * rc_cdf_width[v->type]) / row)
         return rc_err_set(err, "variable '%s' promises %llu x %llu values, the file is too short",
                           quote, (unsigned long long)rows, (unsigned long long)columns);
     return RC_OK;
 }
 
-/* The step of a coordinate in metres, NAN where the file does not give it. */
+/* The value of a variable without dimensions; false where it is not there. */
+static bool
+scalar(const struct rc_cdf *f, const char *name, double *value)
+{
+    const struct rc_cdf_variable *v = named(f, (struct rc_piece){name, strlen(name)});
+
+    if (v == NULL || v->rank != 0 || v->type == RC_CDF_CHAR || v->at > f->b.size ||
+        f->b.size - v->at < rc_cdf_width[v->type])
+        return false;
+    *value = rc_cdf_value(f->b.data + v->at, v->type);
+    return true;
+}
+
+/* Whether it is the field of a scan of GXSM, and the length that one number is. */
+static bool
+is_gxsm(const struct rc_cdf *f, const struct rc_cdf_variable *v, double *dz)
+{
+    return rc_cdf_is(f->dimension[v->dimension[0]].name, "dimy") &&
+           rc_cdf_is(f->dimension[v->dimension[1]].name, "dimx") && scalar(f, "dz", dz);
+}
+
+/* The step of a coordinate in metres, NAN where the file does not give it; `metres` in one of its
+ * numbers, NAN where its unit says so. */
 static enum rc_status
-step_of(const struct rc_cdf *f, size_t dimension, double *step, bool *periodic, struct rc_err *err)
+step_of(const struct rc_cdf *f, size_t dimension, double metres, double *step, bool *periodic,
+        struct rc_err *err)
 {
     const struct rc_cdf_variable *v = named(f, f->dimension[dimension].name);
     char quote[RC_SHOWN];
     uint64_t n = length(f, dimension);
-    double first, last, metres;
+    double first, last, off;
 
     *step = NAN;
     *periodic = false;
@@ -88,14 +155,18 @@ step_of(const struct rc_cdf *f, size_t dimension, double *step, bool *periodic, 
     if (check_bytes(f, v, err) != RC_OK)
         return RC_FAIL;
     rc_piece_shown(quote, v->name);
-    if (!rc_length_unit(v->unit.text, v->unit.n, &metres))
+    if (isnan(metres))
+        metres = rc_piece_metres(v->unit);
+    if (isnan(metres))
         return RC_OK;
     first = rc_cdf_value(place(f, v, 0, 0), v->type);
     last = rc_cdf_value(place(f, v, n - 1, 0), v->type);
     *step = (last - first) / (double)(n - 1);
+    off = 1e-6 * fabs(*step);
+    if (v->type == RC_CDF_FLOAT) /* rounded to it */
+        off += 0x1p-23 * fmax(fabs(first), fabs(last));
     for (uint64_t k = 0; k < n; k++)
-        if (!(fabs(rc_cdf_value(place(f, v, k, 0), v->type) - first - (double)k * *step) <=
-              1e-6 * fabs(*step)))
+        if (!(fabs(rc_cdf_value(place(f, v, k, 0), v->type) - first - (double)k * *step) <= off))
             return rc_err_set(err,
                               "the coordinate '%s' has uneven steps: only regular grids are "
                               "read",
@@ -110,6 +181,7 @@ struct map {
     bool turned; /* the dimensions are (x, y), not (y, x) */
     bool periodic;
     struct rc_heights heights;
+    double factor, offset; /* of the numbers */
     char unit[RC_SHOWN];
     char name[RC_SHOWN];
 };
@@ -118,7 +190,8 @@ static enum rc_status
 judge_map(const struct rc_cdf *f, const struct rc_cdf_variable *v, struct map *m,
           struct rc_err *err)
 {
-    bool along_x, along_y;
+    double angstrom = 1e-10, dz = 1;
+    bool along_x, along_y, gxsm = is_gxsm(f, v, &dz);
     size_t x, y;
 
     m->v = v;
@@ -130,9 +203,21 @@ judge_map(const struct rc_cdf *f, const struct rc_cdf_variable *v, struct map *m
     m->heights.unit = rc_piece_shown(m->unit, v->unit);
     m->heights.name = rc_piece_shown(m->name, v->name);
     m->heights.metres = rc_piece_metres(v->unit);
-    if (step_of(f, x, &m->heights.dx, &along_x, err) != RC_OK ||
-        step_of(f, y, &m->heights.dy, &along_y, err) != RC_OK)
+    if (step_of(f, x, gxsm ? angstrom : NAN, &m->heights.dx, &along_x, err) != RC_OK ||
+        step_of(f, y, gxsm ? angstrom : NAN, &m->heights.dy, &along_y, err) != RC_OK)
         return RC_FAIL;
+    m->factor = v->factor * dz;
+    m->offset = v->offset * dz;
+    if (gxsm) {
+        struct rc_map shown = {0};
+
+        m->heights.dy = fabs(m->heights.dy); /* y falls from the top row on */
+        rc_map_unit(&shown, v->unit.text, v->unit.n);
+        if (!isnan(m->heights.metres))
+            m->heights.metres = angstrom;
+        else if (shown.si != 1) /* the prefix is that of the display */
+            m->unit[0] = '\0';
+    }
     m->periodic = along_x && along_y;
     return RC_OK;
 }
@@ -148,9 +233,11 @@ netcdf_list(const struct rc_file *file, const struct rc_wish *wish, struct rc_ch
 
     (void)wish;
     if (rc_cdf_open(&f, file, err) == RC_OK) {
+        bool with_axes = some_have_axes(&f);
+
         for (size_t k = 0; k < f.variables; k++) {
             const struct rc_cdf_variable *v = &f.variable[k];
-            if (!is_map(&f, v))
+            if (!is_map(&f, v, with_axes))
                 continue;
             if (n < most) {
                 if (judge_map(&f, v, &m, err) != RC_OK) {
@@ -163,7 +250,10 @@ netcdf_list(const struct rc_file *file, const struct rc_wish *wish, struct rc_ch
             n++;
         }
         if (n == 0)
-            rc_err_set(err, "none of the file's %zu variables has two dimensions", f.variables);
+            rc_err_set(err,
+                       "none of the file's %zu variables has two dimensions: further ones before "
+                       "them must be of length 1",
+                       f.variables);
     }
 done:
     rc_cdf_close(&f);
@@ -180,17 +270,18 @@ read_values(const struct rc_cdf *f, const struct map *m, double metres, struct r
     for (size_t j = 0; j < g->ny; j++)
         for (size_t i = 0; i < g->nx; i++) {
             double raw = rc_cdf_value(place(f, v, m->turned ? i : j, m->turned ? j : i), v->type);
-            g->v[j * g->nx + i] = raw == v->fill ? NAN : (raw * v->factor + v->offset) * metres;
+            g->v[j * g->nx + i] = raw == v->fill ? NAN : (raw * m->factor + m->offset) * metres;
         }
 }
 
 static const struct rc_cdf_variable *
 pick(const struct rc_cdf *f, size_t index, struct rc_err *err)
 {
+    bool with_axes = some_have_axes(f);
     size_t n = 0;
 
     for (size_t k = 0; k < f->variables; k++)
-        if (is_map(f, &f->variable[k]) && n++ == index)
+        if (is_map(f, &f->variable[k], with_axes) && n++ == index)
             return &f->variable[k];
     rc_err_set(err, "the file has %zu variables of two dimensions, not %zu", n, index + 1);
     return NULL;

@@ -266,6 +266,157 @@ other_units_stay(void **state)
     drop(&plain);
 }
 
+/* ---- scans of GXSM ---- */
+
+/* A file as GXSM writes it: the field over (time, value, dimy, dimx), 2 rows of 3, dz, where its
+ * points are, and a log of another two dimensions before it. */
+struct gxsm {
+    uint64_t times;
+    unsigned field_type;
+    double dz, step_y;
+    const char *unit; /* that it displays */
+    bool records;     /* time is the record dimension */
+};
+
+static void
+gxsm_variable(struct bytes *b, const char *name, size_t rank, const unsigned *dimension,
+              const char *unit, unsigned type, uint64_t size, uint64_t at)
+{
+    cdf_text(b, &cdf, name);
+    add_number(b, rank, 4);
+    for (size_t k = 0; k < rank; k++)
+        add_number(b, dimension[k], 4);
+    add_number(b, unit == NULL ? 0 : 12, 4);
+    add_number(b, unit != NULL, 4);
+    if (unit != NULL) {
+        cdf_text(b, &cdf, "unit");
+        add_number(b, 2, 4);
+        cdf_text(b, &cdf, unit);
+    }
+    add_number(b, type, 4);
+    add_number(b, size, 4);
+    add_number(b, at, 4);
+}
+
+static void
+gxsm_header(struct bytes *b, const struct gxsm *g, const uint64_t at[5])
+{
+    static const char *const names[] = {"time", "value", "dimy", "dimx", "events", "columns"};
+    const uint64_t lengths[] = {g->records ? 0 : g->times, 1, 2, 3, 4, 2};
+    static const unsigned field[] = {0, 1, 2, 3}, y[] = {2}, x[] = {3}, events[] = {4, 5};
+    size_t width = g->field_type == 3 ? 2 : 4;
+
+    add(b, "CDF\1", 4);
+    add_number(b, g->records ? g->times : 0, 4);
+    add_number(b, 10, 4);
+    add_number(b, 6, 4);
+    for (size_t k = 0; k < 6; k++) {
+        cdf_text(b, &cdf, names[k]);
+        add_number(b, lengths[k], 4);
+    }
+    add_zeros(b, 8); /* attributes of the file */
+    add_number(b, 11, 4);
+    add_number(b, 5, 4);
+    gxsm_variable(b, "scan speed", 2, events, NULL, 6, 64, at[0]);
+    gxsm_variable(b, g->field_type == 3 ? "H" : "FloatField", 4, field, g->unit, g->field_type,
+                  6 * width, at[1]);
+    gxsm_variable(b, "dimx", 1, x, NULL, 5, 12, at[2]);
+    gxsm_variable(b, "dimy", 1, y, NULL, 5, 8, at[3]);
+    gxsm_variable(b, "dz", 0, NULL, "AA", 6, 8, at[4]);
+}
+
+static struct bytes
+gxsm_file(const struct gxsm *g)
+{
+    uint64_t at[5] = {0};
+    struct bytes b = {.big = true};
+
+    for (int run = 0; run < 2; run++) {
+        drop(&b);
+        b.big = true;
+        gxsm_header(&b, g, at);
+        at[0] = b.n;
+        for (size_t k = 0; k < 8; k++)
+            add_f64(&b, 900 + (double)k);
+        at[2] = b.n;
+        for (size_t i = 0; i < 3; i++) /* rounded to floats, far from 0 */
+            add_f32(&b, -50000 + 1587.3 * (double)i);
+        at[3] = b.n;
+        for (size_t j = 0; j < 2; j++)
+            add_f32(&b, 700 - g->step_y * (double)j);
+        at[4] = b.n;
+        add_f64(&b, g->dz);
+        at[1] = b.n;
+        for (size_t k = 0; k < 6 * g->times; k++)
+            cdf_value(&b, g->field_type, counts[k % 6]);
+    }
+    return b;
+}
+
+static void
+scans_of_gxsm(void **state)
+{
+    static const struct gxsm plain = {1, 5, 0.25, 500, "nm", false};
+    struct rc_channel channel[4];
+    struct rc_wish wish = rc_no_wish;
+
+    (void)state;
+    for (int variant = 0; variant < 5; variant++) {
+        struct gxsm g = plain;
+        struct bytes b;
+        struct rc_file file;
+        struct rc_grid *map;
+        double v[6];
+
+        g.field_type = variant == 1 ? 3 : 5;
+        g.records = variant == 2;
+        g.step_y = variant == 3 ? -500 : 500;
+        g.unit = variant == 4 ? "\xc3\x85" : "nm"; /* whatever it displays, it is Angstroms */
+        b = gxsm_file(&g);
+        file = file_of(&b, "scan.nc");
+        assert_int_equal(rc_format_netcdf.list(&file, &wish, channel, 4, NULL), 1);
+        assert_string_equal(channel[0].name, variant == 1 ? "H" : "FloatField");
+        for (size_t k = 0; k < 6; k++)
+            v[k] = counts[k] * 0.25e-10;
+        map = read_well(&rc_format_netcdf, &b, 0);
+        assert_true(map->nx == 3 && map->ny == 2);
+        assert_true(fabs(map->dx - 1587.3e-10) <= 2e-6 * map->dx); /* of floats near 5e4 */
+        assert_true(fabs(map->dy - 500e-10) <= float_rounding * map->dy);
+        check_map(map, 3, 2, map->dx, map->dy, v);
+        rc_grid_free(map);
+        refuse_cuts(&rc_format_netcdf, &b, b.n - 3, 1);
+        survive_changes(&rc_format_netcdf, &b, 2000);
+        drop(&b);
+    }
+}
+
+static void
+other_scans_of_gxsm(void **state)
+{
+    struct gxsm g = {1, 5, 0.25, 500, "V", false};
+    struct rc_channel channel[4];
+    struct bytes b = gxsm_file(&g);
+    struct rc_file file = file_of(&b, "scan.nc");
+    struct rc_grid *map = read_well(&rc_format_netcdf, &b, 0);
+
+    (void)state;
+    assert_string_equal(map->unit, "V");
+    assert_true(map->v[3] == 25);
+    rc_grid_free(map);
+    drop(&b);
+    g.unit = "mV"; /* the prefix is that of the display: the file does not say */
+    b = gxsm_file(&g);
+    refuse(&rc_format_netcdf, &b, "does not give the unit of its heights");
+    drop(&b);
+    /* two layers are no map, and the log is none either */
+    g.times = 2;
+    b = gxsm_file(&g);
+    file = file_of(&b, "scan.nc");
+    assert_int_equal(rc_format_netcdf.list(&file, &rc_no_wish, channel, 4, NULL), 0);
+    refuse(&rc_format_netcdf, &b, "has 0 variables of two dimensions");
+    drop(&b);
+}
+
 static void
 netcdf_is_refused(void **state)
 {
@@ -302,8 +453,8 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(netcdf_is_read),
-        cmocka_unit_test(other_units_stay),
+        cmocka_unit_test(netcdf_is_read),    cmocka_unit_test(other_units_stay),
+        cmocka_unit_test(scans_of_gxsm),     cmocka_unit_test(other_scans_of_gxsm),
         cmocka_unit_test(netcdf_is_refused),
     };
 
