@@ -377,6 +377,7 @@ write_heights(struct tool *t, const struct source *s, const struct rc_wish *wish
         tool_warn(t, "%s: %s", t->source, pick.said);
     for (size_t k = 0; k < notes.n; k++)
         tool_warn(t, "%s: %s", t->source, notes.text[k]);
+    import_judge(t, g, wish);
     if ((wish->even && even_out(t, s, wish, g, err) != RC_OK) ||
         add_keys(t, s, number, g, err) != RC_OK) {
         rc_grid_free(g);

@@ -1,5 +1,5 @@
 /*
- * The face of this folder: the bytes of a file, and which of its channels is read.
+ * The face of this folder: the bytes of a file, which of its channels is read, and what is odd about it.
  */
 #ifndef RC_IMPORT_H
 #define RC_IMPORT_H
@@ -25,6 +25,12 @@ const char *import_source(const char *name);
 /* Brings a profile to the step wish->even_step. RC_FAIL for a map, and where the step is no fit. */
 enum rc_status import_even(const struct rc_file *file, const struct rc_wish *wish,
                            struct rc_grid *grid, struct rc_err *err);
+
+/* ---- plausible.c ---- */
+
+/* Warns of a map with a side above 1 m or below 10 nm, and of heights that span more than its longer
+ * side, unless the user has said the spacing, or the unit. */
+void import_judge(struct tool *tool, const struct rc_grid *grid, const struct rc_wish *wish);
 
 /* ---- channel.c ---- */
 

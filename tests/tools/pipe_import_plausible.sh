@@ -1,0 +1,43 @@
+# rc-import reads lengths as the file has them, and warns of a map that hardly can be: a side above 1 m or below
+# 10 nm, heights that span more than the map is long.
+. "$(dirname "$0")/../pipe.sh"
+
+# a file of X3P whose writer took micrometres for the metres of the standard: 300 x 200 points 7.8 "m" apart
+rc-synth wave --nx 300 --ny 200 --dx 7.8m --amplitude 1.5m --wavelength 780m | rc-export -o um.x3p
+claim "a map of kilometres is read as the standard says" says '^dx=7[.]8$' rc-import um.x3p
+claim "and warned of, with the options that mend it" \
+    warns '^rc-import: um.x3p: the map is 2340 m by 1560 m, which is implausible: if the file means another unit, --dx and --dy give the spacing$' \
+    rc-import um.x3p
+quiet() { "$@" >out.rcg 2>err.txt && [ ! -s err.txt ]; }
+claim "once" test "$(rc-import um.x3p 2>&1 >out.rcg | wc -l)" = 1
+claim "--quiet hides it" quiet rc-import --quiet um.x3p
+rc-import --dx 7.8um --z-unit um um.x3p -o mended.rcg 2>mended.err
+claim "with --dx and --z-unit it is as it was meant" \
+    bash -c 'rc-info --json mended.rcg | tee mended.json | grep -q "\"dx\": 7.8e-06"'
+near "$(sed 's/.*"maximum": \([^,}]*\).*/\1/' mended.json)" \
+    "$(awk 'BEGIN { printf "%.17g", 1.5e-6 * cos(atan2(0, -1) / 100) }')" "$six_digits" "so are its heights" # beside the crest
+claim "and nothing is implausible" bash -c '! grep -q implausible mended.err'
+
+matrix() { # WIDTH HEIGHT UNIT: 4 x 3 heights of 1 to 12
+    printf '# Width: %s\n# Height: %s\n# Value units: %s\n1 2 3 4\n5 6 7 8\n9 10 11 12\n' "$@"
+}
+matrix '0.9 m' '0.9 m' nm >large.txt
+claim "a map of less than a metre is none of these" quiet rc-import large.txt
+matrix '1.1 m' '0.9 m' nm >larger.txt
+claim "one above is" warns 'larger.txt: the map is 1.1 m by 0.9' rc-import larger.txt
+matrix '11 nm' '11 nm' pm >small.txt
+claim "a map of more than 10 nm is none" quiet rc-import small.txt
+matrix '11 nm' '9 nm' pm >smaller.txt
+claim "one below is" warns 'smaller.txt: the map is 1.1e-08 m by 9' rc-import smaller.txt
+claim "not where the spacing is given" quiet rc-import --quiet --dx 1m smaller.txt
+matrix '10 um' '10 um' um >tall.txt # they span 11 um
+claim "heights that span more than the longer side are warned of" \
+    warns 'tall.txt: the heights span 1.1e-05 m, more than the 1e-05 m of the longer side, which is implausible: .* --z-unit' \
+    rc-import tall.txt
+claim "not by a little less" quiet bash -c "rc-import <(sed 's/10 um/11.1 um/' tall.txt)"
+claim "nor where the unit is given" bash -c '! rc-import --z-unit um tall.txt 2>&1 >out.rcg | grep implausible'
+printf 'x [m] z [um]\n0 1\n1 2\n2 3\n' >long.txt
+claim "a profile has one length" warns 'long.txt: the profile is 3 m long, which is implausible: .* --dx gives the spacing$' \
+    rc-import long.txt
+
+finish
