@@ -325,15 +325,28 @@ check_memory(struct tool *t, const struct source *s, const struct rc_channel *ch
     return tool_ask_memory(t, &shape, bytes, "the file itself takes memory too", err);
 }
 
-/* Brings any profile to the step that --even gives, and says where it is not known. */
+/* How far the extremes of a profile are from those of its nodes. */
+static void
+say_extremes(struct tool *t, const struct rc_notes *notes)
+{
+    if (fmax(notes->above, notes->below) > 1e-6) /* as many digits as such heights have */
+        tool_warn(t,
+                  "%s: between the nodes the file has a point %.2g of its span of heights above "
+                  "the highest "
+                  "node and one %.2g below the lowest: a finer --even STEP comes nearer",
+                  t->source, notes->above, notes->below);
+}
+
+/* Brings any profile to the step that --even gives, and says where it is not known, and what is lost. */
 static enum rc_status
 even_out(struct tool *t, const struct source *s, const struct rc_wish *wish, struct rc_grid *g,
-         struct rc_err *err)
+         struct rc_notes *notes, struct rc_err *err)
 {
     size_t missing = 0;
 
-    if (wish->even_step > 0 && import_even(&s->file, wish, g, err) != RC_OK)
+    if (wish->even_step > 0 && import_even(&s->file, wish, g, notes, err) != RC_OK)
         return RC_FAIL;
+    say_extremes(t, notes);
     for (size_t k = 0; k < g->nx && g->ny == 1; k++)
         missing += isnan(g->v[k]) != 0;
     if (missing > 0)
@@ -378,7 +391,7 @@ write_heights(struct tool *t, const struct source *s, const struct rc_wish *wish
     for (size_t k = 0; k < notes.n; k++)
         tool_warn(t, "%s: %s", t->source, notes.text[k]);
     import_judge(t, g, wish);
-    if ((wish->even && even_out(t, s, wish, g, err) != RC_OK) ||
+    if ((wish->even && even_out(t, s, wish, g, &notes, err) != RC_OK) ||
         add_keys(t, s, number, g, err) != RC_OK) {
         rc_grid_free(g);
         return RC_FAIL;

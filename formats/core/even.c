@@ -118,9 +118,34 @@ rc_even_new(const double *x, size_t points, double metres, const struct rc_file 
     return rc_map_fits(file, even->n, 4, err); /* a reader holds them more than once */
 }
 
+static void
+find_extremes(const double *z, size_t n, double *least, double *most)
+{
+    *least = INFINITY;
+    *most = -INFINITY;
+    for (size_t k = 0; k < n; k++)
+        if (isfinite(z[k])) {
+            *least = fmin(*least, z[k]);
+            *most = fmax(*most, z[k]);
+        }
+}
+
+static void
+note_extremes(const double *z, size_t points, const double *v, size_t n, struct rc_notes *notes)
+{
+    double least, most, low, high;
+
+    find_extremes(z, points, &least, &most);
+    find_extremes(v, n, &low, &high);
+    if (!(most > least) || low > high)
+        return;
+    notes->above = (most - high) / (most - least);
+    notes->below = (low - least) / (most - least);
+}
+
 void
 rc_even_heights(const struct rc_even *even, const double *x, const double *z, size_t points,
-                double *v)
+                double *v, struct rc_notes *notes)
 {
     double near = 1e-9 * even->step; /* so far off a node a point counts as on it */
     size_t left = 0;
@@ -143,4 +168,6 @@ rc_even_heights(const struct rc_even *even, const double *x, const double *z, si
             v[k] = gap > even->widest ? NAN
                                       : z[left] + (z[left + 1] - z[left]) * ((at - x[left]) / gap);
     }
+    if (notes != NULL)
+        note_extremes(z, points, v, even->n, notes);
 }

@@ -29,8 +29,9 @@ struct rc_even {
 enum rc_status rc_even_new(const double *x, size_t points, double metres,
                            const struct rc_file *file, const struct rc_wish *wish,
                            struct rc_even *even, struct rc_err *err);
-/* Interpolates the heights z at the points to the nodes. */
+/* Interpolates the heights z at the points to the nodes. What lies between two nodes may be higher than
+ * both: notes->above and below say by how much. */
 void rc_even_heights(const struct rc_even *even, const double *x, const double *z, size_t points,
-                     double *v);
+                     double *v, struct rc_notes *notes);
 
 #endif

@@ -38,7 +38,8 @@ struct rc_map {
      * file's size. */
     enum rc_status (*fill)(const struct rc_file *file, const struct rc_wish *wish,
                            const struct rc_map *map, double *v, struct rc_err *err);
-    size_t more;   /* for fill                                                           */
+    size_t more;            /* for fill                                                           */
+    struct rc_notes *notes; /* for fill too                                              */
     char hint[96]; /* the spacing where the file gives it without a unit; for the refusal */
 };
 

@@ -200,6 +200,7 @@ rc_maps_read(rc_maps_find *find, const struct rc_file *file, const struct rc_wis
         (g = rc_grid_new(&shape, is_height ? "height" : map->name, is_height ? "m" : map->unit,
                          err)) == NULL)
         return NULL;
+    maps.map[index].notes = notes;
     if ((map->fill == NULL ? decode(map, file, g->v, err) : fill(map, file, wish, g->v, err)) !=
         RC_OK)
         goto failed;

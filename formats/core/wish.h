@@ -33,6 +33,8 @@ struct rc_notes {
     char text[8][200];
     size_t n;
     size_t held; /* private memory of the process that read the file; 0: this process read it */
+    double above, below; /* of a profile that was resampled: how far its highest point is above the
+                            highest node, and its lowest below the lowest, in spans of its heights */
 };
 void rc_note(struct rc_notes *notes, const char *format, ...) __attribute__((format(printf, 2, 3)));
 

@@ -44,10 +44,22 @@ static const struct {
 static const struct {
     const char *begins, *unit;
 } other_units[] = {
-    {"Phase", "deg"}, {"Potential", "V"}, {"NapPotential", "V"}, {"Current", "A"},
-    {"Frequency", "Hz"},
+    {"Phase", "deg"}, {"Potential", "V"}, {"Current", "A"}, {"Frequency", "Hz"},
 };
 /* clang-format on */
+
+/* The unit that the label of a channel has instead of that of the wave, or NULL. A second pass over a
+ * line, at a distance, puts Nap before the label. */
+static const char *
+other_unit(struct rc_piece label)
+{
+    if (rc_piece_begins(label, "Nap"))
+        label = (struct rc_piece){label.text + 3, label.n - 3};
+    for (size_t k = 0; k < sizeof other_units / sizeof *other_units; k++)
+        if (rc_piece_begins(label, other_units[k].begins))
+            return other_units[k].unit;
+    return NULL;
+}
 
 /* Where the labels of dimension 2 begin, or 0 when they are not all there. */
 static size_t
@@ -117,6 +129,7 @@ ibw_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     struct rc_bytes b = rc_file_bytes(file, false);
     size_t size[DIMENSIONS], layer, all, channels, labels;
     struct rc_piece data_unit, name;
+    const char *other;
     enum rc_raw raw;
 
     (void)wish;
@@ -148,9 +161,8 @@ ibw_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
         map->dx = step(file, &b, 0);
         map->dy = step(file, &b, 1);
         rc_map_unit(map, data_unit.text, data_unit.n);
-        for (size_t u = 0; u < sizeof other_units / sizeof *other_units && labels != 0; u++)
-            if (rc_piece_begins(name, other_units[u].begins))
-                rc_map_unit(map, other_units[u].unit, strlen(other_units[u].unit));
+        if (labels != 0 && (other = other_unit(name)) != NULL)
+            rc_map_unit(map, other, strlen(other));
     }
     return RC_OK;
 }

@@ -132,9 +132,11 @@ opd_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     /* rounded to a float, which the constant alone is not where floats are computed as doubles */
     map->missing_from = size == 2 ? 32766 : (double)(float)1e38;
     map->missing_to = INFINITY;
-    map->scale = o.wavelength / o.factor;
+    map->scale = (isnan(o.wavelength) ? 1 : o.wavelength) / o.factor;
     map->dx = o.pixel * 1e-3;
     map->dy = o.pixel * o.aspect * 1e-3;
+    if (isnan(o.wavelength)) /* the numbers are in units of it: the user has to say it */
+        return RC_OK;
     strcpy(map->unit, "m");
     map->si = 1e-9;
     return RC_OK;

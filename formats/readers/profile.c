@@ -135,7 +135,7 @@ height_of(const struct profile *p, size_t row)
  * before. */
 static enum rc_status
 lay_nodes(const struct profile *p, const struct rc_file *file, const struct rc_wish *wish,
-          struct rc_even *even, double *v, struct rc_err *err)
+          struct rc_even *even, double *v, struct rc_notes *notes, struct rc_err *err)
 {
     size_t rows = p->table.numbers.rows, columns = p->table.numbers.columns;
     double *x = calloc(rows, 2 * sizeof *x), *z;
@@ -152,7 +152,7 @@ lay_nodes(const struct profile *p, const struct rc_file *file, const struct rc_w
     }
     status = rc_even_new(x, rows, metres, file, wish, even, err);
     if (status == RC_OK && v != NULL)
-        rc_even_heights(even, x, z, rows, v);
+        rc_even_heights(even, x, z, rows, v, notes);
     free(x);
     return status;
 }
@@ -167,7 +167,7 @@ fill_heights(const struct rc_file *file, const struct rc_wish *wish, const struc
 
     status = profile_open(&p, file, wish, err);
     if (status == RC_OK && p.table.numbers.columns > 1)
-        status = lay_nodes(&p, file, wish, &even, v, err);
+        status = lay_nodes(&p, file, wish, &even, v, map->notes, err);
     else
         for (size_t k = 0; k < map->nx && status == RC_OK; k++)
             v[k] = height_of(&p, k);
@@ -188,7 +188,7 @@ profile_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_m
     status = profile_open(&p, file, wish, err);
     even.n = p.table.numbers.rows;
     if (status == RC_OK && p.table.numbers.columns > 1)
-        status = lay_nodes(&p, file, wish, &even, NULL, err);
+        status = lay_nodes(&p, file, wish, &even, NULL, NULL, err);
     if (status == RC_OK) {
         map->nx = even.n;
         map->ny = 1;

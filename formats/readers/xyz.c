@@ -19,7 +19,8 @@ struct axis {
 struct cloud {
     struct rc_titled_table table;
     struct axis x, y;
-    double *along, *z; /* of a line, by their places along it; NULL: a raster */
+    struct rc_piece unit[3]; /* of the columns */
+    double *along, *z;       /* of a line, by their places along it; NULL: a raster */
 };
 
 static int
@@ -124,6 +125,42 @@ find_line(struct cloud *c)
     return true;
 }
 
+/* ---- units ---- */
+
+/* Those of the three columns. Words above them are titles when there is one for each. */
+static void
+find_units(struct cloud *c)
+{
+    if (c->table.titles != 3)
+        c->table.titles = 0;
+    c->unit[0] = rc_titled_table_unit(&c->table, 0, 'x');
+    c->unit[1] = rc_titled_table_unit(&c->table, 1, 'y');
+    c->unit[2] = rc_titled_table_unit(&c->table, 2, 'z');
+    if (c->unit[1].n == 0)
+        c->unit[1] = c->unit[0];
+}
+
+/* Metres in one unit along a line of any direction; NAN where it is not one unit. */
+static double
+metres_along(const struct cloud *c)
+{
+    double x = rc_piece_metres(c->unit[0]);
+
+    return x == rc_piece_metres(c->unit[1]) ? x : NAN;
+}
+
+static void
+take_units(const struct cloud *c, double dx, double dy, struct rc_map *map)
+{
+    map->dx = dx * (c->along != NULL ? metres_along(c) : rc_piece_metres(c->unit[0]));
+    map->dy = dy * (c->along != NULL ? metres_along(c) : rc_piece_metres(c->unit[1]));
+    if (isnan(map->dx) || isnan(map->dy)) {
+        map->dx = map->dy = NAN;
+        rc_map_hint(map, dx, dy);
+    }
+    rc_map_unit(map, c->unit[2].text, c->unit[2].n);
+}
+
 /* ---- the list ---- */
 
 static void
@@ -143,6 +180,7 @@ cloud_open(struct cloud *c, const struct rc_file *file, const struct rc_wish *wi
     if (c->table.numbers.columns != 3)
         return rc_err_set(err, "a list of points has 3 columns, this table has %zu",
                           c->table.numbers.columns);
+    find_units(c);
     if (rc_titled_table_read(&c->table, err) != RC_OK)
         return RC_FAIL;
     if (find_axis(c->table.v, c->table.numbers.rows, 'x', &c->x, err) != RC_OK ||
@@ -173,9 +211,10 @@ fill_points(const struct rc_file *file, const struct rc_wish *wish, const struct
     if (c.along != NULL) {
         struct rc_even even;
 
-        status = rc_even_new(c.along, c.table.numbers.rows, NAN, file, wish, &even, err);
+        status =
+            rc_even_new(c.along, c.table.numbers.rows, metres_along(&c), file, wish, &even, err);
         if (status == RC_OK)
-            rc_even_heights(&even, c.along, c.z, c.table.numbers.rows, v);
+            rc_even_heights(&even, c.along, c.z, c.table.numbers.rows, v, map->notes);
         goto done;
     }
     if ((taken = calloc(map->nx, map->ny)) == NULL) {
@@ -201,30 +240,6 @@ done:
     return status;
 }
 
-/* The spacing and the unit of the heights. Words above the columns are titles when there is one for
- * each. */
-static void
-take_units(const struct cloud *c, double dx, double dy, struct rc_map *map)
-{
-    struct rc_titled_table t = c->table;
-    struct rc_piece x, y, z;
-
-    if (t.titles != 3)
-        t.titles = 0;
-    x = rc_titled_table_unit(&t, 0, 'x');
-    y = rc_titled_table_unit(&t, 1, 'y');
-    z = rc_titled_table_unit(&t, 2, 'z');
-    map->dx = dx * rc_piece_metres(x);
-    map->dy = dy * rc_piece_metres(y.n == 0 ? x : y);
-    if (c->along != NULL && map->dx != map->dy)
-        map->dx = map->dy = NAN; /* one direction in two units */
-    if (isnan(map->dx) || isnan(map->dy)) {
-        map->dx = map->dy = NAN;
-        rc_map_hint(map, dx, dy);
-    }
-    rc_map_unit(map, z.text, z.n);
-}
-
 static enum rc_status
 xyz_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
          struct rc_err *err)
@@ -236,7 +251,8 @@ xyz_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
 
     status = cloud_open(&c, file, wish, err);
     if (status == RC_OK && c.along != NULL) {
-        status = rc_even_new(c.along, c.table.numbers.rows, NAN, file, wish, &even, err);
+        status =
+            rc_even_new(c.along, c.table.numbers.rows, metres_along(&c), file, wish, &even, err);
         map->nx = even.n;
         map->ny = 1;
         map->fill = fill_points;

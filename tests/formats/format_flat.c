@@ -127,6 +127,64 @@ other_channels(void **state)
     }
 }
 
+/* The wave has one unit for all its channels; labels show which have another. */
+static void
+labels_of_waves(void **state)
+{
+    static const struct {
+        const char *label, *unit;
+    } rows[] = {
+        {"PhaseTrace", "deg"},     {"NapPhaseTrace", "deg"}, {"NapPhase", "deg"},
+        {"PotentialRetrace", "V"}, {"NapPotential", "V"},    {"Current", "A"},
+        {"NapCurrent", "A"},       {"FrequencyTrace", "Hz"}, {"NapFrequency", "Hz"},
+        {"NapHeight", "m"},        {"ZSensorTrace", "m"},    {"Nap", "m"},
+    };
+
+    (void)state;
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        struct bytes m = {0};
+        struct rc_channel channel[2];
+        struct rc_file file;
+
+        make_ibw(&m, 2);
+        memset(m.data + m.n - 64, 0, 32);
+        set_text(&m, m.n - 64, rows[k].label);
+        file = file_of(&m, "a.ibw");
+        assert_int_equal(rc_format_named("ibw")->list(&file, &rc_no_wish, channel, 2, NULL), 2);
+        assert_string_equal(channel[0].name, rows[k].label);
+        assert_string_equal(channel[0].unit, rows[k].unit);
+        assert_string_equal(channel[1].unit, "m");
+        drop(&m);
+    }
+}
+
+/* Heights in units of a wavelength that the file does not give. */
+static void
+no_wavelength(void **state)
+{
+    struct rc_wish wish = rc_no_wish;
+    struct rc_err err = {""};
+    struct rc_file file;
+    struct bytes m = {0};
+    struct rc_grid *g;
+
+    (void)state;
+    make_opd(&m, 0);
+    memcpy(m.data + 2 + 3 * 24, "Wavelenght", 10);
+    refuse(rc_format_named("opd"), &m, "does not give the unit of its heights: --z-unit");
+    file = file_of(&m, "a.opd");
+    wish.z_unit = 640e-9;
+    if ((g = rc_format_named("opd")->read(&file, &wish, 0, NULL, &err)) == NULL)
+        fail_msg("%s", err.text);
+    assert_string_equal(g->unit, "m");
+    for (size_t k = 0; k < NX * NY; k++)
+        assert_true(k == MISSING_AT
+                        ? isnan(g->v[k])
+                        : fabs(g->v[k] - value_of(k, true) * 80e-9) <= last_digit * fabs(g->v[k]));
+    rc_grid_free(g);
+    drop(&m);
+}
+
 /* What a file says of itself is kept. */
 static void
 keys(void **state)
@@ -415,6 +473,8 @@ main(void)
         cmocka_unit_test(one_column),
         cmocka_unit_test(points),
         cmocka_unit_test(units_of_points),
+        cmocka_unit_test(labels_of_waves),
+        cmocka_unit_test(no_wavelength),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

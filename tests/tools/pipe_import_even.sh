@@ -98,6 +98,19 @@ heights line.rcg | awk '{ d = $1 - (3 * (NR - 1) * 0.31 - 20) * 1e-9; if (d < 0)
     END { exit bad || NR != 159 }' >&2
 claim "a straight profile stays the same line" test $? = 0
 
+# a peak and a pit between the nodes: 10 at 1.5 and -4 at 4.5 among heights that reach from 0 to 2, of a span of 14
+printf 'x [um] z [nm]\n0 0\n1 0\n1.5 10\n1.9 2\n2 2\n3 1\n4 1\n4.5 -4\n4.8 0\n5 0\n6 0\n' >peak.txt
+claim "what lies between the nodes is told of" \
+    warns 'peak.txt: between the nodes the file has a point 0.57 of its span of heights above the highest node and one 0.29 below the lowest: a finer --even STEP' \
+    rc-import --even=1um peak.txt
+printf 'x [um] z [nm]\n0 1\n1 1\n1.5 10\n1.8 1\n2 1\n3 1\n4 1\n' >spike.txt
+claim "where the nodes are all alike too" warns 'above the highest' rc-import --even=1um spike.txt
+claim "and nothing where every extreme is a node" bash -c '! rc-import --even=0.1um peak.txt 2>&1 >out.rcg | grep between'
+claim "of a list of points too" warns 'row.xyz: between the nodes the file has a point 0.57 ' \
+    bash -c "awk '{ print NR == 1 ? \"x[um] y[um] z[nm]\" : \$1 \" 2 \" \$2 }' peak.txt >row.xyz; rc-import --even=1um row.xyz"
+printf 'aISO-1.0\nNumPoints = 7\nNumProfiles = 1\nXscale = 1e-6\nYscale = 1e-6\nZscale = 1e-9\nDataType = 7\n*\n0 1 0 9 1 0 -1\n*\n' >p.sdf
+claim "and of other formats" warns 'p.sdf: between the nodes the file has a point 0.8 of .* one 0 below' rc-import --even=2um p.sdf
+
 # falling positions
 (head -n 1 uneven.txt; tail -n +2 uneven.txt | tac) >falling.txt
 claim "falling positions are turned round" bash -c '

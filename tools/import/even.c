@@ -6,7 +6,7 @@
 
 enum rc_status
 import_even(const struct rc_file *file, const struct rc_wish *wish, struct rc_grid *g,
-            struct rc_err *err)
+            struct rc_notes *notes, struct rc_err *err)
 {
     enum rc_status status = RC_FAIL;
     double *x = NULL, *v = NULL;
@@ -33,7 +33,7 @@ import_even(const struct rc_file *file, const struct rc_wish *wish, struct rc_gr
         rc_err_set(err, "out of memory for %zu nodes", even.n);
         goto done;
     }
-    rc_even_heights(&even, x, g->v, g->nx, v);
+    rc_even_heights(&even, x, g->v, g->nx, v, notes);
     free(g->v);
     g->v = v;
     g->nx = even.n;

@@ -24,7 +24,7 @@ const char *import_source(const char *name);
 
 /* Brings a profile to the step wish->even_step. RC_FAIL for a map, and where the step is no fit. */
 enum rc_status import_even(const struct rc_file *file, const struct rc_wish *wish,
-                           struct rc_grid *grid, struct rc_err *err);
+                           struct rc_grid *grid, struct rc_notes *notes, struct rc_err *err);
 
 /* ---- plausible.c ---- */
 

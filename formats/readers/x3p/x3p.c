@@ -130,7 +130,7 @@ lay_nodes(struct rc_x3p *x, const struct rc_file *file, const struct rc_wish *wi
         rc_err_set(err, "out of memory for %zu nodes", even.n);
         goto done;
     }
-    rc_even_heights(&even, points, points + x->n, x->n, v);
+    rc_even_heights(&even, points, points + x->n, x->n, v, notes);
     x->nx = even.n;
     x->dx = x->dy = even.step;
 done:
