@@ -106,6 +106,7 @@ other_channels(void **state)
         {"mi", make_mi, 1, 0, "Friction", "V"},
         {"ibw", make_ibw, 2, 0, "PhaseTrace", "deg"},
         {"nid", make_nid, 0, 0, "Topo, Scan forward", "V"},
+        {"sxm", make_sxm, 0, 0, "Current", "A"},
     };
 
     (void)state;
@@ -209,6 +210,10 @@ keys(void **state)
         {"gsf", make_gsf, 3, 0, "file.channel", "Titl"},
         {"mi", make_mi, 0, 1, "file.version", "PicoView"},
         {"frt", make_frt, 0, 0, "file.comment", "hello"},
+        {"sxm", make_sxm, 0, 1, "file.channel", "Z"},
+        {"sxm", make_sxm, 0, 2, "file.channel", "Z (backward)"},
+        {"sxm", make_sxm, 0, 1, "file.date", "16.08.2016"},
+        {"sxm", make_sxm, 0, 1, "file.comment", "of two lines"},
         {"opdx", make_opdx, 0, 0, "file.date", "2/11/2021"},
         {"vk", make_vk4, 0, 0, "file.date", "2020-02-29T13:14:15"},
         {"vk", make_vk6, 0, 0, "file.date", "2020-02-29T13:14:15"},

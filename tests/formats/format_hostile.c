@@ -87,7 +87,7 @@ static size_t
 last_channel(const struct made_file *f)
 {
     return strcmp(f->format, "gwy") == 0 || strcmp(f->format, "mi") == 0 ||
-           strcmp(f->format, "nid") == 0 || f->make == make_ibw;
+           strcmp(f->format, "nid") == 0 || strcmp(f->format, "sxm") == 0 || f->make == make_ibw;
 }
 
 static void

@@ -63,6 +63,8 @@ const struct made_file made_files[] = {
     {"ESRI", "esri", "a.asc", make_esri, 0, HAS_MISSING | NO_SPACING | NO_UNIT | IS_TEXT, 1e-9, 0},
     {"ESRI, DX DY", "esri", "a.asc", make_esri, 1, HAS_MISSING | NO_SPACING | NO_UNIT | IS_TEXT,
      1e-9, 0},
+    {"SXM, up", "sxm", "a.sxm", make_sxm, 0, HAS_MISSING, 1e-9, 0},
+    {"SXM, down, the way back", "sxm", "a.sxm", make_sxm, 1, HAS_MISSING, 1e-9, 0},
     {"NPY <f8", "npy", "a.npy", make_npy, 0, HAS_MISSING | NO_SPACING | NO_UNIT, 1e-9, 0},
     {"NPY <f4", "npy", "a.npy", make_npy, 1, HAS_MISSING | NO_SPACING | NO_UNIT, 1e-9, 0},
     {"NPY |i1", "npy", "a.npy", make_npy, 2, NO_SPACING | NO_UNIT, 1e-9, 0},

@@ -236,3 +236,32 @@ make_wsxm(struct bytes *m, int variant)
     add_zeros(m, 512 - m->n);
     add_map(m, raws[variant], BOTTOM | RIGHT, 50, 0);
 }
+
+/* 0: a scan that went up, the second of two channels, after its way back; 1: one that went down, and in
+ * the other byte order */
+void
+make_sxm(struct bytes *m, int variant)
+{
+    bool up = variant == 0;
+
+    add_text(m, ":NANONIS_VERSION:\n2\n:SCANIT_TYPE:\n");
+    add_text(m, up ? "              FLOAT            MSBFIRST\n" : "FLOAT LSBFIRST\n");
+    add_text(m, ":REC_DATE:\n 16.08.2016\n:REC_TIME:\n16:29:15\n:SCAN_PIXELS:\n       3       2\n"
+                ":SCAN_RANGE:\n           3.300000E-6           2.580000E-6\n:SCAN_DIR:\n");
+    add_text(m, up ? "up\n" : "down\n");
+    add_text(
+        m, ":Z-CONTROLLER:\n\tName\ton\n\tlog Current\t1\n:COMMENT:\nof two\nlines\n\n:DATA_INFO:\n"
+           "\tChannel\tName\tUnit\tDirection\tCalibration\tOffset\n"
+           "\t0\tCurrent\tnA\tforward\t1.000E-9\t0.000E+0\n");
+    add_text(m, up ? "\t14\tZ\tnm\tboth\t-9.000E-9\t0.000E+0\n"
+                   : "\t14\tZ\tnm\tbackward\t-9.000E-9\t0.000E+0\n");
+    add_text(m, "\n:SCANIT_END:\n\n\n");
+    add(m, "\x1a\x04", 2);
+    m->big = up;
+    for (int k = 0; k < 6; k++)
+        add_f32(m, -k);
+    if (up)
+        add_map(m, RC_RAW_F32, BOTTOM, NAN, 0);
+    add_map(m, RC_RAW_F32, up ? BOTTOM | RIGHT : RIGHT, NAN, 0);
+    m->big = false;
+}
