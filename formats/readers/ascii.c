@@ -22,6 +22,10 @@
  *     Unit Data = nm
  *     Start of Data :
  *
+ *     WSxM ASCII Matrix file          WSxM, after which all lines up to the numbers are of the header
+ *     X Amplitude: 500.0 nm
+ *     Z Amplitude: 12.3 nm            of which only the unit counts
+ *
  *     \Scan Size: 10 10 um            NanoScope export of one image
  *     \Exported image units: nm
  *

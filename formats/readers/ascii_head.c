@@ -25,6 +25,7 @@ enum kind {
     SCAN_SIZE,
     SEPARATOR,
     ANY_LINE,
+    RANGE,
 };
 
 static const struct {
@@ -62,6 +63,9 @@ static const struct {
     {"scan size", SCAN_SIZE},
     {"exported image units", VALUE_UNIT},
     {"sep", SEPARATOR},
+    {"x amplitude", WIDTH},
+    {"y amplitude", HEIGHT},
+    {"z amplitude", RANGE},
 };
 
 /* Whether profiles and lists of points have such lines too. */
@@ -160,6 +164,8 @@ take_unit(struct rc_ascii_head *h, struct rc_piece p)
 static void
 take(struct rc_ascii_head *h, enum kind kind, struct rc_piece value)
 {
+    double range;
+
     switch (kind) {
     case CHANNEL:
         h->channel = value;
@@ -226,6 +232,10 @@ take(struct rc_ascii_head *h, enum kind kind, struct rc_piece value)
         break;
     case ANY_LINE:
         h->any_line = true;
+        break;
+    case RANGE:
+        if (leading_number(&value, &range))
+            take_unit(h, value);
         break;
     }
 }
@@ -321,6 +331,10 @@ take_line(struct rc_ascii_head *h, const char *s, size_t n)
     }
     if (*s == '\\') {
         take_entry(h, s + 1, n - 1, &value);
+        return true;
+    }
+    if (rc_piece_begins((struct rc_piece){s, n}, "wsxm ")) {
+        h->any_line = true;
         return true;
     }
     if (h->any_line && *s >= 'A') {

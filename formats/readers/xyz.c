@@ -140,20 +140,27 @@ find_units(struct cloud *c)
         c->unit[1] = c->unit[0];
 }
 
+/* Along an axis, A is what WSxM calls Angstroms. */
+static double
+metres_of(struct rc_piece unit)
+{
+    return rc_piece_is(unit, "A") ? 1e-10 : rc_piece_metres(unit);
+}
+
 /* Metres in one unit along a line of any direction; NAN where it is not one unit. */
 static double
 metres_along(const struct cloud *c)
 {
-    double x = rc_piece_metres(c->unit[0]);
+    double x = metres_of(c->unit[0]);
 
-    return x == rc_piece_metres(c->unit[1]) ? x : NAN;
+    return x == metres_of(c->unit[1]) ? x : NAN;
 }
 
 static void
 take_units(const struct cloud *c, double dx, double dy, struct rc_map *map)
 {
-    map->dx = dx * (c->along != NULL ? metres_along(c) : rc_piece_metres(c->unit[0]));
-    map->dy = dy * (c->along != NULL ? metres_along(c) : rc_piece_metres(c->unit[1]));
+    map->dx = dx * (c->along != NULL ? metres_along(c) : metres_of(c->unit[0]));
+    map->dy = dy * (c->along != NULL ? metres_along(c) : metres_of(c->unit[1]));
     if (isnan(map->dx) || isnan(map->dy)) {
         map->dx = map->dy = NAN;
         rc_map_hint(map, dx, dy);

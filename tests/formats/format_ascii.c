@@ -145,6 +145,10 @@ headers(void **state)
         {"File Format = ASCII\nScale X = 0.5\nScale Y = 0.5\nUnit X = um\nUnit Data = nm\n"
          "Scale Data = 3\nDataScaleNeeded = Yes\nStart of Data :\n@",
          5e-7, 5e-7, 3e-9, NULL},
+        {"WSxM file copyright Nanotec Electronica\r\nWSxM ASCII Matrix file\r\nX Amplitude: 6 "
+         "\xb5m\r\n"
+         "Y Amplitude: 5 \xb5m\r\nZ Amplitude: 12.5 \xc5\r\n\r\n@",
+         2e-6, 2.5e-6, 1e-10, NULL},
         {"# Width: 6 [um]\n# Height: 5 (um)\n# Value units: [nm]\n@", 2e-6, 2.5e-6, 1e-9, NULL},
         {"\"\\Scan Size: 600 nm\"\r\n\"\\Exported image units: nm\"\r\n@", 2e-7, 3e-7, 1e-9, NULL},
     };

@@ -210,6 +210,9 @@ keys(void **state)
         {"gsf", make_gsf, 3, 0, "file.channel", "Titl"},
         {"mi", make_mi, 0, 1, "file.version", "PicoView"},
         {"frt", make_frt, 0, 0, "file.comment", "hello"},
+        {"wykotext", make_wykotext, 0, 0, "file.title", "a title"},
+        {"zygo", make_zygo, 0, 0, "file.comment", "a comment"},
+        {"keyence", make_keyence, 1, 0, "file.channel", "H\xc3\xb6he"},
         {"sxm", make_sxm, 0, 1, "file.channel", "Z"},
         {"sxm", make_sxm, 0, 2, "file.channel", "Z (backward)"},
         {"sxm", make_sxm, 0, 1, "file.date", "16.08.2016"},
@@ -436,6 +439,8 @@ units_of_points(void **state)
         {"x (um),y (um),z (nm)", 2e-6, 3e-6, 1e-9, ' '},
         {"sep=;\r\n\"X [um]\";\"Y [um]\";\"Z [nm]\"", 2e-6, 3e-6, 1e-9, ';'},
         {"# x-unit = um\n# z-unit = nm", 2e-6, 3e-6, 1e-9, ' '},
+        {"WSxM file copyright Nanotec Electronica\nWSxM ASCII XYZ file\nX[A]  Y[A]  Z[nm]\n", 2e-10,
+         3e-10, 1e-9, ' '},
         {"x [um];y;z", 2e-6, 3e-6, NAN, ';'},
         {"x [s];y [s];z [nm]", NAN, NAN, 1e-9, ';'},
         {"a scan in mm", NAN, NAN, NAN, ' '}, /* no titles: there are four words */

@@ -94,6 +94,9 @@ made_maker make_nanoscope, make_nid, make_gwy, make_gsf, make_ibw, make_mi, make
 made_maker make_bcr, make_frt, make_tmd, make_grd, make_esri, make_npy, make_opdx, make_vk4,
     make_vk6, make_xyz;
 
+/* made_texts.c */
+made_maker make_keyence, make_wykotext, make_zygo;
+
 /* ---- made_checks.c: what every reader does ---- */
 
 /* Steps of accuracy that files bring with them, relative. */

@@ -1,0 +1,190 @@
+/*
+ * Keyence's image data as text (VK-X, VR, VHX): rows of values in quotes, between commas, semicolons or
+ * tabs. A header of keys in the user's language, then a title alone and the heights:
+ *
+ *     "Data type","ImageDataCsv"
+ *     "XY Calibration","138.9","nm"          the only row of three: the spacing
+ *     "Output image data","Height"
+ *     "Horizontal","1024"
+ *     "Vertical","768"
+ *     "Unit","um"                            the last value that is a unit of length
+ *
+ *     "Height"
+ *     "12.345","","12.347",...
+ *
+ * So nothing is known by its key: the size must stand in two rows that follow each other. Nothing
+ * between quotes is a missing point. The micro sign comes in UTF-8, Latin-1, Shift-JIS and GBK.
+ *
+ * Written from how programs of others read and write such files (kcsv2bcr and others).
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "formats/format.h"
+
+enum {
+    HEADER_MOST = 200, /* lines */
+    SEEN = 4096        /* bytes in which the magic word stands */
+};
+
+static const char magic[] = "ImageDataCsv";
+
+struct keyence {
+    struct rc_number_table table;
+    double pitch, metres;  /* NAN: not given */
+    struct rc_piece title; /* of the heights */
+    bool sized;            /* the header has the size of the table */
+};
+
+/* The first `most` cells of a row, without their quotes; gives their number. */
+static size_t
+cells_of(struct rc_piece line, struct rc_piece *cell, size_t most)
+{
+    size_t n = 0;
+
+    for (line = rc_piece_trim(line); line.n > 0 && n < most; n++) {
+        bool quoted = *line.text == '"';
+        const char *end = line.text + line.n, *stop = line.text + quoted;
+
+        while (stop < end &&
+               (quoted ? *stop != '"' : *stop != ',' && *stop != ';' && *stop != '\t'))
+            stop++;
+        cell[n] = rc_piece_trim(
+            (struct rc_piece){line.text + quoted, (size_t)(stop - line.text) - quoted});
+        while (stop < end && *stop != ',' && *stop != ';' && *stop != '\t')
+            stop++;
+        line = stop < end ? (struct rc_piece){stop + 1, (size_t)(end - stop) - 1}
+                          : (struct rc_piece){end, 0};
+    }
+    return n;
+}
+
+/* As rc_piece_metres, with the micro signs of Shift-JIS and GBK. */
+static double
+metres_of(struct rc_piece unit)
+{
+    if (unit.n == 3 &&
+        (memcmp(unit.text, "\x83\xcam", 3) == 0 || memcmp(unit.text, "\xa6\xccm", 3) == 0))
+        return 1e-6;
+    return rc_piece_metres(unit);
+}
+
+/* Takes the rows of the header, and stands behind its last one. */
+static enum rc_status
+read_header(struct rc_lines *lines, struct keyence *k, struct rc_lines *header, struct rc_err *err)
+{
+    struct rc_piece line, cell[4];
+    double number, metres;
+
+    *header = *lines;
+    while (lines->number < HEADER_MOST && rc_lines_next(lines, &line.text, &line.n)) {
+        size_t n = cells_of(line, cell, 4);
+
+        if (n == 3 && rc_piece_number(cell[1], &number, NULL) &&
+            !isnan(metres = metres_of(cell[2])))
+            k->pitch = number * metres;
+        else if (n == 2 && !isnan(metres = metres_of(cell[1])))
+            k->metres = metres;
+        else if (n == 1 && cell[0].n > 0 && !isnan(k->pitch)) {
+            k->title = cell[0];
+            header->end = line.text;
+            return RC_OK;
+        }
+    }
+    return rc_err_set(
+        err, "the header has no row of a name, a number and a unit of length (XY Calibration) "
+             "and below it a title alone");
+}
+
+/* Whether two rows that follow each other are the columns and rows of the table. */
+static bool
+has_size(struct rc_lines header, const struct rc_number_table *t)
+{
+    struct rc_piece line, cell[4];
+    double number, last = NAN;
+
+    while (rc_lines_next(&header, &line.text, &line.n)) {
+        if (cells_of(line, cell, 4) != 2 || !rc_piece_number(cell[1], &number, NULL))
+            number = NAN;
+        if (last == (double)t->columns && number == (double)t->rows)
+            return true;
+        last = number;
+    }
+    return false;
+}
+
+static enum rc_status
+keyence_open(const struct rc_file *file, const struct rc_wish *wish, struct keyence *k,
+             struct rc_err *err)
+{
+    struct rc_piece start = {(const char *)file->data, file->size < SEEN ? file->size : SEEN};
+    struct rc_lines lines = rc_piece_lines(rc_file_piece(file)), header;
+
+    *k = (struct keyence){.pitch = NAN, .metres = NAN};
+    if (rc_piece_find(start, magic) == NULL)
+        return rc_err_set(err, "no image data of Keyence: there is no '%s' in its header", magic);
+    if (read_header(&lines, k, &header, err) != RC_OK ||
+        rc_number_table_open(&k->table, &lines, wish, err) != RC_OK)
+        return RC_FAIL;
+    if (has_size(header, &k->table))
+        return RC_OK;
+    return rc_err_set(
+        err,
+        "the file has %zu columns and %zu rows of numbers, its header does not have these two "
+        "sizes in rows one below the other",
+        k->table.columns, k->table.rows);
+}
+
+static enum rc_status
+fill_heights(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
+             double *v, struct rc_err *err)
+{
+    struct keyence k;
+
+    (void)map;
+    return keyence_open(file, wish, &k, err) != RC_OK ? RC_FAIL
+                                                      : rc_number_table_read(&k.table, v, err);
+}
+
+static enum rc_status
+keyence_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
+             struct rc_err *err)
+{
+    struct rc_map *map;
+    struct keyence k;
+    size_t n;
+
+    if (keyence_open(file, wish, &k, err) != RC_OK ||
+        rc_number_table_size(&k.table, &n, err) != RC_OK)
+        return RC_FAIL;
+    map = rc_maps_add(maps, k.title.text, k.title.n);
+    map->nx = k.table.columns;
+    map->ny = k.table.rows;
+    map->dx = map->dy = k.pitch;
+    map->fill = fill_heights;
+    if (!isnan(k.metres)) {
+        strcpy(map->unit, "m");
+        map->si = k.metres;
+    }
+    return RC_OK;
+}
+
+static int
+keyence_score(const struct rc_file *file)
+{
+    struct rc_piece start = {(const char *)file->data, file->size < SEEN ? file->size : SEEN};
+
+    return rc_file_is_text(file) && rc_piece_find(start, magic) != NULL ? 92 : 0;
+}
+
+RC_FORMAT_OF_MAPS(keyence)
+
+const struct rc_format rc_format_keyence = {
+    .name = "keyence",
+    .suffixes = ".csv",
+    .summary = "Keyence image data as text",
+    .score = keyence_score,
+    .list = keyence_list,
+    .read = keyence_read,
+};

@@ -1,0 +1,127 @@
+/*
+ * Wyko (Veeco, Bruker) as text: `Wyko ASCII Data File Format 0`, two flags, then names and values between
+ * tabs, and the blocks of an OPD file, one a line: name, type, length, value. Behind a block of heights
+ * stand its numbers, a column of the map in each line, the lowest first, as in the binary file:
+ *
+ *     Wyko ASCII Data File Format 0 <tab> 0 <tab> 1
+ *     X Size <tab> 640
+ *     Y Size <tab> 480
+ *     Block Name <tab> Type <tab> Length <tab> Value
+ *     Wavelength <tab> 7 <tab> 4 <tab> 632.8         nm
+ *     Pixel_size <tab> 7 <tab> 4 <tab> 0.002         mm
+ *     RAW_DATA <tab> 3 <tab> 1228800 <tab>
+ *
+ * Numbers are in units of the wavelength over Mult, or, where the first flag is 1, nanometres. `Bad` is
+ * missing. Written from how Gwyddion and SurfaceTopography read such files.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "formats/format.h"
+
+static const char magic[] = "Wyko ASCII Data File Format";
+
+struct wyko {
+    double nx, ny, wavelength, pixel, aspect, factor;
+    bool nanometres;
+    size_t at; /* of the heights; 0: none */
+};
+
+static const struct rc_field fields[] = {
+    {"X Size", RC_FIELD_NUMBER, offsetof(struct wyko, nx)},
+    {"Y Size", RC_FIELD_NUMBER, offsetof(struct wyko, ny)},
+    {"Wavelength", RC_FIELD_NUMBER, offsetof(struct wyko, wavelength)},
+    {"Pixel_size", RC_FIELD_NUMBER, offsetof(struct wyko, pixel)},
+    {"Aspect", RC_FIELD_NUMBER, offsetof(struct wyko, aspect)},
+    {"Mult", RC_FIELD_NUMBER, offsetof(struct wyko, factor)},
+};
+
+static const struct rc_keep texts[] = {
+    {"Title", "file.title"},
+    {"Date", "file.date"},
+    {"Time", "file.time"},
+    {"Note", "file.comment"},
+};
+
+static bool
+is_heights(struct rc_piece name)
+{
+    return rc_piece_is(name, "RAW_DATA") || rc_piece_is(name, "RAW DATA") ||
+           rc_piece_is(name, "OPD") || rc_piece_is(name, "SAMPLE_DATA");
+}
+
+/* Reads up to the line of the heights. */
+static enum rc_status
+read_header(const struct rc_file *file, struct wyko *w, struct rc_maps *maps, struct rc_err *err)
+{
+    struct rc_lines lines = rc_piece_lines(rc_file_piece(file));
+    struct rc_piece line, key, value, rest;
+    double flag;
+
+    if (!rc_lines_next(&lines, &line.text, &line.n) || !rc_piece_begins(line, magic))
+        return rc_err_set(err, "no Wyko text: it does not begin with '%s'", magic);
+    w->nanometres =
+        rc_piece_part(line, "\t", &key, &rest) && rc_piece_number(rest, &flag, NULL) && flag == 1;
+    while (rc_lines_next(&lines, &line.text, &line.n)) {
+        if (!rc_piece_part(line, "\t", &key, &value))
+            continue;
+        if (is_heights(key)) {
+            w->at = (size_t)(lines.at - (const char *)file->data);
+            return RC_OK;
+        }
+        /* a block: its type and length before its value */
+        if (rc_piece_part(value, "\t", &line, &rest) && rc_piece_part(rest, "\t", &line, &value)) {
+            rc_maps_keep(maps, texts, sizeof texts / sizeof *texts, key, value);
+        } else if (!rc_piece_is(key, "X Size") && !rc_piece_is(key, "Y Size"))
+            continue;
+        if (rc_field_take(fields, sizeof fields / sizeof *fields, key, value, w, err) != RC_OK)
+            return RC_FAIL;
+    }
+    return rc_err_set(err, "the file holds no block RAW_DATA, OPD or SAMPLE_DATA");
+}
+
+static enum rc_status
+wykotext_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
+              struct rc_err *err)
+{
+    struct wyko w = {
+        .nx = NAN, .ny = NAN, .wavelength = NAN, .pixel = NAN, .aspect = 1, .factor = 1};
+    struct rc_map *map;
+
+    (void)wish;
+    if (read_header(file, &w, maps, err) != RC_OK)
+        return RC_FAIL;
+    map = rc_maps_add(maps, "", 0);
+    if (rc_map_count("columns (X Size)", w.nx, &map->nx, err) != RC_OK ||
+        rc_map_count("rows (Y Size)", w.ny, &map->ny, err) != RC_OK ||
+        rc_map_is_text(map, file, w.at, err) != RC_OK)
+        return RC_FAIL;
+    map->by_columns = map->bottom_first = true;
+    map->dx = w.pixel * 1e-3;
+    map->dy = w.pixel * w.aspect * 1e-3;
+    if (w.nanometres)
+        w.wavelength = w.factor = 1;
+    map->scale = (isnan(w.wavelength) ? 1 : w.wavelength) / w.factor;
+    if (isnan(w.wavelength)) /* the numbers are in units of it: the user has to say it */
+        return RC_OK;
+    strcpy(map->unit, "m");
+    map->si = 1e-9;
+    return RC_OK;
+}
+
+static int
+wykotext_score(const struct rc_file *file)
+{
+    return rc_file_holds(file, 0, magic, strlen(magic)) ? 95 : 0;
+}
+
+RC_FORMAT_OF_MAPS(wykotext)
+
+const struct rc_format rc_format_wykotext = {
+    .name = "wykotext",
+    .suffixes = ".asc .txt",
+    .summary = "Wyko (Veeco, Bruker) as text",
+    .score = wykotext_score,
+    .list = wykotext_list,
+    .read = wykotext_read,
+};
