@@ -147,7 +147,7 @@ static const struct {
     {"zygo", make_zygo, 0, "No Data", "No Date", "a column, a row and a height or 'No Data'", 0},
     {"zygo", make_zygo, 0, "1.1e-006", "0000e-06", "does not give the spacing", 0},
     {"zygo", make_zygo, 0, "0.03\n#", "0.03\n-", "do not end with a line '#'", 0},
-    {"zygo", make_zygo, 1, "10 20 3 2", "10 20 9 2", "the file has 6", 0},
+    {"zygo", make_zygo, 1, "10 20 3 2", "10 20 9 2", "promises 9 x 2 numbers", 0},
     {"zygo", make_zygo, 1, "0 1 20 2 0", "7 1 20 2 0", "phase resolution (line 11) is 7", 0},
     {"zygo", make_zygo, 1, "6.25e-007", "0.00e-007", "not 0", 0},
     {"zygo", make_zygo, 1, "4 5 6\n#", "4 5 6\n-", "do not end with a line '#'", 0},
