@@ -760,6 +760,129 @@ RC_API enum rc_status rc_plastic_depths(const struct rc_shape *shape, enum rc_bo
                                         size_t threads, struct rc_plastic_depths *depths,
                                         struct rc_err *err);
 
+/* ---- adhesion: adhesion/adhesion.c ---- */
+
+/* Rows of the table of laws, k = 0, 1, ...; NULL past the last. */
+struct rc_adhesion_law_info {
+    const char *name, *summary;
+    bool ranged; /* it has a range that the caller may choose; else the grid does */
+};
+RC_API const struct rc_adhesion_law_info *rc_adhesion_law_info(size_t k);
+
+/* Bodies that attract each other: where the gap is g >= 0 a traction sigma(g) >= 0 pulls. */
+struct rc_adhesion_problem {
+    /* The bodies, the boundary, the hardness (of p + sigma), tol, max_iterations and threads; its load
+     * and approach do not count. engine, method: auto, NULL, or, of the first, one that transforms */
+    struct rc_problem contact;
+    double work;     /* J/m^2, > 0: what it takes to part a unit area, the integral of sigma      */
+    const char *law; /* a row of the table; NULL: the first                                      */
+    /* m: exponential, the length over which sigma falls to 1/e; dugdale, work/sigma(0); compact, where
+     * sigma ends. 0: such that the cohesive length is two nodes */
+    double range;
+};
+
+/* What the law is on this grid. */
+struct rc_adhesion_scales {
+    const char *law;
+    double range;           /* m                                                              */
+    double strength;        /* Pa: sigma(0)                                                    */
+    double steepest;        /* Pa/m: the largest -sigma'                                       */
+    double cohesive_length; /* m: E*, as waves of two nodes feel it, over that                 */
+    double
+        cohesive_nodes; /* over the larger of dx, dy: below 1.5 the grid makes hysteresis of its own */
+};
+/* RC_FAIL, and *err says why, when rc_adhesion_new would refuse the problem, though memory were there. */
+RC_API enum rc_status rc_adhesion_check(const struct rc_shape *shape,
+                                        const struct rc_adhesion_problem *problem,
+                                        struct rc_adhesion_scales *scales, struct rc_err *err);
+
+/* A state, that is the last one of a path. Loads are positive when the bodies are pressed together; all
+ * pressures but `repulsive_load` are net, p of the contact less sigma. NAN: not known. */
+struct rc_adhesion_figures {
+    double load, mean_pressure; /* N, Pa                                                        */
+    double approach;            /* m: 0 at first touch of the undeformed bodies, negative apart */
+    double mean_gap;            /* m, over the map                                              */
+    double attractive_load, repulsive_load; /* N, both positive: sums of sigma and of p + sigma   */
+    double attractive_area;                 /* m^2: where sigma > sigma(0)/100                    */
+    size_t contact_nodes;                   /* where the gap is 0, or at the hardness negative    */
+    double contact_area, contact_fraction;  /* m^2, -                                             */
+    size_t plastic_nodes;                   /* where the gap is negative: p + sigma = hardness    */
+    double plastic_area;                    /* m^2                                                */
+    double max_pressure, min_pressure;      /* Pa                                                 */
+    double edge_traction; /* sigma over sigma(0), the largest at the edge of a free map; else 0   */
+    /* The smallest eigenvalue of A - D on the nodes off contact, A = 1/K and D = -sigma', in units of A
+     * as the contact leaves it: above 0 the state is stable under the control in use, below 0 it is a saddle */
+    double stability;
+    bool stable;    /* stability > 0, as far as it has been found */
+    bool separated; /* under the load that was set the bodies part, and nothing stops them */
+    size_t jumps;   /* unstable states that were passed on the way from the state before  */
+    /* The lowest load of the retraction that rc_adhesion_pull_off asked for, N, at which approach, m, and
+     * how much of the load it may be off: its last change, or what the jumps beside it leave open */
+    double pull_off_load, pull_off_approach, pull_off_spread;
+    size_t states;      /* of this retraction, else 1                                             */
+    size_t iterations;  /* steps in the gap                                                      */
+    size_t eigen_steps; /* steps for the stability                                               */
+    double convolutions; /* equivalents of one in double precision on this grid, padded if free   */
+    double gap_error;    /* m: never below 0, and above it where p + sigma > 0 off contact: 0     */
+    double
+        kkt_residual; /* the worst |p + sigma| off contact, or p + sigma < 0 in it, over sigma(0) */
+    double pressure_error; /* estimated relative L1 error of p                                    */
+    bool converged; /* pressure_error <= tol, and stable                                    */
+};
+
+struct rc_adhesion;
+/* h: nx ny m, copied. NULL where the problem makes no sense, it is shared among ranks, the engine or method
+ * is none for it, or memory is short. The path begins with undeformed bodies. */
+RC_API struct rc_adhesion *rc_adhesion_new(const struct rc_shape *shape, const double *h,
+                                           const struct rc_adhesion_problem *problem,
+                                           struct rc_err *err);
+/* The next state of the path is that of this load, N, of either sign. Under a load that pulls it is the one
+ * downhill from the last, if there is one: see `separated`. */
+RC_API enum rc_status rc_adhesion_set_load(struct rc_adhesion *a, double load, struct rc_err *err);
+/* The next state of the path is that of this approach, m, 0 at first touch, negative apart: the control
+ * that has a state everywhere. RC_FAIL on a periodic map where the mean gap would not be positive. */
+RC_API enum rc_status rc_adhesion_set_approach(struct rc_adhesion *a, double approach,
+                                               struct rc_err *err);
+/* Bodies are drawn apart from the state there is, approach by approach, until they have parted, and the
+ * lowest load on the way is found. RC_FAIL when there is no state yet, or memory for three is short. */
+RC_API enum rc_status rc_adhesion_pull_off(struct rc_adhesion *a, struct rc_err *err);
+/* The state of a path is this pressure's (nx ny Pa, net) at this approach, m, as they were left by an earlier
+ * one of the same problem: the next state begins there. RC_FAIL when a value is not finite. */
+RC_API enum rc_status rc_adhesion_start(struct rc_adhesion *a, const double *pressure,
+                                        double approach, struct rc_err *err);
+/* One step of the gap, or of the eigenvector. RC_MORE until the state is found; RC_OK; RC_SHORT where it
+ * stopped short of tol or the bodies part; RC_FAIL when nothing has been set. */
+RC_API enum rc_status rc_adhesion_step(struct rc_adhesion *a, struct rc_err *err);
+struct rc_adhesion_progress {
+    size_t state;         /* of a retraction, from 1                                            */
+    size_t iterations;    /* of this state                                                      */
+    bool eigenvalue;      /* its stability is being found                                       */
+    double load, error;   /* N as it is, and the estimated error of the pressure, NAN at first  */
+    double approach, tol; /* m; asked                                                           */
+};
+RC_API void rc_adhesion_progress(const struct rc_adhesion *a,
+                                 struct rc_adhesion_progress *progress);
+/* Of the state reached, valid until the next step; after a retraction of the state of lowest load. */
+RC_API const struct rc_adhesion_figures *rc_adhesion_result(struct rc_adhesion *a);
+RC_API const struct rc_adhesion_scales *rc_adhesion_scales(const struct rc_adhesion *a);
+/* nx ny values each: net pressure, Pa; gap, m, never negative but at the hardness; displacement K p, m;
+ * sigma, Pa. */
+RC_API void rc_adhesion_pressure(const struct rc_adhesion *a, double *pressure);
+RC_API void rc_adhesion_gap(const struct rc_adhesion *a, double *gap);
+RC_API void rc_adhesion_displacement(const struct rc_adhesion *a, double *displacement);
+RC_API void rc_adhesion_traction(const struct rc_adhesion *a, double *traction);
+/* Where the hardness was reached: heights that are left when the bodies are taken apart, nx ny m. They
+ * are those of the path from here on, without effect where nothing has yielded. */
+RC_API void rc_adhesion_keep_shape(struct rc_adhesion *a, double *h);
+RC_API void rc_adhesion_free(struct rc_adhesion *a); /* NULL is allowed */
+/* Bytes that one takes; 0 when there is none such. */
+RC_API size_t rc_adhesion_memory(const struct rc_shape *shape,
+                                 const struct rc_adhesion_problem *problem);
+/* What a state of a path will take. Fails as rc_adhesion_check. */
+RC_API enum rc_status rc_adhesion_expect(const struct rc_shape *shape,
+                                         const struct rc_adhesion_problem *problem,
+                                         struct rc_expected *expected, struct rc_err *err);
+
 /* ---- stress: stress.c ---- */
 
 enum rc_component {

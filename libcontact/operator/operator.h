@@ -83,4 +83,41 @@ struct rc_spectrum *rc_operator_spectrum(struct rc_operator *op, const struct rc
 void rc_operator_chain(struct rc_operator *op, size_t n, const struct rc_spectrum *const *factors,
                        rc_row *const *rows, void *ctx);
 
+/* ---- K and its inverse on the whole grid that transforms see: whole.c ---- */
+
+/* The map itself where it repeats, else the map in the upper left corner of a padded one, on which K
+ * is the same circulant as its transforms take it for, and its inverse A exact: a displacement of all of
+ * the padded grid belongs to one pressure. Everything is in units of its own: displacements of `length`,
+ * pressures of `modulus`. */
+struct rc_whole {
+    struct rc_shape map, grid; /* in m                                                       */
+    enum rc_boundary boundary;
+    int threads;
+    double length;   /* m: sqrt(dx dy)                                                   */
+    double modulus;  /* Pa: E* as the roughness feels it                                 */
+    double diagonal; /* displacement of a node under unit pressure on its own cell       */
+    double mean;     /* K of a uniform pressure on all of the grid; 0 where it repeats   */
+    double most;     /* the largest eigenvalue of K                                      */
+};
+
+/* NULL when a number of the bodies makes no sense, no padding makes the inverse of a layered pair positive,
+ * or memory is short. Engine and tolerance of the options do not count, nor do ranks. */
+struct rc_whole *rc_whole_new(const struct rc_shape *shape,
+                              const struct rc_operator_options *options, struct rc_err *err);
+void rc_whole_free(struct rc_whole *whole); /* NULL is allowed */
+/* The whole grid of a map, but for layers that want more padding. */
+struct rc_shape rc_whole_grid(const struct rc_shape *shape, enum rc_boundary boundary);
+/* Bytes that it takes. */
+size_t rc_whole_memory(const struct rc_shape *shape, const struct rc_operator_options *options);
+/* E* of the pair as the roughness of this grid feels it, Pa, and `diagonal`. */
+enum rc_status rc_whole_scales(const struct rc_shape *shape, const struct rc_pair *pair,
+                               double *modulus, double *diagonal, struct rc_err *err);
+/* u = K p in double precision; p and u may be the same. */
+void rc_whole_apply(struct rc_whole *whole, const double *p, double *u);
+/* p = A u in double precision, rows of doubles; u = K p and p = A u in single, rows of floats. Rows are
+ * those of the whole grid. */
+void rc_whole_inverse_rows(struct rc_whole *whole, rc_row *in, rc_row *out, void *ctx);
+void rc_whole_rough_rows(struct rc_whole *whole, rc_row *in, rc_row *out, void *ctx);
+void rc_whole_rough_inverse_rows(struct rc_whole *whole, rc_row *in, rc_row *out, void *ctx);
+
 #endif

@@ -1,0 +1,953 @@
+/*
+ * Bodies that attract each other, along a path: each state begins with the gap of the last, goes down to a
+ * stationary point (gap.c), and is asked whether it is stable under the control in use (stability.c). A saddle is
+ * left along its eigenvector. A small residual is not enough: at a saddle it is as small as elsewhere.
+ *
+ * The error of the pressure is 2 e/sqrt(mu), e what the next correction would change of it, mu the smallest
+ * eigenvalue: soft modes answer more than the preconditioner takes for granted.
+ *
+ * A retraction for the lowest load goes from state to state until the bodies have parted, and then again, in
+ * smaller steps, from the state before the lowest to the one after it.
+ */
+#include "adhesion.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "libcontact/memory.h"
+
+/* ---- laws ---- */
+
+static const struct rc_adhesion_law *const laws[] = {
+#define RC_ADHESION_LAW(name) &rc_adhesion_##name,
+#include "laws.list"
+#undef RC_ADHESION_LAW
+};
+
+enum {
+    LAWS = sizeof laws / sizeof *laws
+};
+
+const struct rc_adhesion_law_info *
+rc_adhesion_law_info(size_t k)
+{
+    return k < LAWS ? &laws[k]->info : NULL;
+}
+
+const struct rc_adhesion_law *
+rc_adhesion_law_named(const char *name)
+{
+    for (size_t k = 0; k < LAWS; k++)
+        if (name == NULL || strcmp(laws[k]->info.name, name) == 0)
+            return laws[k];
+    return NULL;
+}
+
+/* ---- a path ---- */
+
+enum {
+    LEAVES = 20,      /* saddles that are left before a state is given up */
+    EIGEN_STEPS = 40, /* at most */
+    STATES = 400,     /* of a retraction, at most */
+    ROUNDS = 8,       /* of its refinement, at most */
+    PARTS = 4,        /* of the interval about the lowest load, in a round */
+    FARTHEST = 40     /* of these parts, where smaller steps hold for longer */
+};
+static const double nodes_default =
+    2; /* cohesive length, where the grid chooses the range          */
+static const double eigen_exact =
+    0.2;                           /* of the eigenvalue, its bound of error                      */
+static const double single = 4e-6; /* what an eigenvalue in single precision may be off          */
+static const double load_step =
+    0.15; /* of the attraction: by how much a step of retraction lowers the load */
+static const double growth = 1.6;   /* of such a step from the last */
+static const double settled = 1e-3; /* change of the lowest load that ends the retraction */
+static const double past = 0.7;     /* of the lowest load: so far it is followed back */
+
+enum stage {
+    STAGE_NEW,
+    STAGE_DOWN,
+    STAGE_EIGEN,
+    STAGE_DONE
+};
+
+/* A state of the retraction, in the units of the gap. */
+struct place {
+    double c, load, attraction;
+    size_t jumps;
+};
+
+struct retraction {
+    bool on;
+    double *before, *last, *lowest; /* gaps on the whole grid */
+    struct place at_before, at_last, at_lowest, at_after;
+    struct rc_adhesion_figures found; /* of the lowest */
+    double c, step;   /* of the state under way, and the way to it                          */
+    double top_slope; /* the largest d load/d c so far                                      */
+    double from, to;  /* of this round                                                      */
+    double estimate;  /* of the lowest load, before this round                              */
+    size_t round, part;
+    bool has_before, has_after, short_of;
+    size_t states, iterations, eigen_steps, jumps;
+    double convolutions;
+};
+
+struct rc_adhesion {
+    struct rc_shape shape;
+    struct rc_whole *whole;
+    struct rc_gap gap;
+    struct rc_adhesion_scales scales;
+    double *h;     /* over the length, less the largest                                */
+    double mean_h; /* their mean                                                       */
+    double tol;
+    size_t max_iterations;
+    enum stage stage;
+    bool begun; /* there has been a state */
+    bool held;  /* no control is set yet */
+    enum rc_gap_control control;
+    double given;
+    size_t below; /* steps in a row with an error below tol */
+    size_t leaves, jumps;
+    double mu[3];  /* of the last state of each control, 0: none */
+    double judged; /* the error when the eigenvalue was found; 0: it has not been */
+    bool converged;
+    bool separated;
+    bool fresh; /* figures are those of the state */
+    struct rc_adhesion_figures figures;
+    struct retraction pull;
+};
+
+/* ---- problem ---- */
+
+static enum rc_status
+refuse(const struct rc_shape *shape, const struct rc_adhesion_problem *problem, struct rc_err *err)
+{
+    const struct rc_problem *c = &problem->contact;
+    double side = fmax(shape->dx * (double)shape->nx, shape->dy * (double)shape->ny);
+    const struct rc_adhesion_law *law = rc_adhesion_law_named(problem->law);
+
+    if (!(problem->work > 0) || isinf(problem->work))
+        return rc_err_set(err, "work of adhesion %g J/m2: it must be positive and finite",
+                          problem->work);
+    if (law == NULL)
+        return rc_err_set(err, "there is no law of adhesion '%s'", problem->law);
+    if (!(problem->range >= 0) || isinf(problem->range))
+        return rc_err_set(err, "range of adhesion %g m: it must be positive and finite",
+                          problem->range);
+    if (problem->range > 0 && !law->info.ranged)
+        return rc_err_set(err,
+                          "the law '%s' takes its range from the grid: give none, or another law",
+                          law->info.name);
+    if (problem->range > side)
+        return rc_err_set(err, "range of adhesion %g m: beyond the map, whose longer side is %g m",
+                          problem->range, side);
+    if (c->ranks != NULL)
+        return rc_err_set(err, "contact with adhesion is not shared among processes");
+    if (c->tilt_free)
+        return rc_err_set(err, "with adhesion the counter body is not free to tilt");
+    if (!(c->hardness >= 0))
+        return rc_err_set(err, "hardness %g Pa: it must be positive", c->hardness);
+    if (!(c->tol >= 0))
+        return rc_err_set(err, "tolerance %g: it must be positive", c->tol);
+    return RC_OK;
+}
+
+static enum rc_status
+refuse_ways(const struct rc_problem *c, struct rc_err *err)
+{
+    if (c->engine != NULL && strcmp(c->engine, "auto") != 0) {
+        const struct rc_engine *engine = rc_engine_named(c->engine, NULL);
+        if (engine == NULL)
+            return rc_err_set(err, "there is no engine '%s'", c->engine);
+        if (!engine->transforms)
+            return rc_err_set(
+                err,
+                "contact with adhesion needs the inverse of K, which engine '%s' does "
+                "not have: take the one that transforms",
+                c->engine);
+    }
+    if (c->method != NULL && strcmp(c->method, "auto") != 0 && strcmp(c->method, "gap") != 0)
+        return rc_err_set(err,
+                          "method '%s' knows no pressure that pulls: contact with adhesion is "
+                          "iterated by 'gap'",
+                          c->method);
+    return RC_OK;
+}
+
+static enum rc_status
+attraction_of(const struct rc_shape *shape, const struct rc_adhesion_problem *problem,
+              struct rc_attraction *law, struct rc_adhesion_scales *scales, struct rc_err *err)
+{
+    double length = sqrt(shape->dx) * sqrt(shape->dy), modulus = 0, diagonal = 0,
+           node = fmax(shape->dx, shape->dy) / length;
+
+    if (rc_shape_check(shape, err) != RC_OK ||
+        rc_pair_check(&problem->contact.pair, err) != RC_OK ||
+        refuse(shape, problem, err) != RC_OK || refuse_ways(&problem->contact, err) != RC_OK ||
+        rc_whole_scales(shape, &problem->contact.pair, &modulus, &diagonal, err) != RC_OK)
+        return RC_FAIL;
+    *law = (struct rc_attraction){.law = rc_adhesion_law_named(problem->law),
+                                  .work = problem->work / modulus / length};
+    law->range = problem->range > 0 ? problem->range / length
+                                    : law->law->range(law->work, nodes_default * node, diagonal);
+    law->law->set(law, diagonal);
+    if (!(law->strength > 0) || isinf(law->steepest) || !(law->steepest > 0))
+        return rc_err_set(err,
+                          "work of adhesion %g J/m2 over a range of %g m: beyond the numbers of a "
+                          "computer, beside E* %g Pa and nodes %g m apart",
+                          problem->work, law->range * length, modulus, length);
+    if (law->spread > 0 && law->steepest * diagonal >= 1)
+        return rc_err_set(err,
+                          "the law '%s' over %g m falls to nothing within a node of this grid: "
+                          "nodes at most %g m apart, or a range of at least %g m, hold it",
+                          law->law->info.name, law->range * length,
+                          0.5 * length / (law->steepest * diagonal),
+                          law->law->range(law->work, nodes_default * node, diagonal) * length);
+    *scales = (struct rc_adhesion_scales){
+        .law = law->law->info.name,
+        .range = law->range * length,
+        .strength = law->strength * modulus,
+        .steepest = law->steepest * modulus / length,
+        .cohesive_length = length / law->steepest,
+        .cohesive_nodes = 1 / (law->steepest * node),
+    };
+    return RC_OK;
+}
+
+enum rc_status
+rc_adhesion_check(const struct rc_shape *shape, const struct rc_adhesion_problem *problem,
+                  struct rc_adhesion_scales *scales, struct rc_err *err)
+{
+    struct rc_attraction law;
+
+    return attraction_of(shape, problem, &law, scales, err);
+}
+
+static struct rc_operator_options
+operator_options(const struct rc_problem *c)
+{
+    return (struct rc_operator_options){
+        .boundary = c->boundary, .pair = &c->pair, .threads = c->threads};
+}
+
+static enum rc_status
+take_heights(struct rc_adhesion *a, const double *h, struct rc_err *err)
+{
+    size_t n = a->shape.nx * a->shape.ny;
+    double top = -INFINITY;
+
+    a->h = rc_alloc(n, sizeof *a->h);
+    if (a->h == NULL)
+        return rc_err_set(err, "out of memory for the adhesion of %zu x %zu nodes", a->shape.nx,
+                          a->shape.ny);
+    for (size_t k = 0; k < n; k++) {
+        if (!isfinite(h[k]))
+            return rc_err_set(err, "height %zu is not a finite number", k);
+        top = fmax(top, h[k]);
+    }
+    for (size_t k = 0; k < n; k++)
+        a->h[k] = (h[k] - top) / a->whole->length;
+    a->mean_h = rc_sum(a->h, n) / (double)n;
+    return RC_OK;
+}
+
+static enum rc_status
+take_hardness(const struct rc_adhesion *a, const struct rc_problem *c, double *hard, double **hards,
+              struct rc_err *err)
+{
+    size_t n = a->shape.nx * a->shape.ny;
+
+    *hard = c->hardness > 0 ? c->hardness / a->whole->modulus : INFINITY;
+    *hards = NULL;
+    if (c->hardness_map == NULL)
+        return RC_OK;
+    *hards = rc_alloc(n, sizeof **hards);
+    if (*hards == NULL)
+        return rc_err_set(err, "out of memory for the hardness of %zu nodes", n);
+    for (size_t k = 0; k < n; k++) {
+        double is = c->hardness_map[k];
+        if (!(is > 0) && !isnan(is)) {
+            free(*hards);
+            *hards = NULL;
+            return rc_err_set(err, "hardness %g Pa of node %zu: it must be positive", is, k);
+        }
+        (*hards)[k] = isnan(is) ? INFINITY : is / a->whole->modulus;
+    }
+    return RC_OK;
+}
+
+void
+rc_adhesion_free(struct rc_adhesion *a)
+{
+    if (a == NULL)
+        return;
+    rc_gap_free(&a->gap);
+    rc_whole_free(a->whole);
+    free(a->pull.before);
+    free(a->pull.last);
+    free(a->pull.lowest);
+    free(a->h);
+    free(a);
+}
+
+struct rc_adhesion *
+rc_adhesion_new(const struct rc_shape *shape, const double *h,
+                const struct rc_adhesion_problem *problem, struct rc_err *err)
+{
+    const struct rc_problem *c = &problem->contact;
+    struct rc_operator_options options = operator_options(c);
+    struct rc_adhesion_scales scales;
+    struct rc_attraction law;
+    struct rc_adhesion *a;
+    double nodes = (double)shape->nx * (double)shape->ny, hard, *hards;
+
+    if (attraction_of(shape, problem, &law, &scales, err) != RC_OK)
+        return NULL;
+    a = calloc(1, sizeof *a);
+    if (a == NULL) {
+        rc_err_set(err, "out of memory for the adhesion of %zu x %zu nodes", shape->nx, shape->ny);
+        return NULL;
+    }
+    a->shape = *shape;
+    a->scales = scales;
+    a->tol = c->tol > 0 ? c->tol : fmin(1e-3, pow(nodes, -0.75));
+    a->max_iterations =
+        c->max_iterations > 0 ? c->max_iterations : 100 + (size_t)(10 * sqrt(nodes));
+    if ((a->whole = rc_whole_new(shape, &options, err)) == NULL ||
+        take_heights(a, h, err) != RC_OK || take_hardness(a, c, &hard, &hards, err) != RC_OK ||
+        rc_gap_new(&a->gap, a->whole, &law, a->h, hard, hards, err) != RC_OK) {
+        rc_adhesion_free(a);
+        return NULL;
+    }
+    rc_gap_apart(&a->gap, 0);
+    return a;
+}
+
+/* ---- a state ---- */
+
+static void
+set(struct rc_adhesion *a, enum rc_gap_control control, double given)
+{
+    a->control = control;
+    a->given = given;
+    a->below = a->leaves = a->jumps = 0;
+    a->judged = 0;
+    a->converged = a->separated = a->fresh = false;
+    a->stage = STAGE_NEW;
+    a->held = true;
+}
+
+enum rc_status
+rc_adhesion_set_load(struct rc_adhesion *a, double load, struct rc_err *err)
+{
+    double cell = a->shape.dx * a->shape.dy;
+
+    if (!isfinite(load))
+        return rc_err_set(err, "load %g N: it must be finite", load);
+    a->pull.on = false;
+    set(a, RC_GAP_LOAD, load / cell / a->whole->modulus / (double)a->gap.n);
+    return RC_OK;
+}
+
+/* The control of an approach, over the length. */
+static void
+set_shift(struct rc_adhesion *a, double c)
+{
+    if (a->whole->boundary == RC_FREE)
+        set(a, RC_GAP_SHIFT, c);
+    else
+        set(a, RC_GAP_MEAN, -c - a->mean_h);
+}
+
+enum rc_status
+rc_adhesion_set_approach(struct rc_adhesion *a, double approach, struct rc_err *err)
+{
+    double c = approach / a->whole->length;
+
+    if (!isfinite(approach))
+        return rc_err_set(err, "approach %g m: it must be finite", approach);
+    if (a->whole->boundary == RC_PERIODIC && !(-c - a->mean_h > 0))
+        return rc_err_set(err,
+                          "approach %g m: on a periodic map it must be below %g m, where the mean "
+                          "gap would be 0",
+                          approach, -a->mean_h * a->whole->length);
+    a->pull.on = false;
+    set_shift(a, c);
+    return RC_OK;
+}
+
+static double
+softness(const struct rc_adhesion *a)
+{
+    double mu = a->judged > 0 ? a->gap.mu : a->mu[a->control];
+
+    return mu == 0 ? 1 : sqrt(fmin(fmax(mu, single), 1));
+}
+
+static double
+estimate(const struct rc_adhesion *a)
+{
+    return 2 * a->gap.error / softness(a);
+}
+
+static enum rc_status
+finish(struct rc_adhesion *a, bool converged)
+{
+    a->stage = STAGE_DONE;
+    a->converged = converged;
+    a->begun = true;
+    a->mu[a->control] = a->judged > 0 ? fmax(a->gap.mu, single) : 0;
+    return converged ? RC_OK : RC_SHORT;
+}
+
+static void
+begin(struct rc_adhesion *a)
+{
+    rc_gap_begin(&a->gap, a->control, a->given);
+    a->stage = STAGE_DOWN;
+}
+
+static enum rc_status
+down(struct rc_adhesion *a)
+{
+    struct rc_gap *g = &a->gap;
+
+    rc_gap_step(g);
+    if (g->parting) {
+        a->separated = true;
+        return finish(a, false);
+    }
+    a->below = estimate(a) <= a->tol ? a->below + 1 : 0;
+    if (a->judged > 0 && g->error > 10 * a->judged)
+        a->judged = 0; /* on the way to another place */
+    if (a->below >= 2 || g->stuck) {
+        if (a->judged > 0)
+            return finish(a, estimate(a) <= a->tol);
+        rc_gap_eigen_begin(g);
+        a->stage = STAGE_EIGEN;
+        return RC_MORE;
+    }
+    return g->iterations < a->max_iterations ? RC_MORE : finish(a, false);
+}
+
+static enum rc_status
+eigen(struct rc_adhesion *a)
+{
+    struct rc_gap *g = &a->gap;
+    bool negative;
+
+    if (g->mu_error > 0)
+        rc_gap_eigen_step(g);
+    negative = g->mu < -single;
+    if (g->eigen_steps < EIGEN_STEPS && g->mu_error > 0 &&
+        g->mu_error > (negative ? 0.5 : eigen_exact) * fmax(fabs(g->mu), single))
+        return RC_MORE;
+    a->judged = fmax(g->error, 1e-300);
+    if (negative && a->leaves < LEAVES) {
+        rc_gap_leave(g);
+        a->leaves++;
+        a->jumps++;
+        a->judged = 0;
+        a->below = 0;
+        a->stage = STAGE_DOWN;
+        return RC_MORE;
+    }
+    if (negative)
+        return finish(a, false);
+    if (estimate(a) <= a->tol || g->stuck)
+        return finish(a, estimate(a) <= a->tol);
+    a->below = 0;
+    a->stage = STAGE_DOWN;
+    return RC_MORE;
+}
+
+static enum rc_status
+step_state(struct rc_adhesion *a)
+{
+    a->fresh = false;
+    if (a->stage == STAGE_NEW)
+        begin(a);
+    return a->stage == STAGE_DOWN    ? down(a)
+           : a->stage == STAGE_EIGEN ? eigen(a)
+           : a->converged            ? RC_OK
+                                     : RC_SHORT;
+}
+
+/* ---- retraction ---- */
+
+static struct place
+place_of(struct rc_adhesion *a)
+{
+    const struct rc_adhesion_figures *f = rc_adhesion_result(a);
+
+    return (struct place){rc_gap_shift(&a->gap), f->load, f->attractive_load, f->jumps};
+}
+
+static void
+copy_gap(const struct rc_adhesion *a, double *to, const double *from)
+{
+    memcpy(to, from, a->gap.n * sizeof *to);
+}
+
+/* The state there is becomes that of this gap; the next begins there. */
+static void
+put_back(struct rc_adhesion *a, const double *gap, double c)
+{
+    copy_gap(a, a->gap.x, gap);
+    set_shift(a, c);
+    a->gap.control = a->control;
+    a->gap.given = a->given;
+}
+
+enum rc_status
+rc_adhesion_pull_off(struct rc_adhesion *a, struct rc_err *err)
+{
+    struct retraction *p = &a->pull;
+    size_t n = a->gap.n;
+    double **room[] = {&p->before, &p->last, &p->lowest};
+
+    if (!a->begun)
+        return rc_err_set(err, "there is no state to begin a retraction with");
+    for (size_t k = 0; k < sizeof room / sizeof *room; k++)
+        if (*room[k] == NULL && (*room[k] = rc_alloc(n, sizeof **room)) == NULL)
+            return rc_err_set(err, "out of memory for a retraction of %zu nodes", n);
+    if (a->gap.yields)
+        rc_adhesion_keep_shape(a, NULL);
+    *p = (struct retraction){.on = true,
+                             .before = p->before,
+                             .last = p->last,
+                             .lowest = p->lowest,
+                             .c = rc_gap_shift(&a->gap),
+                             .estimate = NAN};
+    set_shift(a, p->c);
+    return RC_OK;
+}
+
+/* The lowest load by the parabola through the lowest state and those beside it; where the state after it is one
+ * that was jumped to, there is none, and the lowest is what was seen. */
+static double
+lowest_of(const struct retraction *p, double *at, bool *jumped)
+{
+    const struct place *l = &p->at_before, *m = &p->at_lowest, *r = &p->at_after;
+    double left = (l->load - m->load) / (l->c - m->c), right = (r->load - m->load) / (r->c - m->c);
+    double bend = (left - right) / (l->c - r->c), slope, c;
+
+    *at = m->c;
+    *jumped = r->jumps > 0 || fabs(r->attraction - m->attraction) >
+                                  4 * fabs(m->attraction - l->attraction) + settled * m->attraction;
+    if (*jumped || !(bend > 0))
+        return m->load;
+    slope = left - bend * (l->c - m->c);
+    c = m->c - slope / (2 * bend);
+    if (!(c <= l->c && c >= r->c))
+        return m->load;
+    *at = c;
+    return m->load + slope * (c - m->c) + bend * (c - m->c) * (c - m->c);
+}
+
+static void
+note(struct rc_adhesion *a)
+{
+    struct retraction *p = &a->pull;
+    struct place here = place_of(a);
+    double *other;
+
+    p->states++;
+    p->iterations += a->figures.iterations;
+    p->eigen_steps += a->figures.eigen_steps;
+    p->convolutions += a->figures.convolutions;
+    p->short_of |= !a->converged;
+    if (p->states == 1 || here.load < p->at_lowest.load) {
+        p->has_before = p->states > 1;
+        if (p->has_before && p->at_last.c != p->at_before.c) {
+            other = p->before;
+            p->before = p->last;
+            p->last = other;
+            p->at_before = p->at_last;
+        }
+        copy_gap(a, p->lowest, a->gap.x);
+        p->at_lowest = here;
+        p->found = a->figures;
+        p->has_after = false;
+    } else if (!p->has_after) {
+        p->has_after = true;
+        p->at_after = here;
+    }
+    if (p->round == 0)
+        p->jumps += here.jumps;
+    copy_gap(a, p->last, a->gap.x);
+    p->at_last = here;
+}
+
+/* The way to the next state: a load that is lower by part of the attraction, as far as the last two tell. */
+static double
+next_way(struct rc_adhesion *a, const struct place *before, const struct place *here)
+{
+    struct retraction *p = &a->pull;
+    double stiffness, cell = a->shape.dx * a->shape.dy;
+
+    if (p->states < 2) {
+        double radius = sqrt(fmax(a->figures.contact_area, cell) / RC_PI) / a->whole->length;
+        stiffness = 2 * radius * a->whole->modulus * cell;
+        return fmax(load_step * here->attraction / stiffness, 0.02 * a->gap.law.range);
+    }
+    stiffness = fabs((before->load - here->load) / (before->c - here->c));
+    p->top_slope = fmax(p->top_slope, stiffness);
+    if (stiffness < p->top_slope / 4)
+        return p->step; /* near the lowest */
+    return fmin(load_step * here->attraction / stiffness, growth * p->step);
+}
+
+static bool
+parted(const struct rc_adhesion *a)
+{
+    const struct retraction *p = &a->pull;
+
+    return p->has_after &&
+           (p->at_last.load > past * p->at_lowest.load ||
+            a->figures.mean_gap / a->whole->length > 20 * a->gap.law.range - a->mean_h);
+}
+
+static enum rc_status
+end_retraction(struct rc_adhesion *a, double load, double at, double spread)
+{
+    struct retraction *p = &a->pull;
+    struct rc_adhesion_figures *f = &a->figures;
+    bool converged = !p->short_of;
+
+    put_back(a, p->lowest, p->at_lowest.c);
+    rc_gap_begin(&a->gap, a->control, a->given);
+    a->stage = STAGE_DONE;
+    a->fresh = true;
+    a->converged = converged;
+    p->on = false;
+    *f = p->found;
+    f->pull_off_load = load;
+    f->pull_off_approach = at * a->whole->length;
+    f->pull_off_spread = spread;
+    f->states = p->states;
+    f->jumps = p->jumps;
+    f->iterations = p->iterations;
+    f->eigen_steps = p->eigen_steps;
+    f->convolutions = p->convolutions + a->gap.convolutions;
+    f->converged = converged;
+    return converged ? RC_OK : RC_SHORT;
+}
+
+/* The next approach, or the end. */
+static enum rc_status
+go_on(struct rc_adhesion *a)
+{
+    struct retraction *p = &a->pull;
+    struct place before = p->at_last;
+    double load, at, spread;
+    bool jumped;
+
+    note(a);
+    if (p->round == 0 && !parted(a) && p->states < STATES) {
+        p->step = next_way(a, &before, &p->at_last);
+        p->c = p->at_last.c - p->step;
+        set_shift(a, p->c);
+        return RC_MORE;
+    }
+    if (p->round > 0 && (p->part < PARTS || !p->has_after) && p->part < FARTHEST) {
+        p->c = p->from + (p->to - p->from) * (double)p->part++ / PARTS;
+        set_shift(a, p->c);
+        return RC_MORE;
+    }
+    if (!p->has_before || !p->has_after)
+        return end_retraction(a, p->at_lowest.load, p->at_lowest.c, NAN);
+    load = lowest_of(p, &at, &jumped);
+    spread = fabs(load - p->estimate);
+    if (jumped)
+        spread = fmax(spread,
+                      fabs((p->at_before.load - p->at_lowest.load) /
+                           (p->at_before.c - p->at_lowest.c) * (p->at_lowest.c - p->at_after.c)));
+    if (p->round >= ROUNDS || (p->round > 0 && spread <= settled * fabs(load)))
+        return end_retraction(a, load, at, spread);
+    p->estimate = load;
+    p->round++;
+    p->from = p->at_before.c;
+    p->to = p->at_after.c;
+    p->part = 2;
+    p->c = p->from + (p->to - p->from) / PARTS;
+    put_back(a, p->before, p->from);
+    copy_gap(a, p->last, p->before);
+    p->at_last = p->at_before;
+    p->at_lowest.load = INFINITY;
+    set_shift(a, p->c);
+    return RC_MORE;
+}
+
+enum rc_status
+rc_adhesion_step(struct rc_adhesion *a, struct rc_err *err)
+{
+    enum rc_status status;
+
+    if (!a->held)
+        return rc_err_set(err, "neither a load nor an approach has been set");
+    status = step_state(a);
+    return status != RC_MORE && a->pull.on ? go_on(a) : status;
+}
+
+/* ---- what has been found ---- */
+
+static double
+at_edge(const struct rc_adhesion *a)
+{
+    const struct rc_gap *g = &a->gap;
+    double nearest = INFINITY, v, s, d;
+
+    if (a->whole->boundary == RC_PERIODIC)
+        return 0;
+    for (size_t j = 0; j < g->ny; j++)
+        for (size_t i = 0; i < g->nx; i++)
+            if ((g->ny > 1 && (j == 0 || j + 1 == g->ny)) ||
+                (g->nx > 1 && (i == 0 || i + 1 == g->nx)))
+                nearest = fmin(nearest, g->x[j * g->px + i]);
+    if (isinf(nearest))
+        return 0;
+    nearest = fmax(nearest, 0);
+    g->law.law->at(&g->law, 1, &nearest, &v, &s, &d);
+    return s / g->law.strength;
+}
+
+/* Sums of a row: p, sigma, its area, nodes in contact, below 0, the gap, and the extremes. */
+static void
+figures_row(struct rc_gap *g, size_t j, double *sums)
+{
+    size_t m = rc_gap_on_map(g, j);
+
+    sums[6] = sums[7] = -INFINITY;
+    for (size_t i = 0; i < m; i += RC_GAP_LINE) {
+        size_t n = m - i < RC_GAP_LINE ? m - i : RC_GAP_LINE;
+        const double *x = g->x + j * g->px + i;
+        double v[RC_GAP_LINE], s[RC_GAP_LINE], d[RC_GAP_LINE];
+        g->law.law->at(&g->law, n, x, v, s, d);
+        for (size_t k = 0; k < n; k++) {
+            double p = rc_gap_pressure_at(g, j * g->px + i + k), wrong = p + s[k];
+            double hard = g->hards != NULL ? g->hards[j * g->nx + i + k] : g->hard;
+            sums[0] += p;
+            sums[1] += s[k];
+            sums[2] += s[k] > g->law.strength / 100;
+            sums[3] += x[k] <= 0;
+            sums[4] += x[k] < 0;
+            sums[5] += x[k];
+            sums[6] = fmax(sums[6], p);
+            sums[7] = fmax(sums[7], -p);
+            if (x[k] < 0)
+                wrong -= hard;
+            else if (x[k] == 0)
+                wrong = fmin(wrong, 0) + fmax(wrong - hard, 0);
+            sums[8] = fmax(sums[8], fabs(wrong));
+        }
+    }
+}
+
+static double
+most_of(const struct rc_gap *g, size_t q)
+{
+    double most = -INFINITY;
+
+    for (size_t j = 0; j < g->ny; j++)
+        most = fmax(most, g->sums[j * RC_GAP_SUMS + q]);
+    return most;
+}
+
+static void
+find_figures(struct rc_adhesion *a)
+{
+    struct rc_adhesion_figures *f = &a->figures;
+    struct rc_gap *g = &a->gap;
+    double sums[RC_GAP_SUMS], cell = a->shape.dx * a->shape.dy, e = a->whole->modulus,
+                              nodes = (double)a->shape.nx * (double)a->shape.ny;
+
+    *f = (struct rc_adhesion_figures){.pull_off_load = NAN,
+                                      .pull_off_approach = NAN,
+                                      .pull_off_spread = NAN,
+                                      .states = 1,
+                                      .edge_traction = at_edge(a)};
+    rc_gap_rows(g, figures_row, sums);
+    f->load = sums[0] * e * cell;
+    f->mean_pressure = sums[0] * e / nodes;
+    f->attractive_load = sums[1] * e * cell;
+    f->repulsive_load = (sums[0] + sums[1]) * e * cell;
+    f->attractive_area = sums[2] * cell;
+    f->contact_nodes = (size_t)sums[3];
+    f->contact_area = sums[3] * cell;
+    f->contact_fraction = sums[3] / nodes;
+    f->plastic_nodes = (size_t)sums[4];
+    f->plastic_area = sums[4] * cell;
+    f->mean_gap = sums[5] * a->whole->length / nodes;
+    f->max_pressure = most_of(g, 6) * e;
+    f->min_pressure = -most_of(g, 7) * e;
+    f->kkt_residual = most_of(g, 8) / g->law.strength;
+    f->approach = rc_gap_shift(g) * a->whole->length;
+    f->stability = a->judged > 0 ? g->mu : NAN;
+    f->stable = a->judged > 0 && g->mu > 0;
+    f->separated = a->separated;
+    f->jumps = a->jumps;
+    f->iterations = g->iterations;
+    f->eigen_steps = g->eigen_steps;
+    f->convolutions = g->convolutions;
+    f->pressure_error = isinf(g->error) ? NAN : estimate(a);
+    f->converged = a->converged;
+    a->fresh = true;
+}
+
+const struct rc_adhesion_figures *
+rc_adhesion_result(struct rc_adhesion *a)
+{
+    if (!a->fresh && a->gap.iterations > 0)
+        find_figures(a);
+    return &a->figures;
+}
+
+const struct rc_adhesion_scales *
+rc_adhesion_scales(const struct rc_adhesion *a)
+{
+    return &a->scales;
+}
+
+void
+rc_adhesion_pressure(const struct rc_adhesion *a, double *pressure)
+{
+    for (size_t j = 0; j < a->gap.ny; j++)
+        for (size_t i = 0; i < a->gap.nx; i++)
+            pressure[j * a->gap.nx + i] =
+                rc_gap_pressure_at(&a->gap, j * a->gap.px + i) * a->whole->modulus;
+}
+
+void
+rc_adhesion_gap(const struct rc_adhesion *a, double *gap)
+{
+    for (size_t j = 0; j < a->gap.ny; j++)
+        for (size_t i = 0; i < a->gap.nx; i++)
+            gap[j * a->gap.nx + i] = a->gap.x[j * a->gap.px + i] * a->whole->length;
+}
+
+void
+rc_adhesion_displacement(const struct rc_adhesion *a, double *displacement)
+{
+    const struct rc_gap *g = &a->gap;
+    double c = rc_gap_shift(g);
+
+    for (size_t j = 0; j < g->ny; j++)
+        for (size_t i = 0; i < g->nx; i++)
+            displacement[j * g->nx + i] =
+                (g->x[j * g->px + i] + g->h[j * g->nx + i] + c) * a->whole->length;
+}
+
+void
+rc_adhesion_traction(const struct rc_adhesion *a, double *traction)
+{
+    const struct rc_gap *g = &a->gap;
+
+    for (size_t j = 0; j < g->ny; j++)
+        for (size_t i = 0; i < g->nx; i += RC_GAP_LINE) {
+            size_t n = g->nx - i < RC_GAP_LINE ? g->nx - i : RC_GAP_LINE;
+            double v[RC_GAP_LINE], d[RC_GAP_LINE];
+            g->law.law->at(&g->law, n, g->x + j * g->px + i, v, traction + j * g->nx + i, d);
+            for (size_t k = 0; k < n; k++)
+                traction[j * g->nx + i + k] *= a->whole->modulus;
+        }
+}
+
+void
+rc_adhesion_progress(const struct rc_adhesion *a, struct rc_adhesion_progress *progress)
+{
+    const struct rc_gap *g = &a->gap;
+
+    *progress = (struct rc_adhesion_progress){
+        .state = a->pull.on ? a->pull.states + 1 : 1,
+        .iterations = a->stage == STAGE_NEW ? 0 : g->iterations,
+        .eigenvalue = a->stage == STAGE_EIGEN,
+        .error = a->stage == STAGE_NEW || isinf(g->error) ? NAN : estimate(a),
+        .tol = a->tol};
+}
+
+/* ---- from an earlier path ---- */
+
+enum rc_status
+rc_adhesion_start(struct rc_adhesion *a, const double *pressure, double approach,
+                  struct rc_err *err)
+{
+    struct rc_gap *g = &a->gap;
+    double c = approach / a->whole->length;
+
+    if (!isfinite(approach))
+        return rc_err_set(err, "approach %g m: it must be finite", approach);
+    for (size_t k = 0; k < g->nx * g->ny; k++)
+        if (!isfinite(pressure[k]))
+            return rc_err_set(err, "pressure %zu is not a finite number", k);
+    memset(g->d, 0, g->n * sizeof *g->d);
+    for (size_t j = 0; j < g->ny; j++)
+        for (size_t i = 0; i < g->nx; i++)
+            g->d[j * g->px + i] = pressure[j * g->nx + i] / a->whole->modulus;
+    rc_whole_apply(a->whole, g->d, g->x);
+    for (size_t j = 0; j < g->py; j++)
+        for (size_t i = 0; i < g->px; i++) {
+            double *x = g->x + j * g->px + i, p = g->d[j * g->px + i];
+            *x -= c;
+            if (j >= g->ny || i >= g->nx)
+                continue;
+            *x -= a->h[j * g->nx + i];
+            /* in contact, but for rounding; without a hardness nothing is below */
+            if ((*x < 0 && !g->yields) || (fabs(*x) < 1e-6 * g->law.range && p > -g->law.strength))
+                *x = 0;
+        }
+    set_shift(a, c);
+    g->control = a->control;
+    g->given = a->given;
+    a->held = false;
+    a->begun = true;
+    return RC_OK;
+}
+
+void
+rc_adhesion_keep_shape(struct rc_adhesion *a, double *h)
+{
+    struct rc_gap *g = &a->gap;
+
+    for (size_t j = 0; j < g->ny; j++)
+        for (size_t i = 0; i < g->nx; i++) {
+            double *x = g->x + j * g->px + i;
+            if (!(*x < 0))
+                continue;
+            a->h[j * g->nx + i] += *x;
+            a->mean_h += *x / (double)(g->nx * g->ny);
+            if (h != NULL)
+                h[j * g->nx + i] += *x * a->whole->length;
+            *x = 0;
+        }
+}
+
+/* ---- what it takes ---- */
+
+size_t
+rc_adhesion_memory(const struct rc_shape *shape, const struct rc_adhesion_problem *problem)
+{
+    const struct rc_operator_options options = operator_options(&problem->contact);
+    struct rc_shape grid = rc_whole_grid(shape, problem->contact.boundary);
+    size_t n = shape->nx * shape->ny;
+
+    return rc_whole_memory(shape, &options) + rc_gap_memory(&grid) + n * sizeof(double) +
+           (problem->contact.hardness_map != NULL ? n * sizeof(double) : 0);
+}
+
+enum rc_status
+rc_adhesion_expect(const struct rc_shape *shape, const struct rc_adhesion_problem *problem,
+                   struct rc_expected *expected, struct rc_err *err)
+{
+    struct rc_adhesion_scales scales;
+    double nodes = (double)shape->nx * (double)shape->ny, padded = 1;
+
+    if (rc_adhesion_check(shape, problem, &scales, err) != RC_OK)
+        return RC_FAIL;
+    if (problem->contact.boundary == RC_FREE)
+        padded = 4;
+    *expected = (struct rc_expected){.convolutions = 50 * pow(nodes / 16384, 0.25),
+                                     .memory = rc_adhesion_memory(shape, problem)};
+    expected->seconds = expected->convolutions * 15e-9 * nodes * padded;
+    return RC_OK;
+}

@@ -1,0 +1,49 @@
+/*
+ * sigma(0) up to the range w/sigma(0), then nothing (Maugis 1992). The jump is spread along a line whose
+ * slope the grid can hold, about that range: w stays what it is.
+ */
+#include "law.h"
+
+/* The spread over what sigma(0) displaces a node, and its bounds over the range. */
+static const double nodes = 2, least = 0.05, most = 2;
+
+static void
+set(struct rc_attraction *a, double diagonal)
+{
+    a->strength = a->work / a->range;
+    a->spread = fmin(fmax(nodes * a->strength * diagonal, least * a->range), most * a->range);
+    a->steepest = a->strength / a->spread;
+    a->reach = a->range + a->spread / 2;
+}
+
+/* Its cohesive length is the grid's, unless the spread is at a bound: at the upper one, steepest = w /
+ * (most range^2). */
+static double
+range(double work, double cohesive, double diagonal)
+{
+    return fmax(sqrt(work * cohesive / most), sqrt(work * diagonal * nodes / most));
+}
+
+RC_CLONES static void
+at(const struct rc_attraction *a, size_t n, const double *restrict g, double *restrict v,
+   double *restrict s, double *restrict d)
+{
+    const double first = a->range - a->spread / 2, last = a->range + a->spread / 2;
+    const double strength = a->strength, slope = strength / a->spread;
+
+    for (size_t k = 0; k < n; k++) {
+        double x = fmin(g[k], last), rest = last - fmax(x, first); /* of the line */
+        s[k] = slope * rest;
+        v[k] = -slope * rest * rest / 2 + strength * (fmin(x, first) - first);
+        d[k] = g[k] >= first && g[k] < last && g[k] >= 0 ? slope : 0;
+    }
+}
+
+const struct rc_adhesion_law rc_adhesion_dugdale = {
+    .info = {.name = "dugdale",
+             .summary = "the same traction up to the range, then none (Maugis)",
+             .ranged = true},
+    .set = set,
+    .range = range,
+    .at = at,
+};

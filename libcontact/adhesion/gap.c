@@ -1,0 +1,880 @@
+/*
+ * Projected nonlinear conjugate gradients on the gap, with K on the nodes off contact as preconditioner, in
+ * single precision: (K A = 1, so that what is left to do is what contact and traction change.) A step costs
+ * A d and K r, and A of what was clipped when a node has reached 0; along the direction Phi is known without
+ * a convolution.
+ */
+#include "gap.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "libcontact/memory.h"
+
+static const double clipped_anew =
+    0.02; /* part of the free nodes: when more come to 0, CG begins anew */
+static const double curvature = 0.05; /* of d'Ad, that a step assumes at least    */
+static const double shorter = 0.4;
+static const double exact = 1e-3; /* of the slope, that a line search leaves */
+enum {
+    LINE = RC_GAP_LINE,
+    NEWTON = 12,
+    SHORTEN = 12,
+    PROJECT = 4,
+    DOUBLE = 10
+};
+
+/* ---- rows ---- */
+
+static const double *
+height_row(const struct rc_gap *g, size_t j)
+{
+    return g->h + j * g->nx;
+}
+
+static size_t
+on_map(const struct rc_gap *g, size_t j)
+{
+    return rc_gap_on_map(g, j);
+}
+
+static double
+hard_at(const struct rc_gap *g, size_t j, size_t i)
+{
+    return g->hards != NULL ? g->hards[j * g->nx + i] : g->hard;
+}
+
+void
+rc_gap_total(const struct rc_gap *g, double *sums)
+{
+    struct rc_total all[RC_GAP_SUMS] = {{0}};
+
+    for (size_t j = 0; j < g->py; j++)
+        for (size_t q = 0; q < RC_GAP_SUMS; q++)
+            rc_total_add(&all[q], g->sums[j * RC_GAP_SUMS + q]);
+    for (size_t q = 0; q < RC_GAP_SUMS; q++)
+        sums[q] = rc_total_value(&all[q]);
+}
+
+void
+rc_gap_clear(struct rc_gap *g)
+{
+    memset(g->sums, 0, g->py * RC_GAP_SUMS * sizeof *g->sums);
+}
+
+/* Every row by itself, then the sums in order: the same for any number of threads. */
+void
+rc_gap_rows(struct rc_gap *g, rc_gap_work *work, double *sums)
+{
+    rc_gap_clear(g);
+#pragma omp parallel for num_threads(g->threads) schedule(static)
+    for (size_t j = 0; j < g->py; j++)
+        work(g, j, g->sums + j * RC_GAP_SUMS);
+    rc_gap_total(g, sums);
+}
+
+/* sigma, V and D at n <= LINE gaps of row j from node i on, with the hardness. */
+void
+rc_gap_law(const struct rc_gap *g, size_t j, size_t i, size_t n, const double *gap, double *v,
+           double *s, double *d)
+{
+    g->law.law->at(&g->law, n, gap, v, s, d);
+    if (!g->yields)
+        return;
+    for (size_t k = 0; k < n; k++)
+        if (gap[k] < 0) {
+            double hard = hard_at(g, j, i + k);
+            v[k] -= hard * gap[k];
+            s[k] -= hard;
+        }
+}
+
+/* ---- A u ---- */
+
+static bool
+u_in(void *ctx, size_t j, void *to)
+{
+    const struct rc_gap *g = ctx;
+    const double c = g->control == RC_GAP_SHIFT ? g->given : 0;
+    double *row = to;
+
+    for (size_t i = 0; i < g->px; i++)
+        row[i] = g->x[j * g->px + i] + c;
+    for (size_t i = 0; i < on_map(g, j); i++)
+        row[i] += height_row(g, j)[i];
+    return true;
+}
+
+static bool
+u_out(void *ctx, size_t j, void *from)
+{
+    struct rc_gap *g = ctx;
+    const double *row = from;
+    double *sums = g->sums + j * RC_GAP_SUMS;
+
+    memcpy(g->au + j * g->px, row, g->px * sizeof *row);
+    for (size_t i = 0; i < g->px; i++)
+        sums[0] += row[i];
+    return true;
+}
+
+/* A is blind to the mean where the load is given. */
+static void
+take_mean(const struct rc_gap *g, double *v, double mean)
+{
+    if (g->control != RC_GAP_LOAD || mean == 0)
+        return;
+#pragma omp parallel for num_threads(g->threads) schedule(static)
+    for (size_t k = 0; k < g->n; k++)
+        v[k] -= mean;
+}
+
+static void
+find_au(struct rc_gap *g)
+{
+    double sums[RC_GAP_SUMS];
+
+    rc_gap_clear(g);
+    rc_whole_inverse_rows(g->whole, u_in, u_out, g);
+    rc_gap_total(g, sums);
+    take_mean(g, g->au, sums[0] / (double)g->n);
+    g->convolutions++;
+}
+
+/* ---- residual ---- */
+
+static double
+added(const struct rc_gap *g)
+{
+    return (g->control == RC_GAP_LOAD ? g->given : 0) - g->level;
+}
+
+/* r = A u + S + sigma, and its sum over nodes apart. */
+static void
+residual_row(struct rc_gap *g, size_t j, double *sums)
+{
+    const double *x = g->x + j * g->px, *au = g->au + j * g->px;
+    const double load = g->control == RC_GAP_LOAD ? g->given : 0;
+    double *r = g->r + j * g->px;
+    size_t m = on_map(g, j);
+
+    for (size_t i = 0; i < m; i += LINE) {
+        size_t n = m - i < LINE ? m - i : LINE;
+        double v[LINE], s[LINE], d[LINE];
+        rc_gap_law(g, j, i, n, x + i, v, s, d);
+        for (size_t k = 0; k < n; k++) {
+            bool apart = x[i + k] != 0;
+            r[i + k] = au[i + k] + load + s[k];
+            sums[0] += apart ? r[i + k] : 0;
+            sums[1] += apart;
+        }
+    }
+    for (size_t i = m; i < g->px; i++) {
+        r[i] = au[i] + load;
+        sums[0] += r[i];
+    }
+    sums[1] += (double)(g->px - m);
+}
+
+/* Which nodes are held; r becomes the negative residual of the others, and 0 on these. */
+static void
+hold_row(struct rc_gap *g, size_t j, double *sums)
+{
+    const double *x = g->x + j * g->px;
+    double *r = g->r + j * g->px, most = 0;
+    unsigned char *off = g->off + j * g->px;
+    size_t m = on_map(g, j);
+
+    for (size_t i = 0; i < g->px; i++) {
+        double at = r[i] - g->level;
+        bool held = false;
+        if (i < m && x[i] == 0) {
+            double hard = g->yields ? hard_at(g, j, i) : INFINITY;
+            held = at >= 0 && at <= hard;
+            at = at > hard ? at - hard : at;
+        }
+        off[i] = held;
+        r[i] = held ? 0 : -at;
+        sums[0] += r[i];
+        sums[1] += !held;
+        most = fmax(most, fabs(r[i]));
+    }
+    sums[2] = most;
+}
+
+static double
+most_of(const struct rc_gap *g, size_t q)
+{
+    double most = 0;
+
+    for (size_t j = 0; j < g->py; j++)
+        most = fmax(most, g->sums[j * RC_GAP_SUMS + q]);
+    return most;
+}
+
+static void
+find_residual(struct rc_gap *g)
+{
+    double sums[RC_GAP_SUMS];
+
+    rc_gap_rows(g, residual_row, sums);
+    g->level = g->control == RC_GAP_MEAN && sums[1] > 0 ? sums[0] / sums[1] : 0;
+    rc_gap_rows(g, hold_row, sums);
+    g->free = (size_t)sums[1];
+    g->mean_r = g->control != RC_GAP_MEAN ? sums[0] / (double)g->n
+                : g->free > 0             ? sums[0] / sums[1]
+                                          : 0;
+    g->scale = most_of(g, 2);
+}
+
+/* ---- z = K r ---- */
+
+static bool
+r_in(void *ctx, size_t j, void *to)
+{
+    const struct rc_gap *g = ctx;
+    const unsigned char *off = g->off + j * g->px;
+    double *r = g->r + j * g->px, per = 1 / g->scale;
+    float *row = to;
+    bool any = false;
+
+    for (size_t i = 0; i < g->px; i++) {
+        if (g->control == RC_GAP_MEAN && !off[i])
+            r[i] -= g->mean_r;
+        row[i] = (float)(r[i] * per);
+        any |= row[i] != 0;
+    }
+    return any;
+}
+
+/* Sums: r z, r z of the step before, z, and |z|. */
+static bool
+z_out(void *ctx, size_t j, void *from)
+{
+    struct rc_gap *g = ctx;
+    const unsigned char *off = g->off + j * g->px;
+    const double *r = g->r + j * g->px;
+    const float *row = from;
+    double *z = g->z + j * g->px, *sums = g->sums + j * RC_GAP_SUMS;
+
+    for (size_t i = 0; i < g->px; i++) {
+        double is = off[i] ? 0 : (double)row[i] * g->scale + g->lift * g->mean_r;
+        sums[1] += r[i] * z[i];
+        z[i] = is;
+        sums[0] += r[i] * is;
+        sums[2] += is;
+    }
+    return true;
+}
+
+/* ---- direction ---- */
+
+/* A node at 0 only goes where its residual points. */
+static bool
+barred(const struct rc_gap *g, size_t at, bool map)
+{
+    return map && g->x[at] == 0 && g->d[at] * g->r[at] < 0;
+}
+
+/* d = z + beta d within the bounds; `mean_r`: the mean of z, where it is to be 0. */
+static void
+direction_row(struct rc_gap *g, size_t j, double *sums)
+{
+    size_t m = on_map(g, j);
+
+    for (size_t i = 0; i < g->px; i++) {
+        size_t at = j * g->px + i;
+        double is = g->off[at] ? 0 : g->z[at] - g->mean_r + g->beta * g->d[at];
+        g->d[at] = is;
+        if (barred(g, at, i < m))
+            g->d[at] = is = 0;
+        sums[0] += g->r[at] * is;
+        sums[1] += is;
+        sums[2] += is != 0;
+    }
+}
+
+static void
+level_row(struct rc_gap *g, size_t j, double *sums)
+{
+    size_t m = on_map(g, j);
+
+    for (size_t i = 0; i < g->px; i++) {
+        size_t at = j * g->px + i;
+        if (g->d[at] == 0)
+            continue;
+        g->d[at] -= g->mean_r;
+        if (barred(g, at, i < m))
+            g->d[at] = 0;
+        sums[0] += g->r[at] * g->d[at];
+        sums[1] += g->d[at];
+        sums[2] += g->d[at] != 0;
+    }
+}
+
+/* r'd */
+static double
+set_direction(struct rc_gap *g, double sum_z)
+{
+    double sums[RC_GAP_SUMS];
+
+    g->mean_r = g->control == RC_GAP_MEAN ? sum_z / (double)g->free : 0;
+    rc_gap_rows(g, direction_row, sums);
+    for (int k = 0; k < PROJECT && g->control == RC_GAP_MEAN && sums[2] > 0; k++) {
+        g->mean_r = sums[1] / sums[2];
+        rc_gap_rows(g, level_row, sums);
+    }
+    return sums[0];
+}
+
+/* ---- A d ---- */
+
+static bool
+d_in(void *ctx, size_t j, void *to)
+{
+    const struct rc_gap *g = ctx;
+
+    memcpy(to, g->d + j * g->px, g->px * sizeof *g->d);
+    return true;
+}
+
+static bool
+ad_out(void *ctx, size_t j, void *from)
+{
+    struct rc_gap *g = ctx;
+    const double *row = from, *d = g->d + j * g->px, *au = g->au + j * g->px;
+    double *ad = g->ad + j * g->px, *sums = g->sums + j * RC_GAP_SUMS, plus = added(g);
+    size_t m = on_map(g, j);
+
+    for (size_t i = 0; i < g->px; i++) {
+        if (i < m) {
+            sums[0] += fabs(row[i] - g->beta * ad[i]);
+            sums[1] += fabs(au[i] + plus);
+        }
+        sums[2] += row[i] * d[i];
+        sums[3] += row[i];
+        sums[4] += d[i];
+        ad[i] = row[i];
+    }
+    return true;
+}
+
+/* d'A d; the error by the way. */
+static double
+find_ad(struct rc_gap *g, double *mean_d)
+{
+    double sums[RC_GAP_SUMS], mean;
+
+    rc_gap_clear(g);
+    rc_whole_inverse_rows(g->whole, d_in, ad_out, g);
+    rc_gap_total(g, sums);
+    g->convolutions++;
+    mean = g->control == RC_GAP_LOAD ? sums[3] / (double)g->n : 0;
+    take_mean(g, g->ad, mean);
+    g->error = sums[1] > 0 ? sums[0] / sums[1] : INFINITY;
+    *mean_d = sums[4] / (double)g->n;
+    return sums[2] - mean * sums[4];
+}
+
+/* ---- along the direction ---- */
+
+/* Of V(x + a d) - V(x) - a sigma(x) d, (sigma(x + a d) - sigma(x)) d and D d^2, the sums; of |V| too. */
+static void
+line_row(struct rc_gap *g, size_t j, double *sums)
+{
+    const double *x = g->x + j * g->px, *d = g->d + j * g->px, a = g->trial;
+    size_t m = on_map(g, j);
+
+    for (size_t i = 0; i < m; i += LINE) {
+        size_t n = m - i < LINE ? m - i : LINE;
+        double v[2][LINE], s[2][LINE], k[LINE], at[LINE];
+        for (size_t q = 0; q < n; q++)
+            at[q] = x[i + q] + a * d[i + q];
+        rc_gap_law(g, j, i, n, x + i, v[0], s[0], k);
+        rc_gap_law(g, j, i, n, at, v[1], s[1], k);
+        for (size_t q = 0; q < n; q++) {
+            double way = d[i + q];
+            sums[0] += v[1][q] - v[0][q] - a * s[0][q] * way;
+            sums[1] += (s[1][q] - s[0][q]) * way;
+            sums[2] += k[q] * way * way;
+            sums[3] += fabs(v[1][q]);
+        }
+    }
+}
+
+/* Of a d within the bounds, to `step`: its part that was clipped is counted. */
+static void
+clip_row(struct rc_gap *g, size_t j, double *sums)
+{
+    size_t m = on_map(g, j);
+
+    for (size_t i = 0; i < g->px; i++) {
+        size_t at = j * g->px + i;
+        double x = g->x[at], to = x + g->trial * g->d[at];
+        if (i < m && ((x >= 0 && to < 0 && !(x == 0 && g->yields)) || (x < 0 && to > 0))) {
+            to = 0;
+            sums[0]++;
+        }
+        sums[1] += to;
+        sums[2] += i >= m || to > 0;
+        g->step[at] = to - x;
+    }
+}
+
+/* Where the mean is given: what clipping has added is taken from nodes apart. */
+static void
+lower_row(struct rc_gap *g, size_t j, double *sums)
+{
+    for (size_t i = 0; i < g->px; i++) {
+        size_t at = j * g->px + i;
+        double to = g->x[at] + g->step[at];
+        if (to > 0) {
+            to = fmax(to - g->mean_r, 0);
+            g->step[at] = to - g->x[at];
+        }
+        sums[1] += to;
+        sums[2] += to > 0;
+    }
+}
+
+static void
+keep_mean(struct rc_gap *g, double sum, double count)
+{
+    const double want = g->given * (double)g->n;
+    double sums[RC_GAP_SUMS] = {0, sum, count};
+
+    for (int k = 0; k < NEWTON && sums[2] > 0; k++) {
+        g->mean_r = (sums[1] - want) / sums[2];
+        if (fabs(sums[1] - want) <= 1e-15 * want)
+            return;
+        rc_gap_rows(g, lower_row, sums);
+    }
+}
+
+static bool
+step_in(void *ctx, size_t j, void *to)
+{
+    const struct rc_gap *g = ctx;
+
+    memcpy(to, g->step + j * g->px, g->px * sizeof *g->step);
+    return true;
+}
+
+/* A of the step, to where z was; sums: its half with the step, A u with it, itself, the step. */
+static bool
+step_out(void *ctx, size_t j, void *from)
+{
+    struct rc_gap *g = ctx;
+    const double *row = from, *step = g->step + j * g->px, *au = g->au + j * g->px;
+    double *to = g->r + j * g->px, *sums = g->sums + j * RC_GAP_SUMS;
+
+    for (size_t i = 0; i < g->px; i++) {
+        sums[0] += step[i] * row[i] / 2;
+        sums[1] += step[i] * au[i];
+        sums[2] += row[i];
+        sums[3] += step[i];
+        to[i] = row[i];
+    }
+    return true;
+}
+
+/* What the step changes in V, and |V|. */
+static void
+step_law_row(struct rc_gap *g, size_t j, double *sums)
+{
+    const double *x = g->x + j * g->px, *step = g->step + j * g->px;
+    size_t m = on_map(g, j);
+
+    for (size_t i = 0; i < m; i += LINE) {
+        size_t n = m - i < LINE ? m - i : LINE;
+        double v[2][LINE], s[LINE], k[LINE], at[LINE];
+        for (size_t q = 0; q < n; q++)
+            at[q] = x[i + q] + step[i + q];
+        rc_gap_law(g, j, i, n, x + i, v[0], s, k);
+        rc_gap_law(g, j, i, n, at, v[1], s, k);
+        for (size_t q = 0; q < n; q++) {
+            sums[0] += v[1][q] - v[0][q];
+            sums[1] += fabs(v[1][q]);
+        }
+    }
+}
+
+/* By how much Phi rises with the step that stands there, whose A comes to where r was. */
+static double
+rise(struct rc_gap *g, double *rounding)
+{
+    double sums[RC_GAP_SUMS], law[RC_GAP_SUMS], load = g->control == RC_GAP_LOAD ? g->given : 0,
+                                                mean;
+
+    rc_gap_clear(g);
+    rc_whole_inverse_rows(g->whole, step_in, step_out, g);
+    rc_gap_total(g, sums);
+    g->convolutions++;
+    mean = g->control == RC_GAP_LOAD ? sums[2] / (double)g->n : 0;
+    take_mean(g, g->r, mean);
+    rc_gap_rows(g, step_law_row, law);
+    *rounding = 1e-14 * (law[1] + fabs(sums[0]) + fabs(sums[1]));
+    return sums[0] - mean * sums[3] / 2 + sums[1] + load * sums[3] + law[0];
+}
+
+static void
+take_step_row(struct rc_gap *g, size_t j, double *sums)
+{
+    (void)sums;
+    for (size_t k = j * g->px; k < (j + 1) * g->px; k++) {
+        g->x[k] += g->step[k];
+        g->au[k] += g->r[k];
+    }
+}
+
+static void
+take_whole_row(struct rc_gap *g, size_t j, double *sums)
+{
+    (void)sums;
+    for (size_t k = j * g->px; k < (j + 1) * g->px; k++) {
+        g->x[k] += g->trial * g->d[k];
+        g->au[k] += g->trial * g->ad[k];
+    }
+}
+
+/* Phi along a d less that at 0, its slope, and its curvature, from `line` and what is known without. */
+struct line {
+    double rd, q; /* r'd, d'A d */
+    double phi, slope, bend, rounding;
+};
+
+static void
+look(struct rc_gap *g, struct line *l, double a)
+{
+    double sums[RC_GAP_SUMS];
+
+    g->trial = a;
+    rc_gap_rows(g, line_row, sums);
+    l->phi = a * (a * l->q / 2 - l->rd) + sums[0];
+    l->slope = a * l->q - l->rd + sums[1];
+    l->bend = l->q - sums[2];
+    l->rounding = 1e-14 * (sums[3] + a * a * l->q);
+}
+
+/* The minimum along d, by Newton's method from 0, kept between slopes of either sign once there are such. */
+static double
+line_minimum(struct rc_gap *g, struct line *l, double most)
+{
+    double a = 0, low = 0, high = INFINITY;
+
+    look(g, l, 0);
+    g->negative = l->bend < 0;
+    for (int k = 0; k < NEWTON; k++) {
+        double next = a - l->slope / fmax(l->bend, curvature * l->q);
+        if (l->slope < 0)
+            low = a;
+        else
+            high = a;
+        if (!(next > low && next < high))
+            next = (low + high) / 2;
+        a = fmin(next, most);
+        look(g, l, a);
+        if (fabs(l->slope) <= exact * l->rd || (a == most && l->slope < 0))
+            break;
+    }
+    for (int k = 0; k < SHORTEN && l->phi > l->rounding; k++)
+        look(g, l, a *= shorter);
+    return a;
+}
+
+/* Takes the step that `trial` and d stand for, shortened until Phi does not rise. */
+static void
+go(struct rc_gap *g)
+{
+    double sums[RC_GAP_SUMS];
+
+    for (int k = 0; k < SHORTEN; k++, g->trial *= shorter) {
+        double rounding;
+        rc_gap_rows(g, clip_row, sums);
+        if (sums[0] == 0) {
+            rc_gap_rows(g, take_whole_row, sums);
+            return;
+        }
+        g->restart = sums[0] > clipped_anew * (double)g->free;
+        if (g->control == RC_GAP_MEAN)
+            keep_mean(g, sums[1], sums[2]);
+        if (rise(g, &rounding) <= rounding) {
+            rc_gap_rows(g, take_step_row, sums);
+            return;
+        }
+        g->restart = true;
+    }
+    g->stuck = true;
+}
+
+static void
+largest_row(struct rc_gap *g, size_t j, double *sums)
+{
+    for (size_t i = 0; i < on_map(g, j); i++)
+        sums[0] = fmax(sums[0], fabs(g->d[j * g->px + i]));
+}
+
+/* Drawn apart by a load, a step does not leap over what holds. */
+static double
+longest(struct rc_gap *g, double mean_d)
+{
+    double sums[RC_GAP_SUMS];
+
+    if (g->control != RC_GAP_LOAD || g->given >= 0 || mean_d <= 0)
+        return INFINITY;
+    rc_gap_rows(g, largest_row, sums);
+    return 4 * g->law.range / most_of(g, 0);
+}
+
+static void
+nearest_row(struct rc_gap *g, size_t j, double *sums)
+{
+    sums[0] = -INFINITY;
+    for (size_t i = 0; i < on_map(g, j); i++)
+        sums[0] = fmax(sums[0], -g->x[j * g->px + i]);
+}
+
+static double
+nearest(struct rc_gap *g)
+{
+    double sums[RC_GAP_SUMS], most = -INFINITY;
+
+    rc_gap_clear(g);
+    for (size_t j = 0; j < g->ny; j++) {
+        nearest_row(g, j, sums);
+        most = fmax(most, sums[0]);
+    }
+    return -most;
+}
+
+static double
+find_z(struct rc_gap *g, double *old, double *sum_z)
+{
+    double sums[RC_GAP_SUMS];
+
+    if (g->scale == 0) {
+        memset(g->z, 0, g->n * sizeof *g->z);
+        *old = *sum_z = 0;
+        return 0;
+    }
+    rc_gap_clear(g);
+    rc_whole_rough_rows(g->whole, r_in, z_out, g);
+    rc_gap_total(g, sums);
+    g->convolutions += 0.5;
+    *old = sums[1];
+    *sum_z = sums[2];
+    return sums[0];
+}
+
+void
+rc_gap_step(struct rc_gap *g)
+{
+    double rz, old, sum_z, rd, mean_d;
+    struct line line;
+
+    find_residual(g);
+    rz = find_z(g, &old, &sum_z);
+    g->beta = g->restart || !(g->rz > 0) ? 0 : fmax((rz - old) / g->rz, 0);
+    rd = set_direction(g, sum_z);
+    if (!(rd > 0) && g->beta > 0) {
+        g->beta = 0;
+        rd = set_direction(g, sum_z);
+    }
+    g->rz = rz;
+    g->restart = false;
+    g->iterations++;
+    if (!(rd > 0)) {
+        g->stuck = true;
+        g->error = rz > 0 ? g->error : 0;
+        return;
+    }
+    line.q = find_ad(g, &mean_d);
+    line.rd = rd;
+    g->trial = line_minimum(g, &line, longest(g, mean_d));
+    go(g);
+    g->parting =
+        g->control == RC_GAP_LOAD && g->given < 0 && mean_d > 0 && nearest(g) > 20 * g->law.range;
+}
+
+/* ---- states ---- */
+
+static void
+mean_row(struct rc_gap *g, size_t j, double *sums)
+{
+    size_t m = on_map(g, j);
+
+    for (size_t i = 0; i < g->px; i++)
+        sums[0] += g->x[j * g->px + i];
+    for (size_t i = 0; i < m; i++)
+        sums[0] += height_row(g, j)[i];
+}
+
+double
+rc_gap_shift(const struct rc_gap *at)
+{
+    struct rc_gap *g = (struct rc_gap *)(uintptr_t)at; /* its sums only */
+    double sums[RC_GAP_SUMS], mean;
+
+    if (g->control == RC_GAP_SHIFT)
+        return g->given;
+    rc_gap_rows(g, mean_row, sums);
+    mean = sums[0] / (double)g->n;
+    return (g->control == RC_GAP_LOAD ? g->whole->mean * g->given : 0) - mean;
+}
+
+void
+rc_gap_apart(struct rc_gap *g, double clearance)
+{
+    for (size_t j = 0; j < g->py; j++)
+        for (size_t i = 0; i < g->px; i++) {
+            bool map = j < g->ny && i < g->nx;
+            g->x[j * g->px + i] = clearance - (map ? height_row(g, j)[i] : 0);
+        }
+    g->control = g->whole->boundary == RC_FREE ? RC_GAP_SHIFT : RC_GAP_MEAN;
+    g->given = -clearance;
+    g->known = false;
+}
+
+/* Of the map's nodes that are apart and those beyond it. */
+static void
+shift_row(struct rc_gap *g, size_t j, double *sums)
+{
+    size_t m = on_map(g, j);
+
+    for (size_t i = 0; i < g->px; i++) {
+        double *x = g->x + j * g->px + i;
+        if (i >= m || *x > 0)
+            *x = i < m ? fmax(*x + g->trial, 0) : *x + g->trial;
+        sums[1] += *x;
+        sums[2] += i >= m || *x > 0;
+    }
+}
+
+static void
+shift(struct rc_gap *g, double by)
+{
+    double sums[RC_GAP_SUMS];
+
+    g->trial = by;
+    rc_gap_rows(g, shift_row, sums);
+    for (int k = 0; k < NEWTON && g->control == RC_GAP_MEAN && sums[2] > 0; k++) {
+        g->trial = (g->given * (double)g->n - sums[1]) / sums[2];
+        if (fabs(g->trial) <= 1e-15 * g->given)
+            break;
+        rc_gap_rows(g, shift_row, sums);
+    }
+}
+
+void
+rc_gap_begin(struct rc_gap *g, enum rc_gap_control control, double given)
+{
+    double c = rc_gap_shift(g);
+
+    g->control = control;
+    g->given = given;
+    if (control == RC_GAP_SHIFT && given != c)
+        shift(g, c - given);
+    if (control == RC_GAP_MEAN)
+        shift(g, 0);
+    /* of the mean of the grid: what it lacks to twice the largest; else K has it as it is */
+    g->lift = control == RC_GAP_LOAD ? (2 * g->whole->most - g->whole->mean) : 0;
+    g->level = 0;
+    g->restart = true;
+    g->rz = 0;
+    g->error = INFINITY;
+    g->stuck = g->parting = g->negative = false;
+    g->iterations = g->eigen_steps = 0;
+    g->convolutions = 0;
+    memset(g->z, 0, g->n * sizeof *g->z);
+    memset(g->d, 0, g->n * sizeof *g->d);
+    memset(g->ad, 0, g->n * sizeof *g->ad);
+    find_au(g);
+}
+
+enum {
+    DOUBLES = 7,
+    FLOATS = 9
+};
+
+enum rc_status
+rc_gap_new(struct rc_gap *g, struct rc_whole *whole, const struct rc_attraction *law,
+           const double *h, double hard, double *hards, struct rc_err *err)
+{
+    size_t n = whole->grid.nx * whole->grid.ny;
+    double **room[DOUBLES] = {&g->x, &g->au, &g->r, &g->z, &g->d, &g->ad, &g->step};
+    bool all = true;
+
+    *g = (struct rc_gap){.whole = whole,
+                         .law = *law,
+                         .nx = whole->map.nx,
+                         .ny = whole->map.ny,
+                         .px = whole->grid.nx,
+                         .py = whole->grid.ny,
+                         .n = n,
+                         .threads = whole->threads,
+                         .h = h,
+                         .hard = hard,
+                         .hards = hards,
+                         .yields = hards != NULL || !isinf(hard)};
+    for (size_t k = 0; k < DOUBLES; k++)
+        all &= (*room[k] = rc_alloc(n, sizeof(double))) != NULL;
+    for (size_t k = 0; k < FLOATS; k++)
+        all &= (g->e[k] = rc_alloc(n, sizeof(float))) != NULL;
+    g->off = rc_alloc(n, 1);
+    g->sums = rc_alloc(g->py * RC_GAP_SUMS, sizeof *g->sums);
+    if (all && g->off != NULL && g->sums != NULL)
+        return RC_OK;
+    return rc_err_set(err, "out of memory for the adhesion of %zu x %zu nodes", g->nx, g->ny);
+}
+
+void
+rc_gap_free(struct rc_gap *g)
+{
+    double *room[DOUBLES] = {g->x, g->au, g->r, g->z, g->d, g->ad, g->step};
+
+    for (size_t k = 0; k < DOUBLES; k++)
+        free(room[k]);
+    for (size_t k = 0; k < FLOATS; k++)
+        free(g->e[k]);
+    free(g->off);
+    free(g->sums);
+    free(g->hards);
+}
+
+size_t
+rc_gap_memory(const struct rc_shape *grid)
+{
+    return grid->nx * grid->ny * (DOUBLES * sizeof(double) + FLOATS * sizeof(float) + 1) +
+           grid->ny * RC_GAP_SUMS * sizeof(double);
+}
+
+/* ---- off a saddle ---- */
+
+void
+rc_gap_down(struct rc_gap *g, double first)
+{
+    struct line line = {0}, other = {0};
+    double a = first, mean_d;
+
+    line.q = other.q = find_ad(g, &mean_d);
+    look(g, &line, a);
+    look(g, &other, -a);
+    if (other.phi < line.phi) {
+        line = other;
+        a = -a;
+    }
+    for (int k = 0; k < DOUBLE; k++) {
+        look(g, &other, 2 * a);
+        if (!(other.phi < line.phi))
+            break;
+        line = other;
+        a *= 2;
+    }
+    g->trial = a;
+    go(g);
+    g->restart = true;
+    g->rz = 0;
+    g->stuck = false;
+    g->error = INFINITY;
+}

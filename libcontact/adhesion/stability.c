@@ -1,0 +1,396 @@
+/*
+ * The smallest eigenvalue of the stiffness, A less what the traction takes from it, on the nodes that are not in
+ * contact: x with (A - D) x = mu W x, W the inverse of K on these nodes. All eigenvalues are at most 1 or so
+ * and only as many are far below as the traction has soft modes.
+ *
+ * In each step the best x is taken in the space of x itself, of its residual under K and of the way by which x
+ * came: of each of these W x and (A - D) x come along, in single precision. Every mu on the way is above the smallest.
+ */
+#include "gap.h"
+
+#include <stdint.h>
+#include <string.h>
+
+enum {
+    X,
+    Y = 3,
+    D = 6, /* a vector, its W, its A - D */
+    SPACE = 3
+};
+static const double dependent = 1e-5; /* squared part of a unit vector outside of the others */
+
+/* ---- K r and (A - D) x, of one vector ---- */
+
+struct product {
+    struct rc_gap *g;
+    const float *from;
+    float *to;
+    double mean, scale; /* of what comes in; what to multiply by */
+};
+
+static bool
+take_row(void *ctx, size_t j, void *to)
+{
+    const struct product *p = ctx;
+    const struct rc_gap *g = p->g;
+    const unsigned char *off = g->off + j * g->px;
+    const float *from = p->from + j * g->px;
+    float *row = to;
+    bool any = false;
+
+    for (size_t i = 0; i < g->px; i++) {
+        row[i] = off[i] ? 0 : from[i];
+        any |= row[i] != 0;
+    }
+    return any;
+}
+
+static bool
+give_row(void *ctx, size_t j, void *from)
+{
+    const struct product *p = ctx;
+    struct rc_gap *g = p->g;
+    const float *row = from;
+    double *sums = g->sums + j * RC_GAP_SUMS;
+
+    for (size_t i = 0; i < g->px; i++) {
+        bool off = g->off[j * g->px + i];
+        p->to[j * g->px + i] = row[i];
+        sums[0] += (double)row[i];
+        sums[1] += off ? 0 : (double)row[i];
+        sums[2] += off ? 0 : (double)p->from[j * g->px + i];
+        sums[3] += !off;
+    }
+    return true;
+}
+
+/* The mean of what came out, over all nodes, and the one that is to be added on free ones. */
+static void
+add_mean(const struct product *p, double add)
+{
+    struct rc_gap *g = p->g;
+
+#pragma omp parallel for num_threads(g->threads) schedule(static)
+    for (size_t k = 0; k < g->n; k++)
+        p->to[k] = g->off[k] ? 0 : (float)((double)p->to[k] + add);
+}
+
+static void
+apply_k(struct rc_gap *g, const float *from, float *to)
+{
+    struct product p = {.g = g, .from = from, .to = to};
+    double sums[RC_GAP_SUMS];
+
+    rc_gap_clear(g);
+    rc_whole_rough_rows(g->whole, take_row, give_row, &p);
+    rc_gap_total(g, sums);
+    g->convolutions += 0.5;
+    add_mean(&p, g->control == RC_GAP_MEAN && sums[3] > 0 ? -sums[1] / sums[3]
+                                                          : g->lift * sums[2] / (double)g->n);
+}
+
+/* D x, subtracted. */
+static void
+soften(struct rc_gap *g, const float *x, float *to)
+{
+#pragma omp parallel for num_threads(g->threads) schedule(static)
+    for (size_t j = 0; j < g->ny; j++)
+        for (size_t i = 0; i < g->nx; i += RC_GAP_LINE) {
+            size_t n = g->nx - i < RC_GAP_LINE ? g->nx - i : RC_GAP_LINE, at = j * g->px + i;
+            double v[RC_GAP_LINE], s[RC_GAP_LINE], d[RC_GAP_LINE];
+            rc_gap_law(g, j, i, n, g->x + at, v, s, d);
+            for (size_t k = 0; k < n; k++)
+                if (!g->off[at + k])
+                    to[at + k] -= (float)(d[k] * (double)x[at + k]);
+        }
+}
+
+static void
+apply_stiffness(struct rc_gap *g, const float *from, float *to)
+{
+    struct product p = {.g = g, .from = from, .to = to};
+    double sums[RC_GAP_SUMS];
+
+    rc_gap_clear(g);
+    rc_whole_rough_inverse_rows(g->whole, take_row, give_row, &p);
+    rc_gap_total(g, sums);
+    g->convolutions += 0.5;
+    add_mean(&p, g->control == RC_GAP_LOAD ? -sums[0] / (double)g->n : 0);
+    soften(g, from, to);
+}
+
+/* ---- the space of three ---- */
+
+static void
+gram_row(struct rc_gap *g, size_t j, double *sums)
+{
+    for (size_t k = j * g->px; k < (j + 1) * g->px; k++) {
+        size_t q = 0;
+        for (size_t a = 0; a < SPACE; a++)
+            for (size_t b = 0; b <= a; b++, q++) {
+                sums[q] += (double)g->e[3 * a][k] * (double)g->e[3 * b + 1][k];
+                sums[q + 6] += (double)g->e[3 * a][k] * (double)g->e[3 * b + 2][k];
+            }
+    }
+}
+
+/* The eigenvector of the smallest eigenvalue of a symmetric m x m matrix, by Jacobi's rotations. */
+static double
+smallest(size_t m, double a[SPACE][SPACE], double *vector)
+{
+    double v[SPACE][SPACE] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    size_t least = 0;
+
+    for (int sweep = 0; sweep < 30; sweep++)
+        for (size_t p = 0; p < m; p++)
+            for (size_t q = p + 1; q < m; q++) {
+                double t, c, s, theta;
+                if (a[p][q] == 0)
+                    continue;
+                theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
+                t = (theta < 0 ? -1 : 1) / (fabs(theta) + hypot(theta, 1));
+                c = 1 / hypot(t, 1);
+                s = t * c;
+                for (size_t k = 0; k < m; k++) {
+                    double x = a[k][p], y = a[k][q];
+                    a[k][p] = c * x - s * y;
+                    a[k][q] = s * x + c * y;
+                }
+                for (size_t k = 0; k < m; k++) {
+                    double x = a[p][k], y = a[q][k];
+                    a[p][k] = c * x - s * y;
+                    a[q][k] = s * x + c * y;
+                    x = v[k][p];
+                    y = v[k][q];
+                    v[k][p] = c * x - s * y;
+                    v[k][q] = s * x + c * y;
+                }
+            }
+    for (size_t k = 1; k < m; k++)
+        if (a[k][k] < a[least][least])
+            least = k;
+    for (size_t k = 0; k < m; k++)
+        vector[k] = v[k][least];
+    return a[least][least];
+}
+
+/* Coefficients of the best vector of the space, of unit W; those that depend on others have none. */
+static void
+best(const double *sums, double *c)
+{
+    double w[SPACE][SPACE], t[SPACE][SPACE], low[SPACE][SPACE] = {{0}}, is[SPACE][SPACE],
+                                             unit[SPACE], y[SPACE];
+    size_t kept[SPACE], m = 0;
+
+    for (size_t a = 0, q = 0; a < SPACE; a++)
+        for (size_t b = 0; b <= a; b++, q++) {
+            w[a][b] = w[b][a] = sums[q];
+            t[a][b] = t[b][a] = sums[q + 6];
+        }
+    memset(c, 0, SPACE * sizeof *c);
+    /* Cholesky's factor of W on unit vectors */
+    for (size_t a = 0; a < SPACE; a++) {
+        double rest = 1;
+        if (!(w[a][a] > 0))
+            continue;
+        unit[m] = 1 / sqrt(w[a][a]);
+        for (size_t b = 0; b < m; b++) {
+            double sum = w[a][kept[b]] * unit[m] * unit[b];
+            for (size_t k = 0; k < b; k++)
+                sum -= low[m][k] * low[b][k];
+            low[m][b] = sum / low[b][b];
+            rest -= low[m][b] * low[m][b];
+        }
+        if (rest < dependent)
+            continue;
+        low[m][m] = sqrt(rest);
+        kept[m++] = a;
+    }
+    /* L^-1 T L^-T */
+    for (size_t b = 0; b < m; b++)
+        for (size_t a = 0; a < m; a++) {
+            double sum = t[kept[a]][kept[b]] * unit[a] * unit[b];
+            for (size_t k = 0; k < a; k++)
+                sum -= low[a][k] * is[k][b];
+            is[a][b] = sum / low[a][a];
+        }
+    for (size_t a = 0; a < m; a++)
+        for (size_t b = 0; b < m; b++) {
+            double sum = is[a][b];
+            for (size_t k = 0; k < b; k++)
+                sum -= low[b][k] * is[a][k];
+            is[a][b] = sum / low[b][b];
+        }
+    if (m == 0)
+        return;
+    (void)smallest(m, is, y);
+    for (size_t a = m; a-- > 0;) {
+        double sum = y[a];
+        for (size_t k = a + 1; k < m; k++)
+            sum -= low[k][a] * y[k];
+        y[a] = sum / low[a][a];
+    }
+    for (size_t a = 0; a < m; a++)
+        c[kept[a]] = y[a] * unit[a];
+}
+
+/* ---- the iteration ---- */
+
+/* Where contact holds a node it does not move. */
+static void
+mask_row(struct rc_gap *g, size_t j, double *sums)
+{
+    size_t m = rc_gap_on_map(g, j);
+
+    for (size_t i = 0; i < g->px; i++) {
+        size_t at = j * g->px + i;
+        g->off[at] = i < m && g->x[at] == 0;
+        sums[0] += !g->off[at];
+    }
+}
+
+/* Sums of W x and of the free nodes. */
+static void
+first_row(struct rc_gap *g, size_t j, double *sums)
+{
+    size_t m = rc_gap_on_map(g, j);
+    float *w = g->e[X + 1] + j * g->px;
+
+    for (size_t i = 0; i < m && !g->known; i += RC_GAP_LINE) {
+        size_t n = m - i < RC_GAP_LINE ? m - i : RC_GAP_LINE, at = j * g->px + i;
+        double v[RC_GAP_LINE], s[RC_GAP_LINE], d[RC_GAP_LINE];
+        rc_gap_law(g, j, i, n, g->x + at, v, s, d);
+        for (size_t k = 0; k < n; k++)
+            w[i + k] = (float)(d[k] / g->law.steepest);
+    }
+    /* something of every wave beside it: no eigenvector is out of sight for reasons of symmetry */
+    for (size_t i = 0; i < g->px; i++) {
+        uint64_t hash = ((uint64_t)(j * g->px + i) + 1) * 0x9e3779b97f4a7c15u;
+        double noise = (double)(hash >> 40) / 0x1p24 - 0.5;
+        if (!g->known && i >= m)
+            w[i] = 0;
+        if (i < m)
+            w[i] = (float)((double)w[i] * (1 + noise / 4) + g->trial * noise);
+        if (g->off[j * g->px + i])
+            w[i] = 0;
+        sums[0] += (double)w[i];
+        sums[1] += !g->off[j * g->px + i];
+        sums[2] += (double)w[i] * (double)w[i];
+    }
+}
+
+static void
+combine(struct rc_gap *g, const double *c)
+{
+#pragma omp parallel for num_threads(g->threads) schedule(static)
+    for (size_t k = 0; k < g->n; k++)
+        for (size_t q = 0; q < 3; q++) {
+            double way = c[1] * (double)g->e[Y + q][k] + c[2] * (double)g->e[D + q][k];
+            g->e[D + q][k] = (float)way;
+            g->e[X + q][k] = (float)(c[0] * (double)g->e[X + q][k] + way);
+        }
+}
+
+static void
+clear(struct rc_gap *g, size_t first)
+{
+    for (size_t q = 0; q < 3; q++)
+        memset(g->e[first + q], 0, g->n * sizeof *g->e[0]);
+}
+
+/* W y = t - mu w, less its mean on free nodes where that is given. */
+static void
+residual_row(struct rc_gap *g, size_t j, double *sums)
+{
+    for (size_t k = j * g->px; k < (j + 1) * g->px; k++) {
+        double r = g->off[k] ? 0 : (double)g->e[X + 2][k] - g->mu * (double)g->e[X + 1][k];
+        g->e[Y + 1][k] = (float)r;
+        sums[0] += r;
+        sums[1] += !g->off[k];
+    }
+}
+
+static void
+take_off(struct rc_gap *g, float *v, double mean)
+{
+#pragma omp parallel for num_threads(g->threads) schedule(static)
+    for (size_t k = 0; k < g->n; k++)
+        if (!g->off[k])
+            v[k] = (float)((double)v[k] - mean);
+}
+
+void
+rc_gap_eigen_begin(struct rc_gap *g)
+{
+    double sums[RC_GAP_SUMS], c[SPACE] = {1, 0, 0};
+
+    rc_gap_rows(g, mask_row, sums);
+    g->mu = sums[0] > 0 ? INFINITY : 1;
+    g->mu_error = sums[0] > 0 ? INFINITY : 0;
+    g->eigen_steps = 0;
+    if (sums[0] == 0)
+        return;
+    g->trial = g->known ? 0 : 0.05;
+    rc_gap_rows(g, first_row, sums);
+    if (!(sums[2] > 0)) { /* of the last vector nothing is left */
+        g->known = false;
+        g->trial = 0.05;
+        rc_gap_rows(g, first_row, sums);
+    }
+    if (g->control == RC_GAP_MEAN)
+        take_off(g, g->e[X + 1], sums[0] / sums[1]);
+    apply_k(g, g->e[X + 1], g->e[X]);
+    apply_stiffness(g, g->e[X], g->e[X + 2]);
+    clear(g, Y);
+    clear(g, D);
+    rc_gap_rows(g, gram_row, sums);
+    best(sums, c);
+    combine(g, c);
+    g->mu = sums[6] / sums[0];
+}
+
+void
+rc_gap_eigen_step(struct rc_gap *g)
+{
+    double sums[RC_GAP_SUMS], c[SPACE];
+
+    rc_gap_rows(g, residual_row, sums);
+    if (g->control == RC_GAP_MEAN)
+        take_off(g, g->e[Y + 1], sums[0] / sums[1]);
+    apply_k(g, g->e[Y + 1], g->e[Y]);
+    apply_stiffness(g, g->e[Y], g->e[Y + 2]);
+    rc_gap_rows(g, gram_row, sums);
+    g->mu_error = sqrt(fmax(sums[2], 0)); /* y'W y, of x with x'W x = 1 */
+    best(sums, c);
+    combine(g, c);
+    rc_gap_rows(g, gram_row, sums);
+    g->mu = sums[6] / sums[0];
+    g->eigen_steps++;
+    g->known = true;
+}
+
+/* ---- off a saddle ---- */
+
+static void
+push_row(struct rc_gap *g, size_t j, double *sums)
+{
+    size_t m = rc_gap_on_map(g, j);
+
+    for (size_t i = 0; i < g->px; i++) {
+        size_t at = j * g->px + i;
+        g->d[at] = g->off[at] ? 0 : (double)g->e[X][at];
+        if (i < m)
+            sums[0] = fmax(sums[0], fabs(g->d[at]));
+    }
+}
+
+void
+rc_gap_leave(struct rc_gap *g)
+{
+    double sums[RC_GAP_SUMS], most = 0;
+
+    rc_gap_rows(g, push_row, sums);
+    for (size_t j = 0; j < g->py; j++)
+        most = fmax(most, g->sums[j * RC_GAP_SUMS]);
+    rc_gap_down(g, 0.1 * g->law.range / most);
+}

@@ -1,0 +1,268 @@
+/*
+ * K and its inverse on the whole grid of the transforms. The padded grid is taken for a map that repeats,
+ * on which the kernel counts once, by its shortest way around: pressures on the map then act on the map as
+ * on the half-space, whatever the padding, and every wave has a K of its own, whose reciprocal is A.
+ *
+ * A is wanted positive. On uniform bodies K is, with twice the sides; on layers that bend over lengths near
+ * those of the map it becomes so with more.
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "operator.h"
+
+enum {
+    SIDES = 5 /* tries, in halves of the map's sides */
+};
+static const size_t halves[SIDES] = {4, 6, 8, 12, 16};
+
+struct own {
+    struct rc_whole whole;
+    struct rc_solids bodies;
+    struct rc_fft *fft, *rough; /* in double and single precision */
+    struct rc_spectrum *kernel, *inverse, *rough_kernel, *rough_inverse;
+};
+
+static struct rc_shape
+grid_of(const struct rc_shape *s, enum rc_boundary boundary, size_t half)
+{
+    struct rc_shape grid = *s;
+
+    if (boundary == RC_FREE) {
+        grid.nx = rc_fourier_length((s->nx * half + 3) / 4, 2);
+        grid.ny = rc_fourier_length((s->ny * half + 3) / 4, 4);
+    }
+    return grid;
+}
+
+struct rc_shape
+rc_whole_grid(const struct rc_shape *s, enum rc_boundary boundary)
+{
+    return grid_of(s, boundary, halves[0]);
+}
+
+void
+rc_whole_free(struct rc_whole *whole)
+{
+    struct own *w = (struct own *)whole;
+
+    if (w == NULL)
+        return;
+    rc_fft_free(w->rough); /* works in memory of the other */
+    rc_fft_free(w->fft);
+    rc_spectrum_free(w->kernel);
+    rc_spectrum_free(w->inverse);
+    rc_spectrum_free(w->rough_kernel);
+    rc_spectrum_free(w->rough_inverse);
+    rc_solids_free(&w->bodies);
+    free(w);
+}
+
+/* Drops transforms and spectra: another padding is tried. */
+static void
+clear(struct own *w)
+{
+    struct own none = {.whole = w->whole, .bodies = w->bodies};
+
+    rc_fft_free(w->rough);
+    rc_fft_free(w->fft);
+    rc_spectrum_free(w->kernel);
+    rc_spectrum_free(w->inverse);
+    rc_spectrum_free(w->rough_kernel);
+    rc_spectrum_free(w->rough_inverse);
+    *w = none;
+}
+
+struct extremes {
+    double least, most;
+};
+
+static void
+see_column(void *ctx, size_t i, size_t n, double *column)
+{
+    struct extremes *e = ctx;
+    double least = INFINITY, most = 0;
+
+    for (size_t j = 0; j < n; j++)
+        if (i + j > 0 || column[j] != 0) {
+            least = fmin(least, column[j]);
+            most = fmax(most, column[j]);
+        }
+#pragma omp critical(rc_whole_extremes)
+    {
+        e->least = fmin(e->least, least);
+        e->most = fmax(e->most, most);
+    }
+}
+
+/* The kernel's spectrum in one precision, on the map or the padded grid. */
+static struct rc_spectrum *
+spectrum_of(const struct own *w, const struct rc_fft *fft, struct extremes *seen,
+            struct rc_err *err)
+{
+    const struct rc_surface surface = {&w->bodies, w->whole.length, w->whole.modulus};
+    const struct rc_kernel kernel = rc_surface_kernel(&surface);
+    struct rc_spectrum *k = rc_spectrum_new(fft, err);
+    enum rc_status status;
+
+    if (k == NULL)
+        return NULL;
+    if (w->whole.boundary == RC_PERIODIC)
+        status = rc_spectrum_set(k, fft, &kernel, err);
+    else
+        status = rc_spectrum_set_by(k, fft, &kernel, see_column, seen, err);
+    if (status == RC_OK)
+        return k;
+    rc_spectrum_free(k);
+    return NULL;
+}
+
+static enum rc_status
+plan(struct own *w, size_t threads, struct extremes *seen, struct rc_err *err)
+{
+    const struct rc_shape *g = &w->whole.grid;
+    const struct rc_shape unit = {g->nx, g->ny, g->dx / w->whole.length, g->dy / w->whole.length};
+    struct extremes again = {INFINITY, 0};
+
+    if ((w->fft = rc_fft_new(NULL, NULL, &unit, RC_PERIODIC, RC_DOUBLE, threads, err)) == NULL ||
+        (w->rough = rc_fft_new(NULL, w->fft, &unit, RC_PERIODIC, RC_SINGLE, threads, err)) ==
+            NULL ||
+        (w->kernel = spectrum_of(w, w->fft, seen, err)) == NULL ||
+        (w->inverse = rc_spectrum_new_reciprocal(w->fft, w->kernel, err)) == NULL ||
+        (w->rough_kernel = spectrum_of(w, w->rough, &again, err)) == NULL ||
+        (w->rough_inverse = rc_spectrum_new_reciprocal(w->rough, w->rough_kernel, err)) == NULL)
+        return RC_FAIL;
+    w->whole.mean = rc_spectrum_total(w->kernel);
+    return RC_OK;
+}
+
+/* On a map that repeats the longest wave is the softest: 2/(E* q), q = 2 pi/L. */
+static double
+most_of(const struct own *w)
+{
+    const struct rc_shape *s = &w->whole.map;
+    double side = fmax(s->dx * (double)s->nx, s->dy * (double)s->ny);
+
+    return side / w->whole.length / RC_PI * w->whole.modulus /
+           rc_solids_modulus(&w->bodies, 2 * RC_PI / side);
+}
+
+static double
+diagonal_of(const struct rc_solids *bodies, const struct rc_shape *s, double length, double modulus)
+{
+    const struct rc_surface surface = {bodies, length, modulus};
+    const struct rc_kernel kernel = rc_surface_kernel(&surface);
+    const struct rc_lattice cell = {s->dx / length, s->dy / length, 1, 1};
+    double self;
+
+    kernel.rows(kernel.of, &cell, 1, 0, 1, &self);
+    return self;
+}
+
+enum rc_status
+rc_whole_scales(const struct rc_shape *shape, const struct rc_pair *pair, double *modulus,
+                double *diagonal, struct rc_err *err)
+{
+    double length = sqrt(shape->dx) * sqrt(shape->dy);
+    struct rc_solids bodies;
+    enum rc_status status = rc_solids_new(&bodies, pair, NULL, err);
+
+    if (status == RC_OK) {
+        *modulus = rc_solids_modulus(&bodies, RC_PI / length);
+        *diagonal = diagonal_of(&bodies, shape, length, *modulus);
+    }
+    rc_solids_free(&bodies);
+    return status;
+}
+
+struct rc_whole *
+rc_whole_new(const struct rc_shape *shape, const struct rc_operator_options *o, struct rc_err *err)
+{
+    double length = sqrt(shape->dx) * sqrt(shape->dy);
+    struct own *w;
+
+    if (rc_shape_check(shape, err) != RC_OK || rc_pair_check(o->pair, err) != RC_OK)
+        return NULL;
+    w = calloc(1, sizeof *w);
+    if (w == NULL) {
+        rc_err_set(err, "out of memory for a plan");
+        return NULL;
+    }
+    if (rc_solids_new(&w->bodies, o->pair, NULL, err) != RC_OK)
+        goto fail;
+    w->whole = (struct rc_whole){.map = *shape,
+                                 .boundary = o->boundary,
+                                 .length = length,
+                                 .modulus = rc_solids_modulus(&w->bodies, RC_PI / length)};
+    w->whole.diagonal = diagonal_of(&w->bodies, shape, length, w->whole.modulus);
+    for (size_t k = 0; k < SIDES; k++) {
+        struct extremes seen = {INFINITY, 0};
+        w->whole.grid = grid_of(shape, o->boundary, halves[k]);
+        w->whole.threads = rc_useful_threads(&w->whole.grid, o->threads);
+        if (plan(w, o->threads, &seen, err) != RC_OK)
+            goto fail;
+        w->whole.most = o->boundary == RC_PERIODIC ? most_of(w) : seen.most;
+        if (seen.least > 0)
+            return &w->whole;
+        clear(w);
+    }
+    rc_err_set(err,
+               "these layers bend over lengths beyond the map of %g x %g m: a stiffness of all of "
+               "its waves is not to be had",
+               shape->dx * (double)shape->nx, shape->dy * (double)shape->ny);
+fail:
+    rc_whole_free(&w->whole);
+    return NULL;
+}
+
+size_t
+rc_whole_memory(const struct rc_shape *shape, const struct rc_operator_options *o)
+{
+    struct rc_shape grid = grid_of(shape, o->boundary, halves[0]);
+
+    return rc_fft_memory(&grid, RC_PERIODIC, RC_DOUBLE, 1) +
+           rc_fft_scratch(&grid, RC_PERIODIC, RC_DOUBLE, o->threads) +
+           rc_spectrum_memory(&grid, RC_PERIODIC, RC_SINGLE, 1) +
+           rc_fft_scratch(&grid, RC_PERIODIC, RC_SINGLE, o->threads);
+}
+
+void
+rc_whole_apply(struct rc_whole *whole, const double *p, double *u)
+{
+    struct own *w = (struct own *)whole;
+
+    rc_fft_apply(w->fft, w->kernel, p, u);
+}
+
+static void
+chain(struct rc_fft *fft, const struct rc_spectrum *factor, rc_row *in, rc_row *out, void *ctx)
+{
+    const struct rc_spectrum *factors[] = {factor};
+    rc_row *rows[] = {in, out};
+
+    rc_fft_chain(fft, 1, factors, rows, ctx);
+}
+
+void
+rc_whole_inverse_rows(struct rc_whole *whole, rc_row *in, rc_row *out, void *ctx)
+{
+    struct own *w = (struct own *)whole;
+
+    chain(w->fft, w->inverse, in, out, ctx);
+}
+
+void
+rc_whole_rough_rows(struct rc_whole *whole, rc_row *in, rc_row *out, void *ctx)
+{
+    struct own *w = (struct own *)whole;
+
+    chain(w->rough, w->rough_kernel, in, out, ctx);
+}
+
+void
+rc_whole_rough_inverse_rows(struct rc_whole *whole, rc_row *in, rc_row *out, void *ctx)
+{
+    struct own *w = (struct own *)whole;
+
+    chain(w->rough, w->rough_inverse, in, out, ctx);
+}
