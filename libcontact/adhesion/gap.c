@@ -16,6 +16,8 @@ static const double clipped_anew =
     0.02; /* part of the free nodes: when more come to 0, CG begins anew */
 static const double curvature = 0.05; /* of d'Ad, that a step assumes at least    */
 static const double shorter = 0.4;
+static const double single = 1e-6; /* of A d in single precision                         */
+static const double fresh = 1e-3;  /* when the error has come down to so much of what it was, A u is found anew */
 static const double exact = 1e-3; /* of the slope, that a line search leaves */
 enum {
     LINE = RC_GAP_LINE,
@@ -270,6 +272,19 @@ z_out(void *ctx, size_t j, void *from)
 
 /* ---- direction ---- */
 
+/* n numbers times `per`; false: all are 0. */
+static bool
+to_single(const double *v, size_t n, double per, float *to)
+{
+    bool any = false;
+
+    for (size_t k = 0; k < n; k++) {
+        to[k] = (float)(v[k] * per);
+        any |= to[k] != 0;
+    }
+    return any;
+}
+
 /* A node at 0 only goes where its residual points. */
 static bool
 barred(const struct rc_gap *g, size_t at, bool map)
@@ -292,6 +307,7 @@ direction_row(struct rc_gap *g, size_t j, double *sums)
         sums[0] += g->r[at] * is;
         sums[1] += is;
         sums[2] += is != 0;
+        sums[3] = fmax(sums[3], fabs(is));
     }
 }
 
@@ -321,6 +337,7 @@ set_direction(struct rc_gap *g, double sum_z)
 
     g->mean_r = g->control == RC_GAP_MEAN ? sum_z / (double)g->free : 0;
     rc_gap_rows(g, direction_row, sums);
+    g->unit = most_of(g, 3);
     for (int k = 0; k < PROJECT && g->control == RC_GAP_MEAN && sums[2] > 0; k++) {
         g->mean_r = sums[1] / sums[2];
         rc_gap_rows(g, level_row, sums);
@@ -335,27 +352,28 @@ d_in(void *ctx, size_t j, void *to)
 {
     const struct rc_gap *g = ctx;
 
-    memcpy(to, g->d + j * g->px, g->px * sizeof *g->d);
-    return true;
+    return to_single(g->d + j * g->px, g->px, 1 / g->unit, to);
 }
 
 static bool
 ad_out(void *ctx, size_t j, void *from)
 {
     struct rc_gap *g = ctx;
-    const double *row = from, *d = g->d + j * g->px, *au = g->au + j * g->px;
+    const float *row = from;
+    const double *d = g->d + j * g->px, *au = g->au + j * g->px;
     double *ad = g->ad + j * g->px, *sums = g->sums + j * RC_GAP_SUMS, plus = added(g);
     size_t m = on_map(g, j);
 
     for (size_t i = 0; i < g->px; i++) {
+        double is = (double)row[i] * g->unit;
         if (i < m) {
-            sums[0] += fabs(row[i] - g->beta * ad[i]);
+            sums[0] += fabs(is - g->beta * ad[i]);
             sums[1] += fabs(au[i] + plus);
         }
-        sums[2] += row[i] * d[i];
-        sums[3] += row[i];
+        sums[2] += is * d[i];
+        sums[3] += is;
         sums[4] += d[i];
-        ad[i] = row[i];
+        ad[i] = is;
     }
     return true;
 }
@@ -367,9 +385,9 @@ find_ad(struct rc_gap *g, double *mean_d)
     double sums[RC_GAP_SUMS], mean;
 
     rc_gap_clear(g);
-    rc_whole_inverse_rows(g->whole, d_in, ad_out, g);
+    rc_whole_rough_inverse_rows(g->whole, d_in, ad_out, g);
     rc_gap_total(g, sums);
-    g->convolutions++;
+    g->convolutions += 0.5;
     mean = g->control == RC_GAP_LOAD ? sums[3] / (double)g->n : 0;
     take_mean(g, g->ad, mean);
     g->error = sums[1] > 0 ? sums[0] / sums[1] : INFINITY;
@@ -457,8 +475,7 @@ step_in(void *ctx, size_t j, void *to)
 {
     const struct rc_gap *g = ctx;
 
-    memcpy(to, g->step + j * g->px, g->px * sizeof *g->step);
-    return true;
+    return to_single(g->step + j * g->px, g->px, 1 / g->unit, to);
 }
 
 /* A of the step, to where z was; sums: its half with the step, A u with it, itself, the step. */
@@ -466,15 +483,16 @@ static bool
 step_out(void *ctx, size_t j, void *from)
 {
     struct rc_gap *g = ctx;
-    const double *row = from, *step = g->step + j * g->px, *au = g->au + j * g->px;
+    const float *row = from;
+    const double *step = g->step + j * g->px, *au = g->au + j * g->px;
     double *to = g->r + j * g->px, *sums = g->sums + j * RC_GAP_SUMS;
 
     for (size_t i = 0; i < g->px; i++) {
-        sums[0] += step[i] * row[i] / 2;
+        to[i] = (double)row[i] * g->unit;
+        sums[0] += step[i] * to[i] / 2;
         sums[1] += step[i] * au[i];
-        sums[2] += row[i];
+        sums[2] += to[i];
         sums[3] += step[i];
-        to[i] = row[i];
     }
     return true;
 }
@@ -508,13 +526,13 @@ rise(struct rc_gap *g, double *rounding)
                                                 mean;
 
     rc_gap_clear(g);
-    rc_whole_inverse_rows(g->whole, step_in, step_out, g);
+    rc_whole_rough_inverse_rows(g->whole, step_in, step_out, g);
     rc_gap_total(g, sums);
-    g->convolutions++;
+    g->convolutions += 0.5;
     mean = g->control == RC_GAP_LOAD ? sums[2] / (double)g->n : 0;
     take_mean(g, g->r, mean);
     rc_gap_rows(g, step_law_row, law);
-    *rounding = 1e-14 * (law[1] + fabs(sums[0]) + fabs(sums[1]));
+    *rounding = 1e-14 * (law[1] + fabs(sums[1])) + single * fabs(sums[0]);
     return sums[0] - mean * sums[3] / 2 + sums[1] + load * sums[3] + law[0];
 }
 
@@ -668,11 +686,20 @@ find_z(struct rc_gap *g, double *old, double *sum_z)
 }
 
 void
+rc_gap_refresh(struct rc_gap *g)
+{
+    find_au(g);
+    g->fresh_error = g->error;
+}
+
+void
 rc_gap_step(struct rc_gap *g)
 {
     double rz, old, sum_z, rd, mean_d;
     struct line line;
 
+    if (g->error <= fresh * g->fresh_error)
+        rc_gap_refresh(g);
     find_residual(g);
     rz = find_z(g, &old, &sum_z);
     g->beta = g->restart || !(g->rz > 0) ? 0 : fmax((rz - old) / g->rz, 0);
@@ -783,6 +810,7 @@ rc_gap_begin(struct rc_gap *g, enum rc_gap_control control, double given)
     g->restart = true;
     g->rz = 0;
     g->error = INFINITY;
+    g->fresh_error = 0;
     g->stuck = g->parting = g->negative = false;
     g->iterations = g->eigen_steps = 0;
     g->convolutions = 0;

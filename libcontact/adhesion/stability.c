@@ -381,6 +381,7 @@ push_row(struct rc_gap *g, size_t j, double *sums)
         g->d[at] = g->off[at] ? 0 : (double)g->e[X][at];
         if (i < m)
             sums[0] = fmax(sums[0], fabs(g->d[at]));
+        sums[1] = fmax(sums[1], fabs(g->d[at]));
     }
 }
 
@@ -390,7 +391,10 @@ rc_gap_leave(struct rc_gap *g)
     double sums[RC_GAP_SUMS], most = 0;
 
     rc_gap_rows(g, push_row, sums);
-    for (size_t j = 0; j < g->py; j++)
+    g->unit = 0;
+    for (size_t j = 0; j < g->py; j++) {
         most = fmax(most, g->sums[j * RC_GAP_SUMS]);
+        g->unit = fmax(g->unit, g->sums[j * RC_GAP_SUMS + 1]);
+    }
     rc_gap_down(g, 0.1 * g->law.range / most);
 }
