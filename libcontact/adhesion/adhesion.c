@@ -418,8 +418,6 @@ down(struct rc_adhesion *a)
         return finish(a, false);
     }
     a->below = estimate(a) <= a->tol ? a->below + 1 : 0;
-    if (a->below == 1)
-        rc_gap_refresh(g);
     if (a->judged > 0 && g->error > 10 * a->judged)
         a->judged = 0; /* on the way to another place */
     if (a->below >= 2 || g->stuck) {

@@ -17,7 +17,7 @@ static const double clipped_anew =
 static const double curvature = 0.05; /* of d'Ad, that a step assumes at least    */
 static const double shorter = 0.4;
 static const double single = 1e-6; /* of A d in single precision                         */
-static const double fresh = 1e-3;  /* when the error has come down to so much of what it was, A u is found anew */
+static const double fresh = 1e-4;  /* when the error has come down to so much of what it was, A u is found anew */
 static const double exact = 1e-3; /* of the slope, that a line search leaves */
 enum {
     LINE = RC_GAP_LINE,
@@ -685,8 +685,8 @@ find_z(struct rc_gap *g, double *old, double *sum_z)
     return sums[0];
 }
 
-void
-rc_gap_refresh(struct rc_gap *g)
+static void
+refresh(struct rc_gap *g)
 {
     find_au(g);
     g->fresh_error = g->error;
@@ -699,7 +699,7 @@ rc_gap_step(struct rc_gap *g)
     struct line line;
 
     if (g->error <= fresh * g->fresh_error)
-        rc_gap_refresh(g);
+        refresh(g);
     find_residual(g);
     rz = find_z(g, &old, &sum_z);
     g->beta = g->restart || !(g->rz > 0) ? 0 : fmax((rz - old) / g->rz, 0);
@@ -810,7 +810,7 @@ rc_gap_begin(struct rc_gap *g, enum rc_gap_control control, double given)
     g->restart = true;
     g->rz = 0;
     g->error = INFINITY;
-    g->fresh_error = 0;
+    g->fresh_error = 1;
     g->stuck = g->parting = g->negative = false;
     g->iterations = g->eigen_steps = 0;
     g->convolutions = 0;

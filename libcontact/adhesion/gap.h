@@ -78,8 +78,6 @@ void rc_gap_apart(struct rc_gap *g, double clearance);
 void rc_gap_begin(struct rc_gap *g, enum rc_gap_control control, double given);
 /* One step down; what it found is in *g. */
 void rc_gap_step(struct rc_gap *g);
-/* A u anew, in double precision: steps add to it what they find in single. */
-void rc_gap_refresh(struct rc_gap *g);
 /* c of the state: the mean of u less that of x and h. */
 double rc_gap_shift(const struct rc_gap *g);
 /* p of node k of the grid. */
