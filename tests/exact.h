@@ -312,4 +312,80 @@ mises_depth(struct hertz h, double nu, double mu)
     return place * h.a;
 }
 
+/* Sphere with a Dugdale zone (Maugis, J. Colloid Interface Sci. 150 (1992) 243), K = 4/3 E*: radius a of the
+ * contact, load, and approach in units of (pi w R^2/K)^(1/3), pi w R, (pi^2 w^2 R/K^2)^(1/3); lambda = 2 sigma0
+ * (R/(pi w K^2))^(1/3). m is the outer radius of the zone over a. */
+struct maugis {
+    double a, m, load, approach;
+};
+
+static inline struct maugis
+maugis(double lambda, double a)
+{
+    double low = 1, high = 1e8;
+
+    for (int k = 0; k < 200; k++) {
+        double m = sqrt(low * high), s = sqrt(m * m - 1), t = atan(s);
+        double is = lambda * a * a / 2 * (s + (m * m - 2) * t) +
+                    4 * lambda * lambda * a / 3 * (s * t - m + 1);
+        if (is < 1)
+            low = m;
+        else
+            high = m;
+    }
+    double m = sqrt(low * high), s = sqrt(m * m - 1), t = atan(s);
+    return (struct maugis){.a = a,
+                           .m = m,
+                           .load = a * a * a - lambda * a * a * (s + m * m * t),
+                           .approach = a * a - 4 * lambda * a * s / 3};
+}
+
+/* The one that carries this load, on the branch that a retraction comes along. */
+static inline struct maugis
+maugis_of_load(double lambda, double load)
+{
+    double low = 1e-3, high = 10, lowest = INFINITY;
+
+    for (int k = 0; k <= 2000; k++) { /* the lowest load begins that branch */
+        double a = 10 - (10 - 1e-3) * k / 2000, is = maugis(lambda, a).load;
+        if (is < lowest) {
+            lowest = is;
+            low = a;
+        }
+    }
+    for (int k = 0; k < 100; k++) {
+        double a = (low + high) / 2;
+        if (maugis(lambda, a).load < load)
+            low = a;
+        else
+            high = a;
+    }
+    return maugis(lambda, low);
+}
+
+static inline double
+maugis_pull_off(double lambda)
+{
+    double low = 1e-4, high = 3;
+
+    for (int k = 0; k < 200; k++) { /* load has one minimum */
+        double b = low + (high - low) / 3, c = high - (high - low) / 3;
+        if (maugis(lambda, b).load < maugis(lambda, c).load)
+            high = c;
+        else
+            low = b;
+    }
+    return maugis(lambda, low).load;
+}
+
+/* A wave h = D cos(2 pi x/l) of a surface that sticks (Johnson, Int. J. Solids Struct. 32 (1995) 423): mean
+ * pressure over p* = pi E* D/l where the contact is 2 a wide; alpha^2 = 2 E* w/(p*^2 l). */
+static inline double
+johnson_wave(double alpha, double a_over_l)
+{
+    double s = sin(exact_pi * a_over_l);
+
+    return s * s - alpha * sqrt(tan(exact_pi * a_over_l));
+}
+
 #endif

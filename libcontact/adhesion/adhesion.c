@@ -59,10 +59,10 @@ static const double eigen_exact =
     0.2;                           /* of the eigenvalue, its bound of error                      */
 static const double single = 4e-6; /* what an eigenvalue in single precision may be off          */
 static const double load_step =
-    0.15; /* of the attraction: by how much a step of retraction lowers the load */
-static const double growth = 1.6;   /* of such a step from the last */
+    0.3; /* of the attraction: by how much a step of retraction lowers the load */
+static const double growth = 1.5;   /* of such a step from the last */
 static const double settled = 1e-3; /* change of the lowest load that ends the retraction */
-static const double past = 0.7;     /* of the lowest load: so far it is followed back */
+static const double past = 0.8;     /* of the lowest load: so far it is followed back */
 
 enum stage {
     STAGE_NEW,
@@ -87,6 +87,7 @@ struct retraction {
     double from, to;  /* of this round                                                      */
     double estimate;  /* of the lowest load, before this round                              */
     size_t round, part;
+    bool vertex; /* of this round: it is one state, where the parabola is lowest */
     bool has_before, has_after, short_of;
     size_t states, iterations, eigen_steps, jumps;
     double convolutions;
@@ -546,56 +547,104 @@ lowest_of(const struct retraction *p, double *at, bool *jumped)
 }
 
 static void
-note(struct rc_adhesion *a)
+count(struct rc_adhesion *a)
 {
     struct retraction *p = &a->pull;
-    struct place here = place_of(a);
-    double *other;
 
     p->states++;
     p->iterations += a->figures.iterations;
     p->eigen_steps += a->figures.eigen_steps;
     p->convolutions += a->figures.convolutions;
     p->short_of |= !a->converged;
-    if (p->states == 1 || here.load < p->at_lowest.load) {
+}
+
+static void
+exchange(double **a, double **b)
+{
+    double *other = *a;
+
+    *a = *b;
+    *b = other;
+}
+
+static void
+take_lowest(struct rc_adhesion *a, const struct place *here)
+{
+    copy_gap(a, a->pull.lowest, a->gap.x);
+    a->pull.at_lowest = *here;
+    a->pull.found = a->figures;
+}
+
+/* A state in the order of the retraction. */
+static void
+note(struct rc_adhesion *a, const struct place *here)
+{
+    struct retraction *p = &a->pull;
+
+    if (p->states == 1 || here->load < p->at_lowest.load) {
         p->has_before = p->states > 1;
         if (p->has_before && p->at_last.c != p->at_before.c) {
-            other = p->before;
-            p->before = p->last;
-            p->last = other;
+            exchange(&p->before, &p->last);
             p->at_before = p->at_last;
         }
-        copy_gap(a, p->lowest, a->gap.x);
-        p->at_lowest = here;
-        p->found = a->figures;
+        take_lowest(a, here);
         p->has_after = false;
     } else if (!p->has_after) {
         p->has_after = true;
-        p->at_after = here;
+        p->at_after = *here;
     }
     if (p->round == 0)
-        p->jumps += here.jumps;
+        p->jumps += here->jumps;
     copy_gap(a, p->last, a->gap.x);
-    p->at_last = here;
+    p->at_last = *here;
 }
 
-/* The way to the next state: a load that is lower by part of the attraction, as far as the last two tell. */
+/* A state where the parabola is lowest, between the one before the lowest and that after it. */
+static void
+note_vertex(struct rc_adhesion *a, const struct place *here)
+{
+    struct retraction *p = &a->pull;
+    bool early = here->c > p->at_lowest.c;
+
+    if (here->load < p->at_lowest.load) {
+        if (early)
+            p->at_after = p->at_lowest;
+        else {
+            exchange(&p->before, &p->lowest);
+            p->at_before = p->at_lowest;
+        }
+        take_lowest(a, here);
+    } else if (early) {
+        copy_gap(a, p->before, a->gap.x);
+        p->at_before = *here;
+    } else {
+        p->at_after = *here;
+    }
+}
+
+/* The way to the next state: to a load that is lower by part of what holds, as far as the last two tell. What
+ * holds is at most the attraction, and no more than it takes to open a round crack about the contact: of a
+ * sphere in the limit of short ranges the lowest load is a quarter of sqrt(8 pi E* w a^3) at no load. */
 static double
 next_way(struct rc_adhesion *a, const struct place *before, const struct place *here)
 {
     struct retraction *p = &a->pull;
-    double stiffness, cell = a->shape.dx * a->shape.dy;
+    double cell = a->shape.dx * a->shape.dy, length = a->whole->length;
+    double radius = sqrt(a->figures.contact_area / RC_PI) / length, stiffness;
+    double holds = here->attraction / cell / a->whole->modulus;
 
-    if (p->states < 2) {
-        double radius = sqrt(fmax(a->figures.contact_area, cell) / RC_PI) / a->whole->length;
-        stiffness = 2 * radius * a->whole->modulus * cell;
-        return fmax(load_step * here->attraction / stiffness, 0.02 * a->gap.law.range);
-    }
-    stiffness = fabs((before->load - here->load) / (before->c - here->c));
+    if (radius > 0)
+        holds = fmin(holds, sqrt(8 * RC_PI * a->gap.law.work * radius * radius * radius) / 4);
+    if (p->states < 2)
+        return fmax(load_step * holds / (2 * fmax(radius, 1)), 0.02 * a->gap.law.range);
+    stiffness =
+        fabs((before->load - here->load) / (before->c - here->c)) / cell / a->whole->modulus;
     p->top_slope = fmax(p->top_slope, stiffness);
+    if (p->has_after)
+        return growth * p->step;
     if (stiffness < p->top_slope / 4)
         return p->step; /* near the lowest */
-    return fmin(load_step * here->attraction / stiffness, growth * p->step);
+    return fmin(load_step * holds / stiffness, growth * p->step);
 }
 
 static bool
@@ -634,27 +683,61 @@ end_retraction(struct rc_adhesion *a, double load, double at, double spread)
     return converged ? RC_OK : RC_SHORT;
 }
 
+static enum rc_status
+go_to(struct rc_adhesion *a, double c)
+{
+    a->pull.c = c;
+    set_shift(a, c);
+    return RC_MORE;
+}
+
+/* Once more between the states beside the lowest: where the parabola is lowest, or, where one of them was jumped
+ * to, in smaller steps all the way. */
+static enum rc_status
+begin_round(struct rc_adhesion *a, double at, bool jumped)
+{
+    struct retraction *p = &a->pull;
+
+    p->round++;
+    p->vertex = !jumped && at != p->at_lowest.c;
+    if (p->vertex) {
+        if (at > p->at_lowest.c)
+            put_back(a, p->before, p->at_before.c);
+        else
+            put_back(a, p->lowest, p->at_lowest.c);
+        return go_to(a, at);
+    }
+    p->from = p->at_before.c;
+    p->to = p->at_after.c;
+    p->part = 2;
+    put_back(a, p->before, p->from);
+    copy_gap(a, p->last, p->before);
+    p->at_last = p->at_before;
+    p->at_lowest.load = INFINITY;
+    return go_to(a, p->from + (p->to - p->from) / PARTS);
+}
+
 /* The next approach, or the end. */
 static enum rc_status
 go_on(struct rc_adhesion *a)
 {
     struct retraction *p = &a->pull;
-    struct place before = p->at_last;
+    struct place before = p->at_last, here = place_of(a);
     double load, at, spread;
     bool jumped;
 
-    note(a);
+    count(a);
+    if (p->vertex)
+        note_vertex(a, &here);
+    else
+        note(a, &here);
     if (p->round == 0 && !parted(a) && p->states < STATES) {
         p->step = next_way(a, &before, &p->at_last);
-        p->c = p->at_last.c - p->step;
-        set_shift(a, p->c);
-        return RC_MORE;
+        return go_to(a, p->at_last.c - p->step);
     }
-    if (p->round > 0 && (p->part < PARTS || !p->has_after) && p->part < FARTHEST) {
-        p->c = p->from + (p->to - p->from) * (double)p->part++ / PARTS;
-        set_shift(a, p->c);
-        return RC_MORE;
-    }
+    if (p->round > 0 && !p->vertex && (p->part < PARTS ? !parted(a) : !p->has_after) &&
+        p->part < FARTHEST)
+        return go_to(a, p->from + (p->to - p->from) * (double)p->part++ / PARTS);
     if (!p->has_before || !p->has_after)
         return end_retraction(a, p->at_lowest.load, p->at_lowest.c, NAN);
     load = lowest_of(p, &at, &jumped);
@@ -666,17 +749,7 @@ go_on(struct rc_adhesion *a)
     if (p->round >= ROUNDS || (p->round > 0 && spread <= settled * fabs(load)))
         return end_retraction(a, load, at, spread);
     p->estimate = load;
-    p->round++;
-    p->from = p->at_before.c;
-    p->to = p->at_after.c;
-    p->part = 2;
-    p->c = p->from + (p->to - p->from) / PARTS;
-    put_back(a, p->before, p->from);
-    copy_gap(a, p->last, p->before);
-    p->at_last = p->at_before;
-    p->at_lowest.load = INFINITY;
-    set_shift(a, p->c);
-    return RC_MORE;
+    return begin_round(a, at, jumped);
 }
 
 enum rc_status

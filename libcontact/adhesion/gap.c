@@ -17,7 +17,8 @@ static const double clipped_anew =
 static const double curvature = 0.05; /* of d'Ad, that a step assumes at least    */
 static const double shorter = 0.4;
 static const double single = 1e-6; /* of A d in single precision                         */
-static const double fresh = 1e-4;  /* when the error has come down to so much of what it was, A u is found anew */
+static const double fresh =
+    1e-4; /* when the error has come down to so much of what it was, A u is found anew */
 static const double exact = 1e-3; /* of the slope, that a line search leaves */
 enum {
     LINE = RC_GAP_LINE,

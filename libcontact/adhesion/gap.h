@@ -48,14 +48,14 @@ struct rc_gap {
     /* of the last step */
     double rz, scale, mean_r, beta;
     bool restart;
-    size_t free;   /* nodes not held                                        */
-    double unit; /* of a direction in single precision */
+    size_t free;        /* nodes not held                                        */
+    double unit;        /* of a direction in single precision */
     double fresh_error; /* that error when A u came from double precision */
-    double error;  /* |A z| over |p|, L1; INFINITY before the first step    */
-    bool negative; /* its direction was one of negative curvature           */
-    bool stuck;    /* no step goes down any more                            */
-    bool parting;  /* drawn apart, with nothing left to hold                */
-    double trial;  /* of a row's work: the length of the step               */
+    double error;       /* |A z| over |p|, L1; INFINITY before the first step    */
+    bool negative;      /* its direction was one of negative curvature           */
+    bool stuck;         /* no step goes down any more                            */
+    bool parting;       /* drawn apart, with nothing left to hold                */
+    double trial;       /* of a row's work: the length of the step               */
     double convolutions;
     size_t iterations;
     /* of the eigenvector: x, K^-1 x, (A - D) x; the same of the residual and of the direction */
