@@ -3,7 +3,7 @@
  * stationary point (gap.c), and is asked whether it is stable under the control in use (stability.c). A saddle is
  * left along its eigenvector. A small residual is not enough: at a saddle it is as small as elsewhere.
  *
- * The error of the pressure is 2 e/sqrt(mu), e what the next correction would change of it, mu the smallest
+ * The error of the pressure is some e/sqrt(mu), e what the next correction would change of it, mu the smallest
  * eigenvalue: soft modes answer more than the preconditioner takes for granted.
  *
  * A retraction for the lowest load goes from state to state until the bodies have parted, and then again, in
@@ -46,6 +46,7 @@ rc_adhesion_law_named(const char *name)
 /* ---- a path ---- */
 
 enum {
+    BELOW = 2,        /* states in a row whose error is below tol */
     LEAVES = 20,      /* saddles that are left before a state is given up */
     EIGEN_STEPS = 40, /* at most */
     STATES = 400,     /* of a retraction, at most */
@@ -57,6 +58,7 @@ static const double nodes_default =
     2; /* cohesive length, where the grid chooses the range          */
 static const double eigen_exact =
     0.2;                           /* of the eigenvalue, its bound of error                      */
+static const double safe = 1.25;   /* e/sqrt(mu) itself is 1 to 2 times the error, at its end   */
 static const double single = 4e-6; /* what an eigenvalue in single precision may be off          */
 static const double load_step =
     0.3; /* of the attraction: by how much a step of retraction lowers the load */
@@ -388,7 +390,7 @@ softness(const struct rc_adhesion *a)
 static double
 estimate(const struct rc_adhesion *a)
 {
-    return 2 * a->gap.error / softness(a);
+    return safe * a->gap.error / softness(a);
 }
 
 static enum rc_status
@@ -413,22 +415,25 @@ down(struct rc_adhesion *a)
 {
     struct rc_gap *g = &a->gap;
 
-    rc_gap_step(g);
-    if (g->parting) {
-        a->separated = true;
-        return finish(a, false);
-    }
+    rc_gap_look(g);
     a->below = estimate(a) <= a->tol ? a->below + 1 : 0;
     if (a->judged > 0 && g->error > 10 * a->judged)
         a->judged = 0; /* on the way to another place */
-    if (a->below >= 2 || g->stuck) {
+    if (a->below >= BELOW || g->stuck) {
         if (a->judged > 0)
             return finish(a, estimate(a) <= a->tol);
         rc_gap_eigen_begin(g);
         a->stage = STAGE_EIGEN;
         return RC_MORE;
     }
-    return g->iterations < a->max_iterations ? RC_MORE : finish(a, false);
+    if (g->iterations >= a->max_iterations)
+        return finish(a, false);
+    rc_gap_move(g);
+    if (g->parting) {
+        a->separated = true;
+        return finish(a, false);
+    }
+    return RC_MORE;
 }
 
 static enum rc_status
@@ -457,6 +462,7 @@ eigen(struct rc_adhesion *a)
         return finish(a, false);
     if (estimate(a) <= a->tol || g->stuck)
         return finish(a, estimate(a) <= a->tol);
+    rc_gap_move(g);
     a->below = 0;
     a->stage = STAGE_DOWN;
     return RC_MORE;

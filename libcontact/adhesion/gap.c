@@ -694,35 +694,42 @@ refresh(struct rc_gap *g)
 }
 
 void
-rc_gap_step(struct rc_gap *g)
+rc_gap_look(struct rc_gap *g)
 {
-    double rz, old, sum_z, rd, mean_d;
-    struct line line;
+    double rz, old, sum_z;
 
     if (g->error <= fresh * g->fresh_error)
         refresh(g);
     find_residual(g);
     rz = find_z(g, &old, &sum_z);
     g->beta = g->restart || !(g->rz > 0) ? 0 : fmax((rz - old) / g->rz, 0);
-    rd = set_direction(g, sum_z);
-    if (!(rd > 0) && g->beta > 0) {
+    g->rd = set_direction(g, sum_z);
+    if (!(g->rd > 0) && g->beta > 0) {
         g->beta = 0;
-        rd = set_direction(g, sum_z);
+        g->rd = set_direction(g, sum_z);
     }
     g->rz = rz;
     g->restart = false;
     g->iterations++;
-    if (!(rd > 0)) {
-        g->stuck = true;
-        g->error = rz > 0 ? g->error : 0;
+    if (g->rd > 0) {
+        g->dad = find_ad(g, &g->mean_d);
         return;
     }
-    line.q = find_ad(g, &mean_d);
-    line.rd = rd;
-    g->trial = line_minimum(g, &line, longest(g, mean_d));
+    g->stuck = true;
+    g->error = rz > 0 ? g->error : 0;
+}
+
+void
+rc_gap_move(struct rc_gap *g)
+{
+    struct line line = {.rd = g->rd, .q = g->dad};
+
+    if (g->stuck)
+        return;
+    g->trial = line_minimum(g, &line, longest(g, g->mean_d));
     go(g);
-    g->parting =
-        g->control == RC_GAP_LOAD && g->given < 0 && mean_d > 0 && nearest(g) > 20 * g->law.range;
+    g->parting = g->control == RC_GAP_LOAD && g->given < 0 && g->mean_d > 0 &&
+                 nearest(g) > 20 * g->law.range;
 }
 
 /* ---- states ---- */

@@ -47,6 +47,7 @@ struct rc_gap {
     double lift;        /* of the preconditioner at the mean                     */
     /* of the last step */
     double rz, scale, mean_r, beta;
+    double rd, dad, mean_d; /* of the direction: r'd, d'A d, its mean on the grid */
     bool restart;
     size_t free;        /* nodes not held                                        */
     double unit;        /* of a direction in single precision */
@@ -76,8 +77,9 @@ size_t rc_gap_memory(const struct rc_shape *grid);
 void rc_gap_apart(struct rc_gap *g, double clearance);
 /* A control, and the state it begins with: the gap there is, shifted. */
 void rc_gap_begin(struct rc_gap *g, enum rc_gap_control control, double given);
-/* One step down; what it found is in *g. */
-void rc_gap_step(struct rc_gap *g);
+/* The way down from here, and with it what the pressure is off; and a step along it. */
+void rc_gap_look(struct rc_gap *g);
+void rc_gap_move(struct rc_gap *g);
 /* c of the state: the mean of u less that of x and h. */
 double rc_gap_shift(const struct rc_gap *g);
 /* p of node k of the grid. */
