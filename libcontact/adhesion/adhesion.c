@@ -410,6 +410,17 @@ begin(struct rc_adhesion *a)
     a->stage = STAGE_DOWN;
 }
 
+/* A step, and whether it went along a way of negative stiffness: from one stable state to the next there is such a
+ * way only where the path between them has ended. */
+static void
+move(struct rc_adhesion *a)
+{
+    bool before = a->gap.negative;
+
+    rc_gap_move(&a->gap);
+    a->jumps += a->begun && a->gap.negative && !before;
+}
+
 static enum rc_status
 down(struct rc_adhesion *a)
 {
@@ -428,7 +439,7 @@ down(struct rc_adhesion *a)
     }
     if (g->iterations >= a->max_iterations)
         return finish(a, false);
-    rc_gap_move(g);
+    move(a);
     if (g->parting) {
         a->separated = true;
         return finish(a, false);
@@ -462,7 +473,7 @@ eigen(struct rc_adhesion *a)
         return finish(a, false);
     if (estimate(a) <= a->tol || g->stuck)
         return finish(a, estimate(a) <= a->tol);
-    rc_gap_move(g);
+    move(a);
     a->below = 0;
     a->stage = STAGE_DOWN;
     return RC_MORE;
