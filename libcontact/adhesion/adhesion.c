@@ -111,6 +111,7 @@ struct rc_adhesion {
     double given;
     size_t below; /* steps in a row with an error below tol */
     size_t leaves, jumps;
+    bool unstable; /* the last step began where there was no stiffness */
     double mu[3];  /* of the last state of each control, 0: none */
     double judged; /* the error when the eigenvalue was found; 0: it has not been */
     bool converged;
@@ -334,6 +335,7 @@ set(struct rc_adhesion *a, enum rc_gap_control control, double given)
     a->control = control;
     a->given = given;
     a->below = a->leaves = a->jumps = 0;
+    a->unstable = false;
     a->judged = 0;
     a->converged = a->separated = a->fresh = false;
     a->stage = STAGE_NEW;
@@ -410,15 +412,16 @@ begin(struct rc_adhesion *a)
     a->stage = STAGE_DOWN;
 }
 
-/* A step, and whether it went along a way of negative stiffness: from one stable state to the next there is such a
- * way only where the path between them has ended. */
+/* A step, and whether there was no stiffness where it began: from one stable state to the next there is such a place
+ * only where the path between them has ended. */
 static void
 move(struct rc_adhesion *a)
 {
-    bool before = a->gap.negative;
+    bool before = a->unstable;
 
     rc_gap_move(&a->gap);
-    a->jumps += a->begun && a->gap.negative && !before;
+    a->unstable = a->gap.negative;
+    a->jumps += a->begun && a->unstable && !before;
 }
 
 static enum rc_status
@@ -512,6 +515,7 @@ static void
 put_back(struct rc_adhesion *a, const double *gap, double c)
 {
     copy_gap(a, a->gap.x, gap);
+    a->gap.known = false; /* its softest mode is another's */
     set_shift(a, c);
     a->gap.control = a->control;
     a->gap.given = a->given;

@@ -153,12 +153,14 @@ added(const struct rc_gap *g)
     return (g->control == RC_GAP_LOAD ? g->given : 0) - g->level;
 }
 
-/* r = A u + S + sigma, and its sum over nodes apart. */
+/* r = A u + S + sigma, and its sum over nodes apart. What the traction takes from the stiffness of the last
+ * state's softest mode, by the way. */
 static void
 residual_row(struct rc_gap *g, size_t j, double *sums)
 {
     const double *x = g->x + j * g->px, *au = g->au + j * g->px;
     const double load = g->control == RC_GAP_LOAD ? g->given : 0;
+    const float *soft = g->e[0] + j * g->px;
     double *r = g->r + j * g->px;
     size_t m = on_map(g, j);
 
@@ -171,6 +173,8 @@ residual_row(struct rc_gap *g, size_t j, double *sums)
             r[i + k] = au[i + k] + load + s[k];
             sums[0] += apart ? r[i + k] : 0;
             sums[1] += apart;
+            if (g->watched && x[i + k] > 0)
+                sums[2] += d[k] * (double)soft[i + k] * (double)soft[i + k];
         }
     }
     for (size_t i = m; i < g->px; i++) {
@@ -223,6 +227,7 @@ find_residual(struct rc_gap *g)
 
     rc_gap_rows(g, residual_row, sums);
     g->level = g->control == RC_GAP_MEAN && sums[1] > 0 ? sums[0] / sums[1] : 0;
+    g->negative = g->watched && sums[2] > g->stiffness;
     rc_gap_rows(g, hold_row, sums);
     g->free = (size_t)sums[1];
     g->mean_r = g->control != RC_GAP_MEAN ? sums[0] / (double)g->n
@@ -374,6 +379,7 @@ ad_out(void *ctx, size_t j, void *from)
         sums[2] += is * d[i];
         sums[3] += is;
         sums[4] += d[i];
+        sums[5] += fabs(is * d[i]);
         ad[i] = is;
     }
     return true;
@@ -393,7 +399,7 @@ find_ad(struct rc_gap *g, double *mean_d)
     take_mean(g, g->ad, mean);
     g->error = sums[1] > 0 ? sums[0] / sums[1] : INFINITY;
     *mean_d = sums[4] / (double)g->n;
-    return sums[2] - mean * sums[4];
+    return fmax(sums[2] - mean * sums[4], single * sums[5]);
 }
 
 /* ---- along the direction ---- */
@@ -583,17 +589,19 @@ line_minimum(struct rc_gap *g, struct line *l, double most)
     double a = 0, low = 0, high = INFINITY;
 
     look(g, l, 0);
-    g->negative = l->bend < 0;
+    g->negative |= l->bend < 0;
     for (int k = 0; k < NEWTON; k++) {
-        double next = a - l->slope / fmax(l->bend, curvature * l->q);
+        double bend = fmax(l->bend, curvature * l->q);
+        double next = bend > 0 ? a - l->slope / bend : most;
         if (l->slope < 0)
             low = a;
         else
             high = a;
         if (!(next > low && next < high))
-            next = (low + high) / 2;
+            next = isinf(high) ? 2 * fmax(low, 1) : (low + high) / 2;
         a = fmin(next, most);
         look(g, l, a);
+        g->negative |= l->bend < 0 && l->slope < 0;
         if (fabs(l->slope) <= exact * l->rd || (a == most && l->slope < 0))
             break;
     }
@@ -634,13 +642,27 @@ largest_row(struct rc_gap *g, size_t j, double *sums)
         sums[0] = fmax(sums[0], fabs(g->d[j * g->px + i]));
 }
 
-/* Drawn apart by a load, a step does not leap over what holds. */
+static void
+mean_gap_row(struct rc_gap *g, size_t j, double *sums)
+{
+    for (size_t i = 0; i < rc_gap_on_map(g, j); i++)
+        sums[0] += g->x[j * g->px + i];
+}
+
+/* Under a load nothing else bounds a step that is alike everywhere: drawn apart it is not to leap over what
+ * holds, and pressed together it ends where the bodies meet. */
 static double
-longest(struct rc_gap *g, double mean_d)
+longest(struct rc_gap *g)
 {
     double sums[RC_GAP_SUMS];
 
-    if (g->control != RC_GAP_LOAD || g->given >= 0 || mean_d <= 0)
+    if (g->control != RC_GAP_LOAD || g->mean_d == 0)
+        return INFINITY;
+    if (g->mean_d < 0) {
+        rc_gap_rows(g, mean_gap_row, sums);
+        return sums[0] > 0 ? sums[0] / ((double)(g->nx * g->ny) * -g->mean_d) : INFINITY;
+    }
+    if (g->given >= 0)
         return INFINITY;
     rc_gap_rows(g, largest_row, sums);
     return 4 * g->law.range / most_of(g, 0);
@@ -726,7 +748,7 @@ rc_gap_move(struct rc_gap *g)
 
     if (g->stuck)
         return;
-    g->trial = line_minimum(g, &line, longest(g, g->mean_d));
+    g->trial = line_minimum(g, &line, longest(g));
     go(g);
     g->parting = g->control == RC_GAP_LOAD && g->given < 0 && g->mean_d > 0 &&
                  nearest(g) > 20 * g->law.range;
@@ -804,8 +826,13 @@ shift(struct rc_gap *g, double by)
 void
 rc_gap_begin(struct rc_gap *g, enum rc_gap_control control, double given)
 {
-    double c = rc_gap_shift(g);
+    double c = rc_gap_shift(g), sums[RC_GAP_SUMS];
 
+    g->watched = g->known && g->mu > 0 && control == g->control;
+    if (g->watched) { /* of the softest mode without the traction */
+        rc_gap_rows(g, residual_row, sums);
+        g->stiffness = g->mu + sums[2];
+    }
     g->control = control;
     g->given = given;
     if (control == RC_GAP_SHIFT && given != c)

@@ -53,7 +53,9 @@ struct rc_gap {
     double unit;        /* of a direction in single precision */
     double fresh_error; /* that error when A u came from double precision */
     double error;       /* |A z| over |p|, L1; INFINITY before the first step    */
-    bool negative;      /* its direction was one of negative curvature           */
+    bool negative;      /* stiffness there was negative, of its direction or of the softest mode */
+    bool watched;       /* e[0] is the softest mode of the state before, of this control */
+    double stiffness;   /* of that mode, if nothing pulled                              */
     bool stuck;         /* no step goes down any more                            */
     bool parting;       /* drawn apart, with nothing left to hold                */
     double trial;       /* of a row's work: the length of the step               */

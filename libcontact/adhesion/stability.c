@@ -236,7 +236,7 @@ best(const double *sums, double *c)
 
 /* ---- the iteration ---- */
 
-/* Where contact holds a node it does not move. */
+/* Where contact holds a node it does not move. Where it holds all of the map, nothing softens. */
 static void
 mask_row(struct rc_gap *g, size_t j, double *sums)
 {
@@ -245,7 +245,7 @@ mask_row(struct rc_gap *g, size_t j, double *sums)
     for (size_t i = 0; i < g->px; i++) {
         size_t at = j * g->px + i;
         g->off[at] = i < m && g->x[at] == 0;
-        sums[0] += !g->off[at];
+        sums[0] += i < m && !g->off[at];
     }
 }
 

@@ -1,0 +1,409 @@
+/* Adhesion where it is hard: requests that make no sense, saddles, bodies that part, jumps, thin and odd maps,
+ * unequal spacings, bounds of the pressure, coatings. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "adhesion_case.h"
+
+static const double estar = 3.1e6, radius = 2.385e-3;
+
+/* ---- requests ---- */
+
+static void
+refused(struct rc_shape shape, struct rc_adhesion_problem problem, const char *word)
+{
+    double *h = calloc(shape.nx * shape.ny, sizeof *h);
+    struct rc_adhesion_scales scales;
+    struct rc_expected expected;
+    struct rc_err err = {0}, other = {0};
+
+    assert_non_null(h);
+    assert_null(rc_adhesion_new(&shape, h, &problem, &err));
+    if (strstr(err.text, word) == NULL)
+        print_error("'%s' is not in: %s\n", word, err.text);
+    assert_non_null(strstr(err.text, word));
+    assert_int_equal(rc_adhesion_check(&shape, &problem, &scales, &other), RC_FAIL);
+    assert_string_equal(err.text, other.text);
+    assert_int_equal(rc_adhesion_expect(&shape, &problem, &expected, &other), RC_FAIL);
+    assert_string_equal(err.text, other.text);
+    free(h);
+}
+
+static void
+requests(void **state)
+{
+    const struct rc_shape shape = {32, 32, 1e-6, 1e-6};
+    const struct rc_adhesion_problem good = {
+        .contact = {.pair.estar = estar}, .work = 0.05, .range = 3e-7};
+    struct rc_adhesion_problem bad;
+    struct rc_adhesion *a;
+    double h[32 * 32] = {0}, p[32 * 32] = {0};
+    struct rc_err err;
+
+    (void)state;
+#define REFUSED(change, word)                                                                      \
+    {                                                                                              \
+        bad = good;                                                                                \
+        bad.change;                                                                                \
+        refused(shape, bad, word);                                                                 \
+    }
+    REFUSED(work = 0, "work of adhesion 0 J/m2")
+    REFUSED(work = -0.05, "must be positive")
+    REFUSED(work = INFINITY, "finite")
+    REFUSED(work = NAN, "work of adhesion")
+    REFUSED(range = 1e-4, "beyond the map")
+    REFUSED(range = -1e-9, "range")
+    REFUSED(range = NAN, "range")
+    REFUSED(law = "velcro", "no law of adhesion 'velcro'")
+    REFUSED(law = "jkr", "takes its range from the grid")
+    REFUSED(contact.engine = "mlms", "inverse of K")
+    REFUSED(contact.engine = "direct", "inverse of K")
+    REFUSED(contact.engine = "abacus", "no engine 'abacus'")
+    REFUSED(contact.method = "pk99", "knows no pressure that pulls")
+    REFUSED(contact.method = "pcg", "knows no pressure that pulls")
+    REFUSED(contact.tilt_free = true, "tilt")
+    REFUSED(contact.hardness = -1, "hardness")
+    REFUSED(contact.tol = -1, "tolerance")
+    REFUSED(contact.pair.estar = -1, "E*")
+    bad = good;
+    bad.law = "dugdale";
+    bad.range = 1e-8;
+    refused(shape, bad, "within a node");
+    bad.range = 0; /* the one that it names */
+    assert_int_equal(rc_adhesion_check(&shape, &bad, &(struct rc_adhesion_scales){0}, &err), RC_OK);
+
+    a = adhesion_new(shape, h, good);
+    assert_int_equal(rc_adhesion_step(a, &err), RC_FAIL);
+    assert_int_equal(rc_adhesion_pull_off(a, &err), RC_FAIL);
+    assert_int_equal(rc_adhesion_set_load(a, NAN, &err), RC_FAIL);
+    assert_int_equal(rc_adhesion_set_approach(a, INFINITY, &err), RC_FAIL);
+    p[7] = INFINITY;
+    assert_int_equal(rc_adhesion_start(a, p, 0, &err), RC_FAIL);
+    assert_int_equal(rc_adhesion_start(a, h, NAN, &err), RC_FAIL);
+    rc_adhesion_free(a);
+    h[9] = NAN;
+    assert_null(rc_adhesion_new(&shape, h, &good, &err));
+    assert_non_null(strstr(err.text, "height 9"));
+    h[9] = 0;
+    bad = good;
+    bad.contact.boundary = RC_PERIODIC;
+    a = adhesion_new(shape, h, bad);
+    assert_int_equal(rc_adhesion_set_approach(a, 1e-7, &err), RC_FAIL);
+    assert_non_null(strstr(err.text, "mean gap"));
+    rc_adhesion_free(a);
+    rc_adhesion_free(NULL);
+    for (size_t k = 0; rc_adhesion_law_info(k) != NULL; k++)
+        assert_true(strlen(rc_adhesion_law_info(k)->summary) > 0);
+}
+
+/* ---- a sphere that sticks ---- */
+
+enum {
+    N = 64,
+    LARGE = 128
+};
+static double h[LARGE * LARGE], p[LARGE * LARGE], gap[LARGE * LARGE];
+
+struct sphere {
+    struct rc_shape shape;
+    struct rc_adhesion_problem problem;
+    double load, approach; /* pi w R; Maugis' unit of approach */
+};
+
+static struct sphere
+sphere_of(size_t n, double tabor)
+{
+    struct sphere s = {.shape = {n, n, 1e-6, 1e-6}};
+    struct rc_place apex = {0.25e-6, 0.25e-6};
+    double kay = 4 * estar / 3, a0 = 13e-6 * (double)n / N, length;
+
+    s.problem = (struct rc_adhesion_problem){.contact = {.pair.estar = estar, .tol = 1e-5}};
+    s.problem.work = a0 * a0 * a0 * kay / (6 * exact_pi * radius * radius);
+    s.problem.range = cbrt(radius * s.problem.work * s.problem.work / (estar * estar)) / tabor;
+    s.load = exact_pi * s.problem.work * radius;
+    length = cbrt(exact_pi * s.problem.work * radius * radius / kay);
+    s.approach = length * length / radius;
+    rc_synth_paraboloid(&s.shape, apex, radius, radius, 0, h);
+    return s;
+}
+
+/* Out by approach: no jump until the bodies part, and one then. Under their loads the states that hold less
+ * than the most are saddles, which a residual does not tell from the others: they are left. */
+static void
+saddles(void **state)
+{
+    struct sphere s = sphere_of(LARGE, 2);
+    struct rc_adhesion *a = adhesion_new(s.shape, h, s.problem);
+    double lowest = 0, last = 0;
+    size_t jumps = 0, falling = 0, rising = 0;
+
+    (void)state;
+    (void)adhesion_to_approach(a, 0);
+    for (int k = 1; k <= 30; k++) {
+        const struct rc_adhesion_figures *f = adhesion_to_approach(a, -0.05 * k * s.approach);
+        struct rc_adhesion *b;
+        double load = f->load;
+
+        assert_true(f->converged && f->stable);
+        jumps += f->jumps;
+        rc_adhesion_pressure(a, p);
+        if (f->jumps == 0 && k % 3 == 0 && f->contact_nodes > 0) {
+            b = adhesion_new(s.shape, h, s.problem);
+            assert_int_equal(rc_adhesion_start(b, p, f->approach, &adhesion_err), RC_OK);
+            f = adhesion_to_load(b, load);
+            if (load > last + 0.01 * s.load) { /* on the way to less: no place to stay */
+                assert_true(f->jumps > 0);
+                assert_true(f->separated || f->stable);
+                assert_int_equal(rc_adhesion_step(b, &adhesion_err),
+                                 f->separated ? RC_SHORT : RC_OK);
+                rising++;
+            } else if (load < last - 0.01 * s.load) {
+                assert_true(f->converged && f->stable && f->jumps == 0);
+                falling++;
+            }
+            rc_adhesion_free(b);
+        }
+        last = load;
+        lowest = fmin(lowest, load);
+    }
+    print_message("lowest %.3f, %zu jumps, %zu saddles, %zu stable states\n", lowest / s.load,
+                  jumps, rising, falling);
+    assert_int_equal(jumps, 1);
+    assert_true(falling > 0 && rising > 0);
+    rc_adhesion_free(a);
+}
+
+/* A load below what holds parts the bodies, and it is said; above it they hold. */
+static void
+parting(void **state)
+{
+    struct sphere s = sphere_of(N, 1);
+    struct rc_adhesion *a = adhesion_new(s.shape, h, s.problem);
+    const struct rc_adhesion_figures *f = adhesion_to_load(a, 0);
+    double lowest;
+
+    (void)state;
+    assert_true(f->converged && f->stable && f->contact_nodes > 0);
+    f = adhesion_pull(a);
+    lowest = f->pull_off_load;
+    assert_true(f->converged && lowest < -1.5 * s.load && f->pull_off_approach < 0);
+    assert_true(f->pull_off_spread <= 1e-3 * -lowest);
+    f = adhesion_to_load(a, 0);
+    assert_true(f->converged && !f->separated);
+    f = adhesion_to_load(a, 0.98 * lowest);
+    assert_true(f->converged && f->stable && !f->separated);
+    assert_true(fabs(f->load - 0.98 * lowest) <= 1e-5 * -lowest);
+    assert_int_equal(rc_adhesion_set_load(a, 1.02 * lowest, &adhesion_err), RC_OK);
+    assert_int_equal(adhesion_run(a), RC_SHORT);
+    f = rc_adhesion_result(a);
+    assert_true(f->separated && !f->converged && f->contact_nodes == 0);
+    /* and it goes on from there */
+    f = adhesion_to_load(a, 0.1 * s.load);
+    assert_true(f->converged && f->contact_nodes > 0);
+    rc_adhesion_free(a);
+}
+
+/* From 6 steps or from 25 the lowest load is the same. */
+static void
+pull_off_by_hand(void **state)
+{
+    struct sphere s = sphere_of(N, 1);
+    struct rc_adhesion *a = adhesion_new(s.shape, h, s.problem);
+    double lowest = 0, is;
+
+    (void)state;
+    (void)adhesion_to_approach(a, s.approach);
+    is = adhesion_pull(a)->pull_off_load;
+    (void)adhesion_to_approach(a, s.approach);
+    for (int k = 0; k <= 100; k++)
+        lowest = fmin(lowest, adhesion_to_approach(a, s.approach * (1 - 0.02 * k))->load);
+    print_message("lowest load %.5f, by a hundred steps %.5f\n", is / s.load, lowest / s.load);
+    assert_true(fabs(is - lowest) <= 1e-3 * -lowest);
+    rc_adhesion_free(a);
+}
+
+/* ---- maps ---- */
+
+static void
+maps(void **state)
+{
+    const struct rc_shape shapes[] = {{1, 64, 1e-6, 1e-6}, {64, 1, 1e-6, 1e-6},
+                                      {2, 37, 1e-6, 1e-6}, {37, 41, 1e-6, 2e-6},
+                                      {33, 5, 3e-6, 1e-6}, {1, 1, 1e-6, 1e-6}};
+
+    (void)state;
+    for (size_t k = 0; k < sizeof shapes / sizeof *shapes; k++)
+        for (int b = 0; b < 2; b++) {
+            struct rc_shape s = shapes[k];
+            size_t n = s.nx * s.ny;
+            struct rc_adhesion_problem problem = {.contact = {.boundary = b ? RC_PERIODIC : RC_FREE,
+                                                              .pair.estar = estar,
+                                                              .tol = 1e-6},
+                                                  .work = 0.02};
+            struct rc_adhesion *a;
+            const struct rc_adhesion_figures *f;
+            struct rc_conv *conv;
+            const struct rc_conv_options options = {.boundary = problem.contact.boundary};
+            double worst = 0, size = 0;
+
+            rc_synth_wave(&s, 1e-7, s.nx > 2 ? (double)s.nx * s.dx : INFINITY,
+                          s.ny > 2 ? (double)s.ny * s.dy : INFINITY, h);
+            if (b == 1 && n == 1)
+                continue;
+            a = adhesion_new(s, h, problem);
+            f = adhesion_to_approach(a, b ? -1e-8 : 1e-8);
+            if (!f->converged || !f->stable)
+                print_error("%zu x %zu, %d: error %g\n", s.nx, s.ny, b, f->pressure_error);
+            assert_true(f->converged && f->stable);
+            assert_true(f->attractive_load > 0);
+            rc_adhesion_pressure(a, p);
+            rc_adhesion_displacement(a, gap);
+            conv = rc_conv_new(&s, &problem.contact.pair, &options, &adhesion_err);
+            assert_non_null(conv);
+            rc_conv_apply(conv, p, h);
+            for (size_t i = 0; i < n; i++) {
+                worst = fmax(worst, fabs(h[i] - gap[i]));
+                size = fmax(size, fabs(h[i]));
+            }
+            if (worst > 1e-5 * size)
+                print_error("%zu x %zu, %d: displacement off by %g of %g\n", s.nx, s.ny, b, worst,
+                            size);
+            assert_true(worst <= 1e-5 * size + 1e-25);
+            rc_conv_free(conv);
+            rc_adhesion_free(a);
+        }
+}
+
+/* ---- hardness ---- */
+
+/* p + sigma stays within the hardness, gaps are negative only where it is reached, and there it is; taken apart,
+ * what has yielded is gone and the same load does not yield again. */
+static void
+hardness(void **state)
+{
+    struct sphere s = sphere_of(N, 1);
+    double strength = s.problem.work / s.problem.range, hard = 1.5 * strength, load, volume = 0;
+    static double sigma[N * N], before[N * N];
+    struct rc_adhesion *a;
+    const struct rc_adhesion_figures *f;
+
+    (void)state;
+    memcpy(before, h, sizeof before);
+    s.problem.contact.hardness = hard;
+    s.problem.contact.tol = 1e-7;
+    a = adhesion_new(s.shape, h, s.problem);
+    f = adhesion_to_approach(a, 2.5 * s.approach);
+    load = f->load;
+    assert_true(f->converged && f->stable && f->plastic_nodes > 10);
+    print_message("hardness: %zu of %zu nodes, %zu steps\n", f->plastic_nodes, f->contact_nodes,
+                  f->iterations);
+    rc_adhesion_pressure(a, p);
+    rc_adhesion_gap(a, gap);
+    rc_adhesion_traction(a, sigma);
+    for (size_t k = 0; k < N * N; k++) {
+        double is = p[k] + sigma[k];
+        assert_true(is >= -1e-6 * hard && is <= hard * (1 + 1e-6));
+        if (gap[k] < 0)
+            assert_true(fabs(is - hard) <= 1e-6 * hard);
+        volume += fmin(gap[k], 0);
+    }
+    rc_adhesion_keep_shape(a, h);
+    for (size_t k = 0; k < N * N; k++)
+        volume += before[k] - h[k];
+    assert_true(fabs(volume) <= 1e-12 * radius);
+    f = adhesion_to_approach(a, 2.5 * s.approach);
+    assert_true(f->converged && fabs(f->load - load) <= 1e-5 * fabs(load));
+    rc_adhesion_gap(a, gap);
+    for (size_t k = 0; k < N * N; k++)
+        assert_true(gap[k] >= -1e-6 * s.approach);
+    f = adhesion_pull(a);
+    assert_true(f->converged && f->pull_off_load < 0);
+    rc_adhesion_free(a);
+
+    /* a bound that is never reached, as a number or as a map, changes nothing */
+    memcpy(h, before, sizeof before);
+    for (size_t k = 0; k < N * N; k++)
+        sigma[k] = k % 2 ? NAN : 1e6 * hard;
+    s.problem.contact.hardness = 0;
+    a = adhesion_new(s.shape, h, s.problem);
+    (void)adhesion_to_approach(a, 2.5 * s.approach);
+    rc_adhesion_pressure(a, before);
+    rc_adhesion_free(a);
+    s.problem.contact.hardness_map = sigma;
+    a = adhesion_new(s.shape, h, s.problem);
+    f = adhesion_to_approach(a, 2.5 * s.approach);
+    assert_true(f->converged && f->plastic_nodes == 0);
+    rc_adhesion_pressure(a, p);
+    assert_true(adhesion_distance(N * N, p, before) <= 1e-6);
+    rc_adhesion_free(a);
+}
+
+/* ---- coatings ---- */
+
+/* A layer of the same material is none; one that is stiffer or softer has a state that obeys the same laws, with
+ * the K that deflection has for it. */
+static void
+coatings(void **state)
+{
+    const double ratio[] = {1, 10, 0.1};
+
+    (void)state;
+    for (int b = 0; b < 2; b++)
+        for (size_t k = 0; k < 3; k++) {
+            struct sphere s = sphere_of(N, 1);
+            struct rc_layer layer = {4e-6, ratio[k] * estar, 0.3};
+            struct rc_adhesion_problem problem = s.problem;
+            const struct rc_conv_options options = {.boundary = b ? RC_PERIODIC : RC_FREE};
+            static double bare[N * N], u[N * N], ku[N * N];
+            struct rc_adhesion *a;
+            struct rc_conv *conv;
+            const struct rc_adhesion_figures *f;
+            double worst = 0, size = 0;
+
+            problem.contact.boundary = options.boundary;
+            problem.contact.tol = 1e-8;
+            problem.contact.pair = (struct rc_pair){.one = {.e = estar, .nu = 0.3}};
+            if (k == 0) {
+                a = adhesion_new(s.shape, h, problem);
+                (void)adhesion_to_approach(a, 0);
+                rc_adhesion_pressure(a, bare);
+                rc_adhesion_free(a);
+            }
+            problem.contact.pair.one.layers = 1;
+            problem.contact.pair.one.layer = &layer;
+            a = adhesion_new(s.shape, h, problem);
+            f = adhesion_to_approach(a, 0);
+            assert_true(f->converged && f->stable && f->kkt_residual < 1e-6);
+            print_message("layer %g times as stiff: %zu steps, %.0f convolutions, stability %.2g\n",
+                          ratio[k], f->iterations, f->convolutions, f->stability);
+            rc_adhesion_pressure(a, p);
+            rc_adhesion_displacement(a, u);
+            conv = rc_conv_new(&s.shape, &problem.contact.pair, &options, &adhesion_err);
+            assert_non_null(conv);
+            rc_conv_apply(conv, p, ku);
+            rc_conv_free(conv);
+            for (size_t i = 0; i < N * N; i++) {
+                worst = fmax(worst, fabs(u[i] - ku[i]));
+                size = fmax(size, fabs(ku[i]));
+            }
+            assert_true(worst <= 1e-8 * size);
+            if (k == 0)
+                assert_true(adhesion_distance(N * N, p, bare) <= 1e-5);
+            rc_adhesion_free(a);
+        }
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(requests),         cmocka_unit_test(saddles), cmocka_unit_test(parting),
+        cmocka_unit_test(pull_off_by_hand), cmocka_unit_test(maps),    cmocka_unit_test(hardness),
+        cmocka_unit_test(coatings),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

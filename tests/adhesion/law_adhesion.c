@@ -1,0 +1,468 @@
+/* What every state of adhesion obeys: its error is known, it is stable, it costs what it is said to cost, units
+ * and mirrors change nothing else, loads and sums agree, and a path is what it is whatever the threads. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "adhesion_case.h"
+
+enum {
+    MOST = 128 * 128
+};
+static double h[MOST], p[MOST], exact[MOST];
+
+/* Rough, of slope 0.1, waves from 8 nodes up; on the free boundary on a dome. Lengths in nodes. */
+static struct rc_shape
+rough(size_t n, uint64_t seed, bool dome)
+{
+    const struct rc_shape shape = {n, n, 1, 1};
+    const struct rc_selfaffine what = {
+        .hurst = 0.8, .rms_slope = 0.1, .short_cut = 8, .rolloff = (double)n / 4, .seed = seed};
+
+    assert_int_equal(rc_synth_selfaffine(&shape, &what, h, &adhesion_err), RC_OK);
+    for (size_t k = 0; k < n * n && dome; k++) {
+        double x = ((double)(k % n) - (double)(n - 1) / 2) / (double)n;
+        double y = ((double)(k / n) - (double)(n - 1) / 2) / (double)n;
+        h[k] -= 0.3 * (double)n * (x * x + y * y);
+    }
+    return shape;
+}
+
+/* How deep the surface is below its top, on average. */
+static double
+depth(size_t n)
+{
+    double top = -INFINITY;
+
+    for (size_t k = 0; k < n * n; k++)
+        top = fmax(top, h[k]);
+    return top - rc_sum(h, n * n) / (double)(n * n);
+}
+
+/* E* is 1: the exponential law of this strength and cohesive length in nodes. */
+static struct rc_adhesion_problem
+law_of(enum rc_boundary boundary, double strength, double ell, double tol)
+{
+    return (struct rc_adhesion_problem){
+        .contact = {.boundary = boundary, .pair.estar = 1, .tol = tol, .max_iterations = 3000},
+        .work = ell * strength * strength,
+        .range = ell * strength};
+}
+
+static int
+by_size(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+
+    return (x > y) - (x < y);
+}
+
+/* ---- the certificate ---- */
+
+static void
+errors_are_known(void **state)
+{
+    const double ells[] = {1.5, 3, 6}, tols[] = {9e-4, 1e-4};
+    double part[128];
+    size_t n = 0, nodes = 48;
+
+    (void)state;
+    for (size_t k = 0; k < 48; k++) {
+        bool dome = k % 2 == 1;
+        enum rc_boundary boundary = dome ? RC_FREE : RC_PERIODIC;
+        struct rc_shape shape = rough(nodes, 100 + k, dome);
+        double strength = k / 2 % 2 ? 0.1 : 0.05, ell = ells[k / 4 % 3];
+        double approach = dome ? 0.02 * (double)nodes * (double)(k / 12 % 3)
+                               : depth(nodes) * (0.3 + 0.25 * (double)(k / 12 % 3));
+        struct rc_adhesion_problem problem =
+            law_of(boundary, strength, ell, k / 2 % 3 == 0 ? tols[0] : tols[1]);
+        struct rc_adhesion *a = adhesion_new(shape, h, problem);
+        const struct rc_adhesion_figures *f = adhesion_to_approach(a, approach);
+        double told = f->pressure_error;
+
+        assert_true(f->converged && f->stable);
+        rc_adhesion_pressure(a, p);
+        rc_adhesion_free(a);
+        problem.contact.tol = 1e-11;
+        a = adhesion_new(shape, h, problem);
+        f = adhesion_to_approach(a, approach);
+        assert_true(f->converged && f->stable);
+        assert_true(f->kkt_residual < 1e-10);
+        rc_adhesion_pressure(a, exact);
+        rc_adhesion_free(a);
+        part[n++] = told / adhesion_distance(nodes * nodes, p, exact);
+    }
+    qsort(part, n, sizeof *part, by_size);
+    print_message("estimate over error, %zu problems: %.2f, 5 %% %.2f, %.2f, 95 %% %.2f, %.2f\n", n,
+                  part[0], part[n / 20], part[n / 2], part[n - 1 - n / 20], part[n - 1]);
+    assert_true(part[0] >= 0.8);
+    assert_true(part[n / 20] >= 1);
+    assert_true(part[n - 1 - n / 20] <= 5);
+}
+
+/* ---- stability ---- */
+
+/* In and out again by approach, on ten surfaces: every state is stable, or it is not said to be found. */
+static void
+paths_are_stable(void **state)
+{
+    size_t states = 0, jumps = 0;
+    double least = INFINITY;
+
+    (void)state;
+    for (size_t k = 0; k < 10; k++) {
+        bool dome = k % 2 == 1;
+        size_t nodes = 32;
+        struct rc_shape shape = rough(nodes, 7 + k, dome);
+        struct rc_adhesion *a = adhesion_new(
+            shape, h, law_of(dome ? RC_FREE : RC_PERIODIC, 0.1, k < 5 ? 3 : 1.5, 1e-4));
+        double from = -1, to = dome ? 1 : 0.7 * depth(nodes);
+
+        for (int s = 0; s <= 16; s++) {
+            const struct rc_adhesion_figures *f =
+                adhesion_to_approach(a, from + (to - from) * (s <= 8 ? s : 16 - s) / 8);
+            assert_true(f->converged && f->stable && f->stability > 0);
+            least = fmin(least, f->stability);
+            jumps += f->jumps;
+            states++;
+        }
+        rc_adhesion_free(a);
+    }
+    print_message("%zu states, least eigenvalue %.2g, %zu jumps\n", states, least, jumps);
+    assert_true(jumps > 0);
+}
+
+/* The eigenvalue against that of the whole matrix (A - D) K_FF, by inverse iteration on small maps: here the
+ * dense matrices are made by pressing one node at a time. */
+static void
+eigenvalues_are_right(void **state)
+{
+    enum {
+        SIDE = 14,
+        NODES = SIDE * SIDE
+    };
+    static double K[NODES][NODES], A[NODES][NODES], M[NODES][NODES], unit[NODES], u[NODES],
+        gap[NODES];
+    const struct rc_pair pair = {.estar = 1};
+    const struct rc_conv_options options = {.boundary = RC_PERIODIC};
+
+    (void)state;
+    for (size_t k = 0; k < 4; k++) {
+        struct rc_shape shape = {SIDE, SIDE, 1, 1};
+        const double strength = 0.15, ell = 3, work = ell * strength * strength,
+                     range = ell * strength;
+        for (size_t i = 0; i < NODES; i++) {
+            double x = 2 * exact_pi * ((double)(i % SIDE) + 0.3) / SIDE;
+            double y = 2 * exact_pi * ((double)(i / SIDE) + 0.1) / SIDE;
+            h[i] = 0.4 * (cos(x) + cos(y) + 0.4 * cos(2 * x + y + (double)k));
+        }
+        struct rc_adhesion *a = adhesion_new(shape, h, law_of(RC_PERIODIC, strength, ell, 1e-10));
+        const struct rc_adhesion_figures *f =
+            adhesion_to_approach(a, depth(SIDE) * (0.1 + 0.2 * (double)k));
+        struct rc_conv *conv = rc_conv_new(&shape, &pair, &options, &adhesion_err);
+        size_t at[NODES], n = 0;
+        double low, high;
+
+        assert_non_null(conv);
+        rc_adhesion_gap(a, gap);
+        for (size_t i = 0; i < NODES; i++)
+            if (gap[i] > 0)
+                at[n++] = i;
+        for (size_t i = 0; i < NODES; i++) {
+            memset(unit, 0, sizeof unit);
+            unit[i] = 1;
+            rc_conv_apply(conv, unit, u);
+            for (size_t j = 0; j < NODES; j++)
+                K[i][j] = u[j];
+        }
+        rc_conv_free(conv);
+        /* A = (K + 11')^-1 - 11'/N^2, by Gauss and Jordan; K kills the mean */
+        for (size_t i = 0; i < NODES; i++)
+            for (size_t j = 0; j < NODES; j++) {
+                M[i][j] = K[i][j] + 1.0;
+                A[i][j] = i == j;
+            }
+        for (size_t c = 0; c < NODES; c++) {
+            size_t pivot = c;
+            for (size_t i = c; i < NODES; i++)
+                if (fabs(M[i][c]) > fabs(M[pivot][c]))
+                    pivot = i;
+            for (size_t j = 0; j < NODES; j++) {
+                double x = M[c][j], y = A[c][j];
+                M[c][j] = M[pivot][j];
+                A[c][j] = A[pivot][j];
+                M[pivot][j] = x;
+                A[pivot][j] = y;
+            }
+            double by = M[c][c];
+            for (size_t j = 0; j < NODES; j++) {
+                M[c][j] /= by;
+                A[c][j] /= by;
+            }
+            for (size_t i = 0; i < NODES; i++) {
+                double factor = M[i][c];
+                for (size_t j = 0; j < NODES && i != c; j++) {
+                    M[i][j] -= factor * M[c][j];
+                    A[i][j] -= factor * A[c][j];
+                }
+            }
+        }
+        for (size_t i = 0; i < NODES; i++)
+            for (size_t j = 0; j < NODES; j++)
+                A[i][j] -= 1.0 / NODES / NODES;
+        /* the smallest eigenvalue of P K P (A - D) P, P taking off the mean, by powers of 1 less part of it */
+        static double x[NODES], y[NODES], z[NODES];
+        double norm = 0, is = 0;
+        for (size_t i = 0; i < n; i++)
+            x[i] = sin(1.0 + (double)(i * i));
+        for (int step = 0; step < 4000; step++) {
+            double mean = 0;
+            for (size_t i = 0; i < n; i++)
+                mean += x[i] / (double)n;
+            for (size_t i = 0; i < n; i++)
+                x[i] -= mean;
+            mean = 0;
+            for (size_t i = 0; i < n; i++) {
+                y[i] = -work / range / range * exp(-gap[at[i]] / range) * x[i];
+                for (size_t j = 0; j < n; j++)
+                    y[i] += A[at[i]][at[j]] * x[j];
+                mean += y[i] / (double)n;
+            }
+            for (size_t i = 0; i < n; i++)
+                y[i] -= mean;
+            mean = 0;
+            for (size_t i = 0; i < n; i++) {
+                z[i] = 0;
+                for (size_t j = 0; j < n; j++)
+                    z[i] += K[at[i]][at[j]] * y[j];
+                mean += z[i] / (double)n;
+            }
+            low = high = norm = 0;
+            for (size_t i = 0; i < n; i++) {
+                z[i] -= mean;
+                low += y[i] * z[i];  /* mu^2 x'W x */
+                high += y[i] * x[i]; /* mu x'W x   */
+            }
+            is = low / high;
+            /* eigenvalues of K A on a part of the nodes are at most some 10 */
+            for (size_t i = 0; i < n; i++) {
+                x[i] = x[i] - z[i] / 6;
+                norm += x[i] * x[i];
+            }
+            for (size_t i = 0; i < n; i++)
+                x[i] /= sqrt(norm);
+        }
+        print_message("%zu nodes apart: %.4f, dense %.4f\n", n, f->stability, is);
+        /* from above, and told when its bound of error is below a fifth */
+        assert_true(f->stability > is - 1e-4 && 0.8 * f->stability < is + 1e-4);
+        rc_adhesion_free(a);
+    }
+}
+
+/* ---- what it costs ---- */
+
+/* Convolutions from undeformed bodies to true errors of 1e-2, 1e-4 and 1e-6, at most 1.2 times those that were
+ * measured with another program: periodic, mean gap given, and a sphere. */
+static const struct {
+    size_t n;
+    double strength, ell, contact, counts[3];
+} costs[] = {
+    {64, 0.05, 8, 0.41, {12, 18, 24}}, {64, 0.1, 4, 0.38, {18, 27, 34}},
+    {64, 0.1, 1, 0.62, {36, 60, 74}},  {128, 0.05, 8, 0.25, {20, 32, 44}},
+    {128, 0.1, 2, 0.64, {40, 54, 65}},
+};
+
+static void
+costs_are_known(void **state)
+{
+    const double levels[] = {1e-2, 1e-4, 1e-6};
+
+    (void)state;
+    for (size_t k = 0; k < sizeof costs / sizeof *costs; k++) {
+        size_t n = costs[k].n;
+        struct rc_shape shape = rough(n, 1, false);
+        double low = 0, high = depth(n) * 0.999, approach = 0, at[3] = {0};
+        struct rc_adhesion_problem problem =
+            law_of(RC_PERIODIC, costs[k].strength, costs[k].ell, 1e-3);
+        struct rc_adhesion *a;
+        enum rc_status status;
+
+        for (int half = 0; half < 12; half++) {
+            double is;
+            approach = (low + high) / 2;
+            a = adhesion_new(shape, h, problem);
+            is = adhesion_to_approach(a, approach)->contact_fraction;
+            rc_adhesion_free(a);
+            if (fabs(is - costs[k].contact) < 0.01)
+                break;
+            if (is < costs[k].contact)
+                low = approach;
+            else
+                high = approach;
+        }
+        problem.contact.tol = 1e-11;
+        a = adhesion_new(shape, h, problem);
+        assert_true(adhesion_to_approach(a, approach)->converged);
+        rc_adhesion_pressure(a, exact);
+        rc_adhesion_free(a);
+        a = adhesion_new(shape, h, problem);
+        assert_int_equal(rc_adhesion_set_approach(a, approach, &adhesion_err), RC_OK);
+        do {
+            double error;
+            status = rc_adhesion_step(a, &adhesion_err);
+            rc_adhesion_pressure(a, p);
+            error = adhesion_distance(n * n, p, exact);
+            for (size_t q = 0; q < 3; q++)
+                at[q] = error >= levels[q] ? 0
+                        : at[q] > 0        ? at[q]
+                                           : rc_adhesion_result(a)->convolutions;
+        } while (status == RC_MORE && !(at[2] > 0 && at[2] < rc_adhesion_result(a)->convolutions));
+        print_message("%zu nodes a side, ell %g: %g / %g / %g (%g / %g / %g)\n", n, costs[k].ell,
+                      at[0], at[1], at[2], costs[k].counts[0], costs[k].counts[1],
+                      costs[k].counts[2]);
+        for (size_t q = 0; q < 3; q++)
+            assert_true(at[q] > 0 && at[q] <= 1.2 * costs[k].counts[q]);
+        rc_adhesion_free(a);
+    }
+}
+
+/* ---- symmetries, sums ---- */
+
+static void
+sums_agree(void **state)
+{
+    const size_t n = 40;
+    static double gap[MOST], u[MOST], s[MOST], ku[MOST];
+
+    (void)state;
+    for (int dome = 0; dome < 2; dome++) {
+        enum rc_boundary boundary = dome ? RC_FREE : RC_PERIODIC;
+        struct rc_shape shape = rough(n, 5, dome);
+        struct rc_adhesion *a = adhesion_new(shape, h, law_of(boundary, 0.1, 3, 1e-9));
+        const struct rc_adhesion_figures *f = adhesion_to_approach(a, dome ? 0.5 : 0.5 * depth(n));
+        const struct rc_pair pair = {.estar = 1};
+        const struct rc_conv_options options = {.boundary = boundary};
+        struct rc_conv *conv = rc_conv_new(&shape, &pair, &options, &adhesion_err);
+        double top = -INFINITY, worst = 0, size = 0, repulsive = 0, load;
+
+        assert_non_null(conv);
+        rc_adhesion_pressure(a, p);
+        rc_adhesion_gap(a, gap);
+        rc_adhesion_displacement(a, u);
+        rc_adhesion_traction(a, s);
+        rc_conv_apply(conv, p, ku);
+        rc_conv_free(conv);
+        for (size_t k = 0; k < n * n; k++)
+            top = fmax(top, h[k]);
+        for (size_t k = 0; k < n * n; k++) {
+            assert_true(gap[k] >= 0);
+            worst = fmax(worst, fabs(u[k] - ku[k]));
+            worst = fmax(worst, fabs(u[k] - h[k] - (f->approach - top) - gap[k]));
+            size = fmax(size, fabs(ku[k]));
+            repulsive += gap[k] == 0 ? p[k] + s[k] : 0;
+            if (gap[k] > 0)
+                assert_true(fabs(p[k] + s[k]) <= 1e-8 * 0.1);
+            else
+                assert_true(p[k] + s[k] >= -1e-8 * 0.1);
+        }
+        assert_true(worst <= 1e-10 * size);
+        assert_true(fabs(rc_sum(p, n * n) - f->load) <= summed * f->attractive_load);
+        assert_true(fabs(f->repulsive_load - f->attractive_load - f->load) <=
+                    summed * f->attractive_load);
+        assert_true(fabs(repulsive - f->repulsive_load) <= 1e-7 * f->attractive_load);
+        load = f->load;
+        /* the same state by its load, where it is stable under that too */
+        memcpy(exact, p, sizeof p);
+        f = adhesion_to_load(a, load);
+        rc_adhesion_pressure(a, p);
+        print_message("stability under the load %.3g\n", f->stability);
+        if (f->jumps == 0)
+            assert_true(adhesion_distance(n * n, p, exact) <= 1e-7);
+        rc_adhesion_free(a);
+    }
+}
+
+/* Twelve decades of units, and a mirror. */
+static void
+units_and_mirrors(void **state)
+{
+    const size_t n = 32;
+    static double scaled[MOST], q[MOST];
+
+    (void)state;
+    for (int c = 0; c < 3; c++) {
+        const double length[] = {1, 1e-9, 1e3}, modulus[] = {1, 1e11, 1e-2};
+        struct rc_shape shape = rough(n, 3, true), other = shape;
+        struct rc_adhesion_problem problem = law_of(RC_FREE, 0.1, 2, 1e-8);
+        struct rc_adhesion *a = adhesion_new(shape, h, problem);
+        const struct rc_adhesion_figures *f = adhesion_to_approach(a, 0.3);
+
+        assert_true(f->converged);
+        rc_adhesion_pressure(a, p);
+        rc_adhesion_free(a);
+        for (size_t k = 0; k < n * n; k++)
+            scaled[k] = h[k / n * n + (c > 0 ? n - 1 - k % n : k % n)] * length[c];
+        other.dx = other.dy = length[c];
+        problem.work *= modulus[c] * length[c];
+        problem.range *= length[c];
+        problem.contact.pair.estar = modulus[c];
+        problem.contact.threads = c == 0 ? 1 : 0;
+        a = adhesion_new(other, scaled, problem);
+        f = adhesion_to_approach(a, 0.3 * length[c]);
+        assert_true(f->converged);
+        rc_adhesion_pressure(a, q);
+        rc_adhesion_free(a);
+        for (size_t k = 0; k < n * n; k++)
+            scaled[k] = q[k / n * n + (c > 0 ? n - 1 - k % n : k % n)] / modulus[c];
+        if (c == 0)
+            assert_memory_equal(scaled, p, n * n * sizeof *p); /* whatever the threads */
+        else
+            assert_true(adhesion_distance(n * n, scaled, p) <= 1e-7);
+    }
+}
+
+/* A path that goes on from its pressure and approach goes on as it would have. */
+static void
+paths_resume(void **state)
+{
+    const size_t n = 40;
+
+    (void)state;
+    for (int dome = 0; dome < 2; dome++) {
+        struct rc_shape shape = rough(n, 11, dome);
+        struct rc_adhesion_problem problem = law_of(dome ? RC_FREE : RC_PERIODIC, 0.1, 3, 1e-8);
+        struct rc_adhesion *a = adhesion_new(shape, h, problem),
+                           *b = adhesion_new(shape, h, problem);
+        double deep = dome ? 0.8 : 0.7 * depth(n);
+
+        (void)adhesion_to_approach(a, deep);
+        rc_adhesion_pressure(a, exact);
+        assert_int_equal(
+            rc_adhesion_start(b, exact, rc_adhesion_result(a)->approach, &adhesion_err), RC_OK);
+        (void)adhesion_to_approach(a, deep / 2);
+        (void)adhesion_to_approach(b, deep / 2);
+        rc_adhesion_pressure(a, exact);
+        rc_adhesion_pressure(b, p);
+        assert_true(adhesion_distance(n * n, p, exact) <= 1e-6);
+        rc_adhesion_free(a);
+        rc_adhesion_free(b);
+    }
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(errors_are_known),
+        cmocka_unit_test(paths_are_stable),
+        cmocka_unit_test(eigenvalues_are_right),
+        cmocka_unit_test(costs_are_known),
+        cmocka_unit_test(sums_agree),
+        cmocka_unit_test(units_and_mirrors),
+        cmocka_unit_test(paths_resume),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
