@@ -400,6 +400,8 @@ finish(struct rc_adhesion *a, bool converged)
 {
     a->stage = STAGE_DONE;
     a->converged = converged;
+    if (a->begun && a->jumps == 0 && !a->separated)
+        a->jumps = rc_gap_jumped(&a->gap);
     a->begun = true;
     a->mu[a->control] = a->judged > 0 ? fmax(a->gap.mu, single) : 0;
     return converged ? RC_OK : RC_SHORT;
@@ -555,8 +557,8 @@ lowest_of(const struct retraction *p, double *at, bool *jumped)
     double bend = (left - right) / (l->c - r->c), slope, c;
 
     *at = m->c;
-    *jumped = r->jumps > 0 || fabs(r->attraction - m->attraction) >
-                                  4 * fabs(m->attraction - l->attraction) + settled * m->attraction;
+    *jumped = fabs(r->attraction - m->attraction) >
+              4 * fabs(m->attraction - l->attraction) + settled * m->attraction;
     if (*jumped || !(bend > 0))
         return m->load;
     slope = left - bend * (l->c - m->c);

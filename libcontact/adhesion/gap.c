@@ -612,21 +612,26 @@ line_minimum(struct rc_gap *g, struct line *l, double most)
 
 /* Takes the step that `trial` and d stand for, shortened until Phi does not rise. */
 static void
-go(struct rc_gap *g)
+go(struct rc_gap *g, struct line *l)
 {
     double sums[RC_GAP_SUMS];
 
     for (int k = 0; k < SHORTEN; k++, g->trial *= shorter) {
-        double rounding;
+        double rounding, up;
         rc_gap_rows(g, clip_row, sums);
         if (sums[0] == 0) {
+            if (k > 0)
+                look(g, l, g->trial);
+            g->fall -= l->phi;
             rc_gap_rows(g, take_whole_row, sums);
             return;
         }
         g->restart = sums[0] > clipped_anew * (double)g->free;
         if (g->control == RC_GAP_MEAN)
             keep_mean(g, sums[1], sums[2]);
-        if (rise(g, &rounding) <= rounding) {
+        up = rise(g, &rounding);
+        if (up <= rounding) {
+            g->fall -= up;
             rc_gap_rows(g, take_step_row, sums);
             return;
         }
@@ -749,7 +754,7 @@ rc_gap_move(struct rc_gap *g)
     if (g->stuck)
         return;
     g->trial = line_minimum(g, &line, longest(g));
-    go(g);
+    go(g, &line);
     g->parting = g->control == RC_GAP_LOAD && g->given < 0 && g->mean_d > 0 &&
                  nearest(g) > 20 * g->law.range;
 }
@@ -823,6 +828,17 @@ shift(struct rc_gap *g, double by)
     }
 }
 
+/* Where a state begins, and the slope of Phi there, that of held nodes too. */
+static void
+keep_row(struct rc_gap *g, size_t j, double *sums)
+{
+    (void)sums;
+    for (size_t k = j * g->px; k < (j + 1) * g->px; k++) {
+        g->start[k] = (float)g->x[k];
+        g->slope[k] = (float)g->r[k];
+    }
+}
+
 void
 rc_gap_begin(struct rc_gap *g, enum rc_gap_control control, double given)
 {
@@ -853,11 +869,33 @@ rc_gap_begin(struct rc_gap *g, enum rc_gap_control control, double given)
     memset(g->d, 0, g->n * sizeof *g->d);
     memset(g->ad, 0, g->n * sizeof *g->ad);
     find_au(g);
+    g->fall = 0;
+    rc_gap_rows(g, residual_row, sums);
+    rc_gap_rows(g, keep_row, sums);
+}
+
+static void
+way_row(struct rc_gap *g, size_t j, double *sums)
+{
+    for (size_t k = j * g->px; k < (j + 1) * g->px; k++) {
+        double way = g->x[k] - (double)g->start[k];
+        sums[0] += (double)g->slope[k] * way;
+        sums[1] += fabs((double)g->slope[k] * way);
+    }
+}
+
+bool
+rc_gap_jumped(struct rc_gap *g)
+{
+    double sums[RC_GAP_SUMS];
+
+    rc_gap_rows(g, way_row, sums);
+    return g->fall > -sums[0] + single * sums[1];
 }
 
 enum {
     DOUBLES = 7,
-    FLOATS = 9
+    FLOATS = RC_GAP_FLOATS
 };
 
 enum rc_status
@@ -884,6 +922,8 @@ rc_gap_new(struct rc_gap *g, struct rc_whole *whole, const struct rc_attraction 
         all &= (*room[k] = rc_alloc(n, sizeof(double))) != NULL;
     for (size_t k = 0; k < FLOATS; k++)
         all &= (g->e[k] = rc_alloc(n, sizeof(float))) != NULL;
+    g->start = g->e[FLOATS - 2];
+    g->slope = g->e[FLOATS - 1];
     g->off = rc_alloc(n, 1);
     g->sums = rc_alloc(g->py * RC_GAP_SUMS, sizeof *g->sums);
     if (all && g->off != NULL && g->sums != NULL)
@@ -935,7 +975,7 @@ rc_gap_down(struct rc_gap *g, double first)
         a *= 2;
     }
     g->trial = a;
-    go(g);
+    go(g, &line);
     g->restart = true;
     g->rz = 0;
     g->stuck = false;

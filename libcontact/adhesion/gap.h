@@ -25,7 +25,8 @@ enum rc_gap_control {
 
 enum {
     RC_GAP_SUMS = 12,
-    RC_GAP_LINE = 512 /* nodes of a row that a law is asked for together, at most */
+    RC_GAP_FLOATS = 11, /* maps in single precision */
+    RC_GAP_LINE = 512   /* nodes of a row that a law is asked for together, at most */
 };
 
 struct rc_gap {
@@ -59,10 +60,12 @@ struct rc_gap {
     bool stuck;         /* no step goes down any more                            */
     bool parting;       /* drawn apart, with nothing left to hold                */
     double trial;       /* of a row's work: the length of the step               */
+    float *start, *slope; /* where the state began: x, and the slope of Phi                  */
+    double fall;          /* of Phi since                                                    */
     double convolutions;
     size_t iterations;
     /* of the eigenvector: x, K^-1 x, (A - D) x; the same of the residual and of the direction */
-    float *e[9];
+    float *e[RC_GAP_FLOATS];
     double mu, mu_error; /* smallest eigenvalue, and how far one is at most      */
     bool known;          /* e[1] holds an eigenvector of the last state           */
     size_t eigen_steps;
@@ -82,6 +85,9 @@ void rc_gap_begin(struct rc_gap *g, enum rc_gap_control control, double given);
 /* The way down from here, and with it what the pressure is off; and a step along it. */
 void rc_gap_look(struct rc_gap *g);
 void rc_gap_move(struct rc_gap *g);
+/* Whether the straight way from where the state began leads over a place that is not convex: Phi has fallen by
+ * more than its slope there allows. */
+bool rc_gap_jumped(struct rc_gap *g);
 /* c of the state: the mean of u less that of x and h. */
 double rc_gap_shift(const struct rc_gap *g);
 /* p of node k of the grid. */
