@@ -815,7 +815,9 @@ struct rc_adhesion_figures {
     double stability;
     bool stable;    /* stability > 0, as far as it has been found */
     bool separated; /* under the load that was set the bodies part, and nothing stops them */
-    size_t jumps;   /* unstable states that were passed on the way from the state before  */
+    /* Places on the way from the state before where nothing resisted: the path of stable states had ended
+     * there. Found by the curvatures that the iteration meets; some in a row may count once */
+    size_t jumps;
     /* The lowest load of the retraction that rc_adhesion_pull_off asked for, N, at which approach, m, and
      * how much of the load it may be off: its last change, or what the jumps beside it leave open */
     double pull_off_load, pull_off_approach, pull_off_spread;
@@ -823,7 +825,7 @@ struct rc_adhesion_figures {
     size_t iterations;  /* steps in the gap                                                      */
     size_t eigen_steps; /* steps for the stability                                               */
     double convolutions; /* equivalents of one in double precision on this grid, padded if free   */
-    double gap_error;    /* m: never below 0, and above it where p + sigma > 0 off contact: 0     */
+    double gap_error;    /* m: the largest correction K r of the gap that is still to come        */
     double
         kkt_residual; /* the worst |p + sigma| off contact, or p + sigma < 0 in it, over sigma(0) */
     double pressure_error; /* estimated relative L1 error of p                                    */
@@ -854,11 +856,12 @@ RC_API enum rc_status rc_adhesion_start(struct rc_adhesion *a, const double *pre
  * stopped short of tol or the bodies part; RC_FAIL when nothing has been set. */
 RC_API enum rc_status rc_adhesion_step(struct rc_adhesion *a, struct rc_err *err);
 struct rc_adhesion_progress {
-    size_t state;         /* of a retraction, from 1                                            */
-    size_t iterations;    /* of this state                                                      */
-    bool eigenvalue;      /* its stability is being found                                       */
-    double load, error;   /* N as it is, and the estimated error of the pressure, NAN at first  */
-    double approach, tol; /* m; asked                                                           */
+    size_t state;      /* of a retraction, from 1                                            */
+    size_t iterations; /* of this state                                                      */
+    bool eigenvalue;   /* its stability is being found                                       */
+    double load;       /* N, that was set; NAN: an approach was                              */
+    double approach;   /* m, that was set, also in a retraction; NAN: a load was             */
+    double error, tol; /* estimated error of the pressure, NAN at first; the one asked for   */
 };
 RC_API void rc_adhesion_progress(const struct rc_adhesion *a,
                                  struct rc_adhesion_progress *progress);
@@ -871,8 +874,9 @@ RC_API void rc_adhesion_pressure(const struct rc_adhesion *a, double *pressure);
 RC_API void rc_adhesion_gap(const struct rc_adhesion *a, double *gap);
 RC_API void rc_adhesion_displacement(const struct rc_adhesion *a, double *displacement);
 RC_API void rc_adhesion_traction(const struct rc_adhesion *a, double *traction);
-/* Where the hardness was reached: heights that are left when the bodies are taken apart, nx ny m. They
- * are those of the path from here on, without effect where nothing has yielded. */
+/* Where the hardness was reached: what stood into the other body is gone, from the heights of the path from here
+ * on and from h, nx ny m (or NULL), those that the path began with less what has gone before. Without
+ * effect where nothing has yielded. rc_adhesion_pull_off begins with it. */
 RC_API void rc_adhesion_keep_shape(struct rc_adhesion *a, double *h);
 RC_API void rc_adhesion_free(struct rc_adhesion *a); /* NULL is allowed */
 /* Bytes that one takes; 0 when there is none such. */

@@ -808,7 +808,8 @@ at_edge(const struct rc_adhesion *a)
     return s / g->law.strength;
 }
 
-/* Sums of a row: p, sigma, its area, nodes in contact, below 0, the gap, and the extremes. */
+/* Sums of a row: p, sigma, its area, nodes in contact, below 0, the gap; extremes of p and -p; the largest
+ * violation, and correction of the gap. */
 static void
 figures_row(struct rc_gap *g, size_t j, double *sums)
 {
@@ -836,6 +837,7 @@ figures_row(struct rc_gap *g, size_t j, double *sums)
             else if (x[k] == 0)
                 wrong = fmin(wrong, 0) + fmax(wrong - hard, 0);
             sums[8] = fmax(sums[8], fabs(wrong));
+            sums[9] = fmax(sums[9], fabs(g->z[j * g->px + i + k]));
         }
     }
 }
@@ -878,6 +880,7 @@ find_figures(struct rc_adhesion *a)
     f->max_pressure = most_of(g, 6) * e;
     f->min_pressure = -most_of(g, 7) * e;
     f->kkt_residual = most_of(g, 8) / g->law.strength;
+    f->gap_error = most_of(g, 9) * a->whole->length;
     f->approach = rc_gap_shift(g) * a->whole->length;
     f->stability = a->judged > 0 ? g->mu : NAN;
     f->stable = a->judged > 0 && g->mu > 0;
@@ -958,6 +961,12 @@ rc_adhesion_progress(const struct rc_adhesion *a, struct rc_adhesion_progress *p
         .state = a->pull.on ? a->pull.states + 1 : 1,
         .iterations = a->stage == STAGE_NEW ? 0 : g->iterations,
         .eigenvalue = a->stage == STAGE_EIGEN,
+        .load = a->control == RC_GAP_LOAD && a->held
+                    ? a->given * (double)g->n * a->shape.dx * a->shape.dy * a->whole->modulus
+                    : NAN,
+        .approach = a->control == RC_GAP_LOAD || !a->held ? NAN
+                    : a->control == RC_GAP_SHIFT          ? a->given * a->whole->length
+                                                 : (-a->given - a->mean_h) * a->whole->length,
         .error = a->stage == STAGE_NEW || isinf(g->error) ? NAN : estimate(a),
         .tol = a->tol};
 }

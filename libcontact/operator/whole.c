@@ -88,7 +88,7 @@ see_column(void *ctx, size_t i, size_t n, double *column)
             least = fmin(least, column[j]);
             most = fmax(most, column[j]);
         }
-#pragma omp critical(rc_whole_extremes)
+#pragma omp critical
     {
         e->least = fmin(e->least, least);
         e->most = fmax(e->most, most);

@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include "adhesion_case.h"
+#include "libcontact/adhesion/law.h"
 
 enum {
     MOST = 128 * 128
@@ -100,6 +101,58 @@ errors_are_known(void **state)
     assert_true(part[0] >= 0.8);
     assert_true(part[n / 20] >= 1);
     assert_true(part[n - 1 - n / 20] <= 5);
+}
+
+/* ---- laws ---- */
+
+/* V' = sigma, D = -sigma', V(0) = -w, all by differences; sigma(0), the largest D and the reach are what they are
+ * said to be, and a range that is sought for a cohesive length has it. */
+static void
+laws_are_whole(void **state)
+{
+    enum {
+        POINTS = 4096
+    };
+    static double g[POINTS], v[POINTS], s[POINTS], d[POINTS];
+    const struct rc_adhesion_law_info *info;
+
+    (void)state;
+    for (size_t k = 0; (info = rc_adhesion_law_info(k)) != NULL; k++) {
+        const struct rc_adhesion_law *law = rc_adhesion_law_named(info->name);
+        struct rc_attraction a = {.law = law, .work = 0.037, .range = 0.41};
+        double step, most = 0, end, inside = 0;
+
+        assert_non_null(law);
+        law->set(&a, 1.12);
+        end = 1.2 * fmin(a.reach, 40 * a.range);
+        step = end / (POINTS - 64);
+        for (size_t i = 0; i < POINTS; i++)
+            g[i] = ((double)i - 32) * step;
+        law->at(&a, POINTS, g, v, s, d);
+        assert_true(fabs(v[32] + a.work) <= rounding * a.work);
+        assert_true(fabs(s[32] - a.strength) <= rounding * a.strength);
+        for (size_t i = 1; i + 1 < POINTS; i++) {
+            assert_true(s[i] >= 0 && d[i] >= 0 && v[i] <= 0);
+            if (g[i] < 0)
+                assert_true(fabs(s[i] - a.strength) <= rounding * a.strength && d[i] == 0);
+            assert_true(fabs((v[i + 1] - v[i - 1]) / (2 * step) - s[i]) <=
+                        a.steepest * step + rounding * a.strength);
+            if (i > 33) /* within what the largest slope can change */
+                assert_true(fabs(s[i - 1] - s[i] - (d[i - 1] + d[i]) / 2 * step) <=
+                            0.51 * a.steepest * step);
+            most = fmax(most, d[i]);
+            inside += s[i] * step * (g[i] > 0) + s[32] * step / 2 * (i == 32);
+        }
+        assert_true(fabs(most - a.steepest) <= 1e-2 * a.steepest);
+        assert_true(fabs(inside - a.work) <= 1e-4 * a.work);
+        if (end > a.reach)
+            assert_true(s[POINTS - 1] == 0 && v[POINTS - 1] == 0);
+        a.range = law->range(a.work, 2.3, 1.12);
+        law->set(&a, 1.12);
+        print_message("%s: sigma(0) %.3g, cohesive length %.3g\n", info->name, a.strength,
+                      1 / a.steepest);
+        assert_true(1 / a.steepest >= 2.2 && 1 / a.steepest <= 2.4);
+    }
 }
 
 /* ---- stability ---- */
@@ -455,13 +508,10 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(errors_are_known),
-        cmocka_unit_test(paths_are_stable),
-        cmocka_unit_test(eigenvalues_are_right),
-        cmocka_unit_test(costs_are_known),
-        cmocka_unit_test(sums_agree),
-        cmocka_unit_test(units_and_mirrors),
-        cmocka_unit_test(paths_resume),
+        cmocka_unit_test(laws_are_whole),    cmocka_unit_test(errors_are_known),
+        cmocka_unit_test(paths_are_stable),  cmocka_unit_test(eigenvalues_are_right),
+        cmocka_unit_test(costs_are_known),   cmocka_unit_test(sums_agree),
+        cmocka_unit_test(units_and_mirrors), cmocka_unit_test(paths_resume),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -256,6 +256,59 @@ CONTACT(to_an_approach, bare, .approach = 1e-7, .discretization = true)
 CONTACT(coated_contact, layered, .load = 1e-3)
 CONTACT(free_to_tilt, bare, .load = 1e-3, .tilt_free = true)
 
+/* ---- adhesion ---- */
+
+/* A state by approach, one by load from where another path was, and a retraction. */
+static enum rc_status
+adheres(double *out, struct rc_err *err)
+{
+    const struct rc_adhesion_problem problem = {
+        .contact = {.pair = bare, .tol = 1e-3, .threads = 1, .hardness_map = hardness},
+        .work = 1e-3};
+    struct rc_adhesion *a = NULL, *b = NULL;
+    struct rc_adhesion_progress progress;
+    struct rc_adhesion_scales scales;
+    struct rc_expected expected;
+    enum rc_status status = RC_FAIL;
+
+    if (rc_adhesion_check(&shape, &problem, &scales, err) != RC_OK ||
+        rc_adhesion_expect(&shape, &problem, &expected, err) != RC_OK ||
+        (a = rc_adhesion_new(&shape, rough, &problem, err)) == NULL ||
+        (b = rc_adhesion_new(&shape, rough, &problem, err)) == NULL ||
+        rc_adhesion_set_approach(a, 0, err) != RC_OK)
+        goto done;
+    while ((status = rc_adhesion_step(a, err)) == RC_MORE)
+        rc_adhesion_progress(a, &progress);
+    if (status == RC_FAIL)
+        goto done;
+    rc_adhesion_pressure(a, out);
+    rc_adhesion_gap(a, out + N);
+    status = RC_FAIL;
+    if (rc_adhesion_start(b, out, rc_adhesion_result(a)->approach, err) != RC_OK ||
+        rc_adhesion_set_load(b, 0, err) != RC_OK)
+        goto done;
+    while ((status = rc_adhesion_step(b, err)) == RC_MORE)
+        ;
+    if (status == RC_FAIL || (status = rc_adhesion_pull_off(a, err)) == RC_FAIL)
+        goto done;
+    while ((status = rc_adhesion_step(a, err)) == RC_MORE)
+        ;
+    if (status == RC_FAIL)
+        goto done;
+    rc_adhesion_displacement(b, out + 2 * N);
+    rc_adhesion_traction(b, out + 3 * N);
+    rc_adhesion_keep_shape(b, out + N);
+    out[4 * N] = rc_adhesion_result(a)->pull_off_load;
+    out[4 * N + 1] = (double)rc_adhesion_memory(&shape, &problem);
+    out[4 * N + 2] = rc_adhesion_scales(a)->range;
+    out[4 * N + 3] = rc_adhesion_law_info(0)->ranged;
+    status = RC_OK;
+done:
+    rc_adhesion_free(a);
+    rc_adhesion_free(b);
+    return status;
+}
+
 /* ---- stresses ---- */
 
 /* Goes on from its own state, as another would. */
@@ -572,6 +625,7 @@ static const struct {
     {.name = "contact, coated", .use = coated_contact},
     {.name = "contact, free to tilt", .use = free_to_tilt},
     {.name = "plasticity", .use = yields},
+    {.name = "adhesion", .use = adheres},
     {.name = "stress", .use = free_stress},
     {.name = "stress, periodic", .use = periodic_stress},
     {.name = "stress, direct", .use = direct_stress},
