@@ -38,7 +38,7 @@ static const struct word_unit { /* units that do not go by prefixes */
 const char *
 unit_name(enum unit unit)
 {
-    static const char *const names[] = {"", "m", "N", "Pa", "s", "bytes", "Pa"};
+    static const char *const names[] = {"", "m", "N", "Pa", "s", "bytes", "Pa", "J/m2"};
 
     return names[unit];
 }
@@ -46,8 +46,8 @@ unit_name(enum unit unit)
 const char *
 unit_usual(enum unit unit)
 {
-    static const char *const usual[] = {"",        "nm um mm m", "mN N kN",   "kPa MPa GPa",
-                                        "s min h", "M G",        "HV MPa GPa"};
+    static const char *const usual[] = {"",        "nm um mm m", "mN N kN",    "kPa MPa GPa",
+                                        "s min h", "M G",        "HV MPa GPa", "mJ/m2 J/m2"};
 
     return usual[unit];
 }
@@ -135,6 +135,9 @@ apply_unit(const char *digits, size_t length, const char *suffix, size_t n, enum
         *value *= 9.80665e6 / sin(68 * acos(-1) / 180);
         return true;
     }
+    if (unit == UNIT_WORK &&
+        (power_of(suffix, n, "J/m^2", &power) || power_of(suffix, n, "N/m", &power)))
+        return shift(digits, length, power, value);
     return unit_power(suffix, n, unit, &power) && shift(digits, length, power, value);
 }
 
@@ -213,6 +216,7 @@ unknown_unit(const char *suffix, size_t n, enum unit unit, bool per_metre, struc
                       prefix_list(list, sizeof list),
                       unit == UNIT_S      ? ", or min or h"
                       : unit == UNIT_HARD ? ", or HV"
+                      : unit == UNIT_WORK ? ", or N/m"
                                           : "");
 }
 

@@ -16,6 +16,7 @@ enum unit {
     UNIT_S,     /* seconds; also min and h  */
     UNIT_BYTES, /* bytes: 512M, 4G, 2GiB    */
     UNIT_HARD,  /* pascals; also 600HV      */
+    UNIT_WORK,  /* joules per square metre; also N/m */
 };
 
 struct numbers {
