@@ -12,6 +12,7 @@
 static const struct channel channels[] = {
     {"mises", "von Mises stress", "magma", .from_zero = true},
     {"pressure", "Contact pressure", "magma", .from_zero = true},
+    {"adhesion", "Traction of adhesion", "magma", .from_zero = true},
     {"hardness", "Hardness", "viridis", .from_zero = true},
     {"height", "Height", "viridis", .from_zero = false},
     {"gap", "Gap", "viridis", .from_zero = true},
@@ -51,6 +52,10 @@ channel_of(const struct rc_grid *g, const struct survey *s)
             c.colormap = "magma"; /* colours about 0 are for what lies on both sides of it */
             c.from_zero = s->max >= -s->min;
             c.to_zero = !c.from_zero;
+        } else if (strcmp(c.name, "pressure") == 0 && both) {
+            c.title = "Net pressure, tension negative"; /* bodies that attract each other */
+            c.colormap = "bluered";
+            c.from_zero = false;
         }
         return c;
     }

@@ -46,6 +46,10 @@ static const struct quantity {
     {"discretization_error_estimate", "Error of the grid", "1"},
     {"peak_memory", "Memory", "B"},
     {"depth", "Depth", "m"},
+    {"attractive_load", "Load of attraction", "N"},
+    {"repulsive_load", "Load of repulsion", "N"},
+    {"attractive_area", "Area of attraction", "m2"},
+    {"stability", "Stability", "1"},
     {"q", "Wavenumber", "rad/m"},
     {"c", "Power spectral density", "m4"},
 };
@@ -61,11 +65,13 @@ enum helper {
     CONVERGED,
     CASE,
     INDENTATION,
+    APPROACH,
+    JUMPS,
     HELPERS
 };
-static const char *const helper_name[HELPERS] = {
-    "nx", "ny", "dx", "dy", "estar", "radius", "converged", "case", "indentation"};
-static const char approach[] = "approach";
+static const char *const helper_name[HELPERS] = {"nx",          "ny",       "dx",        "dy",
+                                                 "estar",       "radius",   "converged", "case",
+                                                 "indentation", "approach", "jumps"};
 
 struct curves {
     struct tool *tool;
@@ -109,7 +115,7 @@ title_of(const struct curves *c, size_t k)
 {
     const char *name = c->column[k];
 
-    if (c->history && strcmp(name, approach) == 0)
+    if (c->history && strcmp(name, helper_name[APPROACH]) == 0)
         name = helper_name[INDENTATION];
     return quantity_of(name) == NULL ? name : quantity_of(name)->title;
 }
@@ -209,7 +215,7 @@ count_from_one_shape(struct curves *c, struct table *table)
     for (size_t k = 0; k < table->rows; k++)
         history = history || isfinite(from_first[k]);
     for (size_t k = 0; k < c->columns && history; k++)
-        if (strcmp(c->column[k], approach) == 0) {
+        if (strcmp(c->column[k], helper_name[APPROACH]) == 0) {
             memcpy(table->column[k].v, from_first, table->rows * sizeof *from_first);
             c->history = true;
         }
@@ -269,6 +275,61 @@ add_word(char name[NAME], const char *word)
     snprintf(name + n, NAME - n, "%s%s", n == 0 ? "" : ", ", word);
 }
 
+enum stretch {
+    LOADING,
+    RETRACTION,
+    JUMP,
+    STRETCHES
+};
+
+/* A stretch of a path; `place` is that of the first of its kind, which alone has a name. */
+static void
+add_stretch(struct curves *c, const double *x, const double *y, size_t n, enum stretch what,
+            const char *whose, size_t place[STRETCHES])
+{
+    static const char *const word[STRETCHES] = {"loading", "retraction", "jump"};
+    struct graph_series *s = new_series(c);
+    char *name = c->name[c->n - 1];
+
+    if (place[what] == SERIES) {
+        place[what] = s->place;
+        if (*whose != '\0')
+            add_word(name, whose);
+        add_word(name, word[what]);
+        s->name = name;
+    }
+    s->place = place[what];
+    s->kind = what == JUMP ? GRAPH_LAW : GRAPH_MARKS;
+    s->x = x;
+    s->y = y;
+    s->n = n;
+}
+
+/* The path of bodies that attract each other: together, apart, and between the two where they jump. */
+static void
+add_path(struct curves *c, const struct table *table, size_t k, size_t from, size_t to,
+         const char *whose)
+{
+    const double *at = helper(c, table, APPROACH), *jumps = helper(c, table, JUMPS);
+    const double *x = table->column[0].v, *y = table->column[k].v;
+    size_t place[STRETCHES] = {SERIES, SERIES, SERIES}, last;
+
+    for (size_t row = from;; row = last) {
+        for (last = row; last + 1 < to && !(jumps[last + 1] > 0); last++)
+            if (last > row && (at[last + 1] - at[last]) * (at[last] - at[last - 1]) < 0)
+                break; /* it turns: the point belongs to both ways */
+        add_stretch(c, x + row, y + row, last - row + 1,
+                    last > row ? at[last] < at[row] : row > from && at[row] < at[row - 1], whose,
+                    place);
+        if (last + 1 >= to)
+            return;
+        if (jumps[last + 1] > 0) {
+            add_stretch(c, x + last, y + last, 2, JUMP, whose, place);
+            last++;
+        }
+    }
+}
+
 static void
 add_curves(struct curves *c, const struct table *table)
 {
@@ -276,8 +337,8 @@ add_curves(struct curves *c, const struct table *table)
         for (size_t p = 0; p < table->pieces; p++) {
             size_t from = table->piece[p],
                    to = p + 1 < table->pieces ? table->piece[p + 1] : table->rows;
-            struct graph_series *s = new_series(c);
-            char *name = c->name[c->n - 1], text[64];
+            struct graph_series *s;
+            char name[NAME] = "", text[64];
             double number = helper(c, table, CASE)[from];
 
             if (c->tables > 1)
@@ -290,7 +351,13 @@ add_curves(struct curves *c, const struct table *table)
                 add_word(name, text);
             if (*name == '\0' && c->style->law != NULL)
                 add_word(name, base_name(table->source));
-            s->name = *name == '\0' ? NULL : name;
+            if (isfinite(helper(c, table, JUMPS)[from])) {
+                add_path(c, table, k, from, to, name);
+                continue;
+            }
+            s = new_series(c);
+            memcpy(c->name[c->n - 1], name, NAME);
+            s->name = *name == '\0' ? NULL : c->name[c->n - 1];
             s->kind = GRAPH_MARKS;
             s->x = table->column[0].v + from;
             s->y = table->column[k].v + from;
