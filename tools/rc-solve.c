@@ -34,6 +34,10 @@ static const struct opt opts[] = {
      .help = "of each load of a body that yields (default auto: to an error of 1 %)"},
     {.name = "slabs", .type = OPT_TEXT, AT(slabs), .result = true, .arg = "N|LIST|auto",
      .help = "in which it may yield, or their thicknesses, from the surface (default auto)"},
+    {.name = "adhesion", .type = OPT_TEXT, AT(adhesion), .result = true, .arg = "WORK[,LAW[,RANGE]]",
+     .help = "the bodies attract each other: 50mJ/m2, 50mJ/m2,exponential,2nm; a list is a path"},
+    {.name = "pull-off", .type = OPT_FLAG, AT(pull_off), .result = true,
+     .help = "after the last state draw the bodies apart, and find the lowest load"},
     {.name = "history", .type = OPT_FLAG, AT(physics.history), .result = true,
      .help = "the loads follow each other, each on the shape left by yield; 0 takes the bodies apart"},
     {.name = "kernel", .alias = "engine", .type = OPT_CHOICE, AT(kernel),
@@ -120,7 +124,7 @@ check_tilt(struct run *run)
         tool_die(&run->t, EXIT_USAGE,
                  "--tilt free: a periodic surface has no point that it could tilt about: leave out "
                  "--periodic");
-    if (run->tilt && a->history)
+    if (run->tilt && tool_given(&run->t, "history"))
         tool_die(&run->t, EXIT_USAGE,
                  "--tilt free: not with --history: the shapes that loads leave would tilt too");
 }
@@ -130,7 +134,8 @@ check_arguments(struct run *run)
 {
     if ((args.resume || tool_given(&run->t, "interval")) && args.checkpoint == NULL)
         tool_die(&run->t, EXIT_USAGE, "--resume and --interval need --checkpoint FILE");
-    args.physics.history |= args.yield != NULL; /* what has yielded stays */
+    args.physics.history |= args.yield != NULL || args.adhesion != NULL; /* each from the last */
+    args.physics.attracts = args.adhesion != NULL;
     physics_check(&run->t, &args.physics);
     run->args = &args;
     run->steps = physics_steps(&args.physics);
@@ -138,6 +143,7 @@ check_arguments(struct run *run)
     read_conductivity(run);
     check_tilt(run);
     yield_read(run);
+    adhesion_read(run);
     if (run->yielding.wanted && !tool_given(&run->t, "output"))
         args.output |= 1 << SOLVE_RESIDUAL;
 }

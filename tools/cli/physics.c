@@ -12,15 +12,15 @@
 
 #define AT(field) .at = offsetof(struct physics, field)
 #define ABOVE_0 .min = 0, .max = INFINITY, .above = true
-#define FROM_0 .min = 0, .max = INFINITY
+#define ANY .min = -INFINITY, .max = INFINITY
 /* clang-format off */
 const struct opt physics_options[] = {
-    {.name = "load", .type = OPT_NUMBERS, .unit = UNIT_N, AT(load), FROM_0, .result = true,
+    {.name = "load", .type = OPT_NUMBERS, .unit = UNIT_N, AT(load), ANY, .result = true,
      .per_metre = true, .arg = "LIST",
      .help = "total normal force: one, or a,b,c, a:b:n or a:b:log:n, each a case"},
-    {.name = "mean-pressure", .type = OPT_NUMBERS, .unit = UNIT_PA, AT(mean_pressure), FROM_0,
+    {.name = "mean-pressure", .type = OPT_NUMBERS, .unit = UNIT_PA, AT(mean_pressure), ANY,
      .result = true, .arg = "LIST", .help = "the load as a mean over the whole map, also a list"},
-    {.name = "approach", .type = OPT_NUMBERS, .unit = UNIT_M, AT(approach), FROM_0,
+    {.name = "approach", .type = OPT_NUMBERS, .unit = UNIT_M, AT(approach), ANY,
      .result = true, .arg = "LIST",
      .help = "instead of the load: how far to come together after first touch"},
     {.name = "estar", .type = OPT_NUMBER, .unit = UNIT_PA, AT(estar), ABOVE_0, .result = true,
@@ -59,8 +59,18 @@ check_steps(struct tool *t, const struct physics *a)
     const struct numbers *steps = physics_steps(a);
     const char *name = name_of_steps(a);
     bool rises = true;
+    char number[RC_NUMBER_SIZE];
 
-    for (size_t k = 0; k < steps->n; k++) {
+    for (size_t k = 0; k < steps->n && !a->attracts; k++) {
+        if (steps->v[k] < 0)
+            tool_die(t, EXIT_USAGE,
+                     "--%s %s %s: it must be at least 0: bodies that do not attract each other "
+                     "cannot be pulled",
+                     name, rc_number_text(number, steps->v[k]),
+                     steps->per_metre    ? "N/m"
+                     : a->load.n > 0     ? "N"
+                     : a->approach.n > 0 ? "m"
+                                         : "Pa");
         if (steps->v[k] == 0 && !a->history)
             tool_die(t, EXIT_USAGE, "--%s 0: it must be above 0%s", name,
                      steps->n > 1 ? ": 0 takes the bodies apart, in a --history" : "");

@@ -17,6 +17,7 @@ struct physics {
     struct rc_layer *layers; /* as numbers                                                        */
     struct rc_pair pair;     /* what all these say                                                */
     double surface_estar;    /* of the topmost material and body 2                               */
+    bool attracts;           /* loads and approaches may be of either sign, and 0                */
     bool history; /* a load acts on the shape that those before it have left, and may be 0 */
 };
 

@@ -62,8 +62,8 @@ set_number(struct run *run, struct rc_grid *g, const char *name, double value)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
 }
 
-static void
-set_keys(struct run *run, struct rc_grid *g, const struct rc_contact *c)
+void
+solve_set_keys(struct run *run, struct rc_grid *g, const struct rc_contact *c)
 {
     const struct rc_yield *law = &run->yielding.law;
     struct rc_err err;
@@ -134,10 +134,10 @@ find_result(struct run *run, struct results *r, struct rc_solver *solver, struct
     rc_solver_result(solver, r->displacement, gap ? r->buffer : NULL, c);
 }
 
-static void
-put(struct run *run, const struct results *r, enum solve_frame f, const double *v)
+void
+solve_put(struct run *run, const struct rc_grid *as, enum solve_frame f, const double *v)
 {
-    struct rc_grid frame = *r->as; /* as the reader of the stream sees it */
+    struct rc_grid frame = *as; /* as the reader of the stream sees it */
 
     if (!solve_wanted(run->args, (int)f))
         return;
@@ -153,7 +153,7 @@ put_plastic(struct run *run, const struct results *r, const double *h, const str
 {
     if (c->yielded_nodes > 0)
         set_number(run, r->as, HEIGHT_ERROR, c->shape_error);
-    put(run, r, SOLVE_PLASTIC, h);
+    solve_put(run, r->as, SOLVE_PLASTIC, h);
 }
 
 /* Frames that are no results of the contact itself: the heights, and what is left of them, and inside. solver
@@ -166,7 +166,7 @@ put_rest(struct run *run, const struct rc_grid *g, struct results *r, struct rc_
     struct rc_err err;
 
     r->as->type = g->type;
-    put(run, r, SOLVE_HEIGHT, g->v);
+    solve_put(run, r->as, SOLVE_HEIGHT, g->v);
     r->as->type = RC_F64;
     if (run->yielding.plastic != NULL || solver == NULL) {
         memcpy(r->buffer, g->v, nodes * sizeof *g->v);
@@ -179,7 +179,7 @@ put_rest(struct run *run, const struct rc_grid *g, struct results *r, struct rc_
     memset(r->buffer, 0, nodes * sizeof *r->buffer);
     yield_displace(run, nodes, 1, r->buffer);
     if (run->yielding.wanted)
-        put(run, r, SOLVE_RESIDUAL, r->buffer);
+        solve_put(run, r->as, SOLVE_RESIDUAL, r->buffer);
     if (run->yielding.wanted && solve_wanted(run->args, SOLVE_STRAIN))
         yield_put_strain(run, r->as, r->buffer);
 }
@@ -190,16 +190,16 @@ put_out(struct run *run, const struct rc_grid *g, struct results *r, struct rc_s
 {
     struct rc_contact again;
 
-    set_keys(run, r->as, c);
-    put(run, r, SOLVE_PRESSURE, rc_solver_pressure(solver));
-    put(run, r, SOLVE_GAP, r->buffer);
+    solve_set_keys(run, r->as, c);
+    solve_put(run, r->as, SOLVE_PRESSURE, rc_solver_pressure(solver));
+    solve_put(run, r->as, SOLVE_GAP, r->buffer);
     if (r->displacement == NULL && solve_wanted(run->args, SOLVE_DISPLACEMENT)) {
         r->displacement = r->buffer;
         rc_solver_result(solver, r->displacement, NULL, &again);
     }
     if (r->displacement != NULL)
         yield_displace(run, rc_grid_nodes(r->as), 1, r->displacement);
-    put(run, r, SOLVE_DISPLACEMENT, r->displacement);
+    solve_put(run, r->as, SOLVE_DISPLACEMENT, r->displacement);
     put_rest(run, g, r, solver, c);
 }
 
@@ -363,14 +363,14 @@ take_apart(struct run *run, const struct rc_grid *g)
     solve_judge(run, g, &s);
     solve_report(run, g, NULL, &s);
     results_new(run, g, &r);
-    set_keys(run, r.as, &s.contact);
+    solve_set_keys(run, r.as, &s.contact);
     memset(r.buffer, 0, nodes * sizeof *r.buffer);
-    put(run, &r, SOLVE_PRESSURE, r.buffer);
+    solve_put(run, r.as, SOLVE_PRESSURE, r.buffer);
     rc_contact_apart(ranks_of(&run->t), &shape, form, r.buffer, &s.contact);
-    put(run, &r, SOLVE_GAP, r.buffer);
+    solve_put(run, r.as, SOLVE_GAP, r.buffer);
     memset(r.buffer, 0, nodes * sizeof *r.buffer);
     yield_displace(run, nodes, 1, r.buffer);
-    put(run, &r, SOLVE_DISPLACEMENT, r.buffer);
+    solve_put(run, r.as, SOLVE_DISPLACEMENT, r.buffer);
     put_rest(run, g, &r, NULL, &s.contact);
     results_free(&r);
     free(own);
@@ -492,7 +492,8 @@ take_hardness(struct run *run, const struct rc_grid *hardness)
     run->hardness = hardness;
     run->hardness_min = -ranks_most(&run->t, -low);
     run->hardness_max = ranks_most(&run->t, high);
-    if (run->args->physics.history && isinf(run->hardness_min) && !run->yielding.wanted)
+    if (run->args->physics.history && isinf(run->hardness_min) && !run->yielding.wanted &&
+        !run->adhering.wanted)
         tool_warn(&run->t,
                   "--history without --hardness or a number in a map of it: nothing yields, so no "
                   "load leaves a trace");
@@ -510,6 +511,8 @@ solve_case(struct run *run, struct rc_grid *g, const struct rc_grid *hardness)
     if (run->args->dry_run) {
         struct rc_problem problem = problem_of(run, g, 0);
         solve_plan(run, g, &problem);
+    } else if (run->adhering.wanted) {
+        adhesion_case(run, g, problem_of(run, g, 0));
     } else {
         do_loads(run, g);
     }

@@ -269,7 +269,7 @@ struct mark {
 };
 
 enum {
-    MARKS = 12
+    MARKS = 13
 };
 
 static struct mark
@@ -307,6 +307,8 @@ marks_of(const struct checkpoint *c, struct mark mark[MARKS])
                  : rc_crc32_add(0, c->run->steps->v, c->run->step * sizeof *c->run->steps->v));
     for (int k = 0; k < YIELD_MARKS; k++, n++)
         mark[n].name = yield_mark(c->run, k, mark[n].value, sizeof mark[n].value);
+    mark[n].name = "checkpoint.adhesion";
+    adhesion_mark(c->run, mark[n].value, sizeof mark[n].value);
 }
 
 static void
@@ -373,8 +375,10 @@ checkpoint_case(struct checkpoint *c, const struct rc_grid *g, struct rc_solver 
     struct rc_err err;
     double load;
 
-    if (saved == NULL)
+    if (saved == NULL) {
+        rc_grid_free(last_frame(c, g, true)); /* a state alone has to belong to this problem too */
         return false;
+    }
     if (!rc_grid_number(saved, "load", &load) ||
         rc_solver_warm_start(solver, load, saved->v, &err) != RC_OK)
         tool_die_at(&c->run->t, g, EXIT_IMPOSSIBLE, "--checkpoint %s: it cannot be started from",

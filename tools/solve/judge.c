@@ -67,9 +67,9 @@ suspect_unit(struct run *run, const struct rc_grid *g, const char *where, const 
                   where, peak, modulus, s->slope);
 }
 
-static void
-warn_of_theory(struct run *run, const struct rc_grid *g, const char *where,
-               const struct solution *s)
+void
+solve_warn_of_theory(struct run *run, const struct rc_grid *g, const char *where,
+                     const struct solution *s)
 {
     double estar = run->args->physics.surface_estar;
     double peak = yield_peak(run, s->contact.max_pressure);
@@ -115,8 +115,8 @@ warn_of_grid(struct run *run, const struct rc_grid *g, const char *where, const 
 
 /* ---- not at its end ---- */
 
-static void
-warn_of_end(struct run *run, const char *where, const struct rc_contact *c)
+void
+solve_warn_of_end(struct run *run, const char *where, const struct rc_contact *c)
 {
     char error[64] = "its error is not known";
 
@@ -184,8 +184,8 @@ solve_judge(struct run *run, const struct rc_grid *g, const struct solution *s)
             "edge",
             where, 100 * s->contact.edge_load_fraction);
     if (tool_interrupted() == 0 && s->contact.contact_nodes > 0) {
-        warn_of_theory(run, g, where, s);
+        solve_warn_of_theory(run, g, where, s);
         warn_of_grid(run, g, where, s);
     }
-    warn_of_end(run, where, &s->contact);
+    solve_warn_of_end(run, where, &s->contact);
 }

@@ -14,6 +14,7 @@ const struct solve_frame_kind solve_frames[SOLVE_FRAMES] = {
     [SOLVE_PLASTIC] = {"plastic", "m"},
     [SOLVE_RESIDUAL] = {"residual", "m"},
     [SOLVE_STRAIN] = {"strain", "1"},
+    [SOLVE_ADHESION] = {"adhesion", "Pa"},
 };
 /* clang-format on */
 
@@ -95,6 +96,12 @@ yielding_state(const struct scene *s)
 }
 
 static const char *
+adhering_state(const struct scene *s)
+{
+    return adhesion_state(s->run);
+}
+
+static const char *
 tilt_state(const struct scene *s)
 {
     return s->run->tilt ? "on" : "left out: no --tilt free";
@@ -134,6 +141,7 @@ static const struct effect {
     {"approach", approach_state},
     {"history", history_state},
     {"yield", yielding_state},
+    {"adhesion", adhering_state}, /* its frame too */
     {"tilt", tilt_state},
     {"stiffness", stiffness_state},
     {"conductivity", conductivity_state},
@@ -149,7 +157,7 @@ enum {
 static bool
 effect_at(const struct scene *scene, size_t k, const char **name, const char **state)
 {
-    if (k >= EFFECTS + SOLVE_FRAMES)
+    if (k >= EFFECTS + SOLVE_ADHESION)
         return false;
     if (k < EFFECTS) {
         *name = effects[k].name;
@@ -275,7 +283,9 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
              const struct solution *s)
 {
     struct scene scene = {run,
-                          solver == NULL ? "left out: no load" : rc_solver_engine_reason(solver),
+                          solver != NULL               ? rc_solver_engine_reason(solver)
+                          : run->adhering.path != NULL ? "the gap is found by transforms"
+                                                       : "left out: no load",
                           &s->contact.hardness_active};
     const char *name, *state;
     struct report *r = &run->report;
@@ -290,8 +300,14 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
     report_number(r, "dx", g->dx, "m");
     report_number(r, "dy", g->dy, "m");
     report_text(r, "boundary", run->args->physics.periodic ? "periodic" : "free");
-    report_text(r, "kernel", solver == NULL ? NULL : rc_solver_engine(solver));
-    report_text(r, "method", solver == NULL ? NULL : rc_solver_method(solver));
+    report_text(r, "kernel",
+                solver != NULL               ? rc_solver_engine(solver)
+                : run->adhering.path != NULL ? "fft"
+                                             : NULL);
+    report_text(r, "method",
+                solver != NULL               ? rc_solver_method(solver)
+                : run->adhering.path != NULL ? "gap"
+                                             : NULL);
     report_count(r, "threads", run->t.threads, NULL);
     report_figures(r, s);
     report_object(r, "effects");
@@ -320,6 +336,7 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
     report_number(r, "tilt_x", run->tilt ? atan(s->contact.tilt[0]) : NAN, "rad");
     report_number(r, "tilt_y", run->tilt ? atan(s->contact.tilt[1]) : NAN, "rad");
     yield_report(r, run);
+    adhesion_report(r, run);
     report_finish_row(r);
 }
 
@@ -376,11 +393,15 @@ solve_plan(struct run *run, const struct rc_grid *g, const struct rc_problem *pr
     double each, memory;
     char where[256];
 
-    if (rc_solver_expect(&shape, problem, &e, &err) != RC_OK)
+    if (run->adhering.wanted)
+        adhesion_expect(run, g, problem, &e);
+    else if (rc_solver_expect(&shape, problem, &e, &err) != RC_OK)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     each = e.convolutions + (run->conductance ? STIFFNESS + 1 : 0) +
            (run->stiffness && !(run->conductance && isinf(run->hardness_min)) ? STIFFNESS : 0);
-    memory = ranks_most(&run->t, (double)tool_memory_with(solve_memory(run, g, problem)));
+    memory = ranks_most(&run->t, (double)tool_memory_with(run->adhering.wanted
+                                                              ? adhesion_memory(run, g, problem)
+                                                              : solve_memory(run, g, problem)));
     tool_where(&run->t, g, where, sizeof where);
     fprintf(run->t.out, "%s: %zu x %zu nodes, %zu %s, engine %s\n", where, g->nx, g->ny,
             run->steps->n, run->steps->n == 1 ? "load" : "loads", engine);

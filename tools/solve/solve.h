@@ -21,6 +21,7 @@ enum solve_frame { /* in the order of --output's words, and of writing */
     SOLVE_PLASTIC,
     SOLVE_RESIDUAL,
     SOLVE_STRAIN, /* several frames of each slab */
+    SOLVE_ADHESION,
     SOLVE_FRAMES
 };
 struct solve_frame_kind {
@@ -35,6 +36,8 @@ struct solve_args {
     const char *kernel, *method, *report;
     const char *conductivity; /* of both bodies, or NULL                                  */
     const char *yield, *increments, *slabs; /* as on the line, or NULL                      */
+    const char *adhesion;   /* as on the line, or NULL                                  */
+    bool pull_off;          /* a case of it comes last                                  */
     const char *tilt;       /* a word, or NULL                                          */
     struct numbers at;      /* x and y; none: the middle                                */
     const char *checkpoint; /* a file, or NULL                                         */
@@ -65,6 +68,17 @@ struct yielding {
     enum rc_status status; /* of the load                                                 */
 };
 
+/* --adhesion: the bodies attract each other. */
+struct adhering {
+    bool wanted;
+    char law[64];
+    struct rc_adhesion_problem problem; /* but for the contact                               */
+    struct rc_adhesion_scales scales;   /* on this grid                                      */
+    struct rc_adhesion *path;           /* NULL: none                                        */
+    bool pulling;                       /* this case is the one of --pull-off                */
+    enum rc_status status;              /* of the state                                      */
+};
+
 struct run {
     struct tool t;
     const struct solve_args *args;
@@ -72,6 +86,7 @@ struct run {
     size_t step, number;         /* which of them, from 0; the case that it is    */
     bool stiffness, conductance; /* whether they are found                            */
     struct yielding yielding;
+    struct adhering adhering;
     bool tilt;                    /* the counter body is free to                       */
     double k[2];                  /* conductivities of the bodies, SI                  */
     const char *conductance_unit; /* W/K or S; NULL: the conductivities have no unit   */
@@ -138,6 +153,31 @@ void solve_plan(struct run *run, const struct rc_grid *g, const struct rc_proble
 /* Solves the loads of these heights, and writes and reports what is found. hardness: a map of it, or NULL. */
 void solve_case(struct run *run, struct rc_grid *g, const struct rc_grid *hardness);
 
+/* Keys of the frames of a solution. */
+void solve_set_keys(struct run *run, struct rc_grid *g, const struct rc_contact *c);
+/* Writes a frame, with the keys of `as`, where it is wanted. */
+void solve_put(struct run *run, const struct rc_grid *as, enum solve_frame f, const double *v);
+/* Parts of solve_judge. */
+void solve_warn_of_theory(struct run *run, const struct rc_grid *g, const char *where,
+                          const struct solution *solution);
+void solve_warn_of_end(struct run *run, const char *where, const struct rc_contact *contact);
+
+/* ---- adhesion.c ---- */
+
+/* Reads --adhesion and --pull-off, or ends the tool. */
+void adhesion_read(struct run *run);
+/* The path that the loads or approaches are, and the pull-off where it is asked for. */
+void adhesion_case(struct run *run, struct rc_grid *g, struct rc_problem first);
+size_t adhesion_memory(const struct run *run, const struct rc_grid *g,
+                       const struct rc_problem *contact);
+/* What a state will take, and with it the law on this grid; or ends the tool. */
+void adhesion_expect(struct run *run, const struct rc_grid *g, const struct rc_problem *contact,
+                     struct rc_expected *expected);
+/* What a checkpoint has to agree in; "" without --adhesion. */
+void adhesion_mark(const struct run *run, char *value, size_t size);
+const char *adhesion_state(const struct run *run);
+void adhesion_report(struct report *report, const struct run *run);
+
 /* ---- yield.c: all but yield_read do nothing without --yield ---- */
 
 /* Reads --yield, --increments, --slabs, or ends the tool. */
@@ -185,7 +225,7 @@ void checkpoint_surface(struct checkpoint *checkpoint, const struct rc_grid *g,
 /* A case begins. True when a pressure had been kept for it: the solver starts from that. */
 bool checkpoint_case(struct checkpoint *checkpoint, const struct rc_grid *g,
                      struct rc_solver *solver);
-/* A case begins, or goes on, in a body that yields inside: its last state, as checkpoint_save_state was given it,
+/* A case begins, or goes on, in a body that yields inside, or attracts the other: its last state, as checkpoint_save_state was given it,
  * which the caller frees; NULL: there is none. */
 struct rc_grid *checkpoint_state(struct checkpoint *checkpoint, const struct rc_grid *g);
 /* Keeps n numbers, which fill(ctx, ...) writes, under this load, N. */

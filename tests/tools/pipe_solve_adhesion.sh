@@ -1,0 +1,102 @@
+# rc-solve --adhesion: a ball that is pressed, pulled and pulled off; balance of loads; paths; frames; the curve; what is warned of and
+# what is refused.
+. "$(dirname "$0")/../pipe.sh"
+
+column() { # NAME ROW FILE
+    awk -F '\t' -v n="$1" -v r="$2" 'NR == 1 { for (i = 1; i <= NF; i++) { split($i, h, "/"); if (h[1] == n) c = i } } NR == r + 1 { print $c }' "$3"
+}
+sum() { awk -v a="$1" -v b="$2" 'BEGIN { printf "%.12g", a + b }'; }
+unit=$(awk 'BEGIN { printf "%.12g", 3.14159265358979 * 0.05 * 1e-3 }') # pi w R
+times() { awk -v f="$1" -v u="$unit" 'BEGIN { printf "%.12g", f * u }'; }
+
+rc-synth sphere --nx 64 --dx 3um --radius 1mm -o ball.rcg
+rc-synth wave --nx 64 --dx 3um --amplitude 1fm --wavelength 192um -o flat.rcg
+soft="rc-solve --quiet --estar 2MPa"
+
+# ---- a ball: pressed, pulled, pulled off ----
+
+$soft --adhesion 50mJ/m2,jkr --approach=-1um,2um,-1um,0 --pull-off --output pressure,gap,displacement,height,adhesion --report p.tsv ball.rcg -o p.rcg
+claim "a list is a path, and pull-off a case of its own" test "$(wc -l <p.tsv)" = 6
+for row in 1 2 3 4 5; do
+    near "$(column load $row p.tsv)" "$(sum "$(column repulsive_load $row p.tsv)" "-$(column attractive_load $row p.tsv)")" 1e-9 "state $row: what pushes less what pulls is the load"
+    claim "  it is stable, and converged" test "$(column stable $row p.tsv) $(column converged $row p.tsv)" = "yes true"
+done
+near "$(column approach 2 p.tsv)" 2e-6 1e-9 "the approach that was asked for"
+between "$(times -1.65)" "$(column pull_off_load 5 p.tsv)" "$(times -1.5)" "pulled off at little more than 3/2 pi w R: a range that the grid holds"
+between 0 "$(column pull_off_spread 5 p.tsv)" "$(times 0.02)" "  and that is known to a percent"
+claim "  elsewhere there is none" test "$(column pull_off_load 1 p.tsv)" = NaN
+claim "apart again, the ball holds on where it had not yet touched" awk -v a="$(column contact_area 1 p.tsv)" -v b="$(column contact_area 3 p.tsv)" 'BEGIN { exit !(b >= a) }'
+near "$(rc-pick --channel pressure --case 2 p.rcg | rc-info --json | grep -o '"mean": [^,]*' | head -n 1 | sed 's/.* //' | awk '{ print $1 * 4096 * 9e-12 }')" \
+    "$(column load 2 p.tsv)" 1e-6 "the pressures in the stream carry the load"
+claim "gaps are never negative" awk -v m="$(rc-pick --channel gap --case 3 p.rcg | rc-info --json | grep -o '"min[a-z]*": [^,]*' | head -n 1 | sed 's/.* //')" 'BEGIN { exit !(m >= 0) }'
+claim "the frames say what attracts" says "adhesion" rc-info p.rcg
+
+# ---- the same in other words ----
+
+$soft --adhesion 50mN/m,jkr --radius 1mm --approach 2um --report a.json flat.rcg -o a.rcg
+$soft --adhesion 0.05,jkr --radius 1mm --approach 2000nm --report b.json flat.rcg -o b.rcg
+claim "50 mJ/m2, 50 mN/m and 0.05 are one" cmp <(rc-pick --channel pressure a.rcg | rc-export --format csv) <(rc-pick --channel pressure b.rcg | rc-export --format csv)
+near "$(field adhesion_work a.json)" 0.05 "$same" "  and the report says it"
+near "$(field tabor a.json)" "$(awk -v r="$(field adhesion_range a.json)" 'BEGIN { printf "%.12g", (1e-3 * (0.05 / 2e6) ^ 2) ^ (1 / 3) / r }')" 1e-9 "  and Tabor's number is that of the ball"
+claim "without it nothing of it, and why" bash -c '
+    rc-solve --quiet --estar 2MPa --load 1mN --report none.json ball.rcg -o none.rcg
+    grep -q "\"adhesion\": \"left out: no --adhesion\"" none.json && grep -q "\"adhesion_work\": null" none.json'
+
+# ---- loads ----
+
+$soft --adhesion 50mJ/m2,jkr --load 0.2mN,0,-0.1mN --report l.tsv ball.rcg -o l.rcg
+near "$(column load 3 l.tsv)" -1e-4 1e-3 "a load that pulls is carried, to the tolerance"
+$soft --adhesion 50mJ/m2,jkr --load 0.2mN,-0.5mN --report s.tsv ball.rcg -o s.rcg
+status=$?
+claim "beyond pull-off the bodies part: said, exit 3" test "$status $(column separated 2 s.tsv)" = "3 yes"
+claim "  in words" bash -c "rc-solve --estar 2MPa --adhesion 50mJ/m2,jkr --load 0.2mN,-0.5mN ball.rcg -o s.rcg 2>said; grep -q 'separated: under this load the bodies part' said"
+
+# ---- a run that is cut off ----
+
+path="--adhesion 50mJ/m2,jkr --approach=-1um,2um,1um,0"
+$soft $path --pull-off --report straight.tsv ball.rcg -o straight.rcg
+$soft --adhesion 50mJ/m2,jkr --approach=-1um,2um --checkpoint half.rcg ball.rcg -o x.rcg # the machine stopped after two states
+$soft $path --pull-off --checkpoint half.rcg --resume --report on.tsv ball.rcg -o on.rcg
+for row in 1 2 3 4 5; do
+    near "$(column load $row on.tsv)" "$(column load $row straight.tsv)" 2e-3 "gone on with, state $row is the same"
+done
+near "$(column pull_off_load 5 on.tsv)" "$(column pull_off_load 5 straight.tsv)" 2e-3 "  and so is the pull-off"
+between 0 "$(column iterations 2 on.tsv)" 3 "  what was there is not found again"
+refuses 1 'another problem: checkpoint.adhesion was 0.05,jkr,0, is 0.04,jkr,0' "a checkpoint of another attraction" \
+    "$soft --adhesion 40mJ/m2,jkr --approach=-1um,2um --checkpoint half.rcg --resume ball.rcg -o y.rcg"
+refuses 1 'another problem: checkpoint.approach was -1e-06, is 1e-06' "  of none" \
+    "$soft --approach 1um,2um --checkpoint half.rcg --resume ball.rcg -o y.rcg"
+refuses 1 'another problem: checkpoint.approach was -1e-06, is -2e-06' "  of another way" \
+    "$soft --adhesion 50mJ/m2,jkr --approach=-2um,2um --checkpoint half.rcg --resume ball.rcg -o y.rcg"
+
+# ---- what follows ----
+
+claim "rc-stress takes the net pressure" bash -c "rc-pick --case 2 p.rcg | rc-stress --quiet --nu 0.49 --depths 0 --components szz -o z.rcg"
+near "$(rc-info --json z.rcg | grep -o '"max[a-z]*": [^,]*' | head -n 1 | sed 's/.* //')" "$(awk -v m="$(column min_pressure 2 p.tsv)" 'BEGIN { print -m }')" 1e-3 "  tension where it pulls"
+claim "net pressures are drawn about 0" rc-render --case 2 --channel pressure -o net.png p.rcg
+claim "the path as a curve" bash -c "rc-render --curve approach:load -o path.svg p.tsv && grep -q retraction path.svg && grep -q loading path.svg"
+
+# ---- said before, warned of, refused ----
+
+claim "--dry-run names the law and the cohesive length" says 'adhesion  *on: exponential, 0.05 J/m2 over 300 nm.*cohesive length' rc-solve --dry-run --estar 2MPa --adhesion 50mJ/m2,exponential,300nm --approach 1um ball.rcg
+claim "a grid that does not hold the range is warned of" warns "the grid itself will hold the bodies together" rc-solve --estar 2MPa --adhesion 50mJ/m2,exponential,100nm --approach 1um ball.rcg -o w.rcg
+refused() { # STATUS WORDS ARGS
+    refuses "$1" "$2" "refused: $3" "rc-solve --quiet --estar 2MPa $3 ball.rcg -o x.rcg"
+}
+refused 2 "it must be at least 0: bodies that do not attract each other cannot be pulled" "--load=-1mN"
+refused 2 "pull-off needs --adhesion" "--load 1mN --pull-off"
+refused 2 "output adhesion needs --adhesion" "--load 1mN --output adhesion"
+refused 2 "must be above 0" "--adhesion 0 --approach 1um"
+refused 2 "must be above 0" "--adhesion=-50mJ/m2 --approach 1um"
+refused 2 "there is no law 'velcro': it must be one of exponential, dugdale, compact, jkr" "--adhesion 50mJ/m2,velcro --approach 1um"
+refused 2 "J/m2 is expected, .* or N/m" "--adhesion 50mJ,jkr --approach 1um"
+refused 2 "adhesion: not with --tilt free" "--adhesion 50mJ/m2 --approach 1um --tilt free"
+refused 1 "" "--adhesion 50mJ/m2 --approach 1um --method pk99"
+refused 1 "" "--adhesion 50mJ/m2 --approach 1um --kernel mlms"
+refused 1 "" "--adhesion 50mJ/m2 --approach 1um --kernel direct"
+
+sed -n '/^A ball of glass on rubber/,/^\.Ed/p' "$RC_SOURCE/man/rc-solve.1" |
+    sed '1,/^\.Bd/d; /^\.Ed/d; s/\\e/\\/; s/\\-/-/g' >example.sh
+claim "the example of rc-solve(1) runs" bash -c 'test "$(wc -l <example.sh)" = 5 && bash -e example.sh && says PNG head -c 4 ball.png'
+
+finish

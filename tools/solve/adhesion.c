@@ -1,0 +1,570 @@
+/*
+ * --adhesion: bodies that attract each other. The loads or approaches of a list are a path, each state
+ * found from the last, whichever way it goes; --pull-off adds a case in which they are drawn apart.
+ */
+#include "solve.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double resolved = 1.5;   /* nodes in the cohesive length: fewer, and the grid pins   */
+static const double enough = 2;       /* and what is asked for instead                            */
+static const double faint = 0.01;     /* of the largest traction                                  */
+static const double about_to = 0.02;  /* stability below which a state is about to jump           */
+static const double too_strong = 0.1; /* of E*: the tractions of linear elasticity                */
+
+/* ---- the command line ---- */
+
+static bool
+is_law(const char *text, size_t n)
+{
+    const struct rc_adhesion_law_info *law;
+
+    for (size_t k = 0; (law = rc_adhesion_law_info(k)) != NULL; k++)
+        if (strlen(law->name) == n && memcmp(law->name, text, n) == 0)
+            return true;
+    return false;
+}
+
+static void
+list_laws(char *text, size_t size)
+{
+    const struct rc_adhesion_law_info *law;
+    size_t n = 0;
+
+    text[0] = '\0';
+    for (size_t k = 0; (law = rc_adhesion_law_info(k)) != NULL && n < size; k++)
+        n += (size_t)snprintf(text + n, size - n, "%s%s", k == 0 ? "" : ", ", law->name);
+}
+
+/* WORK[,LAW[,RANGE]] */
+static enum rc_status
+read_law(struct adhering *a, const char *text, struct rc_err *err)
+{
+    char part[3][64] = {"", "", ""}, laws[128];
+    size_t n = 0;
+
+    for (const char *at = text; n < 3; at += strcspn(at, ",") + 1, n++) {
+        size_t length = strcspn(at, ",");
+        if (length >= sizeof part[n])
+            return rc_err_set(err, "it must be WORK,LAW,RANGE, as in 50mJ/m2,exponential,2nm");
+        memcpy(part[n], at, length);
+        part[n][length] = '\0';
+        if (at[length] == '\0')
+            break;
+        if (n == 2)
+            return rc_err_set(err, "it must be WORK,LAW,RANGE, as in 50mJ/m2,exponential,2nm");
+    }
+    if (unit_number(part[0], UNIT_WORK, &a->problem.work, err) != RC_OK)
+        return RC_FAIL;
+    if (!(a->problem.work > 0))
+        return rc_err_set(err, "the work of adhesion must be above 0: bodies that do not attract "
+                               "each other need no --adhesion");
+    list_laws(laws, sizeof laws);
+    if (n >= 1 && !is_law(part[1], strlen(part[1])))
+        return rc_err_set(err, "there is no law '%s': it must be one of %s", part[1], laws);
+    snprintf(a->law, sizeof a->law, "%s", part[1]);
+    a->problem.law = n >= 1 ? a->law : NULL;
+    if (n < 2)
+        return RC_OK;
+    if (unit_number(part[2], UNIT_M, &a->problem.range, err) != RC_OK)
+        return RC_FAIL;
+    if (!(a->problem.range > 0))
+        return rc_err_set(
+            err, "the range must be above 0: without one it is such that the grid holds it");
+    return RC_OK;
+}
+
+static void
+refuse(struct run *run, bool given, const char *what, const char *why)
+{
+    if (given)
+        tool_die(&run->t, EXIT_USAGE, "--adhesion: not with %s: %s", what, why);
+}
+
+void
+adhesion_read(struct run *run)
+{
+    const struct solve_args *args = run->args;
+    struct adhering *a = &run->adhering;
+    struct rc_err err;
+
+    a->wanted = args->adhesion != NULL;
+    if (!a->wanted && args->pull_off)
+        tool_die(&run->t, EXIT_USAGE,
+                 "--pull-off needs --adhesion: bodies that do not attract each other part under no "
+                 "load");
+    if (!a->wanted && solve_wanted(args, SOLVE_ADHESION))
+        tool_die(&run->t, EXIT_USAGE, "--output adhesion needs --adhesion");
+    if (!a->wanted)
+        return;
+    if (read_law(a, args->adhesion, &err) != RC_OK)
+        tool_die(&run->t, EXIT_USAGE, "--adhesion %s: %s", args->adhesion, err.text);
+    refuse(run, args->yield != NULL, "--yield", "what yields inside is pressed by pressures alone");
+    refuse(run, run->tilt, "--tilt free", "bodies that attract each other follow one direction");
+    refuse(run, args->discretization, "--discretization",
+           "a grid half as fine holds another traction: solve it by itself");
+    refuse(run, args->stiffness, "--stiffness", "a list of approaches tells it");
+    refuse(run, args->conductivity != NULL, "--conductivity",
+           "what is not pressed together does not conduct by the analogy");
+    refuse(run,
+           solve_wanted(args, SOLVE_PLASTIC) || solve_wanted(args, SOLVE_RESIDUAL) ||
+               solve_wanted(args, SOLVE_STRAIN),
+           "--output plastic, residual or strain", "they are not found with it");
+}
+
+/* ---- a path ---- */
+
+static struct rc_adhesion_problem
+problem_of(const struct run *run, struct rc_problem contact)
+{
+    struct rc_adhesion_problem problem = run->adhering.problem;
+
+    problem.contact = contact;
+    return problem;
+}
+
+static void
+begin(struct run *run, const struct rc_grid *g, struct rc_problem contact)
+{
+    struct adhering *a = &run->adhering;
+    const struct rc_shape shape = rc_grid_shape(g);
+    const struct rc_adhesion_problem problem = problem_of(run, contact);
+    struct rc_err err;
+
+    tool_demand_memory(&run->t, g, adhesion_memory(run, g, &contact));
+    a->path = rc_adhesion_new(&shape, g->v, &problem, &err);
+    if (a->path == NULL)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    a->scales = *rc_adhesion_scales(a->path);
+    tool_code_there(&run->t, SOLVE_CODE);
+    run->setup = solve_now() - run->began;
+}
+
+/* ---- states in a checkpoint: the approach, then the net pressures ---- */
+
+static void
+fill_state(const void *ctx, double *to)
+{
+    const struct adhering *a = ctx;
+
+    to[0] = rc_adhesion_result(a->path)->approach;
+    rc_adhesion_pressure(a->path, to + 1);
+}
+
+static void
+save(struct run *run, const struct rc_grid *g)
+{
+    const struct adhering *a = &run->adhering;
+
+    if (!a->pulling) /* a retraction begins anew */
+        checkpoint_save_state(run->checkpoint, g, rc_grid_nodes(g) + 1, fill_state, a,
+                              rc_adhesion_result(a->path)->load);
+}
+
+/* The state of this case that the checkpoint holds becomes that of the path. False: it holds none. */
+static bool
+restore(struct run *run, const struct rc_grid *g)
+{
+    struct rc_grid *state = run->adhering.pulling ? NULL : checkpoint_state(run->checkpoint, g);
+    struct rc_err err;
+
+    if (state == NULL)
+        return false;
+    if (state->nx != rc_grid_nodes(g) + 1)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE,
+                    "--checkpoint %s: case %zu has %zu numbers, not those of this map: remove the "
+                    "file to begin anew",
+                    run->args->checkpoint, run->number, state->nx);
+    if (rc_adhesion_start(run->adhering.path, state->v + 1, state->v[0], &err) != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE,
+                    "--checkpoint %s: case %zu cannot be gone on with (%s): remove the file to "
+                    "begin anew",
+                    run->args->checkpoint, run->number, err.text);
+    rc_grid_free(state);
+    return true;
+}
+
+void
+adhesion_mark(const struct run *run, char *value, size_t size)
+{
+    const struct rc_adhesion_problem *p = &run->adhering.problem;
+    char work[RC_NUMBER_SIZE], range[RC_NUMBER_SIZE];
+
+    value[0] = '\0';
+    if (run->adhering.wanted)
+        snprintf(value, size, "%s,%s,%s", rc_number_text(work, p->work),
+                 p->law == NULL ? "" : p->law, rc_number_text(range, p->range));
+}
+
+/* ---- states of a path ---- */
+
+static void
+show(struct run *run, const struct rc_grid *g)
+{
+    struct rc_adhesion_progress at;
+    char how_far[64] = "", load[SHOWN_NUMBER];
+
+    rc_adhesion_progress(run->adhering.path, &at);
+    if (!isnan(at.error))
+        snprintf(how_far, sizeof how_far, ", error %.1e of %.1e", at.error, at.tol);
+    tool_progress(&run->t, "case %zu, %zu x %zu, %s%zu, load %s, %s %zu%s", run->number, g->nx,
+                  g->ny, "state ", at.state, shown_in_unit(load, at.load, "N"),
+                  at.eigenvalue ? "stability, step" : "iteration", at.iterations, how_far);
+}
+
+static void
+follow(struct run *run, const struct rc_grid *g)
+{
+    struct adhering *a = &run->adhering;
+    double start = solve_now();
+    struct rc_err err;
+
+    a->status = RC_MORE;
+    while (tool_interrupted() == 0 && a->status == RC_MORE) {
+        a->status = rc_adhesion_step(a->path, &err);
+        show(run, g);
+        if (a->status == RC_MORE && checkpoint_due(run->checkpoint))
+            save(run, g);
+    }
+    tool_progress_end(&run->t);
+    if (a->status == RC_FAIL)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    run->iterate = solve_now() - start;
+}
+
+/* ---- what is found ---- */
+
+/* What the rest of rc-solve says of a contact. */
+static struct rc_contact
+contact_of(const struct rc_adhesion_figures *f)
+{
+    return (struct rc_contact){.load = f->load,
+                               .mean_pressure = f->mean_pressure,
+                               .max_pressure = f->max_pressure,
+                               .contact_nodes = f->contact_nodes,
+                               .contact_area = f->contact_area,
+                               .contact_fraction = f->contact_fraction,
+                               .plastic_nodes = f->plastic_nodes,
+                               .plastic_area = f->plastic_area,
+                               .yielded_nodes = f->plastic_nodes,
+                               .yielded_area = f->plastic_area,
+                               .hardness_active = f->plastic_nodes > 0,
+                               .edge_load_fraction = NAN,
+                               .approach = f->approach,
+                               .mean_gap = f->mean_gap,
+                               .gap_error = f->gap_error,
+                               .shape_error = f->gap_error,
+                               .kkt_residual = f->kkt_residual,
+                               .pressure_error = f->pressure_error,
+                               .iterations = f->iterations,
+                               .convolutions = f->convolutions,
+                               .discretization = {NAN, NAN, NAN},
+                               .converged = f->converged};
+}
+
+/* Spots, and the slope where the bodies touch: where the gap is closed, whatever the net pressure. */
+static void
+look_at_contact(struct run *run, const struct rc_grid *g, double *buffer, struct solution *s)
+{
+    const struct rc_shape shape = rc_grid_shape(g);
+    struct rc_patch_options options = {.boundary =
+                                           run->args->physics.periodic ? RC_PERIODIC : RC_FREE,
+                                       .each = report_wanted(&run->report),
+                                       .threads = run->t.threads};
+    struct rc_err err;
+
+    rc_adhesion_gap(run->adhering.path, buffer);
+    for (size_t k = 0; k < rc_grid_nodes(g); k++)
+        buffer[k] = buffer[k] > 0 ? 0 : 1;
+    if (rc_patches_find(&shape, buffer, &options, &s->patches, &err) != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    s->slope = rc_measure_contact_slope(NULL, &shape, g->v, buffer);
+}
+
+static void
+put_out(struct run *run, const struct rc_grid *g, const struct rc_contact *c)
+{
+    struct rc_adhesion *path = run->adhering.path;
+    struct rc_grid *as;
+    char law[128], work[RC_NUMBER_SIZE], range[RC_NUMBER_SIZE];
+    struct rc_err err;
+
+    as = rc_grid_like(g, g->channel, g->unit, &err);
+    if (as == NULL)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    solve_set_keys(run, as, c);
+    snprintf(law, sizeof law, "%s,%s,%s", rc_number_text(work, run->adhering.problem.work),
+             run->adhering.scales.law, rc_number_text(range, run->adhering.scales.range));
+    if (rc_grid_set(as, "adhesion", law, &err) != RC_OK ||
+        rc_grid_set_number(as, "load", c->load, &err) != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (solve_wanted(run->args, SOLVE_PRESSURE)) {
+        rc_adhesion_pressure(path, as->v);
+        solve_put(run, as, SOLVE_PRESSURE, as->v);
+    }
+    if (solve_wanted(run->args, SOLVE_GAP)) {
+        rc_adhesion_gap(path, as->v);
+        solve_put(run, as, SOLVE_GAP, as->v);
+    }
+    if (solve_wanted(run->args, SOLVE_DISPLACEMENT)) {
+        rc_adhesion_displacement(path, as->v);
+        solve_put(run, as, SOLVE_DISPLACEMENT, as->v);
+    }
+    as->type = g->type;
+    solve_put(run, as, SOLVE_HEIGHT, g->v);
+    as->type = RC_F64;
+    if (solve_wanted(run->args, SOLVE_ADHESION)) {
+        rc_adhesion_traction(path, as->v);
+        solve_put(run, as, SOLVE_ADHESION, as->v);
+    }
+    rc_grid_free(as);
+}
+
+/* ---- what is said ---- */
+
+static void
+warn_of_grid(struct run *run, const struct rc_grid *g, const char *where)
+{
+    const struct rc_adhesion_scales *s = &run->adhering.scales;
+    double spacing = fmax(g->dx, g->dy);
+    char length[SHOWN_NUMBER], finer[SHOWN_NUMBER], range[SHOWN_NUMBER];
+
+    if (s->cohesive_nodes >= resolved)
+        return;
+    /* at equal work the cohesive length grows with the square of the range */
+    tool_warn(&run->t,
+              "%s: the cohesive length, %s, is %.2g of the spacing: the grid itself will hold the "
+              "bodies together, with a pull-off that is too large and a hysteresis that is not "
+              "theirs: take a spacing of %s, or, where only the work matters, a range of %s",
+              where, shown_in_unit(length, s->cohesive_length, "m"), s->cohesive_nodes,
+              shown_in_unit(finer, spacing * s->cohesive_nodes / enough, "m"),
+              shown_in_unit(range, s->range * sqrt(enough / s->cohesive_nodes), "m"));
+}
+
+static void
+warn_of_state(struct run *run, const char *where, const struct rc_adhesion_figures *f)
+{
+    const double estar = run->args->physics.surface_estar;
+    char strength[SHOWN_NUMBER];
+
+    if (f->separated)
+        tool_warn(&run->t,
+                  "%s: separated: under this load the bodies part, and there is no state that "
+                  "carries it: --approach leads past pull-off, --pull-off finds it",
+                  where);
+    else if (!f->stable && f->converged)
+        tool_warn(&run->t, "%s: the state is not stable", where);
+    else if (f->stability < about_to && f->converged)
+        tool_warn(&run->t,
+                  "%s: stability %.2g: the state is about to jump, and figures depend on little: a "
+                  "list of approaches leads through it",
+                  where, f->stability);
+    if (run->adhering.pulling && isnan(f->pull_off_spread))
+        tool_warn(
+            &run->t,
+            "%s: the load was lowest before they were drawn apart: let the list end where the "
+            "bodies are pressed together more",
+            where);
+    if (f->edge_traction > faint)
+        tool_warn(
+            &run->t,
+            "%s: the traction at the edge of the map is %.2g of the largest: the bodies attract "
+            "each other beyond the map too, where nothing is known of them: take a larger map",
+            where, f->edge_traction);
+    if (run->adhering.scales.strength > too_strong * estar)
+        tool_warn(&run->t,
+                  "%s: the largest traction, %s, is %.2g of E*: beyond %g a solid is not linear "
+                  "elastic: is the range right?",
+                  where, shown_in_unit(strength, run->adhering.scales.strength, "Pa"),
+                  run->adhering.scales.strength / estar, too_strong);
+}
+
+static void
+tell(struct run *run, const char *where, const struct rc_adhesion_figures *f, bool pulled)
+{
+    char load[SHOWN_NUMBER], attractive[SHOWN_NUMBER], area[SHOWN_NUMBER], approach[SHOWN_NUMBER],
+        spread[SHOWN_NUMBER];
+
+    if (pulled)
+        tool_note(&run->t,
+                  "%s: pull-off at %s, give or take %s, at approach %s; %zu states, %.3g "
+                  "convolutions, %.2g s",
+                  where, shown_in_unit(load, f->pull_off_load, "N"),
+                  shown_in_unit(spread, f->pull_off_spread, "N"),
+                  shown_in_unit(approach, f->pull_off_approach, "m"), f->states, f->convolutions,
+                  solve_now() - run->began);
+    tool_note(
+        &run->t,
+        "%s: force %s, of which %s attracts, contact area %s (%.3g %% of the map, %zu nodes), "
+        "approach %s, stability %.2g, %zu %s; %s to %.2g in %zu iterations, %.3g convolutions, "
+        "%.2g s",
+        where, shown_in_unit(load, f->load, "N"),
+        shown_in_unit(attractive, f->attractive_load, "N"), shown_area(area, f->contact_area),
+        100 * f->contact_fraction, f->contact_nodes, shown_in_unit(approach, f->approach, "m"),
+        f->stability, f->jumps, f->jumps == 1 ? "jump" : "jumps",
+        f->converged ? "converged" : "not converged", f->pressure_error, f->iterations,
+        f->convolutions, solve_now() - run->began);
+}
+
+static void
+judge(struct run *run, const struct rc_grid *g, struct solution *s)
+{
+    const struct rc_adhesion_figures *f = rc_adhesion_result(run->adhering.path);
+    char where[512];
+
+    solve_where(run, g, where, sizeof where);
+    tell(run, where, f, run->adhering.pulling);
+    if (run->step == 0)
+        warn_of_grid(run, g, where);
+    warn_of_state(run, where, f);
+    if (f->separated)
+        return;
+    if (tool_interrupted() == 0 && s->contact.contact_nodes > 0)
+        solve_warn_of_theory(run, g, where, s);
+    solve_warn_of_end(run, where, &s->contact);
+}
+
+/* A state of the path that has been followed to its end. */
+static void
+end(struct run *run, struct rc_grid *g)
+{
+    struct solution solution = SOLUTION_NONE, *s = &solution;
+    const struct rc_adhesion_figures *f = rc_adhesion_result(run->adhering.path);
+    double start = solve_now(), *buffer = malloc(rc_grid_nodes(g) * sizeof *buffer);
+
+    if (buffer == NULL)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "out of memory for a map");
+    look_at_contact(run, g, buffer, s);
+    s->contact = contact_of(f);
+    run->done = solve_now();
+    run->result = run->done - start;
+    judge(run, g, s);
+    if (!f->converged)
+        tool_fails_with(&run->t, EXIT_SHORT);
+    put_out(run, g, &s->contact);
+    solve_report(run, g, NULL, s);
+    if (f->plastic_nodes > 0) { /* what comes next acts on the shape that is left */
+        memcpy(buffer, g->v, rc_grid_nodes(g) * sizeof *buffer);
+        rc_adhesion_keep_shape(run->adhering.path, g->v);
+        g->type = RC_F64;
+    }
+    rc_patches_free(&s->patches);
+    free(buffer);
+}
+
+void
+adhesion_case(struct run *run, struct rc_grid *g, struct rc_problem first)
+{
+    struct adhering *a = &run->adhering;
+    const bool approaches = run->args->physics.approach.n > 0;
+    const size_t states = run->steps->n + run->args->pull_off;
+    struct rc_err err;
+
+    run->number = states == 1 ? rc_grid_case(g) - 1 : run->number;
+    run->began = solve_now();
+    begin(run, g, first);
+    for (size_t k = 0; k < states && (k == 0 || tool_interrupted() == 0); k++) {
+        enum rc_status status;
+        a->pulling = k == run->steps->n;
+        run->step = a->pulling ? k - 1 : k;
+        run->number++;
+        if (k > 0) {
+            run->began = solve_now();
+            run->setup = 0;
+        }
+        run->resumed = restore(run, g);
+        if (a->pulling)
+            status = rc_adhesion_pull_off(a->path, &err);
+        else if (approaches)
+            status = rc_adhesion_set_approach(a->path, run->steps->v[k], &err);
+        else
+            status = rc_adhesion_set_load(a->path, physics_problem(&run->args->physics, g, k).load,
+                                          &err);
+        if (status != RC_OK)
+            tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+        follow(run, g);
+        if (!rc_adhesion_result(a->path)->separated)
+            save(run, g);
+        end(run, g);
+    }
+    rc_adhesion_free(a->path);
+    a->path = NULL;
+}
+
+size_t
+adhesion_memory(const struct run *run, const struct rc_grid *g, const struct rc_problem *contact)
+{
+    const struct rc_shape shape = rc_grid_shape(g);
+    const struct rc_adhesion_problem problem = problem_of(run, *contact);
+
+    return rc_adhesion_memory(&shape, &problem) + 2 * rc_grid_nodes(g) * sizeof *g->v +
+           tool_code(&run->t, SOLVE_CODE);
+}
+
+/* ---- plan and report ---- */
+
+void
+adhesion_expect(struct run *run, const struct rc_grid *g, const struct rc_problem *contact,
+                struct rc_expected *expected)
+{
+    const struct rc_shape shape = rc_grid_shape(g);
+    const struct rc_adhesion_problem problem = problem_of(run, *contact);
+    struct rc_err err;
+
+    if (rc_adhesion_check(&shape, &problem, &run->adhering.scales, &err) != RC_OK ||
+        rc_adhesion_expect(&shape, &problem, expected, &err) != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+}
+
+const char *
+adhesion_state(const struct run *run)
+{
+    static char text[256];
+    const struct adhering *a = &run->adhering;
+    char work[SHOWN_NUMBER], range[SHOWN_NUMBER], strength[SHOWN_NUMBER];
+
+    if (!a->wanted)
+        return "left out: no --adhesion";
+    snprintf(text, sizeof text, "on: %s, %s over %s: at most %s, cohesive length %.2g nodes",
+             a->scales.law, shown_in_unit(work, a->problem.work, "J/m2"),
+             shown_in_unit(range, a->scales.range, "m"),
+             shown_in_unit(strength, a->scales.strength, "Pa"), a->scales.cohesive_nodes);
+    return text;
+}
+
+/* Tabor's number, of a sphere of this radius on these bodies. */
+static double
+tabor(const struct run *run)
+{
+    const struct physics *p = &run->args->physics;
+    double w = run->adhering.problem.work / p->surface_estar;
+
+    return cbrt(p->radius * w * w) / run->adhering.scales.range;
+}
+
+void
+adhesion_report(struct report *r, const struct run *run)
+{
+    const struct adhering *a = &run->adhering;
+    const bool on = a->path != NULL;
+    const struct rc_adhesion_figures none = {0}, *f = on ? rc_adhesion_result(a->path) : &none;
+
+    report_number(r, "adhesion_work", on ? a->problem.work : NAN, "J/m2");
+    report_text(r, "adhesion_law", on ? a->scales.law : NULL);
+    report_number(r, "adhesion_range", on ? a->scales.range : NAN, "m");
+    report_number(r, "cohesive_nodes", on ? a->scales.cohesive_nodes : NAN, NULL);
+    report_number(r, "attractive_load", on ? f->attractive_load : NAN, "N");
+    report_number(r, "repulsive_load", on ? f->repulsive_load : NAN, "N");
+    report_number(r, "attractive_area", on ? f->attractive_area : NAN, "m2");
+    report_number(r, "min_pressure", on ? f->min_pressure : NAN, "Pa");
+    report_number(r, "stability", on ? f->stability : NAN, NULL);
+    report_text(r, "stable", !on ? NULL : f->stable ? "yes" : "no");
+    report_text(r, "separated", !on ? NULL : f->separated ? "yes" : "no");
+    report_number(r, "jumps", on ? (double)f->jumps : NAN, NULL);
+    report_number(r, "pull_off_load", on && a->pulling ? f->pull_off_load : NAN, "N");
+    report_number(r, "pull_off_approach", on && a->pulling ? f->pull_off_approach : NAN, "m");
+    report_number(r, "pull_off_spread", on && a->pulling ? f->pull_off_spread : NAN, "N");
+    report_number(r, "tabor", on ? tabor(run) : NAN, NULL);
+}
