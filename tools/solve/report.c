@@ -300,10 +300,7 @@ solve_report(struct run *run, const struct rc_grid *g, const struct rc_solver *s
     report_number(r, "dx", g->dx, "m");
     report_number(r, "dy", g->dy, "m");
     report_text(r, "boundary", run->args->physics.periodic ? "periodic" : "free");
-    report_text(r, "kernel",
-                solver != NULL               ? rc_solver_engine(solver)
-                : run->adhering.path != NULL ? "fft"
-                                             : NULL);
+    report_text(r, "kernel", solver == NULL ? NULL : rc_solver_engine(solver));
     report_text(r, "method",
                 solver != NULL               ? rc_solver_method(solver)
                 : run->adhering.path != NULL ? "gap"
