@@ -886,6 +886,61 @@ RC_API size_t rc_adhesion_memory(const struct rc_shape *shape,
 RC_API enum rc_status rc_adhesion_expect(const struct rc_shape *shape,
                                          const struct rc_adhesion_problem *problem,
                                          struct rc_expected *expected, struct rc_err *err);
+/* ---- leakage: leak/leak.c ---- */
+
+struct rc_leak_options {
+    char direction; /* 'x': from the first column to the last; 'y': from the first row to the last;
+                       0: 'x'                                                                     */
+    bool around;    /* the sides along the flow meet, as on a periodic map; else they are closed  */
+    size_t threads; /* 0: all                                                                     */
+};
+
+/* Flow through the gap between two edges of the map under a pressure difference of 1, by Reynolds'
+ * equation, div(g^3 grad P) = 0. With a viscosity eta and a difference dp the rate is
+ * conductance dp/(12 eta). */
+struct rc_leak_figures {
+    double conductance; /* m^3; 0, exactly, where nothing percolates                             */
+    double conductance_linear; /* the same with gaps that change linearly from node to node: it errs
+                                  to the other side                                              */
+    double error;        /* half their difference over the first: estimate of the relative error of
+                            the grid; NAN: no flow                                                */
+    double lower, upper; /* m^3, proven bounds of `conductance` on this grid, to rounding         */
+    double flow_factor;  /* of Patir and Cheng: conductance over that of two flat faces at the mean
+                            gap                                                                   */
+    double mean_gap;     /* m: over all nodes, 0 in contact                                       */
+    double slope;        /* RMS of the gap's gradient where fluid flows; NAN: nowhere             */
+    bool percolates;     /* through the edges of cells                                            */
+    bool percolates_diagonal; /* through their corners too                                        */
+    double critical_gap; /* m: the narrowest place of the widest way; 0: there is no way      */
+    double critical_x, critical_y; /* m: where that is; NAN: nowhere                             */
+    size_t throat_nodes; /* fluid nodes side by side there: below 3 the grid does not know it     */
+    size_t fluid_nodes, dead_nodes; /* dead: fluid that stands                                    */
+    size_t unknowns;                /* nodes where fluid flows                                    */
+};
+
+struct rc_leak;
+/* Fluid is where the pressure p of the contact (Pa; NULL: no contact) is 0 and the gap g (m) is
+ * positive; gaps below 1e-30 of the largest let nothing through. Finds what percolates. NULL where a
+ * value is not finite, the map has 2^31 nodes, memory is short, or the library was built without AMD of
+ * SuiteSparse. */
+RC_API struct rc_leak *rc_leak_new(const struct rc_shape *shape, const double *p, const double *g,
+                                   const struct rc_leak_options *options, struct rc_err *err);
+/* RC_MORE until the flow is known, then RC_OK: two steps. The first takes what rc_leak_step_memory
+ * says; RC_FAIL when that is not there. */
+RC_API enum rc_status rc_leak_step(struct rc_leak *leak, struct rc_err *err);
+/* What percolates and where is known at once, conductances after the last step. */
+RC_API const struct rc_leak_figures *rc_leak_result(const struct rc_leak *leak);
+/* Maps of nx ny values after the last step. Fluid pressure, 1 at the inlet, 0 at the outlet; NAN in
+ * contact, and where fluid is shut in. */
+RC_API void rc_leak_pressure(const struct rc_leak *leak, double *pressure);
+/* Size of the flow per width for a pressure difference of 1 and 12 eta = 1, m^2. */
+RC_API void rc_leak_flux(const struct rc_leak *leak, double *flux);
+/* 0 in contact, 1 where fluid stands (dead ends, shut in), 2 where it flows. */
+RC_API void rc_leak_channel(const struct rc_leak *leak, double *channel);
+RC_API void rc_leak_free(struct rc_leak *leak); /* NULL is allowed */
+/* Bytes that rc_leak_new takes at most; those that the steps take more than are held after it. */
+RC_API size_t rc_leak_memory(const struct rc_shape *shape);
+RC_API size_t rc_leak_step_memory(const struct rc_leak *leak);
 
 /* ---- stress: stress.c ---- */
 

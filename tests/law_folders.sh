@@ -27,6 +27,7 @@ libcontact/stress   | libcontact/volume/volume.h               | libcontact/volu
 libcontact/volume   | %base libcontact/operator/operator.h     | libcontact libcontact/ranks libcontact/operator libcontact/transform
 libcontact/plastic  | %base libcontact/volume/volume.h         | libcontact libcontact/volume libcontact/solver libcontact/stress
 libcontact/adhesion | %base libcontact/operator/operator.h     | libcontact libcontact/operator libcontact/body
+libcontact/leak     | %base                                    | libcontact
 libcontact/surface  | %base %ranks                             | libcontact libcontact/ranks
 libcontact/surface  | libcontact/transform/transform.h         | libcontact/transform
 formats/core        | libcontact/grid.h                        | libcontact
@@ -81,6 +82,8 @@ base='libcontact/contact.h libcontact/grid.h libcontact/common.h libcontact/memo
 public='libcontact/contact.h libcontact/grid.h'
 physics='libcontact libcontact/body libcontact/operator libcontact/solver libcontact/stress libcontact/plastic'
 physics="$physics libcontact/adhesion libcontact/surface"
+physics='libcontact libcontact/body libcontact/operator libcontact/solver libcontact/stress libcontact/plastic libcontact/leak'
+physics="$physics libcontact/surface"
 cli='tools/cli tools/text tools/machine'
 plot='tools/plot tools/canvas'
 sed -i "s!%base!$base!; s!%public!$public!; s!%physics!$physics!; s!%cli!$cli!; s!%plot!$plot!; s!%ranks!libcontact/ranks/ranks.h!" arrows.txt

@@ -1,5 +1,5 @@
 /* The library's estimates of memory are within a tenth of the peak, each in a process of its own:
- * solver, stiffness, stresses, sums and slabs, on maps large enough that code and plans do not count. */
+ * solver, stiffness, stresses, sums, flow and slabs, on maps large enough that code and plans do not count. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -183,6 +183,35 @@ psd(const struct work *w, const double *h, const double *p)
     return bytes;
 }
 
+#ifdef RC_LEAK
+/* The heights as a gap, open everywhere: the most that there can be. */
+static size_t
+leak_found(const struct work *w, const double *h, const double *p)
+{
+    struct rc_leak *leak = rc_leak_new(w->shape, NULL, h, &(struct rc_leak_options){0}, NULL);
+
+    (void)p;
+    rc_leak_free(leak);
+    return leak == NULL ? 0 : rc_leak_memory(w->shape);
+}
+
+static size_t
+leak_solved(const struct work *w, const double *h, const double *p)
+{
+    size_t before = memory_held(), bytes;
+    struct rc_leak *leak = rc_leak_new(w->shape, NULL, h, &(struct rc_leak_options){0}, NULL);
+
+    (void)p;
+    if (leak == NULL)
+        return 0;
+    bytes = memory_held() - before + rc_leak_step_memory(leak);
+    while (rc_leak_step(leak, NULL) == RC_MORE)
+        continue;
+    rc_leak_free(leak);
+    return bytes;
+}
+#endif
+
 static bool
 slab_strain(void *ctx, size_t slab, enum rc_component c, size_t j, double *row)
 {
@@ -246,8 +275,8 @@ measured(const struct work *w)
         return 2;
     for (size_t k = 0; k < n; k++) { /* waves a few nodes long, and pressure in strips of a fifth */
         size_t i = k % w->shape->nx, j = k / w->shape->nx;
-        h[k] = 1e-7 *
-               (sin(0.31 * (double)i) + cos(0.23 * (double)j) + 0.1 * (double)(k * 7919 % 97) / 97);
+        h[k] = 1e-7 * (2 + sin(0.31 * (double)i) + cos(0.23 * (double)j) +
+                       0.1 * (double)(k * 7919 % 97) / 97);
         p[k] = k * 7919 % 15 < 3 || i % 15 < 3 ? 1e6 : 0;
     }
     before = memory_held();
@@ -283,6 +312,10 @@ holds(void **state)
         {"stress, strained, periodic", &map, RC_PERIODIC, NULL, 2 * transforms, stress_strained},
         {"patches", &large, RC_FREE, NULL, 0, patches},
         {"spectrum", &map, RC_PERIODIC, NULL, transforms, psd},
+#ifdef RC_LEAK
+        {"channels of a gap", &map, RC_FREE, NULL, 0, leak_found},
+        {"flow through it", &map, RC_FREE, NULL, 0, leak_solved},
+#endif
         {"slabs", &map, RC_PERIODIC, NULL, transforms, slabs_double},
         {"slabs, single precision", &map, RC_PERIODIC, NULL, transforms, slabs_single},
     };

@@ -308,6 +308,40 @@ done:
     rc_adhesion_free(b);
     return status;
 }
+/* ---- leakage ---- */
+
+#ifdef RC_LEAK
+/* Contact in strips, with a gap through them, a dead end and fluid that is shut in. */
+static enum rc_status
+leaks(double *out, struct rc_err *err)
+{
+    static const struct rc_leak_options options = {.around = true, .threads = 1};
+    double p[N] = {0}, g[N];
+    enum rc_status status = RC_FAIL;
+    struct rc_leak *leak;
+
+    for (size_t k = 0; k < N; k++) {
+        size_t i = k % NX, j = k / NX;
+        p[k] = (i == 5 && j != 4) || (i == 10 && j > 2) || (i == 7 && j == 8) ? 1e6 : 0;
+        g[k] = p[k] > 0 ? 0 : 1e-6 + 1e-7 * (double)(k % 7);
+    }
+    if ((leak = rc_leak_new(&shape, p, g, &options, err)) == NULL)
+        return RC_FAIL;
+    while ((status = rc_leak_step(leak, err)) == RC_MORE)
+        continue;
+    if (status == RC_OK) {
+        rc_leak_pressure(leak, out);
+        rc_leak_flux(leak, out + N);
+        rc_leak_channel(leak, out + 2 * N);
+        out[3 * N] = rc_leak_result(leak)->conductance;
+        out[3 * N + 1] = rc_leak_result(leak)->lower;
+        out[3 * N + 2] = (double)rc_leak_memory(&shape);
+        out[3 * N + 3] = (double)rc_leak_step_memory(leak);
+    }
+    rc_leak_free(leak);
+    return status;
+}
+#endif
 
 /* ---- stresses ---- */
 
@@ -626,6 +660,9 @@ static const struct {
     {.name = "contact, free to tilt", .use = free_to_tilt},
     {.name = "plasticity", .use = yields},
     {.name = "adhesion", .use = adheres},
+#ifdef RC_LEAK
+    {.name = "leakage", .use = leaks},
+#endif
     {.name = "stress", .use = free_stress},
     {.name = "stress, periodic", .use = periodic_stress},
     {.name = "stress, direct", .use = direct_stress},

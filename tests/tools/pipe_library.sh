@@ -7,6 +7,7 @@
 library=$(dirname "$RC_BIN")/libcontact
 flags="-fopenmp $(sanitizers "$library/libcontact.a")"
 with_mpi && flags="$flags -lmpi"
+with_leak && flags="$flags -lamd -lsuitesparseconfig"
 
 claim "the page holds a program" program "$pages/libcontact.3" hertz.c
 claim "  in 30 lines at most" [ "$(wc -l <hertz.c)" -le 30 ]

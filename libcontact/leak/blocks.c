@@ -1,0 +1,166 @@
+/*
+ * Which fluid flows: a node lies on a way from inlet to outlet that passes no node twice when it is in
+ * one block with a face that would join the two (Hopcroft and Tarjan, Commun. ACM 16, 1973, 372). All
+ * other fluid stands, exactly: dead ends hang on one node, and some fluid is shut in.
+ *
+ * The search in depth begins at the inlet and goes first over that face to the outlet. low[k] is the
+ * earliest node that is reached from k and what is found below it by one face beside that to its parent. A
+ * node is in the block of its parent when low reaches past that.
+ */
+#include "leak.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum {
+    INLET_FOUND = 1,
+    OUTLET_FOUND
+};
+
+struct search {
+    const struct rc_passage *a;
+    int32_t *found, *low; /* 0: not yet                                  */
+    int32_t *order;       /* nodes of the map as they were found         */
+    uint8_t *way;         /* to its parent; the direction that is next   */
+    uint8_t *next;
+    int32_t n;
+};
+
+static int32_t
+when(const struct search *s, int32_t k)
+{
+    return k == s->a->inlet ? INLET_FOUND : k == s->a->outlet ? OUTLET_FOUND : s->found[k];
+}
+
+static void
+find_node(struct search *s, int32_t k, enum rc_direction way)
+{
+    s->order[s->n++] = k;
+    s->found[k] = s->low[k] = s->n + OUTLET_FOUND;
+    s->way[k] = (uint8_t)way;
+    s->next[k] = 0;
+}
+
+/* All that hangs on node k, which was found from the outlet. */
+static void
+search_from(struct search *s, int32_t k)
+{
+    find_node(s, k, RC_ON);
+    while (k < s->a->nodes) {
+        enum rc_direction d = (enum rc_direction)s->next[k]++;
+        int32_t other;
+        if (d == RC_DIRECTIONS) {
+            int32_t parent = rc_passage_beside(s->a, k, (enum rc_direction)s->way[k]);
+            if (parent < s->a->nodes && s->low[k] < s->low[parent])
+                s->low[parent] = s->low[k];
+            k = parent;
+            continue;
+        }
+        if (d == (enum rc_direction)s->way[k])
+            continue;
+        other = rc_passage_beside(s->a, k, d);
+        if (other < 0)
+            continue;
+        if (when(s, other) == 0) {
+            find_node(s, other, rc_opposite(d));
+            k = other;
+        } else if (when(s, other) < s->low[k]) {
+            s->low[k] = when(s, other);
+        }
+    }
+}
+
+enum rc_status
+rc_blocks(struct rc_passage *a, struct rc_err *err)
+{
+    size_t n = (size_t)a->nodes;
+    struct search s = {.a = a};
+    enum rc_status status = RC_FAIL;
+
+    s.found = calloc(n, sizeof *s.found);
+    s.low = malloc(n * sizeof *s.low);
+    s.order = malloc(n * sizeof *s.order);
+    s.way = malloc(n);
+    s.next = malloc(n);
+    if (s.found == NULL || s.low == NULL || s.order == NULL || s.way == NULL || s.next == NULL) {
+        rc_err_set(err, "out of memory for the channels of %zu x %zu nodes", a->nx, a->ny);
+        goto done;
+    }
+    for (size_t j = 0; j < a->ny; j++) {
+        int32_t k = (int32_t)((j + 1) * a->nx - 1);
+        if (a->g[k] > 0 && s.found[k] == 0)
+            search_from(&s, k);
+    }
+    for (size_t k = 0; k < n; k++)
+        a->state[k] = a->g[k] > 0 ? RC_DEAD : RC_DRY;
+    for (int32_t m = 0; m < s.n; m++) {
+        int32_t k = s.order[m], parent = rc_passage_beside(a, k, (enum rc_direction)s.way[k]);
+        if (s.low[k] < when(&s, parent) && (parent == a->outlet || a->state[parent] == RC_FLOWS))
+            a->state[k] = RC_FLOWS;
+    }
+    status = RC_OK;
+done:
+    free(s.found);
+    free(s.low);
+    free(s.order);
+    free(s.way);
+    free(s.next);
+    return status;
+}
+
+/* The nodes that stand together with k, from list[0] on, and the pressure that they share. */
+static int32_t
+pool_of(const struct rc_passage *a, int32_t k, const struct rc_levels *levels, int32_t *list,
+        bool *seen, double *shared)
+{
+    int32_t n = 1;
+
+    list[0] = k;
+    seen[k] = true;
+    *shared = NAN;
+    for (int32_t m = 0; m < n; m++)
+        for (int d = 0; d < RC_DIRECTIONS; d++) {
+            int32_t other = rc_passage_beside(a, list[m], (enum rc_direction)d);
+            if (other < 0)
+                continue;
+            if (other >= a->nodes) {
+                *shared = other == a->inlet ? 1 : 0;
+            } else if (a->state[other] == RC_FLOWS) {
+                *shared = levels->p[other];
+            } else if (!seen[other]) {
+                seen[other] = true;
+                list[n++] = other;
+            }
+        }
+    return n;
+}
+
+enum rc_status
+rc_blocks_fill(const struct rc_passage *a, const struct rc_levels *levels, struct rc_err *err)
+{
+    size_t nodes = (size_t)a->nodes;
+    int32_t *list = malloc(nodes * sizeof *list);
+    bool *seen = calloc(nodes, sizeof *seen);
+    enum rc_status status = RC_OK;
+
+    if (list == NULL || seen == NULL)
+        status = rc_err_set(err, "out of memory for the channels of %zu x %zu nodes", a->nx, a->ny);
+    for (int32_t k = 0; status == RC_OK && k < a->nodes; k++) {
+        double shared;
+        if (a->state[k] == RC_DRY)
+            levels->p[k] = NAN;
+        if (a->state[k] != RC_DEAD || seen[k])
+            continue;
+        for (int32_t n = pool_of(a, k, levels, list, seen, &shared); n > 0; n--)
+            levels->p[list[n - 1]] = shared;
+    }
+    free(list);
+    free(seen);
+    return status;
+}
+
+size_t
+rc_blocks_memory(size_t nodes)
+{
+    return nodes * (3 * sizeof(int32_t) + 2);
+}

@@ -1,0 +1,169 @@
+/*
+ * Bounds of the conductance G of a network, from any pressure P of its nodes:
+ *
+ *     G <= sum of k (dP)^2 over the faces, P cut off at 0 and 1     (Dirichlet)
+ *     G >= q^2 / sum of f^2/k                                       (Thomson)
+ *
+ * for flows f over the faces that are lost nowhere and leave the inlet with q together. Those are k dP, and
+ * what does not add up at a node is sent down the trees of greatest gaps to inlet or outlet.
+ */
+#include "leak.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "libcontact/common.h"
+
+struct repair {
+    const struct rc_passage *a;
+    const struct rc_levels *levels;
+    double *down;   /* sent from a node to its parent                                      */
+    int32_t *order; /* nodes that flow, parents first                                      */
+    uint8_t *way;   /* to the parent                                                       */
+    int32_t n;
+};
+
+/* P of a node, cut off. */
+static void
+level_of(const struct rc_passage *a, const struct rc_levels *levels, int32_t k, double *p,
+         double *rest)
+{
+    *p = k == a->inlet ? 1 : k == a->outlet ? 0 : levels->p[k];
+    *rest = k >= a->nodes ? 0 : levels->rest[k];
+    if (rc_level_difference(*p, *rest, 1, 0) > 0)
+        *p = 1, *rest = 0;
+    if (rc_level_difference(*p, *rest, 0, 0) < 0)
+        *p = *rest = 0;
+}
+
+double
+rc_leak_driven(const struct rc_passage *a, const struct rc_levels *levels, int32_t k, int32_t other,
+               enum rc_direction d, double *c)
+{
+    double p, rest, p_other, rest_other;
+
+    level_of(a, levels, k, &p, &rest);
+    level_of(a, levels, other, &p_other, &rest_other);
+    *c = rc_face(a, RC_HARMONIC, k, other, d);
+    return *c * rc_level_difference(p, rest, p_other, rest_other);
+}
+
+/* The node beside k towards which fluid can flow, or -1. */
+static int32_t
+flowing_beside(const struct rc_passage *a, int32_t k, enum rc_direction d)
+{
+    int32_t other = rc_passage_beside(a, k, d);
+
+    return other < 0 || other >= a->nodes || a->state[other] == RC_FLOWS ? other : -1;
+}
+
+/* What is sent over that face on top of it. */
+static double
+sent(const struct repair *r, int32_t k, int32_t other, enum rc_direction d)
+{
+    double f = r->way[k] == d ? r->down[k] : 0;
+
+    if (other < r->a->nodes && r->way[other] == rc_opposite(d))
+        f -= r->down[other];
+    return f;
+}
+
+static void
+set_parents(struct repair *r, const uint8_t *tree)
+{
+    const struct rc_passage *a = r->a;
+
+    for (int32_t k = 0; k < a->nodes; k++) {
+        r->way[k] = RC_DIRECTIONS;
+        for (int d = RC_ON; d <= RC_BACK && a->state[k] == RC_FLOWS; d++)
+            if (tree[k] >> d & 1 && rc_passage_beside(a, k, (enum rc_direction)d) >= a->nodes) {
+                r->way[k] = (uint8_t)d;
+                r->order[r->n++] = k;
+                break;
+            }
+    }
+    for (int32_t m = 0; m < r->n; m++)
+        for (int d = 0; d < RC_DIRECTIONS; d++) {
+            int32_t k = r->order[m], other = flowing_beside(a, k, (enum rc_direction)d);
+            if (!(tree[k] >> d & 1) || other < 0 || other >= a->nodes ||
+                r->way[other] != RC_DIRECTIONS)
+                continue;
+            r->way[other] = (uint8_t)rc_opposite((enum rc_direction)d);
+            r->order[r->n++] = other;
+        }
+}
+
+/* What leaves a node and has not come to it is sent to it by its parent. */
+static void
+send_down(struct repair *r)
+{
+    for (int32_t m = 0; m < r->n; m++)
+        r->down[r->order[m]] = 0;
+    for (int32_t m = r->n; m-- > 0;) {
+        int32_t k = r->order[m], parent;
+        for (int d = 0; d < RC_DIRECTIONS; d++) {
+            int32_t other = flowing_beside(r->a, k, (enum rc_direction)d);
+            double c;
+            if (other >= 0)
+                r->down[k] -= rc_leak_driven(r->a, r->levels, k, other, (enum rc_direction)d, &c);
+        }
+        parent = rc_passage_beside(r->a, k, (enum rc_direction)r->way[k]);
+        if (parent < r->a->nodes)
+            r->down[parent] += r->down[k];
+    }
+}
+
+static void
+add_up(const struct repair *r, double *lower, double *upper)
+{
+    struct rc_total energy = {0}, dissipated = {0}, flow = {0};
+
+    for (int32_t m = 0; m < r->n; m++)
+        for (int d = 0; d < RC_DIRECTIONS; d++) {
+            int32_t k = r->order[m], other = flowing_beside(r->a, k, (enum rc_direction)d);
+            double c, f;
+            if (other < 0 || (other < r->a->nodes && (d == RC_BACK || d == RC_UP)))
+                continue; /* each face once */
+            f = rc_leak_driven(r->a, r->levels, k, other, (enum rc_direction)d, &c);
+            rc_total_add(&energy, f / c * f);
+            f += sent(r, k, other, (enum rc_direction)d);
+            rc_total_add(&dissipated, f / c * f);
+            if (other == r->a->inlet)
+                rc_total_add(&flow, -f);
+        }
+    *upper = rc_total_value(&energy);
+    *lower = rc_total_value(&flow) / rc_total_value(&dissipated) * rc_total_value(&flow);
+}
+
+enum rc_status
+rc_leak_bounds(const struct rc_passage *a, const uint8_t *tree, const struct rc_levels *levels,
+               double *lower, double *upper, struct rc_err *err)
+{
+    size_t n = (size_t)a->nodes;
+    struct repair r = {.a = a, .levels = levels};
+    enum rc_status status = RC_FAIL;
+
+    r.down = malloc(n * sizeof *r.down);
+    r.order = malloc(n * sizeof *r.order);
+    r.way = malloc(n);
+    if (r.down == NULL || r.order == NULL || r.way == NULL) {
+        rc_err_set(err, "out of memory for the bounds of the flow through %zu x %zu nodes", a->nx,
+                   a->ny);
+        goto done;
+    }
+    set_parents(&r, tree);
+    send_down(&r);
+    add_up(&r, lower, upper);
+    status = RC_OK;
+done:
+    free(r.down);
+    free(r.order);
+    free(r.way);
+    return status;
+}
+
+size_t
+rc_leak_bounds_memory(size_t nodes)
+{
+    return nodes * (sizeof(double) + sizeof(int32_t) + 1);
+}

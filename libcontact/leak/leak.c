@@ -1,0 +1,333 @@
+/*
+ * Leakage: fluid that a pressure drives through the gap from one edge of the map to the opposite one, by
+ * Reynolds' equation without sliding, div(g^3 grad P) = 0. What is steady and thin: inertia, slip and
+ * slopes across the film do not count, and the fluid does not lift the bodies.
+ *
+ * A node is a cell of uniform gap; flow goes through the faces of cells (finite volumes), faces.c, and over
+ * half a cell at inlet and outlet. Contact is where pressure is carried: the gap alone does not tell, for
+ * it is 0 there only as far as the contact was iterated.
+ */
+#include "leak.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "libcontact/common.h"
+#include "libcontact/memory.h"
+
+enum stage {
+    STAGE_LINEAR,
+    STAGE_HARMONIC,
+    STAGE_DONE
+};
+
+struct rc_leak {
+    struct rc_shape shape;
+    bool down;            /* fluid goes from the first row to the last */
+    double along, across; /* sides of a cell, m                        */
+    double largest;       /* gap, m                                    */
+    int threads;
+    struct rc_passage a;
+    uint8_t *tree;
+    struct rc_levels levels; /* of the passage's nodes; p NAN: none, or not known */
+    struct rc_elimination *elimination;
+    enum stage stage;
+    struct rc_leak_figures figures;
+};
+
+/* A gap of less than this part of the largest lets nothing through, and its cube is a number still. */
+static const double closed = 1e-30;
+
+/* ---- the passage ---- */
+
+/* Of node k of the passage, its place in the map. */
+static size_t
+place_in_map(const struct rc_leak *l, size_t k)
+{
+    return l->down ? k % l->a.nx * l->shape.nx + k / l->a.nx : k;
+}
+
+static enum rc_status
+check(const struct rc_shape *s, const double *p, const double *g, const struct rc_leak_options *o,
+      struct rc_err *err)
+{
+    if (rc_shape_check(s, err) != RC_OK)
+        return RC_FAIL;
+    if (o->direction != 0 && o->direction != 'x' && o->direction != 'y')
+        return rc_err_set(err, "a direction of flow is x or y, not '%c'", o->direction);
+    if (s->nx * s->ny > INT32_MAX - 2)
+        return rc_err_set(err, "%zu x %zu nodes are more than are counted here: cut the map", s->nx,
+                          s->ny);
+    for (size_t k = 0; k < s->nx * s->ny; k++)
+        if (!isfinite(g[k]) || (p != NULL && !isfinite(p[k])))
+            return rc_err_set(err,
+                              "node (%zu, %zu) has no finite %s: fluid is where both are known",
+                              k % s->nx, k / s->nx, isfinite(g[k]) ? "pressure" : "gap");
+    return RC_OK;
+}
+
+static void
+set_gap(struct rc_leak *l, const double *p, const double *g)
+{
+    struct rc_total sum = {0};
+    struct rc_passage *a = &l->a;
+
+    for (int32_t k = 0; k < a->nodes; k++) {
+        size_t at = place_in_map(l, (size_t)k);
+        a->g[k] = (p == NULL || p[at] == 0) && g[at] > 0 ? g[at] : 0;
+        l->largest = fmax(l->largest, a->g[k]);
+        rc_total_add(&sum, a->g[k]);
+    }
+    l->figures.mean_gap = rc_total_value(&sum) / (double)a->nodes;
+    for (int32_t k = 0; k < a->nodes; k++) {
+        a->g[k] = a->g[k] > closed * l->largest ? a->g[k] / l->largest : 0;
+        l->figures.fluid_nodes += a->g[k] > 0;
+    }
+}
+
+/* RMS of the gap's slope where fluid flows, by differences between neighbours. */
+static double
+slope_of(const struct rc_leak *l)
+{
+    static const enum rc_direction ways[] = {RC_ON, RC_DOWN};
+    const double side[] = {l->along, l->across};
+    const struct rc_passage *a = &l->a;
+    double square = 0;
+
+    for (int w = 0; w < 2; w++) {
+        double sum = 0;
+        size_t n = 0;
+        for (int32_t k = 0; k < a->nodes; k++) {
+            int32_t other = a->state[k] == RC_FLOWS ? rc_passage_beside(a, k, ways[w]) : -1;
+            double step;
+            if (other < 0 || other >= a->nodes || a->state[other] != RC_FLOWS)
+                continue;
+            step = (a->g[other] - a->g[k]) * l->largest / side[w];
+            sum += step * step;
+            n++;
+        }
+        square += n > 0 ? sum / (double)n : 0;
+    }
+    return l->figures.unknowns > 0 ? sqrt(square) : NAN;
+}
+
+static void
+set_figures(struct rc_leak *l, const struct rc_critical *critical)
+{
+    const struct rc_shape *s = &l->shape;
+    struct rc_leak_figures *f = &l->figures;
+
+    for (int32_t k = 0; k < l->a.nodes; k++)
+        f->dead_nodes += l->a.state[k] == RC_DEAD;
+    f->unknowns = f->fluid_nodes - f->dead_nodes;
+    f->slope = slope_of(l);
+    f->percolates = critical->percolates;
+    f->percolates_diagonal = critical->percolates_diagonal;
+    f->throat_nodes = critical->width;
+    f->critical_x = f->critical_y = NAN;
+    f->error = NAN;
+    if (critical->percolates) {
+        size_t at = place_in_map(l, (size_t)critical->node);
+        f->critical_gap = l->a.g[critical->node] * l->largest;
+        f->critical_x = ((double)(at % s->nx) - (double)(s->nx - 1) / 2) * s->dx;
+        f->critical_y = ((double)(at / s->nx) - (double)(s->ny - 1) / 2) * s->dy;
+    }
+}
+
+static struct rc_leak *
+new_passage(const struct rc_shape *s, const struct rc_leak_options *o, struct rc_err *err)
+{
+    struct rc_leak *l = calloc(1, sizeof *l);
+    size_t n = s->nx * s->ny;
+
+    if (l == NULL)
+        goto failed;
+    l->shape = *s;
+    l->down = o->direction == 'y';
+    l->along = l->down ? s->dy : s->dx;
+    l->across = l->down ? s->dx : s->dy;
+    l->threads = rc_useful_threads(s, o->threads);
+    l->a = (struct rc_passage){.nx = l->down ? s->ny : s->nx,
+                               .ny = l->down ? s->nx : s->ny,
+                               .nodes = (int32_t)n,
+                               .inlet = (int32_t)n,
+                               .outlet = (int32_t)n + 1,
+                               .aspect = l->across / l->along,
+                               .around = o->around};
+    l->a.g = rc_alloc(n, sizeof *l->a.g);
+    l->levels.p = rc_alloc(n, sizeof *l->levels.p);
+    l->levels.rest = rc_alloc(n, sizeof *l->levels.rest);
+    l->a.state = malloc(n);
+    l->tree = malloc(n);
+    if (l->a.g != NULL && l->levels.p != NULL && l->levels.rest != NULL && l->a.state != NULL &&
+        l->tree != NULL)
+        return l;
+failed:
+    rc_err_set(err, "out of memory for the gap of %zu x %zu nodes", s->nx, s->ny);
+    rc_leak_free(l);
+    return NULL;
+}
+
+struct rc_leak *
+rc_leak_new(const struct rc_shape *shape, const double *p, const double *g,
+            const struct rc_leak_options *options, struct rc_err *err)
+{
+    struct rc_critical critical;
+    struct rc_leak *l;
+
+    if (check(shape, p, g, options, err) != RC_OK || (l = new_passage(shape, options, err)) == NULL)
+        return NULL;
+    set_gap(l, p, g);
+    if (rc_percolation(&l->a, &critical, l->tree, err) != RC_OK || rc_blocks(&l->a, err) != RC_OK ||
+        (l->elimination = rc_elimination_new(&l->a, err)) == NULL) {
+        rc_leak_free(l);
+        return NULL;
+    }
+    set_figures(l, &critical);
+    return l;
+}
+
+size_t
+rc_leak_memory(const struct rc_shape *s)
+{
+    size_t n = s->nx * s->ny, most = rc_percolation_memory(n);
+
+    if (most < rc_elimination_new_memory(n))
+        most = rc_elimination_new_memory(n);
+    if (most < rc_blocks_memory(n))
+        most = rc_blocks_memory(n);
+    return n * (3 * sizeof(double) + 2) + most;
+}
+
+size_t
+rc_leak_step_memory(const struct rc_leak *l)
+{
+    size_t n = l->shape.nx * l->shape.ny, after = rc_leak_bounds_memory(n);
+    size_t most = l->elimination == NULL ? 0 : rc_elimination_memory(l->elimination);
+
+    return most > after ? most : after;
+}
+
+/* ---- steps ---- */
+
+static enum rc_status
+step_linear(struct rc_leak *l, struct rc_err *err)
+{
+    double size = l->largest * l->largest * l->largest;
+
+    if (rc_elimination_run(l->elimination, &l->a, RC_LINEAR, &l->figures.conductance_linear, err) !=
+        RC_OK)
+        return RC_FAIL;
+    l->figures.conductance_linear *= size;
+    return RC_MORE;
+}
+
+static enum rc_status
+step_harmonic(struct rc_leak *l, struct rc_err *err)
+{
+    double size = l->largest * l->largest * l->largest;
+    double wide = (double)l->a.ny * l->across, mean = l->figures.mean_gap;
+    struct rc_leak_figures *f = &l->figures;
+
+    if (l->elimination != NULL) {
+        if (rc_elimination_run(l->elimination, &l->a, RC_HARMONIC, &f->conductance, err) != RC_OK)
+            return RC_FAIL;
+        rc_elimination_levels(l->elimination, &l->levels);
+        rc_elimination_free(l->elimination); /* makes room */
+        l->elimination = NULL;
+        f->conductance *= size;
+    }
+    if (rc_blocks_fill(&l->a, &l->levels, err) != RC_OK)
+        return RC_FAIL;
+    if (f->percolates) {
+        if (rc_leak_bounds(&l->a, l->tree, &l->levels, &f->lower, &f->upper, err) != RC_OK)
+            return RC_FAIL;
+        f->lower *= size;
+        f->upper *= size;
+        f->error = (f->conductance_linear - f->conductance) / (2 * f->conductance);
+    }
+    f->flow_factor =
+        mean > 0 ? f->conductance * ((double)l->a.nx * l->along) / (wide * mean * mean * mean) : 0;
+    return RC_OK;
+}
+
+enum rc_status
+rc_leak_step(struct rc_leak *l, struct rc_err *err)
+{
+    enum rc_status status = RC_OK;
+
+    if (l->stage == STAGE_LINEAR)
+        status = step_linear(l, err);
+    else if (l->stage == STAGE_HARMONIC)
+        status = step_harmonic(l, err);
+    if (status == RC_MORE || status == RC_OK)
+        l->stage = l->stage == STAGE_LINEAR ? STAGE_HARMONIC : STAGE_DONE;
+    return status;
+}
+
+const struct rc_leak_figures *
+rc_leak_result(const struct rc_leak *l)
+{
+    return &l->figures;
+}
+
+/* ---- maps ---- */
+
+void
+rc_leak_pressure(const struct rc_leak *l, double *pressure)
+{
+    size_t n = l->shape.nx * l->shape.ny;
+
+#pragma omp parallel for num_threads(l->threads) schedule(static)
+    for (size_t k = 0; k < n; k++)
+        pressure[place_in_map(l, k)] = l->levels.p[k];
+}
+
+/* Flux along a direction, m^2, the mean of what goes through the two faces. */
+static double
+flux_along(const struct rc_leak *l, int32_t k, enum rc_direction d)
+{
+    const struct rc_passage *a = &l->a;
+    double sum = 0;
+
+    for (int side = 0; side < 2; side++, d = rc_opposite(d)) {
+        int32_t other = rc_passage_beside(a, k, d);
+        double c;
+        if (other < 0 || (other < a->nodes && a->state[other] != RC_FLOWS))
+            continue;
+        sum += (side == 0 ? 1 : -1) * rc_leak_driven(a, &l->levels, k, other, d, &c);
+    }
+    return sum / 2 * l->largest * l->largest * l->largest /
+           (d == RC_ON || d == RC_BACK ? l->across : l->along);
+}
+
+void
+rc_leak_flux(const struct rc_leak *l, double *flux)
+{
+#pragma omp parallel for num_threads(l->threads) schedule(static)
+    for (int32_t k = 0; k < l->a.nodes; k++)
+        flux[place_in_map(l, (size_t)k)] =
+            l->a.state[k] == RC_FLOWS ? hypot(flux_along(l, k, RC_ON), flux_along(l, k, RC_DOWN))
+                                      : 0;
+}
+
+void
+rc_leak_channel(const struct rc_leak *l, double *channel)
+{
+    for (size_t k = 0; k < l->shape.nx * l->shape.ny; k++)
+        channel[place_in_map(l, k)] = l->a.state[k];
+}
+
+void
+rc_leak_free(struct rc_leak *l)
+{
+    if (l == NULL)
+        return;
+    free(l->a.g);
+    free(l->a.state);
+    free(l->levels.p);
+    free(l->levels.rest);
+    free(l->tree);
+    rc_elimination_free(l->elimination);
+    free(l);
+}

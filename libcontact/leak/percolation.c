@@ -1,0 +1,174 @@
+/*
+ * Where the gap opens a way: nodes join by falling gap, in sets (union-find), until the sets of inlet
+ * and outlet meet. The node that makes them meet is the critical constriction: no way from inlet to
+ * outlet has a wider narrowest place.
+ *
+ * The faces that join sets on the way are the two trees of greatest gaps (Kruskal), but for the one at
+ * which inlet and outlet meet.
+ */
+#include "leak.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+struct opening {
+    double g;
+    int32_t node;
+};
+
+static int
+by_falling_gap(const void *one, const void *two)
+{
+    const struct opening *a = one, *b = two;
+
+    if (a->g != b->g)
+        return a->g > b->g ? -1 : 1;
+    return (a->node > b->node) - (a->node < b->node);
+}
+
+static int32_t
+find(int32_t *parent, int32_t k)
+{
+    while (parent[k] != k) {
+        parent[k] = parent[parent[k]];
+        k = parent[k];
+    }
+    return k;
+}
+
+/* Joins the sets of a and b; whether they were two. */
+static bool
+join(int32_t *parent, int32_t a, int32_t b)
+{
+    a = find(parent, a);
+    b = find(parent, b);
+    parent[a > b ? b : a] = a > b ? a : b; /* inlet and outlet stay the last, and so the roots */
+    return a != b;
+}
+
+static bool
+met(const struct rc_passage *a, int32_t *parent)
+{
+    return find(parent, a->inlet) == find(parent, a->outlet);
+}
+
+static void
+take_in(const struct rc_passage *a, const struct opening *open, size_t n, int32_t *parent,
+        uint8_t *tree, struct rc_critical *critical)
+{
+    for (size_t m = 0; m < n; m++) {
+        int32_t k = open[m].node;
+        parent[k] = k;
+        for (int d = 0; d < RC_DIRECTIONS; d++) {
+            int32_t other = rc_passage_beside(a, k, (enum rc_direction)d);
+            if (other < 0 || parent[other] < 0 || !join(parent, k, other))
+                continue;
+            if (!critical->percolates && met(a, parent)) {
+                critical->percolates = true;
+                critical->node = k;
+                continue;
+            }
+            tree[k] |= (uint8_t)(1 << d);
+            if (other < a->nodes)
+                tree[other] |= (uint8_t)(1 << rc_opposite((enum rc_direction)d));
+        }
+    }
+}
+
+/* Whether corners would join what edges do not. */
+static bool
+joins_by_corners(const struct rc_passage *a, const struct opening *open, size_t n, int32_t *parent)
+{
+    for (size_t m = 0; m < n; m++) {
+        int32_t k = open[m].node, nx = (int32_t)a->nx, below;
+        bool down = k < a->nodes - nx;
+        if (!down && (!a->around || a->ny == 1))
+            continue;
+        below = down ? k + nx : k - (a->nodes - nx);
+        if (k % nx != 0 && a->g[below - 1] > 0)
+            join(parent, k, below - 1);
+        if (k % nx != nx - 1 && a->g[below + 1] > 0)
+            join(parent, k, below + 1);
+    }
+    return met(a, parent);
+}
+
+/* Fluid nodes in a row through node k, by steps of (i, j), around the map once at most; SIZE_MAX where the row
+ * ends at inlet or outlet, not at walls. */
+static size_t
+run_through(const struct rc_passage *a, int32_t k, int i, int j)
+{
+    const long nx = (long)a->nx, ny = (long)a->ny;
+    size_t n = 1;
+
+    for (int sign = -1; sign <= 1; sign += 2) {
+        long x = k % nx, y = k / nx;
+        for (;;) {
+            x += sign * i;
+            y += sign * j;
+            if (a->around)
+                y = (y + ny) % ny;
+            if (x < 0 || x >= nx)
+                return SIZE_MAX;
+            if (y < 0 || y >= ny || !(a->g[y * nx + x] > 0) || (j != 0 && n >= a->ny))
+                break;
+            n++;
+        }
+    }
+    return n;
+}
+
+/* Along a diagonal nodes are sqrt(2) as far apart. */
+static size_t
+width_at(const struct rc_passage *a, int32_t k)
+{
+    size_t width = run_through(a, k, 0, 1), other = run_through(a, k, 1, 0);
+
+    width = other < width ? other : width;
+    for (int j = -1; j <= 1; j += 2) {
+        other = run_through(a, k, 1, j);
+        if (other != SIZE_MAX && sqrt(2) * (double)other < (double)width)
+            width = (size_t)(sqrt(2) * (double)other);
+    }
+    return width;
+}
+
+enum rc_status
+rc_percolation(const struct rc_passage *a, struct rc_critical *critical, uint8_t *tree,
+               struct rc_err *err)
+{
+    size_t nodes = (size_t)a->nodes, n = 0;
+    struct opening *open = malloc((nodes + 1) * sizeof *open);
+    int32_t *parent = malloc((nodes + 2) * sizeof *parent);
+    enum rc_status status = RC_FAIL;
+
+    *critical = (struct rc_critical){.node = -1};
+    if (open == NULL || parent == NULL) {
+        rc_err_set(err, "out of memory for the ways through %zu x %zu nodes", a->nx, a->ny);
+        goto done;
+    }
+    for (int32_t k = 0; k < a->nodes; k++) {
+        parent[k] = -1;
+        tree[k] = 0;
+        if (a->g[k] > 0)
+            open[n++] = (struct opening){a->g[k], k};
+    }
+    parent[a->inlet] = a->inlet;
+    parent[a->outlet] = a->outlet;
+    qsort(open, n, sizeof *open, by_falling_gap);
+    take_in(a, open, n, parent, tree, critical);
+    if (critical->percolates)
+        critical->width = width_at(a, critical->node);
+    critical->percolates_diagonal = critical->percolates || joins_by_corners(a, open, n, parent);
+    status = RC_OK;
+done:
+    free(open);
+    free(parent);
+    return status;
+}
+
+size_t
+rc_percolation_memory(size_t nodes)
+{
+    return nodes * (2 * sizeof(struct opening) + sizeof(int32_t)); /* qsort takes a copy */
+}
