@@ -63,6 +63,7 @@ tools/solve         | formats/core/core.h                      | formats/core fo
 tools/import        | libcontact/grid.h tools/cli/cli.h        | libcontact %cli
 tools/import        | formats/core/core.h formats/format.h     | formats formats/core
 tools/stress        | %public tools/cli/cli.h                  | %physics %cli
+tools/leak          | %public tools/cli/cli.h                  | %physics %cli
 tools/pick          | %public tools/cli/cli.h                  | %physics %cli
 tools/synth         | %public tools/cli/cli.h                  | %physics %cli
 tools/info          | %public tools/cli/cli.h                  | %physics %cli formats/rcg
@@ -71,6 +72,7 @@ tools/render        | tools/plot/plot.h                        | %plot
 tools               | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli %plot
 tools               | tools/cost/cost.h tools/solve/solve.h    | tools/cost tools/solve
 tools               | tools/stress/stress.h tools/render/render.h | tools/stress tools/render
+tools               | tools/leak/leak.h                        | tools/leak
 tools               | tools/info/info.h                        | tools/info
 tools               | tools/import/import.h                    | tools/import
 tools               | tools/pick/pick.h tools/synth/synth.h    | tools/pick tools/synth
@@ -81,9 +83,7 @@ END
 base='libcontact/contact.h libcontact/grid.h libcontact/common.h libcontact/memory.h'
 public='libcontact/contact.h libcontact/grid.h'
 physics='libcontact libcontact/body libcontact/operator libcontact/solver libcontact/stress libcontact/plastic'
-physics="$physics libcontact/adhesion libcontact/surface"
-physics='libcontact libcontact/body libcontact/operator libcontact/solver libcontact/stress libcontact/plastic libcontact/leak'
-physics="$physics libcontact/surface"
+physics="$physics libcontact/adhesion libcontact/leak libcontact/surface"
 cli='tools/cli tools/text tools/machine'
 plot='tools/plot tools/canvas'
 sed -i "s!%base!$base!; s!%public!$public!; s!%physics!$physics!; s!%cli!$cli!; s!%plot!$plot!; s!%ranks!libcontact/ranks/ranks.h!" arrows.txt

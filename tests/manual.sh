@@ -61,7 +61,7 @@ help_words() {
         name != "" {
             for (i = 1; i <= NF; i++) {
                 if ($i ~ /^[a-z0-9]+([|][a-z0-9]+)+$/) n = split($i, word, "|")
-                else if ($(i - 1) == "of" && $i ~ /^[a-z0-9]+(,[a-z0-9]+)+$/) n = split($i, word, ",")
+                else if ($(i - 1) == "of" && $i ~ /^[a-z0-9-]+(,[a-z0-9-]+)+$/) n = split($i, word, ",")
                 else continue
                 for (k = 1; k <= n; k++) print name, word[k]
             }
@@ -74,6 +74,6 @@ page_words() {
         /^\.It/ || /^\.E[ld]/ || /^\.S[hs]/ { name = "" }
         /^\.It Fl -/ { name = "-" $3; start = 4 }
         name != "" && (/^\.It Fl/ || /^\.Cm/) {
-            for (i = 2; i <= NF; i++) if ($i ~ /^[a-z0-9]+$/) print name, $i
+            for (i = 2; i <= NF; i++) if ($i ~ /^[a-z0-9]+(-[a-z0-9]+)*$/) print name, $i
         }' "$1" | sort -u
 }

@@ -119,6 +119,19 @@ skip_with_address_sanitizer() {
     fi
 }
 
+# with_leak: whether this build knows flow through gaps, for which it needs AMD of SuiteSparse.
+with_leak() {
+    grep -qs '^AMD_LIBRARY:[A-Z]*=.*amd' "$(dirname "$RC_BIN")/CMakeCache.txt" &&
+        ! grep -qs '^RC_LEAK:[A-Z]*=OFF' "$(dirname "$RC_BIN")/CMakeCache.txt"
+}
+
+# tool_sources: the mains of the tools that are built, one a line.
+tool_sources() {
+    for main in "$RC_SOURCE"/tools/rc-*.c; do
+        [ "${main##*/}" = rc-leak.c ] && ! with_leak || echo "$main"
+    done
+}
+
 finish() {
     echo "$claims claims, $failures failed"
     [ "$claims" -gt 0 ] && [ "$failures" = 0 ]

@@ -44,9 +44,3 @@ sanitizers() {
 with_mpi() {
     grep -qs '^RC_MPI:BOOL=ON' "$(dirname "$RC_BIN")/CMakeCache.txt"
 }
-
-# with_leak: whether it knows flow through gaps, by AMD of SuiteSparse.
-with_leak() {
-    grep -qs '^AMD_LIBRARY:[A-Z]*=.*amd' "$(dirname "$RC_BIN")/CMakeCache.txt" &&
-        ! grep -qs '^RC_LEAK:[A-Z]*=OFF' "$(dirname "$RC_BIN")/CMakeCache.txt"
-}

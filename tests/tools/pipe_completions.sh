@@ -6,7 +6,7 @@ completions=$RC_BIN/completions
 mkdir empty streams
 
 tools=
-for source in "$RC_SOURCE"/tools/rc-*.c; do
+for source in $(tool_sources); do
     tools="$tools $(basename "$source" .c)"
 done
 

@@ -4,7 +4,7 @@
 . "$RC_SOURCE/tests/manual.sh"
 
 tools=
-for source in "$RC_SOURCE"/tools/rc-*.c; do
+for source in $(tool_sources); do
     tools="$tools $(basename "$source" .c)"
 done
 

@@ -38,7 +38,7 @@ static const struct word_unit { /* units that do not go by prefixes */
 const char *
 unit_name(enum unit unit)
 {
-    static const char *const names[] = {"", "m", "N", "Pa", "s", "bytes", "Pa", "J/m2"};
+    static const char *const names[] = {"", "m", "N", "Pa", "s", "bytes", "Pa", "J/m2", "Pas"};
 
     return names[unit];
 }
@@ -46,8 +46,8 @@ unit_name(enum unit unit)
 const char *
 unit_usual(enum unit unit)
 {
-    static const char *const usual[] = {"",        "nm um mm m", "mN N kN",    "kPa MPa GPa",
-                                        "s min h", "M G",        "HV MPa GPa", "mJ/m2 J/m2"};
+    static const char *const usual[] = {"",    "nm um mm m", "mN N kN",    "kPa MPa GPa", "s min h",
+                                        "M G", "HV MPa GPa", "mJ/m2 J/m2", "mPas Pas"};
 
     return usual[unit];
 }

@@ -17,6 +17,7 @@ enum unit {
     UNIT_BYTES, /* bytes: 512M, 4G, 2GiB    */
     UNIT_HARD,  /* pascals; also 600HV      */
     UNIT_WORK,  /* joules per square metre; also N/m */
+    UNIT_PAS,   /* pascal seconds           */
 };
 
 struct numbers {

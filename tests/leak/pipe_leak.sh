@@ -1,0 +1,152 @@
+# rc-leak: gaps that are solved on paper, given as frames; rates and units; a list of loads; what is warned of
+# and what is refused, a sentence each.
+. "$(dirname "$0")/../pipe.sh"
+
+# made KEYS NX NY DX DY CHANNEL EXPRESSION...: a stream of one case, values by perl from $i, $j; KEYS as lines of a header.
+cat >made.pl <<'END'
+use Compress::Zlib;
+my ($keys, $nx, $ny, $dx, $dy, @frames) = @ARGV;
+my $n = 0;
+while (my ($channel, $value) = splice @frames, 0, 2) {
+    my $frame = "RCG1\nchannel=$channel\nnx=$nx\nny=$ny\ndx=$dx\ndy=$dy\nunit=" . ($channel eq "gap" ? "m" : "Pa") . "\ntype=f64\n$keys\n\n";
+    for our $j (0 .. $ny - 1) { for our $i (0 .. $nx - 1) { $frame .= pack "d<", eval $value } }
+    print $frame, sprintf("crc32 %08x\n", crc32($frame));
+    $n++;
+}
+print "RCGEND $n\n";
+END
+made() { perl made.pl "$@"; }
+column() { # NAME ROW FILE
+    awk -F '\t' -v n="$1" -v r="$2" 'NR == 1 { for (i = 1; i <= NF; i++) { split($i, h, "/"); if (h[1] == n) c = i } } NR == r + 1 { print $c }' "$3"
+}
+
+# ---- known flows ----
+
+# 12 columns of a gap of 2 um over 3 rows of 4, a wall of contact in the fourth: 3 g^3 dy/(12 dx)
+made 'boundary=free
+load=3' 12 4 2e-6 1e-6 gap '$j < 3 ? 2e-6 : 1e-12' pressure '$j < 3 ? 0 : 8e7' >channel.rcg
+rc-leak --viscosity 2mPas --pressure-drop 100kPa --report channel.json channel.rcg -o flow.rcg 2>flow.err
+claim "a channel is nothing to warn of" test ! -s flow.err
+near "$(field flow_conductance channel.json)" 1e-18 "$rounding" "a channel: its conductance"
+near "$(field flow_rate channel.json)" "$(awk 'BEGIN { print 1e-18 * 1e5 / (12 * 2e-3) }')" "$six_digits" "  and rate"
+near "$(field conductance_lower channel.json)" 1e-18 "$rounding" "  which is proven from below"
+near "$(field conductance_upper channel.json)" 1e-18 "$rounding" "  and from above"
+near "$(field flow_factor channel.json)" "$(awk 'BEGIN { print 1e-18 * 24 / 4 / (1.5e-6) ^ 3 }')" "$six_digits" "  its flow factor"
+near "$(field mean_pressure channel.json)" 2e7 "$rounding" "  the mean pressure of the contact"
+near "$(field load channel.json)" 3 "$rounding" "  and its load, for a curve"
+near "$(field contact_fraction channel.json)" 0.25 "$rounding" "  and fraction"
+near "$(field critical_gap channel.json)" 2e-6 "$rounding" "  the critical gap"
+near "$(field critical_flow channel.json)" "$(awk 'BEGIN { print 8e-18 * 4 / 24 * 1e5 / (12 * 2e-3) }')" "$six_digits" "  and what it lets through"
+near "$(field throat_nodes channel.json)" 3 "$same" "  which is 3 nodes wide"
+# 12 cells: pressures at (i + 1/2)/12 of the way; the flux per width is g^3 dp/(24 dx)/(12 eta) everywhere
+row() { rc-pick --channel "$1" flow.rcg | rc-export --format csv | grep -v '^#' | sed -n "$2p"; }
+claim "fluid pressure falls along the channel, and there is none in contact" bash -c '
+    awk -F , "{ for (i = 1; i <= 12; i++) { d = \$i - 1e5 * (12.5 - i) / 12; if (d < -1e-6 || d > 1e-6) exit 1 } n = NF } END { exit n != 12 }" <<<"$1" &&
+        [[ $2 =~ ^[nN]a[nN](,[nN]a[nN]){11}$ ]]' - "$(row fluid-pressure 2)" "$(row fluid-pressure 4)"
+flux=$(awk 'BEGIN { print 8e-18 / 24e-6 * 1e5 / (12 * 2e-3) }')
+near "$(row flux 1 | cut -d , -f 7)" "$flux" "$six_digits" "flux per width"
+claim "  and none in contact" test "$(row flux 4 | tr , '\n' | sort -u)" = 0.0
+claim "channels" test "$(row channel 1 | tr , '\n' | sort -u) $(row channel 4 | tr , '\n' | sort -u)" = "2.0 0.0"
+claim "units" bash -c 'rc-info --json flow.rcg | grep -o "\"unit\": \"[^\"]*\"" | tr "\n" " " | grep -qx "\"unit\": \"Pa\" \"unit\": \"m2/s\" \"unit\": \"1\" "'
+claim "keys for a picture" bash -c 'rc-info flow.rcg | says "throat_x=" cat && rc-info flow.rcg | says "flow_rate=4.16666.*e-12" cat'
+claim "history" says 'rc-leak [^|]* --viscosity 0.002 --pressure-drop 100000' head -c 2000 flow.rcg
+
+rc-leak --quiet --report bare.json channel.rcg -o bare.rcg
+claim "without a fluid a conductance and no rate" grep -q '"viscosity": null, "pressure_drop": null, "flow_rate": null, "flow_conductance": [19]' bare.json
+claim "  pressures from 1 to 0, fluxes in m2" bash -c 'rc-info --json bare.rcg | grep -o "\"unit\": \"[^\"]*\"" | tr "\n" " " | grep -qx "\"unit\": \"1\" \"unit\": \"m2\" \"unit\": \"1\" "'
+claim "--output chooses, in its own order" bash -c 'test "$(rc-leak --quiet --output channel,flux channel.rcg | rc-info --json | grep -o "\"channel\": \"[a-z-]*\"" | tr "\n" " ")" = "\"channel\": \"flux\" \"channel\": \"channel\" "'
+rc-leak --quiet --direction y --report across.json channel.rcg -o across.rcg
+claim "across the wall nothing flows" grep -q '"flow_conductance": 0, .*"percolates": false, .*"critical_gap": 0, "critical_x": null' across.json
+claim "  and no place is marked" bash -c 'rc-info across.rcg >across.txt && ! grep -q throat_x across.txt'
+
+# a gap of waves across the flow: (1 - A^2)^(5/2)/(1 + A^2/2), A = 0.5
+made periodic=yes 32 4 1e-6 1e-6 gap '1e-6 * (1 + 0.5 * cos(2 * 3.14159265358979 * ($i + 0.5) / 32))' >wave.rcg
+rc-leak --report wave.json wave.rcg -o wave-flow.rcg 2>wave.err
+near "$(field flow_factor wave.json)" "$(awk 'BEGIN { print 0.75 ^ 2.5 / 1.125 }')" "$six_digits" "a wave across the flow"
+claim "its sides meet, for the map is periodic" grep -q '"sides": "periodic"' wave.json
+claim "without a pressure frame: a warning" grep -q 'no pressure frame beside it: .*rc-solve --output pressure,gap' wave.err
+rc-leak --quiet --sides closed --report closed.json wave.rcg -o closed.rcg
+claim "  closed when that is asked for" grep -q '"sides": "closed"' closed.json
+rc-leak --quiet --report stripes.json --direction y wave.rcg -o stripes.rcg
+near "$(field flow_factor stripes.json)" 1.375 "$rounding" "a wave along it: 1 + 3 A^2/2"
+
+# ---- rough contacts under a list of loads ----
+
+rc-synth selfaffine --nx 128 --dx 1um --hurst 0.8 --rms-slope 0.05 --rolloff 32um --short-cut 4um --seed 2 -o rough.rcg
+rc-solve --quiet --periodic --estar 1GPa --mean-pressure 1MPa,3MPa,5MPa,16MPa --output pressure,gap rough.rcg -o pressed.rcg
+rc-leak --quiet --report loads.tsv pressed.rcg -o leak.rcg
+claim "four loads, four rows" test "$(wc -l <loads.tsv)" = 5
+claim "  of one conductance after the other" bash -c '
+    awk -F "\t" "NR == 1 { for (i = 1; i <= NF; i++) if (\$i == \"flow_conductance/m3\") c = i }
+        NR > 1 { if (NR > 2 && !(\$c < last)) exit 1; last = \$c } END { exit last != 0 || NR != 5 }" loads.tsv'
+claim "  none percolates at 16 MPa" test "$(column percolates 4 loads.tsv)" = false
+for row in 1 2 3; do
+    near "$(column conductance_lower $row loads.tsv)" "$(column conductance_upper $row loads.tsv)" "$summed" "proven bounds meet"
+done
+claim "through pipes too, with every frame of a case" bash -c '
+    rc-solve --quiet --periodic --estar 1GPa --mean-pressure 3MPa rough.rcg | rc-leak --quiet | rc-info --json >piped.json && test "$(wc -l <piped.json)" = 3'
+# the fluid that stands carries no flow: channel 1 exactly where the flux is 0 and there is no contact
+claim "the flux is 0 where fluid stands" bash -c '
+    paste -d " " <(rc-pick --case 3 --channel channel leak.rcg | rc-export --format xyz | grep -v "^#" | awk "{ print \$3 }") \
+        <(rc-pick --case 3 --channel flux leak.rcg | rc-export --format xyz | grep -v "^#" | awk "{ print \$3 }") |
+        awk "{ n[\$1]++; if ((\$1 < 2) != (\$2 == 0)) exit 1 } END { exit !(n[0] > 100 && n[1] > 10 && n[2] > 1000) }"'
+# turned by a quarter, the other direction
+rc-pick --case 2 --rotate 90 pressed.rcg >turned.rcg
+rc-leak --quiet --direction y --report turned.json turned.rcg -o turned-flow.rcg
+near "$(field flow_conductance turned.json)" "$(column flow_conductance 2 loads.tsv)" "$summed" "turned, the same along y"
+for threads in 1 2; do rc-leak --quiet --threads $threads pressed.rcg -o threads$threads.rcg; done
+claim "threads change no bit" cmp threads1.rcg threads2.rcg
+
+# ---- warnings ----
+
+# one gap, one node wide
+made boundary=free 9 9 1e-6 1e-6 gap '$i != 4 ? 1e-6 : $j == 3 ? 9e-7 : 0' pressure '$i == 4 && $j != 3 ? 1e6 : 0' >slit.rcg
+claim "a throat of one node" warns 'narrowest place of the widest way, at x = 0 m, y = -1e-06 m, is 1 node wide, .*finer grid' rc-leak slit.rcg -o x.rcg
+claim "  of three nodes: none" bash -c "rc-leak channel.rcg -o x.rcg 2>x.err && ! grep narrowest x.err"
+made boundary=free 4 4 1e-6 1e-6 gap '($i < 2) == ($j < 2) ? 1e-6 : 0' pressure '($i < 2) == ($j < 2) ? 0 : 1e6' >corners.rcg
+claim "what corners decide" warns 'if it could pass corners of cells, .*beyond this grid' rc-leak corners.rcg -o x.rcg
+made boundary=free 8 8 1e-6 1e-6 gap '1e-7 * (1 + 30 * ($i % 2))' pressure 0 >comb.rcg
+claim "an error of the grid" warns 'estimated error of the grid is 27[0-9] % of the flow' rc-leak comb.rcg -o x.rcg
+claim "a steep gap" warns 'RMS slope of the gap is 3 where fluid flows: .*below 0.3' rc-leak comb.rcg -o x.rcg
+claim "fluid that would lift the bodies" warns 'pressure drop, 3e\+06 Pa, is more than a tenth of the mean contact pressure, 2e\+07 Pa' \
+    rc-leak --viscosity 1mPas --pressure-drop 3MPa channel.rcg -o x.rcg
+claim "  and none that does not" bash -c 'rc-leak --viscosity 1mPas --pressure-drop 1.9MPa channel.rcg -o x.rcg 2>x.err && ! grep -q lift x.err'
+sed 's/^boundary=free/&\nconverged=no/' channel.rcg | perl -MCompress::Zlib -0777 -pe 's/(RCG1.*?)crc32 [0-9a-f]{8}\n/$1 . sprintf("crc32 %08x\n", crc32($1))/sge' >short.rcg
+refuses 3 'converged' "what has not converged stays so" "rc-leak short.rcg -o short-flow.rcg"
+claim "  and says so" says 'converged=no' head -c 1000 short-flow.rcg
+
+# ---- refusals ----
+
+refuses 1 'its boundary is free, so that its sides do not meet: leave out --sides periodic' "sides that do not meet" "rc-leak --sides periodic channel.rcg -o x.rcg"
+refuses 2 'direction z: it must be one of|direction z: ' "another direction" "rc-leak --direction z channel.rcg -o x.rcg"
+refuses 2 'given together, for a flow rate, or not at all' "a viscosity alone" "rc-leak --viscosity 1mPas channel.rcg -o x.rcg"
+refuses 2 'given together, for a flow rate, or not at all' "a pressure drop alone" "rc-leak --pressure-drop 1Pa channel.rcg -o x.rcg"
+refuses 2 "unknown unit 'Pa': Pas is expected" "a viscosity in another unit" "rc-leak --viscosity 1Pa --pressure-drop 1Pa channel.rcg -o x.rcg"
+refuses 2 'viscosity 0 Pas: it must be above 0' "no viscosity" "rc-leak --viscosity 0 --pressure-drop 1Pa channel.rcg -o x.rcg"
+made boundary=free 3 3 1e-6 1e-6 pressure 1 >alone.rcg
+refuses 1 'gap' "no gap" "rc-leak alone.rcg -o x.rcg"
+made boundary=free 3 3 1e-6 1e-6 gap '$i == 1 ? "nan" : 1' pressure 0 >holes.rcg
+refuses 1 'a gap has none: make it again' "a gap with holes" "rc-leak holes.rcg -o x.rcg"
+made boundary=free 3 3 1e-6 1e-6 gap 1 pressure '$i == 1 ? "inf" : 0' >infinite.rcg
+refuses 1 'a pressure map has none: make it again' "a pressure without end" "rc-leak infinite.rcg -o x.rcg"
+made boundary=free 3 3 1e-6 1e-6 gap 1 >a.rcg
+made boundary=free 4 3 1e-6 1e-6 pressure 0 >b.rcg
+refuses 1 'bring them to one grid' "a gap and a pressure of two grids" "{ sed '/^RCGEND/d' a.rcg; sed 's/^RCGEND 1/RCGEND 2/' b.rcg; } | rc-leak -o x.rcg"
+claim "nothing is left of what was refused" test ! -e x.rcg.tmp
+
+# ---- memory ----
+
+rc-synth selfaffine --nx 512 --dx 1um --hurst 0.8 --rms-slope 0.05 --rolloff 64um --short-cut 16um --seed 2 -o wide.rcg
+rc-solve --quiet --periodic --estar 1GPa --mean-pressure 3MPa --output pressure,gap wide.rcg -o wide-pressed.rcg
+if nm -D "$(command -v rc-leak)" 2>/dev/null | grep __asan >asan.txt; then
+    echo "not tried: memory, for the address sanitizer takes memory of its own"
+else
+    rc-leak --quiet --report wide.json wide-pressed.rcg -o wide-flow.rcg
+    near "$(field memory_estimate wide.json)" "$(field peak_memory wide.json)" 0.1 "the memory that was expected"
+    refuses 1 'need about [0-9]+ MiB, --memory allows 20 MiB' "more than --memory, before the order" "rc-leak --memory 20M wide-pressed.rcg -o never.rcg"
+    between_steps=$(awk -v peak="$(field peak_memory wide.json)" 'BEGIN { printf "%d", 0.85 * peak / 1024 }')
+    refuses 1 'need about [0-9]+ MiB, --memory allows [0-9]+ MiB' "and after it, by what it says" "rc-leak --memory ${between_steps}K wide-pressed.rcg -o never.rcg"
+    claim "nothing is half-written" test ! -e never.rcg
+fi
+
+finish

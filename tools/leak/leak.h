@@ -1,0 +1,25 @@
+/* What rc-leak asks for and tells. */
+#ifndef RC_TOOL_LEAK_H
+#define RC_TOOL_LEAK_H
+
+#include "libcontact/contact.h"
+#include "tools/cli/cli.h"
+
+/* A case, as far as it is known. */
+struct leak_case {
+    const struct rc_grid *gap; /* its values may be gone                                       */
+    char direction;
+    bool around;
+    bool pressed;           /* a pressure frame told what is in contact                         */
+    double contact, mean;   /* fraction of the nodes, mean pressure in Pa; NAN without it       */
+    double drop, viscosity; /* Pa, Pa s; NAN: not given                                        */
+    double rate;            /* m^3/s for a conductance of 1 m^3; NAN: not given                 */
+    double setup, solve;    /* s                                                                */
+    const struct rc_leak_figures *figures;
+};
+
+/* Says what is to be known of a flow before it is believed. */
+void leak_judge(struct tool *tool, const struct leak_case *c);
+void leak_report(struct report *report, const struct leak_case *c);
+
+#endif

@@ -1,0 +1,124 @@
+#include "leak.h"
+
+#include <math.h>
+
+/* What flows through the critical constriction as if there were one in each square of the map (Persson and Yang,
+ * J. Phys.: Condens. Matter 20, 2008, 315011). */
+static double
+critical_conductance(const struct leak_case *c)
+{
+    const struct rc_grid *g = c->gap;
+    double x = (double)g->nx * g->dx, y = (double)g->ny * g->dy, gap = c->figures->critical_gap;
+
+    return gap * gap * gap * (c->direction == 'y' ? x / y : y / x);
+}
+
+void
+leak_report(struct report *r, const struct leak_case *c)
+{
+    const struct rc_leak_figures *f = c->figures;
+    const struct rc_grid *g = c->gap;
+    const char direction[2] = {c->direction, '\0'};
+    double load;
+
+    if (!report_wanted(r))
+        return;
+    report_begin(r);
+    report_count(r, "case", rc_grid_case(g), NULL);
+    report_text(r, "source", rc_grid_get(g, "source"));
+    report_count(r, "nx", g->nx, NULL);
+    report_count(r, "ny", g->ny, NULL);
+    report_number(r, "dx", g->dx, "m");
+    report_number(r, "dy", g->dy, "m");
+    report_text(r, "boundary", rc_grid_get(g, "boundary"));
+    report_text(r, "direction", direction);
+    report_text(r, "sides", c->around ? "periodic" : "closed");
+    report_count(r, "threads", r->tool->threads, NULL);
+    report_number(r, "load", rc_grid_number(g, "load", &load) ? load : NAN, "N");
+    report_number(r, "mean_pressure", c->mean, "Pa");
+    report_number(r, "contact_fraction", c->contact, NULL);
+    report_number(r, "viscosity", c->viscosity, "Pas");
+    report_number(r, "pressure_drop", c->drop, "Pa");
+    report_number(r, "flow_rate", c->rate * f->conductance, "m3/s");
+    report_number(r, "flow_conductance", f->conductance, "m3");
+    report_number(r, "flow_conductance_linear", f->conductance_linear, "m3");
+    report_number(r, "conductance_lower", f->lower, "m3");
+    report_number(r, "conductance_upper", f->upper, "m3");
+    report_number(r, "discretization_error_estimate", f->error, NULL);
+    report_number(r, "flow_factor", f->flow_factor, NULL);
+    report_number(r, "mean_gap", f->mean_gap, "m");
+    report_number(r, "gap_slope", f->slope, NULL);
+    report_bool(r, "percolates", f->percolates);
+    report_bool(r, "percolates_diagonal", f->percolates_diagonal);
+    report_number(r, "critical_gap", f->critical_gap, "m");
+    report_number(r, "critical_x", f->critical_x, "m");
+    report_number(r, "critical_y", f->critical_y, "m");
+    report_number(r, "critical_flow", c->rate * critical_conductance(c), "m3/s");
+    report_count(r, "throat_nodes", f->throat_nodes, NULL);
+    report_count(r, "fluid_nodes", f->fluid_nodes, NULL);
+    report_count(r, "dead_nodes", f->dead_nodes, NULL);
+    report_count(r, "unknowns", f->unknowns, NULL);
+    report_object(r, "seconds");
+    report_number(r, "setup", c->setup, "s");
+    report_number(r, "solve", c->solve, "s");
+    report_number(r, "total", c->setup + c->solve, "s");
+    report_end(r);
+    report_count(r, "peak_memory", tool_peak_memory(), "B");
+    report_count(r, "memory_estimate", r->tool->expected_memory, "B");
+    report_finish_row(r);
+}
+
+/* ---- what is wrong with it ---- */
+
+static const double steep = 0.3;  /* slope beyond which a film is not thin               */
+static const double rough = 0.05; /* error of the grid that is told                      */
+static const double lifts = 0.1;  /* of the mean contact pressure                        */
+
+enum {
+    THROAT = 3 /* nodes across, below which it is off by a third */
+};
+
+void
+leak_judge(struct tool *t, const struct leak_case *c)
+{
+    const struct rc_leak_figures *f = c->figures;
+    char where[256];
+
+    tool_where(t, c->gap, where, sizeof where);
+    if (!c->pressed)
+        tool_warn(t,
+                  "%s: no pressure frame beside it: fluid goes wherever the gap is above 0, and in "
+                  "contact "
+                  "that is not to be trusted: rc-solve --output pressure,gap writes both",
+                  where);
+    if (f->percolates != f->percolates_diagonal)
+        tool_warn(t,
+                  "%s: fluid would get through if it could pass corners of cells, and through "
+                  "their edges "
+                  "it does not: whether it leaks is beyond this grid, take a finer one",
+                  where);
+    if (!f->percolates)
+        return;
+    if (f->throat_nodes < THROAT)
+        tool_warn(
+            t,
+            "%s: the narrowest place of the widest way, at x = %g m, y = %g m, is %zu node%s wide, "
+            "and fewer than %d may be off by a third: take a finer grid",
+            where, f->critical_x, f->critical_y, f->throat_nodes, f->throat_nodes == 1 ? "" : "s",
+            THROAT);
+    if (f->error > rough)
+        tool_warn(t, "%s: the estimated error of the grid is %.0f %% of the flow: take a finer one",
+                  where, 100 * f->error);
+    if (f->slope > steep)
+        tool_warn(
+            t,
+            "%s: the RMS slope of the gap is %.2g where fluid flows: the theory of thin films "
+            "holds for small ones, below %g",
+            where, f->slope, steep);
+    if (c->drop > lifts * c->mean)
+        tool_warn(t,
+                  "%s: the pressure drop, %g Pa, is more than a tenth of the mean contact "
+                  "pressure, %g Pa: "
+                  "fluid would lift the bodies, which is not computed",
+                  where, c->drop, c->mean);
+}

@@ -1,0 +1,224 @@
+/* What flows through the gap that the contact leaves, from one edge of the map to the opposite one. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "libcontact/contact.h"
+#include "tools/cli/cli.h"
+#include "tools/leak/leak.h"
+
+static const struct frame_kind {
+    const char *name, *unit, *driven_unit; /* without and with a pressure drop */
+    void (*get)(const struct rc_leak *leak, double *v);
+} frames[] = {
+    {"fluid-pressure", "1", "Pa", rc_leak_pressure},
+    {"flux", "m2", "m2/s", rc_leak_flux},
+    {"channel", "1", "1", rc_leak_channel},
+};
+
+enum {
+    PRESSURE,
+    FLUX,
+    FRAMES = sizeof frames / sizeof *frames
+};
+
+static const char *
+frame_word(size_t k)
+{
+    return k < FRAMES ? frames[k].name : NULL;
+}
+
+static struct args {
+    double viscosity, drop;
+    const char *direction, *sides, *report;
+    size_t output; /* bits of frames */
+} args = {.viscosity = NAN, .drop = NAN, .direction = "x", .output = (1u << FRAMES) - 1};
+
+#define AT(field) .at = offsetof(struct args, field)
+/* clang-format off */
+static const struct opt opts[] = {
+    {.name = "direction", .type = OPT_CHOICE, AT(direction), .result = true, .arg = "x|y",
+     .help = "from the left edge to the right (x) or from the upper to the lower (y); default x"},
+    {.name = "sides", .type = OPT_CHOICE, AT(sides), .result = true, .arg = "periodic|closed",
+     .help = "the edges along the flow meet, or are walls (default: the stream's boundary)"},
+    {.name = "viscosity", .type = OPT_NUMBER, .unit = UNIT_PAS, AT(viscosity), .min = 0,
+     .max = INFINITY, .above = true, .result = true, .arg = "ETA",
+     .help = "of the fluid; with --pressure-drop it gives a flow rate"},
+    {.name = "pressure-drop", .type = OPT_NUMBER, .unit = UNIT_PA, AT(drop), .min = 0,
+     .max = INFINITY, .above = true, .result = true, .arg = "DP",
+     .help = "of the fluid from edge to edge"},
+    {.name = "output", .type = OPT_WORDS, AT(output), .words = frame_word, .arg = "LIST",
+     .help = "frames to write, of %s (default: all)"},
+    {.name = "report", .type = OPT_REPORT, AT(report), .arg = "FILE",
+     .help = "write one JSON object a case, or a row of FILE.tsv: flow, its bounds, what is narrow"},
+    {.name = NULL},
+};
+/* clang-format on */
+
+static const struct tool_info info = {
+    .name = "rc-leak",
+    .summary = "What flows through the gap that the contact leaves",
+    .operands = "[FILE...]",
+    .examples =
+        "  rc-solve --periodic --mean-pressure 1MPa:8MPa:8 --estar 1GPa --output pressure,gap "
+        "surface.rcg |\n"
+        "      rc-leak --viscosity 1mPas --pressure-drop 100kPa --report leak.tsv -o flow.rcg\n",
+    .opts = opts,
+    .reads = READS_STREAM,
+    .writes = WRITES_STREAM,
+};
+
+struct run {
+    struct tool t;
+    struct report report;
+};
+
+/* ---- a case ---- */
+
+/* Whether the edges along the flow meet. */
+static bool
+sides_meet(struct run *run, const struct rc_grid *g)
+{
+    const char *boundary = rc_grid_get(g, "boundary"), *own = rc_grid_get(g, "periodic");
+    bool meet = boundary != NULL ? strcmp(boundary, "periodic") == 0
+                                 : own != NULL && strcmp(own, "yes") == 0;
+
+    if (args.sides == NULL)
+        return meet;
+    if (strcmp(args.sides, "closed") == 0)
+        return false;
+    if (boundary != NULL && !meet)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE,
+                    "its boundary is %s, so that its sides do not meet: leave out --sides periodic",
+                    boundary);
+    return true;
+}
+
+/* What the pressure tells; it is not needed any more. */
+static void
+look_at_contact(struct leak_case *c, const struct rc_grid *p)
+{
+    size_t n = rc_grid_nodes(p), touching = 0;
+
+    for (size_t k = 0; k < n; k++)
+        touching += p->v[k] != 0;
+    c->pressed = true;
+    c->contact = (double)touching / (double)n;
+    c->mean = rc_sum(p->v, n) / (double)n;
+}
+
+static enum rc_status
+set_keys(struct run *run, const struct leak_case *c, struct rc_grid *g, struct rc_err *err)
+{
+    const struct rc_leak_figures *f = c->figures;
+    const char direction[2] = {c->direction, '\0'};
+
+    if (rc_grid_set(g, "direction", direction, err) != RC_OK ||
+        rc_grid_set_number(g, "flow_conductance", f->conductance, err) != RC_OK ||
+        (!isnan(c->drop) &&
+         (rc_grid_set_number(g, "flow_rate", c->rate * f->conductance, err) != RC_OK ||
+          rc_grid_set_number(g, "pressure_drop", c->drop, err) != RC_OK ||
+          rc_grid_set_number(g, "viscosity", c->viscosity, err) != RC_OK)) ||
+        (f->percolates && (rc_grid_set_number(g, "throat_x", f->critical_x, err) != RC_OK ||
+                           rc_grid_set_number(g, "throat_y", f->critical_y, err) != RC_OK)))
+        return RC_FAIL;
+    return rc_grid_history(g, tool_history(&run->t), err);
+}
+
+static void
+write_frame(struct run *run, const struct leak_case *c, const struct rc_leak *leak, size_t kind)
+{
+    double scale = isnan(c->drop) ? 1 : kind == PRESSURE ? c->drop : kind == FLUX ? c->rate : 1;
+    const char *unit = isnan(c->drop) ? frames[kind].unit : frames[kind].driven_unit;
+    struct rc_err err;
+    struct rc_grid *g = rc_grid_like(c->gap, frames[kind].name, unit, &err);
+
+    if (g == NULL || set_keys(run, c, g, &err) != RC_OK)
+        tool_die_at(&run->t, c->gap, EXIT_IMPOSSIBLE, "%s", err.text);
+    frames[kind].get(leak, g->v);
+    for (size_t k = 0; k < rc_grid_nodes(g) && scale != 1; k++)
+        g->v[k] *= scale;
+    run->t.missing = kind == PRESSURE; /* there is none in contact */
+    tool_write(&run->t, g);
+    rc_grid_free(g);
+}
+
+static void
+solve(struct run *run, const struct leak_case *c, struct rc_leak *leak)
+{
+    size_t nodes = rc_grid_nodes(c->gap), bytes = rc_leak_step_memory(leak);
+    enum rc_status status;
+    struct rc_err err;
+
+    if (bytes < nodes * sizeof(double)) /* a frame, after it */
+        bytes = nodes * sizeof(double);
+    tool_demand_memory(&run->t, c->gap, bytes);
+    tool_progress(&run->t, "flow through %zu nodes", c->figures->unknowns);
+    while ((status = rc_leak_step(leak, &err)) == RC_MORE)
+        continue;
+    tool_progress_end(&run->t);
+    if (status != RC_OK)
+        tool_die_at(&run->t, c->gap, EXIT_IMPOSSIBLE, "%s", err.text);
+}
+
+static void
+do_case(struct run *run, const struct rc_grid *gap, struct rc_grid *p)
+{
+    struct leak_case c = {.gap = gap,
+                          .direction = args.direction[0],
+                          .around = sides_meet(run, gap),
+                          .contact = NAN,
+                          .mean = NAN,
+                          .drop = args.drop,
+                          .viscosity = args.viscosity,
+                          .rate = args.drop / (12 * args.viscosity)};
+    const struct rc_leak_options options = {
+        .direction = c.direction, .around = c.around, .threads = run->t.threads};
+    struct rc_shape shape = rc_grid_shape(gap);
+    double began = tool_now();
+    struct rc_leak *leak;
+    struct rc_err err;
+
+    tool_demand_finite(&run->t, gap, "a gap has none: make it again");
+    if (p != NULL) {
+        tool_demand_finite(&run->t, p, "a pressure map has none: make it again");
+        look_at_contact(&c, p);
+    }
+    tool_demand_memory(&run->t, gap, rc_leak_memory(&shape));
+    leak = rc_leak_new(&shape, p == NULL ? NULL : p->v, gap->v, &options, &err);
+    if (leak == NULL)
+        tool_die_at(&run->t, gap, EXIT_IMPOSSIBLE, "%s", err.text);
+    c.figures = rc_leak_result(leak);
+    c.setup = tool_now() - began;
+    solve(run, &c, leak);
+    c.solve = tool_now() - began - c.setup;
+    leak_judge(&run->t, &c);
+    for (size_t kind = 0; kind < FRAMES; kind++)
+        if (args.output >> kind & 1)
+            write_frame(run, &c, leak, kind);
+    leak_report(&run->report, &c);
+    rc_leak_free(leak);
+}
+
+/* ---- start ---- */
+
+int
+main(int argc, char **argv)
+{
+    static struct run run;
+    struct rc_grid *gap, *p;
+
+    tool_start(&run.t, &info, argc, argv, &args);
+    if (tool_given(&run.t, "viscosity") != tool_given(&run.t, "pressure-drop"))
+        tool_die(
+            &run.t, EXIT_USAGE,
+            "--viscosity and --pressure-drop are given together, for a flow rate, or not at all");
+    report_open(&run.report, &run.t, args.report);
+    while ((gap = tool_channel_beside(&run.t, "gap", "pressure", &p)) != NULL) {
+        do_case(&run, gap, p);
+        rc_grid_free(gap);
+        rc_grid_free(p);
+    }
+    report_close(&run.report);
+    return tool_finish(&run.t);
+}
