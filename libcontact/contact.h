@@ -771,8 +771,8 @@ RC_API const struct rc_adhesion_law_info *rc_adhesion_law_info(size_t k);
 
 /* Bodies that attract each other: where the gap is g >= 0 a traction sigma(g) >= 0 pulls. */
 struct rc_adhesion_problem {
-    /* The bodies, the boundary, the hardness (of p + sigma), tol, max_iterations and threads; its load
-     * and approach do not count. engine, method: auto, NULL, or, of the first, one that transforms */
+    /* The bodies, the boundary, the hardness (of p + sigma), tol (at most 1e-3), max_iterations and threads;
+     * its load and approach do not count. engine, method: auto, NULL, or, of the first, one that transforms */
     struct rc_problem contact;
     double work;     /* J/m^2, > 0: what it takes to part a unit area, the integral of sigma      */
     const char *law; /* a row of the table; NULL: the first                                      */

@@ -57,9 +57,10 @@ enum {
 static const double nodes_default =
     2; /* cohesive length, where the grid chooses the range          */
 static const double eigen_exact =
-    0.2;                           /* of the eigenvalue, its bound of error                      */
-static const double safe = 1.25;   /* e/sqrt(mu) itself is 1 to 2 times the error, at its end   */
-static const double single = 4e-6; /* what an eigenvalue in single precision may be off          */
+    0.2;                            /* of the eigenvalue, its bound of error                      */
+static const double loosest = 1e-3; /* tol: farther off, an eigenvalue says nothing of a state */
+static const double safe = 1.25;    /* e/sqrt(mu) itself is 1 to 2 times the error, at its end   */
+static const double single = 4e-6;  /* what an eigenvalue in single precision may be off          */
 static const double load_step =
     0.3; /* of the attraction: by how much a step of retraction lowers the load */
 static const double growth = 1.5;   /* of such a step from the last */
@@ -314,7 +315,7 @@ rc_adhesion_new(const struct rc_shape *shape, const double *h,
     }
     a->shape = *shape;
     a->scales = scales;
-    a->tol = c->tol > 0 ? c->tol : fmin(1e-3, pow(nodes, -0.75));
+    a->tol = fmin(loosest, c->tol > 0 ? c->tol : pow(nodes, -0.75));
     a->max_iterations =
         c->max_iterations > 0 ? c->max_iterations : 100 + (size_t)(10 * sqrt(nodes));
     if ((a->whole = rc_whole_new(shape, &options, err)) == NULL ||
