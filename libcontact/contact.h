@@ -933,7 +933,8 @@ RC_API const struct rc_leak_figures *rc_leak_result(const struct rc_leak *leak);
 /* Maps of nx ny values after the last step. Fluid pressure, 1 at the inlet, 0 at the outlet; NAN in
  * contact, and where fluid is shut in. */
 RC_API void rc_leak_pressure(const struct rc_leak *leak, double *pressure);
-/* Size of the flow per width for a pressure difference of 1 and 12 eta = 1, m^2. */
+/* Size of the flow per width for a pressure difference of 1 and 12 eta = 1, m^2: 0, exactly, where fluid
+ * stands; NAN in contact. */
 RC_API void rc_leak_flux(const struct rc_leak *leak, double *flux);
 /* 0 in contact, 1 where fluid stands (dead ends, shut in), 2 where it flows. */
 RC_API void rc_leak_channel(const struct rc_leak *leak, double *channel);

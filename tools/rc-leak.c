@@ -138,7 +138,7 @@ write_frame(struct run *run, const struct leak_case *c, const struct rc_leak *le
     frames[kind].get(leak, g->v);
     for (size_t k = 0; k < rc_grid_nodes(g) && scale != 1; k++)
         g->v[k] *= scale;
-    run->t.missing = kind == PRESSURE; /* there is none in contact */
+    run->t.missing = kind == PRESSURE || kind == FLUX; /* there is none in contact */
     tool_write(&run->t, g);
     rc_grid_free(g);
 }

@@ -235,7 +235,8 @@ draw_figure(struct tool *t, const struct args *a, const struct rc_grid *g, const
     if (rc_grid_get(g, "section") != NULL) {
         even = look_section(t, a, g, f);
         mark_largest(t, g, s, f, &words);
-    }
+    } else if (look_throat(g, f))
+        f->largest = "the narrowest place of the widest way";
     if (a->hertz)
         f->circle = words_hertz(t, &words, g, &f->radius);
     if (figure_memory(f, even == NULL ? g : even, &bytes, &err) != RC_OK)
@@ -303,7 +304,7 @@ render(struct tool *t, struct args *a, struct rc_grid *g, struct rc_grid *beside
     subtitle_write(&subtitle, g, &s, &means, w.part, largest);
     look_figure(t, a, &g, 1, &s, &look, &f);
     look_extent(&w, &f);
-    look_contact(&f, f.zero_is_none ? g : beside);
+    look_contact(&f, strcmp(g->channel, "pressure") == 0 ? g : beside);
     snprintf(title, sizeof title, "%.80s about the contact", look.what.title);
     if (a->title == NULL && w.contact)
         f.title = title;
@@ -342,7 +343,7 @@ set_panels(struct tool *t, const struct args *a, const struct frames *frames,
         look_extent(&window[k], of);
         even[k] = rc_grid_get(g, "section") == NULL ? NULL : look_section(t, a, g, of);
         panel[k].grid = even[k] == NULL ? g : even[k];
-        if (of->zero_is_none)
+        if (strcmp(g->channel, "pressure") == 0)
             look_contact(of, g);
         hard = fmax(hard, of->hard);
         sheet_check_alike(t, frames->grid[0], &panel[0].figure, g, of);

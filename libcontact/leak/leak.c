@@ -305,10 +305,12 @@ void
 rc_leak_flux(const struct rc_leak *l, double *flux)
 {
 #pragma omp parallel for num_threads(l->threads) schedule(static)
-    for (int32_t k = 0; k < l->a.nodes; k++)
-        flux[place_in_map(l, (size_t)k)] =
-            l->a.state[k] == RC_FLOWS ? hypot(flux_along(l, k, RC_ON), flux_along(l, k, RC_DOWN))
-                                      : 0;
+    for (int32_t k = 0; k < l->a.nodes; k++) {
+        double q = l->a.state[k] == RC_DRY ? NAN : 0;
+        if (l->a.state[k] == RC_FLOWS)
+            q = hypot(flux_along(l, k, RC_ON), flux_along(l, k, RC_DOWN));
+        flux[place_in_map(l, (size_t)k)] = q;
+    }
 }
 
 void

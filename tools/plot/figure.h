@@ -48,23 +48,25 @@ struct figure {
     double hard;   /* some of these reach it, and have a line about them; 0: none */
     bool keep_max; /* a reduced map keeps the largest value of each pixel   */
     const struct colormap *map;
-    double lo, hi;      /* values at the ends of the colour bar, lo < hi         */
-    bool log;           /* the colours go by the logarithm; 0 < lo               */
-    const char *note;   /* on the colours, in the legend; NULL: none             */
-    double min, max;    /* of the values there are: the bar gets a point where
+    double lo, hi;          /* values at the ends of the colour bar, lo < hi         */
+    bool log;               /* the colours go by the logarithm; 0 < lo               */
+    const char *note;       /* on the colours, in the legend; NULL: none             */
+    double min, max;        /* of the values there are: the bar gets a point where
                                    they go on beyond its end                             */
-    size_t missing;     /* nodes that are NaN                                    */
-    size_t nodes;       /* of so many; 0: those of the map                       */
-    bool zero_is_none;  /* value 0 means no contact                              */
-    size_t zeros;       /* nodes of that value                                   */
-    bool contour;       /* lines at the marks of the bar, and the contact's edge */
-    bool hillshade;     /* with light and shadow                                 */
-    size_t width;       /* pixels of the whole figure; 0: what suits the map     */
-    double dpi;         /* of them an inch: text has its size on paper then;
+    size_t missing;         /* nodes that are NaN                                    */
+    size_t nodes;           /* of so many; 0: those of the map                       */
+    bool zero_is_none;      /* value 0 has no colour of the bar                      */
+    size_t zeros;           /* nodes of that value                                   */
+    const char *none;       /* what it means: "no contact"                           */
+    const char *missing_is; /* what missing nodes are; NULL: not measured        */
+    bool contour;           /* lines at the marks of the bar, and the contact's edge */
+    bool hillshade;         /* with light and shadow                                 */
+    size_t width;           /* pixels of the whole figure; 0: what suits the map     */
+    double dpi;             /* of them an inch: text has its size on paper then;
                                    0: as many as give the marks FIGURE_POINTS           */
-    bool vector;        /* for a PDF or SVG: the map keeps its own resolution    */
-    bool paper;         /* of these a PDF */
-    const char *family; /* of the text; NULL: sans                               */
+    bool vector;            /* for a PDF or SVG: the map keeps its own resolution    */
+    bool paper;             /* of these a PDF */
+    const char *family;     /* of the text; NULL: sans                               */
 };
 
 /* The colour of a value. */

@@ -348,9 +348,10 @@ set_legend(struct page *p, double width)
 
     p->notes = 0;
     if (p->f->zero_is_none && p->f->zeros > 0 && !p->curve)
-        add_note(p, width, SWATCH_NONE, "no contact");
-    snprintf(text, sizeof text, "%snot measured (%zu of %zu nodes)", p->curve ? "gaps: " : "",
-             p->f->missing, p->f->nodes != 0 ? p->f->nodes : p->g->nx * p->g->ny);
+        add_note(p, width, SWATCH_NONE, p->f->none);
+    snprintf(text, sizeof text, "%s%s (%zu of %zu nodes)", p->curve ? "gaps: " : "",
+             p->f->missing_is == NULL ? "not measured" : p->f->missing_is, p->f->missing,
+             p->f->nodes != 0 ? p->f->nodes : p->g->nx * p->g->ny);
     if (p->f->missing > 0)
         add_note(p, width, p->curve ? SWATCH_NOTHING : SWATCH_MISSING, text);
     if (p->f->contour && p->f->pressure != NULL && !p->curve)

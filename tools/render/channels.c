@@ -11,7 +11,7 @@
 /* clang-format off */
 static const struct channel channels[] = {
     {"mises", "von Mises stress", "magma", .from_zero = true},
-    {"pressure", "Contact pressure", "magma", .from_zero = true},
+    {"pressure", "Contact pressure", "magma", .from_zero = true, .none = "no contact"},
     {"adhesion", "Traction of adhesion", "magma", .from_zero = true},
     {"hardness", "Hardness", "viridis", .from_zero = true},
     {"height", "Height", "viridis", .from_zero = false},
@@ -20,6 +20,11 @@ static const struct channel channels[] = {
     {"plastic", "Height after unloading", "viridis", .from_zero = false},
     {"residual", "Residual displacement", "bluered", .from_zero = false},
     {"peeq", "Equivalent plastic strain", "magma", .from_zero = true},
+    {"fluid-pressure", "Fluid pressure", "viridis", .from_zero = true,
+     .missing = "contact, or fluid that is shut in"},
+    {"flux", "Flow per width", "magma", .from_zero = true, .none = "fluid that stands",
+     .missing = "contact"},
+    {"channel", "Channels: 0 contact, 1 fluid stands, 2 flows", "viridis", .from_zero = true},
     {"psd", "Power spectral density", "magma", .from_zero = true},
     {"tresca", "Tresca stress", "magma", .from_zero = true},
     {"sxx", "Stress " SIGMA "xx", "bluered", .from_zero = false},

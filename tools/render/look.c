@@ -90,7 +90,9 @@ look_figure(struct tool *t, struct args *a, struct rc_grid *const *grid, size_t 
         .min = s->min,
         .max = s->max,
         .missing = s->missing,
-        .zero_is_none = strcmp(g->channel, "pressure") == 0,
+        .zero_is_none = look->what.none != NULL,
+        .none = look->what.none,
+        .missing_is = look->what.missing,
         .zeros = s->zeros,
         .contour = a->contour,
         .hillshade = a->hillshade,
@@ -124,6 +126,14 @@ look_extent(const struct window *w, struct figure *f)
     f->right = w->right;
     f->top = w->top;
     f->bottom = w->bottom;
+}
+
+bool
+look_throat(const struct rc_grid *g, struct figure *f)
+{
+    return rc_grid_number(g, "throat_x", &f->largest_x) &&
+           rc_grid_number(g, "throat_y", &f->largest_y) && f->largest_x >= f->left &&
+           f->largest_x <= f->right && f->largest_y >= f->top && f->largest_y <= f->bottom;
 }
 
 struct rc_grid *

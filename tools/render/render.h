@@ -41,8 +41,10 @@ size_t choice_rank(const char *channel);
 
 struct channel {
     const char *name, *title, *colormap;
-    bool from_zero; /* the colours begin at 0 where no value is negative */
-    bool to_zero;   /* they end there                                    */
+    bool from_zero;      /* the colours begin at 0 where no value is negative */
+    bool to_zero;        /* they end there                                    */
+    const char *none;    /* what a value of 0 means, where that is no colour; NULL: itself */
+    const char *missing; /* what a missing one means; NULL: not measured                   */
 };
 
 /* A channel that is not known is called by its own name, and what has both signs gets colours for
@@ -353,6 +355,9 @@ void look_contact(struct figure *figure, const struct rc_grid *pressure);
  * unit. */
 enum unit look_unit(const struct rc_grid *grid);
 void look_extent(const struct window *window, struct figure *figure);
+/* Whether a frame of rc-leak has the narrowest place of a way through, where the figure lies: the cross stands
+ * there. */
+bool look_throat(const struct rc_grid *grid, struct figure *figure);
 /* Where a section lies, between the depths that are asked for, and what it is made of; gives it on
  * even rows, which the caller frees, and the medium of the figure. */
 struct rc_grid *look_section(struct tool *tool, const struct args *args, const struct rc_grid *grid,
