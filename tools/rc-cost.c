@@ -15,7 +15,7 @@ static struct args {
     double limit, budget, error;
     struct numbers depths; /* none: auto, where it was given */
     double nu, mu;
-    const char *plot, *report;
+    const char *plot, *report, *leak;
     bool dry_run;
 } args = {.physics = PHYSICS_NONE,
           .kernels = SIZE_MAX,
@@ -43,6 +43,8 @@ static const struct opt opts[] = {
      .help = "Poisson's ratio for the stresses (default: --nu1)"},
     {.name = "mu", .type = OPT_NUMBER, AT(mu), .min = -10, .max = 10, .arg = "COEFFICIENT",
      .help = "for the stresses: the surface also carries mu times the pressure along +x"},
+    {.name = "leak", .type = OPT_CHOICE, AT(leak), .arg = "x|y",
+     .help = "the flow through the gap too, in this direction: its error against the grid"},
     {.name = "budget", .type = OPT_NUMBER, .unit = UNIT_S, AT(budget), ABOVE_0, .arg = "TIME",
      .help = "print the rc-solve command that is nearest within this time, and no table"},
     {.name = "error", .type = OPT_NUMBER, AT(error), .min = 0, .max = 1, .above = true,
@@ -242,7 +244,8 @@ open_case(struct run *run, struct rc_grid *g, const struct rc_grid *hardness, st
                             .shown = args.plot != NULL || args.report != NULL,
                             .depths = args.depths,
                             .nu = args.nu,
-                            .mu = args.mu};
+                            .mu = args.mu,
+                            .leak = args.leak == NULL ? '\0' : args.leak[0]};
     if (hardness != NULL)
         c->problem.hardness_map = hardness->v;
     c->yield = args.yield != NULL ? &run->yield.law : NULL;

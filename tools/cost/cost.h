@@ -48,6 +48,7 @@ struct cost_trial {
     struct rc_contact contact;
     double error; /* relative L1, of the pressure on the map's own grid                       */
     double area_error, peak_error, approach_error; /* relative, signed; NAN: unknown          */
+    double flow, flow_error, flow_seconds; /* of rc-leak on its own grid: m^3, relative, s     */
     bool front;      /* no other is both quicker and nearer                                   */
     bool optimistic; /* its estimate is below its error, by more than 1 %                     */
 };
@@ -92,6 +93,7 @@ struct cost_case {
     const struct rc_grid *heights;
     struct rc_shape shape;
     struct rc_problem problem;    /* engine, method and tol are those of a trial                 */
+    char leak;                    /* direction of a flow through the gap; 0: none                */
     const struct rc_yield *yield; /* of body 1; NULL: it is elastic, or has a hardness            */
     double limit, began;          /* s: for all trials; when the first one started               */
     double budget, error;         /* s, -: what a command is chosen for; NAN: the other, or none */

@@ -20,6 +20,8 @@ struct job {
     size_t memory;
     const struct rc_yield *yield; /* NULL: elastic, or a hardness */
     struct rc_plastic_figures figures;
+    char leak;
+    double flow, flow_seconds;
     double at_load;
     size_t slabs, increment, application;
     struct rc_contact contact;
@@ -104,6 +106,36 @@ yield_inside(struct job *j, const double *h, struct rc_solver *elastic)
     return of_it;
 }
 
+/* What flows through the gap of the solution, as rc-leak finds it. */
+static bool
+find_flow(struct job *j, struct rc_solver *solver)
+{
+    const struct rc_shape *shape = &j->trial->shape;
+    const struct rc_leak_options options = {.direction = j->leak,
+                                            .around = j->problem.boundary == RC_PERIODIC,
+                                            .threads = j->problem.threads};
+    double *gap = new_map(shape), start = tool_now();
+    struct rc_contact contact;
+    struct rc_leak *leak;
+    enum rc_status status;
+
+    if (gap == NULL) {
+        rc_err_set(&j->err, "out of memory");
+        return false;
+    }
+    rc_solver_result(solver, NULL, gap, &contact);
+    leak = rc_leak_new(shape, rc_solver_pressure(solver), gap, &options, &j->err);
+    free(gap);
+    if (leak == NULL)
+        return false;
+    while ((status = rc_leak_step(leak, &j->err)) == RC_MORE)
+        continue;
+    j->flow = rc_leak_result(leak)->conductance;
+    j->flow_seconds = tool_now() - start;
+    rc_leak_free(leak);
+    return status == RC_OK;
+}
+
 static void
 work(void *ctx)
 {
@@ -129,6 +161,8 @@ work(void *ctx)
         j->convolutions = rc_solver_convolutions(solver);
         rc_solver_result(solver, NULL, NULL, &j->contact);
     }
+    if (j->leak != 0 && !find_flow(j, solver))
+        return;
     start = tool_now();
     if (coarse) {
         rc_resample_means(shape, rc_solver_pressure(solver), &j->map, j->p);
@@ -178,6 +212,7 @@ compare(const struct cost_case *c, struct cost_trial *trial, const double *p)
     trial->area_error = got->contact_area / truth->contact_area - 1;
     trial->peak_error = got->max_pressure / truth->max_pressure - 1;
     trial->approach_error = got->approach / truth->approach - 1;
+    trial->flow_error = trial->flow / c->reference.flow - 1; /* NAN where none flows */
 }
 
 static void
@@ -192,6 +227,9 @@ keep(struct cost_trial *trial, const struct job *j, const struct rc_shape *map)
     trial->memory = j->memory > trial->memory ? j->memory : trial->memory;
     tool_memory_beside(j->tool, j->memory);
     trial->contact = j->contact;
+    if (trial->runs == 0 || j->flow_seconds < trial->flow_seconds)
+        trial->flow_seconds = j->flow_seconds;
+    trial->flow = j->flow;
     trial->slabs = j->slabs;
     trial->applications = j->figures.applications;
     trial->runs++;
@@ -242,7 +280,10 @@ cost_memory(const struct cost_case *c, const struct cost_trial *trial)
     struct rc_problem problem = problem_of(c, trial);
     struct rc_plastic_problem yielding = {.contact = problem, .precise = trial->settings.precise};
     size_t bytes = rc_solver_memory(&trial->shape, &problem);
+    const size_t eliminated = 200; /* bytes a node that a flow takes beside, on most maps */
 
+    if (c->leak != 0)
+        bytes += rc_leak_memory(&trial->shape) + eliminated * trial->shape.nx * trial->shape.ny;
     if (c->yield == NULL)
         return bytes;
     yielding.slabs = slabs_of(c, trial);
@@ -264,6 +305,7 @@ cost_trial_run(struct cost_case *c, struct cost_trial *trial, double allowed, do
     j->map = c->shape;
     j->problem = problem_of(c, trial);
     j->yield = c->yield;
+    j->leak = c->leak;
     j->at.error = NAN;
     end = cost_run(work, j, allowed, watch);
     tool_progress_end(c->tool);

@@ -12,7 +12,7 @@ state_name(enum cost_state state)
 }
 
 static void
-report_measured(struct report *out, const struct cost_trial *m)
+report_measured(const struct cost_case *c, struct report *out, const struct cost_trial *m)
 {
     bool done = m->state == COST_DONE;
 
@@ -26,6 +26,11 @@ report_measured(struct report *out, const struct cost_trial *m)
     report_number(out, "contact_area_error", done ? m->area_error : NAN, NULL);
     report_number(out, "max_pressure_error", done ? m->peak_error : NAN, NULL);
     report_number(out, "approach_error", done ? m->approach_error : NAN, NULL);
+    if (c->leak != 0) {
+        report_number(out, "flow_conductance", done ? m->flow : NAN, "m3");
+        report_number(out, "flow_error", done ? m->flow_error : NAN, NULL);
+        report_number(out, "flow_seconds", done ? m->flow_seconds : NAN, "s");
+    }
     report_bool(out, "converged", done && m->contact.converged);
     report_bool(out, "front", m->front);
     report_bool(out, "optimistic", m->optimistic);
@@ -56,7 +61,7 @@ report_trial(const struct cost_case *c, const struct cost_trial *m, const char *
     report_text(out, "state", state_name(m->state));
     report_text(out, "why", m->why[0] == '\0' ? NULL : m->why);
     report_number(out, "expected_seconds", m->expected, "s");
-    report_measured(out, m);
+    report_measured(c, out, m);
     if (c->stress != NULL) {
         report_column(out, "depths", NULL);
         report_column(out, "coarse_depths", NULL);

@@ -54,6 +54,12 @@ put_head(const struct cost_case *c, FILE *out)
     if (c->yield != NULL)
         fprintf(out, "# it yields: the reference has %zu increments and %zu slabs\n",
                 r->settings.increments, r->slabs);
+    if (c->leak != 0)
+        fprintf(out,
+                "# flow along %c: the reference has a conductance of %.9g m3; flow_error: relative "
+                "to it, "
+                "each on its own grid\n",
+                c->leak, r->flow);
     fprintf(out, "# error: sum |p - reference| / sum reference, on the map's own grid; area, peak, "
                  "approach: relative "
                  "to the reference; estimate: what the solver says of its own grid\n");
@@ -70,22 +76,24 @@ note(const struct cost_trial *m)
 }
 
 static void
-put_trial(const struct cost_trial *m, FILE *out)
+put_trial(const struct cost_case *c, const struct cost_trial *m, FILE *out)
 {
-    char grid[64], yields[64] = "";
+    char grid[64], yields[64] = "", flow[64] = "";
 
     if (m->settings.increments > 0)
         snprintf(yields, sizeof yields, "%10zu %5zu %12zu ", m->settings.increments, m->slabs,
                  m->applications);
 
+    if (c->leak != 0)
+        snprintf(flow, sizeof flow, "%10.2e %12.4f ", m->flow_error, m->flow_seconds);
     snprintf(grid, sizeof grid, "%zux%zu", m->shape.nx, m->shape.ny);
     fprintf(out,
             "%-6s %-6s %-10s %6.0e %11s %9.4f %4zu %12.1f %11.1f %9.2e %9.2e %10.2e %10.2e %14.2e "
-            "%s%s\n",
+            "%s%s%s\n",
             m->settings.method, m->settings.kernel, m->settings.arithmetic, m->settings.tol, grid,
             m->seconds, m->runs, m->convolutions, (double)m->memory / 1048576,
             m->contact.pressure_error, m->error, m->area_error, m->peak_error, m->approach_error,
-            yields, note(m));
+            yields, flow, note(m));
 }
 
 static void
@@ -121,13 +129,14 @@ cost_table(const struct cost_case *c, FILE *out)
     char name[128];
 
     put_head(c, out);
-    fprintf(out, "%-6s %-6s %-10s %6s %11s %9s %4s %12s %11s %9s %9s %10s %10s %14s %s%s\n",
+    fprintf(out, "%-6s %-6s %-10s %6s %11s %9s %4s %12s %11s %9s %9s %10s %10s %14s %s%s%s\n",
             "method", "kernel", "arithmetic", "tol", "grid", "time[s]", "runs", "convolutions",
             "memory[MiB]", "estimate", "error", "area_error", "peak_error", "approach_error",
-            c->yield != NULL ? "increments slabs applications " : "", "note");
+            c->yield != NULL ? "increments slabs applications " : "",
+            c->leak != 0 ? "flow_error flow_time[s] " : "", "note");
     for (size_t k = 0; k < c->trials; k++)
         if (c->trial[k].state == COST_DONE)
-            put_trial(&c->trial[k], out);
+            put_trial(c, &c->trial[k], out);
     for (size_t k = 0; k < c->trials; k++)
         if (c->trial[k].state != COST_DONE)
             fprintf(out, "# %s: %s\n", cost_name(name, &c->trial[k]), c->trial[k].why);
