@@ -1,7 +1,7 @@
 /*
  * Igor binary wave, version 5, in either byte order: 64 bytes of lengths, 320 of wave header, the
- * numbers, then texts of those lengths. A wave of two dimensions is a map, the third one counts
- * channels, whose names are the labels of that dimension. x runs fastest, the bottom row comes
+ * numbers, then texts of those lengths. A wave of one dimension is a profile, of two a map, the third
+ * one counts channels, whose names are the labels of that dimension. x runs fastest, the bottom row comes
  * first.
  */
 #include <math.h>
@@ -108,18 +108,25 @@ judge(const struct rc_file *file, struct rc_bytes *b, enum rc_raw *raw, size_t s
     }
     if (size[0] == 0)
         return rc_err_set(err, "the wave has no points");
-    if (size[1] == 0 || size[3] > 1)
-        return rc_err_set(err, "the wave has %d dimensions: a map has 2, or 3 with channels",
-                          size[1] == 0 ? 1 : 4);
+    if (size[3] > 1)
+        return rc_err_set(err, "the wave has 4 dimensions: a map has 2, or 3 with channels");
+    if (size[1] == 0 && size[2] > 0)
+        return rc_err_set(err, "the wave has %zu layers of no rows", size[2]);
     return RC_OK;
 }
 
-static double
-step(const struct rc_file *file, struct rc_bytes *b, size_t dimension)
+/* The spacings; a profile has one. */
+static void
+take_steps(const struct rc_file *file, struct rc_bytes *b, bool profile, struct rc_map *map)
 {
-    struct rc_piece unit = rc_file_text(file, AT_UNITS + UNIT * dimension, UNIT);
+    double step[2];
 
-    return rc_bytes_at(b, AT_STEPS + 8 * dimension, RC_RAW_F64) * rc_piece_metres(unit);
+    for (size_t k = 0; k < 2; k++)
+        step[k] = rc_bytes_at(b, AT_STEPS + 8 * (profile ? 0 : k), RC_RAW_F64);
+    map->dx = step[0] * rc_piece_metres(rc_file_text(file, AT_UNITS, UNIT));
+    map->dy = step[1] * rc_piece_metres(rc_file_text(file, AT_UNITS + (profile ? 0 : UNIT), UNIT));
+    if (isnan(map->dx))
+        rc_map_hint(map, step[0], step[1]);
 }
 
 static enum rc_status
@@ -131,10 +138,14 @@ ibw_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     struct rc_piece data_unit, name;
     const char *other;
     enum rc_raw raw;
+    bool profile;
 
     (void)wish;
-    if (judge(file, &b, &raw, size, err) != RC_OK ||
-        rc_size_mul(size[0] * rc_raw_width(raw), size[1], &layer, err) != RC_OK)
+    if (judge(file, &b, &raw, size, err) != RC_OK)
+        return RC_FAIL;
+    profile = size[1] == 0;
+    size[1] = profile ? 1 : size[1];
+    if (rc_size_mul(size[0] * rc_raw_width(raw), size[1], &layer, err) != RC_OK)
         return RC_FAIL;
     channels = size[2] == 0 ? 1 : size[2];
     if (rc_size_mul(layer, channels, &all, err) != RC_OK)
@@ -158,8 +169,7 @@ ibw_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
         map->big = b.big;
         map->at = DATA + k * layer;
         map->bottom_first = true;
-        map->dx = step(file, &b, 0);
-        map->dy = step(file, &b, 1);
+        take_steps(file, &b, profile, map);
         rc_map_unit(map, data_unit.text, data_unit.n);
         if (labels != 0 && (other = other_unit(name)) != NULL)
             rc_map_unit(map, other, strlen(other));
@@ -191,7 +201,7 @@ RC_FORMAT_OF_MAPS(ibw)
 const struct rc_format rc_format_ibw = {
     .name = "ibw",
     .suffixes = ".ibw",
-    .summary = "Igor binary waves of two or three dimensions",
+    .summary = "Igor binary waves of one to three dimensions",
     .score = ibw_score,
     .list = ibw_list,
     .read = ibw_read,

@@ -159,6 +159,36 @@ labels_of_waves(void **state)
     }
 }
 
+/* A wave of one dimension. */
+static void
+profile_of_a_wave(void **state)
+{
+    struct rc_err err = {""};
+    struct bytes m = {0};
+    struct rc_grid *g;
+
+    (void)state;
+    make_ibw(&m, 1);
+    m.big = true;
+    set_raw(&m, 132, RC_RAW_I32, NX * NY);
+    set_raw(&m, 136, RC_RAW_I32, 0);
+    if ((g = read_made("ibw", &m, 0, &err)) == NULL)
+        fail_msg("%s", err.text);
+    assert_true(g->nx == NX * NY && g->ny == 1);
+    assert_true(fabs(g->dx - 1.1e-6) <= last_digit * g->dx && g->dy == g->dx);
+    for (size_t k = 0; k < NX * NY; k++) { /* in the order of the file: the lower row first */
+        size_t at = (k + NX) % (NX * NY);
+
+        assert_true(at == MISSING_AT
+                        ? isnan(g->v[k])
+                        : fabs(g->v[k] - value_of(at, true) * 1e-9) <= last_digit * fabs(g->v[k]));
+    }
+    rc_grid_free(g);
+    memset(m.data + 216, 0, 4); /* no unit of x */
+    refuse(rc_format_named("ibw"), &m, "--dx LENGTH says it (its steps are 1.1 and 1.1 ");
+    drop(&m);
+}
+
 /* Heights in units of a wavelength that the file does not give. */
 static void
 no_wavelength(void **state)
@@ -485,6 +515,7 @@ main(void)
         cmocka_unit_test(units_of_points),
         cmocka_unit_test(labels_of_waves),
         cmocka_unit_test(no_wavelength),
+        cmocka_unit_test(profile_of_a_wave),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
