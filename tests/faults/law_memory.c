@@ -24,7 +24,7 @@ enum {
     NX = 16,
     NY = 18,
     N = NX * NY,
-    OUT = 4 * N /* numbers that a use may give */
+    OUT = 4 * N + 4 /* numbers that a use may give: four maps and four figures */
 };
 
 static const struct rc_shape shape = {NX, NY, 1.1e-6, 1e-6};

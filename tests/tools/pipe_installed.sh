@@ -141,6 +141,7 @@ main(void)
     while (rc_leak_step(leak, 0) == RC_MORE)
         continue;
     off = rc_leak_result(leak)->conductance - 1 / (1. / 8 + 1 + 1. / 8);
+    rc_leak_free(leak);
     return off < 1e-13 && off > -1e-13 ? 0 : 1;
 }
 END
