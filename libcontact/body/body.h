@@ -216,4 +216,32 @@ struct rc_kernel rc_surface_kernel(const struct rc_surface *surface);
 /* The same of a uniform half-space of E* = 1, for its spectrum. */
 extern const struct rc_kernel rc_kernel_of_one;
 
+/* ---- tractions along the surfaces of two bare bodies: shear.c ---- */
+
+struct rc_shear {
+    double estar, kap, beta; /* Pa; what shear feels beside it; Dundurs' constant, of body 1 */
+};
+/* nu: of both bodies, where only E* of the pair is known; else of no use. RC_FAIL when a number makes
+ * no sense, or there are layers. */
+enum rc_status rc_pair_shear(const struct rc_pair *pair, double nu, struct rc_shear *shear,
+                             struct rc_err *err);
+
+/* Displacement along x and y under a unit traction on a cell, m/Pa; XY of both; XZ and YZ that along z
+ * under a traction along x and y, which is minus that along x and y under a pressure. */
+enum rc_shear_which {
+    RC_SHEAR_XX,
+    RC_SHEAR_YY,
+    RC_SHEAR_XY,
+    RC_SHEAR_XZ,
+    RC_SHEAR_YZ,
+    RC_SHEAR_KERNELS
+};
+extern const unsigned rc_shear_parity[RC_SHEAR_KERNELS];
+struct rc_shear_field {
+    const struct rc_shear *shear;
+    enum rc_shear_which kernel;
+};
+/* `field` outlives every plan that uses the kernel. */
+struct rc_kernel rc_shear_kernel(const struct rc_shear_field *field);
+
 #endif
