@@ -943,6 +943,84 @@ RC_API void rc_leak_free(struct rc_leak *leak); /* NULL is allowed */
 RC_API size_t rc_leak_memory(const struct rc_shape *shape);
 RC_API size_t rc_leak_step_memory(const struct rc_leak *leak);
 
+/* ---- friction in the contact: slip/slip.c ---- */
+
+/* Coulomb's law node by node, with memory: a node carries tractions up to mu times its pressure and sticks, or
+ * slips against them. The pressure is given, and so is what the pressure does not know: how the bodies are moved
+ * along the surface, in increments. Tractions are those on body 1, displacements those of body 1 less those
+ * of body 2; on a periodic map of their mean planes. */
+struct rc_slip_problem {
+    enum rc_boundary boundary;
+    struct rc_pair pair; /* bare bodies                                                          */
+    double nu; /* of both, where only E* of the pair is known                                   */
+    double mu; /* coefficient of friction, > 0                                                  */
+    double tau_max;   /* Pa: no node carries more (Tresca); 0 or INFINITY: no such bound         */
+    bool uncoupled;   /* dissimilar bodies as if pressure moved nothing along the surface        */
+    double tol;       /* asked relative L1 error of the tractions; 0: 1e-4                       */
+    size_t max_steps; /* of an increment; 0: 200                                                */
+    size_t threads;   /* 0: all                                                                 */
+    const struct rc_ranks *ranks; /* refused: friction is not shared among processes           */
+};
+
+/* What an increment has done. */
+struct rc_slip_figures {
+    double load,
+        limit; /* N: normal, and what friction could carry: no more than mu times it         */
+    double force[2]; /* N, along x and y                                                       */
+    double
+        displacement[2]; /* m, since the bodies have touched                                    */
+    size_t stick_nodes, slip_nodes; /* of those that carry something                            */
+    double stick_area, slip_area;   /* m^2                                                       */
+    double stiffness;    /* N/m: |force| over |displacement|; NAN where that is 0       */
+    double dissipated;   /* J, in this increment                                      */
+    double largest_slip; /* m, in this increment                                      */
+    /* m: largest slip where nothing may slip, or across the traction */
+    double slip_error;
+    double
+        traction_error; /* estimated relative L1 error of the tractions, of this increment alone    */
+    size_t steps;
+    double
+        convolutions; /* since rc_slip_new, in equivalents of one of a single map in double precision */
+    bool converged; /* traction_error <= tol                                               */
+};
+
+struct rc_slip;
+/* NULL where the problem makes no sense, or memory is short. The bodies are apart. */
+RC_API struct rc_slip *rc_slip_new(const struct rc_shape *shape,
+                                   const struct rc_slip_problem *problem, struct rc_err *err);
+/* The pressure of this increment (nx ny Pa, copied; NULL: the bodies are apart) and the gap that goes with it
+ * (nx ny m, copied; NULL: not known). Where a node touches in the increment that was not in contact before, it has
+ * moved with its body until then: with the gap before, that is known to first order, and exactly for
+ * nu = 0, where force and load grow in proportion (Jaeger 1998; Ciavarella 1998); without it the node begins as it stood
+ * before the increment. RC_FAIL when a pressure is negative or not finite. */
+RC_API enum rc_status rc_slip_set_pressure(struct rc_slip *slip, const double *p, const double *gap,
+                                           struct rc_err *err);
+/* Force (N) or displacement (m) at the end of the increment, along x and y, after its pressure. RC_FAIL, with
+ * both numbers, when friction cannot carry the force: the bodies slide; the increment is then as before. With a
+ * displacement nodes that touch begin as without a gap. */
+RC_API enum rc_status rc_slip_set_force(struct rc_slip *slip, double fx, double fy,
+                                        struct rc_err *err);
+RC_API enum rc_status rc_slip_set_displacement(struct rc_slip *slip, double dx, double dy,
+                                               struct rc_err *err);
+/* One step, of 7 to 12 convolutions: RC_MORE, RC_OK when the estimated error is below tol, RC_SHORT when it
+ * cannot get there; RC_FAIL when nothing is asked for, or memory is short. */
+RC_API enum rc_status rc_slip_step(struct rc_slip *slip, struct rc_err *err);
+RC_API void rc_slip_result(struct rc_slip *slip, struct rc_slip_figures *figures);
+/* The increment becomes history, on which the next one builds. Until then pressure and force may be set again. */
+RC_API void rc_slip_keep(struct rc_slip *slip);
+/* Tractions, Pa, nx ny along x and along y, until the next step; slip since the bodies have touched, m, with
+ * that of this increment, 0 out of contact. */
+RC_API const double *rc_slip_traction(const struct rc_slip *slip, int direction);
+RC_API void rc_slip_slip(const struct rc_slip *slip, int direction, double *to);
+/* Normal displacement that the tractions make, nx ny m, into the bodies: 0 where these are alike. A contact whose
+ * heights are less by it is that under these tractions. */
+RC_API void rc_slip_normal(struct rc_slip *slip, double *uz);
+/* Dundurs' constant of the pair: 0 where pressure and tractions do not know of each other. */
+RC_API double rc_slip_beta(const struct rc_slip *slip);
+RC_API void rc_slip_free(struct rc_slip *slip); /* NULL is allowed */
+/* Bytes that it takes; 0 where the problem makes no sense. */
+RC_API size_t rc_slip_memory(const struct rc_shape *shape, const struct rc_slip_problem *problem);
+
 /* ---- stress: stress.c ---- */
 
 enum rc_component {

@@ -29,6 +29,8 @@ libcontact/plastic  | %base libcontact/volume/volume.h         | libcontact libc
 libcontact/adhesion | %base libcontact/operator/operator.h     | libcontact libcontact/operator libcontact/body
 libcontact/leak     | %base                                    | libcontact
 libcontact/slip     | %base libcontact/operator/operator.h     | libcontact libcontact/solver libcontact/operator libcontact/transform libcontact/body libcontact/ranks
+libcontact/slip     | %base libcontact/solver/solver.h         | libcontact libcontact/solver
+libcontact/slip     | libcontact/operator/operator.h           | libcontact/ranks libcontact/operator libcontact/transform libcontact/body
 libcontact/surface  | %base %ranks                             | libcontact libcontact/ranks
 libcontact/surface  | libcontact/transform/transform.h         | libcontact/transform
 formats/core        | libcontact/grid.h                        | libcontact

@@ -1,5 +1,5 @@
 /* The library's estimates of memory are within a tenth of the peak, each in a process of its own:
- * solver, stiffness, stresses, sums, flow and slabs, on maps large enough that code and plans do not count. */
+ * solver, stiffness, stresses, friction, sums, flow and slabs, on maps large enough that code and plans do not count. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -263,6 +263,27 @@ slabs_single(const struct work *w, const double *h, const double *p)
     return slabs_in(w, RC_SINGLE, h, p);
 }
 
+/* Of dissimilar bodies, to a tenth. */
+static size_t
+friction(const struct work *w, const double *h, const double *p)
+{
+    const struct rc_slip_problem problem = {
+        .boundary = w->boundary, .pair.one = {.e = 3e9, .nu = 0.3}, .mu = 0.3, .tol = 0.1};
+    size_t bytes = rc_slip_memory(w->shape, &problem);
+    struct rc_slip *slip = rc_slip_new(w->shape, &problem, NULL);
+    enum rc_status status = RC_FAIL;
+
+    (void)h;
+    if (slip != NULL && rc_slip_set_pressure(slip, p, NULL, NULL) == RC_OK &&
+        rc_slip_set_force(slip, 1e4 * (double)nodes_of(w) * w->shape->dx * w->shape->dy, 0, NULL) ==
+            RC_OK)
+        do
+            status = rc_slip_step(slip, NULL);
+        while (status == RC_MORE);
+    rc_slip_free(slip);
+    return status == RC_OK ? bytes : 0;
+}
+
 /* In a child: as an exit status, 0 when the memory it took agrees with the estimate. */
 static int
 measured(const struct work *w)
@@ -310,6 +331,8 @@ holds(void **state)
         {"stress, tractions, periodic", &map, RC_PERIODIC, NULL, transforms, stress_dragged},
         {"stress, strained", &map, RC_FREE, NULL, 2 * transforms, stress_strained},
         {"stress, strained, periodic", &map, RC_PERIODIC, NULL, 2 * transforms, stress_strained},
+        {"friction", &map, RC_FREE, NULL, 2 * transforms, friction},
+        {"friction, periodic", &map, RC_PERIODIC, NULL, 2 * transforms, friction},
         {"patches", &large, RC_FREE, NULL, 0, patches},
         {"spectrum", &map, RC_PERIODIC, NULL, transforms, psd},
 #ifdef RC_LEAK

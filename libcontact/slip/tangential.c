@@ -84,6 +84,28 @@ set_self(struct rc_tangential *t)
     }
 }
 
+/* On the free boundary what a uniform traction does in the middle of the rectangle, as if it were across it
+ * everywhere; on a periodic map the longest wave. */
+static double
+norm_of(const struct rc_tangential *t)
+{
+    double a = t->shape.dx * (double)t->shape.nx, b = t->shape.dy * (double)t->shape.ny;
+    double most = (1 + fmax(t->shear.kap, 0)) / (RC_PI * t->shear.estar);
+
+    if (t->boundary == RC_PERIODIC)
+        return fmax(a, b) * most;
+    return 2 * (a * asinh(b / a) + b * asinh(a / b)) * most;
+}
+
+/* The caller's units are such that no decade is lost in single precision. */
+static void
+set_single(struct rc_tangential *t)
+{
+    for (int k = 0; k < 3; k++)
+        for (size_t i = 0; i < t->columns * t->cy; i++)
+            t->single[k][i] = (float)t->quarter[k][i];
+}
+
 /* ---- plan ---- */
 
 void
@@ -91,9 +113,12 @@ rc_tangential_free(struct rc_tangential *t)
 {
     if (t == NULL)
         return;
+    rc_fft_free(t->fft_single); /* works in memory of the other */
     rc_fft_free(t->fft);
     for (int k = 0; k < RC_SHEAR_KERNELS; k++)
         free(t->quarter[k]);
+    for (int k = 0; k < 3; k++)
+        free(t->single[k]);
     free(t->waves[0]);
     free(t->waves[1]);
     free(t->wave);
@@ -104,25 +129,25 @@ rc_tangential_free(struct rc_tangential *t)
 static bool
 allocate(struct rc_tangential *t)
 {
-    size_t padded;
+    bool room = true;
 
     rc_fft_waves(t->fft, &t->columns, &t->cy);
-    t->length = padded = rc_fft_length(t->fft);
-    for (int k = 0; k < RC_SHEAR_KERNELS; k++)
-        if ((k < RC_SHEAR_XZ || t->shear.beta != 0) &&
-            (t->quarter[k] = rc_alloc(t->columns * t->cy, sizeof(double))) == NULL)
-            return false;
-    for (int k = 0; k < 2; k++)
-        if ((t->waves[k] = rc_alloc(2 * t->columns * t->length, sizeof(double))) == NULL)
-            return false;
+    t->length = rc_fft_length(t->fft);
+    for (int k = 0; k < RC_SHEAR_KERNELS && room; k++)
+        if (k < RC_SHEAR_XZ || t->shear.beta != 0)
+            room = (t->quarter[k] = rc_alloc(t->columns * t->cy, sizeof(double))) != NULL;
+    for (int k = 0; k < 3 && room; k++)
+        room = (t->single[k] = rc_alloc(t->columns * t->cy, sizeof(float))) != NULL;
+    for (int k = 0; k < 2 && room; k++)
+        room = (t->waves[k] = rc_alloc(2 * t->columns * t->length, sizeof(double))) != NULL;
     t->wave = rc_alloc(t->length, sizeof *t->wave);
     t->mirror = rc_alloc(t->length, sizeof *t->mirror);
-    if (t->wave == NULL || t->mirror == NULL)
+    if (!room || t->wave == NULL || t->mirror == NULL)
         return false;
     for (size_t n = 0; n < t->length; n++) {
         size_t j = rc_fft_wave(t->fft, n);
-        t->wave[n] = 2 * j <= padded ? j : padded - j;
-        t->mirror[n] = 2 * j <= padded ? 1 : -1;
+        t->wave[n] = 2 * j <= t->length ? j : t->length - j;
+        t->mirror[n] = 2 * j <= t->length ? 1 : -1;
     }
     return true;
 }
@@ -144,6 +169,9 @@ rc_tangential_new(const struct rc_shape *shape, enum rc_boundary boundary,
     t->fft = rc_fft_new(NULL, NULL, shape, boundary, RC_DOUBLE, threads, err);
     if (t->fft == NULL)
         goto fail;
+    t->fft_single = rc_fft_new(NULL, t->fft, shape, boundary, RC_SINGLE, threads, err);
+    if (t->fft_single == NULL)
+        goto fail;
     if (!allocate(t)) {
         rc_err_set(err, "out of memory for the shear of %zu x %zu nodes", shape->nx, shape->ny);
         goto fail;
@@ -151,6 +179,8 @@ rc_tangential_new(const struct rc_shape *shape, enum rc_boundary boundary,
     if (set_spectra(t, err) != RC_OK)
         goto fail;
     set_self(t);
+    set_single(t);
+    t->norm = norm_of(t);
     return t;
 fail:
     rc_tangential_free(t);
@@ -166,157 +196,155 @@ rc_tangential_memory(const struct rc_shape *shape, enum rc_boundary boundary, bo
     size_t columns = quarter / sizeof(double) / (py / 2 + 1);
 
     return rc_fft_memory(shape, boundary, RC_DOUBLE, 1) - quarter +
-           rc_fft_scratch(shape, boundary, RC_DOUBLE, threads) + (coupled ? 5 : 3) * quarter +
-           4 * columns * py * sizeof(double) + 2 * py * sizeof(double);
+           rc_fft_scratch(shape, boundary, RC_DOUBLE, threads) +
+           rc_fft_scratch(shape, boundary, RC_SINGLE, threads) + (coupled ? 5 : 3) * quarter +
+           3 * quarter / 2 + 4 * columns * py * sizeof(double) +
+           py * (sizeof(size_t) + sizeof(signed char));
 }
 
 /* ---- rows ---- */
 
 struct pass {
     struct rc_tangential *t;
-    const double *from, *weight;
-    double *to;
-    bool add;
-    int which;    /* of the two maps, or the only one */
-    double shift; /* d */
+    bool single;
+    const void *from;
+    void *to;
+    int which; /* of the two maps */
 };
+
+static const struct rc_shear_ops *
+ops(bool single)
+{
+    return single ? &rc_shear_single : &rc_shear_double;
+}
+
+static size_t
+size_of(bool single)
+{
+    return single ? sizeof(float) : sizeof(double);
+}
 
 static bool
 row_in(void *ctx, size_t j, void *row)
 {
     const struct pass *p = ctx;
     size_t nx = p->t->shape.nx;
-    const double *from = p->from + j * nx;
-    double *to = row;
 
-    if (!rc_any(from, nx))
-        return false;
-    if (p->weight == NULL)
-        memcpy(to, from, nx * sizeof *to);
-    else
-        for (size_t i = 0; i < nx; i++)
-            to[i] = p->weight[j * nx + i] * from[i];
-    return true;
+    return ops(p->single)->row((const char *)p->from + j * nx * size_of(p->single), nx, row);
 }
 
 static bool
 row_out(void *ctx, size_t j, void *row)
 {
     const struct pass *p = ctx;
-    size_t nx = p->t->shape.nx, at = j * nx;
-    const double *from = row;
+    size_t bytes = p->t->shape.nx * size_of(p->single);
 
-    for (size_t i = 0; i < nx; i++) {
-        double v = p->weight == NULL ? from[i] : p->weight[at + i] * from[i];
-        p->to[at + i] = p->add ? p->to[at + i] + v : v;
-    }
+    memcpy((char *)p->to + j * bytes, row, bytes);
     return true;
 }
 
 /* ---- waves ---- */
 
-/* A column of two maps, and what becomes of it: u = a X + b Y. b is what a kernel is that is odd in both directions:
- * its transform is (-i)^2 b. */
-static void
-mix(const struct rc_tangential *t, size_t i, const double *a, const double *b, int which,
-    double *to)
+/* Column i of a map. */
+static const void *
+column_of(const struct pass *p, int which, size_t i)
 {
-    const double *x = t->waves[which] + 2 * i * t->length;
-    const double *y = t->waves[1 - which] + 2 * i * t->length;
-    size_t n = t->length;
+    return (const char *)p->t->waves[which] + 2 * i * p->t->length * size_of(p->single);
+}
 
-    for (size_t k = 0; k < n; k++) {
-        double straight = a[t->wave[k]], cross = -t->mirror[k] * b[t->wave[k]];
-        to[k] = straight * x[k] + cross * y[k];
-        to[n + k] = straight * x[n + k] + cross * y[n + k];
-    }
+/* And of the quarter of a kernel. */
+static const void *
+quarter_of(const struct pass *p, enum rc_shear_which kernel, size_t i)
+{
+    if (p->single && kernel < RC_SHEAR_XZ)
+        return p->t->single[kernel] + i * p->t->cy;
+    return p->t->quarter[kernel] + i * p->t->cy;
+}
+
+static struct rc_shear_column
+both(const struct pass *p, size_t i, void *to)
+{
+    return (struct rc_shear_column){.n = p->t->length,
+                                    .wave = p->t->wave,
+                                    .mirror = p->t->mirror,
+                                    .x = column_of(p, p->which, i),
+                                    .y = column_of(p, 1 - p->which, i),
+                                    .to = to};
 }
 
 static void
-apply_column(void *ctx, size_t i, void *column)
+apply_column(void *ctx, size_t i, void *to)
 {
     const struct pass *p = ctx;
-    const struct rc_tangential *t = p->t;
-    const double *a = t->quarter[p->which == 0 ? RC_SHEAR_XX : RC_SHEAR_YY];
+    const struct rc_shear_column c = both(p, i, to);
 
-    mix(t, i, a + i * t->cy, t->quarter[RC_SHEAR_XY] + i * t->cy, p->which, column);
+    ops(p->single)->apply(&c, quarter_of(p, p->which == 0 ? RC_SHEAR_XX : RC_SHEAR_YY, i),
+                          quarter_of(p, RC_SHEAR_XY, i));
 }
 
 static void
-inverse_column(void *ctx, size_t i, void *column)
+inverse_column(void *ctx, size_t i, void *to)
 {
     const struct pass *p = ctx;
-    const struct rc_tangential *t = p->t;
-    const double *xx = t->quarter[RC_SHEAR_XX] + i * t->cy;
-    const double *yy = t->quarter[RC_SHEAR_YY] + i * t->cy;
-    const double *xy = t->quarter[RC_SHEAR_XY] + i * t->cy;
-    const double *x = t->waves[0] + 2 * i * t->length, *y = t->waves[1] + 2 * i * t->length;
-    double *to = column;
-    size_t n = t->length;
+    const struct rc_shear_column c = both(p, i, to);
 
-    for (size_t k = 0; k < n; k++) {
-        size_t w = t->wave[k];
-        double a = xx[w] + p->shift, c = yy[w] + p->shift, b = -t->mirror[k] * xy[w];
-        double det = a * c - b * b, over = det > 0 ? 1 / det : 0;
-        double straight = (p->which == 0 ? c : a) * over, cross = -b * over;
-        const double *own = p->which == 0 ? x : y, *other = p->which == 0 ? y : x;
-        to[k] = straight * own[k] + cross * other[k];
-        to[n + k] = straight * own[n + k] + cross * other[n + k];
-    }
+    ops(p->single)->inverse(&c, quarter_of(p, p->which == 0 ? RC_SHEAR_XX : RC_SHEAR_YY, i),
+                            quarter_of(p, RC_SHEAR_XY, i),
+                            quarter_of(p, p->which == 0 ? RC_SHEAR_YY : RC_SHEAR_XX, i));
 }
 
-/* -i (x X + y Y) of both maps: to the normal direction. */
+/* -i (a X + b Y) of both maps: to the normal direction. */
 static void
 normal_column(void *ctx, size_t i, void *column)
 {
     const struct pass *p = ctx;
     const struct rc_tangential *t = p->t;
-    const double *a = t->quarter[RC_SHEAR_XZ] + i * t->cy;
-    const double *b = t->quarter[RC_SHEAR_YZ] + i * t->cy;
-    const double *x = t->waves[0] + 2 * i * t->length, *y = t->waves[1] + 2 * i * t->length;
+    const double *a = quarter_of(p, RC_SHEAR_XZ, i), *b = quarter_of(p, RC_SHEAR_YZ, i);
+    const double *x = column_of(p, 0, i), *y = column_of(p, 1, i);
     double *to = column;
     size_t n = t->length;
 
     for (size_t k = 0; k < n; k++) {
-        double ax = a[t->wave[k]], by = t->mirror[k] * b[t->wave[k]];
+        double ax = a[t->wave[k]], by = (double)t->mirror[k] * b[t->wave[k]];
         to[k] = ax * x[n + k] + by * y[n + k];
         to[n + k] = -ax * x[k] - by * y[k];
     }
 }
 
-/* i x P: what a pressure does along the surface. */
+/* i a P: what a pressure does along the surface, against what a traction does along the normal. */
 static void
 pressure_column(void *ctx, size_t i, void *column)
 {
     const struct pass *p = ctx;
     const struct rc_tangential *t = p->t;
-    const double *a = t->quarter[p->which == 0 ? RC_SHEAR_XZ : RC_SHEAR_YZ] + i * t->cy;
-    const double *x = t->waves[0] + 2 * i * t->length;
+    const double *a = quarter_of(p, p->which == 0 ? RC_SHEAR_XZ : RC_SHEAR_YZ, i);
+    const double *x = column_of(p, 0, i);
     double *to = column;
     size_t n = t->length;
 
     for (size_t k = 0; k < n; k++) {
-        double s = a[t->wave[k]] * (p->which == 0 ? 1 : t->mirror[k]);
+        double s = a[t->wave[k]] * (p->which == 0 ? 1 : (double)t->mirror[k]);
         to[k] = -s * x[n + k];
         to[n + k] = s * x[k];
     }
 }
 
 static void
-forward(struct rc_tangential *t, const double *map, const double *weight, int which)
+forward(struct rc_tangential *t, bool single, const void *map, int which)
 {
-    struct pass pass = {.t = t, .from = map, .weight = weight};
+    struct pass pass = {.t = t, .single = single, .from = map};
 
-    rc_fft_forward(t->fft, row_in, &pass, t->waves[which], NULL);
-    t->convolutions += 0.5;
+    rc_fft_forward(single ? t->fft_single : t->fft, row_in, &pass, t->waves[which], NULL);
+    t->convolutions += single ? 0.25 : 0.5;
 }
 
 static void
-back(struct rc_tangential *t, rc_wave_column *column, struct pass pass)
+back(struct rc_tangential *t, bool single, rc_wave_column *column, void *map, int which)
 {
-    pass.t = t;
-    rc_fft_back(t->fft, NULL, column, row_out, &pass);
-    t->convolutions += 0.5;
+    struct pass pass = {.t = t, .single = single, .to = map, .which = which};
+
+    rc_fft_back(single ? t->fft_single : t->fft, NULL, column, row_out, &pass);
+    t->convolutions += single ? 0.25 : 0.5;
 }
 
 /* ---- the face ---- */
@@ -325,34 +353,41 @@ void
 rc_tangential_apply(struct rc_tangential *t, double *const q[2], double *const u[2])
 {
     for (int k = 0; k < 2; k++)
-        forward(t, q[k], NULL, k);
+        forward(t, false, q[k], k);
     for (int k = 0; k < 2; k++)
-        back(t, apply_column, (struct pass){.to = u[k], .which = k});
+        back(t, false, apply_column, u[k], k);
 }
 
 void
-rc_tangential_inverse(struct rc_tangential *t, double d, const double *weight, double *const u[2],
-                      double *const q[2], bool add)
+rc_tangential_apply_single(struct rc_tangential *t, float *const q[2], float *const u[2])
 {
     for (int k = 0; k < 2; k++)
-        forward(t, u[k], weight, k);
+        forward(t, true, q[k], k);
     for (int k = 0; k < 2; k++)
-        back(t, inverse_column,
-             (struct pass){.to = q[k], .weight = weight, .add = add, .which = k, .shift = d});
+        back(t, true, apply_column, u[k], k);
+}
+
+void
+rc_tangential_inverse(struct rc_tangential *t, float *const u[2], float *const q[2])
+{
+    for (int k = 0; k < 2; k++)
+        forward(t, true, u[k], k);
+    for (int k = 0; k < 2; k++)
+        back(t, true, inverse_column, q[k], k);
 }
 
 void
 rc_tangential_normal(struct rc_tangential *t, double *const q[2], double *uz)
 {
     for (int k = 0; k < 2; k++)
-        forward(t, q[k], NULL, k);
-    back(t, normal_column, (struct pass){.to = uz});
+        forward(t, false, q[k], k);
+    back(t, false, normal_column, uz, 0);
 }
 
 void
 rc_tangential_pressure(struct rc_tangential *t, const double *p, double *const u[2])
 {
-    forward(t, p, NULL, 0);
+    forward(t, false, p, 0);
     for (int k = 0; k < 2; k++)
-        back(t, pressure_column, (struct pass){.to = u[k], .which = k});
+        back(t, false, pressure_column, u[k], k);
 }

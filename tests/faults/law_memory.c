@@ -343,6 +343,46 @@ leaks(double *out, struct rc_err *err)
 }
 #endif
 
+/* ---- friction ---- */
+
+/* Dissimilar bodies, a force and then a displacement. */
+static enum rc_status
+slides(double *out, struct rc_err *err)
+{
+    struct rc_problem contact = {.boundary = RC_PERIODIC, .pair = bare, .load = 1e-3, .threads = 1};
+    struct rc_slip_problem problem = {
+        .boundary = RC_PERIODIC, .pair = bare, .mu = 0.2, .threads = 1};
+    struct rc_solver *solver = rc_solver_new(&shape, rough, &contact, err);
+    struct rc_slip *slip = NULL;
+    struct rc_slip_figures figures;
+    enum rc_status status = RC_FAIL;
+
+    if (solver == NULL || finish_load(solver, err) != RC_OK ||
+        (slip = rc_slip_new(&shape, &problem, err)) == NULL)
+        goto done;
+    for (int q = 0; q < 2; q++) {
+        status = rc_slip_set_pressure(slip, rc_solver_pressure(solver), NULL, err);
+        if (status == RC_OK)
+            status = q == 0 ? rc_slip_set_force(slip, 1e-4, 2e-5, err)
+                            : rc_slip_set_displacement(slip, 0, 0, err);
+        while (status == RC_OK && (status = rc_slip_step(slip, err)) == RC_MORE)
+            status = RC_OK;
+        if (status != RC_OK)
+            goto done;
+        rc_slip_result(slip, &figures);
+        rc_slip_keep(slip);
+    }
+    memcpy(out, rc_slip_traction(slip, 0), N * sizeof *out);
+    rc_slip_slip(slip, 1, out + N);
+    rc_slip_normal(slip, out + 2 * N);
+    out[3 * N] = figures.dissipated;
+    out[3 * N + 1] = (double)rc_slip_memory(&shape, &problem) + rc_slip_beta(slip);
+done:
+    rc_slip_free(slip);
+    rc_solver_free(solver);
+    return status;
+}
+
 /* ---- stresses ---- */
 
 /* Goes on from its own state, as another would. */
@@ -663,6 +703,7 @@ static const struct {
 #ifdef RC_LEAK
     {.name = "leakage", .use = leaks},
 #endif
+    {.name = "friction", .use = slides},
     {.name = "stress", .use = free_stress},
     {.name = "stress, periodic", .use = periodic_stress},
     {.name = "stress, direct", .use = direct_stress},

@@ -13,7 +13,7 @@
 #include "libcontact/slip/tangential.h"
 #include "tests/exact.h"
 
-static const double quadrature = 1e-12;
+static const double quadrature = 1e-12, in_floats = 5e-6;
 
 /* Steel on rubber, and a single body on a rigid one. */
 static const struct rc_pair pairs[] = {
@@ -297,6 +297,81 @@ test_free_sums_are_double_sums(void **state)
     assert_true(worst < 3e-13);
 }
 
+/* ---- in single precision ---- */
+
+struct singles {
+    float *q[2], *u[2];
+};
+
+static struct singles
+singles_of(const struct maps *m)
+{
+    struct singles s;
+
+    for (int c = 0; c < 2; c++) {
+        s.q[c] = malloc(m->n * sizeof(float));
+        s.u[c] = malloc(m->n * sizeof(float));
+        for (size_t k = 0; k < m->n; k++) {
+            s.q[c][k] = (float)m->q[c][k];
+            s.u[c][k] = (float)m->u[c][k];
+        }
+    }
+    return s;
+}
+
+static void
+singles_free(struct singles *s)
+{
+    for (int c = 0; c < 2; c++) {
+        free(s->q[c]);
+        free(s->u[c]);
+    }
+}
+
+/* In single precision T q is what it is in double, and the inverse of the padded map takes T q back to q. */
+static void
+test_single_precision_and_the_inverse(void **state)
+{
+    const struct rc_shear shear = {1, 0.6, 0};
+    double worst = 0;
+
+    (void)state;
+    for (size_t s = 0; s < SHAPES; s++)
+        for (int boundary = RC_FREE; boundary <= RC_PERIODIC; boundary++) {
+            struct rc_tangential *t =
+                rc_tangential_new(&shapes[s], (enum rc_boundary)boundary, &shear, 2, NULL);
+            struct maps m = maps_new(shapes[s].nx * shapes[s].ny, 5);
+            struct singles f = singles_of(&m);
+            double size = 0, mean = 0;
+
+            assert_non_null(t);
+            rc_tangential_apply(t, m.q, m.u);
+            rc_tangential_apply_single(t, f.q, f.u);
+            for (int c = 0; c < 2; c++)
+                for (size_t k = 0; k < m.n; k++)
+                    size = fmax(size, fabs(m.u[c][k]));
+            for (int c = 0; c < 2; c++)
+                for (size_t k = 0; k < m.n; k++)
+                    worst = larger(worst, fabs(m.u[c][k] - (double)f.u[c][k]) / size);
+            if (boundary == RC_PERIODIC && m.n > 1 && shapes[s].nx % 2 == 1 &&
+                shapes[s].ny % 2 == 1) {
+                rc_tangential_inverse(t, f.u, f.u);
+                for (int c = 0; c < 2; c++) {
+                    mean = 0;
+                    for (size_t k = 0; k < m.n; k++)
+                        mean += m.q[c][k] / (double)m.n;
+                    for (size_t k = 0; k < m.n; k++)
+                        worst = larger(worst, fabs((double)f.u[c][k] - m.q[c][k] + mean));
+                }
+            }
+            singles_free(&f);
+            maps_free(&m);
+            rc_tangential_free(t);
+        }
+    print_message("single precision: %.1e\n", worst);
+    assert_true(worst < in_floats);
+}
+
 /* ---- waves ---- */
 
 /* Plane strain, and antiplane, of a wave k along s: a traction along s moves the surface by (1 - nu)/(G k)
@@ -345,10 +420,6 @@ test_waves_are_plane_and_antiplane(void **state)
                 for (size_t at = 0; at < n; at++)
                     for (int c = 0; c < 2; c++)
                         worst = larger(worst, fabs(m.u[c][at] * k - factor * m.q[c][at]) / along);
-                rc_tangential_inverse(t, 0, NULL, m.u, m.u, false);
-                for (size_t at = 0; at < n; at++)
-                    for (int c = 0; c < 2; c++)
-                        worst = larger(worst, fabs(m.u[c][at] - m.q[c][at]));
                 if (shear.beta == 0)
                     continue;
                 rc_tangential_normal(t, m.q, m.uz);
@@ -381,7 +452,7 @@ test_loads_and_displacements_are_reciprocal(void **state)
             struct rc_tangential *t =
                 rc_tangential_new(&shapes[s], (enum rc_boundary)boundary, &shear, 2, NULL);
             struct maps a = maps_new(n, 11), b = maps_new(n, 12);
-            double size = 0, d = t->self[0] / 3, there, back;
+            double size = 0, there, back;
 
             assert_non_null(t);
             rc_tangential_apply(t, a.q, a.u);
@@ -396,12 +467,6 @@ test_loads_and_displacements_are_reciprocal(void **state)
             back = dot(n, b.u[0], a.q[0], &size) + dot(n, b.u[1], a.q[1], &size);
             if (size > 0)
                 worst = larger(worst, fabs(there - back) / size);
-            size = 0;
-            rc_tangential_inverse(t, d, a.p, a.q, a.u, false);
-            rc_tangential_inverse(t, d, a.p, b.q, b.u, false);
-            there = dot(n, a.u[0], b.q[0], &size) + dot(n, a.u[1], b.q[1], &size);
-            back = dot(n, b.u[0], a.q[0], &size) + dot(n, b.u[1], a.q[1], &size);
-            worst = larger(worst, fabs(there - back) / size);
             maps_free(&a);
             maps_free(&b);
             rc_tangential_free(t);
@@ -443,6 +508,7 @@ main(void)
         cmocka_unit_test(test_bodies_in_two_numbers),
         cmocka_unit_test(test_coefficients_are_integrals),
         cmocka_unit_test(test_free_sums_are_double_sums),
+        cmocka_unit_test(test_single_precision_and_the_inverse),
         cmocka_unit_test(test_waves_are_plane_and_antiplane),
         cmocka_unit_test(test_loads_and_displacements_are_reciprocal),
     };

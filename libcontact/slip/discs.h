@@ -1,0 +1,52 @@
+/*
+ * One increment of friction: the tractions q of the least energy on discs of given radii.
+ *
+ *     min  q'Tq/2 - w'q   over   |q_i| <= g_i,   sum q = S   (or less delta'(sum q), delta given)
+ *
+ * T the tangential operator, g what friction can carry at a node, w the displacement that nodes which stick keep, S
+ * the load over the area of a cell, delta its multiplier: how far the bodies have moved. s = Tq - w - delta is how far
+ * a node slips: 0 where |q| < g, else along -q. Units are such that floats lose no decade: displacements over what E* and
+ * the cell make of a traction, in Pa. Internal: never installed.
+ */
+#ifndef RC_DISCS_H
+#define RC_DISCS_H
+
+#include "extension.h"
+
+struct rc_discs {
+    struct rc_tangential *t; /* the caller's */
+    size_t nx, ny, n;
+    int threads;
+    /* what is asked: set by the caller before rc_discs_begin */
+    double *g, *w[2];
+    bool given;              /* delta is, else the sum */
+    double sum[2], delta[2]; /* S, Pa; delta, m        */
+    double tol;              /* relative L1 error of q */
+    size_t most;             /* outer steps            */
+    /* what has been found */
+    double *q[2], *u[2]; /* q, where a start is to stand too; u = T q */
+    double estimate;     /* of the relative L1 error of q */
+    double residual;     /* largest slip where nothing may slip, over the largest slip, m */
+    double slip;         /* largest slip, or what the bodies have moved where that is less, m */
+    size_t steps, inner, fallbacks, stick, slipping;
+    /* of one step */
+    struct rc_extension *m;
+    double *d[2], *h[2];                     /* where it goes, and T of that                     */
+    float *x[2], *r[2], *z[2], *p[2], *y[2]; /* conjugate gradients: x, residual, M r, p, T p    */
+    float *curve;                            /* D of nodes that slip                             */
+    unsigned char *face;                     /* enum rc_face                                     */
+    double *partial;                         /* sums of rows                                     */
+    double bb[3];                            /* B'B: sums over the free directions, xx yy xy     */
+};
+
+/* Rooms for maps; NULL when memory is short. */
+struct rc_discs *rc_discs_new(struct rc_tangential *t, struct rc_err *err);
+void rc_discs_free(struct rc_discs *d); /* NULL is allowed */
+size_t rc_discs_memory(const struct rc_shape *shape, enum rc_boundary boundary);
+/* Starts from what stands in q, which is put on the discs and the load; the load must be one that the discs can
+ * carry. u is found. RC_FAIL when memory is short. */
+enum rc_status rc_discs_begin(struct rc_discs *d, struct rc_err *err);
+/* One outer step: RC_MORE, RC_OK when the estimate is below tol, RC_SHORT when it cannot get there. */
+enum rc_status rc_discs_step(struct rc_discs *d);
+
+#endif

@@ -1,0 +1,412 @@
+/*
+ * Friction in steps: what has stuck is kept, what slips is counted.
+ *
+ * A node that carries something keeps (T q + C p - delta) as long as it sticks: `origin`, of the whole map, for a node that
+ * touches later keeps what it has then. An increment asks for the tractions of least energy under w = origin - C p.
+ * With the force growing by dF/dP of the load a node that touches at the gap g0 has moved by dF/dP (1 + kap/2) g0
+ * before: exactly for kap = 0, where T is K in both directions.
+ *
+ * Inside displacements are in units of sqrt(dx dy)/E*, lengths of sqrt(dx dy), and so in Pa and 1.
+ */
+#include "slip.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "libcontact/memory.h"
+
+struct rc_slip {
+    struct rc_shape shape;
+    size_t n;
+    int threads;
+    struct rc_shear shear; /* Pa */
+    double mu, tau_max, cell;
+    double unit, length; /* m/Pa; m */
+    struct rc_tangential *t;
+    struct rc_discs *discs;
+    bool coupled, asked, begun, done, apart;
+    enum rc_status last;
+    /* kept: of the increment before */
+    double *origin[2], *old[2], *slip[2], *gap_old;
+    unsigned char *touched;
+    double load_old, force_old[2], delta_old[2];
+    /* of this one */
+    double *gap, *pushed[2]; /* C p */
+    double load, limit, force[2];
+    bool has_gap_old, has_gap;
+};
+
+static double
+reach(const struct rc_slip *s, double p)
+{
+    return fmin(s->mu * p, s->tau_max);
+}
+
+/* ---- what is asked ---- */
+
+enum rc_status
+rc_slip_set_pressure(struct rc_slip *s, const double *p, const double *gap, struct rc_err *err)
+{
+    struct rc_total load = {0}, limit = {0};
+
+    for (size_t k = 0; k < s->n && p != NULL; k++)
+        if (!(p[k] >= 0) || isinf(p[k]))
+            return rc_err_set(err, "pressure %g Pa at node %zu: it must be finite and not negative",
+                              p[k], k);
+    s->apart = true;
+    for (size_t k = 0; k < s->n; k++) {
+        s->discs->g[k] = p == NULL ? 0 : reach(s, p[k]);
+        rc_total_add(&load, p == NULL ? 0 : p[k]);
+        rc_total_add(&limit, s->discs->g[k]);
+        s->apart = s->apart && s->discs->g[k] == 0;
+    }
+    s->load = rc_total_value(&load) * s->cell;
+    s->limit = rc_total_value(&limit) * s->cell;
+    s->has_gap = gap != NULL;
+    if (gap != NULL)
+        memcpy(s->gap, gap, s->n * sizeof *gap);
+    if (s->coupled && p != NULL)
+        rc_tangential_pressure(s->t, p, s->pushed);
+    else if (s->coupled)
+        for (int c = 0; c < 2; c++)
+            memset(s->pushed[c], 0, s->n * sizeof(double));
+    s->asked = s->begun = s->done = false;
+    return RC_OK;
+}
+
+static enum rc_status
+finite(double x, double y, const char *what, struct rc_err *err)
+{
+    if (isfinite(x) && isfinite(y))
+        return RC_OK;
+    return rc_err_set(err, "%s %g, %g: it must be finite", what, x, y);
+}
+
+enum rc_status
+rc_slip_set_force(struct rc_slip *s, double fx, double fy, struct rc_err *err)
+{
+    static const double nearest = 1 - 1e-9; /* as near to sliding as tractions are told from it */
+    double f = hypot(fx, fy);
+
+    if (finite(fx, fy, "tangential force", err) != RC_OK)
+        return RC_FAIL;
+    if (f > 0 && !(f <= nearest * s->limit))
+        return rc_err_set(err,
+                          "tangential force %.9g N: friction carries less than %.9g N, beyond it "
+                          "the bodies slide; give a displacement instead",
+                          f, s->limit);
+    s->force[0] = s->discs->sum[0] = fx / s->cell;
+    s->force[1] = s->discs->sum[1] = fy / s->cell;
+    s->discs->given = false;
+    s->asked = true;
+    s->begun = s->done = false;
+    return RC_OK;
+}
+
+enum rc_status
+rc_slip_set_displacement(struct rc_slip *s, double dx, double dy, struct rc_err *err)
+{
+    if (finite(dx, dy, "tangential displacement", err) != RC_OK)
+        return RC_FAIL;
+    s->discs->delta[0] = dx / s->unit;
+    s->discs->delta[1] = dy / s->unit;
+    s->discs->given = true;
+    s->asked = true;
+    s->begun = s->done = false;
+    return RC_OK;
+}
+
+/* ---- an increment ---- */
+
+/* w: where the nodes stick; and a start: the last tractions, the change of the force spread as friction is. */
+static void
+pose(struct rc_slip *s)
+{
+    struct rc_discs *d = s->discs;
+    double more[2] = {0, 0}, entry[2] = {0, 0};
+    bool enter = s->has_gap_old && !d->given && s->load > s->load_old;
+
+    for (int c = 0; c < 2 && !d->given; c++) {
+        if (s->limit > 0)
+            more[c] = (s->force[c] - s->force_old[c]) * s->cell / s->limit;
+        if (enter)
+            entry[c] = (1 + s->shear.kap / 2) * (s->force[c] - s->force_old[c]) * s->cell /
+                       (s->load - s->load_old) / s->unit;
+    }
+#pragma omp parallel for num_threads(s->threads) schedule(static)
+    for (size_t k = 0; k < s->n; k++)
+        for (int c = 0; c < 2; c++) {
+            d->w[c][k] = s->origin[c][k] - (s->coupled ? s->pushed[c][k] : 0);
+            if (enter && d->g[k] > 0 && !s->touched[k])
+                d->w[c][k] -= entry[c] * s->gap_old[k];
+            d->q[c][k] = s->old[c][k] + more[c] * d->g[k];
+        }
+}
+
+enum rc_status
+rc_slip_step(struct rc_slip *s, struct rc_err *err)
+{
+    if (!s->asked)
+        return rc_err_set(err, "neither a force nor a displacement has been set");
+    if (s->done)
+        return s->last;
+    if (s->apart) { /* nothing touches: nothing is carried, nothing is displaced */
+        pose(s);
+        for (int c = 0; c < 2; c++) {
+            memset(s->discs->q[c], 0, s->n * sizeof(double));
+            memset(s->discs->u[c], 0, s->n * sizeof(double));
+        }
+        s->discs->estimate = 0;
+        s->discs->stick = s->discs->slipping = 0;
+        s->discs->slip = s->discs->residual = 0;
+        memset(s->discs->face, RC_FACE_OFF, s->n);
+        s->last = RC_OK;
+        s->done = true;
+        return RC_OK;
+    }
+    if (!s->begun) {
+        pose(s);
+        if (rc_discs_begin(s->discs, err) != RC_OK)
+            return RC_FAIL;
+        s->begun = true;
+        return RC_MORE;
+    }
+    s->last = rc_discs_step(s->discs);
+    s->done = s->last != RC_MORE;
+    return s->last;
+}
+
+/* How far a node has slipped in this increment, in units: what is left where one sticks is an error. */
+static inline double
+slipped(const struct rc_slip *s, int c, size_t k)
+{
+    const struct rc_discs *d = s->discs;
+
+    return d->face[k] == RC_FACE_SLIP ? d->u[c][k] - d->w[c][k] - d->delta[c] : 0;
+}
+
+void
+rc_slip_keep(struct rc_slip *s)
+{
+    struct rc_discs *d = s->discs;
+
+    if (!s->done)
+        return;
+#pragma omp parallel for num_threads(s->threads) schedule(static)
+    for (size_t k = 0; k < s->n; k++) {
+        for (int c = 0; c < 2; c++) {
+            s->slip[c][k] += slipped(s, c, k);
+            s->origin[c][k] = d->u[c][k] + (s->coupled ? s->pushed[c][k] : 0) - d->delta[c];
+            s->old[c][k] = d->q[c][k];
+        }
+        s->touched[k] = d->g[k] > 0;
+    }
+    s->has_gap_old = s->has_gap;
+    if (s->has_gap)
+        memcpy(s->gap_old, s->gap, s->n * sizeof *s->gap);
+    s->load_old = s->load;
+    for (int c = 0; c < 2; c++) {
+        struct rc_total sum = {0};
+        for (size_t k = 0; k < s->n; k++)
+            rc_total_add(&sum, d->q[c][k]);
+        s->force_old[c] = rc_total_value(&sum);
+        s->delta_old[c] = d->delta[c];
+    }
+    s->asked = s->begun = s->done = false;
+}
+
+/* ---- what has been found ---- */
+
+/* Where the load falls, friction is what it was on average; else it is what it is in the end, which is exact where it is
+ * constant. */
+static double
+dissipated(const struct rc_slip *s)
+{
+    const struct rc_discs *d = s->discs;
+    double mean = s->load < s->load_old ? 0.5 : 1;
+    struct rc_total sum = {0};
+
+    for (size_t k = 0; k < s->n; k++)
+        for (int c = 0; c < 2; c++)
+            rc_total_add(&sum, -(mean * d->q[c][k] + (1 - mean) * s->old[c][k]) * slipped(s, c, k));
+    return rc_total_value(&sum) * s->cell * s->unit;
+}
+
+void
+rc_slip_result(struct rc_slip *s, struct rc_slip_figures *f)
+{
+    const struct rc_discs *d = s->discs;
+
+    *f = (struct rc_slip_figures){.load = s->load,
+                                  .limit = s->limit,
+                                  .stick_nodes = d->stick,
+                                  .slip_nodes = d->slipping,
+                                  .stick_area = (double)d->stick * s->cell,
+                                  .slip_area = (double)d->slipping * s->cell,
+                                  .dissipated = dissipated(s),
+                                  .largest_slip = d->slip * s->unit,
+                                  .slip_error = d->residual * s->unit,
+                                  .traction_error = d->estimate,
+                                  .steps = d->steps,
+                                  .convolutions = s->t->convolutions,
+                                  .converged = s->done && s->last == RC_OK};
+    for (int c = 0; c < 2; c++) {
+        struct rc_total sum = {0};
+        for (size_t k = 0; k < s->n; k++)
+            rc_total_add(&sum, d->q[c][k]);
+        f->force[c] = rc_total_value(&sum) * s->cell;
+        f->displacement[c] = d->delta[c] * s->unit;
+    }
+    f->stiffness = hypot(f->force[0], f->force[1]) / hypot(f->displacement[0], f->displacement[1]);
+    if (!isfinite(f->stiffness))
+        f->stiffness = NAN;
+}
+
+const double *
+rc_slip_traction(const struct rc_slip *s, int direction)
+{
+    return s->discs->q[direction];
+}
+
+void
+rc_slip_slip(const struct rc_slip *s, int direction, double *to)
+{
+    for (size_t k = 0; k < s->n; k++)
+        to[k] = (s->slip[direction][k] + (s->done ? slipped(s, direction, k) : 0)) * s->unit;
+}
+
+void
+rc_slip_normal(struct rc_slip *s, double *uz)
+{
+    memset(uz, 0, s->n * sizeof *uz);
+    if (!s->coupled)
+        return;
+    rc_tangential_normal(s->t, s->discs->q, uz);
+    for (size_t k = 0; k < s->n; k++)
+        uz[k] *= s->unit;
+}
+
+double
+rc_slip_beta(const struct rc_slip *s)
+{
+    return s->shear.beta;
+}
+
+/* ---- plan ---- */
+
+static enum rc_status
+check(const struct rc_shape *shape, const struct rc_slip_problem *p, struct rc_shear *shear,
+      struct rc_err *err)
+{
+    if (rc_shape_check(shape, err) != RC_OK)
+        return RC_FAIL;
+    if (p->ranks != NULL)
+        return rc_err_set(err, "friction is not shared among processes: take one");
+    if (!(p->mu > 0) || isinf(p->mu))
+        return rc_err_set(err, "coefficient of friction %g: it must be positive and finite", p->mu);
+    if (!(p->tau_max >= 0))
+        return rc_err_set(err, "largest traction %g Pa: it must not be negative", p->tau_max);
+    if (!(p->tol >= 0 && p->tol < 1))
+        return rc_err_set(err, "tolerance %g: it must be below 1 and not negative", p->tol);
+    return rc_pair_shear(&p->pair, p->nu, shear, err);
+}
+
+static bool
+allocate(struct rc_slip *s)
+{
+    double **maps[] = {&s->origin[0], &s->origin[1], &s->old[0],  &s->old[1],
+                       &s->slip[0],   &s->slip[1],   &s->gap_old, &s->gap};
+
+    for (size_t k = 0; k < sizeof maps / sizeof *maps; k++) {
+        if ((*maps[k] = rc_alloc(s->n, sizeof(double))) == NULL)
+            return false;
+        memset(*maps[k], 0, s->n * sizeof(double));
+    }
+    for (int c = 0; c < 2 && s->coupled; c++) {
+        if ((s->pushed[c] = rc_alloc(s->n, sizeof(double))) == NULL)
+            return false;
+        memset(s->pushed[c], 0, s->n * sizeof(double));
+    }
+    s->touched = calloc(s->n, 1);
+    return s->touched != NULL;
+}
+
+struct rc_slip *
+rc_slip_new(const struct rc_shape *shape, const struct rc_slip_problem *p, struct rc_err *err)
+{
+    static const double usual = 1e-4;
+    struct rc_shear shear, inside;
+    struct rc_shape unit;
+    struct rc_slip *s;
+
+    if (check(shape, p, &shear, err) != RC_OK)
+        return NULL;
+    s = calloc(1, sizeof *s);
+    if (s == NULL) {
+        rc_err_set(err, "out of memory for the friction of %zu x %zu nodes", shape->nx, shape->ny);
+        return NULL;
+    }
+    *s = (struct rc_slip){.shape = *shape,
+                          .n = shape->nx * shape->ny,
+                          .threads = rc_useful_threads(shape, p->threads),
+                          .shear = shear,
+                          .mu = p->mu,
+                          .tau_max = p->tau_max > 0 ? p->tau_max : INFINITY,
+                          .cell = shape->dx * shape->dy,
+                          .length = sqrt(shape->dx) * sqrt(shape->dy),
+                          .coupled = shear.beta != 0 && !p->uncoupled};
+    s->unit = s->length / shear.estar;
+    unit = (struct rc_shape){shape->nx, shape->ny, shape->dx / s->length, shape->dy / s->length};
+    inside = (struct rc_shear){1, shear.kap, s->coupled ? shear.beta : 0};
+    if (!allocate(s)) {
+        rc_err_set(err, "out of memory for the friction of %zu x %zu nodes", shape->nx, shape->ny);
+        goto fail;
+    }
+    s->t = rc_tangential_new(&unit, p->boundary, &inside, p->threads, err);
+    if (s->t == NULL || (s->discs = rc_discs_new(s->t, err)) == NULL)
+        goto fail;
+    s->discs->tol = p->tol > 0 ? p->tol : usual;
+    if (p->max_steps > 0)
+        s->discs->most = p->max_steps;
+    memset(s->discs->g, 0, s->n * sizeof(double));
+    memset(s->discs->face, RC_FACE_OFF, s->n);
+    s->apart = true;
+    return s;
+fail:
+    rc_slip_free(s);
+    return NULL;
+}
+
+void
+rc_slip_free(struct rc_slip *s)
+{
+    if (s == NULL)
+        return;
+    rc_discs_free(s->discs);
+    rc_tangential_free(s->t);
+    for (int c = 0; c < 2; c++) {
+        free(s->origin[c]);
+        free(s->old[c]);
+        free(s->slip[c]);
+        free(s->pushed[c]);
+    }
+    free(s->gap_old);
+    free(s->gap);
+    free(s->touched);
+    free(s);
+}
+
+size_t
+rc_slip_memory(const struct rc_shape *shape, const struct rc_slip_problem *p)
+{
+    struct rc_shear shear;
+    size_t n = shape->nx * shape->ny;
+    bool coupled;
+
+    if (check(shape, p, &shear, NULL) != RC_OK)
+        return 0;
+    coupled = shear.beta != 0 && !p->uncoupled;
+    return n * ((coupled ? 10 : 8) * sizeof(double) + 1) + sizeof(struct rc_slip) +
+           rc_tangential_memory(shape, p->boundary, coupled, p->threads) +
+           rc_discs_memory(shape, p->boundary);
+}

@@ -1,0 +1,456 @@
+/* Whatever the contact, tractions keep their bounds and the load, slip is against them, and the error is what is said of it;
+ * the work does not grow with the map; and what makes no sense is refused. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+#include <stdio.h>
+
+#include "slip_case.h"
+
+/* Of a problem: q'.s <= 0 and |q| <= g at every node, s = 0 where |q| < g, the load; all from a fresh
+ * sum that this file does not make: slip comes from the library, and what it is worth from the figures. */
+struct problem {
+    struct rc_shape shape;
+    enum rc_boundary boundary;
+    double nu, mu, tau_max, part, angle;
+    double *p;
+};
+
+static struct rc_slip *
+slide(const struct problem *w, double tol, struct rc_slip_figures *f, enum rc_status *status)
+{
+    struct rc_slip_problem what = {.boundary = w->boundary,
+                                   .pair.estar = 1,
+                                   .nu = w->nu,
+                                   .mu = w->mu,
+                                   .tau_max = w->tau_max,
+                                   .tol = tol};
+    struct rc_err err = {""};
+    struct rc_slip *slip = rc_slip_new(&w->shape, &what, &err);
+    double limit = 0;
+
+    assert_non_null(slip);
+    for (size_t k = 0; k < w->shape.nx * w->shape.ny; k++)
+        limit += fmin(w->mu * w->p[k], w->tau_max > 0 ? w->tau_max : INFINITY);
+    limit *= w->part * w->shape.dx * w->shape.dy;
+    assert_int_equal(rc_slip_set_pressure(slip, w->p, NULL, &err), RC_OK);
+    assert_int_equal(rc_slip_set_force(slip, limit * cos(w->angle), limit * sin(w->angle), &err),
+                     RC_OK);
+    *status = slip_solve(slip, f);
+    return slip;
+}
+
+/* Largest violation of the conditions, over the bounds and the largest slip. */
+static double
+violation(const struct problem *w, struct rc_slip *slip, const struct rc_slip_figures *f)
+{
+    size_t n = w->shape.nx * w->shape.ny;
+    double *s[2] = {malloc(n * sizeof(double)), malloc(n * sizeof(double))}, worst = 0, most = 0;
+    double sum[2] = {0, 0}, cell = w->shape.dx * w->shape.dy;
+
+    for (int c = 0; c < 2; c++)
+        rc_slip_slip(slip, c, s[c]);
+    for (size_t k = 0; k < n; k++)
+        most = fmax(most, hypot(s[0][k], s[1][k]));
+    most =
+        fmax(most, hypot(f->displacement[0], f->displacement[1])); /* where next to nothing slips */
+    for (size_t k = 0; k < n; k++) {
+        double x = rc_slip_traction(slip, 0)[k], y = rc_slip_traction(slip, 1)[k], q = hypot(x, y);
+        double g = fmin(w->mu * w->p[k], w->tau_max > 0 ? w->tau_max : INFINITY);
+        double along = s[0][k] * x + s[1][k] * y, size = hypot(s[0][k], s[1][k]);
+        sum[0] += x * cell;
+        sum[1] += y * cell;
+        worst = larger(worst, (q - g) / (g > 0 ? g : 1));
+        if (g == 0)
+            worst = larger(worst, q + size);
+        if (size > 0 && q > 0) {
+            worst = larger(worst, fabs(q / g - 1));           /* on the circle */
+            worst = larger(worst, (along / q + size) / most); /* against it    */
+        }
+    }
+    worst = larger(worst, hypot(sum[0] - f->limit * w->part * cos(w->angle),
+                                sum[1] - f->limit * w->part * sin(w->angle)) /
+                              f->limit);
+    worst = larger(worst, f->slip_error / most);
+    free(s[0]);
+    free(s[1]);
+    return worst;
+}
+
+static double *
+pressure_of(const struct rc_shape *shape, enum rc_boundary boundary, double *h, double mean)
+{
+    struct pressed c =
+        pressed_new(shape, boundary, h, 1,
+                    mean * (double)(shape->nx * shape->ny) * shape->dx * shape->dy, 1e-6);
+    double *p = malloc(c.n * sizeof *p);
+
+    memcpy(p, c.p, c.n * sizeof *p);
+    pressed_free(&c);
+    return p;
+}
+
+static void
+check_hard(const char *name, struct problem w)
+{
+    struct rc_slip_figures f;
+    enum rc_status status;
+    struct rc_slip *slip = slide(&w, 1e-9, &f, &status);
+    double worst = violation(&w, slip, &f);
+
+    print_message("%-28s %3zu steps, %4.0f convolutions, estimate %.1e, violated by %.1e\n", name,
+                  f.steps, f.convolutions, f.traction_error, worst);
+    assert_int_equal(status, RC_OK);
+    assert_true(worst < 1e-6);
+    assert_true(f.steps <= 40);
+    rc_slip_free(slip);
+}
+
+static void
+test_hard_cases(void **state)
+{
+    const struct rc_shape map = {64, 64, 1, 1}, tall = {64, 64, 1, 4}, line = {256, 1, 1, 1};
+    struct problem w = {.shape = map, .boundary = RC_PERIODIC, .nu = 0.3, .mu = 0.3, .part = 0.5};
+    double *rough = pressure_of(&map, RC_PERIODIC, slip_rough(&map, 0.1, 4, 7), 0.016);
+    uint64_t seed = 5;
+    static const double parts[] = {1e-4, 0.83, 0.99, 0.999, 0.9999, 0.99999};
+
+    (void)state;
+    w.p = rough;
+    for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
+        char name[40];
+        snprintf(name, sizeof name, "F = %g mu P", parts[k]);
+        w.part = parts[k];
+        check_hard(name, w);
+    }
+    w.part = 0.5;
+    w.angle = 2.2;
+    check_hard("at an angle", w);
+    w.nu = 0.5;
+    check_hard("nu 0.5", w);
+    w.nu = -0.4;
+    check_hard("nu -0.4", w);
+    w.nu = 0.3;
+    w.tau_max = 0.02;
+    check_hard("Tresca", w);
+    w.tau_max = 0;
+    w.p = malloc(4096 * sizeof(double));
+    for (size_t k = 0; k < 4096; k++)
+        w.p[k] = fmin(rough[k], 0.05);
+    check_hard("capped pressure", w);
+    for (size_t k = 0; k < 4096; k++)
+        w.p[k] = slip_noise(&seed);
+    check_hard("white noise, full contact", w);
+    for (size_t k = 0; k < 4096; k++)
+        w.p[k] = fmax(0, slip_noise(&seed) - 0.7);
+    check_hard("white noise", w);
+    for (size_t nodes = 1; nodes <= 3; nodes++) {
+        memset(w.p, 0, 4096 * sizeof *w.p);
+        for (size_t k = 0; k < nodes; k++)
+            w.p[64 * 30 + 20 + 3 * k] = 1 + (double)k;
+        check_hard(nodes == 1 ? "one node" : nodes == 2 ? "two nodes" : "three nodes", w);
+        w.boundary = RC_FREE;
+        check_hard("  on the free boundary", w);
+        w.boundary = RC_PERIODIC;
+    }
+    for (size_t k = 0; k < 4096; k++)
+        w.p[k] = hypot((double)(k % 64) - 31.5, (double)(k / 64) - 31.5) < 24;
+    w.boundary = RC_FREE;
+    check_hard("even pressure on a disc", w);
+    free(w.p);
+    w.p = pressure_of(&map, RC_FREE, slip_sphere(&map, 500), 0.01);
+    check_hard("ball", w);
+    free(w.p);
+    w.shape = tall;
+    w.boundary = RC_PERIODIC;
+    w.p = pressure_of(&tall, RC_PERIODIC, slip_rough(&tall, 0.1, 16, 7), 0.012);
+    check_hard("cells 1:4", w);
+    free(w.p);
+    w.shape = line;
+    w.p = malloc(256 * sizeof(double));
+    for (size_t k = 0; k < 256; k++)
+        w.p[k] = fmax(0, cos(2 * exact_pi * ((double)k - 127.5) / 256));
+    check_hard("a profile", w);
+    free(w.p);
+    free(rough);
+}
+
+/* 50 problems, at every step that is left by more than a part in a million: the estimate is never less than the error, and
+ * below 1e-2 no more than 2.5 times it. The truth is where the same steps end, at 1e-11: same_slip has it from another
+ * method. */
+static void
+test_estimate_bounds_the_error(void **state)
+{
+    enum {
+        STEPS = 40
+    };
+    static const double means[] = {0.002, 0.006, 0.016, 0.03, 0.055}, nus[] = {0, 0.3, 0.5},
+                        parts[] = {0.1, 0.3, 0.5, 0.7, 0.9};
+    double least = INFINITY, most = 0, early = 0;
+    size_t seen = 0;
+
+    (void)state;
+    for (int k = 0; k < 50; k++) {
+        size_t nodes = k % 5 == 4 ? 64 : k % 2 == 0 ? 48 : 32, n = nodes * nodes, steps = 0;
+        const struct rc_shape shape = {nodes, nodes, 1, 1};
+        enum rc_boundary boundary = k % 7 == 3 ? RC_FREE : RC_PERIODIC;
+        double *h = slip_rough(&shape, 0.1, 4, 100 + (uint64_t)k), *p, limit = 0;
+        double *q[STEPS][2], estimate[STEPS], angle = k, part = parts[(k / 3) % 5];
+        struct rc_slip_problem what = {
+            .boundary = boundary, .pair.estar = 1, .nu = nus[k % 3], .mu = 0.3, .tol = 1e-11};
+        struct rc_slip *slip = rc_slip_new(&shape, &what, NULL);
+        enum rc_status status;
+
+        assert_non_null(slip);
+        if (boundary == RC_FREE)
+            for (size_t i = 0; i < n; i++)
+                h[i] -= (pow((double)(i % nodes) - (double)nodes / 2, 2) +
+                         pow((double)(i / nodes) - (double)nodes / 2, 2)) /
+                        (3 * (double)nodes);
+        p = pressure_of(&shape, boundary, h, means[k % 5] / (boundary == RC_FREE ? 3 : 1));
+        for (size_t i = 0; i < n; i++)
+            limit += 0.3 * p[i] * part;
+        rc_slip_set_pressure(slip, p, NULL, NULL);
+        rc_slip_set_force(slip, limit * cos(angle), limit * sin(angle), NULL);
+        assert_int_equal(rc_slip_step(slip, NULL), RC_MORE); /* where it begins */
+        do {
+            struct rc_slip_figures f;
+            assert_true(steps < STEPS);
+            for (int c = 0; c < 2; c++) {
+                q[steps][c] = malloc(n * sizeof(double));
+                memcpy(q[steps][c], rc_slip_traction(slip, c), n * sizeof(double));
+            }
+            status = rc_slip_step(slip, NULL);
+            rc_slip_result(slip, &f);
+            estimate[steps++] = f.traction_error;
+        } while (status == RC_MORE);
+        assert_int_equal(status, RC_OK);
+        for (size_t step = 0; step < steps; step++) {
+            double error = slip_distance(n, (const double *const *)q[step],
+                                         (const double *const *)q[steps - 1]);
+            double ratio = estimate[step] / error;
+            if (estimate[step] < 1e-6)
+                continue;
+            least = fmin(least, ratio);
+            if (estimate[step] < 1e-2)
+                most = fmax(most, ratio);
+            else
+                early = fmax(early, ratio);
+            seen++;
+        }
+        for (size_t step = 0; step < steps; step++)
+            for (int c = 0; c < 2; c++)
+                free(q[step][c]);
+        rc_slip_free(slip);
+        free(p);
+    }
+    print_message("%zu estimates: %.2f to %.2f of the error below 1e-2, up to %.1f above\n", seen,
+                  least, most, early);
+    assert_true(seen > 200);
+    assert_true(least >= 1);
+    assert_true(most <= 2.5);
+}
+
+/* Convolutions until the true error is below 1e-2, 1e-4, 1e-6, half of what friction can carry, cold: no more than that, and hardly
+ * more on a larger map. */
+static void
+test_work_does_not_grow(void **state)
+{
+    static const struct {
+        size_t nodes;
+        double mean, most[3];
+    } cases[] = {
+        {64, 0.004, {32, 46, 60}},  {64, 0.016, {32, 46, 60}},  {64, 0.055, {32, 46, 60}},
+        {128, 0.004, {32, 52, 64}}, {128, 0.016, {32, 52, 64}}, {128, 0.055, {42, 52, 64}},
+        {256, 0.016, {48, 64, 76}},
+    };
+    static const double levels[3] = {1e-2, 1e-4, 1e-6};
+
+    (void)state;
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        size_t n = cases[k].nodes * cases[k].nodes, level = 0;
+        const struct rc_shape shape = {cases[k].nodes, cases[k].nodes, 1, 1};
+        struct problem w = {
+            .shape = shape, .boundary = RC_PERIODIC, .nu = 0.3, .mu = 0.3, .part = 0.5};
+        struct rc_slip_problem what = {
+            .boundary = RC_PERIODIC, .pair.estar = 1, .nu = 0.3, .mu = 0.3, .tol = 1e-9};
+        struct rc_slip *truth, *slip = rc_slip_new(&shape, &what, NULL);
+        double begun, counts[3] = {0, 0, 0};
+        struct rc_slip_figures f;
+        enum rc_status status;
+        const double *exact[2], *q[2];
+
+        assert_non_null(slip);
+        w.p = pressure_of(&shape, RC_PERIODIC, slip_rough(&shape, 0.1, 4, 7), cases[k].mean);
+        truth = slide(&w, 1e-10, &f, &status);
+        assert_int_equal(status, RC_OK);
+        rc_slip_set_pressure(slip, w.p, NULL, NULL);
+        rc_slip_set_force(slip, f.force[0], f.force[1], NULL);
+        rc_slip_result(slip, &f);
+        begun = f.convolutions;
+        for (int c = 0; c < 2; c++) {
+            exact[c] = rc_slip_traction(truth, c);
+            q[c] = rc_slip_traction(slip, c);
+        }
+        do {
+            status = rc_slip_step(slip, NULL);
+            rc_slip_result(slip, &f);
+            while (level < 3 && slip_distance(n, q, exact) < levels[level])
+                counts[level++] = f.convolutions - begun;
+        } while (status == RC_MORE);
+        print_message("%zu nodes, mean %.3f: %.1f %.1f %.1f convolutions\n", cases[k].nodes,
+                      cases[k].mean, counts[0], counts[1], counts[2]);
+        assert_int_equal(level, 3);
+        for (int c = 0; c < 3; c++)
+            assert_true(counts[c] <= cases[k].most[c]);
+        rc_slip_free(truth);
+        rc_slip_free(slip);
+        free(w.p);
+    }
+}
+
+static void
+refused(struct rc_slip_problem problem, const char *word)
+{
+    const struct rc_shape shape = {8, 8, 1, 1};
+    struct rc_err err = {""};
+
+    assert_null(rc_slip_new(&shape, &problem, &err));
+    if (strstr(err.text, word) == NULL)
+        print_message("%s\n", err.text);
+    assert_non_null(strstr(err.text, word));
+    assert_int_equal(rc_slip_memory(&shape, &problem), 0);
+}
+
+static void
+test_nonsense_is_refused(void **state)
+{
+    const struct rc_shape shape = {8, 8, 1e-6, 1e-6};
+    const struct rc_layer layer = {1e-6, 1e9, 0.3};
+    struct rc_slip_problem good = {.pair.estar = 1e9, .nu = 0.3, .mu = 0.2}, bad;
+    struct rc_slip *slip = rc_slip_new(&shape, &good, NULL);
+    struct rc_err err = {""};
+    double p[64] = {1e6}, load = 1e6 * 1e-12;
+    struct rc_slip_figures f;
+
+    (void)state;
+    assert_non_null(slip);
+    bad = good, bad.mu = 0;
+    refused(bad, "coefficient of friction 0");
+    bad = good, bad.mu = NAN;
+    refused(bad, "coefficient of friction nan");
+    bad = good, bad.nu = 0.7;
+    refused(bad, "Poisson's ratio 0.7");
+    bad = good, bad.tau_max = -1;
+    refused(bad, "largest traction -1 Pa");
+    bad = good, bad.tol = 1;
+    refused(bad, "tolerance 1");
+    bad = good,
+    bad.pair = (struct rc_pair){.one = {.e = 1e9, .nu = 0.3, .layers = 1, .layer = &layer}};
+    refused(bad, "layers");
+    bad = good, bad.pair = (struct rc_pair){.estar = 0};
+    refused(bad, "E* = 0 Pa");
+    bad = good, bad.ranks = (const struct rc_ranks *)&shape; /* never looked at */
+    refused(bad, "processes");
+
+    assert_int_equal(rc_slip_step(slip, &err), RC_FAIL);
+    assert_non_null(strstr(err.text, "neither a force nor a displacement"));
+    p[3] = -2;
+    assert_int_equal(rc_slip_set_pressure(slip, p, NULL, &err), RC_FAIL);
+    assert_non_null(strstr(err.text, "pressure -2 Pa at node 3"));
+    p[3] = NAN;
+    assert_int_equal(rc_slip_set_pressure(slip, p, NULL, &err), RC_FAIL);
+    p[3] = 0;
+    assert_int_equal(rc_slip_set_pressure(slip, p, NULL, &err), RC_OK);
+    /* both numbers */
+    assert_int_equal(rc_slip_set_force(slip, load * 0.25, 0, &err), RC_FAIL);
+    assert_non_null(strstr(err.text, "force 2.5e-07 N"));
+    assert_non_null(strstr(err.text, "less than 2e-07 N"));
+    assert_int_equal(rc_slip_set_force(slip, INFINITY, 0, &err), RC_FAIL);
+    assert_int_equal(rc_slip_set_displacement(slip, NAN, 0, &err), RC_FAIL);
+    assert_int_equal(rc_slip_set_force(slip, 0, load * 0.15, &err), RC_OK);
+    assert_int_equal(slip_solve(slip, &f), RC_OK);
+    assert_true(fabs(f.force[1] / (load * 0.15) - 1) < summed && f.stick_nodes == 1);
+    /* bodies that are taken apart carry nothing */
+    rc_slip_keep(slip);
+    assert_int_equal(rc_slip_set_pressure(slip, NULL, NULL, &err), RC_OK);
+    assert_int_equal(rc_slip_set_force(slip, 1e-9, 0, &err), RC_FAIL);
+    assert_int_equal(rc_slip_set_force(slip, 0, 0, &err), RC_OK);
+    assert_int_equal(slip_solve(slip, &f), RC_OK);
+    assert_true(f.force[1] == 0 && f.stick_nodes == 0 &&
+                isnan(f.stiffness) == (f.displacement[1] == 0));
+    rc_slip_free(slip);
+}
+
+/* Units change and numbers follow; so do axes, and the direction of the force; and threads change nothing. */
+static void
+test_units_axes_and_threads(void **state)
+{
+    const struct rc_shape map = {48, 40, 1, 1.3}, turned = {40, 48, 1.3, 1};
+    const struct rc_shape small = {48, 40, 1e-7, 1.3e-7};
+    size_t n = 48 * 40;
+    double *p = pressure_of(&map, RC_PERIODIC, slip_rough(&map, 0.1, 6, 3), 0.016), limit = 0;
+    double *side = malloc(n * sizeof *side), *high = malloc(n * sizeof *high);
+    struct rc_slip_problem what = {
+        .boundary = RC_PERIODIC, .pair.estar = 1, .nu = 0.4, .mu = 0.3, .tol = 1e-11};
+    struct rc_slip *slip[4];
+    struct rc_slip_figures f[4];
+    double far[2] = {0, 0}, size = 0;
+
+    (void)state;
+    for (size_t k = 0; k < n; k++) {
+        side[k % 48 * 40 + k / 48] = p[k];
+        high[k] = p[k] * 3e11;
+        limit += 0.3 * p[k] * 1.3;
+    }
+    slip[0] = rc_slip_new(&map, &what, NULL);
+    slip[1] = rc_slip_new(&turned, &what, NULL);
+    what.pair.estar = 3e11;
+    slip[2] = rc_slip_new(&small, &what, NULL);
+    what.pair.estar = 1;
+    what.threads = 1;
+    slip[3] = rc_slip_new(&map, &what, NULL);
+    for (int k = 0; k < 4; k++) {
+        double unit = k == 2 ? 3e11 * 1e-14 : 1, x = 0.5 * limit * unit, y = 0.2 * limit * unit;
+        assert_int_equal(rc_slip_set_pressure(slip[k],
+                                              k == 1   ? side
+                                              : k == 2 ? high
+                                                       : p,
+                                              NULL, NULL),
+                         RC_OK);
+        assert_int_equal(rc_slip_set_force(slip[k], k == 1 ? y : x, k == 1 ? x : y, NULL), RC_OK);
+        assert_int_equal(slip_solve(slip[k], &f[k]), RC_OK);
+    }
+    for (int c = 0; c < 2; c++)
+        for (size_t k = 0; k < n; k++) {
+            double q = rc_slip_traction(slip[0], c)[k];
+            size = fmax(size, fabs(q));
+            far[0] = fmax(far[0], fabs(q - rc_slip_traction(slip[1], 1 - c)[k % 48 * 40 + k / 48]));
+            far[1] = fmax(far[1], fabs(q - rc_slip_traction(slip[2], c)[k] / 3e11));
+            assert_true(q == rc_slip_traction(slip[3], c)[k]);
+        }
+    print_message("axes %.1e, units %.1e\n", far[0] / size, far[1] / size);
+    assert_true(far[0] < 1e-9 * size && far[1] < 1e-9 * size);
+    assert_true(fabs(f[2].displacement[0] / (f[0].displacement[0] * 1e-7) - 1) < 1e-9);
+    assert_true(fabs(f[2].dissipated / (f[0].dissipated * 3e11 * 1e-21) - 1) < 1e-6);
+    for (int k = 0; k < 4; k++)
+        rc_slip_free(slip[k]);
+    free(p);
+    free(side);
+    free(high);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_hard_cases),
+        cmocka_unit_test(test_estimate_bounds_the_error),
+        cmocka_unit_test(test_work_does_not_grow),
+        cmocka_unit_test(test_nonsense_is_refused),
+        cmocka_unit_test(test_units_axes_and_threads),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

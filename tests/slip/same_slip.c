@@ -1,0 +1,257 @@
+/* Tractions of least energy are those that another method finds: node after node on its disc, exactly, until nothing
+ * changes, and the displacement by Newton's method on the load; dense matrices, up to 24 nodes, with a history. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+#include <stdio.h>
+
+#include "slip_case.h"
+
+enum {
+    MOST = 24,
+    PROBLEMS = 20
+};
+static const double bound = 1e-9;
+
+struct dense {
+    size_t n;
+    double t[2 * MOST][2 * MOST]; /* u = T q, x of all nodes and then y */
+    double g[MOST], w[2 * MOST];
+};
+
+/* The columns of T by the point loads' integrals are tried elsewhere (truth_slip_kernel): here they come from a uniform
+ * rectangle's closed form in this file, E* = 1 (Love 1929, as in Johnson 1985, section 3.5). */
+static double
+corner(int kind, double x, double y)
+{
+    double a = y == 0 ? 0 : y * asinh(x / fabs(y)), b = x == 0 ? 0 : x * asinh(y / fabs(x));
+
+    return kind == 0 ? a : kind == 1 ? b : -hypot(x, y);
+}
+
+static double
+rectangle(int kind, double x, double y, double dx, double dy)
+{
+    return (corner(kind, x + dx / 2, y + dy / 2) - corner(kind, x - dx / 2, y + dy / 2) -
+            corner(kind, x + dx / 2, y - dy / 2) + corner(kind, x - dx / 2, y - dy / 2)) /
+           exact_pi;
+}
+
+static void
+dense_matrix(struct dense *d, const struct rc_shape *s, double kap)
+{
+    d->n = s->nx * s->ny;
+    for (size_t i = 0; i < d->n; i++)
+        for (size_t j = 0; j < d->n; j++) {
+            double x = ((double)(i % s->nx) - (double)(j % s->nx)) * s->dx;
+            double y = ((double)(i / s->nx) - (double)(j / s->nx)) * s->dy;
+            double xx = rectangle(0, x, y, s->dx, s->dy), yy = rectangle(1, x, y, s->dx, s->dy);
+            double xy = rectangle(2, x, y, s->dx, s->dy);
+            d->t[i][j] = (1 + kap) * xx + yy;
+            d->t[d->n + i][d->n + j] = xx + (1 + kap) * yy;
+            d->t[i][d->n + j] = d->t[d->n + i][j] = kap * xy;
+        }
+}
+
+/* min q'A q/2 - b'q over |q| <= g, A 2 x 2: (A + m)q = b, with the m >= 0 that puts it on the circle, by
+ * bisection to the last bit. */
+static void
+on_disc(const double a[3], const double b[2], double g, double q[2])
+{
+    double low = 0, high = hypot(b[0], b[1]) / (g > 0 ? g : 1) + 1, m = 0;
+
+    if (g == 0) {
+        q[0] = q[1] = 0;
+        return;
+    }
+    for (int k = 0; k < 200; k++) {
+        double det = (a[0] + m) * (a[1] + m) - a[2] * a[2];
+        q[0] = ((a[1] + m) * b[0] - a[2] * b[1]) / det;
+        q[1] = ((a[0] + m) * b[1] - a[2] * b[0]) / det;
+        if (hypot(q[0], q[1]) <= g) {
+            if (m == 0)
+                return;
+            high = m;
+        } else {
+            low = m;
+        }
+        m = (low + high) / 2;
+    }
+}
+
+static void
+relax(const struct dense *d, const double delta[2], double *q)
+{
+    for (int sweep = 0; sweep < 20000; sweep++) {
+        double change = 0, size = 0;
+        for (size_t i = 0; i < d->n; i++) {
+            size_t at[2] = {i, d->n + i};
+            double a[3] = {d->t[at[0]][at[0]], d->t[at[1]][at[1]], d->t[at[0]][at[1]]}, b[2], x[2];
+            for (int c = 0; c < 2; c++) {
+                b[c] = d->w[at[c]] + delta[c];
+                for (size_t j = 0; j < 2 * d->n; j++)
+                    if (j != at[0] && j != at[1])
+                        b[c] -= d->t[at[c]][j] * q[j];
+            }
+            on_disc(a, b, d->g[i], x);
+            for (int c = 0; c < 2; c++) {
+                change = fmax(change, fabs(x[c] - q[at[c]]));
+                size = fmax(size, fabs(x[c]));
+                q[at[c]] = x[c];
+            }
+        }
+        if (change <= 1e-15 * size)
+            break;
+    }
+}
+
+static void
+sum_of(const struct dense *d, const double *q, double sum[2])
+{
+    sum[0] = sum[1] = 0;
+    for (size_t i = 0; i < d->n; i++) {
+        sum[0] += q[i];
+        sum[1] += q[d->n + i];
+    }
+}
+
+/* The displacement under which the tractions carry `load`: what they carry grows with it, as the gradient of a convex
+ * function, and Newton's method is damped until it does not overshoot. */
+static void
+carry(const struct dense *d, const double load[2], double delta[2], double *q)
+{
+    double size = 0;
+
+    for (size_t i = 0; i < d->n; i++)
+        size += d->g[i];
+    for (int step = 0; step < 100; step++) {
+        double f[2], j[2][2], h = 1e-6, trial[2 * MOST], det, move[2], part = 1, there[2];
+        relax(d, delta, q);
+        sum_of(d, q, f);
+        f[0] -= load[0];
+        f[1] -= load[1];
+        if (hypot(f[0], f[1]) < 1e-14 * size)
+            return;
+        for (int c = 0; c < 2; c++) {
+            double other[2] = {delta[0], delta[1]};
+            double step_size = h * (1 + fabs(delta[c]));
+            other[c] += step_size;
+            memcpy(trial, q, sizeof trial);
+            relax(d, other, trial);
+            sum_of(d, trial, there);
+            for (int r = 0; r < 2; r++)
+                j[r][c] = (there[r] - load[r] - f[r]) / step_size;
+        }
+        /* where all slide one way more of it changes nothing: a little is added */
+        for (int c = 0; c < 2; c++)
+            j[c][c] += 1e-6;
+        det = j[0][0] * j[1][1] - j[0][1] * j[1][0];
+        move[0] = -(j[1][1] * f[0] - j[0][1] * f[1]) / det;
+        move[1] = -(j[0][0] * f[1] - j[1][0] * f[0]) / det;
+        for (;; part /= 2) {
+            double other[2] = {delta[0] + part * move[0], delta[1] + part * move[1]};
+            memcpy(trial, q, sizeof trial);
+            relax(d, other, trial);
+            sum_of(d, trial, there);
+            if (hypot(there[0] - load[0], there[1] - load[1]) < hypot(f[0], f[1]) || part < 1e-8)
+                break;
+        }
+        delta[0] += part * move[0];
+        delta[1] += part * move[1];
+    }
+}
+
+static void
+test_another_method_finds_the_same(void **state)
+{
+    double worst = 0, moved = 0;
+    size_t stuck = 0, slid = 0;
+
+    (void)state;
+    for (int problem = 0; problem < PROBLEMS; problem++) {
+        uint64_t seed = 77 + (uint64_t)problem;
+        static const struct rc_shape shapes[] = {{6, 4, 1, 1},   {4, 5, 1, 1.7}, {3, 3, 1, 1},
+                                                 {8, 3, 0.6, 1}, {2, 1, 1, 1},   {1, 7, 1, 1}};
+        const struct rc_shape shape = shapes[problem % 6];
+        size_t n = shape.nx * shape.ny;
+        double nu = problem % 3 == 0 ? 0 : 0.5 * slip_noise(&seed), kap = nu / (1 - nu);
+        bool given = problem % 4 == 3;
+        struct rc_slip_problem what = {.pair.estar = 1,
+                                       .nu = nu,
+                                       .mu = 0.1 + slip_noise(&seed),
+                                       .tau_max = problem % 5 == 2 ? 0.2 : 0,
+                                       .tol = 1e-13};
+        struct rc_err err;
+        struct rc_slip *slip = rc_slip_new(&shape, &what, &err);
+        struct dense d = {.n = 0};
+        double q[2 * MOST] = {0}, delta[2] = {0, 0}, origin[2 * MOST] = {0};
+
+        assert_non_null(slip);
+        dense_matrix(&d, &shape, kap);
+        for (int increment = 0; increment < 3; increment++) {
+            double p[MOST], limit = 0, load[2], angle = 6.3 * slip_noise(&seed), size = 0, far = 0;
+            struct rc_slip_figures figures;
+            enum rc_status status;
+            for (size_t k = 0; k < n; k++) {
+                p[k] = fmax(0, slip_noise(&seed) - 0.2);
+                if (k == 0)
+                    p[k] = 0.5;
+                d.g[k] = fmin(what.mu * p[k], what.tau_max > 0 ? what.tau_max : INFINITY);
+                limit += d.g[k];
+            }
+            memcpy(d.w, origin, sizeof origin);
+            for (int c = 0; c < 2; c++)
+                load[c] =
+                    (0.1 + 0.85 * slip_noise(&seed)) * limit * (c == 0 ? cos(angle) : sin(angle));
+            assert_int_equal(rc_slip_set_pressure(slip, p, NULL, &err), RC_OK);
+            if (given) {
+                for (int c = 0; c < 2; c++)
+                    delta[c] = (slip_noise(&seed) - 0.5) * 2 * limit / sqrt((double)n);
+                relax(&d, delta, q);
+                assert_int_equal(rc_slip_set_displacement(slip, delta[0], delta[1], &err), RC_OK);
+            } else {
+                carry(&d, load, delta, q);
+                assert_int_equal(rc_slip_set_force(slip, load[0] * shape.dx * shape.dy,
+                                                   load[1] * shape.dx * shape.dy, &err),
+                                 RC_OK);
+            }
+            status = slip_solve(slip, &figures);
+            if (status != RC_OK)
+                print_message("problem %d, increment %d: %d after %zu, estimate %.1e\n", problem,
+                              increment, status, figures.steps, figures.traction_error);
+            for (size_t k = 0; k < 2 * n; k++) {
+                far = fmax(far, fabs(rc_slip_traction(slip, k >= n)[k % n] - q[k]));
+                size = fmax(size, fabs(q[k]));
+            }
+            stuck += figures.stick_nodes;
+            slid += figures.slip_nodes;
+            worst = larger(worst, far / size);
+            if (figures.stick_nodes > 0) /* else delta is nearly free where all slide one way */
+                for (int c = 0; c < 2; c++)
+                    moved = larger(moved, fabs(figures.displacement[c] - delta[c]) /
+                                              hypot(delta[0], delta[1]));
+            for (size_t k = 0; k < 2 * n; k++) {
+                origin[k] = -delta[k >= n];
+                for (size_t j = 0; j < 2 * n; j++)
+                    origin[k] += d.t[k][j] * q[j];
+            }
+            rc_slip_keep(slip);
+        }
+        rc_slip_free(slip);
+    }
+    print_message("tractions %.1e, displacements %.1e; %zu stick, %zu slip\n", worst, moved, stuck,
+                  slid);
+    assert_true(worst < bound && moved < bound);
+    assert_true(stuck > 100 && slid > 100);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_another_method_finds_the_same),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

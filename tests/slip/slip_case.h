@@ -1,0 +1,123 @@
+/* What the tests of friction share: pressures to slide under, and increments solved to their end. */
+#ifndef SLIP_CASE_H
+#define SLIP_CASE_H
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "libcontact/contact.h"
+#include "tests/exact.h"
+
+/* Uniform in [0, 1). */
+static inline double
+slip_noise(uint64_t *seed)
+{
+    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*seed >> 11) / 9007199254740992.0;
+}
+
+struct pressed {
+    size_t n;
+    double *h, *p, *gap, *apart; /* apart: the gap where the bodies first touch */
+    double fraction;
+};
+
+/* The contact of these heights, taken over, under each load in turn; the last one is left. */
+static inline struct pressed
+pressed_new(const struct rc_shape *shape, enum rc_boundary boundary, double *h, double estar,
+            double load, double tol)
+{
+    struct pressed c = {.n = shape->nx * shape->ny, .h = h};
+    struct rc_problem problem = {
+        .boundary = boundary, .pair.estar = estar, .load = load, .tol = tol, .engine = "fft64"};
+    struct rc_err err;
+    struct rc_solver *solver = rc_solver_new(shape, h, &problem, &err);
+    struct rc_contact figures;
+
+    if (solver == NULL) {
+        fprintf(stderr, "%s\n", err.text);
+        abort();
+    }
+    c.p = malloc(c.n * sizeof *c.p);
+    c.gap = malloc(c.n * sizeof *c.gap);
+    c.apart = malloc(c.n * sizeof *c.apart);
+    while (rc_solver_step(solver) == RC_MORE)
+        ;
+    rc_solver_result(solver, NULL, c.gap, &figures);
+    memcpy(c.p, rc_solver_pressure(solver), c.n * sizeof *c.p);
+    rc_solver_free(solver);
+    rc_contact_apart(NULL, shape, h, c.apart, &figures);
+    for (size_t k = 0; k < c.n; k++)
+        c.fraction += (c.p[k] > 0) / (double)c.n;
+    return c;
+}
+
+static inline void
+pressed_free(struct pressed *c)
+{
+    free(c->h);
+    free(c->p);
+    free(c->gap);
+    free(c->apart);
+}
+
+static inline double *
+slip_rough(const struct rc_shape *shape, double slope, double cut, uint64_t seed)
+{
+    struct rc_selfaffine what = {.hurst = 0.8,
+                                 .rms_slope = slope,
+                                 .short_cut = cut,
+                                 .rolloff = shape->dx * (double)shape->nx / 4,
+                                 .seed = seed};
+    double *h = malloc(shape->nx * shape->ny * sizeof *h);
+    struct rc_err err;
+
+    if (shape->dx * (double)shape->nx / 4 < cut)
+        what.rolloff = 0;
+    if (rc_synth_selfaffine(shape, &what, h, &err) != RC_OK) {
+        fprintf(stderr, "%s\n", err.text);
+        abort();
+    }
+    return h;
+}
+
+static inline double *
+slip_sphere(const struct rc_shape *shape, double radius)
+{
+    double *h = malloc(shape->nx * shape->ny * sizeof *h);
+
+    rc_synth_sphere(shape, radius, h);
+    return h;
+}
+
+/* To the end of an increment. */
+static inline enum rc_status
+slip_solve(struct rc_slip *slip, struct rc_slip_figures *figures)
+{
+    struct rc_err err = {""};
+    enum rc_status status;
+
+    do
+        status = rc_slip_step(slip, &err);
+    while (status == RC_MORE);
+    if (status == RC_FAIL)
+        fprintf(stderr, "%s\n", err.text);
+    rc_slip_result(slip, figures);
+    return status;
+}
+
+/* Relative L1 distance of two fields of tractions. */
+static inline double
+slip_distance(size_t n, const double *const q[2], const double *const truth[2])
+{
+    double sum = 0, all = 0;
+
+    for (size_t k = 0; k < n; k++) {
+        sum += hypot(q[0][k] - truth[0][k], q[1][k] - truth[1][k]);
+        all += hypot(truth[0][k], truth[1][k]);
+    }
+    return sum / all;
+}
+
+#endif
