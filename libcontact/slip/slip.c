@@ -25,6 +25,8 @@ struct rc_slip {
     struct rc_tangential *t;
     struct rc_discs *discs;
     bool coupled, asked, begun, done, apart;
+    bool
+        tried; /* this increment has been solved before, under another pressure: that is where it starts */
     enum rc_status last;
     /* kept: of the increment before */
     double *origin[2], *old[2], *slip[2], *gap_old;
@@ -139,7 +141,8 @@ pose(struct rc_slip *s)
             d->w[c][k] = s->origin[c][k] - (s->coupled ? s->pushed[c][k] : 0);
             if (enter && d->g[k] > 0 && !s->touched[k])
                 d->w[c][k] -= entry[c] * s->gap_old[k];
-            d->q[c][k] = s->old[c][k] + more[c] * d->g[k];
+            if (!s->tried)
+                d->q[c][k] = s->old[c][k] + more[c] * d->g[k];
         }
 }
 
@@ -173,6 +176,7 @@ rc_slip_step(struct rc_slip *s, struct rc_err *err)
     }
     s->last = rc_discs_step(s->discs);
     s->done = s->last != RC_MORE;
+    s->tried = s->tried || s->done;
     return s->last;
 }
 
@@ -212,7 +216,7 @@ rc_slip_keep(struct rc_slip *s)
         s->force_old[c] = rc_total_value(&sum);
         s->delta_old[c] = d->delta[c];
     }
-    s->asked = s->begun = s->done = false;
+    s->asked = s->begun = s->done = s->tried = false;
 }
 
 /* ---- what has been found ---- */
