@@ -971,7 +971,7 @@ struct rc_slip_figures {
         displacement[2]; /* m, since the bodies have touched                                    */
     size_t stick_nodes, slip_nodes; /* of those that carry something                            */
     double stick_area, slip_area;   /* m^2                                                       */
-    double stiffness;    /* N/m: |force| over |displacement|; NAN where that is 0       */
+    double stiffness;    /* N/m: |force| over |displacement|; NAN where one is 0         */
     double dissipated;   /* J, in this increment                                      */
     double largest_slip; /* m, in this increment                                      */
     /* m: largest slip where nothing may slip, or across the traction */

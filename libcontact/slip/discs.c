@@ -216,44 +216,60 @@ project(const struct rc_discs *d, double *const y[2], bool faces)
 
 /* ---- faces ---- */
 
-/* delta of G = Tq - w where no node sticks: of the largest S'delta - sum g |G - delta|, whose gradient is the load that is
- * missing when all slip against G - delta. */
+/* The load that is carried when all slip against G - delta, G = Tq - w; part 2 to 4: how that grows with delta; 5: sum g
+ * |G - delta|, whose gradient it is. */
+static void
+slides(const struct rc_discs *d, const double delta[2], double out[6])
+{
+#pragma omp parallel for num_threads(d->threads) schedule(static)
+    for (size_t j = 0; j < d->ny; j++) {
+        double *sum = sums_of(d, j);
+        for (size_t k = j * d->nx; k < (j + 1) * d->nx; k++) {
+            double x = delta[0] - (d->u[0][k] - d->w[0][k]);
+            double y = delta[1] - (d->u[1][k] - d->w[1][k]), r = sqrt(x * x + y * y);
+            if (d->face[k] == OFF || r == 0)
+                continue;
+            x /= r;
+            y /= r;
+            sum[0] += d->g[k] * x;
+            sum[1] += d->g[k] * y;
+            sum[2] += d->g[k] / r * y * y;
+            sum[3] += d->g[k] / r * x * x;
+            sum[4] -= d->g[k] / r * x * y;
+            sum[5] += d->g[k] * r;
+        }
+    }
+    total(d, 6, out);
+}
+
+/* delta where no node sticks: the largest S'delta - sum g |G - delta|, by Newton's method. */
 static void
 delta_of_slip(struct rc_discs *d)
 {
-    double delta[2] = {d->delta[0], d->delta[1]}, size = hypot(d->sum[0], d->sum[1]);
+    double at[6], size = hypot(d->sum[0], d->sum[1]);
 
+    slides(d, d->delta, at);
     for (int step = 0; step < 100; step++) {
-        double at[5], f[2], move[2];
-#pragma omp parallel for num_threads(d->threads) schedule(static)
-        for (size_t j = 0; j < d->ny; j++) {
-            double *sum = sums_of(d, j);
-            for (size_t k = j * d->nx; k < (j + 1) * d->nx; k++) {
-                double x = delta[0] - (d->u[0][k] - d->w[0][k]);
-                double y = delta[1] - (d->u[1][k] - d->w[1][k]), r = sqrt(x * x + y * y);
-                if (d->face[k] == OFF || r == 0)
-                    continue;
-                x /= r;
-                y /= r;
-                sum[0] += d->g[k] * x;
-                sum[1] += d->g[k] * y;
-                sum[2] += d->g[k] / r * y * y;
-                sum[3] += d->g[k] / r * x * x;
-                sum[4] -= d->g[k] / r * x * y;
-            }
-        }
-        total(d, 5, at);
-        f[0] = d->sum[0] - at[0];
-        f[1] = d->sum[1] - at[1];
+        double f[2] = {d->sum[0] - at[0], d->sum[1] - at[1]}, move[2], next[2], there[6], part = 1;
+        double value = d->sum[0] * d->delta[0] + d->sum[1] * d->delta[1] - at[5], slope;
+
         if (hypot(f[0], f[1]) <= 1e-14 * size)
-            break;
+            return;
         solve(&at[2], f, move);
-        delta[0] += move[0];
-        delta[1] += move[1];
-    }
-    if (isfinite(delta[0]) && isfinite(delta[1])) {
-        d->delta[0] = delta[0];
-        d->delta[1] = delta[1];
+        slope = move[0] * f[0] + move[1] * f[1];
+        for (;; part /= 2) {
+            if (!(slope > 0) || part < 1e-9)
+                return;
+            next[0] = d->delta[0] + part * move[0];
+            next[1] = d->delta[1] + part * move[1];
+            slides(d, next, there);
+            if (d->sum[0] * next[0] + d->sum[1] * next[1] - there[5] >=
+                value + 1e-4 * part * slope - 1e-14 * fabs(at[5]))
+                break;
+        }
+        d->delta[0] = next[0];
+        d->delta[1] = next[1];
+        memcpy(at, there, sizeof at);
     }
 }
 

@@ -120,13 +120,15 @@ rc_slip_set_displacement(struct rc_slip *s, double dx, double dy, struct rc_err 
 
 /* ---- an increment ---- */
 
+static const double grows = 1e-6; /* of the load: less is rounding */
+
 /* w: where the nodes stick; and a start: the last tractions, the change of the force spread as friction is. */
 static void
 pose(struct rc_slip *s)
 {
     struct rc_discs *d = s->discs;
     double more[2] = {0, 0}, entry[2] = {0, 0};
-    bool enter = s->has_gap_old && !d->given && s->load > s->load_old;
+    bool enter = s->has_gap_old && !d->given && s->load > s->load_old * (1 + grows);
 
     for (int c = 0; c < 2 && !d->given; c++) {
         if (s->limit > 0)
@@ -262,7 +264,8 @@ rc_slip_result(struct rc_slip *s, struct rc_slip_figures *f)
         f->displacement[c] = d->delta[c] * s->unit;
     }
     f->stiffness = hypot(f->force[0], f->force[1]) / hypot(f->displacement[0], f->displacement[1]);
-    if (!isfinite(f->stiffness))
+    /* a force that is all rounding has none */
+    if (!isfinite(f->stiffness) || hypot(f->force[0], f->force[1]) <= 1e-12 * f->limit)
         f->stiffness = NAN;
 }
 
