@@ -951,37 +951,34 @@ RC_API size_t rc_leak_step_memory(const struct rc_leak *leak);
  * of body 2; on a periodic map of their mean planes. */
 struct rc_slip_problem {
     enum rc_boundary boundary;
-    struct rc_pair pair; /* bare bodies                                                          */
-    double nu; /* of both, where only E* of the pair is known                                   */
-    double mu; /* coefficient of friction, > 0                                                  */
-    double tau_max;   /* Pa: no node carries more (Tresca); 0 or INFINITY: no such bound         */
-    bool uncoupled;   /* dissimilar bodies as if pressure moved nothing along the surface        */
-    double tol;       /* asked relative L1 error of the tractions; 0: 1e-4                       */
-    size_t max_steps; /* of an increment; 0: 200                                                */
-    size_t threads;   /* 0: all                                                                 */
-    const struct rc_ranks *ranks; /* refused: friction is not shared among processes           */
+    struct rc_pair pair; /* bare bodies */
+    double nu;           /* of both, where only E* of the pair is known */
+    double mu;           /* coefficient of friction, > 0 */
+    double tau_max;      /* Pa: no node carries more (Tresca); 0 or INFINITY: no such bound */
+    bool uncoupled;      /* dissimilar bodies as if pressure moved nothing along the surface */
+    double tol;          /* asked relative L1 error of the tractions; 0: 1e-4 */
+    size_t max_steps;    /* of an increment; 0: 200 */
+    size_t threads;      /* 0: all */
+    const struct rc_ranks *ranks; /* refused: friction is not shared among processes */
 };
 
 /* What an increment has done. */
 struct rc_slip_figures {
-    double load,
-        limit; /* N: normal, and what friction could carry: no more than mu times it         */
-    double force[2]; /* N, along x and y                                                       */
+    double load;            /* N, normal */
+    double limit;           /* N: what friction could carry, no more than mu times the load */
+    double force[2];        /* N, along x and y */
+    double displacement[2]; /* m, since the bodies have touched */
+    size_t stick_nodes, slip_nodes; /* of those that carry something */
+    double stick_area, slip_area;   /* m^2 */
+    double stiffness;               /* N/m: |force| over |displacement|; NAN where one is 0 */
+    double dissipated;              /* J, in this increment */
+    double largest_slip;            /* m, in this increment */
+    double slip_error; /* m: largest slip where nothing may slip, or across the traction */
     double
-        displacement[2]; /* m, since the bodies have touched                                    */
-    size_t stick_nodes, slip_nodes; /* of those that carry something                            */
-    double stick_area, slip_area;   /* m^2                                                       */
-    double stiffness;    /* N/m: |force| over |displacement|; NAN where one is 0         */
-    double dissipated;   /* J, in this increment                                      */
-    double largest_slip; /* m, in this increment                                      */
-    /* m: largest slip where nothing may slip, or across the traction */
-    double slip_error;
-    double
-        traction_error; /* estimated relative L1 error of the tractions, of this increment alone    */
+        traction_error; /* estimated relative L1 error of the tractions, of this increment alone */
     size_t steps;
-    double
-        convolutions; /* since rc_slip_new, in equivalents of one of a single map in double precision */
-    bool converged; /* traction_error <= tol                                               */
+    double convolutions; /* since rc_slip_new, in equivalents of a single map in double precision */
+    bool converged;      /* traction_error <= tol */
 };
 
 struct rc_slip;
