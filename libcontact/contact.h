@@ -712,8 +712,8 @@ RC_API enum rc_status rc_plastic_set_load(struct rc_plastic *plastic, double loa
                                           struct rc_err *err);
 /* The next load acts on these heights, nx ny m, of bodies without strain: one of them has been moved. */
 RC_API void rc_plastic_set_heights(struct rc_plastic *plastic, const double *h);
-/* One application: a contact and two sweeps through the volume. RC_MORE until the load is reached, then RC_OK,
- * or RC_SHORT where a contact or the iteration stopped short; RC_FAIL when memory is short. */
+/* One application: a contact and two sweeps through the volume. RC_MORE until the load is reached, then
+ * RC_OK, or RC_SHORT where a contact or the iteration stopped short; RC_FAIL when memory is short. */
 RC_API enum rc_status rc_plastic_step(struct rc_plastic *plastic, struct rc_err *err);
 /* How far it is: the load of this increment, N, which increment, which application of it. */
 RC_API void rc_plastic_progress(const struct rc_plastic *plastic, double *load, size_t *increment,
@@ -735,10 +735,10 @@ RC_API void rc_plastic_strain(const struct rc_plastic *plastic, size_t slab,
  * increments than within one, and fewest when a load is reached. */
 RC_API size_t rc_plastic_state_size(const struct rc_plastic *plastic);
 RC_API void rc_plastic_state(const struct rc_plastic *plastic, double *state);
-/* Goes on from there, in one of the same problem and heights: the next step is the one that would have come, its
- * contact within the tolerance. Of a load that had been reached that step only finds the contact again. RC_FAIL
- * where the n numbers are no state of such a problem, which leaves all as it was, and when memory is short; it is
- * then of no further use. */
+/* Goes on from there, in one of the same problem and heights: the next step is the one that would have
+ * come, its contact within the tolerance. Of a load that had been reached that step only finds the contact
+ * again. RC_FAIL where the n numbers are no state of such a problem, which leaves all as it was, and when
+ * memory is short; it is then of no further use. */
 RC_API enum rc_status rc_plastic_restore(struct rc_plastic *plastic, const double *state, size_t n,
                                          struct rc_err *err);
 RC_API void rc_plastic_free(struct rc_plastic *plastic); /* NULL is allowed */
@@ -771,8 +771,9 @@ RC_API const struct rc_adhesion_law_info *rc_adhesion_law_info(size_t k);
 
 /* Bodies that attract each other: where the gap is g >= 0 a traction sigma(g) >= 0 pulls. */
 struct rc_adhesion_problem {
-    /* The bodies, the boundary, the hardness (of p + sigma), tol (at most 1e-3), max_iterations and threads;
-     * its load and approach do not count. engine, method: auto, NULL, or, of the first, one that transforms */
+    /* The bodies, the boundary, the hardness (of p + sigma), tol (at most 1e-3), max_iterations and
+     * threads; its load and approach do not count. engine, method: auto, NULL, or, of the first, one that
+     * transforms */
     struct rc_problem contact;
     double work;     /* J/m^2, > 0: what it takes to part a unit area, the integral of sigma      */
     const char *law; /* a row of the table; NULL: the first                                      */
@@ -810,8 +811,9 @@ struct rc_adhesion_figures {
     double plastic_area;                    /* m^2                                                */
     double max_pressure, min_pressure;      /* Pa                                                 */
     double edge_traction; /* sigma over sigma(0), the largest at the edge of a free map; else 0   */
-    /* The smallest eigenvalue of A - D on the nodes off contact, A = 1/K and D = -sigma', in units of A
-     * as the contact leaves it: above 0 the state is stable under the control in use, below 0 it is a saddle */
+    /* The smallest eigenvalue of A - D on the nodes off contact, A = 1/K and D = -sigma', in units of A as
+     * the contact leaves it: above 0 the state is stable under the control in use, below 0 it is a
+     * saddle */
     double stability;
     bool stable;    /* stability > 0, as far as it has been found */
     bool separated; /* under the load that was set the bodies part, and nothing stops them */
@@ -874,8 +876,8 @@ RC_API void rc_adhesion_pressure(const struct rc_adhesion *a, double *pressure);
 RC_API void rc_adhesion_gap(const struct rc_adhesion *a, double *gap);
 RC_API void rc_adhesion_displacement(const struct rc_adhesion *a, double *displacement);
 RC_API void rc_adhesion_traction(const struct rc_adhesion *a, double *traction);
-/* Where the hardness was reached: what stood into the other body is gone, from the heights of the path from here
- * on and from h, nx ny m (or NULL), those that the path began with less what has gone before. Without
+/* Where the hardness was reached: what stood into the other body is gone, from the heights of the path from
+ * here on and from h, nx ny m (or NULL), those that the path began with less what has gone before. Without
  * effect where nothing has yielded. rc_adhesion_pull_off begins with it. */
 RC_API void rc_adhesion_keep_shape(struct rc_adhesion *a, double *h);
 RC_API void rc_adhesion_free(struct rc_adhesion *a); /* NULL is allowed */
@@ -945,10 +947,10 @@ RC_API size_t rc_leak_step_memory(const struct rc_leak *leak);
 
 /* ---- friction in the contact: slip/slip.c ---- */
 
-/* Coulomb's law node by node, with memory: a node carries tractions up to mu times its pressure and sticks, or
- * slips against them. The pressure is given, and so is what the pressure does not know: how the bodies are moved
- * along the surface, in increments. Tractions are those on body 1, displacements those of body 1 less those
- * of body 2; on a periodic map of their mean planes. */
+/* Coulomb's law node by node, with memory: a node carries tractions up to mu times its pressure and sticks,
+ * or slips against them. The pressure is given, and so is what the pressure does not know: how the bodies
+ * are moved along the surface, in increments. Tractions are those on body 1, displacements those of body 1
+ * less those of body 2; on a periodic map of their mean planes. */
 struct rc_slip_problem {
     enum rc_boundary boundary;
     struct rc_pair pair; /* bare bodies */
@@ -985,16 +987,16 @@ struct rc_slip;
 /* NULL where the problem makes no sense, or memory is short. The bodies are apart. */
 RC_API struct rc_slip *rc_slip_new(const struct rc_shape *shape,
                                    const struct rc_slip_problem *problem, struct rc_err *err);
-/* The pressure of this increment (nx ny Pa, copied; NULL: the bodies are apart) and the gap that goes with it
- * (nx ny m, copied; NULL: not known). Where a node touches in the increment that was not in contact before, it has
- * moved with its body until then: with the gap before, that is known to first order, and exactly for
- * nu = 0, where force and load grow in proportion (Jaeger 1998; Ciavarella 1998); without it the node begins as it stood
- * before the increment. RC_FAIL when a pressure is negative or not finite. */
+/* The pressure of this increment (nx ny Pa, copied; NULL: the bodies are apart) and the gap that goes with
+ * it (nx ny m, copied; NULL: not known). Where a node touches in the increment that was not in contact
+ * before, it has moved with its body until then: with the gap before, that is known to first order, and
+ * exactly for nu = 0, where force and load grow in proportion (Jaeger 1998; Ciavarella 1998); without it
+ * the node begins as it stood before the increment. RC_FAIL when a pressure is negative or not finite. */
 RC_API enum rc_status rc_slip_set_pressure(struct rc_slip *slip, const double *p, const double *gap,
                                            struct rc_err *err);
-/* Force (N) or displacement (m) at the end of the increment, along x and y, after its pressure. RC_FAIL, with
- * both numbers, when friction cannot carry the force: the bodies slide; the increment is then as before. With a
- * displacement nodes that touch begin as without a gap. */
+/* Force (N) or displacement (m) at the end of the increment, along x and y, after its pressure. RC_FAIL,
+ * with both numbers, when friction cannot carry the force: the bodies slide; the increment is then as
+ * before. With a displacement nodes that touch begin as without a gap. */
 RC_API enum rc_status rc_slip_set_force(struct rc_slip *slip, double fx, double fy,
                                         struct rc_err *err);
 RC_API enum rc_status rc_slip_set_displacement(struct rc_slip *slip, double dx, double dy,
@@ -1009,8 +1011,8 @@ RC_API void rc_slip_keep(struct rc_slip *slip);
  * that of this increment, 0 out of contact. */
 RC_API const double *rc_slip_traction(const struct rc_slip *slip, int direction);
 RC_API void rc_slip_slip(const struct rc_slip *slip, int direction, double *to);
-/* Normal displacement that the tractions make, nx ny m, into the bodies: 0 where these are alike. A contact whose
- * heights are less by it is that under these tractions. */
+/* Normal displacement that the tractions make, nx ny m, into the bodies: 0 where these are alike. A contact
+ * whose heights are less by it is that under these tractions. */
 RC_API void rc_slip_normal(struct rc_slip *slip, double *uz);
 /* Dundurs' constant of the pair: 0 where pressure and tractions do not know of each other. */
 RC_API double rc_slip_beta(const struct rc_slip *slip);
@@ -1083,12 +1085,12 @@ struct rc_stress_counts {
     size_t strain_field_transforms; /* and of its stresses from there to maps                    */
 };
 
-/* Stresses under the pressure p (Pa; kept by the caller, who does not change it) on a half-space.
- * Free: the pressure is constant in each cell. Periodic: it is band-limited, and its mean gives
- * szz = -p, sxz = -mu p (of maps of traction minus those) and sxx = syy = -(1 + 2 nu) p / 2 at every depth, what a patch that grows
- * without end gives; in a layered body it is that of the half-space below, whose strains along the
- * surface the layers share. NULL when an option is out of bounds, there is no such engine or none for
- * the boundary or the section, or memory is short. */
+/* Stresses under the pressure p (Pa; kept by the caller, who does not change it) on a half-space. Free: the
+ * pressure is constant in each cell. Periodic: it is band-limited, and its mean gives szz = -p, sxz = -mu p
+ * (of maps of traction minus those) and sxx = syy = -(1 + 2 nu) p / 2 at every depth, what a patch that
+ * grows without end gives; in a layered body it is that of the half-space below, whose strains along the
+ * surface the layers share. NULL when an option is out of bounds, there is no such engine or none for the
+ * boundary or the section, or memory is short. */
 RC_API struct rc_stress *rc_stress_new(const struct rc_shape *shape, const double *p,
                                        const struct rc_stress_options *options, struct rc_err *err);
 /* RC_FAIL, and *err says why, when rc_stress_new would refuse these, though memory were there. */

@@ -312,9 +312,9 @@ mises_depth(struct hertz h, double nu, double mu)
     return place * h.a;
 }
 
-/* Sphere with a Dugdale zone (Maugis, J. Colloid Interface Sci. 150 (1992) 243), K = 4/3 E*: radius a of the
- * contact, load, and approach in units of (pi w R^2/K)^(1/3), pi w R, (pi^2 w^2 R/K^2)^(1/3); lambda = 2 sigma0
- * (R/(pi w K^2))^(1/3). m is the outer radius of the zone over a. */
+/* Sphere with a Dugdale zone (Maugis, J. Colloid Interface Sci. 150 (1992) 243), K = 4/3 E*: radius a of
+ * the contact, load, and approach in units of (pi w R^2/K)^(1/3), pi w R, (pi^2 w^2 R/K^2)^(1/3); lambda =
+ * 2 sigma0 (R/(pi w K^2))^(1/3). m is the outer radius of the zone over a. */
 struct maugis {
     double a, m, load, approach;
 };

@@ -1,5 +1,6 @@
-/* The library's estimates of memory are within a tenth of the peak, each in a process of its own:
- * solver, stiffness, stresses, friction, sums, flow and slabs, on maps large enough that code and plans do not count. */
+/* The library's estimates of memory are within a tenth of the peak, each in a process of its own: solver,
+ * stiffness, stresses, friction, sums, flow and slabs, on maps large enough that code and plans do not
+ * count. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -415,8 +415,8 @@ begin(struct rc_adhesion *a)
     a->stage = STAGE_DOWN;
 }
 
-/* A step, and whether there was no stiffness where it began: from one stable state to the next there is such a place
- * only where the path between them has ended. */
+/* A step, and whether there was no stiffness where it began: from one stable state to the next there is
+ * such a place only where the path between them has ended. */
 static void
 move(struct rc_adhesion *a)
 {
@@ -548,8 +548,8 @@ rc_adhesion_pull_off(struct rc_adhesion *a, struct rc_err *err)
     return RC_OK;
 }
 
-/* The lowest load by the parabola through the lowest state and those beside it; where the state after it is one
- * that was jumped to, there is none, and the lowest is what was seen. */
+/* The lowest load by the parabola through the lowest state and those beside it; where the state after it is
+ * one that was jumped to, there is none, and the lowest is what was seen. */
 static double
 lowest_of(const struct retraction *p, double *at, bool *jumped)
 {
@@ -715,8 +715,8 @@ go_to(struct rc_adhesion *a, double c)
     return RC_MORE;
 }
 
-/* Once more between the states beside the lowest: where the parabola is lowest, or, where one of them was jumped
- * to, in smaller steps all the way. */
+/* Once more between the states beside the lowest: where the parabola is lowest, or, where one of them was
+ * jumped to, in smaller steps all the way. */
 static enum rc_status
 begin_round(struct rc_adhesion *a, double at, bool jumped)
 {

@@ -85,8 +85,8 @@ void rc_gap_begin(struct rc_gap *g, enum rc_gap_control control, double given);
 /* The way down from here, and with it what the pressure is off; and a step along it. */
 void rc_gap_look(struct rc_gap *g);
 void rc_gap_move(struct rc_gap *g);
-/* Whether the straight way from where the state began leads over a place that is not convex: Phi has fallen by
- * more than its slope there allows. */
+/* Whether the straight way from where the state began leads over a place that is not convex: Phi has fallen
+ * by more than its slope there allows. */
 bool rc_gap_jumped(struct rc_gap *g);
 /* c of the state: the mean of u less that of x and h. */
 double rc_gap_shift(const struct rc_gap *g);
@@ -118,8 +118,8 @@ void rc_gap_down(struct rc_gap *g, double first);
 
 /* ---- stability.c ---- */
 
-/* The smallest eigenvalue of (A - D) x = mu (K_FF)^-1 x, F the nodes not in contact, under the control: a step
- * of a locally optimal conjugate gradient iteration (Knyazev 2001). */
+/* The smallest eigenvalue of (A - D) x = mu (K_FF)^-1 x, F the nodes not in contact, under the control: a
+ * step of a locally optimal conjugate gradient iteration (Knyazev 2001). */
 void rc_gap_eigen_begin(struct rc_gap *g);
 void rc_gap_eigen_step(struct rc_gap *g);
 /* Leaves a saddle along the eigenvector, downhill. */

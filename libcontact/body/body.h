@@ -20,8 +20,8 @@ enum {
     RC_WAVE_NUMBERS = 10                          /* kept of a wave at most           */
 };
 extern const unsigned rc_stress_parity[RC_STRESS_KERNELS];
-/* Whether a kernel is one of the traction along +y; and the one along +x that it is with x and y exchanged, or
- * itself. */
+/* Whether a kernel is one of the traction along +y; and the one along +x that it is with x and y exchanged,
+ * or itself. */
 static inline bool
 rc_stress_turned(int kernel)
 {
@@ -52,8 +52,8 @@ struct rc_inside {
 };
 struct rc_solid;
 
-/* How a row of bodies.list finds stresses. Symbols and means are asked for of the first two loads: rc_inside_symbol
- * turns them. */
+/* How a row of bodies.list finds stresses. Symbols and means are asked for of the first two loads:
+ * rc_inside_symbol turns them. */
 struct rc_inside_type {
     bool shares;   /* szz of the shear is sxz of the pressure                                */
     bool coarsens; /* at a depth no wave is felt that is much shorter: a coarser grid does   */

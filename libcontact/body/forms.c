@@ -233,8 +233,8 @@ rc_wave_directions(size_t n, const double *qx, const double *qy, double *x, doub
 
 /* ---- the components ---- */
 
-/* Load, component, its forms above, its parity; szz of the shear is sxz of the pressure. The shear along y has no
- * forms of its own. */
+/* Load, component, its forms above, its parity; szz of the shear is sxz of the pressure. The shear along y
+ * has no forms of its own. */
 #define KERNELS                                                                                    \
     KERNEL(NORMAL, SXX, n_xx, 0)                                                                   \
     KERNEL(NORMAL, SYY, n_yy, 0)                                                                   \

@@ -1,5 +1,5 @@
-/* The order by approximate minimum degree of SuiteSparse (Amestoy, Davis and Duff, ACM Trans. Math. Softw. 30,
- * 2004, 381): the one file that knows it. */
+/* The order by approximate minimum degree of SuiteSparse (Amestoy, Davis and Duff, ACM Trans. Math. Softw.
+ * 30, 2004, 381): the one file that knows it. */
 #include "leak.h"
 
 #ifdef RC_AMD

@@ -93,8 +93,8 @@ joins_by_corners(const struct rc_passage *a, const struct opening *open, size_t 
     return met(a, parent);
 }
 
-/* Fluid nodes in a row through node k, by steps of (i, j), around the map once at most; SIZE_MAX where the row
- * ends at inlet or outlet, not at walls. */
+/* Fluid nodes in a row through node k, by steps of (i, j), around the map once at most; SIZE_MAX where the
+ * row ends at inlet or outlet, not at walls. */
 static size_t
 run_through(const struct rc_passage *a, int32_t k, int i, int j)
 {

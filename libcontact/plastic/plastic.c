@@ -381,10 +381,11 @@ apply(struct rc_plastic *p, struct rc_err *err)
     last = p->trial > 0 ? p->figures.lag : INFINITY;
     p->figures.lag = sums[RC_FLOWING] > 0 ? sqrt(sums[RC_LAG] / sums[RC_FLOWING]) : 0;
     p->mix = 0;
-    /* F itself never raises the energy, a mixture may: it is not taken where the last one did not help. To compare
-     * energies instead, which takes a displacement by the pressure more, comes to the same: one increment of 300
-     * random maps of 24 x 24 nodes, Hm from 0 to 100 Y, took 6404 applications by the energy, 6413 by the lag, 6547
-     * by neither, and 13403 without mixtures, 7 of the maps more than 200 each. */
+    /* F itself never raises the energy, a mixture may: it is not taken where the last one did not help. To
+     * compare energies instead, which takes a displacement by the pressure more, comes to the same: one
+     * increment of 300 random maps of 24 x 24 nodes, Hm from 0 to 100 Y, took 6404 applications by the
+     * energy, 6413 by the lag, 6547 by neither, and 13403 without mixtures, 7 of the maps more than 200
+     * each. */
     if (p->trial > 0 && sums[RC_CHANGE] > 0 && p->figures.lag < last)
         p->mix = sums[RC_NEW_OLD] / sums[RC_CHANGE];
     if (p->trial > 0 && sums[RC_ADVANCE] > 0 && sums[RC_RESISTED] > 0)
@@ -523,9 +524,10 @@ compare_order(struct rc_plastic *p, struct rc_err *err)
     return press(p, err);
 }
 
-/* Of the pressure, from the images of the yielded volume at twice the sides of a map that does not repeat: their
- * stress, as the modulus times the strain that is spread over the cube of a side, beside the pressure. Measured on
- * balls, whose contact takes 5 to 28 % of the map: 0.4 to 0.47 of this without the factor. */
+/* Of the pressure, from the images of the yielded volume at twice the sides of a map that does not repeat:
+ * their stress, as the modulus times the strain that is spread over the cube of a side, beside the
+ * pressure. Measured on balls, whose contact takes 5 to 28 % of the map: 0.4 to 0.47 of this without the
+ * factor. */
 static double
 image_error(const struct rc_plastic *p)
 {

@@ -86,8 +86,8 @@ solve(const double m[3], const double v[2], double x[2])
 
 /* ---- the load ---- */
 
-/* What the nodes that are not skipped carry when y is moved by nu, and how that grows with nu; part 2 to 6: xx yy xy
- * of the growth, and the function whose gradient that is. */
+/* What the nodes that are not skipped carry when y is moved by nu, and how that grows with nu; part 2 to 6:
+ * xx yy xy of the growth, and the function whose gradient that is. */
 static void
 carried(const struct rc_discs *d, double *const y[2], int skip, const double nu[2], double out[6])
 {
@@ -119,8 +119,8 @@ carried(const struct rc_discs *d, double *const y[2], int skip, const double nu[
     total(d, 6, out);
 }
 
-/* nu, so that the nearest tractions on the discs to y + nu carry `load` on the nodes that are not skipped: the minimum of
- * a convex function, by Newton's method. False where they cannot. */
+/* nu, so that the nearest tractions on the discs to y + nu carry `load` on the nodes that are not skipped:
+ * the minimum of a convex function, by Newton's method. False where they cannot. */
 static bool
 find_shift(const struct rc_discs *d, double *const y[2], int skip, const double load[2],
            double nu[2])
@@ -171,8 +171,8 @@ on_disc(double g, double *x, double *y)
     }
 }
 
-/* y becomes the nearest tractions on the discs, that carry the load where one is asked for; with `faces` what slips goes
- * radially on to its circle, and the others carry the rest if they can. */
+/* y becomes the nearest tractions on the discs, that carry the load where one is asked for; with `faces`
+ * what slips goes radially on to its circle, and the others carry the rest if they can. */
 static void
 project(const struct rc_discs *d, double *const y[2], bool faces)
 {
@@ -216,8 +216,8 @@ project(const struct rc_discs *d, double *const y[2], bool faces)
 
 /* ---- faces ---- */
 
-/* The load that is carried when all slip against G - delta, G = Tq - w; part 2 to 4: how that grows with delta; 5: sum g
- * |G - delta|, whose gradient it is. */
+/* The load that is carried when all slip against G - delta, G = Tq - w; part 2 to 4: how that grows with
+ * delta; 5: sum g |G - delta|, whose gradient it is. */
 static void
 slides(const struct rc_discs *d, const double delta[2], double out[6])
 {
@@ -369,8 +369,8 @@ sum_of(const struct rc_discs *d, float *const v[2], double out[2])
     total(d, 2, out);
 }
 
-/* v loses what a shift of all nodes explains of it, B (B'B)^-1 B'v, with B the free part of a shift: v'B is the load of
- * tractions, and of a residual what delta may still be. */
+/* v loses what a shift of all nodes explains of it, B (B'B)^-1 B'v, with B the free part of a shift: v'B is
+ * the load of tractions, and of a residual what delta may still be. */
 static void
 without_shift(const struct rc_discs *d, float *const v[2])
 {
@@ -494,8 +494,8 @@ conjugate_gradients(struct rc_discs *d)
     }
 }
 
-/* h = T (q_new - q), d the difference; the decrease that the energy's quadratic has along it: below 1/2 it rises.
- * Where all is rounding, 1. */
+/* h = T (q_new - q), d the difference; the decrease that the energy's quadratic has along it: below 1/2 it
+ * rises. Where all is rounding, 1. */
 static double
 judge(struct rc_discs *d)
 {

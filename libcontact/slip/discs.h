@@ -43,8 +43,8 @@ struct rc_discs {
 struct rc_discs *rc_discs_new(struct rc_tangential *t, struct rc_err *err);
 void rc_discs_free(struct rc_discs *d); /* NULL is allowed */
 size_t rc_discs_memory(const struct rc_shape *shape, enum rc_boundary boundary);
-/* Starts from what stands in q, which is put on the discs and the load; the load must be one that the discs can
- * carry. u is found. RC_FAIL when memory is short. */
+/* Starts from what stands in q, which is put on the discs and the load; the load must be one that the discs
+ * can carry. u is found. RC_FAIL when memory is short. */
 enum rc_status rc_discs_begin(struct rc_discs *d, struct rc_err *err);
 /* One outer step: RC_MORE, RC_OK when the estimate is below tol, RC_SHORT when it cannot get there. */
 enum rc_status rc_discs_step(struct rc_discs *d);

@@ -223,8 +223,8 @@ rc_slip_keep(struct rc_slip *s)
 
 /* ---- what has been found ---- */
 
-/* Where the load falls, friction is what it was on average; else it is what it is in the end, which is exact where it is
- * constant. */
+/* Where the load falls, friction is what it was on average; else it is what it is in the end, which is
+ * exact where it is constant. */
 static double
 dissipated(const struct rc_slip *s)
 {

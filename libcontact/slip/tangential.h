@@ -43,8 +43,8 @@ void rc_tangential_inverse(struct rc_tangential *t, float *const u[2], float *co
 void rc_tangential_normal(struct rc_tangential *t, double *const q[2], double *uz);
 void rc_tangential_pressure(struct rc_tangential *t, const double *p, double *const u[2]);
 
-/* Between tangential.c and tangential_body.h, which is compiled once for each precision: a column of n numbers, real
- * parts and then imaginary ones, of both maps, and what becomes of one of them. */
+/* Between tangential.c and tangential_body.h, which is compiled once for each precision: a column of n
+ * numbers, real parts and then imaginary ones, of both maps, and what becomes of one of them. */
 struct rc_shear_column {
     size_t n;
     const size_t *wave;

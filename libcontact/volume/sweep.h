@@ -32,8 +32,8 @@ struct rc_sweep_slab {
     double szz, sxx, syy;           /* added to the first wave of the column: a mean */
 };
 
-/* A depth: the slab that it lies in, or their number where it lies below all of them, and what is above it (since
- * the last slab) and below it of that slab, m. */
+/* A depth: the slab that it lies in, or their number where it lies below all of them, and what is above it
+ * (since the last slab) and below it of that slab, m. */
 struct rc_sweep_place {
     size_t slab;
     double above, below;

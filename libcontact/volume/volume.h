@@ -73,8 +73,8 @@ struct rc_slab_stress {
     void *ctx;
 };
 
-/* The stress of a slice, handed out by several threads at once: row j of each of `components` (bits), all rows of one
- * before those of the next. */
+/* The stress of a slice, handed out by several threads at once: row j of each of `components` (bits), all
+ * rows of one before those of the next. */
 struct rc_slice_stress {
     unsigned components;
     void (*row)(void *ctx, enum rc_component c, size_t j, const double *row);
@@ -105,8 +105,8 @@ void rc_slabs_down(struct rc_slabs *slabs, const double *p, const struct rc_slab
 
 /* Instead of rc_slabs_down: the last strain is kept for slices, as many as are asked for. */
 void rc_slabs_through(struct rc_slabs *slabs);
-/* - G e at a depth >= 0 (m), at no transforms but those of the components. A face between slabs belongs to the one
- * below it, that of the last to what is below all and has no strain. */
+/* - G e at a depth >= 0 (m), at no transforms but those of the components. A face between slabs belongs to
+ * the one below it, that of the last to what is below all and has no strain. */
 void rc_slabs_slice(struct rc_slabs *slabs, double depth, const struct rc_slice_stress *stress);
 
 const struct rc_slabs_counts *rc_slabs_counted(const struct rc_slabs *slabs);

@@ -1,5 +1,5 @@
-/* Adhesion where it is hard: requests that make no sense, saddles, bodies that part, jumps, thin and odd maps,
- * unequal spacings, bounds of the pressure, coatings. */
+/* Adhesion where it is hard: requests that make no sense, saddles, bodies that part, jumps, thin and odd
+ * maps, unequal spacings, bounds of the pressure, coatings. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -286,8 +286,8 @@ maps(void **state)
 
 /* ---- hardness ---- */
 
-/* p + sigma stays within the hardness, gaps are negative only where it is reached, and there it is; taken apart,
- * what has yielded is gone and the same load does not yield again. */
+/* p + sigma stays within the hardness, gaps are negative only where it is reached, and there it is; taken
+ * apart, what has yielded is gone and the same load does not yield again. */
 static void
 hardness(void **state)
 {
@@ -350,8 +350,8 @@ hardness(void **state)
 
 /* ---- coatings ---- */
 
-/* A layer of the same material is none; one that is stiffer or softer has a state that obeys the same laws, with
- * the K that deflection has for it. */
+/* A layer of the same material is none; one that is stiffer or softer has a state that obeys the same laws,
+ * with the K that deflection has for it. */
 static void
 coatings(void **state)
 {

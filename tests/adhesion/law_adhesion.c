@@ -1,5 +1,6 @@
-/* What every state of adhesion obeys: its error is known, it is stable, it costs what it is said to cost, units
- * and mirrors change nothing else, loads and sums agree, and a path is what it is whatever the threads. */
+/* What every state of adhesion obeys: its error is known, it is stable, it costs what it is said to cost,
+ * units and mirrors change nothing else, loads and sums agree, and a path is what it is whatever the
+ * threads. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -105,8 +106,8 @@ errors_are_known(void **state)
 
 /* ---- laws ---- */
 
-/* V' = sigma, D = -sigma', V(0) = -w, all by differences; sigma(0), the largest D and the reach are what they are
- * said to be, and a range that is sought for a cohesive length has it. */
+/* V' = sigma, D = -sigma', V(0) = -w, all by differences; sigma(0), the largest D and the reach are what
+ * they are said to be, and a range that is sought for a cohesive length has it. */
 static void
 laws_are_whole(void **state)
 {
@@ -316,8 +317,8 @@ eigenvalues_are_right(void **state)
 
 /* ---- what it costs ---- */
 
-/* Convolutions from undeformed bodies to true errors of 1e-2, 1e-4 and 1e-6, at most 1.2 times those that were
- * measured with another program: periodic, mean gap given, and a sphere. */
+/* Convolutions from undeformed bodies to true errors of 1e-2, 1e-4 and 1e-6, at most 1.2 times those that
+ * were measured with another program: periodic, mean gap given, and a sphere. */
 static const struct {
     size_t n;
     double strength, ell, contact, counts[3];

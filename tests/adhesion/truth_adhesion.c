@@ -1,5 +1,6 @@
-/* Adhesion against closed forms: Maugis' sphere, the limits of JKR and DMT, Bradley's rigid sphere, Johnson's
- * wave; and against Newton's method for the pressures of a small map, with an influence matrix of closed forms. */
+/* Adhesion against closed forms: Maugis' sphere, the limits of JKR and DMT, Bradley's rigid sphere,
+ * Johnson's wave; and against Newton's method for the pressures of a small map, with an influence matrix of
+ * closed forms. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -86,8 +87,8 @@ sphere_of_maugis(void **state)
     }
 }
 
-/* Where only the work matters the lowest load is 3/2 pi w R (Johnson, Kendall and Roberts 1971), from above as
- * the range shrinks: Maugis has 1.2 % more at Tabor's number 5. */
+/* Where only the work matters the lowest load is 3/2 pi w R (Johnson, Kendall and Roberts 1971), from above
+ * as the range shrinks: Maugis has 1.2 % more at Tabor's number 5. */
 static void
 sphere_of_jkr(void **state)
 {

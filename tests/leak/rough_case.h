@@ -99,9 +99,9 @@ rough_beside(struct rough_grid *grid, const struct solved *c, size_t fine, size_
     grid->estimate += f[0].error * weight;
 }
 
-/* Grids of each 9th and each 3rd node beside the whole one, which second order takes to the limit: of harmonic
- * faces by itself, so that the other does not stand beside its own. In both directions, at contact of 0.11 to
- * 0.23. */
+/* Grids of each 9th and each 3rd node beside the whole one, which second order takes to the limit: of
+ * harmonic faces by itself, so that the other does not stand beside its own. In both directions, at contact
+ * of 0.11 to 0.23. */
 static inline struct rough_grid
 rough_converges(size_t fine, size_t shortest, uint64_t seed, size_t seeds)
 {

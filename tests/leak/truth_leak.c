@@ -105,8 +105,8 @@ channels(void **state)
     }
 }
 
-/* Gap (1 - (2y/w)^2)^(3/2) at the edges of contact, as between elastic bodies; w in cells, wherever its middle
- * lies between nodes: the integral of (1 - t^2)^(9/2) from -1 to 1 is 63 pi/256. */
+/* Gap (1 - (2y/w)^2)^(3/2) at the edges of contact, as between elastic bodies; w in cells, wherever its
+ * middle lies between nodes: the integral of (1 - t^2)^(9/2) from -1 to 1 is 63 pi/256. */
 static double
 throat_error(double cells)
 {
@@ -141,9 +141,9 @@ throats(void **state)
                 0.1); /* which is why a throat of fewer than 3 nodes is warned of */
 }
 
-/* Impermeable discs in a square array, a tenth of the area, in a constant gap: (1 - f)/(1 + f), beside which
- * the array makes 1e-4 (Rayleigh 1892). The gap jumps at their rims, so the order is the first; how many nodes a
- * disc has depends on where its middle lies between them, over which the mean is taken. */
+/* Impermeable discs in a square array, a tenth of the area, in a constant gap: (1 - f)/(1 + f), beside
+ * which the array makes 1e-4 (Rayleigh 1892). The gap jumps at their rims, so the order is the first; how
+ * many nodes a disc has depends on where its middle lies between them, over which the mean is taken. */
 static void
 discs(void **state)
 {

@@ -200,8 +200,8 @@ between(const double *x, const double *y, size_t n, double at)
     return y[k] + (y[k + 1] - y[k]) * log(at / x[k]) / log(x[k + 1] / x[k]);
 }
 
-/* Mean pressure over Y against E* a/(Y R): finite elements of Kogut and Etsion (J. Appl. Mech. 69 (2002) 657), to
- * 10 %, and of Jackson and Green (J. Tribol. 127 (2005) 343), to 12 %. */
+/* Mean pressure over Y against E* a/(Y R): finite elements of Kogut and Etsion (J. Appl. Mech. 69 (2002)
+ * 657), to 10 %, and of Jackson and Green (J. Tribol. 127 (2005) 343), to 12 %. */
 static void
 ball_hardness(void **state)
 {
@@ -230,8 +230,9 @@ ball_hardness(void **state)
     }
 }
 
-/* Where all of the contact flows it carries 2.8 to 3.2 Y on average; and the means of 2 x 2 nodes are smooth, an
- * even polynomial of the radius but for 1 % (RMS, within 0.75 a), which the pressure itself is not. */
+/* Where all of the contact flows it carries 2.8 to 3.2 Y on average; and the means of 2 x 2 nodes are
+ * smooth, an even polynomial of the radius but for 1 % (RMS, within 0.75 a), which the pressure itself is
+ * not. */
 static void
 fully_plastic(void **state)
 {
@@ -576,8 +577,8 @@ kept_new(size_t slabs, size_t increments)
     return plastic_new(shape, h, problem);
 }
 
-/* Goes through the loads from `first` on, whose first is under way where a state has been taken over. `steps`: where
- * to stop, and how many have been made; NULL: at the end. */
+/* Goes through the loads from `first` on, whose first is under way where a state has been taken over.
+ * `steps`: where to stop, and how many have been made; NULL: at the end. */
 static void
 go_through(struct rc_plastic *plastic, size_t first, bool under_way, struct found *found,
            size_t *steps)

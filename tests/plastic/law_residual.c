@@ -1,8 +1,9 @@
-/* What is left when a body that has yielded inside is let go is in equilibrium: nothing accelerates, the surface is
- * free, no plane carries a force, and no face between slabs a jump of traction. The stresses are asked for at
- * Chebyshev's points of each slab, in which they are smooth (exponentials times polynomials), and derived there: along z
- * by the polynomial through these points, along x and y by that of the waves through the nodes. Waves of two nodes in a
- * direction have no derivative at the nodes and are taken out first; strain makes its local stress of them, no more. */
+/* What is left when a body that has yielded inside is let go is in equilibrium: nothing accelerates, the
+ * surface is free, no plane carries a force, and no face between slabs a jump of traction. The stresses are
+ * asked for at Chebyshev's points of each slab, in which they are smooth (exponentials times polynomials),
+ * and derived there: along z by the polynomial through these points, along x and y by that of the waves
+ * through the nodes. Waves of two nodes in a direction have no derivative at the nodes and are taken out
+ * first; strain makes its local stress of them, no more. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -27,8 +28,9 @@ static double s[POINTS][RC_COMPONENTS][NODES];
 
 /* ---- derivatives ---- */
 
-/* Of the values at the points, per unit of half an interval; and weights that carry them to its upper and its lower
- * end. Chebyshev's points of the first kind, by barycentric weights (Berrut and Trefethen, SIAM Rev. 46, 2004, 501). */
+/* Of the values at the points, per unit of half an interval; and weights that carry them to its upper and
+ * its lower end. Chebyshev's points of the first kind, by barycentric weights (Berrut and Trefethen, SIAM
+ * Rev. 46, 2004, 501). */
 struct along {
     double at[POINTS], by[POINTS][POINTS], end[2][POINTS];
 };

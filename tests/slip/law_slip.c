@@ -1,5 +1,5 @@
-/* Whatever the contact, tractions keep their bounds and the load, slip is against them, and the error is what is said of it;
- * the work does not grow with the map; and what makes no sense is refused. */
+/* Whatever the contact, tractions keep their bounds and the load, slip is against them, and the error is
+ * what is said of it; the work does not grow with the map; and what makes no sense is refused. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -176,9 +176,9 @@ test_hard_cases(void **state)
     free(rough);
 }
 
-/* 50 problems, at every step that is left by more than a part in a million: the estimate is never less than the error, and
- * below 1e-2 no more than 2.5 times it. The truth is where the same steps end, at 1e-11: same_slip has it from another
- * method. */
+/* 50 problems, at every step that is left by more than a part in a million: the estimate is never less than
+ * the error, and below 1e-2 no more than 2.5 times it. The truth is where the same steps end, at 1e-11:
+ * same_slip has it from another method. */
 static void
 test_estimate_bounds_the_error(void **state)
 {
@@ -252,8 +252,8 @@ test_estimate_bounds_the_error(void **state)
     assert_true(most <= 2.5);
 }
 
-/* Convolutions until the true error is below 1e-2, 1e-4, 1e-6, half of what friction can carry, cold: no more than that, and hardly
- * more on a larger map. */
+/* Convolutions until the true error is below 1e-2, 1e-4, 1e-6, half of what friction can carry, cold: no
+ * more than that, and hardly more on a larger map. */
 static void
 test_work_does_not_grow(void **state)
 {

@@ -1,5 +1,6 @@
-/* Tractions of least energy are those that another method finds: node after node on its disc, exactly, until nothing
- * changes, and the displacement by Newton's method on the load; dense matrices, up to 24 nodes, with a history. */
+/* Tractions of least energy are those that another method finds: node after node on its disc, exactly,
+ * until nothing changes, and the displacement by Newton's method on the load; dense matrices, up to 24
+ * nodes, with a history. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -20,8 +21,9 @@ struct dense {
     double g[MOST], w[2 * MOST];
 };
 
-/* The columns of T by the point loads' integrals are tried elsewhere (truth_slip_kernel): here they come from a uniform
- * rectangle's closed form in this file, E* = 1 (Love 1929, as in Johnson 1985, section 3.5). */
+/* The columns of T by the point loads' integrals are tried elsewhere (truth_slip_kernel): here they come
+ * from a uniform rectangle's closed form in this file, E* = 1 (Love 1929, as in Johnson 1985, section
+ * 3.5). */
 static double
 corner(int kind, double x, double y)
 {
@@ -116,8 +118,8 @@ sum_of(const struct dense *d, const double *q, double sum[2])
     }
 }
 
-/* The displacement under which the tractions carry `load`: what they carry grows with it, as the gradient of a convex
- * function, and Newton's method is damped until it does not overshoot. */
+/* The displacement under which the tractions carry `load`: what they carry grows with it, as the gradient
+ * of a convex function, and Newton's method is damped until it does not overshoot. */
 static void
 carry(const struct dense *d, const double load[2], double delta[2], double *q)
 {

@@ -1,5 +1,5 @@
-/* Friction is what is known of it on paper: Mindlin's stiffness, Cattaneo's and Mindlin's partial slip, Mindlin's and
- * Deresiewicz's loop, Ciavarella's and Jaeger's superposition. */
+/* Friction is what is known of it on paper: Mindlin's stiffness, Cattaneo's and Mindlin's partial slip,
+ * Mindlin's and Deresiewicz's loop, Ciavarella's and Jaeger's superposition. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -49,8 +49,8 @@ slip_on(const struct rc_shape *shape, enum rc_boundary boundary, double nu, doub
     return slip;
 }
 
-/* Bodies that stick on a disc of radius a: force over displacement is 4 a E* over 2 + kap, or 8 a G* (Mindlin 1949); the grid
- * is stiffer or softer by a part of a node in a. */
+/* Bodies that stick on a disc of radius a: force over displacement is 4 a E* over 2 + kap, or 8 a G*
+ * (Mindlin 1949); the grid is stiffer or softer by a part of a node in a. */
 static void
 test_stiffness_of_a_disc(void **state)
 {
@@ -148,8 +148,8 @@ test_partial_slip_of_a_ball(void **state)
     }
 }
 
-/* A cycle between forces +-F* dissipates 4 F* d(F*) - 8 integral of d dF to F* (Mindlin and Deresiewicz 1953): of the
- * displacement d above. The second cycle is the first again. */
+/* A cycle between forces +-F* dissipates 4 F* d(F*) - 8 integral of d dF to F* (Mindlin and Deresiewicz
+ * 1953): of the displacement d above. The second cycle is the first again. */
 static void
 test_loop_of_a_ball(void **state)
 {
@@ -231,9 +231,9 @@ test_strip_by_superposition(void **state)
         }
 }
 
-/* Rough bodies at nu = 0 whose force grows in proportion to the load carry q = (F/P) p: one increment from where they
- * are apart, and two, the second on growing contact (Jaeger 1998; Ciavarella 1998). Without the gap it would
- * be far off. */
+/* Rough bodies at nu = 0 whose force grows in proportion to the load carry q = (F/P) p: one increment from
+ * where they are apart, and two, the second on growing contact (Jaeger 1998; Ciavarella 1998). Without the
+ * gap it would be far off. */
 static void
 test_oblique_loading_in_one_step(void **state)
 {

@@ -1,5 +1,5 @@
-/* Histories: growing contact, falling loads and turning forces converge with their increments, and bodies that are not
- * alike stick under a load alone as Spence found. */
+/* Histories: growing contact, falling loads and turning forces converge with their increments, and bodies
+ * that are not alike stick under a load alone as Spence found. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -114,8 +114,8 @@ test_increments_converge(void **state)
 
 /* ---- dissimilar bodies ---- */
 
-/* A ball on a flat, one of them rigid, pressed in increments of equal radius of contact. Goodman: pressure does not feel
- * tractions. c/a, the stick radius by areas. */
+/* A ball on a flat, one of them rigid, pressed in increments of equal radius of contact. Goodman: pressure
+ * does not feel tractions. c/a, the stick radius by areas. */
 static double
 press_ball(double mu, size_t increments, bool goodman, size_t *passes, double *lighter)
 {
@@ -176,8 +176,8 @@ press_ball(double mu, size_t increments, bool goodman, size_t *passes, double *l
     return sqrt((double)f.stick_nodes / gone);
 }
 
-/* Spence's stick radius (J. Elast. 5, 1975) with Goodman's neglect: (a/2c) ln((a + c)/(a - c)) = (mu/beta) K(k'), k' =
- * sqrt(1 - c^2/a^2). */
+/* Spence's stick radius (J. Elast. 5, 1975) with Goodman's neglect: (a/2c) ln((a + c)/(a - c)) = (mu/beta)
+ * K(k'), k' = sqrt(1 - c^2/a^2). */
 static double
 spence(double mu, double beta)
 {

@@ -1,5 +1,5 @@
-/* Coefficients of shear are the integrals of Cerruti's and Boussinesq's solutions over a cell, their waves those
- * of plane and antiplane strain, and sums by transforms plain double sums. */
+/* Coefficients of shear are the integrals of Cerruti's and Boussinesq's solutions over a cell, their waves
+ * those of plane and antiplane strain, and sums by transforms plain double sums. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

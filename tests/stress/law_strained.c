@@ -1,6 +1,6 @@
-/* The stress of plastic strain in slices: their mean over a slab is what the volume's sweeps, which know no slices,
- * have for that slab, and over a thin slab of its own, for which the others are cut; the stress adds to
- * that of the pressure; a section is a row of a map; and all depths cost one sweep. */
+/* The stress of plastic strain in slices: their mean over a slab is what the volume's sweeps, which know no
+ * slices, have for that slab, and over a thin slab of its own, for which the others are cut; the stress
+ * adds to that of the pressure; a section is a row of a map; and all depths cost one sweep. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -130,8 +130,8 @@ slices_average_to_slabs(void **state)
     free(s.e.v);
 }
 
-/* The mean over a thin piece about a depth, from *first to *last, of a stack of its own: of slabs, one of which is cut
- * in three, or with another two below. */
+/* The mean over a thin piece about a depth, from *first to *last, of a stack of its own: of slabs, one of
+ * which is cut in three, or with another two below. */
 static void
 piece(const struct strained *s, bool padded, double depth, struct voxels *to, double *first,
       double *last)

@@ -1,6 +1,7 @@
-/* Maps of traction by several ways: mu times the pressure in one of them is friction; one along y is one along x of the
- * map with x and y exchanged; all loads together are the sum of each alone; and each costs what it needs, nothing where
- * there is none. Bare and coated bodies, free and periodic, maps and sections, all engines. */
+/* Maps of traction by several ways: mu times the pressure in one of them is friction; one along y is one
+ * along x of the map with x and y exchanged; all loads together are the sum of each alone; and each costs
+ * what it needs, nothing where there is none. Bare and coated bodies, free and periodic, maps and sections,
+ * all engines. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,6 @@
-/* Stresses under maps of traction agree with those known on paper: partial slip of a sphere is the integral of Cerruti's
- * point loads, a wave of traction in any direction is in plane and antiplane strain, a mean shears all depths alike. */
+/* Stresses under maps of traction agree with those known on paper: partial slip of a sphere is the integral
+ * of Cerruti's point loads, a wave of traction in any direction is in plane and antiplane strain, a mean
+ * shears all depths alike. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -35,8 +36,8 @@ slice(struct rc_shape shape, enum rc_boundary boundary, const double *p, const d
 
 /* ---- Cattaneo and Mindlin ---- */
 
-/* A sphere pressed with p0 sqrt(1 - r^2/a^2) carries, once it is pulled in the direction phi, the traction mu p where it
- * slips, less mu p0 c/a sqrt(1 - r^2/c^2) where it sticks, r < c (Johnson 1985, 7.2). */
+/* A sphere pressed with p0 sqrt(1 - r^2/a^2) carries, once it is pulled in the direction phi, the traction
+ * mu p where it slips, less mu p0 c/a sqrt(1 - r^2/c^2) where it sticks, r < c (Johnson 1985, 7.2). */
 static const double contact = 1, stick = 0.6, friction = 0.4, direction = 0.7;
 
 struct disc {

@@ -182,13 +182,13 @@ const char *tool_history(const struct tool *tool);
 
 /* The next frame of all inputs, cases numbered on; NULL at their end. The caller frees it. */
 struct rc_grid *tool_read(struct tool *tool);
-/* The next frame of this channel, one in each case; the case's other frames are written as they are,
- * but for what info->passing does, (`pass`) or dropped. A case that has none of it, or several, ends the tool; with `pass` so does one
- * that holds results beside a height, see results.h. NULL at the end. */
+/* The next frame of this channel, one in each case; the case's other frames are written as they are, but
+ * for what info->passing does, (`pass`) or dropped. A case that has none of it, or several, ends the tool;
+ * with `pass` so does one that holds results beside a height, see results.h. NULL at the end. */
 struct rc_grid *tool_channel(struct tool *tool, const char *channel, bool pass);
-/* The frame of this channel in the next case. Of its other frames, wherever they stand in the case, `take` keeps some
- * and returns true; the others are left out. `kept` is the frame of the channel, NULL as long as it has not come. The
- * head of the frame after the case is read too, but not its values. */
+/* The frame of this channel in the next case. Of its other frames, wherever they stand in the case, `take`
+ * keeps some and returns true; the others are left out. `kept` is the frame of the channel, NULL as long as
+ * it has not come. The head of the frame after the case is read too, but not its values. */
 typedef bool tool_take(void *ctx, struct tool *tool, const struct rc_grid *kept, struct rc_grid *g);
 struct rc_grid *tool_channel_with(struct tool *tool, const char *channel, tool_take *take,
                                   void *ctx);

@@ -125,8 +125,8 @@ yield_law_hardening(const struct rc_yield *law)
                : (law->stress_at[1] - law->stress_at[0]) / (law->strain_at[1] - law->strain_at[0]);
 }
 
-/* With the growth of the stack that was found, to the power of how many more there are, its slabs are divided, or
- * put together, all alike. */
+/* With the growth of the stack that was found, to the power of how many more there are, its slabs are
+ * divided, or put together, all alike. */
 double *
 yield_stack(const struct rc_plastic_depths *found, size_t n)
 {

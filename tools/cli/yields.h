@@ -23,8 +23,8 @@ void yield_law_check(struct tool *tool, const struct physics *physics);
 double yield_law_first(const struct rc_yield *law);
 /* Pa: by which that grows at first, per equivalent plastic strain. */
 double yield_law_hardening(const struct rc_yield *law);
-/* Thicknesses of n slabs to the depth of the stack that rc_plastic_depths has found, which the caller frees. NULL:
- * memory is short. */
+/* Thicknesses of n slabs to the depth of the stack that rc_plastic_depths has found, which the caller
+ * frees. NULL: memory is short. */
 double *yield_stack(const struct rc_plastic_depths *found, size_t n);
 
 #endif

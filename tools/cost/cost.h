@@ -62,13 +62,13 @@ struct cost_trial *cost_yielding_trials(size_t *n);
  * and a load has the same mean: where the number of nodes cannot be divided its cells are a little
  * wider or narrower. A side of one node keeps it. */
 struct rc_shape cost_coarse_shape(const struct rc_shape *map, unsigned factor);
-/* Place of the settings' method and engine among all pairs of these that are tried, or of their slabs; and what
- * the series is called, and a point of it. */
+/* Place of the settings' method and engine among all pairs of these that are tried, or of their slabs; and
+ * what the series is called, and a point of it. */
 size_t cost_series(const struct cost_settings *settings);
 const char *cost_series_name(char text[64], const struct cost_trial *trial);
 const char *cost_point_name(char text[32], const struct cost_settings *settings);
-/* Settings of the reference: double precision throughout, to 1e-12; of a body that yields, more increments than
- * any trial and the finest slabs. */
+/* Settings of the reference: double precision throughout, to 1e-12; of a body that yields, more increments
+ * than any trial and the finest slabs. */
 struct cost_settings cost_reference(bool yields);
 
 /* A trial of the stresses. */

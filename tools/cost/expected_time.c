@@ -8,8 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Convolutions of a body that yields inside: two applications an increment and some at the end, each 14 of them a
- * slab, and 8 for the contact. */
+/* Convolutions of a body that yields inside: two applications an increment and some at the end, each 14 of
+ * them a slab, and 8 for the contact. */
 static double
 work_of(const struct cost_settings *s)
 {

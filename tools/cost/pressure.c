@@ -56,8 +56,8 @@ coarse_maps(struct job *j, const struct rc_shape *shape)
     return h;
 }
 
-/* Where body 1 yields inside, as rc-solve --yield does it: the elastic contact says how deep. The solver of the
- * contact of what has yielded, or NULL. */
+/* Where body 1 yields inside, as rc-solve --yield does it: the elastic contact says how deep. The solver of
+ * the contact of what has yielded, or NULL. */
 static struct rc_solver *
 yield_inside(struct job *j, const double *h, struct rc_solver *elastic)
 {

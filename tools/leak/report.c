@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-/* What flows through the critical constriction as if there were one in each square of the map (Persson and Yang,
- * J. Phys.: Condens. Matter 20, 2008, 315011). */
+/* What flows through the critical constriction as if there were one in each square of the map (Persson and
+ * Yang, J. Phys.: Condens. Matter 20, 2008, 315011). */
 static double
 critical_conductance(const struct leak_case *c)
 {

@@ -355,8 +355,8 @@ void look_contact(struct figure *figure, const struct rc_grid *pressure);
  * unit. */
 enum unit look_unit(const struct rc_grid *grid);
 void look_extent(const struct window *window, struct figure *figure);
-/* Whether a frame of rc-leak has the narrowest place of a way through, where the figure lies: the cross stands
- * there. */
+/* Whether a frame of rc-leak has the narrowest place of a way through, where the figure lies: the cross
+ * stands there. */
 bool look_throat(const struct rc_grid *grid, struct figure *figure);
 /* Where a section lies, between the depths that are asked for, and what it is made of; gives it on
  * even rows, which the caller frees, and the medium of the figure. */

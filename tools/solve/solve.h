@@ -183,8 +183,8 @@ void adhesion_report(struct report *report, const struct run *run);
 /* Reads --yield, --increments, --slabs, or ends the tool. */
 void yield_read(struct run *run);
 void yield_free(struct run *run);
-/* After an elastic solution of this contact: false where body 1 does not yield under it; else it does from here
- * on, and carries the load. */
+/* After an elastic solution of this contact: false where body 1 does not yield under it; else it does from
+ * here on, and carries the load. */
 bool yield_begins(struct run *run, const struct rc_grid *g, struct rc_solver *solver,
                   struct rc_problem contact);
 /* Instead of an elastic solution: goes on from the state that the checkpoint has of this case. False: it has none. */
@@ -225,8 +225,8 @@ void checkpoint_surface(struct checkpoint *checkpoint, const struct rc_grid *g,
 /* A case begins. True when a pressure had been kept for it: the solver starts from that. */
 bool checkpoint_case(struct checkpoint *checkpoint, const struct rc_grid *g,
                      struct rc_solver *solver);
-/* A case begins, or goes on, in a body that yields inside, or attracts the other: its last state, as checkpoint_save_state was given it,
- * which the caller frees; NULL: there is none. */
+/* A case begins, or goes on, in a body that yields inside, or attracts the other: its last state, as
+ * checkpoint_save_state was given it, which the caller frees; NULL: there is none. */
 struct rc_grid *checkpoint_state(struct checkpoint *checkpoint, const struct rc_grid *g);
 /* Keeps n numbers, which fill(ctx, ...) writes, under this load, N. */
 typedef void checkpoint_fill(const void *ctx, double *to);

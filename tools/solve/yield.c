@@ -328,8 +328,8 @@ yield_press(struct run *run, const struct rc_grid *g, double load)
     go(run, g, load, run->resumed);
 }
 
-/* Solves the elastic contact at the largest load of the list, which goes deepest. False: a signal has come, and
- * the contact is that of the load before. */
+/* Solves the elastic contact at the largest load of the list, which goes deepest. False: a signal has come,
+ * and the contact is that of the load before. */
 static bool
 go_to_largest(struct run *run, const struct rc_grid *g, struct rc_solver *solver, double load)
 {
