@@ -74,6 +74,7 @@ references_exist() {
         done
 }
 
+refuses_lines() { ! grep -nE "$1" "$2" >&2; }
 for page in "$pages"/*.[1-9]; do
     name=$(basename "$page")
     case $name in
@@ -81,6 +82,8 @@ for page in "$pages"/*.[1-9]; do
     *) claim "$name: NAME, SYNOPSIS, EXAMPLES" has_sections "$page" NAME SYNOPSIS EXAMPLES ;;
     esac
     claim "$name: its references lead to pages" references_exist "$page"
+    # groff takes it for the macro, and ends the page there
+    claim "$name: no title of a paper begins with the name of a macro" refuses_lines '^[.]%[A-Z] ([A-Z][a-z]) ' "$page"
     if command -v mandoc >/dev/null; then
         claim "$name: mandoc finds no fault" bash -c "mandoc -Tlint -Wwarning '$page' >&2"
     fi
