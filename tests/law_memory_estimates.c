@@ -1,6 +1,6 @@
 /* The library's estimates of memory are within a tenth of the peak, each in a process of its own: solver,
- * stiffness, stresses, friction, sums, flow and slabs, on maps large enough that code and plans do not
- * count. */
+ * stiffness, stresses, friction, plasticity, sums, flow and slabs, on maps large enough that code and plans
+ * do not count. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -285,6 +285,43 @@ friction(const struct work *w, const double *h, const double *p)
     return status == RC_OK ? bytes : 0;
 }
 
+/* Of the voxels that have yielded in the end, a tenth at least: no others have taken memory. */
+static size_t
+yielding(const struct work *w, const double *h, const double *p)
+{
+    enum {
+        SLABS = 12
+    };
+    double thickness[SLABS];
+    struct rc_plastic_problem problem = {.contact = {.boundary = w->boundary,
+                                                     .pair.one = {.e = 3e9, .nu = 0.3},
+                                                     .pair.two.e = INFINITY},
+                                         .yield = {.stress = 1e7, .modulus = 1e8},
+                                         .slabs = SLABS,
+                                         .thickness = thickness,
+                                         .increments = 1,
+                                         .lag = 0.5};
+    double load = 1e7 * (double)nodes_of(w) * w->shape->dx * w->shape->dy;
+    struct rc_plastic *plastic;
+    enum rc_status status = RC_FAIL;
+    size_t bytes = 0;
+
+    (void)p;
+    for (int k = 0; k < SLABS; k++)
+        thickness[k] = 1e-6;
+    plastic = rc_plastic_new(w->shape, h, &problem, NULL);
+    if (plastic != NULL && rc_plastic_set_load(plastic, load, NULL) == RC_OK)
+        do
+            status = rc_plastic_step(plastic, NULL);
+        while (status == RC_MORE);
+    if (status != RC_FAIL) {
+        double yielded = (double)rc_plastic_result(plastic)->voxels / (double)(nodes_of(w) * SLABS);
+        bytes = yielded < 0.1 ? 0 : rc_plastic_memory(w->shape, &problem, yielded);
+    }
+    rc_plastic_free(plastic);
+    return bytes;
+}
+
 /* In a child: as an exit status, 0 when the memory it took agrees with the estimate. */
 static int
 measured(const struct work *w)
@@ -340,6 +377,7 @@ holds(void **state)
         {"channels of a gap", &map, RC_FREE, NULL, 0, leak_found},
         {"flow through it", &map, RC_FREE, NULL, 0, leak_solved},
 #endif
+        {"a body that yields inside", &map, RC_PERIODIC, NULL, 2 * transforms, yielding},
         {"slabs", &map, RC_PERIODIC, NULL, transforms, slabs_double},
         {"slabs, single precision", &map, RC_PERIODIC, NULL, transforms, slabs_single},
     };

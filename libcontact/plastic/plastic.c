@@ -117,7 +117,7 @@ flow(const struct rc_plastic *p, struct rc_voxel *v, const double *s, bool adds)
     flow_by(growth, trial, size, v->f);
     for (size_t a = 0; a < RC_DEVIATOR; a++) {
         v->f[a] += low * v->last[a];
-        v->missed[a] += adds ? v->f[a] - first[a] : 0;
+        v->missed[a] += adds ? (float)(v->f[a] - first[a]) : 0;
     }
 }
 
@@ -128,8 +128,8 @@ sum_up(const struct rc_plastic *p, const struct rc_voxel *v, double thickness, d
 
     for (size_t a = 0; a < RC_DEVIATOR; a++) {
         r[a] = v->f[a] - v->x[a];
-        turned[a] = r[a] - v->before[1][a];
-        moved[a] = v->x[a] - (v->before[0][a] - v->before[1][a]);
+        turned[a] = r[a] - (double)v->left[a];
+        moved[a] = (double)v->moved[a];
     }
     lag = 2 * p->shear * rc_mises_of(r) / p->yield;
     if (rc_deviator_product(v->f, v->f) > 0 || rc_deviator_product(v->x, v->x) > 0) {
@@ -226,15 +226,30 @@ for_each(struct rc_plastic *p, each_voxel *do_it)
             do_it(p, &p->voxels.row[r].v[k]);
 }
 
-/* x becomes the mixture of f and that of the trial before. */
+/* x becomes the mixture of f and that of the trial before; 0 where neither flows, which rounding would not
+ * leave it. */
 static void
 mix(struct rc_plastic *p, struct rc_voxel *v)
 {
+    static const double rounding = 1e-6; /* of single precision */
+    double r[RC_DEVIATOR], moved[RC_DEVIATOR], left[RC_DEVIATOR], before[RC_DEVIATOR];
+    bool still;
+
     for (size_t a = 0; a < RC_DEVIATOR; a++) {
-        double x = v->f[a] - p->mix * (v->f[a] - v->before[0][a]);
-        v->before[1][a] = v->f[a] - v->x[a];
-        v->before[0][a] = v->f[a];
-        v->x[a] = x;
+        r[a] = v->f[a] - v->x[a];
+        moved[a] = (double)v->moved[a];
+        left[a] = (double)v->left[a];
+        before[a] = v->x[a] - moved[a] + left[a];
+    }
+    still = !(rc_deviator_product(v->f, v->f) > 0) &&
+            rc_deviator_product(before, before) <=
+                rounding * rounding *
+                    (rc_deviator_product(moved, moved) + rc_deviator_product(left, left));
+    for (size_t a = 0; a < RC_DEVIATOR; a++) {
+        double step = still ? -v->x[a] : r[a] - p->mix * (moved[a] + (r[a] - left[a]));
+        v->left[a] = (float)r[a];
+        v->moved[a] = (float)step;
+        v->x[a] += step;
     }
 }
 
@@ -252,7 +267,7 @@ accept(struct rc_plastic *p, struct rc_voxel *v)
     for (size_t a = 0; a < RC_DEVIATOR; a++) {
         v->e[a] += v->x[a];
         v->last[a] = v->x[a];
-        v->before[0][a] = v->before[1][a] = 0;
+        v->moved[a] = v->left[a] = 0;
     }
 }
 
@@ -263,7 +278,8 @@ begin_load(struct rc_plastic *p, struct rc_voxel *v)
     memset(v->x, 0, sizeof v->x);
     memset(v->last, 0, sizeof v->last);
     memset(v->missed, 0, sizeof v->missed);
-    memset(v->before, 0, sizeof v->before);
+    memset(v->moved, 0, sizeof v->moved);
+    memset(v->left, 0, sizeof v->left);
     v->grown = 0;
 }
 
@@ -271,7 +287,8 @@ static void
 try_missed(struct rc_plastic *p, struct rc_voxel *v)
 {
     (void)p;
-    memcpy(v->x, v->missed, sizeof v->x);
+    for (size_t a = 0; a < RC_DEVIATOR; a++)
+        v->x[a] = (double)v->missed[a];
 }
 
 static void

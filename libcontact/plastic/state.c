@@ -4,12 +4,13 @@
  *
  *     a load is reached          place, e, equivalent strain
  *     between two increments     and the last increment, which is where the next begins
- *     within one                 and what is tried, with the trial before
+ *     within one                 and what is tried, with what the trial before it did
  *
- * What follows from these is found anew. All numbers are finite.
+ * What follows from these is found anew. All numbers are finite, in single precision too.
  */
 #include "plastic.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -39,7 +40,7 @@ enum { /* figures, in order */
     ITERATION_ERROR,
     FIGURES
 };
-static const double form = 1; /* of this list */
+static const double form = 2; /* of this list */
 
 enum { /* numbers of a voxel behind its place */
     REACHED = RC_DEVIATOR + 1,
@@ -57,9 +58,10 @@ columns_of(const struct rc_plastic *p)
 
 /* ---- a voxel ---- */
 
-/* Its numbers one by one; the same for both directions. */
+/* Its numbers one by one, in double or single precision; the same for both directions. */
 struct part {
-    double *at;
+    double *wide;
+    float *narrow;
     size_t n;
 };
 
@@ -70,10 +72,10 @@ enum {
 static void
 parts_of(struct rc_voxel *v, struct part part[PARTS])
 {
-    const struct part all[PARTS] = {{v->e, RC_DEVIATOR},         {&v->strain, 1},
-                                    {v->last, RC_DEVIATOR},      {&v->grown, 1},
-                                    {v->missed, RC_DEVIATOR},    {v->x, RC_DEVIATOR},
-                                    {v->before[0], RC_DEVIATOR}, {v->before[1], RC_DEVIATOR}};
+    const struct part all[PARTS] = {{v->e, NULL, RC_DEVIATOR},      {&v->strain, NULL, 1},
+                                    {v->last, NULL, RC_DEVIATOR},   {&v->grown, NULL, 1},
+                                    {NULL, v->missed, RC_DEVIATOR}, {v->x, NULL, RC_DEVIATOR},
+                                    {NULL, v->moved, RC_DEVIATOR},  {NULL, v->left, RC_DEVIATOR}};
 
     memcpy(part, all, sizeof all);
 }
@@ -85,8 +87,9 @@ give(const struct rc_voxel *voxel, size_t columns, double *to)
     struct part part[PARTS];
 
     parts_of(&v, part);
-    for (size_t k = 0; columns > 0; columns -= part[k].n, to += part[k++].n)
-        memcpy(to, part[k].at, part[k].n * sizeof *to);
+    for (size_t k = 0, done = 0; done < columns; done += part[k++].n)
+        for (size_t a = 0; a < part[k].n; a++)
+            to[done + a] = part[k].wide != NULL ? part[k].wide[a] : (double)part[k].narrow[a];
 }
 
 static void
@@ -95,8 +98,12 @@ take(struct rc_voxel *v, size_t columns, const double *from)
     struct part part[PARTS];
 
     parts_of(v, part);
-    for (size_t k = 0; columns > 0; columns -= part[k].n, from += part[k++].n)
-        memcpy(part[k].at, from, part[k].n * sizeof *from);
+    for (size_t k = 0, done = 0; done < columns; done += part[k++].n)
+        for (size_t a = 0; a < part[k].n; a++)
+            if (part[k].wide != NULL)
+                part[k].wide[a] = from[done + a];
+            else
+                part[k].narrow[a] = (float)from[done + a];
 }
 
 /* ---- the state ---- */
@@ -188,7 +195,7 @@ check(const struct rc_plastic *p, const double *s, size_t n, struct rc_err *err)
     size_t step;
 
     for (size_t k = 0; k < n; k++)
-        if (!isfinite(s[k]))
+        if (!(fabs(s[k]) <= (double)FLT_MAX))
             return rc_err_set(err, "the state is damaged: number %zu of it is not finite", k);
     if (check_figures(p, s, n, err) != RC_OK)
         return RC_FAIL;

@@ -15,9 +15,10 @@ struct rc_voxel {
     double last[RC_DEVIATOR]; /* its last accepted increment                                    */
     double x[RC_DEVIATOR];    /* the increment that is tried                                    */
     double f[RC_DEVIATOR];    /* what the stress under e + x makes of it                        */
-    double before[2][RC_DEVIATOR]; /* f, and f - x, of the trial before                          */
-    double missed[RC_DEVIATOR];    /* sum of what the order of the integration adds              */
-    double strain, grown; /* equivalent strain, and what the last increment added           */
+    double strain, grown;     /* equivalent strain, and what the last increment added */
+    /* Small beside x, so that they lose nothing as it converges: sum of what the order of the integration
+     * adds; what the last trial moved x by; and f - x of it. */
+    float missed[RC_DEVIATOR], moved[RC_DEVIATOR], left[RC_DEVIATOR];
 };
 
 enum { /* sums over the voxels of a row */

@@ -711,6 +711,21 @@ refuses_states(void **state)
     rc_plastic_free(finer);
 }
 
+/* As law_memory_estimates finds it to be: of a map whose voxels have yielded by three tenths, in 12 slabs. */
+static void
+is_lean(void **state)
+{
+    const struct rc_shape s = {1024, 1024, 1e-6, 1e-6};
+    const struct rc_plastic_problem problem = {
+        .contact = {.boundary = RC_PERIODIC,
+                    .pair = {.one = {.e = 1, .nu = 0.3}, .two = {.e = INFINITY}}},
+        .yield = {.stress = 0.04},
+        .slabs = 12};
+
+    (void)state;
+    assert_true((double)rc_plastic_memory(&s, &problem, 0.3) <= 1500. * (double)(s.nx * s.ny));
+}
+
 int
 main(void)
 {
@@ -719,7 +734,7 @@ main(void)
         cmocka_unit_test(fully_plastic),  cmocka_unit_test(let_go),
         cmocka_unit_test(free_maps),      cmocka_unit_test(shakedown),
         cmocka_unit_test(estimate),       cmocka_unit_test(goes_on),
-        cmocka_unit_test(refuses_states),
+        cmocka_unit_test(refuses_states), cmocka_unit_test(is_lean),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
