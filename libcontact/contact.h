@@ -821,8 +821,9 @@ struct rc_adhesion_figures {
      * there. Found by the curvatures that the iteration meets; some in a row may count once */
     size_t jumps;
     /* The lowest load of the retraction that rc_adhesion_pull_off asked for, N, at which approach, m, and
-     * how much of the load it may be off: its last change, or what the jumps beside it leave open */
+     * how much of the load it may be off: what a parabola beside it misses, twice, or what a jump hides */
     double pull_off_load, pull_off_approach, pull_off_spread;
+    bool pull_off_at_start; /* it was the first state of the retraction                         */
     size_t states;      /* of this retraction, else 1                                             */
     size_t iterations;  /* steps in the gap                                                      */
     size_t eigen_steps; /* steps for the stability                                               */

@@ -46,13 +46,9 @@ rc_adhesion_law_named(const char *name)
 /* ---- a path ---- */
 
 enum {
-    BELOW = 2,        /* states in a row whose error is below tol */
-    LEAVES = 20,      /* saddles that are left before a state is given up */
-    EIGEN_STEPS = 40, /* at most */
-    STATES = 400,     /* of a retraction, at most */
-    ROUNDS = 8,       /* of its refinement, at most */
-    PARTS = 4,        /* of the interval about the lowest load, in a round */
-    FARTHEST = 40     /* of these parts, where smaller steps hold for longer */
+    BELOW = 2,       /* states in a row whose error is below tol */
+    LEAVES = 20,     /* saddles that are left before a state is given up */
+    EIGEN_STEPS = 40 /* at most */
 };
 static const double nodes_default =
     2; /* cohesive length, where the grid chooses the range          */
@@ -61,11 +57,6 @@ static const double eigen_exact =
 static const double loosest = 1e-3; /* tol: farther off, an eigenvalue says nothing of a state */
 static const double safe = 1.25;    /* e/sqrt(mu) itself is 1 to 2 times the error, at its end   */
 static const double single = 4e-6;  /* what an eigenvalue in single precision may be off          */
-static const double load_step =
-    0.3; /* of the attraction: by how much a step of retraction lowers the load */
-static const double growth = 1.5;   /* of such a step from the last */
-static const double settled = 1e-3; /* change of the lowest load that ends the retraction */
-static const double past = 0.8;     /* of the lowest load: so far it is followed back */
 
 enum stage {
     STAGE_NEW,
@@ -74,26 +65,15 @@ enum stage {
     STAGE_DONE
 };
 
-/* A state of the retraction, in the units of the gap. */
-struct place {
-    double c, load, attraction;
-    size_t jumps;
-};
-
 struct retraction {
     bool on;
-    double *before, *last, *lowest; /* gaps on the whole grid */
-    struct place at_before, at_last, at_lowest, at_after;
-    struct rc_adhesion_figures found; /* of the lowest */
-    double c, step;   /* of the state under way, and the way to it                          */
-    double top_slope; /* the largest d load/d c so far                                      */
-    double from, to;  /* of this round                                                      */
-    double estimate;  /* of the lowest load, before this round                              */
-    size_t round, part;
-    bool vertex; /* of this round: it is one state, where the parabola is lowest */
-    bool has_before, has_after, short_of;
-    size_t states, iterations, eigen_steps, jumps;
+    struct rc_retraction search;
+    double *kept[RC_RETRACTION_KEPT]; /* gaps on the whole grid */
+    struct rc_adhesion_figures found; /* of the lowest          */
+    size_t iterations, eigen_steps, jumps;
     double convolutions;
+    double start; /* the shift of the first state */
+    bool short_of;
 };
 
 struct rc_adhesion {
@@ -288,9 +268,8 @@ rc_adhesion_free(struct rc_adhesion *a)
         return;
     rc_gap_free(&a->gap);
     rc_whole_free(a->whole);
-    free(a->pull.before);
-    free(a->pull.last);
-    free(a->pull.lowest);
+    for (size_t k = 0; k < RC_RETRACTION_KEPT; k++)
+        free(a->pull.kept[k]);
     free(a->h);
     free(a);
 }
@@ -499,12 +478,18 @@ step_state(struct rc_adhesion *a)
 
 /* ---- retraction ---- */
 
-static struct place
+static struct rc_retraction_state
 place_of(struct rc_adhesion *a)
 {
     const struct rc_adhesion_figures *f = rc_adhesion_result(a);
+    double length = a->whole->length, unit = a->whole->modulus * length * length;
 
-    return (struct place){rc_gap_shift(&a->gap), f->load, f->attractive_load, f->jumps};
+    return (struct rc_retraction_state){.c = rc_gap_shift(&a->gap),
+                                        .load = f->load / unit,
+                                        .attraction = f->attractive_load / unit,
+                                        .radius = sqrt(f->contact_area / RC_PI) / length,
+                                        .mean_gap = f->mean_gap / length,
+                                        .jumps = f->jumps};
 }
 
 static void
@@ -513,7 +498,7 @@ copy_gap(const struct rc_adhesion *a, double *to, const double *from)
     memcpy(to, from, a->gap.n * sizeof *to);
 }
 
-/* The state there is becomes that of this gap; the next begins there. */
+/* The next state begins with this gap, which is that of c. */
 static void
 put_back(struct rc_adhesion *a, const double *gap, double c)
 {
@@ -528,46 +513,26 @@ enum rc_status
 rc_adhesion_pull_off(struct rc_adhesion *a, struct rc_err *err)
 {
     struct retraction *p = &a->pull;
-    size_t n = a->gap.n;
-    double **room[] = {&p->before, &p->last, &p->lowest};
 
     if (!a->begun)
         return rc_err_set(err, "there is no state to begin a retraction with");
-    for (size_t k = 0; k < sizeof room / sizeof *room; k++)
-        if (*room[k] == NULL && (*room[k] = rc_alloc(n, sizeof **room)) == NULL)
-            return rc_err_set(err, "out of memory for a retraction of %zu nodes", n);
+    for (size_t k = 0; k < RC_RETRACTION_KEPT; k++) {
+        double *kept = p->kept[k] != NULL ? p->kept[k] : rc_alloc(a->gap.n, sizeof *kept);
+        if (kept == NULL)
+            return rc_err_set(err, "out of memory for a retraction of %zu nodes", a->gap.n);
+        p->kept[k] = kept;
+    }
     if (a->gap.yields)
         rc_adhesion_keep_shape(a, NULL);
-    *p = (struct retraction){.on = true,
-                             .before = p->before,
-                             .last = p->last,
-                             .lowest = p->lowest,
-                             .c = rc_gap_shift(&a->gap),
-                             .estimate = NAN};
-    set_shift(a, p->c);
+    p->on = true;
+    p->short_of = false;
+    p->iterations = p->eigen_steps = p->jumps = 0;
+    p->convolutions = 0;
+    rc_retraction_begin(&p->search, a->gap.law.work, a->gap.law.range,
+                        20 * a->gap.law.range - a->mean_h);
+    p->start = rc_gap_shift(&a->gap);
+    set_shift(a, p->start);
     return RC_OK;
-}
-
-/* The lowest load by the parabola through the lowest state and those beside it; where the state after it is
- * one that was jumped to, there is none, and the lowest is what was seen. */
-static double
-lowest_of(const struct retraction *p, double *at, bool *jumped)
-{
-    const struct place *l = &p->at_before, *m = &p->at_lowest, *r = &p->at_after;
-    double left = (l->load - m->load) / (l->c - m->c), right = (r->load - m->load) / (r->c - m->c);
-    double bend = (left - right) / (l->c - r->c), slope, c;
-
-    *at = m->c;
-    *jumped = fabs(r->attraction - m->attraction) >
-              4 * fabs(m->attraction - l->attraction) + settled * m->attraction;
-    if (*jumped || !(bend > 0))
-        return m->load;
-    slope = left - bend * (l->c - m->c);
-    c = m->c - slope / (2 * bend);
-    if (!(c <= l->c && c >= r->c))
-        return m->load;
-    *at = c;
-    return m->load + slope * (c - m->c) + bend * (c - m->c) * (c - m->c);
 }
 
 static void
@@ -575,130 +540,35 @@ count(struct rc_adhesion *a)
 {
     struct retraction *p = &a->pull;
 
-    p->states++;
+    if (p->search.stage == RC_RETRACTION_COARSE)
+        p->jumps += a->figures.jumps;
     p->iterations += a->figures.iterations;
     p->eigen_steps += a->figures.eigen_steps;
     p->convolutions += a->figures.convolutions;
     p->short_of |= !a->converged;
 }
 
-static void
-exchange(double **a, double **b)
-{
-    double *other = *a;
-
-    *a = *b;
-    *b = other;
-}
-
-static void
-take_lowest(struct rc_adhesion *a, const struct place *here)
-{
-    copy_gap(a, a->pull.lowest, a->gap.x);
-    a->pull.at_lowest = *here;
-    a->pull.found = a->figures;
-}
-
-/* A state in the order of the retraction. */
-static void
-note(struct rc_adhesion *a, const struct place *here)
-{
-    struct retraction *p = &a->pull;
-
-    if (p->states == 1 || here->load < p->at_lowest.load) {
-        p->has_before = p->states > 1;
-        if (p->has_before && p->at_last.c != p->at_before.c) {
-            exchange(&p->before, &p->last);
-            p->at_before = p->at_last;
-        }
-        take_lowest(a, here);
-        p->has_after = false;
-    } else if (!p->has_after) {
-        p->has_after = true;
-        p->at_after = *here;
-    }
-    if (p->round == 0)
-        p->jumps += here->jumps;
-    copy_gap(a, p->last, a->gap.x);
-    p->at_last = *here;
-}
-
-/* A state where the parabola is lowest, between the one before the lowest and that after it. */
-static void
-note_vertex(struct rc_adhesion *a, const struct place *here)
-{
-    struct retraction *p = &a->pull;
-    bool early = here->c > p->at_lowest.c;
-
-    if (here->load < p->at_lowest.load) {
-        if (early)
-            p->at_after = p->at_lowest;
-        else {
-            exchange(&p->before, &p->lowest);
-            p->at_before = p->at_lowest;
-        }
-        take_lowest(a, here);
-    } else if (early) {
-        copy_gap(a, p->before, a->gap.x);
-        p->at_before = *here;
-    } else {
-        p->at_after = *here;
-    }
-}
-
-/* The way to the next state: to a load that is lower by part of what holds, as far as the last two tell. What
- * holds is at most the attraction, and no more than it takes to open a round crack about the contact: of a
- * sphere in the limit of short ranges the lowest load is a quarter of sqrt(8 pi E* w a^3) at no load. */
-static double
-next_way(struct rc_adhesion *a, const struct place *before, const struct place *here)
-{
-    struct retraction *p = &a->pull;
-    double cell = a->shape.dx * a->shape.dy, length = a->whole->length;
-    double radius = sqrt(a->figures.contact_area / RC_PI) / length, stiffness;
-    double holds = here->attraction / cell / a->whole->modulus;
-
-    if (radius > 0)
-        holds = fmin(holds, sqrt(8 * RC_PI * a->gap.law.work * radius * radius * radius) / 4);
-    if (p->states < 2)
-        return fmax(load_step * holds / (2 * fmax(radius, 1)), 0.02 * a->gap.law.range);
-    stiffness =
-        fabs((before->load - here->load) / (before->c - here->c)) / cell / a->whole->modulus;
-    p->top_slope = fmax(p->top_slope, stiffness);
-    if (p->has_after)
-        return growth * p->step;
-    if (stiffness < p->top_slope / 4)
-        return p->step; /* near the lowest */
-    return fmin(load_step * holds / stiffness, growth * p->step);
-}
-
-static bool
-parted(const struct rc_adhesion *a)
-{
-    const struct retraction *p = &a->pull;
-
-    return p->has_after &&
-           (p->at_last.load > past * p->at_lowest.load ||
-            a->figures.mean_gap / a->whole->length > 20 * a->gap.law.range - a->mean_h);
-}
-
 static enum rc_status
-end_retraction(struct rc_adhesion *a, double load, double at, double spread)
+end_retraction(struct rc_adhesion *a)
 {
     struct retraction *p = &a->pull;
+    const struct rc_retraction *r = &p->search;
     struct rc_adhesion_figures *f = &a->figures;
-    bool converged = !p->short_of;
+    double length = a->whole->length, unit = a->whole->modulus * length * length;
+    bool converged = !p->short_of && !r->short_of;
 
-    put_back(a, p->lowest, p->at_lowest.c);
+    put_back(a, p->kept[r->lowest.kept], r->lowest.c);
     rc_gap_begin(&a->gap, a->control, a->given);
     a->stage = STAGE_DONE;
     a->fresh = true;
     a->converged = converged;
     p->on = false;
     *f = p->found;
-    f->pull_off_load = load;
-    f->pull_off_approach = at * a->whole->length;
-    f->pull_off_spread = spread;
-    f->states = p->states;
+    f->pull_off_load = r->load * unit;
+    f->pull_off_approach = r->at * length;
+    f->pull_off_spread = r->spread * unit;
+    f->pull_off_at_start = r->lowest.c == p->start;
+    f->states = r->states;
     f->jumps = p->jumps;
     f->iterations = p->iterations;
     f->eigen_steps = p->eigen_steps;
@@ -707,73 +577,27 @@ end_retraction(struct rc_adhesion *a, double load, double at, double spread)
     return converged ? RC_OK : RC_SHORT;
 }
 
-static enum rc_status
-go_to(struct rc_adhesion *a, double c)
-{
-    a->pull.c = c;
-    set_shift(a, c);
-    return RC_MORE;
-}
-
-/* Once more between the states beside the lowest: where the parabola is lowest, or, where one of them was
- * jumped to, in smaller steps all the way. */
-static enum rc_status
-begin_round(struct rc_adhesion *a, double at, bool jumped)
-{
-    struct retraction *p = &a->pull;
-
-    p->round++;
-    p->vertex = !jumped && at != p->at_lowest.c;
-    if (p->vertex) {
-        if (at > p->at_lowest.c)
-            put_back(a, p->before, p->at_before.c);
-        else
-            put_back(a, p->lowest, p->at_lowest.c);
-        return go_to(a, at);
-    }
-    p->from = p->at_before.c;
-    p->to = p->at_after.c;
-    p->part = 2;
-    put_back(a, p->before, p->from);
-    copy_gap(a, p->last, p->before);
-    p->at_last = p->at_before;
-    p->at_lowest.load = INFINITY;
-    return go_to(a, p->from + (p->to - p->from) / PARTS);
-}
-
 /* The next approach, or the end. */
 static enum rc_status
 go_on(struct rc_adhesion *a)
 {
     struct retraction *p = &a->pull;
-    struct place before = p->at_last, here = place_of(a);
-    double load, at, spread;
-    bool jumped;
+    struct rc_retraction *r = &p->search;
+    struct rc_retraction_state here = place_of(a);
+    bool more;
 
     count(a);
-    if (p->vertex)
-        note_vertex(a, &here);
-    else
-        note(a, &here);
-    if (p->round == 0 && !parted(a) && p->states < STATES) {
-        p->step = next_way(a, &before, &p->at_last);
-        return go_to(a, p->at_last.c - p->step);
-    }
-    if (p->round > 0 && !p->vertex && (p->part < PARTS ? !parted(a) : !p->has_after) &&
-        p->part < FARTHEST)
-        return go_to(a, p->from + (p->to - p->from) * (double)p->part++ / PARTS);
-    if (!p->has_before || !p->has_after)
-        return end_retraction(a, p->at_lowest.load, p->at_lowest.c, NAN);
-    load = lowest_of(p, &at, &jumped);
-    spread = fabs(load - p->estimate);
-    if (jumped)
-        spread = fmax(spread,
-                      fabs((p->at_before.load - p->at_lowest.load) /
-                           (p->at_before.c - p->at_lowest.c) * (p->at_lowest.c - p->at_after.c)));
-    if (p->round >= ROUNDS || (p->round > 0 && spread <= settled * fabs(load)))
-        return end_retraction(a, load, at, spread);
-    p->estimate = load;
-    return begin_round(a, at, jumped);
+    more = rc_retraction_next(r, here);
+    if (r->keep >= 0)
+        copy_gap(a, p->kept[r->keep], a->gap.x);
+    if (r->is_lowest)
+        p->found = a->figures;
+    if (!more)
+        return end_retraction(a);
+    if (r->from >= 0)
+        put_back(a, p->kept[r->from], r->from_c);
+    set_shift(a, r->c);
+    return RC_MORE;
 }
 
 enum rc_status
@@ -959,7 +783,7 @@ rc_adhesion_progress(const struct rc_adhesion *a, struct rc_adhesion_progress *p
     const struct rc_gap *g = &a->gap;
 
     *progress = (struct rc_adhesion_progress){
-        .state = a->pull.on ? a->pull.states + 1 : 1,
+        .state = a->pull.on ? a->pull.search.states + 1 : 1,
         .iterations = a->stage == STAGE_NEW ? 0 : g->iterations,
         .eigenvalue = a->stage == STAGE_EIGEN,
         .load = a->control == RC_GAP_LOAD && a->held

@@ -6,5 +6,6 @@
 
 #include "gap.h"
 #include "law.h"
+#include "retraction.h"
 
 #endif

@@ -232,6 +232,75 @@ pull_off_by_hand(void **state)
     rc_adhesion_free(a);
 }
 
+/* A rough ball lets go spot by spot: its load over the approach has several lowest places and leaps between
+ * them. The search finds the lowest of all, as a path in two hundred steps does, and what it is off is told. */
+static void
+pull_off_of_rough(void **state)
+{
+    const struct rc_shape shape = {96, 96, 2e-6, 2e-6};
+    const struct rc_place apex = {0.5e-6, 0.5e-6};
+    const struct rc_adhesion_problem problem = {
+        .contact = {.pair.estar = 2e6}, .work = 0.05, .law = "jkr"};
+    const double heights[] = {0.3e-6, 0.6e-6, 1.5e-6};
+
+    (void)state;
+    for (size_t k = 0; k < sizeof heights / sizeof *heights; k++) {
+        const struct rc_selfaffine rough = {.hurst = 0.8,
+                                            .rolloff = 40e-6,
+                                            .short_cut = 16e-6,
+                                            .seed = 3,
+                                            .rms_height = heights[k]};
+        static double ball[96 * 96];
+        const struct rc_adhesion_figures *f;
+        struct rc_adhesion *a;
+        double start, lowest = 0, is, spread;
+
+        assert_int_equal(rc_synth_selfaffine(&shape, &rough, h, &adhesion_err), RC_OK);
+        rc_synth_paraboloid(&shape, apex, 1e-3, 1e-3, 0, ball);
+        for (size_t i = 0; i < 96 * 96; i++)
+            h[i] += ball[i];
+        a = adhesion_new(shape, h, problem);
+        start = adhesion_to_load(a, 0.3e-3)->approach;
+        f = adhesion_pull(a);
+        is = f->pull_off_load;
+        spread = f->pull_off_spread;
+        print_message("RMS %g um: %.3f uN, give or take %.2f, %zu states, %.0f convolutions; ",
+                      heights[k] * 1e6, is * 1e6, spread * 1e6, f->states, f->convolutions);
+        assert_true(f->converged);
+        (void)adhesion_to_load(a, 0.3e-3);
+        for (int i = 0; i <= 200; i++) {
+            f = adhesion_to_approach(a, start - i * (start + 1e-6) / 200);
+            lowest = fmin(lowest, f->load);
+        }
+        print_message("in small steps %.3f\n", lowest * 1e6);
+        assert_true(is <= lowest + 1e-3 * fabs(lowest));
+        assert_true(is >= lowest * 1.03); /* between two steps it may be lower */
+        assert_true(spread >= 0 && spread <= 2e-3 * fabs(is));
+        rc_adhesion_free(a);
+    }
+}
+
+/* Drawn back from where the load rises already, it is lowest at once. */
+static void
+pull_off_at_start(void **state)
+{
+    struct sphere s = sphere_of(N, 1);
+    struct rc_adhesion *a = adhesion_new(s.shape, h, s.problem);
+    const struct rc_adhesion_figures *f;
+    double load;
+
+    (void)state;
+    (void)adhesion_to_approach(a, s.approach);
+    (void)adhesion_to_approach(a, -0.5 * s.approach);
+    load = adhesion_to_approach(a, -1.2 * s.approach)->load;
+    f = adhesion_pull(a);
+    assert_true(f->converged && load < 0);
+    assert_true(fabs(f->pull_off_load - load) <= 1e-4 * -load);
+    assert_true(f->pull_off_spread <= 0.02 * -load);
+    assert_true(fabs(f->pull_off_approach + 1.2 * s.approach) <= 1e-6 * s.approach);
+    rc_adhesion_free(a);
+}
+
 /* ---- maps ---- */
 
 static void
@@ -407,8 +476,14 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(requests),         cmocka_unit_test(saddles), cmocka_unit_test(parting),
-        cmocka_unit_test(pull_off_by_hand), cmocka_unit_test(maps),    cmocka_unit_test(hardness),
+        cmocka_unit_test(requests),
+        cmocka_unit_test(saddles),
+        cmocka_unit_test(parting),
+        cmocka_unit_test(pull_off_by_hand),
+        cmocka_unit_test(pull_off_of_rough),
+        cmocka_unit_test(pull_off_at_start),
+        cmocka_unit_test(maps),
+        cmocka_unit_test(hardness),
         cmocka_unit_test(coatings),
     };
 

@@ -40,14 +40,15 @@ sphere_of(size_t n, double nodes)
 }
 
 /* Bounds: of the load where it is none, over pi w R; of the lowest load, relative. They are what the grid
- * leaves: numerics of the same kind are off by 1e-3 to 1e-2. */
+ * leaves. Where the ring that attracts is 4, 1.6 and 0.6 nodes wide the load over the approach is a saw, whose
+ * lowest tooth, in 200 states, is 0.2, 0.26 and 0.71 % below Maugis' lowest load. */
 static const struct {
     double lambda, nodes;
     size_t n;
     double load, pull_off;
 } rows[] = {
-    {0.1, 20, 128, 1.5e-3, 3e-4}, {0.5, 40, 128, 1.6e-3, 8.4e-4}, {1, 40, 120, 2.3e-3, 5e-3},
-    {3, 40, 104, 1.2e-3, 5e-3},   {5, 40, 104, 2.6e-3, 6e-3},
+    {0.1, 20, 128, 1.5e-3, 3e-4}, {0.5, 40, 128, 1.6e-3, 8.4e-4}, {1, 40, 120, 2.3e-3, 2.5e-3},
+    {3, 40, 104, 1.2e-3, 3e-3},   {5, 40, 104, 2.6e-3, 7.5e-3},
 };
 static const double of_radius = 0.02; /* in units of Maugis: below a node */
 
@@ -78,10 +79,13 @@ sphere_of_maugis(void **state)
         assert_true(fabs(a - none.a) <= of_radius);
         f = adhesion_pull(path);
         is = f->pull_off_load / s.load;
-        print_message("    lowest load %.5f (%.5f): %+.1e (%.1e), %zu states, %.0f convolutions\n",
-                      is, lowest, is / lowest - 1, rows[k].pull_off, f->states, f->convolutions);
+        print_message("    lowest load %.5f (%.5f): %+.1e (%.1e), spread %.1e, %zu states, %.0f "
+                      "convolutions\n",
+                      is, lowest, is / lowest - 1, rows[k].pull_off,
+                      f->pull_off_spread / fabs(f->pull_off_load), f->states, f->convolutions);
         assert_true(f->converged);
         assert_true(fabs(is / lowest - 1) <= rows[k].pull_off);
+        assert_true(f->pull_off_spread <= 0.01 * fabs(f->pull_off_load));
         rc_adhesion_free(path);
         free(s.h);
     }

@@ -361,7 +361,7 @@ warn_of_state(struct run *run, const char *where, const struct rc_adhesion_figur
                   "%s: stability %.2g: the state is about to jump, and figures depend on little: a "
                   "list of approaches leads through it",
                   where, f->stability);
-    if (run->adhering.pulling && isnan(f->pull_off_spread))
+    if (run->adhering.pulling && f->pull_off_at_start)
         tool_warn(
             &run->t,
             "%s: the load was lowest before they were drawn apart: let the list end where the "
@@ -499,8 +499,7 @@ adhesion_memory(const struct run *run, const struct rc_grid *g, const struct rc_
     const struct rc_shape shape = rc_grid_shape(g);
     const struct rc_adhesion_problem problem = problem_of(run, *contact);
 
-    return rc_adhesion_memory(&shape, &problem) + 2 * rc_grid_nodes(g) * sizeof *g->v +
-           tool_code(&run->t, SOLVE_CODE);
+    return rc_adhesion_memory(&shape, &problem) + 2 * rc_grid_nodes(g) * sizeof *g->v + tool_code(&run->t, SOLVE_CODE);
 }
 
 /* ---- plan and report ---- */
