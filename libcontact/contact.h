@@ -885,6 +885,9 @@ RC_API void rc_adhesion_free(struct rc_adhesion *a); /* NULL is allowed */
 /* Bytes that one takes; 0 when there is none such. */
 RC_API size_t rc_adhesion_memory(const struct rc_shape *shape,
                                  const struct rc_adhesion_problem *problem);
+/* Bytes that it takes besides once it has been pulled off. */
+RC_API size_t rc_adhesion_pull_off_memory(const struct rc_shape *shape,
+                                          const struct rc_adhesion_problem *problem);
 /* What a state of a path will take. Fails as rc_adhesion_check. */
 RC_API enum rc_status rc_adhesion_expect(const struct rc_shape *shape,
                                          const struct rc_adhesion_problem *problem,

@@ -1,5 +1,5 @@
 /* The library's estimates of memory are within a tenth of the peak, each in a process of its own: solver,
- * stiffness, stresses, friction, plasticity, sums, flow and slabs, on maps large enough that code and plans
+ * stiffness, stresses, friction, adhesion, plasticity, sums, flow and slabs, on maps large enough that code and plans
  * do not count. */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -17,8 +17,9 @@
 #include "libcontact/volume/volume.h"
 #include "tools/machine/memory.h"
 
-/* The second for what takes few bytes a node. */
-static const struct rc_shape map = {701, 500, 1e-6, 1.1e-6}, large = {701, 4000, 1e-6, 1.1e-6};
+/* The second for what takes few bytes a node, the third for what takes long. */
+static const struct rc_shape map = {701, 500, 1e-6, 1.1e-6}, large = {701, 4000, 1e-6, 1.1e-6},
+                             small = {351, 250, 1e-6, 1.1e-6};
 static const double tenth = 0.1;
 
 struct work {
@@ -285,6 +286,41 @@ friction(const struct work *w, const double *h, const double *p)
     return status == RC_OK ? bytes : 0;
 }
 
+static size_t
+states_of(const struct rc_adhesion *a)
+{
+    struct rc_adhesion_progress progress;
+
+    rc_adhesion_progress(a, &progress);
+    return progress.state;
+}
+
+/* A state to its end, with its eigenvalue, and four of a retraction. */
+static size_t
+adhesion(const struct work *w, const double *h, const double *p)
+{
+    const struct rc_adhesion_problem problem = {
+        .contact = {.boundary = w->boundary, .pair.estar = 3e9, .tol = 1e-3},
+        .work = 0.1,
+        .law = "jkr"};
+    size_t bytes =
+        rc_adhesion_memory(w->shape, &problem) + rc_adhesion_pull_off_memory(w->shape, &problem);
+    struct rc_adhesion *a = rc_adhesion_new(w->shape, h, &problem, NULL);
+    enum rc_status status = RC_FAIL;
+
+    (void)p;
+    if (a != NULL && rc_adhesion_set_approach(a, 1e-8, NULL) == RC_OK) {
+        while ((status = rc_adhesion_step(a, NULL)) == RC_MORE)
+            ;
+        status = rc_adhesion_pull_off(a, NULL);
+        while (status != RC_FAIL && states_of(a) <= 4 &&
+               (status = rc_adhesion_step(a, NULL)) == RC_MORE)
+            ;
+    }
+    rc_adhesion_free(a);
+    return status != RC_FAIL ? bytes : 0;
+}
+
 /* Of the voxels that have yielded in the end, a tenth at least: no others have taken memory. */
 static size_t
 yielding(const struct work *w, const double *h, const double *p)
@@ -371,6 +407,8 @@ holds(void **state)
         {"stress, strained, periodic", &map, RC_PERIODIC, NULL, 2 * transforms, stress_strained},
         {"friction", &map, RC_FREE, NULL, 2 * transforms, friction},
         {"friction, periodic", &map, RC_PERIODIC, NULL, 2 * transforms, friction},
+        {"adhesion, pulled off", &small, RC_FREE, NULL, 2 * transforms, adhesion},
+        {"adhesion, pulled off, periodic", &small, RC_PERIODIC, NULL, 2 * transforms, adhesion},
         {"patches", &large, RC_FREE, NULL, 0, patches},
         {"spectrum", &map, RC_PERIODIC, NULL, transforms, psd},
 #ifdef RC_LEAK

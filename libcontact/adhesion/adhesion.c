@@ -865,6 +865,14 @@ rc_adhesion_memory(const struct rc_shape *shape, const struct rc_adhesion_proble
            (problem->contact.hardness_map != NULL ? n * sizeof(double) : 0);
 }
 
+size_t
+rc_adhesion_pull_off_memory(const struct rc_shape *shape, const struct rc_adhesion_problem *problem)
+{
+    struct rc_shape grid = rc_whole_grid(shape, problem->contact.boundary);
+
+    return RC_RETRACTION_KEPT * grid.nx * grid.ny * sizeof(double);
+}
+
 enum rc_status
 rc_adhesion_expect(const struct rc_shape *shape, const struct rc_adhesion_problem *problem,
                    struct rc_expected *expected, struct rc_err *err)

@@ -299,7 +299,8 @@ adheres(double *out, struct rc_err *err)
     rc_adhesion_traction(b, out + 3 * N);
     rc_adhesion_keep_shape(b, out + N);
     out[4 * N] = rc_adhesion_result(a)->pull_off_load;
-    out[4 * N + 1] = (double)rc_adhesion_memory(&shape, &problem);
+    out[4 * N + 1] = (double)(rc_adhesion_memory(&shape, &problem) +
+                              rc_adhesion_pull_off_memory(&shape, &problem));
     out[4 * N + 2] = rc_adhesion_scales(a)->range;
     out[4 * N + 3] = rc_adhesion_law_info(0)->ranged;
     status = RC_OK;

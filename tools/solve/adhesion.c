@@ -499,7 +499,9 @@ adhesion_memory(const struct run *run, const struct rc_grid *g, const struct rc_
     const struct rc_shape shape = rc_grid_shape(g);
     const struct rc_adhesion_problem problem = problem_of(run, *contact);
 
-    return rc_adhesion_memory(&shape, &problem) + 2 * rc_grid_nodes(g) * sizeof *g->v + tool_code(&run->t, SOLVE_CODE);
+    return rc_adhesion_memory(&shape, &problem) +
+           (run->args->pull_off ? rc_adhesion_pull_off_memory(&shape, &problem) : 0) +
+           2 * rc_grid_nodes(g) * sizeof *g->v + tool_code(&run->t, SOLVE_CODE);
 }
 
 /* ---- plan and report ---- */
