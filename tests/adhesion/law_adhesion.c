@@ -328,20 +328,81 @@ static const struct {
     {128, 0.1, 2, 0.64, {40, 54, 65}},
 };
 
+static const double levels[] = {1e-2, 1e-4, 1e-6};
+
+/* Convolutions from undeformed bodies to these true errors of the pressure. */
+static void
+convolutions_to_levels(struct rc_shape shape, struct rc_adhesion_problem problem, double approach,
+                       double at[3])
+{
+    const size_t n = shape.nx * shape.ny;
+    struct rc_adhesion *a;
+    enum rc_status status;
+
+    problem.contact.tol = 1e-11;
+    a = adhesion_new(shape, h, problem);
+    assert_true(adhesion_to_approach(a, approach)->converged);
+    rc_adhesion_pressure(a, exact);
+    rc_adhesion_free(a);
+    a = adhesion_new(shape, h, problem);
+    assert_int_equal(rc_adhesion_set_approach(a, approach, &adhesion_err), RC_OK);
+    at[0] = at[1] = at[2] = 0;
+    do {
+        double error, is;
+        status = rc_adhesion_step(a, &adhesion_err);
+        rc_adhesion_pressure(a, p);
+        error = adhesion_distance(n, p, exact);
+        is = rc_adhesion_result(a)->convolutions;
+        for (size_t q = 0; q < 3; q++)
+            at[q] = error >= levels[q] ? 0 : at[q] > 0 ? at[q] : is;
+        if (at[2] > 0 && at[2] < is)
+            break;
+    } while (status == RC_MORE);
+    rc_adhesion_free(a);
+}
+
+/* A sphere on the free boundary, where it just touches: radius of JKR's contact at no load 0.3 of the map. */
+static const struct {
+    double tabor, counts[3];
+} free_costs[] = {{0.3, {8, 14, 18}}, {1, {12, 18, 24}}, {2, {15, 20, 24}}, {4, {38, 46, 54}}};
+
+static void
+costs_of_spheres(void **state)
+{
+    (void)state;
+    for (size_t n = 64; n <= 128; n *= 2)
+        for (size_t k = 0; k < sizeof free_costs / sizeof *free_costs; k++) {
+            const struct rc_shape shape = {n, n, 1, 1};
+            const struct rc_place apex = {0.25, 0.25};
+            double a0 = 0.3 * (double)n, radius = 10 * (double)n, at[3],
+                   work = a0 * a0 * a0 / (4.5 * exact_pi * radius * radius);
+            struct rc_adhesion_problem problem = {
+                .contact = {.pair.estar = 1, .max_iterations = 3000},
+                .work = work,
+                .range = cbrt(radius * work * work) / free_costs[k].tabor};
+
+            rc_synth_paraboloid(&shape, apex, radius, radius, 0, h);
+            convolutions_to_levels(shape, problem, 0, at);
+            print_message("sphere, %zu nodes a side, Tabor %g: %g / %g / %g (%g / %g / %g)\n", n,
+                          free_costs[k].tabor, at[0], at[1], at[2], free_costs[k].counts[0],
+                          free_costs[k].counts[1], free_costs[k].counts[2]);
+            for (size_t q = 0; q < 3; q++)
+                assert_true(at[q] > 0 && at[q] <= 1.2 * free_costs[k].counts[q]);
+        }
+}
+
 static void
 costs_are_known(void **state)
 {
-    const double levels[] = {1e-2, 1e-4, 1e-6};
 
     (void)state;
     for (size_t k = 0; k < sizeof costs / sizeof *costs; k++) {
         size_t n = costs[k].n;
         struct rc_shape shape = rough(n, 1, false);
-        double low = 0, high = depth(n) * 0.999, approach = 0, at[3] = {0};
+        double low = 0, high = depth(n) * 0.999, approach = 0, at[3];
         struct rc_adhesion_problem problem =
             law_of(RC_PERIODIC, costs[k].strength, costs[k].ell, 1e-3);
         struct rc_adhesion *a;
-        enum rc_status status;
 
         for (int half = 0; half < 12; half++) {
             double is;
@@ -356,29 +417,12 @@ costs_are_known(void **state)
             else
                 high = approach;
         }
-        problem.contact.tol = 1e-11;
-        a = adhesion_new(shape, h, problem);
-        assert_true(adhesion_to_approach(a, approach)->converged);
-        rc_adhesion_pressure(a, exact);
-        rc_adhesion_free(a);
-        a = adhesion_new(shape, h, problem);
-        assert_int_equal(rc_adhesion_set_approach(a, approach, &adhesion_err), RC_OK);
-        do {
-            double error;
-            status = rc_adhesion_step(a, &adhesion_err);
-            rc_adhesion_pressure(a, p);
-            error = adhesion_distance(n * n, p, exact);
-            for (size_t q = 0; q < 3; q++)
-                at[q] = error >= levels[q] ? 0
-                        : at[q] > 0        ? at[q]
-                                           : rc_adhesion_result(a)->convolutions;
-        } while (status == RC_MORE && !(at[2] > 0 && at[2] < rc_adhesion_result(a)->convolutions));
+        convolutions_to_levels(shape, problem, approach, at);
         print_message("%zu nodes a side, ell %g: %g / %g / %g (%g / %g / %g)\n", n, costs[k].ell,
                       at[0], at[1], at[2], costs[k].counts[0], costs[k].counts[1],
                       costs[k].counts[2]);
         for (size_t q = 0; q < 3; q++)
             assert_true(at[q] > 0 && at[q] <= 1.2 * costs[k].counts[q]);
-        rc_adhesion_free(a);
     }
 }
 
@@ -509,10 +553,11 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(laws_are_whole),    cmocka_unit_test(errors_are_known),
-        cmocka_unit_test(paths_are_stable),  cmocka_unit_test(eigenvalues_are_right),
-        cmocka_unit_test(costs_are_known),   cmocka_unit_test(sums_agree),
-        cmocka_unit_test(units_and_mirrors), cmocka_unit_test(paths_resume),
+        cmocka_unit_test(laws_are_whole),   cmocka_unit_test(errors_are_known),
+        cmocka_unit_test(paths_are_stable), cmocka_unit_test(eigenvalues_are_right),
+        cmocka_unit_test(costs_are_known),  cmocka_unit_test(costs_of_spheres),
+        cmocka_unit_test(sums_agree),       cmocka_unit_test(units_and_mirrors),
+        cmocka_unit_test(paths_resume),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
