@@ -9,6 +9,7 @@
 #include "ending.h"
 #include "tools/text/text.h"
 #include "tools/machine/machine.h"
+#include "attracts.h"
 #include "physics.h"
 #include "ranks.h"
 #include "report.h"

@@ -16,66 +16,6 @@ static const double too_strong = 0.1; /* of E*: the tractions of linear elastici
 
 /* ---- the command line ---- */
 
-static bool
-is_law(const char *text, size_t n)
-{
-    const struct rc_adhesion_law_info *law;
-
-    for (size_t k = 0; (law = rc_adhesion_law_info(k)) != NULL; k++)
-        if (strlen(law->name) == n && memcmp(law->name, text, n) == 0)
-            return true;
-    return false;
-}
-
-static void
-list_laws(char *text, size_t size)
-{
-    const struct rc_adhesion_law_info *law;
-    size_t n = 0;
-
-    text[0] = '\0';
-    for (size_t k = 0; (law = rc_adhesion_law_info(k)) != NULL && n < size; k++)
-        n += (size_t)snprintf(text + n, size - n, "%s%s", k == 0 ? "" : ", ", law->name);
-}
-
-/* WORK[,LAW[,RANGE]] */
-static enum rc_status
-read_law(struct adhering *a, const char *text, struct rc_err *err)
-{
-    char part[3][64] = {"", "", ""}, laws[128];
-    size_t n = 0;
-
-    for (const char *at = text; n < 3; at += strcspn(at, ",") + 1, n++) {
-        size_t length = strcspn(at, ",");
-        if (length >= sizeof part[n])
-            return rc_err_set(err, "it must be WORK,LAW,RANGE, as in 50mJ/m2,exponential,2nm");
-        memcpy(part[n], at, length);
-        part[n][length] = '\0';
-        if (at[length] == '\0')
-            break;
-        if (n == 2)
-            return rc_err_set(err, "it must be WORK,LAW,RANGE, as in 50mJ/m2,exponential,2nm");
-    }
-    if (unit_number(part[0], UNIT_WORK, &a->problem.work, err) != RC_OK)
-        return RC_FAIL;
-    if (!(a->problem.work > 0))
-        return rc_err_set(err, "the work of adhesion must be above 0: bodies that do not attract "
-                               "each other need no --adhesion");
-    list_laws(laws, sizeof laws);
-    if (n >= 1 && !is_law(part[1], strlen(part[1])))
-        return rc_err_set(err, "there is no law '%s': it must be one of %s", part[1], laws);
-    snprintf(a->law, sizeof a->law, "%s", part[1]);
-    a->problem.law = n >= 1 ? a->law : NULL;
-    if (n < 2)
-        return RC_OK;
-    if (unit_number(part[2], UNIT_M, &a->problem.range, err) != RC_OK)
-        return RC_FAIL;
-    if (!(a->problem.range > 0))
-        return rc_err_set(
-            err, "the range must be above 0: without one it is such that the grid holds it");
-    return RC_OK;
-}
-
 static void
 refuse(struct run *run, bool given, const char *what, const char *why)
 {
@@ -99,7 +39,7 @@ adhesion_read(struct run *run)
         tool_die(&run->t, EXIT_USAGE, "--output adhesion needs --adhesion");
     if (!a->wanted)
         return;
-    if (read_law(a, args->adhesion, &err) != RC_OK)
+    if (attraction_read(&a->law, args->adhesion, &err) != RC_OK)
         tool_die(&run->t, EXIT_USAGE, "--adhesion %s: %s", args->adhesion, err.text);
     refuse(run, args->yield != NULL, "--yield", "what yields inside is pressed by pressures alone");
     refuse(run, run->tilt, "--tilt free", "bodies that attract each other follow one direction");
@@ -119,7 +59,7 @@ adhesion_read(struct run *run)
 static struct rc_adhesion_problem
 problem_of(const struct run *run, struct rc_problem contact)
 {
-    struct rc_adhesion_problem problem = run->adhering.problem;
+    struct rc_adhesion_problem problem = run->adhering.law.problem;
 
     problem.contact = contact;
     return problem;
@@ -189,7 +129,7 @@ restore(struct run *run, const struct rc_grid *g)
 void
 adhesion_mark(const struct run *run, char *value, size_t size)
 {
-    const struct rc_adhesion_problem *p = &run->adhering.problem;
+    const struct rc_adhesion_problem *p = &run->adhering.law.problem;
     char work[RC_NUMBER_SIZE], range[RC_NUMBER_SIZE];
 
     value[0] = '\0';
@@ -295,7 +235,7 @@ put_out(struct run *run, const struct rc_grid *g, const struct rc_contact *c)
     if (as == NULL)
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     solve_set_keys(run, as, c);
-    snprintf(law, sizeof law, "%s,%s,%s", rc_number_text(work, run->adhering.problem.work),
+    snprintf(law, sizeof law, "%s,%s,%s", rc_number_text(work, run->adhering.law.problem.work),
              run->adhering.scales.law, rc_number_text(range, run->adhering.scales.range));
     if (rc_grid_set(as, "adhesion", law, &err) != RC_OK ||
         rc_grid_set_number(as, "load", c->load, &err) != RC_OK)
@@ -529,7 +469,7 @@ adhesion_state(const struct run *run)
     if (!a->wanted)
         return "left out: no --adhesion";
     snprintf(text, sizeof text, "on: %s, %s over %s: at most %s, cohesive length %.2g nodes",
-             a->scales.law, shown_in_unit(work, a->problem.work, "J/m2"),
+             a->scales.law, shown_in_unit(work, a->law.problem.work, "J/m2"),
              shown_in_unit(range, a->scales.range, "m"),
              shown_in_unit(strength, a->scales.strength, "Pa"), a->scales.cohesive_nodes);
     return text;
@@ -540,7 +480,7 @@ static double
 tabor(const struct run *run)
 {
     const struct physics *p = &run->args->physics;
-    double w = run->adhering.problem.work / p->surface_estar;
+    double w = run->adhering.law.problem.work / p->surface_estar;
 
     return cbrt(p->radius * w * w) / run->adhering.scales.range;
 }
@@ -552,7 +492,7 @@ adhesion_report(struct report *r, const struct run *run)
     const bool on = a->path != NULL;
     const struct rc_adhesion_figures none = {0}, *f = on ? rc_adhesion_result(a->path) : &none;
 
-    report_number(r, "adhesion_work", on ? a->problem.work : NAN, "J/m2");
+    report_number(r, "adhesion_work", on ? a->law.problem.work : NAN, "J/m2");
     report_text(r, "adhesion_law", on ? a->scales.law : NULL);
     report_number(r, "adhesion_range", on ? a->scales.range : NAN, "m");
     report_number(r, "cohesive_nodes", on ? a->scales.cohesive_nodes : NAN, NULL);

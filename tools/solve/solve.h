@@ -71,12 +71,11 @@ struct yielding {
 /* --adhesion: the bodies attract each other. */
 struct adhering {
     bool wanted;
-    char law[64];
-    struct rc_adhesion_problem problem; /* but for the contact                               */
-    struct rc_adhesion_scales scales;   /* on this grid                                      */
-    struct rc_adhesion *path;           /* NULL: none                                        */
-    bool pulling;                       /* this case is the one of --pull-off                */
-    enum rc_status status;              /* of the state                                      */
+    struct attraction law;
+    struct rc_adhesion_scales scales; /* on this grid                                      */
+    struct rc_adhesion *path;         /* NULL: none                                        */
+    bool pulling;                     /* this case is the one of --pull-off                */
+    enum rc_status status;            /* of the state                                      */
 };
 
 struct run {

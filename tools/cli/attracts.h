@@ -1,0 +1,17 @@
+/*
+ * Bodies that attract each other, as the tools that solve them are told.
+ */
+#ifndef RC_TOOL_ATTRACTS_H
+#define RC_TOOL_ATTRACTS_H
+
+#include "libcontact/contact.h"
+
+struct attraction {
+    struct rc_adhesion_problem problem; /* but for the contact; its law points to `name` */
+    char name[64];
+};
+
+/* "WORK", "WORK,LAW" or "WORK,LAW,RANGE". */
+enum rc_status attraction_read(struct attraction *a, const char *text, struct rc_err *err);
+
+#endif
