@@ -10,8 +10,8 @@
 
 static struct args {
     struct physics physics;
-    const char *yield;       /* as on the line, or NULL */
-    size_t kernels, methods; /* bits */
+    const char *yield, *adhesion; /* as on the line, or NULL */
+    size_t kernels, methods;      /* bits */
     double limit, budget, error;
     struct numbers depths; /* none: auto, where it was given */
     double nu, mu;
@@ -32,6 +32,8 @@ static const struct opt opts[] = {
     {.group = physics_options, AT(physics)},
     {.name = "yield", .type = OPT_TEXT, AT(yield), .result = true, .arg = "Y[,HM]|FILE.tsv",
      .help = "body 1 yields inside, as for rc-solve: increments and slabs are what is tried"},
+    {.name = "adhesion", .type = OPT_TEXT, AT(adhesion), .result = true, .arg = "WORK[,LAW[,RANGE]]",
+     .help = "the bodies attract each other, as for rc-solve: tolerances and grids are what is tried"},
     {.name = "kernel", .alias = "engine", .type = OPT_WORDS, AT(kernels), .words = words_engine,
      .arg = "LIST", .help = "try only these, of %s (default: all)"},
     {.name = "method", .type = OPT_WORDS, AT(methods), .words = words_method, .arg = "LIST",
@@ -80,6 +82,7 @@ struct run {
     size_t cases;
     struct report report;
     struct yield_law yield;
+    struct attraction attraction;
 };
 
 /* ---- the command line ---- */
@@ -108,10 +111,38 @@ read_yield(struct run *run)
 }
 
 static void
+refuse_beside_adhesion(struct tool *t, bool given, const char *what, const char *why)
+{
+    if (given)
+        tool_die(t, EXIT_USAGE, "--adhesion: not with %s: %s", what, why);
+}
+
+static void
+read_adhesion(struct run *run)
+{
+    struct tool *t = &run->t;
+    struct rc_err err;
+
+    if (args.adhesion == NULL)
+        return;
+    if (attraction_read(&run->attraction, args.adhesion, &err) != RC_OK)
+        tool_die(t, EXIT_USAGE, "--adhesion %s: %s", args.adhesion, err.text);
+    refuse_beside_adhesion(t, args.yield != NULL, "--yield",
+                           "what yields inside is pressed by pressures alone");
+    refuse_beside_adhesion(t, tool_given(t, "kernel") || tool_given(t, "method"),
+                           "--kernel and --method", "there is one way to iterate it");
+    refuse_beside_adhesion(t, tool_given(t, "depths"), "--depths",
+                           "rc-stress takes the net pressures that rc-solve finds");
+    refuse_beside_adhesion(t, args.leak != NULL, "--leak",
+                           "rc-leak takes the gap that rc-solve finds");
+}
+
+static void
 check_arguments(struct run *run)
 {
     struct tool *t = &run->t;
 
+    args.physics.attracts = args.adhesion != NULL;
     physics_check(t, &args.physics);
     if (physics_steps(&args.physics)->n > 1)
         tool_die(t, EXIT_USAGE, "one load at a time: %zu were given",
@@ -129,6 +160,7 @@ check_arguments(struct run *run)
     if (!tool_given(t, "depths") && (tool_given(t, "nu") || tool_given(t, "mu")))
         tool_die(t, EXIT_USAGE, "--nu and --mu are for stresses: give --depths as well");
     read_yield(run);
+    read_adhesion(run);
     ending_demand_picture(t, "--plot", args.plot);
     tool_demand_writable(t, "--plot", args.plot);
     report_open(&run->report, t, args.report);
@@ -245,14 +277,18 @@ open_case(struct run *run, struct rc_grid *g, const struct rc_grid *hardness, st
                             .depths = args.depths,
                             .nu = args.nu,
                             .mu = args.mu,
+                            .by_approach = args.physics.approach.n > 0,
                             .leak = args.leak == NULL ? '\0' : args.leak[0]};
     if (hardness != NULL)
         c->problem.hardness_map = hardness->v;
     c->yield = args.yield != NULL ? &run->yield.law : NULL;
-    c->reference.settings = cost_reference(c->yield != NULL);
+    c->adhesion = args.adhesion != NULL ? &run->attraction.problem : NULL;
+    c->reference.settings =
+        c->adhesion != NULL ? cost_attracting_reference() : cost_reference(c->yield != NULL);
     c->reference.shape = c->shape;
-    c->trial = c->yield != NULL ? cost_yielding_trials(&c->trials)
-                                : cost_trials(args.kernels, args.methods, &c->trials);
+    c->trial = c->adhesion != NULL ? cost_attracting_trials(&c->trials)
+               : c->yield != NULL  ? cost_yielding_trials(&c->trials)
+                                   : cost_trials(args.kernels, args.methods, &c->trials);
     c->stress = tool_given(&run->t, "depths") ? cost_stress_trials(c, &c->stresses) : NULL;
     if (c->trial == NULL || (tool_given(&run->t, "depths") && c->stress == NULL))
         tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "out of memory");

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "tools/text/units.h"
+#include "tools/text/text.h"
 
 static bool
 is_law(const char *text, size_t n)

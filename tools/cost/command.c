@@ -56,8 +56,10 @@ put_command(struct tool *t, const struct cost_trial *m, FILE *out)
         put_files(t, out);
         fputs(" | ", out);
     }
-    fprintf(out, "rc-solve%s --method %s --kernel %s --tol %s", physics, m->settings.method,
-            m->settings.kernel, rc_number_text(tol, m->settings.tol));
+    fprintf(out, "rc-solve%s", physics);
+    if (!m->settings.attracts) /* there is one method, with one kernel */
+        fprintf(out, " --method %s --kernel %s", m->settings.method, m->settings.kernel);
+    fprintf(out, " --tol %s", rc_number_text(tol, m->settings.tol));
     if (m->settings.increments > 0)
         fprintf(out, " --increments %zu --slabs %zu", m->settings.increments, m->slabs);
     if (t->threads != rc_threads_available())

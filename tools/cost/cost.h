@@ -24,6 +24,7 @@ struct cost_settings {
     size_t increments; /* of a body that yields inside; 0: elastic, or a hardness                 */
     double stack;      /* its slabs, in times of those that rc-solve would take                   */
     bool precise;      /* its strains in double precision                                         */
+    bool attracts;     /* bodies that attract each other                                          */
 };
 
 enum cost_state {
@@ -45,6 +46,7 @@ struct cost_trial {
     double convolutions; /* in equivalents of one on the map's own grid                       */
     size_t memory;       /* bytes beyond the map and the result                               */
     size_t slabs, applications; /* of a body that yields inside: what was taken, and what it took */
+    double cohesive_nodes; /* cohesive length in nodes of its grid; NAN: nothing attracts         */
     struct rc_contact contact;
     double error; /* relative L1, of the pressure on the map's own grid                       */
     double area_error, peak_error, approach_error; /* relative, signed; NAN: unknown          */
@@ -67,6 +69,9 @@ struct rc_shape cost_coarse_shape(const struct rc_shape *map, unsigned factor);
 size_t cost_series(const struct cost_settings *settings);
 const char *cost_series_name(char text[64], const struct cost_trial *trial);
 const char *cost_point_name(char text[32], const struct cost_settings *settings);
+/* The same of bodies that attract each other. */
+struct cost_trial *cost_attracting_trials(size_t *n);
+struct cost_settings cost_attracting_reference(void);
 /* Settings of the reference: double precision throughout, to 1e-12; of a body that yields, more increments
  * than any trial and the finest slabs. */
 struct cost_settings cost_reference(bool yields);
@@ -93,11 +98,13 @@ struct cost_case {
     const struct rc_grid *heights;
     struct rc_shape shape;
     struct rc_problem problem;    /* engine, method and tol are those of a trial                 */
+    bool by_approach;             /* that is given, not the load                                  */
     char leak;                    /* direction of a flow through the gap; 0: none                */
     const struct rc_yield *yield; /* of body 1; NULL: it is elastic, or has a hardness            */
-    double limit, began;          /* s: for all trials; when the first one started               */
-    double budget, error;         /* s, -: what a command is chosen for; NAN: the other, or none */
-    bool choosing, shown;         /* for one of them; all trials are shown nevertheless          */
+    const struct rc_adhesion_problem *adhesion; /* but for the contact; NULL: nothing attracts    */
+    double limit, began;  /* s: for all trials; when the first one started               */
+    double budget, error; /* s, -: what a command is chosen for; NAN: the other, or none */
+    bool choosing, shown; /* for one of them; all trials are shown nevertheless          */
     struct cost_trial reference;
     double *pressure; /* of the reference */
     struct cost_trial *trial;

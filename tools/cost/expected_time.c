@@ -31,6 +31,13 @@ expected(const struct cost_case *c, const struct cost_trial *t)
     problem.threads = c->tool->threads;
     if (t->settings.coarse > 1)
         problem.hardness_map = NULL; /* it is of another grid */
+    if (c->adhesion != NULL) {
+        struct rc_adhesion_problem attracting = *c->adhesion;
+        attracting.contact = problem;
+        if (rc_adhesion_expect(&t->shape, &attracting, &e, NULL) != RC_OK)
+            e = (struct rc_expected){NAN, NAN, 0};
+        return e;
+    }
     if (rc_solver_expect(&t->shape, &problem, &e, NULL) != RC_OK)
         e = (struct rc_expected){NAN, NAN, 0};
     if (t->settings.increments > 0) { /* that many times the elastic solution */

@@ -18,7 +18,10 @@ struct job {
     bool done;
     double seconds, convolutions;
     size_t memory;
-    const struct rc_yield *yield; /* NULL: elastic, or a hardness */
+    const struct rc_yield *yield;               /* NULL: elastic, or a hardness */
+    const struct rc_adhesion_problem *adhesion; /* NULL: nothing attracts */
+    bool by_approach;
+    double cohesive_nodes;
     struct rc_plastic_figures figures;
     char leak;
     double flow, flow_seconds;
@@ -136,6 +139,70 @@ find_flow(struct job *j, struct rc_solver *solver)
     return status == RC_OK;
 }
 
+/* Bodies that attract each other, as rc-solve --adhesion finds their first state: from afar. On the trial's
+ * grid, to `p`. */
+static bool
+attract(struct job *j, const double *h, double *p)
+{
+    struct rc_adhesion_problem problem = *j->adhesion;
+    const struct rc_adhesion_figures *f;
+    struct rc_adhesion *a;
+    enum rc_status status;
+
+    problem.contact = j->problem;
+    if ((a = rc_adhesion_new(&j->trial->shape, h, &problem, &j->err)) == NULL)
+        return false;
+    status = j->by_approach ? rc_adhesion_set_approach(a, j->problem.approach, &j->err)
+                            : rc_adhesion_set_load(a, j->problem.load, &j->err);
+    if (status != RC_OK)
+        return false;
+    while ((status = rc_adhesion_step(a, &j->err)) == RC_MORE) {
+        struct rc_adhesion_progress at;
+        rc_adhesion_progress(a, &at);
+        j->at = (struct rc_progress){.iterations = at.iterations, .error = at.error};
+    }
+    if (status == RC_FAIL)
+        return false;
+    f = rc_adhesion_result(a);
+    if (f->separated) {
+        rc_err_set(&j->err, "under this load the bodies part");
+        return false;
+    }
+    j->cohesive_nodes = rc_adhesion_scales(a)->cohesive_nodes;
+    j->convolutions = f->convolutions;
+    j->contact = (struct rc_contact){.contact_area = f->contact_area,
+                                     .contact_fraction = f->contact_fraction,
+                                     .plastic_area = f->plastic_area,
+                                     .max_pressure = f->max_pressure,
+                                     .approach = f->approach,
+                                     .pressure_error = f->pressure_error,
+                                     .iterations = f->iterations,
+                                     .converged = f->converged};
+    rc_adhesion_pressure(a, p);
+    return true;
+}
+
+/* By pressing alone; the pressure on the trial's grid, or NULL. */
+static const double *
+press(struct job *j, const double *h, double start, size_t before)
+{
+    struct rc_solver *solver = rc_solver_new(&j->trial->shape, h, &j->problem, &j->err);
+
+    if (solver == NULL)
+        return NULL;
+    while (rc_solver_step(solver) == RC_MORE)
+        rc_solver_progress(solver, &j->at);
+    if (j->yield != NULL && (solver = yield_inside(j, h, solver)) == NULL)
+        return NULL;
+    j->seconds = tool_now() - start;
+    j->memory = tool_peak_memory() - before;
+    if (j->yield == NULL) {
+        j->convolutions = rc_solver_convolutions(solver);
+        rc_solver_result(solver, NULL, NULL, &j->contact);
+    }
+    return j->leak != 0 && !find_flow(j, solver) ? NULL : rc_solver_pressure(solver);
+}
+
 static void
 work(void *ctx)
 {
@@ -143,32 +210,28 @@ work(void *ctx)
     const struct rc_shape *shape = &j->trial->shape;
     bool coarse = j->trial->settings.coarse > 1;
     double start = tool_now();
-    const double *h = coarse ? coarse_maps(j, shape) : j->h;
+    const double *h = coarse ? coarse_maps(j, shape) : j->h, *p = NULL;
     size_t before = tool_peak_memory();
-    struct rc_solver *solver;
 
     if (h == NULL)
         return;
-    if ((solver = rc_solver_new(shape, h, &j->problem, &j->err)) == NULL)
-        return;
-    while (rc_solver_step(solver) == RC_MORE)
-        rc_solver_progress(solver, &j->at);
-    if (j->yield != NULL && (solver = yield_inside(j, h, solver)) == NULL)
-        return;
-    j->seconds = tool_now() - start;
-    j->memory = tool_peak_memory() - before;
-    if (j->yield == NULL) {
-        j->convolutions = rc_solver_convolutions(solver);
-        rc_solver_result(solver, NULL, NULL, &j->contact);
+    if (j->adhesion != NULL) {
+        double *net = new_map(shape);
+        if (net != NULL && attract(j, h, net))
+            p = net;
+        j->seconds = tool_now() - start;
+        j->memory = tool_peak_memory() - before;
+    } else {
+        p = press(j, h, start, before);
     }
-    if (j->leak != 0 && !find_flow(j, solver))
+    if (p == NULL)
         return;
     start = tool_now();
     if (coarse) {
-        rc_resample_means(shape, rc_solver_pressure(solver), &j->map, j->p);
+        rc_resample_means(shape, p, &j->map, j->p);
         j->seconds += tool_now() - start;
     } else {
-        memcpy(j->p, rc_solver_pressure(solver), shape->nx * shape->ny * sizeof *j->p);
+        memcpy(j->p, p, shape->nx * shape->ny * sizeof *j->p);
     }
     j->done = true;
 }
@@ -198,7 +261,7 @@ distance(size_t n, const double *p, const double *truth)
 
     for (size_t k = 0; k < n; k++) {
         sum += fabs(p[k] - truth[k]);
-        all += truth[k];
+        all += fabs(truth[k]); /* bodies that attract each other: net pressures */
     }
     return sum / all;
 }
@@ -231,6 +294,7 @@ keep(struct cost_trial *trial, const struct job *j, const struct rc_shape *map)
         trial->flow_seconds = j->flow_seconds;
     trial->flow = j->flow;
     trial->slabs = j->slabs;
+    trial->cohesive_nodes = j->cohesive_nodes;
     trial->applications = j->figures.applications;
     trial->runs++;
     trial->state = COST_DONE;
@@ -279,9 +343,16 @@ cost_memory(const struct cost_case *c, const struct cost_trial *trial)
     const double part = 0.3; /* of the voxels that yield */
     struct rc_problem problem = problem_of(c, trial);
     struct rc_plastic_problem yielding = {.contact = problem, .precise = trial->settings.precise};
-    size_t bytes = rc_solver_memory(&trial->shape, &problem);
+    size_t bytes;
     const size_t eliminated = 200; /* bytes a node that a flow takes beside, on most maps */
 
+    if (c->adhesion != NULL) {
+        struct rc_adhesion_problem attracting = *c->adhesion;
+        attracting.contact = problem;
+        return rc_adhesion_memory(&trial->shape, &attracting) +
+               trial->shape.nx * trial->shape.ny * sizeof(double);
+    }
+    bytes = rc_solver_memory(&trial->shape, &problem);
     if (c->leak != 0)
         bytes += rc_leak_memory(&trial->shape) + eliminated * trial->shape.nx * trial->shape.ny;
     if (c->yield == NULL)
@@ -305,6 +376,9 @@ cost_trial_run(struct cost_case *c, struct cost_trial *trial, double allowed, do
     j->map = c->shape;
     j->problem = problem_of(c, trial);
     j->yield = c->yield;
+    j->adhesion = c->adhesion;
+    j->by_approach = c->by_approach;
+    j->cohesive_nodes = NAN;
     j->leak = c->leak;
     j->at.error = NAN;
     end = cost_run(work, j, allowed, watch);

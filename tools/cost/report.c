@@ -55,6 +55,8 @@ report_trial(const struct cost_case *c, const struct cost_trial *m, const char *
         report_number(out, "applications", m->applications > 0 ? (double)m->applications : NAN,
                       NULL);
     }
+    if (c->adhesion != NULL)
+        report_number(out, "cohesive_nodes", m->state == COST_DONE ? m->cohesive_nodes : NAN, NULL);
     report_count(out, "nx", m->shape.nx, NULL);
     report_count(out, "ny", m->shape.ny, NULL);
     report_count(out, "threads", c->tool->threads, NULL);

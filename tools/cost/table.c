@@ -8,7 +8,7 @@ put_load(const struct cost_case *c, FILE *out)
 {
     char text[RC_NUMBER_SIZE];
 
-    if (c->problem.approach > 0)
+    if (c->by_approach)
         fprintf(out, "approach %s m", rc_number_text(text, c->problem.approach));
     else
         fprintf(out, "load %s N", rc_number_text(text, c->problem.load));
@@ -24,6 +24,9 @@ cost_body(const struct cost_case *c, const char *between, char text[COST_BODY])
     if (c->yield != NULL)
         snprintf(text, COST_BODY, "%syields at %s", between,
                  shown_in_unit(stress, yield_law_first(c->yield), "Pa"));
+    if (c->adhesion != NULL)
+        snprintf(text, COST_BODY, "%sattracted by %s", between,
+                 shown_in_unit(stress, c->adhesion->work, "J/m2"));
     if (n > 0)
         snprintf(text, COST_BODY, "%s%zu layer%s", between, n, n == 1 ? "" : "s");
     return text;
@@ -49,11 +52,18 @@ put_head(const struct cost_case *c, FILE *out)
             r->settings.method, r->settings.kernel, r->settings.arithmetic,
             r->contact.pressure_error, r->settings.tol, r->contact.iterations, r->seconds,
             r->contact.contact_area, 100 * r->contact.contact_fraction,
-            100 * r->contact.plastic_area / r->contact.contact_area, r->contact.max_pressure,
-            r->contact.approach);
+            r->contact.contact_area > 0 ? 100 * r->contact.plastic_area / r->contact.contact_area
+                                        : 0,
+            r->contact.max_pressure, r->contact.approach);
     if (c->yield != NULL)
         fprintf(out, "# it yields: the reference has %zu increments and %zu slabs\n",
                 r->settings.increments, r->slabs);
+    if (c->adhesion != NULL)
+        fprintf(out,
+                "# pressures are net, tension negative; the cohesive length is %.3g nodes of the "
+                "map, each trial's own is in its column: below 1.5 the grid pins the edge of the "
+                "contact\n",
+                r->cohesive_nodes);
     if (c->leak != 0)
         fprintf(out,
                 "# flow along %c: the reference has a conductance of %.9g m3; flow_error: relative "
@@ -78,22 +88,24 @@ note(const struct cost_trial *m)
 static void
 put_trial(const struct cost_case *c, const struct cost_trial *m, FILE *out)
 {
-    char grid[64], yields[64] = "", flow[64] = "";
+    char grid[64], yields[64] = "", flow[64] = "", cohesive[32] = "";
 
     if (m->settings.increments > 0)
         snprintf(yields, sizeof yields, "%10zu %5zu %12zu ", m->settings.increments, m->slabs,
                  m->applications);
 
+    if (c->adhesion != NULL)
+        snprintf(cohesive, sizeof cohesive, "%14.3g ", m->cohesive_nodes);
     if (c->leak != 0)
         snprintf(flow, sizeof flow, "%10.2e %12.4f ", m->flow_error, m->flow_seconds);
     snprintf(grid, sizeof grid, "%zux%zu", m->shape.nx, m->shape.ny);
     fprintf(out,
             "%-6s %-6s %-10s %6.0e %11s %9.4f %4zu %12.1f %11.1f %9.2e %9.2e %10.2e %10.2e %14.2e "
-            "%s%s%s\n",
+            "%s%s%s%s\n",
             m->settings.method, m->settings.kernel, m->settings.arithmetic, m->settings.tol, grid,
             m->seconds, m->runs, m->convolutions, (double)m->memory / 1048576,
             m->contact.pressure_error, m->error, m->area_error, m->peak_error, m->approach_error,
-            yields, flow, note(m));
+            yields, cohesive, flow, note(m));
 }
 
 static void
@@ -129,10 +141,11 @@ cost_table(const struct cost_case *c, FILE *out)
     char name[128];
 
     put_head(c, out);
-    fprintf(out, "%-6s %-6s %-10s %6s %11s %9s %4s %12s %11s %9s %9s %10s %10s %14s %s%s%s\n",
+    fprintf(out, "%-6s %-6s %-10s %6s %11s %9s %4s %12s %11s %9s %9s %10s %10s %14s %s%s%s%s\n",
             "method", "kernel", "arithmetic", "tol", "grid", "time[s]", "runs", "convolutions",
             "memory[MiB]", "estimate", "error", "area_error", "peak_error", "approach_error",
             c->yield != NULL ? "increments slabs applications " : "",
+            c->adhesion != NULL ? "cohesive_nodes " : "",
             c->leak != 0 ? "flow_error flow_time[s] " : "", "note");
     for (size_t k = 0; k < c->trials; k++)
         if (c->trial[k].state == COST_DONE)

@@ -2,7 +2,8 @@
  * Which trials there are, in the order in which the table shows them: every method with every
  * engine of libcontact's tables. The first of each, which "auto" takes, are tried in small steps of
  * the tolerance and on coarser grids, the others in larger steps, to compare with. Of a body that yields
- * inside the first of both, with every stack of slabs in every number of increments.
+ * inside the first of both, with every stack of slabs in every number of increments; of bodies that attract
+ * each other the one method that there is.
  */
 #include "cost.h"
 
@@ -138,6 +139,41 @@ cost_yielding_trials(size_t *n)
     return trial;
 }
 
+/* The loosest tolerance is 1e-3: farther off a state may be another. On a coarser grid the cohesive length
+ * has fewer nodes. */
+static const struct {
+    unsigned coarse;
+    int digits;
+} attracting[] = {{4, 3}, {2, 3}, {2, 4}, {1, 3}, {1, 4}, {1, 5}, {1, 6}, {1, 8}};
+
+static struct cost_settings
+attracted(unsigned coarse, int digits)
+{
+    return (struct cost_settings){.method = "gap",
+                                  .kernel = rc_engine_info(0)->name,
+                                  .arithmetic = "mixed",
+                                  .coarse = coarse,
+                                  .tol = 1 / pow(10, digits),
+                                  .attracts = true};
+}
+
+struct cost_trial *
+cost_attracting_trials(size_t *n)
+{
+    struct cost_trial *trial = calloc(sizeof attracting / sizeof *attracting, sizeof *trial);
+
+    *n = sizeof attracting / sizeof *attracting;
+    for (size_t k = 0; k < *n && trial != NULL; k++)
+        trial[k].settings = attracted(attracting[k].coarse, attracting[k].digits);
+    return trial;
+}
+
+struct cost_settings
+cost_attracting_reference(void)
+{
+    return attracted(1, 11);
+}
+
 struct rc_shape
 cost_coarse_shape(const struct rc_shape *map, unsigned factor)
 {
@@ -154,6 +190,8 @@ cost_series(const struct cost_settings *settings)
 {
     size_t place = 0;
 
+    if (settings->attracts)
+        return 0;
     if (settings->increments > 0) {
         while (place + 1 < STACKS && stacks[place] != settings->stack)
             place++;
