@@ -1015,6 +1015,8 @@ RC_API void rc_slip_keep(struct rc_slip *slip);
  * that of this increment, 0 out of contact. */
 RC_API const double *rc_slip_traction(const struct rc_slip *slip, int direction);
 RC_API void rc_slip_slip(const struct rc_slip *slip, int direction, double *to);
+/* nx ny: 0 where nothing is carried, 1 where a node sticks, 2 where it slips. */
+RC_API void rc_slip_state(const struct rc_slip *slip, double *to);
 /* Normal displacement that the tractions make, nx ny m, into the bodies: 0 where these are alike. A contact
  * whose heights are less by it is that under these tractions. */
 RC_API void rc_slip_normal(struct rc_slip *slip, double *uz);
@@ -1023,6 +1025,66 @@ RC_API double rc_slip_beta(const struct rc_slip *slip);
 RC_API void rc_slip_free(struct rc_slip *slip); /* NULL is allowed */
 /* Bytes that it takes; 0 where the problem makes no sense. */
 RC_API size_t rc_slip_memory(const struct rc_shape *shape, const struct rc_slip_problem *problem);
+
+/* ---- bodies pressed and moved along each other: slip/joint.c ---- */
+
+/* What pressure and tractions of dissimilar bodies know of each other. */
+enum rc_coupling {
+    RC_COUPLING_FULL,    /* all: they are found in turn, pass by pass                   */
+    RC_COUPLING_GOODMAN, /* the pressure moves the bodies along each other, and no more */
+    RC_COUPLING_NONE     /* nothing                                                     */
+};
+
+/* A contact and its friction, increment by increment: the pressure is found with each load, and with each pass. */
+struct rc_joint_problem {
+    /* Bare bodies; the load is that of the first increment, or a guess; tol 0: as of friction, or less */
+    struct rc_problem contact;
+    /* Boundary, pair, threads and ranks are those of the contact, uncoupled is what `coupling` says */
+    struct rc_slip_problem slip;
+    enum rc_coupling coupling;
+    size_t max_passes; /* of an increment; 0: 50 */
+};
+
+struct rc_joint_figures {
+    struct rc_slip_figures slip;
+    size_t passes; /* of this increment: pressures that friction was given                      */
+    double pressure_change, traction_change; /* relative L1, of the last pass; 0: one will do   */
+    double traction_error; /* estimated relative L1 error, with what more passes would change   */
+    double approach;       /* m, as in rc_contact; NAN: unknown                                 */
+    double convolutions;   /* of friction and contacts                                          */
+    bool converged;        /* both, and the passes                                              */
+};
+
+struct rc_joint;
+/* The heights are copied; NULL: there are none, and pressures only those of rc_joint_know. The bodies are
+ * apart. NULL where either problem makes no sense, heights are missing for a pressure that feels tractions, or
+ * memory is short. */
+RC_API struct rc_joint *rc_joint_new(const struct rc_shape *shape, const double *h,
+                                     const struct rc_joint_problem *problem, struct rc_err *err);
+/* The contact under this load is known: its pressure and gap (NULL: not known), which the caller keeps. Where pressures do
+ * not feel tractions it is not solved again. */
+RC_API void rc_joint_know(struct rc_joint *joint, double load, const double *p, const double *gap);
+/* Load (N, 0: the bodies are taken apart) and force (N) or displacement (m) along x and y at the end of the increment.
+ * RC_FAIL when a load makes no sense or is neither known nor can be solved. */
+RC_API enum rc_status rc_joint_set_force(struct rc_joint *joint, double load, double fx, double fy,
+                                         struct rc_err *err);
+RC_API enum rc_status rc_joint_set_displacement(struct rc_joint *joint, double load, double dx,
+                                                double dy, struct rc_err *err);
+/* One step, of the contact or of friction: RC_MORE; RC_OK when both are within tol; RC_SHORT when they cannot
+ * get there; RC_FAIL when nothing is asked for, and when friction cannot carry the force, as in rc_slip_set_force.
+ * After any step pressure and tractions go together: one may stop there. */
+RC_API enum rc_status rc_joint_step(struct rc_joint *joint, struct rc_err *err);
+RC_API void rc_joint_result(struct rc_joint *joint, struct rc_joint_figures *figures);
+/* The increment becomes history. */
+RC_API void rc_joint_keep(struct rc_joint *joint);
+/* Friction, for its tractions and slip. */
+RC_API struct rc_slip *rc_joint_slip(struct rc_joint *joint);
+/* The pressure under which these are, nx ny Pa, until the next step; NULL: the bodies are apart. */
+RC_API const double *rc_joint_pressure(const struct rc_joint *joint);
+RC_API void rc_joint_free(struct rc_joint *joint); /* NULL is allowed */
+/* Bytes that it takes, with heights or without; 0 where the problem makes no sense. */
+RC_API size_t rc_joint_memory(const struct rc_shape *shape, const struct rc_joint_problem *problem,
+                              bool heights);
 
 /* ---- stress: stress.c ---- */
 

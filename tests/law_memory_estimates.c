@@ -321,6 +321,28 @@ adhesion(const struct work *w, const double *h, const double *p)
     return status != RC_FAIL ? bytes : 0;
 }
 
+/* And the contact with it. */
+static size_t
+friction_found(const struct work *w, const double *h, const double *p)
+{
+    double load = 1e5 * (double)nodes_of(w) * w->shape->dx * w->shape->dy;
+    const struct rc_joint_problem problem = {.contact = {.boundary = w->boundary,
+                                                         .pair.one = {.e = 3e9, .nu = 0.3},
+                                                         .load = load,
+                                                         .tol = 0.01},
+                                             .slip = {.mu = 0.3, .tol = 0.1}};
+    struct rc_joint *joint = rc_joint_new(w->shape, h, &problem, NULL);
+    enum rc_status status = RC_FAIL;
+
+    (void)p;
+    if (joint != NULL && rc_joint_set_force(joint, load, 0.1 * load, 0, NULL) == RC_OK)
+        do
+            status = rc_joint_step(joint, NULL);
+        while (status == RC_MORE);
+    rc_joint_free(joint);
+    return status == RC_OK ? rc_joint_memory(w->shape, &problem, true) : 0;
+}
+
 /* Of the voxels that have yielded in the end, a tenth at least: no others have taken memory. */
 static size_t
 yielding(const struct work *w, const double *h, const double *p)
@@ -409,6 +431,7 @@ holds(void **state)
         {"friction, periodic", &map, RC_PERIODIC, NULL, 2 * transforms, friction},
         {"adhesion, pulled off", &small, RC_FREE, NULL, 2 * transforms, adhesion},
         {"adhesion, pulled off, periodic", &small, RC_PERIODIC, NULL, 2 * transforms, adhesion},
+        {"friction and contact", &map, RC_FREE, NULL, 2 * transforms, friction_found},
         {"patches", &large, RC_FREE, NULL, 0, patches},
         {"spectrum", &map, RC_PERIODIC, NULL, transforms, psd},
 #ifdef RC_LEAK

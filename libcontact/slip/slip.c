@@ -283,6 +283,13 @@ rc_slip_slip(const struct rc_slip *s, int direction, double *to)
 }
 
 void
+rc_slip_state(const struct rc_slip *s, double *to)
+{
+    for (size_t k = 0; k < s->n; k++)
+        to[k] = s->discs->face[k] == RC_FACE_STICK ? 1 : s->discs->face[k] == RC_FACE_SLIP ? 2 : 0;
+}
+
+void
 rc_slip_normal(struct rc_slip *s, double *uz)
 {
     memset(uz, 0, s->n * sizeof *uz);

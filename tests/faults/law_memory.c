@@ -376,11 +376,50 @@ slides(double *out, struct rc_err *err)
     memcpy(out, rc_slip_traction(slip, 0), N * sizeof *out);
     rc_slip_slip(slip, 1, out + N);
     rc_slip_normal(slip, out + 2 * N);
-    out[3 * N] = figures.dissipated;
-    out[3 * N + 1] = (double)rc_slip_memory(&shape, &problem) + rc_slip_beta(slip);
+    rc_slip_state(slip, out + 3 * N);
+    out[4 * N] = figures.dissipated;
+    out[4 * N + 1] = (double)rc_slip_memory(&shape, &problem) + rc_slip_beta(slip);
 done:
     rc_slip_free(slip);
     rc_solver_free(solver);
+    return status;
+}
+
+/* The same bodies pressed and moved, a force and then a displacement, then under a pressure that is known. */
+static enum rc_status
+joins(double *out, struct rc_err *err)
+{
+    struct rc_joint_problem problem = {
+        .contact = {.boundary = RC_PERIODIC, .pair = bare, .load = 1e-3, .threads = 1},
+        .slip = {.mu = 0.2}};
+    struct rc_joint *joint = rc_joint_new(&shape, rough, &problem, err);
+    struct rc_joint_figures figures;
+    enum rc_status status = RC_FAIL;
+
+    for (int q = 0; joint != NULL && q < 3; q++) {
+        if (q == 2) {
+            rc_joint_free(joint);
+            problem.coupling = RC_COUPLING_GOODMAN;
+            if ((joint = rc_joint_new(&shape, rough, &problem, err)) == NULL)
+                return RC_FAIL;
+            rc_joint_know(joint, 1e-3, out, NULL);
+        }
+        status = q == 1 ? rc_joint_set_displacement(joint, 1e-3, 0, 0, err)
+                        : rc_joint_set_force(joint, 1e-3, 1e-4, 2e-5, err);
+        while (status == RC_OK && (status = rc_joint_step(joint, err)) == RC_MORE)
+            status = RC_OK;
+        if (status != RC_OK)
+            break;
+        rc_joint_result(joint, &figures);
+        if (q < 2)
+            memcpy(out, rc_joint_pressure(joint), N * sizeof *out);
+        memcpy(out + (q < 2 ? 1 : 2) * N, rc_slip_traction(rc_joint_slip(joint), 0),
+               N * sizeof *out);
+        out[4 * N + q] = figures.slip.dissipated;
+        rc_joint_keep(joint);
+    }
+    out[4 * N + 3] = (double)rc_joint_memory(&shape, &problem, true);
+    rc_joint_free(joint);
     return status;
 }
 
@@ -705,6 +744,7 @@ static const struct {
     {.name = "leakage", .use = leaks},
 #endif
     {.name = "friction", .use = slides},
+    {.name = "friction and contact", .use = joins},
     {.name = "stress", .use = free_stress},
     {.name = "stress, periodic", .use = periodic_stress},
     {.name = "stress, direct", .use = direct_stress},
