@@ -63,6 +63,7 @@ tools/plot          | tools/canvas/canvas.h                    | tools/canvas
 tools/cost          | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli %plot
 tools/solve         | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli %plot
 tools/solve         | formats/core/core.h                      | formats/core formats/rcg
+tools/slip          | %public tools/cli/cli.h                  | %physics %cli
 tools/import        | libcontact/grid.h tools/cli/cli.h        | libcontact %cli
 tools/import        | formats/core/core.h formats/format.h     | formats formats/core
 tools/stress        | %public tools/cli/cli.h                  | %physics %cli
@@ -76,7 +77,7 @@ tools               | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli 
 tools               | tools/cost/cost.h tools/solve/solve.h    | tools/cost tools/solve
 tools               | tools/stress/stress.h tools/render/render.h | tools/stress tools/render
 tools               | tools/leak/leak.h                        | tools/leak
-tools               | tools/info/info.h                        | tools/info
+tools               | tools/info/info.h tools/slip/slip.h      | tools/info tools/slip
 tools               | tools/import/import.h                    | tools/import
 tools               | tools/pick/pick.h tools/synth/synth.h    | tools/pick tools/synth
 tools               | formats/core/core.h formats/rcg/rcg.h    | formats/core formats/rcg

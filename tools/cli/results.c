@@ -10,9 +10,9 @@
 bool
 results_channel(const char *channel)
 {
-    static const char *const solved[] = {"pressure",       "gap",        "displacement",
-                                         "plastic",        "traction-x", "traction-y",
-                                         "fluid-pressure", "flux",       "channel"};
+    static const char *const solved[] = {"pressure",   "gap",        "displacement",   "plastic",
+                                         "traction-x", "traction-y", "fluid-pressure", "flux",
+                                         "channel",    "slip-x",     "slip-y",         "state"};
 
     for (size_t k = 0; k < sizeof solved / sizeof *solved; k++)
         if (strcmp(channel, solved[k]) == 0)

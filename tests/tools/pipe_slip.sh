@@ -1,0 +1,141 @@
+# rc-slip: a ball's partial slip, loop and displacement; paths, histories and cases; dissimilar bodies; frames, plan, report,
+# warnings; what is refused.
+. "$(dirname "$0")/../pipe.sh"
+
+steel="--E1 210GPa --nu1 0.3 --E2 210GPa --nu2 0.3"
+rc-synth sphere --nx 64 --dx 10um --radius 7.5mm -o sphere.rcg
+rc-solve --quiet --load 240N $steel -o ball.rcg sphere.rcg
+column() { # NAME ROW FILE
+    awk -F '\t' -v n="$1" -v r="$2" 'NR == 1 { for (i = 1; i <= NF; i++) { split($i, h, "/"); if (h[1] == n) c = i } } NR == r + 1 { print $c }' "$3"
+}
+values() { rc-pick --channel "$2" --case "${3:-1}" "$1" | rc-export --format csv | grep -v '^#'; }
+
+# ---- a ball ----
+
+# a^3 = 3 P R/(4 E*), E* = 115.385 GPa; displacement 3 mu P (2 + kap)/(8 a E*) (1 - (1 - F/mu P)^(2/3)) (Mindlin 1949)
+exact() {
+    awk -v f="$1" 'BEGIN { e = 210e9 / 0.91 / 2; a = (3 * 240 * 7.5e-3 / (4 * e)) ^ (1 / 3)
+        print 3 * 0.3 * 240 * (2 + 3 / 7) / (8 * a * e) * (1 - (1 - f / 72) ^ (2 / 3)) }'
+}
+rc-slip --mu 0.3 --tangential 36N --report one.tsv -o one.rcg ball.rcg
+near "$(column displacement_x 1 one.tsv)" "$(exact 36)" 2e-3 "the ball creeps as Mindlin's does"
+near "$(column tangential_x 1 one.tsv)" 36 1e-9 "  under the force that was asked for"
+near "$(awk -v a="$(column stick_area 1 one.tsv)" -v b="$(column slip_area 1 one.tsv)" 'BEGIN { print sqrt(a / (a + b)) }')" \
+    0.7937 "$coarse_grid" "  and sticks inside of Cattaneo's radius"
+claim "  by what it says it is accurate" awk -v e="$(column traction_error_estimate 1 one.tsv)" 'BEGIN { exit !(e > 0 && e <= 1e-4) }'
+claim "frames: pressure, tractions, slip" test "$(rc-info --json one.rcg | grep -o '"channel": "[a-z-]*"' | tr '\n' ' ')" = \
+    '"channel": "pressure" "channel": "traction-x" "channel": "traction-y" "channel": "slip-x" "channel": "slip-y" '
+claim "  the pressure is that of the stream" cmp <(values ball.rcg pressure) <(values one.rcg pressure)
+paste -d ' ' <(values one.rcg pressure | tr ',' '\n') <(values one.rcg traction-x | tr ',' '\n') <(values one.rcg traction-y | tr ',' '\n') \
+    <(values one.rcg slip-x | tr ',' '\n') <(values one.rcg slip-y | tr ',' '\n') >five.txt
+claim "  no node carries more than mu p, and where it carries less it has not slipped" awk '
+    { q = sqrt($2 ^ 2 + $3 ^ 2); s = sqrt($4 ^ 2 + $5 ^ 2); if (q > 0.3 * $1 * (1 + 1e-9)) exit bad = 1
+      if (q < 0.3 * $1 * (1 - 1e-6) && s != 0) exit bad = 1; if (s > 0) { n++; if ($2 * $4 + $3 * $5 > 0) exit bad = 1 } }
+    END { exit bad || NR != 4096 || n < 100 }' five.txt
+near "$(awk '{ f += $2 * 1e-10 } END { print f }' five.txt)" 36 1e-6 "  the tractions add up to the force"
+rc-slip --mu 0.3 --displacement "$(column displacement_x 1 one.tsv),0" --report moved.tsv -o moved.rcg ball.rcg
+near "$(column tangential_x 1 moved.tsv)" 36 1e-4 "moved by that much it takes that force"
+rc-slip --mu 0.3 --tangential 0,36N --report across.tsv -o across.rcg ball.rcg
+near "$(column displacement_y 1 across.tsv)" "$(column displacement_x 1 one.tsv)" 1e-6 "along y it is the same"
+rc-slip --mu 0.3 --tau-max 300MPa --tangential 36N --report cap.tsv -o cap.rcg ball.rcg
+claim "--tau-max bounds what a node carries" awk -v l="$(column limit 1 cap.tsv)" 'BEGIN { exit !(l < 72) }'
+near "$(paste -d ' ' <(values cap.rcg traction-x | tr ',' '\n') <(values cap.rcg traction-y | tr ',' '\n') |
+    awk '{ q = sqrt($1 ^ 2 + $2 ^ 2); if (q > m) m = q } END { printf "%.12g", m }')" 3e8 1e-9 "  to that stress"
+rc-slip --mu 0.3 --tangential 36N --output state,traction-x --report state.tsv -o state.rcg ball.rcg
+claim "--output state: 1 where a node sticks, 2 where it slips, 0 elsewhere" test "$(values state.rcg state | tr ',' '\n' | sort -n | uniq -c | awk '{ printf "%d:%d ", $2, $1 }')" = \
+    "0:$((4096 - $(column stick_nodes 1 one.tsv) - $(column slip_nodes 1 one.tsv))) 1:$(column stick_nodes 1 one.tsv) 2:$(column slip_nodes 1 one.tsv) "
+claim "  and no more than was asked for" test "$(rc-info --json state.rcg | grep -c '"channel"')" = 2
+near "$(column approach 1 one.tsv)" "$(rc-info --json ball.rcg | grep -o '"approach": "[^"]*' | head -n 1 | sed 's/.*"//')" "$same" "the approach is that of the stream"
+# tractions are those of the surface that rc-stress finds just below it
+claim "rc-stress takes them" rc-stress --depths 0 --components sxz -o below.rcg one.rcg
+near "$(values below.rcg sxz | tr ',' '\n' | sort -g | head -n 1)" "-$(values one.rcg traction-x | tr ',' '\n' | sort -g | tail -n 1)" 1e-6 "  and at the surface they are its shear"
+
+# ---- paths ----
+
+loop='240N,0,0; 240N,43.2N,0; 240N,-43.2N,0; 240N,43.2N,0'
+rc-slip --mu 0.3 --path "$loop" --report loop.tsv -o loop.rcg ball.rcg
+claim "a corner is a case" test "$(rc-info --json loop.rcg | grep -o '"channel": "slip-x"' | wc -l)" = 4
+near "$(column displacement_x 2 loop.tsv)" "$(exact 43.2)" 2e-3 "the first way is that of a single force"
+near "$(column displacement_x 3 loop.tsv)" "-$(column displacement_x 2 loop.tsv)" 1e-5 "  and the way back leads to the other side"
+near "$(column displacement_x 4 loop.tsv)" "$(column displacement_x 2 loop.tsv)" 1e-5 "  and round"
+# 4 F d - 8 int d dF of a loop between +-F, F = 0.6 mu P; half of it each way (Mindlin and Deresiewicz 1953)
+near "$(column dissipated_energy 4 loop.tsv)" "$(awk 'BEGIN { e = 210e9 / 0.91 / 2; a = (3 * 240 * 7.5e-3 / (4 * e)) ^ (1 / 3)
+    u = 3 * 72 * (2 + 3 / 7) / (8 * a * e); print (4 * 43.2 * u * (1 - 0.4 ^ (2 / 3)) - 8 * u * 72 * (0.6 - 0.6 * (1 - 0.4 ^ (5 / 3)))) / 2 }')" \
+    "$coarse_grid" "  and dissipates what Mindlin and Deresiewicz found"
+printf 'load fx fy # of a joint\n240N 0 0\n\n240N,43.2N,0\n240N\t-43.2N\t0\n240 43.2 0\n' >loop.txt
+rc-slip --mu 0.3 --history loop.txt --report loop2.tsv -o loop2.rcg ball.rcg
+claim "--history is --path from a file" cmp <(cut -f 1-34 loop.tsv) <(cut -f 1-34 loop2.tsv)
+rc-slip --quiet --mu 0.3 --path '100N,0,0; 240N,43.2N,0; 120N,20N,0; 0,0,0' --report grow.tsv -o grow.rcg ball.rcg
+near "$(column load 1 grow.tsv)" 100 1e-9 "loads change: contacts are solved on the way"
+rc-solve --quiet --load 100N $steel -o less.rcg sphere.rcg
+claim "  to the pressure of rc-solve" awk -F ' ' '{ d = $1 - $2; s += d < 0 ? -d : d; t += $2 } END { exit !(NR == 4096 && s < 1e-3 * t) }' \
+    <(paste -d ' ' <(values grow.rcg pressure 1 | tr ',' '\n') <(values less.rcg pressure | tr ',' '\n'))
+claim "  in more increments, whose error is told" awk -v n="$(column increments 2 grow.tsv)" -v e="$(column increment_error_estimate 2 grow.tsv)" \
+    'BEGIN { exit !(n == 8 && e > 1e-4 && e < 0.05) }'
+claim "  and at last nothing touches" test "$(column stick_nodes 4 grow.tsv)$(column slip_area 4 grow.tsv)" = 00
+rc-slip --quiet --mu 0.3 --path '0,0,0; 240N,20N,10N' --increments 1 --nu 0 --report - -o oblique.rcg \
+    <(rc-solve --quiet --load 240N --estar 114GPa sphere.rcg) >oblique.json
+claim "at nu = 0 a force in proportion to the load is carried as the load is, in one increment" awk '
+    { for (k = 0; k < 2; k++) { d = $(2 + k) - $1 * (k == 0 ? 20 : 10) / 240; s += d < 0 ? -d : d } t += $1 } END { exit !(NR == 4096 && s < 1e-3 * t) }' \
+    <(paste -d ' ' <(values oblique.rcg pressure 2 | tr ',' '\n') <(values oblique.rcg traction-x 2 | tr ',' '\n') <(values oblique.rcg traction-y 2 | tr ',' '\n'))
+
+# ---- dissimilar bodies ----
+
+rc-solve --quiet --load 240N --E1 210GPa --nu1 0.3 --E2 rigid -o rigid.rcg sphere.rcg
+rc-slip --mu 0.3 --tangential 20N --report full.tsv -o full.rcg rigid.rcg
+near "$(column beta 1 full.tsv)" 0.285714 "$six_digits" "bodies that are not alike: Dundurs' constant"
+claim "  pressed alone they slip already, and then are moved" test "$(wc -l <full.tsv)" = 3
+between 1e-8 "$(column slip_area 1 full.tsv)" 1e-7 "  a ring slips"
+claim "  in several passes, to the end" awk -v n="$(column passes 1 full.tsv)" -v a="$(column converged 1 full.tsv)" -v b="$(column converged 2 full.tsv)" \
+    'BEGIN { exit !(n > 16 && a == "true" && b == "true") }'
+near "$(column tangential_x 2 full.tsv)" 20 1e-9 "  under the force"
+claim "Goodman's neglect is warned of" warns "coupling is goodman" rc-slip --mu 0.3 --tangential 20N --coupling goodman --report good.tsv -o good.rcg rigid.rcg
+near "$(column displacement_x 2 good.tsv)" "$(column displacement_x 2 full.tsv)" 0.05 "  and is near"
+claim "  in one pass an increment" test "$(column passes 1 good.tsv)" = "$(column increments 1 good.tsv)"
+# pressed alone, with Goodman's neglect: (a/2c) ln((a + c)/(a - c)) = (mu/beta) K(sqrt(1 - c^2/a^2)), c/a = 0.918 (Spence 1975)
+for n in 32 64; do rc-slip --quiet --mu 0.3 --tangential 0 --coupling goodman --increments $n --report s$n.tsv -o s.rcg rigid.rcg; done
+near "$(awk -v a="$(column stick_fraction 1 s64.tsv)" 'BEGIN { print sqrt(a) }')" 0.918 "$coarse_grid" "pressed alone it sticks inside of Spence's radius"
+near "$(column increment_error_estimate 1 s64.tsv)" "$(awk -v e="$(column increment_error_estimate 1 s32.tsv)" 'BEGIN { print e / 2 }')" 0.1 \
+    "  and the error of increments falls as their number rises"
+claim "no coupling too" warns "16 to 87" rc-slip --mu 0.3 --tangential 20N --coupling none --report none.tsv -o none.rcg rigid.rcg
+claim "  then they are not pressed first" test "$(wc -l <none.tsv)" = 2
+
+# ---- what is said ----
+
+claim "the plan says what is left out" says "left out: pressure and tractions do not feel each other, beta = 0" rc-slip --mu 0.3 --tangential 36N --dry-run ball.rcg
+claim "  how many increments" says "to P 240 N, 36 N, 0 N: 1 increment$" rc-slip --mu 0.3 --tangential 36N --dry-run ball.rcg
+claim "  and what is on" says "on, beta 0.286: about 5 passes" rc-slip --mu 0.3 --tangential 36N --dry-run rigid.rcg
+claim "next to sliding there is a warning" warns "0.9950 of what friction can carry" rc-slip --mu 0.3 --tangential 71.64N -o edge.rcg ball.rcg
+claim "growing together in one increment too" warns "grow together in one increment" rc-slip --mu 0.3 --path '240N,40N,0' --increments 1 -o big.rcg ball.rcg
+rc-pick --channel pressure ball.rcg | rc-pick --set converged=no >short.rcg
+refuses 3 'converged' "a pressure that stopped short is carried on" "rc-slip --mu 0.3 --tangential 36N -o short2.rcg short.rcg"
+claim "  with its mark" grep -aq '^converged=no' short2.rcg
+claim "an interrupted run writes what it has" bash -c '
+    rc-slip --mu 0.3 --tangential 20N --increments 2000 -o cut.rcg rigid.rcg 2>cut.err & sleep 1; kill -TERM $!; wait $!; test $? = 143 && grep -aq "^converged=no" cut.rcg'
+
+# ---- what is refused ----
+
+refuses 1 'force 80 N: friction carries less than 72 N' "a force beyond friction, with both numbers" "rc-slip --mu 0.3 --tangential 80N -o x.rcg ball.rcg"
+claim "  and nothing is left behind" test ! -e x.rcg
+refuses 2 'give the coefficient' "no coefficient" "rc-slip --tangential 1N -o x.rcg ball.rcg"
+refuses 2 'one of --tangential' "no force" "rc-slip --mu 0.3 -o x.rcg ball.rcg"
+refuses 2 'one of --tangential' "two of them" "rc-slip --mu 0.3 --tangential 1N --displacement 1um -o x.rcg ball.rcg"
+refuses 2 'along x, or along x and y' "a force in three directions" "rc-slip --mu 0.3 --tangential 1N,2N,3N -o x.rcg ball.rcg"
+refuses 2 'LOAD,FX,FY' "a corner of two numbers" "rc-slip --mu 0.3 --path '240N,1N' -o x.rcg ball.rcg"
+refuses 2 'must be finite and not negative' "a load that pulls" "rc-slip --mu 0.3 --path '-240N,1N,0' -o x.rcg ball.rcg"
+printf '240N 0 0\n240N zero 0\n' >bad.txt
+refuses 2 'line 2' "a history with a word, and its line" "rc-slip --mu 0.3 --history bad.txt -o x.rcg ball.rcg"
+refuses 2 'No such file' "a history that is not there" "rc-slip --mu 0.3 --history none.txt -o x.rcg ball.rcg"
+refuses 2 'auto or a number' "increments of 0" "rc-slip --mu 0.3 --tangential 1N --increments 0 -o x.rcg ball.rcg"
+refuses 2 'give both bodies' "one body" "rc-slip --mu 0.3 --tangential 1N --E1 1GPa --nu1 0.3 -o x.rcg ball.rcg"
+refuses 1 'solve it for these bodies first' "other bodies" "rc-slip --mu 0.3 --tangential 1N --E1 1GPa --nu1 0.3 --E2 rigid -o x.rcg ball.rcg"
+refuses 1 'leave out --nu' "a second Poisson's ratio" "rc-slip --mu 0.3 --tangential 1N --nu 0.2 -o x.rcg ball.rcg"
+refuses 2 "Poisson's ratio is not in the stream" "none" "rc-solve --quiet --load 1N --estar 1GPa sphere.rcg | rc-slip --mu 0.3 --tangential 0.1N -o x.rcg"
+rc-pick --channel pressure ball.rcg -o alone.rcg
+refuses 1 'there must be a height' "another load without a height" "rc-slip --mu 0.3 --path '100N,0,0' -o x.rcg alone.rcg"
+rc-pick --channel pressure rigid.rcg -o alone.rcg
+refuses 1 'coupling goodman or none' "coupling without a height" "rc-slip --mu 0.3 --tangential 1N -o x.rcg alone.rcg"
+rc-pick --channel pressure --set 'layers=1e-6,1e9,0.3;inf,2e9,0.3' ball.rcg -o coated.rcg
+refuses 1 'coated' "a coated body" "rc-slip --mu 0.3 --tangential 1N -o x.rcg coated.rcg"
+refuses 1 'pressure' "a stream without a pressure" "rc-slip --mu 0.3 --tangential 1N -o x.rcg sphere.rcg"
+finish

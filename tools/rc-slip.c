@@ -1,0 +1,166 @@
+/* Friction in a contact that rc-solve has found: what sticks, what slips, and what that dissipates. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "libcontact/contact.h"
+#include "tools/cli/cli.h"
+#include "tools/slip/slip.h"
+
+static struct slip_args args = {
+    .mu = NAN,
+    .tau_max = NAN,
+    .nu = NAN,
+    .e1 = NAN,
+    .nu1 = NAN,
+    .e2 = NAN,
+    .nu2 = NAN,
+    .tol = NAN,
+    .coupling = "full",
+    .output = (1u << SLIP_STATE) - 1,
+};
+
+static const char *
+coupling_word(size_t k)
+{
+    static const char *const words[] = {"full", "goodman", "none", NULL};
+
+    return words[k];
+}
+
+#define AT(field) .at = offsetof(struct slip_args, field)
+#define ABOVE_0 .min = 0, .max = INFINITY, .above = true
+/* clang-format off */
+static const struct opt opts[] = {
+    {.name = "mu", .type = OPT_NUMBER, AT(mu), ABOVE_0, .result = true, .arg = "COEFFICIENT",
+     .help = "of friction: a node carries at most this times its pressure"},
+    {.name = "tau-max", .type = OPT_NUMBER, .unit = UNIT_PA, AT(tau_max), ABOVE_0, .result = true,
+     .arg = "STRESS", .help = "nor does it carry more than this (Tresca)"},
+    {.name = "tangential", .type = OPT_NUMBERS, .unit = UNIT_N, AT(tangential), .min = -INFINITY,
+     .max = INFINITY, .result = true, .arg = "FX[,FY]",
+     .help = "force on body 1 along the surface, under the load of the stream"},
+    {.name = "displacement", .type = OPT_NUMBERS, .unit = UNIT_M, AT(displacement),
+     .min = -INFINITY, .max = INFINITY, .result = true, .arg = "DX[,DY]",
+     .help = "instead of the force: how far to move body 1"},
+    {.name = "path", .type = OPT_TEXT, AT(path), .result = true, .arg = "P,FX,FY;...",
+     .help = "loads and forces, each a case, from bodies that are apart: '240N,0,0; 240N,40N,0'"},
+    {.name = "history", .type = OPT_TEXT, AT(history), .arg = "FILE",
+     .help = "the same from a table of load, force along x, force along y in lines"},
+    {.name = "increments", .type = OPT_TEXT, AT(increments), .result = true, .arg = "N|auto",
+     .help = "from each corner of a path to the next (default auto: to about 1 %)"},
+    {.name = "coupling", .type = OPT_CHOICE, AT(coupling), .words = coupling_word, .result = true,
+     .help = "what pressure and tractions of dissimilar bodies know of each other (default full)"},
+    {.name = "nu", .type = OPT_NUMBER, AT(nu), .min = -1, .max = 0.5, .above = true,
+     .result = true, .arg = "RATIO",
+     .help = "Poisson's ratio of both bodies, where the stream knows E* alone"},
+    {.name = "E1", .type = OPT_NUMBER, .unit = UNIT_PA, AT(e1), ABOVE_0, .result = true,
+     .arg = "MODULUS", .help = "or of each: Young's modulus of body 1"},
+    {.name = "nu1", .type = OPT_NUMBER, AT(nu1), .min = -1, .max = 0.5, .above = true,
+     .result = true, .arg = "RATIO", .help = "Poisson's ratio of body 1"},
+    {.name = "E2", .type = OPT_NUMBER, .unit = UNIT_PA, AT(e2), ABOVE_0, .result = true,
+     .word = "rigid", .arg = "MODULUS", .help = "Young's modulus of body 2, or rigid"},
+    {.name = "nu2", .type = OPT_NUMBER, AT(nu2), .min = -1, .max = 0.5, .above = true,
+     .result = true, .arg = "RATIO", .help = "Poisson's ratio of body 2"},
+    {.name = "periodic", .type = OPT_FLAG, AT(periodic), .result = true,
+     .help = "the map repeats for ever (default: what the stream says, else free)"},
+    {.name = "tol", .type = OPT_NUMBER, AT(tol), .min = 0, .max = 1, .above = true,
+     .result = true, .arg = "ERROR",
+     .help = "relative L1 error of the tractions of an increment (default 1e-4)"},
+    {.name = "output", .type = OPT_WORDS, AT(output), .words = slip_frame_word, .arg = "LIST",
+     .help = "frames to write, of %s (default: all but state)"},
+    {.name = "report", .type = OPT_REPORT, AT(report), .arg = "FILE",
+     .help = "write one JSON object a case, or a row of FILE.tsv: figures, accuracy, cost"},
+    {.name = "dry-run", .type = OPT_FLAG, AT(dry_run), .text = true,
+     .help = "say what would be computed and what not, and do no more"},
+    {.name = NULL},
+};
+/* clang-format on */
+
+static const struct tool_info info = {
+    .name = "rc-slip",
+    .summary = "Friction in a contact: tractions, what sticks and what slips",
+    .operands = "[FILE...]",
+    .examples = "  rc-solve --load 1N --radius 2mm --E1 210GPa --nu1 0.3 --E2 210GPa --nu2 0.3 \\\n"
+                "      -o contact.rcg surface.rcg\n"
+                "  rc-slip --mu 0.3 --tangential 0.15N --report slip.json -o slip.rcg contact.rcg\n"
+                "  rc-slip --mu 0.3 --path '1N,0,0; 1N,0.2N,0; 1N,-0.2N,0; 1N,0.2N,0' \\\n"
+                "      --report loop.tsv -o loop.rcg contact.rcg\n",
+    .opts = opts,
+    .reads = READS_STREAM,
+    .writes = WRITES_STREAM,
+    .shares = true, /* to refuse it, once, instead of each process doing the same */
+};
+
+/* ---- the command line ---- */
+
+static void
+check_arguments(struct slip_run *run)
+{
+    struct tool *t = &run->t;
+    const struct numbers *along = args.tangential.n > 0 ? &args.tangential : &args.displacement;
+
+    if (ranks_count(t) > 1)
+        tool_die(t, EXIT_USAGE,
+                 "friction is not shared among processes, each node feels all others at once: take "
+                 "one process, with --threads");
+    if (isnan(args.mu))
+        tool_die(t, EXIT_USAGE, "give the coefficient of friction with --mu, as in --mu 0.3");
+    if (tool_given(t, "tangential") + tool_given(t, "displacement") + tool_given(t, "path") +
+            tool_given(t, "history") !=
+        1)
+        tool_die(t, EXIT_USAGE,
+                 "give one of --tangential, --displacement, --path and --history: how the bodies "
+                 "are moved");
+    if (along->n > 2)
+        tool_die(t, EXIT_USAGE,
+                 "--%s: it must be along x, or along x and y, as in %s: loads that follow each "
+                 "other are a --path",
+                 along == &args.tangential ? "tangential" : "displacement",
+                 along == &args.tangential ? "36N,0" : "1um,0");
+    run->args = &args;
+    run->coupling = strcmp(args.coupling, "full") == 0      ? RC_COUPLING_FULL
+                    : strcmp(args.coupling, "goodman") == 0 ? RC_COUPLING_GOODMAN
+                                                            : RC_COUPLING_NONE;
+    slip_read_path(run, &args);
+    slip_check_bodies(run);
+}
+
+/* ---- main ---- */
+
+/* Keeps what stands beside the pressure. */
+static bool
+take(void *ctx, struct tool *t, const struct rc_grid *p, struct rc_grid *g)
+{
+    struct slip_run *run = ctx;
+    struct rc_grid **to = strcmp(g->channel, "gap") == 0      ? &run->gap
+                          : strcmp(g->channel, "height") == 0 ? &run->height
+                                                              : NULL;
+
+    (void)p;
+    if (to == NULL)
+        return false;
+    tool_keep_frame(t, g, to);
+    return true;
+}
+
+int
+main(int argc, char **argv)
+{
+    static struct slip_run run;
+
+    tool_start(&run.t, &info, argc, argv, &args);
+    check_arguments(&run);
+    report_open(&run.report, &run.t, args.report);
+    tool_catch_signals();
+    while (tool_interrupted() == 0 &&
+           (run.p = tool_channel_with(&run.t, "pressure", take, &run)) != NULL) {
+        slip_case(&run);
+        rc_grid_free(run.p);
+        rc_grid_free(run.gap);
+        rc_grid_free(run.height);
+        run.p = run.gap = run.height = NULL;
+    }
+    free(run.given);
+    report_close(&run.report);
+    return tool_finish(&run.t);
+}

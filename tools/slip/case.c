@@ -1,0 +1,356 @@
+/* A case of rc-slip: its corners one after another, and the frames of each. */
+#include "slip.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const struct {
+    const char *name, *unit;
+} frames[SLIP_FRAMES] = {
+    [SLIP_PRESSURE] = {"pressure", "Pa"},     [SLIP_TRACTION_X] = {"traction-x", "Pa"},
+    [SLIP_TRACTION_Y] = {"traction-y", "Pa"}, [SLIP_SLIP_X] = {"slip-x", "m"},
+    [SLIP_SLIP_Y] = {"slip-y", "m"},          [SLIP_STATE] = {"state", "1"},
+};
+
+const char *
+slip_frame_word(size_t k)
+{
+    return k < SLIP_FRAMES ? frames[k].name : NULL;
+}
+
+/* ---- what stands in the stream ---- */
+
+static void
+check_beside(struct slip_run *run, struct rc_grid *g)
+{
+    if (g == NULL)
+        return;
+    tool_demand_grid_of(&run->t, g, run->p);
+    tool_demand_finite(&run->t, g, "solve the contact again");
+}
+
+static void
+check_pressure(struct slip_run *run)
+{
+    size_t n = rc_grid_nodes(run->p), pulled = 0;
+
+    tool_demand_finite(&run->t, run->p, "a pressure map has none; make it again");
+    for (size_t k = 0; k < n; k++)
+        pulled += run->p->v[k] < 0;
+    if (pulled > 0)
+        tool_die_at(
+            &run->t, run->p, EXIT_IMPOSSIBLE,
+            "it is negative at %zu of %zu nodes, where the bodies attract each other: friction "
+            "of such contacts is not known here, take pressures of rc-solve without --adhesion",
+            pulled, n);
+    run->load = rc_sum(run->p->v, n) * run->p->dx * run->p->dy;
+}
+
+/* A pressure found on one boundary has no friction on the other. */
+static void
+find_boundary(struct slip_run *run)
+{
+    const char *own = rc_grid_get(run->p, "boundary");
+    bool periodic = own == NULL ? run->args->periodic : strcmp(own, "periodic") == 0;
+
+    if (own != NULL && strcmp(own, "free") != 0 && !periodic)
+        tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE,
+                    "its boundary is '%s': it must be free or periodic", own);
+    if (run->args->periodic && !periodic)
+        tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE,
+                    "its boundary is %s: --periodic contradicts it", own);
+    run->boundary = periodic ? RC_PERIODIC : RC_FREE;
+}
+
+/* Where contacts are to be solved, of elastic bodies with known heights. */
+static void
+check_solvable(struct slip_run *run)
+{
+    static const char *const more[] = {"hardness", "yield", "adhesion"};
+
+    if (!run->solves)
+        return;
+    if (run->height == NULL && run->alternates)
+        tool_die_at(
+            &run->t, run->p, EXIT_IMPOSSIBLE,
+            "its bodies are dissimilar (beta %.3g), so that it feels tractions and is found "
+            "anew, and there must be a height beside it: take all that rc-solve writes, or "
+            "--coupling goodman or none",
+            run->bodies.beta);
+    if (run->height == NULL)
+        tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE,
+                    "contacts under other loads than its own, %g N, are to be solved, and there "
+                    "must be a height beside it: take all that rc-solve writes",
+                    run->load);
+    for (size_t k = 0; k < sizeof more / sizeof *more; k++)
+        if (rc_grid_get(run->p, more[k]) != NULL)
+            tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE,
+                        "contacts are to be solved, of %s and loads, and its bodies have %s "
+                        "(%s=%s): only elastic ones are solved here, under the load of the stream "
+                        "alone friction of others is found too%s",
+                        run->alternates ? "dissimilar bodies" : "more than one load",
+                        k == 1 ? "a yield stress" : more[k], more[k], rc_grid_get(run->p, more[k]),
+                        run->alternates ? ", with --coupling goodman" : "");
+}
+
+/* ---- frames ---- */
+
+static void
+set_number(struct slip_run *run, struct rc_grid *g, const char *name, double value)
+{
+    struct rc_err err;
+
+    if ((isfinite(value) ? rc_grid_set_number(g, name, value, &err)
+                         : rc_grid_set(g, name, NULL, &err)) != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+}
+
+static void
+set_keys(struct slip_run *run, struct rc_grid *g, const struct slip_state *s)
+{
+    const struct rc_slip_figures *f = &s->figures.slip;
+    const char *own = rc_grid_get(g, "converged");
+    bool converged = s->converged && (own == NULL || strcmp(own, "no") != 0);
+    bool apart = f->stick_nodes + f->slip_nodes == 0;
+    struct rc_err err;
+
+    if (rc_grid_set(g, "converged", converged ? "yes" : "no", &err) != RC_OK ||
+        rc_grid_set(g, "boundary", run->boundary == RC_PERIODIC ? "periodic" : "free", &err) !=
+            RC_OK ||
+        (tool_given(&run->t, "E1") && bodies_set(g, &run->bodies.pair, &err) != RC_OK) ||
+        rc_grid_history(g, tool_history(&run->t), &err) != RC_OK)
+        tool_die_at(&run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (run->bodies.pair.estar > 0)
+        set_number(run, g, "nu", run->bodies.nu);
+    if (run->number != rc_grid_case(run->p))
+        set_number(run, g, "case", (double)run->number);
+    set_number(run, g, "load", f->load);
+    set_number(run, g, "approach", s->approach);
+    set_number(run, g, "friction", run->args->mu);
+    set_number(run, g, "tau_max", run->args->tau_max);
+    set_number(run, g, "tangential_x", f->force[0]);
+    set_number(run, g, "tangential_y", f->force[1]);
+    set_number(run, g, "displacement_x", apart ? NAN : f->displacement[0]);
+    set_number(run, g, "displacement_y", apart ? NAN : f->displacement[1]);
+}
+
+/* Maps are made one after another, in one buffer, as they are written. */
+static void
+write_frames(struct slip_run *run, struct rc_joint *joint, const struct slip_state *s)
+{
+    struct rc_slip *slip = rc_joint_slip(joint);
+    const double *p = rc_joint_pressure(joint);
+    struct rc_err err;
+    struct rc_grid *g = rc_grid_like(run->p, "pressure", "Pa", &err);
+
+    if (g == NULL)
+        tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE, "%s", err.text);
+    set_keys(run, g, s);
+    for (int k = 0; k < SLIP_FRAMES; k++) {
+        struct rc_grid frame = *g; /* as the reader of the stream sees it */
+
+        if (!(run->args->output >> k & 1))
+            continue;
+        frame.channel = (char *)frames[k].name; /* these and the values are only read */
+        frame.unit = (char *)frames[k].unit;
+        if (k == SLIP_PRESSURE && p != NULL)
+            frame.v = (double *)p;
+        else if (k == SLIP_PRESSURE)
+            memset(g->v, 0, rc_grid_nodes(g) * sizeof *g->v);
+        else if (k == SLIP_TRACTION_X || k == SLIP_TRACTION_Y)
+            frame.v = (double *)rc_slip_traction(slip, k - SLIP_TRACTION_X);
+        else if (k == SLIP_STATE)
+            rc_slip_state(slip, g->v);
+        else
+            rc_slip_slip(slip, k - SLIP_SLIP_X, g->v);
+        tool_write(&run->t, &frame);
+    }
+    rc_grid_free(g);
+}
+
+/* ---- increments ---- */
+
+/* To a corner; stops where the tool is interrupted. */
+static void
+go_to(struct slip_run *run, struct rc_joint *joint, size_t corner, size_t n, struct slip_state *s)
+{
+    double before;
+    struct rc_err err;
+
+    rc_joint_result(joint, &s->figures);
+    before = s->figures.convolutions;
+    s->dissipated = s->traction_error = 0;
+    s->passes = 0;
+    s->converged = true;
+    for (size_t k = 1; k <= n && tool_interrupted() == 0; k++) {
+        struct slip_corner c = slip_on_the_way(run, corner, k, n);
+        enum rc_status status =
+            c.moved ? rc_joint_set_displacement(joint, c.load, c.to[0], c.to[1], &err)
+                    : rc_joint_set_force(joint, c.load, c.to[0], c.to[1], &err);
+
+        if (status == RC_OK)
+            status = RC_MORE;
+        while (status == RC_MORE && tool_interrupted() == 0) {
+            tool_progress(&run->t, "case %zu, %zu x %zu, increment %zu of %zu", run->number,
+                          run->p->nx, run->p->ny, k, n);
+            status = rc_joint_step(joint, &err);
+        }
+        tool_progress_end(&run->t);
+        if (status == RC_FAIL)
+            tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE, "%s", err.text);
+        rc_joint_result(joint, &s->figures);
+        s->passes += s->figures.passes;
+        s->dissipated += s->figures.slip.dissipated;
+        s->traction_error = fmax(s->traction_error, s->figures.traction_error);
+        s->converged = s->converged && s->figures.converged;
+        rc_joint_keep(joint);
+    }
+    s->converged = s->converged && tool_interrupted() == 0;
+    s->dissipated_total += s->dissipated;
+    s->convolutions += s->figures.convolutions - before;
+}
+
+/* Under the load of the stream it is that of the stream, unless it has been found anew. */
+static double
+approach_of(const struct slip_run *run, const struct slip_state *s)
+{
+    double own;
+
+    if (isfinite(s->figures.approach) || s->corner->load != run->load ||
+        !rc_grid_number(run->p, "approach", &own))
+        return s->figures.approach;
+    return own;
+}
+
+/* Relative L1 distance of two solutions' tractions; NAN: there are none. */
+static double
+distance(const struct slip_run *run, struct rc_joint *a, struct rc_joint *b)
+{
+    size_t n = rc_grid_nodes(run->p);
+    double sum = 0, all = 0;
+    const double *p[2], *q[2];
+
+    for (int c = 0; c < 2; c++) {
+        p[c] = rc_slip_traction(rc_joint_slip(a), c);
+        q[c] = rc_slip_traction(rc_joint_slip(b), c);
+    }
+    for (size_t k = 0; k < n; k++) {
+        sum += hypot(p[0][k] - q[0][k], p[1][k] - q[1][k]);
+        all += hypot(p[0][k], p[1][k]);
+    }
+    return all > 0 ? sum / all : NAN;
+}
+
+static struct rc_joint_problem
+problem_of(const struct slip_run *run)
+{
+    const struct slip_args *a = run->args;
+    struct rc_joint_problem problem = {
+        .contact = {.boundary = run->boundary,
+                    .pair = run->bodies.pair,
+                    .load = run->load,
+                    .threads = run->t.threads},
+        .slip = {.nu = run->bodies.nu,
+                 .mu = a->mu,
+                 .tau_max = isnan(a->tau_max) ? 0 : a->tau_max,
+                 .tol = isnan(a->tol) ? 0 : a->tol},
+        .coupling = run->coupling,
+    };
+
+    for (size_t k = 0; k < run->corners && !(problem.contact.load > 0); k++)
+        problem.contact.load = run->corner[k].load;
+    return problem;
+}
+
+static struct rc_joint *
+new_joint(struct slip_run *run, const struct rc_joint_problem *problem)
+{
+    struct rc_shape shape = rc_grid_shape(run->p);
+    struct rc_err err;
+    struct rc_joint *joint =
+        rc_joint_new(&shape, run->solves ? run->height->v : NULL, problem, &err);
+
+    if (joint == NULL)
+        tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE, "%s", err.text);
+    if (run->load > 0)
+        rc_joint_know(joint, run->load, run->p->v, run->gap == NULL ? NULL : run->gap->v);
+    return joint;
+}
+
+static void
+follow(struct slip_run *run, const struct rc_joint_problem *problem)
+{
+    struct rc_joint *joint = new_joint(run, problem);
+    struct rc_joint *coarse = run->twice ? new_joint(run, problem) : NULL;
+    struct slip_state s = {.dissipated_total = 0}, half = {.dissipated_total = 0};
+    bool several = false;
+
+    tool_code_there(&run->t, SLIP_CODE);
+    for (size_t k = 0; k < run->corners && tool_interrupted() == 0; k++) {
+        size_t n = run->corner[k].increments;
+        double began = tool_now();
+
+        run->number += !run->corner[k].silent;
+        s.corner = &run->corner[k];
+        s.convolutions = half.convolutions = 0;
+        s.increment_error = NAN;
+        go_to(run, joint, k, n, &s);
+        several = several || n > 1;
+        if (coarse != NULL && tool_interrupted() == 0) {
+            go_to(run, coarse, k, n > 1 ? n / 2 : 1, &half);
+            s.increment_error = several ? distance(run, joint, coarse) : NAN;
+            s.convolutions += half.convolutions;
+        }
+        s.approach = approach_of(run, &s);
+        s.seconds = tool_now() - began;
+        if (!s.converged)
+            tool_fails_with(&run->t, EXIT_SHORT);
+        if (run->corner[k].silent && tool_interrupted() == 0)
+            continue;
+        slip_judge(run, &s);
+        write_frames(run, joint, &s);
+        slip_report(run, &s);
+    }
+    rc_joint_free(joint);
+    rc_joint_free(coarse);
+}
+
+/* ---- a case ---- */
+
+static size_t
+memory_for(const struct slip_run *run, const struct rc_joint_problem *problem)
+{
+    struct rc_shape shape = rc_grid_shape(run->p);
+
+    return (run->twice ? 2 : 1) * rc_joint_memory(&shape, problem, run->solves) +
+           rc_grid_nodes(run->p) * sizeof(double) + tool_code(&run->t, SLIP_CODE);
+}
+
+void
+slip_case(struct slip_run *run)
+{
+    struct rc_joint_problem problem;
+    size_t told = 0;
+
+    check_pressure(run);
+    check_beside(run, run->gap);
+    check_beside(run, run->height);
+    find_boundary(run);
+    slip_find_bodies(run);
+    slip_plan_path(run);
+    check_solvable(run);
+    for (size_t k = 0; k < run->corners; k++)
+        told += !run->corner[k].silent;
+    if (told == 1 && rc_grid_case(run->p) > run->number)
+        run->number = rc_grid_case(run->p) - 1;
+    problem = problem_of(run);
+    slip_judge_plan(run);
+    if (run->args->dry_run) {
+        slip_say_plan(run, tool_memory_with(memory_for(run, &problem)));
+    } else {
+        tool_demand_memory(&run->t, run->p, memory_for(run, &problem));
+        follow(run, &problem);
+    }
+    free(run->corner);
+}

@@ -1,0 +1,282 @@
+/* Loads and forces, corner by corner, and in how many increments. */
+#include "slip.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double same_load = 1e-6; /* relative: what is nearer to the stream's load is that */
+static const double straight = 1e-9;
+
+enum {
+    TURNS = 8,   /* increments of a force that turns by a right angle, or grows with the load */
+    PRESSES = 16 /* of a contact that grows on dissimilar bodies                              */
+};
+
+/* ---- the command line ---- */
+
+static const char apart[] = " ,\t";
+
+/* "LOAD,FX,FY", also with blanks. */
+static enum rc_status
+read_corner(const char *text, struct slip_corner *c, struct rc_err *err)
+{
+    double *to[] = {&c->load, &c->to[0], &c->to[1]};
+    char word[64];
+
+    *c = (struct slip_corner){0};
+    for (int k = 0; k < 3; k++) {
+        size_t n;
+        text += strspn(text, apart);
+        n = strcspn(text, apart);
+        if (n == 0 || n >= sizeof word)
+            return rc_err_set(err, "it must be LOAD,FX,FY, as in 240N,36N,0");
+        memcpy(word, text, n);
+        word[n] = '\0';
+        if (unit_number(word, UNIT_N, to[k], err) != RC_OK)
+            return RC_FAIL;
+        text += n;
+    }
+    if (text[strspn(text, apart)] != '\0')
+        return rc_err_set(err, "it must be LOAD,FX,FY, as in 240N,36N,0");
+    if (!(c->load >= 0) || isinf(c->load) || !isfinite(c->to[0]) || !isfinite(c->to[1]))
+        return rc_err_set(err, "the load must be finite and not negative, forces finite");
+    return RC_OK;
+}
+
+static void
+add_corner(struct slip_run *run, const struct slip_corner *c)
+{
+    struct slip_corner *more = realloc(run->given, (run->givens + 1) * sizeof *more);
+
+    if (more == NULL)
+        tool_die(&run->t, EXIT_IMPOSSIBLE, "out of memory for a path");
+    run->given = more;
+    run->given[run->givens++] = *c;
+}
+
+static bool
+blank(const char *s)
+{
+    return s[strspn(s, apart)] == '\0';
+}
+
+static void
+read_path(struct slip_run *run, const char *path)
+{
+    struct slip_corner c;
+    struct rc_err err;
+    char part[256];
+
+    while (*path != '\0') {
+        size_t n = strcspn(path, ";");
+        if (n >= sizeof part)
+            tool_die(&run->t, EXIT_USAGE, "--path %.40s...: it must be LOAD,FX,FY; ...", path);
+        memcpy(part, path, n);
+        part[n] = '\0';
+        path += n + (path[n] == ';');
+        if (blank(part))
+            continue;
+        if (read_corner(part, &c, &err) != RC_OK)
+            tool_die(&run->t, EXIT_USAGE, "--path %s: %s", part, err.text);
+        add_corner(run, &c);
+    }
+    if (run->givens == 0)
+        tool_die(&run->t, EXIT_USAGE, "--path: it must be LOAD,FX,FY; ..., as in 240N,36N,0");
+}
+
+/* Lines; '#' begins a comment, and a line of words at the top is a heading. */
+static void
+read_history(struct slip_run *run, const char *name)
+{
+    FILE *file = fopen(name, "r");
+    struct slip_corner c;
+    struct rc_err err;
+    char line[512];
+    size_t number = 0;
+
+    if (file == NULL)
+        tool_die(&run->t, EXIT_USAGE, "--history %s: %s", name, strerror(errno));
+    while (fgets(line, sizeof line, file) != NULL) {
+        number++;
+        if (strchr(line, '\n') == NULL && !feof(file))
+            tool_die(&run->t, EXIT_USAGE, "--history %s: line %zu is too long", name, number);
+        line[strcspn(line, "#\r\n")] = '\0';
+        if (blank(line) || (run->givens == 0 && strpbrk(line, "0123456789") == NULL))
+            continue;
+        if (read_corner(line, &c, &err) != RC_OK)
+            tool_die(&run->t, EXIT_USAGE, "--history %s: line %zu: %s", name, number, err.text);
+        add_corner(run, &c);
+    }
+    if (ferror(file))
+        tool_die(&run->t, EXIT_USAGE, "--history %s: %s", name, strerror(errno));
+    fclose(file);
+    if (run->givens == 0)
+        tool_die(&run->t, EXIT_USAGE,
+                 "--history %s: it holds no line of load, force along x and force along y", name);
+}
+
+/* In a stream's history the path stands in SI, wherever it came from. */
+static void
+set_history(struct slip_run *run, struct slip_args *args)
+{
+    size_t most = run->givens * 3 * (RC_NUMBER_SIZE + 1) + 1, n = 0;
+    char *text = malloc(most), number[3][RC_NUMBER_SIZE];
+
+    if (text == NULL)
+        tool_die(&run->t, EXIT_IMPOSSIBLE, "out of memory for a path");
+    for (size_t k = 0; k < run->givens; k++) {
+        const struct slip_corner *c = &run->given[k];
+        n += (size_t)snprintf(
+            text + n, most - n, "%s%s,%s,%s", k == 0 ? "" : ";", rc_number_text(number[0], c->load),
+            rc_number_text(number[1], c->to[0]), rc_number_text(number[2], c->to[1]));
+    }
+    args->path = text;
+    for (size_t k = 0; k < run->t.opts; k++)
+        if (strcmp(run->t.opt[k].name, "path") == 0)
+            run->t.given[k] = true;
+}
+
+void
+slip_read_path(struct slip_run *run, struct slip_args *args)
+{
+    double n;
+    struct rc_err err;
+
+    if (args->increments != NULL && strcmp(args->increments, "auto") != 0) {
+        if (unit_number(args->increments, UNIT_NONE, &n, &err) != RC_OK ||
+            !(n >= 1 && n <= 1e6 && n == floor(n)))
+            tool_die(&run->t, EXIT_USAGE,
+                     "--increments %s: it must be auto or a number from 1 to 1000000",
+                     args->increments);
+        run->increments = (size_t)n;
+    }
+    if (args->path != NULL)
+        read_path(run, args->path);
+    if (args->history != NULL)
+        read_history(run, args->history);
+    if (run->givens > 0)
+        set_history(run, args);
+}
+
+/* ---- of a case ---- */
+
+/* Sine of the angle by which the way turns; 0: there is none. */
+static double
+turn(const struct slip_corner *from, const struct slip_corner *to)
+{
+    double before = hypot(from->to[0], from->to[1]);
+    double d[2] = {to->to[0] - from->to[0], to->to[1] - from->to[1]}, length = hypot(d[0], d[1]);
+
+    if (!(before > 0) || !(length > 0) || from->moved != to->moved)
+        return 0;
+    return fabs(from->to[0] * d[1] - from->to[1] * d[0]) / (before * length);
+}
+
+static bool
+force_changes(const struct slip_corner *from, const struct slip_corner *to)
+{
+    double most = fmax(hypot(from->to[0], from->to[1]), hypot(to->to[0], to->to[1]));
+
+    return to->moved != from->moved ||
+           hypot(to->to[0] - from->to[0], to->to[1] - from->to[1]) > straight * most;
+}
+
+/* To about 1 %: one where the force keeps its line and the load does not grow, more where it turns, or both
+ * grow. A contact that grows on dissimilar bodies slips as it does: to some 5 %. */
+static size_t
+increments(const struct slip_run *run, const struct slip_corner *from, const struct slip_corner *to)
+{
+    bool grows = to->load > from->load * (1 + straight), moves = force_changes(from, to);
+    double angle = turn(from, to);
+    size_t n = 1;
+
+    if (!run->coupled && !moves && !(hypot(to->to[0], to->to[1]) > 0))
+        return 1; /* nothing is carried */
+    if (run->increments > 0)
+        return run->increments;
+    if (run->coupled && grows)
+        return PRESSES;
+    if (grows && moves && (run->bodies.kap != 0 || to->moved || angle > straight))
+        return TURNS;
+    while (moves && n < TURNS && (double)n < TURNS * angle * (1 - straight))
+        n *= 2;
+    return n;
+}
+
+static const struct slip_corner start = {0};
+
+static const struct slip_corner *
+before(const struct slip_run *run, size_t k)
+{
+    return k == 0 ? &start : &run->corner[k - 1];
+}
+
+/* Under the load of the stream: pressed, and then moved. */
+static void
+press_and_move(struct slip_run *run)
+{
+    const struct slip_args *a = run->args;
+    bool moved = a->displacement.n > 0;
+    const struct numbers *to = moved ? &a->displacement : &a->tangential;
+    struct slip_corner c = {.load = run->load, .moved = moved};
+
+    for (size_t k = 0; k < to->n; k++)
+        c.to[k] = to->v[k];
+    run->corner[run->corners++] = (struct slip_corner){.load = run->load, .silent = !run->coupled};
+    if (run->coupled && !moved && !(hypot(c.to[0], c.to[1]) > 0))
+        return;
+    run->corner[run->corners++] = c;
+}
+
+void
+slip_plan_path(struct slip_run *run)
+{
+    run->coupled = run->bodies.beta != 0 && run->coupling != RC_COUPLING_NONE;
+    run->alternates = run->bodies.beta != 0 && run->coupling == RC_COUPLING_FULL;
+    run->solves = run->alternates;
+    run->twice = false;
+    run->corners = 0;
+    run->corner = malloc((run->givens + 2) * sizeof *run->corner);
+    if (run->corner == NULL)
+        tool_die(&run->t, EXIT_IMPOSSIBLE, "out of memory for a path");
+    if (run->given == NULL)
+        press_and_move(run);
+    for (size_t k = 0; k < run->givens; k++) {
+        struct slip_corner c = run->given[k];
+        if (fabs(c.load - run->load) <= same_load * run->load)
+            c.load = run->load;
+        run->corner[run->corners++] = c;
+    }
+    for (size_t k = 0; k < run->corners; k++) {
+        const struct slip_corner *from = before(run, k);
+        struct slip_corner *to = &run->corner[k];
+        to->increments = increments(run, from, to);
+        run->twice = run->twice || to->increments > 1;
+        /* other loads than the stream's; or from no load to a force, where the first gap counts */
+        for (size_t i = 1; i <= to->increments; i++) {
+            double load = slip_on_the_way(run, k, i, to->increments).load;
+            run->solves = run->solves || (load > 0 && load != run->load);
+        }
+        run->solves = run->solves || (from->load == 0 && to->load > 0 && force_changes(from, to) &&
+                                      run->given != NULL);
+    }
+}
+
+/* On a straight line. */
+struct slip_corner
+slip_on_the_way(const struct slip_run *run, size_t corner, size_t k, size_t n)
+{
+    const struct slip_corner *from = before(run, corner), *to = &run->corner[corner];
+    struct slip_corner c = *to;
+    double part = (double)k / (double)n;
+
+    if (k == n)
+        return c;
+    c.load = from->load + part * (to->load - from->load);
+    for (int i = 0; i < 2; i++)
+        c.to[i] = from->moved == to->moved ? from->to[i] + part * (to->to[i] - from->to[i])
+                                           : part * to->to[i];
+    return c;
+}

@@ -1,0 +1,196 @@
+/* What rc-slip tells: its report, its plan, its warnings. */
+#include "slip.h"
+
+#include <math.h>
+
+static const char *
+coupling_of(const struct slip_run *run)
+{
+    return run->bodies.beta == 0                  ? "left out: beta = 0"
+           : run->coupling == RC_COUPLING_FULL    ? "full"
+           : run->coupling == RC_COUPLING_GOODMAN ? "goodman"
+                                                  : "none";
+}
+
+void
+slip_report(struct slip_run *run, const struct slip_state *s)
+{
+    struct report *r = &run->report;
+    const struct rc_slip_figures *f = &s->figures.slip;
+    const struct rc_grid *g = run->p;
+    double area = f->stick_area + f->slip_area;
+    bool apart = f->stick_nodes + f->slip_nodes == 0;
+
+    if (!report_wanted(r))
+        return;
+    report_begin(r);
+    report_count(r, "case", run->number, NULL);
+    report_text(r, "source", rc_grid_get(g, "source"));
+    report_count(r, "nx", g->nx, NULL);
+    report_count(r, "ny", g->ny, NULL);
+    report_number(r, "dx", g->dx, "m");
+    report_number(r, "dy", g->dy, "m");
+    report_text(r, "boundary", run->boundary == RC_PERIODIC ? "periodic" : "free");
+    report_count(r, "threads", run->t.threads, NULL);
+    report_number(r, "mu", run->args->mu, NULL);
+    report_number(r, "tau_max", run->args->tau_max, "Pa");
+    report_number(r, "beta", run->bodies.beta, NULL);
+    report_text(r, "coupling", coupling_of(run));
+    report_number(r, "load", f->load, "N");
+    report_number(r, "limit", f->limit, "N");
+    report_number(r, "tangential_x", f->force[0], "N");
+    report_number(r, "tangential_y", f->force[1], "N");
+    report_number(r, "displacement_x", apart ? NAN : f->displacement[0], "m");
+    report_number(r, "displacement_y", apart ? NAN : f->displacement[1], "m");
+    report_number(r, "approach", s->approach, "m");
+    report_count(r, "stick_nodes", f->stick_nodes, NULL);
+    report_count(r, "slip_nodes", f->slip_nodes, NULL);
+    report_number(r, "stick_area", f->stick_area, "m2");
+    report_number(r, "slip_area", f->slip_area, "m2");
+    report_number(r, "stick_fraction", area > 0 ? f->stick_area / area : NAN, NULL);
+    report_number(r, "largest_slip", f->largest_slip, "m");
+    report_number(r, "tangential_stiffness", f->stiffness, "N/m");
+    report_number(r, "dissipated_energy", s->dissipated, "J");
+    report_number(r, "dissipated_total", s->dissipated_total, "J");
+    report_count(r, "increments", s->corner->increments, NULL);
+    report_count(r, "passes", s->passes, NULL);
+    report_number(r, "convolutions", s->convolutions, NULL);
+    report_number(r, "traction_error_estimate", s->traction_error, NULL);
+    report_number(r, "increment_error_estimate", s->increment_error, NULL);
+    report_bool(r, "converged", s->converged);
+    report_object(r, "seconds");
+    report_number(r, "total", s->seconds, "s");
+    report_end(r);
+    report_count(r, "peak_memory", tool_peak_memory(), "B");
+    report_count(r, "memory_estimate", run->t.expected_memory, "B");
+    report_finish_row(r);
+}
+
+/* ---- what is wrong with it ---- */
+
+static const double near_sliding = 0.99;
+static const double coarse = 0.05; /* error of increments that is told */
+
+void
+slip_judge_plan(struct slip_run *run)
+{
+    char where[256];
+
+    if (run->bodies.beta == 0 || run->coupling == RC_COUPLING_FULL)
+        return;
+    tool_where(&run->t, run->p, where, sizeof where);
+    if (run->coupling == RC_COUPLING_NONE)
+        tool_warn(&run->t,
+                  "%s: the bodies are dissimilar (beta %.3g), and --coupling none leaves out what "
+                  "their pressure does along the surface: on rough surfaces tractions were off by "
+                  "16 to 87 %%",
+                  where, run->bodies.beta);
+    else
+        tool_warn(&run->t,
+                  "%s: the bodies are dissimilar (beta %.3g), and the coupling is goodman, the "
+                  "pressure as if there were no tractions: on rough surfaces these were off by 2 "
+                  "to 13 %%, pressures by 1 to 8 %%",
+                  where, run->bodies.beta);
+}
+
+/* Whether load and force have grown together in one increment, which is exact for kap = 0 alone. */
+static bool
+grew_at_once(const struct slip_run *run, const struct slip_corner *to)
+{
+    static const struct slip_corner start = {0};
+    const struct slip_corner *from = to == run->corner ? &start : to - 1;
+
+    return to->increments == 1 && !to->moved && run->bodies.kap != 0 &&
+           to->load > from->load * (1 + 1e-9) &&
+           (to->to[0] != from->to[0] || to->to[1] != from->to[1]);
+}
+
+void
+slip_judge(struct slip_run *run, const struct slip_state *s)
+{
+    const struct rc_slip_figures *f = &s->figures.slip;
+    double force = hypot(f->force[0], f->force[1]);
+    char where[320], frame[256];
+
+    tool_where(&run->t, run->p, frame, sizeof frame);
+    snprintf(where, sizeof where, "%s, at a load of %.6g N and a force of %.6g N", frame, f->load,
+             force);
+    if (tool_interrupted() != 0)
+        tool_warn(&run->t, "%s: interrupted on its way: what is written stopped short", where);
+    else if (!s->converged)
+        tool_warn(&run->t,
+                  "%s: it stopped short of the accuracy asked for: tractions are off by about "
+                  "%.1e; near sliding a displacement is easier to find than its force",
+                  where, s->traction_error);
+    if (force > near_sliding * f->limit && f->limit > 0)
+        tool_warn(&run->t,
+                  "%s: that is %.4f of what friction can carry: the displacement grows without "
+                  "bound there, and small errors of the pressure with it",
+                  where, force / f->limit);
+    if (grew_at_once(run, s->corner))
+        tool_warn(&run->t,
+                  "%s: load and force grow together in one increment: tractions may be off by "
+                  "5 %%, with 8 increments by 1 %%",
+                  where);
+    if (s->increment_error > coarse && s->corner->increments > 1)
+        tool_warn(&run->t,
+                  "%s: with half the increments its tractions are others by %.0f %%: ask for more "
+                  "--increments than %zu, twice as many halve that",
+                  where, 100 * s->increment_error, s->corner->increments);
+}
+
+/* ---- what would be done ---- */
+
+/* Passes of both, each of which leaves about 0.7 mu beta of the error before. */
+static size_t
+expected_passes(const struct slip_run *run)
+{
+    double c = 0.7 * run->args->mu * fabs(run->bodies.beta);
+    double tol = isnan(run->args->tol) ? 1e-4 : run->args->tol;
+
+    return c < 1 ? 1 + (size_t)ceil(log(tol / 4) / log(c)) : 50;
+}
+
+void
+slip_say_plan(struct slip_run *run, size_t memory)
+{
+    FILE *out = run->t.out;
+    const struct slip_pair *b = &run->bodies;
+    char where[256];
+
+    fprintf(out, "%s: %zu x %zu nodes, %s boundary\n",
+            tool_where(&run->t, run->p, where, sizeof where), run->p->nx, run->p->ny,
+            run->boundary == RC_PERIODIC ? "periodic" : "free");
+    if (b->beta == 0)
+        fprintf(out, "  %-16sleft out: pressure and tractions do not feel each other, beta = 0\n",
+                "coupling");
+    else if (run->alternates)
+        fprintf(out, "  %-16son, beta %.3g: about %zu passes an increment\n", "coupling", b->beta,
+                expected_passes(run));
+    else
+        fprintf(out, "  %-16s%s, beta %.3g: one pass an increment\n", "coupling", coupling_of(run),
+                b->beta);
+    if (b->kap == 0)
+        fprintf(out, "  %-16sleft out: nu = 0\n", "transverse slip");
+    else
+        fprintf(out, "  %-16son, kap %.3g\n", "transverse slip", b->kap);
+    if (isnan(run->args->tau_max))
+        fprintf(out, "  %-16sleft out: no --tau-max\n", "bound");
+    else
+        fprintf(out, "  %-16son, %g Pa\n", "bound", run->args->tau_max);
+    fprintf(out, "  %-16s%s\n", "contacts",
+            run->alternates ? "solved in each pass"
+            : run->solves   ? "solved where the load changes"
+                            : "left out: the pressure is there");
+    for (size_t k = 0; k < run->corners; k++) {
+        const struct slip_corner *c = &run->corner[k];
+        if (c->silent)
+            continue;
+        fprintf(out, "  to P %g N, %g %s, %g %s: %zu increment%s\n", c->load, c->to[0],
+                c->moved ? "m" : "N", c->to[1], c->moved ? "m" : "N", c->increments,
+                c->increments == 1 ? "" : "s");
+    }
+    if (run->twice)
+        fprintf(out, "  %-16swith half of them too, for the error\n", "increments");
+    fprintf(out, "  %-16sabout %zu MiB\n", "memory", (memory >> 20) + 1);
+}

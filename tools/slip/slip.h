@@ -1,0 +1,111 @@
+/* What rc-slip asks for, finds and tells. */
+#ifndef RC_TOOL_SLIP_H
+#define RC_TOOL_SLIP_H
+
+#include "libcontact/contact.h"
+#include "tools/cli/cli.h"
+
+enum {
+    SLIP_CODE = 2 * TOOL_TRANSFORMS /* bytes, of both precisions */
+};
+
+enum slip_frame { /* in the order of --output's words, and of writing */
+    SLIP_PRESSURE,
+    SLIP_TRACTION_X,
+    SLIP_TRACTION_Y,
+    SLIP_SLIP_X,
+    SLIP_SLIP_Y,
+    SLIP_STATE,
+    SLIP_FRAMES
+};
+
+struct slip_args {
+    double mu, tau_max, nu, e1, nu1, e2, nu2, tol;
+    struct numbers tangential, displacement; /* N, m */
+    const char *path, *history, *increments, *coupling, *report;
+    size_t output; /* bits of enum slip_frame */
+    bool periodic, dry_run;
+};
+
+/* A place on a path, straight from the one before. */
+struct slip_corner {
+    double load;  /* N */
+    double to[2]; /* N, or m where `moved` */
+    bool moved;
+    bool silent; /* on the way only: no case of its own */
+    size_t increments;
+};
+
+/* What a pair of bodies is beside E*. */
+struct slip_pair {
+    struct rc_pair pair;
+    double nu;        /* of both, where only E* is known */
+    double kap, beta; /* contact-theory(7) */
+};
+
+/* A corner that has been reached, or where it was given up. */
+struct slip_state {
+    const struct slip_corner *corner;
+    struct rc_joint_figures figures;
+    double dissipated, dissipated_total; /* J: since the corner before, since the start */
+    double traction_error;               /* the largest of its increments               */
+    double increment_error;              /* NAN: unknown                                */
+    double approach;                     /* m; NAN: unknown */
+    size_t passes;
+    double convolutions, seconds;
+    bool converged;
+};
+
+struct slip_run {
+    struct tool t;
+    struct report report;
+    const struct slip_args *args;
+    struct slip_corner *given; /* --path, --history; NULL: neither */
+    size_t givens;
+    size_t increments; /* 0: auto */
+    enum rc_coupling coupling;
+    size_t number; /* of the case that is written */
+    /* of the case that is read; gap and height may be NULL */
+    struct rc_grid *p, *gap, *height;
+    struct slip_pair bodies;
+    enum rc_boundary boundary;
+    double load; /* N, of the stream's pressure */
+    struct slip_corner *corner;
+    size_t corners;
+    bool coupled;    /* the pressure moves the bodies along each other */
+    bool alternates; /* and feels tractions                            */
+    bool solves;     /* contacts are solved                            */
+    bool twice;      /* with half the increments too                   */
+};
+
+/* ---- path.c ---- */
+
+/* --path, --history and --increments; ends the tool where they make no sense. */
+void slip_read_path(struct slip_run *run, struct slip_args *args);
+/* The corners of this case and the increments to each; which contacts are to be solved. */
+void slip_plan_path(struct slip_run *run);
+/* Where increment k of n to a corner ends, 0 < k <= n. */
+struct slip_corner slip_on_the_way(const struct slip_run *run, size_t corner, size_t k, size_t n);
+
+/* ---- bodies.c ---- */
+
+/* Ends the tool where the command line names half a pair. */
+void slip_check_bodies(struct slip_run *run);
+/* The bodies of the case; ends the tool where they are unknown, coated, or others than those of the pressure. */
+void slip_find_bodies(struct slip_run *run);
+
+/* ---- case.c ---- */
+
+const char *slip_frame_word(size_t k);
+void slip_case(struct slip_run *run);
+
+/* ---- report.c ---- */
+
+/* What is to be known before it is believed. */
+void slip_judge_plan(struct slip_run *run);
+void slip_judge(struct slip_run *run, const struct slip_state *s);
+void slip_report(struct slip_run *run, const struct slip_state *s);
+/* What would be done, in words, in so many bytes. */
+void slip_say_plan(struct slip_run *run, size_t memory);
+
+#endif
