@@ -953,8 +953,9 @@ RC_API size_t rc_leak_step_memory(const struct rc_leak *leak);
 
 /* Coulomb's law node by node, with memory: a node carries tractions up to mu times its pressure and sticks,
  * or slips against them. The pressure is given, and so is what the pressure does not know: how the bodies
- * are moved along the surface, in increments. Tractions are those on body 1, displacements those of body 1
- * less those of body 2; on a periodic map of their mean planes. */
+ * are moved along the surface, in increments. Tractions are those on body 1, and the force is their sum: body 2
+ * drags body 1 along by it, and has moved over it by the displacement (on a periodic map their mean planes).
+ * Slip is that of body 1 on body 2, against the traction. */
 struct rc_slip_problem {
     enum rc_boundary boundary;
     struct rc_pair pair; /* bare bodies */
@@ -973,7 +974,7 @@ struct rc_slip_figures {
     double load;            /* N, normal */
     double limit;           /* N: what friction could carry, no more than mu times the load */
     double force[2];        /* N, along x and y */
-    double displacement[2]; /* m, since the bodies have touched */
+    double displacement[2]; /* m, of body 2 over body 1 since they have touched */
     size_t stick_nodes, slip_nodes; /* of those that carry something */
     double stick_area, slip_area;   /* m^2 */
     double stiffness;               /* N/m: |force| over |displacement|; NAN where one is 0 */

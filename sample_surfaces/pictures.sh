@@ -52,5 +52,7 @@ draw sheet --channel mises --depth 0,5um,20um,80um --sheet 2x2 slices.rcg
 draw relief --channel pressure --view 30,40 contact.rcg
 draw curve --curve load:contact_fraction --log xy sweep.tsv
 draw cut --channel pressure --cut y=0 contact.rcg
+rc-slip --quiet --mu 0.3 --nu 0.3 --displacement 0.2um --output traction-x,slip-x,state contact.rcg -o slip.rcg
+for channel in traction-x slip-x state; do draw "$channel" --channel "$channel" slip.rcg; done
 draw histogram --channel pressure --histogram contact.rcg
 draw hillshade --channel height --hillshade surface.rcg

@@ -50,6 +50,16 @@ near "$(column approach 1 one.tsv)" "$(rc-info --json ball.rcg | grep -o '"appro
 claim "rc-stress takes them" rc-stress --depths 0 --components sxz -o below.rcg one.rcg
 near "$(values below.rcg sxz | tr ',' '\n' | sort -g | head -n 1)" "-$(values one.rcg traction-x | tr ',' '\n' | sort -g | tail -n 1)" 1e-6 "  and at the surface they are its shear"
 
+# ---- pictures ----
+
+# legend FILE: the words of an SVG, in one line.
+legend() { sed 's/<[^>]*>/ /g' "$1" | tr -s ' \n' '  '; }
+for channel in traction-x slip-x; do rc-render --channel $channel one.rcg -o $channel.svg; done
+rc-render --channel state state.rcg -o state.svg
+claim "a map of slip tells what sticks from what slips" says 'Slip along x .*no contact, or it sticks' legend slip-x.svg
+claim "  one of traction what carries nothing" says 'Traction along x .*nothing is carried' legend traction-x.svg
+claim "  and one of states all three" says '0 no contact, 1 sticks, 2 slips' legend state.svg
+
 # ---- paths ----
 
 loop='240N,0,0; 240N,43.2N,0; 240N,-43.2N,0; 240N,43.2N,0'
@@ -62,6 +72,8 @@ near "$(column displacement_x 4 loop.tsv)" "$(column displacement_x 2 loop.tsv)"
 near "$(column dissipated_energy 4 loop.tsv)" "$(awk 'BEGIN { e = 210e9 / 0.91 / 2; a = (3 * 240 * 7.5e-3 / (4 * e)) ^ (1 / 3)
     u = 3 * 72 * (2 + 3 / 7) / (8 * a * e); print (4 * 43.2 * u * (1 - 0.4 ^ (2 / 3)) - 8 * u * 72 * (0.6 - 0.6 * (1 - 0.4 ^ (5 / 3)))) / 2 }')" \
     "$coarse_grid" "  and dissipates what Mindlin and Deresiewicz found"
+rc-render --curve displacement_x:tangential_x loop.tsv -o loop.svg
+claim "  a loop is drawn" says 'Force along x against displacement along x' legend loop.svg
 printf 'load fx fy # of a joint\n240N 0 0\n\n240N,43.2N,0\n240N\t-43.2N\t0\n240 43.2 0\n' >loop.txt
 rc-slip --mu 0.3 --history loop.txt --report loop2.tsv -o loop2.rcg ball.rcg
 claim "--history is --path from a file" cmp <(cut -f 1-34 loop.tsv) <(cut -f 1-34 loop2.tsv)
