@@ -51,6 +51,13 @@ draw missing missing.rcg
 draw sheet --channel mises --depth 0,5um,20um,80um --sheet 2x2 slices.rcg
 draw relief --channel pressure --view 30,40 contact.rcg
 draw curve --curve load:contact_fraction --log xy sweep.tsv
+for seed in $(seq 20); do
+    rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-height 10nm --seed "$seed"
+done | rc-solve --quiet --periodic --load 10mN:80mN:log:4 --estar 100GPa --output pressure --report seeds.tsv -o seeds.rcg
+draw seeds --curve load:contact_fraction --spread --points --log xy --y-unit % --y-label 'Real contact' --title '' seeds.tsv
+rc-import --quiet "$here/rough-sphere.x3p" "$here/rough-steel.x3p" | rc-detrend --quiet --fill |
+    rc-solve --quiet --load 10N:160N:log:5 --radius 7.5mm --estar 114GPa --output pressure --report two.tsv -o two.rcg
+draw sources --curve load:contact_area --y-unit mm2 two.tsv
 draw cut --channel pressure --cut y=0 contact.rcg
 rc-slip --quiet --mu 0.3 --nu 0.3 --displacement 0.2um --output traction-x,slip-x,state contact.rcg -o slip.rcg
 for channel in traction-x slip-x state; do draw "$channel" --channel "$channel" slip.rcg; done

@@ -51,6 +51,8 @@ static const struct opt opts[] = {
      .help = "one pixel for each node and nothing else"},
     {.name = "title", .type = OPT_TEXT, .at = offsetof(struct args, title), .result = true,
      .arg = "TEXT", .help = "over the figure (default: what the channel is)"},
+    {.name = "subtitle", .type = OPT_TEXT, .at = offsetof(struct args, style.subtitle),
+     .result = true, .arg = "TEXT", .help = "under the title (default: source, load and such)"},
     {.name = "width", .type = OPT_TEXT, .at = offsetof(struct args, width), .result = true,
      .arg = "WIDTH",
      .help = "of the whole figure: pixels, or with a unit its width on paper, as in 85mm"},
@@ -74,6 +76,25 @@ static const struct opt opts[] = {
      .result = true, .help = "draw the share of the map at or above each value"},
     {.name = "curve", .type = OPT_TEXT, .at = offsetof(struct args, curve), .result = true,
      .arg = "X:Y[,Y...]", .help = "draw columns Y over X of reports or tables instead of a map"},
+    {.name = "by", .type = OPT_TEXT, .at = offsetof(struct args, style.by), .result = true,
+     .arg = "COLUMN[,COLUMN]",
+     .help = "a curve for each value of a column of --curve; of two: colour by one, dashes by the other"},
+    {.name = "points", .type = OPT_FLAG, .at = offsetof(struct args, style.points), .result = true,
+     .help = "of --curve: markers without lines"},
+    {.name = "error", .type = OPT_TEXT, .at = offsetof(struct args, style.error), .result = true,
+     .arg = "COLUMN[,...]", .help = "of --curve: bars as long as this column says, to both sides"},
+    {.name = "spread", .type = OPT_FLAG, .at = offsetof(struct args, style.spread), .result = true,
+     .help = "of --curve: rows that share an x as their mean, with bars of their standard deviation"},
+    {.name = "legend", .type = OPT_TEXT, .at = offsetof(struct args, style.legend), .result = true,
+     .arg = "TEXT[;...]", .help = "names of the curves, in the order of the legend"},
+    {.name = "x-label", .type = OPT_TEXT, .at = offsetof(struct args, style.x_label),
+     .result = true, .arg = "TEXT", .help = "what the axis of a curve says across"},
+    {.name = "y-label", .type = OPT_TEXT, .at = offsetof(struct args, style.y_label),
+     .result = true, .arg = "TEXT", .help = "the same upwards"},
+    {.name = "x-unit", .type = OPT_TEXT, .at = offsetof(struct args, style.x_unit), .result = true,
+     .arg = "UNIT", .help = "unit of the axis of a curve, as in mN, mm2 or %"},
+    {.name = "y-unit", .type = OPT_TEXT, .at = offsetof(struct args, style.y_unit), .result = true,
+     .arg = "UNIT", .help = "the same upwards"},
     {.name = "law", .type = OPT_CHOICE, .at = offsetof(struct args, style.law), .result = true,
      .words = law_word, .help = "draw a published law beside the curve"},
     {.name = "estar", .type = OPT_NUMBER, .unit = UNIT_PA,
@@ -308,7 +329,7 @@ render(struct tool *t, struct args *a, struct rc_grid *g, struct rc_grid *beside
     snprintf(title, sizeof title, "%.80s about the contact", look.what.title);
     if (a->title == NULL && w.contact)
         f.title = title;
-    f.subtitle = subtitle.text;
+    f.subtitle = wording_subtitle(a->title, a->style.subtitle, subtitle.text);
     if (a->hillshade && !look_is_profile(g))
         subtitle_add(&subtitle, shaded, "");
     if ((a->contour || a->hertz || a->hillshade) && look_is_profile(g))
@@ -407,7 +428,7 @@ render_sheet(struct tool *t, struct args *a, const struct frames *frames)
     sheet_survey(t, frames, &all);
     look_figure(t, a, frames->grid, frames->n, &all, &look, &f);
     say_of_sheet(&subtitle, a, frames, &all, &means, window[0].part);
-    f.subtitle = subtitle.text;
+    f.subtitle = wording_subtitle(a->title, a->style.subtitle, subtitle.text);
     set_panels(t, a, frames, window, &f, panel, even);
     if (columns == 0)
         columns = panels_columns(frames->n, (f.right - f.left) / (f.bottom - f.top));
@@ -523,6 +544,13 @@ read_several(struct tool *t, struct args *a)
     frames_free(&frames);
 }
 
+static void
+check_text(struct tool *t, const char *option, const char *text)
+{
+    if (text != NULL && !rc_utf8_valid(text))
+        tool_die(t, EXIT_USAGE, "--%s: the text is not UTF-8", option);
+}
+
 int
 main(int argc, char **argv)
 {
@@ -533,8 +561,11 @@ main(int argc, char **argv)
 
     tool_start(&t, &info, argc, argv, &args);
     args_check(&t, &args);
-    if (args.title != NULL && !rc_utf8_valid(args.title))
-        tool_die(&t, EXIT_USAGE, "--title: the text is not UTF-8");
+    check_text(&t, "title", args.title);
+    check_text(&t, "subtitle", args.style.subtitle);
+    check_text(&t, "legend", args.style.legend);
+    check_text(&t, "x-label", args.style.x_label);
+    check_text(&t, "y-label", args.style.y_label);
     if (args.curve != NULL)
         render_curves(&t, &args);
     else if (args_several(&args))

@@ -132,7 +132,7 @@ for page in "$pages"/*.[15] "$pages/contact-mpi.7"; do
     [ "$name" = rc-leak.1 ] && ! with_leak && continue
     blocks "$page" EXAMPLES "$scratch/$name.blocks"
     prepare "$scratch/$name.run"
-    for block in "$scratch/$name.blocks"/*; do
+    for block in $(ls -v "$scratch/$name.blocks"/*); do
         grep -q '^main(' "$block" && continue
         claim "$name: example $(basename "$block") runs" run_in "$name.run" "$block"
     done

@@ -1,5 +1,6 @@
 #include "graph.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -136,9 +137,28 @@ extremes(const struct graph *g, bool up, double *lo, double *hi)
                 continue;
             *lo = fmin(*lo, up && q->kind == GRAPH_BARS && !a->log ? 0 : v);
             *hi = fmax(*hi, v);
+            if (up && q->low != NULL) {
+                *lo = shows(a, q->low[k]) ? fmin(*lo, q->low[k]) : *lo;
+                *hi = shows(a, q->high[k]) ? fmax(*hi, q->high[k]) : *hi;
+            }
         }
     *lo = isnan(a->lo) ? *lo : a->lo;
     *hi = isnan(a->hi) ? *hi : a->hi;
+}
+
+/* The unit in brackets, unless the text names the one that was asked for itself. */
+static void
+label(struct side *s)
+{
+    const struct graph_axis *a = s->axis;
+    const char *at = a->shown == NULL || *a->shown == '\0' ? NULL : strstr(a->quantity, a->shown);
+    size_t n = at == NULL ? 0 : strlen(a->shown);
+
+    if (*a->quantity == '\0' || (at != NULL && at > a->quantity &&
+                                 !isalnum((unsigned char)at[-1]) && !isalnum((unsigned char)at[n])))
+        snprintf(s->label, sizeof s->label, "%s", a->quantity);
+    else
+        scale_label(s->label, sizeof s->label, a->quantity, &s->scale);
 }
 
 /* A little air at both ends, but none between the curves and a 0 that they begin at. */
@@ -155,8 +175,9 @@ set_range(struct side *s, const struct graph *g, bool up, struct rc_err *err)
                    ? rc_err_set(err, "no point lies above 0 on its logarithmic axes: leave out "
                                      "--log, or give it one axis, x or y")
                    : rc_err_set(err, "%s: no point has a number on both axes", a->quantity);
-    choose_scale(&s->scale, fmax(fabs(lo), fabs(hi)), a->unit, a->log);
-    scale_label(s->label, sizeof s->label, a->quantity, &s->scale);
+    if (a->shown == NULL || !scale_given(&s->scale, a->shown, a->unit))
+        choose_scale(&s->scale, fmax(fabs(lo), fabs(hi)), a->unit, a->log);
+    label(s);
     if (!a->log && fmax(fabs(lo), fabs(hi)) < nothing)
         lo = hi = 0;
     lo /= s->scale.size;
@@ -329,6 +350,8 @@ draw_line(struct graph_page *p, const struct graph_series *s, struct rgb colour)
     }
     if (s->kind == GRAPH_LAW)
         canvas_dashes(p->c, 2 * p->u, 11 * p->u, colour);
+    else if (s->mark > 1)
+        canvas_dashes(p->c, 2.2 * p->u, (s->mark % 2 == 0 ? 16 : 6) * p->u, colour);
     else
         canvas_stroke(p->c, 2.2 * p->u, colour);
 }
@@ -377,13 +400,43 @@ colour_of(const struct graph_series *s)
 static bool
 has_markers(const struct graph_series *s)
 {
-    return s->kind == GRAPH_MARKS && s->n <= CROWDED;
+    return s->kind == GRAPH_POINTS || (s->kind == GRAPH_MARKS && s->n <= CROWDED);
+}
+
+static double
+marker_size(const struct graph_page *p, const struct graph_series *s)
+{
+    return (s->n > CROWDED ? 7 : 12) * p->u;
 }
 
 static size_t
 marker_of(const struct graph_series *s)
 {
-    return s->place + s->place / GRAPH_COLOURS;
+    return s->mark > 0 ? s->mark - 1 : s->place + s->place / GRAPH_COLOURS;
+}
+
+static void
+draw_error_bars(struct graph_page *p, const struct graph_series *s)
+{
+    double cap = 7 * p->u;
+
+    for (size_t k = 0; s->low != NULL && k < s->n; k++) {
+        double x, end[2];
+
+        if (!is_point(p->g, s, k) || !isfinite(s->low[k]) || !isfinite(s->high[k]))
+            continue;
+        x = x_of(p, s->x[k]);
+        end[0] = y_of(p, s->low[k]);
+        end[1] = y_of(p, s->high[k]);
+        canvas_move(p->c, x, end[0]);
+        canvas_draw_to(p->c, x, end[1]);
+        for (int e = 0; e < 2; e++) {
+            canvas_move(p->c, x - cap, end[e]);
+            canvas_draw_to(p->c, x + cap, end[e]);
+        }
+    }
+    if (s->low != NULL)
+        canvas_stroke(p->c, 1.5 * p->u, colour_of(s));
 }
 
 static void
@@ -393,8 +446,9 @@ draw_series(struct graph_page *p, const struct graph_series *s)
 
     if (s->kind == GRAPH_BARS)
         draw_bars(p, s, colour);
-    else
+    else if (s->kind != GRAPH_POINTS)
         draw_line(p, s, colour);
+    draw_error_bars(p, s);
 }
 
 /* Whole also where they stand on the frame. */
@@ -410,7 +464,7 @@ draw_markers(struct graph_page *p, const struct graph_series *s)
         y = y_of(p, s->y[k]);
         if (x >= p->left - 1 && x <= p->left + p->w + 1 && y >= p->top - 1 &&
             y <= p->top + p->h + 1)
-            draw_marker(p, marker_of(s), x, y, 12 * p->u, colour_of(s));
+            draw_marker(p, marker_of(s), x, y, marker_size(p, s), colour_of(s));
     }
 }
 
@@ -485,17 +539,19 @@ draw_swatch(struct graph_page *p, const struct graph_series *s, double x, double
 {
     double w = (SWATCH - 14) * p->u;
     struct rgb colour = colour_of(s);
+    bool dashes = s->kind == GRAPH_LAW || s->mark > 1;
 
     if (s->kind == GRAPH_BARS) {
         canvas_fill(p->c, x, y - 8 * p->u, w, 16 * p->u, pale(colour));
         canvas_frame(p->c, x, y - 8 * p->u, w, 16 * p->u, 1.6 * p->u, colour);
         return;
     }
-    for (int k = 0; k < (s->kind == GRAPH_LAW ? 3 : 1); k++) {
-        canvas_move(p->c, s->kind == GRAPH_LAW ? x + 0.37 * k * w : x, y);
-        canvas_draw_to(p->c, s->kind == GRAPH_LAW ? x + (0.37 * k + 0.26) * w : x + w, y);
+    for (int k = 0; k < (dashes ? 3 : 1) && s->kind != GRAPH_POINTS; k++) {
+        canvas_move(p->c, dashes ? x + 0.37 * k * w : x, y);
+        canvas_draw_to(p->c, dashes ? x + (0.37 * k + 0.26) * w : x + w, y);
     }
-    canvas_stroke(p->c, 2.2 * p->u, colour);
+    if (s->kind != GRAPH_POINTS)
+        canvas_stroke(p->c, 2.2 * p->u, colour);
     if (has_markers(s))
         draw_marker(p, marker_of(s), x + 0.5 * w, y, 12 * p->u, colour);
 }

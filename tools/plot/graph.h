@@ -12,7 +12,8 @@
 #include "tools/canvas/canvas.h"
 
 enum graph_kind {
-    GRAPH_MARKS, /* points joined by a line, each with a marker where they are few */
+    GRAPH_MARKS,  /* points joined by a line, each with a marker where they are few */
+    GRAPH_POINTS, /* markers alone                                                  */
     GRAPH_LINE,
     GRAPH_LAW,  /* dashed, without markers                                          */
     GRAPH_BARS, /* from x[k] to x[k + 1], y[k] high: n is the number of edges       */
@@ -22,14 +23,18 @@ struct graph_series {
     const char *name; /* NULL: not in the legend                                  */
     enum graph_kind kind;
     size_t place;        /* counted from 0: chooses colour and marker               */
+    size_t mark;         /* 0: the marker goes with the colour; else counted from 1, and chooses it
+                            and the dashes of the line                                */
     const double *x, *y; /* SI; a point that is not finite is a gap                 */
+    const double *low, *high; /* ends of error bars, SI; NULL: none                  */
     size_t n;
 };
 
 struct graph_axis {
     const char *quantity, *unit; /* as in a stream                                 */
     bool log;
-    double lo, hi; /* SI; NAN: what suits the points                               */
+    double lo, hi;     /* SI; NAN: what suits the points                               */
+    const char *shown; /* unit as asked for, see scale_given; NULL: what suits      */
 };
 
 struct graph {

@@ -120,6 +120,45 @@ scale_choose(struct scale *scale, double largest, const char *unit)
                  *unit == '\0' ? "" : " ", unit_text(printed, unit));
 }
 
+/* A prefix counts as often as the power of the unit says: mm2 is 1e-6 m2. */
+bool
+scale_given(struct scale *scale, const char *asked, const char *unit)
+{
+    bool under = strncmp(unit, "1/", 2) == 0;
+    const char *micro = strncmp(asked, "µ", 2) == 0 ? asked + 2 : NULL, *own = unit, *prefixed;
+    size_t letters = strcspn(unit, "0123456789"), n;
+    int power = 0, raised = unit[letters] == '\0' ? 1 : atoi(unit + letters);
+    char text[TICKS_TEXT], printed[TICKS_TEXT];
+
+    if (under) {
+        if (strncmp(asked, "1/", 2) != 0 || !scale_given(scale, asked + 2, unit + 2))
+            return false;
+        snprintf(text, sizeof text, "1/%.40s", scale->unit);
+        strcpy(scale->unit, text);
+        scale->size = 1 / scale->size;
+        return true;
+    }
+    if (strcmp(unit, "1") == 0) {
+        scale->size = strcmp(asked, "%") == 0 ? 0.01 : 1;
+        strcpy(scale->unit, strcmp(asked, "%") == 0 ? "%" : "");
+        return strcmp(asked, "%") == 0 || strcmp(asked, "1") == 0;
+    }
+    prefixed = micro != NULL ? micro : asked;
+    if (strlen(prefixed) < strlen(own) ||
+        strcmp(prefixed + strlen(prefixed) - strlen(own), own) != 0)
+        return false;
+    n = strlen(prefixed) - strlen(own);
+    if (micro != NULL ? n != 0 : n > 0 && !rc_prefix_power(asked, n, &power))
+        return false;
+    scale->size = pow(10, raised * (micro != NULL ? -6 : power));
+    snprintf(scale->unit, sizeof scale->unit, "%.4s%.48s",
+             micro != NULL || power == -6 ? "µ"
+             : n > 0                      ? prefix_of(power)
+                                          : "",
+             unit_text(printed, own));
+    return true;
+}
+
 const char *
 scale_value(char text[TICKS_TEXT], double value, const char *unit)
 {

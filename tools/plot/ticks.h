@@ -21,6 +21,9 @@ const char *power_text(char text[TICKS_TEXT], int power);
 void scale_choose(struct scale *scale, double largest, const char *unit);
 /* "5.83 GPa": four digits of the value in the unit that fits it; "0" has none. */
 const char *scale_value(char text[TICKS_TEXT], double value, const char *unit);
+/* The unit that was asked for, as in "kN", "mm2", "1/GPa" or, of what has none, "%": `unit` itself or
+ * with a prefix. Whether it is one. */
+bool scale_given(struct scale *scale, const char *asked, const char *unit);
 /* "Gap (µm)": what an axis is, with the unit in brackets. */
 void scale_label(char *text, size_t size, const char *quantity, const struct scale *scale);
 

@@ -28,6 +28,9 @@ check_kinds(struct tool *t, const struct args *a)
     static const char *const of_colours[] = {"colormap", "contour", "clip", "keep", NULL};
     static const char *const of_places[] = {"window", "depth-range", "hertz", NULL};
     static const char *const of_laws[] = {"law", "estar", "radius", "rms-slope", NULL};
+    static const char *const of_tables[] = {"by", "points", "error", "spread", NULL};
+    static const char *const of_curves[] = {"legend", "x-label", "y-label",
+                                            "x-unit", "y-unit",  NULL};
     int kinds = (a->curve != NULL) + (a->cut != NULL) + a->histogram + a->material_ratio +
                 (a->raw || a->figure);
 
@@ -48,6 +51,10 @@ check_kinds(struct tool *t, const struct args *a)
                  "--log %s names an axis of a curve: of a map --log stands alone, or add --curve "
                  "X:Y",
                  a->style.log);
+    if (a->curve == NULL)
+        leave_out(t, "it is for tables, with --curve X:Y", of_tables);
+    if (a->curve == NULL && !args_lines(a))
+        leave_out(t, "it is for curves: --curve, --cut, --histogram, --material-ratio", of_curves);
     if (a->curve == NULL && !a->histogram)
         leave_out(t, "laws stand beside --curve and --histogram", of_laws);
 }

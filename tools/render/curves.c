@@ -5,6 +5,7 @@
 
 #include <ctype.h>
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -61,6 +62,10 @@ static const struct quantity {
     {"dissipated_energy", "Dissipated energy", "J"},
     {"dissipated_total", "Dissipated energy", "J"},
     {"peak_memory", "Memory", "B"},
+    {"estar", "E*", "Pa"},
+    {"hardness", "Hardness", "Pa"},
+    {"radius", "Radius", "m"},
+    {"rms_slope", "RMS slope", "1"},
     {"depth", "Depth", "m"},
     {"attractive_load", "Load of attraction", "N"},
     {"repulsive_load", "Load of repulsion", "N"},
@@ -83,11 +88,13 @@ enum helper {
     INDENTATION,
     APPROACH,
     JUMPS,
+    SOURCE, /* these two as words, which tell pieces apart */
+    LOAD,
     HELPERS
 };
-static const char *const helper_name[HELPERS] = {"nx",          "ny",       "dx",        "dy",
-                                                 "estar",       "radius",   "converged", "case",
-                                                 "indentation", "approach", "jumps"};
+static const char *const helper_name[HELPERS] = {
+    "nx",   "ny",          "dx",       "dy",    "estar",  "radius", "converged",
+    "case", "indentation", "approach", "jumps", "source", "load"};
 
 struct curves {
     struct tool *tool;
@@ -95,14 +102,19 @@ struct curves {
     char *names;                 /* the argument, cut into words */
     const char *column[COLUMNS]; /* the first is x               */
     size_t columns;              /* x and y                      */
-    struct table *table;         /* one a file                   */
+    char *by_names, *error_names;
+    const char *by[GROUP_COLUMNS], *error[COLUMNS];
+    size_t bys, errors;
+    size_t asked;        /* all of these: the helpers come after them */
+    struct table *table; /* one a file                   */
     size_t tables;
     struct law_given given;
     bool short_of; /* a row is not converged */
     bool history;  /* approaches are counted from the first touch of the first shape */
     struct graph_series series[SERIES];
-    char name[SERIES][NAME];
-    size_t n;
+    char name[SERIES][NAME], legend[SERIES * NAME], note[NAME];
+    double *own[SERIES];    /* points that are means */
+    size_t n, fewest, most; /* rows of such a point */
     double law_x[SAMPLES], law_y[SAMPLES];
     char title[NAME], axis[NAME];
 };
@@ -124,6 +136,14 @@ quantity_of(const char *name)
         if (strcmp(quantities[k].name, last_part(name)) == 0)
             return &quantities[k];
     return NULL;
+}
+
+/* In the middle of a sentence; E* and RMS stay. */
+static void
+begin_small(char *title)
+{
+    if (islower((unsigned char)title[1]))
+        title[0] = (char)tolower((unsigned char)title[0]);
 }
 
 static const char *
@@ -157,6 +177,14 @@ base_name(const char *file)
     const char *slash = strrchr(file, '/');
 
     return slash == NULL ? file : slash + 1;
+}
+
+static void
+add_word(char name[NAME], const char *word)
+{
+    size_t n = strlen(name);
+
+    snprintf(name + n, NAME - n, "%s%.250s", n == 0 ? "" : ", ", word);
 }
 
 bool
@@ -193,6 +221,62 @@ split_names(struct curves *c, const char *columns)
             tool_die(c->tool, EXIT_USAGE, "--curve %s: %s", columns, wrong);
 }
 
+/* Words of a list with commas, in a copy that the caller frees. */
+static char *
+split_list(struct curves *c, const char *option, const char *list, const char **word, size_t most,
+           size_t *n)
+{
+    char *copy = strdup(list), *s = copy;
+
+    if (copy == NULL)
+        tool_die(c->tool, EXIT_IMPOSSIBLE, "out of memory");
+    for (;;) {
+        char *comma = strchr(s, ',');
+
+        if (comma != NULL)
+            *comma = '\0';
+        if (*s == '\0' || *n == most)
+            tool_die(c->tool, EXIT_USAGE, "--%s %s: it must be names of columns, %zu at most",
+                     option, list, most);
+        word[(*n)++] = s;
+        if (comma == NULL)
+            return copy;
+        s = comma + 1;
+    }
+}
+
+static void
+split_options(struct curves *c)
+{
+    const struct curve_style *s = c->style;
+
+    if (s->by != NULL)
+        c->by_names = split_list(c, "by", s->by, c->by, GROUP_COLUMNS, &c->bys);
+    if (s->error != NULL)
+        c->error_names = split_list(c, "error", s->error, c->error, COLUMNS, &c->errors);
+    if (c->errors > 0 && c->errors != c->columns - 1)
+        tool_die(c->tool, EXIT_USAGE, "--error %s: it must be one column for each of --curve",
+                 s->error);
+    if (c->errors > 0 && s->spread)
+        tool_die(c->tool, EXIT_USAGE, "--spread and --error are two kinds of bars: give one");
+    c->asked = c->columns + c->bys + c->errors;
+}
+
+static const char *
+asked_name(const struct curves *c, size_t k)
+{
+    return k < c->columns            ? c->column[k]
+           : k < c->columns + c->bys ? c->by[k - c->columns]
+                                     : c->error[k - c->columns - c->bys];
+}
+
+static bool
+is_label(const struct curves *c, size_t k)
+{
+    return (k >= c->columns && k < c->columns + c->bys) || k == c->asked + SOURCE ||
+           k == c->asked + LOAD;
+}
+
 static void
 read_tables(struct curves *c)
 {
@@ -203,12 +287,13 @@ read_tables(struct curves *c)
     for (size_t f = 0; f < files; f++) {
         struct table *table = &c->table[c->tables++];
 
-        table->columns = c->columns + HELPERS;
+        table->columns = c->asked + HELPERS;
         if ((table->column = calloc(table->columns, sizeof *table->column)) == NULL)
             tool_die(c->tool, EXIT_IMPOSSIBLE, "out of memory");
         for (size_t k = 0; k < table->columns; k++) {
-            table->column[k].optional = k >= c->columns;
-            table->column[k].name = k < c->columns ? c->column[k] : helper_name[k - c->columns];
+            table->column[k].optional = k >= c->asked;
+            table->column[k].label = is_label(c, k);
+            table->column[k].name = k < c->asked ? asked_name(c, k) : helper_name[k - c->asked];
         }
         table_read(table, c->tool, c->tool->operands == 0 ? "-" : c->tool->operand[f]);
     }
@@ -217,7 +302,7 @@ read_tables(struct curves *c)
 static const double *
 helper(const struct curves *c, const struct table *table, enum helper which)
 {
-    return table->column[c->columns + which].v;
+    return table->column[c->asked + which].v;
 }
 
 /* In a history each approach is counted from a shape of its own: over these, work would seem to be
@@ -269,6 +354,127 @@ check_convergence(struct curves *c)
     tool_fails_with(c->tool, EXIT_SHORT);
 }
 
+/* ---- groups of rows ---- */
+
+/* The word of a row in a column of labels; NULL: it has none. */
+static const char *
+word_of(const struct table *table, size_t column, size_t row)
+{
+    double v = table->column[column].v[row];
+
+    return isnan(v) ? NULL : table->column[column].word[(size_t)v];
+}
+
+/* Whether rows of a table come from several sources, each with some rows: a line through all of them
+ * would mean nothing. */
+static bool
+has_sources(const struct curves *c, const struct table *table)
+{
+    const struct column *source = &table->column[c->asked + SOURCE];
+    size_t rows[SERIES] = {0};
+
+    if (table->pieces > 1 || source->word_count < 2 || source->word_count >= SERIES)
+        return false;
+    for (size_t k = 0; k < table->rows; k++) {
+        if (isnan(source->v[k]))
+            return false;
+        rows[(size_t)source->v[k]]++;
+    }
+    for (size_t w = 0; w < source->word_count; w++)
+        if (rows[w] < 2)
+            return false;
+    return true;
+}
+
+static void
+group_rows(struct curves *c, struct table *table)
+{
+    const size_t by[GROUP_COLUMNS] = {c->columns, c->columns + 1}, source = c->asked + SOURCE;
+
+    if (c->bys > 0 || c->style->spread)
+        groups_sort(table, c->tool, by, c->bys, !c->style->spread);
+    else if (has_sources(c, table))
+        groups_sort(table, c->tool, &source, 1, true);
+}
+
+/* Whether the first rows of all pieces have words in that column, and not all the same. */
+static bool
+tells_pieces(const struct table *table, size_t column)
+{
+    bool differ = false;
+
+    for (size_t p = 0; p < table->pieces; p++) {
+        if (word_of(table, column, table->piece[p]) == NULL)
+            return false;
+        differ = differ || strcmp(word_of(table, column, table->piece[p]),
+                                  word_of(table, column, table->piece[0])) != 0;
+    }
+    return differ;
+}
+
+/* "load 10 N", "rough.x3p", "boundary free". */
+static void
+say_label(const struct table *table, size_t k, size_t row, char text[NAME])
+{
+    const struct column *column = &table->column[k];
+    const struct quantity *q = quantity_of(column->name);
+    const char *word = word_of(table, k, row), *unit = unit_of(table, k), *end;
+    char title[NAME], value[TICKS_TEXT];
+    double number;
+
+    snprintf(title, sizeof title, "%s", q == NULL ? last_part(column->name) : q->title);
+    begin_small(title);
+    end = word == NULL ? NULL : rc_number_read(word, true, &number);
+    if (word != NULL && strcmp(last_part(column->name), helper_name[SOURCE]) == 0)
+        snprintf(text, NAME, "%s", base_name(word));
+    else if (end == NULL || *end != '\0')
+        snprintf(text, NAME, "%.120s %.120s", title, word == NULL ? "unknown" : word);
+    else
+        snprintf(text, NAME, "%.120s %.100s", title,
+                 strcmp(unit, "1") == 0 ? word : scale_value(value, number, unit));
+}
+
+static void
+say_piece(const struct curves *c, const struct table *table, size_t p, char text[NAME])
+{
+    double number = helper(c, table, CASE)[table->piece[p]];
+    size_t row = table->piece[p];
+    char word[NAME];
+
+    *text = '\0';
+    for (size_t b = 0; b < c->bys; b++) {
+        say_label(table, c->columns + b, row, word);
+        add_word(text, word);
+    }
+    for (size_t h = SOURCE; *text == '\0' && h <= LOAD; h++)
+        if (tells_pieces(table, c->asked + h))
+            say_label(table, c->asked + h, row, text);
+    if (*text == '\0')
+        snprintf(text, NAME, "%s %.0f", isnan(number) ? "curve" : "case",
+                 isnan(number) ? (double)p + 1 : number);
+}
+
+/* The number of a word among those of all tables, counted from 0. */
+static size_t
+word_number(const struct curves *c, size_t column, const char *word)
+{
+    size_t n = 0;
+
+    for (size_t f = 0; f < c->tables; f++)
+        for (size_t w = 0; w < c->table[f].column[column].word_count; w++) {
+            const char *other = c->table[f].column[column].word[w];
+            bool before = false;
+
+            if (word != NULL && strcmp(other, word) == 0)
+                return n;
+            for (size_t e = 0; e < f && !before; e++)
+                for (size_t v = 0; v < c->table[e].column[column].word_count && !before; v++)
+                    before = strcmp(c->table[e].column[column].word[v], other) == 0;
+            n += !before;
+        }
+    return n;
+}
+
 /* ---- curves ---- */
 
 static struct graph_series *
@@ -277,18 +483,10 @@ new_series(struct curves *c)
     if (c->n == SERIES)
         tool_die(c->tool, EXIT_IMPOSSIBLE,
                  "more than %d curves in one picture: name fewer columns "
-                 "or files",
+                 "or files, or a --by of fewer values",
                  SERIES - 1);
     c->series[c->n].place = c->n;
     return &c->series[c->n++];
-}
-
-static void
-add_word(char name[NAME], const char *word)
-{
-    size_t n = strlen(name);
-
-    snprintf(name + n, NAME - n, "%s%s", n == 0 ? "" : ", ", word);
 }
 
 enum stretch {
@@ -346,39 +544,100 @@ add_path(struct curves *c, const struct table *table, size_t k, size_t from, siz
     }
 }
 
+/* Points as they are, or as means of those that share an x; and their bars. */
+static void
+set_points(struct curves *c, const struct table *table, size_t k, size_t from, size_t to,
+           struct graph_series *s)
+{
+    const double *x = table->column[0].v + from, *y = table->column[k].v + from, *error;
+    struct spread spread;
+    double *bars;
+
+    s->x = x;
+    s->y = y;
+    s->n = to - from;
+    if (c->style->spread) {
+        spread_take(&spread, c->tool, table, x, y, s->n);
+        c->own[c->n - 1] = spread.x;
+        c->fewest = spread.least < c->fewest ? spread.least : c->fewest;
+        c->most = spread.most > c->most ? spread.most : c->most;
+        s->x = spread.x;
+        s->y = spread.y;
+        s->low = spread.low;
+        s->high = spread.high;
+        s->n = spread.n;
+    } else if (c->errors > 0) {
+        error = table->column[c->columns + c->bys + k - 1].v + from;
+        if ((bars = malloc(2 * s->n * sizeof *bars)) == NULL)
+            tool_die(c->tool, EXIT_IMPOSSIBLE, "out of memory");
+        for (size_t i = 0; i < s->n; i++) {
+            bars[i] = y[i] - fabs(error[i]);
+            bars[s->n + i] = y[i] + fabs(error[i]);
+        }
+        c->own[c->n - 1] = bars;
+        s->low = bars;
+        s->high = bars + s->n;
+    }
+}
+
+static void
+add_curve(struct curves *c, const struct table *table, size_t k, size_t p)
+{
+    size_t from = table->piece[p], to = p + 1 < table->pieces ? table->piece[p + 1] : table->rows;
+    struct graph_series *s;
+    char name[NAME] = "", text[NAME];
+
+    if (c->tables > 1)
+        add_word(name, base_name(table->source));
+    if (c->columns > 2)
+        add_word(name, title_of(c, k));
+    if (table->pieces > 1 || c->bys > 0) {
+        say_piece(c, table, p, text);
+        add_word(name, text);
+    }
+    if (*name == '\0' && c->style->law != NULL)
+        add_word(name, base_name(table->source));
+    if (isfinite(helper(c, table, JUMPS)[from]) && !c->style->spread && !c->style->points) {
+        add_path(c, table, k, from, to, name);
+        return;
+    }
+    s = new_series(c);
+    memcpy(c->name[c->n - 1], name, NAME);
+    s->name = *name == '\0' ? NULL : c->name[c->n - 1];
+    s->kind = c->style->points ? GRAPH_POINTS : GRAPH_MARKS;
+    if (c->bys == GROUP_COLUMNS) {
+        s->place = word_number(c, c->columns, word_of(table, c->columns, from));
+        s->mark = 1 + word_number(c, c->columns + 1, word_of(table, c->columns + 1, from));
+    }
+    set_points(c, table, k, from, to, s);
+}
+
 static void
 add_curves(struct curves *c, const struct table *table)
 {
     for (size_t k = 1; k < c->columns; k++)
-        for (size_t p = 0; p < table->pieces; p++) {
-            size_t from = table->piece[p],
-                   to = p + 1 < table->pieces ? table->piece[p + 1] : table->rows;
-            struct graph_series *s;
-            char name[NAME] = "", text[64];
-            double number = helper(c, table, CASE)[from];
+        for (size_t p = 0; p < table->pieces; p++)
+            add_curve(c, table, k, p);
+}
 
-            if (c->tables > 1)
-                add_word(name, base_name(table->source));
-            if (c->columns > 2)
-                add_word(name, title_of(c, k));
-            snprintf(text, sizeof text, "%s %.0f", isnan(number) ? "curve" : "case",
-                     isnan(number) ? (double)p + 1 : number);
-            if (table->pieces > 1)
-                add_word(name, text);
-            if (*name == '\0' && c->style->law != NULL)
-                add_word(name, base_name(table->source));
-            if (isfinite(helper(c, table, JUMPS)[from])) {
-                add_path(c, table, k, from, to, name);
-                continue;
-            }
-            s = new_series(c);
-            memcpy(c->name[c->n - 1], name, NAME);
-            s->name = *name == '\0' ? NULL : c->name[c->n - 1];
-            s->kind = GRAPH_MARKS;
-            s->x = table->column[0].v + from;
-            s->y = table->column[k].v + from;
-            s->n = to - from;
-        }
+/* What the bars are. */
+static void
+say_bars(struct curves *c)
+{
+    char rows[64];
+
+    if (c->style->spread && c->most > 1) {
+        snprintf(rows, sizeof rows, c->fewest == c->most ? "%zu" : "%zu to %zu", c->fewest,
+                 c->most);
+        snprintf(c->note, NAME,
+                 "means of the rows that share %.80s (%s each) · bars: their standard deviation",
+                 c->column[0], rows);
+    }
+    for (size_t k = 0; k < c->errors; k++) {
+        size_t n = strlen(c->note);
+
+        snprintf(c->note + n, NAME - n, "%s%.60s", n == 0 ? "bars: ± " : ", ", c->error[k]);
+    }
 }
 
 /* ---- laws ---- */
@@ -493,26 +752,27 @@ describe(struct curves *c)
 
         add_word(c->axis, title_of(c, k));
         if (k > 1 && quantity_of(c->column[k]) != NULL)
-            c->axis[n + 2] = (char)tolower((unsigned char)c->axis[n + 2]);
+            begin_small(c->axis + n + 2);
     }
     snprintf(c->title, NAME, "%.150s against ", c->axis);
     x += strlen(x);
     snprintf(x, NAME - (size_t)(x - c->title), "%.90s", title_of(c, 0));
     if (quantity_of(c->column[0]) != NULL)
-        *x = (char)tolower((unsigned char)*x);
+        begin_small(x);
 }
 
 static struct canvas *
 draw(struct curves *c, struct drawn *drawn)
 {
-    const struct graph graph = {
+    struct graph graph = {
         .title = drawn->title,
-        .subtitle = drawn->source,
+        .subtitle = wording_subtitle(c->style->title, c->style->subtitle, drawn->source),
         .stamp = drawn->stamp,
-        .x = {title_of(c, 0), unit_of(c->table, 0), curve_log(c->style, 'x'), NAN, NAN},
-        .y = {c->axis, unit_of(c->table, 1), curve_log(c->style, 'y'), NAN, NAN},
+        .x = {title_of(c, 0), unit_of(c->table, 0), curve_log(c->style, 'x'), NAN, NAN, NULL},
+        .y = {c->axis, unit_of(c->table, 1), curve_log(c->style, 'y'), NAN, NAN, NULL},
         .series = c->series,
         .n = c->n,
+        .note = *c->note == '\0' ? NULL : c->note,
         .width = c->style->width,
         .dpi = c->style->dpi,
         .family = c->style->family,
@@ -521,6 +781,9 @@ draw(struct curves *c, struct drawn *drawn)
     struct rc_err err;
     size_t bytes;
 
+    wording_axis(c->tool, c->style, 'x', &graph.x);
+    wording_axis(c->tool, c->style, 'y', &graph.y);
+    wording_legend(c->tool, c->style, c->series, c->n, c->legend, sizeof c->legend);
     if (graph_memory(&graph, &bytes, &err) != RC_OK ||
         tool_ask_memory(c->tool, NULL, bytes, "give fewer rows", &err) != RC_OK)
         tool_die(c->tool, EXIT_IMPOSSIBLE, "%s", err.text);
@@ -537,7 +800,11 @@ curves_free(struct curves *c)
         free(c->table[f].column);
     }
     free(c->table);
+    for (size_t k = 0; k < c->n; k++)
+        free(c->own[k]);
     free(c->names);
+    free(c->by_names);
+    free(c->error_names);
     free(c);
 }
 
@@ -552,14 +819,19 @@ curves_draw(struct tool *t, const char *columns, const struct curve_style *style
         tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
     c->tool = t;
     c->style = style;
+    c->fewest = SIZE_MAX;
     split_names(c, columns);
+    split_options(c);
     read_tables(c);
     for (size_t f = 0; f < c->tables; f++)
         count_from_one_shape(c, &c->table[f]);
     check_units(c);
     check_convergence(c);
     for (size_t f = 0; f < c->tables; f++)
+        group_rows(c, &c->table[f]);
+    for (size_t f = 0; f < c->tables; f++)
         add_curves(c, &c->table[f]);
+    say_bars(c);
     if (style->law != NULL)
         add_law(c);
     describe(c);

@@ -23,6 +23,7 @@ struct set {
     struct graph_series *series; /* n + 1 */
     double **x, **y;             /* n + 1 each, of which the series are made */
     char (*label)[LABEL];
+    char legend[4096];
     struct subtitle subtitle;
     struct channel channel;
 };
@@ -97,7 +98,7 @@ set_draw(struct set *s, struct graph *graph, const char *title, struct drawn *dr
     snprintf(drawn->source, sizeof drawn->source, "%s", source == NULL ? "" : source);
     drawn->stamp = stamp_of(s);
     graph->title = drawn->title;
-    graph->subtitle = s->subtitle.text;
+    graph->subtitle = wording_subtitle(s->style->title, s->style->subtitle, s->subtitle.text);
     graph->stamp = drawn->stamp;
     graph->series = s->series;
     graph->width = s->style->width;
@@ -105,6 +106,9 @@ set_draw(struct set *s, struct graph *graph, const char *title, struct drawn *dr
     graph->family = s->style->family;
     graph->x.log = curve_log(s->style, 'x');
     graph->y.log = curve_log(s->style, 'y');
+    wording_axis(s->tool, s->style, 'x', &graph->x);
+    wording_axis(s->tool, s->style, 'y', &graph->y);
+    wording_legend(s->tool, s->style, s->series, graph->n, s->legend, sizeof s->legend);
     if (graph_memory(graph, &bytes, &err) != RC_OK)
         tool_die(s->tool, EXIT_IMPOSSIBLE, "%s", err.text);
     tool_demand_memory(s->tool, s->grid[0], bytes);

@@ -184,9 +184,12 @@ const char *words_hertz(struct tool *tool, struct words *words, const struct rc_
 struct column {
     const char *name;  /* as asked for: of JSON also what is inside objects, "psd.q" or "q" */
     bool optional;     /* may be absent: then all its values are NaN                        */
+    bool label;        /* its cells are kept as words, and v holds the numbers of these     */
     bool found, words; /* words: some of its cells are text                                 */
     char unit[24];     /* from the heading; empty: not said                                 */
     double *v;         /* true is 1, false 0; NaN: unknown                                  */
+    char **word;       /* of labels, in the order in which they came                        */
+    size_t word_count;
 };
 
 struct table {
@@ -203,6 +206,26 @@ void table_read(struct table *table, struct tool *tool, const char *file);
 void table_free(struct table *table);
 /* What to do with an input that begins like a table; NULL: it does not. */
 const char *table_remedy(const char *head);
+
+/* ---- groups.c: rows that belong together ---- */
+
+enum {
+    GROUP_COLUMNS = 2
+};
+
+/* Orders the rows by the labels of n columns, which become pieces, in the order of their first rows;
+ * `pieces`: within the pieces that there are. */
+void groups_sort(struct table *table, struct tool *tool, const size_t *by, size_t n, bool pieces);
+
+/* Rows that share an x, to a millionth of it, as one point: the mean of y, and one standard deviation to both
+ * sides of it (n - 1; NaN of one row). */
+struct spread {
+    double *x, *y, *low, *high; /* one allocation, at x, which the caller frees */
+    size_t n, least, most;      /* points; rows of one */
+};
+
+void spread_take(struct spread *spread, struct tool *tool, const struct table *table,
+                 const double *x, const double *y, size_t n);
 
 /* ---- law.c: published laws beside the points ---- */
 
@@ -233,7 +256,10 @@ double law_pressure_density(const struct law_given *given, double mean, double p
 /* What all pictures of curves share. */
 struct curve_style {
     const char *log; /* NULL: linear; "" or "xy": both axes, "x", "y"   */
-    const char *title, *law;
+    const char *title, *subtitle, *law;
+    const char *x_label, *y_label, *x_unit, *y_unit, *legend; /* NULL: what suits */
+    const char *by, *error;                                   /* columns of tables */
+    bool points, spread;
     struct law_given given;
     size_t width; /* as of a figure */
     double dpi;
@@ -242,6 +268,17 @@ struct curve_style {
 
 /* Bytes of code of what paints or writes the page. */
 size_t look_code(const struct tool *tool);
+
+/* ---- wording.c: words of a figure as the command line gives them ---- */
+
+/* The subtitle given, else the figure's own, but none under an empty title. */
+const char *wording_subtitle(const char *title, const char *subtitle, const char *own);
+/* Text and unit of the axis 'x' or 'y'; ends the tool where the unit is none of it. */
+void wording_axis(struct tool *tool, const struct curve_style *style, char which,
+                  struct graph_axis *axis);
+/* Names of curves, kept in `text`; ends the tool where there are more or fewer than in the legend. */
+void wording_legend(struct tool *tool, const struct curve_style *style, struct graph_series *series,
+                    size_t n, char *text, size_t size);
 
 /* What a picture says of itself beside its canvas. */
 struct drawn {

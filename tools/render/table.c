@@ -153,6 +153,28 @@ cell_value(const char *text, size_t n, bool *words)
     return NAN;
 }
 
+/* The number of a word among those of its column. */
+static double
+label_value(struct reading *r, struct column *column, const char *text, size_t n)
+{
+    char word[PATH], **more;
+    size_t k = 0;
+
+    snprintf(word, sizeof word, "%.*s", (int)(n < sizeof word ? n : sizeof word - 1), text);
+    if (*word == '\0' || strcmp(word, "null") == 0 || strcmp(word, "NaN") == 0)
+        return NAN;
+    while (k < column->word_count && strcmp(column->word[k], word) != 0)
+        k++;
+    if (k < column->word_count)
+        return (double)k;
+    if (k == CELLS) /* more than a picture tells apart: the last stands for all of them */
+        return CELLS - 1;
+    more = realloc(column->word, (k + 1) * sizeof *more);
+    if (more == NULL || (column->word = more, more[k] = strdup(word)) == NULL)
+        no_memory(r->tool, r->table->source);
+    return (double)column->word_count++;
+}
+
 static const char *
 line_end(const struct reading *r)
 {
@@ -250,6 +272,7 @@ read_tabs(struct reading *r)
 
             column->v[r->table->rows] =
                 where[c] == CELLS ? NAN
+                : column->label   ? label_value(r, column, start[where[c]], length[where[c]])
                                   : cell_value(start[where[c]], length[where[c]], &column->words);
         }
         r->table->rows++;
@@ -305,9 +328,12 @@ is_named(const char *path, const char *name)
     return p >= n && strcmp(path + p - n, name) == 0 && (p == n || path[p - n - 1] == '.');
 }
 
+/* A value as it stands in the file; `words`: it stands in quotes. */
 static void
-take(struct reading *r, double value, bool words, bool element)
+take(struct reading *r, const char *text, size_t length, bool words, bool element)
 {
+    double value = words ? NAN : cell_value(text, length, &(bool){false});
+
     if (!element && r->table->rows == 0)
         name_list_add(&r->there, r->path);
     for (size_t c = 0; c < r->table->columns; c++) {
@@ -324,7 +350,8 @@ take(struct reading *r, double value, bool words, bool element)
             r->got[c].v = v;
             r->got[c].capacity = capacity;
         }
-        r->got[c].v[r->got[c].n++] = value;
+        r->got[c].v[r->got[c].n++] =
+            r->table->column[c].label ? label_value(r, &r->table->column[c], text, length) : value;
         r->got[c].array = element;
         r->got[c].taken = !element;
         r->table->column[c].found = true;
@@ -389,15 +416,14 @@ read_word(struct reading *r, bool element)
 {
     const char *start = r->at;
     bool words = false;
-    double value;
 
     while (r->at < r->end && (isalnum((unsigned char)*r->at) || strchr("+-.", *r->at) != NULL) &&
            *r->at != '\0')
         r->at++;
-    value = cell_value(start, (size_t)(r->at - start), &words);
+    cell_value(start, (size_t)(r->at - start), &words);
     if (words || r->at == start)
         bad(r, "this is no JSON: a value is no number, text, true, false or null");
-    take(r, value, false, element);
+    take(r, start, (size_t)(r->at - start), false, element);
 }
 
 static void
@@ -417,7 +443,7 @@ read_value(struct reading *r, bool element)
         break;
     case '"':
         read_string(r, &text, &n);
-        take(r, NAN, true, element);
+        take(r, text, n, true, element);
         break;
     default:
         read_word(r, element);
@@ -494,8 +520,9 @@ check_columns(struct reading *r)
         for (size_t k = 0; k < table->rows; k++)
             any = any || isfinite(column->v[k]);
         if (!any)
-            tool_die(r->tool, EXIT_IMPOSSIBLE, "%s: column %s holds no number%s", table->source,
-                     column->name, column->words ? ", but words" : "");
+            tool_die(r->tool, EXIT_IMPOSSIBLE, "%s: column %s holds no %s%s", table->source,
+                     column->name, column->label ? "value" : "number",
+                     column->words ? ", but words" : "");
     }
 }
 
@@ -541,7 +568,11 @@ table_read(struct table *table, struct tool *t, const char *file)
 void
 table_free(struct table *table)
 {
-    for (size_t c = 0; c < table->columns; c++)
+    for (size_t c = 0; c < table->columns; c++) {
+        for (size_t k = 0; k < table->column[c].word_count; k++)
+            free(table->column[c].word[k]);
+        free(table->column[c].word);
         free(table->column[c].v);
+    }
     free(table->piece);
 }

@@ -1,0 +1,126 @@
+/*
+ * Rows of a table that belong together: by the values of columns, or by the x that they share.
+ */
+#include "render.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static _Noreturn void
+no_memory(struct tool *t, const struct table *table)
+{
+    tool_die(t, EXIT_IMPOSSIBLE, "%s: out of memory for its table", table->source);
+}
+
+/* ---- by column ---- */
+
+struct place {
+    double key[1 + GROUP_COLUMNS]; /* the piece, then the numbers of the words */
+    size_t row;
+};
+
+static int
+compare_places(const void *one, const void *other)
+{
+    const struct place *a = one, *b = other;
+
+    for (size_t k = 0; k < 1 + GROUP_COLUMNS; k++)
+        if (a->key[k] != b->key[k])
+            return a->key[k] < b->key[k] ? -1 : 1;
+    return a->row < b->row ? -1 : 1;
+}
+
+static bool
+same_group(const struct place *a, const struct place *b)
+{
+    return memcmp(a->key, b->key, sizeof a->key) == 0;
+}
+
+void
+groups_sort(struct table *table, struct tool *t, const size_t *by, size_t n, bool pieces)
+{
+    struct place *place = malloc(table->rows * sizeof *place);
+    double *v = malloc(table->rows * sizeof *v);
+    size_t *piece = malloc(table->rows * sizeof *piece), now = 0;
+
+    if (place == NULL || v == NULL || piece == NULL)
+        no_memory(t, table);
+    for (size_t k = 0; k < table->rows; k++) {
+        while (now + 1 < table->pieces && table->piece[now + 1] <= k)
+            now++;
+        place[k] = (struct place){.row = k, .key = {pieces ? (double)now : 0}};
+        for (size_t b = 0; b < n; b++) {
+            double word = table->column[by[b]].v[k];
+
+            place[k].key[1 + b] = isnan(word) ? INFINITY : word;
+        }
+    }
+    qsort(place, table->rows, sizeof *place, compare_places);
+    for (size_t c = 0; c < table->columns; c++) {
+        memcpy(v, table->column[c].v, table->rows * sizeof *v);
+        for (size_t k = 0; k < table->rows; k++)
+            table->column[c].v[k] = v[place[k].row];
+    }
+    table->pieces = 0;
+    for (size_t k = 0; k < table->rows; k++)
+        if (k == 0 || !same_group(&place[k], &place[k - 1]))
+            piece[table->pieces++] = k;
+    free(table->piece);
+    table->piece = piece;
+    free(place);
+    free(v);
+}
+
+/* ---- by x ---- */
+
+static int
+compare_points(const void *one, const void *other)
+{
+    const double *a = one, *b = other;
+
+    return (a[0] > b[0]) - (a[0] < b[0]);
+}
+
+void
+spread_take(struct spread *s, struct tool *t, const struct table *table, const double *x,
+            const double *y, size_t n)
+{
+    const double shared = 1e-6; /* of x: loads that were asked for are met to less */
+    double(*point)[2] = malloc(n * sizeof *point);
+    size_t points = 0, last;
+
+    *s = (struct spread){.x = malloc(4 * n * sizeof *s->x), .least = SIZE_MAX};
+    if (point == NULL || s->x == NULL)
+        no_memory(t, table);
+    s->y = s->x + n;
+    s->low = s->y + n;
+    s->high = s->low + n;
+    for (size_t k = 0; k < n; k++)
+        if (isfinite(x[k]) && isfinite(y[k])) {
+            point[points][0] = x[k];
+            point[points++][1] = y[k];
+        }
+    qsort(point, points, sizeof *point, compare_points);
+    for (size_t k = 0; k < points; k = last) {
+        double sum[2] = {0, 0}, squares = 0, rows, deviation;
+
+        for (last = k; last < points && point[last][0] - point[k][0] <= shared * fabs(point[k][0]);
+             last++) {
+            sum[0] += point[last][0];
+            sum[1] += point[last][1];
+        }
+        rows = (double)(last - k);
+        s->x[s->n] = sum[0] / rows;
+        s->y[s->n] = sum[1] / rows;
+        for (size_t i = k; i < last; i++)
+            squares += pow(point[i][1] - s->y[s->n], 2);
+        deviation = last - k > 1 ? sqrt(squares / (rows - 1)) : NAN;
+        s->low[s->n] = s->y[s->n] - deviation;
+        s->high[s->n] = s->y[s->n] + deviation;
+        s->least = last - k < s->least ? last - k : s->least;
+        s->most = last - k > s->most ? last - k : s->most;
+        s->n++;
+    }
+    free(point);
+}
