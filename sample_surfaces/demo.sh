@@ -76,8 +76,8 @@ run "rc-import $surface | rc-detrend $fit |
 run "rc-render --channel pressure rc-demo/contact.rcg -o rc-demo/pressure.png"
 run "rc-render --channel height rc-demo/contact.rcg -o rc-demo/height.png"
 echo
-sed 's/"effects": {[^}]*}//' rc-demo/report.json | tr ',' '\n' | tr -d '{}" ' | grep -E \
-    '^(load|max_pressure|contact_fraction|plastic_area|approach|iterations|pressure_error_estimate):' |
-    sed 's/:/ = /; s/^/  /'
+rc-info rc-demo/contact.rcg | grep -E '^  (load|contact|pressure|approach|hardness|converged) '
+sed -n 's/.*"pressure_error_estimate": \([0-9.e-]*\).*/\1/p' rc-demo/report.json |
+    LC_ALL=C awk '{ printf "  %-10s %.2g of the pressure, estimated\n", "error", $1 }'
 echo
 echo "Drawn in rc-demo: height.png, pressure.png, and mises.png, the depth where it is largest."

@@ -228,7 +228,10 @@ print_formats(struct tool *t)
 static const char *
 number_or_dash(char text[RC_NUMBER_SIZE], double value)
 {
-    return isnan(value) ? "-" : rc_number_text(text, value);
+    if (isnan(value))
+        return "-";
+    snprintf(text, RC_NUMBER_SIZE, "%.6g", value); /* for people: the stream has all digits */
+    return text;
 }
 
 /* Least and greatest value of a channel, in its unit or, where the file gives none, as it stands
@@ -271,14 +274,14 @@ print_list(struct tool *t, const struct source *s, const struct rc_wish *wish)
         pick.index = s->n;
     shown_words(t->out, t->source, strlen(t->source));
     fprintf(t->out, ": %s\n", s->format->name);
-    fprintf(t->out, "%9s %8s %8s %22s %22s %-6s %24s %24s %s\n", "channel", "nx", "ny", "dx/m",
+    fprintf(t->out, "%9s %8s %8s %12s %12s %-6s %12s %12s %s\n", "channel", "nx", "ny", "dx/m",
             "dy/m", "unit", "least", "greatest", "name");
     for (size_t k = 0; k < s->n; k++) {
         const struct rc_channel *c = &s->channel[k];
         double range[2];
         bool known = range_of(t, s, wish, k, range);
 
-        fprintf(t->out, "%c %7zu %8zu %8zu %22s %22s %-6s %24s %24s %s\n",
+        fprintf(t->out, "%c %7zu %8zu %8zu %12s %12s %-6s %12s %12s %s\n",
                 k == pick.index ? '*' : ' ', k + 1, c->nx, c->ny, number_or_dash(dx, c->dx),
                 number_or_dash(dy, c->dy), c->unit[0] == '\0' ? "-" : c->unit,
                 number_or_dash(low, known ? range[0] : NAN),

@@ -169,6 +169,7 @@ main(int argc, char **argv)
         rc_grid_free(hardness);
     }
     checkpoint_close(run.checkpoint);
+    solve_warn_at_end(&run);
     report_close(&run.report);
     return tool_finish(&run.t);
 }

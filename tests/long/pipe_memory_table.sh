@@ -8,7 +8,7 @@ skip_with_address_sanitizer "it takes memory of its own"
 # row "what" 'shell command': a line of the table; its last tool is told --verbose.
 row() {
     local expected taken
-    bash -c "$2" 2>&1 >/dev/null | grep 'memory: ' | tail -n 1 >memory.txt
+    bash -c "${2//--verbose/--debug}" 2>&1 >/dev/null | grep 'memory: ' | tail -n 1 >memory.txt
     read -r _ _ expected _ _ taken _ <memory.txt
     printf '%-28s %-12s %9s MiB expected %9s MiB taken\n' "$1" "$size" "${expected:-none}" "${taken:-none}" >>table.txt
     near "${expected:-none}" "${taken:-none}" 0.1 "$1, $size"

@@ -5,10 +5,10 @@
 
 skip_with_address_sanitizer "it takes memory of its own"
 
-# estimated "sentence" 'shell command': its last tool, with --verbose, takes the memory that it expected.
+# estimated "sentence" 'shell command': its last tool, with --verbose, here --debug, takes the memory that it expected.
 estimated() {
     local expected taken
-    bash -c "$2" 2>&1 >/dev/null | grep 'memory: ' | tail -n 1 >memory.txt
+    bash -c "${2//--verbose/--debug}" 2>&1 >/dev/null | grep 'memory: ' | tail -n 1 >memory.txt
     read -r _ _ expected _ _ taken _ <memory.txt
     near "${expected:-none}" "${taken:-none}" 0.1 "$1"
 }

@@ -68,8 +68,8 @@ near "$(field bytes_exchanged sent.json)" $((3 * 16 * 128 * 256 / 2)) 1e-15 "byt
 near "$(field ranks sent.json)" 2 1e-15 "ranks"
 claim "a report on standard output is written once" says '^1$' bash -c \
     "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N --quiet --report - rough.rcg | grep -c contact_nodes"
-claim "so is what --verbose tells at the end" says '^1$' bash -c \
-    "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N --verbose -o told.rcg rough.rcg 2>&1 | grep -c 'memory: .* expected'"
+claim "so is what --debug tells at the end" says '^1$' bash -c \
+    "$MPIRUN -n 2 rc-solve --estar 1GPa --load 0.1N --debug -o told.rcg rough.rcg 2>&1 | grep -c 'memory: .* expected'"
 
 # What a contact exchanges and holds, as contact-mpi(7) has it: 32 bytes a wave for each equivalent, and up to 5 %
 # for spectra; 83 bytes a node, and 40 MiB at most.
@@ -104,7 +104,7 @@ if ! nm -D "$(command -v rc-solve)" 2>/dev/null | grep -q __asan; then # which t
     estimated "  rc-solve, where one has twice the rows of the other" $press --periodic wide.rcg
     mv estimate.rcg wide-pressed.rcg
     estimated "  rc-stress, the same" rc-stress --nu 0.3 --depths 1um,5um --components mises wide-pressed.rcg
-    run rc-deflect --verbose --estar 3GPa -o estimate.rcg wide-pressed.rcg 2>&1 | grep memory: >memory.txt
+    run rc-deflect --debug --estar 3GPa -o estimate.rcg wide-pressed.rcg 2>&1 | grep memory: >memory.txt
     read -r _ _ expected _ _ taken _ <memory.txt
     near "${expected:-none}" "${taken:-none}" 0.1 "  rc-deflect"
 fi

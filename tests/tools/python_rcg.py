@@ -301,7 +301,7 @@ def fails(name):
 
 
 def short():
-    rough = rcg.run('rc-synth', None, 'selfaffine', nx=64, dx='1um', hurst=0.8,
+    rough = rcg.run('rc-synth', 'selfaffine', nx=64, dx='1um', hurst=0.8,
                     rms_height='100nm', seed=5)
     wanted = dict(periodic=True, load='0.1N', estar='100GPa', tol=1e-17, output='pressure')
     error = error_of('rc-solve', rough, **wanted)

@@ -3,6 +3,7 @@
  */
 #include "tool.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <float.h>
 #include <math.h>
@@ -22,6 +23,24 @@ allow(void *t, const struct rc_shape *shape, size_t bytes, struct rc_err *err)
     return tool_ask_memory(t, shape, bytes, "make it smaller where it comes from", err);
 }
 
+/* As of `--load 60 N`, whose last word would be a file. */
+static bool
+is_unit(const char *name)
+{
+    static const enum unit units[] = {UNIT_N, UNIT_PA, UNIT_M, UNIT_S, UNIT_BYTES};
+    char number[32];
+    struct rc_err err;
+    double value;
+
+    if (!isalpha((unsigned char)*name) || strlen(name) > 4)
+        return false;
+    snprintf(number, sizeof number, "1%s", name);
+    for (size_t k = 0; k < sizeof units / sizeof *units; k++)
+        if (unit_number(number, units[k], &value, &err) == RC_OK)
+            return true;
+    return false;
+}
+
 static void
 open_next(struct tool *t)
 {
@@ -36,7 +55,9 @@ open_next(struct tool *t)
     } else {
         t->source = name;
         if ((t->in = fopen(name, "rb")) == NULL)
-            tool_die(t, EXIT_IMPOSSIBLE, "%s: %s", name, strerror(errno));
+            tool_die(t, EXIT_IMPOSSIBLE, "%s: %s%s%s", name, strerror(errno),
+                     is_unit(name) ? ": a unit follows its number without a blank, as in 60" : "",
+                     is_unit(name) ? name : "");
     }
     if (t->ranks != NULL && (t->in == stdin || fseeko(t->in, 0, SEEK_CUR) != 0))
         tool_die(
@@ -195,8 +216,11 @@ static void
 end_case(struct tool *t, const char *channel)
 {
     if (t->current.number != 0 && t->current.found == 0)
-        tool_die(t, EXIT_IMPOSSIBLE, "%s, case %zu: no frame with the channel %s, only %s",
-                 t->current.source, t->current.number, channel, t->current.names);
+        tool_die(t, EXIT_IMPOSSIBLE, "%s, case %zu: no frame with the channel %s, only %s%s",
+                 t->current.source, t->current.number, channel, t->current.names,
+                 strcmp(channel, "pressure") == 0 && strstr(t->current.names, "height") != NULL
+                     ? ": rc-solve finds the pressure of heights under a load"
+                     : "");
 }
 
 static void

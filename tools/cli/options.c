@@ -25,6 +25,8 @@ static const struct opt common[] = {
      .help = "no warnings"},
     {.name = "verbose", .type = OPT_FLAG, .at = offsetof(struct tool, verbose),
      .help = "say what is done"},
+    {.name = "debug", .type = OPT_FLAG, .at = offsetof(struct tool, debug),
+     .help = "the same, and at the end how much memory it took"},
     {.name = "progress", .type = OPT_FLAG, .at = offsetof(struct tool, progress),
      .help = "show progress even when standard error is no terminal"},
     {.name = "help", .type = OPT_FLAG, .help = "print this and exit"},
@@ -570,6 +572,7 @@ options_read(struct tool *t, int argc, char **argv)
     }
     t->operand = argv + optind;
     t->operands = (size_t)(argc - optind);
+    t->verbose = t->verbose || t->debug;
     warn_of_commas(t);
 }
 

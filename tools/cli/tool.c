@@ -93,7 +93,7 @@ tool_finish(struct tool *t)
     peak = memory_peak(); /* output may be made at the end */
     expected = ranks_most(t, (double)t->expected_memory);
     taken = ranks_most(t, (double)(peak > t->beside_memory ? peak : t->beside_memory));
-    if (expected > 0)
+    if (expected > 0 && t->debug)
         tool_note(t, "memory: %.1f MiB expected, %.1f MiB taken", mebibytes(expected),
                   mebibytes(taken));
     ranks_end(t);

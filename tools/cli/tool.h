@@ -133,6 +133,7 @@ struct tool {
     size_t unseen_memory;   /* bytes asked for since the machine was last looked at        */
     size_t code_memory;     /* bytes: the most of tool_code_there                          */
     bool quiet, verbose, progress;
+    bool debug;              /* verbose too, and tells of memory */
     enum tool_writes writes; /* info->writes, or text where an option asks for it          */
     const char *out_name;    /* NULL: standard output                                         */
     struct ranks *ranks;     /* the processes that share the maps; NULL: alone. See ranks.h    */

@@ -45,14 +45,27 @@ value_of(const struct rc_areal *a, const struct parameter *p)
     return *(const double *)(const void *)((const char *)a + p->at);
 }
 
+/* Why a parameter has no value. */
+static const char *
+undefined(const struct rc_areal *a, const struct parameter *p)
+{
+    if (isnan(a->sq))
+        return "nothing was measured";
+    if (!(a->sz > 0))
+        return "the map is flat";
+    if (p->at == offsetof(struct rc_areal, str) && !isnan(a->sal))
+        return "ridges run across the map: along them heights are alike over half of it";
+    return "";
+}
+
 static void
-put_parameter(FILE *out, const char *name, double value, enum kind kind)
+put_parameter(FILE *out, const char *name, double value, enum kind kind, const char *why)
 {
     char text[SHOWN_NUMBER];
 
     fprintf(out, "  %-10s ", name);
     if (isnan(value))
-        fputs("not defined\n", out);
+        fprintf(out, "not defined%s%s\n", *why == '\0' ? "" : ": ", why);
     else if (kind == LENGTH)
         fprintf(out, "%s\n", shown_in_unit(text, value, "m"));
     else
@@ -71,7 +84,7 @@ areal_text(const struct info_figures *f, FILE *out)
         const struct parameter *p = &parameters[k];
         const char *name = profile ? p->profile : p->areal;
         if (name != NULL)
-            put_parameter(out, name, value_of(f->areal, p), p->kind);
+            put_parameter(out, name, value_of(f->areal, p), p->kind, undefined(f->areal, p));
     }
 }
 

@@ -49,22 +49,23 @@ suspect_unit(struct run *run, const struct rc_grid *g, const char *where, const 
     shown_in_unit(modulus, estar, "Pa");
     shown_in_unit(mean, s->contact.mean_pressure, "Pa");
     if (estar < no_modulus)
-        tool_warn(&run->t,
-                  "%s: the largest pressure, %s, is above E*, which is %s: was its unit "
-                  "forgotten, as in 114GPa?",
-                  where, peak, modulus);
+        solve_warn(run, "the largest pressure is above E*",
+                   "%s: the largest pressure, %s, is above E*, which is %s: was its unit "
+                   "forgotten, as in 114GPa?",
+                   where, peak, modulus);
     else if (s->contact.mean_pressure > linear * estar)
-        tool_warn(
-            &run->t,
+        solve_warn(
+            run, "the largest pressure is above E*",
             "%s: the largest pressure, %s, is above E* = %s; on a map of %s by %s the mean is %s: "
             "was the unit of the load forgotten, as in 5mN?",
             where, peak, modulus, shown_in_unit(x, width, "m"), shown_in_unit(y, length, "m"),
             mean);
     else
-        tool_warn(&run->t,
-                  "%s: the largest pressure, %s, is above E* = %s, and the RMS slope in contact is "
-                  "%.3g: are heights and spacings in their right units (rc-import --z-unit, --dx)?",
-                  where, peak, modulus, s->slope);
+        solve_warn(
+            run, "the largest pressure is above E*",
+            "%s: the largest pressure, %s, is above E* = %s, and the RMS slope in contact is "
+            "%.3g: are heights and spacings in their right units (rc-import --z-unit, --dx)?",
+            where, peak, modulus, s->slope);
 }
 
 void
@@ -78,22 +79,22 @@ solve_warn_of_theory(struct run *run, const struct rc_grid *g, const char *where
     if (peak > estar)
         suspect_unit(run, g, where, s);
     else if (peak > linear * estar && isfinite(run->hardness_max) && run->hardness_max >= peak)
-        tool_warn(&run->t,
-                  "%s: the largest pressure, %s, is %.2g of E*: beyond %g a solid is not linear "
-                  "elastic, and the hardness given, %s, is above that: is its unit right?",
-                  where, shown_in_unit(most, peak, "Pa"), peak / estar, linear,
-                  shown_in_unit(hardness, run->hardness_max, "Pa"));
+        solve_warn(run, "a pressure at which a solid is not linear elastic",
+                   "%s: the largest pressure, %s, is %.2g of E*: beyond %g a solid is not linear "
+                   "elastic, and the hardness given, %s, is above that: is its unit right?",
+                   where, shown_in_unit(most, peak, "Pa"), peak / estar, linear,
+                   shown_in_unit(hardness, run->hardness_max, "Pa"));
     else if (peak > linear * estar)
-        tool_warn(&run->t,
-                  "%s: the largest pressure, %s, is %.2g of E*: beyond %g a solid is not linear "
-                  "elastic: give %sa smaller load",
-                  where, shown_in_unit(most, peak, "Pa"), peak / estar, linear,
-                  run->yielding.wanted ? "" : "its --hardness, or ");
+        solve_warn(run, "a pressure at which a solid is not linear elastic",
+                   "%s: the largest pressure, %s, is %.2g of E*: beyond %g a solid is not linear "
+                   "elastic: give %sa smaller load",
+                   where, shown_in_unit(most, peak, "Pa"), peak / estar, linear,
+                   run->yielding.wanted ? "" : "its --hardness, or ");
     if (s->slope > small_slope)
-        tool_warn(&run->t,
-                  "%s: RMS slope %.2g where the bodies touch is beyond the theory of small slopes "
-                  "(%g): expect pressures that are too high",
-                  where, s->slope, small_slope);
+        solve_warn(run, "slopes beyond the theory of small slopes",
+                   "%s: RMS slope %.2g where the bodies touch is beyond the theory of small slopes "
+                   "(%g): expect pressures that are too high",
+                   where, s->slope, small_slope);
 }
 
 /* ---- beyond the grid ---- */
@@ -106,11 +107,11 @@ warn_of_grid(struct run *run, const struct rc_grid *g, const char *where, const 
 
     if (nodes >= fewest_nodes[map] && (double)nodes >= fewest_each * (double)s->patches.count)
         return;
-    tool_warn(&run->t,
-              "%s: %zu %s in contact, in %zu %s: the grid does not resolve it: area and "
-              "largest pressure may be far off: --discretization estimates by how much",
-              where, nodes, nodes == 1 ? "node" : "nodes", s->patches.count,
-              s->patches.count == 1 ? "patch" : "patches");
+    solve_warn(run, "the grid does not resolve the contact",
+               "%s: %zu %s in contact, in %zu %s: the grid does not resolve it: area and "
+               "largest pressure may be far off: --discretization estimates by how much",
+               where, nodes, nodes == 1 ? "node" : "nodes", s->patches.count,
+               s->patches.count == 1 ? "patch" : "patches");
 }
 
 /* ---- not at its end ---- */
@@ -130,14 +131,14 @@ solve_warn_of_end(struct run *run, const char *where, const struct rc_contact *c
                   "solution: %s",
                   where, c->iterations, error);
     else if (run->tilt && c->hardness_active)
-        tool_warn(
-            &run->t,
+        solve_warn(
+            run, "stopped short",
             "%s: stopped short after %zu iterations: %s: where the load acts, what yields may not "
             "be able to balance it: move --at nearer to the middle, or raise --hardness",
             where, c->iterations, error);
     else
-        tool_warn(&run->t, "%s: stopped short after %zu iterations: %s: raise --tol", where,
-                  c->iterations, error);
+        solve_warn(run, "stopped short", "%s: stopped short after %zu iterations: %s: raise --tol",
+                   where, c->iterations, error);
 }
 
 /* ---- figures ---- */
@@ -178,10 +179,11 @@ solve_judge(struct run *run, const struct rc_grid *g, const struct solution *s)
     tell(run, where, s);
     yield_judge(run, where, s);
     if (!run->args->physics.periodic && s->contact.edge_load_fraction > edge_load)
-        tool_warn(
-            &run->t,
+        solve_warn(
+            run, "the contact reaches the edge of the map",
             "%s: %.1f %% of the load is on the outer 2 %% of the map: the contact reaches its "
-            "edge",
+            "edge, beyond which there is no material: take a larger map or a smaller load, or "
+            "--periodic where the surface goes on alike",
             where, 100 * s->contact.edge_load_fraction);
     if (tool_interrupted() == 0 && s->contact.contact_nodes > 0) {
         solve_warn_of_theory(run, g, where, s);

@@ -506,11 +506,12 @@ warn_of_slabs(struct run *run, const char *where, const struct rc_plastic_figure
         within += above < f->depth;
     }
     if (f->depth > above)
-        tool_warn(&run->t,
-                  "%s: the lowest slab yields: the stack is too shallow: give more --slabs", where);
+        solve_warn(run, "the lowest slab yields",
+                   "%s: the lowest slab yields: the stack is too shallow: give more --slabs",
+                   where);
     if (within > 0 && within < 4)
-        tool_warn(
-            &run->t,
+        solve_warn(
+            run, "few slabs in the depth that yields",
             "%s: %zu %s in the depth that yields: its stresses are coarse: take a finer grid, or "
             "thinner --slabs",
             where, within, within == 1 ? "slab lies" : "slabs lie");
@@ -529,12 +530,12 @@ yield_judge(struct run *run, const char *where, const struct solution *s)
     f = rc_plastic_result(run->yielding.plastic);
     warn_of_slabs(run, where, f);
     if (f->max_strain > large_strain)
-        tool_warn(&run->t,
-                  "%s: plastic strain up to %.2g: beyond 0.1 the theory of small strains is left",
-                  where, f->max_strain);
+        solve_warn(run, "plastic strain beyond the theory of small strains",
+                   "%s: plastic strain up to %.2g: beyond 0.1 the theory of small strains is left",
+                   where, f->max_strain);
     if (s->patches.count > 0 && s->contact.contact_nodes < SPOT * s->patches.count)
-        tool_warn(
-            &run->t,
+        solve_warn(
+            run, "what yields under a contact spot is not resolved",
             "%s: %.0f nodes in a contact spot: with less than 6 in its radius what yields under "
             "it is not resolved",
             where, (double)s->contact.contact_nodes / (double)s->patches.count);
