@@ -71,7 +71,7 @@ RC_API const struct rc_method_info *rc_method_info(size_t k);
  * Hertz's theory means by a sphere. */
 RC_API void rc_synth_sphere(const struct rc_shape *shape, double radius, double *h);
 
-/* Where the apex of an indenter stands, m from the middle of the map, y down the picture. */
+/* Where the apex of an indenter stands, or a profile ends, m from the middle of the map, y down the picture. */
 struct rc_place {
     double x, y;
 };
@@ -378,6 +378,46 @@ RC_API enum rc_status rc_areal(const struct rc_shape *shape, const double *h,
 /* Bytes that it takes beside h, of which so many are missing. */
 RC_API size_t rc_areal_memory(const struct rc_shape *shape, size_t missing,
                               const struct rc_surface_options *options);
+
+/* Feature parameters of ISO 25178-2: by watershed over eight neighbours, pruned by Wolf's rule at 5 % of Sz, about the mean of
+ * what is there. NAN: not defined, as of a flat and of a map of less than 3 nodes a side; s5p, s5v of less than five. */
+struct rc_features {
+    double spd,
+        svd; /* 1/m^2: peaks and pits, but for those at an edge or beside what was not measured */
+    double
+        spc; /* 1/m: mean curvature of these peaks, half the sum of both second differences     */
+    double s5p, s5v,
+        s10z; /* m: mean height of the five highest peaks, depth of the five deepest pits, sum   */
+    double sha,
+        sda; /* m^2: mean area of hills and dales that reach no edge and nothing not measured   */
+};
+/* h in m; what is not finite was not measured. RC_FAIL when memory is short. */
+RC_API enum rc_status rc_features(const struct rc_shape *shape, const double *h,
+                                  const struct rc_surface_options *options,
+                                  struct rc_features *features, struct rc_err *err);
+/* Bytes that it takes beside h, of a surface that is rough down to the grid. */
+RC_API size_t rc_features_memory(const struct rc_shape *shape);
+
+/* Parameters of ISO 21920-2, about the mean. NAN: not defined. */
+struct rc_profile {
+    double ra, rq, rsk,
+        rku;             /* m, m, skewness and kurtosis                                         */
+    double rpt, rvt, rt; /* m: highest peak, deepest pit, their sum, over the whole length      */
+    double rp, rv, rz;   /* m: the same in each section, as means over the sections             */
+    double rsm, rc;      /* m: mean spacing and height of the elements: hills and the dales that
+                                follow them, each of 10 % of rz at least, from one rising crossing of
+                                the mean line to the next; NAN: none is whole                        */
+    double rdq;          /* RMS slope by the formula over seven points; NAN: of less             */
+    size_t elements;
+};
+/* Of n heights z (m), a step (m) apart, in so many sections (5 are usual). RC_FAIL when one was not measured or there are fewer
+ * heights than sections. */
+RC_API enum rc_status rc_profile_measure(size_t n, double step, const double *z, size_t sections,
+                                         struct rc_profile *profile, struct rc_err *err);
+/* n heights along the line between two places of a map, both included, by cubics through the nodes; NAN where one that is needed
+ * was not measured. Beyond the map heights are those at its edge. */
+RC_API void rc_profile_along(const struct rc_shape *shape, const double *h, struct rc_place from,
+                             struct rc_place to, size_t n, double *z);
 
 struct rc_psd_options {
     enum rc_boundary boundary;

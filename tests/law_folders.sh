@@ -31,6 +31,7 @@ libcontact/leak     | %base                                    | libcontact
 libcontact/slip     | %base libcontact/operator/operator.h     | libcontact libcontact/solver libcontact/operator libcontact/transform libcontact/body libcontact/ranks
 libcontact/slip     | %base libcontact/solver/solver.h         | libcontact libcontact/solver
 libcontact/slip     | libcontact/operator/operator.h           | libcontact/ranks libcontact/operator libcontact/transform libcontact/body
+libcontact/features | %base                                   | libcontact
 libcontact/surface  | %base %ranks                             | libcontact libcontact/ranks
 libcontact/surface  | libcontact/transform/transform.h         | libcontact/transform
 formats/core        | libcontact/grid.h                        | libcontact
@@ -87,7 +88,7 @@ END
 base='libcontact/contact.h libcontact/grid.h libcontact/common.h libcontact/memory.h'
 public='libcontact/contact.h libcontact/grid.h'
 physics='libcontact libcontact/body libcontact/operator libcontact/solver libcontact/stress libcontact/plastic'
-physics="$physics libcontact/adhesion libcontact/leak libcontact/slip libcontact/surface"
+physics="$physics libcontact/adhesion libcontact/leak libcontact/slip libcontact/surface libcontact/features"
 cli='tools/cli tools/text tools/machine'
 plot='tools/plot tools/canvas'
 sed -i "s!%base!$base!; s!%public!$public!; s!%physics!$physics!; s!%cli!$cli!; s!%plot!$plot!; s!%ranks!libcontact/ranks/ranks.h!" arrows.txt

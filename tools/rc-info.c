@@ -10,7 +10,7 @@
 static struct args {
     bool json;
     struct info_wanted wanted;
-} args;
+} args = {.wanted.sections = 5};
 
 /* clang-format off */
 static const struct opt opts[] = {
@@ -18,6 +18,15 @@ static const struct opt opts[] = {
      .help = "one JSON object a line, a line a frame, in SI"},
     {.name = "areal", .type = OPT_FLAG, .at = offsetof(struct args, wanted.areal),
      .help = "of heights: parameters of ISO 25178-2, of profiles of ISO 21920-2"},
+    {.name = "smr", .type = OPT_NUMBERS, .unit = UNIT_M, .at = offsetof(struct args, wanted.smr),
+     .min = -INFINITY, .max = INFINITY, .arg = "LIST",
+     .help = "material ratio at heights above the mean (includes --areal)"},
+    {.name = "profile", .type = OPT_TEXT, .at = offsetof(struct args, wanted.profile), .arg = "LINE",
+     .help = "parameters of ISO 21920-2 along rows, columns, an angle in degrees, or X0,Y0:X1,Y1"},
+    {.name = "sections", .type = OPT_COUNT, .at = offsetof(struct args, wanted.sections), .min = 1,
+     .max = 1000, .arg = "N", .help = "section lengths of a profile (default 5)"},
+    {.name = "report", .type = OPT_REPORT, .at = offsetof(struct args, wanted.report), .arg = "FILE",
+     .help = "a row a frame: JSON, or as .tsv a table; instead of text"},
     {.name = "psd", .type = OPT_FLAG, .at = offsetof(struct args, wanted.psd),
      .help = "of heights: power spectral density over rings, Hurst exponent"},
     {.name = "fit", .type = OPT_NUMBERS, .unit = UNIT_M, .at = offsetof(struct args, wanted.fit),
@@ -160,7 +169,7 @@ show_json(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s
     for (size_t k = 0; k < g->keys; k++)
         json_text(&j, g->key[k].name, g->key[k].value);
     json_end(&j, '}');
-    info_json(f, &j);
+    info_json(&args.wanted, f, &j);
     json_close(&j);
 }
 
@@ -308,7 +317,7 @@ show_text(struct tool *t, const struct rc_grid *g, const struct rc_statistics *s
     }
     put_grid(t->out, g);
     put_statistics(t->out, g, s);
-    info_text(f, t->out);
+    info_text(&args.wanted, f, t->out);
     put_keys(t->out, g);
 }
 
@@ -327,9 +336,10 @@ main(int argc, char **argv)
         struct rc_shape shape = rc_grid_shape(g);
         rc_measure(&shape, g->v, &statistics);
         info_compute(&args.wanted, &t, g, &figures);
-        if (args.json)
+        info_report(&args.wanted.out, &args.wanted, &figures, &statistics);
+        if (args.json && !t.report_alone)
             show_json(&t, g, &statistics, &figures);
-        else
+        else if (args.wanted.report == NULL)
             show_text(&t, g, &statistics, &figures, first);
         first = false;
         info_free(&figures);

@@ -198,6 +198,20 @@ areal(double *out, struct rc_err *err)
 }
 
 static enum rc_status
+features(double *out, struct rc_err *err)
+{
+    static const struct rc_surface_options o = {.threads = 1};
+    struct rc_features a;
+    enum rc_status status = rc_features(&shape, rough, &o, &a, err);
+
+    if (status == RC_OK) {
+        out[0] = a.spd;
+        out[1] = a.svd;
+    }
+    return status;
+}
+
+static enum rc_status
 spectrum(double *out, struct rc_err *err)
 {
     struct rc_psd_options o = {.map = out, .threads = 1};
@@ -620,7 +634,7 @@ plans(double *out, struct rc_err *err)
     struct rc_expected expected;
     struct rc_contact apart;
     const char *reason;
-    size_t bytes[11];
+    size_t bytes[12];
 
     rc_contact_apart(NULL, &shape, rough, NULL, &apart);
     if (!(apart.mean_gap > 0))
@@ -636,17 +650,18 @@ plans(double *out, struct rc_err *err)
     bytes[8] = rc_patches_memory(&shape, pressure, &patches);
     bytes[9] = rc_solver_stiffness_memory(&shape, &problem);
     bytes[10] = rc_solver_conductance_memory(&shape, &problem);
-    for (size_t k = 0; k < 11; k++) {
+    bytes[11] = rc_features_memory(&shape);
+    for (size_t k = 0; k < 12; k++) {
         out[k] = (double)bytes[k];
         if (bytes[k] == 0)
             return rc_err_set(err, "no plan %zu", k);
     }
     if (rc_solver_expect(&shape, &problem, &expected, err) != RC_OK)
         return RC_FAIL;
-    out[11] = (double)expected.memory;
-    out[12] = rc_conv_seconds(&shape, &conv);
-    out[13] = (double)strlen(rc_conv_choice(&shape, &conv, &reason));
-    out[14] = (double)strlen(rc_solver_choice(&shape, &problem, &reason));
+    out[12] = (double)expected.memory;
+    out[13] = rc_conv_seconds(&shape, &conv);
+    out[14] = (double)strlen(rc_conv_choice(&shape, &conv, &reason));
+    out[15] = (double)strlen(rc_solver_choice(&shape, &problem, &reason));
     return RC_OK;
 }
 
@@ -660,6 +675,7 @@ without(double *out, struct rc_err *err)
     double s6[RC_COMPONENTS] = {1, 2, 3, 4, 5, 6}, mises = NAN, *derived[RC_STRESSES] = {NULL};
     const double *six[RC_COMPONENTS];
     struct rc_statistics statistics;
+    struct rc_profile profile;
     struct rc_seam seam;
     char text[RC_NUMBER_SIZE];
     size_t product, least, largest;
@@ -683,6 +699,9 @@ without(double *out, struct rc_err *err)
         return RC_FAIL;
     rc_mirror(&shape, 'x', out);
     rc_rotate(&shape, rough, 1, out + N);
+    rc_profile_along(&shape, rough, place, (struct rc_place){0, 0}, NX, out);
+    if (rc_profile_measure(NX, shape.dx, out, 2, &profile, err) != RC_OK)
+        return RC_FAIL;
     rc_taper_frame(&shape, 3e-6, &product, &product);
     to = rc_reflect_shape(&(struct rc_shape){NX / 2, NY / 2, shape.dx, shape.dy});
     rc_reflect(&(struct rc_shape){NX / 2, NY / 2, shape.dx, shape.dy}, rough, out);
@@ -723,6 +742,7 @@ static const struct {
     {.name = "resampling", .use = resampled},
     {.name = "patches", .use = patches},
     {.name = "areal parameters", .use = areal},
+    {.name = "hills and dales", .use = features},
     {.name = "a spectrum", .use = spectrum},
     {.name = "convolution, fft", .use = free_fft},
     {.name = "convolution, single precision", .use = single_fft},

@@ -38,7 +38,7 @@ for line in '^  Sq +300 nm$' '^  Sku +2\.25$' '^  Sdq +0\.075[0-9]+$' '^  Sdr +0
     '^  Smr2 +[89][0-9.]+ %$' '^  Sxp +[0-9.]+ nm$'; do
     claim "  has the line $line" grep -qE "$line" wave.out
 done
-claim "  says what is not defined" says '^  Str +not defined$' rc-info --areal ridges.rcg
+claim "  says what is not defined" says '^  Str +not defined: ridges run across the map' rc-info --areal ridges.rcg
 rc-synth wave --amplitude 1um --wavelength 20um --nx 200 --ny 1 --dx 1um -o profile.rcg
 claim "text of a profile, by the names of ISO 21920-2" bash -c 'rc-info --areal profile.rcg >profile.out'
 for line in '^  Rq +707\.107 nm$' '^  Ra +6[0-9.]+ nm$' '^  Rku +1\.5$' '^  Rt +1\.97538 um$' '^  Rdq +0\.2[0-9]+$'; do
@@ -55,8 +55,8 @@ near_to holes.json '$_->{areal}{sq}' 2.4166091947189146e-9 "$rounding" "Sq over 
 near_to holes.json '$_->{areal}{sdq}' 2.9931050e-3 "$six_digits" "Sdq: the mean square of each direction by itself"
 refuses 1 'holes|txt|standard input.*missing.*rc-detrend --fill' "a spectrum of holes, naming what fills them" "rc-info --psd holes.rcg"
 
-claim "where nothing was measured nothing is defined" test "$(printf 'NaN NaN\nNaN NaN\n' |
-    rc-import --dx 1um --z-unit nm - | rc-info --areal | grep -c 'not defined')" = 22
+claim "where nothing was measured none of the 22 parameters and 8 of features is defined" test "$(printf 'NaN NaN\nNaN NaN\n' |
+    rc-import --dx 1um --z-unit nm - | rc-info --areal | grep -c 'not defined')" = 30
 
 # ---- spectra ----
 

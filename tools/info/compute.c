@@ -34,6 +34,19 @@ info_check(struct info_wanted *w, struct tool *t)
 {
     if (w->fit.n != 0 && (w->fit.n != 2 || !(w->fit.v[0] > 0 && w->fit.v[1] > w->fit.v[0])))
         tool_die(t, EXIT_USAGE, "--fit takes two wavelengths, the shortest first: --fit 2um,50um");
+    if (w->smr.n > INFO_HEIGHTS)
+        tool_die(t, EXIT_USAGE, "--smr: it takes %d heights at most", INFO_HEIGHTS);
+    for (size_t k = 0; k < w->smr.n; k++) {
+        char number[RC_NUMBER_SIZE];
+
+        snprintf(w->smr_name[k], sizeof w->smr_name[k], "smr_%s",
+                 rc_number_text(number, w->smr.v[k]));
+    }
+    w->areal = w->areal || w->smr.n > 0;
+    if (tool_given(t, "sections") && w->profile == NULL)
+        tool_die(t, EXIT_USAGE, "--sections are those of a --profile: give one");
+    info_line_read(t, w->profile, &w->line);
+    report_open(&w->out, t, w->report);
     w->psd = w->psd || w->fit.n != 0 || w->window != NULL || w->psd_map != NULL;
     if (w->psd_map != NULL)
         w->file = info_file_new(t, "--psd-map", w->psd_map);
@@ -42,9 +55,13 @@ info_check(struct info_wanted *w, struct tool *t)
 void
 info_end(struct info_wanted *w, struct tool *t)
 {
-    if ((w->areal || w->psd) && !w->height)
+    report_close(&w->out);
+    if ((w->areal || w->psd || w->profile != NULL) && !w->height)
         tool_die(t, EXIT_IMPOSSIBLE, "%s is of heights, and no frame is a height; there is: %s",
-                 w->areal ? "--areal" : "--psd", name_list_end(&w->present));
+                 w->areal ? "--areal"
+                 : w->psd ? "--psd"
+                          : "--profile",
+                 name_list_end(&w->present));
     if (w->patches && !w->pressure)
         tool_die(t, EXIT_IMPOSSIBLE,
                  "--patches is of pressures, and no frame is a pressure; there is: %s",
@@ -65,21 +82,49 @@ room(struct tool *t, size_t n, size_t size)
     return p;
 }
 
+/* The share of what was measured that is as high, or higher. */
 static void
-find_areal(struct tool *t, const struct rc_grid *g, struct info_figures *f)
+find_smr(const struct info_wanted *w, const struct rc_grid *g, struct info_figures *f)
+{
+    const struct rc_shape shape = rc_grid_shape(g);
+    struct rc_statistics s;
+
+    rc_measure(&shape, g->v, &s);
+    for (size_t c = 0; c < w->smr.n; c++) {
+        size_t above = 0, there = 0;
+
+        for (size_t k = 0; k < rc_grid_nodes(g); k++) {
+            there += isfinite(g->v[k]) ? 1 : 0;
+            above += isfinite(g->v[k]) && g->v[k] - s.mean >= w->smr.v[c] ? 1 : 0;
+        }
+        f->smr[c] = there > 0 ? (double)above / (double)there : NAN;
+    }
+}
+
+static void
+find_areal(const struct info_wanted *w, struct tool *t, const struct rc_grid *g,
+           struct info_figures *f)
 {
     const struct rc_surface_options options = {.boundary = boundary_of(g), .threads = t->threads};
     const struct rc_shape shape = rc_grid_shape(g);
-    size_t missing = 0;
+    size_t missing = 0, bytes;
     struct rc_err err;
 
     for (size_t k = 0; k < rc_grid_nodes(g); k++)
         missing += isfinite(g->v[k]) ? 0 : 1;
-    tool_demand_memory(t, g,
-                       rc_areal_memory(&shape, missing, &options) + tool_code(t, TOOL_TRANSFORMS));
+    bytes = rc_areal_memory(&shape, missing, &options);
+    if (bytes < rc_features_memory(&shape)) /* one after the other */
+        bytes = rc_features_memory(&shape);
+    tool_demand_memory(t, g, bytes + tool_code(t, TOOL_TRANSFORMS));
     tool_code_there(t, TOOL_TRANSFORMS);
     f->areal = room(t, 1, sizeof *f->areal);
     if (rc_areal(&shape, g->v, &options, f->areal, &err) != RC_OK)
+        tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
+    find_smr(w, g, f);
+    if (g->nx == 1 || g->ny == 1)
+        return;
+    f->features = room(t, 1, sizeof *f->features);
+    if (rc_features(&shape, g->v, &options, f->features, &err) != RC_OK)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
 }
 
@@ -187,10 +232,14 @@ info_compute(struct info_wanted *w, struct tool *t, const struct rc_grid *g, str
     name_list_add(&w->present, g->channel);
     w->height = w->height || height;
     w->pressure = w->pressure || pressure;
-    if ((w->areal && height) || (w->psd && height) || (w->patches && pressure))
+    if (((w->areal || w->psd || w->profile != NULL) && height) || (w->patches && pressure))
         tool_demand_lengths(t, g);
     if (w->areal && height)
-        find_areal(t, g, f);
+        find_areal(w, t, g, f);
+    if (w->profile != NULL && height) {
+        f->profile = room(t, 1, sizeof *f->profile);
+        info_line_measure(t, g, &w->line, w->sections, f->profile);
+    }
     if (w->psd && height)
         find_psd(w, t, g, f);
     if (w->patches && pressure)
@@ -201,6 +250,8 @@ void
 info_free(struct info_figures *f)
 {
     free(f->areal);
+    free(f->features);
+    free(f->profile);
     rc_psd_free(f->psd);
     if (f->patches != NULL)
         rc_patches_free(f->patches);

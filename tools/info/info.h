@@ -9,12 +9,58 @@
 
 #define INFO_2PI 6.28318530717958647692
 
+enum {
+    INFO_BINS = 50,
+    INFO_HEIGHTS = 8 /* of --smr */
+};
+
+enum info_kind {
+    INFO_LENGTH,
+    INFO_NUMBER,
+    INFO_FRACTION, /* shown in per cent */
+    INFO_ANGLE,
+    INFO_DENSITY,
+    INFO_AREA,
+    INFO_CURVATURE
+};
+
+/* A double of a struct of libcontact. */
+struct info_parameter {
+    const char *key;             /* NULL: past the last                                        */
+    size_t at;                   /* offset                                                     */
+    const char *areal, *profile; /* names in the standards; NULL where it has none */
+    enum info_kind kind;
+};
+
+/* Which profiles of a map. */
+struct info_line_wanted {
+    const char *along; /* as on the line; NULL: none           */
+    bool rows, columns;
+    double angle; /* degrees; NAN: from one place to another */
+    struct rc_place from, to;
+};
+
+/* Parameters of them: means, and standard deviations over the lines. */
+struct info_profile {
+    size_t lines, skipped; /* skipped: not measured whole */
+    size_t points, sections, elements;
+    double length; /* m */
+    struct rc_profile mean, deviation;
+};
+
 struct info_wanted {
     bool areal, psd, patches;
+    struct numbers smr;  /* heights above the mean, m      */
+    const char *profile; /* as on the line; NULL: none     */
+    size_t sections;     /* of a profile                   */
+    const char *report;  /* a file, or NULL                */
     struct numbers fit;  /* shortest and longest wavelength, m; n = 0: to be found */
     const char *window;  /* of the spectrum; NULL: by the boundary                 */
     const char *psd_map; /* a file, or NULL                                        */
     /* set by the functions below */
+    struct info_line_wanted line;
+    char smr_name[INFO_HEIGHTS][40];
+    struct report out;
     struct info_file *file;
     bool height, pressure; /* such a frame has come */
     struct name_list present;
@@ -24,14 +70,13 @@ struct info_wanted {
 struct info_figures {
     const struct rc_grid *grid;
     struct rc_areal *areal;
+    struct rc_features *features; /* with areal, of a map */
+    double smr[INFO_HEIGHTS];     /* fractions            */
+    struct info_profile *profile;
     struct rc_psd *psd;
     struct rc_patches *patches;
     double *edges; /* of the histogram of pressures: INFO_BINS + 1, Pa; NULL without contact */
     size_t *counts;
-};
-
-enum {
-    INFO_BINS = 50
 };
 
 /* Before the first frame: ends the tool for a range that is none, and a file that cannot be
@@ -44,8 +89,25 @@ void info_free(struct info_figures *figures);
 /* After the last frame: ends the tool where the channel of what is wanted never came. */
 void info_end(struct info_wanted *wanted, struct tool *tool);
 
-void info_json(const struct info_figures *figures, struct json *json);
-void info_text(const struct info_figures *figures, FILE *out);
+void info_json(const struct info_wanted *wanted, const struct info_figures *figures,
+               struct json *json);
+void info_text(const struct info_wanted *wanted, const struct info_figures *figures, FILE *out);
+
+/* parameters.c */
+extern const struct info_parameter info_areal[], info_features[], info_line[];
+double info_value(const void *figures, const struct info_parameter *parameter);
+const char *info_unit(enum info_kind kind); /* SI, NULL: a plain number */
+const char *info_shown(char text[SHOWN_NUMBER], double value, enum info_kind kind);
+
+/* line.c: reads --profile, NULL for none; ends the tool where it is no line, or where it cannot be measured. */
+void info_line_read(struct tool *tool, const char *along, struct info_line_wanted *wanted);
+void info_line_measure(struct tool *tool, const struct rc_grid *grid,
+                       const struct info_line_wanted *wanted, size_t sections,
+                       struct info_profile *profile);
+
+/* report.c */
+void info_report(struct report *report, const struct info_wanted *wanted,
+                 const struct info_figures *figures, const struct rc_statistics *statistics);
 
 /* map_file.c: frames of spectra, in a file that appears whole or not at all. */
 struct info_file;

@@ -6,94 +6,123 @@
 
 /* ---- areal parameters ---- */
 
-enum kind {
-    LENGTH,
-    NUMBER,
-    FRACTION, /* shown in per cent */
-    ANGLE
-};
-
-#define FIELD(name) #name, offsetof(struct rc_areal, name)
-
-/* In the order of the contract; of a profile by ISO 21920-2, NULL where that has none. */
-static const struct parameter {
-    const char *key;
-    size_t at;
-    const char *areal, *profile;
-    enum kind kind;
-} parameters[] = {
-    {FIELD(sq), "Sq", "Rq", LENGTH},          {FIELD(sa), "Sa", "Ra", LENGTH},
-    {FIELD(ssk), "Ssk", "Rsk", NUMBER},       {FIELD(sku), "Sku", "Rku", NUMBER},
-    {FIELD(sp), "Sp", "Rpt", LENGTH},         {FIELD(sv), "Sv", "Rvt", LENGTH},
-    {FIELD(sz), "Sz", "Rt", LENGTH},          {FIELD(sdq), "Sdq", "Rdq", NUMBER},
-    {FIELD(sdr), "Sdr", "Rdr", FRACTION},     {FIELD(sal), "Sal", "Ral", LENGTH},
-    {FIELD(str), "Str", NULL, NUMBER},        {FIELD(std), "Std", NULL, ANGLE},
-    {FIELD(sk), "Sk", "Rk", LENGTH},          {FIELD(spk), "Spk", "Rpk", LENGTH},
-    {FIELD(svk), "Svk", "Rvk", LENGTH},       {FIELD(smr1), "Smr1", "Rmrk1", FRACTION},
-    {FIELD(smr2), "Smr2", "Rmrk2", FRACTION}, {FIELD(vmp), "Vmp", "Rvmp", LENGTH},
-    {FIELD(vmc), "Vmc", "Rvmc", LENGTH},      {FIELD(vvc), "Vvc", "Rvvc", LENGTH},
-    {FIELD(vvv), "Vvv", "Rvvv", LENGTH},      {FIELD(sxp), "Sxp", "Rdc", LENGTH},
-};
-
-enum {
-    PARAMETERS = sizeof parameters / sizeof *parameters
-};
-
-static double
-value_of(const struct rc_areal *a, const struct parameter *p)
-{
-    return *(const double *)(const void *)((const char *)a + p->at);
-}
-
 /* Why a parameter has no value. */
 static const char *
-undefined(const struct rc_areal *a, const struct parameter *p)
+undefined(const struct rc_areal *a, const struct info_parameter *p)
 {
     if (isnan(a->sq))
         return "nothing was measured";
     if (!(a->sz > 0))
         return "the map is flat";
-    if (p->at == offsetof(struct rc_areal, str) && !isnan(a->sal))
+    if (strcmp(p->key, "str") == 0 && !isnan(a->sal))
         return "ridges run across the map: along them heights are alike over half of it";
+    if (strcmp(p->key, "s5p") == 0 || strcmp(p->key, "s5v") == 0 || strcmp(p->key, "s10z") == 0)
+        return "there are less than five peaks, or pits";
+    if (strcmp(p->key, "sha") == 0 || strcmp(p->key, "sda") == 0)
+        return "all reach the edge, or what was not measured";
     return "";
 }
 
 static void
-put_parameter(FILE *out, const char *name, double value, enum kind kind, const char *why)
-{
-    char text[SHOWN_NUMBER];
-
-    fprintf(out, "  %-10s ", name);
-    if (isnan(value))
-        fprintf(out, "not defined%s%s\n", *why == '\0' ? "" : ": ", why);
-    else if (kind == LENGTH)
-        fprintf(out, "%s\n", shown_in_unit(text, value, "m"));
-    else
-        fprintf(out, "%.6g%s\n", kind == FRACTION ? 100 * value : value,
-                kind == FRACTION ? " %"
-                : kind == ANGLE  ? " deg"
-                                 : "");
-}
-
-static void
-areal_text(const struct info_figures *f, FILE *out)
+put_parameters(const struct info_figures *f, const void *figures, const struct info_parameter *p,
+               FILE *out)
 {
     bool profile = f->grid->nx == 1 || f->grid->ny == 1;
+    char text[SHOWN_NUMBER];
 
-    for (size_t k = 0; k < PARAMETERS; k++) {
-        const struct parameter *p = &parameters[k];
+    for (; p->key != NULL; p++) {
         const char *name = profile ? p->profile : p->areal;
-        if (name != NULL)
-            put_parameter(out, name, value_of(f->areal, p), p->kind, undefined(f->areal, p));
+        double value = info_value(figures, p);
+        const char *why = undefined(f->areal, p);
+
+        if (name == NULL)
+            continue;
+        fprintf(out, "  %-10s ", name);
+        if (isnan(value))
+            fprintf(out, "not defined%s%s\n", *why == '\0' ? "" : ": ", why);
+        else
+            fprintf(out, "%s\n", info_shown(text, value, p->kind));
     }
 }
 
 static void
-areal_json(const struct rc_areal *a, struct json *j)
+areal_text(const struct info_wanted *w, const struct info_figures *f, FILE *out)
 {
-    json_object(j, "areal");
-    for (size_t k = 0; k < PARAMETERS; k++)
-        json_number(j, parameters[k].key, value_of(a, &parameters[k]));
+    const char *name = f->grid->nx == 1 || f->grid->ny == 1 ? "Rmr" : "Smr";
+    char height[SHOWN_NUMBER], share[SHOWN_NUMBER];
+
+    put_parameters(f, f->areal, info_areal, out);
+    if (f->features != NULL)
+        put_parameters(f, f->features, info_features, out);
+    for (size_t k = 0; k < w->smr.n; k++)
+        fprintf(out, "  %-10s %s at %s\n", name, info_shown(share, f->smr[k], INFO_FRACTION),
+                shown_in_unit(height, w->smr.v[k], "m"));
+}
+
+static void
+json_parameters(struct json *j, const char *name, const void *figures,
+                const struct info_parameter *p)
+{
+    json_object(j, name);
+    for (; p->key != NULL; p++)
+        json_number(j, p->key, info_value(figures, p));
+    json_end(j, '}');
+}
+
+static void
+smr_json(const struct info_wanted *w, const struct info_figures *f, struct json *j)
+{
+    json_object(j, "smr");
+    json_array(j, "height");
+    for (size_t k = 0; k < w->smr.n; k++)
+        json_number(j, NULL, w->smr.v[k]);
+    json_end(j, ']');
+    json_array(j, "ratio");
+    for (size_t k = 0; k < w->smr.n; k++)
+        json_number(j, NULL, f->smr[k]);
+    json_end(j, ']');
+    json_end(j, '}');
+}
+
+/* ---- profiles ---- */
+
+static void
+profile_text(const struct info_profile *f, const struct info_wanted *w, FILE *out)
+{
+    char text[SHOWN_NUMBER], more[SHOWN_NUMBER];
+
+    fprintf(out, "  %-10s %s", "profile", w->line.along);
+    if (w->line.rows || w->line.columns)
+        fprintf(out, ": %zu of them, means +- standard deviations", f->lines);
+    fprintf(out, "; %zu points, %s, %zu section%s\n", f->points,
+            shown_in_unit(text, f->length, "m"), f->sections, f->sections == 1 ? "" : "s");
+    if (f->skipped > 0)
+        fprintf(out, "  %-10s %zu that were not measured whole\n", "left out", f->skipped);
+    for (const struct info_parameter *p = info_line; p->key != NULL; p++) {
+        double value = info_value(&f->mean, p), spread = info_value(&f->deviation, p);
+
+        if (isnan(value))
+            fprintf(out, "  %-10s not defined\n", p->profile);
+        else
+            fprintf(out, "  %-10s %s%s%s\n", p->profile, info_shown(text, value, p->kind),
+                    isnan(spread) ? "" : " +- ",
+                    isnan(spread) ? "" : info_shown(more, spread, p->kind));
+    }
+}
+
+static void
+profile_json(const struct info_profile *f, const struct info_wanted *w, struct json *j)
+{
+    json_object(j, "profile");
+    json_text(j, "along", w->line.along);
+    json_count(j, "profiles", f->lines);
+    json_count(j, "points", f->points);
+    json_number(j, "length", f->length);
+    json_count(j, "sections", f->sections);
+    json_count(j, "elements", f->elements);
+    for (const struct info_parameter *p = info_line; p->key != NULL; p++)
+        json_number(j, p->key, info_value(&f->mean, p));
+    json_parameters(j, "deviation", &f->deviation, info_line);
     json_end(j, '}');
 }
 
@@ -229,10 +258,16 @@ patches_json(const struct info_figures *f, struct json *j)
 /* ---- all of it ---- */
 
 void
-info_json(const struct info_figures *f, struct json *j)
+info_json(const struct info_wanted *w, const struct info_figures *f, struct json *j)
 {
     if (f->areal != NULL)
-        areal_json(f->areal, j);
+        json_parameters(j, "areal", f->areal, info_areal);
+    if (f->features != NULL)
+        json_parameters(j, "features", f->features, info_features);
+    if (f->areal != NULL && w->smr.n > 0)
+        smr_json(w, f, j);
+    if (f->profile != NULL)
+        profile_json(f->profile, w, j);
     if (f->psd != NULL)
         psd_json(f->psd, j);
     if (f->patches != NULL)
@@ -240,10 +275,12 @@ info_json(const struct info_figures *f, struct json *j)
 }
 
 void
-info_text(const struct info_figures *f, FILE *out)
+info_text(const struct info_wanted *w, const struct info_figures *f, FILE *out)
 {
     if (f->areal != NULL)
-        areal_text(f, out);
+        areal_text(w, f, out);
+    if (f->profile != NULL)
+        profile_text(f->profile, w, out);
     if (f->psd != NULL)
         psd_text(f, out);
     if (f->patches != NULL)
