@@ -43,6 +43,7 @@ done
 without_cmocka() { PKG_CONFIG_PATH='' PKG_CONFIG_LIBDIR=modules cmake -S "libcontact-$version" -B untested -DCMAKE_C_COMPILER="${CC:-cc}" "$@"; }
 claim "  without cmocka it configures, and says that it has no tests" says '^-- Without the tests: ' without_cmocka
 claim "  nor has it any" test ! -e untested/tests
+claim "  but says so to ctest" says 'no_tests_were_built__tests/run.sh_builds_and_runs_them [(]Skipped' ctest --test-dir untested
 export -f without_cmocka
 refuses 1 "cmocka" "  where tests are asked for, it does not" "version=$version; without_cmocka -DRC_TESTS=ON >&2"
 
