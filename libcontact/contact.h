@@ -287,7 +287,7 @@ RC_API void rc_measure(const struct rc_shape *shape, const double *v, struct rc_
 /* Sum of n doubles with the compensation of Neumaier 1974: its error does not grow with n. */
 RC_API double rc_sum(const double *v, size_t n);
 
-/* RMS of the gradient's magnitude of the heights h (m) over the nodes where p > 0, by differences to
+/* RMS of the gradient's magnitude of the heights h (m) over the nodes where p > 0 (p NULL: over all), by differences to
  * the next node along each side of the map; NAN when there is none. Where ranks share the map h and p
  * are the rows held here; ranks NULL: none. */
 RC_API double rc_measure_contact_slope(const struct rc_ranks *ranks, const struct rc_shape *shape,

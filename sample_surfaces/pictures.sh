@@ -61,5 +61,8 @@ draw sources --curve load:contact_area --y-unit mm2 two.tsv
 draw cut --channel pressure --cut y=0 contact.rcg
 rc-slip --quiet --mu 0.3 --nu 0.3 --displacement 0.2um --output traction-x,slip-x,state contact.rcg -o slip.rcg
 for channel in traction-x slip-x state; do draw "$channel" --channel "$channel" slip.rcg; done
+rc-synth sphere --nx 129 --dx 10um --radius 7.5mm | rc-solve --quiet --load 60N --estar 114GPa --output pressure -o ball.rcg
+draw hertz --cut y=0 --hertz --radius 7.5mm ball.rcg
+draw persson --curve mean_pressure:contact_fraction --law persson --log xy sweep.tsv
 draw histogram --channel pressure --histogram contact.rcg
 draw hillshade --channel height --hillshade surface.rcg

@@ -38,7 +38,7 @@ static const struct opt opts[] = {
     {.name = "contour", .type = OPT_FLAG, .at = offsetof(struct args, contour), .result = true,
      .help = "draw lines at the marks of the colour bar, and the edge of contact"},
     {.name = "hertz", .type = OPT_FLAG, .at = offsetof(struct args, hertz), .result = true,
-     .help = "draw the circle of Hertz: of a sphere added to the height, without roughness"},
+     .help = "draw the circle of Hertz, beside --cut his pressure: of a sphere without roughness"},
     {.name = "window", .type = OPT_TEXT, .at = offsetof(struct args, window), .result = true,
      .arg = "X0:X1,Y0:Y1", .help = "the part of the map to draw; or contact: what touches; or all"},
     {.name = "depth-range", .type = OPT_TEXT, .at = offsetof(struct args, depths), .result = true,
@@ -99,10 +99,10 @@ static const struct opt opts[] = {
      .words = law_word, .help = "draw a published law beside the curve"},
     {.name = "estar", .type = OPT_NUMBER, .unit = UNIT_PA,
      .at = offsetof(struct args, style.given.estar), .min = 0, .max = INFINITY, .above = true,
-     .result = true, .arg = "MODULUS", .help = "composite modulus E*, for --law"},
+     .result = true, .arg = "MODULUS", .help = "composite modulus E*, for --law and --hertz"},
     {.name = "radius", .type = OPT_NUMBER, .unit = UNIT_M,
      .at = offsetof(struct args, style.given.radius), .min = 0, .max = INFINITY, .above = true,
-     .result = true, .arg = "LENGTH", .help = "composite radius of the sphere, for --law hertz"},
+     .result = true, .arg = "LENGTH", .help = "composite radius of the sphere, for --law hertz and --hertz"},
     {.name = "rms-slope", .type = OPT_NUMBER, .at = offsetof(struct args, style.given.rms_slope),
      .min = 0, .max = INFINITY, .above = true, .result = true, .arg = "SLOPE",
      .help = "RMS gradient of the surface, for --law persson"},
@@ -259,7 +259,7 @@ draw_figure(struct tool *t, const struct args *a, const struct rc_grid *g, const
     } else if (look_throat(g, f))
         f->largest = "the narrowest place of the widest way";
     if (a->hertz)
-        f->circle = words_hertz(t, &words, g, &f->radius);
+        f->circle = words_hertz(t, &words, g, &a->style.given, &f->radius);
     if (figure_memory(f, even == NULL ? g : even, &bytes, &err) != RC_OK)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     tool_demand_memory(t, g, bytes + look_code(t));
@@ -504,6 +504,7 @@ render_lines(struct tool *t, struct args *a, const struct frames *f)
     struct canvas *c;
 
     a->style.title = a->title;
+    a->style.hertz = a->hertz;
     c = draw_lines(t, a, f, &drawn);
     warn_of_text(t, a, c);
     demand_page(t, c);

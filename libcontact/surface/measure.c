@@ -261,7 +261,10 @@ rc_measure_contact_slope(const struct rc_ranks *ranks, const struct rc_shape *sh
     struct rc_total sums[2] = {{0}};
     double beside[2 * RC_ROW_PIECE] = {0}, total[2], most = 0;
     bool has[2] = {false, false};
+    double all[RC_ROW_PIECE];
 
+    for (size_t i = 0; p == NULL && i < RC_ROW_PIECE; i++)
+        all[i] = 1;
     for (size_t first = 0; first < nx; first += RC_ROW_PIECE) {
         size_t n = piece_of(nx, first), steps = first + n < nx ? n : n - right;
         if (rows.ranks != NULL)
@@ -271,7 +274,7 @@ rc_measure_contact_slope(const struct rc_ranks *ranks, const struct rc_shape *sh
             const double *below = j + 1 < rows.n ? row + nx : has[1] ? beside + RC_ROW_PIECE : row;
             if (below == row && shape->ny > 1)
                 break;
-            take_contact(sums, row, below, p + j * nx + first, steps, right, per);
+            take_contact(sums, row, below, p == NULL ? all : p + j * nx + first, steps, right, per);
         }
     }
     rc_ranks_totals(rows.ranks, 2, sums, total, &most);

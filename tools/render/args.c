@@ -26,8 +26,9 @@ check_kinds(struct tool *t, const struct args *a)
 {
     static const char *const of_maps[] = {"channel", "depth", "section", "case", "range", NULL};
     static const char *const of_colours[] = {"colormap", "contour", "clip", "keep", NULL};
-    static const char *const of_places[] = {"window", "depth-range", "hertz", NULL};
-    static const char *const of_laws[] = {"law", "estar", "radius", "rms-slope", NULL};
+    static const char *const of_places[] = {"window", "depth-range", NULL};
+    static const char *const of_laws[] = {"law", "rms-slope", NULL};
+    static const char *const of_spheres[] = {"estar", "radius", NULL};
     static const char *const of_tables[] = {"by", "points", "error", "spread", NULL};
     static const char *const of_curves[] = {"legend", "x-label", "y-label",
                                             "x-unit", "y-unit",  NULL};
@@ -57,6 +58,10 @@ check_kinds(struct tool *t, const struct args *a)
         leave_out(t, "it is for curves: --curve, --cut, --histogram, --material-ratio", of_curves);
     if (a->curve == NULL && !a->histogram)
         leave_out(t, "laws stand beside --curve and --histogram", of_laws);
+    if (a->curve == NULL && !a->histogram && !a->hertz)
+        leave_out(t, "they are for laws and --hertz", of_spheres);
+    if (a->hertz && (a->curve != NULL || a->histogram || a->material_ratio))
+        tool_die(t, EXIT_USAGE, "--hertz is for a map or --cut; beside --curve it is --law hertz");
 }
 
 bool

@@ -83,6 +83,7 @@ enum helper {
     DY,
     ESTAR,
     RADIUS,
+    SLOPE,
     CONVERGED,
     CASE,
     INDENTATION,
@@ -93,8 +94,8 @@ enum helper {
     HELPERS
 };
 static const char *const helper_name[HELPERS] = {
-    "nx",   "ny",          "dx",       "dy",    "estar",  "radius", "converged",
-    "case", "indentation", "approach", "jumps", "source", "load"};
+    "nx",        "ny",   "dx",          "dy",       "estar", "radius", "rms_slope",
+    "converged", "case", "indentation", "approach", "jumps", "source", "load"};
 
 struct curves {
     struct tool *tool;
@@ -695,6 +696,8 @@ settle_given(struct curves *c)
     c->given = c->style->given;
     c->given.estar = given_in_tables(c, ESTAR, c->given.estar);
     c->given.radius = given_in_tables(c, RADIUS, c->given.radius);
+    if (strcmp(law, "persson") == 0)
+        c->given.rms_slope = given_in_tables(c, SLOPE, c->given.rms_slope);
     c->given.area = area_in_tables(c);
     if ((lacks = law_lacks(law, &c->given)) != NULL)
         tool_die(c->tool, EXIT_USAGE, "--law %s needs %s: give it", law, lacks);

@@ -233,6 +233,30 @@ mark_interfaces(const struct rc_grid *g, struct graph *graph, char *note, size_t
     return bottom;
 }
 
+/* Hertz's pressure p0 sqrt(1 - r^2/a^2), p0 = 3 F / (2 pi a^2), along the line of nodes at that distance from the origin. */
+static void
+add_hertz(struct set *s, const struct line *along, double across)
+{
+    const struct rc_grid *g = s->grid[0];
+    double radius, load = 0, lo = line_at(along, 0), hi = line_at(along, along->n - 1), peak;
+    struct words words;
+
+    if (s->n > 1 || strcmp(g->channel, "pressure") != 0)
+        tool_die(s->tool, EXIT_USAGE, "--hertz beside --cut is for one pressure: leave it out");
+    snprintf(s->label[1], LABEL, "%s", words_hertz(s->tool, &words, g, &s->style->given, &radius));
+    rc_grid_number(g, "load", &load);
+    peak = 1.5 * load / (FIGURE_PI * radius * radius);
+    set_series(s, 1, GRAPH_LAW, SAMPLES);
+    s->series[0].name = "pressure of the map";
+    s->series[1].name = s->label[1];
+    for (size_t k = 0; k < SAMPLES; k++) {
+        double x = lo + (hi - lo) * (double)k / (SAMPLES - 1);
+
+        s->x[1][k] = x;
+        s->y[1][k] = peak * sqrt(fmax(0, 1 - (x * x + across * across) / (radius * radius)));
+    }
+}
+
 struct canvas *
 cut_draw(struct tool *t, struct rc_grid *const *grid, size_t n, const char *cut, double lo,
          double hi, const struct curve_style *style, struct drawn *drawn)
@@ -265,9 +289,13 @@ cut_draw(struct tool *t, struct rc_grid *const *grid, size_t n, const char *cut,
         snprintf(quantity, sizeof quantity, "%s", along->title);
         snprintf(text, sizeof text, "%s = %s", over->title,
                  scale_value(where, line_at(over, at), over->unit));
-        free(down.at);
         if (k == 0)
             subtitle_add(&s.subtitle, "along ", text);
+        if (style->hertz) {
+            add_hertz(&s, along, line_at(over, at));
+            graph.n = 2;
+        }
+        free(down.at);
     }
     graph.x.quantity = quantity;
     graph.x.unit = rc_grid_dunit(grid[0]);

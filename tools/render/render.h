@@ -175,9 +175,10 @@ struct words { /* of the legend */
 /* "largest 2.3 GPa at x = 3 µm, depth 12 µm" */
 const char *words_largest(struct words *words, const struct rc_grid *grid, double value,
                           const char *across, double x, double depth);
-/* "Hertz, radius 12 µm", and that radius; ends the tool when the keys do not say it. */
+/* "Hertz, radius 12 µm", and that radius, by what is given or by the keys; ends the tool when neither says it. */
+struct law_given;
 const char *words_hertz(struct tool *tool, struct words *words, const struct rc_grid *grid,
-                        double *radius);
+                        const struct law_given *given, double *radius);
 
 /* ---- table.c: columns of reports: tables with tabs, lines of JSON ---- */
 
@@ -260,6 +261,7 @@ struct curve_style {
     const char *x_label, *y_label, *x_unit, *y_unit, *legend; /* NULL: what suits */
     const char *by, *error;                                   /* columns of tables */
     bool points, spread;
+    bool hertz; /* beside a cut */
     struct law_given given;
     size_t width; /* as of a figure */
     double dpi;

@@ -181,22 +181,26 @@ words_largest(struct words *w, const struct rc_grid *g, double value, const char
 
 /* Hertz (1882): a sphere of radius R touches a disc, a^3 = 3 F R / (4 E*). */
 const char *
-words_hertz(struct tool *t, struct words *w, const struct rc_grid *g, double *radius)
+words_hertz(struct tool *t, struct words *w, const struct rc_grid *g, const struct law_given *given,
+            double *radius)
 {
     const char *form = rc_grid_get(g, "form");
+    double load, estar = given->estar, r = given->radius;
     char text[TICKS_TEXT];
-    double load, estar, r = 0;
     struct rc_err err;
 
     if (rc_grid_get(g, "section") != NULL)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "--hertz is a circle on a map, and this is a section");
-    if (form == NULL || strncmp(form, "sphere ", 7) != 0 ||
-        unit_number(form + 7, UNIT_M, &r, &err) != RC_OK || !(r > 0) ||
-        !rc_grid_number(g, "load", &load) || !rc_grid_number(g, "estar", &estar) || !(load > 0) ||
-        !(estar > 0))
+    if (isnan(r) && (form == NULL || strncmp(form, "sphere ", 7) != 0 ||
+                     unit_number(form + 7, UNIT_M, &r, &err) != RC_OK))
+        r = 0;
+    if (isnan(estar) && !rc_grid_number(g, "estar", &estar))
+        estar = 0;
+    if (!(r > 0) || !(estar > 0) || !rc_grid_number(g, "load", &load) || !(load > 0))
         tool_die_at(t, g, EXIT_IMPOSSIBLE,
                     "--hertz needs the keys load, estar and form=sphere RADIUS, which rc-solve "
-                    "--radius leaves: leave it out");
+                    "--radius leaves: give --radius and --estar where they are not there, or leave "
+                    "it out");
     *radius = cbrt(0.75 * load * r / estar);
     snprintf(w->circle, sizeof w->circle, "Hertz, radius %s", scale_value(text, *radius, "m"));
     return w->circle;

@@ -502,7 +502,12 @@ take_hardness(struct run *run, const struct rc_grid *hardness)
 void
 solve_case(struct run *run, struct rc_grid *g, const struct rc_grid *hardness)
 {
+    const struct rc_shape shape = rc_grid_shape(g);
+
     take_hardness(run, hardness);
+    run->rms_slope = report_wanted(&run->report)
+                         ? rc_measure_contact_slope(ranks_of(&run->t), &shape, g->v, NULL)
+                         : NAN;
     physics_heights(&run->t, &run->args->physics, g);
     if (!rc_grid_number(g, HEIGHT_ERROR, &run->height_error))
         run->height_error = 0;

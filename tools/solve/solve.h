@@ -103,6 +103,7 @@ struct run {
     double k[2];                  /* conductivities of the bodies, SI                  */
     const char *conductance_unit; /* W/K or S; NULL: the conductivities have no unit   */
     bool resumed;                 /* this case, from a checkpoint                      */
+    double rms_slope;             /* of the heights that came in; only for a report */
     double height_error;          /* m: of the heights that came in */
     double first_top, top; /* m: the highest node of the first shape, and of that of this load    */
     const struct rc_grid *hardness;    /* a map of it, in the case; NULL: a number or none */

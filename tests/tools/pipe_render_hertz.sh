@@ -1,0 +1,55 @@
+# Hertz's contact beside a map and a cut of it, for a ball that rc-synth made as for one that rc-solve added, and Persson's
+# law from the table of rc-solve itself: the curves are what the formulas say.
+. "$(dirname "$0")/../pipe.sh"
+
+# The path of that kind at x: points of the curves of an SVG, between two of them on a line.
+value_at() {
+    perl "$RC_SOURCE/tests/tools/points.pl" <"$1" | awk -v kind="$2" -v at="$3" '
+        $2 == kind && NF > 6 { for (k = 3; k + 3 <= NF; k += 2) if ($k <= at && $(k + 2) >= at && $(k + 2) > $k) {
+            printf "%.9g\n", $(k + 1) + (at - $k) / ($(k + 2) - $k) * ($(k + 3) - $(k + 1)); exit } }'
+}
+# p0 sqrt(1 - r^2/a^2) in GPa of 60 N on 7.5 mm, E* 114 GPa, at that distance in um
+hertz() {
+    perl -e '$a = (0.75 * 60 * 7.5e-3 / 114e9) ** (1 / 3); $r = 1e-6 * shift;
+        printf "%.9g\n", $r < $a ? 1e-9 * 1.5 * 60 / (3.14159265358979 * $a ** 2) * sqrt(1 - $r ** 2 / $a ** 2) : 0' "$1"
+}
+
+rc-synth sphere --nx 129 --dx 10um --radius 7.5mm -o ball.rcg
+rc-solve --quiet --load 60N --estar 114GPa --output pressure,gap -o p.rcg ball.rcg
+draw='rc-render --quiet -o out.svg'
+
+# ---- maps and cuts ----
+
+claim "the circle of a ball of rc-synth" eval 'rc-render --hertz --radius 7.5mm --channel pressure -o c.svg p.rcg && says "Hertz, radius 143.6 µm" cat c.svg'
+claim "with the modulus of the stream, or another" eval 'rc-render --hertz --radius 7.5mm --estar 14.25GPa --channel pressure -o c.svg p.rcg && says "Hertz, radius 287.2 µm" cat c.svg'
+claim "a cut has his pressure beside it" rc-render --cut y=0 --hertz --radius 7.5mm --channel pressure --y-unit GPa --x-unit um -o cut.svg p.rcg
+near "$(value_at cut.svg dashed 0)" "$(hertz 0)" 1e-3 "  in the middle"
+near "$(value_at cut.svg dashed 100)" "$(hertz 100)" 1e-3 "  at 100 um"
+claim "  and nothing beyond the contact" awk "BEGIN { exit !($(value_at cut.svg dashed 200) ^ 2 < 1e-6) }"
+near "$(value_at cut.svg solid 100)" "$(hertz 100)" "$coarse_grid" "  which the map follows"
+claim "a cut beside the middle" rc-render --cut x=80um --hertz --radius 7.5mm --channel pressure --y-unit GPa --x-unit um -o side.svg p.rcg
+near "$(value_at side.svg dashed 60)" "$(hertz 100)" 1e-3 "  has it at its own distance"
+rc-solve --quiet --radius 7.5mm --load 60N --estar 114GPa --output pressure -o added.rcg <(rc-synth wave --nx 129 --dx 10um --amplitude 0.01nm --wavelength 100um)
+claim "a ball that rc-solve has added needs no word" eval 'rc-render --cut y=0 --hertz --y-unit GPa --x-unit um -o added.svg added.rcg'
+near "$(value_at added.svg dashed 100)" "$(hertz 100)" 1e-3 "  and has the same"
+
+# ---- Persson by the table ----
+
+rc-synth selfaffine --nx 64 --dx 1um --hurst 0.8 --rms-slope 0.1 --rolloff 32um --short-cut 8um --seed 2 -o rough.rcg
+rc-solve --quiet --periodic --mean-pressure 100MPa,2GPa --estar 100GPa --output pressure --report r.tsv -o q.rcg rough.rcg
+rc-solve --quiet --periodic --radius 10mm --mean-pressure 100MPa --estar 100GPa --output pressure --report with.tsv -o q.rcg rough.rcg
+last() { awk -F '\t' 'NR == 1 { for (c = 1; c <= NF; c++) if ($c == "rms_slope") at = c } NR == 2 { print $at }' "$1"; }
+near "$(last r.tsv)" "$(rc-info --json rough.rcg | sed 's/.*"rms_slope": \([^,]*\),.*/\1/')" "$summed" "rms_slope in the report is that of rc-info"
+near "$(last with.tsv)" "$(last r.tsv)" "$same" "  of the heights before a ball is added"
+claim "--law persson takes E* and the slope from the table" rc-render --curve mean_pressure:contact_fraction --law persson --x-unit GPa -o law.svg r.tsv
+near "$(value_at law.svg dashed 1)" "$(perl -e '$x = sqrt(2) * 1e9 / (100e9 * shift); $n = 20000;
+    for $k (0 .. $n - 1) { $t = $x * ($k + 0.5) / $n; $s += exp(-$t * $t) } printf "%.9g", $s * $x / $n * 2 / sqrt(3.14159265358979)' "$(last r.tsv)")" 1e-3 "  and is erf(sqrt(2) p / (E* h'))"
+
+# ---- what is not ----
+
+refuses 1 '--hertz needs the keys load, estar and form=sphere RADIUS, which rc-solve --radius leaves: give --radius and --estar' "a ball of which nothing is known" "$draw --hertz p.rcg"
+refuses 2 '--hertz beside --cut is for one pressure' "a gap" "$draw --cut y=0 --hertz --radius 7.5mm --channel gap p.rcg"
+refuses 2 '--hertz is for a map or --cut; beside --curve it is --law hertz' "a histogram" "$draw --histogram --hertz --radius 7.5mm p.rcg"
+refuses 2 'they are for laws and --hertz: leave out --radius' "a radius of nothing" "$draw --radius 7.5mm p.rcg"
+
+finish
