@@ -243,9 +243,19 @@ mark_largest(struct tool *t, const struct rc_grid *g, const struct survey *s, st
     free(depth);
 }
 
+/* What is drawn needs the map no longer, but for its keys. */
 static void
-draw_figure(struct tool *t, const struct args *a, const struct rc_grid *g, const struct survey *s,
-            struct figure *f)
+drop_values(struct rc_grid *g)
+{
+    if (g == NULL)
+        return;
+    free(g->v);
+    g->v = NULL;
+}
+
+static void
+draw_figure(struct tool *t, const struct args *a, struct rc_grid *g, struct rc_grid *beside,
+            const struct survey *s, struct figure *f)
 {
     struct rc_grid *even = NULL;
     struct words words;
@@ -266,9 +276,11 @@ draw_figure(struct tool *t, const struct args *a, const struct rc_grid *g, const
     if ((c = figure_draw(f, even == NULL ? g : even, &err)) == NULL)
         tool_die_at(t, g, EXIT_IMPOSSIBLE, "%s", err.text);
     warn_of_text(t, a, c);
+    rc_grid_free(even);
+    drop_values(g);
+    drop_values(beside);
     write_picture(t, g, f, c);
     canvas_free(c);
-    rc_grid_free(even);
     free(f->medium);
 }
 
@@ -342,7 +354,7 @@ render(struct tool *t, struct args *a, struct rc_grid *g, struct rc_grid *beside
     else if (a->view != NULL)
         draw_relief(t, a, g, &f, &subtitle);
     else
-        draw_figure(t, a, g, &s, &f);
+        draw_figure(t, a, g, beside, &s, &f);
 }
 
 /* ---- sheets ---- */

@@ -73,6 +73,13 @@ estimated "rc-render" "rc-render --verbose odd.rcg -o map.png"
 for format in png pdf; do
     estimated "rc-render --contour, a rough contact as $format" "rc-render --channel pressure --contour --verbose free.rcg -o contact.$format"
 done
+rc-synth cone --slope 0.01 --dx 1um --nx 3000 -o large.rcg
+for format in svg pdf; do
+    estimated "rc-render of a large map, $format" "rc-render --debug large.rcg -o large.$format"
+    claim "  within 1.5 maps of memory" awk '{ exit !($6 < 1.5 * 3000 * 3000 * 8 / 1048576) }' memory.txt
+    estimated "  shaded, $format" "rc-render --debug --hillshade large.rcg -o large.$format"
+done
+rm large.*
 estimated "rc-render of a wide page" "rc-render --channel pressure --width 3000 --verbose free.rcg -o contact.png"
 estimated "rc-render --contour, heights" "rc-render --contour --width 3000 --verbose odd.rcg -o contact.png"
 estimated "rc-render --view, PDF" "rc-render --view 30,40 --verbose odd.rcg -o relief.pdf"

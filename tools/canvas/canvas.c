@@ -242,8 +242,15 @@ canvas_image(struct canvas *c, double x, double y, double w, double h, const uns
         return;
     }
     memcpy(own, rgb, 3 * nx * ny);
+    canvas_take_image(c, x, y, w, h, own, nx, ny);
+}
+
+void
+canvas_take_image(struct canvas *c, double x, double y, double w, double h, unsigned char *rgb,
+                  size_t nx, size_t ny)
+{
     add(c, (struct item){
-               .kind = ITEM_IMAGE, .x = x, .y = y, .w = w, .h = h, .rgb = own, .nx = nx, .ny = ny});
+               .kind = ITEM_IMAGE, .x = x, .y = y, .w = w, .h = h, .rgb = rgb, .nx = nx, .ny = ny});
 }
 
 void

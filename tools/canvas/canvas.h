@@ -69,6 +69,9 @@ void canvas_dashes(struct canvas *canvas, double width, double dash, struct rgb 
  * sharp edges however large they become. */
 void canvas_image(struct canvas *canvas, double x, double y, double w, double h,
                   const unsigned char *rgb, size_t nx, size_t ny);
+/* The same of pixels that are given away: the canvas frees them. */
+void canvas_take_image(struct canvas *canvas, double x, double y, double w, double h,
+                       unsigned char *rgb, size_t nx, size_t ny);
 /* A pixel of the page; in a PDF or SVG pixels set one after another are one image. */
 void canvas_pixel(struct canvas *canvas, size_t x, size_t y, struct rgb colour);
 

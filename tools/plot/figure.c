@@ -14,8 +14,9 @@ static const struct rgb rule = {0xdd, 0xdd, 0xdd}, curve_ink = {0x1f, 0x4e, 0x8c
                         circle_ink = {0x1f, 0x8f, 0xd1};
 
 enum {
-    STEPS = 512,      /* of the colours in the bar                                          */
-    IMAGE_MOST = 2400 /* pixels a side of a map in a PDF or SVG: 600 an inch over 100 mm    */
+    STEPS = 512,       /* of the colours in the bar                                          */
+    IMAGE_MOST = 2400, /* pixels a side of a map in a PDF or SVG: 600 an inch over 100 mm    */
+    BAND = 64          /* rows of pixels that are in memory as means while a map is painted  */
 };
 
 /* ---- axes ---- */
@@ -90,11 +91,12 @@ struct shades {
 };
 
 static enum rc_status
-shades_new(const struct page *p, const struct raster *image, struct shades *s, struct rc_err *err)
+shades_new(const struct page *p, size_t image_w, size_t image_h, struct shades *s,
+           struct rc_err *err)
 {
     const struct figure *f = p->f;
-    size_t w = p->g->nx < image->w ? p->g->nx : image->w;
-    size_t h = p->g->ny < image->h ? p->g->ny : image->h;
+    size_t w = p->g->nx < image_w ? p->g->nx : image_w;
+    size_t h = p->g->ny < image_h ? p->g->ny : image_h;
     double aspect = (f->bottom - f->top) / (double)h / ((f->right - f->left) / (double)w);
 
     *s = (struct shades){NULL, NULL};
@@ -129,13 +131,14 @@ lit(const struct shades *s, struct rgb c, size_t i, size_t j, size_t w, size_t h
                         (unsigned char)fmin(255, c.b * b + 0.5)};
 }
 
+/* Of cell (i, j) of a raster whose first row is this one of the map. */
 static struct rgb
-cell_colour(const struct page *p, const struct raster *r, size_t i, size_t j)
+cell_colour(const struct page *p, const struct raster *r, size_t i, size_t j, size_t first)
 {
     const struct figure *f = p->f;
     size_t k = j * r->w + i;
     double none = (double)r->none[k], missing = (double)r->missing[k];
-    struct rgb colour = missing_at(p, i, j), value;
+    struct rgb colour = missing_at(p, i, first + j), value;
 
     if (isnan(r->v[k]))
         return none > 0 ? mix(f->map->none, none, colour, 1 - none) : colour;
@@ -145,29 +148,56 @@ cell_colour(const struct page *p, const struct raster *r, size_t i, size_t j)
     return none > 0 ? mix(value, fmax(0, 1 - none), f->map->none, fmin(none, 1)) : value;
 }
 
-static enum rc_status
-paint(struct page *p, const struct raster *r, struct rc_err *err)
+static struct raster *
+new_rows(struct page *p, size_t w, size_t h, size_t first, size_t rows, struct rc_err *err)
 {
-    unsigned char *rgb = malloc(3 * r->w * r->h);
+    if (p->f->keep_max && (w < p->g->nx || h < p->g->ny))
+        return raster_rows_max(p->g, p->f->zero_is_none, w, h, first, rows, err);
+    return raster_rows(p->g, p->f->zero_is_none, w, h, first, rows, err);
+}
+
+static enum rc_status
+paint_rows(struct page *p, const struct shades *shades, size_t w, size_t h, size_t first,
+           size_t rows, unsigned char *rgb, struct rc_err *err)
+{
+    struct raster *r = new_rows(p, w, h, first, rows, err);
+
+    if (r == NULL)
+        return RC_FAIL;
+    for (size_t j = 0; j < rows; j++)
+        for (size_t i = 0; i < w; i++) {
+            struct rgb colour = lit(shades, cell_colour(p, r, i, j, first), i, first + j, w, h);
+
+            memcpy(rgb + 3 * ((first + j) * w + i), (unsigned char[]){colour.r, colour.g, colour.b},
+                   3);
+        }
+    raster_free(r);
+    return RC_OK;
+}
+
+/* The map on w by h pixels, some rows of which are in memory as means at a time. */
+static enum rc_status
+paint(struct page *p, size_t w, size_t h, struct rc_err *err)
+{
+    unsigned char *rgb = malloc(3 * w * h);
+    enum rc_status status = RC_OK;
     struct shades shades;
 
     if (rgb == NULL)
-        return rc_err_set(err, "out of memory for a map of %zu by %zu pixels", r->w, r->h);
-    if (shades_new(p, r, &shades, err) != RC_OK) {
+        return rc_err_set(err, "out of memory for a map of %zu by %zu pixels", w, h);
+    if (shades_new(p, w, h, &shades, err) != RC_OK) {
         free(rgb);
         return RC_FAIL;
     }
-    for (size_t j = 0; j < r->h; j++)
-        for (size_t i = 0; i < r->w; i++) {
-            struct rgb colour = lit(&shades, cell_colour(p, r, i, j), i, j, r->w, r->h);
-
-            memcpy(rgb + 3 * (j * r->w + i), (unsigned char[]){colour.r, colour.g, colour.b}, 3);
-        }
-    canvas_image(p->c, (double)p->plot_x, (double)p->plot_y, (double)p->plot_w, (double)p->plot_h,
-                 rgb, r->w, r->h);
+    for (size_t first = 0; first < h && status == RC_OK; first += BAND)
+        status = paint_rows(p, &shades, w, h, first, h - first < BAND ? h - first : BAND, rgb, err);
     shades_free(&shades);
-    free(rgb);
-    return RC_OK;
+    if (status == RC_OK)
+        canvas_take_image(p->c, (double)p->plot_x, (double)p->plot_y, (double)p->plot_w,
+                          (double)p->plot_h, rgb, w, h);
+    else
+        free(rgb);
+    return status;
 }
 
 static void
@@ -277,14 +307,6 @@ draw_contours(struct page *p, const struct raster *r, struct rc_err *err)
     return status;
 }
 
-static struct raster *
-new_raster(struct page *p, size_t w, size_t h, struct rc_err *err)
-{
-    if (p->f->keep_max && (w < p->g->nx || h < p->g->ny))
-        return raster_new_max(p->g, p->f->zero_is_none, w, h, err);
-    return raster_new(p->g, p->f->zero_is_none, w, h, err);
-}
-
 /* In a PDF or SVG a node is a pixel, however large it is drawn; missing nodes are chequered, which
  * takes the pixels of the page. Contours run through the nodes of a map
  * that is enlarged, through the pixels of one that is reduced. */
@@ -300,14 +322,12 @@ draw_map(struct page *p, struct rc_err *err)
         w = nx < IMAGE_MOST ? nx : IMAGE_MOST;
         h = ny < IMAGE_MOST ? ny : IMAGE_MOST;
     }
-    if ((r = new_raster(p, w, h, err)) == NULL)
-        return RC_FAIL;
-    status = paint(p, r, err);
-    raster_free(r);
+    status = paint(p, w, h, err);
     if (!f->contour || status != RC_OK)
         return status;
-    r = new_raster(p, nx < p->plot_w ? nx : p->plot_w, ny < p->plot_h ? ny : p->plot_h, err);
-    if (r == NULL)
+    w = nx < p->plot_w ? nx : p->plot_w;
+    h = ny < p->plot_h ? ny : p->plot_h;
+    if ((r = new_rows(p, w, h, 0, h, err)) == NULL)
         return RC_FAIL;
     status = draw_contours(p, r, err);
     raster_free(r);
@@ -610,13 +630,13 @@ enum {
     PAINTED = 4 /* bytes of a pixel of an image, as cairo takes it */
 };
 
-/* First the map is reduced to means and coloured, then once more reduced for the contours. */
+/* First the map is reduced to means and coloured, band by band, then reduced as a whole for the contours. */
 struct page_bytes
 page_map_bytes(const struct page *p)
 {
     enum {
         MEAN = 8,      /* bytes of a pixel                                                        */
-        COLOUR = 3,    /* of a pixel: drawn, and kept                                             */
+        COLOUR = 3,    /* of a pixel, kept                                                        */
         PART = 4,      /* not in contact, or missing: only in memory where there is any           */
         PARTS = 1024,  /* pixels of these that come into memory at once                           */
         SHADE = 12,    /* of a node, reduced to no finer than pixels                              */
@@ -626,20 +646,23 @@ page_map_bytes(const struct page *p)
     };
     const struct figure *f = p->f;
     size_t plot = p->plot_w * p->plot_h, nodes = p->g->nx * p->g->ny, raster = plot, parts;
+    size_t wide = p->plot_w, band;
     size_t lines, most, then;
     struct page_bytes bytes;
 
-    if (f->vector && f->missing == 0)
-        raster = (p->g->nx < IMAGE_MOST ? p->g->nx : IMAGE_MOST) *
-                 (p->g->ny < IMAGE_MOST ? p->g->ny : IMAGE_MOST);
+    if (f->vector && f->missing == 0) {
+        wide = p->g->nx < IMAGE_MOST ? p->g->nx : IMAGE_MOST;
+        raster = wide * (p->g->ny < IMAGE_MOST ? p->g->ny : IMAGE_MOST);
+    }
     parts = (f->zero_is_none ? raster : 0) +
             (f->missing < raster / PARTS ? PARTS * f->missing : raster);
-    bytes.drawn = (MEAN + 2 * COLOUR) * raster + PART * parts;
+    band = raster < BAND * wide ? raster : BAND * wide;
+    bytes.drawn = COLOUR * raster + (MEAN + 2 * PART) * band;
     bytes.kept = COLOUR * raster;
     bytes.painted = PAINTED * raster;
     bytes.packed = f->paper ? COLOUR * raster : 0;
     if (f->hillshade)
-        bytes.drawn += SHADE * (nodes < plot ? nodes : plot);
+        bytes.drawn += SHADE * (nodes < raster ? nodes : raster);
     if (!f->contour)
         return bytes;
     lines = count_lines(p, &most);
@@ -658,18 +681,20 @@ page_pixel_bytes(const struct page *p)
     return p->f->vector ? 0 : PAINTED * p->w * p->h;
 }
 
-/* First the map is reduced to means and coloured, then, but for an SVG, all is painted on the page. */
+/* First the map is reduced to means and coloured, then, but for an SVG, all is painted on the page: its values are gone by
+ * then. */
 static size_t
 memory_of(const struct page *p)
 {
+    size_t then, values = p->g->nx * p->g->ny * sizeof *p->g->v;
     struct page_bytes map;
-    size_t then;
 
     if (p->curve)
         return page_pixel_bytes(p);
     map = page_map_bytes(p);
     then = p->f->vector && !p->f->paper ? 0
                                         : page_pixel_bytes(p) + map.kept + map.painted + map.packed;
+    then = then > values ? then - values : 0;
     return map.drawn > then ? map.drawn : then;
 }
 

@@ -99,15 +99,18 @@ add_row(struct raster *r, size_t row, const double *v, const struct spans *x, do
     }
 }
 
+/* The rows of the raster from `first` of all of them on. */
 static void
-fill(struct raster *r, const struct rc_grid *g, const struct spans *x, const struct spans *y,
-     bool zero_is_none, double *weight)
+fill(struct raster *r, size_t first, const struct rc_grid *g, const struct spans *x,
+     const struct spans *y, bool zero_is_none, double *weight)
 {
     for (size_t row = 0; row < r->h; row++) {
+        size_t of = first + row;
+
         for (size_t c = 0; c < r->w; c++)
             weight[c] = 0;
-        for (size_t k = y->start[row]; k < y->start[row + 1]; k++)
-            add_row(r, row, g->v + (y->first[row] + k - y->start[row]) * g->nx, x, y->weight[k],
+        for (size_t k = y->start[of]; k < y->start[of + 1]; k++)
+            add_row(r, row, g->v + (y->first[of] + k - y->start[of]) * g->nx, x, y->weight[k],
                     zero_is_none, weight);
         for (size_t c = 0; c < r->w; c++)
             r->v[row * r->w + c] = weight[c] > 0 ? r->v[row * r->w + c] / weight[c] : NAN;
@@ -134,9 +137,10 @@ raster_blank(size_t w, size_t h, struct rc_err *err)
 }
 
 struct raster *
-raster_new(const struct rc_grid *g, bool zero_is_none, size_t w, size_t h, struct rc_err *err)
+raster_rows(const struct rc_grid *g, bool zero_is_none, size_t w, size_t h, size_t first,
+            size_t rows, struct rc_err *err)
 {
-    struct raster *r = raster_blank(w, h, err);
+    struct raster *r = raster_blank(w, rows, err);
     struct spans x = {0}, y = {0};
     double *weight = calloc(w, sizeof *weight);
     bool done = false;
@@ -144,7 +148,7 @@ raster_new(const struct rc_grid *g, bool zero_is_none, size_t w, size_t h, struc
     if (r == NULL || weight == NULL || spans_new(&x, g->nx, w, err) != RC_OK ||
         spans_new(&y, g->ny, h, err) != RC_OK)
         goto done;
-    fill(r, g, &x, &y, zero_is_none, weight);
+    fill(r, first, g, &x, &y, zero_is_none, weight);
     done = true;
 done:
     spans_free(&x);
@@ -159,14 +163,22 @@ done:
 }
 
 struct raster *
-raster_new_max(const struct rc_grid *g, bool zero_is_none, size_t w, size_t h, struct rc_err *err)
+raster_new(const struct rc_grid *g, bool zero_is_none, size_t w, size_t h, struct rc_err *err)
 {
-    struct raster *r = raster_blank(w, h, err);
+    return raster_rows(g, zero_is_none, w, h, 0, h, err);
+}
+
+struct raster *
+raster_rows_max(const struct rc_grid *g, bool zero_is_none, size_t w, size_t h, size_t from_row,
+                size_t rows, struct rc_err *err)
+{
+    struct raster *r = raster_blank(w, rows, err);
 
     if (r == NULL)
         return NULL;
-    for (size_t row = 0; row < h; row++) {
-        size_t first = row * g->ny / h, last = ((row + 1) * g->ny - 1) / h;
+    for (size_t row = 0; row < rows; row++) {
+        size_t of = from_row + row;
+        size_t first = of * g->ny / h, last = ((of + 1) * g->ny - 1) / h;
 
         for (size_t c = 0; c < w; c++) {
             size_t at = row * w + c, from = c * g->nx / w, to = ((c + 1) * g->nx - 1) / w;

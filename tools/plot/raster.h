@@ -30,10 +30,13 @@ struct raster {
  * short. */
 struct raster *raster_new(const struct rc_grid *grid, bool zero_is_none, size_t w, size_t h,
                           struct rc_err *err);
+/* So many of its h rows alone, from `first` on. */
+struct raster *raster_rows(const struct rc_grid *grid, bool zero_is_none, size_t w, size_t h,
+                           size_t first, size_t rows, struct rc_err *err);
 /* The same with the largest value of the nodes that a cell covers in place of their mean; a cell is
  * in contact, and measured, where one of its nodes is. */
-struct raster *raster_new_max(const struct rc_grid *grid, bool zero_is_none, size_t w, size_t h,
-                              struct rc_err *err);
+struct raster *raster_rows_max(const struct rc_grid *grid, bool zero_is_none, size_t w, size_t h,
+                               size_t first, size_t rows, struct rc_err *err);
 void raster_free(struct raster *raster); /* NULL is allowed */
 
 /* Straight pieces of lines, in cells from the upper left corner: the middle of cell (i, j) is
