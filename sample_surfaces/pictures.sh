@@ -65,4 +65,9 @@ rc-synth sphere --nx 129 --dx 10um --radius 7.5mm | rc-solve --quiet --load 60N 
 draw hertz --cut y=0 --hertz --radius 7.5mm ball.rcg
 draw persson --curve mean_pressure:contact_fraction --law persson --log xy sweep.tsv
 draw histogram --channel pressure --histogram contact.rcg
+rc-solve --quiet --radius 7.5mm --load 60N,240N --estar 113.93GPa --hardness 6GPa --output pressure,gap,height surface.rcg -o loads.rcg
+draw border --channel height --hillshade --colormap grey --border --case 2 loads.rcg
+draw borders --channel gap --border --sheet 2x1 loads.rcg
+draw strip --depth-range 0:40um --aspect 4 section.rcg
+draw tall --channel height --view 30,40 --exaggeration 40 surface.rcg
 draw hillshade --channel height --hillshade surface.rcg

@@ -46,7 +46,7 @@ last=$(($(wc -l <loads.tsv) - 1))
 run "rc-render --quiet --case $last --width 800 -o pressure.png contact.rcg"
 run "rc-info --patches contact.rcg | grep -E '^  (load|contact|pressure|approach|hardness|converged|patches|corrected|perimeter|largest)' | tail -n 11 >contact.txt"
 run "rc-pick --case $last contact.rcg | rc-stress --nu $nu --section y=0 --depths auto --components mises -o section.rcg"
-run "rc-render --quiet --width 800 -o section.png section.rcg"
+run "rc-render --quiet --log --width 800 -o section.png section.rcg"
 {
     printf '<!DOCTYPE html>\n<html lang="en"><meta charset="utf-8"><title>%s</title>\n' "$(basename "$file" | escape)"
     echo '<style>body{font:16px/1.5 sans-serif;max-width:52em;margin:2em auto;padding:0 1em;color:#222}img{max-width:100%}

@@ -37,6 +37,8 @@ static const struct opt opts[] = {
      .help = "leave half a per cent of the nodes beyond each end of the colours"},
     {.name = "contour", .type = OPT_FLAG, .at = offsetof(struct args, contour), .result = true,
      .help = "draw lines at the marks of the colour bar, and the edge of contact"},
+    {.name = "border", .type = OPT_FLAG, .at = offsetof(struct args, border), .result = true,
+     .help = "of these the border of the contact alone, where the pressure is in the stream"},
     {.name = "hertz", .type = OPT_FLAG, .at = offsetof(struct args, hertz), .result = true,
      .help = "draw the circle of Hertz, beside --cut his pressure: of a sphere without roughness"},
     {.name = "window", .type = OPT_TEXT, .at = offsetof(struct args, window), .result = true,
@@ -63,6 +65,12 @@ static const struct opt opts[] = {
      .arg = "FAMILY", .help = "of all text (default: the sans serif of the system)"},
     {.name = "view", .type = OPT_TEXT, .at = offsetof(struct args, view), .result = true,
      .arg = "AZ,EL", .help = "as a lit surface, seen from azimuth and elevation in degrees"},
+    {.name = "exaggeration", .type = OPT_NUMBER, .at = offsetof(struct args, exaggeration), .min = 0,
+     .max = INFINITY, .above = true, .result = true, .arg = "N",
+     .help = "of a relief: heights N times as large as places (default: what suits)"},
+    {.name = "aspect", .type = OPT_NUMBER, .at = offsetof(struct args, aspect), .min = 0,
+     .max = INFINITY, .above = true, .result = true, .arg = "N",
+     .help = "the axis downwards N times as large as that across, as for sections"},
     {.name = "hillshade", .type = OPT_FLAG, .at = offsetof(struct args, hillshade), .result = true,
      .help = "with light from the upper left on the slopes of the map"},
     {.name = "sheet", .type = OPT_TEXT, .at = offsetof(struct args, sheet), .result = true,
@@ -300,6 +308,7 @@ draw_relief(struct tool *t, const struct args *a, const struct rc_grid *g, struc
         tool_die_at(t, g, EXIT_IMPOSSIBLE,
                     "a relief is of a map, this is a profile or a section: leave out --view");
     view.peaks = a->keep == NULL ? f->zero_is_none : f->keep_max;
+    view_check(t, g, f);
     view_say(f, subtitle);
     f->missing = 0; /* they are holes */
     if (relief_memory(f, &view, g, &bytes, &err) != RC_OK)
@@ -337,6 +346,7 @@ render(struct tool *t, struct args *a, struct rc_grid *g, struct rc_grid *beside
     subtitle_write(&subtitle, g, &s, &means, w.part, largest);
     look_figure(t, a, &g, 1, &s, &look, &f);
     look_extent(&w, &f);
+    look_aspect(t, g, &f);
     look_contact(&f, strcmp(g->channel, "pressure") == 0 ? g : beside);
     snprintf(title, sizeof title, "%.80s about the contact", look.what.title);
     if (a->title == NULL && w.contact)
@@ -344,11 +354,12 @@ render(struct tool *t, struct args *a, struct rc_grid *g, struct rc_grid *beside
     f.subtitle = wording_subtitle(a->title, a->style.subtitle, subtitle.text);
     if (a->hillshade && !look_is_profile(g))
         subtitle_add(&subtitle, shaded, "");
-    if ((a->contour || a->hertz || a->hillshade) && look_is_profile(g))
+    if ((a->contour || a->border || a->hertz || a->hillshade) && look_is_profile(g))
         tool_warn(t, "a profile is drawn as a curve: --%s does nothing",
-                  a->contour ? "contour"
-                  : a->hertz ? "hertz"
-                             : "hillshade");
+                  a->contour  ? "contour"
+                  : a->border ? "border"
+                  : a->hertz  ? "hertz"
+                              : "hillshade");
     if (a->raw)
         write_picture(t, g, &f, NULL);
     else if (a->view != NULL)
@@ -376,8 +387,8 @@ set_panels(struct tool *t, const struct args *a, const struct frames *frames,
         look_extent(&window[k], of);
         even[k] = rc_grid_get(g, "section") == NULL ? NULL : look_section(t, a, g, of);
         panel[k].grid = even[k] == NULL ? g : even[k];
-        if (strcmp(g->channel, "pressure") == 0)
-            look_contact(of, g);
+        if (frames_pressure(frames, k) != NULL)
+            look_contact(of, frames_pressure(frames, k));
         hard = fmax(hard, of->hard);
         sheet_check_alike(t, frames->grid[0], &panel[0].figure, g, of);
         sheet_label(&panel[k], frames, k);
@@ -392,6 +403,7 @@ set_panels(struct tool *t, const struct args *a, const struct frames *frames,
     f->across = panel[0].figure.across;
     f->down = panel[0].figure.down;
     f->section = panel[0].figure.section;
+    look_aspect(t, frames->grid[0], f);
     if (sheet_one_body(frames)) {
         f->medium = panel[0].figure.medium;
         f->media = panel[0].figure.media;
@@ -409,6 +421,15 @@ say_of_sheet(struct subtitle *subtitle, const struct args *a, const struct frame
     subtitle_range(subtitle, all, means, frames->grid[0]->unit);
     if (a->hillshade)
         subtitle_add(subtitle, shaded, "");
+}
+
+/* A pressure that is cut with the frame that it lies under. */
+static struct rc_grid *
+beside_of(const struct frames *frames, size_t k)
+{
+    struct rc_grid *p = frames_pressure(frames, k);
+
+    return p == frames->grid[k] ? NULL : p;
 }
 
 static void
@@ -435,8 +456,8 @@ render_sheet(struct tool *t, struct args *a, const struct frames *frames)
     for (size_t k = 0; k < frames->n; k++)
         means_take(t, frames->grid[k], &means);
     for (size_t k = 0; k < frames->n; k++)
-        window_cut(t, a->window == NULL ? "all" : a->window, false, frames->grid[k], NULL,
-                   &window[k]);
+        window_cut(t, a->window == NULL ? "all" : a->window, false, frames->grid[k],
+                   beside_of(frames, k), &window[k]);
     sheet_survey(t, frames, &all);
     look_figure(t, a, frames->grid, frames->n, &all, &look, &f);
     say_of_sheet(&subtitle, a, frames, &all, &means, window[0].part);
@@ -533,7 +554,8 @@ read_one(struct tool *t, struct args *a)
     struct choice choice = {.wish = &a->wish};
     struct rc_grid *g;
 
-    a->wish.contact = a->contour || (a->window != NULL && strcmp(a->window, "contact") == 0);
+    a->wish.contact =
+        a->contour || a->border || (a->window != NULL && strcmp(a->window, "contact") == 0);
     while ((g = tool_read(t)) != NULL)
         choice_offer(&choice, t, g);
     choice_settle(&choice, t);
@@ -550,6 +572,7 @@ read_several(struct tool *t, struct args *a)
     static struct frames frames;
 
     frames.wish = a->wish;
+    frames.border = a->contour || a->border;
     frames.wanted = (struct wanted){.depth = a->depth, .number = a->number};
     frames_read(&frames, t); /* frees the lists */
     a->depth = a->number = (struct numbers){0};
@@ -569,6 +592,8 @@ main(int argc, char **argv)
 {
     struct args args = {.wish = {.depth = NAN},
                         .dpi = NAN,
+                        .aspect = NAN,
+                        .exaggeration = NAN,
                         .style.given = {.estar = NAN, .radius = NAN, .rms_slope = NAN}};
     struct tool t;
 

@@ -444,7 +444,8 @@ wanted_read(struct wanted *w, struct tool *t)
         g = read_by_depth(w, t);
     } else {
         while ((g = tool_read(t)) != NULL && !is_wanted(w, t, g))
-            rc_grid_free(g);
+            if (w->other == NULL || !w->other(w->ctx, g))
+                rc_grid_free(g);
     }
     if (g == NULL)
         settle(w, t);

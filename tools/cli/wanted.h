@@ -10,6 +10,11 @@
 struct wanted {          /* starts as {0}: every frame                                          */
     const char *channel; /* names separated by commas; NULL: any                                */
     struct numbers depth, number; /* of depths (m) and cases; n = 0: any                        */
+    bool (*other)(void *ctx,
+                  struct rc_grid *
+                      grid); /* takes a frame that is not one of them, and says whether it keeps it;
+                          NULL: none is; not where depths are asked for                       */
+    void *ctx;
     struct seen *seen; /* when something is asked for: all frames so far, without values */
     size_t n, capacity;
     struct wanted_depths *depths; /* of the case that is read; NULL: none are asked for          */

@@ -11,7 +11,7 @@
 
 static const struct rgb rule = {0xdd, 0xdd, 0xdd}, curve_ink = {0x1f, 0x4e, 0x8c},
                         light = {0xff, 0xff, 0xff}, hard_ink = {0x00, 0x9e, 0x73},
-                        circle_ink = {0x1f, 0x8f, 0xd1};
+                        circle_ink = {0x1f, 0x8f, 0xd1}, edge_on_dark = {0xff, 0x8c, 0x1a};
 
 enum {
     STEPS = 512,       /* of the colours in the bar                                          */
@@ -230,6 +230,24 @@ border_width(const struct page *p)
     return fmin(1.5 * p->u, fmax(0.35 * node, 0.4 * p->u));
 }
 
+/* The edge of the contact on a map of something else, which can be dark where bodies touch; it is seen on the white page
+ * too. */
+static struct rgb
+edge_ink(const struct page *p)
+{
+    const struct rc_grid *of = p->f->pressure;
+    double sum = 0, n = 0;
+
+    if (of == NULL || of == p->g || of->nx != p->g->nx || of->ny != p->g->ny)
+        return page_ink;
+    for (size_t k = 0; k < of->nx * of->ny; k++)
+        if (of->v[k] > 0 && isfinite(p->g->v[k])) {
+            sum += p->g->v[k];
+            n++;
+        }
+    return n > 0 && colormap_is_dark(figure_colour(p->f, sum / n)) ? edge_on_dark : page_ink;
+}
+
 /* Where a place of the map, in metres, lies on the page. */
 static double
 page_x(const struct page *p, double x)
@@ -288,7 +306,7 @@ draw_contours(struct page *p, const struct raster *r, struct rc_err *err)
     for (long long k = a->ticks.first; k <= a->ticks.last && status == RC_OK; k++) {
         double level = ticks_at(&a->ticks, k) * a->scale.size;
 
-        if (p->f->zero_is_none && k == 0)
+        if (p->f->border || (p->f->zero_is_none && k == 0))
             continue; /* the contact's edge says that better */
         status = raster_contour(r, level, &lines, err);
         stroke_lines(p, &lines, r, p->f->zero_is_none ? border_width(p) : 1.5 * p->u,
@@ -296,7 +314,7 @@ draw_contours(struct page *p, const struct raster *r, struct rc_err *err)
     }
     if (status == RC_OK && p->f->pressure != NULL) {
         status = raster_border(p->f->pressure, 0, r->w, r->h, &lines, err);
-        stroke_lines(p, &lines, r, border_width(p), page_ink);
+        stroke_lines(p, &lines, r, border_width(p), edge_ink(p));
     }
     if (status == RC_OK && p->f->hard > 0) {
         status = raster_border(p->f->pressure, p->f->hard, r->w, r->h, &lines, err);
@@ -396,7 +414,7 @@ draw_bar(struct page *p)
     }
     paint_bar(p, x, y, w, h);
     point_bar(p, x, y, w, h);
-    for (long long k = a->ticks.first; p->f->contour && k <= a->ticks.last; k++) {
+    for (long long k = a->ticks.first; p->f->contour && !p->f->border && k <= a->ticks.last; k++) {
         double t = page_place(a, ticks_at(&a->ticks, k));
         struct rgb colour = line_colour(p->f, ticks_at(&a->ticks, k) * a->scale.size);
 
@@ -525,7 +543,7 @@ draw_swatch(struct page *p, enum swatch swatch, double x, double y, size_t n)
         if (swatch == SWATCH_CIRCLE)
             canvas_dashes(p->c, 2 * u, 9 * u, circle_ink);
         else
-            canvas_stroke(p->c, 2 * u, swatch == SWATCH_HARD ? hard_ink : page_ink);
+            canvas_stroke(p->c, 2 * u, swatch == SWATCH_HARD ? hard_ink : edge_ink(p));
     }
     if (swatch == SWATCH_NONE)
         canvas_fill(p->c, x, y, w, h, p->f->map->none);
@@ -611,7 +629,7 @@ count_lines(const struct page *p, size_t *most)
     size_t all = 0, n;
 
     *most = 0;
-    for (long long k = a->ticks.first; k <= a->ticks.last; k++) {
+    for (long long k = a->ticks.first; !f->border && k <= a->ticks.last; k++) {
         if (f->zero_is_none && k == 0)
             continue;
         n = count_crossings(p->g, p->plot_w, p->plot_h, ticks_at(&a->ticks, k) * a->scale.size);

@@ -60,6 +60,9 @@ struct figure {
     const char *none;       /* what it means: "no contact"                           */
     const char *missing_is; /* what missing nodes are; NULL: not measured        */
     bool contour;           /* lines at the marks of the bar, and the contact's edge */
+    bool border;            /* of these the contact's edge alone                     */
+    double aspect;          /* scale downwards over that across; 0: what suits       */
+    double exaggeration;    /* of a relief of lengths; 0: what suits                 */
     bool hillshade;         /* with light and shadow                                 */
     size_t width;           /* pixels of the whole figure; 0: what suits the map     */
     double dpi;             /* of them an inch: text has its size on paper then;

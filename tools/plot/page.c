@@ -249,11 +249,21 @@ natural_side(size_t n, double u)
     return round(nodes / ceil(nodes / most));
 }
 
+double
+page_aspect(const struct figure *f)
+{
+    double aspect = (f->right - f->left) / (f->bottom - f->top);
+
+    if (f->aspect > 0)
+        return aspect / f->aspect;
+    return fmin(fmax(aspect, 1.0 / FIGURE_ASPECT), FIGURE_ASPECT);
+}
+
 static void
 set_plot(struct page *p, double width)
 {
     double x = p->f->right - p->f->left, y = p->f->bottom - p->f->top;
-    double aspect = fmin(fmax(x / y, 1.0 / FIGURE_ASPECT), FIGURE_ASPECT);
+    double aspect = page_aspect(p->f);
     double paper = unit_on_paper(p->f), w;
 
     p->distorted = !p->curve && aspect != x / y;
@@ -339,6 +349,17 @@ add_media(struct page *p, double width)
     }
 }
 
+static const char *
+say_scales(const struct figure *f, char *text, size_t size)
+{
+    if (f->aspect > 0)
+        snprintf(text, size, "%s is drawn %.4g times as large as %s", f->down, f->aspect,
+                 f->across);
+    else
+        snprintf(text, size, "the axes differ in scale");
+    return text;
+}
+
 /* What the legend says, and where: side by side as many as fit a line. */
 static void
 set_legend(struct page *p, double width)
@@ -367,7 +388,7 @@ set_legend(struct page *p, double width)
     if (p->f->note != NULL && !p->curve)
         add_note(p, width, SWATCH_NOTHING, p->f->note);
     if (p->distorted)
-        add_note(p, width, SWATCH_NOTHING, "the axes differ in scale");
+        add_note(p, width, SWATCH_NOTHING, say_scales(p->f, text, sizeof text));
     for (size_t k = 0; k < p->notes; k++) {
         double w;
 
@@ -457,10 +478,15 @@ void
 page_lay_out(struct page *p)
 {
     double width = 0.8 * (double)p->f->width;
+    bool beside = false,
+         again = false; /* the bar has been; and then below once more: it stays there */
 
     set_axes(p);
     for (int round = 0; round < 6; round++) {
         set_plot(p, width);
+        again = again || (beside && p->bar_below);
+        beside = beside || !p->bar_below;
+        p->bar_below = p->bar_below || again;
         measure_sides(p);
         if (p->f->width == 0)
             break;

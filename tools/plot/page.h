@@ -108,6 +108,8 @@ struct page_bytes {
     size_t drawn, kept, painted, packed;
 };
 struct page_bytes page_map_bytes(const struct page *page);
+/* Width over height of the plot of a figure. */
+double page_aspect(const struct figure *figure);
 /* Bytes of the page as pixels; 0 for a PDF or SVG. */
 size_t page_pixel_bytes(const struct page *page);
 /* Draws the colour bar beside the plot, and the legend at the foot of the page. */

@@ -19,14 +19,6 @@ struct sheet {
     struct canvas_font label;  /* smaller where panels are narrow */
 };
 
-static double
-aspect_of(const struct figure *f)
-{
-    double aspect = (f->right - f->left) / (f->bottom - f->top);
-
-    return fmin(fmax(aspect, 1.0 / FIGURE_ASPECT), FIGURE_ASPECT);
-}
-
 size_t
 panels_columns(size_t n, double aspect)
 {
@@ -52,7 +44,7 @@ static enum rc_status
 lay_out(struct sheet *s, struct rc_err *err)
 {
     struct page *p = &s->page;
-    double u = p->u, aspect = aspect_of(p->f), text_w = (double)p->w - 48 * u, above;
+    double u = p->u, aspect = page_aspect(p->f), text_w = (double)p->w - 48 * u, above;
 
     p->distorted = aspect != (p->f->right - p->f->left) / (p->f->bottom - p->f->top);
     s->w = ((double)p->w - 260 * u) / (double)s->columns;

@@ -56,6 +56,8 @@ relief_exaggeration(const struct figure *f)
 {
     double most = 0.4 * longer_side(f) / (f->hi - f->lo), power = pow(10, floor(log10(most)));
 
+    if (f->exaggeration > 0)
+        return f->exaggeration;
     return (most >= 5 * power ? 5 : most >= 2 * power ? 2 : 1) * power;
 }
 

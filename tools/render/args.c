@@ -25,8 +25,8 @@ static void
 check_kinds(struct tool *t, const struct args *a)
 {
     static const char *const of_maps[] = {"channel", "depth", "section", "case", "range", NULL};
-    static const char *const of_colours[] = {"colormap", "contour", "clip", "keep", NULL};
-    static const char *const of_places[] = {"window", "depth-range", NULL};
+    static const char *const of_colours[] = {"colormap", "contour", "border", "clip", "keep", NULL};
+    static const char *const of_places[] = {"window", "depth-range", "aspect", NULL};
     static const char *const of_laws[] = {"law", "rms-slope", NULL};
     static const char *const of_spheres[] = {"estar", "radius", NULL};
     static const char *const of_tables[] = {"by", "points", "error", "spread", NULL};
@@ -79,9 +79,15 @@ check_lists(struct tool *t, struct args *a)
     if (a->hillshade && (a->raw || a->curve != NULL || args_lines(a) || a->view != NULL))
         tool_die(t, EXIT_USAGE, "--hillshade is for flat maps with axes: leave it out");
     if (a->view != NULL &&
-        (a->raw || a->curve != NULL || args_lines(a) || a->contour || args_several(a)))
+        (a->raw || a->curve != NULL || args_lines(a) || a->contour || a->border || args_several(a)))
         tool_die(t, EXIT_USAGE,
-                 "--view draws one map as a relief: leave out --raw, --contour, curves and lists");
+                 "--view draws one map as a relief: leave out --raw, --contour, --border, curves "
+                 "and lists");
+    if (a->view != NULL && !isnan(a->aspect))
+        tool_die(t, EXIT_USAGE,
+                 "--aspect is for flat maps and sections; a relief has --exaggeration");
+    if (a->view == NULL && !isnan(a->exaggeration))
+        tool_die(t, EXIT_USAGE, "--exaggeration is for a relief: add --view AZ,EL");
     if (a->view != NULL && a->style.log != NULL)
         tool_die(t, EXIT_USAGE, "--view has an even axis upwards: leave out --log");
     if (a->hertz && (a->view != NULL || args_several(a)))
@@ -129,8 +135,11 @@ check_options(struct tool *t, const struct args *a)
 {
     if (a->raw && a->figure)
         tool_die(t, EXIT_USAGE, "--raw and --figure are two kinds of picture: give one");
-    if (a->raw && a->contour)
-        tool_die(t, EXIT_USAGE, "--raw draws nothing but nodes: leave out --contour");
+    if (a->raw && (a->contour || a->border || !isnan(a->aspect)))
+        tool_die(t, EXIT_USAGE, "--raw draws nothing but nodes: leave out --%s",
+                 a->contour  ? "contour"
+                 : a->border ? "border"
+                             : "aspect");
     if (a->raw && a->width != NULL)
         tool_die(t, EXIT_USAGE, "--raw is as wide as the map has columns: leave out --width");
     if (a->raw && a->style.family != NULL)

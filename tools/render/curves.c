@@ -32,7 +32,7 @@ static const struct quantity {
     {"contact_area_inside", "Contact area inside the taper", "m2"},
     {"contact_fraction_inside", "Contact fraction inside the taper", "1"},
     {"plastic_area", "Area at the hardness", "m2"},
-    {"yielded_area", "Area that gave way", "m2"},
+    {"yielded_area", "Yielded area", "m2"},
     {"edge_load_fraction", "Share of the load at the edge", "1"},
     {"approach", "Approach", "m"},
     {"indentation", "Approach from the first touch of all", "m"},

@@ -433,9 +433,8 @@ histogram_draw(struct tool *t, struct rc_grid *const *grid, size_t n,
         tool_note(t, "%s", note);
     graph.n = n + add_distribution(&s, mean, lo, first + (double)bins * step);
     snprintf(unit, sizeof unit, "1/%.40s", grid[0]->unit);
-    snprintf(title, sizeof title, "How the %s spreads", s.channel.title);
-    if (s.channel.title != grid[0]->channel)
-        title[8] = (char)(title[8] | 0x20); /* lower case, after "How the " */
+    snprintf(title, sizeof title, "%s distribution", s.channel.title);
+    /* lower case, after "How the " */
     graph.x.quantity = s.channel.title;
     graph.x.unit = grid[0]->unit;
     graph.y.quantity = "Probability density";

@@ -29,11 +29,40 @@ prefer(struct frames *f, const struct rc_grid *g)
     return true;
 }
 
+static bool
+keep_pressure(void *ctx, struct rc_grid *g)
+{
+    struct frames *f = ctx;
+
+    if (strcmp(g->channel, "pressure") != 0 || f->pressures == FRAMES)
+        return false;
+    f->pressure[f->pressures++] = g;
+    return true;
+}
+
+struct rc_grid *
+frames_pressure(const struct frames *f, size_t k)
+{
+    const struct rc_grid *g = f->grid[k];
+
+    if (strcmp(g->channel, "pressure") == 0)
+        return f->grid[k];
+    for (size_t p = 0; p < f->pressures; p++)
+        if (rc_grid_case(f->pressure[p]) == rc_grid_case(g) && f->pressure[p]->nx == g->nx &&
+            f->pressure[p]->ny == g->ny && rc_grid_get(g, "section") == NULL)
+            return f->pressure[p];
+    return NULL;
+}
+
 void
 frames_read(struct frames *f, struct tool *t)
 {
     struct rc_grid *g;
 
+    if (f->border) {
+        f->wanted.other = keep_pressure;
+        f->wanted.ctx = f;
+    }
     f->wanted.channel = f->wish.channel;
     wanted_check(&f->wanted, t);
     while ((g = wanted_read(&f->wanted, t)) != NULL) {
@@ -63,5 +92,7 @@ frames_free(struct frames *f)
 {
     for (size_t k = 0; k < f->n; k++)
         rc_grid_free(f->grid[k]);
-    f->n = 0;
+    for (size_t k = 0; k < f->pressures; k++)
+        rc_grid_free(f->pressure[k]);
+    f->n = f->pressures = 0;
 }

@@ -94,7 +94,10 @@ look_figure(struct tool *t, struct args *a, struct rc_grid *const *grid, size_t 
         .none = look->what.none,
         .missing_is = look->what.missing,
         .zeros = s->zeros,
-        .contour = a->contour,
+        .contour = a->contour || a->border,
+        .border = a->border && !a->contour,
+        .aspect = isnan(a->aspect) ? 0 : a->aspect,
+        .exaggeration = isnan(a->exaggeration) ? 0 : a->exaggeration,
         .hillshade = a->hillshade,
         .keep_max = a->keep != NULL && strcmp(a->keep, "max") == 0,
         .width = a->style.width,
@@ -126,6 +129,19 @@ look_extent(const struct window *w, struct figure *f)
     f->right = w->right;
     f->top = w->top;
     f->bottom = w->bottom;
+}
+
+void
+look_aspect(struct tool *t, const struct rc_grid *g, const struct figure *f)
+{
+    double aspect = (f->right - f->left) / (f->bottom - f->top) / f->aspect;
+
+    if (f->aspect > 0 && !(aspect <= FIGURE_ASPECT && aspect >= 1.0 / FIGURE_ASPECT))
+        tool_die_at(t, g, EXIT_USAGE,
+                    "--aspect %.6g: the plot would be %.3g times as %s: give one that leaves it at "
+                    "most %d times",
+                    f->aspect, aspect > 1 ? aspect : 1 / aspect,
+                    aspect > 1 ? "wide as high" : "high as wide", FIGURE_ASPECT);
 }
 
 bool

@@ -306,7 +306,13 @@ struct frames {
     struct rc_grid *grid[FRAMES];
     size_t n;
     size_t left; /* frames that were too many */
+    bool border; /* pressures of the cases are kept beside frames of another channel */
+    struct rc_grid *pressure[FRAMES];
+    size_t pressures;
 };
+
+/* The pressure on the grid of frame k, of its case; NULL: it is not there. */
+struct rc_grid *frames_pressure(const struct frames *frames, size_t k);
 
 /* Reads all inputs and keeps the frames that are asked for, of the channel that stands first in the
  * order of struct wish where none is. Ends the tool when there is none. Frees the lists. */
@@ -333,6 +339,8 @@ void sheet_label(struct panel *panel, const struct frames *frames, size_t k);
 
 /* AZ,EL in degrees; ends the tool where it is no such. */
 void view_read(struct tool *tool, const char *text, struct view *view);
+/* Ends the tool where --exaggeration does not suit what is drawn. */
+void view_check(struct tool *tool, const struct rc_grid *grid, const struct figure *figure);
 /* What a relief leaves to be said, after what the figure says. */
 void view_say(const struct figure *figure, struct subtitle *subtitle);
 
@@ -354,8 +362,9 @@ struct args {
     struct wish wish; /* which frame */
     const char *colormap, *range, *title;
     const char *width, *window, *depths, *keep;
-    double dpi; /* as given */
-    bool contour, figure, raw, clip, hertz;
+    double dpi;                  /* as given                                 */
+    double aspect, exaggeration; /* as given; NAN: what suits                */
+    bool contour, border, figure, raw, clip, hertz;
     struct numbers depth, number; /* as asked for: of several frames, or the one of wish */
     const char *curve;            /* X:Y[,Y...]: tables are drawn instead of maps */
     const char *cut;
@@ -394,6 +403,8 @@ void look_contact(struct figure *figure, const struct rc_grid *pressure);
  * unit. */
 enum unit look_unit(const struct rc_grid *grid);
 void look_extent(const struct window *window, struct figure *figure);
+/* Ends the tool where --aspect would make the plot too long. */
+void look_aspect(struct tool *tool, const struct rc_grid *grid, const struct figure *figure);
 /* Whether a frame of rc-leak has the narrowest place of a way through, where the figure lies: the cross
  * stands there. */
 bool look_throat(const struct rc_grid *grid, struct figure *figure);

@@ -25,6 +25,24 @@ view_read(struct tool *t, const char *text, struct view *view)
 }
 
 void
+view_check(struct tool *t, const struct rc_grid *g, const struct figure *f)
+{
+    const double most = 4; /* sides */
+    double side = fmax(f->right - f->left, f->bottom - f->top);
+    double box = f->exaggeration * (f->hi - f->lo) / side;
+
+    if (f->exaggeration > 0 && !relief_to_scale(f))
+        tool_die_at(t, g, EXIT_USAGE,
+                    "--exaggeration is for heights and other lengths, this is a %s: leave it out",
+                    g->channel);
+    if (box > most)
+        tool_die_at(t, g, EXIT_USAGE,
+                    "--exaggeration %.6g: the box would be %.3g times as high as its longer side: "
+                    "give at most %.3g",
+                    f->exaggeration, box, f->exaggeration * most / box);
+}
+
+void
 view_say(const struct figure *f, struct subtitle *subtitle)
 {
     char text[TICKS_TEXT];
