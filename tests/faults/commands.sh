@@ -20,6 +20,7 @@ make_inputs() {
     for format in x3p sdf gsf npy csv xyz hdf5 gwy sur; do rc-export h.rcg -o "h.$format"; done
     gzip -kn h.gsf
     printf '5 6 7\n6 NaN 8\n7 8 9\n' >hole.txt
+    printf 'x/N\ty/m\tk\n1\t1\ta\n1\t2\ta\n2\t3\tb\n2\t5\tb\n' >table.tsv
     rc-import --dx 1um --z-unit nm hole.txt -o hole.rcg
 }
 
@@ -64,6 +65,7 @@ commands=$(
 1 rc-deflect --estar 1GPa --kernel mlms c.rcg -o out
 1 rc-info --areal --psd h.rcg -o out
 1 rc-info --json --areal --psd h.rcg
+1 rc-info --areal --profile rows --report /dev/null h.rcg
 1 rc-info --patches --json c.rcg -o out
 1 rc-info --psd --psd-map map h.rcg -o out
 1 rc-solve --quiet --estar 1GPa --load 1mN --checkpoint kept --resume h.rcg -o out
@@ -77,6 +79,7 @@ commands=$(
 1 rc-export --format csv h.rcg
 3 rc-render --raw --channel pressure c.rcg -o out.png
 6 rc-render --figure --channel pressure c.rcg -o out.pdf
+6 rc-render --curve x:y --by k --spread table.tsv -o out.pdf
 1 rc-cost --quiet --periodic --estar 1GPa --load 1mN --kernel fft --method pk99 --plot plot.png h.rcg -o out
 1 rc-cost --quiet --periodic --estar 1GPa --load 1mN --kernel fft --method pk99 --nu 0.3 --depths 1um,2um h.rcg -o out
 1 rc-cost --quiet --estar 1GPa --load 1mN --kernel direct --dry-run h.rcg

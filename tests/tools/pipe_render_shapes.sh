@@ -31,6 +31,8 @@ perimeter=$(rc-info --json --patches free.rcg | sed -n 's/.*"perimeter": \([^,]*
 claim "a map of heights with the border of the contact" rc-render --channel height --border -o border.svg free.rcg
 near "$(border_length border.svg)" "$perimeter" 1e-3 "  as long as the perimeter of the patches"
 claim "  and no other line" eval 'rc-render --channel height --contour -o contour.svg free.rcg && test $(wc -c <contour.svg) -gt $(wc -c <border.svg)'
+claim "  of the second case that of its own pressure" rc-render --channel height --border --case 2 -o second.svg two.rcg
+claim "    which is there" says '>edge of contact<' cat second.svg
 claim "  named in the legend" says '>edge of contact<' cat border.svg
 claim "on a gap, which is dark there, it is bright" eval 'rc-render --channel gap --border -o gap.svg free.rcg && says "stroke=\"#ff8c1a\"" cat gap.svg'
 near "$(border_length gap.svg)" "$perimeter" 1e-3 "  and as long"
