@@ -1,0 +1,17 @@
+# Parameters of features and profiles of a sample surface, and of one that is rough down to its nodes, are those that numpy finds by the words of the standards.
+. "$(dirname "$0")/../pipe.sh"
+. "$RC_SOURCE/tests/python.sh"
+
+if ! python=$(python_with numpy 2>why.txt); then
+    echo "not tried: $(cat why.txt)"
+    exit 77
+fi
+export PYTHONPATH="$RC_SOURCE/python" PYTHONDONTWRITEBYTECODE=1
+rc-import --quiet "$RC_SOURCE/sample_surfaces/rough-steel.x3p" | rc-detrend --quiet --poly 2 --fill -o steel.rcg
+rc-synth selfaffine --nx 150 --ny 90 --dx 1um --dy 1.7um --hurst 0.4 --rms-height 50nm --seed 8 | rc-pick --set periodic=no -o rough.rcg
+for surface in steel rough; do
+    claim "$surface: features, profiles and material ratio, as numpy has them" "$python" "$RC_SOURCE/tests/tools/python_parameters.py" $surface.rcg
+    cat claim.out
+done
+
+finish
