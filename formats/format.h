@@ -1,6 +1,6 @@
 /*
  * Instrument and exchange formats: bytes -> struct rc_grid. A format is one file,
- * formats/readers/NAME.c (or NAME/NAME.c, with more files beside it), that ends in its struct
+ * formats/readers/SUBJECT/NAME.c (or NAME/NAME.c, with more files beside it), that ends in its struct
  * rc_format rc_format_NAME, and one line in formats.list.
  *
  * What every reader does:

@@ -10,7 +10,7 @@
 # the headers that it may include beside those of its own folder
 # the folders whose functions and data it may use. X=rc_y_: of X only the names that begin with rc_y_, the rows
 # of a list. %base: shared by all folders of libcontact; %public: seen by other folders of the project;
-# %physics: the folders that define those.
+# %physics: the folders that define those; %reader, %formats: the same for what reads files.
 cat >arrows.txt <<'END'
 libcontact          | -                                        | -
 libcontact/ranks    | libcontact/common.h libcontact/contact_mpi.h | libcontact
@@ -38,19 +38,20 @@ formats/core        | libcontact/grid.h                        | libcontact
 formats/rcg         | libcontact/grid.h formats/core/core.h    | libcontact formats/core
 formats/sandbox     | libcontact/grid.h formats/core/core.h    | libcontact formats/core
 formats/containers  | libcontact/grid.h formats/core/core.h    | libcontact formats/core
-formats/readers     | libcontact/grid.h formats/core/core.h    | libcontact formats/core
-formats/readers     | formats/containers/containers.h          | formats/containers
-formats/readers     | formats/sandbox/sandbox.h                | formats/sandbox
-formats/readers     | formats/format.h                         | formats
-formats/readers/x3p | libcontact/grid.h formats/core/core.h    | libcontact formats/core
-formats/readers/x3p | formats/containers/containers.h          | formats/containers
-formats/readers/x3p | formats/format.h                         | formats
+formats/readers/probes | %reader                               | %formats
+formats/readers/profilers | %reader                            | %formats
+formats/readers/exchange | %reader                             | %formats
+formats/readers/exchange/x3p | %reader                         | %formats
+formats/readers/text | %reader                                 | %formats
 formats/writers     | libcontact/grid.h formats/core/core.h    | libcontact formats/core
 formats/writers     | formats/containers/containers.h          | formats/containers
 formats/writers     | formats/export.h                         | formats
 formats             | libcontact/grid.h formats/core/core.h    | libcontact formats/core
-formats             |                                          | formats/readers=rc_format_
-formats             |                                          | formats/readers/x3p=rc_format_
+formats             |                                          | formats/readers/probes=rc_format_
+formats             |                                          | formats/readers/profilers=rc_format_
+formats             |                                          | formats/readers/exchange=rc_format_
+formats             |                                          | formats/readers/exchange/x3p=rc_format_
+formats             |                                          | formats/readers/text=rc_format_
 formats             |                                          | formats/writers=rc_export_
 tools/text          | libcontact/grid.h formats/core/core.h    | libcontact formats/core
 tools/machine       | -                                        | -
@@ -91,7 +92,10 @@ physics='libcontact libcontact/body libcontact/operator libcontact/solver libcon
 physics="$physics libcontact/adhesion libcontact/leak libcontact/slip libcontact/surface libcontact/features"
 cli='tools/cli tools/text tools/machine'
 plot='tools/plot tools/canvas'
-sed -i "s!%base!$base!; s!%public!$public!; s!%physics!$physics!; s!%cli!$cli!; s!%plot!$plot!; s!%ranks!libcontact/ranks/ranks.h!" arrows.txt
+reader='libcontact/grid.h formats/core/core.h formats/format.h formats/containers/containers.h formats/sandbox/sandbox.h'
+formats='libcontact formats formats/core formats/containers formats/sandbox'
+sed -i "s!%base!$base!; s!%public!$public!; s!%physics!$physics!; s!%cli!$cli!; s!%plot!$plot!; s!%ranks!libcontact/ranks/ranks.h!
+    s!%reader!$reader!; s!%formats!$formats!" arrows.txt
 
 # ---- what there is ----
 

@@ -1,4 +1,4 @@
-/* The header of a NetCDF classic file: what its variables are and where; see readers/netcdf.c. */
+/* The header of a NetCDF classic file: what its variables are and where; see readers/exchange/netcdf.c. */
 #ifndef RC_CDF_H
 #define RC_CDF_H
 

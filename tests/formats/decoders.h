@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "made.h"
+#include "made/made.h"
 
 struct map {
     size_t nx, ny;

@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 #include "formats/format.h"
-#include "made.h"
+#include "made/made.h"
 
 extern const struct rc_format rc_format_ascii;
 

@@ -10,7 +10,7 @@
 #include <cmocka.h>
 
 #include "formats/format.h"
-#include "made.h"
+#include "made/made.h"
 
 static size_t
 first_height(const struct rc_format *format, const struct rc_file *file, const struct rc_wish *wish)

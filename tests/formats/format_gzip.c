@@ -11,7 +11,7 @@
 #include <zlib.h>
 
 #include "formats/containers/containers.h"
-#include "made.h"
+#include "made/made.h"
 
 enum {
     UNPACKED = 300000

@@ -11,7 +11,7 @@
 #include <cmocka.h>
 #include <hdf5.h>
 
-#include "made.h"
+#include "made/made.h"
 
 extern const struct rc_format rc_format_hdf5;
 

@@ -10,7 +10,7 @@
 #include <cmocka.h>
 
 #include "formats/format.h"
-#include "made.h"
+#include "made/made.h"
 
 enum {
     CHANNELS = 3, /* that are read of a file            */

@@ -9,7 +9,7 @@
 #include <cmocka.h>
 
 #include "formats/format.h"
-#include "made.h"
+#include "made/made.h"
 
 /* A field of a made file that is given another value, and the refusal that follows. */
 static const struct {

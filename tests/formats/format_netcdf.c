@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "made.h"
+#include "made/made.h"
 
 extern const struct rc_format rc_format_netcdf;
 

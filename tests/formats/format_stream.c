@@ -15,7 +15,7 @@
 
 #include "formats/core/core.h"
 #include "formats/rcg/rcg.h"
-#include "made.h"
+#include "made/made.h"
 
 /* With the address sanitizer, memory that cannot be had is still NULL. */
 const char *__asan_default_options(void);

@@ -13,7 +13,7 @@
 
 #include <zlib.h>
 
-#include "made.h"
+#include "made/made.h"
 
 extern const struct rc_format rc_format_jpk, rc_format_park, rc_format_lext;
 

@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "made.h"
+#include "made/made.h"
 
 static void
 wrong_headers(void **state)

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <sys/stat.h>
 
-#include "tests/formats/made.h"
+#include "tests/formats/made/made.h"
 
 int
 main(int argc, char **argv)

@@ -1,6 +1,6 @@
 /*
  * Files made in memory for the tests of formats, byte by byte and not by a writer of ours, and what
- * every reader has to do with them. Made once, as the library `made`, of made_*.c.
+ * every reader has to do with them. Made once, as the library `made`, of this folder.
  */
 #ifndef MADE_H
 #define MADE_H
@@ -15,7 +15,7 @@
 #include "formats/format.h"
 #include "tests/exact.h"
 
-/* ---- made_bytes.c: bytes that grow ---- */
+/* ---- bytes.c: bytes that grow ---- */
 
 struct bytes {
     unsigned char *data;
@@ -60,7 +60,7 @@ enum order {
 /* The six numbers; `missing` stands for the missing one (pass 50 for none). */
 void add_map(struct bytes *b, enum rc_raw raw, int order, double missing, size_t padding);
 
-/* ---- made_files.c: a file of every flat format and variant ---- */
+/* ---- files.c: a file of every flat format and variant ---- */
 
 enum {
     NO_SPACING = 1, /* the file lacks the spacing: 1.1e-6 and 1.29e-6 are wished */
@@ -86,18 +86,18 @@ extern const size_t made_files_n;
 /* What the user says beside such a file. */
 struct rc_wish wish_for(int flags);
 
-/* made_profilers.c */
+/* profilers.c */
 made_maker make_sdf_text, make_sdf_binary, make_sur, make_opd, make_metropro, make_al3d, make_plu;
-/* made_probes.c */
+/* probes.c */
 made_maker make_nanoscope, make_nid, make_gwy, make_gsf, make_ibw, make_mi, make_wsxm, make_sxm;
-/* made_others.c */
+/* others.c */
 made_maker make_bcr, make_frt, make_tmd, make_grd, make_esri, make_npy, make_opdx, make_vk4,
     make_vk6, make_xyz;
 
-/* made_texts.c */
+/* texts.c */
 made_maker make_keyence, make_wykotext, make_zygo;
 
-/* ---- made_checks.c: what every reader does ---- */
+/* ---- checks.c: what every reader does ---- */
 
 /* Steps of accuracy that files bring with them, relative. */
 static const double last_digit = 4e-16;    /* a rounding or two of a double */
@@ -125,7 +125,7 @@ void refuse_cuts(const struct rc_format *format, const struct bytes *b, size_t l
  * that the sanitizers see what happens there. */
 void survive_changes(const struct rc_format *format, const struct bytes *b, size_t times);
 
-/* ---- made_zip.c ---- */
+/* ---- zip.c ---- */
 
 struct member {
     const char *name;
@@ -138,7 +138,7 @@ char *with(const char *text, const char *from, const char *to);
 /* The same in place of a text that was made before. */
 void alter(char **text, const char *from, const char *to);
 
-/* ---- made_x3p.c ---- */
+/* ---- x3p.c ---- */
 
 extern const struct rc_format rc_format_x3p;
 
@@ -163,7 +163,7 @@ void refuse_file(const struct rc_file *file, const char *why);
 void refuse_xml(const char *xml, const char *why);
 bool noted(const struct rc_notes *notes, const char *words);
 
-/* ---- made_tiff.c ---- */
+/* ---- tiff.c ---- */
 
 struct tag {
     uint16_t tag, type; /* 2 text, 3 u16, 4 u32, 7 bytes, 8 i16, 12 f64 */
@@ -189,7 +189,7 @@ size_t tiff_packed_page(struct bytes *b, size_t last, size_t nx, size_t ny, unsi
                         const struct tag *more);
 void pixels_i32(struct bytes *b, const int *v, size_t n);
 
-/* ---- made_hdf.c ---- */
+/* ---- hdf.c ---- */
 
 extern const double hdf_counts[6];
 
@@ -202,7 +202,7 @@ hid_t hdf_set(hid_t in, const char *name, hid_t type, int rank, const hsize_t *s
               const hsize_t *chunk);
 struct bytes hdf_plain(void);
 
-/* ---- made_export.c: frames to be written, and files of them ---- */
+/* ---- export.c: frames to be written, and files of them ---- */
 
 struct written {
     char *bytes;
@@ -218,7 +218,7 @@ struct written export(const char *name, struct rc_grid *const *frame, size_t fra
 void refuse_export(const char *name, struct rc_grid *const *frame, size_t frames,
                    const struct rc_export_wish *wish, const char *why);
 
-/* ---- made_locale.c: a locale with a decimal comma ---- */
+/* ---- locale.c: a locale with a decimal comma ---- */
 
 /* Makes the locale by localedef(1), so that none needs to be installed, and sets it for numbers.
  * False where the system has no such program. */
