@@ -1,79 +1,70 @@
 #include "ascii_head.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
+/* What a value is, and the type of the member that it goes to. */
 enum kind {
-    CHANNEL,
-    WIDTH,
-    HEIGHT,
-    VALUE_UNIT,
-    PIXEL,
-    FACTOR,
-    COLUMNS,
-    ROWS,
-    X_LENGTH,
-    Y_LENGTH,
-    X_UNIT,
-    Y_UNIT,
-    Z_UNIT,
-    X_STEP,
-    Y_STEP,
-    BIT_NM,
-    SCALE,
-    SCALED,
+    TEXT,      /* struct rc_piece                                         */
+    LENGTH,    /* double, m                                               */
+    NUMBER,    /* double, of which nothing may follow                     */
+    COUNT,     /* size_t                                                  */
+    IN_METRES, /* struct rc_ascii_unit: a unit of length                  */
+    UNLESS_NO, /* bool                                                    */
+    CHARACTER, /* char: the only one                                      */
+    PRESENT,   /* bool: that the key is there                             */
+    /* of these the member is not asked: */
+    VALUE_UNIT, /* that of the heights                                    */
+    RANGE,      /* a number and that unit                                 */
     SCAN_SIZE,
-    SEPARATOR,
-    ANY_LINE,
-    RANGE,
 };
 
+#define TO(member) offsetof(struct rc_ascii_head, member)
 static const struct {
     const char *key; /* in either case */
     enum kind kind;
+    size_t to;
+    bool anywhere; /* profiles and lists of points have such lines too */
 } keys[] = {
-    {"channel", CHANNEL},
-    {"width", WIDTH},
-    {"height", HEIGHT},
-    {"value units", VALUE_UNIT},
-    {"pixel size", PIXEL},
-    {"data unit", VALUE_UNIT},
-    {"height conversion factor (-> m)", FACTOR},
-    {"h", ROWS},
-    {"w", COLUMNS},
-    {"x-pixels", COLUMNS},
-    {"y-pixels", ROWS},
-    {"x-length", X_LENGTH},
-    {"y-length", Y_LENGTH},
-    {"x-unit", X_UNIT},
-    {"y-unit", Y_UNIT},
-    {"z-unit", Z_UNIT},
-    {"display", CHANNEL},
-    {"bit2nm", BIT_NM},
-    {"file format", ANY_LINE},
-    {"nx", COLUMNS},
-    {"ny", ROWS},
-    {"scale x", X_STEP},
-    {"scale y", Y_STEP},
-    {"unit x", X_UNIT},
-    {"unit y", Y_UNIT},
-    {"unit data", VALUE_UNIT},
-    {"scale data", SCALE},
-    {"datascaleneeded", SCALED},
-    {"scan size", SCAN_SIZE},
-    {"exported image units", VALUE_UNIT},
-    {"sep", SEPARATOR},
-    {"x amplitude", WIDTH},
-    {"y amplitude", HEIGHT},
-    {"z amplitude", RANGE},
+    {"channel", TEXT, TO(channel), false},
+    {"width", LENGTH, TO(width), false},
+    {"height", LENGTH, TO(height), false},
+    {"value units", VALUE_UNIT, 0, false},
+    {"pixel size", LENGTH, TO(pixel), false},
+    {"data unit", VALUE_UNIT, 0, false},
+    {"height conversion factor (-> m)", NUMBER, TO(factor), false},
+    {"h", COUNT, TO(ny), false},
+    {"w", COUNT, TO(nx), false},
+    {"x-pixels", COUNT, TO(nx), false},
+    {"y-pixels", COUNT, TO(ny), false},
+    {"x-length", LENGTH, TO(width), false},
+    {"x-length", NUMBER, TO(as_given.x_length), false},
+    {"y-length", LENGTH, TO(height), false},
+    {"y-length", NUMBER, TO(as_given.y_length), false},
+    {"x-unit", IN_METRES, TO(as_given.x_unit), true},
+    {"y-unit", IN_METRES, TO(as_given.y_unit), true},
+    {"z-unit", VALUE_UNIT, 0, true},
+    {"display", TEXT, TO(channel), false},
+    {"bit2nm", NUMBER, TO(as_given.bit), false},
+    {"file format", PRESENT, TO(any_line), false},
+    {"nx", COUNT, TO(nx), false},
+    {"ny", COUNT, TO(ny), false},
+    {"scale x", NUMBER, TO(as_given.x_step), false},
+    {"scale y", NUMBER, TO(as_given.y_step), false},
+    {"unit x", IN_METRES, TO(as_given.x_unit), true},
+    {"unit y", IN_METRES, TO(as_given.y_unit), true},
+    {"unit data", VALUE_UNIT, 0, false},
+    {"scale data", NUMBER, TO(as_given.scale), false},
+    {"datascaleneeded", UNLESS_NO, TO(as_given.scaled), false},
+    {"scan size", SCAN_SIZE, 0, false},
+    {"exported image units", VALUE_UNIT, 0, false},
+    {"sep", CHARACTER, TO(separator), true},
+    {"x amplitude", LENGTH, TO(width), false},
+    {"y amplitude", LENGTH, TO(height), false},
+    {"z amplitude", RANGE, 0, false},
 };
-
-/* Whether profiles and lists of points have such lines too. */
-static bool
-is_anywhere(enum kind kind)
-{
-    return kind == X_UNIT || kind == Y_UNIT || kind == Z_UNIT || kind == SEPARATOR;
-}
+#undef TO
 
 /* ---- values of a header ---- */
 
@@ -161,81 +152,49 @@ take_unit(struct rc_ascii_head *h, struct rc_piece p)
         h->unit[0] = '\0';
 }
 
+/* Puts a value into the member that is `to` bytes into the head. */
 static void
-take(struct rc_ascii_head *h, enum kind kind, struct rc_piece value)
+take(struct rc_ascii_head *h, enum kind kind, size_t to, struct rc_piece value)
 {
-    double range;
+    void *member = (char *)h + to;
+    double number;
 
     switch (kind) {
-    case CHANNEL:
-        h->channel = value;
+    case TEXT:
+        *(struct rc_piece *)member = value;
         break;
-    case WIDTH:
-        h->width = length_of(value);
+    case LENGTH:
+        *(double *)member = length_of(value);
         break;
-    case HEIGHT:
-        h->height = length_of(value);
+    case NUMBER:
+        *(double *)member = number_of(value);
+        break;
+    case COUNT:
+        *(size_t *)member = count_of(value);
+        break;
+    case IN_METRES:
+        *(struct rc_ascii_unit *)member =
+            (struct rc_ascii_unit){true, rc_piece_metres(rc_piece_bare(value))};
+        break;
+    case UNLESS_NO:
+        *(bool *)member = !rc_piece_is(value, "no");
+        break;
+    case CHARACTER:
+        if (value.n == 1)
+            *(char *)member = *value.text;
+        break;
+    case PRESENT:
+        *(bool *)member = true;
         break;
     case VALUE_UNIT:
-    case Z_UNIT:
         take_unit(h, value);
         break;
-    case PIXEL:
-        h->pixel = length_of(value);
-        break;
-    case FACTOR:
-        h->factor = number_of(value);
-        break;
-    case COLUMNS:
-        h->nx = count_of(value);
-        break;
-    case ROWS:
-        h->ny = count_of(value);
-        break;
-    case X_LENGTH:
-        h->width = length_of(value);
-        h->as_given.x_length = number_of(value);
-        break;
-    case Y_LENGTH:
-        h->height = length_of(value);
-        h->as_given.y_length = number_of(value);
-        break;
-    case X_UNIT:
-        h->as_given.has_x_unit = true;
-        h->as_given.x_unit = rc_piece_metres(rc_piece_bare(value));
-        break;
-    case Y_UNIT:
-        h->as_given.has_y_unit = true;
-        h->as_given.y_unit = rc_piece_metres(rc_piece_bare(value));
-        break;
-    case X_STEP:
-        h->as_given.x_step = number_of(value);
-        break;
-    case Y_STEP:
-        h->as_given.y_step = number_of(value);
-        break;
-    case BIT_NM:
-        h->as_given.bit = number_of(value);
-        break;
-    case SCALE:
-        h->as_given.scale = number_of(value);
-        break;
-    case SCALED:
-        h->as_given.scaled = !rc_piece_is(value, "no");
+    case RANGE:
+        if (leading_number(&value, &number))
+            take_unit(h, value);
         break;
     case SCAN_SIZE:
         take_scan_size(h, value);
-        break;
-    case SEPARATOR:
-        if (value.n == 1)
-            h->separator[0] = *value.text;
-        break;
-    case ANY_LINE:
-        h->any_line = true;
-        break;
-    case RANGE:
-        if (leading_number(&value, &range))
-            take_unit(h, value);
         break;
     }
 }
@@ -264,6 +223,7 @@ take_entry(struct rc_ascii_head *h, const char *s, size_t n, struct rc_piece *va
     size_t width;
     const char *mark = find_mark(s, n, &width);
     struct rc_piece key;
+    bool found = false;
 
     *value = (struct rc_piece){s, 0};
     if (mark == NULL)
@@ -274,11 +234,11 @@ take_entry(struct rc_ascii_head *h, const char *s, size_t n, struct rc_piece *va
     key = rc_piece_trim((struct rc_piece){s, (size_t)(mark - s)});
     for (size_t k = 0; k < sizeof keys / sizeof *keys; k++)
         if (rc_piece_is(key, keys[k].key)) {
-            take(h, keys[k].kind, *value);
-            h->known = h->known || !is_anywhere(keys[k].kind);
-            return true;
+            take(h, keys[k].kind, keys[k].to, *value);
+            h->known = h->known || !keys[k].anywhere;
+            found = true;
         }
-    return false;
+    return found;
 }
 
 /* Several `key=value` without white space on one line: "h=305 w=75". */
@@ -369,14 +329,14 @@ take_by_shape(struct rc_ascii_head *h)
 static void
 join_units(struct rc_ascii_head *h)
 {
-    double x = h->as_given.has_x_unit ? h->as_given.x_unit : 1e-9;
-    double y = h->as_given.has_y_unit ? h->as_given.y_unit : x;
+    double x = h->as_given.x_unit.given ? h->as_given.x_unit.metres : 1e-9;
+    double y = h->as_given.y_unit.given ? h->as_given.y_unit.metres : x;
 
     if (!isnan(h->as_given.x_length))
         h->width = in_metres(h->as_given.x_length, x);
     if (!isnan(h->as_given.y_length))
         h->height = in_metres(h->as_given.y_length, y);
-    if (h->as_given.has_x_unit) {
+    if (h->as_given.x_unit.given) {
         h->step_x = in_metres(h->as_given.x_step, x);
         h->step_y = in_metres(h->as_given.y_step, y);
     }

@@ -10,6 +10,11 @@ struct rc_ascii_comment {
     double length; /* a number with a unit of length, in m; NAN: something else  */
 };
 
+struct rc_ascii_unit {
+    bool given;
+    double metres; /* NAN: no length */
+};
+
 struct rc_ascii_head {
     bool known; /* at least one line was understood                                  */
     struct rc_piece channel;
@@ -24,8 +29,7 @@ struct rc_ascii_head {
     bool any_line; /* up to `Start of Data` all lines belong to the header */
     struct {
         double x_length, y_length, x_step, y_step; /* numbers without a unit, NAN when not given */
-        double x_unit, y_unit;                     /* m; NAN: no length                          */
-        bool has_x_unit, has_y_unit;
+        struct rc_ascii_unit x_unit, y_unit;
         double bit, scale; /* nm in a number; what numbers are times */
         bool scaled;
     } as_given;
