@@ -9,6 +9,7 @@
 #include "checksum.h"
 #include "gzip.h"
 #include "hdf.h"
+#include "inflate.h"
 #include "tiff.h"
 #include "xml.h"
 #include "zip_read.h"

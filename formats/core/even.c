@@ -171,3 +171,28 @@ rc_even_heights(const struct rc_even *even, const double *x, const double *z, si
     if (notes != NULL)
         note_extremes(z, points, v, even->n, notes);
 }
+
+enum rc_status
+rc_axis_step(const char *name, double *x, size_t n, double *step, struct rc_err *err)
+{
+    bool falls = x[n - 1] < x[0];
+    char quote[RC_SHOWN];
+
+    for (size_t k = 0; k < n / 2 && falls; k++) {
+        double kept = x[k];
+
+        x[k] = x[n - 1 - k];
+        x[n - 1 - k] = kept;
+    }
+    *step = (x[n - 1] - x[0]) / (double)(n - 1);
+    for (size_t k = 0; k < n; k++)
+        if (!isfinite(x[k]))
+            return rc_err_set(err, "position %zu of the axis '%s' is no finite number", k + 1,
+                              rc_word_shown(quote, name));
+    if (*step > 0 && judge_steps(x, n, NULL) == RC_OK)
+        return RC_OK;
+    return rc_err_set(err,
+                      "the positions of the axis '%s' are not evenly apart: a map needs even "
+                      "ones",
+                      rc_word_shown(quote, name));
+}

@@ -33,5 +33,9 @@ enum rc_status rc_even_new(const double *x, size_t points, double metres,
  * both: notes->above and below say by how much. */
 void rc_even_heights(const struct rc_even *even, const double *x, const double *z, size_t points,
                      double *v, struct rc_notes *notes);
+/* The step of an axis of n > 1 points, which rise or fall; what is even is judged as above. RC_FAIL where
+ * they are not even; `name` is what the axis is called in messages. x is turned round where it falls. */
+enum rc_status rc_axis_step(const char *name, double *x, size_t n, double *step,
+                            struct rc_err *err);
 
 #endif

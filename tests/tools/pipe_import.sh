@@ -59,8 +59,8 @@ formats=$(sed -n 's/^RC_FORMAT(\(.*\))$/\1/p' "$RC_SOURCE/formats/formats.list")
 claim "formats.list has rows" test -n "$formats"
 claim "--formats has a line for each reader, in order" \
     test "$(rc-import --formats | cut -d ' ' -f 1)" = "$formats"
-# "reads X3P, SDF, ... (N names) and M more" in the README: N + M of them
-row=$(sed -n 's/^| `rc-import` .*(\(.*\) and \([0-9]*\) more).*/\1; \2/p' "$RC_SOURCE/README.md")
+# "X3P, SDF, ... (N names) and M more, packed" in the README: N + M of them
+row=$(sed -n 's/^| `rc-import` .*(\(.*\) and \([0-9]*\) more, .*/\1; \2/p' "$RC_SOURCE/README.md")
 claim "the README counts them right" \
     test "$(($(tr -cd , <<<"$row" | wc -c) + 1 + ${row##*; }))" -eq "$(wc -w <<<"$formats")"
 for format in $(rc-import --formats | cut -d ' ' -f 1); do

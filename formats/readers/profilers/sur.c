@@ -7,12 +7,11 @@
  * instead: then their heights differ from these by a constant.
  */
 #include <inttypes.h>
-#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <zlib.h>
 
+#include "formats/containers/containers.h"
 #include "formats/format.h"
 
 enum {
@@ -65,26 +64,6 @@ static const struct {
 
 /* ---- compressed heights ---- */
 
-static enum rc_status
-unpack(const unsigned char *from, size_t n, unsigned char *to, size_t wanted, struct rc_err *err)
-{
-    z_stream z = {.next_in = (z_const Bytef *)from,
-                  .avail_in = (uInt)n,
-                  .next_out = to,
-                  .avail_out = (uInt)wanted};
-    int status;
-
-    if (inflateInit(&z) != Z_OK)
-        return rc_err_set(err, "out of memory for zlib");
-    status = inflate(&z, Z_FINISH);
-    inflateEnd(&z);
-    if (status != Z_STREAM_END || z.total_out != wanted)
-        return rc_err_set(err, "the compressed heights are damaged: %lu of %zu bytes come out%s%s",
-                          z.total_out, wanted, z.msg == NULL ? "" : ", ",
-                          z.msg == NULL ? "" : z.msg);
-    return RC_OK;
-}
-
 /* The streams one behind the other; each must be in the file and together they must fill the map.
  */
 static enum rc_status
@@ -109,7 +88,7 @@ unpack_all(const struct rc_file *file, const struct rc_map *map, unsigned char *
                               "compressed stream %zu promises %zu bytes out of %zu: %zu are "
                               "wanted, %zu are there",
                               k + 1, raw, small, size - done, file->size - at);
-        if (unpack(file->data + at, small, to + done, raw, err) != RC_OK)
+        if (rc_inflate("heights", file->data + at, small, to + done, raw, err) != RC_OK)
             return RC_FAIL;
         done += raw;
         at += small;

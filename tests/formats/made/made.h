@@ -94,6 +94,17 @@ made_maker make_nanoscope, make_nid, make_gwy, make_gsf, make_ibw, make_mi, make
 made_maker make_bcr, make_frt, make_tmd, make_grd, make_esri, make_npy, make_opdx, make_vk4,
     make_vk6, make_xyz;
 
+/* arrays.c */
+made_maker make_mat;
+/* The header of a MAT file, whose byte order m then has; a variable, with class and flags as the format has
+ * them; the same of one number and of text; and what was added from `at` on as a packed variable. */
+void mat_header(struct bytes *m, bool big);
+void mat_array(struct bytes *m, const char *name, unsigned flags, size_t rows, size_t columns,
+               unsigned type, const void *numbers, size_t n);
+void mat_number(struct bytes *m, const char *name, double value);
+void mat_text(struct bytes *m, const char *name, const char *text);
+void mat_pack(struct bytes *m, size_t at);
+
 /* texts.c */
 made_maker make_keyence, make_wykotext, make_zygo;
 

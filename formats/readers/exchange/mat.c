@@ -1,0 +1,466 @@
+/*
+ * MATLAB and Octave, MAT version 5 (save -v6, and -v7, which packs each variable with zlib): 128 bytes
+ * of header, then variables, each an element of 8 bytes of type and size and what it holds. An array is
+ * four elements: class and flags, dimensions, name, numbers, which run down the columns.
+ *
+ * Real arrays of two dimensions are channels, vectors where there is no such array. Their spacing comes
+ * from scalars dx and dy, or from x and y: vectors, or arrays of the map's size as meshgrid makes them.
+ * Texts dunit and unit name the units of these and of the values, as rc-export writes them; without
+ * them the user has to.
+ *
+ * Written from the description of the format that The MathWorks publishes.
+ */
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "formats/containers/containers.h"
+#include "formats/format.h"
+
+enum {
+    HEADER = 128,
+    AT_VERSION = 124,
+    VERSION = 0x0100,
+    START = 2048, /* bytes of a packed variable in which its numbers must begin */
+    VARIABLES_MOST = 4096,
+    /* types of elements */
+    MATRIX = 14,
+    PACKED = 15,
+    /* classes of arrays */
+    CHAR = 4,
+    DOUBLE = 6,
+    UINT64 = 15,
+    COMPLEX = 0x800, /* a flag beside the class */
+};
+
+static const char start_7_3[] = "MATLAB 7.3 MAT-file";
+
+/* Classes that are no arrays of numbers. */
+static const char *const other_classes[] = {
+    [1] = "a cell array", [2] = "a struct",    [3] = "an object",  [CHAR] = "text",
+    [5] = "sparse",       [16] = "a function", [17] = "an object",
+};
+
+/* Types of elements that are numbers. */
+static const struct {
+    uint32_t type;
+    enum rc_raw raw;
+} numbers[] = {
+    {1, RC_RAW_I8},   {2, RC_RAW_U8},   {3, RC_RAW_I16}, {4, RC_RAW_U16},
+    {5, RC_RAW_I32},  {6, RC_RAW_U32},  {7, RC_RAW_F32}, {9, RC_RAW_F64},
+    {12, RC_RAW_I64}, {13, RC_RAW_U64}, {16, RC_RAW_U8}, {17, RC_RAW_U16}, /* UTF-8, UTF-16 */
+};
+
+/* An element: its type, and where its n bytes are. */
+struct element {
+    uint32_t type;
+    size_t at, n;
+};
+
+struct variable {
+    struct element whole; /* in the file; packed or not */
+    size_t unpacked;      /* bytes that come out of it where it is packed */
+    char name[64];
+    unsigned class;
+    bool complex;
+    size_t dimensions, rows, columns;
+    enum rc_raw raw;
+    struct element numbers; /* in the file or, where it is packed, in what comes out of it */
+    double first;           /* of the numbers; NAN: none */
+    char text[16];          /* of class CHAR */
+};
+
+/* What variables other than the maps say. */
+struct mat {
+    double dx, dy;
+    char unit[16], dunit[16];
+    size_t x, y; /* where these variables begin; 0: there is none */
+    size_t maps, vectors;
+    bool no_axes;     /* x and y are channels: there is nothing else */
+    char others[160]; /* what is no array of numbers, for the refusal */
+};
+
+/* ---- elements ---- */
+
+/* The element at the cursor, which then stands behind it. Small ones have type and size in one word.
+ * b->past where it does not fit. */
+static struct element
+next_element(struct rc_bytes *b)
+{
+    struct element e = {.type = rc_bytes_u32(b)};
+    bool small = e.type >> 16 != 0;
+
+    e.n = small ? e.type >> 16 : rc_bytes_u32(b);
+    e.type &= 0xffff;
+    e.at = b->at;
+    if (b->past || e.n > b->size - b->at || (small && e.n > 4))
+        b->past = true;
+    else if (small)
+        b->at += b->size - b->at < 4 ? b->size - b->at : 4;
+    else {
+        size_t padding = e.type == PACKED ? 0 : (8 - e.n % 8) % 8, left = b->size - b->at - e.n;
+
+        b->at += e.n + (padding < left ? padding : left);
+    }
+    return e;
+}
+
+static bool
+find_raw(uint32_t type, enum rc_raw *raw)
+{
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
+        if (numbers[k].type == type) {
+            *raw = numbers[k].raw;
+            return true;
+        }
+    return false;
+}
+
+static void
+take_text(struct rc_bytes *b, struct variable *v)
+{
+    size_t n = v->numbers.n / rc_raw_width(v->raw), length = 0;
+    char text[3 * sizeof v->text];
+
+    for (size_t k = 0; k < n && k < sizeof v->text; k++)
+        length +=
+            rc_utf8_put(text + length,
+                        (unsigned)rc_bytes_at(b, v->numbers.at + k * rc_raw_width(v->raw), v->raw));
+    rc_text_clean(v->text, sizeof v->text, text, length);
+}
+
+/* Reads what stands before the numbers from a window on the variable; whether it is all there. */
+static bool
+read_head(struct rc_bytes *b, struct variable *v)
+{
+    struct element flags = next_element(b), sizes = next_element(b), name = next_element(b);
+    struct rc_bytes at = *b;
+    uint32_t word;
+
+    if (b->past || flags.n < 4 || sizes.n < 8)
+        return false;
+    at.at = flags.at;
+    word = rc_bytes_u32(&at);
+    v->class = word & 0xff;
+    v->complex = (word & COMPLEX) != 0;
+    rc_text_clean(v->name, sizeof v->name, (const char *)b->data + name.at, name.n);
+    at.at = sizes.at;
+    v->rows = rc_bytes_u32(&at);
+    v->columns = rc_bytes_u32(&at);
+    v->dimensions = 2;
+    for (size_t k = 2; k < sizes.n / 4; k++)
+        if (rc_bytes_u32(&at) != 1)
+            v->dimensions = k + 1;
+    return true;
+}
+
+/* Reads the variable at the cursor, which then stands behind it; RC_FAIL where it is damaged. */
+static enum rc_status
+next_variable(struct rc_bytes *b, struct variable *v, struct rc_err *err)
+{
+    unsigned char start[START];
+    size_t at = b->at, values;
+    struct rc_bytes window = *b;
+
+    *v = (struct variable){.first = NAN};
+    v->whole = next_element(b);
+    if (b->past)
+        return rc_err_set(err, "the variable at byte %zu promises more bytes than the file has",
+                          at);
+    window.size = v->whole.at + v->whole.n;
+    window.at = v->whole.at;
+    if (v->whole.type == PACKED) {
+        window.data = start;
+        window.size = rc_inflate_start(b->data + v->whole.at, v->whole.n, start, START);
+        window.at = 0;
+        if (rc_bytes_u32(&window) != MATRIX)
+            return rc_err_set(err, "the packed variable at byte %zu is damaged or no array", at);
+        v->unpacked = (size_t)rc_bytes_u32(&window) + 8;
+    } else if (v->whole.type != MATRIX)
+        return RC_OK; /* class 0: nothing to us */
+    if (!read_head(&window, v))
+        return rc_err_set(err, "the array at byte %zu has no class, dimensions and name", at);
+    if ((v->class < DOUBLE || v->class > UINT64) && v->class != CHAR)
+        return RC_OK;
+    v->numbers = next_element(&window); /* longer than the window, mostly */
+    if (!find_raw(v->numbers.type, &v->raw) ||
+        rc_size_mul(v->rows, v->columns, &values, NULL) != RC_OK)
+        return rc_err_set(err, "the numbers of '%s' are damaged", v->name);
+    if (v->dimensions == 2 && rc_bytes_agree(v->name, (uint64_t)values * rc_raw_width(v->raw),
+                                             v->numbers.n, err) != RC_OK)
+        return RC_FAIL;
+    if (v->whole.type == MATRIX && window.past)
+        return rc_err_set(err, "the numbers of '%s' go beyond it", v->name);
+    window.past = false;
+    if (v->class == CHAR)
+        take_text(&window, v);
+    else if (values > 0)
+        v->first = rc_bytes_at(&window, v->numbers.at, v->raw);
+    if (window.past)
+        return rc_err_set(err, "'%s' is damaged", v->name);
+    return RC_OK;
+}
+
+/* Puts the numbers, in the order of the file, into values[0..rows*columns). */
+static enum rc_status
+read_numbers(const struct rc_file *file, bool big, const struct variable *v, double *values,
+             struct rc_err *err)
+{
+    struct rc_bytes b = rc_file_bytes(file, big);
+    unsigned char *all = NULL;
+    enum rc_status status = RC_FAIL;
+
+    if (v->whole.type == PACKED) {
+        if (v->unpacked > rc_memory_limit(file->size) || v->unpacked < v->numbers.at ||
+            v->numbers.n > v->unpacked - v->numbers.at)
+            return rc_err_set(err,
+                              "'%s' promises %zu bytes of numbers in %zu, in a file of %zu: that "
+                              "cannot be",
+                              v->name, v->numbers.n, v->unpacked, file->size);
+        if ((all = malloc(v->unpacked)) == NULL)
+            return rc_err_set(err, "out of memory for the %zu bytes of '%s'", v->unpacked, v->name);
+        if (rc_inflate("numbers", file->data + v->whole.at, v->whole.n, all, v->unpacked, err) !=
+            RC_OK)
+            goto done;
+        b = (struct rc_bytes){.data = all, .size = v->unpacked, .big = big};
+    }
+    b.at = v->numbers.at;
+    rc_bytes_values(&b, v->raw, values, v->rows * v->columns);
+    status = RC_OK;
+done:
+    free(all);
+    return status;
+}
+
+/* ---- what the variables say ---- */
+
+static bool
+is_map(const struct variable *v)
+{
+    return v->class >= DOUBLE && v->class <= UINT64 && !v->complex && v->dimensions == 2 &&
+           v->rows > 1 && v->columns > 1;
+}
+
+static bool
+is_vector(const struct variable *v)
+{
+    return v->class >= DOUBLE && v->class <= UINT64 && !v->complex && v->dimensions == 2 &&
+           (v->rows > 1) != (v->columns > 1) && v->rows > 0 && v->columns > 0;
+}
+
+static bool
+is_axis(const struct mat *m, const struct variable *v)
+{
+    return !m->no_axes && strlen(v->name) == 1 && strchr("xyXY", v->name[0]) != NULL;
+}
+
+/* Keeps what a variable is that is no channel, for the refusal of a file without one. */
+static void
+remember_other(struct mat *m, const struct variable *v)
+{
+    const char *what =
+        v->class < sizeof other_classes / sizeof *other_classes ? other_classes[v->class] : NULL;
+    char quote[RC_SHOWN], text[sizeof m->others];
+
+    if (v->class >= DOUBLE && v->class <= UINT64)
+        what = v->complex          ? "complex"
+               : v->dimensions > 2 ? "of more than two dimensions"
+                                   : "one number or none";
+    if (v->class == 0 || what == NULL)
+        return;
+    snprintf(text, sizeof text, "%s'%s' is %s", m->others[0] == '\0' ? ": " : ", ",
+             rc_word_shown(quote, v->name), what);
+    if (strlen(m->others) + strlen(text) < sizeof m->others)
+        strcat(m->others, text);
+}
+
+static void
+take_variable(struct mat *m, const struct variable *v, size_t at)
+{
+    bool one = v->rows == 1 && v->columns == 1 && v->class != CHAR;
+
+    if (one && strcmp(v->name, "dx") == 0)
+        m->dx = v->first;
+    else if (one && strcmp(v->name, "dy") == 0)
+        m->dy = v->first;
+    else if (v->class == CHAR && strcmp(v->name, "unit") == 0)
+        strcpy(m->unit, v->text);
+    else if (v->class == CHAR && strcmp(v->name, "dunit") == 0)
+        strcpy(m->dunit, v->text);
+    else if (is_map(v) || is_vector(v)) {
+        if (is_axis(m, v))
+            *(tolower((unsigned char)v->name[0]) == 'x' ? &m->x : &m->y) = at;
+        else
+            ++*(is_map(v) ? &m->maps : &m->vectors);
+    } else
+        remember_other(m, v);
+}
+
+/* The step of an axis of n points: a vector of so many, or a row (of x) or column of an array of the
+ * map's size. NAN where there is none of that size. */
+static enum rc_status
+axis_step(const struct rc_file *file, bool big, size_t at, const struct rc_map *map, bool is_x,
+          double *step, struct rc_err *err)
+{
+    struct rc_bytes b = rc_file_bytes(file, big);
+    size_t n = is_x ? map->nx : map->ny, values;
+    enum rc_status status = RC_FAIL;
+    struct variable v;
+    double *x;
+
+    *step = NAN;
+    b.at = at;
+    if (at == 0 || n < 2)
+        return RC_OK;
+    if (next_variable(&b, &v, err) != RC_OK || rc_map_fits(file, v.columns, v.rows, err) != RC_OK)
+        return RC_FAIL;
+    values = v.rows * v.columns;
+    if (!(is_vector(&v) && values == n) && (v.rows != map->ny || v.columns != map->nx))
+        return RC_OK;
+    if ((x = malloc(values * sizeof *x)) == NULL)
+        return rc_err_set(err, "out of memory for the %zu positions of '%s'", values, v.name);
+    if (read_numbers(file, big, &v, x, err) == RC_OK) {
+        for (size_t k = 0; k < n && values > n && is_x; k++)
+            x[k] = x[k * v.rows];
+        status = rc_axis_step(v.name, x, n, step, err);
+    }
+    free(x);
+    return status;
+}
+
+static enum rc_status
+fill_packed(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
+            double *values, struct rc_err *err)
+{
+    struct rc_bytes b = rc_file_bytes(file, map->big);
+    struct variable v;
+
+    (void)wish;
+    b.at = map->more;
+    return next_variable(&b, &v, err) == RC_OK ? read_numbers(file, map->big, &v, values, err)
+                                               : RC_FAIL;
+}
+
+static enum rc_status
+add_map(const struct rc_file *file, bool big, const struct variable *v, size_t at,
+        const struct mat *m, struct rc_maps *maps, struct rc_err *err)
+{
+    struct rc_map *map = rc_maps_add(maps, v->name, strlen(v->name));
+    double dx = m->dx, dy = isnan(m->dy) ? m->dx : m->dy;
+
+    map->nx = m->maps > 0 ? v->columns : v->rows * v->columns;
+    map->ny = m->maps > 0 ? v->rows : 1;
+    map->by_columns = m->maps > 0;
+    map->raw = v->raw;
+    map->big = big;
+    map->at = v->numbers.at;
+    map->more = at;
+    if (v->whole.type == PACKED) {
+        map->fill = fill_packed;
+        if (rc_map_bound(map, file, (double)v->unpacked, err) != RC_OK)
+            return RC_FAIL;
+    }
+    if (isnan(dx) && (axis_step(file, big, m->x, map, true, &dx, err) != RC_OK ||
+                      axis_step(file, big, m->y, map, false, &dy, err) != RC_OK))
+        return RC_FAIL;
+    if (map->ny == 1)
+        dy = dx;
+    if (!isnan(dx) && !isnan(dy))
+        rc_map_steps(map, dx, dy, (struct rc_piece){m->dunit, strlen(m->dunit)});
+    if (m->unit[0] != '\0' && (m->maps > 0 ? m->maps : m->vectors) == 1)
+        rc_map_unit(map, m->unit, strlen(m->unit));
+    return RC_OK;
+}
+
+/* ---- the file ---- */
+
+static bool
+has_magic(const struct rc_file *file, bool *big)
+{
+    struct rc_bytes b = rc_file_bytes(file, *big = rc_file_holds(file, AT_VERSION + 2, "MI", 2));
+
+    return (*big || rc_file_holds(file, AT_VERSION + 2, "IM", 2)) &&
+           rc_bytes_at(&b, AT_VERSION, RC_RAW_U16) == VERSION;
+}
+
+/* Goes through the variables: what they say, and how many are channels. */
+static enum rc_status
+survey(const struct rc_file *file, bool big, struct mat *m, struct rc_err *err)
+{
+    struct rc_bytes b = rc_file_bytes(file, big);
+    struct variable v;
+    size_t n = 0;
+
+    for (b.at = HEADER; b.at < b.size; n++) {
+        size_t at = b.at;
+
+        if (n == VARIABLES_MOST)
+            return rc_err_set(err, "the file has more than %d variables", VARIABLES_MOST);
+        if (next_variable(&b, &v, err) != RC_OK)
+            return RC_FAIL;
+        take_variable(m, &v, at);
+    }
+    return RC_OK;
+}
+
+static enum rc_status
+mat_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
+         struct rc_err *err)
+{
+    struct mat m = {.dx = NAN, .dy = NAN};
+    struct variable v;
+    struct rc_bytes b;
+    bool big;
+
+    (void)wish;
+    if (!has_magic(file, &big))
+        return rc_err_set(err, "no MAT file of version 5: MATLAB writes one by save -v7, Octave by "
+                               "save -7");
+    if (survey(file, big, &m, err) != RC_OK)
+        return RC_FAIL;
+    if (m.maps + m.vectors == 0 && m.x + m.y > 0) {
+        m = (struct mat){.dx = NAN, .dy = NAN, .no_axes = true};
+        if (survey(file, big, &m, err) != RC_OK)
+            return RC_FAIL;
+    }
+    if (m.maps + m.vectors == 0)
+        return rc_err_set(err,
+                          "the file has no real array of numbers with two dimensions%s: save "
+                          "the map as one",
+                          m.others);
+    b = rc_file_bytes(file, big);
+    for (b.at = HEADER; b.at < b.size;) {
+        size_t at = b.at;
+
+        if (next_variable(&b, &v, err) != RC_OK)
+            return RC_FAIL;
+        if (!is_axis(&m, &v) && (m.maps > 0 ? is_map(&v) : is_vector(&v)) &&
+            add_map(file, big, &v, at, &m, maps, err) != RC_OK)
+            return RC_FAIL;
+    }
+    return RC_OK;
+}
+
+static int
+mat_score(const struct rc_file *file)
+{
+    bool named = rc_file_named(file, ".mat"), big;
+
+    if (has_magic(file, &big))
+        return named || rc_file_holds(file, 0, "MATLAB 5.0", 10) ? 95 : 40;
+    return named &&
+           !rc_file_holds(file, 0, start_7_3, strlen(start_7_3)); /* to say what it lacks */
+}
+
+RC_FORMAT_OF_MAPS(mat)
+
+const struct rc_format rc_format_mat = {
+    .name = "mat",
+    .suffixes = ".mat",
+    .summary = "MATLAB arrays of two dimensions, MAT version 5 (save -v6, -v7)",
+    .score = mat_score,
+    .list = mat_list,
+    .read = mat_read,
+};
