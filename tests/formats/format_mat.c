@@ -7,10 +7,11 @@
 #include <string.h>
 
 #include <cmocka.h>
+#include <hdf5.h>
 
 #include "made/made.h"
 
-extern const struct rc_format rc_format_mat;
+extern const struct rc_format rc_format_mat, rc_format_mat73;
 
 enum {
     MI_DOUBLE = 9,
@@ -171,13 +172,87 @@ cuts_and_changes(void **state)
     }
 }
 
+/* ---- version 7.3 ---- */
+
+static void
+hdf_variable(hid_t file, const char *name, const char *class, hsize_t columns, hsize_t rows,
+             const double *v)
+{
+    const hsize_t size[] = {columns, rows};
+    hid_t space = H5Screate_simple(2, size, NULL);
+    hid_t set = H5Dcreate2(file, name, strcmp(class, "char") == 0 ? H5T_STD_U16LE : H5T_IEEE_F64LE,
+                           space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+
+    assert_true(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, v) >= 0);
+    hdf_text(set, "MATLAB_class", class, false);
+    H5Dclose(set);
+    H5Sclose(space);
+}
+
+static struct bytes
+hdf_behind_header(hid_t file)
+{
+    struct bytes b = {0}, hdf = hdf_end(file);
+
+    add_text(&b, "MATLAB 7.3 MAT-file, made by hand");
+    add_zeros(&b, 124 - b.n);
+    add(&b, "\0\2IM", 4);
+    add_zeros(&b, 512 - b.n);
+    add(&b, hdf.data, hdf.n);
+    drop(&hdf);
+    return b;
+}
+
+/* Arrays are turned, fields of structs are no variables, and there must be an array. */
+static void
+version_7_3(void **state)
+{
+    /* column after column, as MATLAB holds it */
+    static const double v[] = {1, 4, 2, NAN, 3, 6}, steps[] = {2, 3}, um[] = {'u', 'm'};
+    static const double nm[] = {'n', 'm'}, wanted[] = {1e-9, 2e-9, 3e-9, 4e-9, NAN, 6e-9};
+    struct rc_channel channel[4];
+    hid_t file = hdf_start(), group;
+    struct rc_file made;
+    struct rc_grid *g;
+    struct bytes b;
+
+    (void)state;
+    group = H5Gcreate2(file, "s", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    hdf_variable(group, "field", "double", 3, 2, v);
+    H5Gclose(group);
+    hdf_variable(file, "dunit", "char", 2, 1, um);
+    hdf_variable(file, "dx", "double", 1, 1, steps);
+    hdf_variable(file, "dy", "double", 1, 1, steps + 1);
+    hdf_variable(file, "h", "double", 3, 2, v);
+    hdf_variable(file, "l", "logical", 3, 2, v);
+    hdf_variable(file, "unit", "char", 2, 1, nm);
+    b = hdf_behind_header(file);
+    made = file_of(&b, "made");
+    assert_ptr_equal(rc_format_find(&made, NULL), &rc_format_mat73);
+    assert_int_equal(rc_format_mat73.list(&made, &rc_no_wish, channel, 4, NULL), 1);
+    assert_string_equal(channel->name, "h");
+    g = read_well(&rc_format_mat73, &b, 0);
+    check_map(g, 3, 2, 2e-6, 3e-6, wanted);
+    rc_grid_free(g);
+    refuse_cuts(&rc_format_mat73, &b, b.n - 1, b.n / 7);
+    survive_changes(&rc_format_mat73, &b, 30);
+    drop(&b);
+    file = hdf_start();
+    hdf_variable(file, "l", "logical", 3, 2, v);
+    b = hdf_behind_header(file);
+    refuse(&rc_format_mat73, &b, "'l' is of another class");
+    b.data[125] = 1;
+    refuse(&rc_format_mat73, &b, "no MAT file of version 7.3");
+    drop(&b);
+}
+
 int
 main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(several_arrays),   cmocka_unit_test(vectors),
         cmocka_unit_test(refusals),         cmocka_unit_test(damaged_packing),
-        cmocka_unit_test(cuts_and_changes),
+        cmocka_unit_test(cuts_and_changes), cmocka_unit_test(version_7_3),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

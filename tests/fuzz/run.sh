@@ -38,6 +38,7 @@ harnesses_of() {
     case $1 in
     x3p | plux | vk) echo zip ;;
     jpk | park | lext) echo bypass sandbox whole ;;
+    mat73) echo sandbox whole ;;
     hdf5 | datx) echo hdf sandbox whole ;; # libhdf5 1.10 itself reads past its memory: never bypass
     *) echo format ;;
     esac

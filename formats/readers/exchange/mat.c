@@ -10,12 +10,12 @@
  *
  * Written from the description of the format that The MathWorks publishes.
  */
-#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "matlab.h"
 #include "formats/containers/containers.h"
 #include "formats/format.h"
 
@@ -24,7 +24,6 @@ enum {
     AT_VERSION = 124,
     VERSION = 0x0100,
     START = 2048, /* bytes of a packed variable in which its numbers must begin */
-    VARIABLES_MOST = 4096,
     /* types of elements */
     MATRIX = 14,
     PACKED = 15,
@@ -35,11 +34,9 @@ enum {
     COMPLEX = 0x800, /* a flag beside the class */
 };
 
-static const char start_7_3[] = "MATLAB 7.3 MAT-file";
-
 /* Classes that are no arrays of numbers. */
 static const char *const other_classes[] = {
-    [1] = "a cell array", [2] = "a struct",    [3] = "an object",  [CHAR] = "text",
+    [1] = "a cell array", [2] = "a struct",    [3] = "an object",
     [5] = "sparse",       [16] = "a function", [17] = "an object",
 };
 
@@ -70,16 +67,6 @@ struct variable {
     struct element numbers; /* in the file or, where it is packed, in what comes out of it */
     double first;           /* of the numbers; NAN: none */
     char text[16];          /* of class CHAR */
-};
-
-/* What variables other than the maps say. */
-struct mat {
-    double dx, dy;
-    char unit[16], dunit[16];
-    size_t x, y; /* where these variables begin; 0: there is none */
-    size_t maps, vectors;
-    bool no_axes;     /* x and y are channels: there is nothing else */
-    char others[160]; /* what is no array of numbers, for the refusal */
 };
 
 /* ---- elements ---- */
@@ -234,100 +221,58 @@ done:
     return status;
 }
 
-/* ---- what the variables say ---- */
+/* ---- the variables, for matlab.c ---- */
 
-static bool
-is_map(const struct variable *v)
-{
-    return v->class >= DOUBLE && v->class <= UINT64 && !v->complex && v->dimensions == 2 &&
-           v->rows > 1 && v->columns > 1;
-}
-
-static bool
-is_vector(const struct variable *v)
-{
-    return v->class >= DOUBLE && v->class <= UINT64 && !v->complex && v->dimensions == 2 &&
-           (v->rows > 1) != (v->columns > 1) && v->rows > 0 && v->columns > 0;
-}
-
-static bool
-is_axis(const struct mat *m, const struct variable *v)
-{
-    return !m->no_axes && strlen(v->name) == 1 && strchr("xyXY", v->name[0]) != NULL;
-}
-
-/* Keeps what a variable is that is no channel, for the refusal of a file without one. */
-static void
-remember_other(struct mat *m, const struct variable *v)
-{
-    const char *what =
-        v->class < sizeof other_classes / sizeof *other_classes ? other_classes[v->class] : NULL;
-    char quote[RC_SHOWN], text[sizeof m->others];
-
-    if (v->class >= DOUBLE && v->class <= UINT64)
-        what = v->complex          ? "complex"
-               : v->dimensions > 2 ? "of more than two dimensions"
-                                   : "one number or none";
-    if (v->class == 0 || what == NULL)
-        return;
-    snprintf(text, sizeof text, "%s'%s' is %s", m->others[0] == '\0' ? ": " : ", ",
-             rc_word_shown(quote, v->name), what);
-    if (strlen(m->others) + strlen(text) < sizeof m->others)
-        strcat(m->others, text);
-}
+struct mat {
+    struct rc_bytes b; /* a cursor on the variables */
+};
 
 static void
-take_variable(struct mat *m, const struct variable *v, size_t at)
+start(struct rc_matlab_source *s)
 {
-    bool one = v->rows == 1 && v->columns == 1 && v->class != CHAR;
-
-    if (one && strcmp(v->name, "dx") == 0)
-        m->dx = v->first;
-    else if (one && strcmp(v->name, "dy") == 0)
-        m->dy = v->first;
-    else if (v->class == CHAR && strcmp(v->name, "unit") == 0)
-        strcpy(m->unit, v->text);
-    else if (v->class == CHAR && strcmp(v->name, "dunit") == 0)
-        strcpy(m->dunit, v->text);
-    else if (is_map(v) || is_vector(v)) {
-        if (is_axis(m, v))
-            *(tolower((unsigned char)v->name[0]) == 'x' ? &m->x : &m->y) = at;
-        else
-            ++*(is_map(v) ? &m->maps : &m->vectors);
-    } else
-        remember_other(m, v);
+    ((struct mat *)s->arg)->b.at = HEADER;
 }
 
-/* The step of an axis of n points: a vector of so many, or a row (of x) or column of an array of the
- * map's size. NAN where there is none of that size. */
 static enum rc_status
-axis_step(const struct rc_file *file, bool big, size_t at, const struct rc_map *map, bool is_x,
-          double *step, struct rc_err *err)
+next(struct rc_matlab_source *s, struct rc_matlab_array *a, struct rc_err *err)
 {
-    struct rc_bytes b = rc_file_bytes(file, big);
-    size_t n = is_x ? map->nx : map->ny, values;
-    enum rc_status status = RC_FAIL;
+    struct mat *m = s->arg;
     struct variable v;
-    double *x;
 
-    *step = NAN;
-    b.at = at;
-    if (at == 0 || n < 2)
-        return RC_OK;
-    if (next_variable(&b, &v, err) != RC_OK || rc_map_fits(file, v.columns, v.rows, err) != RC_OK)
-        return RC_FAIL;
-    values = v.rows * v.columns;
-    if (!(is_vector(&v) && values == n) && (v.rows != map->ny || v.columns != map->nx))
-        return RC_OK;
-    if ((x = malloc(values * sizeof *x)) == NULL)
-        return rc_err_set(err, "out of memory for the %zu positions of '%s'", values, v.name);
-    if (read_numbers(file, big, &v, x, err) == RC_OK) {
-        for (size_t k = 0; k < n && values > n && is_x; k++)
-            x[k] = x[k * v.rows];
-        status = rc_axis_step(v.name, x, n, step, err);
-    }
-    free(x);
-    return status;
+    do {
+        if (m->b.at >= m->b.size)
+            return RC_OK;
+        *a = (struct rc_matlab_array){.at = m->b.at, .first = NAN};
+        if (next_variable(&m->b, &v, err) != RC_OK)
+            return RC_FAIL;
+    } while (v.class == 0);
+    strcpy(a->name, v.name);
+    a->is_text = v.class == CHAR;
+    a->rows = v.rows;
+    a->columns = v.columns;
+    a->more = v.dimensions - 2;
+    a->first = v.first;
+    strcpy(a->text, v.text);
+    if (v.complex)
+        a->other = "complex";
+    else if ((v.class < DOUBLE || v.class > UINT64) && v.class != CHAR)
+        a->other =
+            v.class < sizeof other_classes / sizeof *other_classes && other_classes[v.class] != NULL
+                ? other_classes[v.class]
+                : "of an unknown class";
+    return RC_MORE;
+}
+
+static enum rc_status
+numbers_of(struct rc_matlab_source *s, const struct rc_matlab_array *a, double *values,
+           struct rc_err *err)
+{
+    struct rc_bytes b = ((struct mat *)s->arg)->b;
+    struct variable v;
+
+    b.at = a->at;
+    return next_variable(&b, &v, err) == RC_OK ? read_numbers(s->file, b.big, &v, values, err)
+                                               : RC_FAIL;
 }
 
 static enum rc_status
@@ -344,34 +289,23 @@ fill_packed(const struct rc_file *file, const struct rc_wish *wish, const struct
 }
 
 static enum rc_status
-add_map(const struct rc_file *file, bool big, const struct variable *v, size_t at,
-        const struct mat *m, struct rc_maps *maps, struct rc_err *err)
+place(struct rc_matlab_source *s, const struct rc_matlab_array *a, struct rc_map *map,
+      struct rc_err *err)
 {
-    struct rc_map *map = rc_maps_add(maps, v->name, strlen(v->name));
-    double dx = m->dx, dy = isnan(m->dy) ? m->dx : m->dy;
+    struct rc_bytes b = ((struct mat *)s->arg)->b;
+    struct variable v;
 
-    map->nx = m->maps > 0 ? v->columns : v->rows * v->columns;
-    map->ny = m->maps > 0 ? v->rows : 1;
-    map->by_columns = m->maps > 0;
-    map->raw = v->raw;
-    map->big = big;
-    map->at = v->numbers.at;
-    map->more = at;
-    if (v->whole.type == PACKED) {
-        map->fill = fill_packed;
-        if (rc_map_bound(map, file, (double)v->unpacked, err) != RC_OK)
-            return RC_FAIL;
-    }
-    if (isnan(dx) && (axis_step(file, big, m->x, map, true, &dx, err) != RC_OK ||
-                      axis_step(file, big, m->y, map, false, &dy, err) != RC_OK))
+    b.at = a->at;
+    if (next_variable(&b, &v, err) != RC_OK)
         return RC_FAIL;
-    if (map->ny == 1)
-        dy = dx;
-    if (!isnan(dx) && !isnan(dy))
-        rc_map_steps(map, dx, dy, (struct rc_piece){m->dunit, strlen(m->dunit)});
-    if (m->unit[0] != '\0' && (m->maps > 0 ? m->maps : m->vectors) == 1)
-        rc_map_unit(map, m->unit, strlen(m->unit));
-    return RC_OK;
+    map->raw = v.raw;
+    map->big = b.big;
+    map->at = v.numbers.at;
+    map->more = a->at;
+    if (v.whole.type != PACKED)
+        return RC_OK;
+    map->fill = fill_packed;
+    return rc_map_bound(map, s->file, (double)v.unpacked, err);
 }
 
 /* ---- the file ---- */
@@ -385,62 +319,20 @@ has_magic(const struct rc_file *file, bool *big)
            rc_bytes_at(&b, AT_VERSION, RC_RAW_U16) == VERSION;
 }
 
-/* Goes through the variables: what they say, and how many are channels. */
-static enum rc_status
-survey(const struct rc_file *file, bool big, struct mat *m, struct rc_err *err)
-{
-    struct rc_bytes b = rc_file_bytes(file, big);
-    struct variable v;
-    size_t n = 0;
-
-    for (b.at = HEADER; b.at < b.size; n++) {
-        size_t at = b.at;
-
-        if (n == VARIABLES_MOST)
-            return rc_err_set(err, "the file has more than %d variables", VARIABLES_MOST);
-        if (next_variable(&b, &v, err) != RC_OK)
-            return RC_FAIL;
-        take_variable(m, &v, at);
-    }
-    return RC_OK;
-}
-
 static enum rc_status
 mat_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
          struct rc_err *err)
 {
-    struct mat m = {.dx = NAN, .dy = NAN};
-    struct variable v;
-    struct rc_bytes b;
+    struct mat m;
+    struct rc_matlab_source source = {file, &m, start, next, numbers_of, place};
     bool big;
 
     (void)wish;
     if (!has_magic(file, &big))
         return rc_err_set(err, "no MAT file of version 5: MATLAB writes one by save -v7, Octave by "
                                "save -7");
-    if (survey(file, big, &m, err) != RC_OK)
-        return RC_FAIL;
-    if (m.maps + m.vectors == 0 && m.x + m.y > 0) {
-        m = (struct mat){.dx = NAN, .dy = NAN, .no_axes = true};
-        if (survey(file, big, &m, err) != RC_OK)
-            return RC_FAIL;
-    }
-    if (m.maps + m.vectors == 0)
-        return rc_err_set(err,
-                          "the file has no real array of numbers with two dimensions%s: save "
-                          "the map as one",
-                          m.others);
-    b = rc_file_bytes(file, big);
-    for (b.at = HEADER; b.at < b.size;) {
-        size_t at = b.at;
-
-        if (next_variable(&b, &v, err) != RC_OK)
-            return RC_FAIL;
-        if (!is_axis(&m, &v) && (m.maps > 0 ? is_map(&v) : is_vector(&v)) &&
-            add_map(file, big, &v, at, &m, maps, err) != RC_OK)
-            return RC_FAIL;
-    }
-    return RC_OK;
+    m.b = rc_file_bytes(file, big);
+    return rc_matlab_maps(&source, maps, err);
 }
 
 static int
@@ -450,8 +342,7 @@ mat_score(const struct rc_file *file)
 
     if (has_magic(file, &big))
         return named || rc_file_holds(file, 0, "MATLAB 5.0", 10) ? 95 : 40;
-    return named &&
-           !rc_file_holds(file, 0, start_7_3, strlen(start_7_3)); /* to say what it lacks */
+    return named; /* to say what it lacks */
 }
 
 RC_FORMAT_OF_MAPS(mat)
