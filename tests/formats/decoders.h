@@ -405,4 +405,56 @@ decode_hdf5(const struct written *made)
     return m;
 }
 
+/* The variable of that name in a MAT file that is not packed: where its numbers are. */
+static const char *
+mat_variable(const struct written *made, const char *name, int class, size_t *rows, size_t *columns)
+{
+    size_t length = strlen(name);
+
+    for (const char *at = made->bytes + 128; at < made->bytes + made->n;
+         at += 8 + count(at + 4, 4)) {
+        assert_int_equal(bits(at, 4), 14); /* an array */
+        assert_int_equal(count(at + 4, 4) % 8, 0);
+        assert_int_equal(bits(at + 8, 4), 6);  /* flags: unsigned, 8 bytes */
+        assert_int_equal(bits(at + 24, 4), 5); /* dimensions: signed, 8 bytes */
+        assert_int_equal(bits(at + 28, 4), 8);
+        assert_int_equal(bits(at + 40, 4), 1); /* its name: characters */
+        if (count(at + 44, 4) != length || memcmp(at + 48, name, length) != 0)
+            continue;
+        assert_true((int)bits(at + 16, 1) == class);
+        *rows = count(at + 32, 4);
+        *columns = count(at + 36, 4);
+        return at + 48 + (length + 7) / 8 * 8 + 8;
+    }
+    fail_msg("no variable '%s'", name);
+    return NULL;
+}
+
+__attribute__((unused)) static struct map
+decode_mat(const struct written *made)
+{
+    bool single;
+    size_t one, n;
+    struct map m = {0};
+    const char *at;
+
+    assert_memory_equal(made->bytes, "MATLAB 5.0 MAT-file", 19);
+    assert_memory_equal(made->bytes + 124, "\0\1IM", 4);
+    m.dx = f64(mat_variable(made, "dx", 6, &one, &n));
+    m.dy = f64(mat_variable(made, "dy", 6, &one, &n));
+    at = mat_variable(made, "unit", 4, &one, &n);
+    assert_true(one == 1 && n == 1 && at[0] == 'm' && at[1] == '\0');
+    at = made->bytes + 128 + 4 * 72; /* behind these, of a class of singles or of doubles */
+    single = bits(at + 16, 1) == 7;
+    at = mat_variable(made, "height", single ? 7 : 6, &m.ny, &m.nx);
+    assert_int_equal(count(at - 4, 4), m.nx * m.ny * (single ? 4 : 8));
+    assert_true(made->n - (size_t)(at - made->bytes) ==
+                (m.nx * m.ny * (single ? 4 : 8) + 7) / 8 * 8);
+    m.v = new_values(&m);
+    for (size_t i = 0; i < m.nx; i++)
+        for (size_t j = 0; j < m.ny; j++, at += single ? 4 : 8)
+            m.v[j * m.nx + i] = single ? f32(at) : f64(at);
+    return m;
+}
+
 #endif

@@ -45,6 +45,8 @@ static const struct {
     {"vtr", RC_RAW_F64, 0, 0, rounding, 2, decode_vtr, NULL},
     {"hdf5", RC_RAW_F32, 0, float_rounding, 0, 1, decode_hdf5, "hdf5"},
     {"hdf5", RC_RAW_F64, 0, 0, 0, 1, decode_hdf5, "hdf5"},
+    {"mat", RC_RAW_F32, 0, float_rounding, 0, 1, decode_mat, "mat"},
+    {"mat", RC_RAW_F64, 0, 0, 0, 1, decode_mat, "mat"},
     /* the offset is rounded to a float below, and widens the range by that */
     {"sur", RC_RAW_I16, 0.501 / 32767, 1e-11, float_rounding, 1, decode_sur, "sur"},
     {"sur", RC_RAW_I32, 0.501 / 2147483647.0, last_digit, float_rounding, 1, decode_sur, "sur"},
@@ -111,13 +113,15 @@ compare_reader(size_t f, const struct rc_grid *g, const struct written *made)
 }
 
 /* The readers of text leave some cases to their user: a matrix of one column could be a profile,
- * three points could be a list, and one line is no raster. */
+ * three points could be a list, and one line is no raster. In MATLAB a column is a profile
+ * too, and one number is no map. */
 static bool
 reader_takes(size_t f, const struct rc_grid *g)
 {
     bool csv = strcmp(formats[f].name, "csv") == 0, xyz = strcmp(formats[f].name, "xyz") == 0;
+    bool mat = strcmp(formats[f].name, "mat") == 0;
 
-    return !(csv && g->nx == 1) && !(xyz && (g->nx == 1 || g->ny == 1));
+    return !(mat && g->nx == 1) && !(csv && g->nx == 1) && !(xyz && (g->nx == 1 || g->ny == 1));
 }
 
 static void

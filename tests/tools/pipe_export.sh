@@ -8,7 +8,7 @@ rc-stress --nu 0.3 --depths 0,5um,20um --components mises,szz many.rcg >deep.rcg
 
 # ---- which format ----
 
-for name in x3p sdf gsf gwy npy vti vtr csv xyz h5 hdf5 sur bsdf; do
+for name in x3p sdf gsf gwy npy vti vtr csv xyz h5 hdf5 sur bsdf mat; do
     claim "the suffix .$name is known" rc-export one.rcg -o "by.$name"
 done
 claim ".x3p is an archive" says '^PK$' head -c 2 by.x3p
@@ -84,6 +84,17 @@ back() { # FILE: its heights as rc-import reads them, bit for bit those of one.r
 }
 claim "X3P comes back bit for bit" back by.x3p
 claim "CSV comes back bit for bit" back by.csv
+claim "MAT comes back bit for bit" back by.mat
+if python3 -c 'import scipy.io' 2>/dev/null; then
+    claim "scipy reads MAT: the array, its spacings and units" python3 - <<'END'
+import numpy, scipy.io
+mat, npy = scipy.io.loadmat('by.mat'), numpy.load('by.npy')
+assert (mat['height'] == npy).all() and mat['height'].shape == (24, 32)
+assert mat['dx'] == 1e-6 and mat['dy'] == 1.5e-6 and mat['unit'] == 'm' and mat['dunit'] == 'm'
+END
+else
+    echo "not tried: MAT in scipy, because that is not here"
+fi
 claim "history goes along, with this step" bash -c '
     rc-export --format x3p --type i16 one.rcg >h.x3p &&
         says "<Comment>rc-synth .* \| rc-export [0-9.]* --format x3p --type i16</Comment>" unzip -p h.x3p main.xml'
