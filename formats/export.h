@@ -26,6 +26,7 @@ struct rc_export_wish {
     int64_t time;        /* seconds since 1970, for formats that must bear a date             */
     const char *creator; /* program and version, for those that name it                       */
     const char *missing; /* word for a missing point in text; NULL: the format's own          */
+    double relief;       /* m from the lowest to the highest point of a print; 0: as the map's */
 };
 
 enum {
@@ -49,6 +50,10 @@ struct rc_export {
     unsigned types;       /* types that it can hold, of the bits above; 0: text */
     unsigned copies; /* copies of all values that it holds in memory, as they lie in the file */
     size_t library;  /* bytes of library code that it loads */
+    bool relief;     /* is for printers: takes a wished relief                               */
+    /* NULL, or says into text[0..size) how large what it makes of a frame will be; "" where it refuses. */
+    void (*foretell)(const struct rc_grid *frame, const struct rc_export_wish *wish, char *text,
+                     size_t size);
     /* Writes frame[0..frames), frames > 0. RC_FAIL for what the format cannot hold, or when the
      * device refuses. */
     enum rc_status (*write)(FILE *out, struct rc_grid *const *frame, size_t frames,

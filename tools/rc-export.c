@@ -17,6 +17,7 @@ static struct args {
     struct wanted wanted;
     const char *format, *type, *missing;
     bool formats, even;
+    double relief;
 } args;
 
 static const struct {
@@ -51,6 +52,9 @@ static const struct opt opts[] = {
      .help = "of the values in the file, where the format leaves it open"},
     {.name = "missing", .type = OPT_TEXT, .at = offsetof(struct args, missing), .arg = "WORD",
      .help = "stands for a missing point in text (default: the format's own)"},
+    {.name = "relief", .type = OPT_NUMBER, .unit = UNIT_M, .at = offsetof(struct args, relief),
+     .max = INFINITY, .above = true, .result = true, .arg = "HEIGHT",
+     .help = "from the lowest to the highest point of a print (default: as of the map)"},
     {.name = NULL},
 };
 /* clang-format on */
@@ -120,6 +124,15 @@ settle_missing(struct tool *t)
         tool_die(t, EXIT_USAGE, "--missing: a word is expected");
 }
 
+static void
+settle_relief(struct tool *t)
+{
+    wish.relief = args.relief;
+    if (wish.relief > 0 && !format->relief)
+        tool_die(t, EXIT_USAGE, "--relief: %s keeps the heights, and is no format for printers",
+                 format->name);
+}
+
 /* Formats that must bear a date get today's, or the one that reproducible builds agree on. */
 static void
 settle_time(struct tool *t)
@@ -157,6 +170,7 @@ settle(struct tool *t)
     wanted_check(&args.wanted, t);
     settle_type(t);
     settle_missing(t);
+    settle_relief(t);
     settle_time(t);
     snprintf(creator, sizeof creator, "rc-export %s", rc_version());
     wish.creator = creator;
@@ -337,6 +351,18 @@ demand_memory(struct tool *t, struct rc_grid *const *frame, size_t frames)
     tool_demand_memory(t, frame[0], bytes);
 }
 
+/* Says how large the result will be, where that is not what the frame is. */
+static void
+foretell(struct tool *t, const struct rc_grid *g)
+{
+    char text[200] = "";
+
+    if (format->foretell != NULL)
+        format->foretell(g, &wish, text, sizeof text);
+    if (text[0] != '\0')
+        tool_note(t, "%s: %s", format->name, text);
+}
+
 static void
 print_formats(struct tool *t)
 {
@@ -365,8 +391,10 @@ main(int argc, char **argv)
         return tool_finish(&t);
     }
     frame = read_frames(&t, &frames);
-    if (frames > 0)
+    if (frames > 0) {
         demand_memory(&t, frame, frames);
+        foretell(&t, frame[0]);
+    }
     if (rc_export_write(format, t.out, frame, frames, &wish, &err) != RC_OK)
         tool_die_at(&t, frame[0], EXIT_IMPOSSIBLE, "%s", err.text);
     tool_note(&t, "%zu frame%s as %s", frames, frames == 1 ? "" : "s", format->name);

@@ -167,6 +167,8 @@ every_format_is_tried(void **state)
     for (const struct rc_export *const *e = rc_exports; *e != NULL; e++) {
         size_t f = 0;
 
+        if (strcmp((*e)->name, "stl") == 0)
+            continue; /* no map any more: format_stl.c */
         while (f < sizeof formats / sizeof *formats && strcmp((*e)->name, formats[f].name) != 0)
             f++;
         if (f == sizeof formats / sizeof *formats)
@@ -206,28 +208,32 @@ equal_heights(void **state)
 static void
 same_frames_same_bytes(void **state)
 {
-    struct rc_grid *g = random_grid(13, 7, 0.1);
+    struct rc_grid *holes = random_grid(13, 7, 0.1), *whole = random_grid(13, 7, 0);
 
     (void)state;
     for (const struct rc_export *const *e = rc_exports; *e != NULL; e++) {
+        struct rc_grid *g = (*e)->relief ? whole : holes;
         struct written a = export((*e)->name, &g, 1, &plain_export),
                        b = export((*e)->name, &g, 1, &plain_export);
+
         assert_int_equal(a.n, b.n);
         assert_memory_equal(a.bytes, b.bytes, a.n);
         free(a.bytes);
         free(b.bytes);
     }
-    rc_grid_free(g);
+    rc_grid_free(holes);
+    rc_grid_free(whole);
 }
 
 /* Numbers have a point in every locale. */
 static void
 comma_locale(void **state)
 {
-    struct rc_grid *g = random_grid(3, 2, 0.2);
+    struct rc_grid *holes = random_grid(3, 2, 0.2), *whole = random_grid(3, 2, 0);
 
     (void)state;
     for (const struct rc_export *const *e = rc_exports; *e != NULL; e++) {
+        struct rc_grid *g = (*e)->relief ? whole : holes;
         struct written a, b;
 
         setlocale(LC_NUMERIC, "C");
@@ -241,7 +247,8 @@ comma_locale(void **state)
         free(b.bytes);
     }
     setlocale(LC_NUMERIC, "C");
-    rc_grid_free(g);
+    rc_grid_free(holes);
+    rc_grid_free(whole);
 }
 
 int

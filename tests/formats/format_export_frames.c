@@ -546,7 +546,7 @@ what_cannot_be_said(void **state)
 static void
 full_device(void **state)
 {
-    struct rc_grid *g = random_grid(300, 300, 0.1);
+    struct rc_grid *g = random_grid(300, 300, 0.1), *whole = random_grid(300, 300, 0);
     FILE *f = fopen("/dev/full", "wb");
 
     (void)state;
@@ -554,12 +554,13 @@ full_device(void **state)
     setvbuf(f, NULL, _IONBF, 0);
     for (const struct rc_export *const *e = rc_exports; *e != NULL; e++) {
         struct rc_err err = {""};
-        if ((*e)->write(f, &g, 1, &plain_export, &err) == RC_OK ||
+        if ((*e)->write(f, (*e)->relief ? &whole : &g, 1, &plain_export, &err) == RC_OK ||
             strstr(err.text, "writing failed") == NULL)
             fail_msg("%s: a full device is not told (%s)", (*e)->name, err.text);
     }
     fclose(f);
     rc_grid_free(g);
+    rc_grid_free(whole);
 }
 
 int

@@ -8,7 +8,7 @@ rc-stress --nu 0.3 --depths 0,5um,20um --components mises,szz many.rcg >deep.rcg
 
 # ---- which format ----
 
-for name in x3p sdf gsf gwy npy vti vtr csv xyz h5 hdf5 sur bsdf mat; do
+for name in x3p sdf gsf gwy npy vti vtr csv xyz h5 hdf5 sur bsdf mat stl; do
     claim "the suffix .$name is known" rc-export one.rcg -o "by.$name"
 done
 claim ".x3p is an archive" says '^PK$' head -c 2 by.x3p
@@ -76,6 +76,14 @@ one=$(rc-export --debug --format vti large.rcg 2>&1 >/dev/null | sed -n 's/.*mem
 claim "one frame is within --memory" bash -c "rc-export --memory $((one + 5))M --format vti large.rcg >/dev/null"
 refuses 1 "frame 2: 1000 x 1000 nodes need about .*, --memory allows" "by all frames together" \
     "cat large.rcg large.rcg | rc-export --memory $((one + 5))M --format vti"
+
+# ---- reliefs ----
+
+claim "a relief says how large it will be" \
+    warns '^rc-export: stl: a block of 89[.]8[56] x 100 x 7 mm, .* times the map, .*; 1750 triangles, 87584 bytes$' \
+    rc-export --verbose --relief 5mm one.rcg -o relief.stl
+claim "and is that" test "$(wc -c <relief.stl)" -eq 87584
+refuses 2 "--relief: csv keeps the heights" "other formats are none" 'rc-export --format csv --relief 5mm one.rcg'
 
 # ---- there and back ----
 
