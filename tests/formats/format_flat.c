@@ -107,6 +107,7 @@ other_channels(void **state)
         {"ibw", make_ibw, 2, 0, "PhaseTrace", "deg"},
         {"nid", make_nid, 0, 0, "Topo, Scan forward", "V"},
         {"sxm", make_sxm, 0, 0, "Current", "A"},
+        {"mdt", make_mdt, 0, 0, "Phase1", "deg"},
     };
 
     (void)state;

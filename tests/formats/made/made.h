@@ -89,7 +89,8 @@ struct rc_wish wish_for(int flags);
 /* profilers.c */
 made_maker make_sdf_text, make_sdf_binary, make_sur, make_opd, make_metropro, make_al3d, make_plu;
 /* probes.c */
-made_maker make_nanoscope, make_nid, make_gwy, make_gsf, make_ibw, make_mi, make_wsxm, make_sxm;
+made_maker make_nanoscope, make_nid, make_gwy, make_gsf, make_ibw, make_mi, make_wsxm, make_sxm,
+    make_mdt;
 /* others.c */
 made_maker make_bcr, make_frt, make_tmd, make_grd, make_esri, make_npy, make_opdx, make_vk4,
     make_vk6, make_xyz;

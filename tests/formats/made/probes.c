@@ -265,3 +265,111 @@ make_sxm(struct bytes *m, int variant)
     add_map(m, RC_RAW_F32, up ? BOTTOM | RIGHT : RIGHT, NAN, 0);
     m->big = false;
 }
+
+/* One axis or value of an array of NT-MDT; the unit as text, or by the code of SI. */
+static void
+mdt_calibration(struct bytes *m, const char *unit, unsigned code, double bias, double scale,
+                size_t n, int type)
+{
+    size_t at = m->n;
+
+    add_raw(m, RC_RAW_U32, 0);
+    add_raw(m, RC_RAW_U32, 76);
+    add_raw(m, RC_RAW_U32, 2); /* bytes of the name */
+    add_raw(m, RC_RAW_U32, 1); /* and of a comment */
+    add_raw(m, RC_RAW_U32, (double)strlen(unit));
+    add_raw(m, RC_RAW_U64, code);
+    add_f64(m, 0);
+    add_zeros(m, 8);
+    add_f64(m, bias);
+    add_f64(m, scale);
+    add_raw(m, RC_RAW_U64, 5);
+    add_raw(m, RC_RAW_U64, (double)n + 4);
+    add_raw(m, RC_RAW_I32, type);
+    add_raw(m, RC_RAW_U32, 0);
+    add_zeros(m, 8 + 76 - (m->n - at));
+    add_text(m, "Nmc");
+    add_text(m, unit);
+    set_raw(m, at, RC_RAW_U32, (double)(m->n - at));
+}
+
+static size_t
+mdt_frame(struct bytes *m, unsigned type, unsigned variables)
+{
+    static const unsigned date[] = {2015, 3, 24, 13, 49, 17};
+    size_t at = m->n;
+
+    add_raw(m, RC_RAW_U32, 0);
+    add_raw(m, RC_RAW_U16, type);
+    add_raw(m, RC_RAW_U16, 0);
+    for (int k = 0; k < 6; k++)
+        add_raw(m, RC_RAW_U16, date[k]);
+    add_raw(m, RC_RAW_U16, variables);
+    return at;
+}
+
+/* A scan of the phase in degrees, or of the height behind points of spectra. */
+static void
+mdt_scan(struct bytes *m, bool height)
+{
+    size_t at = mdt_frame(m, 0, 70);
+    static const double step[] = {-1.1, 1.29, 0.5};
+
+    for (int k = 0; k < 3; k++) {
+        add_f32(m, k == 2 ? 25 : 7);
+        add_f32(m, step[k]);
+        add_raw(m, RC_RAW_I16, k < 2 ? -2 : height ? -1 : 5);
+    }
+    add_raw(m, RC_RAW_U8, height ? 0 : 11);
+    add_zeros(m, 70 - 31);
+    add_raw(m, RC_RAW_U16, 0);
+    add_raw(m, RC_RAW_U16, NX);
+    add_raw(m, RC_RAW_U16, NY);
+    add_raw(m, RC_RAW_U16, height ? 2 : 0);
+    add_zeros(m, height ? 14 + 2 * 16 : 0);
+    add_map(m, RC_RAW_I16, BOTTOM, 50, 0);
+    add_raw(m, RC_RAW_U32, height ? 8 : 0);
+    add_text(m, height ? "a Height" : "");
+    set_raw(m, at, RC_RAW_U32, (double)(m->n - at));
+}
+
+/* 0: a scan, after one of something else and a text; 1: an array, of 16 bits; 2: of floats, units by code */
+void
+make_mdt(struct bytes *m, int variant)
+{
+    size_t at;
+
+    add(m, "\x01\xb0\x93\xff", 4);
+    add_zeros(m, 8);
+    add_raw(m, RC_RAW_U16, variant == 0 ? 2 : 0);
+    add_zeros(m, 33 - m->n);
+    if (variant == 0) {
+        mdt_scan(m, false);
+        at = mdt_frame(m, 3, 4);
+        add_zeros(m, 40);
+        set_raw(m, at, RC_RAW_U32, (double)(m->n - at));
+        mdt_scan(m, true);
+    } else {
+        at = mdt_frame(m, 106, 4);
+        add_raw(m, RC_RAW_U32, 76); /* bytes up to the name */
+        add_zeros(m, 4 + 32 + 4);
+        for (unsigned k = 0; k < 5; k++)
+            add_raw(m, RC_RAW_U32, k == 0 ? 6 : k);
+        add_zeros(m, 76 - (m->n - at - 22));
+        add_text(m, "Height");
+        add_zeros(m, 1 + 2 + 3 + 4);
+        add_raw(m, RC_RAW_U32, 0);
+        add_raw(m, RC_RAW_U32, 24);
+        add_zeros(m, 12);
+        add_raw(m, RC_RAW_U32, 2);
+        add_raw(m, RC_RAW_U32, 1);
+        add_zeros(m, 4);
+        mdt_calibration(m, variant == 1 ? "um" : "", 0x101, 0, variant == 1 ? 1.1 : 1.1e-6, NX, 0);
+        mdt_calibration(m, variant == 1 ? "um" : "", 0x101, 0, variant == 1 ? 1.29 : 1.29e-6, NY,
+                        0);
+        mdt_calibration(m, variant == 1 ? "nm" : "", 0x101, variant == 1 ? 25 : 25e-9,
+                        variant == 1 ? 0.5 : 0.5e-9, 0, variant == 1 ? -2 : -5892);
+        add_map(m, variant == 1 ? RC_RAW_I16 : RC_RAW_F32, BOTTOM, 50, 0);
+        set_raw(m, at, RC_RAW_U32, (double)(m->n - at));
+    }
+}
