@@ -10,6 +10,7 @@
 #include "gzip.h"
 #include "hdf.h"
 #include "inflate.h"
+#include "ole.h"
 #include "tiff.h"
 #include "xml.h"
 #include "zip_read.h"

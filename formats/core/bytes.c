@@ -8,7 +8,7 @@ take(struct rc_bytes *b, size_t n)
 {
     uint64_t value = 0;
 
-    if (b->size - b->at < n) {
+    if (b->at > b->size || b->size - b->at < n) {
         b->at = b->size;
         b->past = true;
         return 0;

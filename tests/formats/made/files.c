@@ -22,6 +22,8 @@ const struct made_file made_files[] = {
     {"OPD floats", "opd", "a.opd", make_opd, 0, HAS_MISSING, 80e-9, 0},
     {"OPD 16 bits", "opd", "a.opd", make_opd, 1, HAS_MISSING, 80e-9, 0},
     {"OPD Raw", "opd", "a.opd", make_opd, 2, HAS_MISSING, 80e-9, 0},
+    {"MNT, a mask", "mnt", "a.mnt", make_mnt, 0, HAS_MISSING, 0.5e-9, 25e-9},
+    {"MNT, large sectors", "mnt", "a.mnt", make_mnt, 1, 0, 0.5e-9, 25e-9},
     {"MetroPro 0", "metropro", "a.dat", make_metropro, 0, HAS_MISSING | SQUARE, 6.25e-7 / 4096, 0},
     {"MetroPro 1", "metropro", "a.dat", make_metropro, 1, HAS_MISSING | SQUARE, 6.25e-7 / 32768, 0},
     {"MetroPro 2", "metropro", "a.dat", make_metropro, 2, HAS_MISSING | SQUARE, 6.25e-7 / 131072,

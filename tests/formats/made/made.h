@@ -106,6 +106,11 @@ void mat_number(struct bytes *m, const char *name, double value);
 void mat_text(struct bytes *m, const char *name, const char *text);
 void mat_pack(struct bytes *m, size_t at);
 
+/* ole.c */
+made_maker make_mnt;
+/* A compound file of that stream. */
+void ole_file(struct bytes *b, const char *name, const struct bytes *stream);
+
 /* texts.c */
 made_maker make_keyence, make_wykotext, make_zygo;
 
