@@ -1,0 +1,265 @@
+/*
+ * Keyence ZON (macroscopes VR): KPK0, the length of a picture (u32), the picture, and a ZIP archive whose members
+ * have numbers for names: one is XML with the metres per pixel and per count, one the heights, one a byte a
+ * point that says what the height is worth. Such arrays begin with columns, rows, bytes of an element and bytes
+ * of a row (i32 each), little-endian; row 0 is the first. A height is int32 * metres per count; where one of the
+ * lowest two bits of the byte is set nothing was measured, or was not to be.
+ *
+ * In files that begin with KPK1 the members are packed by zstd too; these are refused.
+ *
+ * Written from how SurfaceTopography reads such files.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "formats/containers/containers.h"
+#include "formats/format.h"
+
+enum {
+    FIRST = 8, /* byte of the picture */
+    HEAD = 16, /* of an array */
+    NOT_MEASURED = 3,
+    XML_MOST = 1 << 20
+};
+
+static const char heights_name[] = "4cdb0c75-5706-48cc-a9a1-adf395d609ae";
+static const char marks_name[] = "9e7ca6dd-0e6a-4d7b-8986-f0a7b773c916";
+
+struct zon {
+    struct rc_zip_read *archive;
+    double pixel, count; /* m */
+    struct rc_maps *maps;
+};
+
+/* ---- the archive ---- */
+
+/* Its offsets count from its own start, or from that of the file. */
+static struct rc_zip_read *
+open_archive(const struct rc_file *file, struct rc_err *err)
+{
+    struct rc_bytes b = rc_file_bytes(file, false);
+    size_t picture = (size_t)rc_bytes_at(&b, 4, RC_RAW_U32), member;
+    struct rc_file part = *file;
+    struct rc_zip_read *a = NULL;
+
+    if (rc_file_holds(file, 0, "KPK1", 4)) {
+        rc_err_set(err,
+                   "the file is of the kind KPK1, packed by zstd, which is not read: export the "
+                   "heights as CSV in Keyence's program");
+        return NULL;
+    }
+    if (!rc_file_holds(file, 0, "KPK0", 4)) {
+        rc_err_set(err, "no ZON file: it does not begin with KPK0");
+        return NULL;
+    }
+    if (b.past || picture > file->size - FIRST) {
+        rc_err_set(err, "the picture takes %zu bytes, the file has %zu", picture, file->size);
+        return NULL;
+    }
+    part.data += FIRST + picture;
+    part.size -= FIRST + picture;
+    if ((a = rc_zip_read_behind(&part, NULL)) != NULL) {
+        if (rc_zip_read_find(a, heights_name, &member, NULL) == RC_OK)
+            return a;
+        rc_zip_read_free(a);
+    }
+    if ((a = rc_zip_read_behind(file, err)) == NULL ||
+        rc_zip_read_find(a, heights_name, &member, NULL) == RC_OK)
+        return a;
+    rc_zip_read_free(a);
+    rc_err_set(err, "the archive in the file holds no heights (member %s)", heights_name);
+    return NULL;
+}
+
+/* An array: its head, and its bytes, which the caller frees; NULL with the reason. `width` of an element. */
+struct array {
+    size_t nx, ny, row;
+    unsigned char *bytes;
+    size_t n;
+};
+
+static enum rc_status
+read_array(const struct zon *z, const struct rc_file *file, const char *name, size_t width,
+           struct array *a, struct rc_err *err)
+{
+    struct rc_bytes b = {0};
+    size_t member, element;
+    uint64_t size;
+
+    if (rc_zip_read_find(z->archive, name, &member, err) != RC_OK ||
+        rc_zip_read_size(z->archive, member, &size, err) != RC_OK)
+        return RC_FAIL;
+    if (size > rc_memory_limit(file->size))
+        return rc_err_set(err, "the archive promises %g MB out of %g: that cannot be",
+                          (double)size / 1e6, (double)file->size / 1e6);
+    if ((a->bytes = rc_zip_read_bytes(z->archive, member, size, &a->n, NULL, err)) == NULL)
+        return RC_FAIL;
+    b.data = a->bytes;
+    b.size = a->n;
+    if (rc_map_count("columns", rc_bytes_at(&b, 0, RC_RAW_I32), &a->nx, err) != RC_OK ||
+        rc_map_count("rows", rc_bytes_at(&b, 4, RC_RAW_I32), &a->ny, err) != RC_OK)
+        goto failed;
+    element = (size_t)rc_bytes_u32(&b);
+    a->row = rc_bytes_u32(&b);
+    if (element != width || a->nx > a->row / width || a->ny > (a->n - HEAD) / a->row) {
+        rc_err_set(err,
+                   "the array '%s' promises %zu x %zu elements of %zu bytes in rows of %zu, it has "
+                   "%zu bytes and elements of %zu",
+                   name, a->nx, a->ny, element, a->row, a->n, width);
+        goto failed;
+    }
+    return RC_OK;
+failed:
+    free(a->bytes);
+    a->bytes = NULL;
+    return RC_FAIL;
+}
+
+/* ---- XML ---- */
+
+static const struct {
+    const char *member, *path, *key; /* path below the root; key NULL: a length for z */
+    size_t to;
+} elements[] = {
+    {"686613b8-27b5-4a29-8ffc-438c2780873e", "XYCalibration/MeterPerPixel", NULL,
+     offsetof(struct zon, pixel)},
+    {"686613b8-27b5-4a29-8ffc-438c2780873e", "ZCalibration/MeterPerUnit", NULL,
+     offsetof(struct zon, count)},
+    {"cbc1d39b-215f-4d56-a20e-cf8e5f570755", "DeviceModelName", "file.model", 0},
+    {"cbc1d39b-215f-4d56-a20e-cf8e5f570755", "DeviceSerialId", "file.serial", 0},
+    {"1d35862b-3b48-4df2-9235-833ef590b043", "ScanDateTime", "file.date", 0},
+};
+
+static enum rc_status
+take_element(void *arg, const char *path, const char *text, struct rc_err *err)
+{
+    struct zon *z = arg;
+
+    path += strcspn(path, "/");
+    path += *path == '/';
+    for (size_t k = 0; k < sizeof elements / sizeof *elements; k++) {
+        if (strcmp(path, elements[k].path) != 0)
+            continue;
+        if (elements[k].key != NULL)
+            rc_maps_key(z->maps, elements[k].key, text, strlen(text));
+        else
+            return rc_xml_number("the calibration", path, text,
+                                 (double *)((char *)z + elements[k].to), err);
+    }
+    return RC_OK;
+}
+
+static enum rc_status
+read_elements(struct zon *z, struct rc_err *err)
+{
+    const char *last = "";
+
+    for (size_t k = 0; k < sizeof elements / sizeof *elements; k++) {
+        size_t member;
+
+        if (strcmp(elements[k].member, last) == 0)
+            continue;
+        last = elements[k].member;
+        if (rc_zip_read_find(z->archive, last, &member, NULL) == RC_OK &&
+            rc_zip_read_xml(z->archive, member, XML_MOST, last, take_element, z, NULL, err) !=
+                RC_OK)
+            return RC_FAIL;
+    }
+    return RC_OK;
+}
+
+/* ---- heights ---- */
+
+static enum rc_status
+apply_marks(const struct zon *z, const struct rc_file *file, const struct rc_map *map, double *v,
+            struct rc_err *err)
+{
+    struct array marks = {0};
+    size_t member;
+
+    if (rc_zip_read_find(z->archive, marks_name, &member, NULL) != RC_OK)
+        return RC_OK;
+    if (read_array(z, file, marks_name, 1, &marks, err) != RC_OK)
+        return RC_FAIL;
+    if (marks.nx == map->nx && marks.ny == map->ny)
+        for (size_t k = 0; k < map->nx * map->ny; k++)
+            if ((marks.bytes[HEAD + k / map->nx * marks.row + k % map->nx] & NOT_MEASURED) != 0)
+                v[k] = NAN;
+    free(marks.bytes);
+    return marks.nx == map->nx && marks.ny == map->ny
+               ? RC_OK
+               : rc_err_set(err, "%zu x %zu heights and %zu x %zu marks do not belong together",
+                            map->nx, map->ny, marks.nx, marks.ny);
+}
+
+static enum rc_status
+fill_heights(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
+             double *v, struct rc_err *err)
+{
+    struct zon z = {.archive = open_archive(file, err)};
+    enum rc_status status = RC_FAIL;
+    struct array a = {0};
+
+    (void)wish;
+    if (z.archive != NULL && read_array(&z, file, heights_name, 4, &a, err) == RC_OK) {
+        struct rc_bytes b = {.data = a.bytes, .size = a.n};
+
+        for (size_t j = 0; j < map->ny; j++) {
+            b.at = HEAD + j * a.row;
+            rc_bytes_values(&b, RC_RAW_I32, v + j * map->nx, map->nx);
+        }
+        free(a.bytes);
+        status = apply_marks(&z, file, map, v, err);
+    }
+    rc_zip_read_free(z.archive);
+    return status;
+}
+
+static enum rc_status
+zon_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
+         struct rc_err *err)
+{
+    struct zon z = {.pixel = NAN, .count = NAN, .maps = maps};
+    enum rc_status status = RC_FAIL;
+    struct array a = {0};
+    struct rc_map *map;
+
+    (void)wish;
+    if ((z.archive = open_archive(file, err)) == NULL)
+        return RC_FAIL;
+    if (read_elements(&z, err) == RC_OK &&
+        read_array(&z, file, heights_name, 4, &a, err) == RC_OK) {
+        map = rc_maps_add(maps, "", 0);
+        map->nx = a.nx;
+        map->ny = a.ny;
+        map->dx = map->dy = z.pixel;
+        map->fill = fill_heights;
+        if (!isnan(z.count)) {
+            strcpy(map->unit, "m");
+            map->scale = z.count;
+        }
+        rc_maps_key(maps, "file.manufacturer", "Keyence", strlen("Keyence"));
+        status = rc_map_bound(map, file, 2 * (double)a.n, err);
+        free(a.bytes);
+    }
+    rc_zip_read_free(z.archive);
+    return status;
+}
+
+static int
+zon_score(const struct rc_file *file)
+{
+    return rc_file_holds(file, 0, "KPK0", 4) || rc_file_holds(file, 0, "KPK1", 4) ? 95 : 0;
+}
+
+RC_FORMAT_OF_MAPS(zon)
+
+const struct rc_format rc_format_zon = {
+    .name = "zon",
+    .suffixes = ".zon",
+    .summary = "Keyence ZON (VR): heights of a one-shot macroscope",
+    .score = zon_score,
+    .list = zon_list,
+    .read = zon_read,
+};
