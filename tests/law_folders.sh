@@ -42,6 +42,7 @@ formats/readers/probes | %reader                               | %formats
 formats/readers/profilers | %reader                            | %formats
 formats/readers/exchange | %reader                             | %formats
 formats/readers/exchange/x3p | %reader                         | %formats
+formats/readers/exchange/xlsx | %reader                        | %formats
 formats/readers/text | %reader                                 | %formats
 formats/writers     | libcontact/grid.h formats/core/core.h    | libcontact formats/core
 formats/writers     | formats/containers/containers.h          | formats/containers
@@ -51,6 +52,7 @@ formats             |                                          | formats/readers
 formats             |                                          | formats/readers/profilers=rc_format_
 formats             |                                          | formats/readers/exchange=rc_format_
 formats             |                                          | formats/readers/exchange/x3p=rc_format_
+formats             |                                          | formats/readers/exchange/xlsx=rc_format_
 formats             |                                          | formats/readers/text=rc_format_
 formats             |                                          | formats/writers=rc_export_
 tools/text          | libcontact/grid.h formats/core/core.h    | libcontact formats/core

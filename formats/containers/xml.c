@@ -18,7 +18,7 @@ struct rc_xml {
     rc_element *element;
     void *arg;
     struct rc_err err; /* why the parser was stopped from here */
-    bool stopped;
+    bool stopped, attributes;
     size_t path_length, below; /* below: levels under the path that did not fit into it */
     size_t text_length;
     char path[PATH_MAX_BYTES];
@@ -32,6 +32,26 @@ stop(struct rc_xml *x)
     xmlStopParser(x->parser);
 }
 
+/* Attribute k of an element, as libxml2 has them: five pointers, the value between the last two. */
+static void
+on_attribute(struct rc_xml *x, const xmlChar *const *attribute)
+{
+    const char *name = (const char *)attribute[0];
+    size_t n = (size_t)(attribute[4] - attribute[3]), length = strlen(name);
+
+    if (x->stopped || x->path_length + 2 + length >= sizeof x->path)
+        return;
+    n = n < sizeof x->text ? n : sizeof x->text - 1;
+    memcpy(x->text, attribute[3], n);
+    x->text[n] = '\0';
+    x->path[x->path_length] = '/';
+    x->path[x->path_length + 1] = '@';
+    memcpy(x->path + x->path_length + 2, name, length + 1);
+    if (x->element(x->arg, x->path, x->text, &x->err) != RC_OK)
+        stop(x);
+    x->path[x->path_length] = '\0';
+}
+
 static void
 on_start(void *arg, const xmlChar *name, const xmlChar *prefix, const xmlChar *uri, int spaces,
          const xmlChar **space, int attributes, int defaulted, const xmlChar **attribute)
@@ -40,7 +60,7 @@ on_start(void *arg, const xmlChar *name, const xmlChar *prefix, const xmlChar *u
     size_t n = strlen((const char *)name);
 
     (void)prefix, (void)uri, (void)spaces, (void)space;
-    (void)attributes, (void)defaulted, (void)attribute;
+    (void)defaulted;
     x->text_length = 0;
     if (x->below > 0 || x->path_length + 1 + n >= sizeof x->path) {
         x->below++;
@@ -50,6 +70,8 @@ on_start(void *arg, const xmlChar *name, const xmlChar *prefix, const xmlChar *u
         x->path[x->path_length++] = '/';
     memcpy(x->path + x->path_length, name, n + 1);
     x->path_length += n;
+    for (int k = 0; x->attributes && k < attributes; k++)
+        on_attribute(x, (const xmlChar *const *)attribute + 5 * k);
 }
 
 static void
@@ -135,6 +157,12 @@ rc_xml_new(const char *name, rc_element *element, void *arg, struct rc_err *err)
     }
     xmlCtxtUseOptions(x->parser, XML_PARSE_NONET);
     return x;
+}
+
+void
+rc_xml_want_attributes(struct rc_xml *x)
+{
+    x->attributes = true;
 }
 
 static enum rc_status

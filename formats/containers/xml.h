@@ -21,6 +21,8 @@ typedef enum rc_status rc_element(void *arg, const char *path, const char *text,
 
 /* `name` is the document's, for messages. */
 struct rc_xml *rc_xml_new(const char *name, rc_element *element, void *arg, struct rc_err *err);
+/* Call `element` for attributes too, where their element begins: "row/c/@r" and the value. */
+void rc_xml_want_attributes(struct rc_xml *xml);
 /* The next n bytes of the document. */
 enum rc_status rc_xml_feed(struct rc_xml *xml, const unsigned char *bytes, size_t n,
                            struct rc_err *err);

@@ -36,7 +36,7 @@ fi
 
 harnesses_of() {
     case $1 in
-    x3p | plux | vk | zon) echo zip ;;
+    x3p | plux | vk | zon | xlsx) echo zip ;;
     jpk | park | lext) echo bypass sandbox whole ;;
     mat73) echo sandbox whole ;;
     hdf5 | datx) echo hdf sandbox whole ;; # libhdf5 1.10 itself reads past its memory: never bypass

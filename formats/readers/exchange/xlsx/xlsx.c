@@ -1,0 +1,426 @@
+/*
+ * Workbooks (XLSX): a ZIP archive of XML. In each sheet, blocks of numbers are looked for: neighbouring columns
+ * that are filled over the same rows. A block is read as the text would be that it is when it is copied out of the
+ * sheet, with the titles above it: two columns as a profile, three as points or a matrix, more as a matrix. The
+ * largest is the first channel.
+ *
+ * SurfTest of Mitutoyo gives a profile without titles: its positions are then in the unit of the cut-off, its
+ * heights in that of the first roughness in column A.
+ *
+ * Written from ECMA-376, and for SurfTest from how SurfaceTopography reads it.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "xlsx_internal.h"
+#include "formats/format.h"
+
+enum {
+    BLOCKS_MOST = 64,
+    TITLE = 128,
+    ROWS_LEAST = 2
+};
+
+struct block {
+    const struct rc_sheet *sheet;
+    uint32_t first, last, left, right; /* rows and columns, both ends */
+    size_t numbers;
+};
+
+struct blocks {
+    struct block block[BLOCKS_MOST];
+    size_t n;
+};
+
+/* ---- blocks ---- */
+
+/* Rows of a column that numbers fill: the longest run that no text breaks. */
+struct run {
+    uint32_t first, last;
+    size_t n;
+};
+
+struct columns {
+    struct run best[RC_COLUMNS_MOST + 2], now[RC_COLUMNS_MOST + 2];
+};
+
+static void
+end_run(struct columns *c, size_t column)
+{
+    if (c->now[column].n > c->best[column].n)
+        c->best[column] = c->now[column];
+    c->now[column] = (struct run){0};
+}
+
+static void
+find_runs(const struct rc_sheet *s, struct columns *c)
+{
+    memset(c, 0, sizeof *c);
+    for (size_t k = 0; k < s->n; k++) {
+        const struct rc_cell *cell = &s->cell[k];
+        struct run *now = &c->now[cell->column];
+
+        if (cell->text != 0) {
+            end_run(c, cell->column);
+            continue;
+        }
+        if (now->n++ == 0)
+            now->first = cell->row;
+        now->last = cell->row;
+    }
+    for (size_t column = 1; column <= RC_COLUMNS_MOST; column++)
+        end_run(c, column);
+}
+
+/* Whether two columns belong together: they share half of the rows of the longer one. */
+static bool
+belong(const struct run *a, const struct run *b)
+{
+    uint32_t first = a->first > b->first ? a->first : b->first;
+    uint32_t last = a->last < b->last ? a->last : b->last;
+    uint32_t longer =
+        a->last - a->first > b->last - b->first ? a->last - a->first + 1 : b->last - b->first + 1;
+
+    return last >= first && last - first + 1 >= (longer + 1) / 2;
+}
+
+/* In the order of their sizes, the largest first. */
+static void
+insert(struct blocks *blocks, const struct block *b)
+{
+    size_t k = blocks->n < BLOCKS_MOST ? blocks->n++ : BLOCKS_MOST - 1;
+
+    if (k == BLOCKS_MOST - 1 && blocks->block[k].numbers >= b->numbers)
+        return;
+    for (; k > 0 && blocks->block[k - 1].numbers < b->numbers; k--)
+        blocks->block[k] = blocks->block[k - 1];
+    blocks->block[k] = *b;
+}
+
+static void
+find_blocks(const struct rc_sheet *s, const struct columns *c, struct blocks *blocks)
+{
+    for (uint32_t column = 1; column <= RC_COLUMNS_MOST; column++) {
+        const struct run *run = &c->best[column];
+        struct block b = {s, run->first, run->last, column, column, run->n};
+
+        if (run->n < ROWS_LEAST)
+            continue;
+        while (c->best[column + 1].n >= ROWS_LEAST &&
+               belong(&c->best[column], &c->best[column + 1])) {
+            run = &c->best[++column];
+            b.first = run->first < b.first ? run->first : b.first;
+            b.last = run->last > b.last ? run->last : b.last;
+            b.right = column;
+            b.numbers += run->n;
+        }
+        insert(blocks, &b);
+    }
+}
+
+/* ---- titles ---- */
+
+/* The title over a column of a block, with the unit that may stand under it in a row of its own. */
+static void
+title_of(const struct rc_workbook *w, const struct block *b, uint32_t column, char title[TITLE])
+{
+    const char *low = b->first > 1 ? rc_workbook_text(w, b->sheet, b->first - 1, column) : NULL;
+    const char *high = b->first > 2 ? rc_workbook_text(w, b->sheet, b->first - 2, column) : NULL;
+    struct rc_piece unit = {low, low == NULL ? 0 : strlen(low)};
+    char text[TITLE];
+
+    text[0] = '\0';
+    if (low != NULL && high != NULL && !isnan(rc_piece_metres(rc_piece_bare(unit))))
+        snprintf(text, sizeof text, "%s [%.*s]", high, (int)rc_piece_bare(unit).n,
+                 rc_piece_bare(unit).text);
+    else if (low != NULL)
+        snprintf(text, sizeof text, "%s", low);
+    rc_text_clean(title, TITLE, text, strlen(text)); /* of one line */
+    for (char *s = title; *s != '\0'; s++)
+        if (*s == '\t' || *s == '"')
+            *s = ' ';
+}
+
+/* The unit behind the number in a text such as "0.08mm" or "Ra  0.018 um"; "" for none. */
+static void
+unit_in(const char *text, char unit[16])
+{
+    struct rc_piece rest = {text, text == NULL ? 0 : strlen(text)}, word;
+    double number;
+
+    unit[0] = '\0';
+    while (rest.n > 0 && !rc_piece_number(rest, &number, &word)) {
+        rest.text++;
+        rest.n--;
+    }
+    if (rest.n > 0 && word.n > 0 && !isnan(rc_piece_metres(word)))
+        rc_text_clean(unit, 16, word.text, word.n);
+}
+
+/* The titles of a profile of SurfTest, "" where this is none. */
+static void
+mitutoyo_titles(const struct rc_workbook *w, const struct block *b, char x[TITLE], char z[TITLE])
+{
+    char x_unit[16] = "", z_unit[16] = "";
+
+    for (size_t k = 0; k < w->sheets; k++)
+        for (size_t c = 0; c < w->sheet[k].n; c++) {
+            const struct rc_cell *cell = &w->sheet[k].cell[c];
+
+            if (cell->text != 0 && strcmp(w->text + cell->text - 1, "Cut-Off") == 0)
+                unit_in(rc_workbook_text(w, &w->sheet[k], cell->row, cell->column + 1), x_unit);
+        }
+    unit_in(rc_workbook_text(w, b->sheet, 1, 1), z_unit);
+    if (x_unit[0] == '\0' || z_unit[0] == '\0')
+        return;
+    snprintf(x, TITLE, "x [%s]", x_unit);
+    snprintf(z, TITLE, "z [%s]", z_unit);
+}
+
+/* ---- a block as text ---- */
+
+struct text {
+    char *bytes;
+    size_t n, capacity;
+};
+
+static bool
+put(struct text *t, const char *word, char end)
+{
+    size_t n = strlen(word);
+
+    if (t->capacity - t->n < n + 1) {
+        size_t capacity = t->capacity + t->capacity / 2 + n + 4096;
+        char *more = realloc(t->bytes, capacity);
+
+        if (more == NULL)
+            return false;
+        t->bytes = more;
+        t->capacity = capacity;
+    }
+    memcpy(t->bytes + t->n, word, n);
+    t->bytes[t->n + n] = end;
+    t->n += n + 1;
+    return true;
+}
+
+static bool
+put_titles(const struct rc_workbook *w, const struct block *b, struct text *t)
+{
+    char title[TITLE], pair[2][TITLE] = {"", ""};
+    bool any = false, good = true;
+
+    for (uint32_t c = b->left; c <= b->right && !any; c++) {
+        title_of(w, b, c, title);
+        any = title[0] != '\0';
+    }
+    if (!any && b->right == b->left + 1) {
+        mitutoyo_titles(w, b, pair[0], pair[1]);
+        any = pair[0][0] != '\0';
+    }
+    for (uint32_t c = b->left; good && any && c <= b->right; c++) {
+        title_of(w, b, c, title);
+        good = put(t,
+                   title[0] != '\0'          ? title
+                   : b->right == b->left + 1 ? pair[c - b->left]
+                                             : "-",
+                   c == b->right ? '\n' : '\t');
+    }
+    return good;
+}
+
+/* The block with its titles, columns between tabs, which the caller frees. */
+static enum rc_status
+make_text(const struct rc_workbook *w, const struct block *b, struct text *t, struct rc_err *err)
+{
+    const struct rc_sheet *s = b->sheet;
+    char number[RC_NUMBER_SIZE];
+    bool good = put_titles(w, b, t);
+    size_t k = 0;
+
+    if ((size_t)(b->last - b->first + 1) * (b->right - b->left + 1) > 2 * b->numbers + 64)
+        return rc_err_set(err, "more cells of the block are empty than hold numbers");
+    while (k < s->n && s->cell[k].row < b->first)
+        k++;
+    for (uint32_t row = b->first; good && row <= b->last; row++)
+        for (uint32_t c = b->left; good && c <= b->right; c++) {
+            while (k < s->n &&
+                   (s->cell[k].row < row || (s->cell[k].row == row && s->cell[k].column < c)))
+                k++;
+            if (k < s->n && s->cell[k].row == row && s->cell[k].column == c &&
+                s->cell[k].text == 0 && isfinite(s->cell[k].number))
+                rc_number_text(number, s->cell[k].number);
+            else
+                strcpy(number, "NaN");
+            good = put(t, number, c == b->right ? '\n' : '\t');
+        }
+    return good ? RC_OK : rc_err_set(err, "out of memory for %zu bytes of text", t->n);
+}
+
+/* ---- channels ---- */
+
+static void
+column_name(uint32_t column, char name[4])
+{
+    char back[4];
+    size_t n = 0;
+
+    for (; column > 0 && n < 3; column = (column - 1) / 26)
+        back[n++] = (char)('A' + (column - 1) % 26);
+    for (size_t k = 0; k < n; k++)
+        name[k] = back[n - 1 - k];
+    name[n] = '\0';
+}
+
+static void
+block_name(const struct block *b, char name[64])
+{
+    char left[4], right[4], text[128];
+
+    column_name(b->left, left);
+    column_name(b->right, right);
+    snprintf(text, sizeof text, "%.40s %s%u:%s%u", b->sheet->name, left, b->first, right, b->last);
+    rc_text_clean(name, 64, text, strlen(text));
+}
+
+/* A block as the file of text that it is read as; NULL with the reason. */
+static const struct rc_format *
+open_block(const struct rc_workbook *w, const struct block *b, struct text *t, struct rc_file *file,
+           struct rc_err *err)
+{
+    if (make_text(w, b, t, err) != RC_OK)
+        return NULL;
+    *file = (struct rc_file){"sheet.txt", (const unsigned char *)t->bytes, t->n};
+    return b->right - b->left < 2 ? rc_format_named("profile") : rc_format_find(file, err);
+}
+
+/* Puts the place of the block before the reason. */
+static void
+say_where(const struct block *b, struct rc_err *err)
+{
+    char name[64], why[sizeof err->text];
+
+    if (err == NULL)
+        return;
+    block_name(b, name);
+    memcpy(why, err->text, sizeof why);
+    rc_err_set(err, "%s: %.400s", name, why);
+}
+
+/* Reads one block as a channel of a list, and as a grid unless `g` is NULL. */
+static enum rc_status
+try_block(const struct rc_workbook *w, const struct block *b, const struct rc_wish *wish,
+          struct rc_channel *channel, struct rc_grid **g, struct rc_notes *notes,
+          struct rc_err *err)
+{
+    struct rc_wish tabs = *wish;
+    struct text t = {0};
+    struct rc_file file;
+    const struct rc_format *format = open_block(w, b, &t, &file, err);
+    enum rc_status status = RC_FAIL;
+    char name[64];
+
+    tabs.separator = "\t";
+    tabs.decimal = '.';
+    tabs.missing = NULL;
+    block_name(b, name);
+    if (format != NULL && format->list(&file, &tabs, channel, 1, err) > 0) {
+        strcpy(channel->name, name);
+        status = RC_OK;
+        if (g != NULL && ((*g = format->read(&file, &tabs, 0, notes, err)) == NULL ||
+                          rc_word_keep(*g, "file.channel", name, err) != RC_OK)) {
+            rc_grid_free(*g);
+            *g = NULL;
+            status = RC_FAIL;
+        }
+    }
+    if (status != RC_OK)
+        say_where(b, err);
+    free(t.bytes);
+    return status;
+}
+
+/* Goes through the blocks that can be read, up to the one wanted; `channel` then has its list. Gives
+ * their number. */
+static size_t
+walk(const struct rc_file *file, const struct rc_wish *wish, struct rc_channel *channel,
+     size_t most, size_t wanted, struct rc_grid **g, struct rc_notes *notes, struct rc_err *err)
+{
+    struct rc_workbook *w = malloc(sizeof *w);
+    struct columns *columns = malloc(sizeof *columns);
+    struct blocks blocks = {.n = 0};
+    struct rc_channel one;
+    struct rc_err why = {""}, first = {""};
+    size_t n = 0;
+
+    if (w == NULL || columns == NULL) {
+        rc_err_set(err, "out of memory for reading a workbook");
+        free(w);
+        free(columns);
+        return 0;
+    }
+    if (rc_workbook_read(w, file, err) != RC_OK)
+        goto done;
+    for (size_t k = 0; k < w->sheets; k++) {
+        find_runs(&w->sheet[k], columns);
+        find_blocks(&w->sheet[k], columns, &blocks);
+    }
+    for (size_t k = 0; k < blocks.n && n <= wanted; k++) {
+        bool is_it = g != NULL && n == wanted;
+
+        if (try_block(w, &blocks.block[k], wish, &one, NULL, NULL, &why) != RC_OK) {
+            if (first.text[0] == '\0')
+                first = why;
+            continue;
+        }
+        if (is_it)
+            try_block(w, &blocks.block[k], wish, &one, g, notes, err);
+        if (n < most)
+            channel[n] = one;
+        n++;
+    }
+    if (n == 0)
+        rc_err_set(err, "%s",
+                   blocks.n == 0 ? "the workbook holds no column of numbers" : first.text);
+    else if (g != NULL && *g == NULL && n <= wanted)
+        rc_err_set(err, "there is no channel %zu: the file has %zu", wanted + 1, n);
+done:
+    rc_workbook_free(w);
+    free(w);
+    free(columns);
+    return n;
+}
+
+static size_t
+xlsx_list(const struct rc_file *file, const struct rc_wish *wish, struct rc_channel *channel,
+          size_t most, struct rc_err *err)
+{
+    return walk(file, wish, channel, most, SIZE_MAX - 1, NULL, NULL, err);
+}
+
+static struct rc_grid *
+xlsx_read(const struct rc_file *file, const struct rc_wish *wish, size_t index,
+          struct rc_notes *notes, struct rc_err *err)
+{
+    struct rc_grid *g = NULL;
+
+    walk(file, wish, NULL, 0, index, &g, notes, err);
+    return g;
+}
+
+static int
+xlsx_score(const struct rc_file *file)
+{
+    return rc_workbook_is(file) ? 90 : 0;
+}
+
+const struct rc_format rc_format_xlsx = {
+    .name = "xlsx",
+    .suffixes = ".xlsx .xlsm",
+    .summary = "workbooks (XLSX): blocks of numbers as profiles and maps",
+    .score = xlsx_score,
+    .list = xlsx_list,
+    .read = xlsx_read,
+};

@@ -1,0 +1,43 @@
+/* Sheets of an XLSX workbook as cells; see xlsx.c. */
+#ifndef RC_XLSX_INTERNAL_H
+#define RC_XLSX_INTERNAL_H
+
+#include <stdint.h>
+
+#include "formats/core/core.h"
+
+enum {
+    RC_SHEETS_MOST = 32,
+    RC_COLUMNS_MOST = 16384 /* of a sheet */
+};
+
+struct rc_cell {
+    uint32_t row, column; /* from 1 */
+    uint32_t text;        /* where in the texts its text begins, from 1; 0: it is a number */
+    double number;        /* NAN: an error in the place of one */
+};
+
+struct rc_sheet {
+    char name[64];
+    struct rc_cell *cell; /* n of them, row by row; empty ones are left out */
+    size_t n, capacity;
+};
+
+struct rc_workbook {
+    struct rc_sheet sheet[RC_SHEETS_MOST];
+    size_t sheets;
+    char *text; /* all texts, each with its NUL */
+    size_t text_n, text_capacity;
+};
+
+/* Reads the sheets of a file; RC_FAIL with the reason. To be freed in either case. */
+enum rc_status rc_workbook_read(struct rc_workbook *book, const struct rc_file *file,
+                                struct rc_err *err);
+void rc_workbook_free(struct rc_workbook *book);
+/* Whether it is an archive with a workbook in it. */
+bool rc_workbook_is(const struct rc_file *file);
+/* The text of a cell; NULL where it is empty or a number. */
+const char *rc_workbook_text(const struct rc_workbook *book, const struct rc_sheet *sheet,
+                             uint32_t row, uint32_t column);
+
+#endif

@@ -1,0 +1,149 @@
+/* Workbooks, made here: blocks of numbers in sheets are profiles and maps; what has no value is refused. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "made/made.h"
+
+extern const struct rc_format rc_format_xlsx;
+
+static const char workbook[] =
+    "<workbook xmlns:r=\"http://r\"><sheets><sheet name=\"First\" sheetId=\"1\" r:id=\"rId7\"/>"
+    "<sheet name=\"Map\" sheetId=\"2\" r:id=\"rId1\"/></sheets></workbook>";
+static const char relations[] = "<Relationships><Relationship Id=\"rId7\" "
+                                "Target=\"worksheets/a.xml\"/><Relationship Id=\"rId1\" "
+                                "Target=\"/xl/worksheets/b.xml\"/></Relationships>";
+static const char strings[] =
+    "<sst><si><t>x</t></si><si><r><t>he</t></r><r><t>ight (nm)</t></r></si>"
+    "<si><t>\xc2\xb5m</t></si></sst>";
+
+/* A profile under titles, one of which has its unit in a row of its own; a formula with a value. */
+static const char profile_sheet[] =
+    "<worksheet><sheetData>"
+    "<row r=\"1\"><c r=\"B1\" t=\"s\"><v>0</v></c></row>"
+    "<row r=\"2\"><c r=\"B2\" t=\"s\"><v>2</v></c><c r=\"C2\" t=\"s\"><v>1</v></c></row>"
+    "<row r=\"3\"><c r=\"B3\"><v>0</v></c><c r=\"C3\"><v>10</v></c></row>"
+    "<row r=\"4\"><c r=\"B4\"><v>1.5</v></c><c r=\"C4\"><f>A1*2</f><v>-2E1</v></c></row>"
+    "<row r=\"5\"><c r=\"B5\"><v>3</v></c><c r=\"C5\" t=\"e\"><v>#N/A</v></c></row>"
+    "<row r=\"6\"><c><v>7</v></c><c r=\"B6\"><v>4.5</v></c><c r=\"C6\"><v>40</v></c></row>"
+    "</sheetData></worksheet>";
+/* A matrix of which a corner is empty; a text beside it is none of it. */
+static const char map_sheet[] =
+    "<worksheet><sheetData>"
+    "<row><c t=\"inlineStr\"><is><t>a map</t></is></c></row>"
+    "<row r=\"3\"><c r=\"AA3\"><v>1</v></c><c><v>2</v></c><c><v>3</v></c><c><v>4</v></c></row>"
+    "<row><c r=\"AA4\"><v>5</v></c><c><v>6</v></c><c><v>7</v></c><c><v>8</v></c></row>"
+    "<row><c r=\"AA5\"><v>9</v></c><c><v>10</v></c><c><v>11</v></c><c r=\"AF5\" "
+    "t=\"str\"><v>end</v>"
+    "</c></row></sheetData></worksheet>";
+
+static const char none[] = "<worksheet><sheetData/></worksheet>";
+
+static struct bytes
+book(const char *a, const char *b)
+{
+    const struct member members[] = {
+        {"xl/workbook.xml", workbook, strlen(workbook)},
+        {"xl/_rels/workbook.xml.rels", relations, strlen(relations)},
+        {"xl/sharedStrings.xml", strings, strlen(strings)},
+        {"xl/worksheets/a.xml", a, strlen(a)},
+        {"xl/worksheets/b.xml", b, strlen(b)},
+    };
+
+    return archive(members, 5);
+}
+
+static void
+blocks_are_read(void **state)
+{
+    static const double profile[] = {10e-9, -20e-9, NAN, 40e-9};
+    static const double map[] = {1e-9, 2e-9, 3e-9, 4e-9,  5e-9,  6e-9,
+                                 7e-9, 8e-9, 9e-9, 10e-9, 11e-9, NAN};
+    struct rc_wish wish = {.dx = 2e-6, .dy = 3e-6, .z_unit = 1e-9};
+    struct bytes b = book(profile_sheet, map_sheet);
+    struct rc_file file = file_of(&b, "noname");
+    struct rc_channel channel[4];
+    struct rc_err err;
+    struct rc_grid *g;
+
+    (void)state;
+    assert_ptr_equal(rc_format_find(&file, NULL), &rc_format_xlsx);
+    assert_int_equal(rc_format_xlsx.list(&file, &rc_no_wish, channel, 4, NULL), 2);
+    assert_string_equal(channel[0].name, "Map AA3:AD5"); /* the larger one */
+    assert_string_equal(channel[1].name, "First B3:C6");
+    g = read_well(&rc_format_xlsx, &b, 1);
+    check_map(g, 4, 1, 1.5e-6, 1.5e-6, profile);
+    assert_string_equal(rc_grid_get(g, "file.channel"), "First B3:C6");
+    rc_grid_free(g);
+    g = try_read(&rc_format_xlsx, &b, &wish, 0, &err);
+    assert_non_null(g);
+    check_map(g, 4, 3, 2e-6, 3e-6, map);
+    rc_grid_free(g);
+    refuse(&rc_format_xlsx, &b, "--dx LENGTH");
+    assert_null(try_read(&rc_format_xlsx, &b, &wish, 2, &err));
+    assert_non_null(strstr(err.text, "there is no channel 3: the file has 2"));
+    drop(&b);
+}
+
+static void
+refusals(void **state)
+{
+    static const struct {
+        const char *from, *to, *why;
+    } cases[] = {
+        {"<v>-2E1</v>", "", "a formula in sheet 'First', row 4, column 3, has no value"},
+        {"<v>-2E1</v>", "<v></v>", "has no value"},
+        {"<v>1.5</v>", "<v>wide</v>", "'wide' in sheet 'First', row 4, column 2, is no number"},
+        {"t=\"s\"><v>1</v>", "t=\"s\"><v>9</v>", "a cell has shared text 9, of which there are 3"},
+        {"r=\"B3\"", "r=\"C3\"", "out of order"},
+        {"r=\"B3\"", "r=\"XFE3\"", "'XFE3' is no place"},
+        {"r=\"B3\"", "r=\"B0\"", "'B0' is no place"},
+        {"<row r=\"1\"><c r=\"B1\" t", "<row r=\"0\"><c t", "has a cell in row 0"},
+        {"<v>1.5</v>", "<v>1</v>", "the positions are not evenly apart"},
+        {"</worksheet>", "", "not well-formed"},
+    };
+    struct bytes b;
+
+    (void)state;
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char *sheet = with(profile_sheet, cases[k].from, cases[k].to);
+
+        b = book(sheet, none);
+        refuse(&rc_format_xlsx, &b, cases[k].why);
+        drop(&b);
+        free(sheet);
+    }
+    b = book(none, none);
+    refuse(&rc_format_xlsx, &b, "holds no column of numbers");
+    drop(&b);
+}
+
+static void
+cuts_and_changes(void **state)
+{
+    struct bytes b = book(profile_sheet, none);
+
+    (void)state;
+    refuse_cuts(&rc_format_xlsx, &b, b.n, 3);
+    survive_changes(&rc_format_xlsx, &b, 2000);
+    drop(&b);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(blocks_are_read),
+        cmocka_unit_test(refusals),
+        cmocka_unit_test(cuts_and_changes),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
