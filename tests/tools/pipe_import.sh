@@ -144,7 +144,7 @@ if [ -d "$corpus" ]; then
     refuses 1 "nonsense_txt_file.txt: not recognised: it is none of the formats" "prose" "rc-import '$bad/SurfaceTopography__nonsense_txt_file.txt'"
     refuses 1 "9 numbers in one column" "one column" "rc-import '$bad/SurfaceTopography__single_column.txt'"
     refuses 1 "a ZIP archive, but no X3P: it holds no main.xml" "a ZIP archive of another kind" \
-        "rc-import '$bad/SurfaceTopography__mitutoyo_mock.xlsx'"
+        "rc-import --format x3p '$bad/SurfaceTopography__mitutoyo_mock.xlsx'"
     claim "a list of points is told from a matrix" says ': xyz$' rc-import --list --dx 1um --z-unit um \
         "$corpus/xyz/SurfaceTopography__xyz-1.txt"
     claim "and so is a profile" says ': profile$' rc-import --list --dx 1um --z-unit um \
