@@ -108,6 +108,7 @@ other_channels(void **state)
         {"nid", make_nid, 0, 0, "Topo, Scan forward", "V"},
         {"sxm", make_sxm, 0, 0, "Current", "A"},
         {"mdt", make_mdt, 0, 0, "Phase1", "deg"},
+        {"createc", make_createc, 2, 1, "Plane 2", "count"},
     };
 
     (void)state;
@@ -127,6 +128,34 @@ other_channels(void **state)
         assert_non_null(strstr(err.text, "no channel 8"));
         drop(&m);
     }
+}
+
+/* Rows that a scan of Createc did not reach are missing; where x does not tell what a count is, nothing does. */
+static void
+createc_scans(void **state)
+{
+    struct bytes m = {0};
+    struct rc_err err = {""};
+    struct rc_grid *g;
+    char *place;
+
+    (void)state;
+    make_createc(&m, 1);
+    place = (char *)m.data + strlen((char *)m.data);
+    strcpy(place, "ImageYPosMax=2\r\n");
+    g = read_made("createc", &m, 0, &err);
+    assert_non_null(g);
+    for (size_t k = 0; k < 6; k++)
+        assert_true(k < 3 ? g->v[k] == (double)(float)value_of(k, true) * 0.02 * 1e-9
+                          : isnan(g->v[k]));
+    rc_grid_free(g);
+    strcpy(place, "Dacto[A]xy=3\r\n");
+    assert_null(read_made("createc", &m, 0, &err));
+    assert_non_null(strstr(err.text, "--z-unit"));
+    m.n--;
+    assert_null(read_made("createc", &m, 0, &err));
+    assert_non_null(strstr(err.text, "promises 2 planes of 3 x 2 numbers"));
+    drop(&m);
 }
 
 /* The wave has one unit for all its channels; labels show which have another. */
@@ -509,6 +538,7 @@ main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(variants),
         cmocka_unit_test(other_channels),
+        cmocka_unit_test(createc_scans),
         cmocka_unit_test(keys),
         cmocka_unit_test(text_profiles),
         cmocka_unit_test(one_column),

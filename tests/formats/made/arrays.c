@@ -147,3 +147,47 @@ make_mat(struct bytes *m, int variant)
     drop(&x);
     drop(&y);
 }
+
+/* 0: floats; 1: whole numbers of 16 bits, highest byte first, steps between nodes; 2: packed with gzip; 3: text;
+ * 4: with an axis of one value */
+void
+make_nrrd(struct bytes *m, int variant)
+{
+    static const char *const heads[] = {
+        "type: float\nencoding: raw\nendian: little\ndimension: 2\nsizes: 3 2\naxismins: 1 1\n"
+        "axismaxs: 4.3 3.58\nunits: \"um\" \"um\"\nsampleunits: \"nm\"\n\n",
+        "# a comment\ntype: signed short int\nencoding: raw\nendian: big\ndimension: 2\nsizes: 3 "
+        "2\n"
+        "axis mins: 0 0\naxis maxs: 2.2 1290\ncenterings: node node\nunits: \"um\" \"nm\"\n"
+        "sample units: \"nm\"\na key:=of a value\n\n",
+        "type: double\nencoding: gz\nendian: little\ndimension: 2\nsizes: 3 2\n"
+        "spacings: 1.1 1.29\nunits: \"um\" \"um\"\nsample units: \"nm\"\n\n",
+        "type: float\nencoding: ascii\ndimension: 2\nsizes: 3 2\nspacings: 1.1 1.29\n"
+        "units: \"um\" \"um\"\nsample units: \"nm\"\n\n10 -20 30\n40 nan -60\n",
+        "type: int\nencoding: raw\nendian: little\ndimension: 3\nsizes: 1 3 2\n"
+        "spacings: nan 1.1 1.29\nunits: \"\" \"um\" \"um\"\nsample units: \"nm\"\n\n",
+    };
+    static const enum rc_raw raws[] = {RC_RAW_F32, RC_RAW_I16, RC_RAW_F64, RC_RAW_F32, RC_RAW_I32};
+    struct bytes map = {.big = variant == 1};
+
+    add_text(m, variant == 3 ? "NRRD0001\n" : "NRRD0004\n");
+    add_text(m, heads[variant]);
+    if (variant == 3)
+        return;
+    add_map(&map, raws[variant], ROWS, variant == 0 || variant == 2 ? (double)NAN : 50, 0);
+    if (variant == 2) {
+        unsigned char packed[512];
+        z_stream z = {.next_in = map.data,
+                      .avail_in = (uInt)map.n,
+                      .next_out = packed,
+                      .avail_out = sizeof packed};
+
+        if (deflateInit2(&z, 9, Z_DEFLATED, 16 + MAX_WBITS, 8, Z_DEFAULT_STRATEGY) != Z_OK ||
+            deflate(&z, Z_FINISH) != Z_STREAM_END)
+            abort();
+        add(m, packed, z.total_out);
+        deflateEnd(&z);
+    } else
+        add(m, map.data, map.n);
+    drop(&map);
+}

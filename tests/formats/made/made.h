@@ -90,13 +90,13 @@ struct rc_wish wish_for(int flags);
 made_maker make_sdf_text, make_sdf_binary, make_sur, make_opd, make_metropro, make_al3d, make_plu;
 /* probes.c */
 made_maker make_nanoscope, make_nid, make_gwy, make_gsf, make_ibw, make_mi, make_wsxm, make_sxm,
-    make_mdt;
+    make_mdt, make_createc, make_iso28600;
 /* others.c */
 made_maker make_bcr, make_frt, make_tmd, make_grd, make_esri, make_npy, make_opdx, make_vk4,
     make_vk6, make_xyz;
 
 /* arrays.c */
-made_maker make_mat;
+made_maker make_mat, make_nrrd;
 /* The header of a MAT file, whose byte order m then has; a variable, with class and flags as the format has
  * them; the same of one number and of text; and what was added from `at` on as a packed variable. */
 void mat_header(struct bytes *m, bool big);

@@ -1,7 +1,9 @@
 /* Files of scanning probes and of the programs that show them, made by hand. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <zlib.h>
 
 #include "made.h"
 
@@ -372,4 +374,84 @@ make_mdt(struct bytes *m, int variant)
         add_map(m, variant == 1 ? RC_RAW_I16 : RC_RAW_F32, BOTTOM, 50, 0);
         set_raw(m, at, RC_RAW_U32, (double)(m->n - at));
     }
+}
+
+/* 0: 16 bits; 1: floats, counts in nanometres that call themselves Angstrom; 2: packed, Angstrom. A plane of
+ * something else behind. */
+void
+make_createc(struct bytes *m, int variant)
+{
+    enum rc_raw raw = variant == 0 ? RC_RAW_I16 : RC_RAW_F32;
+    static const char *const magics[] = {"[Parameter]", "[Paramet32]", "[Paramco32]"};
+    /* 11 Angstrom a node: 55 counts of 0.02 nm, or of 0.2 Angstrom */
+    static const char *const scales[] = {
+        "Dactonmz=0.02\r\n", "Delta X / Delta X [Dac]=550\r\nDacto[A]xy=2\r\nDacto[A]z=0.02\r\n",
+        "Delta X / Delta X [Dac]=550\r\nDacto[A]xy=20\r\nDacto[A]z=0.2\r\n"};
+    struct bytes planes = {0};
+    uLongf n;
+
+    add_text(m, magics[variant]);
+    add_text(m,
+             "\r\nDAC-Type=20bit\r\nTitel / Titel=a scan\r\nNum.X / Num.X=3\r\nNum.Y / Num.Y=2\r\n"
+             "Length x[A]=33000\r\nLength y[A]=25800\r\nChannels / Channels=2\r\n");
+    add_text(m, scales[variant]);
+    add_zeros(m, 16384 - m->n);
+    add_zeros(&planes, rc_raw_width(raw));
+    add_map(&planes, raw, ROWS, 50, 0);
+    add_zeros(&planes, 6 * rc_raw_width(raw));
+    if (variant < 2)
+        add(m, planes.data, planes.n);
+    else {
+        n = compressBound(planes.n);
+        m->data = realloc(m->data, m->n + n);
+        if (m->data == NULL || compress(m->data + m->n, &n, planes.data, planes.n) != Z_OK)
+            abort();
+        m->n += n;
+    }
+    drop(&planes);
+}
+
+/* 0: one channel, from the upper left; 1: two, the second of heights, column after column from the lower right */
+void
+make_iso28600(struct bytes *m, int variant)
+{
+    static const char *const lines[][2] = {
+        [1] = {"ISO/TC 201 SPM data transfer format", NULL},
+        [8] = {"MAP_SC", "MAP_MC"},
+        [17] = {"REGULAR MAPPING", NULL},
+        [20] = {"X", "Y"},
+        [21] = {"left to right", "bottom to top"},
+        [23] = {"top to bottom", "right to left"},
+        [24] = {"3", NULL},
+        [25] = {"2", NULL},
+        [26] = {"um", "nm"},
+        [27] = {"um", NULL},
+        [28] = {"3.3", "3300"},
+        [29] = {"2.58", NULL},
+        [69] = {"Depth", "of none"},
+        [70] = {"nm", "V"},
+        [94] = {"", "2"},
+        [95] = {"", "Current"},
+        [96] = {"", "nA"},
+        [98] = {"", "Height"},
+        [99] = {"", "nm"},
+        [128] = {"end of header", NULL},
+    };
+    char number[32];
+
+    for (size_t k = 1; k <= 128; k++) {
+        const char *one = k < sizeof lines / sizeof *lines ? lines[k][0] : NULL;
+        const char *two = k < sizeof lines / sizeof *lines ? lines[k][1] : NULL;
+
+        add_text(m, variant == 1 && two != NULL ? two : one != NULL ? one : "");
+        add_text(m, variant == 1 ? "\r\n" : "\n");
+    }
+    for (size_t k = 0; k < NX * NY; k++) {
+        size_t at = variant == 0 ? k : (NY - 1 - k % NY) * NX + (NX - 1 - k / NY);
+
+        snprintf(number, sizeof number, variant == 0 ? "%g" : "7.5, %.1f", value_of(at, true));
+        add_text(m, at == MISSING_AT ? (variant == 0 ? "nan" : "7.5,NaN") : number);
+        add_text(m, variant == 1 ? "\r\n" : "\n");
+    }
+    add_text(m, "end of experiment\n");
 }

@@ -1,0 +1,302 @@
+/*
+ * NRRD of Teem: lines `field: value` behind NRRD000n up to an empty one, then the values, the first axis
+ * fastest, which is x; row 0 is the first. They are raw, packed with gzip, or text. Axes of one value beyond two are
+ * passed over.
+ *
+ * The step of an axis is its spacing, or comes from its least and greatest place: between nodes where it is
+ * centred on nodes, else between the borders of cells. `units` has the units of the axes, in quotes, `sample
+ * units` that of the values.
+ *
+ * Written from Teem's description of the format, and from files of Gwyddion.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "formats/containers/containers.h"
+#include "formats/format.h"
+
+enum {
+    AXES_MOST = 16
+};
+
+static const char magic[] = "NRRD000";
+
+struct nrrd {
+    struct rc_piece type, encoding, endian, dimension, sizes, spacings, mins, maxs, units, centers,
+        unit;
+    struct rc_piece file, skip, lines, title;
+    size_t data; /* byte behind the header */
+};
+
+#define TO(member) offsetof(struct nrrd, member)
+static const struct rc_field fields[] = {
+    {"type", RC_FIELD_TEXT, TO(type)},          {"encoding", RC_FIELD_TEXT, TO(encoding)},
+    {"endian", RC_FIELD_TEXT, TO(endian)},      {"dimension", RC_FIELD_TEXT, TO(dimension)},
+    {"sizes", RC_FIELD_TEXT, TO(sizes)},        {"spacings", RC_FIELD_TEXT, TO(spacings)},
+    {"axis mins", RC_FIELD_TEXT, TO(mins)},     {"axismins", RC_FIELD_TEXT, TO(mins)},
+    {"axis maxs", RC_FIELD_TEXT, TO(maxs)},     {"axismaxs", RC_FIELD_TEXT, TO(maxs)},
+    {"units", RC_FIELD_TEXT, TO(units)},        {"centers", RC_FIELD_TEXT, TO(centers)},
+    {"centerings", RC_FIELD_TEXT, TO(centers)}, {"sample units", RC_FIELD_TEXT, TO(unit)},
+    {"sampleunits", RC_FIELD_TEXT, TO(unit)},   {"data file", RC_FIELD_TEXT, TO(file)},
+    {"datafile", RC_FIELD_TEXT, TO(file)},      {"byte skip", RC_FIELD_TEXT, TO(skip)},
+    {"byteskip", RC_FIELD_TEXT, TO(skip)},      {"line skip", RC_FIELD_TEXT, TO(lines)},
+    {"lineskip", RC_FIELD_TEXT, TO(lines)},     {"content", RC_FIELD_TEXT, TO(title)},
+};
+#undef TO
+
+static const struct {
+    const char *name;
+    enum rc_raw raw;
+} types[] = {
+    {"signed char", RC_RAW_I8},
+    {"int8", RC_RAW_I8},
+    {"int8_t", RC_RAW_I8},
+    {"uchar", RC_RAW_U8},
+    {"unsigned char", RC_RAW_U8},
+    {"uint8", RC_RAW_U8},
+    {"uint8_t", RC_RAW_U8},
+    {"short", RC_RAW_I16},
+    {"short int", RC_RAW_I16},
+    {"signed short", RC_RAW_I16},
+    {"signed short int", RC_RAW_I16},
+    {"int16", RC_RAW_I16},
+    {"int16_t", RC_RAW_I16},
+    {"ushort", RC_RAW_U16},
+    {"unsigned short", RC_RAW_U16},
+    {"unsigned short int", RC_RAW_U16},
+    {"uint16", RC_RAW_U16},
+    {"uint16_t", RC_RAW_U16},
+    {"int", RC_RAW_I32},
+    {"signed int", RC_RAW_I32},
+    {"int32", RC_RAW_I32},
+    {"int32_t", RC_RAW_I32},
+    {"uint", RC_RAW_U32},
+    {"unsigned int", RC_RAW_U32},
+    {"uint32", RC_RAW_U32},
+    {"uint32_t", RC_RAW_U32},
+    {"longlong", RC_RAW_I64},
+    {"long long", RC_RAW_I64},
+    {"int64", RC_RAW_I64},
+    {"int64_t", RC_RAW_I64},
+    {"ulonglong", RC_RAW_U64},
+    {"unsigned long long", RC_RAW_U64},
+    {"uint64", RC_RAW_U64},
+    {"uint64_t", RC_RAW_U64},
+    {"float", RC_RAW_F32},
+    {"double", RC_RAW_F64},
+};
+
+/* ---- header ---- */
+
+static enum rc_status
+read_header(const struct rc_file *file, struct nrrd *h, struct rc_err *err)
+{
+    struct rc_lines lines = rc_piece_lines(rc_file_piece(file));
+    struct rc_piece line, key, value;
+
+    memset(h, 0, sizeof *h);
+    if (!rc_file_holds(file, 0, magic, strlen(magic)))
+        return rc_err_set(err, "no NRRD file: it does not begin with NRRD000");
+    rc_lines_next(&lines, &line.text, &line.n);
+    while (rc_lines_next(&lines, &line.text, &line.n)) {
+        if (line.n == 0) {
+            h->data = (size_t)(lines.at - (const char *)file->data);
+            return h->file.n == 0
+                       ? RC_OK
+                       : rc_err_set(err,
+                                    "the values are in another file: only NRRD files that hold "
+                                    "them are read");
+        }
+        if (*line.text != '#' && rc_piece_part(line, ":", &key, &value) && *value.text != '=')
+            rc_field_take(fields, sizeof fields / sizeof *fields, key, value, h, NULL);
+    }
+    return rc_err_set(err, "the header does not end: there is no empty line");
+}
+
+/* The next word of a list, of which words in quotes hold blanks. */
+static struct rc_piece
+next_word(struct rc_piece *rest)
+{
+    struct rc_piece word;
+    size_t n = 0;
+    bool quoted;
+
+    *rest = rc_piece_trim(*rest);
+    quoted = rest->n > 0 && *rest->text == '"';
+    for (n = quoted; n < rest->n && (quoted ? rest->text[n] != '"' : rest->text[n] != ' '); n++)
+        ;
+    word = (struct rc_piece){rest->text, n + (quoted && n < rest->n)};
+    rest->text += word.n;
+    rest->n -= word.n;
+    return rc_piece_bare(word);
+}
+
+static double
+number_of(struct rc_piece word)
+{
+    double value;
+
+    return word.n > 0 && rc_piece_number(word, &value, NULL) ? value : NAN;
+}
+
+/* The two axes that are longer than one value: the first two, where there are no such. */
+static enum rc_status
+pick_axes(const struct nrrd *h, size_t axis[2], double size[2], struct rc_err *err)
+{
+    double dimension = number_of(h->dimension);
+    struct rc_piece rest = h->sizes;
+    char quote[RC_SHOWN];
+    size_t found = 0;
+
+    if (!(dimension >= 1 && dimension <= AXES_MOST))
+        return rc_err_set(err, "the dimension is '%s': maps have two",
+                          rc_piece_shown(quote, h->dimension));
+    size[1] = 1;
+    axis[1] = AXES_MOST;
+    for (size_t k = 0; k < (size_t)dimension; k++) {
+        double n = number_of(next_word(&rest));
+
+        if (n == 1 && ((size_t)dimension - k > 2 - found))
+            continue;
+        if (found == 2)
+            return rc_err_set(err, "the sizes are %s: maps have two axes longer than one value",
+                              rc_piece_shown(quote, h->sizes));
+        axis[found] = k;
+        size[found++] = n;
+    }
+    return RC_OK;
+}
+
+static struct rc_piece
+word_at(struct rc_piece list, size_t axis)
+{
+    struct rc_piece word = next_word(&list);
+
+    while (axis-- > 0)
+        word = next_word(&list);
+    return word;
+}
+
+static double
+step_of(const struct nrrd *h, size_t axis, double n)
+{
+    double spacing = number_of(word_at(h->spacings, axis));
+    double length = number_of(word_at(h->maxs, axis)) - number_of(word_at(h->mins, axis));
+
+    if (!isnan(spacing))
+        return fabs(spacing);
+    return fabs(length) / (rc_piece_is(word_at(h->centers, axis), "node") ? n - 1 : n);
+}
+
+/* ---- values ---- */
+
+static bool
+is_gzip(const struct nrrd *h)
+{
+    return rc_piece_is(h->encoding, "gzip") || rc_piece_is(h->encoding, "gz");
+}
+
+static enum rc_status
+fill_packed(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
+            double *v, struct rc_err *err)
+{
+    struct rc_file packed = {file->name, file->data + map->at, file->size - map->at};
+    size_t n = map->nx * map->ny, wanted = n * rc_raw_width(map->raw), size;
+    struct rc_bytes b = {.big = map->big};
+    unsigned char *bytes;
+    enum rc_status status;
+
+    (void)wish;
+    if (!rc_file_packed(&packed))
+        return rc_err_set(err, "the values are not packed with gzip, as the header says");
+    if ((bytes = rc_file_unpack(&packed, wanted, &size, err)) == NULL)
+        return RC_FAIL;
+    b.data = bytes;
+    b.size = size;
+    status = rc_bytes_agree("values", wanted, size, err);
+    if (status == RC_OK)
+        rc_bytes_values(&b, map->raw, v, n);
+    free(bytes);
+    return status;
+}
+
+static enum rc_status
+set_type(const struct nrrd *h, const struct rc_file *file, struct rc_map *map, struct rc_err *err)
+{
+    char quote[RC_SHOWN];
+    size_t k = 0;
+
+    while (k < sizeof types / sizeof *types && !rc_piece_is(h->type, types[k].name))
+        k++;
+    if (k == sizeof types / sizeof *types)
+        return rc_err_set(err, "the type is '%s', which is none that is read",
+                          rc_piece_shown(quote, h->type));
+    map->raw = types[k].raw;
+    map->at = h->data;
+    map->big = rc_piece_is(h->endian, "big");
+    if ((h->skip.n > 0 && number_of(h->skip) != 0) || (h->lines.n > 0 && number_of(h->lines) != 0))
+        return rc_err_set(err,
+                          "bytes or lines before the values are to be skipped: that is not read");
+    if (rc_piece_is(h->encoding, "raw"))
+        return RC_OK;
+    if (is_gzip(h)) {
+        map->fill = fill_packed;
+        return rc_map_bound(
+            map, file, (double)map->nx * (double)map->ny * (double)rc_raw_width(map->raw), err);
+    }
+    if (rc_piece_is(h->encoding, "ascii") || rc_piece_is(h->encoding, "text") ||
+        rc_piece_is(h->encoding, "txt"))
+        return rc_map_is_text(map, file, h->data, err);
+    return rc_err_set(err, "the encoding is '%s': raw, gzip and ascii are read",
+                      rc_piece_shown(quote, h->encoding));
+}
+
+static enum rc_status
+nrrd_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
+          struct rc_err *err)
+{
+    struct rc_piece x_unit, y_unit;
+    struct rc_map *map;
+    struct nrrd h;
+    size_t axis[2];
+    double size[2], dx, dy;
+
+    (void)wish;
+    if (read_header(file, &h, err) != RC_OK || pick_axes(&h, axis, size, err) != RC_OK)
+        return RC_FAIL;
+    map = rc_maps_add(maps, h.title.text == NULL ? "" : h.title.text, h.title.n);
+    if (rc_map_count("columns (sizes)", size[0], &map->nx, err) != RC_OK ||
+        rc_map_count("rows (sizes)", size[1], &map->ny, err) != RC_OK ||
+        set_type(&h, file, map, err) != RC_OK)
+        return RC_FAIL;
+    dx = step_of(&h, axis[0], size[0]);
+    dy = map->ny == 1 ? dx : step_of(&h, axis[1], size[1]);
+    x_unit = word_at(h.units, axis[0]);
+    y_unit = map->ny == 1 ? x_unit : word_at(h.units, axis[1]);
+    if (!isnan(dx) && !isnan(dy) &&
+        (isnan(rc_piece_metres(x_unit)) || isnan(rc_piece_metres(y_unit))))
+        rc_map_hint(map, dx, dy);
+    map->dx = dx * rc_piece_metres(x_unit);
+    map->dy = dy * rc_piece_metres(y_unit);
+    h.unit = rc_piece_bare(h.unit.text == NULL ? (struct rc_piece){"", 0} : h.unit);
+    rc_map_unit(map, h.unit.text, h.unit.n);
+    return RC_OK;
+}
+
+static int
+nrrd_score(const struct rc_file *file)
+{
+    return rc_file_holds(file, 0, magic, strlen(magic)) ? 95 : 0;
+}
+
+RC_FORMAT_OF_MAPS(nrrd)
+
+const struct rc_format rc_format_nrrd = {
+    .name = "nrrd",
+    .suffixes = ".nrrd",
+    .summary = "NRRD of two axes: raw, gzip or text",
+    .score = nrrd_score,
+    .list = nrrd_list,
+    .read = nrrd_read,
+};

@@ -1,0 +1,245 @@
+/*
+ * Createc DAT (STMAFM): 16384 bytes of `key=value` lines, some keys twice ("Num.X / Num.X"), then the planes
+ * behind each other, the top row first:
+ *
+ *     [Parameter]   int16, behind 2 bytes of nothing
+ *     [Paramet32]   float, behind 4
+ *     [Paramco32]   the same in a zlib stream
+ *
+ * The spacing is Length x[A] over Num.X. A height is number * Dactonmz in nanometres or, as newer files have it,
+ * number * Dacto[A]z, which says Angstrom and often means nanometres: that of x tells, because Delta X times
+ * Dacto[A]xy must be the spacing. Where it is neither, the unit of the heights is not known.
+ *
+ * Written from how Gwyddion, createc 0.0.3 and others read such files.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "formats/containers/containers.h"
+#include "formats/format.h"
+
+enum {
+    HEADER = 16384,
+    PLANES_MOST = 64
+};
+
+static const struct kind {
+    const char *magic;
+    enum rc_raw raw;
+    bool packed;
+} kinds[] = {{"[Parameter]", RC_RAW_I16, false},
+             {"[Paramet32]", RC_RAW_F32, false},
+             {"[Paramco32]", RC_RAW_F32, true}};
+
+struct createc {
+    double nx, ny, planes, done; /* done: the row after the last one that was scanned, from 1 */
+    double width, height;        /* Angstrom */
+    double step, xy, z;          /* counts from node to node; a count in x, in z */
+    double z_nm;                 /* the same, in nm for certain */
+};
+
+#define TO(member) offsetof(struct createc, member)
+static const struct rc_field fields[] = {
+    {"Num.X", RC_FIELD_NUMBER, TO(nx)},          {"Num.Y", RC_FIELD_NUMBER, TO(ny)},
+    {"Channels", RC_FIELD_NUMBER, TO(planes)},   {"ImageYPosMax", RC_FIELD_NUMBER, TO(done)},
+    {"Length x[A]", RC_FIELD_NUMBER, TO(width)}, {"Length y[A]", RC_FIELD_NUMBER, TO(height)},
+    {"Delta X", RC_FIELD_NUMBER, TO(step)},      {"Delta X [Dac]", RC_FIELD_NUMBER, TO(step)},
+    {"Dacto[A]xy", RC_FIELD_NUMBER, TO(xy)},     {"Dacto[A]z", RC_FIELD_NUMBER, TO(z)},
+    {"Dactonmz", RC_FIELD_NUMBER, TO(z_nm)},
+};
+#undef TO
+
+static const struct rc_keep texts[] = {
+    {"Titel", "file.title"},
+    {"memo:0", "file.comment"},
+};
+
+static const struct kind *
+kind_of(const struct rc_file *file)
+{
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
+        if (rc_file_holds(file, 0, kinds[k].magic, strlen(kinds[k].magic)))
+            return &kinds[k];
+    return NULL;
+}
+
+/* Takes a line by either of its keys; values that are no numbers, of keys that should have one, count as
+ * not given. */
+static void
+take_line(struct rc_piece line, struct createc *c, struct rc_maps *maps)
+{
+    struct rc_piece key, value, first, second;
+
+    if (!rc_piece_part(line, "=", &key, &value))
+        return;
+    if (!rc_piece_part(key, "/", &first, &second))
+        first = second = key;
+    rc_field_take(fields, sizeof fields / sizeof *fields, first, value, c, NULL);
+    rc_field_take(fields, sizeof fields / sizeof *fields, second, value, c, NULL);
+    if (maps != NULL)
+        rc_maps_keep(maps, texts, sizeof texts / sizeof *texts, first, value);
+}
+
+static enum rc_status
+read_header(const struct rc_file *file, struct createc *c, struct rc_maps *maps, struct rc_err *err)
+{
+    struct rc_lines lines = {.at = (const char *)file->data,
+                             .end = (const char *)file->data + HEADER};
+    struct rc_piece line;
+
+    *c = (struct createc){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+    if (kind_of(file) == NULL)
+        return rc_err_set(err, "no DAT file of Createc: it begins with none of [Parameter], "
+                               "[Paramet32], [Paramco32]");
+    if (file->size < HEADER)
+        return rc_err_set(err, "the header takes %d bytes, the file has %zu", HEADER, file->size);
+    while (rc_lines_next(&lines, &line.text, &line.n))
+        take_line(line, c, maps);
+    return RC_OK;
+}
+
+/* ---- planes ---- */
+
+static size_t
+first_byte(const struct kind *kind)
+{
+    return (kind->packed ? 0 : HEADER) + rc_raw_width(kind->raw);
+}
+
+static enum rc_status
+unpack_plane(const struct rc_file *file, const struct kind *kind, const struct rc_map *map,
+             double *v, struct rc_err *err)
+{
+    size_t values = map->nx * map->ny, width = rc_raw_width(kind->raw);
+    size_t from = first_byte(kind) + map->more * values * width, n = from + values * width;
+    struct rc_bytes b = {.size = n, .at = from};
+    unsigned char *all = malloc(n);
+
+    if (all == NULL)
+        return rc_err_set(err, "out of memory for %zu bytes of planes", n);
+    b.data = all;
+    if (rc_inflate_start(file->data + HEADER, file->size - HEADER, all, n) != n) {
+        free(all);
+        return rc_err_set(err,
+                          "the compressed planes are damaged or fewer than the header promises");
+    }
+    rc_bytes_values(&b, kind->raw, v, values);
+    free(all);
+    return RC_OK;
+}
+
+/* Rows that were not reached are missing. */
+static enum rc_status
+fill_plane(const struct rc_file *file, const struct rc_wish *wish, const struct rc_map *map,
+           double *v, struct rc_err *err)
+{
+    const struct kind *kind = kind_of(file);
+    struct createc c;
+
+    (void)wish;
+    if (read_header(file, &c, NULL, err) != RC_OK)
+        return RC_FAIL;
+    if (kind->packed) {
+        if (unpack_plane(file, kind, map, v, err) != RC_OK)
+            return RC_FAIL;
+    } else {
+        struct rc_bytes b = rc_file_bytes(file, false);
+
+        b.at = map->at;
+        rc_bytes_values(&b, kind->raw, v, map->nx * map->ny);
+    }
+    for (size_t k = 0; k < map->nx * map->ny; k++)
+        if (c.done >= 2 && (double)(k / map->nx) + 1 >= c.done)
+            v[k] = NAN;
+    return RC_OK;
+}
+
+/* The unit in which a count is given, as x shows: NAN where it is neither nanometres nor Angstrom. */
+static double
+unit_of_count(const struct createc *c)
+{
+    double ratio = c->width / c->nx / (c->step * c->xy);
+
+    return fabs(ratio - 10) <= 0.1 ? 1e-9 : fabs(ratio - 1) <= 0.01 ? 1e-10 : NAN;
+}
+
+static void
+set_unit(const struct createc *c, struct rc_map *map)
+{
+    double metres = !isnan(c->z_nm) ? 1e-9 : unit_of_count(c);
+
+    map->scale = !isnan(c->z_nm) ? c->z_nm : !isnan(c->z) ? c->z : 1;
+    if (isnan(metres) || (isnan(c->z_nm) && isnan(c->z)))
+        return;
+    strcpy(map->unit, "m");
+    map->si = metres;
+}
+
+static enum rc_status
+createc_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps *maps,
+             struct rc_err *err)
+{
+    const struct kind *kind = kind_of(file);
+    size_t nx, ny, plane, planes = 1;
+    struct createc c;
+    char name[32];
+
+    (void)wish;
+    if (read_header(file, &c, maps, err) != RC_OK ||
+        rc_map_count("columns (Num.X)", c.nx, &nx, err) != RC_OK ||
+        rc_map_count("rows (Num.Y)", c.ny, &ny, err) != RC_OK ||
+        (!isnan(c.planes) && rc_map_count("planes (Channels)", c.planes, &planes, err) != RC_OK) ||
+        rc_size_mul(nx, ny, &plane, err) != RC_OK ||
+        rc_size_mul(plane, rc_raw_width(kind->raw), &plane, err) != RC_OK)
+        return RC_FAIL;
+    if (planes > PLANES_MOST)
+        return rc_err_set(err, "the header promises %zu planes: up to %d are read", planes,
+                          PLANES_MOST);
+    if (!kind->packed &&
+        (file->size < first_byte(kind) || planes > (file->size - first_byte(kind)) / plane))
+        return rc_err_set(err,
+                          "the header promises %zu planes of %zu x %zu numbers, the file has "
+                          "%zu bytes in all",
+                          planes, nx, ny, file->size);
+    for (size_t k = 0; k < planes; k++) {
+        struct rc_map *map;
+
+        snprintf(name, sizeof name, "Plane %zu", k + 1);
+        if (k == 0)
+            strcpy(name, "Topography");
+        map = rc_maps_add(maps, name, strlen(name));
+        map->nx = nx;
+        map->ny = ny;
+        map->dx = c.width * 1e-10 / c.nx;
+        map->dy = c.height * 1e-10 / c.ny;
+        map->at = first_byte(kind) + k * plane;
+        map->fill = fill_plane;
+        map->more = k;
+        if (k == 0)
+            set_unit(&c, map);
+        else
+            strcpy(map->unit, "count");
+        if (kind->packed && rc_map_bound(map, file, (double)(k + 1) * (double)plane, err) != RC_OK)
+            return RC_FAIL;
+    }
+    return RC_OK;
+}
+
+static int
+createc_score(const struct rc_file *file)
+{
+    return kind_of(file) != NULL ? 95 : 0;
+}
+
+RC_FORMAT_OF_MAPS(createc)
+
+const struct rc_format rc_format_createc = {
+    .name = "createc",
+    .suffixes = ".dat",
+    .summary = "Createc scans (STMAFM), packed or not",
+    .score = createc_score,
+    .list = createc_list,
+    .read = createc_read,
+};
