@@ -353,6 +353,86 @@ profiles(void **state)
     free(xml);
 }
 
+/* A map of the six heights whose points bear x (32 bits, nm) or y (floats, um) or both; places from the far
+ * end where they fall, `off` at the last point. */
+static struct rc_file
+placed_map(bool has_x, bool has_y, bool falls, double off)
+{
+    char *xml = binary_xml("D", "");
+    struct bytes b = {0};
+    struct rc_file file;
+
+    if (has_x)
+        alter(&xml, "<CX><AxisType>I</AxisType><DataType>D</DataType><Increment>1.1e-6",
+              "<CX><AxisType>A</AxisType><DataType>L</DataType><Increment>1e-9");
+    if (has_y)
+        alter(&xml, "<CY><AxisType>I</AxisType><DataType>D</DataType><Increment>1.29e-6",
+              "<CY><AxisType>A</AxisType><DataType>F</DataType><Increment>1e-6");
+    for (size_t k = 0; k < 6; k++) {
+        size_t i = falls ? 2 - k % 3 : k % 3, j = falls ? 1 - k / 3 : k / 3;
+
+        if (has_x)
+            add_raw(&b, RC_RAW_I32, 5000 + 1100 * (double)i + (k == 5 ? off : 0));
+        if (has_y)
+            add_f32(&b, -2 + 1.29 * (double)j);
+        add_f64(&b, plain_heights[j * 3 + i]);
+    }
+    file = pack(xml, b.data, b.n);
+    drop(&b);
+    free(xml);
+    return file;
+}
+
+static void
+maps_with_positions(void **state)
+{
+    static const struct {
+        bool x, y, falls;
+    } ways[] = {
+        {true, false, false}, {false, true, false}, {true, true, false}, {true, true, true}};
+    struct rc_notes notes;
+
+    (void)state;
+    for (size_t way = 0; way < sizeof ways / sizeof *ways; way++) {
+        struct rc_file file = placed_map(ways[way].x, ways[way].y, ways[way].falls, 0);
+        struct rc_channel channel;
+        struct rc_grid *g;
+
+        assert_int_equal(rc_format_x3p.list(&file, &rc_no_wish, &channel, 1, NULL), 1);
+        g = read_file(&file, &notes);
+        assert_true(fabs(g->dx - 1.1e-6) <= last_digit * 1.1e-6 && channel.dx == g->dx);
+        assert_true(fabs(g->dy - 1.29e-6) <= 2 * float_rounding * 2e-6 && channel.dy == g->dy);
+        for (size_t k = 0; k < 6; k++)
+            assert_true(g->v[k] == 0.25 * plain_heights[k] - 2);
+        rc_grid_free(g);
+        drop_file(&file);
+    }
+}
+
+static void
+positions_off_a_grid(void **state)
+{
+    static const struct {
+        double off;
+        const char *why;
+    } cases[] = {{300, "the places of axis CX are no grid: point 6"}, {20, NULL}};
+
+    (void)state;
+    for (size_t k = 0; k < 2; k++) {
+        struct rc_file file = placed_map(true, true, false, cases[k].off);
+
+        if (cases[k].why != NULL)
+            refuse_file(&file, cases[k].why);
+        else {
+            struct rc_notes notes;
+            struct rc_grid *g = read_file(&file, &notes);
+
+            rc_grid_free(g);
+        }
+        drop_file(&file);
+    }
+}
+
 /* main.xml of a profile of 5 points whose x (and y) come with them, x in nanometres. */
 static char *
 profile_xml(const char *data, const char *y_axis)
@@ -621,6 +701,8 @@ main(void)
         cmocka_unit_test(words_become_keys),
         cmocka_unit_test(profiles),
         cmocka_unit_test(profiles_with_positions),
+        cmocka_unit_test(maps_with_positions),
+        cmocka_unit_test(positions_off_a_grid),
         cmocka_unit_test(positions_that_are_refused),
         cmocka_unit_test(infinite_heights_are_missing),
         cmocka_unit_test(root_without_its_part),

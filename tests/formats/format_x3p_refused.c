@@ -19,8 +19,9 @@ wrong_headers(void **state)
     } wrong[] = {
         {"SUR", "PCL", "cloud of points"},
         {"SUR", "", "FeatureType is ''"},
-        {"<CX><AxisType>I", "<CX><AxisType>A", "axis CX is of type 'A'"},
-        {"<CY><AxisType>I", "<CY><AxisType>A", "axis CY is of type 'A'"},
+        {"<CX><AxisType>I", "<CX><AxisType>X", "axis CX is of type 'X'"},
+        {"<CX><AxisType>I", "<CX><AxisType>A", "promises 96 bytes of heights, the file has 48"},
+        {"<CY><AxisType>I", "<CY><AxisType>A", "promises 96 bytes of heights, the file has 48"},
         {"1.1e-6", "0", "spacing in x is 0 m in the file"},
         {"1.1e-6", "-1e-6", "spacing in x is -1e-06 m"},
         {"1.1e-6", "NaN", "'NaN' in main.xml: it must be finite"},

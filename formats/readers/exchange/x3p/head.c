@@ -237,7 +237,7 @@ judge_axis(const char *name, const char *type, struct rc_err *err)
         return RC_OK;
     return rc_err_set(err,
                       "axis %s is of type '%s': only incremental axes (I), a regular grid, "
-                      "are read",
+                      "are read where main.xml lists the heights",
                       name, type == NULL ? "" : rc_word_shown(quote, type));
 }
 
@@ -256,9 +256,14 @@ judge_feature(struct rc_x3p *x, struct rc_err *err)
         return rc_err_set(err, "FeatureType is '%s': it must be SUR or PRF",
                           rc_word_shown(quote, feature));
     x->absolute = is_absolute(x);
-    if (!x->absolute && judge_axis("CX", x->text[RC_X3P_CX_AXIS], err) != RC_OK)
+    x->binary = x->text[RC_X3P_POINTS] != NULL && *x->text[RC_X3P_POINTS] != '\0';
+    if (!x->profile && x->binary) {
+        x->absolute_x = is(x->text[RC_X3P_CX_AXIS], "A");
+        x->absolute_y = is(x->text[RC_X3P_CY_AXIS], "A");
+    }
+    if (!x->absolute && !x->absolute_x && judge_axis("CX", x->text[RC_X3P_CX_AXIS], err) != RC_OK)
         return RC_FAIL;
-    return x->profile ? RC_OK : judge_axis("CY", x->text[RC_X3P_CY_AXIS], err);
+    return x->profile || x->absolute_y ? RC_OK : judge_axis("CY", x->text[RC_X3P_CY_AXIS], err);
 }
 
 static enum rc_status
@@ -294,7 +299,8 @@ judge_scales(struct rc_x3p *x, struct rc_err *err)
         real("the offset of CZ", x->text[RC_X3P_CZ_OFFSET], 0, &x->offset, err) != RC_OK ||
         real("the increment of CX", x->text[RC_X3P_CX_INCREMENT], 1, &x->x_increment, err) !=
             RC_OK ||
-        real("the offset of CX", x->text[RC_X3P_CX_OFFSET], 0, &x->x_offset, err) != RC_OK)
+        real("the offset of CX", x->text[RC_X3P_CX_OFFSET], 0, &x->x_offset, err) != RC_OK ||
+        real("the increment of CY", x->text[RC_X3P_CY_INCREMENT], 1, &x->y_increment, err) != RC_OK)
         return RC_FAIL;
     if (x->increment == 0)
         return rc_err_set(err, "the increment of CZ is 0 in main.xml: all heights would be one");
@@ -324,20 +330,18 @@ judge_type(const char *axis, const char *type, enum rc_raw *raw, struct rc_err *
 static enum rc_status
 judge_types(struct rc_x3p *x, struct rc_err *err)
 {
-    enum rc_raw raw_y = RC_RAW_F64;
-
     if (judge_type("CZ", x->text[RC_X3P_CZ_TYPE], &x->raw, err) != RC_OK)
         return RC_FAIL;
-    if (!x->absolute)
+    if (x->absolute || x->absolute_x) {
+        if (judge_type("CX", x->text[RC_X3P_CX_TYPE], &x->raw_x, err) != RC_OK)
+            return RC_FAIL;
+        x->before_y = x->before_z = rc_raw_width(x->raw_x);
+    }
+    if (!x->absolute_y && !(x->absolute && is(x->text[RC_X3P_CY_AXIS], "A")))
         return RC_OK;
-    if (judge_type("CX", x->text[RC_X3P_CX_TYPE], &x->raw_x, err) != RC_OK)
+    if (judge_type("CY", x->text[RC_X3P_CY_TYPE], &x->raw_y, err) != RC_OK)
         return RC_FAIL;
-    x->before_z = rc_raw_width(x->raw_x);
-    if (!is(x->text[RC_X3P_CY_AXIS], "A"))
-        return RC_OK;
-    if (judge_type("CY", x->text[RC_X3P_CY_TYPE], &raw_y, err) != RC_OK)
-        return RC_FAIL;
-    x->before_z += rc_raw_width(raw_y);
+    x->before_z += rc_raw_width(x->raw_y);
     return RC_OK;
 }
 
@@ -347,7 +351,6 @@ judge(struct rc_x3p *x, struct rc_err *err)
     if (judge_feature(x, err) != RC_OK || judge_sizes(x, err) != RC_OK ||
         judge_scales(x, err) != RC_OK || judge_types(x, err) != RC_OK)
         return RC_FAIL;
-    x->binary = x->text[RC_X3P_POINTS] != NULL && *x->text[RC_X3P_POINTS] != '\0';
     if (!x->binary && x->listed != x->n)
         return rc_err_set(err, "the header promises %zu x %zu heights, main.xml lists %zu", x->nx,
                           x->ny, x->listed);

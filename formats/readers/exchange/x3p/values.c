@@ -179,23 +179,37 @@ apply_mask(struct rc_x3p *x, double *v, struct rc_notes *notes, struct rc_err *e
     return status;
 }
 
-/* ---- profiles with positions ---- */
+/* ---- points with positions ---- */
+
+unsigned char *
+rc_x3p_unpack_points(struct rc_x3p *x, size_t member, size_t size, struct rc_notes *notes,
+                     struct rc_err *err)
+{
+    const char *given = x->text[RC_X3P_POINTS_MD5];
+    char md5[RC_MD5_TEXT] = "";
+    unsigned char *data;
+    size_t got;
+
+    data = rc_zip_read_bytes(x->archive, member, size, &got, is_given(given) ? md5 : NULL, err);
+    if (data != NULL && is_given(given) && compare_md5("points", given, md5, notes, err) != RC_OK) {
+        free(data);
+        return NULL;
+    }
+    return data;
+}
 
 /* The points of a member, x and z by turns. */
 static enum rc_status
 read_profile(struct rc_x3p *x, double *xz, struct rc_notes *notes, struct rc_err *err)
 {
-    size_t member, got, size = x->n * (x->before_z + rc_raw_width(x->raw));
-    const char *given = x->text[RC_X3P_POINTS_MD5];
+    size_t member, size = x->n * (x->before_z + rc_raw_width(x->raw));
     struct rc_bytes bytes;
     unsigned char *data;
-    char md5[RC_MD5_TEXT] = "";
 
     if (rc_x3p_find_points(x, &member, err) != RC_OK ||
-        (data = rc_zip_read_bytes(x->archive, member, size, &got, is_given(given) ? md5 : NULL,
-                                  err)) == NULL)
+        (data = rc_x3p_unpack_points(x, member, size, notes, err)) == NULL)
         return RC_FAIL;
-    bytes = (struct rc_bytes){.data = data, .size = got};
+    bytes = (struct rc_bytes){.data = data, .size = size};
     for (size_t k = 0; k < x->n; k++) {
         bytes.at = k * (x->before_z + rc_raw_width(x->raw));
         rc_bytes_values(&bytes, x->raw_x, &xz[2 * k], 1);
@@ -203,7 +217,7 @@ read_profile(struct rc_x3p *x, double *xz, struct rc_notes *notes, struct rc_err
         rc_bytes_values(&bytes, x->raw, &xz[2 * k + 1], 1);
     }
     free(data);
-    return is_given(given) ? compare_md5("points", given, md5, notes, err) : RC_OK;
+    return RC_OK;
 }
 
 double *
@@ -246,12 +260,13 @@ failed:
 }
 
 enum rc_status
-rc_x3p_values(struct rc_x3p *x, size_t member, double metres, struct rc_grid *g,
-              struct rc_notes *notes, struct rc_err *err)
+rc_x3p_values(struct rc_x3p *x, const struct rc_file *file, size_t member, double metres,
+              struct rc_grid *g, struct rc_notes *notes, struct rc_err *err)
 {
     if (!x->binary)
         memcpy(g->v, x->list, x->n * sizeof *g->v);
-    else if (read_points(x, member, g->v, notes, err) != RC_OK)
+    else if (x->absolute_x || x->absolute_y ? rc_x3p_axes(x, file, g->v, notes, err) != RC_OK
+                                            : read_points(x, member, g->v, notes, err) != RC_OK)
         return RC_FAIL;
     if (apply_mask(x, g->v, notes, err) != RC_OK)
         return RC_FAIL;

@@ -171,6 +171,8 @@ x3p_list(const struct rc_file *file, const struct rc_wish *wish, struct rc_chann
         x3p_close(&x);
         status = x3p_open(&x, file, true, err);
     }
+    if (status == RC_OK && (x.absolute_x || x.absolute_y))
+        status = rc_x3p_axes(&x, file, NULL, NULL, err);
     if (status == RC_OK && (!x.absolute || (v = lay_nodes(&x, file, wish, NULL, err)) != NULL)) {
         if (most > 0)
             *channel = (struct rc_channel){
@@ -201,6 +203,8 @@ x3p_read(const struct rc_file *file, const struct rc_wish *wish, size_t index,
     if (!x.absolute && ((x.binary && rc_x3p_find_points(&x, &points, err) != RC_OK) ||
                         rc_map_fits(file, x.nx, x.ny, err) != RC_OK))
         goto done;
+    if ((x.absolute_x || x.absolute_y) && rc_x3p_axes(&x, file, NULL, NULL, err) != RC_OK)
+        goto done;
     rc_x3p_check_main(&x, notes);
     if (x.old_root)
         rc_note(notes,
@@ -215,7 +219,7 @@ x3p_read(const struct rc_file *file, const struct rc_wish *wish, size_t index,
     }
     if ((g = make_grid(&x, file, wish, &metres, notes, err)) == NULL)
         goto done;
-    good = rc_x3p_values(&x, points, metres, g, notes, err) == RC_OK;
+    good = rc_x3p_values(&x, file, points, metres, g, notes, err) == RC_OK;
 done:
     x3p_close(&x);
     if (good)

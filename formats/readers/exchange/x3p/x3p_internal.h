@@ -50,10 +50,12 @@ struct rc_x3p {
     size_t nx, ny, n; /* n = nx*ny                                                    */
     double dx, dy;    /* m, NAN when not given                                        */
     double increment, offset;
-    bool absolute;     /* a profile whose points have positions of their own               */
-    enum rc_raw raw_x; /* of the positions: a point is x, y where that is absolute too, and z */
-    size_t before_z;   /* bytes of a point that come before z                              */
-    double x_increment, x_offset;
+    bool absolute; /* a profile whose points have positions of their own               */
+    bool absolute_x, absolute_y; /* the same of a map                                      */
+    enum rc_raw raw_x,
+        raw_y; /* of the positions: a point is x, y where that is absolute too, and z */
+    size_t before_y, before_z; /* bytes of a point that come before y, before z            */
+    double x_increment, x_offset, y_increment;
     bool wants_list;         /* the heights in main.xml are to be kept                       */
     double *list;            /* heights that were in main.xml; positions and heights by turns */
     size_t listed, capacity; /* data, and numbers that the list can hold              */
@@ -71,8 +73,17 @@ enum rc_status rc_x3p_find_points(struct rc_x3p *x, size_t *member, struct rc_er
 /* Reads the x->n positions of a profile that is `absolute`, rising and in metres, and behind them
  * its heights; the caller frees them. NULL with the reason. A list must have been wanted. */
 double *rc_x3p_profile(struct rc_x3p *x, struct rc_notes *notes, struct rc_err *err);
+/* The points of a map or profile, as they lie in their member of `size` bytes, which the caller frees; NULL
+ * with the reason. */
+unsigned char *rc_x3p_unpack_points(struct rc_x3p *x, size_t member, size_t size,
+                                    struct rc_notes *notes, struct rc_err *err);
+/* Sets x->dx and dy of a map with absolute axes by its points, and puts their numbers into v unless it is
+ * NULL. RC_FAIL where the places are no even grid. */
+enum rc_status rc_x3p_axes(struct rc_x3p *x, const struct rc_file *file, double *v,
+                           struct rc_notes *notes, struct rc_err *err);
 /* Puts the heights into the grid, in metres; missing ones are NAN. */
-enum rc_status rc_x3p_values(struct rc_x3p *x, size_t member, double metres, struct rc_grid *grid,
-                             struct rc_notes *notes, struct rc_err *err);
+enum rc_status rc_x3p_values(struct rc_x3p *x, const struct rc_file *file, size_t member,
+                             double metres, struct rc_grid *grid, struct rc_notes *notes,
+                             struct rc_err *err);
 
 #endif

@@ -1,0 +1,108 @@
+/* X3P: maps whose points bear their place along an axis that is absolute. A point is x and y, where these
+ * are, and z. The places must lie on an even grid: then they say no more than its steps and directions. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "x3p_internal.h"
+
+/* Points and where the places in them are. */
+struct points {
+    struct rc_bytes b;
+    size_t stride;
+};
+
+static double
+place_of(struct points *p, size_t point, size_t skip, enum rc_raw raw)
+{
+    return rc_bytes_at(&p->b, point * p->stride + skip, raw);
+}
+
+/* The step along an axis of n points, `apart` from each other in the file, and whether they fall; every point of
+ * the map must lie within a twentieth of a step where the first row or column has it. */
+static enum rc_status
+find_step(const struct rc_x3p *x, struct points *p, bool is_x, double *step, bool *falls,
+          struct rc_err *err)
+{
+    size_t n = is_x ? x->nx : x->ny, apart = is_x ? 1 : x->nx, skip = is_x ? 0 : x->before_y;
+    enum rc_raw raw = is_x ? x->raw_x : x->raw_y;
+    double *place = malloc(n * sizeof *place), first, even;
+    enum rc_status status = RC_FAIL;
+
+    if (n < 2) {
+        rc_err_set(err, "axis %s is absolute and has one point: it has no spacing",
+                   is_x ? "CX" : "CY");
+        goto done;
+    }
+    if (place == NULL) {
+        rc_err_set(err, "out of memory for %zu places", n);
+        goto done;
+    }
+    for (size_t k = 0; k < n; k++)
+        place[k] = place_of(p, k * apart, skip, raw);
+    first = place[0];
+    *falls = place[n - 1] < first;
+    if (rc_axis_step(is_x ? "CX" : "CY", place, n, &even, err) != RC_OK)
+        goto done;
+    for (size_t k = 0; k < x->n; k++) {
+        double steps = (double)(is_x ? k % x->nx : k / x->nx), here = place_of(p, k, skip, raw);
+
+        if (!(fabs(here - first - (*falls ? -even : even) * steps) <= 0.1 * even)) {
+            rc_err_set(err, "the places of axis %s are no grid: point %zu is not where its %s is",
+                       is_x ? "CX" : "CY", k + 1, is_x ? "column" : "row");
+            goto done;
+        }
+    }
+    *step = even;
+    status = RC_OK;
+done:
+    free(place);
+    return status;
+}
+
+/* Puts the heights where an axis that rises has them. */
+static void
+take_heights(const struct rc_x3p *x, struct points *p, bool x_falls, bool y_falls, double *v)
+{
+    for (size_t k = 0; k < x->n; k++) {
+        size_t i = k % x->nx, j = k / x->nx;
+
+        i = x_falls ? x->nx - 1 - i : i;
+        j = y_falls ? x->ny - 1 - j : j;
+        v[j * x->nx + i] = place_of(p, k, x->before_z, x->raw);
+    }
+}
+
+enum rc_status
+rc_x3p_axes(struct rc_x3p *x, const struct rc_file *file, double *v, struct rc_notes *notes,
+            struct rc_err *err)
+{
+    size_t member, size = x->n * (x->before_z + rc_raw_width(x->raw));
+    struct points p = {.stride = x->before_z + rc_raw_width(x->raw)};
+    bool x_falls = false, y_falls = false;
+    enum rc_status status = RC_FAIL;
+    unsigned char *data;
+    double step;
+
+    if (rc_x3p_find_points(x, &member, err) != RC_OK || rc_map_fits(file, x->n, 5, err) != RC_OK ||
+        (data = rc_x3p_unpack_points(x, member, size, notes, err)) == NULL)
+        return RC_FAIL;
+    p.b = (struct rc_bytes){.data = data, .size = size};
+    if (x->absolute_x) {
+        if (find_step(x, &p, true, &step, &x_falls, err) != RC_OK)
+            goto done;
+        x->dx = step * fabs(x->x_increment);
+        x_falls = x_falls != (x->x_increment < 0);
+    }
+    if (x->absolute_y) {
+        if (find_step(x, &p, false, &step, &y_falls, err) != RC_OK)
+            goto done;
+        x->dy = step * fabs(x->y_increment);
+        y_falls = y_falls != (x->y_increment < 0);
+    }
+    if (v != NULL)
+        take_heights(x, &p, x_falls, y_falls, v);
+    status = RC_OK;
+done:
+    free(data);
+    return status;
+}
