@@ -40,4 +40,11 @@ printf 'x [m] z [um]\n0 1\n1 2\n2 3\n' >long.txt
 claim "a profile has one length" warns 'long.txt: the profile is 3 m long, which is implausible: .* --dx gives the spacing$' \
     rc-import long.txt
 
+# whatever the file is, the map is judged
+rc-synth wave --nx 30 --ny 20 --dx 7.8m --amplitude 1.5m --wavelength 78m -o wide.rcg
+for format in x3p sdf sdf-binary gsf gwy csv hdf5 sur mat; do
+    rc-export --format $format wide.rcg >"wide.$format"
+    claim "a map of 234 m in $format" warns 'the map is 234 m by 156' rc-import "wide.$format"
+done
+
 finish
