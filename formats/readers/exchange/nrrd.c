@@ -108,7 +108,8 @@ read_header(const struct rc_file *file, struct nrrd *h, struct rc_err *err)
                                     "the values are in another file: only NRRD files that hold "
                                     "them are read");
         }
-        if (*line.text != '#' && rc_piece_part(line, ":", &key, &value) && *value.text != '=')
+        if (*line.text != '#' && rc_piece_part(line, ":", &key, &value) &&
+            (value.n == 0 || *value.text != '='))
             rc_field_take(fields, sizeof fields / sizeof *fields, key, value, h, NULL);
     }
     return rc_err_set(err, "the header does not end: there is no empty line");
