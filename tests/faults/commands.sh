@@ -17,7 +17,7 @@ make_inputs() {
     done >t.rcg
     echo RCGEND 3 >>t.rcg
     local format
-    for format in x3p sdf gsf npy csv xyz hdf5 gwy sur; do rc-export h.rcg -o "h.$format"; done
+    for format in x3p sdf gsf npy csv xyz hdf5 gwy sur mat; do rc-export h.rcg -o "h.$format"; done
     gzip -kn h.gsf
     printf '5 6 7\n6 NaN 8\n7 8 9\n' >hole.txt
     printf 'x/N\ty/m\tk\n1\t1\ta\n1\t2\ta\n2\t3\tb\n2\t5\tb\n' >table.tsv
@@ -38,6 +38,7 @@ commands=$(
 2 rc-import h.hdf5 -o out
 1 rc-import h.gwy -o out
 1 rc-import h.sur -o out
+1 rc-import h.mat -o out
 1 rc-import --list h.gwy
 2 rc-detrend --plane --poly 3 --lowpass 6um --outliers 5 --taper 3um h.rcg -o out
 1 rc-detrend --sphere --robust h.rcg -o out
@@ -72,6 +73,8 @@ commands=$(
 1 rc-export --format x3p h.rcg -o out
 1 rc-export --format sdf h.rcg -o out
 1 rc-export --format npy h.rcg -o out
+1 rc-export --format mat h.rcg -o out
+1 rc-export --format stl --relief 5mm --verbose h.rcg -o out
 1 rc-export --format gwy --channel height c.rcg -o out
 1 rc-export --format hdf5 c.rcg -o out
 1 rc-export --format vti c.rcg -o out

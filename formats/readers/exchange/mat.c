@@ -111,10 +111,11 @@ take_text(struct rc_bytes *b, struct variable *v)
     size_t n = v->numbers.n / rc_raw_width(v->raw), length = 0;
     char text[3 * sizeof v->text];
 
-    for (size_t k = 0; k < n && k < sizeof v->text; k++)
-        length +=
-            rc_utf8_put(text + length,
-                        (unsigned)rc_bytes_at(b, v->numbers.at + k * rc_raw_width(v->raw), v->raw));
+    for (size_t k = 0; k < n && k < sizeof v->text; k++) {
+        double code = rc_bytes_at(b, v->numbers.at + k * rc_raw_width(v->raw), v->raw);
+
+        length += rc_utf8_put(text + length, code >= 1 && code < 65536 ? (unsigned)code : '?');
+    }
     rc_text_clean(v->text, sizeof v->text, text, length);
 }
 
