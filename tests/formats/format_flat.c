@@ -130,7 +130,8 @@ other_channels(void **state)
     }
 }
 
-/* Rows that a scan of Createc did not reach are missing; where x does not tell what a count is, nothing does. */
+/* Rows that a scan of Createc did not reach are missing; where x does not tell what a count is,
+ * nothing does. */
 static void
 createc_scans(void **state)
 {

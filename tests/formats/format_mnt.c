@@ -1,4 +1,5 @@
-/* Documents of Mountains: what is no surface as measured is refused, and so are tables and blocks that lie. */
+/* Documents of Mountains: what is no surface as measured is refused, and so are tables and blocks
+ * that lie. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>

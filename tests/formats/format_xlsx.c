@@ -92,6 +92,31 @@ blocks_are_read(void **state)
     drop(&b);
 }
 
+/* Numbers above a map, in its columns but behind an empty row or beside a text, are none of it. */
+static void
+numbers_above(void **state)
+{
+    static const char *const tops[] = {
+        "<row r=\"1\"><c r=\"AA1\" t=\"str\"><v>Date</v></c><c r=\"AB1\"><v>43831</v></c></row>",
+        "<row r=\"2\"><c r=\"AA2\" t=\"str\"><v>Date</v></c><c r=\"AB2\"><v>43831</v></c></row>",
+    };
+    struct rc_channel channel;
+
+    (void)state;
+    for (size_t k = 0; k < 2; k++) {
+        char *sheet =
+            with(map_sheet, "<row><c t=\"inlineStr\"><is><t>a map</t></is></c></row>", tops[k]);
+        struct bytes b = book(none, sheet);
+        struct rc_file file = file_of(&b, "a.xlsx");
+
+        assert_int_equal(rc_format_xlsx.list(&file, &rc_no_wish, &channel, 1, NULL), 1);
+        assert_string_equal(channel.name, "Map AA3:AD5");
+        assert_int_equal(channel.ny, 3);
+        drop(&b);
+        free(sheet);
+    }
+}
+
 static void
 refusals(void **state)
 {
@@ -141,6 +166,7 @@ main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(blocks_are_read),
+        cmocka_unit_test(numbers_above),
         cmocka_unit_test(refusals),
         cmocka_unit_test(cuts_and_changes),
     };

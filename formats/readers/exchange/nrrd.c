@@ -1,7 +1,7 @@
 /*
- * NRRD of Teem: lines `field: value` behind NRRD000n up to an empty one, then the values, the first axis
- * fastest, which is x; row 0 is the first. They are raw, packed with gzip, or text. Axes of one value beyond two are
- * passed over.
+ * NRRD of Teem: lines `field: value` behind NRRD000n up to an empty one, then the values, the first
+ * axis fastest, which is x; row 0 is the first. They are raw, packed with gzip, or text. Axes of one
+ * value beyond two are passed over.
  *
  * The step of an axis is its spacing, or comes from its least and greatest place: between nodes where it is
  * centred on nodes, else between the borders of cells. `units` has the units of the axes, in quotes, `sample

@@ -6,9 +6,10 @@
  *     [Paramet32]   float, behind 4
  *     [Paramco32]   the same in a zlib stream
  *
- * The spacing is Length x[A] over Num.X. A height is number * Dactonmz in nanometres or, as newer files have it,
- * number * Dacto[A]z, which says Angstrom and often means nanometres: that of x tells, because Delta X times
- * Dacto[A]xy must be the spacing. Where it is neither, the unit of the heights is not known.
+ * The spacing is Length x[A] over Num.X. A height is number * Dactonmz in nanometres or, as newer
+ * files have it, number * Dacto[A]z, which says Angstrom and often means nanometres: that of x tells,
+ * because Delta X times Dacto[A]xy must be the spacing. Where it is neither, the unit of the heights
+ * is not known.
  *
  * Written from how Gwyddion, createc 0.0.3 and others read such files.
  */

@@ -1,6 +1,6 @@
 /*
- * NT-MDT (Nova): 33 bytes of header, then frames of any kind, each with its size, type and date. Two kinds are
- * maps, little-endian, the lowest row first:
+ * NT-MDT (Nova): 33 bytes of header, then frames of any kind, each with its size, type and date. Two
+ * kinds are maps, little-endian, the lowest row first:
  *
  *     0    a scan: steps, offsets and codes of units of the three axes, the signal, then size and int16
  *     106  an array (MDA): its axes and its values are described by calibrations with units as text or as

@@ -1,7 +1,8 @@
 /*
- * Digital Surf Mountains, MNT: a compound file whose stream ScopedContents holds the document: 8 bytes of
- * length, then a tree of entries, each a tag (u16), a length (u64) and what it holds, little-endian. Entries of
- * the list of objects have another length before them. Text is the byte 4 and UTF-16.
+ * Digital Surf Mountains, MNT: a compound file whose stream ScopedContents holds the document: 8 bytes
+ * of length, then a tree of entries, each a tag (u16), a length (u64) and what it holds,
+ * little-endian. Entries of the list of objects have another length before them. Text is the byte 4
+ * and UTF-16.
  *
  * Objects are known by the number of their class. Surfaces as measured hold heights; what was made of them
  * by the program is not in the file, but made again from operators when the document is opened.

@@ -1,9 +1,10 @@
 /*
- * Keyence ZON (macroscopes VR): KPK0, the length of a picture (u32), the picture, and a ZIP archive whose members
- * have numbers for names: one is XML with the metres per pixel and per count, one the heights, one a byte a
- * point that says what the height is worth. Such arrays begin with columns, rows, bytes of an element and bytes
- * of a row (i32 each), little-endian; row 0 is the first. A height is int32 * metres per count; where one of the
- * lowest two bits of the byte is set nothing was measured, or was not to be.
+ * Keyence ZON (macroscopes VR): KPK0, the length of a picture (u32), the picture, and a ZIP archive
+ * whose members have numbers for names: one is XML with the metres per pixel and per count, one the
+ * heights, one a byte a point that says what the height is worth. Such arrays begin with columns,
+ * rows, bytes of an element and bytes of a row (i32 each), little-endian; row 0 is the first. A height
+ * is int32 * metres per count; where one of the lowest two bits of the byte is set nothing was
+ * measured, or was not to be.
  *
  * In files that begin with KPK1 the members are packed by zstd too; these are refused.
  *

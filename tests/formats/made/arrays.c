@@ -148,8 +148,8 @@ make_mat(struct bytes *m, int variant)
     drop(&y);
 }
 
-/* 0: floats; 1: whole numbers of 16 bits, highest byte first, steps between nodes; 2: packed with gzip; 3: text;
- * 4: with an axis of one value */
+/* 0: floats; 1: whole numbers of 16 bits, highest byte first, steps between nodes; 2: packed with
+ * gzip; 3: text; 4: with an axis of one value */
 void
 make_nrrd(struct bytes *m, int variant)
 {

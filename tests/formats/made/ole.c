@@ -40,8 +40,8 @@ ole_chain(struct bytes *b, size_t start, unsigned first, size_t n)
         add_raw(b, RC_RAW_U32, 0xffffffff);
 }
 
-/* Sectors: 0 the table, 1 the directory, 2 the table of small sectors, 3 on the stream, or the root's, of small
- * sectors, in which the stream is. */
+/* Sectors: 0 the table, 1 the directory, 2 the table of small sectors, 3 on the stream, or the
+ * root's, of small sectors, in which the stream is. */
 void
 ole_file(struct bytes *b, const char *name, const struct bytes *stream)
 {

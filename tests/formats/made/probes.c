@@ -411,7 +411,8 @@ make_createc(struct bytes *m, int variant)
     drop(&planes);
 }
 
-/* 0: one channel, from the upper left; 1: two, the second of heights, column after column from the lower right */
+/* 0: one channel, from the upper left; 1: two, the second of heights, column after column from the
+ * lower right */
 void
 make_iso28600(struct bytes *m, int variant)
 {

@@ -1,8 +1,8 @@
 /*
- * Workbooks (XLSX): a ZIP archive of XML. In each sheet, blocks of numbers are looked for: neighbouring columns
- * that are filled over the same rows. A block is read as the text would be that it is when it is copied out of the
- * sheet, with the titles above it: two columns as a profile, three as points or a matrix, more as a matrix. The
- * largest is the first channel.
+ * Workbooks (XLSX): a ZIP archive of XML. In each sheet, blocks of numbers are looked for:
+ * neighbouring columns that are filled over the same rows. A block is read as the text would be that
+ * it is when it is copied out of the sheet, with the titles above it: two columns as a profile, three
+ * as points or a matrix, more as a matrix. The largest is the first channel.
  *
  * SurfTest of Mitutoyo gives a profile without titles: its positions are then in the unit of the cut-off, its
  * heights in that of the first roughness in column A.
@@ -36,9 +36,12 @@ struct blocks {
 
 /* ---- blocks ---- */
 
-/* Rows of a column that numbers fill: the longest run that no text breaks. */
+/* Rows of a column that numbers fill: the longest run that neither a text breaks nor a row without any
+ * number. */
 struct run {
     uint32_t first, last;
+    uint32_t after, before; /* rows between which no text is; 0: there is none below */
+    uint32_t part;          /* of the sheet, between rows without numbers            */
     size_t n;
 };
 
@@ -46,32 +49,46 @@ struct columns {
     struct run best[RC_COLUMNS_MOST + 2], now[RC_COLUMNS_MOST + 2];
 };
 
+/* The run of a column is at its end, by a text in that row or by none (0). */
 static void
-end_run(struct columns *c, size_t column)
+end_run(struct columns *c, size_t column, uint32_t text)
 {
-    if (c->now[column].n > c->best[column].n)
-        c->best[column] = c->now[column];
-    c->now[column] = (struct run){0};
+    struct run *now = &c->now[column], *best = &c->best[column];
+
+    if (text != 0 && best->n > 0 && best->before == 0)
+        best->before = text;
+    if (now->n > best->n) {
+        *best = *now;
+        best->before = text;
+    }
+    *now = (struct run){.after = text != 0 ? text + 1 : now->after};
 }
 
 static void
 find_runs(const struct rc_sheet *s, struct columns *c)
 {
+    uint32_t row = 0, part = 1; /* the last row with a number */
+
     memset(c, 0, sizeof *c);
     for (size_t k = 0; k < s->n; k++) {
         const struct rc_cell *cell = &s->cell[k];
         struct run *now = &c->now[cell->column];
 
         if (cell->text != 0) {
-            end_run(c, cell->column);
+            end_run(c, cell->column, cell->row);
             continue;
         }
+        part += cell->row > row + 1;
+        row = cell->row;
+        if (now->part != part)
+            end_run(c, cell->column, 0);
         if (now->n++ == 0)
             now->first = cell->row;
         now->last = cell->row;
+        now->part = part;
     }
     for (size_t column = 1; column <= RC_COLUMNS_MOST; column++)
-        end_run(c, column);
+        end_run(c, column, 0);
 }
 
 /* Whether two columns belong together: they share half of the rows of the longer one. */
@@ -99,24 +116,35 @@ insert(struct blocks *blocks, const struct block *b)
     blocks->block[k] = *b;
 }
 
+/* Adds a column to a block, whose rows end where a text of any column stands. */
+static void
+widen(struct block *b, const struct run *run, uint32_t *after, uint32_t *before)
+{
+    b->first = run->first < b->first ? run->first : b->first;
+    b->last = run->last > b->last ? run->last : b->last;
+    b->numbers += run->n;
+    *after = run->after > *after ? run->after : *after;
+    *before = run->before != 0 && run->before < *before ? run->before : *before;
+}
+
 static void
 find_blocks(const struct rc_sheet *s, const struct columns *c, struct blocks *blocks)
 {
     for (uint32_t column = 1; column <= RC_COLUMNS_MOST; column++) {
-        const struct run *run = &c->best[column];
-        struct block b = {s, run->first, run->last, column, column, run->n};
+        struct block b = {s, UINT32_MAX, 0, column, column, 0};
+        uint32_t after = 0, before = UINT32_MAX;
 
-        if (run->n < ROWS_LEAST)
+        if (c->best[column].n < ROWS_LEAST)
             continue;
+        widen(&b, &c->best[column], &after, &before);
         while (c->best[column + 1].n >= ROWS_LEAST &&
-               belong(&c->best[column], &c->best[column + 1])) {
-            run = &c->best[++column];
-            b.first = run->first < b.first ? run->first : b.first;
-            b.last = run->last > b.last ? run->last : b.last;
-            b.right = column;
-            b.numbers += run->n;
-        }
-        insert(blocks, &b);
+               belong(&c->best[column], &c->best[column + 1]))
+            widen(&b, &c->best[++column], &after, &before);
+        b.right = column;
+        b.first = b.first < after ? after : b.first;
+        b.last = b.last >= before ? before - 1 : b.last;
+        if (b.last > b.first)
+            insert(blocks, &b);
     }
 }
 
@@ -210,13 +238,16 @@ static bool
 put_titles(const struct rc_workbook *w, const struct block *b, struct text *t)
 {
     char title[TITLE], pair[2][TITLE] = {"", ""};
-    bool any = false, good = true;
+    uint32_t titled = 0, columns = b->right - b->left + 1;
+    bool any, good = true;
 
-    for (uint32_t c = b->left; c <= b->right && !any; c++) {
+    for (uint32_t c = b->left; c <= b->right; c++) {
         title_of(w, b, c, title);
-        any = title[0] != '\0';
+        titled += title[0] != '\0';
     }
-    if (!any && b->right == b->left + 1) {
+    any =
+        titled > 0 && titled + 1 >= columns; /* a text over one column or two is no row of titles */
+    if (titled == 0 && b->right == b->left + 1) {
         mitutoyo_titles(w, b, pair[0], pair[1]);
         any = pair[0][0] != '\0';
     }
