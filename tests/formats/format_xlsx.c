@@ -92,6 +92,38 @@ blocks_are_read(void **state)
     drop(&b);
 }
 
+/* A profile of SurfTest: the cut-off has the unit of its positions, the first roughness that of its heights; no
+ * titles, and shorter columns beside it. */
+static void
+surftest(void **state)
+{
+    static const char certificate[] =
+        "<worksheet><sheetData><row r=\"48\"><c r=\"D48\" t=\"str\"><v>Cut-Off</v></c>"
+        "<c r=\"E48\" t=\"str\"><v>0.08mm</v></c></row></sheetData></worksheet>";
+    static const char data[] =
+        "<worksheet><sheetData>"
+        "<row r=\"1\"><c r=\"A1\" t=\"str\"><v>Ra     0.018  \xc2\xb5m      </v></c>"
+        "<c r=\"D1\"><v>99</v></c><c r=\"E1\"><v>0.0005</v></c><c r=\"F1\"><v>3</v></c></row>"
+        "<row r=\"2\"><c r=\"D2\"><v>98</v></c><c r=\"E2\"><v>0.001</v></c><c "
+        "r=\"F2\"><v>-1</v></c></row>"
+        "<row r=\"3\"><c r=\"E3\"><v>0.0015</v></c><c r=\"F3\"><v>2</v></c></row>"
+        "<row r=\"4\"><c r=\"E4\"><v>0.002</v></c><c r=\"F4\"><v>4</v></c></row>"
+        "<row r=\"5\"><c r=\"E5\"><v>0.0025</v></c><c r=\"F5\"><v>5</v></c></row>"
+        "</sheetData></worksheet>";
+    static const double wanted[] = {3e-6, -1e-6, 2e-6, 4e-6, 5e-6};
+    struct bytes b = book(certificate, data);
+    struct rc_grid *g = read_well(&rc_format_xlsx, &b, 0);
+
+    (void)state;
+    assert_int_equal(g->nx, 5);
+    assert_true(fabs(g->dx - 0.5e-6) <= rounding * 2.5e-6);
+    for (size_t k = 0; k < 5; k++)
+        assert_true(fabs(g->v[k] - wanted[k]) <= last_digit * fabs(wanted[k]));
+    assert_string_equal(rc_grid_get(g, "file.channel"), "Map E1:F5");
+    rc_grid_free(g);
+    drop(&b);
+}
+
 /* Numbers above a map, in its columns but behind an empty row or beside a text, are none of it. */
 static void
 numbers_above(void **state)
@@ -165,9 +197,8 @@ int
 main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(blocks_are_read),
-        cmocka_unit_test(numbers_above),
-        cmocka_unit_test(refusals),
+        cmocka_unit_test(blocks_are_read),  cmocka_unit_test(surftest),
+        cmocka_unit_test(numbers_above),    cmocka_unit_test(refusals),
         cmocka_unit_test(cuts_and_changes),
     };
 

@@ -95,7 +95,9 @@ read_header(const struct rc_file *file, struct nrrd *h, struct rc_err *err)
     struct rc_lines lines = rc_piece_lines(rc_file_piece(file));
     struct rc_piece line, key, value;
 
-    memset(h, 0, sizeof *h);
+    for (size_t k = 0; k < sizeof fields / sizeof *fields; k++)
+        *(struct rc_piece *)(void *)((char *)h + fields[k].at) = (struct rc_piece){"", 0};
+    h->data = 0;
     if (!rc_file_holds(file, 0, magic, strlen(magic)))
         return rc_err_set(err, "no NRRD file: it does not begin with NRRD000");
     rc_lines_next(&lines, &line.text, &line.n);
@@ -266,7 +268,7 @@ nrrd_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps
     (void)wish;
     if (read_header(file, &h, err) != RC_OK || pick_axes(&h, axis, size, err) != RC_OK)
         return RC_FAIL;
-    map = rc_maps_add(maps, h.title.text == NULL ? "" : h.title.text, h.title.n);
+    map = rc_maps_add(maps, h.title.text, h.title.n);
     if (rc_map_count("columns (sizes)", size[0], &map->nx, err) != RC_OK ||
         rc_map_count("rows (sizes)", size[1], &map->ny, err) != RC_OK ||
         set_type(&h, file, map, err) != RC_OK)
@@ -280,7 +282,7 @@ nrrd_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps
         rc_map_hint(map, dx, dy);
     map->dx = dx * rc_piece_metres(x_unit);
     map->dy = dy * rc_piece_metres(y_unit);
-    h.unit = rc_piece_bare(h.unit.text == NULL ? (struct rc_piece){"", 0} : h.unit);
+    h.unit = rc_piece_bare(h.unit);
     rc_map_unit(map, h.unit.text, h.unit.n);
     return RC_OK;
 }
