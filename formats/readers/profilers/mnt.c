@@ -168,7 +168,8 @@ take_surface(struct part object, struct surface *s)
 static struct part
 objects_of(struct part stream)
 {
-    struct part rest = {stream.data + 8, stream.n < 8 ? 0 : stream.n - 8};
+    size_t head = stream.n < 8 ? stream.n : 8; /* the length of the rest */
+    struct part rest = {stream.data + head, stream.n - head};
 
     return FOLLOW(rest, 1, 0x2bd, 2, 1);
 }
