@@ -124,6 +124,9 @@ refusals(void **state)
         refuse(&rc_format_mat, &m, rows[k].why);
     }
     m.n = 128;
+    add_rising(&m, "", DOUBLE, 3, 4, 1); /* the workspace of functions */
+    refuse(&rc_format_mat, &m, "no real array of numbers with two dimensions: save");
+    m.n = 128;
     mat_number(&m, "one", 1);
     refuse(&rc_format_mat, &m, "'one' is one number or none");
     m.n = 128;

@@ -246,7 +246,7 @@ next(struct rc_matlab_source *s, struct rc_matlab_array *a, struct rc_err *err)
         *a = (struct rc_matlab_array){.at = m->b.at, .first = NAN};
         if (next_variable(&m->b, &v, err) != RC_OK)
             return RC_FAIL;
-    } while (v.class == 0);
+    } while (v.class == 0 || v.name[0] == '\0'); /* what functions need has no name */
     strcpy(a->name, v.name);
     a->is_text = v.class == CHAR;
     a->rows = v.rows;
