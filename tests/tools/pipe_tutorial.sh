@@ -270,6 +270,6 @@ for picture in $(pictures "$page"); do
     claim "  which says how it was made" test -n "$(drawn "$samples/$picture")"
 done
 claim "there are pictures" test "$(pictures "$page" | wc -l)" -ge 5
-claim "  of less than 500 kB together" test "$(cd "$samples" && cat $(pictures "$page") | wc -c)" -lt 500000
+claim "  of less than 700 kB together" test "$(cd "$samples" && cat $(pictures "$page") | wc -c)" -lt 700000
 
 finish
