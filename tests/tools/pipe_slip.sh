@@ -117,7 +117,7 @@ claim "  then they are not pressed first" test "$(wc -l <none.tsv)" = 2
 claim "the plan says what is left out" says "left out: pressure and tractions do not feel each other, beta = 0" rc-slip --mu 0.3 --tangential 36N --dry-run ball.rcg
 claim "  how many increments" says "to P 240 N, 36 N, 0 N: 1 increment$" rc-slip --mu 0.3 --tangential 36N --dry-run ball.rcg
 claim "  and what is on" says "on, beta 0.286: about 5 passes" rc-slip --mu 0.3 --tangential 36N --dry-run rigid.rcg
-claim "next to sliding there is a warning" warns "0.9950 of what friction can carry" rc-slip --mu 0.3 --tangential 71.64N -o edge.rcg ball.rcg
+claim "next to sliding there is a warning" warns "that is 0.995 of what friction can carry" rc-slip --mu 0.3 --tangential 71.64N -o edge.rcg ball.rcg
 claim "growing together in one increment too" warns "grow together in one increment" rc-slip --mu 0.3 --path '240N,40N,0' --increments 1 -o big.rcg ball.rcg
 rc-pick --channel pressure ball.rcg | rc-pick --set converged=no >short.rcg
 refuses 3 'converged' "a pressure that stopped short is carried on" "rc-slip --mu 0.3 --tangential 36N -o short2.rcg short.rcg"
@@ -150,4 +150,29 @@ refuses 1 'coupling goodman or none' "coupling without a height" "rc-slip --mu 0
 rc-pick --channel pressure --set 'layers=1e-6,1e9,0.3;inf,2e9,0.3' ball.rcg -o coated.rcg
 refuses 1 'coated' "a coated body" "rc-slip --mu 0.3 --tangential 1N -o x.rcg coated.rcg"
 refuses 1 'pressure' "a stream without a pressure" "rc-slip --mu 0.3 --tangential 1N -o x.rcg sphere.rcg"
+rc-solve --quiet --load 240N $steel --hardness 1GPa -o soft.rcg sphere.rcg
+refuses 1 'its key hardness says that these are none' "other loads of a body that yields" "rc-slip --mu 0.3 --path '100N,0,0' -o x.rcg soft.rcg"
+claim "  its own load will do" rc-slip --mu 0.3 --tangential 36N -o x.rcg soft.rcg
+rc-solve --quiet --load 1mN --adhesion 50J/m2 --estar 1GPa -o pulls.rcg sphere.rcg
+refuses 1 'negative at [0-9]* of 4096 nodes, where the bodies attract' "bodies that attract each other" "rc-slip --mu 0.3 --nu 0.3 --tangential 1N -o x.rcg pulls.rcg"
+refuses 1 'boundary is free: --periodic contradicts it' "another boundary" "rc-slip --mu 0.3 --periodic --tangential 1N -o x.rcg ball.rcg"
+claim "a decimal comma is warned of" warns 'two values, 1 N and 5 N' rc-slip --mu 0.3 --tangential 1,5 -o x.rcg ball.rcg
+refuses 1 '--memory allows' "too little memory" "rc-slip --mu 0.3 --tangential 1N --memory 8M -o x.rcg ball.rcg"
+
+# ---- streams ----
+
+cat ball.rcg rigid.rcg one.rcg | rc-slip --quiet --mu 0.3 --tangential 10N --increments 2 --report cases.tsv -o cases.rcg
+claim "cases are numbered on, dissimilar bodies have two" test "$(cut -f 1,11 cases.tsv | tail -n +2 | awk '{ printf "%d:%.3f ", $1, $2 }')" = \
+    "1:0.000 2:0.286 3:0.286 4:0.000 "
+claim "  in the frames too" test "$(rc-info --json cases.rcg | grep -o '"case": [0-9]*,' | uniq | tr -dc '0-9\n' | tr '\n' ' ')" = "1 2 3 4 "
+for threads in 1 2; do rc-slip --quiet --mu 0.3 --tangential 10N --threads $threads --increments 4 -o threads$threads.rcg rigid.rcg; done
+claim "threads change no bit" cmp threads1.rcg threads2.rcg
+rc-solve --quiet --load 240N --estar "$(rc-info --json rigid.rcg | grep -o '"estar": "[^"]*' | head -n 1 | sed 's/.*"//')" -o named.rcg sphere.rcg
+rc-slip --quiet --mu 0.3 --tangential 10N --increments 4 --E1 210GPa --nu1 0.3 --E2 rigid --report named.tsv -o x.rcg named.rcg
+rc-slip --quiet --mu 0.3 --tangential 10N --increments 4 --report known.tsv -o x.rcg rigid.rcg
+near "$(column displacement_x 2 named.tsv)" "$(column displacement_x 2 known.tsv)" 1e-6 "bodies of the command line are those of the stream"
+rc-synth wave --nx 64 --ny 1 --dx 1um --wavelength 64um --amplitude 0.1um -o wave.rcg
+rc-solve --quiet --periodic --mean-pressure 1MPa --estar 1GPa wave.rcg | rc-slip --mu 0.3 --nu 0.3 --tangential 1uN --report profile.tsv -o profile.rcg
+claim "a profile slips too" awk -v a="$(column stick_nodes 1 profile.tsv)" -v b="$(column slip_nodes 1 profile.tsv)" 'BEGIN { exit !(a > 0 && b > 0) }'
+
 finish

@@ -86,12 +86,10 @@ check_solvable(struct slip_run *run)
     for (size_t k = 0; k < sizeof more / sizeof *more; k++)
         if (rc_grid_get(run->p, more[k]) != NULL)
             tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE,
-                        "contacts are to be solved, of %s and loads, and its bodies have %s "
-                        "(%s=%s): only elastic ones are solved here, under the load of the stream "
-                        "alone friction of others is found too%s",
-                        run->alternates ? "dissimilar bodies" : "more than one load",
-                        k == 1 ? "a yield stress" : more[k], more[k], rc_grid_get(run->p, more[k]),
-                        run->alternates ? ", with --coupling goodman" : "");
+                        "contacts are to be solved on the way, which is done for elastic bodies "
+                        "only, and its key %s says that these are none: move them under its own "
+                        "load alone%s",
+                        more[k], run->alternates ? ", with --coupling goodman" : "");
 }
 
 /* ---- frames ---- */

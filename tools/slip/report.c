@@ -124,7 +124,7 @@ slip_judge(struct slip_run *run, const struct slip_state *s)
                   where, s->traction_error);
     if (force > near_sliding * f->limit && f->limit > 0)
         tool_warn(&run->t,
-                  "%s: that is %.4f of what friction can carry: the displacement grows without "
+                  "%s: that is %.6g of what friction can carry: the displacement grows without "
                   "bound there, and small errors of the pressure with it",
                   where, force / f->limit);
     if (grew_at_once(run, s->corner))
