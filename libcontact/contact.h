@@ -1111,6 +1111,9 @@ RC_API enum rc_status rc_joint_set_force(struct rc_joint *joint, double load, do
                                          struct rc_err *err);
 RC_API enum rc_status rc_joint_set_displacement(struct rc_joint *joint, double load, double dx,
                                                 double dy, struct rc_err *err);
+/* The next increment starts from these tractions and this pressure (nx ny Pa; NULL: none), copied, instead of
+ * from where the last has ended: what another run has found of it is found with a step. Before it is set. */
+RC_API void rc_joint_start(struct rc_joint *joint, const double *const q[2], const double *p);
 /* One step, of the contact or of friction: RC_MORE; RC_OK when both are within tol; RC_SHORT when they cannot
  * get there; RC_FAIL when nothing is asked for, and when friction cannot carry the force, as in rc_slip_set_force.
  * After any step pressure and tractions go together: one may stop there. */

@@ -68,6 +68,7 @@ tools/cost          | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli 
 tools/solve         | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli %plot
 tools/solve         | formats/core/core.h                      | formats/core formats/rcg
 tools/slip          | %public tools/cli/cli.h                  | %physics %cli
+tools/slip          | formats/core/core.h                      | formats/core formats/rcg
 tools/import        | libcontact/grid.h tools/cli/cli.h        | libcontact %cli
 tools/import        | formats/core/core.h formats/format.h     | formats formats/core
 tools/stress        | %public tools/cli/cli.h                  | %physics %cli

@@ -70,6 +70,10 @@ static const struct opt opts[] = {
      .help = "frames to write, of %s (default: all but state)"},
     {.name = "report", .type = OPT_REPORT, AT(report), .arg = "FILE",
      .help = "write one JSON object a case, or a row of FILE.tsv: figures, accuracy, cost"},
+    {.name = "checkpoint", .type = OPT_TEXT, AT(checkpoint), .arg = "FILE",
+     .help = "keep the tractions of each increment in FILE, to go on from if the run is cut off"},
+    {.name = "resume", .type = OPT_FLAG, AT(resume),
+     .help = "go on from the --checkpoint of an earlier run"},
     {.name = "dry-run", .type = OPT_FLAG, AT(dry_run), .text = true,
      .help = "say what would be computed and what not, and do no more"},
     {.name = NULL},
@@ -117,6 +121,8 @@ check_arguments(struct slip_run *run)
                  "other are a --path",
                  along == &args.tangential ? "tangential" : "displacement",
                  along == &args.tangential ? "36N,0" : "1um,0");
+    if (args.resume && args.checkpoint == NULL)
+        tool_die(t, EXIT_USAGE, "--resume needs --checkpoint FILE");
     run->args = &args;
     run->coupling = strcmp(args.coupling, "full") == 0      ? RC_COUPLING_FULL
                     : strcmp(args.coupling, "goodman") == 0 ? RC_COUPLING_GOODMAN
@@ -151,6 +157,8 @@ main(int argc, char **argv)
     tool_start(&run.t, &info, argc, argv, &args);
     check_arguments(&run);
     report_open(&run.report, &run.t, args.report);
+    if (!args.dry_run)
+        run.checkpoint = slip_checkpoint_open(&run, args.checkpoint, args.resume);
     tool_catch_signals();
     while (tool_interrupted() == 0 &&
            (run.p = tool_channel_with(&run.t, "pressure", take, &run)) != NULL) {
@@ -161,6 +169,7 @@ main(int argc, char **argv)
         run.p = run.gap = run.height = NULL;
     }
     free(run.given);
+    slip_checkpoint_close(run.checkpoint);
     report_close(&run.report);
     return tool_finish(&run.t);
 }

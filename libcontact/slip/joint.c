@@ -43,6 +43,7 @@ struct rc_joint {
     bool moved; /* displacements */
     /* of this increment */
     bool fresh; /* friction has begun with it */
+    bool warm;  /* its first contact starts from `own` */
     size_t passes;
     double pressure_change, traction_change, factor, approach;
     double lowered;      /* m: by which the highest node of `less` is below that of `h` */
@@ -81,7 +82,24 @@ press(struct rc_joint *j, struct rc_err *err)
             return RC_FAIL;
     }
     j->state = PRESSING;
-    return rc_solver_set_load(j->solver, j->load, 0, err);
+    if (rc_solver_set_load(j->solver, j->load, 0, err) != RC_OK)
+        return RC_FAIL;
+    if (j->warm && rc_solver_warm_start(j->solver, j->load, j->own, err) != RC_OK)
+        return RC_FAIL;
+    j->warm = false;
+    return RC_OK;
+}
+
+void
+rc_joint_start(struct rc_joint *j, const double *const q[2], const double *p)
+{
+    rc_slip_start(j->slip, q);
+    if (j->own != NULL && p != NULL) {
+        memcpy(j->own, p, j->n * sizeof *p);
+        j->warm = true;
+    }
+    for (int c = 0; c < 2 && j->alternates; c++)
+        memcpy(j->before[c], q[c], j->n * sizeof **q);
 }
 
 static enum rc_status
@@ -239,7 +257,7 @@ rc_joint_keep(struct rc_joint *j)
     if (j->state != DONE)
         return;
     rc_slip_keep(j->slip);
-    j->fresh = false;
+    j->fresh = j->warm = false;
     j->state = IDLE;
 }
 

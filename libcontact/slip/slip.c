@@ -182,6 +182,14 @@ rc_slip_step(struct rc_slip *s, struct rc_err *err)
     return s->last;
 }
 
+void
+rc_slip_start(struct rc_slip *s, const double *const q[2])
+{
+    for (int c = 0; c < 2; c++)
+        memmove(s->discs->q[c], q[c], s->n * sizeof(double));
+    s->tried = true;
+}
+
 /* How far a node has slipped in this increment, in units: what is left where one sticks is an error. */
 static inline double
 slipped(const struct rc_slip *s, int c, size_t k)

@@ -6,4 +6,8 @@
 
 #include "discs.h"
 
+struct rc_slip;
+/* The next increment starts from these tractions, Pa, instead of from the last. Before its force is set. */
+void rc_slip_start(struct rc_slip *slip, const double *const q[2]);
+
 #endif

@@ -418,6 +418,11 @@ joins(double *out, struct rc_err *err)
                 return RC_FAIL;
             rc_joint_know(joint, 1e-3, out, NULL);
         }
+        if (q == 1) /* from where the last has ended, as it would by itself */
+            rc_joint_start(joint,
+                           (const double *[2]){rc_slip_traction(rc_joint_slip(joint), 0),
+                                               rc_slip_traction(rc_joint_slip(joint), 1)},
+                           out);
         status = q == 1 ? rc_joint_set_displacement(joint, 1e-3, 0, 0, err)
                         : rc_joint_set_force(joint, 1e-3, 1e-4, 2e-5, err);
         while (status == RC_OK && (status = rc_joint_step(joint, err)) == RC_MORE)

@@ -183,9 +183,11 @@ go_to(struct slip_run *run, struct rc_joint *joint, size_t corner, size_t n, str
     s->converged = true;
     for (size_t k = 1; k <= n && tool_interrupted() == 0; k++) {
         struct slip_corner c = slip_on_the_way(run, corner, k, n);
-        enum rc_status status =
-            c.moved ? rc_joint_set_displacement(joint, c.load, c.to[0], c.to[1], &err)
-                    : rc_joint_set_force(joint, c.load, c.to[0], c.to[1], &err);
+        enum rc_status status;
+        bool there = slip_checkpoint_next(run->checkpoint, joint);
+
+        status = c.moved ? rc_joint_set_displacement(joint, c.load, c.to[0], c.to[1], &err)
+                         : rc_joint_set_force(joint, c.load, c.to[0], c.to[1], &err);
 
         if (status == RC_OK)
             status = RC_MORE;
@@ -198,6 +200,8 @@ go_to(struct slip_run *run, struct rc_joint *joint, size_t corner, size_t n, str
         if (status == RC_FAIL)
             tool_die_at(&run->t, run->p, EXIT_IMPOSSIBLE, "%s", err.text);
         rc_joint_result(joint, &s->figures);
+        if (!there || s->figures.passes > 1 || s->figures.slip.steps > 0)
+            slip_checkpoint_save(run->checkpoint, joint);
         s->passes += s->figures.passes;
         s->dissipated += s->figures.slip.dissipated;
         s->traction_error = fmax(s->traction_error, s->figures.traction_error);
@@ -322,7 +326,8 @@ memory_for(const struct slip_run *run, const struct rc_joint_problem *problem)
     struct rc_shape shape = rc_grid_shape(run->p);
 
     return (run->twice ? 2 : 1) * rc_joint_memory(&shape, problem, run->solves) +
-           rc_grid_nodes(run->p) * sizeof(double) + tool_code(&run->t, SLIP_CODE);
+           rc_grid_nodes(run->p) * sizeof(double) + slip_checkpoint_memory(run) +
+           tool_code(&run->t, SLIP_CODE);
 }
 
 void
@@ -343,6 +348,7 @@ slip_case(struct slip_run *run)
     if (told == 1 && rc_grid_case(run->p) > run->number)
         run->number = rc_grid_case(run->p) - 1;
     problem = problem_of(run);
+    slip_checkpoint_case(run->checkpoint);
     slip_judge_plan(run);
     if (run->args->dry_run) {
         slip_say_plan(run, tool_memory_with(memory_for(run, &problem)));

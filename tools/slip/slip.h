@@ -22,9 +22,9 @@ enum slip_frame { /* in the order of --output's words, and of writing */
 struct slip_args {
     double mu, tau_max, nu, e1, nu1, e2, nu2, tol;
     struct numbers tangential, displacement; /* N, m */
-    const char *path, *history, *increments, *coupling, *report;
+    const char *path, *history, *increments, *coupling, *report, *checkpoint;
     size_t output; /* bits of enum slip_frame */
-    bool periodic, dry_run;
+    bool periodic, resume, dry_run;
 };
 
 /* A place on a path, straight from the one before. */
@@ -64,7 +64,8 @@ struct slip_run {
     size_t givens;
     size_t increments; /* 0: auto */
     enum rc_coupling coupling;
-    size_t number; /* of the case that is written */
+    size_t number;                      /* of the case that is written */
+    struct slip_checkpoint *checkpoint; /* NULL: none is kept */
     /* of the case that is read; gap and height may be NULL */
     struct rc_grid *p, *gap, *height;
     struct slip_pair bodies;
@@ -98,6 +99,19 @@ void slip_find_bodies(struct slip_run *run);
 
 const char *slip_frame_word(size_t k);
 void slip_case(struct slip_run *run);
+
+/* ---- checkpoint.c: where increments begin; NULL is allowed for each ---- */
+
+/* Made, or with `resume` looked through; ends the tool where it cannot be. NULL for no name. */
+struct slip_checkpoint *slip_checkpoint_open(struct slip_run *run, const char *name, bool resume);
+void slip_checkpoint_case(struct slip_checkpoint *checkpoint);
+/* The next increment, of the case and its options, begins with what was saved of it. Before it is set. False:
+ * nothing was. */
+bool slip_checkpoint_next(struct slip_checkpoint *checkpoint, struct rc_joint *joint);
+void slip_checkpoint_save(struct slip_checkpoint *checkpoint, struct rc_joint *joint);
+void slip_checkpoint_close(struct slip_checkpoint *checkpoint);
+/* Bytes that it takes. */
+size_t slip_checkpoint_memory(const struct slip_run *run);
 
 /* ---- report.c ---- */
 

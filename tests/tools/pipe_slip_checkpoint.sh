@@ -1,0 +1,71 @@
+# rc-slip --checkpoint and --resume: a path that was cut off is gone on with, to the answer that it would have had.
+. "$(dirname "$0")/../pipe.sh"
+
+rc-synth sphere --nx 64 --dx 10um --radius 7.5mm -o sphere.rcg
+rc-solve --quiet --load 240N --E1 210GPa --nu1 0.3 --E2 210GPa --nu2 0.3 -o alike.rcg sphere.rcg
+rc-solve --quiet --load 240N --E1 210GPa --nu1 0.3 --E2 rigid -o rigid.rcg sphere.rcg
+column() { # NAME ROW FILE
+    awk -F '\t' -v n="$1" -v r="$2" 'NR == 1 { for (i = 1; i <= NF; i++) { split($i, h, "/"); if (h[1] == n) c = i } } NR == r + 1 { print $c }' "$3"
+}
+work() { awk -F '\t' 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "convolutions") c = i } NR > 1 { s += $c } END { print s }' "$1"; }
+values() { rc-pick --channel "$2" --case "$3" "$1" | rc-export --format csv | grep -v '^#' | tr ',' '\n'; }
+# apart FILE FILE CHANNEL CASE: relative L1 distance of a frame in both
+apart() { paste -d ' ' <(values "$1" "$3" "$4") <(values "$2" "$3" "$4") | awk '{ d = $1 - $2; s += d < 0 ? -d : d; t += $2 < 0 ? -$2 : $2 } END { print s / t }'; }
+
+# ---- loads and forces that change, bodies alike ----
+
+printf '100N 0 0\n240N 43.2N 0\n240N -20N 30N\n120N 20N 0\n' >way.txt
+slip="rc-slip --quiet --mu 0.3 --history way.txt"
+claim "a path, whole" bash -c "$slip --checkpoint kept.rcg --report whole.tsv -o whole.rcg alike.rcg"
+claim "  is that without a checkpoint" bash -c "$slip -o without.rcg alike.rcg && cmp whole.rcg without.rcg"
+claim "resumed, nothing is left to do" bash -c "$slip --checkpoint kept.rcg --resume --report again.tsv -o again.rcg alike.rcg"
+for case in 2 3 4; do between 0 "$(apart again.rcg whole.rcg traction-x $case)" 1e-4 "  to the same tractions, case $case"; done
+near "$(column dissipated_total 4 again.tsv)" "$(column dissipated_total 4 whole.tsv)" 1e-3 "  and the same work"
+between 0 "$(work again.tsv)" "$(awk -v w="$(work whole.tsv)" 'BEGIN { print w / 2 }')" "  in less than half of the convolutions"
+frames=$(rc-info kept.rcg | grep -c '(friction-start)')
+# 1, 8, 4 and 4 increments (the force turns), and half of them
+claim "the checkpoint has a frame for each increment" test "$frames" = $((1 + 8 + 4 + 4 + 1 + 4 + 2 + 2))
+
+# a frame takes 98,500 bytes: four, and a part of the next
+head -c 450000 kept.rcg >torn.rcg
+claim "cut off while it was written, what was whole in it serves" bash -c "$slip --checkpoint torn.rcg --resume --report torn.tsv -o torn-out.rcg alike.rcg"
+for case in 2 4; do between 0 "$(apart torn-out.rcg whole.rcg traction-x $case)" 1e-4 "  to the same tractions, case $case"; done
+between "$(work again.tsv)" "$(work torn.tsv)" "$(work whole.tsv)" "  in fewer convolutions"
+claim "  and it is whole again" test "$(rc-info torn.rcg | grep -c '(friction-start)')" = "$frames"
+claim "nothing to resume is a first run" bash -c "$slip --checkpoint fresh.rcg --resume -o fresh-out.rcg alike.rcg && cmp fresh-out.rcg whole.rcg"
+
+# ---- dissimilar bodies, ended by a signal ----
+
+press="rc-slip --quiet --mu 0.3 --tangential 20N --increments 400"
+interrupted() {
+    local status
+    $press --checkpoint cut.rcg --report cut.tsv -o cut-out.rcg rigid.rcg &
+    until [ "$(stat -c %s cut.rcg 2>/dev/null || echo 0)" -gt 2000000 ] || ! kill -0 $!; do sleep 0.02; done
+    kill -TERM $!
+    wait $!
+    status=$?
+    [ $status = 143 ] && [ "$(column converged 1 cut.tsv)" = false ]
+}
+claim "a signal leaves the tractions reached" interrupted
+press="rc-slip --quiet --mu 0.3 --tangential 20N --increments 8"
+$press --report straight.tsv -o straight.rcg rigid.rcg
+$press --checkpoint eight.rcg -o x.rcg rigid.rcg
+head -c 800000 eight.rcg >half.rcg # eight of 24
+claim "and from a part of an easier one it goes on" bash -c "$press --checkpoint half.rcg --resume --report on.tsv -o on.rcg rigid.rcg"
+for channel in pressure traction-x; do between 0 "$(apart on.rcg straight.rcg $channel 2)" 3e-4 "  to the same $channel"; done
+near "$(column displacement_x 2 on.tsv)" "$(column displacement_x 2 straight.tsv)" 1e-4 "  and displacement"
+between 1 "$(work on.tsv)" "$(awk -v w="$(work straight.tsv)" 'BEGIN { print 0.85 * w }')" "  in fewer convolutions"
+
+# ---- what is refused ----
+
+refuses 1 'there is one already.*--resume' "a checkpoint is not written over" "$slip --checkpoint kept.rcg -o x.rcg alike.rcg"
+refuses 1 'of another pressure, or of other options' "that of another coefficient" "${slip/0.3/0.2} --checkpoint kept.rcg --resume -o x.rcg alike.rcg"
+refuses 1 'of another pressure, or of other options' "  of other bodies" "$slip --checkpoint kept.rcg --resume -o x.rcg rigid.rcg"
+cp alike.rcg stream.rcg
+refuses 1 'a grid stream, but no checkpoint' "a stream that is none" "$slip --checkpoint stream.rcg --resume -o x.rcg alike.rcg"
+echo "notes of a user" >notes.txt
+refuses 1 'no increment can be read' "a file that is none" "$slip --checkpoint notes.txt --resume -o x.rcg alike.rcg"
+claim "  which stays as it is" grep -qx "notes of a user" notes.txt
+refuses 2 'needs --checkpoint' "--resume alone" "$slip --resume -o x.rcg alike.rcg"
+refuses 2 'name a file' "a pipe" "$slip --checkpoint - -o x.rcg alike.rcg"
+finish
