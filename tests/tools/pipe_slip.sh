@@ -118,6 +118,10 @@ claim "the plan says what is left out" says "left out: pressure and tractions do
 claim "  how many increments" says "to P 240 N, 36 N, 0 N: 1 increment$" rc-slip --mu 0.3 --tangential 36N --dry-run ball.rcg
 claim "  and what is on" says "on, beta 0.286: about 5 passes" rc-slip --mu 0.3 --tangential 36N --dry-run rigid.rcg
 claim "next to sliding there is a warning" warns "that is 0.995 of what friction can carry" rc-slip --mu 0.3 --tangential 71.64N -o edge.rcg ball.rcg
+rc-slip --mu 0.3 --displacement 1m --report slides.tsv -o slides.rcg ball.rcg 2>slides.err
+claim "  of a force, not of bodies that are moved so far that they slide" test ! -s slides.err
+near "$(column tangential_x 1 slides.tsv)" 72 1e-9 "    under all that friction carries"
+near "$(column dissipated_energy 1 slides.tsv)" 72 1e-5 "    which takes the work of that force"
 claim "growing together in one increment too" warns "grow together in one increment" rc-slip --mu 0.3 --path '240N,40N,0' --increments 1 -o big.rcg ball.rcg
 rc-pick --channel pressure ball.rcg | rc-pick --set converged=no >short.rcg
 refuses 3 'converged' "a pressure that stopped short is carried on" "rc-slip --mu 0.3 --tangential 36N -o short2.rcg short.rcg"

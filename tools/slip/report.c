@@ -122,7 +122,7 @@ slip_judge(struct slip_run *run, const struct slip_state *s)
                   "%s: it stopped short of the accuracy asked for: tractions are off by about "
                   "%.1e; near sliding a displacement is easier to find than its force",
                   where, s->traction_error);
-    if (force > near_sliding * f->limit && f->limit > 0)
+    if (!s->corner->moved && force > near_sliding * f->limit && f->limit > 0)
         tool_warn(&run->t,
                   "%s: that is %.6g of what friction can carry: the displacement grows without "
                   "bound there, and small errors of the pressure with it",
