@@ -993,9 +993,9 @@ RC_API size_t rc_leak_step_memory(const struct rc_leak *leak);
 
 /* Coulomb's law node by node, with memory: a node carries tractions up to mu times its pressure and sticks,
  * or slips against them. The pressure is given, and so is what the pressure does not know: how the bodies
- * are moved along the surface, in increments. Tractions are those on body 1, and the force is their sum: body 2
- * drags body 1 along by it, and has moved over it by the displacement (on a periodic map their mean planes).
- * Slip is that of body 1 on body 2, against the traction. */
+ * are moved along the surface, in increments. Tractions are those on body 1, and the force is their sum:
+ * body 2 drags body 1 along by it, and has moved over it by the displacement (on a periodic map their mean
+ * planes). Slip is that of body 1 on body 2, against the traction. */
 struct rc_slip_problem {
     enum rc_boundary boundary;
     struct rc_pair pair; /* bare bodies */
@@ -1050,7 +1050,8 @@ RC_API enum rc_status rc_slip_set_displacement(struct rc_slip *slip, double dx, 
  * cannot get there; RC_FAIL when nothing is asked for, or memory is short. */
 RC_API enum rc_status rc_slip_step(struct rc_slip *slip, struct rc_err *err);
 RC_API void rc_slip_result(struct rc_slip *slip, struct rc_slip_figures *figures);
-/* The increment becomes history, on which the next one builds. Until then pressure and force may be set again. */
+/* The increment becomes history, on which the next one builds. Until then pressure and force may be set
+ * again. */
 RC_API void rc_slip_keep(struct rc_slip *slip);
 /* Tractions, Pa, nx ny along x and along y, until the next step; slip since the bodies have touched, m, with
  * that of this increment, 0 out of contact. */
@@ -1076,7 +1077,8 @@ enum rc_coupling {
     RC_COUPLING_NONE     /* nothing                                                     */
 };
 
-/* A contact and its friction, increment by increment: the pressure is found with each load, and with each pass. */
+/* A contact and its friction, increment by increment: the pressure is found with each load, and with each
+ * pass. */
 struct rc_joint_problem {
     /* Bare bodies; the load is that of the first increment, or a guess; tol 0: as of friction, or less */
     struct rc_problem contact;
@@ -1098,15 +1100,15 @@ struct rc_joint_figures {
 
 struct rc_joint;
 /* The heights are copied; NULL: there are none, and pressures only those of rc_joint_know. The bodies are
- * apart. NULL where either problem makes no sense, heights are missing for a pressure that feels tractions, or
- * memory is short. */
+ * apart. NULL where either problem makes no sense, heights are missing for a pressure that feels tractions,
+ * or memory is short. */
 RC_API struct rc_joint *rc_joint_new(const struct rc_shape *shape, const double *h,
                                      const struct rc_joint_problem *problem, struct rc_err *err);
-/* The contact under this load is known: its pressure and gap (NULL: not known), which the caller keeps. Where pressures do
- * not feel tractions it is not solved again. */
+/* The contact under this load is known: its pressure and gap (NULL: not known), which the caller keeps.
+ * Where pressures do not feel tractions it is not solved again. */
 RC_API void rc_joint_know(struct rc_joint *joint, double load, const double *p, const double *gap);
-/* Load (N, 0: the bodies are taken apart) and force (N) or displacement (m) along x and y at the end of the increment.
- * RC_FAIL when a load makes no sense or is neither known nor can be solved. */
+/* Load (N, 0: the bodies are taken apart) and force (N) or displacement (m) along x and y at the end of the
+ * increment. RC_FAIL when a load makes no sense or is neither known nor can be solved. */
 RC_API enum rc_status rc_joint_set_force(struct rc_joint *joint, double load, double fx, double fy,
                                          struct rc_err *err);
 RC_API enum rc_status rc_joint_set_displacement(struct rc_joint *joint, double load, double dx,
@@ -1114,9 +1116,9 @@ RC_API enum rc_status rc_joint_set_displacement(struct rc_joint *joint, double l
 /* The next increment starts from these tractions and this pressure (nx ny Pa; NULL: none), copied, instead of
  * from where the last has ended: what another run has found of it is found with a step. Before it is set. */
 RC_API void rc_joint_start(struct rc_joint *joint, const double *const q[2], const double *p);
-/* One step, of the contact or of friction: RC_MORE; RC_OK when both are within tol; RC_SHORT when they cannot
- * get there; RC_FAIL when nothing is asked for, and when friction cannot carry the force, as in rc_slip_set_force.
- * After any step pressure and tractions go together: one may stop there. */
+/* One step, of the contact or of friction: RC_MORE; RC_OK when both are within tol; RC_SHORT when they
+ * cannot get there; RC_FAIL when nothing is asked for, and when friction cannot carry the force, as in
+ * rc_slip_set_force. After any step pressure and tractions go together: one may stop there. */
 RC_API enum rc_status rc_joint_step(struct rc_joint *joint, struct rc_err *err);
 RC_API void rc_joint_result(struct rc_joint *joint, struct rc_joint_figures *figures);
 /* The increment becomes history. */

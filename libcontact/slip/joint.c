@@ -1,10 +1,11 @@
 /*
- * Bodies pressed together and moved along each other: the pressure under the tractions, and the tractions under the
- * pressure, in turn.
+ * Bodies pressed together and moved along each other: the pressure under the tractions, and the tractions
+ * under the pressure, in turn.
  *
- * Dissimilar bodies feel both. With the tractions q held the contact is one of the heights less C'q; with the pressure p
- * held an increment of friction has w less C p. Passes of both contract by about 0.7 mu beta. Where beta is 0, or
- * nobody wants to know (Goodman 1962), the pressure is found once, and only where the load has changed.
+ * Dissimilar bodies feel both. With the tractions q held the contact is one of the heights less C'q; with
+ * the pressure p held an increment of friction has w less C p. Passes of both contract by about 0.7 mu beta.
+ * Where beta is 0, or nobody wants to know (Goodman 1962), the pressure is found once, and only where the
+ * load has changed.
  */
 #include "slip.h"
 

@@ -1,5 +1,6 @@
-/* Contact and friction together: a punch that sticks is as much stiffer as Mossakovskii found; pressure and tractions
- * that have been found in turn are those of each other; passes contract; where bodies are alike nothing is solved twice. */
+/* Contact and friction together: a punch that sticks is as much stiffer as Mossakovskii found; pressure and
+ * tractions that have been found in turn are those of each other; passes contract; where bodies are alike
+ * nothing is solved twice. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -32,7 +33,8 @@ finish(struct rc_joint *joint, struct rc_joint_figures *f)
 
 /* ---- a flat punch ---- */
 
-/* Approach under a unit load of a punch of radius a, nodes, on a body of Poisson's ratio nu, one of both rigid. */
+/* Approach under a unit load of a punch of radius a, nodes, on a body of Poisson's ratio nu, one of both
+ * rigid. */
 static double
 press_punch(double a, double nu, enum rc_coupling coupling, double *sticks)
 {
@@ -59,8 +61,8 @@ press_punch(double a, double nu, enum rc_coupling coupling, double *sticks)
     return f.approach;
 }
 
-/* (1 - nu) ln(3 - 4 nu)/(1 - 2 nu): the stiffness of a punch that sticks over that of one that does not (Mossakovskii
- * 1954; Spence 1968). At this mu all of it sticks but a ring at the edge that no grid sees. */
+/* (1 - nu) ln(3 - 4 nu)/(1 - 2 nu): the stiffness of a punch that sticks over that of one that does not
+ * (Mossakovskii 1954; Spence 1968). At this mu all of it sticks but a ring at the edge that no grid sees. */
 static void
 test_a_punch_that_sticks(void **state)
 {

@@ -1,10 +1,11 @@
 /*
  * --checkpoint and --resume: a file of tractions and pressures, from which a run that was cut off goes on.
  *
- * Each increment that is done adds a frame, a grid stream of its own with its end line, and so does one that a signal
- * ends: along x, along y and the pressure, one below the other. A run that goes on takes every increment again, in order,
- * and begins it with what stands there: one that was done is done with a step, and the answer is that of a run
- * that was never cut off, within the tolerance. Disk full is no reason to lose the solution: it is said once.
+ * Each increment that is done adds a frame, a grid stream of its own with its end line, and so does one that
+ * a signal ends: along x, along y and the pressure, one below the other. A run that goes on takes every
+ * increment again, in order, and begins it with what stands there: one that was done is done with a step,
+ * and the answer is that of a run that was never cut off, within the tolerance. Disk full is no reason to
+ * lose the solution: it is said once.
  */
 #include "slip.h"
 

@@ -92,7 +92,8 @@ struct slip_corner slip_on_the_way(const struct slip_run *run, size_t corner, si
 
 /* Ends the tool where the command line names half a pair. */
 void slip_check_bodies(struct slip_run *run);
-/* The bodies of the case; ends the tool where they are unknown, coated, or others than those of the pressure. */
+/* The bodies of the case; ends the tool where they are unknown, coated, or others than those of the
+ * pressure. */
 void slip_find_bodies(struct slip_run *run);
 
 /* ---- case.c ---- */
