@@ -31,6 +31,11 @@ claim "  with bars as long as their standard deviation (n - 1)" near s.svg bars 
 claim "  at each" eval "points s.svg | awk '\$2 == \"bars\" { d = (\$18 - \$16) / 2; ok = (d - sqrt(2)) ^ 2 < 1e-5 } END { exit !ok }'"
 claim "  and the figure says what they are" shows s.svg 'means of the rows that share x \(2 to 3 each\) · bars: their standard deviation'
 claim "without --spread nothing is a mean" eval 'rc-render --curve x:y -o z.svg few.tsv && near z.svg solid 1 1 3 4 1 2 1 3 3 6'
+printf 'x\ty\n1\t1\n2\t2\n1\t1.1\n2\t2.1\n1\t0.9\n2\t1.9\n' >seeds.tsv
+claim "  but a line that goes back and forth is warned of" warns 'seeds.tsv: the line turns back 4 times along x: --spread makes a point of rows that share it, --by COLUMN a curve of each group' \
+    rc-render --curve x:y -o z.svg seeds.tsv
+claim "    not with --spread, nor one that turns back once" eval 'rc-render --curve x:y --spread -o z.svg seeds.tsv 2>said.txt && [ ! -s said.txt ] &&
+    head -n 5 seeds.tsv | sed 4d | rc-render --curve x:y -o z.svg 2>said.txt && [ ! -s said.txt ]'
 claim "a column of errors is a bar to both sides" eval 'rc-render --curve x:y --error e -o e.svg few.tsv && near e.svg bars 1 0.5 1 1.5'
 claim "  and the figure says which" shows e.svg 'bars: ± e<'
 claim "bars that reach to 0 run out of a logarithmic axis" eval '

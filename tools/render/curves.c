@@ -111,6 +111,7 @@ struct curves {
     size_t tables;
     struct law_given given;
     bool short_of; /* a row is not converged */
+    bool zigzag;   /* a line that turns back has been warned of */
     bool history;  /* approaches are counted from the first touch of the first shape */
     struct graph_series series[SERIES];
     char name[SERIES][NAME], legend[SERIES * NAME], note[NAME];
@@ -581,6 +582,33 @@ set_points(struct curves *c, const struct table *table, size_t k, size_t from, s
     }
 }
 
+/* A line through rows whose x goes back and forth, as of several seeds at the same loads, is no curve. Loading and unloading
+ * turns once. */
+static void
+warn_of_zigzag(struct curves *c, const struct table *table, size_t from, size_t to)
+{
+    const double *x = table->column[0].v;
+    double way = 0, last = NAN;
+    size_t turns = 0;
+
+    if (c->history || c->style->spread || c->style->points || c->zigzag)
+        return;
+    for (size_t k = from; k < to; k++) {
+        if (!isfinite(x[k]))
+            continue;
+        if (way * (x[k] - last) < 0)
+            turns++;
+        way = isnan(last) || x[k] == last ? way : x[k] - last;
+        last = x[k];
+    }
+    c->zigzag = turns > 2;
+    if (c->zigzag)
+        tool_warn(c->tool,
+                  "%s: the line turns back %zu times along %s: --spread makes a point of rows that "
+                  "share it, --by COLUMN a curve of each group, --points leaves out the line",
+                  table->source, turns, c->column[0]);
+}
+
 static void
 add_curve(struct curves *c, const struct table *table, size_t k, size_t p)
 {
@@ -602,6 +630,7 @@ add_curve(struct curves *c, const struct table *table, size_t k, size_t p)
         add_path(c, table, k, from, to, name);
         return;
     }
+    warn_of_zigzag(c, table, from, to);
     s = new_series(c);
     memcpy(c->name[c->n - 1], name, NAME);
     s->name = *name == '\0' ? NULL : c->name[c->n - 1];
