@@ -1,11 +1,12 @@
 /*
- * Feature parameters of ISO 25178-2: hills by watershed, pruned by Wolf's rule, their peaks, heights and areas; dales are the
- * hills of the map upside down.
+ * Feature parameters of ISO 25178-2: hills by watershed, pruned by Wolf's rule, their peaks,
+ * heights and areas; dales are the hills of the map upside down.
  *
- * A node belongs to the hill that steepest ascent over its eight neighbours leads to. Nodes are taken from the highest down,
- * of equals the first one first, so that a plateau has one peak. Where a node joins two hills it is their saddle: the hill
- * whose peak is lower is pruned when that peak stands less than 5 % of Sz above the saddle, and its nodes go to the hill
- * across. Taken from the highest saddle down this is what Wolf's rule, the least height first, comes to: the hill with the
+ * A node belongs to the hill that steepest ascent over its eight neighbours leads to. Nodes are
+ * taken from the highest down, of equals the first one first, so that a plateau has one peak. Where
+ * a node joins two hills it is their saddle: the hill whose peak is lower is pruned when that peak
+ * stands less than 5 % of Sz above the saddle, and its nodes go to the hill across. Taken from the
+ * highest saddle down this is what Wolf's rule, the least height first, comes to: the hill with the
  * least height always joins one with a higher peak.
  */
 #include <float.h>

@@ -10,8 +10,8 @@ static const double discrimination = 0.1;
 
 /* ---- along a line ---- */
 
-/* Weights of four neighbours at a place 0 <= t < 1 between the second and the third: the cubic that has the value of both
- * there and the slopes of their neighbours. */
+/* Weights of four neighbours at a place 0 <= t < 1 between the second and the third: the cubic
+ * that has the value of both there and the slopes of their neighbours. */
 static void
 cubic(double t, double w[4])
 {

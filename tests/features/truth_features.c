@@ -1,5 +1,6 @@
-/* Feature parameters of ISO 25178-2 are what closed forms say of waves and posts, and on rough maps what Wolf's rule says
- * that is done as it is written: the hill of least height, again and again, joins the one across its highest saddle. */
+/* Feature parameters of ISO 25178-2 are what closed forms say of waves and posts, and on rough
+ * maps what Wolf's rule says that is done as it is written: the hill of least height, again and
+ * again, joins the one across its highest saddle. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -36,8 +37,8 @@ measured(const struct rc_shape *shape, const double *h, enum rc_boundary boundar
 
 /* ---- closed forms ---- */
 
-/* A cos(qx x) cos(qy y): two crests and two troughs in each of its cells, all alike. The curvature of differences is
- * 2 A (1 - cos(q dx))/dx^2 along each side. */
+/* A cos(qx x) cos(qy y): two crests and two troughs in each of its cells, all alike. The
+ * curvature of differences is 2 A (1 - cos(q dx))/dx^2 along each side. */
 static void
 test_wave(void **state)
 {
@@ -67,8 +68,8 @@ test_wave(void **state)
     assert_near(a, sda, Lx * Ly / 2, rounding);
 }
 
-/* Posts of 3 x 3 nodes, flat on top, 5 apart: one peak each although no node is above its neighbours, and no curvature that
- * differs; the floor is one pit without an end. */
+/* Posts of 3 x 3 nodes, flat on top, 5 apart: one peak each although no node is above its
+ * neighbours, and no curvature that differs; the floor is one pit without an end. */
 static void
 test_posts(void **state)
 {
@@ -90,8 +91,8 @@ test_posts(void **state)
     assert_true(isnan(a.s5v) && isnan(a.s10z));
 }
 
-/* A cap, and beside it a small one whose saddle is so much below its peak: at 4.9 % of Sz it is no hill of its own, at 5.1 % it
- * is. */
+/* A cap, and beside it a small one whose saddle is so much below its peak: at 4.9 % of Sz it is
+ * no hill of its own, at 5.1 % it is. */
 static void
 test_threshold(void **state)
 {

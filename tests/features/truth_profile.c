@@ -1,5 +1,6 @@
-/* Parameters of ISO 21920-2 are what closed forms say of waves, triangles and steps, with ripples that count as elements and
- * ripples that do not; along a line of a map cubics reproduce second-degree surfaces, and nodes themselves. */
+/* Parameters of ISO 21920-2 are what closed forms say of waves, triangles and steps, with
+ * ripples that count as elements and ripples that do not; along a line of a map cubics reproduce
+ * second-degree surfaces, and nodes themselves. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

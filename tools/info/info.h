@@ -99,7 +99,8 @@ double info_value(const void *figures, const struct info_parameter *parameter);
 const char *info_unit(enum info_kind kind); /* SI, NULL: a plain number */
 const char *info_shown(char text[SHOWN_NUMBER], double value, enum info_kind kind);
 
-/* line.c: reads --profile, NULL for none; ends the tool where it is no line, or where it cannot be measured. */
+/* line.c: reads --profile, NULL for none; ends the tool where it is no line, or where it cannot
+ * be measured. */
 void info_line_read(struct tool *tool, const char *along, struct info_line_wanted *wanted);
 void info_line_measure(struct tool *tool, const struct rc_grid *grid,
                        const struct info_line_wanted *wanted, size_t sections,

@@ -1,6 +1,6 @@
 /*
- * What --report writes: a row a frame, flat, so that the parameters of many scans are one table. What a frame does not have is
- * unknown: all rows have the columns of what was asked for.
+ * What --report writes: a row a frame, flat, so that the parameters of many scans are one table.
+ * What a frame does not have is unknown: all rows have the columns of what was asked for.
  */
 #include "info.h"
 

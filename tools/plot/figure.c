@@ -230,8 +230,8 @@ border_width(const struct page *p)
     return fmin(1.5 * p->u, fmax(0.35 * node, 0.4 * p->u));
 }
 
-/* The edge of the contact on a map of something else, which can be dark where bodies touch; it is seen on the white page
- * too. */
+/* The edge of the contact on a map of something else, which can be dark where bodies touch; it
+ * is seen on the white page too. */
 static struct rgb
 edge_ink(const struct page *p)
 {
@@ -699,8 +699,8 @@ page_pixel_bytes(const struct page *p)
     return p->f->vector ? 0 : PAINTED * p->w * p->h;
 }
 
-/* First the map is reduced to means and coloured, then, but for an SVG, all is painted on the page: its values are gone by
- * then. */
+/* First the map is reduced to means and coloured, then, but for an SVG, all is painted on the
+ * page: its values are gone by then. */
 static size_t
 memory_of(const struct page *p)
 {

@@ -582,8 +582,8 @@ set_points(struct curves *c, const struct table *table, size_t k, size_t from, s
     }
 }
 
-/* A line through rows whose x goes back and forth, as of several seeds at the same loads, is no curve. Loading and unloading
- * turns once. */
+/* A line through rows whose x goes back and forth, as of several seeds at the same loads, is no
+ * curve. Loading and unloading turns once. */
 static void
 warn_of_zigzag(struct curves *c, const struct table *table, size_t from, size_t to)
 {

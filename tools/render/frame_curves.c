@@ -233,7 +233,8 @@ mark_interfaces(const struct rc_grid *g, struct graph *graph, char *note, size_t
     return bottom;
 }
 
-/* Hertz's pressure p0 sqrt(1 - r^2/a^2), p0 = 3 F / (2 pi a^2), along the line of nodes at that distance from the origin. */
+/* Hertz's pressure p0 sqrt(1 - r^2/a^2), p0 = 3 F / (2 pi a^2), along the line of nodes at that
+ * distance from the origin. */
 static void
 add_hertz(struct set *s, const struct line *along, double across)
 {

@@ -175,7 +175,8 @@ struct words { /* of the legend */
 /* "largest 2.3 GPa at x = 3 µm, depth 12 µm" */
 const char *words_largest(struct words *words, const struct rc_grid *grid, double value,
                           const char *across, double x, double depth);
-/* "Hertz, radius 12 µm", and that radius, by what is given or by the keys; ends the tool when neither says it. */
+/* "Hertz, radius 12 µm", and that radius, by what is given or by the keys; ends the tool when
+ * neither says it. */
 struct law_given;
 const char *words_hertz(struct tool *tool, struct words *words, const struct rc_grid *grid,
                         const struct law_given *given, double *radius);

@@ -1,6 +1,6 @@
 /*
- * Warnings that a list of loads calls for again and again: said in full of the first case, and at the end of all others in one
- * line.
+ * Warnings that a list of loads calls for again and again: said in full of the first case, and at
+ * the end of all others in one line.
  */
 #include "solve.h"
 

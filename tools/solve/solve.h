@@ -150,7 +150,8 @@ struct solution {
 
 /* "steel.x3p, case 2, load 3 N": which solution is meant, for messages. */
 const char *solve_where(const struct run *run, const struct rc_grid *g, char *text, size_t size);
-/* Warns, in full of the first case; of others that are warned of in the same words one line tells at the end. */
+/* Warns, in full of the first case; of others that are warned of in the same words one line
+ * tells at the end. */
 void solve_warn(struct run *run, const char *words, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 void solve_warn_at_end(struct run *run);
@@ -205,9 +206,11 @@ void yield_free(struct run *run);
  * here on, and carries the load. */
 bool yield_begins(struct run *run, const struct rc_grid *g, struct rc_solver *solver,
                   struct rc_problem contact);
-/* Instead of an elastic solution: goes on from the state that the checkpoint has of this case. False: it has none. */
+/* Instead of an elastic solution: goes on from the state that the checkpoint has of this case.
+ * False: it has none. */
 bool yield_resumes(struct run *run, const struct rc_grid *g, struct rc_problem contact);
-/* What a checkpoint of such a body must agree in, k from 0 on: its name, and its value, empty without --yield. */
+/* What a checkpoint of such a body must agree in, k from 0 on: its name, and its value, empty
+ * without --yield. */
 enum {
     YIELD_MARKS = 6
 };
