@@ -21,6 +21,8 @@ static const char calibration[] =
 static const char device[] = "<Device><DeviceModelName>VR-3200</DeviceModelName><DeviceSerialId>#1"
                              "</DeviceSerialId></Device>";
 
+static const char scan[] = "<Scan><ScanDateTime>2024-02-29T10:00:00</ScanDateTime></Scan>";
+
 /* An array of NX x NY, each row with `padding` bytes behind it; of marks: 1, 2 and 0x80 at places 1 to 3. */
 static struct bytes
 array(size_t width, size_t padding)
@@ -49,11 +51,12 @@ zon_file(const char *xml, const struct bytes *heights, const struct bytes *marks
     const struct member members[] = {
         {"686613b8-27b5-4a29-8ffc-438c2780873e", xml, strlen(xml)},
         {"cbc1d39b-215f-4d56-a20e-cf8e5f570755", device, strlen(device)},
+        {"1d35862b-3b48-4df2-9235-833ef590b043", scan, strlen(scan)},
         {"4cdb0c75-5706-48cc-a9a1-adf395d609ae", heights->data, heights->n},
         {"9e7ca6dd-0e6a-4d7b-8986-f0a7b773c916", marks == NULL ? NULL : marks->data,
          marks == NULL ? 0 : marks->n},
     };
-    struct bytes b = {0}, zip = archive(members, marks == NULL ? 3 : 4);
+    struct bytes b = {0}, zip = archive(members, marks == NULL ? 4 : 5);
 
     add_text(&b, "KPK0");
     add_raw(&b, RC_RAW_U32, 15);
@@ -82,6 +85,7 @@ zon_is_read(void **state)
         check_map(g, NX, NY, 1.1e-6, 1.1e-6, v);
         assert_string_equal(rc_grid_get(g, "file.model"), "VR-3200");
         assert_string_equal(rc_grid_get(g, "file.serial"), "#1");
+        assert_string_equal(rc_grid_get(g, "file.date"), "2024-02-29T10:00:00");
         rc_grid_free(g);
         drop(&b);
     }

@@ -12,8 +12,11 @@ enum {
     FIRST = 0xffff
 };
 
+/* An entry of the directory, which is a tree: names on the right of an entry come after it, and the root's
+ * child is the top of it. */
 static void
-ole_entry(struct bytes *b, const char *name, int type, unsigned start, size_t size)
+ole_entry(struct bytes *b, const char *name, int type, unsigned right, unsigned child,
+          unsigned start, size_t size)
 {
     size_t at = b->n, n = strlen(name);
 
@@ -23,8 +26,9 @@ ole_entry(struct bytes *b, const char *name, int type, unsigned start, size_t si
     add_raw(b, RC_RAW_U16, n == 0 ? 0 : 2 * (double)(n + 1));
     add_raw(b, RC_RAW_U8, type);
     add_zeros(b, 1);
-    for (int k = 0; k < 3; k++)
-        add_raw(b, RC_RAW_U32, 0xffffffff);
+    add_raw(b, RC_RAW_U32, 0xffffffff);
+    add_raw(b, RC_RAW_U32, right);
+    add_raw(b, RC_RAW_U32, child);
     add_zeros(b, 116 - (b->n - at));
     add_raw(b, RC_RAW_U32, start);
     add_raw(b, RC_RAW_U64, (double)size);
@@ -71,10 +75,11 @@ ole_file(struct bytes *b, const char *name, const struct bytes *stream)
     add_raw(b, RC_RAW_U32, 0xfffffffe);
     add_raw(b, RC_RAW_U32, 0xfffffffe);
     ole_chain(b, SECTOR, 3, sectors);
-    ole_entry(b, "Root Entry", 5, small ? 3 : 0xfffffffe, small ? sectors * SECTOR : 0);
-    ole_entry(b, "Another", 2, 0xfffffffe, 0);
-    ole_entry(b, name, 2, small ? 0 : 3, stream->n);
-    ole_entry(b, "", 0, 0, 0);
+    ole_entry(b, "Root Entry", 5, 0xffffffff, 1, small ? 3 : 0xfffffffe,
+              small ? sectors * SECTOR : 0);
+    ole_entry(b, "Another", 2, 2, 0xffffffff, 0xfffffffe, 0);
+    ole_entry(b, name, 2, 0xffffffff, 0xffffffff, small ? 0 : 3, stream->n);
+    ole_entry(b, "", 0, 0xffffffff, 0xffffffff, 0, 0);
     start = b->n;
     ole_chain(b, start, 0, small ? (stream->n + SMALL - 1) / SMALL : 0);
     while (b->n < start + SECTOR)
