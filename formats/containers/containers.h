@@ -15,5 +15,6 @@
 #include "xml.h"
 #include "zip_read.h"
 #include "zip_write.h"
+#include "zstd.h"
 
 #endif

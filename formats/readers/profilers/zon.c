@@ -1,12 +1,12 @@
 /*
- * Keyence ZON (macroscopes VR): KPK0, the length of a picture (u32), the picture, and a ZIP archive
+ * Keyence ZON (macroscopes VR): KPK0 or KPK1, the length of a picture (u32), the picture, and a ZIP archive
  * whose members have numbers for names: one is XML with the metres per pixel and per count, one the
  * heights, one a byte a point that says what the height is worth. Such arrays begin with columns,
  * rows, bytes of an element and bytes of a row (i32 each), little-endian; row 0 is the first. A height
  * is int32 * metres per count; where one of the lowest two bits of the byte is set nothing was
  * measured, or was not to be.
  *
- * In files that begin with KPK1 the members are packed by zstd too; these are refused.
+ * In files that begin with KPK1 each member is packed by zstd too.
  *
  * Written from how SurfaceTopography reads such files.
  */
@@ -35,6 +35,12 @@ struct zon {
 
 /* ---- the archive ---- */
 
+static bool
+is_packed(const struct rc_file *file)
+{
+    return rc_file_holds(file, 0, "KPK1", 4);
+}
+
 /* Its offsets count from its own start, or from that of the file. */
 static struct rc_zip_read *
 open_archive(const struct rc_file *file, struct rc_err *err)
@@ -44,14 +50,13 @@ open_archive(const struct rc_file *file, struct rc_err *err)
     struct rc_file part = *file;
     struct rc_zip_read *a = NULL;
 
-    if (rc_file_holds(file, 0, "KPK1", 4)) {
-        rc_err_set(err,
-                   "the file is of the kind KPK1, packed by zstd, which is not read: export the "
-                   "heights as CSV in Keyence's program");
+    if (!rc_file_holds(file, 0, "KPK0", 4) && !is_packed(file)) {
+        rc_err_set(err, "no ZON file: it begins with neither KPK0 nor KPK1");
         return NULL;
     }
-    if (!rc_file_holds(file, 0, "KPK0", 4)) {
-        rc_err_set(err, "no ZON file: it does not begin with KPK0");
+    if (is_packed(file) && !rc_zstd_is_there()) {
+        rc_err_set(err, "the file is packed by zstd (KPK1), which was not there when this program "
+                        "was built: export the heights as CSV in Keyence's program");
         return NULL;
     }
     if (b.past || picture > file->size - FIRST) {
@@ -73,28 +78,50 @@ open_archive(const struct rc_file *file, struct rc_err *err)
     return NULL;
 }
 
-/* An array: its head, and its bytes, which the caller frees; NULL with the reason. `width` of an element. */
+/* The n bytes of a member, without what zstd did, with a NUL behind them, which the caller frees; NULL with the
+ * reason. */
+static unsigned char *
+member_bytes(const struct zon *z, const struct rc_file *file, size_t member, const char *what,
+             size_t *n, struct rc_err *err)
+{
+    size_t most = rc_memory_limit(file->size), packed_n;
+    unsigned char *packed, *bytes;
+    uint64_t size;
+
+    if (rc_zip_read_size(z->archive, member, &size, err) != RC_OK)
+        return NULL;
+    if (size > most / 2) {
+        rc_err_set(err, "the archive promises %g MB of %s out of %g: that cannot be",
+                   (double)size / 1e6, what, (double)file->size / 1e6);
+        return NULL;
+    }
+    packed = rc_zip_read_bytes(z->archive, member, size, &packed_n, NULL, err);
+    if (packed == NULL || !is_packed(file)) {
+        *n = packed_n;
+        return packed;
+    }
+    bytes = rc_zstd_unpack(what, packed, packed_n, most / 2, n, err);
+    free(packed);
+    return bytes;
+}
+
+/* An array: its head, and its bytes, which the caller frees. */
 struct array {
     size_t nx, ny, row;
     unsigned char *bytes;
     size_t n;
 };
 
+/* `width`: bytes that an element must have. */
 static enum rc_status
 read_array(const struct zon *z, const struct rc_file *file, const char *name, size_t width,
            struct array *a, struct rc_err *err)
 {
     struct rc_bytes b = {0};
     size_t member, element;
-    uint64_t size;
 
     if (rc_zip_read_find(z->archive, name, &member, err) != RC_OK ||
-        rc_zip_read_size(z->archive, member, &size, err) != RC_OK)
-        return RC_FAIL;
-    if (size > rc_memory_limit(file->size))
-        return rc_err_set(err, "the archive promises %g MB out of %g: that cannot be",
-                          (double)size / 1e6, (double)file->size / 1e6);
-    if ((a->bytes = rc_zip_read_bytes(z->archive, member, size, &a->n, NULL, err)) == NULL)
+        (a->bytes = member_bytes(z, file, member, "heights or marks", &a->n, err)) == NULL)
         return RC_FAIL;
     b.data = a->bytes;
     b.size = a->n;
@@ -152,7 +179,25 @@ take_element(void *arg, const char *path, const char *text, struct rc_err *err)
 }
 
 static enum rc_status
-read_elements(struct zon *z, struct rc_err *err)
+read_document(struct zon *z, const struct rc_file *file, size_t member, struct rc_err *err)
+{
+    size_t n;
+    unsigned char *bytes = member_bytes(z, file, member, "settings", &n, err);
+    struct rc_xml *xml = NULL;
+    enum rc_status status = RC_FAIL;
+
+    if (bytes != NULL && n > XML_MOST)
+        rc_err_set(err, "the settings have %zu bytes: that cannot be", n);
+    else if (bytes != NULL && (xml = rc_xml_new("a document", take_element, z, err)) != NULL &&
+             rc_xml_feed(xml, bytes, n, err) == RC_OK)
+        status = rc_xml_end(xml, err);
+    rc_xml_free(xml);
+    free(bytes);
+    return status;
+}
+
+static enum rc_status
+read_elements(struct zon *z, const struct rc_file *file, struct rc_err *err)
 {
     const char *last = "";
 
@@ -163,8 +208,7 @@ read_elements(struct zon *z, struct rc_err *err)
             continue;
         last = elements[k].member;
         if (rc_zip_read_find(z->archive, last, &member, NULL) == RC_OK &&
-            rc_zip_read_xml(z->archive, member, XML_MOST, last, take_element, z, NULL, err) !=
-                RC_OK)
+            read_document(z, file, member, err) != RC_OK)
             return RC_FAIL;
     }
     return RC_OK;
@@ -229,7 +273,7 @@ zon_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     (void)wish;
     if ((z.archive = open_archive(file, err)) == NULL)
         return RC_FAIL;
-    if (read_elements(&z, err) == RC_OK &&
+    if (read_elements(&z, file, err) == RC_OK &&
         read_array(&z, file, heights_name, 4, &a, err) == RC_OK) {
         map = rc_maps_add(maps, "", 0);
         map->nx = a.nx;
