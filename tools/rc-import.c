@@ -311,7 +311,7 @@ enum {
     CHILD = 1 << 19 /* bytes that a process that reads a file takes beside the map */
 };
 
-/* The file is in memory already. A map that a process of its own reads is there twice while it is
+/* The file is in memory already; what is packed in it takes more beside the map. A map that a process of its own reads is there twice while it is
  * handed over. */
 static enum rc_status
 check_memory(struct tool *t, const struct source *s, const struct rc_channel *channel,
@@ -325,6 +325,8 @@ check_memory(struct tool *t, const struct source *s, const struct rc_channel *ch
         return RC_FAIL;
     if (s->format->sandboxed)
         bytes = size_sum(bytes, size_sum(CHILD, s->format->copies ? s->file.size : 0));
+    bytes =
+        size_sum(bytes, channel->beside < (double)SIZE_MAX ? (size_t)channel->beside : SIZE_MAX);
     return tool_ask_memory(t, &shape, bytes, "the file itself takes memory too", err);
 }
 

@@ -103,11 +103,11 @@ rc_map_count(const char *what, double number, size_t *count, struct rc_err *err)
 }
 
 enum rc_status
-rc_map_bound(const struct rc_map *map, const struct rc_file *file, double unpacked,
-             struct rc_err *err)
+rc_map_bound(struct rc_map *map, const struct rc_file *file, double unpacked, struct rc_err *err)
 {
     double bytes = 8 * (double)map->nx * (double)map->ny + unpacked;
 
+    map->beside = unpacked;
     if (bytes <= (double)rc_memory_limit(file->size))
         return RC_OK;
     return rc_err_set(err, "the header promises %zu x %zu heights in %zu bytes: that cannot be",

@@ -38,7 +38,8 @@ struct rc_map {
      * file's size. */
     enum rc_status (*fill)(const struct rc_file *file, const struct rc_wish *wish,
                            const struct rc_map *map, double *v, struct rc_err *err);
-    size_t more;            /* for fill                                                           */
+    size_t more;   /* for fill                                                           */
+    double beside; /* bytes that fill takes beside v: set by rc_map_bound                         */
     struct rc_notes *notes; /* for fill too                                              */
     char hint[96]; /* the spacing where the file gives it without a unit; for the refusal */
 };
@@ -75,9 +76,9 @@ void rc_map_hint(struct rc_map *map, double dx, double dy);
 void rc_map_steps(struct rc_map *map, double dx, double dy, struct rc_piece unit);
 /* A whole number from 1 to 2^31 - 1 as a header has it, or RC_FAIL with its name. */
 enum rc_status rc_map_count(const char *what, double number, size_t *count, struct rc_err *err);
-/* RC_FAIL when the map and `unpacked` bytes exceed rc_memory_limit: for what is packed in the
- * file. */
-enum rc_status rc_map_bound(const struct rc_map *map, const struct rc_file *file, double unpacked,
+/* RC_FAIL when the map and `unpacked` bytes, which fill takes beside it, exceed rc_memory_limit: for
+ * what is packed in the file. */
+enum rc_status rc_map_bound(struct rc_map *map, const struct rc_file *file, double unpacked,
                             struct rc_err *err);
 /* Makes it a map that is text: numbers separated by white space from `at` on. RC_FAIL when the text
  * is too short for nx*ny of them. */

@@ -60,6 +60,13 @@ describe(rc_maps_find *find, const struct rc_file *file, const struct rc_wish *w
     return RC_OK;
 }
 
+/* Whether values have to go through memory of their own to where they belong. */
+static bool
+is_turned(const struct rc_map *map)
+{
+    return map->by_columns || map->bottom_first || map->right_first;
+}
+
 size_t
 rc_maps_list(rc_maps_find *find, const struct rc_file *file, const struct rc_wish *wish,
              struct rc_channel *channel, size_t most, struct rc_err *err)
@@ -74,6 +81,10 @@ rc_maps_list(rc_maps_find *find, const struct rc_file *file, const struct rc_wis
             (struct rc_channel){.nx = map->nx, .ny = map->ny, .dx = map->dx, .dy = map->dy};
         strcpy(channel[k].name, map->name);
         strcpy(channel[k].unit, map->unit);
+        channel[k].beside = map->beside;
+        if (map->fill != NULL &&
+            is_turned(map)) /* the map itself is not touched while it is filled */
+            channel[k].beside = fmax(map->beside, 8 * (double)map->nx * (double)map->ny);
     }
     return maps.n;
 }
@@ -113,7 +124,7 @@ decode(const struct rc_map *map, const struct rc_file *file, double *v, struct r
     double *line;
 
     bytes.at = map->at;
-    if (!map->by_columns && !map->bottom_first && !map->right_first && map->padding == 0) {
+    if (!is_turned(map) && map->padding == 0) {
         rc_bytes_values(&bytes, map->raw, v, map->nx * map->ny);
         return RC_OK;
     }
@@ -138,7 +149,7 @@ fill(const struct rc_map *map, const struct rc_file *file, const struct rc_wish 
     size_t inner = map->by_columns ? map->ny : map->nx, n = map->nx * map->ny;
     double *raw;
 
-    if (!map->by_columns && !map->bottom_first && !map->right_first)
+    if (!is_turned(map))
         return map->fill(file, wish, map, v, err);
     if ((raw = malloc(n * sizeof *raw)) == NULL)
         return rc_err_set(err, "out of memory for %zu values", n);

@@ -26,6 +26,7 @@ struct rc_channel {
     char unit[16]; /* SI unit of the values, "m" for heights; "" when the file does not say    */
     size_t nx, ny;
     double dx, dy; /* m; NAN when the file does not say                                        */
+    double beside; /* bytes that reading the values takes beside them                          */
 };
 
 /* Remarks on a file, which are no errors. */

@@ -1,4 +1,4 @@
-# made_maps.pl park|netcdf NX NY: a file of that format with a map of that size, on standard output.
+# made_maps.pl park|netcdf|mat NX NY: a file of that format with a map of that size, on standard output.
 use strict;
 use warnings;
 
@@ -47,5 +47,20 @@ sub netcdf {
         map { pack 'd>', $_ % 97 } 1 .. $n;
 }
 
+# MATLAB: doubles in micrometres, packed.
+sub mat {
+    require Compress::Zlib;
+    my $element = sub { my ($type, $bytes) = @_; pack('VV', $type, length $bytes) . $bytes . "\0" x (-length($bytes) % 8) };
+    my $array = sub {
+        my ($name, $class, $rows, $columns, $type, $numbers) = @_;
+        return $element->(14, $element->(6, pack 'VV', $class, 0) . $element->(5, pack 'VV', $rows, $columns)
+                . $element->(1, $name) . $element->($type, $numbers));
+    };
+    my $text = sub { $array->($_[0], 4, 1, length $_[1], 4, pack 'v*', map { ord } split //, $_[1]) };
+    my $packed = Compress::Zlib::compress($array->('map', 6, $ny, $nx, 9, join '', map { pack 'd<', sin $_ } 1 .. $n));
+    print pack('A124 v', 'MATLAB 5.0 MAT-file', 0x100), 'IM', $array->('dx', 6, 1, 1, 9, pack 'd<', 1),
+        $text->('dunit', 'um'), $text->('unit', 'um'), pack('VV', 15, length $packed), $packed;
+}
+
 binmode STDOUT;
-$format eq 'park' ? park() : netcdf();
+{ park => \&park, netcdf => \&netcdf, mat => \&mat }->{$format}->();

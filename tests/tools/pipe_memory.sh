@@ -62,7 +62,7 @@ for format in x3p npy csv hdf5; do
     estimated "rc-export --format $format" "rc-export --format $format --verbose odd.rcg"
     estimated "rc-import of that" "rc-import --verbose --dx 1um --z-unit m odd.$format"
 done
-for format in park netcdf; do
+for format in park netcdf mat; do
     perl "$RC_SOURCE/tests/tools/made_maps.pl" $format 1024 700 >made.$format
     estimated "rc-import of $format" "rc-import --verbose made.$format"
 done
