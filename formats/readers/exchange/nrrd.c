@@ -3,9 +3,9 @@
  * axis fastest, which is x; row 0 is the first. They are raw, packed with gzip, or text. Axes of one
  * value beyond two are passed over.
  *
- * The step of an axis is its spacing, or comes from its least and greatest place: between nodes where it is
- * centred on nodes, else between the borders of cells. `units` has the units of the axes, in quotes, `sample
- * units` that of the values.
+ * The step of an axis is its spacing, the length of its direction in space, or comes from its least
+ * and greatest place: between nodes where it is centred on nodes, else between the borders of cells.
+ * `units` or `space units` have the units of the axes, in quotes, `sample units` that of the values.
  *
  * Written from Teem's description of the format, and from files of Gwyddion.
  */
@@ -25,23 +25,36 @@ static const char magic[] = "NRRD000";
 struct nrrd {
     struct rc_piece type, encoding, endian, dimension, sizes, spacings, mins, maxs, units, centers,
         unit;
-    struct rc_piece file, skip, lines, title;
+    struct rc_piece file, skip, lines, title, directions, space_units;
     size_t data; /* byte behind the header */
 };
 
 #define TO(member) offsetof(struct nrrd, member)
 static const struct rc_field fields[] = {
-    {"type", RC_FIELD_TEXT, TO(type)},          {"encoding", RC_FIELD_TEXT, TO(encoding)},
-    {"endian", RC_FIELD_TEXT, TO(endian)},      {"dimension", RC_FIELD_TEXT, TO(dimension)},
-    {"sizes", RC_FIELD_TEXT, TO(sizes)},        {"spacings", RC_FIELD_TEXT, TO(spacings)},
-    {"axis mins", RC_FIELD_TEXT, TO(mins)},     {"axismins", RC_FIELD_TEXT, TO(mins)},
-    {"axis maxs", RC_FIELD_TEXT, TO(maxs)},     {"axismaxs", RC_FIELD_TEXT, TO(maxs)},
-    {"units", RC_FIELD_TEXT, TO(units)},        {"centers", RC_FIELD_TEXT, TO(centers)},
-    {"centerings", RC_FIELD_TEXT, TO(centers)}, {"sample units", RC_FIELD_TEXT, TO(unit)},
-    {"sampleunits", RC_FIELD_TEXT, TO(unit)},   {"data file", RC_FIELD_TEXT, TO(file)},
-    {"datafile", RC_FIELD_TEXT, TO(file)},      {"byte skip", RC_FIELD_TEXT, TO(skip)},
-    {"byteskip", RC_FIELD_TEXT, TO(skip)},      {"line skip", RC_FIELD_TEXT, TO(lines)},
-    {"lineskip", RC_FIELD_TEXT, TO(lines)},     {"content", RC_FIELD_TEXT, TO(title)},
+    {"type", RC_FIELD_TEXT, TO(type)},
+    {"encoding", RC_FIELD_TEXT, TO(encoding)},
+    {"endian", RC_FIELD_TEXT, TO(endian)},
+    {"dimension", RC_FIELD_TEXT, TO(dimension)},
+    {"sizes", RC_FIELD_TEXT, TO(sizes)},
+    {"spacings", RC_FIELD_TEXT, TO(spacings)},
+    {"axis mins", RC_FIELD_TEXT, TO(mins)},
+    {"axismins", RC_FIELD_TEXT, TO(mins)},
+    {"axis maxs", RC_FIELD_TEXT, TO(maxs)},
+    {"axismaxs", RC_FIELD_TEXT, TO(maxs)},
+    {"units", RC_FIELD_TEXT, TO(units)},
+    {"centers", RC_FIELD_TEXT, TO(centers)},
+    {"centerings", RC_FIELD_TEXT, TO(centers)},
+    {"sample units", RC_FIELD_TEXT, TO(unit)},
+    {"sampleunits", RC_FIELD_TEXT, TO(unit)},
+    {"data file", RC_FIELD_TEXT, TO(file)},
+    {"datafile", RC_FIELD_TEXT, TO(file)},
+    {"byte skip", RC_FIELD_TEXT, TO(skip)},
+    {"byteskip", RC_FIELD_TEXT, TO(skip)},
+    {"line skip", RC_FIELD_TEXT, TO(lines)},
+    {"lineskip", RC_FIELD_TEXT, TO(lines)},
+    {"content", RC_FIELD_TEXT, TO(title)},
+    {"space directions", RC_FIELD_TEXT, TO(directions)},
+    {"space units", RC_FIELD_TEXT, TO(space_units)},
 };
 #undef TO
 
@@ -181,14 +194,40 @@ word_at(struct rc_piece list, size_t axis)
     return word;
 }
 
+/* The length of the vector that an axis has, "(1.1,0,0)"; NAN where it has none. */
+static double
+vector_length(struct rc_piece list, size_t axis)
+{
+    struct rc_piece vector = {"", 0}, number, skipped;
+    double length = 0;
+
+    for (size_t k = 0; k <= axis; k++) {
+        list = rc_piece_trim(list);
+        if (rc_piece_begins(list, "none")) {
+            vector = (struct rc_piece){"", 0};
+            list = (struct rc_piece){list.text + 4, list.n - 4};
+        } else if (!rc_piece_part(list, "(", &skipped, &list) ||
+                   !rc_piece_part(list, ")", &vector, &list))
+            return NAN;
+    }
+    if (vector.n == 0)
+        return NAN;
+    while (rc_piece_part(vector, ",", &number, &vector))
+        length = hypot(length, number_of(number));
+    return hypot(length, number_of(vector));
+}
+
 static double
 step_of(const struct nrrd *h, size_t axis, double n)
 {
     double spacing = number_of(word_at(h->spacings, axis));
+    double vector = vector_length(h->directions, axis);
     double length = number_of(word_at(h->maxs, axis)) - number_of(word_at(h->mins, axis));
 
     if (!isnan(spacing))
         return fabs(spacing);
+    if (!isnan(vector))
+        return vector;
     return fabs(length) / (rc_piece_is(word_at(h->centers, axis), "node") ? n - 1 : n);
 }
 
@@ -275,8 +314,10 @@ nrrd_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps
         return RC_FAIL;
     dx = step_of(&h, axis[0], size[0]);
     dy = map->ny == 1 ? dx : step_of(&h, axis[1], size[1]);
-    x_unit = word_at(h.units, axis[0]);
-    y_unit = map->ny == 1 ? x_unit : word_at(h.units, axis[1]);
+    x_unit = h.units.n > 0 ? word_at(h.units, axis[0]) : word_at(h.space_units, 0);
+    y_unit = map->ny == 1    ? x_unit
+             : h.units.n > 0 ? word_at(h.units, axis[1])
+                             : word_at(h.space_units, 1);
     if (!isnan(dx) && !isnan(dy) &&
         (isnan(rc_piece_metres(x_unit)) || isnan(rc_piece_metres(y_unit))))
         rc_map_hint(map, dx, dy);

@@ -149,7 +149,7 @@ make_mat(struct bytes *m, int variant)
 }
 
 /* 0: floats; 1: whole numbers of 16 bits, highest byte first, steps between nodes; 2: packed with
- * gzip; 3: text; 4: with an axis of one value */
+ * gzip; 3: text; 4: with directions in space; 5: with an axis of one value */
 void
 make_nrrd(struct bytes *m, int variant)
 {
@@ -164,10 +164,15 @@ make_nrrd(struct bytes *m, int variant)
         "spacings: 1.1 1.29\nunits: \"um\" \"um\"\nsample units: \"nm\"\n\n",
         "type: float\nencoding: ascii\ndimension: 2\nsizes: 3 2\nspacings: 1.1 1.29\n"
         "units: \"um\" \"um\"\nsample units: \"nm\"\n\n10 -20 30\n40 nan -60\n",
+        "type: float\nencoding: raw\nendian: little\ndimension: 3\nspace dimension: 3\nsizes: 3 2 "
+        "1\n"
+        "space directions: (1.1,0,0) (0, 0, -1.29) none\nspace units: \"um\" \"um\" \"um\"\n"
+        "sample units: \"nm\"\n\n",
         "type: int\nencoding: raw\nendian: little\ndimension: 3\nsizes: 1 3 2\n"
         "spacings: nan 1.1 1.29\nunits: \"\" \"um\" \"um\"\nsample units: \"nm\"\n\n",
     };
-    static const enum rc_raw raws[] = {RC_RAW_F32, RC_RAW_I16, RC_RAW_F64, RC_RAW_F32, RC_RAW_I32};
+    static const enum rc_raw raws[] = {RC_RAW_F32, RC_RAW_I16, RC_RAW_F64,
+                                       RC_RAW_F32, RC_RAW_F32, RC_RAW_I32};
     struct bytes map = {.big = variant == 1};
 
     add_text(m, variant == 3 ? "NRRD0001\n" : "NRRD0004\n");
