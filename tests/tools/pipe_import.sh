@@ -96,6 +96,15 @@ refuses 1 "bare.txt: the file does not give the spacing in x: --dx LENGTH" "an a
 refuses 1 "bare.txt: the file does not give the unit of its heights: --z-unit" "an absent unit names the option" 'rc-import --dx 1um bare.txt'
 refuses 1 "no channel 'Phase'; there are 1 'Topo'" "an absent channel names those present" \
     'rc-import --channel Phase map.txt'
+rc-import map.txt | rc-export --format mat >whole.mat
+head -c 400 whole.mat >cut.mat
+refuses 1 "cut.mat: the variable at byte [0-9]+ promises more bytes than the file has" "a file cut off" 'rc-import cut.mat'
+printf '\001\260\223\377%32s' '' >empty.mdt
+refuses 1 "empty.mdt: the file ends before frame 1" "a header without what it promises" 'rc-import empty.mdt'
+printf 'NRRD0004\ntype: float\nencoding: gzip\ndimension: 2\nsizes: 99999 99999\n\n' >bomb.nrrd
+refuses 1 "bomb.nrrd: the header promises 99999 x 99999 heights in [0-9]+ bytes: that cannot be" "a size that lies" 'rc-import bomb.nrrd'
+printf 'KPK0\377\377\377\377PK' >lies.zon
+refuses 1 "lies.zon: the picture takes 4294967295 bytes, the file has 10" "a length that lies" 'rc-import lies.zon'
 refuses 1 "nowhere.txt: No such file" "a file that is not there" 'rc-import nowhere.txt'
 refuses 1 "reading failed \(Is a directory\)" "a folder" 'rc-import .'
 refuses 1 "the file is empty" "an empty file" 'rc-import /dev/null'
