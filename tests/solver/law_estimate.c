@@ -222,7 +222,7 @@ not_below_on_profiles(void **state)
         free(h);
     }
     print_message("%zu profiles: %.3f to %.2f\n", judged, least, most);
-    assert_true(judged > PROFILES / 2 && least >= 1 && most < 4);
+    assert_true(judged > PROFILES / 2 && least >= 1 && most < 2.5);
 }
 
 int
