@@ -311,8 +311,8 @@ enum {
     CHILD = 1 << 19 /* bytes that a process that reads a file takes beside the map */
 };
 
-/* The file is in memory already; what is packed in it takes more beside the map. A map that a process of its own reads is there twice while it is
- * handed over. */
+/* The file is in memory already; what is packed in it takes more beside the map. A map that a process of
+ * its own reads is there twice while it is handed over. */
 static enum rc_status
 check_memory(struct tool *t, const struct source *s, const struct rc_channel *channel,
              struct rc_err *err)

@@ -1,16 +1,17 @@
 /*
  * The lowest load of a retraction, in up to three stages.
  *
- * Coarse: from state to state until what attracts is less than the lowest load so far. Gaps only grow, so that no
- * later load is lower than minus the attraction. On a path without jumps the load is convex over the approach as
- * long as it falls, for contact goes and stiffness with it.
+ * Coarse: from state to state until what attracts is less than the lowest load so far. Gaps only grow, so
+ * that no later load is lower than minus the attraction. On a path without jumps the load is convex over
+ * the approach as long as it falls, for contact goes and stiffness with it.
  *
- * Fine, where it is not: once more, from the state before the first way that may hide a lower load. Between jumps the
- * load falls no faster than the stiffness of the contact, so that a way is as long as it takes at least to the
- * lowest load that is known; and one that has jumped is halved until it hides nothing that counts.
+ * Fine, where it is not: once more, from the state before the first way that may hide a lower load.
+ * Between jumps the load falls no faster than the stiffness of the contact, so that a way is as long as
+ * it takes at least to the lowest load that is known; and one that has jumped is halved until it hides
+ * nothing that counts.
  *
- * Vertex, where the path is smooth about the lowest: by the parabola through it and its neighbours, until the load
- * there stays.
+ * Vertex, where the path is smooth about the lowest: by the parabola through it and its neighbours, until
+ * the load there stays.
  */
 #include "retraction.h"
 
@@ -191,9 +192,9 @@ note_vertex(struct rc_retraction *r, struct rc_retraction_state here)
 
 /* ---- ways ---- */
 
-/* The way on from a state: to a load that is lower by part of what holds, as far as the slope tells. What holds is
- * at most the attraction, and no more than it takes to open a round crack about the contact: of a sphere in the
- * limit of short ranges the lowest load is a quarter of sqrt(8 pi E* w a^3) at no load. */
+/* The way on from a state: to a load that is lower by part of what holds, as far as the slope tells. What
+ * holds is at most the attraction, and no more than it takes to open a round crack about the contact: of a
+ * sphere in the limit of short ranges the lowest load is a quarter of sqrt(8 pi E* w a^3) at no load. */
 static double
 coarse_way(const struct rc_retraction *r, const struct rc_retraction_state *here)
 {
@@ -280,9 +281,9 @@ end(struct rc_retraction *r, double load, double at, double spread)
     return false;
 }
 
-/* On a grid that hardly holds the law the load over the approach is a saw: it falls with the stiffness of the
- * contact, and leaps up where a node lets go. A parabola knows nothing of it; two states beside its vertex do, at
- * distances of no simple ratio, where it tells loads that are higher by what settles it. */
+/* On a grid that hardly holds the law the load over the approach is a saw: it falls with the stiffness of
+ * the contact, and leaps up where a node lets go. A parabola knows nothing of it; two states beside its
+ * vertex do, at distances of no simple ratio, where it tells loads that are higher by what settles it. */
 static bool
 check(struct rc_retraction *r)
 {

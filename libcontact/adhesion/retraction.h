@@ -1,6 +1,7 @@
 /*
- * The search for the lowest load of a retraction: which approach comes next, and from which state the way to it
- * begins. It sees loads only; adhesion.c has the states, and keeps those that the search may go back to.
+ * The search for the lowest load of a retraction: which approach comes next, and from which state the way
+ * to it begins. It sees loads only; adhesion.c has the states, and keeps those that the search may go
+ * back to.
  */
 #ifndef RC_RETRACTION_H
 #define RC_RETRACTION_H
@@ -49,8 +50,8 @@ struct rc_retraction {
         bend;      /* of the parabola: its lowest load, where, and half its second derivative */
     double missed; /* by how much a load was another than that of the parabola               */
     size_t states, fine, vertices, checks;
-    /* what to do next: keep the state as `keep`, unless that is below 0; it is the lowest so far; go from `from`,
-     * which is that of from_c, to c */
+    /* what to do next: keep the state as `keep`, unless that is below 0; it is the lowest so far; go from
+     * `from`, which is that of from_c, to c */
     int keep, from;
     bool is_lowest;
     double from_c, c;
@@ -61,8 +62,8 @@ struct rc_retraction {
 
 /* Lengths over the length of the grid, the work over length and E*. */
 void rc_retraction_begin(struct rc_retraction *r, double work, double range, double parted);
-/* Takes a state, whose `slope` and `kept` it sets itself; true: there is a next one, else load, at and spread are
- * found. */
+/* Takes a state, whose `slope` and `kept` it sets itself; true: there is a next one, else load, at and
+ * spread are found. */
 bool rc_retraction_next(struct rc_retraction *r, struct rc_retraction_state here);
 
 #endif

@@ -24,9 +24,9 @@ struct rc_preconditioner {
     double *lines; /* three, where ranks share the map; else NULL                    */
 };
 
-/* |x|^(-5/2), on a line |x|^(-3/2): half a power more than the exact extension off a half-plane or a half-line,
- * which has weights of the sources instead. A node has no weight in itself, because no node is both on W and off
- * it. */
+/* |x|^(-5/2), on a line |x|^(-3/2): half a power more than the exact extension off a half-plane or a
+ * half-line, which has weights of the sources instead. A node has no weight in itself, because no node is
+ * both on W and off it. */
 static double
 spread_of(double r2, bool line)
 {
@@ -60,13 +60,13 @@ static const struct rc_kernel spread = {.rows = spread_rows},
  * factor that grows with l, 2.4 for the longest of 2048 x 2048 at 39 % contact, so that the number of
  * steps would grow with the map. */
 static const float surrounded = 3;
-/* On the period of a line S is 2 beside a half-line, and the mean has to be reached only far from all of W: tried with
- * contact of 2 to 90 % on 1024 to 65536 nodes. */
+/* On the period of a line S is 2 beside a half-line, and the mean has to be reached only far from all of W:
+ * tried with contact of 2 to 90 % on 1024 to 65536 nodes. */
 static const float surrounded_on_line = 1.25F;
 static const double fade_on_line = 0.02;
 
-/* Beyond the ends of a line that does not repeat there is nothing to extend to; there the extension of maps is as
- * good. */
+/* Beyond the ends of a line that does not repeat there is nothing to extend to; there the extension of maps
+ * is as good. */
 static bool
 is_line(const struct rc_operator *op)
 {

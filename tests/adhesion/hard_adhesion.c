@@ -233,7 +233,8 @@ pull_off_by_hand(void **state)
 }
 
 /* A rough ball lets go spot by spot: its load over the approach has several lowest places and leaps between
- * them. The search finds the lowest of all, as a path in two hundred steps does, and what it is off is told. */
+ * them. The search finds the lowest of all, as a path in two hundred steps does, and what it is off is
+ * told. */
 static void
 pull_off_of_rough(void **state)
 {

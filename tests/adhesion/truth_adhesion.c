@@ -40,8 +40,8 @@ sphere_of(size_t n, double nodes)
 }
 
 /* Bounds: of the load where it is none, over pi w R; of the lowest load, relative. They are what the grid
- * leaves. Where the ring that attracts is 4, 1.6 and 0.6 nodes wide the load over the approach is a saw, whose
- * lowest tooth, in 200 states, is 0.2, 0.26 and 0.71 % below Maugis' lowest load. */
+ * leaves. Where the ring that attracts is 4, 1.6 and 0.6 nodes wide the load over the approach is a saw,
+ * whose lowest tooth, in 200 states, is 0.2, 0.26 and 0.71 % below Maugis' lowest load. */
 static const struct {
     double lambda, nodes;
     size_t n;

@@ -1,4 +1,5 @@
-/* The work on the period of a profile hardly grows with its nodes: the extension off a line is one of its own. */
+/* The work on the period of a profile hardly grows with its nodes: the extension off a line is one of its
+ * own. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

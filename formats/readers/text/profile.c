@@ -1,7 +1,7 @@
 /*
- * Profiles as text: a column of positions, evenly apart, and one of heights, behind a header of
- * whatever kind, whose units are found as titled_table.h says; a column that counts the points is passed over, one titled "valid" marks missing points by
- * 0. A single column is of heights.
+ * Profiles as text: a column of positions, evenly apart, and one of heights, behind a header of whatever
+ * kind, whose units are found as titled_table.h says; a column that counts the points is passed over, one
+ * titled "valid" marks missing points by 0. A single column is of heights.
  */
 #include <math.h>
 #include <stdlib.h>
