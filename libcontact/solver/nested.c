@@ -202,8 +202,11 @@ pressure_under(const struct rc_solver *s, const struct rc_solver *c, double **ro
 static double
 tolerance(const struct rc_solver *s, const struct rc_shape *coarse)
 {
+    double nodes = (double)(coarse->nx * coarse->ny);
+    bool line = coarse->nx == 1 || coarse->ny == 1;
+
     if (s->posed.discretization)
-        return fmax(0.1 / sqrt((double)(coarse->nx * coarse->ny)), s->load.tol);
+        return fmax(0.1 / (line ? nodes : sqrt(nodes)), s->load.tol);
     return fmax(s->load.target > 0 ? coarse_tol_yielding : coarse_tol, s->load.tol);
 }
 
