@@ -1,4 +1,4 @@
-/* The work on the period of a profile hardly grows with its nodes: the extension off a line is one of its
+/* Up to 16384 nodes the work on the period of a profile hardly grows: the extension off a line is one of its
  * own. */
 #include <setjmp.h>
 #include <stdarg.h>
