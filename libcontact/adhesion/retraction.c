@@ -282,21 +282,79 @@ end(struct rc_retraction *r, double load, double at, double spread)
 }
 
 /* On a grid that hardly holds the law the load over the approach is a saw: it falls with the stiffness of
- * the contact, and leaps up where a node lets go. A parabola knows nothing of it; two states beside its
- * vertex do, at distances of no simple ratio, where it tells loads that are higher by what settles it. */
+ * the contact, and leaps up where a node lets go, so that the lowest that was found is that of one tooth.
+ * Two states beside it tell, where the parabola of the coarse stage is higher by what settles it, at
+ * distances of no simple ratio. Where they are off the parabola six more look for the height of the teeth.
+ * Far above them the bodies have jumped: that is no tooth. */
+static const double places[RC_RETRACTION_CHECKS] = {1,     -0.618, -1.5, 0.382,
+                                                    0.854, -0.236, -1.1, 0.56};
+static const double leap = 0.05; /* of the lowest load */
+enum {
+    FIRST = 2
+};
+
+/* How far the loads beside the lowest, and the lowest, lie apart about a parabola that fits them best. */
+static double
+teeth(const struct rc_retraction *r)
+{
+    double a[3][4] = {{0}}, least = INFINITY, most = -INFINITY;
+
+    for (size_t k = 0; k < r->beside_n; k++) {
+        double x = r->beside_way[k] / fabs(r->beside_way[1]), power[] = {1, x, x * x};
+        for (int i = 0; i < 3; i++) {
+            for (int j = 0; j < 3; j++)
+                a[i][j] += power[i] * power[j];
+            a[i][3] += power[i] * r->beside_load[k];
+        }
+    }
+    for (int i = 0; i < 3; i++) /* the matrix is positive */
+        for (int k = 0; k < 3; k++) {
+            double factor = a[k][i] / a[i][i];
+            for (int j = i; k != i && j < 4; j++)
+                a[k][j] -= factor * a[i][j];
+        }
+    for (size_t k = 0; k < r->beside_n; k++) {
+        double x = r->beside_way[k] / fabs(r->beside_way[1]);
+        double off = r->beside_load[k] -
+                     (a[0][3] / a[0][0] + x * (a[1][3] / a[1][1] + x * a[2][3] / a[2][2]));
+        least = fmin(least, off);
+        most = fmax(most, off);
+    }
+    return most - least;
+}
+
 static bool
 check(struct rc_retraction *r)
 {
-    const double places[] = {1, -0.618};
-    double lowest = fmin(r->estimate, r->lowest.load),
-           way = fmin(sqrt(settled * fabs(r->estimate) / r->bend), (r->before.c - r->after.c) / 4),
-           c;
+    double way, c;
+    bool saw = r->missed > settled / 2 * fabs(r->estimate);
 
-    if (r->checks == sizeof places / sizeof *places)
+    if (r->checks == RC_RETRACTION_CHECKS || (r->checks >= FIRST && !saw)) {
+        double lowest = fmin(r->estimate, r->lowest.load);
         return end(r, lowest, lowest < r->lowest.load ? r->at_estimate : r->lowest.c,
-                   2 * r->missed);
-    c = r->at_estimate + places[r->checks++] * way;
-    return go(r, c > r->lowest.c ? &r->before : &r->lowest, c);
+                   fmax(r->spread, !saw              ? 2 * r->missed
+                                   : r->beside_n > 3 ? teeth(r)
+                                                     : 0));
+    }
+    way = sqrt(settled * fabs(r->estimate) / r->around);
+    way = places[r->checks++] * fmin(way, r->at_estimate - r->late);
+    c = r->at_estimate + way;
+    if (c > r->base.c) /* no state to come from */
+        c = r->at_estimate - way;
+    return go(r, c <= r->lowest.c ? &r->lowest : c <= r->before.c ? &r->before : &r->base, c);
+}
+
+/* About this load, that of a parabola with this bend; the spread is at least this. */
+static bool
+begin_check(struct rc_retraction *r, double load, double at, double bend, double spread)
+{
+    r->stage = RC_RETRACTION_CHECK;
+    r->estimate = r->beside_load[0] = load;
+    r->at_estimate = at;
+    r->beside_n = 1;
+    r->bend = bend;
+    r->spread = spread;
+    return check(r);
 }
 
 static void
@@ -304,9 +362,13 @@ note_check(struct rc_retraction *r, struct rc_retraction_state here)
 {
     double way = here.c - r->at_estimate;
 
-    r->missed = fmax(r->missed, fabs(here.load - r->estimate - r->bend * way * way));
     r->keep = RC_RETRACTION_HERE;
     r->is_lowest = here.load < r->lowest.load;
+    if (here.load > r->estimate + leap * fabs(r->estimate))
+        return;
+    r->missed = fmax(r->missed, fabs(here.load - r->estimate - r->bend * way * way));
+    r->beside_way[r->beside_n] = way;
+    r->beside_load[r->beside_n++] = here.load;
     if (!r->is_lowest)
         return;
     r->lowest.kept = RC_RETRACTION_HERE;
@@ -314,12 +376,23 @@ note_check(struct rc_retraction *r, struct rc_retraction_state here)
     r->lowest = here;
 }
 
+/* The end of a search that has found this state the lowest, by as much as is given. */
+static bool
+end_or_check(struct rc_retraction *r, double spread)
+{
+    const struct rc_retraction_state *m = &r->lowest;
+
+    return r->around > 0 ? begin_check(r, m->load, m->c, r->around, spread)
+                         : end(r, m->load, m->c, spread);
+}
+
 /* The next stage, the parabola's next, or the end. */
 static bool
 settle(struct rc_retraction *r)
 {
     const struct rc_retraction_state *l = &r->before, *m = &r->lowest, *right = &r->after;
-    double least = fmin(fmin(r->hidden, r->beside), m->load), last = r->estimate, off;
+    double least = fmin(fmin(r->hidden, r->beside), m->load), last = r->estimate, estimate, at, off,
+           bend;
     bool again = r->fine < FINE && !r->short_of, jumped;
 
     if (!r->has_after) /* short of states */
@@ -329,27 +402,36 @@ settle(struct rc_retraction *r)
         return again ? begin_fine(r, *m, (m->c - right->c) / 4)
                      : end(r, m->load, m->c, right->load - m->load);
     }
+    estimate = vertex(l, m, right, &at, &bend);
+    jumped = has_jumped((l->attraction - m->attraction) / (l->c - m->c), m, right);
+    if (r->stage == RC_RETRACTION_COARSE && !r->rough && !jumped) {
+        r->around = bend;
+        r->late = right->c;
+    }
     if (r->rough && r->fine == 0 && again)
         return begin_fine(r, r->base, fine_way(r, &r->base));
-    jumped = has_jumped((l->attraction - m->attraction) / (l->c - m->c), m, right);
     if (jumped && r->fine == 0 && again && counts(r, r->beside)) {
         r->to = right->c;
         return begin_fine(r, *l, fine_way(r, l));
     }
     if (jumped) /* where a leap below settled was not looked for */
-        return end(r, m->load, m->c, fmax(m->load - least, settled * fabs(m->load)));
-    r->estimate = vertex(l, m, right, &r->at_estimate, &r->bend);
-    off = fmax(fabs(r->estimate - last), r->vertices > 0 ? r->missed : INFINITY);
-    if (r->at_estimate == m->c)
-        return end(r, m->load, m->c, fmin(off, m->load - least));
-    if (r->vertices >= VERTICES || off <= settled * fabs(r->estimate)) {
+        return end_or_check(r, fmax(m->load - least, settled * fabs(m->load)));
+    r->estimate = estimate;
+    r->at_estimate = at;
+    off = fmax(fabs(estimate - last), r->vertices > 0 ? r->missed : INFINITY);
+    if (at == m->c)
+        return end_or_check(r, fmin(off, m->load - least));
+    if (r->vertices >= VERTICES || off <= settled * fabs(estimate)) {
         r->missed = off;
-        r->stage = RC_RETRACTION_CHECK;
-        return check(r);
+        if (!(r->around > 0)) {
+            r->around = bend;
+            r->late = right->c;
+        }
+        return begin_check(r, estimate, at, bend, 0);
     }
     r->stage = RC_RETRACTION_VERTEX;
     r->vertices++;
-    return go(r, r->at_estimate > m->c ? l : m, r->at_estimate);
+    return go(r, at > m->c ? l : m, at);
 }
 
 static bool

@@ -10,8 +10,9 @@
 #include <stddef.h>
 
 enum {
-    RC_RETRACTION_KEPT = 4, /* states that are kept, at most */
-    RC_RETRACTION_HERE = -1 /* the state that has just been found */
+    RC_RETRACTION_KEPT = 4,   /* states that are kept, at most */
+    RC_RETRACTION_CHECKS = 8, /* states beside the lowest, at most */
+    RC_RETRACTION_HERE = -1   /* the state that has just been found */
 };
 
 /* A state of the retraction, over the length and E*. */
@@ -49,6 +50,11 @@ struct rc_retraction {
     double estimate, at_estimate,
         bend;      /* of the parabola: its lowest load, where, and half its second derivative */
     double missed; /* by how much a load was another than that of the parabola               */
+    double around; /* the bend of the coarse stage's parabola; above 0 where there is one    */
+    double late;   /* and its end                                                            */
+    /* Where the search ended, and beside it: how far off, and the load. */
+    double beside_way[RC_RETRACTION_CHECKS + 1], beside_load[RC_RETRACTION_CHECKS + 1];
+    size_t beside_n;
     size_t states, fine, vertices, checks;
     /* what to do next: keep the state as `keep`, unless that is below 0; it is the lowest so far; go from
      * `from`, which is that of from_c, to c */

@@ -91,34 +91,46 @@ sphere_of_maugis(void **state)
     }
 }
 
-/* On a grid that hardly holds the law the load is a saw: what the search finds is off its lowest tooth, which small
- * steps find, by no more than the spread that it tells. */
+/* On a grid that hardly holds the law the load is a saw, with teeth where the apex puts them: what the search finds
+ * is off the lowest tooth that small steps find by no more than the spread that it tells, and the spread is of
+ * the size of the teeth. */
 static void
 spread_holds_the_saw(void **state)
 {
+    static const struct {
+        size_t row;
+        double apex; /* of a node along x */
+    } cases[] = {{2, 0.05}, {3, 0.5}, {4, 0.5}};
+
     (void)state;
-    for (size_t k = 2; k < 4; k++) {
-        struct sphere s = sphere_of(rows[k].n, rows[k].nodes);
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        size_t row = cases[k].row;
+        struct sphere s = sphere_of(rows[row].n, rows[row].nodes);
         double kay = 4 * estar / 3,
-               strength = rows[k].lambda / 2 / cbrt(radius / (exact_pi * s.work * kay * kay)),
+               strength = rows[row].lambda / 2 / cbrt(radius / (exact_pi * s.work * kay * kay)),
                lowest = 0, found, spread;
+        const struct rc_place apex = {cases[k].apex * s.shape.dx, 0.7 * cases[k].apex * s.shape.dx};
         const struct rc_adhesion_problem problem = {.contact = {.pair.estar = estar, .tol = 1e-4},
                                                     .work = s.work,
                                                     .law = "dugdale",
                                                     .range = s.work / strength};
-        struct rc_adhesion *path = adhesion_new(s.shape, s.h, problem);
+        struct rc_adhesion *path;
 
+        rc_synth_paraboloid(&s.shape, apex, radius, radius, 0, s.h);
+        path = adhesion_new(s.shape, s.h, problem);
         (void)adhesion_to_approach(path, 0);
         found = adhesion_pull(path)->pull_off_load;
         spread = rc_adhesion_result(path)->pull_off_spread;
         (void)adhesion_to_approach(path, 0);
-        for (int step = 0; step <= 40; step++) {
-            double load = adhesion_to_approach(path, -(0.4 + 0.005 * step) * s.approach)->load;
+        for (int step = 0; step <= 30; step++) {
+            double load = adhesion_to_approach(path, -(0.4 + 0.006 * step) * s.approach)->load;
             lowest = fmin(lowest, load);
         }
-        print_message("lambda %g: %.5f, give or take %.5f; in small steps %.5f\n", rows[k].lambda,
-                      found / s.load, spread / s.load, lowest / s.load);
+        print_message("lambda %g, apex %g: %.5f, give or take %.5f; in small steps %.5f\n",
+                      rows[row].lambda, cases[k].apex, found / s.load, spread / s.load,
+                      lowest / s.load);
         assert_true(lowest < 0 && found <= lowest + spread && found >= lowest - spread);
+        assert_true(spread < 0.03 * -lowest);
         rc_adhesion_free(path);
         free(s.h);
     }
