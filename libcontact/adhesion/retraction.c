@@ -299,6 +299,8 @@ teeth(const struct rc_retraction *r)
 {
     double a[3][4] = {{0}}, least = INFINITY, most = -INFINITY;
 
+    if (r->beside_n <= 3) /* beyond a jump */
+        return 0;
     for (size_t k = 0; k < r->beside_n; k++) {
         double x = r->beside_way[k] / fabs(r->beside_way[1]), power[] = {1, x, x * x};
         for (int i = 0; i < 3; i++) {
@@ -332,9 +334,7 @@ check(struct rc_retraction *r)
     if (r->checks == RC_RETRACTION_CHECKS || (r->checks >= FIRST && !saw)) {
         double lowest = fmin(r->estimate, r->lowest.load);
         return end(r, lowest, lowest < r->lowest.load ? r->at_estimate : r->lowest.c,
-                   fmax(r->spread, !saw              ? 2 * r->missed
-                                   : r->beside_n > 3 ? teeth(r)
-                                                     : 0));
+                   fmax(r->spread, saw ? 1.5 * teeth(r) : 2 * r->missed));
     }
     way = sqrt(settled * fabs(r->estimate) / r->around);
     way = places[r->checks++] * fmin(way, r->at_estimate - r->late);
