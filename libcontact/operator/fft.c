@@ -84,7 +84,6 @@ layout_of(const struct rc_shape *s, enum rc_boundary boundary, enum rc_precision
     if (boundary == RC_FREE)
         l.radix = 4;
     l.m = l.py / l.radix;
-    l.parts = boundary == RC_FREE ? 2 : l.radix;
     l.cy = l.py / 2 + 1;
     l.rows = l.ny;
     l.columns = l.cx;
@@ -125,16 +124,24 @@ rc_spectrum_memory(const struct rc_shape *shape, enum rc_boundary boundary,
 }
 
 size_t
+rc_fft_rows_memory(const struct rc_shape *shape, enum rc_boundary boundary,
+                   const struct rc_frame *frame, enum rc_precision precision, size_t ranks)
+{
+    struct rc_layout l = layout_of(shape, boundary, precision);
+    size_t more = frame == NULL ? 0 : frame->y, waves = (l.ny + 2 * more) * l.stride;
+
+    if (ranks > 1)
+        waves = (l.ny + 2 * more) * most_columns(&l, line_of(precision), ranks) +
+                (rc_rows_most(shape, ranks) + more) * l.stride;
+    return waves * 2 * real_size(precision);
+}
+
+size_t
 rc_fft_memory(const struct rc_shape *shape, enum rc_boundary boundary, enum rc_precision precision,
               size_t ranks)
 {
-    struct rc_layout l = layout_of(shape, boundary, precision);
-    size_t waves = l.ny * l.stride;
-
-    if (ranks > 1)
-        waves = l.ny * most_columns(&l, line_of(precision), ranks) +
-                rc_rows_most(shape, ranks) * l.stride;
-    return waves * 2 * real_size(precision) + rc_spectrum_memory(shape, boundary, precision, ranks);
+    return rc_fft_rows_memory(shape, boundary, NULL, precision, ranks) +
+           rc_spectrum_memory(shape, boundary, precision, ranks);
 }
 
 size_t
@@ -200,51 +207,69 @@ share(struct rc_fft *f, const struct rc_ranks *ranks, enum rc_precision precisio
       struct rc_err *err)
 {
     struct rc_layout *l = &f->layout;
-    struct rc_rows rows = rc_rows_of(ranks, &f->shape);
-    size_t count = rc_ranks_count(ranks), line = line_of(precision), lines = l->stride / line;
+    size_t count = rc_ranks_count(ranks), own = rc_ranks_own(ranks);
+    size_t line = line_of(precision), lines = l->stride / line;
 
     if (count == 1)
         return RC_OK;
-    if (rc_turn_new(&f->turn, ranks, l->ny, rc_rows_unit(f->shape.nx), lines, LINE_BYTES, err) !=
-            RC_OK ||
-        rc_turn_new(&f->quarter, ranks, l->cy, ROWS, lines, line * sizeof(double), err) != RC_OK)
+    if (rc_turn_new(&f->turn, ranks, f->shape.ny, rc_rows_unit(f->shape.nx),
+                    (l->ny - f->shape.ny) / 2, lines, LINE_BYTES, err) != RC_OK ||
+        rc_turn_new(&f->quarter, ranks, l->cy, ROWS, 0, lines, line * sizeof(double), err) != RC_OK)
         return RC_FAIL;
-    share_layout(l, precision, count, rc_ranks_own(ranks), &f->turn);
-    l->rows = rows.n;
+    share_layout(l, precision, count, own, &f->turn);
+    l->rows = f->turn.row[own + 1] - f->turn.row[own];
     return RC_OK;
 }
 
+/* In a frame a plan has no spectra of its own. */
 static struct rc_fft *
 fft_new(const struct rc_ranks *ranks, struct rc_fft *lender, const struct rc_shape *s,
-        enum rc_boundary boundary, enum rc_precision precision, size_t threads, struct rc_err *err)
+        enum rc_boundary boundary, const struct rc_frame *frame, enum rc_precision precision,
+        size_t threads, struct rc_err *err)
 {
     struct rc_fft *f = calloc(1, sizeof *f);
     struct rc_shape own = {s->nx, rc_rows_of(ranks, s).n, s->dx, s->dy};
     void *lent = NULL;
+    struct rc_layout *l;
     size_t team;
 
     if (f == NULL)
         goto short_of_memory;
     f->shape = *s;
     f->boundary = boundary;
-    f->layout = layout_of(s, boundary, precision);
-    f->layout.threads =
-        rc_useful_threads(&own, threads); /* those of all that works on these rows */
-    team = (size_t)f->layout.threads;
+    l = &f->layout;
+    *l = layout_of(s, boundary, precision);
+    if (frame != NULL) {
+        l->nx += 2 * frame->x;
+        l->rows = l->ny += 2 * frame->y;
+    }
+    l->threads = rc_useful_threads(&own, threads); /* those of all that works on these rows */
+    team = (size_t)l->threads;
     f->ops = precision == RC_SINGLE ? &rc_fft_single : &rc_fft_double;
     if (share(f, ranks, precision, err) != RC_OK)
         goto fail;
     if (lender != NULL)
-        lent = lender->ops->workspace(lender->plan,
-                                      rc_layout_rows(&f->layout) * 2 * real_size(precision));
-    f->plan = f->ops->new (&f->layout, lent);
-    f->columns = rc_alloc(team * COLUMNS * f->layout.cy, sizeof *f->columns);
-    if (f->plan != NULL && f->columns != NULL && half_new(&f->along_x, f->layout.px, team) &&
-        half_new(&f->along_y, f->layout.py, team))
+        lent = lender->ops->workspace(lender->plan, rc_layout_rows(l) * 2 * real_size(precision));
+    f->plan = f->ops->new (l, lent);
+    if (frame == NULL)
+        f->columns = rc_alloc(team * COLUMNS * l->cy, sizeof *f->columns);
+    if (f->plan != NULL &&
+        (frame != NULL || (f->columns != NULL && half_new(&f->along_x, l->px, team) &&
+                           half_new(&f->along_y, l->py, team))))
         return f;
 short_of_memory:
     rc_err_set(err, "out of memory for transforms of %zu x %zu nodes", s->nx, s->ny);
 fail:
+    rc_fft_free(f);
+    return NULL;
+}
+
+/* The same on all ranks. */
+static struct rc_fft *
+agree(const struct rc_ranks *ranks, struct rc_fft *f, struct rc_err *err)
+{
+    if (rc_ranks_agree(ranks, f == NULL ? RC_FAIL : RC_OK, err) == RC_OK)
+        return f;
     rc_fft_free(f);
     return NULL;
 }
@@ -254,8 +279,6 @@ rc_fft_new(const struct rc_ranks *ranks, struct rc_fft *lender, const struct rc_
            enum rc_boundary boundary, enum rc_precision precision, size_t threads,
            struct rc_err *err)
 {
-    struct rc_fft *f;
-
     if (rc_shape_check(s, err) != RC_OK)
         return NULL;
     if (s->nx > (size_t)1 << 28 || s->ny > (size_t)1 << 28) {
@@ -263,11 +286,15 @@ rc_fft_new(const struct rc_ranks *ranks, struct rc_fft *lender, const struct rc_
                    s->ny);
         return NULL;
     }
-    f = fft_new(ranks, lender, s, boundary, precision, threads, err);
-    if (rc_ranks_agree(ranks, f == NULL ? RC_FAIL : RC_OK, err) == RC_OK)
-        return f;
-    rc_fft_free(f);
-    return NULL;
+    return agree(ranks, fft_new(ranks, lender, s, boundary, NULL, precision, threads, err), err);
+}
+
+struct rc_fft *
+rc_fft_new_framed(const struct rc_ranks *ranks, struct rc_fft *lender, const struct rc_shape *s,
+                  const struct rc_frame *frame, enum rc_precision precision, size_t threads,
+                  struct rc_err *err)
+{
+    return agree(ranks, fft_new(ranks, lender, s, RC_FREE, frame, precision, threads, err), err);
 }
 
 static const struct rc_ranks *

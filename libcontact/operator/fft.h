@@ -25,6 +25,16 @@ struct rc_spectrum; /* of one kernel: a quarter of it, real */
 struct rc_fft *rc_fft_new(const struct rc_ranks *ranks, struct rc_fft *lender,
                           const struct rc_shape *shape, enum rc_boundary boundary,
                           enum rc_precision precision, size_t threads, struct rc_err *err);
+/* The same transforms, with the spectra of rc_fft_new, of a free map in a frame: x columns and y rows of the
+ * padding on either side of it, at most half of its nodes. Row and column 0 are the first of the frame, whose
+ * rows belong to the ranks with the first and the last row of the map. From the map on the map a kernel acts as
+ * before; over distances that the padding does not hold it acts the other way round. Chains only. */
+struct rc_frame {
+    size_t x, y;
+};
+struct rc_fft *rc_fft_new_framed(const struct rc_ranks *ranks, struct rc_fft *lender,
+                                 const struct rc_shape *shape, const struct rc_frame *frame,
+                                 enum rc_precision precision, size_t threads, struct rc_err *err);
 void rc_fft_free(struct rc_fft *fft);
 /* Bytes of a plan with one spectrum, and of each further spectrum; where ranks share the map, on
  * the rank that takes most. */
@@ -32,6 +42,9 @@ size_t rc_fft_memory(const struct rc_shape *shape, enum rc_boundary boundary,
                      enum rc_precision precision, size_t ranks);
 size_t rc_spectrum_memory(const struct rc_shape *shape, enum rc_boundary boundary,
                           enum rc_precision precision, size_t ranks);
+/* Of the rows under way in a plan, which may work in a lender's; `frame` NULL: none. */
+size_t rc_fft_rows_memory(const struct rc_shape *shape, enum rc_boundary boundary,
+                          const struct rc_frame *frame, enum rc_precision precision, size_t ranks);
 /* Bytes beside them in which rows and columns are transformed: they grow with the threads. */
 size_t rc_fft_scratch(const struct rc_shape *shape, enum rc_boundary boundary,
                       enum rc_precision precision, size_t threads);
@@ -138,9 +151,9 @@ void rc_fft_back(struct rc_fft *fft, const void *waves, rc_wave_column *column, 
  * length m: with w = exp(-2 pi i / py),
  *
  *     X[radix k + r] = sum over n < m of y_r[n] exp(-2 pi i n k / m),
- *     y_r[n] = w^(r n) sum over s < parts of (-i)^(r s) x[n + s m],       radix = 4
+ *     y_r[n] = w^(r n) sum over s < 4 of (-i)^(r s) x[n + s m],       radix = 4
  *
- * where only the first `parts` pieces of length m are not zero. radix = 1 leaves it to FFTW.
+ * where only the first ny of x are not zero. radix = 1 leaves it to FFTW.
  *
  * A spectrum is given by a quarter of it, cx columns of cy numbers s(q), q <= py/2. A column is
  * stored in the order of the residues r: A[k] = s(radix k) up to the middle and, for radix 4,
@@ -151,7 +164,7 @@ struct rc_layout {
     size_t px, py; /* transform lengths                                                     */
     size_t cx, cy; /* px/2 + 1, py/2 + 1                                                    */
     size_t stride; /* complex numbers from row to row, a whole number of cache lines         */
-    size_t radix, m, parts;
+    size_t radix, m;
     int threads;
     /* What is here of it; without ranks all: rows, columns and how many complex numbers lie from row to row
      * where all rows of these columns are together. */

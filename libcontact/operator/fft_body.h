@@ -283,7 +283,7 @@ butterfly(const struct plan *f, const COMPLEX *x, size_t step, int have, const C
 
     for (size_t b = 0; b < LINE; b++, y += f->column) {
         COMPLEX x0 = x[b], x1 = have > 1 ? x[step + b] : 0;
-        COMPLEX x2 = have > 2 ? x[2 * step + b] : 0, x3 = have > 2 ? x[3 * step + b] : 0;
+        COMPLEX x2 = have > 2 ? x[2 * step + b] : 0, x3 = have > 3 ? x[3 * step + b] : 0;
         COMPLEX even = x0 + x2, odd = x0 - x2, sum = x1 + x3, cross = x1 - x3;
         COMPLEX rotated = CMPLX_OF(C99(cimag)(cross), -C99(creal)(cross)); /* -i (x1 - x3) */
         y[0] = even + sum;
@@ -308,18 +308,46 @@ butterfly_back(const struct plan *f, COMPLEX *x, size_t step, int want, const CO
         x[b] = even + sum;
         if (want > 1)
             x[step + b] = odd + rotated;
-        if (want > 2) {
+        if (want > 2)
             x[2 * step + b] = even - sum;
+        if (want > 3)
             x[3 * step + b] = odd - rotated;
-        }
     }
 }
 
-/* Nodes j < both have a partner at j + m on the map, those up to m do not (free boundary). */
-static size_t
-partners(const struct rc_layout *l)
+/* Places of a piece from j on to *end have equally many nodes j, j + m, ... on the map: that many. */
+static int
+nodes_of(const struct rc_layout *l, size_t j, size_t *end)
 {
-    return l->parts > 2 || l->ny < l->m ? 0 : l->ny - l->m;
+    size_t whole = l->ny / l->m, more = l->ny % l->m;
+
+    *end = j < more ? more : l->m;
+    return (int)(j < more ? whole + 1 : whole);
+}
+
+/* Places j < end of a line of columns x, each of so many nodes; `have` is a constant where it is called. */
+static inline void
+gather_run(const struct plan *f, const COMPLEX *x, size_t j, size_t end, int have, COMPLEX *y)
+{
+    size_t wide = f->l.wide, step = f->l.m * wide;
+
+    for (; j < end; j++) {
+        for (int q = 0; q < have; q++)
+            prefetch(x + (j + PREFETCH) * wide + (size_t)q * step);
+        butterfly(f, x + j * wide, step, have, f->twiddle + 3 * j, y + j);
+    }
+}
+
+static inline void
+scatter_run(const struct plan *f, COMPLEX *x, size_t j, size_t end, int want, const COMPLEX *y)
+{
+    size_t wide = f->l.wide, step = f->l.m * wide;
+
+    for (; j < end; j++) {
+        for (int q = 0; q < want; q++)
+            prefetch(x + (j + PREFETCH) * wide + (size_t)q * step);
+        butterfly_back(f, x + j * wide, step, want, f->twiddle + 3 * j, y + j);
+    }
 }
 
 /* The first stage of the transform of a line of columns from `first`, out of `waves`. */
@@ -327,31 +355,27 @@ RC_CLONES static void
 gather(const struct plan *f, size_t first, COMPLEX *y)
 {
     const struct rc_layout *l = &f->l;
-    const COMPLEX *x = f->waves + first, *w = f->twiddle;
-    size_t step = l->m * l->wide, both = partners(l), j = 0;
+    const COMPLEX *x = f->waves + first;
 
-    if (l->radix == 1) {
-        for (; j < l->m; j++, x += l->wide)
-            for (size_t b = 0; b < LINE; b++)
-                y[b * f->column + j] = x[b];
-    } else if (l->parts > 2) {
-        for (; j < l->m; j++, x += l->wide, w += 3) {
-            for (size_t q = 0; q < 4; q++)
-                prefetch(x + PREFETCH * l->wide + q * step);
-            butterfly(f, x, step, 4, w, y + j);
-        }
-    } else {
-        for (; j < both; j++, x += l->wide, w += 3) {
-            prefetch(x + PREFETCH * l->wide);
-            prefetch(x + PREFETCH * l->wide + step);
-            butterfly(f, x, step, 2, w, y + j);
-        }
-        for (; j < l->m && j < l->ny; j++, x += l->wide, w += 3)
-            butterfly(f, x, step, 1, w, y + j);
-        for (; j < l->m; j++)
-            for (size_t b = 0; b < LINE; b++)
-                for (size_t r = 0; r < 4; r++)
-                    y[b * f->column + r * piece(f) + j] = 0;
+    for (size_t j = 0, end; j < l->m; j = end) {
+        int have = nodes_of(l, j, &end);
+        if (l->radix == 1)
+            for (; j < end; j++)
+                for (size_t b = 0; b < LINE; b++)
+                    y[b * f->column + j] = x[j * l->wide + b];
+        else if (have == 4)
+            gather_run(f, x, j, end, 4, y);
+        else if (have == 3)
+            gather_run(f, x, j, end, 3, y);
+        else if (have == 2)
+            gather_run(f, x, j, end, 2, y);
+        else if (have == 1)
+            gather_run(f, x, j, end, 1, y);
+        else
+            for (; j < end; j++)
+                for (size_t b = 0; b < LINE; b++)
+                    for (size_t r = 0; r < 4; r++)
+                        y[b * f->column + r * piece(f) + j] = 0;
     }
 }
 
@@ -360,28 +384,22 @@ RC_CLONES static void
 scatter(struct plan *f, size_t first, const COMPLEX *y)
 {
     const struct rc_layout *l = &f->l;
-    const COMPLEX *w = f->twiddle;
     COMPLEX *x = f->waves + first;
-    size_t step = l->m * l->wide, both = partners(l), j = 0;
 
-    if (l->radix == 1) {
-        for (; j < l->m; j++, x += l->wide)
-            for (size_t b = 0; b < LINE; b++)
-                x[b] = y[b * f->column + j];
-    } else if (l->parts > 2) {
-        for (; j < l->m; j++, x += l->wide, w += 3) {
-            for (size_t q = 0; q < 4; q++)
-                prefetch(x + PREFETCH * l->wide + q * step);
-            butterfly_back(f, x, step, 4, w, y + j);
-        }
-    } else {
-        for (; j < both; j++, x += l->wide, w += 3) {
-            prefetch(x + PREFETCH * l->wide);
-            prefetch(x + PREFETCH * l->wide + step);
-            butterfly_back(f, x, step, 2, w, y + j);
-        }
-        for (; j < l->m && j < l->ny; j++, x += l->wide, w += 3)
-            butterfly_back(f, x, step, 1, w, y + j);
+    for (size_t j = 0, end; j < l->m; j = end) {
+        int want = nodes_of(l, j, &end);
+        if (l->radix == 1)
+            for (; j < end; j++)
+                for (size_t b = 0; b < LINE; b++)
+                    x[j * l->wide + b] = y[b * f->column + j];
+        else if (want == 4)
+            scatter_run(f, x, j, end, 4, y);
+        else if (want == 3)
+            scatter_run(f, x, j, end, 3, y);
+        else if (want == 2)
+            scatter_run(f, x, j, end, 2, y);
+        else if (want == 1)
+            scatter_run(f, x, j, end, 1, y);
     }
 }
 

@@ -30,7 +30,8 @@ struct rc_operator {
      * which smooth motions tie it to each of the eight. */
     double inverse_near[3][3];
     double neighbour[3][3];
-    double extension; /* the constant c of the preconditioner's extension                    */
+    struct rc_frame frame; /* nodes of the padding that rc_operator_chain_framed takes along */
+    double extension;      /* the constant c of the preconditioner's extension                    */
     bool edges;       /* how a shift loads the edges of a set follows from no rule: layers, free */
     double error;     /* of K p, relative to the sum of |K| |p|                              */
     double row_error; /* the same, row by row                                                */
@@ -82,6 +83,11 @@ struct rc_spectrum *rc_operator_spectrum(struct rc_operator *op, const struct rc
  * rc_fft_chain. Each factor costs op->factor_cost. */
 void rc_operator_chain(struct rc_operator *op, size_t n, const struct rc_spectrum *const *factors,
                        rc_row *const *rows, void *ctx);
+struct rc_frame rc_operator_frame(const struct rc_shape *shape, enum rc_boundary boundary);
+/* The same with the frame: rows are those of rc_fft_new_framed. */
+void rc_operator_chain_framed(struct rc_operator *op, size_t n,
+                              const struct rc_spectrum *const *factors, rc_row *const *rows,
+                              void *ctx);
 
 /* ---- K and its inverse on the whole grid that transforms see: whole.c ---- */
 

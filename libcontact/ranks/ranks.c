@@ -91,7 +91,7 @@ check_counts(const struct rc_turn *t, struct rc_err *err)
 
 enum rc_status
 rc_turn_new(struct rc_turn *t, const struct rc_ranks *ranks, size_t rows, size_t row_unit,
-            size_t columns, size_t unit, struct rc_err *err)
+            size_t frame, size_t columns, size_t unit, struct rc_err *err)
 {
     size_t count = rc_ranks_count(ranks);
 
@@ -101,7 +101,8 @@ rc_turn_new(struct rc_turn *t, const struct rc_ranks *ranks, size_t rows, size_t
         return rc_err_set(err, "out of memory for exchanges between %zu processes", count);
     t->column = t->row + count + 1;
     for (size_t r = 0; r <= count; r++) {
-        t->row[r] = rc_rows_dealt(rows, row_unit, count, r);
+        size_t row = rc_rows_dealt(rows, row_unit, count, r);
+        t->row[r] = row + (row > 0 ? frame : 0) + (row == rows ? frame : 0);
         t->column[r] = rc_rows_dealt(columns, 1, count, r);
     }
     return check_counts(t, err);

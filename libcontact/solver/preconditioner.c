@@ -21,7 +21,11 @@ struct rc_preconditioner {
     int threads;
     size_t own; /* numbers of scratch of one thread                              */
     float *scratch;
-    double *lines; /* three, where ranks share the map; else NULL                    */
+    double *lines;       /* three, where ranks share the map; else NULL                    */
+    size_t above, below; /* rows of the frame that are held here                              */
+    float *
+        frame; /* rc_extension_weight of nodes of the frame: those of a row follow each other, all or
+                      left and right of the map; NULL: there is none */
 };
 
 /* |x|^(-5/2), on a line |x|^(-3/2): half a power more than the exact extension off a half-plane or a
@@ -47,6 +51,50 @@ spread_rows(const void *of, const struct rc_lattice *at, size_t n, size_t first,
             double x = (double)i * dx, y = (double)j * dy;
             out[i] = spread_of((x * x + y * y) * unit, of != NULL);
         }
+}
+
+/* ---- the frame ---- */
+
+/* Nodes of the frame before those of row j of the framed map. */
+static size_t
+frame_before(const struct rc_preconditioner *e, size_t j)
+{
+    size_t x = e->op->frame.x, y = e->above, ny = e->unit.ny, all = e->unit.nx + 2 * x;
+
+    if (j <= y)
+        return j * all;
+    return j <= y + ny ? y * all + (j - y) * 2 * x : y * all + ny * 2 * x + (j - y - ny) * all;
+}
+
+static bool
+is_on_map(const struct rc_preconditioner *e, size_t j)
+{
+    return j >= e->above && j - e->above < e->unit.ny;
+}
+
+/* What a row of the frame, or its nodes left and right of the map, are multiplied by. */
+static void
+weigh_frame(const struct rc_preconditioner *e, size_t j, float *row)
+{
+    const float *weight = e->frame + frame_before(e, j);
+    size_t x = e->op->frame.x, nx = e->unit.nx;
+
+    if (!is_on_map(e, j)) {
+        for (size_t i = 0; i < nx + 2 * x; i++)
+            row[i] *= weight[i];
+        return;
+    }
+    for (size_t i = 0; i < x; i++) {
+        row[i] *= weight[i];
+        row[nx + x + i] *= weight[x + i];
+    }
+}
+
+static void
+clear_sides(const struct rc_preconditioner *e, float *row)
+{
+    memset(row, 0, e->op->frame.x * sizeof *row);
+    memset(row + e->op->frame.x + e->unit.nx, 0, e->op->frame.x * sizeof *row);
 }
 
 static const bool one_line = true;
@@ -77,7 +125,7 @@ struct rc_preconditioner *
 rc_preconditioner_new(struct rc_operator *op, struct rc_err *err)
 {
     struct rc_preconditioner *e = calloc(1, sizeof *e);
-    size_t n = op->shape.nx * op->shape.ny;
+    size_t n = op->shape.nx * op->shape.ny, frame;
     double unit = sqrt(op->shape.dx) * sqrt(op->shape.dy);
     bool line = is_line(op);
 
@@ -95,6 +143,11 @@ rc_preconditioner_new(struct rc_operator *op, struct rc_err *err)
     e->closeness = rc_alloc(n, sizeof *e->closeness);
     e->scratch = rc_alloc((size_t)e->threads * e->own, sizeof *e->scratch);
     if (e->node == NULL || e->closeness == NULL || e->scratch == NULL)
+        goto short_of_memory;
+    e->above = op->shape.ny > 0 && op->rows.first == 0 ? op->frame.y : 0;
+    e->below = op->shape.ny > 0 && op->rows.first + op->rows.n == op->rows.ny ? op->frame.y : 0;
+    frame = frame_before(e, e->above + e->unit.ny + e->below);
+    if (frame > 0 && (e->frame = rc_alloc(frame, sizeof *e->frame)) == NULL)
         goto short_of_memory;
     if (op->rows.ranks != NULL && (e->lines = rc_alloc(3 * op->shape.nx, sizeof *e->lines)) == NULL)
         goto short_of_memory;
@@ -126,6 +179,7 @@ rc_preconditioner_free(struct rc_preconditioner *e)
     free(e->closeness);
     free(e->scratch);
     free(e->lines);
+    free(e->frame);
     free(e);
 }
 
@@ -133,9 +187,11 @@ size_t
 rc_preconditioner_memory(const struct rc_shape *shape, enum rc_boundary boundary, size_t ranks)
 {
     size_t rows = ranks > 1 ? rc_rows_most(shape, ranks) : shape->ny;
+    struct rc_frame frame = rc_operator_frame(shape, boundary);
 
     return rc_spectrum_memory(shape, boundary, RC_SINGLE, ranks) +
-           shape->nx * rows * (sizeof(float) + sizeof(uint16_t));
+           shape->nx * rows * (sizeof(float) + sizeof(uint16_t)) +
+           (rows * 2 * frame.x + 2 * frame.y * (shape->nx + 2 * frame.x)) * sizeof(float);
 }
 
 /* ---- the working set ---- */
@@ -145,10 +201,13 @@ mask_in(void *at, size_t j, void *row)
 {
     struct rc_preconditioner *e = at;
     size_t n = e->unit.nx;
-    const unsigned char *w = e->w + j * n;
-    float *out = row;
+    const unsigned char *w = e->w + (j - e->above) * n;
+    float *out = (float *)row + e->op->frame.x;
     unsigned any = 0;
 
+    if (!is_on_map(e, j))
+        return false;
+    clear_sides(e, row);
     for (size_t i = 0; i < n; i++) {
         out[i] = w[i];
         any |= w[i];
@@ -187,6 +246,20 @@ weigh(size_t n, float fade, float surrounded_by, float whole, const unsigned cha
     }
 }
 
+static void
+keep_frame(struct rc_preconditioner *e, size_t j, const float *row)
+{
+    float *to = e->frame + frame_before(e, j);
+    size_t x = e->op->frame.x, nx = e->unit.nx;
+
+    if (!is_on_map(e, j)) {
+        memcpy(to, row, (nx + 2 * x) * sizeof *to);
+        return;
+    }
+    memcpy(to, row, x * sizeof *to);
+    memcpy(to + x, row + x + nx, x * sizeof *to);
+}
+
 /* The sums arrive; where distances are to be found, `node` holds the steps along the columns. */
 static bool
 weights_out(void *at, size_t j, void *row)
@@ -194,14 +267,70 @@ weights_out(void *at, size_t j, void *row)
     struct rc_preconditioner *e = at;
     size_t n = e->unit.nx;
     float *scratch = e->scratch + (size_t)omp_get_thread_num() * e->own;
-    float *d2 = scratch + rc_distance_scratch(&e->unit), *node = e->node + j * n;
+    float *d2 = scratch + rc_distance_scratch(&e->unit), *node;
 
+    if (e->frame != NULL)
+        keep_frame(e, j, row);
+    if (!is_on_map(e, j))
+        return true;
+    j -= e->above;
+    node = e->node + j * n;
     if (e->measure) {
         rc_distance_row(&e->unit, e->op->boundary, scratch, node, d2);
         closeness_of(n, d2, e->closeness + j * n);
     }
-    weigh(n, e->fade, e->surrounded, e->whole, e->w + j * n, row, e->closeness + j * n, node);
+    weigh(n, e->fade, e->surrounded, e->whole, e->w + j * n, (float *)row + e->op->frame.x,
+          e->closeness + j * n, node);
     return true;
+}
+
+/* Falls off from 1 at the map to 0 beyond the end of the frame. */
+static float
+taper(size_t off, size_t frame)
+{
+    return 1 - (float)off / (float)(frame + 1);
+}
+
+/* Nodes from k to the nearest of n that follow `before` others; that one. */
+static size_t
+beside(size_t k, size_t before, size_t n, size_t *nearest)
+{
+    *nearest = k < before ? 0 : k < before + n ? k - before : n - 1;
+    return k < before ? before - k : k - before - *nearest;
+}
+
+/* From the sum of a node of the frame to its weight. Its distance from W is taken for that of the nearest node
+ * of the map and the way there. */
+static float
+frame_weight(const struct rc_preconditioner *e, size_t i, size_t j, float sum)
+{
+    const struct rc_frame *frame = &e->op->frame;
+    size_t k, l, x = beside(i, frame->x, e->unit.nx, &k), y = beside(j, e->above, e->unit.ny, &l);
+    float near = CLOSE / (float)e->closeness[l * e->unit.nx + k]; /* d^(1/2) */
+    float way = hypotf((float)x * (float)e->unit.dx, (float)y * (float)e->unit.dy);
+    float close = 1 / sqrtf(near * near + way), part;
+
+    sum = sum > 0 ? sum : 0;
+    part = sum / (e->surrounded * close);
+    return taper(x, frame->x) * taper(y, frame->y) /
+           (sum + e->fade * close / (1 + part * part * part * part));
+}
+
+static void
+weigh_all_of_frame(struct rc_preconditioner *e)
+{
+    size_t x = e->op->frame.x, nx = e->unit.nx, rows = e->above + e->unit.ny + e->below;
+
+#pragma omp parallel for num_threads(e->threads) schedule(static)
+    for (size_t j = 0; j < rows; j++) {
+        float *at = e->frame + frame_before(e, j);
+        bool all = !is_on_map(e, j);
+        for (size_t i = 0; i < nx + 2 * x; i++)
+            if (all || i < x || i >= x + nx) {
+                *at = frame_weight(e, i, j, *at);
+                at++;
+            }
+    }
 }
 
 void
@@ -215,7 +344,9 @@ rc_preconditioner_set(struct rc_preconditioner *e, const unsigned char *w, bool 
     if (measure)
         rc_distance_columns(&e->unit, &e->op->rows, e->op->boundary, w, e->threads, e->lines,
                             e->node);
-    rc_operator_chain(e->op, 1, factors, rows, e);
+    rc_operator_chain_framed(e->op, 1, factors, rows, e);
+    if (e->frame != NULL)
+        weigh_all_of_frame(e);
 }
 
 void
@@ -267,9 +398,14 @@ static bool
 residual_in(void *at, size_t j, void *row)
 {
     struct correction *c = at;
-    size_t n = c->e->unit.nx;
+    const struct rc_preconditioner *e = c->e;
+    size_t n = e->unit.nx;
 
-    return take(n, c->e->w + j * n, c->r + j * n, c->offset, row);
+    if (!is_on_map(e, j))
+        return false;
+    clear_sides(e, row);
+    j -= e->above;
+    return take(n, e->w + j * n, c->r + j * n, c->offset, (float *)row + e->op->frame.x);
 }
 
 RC_CLONES static void
@@ -284,9 +420,16 @@ static bool
 extended(void *at, size_t j, void *row)
 {
     struct correction *c = at;
-    size_t n = c->e->unit.nx;
+    const struct rc_preconditioner *e = c->e;
+    size_t n = e->unit.nx;
 
-    extend(n, c->e->w + j * n, c->r + j * n, c->offset, c->e->node + j * n, row);
+    if (e->frame != NULL)
+        weigh_frame(e, j, row);
+    if (!is_on_map(e, j))
+        return true;
+    j -= e->above;
+    extend(n, e->w + j * n, c->r + j * n, c->offset, e->node + j * n,
+           (float *)row + e->op->frame.x);
     return true;
 }
 
@@ -303,9 +446,15 @@ static bool
 parted(void *at, size_t j, void *row)
 {
     struct correction *c = at;
-    size_t n = c->e->unit.nx;
+    const struct rc_preconditioner *e = c->e;
+    size_t n = e->unit.nx;
 
-    part(n, c->e->w + j * n, c->e->node + j * n, row, c->z + j * n);
+    if (e->frame != NULL)
+        weigh_frame(e, j, row);
+    if (!is_on_map(e, j))
+        return true;
+    j -= e->above;
+    part(n, e->w + j * n, e->node + j * n, (float *)row + e->op->frame.x, c->z + j * n);
     return true;
 }
 
@@ -320,9 +469,14 @@ static bool
 correction_out(void *at, size_t j, void *row)
 {
     struct correction *c = at;
-    size_t n = c->e->unit.nx;
+    const struct rc_preconditioner *e = c->e;
+    size_t n = e->unit.nx;
 
-    add(n, c->e->w + j * n, row, c->z + j * n);
+    if (!is_on_map(e, j))
+        return true;
+    j -= e->above;
+    row = (float *)row + e->op->frame.x;
+    add(n, e->w + j * n, row, c->z + j * n);
     return c->done == NULL || c->done(c->ctx, j, row);
 }
 
@@ -334,5 +488,5 @@ rc_preconditioner_apply(struct rc_preconditioner *e, const float *r, float offse
     const struct rc_spectrum *factors[] = {e->spread, e->op->inverse, e->spread};
     rc_row *rows[] = {residual_in, extended, parted, correction_out};
 
-    rc_operator_chain(e->op, 3, factors, rows, &c);
+    rc_operator_chain_framed(e->op, 3, factors, rows, &c);
 }

@@ -129,8 +129,8 @@ shared_new(struct shared *w, const struct rc_ranks *ranks, const struct rc_shape
 
     *w = (struct shared){.along_x = rc_line_new(s->nx, 1, NULL),
                          .along_y = rc_line_new(s->ny, 1, NULL)};
-    if (rc_turn_new(&w->turn, ranks, s->ny, rc_rows_unit(s->nx), columns, sizeof *w->line, err) ==
-        RC_OK) {
+    if (rc_turn_new(&w->turn, ranks, s->ny, rc_rows_unit(s->nx), 0, columns, sizeof *w->line,
+                    err) == RC_OK) {
         rows = w->turn.row[w->turn.own + 1] - w->turn.row[w->turn.own];
         here = w->turn.column[w->turn.own + 1] - w->turn.column[w->turn.own];
         w->pieces = rc_alloc(rows * columns, sizeof *w->pieces);

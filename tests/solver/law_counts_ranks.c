@@ -90,10 +90,10 @@ fullest_rank_decides(void **state)
     struct rc_err err = {""};
 
     (void)state;
-    assert_int_equal(rc_turn_new(&turn, ranks, rows, 1, columns, 128, &err), RC_OK);
+    assert_int_equal(rc_turn_new(&turn, ranks, rows, 1, 0, columns, 128, &err), RC_OK);
     assert_true((turn.column[turn.own + 1] - turn.column[turn.own]) * rows <= INT_MAX);
     rc_turn_free(&turn);
-    assert_int_equal(rc_turn_new(&turn, ranks, rows, 1, columns + 1, 128, &err), RC_FAIL);
+    assert_int_equal(rc_turn_new(&turn, ranks, rows, 1, 0, columns + 1, 128, &err), RC_FAIL);
     rc_turn_free(&turn);
     assert_non_null(strstr(err.text, "one of them would exchange 256 GiB"));
     assert_non_null(strstr(err.text, "start more"));
@@ -109,9 +109,9 @@ rows_count_too(void **state)
     struct rc_err err = {""};
 
     (void)state;
-    assert_int_equal(rc_turn_new(&turn, ranks, rows, 16, columns - 1, 16, &err), RC_OK);
+    assert_int_equal(rc_turn_new(&turn, ranks, rows, 16, 0, columns - 1, 16, &err), RC_OK);
     rc_turn_free(&turn);
-    assert_int_equal(rc_turn_new(&turn, ranks, rows, 16, columns, 16, &err), RC_FAIL);
+    assert_int_equal(rc_turn_new(&turn, ranks, rows, 16, 0, columns, 16, &err), RC_FAIL);
     rc_turn_free(&turn);
     assert_non_null(strstr(err.text, "start more"));
 }
@@ -125,7 +125,7 @@ sizes_beyond_all(void **state)
     struct rc_err err = {""};
 
     (void)state;
-    assert_int_equal(rc_turn_new(&turn, ranks, side, 16, side, 128, &err), RC_FAIL);
+    assert_int_equal(rc_turn_new(&turn, ranks, side, 16, 0, side, 128, &err), RC_FAIL);
     rc_turn_free(&turn);
     assert_non_null(strstr(err.text, "start more"));
 }
