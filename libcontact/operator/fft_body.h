@@ -403,48 +403,64 @@ scatter(struct plan *f, size_t first, const COMPLEX *y)
     }
 }
 
-/* z[k] *= s[k] for k < n, or s[-k] when step is -1, times the sign and a power of -i. */
-RC_CLONES static void
-scale(COMPLEX *restrict z, size_t n, const REAL *restrict s, ptrdiff_t step, int power, REAL sign)
-{
-    REAL *v = (REAL *)z;
+/* What a product is written to, or with a weight added to. */
+struct target {
+    COMPLEX *z;
+    bool more;
+    REAL weight;
+};
 
-    if (power == 1) {
-        for (size_t k = 0; k < n; k++) {
-            REAL a = sign * s[(ptrdiff_t)k * step], re = v[2 * k];
-            v[2 * k] = a * v[2 * k + 1];
-            v[2 * k + 1] = -a * re;
-        }
-        return;
-    }
+static inline REAL
+put(bool more, REAL weight, REAL there, REAL v)
+{
+    return more ? there + weight * v : v;
+}
+
+/* z[k] s[k] for k < n, or z[k] s[-k] when step is -1, times the sign and a power of -i; `to` may be z. */
+static inline void
+products(COMPLEX *to, bool more, REAL weight, const COMPLEX *z, size_t n, const REAL *s,
+         ptrdiff_t step, int power, REAL sign)
+{
+    const REAL *v = (const REAL *)z;
+    REAL *w = (REAL *)to;
+
     if (power == 2)
         sign = -sign;
-    if (step > 0)
+    if (power == 1) {
+#pragma GCC ivdep
         for (size_t k = 0; k < n; k++) {
-            v[2 * k] *= sign * s[k];
-            v[2 * k + 1] *= sign * s[k];
+            REAL a = sign * s[(ptrdiff_t)k * step], re = v[2 * k], im = v[2 * k + 1];
+            w[2 * k] = put(more, weight, w[2 * k], a * im);
+            w[2 * k + 1] = put(more, weight, w[2 * k + 1], -a * re);
         }
-    else
+    } else {
+#pragma GCC ivdep
         for (size_t k = 0; k < n; k++) {
-            v[2 * k] *= sign * *(s - k);
-            v[2 * k + 1] *= sign * *(s - k);
+            REAL a = sign * s[(ptrdiff_t)k * step], re = v[2 * k], im = v[2 * k + 1];
+            w[2 * k] = put(more, weight, w[2 * k], a * re);
+            w[2 * k + 1] = put(more, weight, w[2 * k + 1], a * im);
         }
+    }
 }
 
-/* z += weight y. */
 RC_CLONES static void
-add(COMPLEX *restrict z, const COMPLEX *restrict y, REAL weight, size_t n)
+scale(const struct target *to, size_t first, const COMPLEX *z, size_t n, const REAL *s,
+      ptrdiff_t step, int power, REAL sign)
 {
-    REAL *v = (REAL *)z;
-    const REAL *w = (const REAL *)y;
-
-    for (size_t k = 0; k < 2 * n; k++)
-        v[k] += weight * w[k];
+    if (to->more && step > 0)
+        products(to->z + first, true, to->weight, z + first, n, s, 1, power, sign);
+    else if (to->more)
+        products(to->z + first, true, to->weight, z + first, n, s, -1, power, sign);
+    else if (step > 0)
+        products(to->z + first, false, 0, z + first, n, s, 1, power, sign);
+    else
+        products(to->z + first, false, 0, z + first, n, s, -1, power, sign);
 }
 
-/* Piece r of a transformed column times column s of the kernel's spectrum. */
+/* Piece r of a transformed column, z, times column s of the kernel's spectrum. */
 static void
-multiply(const struct rc_layout *l, const REAL *s, unsigned parity, size_t r, COMPLEX *z)
+multiply(const struct rc_layout *l, const REAL *s, unsigned parity, size_t r, const COMPLEX *z,
+         const struct target *to)
 {
     REAL mirror = parity & RC_ODD_Y ? -1 : 1;
     int power = ((parity & RC_ODD_X) != 0) + ((parity & RC_ODD_Y) != 0);
@@ -453,20 +469,20 @@ multiply(const struct rc_layout *l, const REAL *s, unsigned parity, size_t r, CO
 
     switch (r) {
     case 0: /* A[k], then A[m - k] */
-        scale(z, a, A, 1, power, 1);
+        scale(to, 0, z, a, A, 1, power, 1);
         if (m > a)
-            scale(z + a, m - a, A + m - a, -1, power, mirror);
+            scale(to, a, z, m - a, A + m - a, -1, power, mirror);
         break;
     case 1:
-        scale(z, m, B, 1, power, 1);
+        scale(to, 0, z, m, B, 1, power, 1);
         break;
     case 2: /* C[k], then C[m - 1 - k] */
-        scale(z, c, C, 1, power, 1);
+        scale(to, 0, z, c, C, 1, power, 1);
         if (m > c)
-            scale(z + c, m - c, C + m - 1 - c, -1, power, mirror);
+            scale(to, c, z, m - c, C + m - 1 - c, -1, power, mirror);
         break;
     default: /* B[m - 1 - k] */
-        scale(z, m, B + m - 1, -1, power, mirror);
+        scale(to, 0, z, m, B + m - 1, -1, power, mirror);
     }
 }
 
@@ -500,7 +516,7 @@ convolve_columns(struct plan *f, const struct rc_factor *factor)
             for (size_t r = 0; r < l->radix; r++) {
                 COMPLEX *one = y + b * f->column + r * piece(f);
                 FFTW(execute_dft)(f->column_forward, one, z);
-                multiply(l, s, factor->parity, r, z);
+                multiply(l, s, factor->parity, r, z, &(struct target){.z = z});
                 FFTW(execute_dft)(f->column_back, z, one);
             }
         }
@@ -585,11 +601,9 @@ field(void *at, size_t columns, size_t n_parts, const struct rc_part *parts, dou
                 COMPLEX *one = y + b * f->column + r * piece(f);
                 for (size_t k = 0; k < n_parts; k++) {
                     const REAL *s = (const REAL *)parts[k].spectrum + (c + b) * l->cy;
-                    COMPLEX *to = k == 0 ? z : one;
-                    memcpy(to, source_of(f, parts[k].source, c + b, r), l->m * sizeof *z);
-                    multiply(l, s, parts[k].parity, r, to);
-                    if (k > 0)
-                        add(z, one, (REAL)parts[k].weight, l->m);
+                    const struct target to = {z, k > 0, (REAL)parts[k].weight};
+                    multiply(l, s, parts[k].parity, r, source_of(f, parts[k].source, c + b, r),
+                             &to);
                 }
                 FFTW(execute_dft)(f->column_back, z, one);
             }

@@ -138,9 +138,9 @@ not_finite(const struct tool *t, const struct rc_grid *g)
 {
     const double most = g->type == RC_F32 ? (double)FLT_MAX : DBL_MAX;
     struct not_finite n = {0, 0};
-    double outside = 0;
+    size_t outside = 0; /* a count in whole numbers goes through vector registers */
 
-    for (size_t k = 0; k < rc_grid_nodes(g); k++) /* in vector registers: mostly there is none */
+    for (size_t k = 0; k < rc_grid_nodes(g); k++) /* mostly there is none */
         outside += fabs(g->v[k]) <= most ? 0 : 1;
     for (size_t k = 0; outside > 0 && k < rc_grid_nodes(g); k++) {
         n.missing += isnan(g->v[k]) ? 1 : 0;
