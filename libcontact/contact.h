@@ -19,6 +19,7 @@
 #ifndef RC_CONTACT_H
 #define RC_CONTACT_H
 
+#include <signal.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -545,6 +546,10 @@ struct rc_problem {
     size_t threads;      /* 0: all                                                                */
     bool discretization; /* estimate what the grid leaves out: a coarser one is solved as well   */
     const struct rc_ranks *ranks; /* processes that share the map; NULL: none                   */
+    /* Where this is not 0, as a signal handler may set it, time is short: a step ends before it moves the
+     * pressure, and rc_solver_result takes gap and displacement as the steps have left them, of single
+     * precision where their convolutions were. NULL: it never is; nor does it count with ranks. */
+    const volatile sig_atomic_t *hurry;
 };
 
 /* Relative errors, or figures, of contact area, largest pressure and approach; NAN: unknown. */
@@ -624,7 +629,7 @@ RC_API double rc_solver_convolutions(const struct rc_solver *solver);
 RC_API double rc_solver_load(const struct rc_solver *solver);
 /* The pressure reached (nx*ny Pa), valid until the next step. */
 RC_API const double *rc_solver_pressure(const struct rc_solver *solver);
-/* Fresh displacement and gap of that pressure (either may be NULL) and the figures. */
+/* Fresh displacement and gap of that pressure (either may be NULL) and the figures; see `hurry`. */
 RC_API void rc_solver_result(struct rc_solver *solver, double *displacement, double *gap,
                              struct rc_contact *contact);
 /* The height map (nx*ny m) that is left when the bodies are taken apart: where the hardness was

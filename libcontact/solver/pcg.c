@@ -269,7 +269,7 @@ start_from_springs(struct rc_solver *solver)
     restore(solver);
 }
 
-/* The direction, its mean, and the estimate. An estimate below the tolerance is only believed if v was
+/* The direction, its mean, and the estimate; where time is short perhaps that of the last step. An estimate below the tolerance is only believed if v was
  * computed in double precision; where the last estimates foretell one, v is renewed at once. */
 static void
 find_direction(struct rc_solver *solver, struct pcg *s, double *mean)
@@ -280,6 +280,8 @@ find_direction(struct rc_solver *solver, struct pcg *s, double *mean)
     if (!sure && before * s->rate <= solver->load.tol) {
         renew(solver, s);
         sure = true;
+        if (rc_solver_hurried(solver))
+            return;
     }
     s->estimate = precondition(solver, s, mean);
     if (solver->it.iterations == 0 && s->estimate > apart && !isinf(s->estimate)) {
@@ -288,6 +290,10 @@ find_direction(struct rc_solver *solver, struct pcg *s, double *mean)
         s->estimate = precondition(solver, s, mean);
     }
     if (!sure && (s->estimate <= solver->load.tol || s->estimate < 3 * s->drift)) {
+        if (rc_solver_hurried(solver)) { /* not to be believed */
+            s->estimate = isnan(before) ? INFINITY : before;
+            return;
+        }
         renew(solver, s);
         s->estimate = precondition(solver, s, mean);
     }
@@ -642,6 +648,9 @@ step(struct rc_solver *solver, void *at)
 
     if (!solver->it.known)
         begin(solver, s);
+    if (rc_solver_hurried(solver)) /* p stays, and v with it */
+        return (struct rc_found){.estimate = isnan(s->estimate) ? INFINITY : s->estimate,
+                                 .change = 1};
     find_direction(solver, s, &mean);
     found.estimate = s->estimate;
     if (s->estimate <= solver->load.tol)
@@ -652,6 +661,8 @@ step(struct rc_solver *solver, void *at)
     } else if (solver->it.iterations > s->best_at + PATIENCE) {
         return found; /* rounding: it stands still */
     }
+    if (rc_solver_hurried(solver))
+        return (struct rc_found){.estimate = s->estimate, .change = 1};
     /* A clipped direction need not descend. Where that happens again and again, the error is that of
      * single nodes at edges of the contact, which a step of 1 / |K| hardly moves. */
     alpha = s->estimate * s->alpha > longest ? longest / s->estimate : s->alpha;

@@ -170,11 +170,14 @@ rc_solver_result(struct rc_solver *s, double *displacement, double *gap, struct 
 {
     struct figures f = {.s = s, .displacement = displacement, .gap = gap};
     double total[RC_SUMS], n = (double)s->posed.nodes, scale;
-    bool early = s->nested.ahead, stopped;
+    bool early = s->nested.ahead, stopped, hurried;
 
     rc_nested_end(s); /* a start that was interrupted: its pressure is the best there is */
     *c = (struct rc_contact){.iterations = s->it.iterations};
-    stopped = !s->it.known || (!s->it.fresh && !early);
+    /* an estimate above the tolerance needs no gap of double precision to be believed */
+    hurried =
+        rc_solver_hurried(s) && s->it.checked == s->it.iterations && s->it.error > s->load.tol;
+    stopped = !s->it.known || (!s->it.fresh && !early && !hurried);
     if (stopped && early)
         (void)rc_iterate_displace_rows(s); /* nothing more is known of that pressure anyway */
     else if (stopped)

@@ -147,7 +147,8 @@ pose(struct rc_posed *posed, const struct rc_shape *shape, const double *h,
                                                      : 100 + (size_t)(10 * sqrt((double)nodes)),
                                .threads = rc_useful_threads(&own, problem->threads),
                                .height_error = problem->height_error,
-                               .discretization = problem->discretization};
+                               .discretization = problem->discretization,
+                               .hurry = problem->ranks == NULL ? problem->hurry : NULL};
     if (rc_bounds_of(&posed->bounds, problem, shape, err) != RC_OK)
         return RC_FAIL;
     if (posed->h == NULL || rc_bounds_keep(&posed->bounds, n) != RC_OK)
@@ -313,6 +314,12 @@ rc_solver_expect(const struct rc_shape *shape, const struct rc_problem *problem,
 }
 
 /* ---- step ---- */
+
+bool
+rc_solver_hurried(const struct rc_solver *s)
+{
+    return s->posed.hurry != NULL && *s->posed.hurry != 0;
+}
 
 /* Where a shape that has yielded is pressed again, nodes are at their upper bounds with a gap of 0, and
  * the iteration leaves them below by as much as the tolerance allows: they come to rest there, and the

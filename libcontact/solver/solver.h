@@ -74,6 +74,7 @@ struct rc_posed {
     bool rough;          /* this grid is part of a nested start: its operator is not exact, and its
                               estimate is believed without a check in double precision */
     bool discretization; /* the coarser grid is solved well enough to compare with   */
+    const volatile sig_atomic_t *hurry; /* not 0: the caller cannot wait; NULL: it can */
 };
 
 struct rc_iterate {
@@ -261,6 +262,8 @@ void rc_working_set_forget(struct rc_solver *solver);
 
 /* p or the load has been changed from outside: drops all that was derived from them. */
 void rc_solver_restart(struct rc_solver *solver);
+/* Whether the caller cannot wait any more. */
+bool rc_solver_hurried(const struct rc_solver *solver);
 /* A solver of the same contact on a coarser grid, with an operator that is not exact: for a start. */
 struct rc_solver *rc_solver_coarse(const struct rc_solver *fine, const struct rc_shape *shape,
                                    const double *h, const struct rc_problem *problem,

@@ -77,6 +77,12 @@ tool_interrupted(void)
     return together == NULL ? interrupted : (int)ranks_most(together, (double)interrupted);
 }
 
+const volatile sig_atomic_t *
+tool_signal(void)
+{
+    return &interrupted;
+}
+
 void
 output_handle_signals(void)
 {

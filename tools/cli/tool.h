@@ -17,6 +17,7 @@
 #ifndef RC_TOOL_H
 #define RC_TOOL_H
 
+#include <signal.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -236,6 +237,8 @@ void tool_progress_end(struct tool *tool);
  * share maps ask together. */
 void tool_catch_signals(void);
 int tool_interrupted(void);
+/* The same of this process alone, where the handler sets it. */
+const volatile sig_atomic_t *tool_signal(void);
 
 /* "bench.x3p, case 2, frame 1 (height)": where a frame stands, for messages. */
 const char *tool_where(const struct tool *tool, const struct rc_grid *grid, char *text,

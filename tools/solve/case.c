@@ -21,6 +21,7 @@ problem_of(struct run *run, const struct rc_grid *g, size_t step)
     problem.method = run->args->method;
     problem.threads = run->t.threads;
     problem.ranks = ranks_of(&run->t);
+    problem.hurry = tool_signal();
     problem.discretization = run->args->discretization;
     problem.tilt_free = run->tilt;
     for (size_t k = 0; k < run->args->at.n; k++)

@@ -1,0 +1,142 @@
+/* Where the caller cannot wait a solver stops at once, whatever it has done so far: no convolution more but
+ * where there is no gap yet, the load is carried, the displacement is that of the pressure to single precision,
+ * and no state is called converged that is not. Where nobody is in a hurry nothing changes. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "tests/contact_case.h"
+
+enum {
+    NX = 150,
+    NY = 132,
+    N = NX * NY
+};
+static const struct rc_shape shape = {NX, NY, 1e-6, 1.1e-6};
+static const double estar = 10e9, tol = 1e-7;
+static volatile sig_atomic_t hurry;
+
+static struct rc_problem
+rough(enum rc_boundary boundary, double *h)
+{
+    struct rc_selfaffine what = {
+        .hurst = 0.8, .rms_slope = 0.1, .rolloff = 30e-6, .short_cut = 4.4e-6, .seed = 11};
+    struct rc_err err;
+
+    assert_int_equal(rc_synth_selfaffine(&shape, &what, h, &err), RC_OK);
+    return (struct rc_problem){.boundary = boundary,
+                               .pair.estar = estar,
+                               .load = 0.01 * estar * N * shape.dx * shape.dy,
+                               .tol = tol,
+                               .method = contact_method};
+}
+
+/* Whether u is K p, summed directly or transformed in double precision, but for this part of the largest u. */
+static bool
+displaced(double within, enum rc_boundary boundary, const double *p, const double *u)
+{
+    const struct rc_pair pair = {.estar = estar};
+    const struct rc_conv_options options = {
+        .boundary = boundary, .engine = boundary == RC_FREE ? "direct" : "fft64", .threads = 1};
+    struct rc_err err;
+    struct rc_conv *conv = rc_conv_new(&shape, &pair, &options, &err);
+    double *right = malloc(N * sizeof *right), most = 0, largest = 0;
+
+    assert_non_null(conv);
+    rc_conv_apply(conv, p, right);
+    for (size_t k = 0; k < N; k++) {
+        most = fmax(most, fabs(u[k] - right[k]));
+        largest = fmax(largest, fabs(right[k]));
+    }
+    rc_conv_free(conv);
+    free(right);
+    /* 10 nm: a level pressure displaces nothing on a period */
+    return most <= within * fmax(largest, 1e-8);
+}
+
+/* Hurried after so many steps: whether the solution had been found before. */
+static bool
+stopped_after(size_t steps, enum rc_boundary boundary, const double *h, struct rc_problem problem)
+{
+    double *u = malloc(N * sizeof *u), *before = malloc(N * sizeof *before), convolutions, sum = 0;
+    struct rc_err err;
+    struct rc_solver *solver;
+    struct rc_progress at;
+    struct rc_contact c;
+    enum rc_status status = RC_MORE;
+
+    problem.hurry = &hurry;
+    hurry = 0;
+    solver = rc_solver_new(&shape, h, &problem, &err);
+    assert_non_null(solver);
+    for (size_t k = 0; k < steps && status == RC_MORE; k++)
+        status = rc_solver_step(solver);
+    rc_solver_progress(solver, &at);
+    memcpy(before, rc_solver_pressure(solver), N * sizeof *before);
+    hurry = 1;
+    convolutions = rc_solver_convolutions(solver);
+    if (status == RC_MORE && !at.coarser) {
+        assert_int_equal(rc_solver_step(solver), RC_MORE);
+        assert_memory_equal(rc_solver_pressure(solver), before, N * sizeof *before);
+    }
+    rc_solver_result(solver, u, NULL, &c);
+    for (size_t k = 0; k < N; k++)
+        sum += rc_solver_pressure(solver)[k];
+    assert_true(fabs(sum * shape.dx * shape.dy - problem.load) <= 1e-9 * problem.load);
+    assert_true(c.converged == (status == RC_OK));
+    /* the first gap of a grid, in single precision, where there is none yet */
+    /* the first gap of a grid, in single precision, where there is none yet */
+    if (status == RC_MORE)
+        assert_true(rc_solver_convolutions(solver) - convolutions <= 0.5 + 1e-9);
+    assert_true(displaced(status == RC_OK ? 1e-12 : 3e-6, boundary, rc_solver_pressure(solver), u));
+    rc_solver_free(solver);
+    free(before);
+    free(u);
+    return status == RC_OK;
+}
+
+static void
+stops(void **state)
+{
+    double *h = malloc(N * sizeof *h);
+
+    (void)state;
+    for (int b = RC_FREE; b <= RC_PERIODIC; b++) {
+        struct rc_problem problem = rough((enum rc_boundary)b, h);
+        size_t steps = 0;
+        while (!stopped_after(steps, (enum rc_boundary)b, h, problem))
+            steps++;
+        assert_true(steps > 5);
+    }
+    free(h);
+}
+
+/* A flag that stays 0 is as none. */
+static void
+waits(void **state)
+{
+    double *h = malloc(N * sizeof *h);
+    struct rc_problem problem = rough(RC_FREE, h);
+    struct solved without = solve(shape, h, problem), with;
+
+    (void)state;
+    hurry = 0;
+    problem.hurry = &hurry;
+    with = solve(shape, h, problem);
+    assert_memory_equal(with.p, without.p, N * sizeof *with.p);
+    assert_memory_equal(with.u, without.u, N * sizeof *with.u);
+    assert_memory_equal(with.gap, without.gap, N * sizeof *with.gap);
+    solved_free(&with);
+    solved_free(&without);
+    free(h);
+}
+
+int
+main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(stops), cmocka_unit_test(waits)};
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
