@@ -8,6 +8,9 @@
  * stands less than 5 % of Sz above the saddle, and its nodes go to the hill across. Taken from the
  * highest saddle down this is what Wolf's rule, the least height first, comes to: the hill with the
  * least height always joins one with a higher peak.
+ *
+ * Only peaks and nodes beside another hill have to be taken in that order, and only they are sorted: ascents
+ * and hills are found row by row.
  */
 #include <float.h>
 #include <stdint.h>
@@ -34,8 +37,21 @@ struct field {
     bool wraps;
     double least; /* m: what stands lower above its saddle is pruned */
     size_t n;     /* nodes that are there */
-    size_t *order, *hill;
+    int threads;
+    unsigned char *mark; /* of each node: where its ascent leads, and the bits below */
+    size_t *hill;        /* of each node; NONE where there is none */
 };
+
+enum {                 /* marks */
+    PEAK = NEIGHBOURS, /* instead of the neighbour that the ascent leads to */
+    ABSENT,            /* not measured                                      */
+    ASCENT = 15,       /* the bits of these                                 */
+    BESIDE = 16,       /* a higher neighbour is of another hill             */
+    EDGE = 32,         /* a neighbour is missing                            */
+    BORDER = 64        /* in the first or the last row or column            */
+};
+
+static const size_t NONE = SIZE_MAX;
 
 struct hill {
     size_t peak;   /* node                                                      */
@@ -47,7 +63,7 @@ struct hill {
 
 struct hills {
     struct hill *hill;
-    size_t n, room;
+    size_t n;
 };
 
 static bool
@@ -96,28 +112,95 @@ comes_before(const struct field *f, size_t a, size_t b)
     return za > zb || (za == zb && a < b);
 }
 
-/* The neighbour that the steepest ascent leads to; SIZE_MAX: k is a peak. */
-static size_t
-ascent(const struct field *f, size_t k)
-{
-    double dx = f->shape.dx, dy = f->shape.dy, most = -1;
-    double length[NEIGHBOURS];
-    size_t best = SIZE_MAX;
+/* ---- ascents ---- */
 
-    for (int d = 0; d < NEIGHBOURS; d++) {
+static void
+set_lengths(const struct field *f, double length[NEIGHBOURS])
+{
+    double dx = f->shape.dx, dy = f->shape.dy;
+
+    for (int d = 0; d < NEIGHBOURS; d++)
+        length[d] = sqrt(dx * dx * across[d] * across[d] + dy * dy * down[d] * down[d]);
+}
+
+/* Where the steepest ascent from node k leads. */
+static unsigned char
+ascent(const struct field *f, const double length[NEIGHBOURS], size_t k)
+{
+    double most = -1;
+    unsigned char best = PEAK;
+
+    for (int d = 0; d < NEIGHBOURS && is_there(f->h[k]); d++) {
         size_t m = neighbour(f, k, d);
         double slope;
 
-        if (m == SIZE_MAX || m == k || !comes_before(f, m, k))
+        if (m == SIZE_MAX || !comes_before(f, m, k))
             continue;
-        length[d] = sqrt(dx * dx * across[d] * across[d] + dy * dy * down[d] * down[d]);
         slope = (height(f, m) - height(f, k)) / length[d];
         if (slope > most) {
             most = slope;
-            best = m;
+            best = (unsigned char)d;
         }
     }
-    return best;
+    return is_there(f->h[k]) ? best : ABSENT;
+}
+
+enum {
+    PIECE = 256 /* nodes of a row taken together */
+};
+
+/* The same for n nodes of a row from h on that have all neighbours; rows are nx apart. */
+RC_CLONES static void
+ascents(const double *h, ptrdiff_t nx, double sign, const double length[NEIGHBOURS], size_t n,
+        unsigned char *restrict mark)
+{
+    double most[PIECE], best[PIECE];
+
+    for (size_t i = 0; i < n; i++) {
+        most[i] = -1;
+        best[i] = is_there(h[i]) ? PEAK : ABSENT;
+    }
+    for (int d = 0; d < NEIGHBOURS; d++) {
+        const double *other = h + down[d] * nx + across[d], far = length[d];
+        const bool first = d < NEIGHBOURS / 2; /* of equals */
+
+        for (size_t i = 0; i < n; i++) {
+            double z = sign * h[i], up = sign * other[i], slope = (up - z) / far;
+            bool above = (up > z) | ((up == z) & first);
+            bool better = is_there(h[i]) & is_there(other[i]) & above & (slope > most[i]);
+            most[i] = better ? slope : most[i];
+            best[i] = better ? d : best[i];
+        }
+    }
+    for (size_t i = 0; i < n; i++)
+        mark[i] = (unsigned char)best[i];
+}
+
+static void
+find_ascents(struct field *f)
+{
+    size_t nx = f->shape.nx, ny = f->shape.ny;
+    double length[NEIGHBOURS];
+
+    set_lengths(f, length);
+#pragma omp parallel for num_threads(f->threads) schedule(static)
+    for (size_t j = 0; j < ny; j++) {
+        size_t row = j * nx;
+        bool inside = j > 0 && j + 1 < ny;
+        for (size_t i = 0; i < nx; i += inside ? nx - 1 : 1)
+            f->mark[row + i] = ascent(f, length, row + i) | BORDER;
+        for (size_t i = 1; i + 1 < nx && inside; i += PIECE)
+            ascents(f->h + row + i, (ptrdiff_t)nx, f->sign, length,
+                    nx - 1 - i < PIECE ? nx - 1 - i : PIECE, f->mark + row + i);
+    }
+}
+
+/* Neighbour d of node k; SIZE_MAX: there is none. Inside the map it need not have been measured. */
+static size_t
+beside(const struct field *f, size_t k, int d)
+{
+    return f->mark[k] & BORDER ? neighbour(f, k, d)
+                               : k + (size_t)((ptrdiff_t)f->shape.nx * down[d] + across[d]);
 }
 
 /* ---- the nodes from the highest down ---- */
@@ -132,20 +215,19 @@ key_of(const struct field *f, size_t k)
     return bits >> 63 ? bits : ~bits ^ UINT64_C(1) << 63;
 }
 
-/* Digit by digit, the lowest first, which leaves equals in the order of the map. */
-static void
-sort(struct field *f, size_t (*count)[BUCKETS])
+/* Nodes in two rooms, digit by digit, the lowest first, which leaves equals in the order of the map: the room
+ * in which they are in order at last. */
+static size_t *
+sort(const struct field *f, size_t n, size_t *from, size_t *to, size_t (*count)[BUCKETS])
 {
-    size_t *to = f->hill, *from = f->order;
-
     memset(count, 0, PASSES * sizeof *count);
-    for (size_t k = 0; k < f->n; k++)
+    for (size_t k = 0; k < n; k++)
         for (unsigned p = 0; p < PASSES; p++)
             count[p][key_of(f, from[k]) >> p * DIGIT & (BUCKETS - 1)]++;
     for (unsigned p = 0; p < PASSES; p++) {
         size_t *place = count[p], sum = 0, *other = from;
 
-        if (place[key_of(f, from[0]) >> p * DIGIT & (BUCKETS - 1)] == f->n)
+        if (place[key_of(f, from[0]) >> p * DIGIT & (BUCKETS - 1)] == n)
             continue;
         for (size_t b = 0; b < BUCKETS; b++) {
             size_t here = place[b];
@@ -153,13 +235,37 @@ sort(struct field *f, size_t (*count)[BUCKETS])
             place[b] = sum;
             sum += here;
         }
-        for (size_t k = 0; k < f->n; k++)
+        for (size_t k = 0; k < n; k++)
             to[place[key_of(f, from[k]) >> p * DIGIT & (BUCKETS - 1)]++] = from[k];
         from = to;
         to = other;
     }
-    f->order = from;
-    f->hill = to;
+    return from;
+}
+
+/* Nodes in the order in which they are taken; to be freed with `room`. */
+struct nodes {
+    size_t n, *room, *node;
+};
+
+/* Those whose mark has this value in these bits. */
+static enum rc_status
+nodes_marked(const struct field *f, int bits, int value, size_t (*count)[BUCKETS], struct nodes *to)
+{
+    size_t all = f->shape.nx * f->shape.ny, n = 0;
+
+    *to = (struct nodes){0, NULL, NULL};
+    for (size_t k = 0; k < all; k++)
+        to->n += (f->mark[k] & bits) == value;
+    if (to->n == 0)
+        return RC_OK;
+    if ((to->room = rc_alloc(2 * to->n, sizeof *to->room)) == NULL)
+        return RC_FAIL;
+    for (size_t k = 0; k < all; k++)
+        if ((f->mark[k] & bits) == value)
+            to->room[n++] = k;
+    to->node = sort(f, n, to->room, to->room + n, count);
+    return RC_OK;
 }
 
 /* ---- hills ---- */
@@ -172,23 +278,6 @@ root(struct hills *s, size_t a)
         a = s->hill[a].joined;
     }
     return a;
-}
-
-static enum rc_status
-new_hill(struct hills *s, size_t peak)
-{
-    if (s->n == s->room) {
-        size_t room = s->room == 0 ? 256 : s->room + s->room / 2;
-        struct hill *more = realloc(s->hill, room * sizeof *more);
-
-        if (more == NULL)
-            return RC_FAIL;
-        s->hill = more;
-        s->room = room;
-    }
-    s->hill[s->n] = (struct hill){.peak = peak, .joined = s->n, .goes = s->n};
-    s->n++;
-    return RC_OK;
 }
 
 /* Node k, of one hill, touches node m, of another: hills are numbered from the highest peak down. */
@@ -205,22 +294,82 @@ join(const struct field *f, struct hills *s, size_t k, size_t m)
         s->hill[lower].goes = lower == a ? f->hill[m] : f->hill[k];
 }
 
+/* A hill for each peak, numbered from the highest down. */
 static enum rc_status
-find_hills(struct field *f, struct hills *s)
+number_peaks(struct field *f, struct hills *s, size_t (*count)[BUCKETS])
 {
-    for (size_t k = 0; k < f->n; k++) {
-        size_t node = f->order[k], up = ascent(f, node);
+    struct nodes peaks;
 
-        if (up == SIZE_MAX && new_hill(s, node) != RC_OK)
-            return RC_FAIL;
-        f->hill[node] = up == SIZE_MAX ? s->n - 1 : f->hill[up];
-        for (int d = 0; d < NEIGHBOURS && up != SIZE_MAX; d++) {
-            size_t m = neighbour(f, node, d);
+    if (nodes_marked(f, ASCENT, PEAK, count, &peaks) != RC_OK ||
+        (s->hill = rc_alloc(peaks.n, sizeof *s->hill)) == NULL) {
+        free(peaks.room);
+        return RC_FAIL;
+    }
+    for (s->n = 0; s->n < peaks.n; s->n++) {
+        s->hill[s->n] = (struct hill){.peak = peaks.node[s->n], .joined = s->n, .goes = s->n};
+        f->hill[peaks.node[s->n]] = s->n;
+    }
+    free(peaks.room);
+    return RC_OK;
+}
 
-            if (m != SIZE_MAX && m != node && comes_before(f, m, node))
-                join(f, s, node, m);
+/* Every node gets the hill of the peak that its ascent ends on. */
+static void
+climb(struct field *f)
+{
+    for (size_t k = 0; k < f->shape.nx * f->shape.ny; k++) {
+        size_t m = k, hill;
+
+        if (f->hill[k] != NONE || (f->mark[k] & ASCENT) == ABSENT)
+            continue;
+        while (f->hill[m] == NONE)
+            m = beside(f, m, f->mark[m] & ASCENT);
+        hill = f->hill[m];
+        for (m = k; f->hill[m] == NONE;) {
+            size_t next = beside(f, m, f->mark[m] & ASCENT);
+            f->hill[m] = hill;
+            m = next;
         }
     }
+}
+
+/* Marks what lies beside another hill or a gap of the map. */
+static void
+look_around(struct field *f)
+{
+#pragma omp parallel for num_threads(f->threads) schedule(static)
+    for (size_t k = 0; k < f->shape.nx * f->shape.ny; k++) {
+        unsigned char found = 0;
+
+        if (f->hill[k] == NONE)
+            continue;
+        for (int d = 0; d < NEIGHBOURS; d++) {
+            size_t m = beside(f, k, d);
+            if (m == SIZE_MAX || f->hill[m] == NONE)
+                found |= EDGE;
+            else if (f->hill[m] != f->hill[k] && comes_before(f, m, k))
+                found |= BESIDE;
+        }
+        f->mark[k] |= found;
+    }
+}
+
+static enum rc_status
+join_hills(const struct field *f, struct hills *s, size_t (*count)[BUCKETS])
+{
+    struct nodes edge;
+
+    if (nodes_marked(f, BESIDE, BESIDE, count, &edge) != RC_OK)
+        return RC_FAIL;
+    for (size_t k = 0; k < edge.n; k++)
+        for (int d = 0; d < NEIGHBOURS; d++) {
+            size_t node = edge.node[k], m = beside(f, node, d);
+
+            if (m != SIZE_MAX && f->hill[m] != NONE && f->hill[m] != f->hill[node] &&
+                comes_before(f, m, node))
+                join(f, s, node, m);
+        }
+    free(edge.room);
     return RC_OK;
 }
 
@@ -235,23 +384,17 @@ kept(struct hills *s, size_t a)
     return a;
 }
 
-static bool
-at_edge(const struct field *f, size_t k)
-{
-    for (int d = 0; d < NEIGHBOURS; d++)
-        if (neighbour(f, k, d) == SIZE_MAX)
-            return true;
-    return false;
-}
-
 static void
 measure_hills(const struct field *f, struct hills *s)
 {
-    for (size_t k = 0; k < f->n; k++) {
-        struct hill *h = &s->hill[kept(s, f->hill[f->order[k]])];
+    for (size_t k = 0; k < f->shape.nx * f->shape.ny; k++) {
+        struct hill *h;
 
+        if (f->hill[k] == NONE)
+            continue;
+        h = &s->hill[kept(s, f->hill[k])];
         h->nodes++;
-        h->open = h->open || at_edge(f, f->order[k]);
+        h->open = h->open || (f->mark[k] & EDGE) != 0;
     }
 }
 
@@ -292,7 +435,7 @@ add_up(const struct field *f, const struct hills *s, double mean, struct figures
             rc_total_add(&area, (double)h->nodes);
             closed++;
         }
-        if (at_edge(f, h->peak))
+        if ((f->mark[h->peak] & EDGE) != 0)
             continue;
         rc_total_add(&bend, curvature(f, h->peak));
         if (peaks < FIVE)
@@ -328,15 +471,18 @@ survey(struct field *f, double *mean, double *range)
 static enum rc_status
 measure(struct field *f, double mean, size_t (*count)[BUCKETS], struct figures *to)
 {
-    struct hills hills = {0};
+    struct hills hills = {NULL, 0};
     enum rc_status status;
-    size_t n = 0;
 
     for (size_t k = 0; k < f->shape.nx * f->shape.ny; k++)
-        if (is_there(f->h[k]))
-            f->order[n++] = k;
-    sort(f, count);
-    if ((status = find_hills(f, &hills)) == RC_OK) {
+        f->hill[k] = NONE;
+    find_ascents(f);
+    if ((status = number_peaks(f, &hills, count)) == RC_OK) {
+        climb(f);
+        look_around(f);
+        status = join_hills(f, &hills, count);
+    }
+    if (status == RC_OK) {
         measure_hills(f, &hills);
         add_up(f, &hills, mean, to);
     }
@@ -350,7 +496,7 @@ rc_features(const struct rc_shape *shape, const double *h, const struct rc_surfa
 {
     struct field f = {.h = h, .wraps = options->boundary == RC_PERIODIC};
     struct figures hills = {0, NAN, NAN, NAN}, dales = {0, NAN, NAN, NAN};
-    size_t(*count)[BUCKETS] = NULL, *room[2] = {NULL, NULL};
+    size_t(*count)[BUCKETS] = NULL;
     enum rc_status status = RC_OK;
     double mean, range;
 
@@ -362,10 +508,11 @@ rc_features(const struct rc_shape *shape, const double *h, const struct rc_surfa
     if (shape->nx < 3 || shape->ny < 3 || !(range > 0))
         return RC_OK;
     f.least = prune * range;
-    room[0] = f.order = rc_alloc(shape->nx * shape->ny, sizeof *f.order);
-    room[1] = f.hill = rc_alloc(shape->nx * shape->ny, sizeof *f.hill);
+    f.threads = rc_useful_threads(shape, options->threads);
+    f.mark = rc_alloc(shape->nx * shape->ny, sizeof *f.mark);
+    f.hill = rc_alloc(shape->nx * shape->ny, sizeof *f.hill);
     count = malloc(PASSES * sizeof *count);
-    if (room[0] == NULL || room[1] == NULL || count == NULL)
+    if (f.mark == NULL || f.hill == NULL || count == NULL)
         status = RC_FAIL;
     f.sign = 1;
     status = status == RC_OK ? measure(&f, mean, count, &hills) : status;
@@ -382,18 +529,18 @@ rc_features(const struct rc_shape *shape, const double *h, const struct rc_surfa
                                   .sda = dales.area};
     else
         rc_err_set(err, "out of memory for the hills of %zu x %zu nodes", shape->nx, shape->ny);
-    free(room[0]);
-    free(room[1]);
+    free(f.mark);
+    free(f.hill);
     free(count);
     return status;
 }
 
-/* Room grows by halves; of a rough surface one node in twenty is a peak. */
+/* Of a rough surface one node in twenty is a peak, and at most all but those lie beside another hill. */
 size_t
 rc_features_memory(const struct rc_shape *shape)
 {
     size_t nodes = shape->nx * shape->ny;
 
-    return 2 * nodes * sizeof(size_t) + nodes / 20 * sizeof(struct hill) +
+    return nodes * (1 + 3 * sizeof(size_t)) + nodes / 20 * sizeof(struct hill) +
            PASSES * BUCKETS * sizeof(size_t);
 }
