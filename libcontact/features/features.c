@@ -535,12 +535,12 @@ rc_features(const struct rc_shape *shape, const double *h, const struct rc_surfa
     return status;
 }
 
-/* Of a rough surface one node in twenty is a peak, and at most all but those lie beside another hill. */
+/* Of a rough surface one node in twenty is a peak, and two in five lie beside a higher hill. */
 size_t
 rc_features_memory(const struct rc_shape *shape)
 {
     size_t nodes = shape->nx * shape->ny;
 
-    return nodes * (1 + 3 * sizeof(size_t)) + nodes / 20 * sizeof(struct hill) +
-           PASSES * BUCKETS * sizeof(size_t);
+    return nodes * (1 + sizeof(size_t)) + nodes / 5 * 2 * 2 * sizeof(size_t) +
+           nodes / 20 * sizeof(struct hill) + PASSES * BUCKETS * sizeof(size_t);
 }
