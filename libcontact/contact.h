@@ -548,7 +548,8 @@ struct rc_problem {
     const struct rc_ranks *ranks; /* processes that share the map; NULL: none                   */
     /* Where this is not 0, as a signal handler may set it, time is short: a step ends before it moves the
      * pressure, and rc_solver_result takes gap and displacement as the steps have left them, of single
-     * precision where their convolutions were. NULL: it never is; nor does it count with ranks. */
+     * precision where their convolutions were. NULL: it never is; nor does it count with ranks, and in problems that a
+     * contact is a part of. */
     const volatile sig_atomic_t *hurry;
 };
 

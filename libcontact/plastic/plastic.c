@@ -738,6 +738,7 @@ rc_plastic_new(const struct rc_shape *shape, const double *h,
                                        .precision = problem->precise ? RC_DOUBLE : RC_SINGLE,
                                        .threads = contact.threads};
 
+    contact.hurry = NULL; /* a contact that stands still would be taken into the strain */
     if (check(problem, err) != RC_OK)
         return NULL;
     p = calloc(1, sizeof *p);

@@ -302,6 +302,7 @@ problems(const struct rc_joint_problem *p, struct rc_problem *contact, struct rc
     struct rc_shear shear;
 
     *contact = p->contact;
+    contact->hurry = NULL; /* tractions would be found under a pressure that stands still */
     *slip = p->slip;
     slip->boundary = contact->boundary;
     slip->pair = contact->pair;
