@@ -190,6 +190,80 @@ labels_of_waves(void **state)
     }
 }
 
+/* Where the note has the settings of an Asylum microscope, which stores all in SI units, labels show the
+ * units that a wave of another unit, or of none, does not give. A sensor that is not calibrated has none. */
+static void
+labels_with_a_note(void **state)
+{
+    static const struct {
+        const char *wave, *note, *label, *unit;
+    } rows[] = {
+        {"V", "ZLVDTSens: 2.35e-06\r", "HeightRetrace", "m"},
+        {"V", "ZLVDTSens: 2.35e-06\r", "NapHeight", "m"},
+        {"V", "a: b\rZLVDTSens:2.35e-06\r", "ZSensorTrace", "m"},
+        {"V", "ZLVDTSens: -1\r", "ZSensorTrace", "V"},
+        {"V", "ZLVDTSens: -1\r", "HeightTrace", "m"},
+        {"V", "ZLVDTSens: 2.35e-06\r", "AmplitudeTrace", "m"},
+        {"V", "ZLVDTSens: 2.35e-06\r", "LatPhaseTrace", "deg"},
+        {"V", "another: 1\r", "HeightTrace", "V"},
+        {"", "ZLVDTSens: -1\r", "HeightTrace", "m"},
+        {"", "ZLVDTSens: -1\r", "ZSensorTrace", ""},
+        {"", "", "HeightTrace", ""},
+        {"m", "ZLVDTSens: 2.35e-06\r", "LatAmplitudeTrace", "V"},
+        {"m", "ZLVDTSens: 2.35e-06\r", "UserIn0Trace", "V"},
+        {"m", "", "UserIn0Trace", "m"},
+    };
+
+    (void)state;
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        struct rc_channel channel[2];
+        struct bytes m = {0};
+        struct rc_file file;
+        size_t labels;
+
+        make_ibw(&m, 2);
+        memset(m.data + 212, 0, 4);
+        set_text(&m, 212, rows[k].wave);
+        m.n -= 4 + 96; /* the note, of another length, and the labels behind it */
+        set_raw(&m, 12, RC_RAW_I32, (double)strlen(rows[k].note));
+        add_text(&m, rows[k].note);
+        labels = m.n;
+        add_zeros(&m, 96);
+        set_text(&m, labels + 32, rows[k].label);
+        set_text(&m, labels + 64, "PhaseTrace");
+        file = file_of(&m, "a.ibw");
+        assert_int_equal(rc_format_named("ibw")->list(&file, &rc_no_wish, channel, 2, NULL), 2);
+        assert_string_equal(channel[0].name, rows[k].label);
+        assert_string_equal(channel[0].unit, rows[k].unit);
+        assert_string_equal(channel[1].unit, "deg");
+        drop(&m);
+    }
+}
+
+/* A scale whose unit has parentheses of its own. */
+static void
+scale_of_a_logarithm(void **state)
+{
+    struct rc_err err = {""};
+    struct bytes m = {0};
+    struct rc_grid *g;
+    char *at;
+
+    (void)state;
+    make_nanoscope(&m, 2);
+    at = strstr((char *)m.data, "\\@2:Z scale");
+    assert_non_null(at);
+    strcpy(at, "\\@2:Z scale: V [Sens. LogSens] (0.01 log(Arb)/LSB) 655.36 log(Arb)\r\n"
+               "\\*File list end\r\n\x1a");
+    if ((g = read_made("nanoscope", &m, 0, &err)) == NULL)
+        fail_msg("%s", err.text);
+    assert_string_equal(g->unit, "log(Arb)");
+    for (size_t k = 0; k < NX * NY; k++)
+        assert_true(fabs(g->v[k] - value_of(k, true) * 0.01) <= last_digit * fabs(g->v[k]));
+    rc_grid_free(g);
+    drop(&m);
+}
+
 /* A wave of one dimension. */
 static void
 profile_of_a_wave(void **state)
@@ -546,6 +620,8 @@ main(void)
         cmocka_unit_test(points),
         cmocka_unit_test(units_of_points),
         cmocka_unit_test(labels_of_waves),
+        cmocka_unit_test(labels_with_a_note),
+        cmocka_unit_test(scale_of_a_logarithm),
         cmocka_unit_test(no_wavelength),
         cmocka_unit_test(profile_of_a_wave),
     };

@@ -38,27 +38,62 @@ static const struct {
 };
 /* clang-format on */
 
-/* Microscopes of one maker keep all channels in one wave, which has the unit of the first channel;
- * these labels show that a channel has another. */
+/* Microscopes of Asylum Research keep all channels in one wave, in SI units. The wave has the unit of
+ * the first channel, or none; these labels show that a channel has another. Those that want the note
+ * are taken only where that has the settings of such a microscope. */
 /* clang-format off */
 static const struct {
     const char *begins, *unit;
+    bool wants_note;
 } other_units[] = {
-    {"Phase", "deg"}, {"Potential", "V"}, {"Current", "A"}, {"Frequency", "Hz"},
+    {"Phase", "deg", false}, {"Potential", "V", false}, {"Current", "A", false}, {"Frequency", "Hz", false},
+    {"Height", "m", true}, {"Amplitude", "m", true}, {"Deflection", "m", true}, {"ZSensor", "m", true},
+    {"LatPhase", "deg", true}, {"Lat", "V", true}, {"UserIn", "V", true},
 };
 /* clang-format on */
+
+/* The sensitivity of the height sensor in m/V, -1 where it is not calibrated; NaN where the note does
+ * not give it. */
+static double
+sensor_of(struct rc_piece note)
+{
+    struct rc_lines lines = rc_piece_lines(note);
+    struct rc_piece line, key, value, rest;
+    double sensitivity;
+
+    while (rc_lines_next(&lines, &line.text, &line.n))
+        if (rc_piece_part(line, ":", &key, &value) && rc_piece_is(key, "ZLVDTSens") &&
+            rc_piece_number(value, &sensitivity, &rest))
+            return sensitivity;
+    return NAN;
+}
 
 /* The unit that the label of a channel has instead of that of the wave, or NULL. A second pass over a
  * line, at a distance, puts Nap before the label. */
 static const char *
-other_unit(struct rc_piece label)
+other_unit(struct rc_piece label, double sensor)
 {
     if (rc_piece_begins(label, "Nap"))
         label = (struct rc_piece){label.text + 3, label.n - 3};
+    if (rc_piece_begins(label, "ZSensor") && !(sensor > 0))
+        return NULL; /* volts, or a unit that only the wave knows */
     for (size_t k = 0; k < sizeof other_units / sizeof *other_units; k++)
-        if (rc_piece_begins(label, other_units[k].begins))
+        if (rc_piece_begins(label, other_units[k].begins) &&
+            (!other_units[k].wants_note || !isnan(sensor)))
             return other_units[k].unit;
     return NULL;
+}
+
+/* The note behind the data; empty when it is not all there. */
+static struct rc_piece
+note_of(const struct rc_file *file, struct rc_bytes *b, size_t after_data)
+{
+    double at = (double)after_data + rc_bytes_at(b, AT_FORMULA, RC_RAW_I32);
+    double n = rc_bytes_at(b, AT_LENGTHS, RC_RAW_I32);
+
+    if (!(at >= (double)after_data && n > 0 && at + n <= (double)file->size))
+        return (struct rc_piece){"", 0};
+    return (struct rc_piece){(const char *)file->data + (size_t)at, (size_t)n};
 }
 
 /* Where the labels of dimension 2 begin, or 0 when they are not all there. */
@@ -138,6 +173,7 @@ ibw_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
     struct rc_piece data_unit, name;
     const char *other;
     enum rc_raw raw;
+    double sensor;
     bool profile;
 
     (void)wish;
@@ -156,6 +192,7 @@ ibw_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
                           "has %zu",
                           size[0], size[1], channels, all, file->size - DATA);
     labels = size[2] == 0 ? 0 : labels_at(file, &b, DATA + all, channels);
+    sensor = sensor_of(note_of(file, &b, DATA + all));
     data_unit = rc_file_text(file, AT_DATA_UNIT, UNIT);
     for (size_t k = 0; k < channels; k++) {
         struct rc_map *map;
@@ -171,7 +208,7 @@ ibw_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
         map->bottom_first = true;
         take_steps(file, &b, profile, map);
         rc_map_unit(map, data_unit.text, data_unit.n);
-        if (labels != 0 && (other = other_unit(name)) != NULL)
+        if (labels != 0 && (other = other_unit(name, sensor)) != NULL)
             rc_map_unit(map, other, strlen(other));
     }
     return RC_OK;

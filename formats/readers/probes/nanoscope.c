@@ -126,20 +126,31 @@ number_behind_v(struct rc_piece value, double *number, struct rc_piece *unit)
     return rc_piece_number(value, number, unit);
 }
 
+/* Goes behind the parentheses, which may hold others: "(0.00000000745058 log(Arb)/LSB) 32 log(Arb)". */
+static void
+skip_parentheses(struct rc_piece *piece)
+{
+    size_t open = 0;
+
+    for (size_t k = 0; k < piece->n; k++) {
+        open += piece->text[k] == '(';
+        if (piece->text[k] != ')' || open == 0 || --open > 0)
+            continue;
+        *piece = (struct rc_piece){piece->text + k + 1, piece->n - k - 1};
+        return;
+    }
+}
+
 static enum rc_status
 set_scale(struct rc_piece header, const struct image *m, struct rc_map *map, int bits,
           struct rc_err *err)
 {
     struct rc_piece hard = m->scale, unit, value, per, upper, lower;
-    const char *end = memchr(hard.text, ')', hard.n);
     struct rc_map given = {0}, wanted = {0};
     double number, sensitivity;
     char quote[RC_SHOWN];
 
-    if (end != NULL) {
-        hard.n -= (size_t)(end + 1 - hard.text);
-        hard.text = end + 1;
-    }
+    skip_parentheses(&hard);
     if (!number_behind_v(rc_piece_trim(hard), &number, &unit))
         return rc_err_set(err, "image '%s': its Z scale is '%s', in which no value is found",
                           map->name, rc_piece_shown(quote, m->scale));
