@@ -61,13 +61,16 @@ tools/cli           | tools/text/text.h tools/machine/machine.h | tools/text too
 tools/cli           | %public formats/rcg/rcg.h                | %physics formats/rcg
 tools/cli           | formats/core/core.h                      | formats/core
 tools/cli           | libcontact/contact_mpi.h                 | libcontact/ranks
+tools/journal       | tools/cli/cli.h                          | libcontact formats/rcg %cli
 tools/canvas        | libcontact/grid.h formats/core/core.h    | libcontact formats/core
 tools/plot          | libcontact/grid.h formats/core/core.h    | libcontact formats/core
 tools/plot          | tools/canvas/canvas.h                    | tools/canvas
 tools/cost          | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli %plot
 tools/solve         | %public tools/cli/cli.h tools/plot/plot.h | %physics %cli %plot
 tools/solve         | formats/core/core.h                      | formats/core formats/rcg
+tools/solve         | tools/journal/journal.h                  | tools/journal
 tools/slip          | %public tools/cli/cli.h                  | %physics %cli
+tools/slip          | tools/journal/journal.h                  | tools/journal
 tools/slip          | formats/core/core.h                      | formats/core formats/rcg
 tools/import        | libcontact/grid.h tools/cli/cli.h        | libcontact %cli
 tools/import        | formats/core/core.h formats/format.h     | formats formats/core

@@ -9,17 +9,14 @@
  */
 #include "slip.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/types.h>
-#include <unistd.h>
 
 #include "formats/core/core.h"
+#include "tools/journal/journal.h"
 
-static const char end_line[] = "RCGEND 1\n";
 static const char channel[] = "friction-start";
 
 enum {
@@ -28,8 +25,7 @@ enum {
 
 struct slip_checkpoint {
     struct slip_run *run;
-    const char *name;
-    FILE *file; /* NULL: it could not be added to */
+    struct journal journal;
     struct saved {
         size_t step;
         off_t at;
@@ -55,7 +51,7 @@ look_through(struct slip_checkpoint *c)
 {
     struct tool *t = &c->run->t;
     struct rc_err err;
-    struct rc_reader *reader = rc_reader_new(c->file, 0, t->memory, &err);
+    struct rc_reader *reader = rc_reader_new(c->journal.file, 0, t->memory, &err);
     struct rc_grid *g;
     off_t end = 0;
     double step;
@@ -67,64 +63,35 @@ look_through(struct slip_checkpoint *c)
             tool_die(
                 t, EXIT_IMPOSSIBLE,
                 "--checkpoint %s: a grid stream, but no checkpoint of rc-slip: name another file",
-                c->name);
+                c->journal.name);
         note(c, (size_t)step, end);
-        end = ftello(c->file) + (off_t)strlen(end_line);
+        end = journal_frame_end(&c->journal);
         rc_grid_free(g);
     }
     rc_reader_free(reader);
-    clearerr(c->file);
-    if (c->count == 0 && fseeko(c->file, 0, SEEK_END) == 0 && ftello(c->file) > 0)
+    clearerr(c->journal.file);
+    if (c->count == 0 && fseeko(c->journal.file, 0, SEEK_END) == 0 && ftello(c->journal.file) > 0)
         tool_die(t, EXIT_IMPOSSIBLE,
                  "--checkpoint %s: no increment can be read from it: name another file, or remove "
                  "it to begin anew",
-                 c->name);
-    if (c->count > 0)
-        end -= (off_t)strlen(end_line);
-    if (ftruncate(fileno(c->file), end) != 0 || fseeko(c->file, end, SEEK_SET) != 0 ||
-        (c->count > 0 && fputs(end_line, c->file) == EOF) || fflush(c->file) != 0)
-        tool_die(t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", c->name, strerror(errno));
-}
-
-/* Two runs that add to one file would spoil it. */
-static void
-lock(struct slip_checkpoint *c)
-{
-    struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
-
-    if (fcntl(fileno(c->file), F_SETLK, &whole) != 0 && (errno == EACCES || errno == EAGAIN))
-        tool_die(&c->run->t, EXIT_IMPOSSIBLE,
-                 "--checkpoint %s: another run is adding to it: wait until it has ended, or end it",
-                 c->name);
+                 c->journal.name);
+    journal_cut(&c->journal, c->count, end);
 }
 
 struct slip_checkpoint *
 slip_checkpoint_open(struct slip_run *run, const char *name, bool resume)
 {
-    struct tool *t = &run->t;
     struct slip_checkpoint *c;
+    bool found;
 
     if (name == NULL)
         return NULL;
-    if (strcmp(name, "-") == 0)
-        tool_die(t, EXIT_USAGE,
-                 "--checkpoint -: it is read and added to, which a pipe is not: name a file");
     if ((c = calloc(1, sizeof *c)) == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "out of memory");
+        tool_die(&run->t, EXIT_IMPOSSIBLE, "out of memory");
     c->run = run;
-    c->name = name;
-    if (resume && (c->file = fopen(name, "r+b")) != NULL) {
-        lock(c);
+    journal_open(&c->journal, &run->t, name, resume, &found);
+    if (found)
         look_through(c);
-        return c;
-    }
-    if (resume && errno != ENOENT)
-        tool_die(t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", name, strerror(errno));
-    if ((c->file = fopen(name, "w+bx")) == NULL)
-        tool_die(t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", name,
-                 errno == EEXIST ? "there is one already: go on from it with --resume, or remove it"
-                                 : strerror(errno));
-    lock(c);
     return c;
 }
 
@@ -133,8 +100,7 @@ slip_checkpoint_close(struct slip_checkpoint *c)
 {
     if (c == NULL)
         return;
-    if (c->file != NULL)
-        (void)fclose(c->file);
+    journal_close(&c->journal);
     free(c->saved);
     free(c);
 }
@@ -162,29 +128,22 @@ static struct rc_grid *
 last_frame(struct slip_checkpoint *c)
 {
     struct tool *t = &c->run->t;
-    struct rc_reader *reader;
-    struct rc_grid *g = NULL;
-    struct rc_err err;
+    struct rc_grid *g;
     const char *problem;
     size_t k = c->count;
 
     while (k > 0 && c->saved[k - 1].step != c->step)
         k--;
-    if (k == 0 || c->file == NULL)
+    if (k == 0 || c->journal.file == NULL)
         return NULL;
-    if (fseeko(c->file, c->saved[k - 1].at, SEEK_SET) != 0)
-        tool_die(t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", c->name, strerror(errno));
-    reader = rc_reader_new(c->file, 0, 0, &err);
-    if (reader == NULL || rc_reader_next(reader, &g, &err) != RC_MORE)
-        tool_die(t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", c->name, err.text);
-    rc_reader_free(reader);
+    g = journal_read(&c->journal, c->saved[k - 1].at);
     problem = rc_grid_get(g, "checkpoint.problem");
     if (problem == NULL || strcmp(problem, c->problem) != 0 || g->nx != c->run->p->nx ||
         g->ny != MAPS * c->run->p->ny)
         tool_die(t, EXIT_IMPOSSIBLE,
                  "--checkpoint %s: it is of another pressure, or of other options: resume with "
                  "those that it was begun with, or remove it",
-                 c->name);
+                 c->journal.name);
     return g;
 }
 
@@ -205,20 +164,6 @@ slip_checkpoint_next(struct slip_checkpoint *c, struct rc_joint *joint)
     return true;
 }
 
-static enum rc_status
-put(struct slip_checkpoint *c, const struct rc_grid *g, struct rc_err *err)
-{
-    struct rc_writer *writer = rc_writer_new(c->file, err);
-    enum rc_status status = writer == NULL ? RC_FAIL : rc_writer_put(writer, g, err);
-
-    if (status == RC_OK)
-        status = rc_writer_end(writer, err);
-    rc_writer_free(writer);
-    if (status == RC_OK && !file_settle(c->file))
-        return rc_err_set(err, "%s", strerror(errno));
-    return status;
-}
-
 void
 slip_checkpoint_save(struct slip_checkpoint *c, struct rc_joint *joint)
 {
@@ -229,7 +174,7 @@ slip_checkpoint_save(struct slip_checkpoint *c, struct rc_joint *joint)
     size_t n;
     off_t at;
 
-    if (c == NULL || c->file == NULL)
+    if (c == NULL || c->journal.file == NULL)
         return;
     n = rc_grid_nodes(c->run->p);
     shape = rc_grid_shape(c->run->p);
@@ -245,16 +190,8 @@ slip_checkpoint_save(struct slip_checkpoint *c, struct rc_joint *joint)
         memcpy(g->v + 2 * n, p, n * sizeof *g->v);
     else
         memset(g->v + 2 * n, 0, n * sizeof *g->v);
-    if (fseeko(c->file, 0, SEEK_END) != 0 || (at = ftello(c->file)) < 0 ||
-        put(c, g, &err) != RC_OK) {
-        tool_warn(&c->run->t,
-                  "--checkpoint %s: writing failed: what is in it stays, nothing is added",
-                  c->name);
-        (void)fclose(c->file);
-        c->file = NULL;
-    } else {
+    if (journal_add(&c->journal, g, &at))
         note(c, c->step, at);
-    }
     rc_grid_free(g);
 }
 

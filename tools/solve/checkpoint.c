@@ -10,21 +10,16 @@
  * that of the elastic solution before it.
  * Disk full is no reason to lose the solution: it is said once, and the run goes on.
  */
-#define _GNU_SOURCE /* F_OFD_SETLK */
 #include "solve.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/types.h>
-#include <unistd.h>
 
 #include "formats/core/core.h"
-
-static const char end_line[] = "RCGEND 1\n";
+#include "tools/journal/journal.h"
 
 struct saved {
     size_t number; /* the case                                        */
@@ -34,8 +29,7 @@ struct saved {
 
 struct checkpoint {
     struct run *run;
-    const char *name;
-    FILE *file;
+    struct journal journal;
     struct saved *saved;
     size_t count;
     char surface[16];         /* CRC-32 of the heights, the sphere included */
@@ -65,33 +59,16 @@ is_checkpoint(const struct checkpoint *c)
     bool begins = true; /* a line may come in several pieces: this is its first */
     char line[256];
 
-    if (fseeko(c->file, 0, SEEK_SET) != 0 || fgets(line, sizeof line, c->file) == NULL ||
-        strcmp(line, "RCG1\n") != 0)
+    if (fseeko(c->journal.file, 0, SEEK_SET) != 0 ||
+        fgets(line, sizeof line, c->journal.file) == NULL || strcmp(line, "RCG1\n") != 0)
         return false;
-    while (fgets(line, sizeof line, c->file) != NULL && !(begins && strcmp(line, "\n") == 0)) {
+    while (fgets(line, sizeof line, c->journal.file) != NULL &&
+           !(begins && strcmp(line, "\n") == 0)) {
         if (begins && strncmp(line, "checkpoint.case=", 16) == 0)
             return true;
         begins = strchr(line, '\n') != NULL;
     }
     return false;
-}
-
-/* Whether no frame ends behind this place: what is there was being written when the run was killed or
- * the machine stopped. A frame that ends and cannot be read is something else: memory may only be short. */
-static bool
-is_cut_off(const struct checkpoint *c, off_t at)
-{
-    size_t same = 0;
-    int byte;
-
-    if (fseeko(c->file, at, SEEK_SET) != 0)
-        return false;
-    while ((byte = getc(c->file)) != EOF) {
-        same = byte == end_line[same] ? same + 1 : byte == end_line[0] ? 1 : 0;
-        if (end_line[same] == '\0')
-            return false;
-    }
-    return true;
 }
 
 /* Finds the frames. What was being written when the run was cut off is cut off here too. */
@@ -100,8 +77,8 @@ look_through(struct checkpoint *c)
 {
     struct tool *t = &c->run->t;
     struct rc_err err;
-    struct rc_reader *reader = rc_reader_new(c->file, 0, t->memory, &err);
-    const struct rc_share *share = ranks_read(t, c->name);
+    struct rc_reader *reader = rc_reader_new(c->journal.file, 0, t->memory, &err);
+    const struct rc_share *share = ranks_read(t, c->journal.name);
     struct rc_grid *g;
     enum rc_status status;
     off_t end = 0;
@@ -114,25 +91,25 @@ look_through(struct checkpoint *c)
         if (!rc_grid_number(g, "checkpoint.case", &number))
             tool_die(t, EXIT_IMPOSSIBLE,
                      "--checkpoint %s: a grid stream, but no checkpoint: name another file",
-                     c->name);
+                     c->journal.name);
         note(c, (size_t)number, end, strcmp(g->channel, of_state) == 0);
-        end = ftello(c->file) + (off_t)strlen(end_line);
+        end = journal_frame_end(&c->journal);
         rc_grid_free(g);
     }
     rc_reader_free(reader);
     ranks_close(t, share);
-    clearerr(c->file);
-    if (fseeko(c->file, 0, SEEK_END) == 0 && ftello(c->file) == 0)
+    clearerr(c->journal.file);
+    if (fseeko(c->journal.file, 0, SEEK_END) == 0 && ftello(c->journal.file) == 0)
         return;
     if (status != RC_OK && c->count == 0 && !is_checkpoint(c))
         tool_die(t, EXIT_IMPOSSIBLE,
                  "--checkpoint %s: no pressure can be read from it (%s): remove it to begin anew",
-                 c->name, err.text);
-    if (status != RC_OK && !is_cut_off(c, end))
+                 c->journal.name, err.text);
+    if (status != RC_OK && !journal_is_cut_off(&c->journal, end))
         tool_die(
             t, EXIT_IMPOSSIBLE,
             "--checkpoint %s: frame %zu of it cannot be read (%s): remove the file to begin anew",
-            c->name, c->count + 1, err.text);
+            c->journal.name, c->count + 1, err.text);
     ranks_wait(t);         /* all have looked */
     if (!ranks_speak(t)) { /* the first one cuts it off */
         ranks_wait(t);
@@ -141,92 +118,27 @@ look_through(struct checkpoint *c)
     if (c->count == 0)
         tool_warn(t,
                   "--checkpoint %s: the run stopped while it wrote the first frame: it begins anew",
-                  c->name);
-    else
-        end -= (off_t)strlen(end_line);
-    if (ftruncate(fileno(c->file), end) != 0 || fseeko(c->file, end, SEEK_SET) != 0 ||
-        (c->count > 0 && fputs(end_line, c->file) == EOF) || fflush(c->file) != 0)
-        tool_die(t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", c->name, strerror(errno));
+                  c->journal.name);
+    journal_cut(&c->journal, c->count, end);
     ranks_wait(t);
-}
-
-/* NULL and errno where it cannot be opened so. Of several processes the first opens it so, the others what it
- * has found or made: each by itself could find what the first has just made. All get NULL, or none. */
-static FILE *
-open_file(struct checkpoint *c, const char *mode)
-{
-    struct tool *t = &c->run->t;
-    FILE *file = NULL;
-    int problem = 0;
-
-    if (ranks_speak(t) && (file = fopen(c->name, mode)) == NULL)
-        problem = errno;
-    ranks_share(t, 0, &problem, sizeof problem);
-    if (problem == 0 && file == NULL && (file = fopen(c->name, "r+b")) == NULL)
-        problem = errno;
-    problem = (int)ranks_most(t, problem);
-    if (problem != 0 && file != NULL)
-        (void)fclose(file);
-    errno = problem;
-    return problem == 0 ? file : NULL;
-}
-
-/* Two runs that add to one file would spoil it. The lock ends with the process, also when it is killed; a
- * file system without locks does without. It belongs to the open file where there are such locks: one that
- * belongs to the process ends when the process closes the file anywhere, as MPI-IO does after each frame.
- * And it is on a byte behind all data: MPI-IO locks what it writes itself. */
-static void
-lock(struct checkpoint *c)
-{
-#ifdef F_OFD_SETLK
-    const int set = F_OFD_SETLK;
-#else
-    const int set = F_SETLK;
-#endif
-    struct flock behind = {
-        .l_type = F_WRLCK, .l_whence = SEEK_SET, .l_start = (off_t)1 << 62, .l_len = 1};
-    bool taken = false;
-
-    if (ranks_speak(&c->run->t)) /* of several processes that write it together the first */
-        taken = fcntl(fileno(c->file), set, &behind) != 0 && (errno == EACCES || errno == EAGAIN);
-    ranks_share(&c->run->t, 0, &taken, sizeof taken);
-    if (taken)
-        tool_die(&c->run->t, EXIT_IMPOSSIBLE,
-                 "--checkpoint %s: another run is adding to it: wait until it has ended, or end it",
-                 c->name);
 }
 
 struct checkpoint *
 checkpoint_open(struct run *run, const char *name, bool resume, double interval)
 {
     struct checkpoint *c;
+    bool found;
 
     if (name == NULL)
         return NULL;
-    if (strcmp(name, "-") == 0)
-        tool_die(&run->t, EXIT_USAGE,
-                 "--checkpoint -: it is read and added to, which a pipe is not: name a file");
     c = calloc(1, sizeof *c);
     if (c == NULL)
         tool_die(&run->t, EXIT_IMPOSSIBLE, "out of memory");
     c->run = run;
-    c->name = name;
     c->wait = interval;
-    if (resume && (c->file = open_file(c, "r+b")) != NULL) {
-        lock(c);
+    journal_open(&c->journal, &run->t, name, resume, &found);
+    if (found)
         look_through(c);
-        return c;
-    }
-    if (resume && errno != ENOENT)
-        tool_die(&run->t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", name, strerror(errno));
-    c->file = open_file(c, "w+bx");
-    if (c->file == NULL && errno == EEXIST)
-        tool_die(&run->t, EXIT_IMPOSSIBLE,
-                 "--checkpoint %s: there is one already: go on from it with --resume, or remove it",
-                 name);
-    if (c->file == NULL)
-        tool_die(&run->t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", name, strerror(errno));
-    lock(c);
     return c;
 }
 
@@ -235,8 +147,7 @@ checkpoint_close(struct checkpoint *c)
 {
     if (c == NULL)
         return;
-    if (c->file != NULL)
-        (void)fclose(c->file);
+    journal_close(&c->journal);
     free(c->saved);
     free(c);
 }
@@ -321,15 +232,15 @@ compare(struct checkpoint *c, const struct rc_grid *g, const struct rc_grid *sav
     if ((!state && (saved->nx != g->nx || saved->ny != g->ny)) || saved->dx != g->dx ||
         saved->dy != g->dy)
         tool_die_at(t, g, EXIT_IMPOSSIBLE,
-                    "--checkpoint %s: it belongs to another grid, %zu x %zu nodes", c->name,
+                    "--checkpoint %s: it belongs to another grid, %zu x %zu nodes", c->journal.name,
                     saved->nx, saved->ny);
     marks_of(c, mark);
     for (size_t k = 0; k < MARKS; k++) {
         const char *was = rc_grid_get(saved, mark[k].name);
         if (strcmp(was == NULL ? "" : was, mark[k].value) != 0)
             tool_die_at(t, g, EXIT_IMPOSSIBLE,
-                        "--checkpoint %s: it belongs to another problem: %s was %s, is %s", c->name,
-                        mark[k].name, was == NULL ? "not given" : was,
+                        "--checkpoint %s: it belongs to another problem: %s was %s, is %s",
+                        c->journal.name, mark[k].name, was == NULL ? "not given" : was,
                         mark[k].value[0] == '\0' ? "not given" : mark[k].value);
     }
 }
@@ -339,10 +250,7 @@ compare(struct checkpoint *c, const struct rc_grid *g, const struct rc_grid *sav
 static struct rc_grid *
 last_frame(struct checkpoint *c, const struct rc_grid *g, bool state)
 {
-    const struct rc_share *share;
-    struct rc_reader *reader;
-    struct rc_grid *saved = NULL;
-    struct rc_err err;
+    struct rc_grid *saved;
     size_t k;
 
     if (c == NULL)
@@ -354,17 +262,8 @@ last_frame(struct checkpoint *c, const struct rc_grid *g, bool state)
         ;
     if (k == 0)
         return NULL;
-    if (fseeko(c->file, c->saved[k - 1].at, SEEK_SET) != 0)
-        tool_die(&c->run->t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", c->name, strerror(errno));
-    reader = rc_reader_new(c->file, 0, 0, &err);
-    share = ranks_read(&c->run->t, c->name);
-    if (reader != NULL)
-        rc_reader_share(reader, share);
-    if (reader == NULL || rc_reader_next(reader, &saved, &err) != RC_MORE)
-        tool_die(&c->run->t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", c->name, err.text);
+    saved = journal_read(&c->journal, c->saved[k - 1].at);
     compare(c, g, saved);
-    rc_reader_free(reader);
-    ranks_close(&c->run->t, share);
     return saved;
 }
 
@@ -382,7 +281,7 @@ checkpoint_case(struct checkpoint *c, const struct rc_grid *g, struct rc_solver 
     if (!rc_grid_number(saved, "load", &load) ||
         rc_solver_warm_start(solver, load, saved->v, &err) != RC_OK)
         tool_die_at(&c->run->t, g, EXIT_IMPOSSIBLE, "--checkpoint %s: it cannot be started from",
-                    c->name);
+                    c->journal.name);
     rc_grid_free(saved);
     return true;
 }
@@ -395,47 +294,13 @@ checkpoint_state(struct checkpoint *c, const struct rc_grid *g)
 
 /* ---- saving ---- */
 
-/* A stream of one frame behind what is there; of several processes, by all of them: where one fails none has
- * done it. */
-static enum rc_status
-put(struct checkpoint *c, struct rc_grid *out, off_t at, struct rc_err *err)
-{
-    struct tool *t = &c->run->t;
-    const struct rc_share *share = ranks_write(t, c->name);
-    struct rc_writer *writer = share == NULL ? rc_writer_new(c->file, err)
-                                             : rc_writer_new_shared(share, (uint64_t)at, err);
-    enum rc_status status = ranks_agree(t, writer == NULL ? RC_FAIL : RC_OK, err);
-
-    if (status == RC_OK)
-        status = rc_writer_put(writer, out, err);
-    if (status == RC_OK)
-        status = rc_writer_end(writer, err);
-    rc_writer_free(writer);
-    if (status == RC_OK)
-        status = ranks_settle(share, err);
-    ranks_close(t, share);
-    if (status == RC_OK && share == NULL && !file_settle(c->file))
-        return rc_err_set(err, "%s", strerror(errno));
-    return status;
-}
-
-/* Where the next frame goes; false: nowhere. */
-static bool
-find_end(struct checkpoint *c, off_t *at)
-{
-    bool fine = fseeko(c->file, 0, SEEK_END) == 0 && (*at = ftello(c->file)) >= 0;
-
-    ranks_share(&c->run->t, 0, at, sizeof *at);
-    return ranks_most(&c->run->t, fine ? 0 : 1) == 0;
-}
-
 /* Adds this frame, whose marks and case are set here. */
 static void
 add(struct checkpoint *c, const struct rc_grid *g, struct rc_grid *out, double load)
 {
     struct mark mark[MARKS];
     struct rc_err err;
-    off_t at = 0;
+    off_t at;
 
     marks_of(c, mark);
     (void)rc_grid_set(out, "case", NULL, &err); /* each is a stream of its own */
@@ -447,15 +312,8 @@ add(struct checkpoint *c, const struct rc_grid *g, struct rc_grid *out, double l
         rc_grid_set_number(out, "load", load, &err) != RC_OK ||
         rc_grid_history(out, tool_history(&c->run->t), &err) != RC_OK)
         tool_die_at(&c->run->t, g, EXIT_IMPOSSIBLE, "%s", err.text);
-    if (!find_end(c, &at) || put(c, out, at, &err) != RC_OK) {
-        tool_warn(&c->run->t,
-                  "--checkpoint %s: writing failed: what is in it stays, nothing is added",
-                  c->name);
-        (void)fclose(c->file);
-        c->file = NULL;
-    } else {
+    if (journal_add(&c->journal, out, &at))
         note(c, c->run->number, at, strcmp(out->channel, of_state) == 0);
-    }
 }
 
 void
@@ -464,7 +322,7 @@ checkpoint_save(struct checkpoint *c, const struct rc_grid *g, const struct rc_s
     struct rc_grid *out;
     struct rc_err err;
 
-    if (c == NULL || c->file == NULL)
+    if (c == NULL || c->journal.file == NULL)
         return;
     out = rc_grid_like(g, "pressure", "Pa", &err);
     if (out == NULL)
@@ -482,7 +340,7 @@ checkpoint_save_state(struct checkpoint *c, const struct rc_grid *g, size_t n,
     struct rc_grid *out;
     struct rc_err err;
 
-    if (c == NULL || c->file == NULL)
+    if (c == NULL || c->journal.file == NULL)
         return;
     out = rc_grid_new(&shape, of_state, "1", &err);
     if (out == NULL)

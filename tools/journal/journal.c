@@ -1,0 +1,184 @@
+#define _GNU_SOURCE /* F_OFD_SETLK */
+#include "journal.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <string.h>
+#include <unistd.h>
+
+static const char end_line[] = "RCGEND 1\n";
+
+/* NULL and errno where it cannot be opened so. Of several processes the first opens it so, the others what it
+ * has found or made: each by itself could find what the first has just made. All get NULL, or none. */
+static FILE *
+open_file(const struct journal *j, const char *mode)
+{
+    FILE *file = NULL;
+    int problem = 0;
+
+    if (ranks_speak(j->t) && (file = fopen(j->name, mode)) == NULL)
+        problem = errno;
+    ranks_share(j->t, 0, &problem, sizeof problem);
+    if (problem == 0 && file == NULL && (file = fopen(j->name, "r+b")) == NULL)
+        problem = errno;
+    problem = (int)ranks_most(j->t, problem);
+    if (problem != 0 && file != NULL)
+        (void)fclose(file);
+    errno = problem;
+    return problem == 0 ? file : NULL;
+}
+
+/* Two runs that add to one file would spoil it. The lock ends with the process, also when it is killed; a
+ * file system without locks does without. It belongs to the open file where there are such locks: one that
+ * belongs to the process ends when the process closes the file anywhere, as MPI-IO does after each frame.
+ * And it is on a byte behind all data: MPI-IO locks what it writes itself. */
+static void
+lock(const struct journal *j)
+{
+#ifdef F_OFD_SETLK
+    const int set = F_OFD_SETLK;
+#else
+    const int set = F_SETLK;
+#endif
+    struct flock behind = {
+        .l_type = F_WRLCK, .l_whence = SEEK_SET, .l_start = (off_t)1 << 62, .l_len = 1};
+    bool taken = false;
+
+    if (ranks_speak(j->t)) /* of several processes that write it together the first */
+        taken = fcntl(fileno(j->file), set, &behind) != 0 && (errno == EACCES || errno == EAGAIN);
+    ranks_share(j->t, 0, &taken, sizeof taken);
+    if (taken)
+        tool_die(j->t, EXIT_IMPOSSIBLE,
+                 "--checkpoint %s: another run is adding to it: wait until it has ended, or end it",
+                 j->name);
+}
+
+void
+journal_open(struct journal *j, struct tool *t, const char *name, bool resume, bool *found)
+{
+    *j = (struct journal){.t = t, .name = name};
+    *found = false;
+    if (strcmp(name, "-") == 0)
+        tool_die(t, EXIT_USAGE,
+                 "--checkpoint -: it is read and added to, which a pipe is not: name a file");
+    if (resume && (j->file = open_file(j, "r+b")) != NULL) {
+        *found = true;
+        lock(j);
+        return;
+    }
+    if (resume && errno != ENOENT)
+        tool_die(t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", name, strerror(errno));
+    if ((j->file = open_file(j, "w+bx")) == NULL)
+        tool_die(t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", name,
+                 errno == EEXIST ? "there is one already: go on from it with --resume, or remove it"
+                                 : strerror(errno));
+    lock(j);
+}
+
+void
+journal_close(struct journal *j)
+{
+    if (j->file != NULL)
+        (void)fclose(j->file);
+    j->file = NULL;
+}
+
+off_t
+journal_frame_end(const struct journal *j)
+{
+    return ftello(j->file) + (off_t)strlen(end_line);
+}
+
+bool
+journal_is_cut_off(const struct journal *j, off_t at)
+{
+    size_t same = 0;
+    int byte;
+
+    if (fseeko(j->file, at, SEEK_SET) != 0)
+        return false;
+    while ((byte = getc(j->file)) != EOF) {
+        same = byte == end_line[same] ? same + 1 : byte == end_line[0] ? 1 : 0;
+        if (end_line[same] == '\0')
+            return false;
+    }
+    return true;
+}
+
+void
+journal_cut(struct journal *j, size_t frames, off_t end)
+{
+    if (frames > 0)
+        end -= (off_t)strlen(end_line);
+    if (ftruncate(fileno(j->file), end) != 0 || fseeko(j->file, end, SEEK_SET) != 0 ||
+        (frames > 0 && fputs(end_line, j->file) == EOF) || fflush(j->file) != 0)
+        tool_die(j->t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", j->name, strerror(errno));
+}
+
+struct rc_grid *
+journal_read(const struct journal *j, off_t at)
+{
+    const struct rc_share *share;
+    struct rc_reader *reader;
+    struct rc_grid *g = NULL;
+    struct rc_err err;
+
+    if (fseeko(j->file, at, SEEK_SET) != 0)
+        tool_die(j->t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", j->name, strerror(errno));
+    reader = rc_reader_new(j->file, 0, 0, &err);
+    share = ranks_read(j->t, j->name);
+    if (reader != NULL)
+        rc_reader_share(reader, share);
+    if (reader == NULL || rc_reader_next(reader, &g, &err) != RC_MORE)
+        tool_die(j->t, EXIT_IMPOSSIBLE, "--checkpoint %s: %s", j->name, err.text);
+    rc_reader_free(reader);
+    ranks_close(j->t, share);
+    return g;
+}
+
+/* A stream of one frame behind what is there; of several processes, by all of them: where one fails none has
+ * done it. */
+static enum rc_status
+put(struct journal *j, const struct rc_grid *g, off_t at, struct rc_err *err)
+{
+    const struct rc_share *share = ranks_write(j->t, j->name);
+    struct rc_writer *writer = share == NULL ? rc_writer_new(j->file, err)
+                                             : rc_writer_new_shared(share, (uint64_t)at, err);
+    enum rc_status status = ranks_agree(j->t, writer == NULL ? RC_FAIL : RC_OK, err);
+
+    if (status == RC_OK)
+        status = rc_writer_put(writer, g, err);
+    if (status == RC_OK)
+        status = rc_writer_end(writer, err);
+    rc_writer_free(writer);
+    if (status == RC_OK)
+        status = ranks_settle(share, err);
+    ranks_close(j->t, share);
+    if (status == RC_OK && share == NULL && !file_settle(j->file))
+        return rc_err_set(err, "%s", strerror(errno));
+    return status;
+}
+
+/* Where the next frame goes; false: nowhere. */
+static bool
+find_end(const struct journal *j, off_t *at)
+{
+    bool fine = fseeko(j->file, 0, SEEK_END) == 0 && (*at = ftello(j->file)) >= 0;
+
+    ranks_share(j->t, 0, at, sizeof *at);
+    return ranks_most(j->t, fine ? 0 : 1) == 0;
+}
+
+bool
+journal_add(struct journal *j, const struct rc_grid *g, off_t *at)
+{
+    struct rc_err err;
+
+    *at = 0;
+    if (find_end(j, at) && put(j, g, *at, &err) == RC_OK)
+        return true;
+    tool_warn(j->t, "--checkpoint %s: writing failed: what is in it stays, nothing is added",
+              j->name);
+    journal_close(j);
+    return false;
+}
