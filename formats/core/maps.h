@@ -41,6 +41,7 @@ struct rc_map {
     size_t more;   /* for fill                                                           */
     double beside; /* bytes that fill takes beside v: set by rc_map_bound                         */
     struct rc_notes *notes; /* for fill too                                              */
+    const char *doubt;      /* of what the heights mean: noted, unless --z-unit says it  */
     char hint[96]; /* the spacing where the file gives it without a unit; for the refusal */
 };
 

@@ -212,6 +212,8 @@ rc_maps_read(rc_maps_find *find, const struct rc_file *file, const struct rc_wis
                          err)) == NULL)
         return NULL;
     maps.map[index].notes = notes;
+    if (map->doubt != NULL && isnan(wish->z_unit))
+        rc_note(notes, "%s", map->doubt);
     if ((map->fill == NULL ? decode(map, file, g->v, err) : fill(map, file, wish, g->v, err)) !=
         RC_OK)
         goto failed;

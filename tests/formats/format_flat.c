@@ -264,6 +264,50 @@ scale_of_a_logarithm(void **state)
     drop(&m);
 }
 
+/* Where readers disagree on what a number means the user is told, unless --z-unit says it. */
+static void
+doubts(void **state)
+{
+    static const struct {
+        const char *format;
+        void (*make)(struct bytes *m, int variant);
+        int variant;
+        const char *note; /* NULL: nothing is in doubt */
+    } rows[] = {
+        {"tmd", make_tmd, 0, "no unit and micrometres are taken"},
+        {"tmd", make_tmd, 1, NULL},
+        {"wykotext", make_wykotext, 0, "Mult is not 1"},
+        {"wykotext", make_wykotext, 1, "Mult is not 1"},
+        {"opd", make_opd, 0, NULL},
+    };
+
+    (void)state;
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++)
+        for (int said = 0; said < 2; said++) {
+            struct rc_wish wish = rc_no_wish;
+            struct rc_notes notes = {0};
+            struct rc_err err = {""};
+            struct bytes m = {0};
+            struct rc_file file;
+            struct rc_grid *g;
+            size_t told = 0;
+
+            rows[k].make(&m, rows[k].variant);
+            file = file_of(&m, "made");
+            if (said)
+                wish.z_unit = 1e-3;
+            g = rc_format_named(rows[k].format)->read(&file, &wish, 0, &notes, &err);
+            if (g == NULL)
+                fail_msg("%s: %s", rows[k].format, err.text);
+            for (size_t n = 0; n < notes.n; n++)
+                told += strstr(notes.text[n],
+                               rows[k].note == NULL ? "other programs" : rows[k].note) != NULL;
+            assert_int_equal(told, rows[k].note != NULL && !said ? 1 : 0);
+            rc_grid_free(g);
+            drop(&m);
+        }
+}
+
 /* A wave of one dimension. */
 static void
 profile_of_a_wave(void **state)
@@ -622,6 +666,7 @@ main(void)
         cmocka_unit_test(labels_of_waves),
         cmocka_unit_test(labels_with_a_note),
         cmocka_unit_test(scale_of_a_logarithm),
+        cmocka_unit_test(doubts),
         cmocka_unit_test(no_wavelength),
         cmocka_unit_test(profile_of_a_wave),
     };

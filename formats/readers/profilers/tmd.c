@@ -1,7 +1,8 @@
 /*
  * TrueMap: a line that says so, a comment that ends in NUL, sizes, lengths and offsets, 32-bit
- * floats, little-endian, row 0 first. There is no unit in the file: it is micrometres when TrueMap
- * wrote it, millimetres from GelSight, which leaves the comment empty.
+ * floats, little-endian, row 0 first. There is no unit in the file. It is millimetres from GelSight, which
+ * leaves the comment empty. Where TrueMap wrote it micrometres are taken, as surfalize 0.19.2 does; Gwyddion
+ * 2.71 and SurfaceTopography 1.27.1 take millimetres there too, hence the doubt.
  */
 #include <math.h>
 #include <string.h>
@@ -38,6 +39,10 @@ tmd_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_maps 
         return RC_FAIL;
     strcpy(map->unit, "m");
     map->si = n == 0 ? 1e-3 : 1e-6;
+    if (n > 0)
+        map->doubt = "the file gives no unit and micrometres are taken; other programs take "
+                     "millimetres: if the "
+                     "map is 1000 times too small, --z-unit mm and --dx are the mend";
     map->raw = RC_RAW_F32;
     map->at = at + NUMBERS;
     map->dx = rc_bytes_at(&b, at + 8, RC_RAW_F32) * map->si / (double)map->nx;

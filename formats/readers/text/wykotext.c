@@ -12,7 +12,8 @@
  *     RAW_DATA <tab> 3 <tab> 1228800 <tab>
  *
  * Numbers are in units of the wavelength over Mult, or, where the first flag is 1, nanometres. `Bad` is
- * missing. Written from how Gwyddion and SurfaceTopography read such files.
+ * missing. Written from how Gwyddion and SurfaceTopography read such files: the former multiplies by Mult
+ * since a version between 2.50 and 2.71, in nanometres too, and divided by it before, as the latter does.
  */
 #include <math.h>
 #include <string.h>
@@ -99,6 +100,10 @@ wykotext_find(const struct rc_file *file, const struct rc_wish *wish, struct rc_
     map->by_columns = map->bottom_first = true;
     map->dx = w.pixel * 1e-3;
     map->dy = w.pixel * w.aspect * 1e-3;
+    if (w.factor != 1)
+        map->doubt = "Mult is not 1: heights in wavelengths are divided by it, as in OPD files, "
+                     "those in nanometres "
+                     "are not; other programs multiply by it: --z-unit is the mend";
     if (w.nanometres)
         w.wavelength = w.factor = 1;
     map->scale = (isnan(w.wavelength) ? 1 : w.wavelength) / w.factor;
