@@ -374,6 +374,7 @@ make_mdt(struct bytes *m, int variant)
         add_map(m, variant == 1 ? RC_RAW_I16 : RC_RAW_F32, BOTTOM, 50, 0);
         set_raw(m, at, RC_RAW_U32, (double)(m->n - at));
     }
+    set_raw(m, 4, RC_RAW_U32, (double)(m->n - 33)); /* without this other programs refuse it */
 }
 
 /* 0: 16 bits; 1: floats, counts in nanometres that call themselves Angstrom; 2: packed, Angstrom. A plane of
