@@ -9,7 +9,7 @@
 #include <cmocka.h>
 #include <hdf5.h>
 
-#include "made/made.h"
+#include "tests/formats/made/made.h"
 
 extern const struct rc_format rc_format_mat, rc_format_mat73;
 

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "made/made.h"
+#include "tests/formats/made/made.h"
 
 struct map {
     size_t nx, ny;

@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "made/made.h"
+#include "tests/formats/made/made.h"
 
 static void
 wrong_headers(void **state)

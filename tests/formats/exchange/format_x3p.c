@@ -11,7 +11,7 @@
 #include <cmocka.h>
 
 #include "formats/containers/containers.h"
-#include "made/made.h"
+#include "tests/formats/made/made.h"
 
 /* Six numbers in each type, as bytes spelt out and as text: with increment 1/4 and offset -2 every
  * height is exact. */
