@@ -37,7 +37,9 @@ libcontact/surface  | libcontact/transform/transform.h         | libcontact/tran
 formats/core        | libcontact/grid.h                        | libcontact
 formats/rcg         | libcontact/grid.h formats/core/core.h    | libcontact formats/core
 formats/sandbox     | libcontact/grid.h formats/core/core.h    | libcontact formats/core
+formats/containers/packing | libcontact/grid.h formats/core/core.h | libcontact formats/core
 formats/containers  | libcontact/grid.h formats/core/core.h    | libcontact formats/core
+formats/containers  | formats/containers/packing/packing.h     | -
 formats/readers/probes | %reader                               | %formats
 formats/readers/profilers | %reader                            | %formats
 formats/readers/exchange | %reader                             | %formats
@@ -90,7 +92,7 @@ tools               | tools/import/import.h                    | tools/import
 tools               | tools/pick/pick.h tools/synth/synth.h    | tools/pick tools/synth
 tools               | formats/core/core.h formats/rcg/rcg.h    | formats/core formats/rcg
 tools               | formats/format.h formats/export.h        | formats
-tools               | formats/containers/containers.h          | formats/containers
+tools               | formats/containers/containers.h          | formats/containers formats/containers/packing
 END
 base='libcontact/contact.h libcontact/grid.h libcontact/common.h libcontact/memory.h'
 public='libcontact/contact.h libcontact/grid.h'
@@ -99,7 +101,7 @@ physics="$physics libcontact/adhesion libcontact/leak libcontact/slip libcontact
 cli='tools/cli tools/text tools/machine'
 plot='tools/plot tools/canvas'
 reader='libcontact/grid.h formats/core/core.h formats/format.h formats/containers/containers.h formats/sandbox/sandbox.h'
-formats='libcontact formats formats/core formats/containers formats/sandbox'
+formats='libcontact formats formats/core formats/containers formats/containers/packing formats/sandbox'
 sed -i "s!%base!$base!; s!%public!$public!; s!%physics!$physics!; s!%cli!$cli!; s!%plot!$plot!; s!%ranks!libcontact/ranks/ranks.h!
     s!%reader!$reader!; s!%formats!$formats!" arrows.txt
 

@@ -7,14 +7,13 @@
 
 #include "cdf.h"
 #include "checksum.h"
-#include "gzip.h"
 #include "hdf.h"
-#include "inflate.h"
 #include "ole.h"
 #include "tiff.h"
 #include "xml.h"
 #include "zip_read.h"
 #include "zip_write.h"
-#include "zstd.h"
+
+#include "formats/containers/packing/packing.h"
 
 #endif
