@@ -1,6 +1,5 @@
 /*
- * The face of this folder: options, streams in and out, messages, units, reports, the physics of a
- * contact.
+ * The face of this folder: options, streams in and out, messages, units, reports, the bodies that a stream has.
  */
 #ifndef RC_CLI_H
 #define RC_CLI_H
@@ -9,14 +8,11 @@
 #include "ending.h"
 #include "tools/text/text.h"
 #include "tools/machine/machine.h"
-#include "attracts.h"
-#include "physics.h"
 #include "ranks.h"
 #include "report.h"
 #include "results.h"
 #include "tool.h"
 #include "wanted.h"
 #include "words.h"
-#include "yields.h"
 
 #endif

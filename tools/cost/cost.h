@@ -13,6 +13,7 @@
 
 #include "libcontact/contact.h"
 #include "tools/cli/cli.h"
+#include "tools/problem/problem.h"
 
 /* ---- trials.c: which trials there are ---- */
 

@@ -8,6 +8,7 @@
 
 #include "libcontact/contact.h"
 #include "tools/cli/cli.h"
+#include "tools/problem/problem.h"
 
 enum {
     SOLVE_CODE = 2 * TOOL_TRANSFORMS /* bytes, of both precisions */

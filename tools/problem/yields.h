@@ -6,7 +6,7 @@
 
 #include "libcontact/contact.h"
 #include "physics.h"
-#include "tool.h"
+#include "tools/cli/cli.h"
 
 struct yield_law {
     struct rc_yield law;

@@ -4,10 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "bodies.h"
-#include "tools/text/text.h"
-#include "ranks.h"
-
 /* ---- the command line ---- */
 
 #define AT(field) .at = offsetof(struct physics, field)

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "tools/text/text.h"
+#include "tools/cli/cli.h"
 
 static bool
 is_law(const char *text, size_t n)

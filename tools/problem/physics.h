@@ -6,7 +6,7 @@
 #define RC_PHYSICS_H
 
 #include "libcontact/contact.h"
-#include "tool.h"
+#include "tools/cli/cli.h"
 
 struct physics {
     struct numbers load, mean_pressure, approach; /* one of them                      */
