@@ -159,6 +159,42 @@ createc_scans(void **state)
     drop(&m);
 }
 
+/* What is a count of z, in a header that gives it as 0.00038: 20 V over 2^20 counts, amplified 10 times, on a
+ * piezo of 20 Angstrom per volt, are 4000 / 2^20 Angstrom. Where the piezo does not fit the file's figure
+ * stays. */
+static void
+createc_counts(void **state)
+{
+    static const struct {
+        const char *piezo;
+        double count; /* nm */
+    } rows[] = {{"20.00", 400 / 1048576.0}, {"30.00", 0.00038}, {"0", 0.00038}, {"x", 0.00038}};
+
+    (void)state;
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        struct bytes m = {0};
+        struct rc_err err = {""};
+        struct rc_grid *g;
+        char *place;
+
+        make_createc(&m, 1);
+        place = strstr((char *)m.data, "Delta X");
+        assert_non_null(place);
+        memset(place, 0, strlen(place));
+        sprintf(place,
+                "Delta X / Delta X [Dac]=576755\r\nGainZ / GainZ=10\r\nZPiezoconst=%s\r\n"
+                "Dacto[A]xy=0.00191\r\nDacto[A]z=0.00038\r\n",
+                rows[k].piezo);
+        if ((g = read_made("createc", &m, 0, &err)) == NULL)
+            fail_msg("%s", err.text);
+        for (size_t n = 0; n < NX * NY; n++)
+            assert_true(fabs(g->v[n] - value_of(n, true) * rows[k].count * 1e-9) <=
+                        last_digit * fabs(g->v[n]));
+        rc_grid_free(g);
+        drop(&m);
+    }
+}
+
 /* The wave has one unit for all its channels; labels show which have another. */
 static void
 labels_of_waves(void **state)
@@ -658,6 +694,7 @@ main(void)
         cmocka_unit_test(variants),
         cmocka_unit_test(other_channels),
         cmocka_unit_test(createc_scans),
+        cmocka_unit_test(createc_counts),
         cmocka_unit_test(keys),
         cmocka_unit_test(text_profiles),
         cmocka_unit_test(one_column),

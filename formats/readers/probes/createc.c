@@ -9,7 +9,8 @@
  * The spacing is Length x[A] over Num.X. A height is number * Dactonmz in nanometres or, as newer
  * files have it, number * Dacto[A]z, which says Angstrom and often means nanometres: that of x tells,
  * because Delta X times Dacto[A]xy must be the spacing. Where it is neither, the unit of the heights
- * is not known.
+ * is not known. These factors are given to five decimals, 0.00038 where 0.000381470 is meant: the latter is
+ * taken, GainZ * ZPiezoconst times 20 V over the counts of the converter, where it rounds to what is given.
  *
  * Written from how Gwyddion, createc 0.0.3 and others read such files.
  */
@@ -39,6 +40,8 @@ struct createc {
     double width, height;        /* Angstrom */
     double step, xy, z;          /* counts from node to node; a count in x, in z */
     double z_nm;                 /* the same, in nm for certain */
+    double gain, piezo;          /* of z; Angstrom per volt */
+    double bits;                 /* of the converter, whose range is 20 V */
 };
 
 #define TO(member) offsetof(struct createc, member)
@@ -48,7 +51,8 @@ static const struct rc_field fields[] = {
     {"Length x[A]", RC_FIELD_NUMBER, TO(width)}, {"Length y[A]", RC_FIELD_NUMBER, TO(height)},
     {"Delta X", RC_FIELD_NUMBER, TO(step)},      {"Delta X [Dac]", RC_FIELD_NUMBER, TO(step)},
     {"Dacto[A]xy", RC_FIELD_NUMBER, TO(xy)},     {"Dacto[A]z", RC_FIELD_NUMBER, TO(z)},
-    {"Dactonmz", RC_FIELD_NUMBER, TO(z_nm)},
+    {"Dactonmz", RC_FIELD_NUMBER, TO(z_nm)},     {"GainZ", RC_FIELD_NUMBER, TO(gain)},
+    {"ZPiezoconst", RC_FIELD_NUMBER, TO(piezo)},
 };
 #undef TO
 
@@ -77,6 +81,8 @@ take_line(struct rc_piece line, struct createc *c, struct rc_maps *maps)
         return;
     if (!rc_piece_part(key, "/", &first, &second))
         first = second = key;
+    if (rc_piece_is(key, "DAC-Type")) /* "20bit" */
+        rc_piece_number(value, &c->bits, &value);
     rc_field_take(fields, sizeof fields / sizeof *fields, first, value, c, NULL);
     rc_field_take(fields, sizeof fields / sizeof *fields, second, value, c, NULL);
     if (maps != NULL)
@@ -90,7 +96,7 @@ read_header(const struct rc_file *file, struct createc *c, struct rc_maps *maps,
                              .end = (const char *)file->data + HEADER};
     struct rc_piece line;
 
-    *c = (struct createc){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+    *c = (struct createc){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
     if (kind_of(file) == NULL)
         return rc_err_set(err, "no DAT file of Createc: it begins with none of [Parameter], "
                                "[Paramet32], [Paramco32]");
@@ -166,6 +172,15 @@ unit_of_count(const struct createc *c)
     return fabs(ratio - 10) <= 0.1 ? 1e-9 : fabs(ratio - 1) <= 0.01 ? 1e-10 : NAN;
 }
 
+/* A count of z in that unit, of which `given` has five decimals. */
+static double
+exact_count(const struct createc *c, double given, double metres)
+{
+    double exact = c->gain * c->piezo * 20 / exp2(c->bits) * (1e-10 / metres);
+
+    return exact > 0 && fabs(exact - given) <= 5.001e-6 ? exact : given;
+}
+
 static void
 set_unit(const struct createc *c, struct rc_map *map)
 {
@@ -174,6 +189,7 @@ set_unit(const struct createc *c, struct rc_map *map)
     map->scale = !isnan(c->z_nm) ? c->z_nm : !isnan(c->z) ? c->z : 1;
     if (isnan(metres) || (isnan(c->z_nm) && isnan(c->z)))
         return;
+    map->scale = exact_count(c, map->scale, metres);
     strcpy(map->unit, "m");
     map->si = metres;
 }
