@@ -1,5 +1,6 @@
 /*
- * The face of this folder: options, streams in and out, messages, units, reports, the bodies that a stream has.
+ * The face of this folder: options, streams in and out, messages, units, reports, the bodies that a stream
+ * has.
  */
 #ifndef RC_CLI_H
 #define RC_CLI_H

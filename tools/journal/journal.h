@@ -33,8 +33,8 @@ void journal_cut(struct journal *j, size_t frames, off_t end);
 
 /* The frame that begins here. The tool ends where it cannot be read. */
 struct rc_grid *journal_read(const struct journal *j, off_t at);
-/* Adds a frame; *at is where it begins. False, and a warning, where that fails: nothing is added from then on,
- * because a full disk is no reason to lose the solution. */
+/* Adds a frame; *at is where it begins. False, and a warning, where that fails: nothing is added from then
+ * on, because a full disk is no reason to lose the solution. */
 bool journal_add(struct journal *j, const struct rc_grid *g, off_t *at);
 
 #endif
