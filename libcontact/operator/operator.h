@@ -32,6 +32,7 @@ struct rc_operator {
     double neighbour[3][3];
     struct rc_frame frame; /* nodes of the padding that rc_operator_chain_framed takes along */
     double extension;      /* the constant c of the preconditioner's extension                    */
+    bool bends;       /* a coat that long waves bend as a stiff plate: periodic maps           */
     bool edges;       /* how a shift loads the edges of a set follows from no rule: layers, free */
     double error;     /* of K p, relative to the sum of |K| |p|                              */
     double row_error; /* the same, row by row                                                */

@@ -12,6 +12,7 @@ struct rc_preconditioner {
     struct rc_shape unit;       /* the grid in units of sqrt(dx dy)                              */
     struct rc_spectrum *spread; /* G                                                         */
     float fade;                 /* c, for d_i^(-1/2)                                             */
+    bool fades;                 /* else c, d and S do not count                              */
     float surrounded;           /* S of a node that W half surrounds                             */
     float *node;                /* rc_extension_weight: 1 / (sum_j G_ij + c d_i^(-1/2))           */
     float whole;                /* sum_j G_ij, were all nodes on W                                */
@@ -29,14 +30,24 @@ struct rc_preconditioner {
 };
 
 /* |x|^(-5/2), on a line |x|^(-3/2): half a power more than the exact extension off a half-plane or a
- * half-line, which has weights of the sources instead. A node has no weight in itself, because no node is
- * both on W and off it. */
-static double
-spread_of(double r2, bool line)
-{
-    double root = sqrt(sqrt(r2));
+ * half-line, which has weights of the sources instead. Off a coat that bends |x|^(-7/2): the inverse then
+ * grows as q^a with a of up to 4 between the waves as long as the coat bends and those as short as it is
+ * thick, and the exact extension off a half-plane has sources weighted by d_j^(-a/2). A node has no
+ * weight in itself, because no node is both on W and off it. */
+enum spread {
+    ON_MAP,
+    ON_LINE,
+    ON_COAT
+};
 
-    return r2 == 0 ? 0 : 1 / (line ? root * root * root : r2 * root);
+static double
+spread_of(double r2, enum spread kind)
+{
+    double root = sqrt(sqrt(r2)), cube = root * root * root;
+
+    if (r2 == 0)
+        return 0;
+    return 1 / (kind == ON_MAP ? r2 * root : kind == ON_LINE ? cube : r2 * cube);
 }
 
 static void
@@ -45,11 +56,12 @@ spread_rows(const void *of, const struct rc_lattice *at, size_t n, size_t first,
 {
     double dx = (double)at->sx * at->dx, dy = (double)at->sy * at->dy;
     double unit = 1 / (at->dx * at->dy); /* of squared lengths */
+    enum spread kind = *(const enum spread *)of;
 
     for (size_t j = first; j < last; j++, out += n)
         for (size_t i = 0; i < n; i++) {
             double x = (double)i * dx, y = (double)j * dy;
-            out[i] = spread_of((x * x + y * y) * unit, of != NULL);
+            out[i] = spread_of((x * x + y * y) * unit, kind);
         }
 }
 
@@ -97,9 +109,7 @@ clear_sides(const struct rc_preconditioner *e, float *row)
     memset(row + e->op->frame.x + e->unit.nx, 0, e->op->frame.x * sizeof *row);
 }
 
-static const bool one_line = true;
-static const struct rc_kernel spread = {.rows = spread_rows},
-                              spread_line = {.rows = spread_rows, .of = &one_line};
+static const enum spread kinds[] = {ON_MAP, ON_LINE, ON_COAT};
 
 /* The fade f of the extension is for nodes that W does not surround. S, the sum over W of
  * |x_ij|^(-5/2) d_i^(1/2), tells how far W does: it is 4.8 beside a straight edge. Near small patches
@@ -112,6 +122,10 @@ static const float surrounded = 3;
  * tried with contact of 2 to 90 % on 1024 to 65536 nodes. */
 static const float surrounded_on_line = 1.25F;
 static const double fade_on_line = 0.02;
+/* Off a coat that bends the extension does not fade: over the bending length there is no energy in what is
+ * smooth. Where the sum of G is less than this, some 1e-5 of that beside W, it has lost its
+ * digits in single precision, and the extension falls to 0. */
+static const float least_sum = 1e-5F;
 
 /* Beyond the ends of a line that does not repeat there is nothing to extend to; there the extension of maps
  * is as good. */
@@ -121,13 +135,21 @@ is_line(const struct rc_operator *op)
     return op->boundary == RC_PERIODIC && (op->whole.nx == 1 || op->whole.ny == 1);
 }
 
+static enum spread
+spread_on(const struct rc_operator *op)
+{
+    return is_line(op) ? ON_LINE : op->bends ? ON_COAT : ON_MAP;
+}
+
 struct rc_preconditioner *
 rc_preconditioner_new(struct rc_operator *op, struct rc_err *err)
 {
     struct rc_preconditioner *e = calloc(1, sizeof *e);
     size_t n = op->shape.nx * op->shape.ny, frame;
     double unit = sqrt(op->shape.dx) * sqrt(op->shape.dy);
-    bool line = is_line(op);
+    enum spread kind = spread_on(op);
+    bool line = kind == ON_LINE;
+    const struct rc_kernel spread = {.rows = spread_rows, .of = &kinds[kind]};
 
     if (e == NULL)
         goto short_of_memory;
@@ -137,6 +159,7 @@ rc_preconditioner_new(struct rc_operator *op, struct rc_err *err)
     e->unit.dx /= unit;
     e->unit.dy /= unit;
     e->fade = (float)(op->extension * (line ? fade_on_line : 1));
+    e->fades = kind != ON_COAT;
     e->surrounded = line ? surrounded_on_line : surrounded;
     e->own = rc_distance_scratch(&e->unit) + op->shape.nx;
     e->node = rc_alloc(n, sizeof *e->node);
@@ -155,7 +178,7 @@ rc_preconditioner_new(struct rc_operator *op, struct rc_err *err)
         rc_preconditioner_free(e);
         return NULL;
     }
-    if ((e->spread = rc_operator_spectrum(op, line ? &spread_line : &spread, err)) == NULL) {
+    if ((e->spread = rc_operator_spectrum(op, &spread, err)) == NULL) {
         rc_preconditioner_free(e);
         return NULL;
     }
@@ -260,6 +283,17 @@ keep_frame(struct rc_preconditioner *e, size_t j, const float *row)
     memcpy(to + x, row + x + nx, x * sizeof *to);
 }
 
+/* Weights without a fade. */
+RC_CLONES static void
+weigh_coat(size_t n, float whole, const unsigned char *w, const float *sums, float *restrict node)
+{
+    for (size_t i = 0; i < n; i++) {
+        float sum = sums[i] > 0 ? sums[i] : 0, missing = 1 - sum / whole;
+        float share = missing > RC_LEAST_SHARE ? missing : RC_LEAST_SHARE;
+        node[i] = w[i] ? rc_node_on(share) : rc_node_off(1 / (sum + least_sum));
+    }
+}
+
 /* The sums arrive; where distances are to be found, `node` holds the steps along the columns. */
 static bool
 weights_out(void *at, size_t j, void *row)
@@ -278,6 +312,10 @@ weights_out(void *at, size_t j, void *row)
     if (e->measure) {
         rc_distance_row(&e->unit, e->op->boundary, scratch, node, d2);
         closeness_of(n, d2, e->closeness + j * n);
+    }
+    if (!e->fades) {
+        weigh_coat(n, e->whole, e->w + j * n, (float *)row + e->op->frame.x, node);
+        return true;
     }
     weigh(n, e->fade, e->surrounded, e->whole, e->w + j * n, (float *)row + e->op->frame.x,
           e->closeness + j * n, node);
@@ -340,8 +378,8 @@ rc_preconditioner_set(struct rc_preconditioner *e, const unsigned char *w, bool 
     rc_row *rows[] = {mask_in, weights_out};
 
     e->w = w;
-    e->measure = measure;
-    if (measure)
+    e->measure = measure && e->fades;
+    if (e->measure)
         rc_distance_columns(&e->unit, &e->op->rows, e->op->boundary, w, e->threads, e->lines,
                             e->node);
     rc_operator_chain_framed(e->op, 1, factors, rows, e);

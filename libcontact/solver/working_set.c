@@ -429,6 +429,13 @@ rc_working_set_fix(struct rc_solver *s, bool touching)
 /* The part of the working set that may change before the preconditioner is told, and before it
  * measures its distances again. */
 static const double little = 1e-3, much = 1.0;
+/* A node that has left is a hole in the extension until the preconditioner is told, and on a coat that
+ * bends a hole of one node has as much energy as the rest: there it is always told. */
+static double
+ignored(const struct rc_solver *s)
+{
+    return s->op->bends ? 0 : little * (double)s->set.size;
+}
 
 static void
 tell(struct rc_solver *s)
@@ -436,7 +443,7 @@ tell(struct rc_solver *s)
     struct rc_working_set *set = &s->set;
     bool measure = set->moved > much * (double)set->size;
 
-    if (!measure && set->changed <= little * (double)set->size)
+    if (!measure && set->changed <= ignored(s))
         return;
     rc_preconditioner_set(s->preconditioner, set->w, measure);
     rc_iterate_count(s, s->op->factor_cost);
