@@ -387,6 +387,7 @@ void rc_move_shift(struct rc_move *move);
 struct rc_tile {
     double room;  /* the shift that all its elastic nodes can take   */
     size_t count; /* its elastic nodes                               */
+    double left;  /* the load that it could not keep                 */
 };
 size_t rc_tiles(const struct rc_shape *shape);
 /* By a shift for each tile of the map. A node at its bound that would leave the box stays there, and

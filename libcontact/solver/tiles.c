@@ -36,6 +36,9 @@ static const float stays_low = -FLT_MAX, stays_high = FLT_MAX;
 /* A remainder up to this, relative to the tolerance, is put into a single tile. */
 static const double little = 1e-2;
 
+/* A tile keeps its load where it is off by no more than this part, which is rounding. */
+static const double kept = 1e-5;
+
 /* ---- one tile ---- */
 
 /* A tile in the map: w, p, d and delta of its first node, rows of the map `stride` apart. */
@@ -208,7 +211,7 @@ settle(struct rc_box box, double alpha, double mean, double shift, double scale,
 {
     const double back = 1 / scale, low = box.low, number = box.high, *map = box.highs;
     const double rest = box.rest;
-    double size = 0, carried = 0, room = INFINITY, count = 0;
+    double size = 0, carried = 0, room = INFINITY, count = 0, lost;
 
 #pragma omp simd reduction(+ : size, carried, count) reduction(min : room)
     for (size_t k = 0; k < NODES; k++) {
@@ -234,7 +237,10 @@ settle(struct rc_box box, double alpha, double mean, double shift, double scale,
         c->y[k] = (float)(change * scale);
         size += fabs(change);
     }
-    *tile = (struct rc_tile){.room = room, .count = (size_t)count};
+    lost = c->sum * back - carried;
+    *tile = (struct rc_tile){.room = room,
+                             .count = (size_t)count,
+                             .left = fabs(lost) > kept * fabs(c->sum) * back ? lost : 0};
     sums[SIZE] += size;
     sums[CARRIED] += carried;
 }
@@ -447,6 +453,39 @@ share(struct tiles *a, double rest)
     return true;
 }
 
+/* ---- on a line ---- */
+
+struct group {
+    double left, room, count; /* as of a tile */
+};
+
+/* What tiles cannot keep goes to the elastic nodes of the smallest group of 2, 4, 8, ... of them that can
+ * all take it. Shared by all of the line it would leave loads and their counterparts far apart, and a
+ * line does not forget them: the displacement's error would grow as the square root of its length, on a map
+ * only as the logarithm. A random walk of 262144 nodes with 30 % contact takes 8 steps, and 62 without. */
+static struct group
+keep_within(const struct tiles *a, size_t first, size_t n, double *carried)
+{
+    const struct rc_tile *tile = a->tiles + first;
+    struct group one, other, g = {tile->left, tile->room, (double)tile->count};
+    double shift;
+
+    if (n == 1)
+        return g;
+    one = keep_within(a, first, n / 2, carried);
+    other = keep_within(a, first + n / 2, n - n / 2, carried);
+    g = (struct group){one.left + other.left, fmin(one.room, other.room), one.count + other.count};
+    shift = g.left / g.count;
+    if (g.left == 0 || !(fabs(shift) < g.room / 2))
+        return g;
+    for (size_t q = first; q < first + n; q++)
+        if (a->tiles[q].count > 0)
+            shift_tile(a, q, shift);
+    *carried += g.left;
+    a->m->size += fabs(g.left);
+    return (struct group){0, g.room - fabs(shift), g.count};
+}
+
 size_t
 rc_tiles(const struct rc_shape *shape)
 {
@@ -471,6 +510,8 @@ rc_move_tiles(struct rc_move *m)
     rc_reduce_rows_end(s, total);
     m->size = total[SIZE];
     m->clipped = total[OUT] > 0;
+    if (s->posed.whole.ny == 1 && a.nx > 0 && a.ny > 0)
+        (void)keep_within(&a, 0, a.nx, &total[CARRIED]);
     rest = rc_above(&s->posed.bounds, sum) - total[CARRIED] -
            rc_rooms(&s->posed.bounds, s->set.saturated);
     if (fabs(rest) <= 4 * DBL_EPSILON * sum)
