@@ -269,8 +269,9 @@ start_from_springs(struct rc_solver *solver)
     restore(solver);
 }
 
-/* The direction, its mean, and the estimate; where time is short perhaps that of the last step. An estimate below the tolerance is only believed if v was
- * computed in double precision; where the last estimates foretell one, v is renewed at once. */
+/* The direction, its mean, and the estimate; where time is short perhaps that of the last step. An estimate
+ * below the tolerance is only believed if v was computed in double precision; where the last estimates
+ * foretell one, v is renewed at once. */
 static void
 find_direction(struct rc_solver *solver, struct pcg *s, double *mean)
 {
