@@ -191,7 +191,7 @@ claim "  and whole" bash -c 'rc-info stopped.rcg >/dev/null; test $? = 3'
 claim "nothing of what failed is left" bash -c '! ls no.rcg* 2>/dev/null'
 
 # What ends processes from outside: the file that was there stays, and no part of another is left.
-rc-synth selfaffine --nx 800 --ny 800 --dx 1um --hurst 0.8 --rms-slope 0.1 --short-cut 8um --seed 3 -o long.rcg
+rc-synth selfaffine --nx 1600 --ny 1600 --dx 1um --hurst 0.8 --rms-slope 0.1 --short-cut 8um --seed 3 -o long.rcg
 lasting="rc-solve --periodic --estar 1GPa --method pk99 --tol 1e-14 -o killed.rcg long.rcg"
 # begin COMMAND...: starts two processes in the background: $launcher, and $victim the second of them.
 begin() {
@@ -213,7 +213,7 @@ nothing_half() {
     [ $? = 3 ] && [ "$1" != killed ]
 }
 killed() {
-    begin $lasting --load 3N || return
+    begin $lasting --load 12N || return
     sleep 0.5
     kill -KILL "$victim"
     wait "$launcher" && return 1
@@ -222,7 +222,7 @@ killed() {
 claim "a process that is killed leaves nothing" killed
 killed_writing() {
     local n=0
-    begin $lasting --tol 1e-2 --load 0.1N:4N:400 || return
+    begin $lasting --tol 1e-2 --load 0.4N:16N:400 || return
     until ls killed.rcg.?????? >/dev/null 2>&1 || [ $((n += 1)) -gt 3000 ]; do sleep 0.01; done
     kill -KILL "$victim"
     wait "$launcher" && return 1
@@ -232,9 +232,9 @@ claim "nor does one that is killed when they write" killed_writing
 # Another run would add to the checkpoint of one that is under way, and has a frame in it.
 adding() {
     local n=0 status
-    begin $lasting --load 3N --checkpoint adding.rcg --interval 0.01 || return
+    begin $lasting --load 12N --checkpoint adding.rcg --interval 0.01 || return
     until [ "$(stat -c %s adding.rcg 2>/dev/null || echo 0)" -gt 6000000 ] || [ $((n += 1)) -gt 3000 ]; do sleep 0.01; done
-    $solve --load 3N --checkpoint adding.rcg --resume -o no.rcg long.rcg 2>adding.err
+    $solve --load 12N --checkpoint adding.rcg --resume -o no.rcg long.rcg 2>adding.err
     status=$?
     kill -KILL "$victim"
     wait "$launcher"
@@ -243,7 +243,7 @@ adding() {
 claim "two runs do not add to one checkpoint" adding
 # signalled SIGNAL SECONDS: sends the signal to mpirun, which ends its processes and kills them some time later.
 signalled() {
-    begin $lasting --load 3N || return
+    begin $lasting --load 12N || return
     sleep "$2"
     kill -"$1" "$launcher"
     wait "$launcher" && return 1
@@ -257,7 +257,7 @@ for signal in TERM INT; do
     done
 done
 patient() {
-    begin $lasting --load 3N || return
+    begin $lasting --load 12N || return
     sleep 6
     kill -TERM $(pgrep -P "$launcher" -x rc-solve) # as a launcher does that leaves them time
     wait "$launcher" && return 1
